@@ -1,0 +1,44 @@
+#pragma once
+#include <bit>
+#include <cstdint>
+
+#include "common/base/fields.hpp"
+
+/// Digests of plain structs. Not cryptographic: they answer "are these two runs the same bits?".
+namespace verp::record {
+
+static_assert(std::endian::native == std::endian::little, "byte images are little-endian");
+
+/// 32-bit digest over words. Rotate, xor, multiply: every bit of a word reaches every bit of the result within a
+/// few words (a word-wise FNV would let two sign bits cancel), at four instructions a word on a Cortex-M.
+class Digest32 {
+ public:
+  constexpr explicit Digest32(std::uint32_t seed) : value_(seed) {}
+  constexpr void add(std::uint32_t word) { value_ = (std::rotl(value_, 5) ^ word) * 0x9E3779B1u; }
+
+  /// Covers the whole struct, in memory order, which VERP_PACKED makes its canonical image.
+  template <class T>
+  void add_struct(const T& data) {
+    static_assert(packed_size<T>() == sizeof(T) && sizeof(T) % 4 == 0);
+    const auto* bytes = reinterpret_cast<const unsigned char*>(&data);
+    for (std::size_t i = 0; i < sizeof(T); i += 4) {
+      std::uint32_t word;
+      __builtin_memcpy(&word, bytes + i, 4);
+      add(word);
+    }
+  }
+  constexpr std::uint32_t value() const { return value_ ^ (value_ >> 15); }
+
+ private:
+  std::uint32_t value_;
+};
+
+/// One link of the 64-bit chain: a run's last value names all that came before it.
+constexpr std::uint64_t chain(std::uint64_t previous, std::uint32_t word) {
+  std::uint64_t mixed = (previous ^ word) * 0x9E3779B97F4A7C15ull;
+  return mixed ^ (mixed >> 29);
+}
+
+inline constexpr std::uint64_t kChainSeed = 0x7665'7270'2d30'3031ull;  // "verp-001"
+
+}  // namespace verp::record

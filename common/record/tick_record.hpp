@@ -1,0 +1,33 @@
+#pragma once
+#include <cstdint>
+
+#include "common/base/fields.hpp"
+#include "common/io/io.hpp"
+
+/// What a trace keeps of every tick: enough to replay it and to name the first stage that differs.
+namespace verp {
+
+/// The stages of step(), in order.
+enum class Stage : std::uint8_t { kAdmit, kEstimate, kPlan, kBalance, kKinematics, kLimit, kGate };
+inline constexpr int kStages = 7;
+inline constexpr const char* kStageNames[kStages] = {"admit",      "estimate", "plan", "balance",
+                                                     "kinematics", "limit",    "gate"};
+
+/// Digests of one tick: each stage covers its own state and output; chain covers this tick and all before it.
+struct TickDigest {
+  std::uint64_t chain = 0;
+  std::uint32_t stage[kStages] = {};
+  std::uint32_t reserved = 0;
+  VERP_FIELDS(chain, stage, reserved)
+};
+VERP_PACKED(TickDigest);
+
+struct TickRecord {
+  TickDigest digest;
+  Inputs inputs;
+  std::uint32_t reserved = 0;
+  VERP_FIELDS(digest, inputs, reserved)
+};
+VERP_PACKED(TickRecord);
+
+}  // namespace verp

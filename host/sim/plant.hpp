@@ -1,0 +1,50 @@
+#pragma once
+#include <array>
+#include <cstdint>
+
+/// The border between virtual devices, which speak bytes (host/bus), and the physics that gives them something to
+/// say (host/sim). Registers only: no struct passes to the controller by this way.
+namespace verp::sim {
+
+/// What a servo's control table tells its motor control; counts and units of an X-series/MX(2.0) control table.
+struct ServoSetpoint {
+  bool torque_on = false;
+  std::int32_t goal_count = 0;
+  std::uint16_t p_gain = 800;   ///< register value; the loop uses p/128, duty 885 is full
+  std::uint16_t i_gain = 0;     ///< i/65536
+  std::uint16_t d_gain = 0;     ///< d/16
+  std::uint16_t pwm_limit = 885;
+  std::uint32_t profile_ms = 0; ///< time-based profile with zero acceleration: straight line to the goal
+};
+
+struct ServoMeasurement {
+  std::int32_t position_count = 0;  ///< with encoder noise and zero error, multi-turn
+  double velocity_rad_s = 0;
+  double duty = 0;       ///< -1..1
+  double current_a = 0;
+  double temperature_c = 25;
+  double voltage_v = 12;
+};
+
+/// Raw counts as the IMU device reports them, IMU frame.
+struct ImuMeasurement {
+  std::array<std::int16_t, 3> gyro_count{};
+  std::array<std::int16_t, 3> accel_count{};
+};
+
+/// One robot in a world. Joint indices are those of Entity and Params. Time is simulated, in microseconds since
+/// the world began; it moves only through advance_to().
+class Plant {
+ public:
+  virtual ~Plant() = default;
+  virtual std::uint64_t now_us() const = 0;
+  /// Runs whole physics steps up to the last one that ends at or before time_us; never goes back.
+  virtual void advance_to(std::uint64_t time_us) = 0;
+  virtual ServoSetpoint& setpoint(int joint) = 0;
+  virtual ServoMeasurement measure(int joint) = 0;
+  virtual ImuMeasurement imu() = 0;
+  /// Normal force counts of one foot's sensors: front-left, front-right, back-left, back-right.
+  virtual std::array<std::uint16_t, 4> foot_counts(int foot) = 0;
+};
+
+}  // namespace verp::sim
