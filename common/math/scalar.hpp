@@ -1,0 +1,120 @@
+#pragma once
+#include <bit>
+#include <cstdint>
+#include <limits>
+
+/// Small scalar functions, all total: no input, NaN and infinities included, is undefined
+/// behaviour. Angles are radians. Everything is IEEE float32 by basic operations, so the bits are
+/// the same everywhere.
+namespace verp::math {
+
+inline constexpr float kPi = 0x1.921fb6p+1F;         ///< nearest float, 8.7e-8 above pi
+inline constexpr float kTwoPi = 0x1.921fb6p+2F;      ///< exactly 2 kPi
+inline constexpr float kHalfPi = 0x1.921fb6p+0F;     ///< exactly kPi / 2
+inline constexpr float kQuarterPi = 0x1.921fb6p-1F;  ///< exactly kPi / 4
+inline constexpr float kRadPerDeg = 0x1.1df46ap-6F;  ///< for codecs and UI; the core is in radians
+inline constexpr float kDegPerRad = 0x1.ca5dc2p+5F;
+inline constexpr float kGravityMS2 = 9.80665F;  ///< standard gravity, m/s^2 (CGPM 1901)
+inline constexpr float kMaxFloat = std::numeric_limits<float>::max();
+inline constexpr float kMinNormal = std::numeric_limits<float>::min();
+
+static_assert(std::numeric_limits<float>::is_iec559,
+              "the bit-identity contract needs IEEE float32");
+
+/// False for NaN and infinities. An integer test: no compiler flag can reason it away.
+constexpr bool is_finite(float x) {
+  return (std::bit_cast<std::uint32_t>(x) & 0x7F800000U) != 0x7F800000U;
+}
+
+/// x, or `fallback` where x is NaN or infinite: how foreign values enter the core.
+constexpr float finite_or(float x, float fallback) {
+  return is_finite(x) ? x : fallback;
+}
+
+/// Clears the sign bit.
+constexpr float abs(float x) {
+  return std::bit_cast<float>(std::bit_cast<std::uint32_t>(x) & 0x7FFFFFFFU);
+}
+
+/// Magnitude of the first, sign bit of the second.
+constexpr float copysign(float magnitude, float sign) {
+  return std::bit_cast<float>((std::bit_cast<std::uint32_t>(magnitude) & 0x7FFFFFFFU) |
+                              (std::bit_cast<std::uint32_t>(sign) & 0x80000000U));
+}
+
+/// -1, 0 or 1; NaN gives 0.
+constexpr float sign(float x) {
+  return x > 0.0F ? 1.0F : (x < 0.0F ? -1.0F : 0.0F);
+}
+
+/// b when either is NaN or both are equal (so min(0, -0) is -0): one defined choice on every core.
+constexpr float min(float a, float b) {
+  return a < b ? a : b;
+}
+constexpr float max(float a, float b) {
+  return a > b ? a : b;
+}
+
+/// x limited to [lo, hi]. NaN gives lo; when lo > hi the result is lo.
+constexpr float clamp(float x, float lo, float hi) {
+  if (!(x > lo)) return lo;
+  return x < hi ? x : (hi > lo ? hi : lo);
+}
+constexpr std::int32_t clamp(std::int32_t x, std::int32_t lo, std::int32_t hi) {
+  if (x <= lo) return lo;
+  return x < hi ? x : (hi > lo ? hi : lo);
+}
+
+constexpr float square(float x) {
+  return x * x;
+}
+constexpr float cube(float x) {
+  return x * x * x;
+}
+
+/// a + t (b - a): exactly a at t = 0; within one rounding of b at t = 1. t is not limited.
+constexpr float lerp(float a, float b, float t) {
+  return a + t * (b - a);
+}
+
+/// Correctly rounded. Negative, NaN and -0 give 0; +infinity gives +infinity (no finite input
+/// does).
+inline float sqrt(float x) {
+  return x > 0.0F ? __builtin_sqrtf(x) : 0.0F;
+}
+
+/// sqrt(a^2 + b^2) for lengths of a robot's size: no guard against overflow beyond 1e19.
+inline float hypot(float a, float b) {
+  return sqrt(a * a + b * b);
+}
+inline float hypot(float a, float b, float c) {
+  return sqrt(a * a + (b * b + c * c));
+}
+
+/// Largest integer not above x, saturating to the range of int32; NaN gives 0.
+constexpr std::int32_t floor_to_int(float x) {
+  if (x != x) return 0;
+  if (x >= 2147483648.0F) return std::numeric_limits<std::int32_t>::max();
+  if (x < -2147483648.0F) return std::numeric_limits<std::int32_t>::min();
+  const auto truncated = static_cast<std::int32_t>(x);
+  return static_cast<float>(truncated) > x ? truncated - 1 : truncated;
+}
+
+/// The same angle in (-kPi, kPi]. Exact up to one rounding for |angle| <= 3 kPi, which is one
+/// addition or subtraction of two angles; beyond that the error is that of the argument itself, and
+/// from 1e7 rad on, as for NaN and infinities, the result is 0.
+constexpr float wrap_angle(float angle_rad) {
+  // 2 pi in three parts: the first two have 11 bits each, so their product with a 13-bit count is
+  // exact.
+  constexpr float kHigh = 0x1.92p+2F;
+  constexpr float kMiddle = 0x1.fb4p-10F;
+  constexpr float kLow = 0x1.44442ep-22F;
+  if (angle_rad > -kPi && angle_rad <= kPi) return angle_rad;
+  if (!(abs(angle_rad) < 1e7F)) return 0.0F;
+  const auto turns = static_cast<float>(floor_to_int(angle_rad * (1.0F / kTwoPi) + 0.5F));
+  const float wrapped = ((angle_rad - turns * kHigh) - turns * kMiddle) - turns * kLow;
+  if (wrapped > kPi) return kPi;
+  return wrapped > -kPi ? wrapped : kPi;
+}
+
+}  // namespace verp::math

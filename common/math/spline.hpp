@@ -1,0 +1,60 @@
+#pragma once
+
+/// Curves through key points. Each has a value and its derivative by the curve's own parameter u in
+/// [0, 1]; for a segment of duration T, u = t / T and the speed is derivative / T. u is not
+/// limited: limit it where time enters.
+namespace verp::math {
+
+struct CurvePoint {
+  float value;
+  float derivative;  ///< d value / d u
+};
+
+/// Cubic Hermite through (0, p0) and (1, p1) with slopes d p / d u of m0 and m1. Ends are met
+/// exactly.
+constexpr CurvePoint hermite(float p0, float m0, float p1, float m1, float u) {
+  const float rise = p1 - p0;
+  const float a = m0 - rise;  // bends: u (1-u) [a (1-u) - b u] added to the chord
+  const float b = m1 - rise;
+  const float v = 1.0F - u;
+  const float bump = a * v - b * u;
+  const float chord = u < 0.5F ? p0 + u * rise : p1 - v * rise;
+  return {chord + (u * v) * bump, rise + ((v - u) * bump - (u * v) * (a + b))};
+}
+
+/// Quintic from 0 to 1 with zero velocity and acceleration at both ends: 10 u^3 - 15 u^4 + 6 u^5.
+constexpr CurvePoint minimum_jerk(float u) {
+  const float uu = u * u;
+  const float v = 1.0F - u;
+  return {(uu * u) * (10.0F - u * (15.0F - 6.0F * u)), (30.0F * uu) * (v * v)};
+}
+
+/// Minimum jerk from p0 to p1.
+constexpr CurvePoint minimum_jerk(float p0, float p1, float u) {
+  const CurvePoint unit = minimum_jerk(u);
+  return {p0 + (p1 - p0) * unit.value, (p1 - p0) * unit.derivative};
+}
+
+/// Quintic from p0 to p1 with slopes m0, m1 and zero second derivative at both ends.
+constexpr CurvePoint quintic(float p0, float m0, float p1, float m1, float u) {
+  const float rise = p1 - p0;
+  const float a = m0 - rise;
+  const float b = m1 - rise;
+  const float uu = u * u;
+  // p0 + rise u + a (u - 6u^3 + 8u^4 - 3u^5) + b (-4u^3 + 7u^4 - 3u^5)
+  const float fa = u + (uu * u) * (-6.0F + u * (8.0F - 3.0F * u));
+  const float fb = (uu * u) * (-4.0F + u * (7.0F - 3.0F * u));
+  const float ga = 1.0F + uu * (-18.0F + u * (32.0F - 15.0F * u));
+  const float gb = uu * (-12.0F + u * (28.0F - 15.0F * u));
+  return {(p0 + u * rise) + (a * fa + b * fb), rise + (a * ga + b * gb)};
+}
+
+/// A swing foot's height: the quartic through 0 at lift-off (u = 0), 1 at the apex (u = 1/2) and 0
+/// at landing (u = 1), with zero velocity at both ends: 16 u^2 (1 - u)^2.
+constexpr CurvePoint swing_lift(float u) {
+  const float v = 1.0F - u;
+  const float uv = 4.0F * (u * v);
+  return {uv * uv, (8.0F * uv) * (v - u)};
+}
+
+}  // namespace verp::math

@@ -1,0 +1,20 @@
+#pragma once
+#include "common/base/fields.hpp"
+
+namespace verp::math {
+
+/// Three floats as they are stored, hashed and put into images: a vector with a field list.
+/// Arithmetic is Vec3's (common/math/linear.hpp); this header keeps Eigen out of plain data.
+struct Xyz {
+  float x = 0;
+  float y = 0;
+  float z = 0;
+  VERP_FIELDS(x, y, z)
+};
+VERP_PACKED(Xyz);
+
+}  // namespace verp::math
+
+namespace verp {
+using math::Xyz;
+}
