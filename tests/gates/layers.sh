@@ -17,13 +17,21 @@ awk -v rules="$here/layers.txt" '
 function complain(why) { printf "%s:%d: %s\n", FILENAME, FNR, why; bad = 1 }
 
 # The rule of the longest folder or file name that path lies under.
-function rule_of(path) {
-  while (path != "" && !(path in rule)) if (!sub(/\/[^\/]*$/, "", path)) path = ""
-  return path
+function rule_of(path,   parent) {
+  for (; path != ""; path = parent) {
+    if (path in rule) return path
+    parent = path
+    if (!sub(/\/[^\/]*$/, "", parent)) parent = ""
+    if ((parent "/*") in rule) {
+      rule[path] = rule[parent "/*"]
+      return path
+    }
+  }
+  return ""
 }
 
 function allowed(target, own, rules_line,   n, i, words) {
-  if (target !~ /^</ && rule_of(target) == own) return 1
+  if (target !~ /^</ && (index(target, own "/") == 1 || rule_of(target) == own)) return 1
   n = split(rules_line, words, " ")
   for (i = 1; i <= n; i++) {
     if (words[i] == target) return 1

@@ -1,0 +1,94 @@
+#!/usr/bin/env bash
+# self_test.sh GATE ROOT [COMPILER NM OBJDUMP]: plants violations, one at a time, and checks that the gate names each.
+# A gate that cannot see a planted fault is worse than none.
+set -euo pipefail
+
+gate=$1 root=$2 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
+scratch=$(mktemp -d)
+trap 'rm -rf "$scratch"' EXIT
+failed=0 planted=0
+
+expect() { # what reason command...: the command must fail and say the reason (empty reason: it must pass)
+  local what=$1 reason=$2 output status=0
+  shift 2
+  planted=$((planted + 1))
+  output=$("$@" 2>&1) || status=$?
+  if [[ -z $reason ]]; then
+    ((status == 0)) && return
+    echo "a false alarm: $what: $output"
+  else
+    ((status != 0)) && [[ $output == *"$reason"* ]] && return
+    echo "not caught: $what (expected: $reason; got: ${output:-nothing})"
+  fi
+  failed=1
+}
+
+layers_case() { # what reason path text
+  rm -rf "$scratch/tree"
+  mkdir -p "$scratch/tree/$(dirname "$3")"
+  printf '%s\n' "$4" >"$scratch/tree/$3"
+  expect "$1" "$2" "$here/layers.sh" "$scratch/tree" "${3%%/*}"
+}
+
+test_layers() {
+  layers_case 'a clean header' '' common/gait/a.hpp $'#pragma once\n#include <cstdint>\n#include "common/math/a.hpp"'
+  layers_case 'words in comments' '' common/gait/a.hpp $'// a new double #if\n/* virtual\n malloc */ int a;'
+  layers_case 'the host includes all' '' host/sim/a.cpp $'#include <ode/ode.h>\n#include "firmware/app/a.hpp"'
+  layers_case 'upward include' 'common/gait must not include common/control' common/gait/a.hpp '#include "common/control/step.hpp"'
+  layers_case 'sideways include' 'must not include common/balance' common/gait/a.hpp '#include "common/balance/a.hpp"'
+  layers_case 'core includes host' 'must not include host/' common/io/a.hpp '#include "host/sim/a.hpp"'
+  layers_case 'core includes libm' 'must not include <cmath>' common/math/a.cpp '  # include <cmath>'
+  layers_case 'Eigen past its door' 'must not include <Eigen/Core>' common/gait/a.hpp '#include <Eigen/Core>'
+  layers_case 'ODE on the robot' 'must not include <ode/ode.h>' firmware/app/a.hpp '#include <ode/ode.h>'
+  layers_case 'host uses a chip' 'must not include hal/chip' host/board/a.cpp '#include "hal/chip/x/a.hpp"'
+  layers_case 'one chip family uses another' 'must not include hal/chip' hal/chip/x/a.hpp '#include "hal/chip/y/a.hpp"'
+  layers_case 'relative include' 'by its path' common/gait/a.cpp '#include "a.hpp"'
+  layers_case 'conditional compilation' 'no conditional compilation' common/io/a.hpp '#ifdef __arm__'
+  layers_case 'a heap' 'must not use new' common/io/a.cpp 'int* f() { return new int; }'
+  layers_case 'a double' 'must not use double' common/io/a.cpp 'float f(float x) { return float(double(x)); }'
+  layers_case 'libm' 'must not use std::sin' common/io/a.cpp 'float f(float x) { return std::sin(x); }'
+  layers_case 'a folder nobody planned' 'no rule for this folder' common/magic/a.cpp 'int a();'
+}
+
+symbols_case() { # what reason flags text
+  local flags=()
+  read -ra flags <<<"$3"
+  printf '%s\n' "$4" >"$scratch/a.cpp"
+  rm -f "$scratch/a.a"
+  "$compiler" -std=c++20 -O2 -ffreestanding -ffp-contract=off -fno-math-errno "${flags[@]}" -c "$scratch/a.cpp" -o "$scratch/a.o"
+  ar rc "$scratch/a.a" "$scratch/a.o"
+  expect "$1" "$2" "$here/symbols.sh" "$scratch/a.a" "$nm" "$objdump"
+}
+
+test_symbols() {
+  symbols_case 'clean code' '' '' 'extern "C" void* memcpy(void*, const void*, unsigned long); float f(float a, float b) { return a * b + 1; }'
+  symbols_case 'a constant table' '' '-fPIC' 'extern const char* const t[]; const char* const t[] = {"a", "b"};'
+  symbols_case 'a call of libm' 'must not need' '' 'extern "C" float sinf(float); float f(float x) { return sinf(x); }'
+  symbols_case 'a heap' 'must not need' '' 'int* f() { return new int; }'
+  symbols_case 'a counter' 'a run can change' '' 'int f() { static int n; return ++n; }'
+  symbols_case 'initialised data' 'a run can change' '' 'int n = 3;'
+  symbols_case 'a constructor before main' 'a run can change' '' 'extern int g(); extern const int n; const int n = g();'
+  symbols_case 'fused multiply-add' 'fused or double' '-mfma -ffp-contract=fast' 'float f(float a, float b, float c) { return a * b + c; }'
+  symbols_case 'double arithmetic' 'fused or double' '' 'double f(double a) { return a * 3.0; }'
+  symbols_case 'a general product' 'general products' '' 'void gebp() {}'
+}
+
+test_format() {
+  git init -q "$scratch"
+  cp "$root/.clang-format" "$scratch/"
+  printf 'int a;\n' >"$scratch/a.cpp"
+  git -C "$scratch" add a.cpp
+  expect 'formatted code' '' "$here/format.sh" "$scratch"
+  printf 'int   a ;\n' >"$scratch/a.cpp"
+  expect 'unformatted code' 'clang-format' "$here/format.sh" "$scratch"
+}
+
+compiler=${3:-g++} nm=${4:-nm} objdump=${5:-objdump}
+case $gate in
+layers) test_layers ;;
+symbols) test_symbols ;;
+format) test_format ;;
+*) echo "no gate '$gate'" && exit 2 ;;
+esac
+echo "$gate gate: $planted cases"
+exit "$failed"

@@ -1,0 +1,13 @@
+#!/usr/bin/env bash
+# tidy.sh ROOT BUILD: clang-tidy with .clang-tidy over the core, as BUILD/compile_commands.json compiles it.
+set -euo pipefail
+
+cd "$1"
+mapfile -t files < <(find common firmware -name '*.cpp' | LC_ALL=C sort)
+[[ ${#files[@]} -gt 0 ]] || { echo "tidy: no sources in $PWD/common" && exit 1; }
+compiled=()
+for file in "${files[@]}"; do
+  grep -qF "\"file\": \"$PWD/$file\"" "$2/compile_commands.json" && compiled+=("$file")
+done
+[[ ${#compiled[@]} -gt 0 ]] || { echo "tidy: $2/compile_commands.json compiles none of them" && exit 1; }
+printf '%s\0' "${compiled[@]}" | xargs -0 -n 4 -P "$(nproc)" clang-tidy --quiet -p "$2"
