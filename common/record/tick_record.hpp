@@ -25,8 +25,7 @@ VERP_PACKED(TickDigest);
 struct TickRecord {
   TickDigest digest;
   Inputs inputs;
-  std::uint32_t reserved = 0;
-  VERP_FIELDS(digest, inputs, reserved)
+  VERP_FIELDS(digest, inputs)
 };
 VERP_PACKED(TickRecord);
 
