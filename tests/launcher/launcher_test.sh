@@ -1,0 +1,95 @@
+#!/usr/bin/env bash
+# launcher_test.sh ROOT: what ./verp promises, checked on a scratch project in which every outside command is a stub.
+set -uo pipefail
+
+root=$1
+scratch=$(mktemp -d)
+trap 'rm -rf "$scratch"' EXIT
+failed=0
+
+stub() { # name script
+  printf '#!/bin/bash\n%s\n' "$2" >"$scratch/bin/$1"
+  chmod +x "$scratch/bin/$1"
+}
+
+# A project whose build makes a program that echoes its arguments and exits 7; g++ is missing until apt-get installs it.
+fresh_project() {
+  rm -rf "${scratch:?}"/*
+  mkdir -p "$scratch/bin" "$scratch/toolchains" "$scratch/tests" "$scratch/boards/b1"
+  cp "$root/verp" "$scratch/"
+  printf 'run cmake why\nrun g++ why\ntest clang why\n' >"$scratch/toolchains/packages.txt"
+  echo '{}' >"$scratch/CMakePresets.json"
+  printf '#!/bin/bash\necho "tests: $*"\n' >"$scratch/tests/run" && chmod +x "$scratch/tests/run"
+  stub dpkg-query "echo 'cmake installed'; [[ ! -e '$scratch/g++' ]] || printf 'g++ installed\nclang installed\n'"
+  stub apt-get "echo \"\$*\" >>'$scratch/apt'
+case \"\$*\" in
+*--print-uris*) echo 'Need to get 5 MB of archives.' ;;
+*' install '*) touch '$scratch/g++' ;;
+esac"
+  stub id 'echo 0'
+  stub cmake "mkdir -p build/host-release && echo configured && touch build/host-release/build.ninja"
+  stub ninja "mkdir -p build/host-release/host/tool && touch build/host-release/.ninja_log && echo '[1/1] noise'
+printf '#!/bin/bash\necho \"\$*\"\nexit 7\n' >'$scratch/new' && chmod +x '$scratch/new'
+mv '$scratch/new' build/host-release/host/tool/verp"
+}
+
+launch() { # arguments of ./verp; sets status, output and errors
+  status=0
+  output=$(cd / && env -u CI PATH="$scratch/bin:/usr/bin:/bin" "$scratch/verp" "$@" </dev/null 2>"$scratch/errors") || status=$?
+  errors=$(<"$scratch/errors")
+}
+
+check() { # what status output-on-stdout part-of-stderr
+  [[ $status == "$2" && $output == "$3" && $errors == *"$4"* ]] && return
+  echo "FAILED: $1: status $status (want $2), stdout '$output' (want '$3'), stderr '$errors' (want '$4')"
+  failed=1
+}
+
+fresh_project
+launch walk --json
+check 'with nobody to ask, it names what is missing and stops' 3 '' 'missing: g++'
+check 'it says how big it is' 3 '' 'Need to get 5 MB'
+grep -q '^.* install -y' "$scratch/apt" && echo 'FAILED: installed without leave' && failed=1
+
+launch walk --yes --for '2 0' --json
+check '--yes installs, builds, passes the other arguments on, keeps stdout pure' 7 'walk --for 2 0 --json' 'installing'
+launch walk
+check 'the second time nothing is said' 7 'walk' ''
+[[ -z $errors ]] || { echo "FAILED: said: $errors" && failed=1; }
+
+launch test --only unit
+check 'verp test is handed to tests/run' 0 'tests: --only unit' ''
+launch walk --on b9
+check 'an unknown board is bad usage' 2 '' "no board 'b9'"
+
+fresh_project
+stub apt-get 'echo "E: no network"; exit 100'
+launch walk --yes
+check 'no network: device trouble, with what apt said' 3 '' 'no network'
+
+fresh_project
+stub id 'echo 1000'
+mkdir "$scratch/base" && for tool in awk dirname readlink mkdir flock sed tr cat touch bash env mv chmod; do
+  ln -s "$(command -v "$tool")" "$scratch/base/"
+done
+status=0
+output=$(PATH="$scratch/bin:$scratch/base" "$scratch/verp" walk --yes </dev/null 2>&1) || status=$?
+errors=$output output=''
+check 'neither root nor sudo' 3 '' 'needs root'
+
+fresh_project
+touch "$scratch/g++"
+stub ninja "echo 'FAILED: a.o'; echo 'a.cpp:3: error: no such thing'; exit 1"
+launch walk --json
+check 'a build that fails shows the error on stderr only' 1 '' 'a.cpp:3: error: no such thing'
+
+fresh_project
+touch "$scratch/g++"
+stub ninja "[[ ! -e '$scratch/busy' ]] || echo overlap >>'$scratch/overlap'
+touch '$scratch/busy'; sleep 0.2; rm '$scratch/busy'
+mkdir -p build/host-release/host/tool; ln -sf /bin/echo build/host-release/host/tool/verp"
+for each in 1 2 3; do (launch "$each" && check 'copies at the same time' 0 "$each" '' && exit $failed) & done
+for each in 1 2 3; do wait -n || failed=1; done
+[[ ! -e $scratch/overlap ]] || { echo 'FAILED: two builds at once' && failed=1; }
+
+exit "$failed"
