@@ -46,17 +46,17 @@ inline Reduced reduce(float angle_rad) {
   return {high, ((exact - high) - middle) - count * kLow, bits_of(shifted)};
 }
 
-/// For any other finite angle: Payne and Hanek with integers. `angle_bits` is the bit pattern of
-/// its magnitude.
-Reduced reduce_large(std::uint32_t angle_bits) {
+/// For any other finite angle: Payne and Hanek with integers.
+Reduced reduce_large(float angle_rad) {
   // 2 / pi = 0.A2F9836E..., behind one word of zeros for angles below 2^25.
   constexpr std::uint32_t kTwoOverPi[] = {0x00000000U, 0xA2F9836EU, 0x4E441529U, 0xFC2757D1U,
                                           0xF534DDC0U, 0xDB629599U, 0x3C439041U, 0xFE5163ABU};
-  // angle = mantissa * 2^exponent. Of the product with 2 / pi, multiples of 4 quadrants don't
+  // |angle| = mantissa * 2^exponent. Of the product with 2 / pi, multiples of 4 quadrants don't
   // matter: start at the bit that counts 2 quadrants and keep 96 bits, of which the mantissa
   // costs 24.
-  const std::uint32_t mantissa = (angle_bits & 0x007FFFFFU) | 0x00800000U;
-  const std::uint32_t first_bit = (angle_bits >> 23) - 150U - 2U + 32U;
+  const std::uint32_t bits = magnitude_bits(angle_rad);
+  const std::uint32_t mantissa = (bits & 0x007FFFFFU) | 0x00800000U;
+  const std::uint32_t first_bit = (bits >> 23) - 150U - 2U + 32U;
   const std::uint32_t* word = kTwoOverPi + (first_bit >> 5);
   const std::uint32_t shift = first_bit & 31U;
   const auto window = [&](int i) {
@@ -68,14 +68,18 @@ Reduced reduce_large(std::uint32_t angle_bits) {
                                 ((std::uint64_t{mantissa} * window(2)) >> 32);
   const std::uint64_t quadrant = (product + (std::uint64_t{1} << 61)) >> 62;
   const std::uint64_t rest = product - (quadrant << 62);  // two's complement, in 2^-62 quadrants
-  const bool negative = (rest >> 63) != 0;
-  const std::uint64_t size = (negative ? 0 - rest : rest) | 1U;  // never 0: 2 / pi is irrational
+  const bool below = (rest >> 63) != 0;
+  const std::uint64_t size = (below ? 0 - rest : rest) | 1U;  // never 0: 2 / pi is irrational
   const int zeros = std::countl_zero(size);
   const std::uint64_t radians = ((size << zeros) >> 32) * 0xC90FDAA2U;  // pi/2 * 2^31
-  const float scale = power_of_two(-21 - zeros) * (negative ? -1.0F : 1.0F);
-  const auto high = static_cast<float>(static_cast<std::uint32_t>(radians >> 40));
-  const auto low = static_cast<float>(static_cast<std::uint32_t>(radians >> 16) & 0xFFFFFFU);
-  return {high * scale, (low * 0x1p-24F) * scale, static_cast<std::uint32_t>(quadrant)};
+  const bool negative = angle_rad < 0.0F;
+  const float scale = power_of_two(-21 - zeros) * (below != negative ? -1.0F : 1.0F);
+  const float head = scale * static_cast<float>(static_cast<std::uint32_t>(radians >> 40));
+  const float tail = (scale * 0x1p-24F) *
+                     static_cast<float>(static_cast<std::uint32_t>(radians >> 16) & 0xFFFFFFU);
+  const float high = head + tail;
+  const auto turned = static_cast<std::uint32_t>(quadrant);
+  return {high, (head - high) + tail, negative ? 0U - turned : turned};
 }
 
 /// sin(high + low); minimax, 2^-27.9 relative.
@@ -124,33 +128,27 @@ SinCos sincos(float angle_rad) {
   const std::uint32_t size = magnitude_bits(angle_rad);
   if (size < kSmallBits) return {angle_rad, 1.0F};
   if (size >= kInfinityBits) return {0.0F, 1.0F};
-  const bool large = size >= kLargeAngleBits;
-  const Reduced r = large ? reduce_large(size) : reduce(angle_rad);
+  const Reduced r = size < kLargeAngleBits ? reduce(angle_rad) : reduce_large(angle_rad);
   const float s = sin_kernel(r.high, r.low);
   const float c = cos_kernel(r.high, r.low);
-  float sine = (r.quadrant & 1U) != 0 ? c : s;
-  float cosine = (r.quadrant & 1U) != 0 ? s : c;
-  if ((r.quadrant & 2U) != 0) sine = -sine;
-  if (((r.quadrant + 1U) & 2U) != 0) cosine = -cosine;
-  if (large && angle_rad < 0.0F) sine = -sine;
-  return {sine, cosine};
+  const float sine = (r.quadrant & 1U) != 0 ? c : s;
+  const float cosine = (r.quadrant & 1U) != 0 ? s : c;
+  return {(r.quadrant & 2U) != 0 ? -sine : sine, ((r.quadrant + 1U) & 2U) != 0 ? -cosine : cosine};
 }
 
 float sin(float angle_rad) {
   const std::uint32_t size = magnitude_bits(angle_rad);
   if (size < kSmallBits) return angle_rad;
   if (size >= kInfinityBits) return 0.0F;
-  const bool large = size >= kLargeAngleBits;
-  const Reduced r = large ? reduce_large(size) : reduce(angle_rad);
-  float sine = (r.quadrant & 1U) != 0 ? cos_kernel(r.high, r.low) : sin_kernel(r.high, r.low);
-  if ((r.quadrant & 2U) != 0) sine = -sine;
-  return large && angle_rad < 0.0F ? -sine : sine;
+  const Reduced r = size < kLargeAngleBits ? reduce(angle_rad) : reduce_large(angle_rad);
+  const float sine = (r.quadrant & 1U) != 0 ? cos_kernel(r.high, r.low) : sin_kernel(r.high, r.low);
+  return (r.quadrant & 2U) != 0 ? -sine : sine;
 }
 
 float cos(float angle_rad) {
   const std::uint32_t size = magnitude_bits(angle_rad);
   if (size < kSmallBits || size >= kInfinityBits) return 1.0F;
-  const Reduced r = size >= kLargeAngleBits ? reduce_large(size) : reduce(angle_rad);
+  const Reduced r = size < kLargeAngleBits ? reduce(angle_rad) : reduce_large(angle_rad);
   const float cosine =
       (r.quadrant & 1U) != 0 ? sin_kernel(r.high, r.low) : cos_kernel(r.high, r.low);
   return ((r.quadrant + 1U) & 2U) != 0 ? -cosine : cosine;
