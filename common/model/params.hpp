@@ -50,6 +50,8 @@ enum class LegSolver : std::uint8_t { kNone = 0, kClosedForm = 1, kNewton = 2 };
 
 /// One six-joint leg. Closed form works on canonical angles: yaw(z) roll(x) pitch(y) knee(y) ankle pitch(y) ankle
 /// roll(x), all zero when the leg hangs straight down; joint angle = direction * (canonical - offset).
+/// The foot frame is the last link's frame, with its origin at the ankle centre; closed form is chosen only when
+/// that frame is also the canonical foot's, which it is for every robot whose feet stand flat at zero.
 /// Newton works on the tree itself and uses joint[], sole pose and limits only.
 struct LegParams {
   LegSolver solver = LegSolver::kNone;

@@ -1,0 +1,80 @@
+#include "common/kinematics/leg_ik.hpp"
+
+namespace verp::kinematics {
+namespace {
+
+constexpr int kIterations = 4;           // warm-started, two were enough on every six-joint leg tried
+constexpr float kMetresPerRadian = 0.1F; // makes an angle error comparable to a length error at the sole
+constexpr float kDamping = 1e-6F;        // m^2: keeps a straight knee from asking for infinite speed
+constexpr float kMaxStepRad = 0.3F;      // a step beyond this has left the linear range
+constexpr float kPositionTolerance_m = 1e-4F;
+constexpr float kAngleTolerance_rad = 1e-3F;
+
+struct Residual {
+  Vec3 position_m;
+  Vec3 rotation_rad;
+  bool small() const {
+    return math::norm(position_m) < kPositionTolerance_m &&
+           math::norm(rotation_rad) < kAngleTolerance_rad;
+  }
+};
+
+Residual residual_of(const Pose& wanted, const Pose& reached) {
+  return {wanted.position_m - reached.position_m,
+          math::rotation_vector(wanted.rotation * reached.rotation.transpose())};
+}
+
+// J^T J + damping and J^T e, with the angular rows scaled; written out because Eigen's products of this size may
+// take a blocked path.
+bool newton_step(const Mat6& jacobian, const Residual& residual, Vec6& step_rad) {
+  Mat6 scaled;
+  Vec6 error;
+  for (int k = 0; k < kLegJoints; ++k) {
+    scaled.col(k) << jacobian.col(k).head<3>(), kMetresPerRadian * jacobian.col(k).tail<3>();
+  }
+  error << residual.position_m, kMetresPerRadian * residual.rotation_rad;
+  Mat6 normal;
+  Vec6 right;
+  for (int i = 0; i < kLegJoints; ++i) {
+    for (int j = 0; j <= i; ++j) {
+      normal(i, j) = scaled.col(i).dot(scaled.col(j)) + (i == j ? kDamping : 0.0F);
+      normal(j, i) = normal(i, j);
+    }
+    right(i) = scaled.col(i).dot(error);
+  }
+  return math::solve_spd(normal, right, step_rad);
+}
+
+}  // namespace
+
+LegAngles solve_leg_newton(const Params& params, const LegParams& leg, const Pose& sole,
+                           const float* previous_rad) {
+  LegAngles result;
+  for (int k = 0; k < kLegJoints; ++k) {
+    const JointParams& joint = params.joint[leg.joint[k]];
+    result.angle_rad[k] = math::clamp(previous_rad[k], joint.lower_rad, joint.upper_rad);
+  }
+  for (int i = 0; i <= kIterations; ++i) {
+    const LegChain legs = leg_chain(params, leg, Pose{}, result.angle_rad);
+    const Pose reached = sole_pose(leg, legs);
+    const Residual residual = residual_of(sole, reached);
+    if (residual.small()) return result;
+    Vec6 step_rad;
+    if (i == kIterations ||
+        !newton_step(leg_jacobian(params, leg, legs, reached.position_m), residual, step_rad)) {
+      break;
+    }
+    result.flags = 0;
+    for (int k = 0; k < kLegJoints; ++k) {
+      const JointParams& joint = params.joint[leg.joint[k]];
+      const float wanted_rad =
+          result.angle_rad[k] + math::clamp(step_rad(k), -kMaxStepRad, kMaxStepRad);
+      result.angle_rad[k] = math::clamp(wanted_rad, joint.lower_rad, joint.upper_rad);
+      if (result.angle_rad[k] != wanted_rad) result.flags |= kJointLimited;
+    }
+  }
+  result.flags |= kNotConverged;
+  return result;
+}
+
+}  // namespace verp::kinematics
