@@ -6,4 +6,4 @@ set -euo pipefail
 cd "$1"
 mapfile -t files < <(git ls-files -- '*.hpp' '*.cpp' '*.h' '*.c')
 [[ ${#files[@]} -gt 0 ]] || { echo "format: no sources in $PWD" && exit 1; }
-printf '%s\0' "${files[@]}" | xargs -0 -n 20 -P "$(nproc)" clang-format --dry-run -Werror
+clang-format --dry-run -Werror --ferror-limit=3 "${files[@]}"
