@@ -1,0 +1,25 @@
+# Images that every emulated MPS2 board has, as executables <what>_<board>.elf. Called in the board's own folder.
+set(VERP_MPS2_DIR ${CMAKE_CURRENT_LIST_DIR})
+
+function(verp_add_mps2_image what machine)
+  set(image ${what}_${VERP_BOARD})
+  add_executable(${image} ${VERP_MPS2_DIR}/${what}_main.cpp ${VERP_MPS2_DIR}/emulator.cpp ${ARGN})
+  target_include_directories(${image} PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
+  target_link_libraries(${image} PRIVATE verp_boot verp_app verp_core verp_chip_semihosting verp_warnings)
+  target_link_options(${image} PRIVATE -T ${CMAKE_CURRENT_SOURCE_DIR}/memory.ld)
+  set_target_properties(${image} PROPERTIES
+    SUFFIX .elf
+    RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/images
+    CROSSCOMPILING_EMULATOR "${CMAKE_SOURCE_DIR}/tests/target/run_qemu;${machine}"
+    LINK_DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/memory.ld;${CMAKE_SOURCE_DIR}/firmware/boot/sections.ld")
+endfunction()
+
+function(verp_add_mps2_images machine)
+  file(GLOB_RECURSE tests CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/tests/unit/*_test.cpp)
+  verp_add_mps2_image(unit ${machine} ${VERP_MPS2_DIR}/newlib.cpp ${tests})
+  target_include_directories(unit_${VERP_BOARD} SYSTEM PRIVATE ${CMAKE_SOURCE_DIR}/tests/support/gtest_target)
+  add_test(NAME unit.${VERP_BOARD} COMMAND unit_${VERP_BOARD})
+  set_tests_properties(unit.${VERP_BOARD} PROPERTIES LABELS "unit;target" TIMEOUT 300)
+
+  verp_add_mps2_image(replay ${machine})
+endfunction()

@@ -1,0 +1,7 @@
+#pragma once
+
+/// Arm MPS2 FPGA board with the AN385 image (Cortex-M3), as QEMU's mps2-an385 emulates it.
+namespace verp::board {
+inline constexpr const char* kName = "mps2_an385";
+inline constexpr const char* kCore = "Cortex-M3";
+}  // namespace verp::board

@@ -1,0 +1,39 @@
+#include <cstdint>
+
+#include "firmware/boot/boot.hpp"
+#include "firmware/boot/stack.hpp"
+
+namespace {
+constexpr std::uintptr_t kCfsr = 0xE000ED28;  // ARMv7-M ARM, B3.2.15
+constexpr std::uintptr_t kBfar = 0xE000ED38;  // B3.2.18
+constexpr std::uint32_t kBfarValid = 1u << 15;
+
+std::uint32_t read_register(std::uintptr_t address) {
+  return *reinterpret_cast<const volatile std::uint32_t*>(address);
+}
+}  // namespace
+
+/// `frame` is where the core saved r0-r3, r12, lr, pc, xpsr (B1.5.6): unreadable if the stack ran
+/// out of RAM.
+extern "C" [[noreturn]] void verp_fault_capture(const std::uint32_t* frame) {
+  verp::boot::FaultReport report;
+  report.cause = read_register(kCfsr);
+  report.address = (report.cause & kBfarValid) != 0 ? read_register(kBfar) : 0;
+  report.stack_overflow = reinterpret_cast<std::uintptr_t>(frame) < verp::boot::stack_limit();
+  if (!report.stack_overflow) {
+    report.lr = frame[5];
+    report.pc = frame[6];
+  }
+  verp_fault(report);
+}
+
+/// Every fault ends here. The stack may be the very thing that broke, so it starts again from the
+/// top.
+extern "C" __attribute__((naked)) void verp_fault_entry() {
+  __asm__ volatile(
+      "mrs r0, msp\n"
+      "ldr r1, =verp_stack_top\n"
+      "mov sp, r1\n"
+      "b verp_fault_capture\n"
+      ".ltorg\n");
+}

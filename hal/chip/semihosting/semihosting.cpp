@@ -1,0 +1,85 @@
+#include "hal/chip/semihosting/semihosting.hpp"
+
+namespace verp::hal::semihosting {
+namespace {
+
+enum class Call : std::uint32_t {
+  kOpen = 0x01,
+  kClose = 0x02,
+  kWrite0 = 0x04,
+  kWrite = 0x05,
+  kRead = 0x06,
+  kCommandLine = 0x15,
+  kExitExtended = 0x20,
+};
+constexpr std::uint32_t kApplicationExit = 0x20026;  // ADP_Stopped_ApplicationExit
+
+std::int32_t call(Call number, const void* argument) {
+  register std::uint32_t r0 __asm__("r0") = static_cast<std::uint32_t>(number);
+  register const void* r1 __asm__("r1") = argument;
+  __asm__ volatile("bkpt 0xAB" : "+r"(r0) : "r"(r1) : "memory");
+  return static_cast<std::int32_t>(r0);
+}
+
+std::uint32_t word(const void* pointer) {
+  return reinterpret_cast<std::uint32_t>(pointer);
+}
+
+std::size_t length(const char* text) {
+  std::size_t size = 0;
+  while (text[size] != 0) ++size;
+  return size;
+}
+
+}  // namespace
+
+File::File(const char* path, Mode mode) {
+  const std::uint32_t block[3] = {word(path), static_cast<std::uint32_t>(mode), length(path)};
+  handle_ = call(Call::kOpen, block);
+}
+
+File::~File() {
+  if (!is_open()) return;
+  const std::uint32_t block[1] = {static_cast<std::uint32_t>(handle_)};
+  call(Call::kClose, block);
+}
+
+bool File::read(void* data, std::size_t size) {
+  auto* bytes = static_cast<std::uint8_t*>(data);
+  while (size > 0) {
+    const std::uint32_t block[3] = {static_cast<std::uint32_t>(handle_), word(bytes), size};
+    const auto left = static_cast<std::uint32_t>(call(Call::kRead, block));  // bytes *not* read
+    if (left >= size) return false;
+    bytes += size - left;
+    size = left;
+  }
+  return true;
+}
+
+bool File::write(const void* data, std::size_t size) {
+  const auto* bytes = static_cast<const std::uint8_t*>(data);
+  while (size > 0) {
+    const std::uint32_t block[3] = {static_cast<std::uint32_t>(handle_), word(bytes), size};
+    const auto left = static_cast<std::uint32_t>(call(Call::kWrite, block));  // bytes *not* written
+    if (left >= size) return false;
+    bytes += size - left;
+    size = left;
+  }
+  return true;
+}
+
+bool command_line(char* text, std::size_t capacity) {
+  const std::uint32_t block[2] = {word(text), capacity};
+  return call(Call::kCommandLine, block) == 0;
+}
+
+void print(const char* text) {
+  call(Call::kWrite0, text);
+}
+
+void exit(int status) {
+  const std::uint32_t block[2] = {kApplicationExit, static_cast<std::uint32_t>(status)};
+  for (;;) call(Call::kExitExtended, block);
+}
+
+}  // namespace verp::hal::semihosting
