@@ -1,0 +1,238 @@
+#include "common/protocol/dynamixel2.hpp"
+
+namespace verp::dxl {
+namespace {
+
+constexpr std::uint16_t kPolynomial = 0x8005;
+constexpr std::uint8_t kHeader[4] = {0xFF, 0xFF, 0xFD, 0x00};
+constexpr std::size_t kLengthAt = 5;
+constexpr std::size_t kInstructionAt = 7;
+constexpr std::size_t kCrcBytes = 2;
+
+struct CrcTable {
+  std::uint16_t row[256];
+};
+
+consteval CrcTable make_crc_table() {
+  CrcTable table{};
+  for (unsigned i = 0; i < 256; ++i) {
+    unsigned value = i << 8;
+    for (int bit = 0; bit < 8; ++bit) {
+      value = (value & 0x8000u) != 0 ? (value << 1) ^ kPolynomial : value << 1;
+    }
+    table.row[i] = static_cast<std::uint16_t>(value);
+  }
+  return table;
+}
+
+constexpr CrcTable kCrc = make_crc_table();
+
+}  // namespace
+
+std::uint16_t crc16(const std::uint8_t* data, std::size_t size, std::uint16_t crc) {
+  for (std::size_t i = 0; i < size; ++i) {
+    crc = static_cast<std::uint16_t>((crc << 8) ^ kCrc.row[(crc >> 8 ^ data[i]) & 0xFF]);
+  }
+  return crc;
+}
+
+void Encoder::raw(std::uint8_t value) {
+  if (size_ < capacity_) {
+    buffer_[size_++] = value;
+  } else {
+    fits_ = false;
+  }
+}
+
+void Encoder::begin(std::uint8_t id, Instruction instruction) {
+  size_ = 0;
+  last_ = 0;
+  fits_ = true;
+  for (std::uint8_t value : kHeader) raw(value);
+  raw(id);
+  raw(0);  // length, known in finish()
+  raw(0);
+  u8(static_cast<std::uint8_t>(instruction));
+}
+
+void Encoder::u8(std::uint8_t value) {
+  raw(value);
+  last_ = (last_ << 8 | value) & 0xFFFFFF;
+  if (last_ == 0xFFFFFD) raw(0xFD);
+}
+
+void Encoder::u16(std::uint32_t value) {
+  u8(static_cast<std::uint8_t>(value));
+  u8(static_cast<std::uint8_t>(value >> 8));
+}
+
+void Encoder::u32(std::uint32_t value) {
+  u16(value);
+  u16(value >> 16);
+}
+
+void Encoder::bytes(const std::uint8_t* data, std::size_t size) {
+  for (std::size_t i = 0; i < size; ++i) u8(data[i]);
+}
+
+std::size_t Encoder::finish() {
+  if (!fits_ || size_ + kCrcBytes > capacity_) return 0;
+  put_u16(buffer_ + kLengthAt, static_cast<std::uint32_t>(size_ + kCrcBytes - kHeaderBytes));
+  put_u16(buffer_ + size_, crc16(buffer_, size_));
+  return size_ + kCrcBytes;
+}
+
+std::size_t encode_ping(std::uint8_t* buffer, std::size_t capacity, std::uint8_t id) {
+  Encoder encoder(buffer, capacity);
+  encoder.begin(id, Instruction::kPing);
+  return encoder.finish();
+}
+
+std::size_t encode_read(std::uint8_t* buffer, std::size_t capacity, std::uint8_t id,
+                        std::uint16_t address, std::uint16_t length) {
+  Encoder encoder(buffer, capacity);
+  encoder.begin(id, Instruction::kRead);
+  encoder.u16(address);
+  encoder.u16(length);
+  return encoder.finish();
+}
+
+std::size_t encode_write(std::uint8_t* buffer, std::size_t capacity, std::uint8_t id,
+                         std::uint16_t address, const std::uint8_t* data, std::size_t size) {
+  Encoder encoder(buffer, capacity);
+  encoder.begin(id, Instruction::kWrite);
+  encoder.u16(address);
+  encoder.bytes(data, size);
+  return encoder.finish();
+}
+
+std::size_t encode_sync_read(std::uint8_t* buffer, std::size_t capacity, Instruction instruction,
+                             std::uint16_t address, std::uint16_t length, const std::uint8_t* ids,
+                             std::size_t count) {
+  Encoder encoder(buffer, capacity);
+  encoder.begin(kBroadcast, instruction);
+  encoder.u16(address);
+  encoder.u16(length);
+  encoder.bytes(ids, count);
+  return encoder.finish();
+}
+
+void begin_sync_write(Encoder& encoder, std::uint16_t address, std::uint16_t length) {
+  encoder.begin(kBroadcast, Instruction::kSyncWrite);
+  encoder.u16(address);
+  encoder.u16(length);
+}
+
+std::size_t encode_status(std::uint8_t* buffer, std::size_t capacity, std::uint8_t id,
+                          std::uint8_t error, const std::uint8_t* data, std::size_t size) {
+  Encoder encoder(buffer, capacity);
+  encoder.begin(id, Instruction::kStatus);
+  encoder.u8(error);
+  encoder.bytes(data, size);
+  return encoder.finish();
+}
+
+std::size_t encode_fast_block(std::uint8_t* buffer, bool first, std::size_t devices,
+                              std::uint8_t id, std::uint8_t error, const std::uint8_t* data,
+                              std::size_t length, std::uint16_t& crc) {
+  std::size_t size = 0;
+  if (first) {
+    for (std::uint8_t value : kHeader) buffer[size++] = value;
+    buffer[size++] = kBroadcast;
+    put_u16(buffer + size, static_cast<std::uint32_t>(1 + devices * (length + kFastBlockBytes)));
+    size += 2;
+    buffer[size++] = static_cast<std::uint8_t>(Instruction::kStatus);
+  }
+  buffer[size++] = error;
+  buffer[size++] = id;
+  for (std::size_t i = 0; i < length; ++i) buffer[size++] = data[i];
+  crc = crc16(buffer, size, crc);
+  put_u16(buffer + size, crc);
+  crc = crc16(buffer + size, kCrcBytes, crc);
+  return size + kCrcBytes;
+}
+
+bool fast_block(const Packet& reply, std::size_t index, std::size_t length, FastBlock& block) {
+  const std::size_t stride = length + kFastBlockBytes;
+  if (!reply.is_fast_reply() || (index + 1) * stride > reply.size) return false;
+  const std::uint8_t* start = reply.parameters + index * stride;
+  block = {start[0], start[1], start + 2};
+  return true;
+}
+
+bool Parser::push(std::uint8_t byte) {
+  drop(done_);
+  done_ = 0;
+  if (size_ == kMaxPacket) drop(1);
+  buffer_[size_++] = byte;
+  return size_ >= need_ && next();
+}
+
+bool Parser::next() {
+  drop(done_);
+  done_ = 0;
+  for (;;) {
+    switch (look()) {
+      case Look::kMore:
+        return false;
+      case Look::kPacket:
+        return true;
+      case Look::kDrop:
+        ++noise_bytes_;
+        drop(1);
+    }
+  }
+}
+
+Parser::Look Parser::look() {
+  for (std::size_t i = 0; i < sizeof kHeader && i < size_; ++i) {
+    if (buffer_[i] != kHeader[i]) return Look::kDrop;
+  }
+  need_ = size_ + 1;
+  if (size_ < kHeaderBytes) return Look::kMore;
+  const std::size_t length = get_u16(buffer_ + kLengthAt);
+  const std::size_t end = kHeaderBytes + length;
+  if (length < 1 + kCrcBytes || end > kMaxPacket) return Look::kDrop;
+  need_ = end;
+  if (size_ < end) return Look::kMore;
+  if (crc16(buffer_, end - kCrcBytes) != get_u16(buffer_ + end - kCrcBytes)) {
+    ++crc_errors_;
+    return Look::kDrop;
+  }
+  decode(end);
+  return Look::kPacket;
+}
+
+void Parser::drop(std::size_t count) {
+  if (count == 0) return;
+  need_ = 0;
+  size_ -= count;
+  for (std::size_t i = 0; i < size_; ++i) buffer_[i] = buffer_[i + count];
+}
+
+void Parser::decode(std::size_t end) {
+  done_ = end;
+  packet_ = Packet{};
+  packet_.id = buffer_[4];
+  packet_.instruction = static_cast<Instruction>(buffer_[kInstructionAt]);
+  packet_.parameters = buffer_ + kInstructionAt + 1;
+  if (packet_.is_fast_reply()) {
+    packet_.size = end - kInstructionAt - 1;
+    return;
+  }
+  std::size_t to = kInstructionAt + 1;
+  std::uint32_t last = buffer_[kInstructionAt];
+  for (std::size_t from = to; from < end - kCrcBytes; ++from) {
+    last = (last << 8 | buffer_[from]) & 0xFFFFFF;
+    buffer_[to++] = buffer_[from];
+    if (last == 0xFFFFFD) ++from;  // skips the stuffed FD
+  }
+  packet_.size = to - kInstructionAt - 1;
+  if (packet_.is_status() && packet_.size > 0) {
+    packet_.error = packet_.parameters[0];
+    ++packet_.parameters;
+    --packet_.size;
+  }
+}
+
+}  // namespace verp::dxl

@@ -1,0 +1,171 @@
+#pragma once
+#include <cstddef>
+#include <cstdint>
+
+/// Dynamixel Protocol 2.0, both ends, pure bytes: no clock, no port, no heap. Source for every
+/// number and layout: ROBOTIS e-Manual, "DYNAMIXEL Protocol 2.0"
+/// (emanual.robotis.com/docs/en/dxl/protocol2); for Fast Sync Read also the vendor's SDK, which
+/// reads such replies without removing stuffing.
+///
+///     FF FF FD 00 | id | length (2) | instruction | parameters ... | CRC (2)
+///
+/// `length` counts from the instruction to the CRC's end, after stuffing. A status packet is an
+/// instruction packet with instruction 0x55 whose first parameter is the error field.
+namespace verp::dxl {
+
+enum class Instruction : std::uint8_t {
+  kPing = 0x01,
+  kRead = 0x02,
+  kWrite = 0x03,
+  kStatus = 0x55,
+  kSyncRead = 0x82,
+  kSyncWrite = 0x83,
+  kFastSyncRead = 0x8A,
+};
+
+/// Low seven bits of a status packet's error field.
+enum class Error : std::uint8_t {
+  kNone = 0,
+  kResultFail = 1,
+  kInstruction = 2,
+  kCrc = 3,
+  kDataRange = 4,
+  kDataLength = 5,
+  kDataLimit = 6,
+  kAccess = 7,
+};
+inline constexpr std::uint8_t kAlert =
+    0x80;  ///< error field: Hardware Error Status (70) is not zero
+
+inline constexpr std::uint8_t kBroadcast = 0xFE;
+inline constexpr std::uint8_t kMaxId = 252;
+inline constexpr std::size_t kHeaderBytes = 7;        ///< up to and including `length`
+inline constexpr std::size_t kInstructionBytes = 10;  ///< a packet without parameters
+inline constexpr std::size_t kStatusBytes = 11;       ///< a status packet without data
+inline constexpr std::size_t kMaxPacket =
+    512;  ///< longest packet this implementation sends or accepts
+inline constexpr std::size_t kFastHeaderBytes = 8;  ///< a fast reply before its first device block
+inline constexpr std::size_t kFastBlockBytes = 4;   ///< error, id and CRC around each device's data
+
+constexpr std::uint16_t get_u16(const std::uint8_t* bytes) {
+  return static_cast<std::uint16_t>(bytes[0] | bytes[1] << 8);
+}
+constexpr std::uint32_t get_u32(const std::uint8_t* bytes) {
+  return static_cast<std::uint32_t>(get_u16(bytes)) | static_cast<std::uint32_t>(get_u16(bytes + 2))
+                                                          << 16;
+}
+constexpr void put_u16(std::uint8_t* bytes, std::uint32_t value) {
+  bytes[0] = static_cast<std::uint8_t>(value);
+  bytes[1] = static_cast<std::uint8_t>(value >> 8);
+}
+constexpr void put_u32(std::uint8_t* bytes, std::uint32_t value) {
+  put_u16(bytes, value);
+  put_u16(bytes + 2, value >> 16);
+}
+
+/// CRC-16 with polynomial 0x8005, not reflected, initial value 0; `crc` continues an earlier part.
+std::uint16_t crc16(const std::uint8_t* data, std::size_t size, std::uint16_t crc = 0);
+
+/// Writes one packet into a caller's buffer: begin, parameters, finish. Stuffs as it goes, so the
+/// buffer may need a third more than the parameters. A packet that doesn't fit ends as size 0;
+/// nothing is written past the capacity.
+class Encoder {
+ public:
+  constexpr Encoder(std::uint8_t* buffer, std::size_t capacity)
+      : buffer_(buffer), capacity_(capacity < kMaxPacket ? capacity : kMaxPacket) {}
+  void begin(std::uint8_t id, Instruction instruction);
+  void u8(std::uint8_t value);
+  void u16(std::uint32_t value);
+  void u32(std::uint32_t value);
+  void bytes(const std::uint8_t* data, std::size_t size);
+  /// Size of the finished packet, 0 if it did not fit.
+  std::size_t finish();
+
+ private:
+  void raw(std::uint8_t value);
+  std::uint8_t* buffer_;
+  std::size_t capacity_;
+  std::size_t size_ = 0;
+  std::uint32_t last_ = 0;  ///< the last three stuffable bytes
+  bool fits_ = true;
+};
+
+// Whole instruction packets. Each returns the packet's size, 0 if it did not fit.
+std::size_t encode_ping(std::uint8_t* buffer, std::size_t capacity, std::uint8_t id);
+std::size_t encode_read(std::uint8_t* buffer, std::size_t capacity, std::uint8_t id,
+                        std::uint16_t address, std::uint16_t length);
+std::size_t encode_write(std::uint8_t* buffer, std::size_t capacity, std::uint8_t id,
+                         std::uint16_t address, const std::uint8_t* data, std::size_t size);
+/// `instruction` is kSyncRead or kFastSyncRead.
+std::size_t encode_sync_read(std::uint8_t* buffer, std::size_t capacity, Instruction instruction,
+                             std::uint16_t address, std::uint16_t length, const std::uint8_t* ids,
+                             std::size_t count);
+/// Sync Write is built entry by entry: begin_sync_write, then id and data of each device, then
+/// finish.
+void begin_sync_write(Encoder& encoder, std::uint16_t address, std::uint16_t length);
+std::size_t encode_status(std::uint8_t* buffer, std::size_t capacity, std::uint8_t id,
+                          std::uint8_t error, const std::uint8_t* data, std::size_t size);
+
+/// A device's part of the reply to a Fast Sync Read: the first one writes the header too. `crc`
+/// runs through all parts. Fast replies are not stuffed. Returns the part's size; `buffer` holds 12
+/// + length bytes.
+std::size_t encode_fast_block(std::uint8_t* buffer, bool first, std::size_t devices,
+                              std::uint8_t id, std::uint8_t error, const std::uint8_t* data,
+                              std::size_t length, std::uint16_t& crc);
+
+/// One received packet. `parameters` points into the parser: valid until its next call.
+struct Packet {
+  std::uint8_t id = 0;
+  Instruction instruction = Instruction::kPing;
+  std::uint8_t error = 0;  ///< status packets only, with the alert bit; taken off the parameters
+  const std::uint8_t* parameters = nullptr;
+  std::size_t size = 0;
+
+  bool is_status() const { return instruction == Instruction::kStatus; }
+  /// The reply to a Fast Sync Read: blocks of error, id, data, CRC.
+  bool is_fast_reply() const { return is_status() && id == kBroadcast; }
+};
+
+/// One device's data in a fast reply.
+struct FastBlock {
+  std::uint8_t error = 0;
+  std::uint8_t id = 0;
+  const std::uint8_t* data = nullptr;
+};
+/// Block `index` of a fast reply whose blocks carry `length` data bytes; false if there is none.
+bool fast_block(const Packet& reply, std::size_t index, std::size_t length, FastBlock& block);
+
+/// Finds packets in a stream of bytes. Noise, cut packets and bad CRCs cost only themselves: after
+/// a failed check the search goes on from the byte after the false header, so a good packet that
+/// follows is found.
+class Parser {
+ public:
+  /// Takes a byte; true when a packet is complete. Then call next() until it says false, before the
+  /// next push().
+  bool push(std::uint8_t byte);
+  /// True if bytes taken earlier hold one more packet.
+  bool next();
+  const Packet& packet() const { return packet_; }
+  /// Forgets bytes taken so far; the counts stay.
+  void reset() { size_ = done_ = need_ = 0; }
+
+  std::uint32_t crc_errors() const { return crc_errors_; }
+  /// Bytes that belonged to no packet.
+  std::uint32_t noise_bytes() const { return noise_bytes_; }
+
+ private:
+  enum class Look { kMore, kDrop, kPacket };
+  Look look();
+  void drop(std::size_t count);
+  void decode(std::size_t end);
+
+  std::uint8_t buffer_[kMaxPacket];
+  std::size_t size_ = 0;
+  std::size_t done_ = 0;  ///< bytes of the packet last reported; dropped by the next call
+  std::size_t need_ = 0;  ///< no use looking before so many bytes are there
+  std::uint32_t crc_errors_ = 0;
+  std::uint32_t noise_bytes_ = 0;
+  Packet packet_;
+};
+
+}  // namespace verp::dxl
