@@ -1,0 +1,181 @@
+#include "host/record/ros_messages.hpp"
+
+#include <cmath>
+#include <cstring>
+
+namespace verp::record::ros {
+
+const std::string_view kJointStateSchema = R"(std_msgs/Header header
+string[] name
+float64[] position
+float64[] velocity
+float64[] effort
+================================================================================
+MSG: std_msgs/Header
+builtin_interfaces/Time stamp
+string frame_id
+================================================================================
+MSG: builtin_interfaces/Time
+int32 sec
+uint32 nanosec
+)";
+
+const std::string_view kImuSchema = R"(std_msgs/Header header
+geometry_msgs/Quaternion orientation
+float64[9] orientation_covariance
+geometry_msgs/Vector3 angular_velocity
+float64[9] angular_velocity_covariance
+geometry_msgs/Vector3 linear_acceleration
+float64[9] linear_acceleration_covariance
+================================================================================
+MSG: std_msgs/Header
+builtin_interfaces/Time stamp
+string frame_id
+================================================================================
+MSG: builtin_interfaces/Time
+int32 sec
+uint32 nanosec
+================================================================================
+MSG: geometry_msgs/Quaternion
+float64 x
+float64 y
+float64 z
+float64 w
+================================================================================
+MSG: geometry_msgs/Vector3
+float64 x
+float64 y
+float64 z
+)";
+
+const std::string_view kTfSchema = R"(geometry_msgs/TransformStamped[] transforms
+================================================================================
+MSG: geometry_msgs/TransformStamped
+std_msgs/Header header
+string child_frame_id
+geometry_msgs/Transform transform
+================================================================================
+MSG: std_msgs/Header
+builtin_interfaces/Time stamp
+string frame_id
+================================================================================
+MSG: builtin_interfaces/Time
+int32 sec
+uint32 nanosec
+================================================================================
+MSG: geometry_msgs/Transform
+geometry_msgs/Vector3 translation
+geometry_msgs/Quaternion rotation
+================================================================================
+MSG: geometry_msgs/Vector3
+float64 x
+float64 y
+float64 z
+================================================================================
+MSG: geometry_msgs/Quaternion
+float64 x
+float64 y
+float64 z
+float64 w
+)";
+
+namespace {
+
+/// CDR, little-endian: every number stands at a multiple of its size after the 4-byte encapsulation
+/// header.
+class Cdr {
+ public:
+  template <class Number>
+  Cdr& put(Number value) {
+    while ((data_.size() - 4) % sizeof(Number) != 0) data_ += '\0';
+    data_.append(reinterpret_cast<const char*>(&value), sizeof(value));
+    return *this;
+  }
+  Cdr& text(std::string_view value) {
+    put(static_cast<std::uint32_t>(value.size() + 1));
+    data_.append(value);
+    data_ += '\0';
+    return *this;
+  }
+  Cdr& header(std::uint64_t time_ns, std::string_view frame) {
+    put(static_cast<std::int32_t>(time_ns / 1'000'000'000));
+    put(static_cast<std::uint32_t>(time_ns % 1'000'000'000));
+    return text(frame);
+  }
+  template <class Range>
+  Cdr& doubles(const Range& values) {
+    for (const double value : values) put(value);
+    return *this;
+  }
+  std::string take() { return std::move(data_); }
+
+ private:
+  std::string data_{"\0\1\0\0", 4};  // CDR_LE
+};
+
+std::string_view name_of(const JointParams& joint) {
+  return {joint.name, ::strnlen(joint.name, kNameLength)};
+}
+
+std::array<double, 3> rotated(const float (&matrix)[9], const std::int16_t (&count)[3],
+                              float scale) {
+  std::array<double, 3> out{};
+  for (std::size_t row = 0; row < 3; ++row) {
+    for (std::size_t column = 0; column < 3; ++column) {
+      out[row] += static_cast<double>(matrix[3 * row + column]) * count[column];
+    }
+    out[row] *= static_cast<double>(scale);
+  }
+  return out;
+}
+
+}  // namespace
+
+std::string joint_state(const Params& params, const Inputs& inputs, std::uint64_t time_ns) {
+  Cdr out;
+  const std::uint32_t count = params.joint_count;
+  out.header(time_ns, "").put(count);
+  for (std::uint32_t j = 0; j < count; ++j) out.text(name_of(params.joint[j]));
+  out.put(count);
+  for (std::uint32_t j = 0; j < count; ++j) {
+    out.put(joint_rad(params.joint[j], inputs.position_count[j]));
+  }
+  out.put(std::uint32_t{0}).put(std::uint32_t{0});  // velocity and effort are not measured
+  return out.take();
+}
+
+std::string imu(const Params& params, const Inputs& inputs, std::uint64_t time_ns) {
+  constexpr std::array<double, 9> kUnknown{-1};  // sensor_msgs/Imu: -1 says "no such measurement"
+  constexpr std::array<double, 9> kNotGiven{};
+  const ImuParams& p = params.imu;
+  Cdr out;
+  out.header(time_ns, "body").doubles(std::array<double, 4>{0, 0, 0, 1}).doubles(kUnknown);
+  out.doubles(rotated(p.body_imu, inputs.gyro_count, p.gyro_rad_s_per_count)).doubles(kNotGiven);
+  out.doubles(rotated(p.body_imu, inputs.accel_count, p.accel_m_s2_per_count)).doubles(kNotGiven);
+  return out.take();
+}
+
+std::string transforms(const Params& params, const Inputs& inputs, const BodyPose& body,
+                       std::uint64_t time_ns) {
+  Cdr out;
+  out.put(static_cast<std::uint32_t>(params.joint_count + 1));
+  out.header(time_ns, "world").text("body");
+  out.doubles(body.position_m).doubles(body.orientation_xyzw);
+  for (int j = 0; j < params.joint_count; ++j) {
+    const JointParams& joint = params.joint[j];
+    const std::string_view parent =
+        joint.parent == 0 ? "body" : name_of(params.joint[joint.parent - 1]);
+    const double half_rad = 0.5 * joint_rad(joint, inputs.position_count[j]);
+    const Xyz& origin = joint.origin_parent_m;
+    const Xyz& axis = joint.axis;
+    out.header(time_ns, parent).text(name_of(joint));
+    for (const float value : {origin.x, origin.y, origin.z}) out.put(static_cast<double>(value));
+    for (const float value : {axis.x, axis.y, axis.z}) {
+      out.put(static_cast<double>(value) * std::sin(half_rad));
+    }
+    out.put(std::cos(half_rad));
+  }
+  return out.take();
+}
+
+}  // namespace verp::record::ros

@@ -1,0 +1,42 @@
+#pragma once
+#include <array>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "common/io/io.hpp"
+#include "common/model/params.hpp"
+
+/// ROS 2 messages in CDR, so that the viewers roboticists use open a trace as it is. Derived from
+/// the tick's inputs; replay never reads them.
+namespace verp::record::ros {
+
+/// Message definitions with their dependencies, as MCAP's "ros2msg" schema encoding wants them.
+extern const std::string_view kJointStateSchema;  ///< sensor_msgs/msg/JointState
+extern const std::string_view kImuSchema;         ///< sensor_msgs/msg/Imu
+extern const std::string_view kTfSchema;          ///< tf2_msgs/msg/TFMessage
+
+/// Position and orientation (x, y, z, w) of the body in the world.
+struct BodyPose {
+  std::array<double, 3> position_m{};
+  std::array<double, 4> orientation_xyzw{0, 0, 0, 1};
+};
+
+/// Measured joint angles.
+std::string joint_state(const Params& params, const Inputs& inputs, std::uint64_t time_ns);
+/// Gyro and accelerometer, rotated into the body frame; orientation is declared unknown.
+std::string imu(const Params& params, const Inputs& inputs, std::uint64_t time_ns);
+/// world -> body, then one transform per joint: parent link to the link it moves, at the measured
+/// angle.
+std::string transforms(const Params& params, const Inputs& inputs, const BodyPose& body,
+                       std::uint64_t time_ns);
+
+/// Angle of a joint from its raw count.
+inline double joint_rad(const JointParams& joint, std::int32_t count) {
+  if (joint.counts_per_rad == 0.0f) return 0;
+  return (static_cast<double>(count) - static_cast<double>(joint.zero_count)) /
+         static_cast<double>(joint.counts_per_rad);
+}
+
+}  // namespace verp::record::ros

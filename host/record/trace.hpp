@@ -1,0 +1,60 @@
+#pragma once
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "common/control/state.hpp"
+#include "common/model/params.hpp"
+#include "common/record/tick_record.hpp"
+#include "host/record/mcap_format.hpp"
+#include "host/record/trace_error.hpp"
+
+namespace verp::record {
+
+/// Names inside the MCAP file.
+inline constexpr const char* kTickTopic =
+    "/verp/tick";  ///< TickRecord bytes: all that replay needs
+inline constexpr const char* kStateTopic =
+    "/verp/state";  ///< State bytes after the tick of the same log time
+inline constexpr const char* kParamsAttachment = "params";
+inline constexpr const char* kMetadataName = "verp";
+inline constexpr const char* kTraceFormat = "1";
+
+/// A run's State is kept this often (design.md section 8), and at every change of the fault bits.
+inline constexpr std::uint64_t kKeyframeTicks = 125;
+
+/// State after the tick at `index` of Trace::ticks.
+struct Keyframe {
+  std::size_t index = 0;
+  State state;
+};
+
+/// One run of the controller: everything replay needs, in memory.
+struct Trace {
+  std::filesystem::path file;
+  Params params;
+  mcap::StringMap metadata;
+  std::vector<TickRecord> ticks;
+  std::vector<Keyframe> keyframes;  ///< empty when the writer's State had another layout
+  std::string warning;              ///< read with Read::kRecover: what is missing; else empty
+
+  /// The 64-bit value that names the whole run; the chain's seed when there are no ticks.
+  std::uint64_t digest() const {
+    return ticks.empty() ? record::kChainSeed : ticks.back().digest.chain;
+  }
+  double period_s() const { return params.period_us * 1e-6; }
+};
+
+enum class Read {
+  kStrict,   ///< any flaw is an error
+  kRecover,  ///< takes what stands before the flaw, and says so in Trace::warning
+};
+
+/// Throws TraceError: missing, truncated, edited, foreign or of another layout.
+Trace read_trace(const std::filesystem::path& file, Read mode = Read::kStrict);
+
+/// Source revision, compiler and flags of this program, for metadata.
+mcap::StringMap build_info();
+
+}  // namespace verp::record

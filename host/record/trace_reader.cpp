@@ -1,0 +1,178 @@
+#include <cstring>
+#include <fstream>
+#include <iterator>
+
+#include "host/record/fields.hpp"
+#include "host/record/mcap_reader.hpp"
+#include "host/record/trace.hpp"
+
+namespace verp::record {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string read_bytes(const fs::path& file) {
+  std::error_code error;
+  if (fs::is_directory(file, error))
+    throw TraceError(file, 0, "is a folder", "name the .mcap file in it");
+  std::ifstream in(file, std::ios::binary);
+  if (!in) {
+    throw TraceError(file, 0, "no such file, or it cannot be opened",
+                     "check the path; `verp walk --record F.mcap` writes a trace");
+  }
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+std::string writer_of(const mcap::StringMap& metadata) {
+  const auto revision = metadata.find("source_revision");
+  return revision == metadata.end() ? "another revision" : "revision " + revision->second;
+}
+
+/// Builds a Trace from a parsed file; every refusal names a byte.
+class Loader {
+ public:
+  Loader(const fs::path& path, const mcap::File& file) : path_(path), file_(file) {
+    trace_.file = path;
+  }
+
+  Trace load() {
+    load_metadata();
+    load_params();
+    std::uint16_t tick_id = 0, state_id = 0;
+    const bool keyframes = find_channels(tick_id, state_id);
+    for (const mcap::Message& message : file_.messages) {
+      if (message.channel == tick_id) add_tick(message);
+      if (keyframes && message.channel == state_id) add_keyframe(message);
+    }
+    return std::move(trace_);
+  }
+
+ private:
+  [[noreturn]] void refuse(std::uint64_t offset, const std::string& problem,
+                           const std::string& remedy) const {
+    throw TraceError(path_, offset, problem, remedy);
+  }
+
+  void load_metadata() {
+    const auto found = file_.metadata.find(kMetadataName);
+    if (found == file_.metadata.end()) {
+      refuse(0, "an MCAP file, but not a VERP trace (no metadata record 'verp')",
+             "give a file written by verp");
+    }
+    trace_.metadata = found->second;
+    const std::string& format = trace_.metadata["format"];
+    if (format != kTraceFormat) {
+      refuse(0, "trace format '" + format + "', this verp reads '" + kTraceFormat + "'",
+             "read it with verp of " + writer_of(trace_.metadata));
+    }
+  }
+
+  void load_params() {
+    const auto found = file_.attachments.find(kParamsAttachment);
+    if (found == file_.attachments.end()) {
+      refuse(0, "the attachment 'params' (the robot) is missing", "record the run again");
+    }
+    const std::string_view bytes = found->second.data;
+    const auto layout = file_.attachments.find("params.layout");
+    const bool same_layout = layout == file_.attachments.end() ||
+                             layout->second.data == describe_layout<Params>("Params");
+    if (bytes.size() != sizeof(Params) || !same_layout) {
+      refuse(found->second.offset,
+             fmt::format("a Params image of {} bytes with other fields than this verp's {} bytes",
+                         bytes.size(), sizeof(Params)),
+             "read it with verp of " + writer_of(trace_.metadata));
+    }
+    std::memcpy(&trace_.params, bytes.data(), sizeof(Params));
+    bool sound = trace_.params.joint_count <= kMaxJoints && trace_.params.period_us > 0;
+    for (int j = 0; sound && j < trace_.params.joint_count; ++j) {
+      sound = trace_.params.joint[j].parent <= j;
+    }
+    if (!sound)
+      refuse(found->second.offset, "the Params image is not a robot", "record the run again");
+  }
+
+  /// Whether the trace's State can be compared with ours; its TickRecord must be ours.
+  bool find_channels(std::uint16_t& tick_id, std::uint16_t& state_id) const {
+    const mcap::Channel* tick = file_.find_channel(kTickTopic, tick_id);
+    if (tick == nullptr) {
+      if (file_.flaw && file_.messages.empty()) {
+        tick_id = state_id = 0xFFFF;
+        return false;
+      }
+      refuse(0, std::string("has no channel ") + kTickTopic, "give a file written by verp");
+    }
+    const auto schema = file_.schemas.find(tick->schema);
+    if (schema == file_.schemas.end() ||
+        schema->second.data != describe_layout<TickRecord>("TickRecord")) {
+      refuse(0, "ticks with other fields than this verp's Inputs",
+             "read it with verp of " + writer_of(trace_.metadata));
+    }
+    const mcap::Channel* state = file_.find_channel(kStateTopic, state_id);
+    if (state == nullptr) return false;
+    const auto state_schema = file_.schemas.find(state->schema);
+    return state_schema != file_.schemas.end() &&
+           state_schema->second.data == describe_layout<State>("State");
+  }
+
+  void add_tick(const mcap::Message& message) {
+    if (message.data.size() != sizeof(TickRecord)) {
+      refuse(message.offset,
+             fmt::format("a tick of {} bytes, not {}", message.data.size(), sizeof(TickRecord)),
+             "record the run again");
+    }
+    if (message.sequence != trace_.ticks.size()) {
+      refuse(message.offset, fmt::format("tick number {} is missing", trace_.ticks.size()),
+             "record the run again");
+    }
+    std::memcpy(&trace_.ticks.emplace_back(), message.data.data(), sizeof(TickRecord));
+  }
+
+  void add_keyframe(const mcap::Message& message) {
+    if (message.data.size() != sizeof(State) || trace_.ticks.empty()) {
+      refuse(message.offset, "a State that belongs to no tick", "record the run again");
+    }
+    Keyframe& keyframe = trace_.keyframes.emplace_back();
+    keyframe.index = trace_.ticks.size() - 1;
+    std::memcpy(&keyframe.state, message.data.data(), sizeof(State));
+  }
+
+  const fs::path& path_;
+  const mcap::File& file_;
+  Trace trace_;
+};
+
+std::string lost_text(const mcap::File& file) {
+  std::uint16_t id = 0;
+  std::uint64_t ticks = 0;
+  if (file.find_channel(kTickTopic, id) != nullptr) {
+    for (const mcap::Message& message : file.messages) ticks += message.channel == id;
+  }
+  std::string text = fmt::format("{} ticks before it are whole", ticks);
+  if (!file.flaw->truncated) return text;
+  const std::uint64_t share = ticks == 0 ? 1 : (file.messages.size() + ticks - 1) / ticks;
+  const std::uint64_t lost = (file.flaw->lost_messages + share - 1) / share;
+  return text +
+         (lost > 0 ? fmt::format(", about {} more are lost", lost) : ", later ones are lost");
+}
+
+}  // namespace
+
+Trace read_trace(const fs::path& path, Read mode) {
+  const std::string bytes = read_bytes(path);
+  const mcap::File file = mcap::parse(bytes);
+  if (file.flaw && (mode == Read::kStrict || file.attachments.empty())) {
+    const bool salvage = !file.attachments.empty();
+    throw TraceError(path, file.flaw->offset,
+                     file.flaw->what + (salvage ? " (" + lost_text(file) + ")" : ""),
+                     salvage ? "`verp trace recover` keeps those, or take an intact copy"
+                             : "take an intact copy or record the run again");
+  }
+  Trace trace = Loader(path, file).load();
+  if (file.flaw) {
+    trace.warning = fmt::format("{}: byte {}: {}; {}", path.string(), file.flaw->offset,
+                                file.flaw->what, lost_text(file));
+  }
+  return trace;
+}
+
+}  // namespace verp::record

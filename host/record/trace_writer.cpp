@@ -1,0 +1,72 @@
+#include "host/record/trace_writer.hpp"
+
+#include "host/record/fields.hpp"
+
+namespace verp::record {
+namespace {
+
+constexpr std::uint64_t kTransformTicks =
+    4;  // 25 a second at 100 Hz is smooth, and keeps files small
+
+template <class T>
+std::string_view image(const T& value) {
+  static_assert(packed_size<T>() == sizeof(T));
+  return {reinterpret_cast<const char*>(&value), sizeof(T)};
+}
+
+}  // namespace
+
+TraceWriter::TraceWriter(const std::filesystem::path& file, const Params& params,
+                         const mcap::StringMap& run, TraceOptions options)
+    : writer_(file, options.ros ? "ros2" : "", "verp"), params_(params), options_(options) {
+  mcap::StringMap metadata = run;
+  metadata.merge(build_info());
+  metadata.insert_or_assign("format", std::string(kTraceFormat));
+  writer_.add_metadata(kMetadataName, metadata);
+  writer_.add_attachment(kParamsAttachment, "application/octet-stream", image(params));
+  writer_.add_attachment("params.layout", "text/plain", describe_layout<Params>("Params"));
+
+  const auto raw = [&](const char* topic, const char* name, const std::string& layout) {
+    return writer_.add_channel(writer_.add_schema(name, "verp", layout), topic, "verp");
+  };
+  tick_ = raw(kTickTopic, "verp/TickRecord", describe_layout<TickRecord>("TickRecord"));
+  state_ = raw(kStateTopic, "verp/State", describe_layout<State>("State"));
+  if (options_.ros) {
+    const auto add = [&](const char* topic, const char* name, std::string_view schema) {
+      return writer_.add_channel(writer_.add_schema(name, "ros2msg", schema), topic, "cdr");
+    };
+    joints_ = add("/joint_states", "sensor_msgs/msg/JointState", ros::kJointStateSchema);
+    imu_ = add("/imu", "sensor_msgs/msg/Imu", ros::kImuSchema);
+    tf_ = add("/tf", "tf2_msgs/msg/TFMessage", ros::kTfSchema);
+  }
+  writer_.flush();
+}
+
+void TraceWriter::append(const TickRecord& record, const State& state, std::uint32_t faults,
+                         const ros::BodyPose* body) {
+  const std::uint64_t time_ns = std::uint64_t{record.inputs.tick} * params_.period_us * 1000;
+  writer_.add_message(tick_, time_ns, image(record));
+  if (options_.every_state || ticks_ % kKeyframeTicks == 0 || faults != faults_) {
+    writer_.add_message(state_, time_ns, image(state));
+  }
+  faults_ = faults;
+  if (options_.ros) append_ros(record.inputs, body, time_ns);
+  ++ticks_;
+  if (ticks_ % options_.chunk_ticks == 0) writer_.flush();
+}
+
+void TraceWriter::append_ros(const Inputs& inputs, const ros::BodyPose* body,
+                             std::uint64_t time_ns) {
+  writer_.add_message(joints_, time_ns, ros::joint_state(params_, inputs, time_ns));
+  writer_.add_message(imu_, time_ns, ros::imu(params_, inputs, time_ns));
+  if (body != nullptr && ticks_ % kTransformTicks == 0) {
+    writer_.add_message(tf_, time_ns, ros::transforms(params_, inputs, *body, time_ns));
+  }
+}
+
+void TraceWriter::close(const mcap::StringMap& result) {
+  if (!result.empty()) writer_.add_metadata("result", result);
+  writer_.close();
+}
+
+}  // namespace verp::record

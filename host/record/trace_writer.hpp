@@ -1,0 +1,46 @@
+#pragma once
+#include <cstdint>
+#include <filesystem>
+
+#include "host/record/mcap_writer.hpp"
+#include "host/record/ros_messages.hpp"
+#include "host/record/trace.hpp"
+
+namespace verp::record {
+
+struct TraceOptions {
+  bool every_state =
+      false;        ///< keep State at every tick, so that any divergence names its field exactly
+  bool ros = true;  ///< add /joint_states, /imu and /tf for viewers
+  std::uint64_t chunk_ticks = 125;  ///< a crash loses at most this many
+};
+
+/// Writes a run as it happens. Throws TraceError when the file cannot be written.
+class TraceWriter {
+ public:
+  /// `run` joins build_info() in the metadata: robot, seed, command line, ...
+  TraceWriter(const std::filesystem::path& file, const Params& params, const mcap::StringMap& run,
+              TraceOptions options = {});
+
+  /// One tick: what went in with its digests, State and fault bits after it, and where the body
+  /// really was, if a twin knows (null: no /tf for this tick).
+  void append(const TickRecord& record, const State& state, std::uint32_t faults,
+              const ros::BodyPose* body = nullptr);
+  /// Adds `result` as metadata, ends the file and gives it its name.
+  void close(const mcap::StringMap& result = {});
+
+  const std::filesystem::path& part_path() const { return writer_.part_path(); }
+  std::uint64_t ticks() const { return ticks_; }
+
+ private:
+  void append_ros(const Inputs& inputs, const ros::BodyPose* body, std::uint64_t time_ns);
+
+  mcap::Writer writer_;
+  Params params_;
+  TraceOptions options_;
+  std::uint16_t tick_ = 0, state_ = 0, joints_ = 0, imu_ = 0, tf_ = 0;
+  std::uint64_t ticks_ = 0;
+  std::uint32_t faults_ = 0;
+};
+
+}  // namespace verp::record

@@ -1,0 +1,158 @@
+#include "host/record/trace.hpp"
+
+#include "host/record/replay.hpp"
+#include "tests/host/record/sample.hpp"
+
+namespace verp::record::test {
+namespace {
+
+using TraceFile = TraceFolder;
+
+std::string error_of(const fs::path& file) {
+  try {
+    read_trace(file);
+  } catch (const TraceError& error) {
+    EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos) << "one line";
+    EXPECT_NE(std::string(error.what()).find(file.string()), std::string::npos) << "names the file";
+    EXPECT_NE(std::string(error.what()).find("; "), std::string::npos) << "gives a remedy";
+    return error.what();
+  }
+  return "";
+}
+
+TEST_F(TraceFile, RoundTripKeepsEveryBit) {
+  const fs::path file = folder_ / "run.mcap";
+  write_run(file, 300);
+  const Trace trace = read_trace(file);
+  const Trace expected = sample_run(300);
+  ASSERT_EQ(trace.ticks.size(), 300u);
+  for (std::size_t i = 0; i < 300; ++i) {
+    EXPECT_TRUE(diff_fields(trace.ticks[i], expected.ticks[i]).empty()) << "tick " << i;
+  }
+  EXPECT_TRUE(diff_fields(trace.params, sample_params()).empty());
+  EXPECT_EQ(trace.digest(), expected.digest());
+  EXPECT_EQ(trace.metadata.at("seed"), "1");
+  for (const char* key : {"source_revision", "compiler", "flags", "eigen", "format"}) {
+    EXPECT_FALSE(trace.metadata.at(key).empty()) << key;
+  }
+  EXPECT_NE(trace.metadata.at("flags").find("-ffp-contract=off"), std::string::npos);
+}
+
+TEST_F(TraceFile, StateIsKeptEvery125TicksOrEveryTick) {
+  write_run(folder_ / "run.mcap", 251);
+  const Trace trace = read_trace(folder_ / "run.mcap");
+  ASSERT_EQ(trace.keyframes.size(), 3u);
+  EXPECT_EQ(trace.keyframes[1].index, 125u);
+  write_run(folder_ / "all.mcap", 251, {.every_state = true, .ros = false});
+  EXPECT_EQ(read_trace(folder_ / "all.mcap").keyframes.size(), 251u);
+}
+
+TEST_F(TraceFile, StateIsKeptWhenAFaultAppears) {
+  {
+    TraceWriter writer(folder_ / "run.mcap", sample_params(), {});
+    for (std::uint32_t tick = 0; tick < 50; ++tick) {
+      writer.append(record_of(sample_inputs(tick)), State{}, tick < 20 ? 0u : 4u);
+    }
+    writer.close();
+  }
+  const Trace trace = read_trace(folder_ / "run.mcap");
+  ASSERT_EQ(trace.keyframes.size(), 2u);
+  EXPECT_EQ(trace.keyframes[1].index, 20u);
+}
+
+TEST_F(TraceFile, CrashLosesAtMostTheOpenChunk) {
+  const fs::path file = folder_ / "run.mcap";
+  fs::path part;
+  {
+    const Params params = sample_params();
+    TraceWriter writer(file, params, {}, {.chunk_ticks = 10});
+    part = writer.part_path();
+    for (std::uint32_t tick = 0; tick < 25; ++tick) {
+      writer.append(record_of(sample_inputs(tick)), State{}, 0);
+    }
+    fs::copy_file(part, folder_ / "crashed.mcap");  // what the disk holds if the process dies here
+  }
+  EXPECT_NE(error_of(folder_ / "crashed.mcap").find("20 ticks before it are whole"),
+            std::string::npos);
+  const Trace trace = read_trace(folder_ / "crashed.mcap", Read::kRecover);
+  EXPECT_EQ(trace.ticks.size(), 20u);
+  EXPECT_NE(trace.warning, "");
+}
+
+TEST_F(TraceFile, TruncationAnywhereIsAnErrorAndRecoversWholeTicks) {
+  const fs::path file = folder_ / "run.mcap";
+  write_run(file, 12, {.ros = false, .chunk_ticks = 4});
+  const std::string bytes = slurp(file);
+  const Trace whole = read_trace(file);
+  const fs::path cut = folder_ / "cut.mcap";
+  const std::size_t stride = 37;  // every offset of a file is tried on the small one of mcap_test
+  for (std::size_t size = 0; size < bytes.size(); size += stride) {
+    spit(cut, std::string_view(bytes).substr(0, size));
+    EXPECT_NE(error_of(cut), "") << "cut to " << size;
+    try {
+      const Trace trace = read_trace(cut, Read::kRecover);
+      EXPECT_EQ(trace.ticks.size() % 4, 0u);
+      EXPECT_FALSE(replay(trace).divergence) << "cut to " << size;
+    } catch (const TraceError&) {  // cut before the robot: nothing to recover
+    }
+  }
+  spit(cut, std::string_view(bytes).substr(0, bytes.size() - 1));
+  EXPECT_EQ(read_trace(cut, Read::kRecover).ticks.size(), whole.ticks.size());
+}
+
+TEST_F(TraceFile, MessageSaysHowMuchIsLost) {
+  const fs::path file = folder_ / "run.mcap";
+  write_run(file, 8, {.ros = false, .chunk_ticks = 4});
+  const std::string bytes = slurp(file);
+  const std::size_t last = bytes.rfind(std::string("\x07\0\0\0", 4), bytes.size() - 100);
+  ASSERT_NE(last, std::string::npos);
+  const Trace whole = read_trace(file);
+  const std::string needle(reinterpret_cast<const char*>(&whole.ticks[6]), sizeof(TickRecord));
+  const std::size_t seventh = bytes.find(needle);
+  ASSERT_NE(seventh, std::string::npos);
+  spit(file, std::string_view(bytes).substr(0, seventh + 40));
+  const std::string error = error_of(file);
+  EXPECT_NE(error.find("4 ticks before it are whole"), std::string::npos) << error;
+  EXPECT_NE(error.find("lost"), std::string::npos) << error;
+}
+
+TEST_F(TraceFile, EditIsAnError) {
+  const fs::path file = folder_ / "run.mcap";
+  write_run(file, 12, {.ros = false, .chunk_ticks = 4});
+  std::string bytes = slurp(file);
+  for (std::size_t i = 0; i < bytes.size(); i += 101) {
+    const char kept = bytes[i];
+    bytes[i] = static_cast<char>(bytes[i] ^ 0x10);
+    spit(file, bytes);
+    EXPECT_NE(error_of(file), "") << "byte " << i;
+    bytes[i] = kept;
+  }
+}
+
+TEST_F(TraceFile, MissingEmptyFolderAndForeignFilesAreNamed) {
+  EXPECT_NE(error_of(folder_ / "none.mcap").find("no such file"), std::string::npos);
+  EXPECT_NE(error_of(folder_).find("is a folder"), std::string::npos);
+  spit(folder_ / "empty.mcap", "");
+  EXPECT_NE(error_of(folder_ / "empty.mcap"), "");
+  spit(folder_ / "robot.sdf", "<sdf version='1.9'></sdf>");
+  EXPECT_NE(error_of(folder_ / "robot.sdf").find("wrong magic"), std::string::npos);
+  mcap::Writer other(folder_ / "other.mcap", "", "somebody else");
+  other.close();
+  EXPECT_NE(error_of(folder_ / "other.mcap").find("not a VERP trace"), std::string::npos);
+}
+
+TEST_F(TraceFile, OtherFormatAndOtherParamsAreNamedWithTheirRevision) {
+  const auto write = [&](const char* format, std::size_t params_size) {
+    mcap::Writer writer(folder_ / "old.mcap", "", "verp");
+    writer.add_metadata(kMetadataName, {{"format", format}, {"source_revision", "abc123"}});
+    writer.add_attachment(kParamsAttachment, "", std::string(params_size, '\0'));
+    writer.close();
+  };
+  write("0", sizeof(Params));
+  EXPECT_NE(error_of(folder_ / "old.mcap").find("revision abc123"), std::string::npos);
+  write(kTraceFormat, sizeof(Params) - 4);
+  EXPECT_NE(error_of(folder_ / "old.mcap").find("Params image of"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace verp::record::test
