@@ -1,0 +1,262 @@
+#pragma once
+#include <cstdint>
+
+#include "common/control/step.hpp"
+#include "common/protocol/control_table.hpp"
+#include "firmware/app/bring_up.hpp"
+#include "firmware/app/bus_master.hpp"
+#include "firmware/app/contracts.hpp"
+#include "firmware/app/schedule.hpp"
+
+/// The one control loop: the same template drives real servos, virtual ones and an emulated
+/// microcontroller's. bring_up() once, then tick() once a control period. Nothing here knows where
+/// the bytes go or waits for a clock: in lockstep the bus itself moves to the next period when the
+/// tick's first read reaches it; a board with a timer waits before it calls tick().
+namespace verp::app {
+
+template <hal::FrameBus Bus, OperatorLink Operator, Recorder Sink>
+class App {
+ public:
+  App(const Params& params, Bus& bus, Operator& operator_link, Sink& sink)
+      : params_(params), master_(bus), operator_(operator_link), sink_(sink) {
+    for (int j = 0; j < params.joint_count; ++j) {
+      joints_.add(params.joint[j].servo_id, static_cast<std::uint8_t>(j));
+    }
+    if (params.imu.device_id != 0) sensors_.add(params.imu.device_id, kImuSlot);
+    for (int foot = 0; foot < kFeet; ++foot) {
+      const std::uint8_t id = params.feet.device_id[foot];
+      if (id == 0) continue;
+      sensors_.add(id, static_cast<std::uint8_t>(kFootSlot + foot));
+      feet_expected_ |= 1u << foot;
+    }
+    if (params.joint_count > 0) sensors_.add(params.joint[0].servo_id, kServoSlot);
+  }
+
+  /// Call before the first tick; torque is off afterwards. Never ticks a robot that did not come
+  /// up.
+  BringUpReport bring_up() { return BringUp<Bus>(params_, master_).run(); }
+
+  void tick() {
+    inputs_.fresh = 0;
+    inputs_.flags = 0;
+    read_positions();
+    count_tick();
+    read_sensors();
+    take_order();
+    step(params_, state_, inputs_, outputs_);
+    send_goals();
+    send_torque();
+    sink_.record(TickRecord{state_.digest, inputs_}, state_, outputs_);
+  }
+
+  const Inputs& inputs() const { return inputs_; }
+  const Outputs& outputs() const { return outputs_; }
+  const State& state() const { return state_; }
+  const BusCounters& counters() const { return master_.counters(); }
+  std::uint32_t crc_errors() const { return master_.crc_errors(); }
+
+ private:
+  enum Slot : std::uint8_t { kImuSlot = 0, kFootSlot = 1, kServoSlot = kFootSlot + kFeet };
+  static constexpr std::uint16_t kPositionBytes = 4;
+  /// A Sync Write has no reply, so a change of torque is sent in this many ticks, and every servo's
+  /// state again in its turn: one lost frame neither leaves a limp robot stiff nor a walking one
+  /// with a slack joint.
+  static constexpr std::uint8_t kTorqueRepeats = 3;
+
+  // Fast Sync Read is one packet for all, so one missing servo spoils it: after an incomplete read
+  // the next one is plain, where each servo's reply stands for itself, until all answer again.
+  void read_positions() {
+    const auto count = static_cast<std::size_t>(joints_.count());
+    const bool fast = all_fast_ && positions_complete_;
+    const std::size_t frame =
+        dxl::encode_sync_read(master_.frame(), master_.capacity(),
+                              fast ? dxl::Instruction::kFastSyncRead : dxl::Instruction::kSyncRead,
+                              dxl::address::kPresentPosition, kPositionBytes, joints_.ids(), count);
+    const std::size_t bytes =
+        fast ? fast_sync_read_bytes(count, kPositionBytes) : sync_read_bytes(count, kPositionBytes);
+    joints_.begin();
+    master_.request(frame, timeout_us(bytes, fast ? 1 : count, params_.baud),
+                    [&](const dxl::Packet& packet) {
+                      return packet.is_fast_reply() ? take_fast(packet) : take_position(packet);
+                    });
+    positions_complete_ = fast ? joints_.ended() : joints_.complete();
+  }
+
+  Take take_position(const dxl::Packet& packet) {
+    if (packet.size != kPositionBytes) return Take::kStray;
+    const int joint = joints_.match(packet.id);
+    if (joint < 0) return Take::kStray;
+    set_position(joint, packet.error, packet.parameters);
+    return joints_.ended() ? Take::kDone : Take::kMore;
+  }
+
+  Take take_fast(const dxl::Packet& packet) {
+    const auto count = static_cast<std::size_t>(joints_.count());
+    if (packet.size != count * (kPositionBytes + dxl::kFastBlockBytes)) return Take::kStray;
+    dxl::FastBlock block;
+    for (std::size_t i = 0; dxl::fast_block(packet, i, kPositionBytes, block); ++i) {
+      const int joint = joints_.match(block.id);
+      if (joint >= 0) set_position(joint, block.error, block.data);
+    }
+    return Take::kDone;
+  }
+
+  void set_position(int joint, std::uint8_t error, const std::uint8_t* data) {
+    if ((error & ~dxl::kAlert) != 0) return;
+    inputs_.position_count[joint] = static_cast<std::int32_t>(dxl::get_u32(data));
+    inputs_.fresh |= 1u << joint;
+  }
+
+  // Ticks are counted on bus time, at the end of the first read: a period that was missed is
+  // skipped, not squeezed.
+  void count_tick() {
+    const std::uint64_t now_us = master_.now_us();
+    if (ticking_) {
+      const std::uint64_t elapsed_us = now_us - last_read_us_ + params_.period_us / 2;
+      const auto periods = static_cast<std::uint32_t>(elapsed_us / params_.period_us);
+      inputs_.tick += periods > 1 ? periods : 1;
+      if (periods > 1) inputs_.flags |= kOverrun;
+    }
+    ticking_ = true;
+    last_read_us_ = now_us;
+  }
+
+  void read_sensors() {
+    if (sensors_.count() == 0) return;
+    slow_joint_ =
+        static_cast<std::uint8_t>(slow_joint_ + 1 < params_.joint_count ? slow_joint_ + 1 : 0);
+    sensors_.set_id(kServoSlot, params_.joint[slow_joint_].servo_id);
+    const auto count = static_cast<std::size_t>(sensors_.count());
+    constexpr std::uint16_t kBytes = dxl::sensor_block::kBytes;
+    const std::size_t frame =
+        dxl::encode_sync_read(master_.frame(), master_.capacity(), dxl::Instruction::kSyncRead,
+                              dxl::sensor_block::kAddress, kBytes, sensors_.ids(), count);
+    sensors_.begin();
+    feet_seen_ = 0;
+    slow_alert_ = false;
+    master_.request(frame, timeout_us(sync_read_bytes(count, kBytes), count, params_.baud),
+                    [&](const dxl::Packet& packet) { return take_sensor(packet); });
+    sensors_.complete();
+    if (feet_expected_ != 0 && feet_seen_ == feet_expected_) inputs_.flags |= kFeetFresh;
+    if (slow_alert_) read_hardware_error();
+  }
+
+  Take take_sensor(const dxl::Packet& packet) {
+    if (packet.size != dxl::sensor_block::kBytes) return Take::kStray;
+    const int slot = sensors_.match(packet.id);
+    if (slot < 0) return Take::kStray;
+    if ((packet.error & ~dxl::kAlert) == 0) set_sensor(slot, packet);
+    return sensors_.ended() ? Take::kDone : Take::kMore;
+  }
+
+  void set_sensor(int slot, const dxl::Packet& packet) {
+    const std::uint8_t* data = packet.parameters;
+    if (slot == kImuSlot) {
+      for (int axis = 0; axis < 3; ++axis) {
+        inputs_.gyro_count[axis] = static_cast<std::int16_t>(dxl::get_u16(data + 2 * axis));
+        inputs_.accel_count[axis] = static_cast<std::int16_t>(dxl::get_u16(data + 6 + 2 * axis));
+      }
+      inputs_.flags |= kImuFresh;
+    } else if (slot == kServoSlot) {
+      constexpr int kVoltageAt = dxl::address::kPresentVoltage - dxl::sensor_block::kAddress;
+      constexpr int kTemperatureAt =
+          dxl::address::kPresentTemperature - dxl::sensor_block::kAddress;
+      inputs_.slow_joint = slow_joint_;
+      inputs_.slow_voltage_tenth_v = dxl::get_u16(data + kVoltageAt);
+      inputs_.slow_temperature_c = data[kTemperatureAt];
+      inputs_.slow_error = 0;
+      inputs_.flags |= kSlowFresh;
+      slow_alert_ = (packet.error & dxl::kAlert) != 0;
+    } else {
+      const int foot = slot - kFootSlot;
+      for (int i = 0; i < kFootSensors; ++i) {
+        inputs_.foot_count[foot][i] = dxl::get_u16(data + 2 * i);
+      }
+      feet_seen_ |= 1u << foot;
+    }
+  }
+
+  // The alert bit says that Hardware Error Status is not zero; only then is it worth a read of its
+  // own.
+  void read_hardware_error() {
+    const std::uint8_t id = params_.joint[slow_joint_].servo_id;
+    const std::size_t frame =
+        dxl::encode_read(master_.frame(), master_.capacity(), id, dxl::address::kHardwareError, 1);
+    const bool answered =
+        master_.request(frame, timeout_us(frame + dxl::kStatusBytes + 1, 1, params_.baud),
+                        [&](const dxl::Packet& packet) {
+                          if (packet.id != id || packet.size != 1) return Take::kStray;
+                          inputs_.slow_error = packet.parameters[0];
+                          return Take::kDone;
+                        });
+    if (!answered) inputs_.flags &= static_cast<std::uint16_t>(~kSlowFresh);
+  }
+
+  void take_order() {
+    constexpr std::uint16_t kOperatorFlags = kEmergencyStop | kCommandFresh | kParameterWrite;
+    const OperatorOrder order = operator_.order(inputs_.tick);
+    inputs_.command = order.command;
+    inputs_.flags |= order.flags & kOperatorFlags;
+    inputs_.parameter_id = order.parameter_id;
+    inputs_.parameter_bits = order.parameter_bits;
+    inputs_.mailbox = order.mailbox;
+  }
+
+  std::uint32_t torque_wanted() const {
+    const std::uint32_t all =
+        params_.joint_count >= kMaxJoints ? ~0u : (1u << params_.joint_count) - 1;
+    return outputs_.torque_enable & all;
+  }
+
+  // Goals go out before torque, so that a servo never wakes up with an old goal.
+  void send_goals() {
+    const std::uint32_t wanted = torque_wanted();
+    if (wanted == 0) return;
+    dxl::Encoder encoder(master_.frame(), master_.capacity());
+    dxl::begin_sync_write(encoder, dxl::address::kGoalPosition, 4);
+    for (int j = 0; j < params_.joint_count; ++j) {
+      if ((wanted >> j & 1) == 0) continue;
+      encoder.u8(params_.joint[j].servo_id);
+      encoder.u32(static_cast<std::uint32_t>(outputs_.goal_count[j]));
+    }
+    master_.send(encoder.finish());
+  }
+
+  void send_torque() {
+    if (params_.joint_count == 0) return;
+    const std::uint32_t wanted = torque_wanted();
+    if (wanted != torque_sent_) torque_repeats_ = kTorqueRepeats;
+    torque_sent_ = wanted;
+    dxl::Encoder encoder(master_.frame(), master_.capacity());
+    dxl::begin_sync_write(encoder, dxl::address::kTorqueEnable, 1);
+    for (int j = 0; j < params_.joint_count; ++j) {
+      if (torque_repeats_ == 0 && j != slow_joint_) continue;
+      encoder.u8(params_.joint[j].servo_id);
+      encoder.u8(wanted >> j & 1);
+    }
+    if (torque_repeats_ > 0) --torque_repeats_;
+    master_.send(encoder.finish());
+  }
+
+  const Params& params_;
+  BusMaster<Bus> master_;
+  Operator& operator_;
+  Sink& sink_;
+  ReadChain<kMaxJoints> joints_;
+  ReadChain<kServoSlot + 1> sensors_;
+  State state_;
+  Inputs inputs_;
+  Outputs outputs_;
+  std::uint64_t last_read_us_ = 0;
+  std::uint32_t torque_sent_ = 0;
+  std::uint32_t feet_expected_ = 0;
+  std::uint32_t feet_seen_ = 0;
+  std::uint8_t torque_repeats_ = kTorqueRepeats;
+  std::uint8_t slow_joint_ = 0;
+  bool slow_alert_ = false;
+  bool ticking_ = false;  ///< a tick was counted before
+  bool positions_complete_ = true;
+  const bool all_fast_ = all_fast(params_);
+};
+
+}  // namespace verp::app

@@ -1,0 +1,138 @@
+#pragma once
+#include <cstdint>
+
+#include "common/model/params.hpp"
+#include "common/protocol/control_table.hpp"
+#include "firmware/app/bus_master.hpp"
+
+/// Finds every device of the robot on the bus and writes what Params wants into it, torque off.
+/// EEPROM is written only where it differs (it wears out) and all that was written is read back.
+namespace verp::app {
+
+enum class BringUpStatus : std::uint8_t { kReady, kSilent, kWrongModel, kRefused, kNotVerified };
+
+/// The first device that stopped the bring-up, and where.
+struct BringUpReport {
+  BringUpStatus status = BringUpStatus::kReady;
+  std::uint8_t device_id = 0;
+  std::uint16_t address = 0;   ///< register at which it failed
+  std::uint16_t expected = 0;  ///< model numbers, for kWrongModel
+  std::uint16_t found = 0;
+};
+
+template <hal::FrameBus Bus>
+class BringUp {
+ public:
+  BringUp(const Params& params, BusMaster<Bus>& master) : params_(params), master_(master) {}
+
+  BringUpReport run() {
+    for (int j = 0; j < params_.joint_count && ready(); ++j) servo(params_.joint[j]);
+    if (params_.imu.device_id != 0 && ready()) sensor(params_.imu.device_id, dxl::kModelImu);
+    for (std::uint8_t id : params_.feet.device_id) {
+      if (id != 0 && ready()) sensor(id, dxl::kModelFoot);
+    }
+    return report_;
+  }
+
+ private:
+  static constexpr int kAttempts = 3;
+  static constexpr std::size_t kMostBytes = 36;
+
+  bool ready() const { return report_.status == BringUpStatus::kReady; }
+
+  bool fail(BringUpStatus status, std::uint8_t id, std::uint16_t address) {
+    report_.status = status;
+    report_.device_id = id;
+    report_.address = address;
+    return false;
+  }
+
+  /// One request to one device; copies exactly `size` reply bytes. Repeats a request that got no
+  /// answer.
+  bool transact(std::size_t frame, std::uint8_t id, std::uint16_t address, std::uint8_t* data,
+                std::size_t size) {
+    const std::uint32_t timeout =
+        timeout_us(frame + dxl::kStatusBytes + size, 1, params_.baud) + kLongestReturnDelayUs;
+    for (int attempt = 0; attempt < kAttempts; ++attempt) {
+      bool refused = false;
+      const bool answered = master_.request(frame, timeout, [&](const dxl::Packet& packet) {
+        if (packet.id != id) return Take::kStray;
+        refused = (packet.error & ~dxl::kAlert) != 0;
+        if (!refused && packet.size != size) return Take::kStray;
+        for (std::size_t i = 0; i < size && !refused; ++i) data[i] = packet.parameters[i];
+        return Take::kDone;
+      });
+      if (answered) return !refused || fail(BringUpStatus::kRefused, id, address);
+    }
+    return fail(BringUpStatus::kSilent, id, address);
+  }
+
+  bool ping(std::uint8_t id, std::uint16_t model) {
+    std::uint8_t reply[3];
+    const std::size_t frame = dxl::encode_ping(master_.frame(), master_.capacity(), id);
+    if (!transact(frame, id, dxl::address::kModelNumber, reply, sizeof reply)) return false;
+    report_.expected = model;
+    report_.found = dxl::get_u16(reply);
+    return report_.found == model ||
+           fail(BringUpStatus::kWrongModel, id, dxl::address::kModelNumber);
+  }
+
+  bool read(std::uint8_t id, std::uint16_t address, std::uint8_t* data, std::size_t size) {
+    const auto length = static_cast<std::uint16_t>(size);
+    const std::size_t frame =
+        dxl::encode_read(master_.frame(), master_.capacity(), id, address, length);
+    return transact(frame, id, address, data, size);
+  }
+
+  bool write(std::uint8_t id, std::uint16_t address, const std::uint8_t* data, std::size_t size) {
+    const std::size_t frame =
+        dxl::encode_write(master_.frame(), master_.capacity(), id, address, data, size);
+    return transact(frame, id, address, nullptr, 0);
+  }
+
+  /// Makes `size` registers hold `data`, writing only if they don't.
+  bool establish(std::uint8_t id, std::uint16_t address, const std::uint8_t* data,
+                 std::size_t size) {
+    std::uint8_t found[kMostBytes];
+    for (int pass = 0; pass < 2; ++pass) {
+      if (!read(id, address, found, size)) return false;
+      bool same = true;
+      for (std::size_t i = 0; i < size; ++i) same = same && found[i] == data[i];
+      if (same) return true;
+      if (pass == 0 && !write(id, address, data, size)) return false;
+    }
+    return fail(BringUpStatus::kNotVerified, id, address);
+  }
+
+  bool servo(const JointParams& joint) {
+    const ServoProfile& profile = params_.servo[joint.servo_profile % kServoProfiles];
+    const std::uint8_t id = joint.servo_id;
+    const std::uint8_t off = 0;
+    const std::uint8_t answer_all = 2;
+    // Return Delay Time, Drive Mode, Operating Mode stand side by side.
+    const std::uint8_t mode[3] = {0, dxl::kTimeBasedProfile, dxl::kPositionMode};
+    std::uint8_t gains[6];
+    dxl::put_u16(gains, profile.position_d_gain);
+    dxl::put_u16(gains + 2, profile.position_i_gain);
+    dxl::put_u16(gains + 4, profile.position_p_gain);
+    std::uint8_t motion[8] = {};  // Profile Acceleration 0, Profile Velocity in ms
+    dxl::put_u16(motion + 4, profile.profile_ms);
+    return ping(id, profile.model_number) &&
+           write(id, dxl::address::kTorqueEnable, &off, sizeof off) &&
+           establish(id, dxl::address::kStatusReturnLevel, &answer_all, sizeof answer_all) &&
+           establish(id, dxl::address::kReturnDelay, mode, sizeof mode) &&
+           establish(id, dxl::address::kPositionDGain, gains, sizeof gains) &&
+           establish(id, dxl::address::kProfileAcceleration, motion, sizeof motion);
+  }
+
+  bool sensor(std::uint8_t id, std::uint16_t model) {
+    const std::uint8_t no_delay = 0;
+    return ping(id, model) && establish(id, dxl::address::kReturnDelay, &no_delay, sizeof no_delay);
+  }
+
+  const Params& params_;
+  BusMaster<Bus>& master_;
+  BringUpReport report_;
+};
+
+}  // namespace verp::app

@@ -1,0 +1,82 @@
+#pragma once
+#include <cstddef>
+#include <cstdint>
+
+#include "common/model/params.hpp"
+#include "common/protocol/control_table.hpp"
+#include "common/protocol/dynamixel2.hpp"
+
+/// Bytes and time of one tick on the servo bus. The loop takes its timeouts from here, export its
+/// refusal.
+namespace verp::app {
+
+inline constexpr std::uint32_t kBitsPerByte = 10;  ///< start, eight data, stop
+/// A device's own time between the last byte of a request and its reply, above its Return Delay
+/// Time of 0: an allowance, not a measurement; a servo that is slower is counted as silent.
+inline constexpr std::uint32_t kReplySlackUs = 25;
+inline constexpr std::uint32_t kTransactionSlackUs =
+    150;  ///< interrupt and driver latency of the master
+inline constexpr std::uint32_t kLongestReturnDelayUs =
+    508;  ///< e-Manual: Return Delay Time 254 x 2 us
+
+constexpr std::uint32_t wire_us(std::size_t bytes, std::uint32_t baud) {
+  const std::uint64_t bits = std::uint64_t{bytes} * kBitsPerByte * 1000000u;
+  return baud == 0 ? 0xFFFFFFFFu : static_cast<std::uint32_t>((bits + baud - 1) / baud);
+}
+
+constexpr std::uint32_t timeout_us(std::size_t bytes, std::size_t replies, std::uint32_t baud) {
+  return wire_us(bytes, baud) + static_cast<std::uint32_t>(replies) * kReplySlackUs +
+         kTransactionSlackUs;
+}
+
+/// Bytes of a Sync Read and all its replies.
+constexpr std::size_t sync_read_bytes(std::size_t devices, std::size_t length) {
+  return dxl::kInstructionBytes + 4 + devices + devices * (dxl::kStatusBytes + length);
+}
+constexpr std::size_t fast_sync_read_bytes(std::size_t devices, std::size_t length) {
+  return dxl::kInstructionBytes + 4 + devices + dxl::kFastHeaderBytes +
+         devices * (dxl::kFastBlockBytes + length);
+}
+constexpr std::size_t sync_write_bytes(std::size_t devices, std::size_t length) {
+  return dxl::kInstructionBytes + 4 + devices * (1 + length);
+}
+
+/// True if every servo answers Fast Sync Read; one that does not would break the chain of replies.
+constexpr bool all_fast(const Params& params) {
+  for (int j = 0; j < params.joint_count; ++j) {
+    if (params.servo[params.joint[j].servo_profile % kServoProfiles].fast_sync_read == 0) {
+      return false;
+    }
+  }
+  return params.joint_count > 0;
+}
+
+/// Devices in the tick's second read: IMU, feet, and one servo in turn.
+constexpr std::size_t sensor_devices(const Params& params) {
+  std::size_t devices = 1;
+  devices += params.imu.device_id != 0 ? 1 : 0;
+  for (std::uint8_t id : params.feet.device_id) devices += id != 0 ? 1 : 0;
+  return devices;
+}
+
+/// Bytes of the longest tick in which every device answers: reads, goals, torque of all servos, one
+/// alert looked up.
+constexpr std::size_t schedule_bytes(const Params& params) {
+  const std::size_t joints = params.joint_count;
+  const std::size_t positions =
+      all_fast(params) ? fast_sync_read_bytes(joints, 4) : sync_read_bytes(joints, 4);
+  return positions + sync_read_bytes(sensor_devices(params), dxl::sensor_block::kBytes) +
+         (dxl::kInstructionBytes + 4 + dxl::kStatusBytes + 1) + sync_write_bytes(joints, 4) +
+         sync_write_bytes(joints, 1);
+}
+
+/// Time that tick takes on the wire, replies' slack included. Over 80 % of the period leaves no
+/// room for a retry of anything: `verp export` refuses it.
+constexpr std::uint32_t schedule_us(const Params& params) {
+  const std::size_t replies =
+      (all_fast(params) ? 1u : params.joint_count) + sensor_devices(params) + 1;
+  return wire_us(schedule_bytes(params), params.baud) +
+         static_cast<std::uint32_t>(replies) * kReplySlackUs;
+}
+
+}  // namespace verp::app
