@@ -2,25 +2,28 @@
 #include <array>
 #include <cstdint>
 
-/// The border between virtual devices, which speak bytes (host/bus), and the physics that gives them something to
-/// say (host/sim). Registers only: no struct passes to the controller by this way.
+/// The border between virtual devices, which speak bytes (host/bus), and the physics that gives
+/// them something to say (host/sim). Registers only: no struct passes to the controller by this
+/// way.
 namespace verp::sim {
 
-/// What a servo's control table tells its motor control; counts and units of an X-series/MX(2.0) control table.
+/// What a servo's control table tells its motor control; counts and units of an X-series/MX(2.0)
+/// control table.
 struct ServoSetpoint {
   bool torque_on = false;
   std::int32_t goal_count = 0;
-  std::uint16_t p_gain = 800;   ///< register value; the loop uses p/128, duty 885 is full
-  std::uint16_t i_gain = 0;     ///< i/65536
-  std::uint16_t d_gain = 0;     ///< d/16
+  std::uint16_t p_gain = 800;  ///< register value; the loop uses p/128, duty 885 is full
+  std::uint16_t i_gain = 0;    ///< i/65536
+  std::uint16_t d_gain = 0;    ///< d/16
   std::uint16_t pwm_limit = 885;
-  std::uint32_t profile_ms = 0; ///< time-based profile with zero acceleration: straight line to the goal
+  std::uint32_t profile_ms =
+      0;  ///< time-based profile with zero acceleration: straight line to the goal
 };
 
 struct ServoMeasurement {
   std::int32_t position_count = 0;  ///< with encoder noise and zero error, multi-turn
   double velocity_rad_s = 0;
-  double duty = 0;       ///< -1..1
+  double duty = 0;  ///< -1..1
   double current_a = 0;
   double temperature_c = 25;
   double voltage_v = 12;
@@ -32,8 +35,8 @@ struct ImuMeasurement {
   std::array<std::int16_t, 3> accel_count{};
 };
 
-/// One robot in a world. Joint indices are those of Entity and Params. Time is simulated, in microseconds since
-/// the world began; it moves only through advance_to().
+/// One robot in a world. Joint indices are those of Entity and Params. Time is simulated, in
+/// microseconds since the world began; it moves only through advance_to().
 class Plant {
  public:
   virtual ~Plant() = default;

@@ -1,0 +1,270 @@
+#include "host/sim/body.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <stdexcept>
+
+namespace verp::sim {
+namespace {
+
+/// Least principal inertia given to the engine: a 10 g cube of 8 mm. Import may leave links lighter
+/// than that (wire frames, markers); between two joints they would make the solver's matrix
+/// singular.
+constexpr double kMinInertia = 1e-7;
+
+std::size_t index_of(int i) {
+  return static_cast<std::size_t>(i);
+}
+
+double lowest_point(const model::Collision& shape, const Transform& link_world) {
+  const Transform pose = link_world * shape.pose;
+  const Eigen::RowVector3d up = pose.linear().row(2);
+  const Vec3& size = shape.size_m;
+  const double along = std::abs(up.z()) * size.z() / 2;
+  double reach = 0;
+  switch (shape.shape) {
+    case model::Collision::Shape::kBox:
+      reach = std::abs(up.x()) * size.x() / 2 + std::abs(up.y()) * size.y() / 2 + along;
+      break;
+    case model::Collision::Shape::kSphere:
+      reach = size.x();
+      break;
+    case model::Collision::Shape::kCapsule:
+      reach = along + size.x();
+      break;
+    case model::Collision::Shape::kCylinder:
+      reach = along + size.x() * std::sqrt(std::max(0.0, 1 - up.z() * up.z()));
+      break;
+  }
+  return pose.translation().z() - reach;
+}
+
+void set_pose(dBodyID body, const Transform& pose, const Vec3& com_m) {
+  const Vec3 position = pose * com_m;
+  dMatrix3 rotation{};
+  for (int row = 0; row < 3; ++row) {
+    for (int column = 0; column < 3; ++column)
+      rotation[4 * row + column] = pose.linear()(row, column);
+  }
+  dBodySetPosition(body, position.x(), position.y(), position.z());
+  dBodySetRotation(body, rotation);
+}
+
+/// Level frame of both soles, in body coordinates: z their mean normal, x their mean heading,
+/// between them.
+Transform between_soles(const model::Entity& entity, const std::vector<Transform>& link_body) {
+  Vec3 normal = Vec3::Zero();
+  Vec3 heading = Vec3::Zero();
+  Vec3 middle = Vec3::Zero();
+  int soles = 0;
+  for (int foot = 0; foot < 2; ++foot) {
+    const model::Limb* leg = find_leg(entity, foot);
+    if (leg == nullptr) continue;
+    const Transform sole = link_body[index_of(leg->joints.back() + 1)] * leg->tip;
+    normal += sole.linear().col(2);
+    heading += sole.linear().col(0);
+    middle += sole.translation();
+    ++soles;
+  }
+  Transform frame = Transform::Identity();
+  if (soles == 0) return frame;
+  const Vec3 z = normal.normalized();
+  const Vec3 x = (heading - heading.dot(z) * z).normalized();
+  frame.linear() << x, z.cross(x), z;
+  frame.translation() = middle / soles;
+  return frame;
+}
+
+}  // namespace
+
+std::vector<Transform> link_poses(const model::Entity& entity, const Transform& body_world,
+                                  const std::vector<double>& joint_rad) {
+  std::vector<Transform> pose(entity.nodes.size());
+  pose[0] = body_world;
+  for (std::size_t j = 0; j < entity.joints.size(); ++j) {
+    const model::Joint& joint = entity.joints[j];
+    pose[j + 1] = pose[index_of(joint.parent)] * Eigen::Translation3d(joint.origin_m) *
+                  Eigen::AngleAxisd(joint_rad[j], joint.axis);
+  }
+  return pose;
+}
+
+const model::Limb* find_leg(const model::Entity& entity, int foot) {
+  const char* name = foot == 0 ? "left_leg" : "right_leg";
+  for (const model::Limb& limb : entity.limbs) {
+    if (limb.name == name && !limb.joints.empty()) return &limb;
+  }
+  return nullptr;
+}
+
+Transform resting(const model::Entity& entity, const std::vector<double>& joint_rad,
+                  Transform body_world, double gap_m) {
+  const std::vector<Transform> pose = link_poses(entity, body_world, joint_rad);
+  double lowest = std::numeric_limits<double>::infinity();
+  for (std::size_t n = 0; n < entity.nodes.size(); ++n) {
+    for (const model::Collision& shape : entity.nodes[n].collisions) {
+      lowest = std::min(lowest, lowest_point(shape, pose[n]));
+    }
+  }
+  if (std::isfinite(lowest)) body_world.translation().z() += gap_m - lowest;
+  return body_world;
+}
+
+Transform standing_pose(const model::Entity& entity, const std::vector<double>& joint_rad,
+                        const Vec3& start_m, double yaw_rad, double gap_m) {
+  const Transform soles =
+      between_soles(entity, link_poses(entity, Transform::Identity(), joint_rad));
+  Transform start = Transform::Identity();
+  start.linear() = Eigen::AngleAxisd(yaw_rad, Vec3::UnitZ()).toRotationMatrix();
+  start.translation() = start_m;
+  return resting(entity, joint_rad, start * soles.inverse(), gap_m);
+}
+
+Body::Body(World& world, const model::Entity& entity, const std::vector<double>& mass_factor,
+           int owner)
+    : world_(world), entity_(entity) {
+  const std::vector<double> zero(entity.joints.size(), 0.0);
+  const std::vector<Transform> zero_pose = link_poses(entity, Transform::Identity(), zero);
+  for (std::size_t n = 0; n < entity.nodes.size(); ++n) {
+    make_link(entity.nodes[n], mass_factor[n], static_cast<int>(n), owner);
+    set_pose(links_[n].body, zero_pose[n], links_[n].com_m);
+  }
+  for (std::size_t j = 0; j < entity.joints.size(); ++j) {
+    make_hinge(entity.joints[j], static_cast<int>(j), zero_pose);
+  }
+  angle_rad_ = rate_rad_s_ = zero;
+}
+
+Body::~Body() {
+  release();
+  for (dJointID hinge : hinges_) dJointDestroy(hinge);
+  for (dGeomID geom : geoms_) dGeomDestroy(geom);
+  for (const Link& link : links_) dBodyDestroy(link.body);
+}
+
+void Body::make_link(const model::Node& node, double mass_factor, int index, int owner) {
+  if (!(node.mass_kg > 0)) throw std::invalid_argument("link '" + node.name + "' has no mass");
+  const Link link{dBodyCreate(world_.ode_world()), node.com_m, node.mass_kg * mass_factor};
+  const Mat3 inertia = node.inertia_kg_m2 * mass_factor + Mat3::Identity() * kMinInertia;
+  dMass mass;
+  dMassSetParameters(&mass, link.mass_kg, 0, 0, 0, inertia(0, 0), inertia(1, 1), inertia(2, 2),
+                     inertia(0, 1), inertia(0, 2), inertia(1, 2));
+  dBodySetMass(link.body, &mass);
+  for (const model::Collision& shape : node.collisions) {
+    const dGeomID geom = world_.make_shape(shape);
+    dGeomSetBody(geom, link.body);
+    const Vec3 offset = shape.pose.translation() - node.com_m;
+    dGeomSetOffsetPosition(geom, offset.x(), offset.y(), offset.z());
+    dMatrix3 rotation{};
+    for (int row = 0; row < 3; ++row) {
+      for (int column = 0; column < 3; ++column)
+        rotation[4 * row + column] = shape.pose.linear()(row, column);
+    }
+    dGeomSetOffsetRotation(geom, rotation);
+    world_.tag(geom, {owner, index, {shape.friction, shape.stiffness_n_m, shape.damping_n_s_m}});
+    geoms_.push_back(geom);
+  }
+  mass_kg_ += link.mass_kg;
+  links_.push_back(link);
+}
+
+void Body::make_hinge(const model::Joint& joint, int index,
+                      const std::vector<Transform>& zero_pose) {
+  const dJointID hinge = dJointCreateHinge(world_.ode_world(), nullptr);
+  dJointAttach(hinge, links_[index_of(index + 1)].body, links_[index_of(joint.parent)].body);
+  const Vec3 anchor = zero_pose[index_of(index + 1)].translation();
+  dJointSetHingeAnchor(hinge, anchor.x(), anchor.y(), anchor.z());
+  dJointSetHingeAxis(hinge, joint.axis.x(), joint.axis.y(), joint.axis.z());
+  hinges_.push_back(hinge);
+}
+
+void Body::place(const Transform& body_world, const std::vector<double>& joint_rad) {
+  const std::vector<Transform> pose = link_poses(entity_, body_world, joint_rad);
+  for (std::size_t n = 0; n < links_.size(); ++n) {
+    set_pose(links_[n].body, pose[n], links_[n].com_m);
+    dBodySetLinearVel(links_[n].body, 0, 0, 0);
+    dBodySetAngularVel(links_[n].body, 0, 0, 0);
+  }
+  angle_rad_ = joint_rad;
+  std::fill(rate_rad_s_.begin(), rate_rad_s_.end(), 0.0);
+}
+
+void Body::read_joints() {
+  for (std::size_t j = 0; j < hinges_.size(); ++j) {
+    const double turn = dJointGetHingeAngle(hinges_[j]) - angle_rad_[j];
+    angle_rad_[j] += std::remainder(turn, 2 * std::numbers::pi);
+    rate_rad_s_[j] = dJointGetHingeAngleRate(hinges_[j]);
+  }
+}
+
+void Body::drive(int joint, const Drive& drive) {
+  const dJointID hinge = hinges_[index_of(joint)];
+  if (drive.slope_n_m_s <= 0) {
+    dJointSetHingeParam(hinge, dParamFMax, 0);
+    return;
+  }
+  // ODE solves  rate = speed - CFM * torque:  the torque-speed line, implicit in the new rate.
+  dJointSetHingeParam(hinge, dParamVel, drive.speed_rad_s);
+  dJointSetHingeParam(hinge, dParamCFM, 1.0 / drive.slope_n_m_s);
+  dJointSetHingeParam(hinge, dParamFMax, std::isinf(drive.limit_n_m) ? dInfinity : drive.limit_n_m);
+}
+
+void Body::hold() {
+  if (held()) return;
+  hold_ = dJointCreateFixed(world_.ode_world(), nullptr);
+  dJointAttach(hold_, links_[0].body, nullptr);
+  dJointSetFixed(hold_);
+}
+
+void Body::release() {
+  if (!held()) return;
+  dJointDestroy(hold_);
+  hold_ = nullptr;
+}
+
+Transform Body::link_pose(int node) const {
+  const Link& link = links_[index_of(node)];
+  const dReal* rotation = dBodyGetRotation(link.body);
+  const dReal* position = dBodyGetPosition(link.body);
+  Transform pose = Transform::Identity();
+  for (int row = 0; row < 3; ++row) {
+    for (int column = 0; column < 3; ++column)
+      pose.linear()(row, column) = rotation[4 * row + column];
+  }
+  pose.translation() = Vec3(position[0], position[1], position[2]) - pose.linear() * link.com_m;
+  return pose;
+}
+
+Vec3 Body::angular_velocity_world_rad_s(int node) const {
+  const dReal* v = dBodyGetAngularVel(links_[index_of(node)].body);
+  return {v[0], v[1], v[2]};
+}
+
+Vec3 Body::point_velocity_world_m_s(int node, const Vec3& point_world_m) const {
+  dVector3 v;
+  dBodyGetPointVel(links_[index_of(node)].body, point_world_m.x(), point_world_m.y(),
+                   point_world_m.z(), v);
+  return {v[0], v[1], v[2]};
+}
+
+Vec3 Body::com_world_m() const {
+  Vec3 sum = Vec3::Zero();
+  for (const Link& link : links_) {
+    const dReal* p = dBodyGetPosition(link.body);
+    sum += link.mass_kg * Vec3(p[0], p[1], p[2]);
+  }
+  return sum / mass_kg_;
+}
+
+Vec3 Body::com_velocity_world_m_s() const {
+  Vec3 sum = Vec3::Zero();
+  for (const Link& link : links_) {
+    const dReal* v = dBodyGetLinearVel(link.body);
+    sum += link.mass_kg * Vec3(v[0], v[1], v[2]);
+  }
+  return sum / mass_kg_;
+}
+
+}  // namespace verp::sim

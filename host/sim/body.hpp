@@ -1,0 +1,81 @@
+#pragma once
+#include <vector>
+
+#include "host/model/entity.hpp"
+#include "host/sim/servo.hpp"
+#include "host/sim/world.hpp"
+
+/// A robot's links and hinges in the physics engine. Joint j moves node j + 1; node 0 is the body.
+namespace verp::sim {
+
+/// World pose of every node's link frame, by forward kinematics.
+std::vector<Transform> link_poses(const model::Entity& entity, const Transform& body_world,
+                                  const std::vector<double>& joint_rad);
+
+/// The body pose at which the robot stands on the ground: soles level (the mean of both), their
+/// midpoint over start_m, their mean heading along yaw, and the lowest point of any shape gap_m
+/// above the ground. A robot without legs: body level, over start_m.
+Transform standing_pose(const model::Entity& entity, const std::vector<double>& joint_rad,
+                        const Vec3& start_m, double yaw_rad, double gap_m);
+
+/// Moves a pose straight up or down until the lowest point of any shape is gap_m above the ground.
+Transform resting(const model::Entity& entity, const std::vector<double>& joint_rad,
+                  Transform body_world, double gap_m);
+
+/// The leg's limb (0 left, 1 right), or null.
+const model::Limb* find_leg(const model::Entity& entity, int foot);
+
+class Body {
+ public:
+  /// mass_factor scales mass and inertia of each node. Throws std::invalid_argument if a link has
+  /// no mass.
+  Body(World& world, const model::Entity& entity, const std::vector<double>& mass_factor,
+       int owner);
+  ~Body();
+  Body(const Body&) = delete;
+  Body& operator=(const Body&) = delete;
+
+  /// Sets the pose, at rest.
+  void place(const Transform& body_world, const std::vector<double>& joint_rad);
+  /// Reads joint angles and rates; call after every step.
+  void read_joints();
+  void drive(int joint, const Drive& drive);
+  /// Fixes the body to the world where it is, as a robot stand does.
+  void hold();
+  void release();
+  bool held() const { return hold_ != nullptr; }
+
+  /// Counts turns: no jump at half a revolution.
+  double angle_rad(int joint) const { return angle_rad_[static_cast<std::size_t>(joint)]; }
+  double rate_rad_s(int joint) const { return rate_rad_s_[static_cast<std::size_t>(joint)]; }
+  const std::vector<double>& angles_rad() const { return angle_rad_; }
+  const std::vector<double>& rates_rad_s() const { return rate_rad_s_; }
+
+  Transform link_pose(int node) const;
+  Vec3 angular_velocity_world_rad_s(int node) const;
+  Vec3 point_velocity_world_m_s(int node, const Vec3& point_world_m) const;
+  double mass_kg() const { return mass_kg_; }
+  Vec3 com_world_m() const;
+  Vec3 com_velocity_world_m_s() const;
+
+ private:
+  struct Link {
+    dBodyID body = nullptr;
+    Vec3 com_m = Vec3::Zero();  ///< ODE's body frame sits here, parallel to the link frame
+    double mass_kg = 0;
+  };
+  void make_link(const model::Node& node, double mass_factor, int index, int owner);
+  void make_hinge(const model::Joint& joint, int index, const std::vector<Transform>& zero_pose);
+
+  World& world_;
+  const model::Entity& entity_;
+  std::vector<Link> links_;
+  std::vector<dJointID> hinges_;
+  std::vector<dGeomID> geoms_;
+  dJointID hold_ = nullptr;
+  double mass_kg_ = 0;
+  std::vector<double> angle_rad_;
+  std::vector<double> rate_rad_s_;
+};
+
+}  // namespace verp::sim

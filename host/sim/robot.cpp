@@ -1,0 +1,250 @@
+#include "host/sim/robot.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+namespace verp::sim {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180;
+/// The soles start this far above the ground: contact begins in the first milliseconds, without
+/// penetration.
+constexpr double kStartGap = 0.0002;
+/// Spread of the initial pose, one sigma: what a person placing the robot by hand gets right.
+constexpr double kJointSpread = 0.2 * kDegree;
+constexpr double kLeanSpread = 0.2 * kDegree;
+constexpr double kYawSpread = 0.5 * kDegree;
+/// Fallen: body lower than this part of its initial height, or tilted by more than this.
+constexpr double kFallenHeight = 0.6;
+constexpr double kFallenTilt = 1.0;
+
+std::vector<double> mass_factors(const model::Entity& entity, const TwinOptions& options) {
+  Random random(options.seed, Draw::kMass);
+  std::vector<double> factor(entity.nodes.size(), options.mass_scale);
+  for (double& f : factor) f *= 1 + options.mass_spread * random.uniform(-1, 1);
+  return factor;
+}
+
+/// Angles and pose at the start, with what the seed makes of them.
+struct Start {
+  std::vector<double> joint_rad;
+  Transform body_world;
+};
+
+Start make_start(const model::Entity& entity, const TwinOptions& options) {
+  Start start{options.initial_rad, {}};
+  if (start.joint_rad.empty()) {
+    for (const model::Joint& joint : entity.joints) start.joint_rad.push_back(joint.stand_rad);
+  }
+  start.joint_rad.resize(entity.joints.size(), 0.0);
+  start.body_world =
+      standing_pose(entity, start.joint_rad, options.start_m, options.start_yaw_rad, kStartGap);
+  if (!options.imperfections.initial_pose) return start;
+  Random random(options.seed, Draw::kInitialPose);
+  const double roll = kLeanSpread * random.normal();
+  const double pitch = kLeanSpread * random.normal();
+  const double yaw = kYawSpread * random.normal();
+  for (double& angle : start.joint_rad) angle += kJointSpread * random.normal();
+  const Mat3 lean =
+      (Eigen::AngleAxisd(yaw, Vec3::UnitZ()) * Eigen::AngleAxisd(pitch, Vec3::UnitY()) *
+       Eigen::AngleAxisd(roll, Vec3::UnitX()))
+          .toRotationMatrix();
+  start.body_world.linear() = lean * start.body_world.linear();
+  start.body_world = resting(entity, start.joint_rad, start.body_world, kStartGap);
+  return start;
+}
+
+}  // namespace
+
+TwinRobot::TwinRobot(World& world, const model::Entity& entity, const TwinOptions& options)
+    : world_(world),
+      entity_(entity),
+      options_(options),
+      owner_(world.new_owner()),
+      body_(world, entity_, mass_factors(entity, options), owner_),
+      setpoint_(entity.joints.size()),
+      imu_(entity.imu.value_or(model::ImuSensor{}), options.imperfections.imu, options.seed),
+      supply_v_(options.supply_v),
+      saturated_steps_(entity.joints.size(), 0) {
+  const Start start = make_start(entity_, options);
+  body_.place(start.body_world, start.joint_rad);
+  Random zero_error(options.seed, Draw::kZeroError);
+  for (std::size_t j = 0; j < entity_.joints.size(); ++j) {
+    ServoNoise noise{.encoder = options.imperfections.encoder};
+    const double error = zero_error.uniform(-1, 1) * options.zero_error_deg * kDegree;
+    if (options.imperfections.zero_error) noise.zero_error_rad = error;
+    servo_.emplace_back(entity_.joints[j], noise,
+                        Random(options.seed, Draw::kEncoder, static_cast<int>(j)),
+                        start.joint_rad[j]);
+    setpoint_[j].goal_count = servo_[j].measurement().position_count;
+  }
+  for (int foot = 0; foot < 2; ++foot) {
+    const model::Limb* leg = find_leg(entity_, foot);
+    if (leg == nullptr) continue;
+    foot_node_[static_cast<std::size_t>(foot)] = leg->joints.back() + 1;
+    foot_.emplace_back(*leg, entity_.feet.newton_per_count, options.imperfections.feet,
+                       Random(options.seed, Draw::kFootNoise, foot));
+  }
+  initial_height_m_ = start.body_world.translation().z();
+  if (options.cradle != Cradle::kNone) body_.hold();
+  world_.add(*this);
+}
+
+TwinRobot::~TwinRobot() {
+  world_.remove(*this);
+}
+
+std::array<std::uint16_t, 4> TwinRobot::foot_counts(int foot) {
+  const auto index = static_cast<std::size_t>(foot);
+  return index < foot_.size() ? foot_[index].counts() : std::array<std::uint16_t, 4>{};
+}
+
+FootLoads TwinRobot::take_foot_loads() {
+  return std::exchange(loads_, FootLoads{});
+}
+
+void TwinRobot::before_step(double step_s) {
+  update_cradle(step_s);
+  for (std::size_t j = 0; j < servo_.size(); ++j) {
+    const int joint = static_cast<int>(j);
+    body_.drive(joint, servo_[j].drive(setpoint_[j], body_.angle_rad(joint),
+                                       body_.rate_rad_s(joint), supply_v_, step_s));
+    saturated_steps_[j] += servo_[j].saturated() ? 1 : 0;
+  }
+  imu_velocity_world_m_s_ = imu_point_velocity();
+}
+
+void TwinRobot::after_step(double step_s) {
+  ++steps_;
+  body_.read_joints();
+  update_servos(step_s);
+  update_imu(step_s);
+  update_feet(step_s);
+  update_fallen();
+}
+
+void TwinRobot::update_cradle(double step_s) {
+  if (options_.cradle != Cradle::kUntilArmed || !body_.held()) return;
+  bool armed = true;
+  for (int foot = 0; foot < 2; ++foot) {
+    const model::Limb* leg = find_leg(entity_, foot);
+    if (leg == nullptr) continue;
+    for (const int joint : leg->joints) armed = armed && setpoint(joint).torque_on;
+  }
+  armed_s_ = armed ? armed_s_ + step_s : 0;
+  if (armed_s_ >= options_.cradle_s) body_.release();
+}
+
+void TwinRobot::update_servos(double step_s) {
+  double current_a = 0;
+  for (std::size_t j = 0; j < servo_.size(); ++j) {
+    servo_[j].finish(body_.rate_rad_s(static_cast<int>(j)), step_s);
+    current_a += servo_[j].supply_current_a();
+  }
+  supply_v_ = options_.supply_v - options_.supply_ohm * current_a;
+}
+
+Transform TwinRobot::imu_pose() const {
+  if (!entity_.imu) return body_.link_pose(0);
+  return body_.link_pose(entity_.imu->node) * entity_.imu->pose;
+}
+
+Vec3 TwinRobot::imu_point_velocity() const {
+  const int node = entity_.imu ? entity_.imu->node : 0;
+  return body_.point_velocity_world_m_s(node, imu_pose().translation());
+}
+
+void TwinRobot::update_imu(double step_s) {
+  const int node = entity_.imu ? entity_.imu->node : 0;
+  const Vec3 acceleration = (imu_point_velocity() - imu_velocity_world_m_s_) / step_s;
+  imu_.sample(imu_pose().linear(), body_.angular_velocity_world_rad_s(node), acceleration,
+              world_.options().gravity_m_s2, step_s);
+}
+
+void TwinRobot::update_feet(double step_s) {
+  step_loads_ = FootLoads{};
+  foot_force_n_ = {};
+  for (FootModel& foot : foot_) foot.begin_step();
+  for (const Contact& contact : world_.contacts()) {
+    if (contact.owner != owner_) continue;
+    const int foot = foot_of(contact.node);
+    if (foot < 0) continue;
+    const auto index = static_cast<std::size_t>(foot);
+    step_loads_.add(contact.position_world_m, contact.force_world_n);
+    const Transform sole = body_.link_pose(contact.node) * find_leg(entity_, foot)->tip;
+    const double normal_n = sole.linear().col(2).dot(contact.force_world_n);
+    foot_force_n_[index] += contact.force_world_n.z();
+    if (index < foot_.size())
+      foot_[index].add_load(sole.inverse() * contact.position_world_m, normal_n);
+  }
+  for (FootModel& foot : foot_) foot.end_step(step_s);
+  loads_.add(step_loads_);
+}
+
+int TwinRobot::foot_of(int node) const {
+  if (node == foot_node_[0]) return 0;
+  return node == foot_node_[1] ? 1 : -1;
+}
+
+void TwinRobot::update_fallen() {
+  const Transform body = body_.link_pose(0);
+  const double tilt = std::acos(std::clamp(body.linear()(2, 2), -1.0, 1.0));
+  fallen_ =
+      fallen_ || tilt > kFallenTilt || body.translation().z() < kFallenHeight * initial_height_m_;
+}
+
+FootTruth TwinRobot::foot_truth(int foot) const {
+  const auto index = static_cast<std::size_t>(foot);
+  FootTruth truth;
+  if (foot_node_[index] < 0) return truth;
+  const model::Limb& leg = *find_leg(entity_, foot);
+  truth.present = true;
+  truth.normal_force_n = foot_force_n_[index];
+  truth.contact = truth.normal_force_n > kContactForceN;
+  truth.sole_world = body_.link_pose(foot_node_[index]) * leg.tip;
+  const Vec3& low = leg.sole_min_m;
+  const Vec3& high = leg.sole_max_m;
+  truth.corner_world_m = {
+      truth.sole_world * Vec3(high.x(), high.y(), 0), truth.sole_world * Vec3(high.x(), low.y(), 0),
+      truth.sole_world * Vec3(low.x(), low.y(), 0), truth.sole_world * Vec3(low.x(), high.y(), 0)};
+  truth.centroid_world_m =
+      truth.sole_world * Vec3((low.x() + high.x()) / 2, (low.y() + high.y()) / 2, 0);
+  return truth;
+}
+
+Truth TwinRobot::truth() const {
+  Truth truth;
+  truth.t_s = static_cast<double>(world_.now_us()) * 1e-6;
+  truth.body_world = body_.link_pose(0);
+  truth.body_velocity_world_m_s = body_.point_velocity_world_m_s(0, truth.body_world.translation());
+  truth.body_rate_world_rad_s = body_.angular_velocity_world_rad_s(0);
+  const Vec3 rpy = roll_pitch_yaw(truth.body_world.linear());
+  truth.roll_rad = rpy.x();
+  truth.pitch_rad = rpy.y();
+  truth.yaw_rad = rpy.z();
+  truth.com_world_m = body_.com_world_m();
+  truth.com_velocity_world_m_s = body_.com_velocity_world_m_s();
+  truth.zmp_valid = step_loads_.valid();
+  if (truth.zmp_valid) truth.zmp_world_m = step_loads_.zmp_world_m();
+  std::vector<Vec2> corners;
+  for (int foot = 0; foot < 2; ++foot) {
+    FootTruth& out = truth.foot[static_cast<std::size_t>(foot)];
+    out = foot_truth(foot);
+    if (!out.contact) continue;
+    for (const Vec3& corner : out.corner_world_m) corners.emplace_back(corner.head<2>());
+  }
+  truth.support_world_m = convex_hull(std::move(corners));
+  truth.joint_rad = body_.angles_rad();
+  truth.joint_rad_s = body_.rates_rad_s();
+  for (const ServoModel& servo : servo_) {
+    truth.torque_n_m.push_back(servo.torque_n_m());
+    truth.torque_use.push_back(servo.torque_use());
+  }
+  truth.held = body_.held();
+  truth.fallen = fallen_;
+  return truth;
+}
+
+}  // namespace verp::sim

@@ -1,0 +1,117 @@
+#pragma once
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "host/model/entity.hpp"
+#include "host/sim/body.hpp"
+#include "host/sim/plant.hpp"
+#include "host/sim/sensors.hpp"
+#include "host/sim/servo.hpp"
+#include "host/sim/truth.hpp"
+#include "host/sim/world.hpp"
+
+namespace verp::sim {
+
+/// Which imperfections are on. All on is the robot as it is; all off is for tests and for finding a
+/// cause.
+struct Imperfections {
+  bool imu = true;           ///< noise and bias
+  bool encoder = true;       ///< noise (quantisation stays)
+  bool zero_error = true;    ///< joint zeros are off by up to zero_error_deg
+  bool initial_pose = true;  ///< joints, lean and heading at the start
+  bool feet = true;          ///< force noise
+
+  static Imperfections none() { return {false, false, false, false, false}; }
+};
+
+/// Who holds the body at the start. Servos power up limp, so a robot that stands must be held until
+/// it is armed.
+enum class Cradle { kNone, kUntilArmed, kAlways };
+
+struct TwinOptions {
+  std::uint64_t seed = 1;
+  Imperfections imperfections;
+  double zero_error_deg = 0.5;      ///< uniform in +- this
+  double mass_scale = 1.0;          ///< of every link
+  double mass_spread = 0.0;         ///< each link: uniform in 1 +- this
+  std::vector<double> initial_rad;  ///< joint angles at the start; empty: Entity's stand_rad
+  Vec3 start_m = Vec3::Zero();      ///< midpoint of the soles
+  double start_yaw_rad = 0;
+  Cradle cradle = Cradle::kUntilArmed;
+  double cradle_s = 0.5;  ///< released this long after all leg servos have torque
+  double supply_v = 12.0;
+  /// Internal resistance of battery and harness. An estimate: 3 LiPo cells of about 10 mOhm (hobby
+  /// packs of 1 to 2 Ah), plug, fuse and the first metre of daisy chain.
+  double supply_ohm = 0.1;
+};
+
+/// One robot in a World: links, servos, sensors. The controller's side is Plant, which speaks
+/// counts; the referee's side is truth(). The world must outlive the robot.
+class TwinRobot final : public Plant, private Actor {
+ public:
+  /// Throws std::invalid_argument, naming link or joint, if the entity can't be simulated.
+  TwinRobot(World& world, const model::Entity& entity, const TwinOptions& options = {});
+  ~TwinRobot() override;
+  TwinRobot(const TwinRobot&) = delete;
+  TwinRobot& operator=(const TwinRobot&) = delete;
+
+  std::uint64_t now_us() const override { return world_.now_us(); }
+  void advance_to(std::uint64_t time_us) override { world_.advance_to(time_us); }
+  ServoSetpoint& setpoint(int joint) override { return setpoint_[static_cast<std::size_t>(joint)]; }
+  ServoMeasurement measure(int joint) override { return servo(joint).measurement(); }
+  ImuMeasurement imu() override { return imu_.measurement(); }
+  std::array<std::uint16_t, 4> foot_counts(int foot) override;
+
+  const model::Entity& entity() const { return entity_; }
+  const ServoModel& servo(int joint) const { return servo_[static_cast<std::size_t>(joint)]; }
+  const Body& body() const { return body_; }
+  Truth truth() const;
+  /// Lets go of the body at once, whatever the cradle waits for.
+  void release() { body_.release(); }
+  bool fallen() const { return fallen_; }
+  double supply_v() const { return supply_v_; }
+  /// Physics steps since the start, and in how many of them each joint's duty was at its limit.
+  std::uint64_t steps() const { return steps_; }
+  const std::vector<std::uint64_t>& saturated_steps() const { return saturated_steps_; }
+
+  /// Foot forces since the last call (or the start): a control tick's mean instead of one noisy
+  /// instant.
+  FootLoads take_foot_loads();
+
+ private:
+  void before_step(double step_s) override;
+  void after_step(double step_s) override;
+  void update_cradle(double step_s);
+  void update_servos(double step_s);
+  void update_imu(double step_s);
+  void update_feet(double step_s);
+  void update_fallen();
+  FootTruth foot_truth(int foot) const;
+  Transform imu_pose() const;
+  Vec3 imu_point_velocity() const;
+  int foot_of(int node) const;
+
+  World& world_;
+  const model::Entity entity_;
+  const TwinOptions options_;
+  const int owner_;
+  Body body_;
+  std::vector<ServoModel> servo_;
+  std::vector<ServoSetpoint> setpoint_;
+  ImuModel imu_;
+  std::vector<FootModel> foot_;  ///< none, or left and right
+  std::array<int, 2> foot_node_{-1, -1};
+  Vec3 imu_velocity_world_m_s_ = Vec3::Zero();
+  FootLoads step_loads_;  ///< of the last step
+  FootLoads loads_;       ///< since take_foot_loads()
+  std::array<double, 2> foot_force_n_{};
+  double supply_v_;
+  double armed_s_ = 0;
+  double initial_height_m_ = 0;
+  bool fallen_ = false;
+  std::uint64_t steps_ = 0;
+  std::vector<std::uint64_t> saturated_steps_;
+};
+
+}  // namespace verp::sim

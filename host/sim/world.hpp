@@ -1,0 +1,114 @@
+#pragma once
+#include <ode/ode.h>
+
+#include <cstdint>
+#include <deque>
+#include <vector>
+
+#include "host/model/entity.hpp"
+
+/// The physics engine: ODE in double precision, stepped by dWorldStep at a fixed interval by the
+/// calling thread only. Everything in it is a function of the calls made, so two equal runs are
+/// equal to the last bit.
+namespace verp::sim {
+
+using model::Mat3;
+using model::Transform;
+using model::Vec3;
+
+struct Surface {
+  double friction = 1.0;
+  double stiffness_n_m = 5e4;
+  double damping_n_s_m = 500;
+};
+
+inline constexpr int kScenery = -1;
+
+/// Whose geometry this is: an owner number from World::new_owner(), or kScenery.
+struct GeomTag {
+  int owner = kScenery;
+  int node = 0;  ///< link index of the owner's Entity
+  Surface surface;
+};
+
+/// One contact point of the last step as one of its partners felt it.
+struct Contact {
+  int owner = kScenery;
+  int node = 0;
+  int other_owner = kScenery;
+  Vec3 position_world_m = Vec3::Zero();
+  Vec3 force_world_n = Vec3::Zero();  ///< on the owner
+};
+
+/// Something that acts in every physics step: a robot.
+class Actor {
+ public:
+  virtual ~Actor() = default;
+  virtual void before_step(double step_s) = 0;
+  virtual void after_step(double step_s) = 0;
+};
+
+struct WorldOptions {
+  std::uint32_t step_us = 1000;
+  double gravity_m_s2 = 9.80665;
+  bool ground = true;  ///< the plane z = 0
+  Surface ground_surface{
+      .friction = 1.0, .stiffness_n_m = 0, .damping_n_s_m = 0};  ///< 0 stiffness: rigid
+};
+
+class World {
+ public:
+  explicit World(const WorldOptions& options = {});
+  ~World();
+  World(const World&) = delete;
+  World& operator=(const World&) = delete;
+
+  std::uint64_t now_us() const { return now_us_; }
+  double step_s() const { return static_cast<double>(options_.step_us) * 1e-6; }
+  const WorldOptions& options() const { return options_; }
+
+  /// Runs whole steps up to the last one that ends at or before time_us; never goes back.
+  void advance_to(std::uint64_t time_us);
+
+  /// Contact points of the last step.
+  const std::vector<Contact>& contacts() const { return contacts_; }
+
+  int new_owner() { return owners_++; }
+  /// Actors act in the order they were added. An actor removes itself before it goes.
+  void add(Actor& actor) { actors_.push_back(&actor); }
+  void remove(Actor& actor) { std::erase(actors_, &actor); }
+
+  /// Attaches a tag that lives as long as the world, and lets the geometry collide.
+  void tag(dGeomID geom, const GeomTag& tag);
+  /// A shape in this world's space, not attached to a body; the pose is the caller's business.
+  dGeomID make_shape(const model::Collision& collision);
+
+  dWorldID ode_world() const { return world_; }
+
+ private:
+  static void near_callback(void* self, dGeomID a, dGeomID b);
+  void collide(dGeomID a, dGeomID b);
+  void step();
+  void read_contacts();
+
+  struct Touching {
+    const GeomTag* first;
+    const GeomTag* second;
+    Vec3 position_world_m;
+  };
+
+  WorldOptions options_;
+  dWorldID world_;
+  dSpaceID space_;
+  dJointGroupID contact_group_;
+  std::uint64_t now_us_ = 0;
+  int owners_ = 0;
+  std::vector<Actor*> actors_;
+  std::deque<GeomTag> tags_;
+  std::vector<Touching> touching_;
+  std::deque<dJointFeedback>
+      feedback_;  // a deque: ODE keeps pointers to its elements during the step
+  std::vector<Contact> contacts_;
+};
+
+}  // namespace verp::sim
