@@ -7,10 +7,11 @@
 #include <string>
 #include <vector>
 
-/// The robot as the PC knows it, after loading and checking an SDF file (load.hpp). Double precision, SI units.
-/// Frames as in common/model/params.hpp: body frame at the trunk's centre; every link frame is parallel to the
-/// body frame at the zero pose with its origin on the joint that moves it (node 0: the body frame itself).
-/// Fixed joints of the file are already lumped into the link that carries them.
+/// The robot as the PC knows it, after loading and checking an SDF file (load.hpp). Double
+/// precision, SI units. Frames as in common/model/params.hpp: body frame at the trunk's centre;
+/// every link frame is parallel to the body frame at the zero pose with its origin on the joint
+/// that moves it (node 0: the body frame itself). Fixed joints of the file are already lumped into
+/// the link that carries them.
 namespace verp::model {
 
 using Vec3 = Eigen::Vector3d;
@@ -20,14 +21,15 @@ using Transform = Eigen::Isometry3d;
 struct Collision {
   enum class Shape { kBox, kSphere, kCapsule, kCylinder } shape = Shape::kBox;
   Transform pose = Transform::Identity();  ///< in the link frame
-  Vec3 size_m = Vec3::Zero();  ///< box: edges; sphere: x radius; capsule, cylinder: x radius, z length
+  Vec3 size_m =
+      Vec3::Zero();  ///< box: edges; sphere: x radius; capsule, cylinder: x radius, z length
   double friction = 1.0;
-  double stiffness_n_m = 5e4;   ///< <ode><kp>
-  double damping_n_s_m = 500;   ///< <ode><kd>
+  double stiffness_n_m = 5e4;  ///< <ode><kp>
+  double damping_n_s_m = 500;  ///< <ode><kd>
 };
 
 struct Node {
-  std::string name;        ///< link
+  std::string name;  ///< link
   double mass_kg = 0;
   Vec3 com_m = Vec3::Zero();
   Mat3 inertia_kg_m2 = Mat3::Zero();  ///< about the centre of mass, link axes
@@ -36,9 +38,9 @@ struct Node {
 
 /// A servo as its datasheet gives it, and where it sits.
 struct Servo {
-  std::string type;       ///< row of the servo table (servo_types.hpp), e.g. "xm430_w210"
-  int id = 0;             ///< bus address
-  int direction = 1;      ///< +1 or -1
+  std::string type;   ///< row of the servo table (servo_types.hpp), e.g. "xm430_w210"
+  int id = 0;         ///< bus address
+  int direction = 1;  ///< +1 or -1
   int offset_count = 2048;
   double backlash_rad = 0;
   double stall_torque_n_m = 0;
@@ -54,9 +56,9 @@ struct Servo {
 /// joint[j] moves node[j + 1].
 struct Joint {
   std::string name;
-  int parent = 0;                    ///< node index
-  Vec3 origin_m = Vec3::Zero();      ///< in the parent link's frame
-  Vec3 axis = Vec3::UnitZ();         ///< body-aligned at zero pose
+  int parent = 0;                ///< node index
+  Vec3 origin_m = Vec3::Zero();  ///< in the parent link's frame
+  Vec3 axis = Vec3::UnitZ();     ///< body-aligned at zero pose
   double lower_rad = 0, upper_rad = 0;
   double velocity_limit_rad_s = 0;
   double friction_n_m = 0, damping_n_m_s = 0;
@@ -65,10 +67,12 @@ struct Joint {
 };
 
 struct Limb {
-  std::string name;                  ///< left_leg, right_leg, left_arm, right_arm, head
-  std::vector<int> joints;           ///< from root to tip
-  Transform tip = Transform::Identity();  ///< in the last link's frame; legs: the sole frame, x forward, z up
-  Vec3 sole_min_m = Vec3::Zero(), sole_max_m = Vec3::Zero();  ///< legs: extent of the sole in the sole frame
+  std::string name;         ///< left_leg, right_leg, left_arm, right_arm, head
+  std::vector<int> joints;  ///< from root to tip
+  Transform tip =
+      Transform::Identity();  ///< in the last link's frame; legs: the sole frame, x forward, z up
+  Vec3 sole_min_m = Vec3::Zero(),
+       sole_max_m = Vec3::Zero();  ///< legs: extent of the sole in the sole frame
 };
 
 struct ImuSensor {
@@ -76,7 +80,8 @@ struct ImuSensor {
   Transform pose = Transform::Identity();
   int id = 0;
   double gyro_rad_s_per_count = 0, accel_m_s2_per_count = 0;
-  double gyro_noise_rad_s = 0, gyro_bias_rad_s = 0;   ///< 1-sigma per sample; 1-sigma of the constant bias
+  double gyro_noise_rad_s = 0,
+         gyro_bias_rad_s = 0;  ///< 1-sigma per sample; 1-sigma of the constant bias
   double accel_noise_m_s2 = 0, accel_bias_m_s2 = 0;
 };
 
@@ -85,8 +90,10 @@ struct FootSensor {
   double newton_per_count = 0;
 };
 
-struct OtherSensor {  ///< camera and laser: described, checked, rendered later
+struct OtherSensor {  ///< camera and laser: described and checked
   std::string name, type, link;
+  int node = 0;
+  Transform pose = Transform::Identity();  ///< in the link frame
 };
 
 struct Entity {
@@ -98,9 +105,13 @@ struct Entity {
   std::optional<ImuSensor> imu;
   FootSensor feet;
   std::vector<OtherSensor> sensors;
+  std::string protocol = "dynamixel2";
   std::uint32_t baud = 2000000;
   std::uint32_t period_us = 10000;
-  std::vector<std::pair<std::string, double>> tuning;  ///< overrides of Tuning's defaults: "gait.lift_m" -> value
+  std::vector<std::pair<std::string, double>>
+      tuning;  ///< overrides of Tuning's defaults: "gait.lift_m" -> value
+  std::vector<std::string>
+      notes;  ///< what the file declares about third-party data: one line each, for people
 };
 
 }  // namespace verp::model

@@ -1,0 +1,88 @@
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "host/model/entity.hpp"
+#include "host/model/xml_source.hpp"
+
+/// The verp: elements of a robot's <model>, read and range-checked one by one, each with its XML
+/// element for error messages. Names are not resolved here (load.cpp does): README.md lists every
+/// element and attribute.
+namespace verp::model {
+
+struct BodyFact {
+  XmlElement at;
+  std::string link;
+  Transform pose = Transform::Identity();
+};
+struct LimbFact {
+  XmlElement at;
+  std::string name, base, tip;
+};
+struct ServoFact {
+  XmlElement at;
+  std::string joint;
+  Servo servo;
+  std::optional<double> lower_rad, upper_rad;
+};
+struct ImuFact {
+  XmlElement at;
+  std::string sensor, link;
+  ImuSensor imu;
+};
+struct FeetFact {
+  XmlElement at;
+  FootSensor feet;
+};
+struct PoseFact {
+  XmlElement at;
+  std::string pose, joint;
+  double rad = 0;
+};
+struct TuningFact {
+  XmlElement at;
+  std::string name;
+  double value = 0;
+};
+struct InertiaFact {
+  XmlElement at;
+  std::string link;  ///< "*": all
+  double scale = 1;
+};
+struct BoxFact {
+  XmlElement at;
+  std::string frame;
+  Collision box;
+};
+/// Declared differences between the file and what is used of it.
+struct DropFact {
+  XmlElement at;
+  std::string what;  ///< mesh_collision, collision, massless_link, mimic
+  std::string name;  ///< link or joint; "*": all
+};
+
+struct Facts {
+  std::optional<BodyFact> body;
+  std::vector<LimbFact> limbs;
+  std::optional<XmlElement> bus;
+  std::string protocol = "dynamixel2";
+  std::uint32_t baud = 2000000;
+  std::uint32_t period_us = 10000;
+  std::vector<ServoFact> servos;
+  std::optional<ImuFact> imu;
+  std::optional<FeetFact> feet;
+  std::vector<PoseFact> poses;
+  std::vector<TuningFact> tuning;
+  std::vector<InertiaFact> inertias;
+  std::vector<BoxFact> boxes;
+  std::vector<DropFact> drops;
+
+  bool is_dropped(const std::string& what, const std::string& name) const;
+};
+
+/// Throws LoadError for an unknown element or attribute, a missing one, a bad number, an id used
+/// twice.
+Facts read_facts(const XmlElement& model);
+
+}  // namespace verp::model

@@ -1,0 +1,89 @@
+#include "host/model/find.hpp"
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+
+#include "host/model/load_error.hpp"
+
+namespace verp::model {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::vector<fs::path> robot_folders() {
+  return {fs::path("common/robots"), fs::path(VERP_SOURCE_DIR) / "common/robots"};
+}
+
+bool is_file(const fs::path& path) {
+  std::error_code ignored;
+  return fs::is_regular_file(path, ignored);
+}
+
+}  // namespace
+
+std::vector<std::string> model_names() {
+  std::vector<std::string> names;
+  for (const fs::path& folder : robot_folders()) {
+    std::error_code ignored;
+    for (const auto& entry : fs::directory_iterator(folder, ignored)) {
+      if (is_file(entry.path() / "robot.sdf")) names.push_back(entry.path().filename().string());
+    }
+  }
+  std::sort(names.begin(), names.end());
+  names.erase(std::unique(names.begin(), names.end()), names.end());
+  return names;
+}
+
+std::string find_model(const std::string& name_or_path) {
+  if (is_file(name_or_path)) return name_or_path;
+  const bool looks_like_path =
+      name_or_path.ends_with(".sdf") || name_or_path.find('/') != std::string::npos;
+  if (!looks_like_path) {
+    for (const fs::path& folder : robot_folders()) {
+      const fs::path candidate = folder / name_or_path / "robot.sdf";
+      if (is_file(candidate)) return candidate.string();
+    }
+  }
+  std::string list;
+  for (const std::string& name : model_names()) list += (list.empty() ? "" : ", ") + name;
+  throw LoadError(name_or_path, 1,
+                  looks_like_path ? "there is no such file" : "there is no robot of this name",
+                  "give the path of an .sdf file, or one of: " + list);
+}
+
+std::vector<std::string> model_path() {
+  const char* variable = std::getenv("VERP_MODEL_PATH");
+  if (!variable || !*variable) {
+    return {(fs::path(VERP_SOURCE_DIR) / "../shared/models").lexically_normal().string()};
+  }
+  std::vector<std::string> folders;
+  std::string rest = variable;
+  while (!rest.empty()) {
+    const auto colon = std::min(rest.find(':'), rest.size());
+    if (colon > 0) folders.push_back(rest.substr(0, colon));
+    rest.erase(0, colon + 1);
+  }
+  return folders;
+}
+
+std::string model_path_text() {
+  std::string text;
+  for (const std::string& folder : model_path()) text += (text.empty() ? "" : ":") + folder;
+  return text;
+}
+
+std::string resolve_model_uri(const std::string& uri, const std::string& from_file) {
+  constexpr std::string_view kScheme = "model://";
+  if (!uri.starts_with(kScheme)) {
+    const fs::path candidate = fs::path(from_file).parent_path() / uri;
+    return !uri.empty() && is_file(candidate) ? candidate.string() : std::string();
+  }
+  for (const std::string& folder : model_path()) {
+    const fs::path candidate = fs::path(folder) / uri.substr(kScheme.size());
+    if (is_file(candidate)) return candidate.string();
+  }
+  return {};
+}
+
+}  // namespace verp::model

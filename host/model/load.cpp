@@ -1,0 +1,97 @@
+#include "host/model/load.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <sdf/sdf.hh>
+
+#include "host/model/assemble.hpp"
+#include "host/model/facts.hpp"
+#include "host/model/find.hpp"
+#include "host/model/urdf_check.hpp"
+#include "host/model/xml_source.hpp"
+
+namespace verp::model {
+namespace {
+
+/// libsdformat's strictest reading. Settings are global because an <include> ignores those given to
+/// Load().
+void configure(const std::string& path) {
+  sdf::Console::Instance()->SetQuiet(true);  // its messages come back as errors, or name no line
+  sdf::ParserConfig& config = sdf::ParserConfig::GlobalConfig();
+  config.SetFindCallback([path](const std::string& uri) { return resolve_model_uri(uri, path); });
+  config.SetUnrecognizedElementsPolicy(sdf::EnforcementPolicy::ERR);
+  config.SetDeprecatedElementsPolicy(sdf::EnforcementPolicy::ERR);
+  config.SetWarningsPolicy(sdf::EnforcementPolicy::ERR);
+}
+
+[[noreturn]] void fail(const XmlSource& source, const sdf::Error& error) {
+  XmlSource::Place place = source.blame(error.Message());
+  if (error.LineNumber() && *error.LineNumber() > 0) {
+    place.line = *error.LineNumber();
+    place.file = error.FilePath().value_or(source.path());
+  }
+  std::string fix = "see sdformat.org/spec for what SDF allows here";
+  switch (error.Code()) {
+    case sdf::ErrorCode::DUPLICATE_NAME:
+      fix = "give links, joints and frames names of their own";
+      break;
+    case sdf::ErrorCode::LINK_INERTIA_INVALID:
+      fix = "write a positive mass and an inertia of a body that can exist";
+      break;
+    case sdf::ErrorCode::JOINT_PARENT_LINK_INVALID:
+    case sdf::ErrorCode::JOINT_CHILD_LINK_INVALID:
+      fix = "name links that exist";
+      break;
+    case sdf::ErrorCode::POSE_RELATIVE_TO_INVALID:
+    case sdf::ErrorCode::FRAME_ATTACHED_TO_INVALID:
+      fix = "name a link, joint or frame that exists";
+      break;
+    default:
+      break;
+  }
+  throw LoadError(place.file, place.line, error.Message(), fix);
+}
+
+void cross_check(const XmlSource& source, const Facts& facts, const sdf::Model& model) {
+  UrdfTotals expected;
+  for (const XmlElement& urdf : source.urdfs()) {
+    const UrdfTotals totals = check_urdf(urdf, facts);
+    expected.moving_joints += totals.moving_joints;
+    expected.mass_kg += totals.mass_kg;
+  }
+  if (source.urdfs().empty()) return;
+  int moving_joints = 0;
+  for (std::uint64_t i = 0; i < model.JointCount(); ++i) {
+    if (model.JointByIndex(i)->Type() != sdf::JointType::FIXED) ++moving_joints;
+  }
+  double mass_kg = 0;
+  for (std::uint64_t i = 0; i < model.LinkCount(); ++i) {
+    mass_kg += model.LinkByIndex(i)->Inertial().MassMatrix().Mass();
+  }
+  // The wrapper may add links and joints of its own, never fewer.
+  if (moving_joints < expected.moving_joints || mass_kg < expected.mass_kg * (1 - 1e-6)) {
+    source.urdfs().front().fail(
+        "libsdformat's import lost joints or mass: " + std::to_string(moving_joints) + " of " +
+            std::to_string(expected.moving_joints) + " joints, " + std::to_string(mass_kg) +
+            " of " + std::to_string(expected.mass_kg) + " kg",
+        "convert this file to SDF by hand");
+  }
+}
+
+}  // namespace
+
+Entity load_robot(const std::string& path) {
+  const XmlSource source(path);
+  const XmlElement model = source.model();
+  const Facts facts = read_facts(model);
+  configure(path);
+  sdf::Root root;
+  const sdf::Errors errors = root.Load(path);
+  for (const XmlElement& urdf : source.urdfs()) check_urdf(urdf, facts);
+  if (!errors.empty()) fail(source, errors.front());
+  if (!root.Model()) model.fail("libsdformat finds no model here", "put one <model> below <sdf>");
+  cross_check(source, facts, *root.Model());
+  return assemble(source, facts, *root.Model());
+}
+
+}  // namespace verp::model

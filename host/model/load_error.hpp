@@ -1,0 +1,34 @@
+#pragma once
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+namespace verp::model {
+
+/// What is wrong with a user's file, where, and what to do about it. what() is one line:
+/// `FILE:LINE: MESSAGE; FIX`.
+class LoadError : public std::runtime_error {
+ public:
+  LoadError(std::string file_name, int line_number, std::string what_is_wrong, std::string remedy)
+      : std::runtime_error(one_line(file_name + ":" + std::to_string(line_number) + ": " +
+                                    what_is_wrong + "; " + remedy)),
+        file(std::move(file_name)),
+        line(line_number),
+        message(std::move(what_is_wrong)),
+        fix(std::move(remedy)) {}
+
+  std::string file;
+  int line;  ///< counted from 1; 1 also when the file as a whole is meant
+  std::string message;
+  std::string fix;
+
+ private:
+  static std::string one_line(std::string text) {
+    for (char& c : text) {
+      if (c == '\n' || c == '\r') c = ' ';
+    }
+    return text;
+  }
+};
+
+}  // namespace verp::model

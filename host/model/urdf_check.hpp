@@ -1,0 +1,17 @@
+#pragma once
+#include "host/model/facts.hpp"
+#include "host/model/xml_source.hpp"
+
+namespace verp::model {
+
+/// What a URDF file holds, by urdfdom's reading; libsdformat must end up with the same.
+struct UrdfTotals {
+  int moving_joints = 0;
+  double mass_kg = 0;
+};
+
+/// Throws LoadError for what libsdformat's import would lose without a word, unless <verp:drop>
+/// declares it: mimic joints, and links without mass (with all that hangs on them).
+UrdfTotals check_urdf(const XmlElement& robot, const Facts& facts);
+
+}  // namespace verp::model

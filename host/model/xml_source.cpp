@@ -1,0 +1,227 @@
+#include "host/model/xml_source.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <fstream>
+#include <set>
+#include <string_view>
+
+#include "host/model/find.hpp"
+#include "host/model/load_error.hpp"
+#include "host/model/number.hpp"
+
+namespace verp::model {
+namespace {
+
+// Leaves of SDF that hold numbers, and how many (0: any). Those that may be infinite are left out.
+const std::map<std::string_view, std::size_t> kSdfNumbers = {
+    {"mass", 1},    {"ixx", 1},       {"iyy", 1},
+    {"izz", 1},     {"ixy", 1},       {"ixz", 1},
+    {"iyz", 1},     {"xyz", 3},       {"lower", 1},
+    {"upper", 1},   {"damping", 1},   {"friction", 1},
+    {"size", 0},    {"radius", 1},    {"length", 1},
+    {"mu", 1},      {"mu2", 1},       {"kp", 1},
+    {"kd", 1},      {"pose", 0},      {"update_rate", 1},
+    {"min", 1},     {"max", 1},       {"resolution", 1},
+    {"width", 1},   {"height", 1},    {"horizontal_fov", 1},
+    {"near", 1},    {"far", 1},       {"stddev", 1},
+    {"mean", 1},    {"bias_mean", 1}, {"bias_stddev", 1},
+    {"samples", 1}, {"min_angle", 1}, {"max_angle", 1}};
+
+const std::map<std::string_view, std::size_t> kUrdfNumbers = {
+    {"xyz", 3}, {"rpy", 3}, {"ixx", 1},   {"iyy", 1},   {"izz", 1},    {"ixy", 1},
+    {"ixz", 1}, {"iyz", 1}, {"lower", 1}, {"upper", 1}, {"effort", 1}, {"velocity", 1}};
+
+void require_numbers(const std::string& file, int line, const std::string& what,
+                     const std::string& text, std::size_t count) {
+  const auto values = parse_numbers(text);
+  if (values && (count == 0 || values->size() == count)) return;
+  throw LoadError(file, line,
+                  what + " is not " +
+                      (count > 1 ? std::to_string(count) + " finite numbers" : "a finite number") +
+                      ": '" + text + "'",
+                  "write digits with a decimal point, like 0.125");
+}
+
+}  // namespace
+
+std::vector<XmlElement> XmlElement::children() const {
+  std::vector<XmlElement> found;
+  for (const auto* child = element_->FirstChildElement(); child;
+       child = child->NextSiblingElement()) {
+    found.emplace_back(*file_, *child);
+  }
+  return found;
+}
+
+std::vector<XmlElement> XmlElement::children(const char* name) const {
+  std::vector<XmlElement> found = children();
+  std::erase_if(found, [&](const XmlElement& child) { return child.name() != name; });
+  return found;
+}
+
+void XmlElement::fail(const std::string& message, const std::string& fix) const {
+  throw LoadError(file(), line(), message, fix);
+}
+
+void XmlElement::allow(std::initializer_list<const char*> attributes) const {
+  for (const auto* a = element_->FirstAttribute(); a; a = a->Next()) {
+    const bool known = std::any_of(attributes.begin(), attributes.end(), [&](const char* name) {
+      return std::strcmp(name, a->Name()) == 0;
+    });
+    if (known) continue;
+    std::string list;
+    for (const char* name : attributes) list += std::string(list.empty() ? "" : ", ") + name;
+    fail("<" + name() + "> has no attribute '" + a->Name() + "'", "it may have: " + list);
+  }
+}
+
+std::string XmlElement::text(const char* attribute) const {
+  const char* value = element_->Attribute(attribute);
+  if (!value || !*value) {
+    fail("<" + name() + "> lacks the attribute '" + attribute + "'",
+         "add " + std::string(attribute) + "=\"...\"");
+  }
+  return value;
+}
+
+std::string XmlElement::text(const char* attribute, const std::string& fallback) const {
+  return has(attribute) ? text(attribute) : fallback;
+}
+
+double XmlElement::number(const char* attribute) const {
+  const std::string value = text(attribute);
+  require_numbers(file(), line(), "<" + name() + "> " + attribute, value, 1);
+  return *parse_number(value);
+}
+
+double XmlElement::number(const char* attribute, double fallback) const {
+  return has(attribute) ? number(attribute) : fallback;
+}
+
+int XmlElement::integer(const char* attribute, int lowest, int highest) const {
+  const double value = number(attribute);
+  if (value != std::floor(value) || value < lowest || value > highest) {
+    fail("<" + name() + "> " + attribute + " is not a whole number from " + std::to_string(lowest) +
+             " to " + std::to_string(highest) + ": '" + text(attribute) + "'",
+         "choose one in that range");
+  }
+  return static_cast<int>(value);
+}
+
+int XmlElement::integer(const char* attribute, int lowest, int highest, int fallback) const {
+  return has(attribute) ? integer(attribute, lowest, highest) : fallback;
+}
+
+Vec3 XmlElement::vector(const char* attribute) const {
+  const std::string value = text(attribute);
+  require_numbers(file(), line(), "<" + name() + "> " + attribute, value, 3);
+  const auto numbers = *parse_numbers(value);
+  return {numbers[0], numbers[1], numbers[2]};
+}
+
+XmlSource::XmlSource(const std::string& path) {
+  read(path);
+}
+
+void XmlSource::read(const std::string& path) {
+  if (!std::ifstream(path)) {
+    throw LoadError(path, 1, "cannot read this file", "check the path and its permissions");
+  }
+  files_.push_back(std::make_unique<File>());
+  File& file = *files_.back();
+  file.path = path;
+  if (file.document.LoadFile(path.c_str()) != tinyxml2::XML_SUCCESS ||
+      !file.document.RootElement()) {
+    throw LoadError(path, std::max(1, file.document.ErrorLineNum()),
+                    std::string("malformed XML (") + file.document.ErrorName() + ")",
+                    "close every tag and quote up to this line");
+  }
+  const std::string root = file.document.RootElement()->Name();
+  if (root != "sdf" && root != "robot") {
+    throw LoadError(path, file.document.RootElement()->GetLineNum(),
+                    "<" + root + "> is neither SDF nor URDF",
+                    "a robot's file starts with <sdf version=\"1.9\">");
+  }
+  inspect(file, *file.document.RootElement());
+}
+
+void XmlSource::inspect(const File& file, const tinyxml2::XMLElement& element) {
+  const std::string_view name = element.Name();
+  const int line = element.GetLineNum();
+  const bool is_urdf = std::string_view(file.document.RootElement()->Name()) == "robot";
+  if (const char* own = element.Attribute("name"); own && !name.starts_with("verp:")) {
+    names_.insert({own, {file.path, line}});
+  }
+  if (is_urdf) {
+    for (const auto* a = element.FirstAttribute(); a; a = a->Next()) {
+      const auto numeric = kUrdfNumbers.find(a->Name());
+      if (numeric == kUrdfNumbers.end()) continue;
+      require_numbers(file.path, line, "<" + std::string(name) + "> " + a->Name(), a->Value(),
+                      numeric->second);
+    }
+  } else if (const auto numeric = kSdfNumbers.find(name);
+             numeric != kSdfNumbers.end() && !element.FirstChildElement() && element.GetText()) {
+    require_numbers(file.path, line, "<" + std::string(name) + ">", element.GetText(),
+                    numeric->second);
+  }
+  if (!is_urdf && name == "include") {
+    const auto* uri = element.FirstChildElement("uri");
+    const std::string text = uri && uri->GetText() ? uri->GetText() : "";
+    const std::string found = resolve_model_uri(text, file.path);
+    if (found.empty()) {
+      throw LoadError(file.path, line, "'" + text + "' is not in " + model_path_text(),
+                      "set VERP_MODEL_PATH to the folder that model:// names start in");
+    }
+    read(found);
+  }
+  for (const auto* child = element.FirstChildElement(); child;
+       child = child->NextSiblingElement()) {
+    inspect(file, *child);
+  }
+}
+
+XmlElement XmlSource::model() const {
+  const XmlElement root(files_.front()->path, *files_.front()->document.RootElement());
+  const auto models = root.children("model");
+  if (root.name() == "robot") {
+    root.fail("this is a bare URDF: it says nothing about servos, limbs and sensors",
+              "include it from an SDF file, as common/robots/op3/robot.sdf does");
+  }
+  if (models.size() != 1) {
+    root.fail("one <model> is needed, there are " + std::to_string(models.size()),
+              "a robot's file holds exactly one robot");
+  }
+  return models.front();
+}
+
+std::vector<XmlElement> XmlSource::urdfs() const {
+  std::vector<XmlElement> found;
+  for (const auto& file : files_) {
+    const XmlElement root(file->path, *file->document.RootElement());
+    if (root.name() == "robot") found.push_back(root);
+  }
+  return found;
+}
+
+std::optional<XmlSource::Place> XmlSource::find(const std::string& name) const {
+  const auto place = names_.find(name);
+  if (place == names_.end()) return std::nullopt;
+  return place->second;
+}
+
+XmlSource::Place XmlSource::blame(const std::string& message) const {
+  constexpr std::string_view kDelimiters = "'\"[]<>:, .()";
+  std::string_view rest = message;
+  while (!rest.empty()) {
+    const auto length = std::min(rest.find_first_of(kDelimiters), rest.size());
+    if (length > 0) {
+      if (const auto place = find(std::string(rest.substr(0, length)))) return *place;
+    }
+    rest.remove_prefix(std::min(length + 1, rest.size()));
+  }
+  return {path(), files_.front()->document.RootElement()->GetLineNum()};
+}
+
+}  // namespace verp::model
