@@ -168,15 +168,15 @@ float atan2(float y, float x) {
   } else if (smaller == kInfinityBits) {
     ratio = 1.0F;
   }
-  // Minimax on [0, 1], 2^-27.9 relative.
+  // Minimax on [0, 1], 2^-27.9 relative, the last bits chosen so that atan2(1, 1) is kQuarterPi.
   const float z = ratio * ratio;
-  float p = 0x1.66df7ep-7F + z * -0x1.d97bbep-10F;
-  p = -0x1.ff67b2p-6F + z * p;
-  p = 0x1.dad4e6p-5F + z * p;
-  p = -0x1.5827f8p-4F + z * p;
-  p = 0x1.c091aap-4F + z * p;
+  float p = 0x1.66df3cp-7F + z * -0x1.d97be6p-10F;
+  p = -0x1.ff675ep-6F + z * p;
+  p = 0x1.dad4dep-5F + z * p;
+  p = -0x1.5827fep-4F + z * p;
+  p = 0x1.c091aep-4F + z * p;
   p = -0x1.2420b0p-3F + z * p;
-  p = 0x1.9991e4p-3F + z * p;
+  p = 0x1.9991e2p-3F + z * p;
   p = -0x1.55553ep-2F + z * p;
   float angle = ratio + (ratio * z) * p;
   const bool backward = (bits_of(x) >> 31) != 0;

@@ -47,7 +47,8 @@ constexpr float sign(float x) {
   return x > 0.0F ? 1.0F : (x < 0.0F ? -1.0F : 0.0F);
 }
 
-/// b when either is NaN or both are equal (so min(0, -0) is -0): one defined choice on every core.
+/// The second argument when either is NaN or both are equal (min(0, -0) is -0): one defined choice
+/// on every core. So min(untrusted, limit) gives the limit for NaN.
 constexpr float min(float a, float b) {
   return a < b ? a : b;
 }

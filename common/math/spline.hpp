@@ -29,24 +29,25 @@ constexpr CurvePoint minimum_jerk(float u) {
   return {(uu * u) * (10.0F - u * (15.0F - 6.0F * u)), (30.0F * uu) * (v * v)};
 }
 
-/// Minimum jerk from p0 to p1.
+/// Minimum jerk from p0 to p1; the end is p1 to one rounding.
 constexpr CurvePoint minimum_jerk(float p0, float p1, float u) {
   const CurvePoint unit = minimum_jerk(u);
   return {p0 + (p1 - p0) * unit.value, (p1 - p0) * unit.derivative};
 }
 
-/// Quintic from p0 to p1 with slopes m0, m1 and zero second derivative at both ends.
+/// Quintic from p0 to p1 with slopes m0, m1 and zero second derivative at both ends. Ends are met
+/// exactly.
 constexpr CurvePoint quintic(float p0, float m0, float p1, float m1, float u) {
   const float rise = p1 - p0;
-  const float a = m0 - rise;
+  const float a = m0 - rise;  // slopes against the chord, each with its own quintic of zero ends
   const float b = m1 - rise;
   const float uu = u * u;
-  // p0 + rise u + a (u - 6u^3 + 8u^4 - 3u^5) + b (-4u^3 + 7u^4 - 3u^5)
   const float fa = u + (uu * u) * (-6.0F + u * (8.0F - 3.0F * u));
   const float fb = (uu * u) * (-4.0F + u * (7.0F - 3.0F * u));
   const float ga = 1.0F + uu * (-18.0F + u * (32.0F - 15.0F * u));
   const float gb = uu * (-12.0F + u * (28.0F - 15.0F * u));
-  return {(p0 + u * rise) + (a * fa + b * fb), rise + (a * ga + b * gb)};
+  const float chord = u < 0.5F ? p0 + u * rise : p1 - (1.0F - u) * rise;
+  return {chord + (a * fa + b * fb), rise + (a * ga + b * gb)};
 }
 
 /// A swing foot's height: the quartic through 0 at lift-off (u = 0), 1 at the apex (u = 1/2) and 0
