@@ -22,4 +22,12 @@ function(verp_add_mps2_images machine)
   set_tests_properties(unit.${VERP_BOARD} PROPERTIES LABELS "unit;target" TIMEOUT 300)
 
   verp_add_mps2_image(replay ${machine})
+
+  # Tests with a half on the PC: that half comes from a PC build, which must be there.
+  set(VERP_HOST_DIR ${CMAKE_SOURCE_DIR}/build/host-release CACHE PATH "PC build whose programs test this board")
+  add_test(NAME replay.${VERP_BOARD}
+    COMMAND ${VERP_HOST_DIR}/target/target_tests --gtest_filter=TargetReplay.*)
+  set_tests_properties(replay.${VERP_BOARD} PROPERTIES LABELS "replay;target" TIMEOUT 600)
+  set_tests_properties(replay.${VERP_BOARD} PROPERTIES
+    ENVIRONMENT "VERP_TEST_BOARD=${VERP_BOARD};VERP_FIRMWARE_DIR=${CMAKE_BINARY_DIR}/images")
 endfunction()

@@ -1,0 +1,53 @@
+#pragma once
+#include <sys/types.h>
+
+#include <chrono>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "host/board/emulated_board.hpp"
+#include "host/board/temporary_directory.hpp"
+
+namespace verp::board {
+
+/// One run of a firmware image in QEMU. Ends with this object at the latest.
+class QemuProcess {
+ public:
+  struct Launch {
+    EmulatedBoard board;
+    std::filesystem::path image;
+    std::vector<std::string>
+        arguments;            ///< what the image gets as its command line; no spaces, no commas
+    std::string plugin = {};  ///< QEMU's -plugin option; empty: none
+  };
+
+  /// Throws BoardError if QEMU isn't installed. $VERP_QEMU names another emulator.
+  explicit QemuProcess(const Launch& launch);
+  ~QemuProcess();
+  QemuProcess(const QemuProcess&) = delete;
+  QemuProcess& operator=(const QemuProcess&) = delete;
+
+  /// The image's exit status, once it has one; 128 + signal if QEMU itself was killed.
+  std::optional<int> poll_status();
+
+  /// Waits for the end. Throws BoardError with the image's last words if that takes too long.
+  int wait(std::chrono::seconds limit);
+
+  /// Throws BoardError with the image's last words if it ended with any status but 0.
+  void wait_for_success(std::chrono::seconds limit);
+
+  /// All that the image and QEMU printed so far.
+  std::string output() const;
+
+ private:
+  std::string described(const std::string& what) const;
+
+  std::string name_;
+  TemporaryDirectory directory_;
+  pid_t pid_ = -1;
+  std::optional<int> status_;
+};
+
+}  // namespace verp::board

@@ -1,0 +1,66 @@
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <cstring>
+#include <string>
+
+#include "host/board/replay_on_target.hpp"
+#include "tests/support/random_inputs.hpp"
+
+// VERP_TEST_BOARD names the emulated board; ctest of a firmware build sets it.
+namespace verp::board {
+namespace {
+
+std::string board() {
+  const char* name = std::getenv("VERP_TEST_BOARD");
+  return name != nullptr ? name : "VERP_TEST_BOARD is not set";
+}
+
+Params plain_robot() {
+  Params params;
+  params.joint_count = 21;
+  for (JointParams& joint : params.joint) {
+    joint.counts_per_rad = 651.9f;  // 4096 counts a turn
+    joint.zero_count = 2048;
+  }
+  params.imu.gyro_rad_s_per_count = 0.001f;
+  params.imu.accel_m_s2_per_count = 0.01f;
+  return params;
+}
+
+void expect_same(const TargetReplay& here, const TargetReplay& there) {
+  ASSERT_EQ(here.digests.size(), there.digests.size());
+  for (std::size_t i = 0; i < here.digests.size(); ++i) {
+    for (int stage = 0; stage < kStages; ++stage) {
+      ASSERT_EQ(here.digests[i].stage[stage], there.digests[i].stage[stage])
+          << "first divergence: tick " << i << ", stage " << kStageNames[stage];
+    }
+    ASSERT_EQ(here.digests[i].chain, there.digests[i].chain) << "tick " << i;
+  }
+}
+
+// The same inputs give the same bits on the PC and on the board: the project's first promise.
+TEST(TargetReplay, PlausibleInputsGiveTheSameDigests) {
+  const Params params = plain_robot();
+  const auto inputs = test::plausible_inputs(5000, 1, 981, params);
+  expect_same(replay_here(params, inputs), replay_on(board(), params, inputs));
+}
+
+TEST(TargetReplay, AnyBitsGiveTheSameDigests) {
+  const Params params = plain_robot();
+  const auto inputs = test::wild_inputs(2000, 2);
+  expect_same(replay_here(params, inputs), replay_on(board(), params, inputs));
+}
+
+TEST(TargetReplay, HandsBackTheStateAfterTheTickAskedFor) {
+  const Params params = plain_robot();
+  const auto inputs = test::plausible_inputs(300, 3, 981, params);
+  const TargetReplayOptions options{.state_after = 256};
+  const TargetReplay here = replay_here(params, inputs, options);
+  const TargetReplay there = replay_on(board(), params, inputs, options);
+  ASSERT_TRUE(here.state && there.state);
+  EXPECT_EQ(std::memcmp(&*here.state, &*there.state, sizeof(State)), 0);
+}
+
+}  // namespace
+}  // namespace verp::board
