@@ -1,0 +1,48 @@
+#pragma once
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "common/protocol/dynamixel2.hpp"
+
+/// A device's control table: bytes with rules. Rules are checked for a whole write before any byte
+/// changes.
+namespace verp::bus {
+
+struct Register {
+  std::uint16_t address = 0;
+  std::uint8_t size = 1;  ///< 1, 2 or 4 bytes
+  bool writable = false;
+  std::int64_t initial = 0;
+  std::int64_t minimum = 0;  ///< of written values; a negative minimum makes the register signed
+  std::int64_t maximum = 0xFFFFFFFF;
+};
+
+class RegisterTable {
+ public:
+  /// `registers` in order of address, without overlap; the table ends behind the last one.
+  explicit RegisterTable(std::vector<Register> registers);
+
+  std::int64_t get(std::uint16_t address) const;
+  void set(std::uint16_t address, std::int64_t value);
+  const Register* find(std::uint16_t address) const;
+  void restore_initial(std::uint16_t first, std::uint16_t end);
+
+  /// Bytes of `length` registers' bytes from `address`, empty past the table's end. Gaps read as
+  /// zero, as real servos do it.
+  std::span<const std::uint8_t> bytes(std::uint16_t address, std::uint16_t length) const;
+
+  /// kNone if every register that `data` covers is covered whole, writable, unlocked and in range.
+  dxl::Error check(std::uint16_t address, std::span<const std::uint8_t> data,
+                   bool eeprom_locked) const;
+  /// Value that a write of `data` at `address` gives `reg`, which it covers.
+  static std::int64_t value_in(const Register& reg, std::uint16_t address,
+                               std::span<const std::uint8_t> data);
+  void store(std::uint16_t address, std::span<const std::uint8_t> data);
+
+ private:
+  std::vector<Register> registers_;
+  std::vector<std::uint8_t> image_;
+};
+
+}  // namespace verp::bus

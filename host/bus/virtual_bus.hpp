@@ -1,0 +1,86 @@
+#pragma once
+#include <array>
+#include <cstdint>
+#include <deque>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "common/model/params.hpp"
+#include "common/protocol/dynamixel2.hpp"
+#include "hal/contract/frame_bus.hpp"
+#include "host/bus/device.hpp"
+#include "host/sim/plant.hpp"
+
+namespace verp::bus {
+
+/// A robot's servo bus in memory: a FrameBus whose devices stand on a plant, in simulated time.
+///
+/// Lockstep: a broadcast (Fast) Sync Read that covers Present Position begins a tick. It waits on
+/// the wire for the next multiple of the control period; nothing else lets time pass but bytes,
+/// reply delays and poll's timeouts. Registers are sampled when a device's reply begins, writes
+/// take effect when their last byte has arrived.
+///
+/// In a Sync Read each device waits for the one before it: a silent one silences those behind it.
+/// Deterministic: the same frames give the same replies at the same times.
+class VirtualBus {
+ public:
+  /// Servos, IMU and feet as `params` names them. The plant must outlive the bus and stand at time
+  /// 0.
+  VirtualBus(const Params& params, sim::Plant& plant);
+
+  bool send(const std::uint8_t* data, std::size_t size);
+  std::size_t poll(std::uint8_t* buffer, std::size_t capacity, std::uint32_t timeout_us);
+  std::uint64_t now_us() const { return now_ns_ / 1000; }
+
+  /// Control periods since the first tick; 0 before it. The controller counts the same ticks.
+  std::uint32_t tick() const { return tick_; }
+  /// True once the first tick has begun.
+  bool ticking() const { return ticking_; }
+  /// Unplugs a device or plugs it in again; unplugged it neither hears nor answers.
+  void set_connected(std::uint8_t id, bool connected);
+  /// Bytes that crossed the wire in either direction.
+  std::uint64_t bytes_on_wire() const { return bytes_on_wire_; }
+
+ private:
+  struct Chunk {
+    std::uint64_t start_ns = 0;  ///< when its first byte's start bit began
+    std::size_t taken = 0;
+    std::vector<std::uint8_t> bytes;
+  };
+
+  std::uint64_t bytes_ns(std::size_t count) const;
+  Device* device(std::uint8_t id);
+  std::uint64_t begin_tick(std::uint64_t ready_ns);
+  void handle(const dxl::Packet& packet, std::uint64_t end_ns);
+  void ping(Device& device);
+  void read(Device& device, const dxl::Packet& packet);
+  void write(const dxl::Packet& packet);
+  void sync_read(const dxl::Packet& packet);
+  void fast_sync_read(const dxl::Packet& packet);
+  void sync_write(const dxl::Packet& packet);
+  /// Lets the device's Return Delay Time pass and the plant follow; the reply's bytes come next.
+  void wait_for(const Device& device);
+  void reply(const Device& device, dxl::Error error, std::span<const std::uint8_t> data);
+  void put_on_wire(std::vector<std::uint8_t> bytes);
+
+  sim::Plant& plant_;
+  std::uint64_t period_ns_;
+  std::uint32_t baud_;
+  std::vector<std::unique_ptr<Device>> devices_;
+  std::array<bool, 256> unplugged_{};
+  dxl::Parser line_;  ///< what the devices hear
+  std::deque<Chunk> replies_;
+  std::uint64_t now_ns_ = 0;
+  std::uint64_t wire_free_ns_ = 0;   ///< when the last byte on the wire ends
+  std::uint64_t send_start_ns_ = 0;  ///< when the last frame sent began
+  std::uint64_t tick_start_ns_ = 0;
+  std::uint64_t first_tick_ns_ = 0;
+  std::uint64_t bytes_on_wire_ = 0;
+  std::uint32_t tick_ = 0;
+  bool ticking_ = false;
+};
+
+static_assert(hal::FrameBus<VirtualBus>);
+
+}  // namespace verp::bus
