@@ -1,0 +1,298 @@
+#include "host/sim/robot.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <vector>
+
+#include "tests/host/sim/test_robots.hpp"
+
+namespace verp::sim {
+namespace {
+
+constexpr double kGravity = 9.80665;
+
+TwinOptions crouched(const model::Entity& entity, std::uint64_t seed = 1) {
+  TwinOptions options;
+  options.seed = seed;
+  options.initial_rad = test::crouch(entity, 0.1505);
+  return options;
+}
+
+/// Through Plant only, as the bus does it: torque on, hold the present goal.
+void arm_all(Plant& plant, int joints) {
+  for (int j = 0; j < joints; ++j) {
+    plant.setpoint(j).torque_on = true;
+    plant.setpoint(j).p_gain = 3500;
+  }
+}
+
+int joints_of(const model::Entity& entity) {
+  return static_cast<int>(entity.joints.size());
+}
+
+TEST(Robot, StartsWithLevelSolesJustAboveTheGroundUnderItsStart) {
+  World world;
+  const model::Entity entity = test::biped();
+  TwinOptions options = crouched(entity);
+  options.imperfections = Imperfections::none();
+  options.start_m = Vec3(1, 2, 0);
+  options.start_yaw_rad = 0.5;
+  // Bent at the hips only: the body must lean so that the soles are level.
+  for (const model::Limb& limb : entity.limbs)
+    options.initial_rad[static_cast<std::size_t>(limb.joints[2])] -= 0.2;
+  TwinRobot robot(world, entity, options);
+  const Truth truth = robot.truth();
+  EXPECT_NEAR(truth.pitch_rad, 0.2, 1e-9);
+  EXPECT_NEAR(truth.yaw_rad, 0.5, 1e-9);
+  const Vec3 middle = (truth.foot[0].centroid_world_m + truth.foot[1].centroid_world_m) / 2;
+  EXPECT_NEAR(middle.x(), 1, 1e-9);
+  EXPECT_NEAR(middle.y(), 2, 1e-9);
+  for (const FootTruth& foot : truth.foot) {
+    for (const Vec3& corner : foot.corner_world_m) EXPECT_NEAR(corner.z(), 0.0002, 1e-9);
+  }
+}
+
+TEST(Robot, StandsThreeSecondsOnItsServos) {
+  World world;
+  const model::Entity entity = test::biped();
+  TwinRobot robot(world, entity, crouched(entity));
+  arm_all(robot, joints_of(entity));
+  robot.advance_to(3'000'000);
+  EXPECT_FALSE(robot.truth().held);
+  EXPECT_FALSE(robot.fallen());
+  EXPECT_LT(std::abs(robot.truth().roll_rad), 0.05);
+  EXPECT_LT(std::abs(robot.truth().pitch_rad), 0.05);
+}
+
+TEST(Robot, AtRestZmpIsTheProjectionOfTheCentreOfMassAndFeetCarryTheWeight) {
+  World world;
+  const model::Entity entity = test::biped();
+  TwinRobot robot(world, entity, crouched(entity));
+  arm_all(robot, joints_of(entity));
+  robot.advance_to(2'000'000);
+  robot.take_foot_loads();
+  robot.advance_to(3'000'000);
+  const FootLoads mean = robot.take_foot_loads();
+  const Truth truth = robot.truth();
+  ASSERT_TRUE(truth.zmp_valid);
+  EXPECT_LT((mean.zmp_world_m() - truth.com_world_m.head<2>()).norm(), 0.0005);
+  const double weight = robot.body().mass_kg() * kGravity;
+  EXPECT_NEAR(mean.force_n() / 1000, weight, 0.01 * weight);
+  EXPECT_NEAR(truth.foot[0].normal_force_n + truth.foot[1].normal_force_n, weight, 0.02 * weight);
+  double sensed = 0;
+  for (int foot = 0; foot < 2; ++foot) {
+    for (const std::uint16_t count : robot.foot_counts(foot)) sensed += count * 0.01;
+  }
+  EXPECT_NEAR(sensed, weight, 0.02 * weight);
+  EXPECT_GE(truth.support_world_m.size(), 4U);  // 4 to 8 corners: the soles are not quite parallel
+}
+
+TEST(Robot, FootSensorsKeepTheCentreOfPressure) {
+  const model::Entity entity = test::biped();
+  FootModel foot(entity.limbs[0], 0.001, false, Random(1, Draw::kFootNoise));
+  foot.begin_step();
+  foot.add_load(Vec3(0.026, -0.011, 0), 8.0);
+  foot.end_step(0.001);
+  const auto& n = foot.counts();
+  const double sum = n[0] + n[1] + n[2] + n[3];
+  EXPECT_NEAR(sum, 8000, 3);
+  EXPECT_NEAR(0.052 * (n[0] + n[1] - n[2] - n[3]) / sum, 0.026, 1e-4);
+  EXPECT_NEAR(0.033 * (n[0] + n[2] - n[1] - n[3]) / sum, -0.011, 1e-4);
+}
+
+// A mean over a second: the servos hum by one count of their encoders, as real ones do.
+TEST(Robot, ImuReadsOneGUpwardAtRest) {
+  World world;
+  const model::Entity entity = test::biped();
+  TwinOptions options = crouched(entity);
+  options.imperfections = Imperfections::none();
+  TwinRobot robot(world, entity, options);
+  arm_all(robot, joints_of(entity));
+  robot.advance_to(2'000'000);
+  Vec3 accel = Vec3::Zero();
+  Vec3 gyro = Vec3::Zero();
+  for (int ms = 0; ms < 1000; ++ms) {
+    robot.advance_to(robot.now_us() + 1000);
+    const ImuMeasurement imu = robot.imu();
+    accel += Vec3(imu.accel_count[0], imu.accel_count[1], imu.accel_count[2]) * 1e-6;
+    gyro += Vec3(imu.gyro_count[0], imu.gyro_count[1], imu.gyro_count[2]) * 1e-6;
+  }
+  const double pitch = robot.truth().pitch_rad;
+  EXPECT_NEAR(accel.z(), kGravity * std::cos(pitch), 0.01);
+  EXPECT_NEAR(accel.x(), -kGravity * std::sin(pitch), 0.01);
+  EXPECT_NEAR(accel.y(), 0, 0.01);
+  EXPECT_LT(gyro.norm(), 0.002);
+}
+
+// The sensor turned by 90 degrees about z sees body x as its -y.
+TEST(Robot, ImuMeasuresInItsOwnAxes) {
+  model::ImuSensor sensor = *test::biped().imu;
+  ImuModel imu(sensor, false, 1);
+  const Mat3 world_imu = Eigen::AngleAxisd(1.5707963267948966, Vec3::UnitZ()).toRotationMatrix();
+  imu.sample(world_imu, Vec3(1.5, 0, 0), Vec3(2, 0, 0), kGravity, 0.001);
+  EXPECT_EQ(imu.measurement().gyro_count[1], -1500);
+  EXPECT_EQ(imu.measurement().gyro_count[0], 0);
+  EXPECT_EQ(imu.measurement().accel_count[1], -2000);
+  EXPECT_EQ(imu.measurement().accel_count[2], 9807);
+}
+
+TEST(Robot, ImuFeelsNothingInFreeFallAndSaturatesInsteadOfWrapping) {
+  World world;
+  const model::Entity entity = test::biped();
+  TwinOptions options = crouched(entity);
+  options.imperfections = Imperfections::none();
+  options.cradle = Cradle::kNone;
+  model::Entity floating = entity;
+  for (model::Node& node : floating.nodes) node.collisions.clear();
+  TwinRobot robot(world, floating, options);
+  robot.advance_to(100'000);
+  for (const std::int16_t count : robot.imu().accel_count) EXPECT_LE(std::abs(count), 20);
+  ImuModel imu(*entity.imu, false, 1);
+  imu.sample(Mat3::Identity(), Vec3(1000, -1000, 0), Vec3::Zero(), kGravity, 0.001);
+  EXPECT_EQ(imu.measurement().gyro_count[0], 32767);
+  EXPECT_EQ(imu.measurement().gyro_count[1], -32768);
+}
+
+TEST(Robot, FallsWhenNobodyHoldsItAndTorqueIsOff) {
+  World world;
+  const model::Entity entity = test::biped();
+  TwinOptions options = crouched(entity);
+  options.cradle = Cradle::kNone;
+  TwinRobot robot(world, entity, options);
+  robot.advance_to(2'000'000);
+  EXPECT_TRUE(robot.fallen());
+}
+
+TEST(Robot, CradleHoldsUntilTheLegsAreArmed) {
+  World world;
+  const model::Entity entity = test::biped();
+  TwinRobot robot(world, entity, crouched(entity));
+  robot.advance_to(1'000'000);
+  EXPECT_TRUE(robot.truth().held);
+  EXPECT_FALSE(robot.fallen());
+  for (int j = 0; j < joints_of(entity); ++j) {  // the legs dangled; hold where they are now
+    robot.setpoint(j).goal_count = robot.servo(j).measurement().position_count;
+  }
+  arm_all(robot, joints_of(entity));
+  robot.advance_to(1'490'000);
+  EXPECT_TRUE(robot.truth().held);
+  robot.advance_to(1'510'000);
+  EXPECT_FALSE(robot.truth().held);
+}
+
+struct Sample {
+  std::vector<std::int32_t> counts;
+  Truth truth;
+};
+
+Sample run(std::uint64_t seed, bool read_often) {
+  World world;
+  const model::Entity entity = test::biped();
+  TwinRobot robot(world, entity, crouched(entity, seed));
+  arm_all(robot, joints_of(entity));
+  Sample sample;
+  for (std::uint64_t t = 10'000; t <= 1'000'000; t += 10'000) {
+    // A slow swing of the knees, so that everything moves.
+    for (const model::Limb& limb : entity.limbs) {
+      const double knee =
+          robot.servo(limb.joints[3]).count_of(1.2 + 0.2 * std::sin(static_cast<double>(t) * 1e-5));
+      robot.setpoint(limb.joints[3]).goal_count = static_cast<std::int32_t>(knee);
+    }
+    robot.advance_to(t);
+    if (read_often) {
+      robot.imu();
+      robot.imu();
+      robot.measure(3);
+      robot.foot_counts(0);
+    }
+    for (int j = 0; j < joints_of(entity); ++j)
+      sample.counts.push_back(robot.measure(j).position_count);
+    for (const std::int16_t count : robot.imu().gyro_count) sample.counts.push_back(count);
+    for (const std::int16_t count : robot.imu().accel_count) sample.counts.push_back(count);
+    for (const std::uint16_t count : robot.foot_counts(1)) sample.counts.push_back(count);
+  }
+  sample.truth = robot.truth();
+  return sample;
+}
+
+bool same_bits(const Truth& a, const Truth& b) {
+  return std::memcmp(a.body_world.data(), b.body_world.data(), 16 * sizeof(double)) == 0 &&
+         std::memcmp(a.joint_rad.data(), b.joint_rad.data(), a.joint_rad.size() * sizeof(double)) ==
+             0 &&
+         std::memcmp(a.zmp_world_m.data(), b.zmp_world_m.data(), 2 * sizeof(double)) == 0;
+}
+
+TEST(Determinism, OneSeedGivesOneRunToTheLastBit) {
+  const Sample first = run(7, false);
+  const Sample again = run(7, false);
+  EXPECT_EQ(first.counts, again.counts);
+  EXPECT_TRUE(same_bits(first.truth, again.truth));
+}
+
+TEST(Determinism, ReadingSensorsMoreOftenChangesNothing) {
+  const Sample rare = run(7, false);
+  const Sample often = run(7, true);
+  EXPECT_EQ(rare.counts, often.counts);
+  EXPECT_TRUE(same_bits(rare.truth, often.truth));
+}
+
+TEST(Determinism, SeedsDiffer) {
+  EXPECT_NE(run(7, false).counts, run(8, false).counts);
+}
+
+TEST(Determinism, HowTimeIsCutIntoCallsDoesNotMatter) {
+  const model::Entity entity = test::biped();
+  std::vector<Truth> end;
+  for (const std::uint64_t cut_us : {1'000U, 3'700U, 500'000U}) {
+    World world;
+    TwinRobot robot(world, entity, crouched(entity));
+    arm_all(robot, joints_of(entity));
+    for (std::uint64_t t = cut_us; t < 500'000; t += cut_us) robot.advance_to(t);
+    robot.advance_to(500'000);
+    EXPECT_EQ(robot.now_us(), 500'000U);
+    robot.advance_to(400'000);  // never back
+    EXPECT_EQ(robot.now_us(), 500'000U);
+    end.push_back(robot.truth());
+  }
+  EXPECT_TRUE(same_bits(end[0], end[1]));
+  EXPECT_TRUE(same_bits(end[0], end[2]));
+}
+
+TEST(Random, NormalHasMeanZeroAndDeviationOne) {
+  Random random(3, Draw::kImuNoise);
+  double sum = 0;
+  double squares = 0;
+  constexpr int kDraws = 200'000;
+  for (int i = 0; i < kDraws; ++i) {
+    const double x = random.normal();
+    sum += x;
+    squares += x * x;
+  }
+  EXPECT_NEAR(sum / kDraws, 0, 0.01);
+  EXPECT_NEAR(squares / kDraws, 1, 0.01);
+}
+
+// Two robots side by side share the world, not the random numbers, and don't touch each other's
+// state.
+TEST(World, TwoRobotsStandSideBySide) {
+  World world;
+  const model::Entity entity = test::biped();
+  TwinOptions left = crouched(entity, 1);
+  TwinOptions right = crouched(entity, 2);
+  left.start_m = Vec3(0, 0.3, 0);
+  right.start_m = Vec3(0, -0.3, 0);
+  TwinRobot a(world, entity, left);
+  TwinRobot b(world, entity, right);
+  arm_all(a, joints_of(entity));
+  arm_all(b, joints_of(entity));
+  a.advance_to(2'000'000);
+  EXPECT_FALSE(a.fallen());
+  EXPECT_FALSE(b.fallen());
+  EXPECT_NEAR(b.truth().foot[0].normal_force_n + b.truth().foot[1].normal_force_n,
+              b.body().mass_kg() * kGravity, 1.0);
+}
+
+}  // namespace
+}  // namespace verp::sim
