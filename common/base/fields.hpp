@@ -8,22 +8,22 @@
 ///     struct Tilt { float roll_rad = 0; float pitch_rad = 0; VERP_FIELDS(roll_rad, pitch_rad) };
 ///     VERP_PACKED(Tilt);
 ///
-/// and digest, trace, print, diff and the Params image all follow that list. VERP_PACKED refuses to compile when
-/// a field is missing from the list or when the struct has padding: then its memory *is* its canonical
-/// little-endian byte image.
-#define VERP_FIELDS(...)                                                    \
-  template <class Self, class Visit>                                        \
-  static constexpr void fields(Self& self, Visit&& visit) {                 \
-    VERP_EXPAND(VERP_EACH_FIELD(__VA_ARGS__))                               \
+/// and digest, trace, print, diff and the Params image all follow that list. VERP_PACKED refuses to
+/// compile when a field is missing from the list or when the struct has padding: then its memory
+/// *is* its canonical little-endian byte image.
+#define VERP_FIELDS(...)                                    \
+  template <class Self, class Visit>                        \
+  static constexpr void fields(Self& self, Visit&& visit) { \
+    VERP_EXPAND(VERP_EACH_FIELD(__VA_ARGS__))               \
   }
-#define VERP_PACKED(Type)                                                            \
-  static_assert(::verp::packed_size<Type>() == sizeof(Type),                         \
-                #Type ": padding, or a field missing from VERP_FIELDS");             \
+#define VERP_PACKED(Type)                                                \
+  static_assert(::verp::packed_size<Type>() == sizeof(Type),             \
+                #Type ": padding, or a field missing from VERP_FIELDS"); \
   static_assert(std::is_trivially_copyable_v<Type>, #Type " must be plain data")
 
 #define VERP_PARENS ()
-#define VERP_EACH_FIELD(name, ...)   \
-  visit(#name, self.name);           \
+#define VERP_EACH_FIELD(name, ...) \
+  visit(#name, self.name);         \
   __VA_OPT__(VERP_EACH_AGAIN VERP_PARENS(__VA_ARGS__))
 #define VERP_EACH_AGAIN() VERP_EACH_FIELD
 #define VERP_EXPAND(...) VERP_EXPAND3(VERP_EXPAND3(VERP_EXPAND3(VERP_EXPAND3(__VA_ARGS__))))
@@ -34,7 +34,9 @@
 namespace verp {
 
 template <class T>
-concept HasFields = requires(T& t) { T::fields(t, [](const char*, auto&) {}); };
+concept HasFields = requires(T& t) {
+  T::fields(t, [](const char*, auto&) {});
+};
 
 /// Sum of the sizes of all leaves under T, by its field list.
 template <class T>

@@ -1,17 +1,41 @@
 #pragma once
+#include "common/balance/attitude.hpp"
+#include "common/balance/feedback.hpp"
 #include "common/base/fields.hpp"
+#include "common/control/admit.hpp"
+#include "common/gait/gait.hpp"
 #include "common/model/tuning.hpp"
 #include "common/record/digest.hpp"
 #include "common/record/tick_record.hpp"
+#include "common/safety/limit.hpp"
+#include "common/safety/machine.hpp"
 
 namespace verp {
 
-/// All that one tick leaves for the next: copy it, and the run goes on the same. Hashed whole every tick.
+/// Heading the operator steered to, against which the walk is corrected.
+struct SteerState {
+  float heading_rad = 0;
+  std::int32_t fallen_us = 0;  ///< how long the tilt has been beyond its limit
+  VERP_FIELDS(heading_rad, fallen_us)
+};
+VERP_PACKED(SteerState);
+
+/// All that one tick leaves for the next: copy it, and the run goes on the same. Hashed whole every
+/// tick.
 struct State {
   TickDigest digest{.chain = record::kChainSeed};
-  Tuning tuning;
+  Tuning tuning;  ///< in force: Params::tuning, moved by parameter writes
+  AdmitState admit;
+  balance::AttitudeState attitude;
+  SteerState steer;
+  gait::GaitState gait;
+  balance::FeedbackOut feedback;
+  safety::LimitState limit;
+  safety::MachineState machine;
   std::uint32_t started = 0;  ///< 0 until the first tick has copied Params::tuning
-  VERP_FIELDS(digest, tuning, started)
+  VERP_FIELDS(digest, tuning, admit, attitude, steer, gait, feedback, limit, machine, started)
 };
+VERP_PACKED(State);
+static_assert(sizeof(State) <= 2048, "hashed State is at most 2 KB");
 
 }  // namespace verp

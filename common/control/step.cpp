@@ -1,15 +1,26 @@
 #include "common/control/step.hpp"
 
+#include "common/balance/gravity.hpp"
+#include "common/control/digest_state.hpp"
+#include "common/control/stages.hpp"
+
 namespace verp {
 
 void step(const Params& params, State& state, const Inputs& inputs, Outputs& outputs) noexcept {
-  if (state.started == 0) state.tuning = params.tuning;
-  state.started = 1;
-  outputs = Outputs{};
-  record::Digest32 digest(inputs.tick);
-  digest.add_struct(inputs);
-  state.digest.stage[0] = digest.value();
-  state.digest.chain = record::chain(state.digest.chain, digest.value());
+  using namespace control;
+  if (state.started == 0) start(params, state);
+
+  const AdmitOut admitted = admit(params, state.admit, state.tuning, inputs);
+  const balance::AttitudeOut attitude = estimate(params, state, admitted);
+  const gait::GaitOut plan = plan_motion(params, state, admitted, attitude);
+  state.feedback = balance::feedback(state.tuning.balance, attitude,
+                                     state.tuning.gait.trunk_pitch_rad, plan.swing);
+  const Wanted wanted = solve_joints(params, state, admitted, plan);
+  const bool slowed = limit_goals(params, state, inputs, wanted);
+  const std::uint32_t faults = raise_faults(state, admitted, wanted, slowed);
+  gate(params, state, admitted, attitude, plan, faults, outputs);
+
+  digest_state(inputs, outputs, state);
 }
 
 }  // namespace verp

@@ -3,27 +3,29 @@
 
 #include "common/base/fields.hpp"
 
-/// What crosses the border of the controller, and nothing else does. Raw counts as they stand on the wire; Params
-/// holds every scale, sign and range. Plain integers, no padding: the memory of these structs is what a trace
-/// stores and what a digest covers.
+/// What crosses the border of the controller, and nothing else does. Raw counts as they stand on
+/// the wire; Params holds every scale, sign and range. Plain integers, no padding: the memory of
+/// these structs is what a trace stores and what a digest covers.
 namespace verp {
 
 inline constexpr int kMaxJoints = 32;  ///< a bit mask of joints is one uint32_t
 inline constexpr int kFeet = 2;        ///< index 0 is left, 1 is right, everywhere
-inline constexpr int kFootSensors = 4; ///< front-left, front-right, back-left, back-right of each sole
+inline constexpr int kFootSensors =
+    4;  ///< front-left, front-right, back-left, back-right of each sole
 
 /// Bits of Inputs::flags.
 enum InputFlag : std::uint16_t {
-  kImuFresh = 1 << 0,     ///< gyro and accel were read this tick
-  kFeetFresh = 1 << 1,    ///< all foot sensors were read this tick
-  kSlowFresh = 1 << 2,    ///< the slow telemetry of one servo was read this tick
-  kOverrun = 1 << 3,      ///< the previous tick ended after its deadline
-  kEmergencyStop = 1 << 4,  ///< the e-stop input is pressed
-  kCommandFresh = 1 << 5,   ///< an operator frame arrived this tick
-  kParameterWrite = 1 << 6, ///< parameter_id and parameter_bits are valid
+  kImuFresh = 1 << 0,        ///< gyro and accel were read this tick
+  kFeetFresh = 1 << 1,       ///< all foot sensors were read this tick
+  kSlowFresh = 1 << 2,       ///< the slow telemetry of one servo was read this tick
+  kOverrun = 1 << 3,         ///< the previous tick ended after its deadline
+  kEmergencyStop = 1 << 4,   ///< the e-stop input is pressed
+  kCommandFresh = 1 << 5,    ///< an operator frame arrived this tick
+  kParameterWrite = 1 << 6,  ///< parameter_id and parameter_bits are valid
 };
 
-/// What the operator asks for. Order matters to the safety table: each includes what stands before it.
+/// What the operator asks for. Order matters to the safety table: each includes what stands before
+/// it.
 enum class Request : std::uint8_t { kRelax = 0, kStand = 1, kWalk = 2 };
 
 /// The operator's standing order; it holds until the next one.
@@ -42,10 +44,10 @@ VERP_PACKED(Command);
 
 /// Everything that can differ between two runs, frozen for one tick.
 struct Inputs {
-  std::uint32_t tick = 0;          ///< the only clock: counts control periods since power-up
-  std::uint32_t fresh = 0;         ///< bit j: position_count[j] was read this tick
-  std::uint16_t flags = 0;         ///< InputFlag bits
-  std::uint16_t parameter_id = 0;  ///< index into Tuning (model/tuning.hpp)
+  std::uint32_t tick = 0;            ///< the only clock: counts control periods since power-up
+  std::uint32_t fresh = 0;           ///< bit j: position_count[j] was read this tick
+  std::uint16_t flags = 0;           ///< InputFlag bits
+  std::uint16_t parameter_id = 0;    ///< index into Tuning (model/tuning.hpp)
   std::uint32_t parameter_bits = 0;  ///< the new value's float32 bits
   Command command;
   std::int16_t gyro_count[3] = {};   ///< IMU frame
@@ -66,12 +68,12 @@ VERP_PACKED(Inputs);
 
 /// What the controller wants done.
 struct Outputs {
-  std::uint32_t torque_enable = 0;  ///< bit j: servo j holds its goal
-  std::uint32_t faults = 0;         ///< safety::Fault bits, latched
-  std::uint8_t mode = 0;            ///< safety::Mode
-  std::uint8_t gait_phase = 0;      ///< gait::Phase
-  std::uint8_t gait_state = 0;      ///< 0..15, the paper's state within the cycle
-  std::uint8_t stance = 0;          ///< foot that carries (0 left, 1 right); 2: both
+  std::uint32_t torque_enable = 0;       ///< bit j: servo j holds its goal
+  std::uint32_t faults = 0;              ///< safety::Fault bits, latched
+  std::uint8_t mode = 0;                 ///< safety::Mode
+  std::uint8_t gait_phase = 0;           ///< gait::Phase
+  std::uint8_t gait_state = 0;           ///< 0..15, the paper's state within the cycle
+  std::uint8_t stance = 0;               ///< foot that carries (0 left, 1 right); 2: both
   std::int16_t tilt_tenth_mrad[2] = {};  ///< estimated roll and pitch of the body
   std::int32_t goal_count[kMaxJoints] = {};
   VERP_FIELDS(torque_enable, faults, mode, gait_phase, gait_state, stance, tilt_tenth_mrad,

@@ -9,18 +9,26 @@ Mat3 axis_rotation(const JointParams& joint, float angle_rad) {
   const math::SinCos angle = math::sincos(angle_rad);
   const math::SinCos reverse{-angle.sin, angle.cos};
   switch (joint.axis_kind) {
-    case AxisKind::kX: return math::rot_x(angle);
-    case AxisKind::kY: return math::rot_y(angle);
-    case AxisKind::kZ: return math::rot_z(angle);
-    case AxisKind::kMinusX: return math::rot_x(reverse);
-    case AxisKind::kMinusY: return math::rot_y(reverse);
-    case AxisKind::kMinusZ: return math::rot_z(reverse);
-    case AxisKind::kGeneral: break;
+    case AxisKind::kX:
+      return math::rot_x(angle);
+    case AxisKind::kY:
+      return math::rot_y(angle);
+    case AxisKind::kZ:
+      return math::rot_z(angle);
+    case AxisKind::kMinusX:
+      return math::rot_x(reverse);
+    case AxisKind::kMinusY:
+      return math::rot_y(reverse);
+    case AxisKind::kMinusZ:
+      return math::rot_z(reverse);
+    case AxisKind::kGeneral:
+      break;
   }
   return math::rotation(math::to_vec(joint.axis), angle);
 }
 
-// Turns the columns of `m` in the plane of two axes: what a product with rot_x, rot_y or rot_z leaves to do.
+// Turns the columns of `m` in the plane of two axes: what a product with rot_x, rot_y or rot_z
+// leaves to do.
 void turn_columns(Mat3& m, int first, int second, float sin, float cos) {
   const Vec3 a = m.col(first);
   const Vec3 b = m.col(second);
@@ -39,12 +47,24 @@ Pose chain(const Pose& parent, const JointParams& joint, float angle_rad) {
             parent.position_m + parent.rotation * math::to_vec(joint.origin_parent_m)};
   const math::SinCos angle = math::sincos(angle_rad);
   switch (joint.axis_kind) {
-    case AxisKind::kX: turn_columns(pose.rotation, 1, 2, angle.sin, angle.cos); break;
-    case AxisKind::kY: turn_columns(pose.rotation, 2, 0, angle.sin, angle.cos); break;
-    case AxisKind::kZ: turn_columns(pose.rotation, 0, 1, angle.sin, angle.cos); break;
-    case AxisKind::kMinusX: turn_columns(pose.rotation, 1, 2, -angle.sin, angle.cos); break;
-    case AxisKind::kMinusY: turn_columns(pose.rotation, 2, 0, -angle.sin, angle.cos); break;
-    case AxisKind::kMinusZ: turn_columns(pose.rotation, 0, 1, -angle.sin, angle.cos); break;
+    case AxisKind::kX:
+      turn_columns(pose.rotation, 1, 2, angle.sin, angle.cos);
+      break;
+    case AxisKind::kY:
+      turn_columns(pose.rotation, 2, 0, angle.sin, angle.cos);
+      break;
+    case AxisKind::kZ:
+      turn_columns(pose.rotation, 0, 1, angle.sin, angle.cos);
+      break;
+    case AxisKind::kMinusX:
+      turn_columns(pose.rotation, 1, 2, -angle.sin, angle.cos);
+      break;
+    case AxisKind::kMinusY:
+      turn_columns(pose.rotation, 2, 0, -angle.sin, angle.cos);
+      break;
+    case AxisKind::kMinusZ:
+      turn_columns(pose.rotation, 0, 1, -angle.sin, angle.cos);
+      break;
     case AxisKind::kGeneral:
       pose.rotation = pose.rotation * math::rotation(math::to_vec(joint.axis), angle);
       break;
@@ -80,13 +100,20 @@ Vec3 center_of_mass(const Params& params, const Pose& body, const float* angle_r
 
 Vec3 joint_axis(const JointParams& joint, const Mat3& link_rotation) {
   switch (joint.axis_kind) {
-    case AxisKind::kX: return link_rotation.col(0);
-    case AxisKind::kY: return link_rotation.col(1);
-    case AxisKind::kZ: return link_rotation.col(2);
-    case AxisKind::kMinusX: return -link_rotation.col(0);
-    case AxisKind::kMinusY: return -link_rotation.col(1);
-    case AxisKind::kMinusZ: return -link_rotation.col(2);
-    case AxisKind::kGeneral: break;
+    case AxisKind::kX:
+      return link_rotation.col(0);
+    case AxisKind::kY:
+      return link_rotation.col(1);
+    case AxisKind::kZ:
+      return link_rotation.col(2);
+    case AxisKind::kMinusX:
+      return -link_rotation.col(0);
+    case AxisKind::kMinusY:
+      return -link_rotation.col(1);
+    case AxisKind::kMinusZ:
+      return -link_rotation.col(2);
+    case AxisKind::kGeneral:
+      break;
   }
   return link_rotation * math::to_vec(joint.axis);
 }

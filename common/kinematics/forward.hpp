@@ -2,15 +2,16 @@
 #include "common/math/linear.hpp"
 #include "common/model/params.hpp"
 
-/// Forward kinematics by the chain rule of the paper: p = p0 + R0 p1, R = R0 R1, from the body outwards.
-/// All functions take joint angles in rad, indexed as Params::joint, and work in the frame in which `body` is
-/// given.
+/// Forward kinematics by the chain rule of the paper: p = p0 + R0 p1, R = R0 R1, from the body
+/// outwards. All functions take joint angles in rad, indexed as Params::joint, and work in the
+/// frame in which `body` is given.
 namespace verp::kinematics {
 
 /// Pose of the link that `joint` moves, seen from its parent link, at `angle_rad`.
 Pose joint_transform(const JointParams& joint, float angle_rad);
 
-/// parent * joint_transform, without the multiplications by zero and one of an axis along x, y or z.
+/// parent * joint_transform, without the multiplications by zero and one of an axis along x, y or
+/// z.
 Pose chain(const Pose& parent, const JointParams& joint, float angle_rad);
 
 /// Pose of one node: recursive, from the node up to the body.
@@ -22,11 +23,12 @@ void all_poses(const Params& params, const Pose& body, const float* angle_rad, P
 /// Centre of mass of the whole robot.
 Vec3 center_of_mass(const Params& params, const Pose& body, const float* angle_rad);
 
-/// Joint axis in the outer frame, given the pose of the link that the joint moves (the axis is fixed in it).
+/// Joint axis in the outer frame, given the pose of the link that the joint moves (the axis is
+/// fixed in it).
 Vec3 joint_axis(const JointParams& joint, const Mat3& link_rotation);
 
-/// Chain of one leg: poses of its six links, hip to ankle, in the body frame's outer frame. `leg_angle_rad` is
-/// indexed by position in the leg.
+/// Chain of one leg: poses of its six links, hip to ankle, in the body frame's outer frame.
+/// `leg_angle_rad` is indexed by position in the leg.
 struct LegChain {
   Pose link[kLegJoints];
 };
@@ -36,7 +38,8 @@ LegChain leg_chain(const Params& params, const LegParams& leg, const Pose& body,
 /// The sole frame at the end of a leg.
 Pose sole_pose(const LegParams& leg, const LegChain& chain);
 
-/// 6 x 6 Jacobian of the sole: rows 0-2 linear (m/rad), rows 3-5 angular (rad/rad), columns hip to ankle.
+/// 6 x 6 Jacobian of the sole: rows 0-2 linear (m/rad), rows 3-5 angular (rad/rad), columns hip to
+/// ankle.
 Mat6 leg_jacobian(const Params& params, const LegParams& leg, const LegChain& chain,
                   const Vec3& sole_m);
 

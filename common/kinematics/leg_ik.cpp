@@ -32,8 +32,8 @@ void to_joints(const Params& params, const LegParams& leg, const float* canonica
 // The knee from the triangle thigh, shank, hip-ankle distance (law of cosines).
 SinCos knee_of(const LegParams& leg, float distance_m, LegAngles& result) {
   const float sides_m2 = 2.0F * leg.thigh_m * leg.shank_m;
-  const float cos = (math::square(distance_m) - math::square(leg.thigh_m) -
-                     math::square(leg.shank_m)) / sides_m2;
+  const float cos =
+      (math::square(distance_m) - math::square(leg.thigh_m) - math::square(leg.shank_m)) / sides_m2;
   if (!(cos <= 1.0F && cos >= -1.0F)) result.flags |= kOutOfReach;
   const float limited = math::clamp(cos, -1.0F, 1.0F);
   return {math::sqrt(1.0F - math::square(limited)), limited};
@@ -44,7 +44,8 @@ SinCos knee_of(const LegParams& leg, float distance_m, LegAngles& result) {
 LegAngles solve_leg_closed_form(const Params& params, const LegParams& leg, const Pose& sole) {
   LegAngles result;
   const Pose foot = foot_of_sole(leg, sole);
-  // The hip seen from the ankle: ankle roll brings it into the leg's plane, ankle pitch onto the shank's side.
+  // The hip seen from the ankle: ankle roll brings it into the leg's plane, ankle pitch onto the
+  // shank's side.
   const Vec3 hip_m = foot.rotation.transpose() * (math::to_vec(leg.hip_body_m) - foot.position_m);
   const float height_m = math::max(math::hypot(hip_m.y(), hip_m.z()), 1e-6F);
   const float side = hip_m.z() < 0.0F ? -1.0F : 1.0F;
@@ -53,7 +54,8 @@ LegAngles solve_leg_closed_form(const Params& params, const LegParams& leg, cons
   const float distance_m = math::hypot(hip_m.x(), height_m);
   const SinCos knee = knee_of(leg, distance_m, result);
 
-  // Hip seen from the ankle again, with the ankle pitch joint at zero: the pitch turns this onto (x, along).
+  // Hip seen from the ankle again, with the ankle pitch joint at zero: the pitch turns this onto
+  // (x, along).
   const float bent_x_m = -leg.thigh_m * knee.sin;
   const float bent_z_m = leg.shank_m + leg.thigh_m * knee.cos;
   const float pitch_sin = bent_x_m * along_m - bent_z_m * hip_m.x();
@@ -61,18 +63,16 @@ LegAngles solve_leg_closed_form(const Params& params, const LegParams& leg, cons
   const float pitch_norm = math::max(math::hypot(pitch_sin, pitch_cos), 1e-12F);
   const SinCos pitch{pitch_sin / pitch_norm, pitch_cos / pitch_norm};
 
-  // What is left of the foot's rotation once ankle and knee are undone is the hip's: Rz(yaw) Rx(roll) Ry(pitch).
+  // What is left of the foot's rotation once ankle and knee are undone is the hip's: Rz(yaw)
+  // Rx(roll) Ry(pitch).
   const SinCos back_roll{-roll.sin, roll.cos};
   const SinCos back_pitch{-(pitch.sin * knee.cos + pitch.cos * knee.sin),
                           pitch.cos * knee.cos - pitch.sin * knee.sin};
   const Mat3 hip = foot.rotation * math::rot_x(back_roll) * math::rot_y(back_pitch);
   const float canonical_rad[kLegJoints] = {
-      math::atan2(-hip(0, 1), hip(1, 1)),
-      math::atan2(hip(2, 1), math::hypot(hip(0, 1), hip(1, 1))),
-      math::atan2(-hip(2, 0), hip(2, 2)),
-      math::atan2(knee.sin, knee.cos),
-      math::atan2(pitch.sin, pitch.cos),
-      math::atan2(roll.sin, roll.cos)};
+      math::atan2(-hip(0, 1), hip(1, 1)), math::atan2(hip(2, 1), math::hypot(hip(0, 1), hip(1, 1))),
+      math::atan2(-hip(2, 0), hip(2, 2)), math::atan2(knee.sin, knee.cos),
+      math::atan2(pitch.sin, pitch.cos),  math::atan2(roll.sin, roll.cos)};
   to_joints(params, leg, canonical_rad, result);
   return result;
 }

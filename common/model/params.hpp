@@ -6,15 +6,18 @@
 #include "common/math/linear.hpp"
 #include "common/model/tuning.hpp"
 
-/// The whole robot as constants. The host derives it from the SDF entity; firmware embeds the same bytes as an
-/// image of its own (model/image.hpp). Capacity is fixed, so loading a robot never allocates.
+/// The whole robot as constants. The host derives it from the SDF entity; firmware embeds the same
+/// bytes as an image of its own (model/image.hpp). Capacity is fixed, so loading a robot never
+/// allocates.
 ///
-/// Frames. Body frame: origin at the trunk's centre (not the centre of mass), x forward, y left, z up. Every link
-/// frame is parallel to the body frame when all joints stand at zero; its origin is on the joint that moves it.
-/// A joint's pose is therefore one vector and one unit axis, whatever frames the model file used.
+/// Frames. Body frame: origin at the trunk's centre (not the centre of mass), x forward, y left, z
+/// up. Every link frame is parallel to the body frame when all joints stand at zero; its origin is
+/// on the joint that moves it. A joint's pose is therefore one vector and one unit axis, whatever
+/// frames the model file used.
 namespace verp {
 
-inline constexpr int kMaxNodes = kMaxJoints + 1;  ///< node 0 is the body, node j + 1 is moved by joint j
+inline constexpr int kMaxNodes =
+    kMaxJoints + 1;  ///< node 0 is the body, node j + 1 is moved by joint j
 inline constexpr int kLegJoints = 6;
 inline constexpr int kNameLength = 24;
 
@@ -34,12 +37,13 @@ struct JointParams {
   Xyz com_link_m;                  ///< centre of mass in the link frame
   float lower_rad = 0;
   float upper_rad = 0;
-  float velocity_limit_rad_s = 0;  ///< what the safety limiter allows; at most the servo's no-load speed
-  float counts_per_rad = 0;        ///< signed: the servo may be mounted backwards
-  float zero_count = 0;            ///< count at which the joint stands at zero
-  float compliance_rad_nm = 0;     ///< sag of the servo's position loop under load
-  float stand_rad = 0;             ///< where the joint rests while standing and walking (legs: ignored)
-  float sit_rad = 0;               ///< the crouch from which torque may be released
+  float velocity_limit_rad_s =
+      0;                     ///< what the safety limiter allows; at most the servo's no-load speed
+  float counts_per_rad = 0;  ///< signed: the servo may be mounted backwards
+  float zero_count = 0;      ///< count at which the joint stands at zero
+  float compliance_rad_nm = 0;  ///< sag of the servo's position loop under load
+  float stand_rad = 0;  ///< where the joint rests while standing and walking (legs: ignored)
+  float sit_rad = 0;    ///< the crouch from which torque may be released
   VERP_FIELDS(name, parent, axis_kind, servo_id, servo_profile, origin_parent_m, axis, mass_kg,
               com_link_m, lower_rad, upper_rad, velocity_limit_rad_s, counts_per_rad, zero_count,
               compliance_rad_nm, stand_rad, sit_rad)
@@ -48,21 +52,22 @@ VERP_PACKED(JointParams);
 
 enum class LegSolver : std::uint8_t { kNone = 0, kClosedForm = 1, kNewton = 2 };
 
-/// One six-joint leg. Closed form works on canonical angles: yaw(z) roll(x) pitch(y) knee(y) ankle pitch(y) ankle
-/// roll(x), all zero when the leg hangs straight down; joint angle = direction * (canonical - offset).
-/// The foot frame is the last link's frame, with its origin at the ankle centre; closed form is chosen only when
-/// that frame is also the canonical foot's, which it is for every robot whose feet stand flat at zero.
-/// Newton works on the tree itself and uses joint[], sole pose and limits only.
+/// One six-joint leg. Closed form works on canonical angles: yaw(z) roll(x) pitch(y) knee(y) ankle
+/// pitch(y) ankle roll(x), all zero when the leg hangs straight down; joint angle = direction *
+/// (canonical - offset). The foot frame is the last link's frame, with its origin at the ankle
+/// centre; closed form is chosen only when that frame is also the canonical foot's, which it is for
+/// every robot whose feet stand flat at zero. Newton works on the tree itself and uses joint[],
+/// sole pose and limits only.
 struct LegParams {
   LegSolver solver = LegSolver::kNone;
   std::uint8_t joint[kLegJoints] = {};  ///< joint indices from hip to ankle
   std::uint8_t reserved = 0;
   float direction[kLegJoints] = {};  ///< +1 or -1
   float offset_rad[kLegJoints] = {};
-  Xyz hip_body_m;       ///< where the hip axes meet
-  float thigh_m = 0;    ///< hip centre to knee axis, in the sagittal plane
-  float shank_m = 0;    ///< knee axis to ankle centre
-  Xyz sole_foot_m;      ///< sole frame's origin seen from the ankle centre, foot frame
+  Xyz hip_body_m;     ///< where the hip axes meet
+  float thigh_m = 0;  ///< hip centre to knee axis, in the sagittal plane
+  float shank_m = 0;  ///< knee axis to ankle centre
+  Xyz sole_foot_m;    ///< sole frame's origin seen from the ankle centre, foot frame
   float sole_foot[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};  ///< sole axes in the foot frame, row-major
   float sole_front_m = 0;  ///< the sole's edges from its frame's origin, all positive
   float sole_back_m = 0;
@@ -75,12 +80,13 @@ VERP_PACKED(LegParams);
 
 /// What the firmware writes into a servo when it arms it, and what it may use on the wire.
 struct ServoProfile {
-  std::uint16_t model_number = 0;      ///< control table 0; 1030 is XM430-W210, 30 is MX-28(2.0)
-  std::uint16_t position_p_gain = 0;   ///< control table units
+  std::uint16_t model_number = 0;     ///< control table 0; 1030 is XM430-W210, 30 is MX-28(2.0)
+  std::uint16_t position_p_gain = 0;  ///< control table units
   std::uint16_t position_i_gain = 0;
   std::uint16_t position_d_gain = 0;
-  std::uint16_t profile_ms = 0;        ///< time-based profile: goals are reached after this long; 0: at once
-  std::uint16_t fast_sync_read = 0;    ///< 1 if the servo answers instruction 0x8A
+  std::uint16_t profile_ms =
+      0;  ///< time-based profile: goals are reached after this long; 0: at once
+  std::uint16_t fast_sync_read = 0;  ///< 1 if the servo answers instruction 0x8A
   VERP_FIELDS(model_number, position_p_gain, position_i_gain, position_d_gain, profile_ms,
               fast_sync_read)
 };
@@ -88,10 +94,12 @@ VERP_PACKED(ServoProfile);
 inline constexpr int kServoProfiles = 4;
 
 struct ImuParams {
-  float body_imu[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};  ///< rotates IMU vectors into the body frame, row-major
+  float body_imu[9] = {1, 0, 0, 0, 1,
+                       0, 0, 0, 1};  ///< rotates IMU vectors into the body frame, row-major
   float gyro_rad_s_per_count = 0;
   float accel_m_s2_per_count = 0;
-  std::uint8_t device_id = 0;  ///< address of the IMU device on the servo bus; 0: a chip on the board
+  std::uint8_t device_id =
+      0;  ///< address of the IMU device on the servo bus; 0: a chip on the board
   std::uint8_t reserved[3] = {};
   VERP_FIELDS(body_imu, gyro_rad_s_per_count, accel_m_s2_per_count, device_id, reserved)
 };
@@ -110,7 +118,7 @@ struct Params {
   std::uint32_t period_us = 10000;  ///< control period, 4000 to 20000
   std::uint32_t baud = 2000000;     ///< servo bus
   std::uint8_t joint_count = 0;
-  std::uint8_t head_pan = 0xFF;   ///< joint index, 0xFF: none
+  std::uint8_t head_pan = 0xFF;  ///< joint index, 0xFF: none
   std::uint8_t head_tilt = 0xFF;
   std::uint8_t reserved = 0;
   float body_mass_kg = 0;

@@ -11,7 +11,9 @@ bool same_name(const char* a, const char* b) {
   return true;
 }
 
-int parent(const Params& params, int node) { return params.joint[node - 1].parent; }
+int parent(const Params& params, int node) {
+  return params.joint[node - 1].parent;
+}
 
 int depth(const Params& params, int node) {
   return node == 0 ? 0 : 1 + depth(params, parent(params, node));
@@ -22,7 +24,8 @@ bool below(const Params& params, int node, int ancestor) {
   return node != 0 && below(params, parent(params, node), ancestor);
 }
 
-// Climbs from the deeper end until both ends meet; what was passed on the `to` side comes out reversed.
+// Climbs from the deeper end until both ends meet; what was passed on the `to` side comes out
+// reversed.
 void connect(const Params& params, int from, int to, Path& path) {
   if (from == to) {
     path.node[path.length++] = static_cast<std::uint8_t>(from);

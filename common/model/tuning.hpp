@@ -1,27 +1,28 @@
 #pragma once
 #include "common/base/fields.hpp"
 
-/// The numbers a person turns while the robot runs. Params carries the robot's own values, State carries the ones
-/// in force; one parameter write a tick (Inputs::parameter_id = index in this list) moves a value of State, after
-/// a range check against tuning_ranges.hpp. All are float32 so that one id space serves them all.
+/// The numbers a person turns while the robot runs. Params carries the robot's own values, State
+/// carries the ones in force; one parameter write a tick (Inputs::parameter_id = index in this
+/// list) moves a value of State, after a range check against tuning_ranges.hpp. All are float32 so
+/// that one id space serves them all.
 namespace verp {
 
 /// Gait, in the terms of the paper: a cycle is two steps, 16 states joined by 15 intervals.
 struct GaitTuning {
-  float cycle_s = 0.450f;           ///< two steps; the state interval is cycle_s / 15 (0.030 s)
-  float double_support = 0.05f;     ///< share of a step during which both feet carry
-  float lift_m = 0.006f;            ///< height of the swing sole at mid-swing
-  float half_stance_m = 0.036f;     ///< lateral distance from the body's midline to each foot's centre
-  float hip_height_m = 0.1505f;     ///< hip centre above the ankle axes while walking
+  float cycle_s = 0.450f;        ///< two steps; the state interval is cycle_s / 15 (0.030 s)
+  float double_support = 0.05f;  ///< share of a step during which both feet carry
+  float lift_m = 0.006f;         ///< height of the swing sole at mid-swing
+  float half_stance_m = 0.036f;  ///< lateral distance from the body's midline to each foot's centre
+  float hip_height_m = 0.1505f;  ///< hip centre above the ankle axes while walking
   float trunk_pitch_rad = -0.049f;  ///< nose down is positive
   float zmp_x_m = -0.0028f;         ///< ZMP reference in the sole frame, forward
   float zmp_y_m = 0.004f;           ///< ZMP reference, outward from the body's midline
-  float max_step_m = 0.08f;         ///< longest admitted step (one foot past the other), any direction
-  float max_turn_rad = 0.35f;       ///< largest turn per step
-  float step_change_m = 0.010f;     ///< largest change of step length from one step to the next
-  float start_s = 0.4f;             ///< start phase: ZMP moves from the middle to the first stance foot
-  float joint_delay_s = 0.0f;       ///< goal of joint k of a limb lags by k times this (paper: 0.030)
-  float look_ahead_s = 0.015f;      ///< goals are computed for this much later: bus and servo delay
+  float max_step_m = 0.08f;      ///< longest admitted step (one foot past the other), any direction
+  float max_turn_rad = 0.35f;    ///< largest turn per step
+  float step_change_m = 0.010f;  ///< largest change of step length from one step to the next
+  float start_s = 0.4f;         ///< start phase: ZMP moves from the middle to the first stance foot
+  float joint_delay_s = 0.0f;   ///< goal of joint k of a limb lags by k times this (paper: 0.030)
+  float look_ahead_s = 0.015f;  ///< goals are computed for this much later: bus and servo delay
   float support_margin_m = 0.004f;  ///< planned ZMP keeps this distance from the sole's edge
   float heading_gain = 0.5f;        ///< share of the heading error that one step turns back
   VERP_FIELDS(cycle_s, double_support, lift_m, half_stance_m, hip_height_m, trunk_pitch_rad,
@@ -32,10 +33,10 @@ VERP_PACKED(GaitTuning);
 
 /// Balance; each `enable` is 1 or 0, to show what that part does.
 struct BalanceTuning {
-  float gravity_enable = 1.0f;     ///< gravity feed-forward through the servos' compliance
-  float multibody_enable = 1.0f;   ///< multibody ZMP correction
-  float feedback_enable = 1.0f;    ///< gyro and tilt feedback
-  float ankle_pitch_tilt = 0.022f; ///< rad per rad
+  float gravity_enable = 1.0f;      ///< gravity feed-forward through the servos' compliance
+  float multibody_enable = 1.0f;    ///< multibody ZMP correction
+  float feedback_enable = 1.0f;     ///< gyro and tilt feedback
+  float ankle_pitch_tilt = 0.022f;  ///< rad per rad
   float ankle_pitch_rate_s = 0.0066f;
   float ankle_roll_tilt = 0.326f;
   float ankle_roll_rate_s = 0.065f;
@@ -43,7 +44,7 @@ struct BalanceTuning {
   float hip_pitch_rate_s = 0.027f;
   float hip_roll_tilt = -0.157f;
   float hip_roll_rate_s = 0.050f;
-  float swing_level = 0.155f;      ///< swing ankle turned back by this share of the tilt
+  float swing_level = 0.155f;        ///< swing ankle turned back by this share of the tilt
   float feedback_limit_rad = 0.25f;  ///< largest correction on any joint
   VERP_FIELDS(gravity_enable, multibody_enable, feedback_enable, ankle_pitch_tilt,
               ankle_pitch_rate_s, ankle_roll_tilt, ankle_roll_rate_s, hip_pitch_tilt,
@@ -53,15 +54,15 @@ VERP_PACKED(BalanceTuning);
 
 /// Thresholds of the safety table.
 struct SafetyTuning {
-  float fall_tilt_rad = 0.8f;        ///< beyond this the robot has fallen: limp
-  float fall_confirm_s = 0.05f;      ///< tilt must last this long
-  float stale_hold_s = 0.05f;        ///< a servo or the IMU silent this long: stop the gait and hold
-  float stale_release_s = 0.5f;      ///< silent this long: sit, then release
-  float command_hold_s = 0.5f;       ///< operator silent this long: walk becomes stand
-  float command_release_s = 30.0f;   ///< operator silent this long: sit, then release
-  float rise_s = 1.0f;               ///< from the pose found at power-up to the stand
-  float sit_s = 1.5f;                ///< from the pose held to the sitting pose
-  float voltage_low_v = 9.6f;        ///< three lithium cells at 3.2 V
+  float fall_tilt_rad = 0.8f;       ///< beyond this the robot has fallen: limp
+  float fall_confirm_s = 0.05f;     ///< tilt must last this long
+  float stale_hold_s = 0.05f;       ///< a servo or the IMU silent this long: stop the gait and hold
+  float stale_release_s = 0.5f;     ///< silent this long: sit, then release
+  float command_hold_s = 0.5f;      ///< operator silent this long: walk becomes stand
+  float command_release_s = 30.0f;  ///< operator silent this long: sit, then release
+  float rise_s = 1.0f;              ///< from the pose found at power-up to the stand
+  float sit_s = 1.5f;               ///< from the pose held to the sitting pose
+  float voltage_low_v = 9.6f;       ///< three lithium cells at 3.2 V
   float temperature_high_c = 72.0f;  ///< X-series default shutdown is 80 degrees
   VERP_FIELDS(fall_tilt_rad, fall_confirm_s, stale_hold_s, stale_release_s, command_hold_s,
               command_release_s, rise_s, sit_s, voltage_low_v, temperature_high_c)

@@ -9,8 +9,9 @@ namespace verp::record {
 
 static_assert(std::endian::native == std::endian::little, "byte images are little-endian");
 
-/// 32-bit digest over words. Rotate, xor, multiply: every bit of a word reaches every bit of the result within a
-/// few words (a word-wise FNV would let two sign bits cancel), at four instructions a word on a Cortex-M.
+/// 32-bit digest over words. Rotate, xor, multiply: every bit of a word reaches every bit of the
+/// result within a few words (a word-wise FNV would let two sign bits cancel), at four instructions
+/// a word on a Cortex-M.
 class Digest32 {
  public:
   constexpr explicit Digest32(std::uint32_t seed) : value_(seed) {}

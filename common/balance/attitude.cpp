@@ -1,0 +1,55 @@
+#include "common/balance/attitude.hpp"
+
+namespace verp::balance {
+namespace {
+
+constexpr float kAccelTime_s = 1.0F;  // slower than a step by far: its accelerations average out
+constexpr float kBiasTime_s =
+    0.25F;  // first guess; later samples count less and less (see learn_bias)
+constexpr float kStillRate_rad_s =
+    0.12F;  // above the bias of a MEMS gyro (5 deg/s), below any real motion
+constexpr float kUsableAccel = 0.3F;  // share of g by which |accel| may differ before it is ignored
+
+void learn_bias(AttitudeState& state, const AttitudeIn& in) {
+  const Vec3 rate = in.gyro_body_rad_s - math::to_vec(state.gyro_bias_rad_s);
+  if (!in.standing || math::norm(rate) > kStillRate_rad_s) {
+    // A robot still trembling from its rise starts over; a bias once learnt stays.
+    if (state.still_s < kCalibrated_s) state.still_s = 0;
+    return;
+  }
+  // Mean over the time stood still, then a slow tracking of warm-up drift.
+  const float window_s = math::max(state.still_s + in.period_s, in.period_s);
+  const float share = in.period_s / math::max(window_s, state.still_s > 0 ? kBiasTime_s : window_s);
+  state.gyro_bias_rad_s = math::to_xyz(math::to_vec(state.gyro_bias_rad_s) + share * rate);
+  state.still_s = math::min(state.still_s + in.period_s, 4.0F);
+}
+
+}  // namespace
+
+AttitudeOut update(AttitudeState& state, const AttitudeIn& in) {
+  AttitudeOut out;
+  Vec3 up = math::to_vec(state.up_body);
+  if (in.fresh) {
+    learn_bias(state, in);
+    const Vec3 rate = in.gyro_body_rad_s - math::to_vec(state.gyro_bias_rad_s);
+    up -= in.period_s * math::cross(rate, up);
+    const float accel = math::norm(in.accel_body_m_s2);
+    if (math::abs(accel - math::kGravityMS2) < kUsableAccel * math::kGravityMS2) {
+      up += (in.period_s / kAccelTime_s) * (in.accel_body_m_s2 / accel - up);
+    }
+    up = math::normalized_or(up, Vec3(0, 0, 1));
+    state.up_body = math::to_xyz(up);
+    // Rotation about the vertical, not about the body's own z axis.
+    state.heading_rad = math::wrap_angle(state.heading_rad + in.period_s * rate.dot(up));
+    out.roll_rate_rad_s = rate.x();
+    out.pitch_rate_rad_s = rate.y();
+  }
+  out.roll_rad = math::atan2(up.y(), up.z());
+  out.pitch_rad = math::atan2(-up.x(), math::hypot(up.y(), up.z()));
+  out.heading_rad = state.heading_rad;
+  out.up = up.z();
+  out.calibrated = state.still_s >= kCalibrated_s;
+  return out;
+}
+
+}  // namespace verp::balance

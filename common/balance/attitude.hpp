@@ -1,0 +1,41 @@
+#pragma once
+#include "common/base/fields.hpp"
+#include "common/math/linear.hpp"
+
+/// Body tilt and heading from the IMU: the gyro turns the estimate, the accelerometer pulls it
+/// slowly to the vertical (complementary filter). Heading has the gyro only.
+namespace verp::balance {
+
+struct AttitudeState {
+  Xyz up_body{0, 0, 1};   ///< direction of "up" in the body frame, unit
+  float heading_rad = 0;  ///< turned to the left since power-up, in (-pi, pi]
+  Xyz gyro_bias_rad_s;    ///< learnt while standing still
+  float still_s = 0;      ///< how long the robot has stood still, up to kCalibrated_s
+  VERP_FIELDS(up_body, heading_rad, gyro_bias_rad_s, still_s)
+};
+VERP_PACKED(AttitudeState);
+
+inline constexpr float kCalibrated_s =
+    0.6F;  ///< this long still, and the bias is known well enough to walk
+
+struct AttitudeIn {
+  bool fresh = false;  ///< gyro and accelerometer are of this tick
+  Vec3 gyro_body_rad_s{0, 0, 0};
+  Vec3 accel_body_m_s2{0, 0, 0};  ///< specific force: +g up when still
+  bool standing = false;          ///< on both feet, not walking: the bias may be learnt
+  float period_s = 0.01F;
+};
+
+struct AttitudeOut {
+  float roll_rad = 0;   ///< body, about x
+  float pitch_rad = 0;  ///< about y, nose down positive
+  float heading_rad = 0;
+  float roll_rate_rad_s = 0;  ///< bias removed
+  float pitch_rate_rad_s = 0;
+  float up = 1;             ///< cosine of the tilt
+  bool calibrated = false;  ///< the gyro's bias has been learnt
+};
+
+AttitudeOut update(AttitudeState& state, const AttitudeIn& in);
+
+}  // namespace verp::balance

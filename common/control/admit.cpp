@@ -1,0 +1,137 @@
+#include "common/control/admit.hpp"
+
+#include <bit>
+
+#include "common/math/convert.hpp"
+#include "common/model/tuning_ranges.hpp"
+#include "common/safety/machine.hpp"
+
+namespace verp {
+namespace {
+
+using namespace safety;
+
+constexpr std::uint8_t kPowerReadings =
+    21;  // one bad reading is noise; a round of all servos is not
+
+std::uint8_t older(std::uint8_t age) {
+  return age < 255 ? static_cast<std::uint8_t>(age + 1) : age;
+}
+
+bool flag(const Inputs& inputs, InputFlag which) {
+  return (inputs.flags & which) != 0;
+}
+
+Vec3 in_body(const ImuParams& imu, const std::int16_t* count, float scale) {
+  const Vec3 raw{math::to_float(std::int32_t{count[0]}), math::to_float(std::int32_t{count[1]}),
+                 math::to_float(std::int32_t{count[2]})};
+  Mat3 body_imu;
+  body_imu << imu.body_imu[0], imu.body_imu[1], imu.body_imu[2], imu.body_imu[3], imu.body_imu[4],
+      imu.body_imu[5], imu.body_imu[6], imu.body_imu[7], imu.body_imu[8];
+  return scale * (body_imu * raw);
+}
+
+void read_imu(const Params& params, const Inputs& inputs, AdmitState& state, AdmitOut& out) {
+  state.imu_age = older(state.imu_age);
+  if (!flag(inputs, kImuFresh)) return;
+  state.imu_age = 0;
+  out.imu_fresh = true;
+  out.gyro_body_rad_s = in_body(params.imu, inputs.gyro_count, params.imu.gyro_rad_s_per_count);
+  out.accel_body_m_s2 = in_body(params.imu, inputs.accel_count, params.imu.accel_m_s2_per_count);
+}
+
+// The oldest servo decides: one silent knee is enough to fall.
+void watch_silence(const Params& params, const Tuning& tuning, const Inputs& inputs,
+                   AdmitState& state, AdmitOut& out) {
+  std::uint8_t oldest = 0;
+  for (int j = 0; j < params.joint_count; ++j) {
+    std::uint8_t& age = state.servo_age[j];
+    age = (inputs.fresh >> j & 1U) != 0 ? std::uint8_t{0} : older(age);
+    oldest = age > oldest ? age : oldest;
+  }
+  const float period_s = static_cast<float>(params.period_us) * 1e-6F;
+  const auto ticks = [&](float duration_s) { return math::to_int32(duration_s / period_s); };
+  const int hold = ticks(tuning.safety.stale_hold_s);
+  if (oldest >= hold) out.faults |= kFaultServoSilent;
+  if (state.imu_age >= hold) out.faults |= kFaultImuSilent;
+  const int silent = oldest > state.imu_age ? oldest : state.imu_age;
+  if (silent >= hold) out.conditions |= kStale;
+  if (silent >= ticks(tuning.safety.stale_release_s)) out.conditions |= kLost;
+  if (oldest < hold) out.conditions |= kServosKnown;
+}
+
+void watch_power(const Tuning& tuning, const Inputs& inputs, AdmitState& state, AdmitOut& out) {
+  if (flag(inputs, kSlowFresh)) {
+    std::uint32_t faults = 0;
+    const auto voltage_v = 0.1F * math::to_float(std::int32_t{inputs.slow_voltage_tenth_v});
+    const auto temperature_c = math::to_float(std::int32_t{inputs.slow_temperature_c});
+    if (voltage_v < tuning.safety.voltage_low_v) faults |= kFaultVoltage;
+    if (temperature_c > tuning.safety.temperature_high_c) faults |= kFaultTemperature;
+    if (inputs.slow_error != 0) faults |= kFaultServoError;
+    state.power_bad = faults != 0 ? older(state.power_bad) : std::uint8_t{0};
+    if (state.power_bad >= kPowerReadings) out.faults |= faults;
+  }
+  if (state.power_bad >= kPowerReadings) out.conditions |= kPowerBad;
+}
+
+void take_command(const Params& params, const Tuning& tuning, const Inputs& inputs,
+                  AdmitState& state, AdmitOut& out) {
+  if (flag(inputs, kCommandFresh)) {
+    state.operator_age = 0;
+  } else if (state.operator_age < 0xFFFFFFFFU) {
+    ++state.operator_age;
+  }
+  const float age_s =
+      math::to_float(state.operator_age) * 1e-6F * static_cast<float>(params.period_us);
+  if (age_s > tuning.safety.command_hold_s) {
+    out.conditions |= kOperatorQuiet;
+    out.faults |= kFaultOperatorQuiet;
+  }
+  if (age_s > tuning.safety.command_release_s) out.conditions |= kOperatorGone;
+  const Command& command = inputs.command;
+  switch (command.request) {
+    case Request::kWalk:
+      out.conditions |= kAskWalk | kAskStand;
+      break;
+    case Request::kStand:
+      out.conditions |= kAskStand;
+      break;
+    default:
+      out.conditions |= kAskRelax;
+      break;
+  }
+  out.vx_m_s = 1e-4F * math::to_float(std::int32_t{command.vx_tenth_mm_s});
+  out.vy_m_s = 1e-4F * math::to_float(std::int32_t{command.vy_tenth_mm_s});
+  out.wz_rad_s = 1e-3F * math::to_float(std::int32_t{command.wz_mrad_s});
+  out.head_pan_rad = 1e-3F * math::to_float(std::int32_t{command.head_pan_mrad});
+  out.head_tilt_rad = 1e-3F * math::to_float(std::int32_t{command.head_tilt_mrad});
+}
+
+void write_parameter(const Inputs& inputs, Tuning& tuning, AdmitOut& out) {
+  if (!flag(inputs, kParameterWrite)) return;
+  const float value = std::bit_cast<float>(inputs.parameter_bits);
+  if (in_range(inputs.parameter_id, value)) {
+    set_tuning_value(tuning, inputs.parameter_id, value);
+  } else {
+    out.faults |= kNoteParameter;
+  }
+}
+
+}  // namespace
+
+AdmitOut admit(const Params& params, AdmitState& state, Tuning& tuning, const Inputs& inputs) {
+  AdmitOut out;
+  write_parameter(inputs, tuning, out);
+  read_imu(params, inputs, state, out);
+  watch_silence(params, tuning, inputs, state, out);
+  watch_power(tuning, inputs, state, out);
+  take_command(params, tuning, inputs, state, out);
+  if (flag(inputs, kEmergencyStop)) {
+    out.conditions |= kEmergency;
+    out.faults |= kFaultEmergency;
+  }
+  if (flag(inputs, kOverrun)) out.faults |= kNoteOverrun;
+  return out;
+}
+
+}  // namespace verp

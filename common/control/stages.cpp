@@ -1,0 +1,198 @@
+#include "common/control/stages.hpp"
+
+#include "common/balance/gravity.hpp"
+#include "common/math/convert.hpp"
+#include "common/model/tree.hpp"
+
+namespace verp::control {
+namespace {
+
+using safety::Mode;
+
+constexpr float kMaxHeadingError_rad = 0.5F;  // a robot turned by hand corrects itself gently
+
+float period_s(const Params& params) {
+  return static_cast<float>(params.period_us) * 1e-6F;
+}
+
+bool walks(const State& state, const AdmitOut& admitted) {
+  constexpr std::uint32_t kNoMore = safety::kOperatorQuiet | safety::kPowerBad | safety::kStale;
+  return state.machine.mode == Mode::kWalking && (admitted.conditions & safety::kAskWalk) != 0 &&
+         (admitted.conditions & kNoMore) == 0;
+}
+
+// Angles of one leg: where the plan puts the sole, each joint at its own delay if the tuning asks
+// for one.
+kinematics::LegAngles leg_angles(const Params& params, const State& state,
+                                 const gait::Posture& posture, int side, const float* previous) {
+  const LegParams& leg = params.leg[side];
+  kinematics::LegAngles angles =
+      kinematics::solve_leg(params, leg, gait::sole_in_body(posture, side), previous);
+  const float delay_s = state.tuning.gait.joint_delay_s;
+  for (int k = 1; delay_s > 0.0F && k < kLegJoints; ++k) {
+    const auto delay_us = math::to_int32(delay_s * static_cast<float>(k) * 1e6F);
+    const gait::Posture earlier = gait::posture_before(params, state.tuning, state.gait, delay_us);
+    angles.angle_rad[k] =
+        kinematics::solve_leg(params, leg, gait::sole_in_body(earlier, side), previous)
+            .angle_rad[k];
+  }
+  return angles;
+}
+
+float weight_n(const Params& params) {
+  return model::total_mass(params) * math::kGravityMS2;
+}
+
+void latch_heading(const AdmitOut& admitted, const balance::AttitudeOut& attitude, bool walking,
+                   float period, SteerState& steer) {
+  if (walking) {
+    steer.heading_rad = math::wrap_angle(steer.heading_rad + period * admitted.wz_rad_s);
+  } else {
+    steer.heading_rad = attitude.heading_rad;
+  }
+}
+
+std::uint32_t conditions_of(const Params& params, const State& state, const AdmitOut& admitted,
+                            const balance::AttitudeOut& attitude) {
+  const SafetyTuning& tuning = state.tuning.safety;
+  std::uint32_t conditions = admitted.conditions;
+  const auto microseconds = [](float duration_s) { return math::to_int32(duration_s * 1e6F); };
+  if (state.steer.fallen_us > microseconds(tuning.fall_confirm_s)) conditions |= safety::kFell;
+  if (attitude.calibrated) conditions |= safety::kCalibrated;
+  if (state.gait.queued == 0) conditions |= safety::kGaitOver;
+  const bool rising = state.machine.mode == Mode::kRising;
+  const float duration_s = rising ? tuning.rise_s : tuning.sit_s;
+  if (state.machine.in_mode_us >= microseconds(duration_s)) conditions |= safety::kTimeUp;
+  static_cast<void>(params);
+  return conditions;
+}
+
+void enter(Mode mode, std::int32_t period_us, safety::MachineState& machine) {
+  constexpr std::int32_t kLongest_us = 1'000'000'000;
+  if (mode != machine.mode) {
+    machine.mode = mode;
+    machine.in_mode_us = 0;
+  } else if (machine.in_mode_us < kLongest_us) {
+    machine.in_mode_us += period_us;
+  }
+}
+
+}  // namespace
+
+void start(const Params& params, State& state) {
+  state.tuning = params.tuning;
+  state.started = 1;
+}
+
+balance::AttitudeOut estimate(const Params& params, State& state, const AdmitOut& admitted) {
+  balance::AttitudeIn in;
+  in.fresh = admitted.imu_fresh;
+  in.gyro_body_rad_s = admitted.gyro_body_rad_s;
+  in.accel_body_m_s2 = admitted.accel_body_m_s2;
+  in.standing = state.machine.mode == Mode::kStanding;
+  in.period_s = period_s(params);
+  const balance::AttitudeOut out = balance::update(state.attitude, in);
+
+  const bool tilted = out.up < math::cos(state.tuning.safety.fall_tilt_rad);
+  const auto period_us = static_cast<std::int32_t>(params.period_us);
+  constexpr std::int32_t kLongest_us = 1'000'000'000;
+  state.steer.fallen_us = !tilted                               ? 0
+                          : state.steer.fallen_us < kLongest_us ? state.steer.fallen_us + period_us
+                                                                : kLongest_us;
+  return out;
+}
+
+gait::GaitOut plan_motion(const Params& params, State& state, const AdmitOut& admitted,
+                          const balance::AttitudeOut& attitude) {
+  latch_heading(admitted, attitude, state.machine.mode == Mode::kWalking, period_s(params),
+                state.steer);
+  gait::GaitIn in;
+  in.walk = walks(state, admitted);
+  in.wanted.vx_m_s = admitted.vx_m_s;
+  in.wanted.vy_m_s = admitted.vy_m_s;
+  in.wanted.wz_rad_s = admitted.wz_rad_s;
+  in.wanted.heading_error_rad =
+      math::clamp(math::wrap_angle(state.steer.heading_rad - attitude.heading_rad),
+                  -kMaxHeadingError_rad, kMaxHeadingError_rad);
+  in.goal_rad = state.limit.goal_rad;
+  in.period_us = static_cast<std::int32_t>(params.period_us);
+  return gait::update(params, state.tuning, state.gait, in);
+}
+
+Wanted solve_joints(const Params& params, State& state, const AdmitOut& admitted,
+                    const gait::GaitOut& plan) {
+  Wanted wanted{};
+  for (int j = 0; j < params.joint_count; ++j) wanted.angle_rad[j] = params.joint[j].stand_rad;
+  if (params.head_pan < kMaxJoints) wanted.angle_rad[params.head_pan] = admitted.head_pan_rad;
+  if (params.head_tilt < kMaxJoints) wanted.angle_rad[params.head_tilt] = admitted.head_tilt_rad;
+  for (int side = 0; side < kFeet; ++side) {
+    const LegParams& leg = params.leg[side];
+    if (leg.solver == LegSolver::kNone) continue;
+    float previous_rad[kLegJoints];
+    for (int k = 0; k < kLegJoints; ++k) previous_rad[k] = state.limit.goal_rad[leg.joint[k]];
+    kinematics::LegAngles angles = leg_angles(params, state, plan.posture, side, previous_rad);
+    wanted.leg_limited = wanted.leg_limited || angles.flags != 0;
+    if (state.tuning.balance.gravity_enable > 0.5F) {
+      const kinematics::LegChain chain =
+          kinematics::leg_chain(params, leg, plan.posture.body, angles.angle_rad);
+      balance::add_sag(params, leg, chain,
+                       balance::ground_point(leg, plan.posture.foot[side], plan.zmp_m),
+                       plan.carry[side] * weight_n(params), angles.angle_rad);
+    }
+    balance::add(leg, state.feedback.leg[side], angles.angle_rad);
+    for (int k = 0; k < kLegJoints; ++k) {
+      wanted.angle_rad[leg.joint[k]] = angles.angle_rad[k];
+    }
+  }
+  return wanted;
+}
+
+bool limit_goals(const Params& params, State& state, const Inputs& inputs, const Wanted& wanted) {
+  return safety::limit(params, state.limit,
+                       {state.machine.mode, state.machine.in_mode_us, wanted.angle_rad,
+                        inputs.position_count, &state.tuning.safety});
+}
+
+std::uint32_t raise_faults(const State& state, const AdmitOut& admitted, const Wanted& wanted,
+                           bool slowed) {
+  std::uint32_t faults = admitted.faults;
+  if (wanted.leg_limited) faults |= safety::kNoteLegLimited;
+  if (slowed) faults |= safety::kNoteSpeedLimited;
+  const std::uint32_t notes = state.gait.footsteps.notes;
+  if ((notes & gait::kStrideLimited) != 0) faults |= safety::kNoteStrideLimited;
+  if ((notes & (gait::kReachShortened | gait::kZmpShortened)) != 0) {
+    faults |= safety::kNotePlanShortened;
+  }
+  if ((notes & gait::kPlanRefused) != 0) faults |= safety::kNotePlanRefused;
+  return faults;
+}
+
+void gate(const Params& params, State& state, const AdmitOut& admitted,
+          const balance::AttitudeOut& attitude, const gait::GaitOut& plan, std::uint32_t faults,
+          Outputs& outputs) {
+  safety::MachineState& machine = state.machine;
+  const Mode before = machine.mode;
+  const std::uint32_t conditions = conditions_of(params, state, admitted, attitude);
+  enter(safety::next_mode(before, conditions), static_cast<std::int32_t>(params.period_us),
+        machine);
+  if (machine.mode == Mode::kFallen) faults |= safety::kFaultFall;
+  // Asking a relaxed robot to relax is how an operator acknowledges what is latched.
+  const bool acknowledged = before == Mode::kRelaxed && machine.mode == Mode::kRelaxed &&
+                            (conditions & safety::kAskRelax) != 0;
+  machine.faults = acknowledged ? faults : machine.faults | faults;
+
+  outputs = Outputs{};
+  outputs.mode = static_cast<std::uint8_t>(machine.mode);
+  outputs.faults = machine.faults;
+  outputs.gait_phase = static_cast<std::uint8_t>(plan.phase);
+  outputs.gait_state = plan.cycle_state;
+  outputs.stance = plan.carrying;
+  outputs.tilt_tenth_mrad[0] = math::to_int16(1e4F * attitude.roll_rad);
+  outputs.tilt_tenth_mrad[1] = math::to_int16(1e4F * attitude.pitch_rad);
+  for (int j = 0; j < params.joint_count; ++j) {
+    outputs.goal_count[j] = safety::count_of(params.joint[j], state.limit.goal_rad[j]);
+    if (safety::has_torque(machine.mode)) outputs.torque_enable |= std::uint32_t{1} << j;
+  }
+}
+
+}  // namespace verp::control

@@ -1,0 +1,39 @@
+#pragma once
+#include "common/control/state.hpp"
+#include "common/model/params.hpp"
+
+/// The stages of step(), each one thought. They join the modules; the arithmetic is in the modules.
+namespace verp::control {
+
+/// First tick: tuning from Params, limits from where the joints are.
+void start(const Params& params, State& state);
+
+balance::AttitudeOut estimate(const Params& params, State& state, const AdmitOut& admitted);
+
+/// Walks when the safety table says so, and turns back what the heading has drifted.
+gait::GaitOut plan_motion(const Params& params, State& state, const AdmitOut& admitted,
+                          const balance::AttitudeOut& attitude);
+
+struct Wanted {
+  float angle_rad[kMaxJoints];
+  bool leg_limited;
+};
+
+/// Legs by inverse kinematics, with gravity sag and balance corrections; arms rest; the head looks
+/// where told.
+Wanted solve_joints(const Params& params, State& state, const AdmitOut& admitted,
+                    const gait::GaitOut& plan);
+
+/// True when a joint had to be slowed down.
+bool limit_goals(const Params& params, State& state, const Inputs& inputs, const Wanted& wanted);
+
+/// Fault bits of this tick.
+std::uint32_t raise_faults(const State& state, const AdmitOut& admitted, const Wanted& wanted,
+                           bool slowed);
+
+/// The safety table has the last word: mode, torque and goals.
+void gate(const Params& params, State& state, const AdmitOut& admitted,
+          const balance::AttitudeOut& attitude, const gait::GaitOut& plan, std::uint32_t faults,
+          Outputs& outputs);
+
+}  // namespace verp::control

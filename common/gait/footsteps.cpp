@@ -1,0 +1,171 @@
+#include "common/gait/footsteps.hpp"
+
+#include "common/kinematics/leg_ik.hpp"
+#include "common/math/convert.hpp"
+
+namespace verp::gait {
+namespace {
+
+float outward(int side) {
+  return side == kLeft ? 1.0F : -1.0F;
+}
+
+Xy middle(const Params& params, const Step& step) {
+  return 0.5F * (sole_center(params, kLeft, step.after(kLeft)) +
+                 sole_center(params, kRight, step.after(kRight)));
+}
+
+// Times of a step that lasts about `duration_s`, in whole key points.
+void set_times(const GaitTuning& tuning, float duration_s, Step& step) {
+  step.key_us = math::to_int32(tuning.cycle_s * 1e6F) / (2 * kKeyPointsPerStep);
+  step.key_us = step.key_us < 1 ? 1 : step.key_us;
+  const float points = duration_s * 1e6F / static_cast<float>(step.key_us);
+  // Never shorter than a walking step: the queue is as long as the head's horizon needs with such
+  // steps.
+  step.key_points =
+      math::to_uint8(math::clamp(points, static_cast<float>(kKeyPointsPerStep), 250.0F));
+}
+
+float toward(float from, float to, float most) {
+  return from + math::clamp(to - from, -most, most);
+}
+
+// A leading foot takes the whole of a sideways or turning cycle, the other one closes.
+bool leads(int swing, float value) {
+  return (swing == kLeft) == (value > 0.0F);
+}
+
+Stride wanted_stride(const GaitTuning& tuning, const VelocityIn& wanted, FootstepState& state) {
+  const float step_s = 0.5F * tuning.cycle_s;
+  Stride stride;
+  if (wanted.stop) return stride;
+  stride.by_m = {wanted.vx_m_s * step_s, wanted.vy_m_s * step_s};
+  stride.turn_rad = wanted.wz_rad_s * step_s + tuning.heading_gain * wanted.heading_error_rad;
+  const float length_m = math::hypot(stride.by_m.x, 2.0F * stride.by_m.y);
+  float share = 1.0F;
+  if (length_m > tuning.max_step_m) share = tuning.max_step_m / length_m;
+  if (share < 1.0F || math::abs(stride.turn_rad) > tuning.max_turn_rad) {
+    state.notes |= kStrideLimited;
+  }
+  if (state.scale < 1.0F) state.notes |= kZmpShortened;
+  stride.by_m = (share * state.scale) * stride.by_m;
+  stride.turn_rad = math::clamp(stride.turn_rad, -tuning.max_turn_rad, tuning.max_turn_rad);
+  return stride;
+}
+
+// Longest stride at which the leg still reaches the ground behind the body, by Pythagoras.
+float reach_limit_m(const Params& params, const GaitTuning& tuning) {
+  const LegParams& leg = params.leg[kLeft];
+  const float usable_m = kinematics::usable_reach_m(leg);
+  const float room_m2 = math::square(usable_m) - math::square(tuning.hip_height_m);
+  return room_m2 > 0.0F ? 1.6F * math::sqrt(room_m2) : 0.0F;
+}
+
+Foothold landing_of(const GaitTuning& tuning, int swing, const Stride& stride,
+                    FootstepState& state) {
+  const Xy by_m{stride.by_m.x, leads(swing, stride.by_m.y) ? 2.0F * stride.by_m.y : 0.0F};
+  state.body.at_m = state.body.at_m + turned(by_m, state.body.yaw_rad);
+  state.body.yaw_rad += leads(swing, stride.turn_rad) ? 2.0F * stride.turn_rad : 0.0F;
+  const Xy side_m{0.0F, outward(swing) * tuning.half_stance_m};
+  return {state.body.at_m + turned(side_m, state.body.yaw_rad), state.body.yaw_rad};
+}
+
+bool still(const Stride& stride) {
+  return stride.by_m.x == 0.0F && stride.by_m.y == 0.0F && stride.turn_rad == 0.0F;
+}
+
+// Both feet carry from beginning to end, and stand where `last` leaves them.
+Step standing_step(const GaitTuning& tuning, const Step& last, Phase phase) {
+  Step step;
+  set_times(tuning, tuning.start_s, step);
+  step.phase = phase;
+  step.foot[kLeft] = last.after(kLeft);
+  step.foot[kRight] = last.after(kRight);
+  step.landing = step.foot[kLeft];
+  step.double_support_s = step.duration_s();
+  step.zmp_begin_m = last.zmp_end_m;
+  step.zmp_end_m = last.zmp_end_m;
+  step.dcm_end_m = step.zmp_end_m;
+  return step;
+}
+
+}  // namespace
+
+Xy sole_center(const Params& params, int side, const Foothold& foot) {
+  const LegParams& leg = params.leg[side];
+  const Xy center{0.5F * (leg.sole_front_m - leg.sole_back_m),
+                  0.5F * (leg.sole_left_m - leg.sole_right_m)};
+  return foot.at_m + turned(center, foot.yaw_rad);
+}
+
+Xy zmp_under(const Params& params, const GaitTuning& tuning, int side, const Foothold& foot) {
+  const LegParams& leg = params.leg[side];
+  const float half_x_m = 0.5F * (leg.sole_front_m + leg.sole_back_m) - tuning.support_margin_m;
+  const float half_y_m = 0.5F * (leg.sole_left_m + leg.sole_right_m) - tuning.support_margin_m;
+  const Xy offset{math::clamp(tuning.zmp_x_m, -half_x_m, half_x_m),
+                  math::clamp(outward(side) * tuning.zmp_y_m, -half_y_m, half_y_m)};
+  return sole_center(params, side, foot) + turned(offset, foot.yaw_rad);
+}
+
+Step standing_feet(const Params& params, const GaitTuning& tuning) {
+  Step stand;
+  stand.foot[kLeft].at_m = {0.0F, tuning.half_stance_m};
+  stand.foot[kRight].at_m = {0.0F, -tuning.half_stance_m};
+  stand.landing = stand.foot[kLeft];
+  stand.zmp_end_m = middle(params, stand);
+  return standing_step(tuning, stand, Phase::kIdle);
+}
+
+Step first_step(const Params& params, const GaitTuning& tuning, FootstepState& state) {
+  state = FootstepState{};
+  Step step = standing_feet(params, tuning);
+  step.phase = Phase::kStart;
+  step.zmp_end_m = zmp_under(params, tuning, kRight, step.foot[kRight]);
+  return step;
+}
+
+Step rest_step(const GaitTuning& tuning, const Step& last) {
+  return standing_step(tuning, last, Phase::kIdle);
+}
+
+Step next_step(const Params& params, const GaitTuning& tuning, const VelocityIn& wanted,
+               const Step& last, FootstepState& state) {
+  const bool walked = last.swing != kBoth;
+  if (wanted.stop && walked && still(state.stride)) {
+    Step step = standing_step(tuning, last, Phase::kFinal);
+    step.zmp_end_m = middle(params, step);
+    step.dcm_end_m = step.zmp_end_m;
+    return step;
+  }
+
+  const Stride goal = wanted_stride(tuning, wanted, state);
+  const float most_m = tuning.step_change_m;
+  Stride stride{{toward(state.stride.by_m.x, goal.by_m.x, most_m),
+                 toward(state.stride.by_m.y, goal.by_m.y, most_m)},
+                toward(state.stride.turn_rad, goal.turn_rad, 0.25F * tuning.max_turn_rad)};
+  const float reach_m = reach_limit_m(params, tuning);
+  if (math::abs(stride.by_m.x) > reach_m) {
+    stride.by_m.x = math::copysign(reach_m, stride.by_m.x);
+    state.notes |= kReachShortened;
+  }
+  state.stride = stride;
+
+  Step step;
+  set_times(tuning, 0.5F * tuning.cycle_s, step);
+  step.swing = last.swing == kLeft ? kRight : kLeft;
+  const bool reached = stride.by_m.x == goal.by_m.x && stride.by_m.y == goal.by_m.y;
+  step.phase = wanted.stop                                   ? Phase::kFinal
+               : last.phase == Phase::kTransition || reached ? Phase::kTransition
+                                                             : Phase::kStart;
+  step.double_support_s = walked ? tuning.double_support * step.duration_s() : 0.0F;
+  step.lift_m = tuning.lift_m;
+  step.foot[kLeft] = last.after(kLeft);
+  step.foot[kRight] = last.after(kRight);
+  step.landing = landing_of(tuning, step.swing, stride, state);
+  const int carrying = step.carrying();
+  step.zmp_begin_m = last.zmp_end_m;
+  step.zmp_end_m = zmp_under(params, tuning, carrying, step.foot[carrying]);
+  return step;
+}
+
+}  // namespace verp::gait

@@ -1,0 +1,280 @@
+#include "common/gait/gait.hpp"
+
+#include "common/gait/dcm.hpp"
+#include "common/math/convert.hpp"
+
+namespace verp::gait {
+namespace {
+
+constexpr int kKeyPointsPerTick = 2;
+
+// A moment within the steps known: look back one step at most.
+struct Moment {
+  const Step* step;
+  std::int32_t time_us;    // since the step's beginning
+  std::uint8_t first_key;  // fixed key point at the step's beginning
+};
+
+Moment moment_before(const GaitState& state, std::int32_t delay_us) {
+  const std::int32_t time_us = state.clock_us - delay_us;
+  if (time_us >= 0) return {&state.queue[0], time_us, state.first_key};
+  const std::int32_t earlier_us = state.previous.duration_us() + time_us;
+  // Key points behind are kept for a while only: no further back than the oldest.
+  const std::int32_t oldest_us =
+      state.previous.duration_us() - (kFixed - 4) * state.previous.key_us;
+  return {&state.previous, earlier_us > oldest_us ? earlier_us : oldest_us, state.previous_key};
+}
+
+Posture posture_at(const Params& params, const Tuning& tuning, const GaitState& state,
+                   const Moment& moment) {
+  const Step& step = *moment.step;
+  std::int32_t key = moment.time_us / step.key_us;
+  if (key < 0) key = 0;
+  const float fraction =
+      static_cast<float>(moment.time_us - key * step.key_us) / static_cast<float>(step.key_us);
+  const Xy body_m =
+      body_at(state.preview, static_cast<std::uint8_t>(moment.first_key + key), fraction);
+  const float time_s = static_cast<float>(moment.time_us) * 1e-6F;
+  return posture_of(params, tuning.gait, body_m, foot_at(step, kLeft, time_s),
+                    foot_at(step, kRight, time_s));
+}
+
+// The final step and all after it: both feet carry and the ZMP comes to rest.
+bool ends_walk(const Step& step) {
+  return step.swing == kBoth && step.phase != Phase::kStart;
+}
+
+// Ends the plan where walking on, or standing, would take it, and carries that back to the head's
+// step.
+void set_dcm_ends(const Params& params, const Tuning& tuning, const VelocityIn& wanted,
+                  GaitState& state) {
+  Step& last = state.queue[state.queued - 1];
+  last.dcm_end_m = last.zmp_end_m;
+  if (!ends_walk(last)) {
+    // Two more steps as now wanted, only to see where the ZMP goes.
+    FootstepState ahead = state.footsteps;
+    const Step next = next_step(params, tuning.gait, wanted, last, ahead);
+    if (ends_walk(next)) {
+      last.dcm_end_m = next.zmp_end_m;
+    } else {
+      const Step second = next_step(params, tuning.gait, wanted, next, ahead);
+      last.dcm_end_m = periodic_dcm(last, next.zmp_end_m - last.zmp_end_m,
+                                    second.zmp_end_m - next.zmp_end_m, state.preview.omega);
+    }
+  }
+  for (int i = state.queued - 2; i >= state.preview.head_step; --i) {
+    state.queue[i].dcm_end_m = dcm_at(state.queue[i + 1], state.preview.omega, 0.0F);
+  }
+}
+
+// Keeps one step known beyond the one in which the head is.
+void extend_queue(const Params& params, const Tuning& tuning, const GaitIn& in, GaitState& state) {
+  VelocityIn wanted = in.wanted;
+  wanted.stop = wanted.stop || !in.walk || (state.footsteps.notes & kPlanRefused) != 0;
+  while (state.queued < kQueue && state.queued < state.preview.head_step + 2) {
+    const Step& last = state.queue[state.queued - 1];
+    state.queue[state.queued] = ends_walk(last)
+                                    ? rest_step(tuning.gait, last)
+                                    : next_step(params, tuning.gait, wanted, last, state.footsteps);
+    ++state.queued;
+    set_dcm_ends(params, tuning, wanted, state);
+  }
+}
+
+// The walk's plan is shortened step by step while its own ZMP, corrected or not, would leave the
+// sole.
+void watch_zmp(const Params& params, const Tuning& tuning, const Step& step, Xy miss_m,
+               GaitState& state) {
+  if (step.swing == kBoth) return;
+  const LegParams& leg = params.leg[step.carrying()];
+  const Xy out_m = (1.0F - tuning.balance.multibody_enable) *
+                   turned(miss_m, -step.foot[step.carrying()].yaw_rad);
+  const float room_x_m = 0.5F * (leg.sole_front_m + leg.sole_back_m) -
+                         math::abs(tuning.gait.zmp_x_m) - tuning.gait.support_margin_m;
+  const float room_y_m = 0.5F * (leg.sole_left_m + leg.sole_right_m) -
+                         math::abs(tuning.gait.zmp_y_m) - tuning.gait.support_margin_m;
+  const bool outside = math::abs(out_m.x) > room_x_m || math::abs(out_m.y) > room_y_m;
+  FootstepState& footsteps = state.footsteps;
+  if (outside) {
+    if (footsteps.scale <= 0.1F) footsteps.notes |= kPlanRefused;
+    footsteps.scale = math::max(0.1F, footsteps.scale - 0.01F);
+  }
+}
+
+void lay_key_points(const Params& params, const Tuning& tuning, const GaitIn& in,
+                    GaitState& state) {
+  PreviewState& preview = state.preview;
+  for (int i = 0; i < kKeyPointsPerTick; ++i) {
+    if (static_cast<std::uint8_t>(preview.head - preview.fixed) >= kHorizon) return;
+    extend_queue(params, tuning, in, state);
+    Xy miss_m = lay_key_point(params, tuning, state.queue, preview);
+    watch_zmp(params, tuning, state.queue[preview.head_step], miss_m, state);
+    if (!(tuning.balance.multibody_enable > 0.5F)) {
+      preview.ring[static_cast<std::uint8_t>(preview.head - 1) % kRing].zmp_miss_m = Xy{};
+    }
+  }
+}
+
+// Moves the walk frame's origin; once a step, so that its roundings do not add up.
+void rebase_walk(Xy origin_m, GaitState& state) {
+  const auto move_step = [&](Step& step) {
+    for (Foothold& foot : step.foot) foot.at_m = foot.at_m - origin_m;
+    step.landing.at_m = step.landing.at_m - origin_m;
+    step.zmp_begin_m = step.zmp_begin_m - origin_m;
+    step.zmp_end_m = step.zmp_end_m - origin_m;
+    step.dcm_end_m = step.dcm_end_m - origin_m;
+  };
+  move_step(state.previous);
+  for (Step& step : state.queue) move_step(step);
+  state.footsteps.body.at_m = state.footsteps.body.at_m - origin_m;
+  rebase(origin_m, state.preview);
+}
+
+void next_in_queue(const Params& params, const GaitIn& in, GaitState& state) {
+  state.clock_us -= state.queue[0].duration_us();
+  state.previous = state.queue[0];
+  state.previous_key = state.first_key;
+  state.first_key = static_cast<std::uint8_t>(state.first_key + state.previous.key_points);
+  for (int i = 0; i + 1 < kQueue; ++i) state.queue[i] = state.queue[i + 1];
+  --state.queued;
+  --state.preview.head_step;
+  state.preview.lump = lump_of(params, in.goal_rad);
+  const Step& step = state.queue[0];
+  if (step.swing != kBoth) rebase_walk(step.foot[step.carrying()].at_m, state);
+}
+
+// Fixes key points until two lie ahead of the clock, then lets the head run on.
+void plan_ahead(const Params& params, const Tuning& tuning, const GaitIn& in, GaitState& state) {
+  const Step& step = state.queue[0];
+  const auto wanted = static_cast<std::uint8_t>(state.first_key + state.clock_us / step.key_us + 2);
+  while (state.moving != 0 && static_cast<std::int8_t>(wanted - state.preview.fixed) > 0) {
+    fix_key_point(step, state.preview);
+  }
+  lay_key_points(params, tuning, in, state);
+}
+
+Posture stand_posture(const Params& params, const Tuning& tuning, const GaitState& state) {
+  const Step stand = standing_feet(params, tuning.gait);
+  return posture_of(params, tuning.gait, state.stand_body_m, foot_at(stand, kLeft, 0.0F),
+                    foot_at(stand, kRight, 0.0F));
+}
+
+Masses stand_masses(const Params& params, const Posture& posture, GaitState& state) {
+  kinematics::LegChain legs[kFeet];
+  for (int side = 0; side < kFeet; ++side) {
+    float* angle_rad = state.preview.leg_rad + side * kLegJoints;
+    const kinematics::LegAngles solved =
+        kinematics::solve_leg(params, params.leg[side], sole_in_body(posture, side), angle_rad);
+    for (int k = 0; k < kLegJoints; ++k) angle_rad[k] = solved.angle_rad[k];
+    legs[side] = kinematics::leg_chain(params, params.leg[side], posture.body, angle_rad);
+  }
+  return masses_of(params, state.preview.lump, posture.body, legs);
+}
+
+// Standing: the body glides until the CoM is over the middle of the soles. From there a walk may
+// begin.
+void stand(const Params& params, const Tuning& tuning, const GaitIn& in, GaitState& state) {
+  constexpr float kGlideMS = 0.02F;
+  constexpr float kSettledM = 2e-4F;
+  if (!in.walk) state.footsteps.notes = 0;
+  state.preview.lump = lump_of(params, in.goal_rad);
+  const Posture posture = stand_posture(params, tuning, state);
+  const Masses masses = stand_masses(params, posture, state);
+  const Xy middle_m = standing_feet(params, tuning.gait).zmp_end_m;
+  const Xy off_m = middle_m - Xy{masses.com_m.x(), masses.com_m.y()};
+  const bool may_walk = (state.footsteps.notes & kPlanRefused) == 0 &&
+                        math::abs(off_m.x) < kSettledM && math::abs(off_m.y) < kSettledM;
+  if (in.walk && may_walk) {
+    state.queue[0] = first_step(params, tuning.gait, state.footsteps);
+    state.queued = 1;
+    state.previous = standing_feet(params, tuning.gait);
+    state.clock_us = 0;
+    state.moving = 0;
+    state.first_key = 0;
+    state.previous_key = static_cast<std::uint8_t>(0 - state.previous.key_points);
+    begin(params, posture, masses, middle_m, state.preview);
+    return;
+  }
+  const float most_m = kGlideMS * 1e-6F * static_cast<float>(in.period_us);
+  state.stand_body_m.x += math::clamp(off_m.x, -most_m, most_m);
+  state.stand_body_m.y += math::clamp(off_m.y, -most_m, most_m);
+}
+
+// Where the last step leaves the robot becomes the new standing frame.
+void end_walk(GaitState& state) {
+  const Step& rest = state.queue[0];
+  const float yaw_rad = 0.5F * (rest.foot[kLeft].yaw_rad + rest.foot[kRight].yaw_rad);
+  const Xy between_m = 0.5F * (rest.foot[kLeft].at_m + rest.foot[kRight].at_m);
+  state.stand_body_m = turned(body_at(state.preview, state.first_key, 0.0F) - between_m, -yaw_rad);
+  state.queued = 0;
+}
+
+void walk(const Params& params, const Tuning& tuning, const GaitIn& in, GaitState& state) {
+  if (state.moving != 0) state.clock_us += in.period_us;
+  while (state.clock_us >= state.queue[0].duration_us()) {
+    next_in_queue(params, in, state);
+    if (state.queue[0].phase == Phase::kIdle) return end_walk(state);
+  }
+  plan_ahead(params, tuning, in, state);
+  if (state.preview.head == kHorizon && state.moving == 0) {
+    state.moving = 1;
+    plan_ahead(params, tuning, in, state);
+  }
+}
+
+// Share of the weight on each foot, from where the ZMP lies between the soles.
+void share_weight(const Params& params, const Step& step, float time_s, GaitOut& out) {
+  out.zmp_m = zmp_at(step, time_s);
+  if (step.swing != kBoth && time_s >= step.double_support_s) {
+    out.carry[step.swing] = 0.0F;
+    out.carry[1 - step.swing] = 1.0F;
+    return;
+  }
+  const Xy right_m = sole_center(params, kRight, step.foot[kRight]);
+  const Xy across_m = sole_center(params, kLeft, step.foot[kLeft]) - right_m;
+  const float span_m2 = math::max(dot(across_m, across_m), 1e-6F);
+  out.carry[kLeft] = math::clamp(dot(out.zmp_m - right_m, across_m) / span_m2, 0.0F, 1.0F);
+  out.carry[kRight] = 1.0F - out.carry[kLeft];
+}
+
+void report_now(const Tuning& tuning, const GaitState& state, GaitOut& out) {
+  const Moment now = moment_before(state, math::to_int32(tuning.gait.look_ahead_s * 1e6F));
+  const Step& step = *now.step;
+  out.phase = step.phase;
+  const std::int32_t support_us = math::to_int32(step.double_support_s * 1e6F);
+  out.swing = now.time_us < support_us ? kBoth : step.swing;
+  out.carrying = static_cast<std::uint8_t>(step.carrying());
+  std::int32_t cycle_us = now.time_us < 0 ? 0 : now.time_us;
+  if (step.swing == kRight) cycle_us += step.duration_us();
+  out.cycle_state = step.swing == kBoth
+                        ? std::uint8_t{0}
+                        : static_cast<std::uint8_t>((cycle_us + step.key_us) / (2 * step.key_us));
+}
+
+}  // namespace
+
+GaitOut update(const Params& params, const Tuning& tuning, GaitState& state, const GaitIn& in) {
+  if (state.queued == 0) {
+    stand(params, tuning, in, state);
+  } else {
+    walk(params, tuning, in, state);
+  }
+  GaitOut out;
+  if (state.queued == 0) {
+    out.posture = stand_posture(params, tuning, state);
+    out.zmp_m = standing_feet(params, tuning.gait).zmp_end_m;
+    return out;
+  }
+  out.posture = posture_before(params, tuning, state, 0);
+  share_weight(params, state.queue[0], static_cast<float>(state.clock_us) * 1e-6F, out);
+  report_now(tuning, state, out);
+  return out;
+}
+
+Posture posture_before(const Params& params, const Tuning& tuning, const GaitState& state,
+                       std::int32_t delay_us) {
+  if (state.queued == 0) return stand_posture(params, tuning, state);
+  return posture_at(params, tuning, state, moment_before(state, delay_us));
+}
+
+}  // namespace verp::gait

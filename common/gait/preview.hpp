@@ -1,0 +1,69 @@
+#pragma once
+#include "common/gait/footsteps.hpp"
+#include "common/gait/whole_body.hpp"
+
+/// The body's key points. A *head* runs ahead of the robot, one key point at a time: pendulum CoM,
+/// legs solved, every link weighed. What it finds goes into a ring: where the body stands, and by
+/// how much the ZMP of all moving links misses the planned one. Before the robot gets there, the
+/// misses still ahead are turned into a correction of the CoM by the same pendulum (the second
+/// stage of preview control), and the key point is fixed.
+namespace verp::gait {
+
+inline constexpr int kRing = 32;  ///< key points between head and robot, and some spare
+inline constexpr int kHorizon =
+    24;  ///< how far the head runs ahead, key points (0.36 s at a 0.45 s cycle)
+inline constexpr int kFixed =
+    16;  ///< fixed key points kept: two ahead, the rest behind for delayed joints
+
+struct KeyPoint {
+  Xy body_m;      ///< for the pendulum's CoM
+  Xy zmp_miss_m;  ///< planned minus multibody ZMP
+  VERP_FIELDS(body_m, zmp_miss_m)
+};
+VERP_PACKED(KeyPoint);
+
+struct PreviewState {
+  KeyPoint ring[kRing];
+  Xy fixed_m[kFixed];    ///< body positions, correction included
+  Xyz point_m[kPoints];  ///< link masses at the head
+  Xy com_m;              ///< pendulum CoM at the head
+  Xy offset_m[2];        ///< CoM minus body at the head, and one key point before
+  Xy zmp_m;              ///< planned ZMP at the head
+  Xy com_real_m;         ///< CoM of all links at the head
+  Xyz momentum_kg_m_s;   ///< between the last two key points of the head
+  Xy angular_kg_m2_s;    ///< about x and y through the walk frame's origin, likewise
+  Xy correction_m;       ///< of the CoM, at the last fixed key point
+  Lump lump;
+  float omega = 0;                         ///< 1/s, sqrt(g / CoM height)
+  float body_per_com = 1;                  ///< body displacement that moves the CoM by one
+  float leg_rad[kFeet * kLegJoints] = {};  ///< at the head: warm start for Newton
+  std::uint8_t head_step = 0;              ///< index into the queue
+  std::uint8_t head_key = 0;               ///< key point within that step, 1..key_points
+  std::uint8_t head = 0;   ///< key points the head has laid since the walk began, mod 256
+  std::uint8_t fixed = 0;  ///< key points fixed since the walk began, mod 256
+  VERP_FIELDS(ring, fixed_m, point_m, com_m, offset_m, zmp_m, com_real_m, momentum_kg_m_s,
+              angular_kg_m2_s, correction_m, lump, omega, body_per_com, leg_rad, head_step,
+              head_key, head, fixed)
+};
+VERP_PACKED(PreviewState);
+
+/// Starts from rest in `stand` (already solved: angles and masses), with the CoM over `com_m`.
+void begin(const Params& params, const Posture& stand, const Masses& masses, Xy com_m,
+           PreviewState& state);
+
+/// Lays the head's next key point; queue[head_step] holds it. Returns the ZMP miss of the key point
+/// before.
+Xy lay_key_point(const Params& params, const Tuning& tuning, const Step* queue,
+                 PreviewState& state);
+
+/// Fixes the next key point from what the ring holds beyond it.
+void fix_key_point(const Step& step, PreviewState& state);
+
+/// Body position `fraction` (0..1) after fixed key point `index` (mod 256), by a cubic through
+/// four.
+Xy body_at(const PreviewState& state, std::uint8_t index, float fraction);
+
+/// Moves the walk frame's origin to `origin_m`.
+void rebase(Xy origin_m, PreviewState& state);
+
+}  // namespace verp::gait

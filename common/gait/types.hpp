@@ -1,0 +1,84 @@
+#pragma once
+#include <cstdint>
+
+#include "common/base/fields.hpp"
+#include "common/io/io.hpp"
+#include "common/math/elementary.hpp"
+#include "common/math/scalar.hpp"
+
+/// The plain data of the gait. All lengths in the *walk frame*: z up, ground at 0, x and y as the
+/// body's at the start of the walk; its origin moves on with the robot once a step, so that
+/// coordinates stay small however far it walks (float32 keeps 1e-8 m at arm's length, and the
+/// multibody correction takes second differences).
+namespace verp::gait {
+
+/// A point or vector on the ground.
+struct Xy {
+  float x = 0;
+  float y = 0;
+  VERP_FIELDS(x, y)
+  constexpr friend Xy operator+(Xy a, Xy b) { return {a.x + b.x, a.y + b.y}; }
+  constexpr friend Xy operator-(Xy a, Xy b) { return {a.x - b.x, a.y - b.y}; }
+  constexpr friend Xy operator*(float s, Xy a) { return {s * a.x, s * a.y}; }
+};
+VERP_PACKED(Xy);
+
+constexpr float dot(Xy a, Xy b) {
+  return a.x * b.x + a.y * b.y;
+}
+inline Xy turned(Xy v, float yaw_rad) {
+  const math::SinCos yaw = math::sincos(yaw_rad);
+  return {yaw.cos * v.x - yaw.sin * v.y, yaw.sin * v.x + yaw.cos * v.y};
+}
+
+/// Where a sole stands: the centre of its frame, and its heading.
+struct Foothold {
+  Xy at_m;
+  float yaw_rad = 0;
+  VERP_FIELDS(at_m, yaw_rad)
+};
+VERP_PACKED(Foothold);
+
+/// The three phases of the paper, and standing still.
+enum class Phase : std::uint8_t { kIdle, kStart, kTransition, kFinal };
+
+inline constexpr std::uint8_t kLeft = 0;
+inline constexpr std::uint8_t kRight = 1;
+inline constexpr std::uint8_t kBoth = 2;
+
+inline constexpr int kIntervalsPerCycle =
+    15;  ///< 16 states joined by 15 intervals (paper, section 4.1)
+/// Key points are laid at half intervals: then both steps of a cycle hold the same 15 of them and
+/// left is the mirror of right, which a whole interval (7.5 to a step) would not give.
+inline constexpr int kKeyPointsPerStep = 15;
+
+/// One step as planned: who carries, who swings from where to where, and the ZMP under it. The ZMP
+/// moves in a straight line from zmp_begin to zmp_end during the double support, then rests.
+struct Step {
+  std::int32_t key_us = 0;      ///< time between key points
+  std::uint8_t key_points = 0;  ///< duration is key_points * key_us
+  std::uint8_t swing = kBoth;   ///< kLeft, kRight, or kBoth: no foot leaves the ground
+  Phase phase = Phase::kIdle;
+  std::uint8_t reserved = 0;
+  float double_support_s = 0;  ///< from the step's beginning
+  float lift_m = 0;
+  Foothold foot[kFeet];  ///< at the beginning of the step
+  Foothold landing;      ///< of the swing foot
+  Xy zmp_begin_m;
+  Xy zmp_end_m;
+  Xy dcm_end_m;  ///< divergent component of motion at the end of the step
+  VERP_FIELDS(key_us, key_points, swing, phase, reserved, double_support_s, lift_m, foot, landing,
+              zmp_begin_m, zmp_end_m, dcm_end_m)
+
+  constexpr std::int32_t duration_us() const { return key_us * key_points; }
+  constexpr float duration_s() const { return static_cast<float>(duration_us()) * 1e-6F; }
+  constexpr float key_s() const { return static_cast<float>(key_us) * 1e-6F; }
+  constexpr int carrying() const { return swing == kBoth ? kBoth : 1 - swing; }
+  /// Footholds once the step is over.
+  constexpr Foothold after(int side) const { return side == swing ? landing : foot[side]; }
+};
+VERP_PACKED(Step);
+
+inline constexpr int kQueue = 4;  ///< the current step and at most three future ones
+
+}  // namespace verp::gait

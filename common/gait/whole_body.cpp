@@ -1,0 +1,96 @@
+#include "common/gait/whole_body.hpp"
+
+#include "common/model/tree.hpp"
+
+namespace verp::gait {
+namespace {
+
+std::uint32_t leg_joints(const Params& params) {
+  std::uint32_t joints = 0;
+  for (const LegParams& leg : params.leg) {
+    for (const std::uint8_t joint : leg.joint) joints |= std::uint32_t{1} << joint;
+  }
+  return params.leg[kLeft].solver == LegSolver::kNone ? 0 : joints;
+}
+
+}  // namespace
+
+Lump lump_of(const Params& params, const float* angle_rad) {
+  const std::uint32_t legs = leg_joints(params);
+  Pose node[kMaxNodes];
+  Vec3 moment_kg_m = params.body_mass_kg * math::to_vec(params.body_com_m);
+  float mass_kg = params.body_mass_kg;
+  for (int j = 0; j < params.joint_count; ++j) {
+    if ((legs >> j & 1U) != 0) continue;
+    const JointParams& joint = params.joint[j];
+    node[j + 1] = kinematics::chain(node[joint.parent], joint, angle_rad[j]);
+    moment_kg_m += joint.mass_kg * math::apply(node[j + 1], math::to_vec(joint.com_link_m));
+    mass_kg += joint.mass_kg;
+  }
+  return {mass_kg, mass_kg > 0.0F ? math::to_xyz(moment_kg_m / mass_kg) : Xyz{}};
+}
+
+Posture posture_of(const Params& params, const GaitTuning& tuning, Xy body_m, const FootPose& left,
+                   const FootPose& right) {
+  Posture posture;
+  posture.foot[kLeft] = left;
+  posture.foot[kRight] = right;
+  const float yaw_rad = 0.5F * (left.on.yaw_rad + right.on.yaw_rad);
+  posture.body.rotation = math::rot_z(yaw_rad) * math::rot_y(tuning.trunk_pitch_rad);
+  const LegParams& leg = params.leg[kLeft];
+  const float ankle_m = -leg.sole_foot_m.z;
+  const float hip_m = posture.body.rotation.row(2).dot(math::to_vec(leg.hip_body_m));
+  posture.body.position_m = {body_m.x, body_m.y, tuning.hip_height_m + ankle_m - hip_m};
+  return posture;
+}
+
+Pose sole_in_body(const Posture& posture, int side) {
+  const FootPose& foot = posture.foot[side];
+  const Mat3 into_body = posture.body.rotation.transpose();
+  const Vec3 sole_m{foot.on.at_m.x, foot.on.at_m.y, foot.height_m};
+  return {into_body * math::rot_z(foot.on.yaw_rad), into_body * (sole_m - posture.body.position_m)};
+}
+
+float point_mass_kg(const Params& params, const Lump& lump, int point) {
+  if (point == 0) return lump.mass_kg;
+  const int leg = (point - 1) / kLegJoints;
+  return params.joint[params.leg[leg].joint[(point - 1) % kLegJoints]].mass_kg;
+}
+
+Masses masses_of(const Params& params, const Lump& lump, const Pose& body,
+                 const kinematics::LegChain* legs) {
+  Masses masses;
+  masses.point_m[0] = math::apply(body, math::to_vec(lump.com_body_m));
+  Vec3 moment_kg_m = lump.mass_kg * masses.point_m[0];
+  float mass_kg = lump.mass_kg;
+  int point = 1;
+  for (int side = 0; side < kFeet; ++side) {
+    for (int k = 0; k < kLegJoints; ++k, ++point) {
+      const JointParams& joint = params.joint[params.leg[side].joint[k]];
+      masses.point_m[point] = math::apply(legs[side].link[k], math::to_vec(joint.com_link_m));
+      moment_kg_m += joint.mass_kg * masses.point_m[point];
+      mass_kg += joint.mass_kg;
+    }
+  }
+  masses.com_m = mass_kg > 0.0F ? Vec3(moment_kg_m / mass_kg) : body.position_m;
+  return masses;
+}
+
+float com_share(const Params& params, const Lump& lump, const Posture& posture,
+                const Masses& masses) {
+  const LegParams& leg = params.leg[kLeft];
+  const float ankle_m = -leg.sole_foot_m.z;
+  const float hip_m = math::apply(posture.body, math::to_vec(leg.hip_body_m)).z();
+  const float span_m = math::max(hip_m - ankle_m, 1e-3F);
+  float moved_kg = lump.mass_kg;
+  float mass_kg = lump.mass_kg;
+  for (int point = 1; point < kPoints; ++point) {
+    const float share = (masses.point_m[point].z() - ankle_m) / span_m;
+    const float point_kg = point_mass_kg(params, lump, point);
+    moved_kg += math::clamp(share, 0.0F, 1.0F) * point_kg;
+    mass_kg += point_kg;
+  }
+  return mass_kg > 0.0F ? math::clamp(moved_kg / mass_kg, 0.5F, 1.0F) : 1.0F;
+}
+
+}  // namespace verp::gait

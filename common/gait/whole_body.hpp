@@ -1,0 +1,51 @@
+#pragma once
+#include "common/gait/swing.hpp"
+#include "common/kinematics/leg_ik.hpp"
+
+/// The robot as the planner weighs it: twelve leg links and one lump for everything the legs carry.
+namespace verp::gait {
+
+inline constexpr int kPoints = 1 + kFeet * kLegJoints;
+
+/// Trunk, arms and head as one mass fixed in the body frame.
+struct Lump {
+  float mass_kg = 0;
+  Xyz com_body_m;
+  VERP_FIELDS(mass_kg, com_body_m)
+};
+VERP_PACKED(Lump);
+
+/// All links but the legs', at the joint angles given.
+Lump lump_of(const Params& params, const float* angle_rad);
+
+/// Where body and feet are at one moment, walk frame.
+struct Posture {
+  Pose body;
+  FootPose foot[kFeet];
+};
+
+/// Body above (x, y) with the feet as given: height and trunk pitch from the tuning, heading
+/// between the feet.
+Posture posture_of(const Params& params, const GaitTuning& tuning, Xy body_m, const FootPose& left,
+                   const FootPose& right);
+
+/// The sole frame of one foot, seen from the body.
+Pose sole_in_body(const Posture& posture, int side);
+
+/// Mass points of the lump (index 0) and of the left and right leg's links, and their common
+/// centre.
+struct Masses {
+  Vec3 point_m[kPoints];
+  Vec3 com_m;
+};
+Masses masses_of(const Params& params, const Lump& lump, const Pose& body,
+                 const kinematics::LegChain* legs);
+float point_mass_kg(const Params& params, const Lump& lump, int point);
+
+/// How far the centre of mass moves when the body moves by one, with the feet fixed (0.5 to 1): leg
+/// links follow in proportion to their height above the ankle. Inverse of what a CoM correction
+/// must be multiplied by.
+float com_share(const Params& params, const Lump& lump, const Posture& posture,
+                const Masses& masses);
+
+}  // namespace verp::gait

@@ -1,0 +1,58 @@
+#include "common/safety/limit.hpp"
+
+#include "common/math/convert.hpp"
+#include "common/math/spline.hpp"
+
+namespace verp::safety {
+namespace {
+
+// Share of what is left to go that this tick takes, so that the whole way is a minimum-jerk curve
+// wherever it began and however its end moves meanwhile.
+float blend(const Params& params, std::int32_t in_mode_us, float duration_s) {
+  const float now_s = static_cast<float>(in_mode_us) * 1e-6F;
+  const float period_s = static_cast<float>(params.period_us) * 1e-6F;
+  const auto way = [&](float time_s) {
+    return math::minimum_jerk(math::clamp(time_s / duration_s, 0.0F, 1.0F)).value;
+  };
+  const float left = 1.0F - way(now_s - period_s);
+  return left > 1e-6F ? math::clamp((way(now_s) - way(now_s - period_s)) / left, 0.0F, 1.0F) : 1.0F;
+}
+
+}  // namespace
+
+float angle_of(const JointParams& joint, std::int32_t count) {
+  if (joint.counts_per_rad == 0.0F) return 0.0F;
+  return (math::to_float(count) - joint.zero_count) / joint.counts_per_rad;
+}
+
+std::int32_t count_of(const JointParams& joint, float angle_rad) {
+  return math::to_int32(joint.zero_count + joint.counts_per_rad * angle_rad);
+}
+
+bool limit(const Params& params, LimitState& state, const LimitIn& in) {
+  const float period_s = static_cast<float>(params.period_us) * 1e-6F;
+  const bool rising = in.mode == Mode::kRising;
+  const bool blending = rising || in.mode == Mode::kSitting;
+  const float share =
+      blending ? blend(params, in.in_mode_us, rising ? in.tuning->rise_s : in.tuning->sit_s) : 1.0F;
+  bool slowed = false;
+  for (int j = 0; j < params.joint_count; ++j) {
+    const JointParams& joint = params.joint[j];
+    float& goal_rad = state.goal_rad[j];
+    if (!has_torque(in.mode)) {
+      goal_rad = angle_of(joint, in.position_count[j]);
+      continue;
+    }
+    if (in.mode == Mode::kHolding) continue;
+    const float target_rad = in.mode == Mode::kSitting ? joint.sit_rad : in.wanted_rad[j];
+    const float inside_rad = math::clamp(target_rad, joint.lower_rad, joint.upper_rad);
+    const float most_rad = joint.velocity_limit_rad_s * period_s;
+    const float move_rad = share * (inside_rad - goal_rad);
+    const float allowed_rad = math::clamp(move_rad, -most_rad, most_rad);
+    slowed = slowed || (!blending && allowed_rad != move_rad);
+    goal_rad = share == 1.0F && allowed_rad == move_rad ? inside_rad : goal_rad + allowed_rad;
+  }
+  return slowed;
+}
+
+}  // namespace verp::safety

@@ -1,0 +1,49 @@
+#include "common/safety/machine.hpp"
+
+namespace verp::safety {
+namespace {
+
+constexpr std::uint32_t bit(Mode mode) {
+  return 1U << static_cast<unsigned>(mode);
+}
+constexpr std::uint32_t kAny = (1U << kModes) - 1U;
+constexpr std::uint32_t kUpright = bit(Mode::kRising) | bit(Mode::kStanding) | bit(Mode::kWalking) |
+                                   bit(Mode::kHolding) | bit(Mode::kSitting);
+constexpr std::uint32_t kMoving = bit(Mode::kRising) | bit(Mode::kStanding) | bit(Mode::kWalking);
+
+}  // namespace
+
+constexpr Row kTable[] = {
+    // What can't wait.
+    {kAny & ~bit(Mode::kStopped), kEmergency, 0, Mode::kStopped},
+    {bit(Mode::kStopped), kAskRelax, kEmergency, Mode::kRelaxed},
+    {kUpright, kFell, 0, Mode::kFallen},
+    {bit(Mode::kFallen), kAskRelax, 0, Mode::kRelaxed},
+    // Silence: hold, then sit, then release.
+    {kMoving, kStale, 0, Mode::kHolding},
+    {bit(Mode::kHolding), kLost, 0, Mode::kSitting},
+    {bit(Mode::kHolding), 0, kStale, Mode::kRising},
+    {bit(Mode::kStanding), kOperatorGone, 0, Mode::kSitting},
+    // What the operator asks for.
+    {bit(Mode::kRelaxed), kAskStand | kServosKnown, kFell | kStale | kOperatorQuiet, Mode::kRising},
+    {bit(Mode::kRising) | bit(Mode::kStanding), kAskRelax, 0, Mode::kSitting},
+    {bit(Mode::kRising), kTimeUp, 0, Mode::kStanding},
+    {bit(Mode::kStanding), kAskWalk | kCalibrated, kOperatorQuiet | kPowerBad, Mode::kWalking},
+    {bit(Mode::kWalking), kGaitOver, kAskWalk, Mode::kStanding},
+    {bit(Mode::kWalking), kGaitOver | kOperatorQuiet, 0, Mode::kStanding},
+    {bit(Mode::kWalking), kGaitOver | kPowerBad, 0, Mode::kStanding},
+    {bit(Mode::kSitting), kTimeUp, 0, Mode::kRelaxed},
+};
+constexpr int kRows = sizeof(kTable) / sizeof(Row);
+
+Mode next_mode(Mode mode, std::uint32_t conditions) {
+  for (const Row& row : kTable) {
+    if ((row.from & bit(mode)) != 0 && (conditions & row.all_of) == row.all_of &&
+        (conditions & row.none_of) == 0) {
+      return row.to;
+    }
+  }
+  return mode;
+}
+
+}  // namespace verp::safety
