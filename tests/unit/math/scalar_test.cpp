@@ -30,8 +30,8 @@ TEST(MathScalar, ClampIsTotal) {
   EXPECT_EQ(clamp(kNan, -1.0F, 1.0F), -1.0F);
   EXPECT_EQ(clamp(0.5F, 1.0F, 0.0F), 1.0F);
   EXPECT_EQ(clamp(7.0F, 1.0F, 0.0F), 1.0F);
-  EXPECT_EQ(clamp(7, -3, 3), 3);
-  EXPECT_EQ(clamp(-7, -3, 3), -3);
+  EXPECT_EQ(clamp(std::int32_t{7}, std::int32_t{-3}, std::int32_t{3}), 3);
+  EXPECT_EQ(clamp(std::int32_t{-7}, std::int32_t{-3}, std::int32_t{3}), -3);
 }
 
 TEST(MathScalar, SqrtIsExactOnSquaresAndNeverNan) {
