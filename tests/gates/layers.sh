@@ -63,7 +63,7 @@ FNR == 1 { own = rule_of(FILENAME); comment = 0; core_file = FILENAME ~ /^common
   if (target ~ /^</) sub(/>.*/, ">", target)
   else if (target ~ /^"/) { sub(/^"/, "", target); sub(/".*/, "", target) }
   else { complain("an #include must name a file"); next }
-  if (target !~ /^</ && target !~ /\//) { complain("include \"" target "\" by its path from the top of the repository"); next }
+  if (target !~ /[<\/]/ && !allowed(target, own, rule[own])) { complain("include \"" target "\" by its path from the top of the repository"); next }
   if (own != "" && !allowed(target, own, rule[own])) complain(own " must not include " target)
   next
 }
