@@ -33,7 +33,9 @@ struct State {
   safety::LimitState limit;
   safety::MachineState machine;
   std::uint32_t started = 0;  ///< 0 until the first tick has copied Params::tuning
-  VERP_FIELDS(digest, tuning, admit, attitude, steer, gait, feedback, limit, machine, started)
+  std::uint32_t reserved = 0;
+  VERP_FIELDS(digest, tuning, admit, attitude, steer, gait, feedback, limit, machine, started,
+              reserved)
 };
 VERP_PACKED(State);
 static_assert(sizeof(State) <= 2048, "hashed State is at most 2 KB");
