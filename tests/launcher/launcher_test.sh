@@ -15,19 +15,22 @@ stub() { # name script
 # A project whose build makes a program that echoes its arguments and exits 7; g++ is missing until apt-get installs it.
 fresh_project() {
   rm -rf "${scratch:?}"/*
-  mkdir -p "$scratch/bin" "$scratch/toolchains" "$scratch/tests" "$scratch/boards/b1"
+  mkdir -p "$scratch/bin" "$scratch/toolchains" "$scratch/tests" "$scratch/boards/b1" "$scratch/boards/shared"
+  touch "$scratch/boards/b1/memory.ld"
   cp "$root/verp" "$scratch/"
-  printf 'run cmake why\nrun g++ why\ntest clang why\n' >"$scratch/toolchains/packages.txt"
+  printf 'run cmake why\nrun g++ why\nfw gcc-arm why\ntest clang why\n' >"$scratch/toolchains/packages.txt"
   echo '{}' >"$scratch/CMakePresets.json"
   printf '#!/bin/bash\necho "tests: $*"\n' >"$scratch/tests/run" && chmod +x "$scratch/tests/run"
-  stub dpkg-query "echo 'cmake installed'; [[ ! -e '$scratch/g++' ]] || printf 'g++ installed\nclang installed\n'"
+  echo cmake >"$scratch/installed"
+  stub dpkg-query "sed 's/\$/ installed/' '$scratch/installed'"
   stub apt-get "echo \"\$*\" >>'$scratch/apt'
 case \"\$*\" in
 *--print-uris*) echo 'Need to get 5 MB of archives.' ;;
-*' install '*) touch '$scratch/g++' ;;
+*' install '*) printf '%s\n' \"\$@\" >>'$scratch/installed' ;;
 esac"
   stub id 'echo 0'
-  stub cmake "mkdir -p build/host-release && echo configured && touch build/host-release/build.ninja"
+  # shellcheck disable=SC2016
+  stub cmake 'mkdir -p "build/${!#}" && echo configured && touch "build/${!#}/build.ninja"'
   stub ninja "mkdir -p build/host-release/host/tool && touch build/host-release/.ninja_log && echo '[1/1] noise'
 printf '#!/bin/bash\necho \"\$*\"\nexit 7\n' >'$scratch/new' && chmod +x '$scratch/new'
 mv '$scratch/new' build/host-release/host/tool/verp"
@@ -57,10 +60,14 @@ launch walk
 check 'the second time nothing is said' 7 'walk' ''
 [[ -z $errors ]] || { echo "FAILED: said: $errors" && failed=1; }
 
-launch test --only unit
-check 'verp test is handed to tests/run' 0 'tests: --only unit' ''
 launch walk --on b9
-check 'an unknown board is bad usage' 2 '' "no board 'b9'"
+check 'an unknown board is left to the program' 7 'walk --on b9' ''
+[[ ! -e $scratch/build/fw-b1 ]] || { echo 'FAILED: built a board that nobody named' && failed=1; }
+launch walk --on=b1 --yes
+check 'a board that is named gets its firmware built' 7 'walk --on=b1' 'missing: gcc-arm'
+[[ -e $scratch/build/fw-b1 ]] || { echo 'FAILED: no firmware built' && failed=1; }
+launch --yes test --only unit
+check 'verp test is handed to tests/run' 0 'tests: --only unit' ''
 
 fresh_project
 stub apt-get 'echo "E: no network"; exit 100'
@@ -78,13 +85,13 @@ errors=$output output=''
 check 'neither root nor sudo' 3 '' 'needs root'
 
 fresh_project
-touch "$scratch/g++"
+echo g++ >>"$scratch/installed"
 stub ninja "echo 'FAILED: a.o'; echo 'a.cpp:3: error: no such thing'; exit 1"
 launch walk --json
 check 'a build that fails shows the error on stderr only' 1 '' 'a.cpp:3: error: no such thing'
 
 fresh_project
-touch "$scratch/g++"
+echo g++ >>"$scratch/installed"
 stub ninja "[[ ! -e '$scratch/busy' ]] || echo overlap >>'$scratch/overlap'
 touch '$scratch/busy'; sleep 0.2; rm '$scratch/busy'
 mkdir -p build/host-release/host/tool; ln -sf /bin/echo build/host-release/host/tool/verp"
