@@ -8,7 +8,10 @@
 #include <sdf/sdf.hh>
 
 #include "common/io/io.hpp"
+#include "common/model/tuning_ranges.hpp"
+#include "host/model/leg.hpp"
 #include "host/model/load_error.hpp"
+#include "host/model/params.hpp"
 #include "host/model/sdf_parts.hpp"
 
 namespace verp::model {
@@ -52,7 +55,8 @@ class Assembler {
     for (const LimbFact& fact : facts_.limbs) add_limb(fact);
     check_legs();
     read_sensors();
-    for (const TuningFact& fact : facts_.tuning) e_.tuning.emplace_back(fact.name, fact.value);
+    read_tuning();
+    gather_leg_frames(e_);
     add_notes();
     return std::move(e_);
   }
@@ -81,7 +85,9 @@ class Assembler {
       link.sdf = &sdf;
       link.pose = body_model * model_pose(sdf.SemanticPose());
       const auto& inertial = sdf.Inertial();
-      const Transform com = link.pose * to_transform(inertial.Pose());
+      Transform com = link.pose * to_transform(inertial.Pose());
+      if (const auto corrected = corrected_com(sdf.Name()))
+        com.translation() = link.pose * *corrected;
       link.mass_kg = inertial.MassMatrix().Mass();
       link.com_m = com.translation();
       link.inertia_kg_m2 =
@@ -102,6 +108,14 @@ class Assembler {
       if (fact.link == "*" || fact.link == link) scale *= fact.scale;
     }
     return scale;
+  }
+
+  std::optional<Vec3> corrected_com(const std::string& link) const {
+    std::optional<Vec3> com_m;
+    for (const InertiaFact& fact : facts_.inertias) {
+      if (fact.link == link && fact.com_m) com_m = fact.com_m;
+    }
+    return com_m;
   }
 
   void read_joints() {
@@ -214,7 +228,7 @@ class Assembler {
     for (int i = 0; i < 3; ++i) {
       const Vec3 unit = Vec3::Unit(i);
       if ((axis - unit).norm() < kTolerance) return unit;
-      if ((axis + unit).norm() < kTolerance) return -unit;
+      if ((axis + unit).norm() < kTolerance) return Vec3::Zero() - unit;  // no negative zeros
     }
     return axis.normalized();
   }
@@ -461,9 +475,28 @@ class Assembler {
     e_.imu->pose = pose;
   }
 
+  void read_tuning() {
+    for (const TuningFact& fact : facts_.tuning) {
+      const std::optional<int> id = tuning_id(fact.name);
+      if (!id) {
+        fact.at.fail(
+            "there is no tuning value '" + fact.name + "'",
+            "common/model/tuning.hpp lists them: gait.lift_m, balance.gravity_enable, ...");
+      }
+      const Range range = kTuningRanges[*id];
+      if (!in_range(*id, static_cast<float>(fact.value))) {
+        fact.at.fail(
+            "tuning value '" + fact.name + "' is out of range",
+            "choose from " + std::to_string(range.low) + " to " + std::to_string(range.high));
+      }
+      e_.tuning.emplace_back(fact.name, fact.value);
+    }
+  }
+
   void add_notes() {
     for (const InertiaFact& fact : facts_.inertias) {
-      e_.notes.push_back("inertia of '" + fact.link + "' times " + fact.at.text("scale") + ": " +
+      e_.notes.push_back("inertia of '" + fact.link + "' times " + fact.at.text("scale", "1") +
+                         (fact.com_m ? ", centre of mass at " + fact.at.text("com") : "") + ": " +
                          fact.at.text("reason"));
     }
     for (const DropFact& fact : facts_.drops) {

@@ -201,11 +201,15 @@ class FactReader {
     f_.tuning.push_back({e, e.text("name"), e.number("value")});
   }
   void inertia(const XmlElement& e) {
-    e.allow({"link", "scale", "reason"});
+    e.allow({"link", "scale", "com", "reason"});
     e.text("reason");
-    f_.inertias.push_back({e, e.text("link"), e.number("scale")});
-    if (!(f_.inertias.back().scale > 0))
-      e.fail("<verp:inertia> scale is not positive", "write like 0.001");
+    InertiaFact fact{e, e.text("link"), e.number("scale", 1), {}};
+    if (!(fact.scale > 0)) e.fail("<verp:inertia> scale is not positive", "write like 0.001");
+    if (e.has("com")) fact.com_m = e.vector("com");
+    if (fact.com_m && fact.link == "*") {
+      e.fail("<verp:inertia> gives one centre of mass to all links", "name the link");
+    }
+    f_.inertias.push_back(fact);
   }
   void box(const XmlElement& e) {
     e.allow({"frame", "centre", "size", "friction", "stiffness_n_m", "damping_n_s_m"});

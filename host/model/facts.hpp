@@ -49,6 +49,7 @@ struct InertiaFact {
   XmlElement at;
   std::string link;  ///< "*": all
   double scale = 1;
+  std::optional<Vec3> com_m;  ///< replaces the file's, in the link's frame; never for "*"
 };
 struct BoxFact {
   XmlElement at;
