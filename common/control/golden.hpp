@@ -1,0 +1,17 @@
+#pragma once
+#include "common/model/image.hpp"
+
+namespace verp::control {
+
+/// Whole-body posture number `seed`: angles spread over each joint's range. `angle_rad` holds
+/// kMaxJoints.
+void golden_posture(const Params& params, std::uint32_t seed, float* angle_rad);
+
+/// Forward and inverse kinematics of that posture. The same bits on every core.
+GoldenVector golden_vector(const Params& params, std::uint32_t seed);
+
+/// Number of golden vectors of the image that this core reproduces: kGoldenVectors when all is
+/// well.
+int count_golden_matches(const ParamsImage& image);
+
+}  // namespace verp::control

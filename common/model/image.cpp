@@ -1,0 +1,74 @@
+#include "common/model/image.hpp"
+
+namespace verp {
+namespace {
+
+constexpr std::size_t kHeaderSize = sizeof(ImageHeader);
+
+bool well_formed_leg(const Params& params, const LegParams& leg) {
+  if (leg.solver == LegSolver::kNone) return true;
+  if (leg.solver != LegSolver::kClosedForm && leg.solver != LegSolver::kNewton) return false;
+  for (const std::uint8_t joint : leg.joint) {
+    if (joint >= params.joint_count) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+std::uint32_t crc32(const void* bytes, std::size_t size, std::uint32_t previous) {
+  const auto* byte = static_cast<const unsigned char*>(bytes);
+  std::uint32_t crc = ~previous;
+  for (std::size_t i = 0; i < size; ++i) {
+    crc ^= byte[i];
+    for (int bit = 0; bit < 8; ++bit) crc = (crc >> 1) ^ ((crc & 1u) != 0u ? 0xEDB88320u : 0u);
+  }
+  return ~crc;
+}
+
+std::uint32_t params_crc(const Params& params) {
+  return crc32(&params, sizeof params);
+}
+
+void seal_image(ParamsImage& image) {
+  __builtin_memcpy(image.header.magic, kImageMagic, sizeof kImageMagic);
+  image.header.image_version = kImageVersion;
+  image.header.core_version = kCoreVersion;
+  image.header.size = sizeof image;
+  const auto* bytes = reinterpret_cast<const unsigned char*>(&image);
+  image.header.crc32 = crc32(bytes + kHeaderSize, sizeof image - kHeaderSize);
+}
+
+ImageFault check_image(const void* bytes, std::size_t size) {
+  if (size < kHeaderSize) return ImageFault::kTruncated;
+  ImageHeader header;
+  __builtin_memcpy(&header, bytes, kHeaderSize);
+  for (std::size_t i = 0; i < sizeof kImageMagic; ++i) {
+    if (header.magic[i] != kImageMagic[i]) return ImageFault::kNotAnImage;
+  }
+  if (header.image_version != kImageVersion || header.size != sizeof(ParamsImage)) {
+    return ImageFault::kOtherLayout;
+  }
+  if (size < sizeof(ParamsImage)) return ImageFault::kTruncated;
+  const auto* first = static_cast<const unsigned char*>(bytes);
+  if (crc32(first + kHeaderSize, sizeof(ParamsImage) - kHeaderSize) != header.crc32) {
+    return ImageFault::kDamaged;
+  }
+  if (header.core_version != kCoreVersion) return ImageFault::kOtherCore;
+  const auto* params = reinterpret_cast<const Params*>(first + offsetof(ParamsImage, params));
+  return is_well_formed(*params) ? ImageFault::kNone : ImageFault::kOutOfBounds;
+}
+
+bool is_well_formed(const Params& params) {
+  if (params.joint_count > kMaxJoints) return false;
+  for (int j = 0; j < params.joint_count; ++j) {
+    if (params.joint[j].parent > j || params.joint[j].servo_profile >= kServoProfiles) return false;
+  }
+  const std::uint8_t heads[] = {params.head_pan, params.head_tilt};
+  for (const std::uint8_t head : heads) {
+    if (head != 0xFF && head >= params.joint_count) return false;
+  }
+  return well_formed_leg(params, params.leg[0]) && well_formed_leg(params, params.leg[1]);
+}
+
+}  // namespace verp

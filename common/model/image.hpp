@@ -1,0 +1,78 @@
+#pragma once
+#include <cstddef>
+#include <cstdint>
+
+#include "common/base/fields.hpp"
+#include "common/model/params.hpp"
+
+/// The Params image: a robot as bytes, in a flash section of its own, in a trace, in a file. It has
+/// exactly one byte form, so its CRC names it in every link handshake. It brings the answers that
+/// kinematics and control must give on whatever core reads it.
+namespace verp {
+
+/// Changes whenever the layout of ParamsImage, or of anything in it, does.
+inline constexpr std::uint32_t kImageVersion = 1;
+/// Changes whenever the same Params and Inputs give other Outputs: the golden answers depend on it.
+inline constexpr std::uint32_t kCoreVersion = 1;
+
+inline constexpr char kImageMagic[8] = {'V', 'E', 'R', 'P', 'P', 'A', 'R', '1'};
+
+struct ImageHeader {
+  char magic[8] = {};
+  std::uint32_t image_version = 0;
+  std::uint32_t core_version = 0;
+  std::uint32_t size = 0;   ///< of the whole image, header included
+  std::uint32_t crc32 = 0;  ///< of all bytes after the header
+  VERP_FIELDS(magic, image_version, core_version, size, crc32)
+};
+VERP_PACKED(ImageHeader);
+
+/// What forward and inverse kinematics give for one whole-body posture (control/golden.hpp).
+struct GoldenVector {
+  std::uint32_t seed = 0;          ///< draws the joint angles, within their limits
+  std::uint32_t poses_digest = 0;  ///< of the poses of all nodes
+  std::uint32_t legs_digest = 0;   ///< of both legs' angles and flags, solved for the soles' poses
+  Xyz com_m;                       ///< centre of mass, body frame
+  Xyz sole_m[kFeet];               ///< positions of the soles, body frame
+  VERP_FIELDS(seed, poses_digest, legs_digest, com_m, sole_m)
+};
+VERP_PACKED(GoldenVector);
+inline constexpr int kGoldenVectors = 8;
+
+struct ParamsImage {
+  ImageHeader header;
+  Params params;
+  GoldenVector golden[kGoldenVectors];
+  std::uint32_t self_test_ticks = 0;       ///< control/self_test.hpp; 0: the image carries none
+  std::uint32_t self_test_digest[2] = {};  ///< low and high word of the last link of the chain
+  VERP_FIELDS(header, params, golden, self_test_ticks, self_test_digest)
+};
+VERP_PACKED(ParamsImage);
+
+enum class ImageFault : std::uint8_t {
+  kNone = 0,
+  kTruncated = 1,
+  kNotAnImage = 2,
+  kOtherLayout = 3,  ///< written for another kImageVersion
+  kOtherCore = 4,    ///< golden answers of another kCoreVersion
+  kDamaged = 5,      ///< CRC
+  kOutOfBounds = 6,  ///< an index in it points outside its tables
+};
+
+/// CRC-32 as in zip and zlib (reflected 0x04C11DB7). Continues from `previous`.
+std::uint32_t crc32(const void* bytes, std::size_t size, std::uint32_t previous = 0);
+
+/// Names the robot: equal only for equal bytes, up to 2^-32.
+std::uint32_t params_crc(const Params& params);
+
+/// Fills in the header, over everything else as it stands.
+void seal_image(ParamsImage& image);
+
+/// What is wrong with these bytes; `size` may exceed the image (a flash section).
+ImageFault check_image(const void* bytes, std::size_t size);
+
+/// True when every index is inside its table and parents stand before children, so that no loop
+/// over this Params leaves its arrays.
+bool is_well_formed(const Params& params);
+
+}  // namespace verp
