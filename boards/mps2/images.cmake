@@ -22,6 +22,8 @@ function(verp_add_mps2_images machine)
   set_tests_properties(unit.${VERP_BOARD} PROPERTIES LABELS "unit;target" TIMEOUT 300)
 
   verp_add_mps2_image(replay ${machine})
+  verp_add_mps2_image(loop ${machine})
+  verp_add_mps2_image(link ${machine})
 
   # Tests with a half on the PC: that half comes from a PC build, which must be there.
   set(VERP_HOST_DIR ${CMAKE_SOURCE_DIR}/build/host-release CACHE PATH "PC build whose programs test this board")

@@ -44,14 +44,19 @@ File::~File() {
   call(Call::kClose, block);
 }
 
+std::size_t File::read_some(void* data, std::size_t capacity) {
+  const std::uint32_t block[3] = {static_cast<std::uint32_t>(handle_), word(data), capacity};
+  const auto left = static_cast<std::uint32_t>(call(Call::kRead, block));  // bytes *not* read
+  return left < capacity ? capacity - left : 0;
+}
+
 bool File::read(void* data, std::size_t size) {
   auto* bytes = static_cast<std::uint8_t*>(data);
   while (size > 0) {
-    const std::uint32_t block[3] = {static_cast<std::uint32_t>(handle_), word(bytes), size};
-    const auto left = static_cast<std::uint32_t>(call(Call::kRead, block));  // bytes *not* read
-    if (left >= size) return false;
-    bytes += size - left;
-    size = left;
+    const std::size_t count = read_some(bytes, size);
+    if (count == 0) return false;
+    bytes += count;
+    size -= count;
   }
   return true;
 }

@@ -21,6 +21,8 @@ class File {
   File& operator=(const File&) = delete;
 
   bool is_open() const { return handle_ >= 0; }
+  /// Waits for at least one byte; returns how many came, at most capacity; 0: the other end closed.
+  std::size_t read_some(void* data, std::size_t capacity);
   /// Waits until all bytes have come. False: the other end closed, or the file ended, before that.
   bool read(void* data, std::size_t size);
   /// Waits until all bytes have gone. False: the other end closed.
