@@ -24,6 +24,16 @@ void require(bool good, const model::Joint& joint, const char* what) {
 
 }  // namespace
 
+double count_of(const model::Servo& servo, double angle_rad) {
+  return servo.offset_count +
+         servo.direction * servo.counts_per_rev / (2 * std::numbers::pi) * angle_rad;
+}
+
+double angle_of(const model::Servo& servo, double count) {
+  return (count - servo.offset_count) * servo.direction * 2 * std::numbers::pi /
+         servo.counts_per_rev;
+}
+
 double Drive::torque_n_m(double rate_rad_s) const {
   return std::clamp(slope_n_m_s * (speed_rad_s - rate_rad_s), -limit_n_m, limit_n_m);
 }
@@ -36,7 +46,6 @@ ServoModel::ServoModel(const model::Joint& joint, const ServoNoise& noise, Rando
   require(servo.no_load_speed_rad_s > 0, joint, "its servo needs a no-load speed above 0");
   require(servo.counts_per_rev > 0, joint, "its servo needs counts per revolution above 0");
   require(servo.backlash_rad >= 0, joint, "backlash is negative");
-  counts_per_rad_ = servo.direction * servo.counts_per_rev / (2.0 * std::numbers::pi);
   resistance_ohm_ = servo.stall_current_a > 0 ? constants.nominal_v / servo.stall_current_a : 0;
   measurement_.temperature_c = constants.ambient_c;
   measurement_.voltage_v = constants.nominal_v;
@@ -45,16 +54,8 @@ ServoModel::ServoModel(const model::Joint& joint, const ServoNoise& noise, Rando
   profile_count_ = goal_count_;
 }
 
-double ServoModel::count_of(double angle_rad) const {
-  return joint_.servo.offset_count + counts_per_rad_ * angle_rad;
-}
-
-double ServoModel::radians(double count) const {
-  return (count - joint_.servo.offset_count) / counts_per_rad_;
-}
-
 void ServoModel::sample_encoder(double angle_rad) {
-  double count = count_of(angle_rad + noise_.zero_error_rad);
+  double count = count_of(joint_.servo, angle_rad + noise_.zero_error_rad);
   if (noise_.encoder) {
     count += random_.normal() * constants_.encoder_noise_deg / 360.0 * joint_.servo.counts_per_rev;
   }

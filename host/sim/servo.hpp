@@ -22,6 +22,11 @@ struct Drive {
   double torque_n_m(double rate_rad_s) const;
 };
 
+/// Encoder counts of a joint angle and back, as the controller computes them: without zero error,
+/// not rounded.
+double count_of(const model::Servo& servo, double angle_rad);
+double angle_of(const model::Servo& servo, double count);
+
 /// What the datasheets and e-manuals of the X-series say beyond Entity's servo facts, and estimates
 /// where silent.
 struct ServoConstants {
@@ -78,13 +83,11 @@ class ServoModel {
   /// What this servo draws from the supply.
   double supply_current_a() const { return supply_current_a_; }
   /// Where the profile stands, as the joint's true angle.
-  double profile_rad() const { return radians(profile_count_) - noise_.zero_error_rad; }
-  /// The count a goal must have for this joint angle, as the controller computes it (knows no zero
-  /// error).
-  double count_of(double angle_rad) const;
+  double profile_rad() const {
+    return angle_of(joint_.servo, profile_count_) - noise_.zero_error_rad;
+  }
 
  private:
-  double radians(double count) const;
   void sample_encoder(double angle_rad);
   void follow_profile(const ServoSetpoint& setpoint, double step_s);
   double position_loop(const ServoSetpoint& setpoint, double step_s);
@@ -97,7 +100,6 @@ class ServoModel {
   ServoConstants constants_;
   Random random_;
   ServoMeasurement measurement_;
-  double counts_per_rad_ = 0;  ///< signed: direction
   double resistance_ohm_ = 0;
 
   bool was_on_ = false;

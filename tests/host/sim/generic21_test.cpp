@@ -20,8 +20,8 @@ void arm(Plant& plant, const TwinRobot& robot) {
     setpoint.p_gain = joint.servo.p_gain;
     setpoint.i_gain = joint.servo.i_gain;
     setpoint.d_gain = joint.servo.d_gain;
-    setpoint.goal_count = static_cast<std::int32_t>(
-        std::lround(robot.servo(static_cast<int>(j)).count_of(joint.stand_rad)));
+    setpoint.goal_count =
+        static_cast<std::int32_t>(std::lround(count_of(joint.servo, joint.stand_rad)));
   }
 }
 

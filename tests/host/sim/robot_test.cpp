@@ -196,8 +196,8 @@ Sample run(std::uint64_t seed, bool read_often) {
   for (std::uint64_t t = 10'000; t <= 1'000'000; t += 10'000) {
     // A slow swing of the knees, so that everything moves.
     for (const model::Limb& limb : entity.limbs) {
-      const double knee =
-          robot.servo(limb.joints[3]).count_of(1.2 + 0.2 * std::sin(static_cast<double>(t) * 1e-5));
+      const double knee = count_of(entity.joints[static_cast<std::size_t>(limb.joints[3])].servo,
+                                   1.2 + 0.2 * std::sin(static_cast<double>(t) * 1e-5));
       robot.setpoint(limb.joints[3]).goal_count = static_cast<std::int32_t>(knee);
     }
     robot.advance_to(t);

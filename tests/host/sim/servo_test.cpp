@@ -98,15 +98,15 @@ TEST(Servo, ProfileIsAStraightLineOverItsTime) {
   bare.setpoint.goal_count = 2048 + 100;
   for (int ms = 1; ms <= 10; ++ms) {
     servo.drive(bare.setpoint, 0, 0, 12.0, kStepS);
-    EXPECT_NEAR(servo.count_of(servo.profile_rad()), 2048 + 10.0 * ms, 1e-6) << ms;
+    EXPECT_NEAR(count_of(bare.joint.servo, servo.profile_rad()), 2048 + 10.0 * ms, 1e-6) << ms;
   }
   // A new goal in mid-move starts from where the profile stands, not from the old goal.
   bare.setpoint.goal_count = 2048;
   for (int ms = 1; ms <= 5; ++ms) servo.drive(bare.setpoint, 0, 0, 12.0, kStepS);
-  EXPECT_NEAR(servo.count_of(servo.profile_rad()), 2048 + 50, 1e-6);
+  EXPECT_NEAR(count_of(bare.joint.servo, servo.profile_rad()), 2048 + 50, 1e-6);
   bare.setpoint.goal_count = 2048 + 100;
   for (int ms = 1; ms <= 5; ++ms) servo.drive(bare.setpoint, 0, 0, 12.0, kStepS);
-  EXPECT_NEAR(servo.count_of(servo.profile_rad()), 2048 + 75, 1e-6);
+  EXPECT_NEAR(count_of(bare.joint.servo, servo.profile_rad()), 2048 + 75, 1e-6);
 }
 
 TEST(Servo, HoldsTheAngleThatItsZeroErrorMakesOfTheGoal) {
@@ -222,7 +222,7 @@ TEST(ServoInOde, StepResponseIsThatOfASecondOrderSystem) {
   const double goal = 0.02;
   robot.setpoint(0).torque_on = true;
   robot.setpoint(0).p_gain = 100;
-  robot.setpoint(0).goal_count = static_cast<int>(robot.servo(0).count_of(goal));
+  robot.setpoint(0).goal_count = static_cast<int>(count_of(entity.joints[0].servo, goal));
   const double inertia = kArmInertia + 1e-7 + kArmMass * kArmLength * kArmLength;
   const double stiffness = 100.0 / 128 * (4096 * 64 / 6.283185307179586) / 885 * 3.0;
   const double damping = 3.0 / 8.0;

@@ -1,0 +1,194 @@
+#include "host/sim/metrics.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "common/gait/types.hpp"
+
+namespace verp::sim {
+namespace {
+
+/// Cycles left out at either end of the transition phase: the first still carry the start's
+/// transient.
+constexpr std::size_t kUnsteadyCycles = 2;
+
+bool is_walking(const Outputs& outputs) {
+  return outputs.gait_phase != static_cast<std::uint8_t>(gait::Phase::kIdle);
+}
+
+/// Between the soles; without soles, under the body.
+Vec2 ground_position(const Truth& truth) {
+  if (!truth.foot[0].present || !truth.foot[1].present)
+    return truth.body_world.translation().head<2>();
+  return (truth.foot[0].centroid_world_m + truth.foot[1].centroid_world_m).head<2>() / 2;
+}
+
+double ground_heading(const Truth& truth) {
+  if (!truth.foot[0].present || !truth.foot[1].present) return truth.yaw_rad;
+  const Vec3 x =
+      truth.foot[0].sole_world.linear().col(0) + truth.foot[1].sole_world.linear().col(0);
+  return std::atan2(x.y(), x.x());
+}
+
+}  // namespace
+
+Observation observe(TwinRobot& robot) {
+  return {robot.truth(), robot.take_foot_loads(), robot.steps(), robot.saturated_steps()};
+}
+
+WalkMeter::WalkMeter(const model::Entity& entity, bool keep_series)
+    : joints_(entity.joints), keep_series_(keep_series), walk_saturated_(entity.joints.size(), 0) {}
+
+void WalkMeter::tick(const Observation& seen, const Outputs& outputs,
+                     const std::optional<Vec2>& zmp_planned_world_m) {
+  if (!started_) first_s_ = seen.truth.t_s;
+  started_ = true;
+  here_m_ = ground_position(seen.truth);
+  if (walking_) score_past_tick(seen);
+  const bool walks = is_walking(outputs) && !seen.truth.fallen;
+  if (walks && !walking_) begin_walk(seen.truth);
+  if (walks) follow_path(seen.truth, outputs);
+  if (!walks && walking_) end_walk();
+  walking_ = walks;
+  previous_ = outputs;
+  last_ = seen;
+  if (keep_series_) keep(seen, outputs, zmp_planned_world_m);
+}
+
+void WalkMeter::score_past_tick(const Observation& seen) {
+  walk_s_ += seen.truth.t_s - last_.truth.t_s;
+  walk_steps_ += seen.steps - last_.steps;
+  for (std::size_t j = 0; j < walk_saturated_.size(); ++j) {
+    walk_saturated_[j] += seen.saturated_steps[j] - last_.saturated_steps[j];
+  }
+  yaw_turned_rad_ += std::remainder(seen.truth.yaw_rad - last_.truth.yaw_rad, 2 * std::numbers::pi);
+  score_zmp(seen.truth, seen.loads);
+}
+
+void WalkMeter::begin_walk(const Truth& truth) {
+  last_mark_m_ = here_m_;
+  pending_.clear();
+  if (ever_walked_) return;
+  ever_walked_ = true;
+  line_origin_m_ = here_m_;
+  line_heading_rad_ = ground_heading(truth);
+}
+
+void WalkMeter::end_walk() {
+  path_m_ += (here_m_ - last_mark_m_).norm();
+  last_mark_m_ = here_m_;
+  pending_.clear();
+}
+
+void WalkMeter::follow_path(const Truth& truth, const Outputs& outputs) {
+  const Vec2 offset = here_m_ - line_origin_m_;
+  lateral_m_ = std::cos(line_heading_rad_) * offset.y() - std::sin(line_heading_rad_) * offset.x();
+  const bool cycle_begins =
+      walking_ && outputs.stance == gait::kLeft && previous_.stance != gait::kLeft;
+  if (!cycle_begins) return;
+  path_m_ += (here_m_ - last_mark_m_).norm();
+  last_mark_m_ = here_m_;
+  marks_.push_back({truth.t_s, path_m_, outputs.gait_phase});
+}
+
+void WalkMeter::score_zmp(const Truth& truth, const FootLoads& loads) {
+  if (!loads.valid() || truth.fallen) return;
+  const Vec2 zmp = loads.zmp_world_m();
+  std::array<double, 2> distance_mm{};
+  for (std::size_t foot = 0; foot < 2; ++foot) {
+    distance_mm[foot] = 1e3 * (zmp - truth.foot[foot].centroid_world_m.head<2>()).norm();
+  }
+  const int state = std::min<int>(previous_.gait_state, 15);
+  if (previous_.stance == gait::kBoth) {
+    pending_.push_back({state, distance_mm});
+    return;
+  }
+  for (const Pending& past : pending_) add_bias(past.state, past.distance_mm[previous_.stance]);
+  pending_.clear();
+  add_bias(state, distance_mm[previous_.stance]);
+}
+
+void WalkMeter::add_bias(int state, double distance_mm) {
+  bias_sum_mm_[static_cast<std::size_t>(state)] += distance_mm;
+  ++bias_count_[static_cast<std::size_t>(state)];
+}
+
+double WalkMeter::steady_speed() const {
+  const int transition = static_cast<int>(gait::Phase::kTransition);
+  double length_m = 0;
+  double time_s = 0;
+  for (std::size_t begin = 0; begin < marks_.size();) {
+    std::size_t end = begin;
+    while (end < marks_.size() && marks_[end].phase == transition) ++end;
+    if (end - begin > 2 * kUnsteadyCycles + 1) {
+      const Mark& first = marks_[begin + kUnsteadyCycles];
+      const Mark& last = marks_[end - 1 - kUnsteadyCycles];
+      length_m += last.path_m - first.path_m;
+      time_s += last.t_s - first.t_s;
+    }
+    begin = std::max(end, begin + 1);
+  }
+  return time_s > 0 ? length_m / time_s : 0;
+}
+
+WalkMetrics WalkMeter::result() const {
+  WalkMetrics out;
+  out.duration_s = last_.truth.t_s - first_s_;
+  out.walk_s = walk_s_;
+  out.distance_m = path_m_ + (walking_ ? (here_m_ - last_mark_m_).norm() : 0);
+  out.speed_mean_m_s = walk_s_ > 0 ? out.distance_m / walk_s_ : 0;
+  out.speed_steady_m_s = steady_speed();
+  out.lateral_drift_m = lateral_m_;
+  out.yaw_drift_deg = yaw_turned_rad_ * 180 / std::numbers::pi;
+  out.fallen = last_.truth.fallen;
+  double sum = 0;
+  std::uint64_t count = 0;
+  for (std::size_t s = 0; s < 16; ++s) {
+    if (bias_count_[s] == 0) continue;
+    out.zmp_bias_by_state_mm[s] = bias_sum_mm_[s] / static_cast<double>(bias_count_[s]);
+    sum += bias_sum_mm_[s];
+    count += bias_count_[s];
+  }
+  if (count > 0) out.zmp_bias_mean_mm = sum / static_cast<double>(count);
+  if (walk_steps_ == 0 || walk_saturated_.empty()) return out;
+  const auto worst = std::max_element(walk_saturated_.begin(), walk_saturated_.end());
+  out.servo_saturation_worst_joint = static_cast<int>(worst - walk_saturated_.begin());
+  out.servo_saturation_worst = static_cast<double>(*worst) / static_cast<double>(walk_steps_);
+  for (const std::uint64_t steps : walk_saturated_)
+    out.servo_saturation += static_cast<double>(steps);
+  out.servo_saturation /= static_cast<double>(walk_steps_ * walk_saturated_.size());
+  return out;
+}
+
+void WalkMeter::keep(const Observation& seen, const Outputs& outputs,
+                     const std::optional<Vec2>& zmp_planned_world_m) {
+  const Truth& truth = seen.truth;
+  SeriesRow row;
+  row.t_s = truth.t_s;
+  row.phase = outputs.gait_phase;
+  row.state = outputs.gait_state;
+  row.stance = outputs.stance;
+  for (std::size_t j = 0; j < joints_.size(); ++j) {
+    row.goal_rad.push_back(angle_of(joints_[j].servo, outputs.goal_count[j]));
+  }
+  row.joint_rad = truth.joint_rad;
+  row.torque_use = truth.torque_use;
+  row.body_world_m = truth.body_world.translation();
+  row.body_rpy_rad = Vec3(truth.roll_rad, truth.pitch_rad, truth.yaw_rad);
+  row.com_world_m = truth.com_world_m;
+  for (std::size_t foot = 0; foot < 2; ++foot) {
+    row.sole_world_m[foot] = truth.foot[foot].sole_world.translation();
+    row.sole_rpy_rad[foot] = roll_pitch_yaw(truth.foot[foot].sole_world.linear());
+    row.foot_force_n[foot] = truth.foot[foot].normal_force_n;
+  }
+  row.zmp_valid = seen.loads.valid();
+  if (row.zmp_valid) row.zmp_world_m = seen.loads.zmp_world_m();
+  row.zmp_planned_valid = zmp_planned_world_m.has_value();
+  row.zmp_planned_world_m = zmp_planned_world_m.value_or(Vec2::Zero());
+  row.support_world_m = truth.support_world_m;
+  series_.push_back(std::move(row));
+}
+
+}  // namespace verp::sim
