@@ -21,14 +21,16 @@ std::int64_t decode(const Register& reg, const std::uint8_t* bytes) {
 RegisterTable::RegisterTable(std::vector<Register> registers) : registers_(std::move(registers)) {
   const Register& last = registers_.back();
   image_.resize(static_cast<std::size_t>(last.address) + last.size);
-  for (const Register& reg : registers_) set(reg.address, reg.initial);
+  index_.assign(image_.size(), -1);
+  for (std::size_t i = 0; i < registers_.size(); ++i) {
+    index_[registers_[i].address] = static_cast<std::int16_t>(i);
+    set(registers_[i].address, registers_[i].initial);
+  }
 }
 
 const Register* RegisterTable::find(std::uint16_t address) const {
-  const auto found = std::lower_bound(
-      registers_.begin(), registers_.end(), address,
-      [](const Register& reg, std::uint16_t wanted) { return reg.address < wanted; });
-  return found != registers_.end() && found->address == address ? &*found : nullptr;
+  if (address >= index_.size() || index_[address] < 0) return nullptr;
+  return &registers_[static_cast<std::size_t>(index_[address])];
 }
 
 std::int64_t RegisterTable::get(std::uint16_t address) const {

@@ -42,6 +42,7 @@ class RegisterTable {
 
  private:
   std::vector<Register> registers_;
+  std::vector<std::int16_t> index_;  ///< of the register that begins at an address; -1: none
   std::vector<std::uint8_t> image_;
 };
 
