@@ -356,7 +356,7 @@ class Assembler {
             what + "may turn to " + std::to_string(*limit) + " rad, beyond its servo's single turn",
             "narrow the limit, or change the servo's offset");
       }
-      *limit = (reachable - s.offset_count) / counts_per_rad;
+      *limit = (reachable - s.offset_count) / counts_per_rad + 0.0;  // no negative zero
     }
   }
 

@@ -1,0 +1,229 @@
+#include "host/model/check.hpp"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+#include "common/model/image.hpp"
+#include "firmware/app/schedule.hpp"
+#include "host/model/find.hpp"
+#include "host/model/leg.hpp"
+#include "host/model/load.hpp"
+#include "host/model/params.hpp"
+#include "host/model/servo_types.hpp"
+
+namespace verp::model {
+namespace {
+
+constexpr double kDegrees = 180 / std::numbers::pi;
+
+double total_mass(const Entity& entity) {
+  double sum = 0;
+  for (const Node& node : entity.nodes) sum += node.mass_kg;
+  return sum;
+}
+
+/// Box around all collision shapes' corners and joint centres at the zero pose.
+Vec3 measures(const Entity& entity) {
+  const auto origins = node_origins(entity);
+  Eigen::AlignedBox3d box;
+  for (std::size_t n = 0; n < entity.nodes.size(); ++n) {
+    box.extend(origins[n]);
+    for (const Collision& collision : entity.nodes[n].collisions) {
+      Vec3 half = collision.size_m / 2;
+      if (collision.shape != Collision::Shape::kBox) {
+        const double radius = collision.size_m.x();
+        const double cap = collision.shape == Collision::Shape::kCylinder ? 0 : radius;
+        half = Vec3(radius, radius, collision.size_m.z() / 2 + cap);
+      }
+      for (int corner = 0; corner < 8; ++corner) {
+        const Vec3 sign((corner & 1) ? 1 : -1, (corner & 2) ? 1 : -1, (corner & 4) ? 1 : -1);
+        box.extend(origins[n] + collision.pose * half.cwiseProduct(sign));
+      }
+    }
+  }
+  return box.sizes();
+}
+
+/// Where the robot's weight acts, from the body frame, at the zero pose.
+Vec3 center_of_mass(const Entity& entity) {
+  const auto origins = node_origins(entity);
+  Vec3 sum = Vec3::Zero();
+  for (std::size_t n = 0; n < entity.nodes.size(); ++n) {
+    sum += entity.nodes[n].mass_kg * (origins[n] + entity.nodes[n].com_m);
+  }
+  return sum / total_mass(entity);
+}
+
+struct BusLoad {
+  std::size_t bytes;
+  double share;
+};
+BusLoad bus_load(const Params& params) {
+  return {app::schedule_bytes(params),
+          app::schedule_us(params) / static_cast<double>(params.period_us)};
+}
+
+std::string leg_text(const Limb& limb, const LegGeometry& g) {
+  return fmt::format(
+      "  {:<10} {} (axes meet within {:.2f} mm{}), thigh {:.1f} mm, shank {:.1f} mm, sole {:.0f} x "
+      "{:.0f} mm, "
+      "{:.1f} mm below the ankle\n",
+      limb.name, g.closed_form ? "closed form" : "Newton", 1000 * g.residual_m,
+      g.reason.empty() ? "" : ": " + g.reason, 1000 * g.thigh_m, 1000 * g.shank_m,
+      1000 * (limb.sole_max_m.x() - limb.sole_min_m.x()),
+      1000 * (limb.sole_max_m.y() - limb.sole_min_m.y()), -1000 * limb.tip.translation().z());
+}
+
+bool is_leg(const Limb& limb) {
+  return limb.name == "left_leg" || limb.name == "right_leg";
+}
+
+std::string joint_rows(const Entity& entity) {
+  std::string text = fmt::format(
+      "  {:<18} {:>3} {:>4} {:<11} {:>5} {:>15} {:>7} {:>8} {:>8} {:>7}\n", "joint", "id", "dir",
+      "servo", "axis", "limits, deg", "rad/s", "N m max", "N m/rad", "link kg");
+  for (std::size_t j = 0; j < entity.joints.size(); ++j) {
+    const Joint& joint = entity.joints[j];
+    int along = 0;
+    const double part = joint.axis.cwiseAbs().maxCoeff(&along);
+    const std::string axis =
+        part < 0.999 ? "skew" : std::string(joint.axis[along] < 0 ? "-" : "+") + "xyz"[along];
+    text += fmt::format(
+        "  {:<18} {:>3} {:>+4} {:<11} {:>5} {:>7.1f} {:>7.1f} {:>7.2f} {:>8.2f} {:>8.1f} "
+        "{:>7.3f}\n",
+        joint.name, joint.servo.id, joint.servo.direction, joint.servo.type, axis,
+        joint.lower_rad * kDegrees, joint.upper_rad * kDegrees, joint.velocity_limit_rad_s,
+        joint.servo.stall_torque_n_m, servo_stiffness_n_m_rad(joint.servo),
+        entity.nodes[j + 1].mass_kg);
+  }
+  return text;
+}
+
+std::string sensor_rows(const Entity& entity) {
+  std::string text = fmt::format("sensors: angle in all {} joints", entity.joints.size());
+  if (entity.imu)
+    text += fmt::format(", IMU (bus id {}) on {}", entity.imu->id, entity.nodes[0].name);
+  if (entity.feet.id[0] != 0) {
+    text += fmt::format(", 4 force cells per foot (bus ids {}, {})", entity.feet.id[0],
+                        entity.feet.id[1]);
+  }
+  for (const OtherSensor& sensor : entity.sensors) {
+    if (sensor.type == "imu" || sensor.type == "contact") continue;
+    text += fmt::format(", {} on {}", sensor.type, sensor.link);
+  }
+  return text + "\n";
+}
+
+nlohmann::ordered_json limb_json(const Entity& entity, const Limb& limb) {
+  nlohmann::ordered_json out = {{"name", limb.name}, {"dof", limb.joints.size()}};
+  for (const int j : limb.joints)
+    out["joints"].push_back(entity.joints[static_cast<std::size_t>(j)].name);
+  if (!is_leg(limb)) return out;
+  const LegGeometry g = classify_leg(entity, limb);
+  out["solver"] = g.closed_form ? "closed_form" : "newton";
+  out["reason"] = g.reason;
+  out["residual_mm"] = 1000 * g.residual_m;
+  out["thigh_m"] = g.thigh_m;
+  out["shank_m"] = g.shank_m;
+  out["sole_length_m"] = limb.sole_max_m.x() - limb.sole_min_m.x();
+  out["sole_width_m"] = limb.sole_max_m.y() - limb.sole_min_m.y();
+  return out;
+}
+
+nlohmann::ordered_json joint_json(const Entity& entity, std::size_t j) {
+  const Joint& joint = entity.joints[j];
+  const Servo& servo = joint.servo;
+  return {{"name", joint.name},
+          {"axis", {joint.axis.x(), joint.axis.y(), joint.axis.z()}},
+          {"lower_rad", joint.lower_rad},
+          {"upper_rad", joint.upper_rad},
+          {"velocity_limit_rad_s", joint.velocity_limit_rad_s},
+          {"link", entity.nodes[j + 1].name},
+          {"link_mass_kg", entity.nodes[j + 1].mass_kg},
+          {"servo",
+           {{"id", servo.id},
+            {"type", servo.type},
+            {"direction", servo.direction},
+            {"offset_count", servo.offset_count},
+            {"backlash_rad", servo.backlash_rad},
+            {"stall_torque_n_m", servo.stall_torque_n_m},
+            {"no_load_speed_rad_s", servo.no_load_speed_rad_s},
+            {"stiffness_n_m_rad", servo_stiffness_n_m_rad(servo)},
+            {"p_gain", servo.p_gain}}}};
+}
+
+}  // namespace
+
+std::string describe(const Entity& entity) {
+  const Params params = make_params(entity);
+  const Vec3 size = measures(entity);
+  const Vec3 com = center_of_mass(entity);
+  std::string text = fmt::format(
+      "{}: {} joints, {:.3f} kg, {:.0f} x {:.0f} x {:.0f} mm (x, y, z at the zero pose)\n",
+      entity.name, entity.joints.size(), total_mass(entity), 1000 * size.x(), 1000 * size.y(),
+      1000 * size.z());
+  text += fmt::format("file: {}\n", entity.file);
+  text += fmt::format(
+      "body frame: centre of {} ({:.3f} kg); the robot's centre of mass is at {:.1f} {:.1f} {:.1f} "
+      "mm\n",
+      entity.nodes[0].name, entity.nodes[0].mass_kg, 1000 * com.x(), 1000 * com.y(),
+      1000 * com.z());
+  text += "limbs:";
+  for (const Limb& limb : entity.limbs)
+    text += fmt::format(" {} {} DOF;", limb.name, limb.joints.size());
+  text.back() = '\n';
+  for (const Limb& limb : entity.limbs) {
+    if (is_leg(limb)) text += leg_text(limb, classify_leg(entity, limb));
+  }
+  text += joint_rows(entity);
+  text += sensor_rows(entity);
+  const BusLoad load = bus_load(params);
+  text += fmt::format("bus: {}, {} baud, {} us period, {} bytes a tick: {:.1f} % of it\n",
+                      entity.protocol, entity.baud, entity.period_us, load.bytes, 100 * load.share);
+  text += fmt::format("params: {} bytes, CRC-32 {:08x}\n", sizeof params, params_crc(params));
+  for (const std::string& note : entity.notes) text += "note: " + note + "\n";
+  return text;
+}
+
+std::string describe_json(const Entity& entity) {
+  const Params params = make_params(entity);
+  const Vec3 size = measures(entity);
+  const Vec3 com = center_of_mass(entity);
+  const BusLoad load = bus_load(params);
+  nlohmann::ordered_json out = {{"name", entity.name},
+                                {"file", entity.file},
+                                {"dof", entity.joints.size()},
+                                {"mass_kg", total_mass(entity)},
+                                {"size_m", {size.x(), size.y(), size.z()}},
+                                {"center_of_mass_body_m", {com.x(), com.y(), com.z()}},
+                                {"limbs", nlohmann::ordered_json::array()},
+                                {"joints", nlohmann::ordered_json::array()},
+                                {"sensors", nlohmann::ordered_json::array()}};
+  for (const Limb& limb : entity.limbs) out["limbs"].push_back(limb_json(entity, limb));
+  for (std::size_t j = 0; j < entity.joints.size(); ++j)
+    out["joints"].push_back(joint_json(entity, j));
+  for (const OtherSensor& sensor : entity.sensors) {
+    out["sensors"].push_back({{"name", sensor.name}, {"type", sensor.type}, {"link", sensor.link}});
+  }
+  out["bus"] = {{"protocol", entity.protocol},
+                {"baud", entity.baud},
+                {"period_us", entity.period_us},
+                {"bytes_per_tick", load.bytes},
+                {"share", load.share}};
+  out["params"] = {{"bytes", sizeof params}, {"crc32", fmt::format("{:08x}", params_crc(params))}};
+  out["notes"] = entity.notes;
+  return out.dump(2) + "\n";
+}
+
+int check_command(const std::string& name_or_path, bool json) {
+  const Entity entity = load_robot(find_model(name_or_path));
+  const std::string text = json ? describe_json(entity) : describe(entity);
+  std::fputs(text.c_str(), stdout);
+  return 0;
+}
+
+}  // namespace verp::model

@@ -1,0 +1,123 @@
+#include "host/model/export.hpp"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <memory>
+
+#include "common/control/golden.hpp"
+#include "common/control/self_test.hpp"
+#include "firmware/app/schedule.hpp"
+#include "host/model/find.hpp"
+#include "host/model/load.hpp"
+#include "host/model/params.hpp"
+
+namespace verp::model {
+namespace {
+
+constexpr double kLargestBusShare = 0.8;
+
+void require_bus_time(const Entity& entity, const Params& params) {
+  const double share = app::schedule_us(params) / static_cast<double>(params.period_us);
+  if (share <= kLargestBusShare) return;
+  throw LoadError(
+      entity.file, 1,
+      fmt::format("one tick's frames take {:.0f} % of the control period of {} us at {} baud",
+                  100 * share, params.period_us, params.baud),
+      "raise baud or period_us in <verp:bus>: at most 80 % is admitted");
+}
+
+const char* meaning(ImageFault fault) {
+  switch (fault) {
+    case ImageFault::kNone:
+      return "sound";
+    case ImageFault::kTruncated:
+      return "truncated";
+    case ImageFault::kNotAnImage:
+      return "not a Params image";
+    case ImageFault::kOtherLayout:
+      return "of another layout version";
+    case ImageFault::kOtherCore:
+      return "of another core version";
+    case ImageFault::kDamaged:
+      return "damaged: its CRC does not fit";
+    case ImageFault::kOutOfBounds:
+      return "inconsistent: an index points outside its table";
+  }
+  return "unknown";
+}
+
+void write_file(const std::filesystem::path& path, const char* data, std::size_t size) {
+  std::ofstream file(path, std::ios::binary);
+  file.write(data, static_cast<std::streamsize>(size));
+  file.close();
+  if (!file)
+    throw LoadError(path.string(), 1, "cannot write this file", "check the folder's permissions");
+}
+
+}  // namespace
+
+ParamsImage make_image(const Entity& entity) {
+  ParamsImage image;
+  image.params = make_params(entity);
+  require_bus_time(entity, image.params);
+  for (std::uint32_t k = 0; k < kGoldenVectors; ++k) {
+    image.golden[k] = control::golden_vector(image.params, k + 1);
+  }
+  const auto scratch = std::make_unique<State>();
+  const std::uint64_t digest = control::self_test_digest(image.params, *scratch);
+  image.self_test_ticks = control::kSelfTestTicks;
+  image.self_test_digest[0] = static_cast<std::uint32_t>(digest);
+  image.self_test_digest[1] = static_cast<std::uint32_t>(digest >> 32);
+  seal_image(image);
+  return image;
+}
+
+ParamsImage read_image(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file)
+    throw LoadError(path, 1, "cannot read this file", "check the path and its permissions");
+  const std::string bytes{std::istreambuf_iterator<char>(file), {}};
+  const ImageFault fault = check_image(bytes.data(), bytes.size());
+  if (fault != ImageFault::kNone) {
+    throw LoadError(path, 1, std::string("this Params image is ") + meaning(fault),
+                    "write it again with `verp export`");
+  }
+  ParamsImage image;
+  std::memcpy(&image, bytes.data(), sizeof image);
+  return image;
+}
+
+std::string image_header(const ParamsImage& image) {
+  std::string text = fmt::format(
+      "// Params image of {}: written by verp export, CRC-32 {:08x}. Do not edit.\n#pragma once\n\n"
+      "alignas(8) inline constexpr unsigned char verp_params_image[{}] = {{",
+      image.params.name, image.header.crc32, sizeof image);
+  const auto* bytes = reinterpret_cast<const unsigned char*>(&image);
+  for (std::size_t i = 0; i < sizeof image; ++i) {
+    fmt::format_to(std::back_inserter(text), "{}{:#04x},", i % 16 == 0 ? "\n    " : " ", bytes[i]);
+  }
+  return text + "\n};\n";
+}
+
+int export_command(const std::string& name_or_path, const std::string& directory) {
+  const ParamsImage image = make_image(load_robot(find_model(name_or_path)));
+  std::error_code error;
+  std::filesystem::create_directories(directory, error);
+  if (error) throw LoadError(directory, 1, "cannot create this folder", "choose another with -o");
+  const std::filesystem::path folder = directory;
+  write_file(folder / "params.bin", reinterpret_cast<const char*>(&image), sizeof image);
+  const std::string header = image_header(image);
+  write_file(folder / "params.hpp", header.data(), header.size());
+  fmt::print("{}: {} bytes, CRC-32 {:08x}, {} golden vectors, self-test {:08x}{:08x}\n",
+             (folder / "params.bin").string(), sizeof image, image.header.crc32, kGoldenVectors,
+             image.self_test_digest[1], image.self_test_digest[0]);
+  fmt::print("{}: the same bytes as a C++ array\n", (folder / "params.hpp").string());
+  return 0;
+}
+
+}  // namespace verp::model
