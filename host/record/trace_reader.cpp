@@ -23,6 +23,12 @@ std::string read_bytes(const fs::path& file) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
+template <class T>
+const std::string& layout_of(const char* name) {
+  static const std::string text = describe_layout<T>(name);  // 30 kB for Params: once is enough
+  return text;
+}
+
 std::string writer_of(const mcap::StringMap& metadata) {
   const auto revision = metadata.find("source_revision");
   return revision == metadata.end() ? "another revision" : "revision " + revision->second;
@@ -74,8 +80,8 @@ class Loader {
     }
     const std::string_view bytes = found->second.data;
     const auto layout = file_.attachments.find("params.layout");
-    const bool same_layout = layout == file_.attachments.end() ||
-                             layout->second.data == describe_layout<Params>("Params");
+    const bool same_layout =
+        layout == file_.attachments.end() || layout->second.data == layout_of<Params>("Params");
     if (bytes.size() != sizeof(Params) || !same_layout) {
       refuse(found->second.offset,
              fmt::format("a Params image of {} bytes with other fields than this verp's {} bytes",
@@ -103,7 +109,7 @@ class Loader {
     }
     const auto schema = file_.schemas.find(tick->schema);
     if (schema == file_.schemas.end() ||
-        schema->second.data != describe_layout<TickRecord>("TickRecord")) {
+        schema->second.data != layout_of<TickRecord>("TickRecord")) {
       refuse(0, "ticks with other fields than this verp's Inputs",
              "read it with verp of " + writer_of(trace_.metadata));
     }
@@ -111,7 +117,7 @@ class Loader {
     if (state == nullptr) return false;
     const auto state_schema = file_.schemas.find(state->schema);
     return state_schema != file_.schemas.end() &&
-           state_schema->second.data == describe_layout<State>("State");
+           state_schema->second.data == layout_of<State>("State");
   }
 
   void add_tick(const mcap::Message& message) {

@@ -44,12 +44,19 @@ TraceWriter::TraceWriter(const std::filesystem::path& file, const Params& params
 
 void TraceWriter::append(const TickRecord& record, const State& state, std::uint32_t faults,
                          const ros::BodyPose* body) {
+  const bool keep = options_.every_state || ticks_ % kKeyframeTicks == 0 || faults != faults_;
+  faults_ = faults;
+  put(record, keep ? &state : nullptr, body);
+}
+
+void TraceWriter::append(const TickRecord& record, const State* kept) {
+  put(record, kept, nullptr);
+}
+
+void TraceWriter::put(const TickRecord& record, const State* kept, const ros::BodyPose* body) {
   const std::uint64_t time_ns = std::uint64_t{record.inputs.tick} * params_.period_us * 1000;
   writer_.add_message(tick_, time_ns, image(record));
-  if (options_.every_state || ticks_ % kKeyframeTicks == 0 || faults != faults_) {
-    writer_.add_message(state_, time_ns, image(state));
-  }
-  faults_ = faults;
+  if (kept != nullptr) writer_.add_message(state_, time_ns, image(*kept));
   if (options_.ros) append_ros(record.inputs, body, time_ns);
   ++ticks_;
   if (ticks_ % options_.chunk_ticks == 0) writer_.flush();

@@ -26,6 +26,8 @@ class TraceWriter {
   /// really was, if a twin knows (null: no /tf for this tick).
   void append(const TickRecord& record, const State& state, std::uint32_t faults,
               const ros::BodyPose* body = nullptr);
+  /// One tick of a run that is copied: with the State its trace kept, if it did (null: none).
+  void append(const TickRecord& record, const State* kept);
   /// Adds `result` as metadata, ends the file and gives it its name.
   void close(const mcap::StringMap& result = {});
 
@@ -33,6 +35,7 @@ class TraceWriter {
   std::uint64_t ticks() const { return ticks_; }
 
  private:
+  void put(const TickRecord& record, const State* kept, const ros::BodyPose* body);
   void append_ros(const Inputs& inputs, const ros::BodyPose* body, std::uint64_t time_ns);
 
   mcap::Writer writer_;

@@ -1,0 +1,136 @@
+#include "host/report/gnuplot.hpp"
+
+#include <fcntl.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <utility>
+
+extern char** environ;
+
+namespace verp::report {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A folder for the script and what gnuplot makes of it; gone afterwards.
+class Scratch {
+ public:
+  Scratch() {
+    std::string name = (fs::temp_directory_path() / "verp-plot-XXXXXX").string();
+    if (::mkdtemp(name.data()) != nullptr) path_ = name;
+  }
+  ~Scratch() {
+    std::error_code ignored;
+    if (!path_.empty()) fs::remove_all(path_, ignored);
+  }
+  Scratch(const Scratch&) = delete;
+  Scratch& operator=(const Scratch&) = delete;
+  const fs::path& path() const { return path_; }
+
+ private:
+  fs::path path_;
+};
+
+std::string slurp(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+/// Exit status of gnuplot with its output in files; -1 if it cannot be started.
+int run_gnuplot(const std::string& argument, const std::string& out, const std::string& error) {
+  posix_spawn_file_actions_t actions;
+  posix_spawn_file_actions_init(&actions);
+  posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+  posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, out.c_str(),
+                                   O_WRONLY | O_CREAT | O_TRUNC, 0600);
+  posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, error.c_str(),
+                                   O_WRONLY | O_CREAT | O_TRUNC, 0600);
+  std::string program = "gnuplot", file = argument;
+  std::array<char*, 3> arguments{program.data(), file.data(), nullptr};
+  pid_t child = 0;
+  const int failed =
+      ::posix_spawnp(&child, "gnuplot", &actions, nullptr, arguments.data(), environ);
+  posix_spawn_file_actions_destroy(&actions);
+  if (failed != 0) return -1;
+  int status = 0;
+  while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
+  }
+  return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
+void replace_all(std::string& text, const std::string& from, const std::string& to) {
+  for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from, at)) {
+    text.replace(at, from.size(), to);
+    at += to.size();
+  }
+}
+
+/// gnuplot writes a colour as #rrggbb or as rgb(%3d, %3d, %3d).
+void replace_colour(std::string& svg, int r, int g, int b, const std::string& variable) {
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "rgb(%3d, %3d, %3d)", r, g, b);
+  replace_all(svg, text.data(), variable);
+  std::snprintf(text.data(), text.size(), "#%02x%02x%02x", r, g, b);
+  replace_all(svg, text.data(), variable);
+  std::snprintf(text.data(), text.size(), "#%02X%02X%02X", r, g, b);
+  replace_all(svg, text.data(), variable);
+}
+
+std::string for_page(std::string svg) {
+  const std::size_t start = svg.find("<svg");
+  if (start == std::string::npos) return {};
+  svg.erase(0, start);
+  replace_colour(svg, 1, 1, 1, "var(--ink)");
+  replace_colour(svg, 2, 2, 2, "var(--soft)");
+  for (int i = 1; i <= 6; ++i) {
+    replace_colour(svg, 16, 0, i, "var(--s" + std::to_string(i) + ")");
+  }
+  replace_all(svg, "fill=\"black\"", "fill=\"var(--ink)\"");
+  return svg;
+}
+
+}  // namespace
+
+bool gnuplot_available() {
+  const char* path = std::getenv("PATH");
+  std::string folders = path == nullptr ? "" : path;
+  folders += ':';
+  for (std::size_t at = 0, end; (end = folders.find(':', at)) != std::string::npos; at = end + 1) {
+    if (end > at && ::access((folders.substr(at, end - at) + "/gnuplot").c_str(), X_OK) == 0)
+      return true;
+  }
+  return false;
+}
+
+std::optional<std::string> draw(const std::string& script, std::string& error) {
+  const Scratch scratch;
+  if (scratch.path().empty()) {
+    error = "no folder for temporary files";
+    return std::nullopt;
+  }
+  const fs::path file = scratch.path() / "plot.gp";
+  std::ofstream(file, std::ios::binary) << script;
+  const fs::path out = scratch.path() / "plot.svg", problems = scratch.path() / "stderr";
+  const int status = run_gnuplot(file.string(), out.string(), problems.string());
+  std::string svg = for_page(slurp(out));
+  if (status == 0 && svg.ends_with("</svg>\n\n") == false &&
+      svg.find("</svg>") == std::string::npos) {
+    svg.clear();
+  }
+  if (status == 0 && !svg.empty()) return svg;
+  const std::string text = slurp(problems);
+  error = text.substr(0, text.find('\n', text.find_first_not_of('\n') == std::string::npos
+                                             ? 0
+                                             : text.find_first_not_of('\n')));
+  return std::nullopt;
+}
+
+}  // namespace verp::report

@@ -1,0 +1,27 @@
+#pragma once
+#include <filesystem>
+#include <stdexcept>
+#include <string>
+
+#include "host/report/run_data.hpp"
+
+namespace verp::report {
+
+/// The folder cannot be written; what() is one line with the remedy.
+class ReportError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+struct Written {
+  std::filesystem::path page;
+  std::string
+      note;  ///< what the reader should know, e.g. that plots are missing and why; empty: nothing
+};
+
+/// Writes index.html (self-contained, plots inside) and the numbers as CSV into `folder`, which is
+/// made if need be. Each file appears whole or not at all; other files in the folder stay. Throws
+/// ReportError.
+Written write_report(const std::filesystem::path& folder, const Run& run);
+
+}  // namespace verp::report

@@ -1,0 +1,72 @@
+#pragma once
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+/// What a report tells about one walk: plain numbers, so that the report knows neither twin nor
+/// controller. World frame: x where the robot faced at the start, y to its left, z up; SI units
+/// unless the name says otherwise.
+namespace verp::report {
+
+struct Point2 {
+  double x_m = 0, y_m = 0;
+};
+struct Point3 {
+  double x_m = 0, y_m = 0, z_m = 0;
+};
+
+/// One control tick of the gait.
+struct Sample {
+  double t_s = 0;    ///< since the gait began
+  int phase = 0;     ///< gait::Phase
+  int state = 0;     ///< 0..15, the paper's state within the cycle
+  int carrying = 2;  ///< foot that carries or is about to: 0 left, 1 right, 2 both
+  Point3 body;
+  std::array<double, 3> roll_pitch_yaw_rad{};
+  std::array<Point3, 2> ankle;                ///< left, right
+  std::array<std::array<Point2, 4>, 2> sole;  ///< corners, in order around the sole
+  std::array<bool, 2> contact{};
+  std::optional<Point2> zmp;
+  std::optional<double> zmp_bias_mm;
+  std::vector<double> joint_rad;
+  std::vector<double> torque_use;  ///< |torque| / stall torque
+};
+
+/// One line of the table of a sweep over step lengths.
+struct SweepRow {
+  double step_m = 0;
+  double speed_m_s = 0;
+  double bias_mm = 0;        ///< with the multibody correction
+  double bias_plain_mm = 0;  ///< without
+  bool fallen = false, fallen_plain = false;
+};
+
+/// A named number as the page shows it.
+struct Fact {
+  std::string name, value, note;
+};
+
+struct Run {
+  std::string model;
+  std::string title;    ///< what was asked, in words
+  std::string verdict;  ///< how it ended, in words
+  bool good = true;
+  double cycle_s = 0.45;
+  double period_s = 0.01;
+  std::vector<std::string> joints;
+  std::array<std::vector<int>, 2> leg_joints;  ///< left, right; from hip to ankle
+  std::vector<Sample> samples;
+  std::vector<Fact> facts;
+  std::array<double, 16> bias_by_state_mm{};
+  double bias_mean_mm = 0;
+  double speed_steady_m_s = 0, speed_mean_m_s = 0;
+  std::vector<SweepRow> sweep;
+  std::vector<std::pair<std::string, std::string>>
+      provenance;          ///< revision, compiler, command, digest
+  std::string trace_file;  ///< name inside the folder; empty: none
+};
+
+}  // namespace verp::report

@@ -1,0 +1,52 @@
+#include "host/tool/command.hpp"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+
+namespace verp::tool {
+
+void add_json_flag(CLI::App& app, bool& json) {
+  app.add_flag("--json", json, "one JSON object on stdout, everything else on stderr");
+}
+
+void print_json(const Json& object) {
+  // A model's name may hold any bytes; JSON must stay JSON.
+  const std::string text = object.dump(2, ' ', false, Json::error_handler_t::replace);
+  std::fputs((text + "\n").c_str(), stdout);
+  std::fflush(stdout);
+}
+
+double parse_number(const std::string& text, double low, double high, const std::string& unit) {
+  double value = 0;
+  const char* first = text.data() + (text.starts_with('+') ? 1 : 0);
+  const char* last = text.data() + text.size();
+  const auto [end, error] = std::from_chars(first, last, value);
+  const std::string space = unit.empty() ? "" : " ";
+  if (error != std::errc() || end != last || !std::isfinite(value)) {
+    throw CLI::ValidationError(
+        fmt::format("'{}' is not a number; give {:g} to {:g}{}{}", text, low, high, space, unit));
+  }
+  if (value < low || value > high) {
+    throw CLI::ValidationError(
+        fmt::format("{} is out of range; give {:g} to {:g}{}{}", text, low, high, space, unit));
+  }
+  return value;
+}
+
+CLI::Validator number_between(double low, double high, const std::string& unit) {
+  return CLI::Validator(
+      [=](std::string& text) {
+        try {
+          parse_number(text, low, high, unit);
+        } catch (const CLI::ValidationError& error) {
+          return std::string(error.what());
+        }
+        return std::string();
+      },
+      fmt::format("{:g}..{:g}{}{}", low, high, unit.empty() ? "" : " ", unit));
+}
+
+}  // namespace verp::tool

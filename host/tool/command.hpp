@@ -1,0 +1,40 @@
+#pragma once
+#include <CLI/CLI.hpp>
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "host/tool/exit_status.hpp"
+
+namespace verp::tool {
+
+/// Keys keep the order in which they were written.
+using Json = nlohmann::ordered_json;
+
+/// A subcommand: its options, and what to run once they are parsed. `run` returns the exit status
+/// or throws.
+struct Subcommand {
+  CLI::App* app;
+  std::function<int()> run;
+};
+
+Subcommand add_walk(CLI::App& root);
+Subcommand add_replay(CLI::App& root);
+Subcommand add_diff(CLI::App& root);
+Subcommand add_trace(CLI::App& root);
+
+/// Adds --json. With it stdout holds one JSON object and nothing else; everything for people goes
+/// to stderr.
+void add_json_flag(CLI::App& app, bool& json);
+
+/// Writes one object and a newline to stdout.
+void print_json(const Json& object);
+
+/// Parses all of `text` as a decimal number within [low, high]; throws CLI::ValidationError with
+/// the range otherwise (also for NaN, infinity and trailing characters).
+double parse_number(const std::string& text, double low, double high, const std::string& unit);
+
+/// A check for CLI options that take one number: same rules as parse_number.
+CLI::Validator number_between(double low, double high, const std::string& unit);
+
+}  // namespace verp::tool

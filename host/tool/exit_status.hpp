@@ -1,0 +1,26 @@
+#pragma once
+#include <stdexcept>
+#include <string>
+
+namespace verp::tool {
+
+/// Exit status of the program (design.md section 9).
+enum ExitStatus : int {
+  kGood = 0,
+  kRunFailed = 1,  ///< fell, diverged, interrupted
+  kBadInput = 2,   ///< usage or a file
+  kNoDevice = 3,   ///< device or link
+};
+
+/// A failure the user can act on: one line that says what, where and how to fix it.
+class ToolError : public std::runtime_error {
+ public:
+  ToolError(ExitStatus status, const std::string& line)
+      : std::runtime_error(line), status_(status) {}
+  ExitStatus status() const { return status_; }
+
+ private:
+  ExitStatus status_;
+};
+
+}  // namespace verp::tool

@@ -1,0 +1,26 @@
+#pragma once
+#include <chrono>
+#include <string>
+
+namespace verp::tool {
+
+/// A progress bar on stderr while stderr is a terminal; silent otherwise, under CI and when told
+/// so.
+class Progress {
+ public:
+  explicit Progress(bool wanted);
+  ~Progress() { clear(); }
+  Progress(const Progress&) = delete;
+  Progress& operator=(const Progress&) = delete;
+
+  /// share 0..1; `label` says what is going on. Cheap: draws at most ten times a second.
+  void show(double share, const std::string& label);
+  void clear();
+
+ private:
+  bool active_;
+  bool drawn_ = false;
+  std::chrono::steady_clock::time_point next_;
+};
+
+}  // namespace verp::tool

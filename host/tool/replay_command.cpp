@@ -1,0 +1,119 @@
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "host/record/replay.hpp"
+#include "host/tool/command.hpp"
+
+namespace verp::tool {
+namespace {
+
+Json to_json(const record::Divergence& divergence, const Params& params, const char* left,
+             const char* right) {
+  Json json = {{"tick", divergence.tick},
+               {"time_s", divergence.tick * (params.period_us * 1e-6)},
+               {"stage", divergence.stage},
+               {"field", nullptr},
+               {std::string("digest_") + left, divergence.left_digest},
+               {std::string("digest_") + right, divergence.right_digest},
+               {"fields_tick", divergence.fields_tick},
+               {"fields", Json::array()}};
+  if (!divergence.fields.empty()) json["field"] = divergence.fields.front().path;
+  for (const record::FieldDifference& field : divergence.fields) {
+    json["fields"].push_back({{"field", field.path}, {left, field.left}, {right, field.right}});
+  }
+  return json;
+}
+
+record::Trace load(const std::string& file, bool recover) {
+  record::Trace trace =
+      record::read_trace(file, recover ? record::Read::kRecover : record::Read::kStrict);
+  if (!trace.warning.empty()) fmt::print(stderr, "{}\n", trace.warning);
+  return trace;
+}
+
+struct ReplayOptions {
+  std::string file;
+  bool json = false, recover = false;
+};
+
+int run_replay(const ReplayOptions& options) {
+  const record::Trace trace = load(options.file, options.recover);
+  const record::ReplayResult result = record::replay(trace);
+  const bool equal = !result.divergence;
+  if (options.json) {
+    Json json = {{"trace", options.file},
+                 {"ticks", result.ticks},
+                 {"equal", equal},
+                 {"digest_recorded", fmt::format("0x{:016x}", result.recorded_digest)},
+                 {"digest_replayed", fmt::format("0x{:016x}", result.replayed_digest)},
+                 {"divergence", nullptr}};
+    if (!equal)
+      json["divergence"] = to_json(*result.divergence, trace.params, "recorded", "replayed");
+    print_json(json);
+  } else if (equal) {
+    fmt::print("{}: {} ticks ({:.2f} s), every stage the same bits, digest 0x{:016x}\n",
+               options.file, result.ticks, static_cast<double>(result.ticks) * trace.period_s(),
+               result.replayed_digest);
+  }
+  if (equal) return kGood;
+  const auto revision = trace.metadata.find("source_revision");
+  fmt::print(stderr, "{}: diverges at {}; it was recorded by revision {}, this is {}\n",
+             options.file, text(*result.divergence, trace.params, "recorded", "replayed"),
+             revision == trace.metadata.end() ? "unknown" : revision->second,
+             record::build_info().at("source_revision"));
+  return kRunFailed;
+}
+
+struct DiffOptions {
+  std::string left, right;
+  bool json = false, recover = false;
+};
+
+int run_diff(const DiffOptions& options) {
+  const record::Trace left = load(options.left, options.recover);
+  const record::Trace right = load(options.right, options.recover);
+  const auto divergence = record::diff(left, right);
+  if (options.json) {
+    Json json = {{"a", options.left},
+                 {"b", options.right},
+                 {"equal", !divergence},
+                 {"ticks_a", left.ticks.size()},
+                 {"ticks_b", right.ticks.size()},
+                 {"divergence", nullptr}};
+    if (divergence) json["divergence"] = to_json(*divergence, left.params, "a", "b");
+    print_json(json);
+  } else if (!divergence) {
+    fmt::print("{} and {}: equal, {} ticks, digest 0x{:016x}\n", options.left, options.right,
+               left.ticks.size(), left.digest());
+  } else {
+    fmt::print("{} and {} differ at {}\n", options.left, options.right,
+               text(*divergence, left.params, "A", "B"));
+  }
+  return divergence ? kRunFailed : kGood;
+}
+
+}  // namespace
+
+Subcommand add_replay(CLI::App& root) {
+  CLI::App* app = root.add_subcommand(
+      "replay", "Re-run the controller on a trace's inputs; exit 1 names the first difference");
+  auto options = std::make_shared<ReplayOptions>();
+  app->add_option("TRACE", options->file, "an .mcap file written by verp")->required();
+  app->add_flag("--recover", options->recover, "take what stands before a truncation or damage");
+  add_json_flag(*app, options->json);
+  return {app, [options] { return run_replay(*options); }};
+}
+
+Subcommand add_diff(CLI::App& root) {
+  CLI::App* app = root.add_subcommand(
+      "diff", "Name the first difference of two traces: robot, input, stage, field; exit 1 if any");
+  auto options = std::make_shared<DiffOptions>();
+  app->add_option("A", options->left, "a trace")->required();
+  app->add_option("B", options->right, "another trace")->required();
+  app->add_flag("--recover", options->recover, "take what stands before a truncation or damage");
+  add_json_flag(*app, options->json);
+  return {app, [options] { return run_diff(*options); }};
+}
+
+}  // namespace verp::tool

@@ -1,0 +1,158 @@
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <fstream>
+#include <iostream>
+#include <memory>
+
+#include "host/record/replay.hpp"
+#include "host/record/trace_writer.hpp"
+#include "host/tool/command.hpp"
+
+namespace verp::tool {
+namespace {
+
+struct TraceCommandOptions {
+  std::string file, output;
+  bool json = false, recover = false;
+};
+
+std::string joint_name(const JointParams& joint) {
+  return {joint.name, ::strnlen(joint.name, kNameLength)};
+}
+
+record::Trace load(const TraceCommandOptions& options) {
+  record::Trace trace = record::read_trace(
+      options.file, options.recover ? record::Read::kRecover : record::Read::kStrict);
+  if (!trace.warning.empty()) fmt::print(stderr, "{}\n", trace.warning);
+  return trace;
+}
+
+int info(const TraceCommandOptions& options) {
+  const record::Trace trace = load(options);
+  const double duration_s = static_cast<double>(trace.ticks.size()) * trace.period_s();
+  const std::string digest = fmt::format("0x{:016x}", trace.digest());
+  if (options.json) {
+    Json metadata = Json::object();
+    for (const auto& [key, value] : trace.metadata) metadata[key] = value;
+    print_json(
+        {{"trace", options.file},
+         {"model", std::string(trace.params.name, ::strnlen(trace.params.name, kNameLength))},
+         {"ticks", trace.ticks.size()},
+         {"period_us", trace.params.period_us},
+         {"duration_s", duration_s},
+         {"joints", trace.params.joint_count},
+         {"kept_states", trace.keyframes.size()},
+         {"digest", digest},
+         {"metadata", metadata}});
+    return kGood;
+  }
+  fmt::print("{}\n  {} ticks of {} us: {:.2f} s\n  {} joints, {} kept States\n  digest {}\n",
+             options.file, trace.ticks.size(), trace.params.period_us, duration_s,
+             trace.params.joint_count, trace.keyframes.size(), digest);
+  for (const auto& [key, value] : trace.metadata) fmt::print("  {}: {}\n", key, value);
+  return kGood;
+}
+
+/// One line a tick, SI units, sensor axes as the IMU has them.
+void write_csv(const record::Trace& trace, std::ostream& out) {
+  const Params& params = trace.params;
+  out << "tick,time_s,flags";
+  for (const char* axis : {"x", "y", "z"}) out << ",gyro_imu_rad_s." << axis;
+  for (const char* axis : {"x", "y", "z"}) out << ",accel_imu_m_s2." << axis;
+  for (const char* foot : {"left", "right"}) {
+    for (int i = 0; i < kFootSensors; ++i) out << ",foot_n." << foot << i;
+  }
+  for (int j = 0; j < params.joint_count; ++j) out << ",rad." << joint_name(params.joint[j]);
+  out << '\n';
+  for (const TickRecord& record : trace.ticks) {
+    const Inputs& in = record.inputs;
+    out << fmt::format("{},{:.6f},{}", in.tick, in.tick * trace.period_s(), in.flags);
+    for (const auto count : in.gyro_count) {
+      out << fmt::format(",{:.6g}", static_cast<float>(count) * params.imu.gyro_rad_s_per_count);
+    }
+    for (const auto count : in.accel_count) {
+      out << fmt::format(",{:.6g}", static_cast<float>(count) * params.imu.accel_m_s2_per_count);
+    }
+    for (const auto& foot : in.foot_count) {
+      for (const auto count : foot) {
+        out << fmt::format(",{:.6g}", static_cast<float>(count) * params.feet.newton_per_count);
+      }
+    }
+    for (int j = 0; j < params.joint_count; ++j) {
+      out << fmt::format(",{:.6f}", record::ros::joint_rad(params.joint[j], in.position_count[j]));
+    }
+    out << '\n';
+  }
+}
+
+int export_csv(const TraceCommandOptions& options) {
+  const record::Trace trace = load(options);
+  if (options.output.empty() || options.output == "-") {
+    write_csv(trace, std::cout);
+    return kGood;
+  }
+  std::ofstream out(options.output);
+  write_csv(trace, out);
+  out.close();
+  if (!out) {
+    throw ToolError(kBadInput,
+                    fmt::format("{}: cannot be written; choose a folder that exists and is yours",
+                                options.output));
+  }
+  return kGood;
+}
+
+int recover(const TraceCommandOptions& options) {
+  const record::Trace trace = record::read_trace(options.file, record::Read::kRecover);
+  record::mcap::StringMap run = trace.metadata;
+  for (const auto& [key, value] : record::build_info()) {
+    run["recorded_" + key] = run.contains(key) ? run[key] : "unknown";
+    run.erase(key);
+  }
+  record::TraceWriter writer(options.output, trace.params, run);
+  // States are kept again where they stand; a damaged trace's fault bits are not known, so only
+  // those.
+  std::size_t next = 0;
+  const State none;
+  for (std::size_t i = 0; i < trace.ticks.size(); ++i) {
+    const bool kept = next < trace.keyframes.size() && trace.keyframes[next].index == i;
+    writer.append(trace.ticks[i], kept ? &trace.keyframes[next].state : nullptr);
+    next += kept ? 1 : 0;
+  }
+  writer.close({{"recovered_from", options.file}});
+  fmt::print(stderr, "{}\n", trace.warning.empty() ? options.file + ": is whole" : trace.warning);
+  fmt::print("{}: {} ticks\n", options.output, trace.ticks.size());
+  return kGood;
+}
+
+}  // namespace
+
+Subcommand add_trace(CLI::App& root) {
+  CLI::App* app =
+      root.add_subcommand("trace", "Look into a trace, export it, recover what a crash left");
+  app->require_subcommand(1);
+  auto options = std::make_shared<TraceCommandOptions>();
+  const auto add = [&](const char* name, const char* description) {
+    CLI::App* inner = app->add_subcommand(name, description);
+    inner->add_option("TRACE", options->file, "an .mcap file written by verp")->required();
+    return inner;
+  };
+  CLI::App* show = add("info", "robot, length, digest, and how it was made");
+  CLI::App* csv = add("export", "ticks as CSV in SI units");
+  csv->add_option("-o,--output", options->output, "file; default: stdout");
+  for (CLI::App* inner : {show, csv}) {
+    inner->add_flag("--recover", options->recover,
+                    "take what stands before a truncation or damage");
+  }
+  add_json_flag(*show, options->json);
+  CLI::App* mend =
+      add("recover", "write what stands before a truncation or damage as a whole trace");
+  mend->add_option("-o,--output", options->output, "file")->required();
+  return {app, [=] {
+            if (show->parsed()) return info(*options);
+            return csv->parsed() ? export_csv(*options) : recover(*options);
+          }};
+}
+
+}  // namespace verp::tool

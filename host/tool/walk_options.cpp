@@ -1,0 +1,143 @@
+#include "host/tool/walk_options.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "common/model/tuning_ranges.hpp"
+#include "host/model/params.hpp"
+#include "host/tool/command.hpp"
+
+namespace verp::tool {
+namespace {
+
+constexpr double kMaxStep_m = 0.15;    // longer than any leg this size can swing
+constexpr double kMaxWalk_s = 86400;   // a day
+constexpr double kMaxSpeed_m_s = 2.0;  // fits Command's 0.1 mm/s in 16 bits with room
+constexpr double kMaxTurn_rad_s = 6.3;
+constexpr std::size_t kMaxSweep = 50;
+
+std::vector<std::string> split(const std::string& text, char separator) {
+  std::vector<std::string> parts(1);
+  for (const char c : text) {
+    if (c == separator) {
+      parts.emplace_back();
+    } else {
+      parts.back() += c;
+    }
+  }
+  return parts;
+}
+
+/// parse_number with the option's name in the error.
+double number(const std::string& option, const std::string& text, double low, double high,
+              const std::string& unit) {
+  try {
+    return parse_number(text, low, high, unit);
+  } catch (const CLI::ValidationError& error) {
+    throw ToolError(kBadInput, fmt::format("verp walk: {}: {}", option, error.what()));
+  }
+}
+
+void set_by_name(Tuning& tuning, const std::string& setting) {
+  const std::size_t equals = setting.find('=');
+  const std::string name = setting.substr(0, equals);
+  const auto id = model::tuning_id(name);
+  if (equals == std::string::npos || !id) {
+    std::string names;
+    for (const std::string& known : model::tuning_names()) names += " " + known;
+    throw ToolError(kBadInput,
+                    fmt::format("verp walk: --set {}: {}; names:{}", setting,
+                                id ? "no value (NAME=VALUE)" : "no such parameter", names));
+  }
+  const Range& range = kTuningRanges[*id];
+  const double value = number("--set " + name, setting.substr(equals + 1),
+                              static_cast<double>(range.low), static_cast<double>(range.high), "");
+  set_tuning_value(tuning, *id, static_cast<float>(value));
+}
+
+}  // namespace
+
+void declare(CLI::App& app, WalkOptions& options) {
+  app.add_option("MODEL", options.model, "a robot of common/robots, or the path of an SDF file")
+      ->capture_default_str();
+  app.add_option("--step", options.step_m, "step length, m")
+      ->check(number_between(0, kMaxStep_m, "m"))
+      ->capture_default_str();
+  app.add_option("--cycle", options.cycle_s, "two steps, s")
+      ->check(number_between(0.3, 2.0, "s"))
+      ->capture_default_str();
+  app.add_option("--velocity", options.velocity_text,
+                 "VX,VY,WZ in m/s and rad/s instead of --step");
+  app.add_option("--for", options.walk_s, "length of the gait, all three phases, s")
+      ->check(number_between(3, kMaxWalk_s, "s"))
+      ->capture_default_str();
+  app.add_option("--seed", options.seed, "of every random thing in the twin")
+      ->check(number_between(0, 9007199254740992.0, ""))
+      ->capture_default_str();
+  app.add_option("--record", options.record_file, "write the trace here (.mcap)");
+  app.add_option("--report", options.report_folder, "write the report here (default: report)");
+  app.add_option(
+      "--sweep-step", options.sweep_text,
+      "FROM:TO:BY in m: also walk at each step length, with and without the multibody correction");
+  app.add_option("--set", options.settings, "NAME=VALUE: a gait, balance or safety parameter");
+  app.add_flag("--no-multibody", options.no_multibody, "switch the multibody ZMP correction off");
+  app.add_flag("--no-feedback", options.no_feedback, "switch gyro and tilt feedback off");
+  app.add_flag("--no-gravity", options.no_gravity, "switch the gravity feed-forward off");
+  app.add_flag("--record-state", options.record_state,
+               "keep the full State of every tick in the trace");
+  add_json_flag(app, options.json);
+}
+
+Command velocity_of(const WalkOptions& options, double step_m) {
+  double vx_m_s = 2 * step_m / options.cycle_s, vy_m_s = 0, wz_rad_s = 0;
+  if (!options.velocity_text.empty()) {
+    const std::vector<std::string> parts = split(options.velocity_text, ',');
+    if (parts.size() != 3) {
+      throw ToolError(kBadInput,
+                      fmt::format("verp walk: --velocity '{}' is not VX,VY,WZ; example: 0.1,0,0.2",
+                                  options.velocity_text));
+    }
+    vx_m_s = number("--velocity VX", parts[0], -kMaxSpeed_m_s, kMaxSpeed_m_s, "m/s");
+    vy_m_s = number("--velocity VY", parts[1], -kMaxSpeed_m_s, kMaxSpeed_m_s, "m/s");
+    wz_rad_s = number("--velocity WZ", parts[2], -kMaxTurn_rad_s, kMaxTurn_rad_s, "rad/s");
+  }
+  Command command;
+  command.vx_tenth_mm_s = static_cast<std::int16_t>(std::lround(1e4 * vx_m_s));
+  command.vy_tenth_mm_s = static_cast<std::int16_t>(std::lround(1e4 * vy_m_s));
+  command.wz_mrad_s = static_cast<std::int16_t>(std::lround(1e3 * wz_rad_s));
+  return command;
+}
+
+std::vector<double> sweep_of(const WalkOptions& options) {
+  if (options.sweep_text.empty()) return {};
+  const std::vector<std::string> parts = split(options.sweep_text, ':');
+  if (parts.size() != 3) {
+    throw ToolError(
+        kBadInput,
+        fmt::format("verp walk: --sweep-step '{}' is not FROM:TO:BY; example: 0.02:0.06:0.01",
+                    options.sweep_text));
+  }
+  const double from_m = number("--sweep-step FROM", parts[0], 0, kMaxStep_m, "m");
+  const double to_m = number("--sweep-step TO", parts[1], from_m, kMaxStep_m, "m");
+  const double by_m = number("--sweep-step BY", parts[2], 0.001, kMaxStep_m, "m");
+  std::vector<double> steps;
+  for (std::size_t i = 0; i < kMaxSweep; ++i) {
+    const double step_m = from_m + static_cast<double>(i) * by_m;
+    if (step_m > to_m + 1e-9) return steps;
+    steps.push_back(step_m);
+  }
+  throw ToolError(kBadInput,
+                  fmt::format("verp walk: --sweep-step '{}' is more than {} steps; raise BY",
+                              options.sweep_text, kMaxSweep));
+}
+
+void apply_tuning(const WalkOptions& options, Tuning& tuning) {
+  tuning.gait.cycle_s = static_cast<float>(options.cycle_s);
+  for (const std::string& setting : options.settings) set_by_name(tuning, setting);
+  if (options.no_multibody) tuning.balance.multibody_enable = 0;
+  if (options.no_feedback) tuning.balance.feedback_enable = 0;
+  if (options.no_gravity) tuning.balance.gravity_enable = 0;
+}
+
+}  // namespace verp::tool

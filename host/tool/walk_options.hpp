@@ -1,0 +1,37 @@
+#pragma once
+#include <CLI/CLI.hpp>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/model/params.hpp"
+
+namespace verp::tool {
+
+/// The command line of `verp walk`, checked.
+struct WalkOptions {
+  std::string model = "generic21";
+  double step_m = 0.04;
+  double cycle_s = 0.45;
+  double walk_s = 20;
+  std::uint64_t seed = 1;
+  std::string velocity_text, sweep_text, record_file, report_folder;
+  std::vector<std::string> settings;  ///< NAME=VALUE
+  bool no_multibody = false, no_feedback = false, no_gravity = false;
+  bool record_state = false, json = false;
+};
+
+void declare(CLI::App& app, WalkOptions& options);
+
+/// Velocity asked for: --velocity, or two steps a cycle straight ahead. Throws ToolError.
+Command velocity_of(const WalkOptions& options, double step_m);
+
+/// Step lengths of --sweep-step; empty when it was not given. Throws ToolError.
+std::vector<double> sweep_of(const WalkOptions& options);
+
+/// Applies --cycle, --set and --no-... to the robot's tuning. Throws ToolError for unknown names
+/// and values out of range.
+void apply_tuning(const WalkOptions& options, Tuning& tuning);
+
+}  // namespace verp::tool

@@ -1,0 +1,46 @@
+#pragma once
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "common/model/params.hpp"
+#include "host/model/entity.hpp"
+#include "host/record/trace_writer.hpp"
+#include "host/sim/metrics.hpp"
+#include "host/tool/progress.hpp"
+
+namespace verp::tool {
+
+/// One walk of one robot, fully determined by these values.
+struct WalkPlan {
+  model::Entity entity;
+  Params params;
+  Command velocity;  ///< vx, vy, wz
+  double walk_s = 20;
+  std::uint64_t seed = 1;
+};
+
+struct WalkResult {
+  sim::WalkMetrics metrics;
+  std::vector<sim::SeriesRow> series;  ///< from the first tick on
+  std::uint64_t ticks = 0;
+  std::uint64_t digest = 0;
+  std::uint32_t faults = 0;  ///< safety::Fault bits at the end
+  double simulated_s = 0, wall_s = 0;
+  bool interrupted = false;
+  std::string failure;  ///< why the walk is no good, in words; empty: it is good
+
+  bool good() const { return failure.empty() && !interrupted; }
+  double real_time_factor() const { return wall_s > 0 ? simulated_s / wall_s : 0; }
+};
+
+/// Software in the loop: the same firmware/app loop as on the MCU talks Dynamixel bytes to virtual
+/// servos on the twin. `trace` (may be null) gets every tick. Ends by itself when the gait is over,
+/// the robot has fallen, or somebody interrupts. Throws ToolError when the robot does not come up.
+WalkResult walk(const WalkPlan& plan, record::TraceWriter* trace, Progress& progress,
+                const std::string& label, bool keep_series);
+
+/// Names of the fault bits that are set, e.g. "fall, servo silent"; empty when none.
+std::string fault_names(std::uint32_t faults);
+
+}  // namespace verp::tool
