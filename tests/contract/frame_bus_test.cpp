@@ -2,13 +2,17 @@
 
 #include <array>
 #include <cstdint>
+#include <thread>
 #include <vector>
 
 #include "common/protocol/dynamixel2.hpp"
+#include "firmware/app/remote_bus.hpp"
 #include "hal/contract/frame_bus.hpp"
 #include "hal/fake/scripted_bus.hpp"
+#include "host/bus/bus_server.hpp"
 #include "host/bus/virtual_bus.hpp"
 #include "tests/host/bus/fake_plant.hpp"
+#include "tests/host/bus/pipes.hpp"
 
 // The promises of hal/contract/frame_bus.hpp, held against each backend. A backend is prepared for
 // `pings` pings of servo 1 and answers each with the e-Manual's status packet, but for the firmware
@@ -51,6 +55,33 @@ struct Virtual {
   bus::VirtualBus bus{params, plant};
 };
 
+/// The virtual bus again, through the link of an emulated microcontroller.
+struct Remote {
+  explicit Remote(int) {
+    server = std::thread([this] {
+      bus::BusServer(
+          params, virtual_bus,
+          bus::file_streams(pipes.from_controller.read_end(), pipes.to_controller.write_end()), {},
+          {})
+          .serve();
+    });
+    EXPECT_TRUE(bus.hello(received));
+  }
+  ~Remote() {
+    pipes.from_controller.close_write_end();
+    server.join();
+  }
+  Params params = test::bus_params(2);
+  Params received;
+  test::FakePlant plant;
+  bus::VirtualBus virtual_bus{params, plant};
+  test::PipePair pipes;
+  test::PipeEnd in{pipes.to_controller};
+  test::PipeEnd out{pipes.from_controller};
+  std::thread server;
+  app::RemoteBus<test::PipeEnd, test::PipeEnd> bus{in, out};
+};
+
 template <class Backend>
 class FrameBusContract : public ::testing::Test {
  protected:
@@ -67,7 +98,7 @@ class FrameBusContract : public ::testing::Test {
   }
 };
 
-using Backends = ::testing::Types<Scripted, ScriptedInPieces, Virtual>;
+using Backends = ::testing::Types<Scripted, ScriptedInPieces, Virtual, Remote>;
 TYPED_TEST_SUITE(FrameBusContract, Backends);
 
 TYPED_TEST(FrameBusContract, ModelsTheConcept) {

@@ -1,14 +1,16 @@
 #include "host/bus/bus_server.hpp"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <array>
 #include <cstring>
 #include <thread>
 #include <vector>
 
+#include "firmware/app/app.hpp"
+#include "firmware/app/remote_bus.hpp"
 #include "tests/host/bus/fake_plant.hpp"
+#include "tests/host/bus/pipes.hpp"
 
 namespace verp {
 namespace {
@@ -16,26 +18,20 @@ namespace {
 /// The controller's end of the link, spoken by hand over two pipes.
 class BusServer : public ::testing::Test {
  protected:
-  void SetUp() override {
-    ASSERT_EQ(::pipe(to_server.data()), 0);
-    ASSERT_EQ(::pipe(to_controller.data()), 0);
-  }
   void start(bus::ServerHooks hooks, bus::RunOptions options = {}) {
     server = std::thread([this, hooks = std::move(hooks), options] {
-      bus::BusServer service(params, virtual_bus, bus::file_streams(to_server[0], to_controller[1]),
-                             hooks, options);
+      bus::BusServer service(
+          params, virtual_bus,
+          bus::file_streams(pipes.from_controller.read_end(), pipes.to_controller.write_end()),
+          hooks, options);
       result = service.serve();
     });
   }
   void TearDown() override {
     hang_up();
     if (server.joinable()) server.join();
-    for (const int fd : {to_server[0], to_controller[0], to_controller[1]}) ::close(fd);
   }
-  void hang_up() {
-    if (to_server[1] >= 0) ::close(to_server[1]);
-    to_server[1] = -1;
-  }
+  void hang_up() { pipes.from_controller.close_write_end(); }
   template <class... Parts>
   void put(link::Kind kind, const Parts&... parts) {
     link::MessageHeader header{kind, 0, static_cast<std::uint16_t>((0u + ... + sizeof(Parts)))};
@@ -48,8 +44,7 @@ class BusServer : public ::testing::Test {
     outbox.insert(outbox.end(), bytes, bytes + sizeof part);
   }
   void flush() {
-    ASSERT_EQ(::write(to_server[1], outbox.data(), outbox.size()),
-              static_cast<ssize_t>(outbox.size()));
+    ASSERT_TRUE(out.write(outbox.data(), outbox.size()));
     outbox.clear();
   }
   template <class T>
@@ -57,9 +52,9 @@ class BusServer : public ::testing::Test {
     T value;
     auto* bytes = reinterpret_cast<std::uint8_t*>(&value);
     for (std::size_t have = 0; have < sizeof value;) {
-      const ssize_t count = ::read(to_controller[0], bytes + have, sizeof value - have);
-      if (count <= 0) break;
-      have += static_cast<std::size_t>(count);
+      const std::size_t count = in.read_some(bytes + have, sizeof value - have);
+      if (count == 0) break;
+      have += count;
     }
     return value;
   }
@@ -76,8 +71,9 @@ class BusServer : public ::testing::Test {
   link::HelloReply reply;
   test::FakePlant plant;
   bus::VirtualBus virtual_bus{params, plant};
-  std::array<int, 2> to_server{-1, -1};
-  std::array<int, 2> to_controller{-1, -1};
+  test::PipePair pipes;
+  test::PipeEnd in{pipes.to_controller};
+  test::PipeEnd out{pipes.from_controller};
   std::vector<std::uint8_t> outbox;
   std::thread server;
   bus::ServerResult result;
@@ -125,8 +121,7 @@ TEST_F(BusServer, AnswersAPollInOneReadWithBytesTimeAndOrder) {
     put(link::Kind::kPoll, link::Poll{5000, 512, 0});
     flush();
     std::array<std::uint8_t, link::kMaxReply> whole{};
-    const ssize_t count = ::read(to_controller[0], whole.data(), whole.size());
-    ASSERT_EQ(count, static_cast<ssize_t>(sizeof(link::PollReply) + 30));
+    ASSERT_EQ(in.read_some(whole.data(), whole.size()), sizeof(link::PollReply) + 30);
     link::PollReply head;
     std::memcpy(&head, whole.data(), sizeof head);
     EXPECT_EQ(head.size, 30);
@@ -179,6 +174,68 @@ TEST_F(BusServer, EndsWhenTheLinkBreaksOrSpeaksNonsense) {
   hang_up();
   server.join();
   EXPECT_EQ(result.exit_code, 3u);
+}
+
+/// An operator that walks from tick 20, and a recorder.
+struct Walker {
+  app::OperatorOrder order(std::uint32_t tick) const {
+    app::OperatorOrder order;
+    order.command.request = tick < 20 ? Request::kStand : Request::kWalk;
+    order.command.sequence = static_cast<std::uint8_t>(tick);
+    order.flags = kCommandFresh;
+    return order;
+  }
+  void record(const TickRecord& record, const State&, const Outputs&) { records.push_back(record); }
+  std::vector<TickRecord> records;
+};
+
+// The same robot, the same order: whether the controller is in this process or at the end of a
+// link, each tick's inputs and digests are the same bits.
+TEST(RemoteLoop, RecordsWhatTheLoopInThisProcessRecords) {
+  constexpr std::uint32_t kTicks = 300;
+  const Params params = test::bus_params(2);
+  Walker local;
+  {
+    test::FakePlant plant;
+    bus::VirtualBus direct(params, plant);
+    app::App<bus::VirtualBus, Walker, Walker> loop(params, direct, local, local);
+    ASSERT_EQ(loop.bring_up().status, app::BringUpStatus::kReady);
+    for (std::uint32_t i = 0; i < kTicks; ++i) loop.tick();
+  }
+  Walker distant;
+  test::FakePlant plant;
+  bus::VirtualBus served(params, plant);
+  test::PipePair pipes;
+  std::thread controller([&pipes] {
+    using Remote = app::RemoteBus<test::PipeEnd, test::PipeEnd>;
+    test::PipeEnd in{pipes.to_controller};
+    test::PipeEnd out{pipes.from_controller};
+    Remote remote(in, out);
+    Params received;
+    if (remote.hello(received)) {
+      app::App<Remote, Remote, Remote> loop(received, remote, remote, remote);
+      loop.bring_up();
+      while (!remote.stopped() && loop.inputs().tick + 1 < remote.ticks()) loop.tick();
+      remote.quit(0, "done");
+    }
+    pipes.from_controller.close_write_end();
+  });
+  bus::ServerHooks hooks;
+  hooks.order = [&distant](std::uint32_t tick) { return distant.order(tick); };
+  hooks.record = [&distant](const TickRecord& record) { distant.records.push_back(record); };
+  const bus::ServerResult result =
+      bus::BusServer(
+          params, served,
+          bus::file_streams(pipes.from_controller.read_end(), pipes.to_controller.write_end()),
+          hooks, {.ticks = kTicks})
+          .serve();
+  controller.join();
+  EXPECT_EQ(result.exit_code, 0u) << result.reason;
+  ASSERT_EQ(distant.records.size(), local.records.size());
+  for (std::size_t i = 0; i < local.records.size(); ++i) {
+    ASSERT_EQ(std::memcmp(&local.records[i], &distant.records[i], sizeof(TickRecord)), 0)
+        << "tick " << i;
+  }
 }
 
 }  // namespace
