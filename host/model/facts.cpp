@@ -104,13 +104,27 @@ class FactReader {
  public:
   Facts read(const XmlElement& model) {
     for (const XmlElement& child : model.children()) {
-      if (child.name().starts_with("verp:")) element(child);
+      if (child.name().starts_with("verp:")) {
+        element(child);
+      } else {
+        refuse_strays(child);
+      }
     }
     unique_ids(model);
     return std::move(f_);
   }
 
  private:
+  static void refuse_strays(const XmlElement& parent) {
+    for (const XmlElement& child : parent.children()) {
+      if (child.name().starts_with("verp:")) {
+        child.fail("<" + child.name() + "> inside <" + parent.name() + "> is not read",
+                   "put it directly below <model>, or into <verp:bus>");
+      }
+      refuse_strays(child);
+    }
+  }
+
   void element(const XmlElement& e) {
     const auto known = readers().find(e.name());
     if (known == readers().end()) {

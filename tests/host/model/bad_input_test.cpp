@@ -1,0 +1,266 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+
+#include "host/model/load.hpp"
+#include "tests/host/model/test_files.hpp"
+
+/// A robot builder's mistakes: each is refused with the file, the line and what to do.
+namespace verp::model {
+namespace {
+
+int line_of(const std::string& text, const std::string& part) {
+  const auto at = text.find(part);
+  EXPECT_NE(at, std::string::npos) << part;
+  return 1 + static_cast<int>(std::count(text.begin(), text.begin() + static_cast<long>(at), '\n'));
+}
+
+/// generic21 with the first `old_part` replaced.
+std::string edited(const std::string& old_part, const std::string& new_part) {
+  std::string text = read_text(robot_file("generic21"));
+  const auto at = text.find(old_part);
+  EXPECT_NE(at, std::string::npos) << old_part;
+  if (at != std::string::npos) text.replace(at, old_part.size(), new_part);
+  return text;
+}
+
+/// Loading must fail at the line that holds `line_part`, naming `message_part`, in one line.
+void expect_refused(const std::string& text, const std::string& line_part,
+                    const std::string& message_part) {
+  const TemporaryFile file("robot.sdf", text);
+  try {
+    load_robot(file.path());
+    FAIL() << "was accepted; should mention " << message_part;
+  } catch (const LoadError& error) {
+    EXPECT_EQ(error.file, file.path());
+    EXPECT_EQ(error.line, line_of(text, line_part)) << error.what();
+    EXPECT_NE(std::string(error.what()).find(message_part), std::string::npos) << error.what();
+    EXPECT_FALSE(error.fix.empty());
+    EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos);
+  }
+}
+
+TEST(BadInput, MissingFileIsRefused) {
+  try {
+    load_robot("/nowhere/robot.sdf");
+    FAIL();
+  } catch (const LoadError& error) {
+    EXPECT_EQ(std::string(error.what()),
+              "/nowhere/robot.sdf:1: cannot read this file; check the path and its permissions");
+  }
+}
+
+TEST(BadInput, UnknownNameListsTheRobotsThereAre) {
+  try {
+    find_model("generic22");
+    FAIL();
+  } catch (const LoadError& error) {
+    EXPECT_NE(error.fix.find("generic21"), std::string::npos) << error.what();
+  }
+}
+
+TEST(BadInput, MalformedXmlIsRefusedAtItsLine) {
+  expect_refused(edited("<mass>1.1</mass>", "<mass>1.1</mas>"), "<mass>1.1</mas>", "malformed XML");
+}
+
+TEST(BadInput, FileThatEndsEarlyIsRefused) {
+  const std::string whole = read_text(robot_file("generic21"));
+  const TemporaryFile file("robot.sdf", whole.substr(0, whole.size() / 2));
+  EXPECT_THROW(load_robot(file.path()), LoadError);
+}
+
+TEST(BadInput, EmptyFileIsRefused) {
+  const TemporaryFile file("robot.sdf", "");
+  EXPECT_THROW(load_robot(file.path()), LoadError);
+}
+
+TEST(BadInput, NumberWithDecimalCommaIsRefused) {
+  expect_refused(edited("<mass>1.1</mass>", "<mass>1,0x</mass>"), "<mass>1,0x</mass>", "'1,0x'");
+}
+
+TEST(BadInput, NanIsRefused) {
+  expect_refused(edited("<mass>1.1</mass>", "<mass>nan</mass>"), "<mass>nan</mass>", "finite");
+  expect_refused(edited("value=\"0.1505\"", "value=\"nan\""), "value=\"nan\"", "finite");
+}
+
+TEST(BadInput, TooFewNumbersInAPoseAreRefused) {
+  expect_refused(edited("<xyz>0 0 1</xyz>", "<xyz>0 1</xyz>"), "<xyz>0 1</xyz>",
+                 "3 finite numbers");
+}
+
+TEST(BadInput, DuplicateServoIdIsRefused) {
+  expect_refused(edited("joint=\"l_knee\" id=\"14\"", "joint=\"l_knee\" id=\"8\""),
+                 "joint=\"l_knee\" id=\"8\"", "bus id 8 is used twice");
+}
+
+TEST(BadInput, ReservedIdIsRefused) {
+  expect_refused(edited("joint=\"l_knee\" id=\"14\"", "joint=\"l_knee\" id=\"200\""),
+                 "joint=\"l_knee\" id=\"200\"", "from 1 to 199");
+}
+
+TEST(BadInput, JointWithoutServoIsRefusedAtTheJoint) {
+  std::string text = read_text(robot_file("generic21"));
+  const auto start = text.find("      <verp:servo joint=\"l_knee\"");
+  ASSERT_NE(start, std::string::npos);
+  text.erase(start, text.find('\n', start) + 1 - start);
+  expect_refused(text, "<joint name=\"l_knee\"", "joint 'l_knee' has no servo");
+}
+
+TEST(BadInput, ServoForNoJointIsRefused) {
+  expect_refused(edited("<verp:servo joint=\"l_knee\"", "<verp:servo joint=\"left_knee\""),
+                 "<verp:servo joint=\"left_knee\"", "no moving joint 'left_knee'");
+}
+
+TEST(BadInput, UnknownServoTypeListsTheTypes) {
+  expect_refused(edited("type=\"xm430_w210\"", "type=\"ax12\""), "type=\"ax12\"",
+                 "xm430_w210, xm430_w350, mx28");
+}
+
+TEST(BadInput, FiveJointLegIsRefused) {
+  std::string text =
+      edited("<verp:limb name=\"left_leg\" base=\"trunk\" tip=\"l_sole\"/>",
+             "<verp:limb name=\"left_leg\" base=\"l_hip_yaw_link\" tip=\"l_sole\"/>");
+  expect_refused(text, "<verp:limb name=\"left_leg\"", "left_leg has 5 joints");
+}
+
+TEST(BadInput, FixedLegJointMakesAFiveJointLeg) {
+  std::string text = edited("<joint name=\"l_hip_yaw\" type=\"revolute\">",
+                            "<joint name=\"l_hip_yaw\" type=\"fixed\">");
+  const auto start = text.find("      <verp:servo joint=\"l_hip_yaw\"");
+  text.erase(start, text.find('\n', start) + 1 - start);
+  expect_refused(text, "<verp:limb name=\"left_leg\"", "left_leg has 5 joints");
+}
+
+TEST(BadInput, MasslessLinkIsRefused) {
+  std::string text = read_text(robot_file("generic21"));
+  const auto link = text.find("<link name=\"l_thigh\">");
+  const auto start = text.find("<inertial>", link);
+  const std::string end = "</inertial>";
+  text.erase(start, text.find(end, start) + end.size() - start);
+  expect_refused(text, "<link name=\"l_thigh\">", "link 'l_thigh' has no <inertial>");
+}
+
+TEST(BadInput, ImpossibleInertiaIsRefused) {
+  expect_refused(edited("<ixx>0.00366667</ixx>", "<ixx>-0.00366667</ixx>"), "<link name=\"trunk\">",
+                 "inertia");
+  expect_refused(edited("<ixx>0.00366667</ixx>", "<ixx>0.1</ixx>"), "<link name=\"trunk\">",
+                 "inertia");
+}
+
+TEST(BadInput, InertiaInOtherUnitsIsRefused) {
+  expect_refused(edited("<ixx>0.00366667</ixx><iyy>0.00293333</iyy><izz>0.00190667</izz>",
+                        "<ixx>3.66667</ixx><iyy>2.93333</iyy><izz>1.90667</izz>"),
+                 "<link name=\"trunk\">", "radius of gyration");
+}
+
+TEST(BadInput, NegativeMassIsRefused) {
+  expect_refused(edited("<mass>1.1</mass>", "<mass>-1.1</mass>"), "<link name=\"trunk\">", "mass");
+}
+
+TEST(BadInput, InvertedLimitsAreRefused) {
+  expect_refused(
+      edited("<lower>-0.6</lower><upper>1</upper>", "<lower>1</lower><upper>-0.6</upper>"),
+      "<joint name=\"head_pitch\"", "lower limit");
+}
+
+TEST(BadInput, MissingLimitsAreRefused) {
+  expect_refused(edited("<limit><lower>-0.6</lower><upper>1</upper></limit>", ""),
+                 "<joint name=\"head_pitch\"", "no position limits");
+}
+
+TEST(BadInput, LimitBeyondTheServosTurnIsRefused) {
+  expect_refused(
+      edited("<lower>-0.6</lower><upper>1</upper>", "<lower>-0.6</lower><upper>4</upper>"),
+      "<joint name=\"head_pitch\"", "single turn");
+}
+
+TEST(BadInput, LinkAndJointOfOneNameAreRefused) {
+  std::string text = read_text(robot_file("generic21"));
+  for (std::size_t at = text.find("\"neck\""); at != std::string::npos;
+       at = text.find("\"neck\"", at)) {
+    text.replace(at, 6, "\"head_yaw\"");
+  }
+  const TemporaryFile file("robot.sdf", text);
+  try {
+    load_robot(file.path());
+    FAIL();
+  } catch (const LoadError& error) {
+    EXPECT_NE(std::string(error.what()).find("head_yaw"), std::string::npos) << error.what();
+  }
+}
+
+TEST(BadInput, UnknownElementsAreRefused) {
+  expect_refused(edited("<verp:feet ", "<verp:foot "), "<verp:foot ",
+                 "unknown element <verp:foot>");
+  expect_refused(edited("<mass>1.1</mass>", "<mass>1.1</mass><weight>3</weight>"), "<weight>",
+                 "weight");
+}
+
+TEST(BadInput, VerpElementInTheWrongPlaceIsRefused) {
+  expect_refused(
+      edited("<parent>trunk</parent>", "<parent>trunk</parent><verp:servo joint=\"x\"/>"),
+      "<verp:servo joint=\"x\"/>", "verp:servo");
+}
+
+TEST(BadInput, UnknownAttributeIsRefused) {
+  expect_refused(edited("backlash_rad=", "backlash="), "backlash=", "no attribute 'backlash'");
+}
+
+TEST(BadInput, TuningOutsideItsRangeIsRefused) {
+  expect_refused(edited("value=\"0.1505\"", "value=\"15\""), "value=\"15\"", "out of range");
+  expect_refused(edited("gait.hip_height_m", "gait.hip_hight_m"), "gait.hip_hight_m",
+                 "no tuning value");
+}
+
+TEST(BadInput, PoseBeyondALimitIsRefused) {
+  expect_refused(edited("name=\"l_knee\" rad=\"1.25622\"", "name=\"l_knee\" rad=\"-1\""),
+                 "name=\"l_knee\" rad=\"-1\"", "outside its limits");
+}
+
+TEST(BadInput, BodyThatIsNotTheRootIsRefused) {
+  expect_refused(edited("<verp:body link=\"trunk\"/>", "<verp:body link=\"skull\"/>"),
+                 "<verp:body link=\"skull\"/>", "hangs on joint");
+}
+
+TEST(BadInput, LimbToNowhereIsRefused) {
+  expect_refused(edited("tip=\"l_sole\"", "tip=\"l_shoe\""), "tip=\"l_shoe\"",
+                 "no link or frame 'l_shoe'");
+}
+
+TEST(BadInput, SoleAboveTheFloorIsRefused) {
+  expect_refused(
+      edited("<pose>0 0 -0.0335 0 0 0</pose></frame>", "<pose>0 0 -0.01 0 0 0</pose></frame>"),
+      "<verp:limb name=\"left_leg\"", "sole's plane");
+}
+
+TEST(BadInput, LoopOfLinksIsRefused) {
+  expect_refused(edited("<parent>neck</parent>", "<parent>skull</parent>"),
+                 "<link name=\"head_cross\">", "not connected to 'trunk'");
+}
+
+TEST(BadInput, BareUrdfIsRefusedWithAdvice) {
+  const TemporaryFile file("robot.urdf", "<robot name=\"x\"><link name=\"a\"/></robot>");
+  try {
+    load_robot(file.path());
+    FAIL();
+  } catch (const LoadError& error) {
+    EXPECT_NE(error.fix.find("common/robots/op3"), std::string::npos) << error.what();
+  }
+}
+
+TEST(BadInput, MissingThirdPartyFileNamesTheVariable) {
+  const TemporaryFile file("robot.sdf",
+                           "<sdf version=\"1.9\"><model name=\"m\">\n<include merge=\"true\">"
+                           "<uri>model://no_such/robot.urdf</uri></include></model></sdf>");
+  try {
+    load_robot(file.path());
+    FAIL();
+  } catch (const LoadError& error) {
+    EXPECT_EQ(error.line, 2);
+    EXPECT_NE(error.fix.find("VERP_MODEL_PATH"), std::string::npos) << error.what();
+  }
+}
+
+}  // namespace
+}  // namespace verp::model
