@@ -27,9 +27,17 @@ function(verp_add_mps2_images machine)
 
   # Tests with a half on the PC: that half comes from a PC build, which must be there.
   set(VERP_HOST_DIR ${CMAKE_SOURCE_DIR}/build/host-release CACHE PATH "PC build whose programs test this board")
-  add_test(NAME replay.${VERP_BOARD}
-    COMMAND ${VERP_HOST_DIR}/target/target_tests --gtest_filter=TargetReplay.*)
-  set_tests_properties(replay.${VERP_BOARD} PROPERTIES LABELS "replay;target" TIMEOUT 600)
-  set_tests_properties(replay.${VERP_BOARD} PROPERTIES
+  foreach(each replay:TargetReplay loop:ClosedLoop)
+    string(REPLACE ":" ";" each "${each}")
+    list(GET each 0 name)
+    list(GET each 1 suite)
+    add_test(NAME ${name}.${VERP_BOARD}
+      COMMAND ${VERP_HOST_DIR}/target/target_tests --gtest_filter=${suite}.*)
+    set_tests_properties(${name}.${VERP_BOARD} PROPERTIES LABELS "${name};target" TIMEOUT 600)
+  endforeach()
+  add_test(NAME bench.${VERP_BOARD} COMMAND ${VERP_HOST_DIR}/target/target_bench --check ${VERP_BOARD})
+  # Times the link, so it runs alone.
+  set_tests_properties(bench.${VERP_BOARD} PROPERTIES LABELS "bench;target" TIMEOUT 600 RUN_SERIAL ON)
+  set_tests_properties(replay.${VERP_BOARD} loop.${VERP_BOARD} bench.${VERP_BOARD} PROPERTIES
     ENVIRONMENT "VERP_TEST_BOARD=${VERP_BOARD};VERP_FIRMWARE_DIR=${CMAKE_BINARY_DIR}/images")
 endfunction()

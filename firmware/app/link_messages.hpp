@@ -13,9 +13,11 @@
 /// together with the next kPoll: each write or read is a semihosting call and costs an exit of the
 /// emulator.
 ///
-///     one tick:  write [kRecord of the last tick][kSend Sync Write][kSend Fast Sync Read][kPoll]
-///     read PollReply
-///                write [kSend Sync Read][kPoll] read PollReply
+///     one tick:  write [kOutputs][kRecord of the last tick][kSend Fast Sync Read][kPoll]
+///                read PollReply
+///                write [kSend Sync Read][kPoll]
+///                read PollReply
+///                [kSend Sync Write][kSend Sync Write]
 ///
 /// PC to controller: exactly one reply to each kHello and kPoll, always in one write. A PollReply
 /// with its bytes stays under 4096 bytes, so a FIFO carries it whole and one read of kMaxReply
@@ -27,13 +29,14 @@ inline constexpr std::uint32_t kVersion = 1;
 inline constexpr std::uint32_t kMaxPollBytes = 1024;  ///< most bytes one PollReply carries
 
 enum class Kind : std::uint8_t {
-  kHello = 'H',   ///< payload Hello; answered by HelloReply. First message, once
-  kSend = 'S',    ///< payload: the bytes of one frame, as FrameBus::send
-  kPoll = 'P',    ///< payload Poll; answered by PollReply, as FrameBus::poll
-  kRecord = 'R',  ///< payload: TickRecord of the tick just finished
-  kState = 'X',   ///< payload: State as the last kRecord left it (every HelloReply::state_every
-                  ///< ticks, and at a fault)
-  kQuit = 'Q',    ///< payload: Quit, then text; the controller ends
+  kHello = 'H',    ///< payload Hello; answered by HelloReply. First message, once
+  kSend = 'S',     ///< payload: the bytes of one frame, as FrameBus::send
+  kPoll = 'P',     ///< payload Poll; answered by PollReply, as FrameBus::poll
+  kOutputs = 'O',  ///< payload: Outputs of the tick that the next kRecord ends
+  kRecord = 'R',   ///< payload: TickRecord of the tick just finished
+  kState = 'X',    ///< payload: State as the tick that the next kRecord ends left it (every
+                   ///< HelloReply::state_every ticks, and when the fault bits change)
+  kQuit = 'Q',     ///< payload: Quit, then text; the controller ends
 };
 
 struct MessageHeader {

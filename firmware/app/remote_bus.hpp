@@ -70,12 +70,13 @@ class RemoteBus {
 
   // Recorder
   void record(const TickRecord& record, const State& state, const Outputs& outputs) {
-    append(link::Kind::kRecord, record);
     const bool new_fault = outputs.faults != faults_;
     faults_ = outputs.faults;
     if (new_fault || (run_.state_every != 0 && record.inputs.tick % run_.state_every == 0)) {
       append(link::Kind::kState, state);
     }
+    append(link::Kind::kOutputs, outputs);
+    append(link::Kind::kRecord, record);
   }
 
   /// Last words: `text` says why, in one line.
@@ -92,9 +93,9 @@ class RemoteBus {
 
  private:
   static constexpr std::size_t kMaxText = 120;
-  /// A tick's messages fit: record, State, three Sync Writes, a read, a poll.
-  static constexpr std::size_t kOutbox =
-      sizeof(TickRecord) + sizeof(State) + 4 * hal::kMaxFrame + 16 * sizeof(link::MessageHeader);
+  /// A tick's messages fit: State, Outputs, record, three Sync Writes, a read, a poll.
+  static constexpr std::size_t kOutbox = sizeof(TickRecord) + sizeof(State) + sizeof(Outputs) +
+                                         4 * hal::kMaxFrame + 16 * sizeof(link::MessageHeader);
 
   template <class Payload>
   void append(link::Kind kind, const Payload& payload) {

@@ -41,9 +41,10 @@ class QemuProcess {
   /// All that the image and QEMU printed so far.
   std::string output() const;
 
- private:
+  /// One line: which image, what happened to it, its last words.
   std::string described(const std::string& what) const;
 
+ private:
   std::string name_;
   TemporaryDirectory directory_;
   pid_t pid_ = -1;

@@ -101,6 +101,10 @@ bool BusServer::handle(const link::MessageHeader& header, const std::uint8_t* pa
       if (!size_is(sizeof(TickRecord))) break;
       if (hooks_.record) hooks_.record(payload_as<TickRecord>(payload));
       return true;
+    case link::Kind::kOutputs:
+      if (!size_is(sizeof(Outputs))) break;
+      if (hooks_.outputs) hooks_.outputs(payload_as<Outputs>(payload));
+      return true;
     case link::Kind::kState:
       if (!size_is(sizeof(State))) break;
       if (hooks_.state) hooks_.state(payload_as<State>(payload));

@@ -28,8 +28,10 @@ ByteStreams file_streams(int from_controller, int to_controller);
 struct ServerHooks {
   std::function<app::OperatorOrder(std::uint32_t tick)>
       order;  ///< asked once for each tick the bus begins
-  std::function<void(const TickRecord&)> record;
+  /// The three of one tick in this order; record ends it, state comes only now and then.
   std::function<void(const State&)> state;
+  std::function<void(const Outputs&)> outputs;
+  std::function<void(const TickRecord&)> record;
   std::function<bool()> stop;  ///< asked at each poll; true ends the run
 };
 

@@ -1,0 +1,194 @@
+/* A QEMU TCG plugin: exactly how many guest instructions each call of a function executes, callees
+ * included.
+ *
+ *   -plugin libinstruction_count.so,out=FILE,call=NAME:ADDRESS[,call=NAME:ADDRESS...]
+ *
+ * Addresses are hexadecimal. FILE becomes one line a function: name, calls, sum, least, most, the
+ * call (from 0) that took most, and the most that this function took inside one call of the first
+ * function.
+ *
+ * QEMU has no DWT cycle counter, and instructions repeat exactly while time does not. A call begins
+ * when the block at the function's address runs; it ends when the block behind the calling bl or
+ * blx runs. A tail call has no such block: it ends with the call that encloses it. Interrupts would
+ * be counted to whom they interrupt; images under test have none. A predicated instruction counts
+ * whether or not its condition holds, as it takes its cycle.
+ *
+ * Debian's QEMU 7.2 ships no qemu-plugin.h: the few declarations used are below (API version 1,
+ * QEMU's documentation "TCG Plugins"). */
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define EXPORT __attribute__((visibility("default")))
+
+typedef uint64_t plugin_id;
+struct block;
+struct instruction;
+enum register_use { kNoRegisters };
+enum inline_operation { kAdd64 };
+
+EXPORT int qemu_plugin_version = 1;
+void qemu_plugin_register_vcpu_tb_trans_cb(plugin_id, void (*)(plugin_id, struct block*));
+void qemu_plugin_register_vcpu_tb_exec_cb(struct block*, void (*)(unsigned, void*),
+                                          enum register_use, void*);
+void qemu_plugin_register_vcpu_insn_exec_inline(struct instruction*, enum inline_operation, void*,
+                                                uint64_t);
+void qemu_plugin_register_atexit_cb(plugin_id, void (*)(plugin_id, void*), void*);
+size_t qemu_plugin_tb_n_insns(const struct block*);
+struct instruction* qemu_plugin_tb_get_insn(const struct block*, size_t);
+uint64_t qemu_plugin_insn_vaddr(const struct instruction*);
+const void* qemu_plugin_insn_data(const struct instruction*);
+size_t qemu_plugin_insn_size(const struct instruction*);
+EXPORT int qemu_plugin_install(plugin_id, const void*, int, char**);
+
+enum { kMaxFunctions = 16, kMaxDepth = 64, kNameLength = 64 };
+
+struct function {
+  char name[kNameLength];
+  uint64_t address;
+  uint64_t calls, sum, least, most, most_at;
+  uint64_t in_outer,
+      most_in_outer; /* within the current call of functions[0], and the most of any */
+};
+
+/* What the end of a block says about how the next one was reached. */
+struct block_info {
+  uint64_t begin, end;
+  bool ends_in_call;
+  int function; /* index of the function that begins here, or -1 */
+};
+
+struct open_call {
+  int function;
+  bool is_tail;
+  uint64_t return_to, begin_count;
+};
+
+static struct function functions[kMaxFunctions];
+static int function_count;
+static struct open_call calls[kMaxDepth];
+static int depth;
+static uint64_t executed;
+static const struct block_info* previous;
+static const char* out_path;
+
+static void end_call(void) {
+  const struct open_call* call = &calls[--depth];
+  struct function* function = &functions[call->function];
+  const uint64_t count = executed - call->begin_count;
+  if (function->calls == 0 || count < function->least) function->least = count;
+  if (count > function->most) {
+    function->most = count;
+    function->most_at = function->calls;
+  }
+  function->sum += count;
+  function->in_outer += count;
+  ++function->calls;
+  if (call->function != 0) return;
+  for (int i = 0; i < function_count; ++i) {
+    if (functions[i].in_outer > functions[i].most_in_outer)
+      functions[i].most_in_outer = functions[i].in_outer;
+    functions[i].in_outer = 0;
+  }
+}
+
+static void begin_call(int function) {
+  if (depth == kMaxDepth) {
+    fprintf(stderr, "instruction_count: more than %d nested calls of counted functions\n",
+            kMaxDepth);
+    exit(3);
+  }
+  const bool is_tail = previous == NULL || !previous->ends_in_call;
+  calls[depth++] = (struct open_call){
+      .function = function,
+      .is_tail = is_tail,
+      .return_to = is_tail ? 0 : previous->end,
+      .begin_count = executed,
+  };
+}
+
+/* Runs before the block's own instructions are counted. */
+static void on_block(unsigned cpu, void* data) {
+  (void)cpu;
+  const struct block_info* block = data;
+  int returned = depth;
+  while (returned > 0 && calls[returned - 1].is_tail) --returned;
+  if (returned > 0 && calls[returned - 1].return_to == block->begin) {
+    while (depth >= returned) end_call();
+  }
+  if (block->function >= 0) begin_call(block->function);
+  previous = block;
+}
+
+/* bl: 11110 ... then 11x1; blx register: 010001111 (ARMv7-M ARM, A7.7.18 and A7.7.19). */
+static bool is_call(const struct instruction* instruction) {
+  uint16_t half[2] = {0, 0};
+  const size_t size = qemu_plugin_insn_size(instruction);
+  memcpy(half, qemu_plugin_insn_data(instruction), size <= sizeof half ? size : sizeof half);
+  if (size == 2) return (half[0] & 0xFF87) == 0x4780;
+  return (half[0] & 0xF800) == 0xF000 && (half[1] & 0xD000) == 0xD000;
+}
+
+static void on_translate(plugin_id id, struct block* block) {
+  (void)id;
+  const size_t count = qemu_plugin_tb_n_insns(block);
+  const struct instruction* last = qemu_plugin_tb_get_insn(block, count - 1);
+  struct block_info* info = malloc(sizeof *info); /* lives as long as the translation: for good */
+  if (info == NULL) abort();
+  info->begin = qemu_plugin_insn_vaddr(qemu_plugin_tb_get_insn(block, 0));
+  info->end = qemu_plugin_insn_vaddr(last) + qemu_plugin_insn_size(last);
+  info->ends_in_call = is_call(last);
+  info->function = -1;
+  for (int i = 0; i < function_count; ++i) {
+    if (functions[i].address == info->begin) info->function = i;
+  }
+  qemu_plugin_register_vcpu_tb_exec_cb(block, on_block, kNoRegisters, info);
+  for (size_t i = 0; i < count; ++i) {
+    qemu_plugin_register_vcpu_insn_exec_inline(qemu_plugin_tb_get_insn(block, i), kAdd64, &executed,
+                                               1);
+  }
+}
+
+static void write_counts(plugin_id id, void* data) {
+  (void)id;
+  (void)data;
+  FILE* out = out_path != NULL ? fopen(out_path, "w") : stderr;
+  if (out == NULL) {
+    perror(out_path);
+    return;
+  }
+  for (int i = 0; i < function_count; ++i) {
+    const struct function* f = &functions[i];
+    fprintf(out, "%s %llu %llu %llu %llu %llu %llu\n", f->name, (unsigned long long)f->calls,
+            (unsigned long long)f->sum, (unsigned long long)f->least, (unsigned long long)f->most,
+            (unsigned long long)f->most_at, (unsigned long long)f->most_in_outer);
+  }
+  if (out != stderr) fclose(out);
+}
+
+static bool add_function(const char* text) {
+  const char* colon = strrchr(text, ':');
+  if (colon == NULL || function_count == kMaxFunctions || colon - text >= kNameLength) return false;
+  struct function* function = &functions[function_count++];
+  memcpy(function->name, text, (size_t)(colon - text));
+  function->address = strtoull(colon + 1, NULL, 16) & ~1ull; /* bit 0 says Thumb */
+  return true;
+}
+
+int qemu_plugin_install(plugin_id id, const void* info, int argc, char** argv) {
+  (void)info;
+  for (int i = 0; i < argc; ++i) {
+    if (strncmp(argv[i], "out=", 4) == 0) {
+      out_path = strdup(argv[i] + 4);
+    } else if (strncmp(argv[i], "call=", 5) != 0 || !add_function(argv[i] + 5)) {
+      fprintf(stderr, "instruction_count: can't use argument '%s'\n", argv[i]);
+      return 1;
+    }
+  }
+  qemu_plugin_register_vcpu_tb_trans_cb(id, on_translate);
+  qemu_plugin_register_atexit_cb(id, write_counts, NULL);
+  return 0;
+}

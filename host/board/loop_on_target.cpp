@@ -1,0 +1,39 @@
+#include "host/board/loop_on_target.hpp"
+
+#include <chrono>
+
+#include "host/board/board_error.hpp"
+#include "host/board/fifo_link.hpp"
+#include "host/board/qemu.hpp"
+
+namespace verp::board {
+namespace {
+constexpr std::chrono::seconds kStart{20};
+constexpr std::chrono::seconds kEnd{10};
+/// The firmware answers at once or hangs; a machine under load gets some time.
+constexpr std::chrono::milliseconds kSilence{30000};
+}  // namespace
+
+bus::ServerResult run_loop_on(const std::string& board, const Params& params, bus::VirtualBus& bus,
+                              const bus::ServerHooks& hooks, const bus::RunOptions& options) {
+  const EmulatedBoard& emulated = find_emulated_board(board);
+  FifoLink link;
+  QemuProcess firmware({.board = emulated,
+                        .image = firmware_image(emulated, "loop"),
+                        .arguments = {link.to_board().string(), link.from_board().string()}});
+  link.connect(firmware, kStart);
+  const bus::ByteStreams streams{
+      .read_some = [&](void* data,
+                       std::size_t size) { return link.read_some(data, size, kSilence); },
+      .write = [&](const void* data, std::size_t size) { return link.write(data, size); }};
+  const bus::ServerResult result = bus::BusServer(params, bus, streams, hooks, options).serve();
+  link.close_to_board();
+  const int status = firmware.wait(kEnd);
+  if (result.exit_code == 3) {
+    throw BoardError(
+        firmware.described("ended with status " + std::to_string(status) + ": " + result.reason));
+  }
+  return result;
+}
+
+}  // namespace verp::board

@@ -1,0 +1,16 @@
+#pragma once
+#include <string>
+
+#include "common/model/params.hpp"
+#include "host/bus/bus_server.hpp"
+
+namespace verp::board {
+
+/// Runs the control loop in firmware on an emulated board, with `bus` as its servo bus, until the
+/// firmware quits: after options.ticks, or when hooks.stop says so. All of the controller is there;
+/// this process is its world. Throws BoardError when there is no image or emulator, or when the
+/// link breaks.
+bus::ServerResult run_loop_on(const std::string& board, const Params& params, bus::VirtualBus& bus,
+                              const bus::ServerHooks& hooks, const bus::RunOptions& options);
+
+}  // namespace verp::board

@@ -1,0 +1,114 @@
+#include "host/board/target_cost.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cstdio>
+#include <fstream>
+#include <memory>
+#include <sstream>
+
+#include "host/board/board_error.hpp"
+#include "host/board/emulated_board.hpp"
+#include "host/board/replay_on_target.hpp"
+#include "host/board/temporary_directory.hpp"
+
+namespace verp::board {
+namespace {
+
+constexpr const char* kStep = "verp::step";
+constexpr const char* kDigest = "verp::digest_state";
+
+/// Standard output of a command; throws BoardError with `remedy` if it fails.
+std::string output_of(const std::string& command, const std::string& remedy) {
+  const std::unique_ptr<FILE, int (*)(FILE*)> pipe(popen(command.c_str(), "r"), pclose);
+  std::string text;
+  std::array<char, 4096> buffer;
+  while (pipe && fgets(buffer.data(), buffer.size(), pipe.get()) != nullptr) text += buffer.data();
+  if (text.empty()) throw BoardError(command + ": gave nothing; " + remedy);
+  return text;
+}
+
+/// Address of a function, in hexadecimal, from lines "ADDRESS T NAME(PARAMETERS)".
+std::string address_of(const std::string& symbols, const std::string& function) {
+  const std::size_t at = symbols.find(" T " + function + "(");
+  if (at == std::string::npos || at < 8) {
+    throw BoardError("the image has no function " + function + "; it must not be inlined");
+  }
+  return symbols.substr(at - 8, 8);
+}
+
+struct Count {
+  std::uint64_t calls = 0, sum = 0, least = 0, most = 0, most_at = 0, most_in_step = 0;
+};
+
+/// The next line of the plugin's result (host/board/instruction_count.c).
+Count read_count(std::istream& file) {
+  Count count;
+  std::string name;
+  file >> name >> count.calls >> count.sum >> count.least >> count.most >> count.most_at >>
+      count.most_in_step;
+  if (!file || count.calls == 0)
+    throw BoardError("the instruction counter saw no tick; rebuild the image");
+  return count;
+}
+
+void measure_stack(const std::string& image, TargetCost& cost) {
+  std::istringstream line(
+      output_of(VERP_STACK_DEPTH " " + image + " " + kStep,
+                "its message above says why; perl and binutils-arm-none-eabi are needed"));
+  line >> cost.stack_static_bytes;
+  std::getline(line >> std::ws, cost.stack_chain);
+}
+
+std::uint32_t text_bytes(const std::string& image) {
+  std::istringstream text(
+      output_of("arm-none-eabi-size " + image, "install binutils-arm-none-eabi"));
+  std::string heading;
+  std::getline(text, heading);
+  std::uint32_t bytes = 0;
+  text >> bytes;
+  return bytes;
+}
+
+}  // namespace
+
+TargetCost measure_target(const std::string& board, const Params& params,
+                          std::span<const Inputs> inputs) {
+  const std::string image = firmware_image(find_emulated_board(board), "replay").string();
+  const std::string symbols =
+      output_of("arm-none-eabi-nm -C " + image, "install binutils-arm-none-eabi");
+  const TemporaryDirectory directory;
+  const auto counts = directory.path() / "counts";
+  TargetReplayOptions options;
+  options.plugin =
+      fmt::format("{},out={},call=step:{},call=digest:{}", VERP_INSTRUCTION_COUNT, counts.string(),
+                  address_of(symbols, kStep), address_of(symbols, kDigest));
+  TargetCost cost;
+  cost.stack_measured_bytes = replay_on(board, params, inputs, options).stack_bytes;
+
+  std::ifstream file(counts);
+  const Count step = read_count(file);
+  const Count digest = read_count(file);
+  cost.ticks = step.calls;
+  cost.average = static_cast<double>(step.sum) / static_cast<double>(step.calls);
+  cost.worst = step.most;
+  cost.worst_tick = step.most_at;
+  cost.digest_average = static_cast<double>(digest.sum) / static_cast<double>(step.calls);
+  cost.digest_worst = digest.most_in_step;
+  measure_stack(image, cost);
+  cost.image_bytes = text_bytes(image);
+  return cost;
+}
+
+std::string to_json(const std::string& board, const TargetCost& cost) {
+  return fmt::format(
+      R"({{"board": "{}", "core": "{}", "ticks": {}, "instructions_average": {:.0f}, )"
+      R"("instructions_worst": {}, "worst_tick": {}, "digest_average": {:.0f}, "digest_worst": {}, )"
+      R"("stack_static_bytes": {}, "stack_chain": "{}", "stack_measured_bytes": {}, "image_bytes": {}}})",
+      board, find_emulated_board(board).core, cost.ticks, cost.average, cost.worst, cost.worst_tick,
+      cost.digest_average, cost.digest_worst, cost.stack_static_bytes, cost.stack_chain,
+      cost.stack_measured_bytes, cost.image_bytes);
+}
+
+}  // namespace verp::board

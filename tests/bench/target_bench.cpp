@@ -1,0 +1,98 @@
+#include <fmt/format.h>
+
+#include <string_view>
+
+#include "host/board/board_error.hpp"
+#include "host/board/emulated_board.hpp"
+#include "host/board/link_speed.hpp"
+#include "host/board/target_cost.hpp"
+#include "tests/target/twin_run.hpp"
+
+/// target_bench [--check] [BOARD...]: what a tick of a walking generic21 costs on each emulated
+/// board, exactly, and how fast the link to it is. One line of JSON each on standard output.
+/// --check: exit 1 if a promise is broken.
+namespace {
+
+// Promised for the Cortex-M4F (README.md).
+constexpr const char* kPromisedBoard = "mps2_an386";
+constexpr double kMostAverage = 20000;
+constexpr double kMostWorst = 30000;
+constexpr double kMostDigest = 5000;
+constexpr double kMostStackBytes = 4096;
+constexpr double kLeastTicksPerS = 5000;
+
+constexpr std::uint32_t kTicks = 3600;  // 36 s at 10 ms: stands up, six different walks, stops
+constexpr std::uint32_t kLinkTicks = 20000;
+constexpr int kLinkAttempts = 3;  // the best counts: other programs only ever slow it down
+
+bool keeps(const char* what, double value, double least, double most) {
+  const bool good = value >= least && value <= most;
+  if (!good)
+    fmt::print(stderr, "target_bench: {} is {:.0f}, promised {:.0f} to {:.0f}\n", what, value,
+               least, most);
+  return good;
+}
+
+bool bench_cost(const std::string& board, const verp::test::Robot& robot,
+                const verp::test::TwinRun& run) {
+  std::vector<verp::Inputs> inputs;
+  for (const verp::TickRecord& record : run.records) inputs.push_back(record.inputs);
+  const verp::board::TargetCost cost = verp::board::measure_target(board, robot.params, inputs);
+  fmt::print("{}\n", verp::board::to_json(board, cost));
+  if (board != kPromisedBoard) return true;
+  const bool good[] = {
+      keeps("instructions a tick on average", cost.average, 0, kMostAverage),
+      keeps("instructions of the worst tick", static_cast<double>(cost.worst), 0, kMostWorst),
+      keeps("instructions of the digest", static_cast<double>(cost.digest_worst), 0, kMostDigest),
+      keeps("stack by static analysis, bytes", cost.stack_static_bytes, 0, kMostStackBytes)};
+  return good[0] && good[1] && good[2] && good[3];
+}
+
+bool bench_link(const std::string& board, const verp::Params& params) {
+  verp::board::LinkSpeed alone;
+  for (int attempt = 0; attempt < kLinkAttempts; ++attempt) {
+    const auto speed = verp::board::measure_link(board, params, kLinkTicks, false);
+    if (speed.ticks_per_s > alone.ticks_per_s) alone = speed;
+  }
+  const auto with_step = verp::board::measure_link(board, params, kLinkTicks / 4, true);
+  fmt::print(
+      R"({{"board": "{}", "link_ticks_per_s": {:.0f}, "link_round_trips_per_s": {:.0f}, "link_ticks_per_s_with_step": {:.0f}}})"
+      "\n",
+      board, alone.ticks_per_s, alone.round_trips_per_s, with_step.ticks_per_s);
+  return board != kPromisedBoard ||
+         keeps("ticks a second of the link alone", alone.ticks_per_s, kLeastTicksPerS, 1e9);
+}
+
+int run(std::vector<std::string> boards, bool check) {
+  if (boards.empty()) {
+    for (const auto& board : verp::board::emulated_boards()) boards.emplace_back(board.name);
+  }
+  const verp::test::Robot robot = verp::test::load_robot("generic21");
+  const verp::test::TwinRun walk = verp::test::run_here(robot, kTicks, true);
+  bool good = walk.records.size() == kTicks;
+  for (const std::string& board : boards) {
+    good = bench_cost(board, robot, walk) && good;
+    good = bench_link(board, robot.params) && good;
+  }
+  return good || !check ? 0 : 1;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  bool check = false;
+  std::vector<std::string> boards;
+  for (const std::string_view word : std::vector<std::string_view>(argv + 1, argv + argc)) {
+    if (word == "--check") {
+      check = true;
+    } else {
+      boards.emplace_back(word);
+    }
+  }
+  try {
+    return run(boards, check);
+  } catch (const verp::board::BoardError& error) {
+    fmt::print(stderr, "target_bench: {}\n", error.what());
+    return 3;
+  }
+}

@@ -1,0 +1,40 @@
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+
+#include "tests/target/twin_run.hpp"
+
+// VERP_TEST_BOARD names the emulated board; ctest of a firmware build sets it.
+namespace verp::test {
+namespace {
+
+void expect_same(const TwinRun& here, const TwinRun& there) {
+  ASSERT_EQ(here.records.size(), there.records.size());
+  for (std::size_t i = 0; i < here.records.size(); ++i) {
+    const TickDigest& a = here.records[i].digest;
+    const TickDigest& b = there.records[i].digest;
+    for (int stage = 0; stage < kStages; ++stage) {
+      ASSERT_EQ(a.stage[stage], b.stage[stage])
+          << "first divergence: tick " << i << ", stage " << kStageNames[stage];
+    }
+    ASSERT_EQ(a.chain, b.chain) << "tick " << i;
+  }
+}
+
+// 20 s of walking between standing up and standing still, generic21 at 10 ms a tick.
+TEST(ClosedLoop, WalksTheSameBitsInTheBoardAndOnThePc) {
+  const char* board = std::getenv("VERP_TEST_BOARD");
+  ASSERT_NE(board, nullptr) << "set VERP_TEST_BOARD";
+  constexpr std::uint32_t kTicks = 2900;
+  const Robot robot = load_robot("generic21");
+  const TwinRun here = run_here(robot, kTicks, false);
+  ASSERT_EQ(here.records.size(), kTicks);
+  const TwinRun there = run_on_board(board, robot, kTicks, false);
+  expect_same(here, there);
+  EXPECT_EQ(here.distance_m, there.distance_m);
+  EXPECT_FALSE(there.fallen);
+  EXPECT_GT(there.distance_m, 2.0) << "it should have walked";
+}
+
+}  // namespace
+}  // namespace verp::test
