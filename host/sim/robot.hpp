@@ -39,7 +39,9 @@ struct TwinOptions {
   Vec3 start_m = Vec3::Zero();      ///< midpoint of the soles
   double start_yaw_rad = 0;
   Cradle cradle = Cradle::kUntilArmed;
-  double cradle_s = 0.5;  ///< released this long after all leg servos have torque
+  /// Released this long after all leg servos have torque: the firmware then stands in its pose
+  /// (rise_s is 1 s), and does not walk yet.
+  double cradle_s = 1.2;
   double supply_v = 12.0;
   /// Internal resistance of battery and harness. An estimate: 3 LiPo cells of about 10 mOhm (hobby
   /// packs of 1 to 2 Ah), plug, fuse and the first metre of daisy chain.

@@ -37,12 +37,12 @@ TEST(Generic21, StandsThreeSecondsOnItsServos) {
     TwinRobot robot(world, entity, options);
     arm(robot, robot);
     const auto start = std::chrono::steady_clock::now();
-    robot.advance_to(1'000'000);
+    robot.advance_to(1'500'000);
     const Truth settled = robot.truth();
-    robot.advance_to(4'000'000);
+    robot.advance_to(4'500'000);
     const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start;
     const Truth truth = robot.truth();
-    std::cout << "seed " << seed << ": real-time factor " << 4.0 / wall.count() << ", tilt "
+    std::cout << "seed " << seed << ": real-time factor " << 4.5 / wall.count() << ", tilt "
               << truth.roll_rad << ' ' << truth.pitch_rad << ", supply " << robot.supply_v()
               << " V\n";
     EXPECT_FALSE(settled.held);

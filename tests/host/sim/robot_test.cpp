@@ -59,7 +59,7 @@ TEST(Robot, StandsThreeSecondsOnItsServos) {
   const model::Entity entity = test::biped();
   TwinRobot robot(world, entity, crouched(entity));
   arm_all(robot, joints_of(entity));
-  robot.advance_to(3'000'000);
+  robot.advance_to(4'200'000);
   EXPECT_FALSE(robot.truth().held);
   EXPECT_FALSE(robot.fallen());
   EXPECT_LT(std::abs(robot.truth().roll_rad), 0.05);
@@ -176,9 +176,9 @@ TEST(Robot, CradleHoldsUntilTheLegsAreArmed) {
     robot.setpoint(j).goal_count = robot.servo(j).measurement().position_count;
   }
   arm_all(robot, joints_of(entity));
-  robot.advance_to(1'490'000);
+  robot.advance_to(2'190'000);
   EXPECT_TRUE(robot.truth().held);
-  robot.advance_to(1'510'000);
+  robot.advance_to(2'210'000);
   EXPECT_FALSE(robot.truth().held);
 }
 
@@ -287,7 +287,7 @@ TEST(World, TwoRobotsStandSideBySide) {
   TwinRobot b(world, entity, right);
   arm_all(a, joints_of(entity));
   arm_all(b, joints_of(entity));
-  a.advance_to(2'000'000);
+  a.advance_to(3'000'000);
   EXPECT_FALSE(a.fallen());
   EXPECT_FALSE(b.fallen());
   EXPECT_NEAR(b.truth().foot[0].normal_force_n + b.truth().foot[1].normal_force_n,
