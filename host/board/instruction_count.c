@@ -44,7 +44,7 @@ const void* qemu_plugin_insn_data(const struct instruction*);
 size_t qemu_plugin_insn_size(const struct instruction*);
 EXPORT int qemu_plugin_install(plugin_id, const void*, int, char**);
 
-enum { kMaxFunctions = 16, kMaxDepth = 64, kNameLength = 64 };
+enum { kMaxFunctions = 256, kMaxDepth = 64, kNameLength = 64 };
 
 struct function {
   char name[kNameLength];

@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
+#include <filesystem>
 #include <fstream>
 #include <memory>
 #include <sstream>
@@ -39,18 +41,30 @@ std::string address_of(const std::string& symbols, const std::string& function) 
 }
 
 struct Count {
+  std::string name;
   std::uint64_t calls = 0, sum = 0, least = 0, most = 0, most_at = 0, most_in_step = 0;
 };
 
-/// The next line of the plugin's result (host/board/instruction_count.c).
-Count read_count(std::istream& file) {
-  Count count;
-  std::string name;
-  file >> name >> count.calls >> count.sum >> count.least >> count.most >> count.most_at >>
-      count.most_in_step;
-  if (!file || count.calls == 0)
+/// The plugin's result (host/board/instruction_count.c); the first line is step().
+std::vector<Count> read_counts(const std::filesystem::path& path) {
+  std::vector<Count> counts;
+  std::ifstream file(path);
+  for (Count c;
+       file >> c.name >> c.calls >> c.sum >> c.least >> c.most >> c.most_at >> c.most_in_step;) {
+    counts.push_back(c);
+  }
+  if (counts.empty() || counts.front().calls == 0) {
     throw BoardError("the instruction counter saw no tick; rebuild the image");
-  return count;
+  }
+  return counts;
+}
+
+std::string plugin_option(const std::filesystem::path& out) {
+  return fmt::format("{},out={}", VERP_INSTRUCTION_COUNT, out.string());
+}
+
+std::string symbols_of(const std::string& image) {
+  return output_of("arm-none-eabi-nm -C " + image, "install binutils-arm-none-eabi");
 }
 
 void measure_stack(const std::string& image, TargetCost& cost) {
@@ -76,20 +90,18 @@ std::uint32_t text_bytes(const std::string& image) {
 TargetCost measure_target(const std::string& board, const Params& params,
                           std::span<const Inputs> inputs) {
   const std::string image = firmware_image(find_emulated_board(board), "replay").string();
-  const std::string symbols =
-      output_of("arm-none-eabi-nm -C " + image, "install binutils-arm-none-eabi");
+  const std::string symbols = symbols_of(image);
   const TemporaryDirectory directory;
-  const auto counts = directory.path() / "counts";
+  const auto out = directory.path() / "counts";
   TargetReplayOptions options;
-  options.plugin =
-      fmt::format("{},out={},call=step:{},call=digest:{}", VERP_INSTRUCTION_COUNT, counts.string(),
-                  address_of(symbols, kStep), address_of(symbols, kDigest));
+  options.plugin = fmt::format("{},call=step:{},call=digest:{}", plugin_option(out),
+                               address_of(symbols, kStep), address_of(symbols, kDigest));
   TargetCost cost;
   cost.stack_measured_bytes = replay_on(board, params, inputs, options).stack_bytes;
 
-  std::ifstream file(counts);
-  const Count step = read_count(file);
-  const Count digest = read_count(file);
+  const std::vector<Count> counts = read_counts(out);
+  const Count& step = counts.at(0);
+  const Count& digest = counts.at(1);
   cost.ticks = step.calls;
   cost.average = static_cast<double>(step.sum) / static_cast<double>(step.calls);
   cost.worst = step.most;
@@ -99,6 +111,45 @@ TargetCost measure_target(const std::string& board, const Params& params,
   measure_stack(image, cost);
   cost.image_bytes = text_bytes(image);
   return cost;
+}
+
+std::vector<FunctionCost> profile_target(const std::string& board, const Params& params,
+                                         std::span<const Inputs> inputs) {
+  const std::string symbols =
+      symbols_of(firmware_image(find_emulated_board(board), "replay").string());
+  const TemporaryDirectory directory;
+  const auto out = directory.path() / "counts";
+  TargetReplayOptions options;
+  options.plugin = plugin_option(out) + ",call=step:" + address_of(symbols, kStep);
+  std::vector<std::string> names = {kStep};
+  std::istringstream lines(symbols);
+  std::string address, kind;
+  for (std::string name; lines >> address >> kind && std::getline(lines >> std::ws, name);) {
+    const bool is_core = name.starts_with("verp::") &&
+                         name.find("::Replay<") == std::string::npos &&
+                         (kind == "T" || kind == "t" || kind == "W");
+    if (!is_core || name.starts_with("verp::step(") || name.starts_with("verp::hal::") ||
+        name.starts_with("verp::boot::"))
+      continue;
+    options.plugin += fmt::format(",call={}:{}", names.size(), address);
+    names.push_back(name);
+  }
+  replay_on(board, params, inputs, options);
+
+  const std::vector<Count> counts = read_counts(out);
+  const auto ticks = static_cast<double>(counts.front().calls);
+  std::vector<FunctionCost> costs;
+  for (std::size_t i = 0; i < counts.size(); ++i) {
+    if (counts[i].calls == 0) continue;
+    costs.push_back({.name = names.at(i),
+                     .calls_a_tick = static_cast<double>(counts[i].calls) / ticks,
+                     .average_a_tick = static_cast<double>(counts[i].sum) / ticks,
+                     .worst_tick = counts[i].most_in_step});
+  }
+  std::sort(costs.begin(), costs.end(), [](const FunctionCost& a, const FunctionCost& b) {
+    return a.average_a_tick > b.average_a_tick;
+  });
+  return costs;
 }
 
 std::string to_json(const std::string& board, const TargetCost& cost) {

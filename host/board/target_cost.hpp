@@ -2,6 +2,7 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "common/io/io.hpp"
 #include "common/model/params.hpp"
@@ -27,6 +28,19 @@ struct TargetCost {
 /// a tool is missing.
 TargetCost measure_target(const std::string& board, const Params& params,
                           std::span<const Inputs> inputs);
+
+/// Where a tick's instructions go: one of the core's functions that the compiler left whole, with
+/// all it calls.
+struct FunctionCost {
+  std::string name;
+  double calls_a_tick = 0;
+  double average_a_tick = 0;     ///< instructions, callees included
+  std::uint64_t worst_tick = 0;  ///< the most that all its calls in one tick took
+};
+
+/// The core's functions, the most expensive first. Throws BoardError.
+std::vector<FunctionCost> profile_target(const std::string& board, const Params& params,
+                                         std::span<const Inputs> inputs);
 
 /// One JSON object in one line.
 std::string to_json(const std::string& board, const TargetCost& cost);

@@ -1,16 +1,19 @@
 #include <fmt/format.h>
 
+#include <exception>
+#include <string>
 #include <string_view>
+#include <vector>
 
-#include "host/board/board_error.hpp"
 #include "host/board/emulated_board.hpp"
 #include "host/board/link_speed.hpp"
 #include "host/board/target_cost.hpp"
 #include "tests/target/twin_run.hpp"
 
-/// target_bench [--check] [BOARD...]: what a tick of a walking generic21 costs on each emulated
-/// board, exactly, and how fast the link to it is. One line of JSON each on standard output.
-/// --check: exit 1 if a promise is broken.
+/// target_bench [--check|--profile] [BOARD...]: what a tick of a walking generic21 costs on each
+/// emulated board, exactly, and how fast the link to it is. One line of JSON each on standard
+/// output.
+/// --check: exit 1 if a promise is broken. --profile: instead, where the instructions go.
 namespace {
 
 // Promised for the Cortex-M4F (README.md).
@@ -27,17 +30,16 @@ constexpr int kLinkAttempts = 3;  // the best counts: other programs only ever s
 
 bool keeps(const char* what, double value, double least, double most) {
   const bool good = value >= least && value <= most;
-  if (!good)
+  if (!good) {
     fmt::print(stderr, "target_bench: {} is {:.0f}, promised {:.0f} to {:.0f}\n", what, value,
                least, most);
+  }
   return good;
 }
 
-bool bench_cost(const std::string& board, const verp::test::Robot& robot,
-                const verp::test::TwinRun& run) {
-  std::vector<verp::Inputs> inputs;
-  for (const verp::TickRecord& record : run.records) inputs.push_back(record.inputs);
-  const verp::board::TargetCost cost = verp::board::measure_target(board, robot.params, inputs);
+bool bench_cost(const std::string& board, const verp::Params& params,
+                const std::vector<verp::Inputs>& inputs) {
+  const verp::board::TargetCost cost = verp::board::measure_target(board, params, inputs);
   fmt::print("{}\n", verp::board::to_json(board, cost));
   if (board != kPromisedBoard) return true;
   const bool good[] = {
@@ -46,6 +48,16 @@ bool bench_cost(const std::string& board, const verp::test::Robot& robot,
       keeps("instructions of the digest", static_cast<double>(cost.digest_worst), 0, kMostDigest),
       keeps("stack by static analysis, bytes", cost.stack_static_bytes, 0, kMostStackBytes)};
   return good[0] && good[1] && good[2] && good[3];
+}
+
+void show_profile(const std::string& board, const verp::Params& params,
+                  const std::vector<verp::Inputs>& inputs) {
+  fmt::print("{}\n{:>10} {:>10} {:>8}  a tick, callees included\n", board, "average", "worst",
+             "calls");
+  for (const auto& f : verp::board::profile_target(board, params, inputs)) {
+    fmt::print("{:10.0f} {:10} {:8.2f}  {:.100}\n", f.average_a_tick, f.worst_tick, f.calls_a_tick,
+               f.name);
+  }
 }
 
 bool bench_link(const std::string& board, const verp::Params& params) {
@@ -63,35 +75,45 @@ bool bench_link(const std::string& board, const verp::Params& params) {
          keeps("ticks a second of the link alone", alone.ticks_per_s, kLeastTicksPerS, 1e9);
 }
 
-int run(std::vector<std::string> boards, bool check) {
+enum class Task { kBench, kCheck, kProfile };
+
+int run(std::vector<std::string> boards, Task task) {
   if (boards.empty()) {
     for (const auto& board : verp::board::emulated_boards()) boards.emplace_back(board.name);
   }
   const verp::test::Robot robot = verp::test::load_robot("generic21");
   const verp::test::TwinRun walk = verp::test::run_here(robot, kTicks, true);
-  bool good = walk.records.size() == kTicks;
+  std::vector<verp::Inputs> inputs;
+  for (const verp::TickRecord& record : walk.records) inputs.push_back(record.inputs);
+  bool good = inputs.size() == kTicks;
   for (const std::string& board : boards) {
-    good = bench_cost(board, robot, walk) && good;
+    if (task == Task::kProfile) {
+      show_profile(board, robot.params, inputs);
+      continue;
+    }
+    good = bench_cost(board, robot.params, inputs) && good;
     good = bench_link(board, robot.params) && good;
   }
-  return good || !check ? 0 : 1;
+  return good || task != Task::kCheck ? 0 : 1;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  bool check = false;
+  Task task = Task::kBench;
   std::vector<std::string> boards;
   for (const std::string_view word : std::vector<std::string_view>(argv + 1, argv + argc)) {
     if (word == "--check") {
-      check = true;
+      task = Task::kCheck;
+    } else if (word == "--profile") {
+      task = Task::kProfile;
     } else {
       boards.emplace_back(word);
     }
   }
   try {
-    return run(boards, check);
-  } catch (const verp::board::BoardError& error) {
+    return run(boards, task);
+  } catch (const std::exception& error) {
     fmt::print(stderr, "target_bench: {}\n", error.what());
     return 3;
   }
