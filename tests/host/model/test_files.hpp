@@ -21,8 +21,8 @@ class TemporaryFile {
  public:
   TemporaryFile(const std::string& name, const std::string& text)
       : path_(::testing::TempDir() + "/" +
-              ::testing::UnitTest::GetInstance()->current_test_info()->test_suite_name() +
-              "_" + ::testing::UnitTest::GetInstance()->current_test_info()->name() + "_" + name) {
+              ::testing::UnitTest::GetInstance()->current_test_info()->test_suite_name() + "_" +
+              ::testing::UnitTest::GetInstance()->current_test_info()->name() + "_" + name) {
     std::ofstream(path_) << text;
   }
   ~TemporaryFile() { std::filesystem::remove(path_); }
