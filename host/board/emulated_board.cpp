@@ -29,7 +29,7 @@ const EmulatedBoard& find_emulated_board(const std::string& name) {
 std::filesystem::path firmware_image(const EmulatedBoard& board, const std::string& what) {
   const std::string name = board.name;
   const char* folder = std::getenv("VERP_FIRMWARE_DIR");
-  const std::filesystem::path image =
+  std::filesystem::path image =
       (folder != nullptr ? std::filesystem::path(folder)
                          : std::filesystem::path(VERP_BUILD_ROOT) / ("fw-" + name) / "images") /
       (what + "_" + name + ".elf");

@@ -26,7 +26,7 @@ bus::ServerResult run_loop_on(const std::string& board, const Params& params, bu
       .read_some = [&](void* data,
                        std::size_t size) { return link.read_some(data, size, kSilence); },
       .write = [&](const void* data, std::size_t size) { return link.write(data, size); }};
-  const bus::ServerResult result = bus::BusServer(params, bus, streams, hooks, options).serve();
+  bus::ServerResult result = bus::BusServer(params, bus, streams, hooks, options).serve();
   link.close_to_board();
   const int status = firmware.wait(kEnd);
   if (result.exit_code == 3) {

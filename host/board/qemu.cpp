@@ -51,6 +51,7 @@ int exit_status(int wait_status) {
 /// Starts `command` with its output going to `log`. Returns 0, or the error number.
 int spawn(std::vector<std::string> command, const std::filesystem::path& log, pid_t& pid) {
   std::vector<char*> arguments;
+  arguments.reserve(command.size() + 1);
   for (std::string& word : command) arguments.push_back(word.data());
   arguments.push_back(nullptr);
 
