@@ -8,7 +8,6 @@ constexpr float kBiasTime_s =
     0.25F;  // first guess; later samples count less and less (see learn_bias)
 constexpr float kStillRate_rad_s =
     0.12F;  // above the bias of a MEMS gyro (5 deg/s), below any real motion
-constexpr float kUsableAccel = 0.3F;  // share of g by which |accel| may differ before it is ignored
 
 void learn_bias(AttitudeState& state, const AttitudeIn& in) {
   const Vec3 rate = in.gyro_body_rad_s - math::to_vec(state.gyro_bias_rad_s);
@@ -33,10 +32,9 @@ AttitudeOut update(AttitudeState& state, const AttitudeIn& in) {
     learn_bias(state, in);
     const Vec3 rate = in.gyro_body_rad_s - math::to_vec(state.gyro_bias_rad_s);
     up -= in.period_s * math::cross(rate, up);
-    const float accel = math::norm(in.accel_body_m_s2);
-    if (math::abs(accel - math::kGravityMS2) < kUsableAccel * math::kGravityMS2) {
-      up += (in.period_s / kAccelTime_s) * (in.accel_body_m_s2 / accel - up);
-    }
+    // Linear in the acceleration, not in its direction: over a step its motion part averages to
+    // zero, its direction does not.
+    up += (in.period_s / kAccelTime_s) * (in.accel_body_m_s2 / math::kGravityMS2 - up);
     up = math::normalized_or(up, Vec3(0, 0, 1));
     state.up_body = math::to_xyz(up);
     // Rotation about the vertical, not about the body's own z axis.

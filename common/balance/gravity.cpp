@@ -11,23 +11,23 @@ Vec3 ground_point(const LegParams& leg, const gait::FootPose& foot, gait::Xy zmp
 }
 
 void add_sag(const Params& params, const LegParams& leg, const kinematics::LegChain& chain,
-             const Vec3& ground_m, float carried_n, float* leg_rad) {
-  // Vertical forces beyond the joint, and their moments: all a joint axis can feel of them.
-  float force_n = carried_n;
-  float force_x_nm = carried_n * ground_m.x();
-  float force_y_nm = carried_n * ground_m.y();
+             const LegLoad& load, float* leg_rad) {
+  // Force beyond the joint, and its moment about the origin: summed from the sole upwards.
+  Vec3 force_n = load.push_n;
+  Vec3 moment_nm = math::cross(load.ground_m, load.push_n);
+  const float hip_m = chain.link[0].position_m.z();
+  const float leg_m = math::max(hip_m - chain.link[kLegJoints - 1].position_m.z(), 1e-3F);
   for (int k = kLegJoints - 1; k >= 0; --k) {
     const JointParams& joint = params.joint[leg.joint[k]];
     const Pose& link = chain.link[k];
     const Vec3 com_m = math::apply(link, math::to_vec(joint.com_link_m));
-    const float weight_n = joint.mass_kg * math::kGravityMS2;
-    force_n -= weight_n;
-    force_x_nm -= weight_n * com_m.x();
-    force_y_nm -= weight_n * com_m.y();
+    const float down = math::clamp((hip_m - com_m.z()) / leg_m, 0.0F, 1.0F);
+    const Vec3 weight_n =
+        -joint.mass_kg * (load.body_lift_m_s2 + down * (load.foot_lift_m_s2 - load.body_lift_m_s2));
+    force_n += weight_n;
+    moment_nm += math::cross(com_m, weight_n);
     const Vec3 axis = kinematics::joint_axis(joint, link.rotation);
-    const float moment_x_nm = force_y_nm - force_n * link.position_m.y();
-    const float moment_y_nm = force_n * link.position_m.x() - force_x_nm;
-    const float servo_nm = -(axis.x() * moment_x_nm + axis.y() * moment_y_nm);
+    const float servo_nm = -axis.dot(moment_nm - math::cross(link.position_m, force_n));
     leg_rad[k] += joint.compliance_rad_nm * servo_nm;
   }
 }

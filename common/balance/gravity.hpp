@@ -3,14 +3,23 @@
 #include "common/kinematics/forward.hpp"
 
 /// Gravity feed-forward: a position servo sags under load by torque times compliance, so its goal
-/// is set that much beyond the angle wanted.
+/// is set that much beyond the angle wanted. The load is gravity and the inertia of the planned
+/// sway, which together act like a gravity that leans: the ground's push points from the ZMP to the
+/// centre of mass, not straight up.
 namespace verp::balance {
 
-/// Adds the sag of one leg's servos to its joint angles (hip to ankle). The ground pushes up on the
-/// sole, at the planned ZMP, with `carried_n`; the leg's own links pull down. The ZMP is limited to
-/// the sole's outline, so that a share of weight near zero has no lever.
+/// What one leg bears. Its links share the acceleration of body and foot by their height between
+/// the two.
+struct LegLoad {
+  Vec3 ground_m;        ///< where the ground pushes
+  Vec3 push_n;          ///< with what force
+  Vec3 body_lift_m_s2;  ///< acceleration of the body, plus gravity upwards
+  Vec3 foot_lift_m_s2;  ///< of the foot, likewise
+};
+
+/// Adds the sag of one leg's servos to its joint angles (hip to ankle).
 void add_sag(const Params& params, const LegParams& leg, const kinematics::LegChain& chain,
-             const Vec3& ground_m, float carried_n, float* leg_rad);
+             const LegLoad& load, float* leg_rad);
 
 /// The point of the sole, as planned, nearest to the ZMP: where the ground pushes.
 Vec3 ground_point(const LegParams& leg, const gait::FootPose& foot, gait::Xy zmp_m);

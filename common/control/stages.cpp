@@ -39,8 +39,13 @@ kinematics::LegAngles leg_angles(const Params& params, const State& state,
   return angles;
 }
 
-float weight_n(const Params& params) {
-  return model::total_mass(params) * math::kGravityMS2;
+balance::LegLoad load_of(const Params& params, const gait::GaitOut& plan, int side) {
+  const gait::FootPose& foot = plan.posture.foot[side];
+  const Vec3 gravity{0, 0, math::kGravityMS2};
+  const Vec3 body_lift = gravity + Vec3(plan.accel_m_s2.x, plan.accel_m_s2.y, 0);
+  return {balance::ground_point(params.leg[side], foot, plan.zmp_m),
+          plan.carry[side] * model::total_mass(params) * body_lift, body_lift,
+          gravity + math::to_vec(foot.accel_m_s2)};
 }
 
 void latch_heading(const AdmitOut& admitted, const balance::AttitudeOut& attitude, bool walking,
@@ -135,9 +140,7 @@ Wanted solve_joints(const Params& params, State& state, const AdmitOut& admitted
     if (state.tuning.balance.gravity_enable > 0.5F) {
       const kinematics::LegChain chain =
           kinematics::leg_chain(params, leg, plan.posture.body, angles.angle_rad);
-      balance::add_sag(params, leg, chain,
-                       balance::ground_point(leg, plan.posture.foot[side], plan.zmp_m),
-                       plan.carry[side] * weight_n(params), angles.angle_rad);
+      balance::add_sag(params, leg, chain, load_of(params, plan, side), angles.angle_rad);
     }
     balance::add(leg, state.feedback.leg[side], angles.angle_rad);
     for (int k = 0; k < kLegJoints; ++k) {

@@ -25,18 +25,25 @@ Moment moment_before(const GaitState& state, std::int32_t delay_us) {
   return {&state.previous, earlier_us > oldest_us ? earlier_us : oldest_us, state.previous_key};
 }
 
+// A moment between two fixed key points.
+struct Place {
+  std::uint8_t index;
+  float fraction;
+};
+
+Place place_of(const Moment& moment) {
+  const std::int32_t key_us = moment.step->key_us;
+  const std::int32_t key = moment.time_us > 0 ? moment.time_us / key_us : 0;
+  return {static_cast<std::uint8_t>(moment.first_key + key),
+          static_cast<float>(moment.time_us - key * key_us) / static_cast<float>(key_us)};
+}
+
 Posture posture_at(const Params& params, const Tuning& tuning, const GaitState& state,
                    const Moment& moment) {
-  const Step& step = *moment.step;
-  std::int32_t key = moment.time_us / step.key_us;
-  if (key < 0) key = 0;
-  const float fraction =
-      static_cast<float>(moment.time_us - key * step.key_us) / static_cast<float>(step.key_us);
-  const Xy body_m =
-      body_at(state.preview, static_cast<std::uint8_t>(moment.first_key + key), fraction);
+  const Place place = place_of(moment);
   const float time_s = static_cast<float>(moment.time_us) * 1e-6F;
-  return posture_of(params, tuning.gait, body_m, foot_at(step, kLeft, time_s),
-                    foot_at(step, kRight, time_s));
+  return posture_of(params, tuning.gait, body_at(state.preview, place.index, place.fraction),
+                    foot_at(*moment.step, kLeft, time_s), foot_at(*moment.step, kRight, time_s));
 }
 
 // The final step and all after it: both feet carry and the ZMP comes to rest.
@@ -265,7 +272,11 @@ GaitOut update(const Params& params, const Tuning& tuning, GaitState& state, con
     out.zmp_m = standing_feet(params, tuning.gait).zmp_end_m;
     return out;
   }
-  out.posture = posture_before(params, tuning, state, 0);
+  const Moment goal = moment_before(state, 0);
+  const Place place = place_of(goal);
+  out.posture = posture_at(params, tuning, state, goal);
+  out.accel_m_s2 =
+      body_acceleration(state.preview, place.index, place.fraction, goal.step->key_s());
   share_weight(params, state.queue[0], static_cast<float>(state.clock_us) * 1e-6F, out);
   report_now(tuning, state, out);
   return out;

@@ -33,6 +33,7 @@ struct GaitOut {
   Posture posture;                    ///< wanted at the goals' moment
   float carry[kFeet] = {0.5F, 0.5F};  ///< share of the weight on each foot at the goals' moment
   Xy zmp_m;                           ///< planned, at the goals' moment
+  Xy accel_m_s2;                      ///< of the body, planned, at the goals' moment
   Phase phase = Phase::kIdle;         ///< now, that is look_ahead_s before the goals' moment
   std::uint8_t swing = kBoth;         ///< foot in the air now; kBoth: none
   std::uint8_t carrying =

@@ -58,6 +58,10 @@ Xy ground(const Vec3& v) {
   return {v.x(), v.y()};
 }
 
+Xy fixed_at(const PreviewState& state, std::uint8_t index, int ahead) {
+  return state.fixed_m[static_cast<std::uint8_t>(index + ahead) % kFixed];
+}
+
 }  // namespace
 
 void begin(const Params& params, const Posture& stand, const Masses& masses, Xy com_m,
@@ -125,14 +129,20 @@ void fix_key_point(const Step& step, PreviewState& state) {
 }
 
 Xy body_at(const PreviewState& state, std::uint8_t index, float fraction) {
-  const auto fixed = [&](int ahead) {
-    return state.fixed_m[static_cast<std::uint8_t>(index + ahead) % kFixed];
-  };
-  const Xy before = fixed(-1), from = fixed(0), to = fixed(1), after = fixed(2);
+  const Xy before = fixed_at(state, index, -1), from = fixed_at(state, index, 0);
+  const Xy to = fixed_at(state, index, 1), after = fixed_at(state, index, 2);
   const Xy slope_from = 0.5F * (to - before);
   const Xy slope_to = 0.5F * (after - from);
   return {math::hermite(from.x, slope_from.x, to.x, slope_to.x, fraction).value,
           math::hermite(from.y, slope_from.y, to.y, slope_to.y, fraction).value};
+}
+
+Xy body_acceleration(const PreviewState& state, std::uint8_t index, float fraction, float key_s) {
+  const Xy before = fixed_at(state, index, -1), from = fixed_at(state, index, 0);
+  const Xy to = fixed_at(state, index, 1), after = fixed_at(state, index, 2);
+  const Xy here = (before - from) + (to - from);
+  const Xy there = (from - to) + (after - to);
+  return (1.0F / math::square(key_s)) * (here + fraction * (there - here));
 }
 
 void rebase(Xy origin_m, PreviewState& state) {

@@ -63,6 +63,9 @@ void fix_key_point(const Step& step, PreviewState& state);
 /// four.
 Xy body_at(const PreviewState& state, std::uint8_t index, float fraction);
 
+/// Acceleration of the body there, m/s^2, from second differences of the same key points.
+Xy body_acceleration(const PreviewState& state, std::uint8_t index, float fraction, float key_s);
+
 /// Moves the walk frame's origin to `origin_m`.
 void rebase(Xy origin_m, PreviewState& state);
 

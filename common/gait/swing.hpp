@@ -1,6 +1,7 @@
 #pragma once
 #include "common/gait/types.hpp"
 #include "common/math/spline.hpp"
+#include "common/math/xyz.hpp"
 
 /// The feet at any moment of a step: ends and extreme from the plan, splines between them.
 namespace verp::gait {
@@ -8,21 +9,27 @@ namespace verp::gait {
 struct FootPose {
   Foothold on;
   float height_m = 0;
+  Xyz accel_m_s2;  ///< of the sole
 };
 
 /// Foot `side` at `time_s` after the beginning of the step. The swing foot leaves when the double
 /// support ends, follows a quintic from lift-off to landing (at rest at both, so that nothing
 /// jerks) and the quartic through lift-off, apex and landing in height.
 inline FootPose foot_at(const Step& step, int side, float time_s) {
-  if (side != step.swing) return {step.foot[side], 0.0F};
+  if (side != step.swing) return {step.foot[side], 0.0F, Xyz{}};
   const float swing_s = step.duration_s() - step.double_support_s;
   const float v = math::clamp((time_s - step.double_support_s) / swing_s, 0.0F, 1.0F);
-  const float share = math::minimum_jerk(v).value;
+  const math::CurvePoint along = math::minimum_jerk(v);
+  const math::CurvePoint lift = math::swing_lift(v);
   const Foothold& from = step.foot[side];
+  const Xy way_m = step.landing.at_m - from.at_m;
   FootPose pose;
-  pose.on.at_m = from.at_m + share * (step.landing.at_m - from.at_m);
-  pose.on.yaw_rad = from.yaw_rad + share * (step.landing.yaw_rad - from.yaw_rad);
-  pose.height_m = step.lift_m * math::swing_lift(v).value;
+  pose.on.at_m = from.at_m + along.value * way_m;
+  pose.on.yaw_rad = from.yaw_rad + along.value * (step.landing.yaw_rad - from.yaw_rad);
+  pose.height_m = step.lift_m * lift.value;
+  const float per_s2 = 1.0F / math::square(swing_s);
+  const Xy accel = (per_s2 * along.second) * way_m;
+  pose.accel_m_s2 = {accel.x, accel.y, per_s2 * lift.second * step.lift_m};
   return pose;
 }
 

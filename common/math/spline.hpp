@@ -8,6 +8,7 @@ namespace verp::math {
 struct CurvePoint {
   float value;
   float derivative;  ///< d value / d u
+  float second = 0;  ///< d^2 value / d u^2, where the curve gives it
 };
 
 /// Cubic Hermite through (0, p0) and (1, p1) with slopes d p / d u of m0 and m1. Ends are met
@@ -26,7 +27,8 @@ constexpr CurvePoint hermite(float p0, float m0, float p1, float m1, float u) {
 constexpr CurvePoint minimum_jerk(float u) {
   const float uu = u * u;
   const float v = 1.0F - u;
-  return {(uu * u) * (10.0F - u * (15.0F - 6.0F * u)), (30.0F * uu) * (v * v)};
+  return {(uu * u) * (10.0F - u * (15.0F - 6.0F * u)), (30.0F * uu) * (v * v),
+          (60.0F * u) * (v * (v - u))};
 }
 
 /// Minimum jerk from p0 to p1; the end is p1 to one rounding.
@@ -55,7 +57,7 @@ constexpr CurvePoint quintic(float p0, float m0, float p1, float m1, float u) {
 constexpr CurvePoint swing_lift(float u) {
   const float v = 1.0F - u;
   const float uv = 4.0F * (u * v);
-  return {uv * uv, (8.0F * uv) * (v - u)};
+  return {uv * uv, (8.0F * uv) * (v - u), 32.0F - 48.0F * uv};
 }
 
 }  // namespace verp::math
