@@ -133,38 +133,44 @@ void Writer::add_attachment(std::string_view name, std::string_view media_type,
 }
 
 void Writer::flush() {
-  if (!chunk_.empty()) {
-    Bytes content;
-    content.u64(chunk_start_ns_).u64(chunk_end_ns_).u64(chunk_.size()).u32(crc32(chunk_));
-    content.text("").u64(chunk_.size()).raw(chunk_);
-    const std::uint64_t chunk_offset = position_;
-    put(Bytes().record(Opcode::kChunk, content.data).data);
-    const std::uint64_t chunk_length = position_ - chunk_offset;
-    const std::uint64_t index_offset = position_;
-    Bytes offsets;
-    for (std::size_t id = 0; id < channels_.size(); ++id) {
-      if (channels_[id].entries.empty()) continue;
-      offsets.u16(static_cast<std::uint16_t>(id)).u64(position_);
-      Bytes entries;
-      for (const Entry& entry : channels_[id].entries) entries.u64(entry.time_ns).u64(entry.offset);
-      channels_[id].entries.clear();
-      put(Bytes()
-              .record(Opcode::kMessageIndex,
-                      Bytes().u16(static_cast<std::uint16_t>(id)).text(entries.data).data)
-              .data);
-    }
-    Bytes index;
-    index.u64(chunk_start_ns_).u64(chunk_end_ns_).u64(chunk_offset).u64(chunk_length);
-    index.text(offsets.data).u64(position_ - index_offset).text("");
-    index.u64(chunk_.size()).u64(chunk_.size());
-    chunk_index_.record(Opcode::kChunkIndex, index.data);
-    ++chunks_;
-    chunk_.clear();
-  }
+  if (!chunk_.empty()) end_chunk();
   if (std::fflush(file_) != 0) {
     throw TraceError(part_, position_, std::string("write failed: ") + std::strerror(errno),
                      "free space on the disk, or record elsewhere");
   }
+}
+
+void Writer::end_chunk() {
+  Bytes content;
+  content.u64(chunk_start_ns_).u64(chunk_end_ns_).u64(chunk_.size()).u32(crc32(chunk_));
+  content.text("").u64(chunk_.size()).raw(chunk_);
+  const std::uint64_t chunk_offset = position_;
+  put(Bytes().record(Opcode::kChunk, content.data).data);
+  const std::uint64_t chunk_length = position_ - chunk_offset;
+  const std::uint64_t index_offset = position_;
+  const Bytes offsets = write_message_indexes();
+  Bytes index;
+  index.u64(chunk_start_ns_).u64(chunk_end_ns_).u64(chunk_offset).u64(chunk_length);
+  index.text(offsets.data).u64(position_ - index_offset).text("");
+  index.u64(chunk_.size()).u64(chunk_.size());
+  chunk_index_.record(Opcode::kChunkIndex, index.data);
+  ++chunks_;
+  chunk_.clear();
+}
+
+Bytes Writer::write_message_indexes() {
+  Bytes offsets;
+  for (std::size_t i = 0; i < channels_.size(); ++i) {
+    std::vector<Entry>& entries = channels_[i].entries;
+    if (entries.empty()) continue;
+    const auto id = static_cast<std::uint16_t>(i);
+    offsets.u16(id).u64(position_);
+    Bytes list;
+    for (const Entry& entry : entries) list.u64(entry.time_ns).u64(entry.offset);
+    entries.clear();
+    put(Bytes().record(Opcode::kMessageIndex, Bytes().u16(id).text(list.data).data).data);
+  }
+  return offsets;
 }
 
 void Writer::group(Bytes& summary, Bytes& offsets, Opcode opcode, std::string_view records) const {
@@ -222,6 +228,14 @@ void Writer::close() {
     throw TraceError(path_, 0, "cannot take its name: " + error.message(),
                      "the whole trace is in " + part_.string());
   }
+}
+
+void Writer::discard() {
+  if (file_ == nullptr) return;
+  std::fclose(file_);
+  file_ = nullptr;
+  std::error_code ignored;
+  std::filesystem::remove(part_, ignored);
 }
 
 }  // namespace verp::record::mcap

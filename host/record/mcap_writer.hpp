@@ -33,6 +33,8 @@ class Writer {
   void flush();
   /// Summary, footer, final name. Nothing may be added afterwards.
   void close();
+  /// Removes the part file: there was nothing worth keeping. Nothing may be added afterwards.
+  void discard();
 
   const std::filesystem::path& path() const { return path_; }
   const std::filesystem::path& part_path() const { return part_; }
@@ -51,6 +53,8 @@ class Writer {
   };
 
   void put(std::string_view bytes);
+  void end_chunk();
+  Bytes write_message_indexes();  ///< of the open chunk; returns channel -> offset
   void write_summary();
   void group(Bytes& summary, Bytes& offsets, Opcode opcode, std::string_view records) const;
 

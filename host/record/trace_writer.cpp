@@ -42,6 +42,10 @@ TraceWriter::TraceWriter(const std::filesystem::path& file, const Params& params
   writer_.flush();
 }
 
+TraceWriter::~TraceWriter() {
+  if (ticks_ == 0) writer_.discard();
+}
+
 void TraceWriter::append(const TickRecord& record, const State& state, std::uint32_t faults,
                          const ros::BodyPose* body) {
   const bool keep = options_.every_state || ticks_ % kKeyframeTicks == 0 || faults != faults_;

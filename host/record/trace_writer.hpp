@@ -21,6 +21,10 @@ class TraceWriter {
   /// `run` joins build_info() in the metadata: robot, seed, command line, ...
   TraceWriter(const std::filesystem::path& file, const Params& params, const mcap::StringMap& run,
               TraceOptions options = {});
+  /// Without close(): keeps the part file if a tick is in it.
+  ~TraceWriter();
+  TraceWriter(const TraceWriter&) = delete;
+  TraceWriter& operator=(const TraceWriter&) = delete;
 
   /// One tick: what went in with its digests, State and fault bits after it, and where the body
   /// really was, if a twin knows (null: no /tf for this tick).

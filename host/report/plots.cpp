@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cmath>
 #include <limits>
@@ -20,7 +21,7 @@ std::string preamble(int width, int height) {
       "set tics nomirror textcolor rgb '{}' scale 0.5\n"
       "set grid linecolor rgb '{}' linewidth 0.6 dashtype solid\n"
       "set xlabel textcolor rgb '{}'\nset ylabel textcolor rgb '{}'\nset title textcolor rgb '{}'\n"
-      "set key textcolor rgb '{}' samplen 1.5 spacing 1.1 noenhanced\n",
+      "set key textcolor rgb '{}' samplen 1.5 spacing 1.1 noenhanced Left reverse\n",
       width, height, kSoft, kInk, kSoft, kInk, kInk, kInk, kInk);
   for (int i = 0; i < 6; ++i) {
     text +=
@@ -84,10 +85,10 @@ Plot joint_plot(const Run& run, const Range& cycle) {
     for (const double rad : s.joint_rad) data.cell(rad * kDegrees);
     data.end_row();
   }
-  std::string script = preamble(920, 380) + data.text();
+  std::string script = preamble(920, 450) + data.text();
   script += fmt::format(
       "set multiplot layout 1,2\nset xrange [0:{:.6g}]\nset xlabel 'time in the cycle, ms'\n"
-      "set key below horizontal maxcols 3\n",
+      "set key below horizontal maxcols 3\nset bmargin 7\n",
       1000 * run.cycle_s);
   const char* sides[2] = {"left leg", "right leg"};
   for (std::size_t side = 0; side < 2; ++side) {
@@ -108,30 +109,49 @@ Plot joint_plot(const Run& run, const Range& cycle) {
           script + "unset multiplot\n"};
 }
 
+/// Body and both ankles as the cycle's first body pose sees them: forward, left, and height above
+/// each one's lowest point in the cycle, all in mm.
+class CycleFrame {
+ public:
+  CycleFrame(const Run& run, const Range& cycle) : origin_(run.samples[cycle.first]) {
+    for (std::size_t i = cycle.first; i < cycle.last; ++i) {
+      const std::array<Point3, 3> points = points_of(run.samples[i]);
+      for (std::size_t p = 0; p < 3; ++p) lowest_m_[p] = std::min(lowest_m_[p], points[p].z_m);
+    }
+  }
+  void add_row(const Sample& s, Data& data) const {
+    data.cell(1000 * (s.t_s - origin_.t_s));
+    const double yaw_rad = origin_.roll_pitch_yaw_rad[2];
+    const std::array<Point3, 3> points = points_of(s);
+    for (std::size_t p = 0; p < 3; ++p) {
+      const double dx_m = points[p].x_m - origin_.body.x_m, dy_m = points[p].y_m - origin_.body.y_m;
+      data.cell(1000 * (dx_m * std::cos(yaw_rad) + dy_m * std::sin(yaw_rad)));
+      data.cell(1000 * (dy_m * std::cos(yaw_rad) - dx_m * std::sin(yaw_rad)));
+      data.cell(1000 * (points[p].z_m - lowest_m_[p]));
+    }
+    data.end_row();
+  }
+
+ private:
+  static std::array<Point3, 3> points_of(const Sample& s) {
+    return {s.body, s.ankle[0], s.ankle[1]};
+  }
+  const Sample& origin_;
+  std::array<double, 3> lowest_m_{1e9, 1e9, 1e9};
+};
+
 Plot key_point_plot(const Run& run, const Range& cycle) {
   Data path("path"), keys("keys");
-  const double start_s = run.samples[cycle.first].t_s;
-  const double x0_m = run.samples[cycle.first].body.x_m, y0_m = run.samples[cycle.first].body.y_m;
-  const double yaw_rad = run.samples[cycle.first].roll_pitch_yaw_rad[2];
+  const CycleFrame frame(run, cycle);
   for (std::size_t i = cycle.first; i < cycle.last; ++i) {
-    const Sample& s = run.samples[i];
-    const bool key = i == cycle.first || s.state != run.samples[i - 1].state;
-    for (Data* data : {&path, &keys}) {
-      if (data == &keys && !key) continue;
-      data->cell(1000 * (s.t_s - start_s));
-      for (const Point3& p : {s.body, s.ankle[0], s.ankle[1]}) {
-        const double dx_m = p.x_m - x0_m, dy_m = p.y_m - y0_m;
-        data->cell(1000 * (dx_m * std::cos(yaw_rad) + dy_m * std::sin(yaw_rad)));
-        data->cell(1000 * (dy_m * std::cos(yaw_rad) - dx_m * std::sin(yaw_rad)));
-        data->cell(1000 * p.z_m);
-      }
-      data->end_row();
-    }
+    frame.add_row(run.samples[i], path);
+    const bool key = i == cycle.first || run.samples[i].state != run.samples[i - 1].state;
+    if (key) frame.add_row(run.samples[i], keys);
   }
   std::string script = preamble(920, 620) + path.text() + keys.text();
   script += fmt::format("set multiplot layout 3,1\nset xrange [0:{:.6g}]\nset lmargin 10\n",
                         1000 * run.cycle_s);
-  const char* axes[3] = {"forward, mm", "to the left, mm", "height, mm"};
+  const char* axes[3] = {"forward, mm", "to the left, mm", "above lowest, mm"};
   const char* names[3] = {"body", "left ankle", "right ankle"};
   for (int axis = 0; axis < 3; ++axis) {
     script += fmt::format("set ylabel '{}'\n{}\n{}\nplot ", axes[axis],
@@ -147,7 +167,9 @@ Plot key_point_plot(const Run& run, const Range& cycle) {
     script += '\n';
   }
   return {"keypoints", "Body and ankle key points",
-          "The body's centre and both ankles over one cycle; dots mark the 16 states of the paper.",
+          "The body's centre and both ankles over one cycle; dots mark the paper's states. Heights "
+          "count from each "
+          "point's lowest.",
           script + "unset multiplot\n"};
 }
 
@@ -222,7 +244,7 @@ Plot bias_plot(const Run& run) {
       "set style fill solid 0.75 noborder\nset boxwidth 0.7\nset yrange [0:*]\nset xrange "
       "[-0.7:15.7]\n"
       "set xtics 0,1,15\nset xlabel 'state of the cycle'\nset ylabel 'ZMP bias, mm'\n"
-      "set key outside top right\nmean = {:.6g}\n"
+      "set key outside top center horizontal\nmean = {:.6g}\n"
       "plot $bias using 1:2 with boxes linetype 1 notitle, mean with lines linecolor rgb '{}' "
       "linewidth 1.2 dashtype 2 title sprintf('mean %.1f mm', mean)\n",
       run.bias_mean_mm, kInk);
@@ -239,7 +261,7 @@ Plot speed_plot(const Run& run) {
   std::string script = preamble(920, 300) + data.text();
   script += fmt::format(
       "set xlabel 'time since the gait began, s'\nset ylabel 'speed, m/s'\nset yrange [0<*:*]\n"
-      "set key outside top right\nset xrange [0:{:.6g}]\nmean = {:.6g}\n"
+      "set key outside top center horizontal\nset xrange [0:{:.6g}]\nmean = {:.6g}\n"
       "plot $speed using 1:2 with lines linetype 1 title 'over one cycle', mean with lines "
       "linecolor rgb '{}' linewidth 1.2 dashtype 2 title sprintf('mean of all phases %.3f m/s', "
       "mean)\n",
@@ -256,9 +278,9 @@ Plot torque_plot(const Run& run) {
   }
   std::string script = preamble(920, 360) + data.text();
   script +=
-      "set style fill solid 0.75 noborder\nset boxwidth 0.7\nset yrange [0:100]\n"
+      "set style fill solid 0.75 noborder\nset boxwidth 0.7\nset yrange [0:100<*]\n"
       "set xtics rotate by -50 noenhanced\nset ylabel 'torque use, % of stall'\n"
-      "set key outside top right\nset xrange [-0.7:*]\n"
+      "set key outside top center horizontal\nset xrange [-0.7:*]\n"
       "plot $torque using 1:3:xtic(2) with boxes linetype 1 title 'mean', "
       "$torque using 1:4 with points linetype 2 pointtype 7 pointsize 0.7 title 'peak'\n";
   return {"torque", "Torque use", "Motor torque of every joint as a share of its stall torque.",

@@ -21,6 +21,8 @@ struct Subcommand {
 Subcommand add_walk(CLI::App& root);
 Subcommand add_replay(CLI::App& root);
 Subcommand add_diff(CLI::App& root);
+Subcommand add_check(CLI::App& root);
+Subcommand add_export(CLI::App& root);
 Subcommand add_trace(CLI::App& root);
 
 /// Adds --json. With it stdout holds one JSON object and nothing else; everything for people goes

@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "host/board/board_error.hpp"
 #include "host/model/load_error.hpp"
 #include "host/record/trace.hpp"
 #include "host/report/report.hpp"
@@ -99,8 +100,8 @@ int run(int argc, char** argv) {
   CLI::App root("VERP: a humanoid robot's controller and its twin", "verp");
   root.set_version_flag("--version", "verp " + record::build_info().at("source_revision"));
   root.require_subcommand(1);
-  const std::vector<Subcommand> commands = {add_walk(root), add_replay(root), add_diff(root),
-                                            add_trace(root)};
+  const std::vector<Subcommand> commands = {add_walk(root),  add_replay(root), add_diff(root),
+                                            add_check(root), add_export(root), add_trace(root)};
   try {
     root.parse(argc, argv);
     for (const Subcommand& command : commands) {
@@ -112,6 +113,8 @@ int run(int argc, char** argv) {
     return fail(error.status(), error.what(), json);
   } catch (const model::LoadError& error) {
     return fail(kBadInput, error.what(), json);
+  } catch (const board::BoardError& error) {
+    return fail(kNoDevice, error.what(), json);
   } catch (const record::TraceError& error) {
     return fail(kBadInput, error.what(), json);
   } catch (const report::ReportError& error) {

@@ -24,6 +24,7 @@ WalkPlan make_plan(const WalkOptions& options) {
   plan.velocity = velocity_of(options, options.step_m);
   plan.walk_s = options.walk_s;
   plan.seed = options.seed;
+  plan.board = options.board;
   return plan;
 }
 
@@ -34,7 +35,8 @@ record::mcap::StringMap metadata(const WalkPlan& plan, const WalkOptions& option
           {"step_m", fmt::format("{}", options.step_m)},
           {"cycle_s", fmt::format("{}", options.cycle_s)},
           {"velocity", options.velocity_text},
-          {"walk_s", fmt::format("{}", options.walk_s)}};
+          {"walk_s", fmt::format("{}", options.walk_s)},
+          {"controller", options.board.empty() ? "this PC" : options.board}};
 }
 
 /// One walk with the multibody correction on or off.

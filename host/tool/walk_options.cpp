@@ -80,6 +80,8 @@ void declare(CLI::App& app, WalkOptions& options) {
   app.add_option(
       "--sweep-step", options.sweep_text,
       "FROM:TO:BY in m: also walk at each step length, with and without the multibody correction");
+  app.add_option("--on", options.board,
+                 "run the controller in firmware on this emulated board (boards/)");
   app.add_option("--set", options.settings, "NAME=VALUE: a gait, balance or safety parameter");
   app.add_flag("--no-multibody", options.no_multibody, "switch the multibody ZMP correction off");
   app.add_flag("--no-feedback", options.no_feedback, "switch gyro and tilt feedback off");

@@ -16,7 +16,7 @@ struct WalkOptions {
   double cycle_s = 0.45;
   double walk_s = 20;
   std::uint64_t seed = 1;
-  std::string velocity_text, sweep_text, record_file, report_folder;
+  std::string velocity_text, sweep_text, record_file, report_folder, board;
   std::vector<std::string> settings;  ///< NAME=VALUE
   bool no_multibody = false, no_feedback = false, no_gravity = false;
   bool record_state = false, json = false;

@@ -110,6 +110,7 @@ std::vector<std::pair<std::string, std::string>> provenance(const WalkPlan& plan
       {"robot", name_of(plan.params)},
       {"model file", plan.entity.file},
       {"seed", std::to_string(plan.seed)},
+      {"controller", plan.board.empty() ? "this PC" : plan.board},
       {"ticks", fmt::format("{} of {} us", result.ticks, plan.params.period_us)},
       {"digest", fmt::format("0x{:016x}", result.digest)},
   };
@@ -198,6 +199,7 @@ Json to_json(const WalkPlan& plan, const WalkResult& result,
   const sim::WalkMetrics& m = result.metrics;
   Json json = {{"model", name_of(plan.params)},
                {"seed", plan.seed},
+               {"controller", plan.board.empty() ? "this PC" : plan.board},
                {"ticks", result.ticks},
                {"duration_s", m.walk_s},
                {"distance_m", m.distance_m},

@@ -7,6 +7,7 @@
 
 #include "common/safety/machine.hpp"
 #include "firmware/app/app.hpp"
+#include "host/board/loop_on_target.hpp"
 #include "host/bus/virtual_bus.hpp"
 #include "host/tool/exit_status.hpp"
 #include "host/tool/interrupt.hpp"
@@ -24,28 +25,85 @@ record::ros::BodyPose pose_of(const sim::Transform& body) {
   return {{p.x(), p.y(), p.z()}, {q.x(), q.y(), q.z(), q.w()}};
 }
 
-/// Where the app's ticks go: operator, meter and trace.
-struct Desk {
-  WalkOperator& walker;
-  sim::WalkMeter& meter;
-  sim::TwinRobot& robot;
-  record::TraceWriter* trace;
-  WalkResult& result;
+/// Twin, bus, operator, meter and trace of one walk; the controller is somewhere else.
+class Session {
+ public:
+  Session(const WalkPlan& plan, record::TraceWriter* trace, Progress& progress, std::string label,
+          bool keep_series)
+      : plan_(plan),
+        trace_(trace),
+        progress_(progress),
+        label_(std::move(label)),
+        robot_(world_, plan.entity, twin_options(plan)),
+        bus_(plan.params, robot_),
+        walker_(plan.params, plan.velocity, plan.walk_s),
+        meter_(plan.entity, keep_series) {}
 
+  bus::VirtualBus& bus() { return bus_; }
+  WalkOperator& walker() { return walker_; }
+  bool over() const { return over_ || interrupted(); }
+
+  /// A tick of the controller, wherever it ran.
   void record(const TickRecord& tick, const State& state, const Outputs& outputs) {
-    walker.observe(tick.inputs.tick, outputs);
-    const sim::Observation seen = sim::observe(robot);
-    meter.tick(seen, outputs);
-    ++result.ticks;
-    result.digest = tick.digest.chain;
-    result.faults = outputs.faults;
-    if (trace == nullptr) return;
-    const record::ros::BodyPose body = pose_of(seen.truth.body_world);
-    trace->append(tick, state, outputs.faults, &body);
+    walker_.observe(tick.inputs.tick, outputs);
+    const sim::Observation seen = sim::observe(robot_);
+    meter_.tick(seen, outputs);
+    ++result_.ticks;
+    result_.digest = tick.digest.chain;
+    result_.faults = outputs.faults;
+    if (trace_ != nullptr) {
+      const record::ros::BodyPose body = pose_of(seen.truth.body_world);
+      trace_->append(tick, state, outputs.faults, &body);
+    }
+    const bool ended = robot_.fallen() || walker_.done();
+    after_s_ += ended ? plan_.params.period_us * 1e-6 : 0;
+    over_ = after_s_ > (robot_.fallen() ? kAfterFall_s : kAfterStop_s);
+    progress_.show(walker_.walked_s() / plan_.walk_s,
+                   fmt::format("{}  {:.1f} of {:g} s", label_, walker_.walked_s(), plan_.walk_s));
   }
+
+  WalkResult result(double wall_s, std::string failure) {
+    result_.wall_s = wall_s;
+    result_.simulated_s = static_cast<double>(world_.now_us()) * 1e-6;
+    result_.interrupted = interrupted();
+    result_.metrics = meter_.result();
+    result_.series = meter_.series();
+    result_.failure = std::move(failure);
+    if (result_.failure.empty() && !result_.interrupted) result_.failure = failure_of_walk();
+    return std::move(result_);
+  }
+
+ private:
+  static sim::TwinOptions twin_options(const WalkPlan& plan) {
+    sim::TwinOptions options;
+    options.seed = plan.seed;
+    return options;
+  }
+
+  std::string failure_of_walk() const {
+    constexpr std::uint32_t kStopping = 0xFFFF;  // the lower half of Fault stops the robot
+    if (result_.metrics.fallen) {
+      return fmt::format("fell after {:.2f} s of gait", walker_.walked_s());
+    }
+    const std::string faults = fault_names(result_.faults & kStopping);
+    return faults.empty() ? walker_.failed() : "stopped by fault: " + faults;
+  }
+
+  const WalkPlan& plan_;
+  record::TraceWriter* trace_;
+  Progress& progress_;
+  std::string label_;
+  sim::World world_;
+  sim::TwinRobot robot_;
+  bus::VirtualBus bus_;
+  WalkOperator walker_;
+  sim::WalkMeter meter_;
+  WalkResult result_;
+  double after_s_ = 0;
+  bool over_ = false;
 };
 
-using SilApp = app::App<bus::VirtualBus, WalkOperator, Desk>;
+using SilApp = app::App<bus::VirtualBus, WalkOperator, Session>;
 
 void come_up(SilApp& app) {
   const app::BringUpReport report = app.bring_up();
@@ -57,12 +115,35 @@ void come_up(SilApp& app) {
                                          report.address));
 }
 
-std::string failure_of(const WalkOperator& walker, const WalkResult& result) {
-  constexpr std::uint32_t kStopping = 0xFFFF;  // the lower half of Fault stops the robot
-  if (result.metrics.fallen) return fmt::format("fell after {:.2f} s of gait", walker.walked_s());
-  const std::string faults = fault_names(result.faults & kStopping);
-  if (!faults.empty()) return "stopped by fault: " + faults;
-  return walker.failed();
+void run_here(const WalkPlan& plan, Session& session) {
+  SilApp app(plan.params, session.bus(), session.walker(), session);
+  come_up(app);
+  while (!session.over()) app.tick();
+}
+
+/// The controller runs in firmware; the same core runs along here, for its State and Outputs and to
+/// hold every digest against the board's. Returns what went wrong, or nothing.
+std::string run_on_board(const WalkPlan& plan, Session& session) {
+  State state;
+  std::string failure;
+  const auto record = [&](const TickRecord& tick) {
+    if (session.over() || !failure.empty()) return;  // the board finishes the tick it is in
+    Outputs outputs;
+    step(plan.params, state, tick.inputs, outputs);
+    for (int stage = kStages - 1; stage >= 0; --stage) {
+      if (state.digest.stage[stage] == tick.digest.stage[stage]) continue;
+      failure = fmt::format("{} differs from this PC at tick {} in stage {}", plan.board,
+                            tick.inputs.tick, kStageNames[stage]);
+    }
+    session.record(tick, state, outputs);
+  };
+  bus::ServerHooks hooks;
+  hooks.order = [&](std::uint32_t tick) { return session.walker().order(tick); };
+  hooks.record = record;
+  hooks.stop = [&] { return session.over() || !failure.empty(); };
+  const bus::ServerResult ended =
+      board::run_loop_on(plan.board, plan.params, session.bus(), hooks, bus::RunOptions{});
+  return failure.empty() && ended.exit_code != 0 ? plan.board + ": " + ended.reason : failure;
 }
 
 }  // namespace
@@ -70,36 +151,16 @@ std::string failure_of(const WalkOperator& walker, const WalkResult& result) {
 WalkResult walk(const WalkPlan& plan, record::TraceWriter* trace, Progress& progress,
                 const std::string& label, bool keep_series) {
   using Clock = std::chrono::steady_clock;
-  WalkResult result;
-  sim::World world;
-  sim::TwinOptions options;
-  options.seed = plan.seed;
-  sim::TwinRobot robot(world, plan.entity, options);
-  bus::VirtualBus bus(plan.params, robot);
-  WalkOperator walker(plan.params, plan.velocity, plan.walk_s);
-  sim::WalkMeter meter(plan.entity, keep_series);
-  Desk desk{walker, meter, robot, trace, result};
-  SilApp app(plan.params, bus, walker, desk);
-  come_up(app);
-
+  Session session(plan, trace, progress, label, keep_series);
   const auto start = Clock::now();
-  const double period_s = plan.params.period_us * 1e-6;
-  double after_s = 0;
-  for (bool over = false; !over && !interrupted();) {
-    app.tick();
-    const bool ended = robot.fallen() || walker.done();
-    after_s += ended ? period_s : 0;
-    over = after_s > (robot.fallen() ? kAfterFall_s : kAfterStop_s);
-    progress.show(walker.walked_s() / plan.walk_s,
-                  fmt::format("{}  {:.1f} of {:g} s", label, walker.walked_s(), plan.walk_s));
+  std::string failure;
+  if (plan.board.empty()) {
+    run_here(plan, session);
+  } else {
+    failure = run_on_board(plan, session);
   }
-  result.wall_s = std::chrono::duration<double>(Clock::now() - start).count();
-  result.simulated_s = static_cast<double>(world.now_us()) * 1e-6;
-  result.interrupted = interrupted();
-  result.metrics = meter.result();
-  result.series = meter.series();
-  if (!result.interrupted) result.failure = failure_of(walker, result);
-  return result;
+  return session.result(std::chrono::duration<double>(Clock::now() - start).count(),
+                        std::move(failure));
 }
 
 std::string fault_names(std::uint32_t faults) {

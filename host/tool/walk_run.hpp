@@ -18,6 +18,7 @@ struct WalkPlan {
   Command velocity;  ///< vx, vy, wz
   double walk_s = 20;
   std::uint64_t seed = 1;
+  std::string board;  ///< emulated board that runs the controller; empty: this process
 };
 
 struct WalkResult {
@@ -34,9 +35,10 @@ struct WalkResult {
   double real_time_factor() const { return wall_s > 0 ? simulated_s / wall_s : 0; }
 };
 
-/// Software in the loop: the same firmware/app loop as on the MCU talks Dynamixel bytes to virtual
-/// servos on the twin. `trace` (may be null) gets every tick. Ends by itself when the gait is over,
-/// the robot has fallen, or somebody interrupts. Throws ToolError when the robot does not come up.
+/// Closed loop: the firmware/app loop talks Dynamixel bytes to virtual servos on the twin, in this
+/// process or on an emulated board. `trace` (may be null) gets every tick. Ends by itself when the
+/// gait is over, the robot has fallen, or somebody interrupts. Throws ToolError when the robot does
+/// not come up.
 WalkResult walk(const WalkPlan& plan, record::TraceWriter* trace, Progress& progress,
                 const std::string& label, bool keep_series);
 

@@ -1,0 +1,36 @@
+#include <memory>
+
+#include "host/model/check.hpp"
+#include "host/model/export.hpp"
+#include "host/tool/command.hpp"
+
+namespace verp::tool {
+
+Subcommand add_check(CLI::App& root) {
+  struct Options {
+    std::string model;
+    bool json = false;
+  };
+  CLI::App* app = root.add_subcommand(
+      "check", "Validate a robot; limbs, links, masses, limits, servos, leg solver, bus load");
+  auto options = std::make_shared<Options>();
+  app->add_option("MODEL", options->model, "a robot of common/robots, or the path of an SDF file")
+      ->required();
+  add_json_flag(*app, options->json);
+  return {app, [options] { return model::check_command(options->model, options->json); }};
+}
+
+Subcommand add_export(CLI::App& root) {
+  struct Options {
+    std::string model, folder;
+  };
+  CLI::App* app =
+      root.add_subcommand("export", "Write a robot's Params image and header for firmware");
+  auto options = std::make_shared<Options>();
+  app->add_option("MODEL", options->model, "a robot of common/robots, or the path of an SDF file")
+      ->required();
+  app->add_option("-o,--output", options->folder, "folder")->required();
+  return {app, [options] { return model::export_command(options->model, options->folder); }};
+}
+
+}  // namespace verp::tool
