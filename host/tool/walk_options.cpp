@@ -73,7 +73,7 @@ void declare(CLI::App& app, WalkOptions& options) {
       ->check(number_between(3, kMaxWalk_s, "s"))
       ->capture_default_str();
   app.add_option("--seed", options.seed, "of every random thing in the twin")
-      ->check(number_between(0, 9007199254740992.0, ""))
+      ->check(number_between(0, 4294967295.0, ""))
       ->capture_default_str();
   app.add_option("--record", options.record_file, "write the trace here (.mcap)");
   app.add_option("--report", options.report_folder, "write the report here (default: report)");

@@ -7,6 +7,7 @@
 
 #include "common/safety/machine.hpp"
 #include "firmware/app/app.hpp"
+#include "host/board/board_error.hpp"
 #include "host/board/loop_on_target.hpp"
 #include "host/bus/virtual_bus.hpp"
 #include "host/tool/exit_status.hpp"
@@ -141,9 +142,14 @@ std::string run_on_board(const WalkPlan& plan, Session& session) {
   hooks.order = [&](std::uint32_t tick) { return session.walker().order(tick); };
   hooks.record = record;
   hooks.stop = [&] { return session.over() || !failure.empty(); };
-  const bus::ServerResult ended =
-      board::run_loop_on(plan.board, plan.params, session.bus(), hooks, bus::RunOptions{});
-  return failure.empty() && ended.exit_code != 0 ? plan.board + ": " + ended.reason : failure;
+  try {
+    const bus::ServerResult ended =
+        board::run_loop_on(plan.board, plan.params, session.bus(), hooks, bus::RunOptions{});
+    return failure.empty() && ended.exit_code != 0 ? plan.board + ": " + ended.reason : failure;
+  } catch (const board::BoardError&) {
+    if (!interrupted()) throw;  // Ctrl-C in a terminal ends the emulator too
+    return failure;
+  }
 }
 
 }  // namespace

@@ -1,0 +1,63 @@
+#pragma once
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+
+/// Runs the verp program in a folder of the test's own.
+namespace verp::tool::test {
+
+namespace fs = std::filesystem;
+
+struct Outcome {
+  int status = -1;  ///< exit status; -1: killed
+  std::string out, err;
+};
+
+inline std::string slurp(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+class Program : public ::testing::Test {
+ protected:
+  Program() {
+    const auto* info = ::testing::UnitTest::GetInstance()->current_test_info();
+    folder_ = fs::temp_directory_path() /
+              (std::string("verp-tool-") + info->name() + "-" + std::to_string(::getpid()));
+    fs::create_directories(folder_);
+  }
+  ~Program() override { fs::remove_all(folder_); }
+
+  /// `arguments` as a shell would take them; `name` keeps the outputs of parallel runs apart.
+  Outcome verp(const std::string& arguments, const std::string& name = "run") const {
+    return shell(std::string(VERP_PROGRAM) + " " + arguments, name);
+  }
+  Outcome shell(const std::string& command, const std::string& name = "run") const {
+    const fs::path out = folder_ / (name + ".out"), err = folder_ / (name + ".err");
+    const std::string line = "cd '" + folder_.string() + "' && ( " + command + " ) >'" +
+                             out.string() + "' 2>'" + err.string() + "' </dev/null";
+    const int status = std::system(line.c_str());
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, slurp(out), slurp(err)};
+  }
+
+  /// Bad input: exit 2, nothing on stdout, one line on stderr that holds `needle`.
+  void expect_refused(const std::string& arguments, const std::string& needle) const {
+    const Outcome outcome = verp(arguments);
+    EXPECT_EQ(outcome.status, 2) << arguments << '\n' << outcome.err;
+    EXPECT_EQ(outcome.out, "") << arguments;
+    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << arguments << '\n'
+                                                                           << outcome.err;
+    EXPECT_NE(outcome.err.find(needle), std::string::npos) << arguments << '\n' << outcome.err;
+  }
+
+  fs::path folder_;
+};
+
+}  // namespace verp::tool::test

@@ -1,0 +1,91 @@
+#include <nlohmann/json.hpp>
+
+#include "tests/host/tool/program.hpp"
+
+namespace verp::tool::test {
+namespace {
+
+using Usage = Program;
+
+TEST_F(Usage, HelpGoesToStdoutAndIsGood) {
+  for (const char* arguments : {"--help", "walk --help", "trace export --help"}) {
+    const Outcome outcome = verp(arguments);
+    EXPECT_EQ(outcome.status, 0) << arguments;
+    EXPECT_NE(outcome.out.find("Usage:"), std::string::npos) << arguments;
+    EXPECT_EQ(outcome.err, "") << arguments;
+  }
+}
+
+TEST_F(Usage, UnknownWordsGetAHint) {
+  expect_refused("", "subcommand");
+  expect_refused("wlak", "did you mean walk?");
+  expect_refused("walk --stpe 0.04", "did you mean --step?");
+  expect_refused("walk --stpe=0.04", "did you mean --step?");
+  expect_refused("replay --jsn x", "did you mean --json?");
+}
+
+TEST_F(Usage, NumbersAreCheckedAndTheRangeIsTold) {
+  expect_refused("walk --step nan", "give 0 to 0.15 m");
+  expect_refused("walk --step inf", "give 0 to 0.15 m");
+  expect_refused("walk --step -0.04", "give 0 to 0.15 m");
+  expect_refused("walk --step 4", "give 0 to 0.15 m");
+  expect_refused("walk --step 0.04x", "give 0 to 0.15 m");
+  expect_refused("walk --step 0,04", "give 0 to 0.15 m");
+  expect_refused("walk --cycle 0", "0.3 to 2 s");
+  expect_refused("walk --for -1", "3 to 86400 s");
+  expect_refused("walk --for 1e300", "3 to 86400 s");
+  expect_refused("walk --seed -1", "--seed");
+  expect_refused("walk --seed 1.5", "--seed");
+}
+
+TEST_F(Usage, ListsAreChecked) {
+  expect_refused("walk --velocity 0.1", "VX,VY,WZ");
+  expect_refused("walk --velocity 0.1,nan,0", "VY");
+  expect_refused("walk --velocity 0.1,0,99", "rad/s");
+  expect_refused("walk --sweep-step 0.02:0.06", "FROM:TO:BY");
+  expect_refused("walk --sweep-step 0.06:0.02:0.01", "TO");
+  expect_refused("walk --sweep-step 0.02:0.06:0", "BY");
+  expect_refused("walk --sweep-step 0:0.15:0.001", "raise BY");
+}
+
+TEST_F(Usage, ParametersAreCheckedByNameAndRange) {
+  expect_refused("walk --set gait.lift=0.01", "gait.lift_m");
+  expect_refused("walk --set gait.lift_m", "NAME=VALUE");
+  expect_refused("walk --set gait.lift_m=nan", "not a number");
+  expect_refused("walk --set gait.lift_m=9", "out of range");
+}
+
+TEST_F(Usage, MissingAndMalformedFilesAreNamed) {
+  expect_refused("walk no_such_robot", "no_such_robot");
+  expect_refused("check no_such.sdf", "no_such.sdf");
+  expect_refused("replay none.mcap", "none.mcap");
+  expect_refused("diff none.mcap none.mcap", "none.mcap");
+  expect_refused("trace info none.mcap", "none.mcap");
+  std::ofstream(folder_ / "bad.sdf") << "<sdf version='1.9'><model name='a'>";
+  expect_refused("walk bad.sdf", "bad.sdf");
+  expect_refused("check bad.sdf", "bad.sdf");
+  expect_refused("replay bad.sdf", "wrong magic");
+}
+
+TEST_F(Usage, UnwritablePlacesAreNamedBeforeTheRun) {
+  expect_refused("walk --record missing/run.mcap", "missing/run.mcap");
+  std::ofstream(folder_ / "file") << "x";
+  expect_refused("walk --report file", "file");
+}
+
+TEST_F(Usage, JsonErrorsAreOneObject) {
+  const Outcome outcome = verp("replay none.mcap --json");
+  EXPECT_EQ(outcome.status, 2);
+  const auto json = nlohmann::json::parse(outcome.out);
+  EXPECT_EQ(json.at("exit"), 2);
+  EXPECT_NE(json.at("error").get<std::string>().find("none.mcap"), std::string::npos);
+}
+
+TEST_F(Usage, BoardWithoutImageIsADeviceTrouble) {
+  const Outcome outcome = shell("VERP_FIRMWARE_DIR=. " VERP_PROGRAM " walk --on mps2_an386 --json");
+  EXPECT_EQ(outcome.status, 3);
+  EXPECT_NE(outcome.err.find("build it"), std::string::npos) << outcome.err;
+}
+
+}  // namespace
+}  // namespace verp::tool::test
