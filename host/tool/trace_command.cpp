@@ -114,7 +114,6 @@ int recover(const TraceCommandOptions& options) {
   // States are kept again where they stand; a damaged trace's fault bits are not known, so only
   // those.
   std::size_t next = 0;
-  const State none;
   for (std::size_t i = 0; i < trace.ticks.size(); ++i) {
     const bool kept = next < trace.keyframes.size() && trace.keyframes[next].index == i;
     writer.append(trace.ticks[i], kept ? &trace.keyframes[next].state : nullptr);
