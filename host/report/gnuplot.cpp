@@ -73,10 +73,12 @@ void replace_all(std::string& text, const std::string& from, const std::string& 
   }
 }
 
-/// gnuplot writes a colour as #rrggbb or as rgb(%3d, %3d, %3d).
+/// gnuplot writes a colour as #rrggbb (fills), rgb(%3d, %3d, %3d) (lines) or rgb(%d,%d,%d) (text).
 void replace_colour(std::string& svg, int r, int g, int b, const std::string& variable) {
   std::array<char, 32> text{};
   std::snprintf(text.data(), text.size(), "rgb(%3d, %3d, %3d)", r, g, b);
+  replace_all(svg, text.data(), variable);
+  std::snprintf(text.data(), text.size(), "rgb(%d,%d,%d)", r, g, b);
   replace_all(svg, text.data(), variable);
   std::snprintf(text.data(), text.size(), "#%02x%02x%02x", r, g, b);
   replace_all(svg, text.data(), variable);
@@ -121,15 +123,11 @@ std::optional<std::string> draw(const std::string& script, std::string& error) {
   const fs::path out = scratch.path() / "plot.svg", problems = scratch.path() / "stderr";
   const int status = run_gnuplot(file.string(), out.string(), problems.string());
   std::string svg = for_page(slurp(out));
-  if (status == 0 && svg.ends_with("</svg>\n\n") == false &&
-      svg.find("</svg>") == std::string::npos) {
-    svg.clear();
-  }
-  if (status == 0 && !svg.empty()) return svg;
+  if (status == 0 && svg.find("</svg>") != std::string::npos) return svg;
   const std::string text = slurp(problems);
-  error = text.substr(0, text.find('\n', text.find_first_not_of('\n') == std::string::npos
-                                             ? 0
-                                             : text.find_first_not_of('\n')));
+  const std::size_t start = text.find_first_not_of(" \n");
+  error = start == std::string::npos ? "gnuplot ended with status " + std::to_string(status)
+                                     : text.substr(start, text.find('\n', start) - start);
   return std::nullopt;
 }
 
