@@ -124,6 +124,18 @@ gait::GaitOut plan_motion(const Params& params, State& state, const AdmitOut& ad
   return gait::update(params, state.tuning, state.gait, in);
 }
 
+void keep_balance(const Params& params, State& state, const Inputs& inputs,
+                  const balance::AttitudeOut& attitude, const gait::GaitOut& plan) {
+  const float planned_pitch_rad = state.tuning.gait.trunk_pitch_rad;
+  state.feedback = balance::feedback(state.tuning.balance, attitude, planned_pitch_rad, plan.swing);
+  if (plan.swing == gait::kBoth || state.machine.mode != Mode::kWalking) return;
+  const int carrying = 1 - plan.swing;
+  balance::learn(params, state.tuning, attitude,
+                 {(inputs.flags & kFeetFresh) != 0, inputs.foot_count[carrying], carrying,
+                  planned_pitch_rad, period_s(params)},
+                 state.trim);
+}
+
 Wanted solve_joints(const Params& params, State& state, const AdmitOut& admitted,
                     const gait::GaitOut& plan) {
   Wanted wanted{};
@@ -143,6 +155,7 @@ Wanted solve_joints(const Params& params, State& state, const AdmitOut& admitted
       balance::add_sag(params, leg, chain, load_of(params, plan, side), angles.angle_rad);
     }
     balance::add(leg, state.feedback.leg[side], angles.angle_rad);
+    balance::add(leg, state.trim.leg[side], angles.angle_rad);
     for (int k = 0; k < kLegJoints; ++k) {
       wanted.angle_rad[leg.joint[k]] = angles.angle_rad[k];
     }

@@ -6,8 +6,6 @@
 namespace verp::gait {
 namespace {
 
-constexpr int kKeyPointsPerTick = 2;
-
 // A moment within the steps known: look back one step at most.
 struct Moment {
   const Step* step;
@@ -111,7 +109,9 @@ void watch_zmp(const Params& params, const Tuning& tuning, const Step& step, Xy 
 void lay_key_points(const Params& params, const Tuning& tuning, const GaitIn& in,
                     GaitState& state) {
   PreviewState& preview = state.preview;
-  for (int i = 0; i < kKeyPointsPerTick; ++i) {
+  // One a tick; two where a control period may be longer than the time between key points.
+  const int most = in.period_us > state.queue[0].key_us ? 2 : 1;
+  for (int i = 0; i < most; ++i) {
     if (static_cast<std::uint8_t>(preview.head - preview.fixed) >= kHorizon) return;
     extend_queue(params, tuning, in, state);
     Xy miss_m = lay_key_point(params, tuning, state.queue, preview);
@@ -137,7 +137,7 @@ void rebase_walk(Xy origin_m, GaitState& state) {
   rebase(origin_m, state.preview);
 }
 
-void next_in_queue(const Params& params, const GaitIn& in, GaitState& state) {
+void next_in_queue(GaitState& state) {
   state.clock_us -= state.queue[0].duration_us();
   state.previous = state.queue[0];
   state.previous_key = state.first_key;
@@ -145,7 +145,6 @@ void next_in_queue(const Params& params, const GaitIn& in, GaitState& state) {
   for (int i = 0; i + 1 < kQueue; ++i) state.queue[i] = state.queue[i + 1];
   --state.queued;
   --state.preview.head_step;
-  state.preview.lump = lump_of(params, in.goal_rad);
   const Step& step = state.queue[0];
   if (step.swing != kBoth) rebase_walk(step.foot[step.carrying()].at_m, state);
 }
@@ -166,18 +165,6 @@ Posture stand_posture(const Params& params, const Tuning& tuning, const GaitStat
                     foot_at(stand, kRight, 0.0F));
 }
 
-Masses stand_masses(const Params& params, const Posture& posture, GaitState& state) {
-  kinematics::LegChain legs[kFeet];
-  for (int side = 0; side < kFeet; ++side) {
-    float* angle_rad = state.preview.leg_rad + side * kLegJoints;
-    const kinematics::LegAngles solved =
-        kinematics::solve_leg(params, params.leg[side], sole_in_body(posture, side), angle_rad);
-    for (int k = 0; k < kLegJoints; ++k) angle_rad[k] = solved.angle_rad[k];
-    legs[side] = kinematics::leg_chain(params, params.leg[side], posture.body, angle_rad);
-  }
-  return masses_of(params, state.preview.lump, posture.body, legs);
-}
-
 // Standing: the body glides until the CoM is over the middle of the soles. From there a walk may
 // begin.
 void stand(const Params& params, const Tuning& tuning, const GaitIn& in, GaitState& state) {
@@ -186,7 +173,7 @@ void stand(const Params& params, const Tuning& tuning, const GaitIn& in, GaitSta
   if (!in.walk) state.footsteps.notes = 0;
   state.preview.lump = lump_of(params, in.goal_rad);
   const Posture posture = stand_posture(params, tuning, state);
-  const Masses masses = stand_masses(params, posture, state);
+  const Masses masses = weigh(params, state.preview.lump, posture, state.preview.leg_rad);
   const Xy middle_m = standing_feet(params, tuning.gait).zmp_end_m;
   const Xy off_m = middle_m - Xy{masses.com_m.x(), masses.com_m.y()};
   const bool may_walk = (state.footsteps.notes & kPlanRefused) == 0 &&
@@ -219,14 +206,11 @@ void end_walk(GaitState& state) {
 void walk(const Params& params, const Tuning& tuning, const GaitIn& in, GaitState& state) {
   if (state.moving != 0) state.clock_us += in.period_us;
   while (state.clock_us >= state.queue[0].duration_us()) {
-    next_in_queue(params, in, state);
+    next_in_queue(state);
     if (state.queue[0].phase == Phase::kIdle) return end_walk(state);
   }
+  if (state.preview.head == kHorizon) state.moving = 1;
   plan_ahead(params, tuning, in, state);
-  if (state.preview.head == kHorizon && state.moving == 0) {
-    state.moving = 1;
-    plan_ahead(params, tuning, in, state);
-  }
 }
 
 // Share of the weight on each foot, from where the ZMP lies between the soles.

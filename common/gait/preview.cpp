@@ -39,21 +39,6 @@ Xy multibody_zmp(const PreviewState& state, const Momentum& next, float mass_kg,
           (weight_n * state.com_real_m.y + moment_x) / force_n};
 }
 
-Masses solve_head(const Params& params, const GaitTuning& tuning, const Step& step, float time_s,
-                  Xy body_m, PreviewState& state) {
-  const Posture posture = posture_of(params, tuning, body_m, foot_at(step, kLeft, time_s),
-                                     foot_at(step, kRight, time_s));
-  kinematics::LegChain legs[kFeet];
-  for (int side = 0; side < kFeet; ++side) {
-    float* angle_rad = state.leg_rad + side * kLegJoints;
-    const kinematics::LegAngles solved =
-        kinematics::solve_leg(params, params.leg[side], sole_in_body(posture, side), angle_rad);
-    for (int k = 0; k < kLegJoints; ++k) angle_rad[k] = solved.angle_rad[k];
-    legs[side] = kinematics::leg_chain(params, params.leg[side], posture.body, angle_rad);
-  }
-  return masses_of(params, state.lump, posture.body, legs);
-}
-
 Xy ground(const Vec3& v) {
   return {v.x(), v.y()};
 }
@@ -95,7 +80,9 @@ Xy lay_key_point(const Params& params, const Tuning& tuning, const Step* queue,
   // misses is in the links' positions, hence in the multibody ZMP, hence corrected.
   const Xy offset_m = 2.0F * state.offset_m[0] - state.offset_m[1];
   const Xy body_m = state.com_m - offset_m;
-  const Masses masses = solve_head(params, tuning.gait, step, time_s, body_m, state);
+  const Posture posture = posture_of(params, tuning.gait, body_m, foot_at(step, kLeft, time_s),
+                                     foot_at(step, kRight, time_s));
+  const Masses masses = weigh(params, state.lump, posture, state.leg_rad);
   const Momentum momentum = momentum_between(params, state, masses, key_s);
   const Xy zmp_m = multibody_zmp(state, momentum, model::total_mass(params), key_s);
   const Xy miss_m = state.zmp_m - zmp_m;

@@ -23,7 +23,7 @@ Lump lump_of(const Params& params, const float* angle_rad) {
   for (int j = 0; j < params.joint_count; ++j) {
     if ((legs >> j & 1U) != 0) continue;
     const JointParams& joint = params.joint[j];
-    node[j + 1] = kinematics::chain(node[joint.parent], joint, angle_rad[j]);
+    kinematics::chain(node[joint.parent], joint, angle_rad[j], node[j + 1]);
     moment_kg_m += joint.mass_kg * math::apply(node[j + 1], math::to_vec(joint.com_link_m));
     mass_kg += joint.mass_kg;
   }
@@ -57,22 +57,27 @@ float point_mass_kg(const Params& params, const Lump& lump, int point) {
   return params.joint[params.leg[leg].joint[(point - 1) % kLegJoints]].mass_kg;
 }
 
-Masses masses_of(const Params& params, const Lump& lump, const Pose& body,
-                 const kinematics::LegChain* legs) {
+Masses weigh(const Params& params, const Lump& lump, const Posture& posture, float* leg_rad) {
   Masses masses;
-  masses.point_m[0] = math::apply(body, math::to_vec(lump.com_body_m));
+  masses.point_m[0] = math::apply(posture.body, math::to_vec(lump.com_body_m));
   Vec3 moment_kg_m = lump.mass_kg * masses.point_m[0];
   float mass_kg = lump.mass_kg;
-  int point = 1;
+  Vec3* point_m = masses.point_m + 1;
   for (int side = 0; side < kFeet; ++side) {
-    for (int k = 0; k < kLegJoints; ++k, ++point) {
-      const JointParams& joint = params.joint[params.leg[side].joint[k]];
-      masses.point_m[point] = math::apply(legs[side].link[k], math::to_vec(joint.com_link_m));
-      moment_kg_m += joint.mass_kg * masses.point_m[point];
+    const LegParams& leg = params.leg[side];
+    float* angle_rad = leg_rad + side * kLegJoints;
+    const kinematics::LegAngles solved =
+        kinematics::solve_leg(params, leg, sole_in_body(posture, side), angle_rad);
+    for (int k = 0; k < kLegJoints; ++k) angle_rad[k] = solved.angle_rad[k];
+    const kinematics::LegChain chain = kinematics::leg_chain(params, leg, posture.body, angle_rad);
+    for (int k = 0; k < kLegJoints; ++k, ++point_m) {
+      const JointParams& joint = params.joint[leg.joint[k]];
+      *point_m = math::apply(chain.link[k], math::to_vec(joint.com_link_m));
+      moment_kg_m += joint.mass_kg * *point_m;
       mass_kg += joint.mass_kg;
     }
   }
-  masses.com_m = mass_kg > 0.0F ? Vec3(moment_kg_m / mass_kg) : body.position_m;
+  masses.com_m = mass_kg > 0.0F ? Vec3(moment_kg_m / mass_kg) : posture.body.position_m;
   return masses;
 }
 

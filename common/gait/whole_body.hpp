@@ -38,8 +38,10 @@ struct Masses {
   Vec3 point_m[kPoints];
   Vec3 com_m;
 };
-Masses masses_of(const Params& params, const Lump& lump, const Pose& body,
-                 const kinematics::LegChain* legs);
+
+/// Solves both legs for `posture` and weighs them and the lump. `leg_rad` holds the twelve leg
+/// angles of the time before (Newton's warm start) and takes the new ones.
+Masses weigh(const Params& params, const Lump& lump, const Posture& posture, float* leg_rad);
 float point_mass_kg(const Params& params, const Lump& lump, int point);
 
 /// How far the centre of mass moves when the body moves by one, with the feet fixed (0.5 to 1): leg

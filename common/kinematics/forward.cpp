@@ -27,13 +27,25 @@ Mat3 axis_rotation(const JointParams& joint, float angle_rad) {
   return math::rotation(math::to_vec(joint.axis), angle);
 }
 
-// Turns the columns of `m` in the plane of two axes: what a product with rot_x, rot_y or rot_z
-// leaves to do.
-void turn_columns(Mat3& m, int first, int second, float sin, float cos) {
-  const Vec3 a = m.col(first);
-  const Vec3 b = m.col(second);
-  m.col(first) = cos * a + sin * b;
-  m.col(second) = cos * b - sin * a;
+// Turns two columns of `from` in the plane of their axes and keeps the third: what a product with
+// rot_x, rot_y or rot_z leaves to do.
+inline void turn_columns(const Mat3& from, int first, int second, int kept, float sin, float cos,
+                         Mat3& to) {
+  for (int row = 0; row < 3; ++row) {
+    const float a = from(row, first);
+    const float b = from(row, second);
+    to(row, first) = cos * a + sin * b;
+    to(row, second) = cos * b - sin * a;
+    to(row, kept) = from(row, kept);
+  }
+}
+
+// Most joints sit on an axis of their parent: what is zero is skipped.
+inline void place(const Pose& parent, const Xyz& origin_m, Vec3& position_m) {
+  position_m = parent.position_m;
+  if (origin_m.x != 0.0F) position_m += origin_m.x * parent.rotation.col(0);
+  if (origin_m.y != 0.0F) position_m += origin_m.y * parent.rotation.col(1);
+  if (origin_m.z != 0.0F) position_m += origin_m.z * parent.rotation.col(2);
 }
 
 }  // namespace
@@ -42,46 +54,42 @@ Pose joint_transform(const JointParams& joint, float angle_rad) {
   return {axis_rotation(joint, angle_rad), math::to_vec(joint.origin_parent_m)};
 }
 
-Pose chain(const Pose& parent, const JointParams& joint, float angle_rad) {
-  Pose pose{parent.rotation,
-            parent.position_m + parent.rotation * math::to_vec(joint.origin_parent_m)};
+void chain(const Pose& parent, const JointParams& joint, float angle_rad, Pose& link) {
+  place(parent, joint.origin_parent_m, link.position_m);
   const math::SinCos angle = math::sincos(angle_rad);
+  const Mat3& from = parent.rotation;
+  Mat3& to = link.rotation;
   switch (joint.axis_kind) {
     case AxisKind::kX:
-      turn_columns(pose.rotation, 1, 2, angle.sin, angle.cos);
-      break;
+      return turn_columns(from, 1, 2, 0, angle.sin, angle.cos, to);
     case AxisKind::kY:
-      turn_columns(pose.rotation, 2, 0, angle.sin, angle.cos);
-      break;
+      return turn_columns(from, 2, 0, 1, angle.sin, angle.cos, to);
     case AxisKind::kZ:
-      turn_columns(pose.rotation, 0, 1, angle.sin, angle.cos);
-      break;
+      return turn_columns(from, 0, 1, 2, angle.sin, angle.cos, to);
     case AxisKind::kMinusX:
-      turn_columns(pose.rotation, 1, 2, -angle.sin, angle.cos);
-      break;
+      return turn_columns(from, 1, 2, 0, -angle.sin, angle.cos, to);
     case AxisKind::kMinusY:
-      turn_columns(pose.rotation, 2, 0, -angle.sin, angle.cos);
-      break;
+      return turn_columns(from, 2, 0, 1, -angle.sin, angle.cos, to);
     case AxisKind::kMinusZ:
-      turn_columns(pose.rotation, 0, 1, -angle.sin, angle.cos);
-      break;
+      return turn_columns(from, 0, 1, 2, -angle.sin, angle.cos, to);
     case AxisKind::kGeneral:
-      pose.rotation = pose.rotation * math::rotation(math::to_vec(joint.axis), angle);
       break;
   }
-  return pose;
+  to = from * math::rotation(math::to_vec(joint.axis), angle);
 }
 
 Pose node_pose(const Params& params, const Pose& body, const float* angle_rad, int node) {
   if (node == 0) return body;
   const JointParams& joint = params.joint[node - 1];
-  return chain(node_pose(params, body, angle_rad, joint.parent), joint, angle_rad[node - 1]);
+  Pose link;
+  chain(node_pose(params, body, angle_rad, joint.parent), joint, angle_rad[node - 1], link);
+  return link;
 }
 
 void all_poses(const Params& params, const Pose& body, const float* angle_rad, Pose* node) {
   node[0] = body;
   for (int j = 0; j < params.joint_count; ++j) {
-    node[j + 1] = chain(node[params.joint[j].parent], params.joint[j], angle_rad[j]);
+    chain(node[params.joint[j].parent], params.joint[j], angle_rad[j], node[j + 1]);
   }
 }
 
@@ -120,13 +128,13 @@ Vec3 joint_axis(const JointParams& joint, const Mat3& link_rotation) {
 
 LegChain leg_chain(const Params& params, const LegParams& leg, const Pose& body,
                    const float* leg_angle_rad) {
-  LegChain result;
+  LegChain legs;
   const Pose* parent = &body;
   for (int k = 0; k < kLegJoints; ++k) {
-    result.link[k] = chain(*parent, params.joint[leg.joint[k]], leg_angle_rad[k]);
-    parent = &result.link[k];
+    chain(*parent, params.joint[leg.joint[k]], leg_angle_rad[k], legs.link[k]);
+    parent = &legs.link[k];
   }
-  return result;
+  return legs;
 }
 
 Pose sole_pose(const LegParams& leg, const LegChain& chain) {

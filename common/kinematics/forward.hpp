@@ -10,9 +10,9 @@ namespace verp::kinematics {
 /// Pose of the link that `joint` moves, seen from its parent link, at `angle_rad`.
 Pose joint_transform(const JointParams& joint, float angle_rad);
 
-/// parent * joint_transform, without the multiplications by zero and one of an axis along x, y or
-/// z.
-Pose chain(const Pose& parent, const JointParams& joint, float angle_rad);
+/// link = parent * joint_transform, without the multiplications by zero and one of an axis along x,
+/// y or z.
+void chain(const Pose& parent, const JointParams& joint, float angle_rad, Pose& link);
 
 /// Pose of one node: recursive, from the node up to the body.
 Pose node_pose(const Params& params, const Pose& body, const float* angle_rad, int node);
