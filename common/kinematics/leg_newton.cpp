@@ -46,6 +46,11 @@ bool newton_step(const Mat6& jacobian, const Residual& residual, Vec6& step_rad)
   return math::solve_spd(normal, right, step_rad);
 }
 
+// A norm of NaN is 0 here and would pass for solved.
+bool is_pose(const Pose& sole) {
+  return math::is_finite(sole.rotation.sum() + sole.position_m.sum());
+}
+
 }  // namespace
 
 LegAngles solve_leg_newton(const Params& params, const LegParams& leg, const Pose& sole,
@@ -54,6 +59,10 @@ LegAngles solve_leg_newton(const Params& params, const LegParams& leg, const Pos
   for (int k = 0; k < kLegJoints; ++k) {
     const JointParams& joint = params.joint[leg.joint[k]];
     result.angle_rad[k] = math::clamp(previous_rad[k], joint.lower_rad, joint.upper_rad);
+  }
+  if (!is_pose(sole)) {
+    result.flags = kNotConverged;
+    return result;
   }
   for (int i = 0; i <= kIterations; ++i) {
     const LegChain legs = leg_chain(params, leg, Pose{}, result.angle_rad);

@@ -1,0 +1,257 @@
+#include "common/kinematics/leg_ik.hpp"
+
+#include <gtest/gtest.h>
+
+#include "tests/unit/support/test_robot.hpp"
+
+namespace verp::kinematics {
+namespace {
+
+using test::kRobot;
+using test::Random;
+
+constexpr float kPosition_m = 1e-4F;
+constexpr float kAngle_rad = 1e-3F;
+
+Pose reached(const Params& params, const LegParams& leg, const LegAngles& angles) {
+  return sole_pose(leg, leg_chain(params, leg, Pose{}, angles.angle_rad));
+}
+
+void expect_pose(const Pose& found, const Pose& wanted, float position_m = kPosition_m,
+                 float angle_rad = kAngle_rad) {
+  EXPECT_LT(test::distance(found.position_m, wanted.position_m), position_m);
+  EXPECT_LT(test::turn_between(found.rotation, wanted.rotation), angle_rad);
+}
+
+void expect_within_limits(const Params& params, const LegParams& leg, const LegAngles& angles) {
+  for (int k = 0; k < kLegJoints; ++k) {
+    const JointParams& joint = params.joint[leg.joint[k]];
+    EXPECT_TRUE(math::is_finite(angles.angle_rad[k])) << "joint " << k;
+    EXPECT_GE(angles.angle_rad[k], joint.lower_rad) << "joint " << k;
+    EXPECT_LE(angles.angle_rad[k], joint.upper_rad) << "joint " << k;
+  }
+}
+
+// A sole under its hip: `down` is the distance from hip to ankle centre, tilted by roll and pitch.
+Pose sole_under_hip(const LegParams& leg, float down_m, float roll_rad, float pitch_rad,
+                    const Mat3& sole) {
+  const Vec3 hip_ankle = math::rot_x(roll_rad) * (math::rot_y(pitch_rad) * Vec3(0, 0, -down_m));
+  return {sole, math::to_vec(leg.hip_body_m) + hip_ankle + sole * math::to_vec(leg.sole_foot_m)};
+}
+
+Vec3 ankle_from_hip(const LegParams& leg, const Pose& sole) {
+  return sole.position_m - sole.rotation * math::to_vec(leg.sole_foot_m) -
+         math::to_vec(leg.hip_body_m);
+}
+
+// Every pose that joint angles can make is found again, and so are the angles themselves.
+TEST(LegIk, ClosedFormUndoesForwardKinematics) {
+  Random random(1);
+  for (int round = 0; round < 400; ++round) {
+    float angle_rad[kMaxJoints];
+    test::random_angles(kRobot, 0.1F, random, angle_rad);
+    for (const LegParams& leg : kRobot.leg) {
+      const float* leg_rad = angle_rad + leg.joint[0];
+      const Pose sole = sole_pose(leg, leg_chain(kRobot, leg, Pose{}, leg_rad));
+      const LegAngles solved = solve_leg_closed_form(kRobot, leg, sole);
+      expect_pose(reached(kRobot, leg, solved), sole);
+      expect_within_limits(kRobot, leg, solved);
+    }
+  }
+}
+
+// What a walk asks for: the same soles, over a grid, without any flag.
+TEST(LegIk, WalkingPosesAreReachedWithoutFlags) {
+  for (float x = -0.06F; x < 0.07F; x += 0.03F) {
+    for (float y = -0.02F; y < 0.03F; y += 0.02F) {
+      for (float z = -0.16F; z < -0.11F; z += 0.02F) {
+        for (float yaw = -0.3F; yaw < 0.4F; yaw += 0.3F) {
+          for (const LegParams& leg : kRobot.leg) {
+            const Pose sole{math::rot_y(0.05F) * math::rot_z(yaw),
+                            math::to_vec(leg.hip_body_m) + Vec3(x, y, z - 0.0335F)};
+            const LegAngles solved = solve_leg(kRobot, leg, sole, nullptr);
+            EXPECT_EQ(int{solved.flags}, 0) << x << " " << y << " " << z;
+            expect_pose(reached(kRobot, leg, solved), sole);
+          }
+        }
+      }
+    }
+  }
+}
+
+TEST(LegIk, MirroredSoleGivesMirroredAngles) {
+  Random random(2);
+  for (int round = 0; round < 50; ++round) {
+    float angle_rad[kMaxJoints];
+    test::random_angles(kRobot, 0.1F, random, angle_rad);
+    const Pose left = sole_pose(
+        kRobot.leg[0], leg_chain(kRobot, kRobot.leg[0], Pose{}, angle_rad + test::kLeftLeg));
+    const LegAngles a = solve_leg_closed_form(kRobot, kRobot.leg[0], left);
+    const LegAngles b = solve_leg_closed_form(kRobot, kRobot.leg[1], test::mirrored(left));
+    for (int k = 0; k < kLegJoints; ++k) {
+      const float sign = test::kRows[test::kLeftLeg + k].axis == AxisKind::kY ? 1.0F : -1.0F;
+      EXPECT_NEAR(a.angle_rad[k], sign * b.angle_rad[k], 1e-5F) << "joint " << k;
+    }
+  }
+}
+
+TEST(LegIk, NewtonAgreesWithTheClosedForm) {
+  Random random(3);
+  for (int round = 0; round < 60; ++round) {
+    float angle_rad[kMaxJoints];
+    test::random_angles(kRobot, 0.4F, random, angle_rad);
+    for (const LegParams& leg : kRobot.leg) {
+      float* leg_rad = angle_rad + leg.joint[0];
+      const Pose sole = sole_pose(leg, leg_chain(kRobot, leg, Pose{}, leg_rad));
+      for (int k = 0; k < kLegJoints; ++k) leg_rad[k] += random.between(-0.05F, 0.05F);
+      const LegAngles newton = solve_leg_newton(kRobot, leg, sole, leg_rad);
+      const LegAngles closed = solve_leg_closed_form(kRobot, leg, sole);
+      EXPECT_EQ(newton.flags & kNotConverged, 0);
+      expect_pose(reached(kRobot, leg, newton), sole);
+      expect_pose(reached(kRobot, leg, newton), reached(kRobot, leg, closed));
+    }
+  }
+}
+
+// Hip and ankle axes that do not meet: a swing foot's way, each solution the next one's start.
+TEST(LegIk, NewtonFollowsAPathWhereAxesDoNotMeet) {
+  const Params params = test::make_offset_robot();
+  for (const LegParams& leg : params.leg) {
+    float previous_rad[kLegJoints] = {0, 0, -0.6F, 1.2F, -0.6F, 0};
+    const Pose start = sole_pose(leg, leg_chain(params, leg, Pose{}, previous_rad));
+    for (int i = 0; i <= 60; ++i) {
+      const float u = static_cast<float>(i) / 60;
+      Pose sole = start;
+      sole.position_m += Vec3(0.06F * u, 0.01F * u, 0.03F * u * (1 - u));
+      sole.rotation = start.rotation * math::rot_z(0.2F * u);
+      const LegAngles solved = solve_leg(params, leg, sole, previous_rad);
+      EXPECT_EQ(int{solved.flags}, 0) << "at " << u;
+      expect_pose(reached(params, leg, solved), sole);
+      for (int k = 0; k < kLegJoints; ++k) {
+        EXPECT_LT(math::abs(solved.angle_rad[k] - previous_rad[k]), 0.1F) << "a jump at " << u;
+        previous_rad[k] = solved.angle_rad[k];
+      }
+    }
+  }
+}
+
+// Too far: nearest reachable pose. Leg straight, same direction from the hip, same orientation.
+TEST(LegIk, BeyondReachTheLegIsStraightTowardsTheTarget) {
+  for (const LegParams& leg : kRobot.leg) {
+    for (const float roll : {-0.2F, 0.0F, 0.2F}) {
+      for (const float pitch : {-0.3F, 0.0F, 0.3F}) {
+        const Pose sole = sole_under_hip(leg, 0.25F, roll, pitch, math::rot_z(0.1F));
+        const LegAngles solved = solve_leg(kRobot, leg, sole, nullptr);
+        EXPECT_EQ(int{solved.flags}, int{kOutOfReach});
+        EXPECT_NEAR(solved.angle_rad[3], 0.0F, kAngle_rad);
+        const Pose found = reached(kRobot, leg, solved);
+        EXPECT_LT(test::turn_between(found.rotation, sole.rotation), kAngle_rad);
+        const Vec3 asked = ankle_from_hip(leg, sole), got = ankle_from_hip(leg, found);
+        EXPECT_NEAR(math::norm(got), leg.thigh_m + leg.shank_m, kPosition_m);
+        EXPECT_LT(math::norm(math::cross(asked, got)) / (math::norm(asked) * math::norm(got)),
+                  kAngle_rad);
+        EXPECT_GT(asked.dot(got), 0.0F);
+      }
+    }
+  }
+}
+
+// Nearer than shank minus thigh: as flagged, and the knee as bent as it may be.
+TEST(LegIk, TooNearIsFlagged) {
+  Params params = kRobot;
+  params.leg[0].shank_m = 0.06F;
+  params.joint[test::kLeftLeg + 4].origin_parent_m.z = -0.06F;
+  const Pose sole = sole_under_hip(params.leg[0], 0.01F, 0, 0, Mat3::Identity());
+  const LegAngles solved = solve_leg(params, params.leg[0], sole, nullptr);
+  EXPECT_NE(solved.flags & kOutOfReach, 0);
+  expect_within_limits(params, params.leg[0], solved);
+  EXPECT_EQ(solved.angle_rad[3], params.joint[test::kLeftLeg + 3].upper_rad);
+}
+
+// From just inside the reach to just beyond it nothing jumps, although the knee's speed is infinite
+// there.
+TEST(LegIk, StraightKneeIsNoSingularity) {
+  const LegParams& leg = kRobot.leg[0];
+  const float reach_m = leg.thigh_m + leg.shank_m;
+  LegAngles previous;
+  for (int i = -20; i <= 20; ++i) {
+    const float down_m = reach_m * (1.0F + 1e-6F * static_cast<float>(i));
+    const Pose sole = sole_under_hip(leg, down_m, 0.1F, -0.1F, Mat3::Identity());
+    const LegAngles solved = solve_leg(kRobot, leg, sole, nullptr);
+    expect_within_limits(kRobot, leg, solved);
+    expect_pose(reached(kRobot, leg, solved), sole);
+    for (int k = 0; i > -20 && k < kLegJoints; ++k) {
+      EXPECT_NEAR(solved.angle_rad[k], previous.angle_rad[k], 5e-3F) << "joint " << k;
+    }
+    previous = solved;
+  }
+}
+
+TEST(LegIk, NewtonNearTheStraightKneeStaysFinite) {
+  const LegParams& leg = kRobot.leg[0];
+  const float straight_rad[kLegJoints] = {};
+  for (const float down_m : {0.10F, 0.18F, 0.186F, 0.19F, 0.4F}) {
+    const Pose sole = sole_under_hip(leg, down_m, 0, 0, Mat3::Identity());
+    expect_within_limits(kRobot, leg, solve_leg_newton(kRobot, leg, sole, straight_rad));
+  }
+}
+
+TEST(LegIk, JointLimitsAreKeptAndFlagged) {
+  Params params = kRobot;
+  params.joint[test::kLeftLeg + 3].upper_rad = 1.0F;
+  const LegParams& leg = params.leg[0];
+  const Pose sole = sole_under_hip(leg, 0.10F, 0, 0, Mat3::Identity());
+  const LegAngles closed = solve_leg_closed_form(params, leg, sole);
+  EXPECT_EQ(int{closed.flags}, int{kJointLimited});
+  EXPECT_EQ(closed.angle_rad[3], 1.0F);
+  const float start_rad[kLegJoints] = {0, 0, -0.5F, 0.9F, -0.5F, 0};
+  const LegAngles newton = solve_leg_newton(params, leg, sole, start_rad);
+  EXPECT_NE(newton.flags, 0);
+  expect_within_limits(params, leg, newton);
+}
+
+// Flags tell the truth: without one, the sole stands where it was asked to.
+TEST(LegIk, AnyPoseIsReachedOrFlagged) {
+  Random random(4);
+  for (int round = 0; round < 300; ++round) {
+    const LegParams& leg = kRobot.leg[round % 2];
+    const Pose sole{
+        math::rotation_rpy(random.between(-3, 3), random.between(-3, 3), random.between(-3, 3)),
+        Vec3(random.between(-0.3F, 0.3F), random.between(-0.3F, 0.3F),
+             random.between(-0.5F, 0.1F))};
+    const float start_rad[kLegJoints] = {0, 0, -0.6F, 1.2F, -0.6F, 0};
+    for (const LegAngles& solved : {solve_leg_closed_form(kRobot, leg, sole),
+                                    solve_leg_newton(kRobot, leg, sole, start_rad)}) {
+      expect_within_limits(kRobot, leg, solved);
+      if (solved.flags == 0) expect_pose(reached(kRobot, leg, solved), sole);
+    }
+  }
+}
+
+TEST(LegIk, PosesThatAreNoPosesGiveFiniteAnglesAndAFlag) {
+  const float start_rad[kLegJoints] = {0, 0, -0.6F, 1.2F, -0.6F, 0};
+  const LegParams& leg = kRobot.leg[0];
+  for (const float bad : {test::quiet_nan(), test::infinity(), -test::infinity()}) {
+    for (int where = 0; where < 12; ++where) {
+      Pose sole = sole_under_hip(leg, 0.15F, 0, 0, Mat3::Identity());
+      (where < 3 ? sole.position_m(where) : sole.rotation((where - 3) / 3, where % 3)) = bad;
+      const LegAngles closed = solve_leg_closed_form(kRobot, leg, sole);
+      const LegAngles newton = solve_leg_newton(kRobot, leg, sole, start_rad);
+      expect_within_limits(kRobot, leg, closed);
+      expect_within_limits(kRobot, leg, newton);
+      EXPECT_NE(int{newton.flags}, 0) << bad << " at " << where;
+      EXPECT_NE(int{closed.flags}, 0) << bad << " at " << where;
+    }
+  }
+}
+
+TEST(LegIk, WarmStartOfNoNumbersIsHarmless) {
+  float start_rad[kLegJoints];
+  for (float& angle : start_rad) angle = test::quiet_nan();
+  const Pose sole = sole_under_hip(kRobot.leg[0], 0.15F, 0, 0, Mat3::Identity());
+  expect_within_limits(kRobot, kRobot.leg[0],
+                       solve_leg_newton(kRobot, kRobot.leg[0], sole, start_rad));
+}
+
+}  // namespace
+}  // namespace verp::kinematics
