@@ -1,0 +1,196 @@
+#include "common/gait/footsteps.hpp"
+
+#include <gtest/gtest.h>
+
+#include "tests/unit/support/test_robot.hpp"
+
+namespace verp::gait {
+namespace {
+
+using test::kRobot;
+
+constexpr int kSteps = 24;
+
+/// Steps one after the other, as the gait engine asks for them.
+struct Walk {
+  GaitTuning tuning;
+  FootstepState state;
+  Step last = first_step(kRobot, tuning, state);
+
+  const Step& take(const VelocityIn& wanted) {
+    last = next_step(kRobot, tuning, wanted, last, state);
+    return last;
+  }
+};
+
+float side_of(int foot) {
+  return foot == kLeft ? 1.0F : -1.0F;
+}
+
+// Landing foot seen from the carrying one.
+Xy landing_from_carrying(const Step& step) {
+  const Foothold& carrying = step.foot[step.carrying()];
+  return turned(step.landing.at_m - carrying.at_m, -carrying.yaw_rad);
+}
+
+TEST(Footsteps, FirstStepShiftsTheWeightAndLiftsNoFoot) {
+  Walk walk;
+  EXPECT_EQ(int{walk.last.swing}, int{kBoth});
+  EXPECT_TRUE(walk.last.phase == Phase::kStart);
+  EXPECT_NEAR(walk.last.zmp_begin_m.y, 0.0F, 1e-7F);
+  EXPECT_LT(walk.last.zmp_end_m.y, 0.0F) << "over the right foot";
+  EXPECT_NEAR(walk.last.duration_s(), walk.tuning.start_s, walk.last.key_s());
+}
+
+TEST(Footsteps, FeetTakeTurns) {
+  Walk walk;
+  for (int i = 0; i < kSteps; ++i) {
+    const Step& step = walk.take({.vx_m_s = 0.1F});
+    EXPECT_EQ(int{step.swing}, i % 2 == 0 ? int{kLeft} : int{kRight});
+    EXPECT_EQ(step.key_points, kKeyPointsPerStep);
+    EXPECT_NEAR(step.duration_s(), 0.5F * walk.tuning.cycle_s, 1e-4F);
+  }
+}
+
+// Each step begins where the one before it ended.
+TEST(Footsteps, PlanHasNoGaps) {
+  Walk walk;
+  for (int i = 0; i < kSteps; ++i) {
+    const Step before = walk.last;
+    const Step& step = walk.take({.vx_m_s = 0.15F, .vy_m_s = 0.02F, .wz_rad_s = 0.3F});
+    for (int foot = 0; foot < kFeet; ++foot) {
+      EXPECT_EQ(step.foot[foot].at_m.x, before.after(foot).at_m.x);
+      EXPECT_EQ(step.foot[foot].at_m.y, before.after(foot).at_m.y);
+      EXPECT_EQ(step.foot[foot].yaw_rad, before.after(foot).yaw_rad);
+    }
+    EXPECT_EQ(step.zmp_begin_m.x, before.zmp_end_m.x);
+    EXPECT_EQ(step.zmp_begin_m.y, before.zmp_end_m.y);
+  }
+}
+
+TEST(Footsteps, VelocityBecomesStride) {
+  for (const float vx : {-0.1F, 0.0F, 0.08F, 0.1777F}) {
+    Walk walk;
+    for (int i = 0; i < kSteps; ++i) walk.take({.vx_m_s = vx});
+    const Xy way = landing_from_carrying(walk.last);
+    EXPECT_NEAR(way.x, vx * 0.5F * walk.tuning.cycle_s, 1e-6F);
+    EXPECT_NEAR(way.y, side_of(walk.last.swing) * 2 * walk.tuning.half_stance_m, 1e-6F);
+    EXPECT_EQ(walk.state.notes, 0u);
+    EXPECT_TRUE(walk.last.phase == Phase::kTransition);
+  }
+}
+
+TEST(Footsteps, StridesGrowByAtMostTheTunedChange) {
+  Walk walk;
+  float before_m = 0;
+  for (int i = 0; i < kSteps; ++i) {
+    walk.take({.vx_m_s = i < kSteps / 2 ? 0.3F : -0.3F});
+    EXPECT_LE(math::abs(walk.state.stride.by_m.x - before_m), walk.tuning.step_change_m + 1e-7F);
+    before_m = walk.state.stride.by_m.x;
+  }
+  EXPECT_LT(before_m, 0.0F);
+}
+
+TEST(Footsteps, TooFastIsLimitedAndNoted) {
+  Walk walk;
+  for (int i = 0; i < kSteps; ++i) walk.take({.vx_m_s = 5.0F, .vy_m_s = -3.0F, .wz_rad_s = 20.0F});
+  EXPECT_NE(walk.state.notes & kStrideLimited, 0u);
+  const Stride& stride = walk.state.stride;
+  EXPECT_LE(math::hypot(stride.by_m.x, 2 * stride.by_m.y), walk.tuning.max_step_m + 1e-6F);
+  EXPECT_LE(math::abs(stride.turn_rad), walk.tuning.max_turn_rad + 1e-6F);
+}
+
+TEST(Footsteps, StepsBeyondTheLegsReachAreShortenedAndNoted) {
+  Walk walk;
+  walk.tuning.hip_height_m = 0.185F;
+  walk.tuning.max_step_m = 0.3F;
+  for (int i = 0; i < kSteps; ++i) walk.take({.vx_m_s = 1.0F});
+  EXPECT_NE(walk.state.notes & kReachShortened, 0u);
+  EXPECT_LT(walk.state.stride.by_m.x, 0.06F);
+}
+
+// Sideways, the leading foot takes the whole way of two steps and the other one closes: the soles
+// never overlap. Turning likewise.
+TEST(Footsteps, LeadingFootOpensTheOtherCloses) {
+  for (const float sign : {1.0F, -1.0F}) {
+    Walk walk;
+    for (int i = 0; i < kSteps; ++i) {
+      const Step& step = walk.take({.vy_m_s = sign * 0.06F, .wz_rad_s = sign * 0.3F});
+      const bool leads = side_of(step.swing) == sign;
+      const float apart_m = math::abs(landing_from_carrying(step).y);
+      EXPECT_GE(apart_m, 2 * walk.tuning.half_stance_m - 1e-4F) << "step " << i;
+      const float turn_rad = step.landing.yaw_rad - step.foot[step.carrying()].yaw_rad;
+      if (leads) {
+        if (i < 3) continue;  // still growing
+        EXPECT_GT(apart_m, 2 * walk.tuning.half_stance_m + 0.01F);
+        EXPECT_GT(sign * turn_rad, 0.0F);
+      } else {
+        EXPECT_NEAR(turn_rad, 0.0F, 1e-6F);
+      }
+    }
+  }
+}
+
+TEST(Footsteps, HeadingErrorTurnsTheNextSteps) {
+  Walk walk;
+  for (int i = 0; i < 4; ++i) walk.take({.vx_m_s = 0.1F, .heading_error_rad = 0.1F});
+  EXPECT_GT(walk.state.body.yaw_rad, 0.05F);
+  EXPECT_LT(walk.state.body.yaw_rad, 0.4F);
+}
+
+// Finalisation: strides shrink, the feet come level, then the ZMP returns to the middle.
+TEST(Footsteps, StopBringsTheFeetLevelThenTheWeightBack) {
+  for (const VelocityIn& wanted :
+       {VelocityIn{.vx_m_s = 0.3F}, VelocityIn{.vx_m_s = -0.1F, .vy_m_s = 0.05F},
+        VelocityIn{.vx_m_s = 0.1F, .wz_rad_s = -0.5F}}) {
+    Walk walk;
+    for (int i = 0; i < kSteps; ++i) walk.take(wanted);
+    VelocityIn stop = wanted;
+    stop.stop = true;
+    int steps = 0;
+    while (walk.take(stop).swing != kBoth) {
+      EXPECT_TRUE(walk.last.phase == Phase::kFinal);
+      ASSERT_LT(++steps, 15);
+    }
+    EXPECT_TRUE(walk.last.phase == Phase::kFinal);
+    const Foothold &left = walk.last.foot[kLeft], &right = walk.last.foot[kRight];
+    EXPECT_NEAR(left.yaw_rad, right.yaw_rad, 1e-6F);
+    const Xy apart = turned(left.at_m - right.at_m, -left.yaw_rad);
+    EXPECT_NEAR(apart.x, 0.0F, 1e-5F);
+    EXPECT_NEAR(apart.y, 2 * walk.tuning.half_stance_m, 1e-5F);
+    const Xy middle = 0.5F * (left.at_m + right.at_m);
+    EXPECT_NEAR(walk.last.zmp_end_m.x, middle.x, 1e-6F);
+    EXPECT_NEAR(walk.last.zmp_end_m.y, middle.y, 1e-6F);
+  }
+}
+
+TEST(Footsteps, ZmpStaysInsideTheSoleWhateverIsTuned) {
+  GaitTuning tuning;
+  for (const float x : {-0.05F, 0.0F, 0.05F}) {
+    for (const float y : {-0.05F, 0.0F, 0.05F}) {
+      for (const float margin : {0.0F, 0.01F, 0.03F}) {
+        tuning.zmp_x_m = x;
+        tuning.zmp_y_m = y;
+        tuning.support_margin_m = margin;
+        const Foothold foot{{0.3F, -0.1F}, 0.5F};
+        for (int side = 0; side < kFeet; ++side) {
+          const Xy in_sole = turned(zmp_under(kRobot, tuning, side, foot) - foot.at_m, -0.5F);
+          EXPECT_LE(math::abs(in_sole.x), 0.052F - margin + 1e-6F);
+          EXPECT_LE(math::abs(in_sole.y), 0.033F - margin + 1e-6F);
+        }
+      }
+    }
+  }
+}
+
+// The ZMP reference is outward from the midline, the same for both feet.
+TEST(Footsteps, ZmpUnderBothFeetIsMirrored) {
+  GaitTuning tuning;
+  const Xy left = zmp_under(kRobot, tuning, kLeft, {{0, 0.036F}, 0});
+  const Xy right = zmp_under(kRobot, tuning, kRight, {{0, -0.036F}, 0});
+  EXPECT_EQ(left.x, right.x);
+  EXPECT_EQ(left.y, -right.y);
+}
+
+}  // namespace
+}  // namespace verp::gait
