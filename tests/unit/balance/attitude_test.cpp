@@ -1,0 +1,154 @@
+#include "common/balance/attitude.hpp"
+
+#include <gtest/gtest.h>
+
+#include "tests/unit/support/test_robot.hpp"
+
+namespace verp::balance {
+namespace {
+
+constexpr float kG = math::kGravityMS2;
+
+AttitudeIn still() {
+  AttitudeIn in;
+  in.fresh = true;
+  in.accel_body_m_s2 = {0, 0, kG};
+  in.standing = true;
+  return in;
+}
+
+AttitudeOut run(AttitudeState& state, const AttitudeIn& in, int ticks) {
+  AttitudeOut out;
+  for (int i = 0; i < ticks; ++i) out = update(state, in);
+  return out;
+}
+
+TEST(Attitude, StillRobotIsUpright) {
+  AttitudeState state;
+  const AttitudeOut out = run(state, still(), 100);
+  EXPECT_NEAR(out.roll_rad, 0.0F, 1e-6F);
+  EXPECT_NEAR(out.pitch_rad, 0.0F, 1e-6F);
+  EXPECT_NEAR(out.heading_rad, 0.0F, 1e-6F);
+  EXPECT_NEAR(out.up, 1.0F, 1e-6F);
+}
+
+// A MEMS gyro's bias, up to 5 degrees a second, is learnt before the robot may walk, and no tilt
+// comes from it.
+TEST(Attitude, BiasIsLearntWhileStanding) {
+  AttitudeState state;
+  AttitudeIn in = still();
+  in.gyro_body_rad_s = {0.03F, -0.04F, 0.05F};
+  EXPECT_FALSE(run(state, in, 30).calibrated);
+  const AttitudeOut out = run(state, in, 170);
+  EXPECT_TRUE(out.calibrated);
+  EXPECT_NEAR(state.gyro_bias_rad_s.x, 0.03F, 1e-4F);
+  EXPECT_NEAR(state.gyro_bias_rad_s.y, -0.04F, 1e-4F);
+  EXPECT_NEAR(state.gyro_bias_rad_s.z, 0.05F, 1e-4F);
+  EXPECT_NEAR(out.roll_rad, 0.0F, 0.01F);
+  EXPECT_NEAR(out.roll_rate_rad_s, 0.0F, 1e-3F);
+}
+
+TEST(Attitude, BiasIsNotLearntFromMotionNorWhileWalking) {
+  AttitudeState state;
+  AttitudeIn in = still();
+  in.gyro_body_rad_s = {0.5F, 0, 0};
+  EXPECT_FALSE(run(state, in, 200).calibrated);
+  in.gyro_body_rad_s = {0.05F, 0, 0};
+  in.standing = false;
+  EXPECT_FALSE(run(state, in, 200).calibrated);
+  EXPECT_EQ(state.gyro_bias_rad_s.x, 0.0F);
+}
+
+TEST(Attitude, CalibrationSurvivesMotion) {
+  AttitudeState state;
+  run(state, still(), 200);
+  AttitudeIn in = still();
+  in.standing = false;
+  in.gyro_body_rad_s = {1, 0, 0};
+  EXPECT_TRUE(run(state, in, 20).calibrated);
+}
+
+// Half a second at a constant rate, with an accelerometer that agrees: positive about x is to the
+// right, about y nose down, about z to the left.
+TEST(Attitude, ConstantRateIntegrates) {
+  constexpr float kRate = 0.4F;
+  for (int axis = 0; axis < 3; ++axis) {
+    AttitudeState state;
+    AttitudeOut out;
+    for (int i = 1; i <= 50; ++i) {
+      const float angle_rad = kRate * 0.01F * static_cast<float>(i);
+      AttitudeIn in;
+      in.fresh = true;
+      in.gyro_body_rad_s(axis) = kRate;
+      const Mat3 body = axis == 0   ? math::rot_x(angle_rad)
+                        : axis == 1 ? math::rot_y(angle_rad)
+                                    : math::rot_z(angle_rad);
+      in.accel_body_m_s2 = body.transpose() * Vec3(0, 0, kG);
+      out = update(state, in);
+    }
+    EXPECT_NEAR(out.roll_rad, axis == 0 ? 0.2F : 0.0F, 1e-3F);
+    EXPECT_NEAR(out.pitch_rad, axis == 1 ? 0.2F : 0.0F, 1e-3F);
+    EXPECT_NEAR(out.heading_rad, axis == 2 ? 0.2F : 0.0F, 1e-3F);
+    EXPECT_NEAR(axis == 0 ? out.roll_rate_rad_s : out.pitch_rate_rad_s, axis < 2 ? kRate : 0.0F,
+                1e-6F);
+  }
+}
+
+TEST(Attitude, AccelerometerPullsAWrongTiltToTheVertical) {
+  AttitudeState state;
+  state.up_body = {0.3F, -0.2F, 0.93F};
+  AttitudeIn in = still();
+  in.standing = false;
+  const AttitudeOut out = run(state, in, 800);
+  EXPECT_NEAR(out.roll_rad, 0.0F, 1e-3F);
+  EXPECT_NEAR(out.pitch_rad, 0.0F, 1e-3F);
+}
+
+// A step's accelerations, to and fro, average out.
+TEST(Attitude, SwayOfAStepDoesNotTilt) {
+  AttitudeState state;
+  AttitudeOut out;
+  for (int i = 0; i < 900; ++i) {
+    AttitudeIn in;
+    in.fresh = true;
+    const float phase = math::kTwoPi * static_cast<float>(i) / 45;
+    in.accel_body_m_s2 = {2.0F * math::sin(phase), 3.0F * math::cos(phase), kG};
+    out = update(state, in);
+    EXPECT_LT(math::abs(out.roll_rad) + math::abs(out.pitch_rad), 0.06F);
+  }
+}
+
+TEST(Attitude, StaleSensorsHoldTheEstimate) {
+  AttitudeState state;
+  state.up_body = {0, 0.19866933F, 0.98006658F};
+  AttitudeIn in;
+  in.gyro_body_rad_s = {9, 9, 9};
+  in.accel_body_m_s2 = {99, 99, 99};
+  const AttitudeOut out = run(state, in, 100);
+  EXPECT_NEAR(out.roll_rad, 0.2F, 1e-5F);
+  EXPECT_EQ(out.roll_rate_rad_s, 0.0F);
+  EXPECT_EQ(out.heading_rad, 0.0F);
+}
+
+// Lying, upside down, in free fall, with saturated sensors: finite, and up is a unit vector.
+TEST(Attitude, IsTotal) {
+  test::Random random(1);
+  AttitudeState state;
+  for (int i = 0; i < 500; ++i) {
+    AttitudeIn in;
+    in.fresh = true;
+    in.standing = random.bits() % 2 == 0;
+    for (int k = 0; k < 3; ++k) {
+      in.gyro_body_rad_s(k) = random.between(-40, 40);
+      in.accel_body_m_s2(k) = random.between(-40, 40);
+    }
+    if (i % 7 == 0) in.accel_body_m_s2.setZero();
+    const AttitudeOut out = update(state, in);
+    ASSERT_TRUE(test::struct_is_finite(state));
+    ASSERT_NEAR(math::norm(math::to_vec(state.up_body)), 1.0F, 1e-5F);
+    ASSERT_LE(math::abs(out.heading_rad), math::kPi);
+  }
+}
+
+}  // namespace
+}  // namespace verp::balance
