@@ -1,0 +1,230 @@
+#include "common/control/step.hpp"
+
+#include <gtest/gtest.h>
+
+#include "common/model/tuning_ranges.hpp"
+#include "tests/unit/control/loop.hpp"
+
+namespace verp::control {
+namespace {
+
+using safety::Mode;
+using test::kRobot;
+using test::Loop;
+using test::Random;
+
+constexpr int kWildTicks = 2000;  // what soft float on an emulated core does in seconds
+
+void expect_safe(const State& state, const Outputs& outputs, int tick) {
+  ASSERT_TRUE(test::struct_is_finite(state)) << "tick " << tick;
+  ASSERT_LT(int{outputs.mode}, safety::kModes);
+  const bool torque = safety::has_torque(static_cast<Mode>(outputs.mode));
+  ASSERT_EQ(outputs.torque_enable, torque ? (1u << test::kJointCount) - 1 : 0u);
+  for (int j = 0; j < kRobot.joint_count; ++j) {
+    const JointParams& joint = kRobot.joint[j];
+    const std::int32_t a = safety::count_of(joint, joint.lower_rad);
+    const std::int32_t b = safety::count_of(joint, joint.upper_rad);
+    ASSERT_GE(outputs.goal_count[j], a < b ? a : b) << "tick " << tick << ", joint " << j;
+    ASSERT_LE(outputs.goal_count[j], a < b ? b : a) << "tick " << tick << ", joint " << j;
+  }
+}
+
+// Any bits in, safe outputs out: nothing outside limits, nothing that is not a number.
+void expect_total(bool fully, std::uint32_t seed) {
+  static State state;
+  state = State{};
+  Random random(seed);
+  Inputs inputs;
+  Outputs outputs;
+  std::uint32_t modes = 0;
+  for (int tick = 0; tick < kWildTicks; ++tick) {
+    test::wild(random, fully, inputs);
+    step(kRobot, state, inputs, outputs);
+    expect_safe(state, outputs, tick);
+    modes |= 1u << outputs.mode;
+    for (int id = 0; id < kTuningCount; ++id) {
+      ASSERT_TRUE(in_range(id, tuning_value(state.tuning, id))) << "parameter " << id;
+    }
+  }
+  if (!fully) {
+    EXPECT_NE(modes & 1u << static_cast<int>(Mode::kWalking), 0u) << "never walked";
+  }
+}
+
+TEST(Step, IsTotalForAnyBits) {
+  expect_total(true, 1);
+}
+TEST(Step, IsTotalForWildSensorsAndParametersOfAWalkingRobot) {
+  expect_total(false, 2);
+}
+
+// Goals of joints with torque move by no more than their speed allows.
+TEST(Step, GoalsKeepTheJointsSpeed) {
+  Random random(3);
+  Inputs inputs;
+  Outputs outputs, before;
+  static State state;
+  state = State{};
+  for (int tick = 0; tick < kWildTicks / 2; ++tick) {
+    test::wild(random, false, inputs);
+    before = outputs;
+    step(kRobot, state, inputs, outputs);
+    if (tick == 0 || (before.torque_enable & outputs.torque_enable) == 0) continue;
+    for (int j = 0; j < kRobot.joint_count; ++j) {
+      const std::int32_t moved = outputs.goal_count[j] - before.goal_count[j];
+      ASSERT_LE(moved < 0 ? -moved : moved, 54) << "8.06 rad/s x 10 ms x 652 counts, and rounding";
+    }
+  }
+}
+
+// A robot of no joints, no legs, no masses and no scales.
+TEST(Step, IsTotalForAnEmptyRobot) {
+  static const Params nothing;
+  static State state;
+  state = State{};
+  Random random(4);
+  Inputs inputs;
+  Outputs outputs;
+  for (int tick = 0; tick < 300; ++tick) {
+    test::wild(random, false, inputs);
+    step(nothing, state, inputs, outputs);
+    ASSERT_TRUE(test::struct_is_finite(state)) << "tick " << tick;
+  }
+}
+
+TEST(Step, RisesWalksStopsAndSitsDown) {
+  static Loop loop;
+  loop = Loop{};
+  loop.ticks(5);
+  EXPECT_TRUE(loop.is_in(Mode::kRelaxed));
+  loop.command.request = Request::kStand;
+  EXPECT_GE(loop.until(Mode::kRising, 5), 0);
+  EXPECT_GE(loop.until(Mode::kStanding, 150), 0);
+  loop.walk(1777);
+  EXPECT_GE(loop.until(Mode::kWalking, 150), 0) << "bias must be learnt first";
+  loop.ticks(500);
+  EXPECT_EQ(loop.outputs.gait_phase, static_cast<std::uint8_t>(gait::Phase::kTransition));
+  EXPECT_EQ(loop.outputs.faults, 0u);
+  loop.command.request = Request::kStand;
+  EXPECT_GE(loop.until(Mode::kStanding, 400), 0);
+  loop.command.request = Request::kRelax;
+  EXPECT_GE(loop.until(Mode::kSitting, 5), 0);
+  EXPECT_GE(loop.until(Mode::kRelaxed, 200), 0);
+  for (int j = 0; j < kRobot.joint_count; ++j) {
+    EXPECT_NEAR(safety::angle_of(kRobot.joint[j], loop.inputs.position_count[j]),
+                kRobot.joint[j].sit_rad, 2e-3F)
+        << kRobot.joint[j].name;
+  }
+}
+
+// A walking robot, for the tests that follow.
+void get_walking(Loop& loop) {
+  loop = Loop{};
+  loop.walk(1000);
+  ASSERT_GE(loop.until(Mode::kWalking, 400), 0);
+  loop.ticks(200);
+}
+
+TEST(Step, SilentServoHoldsThenSits) {
+  static Loop loop;
+  get_walking(loop);
+  loop.inputs.fresh = ~(1u << 12);
+  const int held = loop.until(Mode::kHolding, 20);
+  EXPECT_GE(held, 0);
+  EXPECT_NE(loop.outputs.faults & safety::kFaultServoSilent, 0u);
+  EXPECT_GE(loop.until(Mode::kSitting, 100), 0);
+}
+
+TEST(Step, QuietOperatorStopsTheWalkOnBothFeet) {
+  static Loop loop;
+  get_walking(loop);
+  loop.inputs.flags = static_cast<std::uint16_t>(loop.inputs.flags & ~kCommandFresh);
+  EXPECT_GE(loop.until(Mode::kStanding, 500), 0);
+  EXPECT_NE(loop.outputs.faults & safety::kFaultOperatorQuiet, 0u);
+  EXPECT_EQ(loop.outputs.stance, gait::kBoth);
+}
+
+TEST(Step, FallMakesItLimpAndIsLatchedUntilAcknowledged) {
+  static Loop loop;
+  get_walking(loop);
+  loop.inputs.accel_count[0] = 8172;
+  loop.inputs.accel_count[2] = 0;
+  loop.inputs.gyro_count[1] = -3000;
+  EXPECT_GE(loop.until(Mode::kFallen, 200), 0);
+  EXPECT_EQ(loop.outputs.torque_enable, 0u);
+  EXPECT_NE(loop.outputs.faults & safety::kFaultFall, 0u);
+  loop.ticks(10);
+  EXPECT_TRUE(loop.is_in(Mode::kFallen)) << "whatever the operator asks";
+  loop.inputs.gyro_count[1] = 0;
+  loop.inputs.accel_count[0] = 0;
+  loop.inputs.accel_count[2] = 8172;
+  loop.ticks(500);
+  loop.command.request = Request::kRelax;
+  loop.ticks(3);
+  EXPECT_TRUE(loop.is_in(Mode::kRelaxed));
+  EXPECT_EQ(loop.outputs.faults & safety::kFaultFall, 0u) << "acknowledged";
+}
+
+TEST(Step, EmergencyStopIsImmediate) {
+  static Loop loop;
+  get_walking(loop);
+  loop.inputs.flags |= kEmergencyStop;
+  loop.tick();
+  EXPECT_TRUE(loop.is_in(Mode::kStopped));
+  EXPECT_EQ(loop.outputs.torque_enable, 0u);
+}
+
+TEST(Step, ParametersOutOfRangeAreRefusedAndNoted) {
+  static Loop loop;
+  loop = Loop{};
+  loop.tick();
+  const Tuning before = loop.state.tuning;
+  for (const float bad : {test::quiet_nan(), test::infinity(), -1.0F, 99.0F}) {
+    test::write_parameter(0, bad, loop.inputs);
+    loop.tick();
+    EXPECT_EQ(loop.state.tuning.gait.cycle_s, before.gait.cycle_s);
+    EXPECT_NE(loop.outputs.faults & safety::kNoteParameter, 0u);
+  }
+  test::write_parameter(kTuningCount, 0.5F, loop.inputs);
+  loop.tick();
+  EXPECT_EQ(__builtin_memcmp(&loop.state.tuning, &before, sizeof before), 0);
+  test::write_parameter(0, 0.6F, loop.inputs);
+  loop.tick();
+  EXPECT_EQ(loop.state.tuning.gait.cycle_s, 0.6F);
+}
+
+TEST(Step, TurnsTheHeadWhereToldWithinLimits) {
+  static Loop loop;
+  loop = Loop{};
+  loop.command.request = Request::kStand;
+  loop.command.head_pan_mrad = 500;
+  loop.command.head_tilt_mrad = -32768;
+  loop.ticks(300);
+  EXPECT_NEAR(loop.state.limit.goal_rad[test::kHead], 0.5F, 1e-3F);
+  EXPECT_EQ(loop.state.limit.goal_rad[test::kHead + 1], kRobot.joint[test::kHead + 1].lower_rad);
+}
+
+// Left and right legs of a robot that marches on the spot are mirror images, half a cycle apart: no
+// stage treats them differently. (Sensors at rest; 45 ticks of 5 ms would be needed for forward
+// walking, so one whole second cycle is compared at 450 ms.)
+TEST(Step, WalkIsPeriodic) {
+  static Loop loop;
+  get_walking(loop);
+  loop.ticks(300);
+  static float goal_rad[45][test::kJointCount];
+  for (int i = 0; i < 90; ++i) {
+    loop.tick();
+    for (int j = 0; j < test::kJointCount; ++j) {
+      float& first_rad = goal_rad[i % 45][j];
+      const float now_rad = loop.state.limit.goal_rad[j];
+      if (i < 45) {
+        first_rad = now_rad;
+      } else {
+        EXPECT_NEAR(now_rad, first_rad, 2e-3F) << kRobot.joint[j].name << " at " << i;
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace verp::control

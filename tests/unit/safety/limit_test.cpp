@@ -1,0 +1,150 @@
+#include "common/safety/limit.hpp"
+
+#include <gtest/gtest.h>
+
+#include "tests/unit/support/test_robot.hpp"
+
+namespace verp::safety {
+namespace {
+
+using test::kRobot;
+
+constexpr std::int32_t kPeriod_us = 10000;
+constexpr float kMost_rad = 8.06F * 0.01F;
+constexpr Mode kTorqueModes[] = {Mode::kRising, Mode::kStanding, Mode::kWalking, Mode::kHolding,
+                                 Mode::kSitting};
+
+struct Joints {
+  float wanted_rad[kMaxJoints] = {};
+  std::int32_t position_count[kMaxJoints] = {};
+  SafetyTuning tuning;
+  LimitState state;
+
+  bool run(Mode mode, std::int32_t in_mode_us) {
+    return limit(kRobot, state, {mode, in_mode_us, wanted_rad, position_count, &tuning});
+  }
+};
+
+TEST(Counts, AngleAndCountAreInverse) {
+  for (int j = 0; j < kRobot.joint_count; ++j) {
+    const JointParams& joint = kRobot.joint[j];
+    EXPECT_EQ(count_of(joint, 0), 2048);
+    for (std::int32_t count = 0; count < 4096; count += 111) {
+      EXPECT_EQ(count_of(joint, angle_of(joint, count)), count);
+    }
+  }
+}
+
+TEST(Counts, DirectionIsInTheScale) {
+  EXPECT_GT(count_of(kRobot.joint[test::kLeftLeg + 3], 1), 2048);
+  EXPECT_LT(count_of(kRobot.joint[test::kRightLeg + 3], 1), 2048) << "mounted backwards";
+}
+
+TEST(Counts, AreTotal) {
+  EXPECT_EQ(angle_of(JointParams{}, 123), 0.0F);
+  EXPECT_EQ(count_of(kRobot.joint[0], test::quiet_nan()), 0);
+  EXPECT_EQ(count_of(kRobot.joint[0], 1e30F), std::numeric_limits<std::int32_t>::max());
+}
+
+// Any wishes, any modes, from anywhere: no goal beyond a joint's limits, and none that needs more
+// than its speed.
+TEST(Limit, GoalsStayInsideLimitsAndSpeeds) {
+  test::Random random(1);
+  Joints joints;
+  joints.run(Mode::kRelaxed, 0);
+  for (int i = 0; i < 1000; ++i) {
+    for (int j = 0; j < kRobot.joint_count; ++j) {
+      joints.wanted_rad[j] = random.between(-9, 9);
+      if (random.bits() % 50 == 0) joints.wanted_rad[j] = test::quiet_nan();
+      joints.position_count[j] = static_cast<std::int32_t>(random.bits());
+    }
+    const LimitState before = joints.state;
+    const bool limp = random.bits() % 16 == 0;
+    const Mode mode = limp ? Mode::kFallen : kTorqueModes[random.below(5)];
+    joints.run(mode, static_cast<std::int32_t>(random.bits()));
+    for (int j = 0; j < kRobot.joint_count; ++j) {
+      const float goal_rad = joints.state.goal_rad[j];
+      ASSERT_GE(goal_rad, kRobot.joint[j].lower_rad) << "joint " << j;
+      ASSERT_LE(goal_rad, kRobot.joint[j].upper_rad) << "joint " << j;
+      if (limp) continue;
+      ASSERT_LE(math::abs(goal_rad - before.goal_rad[j]), kMost_rad + 1e-6F) << "joint " << j;
+    }
+  }
+}
+
+TEST(Limit, WithoutTorqueGoalsFollowTheJoints) {
+  for (const Mode mode : {Mode::kRelaxed, Mode::kFallen, Mode::kStopped}) {
+    Joints joints;
+    for (int j = 0; j < kRobot.joint_count; ++j) {
+      joints.wanted_rad[j] = 0.2F;
+      joints.position_count[j] = count_of(kRobot.joint[j], 0.05F);
+    }
+    EXPECT_FALSE(joints.run(mode, 0));
+    for (int j = 0; j < kRobot.joint_count; ++j) {
+      EXPECT_NEAR(joints.state.goal_rad[j], 0.05F, 1e-3F);
+    }
+  }
+}
+
+TEST(Limit, HoldingFreezesGoals) {
+  Joints joints;
+  for (int j = 0; j < kRobot.joint_count; ++j) joints.state.goal_rad[j] = 0.07F;
+  joints.run(Mode::kHolding, 0);
+  for (int j = 0; j < kRobot.joint_count; ++j) EXPECT_EQ(joints.state.goal_rad[j], 0.07F);
+}
+
+TEST(Limit, WithinSpeedTheGoalIsTheWish) {
+  Joints joints;
+  for (int j = 0; j < kRobot.joint_count; ++j) joints.wanted_rad[j] = 0.07F;
+  EXPECT_FALSE(joints.run(Mode::kWalking, 0));
+  EXPECT_EQ(joints.state.goal_rad[0], 0.07F);
+  joints.wanted_rad[0] = 0.5F;
+  EXPECT_TRUE(joints.run(Mode::kWalking, 0)) << "slowed down, and said so";
+}
+
+// Rise and sit: from the pose found, on a minimum-jerk curve, exactly to the pose meant.
+void expect_arrives(Mode mode, float duration_s) {
+  test::Random random(2);
+  Joints joints;
+  for (int j = 0; j < kRobot.joint_count; ++j) {
+    joints.wanted_rad[j] = kRobot.joint[j].stand_rad;
+    joints.state.goal_rad[j] = random.between(kRobot.joint[j].lower_rad, kRobot.joint[j].upper_rad);
+  }
+  const LimitState start = joints.state;
+  float first_rad = 0, fastest_rad = 0;
+  for (std::int32_t us = 0; us <= static_cast<std::int32_t>(duration_s * 1e6F); us += kPeriod_us) {
+    const LimitState before = joints.state;
+    joints.run(mode, us);
+    for (int j = 0; j < kRobot.joint_count; ++j) {
+      const float move_rad = math::abs(joints.state.goal_rad[j] - before.goal_rad[j]);
+      if (us < 3 * kPeriod_us) first_rad = math::max(first_rad, move_rad);
+      fastest_rad = math::max(fastest_rad, move_rad);
+    }
+  }
+  EXPECT_LT(first_rad, 0.1F * fastest_rad) << "starts softly";
+  for (int j = 0; j < kRobot.joint_count; ++j) {
+    const float end_rad = mode == Mode::kSitting ? kRobot.joint[j].sit_rad : joints.wanted_rad[j];
+    EXPECT_NEAR(joints.state.goal_rad[j], end_rad, 1e-5F) << "joint " << j;
+    EXPECT_LT(fastest_rad, kMost_rad) << "from " << start.goal_rad[j];
+  }
+}
+
+TEST(Limit, RiseEndsInTheStand) {
+  expect_arrives(Mode::kRising, SafetyTuning{}.rise_s);
+}
+TEST(Limit, SittingDownEndsInTheCrouch) {
+  expect_arrives(Mode::kSitting, SafetyTuning{}.sit_s);
+}
+
+// The stand may move while the robot rises to it: it still arrives.
+TEST(Limit, RiseFollowsAMovingStand) {
+  Joints joints;
+  for (std::int32_t us = 0; us <= 1000000; us += kPeriod_us) {
+    joints.wanted_rad[0] = 0.3F + 0.2e-6F * static_cast<float>(us);
+    joints.run(Mode::kRising, us);
+  }
+  EXPECT_NEAR(joints.state.goal_rad[0], 0.5F, 1e-5F);
+}
+
+}  // namespace
+}  // namespace verp::safety

@@ -1,0 +1,206 @@
+#include "common/safety/machine.hpp"
+
+#include <gtest/gtest.h>
+
+/// The table, row by row: each test is named after what its row promises, and states the row
+/// itself. A row that is added, removed or moved fails here first.
+namespace verp::safety {
+namespace {
+
+constexpr std::uint32_t kAllConditions = 1u << 14;
+
+constexpr std::uint32_t bit(Mode mode) {
+  return 1u << static_cast<unsigned>(mode);
+}
+constexpr Mode mode_of(int index) {
+  return static_cast<Mode>(index);
+}
+template <class... Modes>
+constexpr std::uint32_t modes(Modes... each) {
+  return (bit(each) | ...);
+}
+
+// The row stands in the table at `index`; with exactly its conditions it leads where it says, and
+// with one of them missing, or one that it excludes present, it does not fit.
+void expect_row(int index, std::uint32_t from, std::uint32_t all_of, std::uint32_t none_of,
+                Mode to) {
+  ASSERT_LT(index, kRows);
+  const Row& row = kTable[index];
+  EXPECT_EQ(row.from, from);
+  EXPECT_EQ(row.all_of, all_of);
+  EXPECT_EQ(row.none_of, none_of);
+  EXPECT_TRUE(row.to == to);
+  for (int m = 0; m < kModes; ++m) {
+    const Mode mode = mode_of(m);
+    if ((from & bit(mode)) == 0 || mode == to) continue;
+    EXPECT_TRUE(next_mode(mode, all_of) == to) << "from " << kModeNames[m];
+    for (std::uint32_t c = 1; c < kAllConditions; c <<= 1) {
+      if ((all_of & c) != 0) {
+        EXPECT_FALSE(next_mode(mode, all_of & ~c) == to)
+            << "from " << kModeNames[m] << " without condition " << c;
+      }
+      if ((none_of & c) != 0) {
+        EXPECT_FALSE(next_mode(mode, all_of | c) == to)
+            << "from " << kModeNames[m] << " in spite of condition " << c;
+      }
+    }
+  }
+}
+
+constexpr std::uint32_t kUpright =
+    modes(Mode::kRising, Mode::kStanding, Mode::kWalking, Mode::kHolding, Mode::kSitting);
+
+TEST(SafetyTable, Row0EmergencyStopsEveryMode) {
+  expect_row(0, 0xFFu & ~bit(Mode::kStopped), kEmergency, 0, Mode::kStopped);
+}
+TEST(SafetyTable, Row1StoppedRobotIsRelaxedOnceReleasedAndAsked) {
+  expect_row(1, bit(Mode::kStopped), kAskRelax, kEmergency, Mode::kRelaxed);
+}
+TEST(SafetyTable, Row2FallMakesUprightRobotLimp) {
+  expect_row(2, kUpright, kFell, 0, Mode::kFallen);
+}
+TEST(SafetyTable, Row3FallenRobotIsRelaxedWhenAsked) {
+  expect_row(3, bit(Mode::kFallen), kAskRelax, 0, Mode::kRelaxed);
+}
+TEST(SafetyTable, Row4SilenceHoldsMovingRobot) {
+  expect_row(4, modes(Mode::kRising, Mode::kStanding, Mode::kWalking), kStale, 0, Mode::kHolding);
+}
+TEST(SafetyTable, Row5LastingSilenceSitsDown) {
+  expect_row(5, bit(Mode::kHolding), kLost, 0, Mode::kSitting);
+}
+TEST(SafetyTable, Row6EndOfSilenceRisesAgain) {
+  expect_row(6, bit(Mode::kHolding), 0, kStale, Mode::kRising);
+}
+TEST(SafetyTable, Row7AbandonedRobotSitsDown) {
+  expect_row(7, bit(Mode::kStanding), kOperatorGone, 0, Mode::kSitting);
+}
+TEST(SafetyTable, Row8RelaxedRobotRisesOnlyWhenItsSensesWork) {
+  expect_row(8, bit(Mode::kRelaxed), kAskStand | kServosKnown, kFell | kStale | kOperatorQuiet,
+             Mode::kRising);
+}
+TEST(SafetyTable, Row9AskedToRelaxItSitsDownFirst) {
+  expect_row(9, modes(Mode::kRising, Mode::kStanding), kAskRelax, 0, Mode::kSitting);
+}
+TEST(SafetyTable, Row10RiseEndsInTheStand) {
+  expect_row(10, bit(Mode::kRising), kTimeUp, 0, Mode::kStanding);
+}
+TEST(SafetyTable, Row11WalksOnlyCalibratedWithPowerAndOperator) {
+  expect_row(11, bit(Mode::kStanding), kAskWalk | kCalibrated, kOperatorQuiet | kPowerBad,
+             Mode::kWalking);
+}
+TEST(SafetyTable, Row12WalkEndsOnBothFeetWhenNoLongerAsked) {
+  expect_row(12, bit(Mode::kWalking), kGaitOver, kAskWalk, Mode::kStanding);
+}
+TEST(SafetyTable, Row13WalkEndsOnBothFeetWhenTheOperatorIsQuiet) {
+  ASSERT_LT(13, kRows);
+  EXPECT_TRUE(next_mode(Mode::kWalking, kGaitOver | kAskWalk | kOperatorQuiet) == Mode::kStanding);
+  EXPECT_TRUE(next_mode(Mode::kWalking, kAskWalk | kOperatorQuiet) == Mode::kWalking);
+  EXPECT_EQ(kTable[13].all_of, kGaitOver | kOperatorQuiet);
+}
+TEST(SafetyTable, Row14WalkEndsOnBothFeetWhenPowerIsBad) {
+  ASSERT_LT(14, kRows);
+  EXPECT_TRUE(next_mode(Mode::kWalking, kGaitOver | kAskWalk | kPowerBad) == Mode::kStanding);
+  EXPECT_TRUE(next_mode(Mode::kWalking, kAskWalk | kPowerBad) == Mode::kWalking);
+  EXPECT_EQ(kTable[14].all_of, kGaitOver | kPowerBad);
+}
+TEST(SafetyTable, Row15SittingRobotRelaxesWhenDown) {
+  expect_row(15, bit(Mode::kSitting), kTimeUp, 0, Mode::kRelaxed);
+}
+TEST(SafetyTable, HasNoOtherRows) {
+  EXPECT_EQ(kRows, 16);
+}
+
+// What follows holds for every combination of conditions.
+template <class Check>
+void for_all(Check check) {
+  for (std::uint32_t conditions = 0; conditions < kAllConditions; ++conditions) {
+    for (int m = 0; m < kModes; ++m) {
+      check(mode_of(m), conditions, next_mode(mode_of(m), conditions));
+    }
+  }
+}
+
+TEST(SafetyMachine, EmergencyAlwaysWins) {
+  int wrong = 0;
+  for_all([&](Mode, std::uint32_t conditions, Mode to) {
+    if ((conditions & kEmergency) != 0 && to != Mode::kStopped) ++wrong;
+  });
+  EXPECT_EQ(wrong, 0);
+}
+
+TEST(SafetyMachine, FallenRobotNeverKeepsTorque) {
+  int wrong = 0;
+  for_all([&](Mode, std::uint32_t conditions, Mode to) {
+    if ((conditions & kFell) != 0 && has_torque(to)) ++wrong;
+  });
+  EXPECT_EQ(wrong, 0);
+}
+
+TEST(SafetyMachine, TorqueComesOnlyByRisingFromRelaxed) {
+  int wrong = 0;
+  for_all([&](Mode from, std::uint32_t conditions, Mode to) {
+    const bool risen = from == Mode::kRelaxed && to == Mode::kRising;
+    if (!has_torque(from) && has_torque(to) && !(risen && (conditions & kAskStand) != 0)) ++wrong;
+  });
+  EXPECT_EQ(wrong, 0);
+}
+
+// No torque is let go of while standing: only a fall, the e-stop, or the end of sitting down.
+TEST(SafetyMachine, StandingRobotIsNeverDropped) {
+  int wrong = 0;
+  for_all([&](Mode from, std::uint32_t conditions, Mode to) {
+    if (!has_torque(from) || has_torque(to)) return;
+    const bool why = (conditions & (kEmergency | kFell)) != 0 || from == Mode::kSitting;
+    if (!why) ++wrong;
+  });
+  EXPECT_EQ(wrong, 0);
+}
+
+TEST(SafetyMachine, WalkingStopsOnlyOnBothFeetUnlessItMust) {
+  int wrong = 0;
+  for_all([&](Mode from, std::uint32_t conditions, Mode to) {
+    if (from != Mode::kWalking || to != Mode::kStanding) return;
+    if ((conditions & kGaitOver) == 0) ++wrong;
+  });
+  EXPECT_EQ(wrong, 0);
+}
+
+TEST(SafetyMachine, TorqueIsOnInTheModesThatNeedIt) {
+  const std::uint32_t limp = modes(Mode::kRelaxed, Mode::kFallen, Mode::kStopped);
+  for (int m = 0; m < kModes; ++m) {
+    EXPECT_EQ(has_torque(mode_of(m)), (limp & (1u << m)) == 0) << kModeNames[m];
+  }
+}
+
+// One transition's worth of modes from those in `from`, under any conditions.
+std::uint32_t reach(std::uint32_t from) {
+  std::uint32_t result = from;
+  for_all([&](Mode mode, std::uint32_t, Mode to) {
+    if ((from & bit(mode)) != 0) result |= bit(to);
+  });
+  return result;
+}
+
+TEST(SafetyMachine, EveryModeIsReachedFromPowerUp) {
+  std::uint32_t reached = bit(Mode::kRelaxed);
+  for (int i = 0; i < 4; ++i) reached = reach(reached);
+  EXPECT_EQ(reached, 0xFFu);
+}
+
+TEST(SafetyMachine, NoModeIsWithoutAWayOutBackToRelaxed) {
+  for (int m = 0; m < kModes; ++m) {
+    std::uint32_t reached = 1u << m;
+    for (int i = 0; i < 3; ++i) reached = reach(reached);
+    EXPECT_NE(reached & bit(Mode::kRelaxed), 0u) << kModeNames[m];
+  }
+}
+
+TEST(SafetyMachine, NoConditionsNoChange) {
+  for (int m = 0; m < kModes; ++m) {
+    if (mode_of(m) == Mode::kHolding) continue;  // nothing silent any more: rises
+    EXPECT_TRUE(next_mode(mode_of(m), 0) == mode_of(m)) << kModeNames[m];
+  }
+}
+
+}  // namespace
+}  // namespace verp::safety
