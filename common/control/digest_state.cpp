@@ -21,7 +21,7 @@ void digest_state(const Inputs& inputs, const Outputs& outputs, State& state) {
   set(Stage::kAdmit, digest_of(Stage::kAdmit, inputs, state.tuning, state.admit));
   set(Stage::kEstimate, digest_of(Stage::kEstimate, state.attitude, state.steer));
   set(Stage::kPlan, digest_of(Stage::kPlan, state.gait));
-  set(Stage::kBalance, digest_of(Stage::kBalance, state.feedback, state.trim));
+  set(Stage::kBalance, digest_of(Stage::kBalance, state.feedback));
   set(Stage::kKinematics, digest_of(Stage::kKinematics, state.limit));
   set(Stage::kLimit, digest_of(Stage::kLimit, state.machine));
   set(Stage::kGate, digest_of(Stage::kGate, outputs));

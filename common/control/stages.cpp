@@ -39,12 +39,12 @@ kinematics::LegAngles leg_angles(const Params& params, const State& state,
   return angles;
 }
 
-balance::LegLoad load_of(const Params& params, const gait::GaitOut& plan, int side) {
+balance::LegLoad load_of(const Params& params, const gait::GaitOut& plan, int side, float mass_kg) {
   const gait::FootPose& foot = plan.posture.foot[side];
   const Vec3 gravity{0, 0, math::kGravityMS2};
   const Vec3 body_lift = gravity + Vec3(plan.accel_m_s2.x, plan.accel_m_s2.y, 0);
   return {balance::ground_point(params.leg[side], foot, plan.zmp_m),
-          plan.carry[side] * model::total_mass(params) * body_lift, body_lift,
+          plan.carry[side] * mass_kg * body_lift, body_lift,
           gravity + math::to_vec(foot.accel_m_s2)};
 }
 
@@ -124,21 +124,10 @@ gait::GaitOut plan_motion(const Params& params, State& state, const AdmitOut& ad
   return gait::update(params, state.tuning, state.gait, in);
 }
 
-void keep_balance(const Params& params, State& state, const Inputs& inputs,
-                  const balance::AttitudeOut& attitude, const gait::GaitOut& plan) {
-  const float planned_pitch_rad = state.tuning.gait.trunk_pitch_rad;
-  state.feedback = balance::feedback(state.tuning.balance, attitude, planned_pitch_rad, plan.swing);
-  if (plan.swing == gait::kBoth || state.machine.mode != Mode::kWalking) return;
-  const int carrying = 1 - plan.swing;
-  balance::learn(params, state.tuning, attitude,
-                 {(inputs.flags & kFeetFresh) != 0, inputs.foot_count[carrying], carrying,
-                  planned_pitch_rad, period_s(params)},
-                 state.trim);
-}
-
 Wanted solve_joints(const Params& params, State& state, const AdmitOut& admitted,
                     const gait::GaitOut& plan) {
   Wanted wanted{};
+  const float mass_kg = model::total_mass(params);
   for (int j = 0; j < params.joint_count; ++j) wanted.angle_rad[j] = params.joint[j].stand_rad;
   if (params.head_pan < kMaxJoints) wanted.angle_rad[params.head_pan] = admitted.head_pan_rad;
   if (params.head_tilt < kMaxJoints) wanted.angle_rad[params.head_tilt] = admitted.head_tilt_rad;
@@ -152,10 +141,9 @@ Wanted solve_joints(const Params& params, State& state, const AdmitOut& admitted
     if (state.tuning.balance.gravity_enable > 0.5F) {
       const kinematics::LegChain chain =
           kinematics::leg_chain(params, leg, plan.posture.body, angles.angle_rad);
-      balance::add_sag(params, leg, chain, load_of(params, plan, side), angles.angle_rad);
+      balance::add_sag(params, leg, chain, load_of(params, plan, side, mass_kg), angles.angle_rad);
     }
     balance::add(leg, state.feedback.leg[side], angles.angle_rad);
-    balance::add(leg, state.trim.leg[side], angles.angle_rad);
     for (int k = 0; k < kLegJoints; ++k) {
       wanted.angle_rad[leg.joint[k]] = angles.angle_rad[k];
     }

@@ -14,10 +14,6 @@ balance::AttitudeOut estimate(const Params& params, State& state, const AdmitOut
 gait::GaitOut plan_motion(const Params& params, State& state, const AdmitOut& admitted,
                           const balance::AttitudeOut& attitude);
 
-/// Feedback for this tick, and what the leg that carries alone learns from it.
-void keep_balance(const Params& params, State& state, const Inputs& inputs,
-                  const balance::AttitudeOut& attitude, const gait::GaitOut& plan);
-
 struct Wanted {
   float angle_rad[kMaxJoints];
   bool leg_limited;

@@ -1,7 +1,6 @@
 #pragma once
 #include "common/balance/attitude.hpp"
 #include "common/balance/feedback.hpp"
-#include "common/balance/trim.hpp"
 #include "common/base/fields.hpp"
 #include "common/control/admit.hpp"
 #include "common/gait/gait.hpp"
@@ -31,11 +30,12 @@ struct State {
   SteerState steer;
   gait::GaitState gait;
   balance::FeedbackOut feedback;
-  balance::TrimState trim;
   safety::LimitState limit;
   safety::MachineState machine;
   std::uint32_t started = 0;  ///< 0 until the first tick has copied Params::tuning
-  VERP_FIELDS(digest, tuning, admit, attitude, steer, gait, feedback, trim, limit, machine, started)
+  std::uint32_t reserved = 0;
+  VERP_FIELDS(digest, tuning, admit, attitude, steer, gait, feedback, limit, machine, started,
+              reserved)
 };
 VERP_PACKED(State);
 static_assert(sizeof(State) <= 2048, "hashed State is at most 2 KB");

@@ -12,7 +12,8 @@ void step(const Params& params, State& state, const Inputs& inputs, Outputs& out
   const AdmitOut admitted = admit(params, state.admit, state.tuning, inputs);
   const balance::AttitudeOut attitude = estimate(params, state, admitted);
   const gait::GaitOut plan = plan_motion(params, state, admitted, attitude);
-  keep_balance(params, state, inputs, attitude, plan);
+  state.feedback = balance::feedback(state.tuning.balance, attitude,
+                                     state.tuning.gait.trunk_pitch_rad, plan.swing);
   const Wanted wanted = solve_joints(params, state, admitted, plan);
   const bool slowed = limit_goals(params, state, inputs, wanted);
   const std::uint32_t faults = raise_faults(state, admitted, wanted, slowed);

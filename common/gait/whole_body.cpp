@@ -17,14 +17,18 @@ std::uint32_t leg_joints(const Params& params) {
 
 Lump lump_of(const Params& params, const float* angle_rad) {
   const std::uint32_t legs = leg_joints(params);
-  Pose node[kMaxNodes];
+  union Nodes {  // written before read, parents first: 33 identities would cost more than the arms
+    Nodes() {}
+    Pose at[kMaxNodes];
+  } node;
+  node.at[0] = Pose{};
   Vec3 moment_kg_m = params.body_mass_kg * math::to_vec(params.body_com_m);
   float mass_kg = params.body_mass_kg;
   for (int j = 0; j < params.joint_count; ++j) {
     if ((legs >> j & 1U) != 0) continue;
     const JointParams& joint = params.joint[j];
-    kinematics::chain(node[joint.parent], joint, angle_rad[j], node[j + 1]);
-    moment_kg_m += joint.mass_kg * math::apply(node[j + 1], math::to_vec(joint.com_link_m));
+    kinematics::chain(node.at[joint.parent], joint, angle_rad[j], node.at[j + 1]);
+    moment_kg_m += joint.mass_kg * math::apply(node.at[j + 1], math::to_vec(joint.com_link_m));
     mass_kg += joint.mass_kg;
   }
   return {mass_kg, mass_kg > 0.0F ? math::to_xyz(moment_kg_m / mass_kg) : Xyz{}};

@@ -27,19 +27,6 @@ Mat3 axis_rotation(const JointParams& joint, float angle_rad) {
   return math::rotation(math::to_vec(joint.axis), angle);
 }
 
-// Turns two columns of `from` in the plane of their axes and keeps the third: what a product with
-// rot_x, rot_y or rot_z leaves to do.
-inline void turn_columns(const Mat3& from, int first, int second, int kept, float sin, float cos,
-                         Mat3& to) {
-  for (int row = 0; row < 3; ++row) {
-    const float a = from(row, first);
-    const float b = from(row, second);
-    to(row, first) = cos * a + sin * b;
-    to(row, second) = cos * b - sin * a;
-    to(row, kept) = from(row, kept);
-  }
-}
-
 // Most joints sit on an axis of their parent: what is zero is skipped.
 inline void place(const Pose& parent, const Xyz& origin_m, Vec3& position_m) {
   position_m = parent.position_m;

@@ -10,6 +10,19 @@ namespace verp::kinematics {
 /// Pose of the link that `joint` moves, seen from its parent link, at `angle_rad`.
 Pose joint_transform(const JointParams& joint, float angle_rad);
 
+/// Turns two columns of `from` in the plane of their axes and keeps the third: what a product with
+/// rot_x (1, 2, 0), rot_y (2, 0, 1) or rot_z (0, 1, 2) leaves to do.
+inline void turn_columns(const Mat3& from, int first, int second, int kept, float sin, float cos,
+                         Mat3& to) {
+  for (int row = 0; row < 3; ++row) {
+    const float a = from(row, first);
+    const float b = from(row, second);
+    to(row, first) = cos * a + sin * b;
+    to(row, second) = cos * b - sin * a;
+    to(row, kept) = from(row, kept);
+  }
+}
+
 /// link = parent * joint_transform, without the multiplications by zero and one of an axis along x,
 /// y or z.
 void chain(const Pose& parent, const JointParams& joint, float angle_rad, Pose& link);
@@ -30,7 +43,8 @@ Vec3 joint_axis(const JointParams& joint, const Mat3& link_rotation);
 /// Chain of one leg: poses of its six links, hip to ankle, in the body frame's outer frame.
 /// `leg_angle_rad` is indexed by position in the leg.
 struct LegChain {
-  Pose link[kLegJoints];
+  Pose link[kLegJoints] = {Pose(math::Unset{}), Pose(math::Unset{}), Pose(math::Unset{}),
+                           Pose(math::Unset{}), Pose(math::Unset{}), Pose(math::Unset{})};
 };
 LegChain leg_chain(const Params& params, const LegParams& leg, const Pose& body,
                    const float* leg_angle_rad);

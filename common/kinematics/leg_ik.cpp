@@ -68,7 +68,10 @@ LegAngles solve_leg_closed_form(const Params& params, const LegParams& leg, cons
   const SinCos back_roll{-roll.sin, roll.cos};
   const SinCos back_pitch{-(pitch.sin * knee.cos + pitch.cos * knee.sin),
                           pitch.cos * knee.cos - pitch.sin * knee.sin};
-  const Mat3 hip = foot.rotation * math::rot_x(back_roll) * math::rot_y(back_pitch);
+  Mat3 level;
+  turn_columns(foot.rotation, 1, 2, 0, back_roll.sin, back_roll.cos, level);
+  Mat3 hip;
+  turn_columns(level, 2, 0, 1, back_pitch.sin, back_pitch.cos, hip);
   const float canonical_rad[kLegJoints] = {
       math::atan2(-hip(0, 1), hip(1, 1)), math::atan2(hip(2, 1), math::hypot(hip(0, 1), hip(1, 1))),
       math::atan2(-hip(2, 0), hip(2, 2)), math::atan2(knee.sin, knee.cos),

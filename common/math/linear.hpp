@@ -112,10 +112,18 @@ Vec3 roll_pitch_yaw(const Mat3& rotation);
 /// The rotation vector (unit axis times angle in [0, kPi]) of a rotation matrix. Total.
 Vec3 rotation_vector(const Mat3& rotation);
 
+/// Asks for no initialisation.
+struct Unset {};
+
 /// Frame B seen from frame A: rotates then translates B coordinates into A coordinates.
 struct Pose {
-  Mat3 rotation = Mat3::Identity();
-  Vec3 position_m = Vec3::Zero();
+  Mat3 rotation;
+  Vec3 position_m;
+
+  Pose() : rotation(Mat3::Identity()), position_m(Vec3::Zero()) {}
+  Pose(const Mat3& turned, const Vec3& moved_m) : rotation(turned), position_m(moved_m) {}
+  /// For arrays that are about to be written: leaves both undefined.
+  explicit Pose(Unset) {}
 };
 
 /// a_T_c = a_T_b * b_T_c.

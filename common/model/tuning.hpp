@@ -46,11 +46,9 @@ struct BalanceTuning {
   float hip_roll_rate_s = 0.050f;
   float swing_level = 0.155f;        ///< swing ankle turned back by this share of the tilt
   float feedback_limit_rad = 0.25f;  ///< largest correction on any joint
-  float trim_time_s = 2.0f;          ///< how fast joint zero errors are learnt; 0: not at all
   VERP_FIELDS(gravity_enable, multibody_enable, feedback_enable, ankle_pitch_tilt,
               ankle_pitch_rate_s, ankle_roll_tilt, ankle_roll_rate_s, hip_pitch_tilt,
-              hip_pitch_rate_s, hip_roll_tilt, hip_roll_rate_s, swing_level, feedback_limit_rad,
-              trim_time_s)
+              hip_pitch_rate_s, hip_roll_tilt, hip_roll_rate_s, swing_level, feedback_limit_rad)
 };
 VERP_PACKED(BalanceTuning);
 

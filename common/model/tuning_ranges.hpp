@@ -43,7 +43,6 @@ inline constexpr Range kTuningRanges[] = {
     {-0.5F, 0.5F},  // hip_roll_rate_s
     {-2.0F, 2.0F},  // swing_level
     {0.0F, 0.6F},   // feedback_limit_rad
-    {0.0F, 60.0F},  // trim_time_s
     // safety
     {0.2F, 1.5F},     // fall_tilt_rad
     {0.0F, 1.0F},     // fall_confirm_s

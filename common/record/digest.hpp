@@ -22,11 +22,19 @@ class Digest32 {
   void add_struct(const T& data) {
     static_assert(packed_size<T>() == sizeof(T) && sizeof(T) % 4 == 0);
     const auto* bytes = reinterpret_cast<const unsigned char*>(&data);
-    for (std::size_t i = 0; i < sizeof(T); i += 4) {
-      std::uint32_t word;
-      __builtin_memcpy(&word, bytes + i, 4);
-      add(word);
+    const auto word = [bytes](std::size_t at) {
+      std::uint32_t loaded;
+      __builtin_memcpy(&loaded, bytes + at, 4);
+      return loaded;
+    };
+    std::size_t at = 0;
+    for (; at + 16 <= sizeof(T); at += 16) {  // four a turn: the loop itself would cost a third
+      add(word(at));
+      add(word(at + 4));
+      add(word(at + 8));
+      add(word(at + 12));
     }
+    for (; at < sizeof(T); at += 4) add(word(at));
   }
   constexpr std::uint32_t value() const { return value_ ^ (value_ >> 15); }
 

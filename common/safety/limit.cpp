@@ -30,27 +30,34 @@ std::int32_t count_of(const JointParams& joint, float angle_rad) {
 }
 
 bool limit(const Params& params, LimitState& state, const LimitIn& in) {
+  if (!has_torque(in.mode)) {
+    for (int j = 0; j < params.joint_count; ++j) {
+      const JointParams& joint = params.joint[j];
+      state.goal_rad[j] =
+          math::clamp(angle_of(joint, in.position_count[j]), joint.lower_rad, joint.upper_rad);
+    }
+    return false;
+  }
+  if (in.mode == Mode::kHolding) return false;
   const float period_s = static_cast<float>(params.period_us) * 1e-6F;
   const bool rising = in.mode == Mode::kRising;
-  const bool blending = rising || in.mode == Mode::kSitting;
+  const bool sitting = in.mode == Mode::kSitting;
+  const bool blending = rising || sitting;
   const float share =
       blending ? blend(params, in.in_mode_us, rising ? in.tuning->rise_s : in.tuning->sit_s) : 1.0F;
   bool slowed = false;
   for (int j = 0; j < params.joint_count; ++j) {
     const JointParams& joint = params.joint[j];
-    float& goal_rad = state.goal_rad[j];
-    if (!has_torque(in.mode)) {
-      goal_rad = angle_of(joint, in.position_count[j]);
-      continue;
-    }
-    if (in.mode == Mode::kHolding) continue;
-    const float target_rad = in.mode == Mode::kSitting ? joint.sit_rad : in.wanted_rad[j];
-    const float inside_rad = math::clamp(target_rad, joint.lower_rad, joint.upper_rad);
+    const float inside_rad =
+        math::clamp(sitting ? joint.sit_rad : in.wanted_rad[j], joint.lower_rad, joint.upper_rad);
     const float most_rad = joint.velocity_limit_rad_s * period_s;
-    const float move_rad = share * (inside_rad - goal_rad);
-    const float allowed_rad = math::clamp(move_rad, -most_rad, most_rad);
-    slowed = slowed || (!blending && allowed_rad != move_rad);
-    goal_rad = share == 1.0F && allowed_rad == move_rad ? inside_rad : goal_rad + allowed_rad;
+    const float move_rad = share * (inside_rad - state.goal_rad[j]);
+    if (move_rad > most_rad || move_rad < -most_rad) {
+      state.goal_rad[j] += math::copysign(most_rad, move_rad);
+      slowed = slowed || !blending;
+    } else {
+      state.goal_rad[j] = blending ? state.goal_rad[j] + move_rad : inside_rad;
+    }
   }
   return slowed;
 }
