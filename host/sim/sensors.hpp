@@ -22,7 +22,8 @@ class LowPass {
   bool started_ = false;
 };
 
-/// Gyroscope and accelerometer. Bandwidth 94 Hz: InvenSense MPU-6000 register map, DLPF_CFG = 2.
+/// Gyroscope and accelerometer. Bandwidth 44 Hz: InvenSense MPU-6000 register map, DLPF_CFG = 3,
+/// the widest below half of a 10 ms control period: more would fold step impacts into a false tilt.
 class ImuModel {
  public:
   ImuModel(const model::ImuSensor& sensor, bool noise, std::uint64_t seed);
