@@ -4,23 +4,23 @@ namespace verp::balance {
 namespace {
 
 constexpr float kAccelTime_s = 1.0F;  // slower than a step by far: its accelerations average out
-constexpr float kBiasTime_s =
-    0.25F;  // first guess; later samples count less and less (see learn_bias)
+constexpr float kWindow_s = 4.0F;     // the mean forgets what is older
 constexpr float kStillRate_rad_s =
     0.12F;  // above the bias of a MEMS gyro (5 deg/s), below any real motion
 
 void learn_bias(AttitudeState& state, const AttitudeIn& in) {
-  const Vec3 rate = in.gyro_body_rad_s - math::to_vec(state.gyro_bias_rad_s);
-  if (!in.standing || math::norm(rate) > kStillRate_rad_s) {
-    // A robot still trembling from its rise starts over; a bias once learnt stays.
-    if (state.still_s < kCalibrated_s) state.still_s = 0;
+  // The raw rate decides, not the one after the bias: a bias once learnt wrong must not hide
+  // stillness.
+  if (!in.standing || math::norm(in.gyro_body_rad_s) > kStillRate_rad_s) {
+    if (state.still_s < kCalibrated_s)
+      state.still_s = 0;  // still trembling from its rise: start over
     return;
   }
   // Mean over the time stood still, then a slow tracking of warm-up drift.
-  const float window_s = math::max(state.still_s + in.period_s, in.period_s);
-  const float share = in.period_s / math::max(window_s, state.still_s > 0 ? kBiasTime_s : window_s);
-  state.gyro_bias_rad_s = math::to_xyz(math::to_vec(state.gyro_bias_rad_s) + share * rate);
-  state.still_s = math::min(state.still_s + in.period_s, 4.0F);
+  const float share = in.period_s / (state.still_s + in.period_s);
+  const Vec3 bias = math::to_vec(state.gyro_bias_rad_s);
+  state.gyro_bias_rad_s = math::to_xyz(bias + share * (in.gyro_body_rad_s - bias));
+  state.still_s = math::min(state.still_s + in.period_s, kWindow_s);
 }
 
 }  // namespace

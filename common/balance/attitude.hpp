@@ -15,8 +15,8 @@ struct AttitudeState {
 };
 VERP_PACKED(AttitudeState);
 
-inline constexpr float kCalibrated_s =
-    0.6F;  ///< this long still, and the bias is known well enough to walk
+/// This long still, and the gyro's bias is known to 0.02 deg/s: a degree of heading in a minute.
+inline constexpr float kCalibrated_s = 2.0F;
 
 struct AttitudeIn {
   bool fresh = false;  ///< gyro and accelerometer are of this tick

@@ -48,13 +48,22 @@ balance::LegLoad load_of(const Params& params, const gait::GaitOut& plan, int si
           gravity + math::to_vec(foot.accel_m_s2)};
 }
 
-void latch_heading(const AdmitOut& admitted, const balance::AttitudeOut& attitude, bool walking,
-                   float period, SteerState& steer) {
-  if (walking) {
-    steer.heading_rad = math::wrap_angle(steer.heading_rad + period * admitted.wz_rad_s);
-  } else {
+// What one step has to turn back: the heading error, and what has summed up of it, so that a slip
+// repeated in every step is met before it happens.
+float heading_error(const Params& params, const State& state, const AdmitOut& admitted,
+                    const balance::AttitudeOut& attitude, SteerState& steer) {
+  constexpr float kSumming_per_s = 0.15F;  // slower by far than the plan's lead of up to four steps
+  if (state.machine.mode != Mode::kWalking) {
     steer.heading_rad = attitude.heading_rad;
+    steer.slip_rad = 0;
+    return 0;
   }
+  steer.heading_rad = math::wrap_angle(steer.heading_rad + period_s(params) * admitted.wz_rad_s);
+  const float error_rad = math::clamp(math::wrap_angle(steer.heading_rad - attitude.heading_rad),
+                                      -kMaxHeadingError_rad, kMaxHeadingError_rad);
+  steer.slip_rad = math::clamp(steer.slip_rad + kSumming_per_s * period_s(params) * error_rad,
+                               -kMaxHeadingError_rad, kMaxHeadingError_rad);
+  return error_rad + steer.slip_rad;
 }
 
 std::uint32_t conditions_of(const Params& params, const State& state, const AdmitOut& admitted,
@@ -109,16 +118,12 @@ balance::AttitudeOut estimate(const Params& params, State& state, const AdmitOut
 
 gait::GaitOut plan_motion(const Params& params, State& state, const AdmitOut& admitted,
                           const balance::AttitudeOut& attitude) {
-  latch_heading(admitted, attitude, state.machine.mode == Mode::kWalking, period_s(params),
-                state.steer);
   gait::GaitIn in;
   in.walk = walks(state, admitted);
   in.wanted.vx_m_s = admitted.vx_m_s;
   in.wanted.vy_m_s = admitted.vy_m_s;
   in.wanted.wz_rad_s = admitted.wz_rad_s;
-  in.wanted.heading_error_rad =
-      math::clamp(math::wrap_angle(state.steer.heading_rad - attitude.heading_rad),
-                  -kMaxHeadingError_rad, kMaxHeadingError_rad);
+  in.wanted.heading_error_rad = heading_error(params, state, admitted, attitude, state.steer);
   in.goal_rad = state.limit.goal_rad;
   in.period_us = static_cast<std::int32_t>(params.period_us);
   return gait::update(params, state.tuning, state.gait, in);

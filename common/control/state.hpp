@@ -15,8 +15,9 @@ namespace verp {
 /// Heading the operator steered to, against which the walk is corrected.
 struct SteerState {
   float heading_rad = 0;
+  float slip_rad = 0;  ///< heading error summed over time: what the soles slip in every step
   std::int32_t fallen_us = 0;  ///< how long the tilt has been beyond its limit
-  VERP_FIELDS(heading_rad, fallen_us)
+  VERP_FIELDS(heading_rad, slip_rad, fallen_us)
 };
 VERP_PACKED(SteerState);
 
@@ -33,9 +34,7 @@ struct State {
   safety::LimitState limit;
   safety::MachineState machine;
   std::uint32_t started = 0;  ///< 0 until the first tick has copied Params::tuning
-  std::uint32_t reserved = 0;
-  VERP_FIELDS(digest, tuning, admit, attitude, steer, gait, feedback, limit, machine, started,
-              reserved)
+  VERP_FIELDS(digest, tuning, admit, attitude, steer, gait, feedback, limit, machine, started)
 };
 VERP_PACKED(State);
 static_assert(sizeof(State) <= 2048, "hashed State is at most 2 KB");
