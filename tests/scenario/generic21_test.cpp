@@ -1,0 +1,114 @@
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <set>
+
+#include "tests/scenario/walk.hpp"
+
+namespace verp::scenario {
+namespace {
+
+class Seed : public ::testing::TestWithParam<int> {};
+
+// The paper's walk: 4 cm steps in 450 ms cycles, 0.173 m/s; for a minute, whatever the twin's noise
+// and joint zero errors are.
+TEST_P(Seed, WalksAMinuteInsideThePapersBands) {
+  const Walk minute =
+      walk("generic21 --step 0.04 --cycle 0.45 --for 60 --seed " + std::to_string(GetParam()));
+  expect_walked(minute);
+  expect_between(0.170, number(minute, "speed_steady_m_s"), 0.190, "steady speed, m/s");
+  expect_between(0.165, number(minute, "speed_mean_m_s"), 0.190, "mean speed, m/s");
+  expect_between(2.0, number(minute, "zmp_bias_mean_mm"), 12.0, "mean ZMP bias, mm");
+  EXPECT_LT(std::abs(number(minute, "lateral_drift_m")), 0.5);
+  expect_between(0.0, number(minute, "servo_saturation"), 0.05, "torque share at the limit");
+}
+INSTANTIATE_TEST_SUITE_P(Generic21, Seed, ::testing::Range(1, 11));
+
+TEST(Generic21, TenSeedsGiveTenDigests) {
+  std::set<std::string> digests;
+  for (int seed = 1; seed <= 10; ++seed) {
+    digests.insert(walk("generic21 --for 3 --seed " + std::to_string(seed))
+                       .result.value("digest", std::string()));
+  }
+  EXPECT_EQ(digests.size(), 10u);
+}
+
+TEST(Generic21, SameSeedIsTheSameWalkToTheLastBit) {
+  Walk once = walk("generic21 --for 10 --seed 3"), again = walk("generic21 --for 10 --seed 3");
+  once.result.erase("real_time_factor");
+  again.result.erase("real_time_factor");
+  EXPECT_EQ(once.result, again.result);
+}
+
+// Without the correction for the legs' mass the bias grows with the step, as in the paper; with it
+// the bias is smaller at every step length.
+TEST(Generic21, MultibodyCorrectionTakesAwayTheBiasThatGrowsWithTheStep) {
+  const Walk sweep = walk("generic21 --for 20 --sweep-step 0.02:0.06:0.01");
+  const json& rows = sweep.result.value("sweep", json::array());
+  ASSERT_EQ(rows.size(), 5u);
+  double before_mm = 0;
+  for (const json& row : rows) {
+    const double step_m = row.at("step_m");
+    const double without_mm = row.at("zmp_bias_without_multibody_mm");
+    EXPECT_FALSE(row.at("fallen")) << "step " << step_m;
+    EXPECT_LT(row.at("zmp_bias_mm"), without_mm) << "step " << step_m;
+    EXPECT_GT(without_mm, before_mm) << "step " << step_m;
+    before_mm = without_mm;
+  }
+  EXPECT_GT(before_mm, 1.2 * rows[0].at("zmp_bias_without_multibody_mm").get<double>());
+}
+
+double mean_bias_mm(const std::string& arguments) {
+  double sum_mm = 0;
+  for (const char* seed : {"1", "2", "3"}) {
+    sum_mm += number(walk("generic21 --for 15 --seed " + (seed + arguments)), "zmp_bias_mean_mm");
+  }
+  return sum_mm / 3;
+}
+
+// What each part of balance is for, as the ZMP bias says it: switched off, the walk is worse.
+TEST(Generic21, EachPartOfBalanceLowersTheZmpBias) {
+  const double all_mm = mean_bias_mm("");
+  EXPECT_GT(mean_bias_mm(" --no-multibody"), all_mm);
+  EXPECT_GT(mean_bias_mm(" --no-gravity"), all_mm);
+  EXPECT_GT(mean_bias_mm(" --no-feedback"), all_mm);
+}
+
+TEST(Generic21, WalksSidewaysBackwardsAndInCircles) {
+  for (const char* velocity : {"0,0.05,0", "-0.1,0,0", "0.1,0,0.3", "0,0,-0.4"}) {
+    SCOPED_TRACE(velocity);
+    expect_walked(walk(std::string("generic21 --for 12 --velocity=") + velocity));
+  }
+}
+
+TEST(Generic21, WalksSlowlyAndWithShortSteps) {
+  expect_walked(walk("generic21 --for 12 --cycle 0.6"));
+  expect_walked(walk("generic21 --for 12 --step 0.01"));
+  expect_walked(walk("generic21 --for 12 --step 0"));
+}
+
+// The robot is one table: thighs a tenth longer, everything else as it is, and it walks.
+TEST(Generic21, WalksWithThighsATenthLonger) {
+  namespace fs = std::filesystem;
+  const fs::path folder =
+      fs::temp_directory_path() / ("verp-longer-thighs-" + std::to_string(::getpid()));
+  fs::create_directories(folder);
+  std::ifstream in(VERP_SOURCE_DIR "/common/robots/generic21/generic21.table");
+  std::string table{std::istreambuf_iterator<char>(in), {}};
+  const std::string line = "thigh_m = 0.093\n";
+  const std::size_t at = table.find(line);
+  ASSERT_NE(at, std::string::npos);
+  table.replace(at, line.size(), "thigh_m = 0.1023\n");
+  std::ofstream(folder / "longer.table") << table;
+  const std::string sdf = (folder / "longer.sdf").string();
+  const std::string generate =
+      std::string(VERP_GENERATE) + " " + (folder / "longer.table").string() + " > " + sdf;
+  EXPECT_EQ(std::system(generate.c_str()), 0);
+  const Walk longer = walk(sdf + " --for 20");
+  expect_walked(longer);
+  expect_between(0.165, number(longer, "speed_steady_m_s"), 0.195, "steady speed, m/s");
+  fs::remove_all(folder);
+}
+
+}  // namespace
+}  // namespace verp::scenario
