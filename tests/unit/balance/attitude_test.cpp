@@ -8,6 +8,7 @@ namespace verp::balance {
 namespace {
 
 constexpr float kG = math::kGravityMS2;
+constexpr int kCalibrated_ticks = static_cast<int>(kCalibrated_s / 0.01F) + 2;
 
 AttitudeIn still() {
   AttitudeIn in;
@@ -38,8 +39,8 @@ TEST(Attitude, BiasIsLearntWhileStanding) {
   AttitudeState state;
   AttitudeIn in = still();
   in.gyro_body_rad_s = {0.03F, -0.04F, 0.05F};
-  EXPECT_FALSE(run(state, in, 30).calibrated);
-  const AttitudeOut out = run(state, in, 170);
+  EXPECT_FALSE(run(state, in, kCalibrated_ticks / 2).calibrated);
+  const AttitudeOut out = run(state, in, kCalibrated_ticks);
   EXPECT_TRUE(out.calibrated);
   EXPECT_NEAR(state.gyro_bias_rad_s.x, 0.03F, 1e-4F);
   EXPECT_NEAR(state.gyro_bias_rad_s.y, -0.04F, 1e-4F);
@@ -52,16 +53,16 @@ TEST(Attitude, BiasIsNotLearntFromMotionNorWhileWalking) {
   AttitudeState state;
   AttitudeIn in = still();
   in.gyro_body_rad_s = {0.5F, 0, 0};
-  EXPECT_FALSE(run(state, in, 200).calibrated);
+  EXPECT_FALSE(run(state, in, 2 * kCalibrated_ticks).calibrated);
   in.gyro_body_rad_s = {0.05F, 0, 0};
   in.standing = false;
-  EXPECT_FALSE(run(state, in, 200).calibrated);
+  EXPECT_FALSE(run(state, in, 2 * kCalibrated_ticks).calibrated);
   EXPECT_EQ(state.gyro_bias_rad_s.x, 0.0F);
 }
 
 TEST(Attitude, CalibrationSurvivesMotion) {
   AttitudeState state;
-  run(state, still(), 200);
+  run(state, still(), kCalibrated_ticks);
   AttitudeIn in = still();
   in.standing = false;
   in.gyro_body_rad_s = {1, 0, 0};

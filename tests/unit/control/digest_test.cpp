@@ -18,7 +18,7 @@ bool same(const State& a, const State& b) {
 void get_walking(Loop& loop) {
   loop = Loop{};
   loop.walk(1500);
-  ASSERT_GE(loop.until(safety::Mode::kWalking, 400), 0);
+  ASSERT_GE(loop.until(safety::Mode::kWalking, 600), 0);
   loop.ticks(100);
 }
 

@@ -65,7 +65,7 @@ inline void wild(Random& random, bool fully, Inputs& inputs) {
   if (fully) return;
   inputs.fresh = ~0u;
   inputs.flags = kImuFresh | kFeetFresh | kSlowFresh | kCommandFresh;
-  inputs.command.request = random.bits() % 512 == 0 ? Request::kRelax : Request::kWalk;
+  inputs.command.request = random.bits() % 1024 == 0 ? Request::kRelax : Request::kWalk;
   inputs.slow_error = 0;
   inputs.slow_temperature_c = 40;
   for (int i = 0; i < 3; ++i) {

@@ -101,7 +101,7 @@ TEST(Step, RisesWalksStopsAndSitsDown) {
   EXPECT_GE(loop.until(Mode::kRising, 5), 0);
   EXPECT_GE(loop.until(Mode::kStanding, 150), 0);
   loop.walk(1777);
-  EXPECT_GE(loop.until(Mode::kWalking, 150), 0) << "bias must be learnt first";
+  EXPECT_GE(loop.until(Mode::kWalking, 400), 0) << "bias must be learnt first";
   loop.ticks(500);
   EXPECT_EQ(loop.outputs.gait_phase, static_cast<std::uint8_t>(gait::Phase::kTransition));
   EXPECT_EQ(loop.outputs.faults, 0u);
@@ -121,7 +121,7 @@ TEST(Step, RisesWalksStopsAndSitsDown) {
 void get_walking(Loop& loop) {
   loop = Loop{};
   loop.walk(1000);
-  ASSERT_GE(loop.until(Mode::kWalking, 400), 0);
+  ASSERT_GE(loop.until(Mode::kWalking, 600), 0);
   loop.ticks(200);
 }
 

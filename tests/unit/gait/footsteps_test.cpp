@@ -134,7 +134,7 @@ TEST(Footsteps, LeadingFootOpensTheOtherCloses) {
 TEST(Footsteps, HeadingErrorTurnsTheNextSteps) {
   Walk walk;
   for (int i = 0; i < 4; ++i) walk.take({.vx_m_s = 0.1F, .heading_error_rad = 0.1F});
-  EXPECT_GT(walk.state.body.yaw_rad, 0.05F);
+  EXPECT_GT(walk.state.body.yaw_rad, 0.02F);
   EXPECT_LT(walk.state.body.yaw_rad, 0.4F);
 }
 
