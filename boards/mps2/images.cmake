@@ -35,6 +35,17 @@ function(verp_add_mps2_images machine)
       COMMAND ${VERP_HOST_DIR}/target/target_tests --gtest_filter=${suite}.*)
     set_tests_properties(${name}.${VERP_BOARD} PROPERTIES LABELS "${name};target" TIMEOUT 600)
   endforeach()
+  # The long trace of tests/replay: whole where floats are hardware; elsewhere a fifth of each run, and the rest with --full.
+  set(trace_ticks 100000)
+  if(NOT CMAKE_CXX_FLAGS MATCHES "-mfloat-abi=hard")
+    set(trace_ticks 20000)
+    add_test(NAME trace_full.${VERP_BOARD} COMMAND ${VERP_HOST_DIR}/target/target_tests --gtest_filter=LongTrace.*)
+    set_tests_properties(trace_full.${VERP_BOARD} PROPERTIES LABELS full TIMEOUT 3600
+      ENVIRONMENT "VERP_TEST_BOARD=${VERP_BOARD};VERP_TEST_TICKS=100000;VERP_FIRMWARE_DIR=${CMAKE_BINARY_DIR}/images")
+  endif()
+  add_test(NAME trace.${VERP_BOARD} COMMAND ${VERP_HOST_DIR}/target/target_tests --gtest_filter=LongTrace.*)
+  set_tests_properties(trace.${VERP_BOARD} PROPERTIES LABELS "replay;target" TIMEOUT 300
+    ENVIRONMENT "VERP_TEST_BOARD=${VERP_BOARD};VERP_TEST_TICKS=${trace_ticks};VERP_FIRMWARE_DIR=${CMAKE_BINARY_DIR}/images")
   add_test(NAME bench.${VERP_BOARD} COMMAND ${VERP_HOST_DIR}/target/target_bench --check ${VERP_BOARD})
   # Times the link, so it runs alone.
   set_tests_properties(bench.${VERP_BOARD} PROPERTIES LABELS "bench;target" TIMEOUT 600 RUN_SERIAL ON)

@@ -1,0 +1,113 @@
+#include <cstdio>
+
+#include "common/control/step.hpp"
+#include "tests/replay/trace_file.hpp"
+
+/// replay_reach FILE: runs the core, compiled to count lines and branches, over the inputs of FILE
+/// and prints how often each phase of the gait, mode, row of the safety table and fault was
+/// reached. Exit status 1 when one never was.
+///
+/// Linked with --wrap for safety::next_mode, which is how the rows are seen.
+namespace verp::replay {
+namespace {
+
+std::size_t row_count[32], mode_count[safety::kModes], phase_count[4], fault_count[32];
+
+void note_row(safety::Mode mode, std::uint32_t conditions) {
+  const auto from = std::uint32_t{1} << static_cast<unsigned>(mode);
+  for (int i = 0; i < safety::kRows; ++i) {
+    const safety::Row& row = safety::kTable[i];
+    if ((row.from & from) == 0 || (conditions & row.all_of) != row.all_of) continue;
+    if ((conditions & row.none_of) != 0) continue;
+    ++row_count[i];
+    return;
+  }
+}
+
+void run(const Segment& segment) {
+  State state;
+  Outputs outputs;
+  for (const TickRecord& tick : segment.ticks) {
+    step(segment.params, state, tick.inputs, outputs);
+    ++mode_count[outputs.mode];
+    ++phase_count[outputs.gait_phase];
+    for (int i = 0; i < 32; ++i) fault_count[i] += outputs.faults >> i & 1U;
+  }
+}
+
+bool print(const char* what, const char* name, std::size_t ticks) {
+  std::printf("%-12s %-22s %8zu%s\n", what, name, ticks, ticks > 0 ? "" : "  NEVER REACHED");
+  return ticks > 0;
+}
+
+bool print_rows() {
+  bool good = true;
+  for (int i = 0; i < safety::kRows; ++i) {
+    char name[64];
+    const auto to = static_cast<int>(safety::kTable[i].to);
+    std::snprintf(name, sizeof name, "%2d, to %s", i + 1, safety::kModeNames[to]);
+    good = print("safety row", name, row_count[i]) && good;
+  }
+  return good;
+}
+
+bool print_faults() {
+  constexpr struct {
+    std::uint32_t bit;
+    const char* name;
+  } kFaults[] = {{safety::kFaultFall, "fall"},
+                 {safety::kFaultEmergency, "emergency"},
+                 {safety::kFaultServoSilent, "servo silent"},
+                 {safety::kFaultImuSilent, "imu silent"},
+                 {safety::kFaultOperatorQuiet, "operator quiet"},
+                 {safety::kFaultTemperature, "temperature"},
+                 {safety::kFaultVoltage, "voltage"},
+                 {safety::kFaultServoError, "servo error"},
+                 {safety::kNoteOverrun, "overrun"},
+                 {safety::kNoteParameter, "parameter"},
+                 {safety::kNoteStrideLimited, "stride limited"},
+                 {safety::kNotePlanShortened, "plan shortened"},
+                 {safety::kNotePlanRefused, "plan refused"},
+                 {safety::kNoteLegLimited, "leg limited"},
+                 {safety::kNoteSpeedLimited, "speed limited"}};
+  bool good = true;
+  for (const auto& fault : kFaults) {
+    good = print("fault", fault.name, fault_count[__builtin_ctz(fault.bit)]) && good;
+  }
+  return good;
+}
+
+}  // namespace
+}  // namespace verp::replay
+
+extern "C" {
+// The real safety::next_mode, and what the linker puts in its place.
+verp::safety::Mode __real__ZN4verp6safety9next_modeENS0_4ModeEj(verp::safety::Mode, std::uint32_t);
+verp::safety::Mode __wrap__ZN4verp6safety9next_modeENS0_4ModeEj(verp::safety::Mode mode,
+                                                                std::uint32_t conditions) {
+  verp::replay::note_row(mode, conditions);
+  return __real__ZN4verp6safety9next_modeENS0_4ModeEj(mode, conditions);
+}
+}
+
+int main(int count, char** argument) {
+  using namespace verp;
+  std::vector<replay::Segment> trace;
+  if (count == 2) trace = replay::read_trace_file(argument[1]);
+  if (trace.empty()) {
+    std::fprintf(stderr, "usage: replay_reach FILE, where FILE is made by replay_make\n");
+    return 2;
+  }
+  for (const replay::Segment& segment : trace) replay::run(segment);
+  constexpr const char* kPhases[] = {"idle", "start", "transition", "finalisation"};
+  bool good = true;
+  for (int i = 0; i < 4; ++i) {
+    good = replay::print("gait phase", kPhases[i], replay::phase_count[i]) && good;
+  }
+  for (int i = 0; i < safety::kModes; ++i) {
+    good = replay::print("safety mode", safety::kModeNames[i], replay::mode_count[i]) && good;
+  }
+  good = replay::print_rows() && good;
+  good = replay::print_faults() && good;
+  return good ? 0 : 1;
+}

@@ -1,0 +1,92 @@
+#include "tests/replay/robots.hpp"
+
+#include <utility>
+
+namespace verp::replay {
+namespace {
+
+Params newton(Params params) {
+  for (LegParams& leg : params.leg) leg.solver = LegSolver::kNewton;
+  return params;
+}
+
+/// The same robot, described with every joint's axis the other way round, every third one as a
+/// general axis, and the right leg solved by Newton.
+Params mirrored(Params params) {
+  constexpr AxisKind kReverse[] = {AxisKind::kMinusX, AxisKind::kMinusY, AxisKind::kMinusZ,
+                                   AxisKind::kX,      AxisKind::kY,      AxisKind::kZ,
+                                   AxisKind::kGeneral};
+  for (int j = 0; j < params.joint_count; ++j) {
+    JointParams& joint = params.joint[j];
+    joint.axis_kind = j % 3 == 2 ? AxisKind::kGeneral : kReverse[static_cast<int>(joint.axis_kind)];
+    joint.axis = {-joint.axis.x, -joint.axis.y, -joint.axis.z};
+    std::swap(joint.lower_rad, joint.upper_rad);
+    joint.lower_rad = -joint.lower_rad;
+    joint.upper_rad = -joint.upper_rad;
+    joint.stand_rad = -joint.stand_rad;
+    joint.sit_rad = -joint.sit_rad;
+    joint.counts_per_rad = -joint.counts_per_rad;
+  }
+  for (LegParams& leg : params.leg) {
+    for (float& direction : leg.direction) direction = -direction;
+  }
+  params.leg[1].solver = LegSolver::kNewton;
+  return params;
+}
+
+/// Control periods longer than the time between two key points; feet so heavy that their swing
+/// nearly lifts the robot; thighs that its shanks cannot fold against; no head.
+Params slow_and_heavy(Params params) {
+  params.period_us = 20'000;
+  params.head_pan = params.head_tilt = 0xFF;
+  for (LegParams& leg : params.leg) {
+    leg.thigh_m *= 2.0F;
+    for (int k = 3; k < kLegJoints; ++k) params.joint[leg.joint[k]].mass_kg *= 20.0F;
+  }
+  return params;
+}
+
+/// Joints off their parents' axes, and soles whose frame stands half a turn from where the legs can
+/// bring it: Newton never arrives.
+Params fast_and_twisted(Params params) {
+  params = newton(params);
+  params.period_us = 4'000;
+  for (JointParams& joint : params.joint) joint.origin_parent_m.x += 0.002F;
+  constexpr float kHalfTurnAboutZ[9] = {-1, 0, 0, 0, -1, 0, 0, 0, 1};
+  constexpr float kHalfTurnAboutX[9] = {1, 0, 0, 0, -1, 0, 0, 0, -1};
+  for (int i = 0; i < 9; ++i) {
+    params.leg[0].sole_foot[i] = kHalfTurnAboutZ[i];
+    params.leg[1].sole_foot[i] = kHalfTurnAboutX[i];
+  }
+  return params;
+}
+
+/// Five joints, no legs, no mass, a servo that reports nothing, limits the wrong way round, and
+/// turns without bound.
+Params limbless(Params params) {
+  params.joint_count = 5;
+  params.body_mass_kg = 0;
+  params.head_pan = params.head_tilt = 0xFF;
+  params.joint[1].counts_per_rad = 0;
+  params.joint[0].lower_rad = 1;
+  params.joint[0].upper_rad = -1;
+  params.tuning.gait.max_turn_rad = 100;
+  params.tuning.gait.heading_gain = 20;
+  for (JointParams& joint : params.joint) joint.mass_kg = 0;
+  for (LegParams& leg : params.leg) leg = LegParams{};
+  return params;
+}
+
+}  // namespace
+
+std::vector<Robot> make_robots(const Params& robot) {
+  return {{"closed_form", 25, 11, false, robot},
+          {"newton", 20, 22, false, newton(robot)},
+          {"mirrored", 20, 33, false, mirrored(robot)},
+          {"slow_heavy", 10, 44, false, slow_and_heavy(robot)},
+          {"fast_twisted", 15, 55, false, fast_and_twisted(robot)},
+          {"limbless", 5, 66, false, limbless(robot)},
+          {"damaged", 5, 77, true, robot}};
+}
+
+}  // namespace verp::replay

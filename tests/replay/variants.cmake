@@ -1,0 +1,69 @@
+# The core once more, by every compiler and optimisation level that must agree, each linked with the program that prints
+# its digests; and once to count the lines and branches that the trace reaches.
+get_target_property(core_sources verp_core SOURCES)
+list(FILTER core_sources EXCLUDE REGEX "/(protocol/.*|model/image|control/golden|control/self_test)\\.cpp$")
+get_target_property(contract verp_floating_point INTERFACE_COMPILE_OPTIONS)
+string(REGEX MATCHALL "-f[a-z-]+(=[a-z]+)?" contract "${contract}")
+get_target_property(contract_definitions verp_floating_point INTERFACE_COMPILE_DEFINITIONS)
+list(TRANSFORM contract_definitions PREPEND -D)
+set(core_flags -std=c++20 -I${CMAKE_SOURCE_DIR} -isystem ${VERP_EIGEN_DIR} ${contract} ${contract_definitions})
+find_program(VERP_CLANG NAMES clang++ clang++-14)
+
+# Compiles one file into `folder`; appends the object to `list`.
+function(compile_one list folder compiler source)
+  file(RELATIVE_PATH object ${CMAKE_SOURCE_DIR} ${source})
+  set(object ${CMAKE_CURRENT_BINARY_DIR}/${folder}/${object}.o)
+  cmake_path(GET object PARENT_PATH parent)
+  file(MAKE_DIRECTORY ${parent})
+  add_custom_command(OUTPUT ${object}
+    COMMAND ${CMAKE_CXX_COMPILER_LAUNCHER} ${compiler} ${core_flags} ${ARGN} -MD -MT ${object} -MF ${object}.d
+      -c ${source} -o ${object}
+    DEPENDS ${source} DEPFILE ${object}.d VERBATIM COMMENT "${folder}: ${source}")
+  set(${list} ${${list}} ${object} PARENT_SCOPE)
+endfunction()
+
+# Program `folder`/`main` from the core compiled with the flags given, and tests/replay/main.cpp. Adds it to `programs`.
+function(link_variant folder compiler main link_flags)
+  set(objects)
+  foreach(source ${core_sources})
+    compile_one(objects ${folder} ${compiler} ${source} -ffreestanding -fno-exceptions -fno-rtti
+      -fno-threadsafe-statics ${ARGN})
+  endforeach()
+  compile_one(objects ${folder} ${compiler} ${CMAKE_CURRENT_SOURCE_DIR}/${main}.cpp ${ARGN})
+  compile_one(objects ${folder} ${compiler} ${CMAKE_CURRENT_SOURCE_DIR}/trace_digest.cpp ${ARGN})
+  set(program ${CMAKE_CURRENT_BINARY_DIR}/${folder}/${main})
+  add_custom_command(OUTPUT ${program} COMMAND ${compiler} ${ARGN} ${objects} -o ${program} ${link_flags}
+    DEPENDS ${objects} VERBATIM COMMENT "Linking ${folder}/${main}")
+  set(programs ${programs} ${program} PARENT_SCOPE)
+endfunction()
+
+set(programs)
+link_variant(gcc_O0 ${CMAKE_CXX_COMPILER} digest_main "" -O0)
+link_variant(gcc_O3 ${CMAKE_CXX_COMPILER} digest_main "" -O3)
+link_variant(gcc_O3_native ${CMAKE_CXX_COMPILER} digest_main "" -O3 -march=native)
+if(VERP_CLANG)
+  link_variant(clang_O0 ${VERP_CLANG} digest_main "" -O0)
+  link_variant(clang_O2 ${VERP_CLANG} digest_main "" -O2)
+  link_variant(clang_O3 ${VERP_CLANG} digest_main "" -O3)
+  link_variant(clang_O3_native ${VERP_CLANG} digest_main "" -O3 -march=native)
+  link_variant(clang_asan_ubsan ${VERP_CLANG} digest_main "" -O1 -g1 -fsanitize=address,undefined
+    -fno-sanitize-recover=all)
+endif()
+add_custom_target(replay_variants ALL DEPENDS ${programs})
+add_test(NAME replay.matrix
+  COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/matrix ${VERP_LONG_TRACE} ${VERP_LONG_TRACE_GOLDEN} gcc_O2=$<TARGET_FILE:replay_digest>
+    ${programs})
+set_tests_properties(replay.matrix PROPERTIES LABELS replay FIXTURES_REQUIRED long_trace TIMEOUT 300)
+
+get_target_property(core_sources verp_core SOURCES)
+# What step() can call is what the linker keeps of one section a function.
+set(programs)
+find_program(VERP_GCOV NAMES gcov-12 gcov)
+link_variant(counted ${CMAKE_CXX_COMPILER} reach_main
+  "-Wl,--gc-sections,--wrap=_ZN4verp6safety9next_modeENS0_4ModeEj" -O0 -g --coverage -ffunction-sections -fno-inline
+  -fno-jump-tables)
+add_custom_target(replay_counted ALL DEPENDS ${programs})
+add_test(NAME replay.coverage
+  COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/coverage ${CMAKE_SOURCE_DIR} ${CMAKE_CURRENT_BINARY_DIR}/counted ${VERP_LONG_TRACE}
+    ${VERP_GCOV} ${CMAKE_NM})
+set_tests_properties(replay.coverage PROPERTIES LABELS replay FIXTURES_REQUIRED long_trace TIMEOUT 300)
