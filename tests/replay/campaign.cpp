@@ -56,6 +56,9 @@ void stop_walking(Script& script) {
 
 void wander(Script& script) {
   start_walking(script);
+  script.push_back({10, kItsTime, kWalk, 1778, 0, 0});  // changes its mind in the first step
+  stop_walking(script);
+  start_walking(script);
   script.insert(script.end(), {{1800, kItsTime, kWalk, 1778, 0, 0},
                                {300, kItsTime, kWalk, 6000, 0, 0, kYawDrift},
                                {700, kItsTime, kWalk, 0, 500, 300},

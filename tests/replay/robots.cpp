@@ -73,7 +73,10 @@ Params limbless(Params params) {
   params.tuning.gait.max_turn_rad = 100;
   params.tuning.gait.heading_gain = 20;
   for (JointParams& joint : params.joint) joint.mass_kg = 0;
-  for (LegParams& leg : params.leg) leg = LegParams{};
+  for (LegParams& leg : params.leg) {
+    leg = LegParams{};
+    leg.sole_front_m = leg.sole_back_m = leg.sole_left_m = leg.sole_right_m = 0.2F;
+  }
   return params;
 }
 
