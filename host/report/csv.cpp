@@ -22,7 +22,7 @@ std::string samples_csv(const Run& run) {
   for (const char* foot : {"left", "right"}) {
     out += fmt::format(",{0}_ankle_x_m,{0}_ankle_y_m,{0}_ankle_z_m,{0}_contact", foot);
   }
-  out += ",zmp_x_m,zmp_y_m,zmp_bias_mm";
+  out += ",zmp_x_m,zmp_y_m,zmp_planned_x_m,zmp_planned_y_m,zmp_bias_mm";
   for (const std::string& joint : run.joints) out += fmt::format(",{}_rad", joint);
   for (const std::string& joint : run.joints) out += fmt::format(",{}_torque_use", joint);
   out += '\n';
@@ -35,7 +35,9 @@ std::string samples_csv(const Run& run) {
       for (const double v : {a.x_m, a.y_m, a.z_m}) out += number(v);
       out += s.contact[foot] ? ",1" : ",0";
     }
-    out += s.zmp ? number(s.zmp->x_m) + number(s.zmp->y_m) : ",,";
+    for (const std::optional<Point2>& zmp : {s.zmp, s.zmp_planned}) {
+      out += zmp ? number(zmp->x_m) + number(zmp->y_m) : ",,";
+    }
     out += s.zmp_bias_mm ? number(*s.zmp_bias_mm) : ",";
     for (const double v : s.joint_rad) out += number(v);
     for (const double v : s.torque_use) out += number(v);

@@ -29,7 +29,8 @@ struct Sample {
   std::array<Point3, 2> ankle;                ///< left, right
   std::array<std::array<Point2, 4>, 2> sole;  ///< corners, in order around the sole
   std::array<bool, 2> contact{};
-  std::optional<Point2> zmp;
+  std::optional<Point2> zmp;          ///< measured
+  std::optional<Point2> zmp_planned;  ///< placed by the sole that carries
   std::optional<double> zmp_bias_mm;
   std::vector<double> joint_rad;
   std::vector<double> torque_use;  ///< |torque| / stall torque

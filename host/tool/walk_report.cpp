@@ -63,6 +63,9 @@ report::Sample to_sample(const Params& params, const sim::SeriesRow& row, double
   sample.roll_pitch_yaw_rad = {row.body_rpy_rad.x(), row.body_rpy_rad.y(), row.body_rpy_rad.z()};
   for (std::size_t side = 0; side < 2; ++side) add_foot(params.leg[side], row, side, sample);
   if (row.zmp_valid) sample.zmp = report::Point2{row.zmp_world_m.x(), row.zmp_world_m.y()};
+  if (row.zmp_planned_valid) {
+    sample.zmp_planned = report::Point2{row.zmp_planned_world_m.x(), row.zmp_planned_world_m.y()};
+  }
   if (row.zmp_valid && row.stance < 2) {
     const auto& sole = sample.sole[row.stance];
     const double x_m = (sole[0].x_m + sole[2].x_m) / 2, y_m = (sole[0].y_m + sole[2].y_m) / 2;

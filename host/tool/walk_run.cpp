@@ -10,6 +10,7 @@
 #include "host/board/board_error.hpp"
 #include "host/board/loop_on_target.hpp"
 #include "host/bus/virtual_bus.hpp"
+#include "host/sim/planned_zmp.hpp"
 #include "host/tool/exit_status.hpp"
 #include "host/tool/interrupt.hpp"
 #include "host/tool/walk_operator.hpp"
@@ -48,7 +49,7 @@ class Session {
   void record(const TickRecord& tick, const State& state, const Outputs& outputs) {
     walker_.observe(tick.inputs.tick, outputs);
     const sim::Observation seen = sim::observe(robot_);
-    meter_.tick(seen, outputs);
+    meter_.tick(seen, outputs, sim::planned_zmp_world_m(state.tuning, state.gait, seen.truth));
     ++result_.ticks;
     result_.digest = tick.digest.chain;
     result_.faults = outputs.faults;
