@@ -1,17 +1,19 @@
 #include "host/report/gnuplot.hpp"
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <array>
-#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <utility>
+
+#include "host/report/palette.hpp"
 
 extern char** environ;
 
@@ -73,30 +75,44 @@ void replace_all(std::string& text, const std::string& from, const std::string& 
   }
 }
 
-/// gnuplot writes a colour as #rrggbb (fills), rgb(%3d, %3d, %3d) (lines) or rgb(%d,%d,%d) (text).
-void replace_colour(std::string& svg, int r, int g, int b, const std::string& variable) {
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "rgb(%3d, %3d, %3d)", r, g, b);
-  replace_all(svg, text.data(), variable);
-  std::snprintf(text.data(), text.size(), "rgb(%d,%d,%d)", r, g, b);
-  replace_all(svg, text.data(), variable);
-  std::snprintf(text.data(), text.size(), "#%02x%02x%02x", r, g, b);
-  replace_all(svg, text.data(), variable);
-  std::snprintf(text.data(), text.size(), "#%02X%02X%02X", r, g, b);
-  replace_all(svg, text.data(), variable);
+/// gnuplot's svg writes a colour as #rrggbb (fills), rgb(%3d, %3d, %3d) (lines) or rgb(%d,%d,%d)
+/// (text).
+void replace_colour(std::string& svg, const Colour& colour) {
+  const std::string variable = fmt::format("var({})", colour.variable);
+  const unsigned long rgb = std::strtoul(colour.sentinel + 1, nullptr, 16);
+  const unsigned long r = rgb >> 16, g = rgb >> 8 & 0xFF, b = rgb & 0xFF;
+  replace_all(svg, fmt::format("rgb({:3}, {:3}, {:3})", r, g, b), variable);
+  replace_all(svg, fmt::format("rgb({},{},{})", r, g, b), variable);
+  replace_all(svg, fmt::format("#{:02x}{:02x}{:02x}", r, g, b), variable);
+  replace_all(svg, fmt::format("#{:02X}{:02X}{:02X}", r, g, b), variable);
 }
 
 std::string for_page(std::string svg) {
   const std::size_t start = svg.find("<svg");
   if (start == std::string::npos) return {};
   svg.erase(0, start);
-  replace_colour(svg, 1, 1, 1, "var(--ink)");
-  replace_colour(svg, 2, 2, 2, "var(--soft)");
-  for (int i = 1; i <= 6; ++i) {
-    replace_colour(svg, 16, 0, i, "var(--s" + std::to_string(i) + ")");
-  }
+  for (const Colour& colour : kPalette) replace_colour(svg, colour);
   replace_all(svg, "fill=\"black\"", "fill=\"var(--ink)\"");
   return svg;
+}
+
+/// What a script plots to stdout.
+std::optional<std::string> output_of(const std::string& script, std::string& error) {
+  const Scratch scratch;
+  if (scratch.path().empty()) {
+    error = "no folder for temporary files";
+    return std::nullopt;
+  }
+  const fs::path file = scratch.path() / "plot.gp";
+  std::ofstream(file, std::ios::binary) << script;
+  const fs::path out = scratch.path() / "plot", problems = scratch.path() / "stderr";
+  const int status = run_gnuplot(file.string(), out.string(), problems.string());
+  if (status == 0) return slurp(out);
+  const std::string text = slurp(problems);
+  const std::size_t start = text.find_first_not_of(" \n");
+  error = start == std::string::npos ? fmt::format("gnuplot ended with status {}", status)
+                                     : text.substr(start, text.find('\n', start) - start);
+  return std::nullopt;
 }
 
 }  // namespace
@@ -112,23 +128,29 @@ bool gnuplot_available() {
   return false;
 }
 
-std::optional<std::string> draw(const std::string& script, std::string& error) {
-  const Scratch scratch;
-  if (scratch.path().empty()) {
-    error = "no folder for temporary files";
-    return std::nullopt;
+std::optional<std::string> draw(const Plot& plot, std::string& error) {
+  const std::string terminal =
+      fmt::format("set terminal svg size {},{} dynamic enhanced rounded font 'sans-serif,13'\n",
+                  plot.width, plot.height);
+  std::optional<std::string> svg = output_of(terminal + plot.script, error);
+  if (svg) *svg = for_page(std::move(*svg));
+  if (svg && svg->find("</svg>") == std::string::npos) {
+    error = "gnuplot made no picture";
+    svg.reset();
   }
-  const fs::path file = scratch.path() / "plot.gp";
-  std::ofstream(file, std::ios::binary) << script;
-  const fs::path out = scratch.path() / "plot.svg", problems = scratch.path() / "stderr";
-  const int status = run_gnuplot(file.string(), out.string(), problems.string());
-  std::string svg = for_page(slurp(out));
-  if (status == 0 && svg.find("</svg>") != std::string::npos) return svg;
-  const std::string text = slurp(problems);
-  const std::size_t start = text.find_first_not_of(" \n");
-  error = start == std::string::npos ? "gnuplot ended with status " + std::to_string(status)
-                                     : text.substr(start, text.find('\n', start) - start);
-  return std::nullopt;
+  return svg;
+}
+
+std::optional<std::string> draw_png(const Plot& plot, std::string& error) {
+  constexpr double kScale = 1.3;  // sharp on a dense screen, and still a small file
+  std::string script = plot.script;
+  for (const Colour& colour : kPalette) replace_all(script, colour.sentinel, colour.light);
+  const std::string terminal = fmt::format(
+      "set terminal pngcairo size {:.0f},{:.0f} enhanced rounded font 'sans,10' fontscale {} "
+      "linewidth {} "
+      "pointscale {} background rgb '#ffffff'\n",
+      kScale * plot.width, kScale * plot.height, kScale, kScale, kScale);
+  return output_of(terminal + script, error);
 }
 
 }  // namespace verp::report

@@ -2,14 +2,18 @@
 #include <optional>
 #include <string>
 
+#include "host/report/plots.hpp"
+
 namespace verp::report {
 
 /// Whether gnuplot can be run here.
 bool gnuplot_available();
 
-/// Runs a script that plots to stdout in the svg terminal and returns the picture, ready to stand
-/// inside a page: without XML prolog, the sentinel colours of plots.hpp replaced by the page's CSS
-/// variables. Empty when gnuplot fails; `error` then holds its first line.
-std::optional<std::string> draw(const std::string& script, std::string& error);
+/// The picture as SVG, ready to stand inside a page: without XML prolog, its colours the page's CSS
+/// variables. Nothing when it fails; `error` then holds gnuplot's first line.
+std::optional<std::string> draw(const Plot& plot, std::string& error);
+
+/// The picture as PNG in the light colours, on white.
+std::optional<std::string> draw_png(const Plot& plot, std::string& error);
 
 }  // namespace verp::report

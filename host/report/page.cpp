@@ -2,15 +2,12 @@
 
 #include <fmt/format.h>
 
+#include "host/report/palette.hpp"
+
 namespace verp::report {
 namespace {
 
 constexpr const char* kStyle = R"(
-:root { color-scheme: light dark; --page:#fbfaf8; --card:#ffffff; --ink:#22262b; --quiet:#626a73; --soft:#d5d8dc;
-  --good:#1a7f4b; --bad:#b3261e; --s1:#2563a8; --s2:#c2571a; --s3:#2f8557; --s4:#8a4fa3; --s5:#b08900; --s6:#5c6670; }
-@media (prefers-color-scheme: dark) { :root { --page:#15181c; --card:#1d2126; --ink:#e4e7ea; --quiet:#9aa3ad;
-  --soft:#3a4149; --good:#5fc890; --bad:#ff8a80; --s1:#6ea8e6; --s2:#f0955a; --s3:#68c292; --s4:#c391da; --s5:#e0bd4f;
-  --s6:#a9b3bd; } }
 * { box-sizing: border-box; }
 body { margin:0; background:var(--page); color:var(--ink); font:16px/1.55 system-ui, "Segoe UI", Roboto, sans-serif; }
 main { max-width:62rem; margin:0 auto; padding:2.5rem 1.25rem 4rem; }
@@ -29,6 +26,22 @@ th, td { text-align:left; padding:.35rem .8rem .35rem 0; border-bottom:1px solid
 td.n, th.n { text-align:right; } td { overflow-wrap:anywhere; } th { font-weight:600; white-space:nowrap; }
 .wide { overflow-x:auto; } a { color:var(--s1); } code { font-size:.92em; }
 )";
+
+std::string colours(const char* Colour::*theme) {
+  std::string out;
+  for (const Colour& colour : kPalette)
+    out += fmt::format(" {}:{};", colour.variable, colour.*theme);
+  return out;
+}
+
+std::string style() {
+  return ":root { color-scheme: light dark; --page:#fbfaf8; --card:#ffffff; --quiet:#626a73; "
+         "--good:#1a7f4b; --bad:#b3261e;" +
+         colours(&Colour::light) +
+         " }\n@media (prefers-color-scheme: dark) { :root { --page:#15181c; --card:#1d2126; "
+         "--quiet:#9aa3ad; --good:#5fc890; --bad:#ff8a80;" +
+         colours(&Colour::dark) + " } }" + kStyle;
+}
 
 std::string escape(const std::string& text) {
   std::string out;
@@ -103,7 +116,8 @@ std::string page(const Run& run, const std::vector<Picture>& pictures, const std
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">"
       "<title>{}</title><style>{}</style></head><body><main>\n<h1>{}</h1>\n"
       "<p class=\"verdict {}\">{}</p>\n",
-      escape(run.title), kStyle, escape(run.title), run.good ? "good" : "bad", escape(run.verdict));
+      escape(run.title), style(), escape(run.title), run.good ? "good" : "bad",
+      escape(run.verdict));
   out += facts(run);
   if (!note.empty()) out += fmt::format("<section><p>{}</p></section>\n", escape(note));
   out += sweep_table(run);

@@ -1,6 +1,7 @@
 #include "host/report/report.hpp"
 
 #include "host/report/csv.hpp"
+#include "host/report/figure.hpp"
 #include "host/report/files.hpp"
 #include "host/report/gnuplot.hpp"
 #include "host/report/page.hpp"
@@ -19,7 +20,7 @@ std::vector<Picture> draw_all(const Run& run, std::string& note) {
   }
   for (Plot& plot : plots(run)) {
     std::string error;
-    if (auto svg = draw(plot.script, error)) {
+    if (auto svg = draw(plot, error)) {
       pictures.push_back({std::move(plot), std::move(*svg)});
     } else {
       note += "The plot '" + plot.title + "' failed: " + error + ". ";
@@ -53,6 +54,14 @@ Written write_report(const std::filesystem::path& folder, const Run& run) {
   Written written;
   written.page = folder / "index.html";
   const std::vector<Picture> pictures = draw_all(run, written.note);
+  if (const std::optional<Plot> whole = poster(run); whole && !pictures.empty()) {
+    std::string problem;
+    if (const auto png = draw_png(*whole, problem)) {
+      add("walk.png", *png, "one cycle in one picture, to show to others");
+    } else {
+      written.note += "walk.png failed: " + problem + ". ";
+    }
+  }
   write_file(written.page, page(run, pictures, written.note, files));
   return written;
 }

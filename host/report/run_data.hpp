@@ -29,11 +29,18 @@ struct Sample {
   std::array<Point3, 2> ankle;                ///< left, right
   std::array<std::array<Point2, 4>, 2> sole;  ///< corners, in order around the sole
   std::array<bool, 2> contact{};
-  std::optional<Point2> zmp;          ///< measured
-  std::optional<Point2> zmp_planned;  ///< placed by the sole that carries
+  std::vector<std::vector<Point3>> limb;  ///< of each Run::limbs, its line from root to tip
+  std::optional<Point2> zmp;              ///< measured
+  std::optional<Point2> zmp_planned;      ///< placed by the sole that carries
   std::optional<double> zmp_bias_mm;
   std::vector<double> joint_rad;
   std::vector<double> torque_use;  ///< |torque| / stall torque
+};
+
+/// A limb as a line of bones.
+struct Limb {
+  enum class Kind { kTrunk, kHead, kArm, kLeg } kind = Kind::kTrunk;
+  int side = 2;  ///< 0 left, 1 right, 2 neither
 };
 
 /// One line of the table of a sweep over step lengths.
@@ -59,6 +66,7 @@ struct Run {
   double period_s = 0.01;
   std::vector<std::string> joints;
   std::array<std::vector<int>, 2> leg_joints;  ///< left, right; from hip to ankle
+  std::vector<Limb> limbs;
   std::vector<Sample> samples;
   std::vector<Fact> facts;
   std::array<double, 16> bias_by_state_mm{};

@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 
 #include "host/record/trace.hpp"
+#include "host/tool/stick_figure.hpp"
 
 namespace verp::tool {
 namespace {
@@ -158,11 +159,14 @@ report::Run to_report(const WalkPlan& plan, const WalkOptions& options, const Wa
     if (leg.solver == LegSolver::kNone) continue;
     for (const std::uint8_t joint : leg.joint) run.leg_joints[side].push_back(joint);
   }
+  const StickFigure figure(plan.entity, plan.params);
+  run.limbs = figure.limbs();
   double start_s = -1;
   for (const sim::SeriesRow& row : result.series) {
     if (row.phase == 0) continue;
     if (start_s < 0) start_s = row.t_s;
     run.samples.push_back(to_sample(plan.params, row, start_s));
+    run.samples.back().limb = figure.lines(row);
   }
   run.facts = facts(plan, result);
   run.bias_by_state_mm = result.metrics.zmp_bias_by_state_mm;
