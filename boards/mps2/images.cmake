@@ -24,6 +24,7 @@ function(verp_add_mps2_images machine)
   verp_add_mps2_image(replay ${machine})
   verp_add_mps2_image(loop ${machine})
   verp_add_mps2_image(link ${machine})
+  add_custom_target(benchmarks DEPENDS replay_${VERP_BOARD} link_${VERP_BOARD})  # what `verp bench` runs
 
   # Tests with a half on the PC: that half comes from a PC build, which must be there.
   set(VERP_HOST_DIR ${CMAKE_SOURCE_DIR}/build/host-release CACHE PATH "PC build whose programs test this board")

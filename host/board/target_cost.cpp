@@ -154,7 +154,7 @@ std::vector<FunctionCost> profile_target(const std::string& board, const Params&
 
 std::string to_json(const std::string& board, const TargetCost& cost) {
   return fmt::format(
-      R"({{"board": "{}", "core": "{}", "ticks": {}, "instructions_average": {:.0f}, )"
+      R"({{"board": "{}", "core": "{}", "ticks": {}, "instructions_average": {:.1f}, )"
       R"("instructions_worst": {}, "worst_tick": {}, "digest_average": {:.0f}, "digest_worst": {}, )"
       R"("stack_static_bytes": {}, "stack_chain": "{}", "stack_measured_bytes": {}, "image_bytes": {}}})",
       board, find_emulated_board(board).core, cost.ticks, cost.average, cost.worst, cost.worst_tick,

@@ -1,0 +1,15 @@
+#pragma once
+
+/// What a tick of the controller may cost, promised for one core and judged by tests/bench and
+/// `verp bench`.
+namespace verp::board {
+
+inline constexpr const char* kPromisedBoard = "mps2_an386";  ///< Cortex-M4F
+inline constexpr double kMostInstructions = 20000;           ///< of a tick on average
+inline constexpr double kMostInstructionsWorst = 30000;
+inline constexpr double kMostInstructionsDigest = 5000;  ///< of those above
+inline constexpr double kMostStackBytes = 4096;          ///< by static analysis
+inline constexpr double kMostStateBytes = 2048;          ///< hashed every tick
+inline constexpr double kLeastLinkTicksPerS = 5000;      ///< without controller and physics
+
+}  // namespace verp::board

@@ -1,0 +1,141 @@
+#include <benchmark/benchmark.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <kdl/chain.hpp>
+#include <kdl/chainiksolverpos_lma.hpp>
+#include <string>
+#include <vector>
+
+#include "tests/bench/leg_problem.hpp"
+
+/// bench_peers FOLDER [--benchmark_...]: KDL's Levenberg-Marquardt inverse kinematics on the leg
+/// and targets that bench_core left there. Exit 1 if its answers and ours are not the same.
+///
+/// KDL gets every help it can take: it is set up once, its tolerance is the default (a residual of
+/// 1e-5, in metres, a radian weighing 0.01 m), single-axis joints where the axis is x, y or z, the
+/// compiler's vectors in Eigen, and as a start the true answer of the tick before, 10 ms earlier,
+/// which a closed form does without. Joint limits, which ours keeps as well, KDL's solver does not
+/// know.
+namespace verp::bench {
+namespace {
+
+// Solutions are the same within what KDL's tolerance leaves: 1e-5 m is 1e-3 rad of a 0.01 m weight.
+constexpr double kMostApart_rad = 5e-3;
+constexpr double kMostApart_m = 1e-4;
+
+struct Question {
+  KDL::Frame sole;
+  KDL::JntArray start{kJoints};
+};
+
+KDL::Vector vector_at(const double* xyz) {
+  return {xyz[0], xyz[1], xyz[2]};
+}
+
+KDL::Rotation rotation_of(const std::array<double, 9>& m) {
+  return {m[0], m[1], m[2], m[3], m[4], m[5], m[6], m[7], m[8]};
+}
+
+KDL::Joint joint_about(const KDL::Vector& axis) {
+  constexpr KDL::Joint::JointType kAlong[] = {KDL::Joint::RotX, KDL::Joint::RotY, KDL::Joint::RotZ};
+  for (int k = 0; k < 3; ++k) {
+    if (std::abs(axis(k)) > 1 - 1e-9) return KDL::Joint(kAlong[k], axis(k) < 0 ? -1.0 : 1.0);
+  }
+  return {KDL::Vector::Zero(), axis, KDL::Joint::RotAxis};
+}
+
+KDL::Chain make_chain(const LegProblem& leg) {
+  KDL::Chain chain;
+  chain.addSegment(
+      KDL::Segment(KDL::Joint(KDL::Joint::None), KDL::Frame(vector_at(leg.origin_m.data()))));
+  for (unsigned k = 0; k < kJoints; ++k) {
+    const KDL::Frame next =
+        k + 1 < kJoints ? KDL::Frame(vector_at(leg.origin_m.data() + 3 * (k + 1)))
+                        : KDL::Frame(rotation_of(leg.foot_sole), vector_at(leg.foot_sole_m.data()));
+    chain.addSegment(KDL::Segment(joint_about(vector_at(leg.axis.data() + 3 * k)), next));
+  }
+  return chain;
+}
+
+std::vector<Question> make_questions(const LegProblem& leg) {
+  std::vector<Question> questions;
+  for (const LegTarget& target : leg.targets) {
+    Question& question = questions.emplace_back();
+    question.sole = {rotation_of(target.sole_rotation), vector_at(target.sole_m.data())};
+    for (unsigned k = 0; k < kJoints; ++k) question.start(k) = target.before_rad[k];
+  }
+  return questions;
+}
+
+/// How far apart KDL's answers and ours are, over all targets.
+struct Agreement {
+  double apart_rad = 0, apart_m = 0, iterations = 0;
+  int unsolved = 0;
+};
+
+Agreement compare(const LegProblem& leg, const std::vector<Question>& questions,
+                  KDL::ChainIkSolverPos_LMA& solver) {
+  Agreement agreement;
+  KDL::JntArray found(kJoints);
+  for (std::size_t n = 0; n < questions.size(); ++n) {
+    if (solver.CartToJnt(questions[n].start, questions[n].sole, found) < 0) ++agreement.unsolved;
+    for (unsigned k = 0; k < kJoints; ++k) {
+      agreement.apart_rad =
+          std::max(agreement.apart_rad, std::abs(found(k) - leg.targets[n].answer_rad[k]));
+    }
+    agreement.apart_m = std::max(agreement.apart_m, solver.lastTransDiff);
+    agreement.iterations += solver.lastNrOfIter / static_cast<double>(questions.size());
+  }
+  return agreement;
+}
+
+bool is_good(const Agreement& agreement) {
+  if (agreement.unsolved == 0 && agreement.apart_rad <= kMostApart_rad &&
+      agreement.apart_m <= kMostApart_m) {
+    return true;
+  }
+  std::fprintf(stderr,
+               "bench_peers: KDL and ours disagree by %g rad (at most %g), %g m (at most %g), %d "
+               "targets not solved by KDL\n",
+               agreement.apart_rad, kMostApart_rad, agreement.apart_m, kMostApart_m,
+               agreement.unsolved);
+  return false;
+}
+
+int run(int argc, char** argv) {
+  benchmark::Initialize(&argc, argv);
+  LegProblem leg;
+  if (argc != 2 || !read_problem(std::string(argv[1]) + "/leg", leg)) {
+    std::fprintf(stderr,
+                 "usage: bench_peers FOLDER, in which bench_core has left its file `leg`\n");
+    return 2;
+  }
+  const KDL::Chain chain = make_chain(leg);
+  KDL::ChainIkSolverPos_LMA solver(chain);
+  const std::vector<Question> questions = make_questions(leg);
+  const Agreement agreement = compare(leg, questions, solver);
+  benchmark::RegisterBenchmark("kdl_leg_ik", [&](benchmark::State& timer) {
+    KDL::JntArray found(kJoints);
+    std::size_t n = 0;
+    for ([[maybe_unused]] auto _ : timer) {
+      solver.CartToJnt(questions[n].start, questions[n].sole, found);
+      benchmark::DoNotOptimize(found.data.data());
+      if (++n == questions.size()) n = 0;
+    }
+    timer.counters["apart_rad"] = agreement.apart_rad;
+    timer.counters["apart_m"] = agreement.apart_m;
+    timer.counters["iterations"] = agreement.iterations;
+    timer.counters["targets"] = static_cast<double>(questions.size());
+  });
+  benchmark::RunSpecifiedBenchmarks();
+  return is_good(agreement) ? 0 : 1;
+}
+
+}  // namespace
+}  // namespace verp::bench
+
+int main(int argc, char** argv) {
+  return verp::bench::run(argc, argv);
+}

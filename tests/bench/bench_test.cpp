@@ -1,0 +1,67 @@
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "tests/host/tool/program.hpp"
+
+/// `verp bench` says what it promises to say. Speed itself is no test: it depends on the machine.
+namespace verp::tool::test {
+namespace {
+
+using Bench = Program;
+
+TEST_F(Bench, JsonIsOneObjectWithEveryCostOfThePcAndKdlAgreesWithUs) {
+  const Outcome outcome = verp("bench --pc --repetitions 1 --json");
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_EQ(outcome.err, "");
+  const auto json = nlohmann::json::parse(outcome.out);
+  EXPECT_TRUE(json.at("kept"));
+  std::set<std::string> names;
+  for (const auto& row : json.at("results")) {
+    names.insert(row.at("name"));
+    EXPECT_GT(row.at("value"), 0) << row;
+  }
+  const std::set<std::string> wanted = {
+      "tick_us",       "digest_us",           "leg_ik_us",
+      "kdl_leg_ik_us", "leg_ik_times_faster", "body_kinematics_us",
+      "state_bytes"};
+  EXPECT_EQ(names, wanted);
+  EXPECT_GE(json.at("kdl_check").at("targets"), 500);
+  EXPECT_LT(json.at("kdl_check").at("apart_rad"), 5e-3);
+  EXPECT_LT(json.at("kdl_check").at("apart_m"), 1e-4);
+}
+
+TEST_F(Bench, TableHasTheBarBesideEachPromisedNumber) {
+  const Outcome outcome = verp("bench --pc --repetitions 1");
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_EQ(outcome.err, "");
+  for (const char* bar : {"at most 3 µs", "at least 100 times", "at most 2048 bytes"}) {
+    EXPECT_NE(outcome.out.find(bar), std::string::npos) << bar << '\n' << outcome.out;
+  }
+}
+
+TEST_F(Bench, AnswerThatKdlDoesNotGiveIsFound) {
+  const std::string peers = VERP_BENCH_PEERS " . --benchmark_min_time=0.01";
+  ASSERT_EQ(shell(VERP_BENCH_CORE " . --benchmark_filter=none").status, 0);
+  EXPECT_EQ(shell(peers).status, 0);
+  // Line 9 is our answer to the first target.
+  const Outcome wrong = shell("sed -i '9s/^[^ ]*/0.5/' leg && " + peers);
+  EXPECT_EQ(wrong.status, 1);
+  EXPECT_NE(wrong.err.find("disagree"), std::string::npos) << wrong.err;
+  EXPECT_EQ(shell("sed -i '20,$d' leg && " + peers).status, 2) << "a truncated file";
+}
+
+TEST_F(Bench, BadUsageIsRefused) {
+  expect_refused("bench --repetitions 0", "--repetitions");
+  expect_refused("bench --repetitions many", "--repetitions");
+  expect_refused("bench --jsn", "did you mean --json?");
+  expect_refused("bench generic21", "generic21");
+}
+
+TEST_F(Bench, BoardWithoutImageIsToldBeforeTheTimings) {
+  const Outcome outcome = shell("VERP_FIRMWARE_DIR=. " VERP_PROGRAM " bench --json");
+  EXPECT_EQ(outcome.status, 3);
+  EXPECT_NE(outcome.err.find("build it"), std::string::npos) << outcome.err;
+}
+
+}  // namespace
+}  // namespace verp::tool::test
