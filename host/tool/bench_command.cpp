@@ -1,0 +1,235 @@
+#include <fmt/format.h>
+#include <sys/wait.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <memory>
+
+#include "common/control/state.hpp"
+#include "host/board/cost_promise.hpp"
+#include "host/board/emulated_board.hpp"
+#include "host/board/temporary_directory.hpp"
+#include "host/tool/bench_report.hpp"
+#include "host/tool/interrupt.hpp"
+#include "host/tool/progress.hpp"
+
+/// `verp bench`: runs the programs of tests/bench and sets their numbers beside what is promised.
+namespace verp::tool {
+namespace {
+
+constexpr double kMostTick_us = 3;
+constexpr double kLeastTimesFasterThanKdl = 100;
+constexpr const char* kTiming = " --benchmark_format=json --benchmark_min_time=0.1";
+
+struct BenchOptions {
+  bool json = false, pc = false;
+  int repetitions = 7;
+};
+
+std::string quoted(const std::string& word) {
+  std::string text = "'";
+  for (const char c : word) text += c == '\'' ? "'\\''" : std::string(1, c);
+  return text + "'";
+}
+
+std::string last_line(const std::filesystem::path& file) {
+  std::ifstream in(file);
+  std::string last;
+  for (std::string line; std::getline(in, line);) {
+    if (!line.empty()) last = line;
+  }
+  return last;
+}
+
+/// Runs a program of this build tree, gives each line of its stdout to `take`. Throws ToolError
+/// with its last words if it fails.
+template <class Take>
+void run_program(const std::string& program, const std::string& arguments, Take take) {
+  const std::string path = std::string(VERP_BUILD_DIR) + "/" + program;
+  if (!std::filesystem::exists(path)) {
+    throw ToolError(kNoDevice, path +
+                                   ": not built; run ./verp bench, which installs Google "
+                                   "Benchmark and KDL and builds it");
+  }
+  const board::TemporaryDirectory scratch;
+  const auto errors = scratch.path() / "errors";
+  const std::string command = quoted(path) + arguments + " 2>" + quoted(errors.string());
+  FILE* pipe = popen(command.c_str(), "r");
+  if (pipe == nullptr) throw ToolError(kNoDevice, path + ": cannot be started");
+  std::string line;
+  for (int c; (c = std::fgetc(pipe)) != EOF;) {
+    line += static_cast<char>(c);
+    if (c == '\n') take(line), line.clear();
+  }
+  const int status = pclose(pipe);
+  if (interrupted()) throw ToolError(kRunFailed, "verp bench: interrupted");
+  if (status == 0) return;
+  const bool told = WIFEXITED(status) && WEXITSTATUS(status) <= kNoDevice;
+  throw ToolError(told ? static_cast<ExitStatus>(WEXITSTATUS(status)) : kRunFailed,
+                  program + " failed: " + last_line(errors));
+}
+
+using Samples = std::map<std::string, std::vector<double>>;
+
+/// One run of a Google Benchmark program: CPU times in ns and counters, added to the samples.
+void sample(const std::string& program, const std::string& folder, Samples& samples) {
+  std::string text;
+  run_program(program, " " + quoted(folder) + kTiming, [&](const std::string& l) { text += l; });
+  const Json result = Json::parse(text);
+  for (const Json& benchmark : result.at("benchmarks")) {
+    const std::string name = benchmark.at("name");
+    samples[name].push_back(benchmark.at("cpu_time"));
+    for (const char* counter : {"apart_rad", "apart_m", "iterations", "targets"}) {
+      if (benchmark.contains(counter)) {
+        samples[name + "." + counter].push_back(benchmark[counter]);
+      }
+    }
+  }
+}
+
+double median(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  const std::size_t half = values.size() / 2;
+  return values.size() % 2 == 1 ? values.at(half) : (values.at(half - 1) + values.at(half)) / 2;
+}
+
+BenchRow timed(const char* name, const char* what, const char* unit, std::vector<double> values,
+               Bar bar, double limit) {
+  BenchRow row{.name = name, .where = "pc", .what = what, .unit = unit, .bar = bar, .limit = limit};
+  row.value = median(values);
+  row.least = *std::min_element(values.begin(), values.end());
+  row.most = *std::max_element(values.begin(), values.end());
+  return row;
+}
+
+std::vector<double> scaled(std::vector<double> values, double factor) {
+  for (double& value : values) value *= factor;
+  return values;
+}
+
+void add_pc_rows(const Samples& samples, std::vector<BenchRow>& rows) {
+  const std::vector<double>&ours = samples.at("leg_ik"), &kdl = samples.at("kdl_leg_ik");
+  std::vector<double> times;  // paired: the two ran one after the other
+  for (std::size_t n = 0; n < ours.size(); ++n) times.push_back(kdl.at(n) / ours[n]);
+  rows.push_back(timed("tick_us", "one tick, digest included", "µs",
+                       scaled(samples.at("tick"), 1e-3), Bar::kAtMost, kMostTick_us));
+  rows.push_back(timed("digest_us", "the digest in it", "µs", scaled(samples.at("digest"), 1e-3),
+                       Bar::kNone, 0));
+  rows.push_back(
+      timed("leg_ik_us", "leg IK, closed form", "µs", scaled(ours, 1e-3), Bar::kNone, 0));
+  rows.push_back(timed("kdl_leg_ik_us", "the same by KDL's LMA, warm", "µs", scaled(kdl, 1e-3),
+                       Bar::kNone, 0));
+  rows.push_back(timed("leg_ik_times_faster", "so ours is faster by", "times", times, Bar::kAtLeast,
+                       kLeastTimesFasterThanKdl));
+  rows.push_back(timed("body_kinematics_us", "all links' poses, centre of mass", "µs",
+                       scaled(samples.at("body_kinematics"), 1e-3), Bar::kNone, 0));
+  rows.push_back({.name = "state_bytes",
+                  .where = "pc",
+                  .what = "hashed state",
+                  .unit = "bytes",
+                  .value = sizeof(State),
+                  .bar = Bar::kAtMost,
+                  .limit = board::kMostStateBytes,
+                  .exact = true});
+}
+
+/// One of target_bench's lines: a board's exact cost, or its link's speed.
+void add_board_rows(const Json& line, std::vector<BenchRow>& rows, Json& headings) {
+  const std::string where = line.at("board");
+  const Bar promised = where == board::kPromisedBoard ? Bar::kAtMost : Bar::kNone;
+  const auto add = [&](const char* name, const char* what, const char* unit, Bar bar, double limit,
+                       bool exact) {
+    rows.push_back({.name = name,
+                    .where = where,
+                    .what = what,
+                    .unit = unit,
+                    .value = line.at(name),
+                    .bar = bar,
+                    .limit = limit,
+                    .exact = exact});
+  };
+  if (line.contains("link_ticks_per_s")) {
+    add("link_ticks_per_s", "ticks a second of the link alone", "",
+        promised == Bar::kNone ? Bar::kNone : Bar::kAtLeast, board::kLeastLinkTicksPerS, false);
+    return;
+  }
+  headings[where] = fmt::format("{}, {} ticks", line.at("core").get<std::string>(),
+                                line.at("ticks").get<std::uint64_t>());
+  add("instructions_average", "instructions of a tick, average", "", promised,
+      board::kMostInstructions, true);
+  add("instructions_worst", "instructions of the worst tick", "", promised,
+      board::kMostInstructionsWorst, true);
+  add("digest_worst", "instructions of the digest in it", "", promised,
+      board::kMostInstructionsDigest, true);
+  add("stack_static_bytes", "stack, bound by analysis", "bytes", promised, board::kMostStackBytes,
+      true);
+  add("stack_measured_bytes", "stack, as deep as it went", "bytes", Bar::kNone, 0, true);
+  add("image_bytes", "code and constants of the replay image", "bytes", Bar::kNone, 0, true);
+}
+
+int run_bench(const BenchOptions& options) {
+  std::size_t boards = 0;
+  if (!options.pc) {
+    for (const auto& each : board::emulated_boards()) firmware_image(each, "replay"), ++boards;
+  }
+  const board::TemporaryDirectory folder;
+  Progress progress(!options.json);
+  const double steps = options.repetitions + 2.0 * static_cast<double>(boards);
+  std::vector<BenchRow> rows;
+  Json headings = {
+      {"pc", fmt::format("CPU time here, generic21 walking, median of {}", options.repetitions)}};
+  Samples samples;
+  for (int n = 0; n < options.repetitions; ++n) {
+    progress.show(n / steps, "timing on this PC");
+    sample("bench/bench_core", folder.path().string(), samples);
+    sample("bench/bench_peers", folder.path().string(), samples);
+  }
+  add_pc_rows(samples, rows);
+  if (!options.pc) {
+    double done = options.repetitions;
+    progress.show(done / steps, "counting instructions on emulated boards");
+    run_program("target/target_bench", "", [&](const std::string& line) {
+      add_board_rows(Json::parse(line), rows, headings);
+      progress.show(++done / steps, "counting instructions on emulated boards");
+    });
+  }
+  progress.clear();
+  const bool good = bench_held(rows);
+  const Json kdl = {{"targets", samples.at("kdl_leg_ik.targets").front()},
+                    {"iterations_mean", samples.at("kdl_leg_ik.iterations").front()},
+                    {"apart_rad", samples.at("kdl_leg_ik.apart_rad").front()},
+                    {"apart_m", samples.at("kdl_leg_ik.apart_m").front()}};
+  if (options.json) {
+    print_json({{"kept", good},
+                {"repetitions", options.repetitions},
+                {"kdl_check", kdl},
+                {"results", bench_json(rows)}});
+  } else {
+    fmt::print(
+        "{}KDL gave our angles within {:.1f} mrad on {} targets, in {:.1f} iterations each.\n",
+        bench_table(rows, headings), 1e3 * kdl["apart_rad"].get<double>(),
+        kdl["targets"].get<double>(), kdl["iterations_mean"].get<double>());
+  }
+  if (!good) fmt::print(stderr, "verp bench: a promise on counts is not kept; see MISSED\n");
+  return good ? kGood : kRunFailed;
+}
+
+}  // namespace
+
+Subcommand add_bench(CLI::App& root) {
+  CLI::App* app = root.add_subcommand(
+      "bench", "What a tick costs, here and on emulated microcontrollers, beside what is promised");
+  auto options = std::make_shared<BenchOptions>();
+  app->add_flag("--pc", options->pc, "this PC only: needs no cross compiler");
+  app->add_option("--repetitions", options->repetitions, "runs of each timing on this PC")
+      ->check(CLI::Range(1, 100))
+      ->capture_default_str();
+  add_json_flag(*app, options->json);
+  return {app, [options] { return run_bench(*options); }};
+}
+
+}  // namespace verp::tool
