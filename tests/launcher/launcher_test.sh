@@ -18,7 +18,7 @@ fresh_project() {
   mkdir -p "$scratch/bin" "$scratch/toolchains" "$scratch/tests" "$scratch/boards/b1" "$scratch/boards/shared"
   touch "$scratch/boards/b1/memory.ld"
   cp "$root/verp" "$scratch/"
-  printf 'run cmake why\nrun g++ why\nfw gcc-arm why\ntest clang why\n' >"$scratch/toolchains/packages.txt"
+  printf 'run cmake why\nrun g++ why\nfw gcc-arm why\nbench libbench why\ntest clang why\n' >"$scratch/toolchains/packages.txt"
   echo '{}' >"$scratch/CMakePresets.json"
   printf '#!/bin/bash\necho "tests: $*"\n' >"$scratch/tests/run" && chmod +x "$scratch/tests/run"
   echo cmake >"$scratch/installed"
@@ -30,7 +30,7 @@ case \"\$*\" in
 esac"
   stub id 'echo 0'
   # shellcheck disable=SC2016
-  stub cmake 'mkdir -p "build/${!#}" && echo configured && touch "build/${!#}/build.ninja"'
+  stub cmake 'mkdir -p "build/${!#}" && echo configured && : >"build/${!#}/build.ninja"'
   stub ninja "mkdir -p build/host-release/host/tool && touch build/host-release/.ninja_log && echo '[1/1] noise'
 printf '#!/bin/bash\necho \"\$*\"\nexit 7\n' >'$scratch/new' && chmod +x '$scratch/new'
 mv '$scratch/new' build/host-release/host/tool/verp"
@@ -66,6 +66,19 @@ check 'an unknown board is left to the program' 7 'walk --on b9' ''
 launch walk --on=b1 --yes
 check 'a board that is named gets its firmware built' 7 'walk --on=b1' 'missing: gcc-arm'
 [[ -e $scratch/build/fw-b1 ]] || { echo 'FAILED: no firmware built' && failed=1; }
+
+fresh_project
+echo g++ >>"$scratch/installed"
+launch bench --help
+check 'help needs nothing but the program' 7 'bench --help' ''
+echo 'older than the packages' >"$scratch/build/host-release/build.ninja"
+launch bench --pc --yes
+check 'bench --pc gets its libraries' 7 'bench --pc' 'missing: libbench'
+[[ ! -s $scratch/build/host-release/build.ninja ]] || { echo 'FAILED: new packages, but not configured anew' && failed=1; }
+! grep -q gcc-arm "$scratch/installed" || { echo 'FAILED: bench --pc installed cross tools' && failed=1; }
+launch bench --yes
+check 'bench gets the cross tools too' 7 'bench' 'missing: gcc-arm'
+[[ -e $scratch/build/fw-b1 ]] || { echo 'FAILED: bench built no firmware' && failed=1; }
 launch --yes test --only unit
 check 'verp test is handed to tests/run' 0 'tests: --only unit' ''
 
