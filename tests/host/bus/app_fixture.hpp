@@ -1,0 +1,98 @@
+#pragma once
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <random>
+#include <vector>
+
+#include "firmware/app/app.hpp"
+#include "host/bus/virtual_bus.hpp"
+#include "tests/host/bus/fake_plant.hpp"
+
+/// The control loop on a virtual bus, with a mind that wants what a test says. For one source file
+/// a program: it defines step().
+namespace verp {
+
+namespace test {
+inline Outputs wanted;  // what step() asks for
+}
+
+// Stands in for the core's step() at link time: the loop is tested without a robot's mind.
+void step(const Params&, State& state, const Inputs&, Outputs& outputs) noexcept {
+  ++state.digest.chain;
+  outputs = test::wanted;
+}
+
+namespace test {
+
+struct Script {
+  app::OperatorOrder order(std::uint32_t tick) {
+    asked.push_back(tick);
+    return next;
+  }
+  app::OperatorOrder next;
+  std::vector<std::uint32_t> asked;
+};
+
+struct Memory {
+  void record(const TickRecord& record, const State&, const Outputs&) { records.push_back(record); }
+  std::vector<TickRecord> records;
+};
+
+/// Passes frames on and lets a test lose, hear or add some.
+struct Tap {
+  bool send(const std::uint8_t* data, std::size_t size) {
+    frames.emplace_back(data, data + size);
+    if (lose_sends > 0 && --lose_sends >= 0) return true;
+    return bus.send(data, size);
+  }
+  std::size_t poll(std::uint8_t* buffer, std::size_t capacity, std::uint32_t timeout_us) {
+    ++polls;
+    std::size_t kept = 0;
+    const std::size_t count = bus.poll(buffer, capacity, timeout_us);
+    for (std::size_t i = 0; i < count; ++i) {
+      const auto fault = faults_per_mille == 0 ? 1000 : noise() % 1000;
+      if (fault < faults_per_mille / 2) continue;
+      buffer[kept++] = fault < faults_per_mille ? static_cast<std::uint8_t>(noise()) : buffer[i];
+    }
+    return kept;
+  }
+  std::uint64_t now_us() { return bus.now_us(); }
+  bus::VirtualBus& bus;
+  std::vector<std::vector<std::uint8_t>> frames;
+  int lose_sends = 0;
+  int polls = 0;
+  unsigned faults_per_mille = 0;  ///< of received bytes: half are lost, half are changed
+  std::minstd_rand noise{};
+};
+
+class AppLoop : public ::testing::Test {
+ protected:
+  static constexpr int kJoints = 21;
+  AppLoop() {
+    wanted = {};
+    for (int j = 0; j < kJoints; ++j) wanted.goal_count[j] = 1000 + j;
+  }
+  void ready() { ASSERT_EQ(app.bring_up().status, app::BringUpStatus::kReady); }
+  void ticks(int count) {
+    for (int i = 0; i < count; ++i) app.tick();
+  }
+  static std::uint32_t all() { return (1u << kJoints) - 1; }
+  static std::uint32_t without(int joint) { return all() & ~(1u << joint); }
+  int frames_of(dxl::Instruction instruction) const {
+    int count = 0;
+    for (const auto& frame : tap.frames) count += frame[7] == static_cast<int>(instruction);
+    return count;
+  }
+
+  Params params = bus_params(kJoints);
+  FakePlant plant;
+  bus::VirtualBus bus{params, plant};
+  Tap tap{bus, {}};
+  Script script;
+  Memory memory;
+  app::App<Tap, Script, Memory> app{params, tap, script, memory};
+};
+
+}  // namespace test
+}  // namespace verp
