@@ -3,8 +3,9 @@
 namespace verp::balance {
 namespace {
 
-constexpr float kAccelTime_s = 1.0F;  // slower than a step by far: its accelerations average out
-constexpr float kWindow_s = 4.0F;     // the mean forgets what is older
+constexpr float kAccelTime_s = 1.0F;   // slower than a step by far: its accelerations average out
+constexpr float kLeastLevel2 = 0.01F;  // x axis all but vertical: no heading to speak of
+constexpr float kWindow_s = 4.0F;      // the mean forgets what is older
 constexpr float kStillRate_rad_s =
     0.12F;  // above the bias of a MEMS gyro (5 deg/s), below any real motion
 
@@ -37,8 +38,11 @@ AttitudeOut update(AttitudeState& state, const AttitudeIn& in) {
     up += (in.period_s / kAccelTime_s) * (in.accel_body_m_s2 / math::kGravityMS2 - up);
     up = math::normalized_or(up, Vec3(0, 0, 1));
     state.up_body = math::to_xyz(up);
-    // Rotation about the vertical, not about the body's own z axis.
-    state.heading_rad = math::wrap_angle(state.heading_rad + in.period_s * rate.dot(up));
+    // Turn of the body's x axis over the ground. The rate about the vertical is not the same: a
+    // body that sways about two axes at once would seem to turn (coning).
+    const float level2 = math::max(up.y() * up.y() + up.z() * up.z(), kLeastLevel2);
+    const float turn_rad_s = (rate.y() * up.y() + rate.z() * up.z()) / level2;
+    state.heading_rad = math::wrap_angle(state.heading_rad + in.period_s * turn_rad_s);
     out.roll_rate_rad_s = rate.x();
     out.pitch_rate_rad_s = rate.y();
   }

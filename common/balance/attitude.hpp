@@ -15,7 +15,7 @@ struct AttitudeState {
 };
 VERP_PACKED(AttitudeState);
 
-/// This long still, and the gyro's bias is known to 0.02 deg/s: a degree of heading in a minute.
+/// This long still, and the mean of the gyro is taken for its bias.
 inline constexpr float kCalibrated_s = 2.0F;
 
 struct AttitudeIn {

@@ -1,15 +1,22 @@
 #include "common/balance/feedback.hpp"
 
 namespace verp::balance {
+namespace {
+
+constexpr float kShareOfTwo = 0.35F;  // half each still lets some robots of the twin tremble
+
+}  // namespace
 
 FeedbackOut feedback(const BalanceTuning& tuning, const AttitudeOut& attitude,
                      float planned_pitch_rad, std::uint8_t swing) {
   FeedbackOut out;
   if (!(tuning.feedback_enable > 0.5F)) return out;
   const float pitch_rad = attitude.pitch_rad - planned_pitch_rad;
+  // Two legs together do less than one alone: otherwise a stiff robot trembles as it stands.
+  const float share = swing == gait::kBoth ? kShareOfTwo : 1.0F;
   const auto law = [&](float tilt_gain, float rate_gain_s, float tilt_rad, float rate_rad_s) {
-    return math::clamp(tilt_gain * tilt_rad + rate_gain_s * rate_rad_s, -tuning.feedback_limit_rad,
-                       tuning.feedback_limit_rad);
+    return math::clamp(share * (tilt_gain * tilt_rad + rate_gain_s * rate_rad_s),
+                       -tuning.feedback_limit_rad, tuning.feedback_limit_rad);
   };
   LegCorrection carrying;
   carrying.hip_roll_rad = law(tuning.hip_roll_tilt, tuning.hip_roll_rate_s, attitude.roll_rad,

@@ -22,9 +22,9 @@ void digest_state(const Inputs& inputs, const Outputs& outputs, State& state) {
   set(Stage::kEstimate, digest_of(Stage::kEstimate, state.attitude, state.steer));
   set(Stage::kPlan, digest_of(Stage::kPlan, state.gait));
   set(Stage::kBalance, digest_of(Stage::kBalance, state.feedback));
-  set(Stage::kKinematics, digest_of(Stage::kKinematics, state.limit));
-  set(Stage::kLimit, digest_of(Stage::kLimit, state.machine));
-  set(Stage::kGate, digest_of(Stage::kGate, outputs));
+  set(Stage::kKinematics, digest_of(Stage::kKinematics, state.zeros));
+  set(Stage::kLimit, digest_of(Stage::kLimit, state.limit));
+  set(Stage::kGate, digest_of(Stage::kGate, state.machine, outputs));
 }
 
 }  // namespace verp

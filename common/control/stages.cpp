@@ -2,6 +2,7 @@
 
 #include "common/balance/gravity.hpp"
 #include "common/math/convert.hpp"
+#include "common/model/counts.hpp"
 #include "common/model/tree.hpp"
 
 namespace verp::control {
@@ -9,6 +10,7 @@ namespace {
 
 using safety::Mode;
 
+constexpr std::int32_t kLongest_us = 1'000'000'000;  // durations stop growing there
 constexpr float kMaxHeadingError_rad = 0.5F;  // a robot turned by hand corrects itself gently
 
 float period_s(const Params& params) {
@@ -39,6 +41,12 @@ kinematics::LegAngles leg_angles(const Params& params, const State& state,
   return angles;
 }
 
+// One foot in the air, and the pressure under the other well inside the sole.
+bool carries_flat(const gait::GaitOut& plan, const Inputs& inputs, int side) {
+  return plan.swing != gait::kBoth && plan.swing != side && (inputs.flags & kFeetFresh) != 0 &&
+         balance::stands_flat(inputs.foot_count[side]);
+}
+
 balance::LegLoad load_of(const Params& params, const gait::GaitOut& plan, int side, float mass_kg) {
   const gait::FootPose& foot = plan.posture.foot[side];
   const Vec3 gravity{0, 0, math::kGravityMS2};
@@ -66,7 +74,7 @@ float heading_error(const Params& params, const State& state, const AdmitOut& ad
   return error_rad + steer.slip_rad;
 }
 
-std::uint32_t conditions_of(const Params& params, const State& state, const AdmitOut& admitted,
+std::uint32_t conditions_of(const State& state, const AdmitOut& admitted,
                             const balance::AttitudeOut& attitude) {
   const SafetyTuning& tuning = state.tuning.safety;
   std::uint32_t conditions = admitted.conditions;
@@ -77,12 +85,10 @@ std::uint32_t conditions_of(const Params& params, const State& state, const Admi
   const bool rising = state.machine.mode == Mode::kRising;
   const float duration_s = rising ? tuning.rise_s : tuning.sit_s;
   if (state.machine.in_mode_us >= microseconds(duration_s)) conditions |= safety::kTimeUp;
-  static_cast<void>(params);
   return conditions;
 }
 
 void enter(Mode mode, std::int32_t period_us, safety::MachineState& machine) {
-  constexpr std::int32_t kLongest_us = 1'000'000'000;
   if (mode != machine.mode) {
     machine.mode = mode;
     machine.in_mode_us = 0;
@@ -109,7 +115,6 @@ balance::AttitudeOut estimate(const Params& params, State& state, const AdmitOut
 
   const bool tilted = out.up < math::cos(state.tuning.safety.fall_tilt_rad);
   const auto period_us = static_cast<std::int32_t>(params.period_us);
-  constexpr std::int32_t kLongest_us = 1'000'000'000;
   state.steer.fallen_us = !tilted                               ? 0
                           : state.steer.fallen_us < kLongest_us ? state.steer.fallen_us + period_us
                                                                 : kLongest_us;
@@ -129,9 +134,11 @@ gait::GaitOut plan_motion(const Params& params, State& state, const AdmitOut& ad
   return gait::update(params, state.tuning, state.gait, in);
 }
 
-Wanted solve_joints(const Params& params, State& state, const AdmitOut& admitted,
+Wanted solve_joints(const Params& params, State& state, const Inputs& inputs,
+                    const AdmitOut& admitted, const balance::AttitudeOut& attitude,
                     const gait::GaitOut& plan) {
   Wanted wanted{};
+  const Tuning& tuning = state.tuning;
   const float mass_kg = model::total_mass(params);
   for (int j = 0; j < params.joint_count; ++j) wanted.angle_rad[j] = params.joint[j].stand_rad;
   if (params.head_pan < kMaxJoints) wanted.angle_rad[params.head_pan] = admitted.head_pan_rad;
@@ -143,11 +150,17 @@ Wanted solve_joints(const Params& params, State& state, const AdmitOut& admitted
     for (int k = 0; k < kLegJoints; ++k) previous_rad[k] = state.limit.goal_rad[leg.joint[k]];
     kinematics::LegAngles angles = leg_angles(params, state, plan.posture, side, previous_rad);
     wanted.leg_limited = wanted.leg_limited || angles.flags != 0;
-    if (state.tuning.balance.gravity_enable > 0.5F) {
-      const kinematics::LegChain chain =
-          kinematics::leg_chain(params, leg, plan.posture.body, angles.angle_rad);
+    const kinematics::LegChain chain =
+        kinematics::leg_chain(params, leg, plan.posture.body, angles.angle_rad);
+    balance::LegZero& zero = state.zeros.leg[side];
+    if (carries_flat(plan, inputs, side)) {
+      balance::learn_zero(params, leg, chain, angles.angle_rad, plan.posture.foot[side], inputs,
+                          attitude, tuning.gait.trunk_pitch_rad, zero);
+    }
+    if (tuning.balance.gravity_enable > 0.5F) {
       balance::add_sag(params, leg, chain, load_of(params, plan, side, mass_kg), angles.angle_rad);
     }
+    if (tuning.balance.zeros_enable > 0.5F) balance::add_zero(leg, zero, angles.angle_rad);
     balance::add(leg, state.feedback.leg[side], angles.angle_rad);
     for (int k = 0; k < kLegJoints; ++k) {
       wanted.angle_rad[leg.joint[k]] = angles.angle_rad[k];
@@ -181,7 +194,7 @@ void gate(const Params& params, State& state, const AdmitOut& admitted,
           Outputs& outputs) {
   safety::MachineState& machine = state.machine;
   const Mode before = machine.mode;
-  const std::uint32_t conditions = conditions_of(params, state, admitted, attitude);
+  const std::uint32_t conditions = conditions_of(state, admitted, attitude);
   enter(safety::next_mode(before, conditions), static_cast<std::int32_t>(params.period_us),
         machine);
   if (machine.mode == Mode::kFallen) faults |= safety::kFaultFall;
@@ -199,8 +212,11 @@ void gate(const Params& params, State& state, const AdmitOut& admitted,
   outputs.tilt_tenth_mrad[0] = math::to_int16(1e4F * attitude.roll_rad);
   outputs.tilt_tenth_mrad[1] = math::to_int16(1e4F * attitude.pitch_rad);
   for (int j = 0; j < params.joint_count; ++j) {
-    outputs.goal_count[j] = safety::count_of(params.joint[j], state.limit.goal_rad[j]);
-    if (safety::has_torque(machine.mode)) outputs.torque_enable |= std::uint32_t{1} << j;
+    outputs.goal_count[j] = model::count_of(params.joint[j], state.limit.goal_rad[j]);
+  }
+  if (safety::has_torque(machine.mode)) {
+    outputs.torque_enable =
+        static_cast<std::uint32_t>((std::uint64_t{1} << params.joint_count) - 1U);
   }
 }
 

@@ -19,9 +19,10 @@ struct Wanted {
   bool leg_limited;
 };
 
-/// Legs by inverse kinematics, with gravity sag and balance corrections; arms rest; the head looks
-/// where told.
-Wanted solve_joints(const Params& params, State& state, const AdmitOut& admitted,
+/// Legs by inverse kinematics, with gravity sag, balance corrections and learnt zero errors; arms
+/// rest; the head looks where told.
+Wanted solve_joints(const Params& params, State& state, const Inputs& inputs,
+                    const AdmitOut& admitted, const balance::AttitudeOut& attitude,
                     const gait::GaitOut& plan);
 
 /// True when a joint had to be slowed down.

@@ -1,6 +1,7 @@
 #pragma once
 #include "common/balance/attitude.hpp"
 #include "common/balance/feedback.hpp"
+#include "common/balance/zeros.hpp"
 #include "common/base/fields.hpp"
 #include "common/control/admit.hpp"
 #include "common/gait/gait.hpp"
@@ -31,10 +32,12 @@ struct State {
   SteerState steer;
   gait::GaitState gait;
   balance::FeedbackOut feedback;
+  balance::ZeroState zeros;
   safety::LimitState limit;
   safety::MachineState machine;
   std::uint32_t started = 0;  ///< 0 until the first tick has copied Params::tuning
-  VERP_FIELDS(digest, tuning, admit, attitude, steer, gait, feedback, limit, machine, started)
+  VERP_FIELDS(digest, tuning, admit, attitude, steer, gait, feedback, zeros, limit, machine,
+              started)
 };
 VERP_PACKED(State);
 static_assert(sizeof(State) <= 2048, "hashed State is at most 2 KB");

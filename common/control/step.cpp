@@ -14,7 +14,7 @@ void step(const Params& params, State& state, const Inputs& inputs, Outputs& out
   const gait::GaitOut plan = plan_motion(params, state, admitted, attitude);
   state.feedback = balance::feedback(state.tuning.balance, attitude,
                                      state.tuning.gait.trunk_pitch_rad, plan.swing);
-  const Wanted wanted = solve_joints(params, state, admitted, plan);
+  const Wanted wanted = solve_joints(params, state, inputs, admitted, attitude, plan);
   const bool slowed = limit_goals(params, state, inputs, wanted);
   const std::uint32_t faults = raise_faults(state, admitted, wanted, slowed);
   gate(params, state, admitted, attitude, plan, faults, outputs);

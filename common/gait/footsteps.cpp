@@ -82,6 +82,8 @@ Step standing_step(const GaitTuning& tuning, const Step& last, Phase phase) {
   step.foot[kLeft] = last.after(kLeft);
   step.foot[kRight] = last.after(kRight);
   step.landing = step.foot[kLeft];
+  step.landed = last.swing;
+  step.settle_m = last.touchdown_m;
   step.double_support_s = step.duration_s();
   step.zmp_begin_m = last.zmp_end_m;
   step.zmp_end_m = last.zmp_end_m;
@@ -159,6 +161,9 @@ Step next_step(const Params& params, const GaitTuning& tuning, const VelocityIn&
                                                              : Phase::kStart;
   step.double_support_s = walked ? tuning.double_support * step.duration_s() : 0.0F;
   step.lift_m = tuning.lift_m;
+  step.touchdown_m = tuning.touchdown_m;
+  step.landed = last.swing;
+  step.settle_m = last.touchdown_m;
   step.foot[kLeft] = last.after(kLeft);
   step.foot[kRight] = last.after(kRight);
   step.landing = landing_of(tuning, step.swing, stride, state);

@@ -86,17 +86,17 @@ void extend_queue(const Params& params, const Tuning& tuning, const GaitIn& in, 
   }
 }
 
-// The walk's plan is shortened step by step while its own ZMP, corrected or not, would leave the
-// sole.
+// The walk's plan is shortened step by step while its ZMP would leave the sole. The correction
+// takes misses back, but it is linear in them: it is trusted with half a sole, and no more.
 void watch_zmp(const Params& params, const Tuning& tuning, const Step& step, Xy miss_m,
                GaitState& state) {
   if (step.swing == kBoth) return;
   const LegParams& leg = params.leg[step.carrying()];
-  const Xy out_m = (1.0F - tuning.balance.multibody_enable) *
-                   turned(miss_m, -step.foot[step.carrying()].yaw_rad);
-  const float room_x_m = 0.5F * (leg.sole_front_m + leg.sole_back_m) -
+  const Xy out_m = turned(miss_m, -step.foot[step.carrying()].yaw_rad);
+  const float halves = tuning.balance.multibody_enable > 0.5F ? 2.0F : 1.0F;
+  const float room_x_m = 0.5F * halves * (leg.sole_front_m + leg.sole_back_m) -
                          math::abs(tuning.gait.zmp_x_m) - tuning.gait.support_margin_m;
-  const float room_y_m = 0.5F * (leg.sole_left_m + leg.sole_right_m) -
+  const float room_y_m = 0.5F * halves * (leg.sole_left_m + leg.sole_right_m) -
                          math::abs(tuning.gait.zmp_y_m) - tuning.gait.support_margin_m;
   const bool outside = math::abs(out_m.x) > room_x_m || math::abs(out_m.y) > room_y_m;
   FootstepState& footsteps = state.footsteps;
@@ -159,34 +159,34 @@ void plan_ahead(const Params& params, const Tuning& tuning, const GaitIn& in, Ga
   lay_key_points(params, tuning, in, state);
 }
 
-Posture stand_posture(const Params& params, const Tuning& tuning, const GaitState& state) {
-  const Step stand = standing_feet(params, tuning.gait);
+Posture stand_posture(const Params& params, const Tuning& tuning, const Step& stand,
+                      const GaitState& state) {
   return posture_of(params, tuning.gait, state.stand_body_m, foot_at(stand, kLeft, 0.0F),
                     foot_at(stand, kRight, 0.0F));
 }
 
 // Standing: the body glides until the CoM is over the middle of the soles. From there a walk may
 // begin.
-void stand(const Params& params, const Tuning& tuning, const GaitIn& in, GaitState& state) {
+void stand(const Params& params, const Tuning& tuning, const Step& feet, const GaitIn& in,
+           GaitState& state) {
   constexpr float kGlideMS = 0.02F;
   constexpr float kSettledM = 2e-4F;
   if (!in.walk) state.footsteps.notes = 0;
   state.preview.lump = lump_of(params, in.goal_rad);
-  const Posture posture = stand_posture(params, tuning, state);
+  const Posture posture = stand_posture(params, tuning, feet, state);
   const Masses masses = weigh(params, state.preview.lump, posture, state.preview.leg_rad);
-  const Xy middle_m = standing_feet(params, tuning.gait).zmp_end_m;
-  const Xy off_m = middle_m - Xy{masses.com_m.x(), masses.com_m.y()};
+  const Xy off_m = feet.zmp_end_m - Xy{masses.com_m.x(), masses.com_m.y()};
   const bool may_walk = (state.footsteps.notes & kPlanRefused) == 0 &&
                         math::abs(off_m.x) < kSettledM && math::abs(off_m.y) < kSettledM;
   if (in.walk && may_walk) {
     state.queue[0] = first_step(params, tuning.gait, state.footsteps);
     state.queued = 1;
-    state.previous = standing_feet(params, tuning.gait);
+    state.previous = feet;
     state.clock_us = 0;
     state.moving = 0;
     state.first_key = 0;
     state.previous_key = static_cast<std::uint8_t>(0 - state.previous.key_points);
-    begin(params, posture, masses, middle_m, state.preview);
+    begin(params, posture, masses, feet.zmp_end_m, state.preview);
     return;
   }
   const float most_m = kGlideMS * 1e-6F * static_cast<float>(in.period_us);
@@ -228,6 +228,14 @@ void share_weight(const Params& params, const Step& step, float time_s, GaitOut&
   out.carry[kRight] = 1.0F - out.carry[kLeft];
 }
 
+GaitOut at_rest(const Params& params, const Tuning& tuning, const Step& feet,
+                const GaitState& state) {
+  GaitOut out;
+  out.posture = stand_posture(params, tuning, feet, state);
+  out.zmp_m = feet.zmp_end_m;
+  return out;
+}
+
 void report_now(const Tuning& tuning, const GaitState& state, GaitOut& out) {
   const Moment now = moment_before(state, math::to_int32(tuning.gait.look_ahead_s * 1e6F));
   const Step& step = *now.step;
@@ -246,16 +254,16 @@ void report_now(const Tuning& tuning, const GaitState& state, GaitOut& out) {
 
 GaitOut update(const Params& params, const Tuning& tuning, GaitState& state, const GaitIn& in) {
   if (state.queued == 0) {
-    stand(params, tuning, in, state);
+    const Step feet = standing_feet(params, tuning.gait);
+    stand(params, tuning, feet, in, state);
+    if (state.queued == 0) return at_rest(params, tuning, feet, state);
   } else {
     walk(params, tuning, in, state);
+    if (state.queued == 0) {
+      return at_rest(params, tuning, standing_feet(params, tuning.gait), state);
+    }
   }
   GaitOut out;
-  if (state.queued == 0) {
-    out.posture = stand_posture(params, tuning, state);
-    out.zmp_m = standing_feet(params, tuning.gait).zmp_end_m;
-    return out;
-  }
   const Moment goal = moment_before(state, 0);
   const Place place = place_of(goal);
   out.posture = posture_at(params, tuning, state, goal);
@@ -268,7 +276,9 @@ GaitOut update(const Params& params, const Tuning& tuning, GaitState& state, con
 
 Posture posture_before(const Params& params, const Tuning& tuning, const GaitState& state,
                        std::int32_t delay_us) {
-  if (state.queued == 0) return stand_posture(params, tuning, state);
+  if (state.queued == 0) {
+    return stand_posture(params, tuning, standing_feet(params, tuning.gait), state);
+  }
   return posture_at(params, tuning, state, moment_before(state, delay_us));
 }
 

@@ -84,7 +84,7 @@ Xy lay_key_point(const Params& params, const Tuning& tuning, const Step* queue,
                                      foot_at(step, kRight, time_s));
   const Masses masses = weigh(params, state.lump, posture, state.leg_rad);
   const Momentum momentum = momentum_between(params, state, masses, key_s);
-  const Xy zmp_m = multibody_zmp(state, momentum, model::total_mass(params), key_s);
+  const Xy zmp_m = multibody_zmp(state, momentum, masses.mass_kg, key_s);
   const Xy miss_m = state.zmp_m - zmp_m;
 
   state.ring[state.head % kRing].zmp_miss_m = miss_m;

@@ -14,9 +14,14 @@ struct FootPose {
 
 /// Foot `side` at `time_s` after the beginning of the step. The swing foot leaves when the double
 /// support ends, follows a quintic from lift-off to landing (at rest at both, so that nothing
-/// jerks) and the quartic through lift-off, apex and landing in height.
+/// jerks) and, in height, the quartic through lift-off, apex and landing on top of the rise to
+/// touchdown_m.
 inline FootPose foot_at(const Step& step, int side, float time_s) {
-  if (side != step.swing) return {step.foot[side], 0.0F, Xyz{}};
+  if (side != step.swing) {
+    const float settle_s = 2.0F * step.key_s();
+    const bool settles = side == step.landed && time_s < settle_s;
+    return {step.foot[side], settles ? step.settle_m * (1.0F - time_s / settle_s) : 0.0F, {}};
+  }
   const float swing_s = step.duration_s() - step.double_support_s;
   const float v = math::clamp((time_s - step.double_support_s) / swing_s, 0.0F, 1.0F);
   const math::CurvePoint along = math::minimum_jerk(v);
@@ -26,10 +31,11 @@ inline FootPose foot_at(const Step& step, int side, float time_s) {
   FootPose pose;
   pose.on.at_m = from.at_m + along.value * way_m;
   pose.on.yaw_rad = from.yaw_rad + along.value * (step.landing.yaw_rad - from.yaw_rad);
-  pose.height_m = step.lift_m * lift.value;
+  pose.height_m = step.lift_m * lift.value + step.touchdown_m * along.value;
   const float per_s2 = 1.0F / math::square(swing_s);
   const Xy accel = (per_s2 * along.second) * way_m;
-  pose.accel_m_s2 = {accel.x, accel.y, per_s2 * lift.second * step.lift_m};
+  pose.accel_m_s2 = {accel.x, accel.y,
+                     per_s2 * (lift.second * step.lift_m + along.second * step.touchdown_m)};
   return pose;
 }
 

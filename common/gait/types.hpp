@@ -59,16 +59,18 @@ struct Step {
   std::uint8_t key_points = 0;  ///< duration is key_points * key_us
   std::uint8_t swing = kBoth;   ///< kLeft, kRight, or kBoth: no foot leaves the ground
   Phase phase = Phase::kIdle;
-  std::uint8_t reserved = 0;
-  float double_support_s = 0;  ///< from the step's beginning
+  std::uint8_t landed = kBoth;  ///< foot that swung in the step before; kBoth: none
+  float double_support_s = 0;   ///< from the step's beginning
   float lift_m = 0;
-  Foothold foot[kFeet];  ///< at the beginning of the step
-  Foothold landing;      ///< of the swing foot
+  float touchdown_m = 0;  ///< height at which the swing sole ends its step
+  float settle_m = 0;     ///< height at which `landed` begins; it comes down in two key times
+  Foothold foot[kFeet];   ///< at the beginning of the step
+  Foothold landing;       ///< of the swing foot
   Xy zmp_begin_m;
   Xy zmp_end_m;
   Xy dcm_end_m;  ///< divergent component of motion at the end of the step
-  VERP_FIELDS(key_us, key_points, swing, phase, reserved, double_support_s, lift_m, foot, landing,
-              zmp_begin_m, zmp_end_m, dcm_end_m)
+  VERP_FIELDS(key_us, key_points, swing, phase, landed, double_support_s, lift_m, touchdown_m,
+              settle_m, foot, landing, zmp_begin_m, zmp_end_m, dcm_end_m)
 
   constexpr std::int32_t duration_us() const { return key_us * key_points; }
   constexpr float duration_s() const { return static_cast<float>(duration_us()) * 1e-6F; }

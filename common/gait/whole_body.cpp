@@ -81,6 +81,7 @@ Masses weigh(const Params& params, const Lump& lump, const Posture& posture, flo
       mass_kg += joint.mass_kg;
     }
   }
+  masses.mass_kg = mass_kg;
   masses.com_m = mass_kg > 0.0F ? Vec3(moment_kg_m / mass_kg) : posture.body.position_m;
   return masses;
 }

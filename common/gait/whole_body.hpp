@@ -37,6 +37,7 @@ Pose sole_in_body(const Posture& posture, int side);
 struct Masses {
   Vec3 point_m[kPoints];
   Vec3 com_m;
+  float mass_kg = 0;
 };
 
 /// Solves both legs for `posture` and weighs them and the lump. `leg_rad` holds the twelve leg

@@ -21,6 +21,7 @@ inline constexpr Range kTuningRanges[] = {
     {-0.4F, 0.4F},    // trunk_pitch_rad
     {-0.05F, 0.05F},  // zmp_x_m
     {-0.05F, 0.05F},  // zmp_y_m
+    {0.0F, 0.02F},    // touchdown_m
     {0.0F, 0.3F},     // max_step_m
     {0.0F, 0.6F},     // max_turn_rad
     {0.001F, 0.1F},   // step_change_m
@@ -33,6 +34,7 @@ inline constexpr Range kTuningRanges[] = {
     {0.0F, 1.0F},   // gravity_enable
     {0.0F, 1.0F},   // multibody_enable
     {0.0F, 1.0F},   // feedback_enable
+    {0.0F, 1.0F},   // zeros_enable
     {-2.0F, 2.0F},  // ankle_pitch_tilt
     {-0.5F, 0.5F},  // ankle_pitch_rate_s
     {-2.0F, 2.0F},  // ankle_roll_tilt

@@ -1,7 +1,7 @@
 #include "common/safety/limit.hpp"
 
-#include "common/math/convert.hpp"
 #include "common/math/spline.hpp"
+#include "common/model/counts.hpp"
 
 namespace verp::safety {
 namespace {
@@ -20,21 +20,12 @@ float blend(const Params& params, std::int32_t in_mode_us, float duration_s) {
 
 }  // namespace
 
-float angle_of(const JointParams& joint, std::int32_t count) {
-  if (joint.counts_per_rad == 0.0F) return 0.0F;
-  return (math::to_float(count) - joint.zero_count) / joint.counts_per_rad;
-}
-
-std::int32_t count_of(const JointParams& joint, float angle_rad) {
-  return math::to_int32(joint.zero_count + joint.counts_per_rad * angle_rad);
-}
-
 bool limit(const Params& params, LimitState& state, const LimitIn& in) {
   if (!has_torque(in.mode)) {
     for (int j = 0; j < params.joint_count; ++j) {
       const JointParams& joint = params.joint[j];
-      state.goal_rad[j] =
-          math::clamp(angle_of(joint, in.position_count[j]), joint.lower_rad, joint.upper_rad);
+      state.goal_rad[j] = math::clamp(model::angle_of(joint, in.position_count[j]), joint.lower_rad,
+                                      joint.upper_rad);
     }
     return false;
   }

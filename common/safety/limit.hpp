@@ -23,8 +23,4 @@ struct LimitIn {
 /// walking.
 bool limit(const Params& params, LimitState& state, const LimitIn& in);
 
-/// Joint angle of a servo's count, and the count of an angle.
-float angle_of(const JointParams& joint, std::int32_t count);
-std::int32_t count_of(const JointParams& joint, float angle_rad);
-
 }  // namespace verp::safety

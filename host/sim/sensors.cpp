@@ -8,7 +8,7 @@
 namespace verp::sim {
 namespace {
 
-constexpr double kBandwidthHz = 44.0;
+constexpr double kBandwidthHz = 23.9;
 /// Noise of a foot sensor, one sigma: a quarter percent of what a 10 N force-sensing resistor
 /// spans. An estimate.
 constexpr double kFootNoiseN = 0.025;

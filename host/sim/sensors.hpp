@@ -22,8 +22,9 @@ class LowPass {
   bool started_ = false;
 };
 
-/// Gyroscope and accelerometer. Bandwidth 44 Hz: InvenSense MPU-6000 register map, DLPF_CFG = 3,
-/// the widest below half of a 10 ms control period: more would fold step impacts into a false tilt.
+/// Gyroscope and accelerometer. Bandwidth 23.9 Hz: InvenSense ICM-20648, DLPF 4. One filter wider
+/// (DLPF 3, 51 Hz), a controller that samples every 10 ms folds step impacts into false tilt and
+/// false turning.
 class ImuModel {
  public:
   ImuModel(const model::ImuSensor& sensor, bool noise, std::uint64_t seed);

@@ -86,6 +86,7 @@ void declare(CLI::App& app, WalkOptions& options) {
   app.add_flag("--no-multibody", options.no_multibody, "switch the multibody ZMP correction off");
   app.add_flag("--no-feedback", options.no_feedback, "switch gyro and tilt feedback off");
   app.add_flag("--no-gravity", options.no_gravity, "switch the gravity feed-forward off");
+  app.add_flag("--no-zeros", options.no_zeros, "leave the legs' learnt zero errors out");
   app.add_flag("--record-state", options.record_state,
                "keep the full State of every tick in the trace");
   add_json_flag(app, options.json);
@@ -140,6 +141,7 @@ void apply_tuning(const WalkOptions& options, Tuning& tuning) {
   if (options.no_multibody) tuning.balance.multibody_enable = 0;
   if (options.no_feedback) tuning.balance.feedback_enable = 0;
   if (options.no_gravity) tuning.balance.gravity_enable = 0;
+  if (options.no_zeros) tuning.balance.zeros_enable = 0;
 }
 
 }  // namespace verp::tool

@@ -18,7 +18,7 @@ struct WalkOptions {
   std::uint64_t seed = 1;
   std::string velocity_text, sweep_text, record_file, report_folder, board;
   std::vector<std::string> settings;  ///< NAME=VALUE
-  bool no_multibody = false, no_feedback = false, no_gravity = false;
+  bool no_multibody = false, no_feedback = false, no_gravity = false, no_zeros = false;
   bool record_state = false, json = false;
 };
 

@@ -85,6 +85,7 @@ void other_gaits(Script& script, const Params& params) {
       write(gait_id(offsetof(GaitTuning, hip_height_m)), 1.1F * leg_m, kWalk),
       write(balance_id(offsetof(BalanceTuning, gravity_enable)), 0.0F, kWalk),
       write(balance_id(offsetof(BalanceTuning, feedback_enable)), 0.0F, kWalk),
+      write(balance_id(offsetof(BalanceTuning, zeros_enable)), 0.0F, kWalk),
       write(balance_id(offsetof(BalanceTuning, multibody_enable)), 0.0F, kWalk),
       write(gait_id(offsetof(GaitTuning, cycle_s)), 2.0F, kWalk)};
   start_walking(script);

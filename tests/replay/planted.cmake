@@ -1,8 +1,8 @@
-# The core with one constant of the gait changed by one unit in its last place: the swing foot's height, 16 u^2 (1 - u)^2,
-# has 4.0 squared for its 16. All in a namespace of its own, so that one program holds both cores.
-set(planted_header ${CMAKE_SOURCE_DIR}/common/math/spline.hpp)
-set(planted_from "const float uv = 4.0F * (u * v);")
-set(planted_to "const float uv = 0x1.000002p+2F * (u * v);")
+# The core with one constant of the gait changed by one unit in its last place: the microsecond in which steps are timed.
+# All in a namespace of its own, so that one program holds both cores.
+set(planted_header ${CMAKE_SOURCE_DIR}/common/gait/types.hpp)
+set(planted_from "static_cast<float>(duration_us()) * 1e-6F")
+set(planted_to "static_cast<float>(duration_us()) * 0x1.0c6f7cp-20F")
 set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${planted_header})
 file(READ ${planted_header} planted_text)
 string(FIND "${planted_text}" "${planted_from}" planted_at)
@@ -10,13 +10,13 @@ if(planted_at EQUAL -1)
   message(FATAL_ERROR "${planted_header}: no `${planted_from}`: give tests/replay/planted.cmake another constant to change")
 endif()
 string(REPLACE "${planted_from}" "${planted_to}" planted_text "${planted_text}")
-file(CONFIGURE OUTPUT ${CMAKE_CURRENT_BINARY_DIR}/planted/common/math/spline.hpp CONTENT "${planted_text}" @ONLY)
+file(CONFIGURE OUTPUT ${CMAKE_CURRENT_BINARY_DIR}/planted_core/common/gait/types.hpp CONTENT "${planted_text}" @ONLY)
 
 get_target_property(planted_sources verp_core SOURCES)
 list(FILTER planted_sources EXCLUDE REGEX "/common/protocol/")
 add_library(verp_planted_core STATIC ${planted_sources} planted_step.cpp)
 # Before the include path of the whole tree: the changed header comes first.
-target_include_directories(verp_planted_core BEFORE PRIVATE ${CMAKE_CURRENT_BINARY_DIR}/planted)
+target_include_directories(verp_planted_core BEFORE PRIVATE ${CMAKE_CURRENT_BINARY_DIR}/planted_core)
 target_include_directories(verp_planted_core SYSTEM PRIVATE ${VERP_EIGEN_DIR})
 target_compile_definitions(verp_planted_core PRIVATE verp=verp_planted)
 target_compile_options(verp_planted_core PRIVATE -fno-exceptions -fno-rtti -fno-threadsafe-statics)

@@ -18,6 +18,7 @@ TEST_P(Seed, WalksAMinuteInsideThePapersBands) {
   expect_walked(minute);
   expect_between(0.170, number(minute, "speed_steady_m_s"), 0.190, "steady speed, m/s");
   expect_between(0.165, number(minute, "speed_mean_m_s"), 0.190, "mean speed, m/s");
+  expect_between(2.0, number(minute, "zmp_bias_mean_mm"), 12.0, "mean ZMP bias, mm");
   EXPECT_LT(std::abs(number(minute, "lateral_drift_m")), 0.5);
   expect_between(0.0, number(minute, "servo_saturation"), 0.05, "torque share at the limit");
 }
@@ -71,6 +72,7 @@ TEST(Generic21, EachPartOfBalanceLowersTheZmpBias) {
   EXPECT_GT(mean_bias_mm(" --no-multibody"), all_mm);
   EXPECT_GT(mean_bias_mm(" --no-gravity"), all_mm);
   EXPECT_GT(mean_bias_mm(" --no-feedback"), all_mm);
+  EXPECT_GT(mean_bias_mm(" --no-zeros"), all_mm);
 }
 
 TEST(Generic21, WalksSidewaysBackwardsAndInCircles) {

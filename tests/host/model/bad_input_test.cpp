@@ -81,7 +81,7 @@ TEST(BadInput, NumberWithDecimalCommaIsRefused) {
 
 TEST(BadInput, NanIsRefused) {
   expect_refused(edited("<mass>1.1</mass>", "<mass>nan</mass>"), "<mass>nan</mass>", "finite");
-  expect_refused(edited("value=\"0.14854\"", "value=\"nan\""), "value=\"nan\"", "finite");
+  expect_refused(edited("value=\"0.147301\"", "value=\"nan\""), "value=\"nan\"", "finite");
 }
 
 TEST(BadInput, TooFewNumbersInAPoseAreRefused) {
@@ -208,13 +208,13 @@ TEST(BadInput, UnknownAttributeIsRefused) {
 }
 
 TEST(BadInput, TuningOutsideItsRangeIsRefused) {
-  expect_refused(edited("value=\"0.14854\"", "value=\"15\""), "value=\"15\"", "out of range");
+  expect_refused(edited("value=\"0.147301\"", "value=\"15\""), "value=\"15\"", "out of range");
   expect_refused(edited("gait.hip_height_m", "gait.hip_hight_m"), "gait.hip_hight_m",
                  "no tuning value");
 }
 
 TEST(BadInput, PoseBeyondALimitIsRefused) {
-  expect_refused(edited("name=\"l_knee\" rad=\"1.29166\"", "name=\"l_knee\" rad=\"-1\""),
+  expect_refused(edited("name=\"l_knee\" rad=\"1.31363\"", "name=\"l_knee\" rad=\"-1\""),
                  "name=\"l_knee\" rad=\"-1\"", "outside its limits");
 }
 

@@ -95,6 +95,28 @@ TEST(Attitude, ConstantRateIntegrates) {
   }
 }
 
+// A walking body sways in roll and pitch at once; its x axis goes nowhere, and so must the heading.
+TEST(Attitude, SwayAboutTwoAxesDoesNotTurnTheHeading) {
+  constexpr float kSway_rad = 0.03F;
+  constexpr float kOmega = 14.0F;
+  AttitudeState state;
+  AttitudeOut out;
+  for (int i = 0; i < 2000; ++i) {
+    const math::SinCos phase = math::sincos(kOmega * 0.01F * static_cast<float>(i));
+    const float roll_rad = kSway_rad * phase.sin, pitch_rad = kSway_rad * phase.cos;
+    const float roll_rate = kSway_rad * kOmega * phase.cos;
+    const float pitch_rate = -kSway_rad * kOmega * phase.sin;
+    const math::SinCos roll = math::sincos(roll_rad);
+    AttitudeIn in;
+    in.fresh = true;
+    in.gyro_body_rad_s = {roll_rate, pitch_rate * roll.cos, -pitch_rate * roll.sin};
+    const Mat3 body = math::rot_y(pitch_rad) * math::rot_x(roll_rad);
+    in.accel_body_m_s2 = body.transpose() * Vec3(0, 0, kG);
+    out = update(state, in);
+  }
+  EXPECT_NEAR(out.heading_rad, 0.0F, 0.01F) << "0.126 if the rate about the vertical is summed";
+}
+
 TEST(Attitude, AccelerometerPullsAWrongTiltToTheVertical) {
   AttitudeState state;
   state.up_body = {0.3F, -0.2F, 0.93F};

@@ -52,6 +52,8 @@ TEST(Feedback, SwingLegOnlyLevelsItsFoot) {
   const FeedbackOut both = feedback({}, tilted(0.1F, 0.1F), 0, gait::kBoth);
   EXPECT_EQ(both.leg[0].ankle_roll_rad, both.leg[1].ankle_roll_rad);
   EXPECT_NE(both.leg[0].hip_roll_rad, 0.0F);
+  EXPECT_LT(2.0F * math::abs(both.leg[0].hip_roll_rad), math::abs(swing.leg[0].hip_roll_rad))
+      << "two legs do less than one alone";
 }
 
 TEST(Feedback, CorrectionsAreLimited) {

@@ -1,5 +1,6 @@
 #pragma once
 #include "common/control/step.hpp"
+#include "common/model/counts.hpp"
 #include "tests/unit/support/test_robot.hpp"
 
 namespace verp::control::test {
@@ -15,7 +16,7 @@ struct Loop {
     inputs.fresh = ~0u;
     inputs.accel_count[2] = 8172;  // 1 g at 1.2 mm/s^2 a count
     for (int j = 0; j < kJointCount; ++j) {
-      inputs.position_count[j] = safety::count_of(kRobot.joint[j], kRobot.joint[j].sit_rad);
+      inputs.position_count[j] = model::count_of(kRobot.joint[j], kRobot.joint[j].sit_rad);
     }
   }
   void tick() {

@@ -22,8 +22,8 @@ void expect_safe(const State& state, const Outputs& outputs, int tick) {
   ASSERT_EQ(outputs.torque_enable, torque ? (1u << test::kJointCount) - 1 : 0u);
   for (int j = 0; j < kRobot.joint_count; ++j) {
     const JointParams& joint = kRobot.joint[j];
-    const std::int32_t a = safety::count_of(joint, joint.lower_rad);
-    const std::int32_t b = safety::count_of(joint, joint.upper_rad);
+    const std::int32_t a = model::count_of(joint, joint.lower_rad);
+    const std::int32_t b = model::count_of(joint, joint.upper_rad);
     ASSERT_GE(outputs.goal_count[j], a < b ? a : b) << "tick " << tick << ", joint " << j;
     ASSERT_LE(outputs.goal_count[j], a < b ? b : a) << "tick " << tick << ", joint " << j;
   }
@@ -111,7 +111,7 @@ TEST(Step, RisesWalksStopsAndSitsDown) {
   EXPECT_GE(loop.until(Mode::kSitting, 5), 0);
   EXPECT_GE(loop.until(Mode::kRelaxed, 200), 0);
   for (int j = 0; j < kRobot.joint_count; ++j) {
-    EXPECT_NEAR(safety::angle_of(kRobot.joint[j], loop.inputs.position_count[j]),
+    EXPECT_NEAR(model::angle_of(kRobot.joint[j], loop.inputs.position_count[j]),
                 kRobot.joint[j].sit_rad, 2e-3F)
         << kRobot.joint[j].name;
   }

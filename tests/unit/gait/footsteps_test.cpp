@@ -65,6 +65,8 @@ TEST(Footsteps, PlanHasNoGaps) {
     }
     EXPECT_EQ(step.zmp_begin_m.x, before.zmp_end_m.x);
     EXPECT_EQ(step.zmp_begin_m.y, before.zmp_end_m.y);
+    EXPECT_EQ(int{step.landed}, int{before.swing});
+    EXPECT_EQ(step.settle_m, before.touchdown_m);
   }
 }
 

@@ -170,10 +170,41 @@ TEST(Gait, WeightIsSharedAndGoesToTheCarryingFoot) {
     EXPECT_NEAR(walker.out.carry[kLeft] + walker.out.carry[kRight], 1.0F, 1e-6F);
     for (int side = 0; side < kFeet; ++side) {
       EXPECT_GE(walker.out.carry[side], 0.0F);
-      if (walker.out.posture.foot[side].height_m > 1e-4F) {
+      if (walker.out.posture.foot[side].height_m > walker.tuning.gait.touchdown_m + 1e-4F) {
         EXPECT_EQ(walker.out.carry[side], 0.0F);
       }
     }
+  }
+}
+
+// Six seconds of walking with the steps asked for, however long.
+Walker walked(float step_m, float cycle_s, float multibody_enable) {
+  Walker walker(test::kRobot);
+  walker.tuning.balance.multibody_enable = multibody_enable;
+  walker.tuning.gait.cycle_s = cycle_s;
+  walker.tuning.gait.max_step_m = 0.3F;
+  walker.set_off({.vx_m_s = 2.0F * step_m / cycle_s});
+  walker.run(6.0F);
+  return walker;
+}
+
+// A plan whose ZMP would leave the support polygon is shortened, and refused if that is not enough;
+// a plan as the paper's is not touched.
+TEST(Gait, PlanWhoseZmpWouldLeaveTheSoleIsShortenedOrRefused) {
+  for (const float multibody : {0.0F, 1.0F}) {
+    const Walker paper = walked(0.04F, 0.45F, multibody);
+    EXPECT_EQ(paper.state.footsteps.notes, 0U);
+    EXPECT_NEAR(paper.state.footsteps.stride.by_m.x, 0.04F, 1e-4F);
+
+    const Walker longer = walked(0.12F, 0.45F, multibody);
+    EXPECT_TRUE((longer.state.footsteps.notes & kZmpShortened) != 0);
+    EXPECT_FALSE((longer.state.footsteps.notes & kPlanRefused) != 0);
+    EXPECT_LT(longer.state.footsteps.stride.by_m.x, 0.11F);
+    EXPECT_GT(longer.state.footsteps.stride.by_m.x, 0.01F);
+
+    const Walker absurd = walked(0.2F, 0.3F, multibody);
+    EXPECT_TRUE((absurd.state.footsteps.notes & kPlanRefused) != 0);
+    EXPECT_TRUE(absurd.out.phase == Phase::kIdle) << "it stands";
   }
 }
 

@@ -94,12 +94,36 @@ TEST(Swing, FootRestsLiftsAndLandsWhereItShould) {
   }
 }
 
+// The body sags while one foot carries: the swing sole ends its step a little above the ground, and
+// comes down when it has begun to carry.
+TEST(Swing, SoleTouchesDownHighAndSettles) {
+  Step step;
+  step.key_us = 15000;
+  step.key_points = 15;
+  step.swing = kRight;
+  step.double_support_s = 0.02F;
+  step.lift_m = 0.01F;
+  step.touchdown_m = 0.003F;
+  EXPECT_NEAR(foot_at(step, kRight, step.duration_s()).height_m, 0.003F, 1e-6F);
+  EXPECT_GT(foot_at(step, kRight, 0.12F).height_m, 0.01F);
+
+  Step next = step;
+  next.swing = kLeft;
+  next.landed = kRight;
+  next.settle_m = step.touchdown_m;
+  EXPECT_NEAR(foot_at(next, kRight, 0.0F).height_m, 0.003F, 1e-6F) << "no jump between two steps";
+  EXPECT_NEAR(foot_at(next, kRight, 0.015F).height_m, 0.0015F, 1e-6F);
+  EXPECT_EQ(foot_at(next, kRight, 2.0F * next.key_s()).height_m, 0.0F);
+  EXPECT_EQ(foot_at(next, kLeft, 0.0F).height_m, 0.0F) << "the other foot stood";
+}
+
 TEST(Swing, AccelerationIsTheSecondDerivative) {
   Step step;
   step.key_us = 15000;
   step.key_points = 15;
   step.swing = kLeft;
   step.lift_m = 0.02F;
+  step.touchdown_m = 0.004F;
   step.foot[kLeft] = {{-0.04F, 0.04F}, 0};
   step.landing = {{0.04F, 0.05F}, 0};
   constexpr float kStep_s = 0.004F;

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "common/model/counts.hpp"
 #include "tests/unit/support/test_robot.hpp"
 
 namespace verp::safety {
@@ -24,27 +25,6 @@ struct Joints {
     return limit(kRobot, state, {mode, in_mode_us, wanted_rad, position_count, &tuning});
   }
 };
-
-TEST(Counts, AngleAndCountAreInverse) {
-  for (int j = 0; j < kRobot.joint_count; ++j) {
-    const JointParams& joint = kRobot.joint[j];
-    EXPECT_EQ(count_of(joint, 0), 2048);
-    for (std::int32_t count = 0; count < 4096; count += 111) {
-      EXPECT_EQ(count_of(joint, angle_of(joint, count)), count);
-    }
-  }
-}
-
-TEST(Counts, DirectionIsInTheScale) {
-  EXPECT_GT(count_of(kRobot.joint[test::kLeftLeg + 3], 1), 2048);
-  EXPECT_LT(count_of(kRobot.joint[test::kRightLeg + 3], 1), 2048) << "mounted backwards";
-}
-
-TEST(Counts, AreTotal) {
-  EXPECT_EQ(angle_of(JointParams{}, 123), 0.0F);
-  EXPECT_EQ(count_of(kRobot.joint[0], test::quiet_nan()), 0);
-  EXPECT_EQ(count_of(kRobot.joint[0], 1e30F), std::numeric_limits<std::int32_t>::max());
-}
 
 // Any wishes, any modes, from anywhere: no goal beyond a joint's limits, and none that needs more
 // than its speed.
@@ -77,7 +57,7 @@ TEST(Limit, WithoutTorqueGoalsFollowTheJoints) {
     Joints joints;
     for (int j = 0; j < kRobot.joint_count; ++j) {
       joints.wanted_rad[j] = 0.2F;
-      joints.position_count[j] = count_of(kRobot.joint[j], 0.05F);
+      joints.position_count[j] = model::count_of(kRobot.joint[j], 0.05F);
     }
     EXPECT_FALSE(joints.run(mode, 0));
     for (int j = 0; j < kRobot.joint_count; ++j) {

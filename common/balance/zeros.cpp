@@ -1,0 +1,49 @@
+#include "common/balance/zeros.hpp"
+
+#include "common/math/convert.hpp"
+#include "common/model/counts.hpp"
+
+namespace verp::balance {
+namespace {
+
+constexpr float kLearning_s = 1.0F;  // longer than a cycle: what sways averages out
+constexpr float kMost_rad = 0.05F;   // three zeros, each a degree off, all to one side
+
+}  // namespace
+
+bool stands_flat(const std::uint16_t* foot_count) {
+  // Front left, front right, back left, back right: the middle half is where opposite edges share
+  // the load by less than 3 to 1.
+  const std::int32_t front = foot_count[0] + foot_count[1], back = foot_count[2] + foot_count[3];
+  const std::int32_t left = foot_count[0] + foot_count[2], right = foot_count[1] + foot_count[3];
+  return front < 3 * back && back < 3 * front && left < 3 * right && right < 3 * left;
+}
+
+void learn_zero(const Params& params, const LegParams& leg, const kinematics::LegChain& chain,
+                const float* leg_rad, const gait::FootPose& foot, const Inputs& inputs,
+                const AttitudeOut& attitude, float planned_pitch_rad, LegZero& zero) {
+  // The planned sole is level. Each joint turns it about its own axis by what it is off the plan.
+  gait::Xy turn_rad;
+  for (int k = 0; k < kLegJoints; ++k) {
+    const std::uint8_t j = leg.joint[k];
+    if ((inputs.fresh >> j & 1U) == 0) return;
+    const JointParams& joint = params.joint[j];
+    const float off_rad = model::angle_of(joint, inputs.position_count[j]) - leg_rad[k];
+    const Vec3 axis = kinematics::joint_axis(joint, chain.link[k].rotation);
+    turn_rad = turn_rad + off_rad * gait::Xy{axis.x(), axis.y()};
+  }
+  const gait::Xy sole_rad = gait::turned(turn_rad, -foot.on.yaw_rad);
+  const float share = math::min(1e-6F * static_cast<float>(params.period_us) / kLearning_s, 1.0F);
+  const auto learn = [&](float tilt_rad, float& known_rad) {
+    known_rad = math::clamp(known_rad + share * (tilt_rad - known_rad), -kMost_rad, kMost_rad);
+  };
+  learn(attitude.roll_rad + sole_rad.x, zero.roll_rad);
+  learn(attitude.pitch_rad - planned_pitch_rad + sole_rad.y, zero.pitch_rad);
+}
+
+void add_zero(const LegParams& leg, const LegZero& zero, float* leg_rad) {
+  leg_rad[4] += leg.direction[4] * zero.pitch_rad;
+  leg_rad[5] += leg.direction[5] * zero.roll_rad;
+}
+
+}  // namespace verp::balance
