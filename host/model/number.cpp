@@ -2,10 +2,12 @@
 
 #include <charconv>
 #include <cmath>
+#include <limits>
 
 namespace verp::model {
 namespace {
 
+constexpr double kLargest = std::numeric_limits<float>::max();
 constexpr std::string_view kSpace = " \t\r\n";
 
 std::string_view trim(std::string_view text) {
@@ -22,7 +24,10 @@ std::optional<double> parse_number(std::string_view text) {
   double value = 0;
   const char* end = text.data() + text.size();
   const auto result = std::from_chars(text.data(), end, value);
-  if (result.ec != std::errc() || result.ptr != end || !std::isfinite(value)) return std::nullopt;
+  // What the robot's float32 can't hold is no number to it.
+  if (result.ec != std::errc() || result.ptr != end || !(std::abs(value) <= kLargest)) {
+    return std::nullopt;
+  }
   return value;
 }
 

@@ -31,6 +31,10 @@ Writer::Writer(std::filesystem::path path, std::string_view profile, std::string
   if (std::filesystem::is_directory(path_)) {
     throw TraceError(path_, 0, "is a folder", "name a file, such as run.mcap");
   }
+  // The finished trace takes this name: a device or pipe of that name would be gone.
+  if (std::filesystem::exists(path_) && !std::filesystem::is_regular_file(path_)) {
+    throw TraceError(path_, 0, "is not a regular file", "name another file, such as run.mcap");
+  }
   file_ = open_part(path_, part_);
   if (file_ == nullptr) {
     throw TraceError(path_, 0, std::string("cannot be written: ") + std::strerror(errno),

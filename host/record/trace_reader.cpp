@@ -1,7 +1,10 @@
+#include <cmath>
 #include <cstring>
 #include <fstream>
 #include <iterator>
+#include <type_traits>
 
+#include "common/model/image.hpp"
 #include "host/record/fields.hpp"
 #include "host/record/mcap_reader.hpp"
 #include "host/record/trace.hpp"
@@ -15,6 +18,8 @@ std::string read_bytes(const fs::path& file) {
   std::error_code error;
   if (fs::is_directory(file, error))
     throw TraceError(file, 0, "is a folder", "name the .mcap file in it");
+  if (fs::exists(file, error) && !fs::is_regular_file(file, error))
+    throw TraceError(file, 0, "is not a regular file", "name a .mcap file");
   std::ifstream in(file, std::ios::binary);
   if (!in) {
     throw TraceError(file, 0, "no such file, or it cannot be opened",
@@ -89,10 +94,12 @@ class Loader {
              "read it with verp of " + writer_of(trace_.metadata));
     }
     std::memcpy(&trace_.params, bytes.data(), sizeof(Params));
-    bool sound = trace_.params.joint_count <= kMaxJoints && trace_.params.period_us > 0;
-    for (int j = 0; sound && j < trace_.params.joint_count; ++j) {
-      sound = trace_.params.joint[j].parent <= j;
-    }
+    bool sound = is_well_formed(trace_.params) && trace_.params.period_us > 0;
+    for_each_leaf(trace_.params, [&](const auto& value) {
+      if constexpr (std::is_floating_point_v<std::remove_cvref_t<decltype(value)>>) {
+        sound = sound && std::isfinite(value);
+      }
+    });
     if (!sound)
       refuse(found->second.offset, "the Params image is not a robot", "record the run again");
   }

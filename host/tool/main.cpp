@@ -1,4 +1,6 @@
 #include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cstdio>
@@ -133,5 +135,10 @@ int run(int argc, char** argv) {
 }  // namespace verp::tool
 
 int main(int argc, char** argv) {
-  return verp::tool::run(argc, argv);
+  const int status = verp::tool::run(argc, argv);
+  if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return status;
+  struct stat out {};
+  if (::fstat(STDOUT_FILENO, &out) == 0 && S_ISFIFO(out.st_mode)) return status;  // `| head`
+  std::fputs("verp: the answer could not be written to standard output\n", stderr);
+  return status != 0 ? status : verp::tool::kRunFailed;
 }

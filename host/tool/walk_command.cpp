@@ -102,7 +102,7 @@ int run_walk(WalkOptions options) {
         record::TraceOptions{.every_state = options.record_state});
   }
   Progress progress(!options.json);
-  const WalkResult result = walk(plan, trace.get(), progress, plan.params.name, !folder.empty());
+  WalkResult result = walk(plan, trace.get(), progress, plan.params.name, !folder.empty());
   if (trace) {
     trace->close({{"digest", fmt::format("0x{:016x}", result.digest)},
                   {"failure", result.failure},
@@ -110,6 +110,7 @@ int run_walk(WalkOptions options) {
   }
   const std::vector<report::SweepRow> rows = sweep(plan, options, progress);
   progress.clear();
+  result.interrupted = interrupted();  // in the walk or in the sweep
 
   std::string page;
   if (!folder.empty()) page = write_report(plan, options, result, rows, folder, trace_path);

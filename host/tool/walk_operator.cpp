@@ -11,6 +11,7 @@ namespace {
 
 constexpr double kSettle_s = 0.5;    // a person waits for the robot to stand quietly
 constexpr double kStandUp_s = 15.0;  // bring-up pose, rise and gyro calibration take a few seconds
+constexpr double kIdle_s = 1.0;      // a gait that pauses by itself this long has given up
 constexpr double kOverrun_s = 5.0;   // a gait that has not ended by then never will
 constexpr std::uint32_t kFrameTicks = 10;  // operator frames come at a tenth of the control rate
 
@@ -48,6 +49,7 @@ void WalkOperator::observe(std::uint32_t, const Outputs& outputs) {
   if (gait) {
     gait_seen_ = true;
     walked_s_ += period_s_;
+    idle_s_ = 0;
   } else if (!gait_seen_) {
     waited_s_ += period_s_;
     stood_s_ = standing ? stood_s_ + period_s_ : 0;
@@ -62,6 +64,8 @@ void WalkOperator::observe(std::uint32_t, const Outputs& outputs) {
     stopping_ = true;
     command_.request = Request::kStand;
   }
+  if (gait_seen_ && !stopping_ && !gait) idle_s_ += period_s_;
+  if (idle_s_ > kIdle_s) failed_ = "the robot stopped walking by itself", done_ = true;
   if (stopping_) stopping_s_ += period_s_;
   if (stopping_ && !gait && standing) done_ = true;
   if (!gait_seen_ && waited_s_ > kStandUp_s)

@@ -37,6 +37,7 @@ class WalkOperator {
   double walked_s_ = 0;
   double waited_s_ = 0;    ///< before the gait
   double stood_s_ = 0;     ///< standing, before the gait
+  double idle_s_ = 0;      ///< without gait, though nobody said stop
   double stopping_s_ = 0;  ///< since stop was said
   bool gait_seen_ = false, stopping_ = false, done_ = false;
   const char* failed_ = "";

@@ -1,5 +1,6 @@
 #include "host/tool/walk_options.hpp"
 
+#include <algorithm>
 #include <fmt/format.h>
 
 #include <cmath>
@@ -50,10 +51,16 @@ void set_by_name(Tuning& tuning, const std::string& setting) {
                     fmt::format("verp walk: --set {}: {}; names:{}", setting,
                                 id ? "no value (NAME=VALUE)" : "no such parameter", names));
   }
+  if (name == "gait.cycle_s") {
+    throw ToolError(kBadInput,
+                    "verp walk: --set gait.cycle_s: give --cycle, which --step is measured by");
+  }
+  // Ranges are float32: 0.03 is inside one that ends at 0.03F, whatever its double is.
   const Range& range = kTuningRanges[*id];
+  const double low = static_cast<double>(range.low), high = static_cast<double>(range.high);
   const double value = number("--set " + name, setting.substr(equals + 1),
-                              static_cast<double>(range.low), static_cast<double>(range.high), "");
-  set_tuning_value(tuning, *id, static_cast<float>(value));
+                              low - 1e-6 * std::abs(low), high + 1e-6 * std::abs(high), "");
+  set_tuning_value(tuning, *id, std::clamp(static_cast<float>(value), range.low, range.high));
 }
 
 }  // namespace
@@ -77,9 +84,10 @@ void declare(CLI::App& app, WalkOptions& options) {
       ->capture_default_str();
   app.add_option("--record", options.record_file, "write the trace here (.mcap)");
   app.add_option("--report", options.report_folder, "write the report here (default: report)");
-  app.add_option(
-      "--sweep-step", options.sweep_text,
-      "FROM:TO:BY in m: also walk at each step length, with and without the multibody correction");
+  app.add_option("--sweep-step", options.sweep_text,
+                 "FROM:TO:BY in m: also walk at each step length, with and without the multibody "
+                 "correction")
+      ->excludes("--velocity");
   app.add_option("--on", options.board,
                  "run the controller in firmware on this emulated board (boards/)");
   app.add_option("--set", options.settings, "NAME=VALUE: a gait, balance or safety parameter");

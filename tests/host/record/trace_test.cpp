@@ -1,5 +1,8 @@
 #include "host/record/trace.hpp"
 
+#include <cmath>
+#include <limits>
+
 #include "host/record/replay.hpp"
 #include "tests/host/record/sample.hpp"
 
@@ -132,6 +135,30 @@ TEST_F(TraceFile, EditIsAnError) {
     EXPECT_NE(error_of(file), "") << "byte " << i;
     bytes[i] = kept;
   }
+}
+
+// Whatever wrote it: a robot whose indices lead nowhere, or whose numbers are none, is not
+// replayed.
+TEST_F(TraceFile, ParamsThatAreNoRobotAreRefused) {
+  const auto refused = [&](auto spoil) {
+    Params params = sample_params();
+    spoil(params);
+    {
+      TraceWriter writer(folder_ / "spoilt.mcap", params, {});
+      writer.append(record_of(sample_inputs(0)), State{}, 0);
+      writer.close();
+    }
+    EXPECT_NE(error_of(folder_ / "spoilt.mcap").find("is not a robot"), std::string::npos);
+  };
+  refused([](Params& params) {
+    params.leg[0].solver = LegSolver::kClosedForm;
+    params.leg[0].joint[0] = 255;
+  });
+  refused([](Params& params) { params.head_pan = 254; });
+  refused([](Params& params) { params.joint[1].parent = 2; });
+  refused([](Params& params) { params.period_us = 0; });
+  refused([](Params& params) { params.tuning.gait.lift_m = std::nanf(""); });
+  refused([](Params& params) { params.body_mass_kg = std::numeric_limits<float>::infinity(); });
 }
 
 TEST_F(TraceFile, MissingEmptyFolderAndForeignFilesAreNamed) {

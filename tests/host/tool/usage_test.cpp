@@ -1,3 +1,5 @@
+#include <sys/stat.h>
+
 #include <nlohmann/json.hpp>
 
 #include "tests/host/tool/program.hpp"
@@ -46,6 +48,7 @@ TEST_F(Usage, ListsAreChecked) {
   expect_refused("walk --sweep-step 0.06:0.02:0.01", "TO");
   expect_refused("walk --sweep-step 0.02:0.06:0", "BY");
   expect_refused("walk --sweep-step 0:0.15:0.001", "raise BY");
+  expect_refused("walk --sweep-step 0.02:0.04:0.02 --velocity 0.1,0,0", "excludes");
 }
 
 TEST_F(Usage, ParametersAreCheckedByNameAndRange) {
@@ -53,6 +56,14 @@ TEST_F(Usage, ParametersAreCheckedByNameAndRange) {
   expect_refused("walk --set gait.lift_m", "NAME=VALUE");
   expect_refused("walk --set gait.lift_m=nan", "not a number");
   expect_refused("walk --set gait.lift_m=9", "out of range");
+  expect_refused("walk --set gait.joint_delay_s=0.0301", "give 0 to 0.03");
+  expect_refused("walk --set gait.cycle_s=0.5", "--cycle");
+}
+
+// The paper's own setting is the end of its range; a float's 0.03 is not a double's.
+TEST_F(Usage, BothEndsOfARangeAreInsideIt) {
+  EXPECT_EQ(verp("walk --set gait.joint_delay_s=0.03 --for 3 --json").status, 0);
+  EXPECT_EQ(verp("walk --set safety.fall_tilt_rad=0.2 --for 3 --json").status, 0);
 }
 
 TEST_F(Usage, MissingAndMalformedFilesAreNamed) {
@@ -71,6 +82,20 @@ TEST_F(Usage, UnwritablePlacesAreNamedBeforeTheRun) {
   expect_refused("walk --record missing/run.mcap", "missing/run.mcap");
   std::ofstream(folder_ / "file") << "x";
   expect_refused("walk --report file", "file");
+}
+
+// A finished trace takes the name it was given: a device of that name would be gone.
+TEST_F(Usage, DevicesAndPipesAreNotReplacedByTraces) {
+  ASSERT_EQ(::mkfifo((folder_ / "pipe").c_str(), 0600), 0);
+  expect_refused("walk --record pipe", "not a regular file");
+  expect_refused("replay pipe", "not a regular file");
+  EXPECT_TRUE(fs::is_fifo(folder_ / "pipe"));
+}
+
+TEST_F(Usage, AnAnswerThatCannotBeWrittenIsAFailure) {
+  const Outcome outcome = shell(VERP_PROGRAM " check generic21 > /dev/full");
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_NE(outcome.err.find("standard output"), std::string::npos) << outcome.err;
 }
 
 TEST_F(Usage, JsonErrorsAreOneObject) {

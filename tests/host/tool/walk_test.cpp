@@ -127,6 +127,15 @@ TEST_F(Walk, ReaderThatGoesAwayIsNoCrash) {
   EXPECT_EQ(outcome.err, "");
 }
 
+// No step keeps the ZMP where this margin wants it: the robot stands, and the run ends and says so.
+TEST_F(Walk, PlanThatIsRefusedEndsTheRun) {
+  const Outcome outcome =
+      verp("walk --for 6 --no-multibody --set gait.support_margin_m=0.0299 --json");
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_NE(outcome.err.find("stopped walking by itself"), std::string::npos) << outcome.err;
+  EXPECT_LT(json::parse(outcome.out).at("ticks"), 2000);
+}
+
 TEST_F(Walk, SweepGivesATable) {
   const Outcome outcome = verp("walk --for 3 --sweep-step 0.02:0.03:0.01 --json --report out");
   ASSERT_EQ(outcome.status, 0) << outcome.err;
