@@ -70,7 +70,19 @@ inline constexpr std::uint16_t kPositionTrajectory = 140;    // 4, read only
 inline constexpr std::uint16_t kPresentVoltage = 144;        // 2, read only, 0.1 V
 inline constexpr std::uint16_t kPresentTemperature = 146;    // 1, read only, degrees Celsius
 inline constexpr std::uint16_t kBackupReady = 147;           // 1, read only
+// Two blocks of 28: Indirect Address n (2) names the register byte (64 to 661) for which Indirect
+// Data n (1) stands.
+inline constexpr std::uint16_t kIndirectAddress1 = 168;
+inline constexpr std::uint16_t kIndirectData1 = 224;
+inline constexpr std::uint16_t kIndirectAddress29 = 578;
+inline constexpr std::uint16_t kIndirectData29 = 634;
 }  // namespace address
+
+inline constexpr std::uint16_t kIndirectBlock = 28;  ///< pairs in each block
+inline constexpr std::uint16_t kIndirectFirst = 64;  ///< what an Indirect Address may name
+inline constexpr std::uint16_t kIndirectLast = 661;
+inline constexpr std::uint8_t kFactoryId = 1;
+inline constexpr std::uint32_t kFactoryBaud = 57600;
 
 inline constexpr std::uint8_t kTimeBasedProfile = 1 << 2;  ///< bit 2 of Drive Mode
 inline constexpr std::uint8_t kPositionMode = 3;  ///< Operating Mode: position control, one turn

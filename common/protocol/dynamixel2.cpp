@@ -82,10 +82,29 @@ std::size_t Encoder::finish() {
   return size_ + kCrcBytes;
 }
 
-std::size_t encode_ping(std::uint8_t* buffer, std::size_t capacity, std::uint8_t id) {
+namespace {
+
+std::size_t encode_write_as(Instruction instruction, std::uint8_t* buffer, std::size_t capacity,
+                            std::uint8_t id, std::uint16_t address, const std::uint8_t* data,
+                            std::size_t size) {
   Encoder encoder(buffer, capacity);
-  encoder.begin(id, Instruction::kPing);
+  encoder.begin(id, instruction);
+  encoder.u16(address);
+  encoder.bytes(data, size);
   return encoder.finish();
+}
+
+}  // namespace
+
+std::size_t encode_plain(std::uint8_t* buffer, std::size_t capacity, std::uint8_t id,
+                         Instruction instruction) {
+  Encoder encoder(buffer, capacity);
+  encoder.begin(id, instruction);
+  return encoder.finish();
+}
+
+std::size_t encode_ping(std::uint8_t* buffer, std::size_t capacity, std::uint8_t id) {
+  return encode_plain(buffer, capacity, id, Instruction::kPing);
 }
 
 std::size_t encode_read(std::uint8_t* buffer, std::size_t capacity, std::uint8_t id,
@@ -99,10 +118,26 @@ std::size_t encode_read(std::uint8_t* buffer, std::size_t capacity, std::uint8_t
 
 std::size_t encode_write(std::uint8_t* buffer, std::size_t capacity, std::uint8_t id,
                          std::uint16_t address, const std::uint8_t* data, std::size_t size) {
+  return encode_write_as(Instruction::kWrite, buffer, capacity, id, address, data, size);
+}
+
+std::size_t encode_reg_write(std::uint8_t* buffer, std::size_t capacity, std::uint8_t id,
+                             std::uint16_t address, const std::uint8_t* data, std::size_t size) {
+  return encode_write_as(Instruction::kRegWrite, buffer, capacity, id, address, data, size);
+}
+
+std::size_t encode_factory_reset(std::uint8_t* buffer, std::size_t capacity, std::uint8_t id,
+                                 Reset reset) {
   Encoder encoder(buffer, capacity);
-  encoder.begin(id, Instruction::kWrite);
-  encoder.u16(address);
-  encoder.bytes(data, size);
+  encoder.begin(id, Instruction::kFactoryReset);
+  encoder.u8(static_cast<std::uint8_t>(reset));
+  return encoder.finish();
+}
+
+std::size_t encode_clear_turns(std::uint8_t* buffer, std::size_t capacity, std::uint8_t id) {
+  Encoder encoder(buffer, capacity);
+  encoder.begin(id, Instruction::kClear);
+  encoder.bytes(kClearTurns, sizeof kClearTurns);
   return encoder.finish();
 }
 
@@ -123,6 +158,16 @@ void begin_sync_write(Encoder& encoder, std::uint16_t address, std::uint16_t len
   encoder.u16(length);
 }
 
+void begin_bulk(Encoder& encoder, Instruction instruction) {
+  encoder.begin(kBroadcast, instruction);
+}
+
+void bulk_entry(Encoder& encoder, std::uint8_t id, std::uint16_t address, std::uint16_t length) {
+  encoder.u8(id);
+  encoder.u16(address);
+  encoder.u16(length);
+}
+
 std::size_t encode_status(std::uint8_t* buffer, std::size_t capacity, std::uint8_t id,
                           std::uint8_t error, const std::uint8_t* data, std::size_t size) {
   Encoder encoder(buffer, capacity);
@@ -132,14 +177,14 @@ std::size_t encode_status(std::uint8_t* buffer, std::size_t capacity, std::uint8
   return encoder.finish();
 }
 
-std::size_t encode_fast_block(std::uint8_t* buffer, bool first, std::size_t devices,
+std::size_t encode_fast_block(std::uint8_t* buffer, bool first, std::size_t all_bytes,
                               std::uint8_t id, std::uint8_t error, const std::uint8_t* data,
                               std::size_t length, std::uint16_t& crc) {
   std::size_t size = 0;
   if (first) {
     for (std::uint8_t value : kHeader) buffer[size++] = value;
     buffer[size++] = kBroadcast;
-    put_u16(buffer + size, static_cast<std::uint32_t>(1 + devices * (length + kFastBlockBytes)));
+    put_u16(buffer + size, static_cast<std::uint32_t>(1 + all_bytes));
     size += 2;
     buffer[size++] = static_cast<std::uint8_t>(Instruction::kStatus);
   }
@@ -152,12 +197,15 @@ std::size_t encode_fast_block(std::uint8_t* buffer, bool first, std::size_t devi
   return size + kCrcBytes;
 }
 
-bool fast_block(const Packet& reply, std::size_t index, std::size_t length, FastBlock& block) {
-  const std::size_t stride = length + kFastBlockBytes;
-  if (!reply.is_fast_reply() || (index + 1) * stride > reply.size) return false;
-  const std::uint8_t* start = reply.parameters + index * stride;
+bool fast_block_at(const Packet& reply, std::size_t offset, std::size_t length, FastBlock& block) {
+  if (!reply.is_fast_reply() || offset + length + kFastBlockBytes > reply.size) return false;
+  const std::uint8_t* start = reply.parameters + offset;
   block = {start[0], start[1], start + 2};
   return true;
+}
+
+bool fast_block(const Packet& reply, std::size_t index, std::size_t length, FastBlock& block) {
+  return fast_block_at(reply, index * (length + kFastBlockBytes), length, block);
 }
 
 bool Parser::push(std::uint8_t byte) {

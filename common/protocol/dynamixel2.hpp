@@ -17,10 +17,18 @@ enum class Instruction : std::uint8_t {
   kPing = 0x01,
   kRead = 0x02,
   kWrite = 0x03,
+  kRegWrite = 0x04,
+  kAction = 0x05,
+  kFactoryReset = 0x06,
+  kReboot = 0x08,
+  kClear = 0x10,
   kStatus = 0x55,
   kSyncRead = 0x82,
   kSyncWrite = 0x83,
   kFastSyncRead = 0x8A,
+  kBulkRead = 0x92,
+  kBulkWrite = 0x93,
+  kFastBulkRead = 0x9A,
 };
 
 /// Low seven bits of a status packet's error field.
@@ -36,6 +44,13 @@ enum class Error : std::uint8_t {
 };
 inline constexpr std::uint8_t kAlert =
     0x80;  ///< error field: Hardware Error Status (70) is not zero
+
+/// What a Factory Reset leaves as it is. Sent to all devices at once, kAll is ignored (firmware
+/// 42).
+enum class Reset : std::uint8_t { kAll = 0xFF, kAllButId = 0x01, kAllButIdAndBaud = 0x02 };
+
+/// Parameters of Clear that take the turns off a multi-turn position; refused while moving.
+inline constexpr std::uint8_t kClearTurns[] = {0x01, 0x44, 0x58, 0x4C, 0x22};
 
 inline constexpr std::uint8_t kBroadcast = 0xFE;
 inline constexpr std::uint8_t kMaxId = 252;
@@ -96,6 +111,15 @@ std::size_t encode_read(std::uint8_t* buffer, std::size_t capacity, std::uint8_t
                         std::uint16_t address, std::uint16_t length);
 std::size_t encode_write(std::uint8_t* buffer, std::size_t capacity, std::uint8_t id,
                          std::uint16_t address, const std::uint8_t* data, std::size_t size);
+/// A write that waits for kAction.
+std::size_t encode_reg_write(std::uint8_t* buffer, std::size_t capacity, std::uint8_t id,
+                             std::uint16_t address, const std::uint8_t* data, std::size_t size);
+/// An instruction without parameters: kPing, kAction or kReboot.
+std::size_t encode_plain(std::uint8_t* buffer, std::size_t capacity, std::uint8_t id,
+                         Instruction instruction);
+std::size_t encode_factory_reset(std::uint8_t* buffer, std::size_t capacity, std::uint8_t id,
+                                 Reset reset);
+std::size_t encode_clear_turns(std::uint8_t* buffer, std::size_t capacity, std::uint8_t id);
 /// `instruction` is kSyncRead or kFastSyncRead.
 std::size_t encode_sync_read(std::uint8_t* buffer, std::size_t capacity, Instruction instruction,
                              std::uint16_t address, std::uint16_t length, const std::uint8_t* ids,
@@ -103,13 +127,19 @@ std::size_t encode_sync_read(std::uint8_t* buffer, std::size_t capacity, Instruc
 /// Sync Write is built entry by entry: begin_sync_write, then id and data of each device, then
 /// finish.
 void begin_sync_write(Encoder& encoder, std::uint16_t address, std::uint16_t length);
+/// Bulk instructions (kBulkRead, kFastBulkRead, kBulkWrite) are built entry by entry, too: one
+/// entry for each device, behind each entry of a Bulk Write its data, then finish.
+void begin_bulk(Encoder& encoder, Instruction instruction);
+void bulk_entry(Encoder& encoder, std::uint8_t id, std::uint16_t address, std::uint16_t length);
+inline constexpr std::size_t kBulkEntryBytes = 5;
 std::size_t encode_status(std::uint8_t* buffer, std::size_t capacity, std::uint8_t id,
                           std::uint8_t error, const std::uint8_t* data, std::size_t size);
 
-/// A device's part of the reply to a Fast Sync Read: the first one writes the header too. `crc`
+/// A device's part of the reply to a Fast Sync or Bulk Read: the first one writes the header too,
+/// which announces the `all_bytes` of all devices' blocks (kFastBlockBytes + length each). `crc`
 /// runs through all parts. Fast replies are not stuffed. Returns the part's size; `buffer` holds 12
 /// + length bytes.
-std::size_t encode_fast_block(std::uint8_t* buffer, bool first, std::size_t devices,
+std::size_t encode_fast_block(std::uint8_t* buffer, bool first, std::size_t all_bytes,
                               std::uint8_t id, std::uint8_t error, const std::uint8_t* data,
                               std::size_t length, std::uint16_t& crc);
 
@@ -122,7 +152,7 @@ struct Packet {
   std::size_t size = 0;
 
   bool is_status() const { return instruction == Instruction::kStatus; }
-  /// The reply to a Fast Sync Read: blocks of error, id, data, CRC.
+  /// The reply to a Fast Sync or Bulk Read: blocks of error, id, data, CRC.
   bool is_fast_reply() const { return is_status() && id == kBroadcast; }
 };
 
@@ -132,6 +162,9 @@ struct FastBlock {
   std::uint8_t id = 0;
   const std::uint8_t* data = nullptr;
 };
+/// The block that begins `offset` bytes into a fast reply and carries `length` data bytes; false if
+/// the reply ends before. The next one begins kFastBlockBytes + length further on.
+bool fast_block_at(const Packet& reply, std::size_t offset, std::size_t length, FastBlock& block);
 /// Block `index` of a fast reply whose blocks carry `length` data bytes; false if there is none.
 bool fast_block(const Packet& reply, std::size_t index, std::size_t length, FastBlock& block);
 

@@ -18,6 +18,7 @@ class Device {
   Device& operator=(const Device&) = delete;
 
   std::uint8_t id() const { return byte(dxl::address::kId); }
+  std::uint8_t baud_code() const { return byte(dxl::address::kBaudRate); }
   std::uint16_t model() const {
     return static_cast<std::uint16_t>(table_.get(dxl::address::kModelNumber));
   }
@@ -29,20 +30,22 @@ class Device {
 
   /// Brings the registers in the range up to date; the plant stands at the moment of the reply.
   virtual void refresh(std::uint16_t address, std::uint16_t length) = 0;
-  std::span<const std::uint8_t> read(std::uint16_t address, std::uint16_t length) {
-    refresh(address, length);
-    return table_.bytes(address, length);
-  }
+  /// Empty past the table's end. Valid until the next read.
+  std::span<const std::uint8_t> read(std::uint16_t address, std::uint16_t length);
 
-  /// Stores a write or says why not; the plant stands at the moment of the write's arrival.
-  dxl::Error write(std::uint16_t address, std::span<const std::uint8_t> data) {
-    const dxl::Error error = check(address, data);
-    if (error == dxl::Error::kNone) {
-      table_.store(address, data);
-      written(address, static_cast<std::uint16_t>(data.size()));
-    }
-    return error;
-  }
+  /// Stores a write or says why not; the plant stands at the moment of the write's arrival. Nothing
+  /// is stored unless all of it can be.
+  dxl::Error write(std::uint16_t address, std::span<const std::uint8_t> data);
+  /// Keeps a write until action(), or says why it can't be.
+  dxl::Error reg_write(std::uint16_t address, std::span<const std::uint8_t> data);
+  dxl::Error action();
+
+  /// Power off and on: RAM registers as they begin, a hardware error gone.
+  void reboot();
+  /// Not with torque on. Unless kept, the id becomes 1 and the baud rate 57600.
+  dxl::Error factory_reset(dxl::Reset reset);
+  /// Takes the turns off Present Position, which here never has any; not while moving.
+  dxl::Error clear(std::span<const std::uint8_t> parameters);
 
  protected:
   explicit Device(std::vector<Register> registers) : table_(std::move(registers)) {}
@@ -51,10 +54,28 @@ class Device {
   }
   /// Follows each stored write.
   virtual void written(std::uint16_t address, std::uint16_t length) = 0;
+  /// Follows a reboot and a reset.
+  virtual void restarted() {}
+  virtual bool torque_on() const { return false; }
+  virtual bool moving() { return false; }
   std::uint8_t byte(std::uint16_t address) const {
     return static_cast<std::uint8_t>(table_.get(address));
   }
   RegisterTable table_;
+
+ private:
+  struct Piece {  ///< of a write, on consecutive registers
+    std::uint16_t address;
+    std::vector<std::uint8_t> data;
+  };
+  /// The byte of the control table that `address` stands for: itself, unless it is Indirect Data.
+  std::uint16_t meant(std::uint16_t address) const;
+  std::vector<Piece> pieces(std::uint16_t address, std::span<const std::uint8_t> data) const;
+  dxl::Error check(const std::vector<Piece>& pieces) const;
+  dxl::Error store(const std::vector<Piece>& pieces);
+
+  std::vector<Piece> registered_;
+  std::vector<std::uint8_t> answer_;
 };
 
 }  // namespace verp::bus

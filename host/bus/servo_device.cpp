@@ -80,6 +80,16 @@ std::vector<Register> servo_registers(const ServoIdentity& identity) {
       {at::kPresentTemperature, 1, false, 25},
       {at::kBackupReady, 1, false, 0},
   };
+  for (const auto& [addresses, data] : {std::pair{at::kIndirectAddress1, at::kIndirectData1},
+                                        std::pair{at::kIndirectAddress29, at::kIndirectData29}}) {
+    for (std::uint16_t n = 0; n < dxl::kIndirectBlock; ++n) {
+      registers.push_back({static_cast<std::uint16_t>(addresses + 2 * n), 2, true, data + n,
+                           dxl::kIndirectFirst, dxl::kIndirectLast});
+    }
+    for (std::uint16_t n = 0; n < dxl::kIndirectBlock; ++n) {
+      registers.push_back({static_cast<std::uint16_t>(data + n), 1, true, 0, 0, 255});
+    }
+  }
   std::erase_if(registers, [mx](const Register& reg) {
     if (mx) return reg.address == at::kCurrentLimit || reg.address == at::kGoalCurrent;
     return reg.address == at::kAccelerationLimit;
@@ -165,6 +175,17 @@ void ServoDevice::written(std::uint16_t address, std::uint16_t length) {
     goal_written_ = true;
   }
   apply();
+}
+
+void ServoDevice::restarted() {
+  mode_ = byte(at::kOperatingMode);
+  goal_written_ = false;
+  apply();
+}
+
+bool ServoDevice::moving() {
+  refresh(at::kMoving, 1);
+  return byte(at::kMoving) != 0;
 }
 
 void ServoDevice::apply() {

@@ -27,7 +27,9 @@ class ServoDevice final : public Device {
  private:
   dxl::Error check(std::uint16_t address, std::span<const std::uint8_t> data) const override;
   void written(std::uint16_t address, std::uint16_t length) override;
-  bool torque_on() const { return byte(dxl::address::kTorqueEnable) != 0; }
+  void restarted() override;
+  bool moving() override;
+  bool torque_on() const override { return byte(dxl::address::kTorqueEnable) != 0; }
   void watch_limits(const sim::ServoMeasurement& measured);
   void apply();
 

@@ -11,22 +11,6 @@ namespace {
 
 constexpr std::uint64_t kBitsPerByte = 10;
 
-bool begins_tick(const dxl::Packet& packet) {
-  if (packet.id != dxl::kBroadcast || packet.size < 4) return false;
-  if (packet.instruction != dxl::Instruction::kSyncRead &&
-      packet.instruction != dxl::Instruction::kFastSyncRead) {
-    return false;
-  }
-  const unsigned address = dxl::get_u16(packet.parameters);
-  const unsigned end = address + dxl::get_u16(packet.parameters + 2);
-  return address <= dxl::address::kPresentPosition && end >= dxl::address::kPresentPosition + 4;
-}
-
-std::uint8_t error_field(const Device& device, dxl::Error error) {
-  return static_cast<std::uint8_t>(static_cast<std::uint8_t>(error) |
-                                   (device.alert() ? dxl::kAlert : 0));
-}
-
 }  // namespace
 
 VirtualBus::VirtualBus(const Params& params, sim::Plant& plant)
@@ -54,10 +38,13 @@ std::uint64_t VirtualBus::bytes_ns(std::size_t count) const {
   return count * kBitsPerByte * 1'000'000'000u / baud_;
 }
 
+bool VirtualBus::hears(const Device& device) const {
+  return !unplugged_[device.id()] && device.baud_code() == dxl::baud_rate_code(baud_);
+}
+
 Device* VirtualBus::device(std::uint8_t id) {
-  if (unplugged_[id]) return nullptr;
   for (const auto& candidate : devices_) {
-    if (candidate->id() == id) return candidate.get();
+    if (candidate->id() == id && hears(*candidate)) return candidate.get();
   }
   return nullptr;
 }
@@ -109,127 +96,15 @@ std::size_t VirtualBus::poll(std::uint8_t* buffer, std::size_t capacity, std::ui
   return count;
 }
 
-void VirtualBus::handle(const dxl::Packet& packet, std::uint64_t end_ns) {
-  if (packet.is_status()) return;
-  plant_.advance_to(end_ns / 1000);
-  switch (packet.instruction) {
-    case dxl::Instruction::kSyncRead:
-      return sync_read(packet);
-    case dxl::Instruction::kFastSyncRead:
-      return fast_sync_read(packet);
-    case dxl::Instruction::kSyncWrite:
-      return sync_write(packet);
-    case dxl::Instruction::kWrite:
-      return write(packet);
-    default:
-      break;
-  }
-  if (packet.id == dxl::kBroadcast) {
-    if (packet.instruction != dxl::Instruction::kPing) return;
-    for (int id = 0; id <= dxl::kMaxId; ++id) {
-      Device* each = device(static_cast<std::uint8_t>(id));
-      if (each != nullptr) ping(*each);
-    }
-    return;
-  }
-  Device* target = device(packet.id);
-  if (target == nullptr) return;
-  if (packet.instruction == dxl::Instruction::kPing) {
-    ping(*target);
-  } else if (packet.instruction == dxl::Instruction::kRead) {
-    read(*target, packet);
-  } else {
-    wait_for(*target);
-    reply(*target, dxl::Error::kInstruction, {});
-  }
-}
-
-void VirtualBus::ping(Device& device) {
-  wait_for(device);
-  std::array<std::uint8_t, 3> identity{};
-  dxl::put_u16(identity.data(), device.model());
-  identity[2] = device.firmware_version();
-  reply(device, dxl::Error::kNone, identity);
-}
-
-void VirtualBus::read(Device& device, const dxl::Packet& packet) {
-  if (device.status_level() < 1) return;
-  wait_for(device);
-  if (packet.size != 4) return reply(device, dxl::Error::kDataLength, {});
-  const auto data =
-      device.read(dxl::get_u16(packet.parameters), dxl::get_u16(packet.parameters + 2));
-  reply(device, data.empty() ? dxl::Error::kAccess : dxl::Error::kNone, data);
-}
-
-void VirtualBus::write(const dxl::Packet& packet) {
-  for (const auto& each : devices_) {
-    if (unplugged_[each->id()] || (packet.id != dxl::kBroadcast && packet.id != each->id())) {
-      continue;
-    }
-    dxl::Error error = dxl::Error::kDataLength;
-    if (packet.size > 2) {
-      error =
-          each->write(dxl::get_u16(packet.parameters), {packet.parameters + 2, packet.size - 2});
-    }
-    if (packet.id == dxl::kBroadcast || each->status_level() < 2) continue;
-    wait_for(*each);
-    return reply(*each, error, {});
-  }
-}
-
-void VirtualBus::sync_read(const dxl::Packet& packet) {
-  if (packet.size < 5) return;
-  const std::uint16_t address = dxl::get_u16(packet.parameters);
-  const std::uint16_t length = dxl::get_u16(packet.parameters + 2);
-  for (std::size_t i = 4; i < packet.size; ++i) {
-    Device* each = device(packet.parameters[i]);
-    if (each == nullptr || each->status_level() < 1) return;
-    wait_for(*each);
-    const auto data = each->read(address, length);
-    reply(*each, data.empty() ? dxl::Error::kAccess : dxl::Error::kNone, data);
-  }
-}
-
-void VirtualBus::fast_sync_read(const dxl::Packet& packet) {
-  if (packet.size < 5) return;
-  const std::uint16_t address = dxl::get_u16(packet.parameters);
-  const std::uint16_t length = dxl::get_u16(packet.parameters + 2);
-  const std::size_t count = packet.size - 4;
-  std::uint16_t crc = 0;
-  for (std::size_t i = 0; i < count; ++i) {
-    Device* each = device(packet.parameters[4 + i]);
-    if (each == nullptr || each->status_level() < 1 || !each->answers_fast_sync_read()) return;
-    if (i == 0) wait_for(*each);
-    plant_.advance_to(wire_free_ns_ / 1000);
-    const auto data = each->read(address, length);
-    if (data.empty()) return;
-    std::vector<std::uint8_t> block(dxl::kFastHeaderBytes + dxl::kFastBlockBytes + length);
-    block.resize(dxl::encode_fast_block(block.data(), i == 0, count, each->id(),
-                                        error_field(*each, dxl::Error::kNone), data.data(), length,
-                                        crc));
-    put_on_wire(std::move(block));
-  }
-}
-
-void VirtualBus::sync_write(const dxl::Packet& packet) {
-  if (packet.size < 4) return;
-  const std::uint16_t address = dxl::get_u16(packet.parameters);
-  const std::size_t length = dxl::get_u16(packet.parameters + 2);
-  for (std::size_t i = 4; i + 1 + length <= packet.size; i += 1 + length) {
-    Device* each = device(packet.parameters[i]);
-    if (each != nullptr) each->write(address, {packet.parameters + i + 1, length});
-  }
-}
-
-void VirtualBus::wait_for(const Device& device) {
-  wire_free_ns_ += std::uint64_t{device.return_delay_us()} * 1000;
+void VirtualBus::wait_us(std::uint32_t delay_us) {
+  wire_free_ns_ += std::uint64_t{delay_us} * 1000;
   plant_.advance_to(wire_free_ns_ / 1000);
 }
 
-void VirtualBus::reply(const Device& device, dxl::Error error, std::span<const std::uint8_t> data) {
+void VirtualBus::reply(std::uint8_t id, std::uint8_t error, std::span<const std::uint8_t> data) {
   std::vector<std::uint8_t> packet(dxl::kMaxPacket);
-  packet.resize(dxl::encode_status(packet.data(), packet.size(), device.id(),
-                                   error_field(device, error), data.data(), data.size()));
+  packet.resize(
+      dxl::encode_status(packet.data(), packet.size(), id, error, data.data(), data.size()));
   put_on_wire(std::move(packet));
 }
 

@@ -21,8 +21,8 @@ namespace verp::bus {
 /// reply delays and poll's timeouts. Registers are sampled when a device's reply begins, writes
 /// take effect when their last byte has arrived.
 ///
-/// In a Sync Read each device waits for the one before it: a silent one silences those behind it.
-/// Deterministic: the same frames give the same replies at the same times.
+/// In a Sync or Bulk Read each device waits for the one before it: a silent one silences those
+/// behind it. Deterministic: the same frames give the same replies at the same times.
 class VirtualBus {
  public:
   /// Servos, IMU and feet as `params` names them. The plant must outlive the bus and stand at time
@@ -52,17 +52,26 @@ class VirtualBus {
   std::uint64_t bytes_ns(std::size_t count) const;
   Device* device(std::uint8_t id);
   std::uint64_t begin_tick(std::uint64_t ready_ns);
-  void handle(const dxl::Packet& packet, std::uint64_t end_ns);
-  void ping(Device& device);
-  void read(Device& device, const dxl::Packet& packet);
-  void write(const dxl::Packet& packet);
-  void sync_read(const dxl::Packet& packet);
-  void fast_sync_read(const dxl::Packet& packet);
-  void sync_write(const dxl::Packet& packet);
-  /// Lets the device's Return Delay Time pass and the plant follow; the reply's bytes come next.
-  void wait_for(const Device& device);
-  void reply(const Device& device, dxl::Error error, std::span<const std::uint8_t> data);
+  /// False for a device that is unplugged, or set to another baud rate.
+  bool hears(const Device& device) const;
+  /// Lets a Return Delay Time pass and the plant follow; the reply's bytes come next.
+  void wait_us(std::uint32_t delay_us);
+  void reply(std::uint8_t id, std::uint8_t error, std::span<const std::uint8_t> data);
   void put_on_wire(std::vector<std::uint8_t> bytes);
+
+  // instructions.cpp
+  static bool begins_tick(const dxl::Packet& packet);
+  void handle(const dxl::Packet& packet, std::uint64_t end_ns);
+  /// Does it to all devices addressed; one that was asked alone replies.
+  template <class Apply>
+  void command(std::uint8_t id, Apply apply);
+  void ping(std::uint8_t id);
+  void read(const dxl::Packet& packet);
+  void factory_reset(const dxl::Packet& packet);
+  void read_each(const dxl::Packet& packet);
+  void read_fast(const dxl::Packet& packet);
+  void sync_write(const dxl::Packet& packet);
+  void bulk_write(const dxl::Packet& packet);
 
   sim::Plant& plant_;
   std::uint64_t period_ns_;

@@ -128,6 +128,51 @@ TEST(Encode, SyncWriteIsAsDocumented) {
   EXPECT_TRUE(equal(bytes, encoder.finish(), expected));
 }
 
+TEST(Encode, RegWriteAndActionAreAsDocumented) {
+  std::uint8_t bytes[kMaxPacket];
+  const std::uint8_t velocity[] = {0xC8, 0x00, 0x00, 0x00};
+  const std::uint8_t reg_write[] = {0xFF, 0xFF, 0xFD, 0x00, 0x01, 0x09, 0x00, 0x04,
+                                    0x68, 0x00, 0xC8, 0x00, 0x00, 0x00, 0xAE, 0x8E};
+  EXPECT_TRUE(equal(bytes,
+                    encode_reg_write(bytes, sizeof bytes, 1, address::kGoalVelocity, velocity, 4),
+                    reg_write));
+  const std::uint8_t action[] = {0xFF, 0xFF, 0xFD, 0x00, 0x01, 0x03, 0x00, 0x05, 0x02, 0xCE};
+  EXPECT_TRUE(equal(bytes, encode_plain(bytes, sizeof bytes, 1, Instruction::kAction), action));
+}
+
+TEST(Encode, ResetRebootAndClearAreAsDocumented) {
+  std::uint8_t bytes[kMaxPacket];
+  const std::uint8_t reset[] = {0xFF, 0xFF, 0xFD, 0x00, 0x01, 0x04, 0x00, 0x06, 0x01, 0xA1, 0xE6};
+  EXPECT_TRUE(equal(bytes, encode_factory_reset(bytes, sizeof bytes, 1, Reset::kAllButId), reset));
+  const std::uint8_t reboot[] = {0xFF, 0xFF, 0xFD, 0x00, 0x01, 0x03, 0x00, 0x08, 0x2F, 0x4E};
+  EXPECT_TRUE(equal(bytes, encode_plain(bytes, sizeof bytes, 1, Instruction::kReboot), reboot));
+  const std::uint8_t clear[] = {0xFF, 0xFF, 0xFD, 0x00, 0x01, 0x08, 0x00, 0x10,
+                                0x01, 0x44, 0x58, 0x4C, 0x22, 0xB1, 0xDC};
+  EXPECT_TRUE(equal(bytes, encode_clear_turns(bytes, sizeof bytes, 1), clear));
+}
+
+TEST(Encode, BulkReadAndWriteAreAsDocumented) {
+  std::uint8_t bytes[kMaxPacket];
+  Encoder read(bytes, sizeof bytes);
+  begin_bulk(read, Instruction::kBulkRead);
+  bulk_entry(read, 1, address::kPresentVoltage, 2);
+  bulk_entry(read, 2, address::kPresentTemperature, 1);
+  const std::uint8_t bulk_read[] = {0xFF, 0xFF, 0xFD, 0x00, 0xFE, 0x0D, 0x00, 0x92, 0x01, 0x90,
+                                    0x00, 0x02, 0x00, 0x02, 0x92, 0x00, 0x01, 0x00, 0x1A, 0x05};
+  EXPECT_TRUE(equal(bytes, read.finish(), bulk_read));
+
+  Encoder write(bytes, sizeof bytes);
+  begin_bulk(write, Instruction::kBulkWrite);
+  bulk_entry(write, 1, address::kMaxVoltageLimit, 2);
+  write.u16(160);
+  bulk_entry(write, 2, address::kTemperatureLimit, 1);
+  write.u8(80);
+  const std::uint8_t bulk_write[] = {0xFF, 0xFF, 0xFD, 0x00, 0xFE, 0x10, 0x00, 0x93,
+                                     0x01, 0x20, 0x00, 0x02, 0x00, 0xA0, 0x00, 0x02,
+                                     0x1F, 0x00, 0x01, 0x00, 0x50, 0xB7, 0x68};
+  EXPECT_TRUE(equal(bytes, write.finish(), bulk_write));
+}
+
 TEST(Encode, RefusesWhatDoesNotFitAndWritesNothingPastTheEnd) {
   std::uint8_t bytes[16];
   for (std::size_t capacity = 0; capacity < 10; ++capacity) {
@@ -265,10 +310,10 @@ TEST(FastSyncRead, BlocksOfAllDevicesMakeOnePacket) {
   const std::uint8_t first[] = {0xFF, 0xFF, 0xFD, 0x00};
   const std::uint8_t second[] = {0x1F, 0x08, 0x00, 0x00};
   std::uint16_t crc = 0;
-  std::size_t size = encode_fast_block(bytes, true, 2, 1, 0, first, 4, crc);
+  std::size_t size = encode_fast_block(bytes, true, 2 * (4 + kFastBlockBytes), 1, 0, first, 4, crc);
   EXPECT_EQ(size, kFastHeaderBytes + kFastBlockBytes + 4);
   EXPECT_EQ(get_u16(bytes + size - 2), crc16(bytes, size - 2));
-  size += encode_fast_block(bytes + size, false, 2, 2, kAlert, second, 4, crc);
+  size += encode_fast_block(bytes + size, false, 0, 2, kAlert, second, 4, crc);
   EXPECT_EQ(get_u16(bytes + 5), size - kHeaderBytes);
 
   Parser parser;
