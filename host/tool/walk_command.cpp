@@ -111,6 +111,11 @@ int run_walk(WalkOptions options) {
   const std::vector<report::SweepRow> rows = sweep(plan, options, progress);
   progress.clear();
   result.interrupted = interrupted();  // in the walk or in the sweep
+  for (const report::SweepRow& row : rows) {
+    if (row.fallen && result.failure.empty()) {
+      result.failure = fmt::format("fell in the sweep, at steps of {:g} m", row.step_m);
+    }
+  }
 
   std::string page;
   if (!folder.empty()) page = write_report(plan, options, result, rows, folder, trace_path);
