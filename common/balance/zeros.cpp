@@ -1,6 +1,5 @@
 #include "common/balance/zeros.hpp"
 
-#include "common/math/convert.hpp"
 #include "common/model/counts.hpp"
 
 namespace verp::balance {

@@ -1,8 +1,8 @@
 #include "host/tool/walk_options.hpp"
 
-#include <algorithm>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "common/model/tuning_ranges.hpp"

@@ -125,6 +125,23 @@ void get_walking(Loop& loop) {
   loop.ticks(200);
 }
 
+// What was learnt of the legs' zeros moves the ankles' goals, and nothing does once that is
+// switched off.
+TEST(Step, ZeroErrorsReachTheGoalsUnlessSwitchedOff) {
+  static Loop loop;
+  get_walking(loop);
+  const auto ankle_goals = [&](float zero_rad, float enable) {
+    State state = loop.state;
+    state.zeros.leg[0].pitch_rad = zero_rad;
+    state.tuning.balance.zeros_enable = enable;
+    Outputs outputs;
+    step(kRobot, state, loop.inputs, outputs);
+    return outputs.goal_count[kRobot.leg[0].joint[4]];
+  };
+  EXPECT_GT(ankle_goals(0.02F, 1), ankle_goals(0.0F, 1) + 10) << "0.02 rad are 13 counts";
+  EXPECT_EQ(ankle_goals(0.02F, 0), ankle_goals(0.0F, 0));
+}
+
 TEST(Step, SilentServoHoldsThenSits) {
   static Loop loop;
   get_walking(loop);
