@@ -1,5 +1,7 @@
 #include "host/model/assemble.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -7,6 +9,7 @@
 #include <sdf/sdf.hh>
 
 #include "common/model/tuning_ranges.hpp"
+#include "firmware/app/schedule.hpp"
 #include "host/model/leg.hpp"
 #include "host/model/link_tree.hpp"
 #include "host/model/params.hpp"
@@ -34,6 +37,7 @@ class Assembler {
     read_sensors();
     read_tuning();
     gather_leg_frames(e_);
+    check_bus();
     add_notes();
     return std::move(e_);
   }
@@ -233,6 +237,16 @@ class Assembler {
       }
       e_.tuning.emplace_back(fact.name, fact.value);
     }
+  }
+
+  /// A bus that cannot carry a tick's packets in a period would make every tick late.
+  void check_bus() const {
+    const double needed_us = app::schedule_us(make_params(e_));
+    if (needed_us <= e_.period_us) return;
+    facts_.bus->fail(
+        fmt::format("a tick's packets take {:.0f} us at {} baud, and the period is {} us",
+                    needed_us, e_.baud, e_.period_us),
+        "raise baud, or period_us");
   }
 
   void add_notes() {

@@ -4,6 +4,7 @@
 #include <map>
 #include <numbers>
 
+#include "host/model/bounds.hpp"
 #include "host/model/number.hpp"
 #include "host/model/servo_types.hpp"
 
@@ -23,6 +24,10 @@ Transform read_pose(const XmlElement& element) {
     poses.front().fail("<pose> is not 6 finite numbers", "write x y z roll pitch yaw");
   }
   const auto& v = *values;
+  for (std::size_t i = 0; i < v.size(); ++i) {
+    const double most = i < 3 ? kMostLength_m : kMostAngle;
+    require_within(element.file(), poses.front().line(), "<pose>", v[i], -most, most, "");
+  }
   Transform pose = Transform::Identity();
   pose.translation() = Vec3(v[0], v[1], v[2]);
   pose.linear() = (Eigen::AngleAxisd(v[5], Vec3::UnitZ()) * Eigen::AngleAxisd(v[4], Vec3::UnitY()) *
@@ -191,11 +196,7 @@ class FactReader {
     f_.feet.emplace(
         FeetFact{e,
                  {{e.integer("left_id", 1, kHighestId), e.integer("right_id", 1, kHighestId)},
-                  e.number("newton_per_count")}});
-    if (f_.feet->feet.newton_per_count <= 0) {
-      e.fail("<verp:feet> newton_per_count is not positive",
-             "write the force of one count, like 0.01");
-    }
+                  e.number_within("newton_per_count", 1e-6, 10, " N, like 0.01")}});
   }
   void pose(const XmlElement& e) {
     e.allow({"name"});
@@ -217,8 +218,7 @@ class FactReader {
   void inertia(const XmlElement& e) {
     e.allow({"link", "scale", "com", "reason"});
     e.text("reason");
-    InertiaFact fact{e, e.text("link"), e.number("scale", 1), {}};
-    if (!(fact.scale > 0)) e.fail("<verp:inertia> scale is not positive", "write like 0.001");
+    InertiaFact fact{e, e.text("link"), e.number_within("scale", 1e-6, 1e6, ", like 0.001", 1), {}};
     if (e.has("com")) fact.com_m = e.vector("com");
     if (fact.com_m && fact.link == "*") {
       e.fail("<verp:inertia> gives one centre of mass to all links", "name the link");
@@ -229,12 +229,14 @@ class FactReader {
     e.allow({"frame", "centre", "size", "friction", "stiffness_n_m", "damping_n_s_m"});
     Collision box;
     box.size_m = e.vector("size");
-    if (box.size_m.minCoeff() <= 0)
-      e.fail("<verp:box> size is not positive", "write three lengths in metres");
+    if (box.size_m.minCoeff() < kLeastLength_m)
+      e.fail("<verp:box> size is less than 0.1 mm", "write three lengths in metres");
     box.pose.translation() = e.vector("centre");
-    box.friction = e.number("friction", box.friction);
-    box.stiffness_n_m = e.number("stiffness_n_m", box.stiffness_n_m);
-    box.damping_n_s_m = e.number("damping_n_s_m", box.damping_n_s_m);
+    box.friction = e.number_within("friction", 0, kMostFriction, "", box.friction);
+    box.stiffness_n_m =
+        e.number_within("stiffness_n_m", 1, kMostStiffness_n_m, " N/m", box.stiffness_n_m);
+    box.damping_n_s_m =
+        e.number_within("damping_n_s_m", 0, kMostDamping_n_s_m, " N s/m", box.damping_n_s_m);
     f_.boxes.push_back({e, e.text("frame"), box});
   }
   void drop(const XmlElement& e) {

@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "common/io/io.hpp"
+#include "host/model/bounds.hpp"
 #include "host/model/load_error.hpp"
 #include "host/model/sdf_parts.hpp"
 
@@ -168,6 +169,12 @@ int LinkTree::add_joint(const sdf::Joint& sdf, const std::string& child, int par
   joint.lower_rad = axis.Lower();
   joint.upper_rad = axis.Upper();
   joint.velocity_limit_rad_s = axis.MaxVelocity() > 0 ? axis.MaxVelocity() : kInfinity;
+  if (joint.velocity_limit_rad_s < kLeastSpeed_rad_s) {
+    fail(joint.name,
+         "joint '" + joint.name + "' may hardly move: its velocity limit is " +
+             std::to_string(joint.velocity_limit_rad_s) + " rad/s",
+         "raise <velocity> to 0.01 or more, or leave it out: the servo's own speed holds then");
+  }
   joint.friction_n_m = axis.Friction();
   joint.damping_n_m_s = axis.Damping();
   if (joint.friction_n_m < 0 || joint.damping_n_m_s < 0) {
@@ -208,6 +215,12 @@ void LinkTree::attach_shapes(const RawLink& link) {
            "use a box, sphere, cylinder or capsule, or declare <verp:drop what=\"collision\" "
            "name=\"" +
                link.sdf->Name() + "\" reason=\"...\"/> and add a <verp:box>");
+    }
+    if (least_measure(collision) < kLeastLength_m) {
+      fail(sdf.Name(),
+           "collision '" + sdf.Name() + "' of link '" + link.sdf->Name() +
+               "' is thinner than 0.1 mm",
+           "write its size in metres");
     }
     add_collision(link.node, link.pose * resolved(sdf.SemanticPose(), link.sdf->Name()), collision);
   }

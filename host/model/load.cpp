@@ -7,6 +7,7 @@
 #include "host/model/assemble.hpp"
 #include "host/model/facts.hpp"
 #include "host/model/find.hpp"
+#include "host/model/library_console.hpp"
 #include "host/model/urdf_check.hpp"
 #include "host/model/xml_source.hpp"
 
@@ -16,7 +17,6 @@ namespace {
 /// libsdformat's strictest reading. Settings are global because an <include> ignores those given to
 /// Load().
 void configure(const std::string& path) {
-  sdf::Console::Instance()->SetQuiet(true);  // its messages come back as errors, or name no line
   sdf::ParserConfig& config = sdf::ParserConfig::GlobalConfig();
   config.SetFindCallback([path](const std::string& uri) { return resolve_model_uri(uri, path); });
   config.SetUnrecognizedElementsPolicy(sdf::EnforcementPolicy::ERR);
@@ -84,6 +84,7 @@ Entity load_robot(const std::string& path) {
   const XmlSource source(path);
   const XmlElement model = source.model();
   const Facts facts = read_facts(model);
+  const LibraryConsole silence;
   configure(path);
   sdf::Root root;
   const sdf::Errors errors = root.Load(path);

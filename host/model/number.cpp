@@ -43,4 +43,10 @@ std::optional<std::vector<double>> parse_numbers(std::string_view text) {
   return values;
 }
 
+bool is_infinity(std::string_view text) {
+  text = trim(text);
+  if (text.starts_with('+') || text.starts_with('-')) text.remove_prefix(1);
+  return text == "inf";
+}
+
 }  // namespace verp::model

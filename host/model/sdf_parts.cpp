@@ -1,6 +1,7 @@
 #include "host/model/sdf_parts.hpp"
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <cmath>
 #include <sdf/Box.hh>
 #include <sdf/Capsule.hh>
@@ -9,6 +10,8 @@
 #include <sdf/Geometry.hh>
 #include <sdf/Sphere.hh>
 #include <stdexcept>
+
+#include "host/model/bounds.hpp"
 
 namespace verp::model {
 
@@ -81,8 +84,21 @@ bool read_shape(const sdf::Collision& sdf, Collision& collision) {
   return true;
 }
 
+double least_measure(const Collision& collision) {
+  const Vec3& size_m = collision.size_m;
+  switch (collision.shape) {
+    case Collision::Shape::kBox:
+      return size_m.minCoeff();
+    case Collision::Shape::kCylinder:
+      return std::min(size_m.x(), size_m.z());
+    default:  // a capsule may be a ball
+      return size_m.x();
+  }
+}
+
 std::string implausible(const Node& node, double extent_m) {
   if (!(node.mass_kg > 0) || !std::isfinite(node.mass_kg)) return "its mass is not positive";
+  if (node.mass_kg < kLeastMass_kg) return "its mass is less than a milligram";
   const Eigen::SelfAdjointEigenSolver<Mat3> solver(node.inertia_kg_m2, Eigen::EigenvaluesOnly);
   const Vec3 moment = solver.eigenvalues();  // ascending
   if (!(moment[0] > 0) || !moment.allFinite()) return "its inertia is not positive definite";
@@ -93,6 +109,9 @@ std::string implausible(const Node& node, double extent_m) {
   if (extent_m > 0 && radius_m > extent_m) {
     return "its radius of gyration is " + std::to_string(radius_m) +
            " m, more than the whole robot measures";
+  }
+  if (radius_m < kLeastGyration_m) {
+    return "its radius of gyration is below 0.1 mm: no body is that dense";
   }
   return {};
 }

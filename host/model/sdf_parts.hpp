@@ -23,6 +23,9 @@ inline Transform model_pose(const sdf::SemanticPose& pose) {
 /// Shape, size and surface; false for shapes that contacts cannot use (meshes, planes, ellipsoids).
 bool read_shape(const sdf::Collision& sdf, Collision& collision);
 
+/// The smallest extent of a shape: edge, radius or length.
+double least_measure(const Collision& collision);
+
 /// Empty, or what is wrong with a node's mass and inertia. `extent_m`: the robot's diagonal, which
 /// no link's radius of gyration can exceed.
 std::string implausible(const Node& node, double extent_m);

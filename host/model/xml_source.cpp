@@ -7,44 +7,13 @@
 #include <set>
 #include <string_view>
 
+#include "host/model/bounds.hpp"
 #include "host/model/find.hpp"
 #include "host/model/load_error.hpp"
 #include "host/model/number.hpp"
+#include "host/model/xml_numbers.hpp"
 
 namespace verp::model {
-namespace {
-
-// Leaves of SDF that hold numbers, and how many (0: any). Those that may be infinite are left out.
-const std::map<std::string_view, std::size_t> kSdfNumbers = {
-    {"mass", 1},    {"ixx", 1},       {"iyy", 1},
-    {"izz", 1},     {"ixy", 1},       {"ixz", 1},
-    {"iyz", 1},     {"xyz", 3},       {"lower", 1},
-    {"upper", 1},   {"damping", 1},   {"friction", 1},
-    {"size", 0},    {"radius", 1},    {"length", 1},
-    {"mu", 1},      {"mu2", 1},       {"kp", 1},
-    {"kd", 1},      {"pose", 0},      {"update_rate", 1},
-    {"min", 1},     {"max", 1},       {"resolution", 1},
-    {"width", 1},   {"height", 1},    {"horizontal_fov", 1},
-    {"near", 1},    {"far", 1},       {"stddev", 1},
-    {"mean", 1},    {"bias_mean", 1}, {"bias_stddev", 1},
-    {"samples", 1}, {"min_angle", 1}, {"max_angle", 1}};
-
-const std::map<std::string_view, std::size_t> kUrdfNumbers = {
-    {"xyz", 3}, {"rpy", 3}, {"ixx", 1},   {"iyy", 1},   {"izz", 1},    {"ixy", 1},
-    {"ixz", 1}, {"iyz", 1}, {"lower", 1}, {"upper", 1}, {"effort", 1}, {"velocity", 1}};
-
-void require_numbers(const std::string& file, int line, const std::string& what,
-                     const std::string& text, std::size_t count) {
-  const auto values = parse_numbers(text);
-  if (values && (count == 0 || values->size() == count)) return;
-  throw LoadError(file, line,
-                  what + " is not " +
-                      (count > 1 ? std::to_string(count) + " finite numbers" : "a finite number") +
-                      ": '" + text + "'",
-                  "write digits with a decimal point, like 0.125");
-}
-
-}  // namespace
 
 std::vector<XmlElement> XmlElement::children() const {
   std::vector<XmlElement> found;
@@ -98,6 +67,18 @@ double XmlElement::number(const char* attribute) const {
 
 double XmlElement::number(const char* attribute, double fallback) const {
   return has(attribute) ? number(attribute) : fallback;
+}
+
+double XmlElement::number_within(const char* attribute, double low, double high,
+                                 const char* unit) const {
+  const double value = number(attribute);
+  require_within(file(), line(), "<" + name() + "> " + attribute, value, low, high, unit);
+  return value;
+}
+
+double XmlElement::number_within(const char* attribute, double low, double high, const char* unit,
+                                 double fallback) const {
+  return has(attribute) ? number_within(attribute, low, high, unit) : fallback;
 }
 
 int XmlElement::integer(const char* attribute, int lowest, int highest) const {
@@ -156,15 +137,10 @@ void XmlSource::inspect(const File& file, const tinyxml2::XMLElement& element) {
   }
   if (is_urdf) {
     for (const auto* a = element.FirstAttribute(); a; a = a->Next()) {
-      const auto numeric = kUrdfNumbers.find(a->Name());
-      if (numeric == kUrdfNumbers.end()) continue;
-      require_numbers(file.path, line, "<" + std::string(name) + "> " + a->Name(), a->Value(),
-                      numeric->second);
+      check_urdf_attribute(file.path, line, std::string(name), a->Name(), a->Value());
     }
-  } else if (const auto numeric = kSdfNumbers.find(name);
-             numeric != kSdfNumbers.end() && !element.FirstChildElement() && element.GetText()) {
-    require_numbers(file.path, line, "<" + std::string(name) + ">", element.GetText(),
-                    numeric->second);
+  } else if (!element.FirstChildElement() && element.GetText()) {
+    check_sdf_leaf(file.path, line, std::string(name), element.GetText());
   }
   if (!is_urdf && name == "include") {
     const auto* uri = element.FirstChildElement("uri");

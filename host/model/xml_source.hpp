@@ -38,9 +38,12 @@ class XmlElement {
   std::string text(const char* attribute, const std::string& fallback) const;
   double number(const char* attribute) const;
   double number(const char* attribute, double fallback) const;
+  double number_within(const char* attribute, double low, double high, const char* unit) const;
+  double number_within(const char* attribute, double low, double high, const char* unit,
+                       double fallback) const;
   int integer(const char* attribute, int lowest, int highest) const;
   int integer(const char* attribute, int lowest, int highest, int fallback) const;
-  Vec3 vector(const char* attribute) const;
+  Vec3 vector(const char* attribute) const;  ///< a position or size in metres
 
  private:
   const std::string* file_;  // lives in XmlSource

@@ -155,7 +155,50 @@ TEST(BadInput, InertiaInOtherUnitsIsRefused) {
 }
 
 TEST(BadInput, NegativeMassIsRefused) {
-  expect_refused(edited("<mass>1.1</mass>", "<mass>-1.1</mass>"), "<link name=\"trunk\">", "mass");
+  expect_refused(edited("<mass>1.1</mass>", "<mass>-1.1</mass>"), "<mass>-1.1</mass>", "mass");
+}
+
+/// What float32 cannot compute with, or no robot has: refused where it stands.
+TEST(BadInput, AbsurdMagnitudesAreRefused) {
+  const struct {
+    const char *old_part, *new_part, *line_part, *message;
+  } kRows[] = {
+      {"<mass>1.1</mass>", "<mass>1e30</mass>", "<mass>1e30", "give 0 to 1000 kg"},
+      {"<mass>1.1</mass>", "<mass>1e-30</mass>", "<link name=\"trunk\">", "milligram"},
+      {"<ixx>0.00366667</ixx>", "<ixx>1e30</ixx>", "<ixx>1e30", "100000 kg m2"},
+      {"<ixx>0.00366667</ixx><iyy>0.00293333</iyy><izz>0.00190667</izz>",
+       "<ixx>1e-30</ixx><iyy>1e-30</iyy><izz>1e-30</izz>", "<link name=\"trunk\">", "that dense"},
+      {"<pose>0 0 0.003 0 0 0</pose>", "<pose>0 0 1e30 0 0 0</pose>", "1e30", "-10 to 10 m"},
+      {"<pose>0 0 0.003 0 0 0</pose>", "<pose>0 0 0 1e30 0 0</pose>", "1e30", "-1000 to 1000"},
+      {"<xyz>0 0 1</xyz>", "<xyz>0 0 1e30</xyz>", "1e30", "-1000 to 1000"},
+      {"<size>", "<size>1e30 ", "<size>1e30", "0 to 10 m"},
+      {"<mu>0.8</mu>", "<mu>1e30</mu>", "<mu>1e30", "0 to 100"},
+      {"<kp>50000</kp>", "<kp>0</kp>", "<kp>0<", "1 to 1e+12 N/m"},
+      {"<kd>500</kd>", "<kd>1e30</kd>", "<kd>1e30", "N s/m"},
+      {"<upper>1</upper>", "<upper>1e30</upper>", "<joint name=\"head_pitch\"",
+       "no position limits"},
+      {"<upper>1</upper>", "<upper>1</upper><velocity>1e-30</velocity>",
+       "<joint name=\"head_pitch\"", "hardly move"},
+      {"<upper>1</upper>", "<upper>1</upper><velocity>nan</velocity>", "nan", "finite"},
+      {"<upper>1</upper>", "<upper>1</upper><effort>1,0x</effort>", "1,0x", "finite"},
+      {"<verp:body link=\"trunk\"/>",
+       "<verp:body link=\"trunk\"><pose>1e30 0 0 0 0 0</pose></verp:body>", "1e30", "-10 to 10"},
+      {"newton_per_count=\"0.01\"", "newton_per_count=\"1e30\"", "1e30", "1e-06 to 10 N"},
+      {"newton_per_count=\"0.01\"", "newton_per_count=\"0\"", "count=\"0\"", "1e-06 to 10 N"},
+      {"baud=\"2000000\"", "baud=\"1e30\"", "1e30", "9600 to 4500000"},
+      {"baud=\"2000000\"", "baud=\"9600\"", "baud=\"9600\"", "raise baud"},
+      {"period_us=\"10000\"", "period_us=\"1\"", "period_us=\"1\"", "4000 to 20000"},
+  };
+  for (const auto& row : kRows) {
+    SCOPED_TRACE(row.new_part);
+    expect_refused(edited(row.old_part, row.new_part), row.line_part, row.message);
+  }
+}
+
+TEST(BadInput, LimitsThatMayBeEndlessStayAllowed) {
+  const TemporaryFile file("robot.sdf",
+                           edited("<upper>1</upper>", "<upper>1</upper><velocity>inf</velocity>"));
+  EXPECT_NO_THROW(load_robot(file.path()));
 }
 
 TEST(BadInput, InvertedLimitsAreRefused) {

@@ -84,6 +84,16 @@ TEST_F(Usage, UnwritablePlacesAreNamedBeforeTheRun) {
   expect_refused("walk --report file", "file");
 }
 
+// libsdformat would log to ~/.sdformat and complain where it cannot.
+TEST_F(Usage, LibrariesPrintNothingAndLeaveNothingAtHome) {
+  for (const char* home : {"env -u HOME ", "HOME=/proc ", "HOME=/nowhere ", "HOME=$PWD "}) {
+    const Outcome outcome = shell(home + std::string(VERP_PROGRAM " check generic21"));
+    EXPECT_EQ(outcome.status, 0) << home;
+    EXPECT_EQ(outcome.err, "") << home;
+  }
+  EXPECT_FALSE(fs::exists(folder_ / ".sdformat"));
+}
+
 // A finished trace takes the name it was given: a device of that name would be gone.
 TEST_F(Usage, DevicesAndPipesAreNotReplacedByTraces) {
   ASSERT_EQ(::mkfifo((folder_ / "pipe").c_str(), 0600), 0);

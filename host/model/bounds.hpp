@@ -1,0 +1,26 @@
+#pragma once
+#include <string>
+
+/// How large or small a robot's numbers may be. What lies outside is a slip of the pen or units:
+/// the controller computes in float32, whose 24 bits hold 1 um in 10 m, and in sums of mass times
+/// length squared a heavier or longer part would drown the digits of all others. The servos we know
+/// move far less.
+namespace verp::model {
+
+constexpr double kMostMass_kg = 1000;
+constexpr double kLeastMass_kg = 1e-6;
+constexpr double kMostLength_m = 10;
+constexpr double kLeastLength_m = 1e-4;
+constexpr double kMostAngle = 1000;  ///< degrees are allowed in some places, whole turns too
+/// No body of that mass or more has a smaller one: a ball of tungsten of 1 mg has 0.15 mm.
+constexpr double kLeastGyration_m = 1e-4;
+constexpr double kLeastSpeed_rad_s = 0.01;  ///< a joint that is meant to move
+constexpr double kMostFriction = 100;
+constexpr double kMostStiffness_n_m = 1e12;  ///< SDF's default
+constexpr double kMostDamping_n_s_m = 1e9;
+
+/// Throws LoadError at the line, with the bounds, when the value is outside them.
+void require_within(const std::string& file, int line, const std::string& what, double value,
+                    double low, double high, const char* unit);
+
+}  // namespace verp::model
