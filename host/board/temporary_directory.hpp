@@ -1,20 +1,18 @@
 #pragma once
-#include <filesystem>
+#include "host/board/board_error.hpp"
+#include "host/files/temporary_directory.hpp"
 
 namespace verp::board {
 
-/// A new directory of our own, removed with all it holds. Throws BoardError when it can't be made.
-class TemporaryDirectory {
+/// A new directory of our own, removed with all it holds. Throws BoardError when it can't be made:
+/// without one there is no link to a board.
+class TemporaryDirectory : public files::TemporaryDirectory {
  public:
-  TemporaryDirectory();
-  ~TemporaryDirectory();
-  TemporaryDirectory(const TemporaryDirectory&) = delete;
-  TemporaryDirectory& operator=(const TemporaryDirectory&) = delete;
-
-  const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
+  TemporaryDirectory() try : files
+    ::TemporaryDirectory() {}
+  catch (const files::FileError& error) {
+    throw BoardError(error.what());
+  }
 };
 
 }  // namespace verp::board

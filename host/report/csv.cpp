@@ -5,8 +5,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host/files/csv_field.hpp"
+
 namespace verp::report {
 namespace {
+
+using files::csv_field;
 
 constexpr int kTransition = 2;  // gait::Phase::kTransition: the steady part of the paper's three
 
@@ -23,8 +27,8 @@ std::string samples_csv(const Run& run) {
     out += fmt::format(",{0}_ankle_x_m,{0}_ankle_y_m,{0}_ankle_z_m,{0}_contact", foot);
   }
   out += ",zmp_x_m,zmp_y_m,zmp_planned_x_m,zmp_planned_y_m,zmp_bias_mm";
-  for (const std::string& joint : run.joints) out += fmt::format(",{}_rad", joint);
-  for (const std::string& joint : run.joints) out += fmt::format(",{}_torque_use", joint);
+  for (const std::string& joint : run.joints) out += "," + csv_field(joint + "_rad");
+  for (const std::string& joint : run.joints) out += "," + csv_field(joint + "_torque_use");
   out += '\n';
   for (const Sample& s : run.samples) {
     out += fmt::format("{:.4f},{},{},{}", s.t_s, s.phase, s.state, s.carrying);
@@ -58,7 +62,7 @@ std::string torque_csv(const Run& run) {
   const std::vector<TorqueUse> use = torque_use(run);
   std::string out = "joint,mean_torque_use,peak_torque_use\n";
   for (std::size_t j = 0; j < use.size(); ++j) {
-    out += fmt::format("{},{:.4f},{:.4f}\n", run.joints[j], use[j].mean, use[j].peak);
+    out += fmt::format("{},{:.4f},{:.4f}\n", csv_field(run.joints[j]), use[j].mean, use[j].peak);
   }
   return out;
 }

@@ -8,11 +8,13 @@
 
 #include <array>
 #include <cstdlib>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <utility>
 
+#include "host/files/temporary_directory.hpp"
 #include "host/report/palette.hpp"
 
 extern char** environ;
@@ -22,32 +24,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A folder for the script and what gnuplot makes of it; gone afterwards.
-class Scratch {
- public:
-  Scratch() {
-    std::string name = (fs::temp_directory_path() / "verp-plot-XXXXXX").string();
-    if (::mkdtemp(name.data()) != nullptr) path_ = name;
-  }
-  ~Scratch() {
-    std::error_code ignored;
-    if (!path_.empty()) fs::remove_all(path_, ignored);
-  }
-  Scratch(const Scratch&) = delete;
-  Scratch& operator=(const Scratch&) = delete;
-  const fs::path& path() const { return path_; }
-
- private:
-  fs::path path_;
-};
-
 std::string slurp(const fs::path& file) {
   std::ifstream in(file, std::ios::binary);
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
-/// Exit status of gnuplot with its output in files; -1 if it cannot be started.
-int run_gnuplot(const std::string& argument, const std::string& out, const std::string& error) {
+/// Runs gnuplot with its output in files. Returns how it failed, or nothing.
+std::string run_gnuplot(const std::string& argument, const std::string& out,
+                        const std::string& error) {
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
   posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
@@ -55,17 +39,24 @@ int run_gnuplot(const std::string& argument, const std::string& out, const std::
                                    O_WRONLY | O_CREAT | O_TRUNC, 0600);
   posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, error.c_str(),
                                    O_WRONLY | O_CREAT | O_TRUNC, 0600);
+  // A group of its own: Ctrl-C asks us to end in order, and the report is part of that.
+  posix_spawnattr_t attributes;
+  posix_spawnattr_init(&attributes);
+  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
   std::string program = "gnuplot", file = argument;
   std::array<char*, 3> arguments{program.data(), file.data(), nullptr};
   pid_t child = 0;
   const int failed =
-      ::posix_spawnp(&child, "gnuplot", &actions, nullptr, arguments.data(), environ);
+      ::posix_spawnp(&child, "gnuplot", &actions, &attributes, arguments.data(), environ);
+  posix_spawnattr_destroy(&attributes);
   posix_spawn_file_actions_destroy(&actions);
-  if (failed != 0) return -1;
+  if (failed != 0) return fmt::format("it cannot be started: {}", std::strerror(failed));
   int status = 0;
   while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
   }
-  return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  if (WIFSIGNALED(status)) return fmt::format("it was ended by signal {}", WTERMSIG(status));
+  return WEXITSTATUS(status) == 0 ? ""
+                                  : fmt::format("it ended with status {}", WEXITSTATUS(status));
 }
 
 void replace_all(std::string& text, const std::string& from, const std::string& to) {
@@ -98,20 +89,21 @@ std::string for_page(std::string svg) {
 
 /// What a script plots to stdout.
 std::optional<std::string> output_of(const std::string& script, std::string& error) {
-  const Scratch scratch;
-  if (scratch.path().empty()) {
-    error = "no folder for temporary files";
-    return std::nullopt;
-  }
+  const files::TemporaryDirectory scratch;
   const fs::path file = scratch.path() / "plot.gp";
-  std::ofstream(file, std::ios::binary) << script;
+  std::ofstream written(file, std::ios::binary);
+  written << script;
+  written.close();
+  if (!written) {
+    throw files::FileError(file.string() +
+                           ": cannot be written; free space there, or point TMPDIR elsewhere");
+  }
   const fs::path out = scratch.path() / "plot", problems = scratch.path() / "stderr";
-  const int status = run_gnuplot(file.string(), out.string(), problems.string());
-  if (status == 0) return slurp(out);
+  const std::string failure = run_gnuplot(file.string(), out.string(), problems.string());
+  if (failure.empty()) return slurp(out);
   const std::string text = slurp(problems);
   const std::size_t start = text.find_first_not_of(" \n");
-  error = start == std::string::npos ? fmt::format("gnuplot ended with status {}", status)
-                                     : text.substr(start, text.find('\n', start) - start);
+  error = start == std::string::npos ? failure : text.substr(start, text.find('\n', start) - start);
   return std::nullopt;
 }
 
@@ -135,7 +127,7 @@ std::optional<std::string> draw(const Plot& plot, std::string& error) {
   std::optional<std::string> svg = output_of(terminal + plot.script, error);
   if (svg) *svg = for_page(std::move(*svg));
   if (svg && svg->find("</svg>") == std::string::npos) {
-    error = "gnuplot made no picture";
+    error = "it made no picture";
     svg.reset();
   }
   return svg;
@@ -150,7 +142,12 @@ std::optional<std::string> draw_png(const Plot& plot, std::string& error) {
       "linewidth {} "
       "pointscale {} background rgb '#ffffff'\n",
       kScale * plot.width, kScale * plot.height, kScale, kScale, kScale);
-  return output_of(terminal + script, error);
+  std::optional<std::string> png = output_of(terminal + script, error);
+  if (png && !png->starts_with("\x89PNG")) {
+    error = "it made no picture";
+    png.reset();
+  }
+  return png;
 }
 
 }  // namespace verp::report

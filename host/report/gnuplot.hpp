@@ -10,7 +10,8 @@ namespace verp::report {
 bool gnuplot_available();
 
 /// The picture as SVG, ready to stand inside a page: without XML prolog, its colours the page's CSS
-/// variables. Nothing when it fails; `error` then holds gnuplot's first line.
+/// variables. Nothing when it fails; `error` then holds gnuplot's first line, or
+/// how it ended. Throws files::FileError when there is no place for the script.
 std::optional<std::string> draw(const Plot& plot, std::string& error);
 
 /// The picture as PNG in the light colours, on white.

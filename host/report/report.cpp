@@ -1,5 +1,8 @@
 #include "host/report/report.hpp"
 
+#include <fmt/format.h>
+
+#include "host/files/temporary_directory.hpp"
 #include "host/report/csv.hpp"
 #include "host/report/figure.hpp"
 #include "host/report/files.hpp"
@@ -10,23 +13,57 @@
 namespace verp::report {
 namespace {
 
-std::vector<Picture> draw_all(const Run& run, std::string& note) {
+/// What gnuplot made of a run. A picture that fails never costs another one, nor the numbers.
+struct Drawing {
   std::vector<Picture> pictures;
-  if (!gnuplot_available()) {
-    note =
-        "No plots: gnuplot is not installed (apt-get install gnuplot-nox); the numbers are in the "
-        "CSV files.";
-    return pictures;
-  }
+  std::string png;
+  std::size_t wanted = 0, failed = 0;
+  std::string problem;  ///< of the first that failed: mostly all fail for the same reason
+};
+
+Drawing draw_all(const Run& run) {
+  Drawing drawing;
+  std::string error;
+  const auto count = [&](bool drawn) {
+    ++drawing.wanted;
+    drawing.failed += drawn ? 0 : 1;
+    if (!drawn && drawing.problem.empty()) drawing.problem = error;
+  };
   for (Plot& plot : plots(run)) {
-    std::string error;
-    if (auto svg = draw(plot, error)) {
-      pictures.push_back({std::move(plot), std::move(*svg)});
-    } else {
-      note += "The plot '" + plot.title + "' failed: " + error + ". ";
-    }
+    std::optional<std::string> svg = draw(plot, error);
+    count(svg.has_value());
+    if (svg) drawing.pictures.push_back({std::move(plot), std::move(*svg)});
   }
-  return pictures;
+  if (const std::optional<Plot> whole = poster(run)) {
+    std::optional<std::string> png = draw_png(*whole, error);
+    count(png.has_value());
+    if (png) drawing.png = std::move(*png);
+  }
+  return drawing;
+}
+
+Drawing draw_what_can_be(const Run& run, Written& written) {
+  const char* const kNumbers = "; the numbers are in the CSV files";
+  const std::string page = written.page.string();
+  if (!gnuplot_available()) {
+    written.note =
+        page + ": no plots: gnuplot is not installed (apt-get install gnuplot-nox)" + kNumbers;
+    return {};
+  }
+  try {
+    Drawing drawing = draw_all(run);
+    if (drawing.failed > 0) {
+      written.note = fmt::format(
+          "{}: {} of {} plots are missing: gnuplot failed: {}; see that `gnuplot --version` works "
+          "(apt-get install --reinstall gnuplot-nox){}",
+          page, drawing.failed, drawing.wanted, drawing.problem, kNumbers);
+    }
+    return drawing;
+  } catch (const files::FileError& error) {
+    written.note = page + ": no plots: " + error.what() + kNumbers;
+    written.lost = true;
+    return {};
+  }
 }
 
 }  // namespace
@@ -53,16 +90,11 @@ Written write_report(const std::filesystem::path& folder, const Run& run) {
   }
   Written written;
   written.page = folder / "index.html";
-  const std::vector<Picture> pictures = draw_all(run, written.note);
-  if (const std::optional<Plot> whole = poster(run); whole && !pictures.empty()) {
-    std::string problem;
-    if (const auto png = draw_png(*whole, problem)) {
-      add("walk.png", *png, "one cycle in one picture, to show to others");
-    } else {
-      written.note += "walk.png failed: " + problem + ". ";
-    }
+  const Drawing drawing = draw_what_can_be(run, written);
+  if (!drawing.png.empty()) {
+    add("walk.png", drawing.png, "one cycle in one picture, to show to others");
   }
-  write_file(written.page, page(run, pictures, written.note, files));
+  write_file(written.page, page(run, drawing.pictures, written.note, files));
   return written;
 }
 

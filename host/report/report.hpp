@@ -15,8 +15,9 @@ class ReportError : public std::runtime_error {
 
 struct Written {
   std::filesystem::path page;
-  std::string
-      note;  ///< what the reader should know, e.g. that plots are missing and why; empty: nothing
+  /// One line the reader should know: that plots are missing and why; empty: nothing.
+  std::string note;
+  bool lost = false;  ///< they are missing because the disk refused, not for want of gnuplot
 };
 
 /// Writes index.html (self-contained, plots inside) and the numbers as CSV into `folder`, which is

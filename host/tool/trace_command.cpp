@@ -5,6 +5,7 @@
 #include <iostream>
 #include <memory>
 
+#include "host/files/csv_field.hpp"
 #include "host/record/replay.hpp"
 #include "host/record/trace_writer.hpp"
 #include "host/tool/command.hpp"
@@ -63,7 +64,9 @@ void write_csv(const record::Trace& trace, std::ostream& out) {
   for (const char* foot : {"left", "right"}) {
     for (int i = 0; i < kFootSensors; ++i) out << ",foot_n." << foot << i;
   }
-  for (int j = 0; j < params.joint_count; ++j) out << ",rad." << joint_name(params.joint[j]);
+  for (int j = 0; j < params.joint_count; ++j) {
+    out << ',' << files::csv_field("rad." + joint_name(params.joint[j]));
+  }
   out << '\n';
   for (const TickRecord& record : trace.ticks) {
     const Inputs& in = record.inputs;

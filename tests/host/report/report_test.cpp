@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <cmath>
+#include <cstdlib>
 #include <fstream>
 #include <iterator>
 
@@ -77,6 +78,40 @@ TEST(ReportNumbers, PlannedZmpStandsBesideTheMeasuredOneAndIsEmptyWhereThereIsNo
   EXPECT_NE(csv.find(",0.04,0.03,0.04,0.04,3,"), std::string::npos) << "at 0.2 s";
 }
 
+/// Fields of the first line of a CSV text, read as RFC 4180 says.
+std::vector<std::string> header_of(const std::string& csv) {
+  std::vector<std::string> fields(1);
+  bool quoted = false;
+  for (std::size_t i = 0; i < csv.size(); ++i) {
+    const char c = csv[i];
+    if (c == '"' && quoted && csv[i + 1] == '"') {
+      fields.back() += c, ++i;
+    } else if (c == '"') {
+      quoted = !quoted;
+    } else if (c == ',' && !quoted) {
+      fields.emplace_back();
+    } else if (c == '\n' && !quoted) {
+      break;
+    } else {
+      fields.back() += c;
+    }
+  }
+  return fields;
+}
+
+TEST(ReportNumbers, JointNamesStayInTheirColumns) {
+  report::Run run = sample_run();
+  run.joints = {"he,ad", "say \"knee\"\nnow"};
+  const auto header = header_of(samples_csv(run));
+  ASSERT_GE(header.size(), 4u);
+  const std::vector<std::string> last(header.end() - 4, header.end());
+  EXPECT_EQ(last, (std::vector<std::string>{"he,ad_rad", "say \"knee\"\nnow_rad",
+                                            "he,ad_torque_use", "say \"knee\"\nnow_torque_use"}));
+  const std::string torque = torque_csv(run);
+  EXPECT_NE(torque.find("\n\"he,ad\",0.25"), std::string::npos) << torque;
+  EXPECT_NE(torque.find("\n\"say \"\"knee\"\"\nnow\","), std::string::npos) << torque;
+}
+
 TEST(ReportNumbers, RunWithoutSamplesIsNoCrash) {
   EXPECT_TRUE(last_steady_cycle(report::Run{}).empty());
   EXPECT_TRUE(speed_m_s(report::Run{}).empty());
@@ -124,6 +159,64 @@ TEST_F(ReportFolder, LeavesOutWhatARunHasNoDataFor) {
   EXPECT_EQ(page.find("planned ZMP"), std::string::npos);
   EXPECT_NE(page.find("id=\"zmp\""), std::string::npos);
   EXPECT_FALSE(fs::exists(folder_ / "walk.png"));
+}
+
+/// A gnuplot of the test's own, the first in PATH.
+class BrokenGnuplot : public ReportFolder {
+ protected:
+  BrokenGnuplot() : path_(std::getenv("PATH")) {
+    fs::create_directories(bin_);
+    ::setenv("PATH", (bin_.string() + ":" + path_).c_str(), 1);
+  }
+  ~BrokenGnuplot() override {
+    ::setenv("PATH", path_.c_str(), 1);
+    fs::remove_all(bin_);
+  }
+  void is(const std::string& text) const {
+    std::ofstream(bin_ / "gnuplot") << text;
+    fs::permissions(bin_ / "gnuplot", fs::perms::owner_all);
+  }
+  std::string path_;
+  fs::path bin_ = fs::temp_directory_path() / ("verp-gnuplot-" + std::to_string(::getpid()));
+};
+
+TEST_F(BrokenGnuplot, CostsThePlotsAndNothingElseAndSaysSoInOneLine) {
+  const struct {
+    const char *program, *reason;
+  } kRows[] = {
+      {"#!/bin/sh\necho 'no terminal svg' >&2; echo more >&2; exit 1\n",
+       "failed: no terminal svg;"},
+      {"#!/bin/sh\nexit 7\n", "ended with status 7"},
+      {"#!/bin/sh\nkill -9 $$\n", "ended by signal 9"},
+      {"#!/bin/sh\nexit 0\n", "made no picture"},
+      {"neither script nor program", "cannot be started"},
+  };
+  for (const auto& row : kRows) {
+    is(row.program);
+    const Written written = write_report(folder_, sample_run());
+    EXPECT_EQ(written.note.find((folder_ / "index.html").string() + ": 8 of 8 plots"), 0u)
+        << written.note;
+    EXPECT_NE(written.note.find(row.reason), std::string::npos) << written.note;
+    EXPECT_NE(written.note.find("apt-get install --reinstall gnuplot-nox"), std::string::npos);
+    EXPECT_EQ(written.note.find('\n'), std::string::npos) << written.note;
+    EXPECT_NE(slurp(written.page).find("plots are missing"), std::string::npos);
+    for (const char* file : {"samples.csv", "zmp_bias.csv", "torque.csv"}) {
+      EXPECT_GT(fs::file_size(folder_ / file), 50u) << file;
+    }
+    EXPECT_FALSE(fs::exists(folder_ / "walk.png"));
+    fs::remove_all(folder_);
+  }
+}
+
+TEST_F(ReportFolder, TmpdirThatIsOfNoUseCostsNothing) {
+  if (!gnuplot_available()) GTEST_FAIL() << "gnuplot-nox is missing (toolchains/packages.txt)";
+  for (const char* place : {"/nowhere", "/proc", "/dev/null"}) {
+    ::setenv("TMPDIR", place, 1);
+    const Written written = write_report(folder_, sample_run());
+    ::unsetenv("TMPDIR");
+    EXPECT_EQ(written.note, "") << place;
+    EXPECT_TRUE(fs::exists(folder_ / "walk.png")) << place;
+  }
 }
 
 TEST_F(ReportFolder, OtherFilesInTheFolderStay) {
