@@ -2,6 +2,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "common/base/crc32.hpp"
 #include "common/base/fields.hpp"
 #include "common/model/params.hpp"
 
@@ -58,9 +59,6 @@ enum class ImageFault : std::uint8_t {
   kDamaged = 5,      ///< CRC
   kOutOfBounds = 6,  ///< an index in it points outside its tables
 };
-
-/// CRC-32 as in zip and zlib (reflected 0x04C11DB7). Continues from `previous`.
-std::uint32_t crc32(const void* bytes, std::size_t size, std::uint32_t previous = 0);
 
 /// Names the robot: equal only for equal bytes, up to 2^-32.
 std::uint32_t params_crc(const Params& params);
