@@ -50,7 +50,11 @@ void watch_silence(const Params& params, const Tuning& tuning, const Inputs& inp
     oldest = age > oldest ? age : oldest;
   }
   const float period_s = static_cast<float>(params.period_us) * 1e-6F;
-  const auto ticks = [&](float duration_s) { return math::to_int32(duration_s / period_s); };
+  // A servo that is fresh in every tick is never stale, however short the time set.
+  const auto ticks = [&](float duration_s) {
+    const std::int32_t whole = math::to_int32(duration_s / period_s);
+    return whole > 1 ? whole : 1;
+  };
   const int hold = ticks(tuning.safety.stale_hold_s);
   if (oldest >= hold) out.faults |= kFaultServoSilent;
   if (state.imu_age >= hold) out.faults |= kFaultImuSilent;

@@ -41,9 +41,12 @@ kinematics::LegAngles leg_angles(const Params& params, const State& state,
   return angles;
 }
 
-// One foot in the air, and the pressure under the other well inside the sole.
-bool carries_flat(const gait::GaitOut& plan, const Inputs& inputs, int side) {
+// One foot in the air, and the pressure under the other well inside a sole that is planned level:
+// by a leg that is short or whose joints lag behind each other it is not.
+bool carries_flat(const State& state, const gait::GaitOut& plan, const Inputs& inputs, int side,
+                  const kinematics::LegAngles& angles) {
   return plan.swing != gait::kBoth && plan.swing != side && (inputs.flags & kFeetFresh) != 0 &&
+         angles.flags == 0 && state.tuning.gait.joint_delay_s == 0.0F &&
          balance::stands_flat(inputs.foot_count[side]);
 }
 
@@ -153,7 +156,7 @@ Wanted solve_joints(const Params& params, State& state, const Inputs& inputs,
     const kinematics::LegChain chain =
         kinematics::leg_chain(params, leg, plan.posture.body, angles.angle_rad);
     balance::LegZero& zero = state.zeros.leg[side];
-    if (carries_flat(plan, inputs, side)) {
+    if (carries_flat(state, plan, inputs, side, angles)) {
       balance::learn_zero(params, leg, chain, angles.angle_rad, plan.posture.foot[side], inputs,
                           attitude, tuning.gait.trunk_pitch_rad, zero);
     }

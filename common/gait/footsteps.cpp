@@ -35,13 +35,18 @@ bool leads(int swing, float value) {
   return (swing == kLeft) == (value > 0.0F);
 }
 
+// Of the longer step of a cycle: sideways, the leading foot takes both.
+float length_of(const Stride& stride) {
+  return math::hypot(stride.by_m.x, 2.0F * stride.by_m.y);
+}
+
 Stride wanted_stride(const GaitTuning& tuning, const VelocityIn& wanted, FootstepState& state) {
   const float step_s = 0.5F * tuning.cycle_s;
   Stride stride;
   if (wanted.stop) return stride;
   stride.by_m = {wanted.vx_m_s * step_s, wanted.vy_m_s * step_s};
   stride.turn_rad = wanted.wz_rad_s * step_s + tuning.heading_gain * wanted.heading_error_rad;
-  const float length_m = math::hypot(stride.by_m.x, 2.0F * stride.by_m.y);
+  const float length_m = length_of(stride);
   float share = 1.0F;
   if (length_m > tuning.max_step_m) share = tuning.max_step_m / length_m;
   if (share < 1.0F || math::abs(stride.turn_rad) > tuning.max_turn_rad) {
@@ -53,7 +58,7 @@ Stride wanted_stride(const GaitTuning& tuning, const VelocityIn& wanted, Footste
   return stride;
 }
 
-// Longest stride at which the leg still reaches the ground behind the body, by Pythagoras.
+// Longest step at which the leg still reaches the ground beside or behind the body, by Pythagoras.
 float reach_limit_m(const Params& params, const GaitTuning& tuning) {
   const LegParams& leg = params.leg[kLeft];
   const float usable_m = kinematics::usable_reach_m(leg);
@@ -146,8 +151,9 @@ Step next_step(const Params& params, const GaitTuning& tuning, const VelocityIn&
                  toward(state.stride.by_m.y, goal.by_m.y, most_m)},
                 toward(state.stride.turn_rad, goal.turn_rad, 0.25F * tuning.max_turn_rad)};
   const float reach_m = reach_limit_m(params, tuning);
-  if (math::abs(stride.by_m.x) > reach_m) {
-    stride.by_m.x = math::copysign(reach_m, stride.by_m.x);
+  const float length_m = length_of(stride);
+  if (length_m > reach_m) {
+    stride.by_m = (reach_m / length_m) * stride.by_m;
     state.notes |= kReachShortened;
   }
   state.stride = stride;

@@ -15,7 +15,7 @@ struct Stride {
 VERP_PACKED(Stride);
 
 /// Bits of FootstepState::notes: what the plan had to give up. Reported, not fatal.
-enum PlanNote : std::uint32_t {
+enum PlanNote : std::uint16_t {
   kStrideLimited = 1 << 0,   ///< velocity wanted needs longer steps than max_step_m or max_turn_rad
   kReachShortened = 1 << 1,  ///< step shortened: a leg would be too short at touch-down
   kZmpShortened = 1 << 2,  ///< step shortened: the planned ZMP would come too near the sole's edge
@@ -26,8 +26,9 @@ struct FootstepState {
   Stride stride;    ///< of the last step made
   Foothold body;    ///< midpoint and heading the steps are laid around, after the last step made
   float scale = 1;  ///< 0.1 to 1: how far strides are shortened to keep the ZMP in the sole
-  std::uint32_t notes = 0;  ///< PlanNote
-  VERP_FIELDS(stride, body, scale, notes)
+  std::uint16_t calm = 0;  ///< key points on end at which strides, being shortened, could be longer
+  std::uint16_t notes = 0;  ///< PlanNote
+  VERP_FIELDS(stride, body, scale, calm, notes)
 };
 VERP_PACKED(FootstepState);
 

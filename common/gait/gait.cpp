@@ -6,7 +6,8 @@
 namespace verp::gait {
 namespace {
 
-// A moment within the steps known: look back one step at most.
+// A moment within the steps known: look back one step at most, and no further than the key points
+// behind are kept.
 struct Moment {
   const Step* step;
   std::int32_t time_us;    // since the step's beginning
@@ -14,12 +15,15 @@ struct Moment {
 };
 
 Moment moment_before(const GaitState& state, std::int32_t delay_us) {
-  const std::int32_t time_us = state.clock_us - delay_us;
+  constexpr std::int32_t kKept = kFixed - 4;
+  const std::int32_t key_us = state.queue[0].key_us;
+  const std::int32_t kept_us = kKept * key_us;
+  const std::int32_t time_us = state.clock_us - (delay_us < kept_us ? delay_us : kept_us);
   if (time_us >= 0) return {&state.queue[0], time_us, state.first_key};
+  const std::int32_t passed = state.clock_us / key_us;
   const std::int32_t earlier_us = state.previous.duration_us() + time_us;
-  // Key points behind are kept for a while only: no further back than the oldest.
   const std::int32_t oldest_us =
-      state.previous.duration_us() - (kFixed - 4) * state.previous.key_us;
+      state.previous.duration_us() - (kKept - passed) * state.previous.key_us;
   return {&state.previous, earlier_us > oldest_us ? earlier_us : oldest_us, state.previous_key};
 }
 
@@ -86,8 +90,9 @@ void extend_queue(const Params& params, const Tuning& tuning, const GaitIn& in, 
   }
 }
 
-// The walk's plan is shortened step by step while its ZMP would leave the sole. The correction
-// takes misses back, but it is linear in them: it is trusted with half a sole, and no more.
+// The walk's plan is shortened step by step while its ZMP would leave the sole, and grows again
+// after a cycle that left more room than the next longer one can need. The correction takes misses
+// back, but it is linear in them: it is trusted with half a sole, and no more.
 void watch_zmp(const Params& params, const Tuning& tuning, const Step& step, Xy miss_m,
                GaitState& state) {
   if (step.swing == kBoth) return;
@@ -98,11 +103,19 @@ void watch_zmp(const Params& params, const Tuning& tuning, const Step& step, Xy 
                          math::abs(tuning.gait.zmp_x_m) - tuning.gait.support_margin_m;
   const float room_y_m = 0.5F * halves * (leg.sole_left_m + leg.sole_right_m) -
                          math::abs(tuning.gait.zmp_y_m) - tuning.gait.support_margin_m;
-  const bool outside = math::abs(out_m.x) > room_x_m || math::abs(out_m.y) > room_y_m;
+  const auto within = [&](float share) {
+    return math::abs(out_m.x) <= share * room_x_m && math::abs(out_m.y) <= share * room_y_m;
+  };
+  constexpr float kLess = 0.01F, kMore = 1.2F, kCalm = 0.8F;
+  static_assert(kMore * kCalm < 1.0F, "what grows must not have to shrink again");
   FootstepState& footsteps = state.footsteps;
-  if (outside) {
+  if (!within(kCalm)) footsteps.calm = 0;
+  if (!within(1.0F)) {
     if (footsteps.scale <= 0.1F) footsteps.notes |= kPlanRefused;
-    footsteps.scale = math::max(0.1F, footsteps.scale - 0.01F);
+    footsteps.scale = math::max(0.1F, footsteps.scale - kLess);
+  } else if (footsteps.scale < 1.0F && ++footsteps.calm > 2 * kKeyPointsPerStep) {
+    footsteps.scale = math::min(1.0F, kMore * footsteps.scale);
+    footsteps.calm = 0;
   }
 }
 

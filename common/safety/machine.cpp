@@ -19,14 +19,14 @@ constexpr Row kTable[] = {
     {bit(Mode::kStopped), kAskRelax, kEmergency, Mode::kRelaxed},
     {kUpright, kFell, 0, Mode::kFallen},
     {bit(Mode::kFallen), kAskRelax, 0, Mode::kRelaxed},
-    // Silence: hold, then sit, then release.
+    // Silence: hold, then sit, then release; at once if the operator has seen enough.
     {kMoving, kStale, 0, Mode::kHolding},
     {bit(Mode::kHolding), kLost, 0, Mode::kSitting},
+    {bit(Mode::kRising) | bit(Mode::kStanding) | bit(Mode::kHolding), kAskRelax, 0, Mode::kSitting},
     {bit(Mode::kHolding), 0, kStale, Mode::kRising},
     {bit(Mode::kStanding), kOperatorGone, 0, Mode::kSitting},
     // What the operator asks for.
     {bit(Mode::kRelaxed), kAskStand | kServosKnown, kFell | kStale | kOperatorQuiet, Mode::kRising},
-    {bit(Mode::kRising) | bit(Mode::kStanding), kAskRelax, 0, Mode::kSitting},
     {bit(Mode::kRising), kTimeUp, 0, Mode::kStanding},
     {bit(Mode::kStanding), kAskWalk | kCalibrated, kOperatorQuiet | kPowerBad, Mode::kWalking},
     {bit(Mode::kWalking), kGaitOver, kAskWalk, Mode::kStanding},

@@ -66,6 +66,9 @@ void wander(Script& script) {
                                {2500, kItsTime, kWalk, 400, 0, 32000, kFeetGone},
                                {300, kItsTime, kWalk, 1000, 0, -3000}});
   stop_walking(script);
+  script.push_back({1500, kUntilWalking, kWalk, 0, 600, 0});  // sideways, to the end
+  script.push_back({1200, kItsTime, kWalk, 0, 600, 0});
+  stop_walking(script);
 }
 
 /// Other gaits: each value is in force while walking begins or goes on.

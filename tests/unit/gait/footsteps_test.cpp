@@ -111,6 +111,26 @@ TEST(Footsteps, StepsBeyondTheLegsReachAreShortenedAndNoted) {
   EXPECT_LT(walk.state.stride.by_m.x, 0.06F);
 }
 
+TEST(Footsteps, ReachIsTheSameInEveryDirection) {
+  const VelocityIn ways[] = {{.vx_m_s = 1.0F},
+                             {.vx_m_s = -1.0F},
+                             {.vy_m_s = 1.0F},
+                             {.vy_m_s = -1.0F},
+                             {.vx_m_s = 1.0F, .vy_m_s = 0.5F}};
+  float longest_m = 0;
+  for (const VelocityIn& way : ways) {
+    Walk walk;
+    walk.tuning.hip_height_m = 0.185F;
+    walk.tuning.max_step_m = 0.3F;
+    for (int i = 0; i < kSteps; ++i) walk.take(way);
+    const Stride& stride = walk.state.stride;
+    const float length_m = math::hypot(stride.by_m.x, 2 * stride.by_m.y);
+    if (longest_m == 0) longest_m = length_m;
+    EXPECT_NEAR(length_m, longest_m, 1e-6F) << way.vx_m_s << ", " << way.vy_m_s;
+    EXPECT_NE(walk.state.notes & kReachShortened, 0u);
+  }
+}
+
 // Sideways, the leading foot takes the whole way of two steps and the other one closes: the soles
 // never overlap. Turning likewise.
 TEST(Footsteps, LeadingFootOpensTheOtherCloses) {

@@ -208,6 +208,25 @@ TEST(Gait, PlanWhoseZmpWouldLeaveTheSoleIsShortenedOrRefused) {
   }
 }
 
+// What shortened it may be over: a slower walk, or longer soles' worth of margin given back.
+TEST(Gait, ShortenedPlanGrowsAgainWhenThereIsRoomAndOnlyThen) {
+  Walker walker = walked(0.12F, 0.45F, 1.0F);
+  walker.run(20.0F);
+  const float shortened = walker.state.footsteps.scale;
+  EXPECT_LT(shortened, 0.95F);
+  float least = 1, most = 0;
+  for (int i = 0; i < 1000; ++i) {
+    walker.tick();
+    least = math::min(least, walker.state.footsteps.scale);
+    most = math::max(most, walker.state.footsteps.scale);
+  }
+  EXPECT_EQ(least, most) << "a steady walk's strides do not hunt";
+  walker.in.wanted.vx_m_s = 0.1F;
+  walker.run(10.0F);
+  EXPECT_EQ(walker.state.footsteps.scale, 1.0F);
+  EXPECT_NEAR(walker.state.footsteps.stride.by_m.x, 0.1F * 0.5F * 0.45F, 1e-6F);
+}
+
 // The paper's 16 states follow each other within each cycle.
 TEST(Gait, CycleStatesCountFromZeroToFifteen) {
   Walker walker(test::kRobot, 5000);
@@ -250,7 +269,36 @@ TEST(Gait, StopBeforeTheFirstStepIsHonoured) {
   }
 }
 
+// However short the cycle: key points kept are never read after they have been written anew.
 TEST(Gait, DelayedJointsSeeTheRecentPast) {
+  constexpr int kTicks = 400;
+  static Vec3 sole_m[kTicks];
+  for (const float cycle_s : {0.30F, 0.45F, 1.0F}) {
+    Walker walker(test::kRobot);
+    walker.tuning.gait.cycle_s = cycle_s;
+    walker.set_off({.vx_m_s = 0.1F});
+    for (int tick = 0; tick < kTicks; ++tick) {
+      walker.tick();
+      sole_m[tick] = walker.sole(kLeft).position_m;
+      if (walker.state.moving == 0 || tick < 60) continue;
+      const std::int32_t kept_us = (kFixed - 4) * walker.state.queue[0].key_us;
+      for (int back = 0; back <= 15; ++back) {
+        const std::int32_t delay_us = back * walker.in.period_us;
+        if (delay_us > kept_us) break;
+        const Posture then = posture_before(test::kRobot, walker.tuning, walker.state, delay_us);
+        EXPECT_LT(test::distance(sole_in_body(then, kLeft).position_m, sole_m[tick - back]), 1e-5F)
+            << "cycle " << cycle_s << ", tick " << tick << ", " << delay_us << " us before";
+      }
+      const Posture oldest = posture_before(test::kRobot, walker.tuning, walker.state, kept_us);
+      const Posture beyond = posture_before(test::kRobot, walker.tuning, walker.state, 150000);
+      if (kept_us > 150000) continue;
+      EXPECT_EQ(oldest.body.position_m.x(), beyond.body.position_m.x());
+      EXPECT_EQ(oldest.body.position_m.y(), beyond.body.position_m.y());
+    }
+  }
+}
+
+TEST(Gait, DelaysAddUpSmoothly) {
   Walker walker(test::kRobot);
   walker.set_off({.vx_m_s = 0.1F});
   walker.run(2.0F);

@@ -68,18 +68,19 @@ TEST(SafetyTable, Row4SilenceHoldsMovingRobot) {
 TEST(SafetyTable, Row5LastingSilenceSitsDown) {
   expect_row(5, bit(Mode::kHolding), kLost, 0, Mode::kSitting);
 }
-TEST(SafetyTable, Row6EndOfSilenceRisesAgain) {
-  expect_row(6, bit(Mode::kHolding), 0, kStale, Mode::kRising);
+TEST(SafetyTable, Row6AskedToRelaxItSitsDownFirst) {
+  expect_row(6, modes(Mode::kRising, Mode::kStanding, Mode::kHolding), kAskRelax, 0,
+             Mode::kSitting);
 }
-TEST(SafetyTable, Row7AbandonedRobotSitsDown) {
-  expect_row(7, bit(Mode::kStanding), kOperatorGone, 0, Mode::kSitting);
+TEST(SafetyTable, Row7EndOfSilenceRisesAgain) {
+  expect_row(7, bit(Mode::kHolding), 0, kStale, Mode::kRising);
 }
-TEST(SafetyTable, Row8RelaxedRobotRisesOnlyWhenItsSensesWork) {
-  expect_row(8, bit(Mode::kRelaxed), kAskStand | kServosKnown, kFell | kStale | kOperatorQuiet,
+TEST(SafetyTable, Row8AbandonedRobotSitsDown) {
+  expect_row(8, bit(Mode::kStanding), kOperatorGone, 0, Mode::kSitting);
+}
+TEST(SafetyTable, Row9RelaxedRobotRisesOnlyWhenItsSensesWork) {
+  expect_row(9, bit(Mode::kRelaxed), kAskStand | kServosKnown, kFell | kStale | kOperatorQuiet,
              Mode::kRising);
-}
-TEST(SafetyTable, Row9AskedToRelaxItSitsDownFirst) {
-  expect_row(9, modes(Mode::kRising, Mode::kStanding), kAskRelax, 0, Mode::kSitting);
 }
 TEST(SafetyTable, Row10RiseEndsInTheStand) {
   expect_row(10, bit(Mode::kRising), kTimeUp, 0, Mode::kStanding);
