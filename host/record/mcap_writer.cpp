@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <fstream>
 
 #include "host/record/trace_error.hpp"
 
@@ -24,6 +25,15 @@ std::FILE* open_part(const std::filesystem::path& path, std::filesystem::path& p
   }
   return nullptr;
 }
+
+/// A robot's file, a report's page: whatever does not begin as a trace does.
+bool holds_something_else(const std::filesystem::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  std::string start(kMagic.size(), '\0');
+  in.read(start.data(), static_cast<std::streamsize>(start.size()));
+  start.resize(static_cast<std::size_t>(in.gcount()));
+  return !start.empty() && start != kMagic;
+}
 }  // namespace
 
 Writer::Writer(std::filesystem::path path, std::string_view profile, std::string_view library)
@@ -34,6 +44,10 @@ Writer::Writer(std::filesystem::path path, std::string_view profile, std::string
   // The finished trace takes this name: a device or pipe of that name would be gone.
   if (std::filesystem::exists(path_) && !std::filesystem::is_regular_file(path_)) {
     throw TraceError(path_, 0, "is not a regular file", "name another file, such as run.mcap");
+  }
+  if (holds_something_else(path_)) {
+    throw TraceError(path_, 0, "is no trace, and would be replaced by one",
+                     "name another file, such as run.mcap, or move this one away");
   }
   file_ = open_part(path_, part_);
   if (file_ == nullptr) {

@@ -1,6 +1,7 @@
 #include "host/record/trace_writer.hpp"
 
 #include "host/record/fields.hpp"
+#include "host/record/trace_error.hpp"
 
 namespace verp::record {
 namespace {
@@ -19,11 +20,20 @@ std::string_view image(const T& value) {
 TraceWriter::TraceWriter(const std::filesystem::path& file, const Params& params,
                          const mcap::StringMap& run, TraceOptions options)
     : writer_(file, options.ros ? "ros2" : "", "verp"), params_(params), options_(options) {
+  try {
+    begin(run);
+  } catch (const TraceError&) {
+    writer_.discard();  // there is no trace in it yet
+    throw;
+  }
+}
+
+void TraceWriter::begin(const mcap::StringMap& run) {
   mcap::StringMap metadata = run;
   metadata.merge(build_info());
   metadata.insert_or_assign("format", std::string(kTraceFormat));
   writer_.add_metadata(kMetadataName, metadata);
-  writer_.add_attachment(kParamsAttachment, "application/octet-stream", image(params));
+  writer_.add_attachment(kParamsAttachment, "application/octet-stream", image(params_));
   writer_.add_attachment("params.layout", "text/plain", describe_layout<Params>("Params"));
 
   const auto raw = [&](const char* topic, const char* name, const std::string& layout) {
@@ -63,7 +73,9 @@ void TraceWriter::put(const TickRecord& record, const State* kept, const ros::Bo
   if (kept != nullptr) writer_.add_message(state_, time_ns, image(*kept));
   if (options_.ros) append_ros(record.inputs, body, time_ns);
   ++ticks_;
-  if (ticks_ % options_.chunk_ticks == 0) writer_.flush();
+  if (ticks_ % options_.chunk_ticks != 0) return;
+  writer_.flush();
+  safe_ticks_ = ticks_;
 }
 
 void TraceWriter::append_ros(const Inputs& inputs, const ros::BodyPose* body,
@@ -76,6 +88,8 @@ void TraceWriter::append_ros(const Inputs& inputs, const ros::BodyPose* body,
 }
 
 void TraceWriter::close(const mcap::StringMap& result) {
+  writer_.flush();
+  safe_ticks_ = ticks_;
   if (!result.empty()) writer_.add_metadata("result", result);
   writer_.close();
 }

@@ -35,10 +35,16 @@ class TraceWriter {
   /// Adds `result` as metadata, ends the file and gives it its name.
   void close(const mcap::StringMap& result = {});
 
+  /// Removes what was written; nothing may be added afterwards.
+  void discard() { writer_.discard(); }
+  /// Ticks that are with the operating system, whatever happens now.
+  std::uint64_t safe_ticks() const { return safe_ticks_; }
+
   const std::filesystem::path& part_path() const { return writer_.part_path(); }
   std::uint64_t ticks() const { return ticks_; }
 
  private:
+  void begin(const mcap::StringMap& run);
   void put(const TickRecord& record, const State* kept, const ros::BodyPose* body);
   void append_ros(const Inputs& inputs, const ros::BodyPose* body, std::uint64_t time_ns);
 
@@ -46,7 +52,7 @@ class TraceWriter {
   Params params_;
   TraceOptions options_;
   std::uint16_t tick_ = 0, state_ = 0, joints_ = 0, imu_ = 0, tf_ = 0;
-  std::uint64_t ticks_ = 0;
+  std::uint64_t ticks_ = 0, safe_ticks_ = 0;
   std::uint32_t faults_ = 0;
 };
 

@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <iterator>
+
 #include "host/files/temporary_directory.hpp"
 #include "host/report/csv.hpp"
 #include "host/report/figure.hpp"
@@ -67,6 +70,12 @@ Drawing draw_what_can_be(const Run& run, Written& written) {
 }
 
 }  // namespace
+
+bool is_of_the_report(std::string_view name) {
+  constexpr std::string_view kNames[] = {"index.html", "samples.csv", "zmp_bias.csv",
+                                         "torque.csv", "sweep.csv",   "walk.png"};
+  return std::find(std::begin(kNames), std::end(kNames), name) != std::end(kNames);
+}
 
 Written write_report(const std::filesystem::path& folder, const Run& run) {
   std::error_code error;

@@ -2,6 +2,7 @@
 #include <filesystem>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 
 #include "host/report/run_data.hpp"
 
@@ -19,6 +20,9 @@ struct Written {
   std::string note;
   bool lost = false;  ///< they are missing because the disk refused, not for want of gnuplot
 };
+
+/// Whether write_report() writes a file of that name.
+bool is_of_the_report(std::string_view name);
 
 /// Writes index.html (self-contained, plots inside) and the numbers as CSV into `folder`, which is
 /// made if need be. Each file appears whole or not at all; other files in the folder stay. Throws

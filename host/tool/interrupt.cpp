@@ -10,7 +10,7 @@ volatile std::sig_atomic_t asked = 0;
 volatile std::time_t asked_at_s = 0;
 
 // One press may arrive twice: from the terminal and from a program that passes it on (`timeout`
-// does so).
+// and, of a closed terminal, the shell do so).
 constexpr std::time_t kSamePress_s = 2;
 
 extern "C" void ask(int signal) {
@@ -29,7 +29,9 @@ extern "C" void ask(int signal) {
 void catch_interrupts() {
   std::signal(SIGINT, ask);
   std::signal(SIGTERM, ask);
+  if (std::signal(SIGHUP, ask) == SIG_IGN) std::signal(SIGHUP, SIG_IGN);
   std::signal(SIGPIPE, SIG_IGN);
+  std::signal(SIGXFSZ, SIG_IGN);
 }
 
 bool interrupted() {

@@ -1,9 +1,6 @@
 #include <fmt/format.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <string_view>
 #include <vector>
 
@@ -12,6 +9,7 @@
 #include "host/record/trace.hpp"
 #include "host/report/report.hpp"
 #include "host/tool/command.hpp"
+#include "host/tool/console.hpp"
 #include "host/tool/interrupt.hpp"
 
 namespace verp::tool {
@@ -55,7 +53,7 @@ bool wants_json(int argc, char** argv) {
 }
 
 int fail(int status, const std::string& line, bool json) {
-  fmt::print(stderr, "{}\n", one_line(line));
+  complain(one_line(line));
   if (json) print_json({{"error", one_line(line)}, {"exit", status}});
   return status;
 }
@@ -78,7 +76,7 @@ int parse_failure(const CLI::App& root, const CLI::ParseError& error, bool json)
   const CLI::App* app = addressed(root);
   if (error.get_exit_code() == 0) {  // --help, --version
     const auto* version = dynamic_cast<const CLI::CallForVersion*>(&error);
-    fmt::print("{}", version != nullptr ? std::string(error.what()) + "\n" : app->help());
+    answer(version != nullptr ? std::string(error.what()) + "\n" : app->help());
     return kGood;
   }
   std::string line = error.what();
@@ -135,10 +133,7 @@ int run(int argc, char** argv) {
 }  // namespace verp::tool
 
 int main(int argc, char** argv) {
+  verp::tool::open_missing_streams();
   const int status = verp::tool::run(argc, argv);
-  if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return status;
-  struct stat out {};
-  if (::fstat(STDOUT_FILENO, &out) == 0 && S_ISFIFO(out.st_mode)) return status;  // `| head`
-  std::fputs("verp: the answer could not be written to standard output\n", stderr);
-  return status != 0 ? status : verp::tool::kRunFailed;
+  return verp::tool::after_the_answer(status);
 }

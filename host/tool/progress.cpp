@@ -20,13 +20,16 @@ void Progress::show(double share, const std::string& label) {
   const int full = static_cast<int>(std::clamp(share, 0.0, 1.0) * kWidth);
   std::string bar;
   for (int i = 0; i < kWidth; ++i) bar += i < full ? "█" : "░";
-  fmt::print(stderr, "\r\033[K{} {:3.0f} %  {}", bar, 100 * std::clamp(share, 0.0, 1.0), label);
+  // The terminal may be gone: that ends no run.
+  std::fputs(fmt::format("\r\033[K{} {:3.0f} %  {}", bar, 100 * std::clamp(share, 0.0, 1.0), label)
+                 .c_str(),
+             stderr);
   std::fflush(stderr);
   drawn_ = true;
 }
 
 void Progress::clear() {
-  if (drawn_) fmt::print(stderr, "\r\033[K");
+  if (drawn_) std::fputs("\r\033[K", stderr);
   drawn_ = false;
 }
 

@@ -4,6 +4,7 @@
 
 #include "host/record/replay.hpp"
 #include "host/tool/command.hpp"
+#include "host/tool/console.hpp"
 
 namespace verp::tool {
 namespace {
@@ -28,7 +29,7 @@ Json to_json(const record::Divergence& divergence, const Params& params, const c
 record::Trace load(const std::string& file, bool recover) {
   record::Trace trace =
       record::read_trace(file, recover ? record::Read::kRecover : record::Read::kStrict);
-  if (!trace.warning.empty()) fmt::print(stderr, "{}\n", trace.warning);
+  if (!trace.warning.empty()) complain(trace.warning);
   return trace;
 }
 
@@ -52,16 +53,17 @@ int run_replay(const ReplayOptions& options) {
       json["divergence"] = to_json(*result.divergence, trace.params, "recorded", "replayed");
     print_json(json);
   } else if (equal) {
-    fmt::print("{}: {} ticks ({:.2f} s), every stage the same bits, digest 0x{:016x}\n",
-               options.file, result.ticks, static_cast<double>(result.ticks) * trace.period_s(),
-               result.replayed_digest);
+    answer(fmt::format("{}: {} ticks ({:.2f} s), every stage the same bits, digest 0x{:016x}\n",
+                       options.file, result.ticks,
+                       static_cast<double>(result.ticks) * trace.period_s(),
+                       result.replayed_digest));
   }
   if (equal) return kGood;
   const auto revision = trace.metadata.find("source_revision");
-  fmt::print(stderr, "{}: diverges at {}; it was recorded by revision {}, this is {}\n",
-             options.file, text(*result.divergence, trace.params, "recorded", "replayed"),
-             revision == trace.metadata.end() ? "unknown" : revision->second,
-             record::build_info().at("source_revision"));
+  complain(fmt::format("{}: diverges at {}; it was recorded by revision {}, this is {}",
+                       options.file, text(*result.divergence, trace.params, "recorded", "replayed"),
+                       revision == trace.metadata.end() ? "unknown" : revision->second,
+                       record::build_info().at("source_revision")));
   return kRunFailed;
 }
 
@@ -84,11 +86,11 @@ int run_diff(const DiffOptions& options) {
     if (divergence) json["divergence"] = to_json(*divergence, left.params, "a", "b");
     print_json(json);
   } else if (!divergence) {
-    fmt::print("{} and {}: equal, {} ticks, digest 0x{:016x}\n", options.left, options.right,
-               left.ticks.size(), left.digest());
+    answer(fmt::format("{} and {}: equal, {} ticks, digest 0x{:016x}\n", options.left,
+                       options.right, left.ticks.size(), left.digest()));
   } else {
-    fmt::print("{} and {} differ at {}\n", options.left, options.right,
-               text(*divergence, left.params, "A", "B"));
+    answer(fmt::format("{} and {} differ at {}\n", options.left, options.right,
+                       text(*divergence, left.params, "A", "B")));
   }
   return divergence ? kRunFailed : kGood;
 }

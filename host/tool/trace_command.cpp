@@ -1,6 +1,6 @@
 #include <fmt/format.h>
 
-#include <cstdio>
+#include <filesystem>
 #include <fstream>
 #include <iostream>
 #include <memory>
@@ -9,6 +9,7 @@
 #include "host/record/replay.hpp"
 #include "host/record/trace_writer.hpp"
 #include "host/tool/command.hpp"
+#include "host/tool/console.hpp"
 
 namespace verp::tool {
 namespace {
@@ -25,8 +26,17 @@ std::string joint_name(const JointParams& joint) {
 record::Trace load(const TraceCommandOptions& options) {
   record::Trace trace = record::read_trace(
       options.file, options.recover ? record::Read::kRecover : record::Read::kStrict);
-  if (!trace.warning.empty()) fmt::print(stderr, "{}\n", trace.warning);
+  if (!trace.warning.empty()) complain(trace.warning);
   return trace;
+}
+
+void refuse_same_file(const TraceCommandOptions& options) {
+  std::error_code error;
+  if (options.output.empty() || !std::filesystem::equivalent(options.file, options.output, error)) {
+    return;
+  }
+  throw ToolError(kBadInput,
+                  options.output + ": that is the trace itself; name another file with -o");
 }
 
 int info(const TraceCommandOptions& options) {
@@ -48,10 +58,11 @@ int info(const TraceCommandOptions& options) {
          {"metadata", metadata}});
     return kGood;
   }
-  fmt::print("{}\n  {} ticks of {} us: {:.2f} s\n  {} joints, {} kept States\n  digest {}\n",
-             options.file, trace.ticks.size(), trace.params.period_us, duration_s,
-             trace.params.joint_count, trace.keyframes.size(), digest);
-  for (const auto& [key, value] : trace.metadata) fmt::print("  {}: {}\n", key, value);
+  answer(
+      fmt::format("{}\n  {} ticks of {} us: {:.2f} s\n  {} joints, {} kept States\n  digest {}\n",
+                  options.file, trace.ticks.size(), trace.params.period_us, duration_s,
+                  trace.params.joint_count, trace.keyframes.size(), digest));
+  for (const auto& [key, value] : trace.metadata) answer(fmt::format("  {}: {}\n", key, value));
   return kGood;
 }
 
@@ -90,6 +101,7 @@ void write_csv(const record::Trace& trace, std::ostream& out) {
 }
 
 int export_csv(const TraceCommandOptions& options) {
+  refuse_same_file(options);
   const record::Trace trace = load(options);
   if (options.output.empty() || options.output == "-") {
     write_csv(trace, std::cout);
@@ -107,6 +119,7 @@ int export_csv(const TraceCommandOptions& options) {
 }
 
 int recover(const TraceCommandOptions& options) {
+  refuse_same_file(options);
   const record::Trace trace = record::read_trace(options.file, record::Read::kRecover);
   record::mcap::StringMap run = trace.metadata;
   for (const auto& [key, value] : record::build_info()) {
@@ -123,8 +136,8 @@ int recover(const TraceCommandOptions& options) {
     next += kept ? 1 : 0;
   }
   writer.close({{"recovered_from", options.file}});
-  fmt::print(stderr, "{}\n", trace.warning.empty() ? options.file + ": is whole" : trace.warning);
-  fmt::print("{}: {} ticks\n", options.output, trace.ticks.size());
+  complain(trace.warning.empty() ? options.file + ": is whole" : trace.warning);
+  answer(fmt::format("{}: {} ticks\n", options.output, trace.ticks.size()));
   return kGood;
 }
 

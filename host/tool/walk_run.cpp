@@ -10,6 +10,7 @@
 #include "host/board/board_error.hpp"
 #include "host/board/loop_on_target.hpp"
 #include "host/bus/virtual_bus.hpp"
+#include "host/record/trace_error.hpp"
 #include "host/sim/planned_zmp.hpp"
 #include "host/tool/exit_status.hpp"
 #include "host/tool/interrupt.hpp"
@@ -54,8 +55,7 @@ class Session {
     result_.digest = tick.digest.chain;
     result_.faults = outputs.faults;
     if (trace_ != nullptr) {
-      const record::ros::BodyPose body = pose_of(seen.truth.body_world);
-      trace_->append(tick, state, outputs.faults, &body);
+      append(tick, state, outputs.faults, pose_of(seen.truth.body_world));
     }
     const bool ended = robot_.fallen() || walker_.done();
     after_s_ += ended ? plan_.params.period_us * 1e-6 : 0;
@@ -80,6 +80,17 @@ class Session {
     sim::TwinOptions options;
     options.seed = plan.seed;
     return options;
+  }
+
+  /// A disk that is full costs the trace, not the walk.
+  void append(const TickRecord& tick, const State& state, std::uint32_t faults,
+              const record::ros::BodyPose& body) {
+    try {
+      trace_->append(tick, state, faults, &body);
+    } catch (const record::TraceError& error) {
+      result_.trace_failure = error.what();
+      trace_ = nullptr;
+    }
   }
 
   std::string failure_of_walk() const {

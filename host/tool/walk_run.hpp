@@ -29,7 +29,8 @@ struct WalkResult {
   std::uint32_t faults = 0;  ///< safety::Fault bits at the end
   double simulated_s = 0, wall_s = 0;
   bool interrupted = false;
-  std::string failure;  ///< why the walk is no good, in words; empty: it is good
+  std::string trace_failure;  ///< why the trace breaks off; the walk went on. Empty: it does not
+  std::string failure;        ///< why the walk is no good, in words; empty: it is good
 
   bool good() const { return failure.empty() && !interrupted; }
   double real_time_factor() const { return wall_s > 0 ? simulated_s / wall_s : 0; }

@@ -1,0 +1,145 @@
+#include "host/tool/walk_files.hpp"
+
+#include <fmt/format.h>
+#include <stdlib.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <optional>
+
+#include "host/files/folder_lock.hpp"
+#include "host/record/trace_error.hpp"
+#include "host/report/report.hpp"
+#include "host/tool/console.hpp"
+
+namespace verp::tool {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A folder into which a file can be put: known now, not after a long walk.
+void make_folder(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (!fs::is_directory(folder, error)) {
+    throw ToolError(kBadInput,
+                    fmt::format("{}: not a folder and cannot be made; choose another with --report",
+                                folder.string()));
+  }
+  std::string probe = (folder / ".verp-XXXXXX").string();
+  const int descriptor = ::mkstemp(probe.data());
+  if (descriptor < 0) {
+    throw ToolError(kBadInput, fmt::format("{}: nothing can be written there ({}); choose another "
+                                           "folder with --report",
+                                           folder.string(), std::strerror(errno)));
+  }
+  ::close(descriptor);
+  ::unlink(probe.c_str());
+}
+
+record::mcap::StringMap metadata(const WalkPlan& plan, const WalkOptions& options) {
+  return {{"robot", plan.params.name},
+          {"model_file", plan.entity.file},
+          {"seed", std::to_string(plan.seed)},
+          {"step_m", fmt::format("{}", options.step_m)},
+          {"cycle_s", fmt::format("{}", options.cycle_s)},
+          {"velocity", options.velocity_text},
+          {"walk_s", fmt::format("{}", options.walk_s)},
+          {"controller", options.board.empty() ? "this PC" : options.board}};
+}
+
+}  // namespace
+
+WalkFiles::WalkFiles(const WalkOptions& options, const WalkPlan& plan)
+    : folder_(options.report_folder) {
+  if (wants_report()) make_folder(folder_);
+  if (!options.record_file.empty()) {
+    trace_path_ = options.record_file;
+  } else if (wants_report()) {
+    trace_path_ = folder_ / "run.mcap";
+  }
+  if (!trace_path_.empty()) open_trace(options, plan);
+}
+
+void WalkFiles::open_trace(const WalkOptions& options, const WalkPlan& plan) {
+  if (trace_is_in_folder() && report::is_of_the_report(trace_path_.filename().string())) {
+    throw ToolError(kBadInput, fmt::format("{}: the report has a file of that name; choose another "
+                                           "with --record, such as run.mcap",
+                                           trace_path_.string()));
+  }
+  trace_ = std::make_unique<record::TraceWriter>(
+      trace_path_, plan.params, metadata(plan, options),
+      record::TraceOptions{.every_state = options.record_state});
+}
+
+bool WalkFiles::trace_is_in_folder() const {
+  if (folder_.empty()) return false;
+  std::error_code error;
+  const fs::path beside = fs::weakly_canonical(fs::absolute(trace_path_, error), error);
+  return beside.parent_path() == fs::weakly_canonical(fs::absolute(folder_ / ".", error), error);
+}
+
+void WalkFiles::finish(const WalkResult& result, report::Run run) {
+  std::optional<files::FolderLock> lock;
+  if (wants_report()) lock.emplace(folder_);
+  if (trace_) close_trace(result);
+  if (wants_report()) write_report(std::move(run));
+}
+
+void WalkFiles::close_trace(const WalkResult& result) {
+  try {
+    if (!result.trace_failure.empty()) return lose_trace(result.trace_failure);
+    trace_->close({{"digest", fmt::format("0x{:016x}", result.digest)},
+                   {"failure", result.failure},
+                   {"interrupted", result.interrupted ? "yes" : "no"}});
+  } catch (const record::TraceError& error) {
+    lose_trace(error.what());
+  }
+  trace_.reset();
+}
+
+void WalkFiles::lose_trace(const std::string& why) {
+  const std::string name = trace_path_.string(), part = trace_->part_path().string();
+  if (trace_->safe_ticks() > 0) {
+    lost_.push_back(fmt::format(
+        "{}: the trace breaks off: {}; `verp trace recover {} -o {}` gives what is there", name,
+        why, part, name));
+  } else {
+    trace_->discard();
+    lost_.push_back(fmt::format("{}: no trace: {}", name, why));
+  }
+  trace_.reset();
+  trace_path_.clear();
+}
+
+void WalkFiles::write_report(report::Run run) {
+  if (!trace_path_.empty() && trace_is_in_folder())
+    run.trace_file = trace_path_.filename().string();
+  try {
+    const report::Written written = report::write_report(folder_, run);
+    page_ = written.page.string();
+    if (written.lost) {
+      lost_.push_back(written.note);
+    } else if (!written.note.empty()) {
+      complain(written.note);
+    }
+  } catch (const report::ReportError& error) {
+    lost_.push_back(fmt::format("{}: the report is not whole: {}", folder_.string(), error.what()));
+  }
+}
+
+void WalkFiles::add_to(Json& json) const {
+  if (!page_.empty()) json["report"] = page_;
+  if (!trace_path_.empty()) json["trace"] = trace_path_.string();
+  if (!lost_.empty()) json["lost"] = lost_;
+}
+
+std::string WalkFiles::text() const {
+  std::string out;
+  if (!page_.empty()) out += fmt::format("  {:<18}{}\n", "report", page_);
+  if (!trace_path_.empty()) out += fmt::format("  {:<18}{}\n", "trace", trace_path_.string());
+  return out;
+}
+
+}  // namespace verp::tool

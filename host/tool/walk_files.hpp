@@ -1,0 +1,51 @@
+#pragma once
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "host/record/trace_writer.hpp"
+#include "host/report/run_data.hpp"
+#include "host/tool/command.hpp"
+#include "host/tool/walk_options.hpp"
+#include "host/tool/walk_run.hpp"
+
+namespace verp::tool {
+
+/// What a walk leaves on the disk: a trace and a report. What the disk refuses before the walk ends
+/// the program; what it refuses later costs that file, is told, and never costs the walk's result.
+class WalkFiles {
+ public:
+  /// Makes the folder, opens the trace. Throws ToolError or TraceError when there is no place.
+  WalkFiles(const WalkOptions& options, const WalkPlan& plan);
+
+  /// Null when none is wanted.
+  record::TraceWriter* trace() { return trace_.get(); }
+  bool wants_report() const { return !folder_.empty(); }
+
+  /// Ends the trace and writes the report, if they are wanted, in one go: of two runs into one
+  /// folder, the files of one stand there, not some of each.
+  void finish(const WalkResult& result, report::Run run);
+
+  /// The trace, if it is whole; empty: there is none.
+  const std::filesystem::path& trace_path() const { return trace_path_; }
+  void add_to(Json& json) const;
+  std::string text() const;
+
+  /// One line for each thing that was wanted and is not there: what, where, how to get it back.
+  const std::vector<std::string>& lost() const { return lost_; }
+
+ private:
+  void open_trace(const WalkOptions& options, const WalkPlan& plan);
+  void close_trace(const WalkResult& result);
+  void lose_trace(const std::string& why);
+  void write_report(report::Run run);
+  bool trace_is_in_folder() const;
+
+  std::filesystem::path folder_, trace_path_;
+  std::unique_ptr<record::TraceWriter> trace_;
+  std::string page_;
+  std::vector<std::string> lost_;
+};
+
+}  // namespace verp::tool
