@@ -159,21 +159,13 @@ class FlashStore {
       }
     }
     if (garbage != 0) {
-      make_void(garbage, tail_);
+      page.make_void(garbage, tail_);
       return;
     }
     tail_ = at;
     if (last_end < tail_) last = tail_ - kSlot;  // a void slot ends the log
     for (; last < tail_; last += kSlot) page.make_firm(last);
   }
-  // From the end, so that a cut leaves no header of what is half gone.
-  void make_void(std::size_t from, std::size_t to) const {
-    while (to > from) {
-      to -= kSlot;
-      page_[active_].make_void(to);
-    }
-  }
-
   void give_tail_slot_up() {
     page_[active_].make_void(tail_);
     tail_ += kSlot;
@@ -211,7 +203,7 @@ class FlashStore {
       pending_ = false;
       return hal::WorkState::kIdle;
     }
-    make_void(tail_, tail_ + size);
+    page.make_void(tail_, tail_ + size);
     tail_ += size;
     written_ = 0;
     return failed();

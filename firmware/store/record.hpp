@@ -94,6 +94,10 @@ class Page {
     constexpr std::uint8_t kZeros[kSlot] = {};
     return program(offset, kZeros);
   }
+  /// From the end, so that a cut leaves no header of what is half gone.
+  void make_void(std::size_t from, std::size_t to) const {
+    while (to > from) make_void(to -= kSlot);
+  }
   /// What is there, once more: its zeros become firm. A slot that was cut stays what it seems now.
   bool make_firm(std::size_t offset) const {
     std::uint8_t slot[kSlot] = {};

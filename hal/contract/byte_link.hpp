@@ -15,15 +15,15 @@
 ///    for later reads.
 ///  - connected(): false once the other end is known to be gone: the device unplugged, the peer
 ///    closed. Never waits. A wire without a detect line is always connected. Changes only within
-///    read() and write(). Bytes that arrived before the loss are read first. The call that sees the
-///    loss returns at once with what it has; later calls wait their timeout for the other end to
-///    come back. Bytes queued before a loss may be lost; none appear twice, or after bytes that
-///    were written later.
+///    read() and write(). What arrived before a peer closed is read first; a device that is
+///    unplugged takes unread bytes along. The read() that sees the loss returns at once; later
+///    calls wait their timeout for the other end to come back. Bytes queued before a loss may be
+///    lost; none appear twice, or after bytes that were written later.
 ///  - errors(): what went wrong since the link was opened. Counters only rise (modulo 2^32) and
 ///    survive a loss. A byte with a framing or noise error may be delivered or dropped.
 ///  - No call throws or blocks past its timeout; on a microcontroller none allocates.
-/// Implementations: hal/fake/memory_link.hpp, host/link/link.hpp. User:
-/// firmware/app/link_stream.hpp.
+/// Implementations: hal/fake/memory_link.hpp, host/link/link.hpp. Users:
+/// firmware/app/link_bus.hpp, firmware/app/link_stream.hpp.
 namespace verp::hal {
 
 struct LinkErrors {

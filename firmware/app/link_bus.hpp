@@ -1,0 +1,74 @@
+#pragma once
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
+
+#include "hal/contract/byte_link.hpp"
+#include "hal/contract/frame_bus.hpp"
+
+namespace verp::app {
+
+/// The part of a TickSource that a LinkBus needs.
+template <class Source>
+concept Clock = requires(const Source& clock) {
+  { clock.now_us() } -> std::same_as<std::uint64_t>;
+};
+
+/// A FrameBus on a plain stream of bytes to real devices: a serial port, or whatever carries one.
+/// Bus time is the clock's, from the construction on. A link that is lost is a bus on which nobody
+/// answers: polls wait their time for it to come back.
+template <hal::ByteLink Link, Clock Source>
+class LinkBus {
+ public:
+  LinkBus(Link& link, const Source& clock)
+      : link_(link), clock_(clock), opened_us_(clock.now_us()) {}
+
+  bool send(const std::uint8_t* data, std::size_t size) {
+    if (size == 0 || size > hal::kMaxFrame) return false;
+    push();
+    if (left_ > 0) return false;
+    __builtin_memcpy(outbox_, data, size);
+    sent_ = 0;
+    left_ = size;
+    sent_us_ = now_us();
+    push();
+    return true;
+  }
+
+  std::size_t poll(std::uint8_t* buffer, std::size_t capacity, std::uint32_t timeout_us) {
+    const std::uint64_t deadline_us = sent_us_ + timeout_us;
+    for (;;) {
+      push();
+      const std::uint64_t time_us = now_us();
+      const std::uint64_t wait_us = time_us < deadline_us ? deadline_us - time_us : 0;
+      // While part of a frame has found no room yet, it is tried again every millisecond.
+      const std::uint64_t most_us = left_ > 0 ? kPush_us : wait_us;
+      const std::size_t count = link_.read(
+          buffer, capacity, static_cast<std::uint32_t>(wait_us < most_us ? wait_us : most_us));
+      if (count > 0 || now_us() >= deadline_us) return count;
+    }
+  }
+
+  std::uint64_t now_us() const { return clock_.now_us() - opened_us_; }
+
+ private:
+  static constexpr std::uint64_t kPush_us = 1000;
+
+  // Of a frame that a loss cut in two, the rest would be noise.
+  void push() {
+    if (left_ == 0) return;
+    const std::size_t count = link_.write(outbox_ + sent_, left_, 0);
+    sent_ += count;
+    left_ = link_.connected() ? left_ - count : 0;
+  }
+
+  Link& link_;
+  const Source& clock_;
+  std::uint64_t opened_us_;
+  std::uint64_t sent_us_ = 0;
+  std::size_t sent_ = 0;
+  std::size_t left_ = 0;  ///< bytes of outbox_ that the link has not taken yet
+  std::uint8_t outbox_[hal::kMaxFrame];
+};
+
+}  // namespace verp::app

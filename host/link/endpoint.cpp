@@ -1,0 +1,147 @@
+#include "host/link/endpoint.hpp"
+
+#include <sys/un.h>
+
+#include <array>
+#include <charconv>
+#include <optional>
+#include <string_view>
+
+namespace verp::wire {
+namespace {
+
+using Kind = Endpoint::Kind;
+
+struct Scheme {
+  const char* name;
+  Kind kind;
+  const char* example;
+};
+constexpr std::array<Scheme, 6> kSchemes = {{
+    {"serial", Kind::kSerial, "serial:/dev/ttyUSB0@2000000"},
+    {"pty", Kind::kPty, "pty: or pty:/tmp/robot"},
+    {"tcp", Kind::kTcp, "tcp:localhost:6000"},
+    {"tcp-listen", Kind::kTcpListen, "tcp-listen:6000"},
+    {"unix", Kind::kUnix, "unix:/tmp/robot.sock"},
+    {"unix-listen", Kind::kUnixListen, "unix-listen:/tmp/robot.sock"},
+}};
+constexpr std::uint32_t kLeastBaud = 1200;
+constexpr std::uint32_t kMostBaud = 12'000'000;  // USB 2.0 full speed, FT232H
+constexpr const char* kLocalHost = "127.0.0.1";
+
+const Scheme& scheme_of(Kind kind) {
+  for (const Scheme& scheme : kSchemes) {
+    if (scheme.kind == kind) return scheme;
+  }
+  return kSchemes[0];
+}
+
+[[noreturn]] void refuse(const std::string& text, const std::string& why, const Scheme& scheme) {
+  throw EndpointError("link '" + text + "': " + why + "; write for example " + scheme.example);
+}
+
+/// The whole of `digits` as a number up to `most`.
+std::optional<std::uint32_t> number(std::string_view digits, std::uint32_t most) {
+  std::uint32_t value = 0;
+  const char* end = digits.data() + digits.size();
+  const auto [last, error] = std::from_chars(digits.data(), end, value);
+  if (digits.empty() || error != std::errc{} || last != end || value > most) return std::nullopt;
+  return value;
+}
+
+Endpoint serial(const std::string& text, std::string_view rest, const Scheme& scheme) {
+  Endpoint endpoint{.kind = scheme.kind, .place = std::string(rest), .baud = kDefaultBaud};
+  if (const std::size_t at = rest.rfind('@'); at != std::string_view::npos) {
+    const auto baud = number(rest.substr(at + 1), kMostBaud);
+    if (!baud || *baud < kLeastBaud) {
+      refuse(text, "the rate after '@' must be from 1200 to 12000000 baud", scheme);
+    }
+    endpoint.baud = *baud;
+    endpoint.place = std::string(rest.substr(0, at));
+  }
+  if (endpoint.place.empty()) refuse(text, "it names no device", scheme);
+  if (endpoint.place[0] != '/') refuse(text, "a device is a path that begins with '/'", scheme);
+  return endpoint;
+}
+
+Endpoint tcp(const std::string& text, std::string_view rest, const Scheme& scheme) {
+  Endpoint endpoint{.kind = scheme.kind, .place = kLocalHost};
+  const std::size_t colon = rest.rfind(':');
+  if (colon != std::string_view::npos) {
+    std::string_view host = rest.substr(0, colon);
+    if (host.size() > 2 && host.front() == '[' && host.back() == ']') {
+      host = host.substr(1, host.size() - 2);
+    } else if (host.find_first_of(":[]") != std::string_view::npos) {
+      refuse(text, "an IPv6 address stands in brackets, as [::1]", scheme);
+    }
+    if (host.empty()) refuse(text, "it names no host", scheme);
+    endpoint.place = std::string(host);
+  } else if (scheme.kind == Kind::kTcp) {
+    refuse(text, "it needs a host and a port", scheme);
+  }
+  const auto port = number(rest.substr(colon == std::string_view::npos ? 0 : colon + 1), 65535);
+  if (!port || (*port == 0 && scheme.kind == Kind::kTcp)) {
+    refuse(text, "the port must be a number from 1 to 65535", scheme);
+  }
+  endpoint.port = static_cast<std::uint16_t>(*port);
+  return endpoint;
+}
+
+Endpoint unix_socket(const std::string& text, std::string_view rest, const Scheme& scheme) {
+  if (rest.empty()) refuse(text, "it names no path", scheme);
+  if (rest.size() >= sizeof(sockaddr_un::sun_path)) {
+    refuse(text, "a socket's path has at most 107 characters", scheme);
+  }
+  return {.kind = scheme.kind, .place = std::string(rest)};
+}
+
+}  // namespace
+
+Endpoint parse_endpoint(const std::string& text) {
+  const std::size_t colon = text.find(':');
+  const std::string_view name = std::string_view(text).substr(0, colon);
+  for (const Scheme& scheme : kSchemes) {
+    if (colon == std::string::npos || name != scheme.name) continue;
+    const std::string_view rest = std::string_view(text).substr(colon + 1);
+    if (rest.find('\0') != std::string_view::npos) refuse(text, "a path has no zero byte", scheme);
+    switch (scheme.kind) {
+      case Kind::kSerial:
+        return serial(text, rest, scheme);
+      case Kind::kPty:
+        return {.kind = Kind::kPty, .place = std::string(rest)};
+      case Kind::kTcp:
+      case Kind::kTcpListen:
+        return tcp(text, rest, scheme);
+      case Kind::kUnix:
+      case Kind::kUnixListen:
+        return unix_socket(text, rest, scheme);
+    }
+  }
+  if (text.starts_with("/dev/")) {
+    throw EndpointError("link '" + text + "': say what it is; write serial:" + text + "@2000000");
+  }
+  throw EndpointError("link '" + text +
+                      "': it begins with none of serial: pty: tcp: tcp-listen: unix: unix-listen:; "
+                      "write for example " +
+                      kSchemes[0].example);
+}
+
+std::string to_text(const Endpoint& endpoint) {
+  const std::string head = std::string(scheme_of(endpoint.kind).name) + ":";
+  const bool bracket = endpoint.place.find(':') != std::string::npos;
+  switch (endpoint.kind) {
+    case Kind::kSerial:
+      return head + endpoint.place + "@" + std::to_string(endpoint.baud);
+    case Kind::kTcp:
+    case Kind::kTcpListen:
+      return head + (bracket ? "[" + endpoint.place + "]" : endpoint.place) + ":" +
+             std::to_string(endpoint.port);
+    case Kind::kPty:
+    case Kind::kUnix:
+    case Kind::kUnixListen:
+      break;
+  }
+  return head + endpoint.place;
+}
+
+}  // namespace verp::wire

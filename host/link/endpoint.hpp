@@ -1,0 +1,39 @@
+#pragma once
+#include <cstdint>
+#include <stdexcept>
+#include <string>
+
+namespace verp::wire {
+
+/// Where a link goes, as users write it:
+///
+///     serial:/dev/ttyUSB0@2000000   a serial port and its rate in baud (2000000 if none is given)
+///     pty:  pty:PATH                makes a pseudo-terminal; PATH becomes a symbolic link to it
+///     tcp:HOST:PORT                 connects; HOST is a name, an IPv4 address or [an IPv6 address]
+///     tcp-listen:PORT               waits for one peer of this PC; PORT 0 takes a free one
+///     tcp-listen:HOST:PORT          ... on one address; 0.0.0.0 lets the whole network in
+///     unix:PATH  unix-listen:PATH   a socket in the file system
+struct Endpoint {
+  enum class Kind : std::uint8_t { kSerial, kPty, kTcp, kTcpListen, kUnix, kUnixListen };
+  Kind kind = Kind::kPty;
+  std::string place;       ///< device, host or path; empty: pty: without a path
+  std::uint32_t baud = 0;  ///< kSerial
+  std::uint16_t port = 0;  ///< kTcp, kTcpListen
+  bool operator==(const Endpoint&) const = default;
+};
+
+inline constexpr std::uint32_t kDefaultBaud = 2'000'000;
+
+/// Bad usage: exit status 2. what() is one line that says what is wrong and what to write instead.
+class EndpointError : public std::invalid_argument {
+ public:
+  using std::invalid_argument::invalid_argument;
+};
+
+/// Throws EndpointError.
+Endpoint parse_endpoint(const std::string& text);
+
+/// What parse_endpoint() makes the same endpoint of.
+std::string to_text(const Endpoint& endpoint);
+
+}  // namespace verp::wire

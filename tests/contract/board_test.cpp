@@ -1,0 +1,155 @@
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <cstdint>
+#include <thread>
+
+#include "hal/contract/imu.hpp"
+#include "hal/contract/tick_source.hpp"
+#include "hal/contract/watchdog.hpp"
+#include "hal/fake/fake_watchdog.hpp"
+#include "hal/fake/manual_clock.hpp"
+#include "hal/fake/scripted_imu.hpp"
+#include "host/link/system_clock.hpp"
+
+// The promises of hal/contract/tick_source.hpp, watchdog.hpp and imu.hpp.
+
+namespace verp {
+namespace {
+
+struct Manual {
+  void spend(std::uint32_t time_us) { source.advance(time_us); }
+  hal::ManualClock source;
+};
+struct System {
+  static void spend(std::uint32_t time_us) {
+    std::this_thread::sleep_for(std::chrono::microseconds(time_us));
+  }
+  wire::SystemClock source;
+};
+
+template <class Backend>
+class TickSourceContract : public ::testing::Test {
+ protected:
+  Backend backend;
+};
+using Sources = ::testing::Types<Manual, System>;
+TYPED_TEST_SUITE(TickSourceContract, Sources);
+
+TYPED_TEST(TickSourceContract, MakesNoTickBeforeItIsStarted) {
+  EXPECT_EQ(this->backend.source.wait(), 0u);
+  EXPECT_FALSE(this->backend.source.start(0));
+  EXPECT_EQ(this->backend.source.wait(), 0u);
+}
+
+TYPED_TEST(TickSourceContract, NeverReturnsEarlyAndNeverDrifts) {
+  auto& source = this->backend.source;
+  const std::uint64_t begin_us = source.now_us();
+  ASSERT_TRUE(source.start(2000));
+  std::uint64_t tick = 0;
+  for (int i = 0; i < 50; ++i) {
+    const std::uint32_t begun = source.wait();
+    EXPECT_GE(begun, 1u);
+    tick += begun;
+    EXPECT_GE(source.now_us(), begin_us + tick * 2000);
+  }
+}
+
+// A loop that was late hears how many beginnings it missed, and is in step again.
+TYPED_TEST(TickSourceContract, CountsWhatTheLoopMissed) {
+  auto& source = this->backend.source;
+  ASSERT_TRUE(source.start(5000));
+  EXPECT_GE(source.wait(), 1u);
+  const std::uint64_t before_us = source.now_us();
+  this->backend.spend(17'000);
+  const std::uint32_t begun = source.wait();
+  EXPECT_GE(begun, 3u);
+  EXPECT_LE(std::uint64_t{begun - 1} * 5000, source.now_us() - before_us);
+  EXPECT_GE(source.wait(), 1u);
+}
+
+TYPED_TEST(TickSourceContract, BeginsAnewWhenStartedAgain) {
+  auto& source = this->backend.source;
+  ASSERT_TRUE(source.start(1'000'000));
+  const std::uint64_t begin_us = source.now_us();
+  ASSERT_TRUE(source.start(1000));
+  EXPECT_GE(source.wait(), 1u);
+  EXPECT_GE(source.now_us(), begin_us + 1000);
+}
+
+/// kPercent of its timeout is what the watchdog really waits.
+template <std::uint32_t kPercent>
+struct Fake {
+  hal::FakeWatchdog dog{kPercent};
+};
+
+template <class Backend>
+class WatchdogContract : public ::testing::Test {
+ protected:
+  static constexpr std::uint32_t kTimeout_us = 20'000;
+  Backend backend;
+  decltype(backend.dog)& dog = backend.dog;
+};
+using Watchdogs = ::testing::Types<Fake<100>, Fake<150>, Fake<100 * hal::kWatchdogSlack>>;
+TYPED_TEST_SUITE(WatchdogContract, Watchdogs);
+
+TYPED_TEST(WatchdogContract, LeavesAFedControllerAlone) {
+  ASSERT_TRUE(this->dog.start(this->kTimeout_us));
+  for (int i = 0; i < 100; ++i) {
+    this->dog.advance(this->kTimeout_us);
+    this->dog.feed();
+  }
+  EXPECT_FALSE(this->dog.caused_reset());
+}
+
+TYPED_TEST(WatchdogContract, ResetsAnUnfedOneNeitherEarlyNorTooLate) {
+  ASSERT_TRUE(this->dog.start(this->kTimeout_us));
+  this->dog.advance(this->kTimeout_us);
+  EXPECT_EQ(this->dog.resets(), 0u);
+  this->dog.advance((hal::kWatchdogSlack - 1) * this->kTimeout_us + 1);
+  EXPECT_EQ(this->dog.resets(), 1u);
+  EXPECT_TRUE(this->dog.caused_reset());
+  this->dog.reset();
+  EXPECT_FALSE(this->dog.caused_reset());
+}
+
+TYPED_TEST(WatchdogContract, ArmsOnceAndOnlyForWhatItCanWait) {
+  EXPECT_FALSE(this->dog.start(0));
+  EXPECT_FALSE(this->dog.start(0xFFFFFFFF));
+  this->dog.feed();
+  this->dog.advance(1'000'000'000);
+  EXPECT_FALSE(this->dog.caused_reset());
+  EXPECT_TRUE(this->dog.start(this->kTimeout_us));
+  EXPECT_FALSE(this->dog.start(2 * this->kTimeout_us));
+  this->dog.advance(hal::kWatchdogSlack * this->kTimeout_us + 1);
+  EXPECT_TRUE(this->dog.caused_reset());
+}
+
+TEST(ScriptedImu, GivesEachSampleOnceAndTheNewestOnly) {
+  hal::ScriptedImu imu;
+  hal::ImuSample sample{.time_us = 7};
+  EXPECT_EQ(imu.read(sample), hal::ImuStatus::kStale);
+  EXPECT_EQ(sample.time_us, 7u);
+  EXPECT_TRUE(imu.measure({{1, 2, 3}, {4, 5, 6}, 100}));
+  EXPECT_TRUE(imu.measure({{-1, -2, -3}, {-4, -5, -6}, 200}));
+  EXPECT_FALSE(imu.measure({{}, {}, 200}));
+  EXPECT_EQ(imu.read(sample), hal::ImuStatus::kFresh);
+  EXPECT_EQ(sample.gyro_count[2], -3);
+  EXPECT_EQ(sample.time_us, 200u);
+  EXPECT_EQ(imu.read(sample), hal::ImuStatus::kStale);
+}
+
+TEST(ScriptedImu, CountsFaultsAndComesBack) {
+  hal::ScriptedImu imu;
+  imu.measure({{1, 2, 3}, {4, 5, 6}, 100});
+  imu.fail(2);
+  hal::ImuSample sample;
+  EXPECT_EQ(imu.read(sample), hal::ImuStatus::kFault);
+  EXPECT_EQ(imu.read(sample), hal::ImuStatus::kFault);
+  EXPECT_EQ(sample.time_us, 0u);
+  EXPECT_EQ(imu.faults(), 2u);
+  EXPECT_EQ(imu.read(sample), hal::ImuStatus::kFresh);
+}
+
+}  // namespace
+}  // namespace verp

@@ -1,0 +1,153 @@
+#pragma once
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <chrono>
+#include <cstdint>
+#include <thread>
+#include <vector>
+
+#include "common/protocol/dynamixel2.hpp"
+#include "firmware/app/link_bus.hpp"
+#include "firmware/app/link_stream.hpp"
+#include "firmware/app/remote_bus.hpp"
+#include "hal/fake/scripted_bus.hpp"
+#include "host/bus/bus_server.hpp"
+#include "host/bus/virtual_bus.hpp"
+#include "host/link/system_clock.hpp"
+#include "tests/contract/link_pairs.hpp"
+#include "tests/host/bus/fake_plant.hpp"
+#include "tests/host/bus/pipes.hpp"
+
+/// Every FrameBus there is on the PC, prepared for `pings` pings of servo 1. Each answers with the
+/// e-Manual's status packet, but for the firmware version. kPlenty_us is enough for an answer;
+/// kSlack_us is how much its clock may move when it should stand: 0 if time is simulated.
+namespace verp::test {
+
+inline const std::vector<std::uint8_t> kPing = {0xFF, 0xFF, 0xFD, 0x00, 0x01,
+                                                0x03, 0x00, 0x01, 0x19, 0x4E};
+
+inline std::vector<std::uint8_t> ping_reply() {
+  std::vector<std::uint8_t> reply(32);
+  const std::uint8_t identity[] = {0x06, 0x04, 45};
+  reply.resize(dxl::encode_status(reply.data(), reply.size(), 1, 0, identity, 3));
+  return reply;
+}
+
+struct SimulatedTime {
+  static constexpr std::uint32_t kPlenty_us = 20'000;
+  static constexpr std::uint64_t kSlack_us = 0;
+};
+
+struct Scripted : SimulatedTime {
+  explicit Scripted(int pings) {
+    const auto reply = ping_reply();
+    for (int i = 0; i < pings; ++i) {
+      bus.expect(kPing.data(), kPing.size(), reply.data(), reply.size(), 200);
+    }
+  }
+  hal::ScriptedBus bus;
+};
+
+struct ScriptedInPieces : Scripted {
+  explicit ScriptedInPieces(int pings) : Scripted(pings) { bus.set_piece(3); }
+};
+
+struct Virtual : SimulatedTime {
+  explicit Virtual(int) {}
+  Params params = bus_params(2);
+  FakePlant plant;
+  bus::VirtualBus bus{params, plant};
+};
+
+/// The virtual bus again, through the link of an emulated microcontroller: over FIFOs.
+struct Remote : SimulatedTime {
+  explicit Remote(int) {
+    server = std::thread([this] {
+      bus::BusServer(
+          params, virtual_bus,
+          bus::file_streams(pipes.from_controller.read_end(), pipes.to_controller.write_end()), {},
+          {})
+          .serve();
+    });
+    EXPECT_TRUE(bus.hello(received));
+  }
+  ~Remote() {
+    pipes.from_controller.close_write_end();
+    server.join();
+  }
+  Params params = bus_params(2);
+  Params received;
+  FakePlant plant;
+  bus::VirtualBus virtual_bus{params, plant};
+  PipePair pipes;
+  PipeEnd in{pipes.to_controller};
+  PipeEnd out{pipes.from_controller};
+  std::thread server;
+  app::RemoteBus<PipeEnd, PipeEnd> bus{in, out};
+};
+
+/// ... and over any ByteLink.
+template <class Pair>
+struct RemoteOver : SimulatedTime {
+  using Stream = app::LinkStream<wire::Link>;
+  explicit RemoteOver(int) {
+    server = std::thread([this] {
+      bus::ByteStreams streams;
+      streams.read_some = [this](void* data, std::size_t size) {
+        return far.read_some(data, size);
+      };
+      streams.write = [this](const void* data, std::size_t size) { return far.write(data, size); };
+      bus::BusServer(params, virtual_bus, streams, {}, {}).serve();
+    });
+    EXPECT_TRUE(bus.hello(received));
+  }
+  ~RemoteOver() {
+    bus.quit(0, "done");
+    server.join();
+  }
+  Params params = bus_params(2);
+  Params received;
+  FakePlant plant;
+  bus::VirtualBus virtual_bus{params, plant};
+  Pair pair;
+  Stream near{pair.near()};
+  Stream far{pair.far()};
+  std::thread server;
+  app::RemoteBus<Stream, Stream> bus{near, near};
+};
+
+/// A servo in real time at the other end of a ByteLink.
+template <class Pair>
+struct LinkBusOver {
+  static constexpr std::uint32_t kPlenty_us = 300'000;
+  static constexpr std::uint64_t kSlack_us = 150'000;
+
+  explicit LinkBusOver(int pings) {
+    servo = std::thread([this, pings] {
+      std::vector<std::uint8_t> heard;
+      std::uint8_t piece[64];
+      for (int answered = 0; !over;) {
+        const std::size_t count = pair.far().read(piece, sizeof piece, 5000);
+        heard.insert(heard.end(), piece, piece + count);
+        if (heard.size() < kPing.size()) continue;
+        heard.erase(heard.begin(), heard.begin() + static_cast<std::ptrdiff_t>(kPing.size()));
+        if (answered++ == pings) continue;
+        std::this_thread::sleep_for(std::chrono::milliseconds(2));
+        const std::vector<std::uint8_t> reply = ping_reply();
+        pair.far().write(reply.data(), reply.size(), kPlenty_us);
+      }
+    });
+  }
+  ~LinkBusOver() {
+    over = true;
+    servo.join();
+  }
+  Pair pair;
+  wire::SystemClock clock;
+  app::LinkBus<wire::Link, wire::SystemClock> bus{pair.near(), clock};
+  std::atomic<bool> over = false;
+  std::thread servo;
+};
+
+}  // namespace verp::test

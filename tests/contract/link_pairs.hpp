@@ -1,0 +1,99 @@
+#pragma once
+#include <unistd.h>
+
+#include <cstdint>
+#include <cstdlib>
+#include <optional>
+#include <stdexcept>
+#include <string>
+
+#include "hal/fake/memory_link.hpp"
+#include "host/link/endpoint.hpp"
+#include "host/link/link.hpp"
+#include "host/link/system_clock.hpp"
+
+/// Two ends of one ByteLink, of every kind there is on the PC. `near()` is the end under test;
+/// cut() takes the far end away, mend() brings it back.
+namespace verp::test {
+
+/// A folder that is gone at the end of the test.
+class Folder {
+ public:
+  Folder() {
+    if (::mkdtemp(path_) == nullptr) throw std::runtime_error("no folder in /tmp");
+  }
+  ~Folder() {
+    ::unlink((std::string(path_) + "/link").c_str());
+    ::rmdir(path_);
+  }
+  Folder(const Folder&) = delete;
+  Folder& operator=(const Folder&) = delete;
+  std::string link() const { return std::string(path_) + "/link"; }
+
+ private:
+  char path_[32] = "/tmp/verp-link-XXXXXX";
+};
+
+struct MemoryPair {
+  static constexpr bool kKeepsBytesOnLoss = true;
+  hal::MemoryLink& near() { return wire.left(); }
+  hal::MemoryLink& far() { return wire.right(); }
+  void cut() { wire.cut(); }
+  void mend() { wire.mend(); }
+  std::uint64_t now_us() const { return wire.now_us(); }
+  hal::MemoryWire wire;
+};
+
+/// `Server` is the end that is there first; kNearServes says whether it is the one under test.
+template <bool kNearServes>
+class HostPair {
+ public:
+  HostPair(const std::string& server, const std::string& client)
+      : server_text_(server), client_text_(client) {
+    server_.emplace(wire::parse_endpoint(server));
+    if (client_text_.empty()) client_text_ = server_->place();
+    if (server_->place().starts_with("tcp:")) {  // come back to the same port
+      server_text_ = "tcp-listen" + server_->place().substr(3);
+    }
+    client_.emplace(wire::parse_endpoint(client_text_));
+    server_->wait_connected(kAWhile_us);
+  }
+  wire::Link& near() { return kNearServes ? *server_ : *client_; }
+  wire::Link& far() { return kNearServes ? *client_ : *server_; }
+  void cut() { kNearServes ? client_.reset() : server_.reset(); }
+  void mend() {
+    if (kNearServes) {
+      client_.emplace(wire::parse_endpoint(client_text_));
+    } else {
+      server_.emplace(wire::parse_endpoint(server_text_));
+    }
+  }
+  std::uint64_t now_us() const { return clock_.now_us(); }
+
+ private:
+  static constexpr std::uint32_t kAWhile_us = 5'000'000;
+  std::string server_text_;
+  std::string client_text_;
+  std::optional<wire::Link> server_;
+  std::optional<wire::Link> client_;
+  wire::SystemClock clock_;
+};
+
+/// libserial on one end of a pseudo-terminal.
+template <bool kNearServes>
+struct SerialPair : Folder, HostPair<kNearServes> {
+  static constexpr bool kKeepsBytesOnLoss = kNearServes;  // an unplugged device takes them along
+  SerialPair() : HostPair<kNearServes>("pty:" + link(), "serial:" + link() + "@2000000") {}
+};
+template <bool kNearServes>
+struct TcpPair : HostPair<kNearServes> {
+  static constexpr bool kKeepsBytesOnLoss = true;
+  TcpPair() : HostPair<kNearServes>("tcp-listen:0", "") {}
+};
+template <bool kNearServes>
+struct UnixPair : Folder, HostPair<kNearServes> {
+  static constexpr bool kKeepsBytesOnLoss = true;
+  UnixPair() : HostPair<kNearServes>("unix-listen:" + link(), "unix:" + link()) {}
+};
+
+}  // namespace verp::test

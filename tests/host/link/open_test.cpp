@@ -1,0 +1,153 @@
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <fstream>
+#include <string>
+
+#include "host/link/latency.hpp"
+#include "host/link/line_rate.hpp"
+#include "host/link/link.hpp"
+#include "tests/contract/link_pairs.hpp"
+
+// What keeps a port from being opened is named in one line, with a remedy.
+
+namespace verp::wire {
+namespace {
+
+using Kind = LinkError::Kind;
+
+/// How opening `text` fails.
+LinkError failure(const std::string& text) {
+  try {
+    Link link(parse_endpoint(text));
+  } catch (const LinkError& error) {
+    EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos);
+    EXPECT_NE(std::string(error.what()).find(';'), std::string::npos) << error.what();
+    return error;
+  }
+  ADD_FAILURE() << text << " was opened";
+  return {Kind::kUnsuitable, ""};
+}
+
+TEST(Open, NamesADeviceThatIsNotThere) {
+  EXPECT_EQ(failure("serial:/dev/ttyUSB99@2000000").kind(), Kind::kNoDevice);
+  EXPECT_EQ(failure("unix:/tmp/verp-nobody").kind(), Kind::kNoDevice);
+  EXPECT_EQ(failure("tcp:no-such-host.invalid:6000").kind(), Kind::kNoDevice);
+  EXPECT_EQ(failure("unix-listen:/no/such/folder/s").kind(), Kind::kNoDevice);
+}
+
+TEST(Open, NamesWhatIsNoSerialPort) {
+  EXPECT_EQ(failure("serial:/etc/passwd@2000000").kind(), Kind::kUnsuitable);
+  EXPECT_EQ(failure("serial:/dev/null@2000000").kind(), Kind::kUnsuitable);
+  EXPECT_EQ(failure("serial:/tmp@2000000").kind(), Kind::kUnsuitable);
+}
+
+TEST(Open, NamesAPeerThatDoesNotListen) {
+  std::string address;
+  {
+    const Link listener(parse_endpoint("tcp-listen:0"));
+    address = listener.place();
+  }
+  EXPECT_EQ(failure(address).kind(), Kind::kRefused);
+}
+
+TEST(Open, NamesASecondCopy) {
+  const test::Folder folder;
+  const Link terminal(parse_endpoint("pty:" + folder.link()));
+  const std::string serial = "serial:" + folder.link() + "@2000000";
+  {
+    const Link first(parse_endpoint(serial));
+    const LinkError error = failure(serial);
+    EXPECT_EQ(error.kind(), Kind::kBusy);
+    EXPECT_NE(std::string(error.what()).find("fuser"), std::string::npos);
+  }
+  const Link next(parse_endpoint(serial));  // the first is gone
+  EXPECT_TRUE(next.connected());
+}
+
+TEST(Open, NamesASecondListener) {
+  const test::Folder folder;
+  const Link first(parse_endpoint("unix-listen:" + folder.link()));
+  EXPECT_EQ(failure("unix-listen:" + folder.link()).kind(), Kind::kBusy);
+  const Link tcp(parse_endpoint("tcp-listen:0"));
+  EXPECT_EQ(failure("tcp-listen" + tcp.place().substr(3)).kind(), Kind::kBusy);
+}
+
+// Root may open anything, so the test steps down where it is root.
+TEST(Open, NamesAMissingPermission) {
+  const Link terminal(parse_endpoint("pty:"));
+  ASSERT_EQ(::chmod(terminal.place().c_str(), 0), 0);
+  const uid_t user = ::geteuid();
+  ASSERT_TRUE(user != 0 || ::seteuid(65534) == 0);
+  const LinkError error = failure("serial:" + terminal.place() + "@2000000");
+  ASSERT_TRUE(user != 0 || ::seteuid(0) == 0);
+  EXPECT_EQ(error.kind(), Kind::kPermission);
+  EXPECT_NE(std::string(error.what()).find("dialout"), std::string::npos);
+}
+
+TEST(Open, TakesTheSocketOfAProgramThatWasKilled) {
+  const test::Folder folder;
+  {
+    Link first(parse_endpoint("unix-listen:" + folder.link()));
+    ASSERT_EQ(::rename(folder.link().c_str(), (folder.link() + "-kept").c_str()), 0);
+  }
+  ASSERT_EQ(::rename((folder.link() + "-kept").c_str(), folder.link().c_str()), 0);
+  const Link second(parse_endpoint("unix-listen:" + folder.link()));
+  EXPECT_FALSE(second.connected());
+}
+
+TEST(Open, NeverReplacesAFileByATerminal) {
+  const test::Folder folder;
+  std::ofstream(folder.link()) << "mine";
+  EXPECT_EQ(failure("pty:" + folder.link()).kind(), Kind::kBusy);
+  ::unlink(folder.link().c_str());
+  ASSERT_EQ(::symlink("/etc/hostname", folder.link().c_str()), 0);
+  EXPECT_EQ(failure("pty:" + folder.link()).kind(), Kind::kBusy);
+}
+
+TEST(Open, SetsAnyRate) {
+  const Link terminal(parse_endpoint("pty:"));
+  for (const char* baud : {"9600", "57600", "1000000", "2000000", "4000000", "4500000", "123457"}) {
+    const Link serial(parse_endpoint("serial:" + terminal.place() + "@" + baud));
+    const int descriptor = ::open(terminal.place().c_str(), O_RDWR | O_NOCTTY);
+    if (descriptor < 0) continue;  // only root passes TIOCEXCL
+    EXPECT_EQ(std::to_string(line_rate(descriptor)), baud);
+    ::close(descriptor);
+  }
+}
+
+// A USB serial port plugged in again often comes back under the same name, not the same device.
+TEST(Reconnect, FindsWhatStandsAtTheSamePath) {
+  const test::Folder folder;
+  auto terminal = std::make_unique<Link>(parse_endpoint("pty:" + folder.link()));
+  Link serial(parse_endpoint("serial:" + folder.link() + "@2000000"));
+  std::uint8_t byte = 0;
+  for (std::uint32_t plug = 1; plug < 4; ++plug) {
+    terminal.reset();
+    while (serial.connected()) serial.read(&byte, 1, 10'000);
+    EXPECT_FALSE(serial.wait_connected(1000));
+    terminal = std::make_unique<Link>(parse_endpoint("pty:" + folder.link()));
+    EXPECT_TRUE(serial.wait_connected(5'000'000));
+    EXPECT_EQ(serial.errors().losses, plug);
+  }
+}
+
+TEST(Latency, IsReadAndAdvisedOn) {
+  const test::Folder folder;
+  const std::string system = folder.link() + "-sys";
+  const std::string device = system + "/bus/usb-serial/devices/ttyUSB7";
+  ASSERT_EQ(std::system(("mkdir -p " + device).c_str()), 0);
+  EXPECT_FALSE(latency_timer_ms("/dev/ttyUSB7", system).has_value());
+  EXPECT_EQ(latency_advice("/dev/ttyUSB7", system), "");
+  std::ofstream(device + "/latency_timer") << "16\n";
+  EXPECT_EQ(latency_timer_ms("/dev/ttyUSB7", system), 16);
+  EXPECT_NE(latency_advice("/dev/ttyUSB7", system).find("16 ms; set 1"), std::string::npos);
+  std::ofstream(device + "/latency_timer") << "1\n";
+  EXPECT_EQ(latency_advice("/dev/ttyUSB7", system), "");
+  ASSERT_EQ(std::system(("rm -r " + system).c_str()), 0);
+}
+
+}  // namespace
+}  // namespace verp::wire
