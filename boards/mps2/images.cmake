@@ -1,12 +1,14 @@
-# Images that every emulated MPS2 board has, as executables <what>_<board>.elf. Called in the board's own folder.
+# Images of emulated boards that speak with the PC by semihosting, as executables <what>_<board>.elf. Called in the
+# board's own folder.
 set(VERP_MPS2_DIR ${CMAKE_CURRENT_LIST_DIR})
 
-function(verp_add_mps2_image what machine)
-  set(image ${what}_${VERP_BOARD})
+# <name>_<board>.elf from <what>_main.cpp and further sources; `machine` is QEMU's name of the board.
+function(verp_add_emulated_image name what machine)
+  set(image ${name}_${VERP_BOARD})
   add_executable(${image} ${VERP_MPS2_DIR}/${what}_main.cpp ${VERP_MPS2_DIR}/emulator.cpp ${ARGN})
   target_include_directories(${image} PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
   target_link_libraries(${image} PRIVATE verp_boot verp_app verp_core verp_chip_semihosting verp_warnings)
-  target_link_options(${image} PRIVATE -T ${CMAKE_CURRENT_SOURCE_DIR}/memory.ld)
+  target_link_options(${image} PRIVATE -T ${CMAKE_CURRENT_SOURCE_DIR}/memory.ld -Wl,--defsym,verp_test_image=1)
   set_target_properties(${image} PROPERTIES
     SUFFIX .elf
     RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/images
@@ -14,28 +16,44 @@ function(verp_add_mps2_image what machine)
     LINK_DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/memory.ld;${CMAKE_SOURCE_DIR}/firmware/boot/sections.ld")
 endfunction()
 
-function(verp_add_mps2_images machine)
+# <name>_<board>.elf runs the unit tests of the given sources; ctest has it as `test`.
+function(verp_add_unit_image name test machine)
+  verp_add_emulated_image(${name} unit ${machine} ${VERP_MPS2_DIR}/newlib.cpp ${ARGN})
+  target_include_directories(${name}_${VERP_BOARD} SYSTEM PRIVATE ${CMAKE_SOURCE_DIR}/tests/support/gtest_target)
+  add_test(NAME ${test} COMMAND ${name}_${VERP_BOARD})
+  set_tests_properties(${test} PROPERTIES LABELS "unit;target" TIMEOUT 300)
+endfunction()
+
+# All unit tests in one image, where memory is plenty.
+function(verp_add_unit_tests machine)
   file(GLOB_RECURSE tests CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/tests/unit/*_test.cpp)
-  verp_add_mps2_image(unit ${machine} ${VERP_MPS2_DIR}/newlib.cpp ${tests})
-  target_include_directories(unit_${VERP_BOARD} SYSTEM PRIVATE ${CMAKE_SOURCE_DIR}/tests/support/gtest_target)
-  add_test(NAME unit.${VERP_BOARD} COMMAND unit_${VERP_BOARD})
-  set_tests_properties(unit.${VERP_BOARD} PROPERTIES LABELS "unit;target" TIMEOUT 300)
+  verp_add_unit_image(unit unit.${VERP_BOARD} ${machine} ${tests})
+endfunction()
 
-  verp_add_mps2_image(replay ${machine})
-  verp_add_mps2_image(loop ${machine})
-  verp_add_mps2_image(link ${machine})
-  add_custom_target(benchmarks DEPENDS replay_${VERP_BOARD} link_${VERP_BOARD})  # what `verp bench` runs
-
-  # Tests with a half on the PC: that half comes from a PC build, which must be there.
-  set(VERP_HOST_DIR ${CMAKE_SOURCE_DIR}/build/host-release CACHE PATH "PC build whose programs test this board")
-  foreach(each replay:TargetReplay loop:ClosedLoop)
-    string(REPLACE ":" ";" each "${each}")
-    list(GET each 0 name)
-    list(GET each 1 suite)
-    add_test(NAME ${name}.${VERP_BOARD}
-      COMMAND ${VERP_HOST_DIR}/target/target_tests --gtest_filter=${suite}.*)
-    set_tests_properties(${name}.${VERP_BOARD} PROPERTIES LABELS "${name};target" TIMEOUT 600)
+# One image for each folder of tests/unit, where it is not: a chip's own RAM holds the variables of one.
+function(verp_add_unit_tests_by_folder machine)
+  file(GLOB folders CONFIGURE_DEPENDS LIST_DIRECTORIES true ${CMAKE_SOURCE_DIR}/tests/unit/*)
+  foreach(folder ${folders})
+    file(GLOB_RECURSE tests CONFIGURE_DEPENDS ${folder}/*_test.cpp)
+    if(tests)
+      cmake_path(GET folder FILENAME module)
+      verp_add_unit_image(unit_${module} unit.${VERP_BOARD}.${module} ${machine} ${tests})
+    endif()
   endforeach()
+endfunction()
+
+# Tests with a half on the PC: that half comes from a PC build, which must be there.
+set(VERP_HOST_DIR ${CMAKE_SOURCE_DIR}/build/host-release CACHE PATH "PC build whose programs test this board")
+function(verp_add_target_test name suite)
+  add_test(NAME ${name}.${VERP_BOARD} COMMAND ${VERP_HOST_DIR}/target/target_tests --gtest_filter=${suite}.*)
+  set_tests_properties(${name}.${VERP_BOARD} PROPERTIES LABELS "${name};target" TIMEOUT 600
+    ENVIRONMENT "VERP_TEST_BOARD=${VERP_BOARD};VERP_FIRMWARE_DIR=${CMAKE_BINARY_DIR}/images")
+endfunction()
+
+# Recorded inputs run through the core in the board: short ones, and the long trace of tests/replay.
+function(verp_add_replay_tests machine)
+  verp_add_emulated_image(replay replay ${machine})
+  verp_add_target_test(replay TargetReplay)
   # The long trace of tests/replay: whole where floats are hardware; elsewhere a fifth of each run, and the rest with --full.
   set(trace_ticks 100000)
   if(NOT CMAKE_CXX_FLAGS MATCHES "-mfloat-abi=hard")
@@ -47,9 +65,17 @@ function(verp_add_mps2_images machine)
   add_test(NAME trace.${VERP_BOARD} COMMAND ${VERP_HOST_DIR}/target/target_tests --gtest_filter=LongTrace.*)
   set_tests_properties(trace.${VERP_BOARD} PROPERTIES LABELS "replay;target" TIMEOUT 300
     ENVIRONMENT "VERP_TEST_BOARD=${VERP_BOARD};VERP_TEST_TICKS=${trace_ticks};VERP_FIRMWARE_DIR=${CMAKE_BINARY_DIR}/images")
+endfunction()
+
+function(verp_add_mps2_images machine)
+  verp_add_unit_tests(${machine})
+  verp_add_replay_tests(${machine})
+  verp_add_emulated_image(loop loop ${machine})
+  verp_add_target_test(loop ClosedLoop)
+  verp_add_emulated_image(link link ${machine})
+  add_custom_target(benchmarks DEPENDS replay_${VERP_BOARD} link_${VERP_BOARD})  # what `verp bench` runs
   add_test(NAME bench.${VERP_BOARD} COMMAND ${VERP_HOST_DIR}/target/target_bench --check ${VERP_BOARD})
   # Times the link, so it runs alone.
-  set_tests_properties(bench.${VERP_BOARD} PROPERTIES LABELS "bench;target" TIMEOUT 600 RUN_SERIAL ON)
-  set_tests_properties(replay.${VERP_BOARD} loop.${VERP_BOARD} bench.${VERP_BOARD} PROPERTIES
+  set_tests_properties(bench.${VERP_BOARD} PROPERTIES LABELS "bench;target" TIMEOUT 600 RUN_SERIAL ON
     ENVIRONMENT "VERP_TEST_BOARD=${VERP_BOARD};VERP_FIRMWARE_DIR=${CMAKE_BINARY_DIR}/images")
 endfunction()

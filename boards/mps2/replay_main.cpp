@@ -1,3 +1,4 @@
+#include "board.hpp"
 #include "boards/mps2/arguments.hpp"
 #include "firmware/app/replay_job.hpp"
 #include "firmware/boot/boot.hpp"
@@ -16,7 +17,7 @@ struct StackGauge {
   std::uint32_t used_bytes() const { return verp::boot::stack_used_below(from); }
 };
 
-verp::Replay<256> replay;
+verp::Replay<verp::board::kReplayBlock> replay;
 
 }  // namespace
 

@@ -4,4 +4,6 @@
 namespace verp::board {
 inline constexpr const char* kName = "mps2_an385";
 inline constexpr const char* kCore = "Cortex-M3";
+/// Ticks that a replay moves at once.
+inline constexpr int kReplayBlock = 256;
 }  // namespace verp::board

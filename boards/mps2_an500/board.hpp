@@ -4,4 +4,6 @@
 namespace verp::board {
 inline constexpr const char* kName = "mps2_an500";
 inline constexpr const char* kCore = "Cortex-M7";
+/// Ticks that a replay moves at once.
+inline constexpr int kReplayBlock = 256;
 }  // namespace verp::board

@@ -60,7 +60,7 @@ extern "C" void verp_reset() {
 }
 
 // The table of ARMv7-M ARM, B1.5.3. No image here uses an interrupt; a board that does adds its own
-// table behind this one, in section .vectors.
+// table behind this one, in section .vectors.interrupts.
 extern const Vector verp_vectors[16];
 __attribute__((section(".vectors"), used)) const Vector verp_vectors[16] = {
     {.stack = verp_stack_top},      // initial stack

@@ -9,9 +9,10 @@ namespace verp::board {
 
 const std::vector<EmulatedBoard>& emulated_boards() {
   static const std::vector<EmulatedBoard> boards = {
-      {"mps2_an385", "mps2-an385", "Cortex-M3"},
-      {"mps2_an386", "mps2-an386", "Cortex-M4F"},
-      {"mps2_an500", "mps2-an500", "Cortex-M7"},
+      {"mps2_an385", "mps2-an385", "Cortex-M3", true},
+      {"mps2_an386", "mps2-an386", "Cortex-M4F", true},
+      {"mps2_an500", "mps2-an500", "Cortex-M7", true},
+      {"olimex_h405", "netduinoplus2", "Cortex-M4F", false},
   };
   return boards;
 }

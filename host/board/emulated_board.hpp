@@ -10,6 +10,7 @@ struct EmulatedBoard {
   const char* name;     ///< as in boards/ and VERP_BOARD
   const char* machine;  ///< qemu-system-arm -M
   const char* core;
+  bool measured;  ///< one of those whose costs `verp bench` shows: has an image that times the link
 };
 
 const std::vector<EmulatedBoard>& emulated_boards();

@@ -173,7 +173,9 @@ void add_board_rows(const Json& line, std::vector<BenchRow>& rows, Json& heading
 int run_bench(const BenchOptions& options) {
   std::size_t boards = 0;
   if (!options.pc) {
-    for (const auto& each : board::emulated_boards()) firmware_image(each, "replay"), ++boards;
+    for (const auto& each : board::emulated_boards()) {
+      if (each.measured) firmware_image(each, "replay"), ++boards;
+    }
   }
   const board::TemporaryDirectory folder;
   Progress progress(!options.json);

@@ -77,7 +77,9 @@ enum class Task { kBench, kCheck, kProfile };
 
 int run(std::vector<std::string> boards, Task task) {
   if (boards.empty()) {
-    for (const auto& board : verp::board::emulated_boards()) boards.emplace_back(board.name);
+    for (const auto& board : verp::board::emulated_boards()) {
+      if (board.measured) boards.emplace_back(board.name);
+    }
   }
   const verp::test::Robot robot = verp::test::load_robot("generic21");
   const verp::test::TwinRun walk = verp::test::run_here(robot, kTicks, true);
