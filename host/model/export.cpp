@@ -56,7 +56,7 @@ void write_file(const std::filesystem::path& path, const char* data, std::size_t
   file.write(data, static_cast<std::streamsize>(size));
   file.close();
   if (!file)
-    throw LoadError(path.string(), 1, "cannot write this file", "check the folder's permissions");
+    throw LoadError(path.string(), 0, "cannot write this file", "check the folder's permissions");
 }
 
 }  // namespace
@@ -80,7 +80,7 @@ ParamsImage make_image(const Entity& entity) {
 ParamsImage read_image(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   if (!file)
-    throw LoadError(path, 1, "cannot read this file", "check the path and its permissions");
+    throw LoadError(path, 0, "cannot read this file", "check the path and its permissions");
   const std::string bytes{std::istreambuf_iterator<char>(file), {}};
   const ImageFault fault = check_image(bytes.data(), bytes.size());
   if (fault != ImageFault::kNone) {
@@ -108,7 +108,9 @@ int export_command(const std::string& name_or_path, const std::string& directory
   const ParamsImage image = make_image(load_robot(find_model(name_or_path)));
   std::error_code error;
   std::filesystem::create_directories(directory, error);
-  if (error) throw LoadError(directory, 1, "cannot create this folder", "choose another with -o");
+  if (error || !std::filesystem::is_directory(directory)) {
+    throw LoadError(directory, 0, "not a folder and cannot be made", "choose another with -o");
+  }
   const std::filesystem::path folder = directory;
   write_file(folder / "params.bin", reinterpret_cast<const char*>(&image), sizeof image);
   const std::string header = image_header(image);

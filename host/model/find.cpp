@@ -20,6 +20,19 @@ bool is_file(const fs::path& path) {
   return fs::is_regular_file(path, ignored);
 }
 
+std::string list_of_names() {
+  std::string list;
+  for (const std::string& name : model_names()) list += (list.empty() ? "" : ", ") + name;
+  return list;
+}
+
+std::string why_not(const std::string& name_or_path, bool looks_like_path) {
+  std::error_code ignored;
+  if (fs::is_directory(name_or_path, ignored)) return "is a folder, not a robot's file";
+  if (fs::exists(name_or_path, ignored)) return "is not a regular file";
+  return looks_like_path ? "there is no such file" : "there is no robot of this name";
+}
+
 }  // namespace
 
 std::vector<std::string> model_names() {
@@ -45,11 +58,8 @@ std::string find_model(const std::string& name_or_path) {
       if (is_file(candidate)) return candidate.string();
     }
   }
-  std::string list;
-  for (const std::string& name : model_names()) list += (list.empty() ? "" : ", ") + name;
-  throw LoadError(name_or_path, 1,
-                  looks_like_path ? "there is no such file" : "there is no robot of this name",
-                  "give the path of an .sdf file, or one of: " + list);
+  throw LoadError(name_or_path, 0, why_not(name_or_path, looks_like_path),
+                  "give the path of an .sdf file, or one of: " + list_of_names());
 }
 
 std::vector<std::string> model_path() {

@@ -6,19 +6,20 @@
 namespace verp::model {
 
 /// What is wrong with a user's file, where, and what to do about it. what() is one line:
-/// `FILE:LINE: MESSAGE; FIX`.
+/// `FILE:LINE: MESSAGE; FIX`, or without `:LINE` where no line of a file is meant.
 class LoadError : public std::runtime_error {
  public:
   LoadError(std::string file_name, int line_number, std::string what_is_wrong, std::string remedy)
-      : std::runtime_error(one_line(file_name + ":" + std::to_string(line_number) + ": " +
-                                    what_is_wrong + "; " + remedy)),
+      : std::runtime_error(one_line(file_name +
+                                    (line_number > 0 ? ":" + std::to_string(line_number) : "") +
+                                    ": " + what_is_wrong + "; " + remedy)),
         file(std::move(file_name)),
         line(line_number),
         message(std::move(what_is_wrong)),
         fix(std::move(remedy)) {}
 
   std::string file;
-  int line;  ///< counted from 1; 1 also when the file as a whole is meant
+  int line;  ///< counted from 1; 1 also when a file's content as a whole is meant, 0: no content
   std::string message;
   std::string fix;
 

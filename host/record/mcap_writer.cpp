@@ -39,11 +39,11 @@ bool holds_something_else(const std::filesystem::path& path) {
 Writer::Writer(std::filesystem::path path, std::string_view profile, std::string_view library)
     : path_(std::move(path)) {
   if (std::filesystem::is_directory(path_)) {
-    throw TraceError(path_, 0, "is a folder", "name a file, such as run.mcap");
+    throw TraceError(path_, "is a folder", "name a file, such as run.mcap");
   }
   // The finished trace takes this name: a device or pipe of that name would be gone.
   if (std::filesystem::exists(path_) && !std::filesystem::is_regular_file(path_)) {
-    throw TraceError(path_, 0, "is not a regular file", "name another file, such as run.mcap");
+    throw TraceError(path_, "is not a regular file", "name another file, such as run.mcap");
   }
   if (holds_something_else(path_)) {
     throw TraceError(path_, 0, "is no trace, and would be replaced by one",
@@ -51,7 +51,7 @@ Writer::Writer(std::filesystem::path path, std::string_view profile, std::string
   }
   file_ = open_part(path_, part_);
   if (file_ == nullptr) {
-    throw TraceError(path_, 0, std::string("cannot be written: ") + std::strerror(errno),
+    throw TraceError(path_, std::string("cannot be written: ") + std::strerror(errno),
                      "choose a folder that exists and is yours");
   }
   put(kMagic);
@@ -243,7 +243,7 @@ void Writer::close() {
   std::error_code error;
   std::filesystem::rename(part_, path_, error);
   if (error) {
-    throw TraceError(path_, 0, "cannot take its name: " + error.message(),
+    throw TraceError(path_, "cannot take its name: " + error.message(),
                      "the whole trace is in " + part_.string());
   }
 }

@@ -17,12 +17,12 @@ namespace fs = std::filesystem;
 std::string read_bytes(const fs::path& file) {
   std::error_code error;
   if (fs::is_directory(file, error))
-    throw TraceError(file, 0, "is a folder", "name the .mcap file in it");
+    throw TraceError(file, "is a folder", "name the .mcap file in it");
   if (fs::exists(file, error) && !fs::is_regular_file(file, error))
-    throw TraceError(file, 0, "is not a regular file", "name a .mcap file");
+    throw TraceError(file, "is not a regular file", "name a .mcap file");
   std::ifstream in(file, std::ios::binary);
   if (!in) {
-    throw TraceError(file, 0, "no such file, or it cannot be opened",
+    throw TraceError(file, "no such file, or it cannot be opened",
                      "check the path; `verp walk --record F.mcap` writes a trace");
   }
   return {std::istreambuf_iterator<char>(in), {}};

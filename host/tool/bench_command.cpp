@@ -227,7 +227,7 @@ Subcommand add_bench(CLI::App& root) {
   auto options = std::make_shared<BenchOptions>();
   app->add_flag("--pc", options->pc, "this PC only: needs no cross compiler");
   app->add_option("--repetitions", options->repetitions, "runs of each timing on this PC")
-      ->check(CLI::Range(1, 100))
+      ->check(whole_number_between(1, 100))
       ->capture_default_str();
   add_json_flag(*app, options->json);
   return {app, [options] { return run_bench(*options); }};

@@ -9,7 +9,8 @@
 namespace verp::tool {
 
 void add_json_flag(CLI::App& app, bool& json) {
-  app.add_flag("--json", json, "one JSON object on stdout, everything else on stderr");
+  app.add_flag("--json", json, "one JSON object on stdout, everything else on stderr")
+      ->disable_flag_override();  // --json=no would be taken for no
 }
 
 void print_json(const Json& object) {
@@ -47,6 +48,22 @@ CLI::Validator number_between(double low, double high, const std::string& unit) 
         return std::string();
       },
       fmt::format("{:g}..{:g}{}{}", low, high, unit.empty() ? "" : " ", unit));
+}
+
+CLI::Validator whole_number_between(std::uint64_t low, std::uint64_t high) {
+  return CLI::Validator(
+      [=](std::string& text) {
+        std::uint64_t value = 0;
+        const char* last = text.data() + text.size();
+        const auto [end, error] = std::from_chars(text.data(), last, value);
+        if (error != std::errc() || end != last) {
+          return fmt::format("'{}' is not a whole number in digits; give {} to {}", text, low,
+                             high);
+        }
+        if (value >= low && value <= high) return std::string();
+        return fmt::format("{} is out of range; give {} to {}", text, low, high);
+      },
+      fmt::format("{}..{}", low, high));
 }
 
 }  // namespace verp::tool

@@ -1,5 +1,6 @@
 #pragma once
 #include <CLI/CLI.hpp>
+#include <cstdint>
 #include <functional>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -39,5 +40,8 @@ double parse_number(const std::string& text, double low, double high, const std:
 
 /// A check for CLI options that take one number: same rules as parse_number.
 CLI::Validator number_between(double low, double high, const std::string& unit);
+
+/// A check for CLI options that take a whole number, written in digits only.
+CLI::Validator whole_number_between(std::uint64_t low, std::uint64_t high);
 
 }  // namespace verp::tool

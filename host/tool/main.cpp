@@ -11,36 +11,10 @@
 #include "host/tool/command.hpp"
 #include "host/tool/console.hpp"
 #include "host/tool/interrupt.hpp"
+#include "host/tool/suggest.hpp"
 
 namespace verp::tool {
 namespace {
-
-/// Letters to change, add or drop to get from one word to the other.
-std::size_t edit_distance(std::string_view from, std::string_view to) {
-  std::vector<std::size_t> row(to.size() + 1);
-  for (std::size_t j = 0; j < row.size(); ++j) row[j] = j;
-  for (std::size_t i = 0; i < from.size(); ++i) {
-    std::size_t diagonal = row[0];
-    row[0] = i + 1;
-    for (std::size_t j = 0; j < to.size(); ++j) {
-      const std::size_t replace = diagonal + (from[i] == to[j] ? 0 : 1);
-      diagonal = row[j + 1];
-      row[j + 1] = std::min({replace, row[j] + 1, row[j + 1] + 1});
-    }
-  }
-  return row.back();
-}
-
-/// "; did you mean --step?" when one of `names` is near the word that was not understood.
-std::string suggestion(std::string_view word, const std::vector<std::string>& names) {
-  const std::string* best = nullptr;
-  std::size_t best_distance = 3;
-  for (const std::string& name : names) {
-    const std::size_t distance = edit_distance(word.substr(0, word.find('=')), name);
-    if (distance < best_distance) best = &name, best_distance = distance;
-  }
-  return best == nullptr ? "" : fmt::format("; did you mean {}?", *best);
-}
 
 std::string one_line(std::string text) {
   std::replace(text.begin(), text.end(), '\n', ' ');
@@ -72,14 +46,53 @@ std::string full_name(const CLI::App* app) {
   return full_name(app->get_parent()) + " " + app->get_name();
 }
 
+/// CLI11 counts arguments; people give an option a value, or give it twice.
+std::string in_words(const CLI::ParseError& error) {
+  const std::string line = error.what();
+  if (const std::size_t end = line.find(" was given a disallowed flag"); end != line.npos) {
+    return "--" + line.substr(0, end) + " takes no value";
+  }
+  if (dynamic_cast<const CLI::ArgumentMismatch*>(&error) == nullptr) return line;
+  const std::string name = line.substr(0, line.find(':'));
+  if (line.ends_with(" missing")) return name + " needs a value";
+  if (line.find("At Most 1 ") != std::string::npos) return name + " is given more than once";
+  return line;
+}
+
+/// An empty word is a mistake, mostly of a script: an unset variable must not mean "as usual".
+/// Returns the complaint, or nothing.
+std::string empty_word(int argc, char** argv) {
+  for (int i = 1; i < argc; ++i) {
+    const std::string_view word = argv[i];
+    const bool no_value = word.starts_with("--") && word.ends_with('=');
+    if (!word.empty() && !no_value) continue;
+    const std::string_view name = no_value ? word.substr(0, word.size() - 1) : argv[i - 1];
+    return fmt::format("verp: the word after {} is empty; give a value or leave it out",
+                       i == 1 && !no_value ? "verp" : name);
+  }
+  return "";
+}
+
+int answer_version(const std::string& version, bool json) {
+  if (json) {
+    Json object = Json::object();
+    for (const auto& [key, value] : record::build_info()) object[key] = value;
+    print_json(object);
+  } else {
+    answer(version + "\n");
+  }
+  return kGood;
+}
+
 int parse_failure(const CLI::App& root, const CLI::ParseError& error, bool json) {
   const CLI::App* app = addressed(root);
   if (error.get_exit_code() == 0) {  // --help, --version
     const auto* version = dynamic_cast<const CLI::CallForVersion*>(&error);
-    answer(version != nullptr ? std::string(error.what()) + "\n" : app->help());
+    if (version != nullptr) return answer_version(error.what(), json);
+    answer(app->help());
     return kGood;
   }
-  std::string line = error.what();
+  std::string line = in_words(error);
   std::vector<std::string> names;
   for (const CLI::Option* option : app->get_options()) {
     for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
@@ -87,8 +100,9 @@ int parse_failure(const CLI::App& root, const CLI::ParseError& error, bool json)
   for (const CLI::App* inner : app->get_subcommands(nullptr)) names.push_back(inner->get_name());
   const std::vector<std::string> unknown = app->remaining();
   if (!unknown.empty()) {
-    line = fmt::format("'{}' is not understood{}", unknown.front(),
-                       suggestion(unknown.front(), names));
+    const std::string_view word = unknown.front();
+    line = fmt::format("'{}' is not understood{}", word,
+                       did_you_mean(word.substr(0, word.find('=')), names));
   }
   const std::string name = full_name(app);
   return fail(kBadInput, fmt::format("{}: {}; see `{} --help`", name, one_line(line), name), json);
@@ -97,6 +111,9 @@ int parse_failure(const CLI::App& root, const CLI::ParseError& error, bool json)
 int run(int argc, char** argv) {
   catch_interrupts();
   const bool json = wants_json(argc, argv);
+  if (const std::string line = empty_word(argc, argv); !line.empty()) {
+    return fail(kBadInput, line, json);
+  }
   CLI::App root("VERP: a humanoid robot's controller and its twin", "verp");
   root.set_version_flag("--version", "verp " + record::build_info().at("source_revision"));
   root.require_subcommand(1);

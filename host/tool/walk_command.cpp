@@ -15,6 +15,7 @@ namespace verp::tool {
 namespace {
 
 WalkPlan make_plan(const WalkOptions& options) {
+  check_board(options);
   WalkPlan plan;
   plan.entity = model::load_robot(model::find_model(options.model));
   plan.params = model::make_params(plan.entity);

@@ -6,8 +6,10 @@
 #include <cmath>
 
 #include "common/model/tuning_ranges.hpp"
+#include "host/board/emulated_board.hpp"
 #include "host/model/params.hpp"
 #include "host/tool/command.hpp"
+#include "host/tool/suggest.hpp"
 
 namespace verp::tool {
 namespace {
@@ -40,16 +42,33 @@ double number(const std::string& option, const std::string& text, double low, do
   }
 }
 
+std::string all_names() {
+  std::string names;
+  for (const std::string& known : model::tuning_names()) names += " " + known;
+  return names;
+}
+
+/// The decimal number a float32 was written as: 0.06 for 0.06F.
+double decimal(float value) {
+  return std::stod(fmt::format("{:g}", value));
+}
+
 void set_by_name(Tuning& tuning, const std::string& setting) {
   const std::size_t equals = setting.find('=');
   const std::string name = setting.substr(0, equals);
   const auto id = model::tuning_id(name);
-  if (equals == std::string::npos || !id) {
-    std::string names;
-    for (const std::string& known : model::tuning_names()) names += " " + known;
+  if (!id) {
+    const std::string meant = nearest(name, model::tuning_names());
+    throw ToolError(
+        kBadInput,
+        meant.empty()
+            ? fmt::format("verp walk: --set {}: no such parameter; names:{}", setting, all_names())
+            : fmt::format("verp walk: --set {}: no such parameter; did you mean {}?", setting,
+                          meant));
+  }
+  if (equals == std::string::npos) {
     throw ToolError(kBadInput,
-                    fmt::format("verp walk: --set {}: {}; names:{}", setting,
-                                id ? "no value (NAME=VALUE)" : "no such parameter", names));
+                    fmt::format("verp walk: --set {}: no value; give NAME=VALUE", setting));
   }
   if (name == "gait.cycle_s") {
     throw ToolError(kBadInput,
@@ -57,9 +76,8 @@ void set_by_name(Tuning& tuning, const std::string& setting) {
   }
   // Ranges are float32: 0.03 is inside one that ends at 0.03F, whatever its double is.
   const Range& range = kTuningRanges[*id];
-  const double low = static_cast<double>(range.low), high = static_cast<double>(range.high);
-  const double value = number("--set " + name, setting.substr(equals + 1),
-                              low - 1e-6 * std::abs(low), high + 1e-6 * std::abs(high), "");
+  const double value = number("--set " + name, setting.substr(equals + 1), decimal(range.low),
+                              decimal(range.high), "");
   set_tuning_value(tuning, *id, std::clamp(static_cast<float>(value), range.low, range.high));
 }
 
@@ -76,11 +94,13 @@ void declare(CLI::App& app, WalkOptions& options) {
       ->capture_default_str();
   app.add_option("--velocity", options.velocity_text,
                  "VX,VY,WZ in m/s and rad/s instead of --step");
-  app.add_option("--for", options.walk_s, "length of the gait, all three phases, s")
+  app.add_option(
+         "--for", options.walk_s,
+         "length of the gait, all three phases, s; it ends with the last whole step that fits")
       ->check(number_between(3, kMaxWalk_s, "s"))
       ->capture_default_str();
   app.add_option("--seed", options.seed, "of every random thing in the twin")
-      ->check(number_between(0, 4294967295.0, ""))
+      ->check(whole_number_between(0, 4294967295))
       ->capture_default_str();
   app.add_option("--record", options.record_file, "write the trace here (.mcap)");
   app.add_option("--report", options.report_folder, "write the report here (default: report)");
@@ -118,6 +138,18 @@ Command velocity_of(const WalkOptions& options, double step_m) {
   command.vy_tenth_mm_s = static_cast<std::int16_t>(std::lround(1e4 * vy_m_s));
   command.wz_mrad_s = static_cast<std::int16_t>(std::lround(1e3 * wz_rad_s));
   return command;
+}
+
+void check_board(const WalkOptions& options) {
+  std::string names;
+  for (const board::EmulatedBoard& each : board::emulated_boards()) {
+    if (options.board == each.name) return;
+    names += (names.empty() ? "" : ", ") + std::string(each.name);
+  }
+  if (options.board.empty()) return;
+  throw ToolError(kBadInput,
+                  fmt::format("verp walk: --on {}: no such emulated board; give one of: {}",
+                              options.board, names));
 }
 
 std::vector<double> sweep_of(const WalkOptions& options) {

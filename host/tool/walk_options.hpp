@@ -27,6 +27,9 @@ void declare(CLI::App& app, WalkOptions& options);
 /// Velocity asked for: --velocity, or two steps a cycle straight ahead. Throws ToolError.
 Command velocity_of(const WalkOptions& options, double step_m);
 
+/// Throws ToolError, with the boards there are, when --on names none of them.
+void check_board(const WalkOptions& options);
+
 /// Step lengths of --sweep-step; empty when it was not given. Throws ToolError.
 std::vector<double> sweep_of(const WalkOptions& options);
 

@@ -38,6 +38,31 @@ TEST_F(Usage, NumbersAreCheckedAndTheRangeIsTold) {
   expect_refused("walk --for 1e300", "3 to 86400 s");
   expect_refused("walk --seed -1", "--seed");
   expect_refused("walk --seed 1.5", "--seed");
+  expect_refused("walk --seed 1e3", "'1e3' is not a whole number in digits; give 0 to 4294967295");
+  expect_refused("walk --seed 4294967296", "give 0 to 4294967295");
+  expect_refused("bench --repetitions 1e1", "give 1 to 100");
+}
+
+TEST_F(Usage, ValuesThatAreMissingOrTooManyAreToldInWords) {
+  expect_refused("walk --step", "--step needs a value");
+  expect_refused("walk --for 3 --for 4", "--for is given more than once");
+  expect_refused("check generic21 --json=no", "--json takes no value");
+}
+
+// An unset variable in a script must not mean "as usual".
+TEST_F(Usage, EmptyWordsAreRefused) {
+  for (const char* option :
+       {"--velocity", "--sweep-step", "--record", "--report", "--on", "--set"}) {
+    const std::string remedy = std::string("after ") + option + " is empty; give a value or leave";
+    expect_refused(std::string("walk ") + option + " ''", remedy);
+    expect_refused(std::string("walk ") + option + "=", remedy);
+  }
+  for (const char* command : {"walk", "check", "replay", "diff a.mcap", "trace info"}) {
+    expect_refused(std::string(command) + " ''", "is empty; give a value or leave it out");
+  }
+  expect_refused("export generic21 -o ''", "after -o is empty");
+  expect_refused("trace export a.mcap -o ''", "after -o is empty");
+  expect_refused("''", "after verp is empty");
 }
 
 TEST_F(Usage, ListsAreChecked) {
@@ -53,7 +78,10 @@ TEST_F(Usage, ListsAreChecked) {
 
 TEST_F(Usage, ParametersAreCheckedByNameAndRange) {
   expect_refused("walk --set gait.lift=0.01", "gait.lift_m");
+  expect_refused("walk --set lift_m=0.03", "did you mean gait.lift_m?");
+  expect_refused("walk --set nonsense=1", "names: gait.cycle_s gait.double_support");
   expect_refused("walk --set gait.lift_m", "NAME=VALUE");
+  expect_refused("walk --set gait.lift_m=", "give 0 to 0.06\n");
   expect_refused("walk --set gait.lift_m=nan", "not a number");
   expect_refused("walk --set gait.lift_m=9", "out of range");
   expect_refused("walk --set gait.joint_delay_s=0.0301", "give 0 to 0.03");
@@ -76,6 +104,21 @@ TEST_F(Usage, MissingAndMalformedFilesAreNamed) {
   expect_refused("walk bad.sdf", "bad.sdf");
   expect_refused("check bad.sdf", "bad.sdf");
   expect_refused("replay bad.sdf", "wrong magic");
+}
+
+// Of what is no file of the kind, no line and no byte is to blame.
+TEST_F(Usage, FoldersAndNamesAreCalledWhatTheyAre) {
+  for (const char* command : {"check", "walk", "export -o out"}) {
+    expect_refused(std::string(command) + " /tmp", "/tmp: is a folder, not a robot's file; give");
+  }
+  expect_refused("check .", ".: is a folder");
+  expect_refused("check /dev/null", "/dev/null: is not a regular file; give");
+  expect_refused("walk nosuchrobot:1:", "nosuchrobot:1:: there is no robot of this name; give");
+  expect_refused("walk nosuchrobot", "nosuchrobot: there is no robot of this name; give");
+  expect_refused("replay /tmp", "/tmp: is a folder; name the .mcap file");
+  expect_refused("replay none.mcap", "none.mcap: no such file");
+  std::ofstream(folder_ / "file") << "x";
+  expect_refused("export generic21 -o file", "file: not a folder");
 }
 
 TEST_F(Usage, UnwritablePlacesAreNamedBeforeTheRun) {
@@ -114,6 +157,19 @@ TEST_F(Usage, JsonErrorsAreOneObject) {
   const auto json = nlohmann::json::parse(outcome.out);
   EXPECT_EQ(json.at("exit"), 2);
   EXPECT_NE(json.at("error").get<std::string>().find("none.mcap"), std::string::npos);
+}
+
+TEST_F(Usage, VersionIsJsonWhenJsonIsAsked) {
+  for (const char* arguments : {"--version --json", "--json --version"}) {
+    const Outcome outcome = verp(arguments);
+    EXPECT_EQ(outcome.status, 0) << arguments;
+    EXPECT_TRUE(nlohmann::json::parse(outcome.out).contains("source_revision")) << arguments;
+  }
+  EXPECT_EQ(verp("--version").out.substr(0, 5), "verp ");
+}
+
+TEST_F(Usage, UnknownBoardIsBadUsageAndTheBoardsAreListed) {
+  expect_refused("walk --on nonesuch", "give one of: mps2_an385, mps2_an386, mps2_an500");
 }
 
 TEST_F(Usage, BoardWithoutImageIsADeviceTrouble) {
