@@ -1,9 +1,8 @@
 #include "host/tool/walk_operator.hpp"
 
 #include <algorithm>
-#include <cmath>
 
-#include "common/gait/types.hpp"
+#include "common/gait/footsteps.hpp"
 #include "common/safety/machine.hpp"
 
 namespace verp::tool {
@@ -14,6 +13,12 @@ constexpr double kStandUp_s = 15.0;  // bring-up pose, rise and gyro calibration
 constexpr double kIdle_s = 1.0;      // a gait that pauses by itself this long has given up
 constexpr double kOverrun_s = 5.0;   // a gait that has not ended by then never will
 constexpr std::uint32_t kFrameTicks = 10;  // operator frames come at a tenth of the control rate
+constexpr float kSomeError_rad = 1e-3F;    // a robot is never quite on its heading
+constexpr int kMostSteps = 1000;           // any stride has shrunk to nothing by then
+
+bool ends_walk(const gait::Step& step) {
+  return step.swing == gait::kBoth && step.phase != gait::Phase::kStart;
+}
 
 }  // namespace
 
@@ -22,15 +27,43 @@ WalkOperator::WalkOperator(const Params& params, const Command& velocity, double
   command_.request = Request::kStand;
 }
 
-/// Steps already queued, strides that shrink, the step that closes the feet, and the final one.
-double WalkOperator::stop_lead_s() const {
-  const GaitTuning& gait = params_.tuning.gait;
-  const double step_s = 0.5 * static_cast<double>(gait.cycle_s);
-  const double stride_m =
-      1e-4 * std::hypot(velocity_.vx_tenth_mm_s, velocity_.vy_tenth_mm_s) * step_s;
-  const double shrinking = std::ceil(stride_m / static_cast<double>(gait.step_change_m));
-  constexpr double kQueuedAndClosing = gait::kQueue + 1;
-  return (kQueuedAndClosing + shrinking) * step_s + static_cast<double>(gait.start_s);
+/// How long the gait goes on if stop is said now, or after one more step: steps already queued,
+/// strides that shrink, the step that closes the feet and the final one, as the gait itself will
+/// lay them.
+double WalkOperator::lead_s(const State& state, bool one_more) const {
+  const GaitTuning& tuning = state.tuning.gait;
+  const gait::GaitState& gait = state.gait;
+  gait::FootstepState footsteps = gait.footsteps;
+  gait::VelocityIn wanted;
+  wanted.vx_m_s = 1e-4F * static_cast<float>(velocity_.vx_tenth_mm_s);
+  wanted.vy_m_s = 1e-4F * static_cast<float>(velocity_.vy_tenth_mm_s);
+  wanted.wz_rad_s = 1e-3F * static_cast<float>(velocity_.wz_mrad_s);
+  wanted.heading_error_rad = kSomeError_rad;
+  // Outputs tell of the moment look_ahead_s before the clock's: the gait is not seen before.
+  std::int32_t rest_us =
+      -std::max(gait.clock_us, static_cast<std::int32_t>(1e6F * tuning.look_ahead_s));
+  for (int i = 0; i < gait.queued; ++i) rest_us += gait.queue[i].duration_us();
+  gait::Step last = gait.queue[gait.queued - 1];
+  wanted.stop = !one_more;
+  for (int i = 0; i < kMostSteps && !ends_walk(last); ++i) {
+    last = gait::next_step(params_, tuning, wanted, last, footsteps);
+    rest_us += last.duration_us();
+    wanted.stop = true;
+  }
+  return 1e-6 * rest_us;
+}
+
+/// Strides are whole: stops where one step more would be too much.
+void WalkOperator::stop_in_time(const State& state) {
+  if (state.gait.queued == 0 || ends_walk(state.gait.queue[state.gait.queued - 1])) return;
+  if (walked_s_ + lead_s(state, true) <= walk_s_) {
+    could_walk_on_ = true;
+    return;
+  }
+  stopping_ = true;
+  command_.request = Request::kStand;
+  lead_s_ = lead_s(state, false);
+  longer_than_asked_ = !could_walk_on_ && walked_s_ + lead_s_ > walk_s_ + period_s_;
 }
 
 app::OperatorOrder WalkOperator::order(std::uint32_t tick) {
@@ -43,12 +76,12 @@ app::OperatorOrder WalkOperator::order(std::uint32_t tick) {
   return order;
 }
 
-void WalkOperator::observe(std::uint32_t, const Outputs& outputs) {
-  const bool gait = outputs.gait_phase != static_cast<std::uint8_t>(gait::Phase::kIdle);
+void WalkOperator::observe(const State& state, const Outputs& outputs) {
+  const bool gait = state.gait.queued > 0;
   const bool standing = outputs.mode == static_cast<std::uint8_t>(safety::Mode::kStanding);
+  if (outputs.gait_phase != static_cast<std::uint8_t>(gait::Phase::kIdle)) walked_s_ += period_s_;
   if (gait) {
     gait_seen_ = true;
-    walked_s_ += period_s_;
     idle_s_ = 0;
   } else if (!gait_seen_) {
     waited_s_ += period_s_;
@@ -60,17 +93,14 @@ void WalkOperator::observe(std::uint32_t, const Outputs& outputs) {
     command_.sequence = sequence;
     command_.request = Request::kWalk;
   }
-  if (gait_seen_ && !stopping_ && walked_s_ + stop_lead_s() >= walk_s_) {
-    stopping_ = true;
-    command_.request = Request::kStand;
-  }
+  if (!stopping_) stop_in_time(state);
   if (gait_seen_ && !stopping_ && !gait) idle_s_ += period_s_;
   if (idle_s_ > kIdle_s) failed_ = "the robot stopped walking by itself", done_ = true;
   if (stopping_) stopping_s_ += period_s_;
   if (stopping_ && !gait && standing) done_ = true;
   if (!gait_seen_ && waited_s_ > kStandUp_s)
     failed_ = "the robot did not start to walk", done_ = true;
-  if (stopping_s_ > stop_lead_s() + kOverrun_s) failed_ = "the gait did not end", done_ = true;
+  if (stopping_s_ > lead_s_ + kOverrun_s) failed_ = "the gait did not end", done_ = true;
 }
 
 }  // namespace verp::tool

@@ -1,6 +1,7 @@
 #pragma once
 #include <cstdint>
 
+#include "common/control/state.hpp"
 #include "common/io/io.hpp"
 #include "common/model/params.hpp"
 #include "firmware/app/contracts.hpp"
@@ -8,16 +9,16 @@
 namespace verp::tool {
 
 /// The person at the desk during `verp walk`: asks the robot to stand, lets it walk once it stands,
-/// and says stop in time for the gait to be over after walk_s. Sees what the controller reports,
-/// never the twin's truth.
+/// and says stop in time for the gait to be over after walk_s, or in the last step before that.
+/// Sees what the controller reports and plans, never the twin's truth.
 class WalkOperator {
  public:
   /// `velocity` holds vx, vy, wz of the walk; its other members are ignored.
   WalkOperator(const Params& params, const Command& velocity, double walk_s);
 
   app::OperatorOrder order(std::uint32_t tick);
-  /// What the controller put out in the tick just done.
-  void observe(std::uint32_t tick, const Outputs& outputs);
+  /// What the controller put out in the tick just done, and what it plans.
+  void observe(const State& state, const Outputs& outputs);
 
   /// The gait is over, or will never come: `failed()` then says why.
   bool done() const { return done_; }
@@ -25,9 +26,12 @@ class WalkOperator {
   const char* failed() const { return failed_; }
   /// Seconds of gait so far.
   double walked_s() const { return walked_s_; }
+  /// Stop was said as soon as the gait began, and still it is longer than walk_s.
+  bool longer_than_asked() const { return longer_than_asked_; }
 
  private:
-  double stop_lead_s() const;
+  double lead_s(const State& state, bool one_more) const;
+  void stop_in_time(const State& state);
 
   const Params& params_;
   Command velocity_;
@@ -39,7 +43,9 @@ class WalkOperator {
   double stood_s_ = 0;     ///< standing, before the gait
   double idle_s_ = 0;      ///< without gait, though nobody said stop
   double stopping_s_ = 0;  ///< since stop was said
+  double lead_s_ = 0;      ///< length of the gait's rest when stop was said
   bool gait_seen_ = false, stopping_ = false, done_ = false;
+  bool could_walk_on_ = false, longer_than_asked_ = false;
   const char* failed_ = "";
 };
 

@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <utility>
 
 #include "common/safety/machine.hpp"
@@ -48,7 +50,13 @@ class Session {
 
   /// A tick of the controller, wherever it ran.
   void record(const TickRecord& tick, const State& state, const Outputs& outputs) {
-    walker_.observe(tick.inputs.tick, outputs);
+    walker_.observe(state, outputs);
+    const gait::Xy by_m = state.gait.footsteps.stride.by_m;
+    if (state.gait.queued > 0) {
+      result_.longest_step_m =
+          std::max(result_.longest_step_m,
+                   std::hypot(static_cast<double>(by_m.x), static_cast<double>(by_m.y)));
+    }
     const sim::Observation seen = sim::observe(robot_);
     meter_.tick(seen, outputs, sim::planned_zmp_world_m(state.tuning, state.gait, seen.truth));
     ++result_.ticks;
@@ -72,6 +80,11 @@ class Session {
     result_.series = meter_.series();
     result_.failure = std::move(failure);
     if (result_.failure.empty() && !result_.interrupted) result_.failure = failure_of_walk();
+    if (result_.good() && walker_.longer_than_asked()) {
+      result_.remark =
+          fmt::format("{:g} s were asked; the shortest walk with this cycle is {:.2f} s",
+                      plan_.walk_s, result_.metrics.walk_s);
+    }
     return std::move(result_);
   }
 

@@ -26,11 +26,13 @@ struct WalkResult {
   std::vector<sim::SeriesRow> series;  ///< from the first tick on
   std::uint64_t ticks = 0;
   std::uint64_t digest = 0;
-  std::uint32_t faults = 0;  ///< safety::Fault bits at the end
+  std::uint32_t faults = 0;   ///< safety::Fault bits at the end
+  double longest_step_m = 0;  ///< that the gait made: the asked one, or what limits left of it
   double simulated_s = 0, wall_s = 0;
   bool interrupted = false;
   std::string trace_failure;  ///< why the trace breaks off; the walk went on. Empty: it does not
   std::string failure;        ///< why the walk is no good, in words; empty: it is good
+  std::string remark;         ///< how a good walk is not what was asked; empty: it is
 
   bool good() const { return failure.empty() && !interrupted; }
   double real_time_factor() const { return wall_s > 0 ? simulated_s / wall_s : 0; }
