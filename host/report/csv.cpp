@@ -18,6 +18,11 @@ std::string number(double value) {
   return fmt::format(",{:.6g}", value);
 }
 
+/// Empty when there is none.
+std::string number(const std::optional<double>& value, int decimals) {
+  return value ? fmt::format(",{:.{}f}", *value, decimals) : ",";
+}
+
 }  // namespace
 
 std::string samples_csv(const Run& run) {
@@ -53,7 +58,7 @@ std::string samples_csv(const Run& run) {
 std::string bias_csv(const Run& run) {
   std::string out = "state,zmp_bias_mm\n";
   for (std::size_t i = 0; i < run.bias_by_state_mm.size(); ++i) {
-    out += fmt::format("{},{:.3f}\n", i, run.bias_by_state_mm[i]);
+    out += fmt::format("{}{}\n", i, number(run.bias_by_state_mm[i], 3));
   }
   return out;
 }
@@ -69,10 +74,15 @@ std::string torque_csv(const Run& run) {
 
 std::string sweep_csv(const Run& run) {
   std::string out =
-      "step_m,speed_m_s,zmp_bias_mm,zmp_bias_without_multibody_mm,fallen,fallen_without\n";
+      "step_m,speed_m_s,zmp_bias_mm,zmp_bias_without_multibody_mm,fallen,fallen_without,"
+      "walked_step_m,walked_step_without_m,end,end_without\n";
   for (const SweepRow& row : run.sweep) {
-    out += fmt::format("{:.4f},{:.4f},{:.3f},{:.3f},{:d},{:d}\n", row.step_m, row.speed_m_s,
-                       row.bias_mm, row.bias_plain_mm, row.fallen, row.fallen_plain);
+    const auto fell = [](const SweepWalk& walk) { return walk.end == SweepWalk::End::kFell; };
+    out +=
+        fmt::format("{:.4f}{}{}{},{:d},{:d}{}{},{},{}\n", row.step_m, number(row.with.speed_m_s, 4),
+                    number(row.with.bias_mm, 3), number(row.without.bias_mm, 3), fell(row.with),
+                    fell(row.without), number(row.with.step_m, 4), number(row.without.step_m, 4),
+                    name_of(row.with.end), name_of(row.without.end));
   }
   return out;
 }

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "host/report/maybe.hpp"
 #include "host/report/palette.hpp"
 
 namespace verp::report {
@@ -81,20 +82,21 @@ std::string sweep_table(const Run& run) {
       "<section><h2>Step length sweep</h2><p class=\"quiet\">The same walk at each step length, "
       "with the multibody "
       "ZMP correction on and off.</p><div class=\"wide\"><table><tr><th class=\"n\">step</th><th "
-      "class=\"n\">speed</th><th class=\"n\">ZMP bias, with</th><th class=\"n\">ZMP bias, "
+      "class=\"n\">walked</th><th class=\"n\">speed</th><th class=\"n\">ZMP bias, with</th><th "
+      "class=\"n\">ZMP bias, "
       "without</th></tr>\n";
+  bool limited = false;
   for (const SweepRow& row : run.sweep) {
-    const auto bias = [](double mm, bool fallen) {
-      return fallen ? std::string("fell") : fmt::format("{:.1f} mm", mm);
-    };
+    limited |= row.limited();
     out += fmt::format(
-        "<tr><td class=\"n\">{:.1f} cm</td><td class=\"n\">{:.3f} m/s</td><td "
-        "class=\"n\">{}</td><td "
-        "class=\"n\">{}</td></tr>\n",
-        100 * row.step_m, row.speed_m_s, bias(row.bias_mm, row.fallen),
-        bias(row.bias_plain_mm, row.fallen_plain));
+        "<tr><td class=\"n\">{:.1f} cm</td><td class=\"n\">{}</td><td class=\"n\">{}</td>"
+        "<td class=\"n\">{}</td><td class=\"n\">{}</td></tr>\n",
+        100 * row.step_m, walked_step(row.with), or_dash(row.with.speed_m_s, 3, " m/s"),
+        bias_or_end(row.with), bias_or_end(row.without));
   }
-  return out + "</table></div></section>\n";
+  out += "</table></div>";
+  if (limited) out += fmt::format("<p class=\"quiet\">{}</p>", escape(kLimitedNote));
+  return out + "</section>\n";
 }
 
 std::string rows(const std::vector<std::pair<std::string, std::string>>& entries, bool link) {

@@ -13,18 +13,28 @@
 namespace verp::report {
 namespace {
 
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
+/// A dashed line across a plot, to be appended to its `plot` command; nothing without a mean.
+std::string mean_line(const std::optional<double>& mean, const char* title) {
+  if (!mean) return "";
+  return fmt::format(
+      ", {0:.6g} with lines linecolor rgb '{1}' linewidth 1.2 dashtype 2 title "
+      "sprintf('{2}', {0:.6g})",
+      *mean, kInk, title);
+}
+
 Plot bias_plot(const Run& run) {
   Data data("bias");
-  for (std::size_t i = 0; i < 16; ++i) data.row(i, run.bias_by_state_mm[i]);
+  for (std::size_t i = 0; i < 16; ++i) data.row(i, run.bias_by_state_mm[i].value_or(kNone));
   std::string script = preamble() + data.text();
   script += fmt::format(
       "set style fill solid 0.75 noborder\nset boxwidth 0.7\nset yrange [0:*]\nset xrange "
       "[-0.7:15.7]\n"
       "set xtics 0,1,15\nset xlabel 'state of the cycle'\nset ylabel 'ZMP bias, mm'\n"
-      "set key outside top center horizontal\nmean = {:.6g}\n"
-      "plot $bias using 1:2 with boxes linetype 1 notitle, mean with lines linecolor rgb '{}' "
-      "linewidth 1.2 dashtype 2 title sprintf('mean %.1f mm', mean)\n",
-      run.bias_mean_mm, kInk);
+      "set key outside top center horizontal\n"
+      "plot $bias using 1:2 with boxes linetype 1 notitle{}\n",
+      mean_line(run.bias_mean_mm, "mean %.1f mm"));
   return {"bias",
           "ZMP bias of the 16 states",
           "Ground-plane distance from the measured ZMP to the centre of the supporting sole.",
@@ -41,11 +51,9 @@ Plot speed_plot(const Run& run) {
   std::string script = preamble() + data.text();
   script += fmt::format(
       "set xlabel 'time since the gait began, s'\nset ylabel 'speed, m/s'\nset yrange [0<*:*]\n"
-      "set key outside top center horizontal\nset xrange [0:{:.6g}]\nmean = {:.6g}\n"
-      "plot $speed using 1:2 with lines linetype 1 title 'over one cycle', mean with lines "
-      "linecolor rgb '{}' linewidth 1.2 dashtype 2 title sprintf('mean of all phases %.3f m/s', "
-      "mean)\n",
-      run.samples.back().t_s, run.speed_mean_m_s, kInk);
+      "set key outside top center horizontal\nset xrange [0:{:.6g}]\n"
+      "plot $speed using 1:2 with lines linetype 1 title 'over one cycle'{}\n",
+      run.samples.back().t_s, mean_line(run.speed_mean_m_s, "mean of all phases %.3f m/s"));
   return {"speed", "Speed", "Forward speed of the body's centre, averaged over one cycle.",
           920,     300,     script};
 }
@@ -70,17 +78,18 @@ Plot torque_plot(const Run& run) {
 
 Plot sweep_plot(const Run& run) {
   Data data("sweep");
-  const double none = std::numeric_limits<double>::quiet_NaN();
-  for (const SweepRow& row : run.sweep) {
-    data.row(100 * row.step_m, row.fallen ? none : row.bias_mm,
-             row.fallen_plain ? none : row.bias_plain_mm);
+  for (const SweepRow& row : run.sweep) {  // each where it walked, which may be less than asked
+    for (const SweepWalk& walk : {row.with, row.without}) {
+      data.cell(100 * walk.step_m.value_or(row.step_m)).cell(walk.bias_mm.value_or(kNone));
+    }
+    data.end_row();
   }
   std::string script = preamble() + data.text();
   script +=
       "set xlabel 'step, cm'\nset ylabel 'mean ZMP bias, mm'\nset yrange [0:*]\nset offsets "
       "0.3,0.3,0,0\n"
       "set key outside top center horizontal\n"
-      "plot $sweep using 1:3 with linespoints linetype 2 pointsize 0.8 title 'without multibody "
+      "plot $sweep using 3:4 with linespoints linetype 2 pointsize 0.8 title 'without multibody "
       "correction', "
       "$sweep using 1:2 with linespoints linetype 1 pointsize 0.8 title 'with'\n";
   return {"sweep",
@@ -104,11 +113,14 @@ std::vector<Plot> plots(const Run& run) {
     all.push_back(zmp_plot(run, cycle));
   }
   if (run.samples.size() > 1) {
-    all.push_back(bias_plot(run));
+    if (run.bias_mean_mm) all.push_back(bias_plot(run));
     all.push_back(speed_plot(run));
     all.push_back(torque_plot(run));
   }
-  if (!run.sweep.empty()) all.push_back(sweep_plot(run));
+  const bool swept = std::any_of(run.sweep.begin(), run.sweep.end(), [](const SweepRow& row) {
+    return row.with.bias_mm || row.without.bias_mm;
+  });
+  if (swept) all.push_back(sweep_plot(run));
   return all;
 }
 

@@ -43,13 +43,29 @@ struct Limb {
   int side = 2;  ///< 0 left, 1 right, 2 neither
 };
 
+/// How one walk of a sweep ended, and what is true of it: a walk that did not end well has neither
+/// speed nor bias to compare.
+struct SweepWalk {
+  enum class End { kNone, kWalked, kFell, kFailed, kInterrupted } end = End::kNone;
+  std::optional<double> step_m;     ///< the longest step it made: limits may leave less than asked
+  std::optional<double> speed_m_s;  ///< steady
+  std::optional<double> bias_mm;
+};
+
+/// In a table: "fell", and so on; kNone: the sweep ended before it.
+constexpr const char* name_of(SweepWalk::End end) {
+  constexpr const char* kNames[] = {"not walked", "walked", "fell", "failed", "interrupted"};
+  return kNames[static_cast<int>(end)];
+}
+
 /// One line of the table of a sweep over step lengths.
 struct SweepRow {
-  double step_m = 0;
-  double speed_m_s = 0;
-  double bias_mm = 0;        ///< with the multibody correction
-  double bias_plain_mm = 0;  ///< without
-  bool fallen = false, fallen_plain = false;
+  double step_m = 0;  ///< asked
+  SweepWalk with;     ///< multibody correction
+  SweepWalk without;
+
+  /// The walk that was corrected made shorter steps than asked.
+  bool limited() const { return with.step_m && *with.step_m < step_m - 5e-4; }
 };
 
 /// A named number as the page shows it.
@@ -69,9 +85,9 @@ struct Run {
   std::vector<Limb> limbs;
   std::vector<Sample> samples;
   std::vector<Fact> facts;
-  std::array<double, 16> bias_by_state_mm{};
-  double bias_mean_mm = 0;
-  double speed_steady_m_s = 0, speed_mean_m_s = 0;
+  std::array<std::optional<double>, 16> bias_by_state_mm{};
+  std::optional<double> bias_mean_mm;
+  std::optional<double> speed_mean_m_s;
   std::vector<SweepRow> sweep;
   std::vector<std::pair<std::string, std::string>>
       provenance;          ///< revision, compiler, command, digest

@@ -115,7 +115,7 @@ void WalkMeter::add_bias(int state, double distance_mm) {
   ++bias_count_[static_cast<std::size_t>(state)];
 }
 
-double WalkMeter::steady_speed() const {
+std::optional<double> WalkMeter::steady_speed() const {
   const int transition = static_cast<int>(gait::Phase::kTransition);
   double length_m = 0;
   double time_s = 0;
@@ -130,7 +130,8 @@ double WalkMeter::steady_speed() const {
     }
     begin = std::max(end, begin + 1);
   }
-  return time_s > 0 ? length_m / time_s : 0;
+  if (time_s > 0) return length_m / time_s;
+  return {};
 }
 
 WalkMetrics WalkMeter::result() const {
@@ -138,7 +139,7 @@ WalkMetrics WalkMeter::result() const {
   out.duration_s = last_.truth.t_s - first_s_;
   out.walk_s = walk_s_;
   out.distance_m = path_m_ + (walking_ ? (here_m_ - last_mark_m_).norm() : 0);
-  out.speed_mean_m_s = walk_s_ > 0 ? out.distance_m / walk_s_ : 0;
+  if (walk_s_ > 0) out.speed_mean_m_s = out.distance_m / walk_s_;
   out.speed_steady_m_s = steady_speed();
   out.lateral_drift_m = lateral_m_;
   out.yaw_drift_deg = yaw_turned_rad_ * 180 / std::numbers::pi;
@@ -156,9 +157,9 @@ WalkMetrics WalkMeter::result() const {
   const auto worst = std::max_element(walk_saturated_.begin(), walk_saturated_.end());
   out.servo_saturation_worst_joint = static_cast<int>(worst - walk_saturated_.begin());
   out.servo_saturation_worst = static_cast<double>(*worst) / static_cast<double>(walk_steps_);
-  for (const std::uint64_t steps : walk_saturated_)
-    out.servo_saturation += static_cast<double>(steps);
-  out.servo_saturation /= static_cast<double>(walk_steps_ * walk_saturated_.size());
+  double saturated = 0;
+  for (const std::uint64_t steps : walk_saturated_) saturated += static_cast<double>(steps);
+  out.servo_saturation = saturated / static_cast<double>(walk_steps_ * walk_saturated_.size());
   return out;
 }
 

@@ -11,27 +11,28 @@
 /// twin's truth; neither knows of it.
 namespace verp::sim {
 
-/// The numbers of `verp walk --json` that physics decides.
+/// The numbers of `verp walk --json` that physics decides. What nothing was measured of has no
+/// value.
 struct WalkMetrics {
   double duration_s = 0;  ///< from the first tick on
   double walk_s = 0;      ///< in the three phases of the gait
   /// Length of the way the midpoint of the soles went while walking, measured from cycle to cycle:
   /// sway and the single step don't count, curves and sideways steps do.
   double distance_m = 0;
-  double speed_mean_m_s = 0;  ///< distance_m / walk_s
-  /// Transition phase only, without its first and last two cycles; 0 if nothing is left.
-  double speed_steady_m_s = 0;
+  std::optional<double> speed_mean_m_s;  ///< distance_m / walk_s
+  /// Transition phase only, without its first and last two cycles, if anything is left then.
+  std::optional<double> speed_steady_m_s;
   double lateral_drift_m = 0;  ///< to the left of the line along the heading at the walk's start
   double yaw_drift_deg = 0;    ///< of the body since the walk's start, turns counted
   bool fallen = false;
   /// Ground-plane distance from the ZMP measured by the feet (mean of a control tick) to the
   /// centroid of the supporting sole; in double support, of the sole about to carry.
-  double zmp_bias_mean_mm = 0;
-  std::array<double, 16> zmp_bias_by_state_mm{};
+  std::optional<double> zmp_bias_mean_mm;
+  std::array<std::optional<double>, 16> zmp_bias_by_state_mm{};
   /// Part of (joint, physics step) pairs with duty at its limit, while walking; and of the worst
   /// joint's steps.
-  double servo_saturation = 0;
-  double servo_saturation_worst = 0;
+  std::optional<double> servo_saturation;
+  std::optional<double> servo_saturation_worst;
   int servo_saturation_worst_joint = 0;
 };
 
@@ -98,7 +99,7 @@ class WalkMeter {
   void add_bias(int state, double distance_mm);
   void keep(const Observation& seen, const Outputs& outputs,
             const std::optional<Vec2>& zmp_planned_world_m);
-  double steady_speed() const;
+  std::optional<double> steady_speed() const;
 
   std::vector<model::Joint> joints_;
   bool keep_series_;

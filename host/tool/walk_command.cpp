@@ -7,7 +7,6 @@
 #include "host/model/params.hpp"
 #include "host/tool/command.hpp"
 #include "host/tool/console.hpp"
-#include "host/tool/interrupt.hpp"
 #include "host/tool/walk_files.hpp"
 #include "host/tool/walk_report.hpp"
 
@@ -27,38 +26,22 @@ WalkPlan make_plan(const WalkOptions& options) {
   return plan;
 }
 
-/// One walk with the multibody correction on or off.
-WalkResult sweep_walk(WalkPlan plan, const WalkOptions& options, double step_m, bool multibody,
-                      Progress& progress) {
-  plan.velocity = velocity_of(options, step_m);
-  plan.params.tuning.balance.multibody_enable = multibody ? 1.0f : 0.0f;
-  const std::string label =
-      fmt::format("step {:g} cm{}", 100 * step_m, multibody ? "" : ", no multibody");
-  return walk(plan, nullptr, progress, label, false);
-}
-
-std::vector<report::SweepRow> sweep(const WalkPlan& plan, const WalkOptions& options,
-                                    Progress& progress) {
-  std::vector<report::SweepRow> rows;
-  for (const double step_m : sweep_of(options)) {
-    const WalkResult with = sweep_walk(plan, options, step_m, true, progress);
-    const WalkResult without = sweep_walk(plan, options, step_m, false, progress);
-    if (interrupted()) break;
-    rows.push_back({step_m, with.metrics.speed_steady_m_s, with.metrics.zmp_bias_mean_mm,
-                    without.metrics.zmp_bias_mean_mm, with.metrics.fallen, without.metrics.fallen});
+/// Why the run is not good; the trace is of the first walk, not of the sweep. Empty: it is good.
+std::string reason(const WalkResult& result, const Sweep& swept, const std::string& trace) {
+  if (!result.good()) {
+    return (result.failure.empty() ? "interrupted" : result.failure) +
+           (trace.empty() ? "" : fmt::format("; `verp trace export {}` shows the run", trace));
   }
-  return rows;
+  if (!swept.failure.empty())
+    return swept.failure + "; walk it with --step and --record to see why";
+  return swept.interrupted ? "interrupted in the sweep; rows up to there are kept" : "";
 }
 
 /// Exit status, and on stderr why it is not good.
-int ending(const WalkResult& result, const WalkFiles& files) {
+int ending(const std::string& reason, const WalkFiles& files) {
   for (const std::string& line : files.lost()) complain(line);
-  if (!result.good()) {
-    const std::string trace = files.trace_path().string();
-    complain("verp walk: " + (result.failure.empty() ? "interrupted" : result.failure) +
-             (trace.empty() ? "" : fmt::format("; `verp trace export {}` shows the run", trace)));
-  }
-  return result.good() && files.lost().empty() ? kGood : kRunFailed;
+  if (!reason.empty()) complain("verp walk: " + reason);
+  return reason.empty() && files.lost().empty() ? kGood : kRunFailed;
 }
 
 int run_walk(WalkOptions options) {
@@ -67,25 +50,20 @@ int run_walk(WalkOptions options) {
   if (options.report_folder.empty() && !options.json) options.report_folder = "report";
   WalkFiles files(options, plan);
   Progress progress(!options.json);
-  WalkResult result = walk(plan, files.trace(), progress, plan.params.name, files.wants_report());
-  const std::vector<report::SweepRow> rows = sweep(plan, options, progress);
+  const WalkResult result =
+      walk(plan, files.trace(), progress, plan.params.name, files.wants_report());
+  const Sweep swept = sweep(plan, options, progress);
   progress.clear();
-  result.interrupted = interrupted();  // in the walk or in the sweep
-  for (const report::SweepRow& row : rows) {
-    if (row.fallen && result.failure.empty()) {
-      result.failure = fmt::format("fell in the sweep, at steps of {:g} m", row.step_m);
-    }
-  }
 
-  files.finish(result, to_report(plan, options, result, rows));
+  files.finish(result, to_report(plan, options, result, swept));
   if (options.json) {
-    Json json = to_json(plan, result, rows);
+    Json json = to_json(plan, result, swept);
     files.add_to(json);
     print_json(json);
   } else {
-    answer(to_text(plan, result, rows) + files.text());
+    answer(to_text(plan, result, swept) + files.text());
   }
-  return ending(result, files);
+  return ending(reason(result, swept, files.trace_path().string()), files);
 }
 
 }  // namespace

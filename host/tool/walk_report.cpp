@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 
 #include "host/record/trace.hpp"
+#include "host/report/maybe.hpp"
 #include "host/tool/stick_figure.hpp"
 
 namespace verp::tool {
@@ -77,34 +78,44 @@ report::Sample to_sample(const Params& params, const sim::SeriesRow& row, double
   return sample;
 }
 
+std::optional<double> percent(const std::optional<double>& share) {
+  if (!share) return {};
+  return 100 * *share;
+}
+
 std::vector<report::Fact> facts(const WalkPlan& plan, const WalkResult& result) {
+  using report::or_dash;
   const sim::WalkMetrics& m = result.metrics;
   const double commanded_m_s =
       1e-4 * std::hypot(plan.velocity.vx_tenth_mm_s, plan.velocity.vy_tenth_mm_s);
   return {
       {"Distance", fmt::format("{:.2f} m", m.distance_m),
-       fmt::format("in {:.1f} s of gait", m.walk_s)},
-      {"Mean speed", fmt::format("{:.3f} m/s", m.speed_mean_m_s),
-       "start, transition and finalisation"},
-      {"Steady speed", fmt::format("{:.3f} m/s", m.speed_steady_m_s),
-       fmt::format("commanded {:.3f} m/s", commanded_m_s)},
-      {"ZMP bias", fmt::format("{:.1f} mm", m.zmp_bias_mean_mm),
+       fmt::format("in {:.1f} s of gait{}", m.walk_s,
+                   result.remark.empty() ? "" : "; " + result.remark)},
+      {"Mean speed", or_dash(m.speed_mean_m_s, 3, " m/s"), "start, transition and finalisation"},
+      {"Steady speed", or_dash(m.speed_steady_m_s, 3, " m/s"),
+       fmt::format("commanded {:.3f} m/s{}", commanded_m_s,
+                   m.speed_steady_m_s ? "" : "; no cycle was steady")},
+      {"ZMP bias", or_dash(m.zmp_bias_mean_mm, 1, " mm"),
        "mean distance to the supporting sole's centre"},
       {"Lateral drift", fmt::format("{:+.3f} m", m.lateral_drift_m),
        "to the left of the starting line"},
       {"Yaw drift", fmt::format("{:+.1f}°", m.yaw_drift_deg), "turned to the left"},
-      {"Servo saturation", fmt::format("{:.1f} %", 100 * m.servo_saturation),
+      {"Servo saturation", or_dash(percent(m.servo_saturation), 1, " %"),
        "of joint time at full duty"},
       {"Real-time factor", fmt::format("{:.1f}", result.real_time_factor()),
        "simulated over wall time"},
   };
 }
 
-std::string verdict(const WalkResult& result) {
+std::string verdict(const WalkResult& result, const Sweep& sweep) {
   if (result.interrupted)
     return fmt::format("Interrupted after {:.1f} s of gait", result.metrics.walk_s);
   if (!result.failure.empty()) return "Failed: " + result.failure;
-  return fmt::format("Walked {:.1f} s without a fall", result.metrics.walk_s);
+  std::string text = fmt::format("Walked {:.1f} s without a fall", result.metrics.walk_s);
+  if (!sweep.failure.empty()) text += "; failed: " + sweep.failure;
+  if (sweep.interrupted) text += "; the sweep was interrupted";
+  return text;
 }
 
 std::vector<std::pair<std::string, std::string>> provenance(const WalkPlan& plan,
@@ -125,15 +136,38 @@ std::vector<std::pair<std::string, std::string>> provenance(const WalkPlan& plan
   return rows;
 }
 
-std::string sweep_text(const std::vector<report::SweepRow>& sweep) {
-  std::string out = "\n  step      speed        ZMP bias   without multibody correction\n";
-  for (const report::SweepRow& row : sweep) {
-    const auto bias = [](double mm, bool fallen) {
-      return fallen ? std::string("fell") : fmt::format("{:.1f} mm", mm);
-    };
+std::string sweep_text(const std::vector<report::SweepRow>& rows) {
+  std::string out =
+      "\n  step       walked     speed        ZMP bias      without multibody correction\n";
+  bool limited = false;
+  for (const report::SweepRow& row : rows) {
+    limited |= row.limited();
     out +=
-        fmt::format("  {:.1f} cm    {:.3f} m/s    {:>8}   {:>8}\n", 100 * row.step_m, row.speed_m_s,
-                    bias(row.bias_mm, row.fallen), bias(row.bias_plain_mm, row.fallen_plain));
+        fmt::format("  {:<11}{:<11}{:<13}{:<14}{}\n", fmt::format("{:.1f} cm", 100 * row.step_m),
+                    report::walked_step(row.with), report::or_dash(row.with.speed_m_s, 3, " m/s"),
+                    report::bias_or_end(row.with), report::bias_or_end(row.without));
+  }
+  return limited ? out + "  " + report::kLimitedNote + "\n" : out;
+}
+
+Json number_or_null(const std::optional<double>& value) {
+  return value ? Json(*value) : Json();
+}
+
+Json sweep_json(const std::vector<report::SweepRow>& rows) {
+  using End = report::SweepWalk::End;
+  Json out = Json::array();
+  for (const report::SweepRow& row : rows) {
+    out.push_back({{"step_m", row.step_m},
+                   {"walked_step_m", number_or_null(row.with.step_m)},
+                   {"walked_step_without_multibody_m", number_or_null(row.without.step_m)},
+                   {"speed_m_s", number_or_null(row.with.speed_m_s)},
+                   {"zmp_bias_mm", number_or_null(row.with.bias_mm)},
+                   {"zmp_bias_without_multibody_mm", number_or_null(row.without.bias_mm)},
+                   {"fallen", row.with.end == End::kFell},
+                   {"fallen_without_multibody", row.without.end == End::kFell},
+                   {"end", name_of(row.with.end)},
+                   {"end_without_multibody", name_of(row.without.end)}});
   }
   return out;
 }
@@ -141,7 +175,7 @@ std::string sweep_text(const std::vector<report::SweepRow>& sweep) {
 }  // namespace
 
 report::Run to_report(const WalkPlan& plan, const WalkOptions& options, const WalkResult& result,
-                      const std::vector<report::SweepRow>& sweep) {
+                      const Sweep& sweep) {
   report::Run run;
   run.model = name_of(plan.params);
   run.title = options.velocity_text.empty()
@@ -149,8 +183,8 @@ report::Run to_report(const WalkPlan& plan, const WalkOptions& options, const Wa
                                 options.cycle_s)
                   : fmt::format("{}: velocity {}, {:g} s cycle", run.model, options.velocity_text,
                                 options.cycle_s);
-  run.verdict = verdict(result);
-  run.good = result.good();
+  run.verdict = verdict(result, sweep);
+  run.good = result.good() && sweep.good();
   run.cycle_s = static_cast<double>(plan.params.tuning.gait.cycle_s);
   run.period_s = plan.params.period_us * 1e-6;
   for (const model::Joint& joint : plan.entity.joints) run.joints.push_back(joint.name);
@@ -172,68 +206,67 @@ report::Run to_report(const WalkPlan& plan, const WalkOptions& options, const Wa
   run.bias_by_state_mm = result.metrics.zmp_bias_by_state_mm;
   run.bias_mean_mm = result.metrics.zmp_bias_mean_mm;
   run.speed_mean_m_s = result.metrics.speed_mean_m_s;
-  run.speed_steady_m_s = result.metrics.speed_steady_m_s;
-  run.sweep = sweep;
+  run.sweep = sweep.rows;
   run.provenance = provenance(plan, result);
   return run;
 }
 
-std::string to_text(const WalkPlan& plan, const WalkResult& result,
-                    const std::vector<report::SweepRow>& sweep) {
+std::string to_text(const WalkPlan& plan, const WalkResult& result, const Sweep& sweep) {
+  using report::or_dash;
   const sim::WalkMetrics& m = result.metrics;
-  std::string out = fmt::format("{}: {}\n", name_of(plan.params), verdict(result));
+  std::string out = fmt::format("{}: {}\n", name_of(plan.params), verdict(result, sweep));
   const auto line = [&](const char* name, const std::string& value) {
     out += fmt::format("  {:<18}{}\n", name, value);
   };
+  if (!result.remark.empty()) line("length", result.remark);
   line("distance", fmt::format("{:.2f} m", m.distance_m));
   line("speed",
-       fmt::format("{:.3f} m/s mean, {:.3f} m/s steady", m.speed_mean_m_s, m.speed_steady_m_s));
+       m.speed_steady_m_s
+           ? fmt::format("{} mean, {} steady", or_dash(m.speed_mean_m_s, 3, " m/s"),
+                         or_dash(m.speed_steady_m_s, 3, " m/s"))
+           : fmt::format("{} mean, - steady: no cycle was", or_dash(m.speed_mean_m_s, 3, " m/s")));
   line("drift",
        fmt::format("{:+.3f} m to the left, {:+.1f} degrees", m.lateral_drift_m, m.yaw_drift_deg));
-  line("ZMP bias", fmt::format("{:.1f} mm", m.zmp_bias_mean_mm));
-  line("servo saturation", fmt::format("{:.1f} %, worst joint {:.1f} %", 100 * m.servo_saturation,
-                                       100 * m.servo_saturation_worst));
+  line("ZMP bias", or_dash(m.zmp_bias_mean_mm, 1, " mm"));
+  line("servo saturation", or_dash(percent(m.servo_saturation), 1, " %") + ", worst joint " +
+                               or_dash(percent(m.servo_saturation_worst), 1, " %"));
   line("real-time factor", fmt::format("{:.1f}", result.real_time_factor()));
   line("digest", fmt::format("0x{:016x} after {} ticks", result.digest, result.ticks));
   if (const std::string notes = fault_names(result.faults); !notes.empty())
     line("controller notes", notes);
-  if (!sweep.empty()) out += sweep_text(sweep);
+  if (!sweep.rows.empty()) out += sweep_text(sweep.rows);
   return out;
 }
 
-Json to_json(const WalkPlan& plan, const WalkResult& result,
-             const std::vector<report::SweepRow>& sweep) {
+Json to_json(const WalkPlan& plan, const WalkResult& result, const Sweep& sweep) {
   const sim::WalkMetrics& m = result.metrics;
+  Json bias_by_state = Json::array();
+  for (const auto& bias_mm : m.zmp_bias_by_state_mm) {
+    bias_by_state.push_back(number_or_null(bias_mm));
+  }
   Json json = {{"model", name_of(plan.params)},
                {"seed", plan.seed},
                {"controller", plan.board.empty() ? "this PC" : plan.board},
                {"ticks", result.ticks},
+               {"asked_s", plan.walk_s},
                {"duration_s", m.walk_s},
                {"distance_m", m.distance_m},
-               {"speed_mean_m_s", m.speed_mean_m_s},
-               {"speed_steady_m_s", m.speed_steady_m_s},
+               {"speed_mean_m_s", number_or_null(m.speed_mean_m_s)},
+               {"speed_steady_m_s", number_or_null(m.speed_steady_m_s)},
                {"lateral_drift_m", m.lateral_drift_m},
                {"yaw_drift_deg", m.yaw_drift_deg},
                {"fallen", m.fallen},
-               {"interrupted", result.interrupted},
-               {"failure", result.failure},
-               {"zmp_bias_mean_mm", m.zmp_bias_mean_mm},
-               {"zmp_bias_by_state_mm", m.zmp_bias_by_state_mm},
-               {"servo_saturation", m.servo_saturation},
-               {"servo_saturation_worst", m.servo_saturation_worst},
+               {"interrupted", result.interrupted || sweep.interrupted},
+               {"failure", result.failure.empty() ? sweep.failure : result.failure},
+               {"remark", result.remark},
+               {"zmp_bias_mean_mm", number_or_null(m.zmp_bias_mean_mm)},
+               {"zmp_bias_by_state_mm", bias_by_state},
+               {"servo_saturation", number_or_null(m.servo_saturation)},
+               {"servo_saturation_worst", number_or_null(m.servo_saturation_worst)},
                {"digest", fmt::format("0x{:016x}", result.digest)},
                {"notes", fault_names(result.faults)},
                {"real_time_factor", result.real_time_factor()}};
-  if (sweep.empty()) return json;
-  json["sweep"] = Json::array();
-  for (const report::SweepRow& row : sweep) {
-    json["sweep"].push_back({{"step_m", row.step_m},
-                             {"speed_m_s", row.speed_m_s},
-                             {"zmp_bias_mm", row.bias_mm},
-                             {"zmp_bias_without_multibody_mm", row.bias_plain_mm},
-                             {"fallen", row.fallen},
-                             {"fallen_without_multibody", row.fallen_plain}});
-  }
+  if (!sweep.rows.empty()) json["sweep"] = sweep_json(sweep.rows);
   return json;
 }
 

@@ -1,22 +1,20 @@
 #pragma once
 #include <string>
-#include <vector>
 
 #include "host/report/run_data.hpp"
 #include "host/tool/command.hpp"
 #include "host/tool/walk_options.hpp"
 #include "host/tool/walk_run.hpp"
+#include "host/tool/walk_sweep.hpp"
 
 /// One walk, told three ways: as a page's data, as text for a terminal, as JSON.
 namespace verp::tool {
 
 report::Run to_report(const WalkPlan& plan, const WalkOptions& options, const WalkResult& result,
-                      const std::vector<report::SweepRow>& sweep);
+                      const Sweep& sweep);
 
-std::string to_text(const WalkPlan& plan, const WalkResult& result,
-                    const std::vector<report::SweepRow>& sweep);
+std::string to_text(const WalkPlan& plan, const WalkResult& result, const Sweep& sweep);
 
-Json to_json(const WalkPlan& plan, const WalkResult& result,
-             const std::vector<report::SweepRow>& sweep);
+Json to_json(const WalkPlan& plan, const WalkResult& result, const Sweep& sweep);
 
 }  // namespace verp::tool

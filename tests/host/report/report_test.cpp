@@ -22,6 +22,8 @@ Run sample_run() {
   run.title = "robot <one> & \"two\"";
   run.verdict = "Walked";
   run.joints = {"l_knee", "r_knee'\n\"; quit"};
+  run.bias_by_state_mm.fill(3);
+  run.bias_mean_mm = 3;
   run.leg_joints = {std::vector<int>{0}, std::vector<int>{1}};
   run.limbs = {{Limb::Kind::kTrunk, 2}, {Limb::Kind::kHead, 2}, {Limb::Kind::kLeg, 1}};
   for (int i = 0; i < 1000; ++i) {
@@ -110,6 +112,24 @@ TEST(ReportNumbers, JointNamesStayInTheirColumns) {
   const std::string torque = torque_csv(run);
   EXPECT_NE(torque.find("\n\"he,ad\",0.25"), std::string::npos) << torque;
   EXPECT_NE(torque.find("\n\"say \"\"knee\"\"\nnow\","), std::string::npos) << torque;
+}
+
+// A zero would be taken for a measurement.
+TEST(ReportNumbers, WhatWasNotMeasuredIsEmpty) {
+  report::Run run = sample_run();
+  run.bias_by_state_mm = {};
+  run.bias_by_state_mm[1] = 2.5;
+  EXPECT_EQ(bias_csv(run).substr(0, 32), "state,zmp_bias_mm\n0,\n1,2.500\n2,\n");
+  using End = SweepWalk::End;
+  run.sweep = {{.step_m = 0.12,
+                .with = {.end = End::kWalked, .step_m = 0.07, .speed_m_s = {}, .bias_mm = 3.5},
+                .without = {.end = End::kFell, .step_m = 0.05, .speed_m_s = {}, .bias_mm = {}}},
+               {.step_m = 0.13,
+                .with = {.end = End::kInterrupted, .step_m = {}, .speed_m_s = {}, .bias_mm = {}},
+                .without = {}}};
+  const std::string csv = sweep_csv(run);
+  EXPECT_NE(csv.find("\n0.1200,,3.500,,0,1,0.0700,0.0500,walked,fell\n"), std::string::npos) << csv;
+  EXPECT_NE(csv.find("\n0.1300,,,,0,0,,,interrupted,not walked\n"), std::string::npos) << csv;
 }
 
 TEST(ReportNumbers, RunWithoutSamplesIsNoCrash) {
@@ -217,6 +237,22 @@ TEST_F(ReportFolder, TmpdirThatIsOfNoUseCostsNothing) {
     EXPECT_EQ(written.note, "") << place;
     EXPECT_TRUE(fs::exists(folder_ / "walk.png")) << place;
   }
+}
+
+TEST_F(ReportFolder, WithoutAnyBiasThereIsNoPlotOfOne) {
+  report::Run run = sample_run();
+  report::SweepRow row;
+  row.with.end = SweepWalk::End::kFell;
+  run.sweep = {row};
+  run.bias_by_state_mm = {};
+  run.bias_mean_mm = {};
+  const Written written = write_report(folder_, run);
+  EXPECT_EQ(written.note, "");
+  const std::string page = slurp(written.page);
+  EXPECT_EQ(page.find("id=\"sweep\""), std::string::npos);
+  EXPECT_EQ(page.find("id=\"bias\""), std::string::npos);
+  EXPECT_NE(page.find(">fell<"), std::string::npos);
+  EXPECT_NE(page.find(">not walked<"), std::string::npos);
 }
 
 TEST_F(ReportFolder, OtherFilesInTheFolderStay) {

@@ -136,6 +136,57 @@ TEST_F(Walk, PlanThatIsRefusedEndsTheRun) {
   EXPECT_LT(json::parse(outcome.out).at("ticks"), 2000);
 }
 
+// --for is the gait's length: the last whole step that fits, whatever stride, turn or cycle. While
+// strides still grow one more step means two: one more to shrink them again.
+TEST_F(Walk, LengthIsWhatWasAskedToWithinAStep) {
+  struct Asked {
+    const char* options;
+    double walk_s, step_s;
+  };
+  for (const Asked& asked :
+       {Asked{"", 12, 0.225}, Asked{"--velocity 2,0,0", 8, 0.225}, Asked{"--cycle 2", 8, 1.0},
+        Asked{"--velocity 0.1,0.02,0.5", 6, 0.225}, Asked{"--cycle 0.3 --step 0", 5, 0.15},
+        Asked{"--set gait.step_change_m=0.001", 16, 2 * 0.225}}) {
+    SCOPED_TRACE(asked.options);
+    const Outcome walk = verp(std::string("walk --json --for ") + std::to_string(asked.walk_s) +
+                              " " + asked.options);
+    ASSERT_EQ(walk.status, 0) << walk.err;
+    const json result = json::parse(walk.out);
+    EXPECT_LE(result.at("duration_s").get<double>(), asked.walk_s + 1e-6);
+    EXPECT_GT(result.at("duration_s").get<double>(), asked.walk_s - asked.step_s - 0.02);
+    EXPECT_EQ(result.at("remark"), "");
+  }
+}
+
+// A walk that the gait cannot make so short says so.
+TEST_F(Walk, ShortestWalkThatIsLongerThanAskedSaysSo) {
+  const std::string arguments = "walk --for 3 --set gait.start_s=2";
+  const json result = json::parse(verp(arguments + " --json").out);
+  EXPECT_GT(result.at("duration_s").get<double>(), 3.5);
+  EXPECT_LT(result.at("duration_s").get<double>(), 4.5) << "start, final and two steps hardly";
+  EXPECT_EQ(result.at("asked_s"), 3);
+  EXPECT_NE(result.at("remark").get<std::string>().find("3 s were asked; the shortest walk"),
+            std::string::npos);
+  EXPECT_NE(verp(arguments).out.find("3 s were asked; the shortest walk"), std::string::npos);
+}
+
+// A zero would be taken for a measurement.
+TEST_F(Walk, WhatWasNotMeasuredIsNullOrADash) {
+  const Outcome text = verp("walk --for 3 --report out");
+  EXPECT_NE(text.out.find("- steady"), std::string::npos) << text.out;
+  EXPECT_EQ(text.out.find("0.000 m/s"), std::string::npos) << text.out;
+  EXPECT_NE(slurp(folder_ / "out/index.html").find("no cycle was steady"), std::string::npos);
+  const Outcome ended =  // while it still rises
+      shell("timeout -s INT 0.3 " VERP_PROGRAM " walk --set safety.rise_s=10 --json");
+  const json none = json::parse(ended.out);
+  EXPECT_EQ(none.at("duration_s"), 0);
+  for (const char* name : {"speed_mean_m_s", "speed_steady_m_s", "zmp_bias_mean_mm",
+                           "servo_saturation", "servo_saturation_worst"}) {
+    EXPECT_TRUE(none.at(name).is_null()) << name;
+  }
+  EXPECT_TRUE(none.at("zmp_bias_by_state_mm").at(3).is_null());
+}
+
 TEST_F(Walk, SweepGivesATable) {
   const Outcome outcome = verp("walk --for 3 --sweep-step 0.02:0.03:0.01 --json --report out");
   ASSERT_EQ(outcome.status, 0) << outcome.err;
@@ -144,6 +195,52 @@ TEST_F(Walk, SweepGivesATable) {
   EXPECT_DOUBLE_EQ(result.at("sweep")[1].at("step_m"), 0.03);
   EXPECT_TRUE(fs::exists(folder_ / "out/sweep.csv"));
   EXPECT_NE(slurp(folder_ / "out/index.html").find("Step length sweep"), std::string::npos);
+}
+
+// Steps that a limit shortens are told with what was walked.
+TEST_F(Walk, SweepTellsAskedAndWalkedSteps) {
+  const Outcome outcome =
+      verp("walk --for 4 --set gait.max_step_m=0.03 --sweep-step 0.02:0.04:0.02 --report out");
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_NE(outcome.out.find("4.0 cm     3.0 cm"), std::string::npos) << outcome.out;
+  EXPECT_NE(outcome.out.find("gait.max_step_m"), std::string::npos) << outcome.out;
+  const std::string csv = slurp(folder_ / "out/sweep.csv");
+  EXPECT_NE(csv.find(",0.0200,0.0200,walked,walked\n0.0400"), std::string::npos) << csv;
+  EXPECT_NE(csv.find(",0.0300,0.0300,walked,walked\n"), std::string::npos) << csv;
+  EXPECT_NE(slurp(folder_ / "out/index.html").find("gait.max_step_m"), std::string::npos);
+}
+
+// Of a walk that fell there is no speed or bias to compare, and the trace is of another walk.
+TEST_F(Walk, FallInASweepIsMarkedAndPointsAtNoTrace) {
+  const std::string arguments =
+      "walk --for 5 --set gait.max_step_m=0.3 --set gait.step_change_m=0.1 "
+      "--sweep-step 0.15:0.15:0.1 --record a.mcap";
+  const Outcome outcome = verp(arguments + " --json");
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_NE(outcome.err.find("in the sweep, at steps of 0.15 m; walk it with --step"),
+            std::string::npos)
+      << outcome.err;
+  EXPECT_EQ(outcome.err.find("a.mcap"), std::string::npos) << outcome.err;
+  const json result = json::parse(outcome.out);
+  const json& row = result.at("sweep").at(0);
+  EXPECT_TRUE(row.at("fallen"));
+  EXPECT_EQ(row.at("end"), "fell");
+  EXPECT_TRUE(row.at("speed_m_s").is_null());
+  EXPECT_TRUE(row.at("zmp_bias_mm").is_null());
+  EXPECT_NEAR(row.at("walked_step_m").get<double>(), 0.15, 0.001);
+  EXPECT_FALSE(result.at("fallen")) << "the walk itself did not";
+}
+
+// The walk before the sweep takes a second or two, the whole sweep a minute.
+TEST_F(Walk, SweepThatIsInterruptedKeepsTheRowItWasIn) {
+  const Outcome outcome = shell("timeout --preserve-status -s TERM 8 " VERP_PROGRAM
+                                " walk --for 3 --sweep-step 0.01:0.05:0.001 --report out");
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_NE(outcome.err.find("interrupted in the sweep"), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.out.find("the sweep was interrupted"), std::string::npos) << outcome.out;
+  const std::string csv = slurp(folder_ / "out/sweep.csv");
+  EXPECT_NE(csv.find("\n0.0100,"), std::string::npos) << csv;
+  EXPECT_NE(csv.find("interrupted"), std::string::npos) << csv;
 }
 
 }  // namespace
