@@ -1,0 +1,45 @@
+#pragma once
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
+
+/// How drivers reach the outside of the core. A driver is a template over Io and holds one by value
+/// (`[[no_unique_address]] Io io_;`): on silicon it is the empty MemoryIo, in tests a handle to a
+/// model of the whole chip (tests/support/stm32), so that both run the same driver source.
+///
+/// What an Io promises (addresses are those of the chip's memory map):
+///  - read8/16/32(address), write8/16/32(address, value): one bus access of that width, in program
+///    order. Most registers want 32 bits; USART and SPI data and flash memory say otherwise.
+///  - bus_address(data, size): where a DMA controller finds this memory. The memory stays where it
+///    is until the next bus_address() of the same data, or for ever.
+///  - barrier(): memory accesses before it are done when accesses after it begin (DSB).
+///  - mask_interrupts(): holds interrupts back; true if they were not before. A matching
+///    unmask_interrupts() lets them come again.
+///  - wait_for_interrupt(): returns when an enabled interrupt is pending, or earlier for no reason.
+namespace verp::hal::stm32 {
+
+template <class Access>
+concept Io = std::copyable<Access> &&
+    requires(Access& io, std::uint32_t address, std::uint8_t byte, std::uint16_t half,
+             std::uint32_t word, void* data, std::size_t size) {
+  { io.read8(address) } -> std::same_as<std::uint8_t>;
+  { io.read16(address) } -> std::same_as<std::uint16_t>;
+  { io.read32(address) } -> std::same_as<std::uint32_t>;
+  { io.write8(address, byte) } -> std::same_as<void>;
+  { io.write16(address, half) } -> std::same_as<void>;
+  { io.write32(address, word) } -> std::same_as<void>;
+  { io.bus_address(data, size) } -> std::same_as<std::uint32_t>;
+  { io.barrier() } -> std::same_as<void>;
+  { io.mask_interrupts() } -> std::same_as<bool>;
+  { io.unmask_interrupts() } -> std::same_as<void>;
+  { io.wait_for_interrupt() } -> std::same_as<void>;
+};
+
+/// Sets and clears bits of a 32-bit register by one read and one write. Not for registers with
+/// flags that a write of what was read would clear.
+template <Io Access>
+void modify32(Access& io, std::uint32_t address, std::uint32_t clear, std::uint32_t set) {
+  io.write32(address, (io.read32(address) & ~clear) | set);
+}
+
+}  // namespace verp::hal::stm32

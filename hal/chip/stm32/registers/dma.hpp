@@ -1,0 +1,70 @@
+#pragma once
+#include "hal/chip/stm32/registers/table.hpp"
+
+/// DMA1 and DMA2: 8 streams each, alike in all three families.
+namespace verp::hal::stm32::dma {
+
+inline constexpr std::uint32_t kLisr = 0x00, kHisr = 0x04, kLifcr = 0x08, kHifcr = 0x0C;
+inline constexpr std::uint32_t kStreams = 8;
+
+/// Of stream 0; stream s is s * kStreamStep further.
+inline constexpr std::uint32_t kCr = 0x10, kNdtr = 0x14, kPar = 0x18, kM0ar = 0x1C, kM1ar = 0x20,
+                               kFcr = 0x24, kStreamStep = 0x18;
+
+inline constexpr std::uint32_t kCrEn = bit(0), kCrDmeie = bit(1), kCrTeie = bit(2),
+                               kCrHtie = bit(3), kCrTcie = bit(4), kCrPfctrl = bit(5),
+                               kCrDir = bits(6, 2), kCrDirToMemory = 0u,
+                               kCrDirToPeripheral = bit(6), kCrCirc = bit(8), kCrPinc = bit(9),
+                               kCrMinc = bit(10), kCrPsize = bits(11, 2), kCrMsize = bits(13, 2),
+                               kCrPincos = bit(15), kCrPl = bits(16, 2), kCrDbm = bit(18),
+                               kCrCt = bit(19), kCrPburst = bits(21, 2), kCrMburst = bits(23, 2),
+                               kCrChsel = bits(25, 3);
+inline constexpr unsigned kCrChselShift = 25;
+inline constexpr std::uint32_t kFcrFth = bits(0, 2), kFcrDmdis = bit(2), kFcrFs = bits(3, 3),
+                               kFcrFeie = bit(7);
+
+/// Flags of a stream in LISR (0 to 3) or HISR (4 to 7), and what clears them in LIFCR or HIFCR,
+/// before they are shifted by flag_shift().
+inline constexpr std::uint32_t kFlagFe = bit(0), kFlagDme = bit(2), kFlagTe = bit(3),
+                               kFlagHt = bit(4), kFlagTc = bit(5),
+                               kFlagAll = kFlagFe | kFlagDme | kFlagTe | kFlagHt | kFlagTc;
+constexpr unsigned flag_shift(std::uint32_t stream) {
+  constexpr unsigned kShift[] = {0, 6, 16, 22};
+  return kShift[stream & 3u];
+}
+constexpr std::uint32_t status_offset(std::uint32_t stream) {
+  return stream < 4 ? kLisr : kHisr;
+}
+constexpr std::uint32_t clear_offset(std::uint32_t stream) {
+  return stream < 4 ? kLifcr : kHifcr;
+}
+
+inline constexpr std::uint32_t kFlagsOfFour =
+    kFlagAll | (kFlagAll << 6) | (kFlagAll << 16) | (kFlagAll << 22);
+
+/// The registers of all streams, then those of stream 0.
+inline constexpr Register kRegisters[] = {
+    {.name = "LISR", .offset = kLisr, .paragraph = 1, .r = kFlagsOfFour},
+    {.name = "HISR", .offset = kHisr, .paragraph = 2, .r = kFlagsOfFour},
+    {.name = "LIFCR", .offset = kLifcr, .paragraph = 3, .w = kFlagsOfFour},
+    {.name = "HIFCR", .offset = kHifcr, .paragraph = 4, .w = kFlagsOfFour},
+};
+inline constexpr Register kStreamRegisters[] = {
+    {.name = "SxCR", .offset = kCr, .paragraph = 5, .rw = bits(0, 28) & ~bit(20)},
+    {.name = "SxNDTR", .offset = kNdtr, .paragraph = 6, .rw = bits(0, 16)},
+    {.name = "SxPAR", .offset = kPar, .paragraph = 7, .rw = bits(0, 32)},
+    {.name = "SxM0AR", .offset = kM0ar, .paragraph = 8, .rw = bits(0, 32)},
+    {.name = "SxM1AR", .offset = kM1ar, .paragraph = 9, .rw = bits(0, 32)},
+    {.name = "SxFCR",
+     .offset = kFcr,
+     .paragraph = 10,
+     .reset = 0x21,
+     .rw = kFcrFth | kFcrDmdis | kFcrFeie,
+     .r = kFcrFs},
+};
+inline constexpr Table kTable =
+    make_table("DMA", "RM0090 10.5, RM0390 9.5, RM0385 8.5", kRegisters);
+inline constexpr Table kStreamTable =
+    make_table("DMA stream", "RM0090 10.5, RM0390 9.5, RM0385 8.5", kStreamRegisters);
+
+}  // namespace verp::hal::stm32::dma

@@ -1,0 +1,106 @@
+#pragma once
+#include "hal/chip/stm32/registers/table.hpp"
+
+/// TIM2 and TIM5: general-purpose timers of 32 bits. TIM3 and TIM4 are alike but have 16 bits in
+/// CNT, ARR and CCRx, and no OR.
+namespace verp::hal::stm32::timer {
+
+inline constexpr std::uint32_t kCr1 = 0x00, kCr2 = 0x04, kSmcr = 0x08, kDier = 0x0C, kSr = 0x10,
+                               kEgr = 0x14, kCcmr1 = 0x18, kCcmr2 = 0x1C, kCcer = 0x20, kCnt = 0x24,
+                               kPsc = 0x28, kArr = 0x2C, kCcr1 = 0x34, kCcr2 = 0x38, kCcr3 = 0x3C,
+                               kCcr4 = 0x40, kDcr = 0x48, kDmar = 0x4C, kOr = 0x50;
+
+inline constexpr std::uint32_t kCr1Cen = bit(0), kCr1Udis = bit(1), kCr1Urs = bit(2),
+                               kCr1Opm = bit(3), kCr1Dir = bit(4), kCr1Cms = bits(5, 2),
+                               kCr1Arpe = bit(7), kCr1Ckd = bits(8, 2);
+inline constexpr std::uint32_t kDierUie = bit(0), kDierCc1ie = bit(1), kDierCc2ie = bit(2);
+inline constexpr std::uint32_t kSrUif = bit(0), kSrCc1if = bit(1), kSrCc2if = bit(2),
+                               kSrCc3if = bit(3), kSrCc4if = bit(4), kSrTif = bit(6),
+                               kSrCcOf = bits(9, 4),
+                               kSrAll = kSrUif | bits(1, 4) | kSrTif | kSrCcOf;
+inline constexpr std::uint32_t kEgrUg = bit(0);
+inline constexpr std::uint32_t kCcmr1Oc1pe = bit(3), kCcmr1Oc1m = bits(4, 3);
+inline constexpr std::uint32_t kCcerCc1e = bit(0);
+
+/// What differs: the F7's counter mode and slave mode have an extra bit each, its compare modes
+/// too.
+constexpr Register cr1(std::uint32_t extra) {
+  return {.name = "CR1", .offset = kCr1, .paragraph = 1, .rw = bits(0, 10) | extra};
+}
+constexpr Register smcr(std::uint32_t extra) {
+  return {.name = "SMCR", .offset = kSmcr, .paragraph = 3, .rw = 0xFFF7 | extra};
+}
+constexpr Register ccmr(const char* name, std::uint32_t offset, std::uint32_t paragraph,
+                        std::uint32_t extra) {
+  return {.name = name, .offset = offset, .paragraph = paragraph, .rw = bits(0, 16) | extra};
+}
+constexpr Register word(const char* name, std::uint32_t offset, std::uint32_t paragraph,
+                        std::uint32_t reset) {
+  return {.name = name, .offset = offset, .paragraph = paragraph, .reset = reset, .rw = ~0u};
+}
+inline constexpr Register kCr2Register = {
+    .name = "CR2", .offset = kCr2, .paragraph = 2, .rw = bits(3, 5)};
+inline constexpr Register kDierRegister = {
+    .name = "DIER", .offset = kDier, .paragraph = 4, .rw = 0x5F5F};
+inline constexpr Register kSrRegister = {
+    .name = "SR", .offset = kSr, .paragraph = 5, .rc_w0 = kSrAll};
+inline constexpr Register kEgrRegister = {
+    .name = "EGR", .offset = kEgr, .paragraph = 6, .w = bits(0, 5) | bit(6)};
+inline constexpr Register kCcerRegister = {
+    .name = "CCER", .offset = kCcer, .paragraph = 9, .rw = 0xBBBB};
+inline constexpr Register kPscRegister = {
+    .name = "PSC", .offset = kPsc, .paragraph = 11, .rw = bits(0, 16)};
+inline constexpr Register kDcrRegister = {
+    .name = "DCR", .offset = kDcr, .paragraph = 17, .rw = bits(0, 5) | bits(8, 5)};
+inline constexpr Register kDmarRegister = {
+    .name = "DMAR", .offset = kDmar, .paragraph = 18, .rw = bits(0, 16)};
+/// TIM2 uses bits 10 and 11, TIM5 bits 6 and 7.
+inline constexpr Register kOrRegister = {
+    .name = "OR", .offset = kOr, .paragraph = 19, .rw = bits(6, 2) | bits(10, 2)};
+
+inline constexpr Register kRegisters[] = {
+    cr1(0),
+    kCr2Register,
+    smcr(0),
+    kDierRegister,
+    kSrRegister,
+    kEgrRegister,
+    ccmr("CCMR1", kCcmr1, 7, 0),
+    ccmr("CCMR2", kCcmr2, 8, 0),
+    kCcerRegister,
+    word("CNT", kCnt, 10, 0),
+    kPscRegister,
+    word("ARR", kArr, 12, 0xFFFFFFFF),
+    word("CCR1", kCcr1, 13, 0),
+    word("CCR2", kCcr2, 14, 0),
+    word("CCR3", kCcr3, 15, 0),
+    word("CCR4", kCcr4, 16, 0),
+    kDcrRegister,
+    kDmarRegister,
+    kOrRegister,
+};
+inline constexpr Register kRegistersF7[] = {
+    cr1(bit(11)),
+    kCr2Register,
+    smcr(bit(16)),
+    kDierRegister,
+    kSrRegister,
+    kEgrRegister,
+    ccmr("CCMR1", kCcmr1, 7, bit(16) | bit(24)),
+    ccmr("CCMR2", kCcmr2, 8, bit(16) | bit(24)),
+    kCcerRegister,
+    word("CNT", kCnt, 10, 0),
+    kPscRegister,
+    word("ARR", kArr, 12, 0xFFFFFFFF),
+    word("CCR1", kCcr1, 13, 0),
+    word("CCR2", kCcr2, 14, 0),
+    word("CCR3", kCcr3, 15, 0),
+    word("CCR4", kCcr4, 16, 0),
+    kDcrRegister,
+    kDmarRegister,
+    kOrRegister,
+};
+inline constexpr Table kTable = make_table("TIM2/5", "RM0090 18.4, RM0390 17.4, -", kRegisters);
+inline constexpr Table kTableF7 = make_table("TIM2/5", "-, -, RM0385 23.4", kRegistersF7);
+
+}  // namespace verp::hal::stm32::timer

@@ -1,0 +1,92 @@
+#pragma once
+#include "hal/chip/stm32/registers/table.hpp"
+
+/// USART and UART. The F4 has the older kind, whose flags are cleared by reading SR and then DR;
+/// the F7 the newer, with a register to clear them.
+namespace verp::hal::stm32 {
+
+namespace usart_v1 {
+
+inline constexpr std::uint32_t kSr = 0x00, kDr = 0x04, kBrr = 0x08, kCr1 = 0x0C, kCr2 = 0x10,
+                               kCr3 = 0x14, kGtpr = 0x18;
+
+inline constexpr std::uint32_t kSrPe = bit(0), kSrFe = bit(1), kSrNf = bit(2), kSrOre = bit(3),
+                               kSrIdle = bit(4), kSrRxne = bit(5), kSrTc = bit(6), kSrTxe = bit(7),
+                               kSrLbd = bit(8), kSrCts = bit(9);
+inline constexpr std::uint32_t kCr1Sbk = bit(0), kCr1Rwu = bit(1), kCr1Re = bit(2), kCr1Te = bit(3),
+                               kCr1Idleie = bit(4), kCr1Rxneie = bit(5), kCr1Tcie = bit(6),
+                               kCr1Txeie = bit(7), kCr1Peie = bit(8), kCr1Ps = bit(9),
+                               kCr1Pce = bit(10), kCr1Wake = bit(11), kCr1M = bit(12),
+                               kCr1Ue = bit(13), kCr1Over8 = bit(15);
+inline constexpr std::uint32_t kCr2Stop = bits(12, 2), kCr2Linen = bit(14);
+inline constexpr std::uint32_t kCr3Eie = bit(0), kCr3Hdsel = bit(3), kCr3Dmar = bit(6),
+                               kCr3Dmat = bit(7), kCr3Onebit = bit(11);
+
+/// Writing SR clears RXNE, TC, LBD and CTS where it has 0: this is what leaves them all.
+inline constexpr std::uint32_t kSrKeep = kSrRxne | kSrTc | kSrLbd | kSrCts;
+
+inline constexpr Register kRegisters[] = {
+    // RM0090 prints 0x00C00000; TXE and TC, which it describes as set, are 0xC0.
+    {.name = "SR",
+     .offset = kSr,
+     .paragraph = 1,
+     .reset = 0xC0,
+     .r = kSrPe | kSrFe | kSrNf | kSrOre | kSrIdle | kSrTxe,
+     .rc_w0 = kSrKeep},
+    {.name = "DR", .offset = kDr, .paragraph = 2, .rw = bits(0, 9)},
+    {.name = "BRR", .offset = kBrr, .paragraph = 3, .rw = bits(0, 16)},
+    {.name = "CR1", .offset = kCr1, .paragraph = 4, .rw = 0xBFFF},
+    {.name = "CR2", .offset = kCr2, .paragraph = 5, .rw = 0x7F6F},
+    {.name = "CR3", .offset = kCr3, .paragraph = 6, .rw = bits(0, 12)},
+    {.name = "GTPR", .offset = kGtpr, .paragraph = 7, .rw = bits(0, 16)},
+};
+inline constexpr Table kTable = make_table("USART", "RM0090 30.6, RM0390 25.6, -", kRegisters);
+
+}  // namespace usart_v1
+
+namespace usart_v2 {
+
+inline constexpr std::uint32_t kCr1 = 0x00, kCr2 = 0x04, kCr3 = 0x08, kBrr = 0x0C, kGtpr = 0x10,
+                               kRtor = 0x14, kRqr = 0x18, kIsr = 0x1C, kIcr = 0x20, kRdr = 0x24,
+                               kTdr = 0x28;
+
+inline constexpr std::uint32_t kCr1Ue = bit(0), kCr1Re = bit(2), kCr1Te = bit(3),
+                               kCr1Idleie = bit(4), kCr1Rxneie = bit(5), kCr1Tcie = bit(6),
+                               kCr1Txeie = bit(7), kCr1Peie = bit(8), kCr1Ps = bit(9),
+                               kCr1Pce = bit(10), kCr1M0 = bit(12), kCr1Over8 = bit(15),
+                               kCr1Dedt = bits(16, 5), kCr1Deat = bits(21, 5), kCr1M1 = bit(28);
+inline constexpr std::uint32_t kCr2Stop = bits(12, 2), kCr2Swap = bit(15);
+inline constexpr std::uint32_t kCr3Eie = bit(0), kCr3Hdsel = bit(3), kCr3Dmar = bit(6),
+                               kCr3Dmat = bit(7), kCr3Onebit = bit(11), kCr3Ovrdis = bit(12),
+                               kCr3Ddre = bit(13), kCr3Dem = bit(14), kCr3Dep = bit(15);
+inline constexpr std::uint32_t kRqrSbkrq = bit(1), kRqrRxfrq = bit(3), kRqrTxfrq = bit(4);
+inline constexpr std::uint32_t kIsrPe = bit(0), kIsrFe = bit(1), kIsrNf = bit(2), kIsrOre = bit(3),
+                               kIsrIdle = bit(4), kIsrRxne = bit(5), kIsrTc = bit(6),
+                               kIsrTxe = bit(7), kIsrBusy = bit(16), kIsrTeack = bit(21);
+inline constexpr std::uint32_t kIcrPe = bit(0), kIcrFe = bit(1), kIcrNf = bit(2), kIcrOre = bit(3),
+                               kIcrIdle = bit(4), kIcrTc = bit(6), kIcrLbd = bit(8),
+                               kIcrCts = bit(9), kIcrRto = bit(11), kIcrEob = bit(12),
+                               kIcrCm = bit(17);
+
+inline constexpr Register kRegisters[] = {
+    {.name = "CR1", .offset = kCr1, .paragraph = 1, .rw = bits(0, 29) & ~bit(1)},
+    {.name = "CR2", .offset = kCr2, .paragraph = 2, .rw = 0xFFFFFF70},
+    {.name = "CR3", .offset = kCr3, .paragraph = 3, .rw = 0x000EFFFF},
+    {.name = "BRR", .offset = kBrr, .paragraph = 4, .rw = bits(0, 16)},
+    {.name = "GTPR", .offset = kGtpr, .paragraph = 5, .rw = bits(0, 16)},
+    {.name = "RTOR", .offset = kRtor, .paragraph = 6, .rw = bits(0, 32)},
+    {.name = "RQR", .offset = kRqr, .paragraph = 7, .w = bits(0, 5)},
+    {.name = "ISR", .offset = kIsr, .paragraph = 8, .reset = 0xC0, .r = 0x002FDFFF},
+    {.name = "ICR",
+     .offset = kIcr,
+     .paragraph = 9,
+     .w = kIcrPe | kIcrFe | kIcrNf | kIcrOre | kIcrIdle | kIcrTc | kIcrLbd | kIcrCts | kIcrRto |
+          kIcrEob | kIcrCm},
+    {.name = "RDR", .offset = kRdr, .paragraph = 10, .r = bits(0, 9)},
+    {.name = "TDR", .offset = kTdr, .paragraph = 11, .rw = bits(0, 9)},
+};
+inline constexpr Table kTable = make_table("USART", "-, -, RM0385 31.8", kRegisters);
+
+}  // namespace usart_v2
+
+}  // namespace verp::hal::stm32

@@ -1,0 +1,117 @@
+#include <gtest/gtest.h>
+
+#include <cstddef>
+#include <cstdint>
+
+#include "hal/chip/stm32/registers/adc.hpp"
+#include "hal/chip/stm32/registers/cortex_m.hpp"
+#include "hal/chip/stm32/registers/dma.hpp"
+#include "hal/chip/stm32/registers/flash.hpp"
+#include "hal/chip/stm32/registers/gpio.hpp"
+#include "hal/chip/stm32/registers/i2c.hpp"
+#include "hal/chip/stm32/registers/iwdg.hpp"
+#include "hal/chip/stm32/registers/memory_map.hpp"
+#include "hal/chip/stm32/registers/pwr.hpp"
+#include "hal/chip/stm32/registers/rcc_tables.hpp"
+#include "hal/chip/stm32/registers/spi.hpp"
+#include "hal/chip/stm32/registers/syscfg.hpp"
+#include "hal/chip/stm32/registers/timer.hpp"
+#include "hal/chip/stm32/registers/usart.hpp"
+
+namespace verp::hal::stm32 {
+namespace {
+
+const Table kTables[] = {
+    adc::kTable,        adc::kCommonTable,  dma::kTable,        dma::kStreamTable,
+    exti::kTable,       exti::kTableF7,     flash::kTableF405,  flash::kTableF446,
+    flash::kTableF746,  gpio::kTable,       i2c_v1::kTableF405, i2c_v1::kTableF446,
+    i2c_v2::kTable,     iwdg::kTable,       iwdg::kTableF7,     pwr::kTableF405,
+    pwr::kTableF446,    pwr::kTableF746,    rcc::kTableF405,    rcc::kTableF446,
+    rcc::kTableF746,    spi::kTableF405,    spi::kTableF446,    spi::kTableF746,
+    syscfg::kTableF405, syscfg::kTableF446, syscfg::kTableF746, timer::kTable,
+    timer::kTableF7,    usart_v1::kTable,   usart_v2::kTable,
+};
+
+TEST(Tables, RegistersAreWordsInOrderWithoutOverlap) {
+  for (const Table& table : kTables) {
+    std::uint32_t next_offset = 0;
+    std::uint32_t last_paragraph = 0;
+    bool first = true;
+    for (const Register& reg : table) {
+      EXPECT_EQ(reg.offset % 4, 0u) << table.name << " " << reg.name;
+      EXPECT_LT(reg.offset, 0x400u) << table.name << " " << reg.name;
+      EXPECT_TRUE(first || reg.offset >= next_offset) << table.name << " " << reg.name;
+      EXPECT_GE(reg.paragraph, last_paragraph == 0 ? 1u : last_paragraph)
+          << table.name << " " << reg.name;
+      EXPECT_NE(reg.defined(), 0u) << table.name << " " << reg.name;
+      next_offset = reg.offset + 4;
+      last_paragraph = reg.paragraph;
+      first = false;
+    }
+  }
+}
+
+TEST(Tables, ABitHasOneAccessTypeAndWriteOnlyBitsResetToZero) {
+  for (const Table& table : kTables) {
+    for (const Register& reg : table) {
+      const std::uint32_t masks[] = {reg.rw, reg.r, reg.w, reg.rs, reg.rc_w0, reg.rc_w1, reg.rc_r};
+      std::uint32_t seen = 0;
+      for (const std::uint32_t mask : masks) {
+        EXPECT_EQ(seen & mask, 0u) << table.name << " " << reg.name;
+        seen |= mask;
+      }
+      EXPECT_EQ(reg.reset & reg.w, 0u) << table.name << " " << reg.name;
+    }
+  }
+}
+
+TEST(Tables, EveryTableNamesItsManual) {
+  for (const Table& table : kTables) {
+    std::size_t manuals = 0;
+    for (const char* c = table.manuals; *c != '\0'; ++c) manuals += *c == 'R' ? 1u : 0u;
+    EXPECT_GE(manuals, 1u) << table.name;
+    EXPECT_LE(manuals, 3u) << table.name;
+  }
+}
+
+TEST(Tables, DmaFlagsOfDifferentStreamsDoNotOverlap) {
+  for (std::uint32_t a = 0; a < dma::kStreams; ++a) {
+    for (std::uint32_t b = a + 1; b < dma::kStreams; ++b) {
+      if (dma::status_offset(a) != dma::status_offset(b)) continue;
+      EXPECT_EQ((dma::kFlagAll << dma::flag_shift(a)) & (dma::kFlagAll << dma::flag_shift(b)), 0u);
+    }
+  }
+}
+
+TEST(Tables, InterruptsOfDmaStreamsAreApart) {
+  for (unsigned a = 0; a < dma::kStreams; ++a) {
+    for (unsigned b = 0; b < dma::kStreams; ++b) {
+      EXPECT_NE(irq::dma1(a), irq::dma2(b));
+      EXPECT_TRUE(a == b || irq::dma1(a) != irq::dma1(b));
+      EXPECT_TRUE(a == b || irq::dma2(a) != irq::dma2(b));
+    }
+  }
+}
+
+TEST(Tables, FlashSectorsFillTheMemoryWithoutGap) {
+  for (const Family family : {Family::kF405, Family::kF446, Family::kF746}) {
+    const Limits& chip = limits(family);
+    std::uint32_t next = kFlashBase;
+    for (std::uint32_t i = 0; i < chip.sector_count; ++i) {
+      EXPECT_EQ(chip.sectors[i].address, next);
+      next += chip.sectors[i].bytes;
+    }
+    EXPECT_EQ(next, kFlashBase + chip.flash_bytes);
+  }
+}
+
+TEST(Tables, TheHighestClockHasEnoughWaitStates) {
+  for (const Family family : {Family::kF405, Family::kF446, Family::kF746}) {
+    const Limits& chip = limits(family);
+    EXPECT_LE(chip.sysclk_overdrive_max_hz, chip.hz_per_wait_state * (chip.wait_states_max + 1));
+    EXPECT_LE(chip.sysclk_max_hz, chip.sysclk_overdrive_max_hz);
+  }
+}
+
+}  // namespace
+}  // namespace verp::hal::stm32
