@@ -141,7 +141,8 @@ TEST_F(Trouble, NohupIsRespected) {
   EXPECT_EQ(walk.status, 0) << walk.err;
 }
 
-// The first asks; the report then hangs in a plot; the second ends the program.
+// The first asks, once there is something to plot; the report then hangs in a plot; the second ends
+// the program.
 TEST_F(Trouble, SecondSignalEndsARunThatHangs) {
   fs::create_directories(folder_ / "bin");
   std::ofstream(folder_ / "bin/gnuplot") << "#!/bin/sh\nexec sleep 20 >/dev/null 2>&1\n";
@@ -149,7 +150,7 @@ TEST_F(Trouble, SecondSignalEndsARunThatHangs) {
   const auto start = std::chrono::steady_clock::now();
   const Outcome walk =
       shell("PATH=$PWD/bin:$PATH; " VERP_PROGRAM
-            " walk --for 600 --report out & sleep 1; kill -TERM $!; sleep 3; kill -TERM $!; "
+            " walk --for 600 --report out & sleep 3; kill -TERM $!; sleep 3; kill -TERM $!; "
             "wait $!");
   EXPECT_EQ(walk.status, 128 + SIGTERM) << walk.err;
   EXPECT_LT(std::chrono::steady_clock::now() - start, 15s);
