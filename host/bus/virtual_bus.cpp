@@ -69,7 +69,7 @@ bool VirtualBus::send(const std::uint8_t* data, std::size_t size) {
   bytes_on_wire_ += size;
   for (std::size_t i = 0; i < size; ++i) {
     for (bool found = line_.push(data[i]); found; found = line_.next()) {
-      if (begins_tick(line_.packet())) start_ns = begin_tick(start_ns);
+      if (!real_time_ && begins_tick(line_.packet())) start_ns = begin_tick(start_ns);
       wire_free_ns_ = std::max(wire_free_ns_, start_ns + bytes_ns(i + 1));
       handle(line_.packet(), wire_free_ns_);
     }
@@ -94,6 +94,11 @@ std::size_t VirtualBus::poll(std::uint8_t* buffer, std::size_t capacity, std::ui
   }
   if (count == 0 && capacity > 0) now_ns_ = deadline_ns;
   return count;
+}
+
+void VirtualBus::advance_to(std::uint64_t time_us) {
+  now_ns_ = std::max(now_ns_, time_us * 1000);
+  plant_.advance_to(std::max(now_ns_, wire_free_ns_) / 1000);
 }
 
 void VirtualBus::wait_us(std::uint32_t delay_us) {

@@ -39,6 +39,15 @@ class VirtualBus {
   bool ticking() const { return ticking_; }
   /// Unplugs a device or plugs it in again; unplugged it neither hears nor answers.
   void set_connected(std::uint8_t id, bool connected);
+  /// Whether a packet makes a tick begin, if time does not go on by itself.
+  static bool begins_tick(const dxl::Packet& packet);
+
+  /// From now on time goes on by advance_to() alone and by what crosses the wire; no read waits for
+  /// a period to begin.
+  void run_in_real_time() { real_time_ = true; }
+  /// Lets time go on while the wire is quiet, and the plant follow.
+  void advance_to(std::uint64_t time_us);
+
   /// Bytes that crossed the wire in either direction.
   std::uint64_t bytes_on_wire() const { return bytes_on_wire_; }
 
@@ -60,7 +69,6 @@ class VirtualBus {
   void put_on_wire(std::vector<std::uint8_t> bytes);
 
   // instructions.cpp
-  static bool begins_tick(const dxl::Packet& packet);
   void handle(const dxl::Packet& packet, std::uint64_t end_ns);
   /// Does it to all devices addressed; one that was asked alone replies.
   template <class Apply>
@@ -88,6 +96,7 @@ class VirtualBus {
   std::uint64_t bytes_on_wire_ = 0;
   std::uint32_t tick_ = 0;
   bool ticking_ = false;
+  bool real_time_ = false;
 };
 
 static_assert(hal::FrameBus<VirtualBus>);

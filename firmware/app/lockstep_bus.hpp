@@ -1,0 +1,216 @@
+#pragma once
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
+
+#include "common/control/state.hpp"
+#include "common/model/image.hpp"
+#include "common/model/params.hpp"
+#include "common/record/tick_record.hpp"
+#include "firmware/app/lockstep_messages.hpp"
+#include "hal/contract/byte_link.hpp"
+#include "hal/contract/frame_bus.hpp"
+
+namespace verp::app {
+
+/// What a controller does while it waits for the twin: feeds its watchdog, serves its operator.
+/// Called at least every LockstepBus::kSlice_us while nothing arrives. False: stop waiting; the bus
+/// is lost then.
+template <class Idle>
+concept IdleHook = requires(Idle& idle) {
+  { idle() } -> std::same_as<bool>;
+};
+
+/// The controller's end of lockstep_messages.hpp: a FrameBus in the twin's time over any stream of
+/// bytes. greet() first. A slow, paused or unplugged PC makes it wait, for as long as `idle` says,
+/// and never makes a timeout.
+template <hal::ByteLink Link, IdleHook Idle>
+class LockstepBus {
+ public:
+  /// Longest wait of one read of the link.
+  static constexpr std::uint32_t kSlice_us = 100;
+
+  /// Trouble on the link since the bus was made; all of it was made good, but for `damaged`.
+  struct Counters {
+    std::uint32_t repeats = 0;  ///< requests sent again
+    std::uint32_t spoilt = 0;   ///< answers that were not whole
+    std::uint32_t damaged = 0;  ///< polls before which frames did not arrive as they were sent
+  };
+
+  LockstepBus(Link& link, Idle idle) : link_(link), idle_(idle) {}
+
+  /// Announces lockstep and this robot to the twin; waits for its answer. Begins anew after a loss:
+  /// bus time is then that of the twin again, and the controller must come up again.
+  lockstep::Verdict greet(const Params& params) {
+    const lockstep::Hello hello{.core_version = kCoreVersion,
+                                .params_size = sizeof(Params),
+                                .params_crc = params_crc(params),
+                                .record_size = sizeof(TickRecord),
+                                .state_size = sizeof(State)};
+    lost_ = true;
+    answer_ = {};
+    used_ = 0;
+    sieve_.forget();
+    lockstep::HelloReply reply;
+    request_size_ = encode(lockstep::kHelloAddress, hello);
+    if (!flush() || !ask(reply, nullptr, 0)) return lockstep::Verdict::kNoAnswer;
+    lost_ = reply.verdict != lockstep::Verdict::kAccepted;
+    return reply.verdict;
+  }
+
+  /// The twin wants no further tick, or is gone.
+  bool stopped() const { return lost_ || (answer_.flags & lockstep::kStop) != 0; }
+  /// Not greeted, refused, given up by `idle`, or met by a twin that began anew: greet() again.
+  bool lost() const { return lost_; }
+  const Counters& counters() const { return counters_; }
+
+  // FrameBus. Frames leave with the next poll.
+  bool send(const std::uint8_t* data, std::size_t size) {
+    if (lost_ || size == 0 || size > hal::kMaxFrame || size > kOutbox - used_) return false;
+    __builtin_memcpy(outbox_ + used_, data, size);
+    used_ += size;
+    return true;
+  }
+
+  std::size_t poll(std::uint8_t* buffer, std::size_t capacity, std::uint32_t timeout_us) {
+    if (lost_) return 0;
+    if (capacity > lockstep::kMaxPollBytes) capacity = lockstep::kMaxPollBytes;
+    const lockstep::Advance advance{.sequence = ++sequence_,
+                                    .capacity = static_cast<std::uint16_t>(capacity),
+                                    .timeout_us = timeout_us,
+                                    .sent = static_cast<std::uint16_t>(used_),
+                                    .sent_crc = dxl::crc16(outbox_, used_)};
+    request_size_ = encode(lockstep::kAdvanceAddress, advance);
+    lost_ = !flush() || !ask(answer_, buffer, capacity);
+    if (lost_) return 0;
+    if ((answer_.flags & lockstep::kFrameDamaged) != 0) ++counters_.damaged;
+    return answer_.size;
+  }
+
+  std::uint64_t now_us() const { return answer_.now_us; }
+
+ private:
+  static constexpr std::size_t kOutbox = 2 * hal::kMaxFrame;
+  static constexpr std::uint32_t kFirstPatience = 50'000 / kSlice_us;  ///< slices
+  static constexpr std::uint32_t kLastPatience = 1'000'000 / kSlice_us;
+  /// A link that brings so many bytes without the answer brings something else.
+  static constexpr std::uint32_t kMostBytes = 4 * lockstep::kMaxPollBytes;
+
+  // The request stands behind the frames, so that all leave in one write.
+  template <class Payload>
+  std::size_t encode(std::uint16_t address, const Payload& payload) {
+    return dxl::encode_write(outbox_ + used_, lockstep::kMaxClockPacket, lockstep::kClockId,
+                             address, reinterpret_cast<const std::uint8_t*>(&payload),
+                             sizeof payload);
+  }
+
+  bool flush() {
+    __builtin_memcpy(request_, outbox_ + used_, request_size_);
+    const std::size_t size = used_ + request_size_;
+    used_ = 0;
+    return write(outbox_, size);
+  }
+
+  bool write(const std::uint8_t* from, std::size_t size) {
+    while (size > 0) {
+      const std::size_t count = link_.write(from, size, kSlice_us);
+      from += count;
+      size -= count;
+      if (count == 0 && !idle_()) return false;
+    }
+    return true;
+  }
+
+  /// Waits for the answer to request_ and asks again as often as it must; false: given up.
+  template <class Reply>
+  bool ask(Reply& reply, std::uint8_t* buffer, std::size_t capacity) {
+    std::uint32_t patience = kFirstPatience;
+    for (;;) {
+      switch (collect(reply, buffer, capacity, patience)) {
+        case Outcome::kWhole:
+          return true;
+        case Outcome::kGone:
+          return false;
+        case Outcome::kSpoilt:
+          ++counters_.spoilt;
+          break;
+        default:
+          patience = 2 * patience < kLastPatience ? 2 * patience : kLastPatience;
+          break;
+      }
+      ++counters_.repeats;
+      if (!idle_() || !write(request_, request_size_)) return false;
+    }
+  }
+
+  enum class Outcome : std::uint8_t { kNothing, kMore, kWhole, kSpoilt, kGone };
+
+  template <class Reply>
+  Outcome collect(Reply& reply, std::uint8_t* buffer, std::size_t capacity,
+                  std::uint32_t patience) {
+    std::size_t count = 0;
+    std::uint32_t heard = 0;
+    sieve_.forget();
+    const auto pass = [&](std::uint8_t byte) {
+      if (count < capacity) buffer[count] = byte;
+      ++count;
+    };
+    for (std::uint32_t quiet = 0; quiet < patience && heard < kMostBytes;) {
+      const std::size_t size = link_.read(chunk_, sizeof chunk_, kSlice_us);
+      heard += static_cast<std::uint32_t>(size);
+      if (size == 0) {
+        ++quiet;
+        if (!idle_()) return Outcome::kGone;
+      }
+      for (std::size_t i = 0; i < size; ++i) {
+        if (!sieve_.push(chunk_[i], pass)) continue;
+        const Outcome outcome = take(sieve_.packet(), reply, {buffer, count, capacity});
+        if (outcome != Outcome::kMore) return outcome;
+        count = 0;  // those were another answer's
+      }
+    }
+    return Outcome::kNothing;
+  }
+
+  /// What came in front of a packet of the clock.
+  struct Brought {
+    const std::uint8_t* bytes;  ///< the first `room` of them
+    std::size_t count, room;
+  };
+
+  Outcome take(const dxl::Packet& packet, lockstep::HelloReply& reply, const Brought&) {
+    if (!packet.is_status() || packet.size != sizeof reply) return Outcome::kMore;
+    __builtin_memcpy(&reply, packet.parameters, sizeof reply);
+    return Outcome::kWhole;
+  }
+
+  Outcome take(const dxl::Packet& packet, lockstep::Advanced& reply, const Brought& brought) {
+    if (!packet.is_status()) return Outcome::kMore;
+    if (packet.error == static_cast<std::uint8_t>(dxl::Error::kAccess)) return Outcome::kGone;
+    lockstep::Advanced answer;
+    if (packet.size != sizeof answer) return Outcome::kMore;
+    __builtin_memcpy(&answer, packet.parameters, sizeof answer);
+    if (answer.sequence != sequence_) return Outcome::kMore;
+    if (answer.size != brought.count || answer.size > brought.room ||
+        answer.crc != dxl::crc16(brought.bytes, brought.count)) {
+      return Outcome::kSpoilt;
+    }
+    reply = answer;
+    return Outcome::kWhole;
+  }
+
+  Link& link_;
+  Idle idle_;
+  Counters counters_;
+  lockstep::Advanced answer_;
+  lockstep::ClockSieve sieve_;
+  std::uint8_t sequence_ = 0;
+  bool lost_ = true;
+  std::size_t used_ = 0;  ///< bytes of frames in outbox_
+  std::size_t request_size_ = 0;
+  std::uint8_t request_[lockstep::kMaxClockPacket];
+  std::uint8_t outbox_[kOutbox + lockstep::kMaxClockPacket];
+  std::uint8_t chunk_[256];
+};
+
+}  // namespace verp::app

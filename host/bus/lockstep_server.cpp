@@ -1,0 +1,204 @@
+#include "host/bus/lockstep_server.hpp"
+
+#include <algorithm>
+#include <cstring>
+#include <utility>
+
+#include "common/control/state.hpp"
+#include "common/model/image.hpp"
+#include "common/record/tick_record.hpp"
+
+namespace verp::bus {
+namespace {
+
+template <class Payload>
+void append_status(std::vector<std::uint8_t>& answer, dxl::Error error, const Payload& payload) {
+  std::uint8_t packet[lockstep::kMaxClockPacket];
+  const std::size_t size = dxl::encode_status(
+      packet, sizeof packet, lockstep::kClockId, static_cast<std::uint8_t>(error),
+      reinterpret_cast<const std::uint8_t*>(&payload), sizeof payload);
+  answer.insert(answer.end(), packet, packet + size);
+}
+
+void append_error(std::vector<std::uint8_t>& answer, dxl::Error error) {
+  std::uint8_t packet[lockstep::kMaxClockPacket];
+  const std::size_t size = dxl::encode_status(packet, sizeof packet, lockstep::kClockId,
+                                              static_cast<std::uint8_t>(error), nullptr, 0);
+  answer.insert(answer.end(), packet, packet + size);
+}
+
+template <class Payload>
+bool payload_of(const dxl::Packet& packet, std::uint16_t address, Payload& payload) {
+  if (packet.instruction != dxl::Instruction::kWrite || packet.size != 2 + sizeof payload ||
+      dxl::get_u16(packet.parameters) != address) {
+    return false;
+  }
+  std::memcpy(&payload, packet.parameters + 2, sizeof payload);
+  return true;
+}
+
+lockstep::Verdict verdict_on(const lockstep::Hello& theirs, const Params& params) {
+  using lockstep::Verdict;
+  if (theirs.version != lockstep::kVersion) return Verdict::kOtherLink;
+  if (theirs.params_size != sizeof(Params) || theirs.record_size != sizeof(TickRecord) ||
+      theirs.state_size != sizeof(State)) {
+    return Verdict::kOtherLayout;
+  }
+  if (theirs.core_version != kCoreVersion) return Verdict::kOtherCore;
+  return theirs.params_crc == params_crc(params) ? Verdict::kAccepted : Verdict::kOtherRobot;
+}
+
+/// Where the next frame begins behind the first byte of `bytes`: a header, which occurs in no
+/// instruction packet but at its start.
+std::size_t frame_size(std::span<const std::uint8_t> bytes) {
+  constexpr std::uint8_t kHeader[] = {0xFF, 0xFF, 0xFD, 0x00};
+  const auto next =
+      std::search(bytes.begin() + 1, bytes.end(), std::begin(kHeader), std::end(kHeader));
+  return std::min(static_cast<std::size_t>(next - bytes.begin()), hal::kMaxFrame);
+}
+
+bool begins_tick(std::span<const std::uint8_t> frame) {
+  dxl::Parser parser;
+  for (const std::uint8_t byte : frame) {
+    if (parser.push(byte) && VirtualBus::begins_tick(parser.packet())) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+std::string words_for(lockstep::Verdict verdict, const lockstep::Hello& theirs,
+                      const Params& ours) {
+  const auto hex = [](std::uint32_t value) {
+    char text[11];
+    std::snprintf(text, sizeof text, "%08x", static_cast<unsigned>(value));
+    return std::string(text);
+  };
+  switch (verdict) {
+    case lockstep::Verdict::kOtherLink:
+      return "the controller speaks version " + std::to_string(theirs.version) +
+             " of the lockstep link, this program version " + std::to_string(lockstep::kVersion) +
+             "; rebuild its firmware";
+    case lockstep::Verdict::kOtherLayout:
+      return "the controller's Params, record or State have other sizes (" +
+             std::to_string(theirs.params_size) + ", " + std::to_string(theirs.record_size) + ", " +
+             std::to_string(theirs.state_size) + " bytes, here " + std::to_string(sizeof(Params)) +
+             ", " + std::to_string(sizeof(TickRecord)) + ", " + std::to_string(sizeof(State)) +
+             "); rebuild its firmware";
+    case lockstep::Verdict::kOtherCore:
+      return "the controller's core has version " + std::to_string(theirs.core_version) +
+             ", this program's " + std::to_string(kCoreVersion) + "; rebuild its firmware";
+    case lockstep::Verdict::kOtherRobot:
+      return "the controller's Params are not those of " + std::string(ours.name) + " (CRC " +
+             hex(theirs.params_crc) + ", here " + hex(params_crc(ours)) +
+             "); flash this model's Params, or name the controller's model";
+    case lockstep::Verdict::kNoLockstep:
+      return "the controller wants lockstep, but the twin runs in real time; leave out --realtime";
+    case lockstep::Verdict::kAccepted:
+    case lockstep::Verdict::kNoAnswer:
+      break;
+  }
+  return "";
+}
+
+LockstepServer::LockstepServer(const Params& params, VirtualBus& bus, LockstepHooks hooks)
+    : params_(params), bus_(bus), hooks_(std::move(hooks)) {}
+
+void LockstepServer::take(std::span<const std::uint8_t> bytes, std::vector<std::uint8_t>& answer) {
+  constexpr std::size_t kMostHeld = 16 * hal::kMaxFrame;  // of one who never asks for the time
+  for (const std::uint8_t byte : bytes) {
+    const bool complete = sieve_.push(byte, [this](std::uint8_t other) {
+      if (frames_.size() < kMostHeld) frames_.push_back(other);
+    });
+    if (complete) handle(sieve_.packet(), answer);
+  }
+}
+
+void LockstepServer::handle(const dxl::Packet& packet, std::vector<std::uint8_t>& answer) {
+  lockstep::Hello greeting;
+  lockstep::Advance request;
+  if (packet.is_status()) return;
+  if (payload_of(packet, lockstep::kHelloAddress, greeting)) return hello(greeting, answer);
+  if (payload_of(packet, lockstep::kAdvanceAddress, request)) {
+    if (greeted_) return advance(request, answer);
+    frames_.clear();
+    return append_error(answer, dxl::Error::kAccess);
+  }
+  if (packet.instruction != dxl::Instruction::kPing) {
+    return append_error(answer, dxl::Error::kInstruction);
+  }
+  const std::uint8_t identity[3] = {lockstep::kClockModel & 0xFF, lockstep::kClockModel >> 8,
+                                    lockstep::kVersion};
+  append_status(answer, dxl::Error::kNone, identity);
+}
+
+void LockstepServer::hello(const lockstep::Hello& hello, std::vector<std::uint8_t>& answer) {
+  frames_.clear();
+  const lockstep::Verdict verdict = verdict_on(hello, params_);
+  const bool repeated = greeted_ && !answered_;
+  greeted_ = verdict == lockstep::Verdict::kAccepted;
+  if (greeted_ && !repeated) {
+    answered_ = false;
+    ++counters_.greetings;
+    if (hooks_.greeted) hooks_.greeted();
+  }
+  if (!greeted_ && hooks_.refused) hooks_.refused(words_for(verdict, hello, params_));
+  append_status(answer, greeted_ ? dxl::Error::kNone : dxl::Error::kDataRange,
+                lockstep::HelloReply{.verdict = verdict});
+}
+
+bool LockstepServer::send_frame(std::span<const std::uint8_t> frame, bool intact) {
+  if (begins_tick(frame) && hooks_.tick_ends && !hooks_.tick_ends()) return false;
+  bus_.send(frame.data(), frame.size());
+  if (intact && hooks_.sent) hooks_.sent(frame);
+  return true;
+}
+
+bool LockstepServer::send_frames(const lockstep::Advance& advance) {
+  const bool intact = frames_.size() == advance.sent &&
+                      dxl::crc16(frames_.data(), frames_.size()) == advance.sent_crc;
+  if (!intact) ++counters_.damaged;
+  if (!intact && hooks_.damaged) hooks_.damaged();
+  // One of which nothing came was as long on the wire as any: nobody understood it.
+  if (frames_.empty()) frames_.resize(std::min<std::size_t>(advance.sent, hal::kMaxFrame));
+  const bool ticking = bus_.ticking();
+  const std::uint32_t tick = bus_.tick();
+  for (std::span<const std::uint8_t> rest(frames_); !rest.empty();) {
+    const std::size_t size = frame_size(rest);
+    if (!send_frame(rest.first(size), intact)) {
+      stopped_ = true;
+      break;
+    }
+    rest = rest.subspan(size);
+  }
+  frames_.clear();
+  return !stopped_ && bus_.ticking() && (!ticking || bus_.tick() != tick);
+}
+
+void LockstepServer::advance(const lockstep::Advance& advance, std::vector<std::uint8_t>& answer) {
+  if (answered_ && advance.sequence == sequence_) {
+    // What came with a repeat are the frames of nobody: the controller sends it alone.
+    frames_.clear();
+    ++counters_.repeats;
+    answer.insert(answer.end(), last_.begin(), last_.end());
+    return;
+  }
+  ++counters_.polls;
+  const std::uint32_t damaged = counters_.damaged;
+  lockstep::Advanced status{.sequence = advance.sequence};
+  if (!stopped_ && send_frames(advance) && hooks_.tick_begins) hooks_.tick_begins(bus_.tick());
+  last_.assign(std::min<std::size_t>(advance.capacity, lockstep::kMaxPollBytes), 0);
+  last_.resize(stopped_ ? 0 : bus_.poll(last_.data(), last_.size(), advance.timeout_us));
+  status.now_us = bus_.now_us();
+  status.size = static_cast<std::uint16_t>(last_.size());
+  status.crc = dxl::crc16(last_.data(), last_.size());
+  if (stopped_) status.flags |= lockstep::kStop;
+  if (counters_.damaged != damaged) status.flags |= lockstep::kFrameDamaged;
+  if (!stopped_ && hooks_.polled) hooks_.polled(last_, bus_.now_us());
+  append_status(last_, dxl::Error::kNone, status);
+  answered_ = true;
+  sequence_ = advance.sequence;
+  answer.insert(answer.end(), last_.begin(), last_.end());
+}
+
+}  // namespace verp::bus

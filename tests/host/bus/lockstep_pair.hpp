@@ -1,0 +1,95 @@
+#pragma once
+#include <algorithm>
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <random>
+#include <span>
+#include <vector>
+
+#include "hal/contract/byte_link.hpp"
+#include "host/bus/lockstep_server.hpp"
+
+/// A controller's link to a server in the same thread: the server answers while the controller
+/// waits. Bytes may be lost, doubled or flipped on the way, by chance from a seed.
+namespace verp::test {
+
+struct LinkFaults {
+  double lost = 0, doubled = 0, flipped = 0;  ///< of bytes
+};
+
+class ServedLink {
+ public:
+  explicit ServedLink(bus::LockstepServer& server) : server_(server) {}
+
+  std::size_t write(const std::uint8_t* data, std::size_t size, std::uint32_t) {
+    if (cut) return 0;
+    spoil({data, size}, to_server_, outbound);
+    return size;
+  }
+  std::size_t read(std::uint8_t* buffer, std::size_t capacity, std::uint32_t) {
+    if (to_client_.empty() && !cut) serve();
+    const std::size_t count = std::min(capacity, to_client_.size());
+    std::copy_n(to_client_.begin(), count, buffer);
+    to_client_.erase(to_client_.begin(), to_client_.begin() + static_cast<std::ptrdiff_t>(count));
+    if (count == 0) ++quiet_reads;
+    return count;
+  }
+  bool connected() const { return true; }
+  hal::LinkErrors errors() const { return {}; }
+  /// Puts bytes into the controller's ear.
+  void whisper(std::span<const std::uint8_t> bytes) {
+    to_client_.insert(to_client_.end(), bytes.begin(), bytes.end());
+  }
+
+  LinkFaults outbound, inbound;
+  bool cut = false;   ///< nothing gets through
+  int cut_every = 0;  ///< so many answers: cut, and that answer lost
+  std::uint64_t quiet_reads = 0;
+  std::uint64_t faults = 0;
+
+ private:
+  template <class To>
+  void spoil(std::span<const std::uint8_t> from, To& to, const LinkFaults& odds) {
+    std::uniform_real_distribution<double> chance(0, 1);
+    for (std::uint8_t byte : from) {
+      const double dice = odds.lost + odds.doubled + odds.flipped > 0 ? chance(random_) : 1;
+      const bool lost = dice < odds.lost;
+      const bool doubled = !lost && dice < odds.lost + odds.doubled;
+      const bool flipped = !lost && !doubled && dice < odds.lost + odds.doubled + odds.flipped;
+      faults += lost || doubled || flipped ? 1 : 0;
+      if (flipped) byte = static_cast<std::uint8_t>(byte ^ (1u << (random_() % 8)));
+      if (!lost) to.push_back(byte);
+      if (doubled) to.push_back(byte);
+    }
+  }
+  void serve() {
+    std::vector<std::uint8_t> answer;
+    server_.take(to_server_, answer);
+    to_server_.clear();
+    cut = !answer.empty() && cut_every > 0 && ++answers_ % cut_every == 0;
+    if (!cut) spoil(answer, to_client_, inbound);
+  }
+
+  bus::LockstepServer& server_;
+  std::vector<std::uint8_t> to_server_;
+  std::deque<std::uint8_t> to_client_;
+  std::minstd_rand random_{1};
+  int answers_ = 0;
+};
+static_assert(hal::ByteLink<ServedLink>);
+
+/// Counts its calls, mends the link with each hundredth, and may give up.
+struct Waiting {
+  bool operator()() {
+    ++calls;
+    if (calls % 100 == 0 && mends) link->cut = false;
+    return calls < most;
+  }
+  ServedLink* link;
+  bool mends = true;
+  std::uint64_t calls = 0;
+  std::uint64_t most = ~std::uint64_t{0};
+};
+
+}  // namespace verp::test

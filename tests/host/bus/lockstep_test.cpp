@@ -1,0 +1,220 @@
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <memory>
+
+#include "common/model/image.hpp"
+#include "firmware/app/app.hpp"
+#include "firmware/app/lockstep_bus.hpp"
+#include "host/bus/shadow_loop.hpp"
+#include "tests/host/bus/fake_plant.hpp"
+#include "tests/host/bus/lockstep_pair.hpp"
+
+namespace verp {
+namespace {
+
+/// An operator that walks from tick 20, and a recorder.
+struct Walker {
+  app::OperatorOrder order(std::uint32_t tick) const {
+    app::OperatorOrder order;
+    order.command.request = tick < 20 ? Request::kStand : Request::kWalk;
+    order.command.sequence = static_cast<std::uint8_t>(tick);
+    order.flags = kCommandFresh;
+    return order;
+  }
+  void record(const TickRecord& record, const State&, const Outputs&) { records.push_back(record); }
+  std::vector<TickRecord> records;
+};
+
+/// An operator's port: holds the order that the PC gave last.
+struct Port {
+  app::OperatorOrder order(std::uint32_t) {
+    const app::OperatorOrder order = next;
+    next.flags = 0;
+    return order;
+  }
+  void record(const TickRecord& record, const State&, const Outputs&) { records.push_back(record); }
+  app::OperatorOrder next;
+  std::vector<TickRecord> records;
+};
+
+bool same(const std::vector<TickRecord>& a, const std::vector<TickRecord>& b) {
+  if (a.size() != b.size()) return false;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    if (std::memcmp(&a[i], &b[i], sizeof(TickRecord)) != 0) return false;
+  }
+  return true;
+}
+
+constexpr int kTicks = 300;
+
+std::vector<TickRecord> records_here(const Params& params) {
+  test::FakePlant plant;
+  bus::VirtualBus bus(params, plant);
+  Walker walker;
+  app::App<bus::VirtualBus, Walker, Walker> loop(params, bus, walker, walker);
+  loop.bring_up();
+  for (int i = 0; i < kTicks; ++i) loop.tick();
+  return walker.records;
+}
+
+/// A twin, its server, and a controller at the other end of a link, which may be bad.
+class Lockstep : public ::testing::Test {
+ protected:
+  using Bus = app::LockstepBus<test::ServedLink, test::Waiting&>;
+  using Loop = app::App<Bus, Port, Port>;
+
+  void run(int ticks = kTicks) {
+    ASSERT_EQ(bus.greet(params), lockstep::Verdict::kAccepted);
+    ASSERT_EQ(loop.bring_up().status, app::BringUpStatus::kReady);
+    for (int i = 0; i < ticks; ++i) loop.tick();
+    std::uint8_t none[1];
+    ending = true;
+    // The end of the last tick is known by the beginning of another.
+    const std::uint8_t ids[] = {1, 2};
+    std::uint8_t frame[32];
+    const std::size_t size = dxl::encode_sync_read(frame, sizeof frame, dxl::Instruction::kSyncRead,
+                                                   dxl::address::kPresentPosition, 4, ids, 2);
+    while (!bus.stopped()) {
+      bus.send(frame, size);
+      bus.poll(none, sizeof none, 100);
+    }
+  }
+
+  bus::LockstepHooks hooks() {
+    bus::LockstepHooks hooks;
+    hooks.tick_ends = [this] {
+      shadow.catch_up();
+      return !ending;
+    };
+    hooks.tick_begins = [this](std::uint32_t tick) {
+      port.next = Walker{}.order(tick);
+      shadow.ordered(port.next);
+    };
+    hooks.sent = [this](auto frame) { shadow.sent(frame); };
+    hooks.damaged = [this] { shadow.damaged(); };
+    hooks.polled = [this](auto bytes, std::uint64_t now_us) { shadow.polled(bytes, now_us); };
+    hooks.refused = [this](const std::string& why) { refusal = why; };
+    return hooks;
+  }
+
+  Params params = test::bus_params(2);
+  test::FakePlant plant;
+  bus::VirtualBus twin{params, plant};
+  std::vector<TickRecord> shadow_records;
+  bus::ShadowLoop shadow{params, [this](const TickRecord& record, const State&, const Outputs&) {
+                           shadow_records.push_back(record);
+                         }};
+  bool ending = false;
+  std::string refusal;
+  Port port;
+  bus::LockstepServer server{params, twin, hooks()};
+  test::ServedLink link{server};
+  test::Waiting waiting{&link};
+  Bus bus{link, waiting};
+  Loop loop{params, bus, port, port};
+};
+
+// The same robot, the same orders: whether the controller is in this process or at the end of a
+// link, each tick's inputs and digests are the same bits; and the PC knows them.
+TEST_F(Lockstep, RecordsWhatTheLoopInThisProcessRecords) {
+  run();
+  EXPECT_TRUE(same(port.records, records_here(params)));
+  EXPECT_TRUE(same(shadow_records, port.records));
+  EXPECT_EQ(shadow.difference(), "");
+  EXPECT_EQ(server.counters().repeats + bus.counters().repeats, 0u);
+}
+
+// What is damaged on the way to the controller is asked for again, and no bit of the run changes.
+TEST_F(Lockstep, MakesGoodWhatTheLinkSpoilsOnTheWayToTheController) {
+  const std::vector<TickRecord> expected = records_here(params);
+  link.inbound = {.lost = 0.002, .doubled = 0.002, .flipped = 0.002};
+  run();
+  EXPECT_TRUE(same(port.records, expected));
+  EXPECT_GT(link.faults, 100u);
+  EXPECT_GT(bus.counters().spoilt, 50u);
+  EXPECT_EQ(bus.counters().damaged, 0u);
+  EXPECT_LE(server.counters().repeats, bus.counters().repeats);
+}
+
+// A frame that is damaged on its way is damaged on the bus, no more: the loop goes on, and the PC
+// still knows every bit of the controller.
+TEST_F(Lockstep, LetsADamagedFrameBeLostOnTheBus) {
+  link.outbound = {.lost = 0.001, .doubled = 0.001, .flipped = 0.001};
+  run();
+  EXPECT_EQ(port.records.size(), static_cast<std::size_t>(kTicks));
+  EXPECT_GT(bus.counters().damaged, 20u);
+  EXPECT_EQ(bus.counters().damaged, server.counters().damaged);
+  EXPECT_GT(loop.counters().timeouts, 0u);
+  EXPECT_EQ(shadow.difference(), "");
+  shadow_records.resize(port.records.size());  // the ending may have taken one more
+  EXPECT_TRUE(same(shadow_records, port.records));
+}
+
+// Whatever the link does, the exchange goes on and both ends agree.
+TEST_F(Lockstep, NeverHangsOnAVeryBadLink) {
+  link.outbound = link.inbound = {.lost = 0.01, .doubled = 0.01, .flipped = 0.01};
+  ASSERT_EQ(bus.greet(params), lockstep::Verdict::kAccepted);
+  loop.bring_up();  // may fail: servos that a request never reaches
+  std::uint64_t before_us = bus.now_us();
+  for (int i = 0; i < 100; ++i) {
+    loop.tick();
+    ASSERT_GE(bus.now_us(), before_us);
+    ASSERT_LT(bus.now_us() - before_us, 4 * params.period_us);
+    before_us = bus.now_us();
+  }
+  EXPECT_FALSE(bus.lost());
+  EXPECT_GT(link.faults, 500u);
+}
+
+// A link that is cut stops time; once restored, the run goes on as if nothing had been.
+TEST_F(Lockstep, WaitsOutACutLinkWithoutASingleTimeout) {
+  const std::vector<TickRecord> expected = records_here(params);
+  link.cut_every = 37;
+  run();
+  EXPECT_TRUE(same(port.records, expected));
+  EXPECT_EQ(loop.counters().timeouts, 0u);
+  EXPECT_GT(server.counters().repeats, 10u);
+}
+
+TEST_F(Lockstep, GivesUpWhenItsIdleHookSaysSo) {
+  ASSERT_EQ(bus.greet(params), lockstep::Verdict::kAccepted);
+  link.cut = true;
+  waiting.mends = false;
+  waiting.most = waiting.calls + 5000;
+  std::uint8_t byte[1];
+  EXPECT_EQ(bus.poll(byte, 1, 100), 0u);
+  EXPECT_TRUE(bus.lost());
+  EXPECT_TRUE(bus.stopped());
+  EXPECT_EQ(waiting.calls, waiting.most);
+}
+
+TEST_F(Lockstep, IsLostWhenTheTwinBeganAnew) {
+  run(5);
+  bus::LockstepServer fresh(params, twin, {});
+  std::vector<std::uint8_t> answer;
+  const lockstep::Advance advance{.sequence = 9, .capacity = 10, .timeout_us = 1000};
+  std::uint8_t request[lockstep::kMaxClockPacket];
+  const std::size_t size =
+      dxl::encode_write(request, sizeof request, lockstep::kClockId, lockstep::kAdvanceAddress,
+                        reinterpret_cast<const std::uint8_t*>(&advance), sizeof advance);
+  fresh.take({request, size}, answer);
+  link.whisper(answer);
+  std::uint8_t byte[1];
+  EXPECT_FALSE(bus.lost());
+  EXPECT_EQ(bus.poll(byte, 1, 100), 0u);
+  EXPECT_TRUE(bus.lost());
+}
+
+TEST_F(Lockstep, RefusesOtherParamsByName) {
+  Params other = params;
+  other.joint[1].servo_id += 1;
+  EXPECT_EQ(bus.greet(other), lockstep::Verdict::kOtherRobot);
+  EXPECT_TRUE(bus.lost());
+  EXPECT_NE(refusal.find("Params"), std::string::npos) << refusal;
+  EXPECT_FALSE(server.greeted());
+  EXPECT_EQ(bus.greet(params), lockstep::Verdict::kAccepted);
+}
+
+}  // namespace
+}  // namespace verp
