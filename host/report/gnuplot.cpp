@@ -24,6 +24,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr std::uintmax_t kLeastSpace_bytes = 4096;  // one block: less, and a file may be cut short
+
 std::string slurp(const fs::path& file) {
   std::ifstream in(file, std::ios::binary);
   return {std::istreambuf_iterator<char>(in), {}};
@@ -100,6 +102,12 @@ std::optional<std::string> output_of(const std::string& script, std::string& err
   }
   const fs::path out = scratch.path() / "plot", problems = scratch.path() / "stderr";
   const std::string failure = run_gnuplot(file.string(), out.string(), problems.string());
+  // gnuplot does not say so, and may end as if all were well.
+  std::error_code error_code;
+  if (fs::space(scratch.path(), error_code).available < kLeastSpace_bytes && !error_code) {
+    throw files::FileError(scratch.path().parent_path().string() +
+                           ": the disk is full; free space there, or point TMPDIR elsewhere");
+  }
   if (failure.empty()) return slurp(out);
   const std::string text = slurp(problems);
   const std::size_t start = text.find_first_not_of(" \n");

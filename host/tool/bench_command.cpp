@@ -13,6 +13,7 @@
 #include "host/board/emulated_board.hpp"
 #include "host/board/temporary_directory.hpp"
 #include "host/tool/bench_report.hpp"
+#include "host/tool/console.hpp"
 #include "host/tool/interrupt.hpp"
 #include "host/tool/progress.hpp"
 
@@ -215,7 +216,7 @@ int run_bench(const BenchOptions& options) {
         bench_table(rows, headings), 1e3 * kdl["apart_rad"].get<double>(),
         kdl["targets"].get<double>(), kdl["iterations_mean"].get<double>());
   }
-  if (!good) fmt::print(stderr, "verp bench: a promise on counts is not kept; see MISSED\n");
+  if (!good) complain("verp bench: a promise on counts is not kept; see MISSED");
   return good ? kGood : kRunFailed;
 }
 
@@ -230,7 +231,10 @@ Subcommand add_bench(CLI::App& root) {
       ->check(whole_number_between(1, 100))
       ->capture_default_str();
   add_json_flag(*app, options->json);
-  return {app, [options] { return run_bench(*options); }};
+  return {app, [options] {
+            catch_interrupts();
+            return run_bench(*options);
+          }};
 }
 
 }  // namespace verp::tool

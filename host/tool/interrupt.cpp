@@ -26,12 +26,15 @@ extern "C" void ask(int signal) {
 
 }  // namespace
 
+void keep_failing_writes() {
+  std::signal(SIGPIPE, SIG_IGN);
+  std::signal(SIGXFSZ, SIG_IGN);
+}
+
 void catch_interrupts() {
   std::signal(SIGINT, ask);
   std::signal(SIGTERM, ask);
   if (std::signal(SIGHUP, ask) == SIG_IGN) std::signal(SIGHUP, SIG_IGN);
-  std::signal(SIGPIPE, SIG_IGN);
-  std::signal(SIGXFSZ, SIG_IGN);
 }
 
 bool interrupted() {

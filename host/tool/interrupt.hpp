@@ -2,10 +2,13 @@
 
 namespace verp::tool {
 
+/// From now on a reader that went away (SIGPIPE) or a limit on the size of files (SIGXFSZ) ends
+/// nothing: the write that meets it fails.
+void keep_failing_writes();
+
 /// From now on SIGINT, SIGTERM and SIGHUP (the terminal was closed; unless `nohup` has us ignore
-/// it) ask the run to end instead of ending the program; a second one ends it at once. A reader
-/// that went away (SIGPIPE) or a limit on the size of files (SIGXFSZ) is no reason to lose a run:
-/// the write that meets it fails.
+/// it) ask the run to end instead of ending the program; a second one ends it at once. For
+/// subcommands that look at interrupted().
 void catch_interrupts();
 
 /// Whether somebody asked.

@@ -109,7 +109,7 @@ int parse_failure(const CLI::App& root, const CLI::ParseError& error, bool json)
 }
 
 int run(int argc, char** argv) {
-  catch_interrupts();
+  keep_failing_writes();
   const bool json = wants_json(argc, argv);
   if (const std::string line = empty_word(argc, argv); !line.empty()) {
     return fail(kBadInput, line, json);

@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
@@ -100,6 +101,27 @@ void write_csv(const record::Trace& trace, std::ostream& out) {
   }
 }
 
+/// A file appears whole or not at all; devices and pipes get it as it comes.
+void write_whole(const record::Trace& trace, const std::filesystem::path& file) {
+  namespace fs = std::filesystem;
+  std::error_code error;
+  const bool direct = fs::exists(file, error) && !fs::is_regular_file(file, error);
+  fs::path part = file;
+  if (!direct) part += "." + std::to_string(::getpid()) + ".part";
+  std::ofstream out(part);
+  if (!out) {
+    throw ToolError(
+        kBadInput, file.string() + ": cannot be written; choose a folder that exists and is yours");
+  }
+  write_csv(trace, out);
+  out.close();
+  if (out && !direct) fs::rename(part, file, error);
+  if (out && (direct || !error)) return;
+  if (!direct) fs::remove(part, error);
+  throw ToolError(kRunFailed,
+                  file.string() + ": cannot be written to its end; free space, or write elsewhere");
+}
+
 int export_csv(const TraceCommandOptions& options) {
   refuse_same_file(options);
   const record::Trace trace = load(options);
@@ -107,14 +129,7 @@ int export_csv(const TraceCommandOptions& options) {
     write_csv(trace, std::cout);
     return kGood;
   }
-  std::ofstream out(options.output);
-  write_csv(trace, out);
-  out.close();
-  if (!out) {
-    throw ToolError(kBadInput,
-                    fmt::format("{}: cannot be written; choose a folder that exists and is yours",
-                                options.output));
-  }
+  write_whole(trace, options.output);
   return kGood;
 }
 

@@ -72,7 +72,10 @@ Subcommand add_walk(CLI::App& root) {
   CLI::App* app = root.add_subcommand("walk", "Walk in the twin: summary, trace and report");
   auto options = std::make_shared<WalkOptions>();
   declare(*app, *options);
-  return {app, [options] { return run_walk(*options); }};
+  return {app, [options] {
+            catch_interrupts();
+            return run_walk(*options);
+          }};
 }
 
 }  // namespace verp::tool
