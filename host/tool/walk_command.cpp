@@ -7,6 +7,7 @@
 #include "host/model/params.hpp"
 #include "host/tool/command.hpp"
 #include "host/tool/console.hpp"
+#include "host/tool/interrupt.hpp"
 #include "host/tool/walk_files.hpp"
 #include "host/tool/walk_report.hpp"
 
