@@ -1,0 +1,63 @@
+#include "common/control/boot_check.hpp"
+
+#include "common/control/built_in_robot.hpp"
+#include "common/control/golden.hpp"
+#include "common/control/self_test.hpp"
+
+namespace verp::control {
+
+// Changes with kCoreVersion; the test of the boot check prints the new one.
+const std::uint64_t kBuiltInDigest = 0xcb9f08ba9a1a1349;
+
+namespace {
+
+// (1 + e)^2 - (1 + 2e) is e^2 only if the product was never rounded. Volatile: or the compiler
+// would know the answer.
+bool is_contracted() {
+  volatile float near_one = 1.0F + 0x1p-13F, rounded_square = 1.0F + 0x1p-12F;
+  const float a = near_one, c = rounded_square;
+  return a * a - c != 0.0F;
+}
+
+BootReport check_image_walk(const ParamsImage& image, State& state, BootReport report) {
+  report.golden_matches = static_cast<std::uint8_t>(count_golden_matches(image));
+  if (report.golden_matches != kGoldenVectors) {
+    report.verdict = BootVerdict::kKinematics;
+    return report;
+  }
+  report.digest = self_test_digest(image.params, state);
+  const std::uint64_t wanted =
+      std::uint64_t{image.self_test_digest[1]} << 32 | image.self_test_digest[0];
+  if (image.self_test_ticks != kSelfTestTicks || report.digest != wanted) {
+    report.verdict = BootVerdict::kControl;
+  }
+  return report;
+}
+
+}  // namespace
+
+std::uint64_t built_in_digest(Params& robot, State& state) {
+  make_built_in_robot(robot);
+  return self_test_digest(robot, state);
+}
+
+BootReport check_boot(const void* image, std::size_t size, Params& robot, State& state) {
+  BootReport report;
+  if (is_contracted()) {
+    report.verdict = BootVerdict::kContracted;
+    return report;
+  }
+  report.digest = built_in_digest(robot, state);
+  if (report.digest != kBuiltInDigest) {
+    report.verdict = BootVerdict::kCode;
+    return report;
+  }
+  report.image = check_image(image, size);
+  if (report.image != ImageFault::kNone) {
+    report.verdict = BootVerdict::kImage;
+    return report;
+  }
+  return check_image_walk(*static_cast<const ParamsImage*>(image), state, report);
+}
+
+}  // namespace verp::control
