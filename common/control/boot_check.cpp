@@ -3,6 +3,7 @@
 #include "common/control/built_in_robot.hpp"
 #include "common/control/golden.hpp"
 #include "common/control/self_test.hpp"
+#include "common/math/contraction.hpp"
 
 namespace verp::control {
 
@@ -10,14 +11,6 @@ namespace verp::control {
 const std::uint64_t kBuiltInDigest = 0xcb9f08ba9a1a1349;
 
 namespace {
-
-// (1 + e)^2 - (1 + 2e) is e^2 only if the product was never rounded. Volatile: or the compiler
-// would know the answer.
-bool is_contracted() {
-  volatile float near_one = 1.0F + 0x1p-13F, rounded_square = 1.0F + 0x1p-12F;
-  const float a = near_one, c = rounded_square;
-  return a * a - c != 0.0F;
-}
 
 BootReport check_image_walk(const ParamsImage& image, State& state, BootReport report) {
   report.golden_matches = static_cast<std::uint8_t>(count_golden_matches(image));
@@ -43,7 +36,7 @@ std::uint64_t built_in_digest(Params& robot, State& state) {
 
 BootReport check_boot(const void* image, std::size_t size, Params& robot, State& state) {
   BootReport report;
-  if (is_contracted()) {
+  if (math::is_contracted(1.0F + 0x1p-13F, 1.0F + 0x1p-12F)) {
     report.verdict = BootVerdict::kContracted;
     return report;
   }
