@@ -1,0 +1,97 @@
+#pragma once
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "hal/chip/stm32/registers/table.hpp"
+#include "tests/support/stm32/time.hpp"
+
+/// What every peripheral model has: registers that behave as their table says, and a record of each
+/// access that the table forbids.
+namespace verp::hal::stm32::model {
+
+class Machine;
+
+/// Which bit of which RCC enable register lets a peripheral run.
+struct Gate {
+  std::uint32_t enable_offset = 0;  ///< 0: always on
+  std::uint32_t enable_bit = 0;
+  std::uint32_t reset_bit = 0;  ///< in the reset register, which lies 0x20 below
+};
+
+class Bank {
+ public:
+  Bank(Machine& machine, std::string name, std::uint32_t base, const Table& table, Gate gate);
+  virtual ~Bank() = default;
+  Bank(const Bank&) = delete;
+  Bank& operator=(const Bank&) = delete;
+
+  const std::string& name() const { return name_; }
+  std::uint32_t base() const { return base_; }
+  const Gate& gate() const { return gate_; }
+  bool holds(std::uint32_t address) const { return address - base_ < window_; }
+
+  /// Accesses as they come from the bus; width in bytes. They check, then call on_read or on_write.
+  std::uint32_t bus_read(std::uint32_t address, unsigned width);
+  void bus_write(std::uint32_t address, std::uint32_t value, unsigned width);
+
+  /// What a register holds now, without the effects of a read.
+  std::uint32_t peek(std::uint32_t offset) const { return slot(offset).value; }
+
+  virtual void reset();
+  /// Does what is due at machine.now(); never called with anything due earlier left undone.
+  virtual void run() {}
+  /// The bus clocks are about to change: counts up to now with the old ones.
+  virtual void rebase() {}
+  /// When something is due next.
+  virtual Time next() const { return kNever; }
+  /// Whether it wants a DMA stream to fetch (or bring) something now.
+  virtual bool dma_request(bool /*transmit*/) const { return false; }
+  /// Level of an interrupt line.
+  virtual bool interrupt(unsigned) const { return false; }
+
+ protected:
+  /// Before a read: brings the value up to date. After it: the effects.
+  virtual void before_read(std::uint32_t /*offset*/) {}
+  virtual void after_read(std::uint32_t /*offset*/) {}
+  /// Whether the write may happen at all; says why not by violate().
+  virtual bool may_write(std::uint32_t /*offset*/, std::uint32_t /*raw*/) { return true; }
+  /// After a write: `raw` is what software wrote, `old` what the register held before.
+  virtual void on_write(std::uint32_t /*offset*/, std::uint32_t /*raw*/, std::uint32_t /*old*/) {}
+  /// Registers that may be accessed with less than 32 bits.
+  virtual bool narrow_ok(std::uint32_t /*offset*/, unsigned /*width*/) const { return false; }
+
+  void add_registers(const Table& table, std::uint32_t shift);
+  std::uint32_t& reg(std::uint32_t offset) { return slot(offset).value; }
+  std::uint32_t reg(std::uint32_t offset) const { return slot(offset).value; }
+  bool has(std::uint32_t offset, std::uint32_t mask) const { return (reg(offset) & mask) != 0; }
+  void set(std::uint32_t offset, std::uint32_t mask) { reg(offset) |= mask; }
+  void clear(std::uint32_t offset, std::uint32_t mask) { reg(offset) &= ~mask; }
+  void violate(const std::string& what) const;
+  Machine& machine() const { return machine_; }
+  unsigned access_width() const { return width_; }
+  void widen(std::uint32_t window) { window_ = window; }
+
+ private:
+  struct Slot {
+    Register rule;
+    std::uint32_t value = 0;
+    std::uint32_t last_read = 0;
+  };
+  Slot* find(std::uint32_t offset);
+  Slot& slot(std::uint32_t offset);
+  const Slot& slot(std::uint32_t offset) const;
+  /// False if the write can have no effect at all.
+  bool check_write(const Slot& slot, std::uint32_t raw) const;
+
+  Machine& machine_;
+  std::string name_;
+  std::uint32_t base_;
+  std::uint32_t window_ = 0;
+  Gate gate_;
+  std::vector<Slot> slots_;
+  std::vector<int> index_;  ///< word offset -> slot, -1 where there is none
+  unsigned width_ = 4;
+};
+
+}  // namespace verp::hal::stm32::model

@@ -1,0 +1,75 @@
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "hal/chip/stm32/registers/flash.hpp"
+#include "tests/support/stm32/bank.hpp"
+#include "tests/support/stm32/machine.hpp"
+
+/// Flash interface and memory. Programming clears bits; power may go in the middle of any write,
+/// which leaves the bits that were to change unsure until the next power-on. A read of the memory
+/// while it is busy waits, as the bus does; polling of BSY does not (as from code in RAM).
+namespace verp::hal::stm32::model {
+
+class FlashModel : public Bank {
+ public:
+  explicit FlashModel(Machine& machine);
+
+  // Script. DS8626, DS10693, DS10916, flash memory characteristics: a write takes up to 100 us,
+  // erasing up to 800 ms for 16 KB and 4 s for 128 KB at PSIZE 8, a half and a quarter of it at 32.
+  Time program_time = us(16);
+  Time erase_time_per_kb = ms(8);
+  bool busy_stuck = false;              ///< BSY never falls once it rose
+  std::uint32_t fail_next = 0;          ///< so many operations end with OPERR and half their work
+  std::uint32_t protected_sectors = 0;  ///< bit s: option bytes protect sector s
+
+  /// The power goes in the middle of the operation after `operations` more.
+  void cut_power_after(std::uint32_t operations) {
+    cut_planned_ = true;
+    until_cut_ = operations;
+  }
+  /// Unsure bits fall; called by Machine::power_on().
+  void power_on();
+  std::uint32_t programs() const { return programs_; }
+  std::uint32_t erases() const { return erases_; }
+
+  std::uint32_t wait_states() const;
+  bool has_memory(std::uint32_t address) const { return address - kFlashBase < memory_.size(); }
+  std::uint32_t memory_read(std::uint32_t address, unsigned width);
+  void memory_write(std::uint32_t address, std::uint32_t value, unsigned width);
+  /// Contents without a bus access.
+  std::uint8_t& byte(std::uint32_t address) { return memory_[address - kFlashBase]; }
+
+  void reset() override;
+  void run() override;
+  Time next() const override { return busy_stuck ? kNever : done_at_; }
+  bool interrupt(unsigned irq) const override;
+
+ protected:
+  bool may_write(std::uint32_t offset, std::uint32_t raw) override;
+  void on_write(std::uint32_t offset, std::uint32_t raw, std::uint32_t old) override;
+
+ private:
+  void key_written(std::uint32_t key);
+  void option_key_written(std::uint32_t key);
+  void start_erase();
+  void begin(Time takes);
+  void fail(std::uint32_t flag, const char* why);
+  int sector_of(std::uint32_t address) const;
+  /// True if the power went; `changing` are the bits that were to change in each byte.
+  bool power_goes();
+  std::uint32_t random();
+
+  std::vector<std::uint8_t> memory_;
+  std::vector<std::uint8_t> unsure_;
+  Time done_at_ = kNever;
+  unsigned keys_ = 0, option_keys_ = 0;
+  bool key_locked_ = false;
+  bool error_pending_ = false;
+  bool cut_planned_ = false;
+  std::uint32_t until_cut_ = 0;
+  std::uint32_t programs_ = 0, erases_ = 0;
+  std::uint32_t random_ = 0x2545F491;
+};
+
+}  // namespace verp::hal::stm32::model

@@ -1,0 +1,186 @@
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "hal/chip/stm32/io.hpp"
+#include "hal/chip/stm32/registers/memory_map.hpp"
+#include "tests/support/stm32/bank.hpp"
+#include "tests/support/stm32/time.hpp"
+
+/// A whole STM32 on the PC, as its reference manual describes it: what drivers meet in tests
+/// instead of silicon. Time passes with each access (Options::access_cycles) or by advance(); what
+/// happens outside (bytes on a line, a crystal that never starts, a bit that sticks) is the test's
+/// script. What a driver does against the manual is recorded, not forgiven: see violations().
+namespace verp::hal::stm32::model {
+
+class Machine;
+class AdcModel;
+class CoreModel;
+class DmaModel;
+class FlashModel;
+class GpioModel;
+class I2cModel;
+class IwdgModel;
+class PwrModel;
+class RccModel;
+class SpiModel;
+class TimerModel;
+class UsartModel;
+
+/// Drivers' way into the model.
+class ModelIo {
+ public:
+  explicit ModelIo(Machine& machine) : machine_(&machine) {}
+  std::uint8_t read8(std::uint32_t address);
+  std::uint16_t read16(std::uint32_t address);
+  std::uint32_t read32(std::uint32_t address);
+  void write8(std::uint32_t address, std::uint8_t value);
+  void write16(std::uint32_t address, std::uint16_t value);
+  void write32(std::uint32_t address, std::uint32_t value);
+  std::uint32_t bus_address(const void* data, std::size_t size);
+  void barrier();
+  bool mask_interrupts();
+  void unmask_interrupts();
+  void wait_for_interrupt();
+
+ private:
+  Machine* machine_;
+};
+
+static_assert(Io<ModelIo>);
+
+/// Why the chip was reset, as RCC_CSR tells it.
+enum class ResetCause { kPowerOn, kPin, kSoftware, kIwdg, kWwdg, kLowPower, kBrownOut };
+
+struct Options {
+  std::uint32_t hse_hz = 8000000;
+  std::uint32_t access_cycles = 10;  ///< of the core, for each access and the code around it
+};
+
+class Machine {
+ public:
+  explicit Machine(Family family, Options options = {});
+  ~Machine();
+  Machine(const Machine&) = delete;
+  Machine& operator=(const Machine&) = delete;
+
+  Family family() const { return family_; }
+  const Options& options() const { return options_; }
+  ModelIo io() { return ModelIo(*this); }
+
+  Time now() const { return now_; }
+  /// Lets time pass, as if the core slept; interrupts come meanwhile.
+  void advance(Time time) { advance_to(now_ + time); }
+  /// Something from outside happens at that time.
+  void at(Time when, std::function<void()> what);
+  std::uint64_t core_cycles() const;
+
+  /// What was done against the manual, in order: "USART2: write of 0x... to BRR while UE is set".
+  const std::vector<std::string>& violations() const { return violations_; }
+  std::string violations_text() const;
+  void forget_violations() { violations_.clear(); }
+
+  /// The handler runs when the line is up, the NVIC lets it and no other handler runs.
+  void attach(unsigned irq, std::function<void()> handler);
+
+  void reset(ResetCause cause);
+  std::uint32_t resets() const { return resets_; }
+  /// Called after each reset but the first; a test's handler may throw to end what ran.
+  void on_reset(std::function<void(ResetCause)> handler) { reset_handler_ = std::move(handler); }
+  /// No power: accesses do nothing and read 0, nothing advances but time.
+  bool dark() const { return dark_; }
+  void power_off();
+  void power_on();
+
+  AdcModel& adc(unsigned number);
+  CoreModel& core() { return *core_; }
+  DmaModel& dma(unsigned number);
+  FlashModel& flash() { return *flash_; }
+  GpioModel& gpio(char port);
+  I2cModel& i2c(unsigned number);
+  IwdgModel& iwdg() { return *iwdg_; }
+  PwrModel& pwr() { return *pwr_; }
+  RccModel& rcc() { return *rcc_; }
+  SpiModel& spi(unsigned number);
+  TimerModel& tim(unsigned number);
+  UsartModel& usart(unsigned number);
+
+  // For the models.
+  std::uint32_t bus_read(std::uint32_t address, unsigned width);
+  void bus_write(std::uint32_t address, std::uint32_t value, unsigned width);
+  void access_begins();
+  void settle();
+  void touch() { dirty_ = true; }
+  void violate(const std::string& what);
+  bool clocked(const Bank& bank, const std::string& what);
+  /// The clocks change from now on: everybody counts up to here with the old ones.
+  void clocks_change();
+  std::uint32_t map(const void* data, std::size_t size);
+  /// Memory behind a bus address, or null.
+  std::uint8_t* memory(std::uint32_t address, unsigned width);
+  bool mask_interrupts();
+  void unmask_interrupts();
+  void wait_for_interrupt();
+  void barrier();
+  /// Peripherals under this RCC reset bit go to their reset state.
+  void reset_banks(std::uint32_t reset_offset, std::uint32_t bits);
+  const std::vector<std::unique_ptr<Bank>>& banks() const { return banks_; }
+
+ private:
+  struct Region {
+    std::uint32_t address;
+    std::uint8_t* data;
+    std::size_t size;
+  };
+  template <class Model, class... Arguments>
+  Model& add(Arguments&&... arguments);
+  void add_serial();
+  void add_others();
+  Bank* bank_at(std::uint32_t address);
+  void advance_to(Time when);
+  Time next_event() const;
+  void run_due();
+  bool serve_dma();
+  void dispatch_interrupts();
+  bool deliver(unsigned irq);
+
+  Family family_;
+  Options options_;
+  Time now_ = 0;
+  Time next_ = 0;
+  bool dirty_ = true;
+  bool settling_ = false;
+  bool dark_ = false;
+  bool masked_ = false;
+  bool in_handler_ = false;
+  std::uint32_t resets_ = 0;
+  Time cycles_from_ = 0;
+  std::uint64_t cycles_before_ = 0;
+  Bank* last_bank_ = nullptr;
+  std::multimap<Time, std::function<void()>> script_;
+  std::map<unsigned, std::function<void()>> handlers_;
+  std::function<void(ResetCause)> reset_handler_;
+  std::vector<std::string> violations_;
+  std::vector<Region> regions_;
+  std::uint32_t next_region_ = 0x20000000;
+  std::vector<std::unique_ptr<Bank>> banks_;
+  std::unique_ptr<CoreModel> core_;
+  FlashModel* flash_ = nullptr;
+  IwdgModel* iwdg_ = nullptr;
+  PwrModel* pwr_ = nullptr;
+  RccModel* rcc_ = nullptr;
+  std::map<char, GpioModel*> gpio_;
+  std::map<unsigned, AdcModel*> adc_;
+  std::map<unsigned, DmaModel*> dma_;
+  std::map<unsigned, I2cModel*> i2c_;
+  std::map<unsigned, SpiModel*> spi_;
+  std::map<unsigned, TimerModel*> tim_;
+  std::map<unsigned, UsartModel*> usart_;
+};
+
+}  // namespace verp::hal::stm32::model

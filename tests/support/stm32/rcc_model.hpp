@@ -1,0 +1,83 @@
+#pragma once
+#include "hal/chip/stm32/registers/pwr.hpp"
+#include "hal/chip/stm32/registers/rcc_tables.hpp"
+#include "tests/support/stm32/bank.hpp"
+#include "tests/support/stm32/machine.hpp"
+
+/// Clock tree and reset flags. Oscillators and PLL take their time or never start, as the script
+/// says; a setting that the chip cannot bear is a violation at the moment it takes effect.
+namespace verp::hal::stm32::model {
+
+class RccModel : public Bank {
+ public:
+  explicit RccModel(Machine& machine);
+
+  // Script. Times from switching on to ready; kNever: it doesn't start, or never locks.
+  Time hse_start = ms(2);
+  Time pll_lock = us(100);
+  Time lsi_start = us(40);
+  Time switch_time = ns(500);  ///< from SW to SWS
+  bool sws_stuck = false;      ///< the system clock never switches
+
+  std::uint32_t sysclk_hz() const;
+  std::uint32_t hclk_hz() const;
+  std::uint32_t apb1_hz() const;
+  std::uint32_t apb2_hz() const;
+  std::uint32_t bus_hz(std::uint32_t base) const;  ///< of the APB on which `base` lies
+  std::uint32_t timer_hz(std::uint32_t base) const;
+  std::uint32_t pll_hz() const;
+
+  bool enabled(const Gate& gate) const { return (peek(gate.enable_offset) & gate.enable_bit) != 0; }
+  /// An enable bit was set by the last access: the peripheral's clock isn't there yet.
+  bool settling(const Gate& gate) const {
+    return gate.enable_offset == fresh_offset_ && (gate.enable_bit & fresh_bits_) != 0;
+  }
+  void clocks_settled() { fresh_bits_ = 0; }
+  void flag_reset(ResetCause cause);
+  /// Checks wait states, voltage and bus limits against the clocks of now.
+  void check_limits();
+
+  void reset() override;
+  void run() override;
+  Time next() const override;
+
+ protected:
+  bool may_write(std::uint32_t offset, std::uint32_t raw) override;
+  void on_write(std::uint32_t offset, std::uint32_t raw, std::uint32_t old) override;
+
+ private:
+  void control_written(std::uint32_t old);
+  void oscillator(std::uint32_t old, std::uint32_t on, std::uint32_t ready, Time& at, Time takes);
+  std::uint32_t source_hz(std::uint32_t source) const;
+  std::uint32_t pll_input_hz() const;
+  bool ready(std::uint32_t source) const;
+  void configuration_written();
+  void check_pll();
+
+  Time hse_at_ = kNever, hsi_at_ = kNever, pll_at_ = kNever, lsi_at_ = kNever, switch_at_ = kNever;
+  std::uint32_t fresh_offset_ = 0, fresh_bits_ = 0;
+};
+
+class PwrModel : public Bank {
+ public:
+  explicit PwrModel(Machine& machine);
+  Time overdrive_time = us(100);
+  bool overdrive_stuck = false;  ///< ODRDY and ODSWRDY never come
+
+  bool backup_unlocked() const { return (peek(pwr::kCr) & pwr::kCrDbp) != 0; }
+  bool overdrive() const;
+  /// Highest HCLK at this voltage scale.
+  std::uint32_t hclk_max_hz() const;
+  void run() override;
+  Time next() const override { return at_; }
+  void reset() override;
+
+ protected:
+  bool may_write(std::uint32_t offset, std::uint32_t raw) override;
+  void on_write(std::uint32_t offset, std::uint32_t raw, std::uint32_t old) override;
+
+ private:
+  Time at_ = kNever;
+};
+
+}  // namespace verp::hal::stm32::model
