@@ -11,7 +11,7 @@ struct FaultReport {
       0;  ///< instruction that faulted; 0 when the stack overflowed, as nothing was saved
   std::uint32_t lr = 0;
   std::uint32_t cause = 0;    ///< CFSR
-  std::uint32_t address = 0;  ///< BFAR, if the cause says that it holds one
+  std::uint32_t address = 0;  ///< BFAR or MMFAR, if the cause says so
   bool stack_overflow = false;
 };
 

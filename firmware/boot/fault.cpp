@@ -4,9 +4,11 @@
 #include "firmware/boot/stack.hpp"
 
 namespace {
-constexpr std::uintptr_t kCfsr = 0xE000ED28;  // ARMv7-M ARM, B3.2.15
-constexpr std::uintptr_t kBfar = 0xE000ED38;  // B3.2.18
+constexpr std::uintptr_t kCfsr = 0xE000ED28;   // ARMv7-M ARM, B3.2.15
+constexpr std::uintptr_t kBfar = 0xE000ED38;   // B3.2.18
+constexpr std::uintptr_t kMmfar = 0xE000ED34;  // B3.2.17
 constexpr std::uint32_t kBfarValid = 1u << 15;
+constexpr std::uint32_t kMmfarValid = 1u << 7;
 
 std::uint32_t read_register(std::uintptr_t address) {
   return *reinterpret_cast<const volatile std::uint32_t*>(address);
@@ -18,13 +20,20 @@ std::uint32_t read_register(std::uintptr_t address) {
 extern "C" [[noreturn]] void verp_fault_capture(const std::uint32_t* frame) {
   verp::boot::FaultReport report;
   report.cause = read_register(kCfsr);
-  report.address = (report.cause & kBfarValid) != 0 ? read_register(kBfar) : 0;
+  if ((report.cause & kBfarValid) != 0) report.address = read_register(kBfar);
+  if ((report.cause & kMmfarValid) != 0) report.address = read_register(kMmfar);
   report.stack_overflow = reinterpret_cast<std::uintptr_t>(frame) < verp::boot::stack_limit();
   if (!report.stack_overflow) {
     report.lr = frame[5];
     report.pc = frame[6];
   }
   verp_fault(report);
+}
+
+extern "C" void verp_fault_entry();
+/// A board that lets SysTick run has a handler of its own.
+extern "C" __attribute__((weak, naked)) void verp_systick() {
+  __asm__ volatile("b verp_fault_entry");
 }
 
 /// Every fault ends here. The stack may be the very thing that broke, so it starts again from the

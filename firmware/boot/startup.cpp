@@ -18,6 +18,7 @@ extern const Constructor verp_init_end[];
 
 [[noreturn]] void verp_reset();
 void verp_fault_entry();
+void verp_systick();
 }
 
 namespace {
@@ -50,6 +51,7 @@ union Vector {
 
 extern "C" void verp_reset() {
   enable_fpu();
+  verp::boot::guard_stack();
   verp::boot::paint_stack();
   fill_memory();
   for (const Constructor* constructor = verp_init_begin; constructor != verp_init_end;
@@ -59,8 +61,8 @@ extern "C" void verp_reset() {
   verp_exit(verp_main());
 }
 
-// The table of ARMv7-M ARM, B1.5.3. No image here uses an interrupt; a board that does adds its own
-// table behind this one, in section .vectors.interrupts.
+// The table of ARMv7-M ARM, B1.5.3. A board that uses interrupts adds its own table behind this
+// one, in section .vectors.interrupts.
 extern const Vector verp_vectors[16];
 __attribute__((section(".vectors"), used)) const Vector verp_vectors[16] = {
     {.stack = verp_stack_top},      // initial stack
@@ -78,5 +80,5 @@ __attribute__((section(".vectors"), used)) const Vector verp_vectors[16] = {
     {.handler = verp_fault_entry},  // debug monitor
     {.stack = nullptr},             // reserved
     {.handler = verp_fault_entry},  // PendSV
-    {.handler = verp_fault_entry},  // SysTick
+    {.handler = verp_systick},      // SysTick
 };

@@ -1,0 +1,27 @@
+#include "boards/stm32/hardware.hpp"
+#include "firmware/boot/boot.hpp"
+#include "firmware/boot/crash.hpp"
+
+/// How an image on silicon ends: by a reset. After a fault the record of it is kept; the next start
+/// begins with torque off, as every start does.
+namespace {
+
+[[noreturn]] void reset() {
+  using namespace verp::hal::stm32;
+  verp::board::Io io;
+  io.barrier();
+  io.write32(cortex_m::kAircr, cortex_m::kAircrKey | cortex_m::kAircrSysresetreq);
+  for (;;) {
+  }
+}
+
+}  // namespace
+
+extern "C" void verp_exit(int) {
+  reset();
+}
+
+extern "C" void verp_fault(const verp::boot::FaultReport& report) {
+  verp::boot::keep_crash(report);
+  reset();
+}

@@ -1,0 +1,80 @@
+#include "boards/stm32/hardware.hpp"
+
+#include "boards/stm32/vectors.hpp"
+#include "hal/chip/stm32/clock_gate.hpp"
+#include "hal/chip/stm32/interrupts.hpp"
+
+namespace verp::board {
+
+Timer timer(stm32::base::kTim2);
+Port servo_port(kServoPort.wiring, timer);
+Port operator_port(kOperatorPort.wiring, timer);
+
+namespace {
+
+// Servo replies may not wait for the operator. Handlers of one port share a priority: they must not
+// interrupt each other.
+constexpr std::uint8_t kServoPriority = 4;
+constexpr std::uint8_t kOperatorPriority = 8;
+constexpr std::uint8_t kTimerPriority = 12;
+
+void on_timer() {
+  timer.on_timer();
+}
+void on_servo_port() {
+  servo_port.on_interrupt();
+}
+void on_operator_port() {
+  operator_port.on_interrupt();
+}
+
+void connect(const SerialPort& port, std::uint8_t priority) {
+  stm32::enable_clock(Io{}, port.gate.enable_register, port.gate.mask);
+  stm32::enable_clock(Io{}, port.dma_gate.enable_register, port.dma_gate.mask);
+  stm32::Gpio<Io> gpio;
+  gpio.alternate(port.transmit, port.function);
+  gpio.alternate(port.receive, port.function, stm32::gpio::kPullUp);
+  stm32::enable_interrupt(Io{}, port.interrupt, priority);
+  stm32::enable_interrupt(Io{}, port.dma_interrupt, priority);
+}
+
+std::uint32_t clock_of(const SerialPort& port, const stm32::Clocks& clocks) {
+  return port.on_apb2 ? clocks.apb2_hz : clocks.apb1_hz;
+}
+
+}  // namespace
+
+Start start_hardware() {
+  Start start;
+  start.cause = stm32::take_reset_cause(Io{});
+  start.clocks = stm32::ClockTree<Io>(kFamily, kClockPlan).start();
+  if (start.clocks.source == stm32::ClockSource::kAbsent) start.clocks = kWithoutClockController;
+  stm32::enable_clock(Io{}, stm32::rcc::kApb1enr, stm32::rcc::kApb1Tim2);
+  start.good = timer.open(start.clocks.apb1_timer_hz, start.clocks.sysclk_hz);
+  stm32::enable_interrupt(Io{}, stm32::irq::kTim2, kTimerPriority);
+  connect(kServoPort, kServoPriority);
+  connect(kOperatorPort, kOperatorPriority);
+  return start;
+}
+
+bool open_servo_port(const Start& start, std::uint32_t baud) {
+  return servo_port.open(clock_of(kServoPort, start.clocks), baud);
+}
+bool open_operator_port(const Start& start) {
+  return operator_port.open(clock_of(kOperatorPort, start.clocks), kOperatorBaud);
+}
+
+}  // namespace verp::board
+
+/// SysTick only ends a wait (hal/chip/stm32/tick_timer.hpp).
+extern "C" void verp_systick() {}
+
+extern const verp::board::InterruptTable verp_interrupts;
+__attribute__((section(".vectors.interrupts"), used))
+const verp::board::InterruptTable verp_interrupts = verp::board::make_interrupts({
+    {verp::hal::stm32::irq::kTim2, verp::board::on_timer},
+    {verp::board::kServoPort.interrupt, verp::board::on_servo_port},
+    {verp::board::kServoPort.dma_interrupt, verp::board::on_servo_port},
+    {verp::board::kOperatorPort.interrupt, verp::board::on_operator_port},
+    {verp::board::kOperatorPort.dma_interrupt, verp::board::on_operator_port},
+});

@@ -1,0 +1,33 @@
+#pragma once
+#include "board.hpp"
+#include "hal/chip/stm32/memory_io.hpp"
+#include "hal/chip/stm32/reset_cause.hpp"
+#include "hal/chip/stm32/tick_timer.hpp"
+#include "hal/chip/stm32/usart.hpp"
+#include "hal/chip/stm32/watchdog.hpp"
+
+/// The chip of the board that is being built: its drivers, and how they come up. Static, because
+/// interrupts find them here.
+namespace verp::board {
+
+using Io = stm32::MemoryIo;
+using Timer = stm32::TickTimer<Io>;
+using Port = stm32::Usart<Io, UsartKind, Timer>;
+
+extern Timer timer;
+extern Port servo_port;
+extern Port operator_port;
+
+struct Start {
+  stm32::Clocks clocks;
+  stm32::ResetCause cause = stm32::ResetCause::kUnknown;
+  bool good = false;  ///< false: the timer does not count; nothing can be done in time
+};
+
+/// Clocks, pins, timer and interrupts; the ports are opened at their baud rates later. Once.
+Start start_hardware();
+/// False if no divider makes this rate. Never waits.
+bool open_servo_port(const Start& start, std::uint32_t baud);
+bool open_operator_port(const Start& start);
+
+}  // namespace verp::board

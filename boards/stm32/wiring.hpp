@@ -1,0 +1,32 @@
+#pragma once
+#include <cstdint>
+
+#include "hal/chip/stm32/clock.hpp"
+#include "hal/chip/stm32/gpio.hpp"
+#include "hal/chip/stm32/usart.hpp"
+
+/// The words in which a board.hpp says how its STM32 is connected.
+namespace verp::board {
+
+using hal::stm32::Pin;
+
+/// A peripheral's clock: the register of the clock controller that has its bit.
+struct ClockGate {
+  std::uint32_t enable_register = 0;
+  std::uint32_t mask = 0;
+};
+
+/// A serial port: pins, and which interrupts and DMA stream the chip has for it.
+struct SerialPort {
+  hal::stm32::UsartWiring wiring;
+  Pin transmit;
+  Pin receive;
+  std::uint32_t function = 0;  ///< alternate function of both pins
+  ClockGate gate;
+  ClockGate dma_gate;
+  bool on_apb2 = false;  ///< else on APB1
+  unsigned interrupt = 0;
+  unsigned dma_interrupt = 0;
+};
+
+}  // namespace verp::board

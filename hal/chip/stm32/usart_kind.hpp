@@ -1,0 +1,70 @@
+#pragma once
+#include <cstdint>
+
+#include "hal/chip/stm32/io.hpp"
+#include "hal/chip/stm32/registers/usart.hpp"
+
+/// What differs between the two kinds of USART, and how fast they can be.
+namespace verp::hal::stm32 {
+
+/// Flags that stand at the same place in SR and ISR.
+namespace usart_flag {
+inline constexpr std::uint32_t kParity = bit(0), kFraming = bit(1), kNoise = bit(2),
+                               kOverrun = bit(3), kIdle = bit(4), kReceived = bit(5),
+                               kSent = bit(6), kRoom = bit(7);
+inline constexpr std::uint32_t kErrors = kParity | kFraming | kNoise | kOverrun;
+}  // namespace usart_flag
+
+/// F4: reading SR and then DR clears errors and IDLE, whoever reads DR.
+struct UsartV1 {
+  static constexpr std::uint32_t kStatus = usart_v1::kSr, kReceive = usart_v1::kDr,
+                                 kTransmit = usart_v1::kDr, kBrr = usart_v1::kBrr,
+                                 kCr1 = usart_v1::kCr1, kCr2 = usart_v1::kCr2,
+                                 kCr3 = usart_v1::kCr3;
+  static constexpr std::uint32_t kEnable = usart_v1::kCr1Ue;
+
+  /// `status` is what was just read. A byte that is still there belongs to its reader, whose
+  /// reading it clears the flags as well.
+  template <Io Access>
+  static void clear(Access& io, std::uint32_t base, std::uint32_t status) {
+    if ((status & usart_flag::kReceived) == 0) io.read32(base + kReceive);
+  }
+};
+
+/// F7: ICR clears.
+struct UsartV2 {
+  static constexpr std::uint32_t kStatus = usart_v2::kIsr, kReceive = usart_v2::kRdr,
+                                 kTransmit = usart_v2::kTdr, kBrr = usart_v2::kBrr,
+                                 kCr1 = usart_v2::kCr1, kCr2 = usart_v2::kCr2,
+                                 kCr3 = usart_v2::kCr3;
+  static constexpr std::uint32_t kEnable = usart_v2::kCr1Ue;
+
+  template <Io Access>
+  static void clear(Access& io, std::uint32_t base, std::uint32_t status) {
+    io.write32(base + usart_v2::kIcr, status & (usart_flag::kErrors | usart_flag::kIdle));
+  }
+};
+static_assert(usart_v1::kCr1Over8 == usart_v2::kCr1Over8 && usart_v1::kCr1Te == usart_v2::kCr1Te &&
+              usart_v1::kCr1Re == usart_v2::kCr1Re && usart_v1::kCr3Eie == usart_v2::kCr3Eie &&
+              usart_v1::kCr3Dmar == usart_v2::kCr3Dmar);
+
+struct BaudSetting {
+  std::uint32_t brr = 0;
+  bool over8 = false;
+};
+
+/// False if no divider comes within one percent: start, stop and eight data bits survive about 4 %
+/// between the two ends (RM0090 30.3.5), of which the internal oscillator may need one.
+constexpr bool choose_baud(std::uint32_t clock_hz, std::uint32_t baud, BaudSetting& setting) {
+  if (baud == 0 || baud > clock_hz / 8) return false;
+  const std::uint32_t divider = (clock_hz + baud / 2) / baud;  // clock cycles a bit
+  if (divider > 0xFFFF) return false;
+  const std::uint64_t real = std::uint64_t{divider} * baud;
+  const std::uint64_t off = real > clock_hz ? real - clock_hz : clock_hz - real;
+  if (off * 100 > clock_hz) return false;
+  setting.over8 = divider < 16;
+  setting.brr = setting.over8 ? (divider >> 3) << 4 | (divider & 7u) : divider;
+  return true;
+}
+
+}  // namespace verp::hal::stm32
