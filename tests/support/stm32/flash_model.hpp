@@ -23,6 +23,8 @@ class FlashModel : public Bank {
   std::uint32_t fail_next = 0;          ///< so many operations end with OPERR and half their work
   std::uint32_t protected_sectors = 0;  ///< bit s: option bytes protect sector s
 
+  /// How unsure bits will fall.
+  void seed(std::uint32_t seed) { random_ = seed * 2654435761u | 1u; }
   /// The power goes in the middle of the operation after `operations` more.
   void cut_power_after(std::uint32_t operations) {
     cut_planned_ = true;
