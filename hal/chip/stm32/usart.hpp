@@ -43,10 +43,11 @@ class Usart {
     write(Kind::kBrr, setting.brr);
     baud_ = baud;
     by_dma_ = start_dma();
-    write(Kind::kCr3, usart_v1::kCr3Eie | (by_dma_ ? usart_v1::kCr3Dmar : 0));
-    write(Kind::kCr1, Kind::kEnable | usart_v1::kCr1Te | usart_v1::kCr1Re | usart_v1::kCr1Idleie |
+    // Byte by byte, flaws come with their bytes, and an idle line wakes nobody who isn't awake.
+    write(Kind::kCr3, by_dma_ ? usart_v1::kCr3Eie | usart_v1::kCr3Dmar : 0);
+    write(Kind::kCr1, Kind::kEnable | usart_v1::kCr1Te | usart_v1::kCr1Re |
                           (setting.over8 ? usart_v1::kCr1Over8 : 0) |
-                          (by_dma_ ? 0 : usart_v1::kCr1Rxneie));
+                          (by_dma_ ? usart_v1::kCr1Idleie : usart_v1::kCr1Rxneie));
     return true;
   }
 
@@ -116,7 +117,7 @@ class Usart {
 
   bool start_dma() {
     if (wiring_.dma_base == 0) return false;
-    io_.write32(stream(dma::kCr), 0);
+    modify32(io_, stream(dma::kCr), dma::kCrEn, 0);
     for (int poll = 0; (io_.read32(stream(dma::kCr)) & dma::kCrEn) != 0; ++poll) {
       if (poll == kDmaPolls) return false;
     }

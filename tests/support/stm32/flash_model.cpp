@@ -62,9 +62,13 @@ bool FlashModel::may_write(std::uint32_t offset, std::uint32_t raw) {
     return false;
   }
   const bool f4 = machine().family() != Family::kF746;
-  const std::uint32_t resets = f4 ? raw & (kAcrIcrstF4 | kAcrDcrstF4) : raw & kAcrArtrstF7;
-  const std::uint32_t enables = f4 ? kAcrIcenF4 | kAcrDcenF4 : kAcrArtenF7;
-  if (offset == kAcr && resets != 0 && has(kAcr, enables)) {
+  // Each reset bit asks for its own cache to be off (RM0090 3.9.1).
+  const auto hot = [&](std::uint32_t reset_bit, std::uint32_t enable_bit) {
+    return (raw & reset_bit) != 0 && has(kAcr, enable_bit);
+  };
+  const bool wrong = f4 ? hot(kAcrIcrstF4, kAcrIcenF4) || hot(kAcrDcrstF4, kAcrDcenF4)
+                        : hot(kAcrArtrstF7, kAcrArtenF7);
+  if (offset == kAcr && wrong) {
     violate("cache reset while it is enabled");
   }
   return true;

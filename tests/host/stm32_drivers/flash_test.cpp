@@ -1,0 +1,107 @@
+#include "hal/chip/stm32/flash_pages.hpp"
+
+#include "firmware/store/flash_store.hpp"
+#include "hal/chip/stm32/watchdog.hpp"
+#include "tests/host/stm32_drivers/rig.hpp"
+#include "tests/support/stm32/flash_model.hpp"
+#include "tests/support/stm32/iwdg_model.hpp"
+
+// The promises of hal/contract/flash_pages.hpp, kept by the chip's own flash.
+namespace verp::hal::stm32::test {
+namespace {
+
+using Dog = IndependentWatchdog<Io>;
+using Pages = SectorPages<Io, Timer, Dog>;
+static_assert(FlashPages<Pages>);
+
+class FlashDriver : public EachFamily {
+ protected:
+  FlashDriver() {
+    for (std::uint32_t i = 0; i < 8; ++i) memory(i) = 0;
+  }
+  std::uint8_t& memory(std::uint32_t offset) {
+    return rig.machine.flash().byte(limits(GetParam()).sectors[1].address + offset);
+  }
+  Rig rig{GetParam()};
+  Dog dog{ResetCause::kPowerOn, rig.machine.io()};
+  Pages pages{GetParam(), 1, 2, rig.timer, dog, rig.machine.io()};
+};
+INSTANTIATE_TEST_SUITE_P(, FlashDriver, kFamilies, name_of);
+
+TEST_P(FlashDriver, EraseSetsAllBitsOfItsSectorOnly) {
+  rig.machine.flash().byte(limits(GetParam()).sectors[2].address) = 0x12;
+  ASSERT_TRUE(pages.erase(0));
+  std::uint8_t bytes[8];
+  pages.read(0, 0, bytes, sizeof bytes);
+  for (const std::uint8_t byte : bytes) EXPECT_EQ(byte, 0xFF);
+  pages.read(1, 0, bytes, 1);
+  EXPECT_EQ(bytes[0], 0x12);
+}
+
+TEST_P(FlashDriver, ProgrammingOnlyClearsBits) {
+  ASSERT_TRUE(pages.erase(0));
+  const std::uint8_t first[4] = {0xF0, 0x0F, 0xAA, 0xFF};
+  const std::uint8_t second[4] = {0xCC, 0xCC, 0xCC, 0xCC};
+  EXPECT_TRUE(pages.program(0, 8, first));
+  EXPECT_TRUE(pages.program(0, 8, second));
+  for (std::uint32_t i = 0; i < 4; ++i) EXPECT_EQ(memory(8 + i), first[i] & second[i]);
+}
+
+TEST_P(FlashDriver, ReportsWhatTheMemoryReports) {
+  ASSERT_TRUE(pages.erase(0));
+  const std::uint8_t word[4] = {1, 2, 3, 4};
+  rig.machine.flash().fail_next = 1;
+  EXPECT_FALSE(pages.program(0, 0, word));
+  rig.machine.flash().fail_next = 1;
+  EXPECT_FALSE(pages.erase(0));
+  EXPECT_TRUE(pages.erase(0)) << "the error of before is forgotten";
+  rig.machine.flash().protected_sectors = 1u << 1;
+  EXPECT_FALSE(pages.program(0, 0, word));
+  EXPECT_FALSE(pages.erase(0));
+}
+
+TEST_P(FlashDriver, ABusyFlagThatSticksIsAnErrorAndNotAWait) {
+  const std::uint8_t word[4] = {};
+  rig.machine.flash().busy_stuck = true;
+  EXPECT_FALSE(pages.program(0, 0, word));
+  EXPECT_FALSE(pages.program(0, 4, word));
+  EXPECT_FALSE(pages.erase(0));
+}
+
+TEST_P(FlashDriver, RefusesWhatIsNoUnitOfAPage) {
+  const std::uint8_t word[4] = {};
+  EXPECT_FALSE(pages.program(0, 2, word));
+  EXPECT_FALSE(pages.program(2, 0, word));
+  EXPECT_FALSE(pages.program(0, pages.page_bytes(0), word));
+  EXPECT_FALSE(pages.erase(2));
+}
+
+TEST_P(FlashDriver, WatchdogSleepsThroughAnEraseAndWakesAfterIt) {
+  rig.machine.flash().erase_time_per_kb = ms(30);
+  rig.machine.iwdg().lsi_hz = 47'000;
+  ASSERT_TRUE(dog.start(20'000));
+  EXPECT_TRUE(pages.erase(0));
+  EXPECT_EQ(rig.machine.resets(), 0u);
+  rig.machine.advance(ms(70));
+  EXPECT_EQ(rig.machine.resets(), 1u) << "it guards again";
+}
+
+TEST_P(FlashDriver, CarriesTheStore) {
+  store::FlashStore<Pages> store(pages);
+  store.open();
+  for (std::uint8_t round = 0; round < 20; ++round) {
+    const std::uint8_t value[5] = {round, 1, 2, 3, 4};
+    ASSERT_EQ(store.put(7, value, sizeof value), PutResult::kAccepted);
+    WorkState state = WorkState::kWorking;
+    for (int i = 0; i < 50 && state == WorkState::kWorking; ++i) state = store.work(true);
+    ASSERT_EQ(state, WorkState::kIdle);
+  }
+  store::FlashStore<Pages> after_reset(pages);
+  after_reset.open();
+  std::uint8_t value[5] = {};
+  EXPECT_EQ(after_reset.get(7, value, sizeof value), 5u);
+  EXPECT_EQ(value[0], 19);
+}
+
+}  // namespace
+}  // namespace verp::hal::stm32::test
