@@ -1,5 +1,6 @@
 #include <utility>
 
+#include "common/protocol/device_end.hpp"
 #include "host/bus/virtual_bus.hpp"
 
 // What each instruction of the protocol does on the bus.
@@ -7,52 +8,15 @@ namespace verp::bus {
 namespace {
 
 std::uint8_t error_field(const Device& device, dxl::Error error) {
-  return static_cast<std::uint8_t>(static_cast<std::uint8_t>(error) |
-                                   (device.alert() ? dxl::kAlert : 0));
-}
-
-// What a Sync or Bulk Read asks for, device by device; nothing if the packet is malformed or
-// another.
-struct Wanted {
-  std::uint8_t id;
-  std::uint16_t address;
-  std::uint16_t length;
-};
-
-std::vector<Wanted> wanted(const dxl::Packet& packet) {
-  std::vector<Wanted> all;
-  const std::uint8_t* parameters = packet.parameters;
-  switch (packet.instruction) {
-    case dxl::Instruction::kSyncRead:
-    case dxl::Instruction::kFastSyncRead:
-      for (std::size_t i = 4; i < packet.size; ++i) {
-        all.push_back({parameters[i], dxl::get_u16(parameters), dxl::get_u16(parameters + 2)});
-      }
-      break;
-    case dxl::Instruction::kBulkRead:
-    case dxl::Instruction::kFastBulkRead:
-      if (packet.size % dxl::kBulkEntryBytes != 0) break;
-      for (std::size_t i = 0; i < packet.size; i += dxl::kBulkEntryBytes) {
-        all.push_back(
-            {parameters[i], dxl::get_u16(parameters + i + 1), dxl::get_u16(parameters + i + 3)});
-      }
-      break;
-    default:
-      break;
-  }
-  return all;
-}
-
-bool is_fast(dxl::Instruction instruction) {
-  return instruction == dxl::Instruction::kFastSyncRead ||
-         instruction == dxl::Instruction::kFastBulkRead;
+  return dxl::error_field(error, device.alert());
 }
 
 }  // namespace
 
 bool VirtualBus::begins_tick(const dxl::Packet& packet) {
   if (packet.id != dxl::kBroadcast) return false;
-  for (const Wanted& each : wanted(packet)) {
+  dxl::ReadEntry each;
+  for (std::size_t i = 0; dxl::read_entry(packet, i, each); ++i) {
     if (each.address <= dxl::address::kPresentPosition &&
         each.address + each.length >= dxl::address::kPresentPosition + 4) {
       return true;
@@ -96,11 +60,10 @@ void VirtualBus::handle(const dxl::Packet& packet, std::uint64_t end_ns) {
     case dxl::Instruction::kBulkRead:
     case dxl::Instruction::kFastSyncRead:
     case dxl::Instruction::kFastBulkRead:
-      return is_fast(packet.instruction) ? read_fast(packet) : read_each(packet);
+      return dxl::is_fast_read(packet.instruction) ? read_fast(packet) : read_each(packet);
     case dxl::Instruction::kSyncWrite:
-      return sync_write(packet);
     case dxl::Instruction::kBulkWrite:
-      return bulk_write(packet);
+      return write_each(packet);
     default:
       if (packet.id == dxl::kBroadcast) return;
       return command(packet.id, [](Device&) { return dxl::Error::kInstruction; });
@@ -158,7 +121,8 @@ void VirtualBus::factory_reset(const dxl::Packet& packet) {
 }
 
 void VirtualBus::read_each(const dxl::Packet& packet) {
-  for (const Wanted& want : wanted(packet)) {
+  dxl::ReadEntry want;
+  for (std::size_t i = 0; dxl::read_entry(packet, i, want); ++i) {
     Device* each = device(want.id);
     if (each == nullptr || each->status_level() < 1) return;
     wait_us(each->return_delay_us());
@@ -169,42 +133,31 @@ void VirtualBus::read_each(const dxl::Packet& packet) {
 }
 
 void VirtualBus::read_fast(const dxl::Packet& packet) {
-  const std::vector<Wanted> all = wanted(packet);
+  dxl::ReadEntry want;
   std::size_t all_bytes = 0;
-  for (const Wanted& want : all) all_bytes += want.length + dxl::kFastBlockBytes;
+  for (std::size_t i = 0; dxl::read_entry(packet, i, want); ++i) {
+    all_bytes += want.length + dxl::kFastBlockBytes;
+  }
   std::uint16_t crc = 0;
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    Device* each = device(all[i].id);
+  for (std::size_t i = 0; dxl::read_entry(packet, i, want); ++i) {
+    Device* each = device(want.id);
     if (each == nullptr || each->status_level() < 1 || !each->answers_fast_sync_read()) return;
     wait_us(i == 0 ? each->return_delay_us() : 0);
-    const auto data = each->read(all[i].address, all[i].length);
+    const auto data = each->read(want.address, want.length);
     if (data.empty()) return;
     std::vector<std::uint8_t> block(dxl::kFastHeaderBytes + dxl::kFastBlockBytes + data.size());
-    block.resize(dxl::encode_fast_block(block.data(), i == 0, all_bytes, all[i].id,
+    block.resize(dxl::encode_fast_block(block.data(), i == 0, all_bytes, want.id,
                                         error_field(*each, dxl::Error::kNone), data.data(),
                                         data.size(), crc));
     put_on_wire(std::move(block));
   }
 }
 
-void VirtualBus::sync_write(const dxl::Packet& packet) {
-  if (packet.size < 4) return;
-  const std::uint16_t address = dxl::get_u16(packet.parameters);
-  const std::size_t length = dxl::get_u16(packet.parameters + 2);
-  for (std::size_t i = 4; i + 1 + length <= packet.size; i += 1 + length) {
-    Device* each = device(packet.parameters[i]);
-    if (each != nullptr) each->write(address, {packet.parameters + i + 1, length});
-  }
-}
-
-void VirtualBus::bulk_write(const dxl::Packet& packet) {
-  for (std::size_t i = 0; i + dxl::kBulkEntryBytes <= packet.size;) {
-    const std::uint8_t* entry = packet.parameters + i;
-    const std::size_t length = dxl::get_u16(entry + 3);
-    i += dxl::kBulkEntryBytes + length;
-    Device* each = device(entry[0]);
-    if (each == nullptr || i > packet.size) continue;
-    each->write(dxl::get_u16(entry + 1), {entry + dxl::kBulkEntryBytes, length});
+void VirtualBus::write_each(const dxl::Packet& packet) {
+  dxl::WriteEntry entry;
+  for (std::size_t offset = 0; dxl::write_entry(packet, offset, entry);) {
+    Device* each = device(entry.id);
+    if (each != nullptr) each->write(entry.address, {entry.data, entry.size});
   }
 }
 

@@ -4,16 +4,13 @@
 #include <utility>
 
 #include "common/protocol/control_table.hpp"
+#include "common/protocol/device_end.hpp"
 
 namespace verp::bus {
 namespace {
 
 std::int64_t decode(const Register& reg, const std::uint8_t* bytes) {
-  std::uint32_t raw = 0;
-  for (int i = 0; i < reg.size; ++i) raw |= static_cast<std::uint32_t>(bytes[i]) << (8 * i);
-  if (reg.minimum >= 0) return raw;
-  const int unused_bits = 32 - 8 * reg.size;
-  return static_cast<std::int32_t>(raw << unused_bits) >> unused_bits;
+  return dxl::register_value(bytes, reg.size, reg.minimum < 0);
 }
 
 }  // namespace
@@ -65,19 +62,12 @@ std::int64_t RegisterTable::value_in(const Register& reg, std::uint16_t address,
 
 dxl::Error RegisterTable::check(std::uint16_t address, std::span<const std::uint8_t> data,
                                 bool eeprom_locked) const {
-  if (data.empty()) return dxl::Error::kDataLength;
-  const std::size_t end = address + data.size();
-  std::size_t at = address;
-  while (at < end) {
-    const Register* reg = find(static_cast<std::uint16_t>(at));
-    if (reg == nullptr || !reg->writable) return dxl::Error::kAccess;
-    if (eeprom_locked && at < dxl::address::kTorqueEnable) return dxl::Error::kAccess;
-    if (at + reg->size > end) return dxl::Error::kDataLength;
-    const std::int64_t value = value_in(*reg, address, data);
-    if (value < reg->minimum || value > reg->maximum) return dxl::Error::kDataRange;
-    at += reg->size;
-  }
-  return dxl::Error::kNone;
+  return dxl::check_write(address, data.data(), data.size(), [&](std::uint16_t at) {
+    const Register* reg = find(at);
+    if (reg == nullptr) return dxl::WriteRule{};
+    const bool locked = eeprom_locked && at < dxl::address::kTorqueEnable;
+    return dxl::WriteRule{reg->size, reg->writable && !locked, reg->minimum, reg->maximum};
+  });
 }
 
 void RegisterTable::store(std::uint16_t address, std::span<const std::uint8_t> data) {

@@ -78,8 +78,7 @@ class VirtualBus {
   void factory_reset(const dxl::Packet& packet);
   void read_each(const dxl::Packet& packet);
   void read_fast(const dxl::Packet& packet);
-  void sync_write(const dxl::Packet& packet);
-  void bulk_write(const dxl::Packet& packet);
+  void write_each(const dxl::Packet& packet);
 
   sim::Plant& plant_;
   std::uint64_t period_ns_;

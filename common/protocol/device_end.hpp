@@ -1,0 +1,75 @@
+#pragma once
+#include <cstddef>
+#include <cstdint>
+
+#include "common/protocol/dynamixel2.hpp"
+
+/// The device's end of Protocol 2.0, as far as it is the same for every device: which part of a
+/// packet is meant for it, and whether a write may be done. Rules as the e-Manual has them.
+namespace verp::dxl {
+
+/// What a Sync or Bulk Read, fast or not, wants of one device.
+struct ReadEntry {
+  std::uint8_t id = 0;
+  std::uint16_t address = 0;
+  std::uint16_t length = 0;
+};
+/// Entry `index` of such a read, in the order in which the devices answer; false if there is none,
+/// or if the packet is malformed or another.
+bool read_entry(const Packet& packet, std::size_t index, ReadEntry& entry);
+
+/// What a Sync or Bulk Write brings one device.
+struct WriteEntry {
+  std::uint8_t id = 0;
+  std::uint16_t address = 0;
+  const std::uint8_t* data = nullptr;
+  std::size_t size = 0;
+};
+/// The entry at `offset` of such a write; moves `offset`, which begins as 0, behind it. False if
+/// there is no more, or if the packet is another.
+bool write_entry(const Packet& packet, std::size_t& offset, WriteEntry& entry);
+
+constexpr bool is_fast_read(Instruction instruction) {
+  return instruction == Instruction::kFastSyncRead || instruction == Instruction::kFastBulkRead;
+}
+
+constexpr std::uint8_t error_field(Error error, bool alert) {
+  return static_cast<std::uint8_t>(static_cast<unsigned>(error) | (alert ? kAlert : 0u));
+}
+
+/// A register's bytes, 1 to 4 of them, as a number.
+constexpr std::int64_t register_value(const std::uint8_t* bytes, unsigned size, bool is_signed) {
+  std::uint32_t raw = 0;
+  for (unsigned i = 0; i < size; ++i) raw |= static_cast<std::uint32_t>(bytes[i]) << (8 * i);
+  if (!is_signed) return raw;
+  const unsigned unused_bits = 32 - 8 * size;
+  return static_cast<std::int32_t>(raw << unused_bits) >> unused_bits;
+}
+
+/// What may be written at an address now.
+struct WriteRule {
+  std::uint8_t size = 0;  ///< bytes of the register that begins there; 0: none does
+  bool writable = false;
+  std::int64_t minimum = 0;  ///< a negative minimum makes the register signed
+  std::int64_t maximum = 0;
+};
+
+/// kNone if every register that the `size` bytes at `address` cover is covered whole, writable and
+/// in range. `rule_at(address)` returns a WriteRule.
+template <class RuleAt>
+constexpr Error check_write(std::uint16_t address, const std::uint8_t* data, std::size_t size,
+                            RuleAt&& rule_at) {
+  if (size == 0) return Error::kDataLength;
+  for (std::size_t i = 0; i < size;) {
+    const std::size_t at = address + i;
+    const WriteRule rule = at > 0xFFFF ? WriteRule{} : rule_at(static_cast<std::uint16_t>(at));
+    if (rule.size == 0 || !rule.writable) return Error::kAccess;
+    if (i + rule.size > size) return Error::kDataLength;
+    const std::int64_t value = register_value(data + i, rule.size, rule.minimum < 0);
+    if (value < rule.minimum || value > rule.maximum) return Error::kDataRange;
+    i += rule.size;
+  }
+  return Error::kNone;
+}
+
+}  // namespace verp::dxl
