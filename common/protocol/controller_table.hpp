@@ -1,0 +1,272 @@
+#pragma once
+#include <cstddef>
+#include <cstdint>
+
+#include "common/io/io.hpp"
+#include "common/model/params.hpp"
+#include "common/model/tuning_ranges.hpp"
+
+/// The register table of the controller itself, which is a Dynamixel device on the operator's
+/// port: the one list from which the device (firmware/app/operator_device.hpp), its documentation
+/// (firmware/app/registers.md), the names that `verp bus` knows and an object dictionary follow.
+/// What every Dynamixel has stands where its users expect it (0 to 7, 64, 68 to 70). Registers are
+/// little-endian and stand in order of their addresses, each on a multiple of its size, but for
+/// Model Information, whose place the vendor chose.
+namespace verp::dxl::controller {
+
+inline constexpr std::uint8_t kDefaultId = 200;
+inline constexpr std::uint16_t kModel = 0x7600;  ///< ours, as the sensors' in control_table.hpp
+/// Firmware Version (6). Changes whenever a register moves or changes its meaning.
+inline constexpr std::uint8_t kTableVersion = 1;
+
+enum class Type : std::uint8_t { kU8, kU16, kU32, kU64, kI16, kI32, kF32, kText };
+inline constexpr const char* kTypeNames[] = {"u8",  "u16", "u32", "u64",
+                                             "i16", "i32", "f32", "text"};
+/// Bytes of one element.
+constexpr std::uint8_t type_bytes(Type type) {
+  constexpr std::uint8_t kBytes[] = {1, 2, 4, 8, 2, 4, 4, 1};
+  return kBytes[static_cast<std::size_t>(type)];
+}
+
+enum class Access : std::uint8_t {
+  kRead,      ///< written by the controller only
+  kWrite,     ///< written at any time
+  kDisarmed,  ///< written only while no servo holds torque
+};
+inline constexpr const char* kAccessNames[] = {"R", "RW", "RW disarmed"};
+
+struct Register {
+  std::uint16_t address = 0;
+  const char* name = "";
+  Type type = Type::kU8;
+  Access access = Access::kRead;
+  std::uint16_t count = 1;    ///< elements: from `address` on, side by side
+  std::int32_t minimum = 0;   ///< of written values
+  std::uint32_t maximum = 0;  ///< as an int32 where `minimum` is negative
+  const char* unit = "";
+  const char* meaning = "";
+
+  constexpr unsigned bytes() const { return unsigned{count} * type_bytes(type); }
+  constexpr bool writable() const { return access != Access::kRead; }
+  /// CANopen: each register is an object of the manufacturer's area, 2000h to 5FFFh; several
+  /// elements are an ARRAY with subindices from 1 on, a text is one VISIBLE_STRING.
+  constexpr std::uint16_t object_index() const {
+    return static_cast<std::uint16_t>(0x2000 + address);
+  }
+};
+
+/// Rows of device_kind and its fellows: servos in the order of Params, then these.
+inline constexpr int kDeviceImu = kMaxJoints;
+inline constexpr int kDeviceFoot = kDeviceImu + 1;  ///< left, then right
+inline constexpr int kDeviceBus = kDeviceFoot + kFeet;
+inline constexpr int kDeviceLink = kDeviceBus + 1;
+inline constexpr int kDevices = 40;
+static_assert(kDeviceLink < kDevices);
+
+enum class DeviceKind : std::uint8_t { kNone, kServo, kImu, kFoot, kServoBus, kOperatorLink };
+enum class DeviceState : std::uint8_t { kNeverSeen, kGood, kStale, kLost, kFaulty };
+enum class HeadMode : std::uint8_t { kAngles = 0, kLookAt = 1 };
+enum class ImuSource : std::uint8_t { kChip = 0, kBus = 1 };
+enum class SelfTest : std::uint8_t { kNotRun, kPassed, kCode, kKinematics, kDigest, kParams };
+enum class ResetCause : std::uint8_t { kUnknown, kPower, kPin, kWatchdog, kSoftware, kFault };
+enum class WindowState : std::uint8_t { kIdle, kReceiving, kAccepted, kRefused };
+
+inline constexpr std::uint16_t kWindowBytes = 128;
+
+namespace row {
+constexpr Register r(std::uint16_t address, const char* name, Type type, const char* unit,
+                     const char* meaning, std::uint16_t count = 1) {
+  return {address, name, type, Access::kRead, count, 0, 0, unit, meaning};
+}
+constexpr Register rw(std::uint16_t address, const char* name, Type type, std::uint32_t maximum,
+                      const char* unit, const char* meaning, std::uint16_t count = 1) {
+  return {address, name, type, Access::kWrite, count, 0, maximum, unit, meaning};
+}
+/// All 16 bits.
+constexpr Register rw_i16(std::uint16_t address, const char* name, const char* unit,
+                          const char* meaning) {
+  return {address, name, Type::kI16, Access::kWrite, 1, -32768, 32767, unit, meaning};
+}
+constexpr Register disarmed(std::uint16_t address, const char* name, Type type,
+                            std::uint32_t maximum, const char* unit, const char* meaning) {
+  return {address, name, type, Access::kDisarmed, 1, 0, maximum, unit, meaning};
+}
+inline constexpr Type u8 = Type::kU8, u16 = Type::kU16, u32 = Type::kU32, u64 = Type::kU64,
+                      i16 = Type::kI16, i32 = Type::kI32, f32 = Type::kF32, text = Type::kText;
+inline constexpr std::uint32_t kAll32 = 0xFFFFFFFFu;
+
+// clang-format off
+inline constexpr Register kTable[] = {
+    // What it is.
+    r(0, "model_number", u16, "", "30208 (7600h): a controller of this project"),
+    r(2, "model_information", u32, "", "CRC-32 of the Params in force: names the robot"),
+    r(6, "firmware_version", u8, "", "version of this table"),
+    disarmed(7, "id", u8, 252, "", "Dynamixel id; the reply to the write still bears the old one"),
+    r(13, "protocol_type", u8, "", "2: Dynamixel Protocol 2.0"),
+    r(16, "core_version", u32, "", "same core version and Params: same outputs for same inputs"),
+    r(20, "image_version", u32, "", "layout of the Params image that window_data takes"),
+    r(24, "robot_name", text, "", "name of the robot in Params", kNameLength),
+    r(48, "period_us", u32, "us", "control period: one tick"),
+    r(52, "joint_count", u8, "", "joints in use; the joint arrays are longer"),
+    r(53, "device_count", u8, "", "rows of the device arrays in use or kept free"),
+    disarmed(54, "imu_source", u8, 1, "", "0 a chip on the board, 1 the IMU device on the servo bus"),
+    r(55, "imu_sources", u8, "bits", "sources this board has: bit 0 chip, bit 1 bus; others are refused"),
+    r(56, "self_test", u8, "", "0 not run, 1 passed; failed: 2 code, 3 kinematics, 4 digest, 5 Params"),
+    r(57, "reset_cause", u8, "", "0 unknown, 1 power, 2 reset pin, 3 watchdog, 4 software, 5 fault"),
+    r(58, "action_count", u16, "", "actions in the library"),
+    r(60, "parameter_count", u16, "", "numbers that parameter_id names"),
+    // Where every Dynamixel has it.
+    r(64, "torque_enable", u8, "", "1 while any servo holds torque (\"armed\")"),
+    rw(68, "status_return_level", u8, 2, "", "replies: 0 to ping, 1 to ping and reads, 2 to all"),
+    r(69, "registered_instruction", u8, "", "1: a Reg Write waits for its Action"),
+    r(70, "hardware_error", u8, "bits", "faults that stop the robot: the low byte of faults; not 0: alert bit"),
+    // The operator's order: every write to 80..99 makes it fresh and feeds the operator watchdog.
+    rw(80, "request", u8, 2, "", "0 relax, 1 stand, 2 walk"),
+    rw(81, "command_sequence", u8, 255, "", "count the orders here; it is recorded with each tick"),
+    rw_i16(82, "walk_vx", "0.1 mm/s", "forward velocity, body frame"),
+    rw_i16(84, "walk_vy", "0.1 mm/s", "velocity to the left, body frame"),
+    rw_i16(86, "walk_wz", "mrad/s", "turn to the left"),
+    rw_i16(88, "head_pan", "mrad", "to the left, with head_mode 0"),
+    rw_i16(90, "head_tilt", "mrad", "down, with head_mode 0"),
+    rw_i16(92, "look_x", "mm", "point to look at, forward, body frame, with head_mode 1"),
+    rw_i16(94, "look_y", "mm", "point to look at, to the left"),
+    rw_i16(96, "look_z", "mm", "point to look at, up"),
+    rw(98, "head_mode", u8, 1, "", "0 head_pan and head_tilt, 1 the point look_x, look_y, look_z"),
+    rw(99, "emergency_stop", u8, 1, "", "1: pressed; stays until written 0"),
+    rw(100, "action_request", u16, 0xFFFF, "", "number of the action to play, up to action_count; 0: none"),
+    // One number of the tuning. A write of parameter_value reaches exactly one tick; before that
+    // tick a second one is refused (Result Fail).
+    rw(106, "parameter_id", u16, kTuningCount - 1, "", "which number; see the list below"),
+    rw(108, "parameter_value", f32, kAll32, "", "its value in force; writing is refused out of its range"),
+    r(112, "parameter_low", f32, "", "lowest value allowed"),
+    r(116, "parameter_high", f32, "", "highest value allowed"),
+    // The last tick.
+    r(128, "digest", u64, "", "chained digest of all ticks so far"),
+    r(136, "tick", u32, "ticks", "control periods since power-up"),
+    r(140, "faults", u32, "bits", "safety::Fault, latched until relaxed"),
+    r(144, "mode", u8, "", "0 relaxed, 1 rising, 2 standing, 3 walking, 4 holding, 5 sitting, 6 fallen, 7 stopped"),
+    r(145, "gait_phase", u8, "", "gait::Phase"),
+    r(146, "gait_state", u8, "", "state within the cycle, 0 to 15"),
+    r(147, "stance", u8, "", "foot that carries: 0 left, 1 right, 2 both"),
+    r(148, "tilt_roll", i16, "0.1 mrad", "estimated roll of the body"),
+    r(150, "tilt_pitch", i16, "0.1 mrad", "estimated pitch of the body, nose down positive"),
+    r(152, "battery_voltage", u16, "0.1 V", "measured by the board; else the lowest supply of any servo; 0: not known"),
+    r(154, "hottest_servo", u8, "", "id of the servo with the highest temperature"),
+    r(155, "hottest_temperature", u8, "deg C", "its temperature; 0: none has told"),
+    r(156, "gyro", i16, "counts", "x y z as read, IMU frame", 3),
+    r(162, "accel", i16, "counts", "x y z as read, IMU frame, specific force", 3),
+    r(168, "feet", u16, "counts", "left, then right: front-left, front-right, back-left, back-right", kFeet * kFootSensors),
+    r(184, "joints_fresh", u32, "bits", "bit j: joint j was read in this tick"),
+    r(188, "joints_torque", u32, "bits", "bit j: joint j holds its goal"),
+    r(192, "command_age", u32, "ticks", "since the last order"),
+    // What went wrong since power-up; all wrap.
+    r(200, "bus_crc_errors", u32, "", "servo bus: packets with a wrong CRC"),
+    r(204, "bus_timeouts", u32, "", "servo bus: requests that some device did not answer in time"),
+    r(208, "bus_strays", u32, "", "servo bus: good packets nobody had asked for"),
+    r(212, "bus_errors", u32, "", "servo bus: status packets with an error number"),
+    r(216, "bus_refused", u32, "", "servo bus: frames the port did not take"),
+    r(220, "overruns", u32, "", "ticks that followed one which ended after its deadline"),
+    r(224, "deadline_misses", u32, "ticks", "beginnings of ticks that the loop missed"),
+    r(228, "imu_faults", u32, "", "times the IMU chip was silent, stuck or foreign"),
+    r(232, "link_crc_errors", u32, "", "this link: packets with a wrong CRC"),
+    r(236, "link_overruns", u32, "", "this link: times bytes were lost for coming too fast"),
+    r(240, "link_framing", u32, "", "this link: bytes without a stop bit"),
+    r(244, "link_noise", u32, "", "this link: bytes with noise or wrong parity"),
+    r(248, "link_losses", u32, "", "this link: times it was lost"),
+    // The joints, in the order of Params.
+    r(256, "present_position", i32, "counts", "as last read from each servo", kMaxJoints),
+    r(384, "goal_position", i32, "counts", "as last sent to each servo", kMaxJoints),
+    r(512, "joint_id", u8, "", "bus id of each servo", kMaxJoints),
+    r(544, "joint_temperature", u8, "deg C", "as each servo told last", kMaxJoints),
+    r(576, "joint_error", u8, "bits", "Hardware Error Status as each servo told last", kMaxJoints),
+    r(608, "joint_voltage", u16, "0.1 V", "as each servo told last", kMaxJoints),
+    // Every device: rows 0..31 servos, 32 IMU, 33 and 34 feet, 35 servo bus, 36 this link.
+    r(672, "device_kind", u8, "", "0 none, 1 servo, 2 IMU, 3 foot, 4 servo bus, 5 operator link", kDevices),
+    r(712, "device_id", u8, "", "bus id; 0: has none", kDevices),
+    r(752, "device_state", u8, "", "0 never seen, 1 good, 2 stale, 3 lost, 4 reports a hardware error", kDevices),
+    r(792, "device_rate", u16, "1/s", "reports in the last second (the link: packets)", kDevices),
+    r(872, "device_age", u16, "ticks", "since the last report, up to 65535", kDevices),
+    r(952, "device_errors", u32, "", "reports missed; bus: CRC errors, timeouts, refused; link: CRC, overruns, framing, noise", kDevices),
+    // Whole images, block by block.
+    rw(1112, "window_kind", u8, 2, "", "what the window shows: 0 nothing, 1 the Params image, 2 actions; begins anew"),
+    r(1113, "window_state", u8, "", "0 idle, 1 receiving, 2 accepted: in force from the next start, 3 refused"),
+    r(1114, "window_fault", u8, "", "why refused: ImageFault; 255: the bytes do not have window_crc"),
+    r(1116, "window_size", u32, "bytes", "of a whole image of that kind"),
+    rw(1120, "window_offset", u32, kAll32, "bytes", "where window_data[0] stands in the image"),
+    rw(1124, "window_data", u8, 255, "", "reads show the image in force; writes go to a new one", kWindowBytes),
+    rw(1252, "window_crc", u32, kAll32, "", "CRC-32 (zip) of all bytes of the new image"),
+    disarmed(1256, "window_commit", u8, 1, "", "1: check the new image and take it; reads as 0"),
+};
+// clang-format on
+}  // namespace row
+
+inline constexpr const auto& kTable = row::kTable;
+inline constexpr std::size_t kRegisters = sizeof(row::kTable) / sizeof(Register);
+/// The table ends here.
+inline constexpr std::uint16_t kTableBytes =
+    static_cast<std::uint16_t>(kTable[kRegisters - 1].address + kTable[kRegisters - 1].bytes());
+
+constexpr bool same_name(const char* a, const char* b) {
+  for (; *a == *b; ++a, ++b) {
+    if (*a == '\0') return true;
+  }
+  return false;
+}
+
+/// nullptr: no such name.
+constexpr const Register* find(const char* name) {
+  for (const Register& each : row::kTable) {
+    if (same_name(each.name, name)) return &each;
+  }
+  return nullptr;
+}
+
+/// What a device must know of a register at run time: the table without its words, which need not
+/// be in a microcontroller.
+struct Rule {
+  std::uint16_t address = 0;
+  std::uint16_t count = 0;
+  std::uint8_t size = 0;  ///< of an element
+  Access access = Access::kRead;
+  std::int32_t minimum = 0;
+  std::uint32_t maximum = 0;
+};
+
+struct Rules {
+  Rule rule[kRegisters];
+};
+consteval Rules make_rules() {
+  Rules rules{};
+  for (std::size_t i = 0; i < kRegisters; ++i) {
+    const Register& from = row::kTable[i];
+    rules.rule[i] = {from.address, from.count,   type_bytes(from.type),
+                     from.access,  from.minimum, from.maximum};
+  }
+  return rules;
+}
+inline constexpr Rules kRules = make_rules();
+
+/// The rule of the element that begins at `address`; nullptr: none does.
+constexpr const Rule* rule_at(std::uint16_t address) {
+  std::size_t low = 0, high = kRegisters;  // the last one at or before `address` is in [low, high)
+  while (high - low > 1) {
+    const std::size_t middle = (low + high) / 2;
+    (kRules.rule[middle].address <= address ? low : high) = middle;
+  }
+  const Rule& rule = kRules.rule[low];
+  const unsigned offset = unsigned{address} - rule.address;
+  return offset < unsigned{rule.count} * rule.size && offset % rule.size == 0 ? &rule : nullptr;
+}
+
+/// Longest run of bytes that one write can cover.
+consteval std::size_t longest_write() {
+  std::size_t longest = 0, run = 0, end = 0;
+  for (const Register& each : row::kTable) {
+    run = each.writable() ? (each.address == end ? run : 0) + each.bytes() : 0;
+    end = each.address + each.bytes();
+    longest = run > longest ? run : longest;
+  }
+  return longest;
+}
+
+}  // namespace verp::dxl::controller

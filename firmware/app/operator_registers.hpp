@@ -1,0 +1,293 @@
+#pragma once
+#include <cstddef>
+#include <cstdint>
+
+#include "common/control/state.hpp"
+#include "common/io/io.hpp"
+#include "common/kinematics/look_at.hpp"
+#include "common/model/image.hpp"
+#include "common/model/params.hpp"
+#include "common/model/tuning_ranges.hpp"
+#include "common/protocol/device_end.hpp"
+#include "firmware/app/block_window.hpp"
+#include "firmware/app/contracts.hpp"
+#include "firmware/app/register_image.hpp"
+#include "firmware/app/tick_report.hpp"
+
+namespace verp::app {
+
+/// What the board knows before the first tick.
+struct OperatorSetup {
+  std::uint8_t id = table::kDefaultId;
+  table::ImuSource imu_source = table::ImuSource::kBus;
+  std::uint8_t imu_sources = 1 << static_cast<int>(table::ImuSource::kBus);  ///< bit mask
+  table::SelfTest self_test = table::SelfTest::kNotRun;
+  table::ResetCause reset_cause = table::ResetCause::kUnknown;
+};
+
+/// The controller's registers and what a read or write of them does; knows no packets. Errors are
+/// the e-Manual's.
+template <Images Store>
+class OperatorRegisters {
+ public:
+  OperatorRegisters(const Params& params, const OperatorSetup& setup, Store& store)
+      : params_(params), store_(store), report_(params, image_), tuning_(params.tuning) {
+    image_.set(reg("model_number"), table::kModel);
+    image_.set(reg("model_information"), params_crc(params));
+    image_.set(reg("firmware_version"), table::kTableVersion);
+    image_.set(reg("id"), setup.id);
+    image_.set(reg("protocol_type"), std::uint8_t{2});
+    image_.set(reg("core_version"), kCoreVersion);
+    image_.set(reg("image_version"), kImageVersion);
+    image_.set(reg("robot_name"), params.name);
+    image_.set(reg("period_us"), params.period_us);
+    image_.set(reg("joint_count"), params.joint_count);
+    image_.set(reg("device_count"), static_cast<std::uint8_t>(table::kDeviceLink + 1));
+    image_.set(reg("imu_source"), setup.imu_source);
+    image_.set(reg("imu_sources"), setup.imu_sources);
+    image_.set(reg("self_test"), setup.self_test);
+    image_.set(reg("reset_cause"), setup.reset_cause);
+    image_.set(reg("parameter_count"), static_cast<std::uint16_t>(kTuningCount));
+    image_.set(reg("status_return_level"), std::uint8_t{2});
+    show_parameter();
+  }
+
+  OperatorRegisters(const OperatorRegisters&) = delete;
+  OperatorRegisters& operator=(const OperatorRegisters&) = delete;
+
+  std::uint8_t id() const { return byte(reg("id")); }
+  std::uint8_t status_level() const { return byte(reg("status_return_level")); }
+  bool alert() const { return byte(reg("hardware_error")) != 0; }
+  bool armed() const { return byte(reg("torque_enable")) != 0; }
+  table::ImuSource imu_source() const {
+    return image_.template get<table::ImuSource>(reg("imu_source"));
+  }
+  TickReport& report() { return report_; }
+
+  /// The bytes of a read; nullptr if any of them stands outside the table. Gaps read as zero.
+  const std::uint8_t* read(std::uint16_t address, std::size_t size) {
+    if (!RegisterImage::holds(address, size)) return nullptr;
+    if (address < reg_end("window_data") && address + size > reg("window_data")) show_window();
+    return image_.at(address);
+  }
+
+  /// Writes all of it or says why not.
+  dxl::Error write(std::uint16_t address, const std::uint8_t* data, std::size_t size) {
+    const Write write{address, data, size};
+    const dxl::Error error = check(write);
+    if (error != dxl::Error::kNone) return error;
+    __builtin_memcpy(image_.at(address), data, size);
+    return take_effect(write);
+  }
+
+  /// Keeps a write until action(), or says why it can't be.
+  dxl::Error reg_write(std::uint16_t address, const std::uint8_t* data, std::size_t size) {
+    const dxl::Error error = check({address, data, size});
+    if (error != dxl::Error::kNone) return error;
+    __builtin_memcpy(registered_, data, size);  // what passed is one run of writable registers
+    registered_address_ = address;
+    registered_size_ = size;
+    image_.set(reg("registered_instruction"), std::uint8_t{1});
+    return error;
+  }
+
+  dxl::Error action() {
+    const std::size_t size = registered_size_;
+    if (size == 0) return dxl::Error::kInstruction;
+    registered_size_ = 0;
+    image_.set(reg("registered_instruction"), std::uint8_t{0});
+    return write(registered_address_, registered_, size);  // what was allowed may not be now
+  }
+
+  /// What the operator wants in the next tick; a write is fresh in one tick only.
+  OperatorOrder order() {
+    OperatorOrder order;
+    order.command.request = image_.template get<Request>(reg("request"));
+    order.command.sequence = byte(reg("command_sequence"));
+    order.command.vx_tenth_mm_s = word(reg("walk_vx"));
+    order.command.vy_tenth_mm_s = word(reg("walk_vy"));
+    order.command.wz_mrad_s = word(reg("walk_wz"));
+    point_head(order.command);
+    if (fresh_) order.flags |= kCommandFresh;
+    if (byte(reg("emergency_stop")) != 0) order.flags |= kEmergencyStop;
+    if (parameter_pending_) {
+      order.flags |= kParameterWrite;
+      order.parameter_id = parameter_id_;
+      order.parameter_bits = parameter_bits_;
+    }
+    fresh_ = parameter_pending_ = false;
+    return order;
+  }
+
+  /// The tick is over: everything that can be read of it.
+  void record(const TickRecord& record, const State& state, const Outputs& outputs) {
+    report_.tick(record, state, outputs);
+    tuning_ = state.tuning;
+    show_parameter();
+  }
+
+ private:
+  struct Write {
+    std::uint16_t address;
+    const std::uint8_t* data;
+    std::size_t size;
+    bool covers(std::uint16_t at) const { return at >= address && at < address + size; }
+    bool touches(std::uint16_t first, std::uint16_t end) const {
+      return address < end && first < address + size;
+    }
+    const std::uint8_t* from(std::uint16_t at) const { return data + (at - address); }
+  };
+
+  std::uint8_t byte(std::uint16_t address) const {
+    return image_.template get<std::uint8_t>(address);
+  }
+  std::int16_t word(std::uint16_t address) const {
+    return image_.template get<std::int16_t>(address);
+  }
+  ImageKind window_kind() const { return image_.template get<ImageKind>(reg("window_kind")); }
+
+  dxl::Error check(const Write& write) const {
+    const dxl::Error error =
+        dxl::check_write(write.address, write.data, write.size, [&](std::uint16_t address) {
+          const table::Rule* rule = table::rule_at(address);
+          if (rule == nullptr) return dxl::WriteRule{};
+          const bool open = rule->access == table::Access::kWrite ||
+                            (rule->access == table::Access::kDisarmed && !armed());
+          const std::int64_t maximum = rule->minimum < 0
+                                           ? std::int64_t{static_cast<std::int32_t>(rule->maximum)}
+                                           : std::int64_t{rule->maximum};
+          return dxl::WriteRule{rule->size, open, rule->minimum, maximum};
+        });
+    return error == dxl::Error::kNone ? check_values(write) : error;
+  }
+
+  /// Bounds that are no constants of the table.
+  dxl::Error check_values(const Write& write) const {
+    if (write.covers(reg("action_request")) &&
+        dxl::get_u16(write.from(reg("action_request"))) > word(reg("action_count"))) {
+      return dxl::Error::kDataRange;
+    }
+    if (write.covers(reg("imu_source")) &&
+        (byte(reg("imu_sources")) >> *write.from(reg("imu_source")) & 1) == 0) {
+      return dxl::Error::kDataRange;
+    }
+    if (write.covers(reg("window_kind"))) {
+      const auto kind = static_cast<ImageKind>(*write.from(reg("window_kind")));
+      if (kind != ImageKind::kNone && store_.size(kind) == 0) return dxl::Error::kDataRange;
+    }
+    if (write.covers(reg("parameter_value"))) {
+      float value;
+      __builtin_memcpy(&value, write.from(reg("parameter_value")), sizeof value);
+      if (!in_range(parameter_in(write), value)) return dxl::Error::kDataRange;
+      if (parameter_pending_) return dxl::Error::kResultFail;
+    }
+    if (write.touches(reg("window_data"), reg_end("window_data"))) {
+      const std::uint64_t end = std::uint64_t{offset_in(write)} + data_end(write);
+      if (end > store_.size(window_kind())) return dxl::Error::kDataLimit;
+    }
+    return dxl::Error::kNone;
+  }
+
+  std::uint16_t parameter_in(const Write& write) const {
+    return dxl::get_u16(write.covers(reg("parameter_id")) ? write.from(reg("parameter_id"))
+                                                          : image_.at(reg("parameter_id")));
+  }
+  std::uint32_t offset_in(const Write& write) const {
+    return dxl::get_u32(write.covers(reg("window_offset")) ? write.from(reg("window_offset"))
+                                                           : image_.at(reg("window_offset")));
+  }
+  /// Indices into window_data.
+  static std::uint32_t data_begin(const Write& write) {
+    return write.address > reg("window_data") ? write.address - reg("window_data") : 0u;
+  }
+  static std::uint32_t data_end(const Write& write) {
+    const std::size_t end = write.address + write.size;
+    return static_cast<std::uint32_t>(
+        (end < reg_end("window_data") ? end : reg_end("window_data")) - reg("window_data"));
+  }
+
+  dxl::Error take_effect(const Write& write) {
+    if (write.touches(reg("request"), reg_end("emergency_stop"))) fresh_ = true;
+    if (write.covers(reg("parameter_value"))) {
+      parameter_id_ = parameter_in(write);
+      parameter_bits_ = dxl::get_u32(write.from(reg("parameter_value")));
+      parameter_pending_ = true;
+    }
+    if (write.touches(reg("parameter_id"), reg_end("parameter_value"))) show_parameter();
+    if (write.covers(reg("window_kind"))) {
+      store_.begin(window_kind());
+      const std::size_t size = store_.size(window_kind());
+      image_.set(reg("window_size"), static_cast<std::uint32_t>(size));
+      set_window(table::WindowState::kIdle, 0);
+    }
+    if (write.touches(reg("window_data"), reg_end("window_data"))) {
+      const std::uint32_t begin = data_begin(write);
+      store_.write(window_kind(), offset_in(write) + begin,
+                   write.from(static_cast<std::uint16_t>(reg("window_data") + begin)),
+                   data_end(write) - begin);
+      set_window(table::WindowState::kReceiving, 0);
+    }
+    return write.covers(reg("window_commit")) ? commit() : dxl::Error::kNone;
+  }
+
+  dxl::Error commit() {
+    const bool wanted = byte(reg("window_commit")) != 0;
+    image_.set(reg("window_commit"), std::uint8_t{0});
+    if (!wanted) return dxl::Error::kNone;
+    const std::uint8_t fault =
+        window_kind() == ImageKind::kNone
+            ? kWrongWindowCrc
+            : store_.commit(window_kind(), dxl::get_u32(image_.at(reg("window_crc"))));
+    set_window(fault == 0 ? table::WindowState::kAccepted : table::WindowState::kRefused, fault);
+    return fault == 0 ? dxl::Error::kNone : dxl::Error::kResultFail;
+  }
+
+  void set_window(table::WindowState state, std::uint8_t fault) {
+    image_.set(reg("window_state"), state);
+    image_.set(reg("window_fault"), fault);
+  }
+
+  /// Behind the image's end the window shows zeros.
+  void show_window() {
+    const std::size_t size = store_.size(window_kind());
+    const std::size_t offset = dxl::get_u32(image_.at(reg("window_offset")));
+    const std::size_t left = offset < size ? size - offset : 0;
+    const std::size_t count = left < table::kWindowBytes ? left : table::kWindowBytes;
+    __builtin_memset(image_.at(reg("window_data")), 0, table::kWindowBytes);
+    if (count > 0) store_.read(window_kind(), offset, image_.at(reg("window_data")), count);
+  }
+
+  void show_parameter() {
+    const int id = dxl::get_u16(image_.at(reg("parameter_id")));
+    image_.set(reg("parameter_value"), tuning_value(tuning_, id));
+    image_.set(reg("parameter_low"), kTuningRanges[id].low);
+    image_.set(reg("parameter_high"), kTuningRanges[id].high);
+  }
+
+  void point_head(Command& command) const {
+    command.head_pan_mrad = word(reg("head_pan"));
+    command.head_tilt_mrad = word(reg("head_tilt"));
+    if (image_.template get<table::HeadMode>(reg("head_mode")) != table::HeadMode::kLookAt) return;
+    const Vec3 point_body_mm{math::to_float(std::int32_t{word(reg("look_x"))}),
+                             math::to_float(std::int32_t{word(reg("look_y"))}),
+                             math::to_float(std::int32_t{word(reg("look_z"))})};
+    const kinematics::HeadAngles angles = kinematics::look_at(params_, 1e-3F * point_body_mm);
+    command.head_pan_mrad = static_cast<std::int16_t>(math::to_int32(1e3F * angles.pan_rad));
+    command.head_tilt_mrad = static_cast<std::int16_t>(math::to_int32(1e3F * angles.tilt_rad));
+  }
+
+  const Params& params_;
+  Store& store_;
+  RegisterImage image_;
+  TickReport report_;
+  Tuning tuning_;  ///< in force
+  std::uint8_t registered_[table::longest_write()] = {};
+  std::size_t registered_size_ = 0;
+  std::uint16_t registered_address_ = 0;
+  std::uint16_t parameter_id_ = 0;
+  std::uint32_t parameter_bits_ = 0;
+  bool parameter_pending_ = false;
+  bool fresh_ = false;
+};
+
+}  // namespace verp::app

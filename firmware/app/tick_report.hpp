@@ -1,0 +1,115 @@
+#pragma once
+#include <cstdint>
+
+#include "common/control/state.hpp"
+#include "common/io/io.hpp"
+#include "common/model/params.hpp"
+#include "common/record/tick_record.hpp"
+#include "firmware/app/bus_master.hpp"
+#include "firmware/app/device_watch.hpp"
+#include "firmware/app/register_image.hpp"
+#include "hal/contract/byte_link.hpp"
+
+namespace verp::app {
+
+/// What the loop counts and a tick's record does not hold.
+struct LoopHealth {
+  BusCounters bus{};
+  std::uint32_t bus_crc_errors = 0;
+  std::uint32_t deadline_misses = 0;  ///< sum of what TickSource::wait() returned above 1
+  std::uint32_t imu_faults = 0;
+  std::uint16_t battery_tenth_v = 0;  ///< as the board measures it; 0: it doesn't
+};
+
+/// Writes what can be read of a tick into the register image.
+class TickReport {
+ public:
+  TickReport(const Params& params, RegisterImage& image)
+      : params_(params), image_(image), devices_(params, image) {}
+
+  void tick(const TickRecord& record, const State& state, const Outputs& outputs) {
+    const Inputs& inputs = record.inputs;
+    image_.set(reg("torque_enable"), static_cast<std::uint8_t>(outputs.torque_enable != 0));
+    image_.set(reg("hardware_error"), static_cast<std::uint8_t>(outputs.faults));
+    image_.set(reg("digest"), record.digest.chain);
+    image_.set(reg("tick"), inputs.tick);
+    image_.set(reg("faults"), outputs.faults);
+    image_.set(reg("mode"), outputs.mode);
+    image_.set(reg("gait_phase"), outputs.gait_phase);
+    image_.set(reg("gait_state"), outputs.gait_state);
+    image_.set(reg("stance"), outputs.stance);
+    image_.set(reg("tilt_roll"), outputs.tilt_tenth_mrad[0]);
+    image_.set(reg("tilt_pitch"), outputs.tilt_tenth_mrad[1]);
+    image_.set(reg("gyro"), inputs.gyro_count);
+    image_.set(reg("accel"), inputs.accel_count);
+    image_.set(reg("feet"), inputs.foot_count);
+    image_.set(reg("joints_fresh"), inputs.fresh);
+    image_.set(reg("joints_torque"), outputs.torque_enable);
+    image_.set(reg("command_age"), state.admit.operator_age);
+    image_.set(reg("present_position"), inputs.position_count);
+    image_.set(reg("goal_position"), outputs.goal_count);
+    if ((inputs.flags & kOverrun) != 0) {
+      image_.set(reg("overruns"), image_.get<std::uint32_t>(reg("overruns")) + 1);
+    }
+    if ((inputs.flags & kSlowFresh) != 0) take_telemetry(inputs);
+    devices_.tick(inputs, state);
+  }
+
+  void health(const LoopHealth& health) {
+    const BusCounters& bus = health.bus;
+    image_.set(reg("bus_crc_errors"), health.bus_crc_errors);
+    image_.set(reg("bus_timeouts"), bus.timeouts);
+    image_.set(reg("bus_strays"), bus.strays);
+    image_.set(reg("bus_errors"), bus.errors);
+    image_.set(reg("bus_refused"), bus.refused);
+    image_.set(reg("deadline_misses"), health.deadline_misses);
+    image_.set(reg("imu_faults"), health.imu_faults);
+    devices_.bus_errors(health.bus_crc_errors + bus.timeouts + bus.refused);
+    battery_tenth_v_ = health.battery_tenth_v;
+    if (battery_tenth_v_ != 0) image_.set(reg("battery_voltage"), battery_tenth_v_);
+  }
+
+  void link(std::uint32_t crc_errors, const hal::LinkErrors& errors) {
+    image_.set(reg("link_crc_errors"), crc_errors);
+    image_.set(reg("link_overruns"), errors.overruns);
+    image_.set(reg("link_framing"), errors.framing);
+    image_.set(reg("link_noise"), errors.noise);
+    image_.set(reg("link_losses"), errors.losses);
+    devices_.link_errors(crc_errors + errors.overruns + errors.framing + errors.noise);
+  }
+
+  /// A packet for this device came.
+  void heard() { devices_.heard(); }
+
+ private:
+  void take_telemetry(const Inputs& inputs) {
+    const int joint = inputs.slow_joint;
+    if (joint >= params_.joint_count) return;
+    image_.set(element(reg("joint_temperature"), joint, 1), inputs.slow_temperature_c);
+    image_.set(element(reg("joint_error"), joint, 1), inputs.slow_error);
+    image_.set(element(reg("joint_voltage"), joint, 2), inputs.slow_voltage_tenth_v);
+    std::uint8_t hottest_c = 0, hottest = 0;
+    std::uint16_t lowest_tenth_v = 0xFFFF;
+    for (int j = 0; j < params_.joint_count; ++j) {
+      const auto temperature_c = image_.get<std::uint8_t>(element(reg("joint_temperature"), j, 1));
+      const auto tenth_v = image_.get<std::uint16_t>(element(reg("joint_voltage"), j, 2));
+      if (temperature_c > hottest_c) {
+        hottest_c = temperature_c;
+        hottest = params_.joint[j].servo_id;
+      }
+      if (tenth_v != 0 && tenth_v < lowest_tenth_v) lowest_tenth_v = tenth_v;
+    }
+    image_.set(reg("hottest_servo"), hottest);
+    image_.set(reg("hottest_temperature"), hottest_c);
+    if (battery_tenth_v_ == 0 && lowest_tenth_v != 0xFFFF) {
+      image_.set(reg("battery_voltage"), lowest_tenth_v);
+    }
+  }
+
+  const Params& params_;
+  RegisterImage& image_;
+  DeviceWatch devices_;
+  std::uint16_t battery_tenth_v_ = 0;
+};
+
+}  // namespace verp::app

@@ -1,0 +1,62 @@
+#include "host/bus/register_names.hpp"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <iterator>
+#include <set>
+#include <string>
+
+#include "common/protocol/control_table.hpp"
+
+namespace verp::bus {
+namespace {
+
+constexpr std::uint16_t kModels[] = {dxl::kModelXm430W210, dxl::kModelXm430W350,
+                                     dxl::kModelMx28,      dxl::kModelImu,
+                                     dxl::kModelFoot,      dxl::controller::kModel};
+
+TEST(RegisterNames, EveryKnownModelHasANameAndOrderedRegisters) {
+  for (const std::uint16_t model : kModels) {
+    EXPECT_EQ(model_name(model).find("model "), std::string::npos) << model;
+    std::set<std::string> names;
+    unsigned end = 0;
+    for (const NamedRegister& each : registers_of(model)) {
+      EXPECT_TRUE(names.insert(each.name).second) << each.name;
+      EXPECT_GE(each.address, end) << each.name;
+      end = each.address + each.bytes();
+      EXPECT_EQ(find_register(model, each.name), &each);
+    }
+    EXPECT_FALSE(names.empty());
+  }
+}
+
+// The sizes of one register after the other leave no room for a mistake: where the e-Manual has no
+// gap, neither have the names.
+TEST(RegisterNames, ServoRegistersHaveTheManualsSizes) {
+  const auto size = [](const char* name) {
+    return find_register(dxl::kModelXm430W350, name)->bytes();
+  };
+  EXPECT_EQ(size("goal_position"), 4u);
+  EXPECT_EQ(size("present_position"), 4u);
+  EXPECT_EQ(size("goal_current"), 2u);
+  EXPECT_EQ(size("present_input_voltage"), 2u);
+  EXPECT_EQ(size("torque_enable"), 1u);
+  EXPECT_EQ(size("homing_offset"), 4u);
+}
+
+TEST(RegisterNames, UnknownOnesAreNotGuessed) {
+  EXPECT_EQ(model_name(9999), "model 9999");
+  EXPECT_TRUE(registers_of(9999).empty());
+  EXPECT_EQ(find_register(dxl::kModelMx28, "goal"), nullptr);
+}
+
+TEST(RegisterNames, TheControllersPageIsWhatTheTableSays) {
+  std::ifstream in(VERP_SOURCE_DIR "/firmware/app/registers.md");
+  const std::string committed{std::istreambuf_iterator<char>(in), {}};
+  EXPECT_TRUE(committed == controller_document())
+      << "out of date: ./verp bus registers > firmware/app/registers.md";
+}
+
+}  // namespace
+}  // namespace verp::bus

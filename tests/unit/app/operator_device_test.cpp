@@ -1,0 +1,320 @@
+#include "firmware/app/operator_device.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <initializer_list>
+
+#include "tests/unit/app/operator_bench.hpp"
+
+// The controller on the wire. Sequences marked "documented" are the examples of ROBOTIS e-Manual,
+// "DYNAMIXEL Protocol 2.0", which address device 1.
+
+namespace verp::app::test {
+namespace {
+
+using dxl::Error;
+using dxl::Instruction;
+
+Bench<>& fresh_bench(const OperatorSetup& setup = {}) {
+  return renewed<Bench<>>(no_images, setup);
+}
+
+template <std::size_t kSize>
+Reply send(Bench<>& bench, const std::uint8_t (&bytes)[kSize]) {
+  return bench.send(bytes, kSize);
+}
+
+/// The whole reply, byte for byte.
+template <std::size_t kSize>
+bool answered(const Bench<>& bench, const std::uint8_t (&bytes)[kSize]) {
+  if (bench.raw_size != kSize) return false;
+  for (std::size_t i = 0; i < kSize; ++i) {
+    if (bench.raw[i] != bytes[i]) return false;
+  }
+  return true;
+}
+
+TEST(OperatorDevice, AnswersTheDocumentedPing) {
+  Bench<>& bench = fresh_bench({.id = 1});
+  const std::uint8_t ping[] = {0xFF, 0xFF, 0xFD, 0x00, 0x01, 0x03, 0x00, 0x01, 0x19, 0x4E};
+  const Reply reply = send(bench, ping);
+  EXPECT_EQ(reply.packets, 1);
+  EXPECT_EQ(reply.id, 1);
+  ASSERT_EQ(reply.size, 3u);
+  EXPECT_EQ(dxl::get_u16(reply.data), table::kModel);
+  EXPECT_EQ(reply.data[2], table::kTableVersion);
+  // To all: documented too, and the same answer.
+  const std::uint8_t all[] = {0xFF, 0xFF, 0xFD, 0x00, 0xFE, 0x03, 0x00, 0x01, 0x31, 0x42};
+  EXPECT_EQ(send(bench, all).packets, 1);
+}
+
+TEST(OperatorDevice, AnswersTheDocumentedRead) {
+  Bench<>& bench = fresh_bench({.id = 1});
+  // The example's register shows 166; ours at that place is part of the digest.
+  bench.state.digest.chain = std::uint64_t{0xA6} << 32;
+  bench.record();
+  const std::uint8_t read[] = {0xFF, 0xFF, 0xFD, 0x00, 0x01, 0x07, 0x00,
+                               0x02, 0x84, 0x00, 0x04, 0x00, 0x1D, 0x15};
+  send(bench, read);
+  const std::uint8_t status[] = {0xFF, 0xFF, 0xFD, 0x00, 0x01, 0x08, 0x00, 0x55,
+                                 0x00, 0xA6, 0x00, 0x00, 0x00, 0x8C, 0xC0};
+  EXPECT_TRUE(answered(bench, status));
+}
+
+TEST(OperatorDevice, AcknowledgesAsDocumented) {
+  Bench<>& bench = fresh_bench({.id = 1});
+  const std::uint8_t reboot[] = {0xFF, 0xFF, 0xFD, 0x00, 0x01, 0x03, 0x00, 0x08, 0x2F, 0x4E};
+  EXPECT_FALSE(bench.device.reboot_asked());
+  send(bench, reboot);
+  const std::uint8_t good[] = {0xFF, 0xFF, 0xFD, 0x00, 0x01, 0x04, 0x00, 0x55, 0x00, 0xA1, 0x0C};
+  EXPECT_TRUE(answered(bench, good));
+  EXPECT_TRUE(bench.device.reboot_asked());
+}
+
+TEST(OperatorDevice, RefusesWithTheDocumentedErrors) {
+  Bench<>& bench = fresh_bench({.id = 1});
+  // Documented Write of 116, which is read-only here.
+  const std::uint8_t write[] = {0xFF, 0xFF, 0xFD, 0x00, 0x01, 0x09, 0x00, 0x03,
+                                0x74, 0x00, 0x00, 0x02, 0x00, 0x00, 0xCA, 0x89};
+  EXPECT_TRUE(send(bench, write).error == Error::kAccess);
+  // Documented Reg Write of 104, where no register is.
+  const std::uint8_t reg_write[] = {0xFF, 0xFF, 0xFD, 0x00, 0x01, 0x09, 0x00, 0x04,
+                                    0x68, 0x00, 0xC8, 0x00, 0x00, 0x00, 0xAE, 0x8E};
+  EXPECT_TRUE(send(bench, reg_write).error == Error::kAccess);
+  // Documented Action; no Reg Write came before it.
+  const std::uint8_t action[] = {0xFF, 0xFF, 0xFD, 0x00, 0x01, 0x03, 0x00, 0x05, 0x02, 0xCE};
+  EXPECT_TRUE(send(bench, action).error == Error::kInstruction);
+  // Documented Factory Reset and Clear, which a controller does not have.
+  const std::uint8_t reset[] = {0xFF, 0xFF, 0xFD, 0x00, 0x01, 0x04, 0x00, 0x06, 0x01, 0xA1, 0xE6};
+  EXPECT_TRUE(send(bench, reset).error == Error::kInstruction);
+  const std::uint8_t clear[] = {0xFF, 0xFF, 0xFD, 0x00, 0x01, 0x08, 0x00, 0x10,
+                                0x01, 0x44, 0x58, 0x4C, 0x22, 0xB1, 0xDC};
+  EXPECT_TRUE(send(bench, clear).error == Error::kInstruction);
+  EXPECT_TRUE(bench.write(reg("request"), std::uint8_t{3}) == Error::kDataRange);
+  EXPECT_TRUE(bench.write(reg("walk_vx"), std::uint8_t{3}) == Error::kDataLength);
+  EXPECT_TRUE(bench.read(table::kTableBytes - 1, 2).error == Error::kAccess);
+  EXPECT_TRUE(bench.read(0xFFFF, 0xFFFF).error == Error::kAccess);
+  EXPECT_TRUE(bench.write(reg("action_request"), std::uint16_t{1}) == Error::kDataRange)
+      << "there are no actions yet";
+}
+
+// Every register, not a few: what the table calls read-only is refused, the rest taken.
+TEST(OperatorDevice, EveryRegisterKeepsItsAccess) {
+  Bench<>& bench = fresh_bench();
+  for (const bool armed : {false, true}) {
+    bench.arm(armed);
+    for (const table::Register& each : table::kTable) {
+      if (each.address == reg("window_data") || each.address == reg("parameter_value")) continue;
+      std::uint8_t bytes[8] = {};
+      const std::size_t size = table::type_bytes(each.type);
+      const std::uint16_t address = each.address;
+      __builtin_memcpy(bytes, bench.read(address, static_cast<std::uint16_t>(size)).data, size);
+      const bool open = each.access == table::Access::kWrite ||
+                        (each.access == table::Access::kDisarmed && !armed);
+      const Reply reply = bench.write_bytes(address, bytes, size);
+      EXPECT_TRUE(reply.error == (open ? Error::kNone : Error::kAccess)) << each.name;
+    }
+  }
+}
+
+TEST(OperatorDevice, ArmedItKeepsIdAndSourceAndDoesNotRestart) {
+  Bench<>& bench = fresh_bench();
+  bench.arm(true);
+  EXPECT_TRUE(bench.write(reg("id"), std::uint8_t{7}) == Error::kAccess);
+  EXPECT_TRUE(bench.plain(Instruction::kReboot).error == Error::kResultFail);
+  EXPECT_FALSE(bench.device.reboot_asked());
+  bench.arm(false);
+  EXPECT_TRUE(bench.write(reg("imu_source"), std::uint8_t{0}) == Error::kDataRange)
+      << "this board has no chip";
+  const Reply reply = bench.write_bytes(reg("id"), reinterpret_cast<const std::uint8_t*>("\7"), 1);
+  EXPECT_TRUE(reply.error == Error::kNone);
+  EXPECT_EQ(reply.id, table::kDefaultId) << "the reply bears the id that was asked";
+  EXPECT_EQ(bench.device.id(), 7);
+  EXPECT_EQ(bench.read(0, 2).packets, 0);
+  bench.id = 7;
+  EXPECT_EQ(bench.read(0, 2).packets, 1);
+}
+
+TEST(OperatorDevice, StatusReturnLevelIsKept) {
+  Bench<>& bench = fresh_bench();
+  const std::uint8_t level_at[] = {0, 1, 2};
+  for (const std::uint8_t level : level_at) {
+    bench.write_bytes(reg("status_return_level"), &level, 1);
+    EXPECT_EQ(bench.plain(Instruction::kPing).packets, 1);
+    EXPECT_EQ(bench.read(0, 2).packets, level >= 1 ? 1 : 0);
+    const std::uint8_t relax = 0;
+    EXPECT_EQ(bench.write_bytes(reg("request"), &relax, 1).packets, level >= 2 ? 1 : 0);
+  }
+}
+
+TEST(OperatorDevice, RegisteredWritesWaitForTheirAction) {
+  Bench<>& bench = fresh_bench();
+  const std::uint8_t stand = 1;
+  EXPECT_TRUE(bench
+                  .send(dxl::encode_reg_write(bench.frame, sizeof bench.frame, bench.id,
+                                              reg("request"), &stand, 1))
+                  .error == Error::kNone);
+  EXPECT_EQ(bench.value<std::uint8_t>(reg("registered_instruction")), 1);
+  EXPECT_TRUE(bench.device.order(0).command.request == Request::kRelax);
+  EXPECT_TRUE(bench.plain(Instruction::kAction).error == Error::kNone);
+  EXPECT_TRUE(bench.device.order(1).command.request == Request::kStand);
+  EXPECT_EQ(bench.value<std::uint8_t>(reg("registered_instruction")), 0);
+}
+
+TEST(OperatorDevice, TakesItsPartOfWritesToMany) {
+  Bench<>& bench = fresh_bench();
+  dxl::Encoder sync(bench.frame, sizeof bench.frame);
+  dxl::begin_sync_write(sync, reg("walk_vx"), 2);
+  for (const std::uint8_t id : {std::uint8_t{3}, bench.id}) {
+    sync.u8(id);
+    sync.u16(id);
+  }
+  EXPECT_EQ(bench.send(sync.finish()).packets, 0);
+  EXPECT_EQ(bench.device.order(0).command.vx_tenth_mm_s, 200);
+  dxl::Encoder bulk(bench.frame, sizeof bench.frame);
+  dxl::begin_bulk(bulk, Instruction::kBulkWrite);
+  dxl::bulk_entry(bulk, 3, reg("walk_vx"), 2);
+  bulk.u16(1);
+  dxl::bulk_entry(bulk, bench.id, reg("walk_vy"), 2);
+  bulk.u16(2);
+  EXPECT_EQ(bench.send(bulk.finish()).packets, 0);
+  EXPECT_EQ(bench.device.order(1).command.vx_tenth_mm_s, 200);
+  EXPECT_EQ(bench.device.order(2).command.vy_tenth_mm_s, 2);
+}
+
+// Of a read of many it answers when the one before it on the list has, and not if that is silent.
+TEST(OperatorDevice, WaitsForItsTurnInAReadOfMany) {
+  Bench<>& bench = fresh_bench();
+  const std::uint8_t first[] = {bench.id, 3};
+  const std::uint8_t second[] = {3, bench.id};
+  const auto ask = [&](const std::uint8_t* ids) {
+    return bench
+        .send(dxl::encode_sync_read(bench.frame, sizeof bench.frame, Instruction::kSyncRead,
+                                    reg("tick"), 4, ids, 2))
+        .packets;
+  };
+  EXPECT_EQ(ask(first), 1);
+  EXPECT_EQ(ask(second), 0);
+  const std::uint8_t data[4] = {};
+  std::size_t size = dxl::encode_status(bench.frame, sizeof bench.frame, 4, 0, data, 4);
+  EXPECT_EQ(bench.send(size).packets, 0) << "not the one before us";
+  size = dxl::encode_status(bench.frame, sizeof bench.frame, 3, 0, data, 4);
+  EXPECT_EQ(bench.send(size).packets, 1);
+  EXPECT_EQ(bench.send(size).packets, 0) << "once";
+  EXPECT_EQ(ask(second), 0);
+  bench.plain(Instruction::kPing);
+  EXPECT_EQ(bench.send(dxl::encode_status(bench.frame, sizeof bench.frame, 3, 0, data, 4)).packets,
+            0)
+      << "another instruction ended that read";
+}
+
+TEST(OperatorDevice, AnswersFastReads) {
+  Bench<>& bench = fresh_bench();
+  bench.inputs.tick = 0x12345678;
+  bench.record();
+  const std::size_t size = dxl::encode_sync_read(
+      bench.frame, sizeof bench.frame, Instruction::kFastSyncRead, reg("tick"), 4, &bench.id, 1);
+  const Reply reply = bench.send(size);
+  ASSERT_EQ(reply.packets, 1);
+  EXPECT_EQ(reply.id, dxl::kBroadcast);
+  ASSERT_EQ(reply.size, dxl::kFastBlockBytes + 4);
+  EXPECT_EQ(dxl::get_u32(reply.data + 2), 0x12345678u);
+}
+
+// The link takes 256 bytes at a time; the longest array needs two of that, and calls that never
+// wait.
+TEST(OperatorDevice, LongRepliesGoOutInPiecesWithoutWaiting) {
+  Bench<>& bench = fresh_bench();
+  constexpr std::uint16_t kLength = 400;
+  const Reply reply = bench.read(reg("device_kind"), kLength);
+  EXPECT_EQ(reply.packets, 1);
+  EXPECT_EQ(reply.size, kLength);
+  EXPECT_EQ(bench.wire.now_us(), 0u) << "no call waited";
+  EXPECT_TRUE(bench.read(0, 800).error == Error::kDataLimit) << "more than a packet holds";
+}
+
+TEST(OperatorDevice, ForeignAndBadPacketsGetNoAnswer) {
+  Bench<>& bench = fresh_bench();
+  bench.send(dxl::encode_ping(bench.frame, sizeof bench.frame, 3));
+  EXPECT_EQ(bench.raw_size, 0u);
+  const std::size_t size = dxl::encode_ping(bench.frame, sizeof bench.frame, bench.id);
+  bench.frame[size - 1] ^= 1;
+  EXPECT_EQ(bench.send(size).packets, 0);
+  EXPECT_EQ(bench.value<std::uint32_t>(reg("link_crc_errors")), 1u);
+}
+
+// Requests that a false header hid until its CRC failed come out together; each gets its answer.
+TEST(OperatorDevice, AnswersAllRequestsThatComeOutTogether) {
+  Bench<>& bench = fresh_bench();
+  std::uint8_t bytes[64] = {0xFF, 0xFF, 0xFD, 0x00, bench.id, 20, 0x00};
+  std::size_t size = 7;
+  for (int i = 0; i < 2; ++i) {
+    size += dxl::encode_ping(bytes + size, sizeof bytes - size, bench.id);
+  }
+  EXPECT_EQ(bench.send(bytes, size).packets, 2);
+}
+
+/// True if every writable register holds what the table allows.
+bool in_bounds(Bench<>& bench) {
+  for (const table::Register& each : table::kTable) {
+    if (!each.writable()) continue;
+    const unsigned size = table::type_bytes(each.type);
+    const Reply reply = bench.read(each.address, static_cast<std::uint16_t>(size));
+    if (reply.packets != 1 || reply.size != size) return false;
+    const std::int64_t value = dxl::register_value(reply.data, size, each.minimum < 0);
+    const std::int64_t maximum = each.minimum < 0
+                                     ? std::int64_t{static_cast<std::int32_t>(each.maximum)}
+                                     : std::int64_t{each.maximum};
+    if (value < each.minimum || value > maximum) return false;
+  }
+  const auto parameter = bench.value<float>(reg("parameter_value"));
+  return in_range(bench.value<std::uint16_t>(reg("parameter_id")), parameter);
+}
+
+// Good packets with any instruction and parameters, cut and spoilt ones, and noise between them.
+TEST(OperatorDevice, NoBytesLeaveItsRegistersOutOfRange) {
+  verp::test::Random random(3);
+  const Instruction all[] = {
+      Instruction::kPing,         Instruction::kRead,         Instruction::kWrite,
+      Instruction::kRegWrite,     Instruction::kAction,       Instruction::kSyncRead,
+      Instruction::kSyncWrite,    Instruction::kBulkRead,     Instruction::kBulkWrite,
+      Instruction::kFastSyncRead, Instruction::kFastBulkRead, Instruction::kStatus,
+      Instruction::kFactoryReset, Instruction::kClear};
+  Bench<>& bench = fresh_bench();
+  for (int round = 0; round < 1500; ++round) {
+    dxl::Encoder encoder(bench.frame, sizeof bench.frame);
+    bench.id = bench.device.id();
+    const bool broad = random.below(3) == 0;
+    encoder.begin(broad ? dxl::kBroadcast : bench.id, all[random.below(14)]);
+    const table::Register& target = table::kTable[random.below(table::kRegisters)];
+    if (random.below(4) != 0) encoder.u16(target.address + random.bits() % 3 / 2);
+    for (int i = random.below(random.below(8) == 0 ? 150 : 9); i > 0; --i) {
+      encoder.u8(static_cast<std::uint8_t>(random.below(3) == 0 ? random.bits() : bench.id));
+    }
+    std::size_t size = encoder.finish();
+    if (random.below(8) == 0) bench.frame[random.below(static_cast<int>(size))] ^= 0x10;
+    if (random.below(8) == 0) size -= static_cast<std::size_t>(random.below(4));
+    bench.send(size);
+    const OperatorOrder order = bench.device.order(0);
+    ASSERT_LE(static_cast<int>(order.command.request), static_cast<int>(Request::kWalk));
+    if ((order.flags & kParameterWrite) != 0) {
+      float value;
+      __builtin_memcpy(&value, &order.parameter_bits, 4);
+      ASSERT_TRUE(in_range(order.parameter_id, value));
+    }
+  }
+  // What noise may have left in the parser, and settings that make it silent.
+  for (int i = 0; i < 2; ++i) {
+    const std::uint8_t zeros[dxl::kMaxPacket] = {};
+    bench.send(zeros, sizeof zeros);
+  }
+  bench.id = bench.device.id();
+  const std::uint8_t answer_all = 2;
+  bench.write_bytes(reg("status_return_level"), &answer_all, 1);
+  EXPECT_TRUE(in_bounds(bench));
+  EXPECT_EQ(bench.value<std::uint16_t>(0), table::kModel);
+}
+
+}  // namespace
+}  // namespace verp::app::test
