@@ -26,6 +26,7 @@ Subcommand add_check(CLI::App& root);
 Subcommand add_export(CLI::App& root);
 Subcommand add_trace(CLI::App& root);
 Subcommand add_bench(CLI::App& root);
+Subcommand add_bus(CLI::App& root);
 
 /// Adds --json. With it stdout holds one JSON object and nothing else; everything for people goes
 /// to stderr.

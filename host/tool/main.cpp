@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "host/board/board_error.hpp"
+#include "host/bus/client.hpp"
 #include "host/model/load_error.hpp"
 #include "host/record/trace.hpp"
 #include "host/report/report.hpp"
@@ -119,7 +120,7 @@ int run(int argc, char** argv) {
   root.require_subcommand(1);
   const std::vector<Subcommand> commands = {add_walk(root),  add_replay(root), add_diff(root),
                                             add_check(root), add_export(root), add_trace(root),
-                                            add_bench(root)};
+                                            add_bench(root), add_bus(root)};
   // After the subcommands, which would have it too.
   root.footer("Besides, the launcher has `./verp test`: everything that is promised, checked.");
   try {
@@ -133,6 +134,12 @@ int run(int argc, char** argv) {
     return fail(error.status(), error.what(), json);
   } catch (const model::LoadError& error) {
     return fail(kBadInput, error.what(), json);
+  } catch (const wire::EndpointError& error) {
+    return fail(kBadInput, error.what(), json);
+  } catch (const wire::LinkError& error) {
+    return fail(kNoDevice, error.what(), json);
+  } catch (const bus::DeviceError& error) {
+    return fail(kNoDevice, error.what(), json);
   } catch (const board::BoardError& error) {
     return fail(kNoDevice, error.what(), json);
   } catch (const record::TraceError& error) {

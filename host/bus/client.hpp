@@ -1,0 +1,73 @@
+#pragma once
+#include <cstdint>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "firmware/app/bus_master.hpp"
+#include "firmware/app/link_bus.hpp"
+#include "host/link/link.hpp"
+#include "host/link/system_clock.hpp"
+
+namespace verp::bus {
+
+/// A device that did not do what was asked: exit status 3. what() is one line with a remedy.
+class DeviceError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// What a device says of itself when it is pinged.
+struct Identity {
+  std::uint8_t id = 0;
+  std::uint16_t model = 0;
+  std::uint8_t firmware = 0;
+};
+
+/// Dynamixel devices at the other end of a link, one request at a time. Throws DeviceError, and
+/// LinkError from the constructor.
+class Client {
+ public:
+  static constexpr int kAttempts = 3;  ///< of a request that got no answer
+
+  /// `timeout_us` is what a reply may take beyond its own bytes.
+  Client(const wire::Endpoint& endpoint, std::uint32_t timeout_us);
+
+  /// Every device that answers a Ping to all, by id; waits as long as id 252 may take.
+  std::vector<Identity> scan();
+  std::optional<Identity> ping(std::uint8_t id, int attempts = kAttempts);
+  std::vector<std::uint8_t> read(std::uint8_t id, std::uint16_t address, std::uint16_t length);
+  void write(std::uint8_t id, std::uint16_t address, const std::vector<std::uint8_t>& data);
+
+  /// One read without a second attempt; false if it failed.
+  bool read_once(std::uint8_t id, std::uint16_t address, std::uint16_t length);
+
+  const app::BusCounters& counters() const { return master_.counters(); }
+  std::uint32_t crc_errors() const { return master_.crc_errors(); }
+  hal::LinkErrors link_errors() const { return link_.errors(); }
+
+ private:
+  using Bus = app::LinkBus<wire::Link, wire::SystemClock>;
+  struct Answer {
+    std::uint8_t error = 0;
+    std::vector<std::uint8_t> data;
+  };
+  /// Time a request may take: `bytes` on the wire in both directions, and the timeout.
+  std::uint32_t patience_us(std::size_t bytes) const;
+  std::optional<Answer> ask(std::uint8_t id, std::size_t frame, std::size_t reply_bytes,
+                            int attempts);
+  [[noreturn]] void silent(std::uint8_t id) const;
+  void expect_good(std::uint8_t id, std::uint16_t address, const char* what,
+                   const std::optional<Answer>& answer) const;
+
+  std::string text_;    ///< of the endpoint
+  std::uint32_t baud_;  ///< 0: the link has none
+  std::uint32_t timeout_us_;
+  wire::SystemClock clock_;
+  wire::Link link_;
+  Bus bus_;
+  app::BusMaster<Bus> master_;
+};
+
+}  // namespace verp::bus

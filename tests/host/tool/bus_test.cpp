@@ -1,0 +1,129 @@
+#include <atomic>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "firmware/app/operator_device.hpp"
+#include "host/link/link.hpp"
+#include "tests/host/tool/program.hpp"
+#include "tests/unit/support/test_robot.hpp"
+
+// `verp bus` as people use it, against a controller on the other end of a socket.
+namespace verp::tool::test {
+namespace {
+
+using Json = nlohmann::json;
+
+class BusCommand : public Program {
+ protected:
+  BusCommand() {
+    serving_ = std::thread([this] {
+      while (!stop_) {
+        if (!device_.poll()) std::this_thread::sleep_for(std::chrono::microseconds(50));
+      }
+    });
+  }
+  ~BusCommand() override {
+    stop_ = true;
+    serving_.join();
+  }
+  Outcome bus(const std::string& arguments) const {
+    return verp("bus " + arguments + " --link unix:" + (folder_ / "port").string());
+  }
+  Json json(const std::string& arguments) const {
+    const Outcome outcome = bus(arguments + " --json");
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    return Json::parse(outcome.out, nullptr, false);
+  }
+  void refused(const std::string& arguments, int status, const std::string& needle) const {
+    const Outcome outcome = bus(arguments);
+    EXPECT_EQ(outcome.status, status) << arguments << '\n' << outcome.err;
+    EXPECT_EQ(outcome.out, "") << arguments;
+    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+    EXPECT_NE(outcome.err.find(needle), std::string::npos) << arguments << '\n' << outcome.err;
+  }
+
+ private:
+  wire::Link link_{wire::parse_endpoint("unix-listen:" + (folder_ / "port").string())};
+  app::OperatorDevice<wire::Link> device_{link_, verp::test::kRobot, {}};
+  std::atomic<bool> stop_ = false;
+  std::thread serving_;
+};
+
+TEST_F(BusCommand, ScanAndPingFindTheController) {
+  const Json found = json("scan");
+  ASSERT_EQ(found["devices"].size(), 1u);
+  EXPECT_EQ(found["devices"][0]["id"], 200);
+  EXPECT_EQ(found["devices"][0]["name"], "controller");
+  EXPECT_EQ(json("ping --id 200"), found["devices"][0]);
+  EXPECT_NE(bus("scan").out.find("200  controller"), std::string::npos);
+}
+
+TEST_F(BusCommand, RegistersAreReadByNameByAddressAndAll) {
+  EXPECT_EQ(json("read --register robot_name")["registers"]["robot_name"], "test");
+  EXPECT_EQ(json("read --address 48 --size 4")["registers"]["48"], verp::test::kRobot.period_us);
+  const Json two = json("read --register joint_count --register present_position");
+  EXPECT_EQ(two["registers"]["joint_count"], 21);
+  EXPECT_EQ(two["registers"]["present_position"].size(), 32u);
+  const Json all = json("read");
+  EXPECT_EQ(all["registers"].size(), dxl::controller::kRegisters);
+}
+
+TEST_F(BusCommand, WhatIsWrittenCanBeRead) {
+  for (const char* value : {"-300", "32767", "0"}) {
+    EXPECT_EQ(bus(std::string("write --register walk_vx ") + value).status, 0);
+    EXPECT_EQ(json("read --register walk_vx")["registers"]["walk_vx"], std::stoi(value));
+  }
+  EXPECT_EQ(bus("write --register look_x 0x7f").status, 0);
+  EXPECT_EQ(json("read --address 92 --size 2")["registers"]["92"], 127);
+}
+
+TEST_F(BusCommand, TroubleIsToldInOneLineWithItsStatus) {
+  refused("ping --id 3", 3, "device 3 does not answer");
+  refused("read --id 3 --address 0", 3, "did not answer");
+  refused("read --register robot_nmae", 2, "did you mean robot_name?");
+  refused("write --register tick 1", 2, "read-only");
+  refused("write --register request 3", 3, "Data Range");
+  refused("write --register request 300", 2, "from 0 to 255");
+  refused("write --register request fast", 2, "whole number");
+  refused("write --register request 1 1", 2, "1 element");
+  refused("write --address 136 --size 4 1", 3, "Access Error");
+  refused("read --address 2000", 3, "Access Error");
+}
+
+TEST_F(BusCommand, BenchCountsRoundTrips) {
+  const Json result = json("bench --for 0.3");
+  EXPECT_GT(result["round_trips"], 10);
+  EXPECT_GT(result["latency_median_us"], 0);
+  EXPECT_LE(result["latency_median_us"], result["latency_p99_us"]);
+  EXPECT_LE(result["latency_p99_us"], result["latency_max_us"]);
+  EXPECT_NEAR(result["round_trips_per_s"].get<double>() * result["duration_s"].get<double>(),
+              result["round_trips"].get<double>(), 1);
+  EXPECT_EQ(result["crc_errors"], 0);
+  EXPECT_EQ(result["link_losses"], 0);
+}
+
+using BusLinks = Program;
+
+TEST_F(BusLinks, ThatCannotBeOpenedSayWhy) {
+  EXPECT_EQ(verp("bus scan --link unix:/nowhere/port").status, 3);
+  EXPECT_EQ(verp("bus scan --link serial:/dev/null").status, 3);
+  expect_refused("bus scan --link nonsense", "serial:");
+  expect_refused("bus scan", "--link");
+  expect_refused("bus", "subcommand");
+  const Outcome nobody = verp("bus ping --link pty:port");
+  EXPECT_EQ(nobody.status, 3);
+  EXPECT_NE(nobody.err.find("nobody is at the other end"), std::string::npos);
+}
+
+// A device that never answers: Ctrl-C ends the search, and says so.
+TEST_F(BusLinks, AnInterruptEndsALongScan) {
+  wire::Link silent(wire::parse_endpoint("unix-listen:" + (folder_ / "port").string()));
+  const Outcome outcome =
+      shell(std::string("timeout -s INT 1 ") + VERP_PROGRAM +
+            " bus scan --each --timeout 1000 --link unix:port; test $? = 124 || exit 9");
+  EXPECT_NE(outcome.status, 9) << "it was over before";
+  EXPECT_NE(outcome.err.find("interrupted"), std::string::npos) << outcome.err;
+}
+
+}  // namespace
+}  // namespace verp::tool::test
