@@ -67,8 +67,26 @@ enum class DeviceKind : std::uint8_t { kNone, kServo, kImu, kFoot, kServoBus, kO
 enum class DeviceState : std::uint8_t { kNeverSeen, kGood, kStale, kLost, kFaulty };
 enum class HeadMode : std::uint8_t { kAngles = 0, kLookAt = 1 };
 enum class ImuSource : std::uint8_t { kChip = 0, kBus = 1 };
-enum class SelfTest : std::uint8_t { kNotRun, kPassed, kCode, kKinematics, kDigest, kParams };
-enum class ResetCause : std::uint8_t { kUnknown, kPower, kPin, kWatchdog, kSoftware, kFault };
+/// control::BootVerdict and one more.
+enum class SelfTest : std::uint8_t {
+  kNotRun,
+  kPassed,
+  kContracted,
+  kCode,
+  kImage,
+  kKinematics,
+  kControl
+};
+/// As hal/chip/stm32/reset_cause.hpp; kFault: a crash record was found.
+enum class ResetCause : std::uint8_t {
+  kUnknown,
+  kPower,
+  kPin,
+  kSoftware,
+  kWatchdog,
+  kLowPower,
+  kFault
+};
 enum class WindowState : std::uint8_t { kIdle, kReceiving, kAccepted, kRefused };
 
 inline constexpr std::uint16_t kWindowBytes = 128;
@@ -111,8 +129,8 @@ inline constexpr Register kTable[] = {
     r(53, "device_count", u8, "", "rows of the device arrays in use or kept free"),
     disarmed(54, "imu_source", u8, 1, "", "0 a chip on the board, 1 the IMU device on the servo bus"),
     r(55, "imu_sources", u8, "bits", "sources this board has: bit 0 chip, bit 1 bus; others are refused"),
-    r(56, "self_test", u8, "", "0 not run, 1 passed; failed: 2 code, 3 kinematics, 4 digest, 5 Params"),
-    r(57, "reset_cause", u8, "", "0 unknown, 1 power, 2 reset pin, 3 watchdog, 4 software, 5 fault"),
+    r(56, "self_test", u8, "", "0 not run, 1 passed; failed: 2 arithmetic, 3 code, 4 Params image, 5 kinematics, 6 control"),
+    r(57, "reset_cause", u8, "", "0 unknown, 1 power, 2 reset pin, 3 software, 4 watchdog, 5 low power, 6 fault"),
     r(58, "action_count", u16, "", "actions in the library"),
     r(60, "parameter_count", u16, "", "numbers that parameter_id names"),
     // Where every Dynamixel has it.
