@@ -1,7 +1,7 @@
 #pragma once
 #include "hal/chip/stm32/registers/memory_map.hpp"
 
-/// Which stream and channel serves which peripheral: RM0090 tables 42 and 43, RM0390 tables 28 and
+/// Which stream and channel serves which peripheral: RM0090 tables 43 and 44, RM0390 tables 28 and
 /// 29, RM0385 tables 25 and 26, as far as VERP's peripherals go. A stream serves one at a time.
 namespace verp::hal::stm32::dma {
 
