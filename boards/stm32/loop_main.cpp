@@ -1,4 +1,5 @@
 #include "boards/stm32/hardware.hpp"
+#include "common/control/boot_check.hpp"
 #include "common/model/image.hpp"
 #include "firmware/app/app.hpp"
 #include "firmware/app/link_bus.hpp"
@@ -48,6 +49,7 @@ struct Board {
   stm32::IndependentWatchdog<Io> dog;
   stm32::Gpio<Io> gpio;
   Nobody nobody;
+  control::BootReport boot;  ///< no servo is driven unless it is sound
   std::uint64_t blink_us = 0;
   bool lit = false;
 };
@@ -120,7 +122,10 @@ extern "C" int verp_main() {
   static board::Board here(start);
   here.gpio.output(board::kLed, false);
   const auto size = reinterpret_cast<std::uintptr_t>(verp_params_bytes);
-  while (check_image(verp_params_begin, size) != ImageFault::kNone) here.idle();
+  static Params scratch;
+  static State state;
+  here.boot = control::check_boot(verp_params_begin, size, scratch, state);
+  while (here.boot.verdict != control::BootVerdict::kSound) here.idle();
   const Params& params = reinterpret_cast<const ParamsImage*>(verp_params_begin)->params;
   if (!board::open_servo_port(start, params.baud)) return 1;
   here.gpio.output(board::kServoPower, true);
