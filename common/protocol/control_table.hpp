@@ -51,7 +51,7 @@ inline constexpr std::uint16_t kPositionIGain = 82;          // 2
 inline constexpr std::uint16_t kPositionPGain = 84;          // 2
 inline constexpr std::uint16_t kFeedforward2Gain = 88;       // 2
 inline constexpr std::uint16_t kFeedforward1Gain = 90;       // 2
-inline constexpr std::uint16_t kBusWatchdog = 98;            // 1
+inline constexpr std::uint16_t kBusWatchdog = 98;            // 1, see kBusWatchdogUnit_us
 inline constexpr std::uint16_t kGoalPwm = 100;               // 2
 inline constexpr std::uint16_t kGoalCurrent = 102;           // 2, X-series only
 inline constexpr std::uint16_t kGoalVelocity = 104;          // 4
@@ -87,6 +87,13 @@ inline constexpr std::uint32_t kFactoryBaud = 57600;
 inline constexpr std::uint8_t kTimeBasedProfile = 1 << 2;  ///< bit 2 of Drive Mode
 inline constexpr std::uint8_t kPositionMode = 3;  ///< Operating Mode: position control, one turn
 inline constexpr std::uint16_t kFullPwm = 885;    ///< PWM Limit of 100 %
+
+/// Bus Watchdog: with torque on and no instruction packet on the bus for so many units, the servo
+/// stops where it is, the register reads kBusWatchdogTripped, and goals are refused until 0 is
+/// written. 0: off.
+inline constexpr std::uint32_t kBusWatchdogUnit_us = 20000;
+inline constexpr std::uint8_t kBusWatchdogMost = 127;
+inline constexpr std::uint8_t kBusWatchdogTripped = 0xFF;  ///< -1
 
 /// Bits of Hardware Error Status (70) and Shutdown (63).
 enum HardwareError : std::uint8_t {

@@ -116,6 +116,8 @@ class App {
       const auto periods = static_cast<std::uint32_t>(elapsed_us / params_.period_us);
       inputs_.tick += periods > 1 ? periods : 1;
       if (periods > 1) inputs_.flags |= kOverrun;
+      const std::uint32_t patience_us = bus_watchdog_ * dxl::kBusWatchdogUnit_us;
+      if (elapsed_us >= patience_us) clear_watchdogs_ = true;
     }
     ticking_ = true;
     last_read_us_ = now_us;
@@ -212,6 +214,12 @@ class App {
   void send_goals() {
     const std::uint32_t wanted = torque_wanted();
     if (wanted == 0) return;
+    // A servo whose watchdog has tripped takes no goals: cleared first, and set again after them.
+    if (clear_watchdogs_ || torque_sent_ == 0) {
+      send_bytes(dxl::address::kBusWatchdog, 0, true);
+      torque_repeats_ = kTorqueRepeats;
+      clear_watchdogs_ = false;
+    }
     dxl::Encoder encoder(master_.frame(), master_.capacity());
     dxl::begin_sync_write(encoder, dxl::address::kGoalPosition, 4);
     for (int j = 0; j < params_.joint_count; ++j) {
@@ -227,14 +235,21 @@ class App {
     const std::uint32_t wanted = torque_wanted();
     if (wanted != torque_sent_) torque_repeats_ = kTorqueRepeats;
     torque_sent_ = wanted;
+    const bool to_all = torque_repeats_ > 0;
+    if (to_all) --torque_repeats_;
+    send_bytes(dxl::address::kTorqueEnable, 1, to_all);
+    send_bytes(dxl::address::kBusWatchdog, bus_watchdog_, to_all);
+  }
+
+  // One register of all joints, or of the one in turn: `value` where torque is on, 0 elsewhere.
+  void send_bytes(std::uint16_t address, std::uint8_t value, bool to_all) {
     dxl::Encoder encoder(master_.frame(), master_.capacity());
-    dxl::begin_sync_write(encoder, dxl::address::kTorqueEnable, 1);
+    dxl::begin_sync_write(encoder, address, 1);
     for (int j = 0; j < params_.joint_count; ++j) {
-      if (torque_repeats_ == 0 && j != slow_joint_) continue;
+      if (!to_all && j != slow_joint_) continue;
       encoder.u8(params_.joint[j].servo_id);
-      encoder.u8(wanted >> j & 1);
+      encoder.u8((torque_wanted() >> j & 1) != 0 ? value : std::uint8_t{0});
     }
-    if (torque_repeats_ > 0) --torque_repeats_;
     master_.send(encoder.finish());
   }
 
@@ -256,6 +271,8 @@ class App {
   bool slow_alert_ = false;
   bool ticking_ = false;  ///< a tick was counted before
   bool positions_complete_ = true;
+  bool clear_watchdogs_ = false;  ///< a pause may have tripped them
+  const std::uint8_t bus_watchdog_ = bus_watchdog_units(params_);
   const bool all_fast_ = all_fast(params_);
 };
 

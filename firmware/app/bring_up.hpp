@@ -119,6 +119,7 @@ class BringUp {
     dxl::put_u16(motion + 4, profile.profile_ms);
     return ping(id, profile.model_number) &&
            write(id, dxl::address::kTorqueEnable, &off, sizeof off) &&
+           write(id, dxl::address::kBusWatchdog, &off, sizeof off) &&
            establish(id, dxl::address::kStatusReturnLevel, &answer_all, sizeof answer_all) &&
            establish(id, dxl::address::kReturnDelay, mode, sizeof mode) &&
            establish(id, dxl::address::kPositionDGain, gains, sizeof gains) &&

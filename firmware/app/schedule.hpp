@@ -2,6 +2,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "common/math/convert.hpp"
 #include "common/model/params.hpp"
 #include "common/protocol/control_table.hpp"
 #include "common/protocol/dynamixel2.hpp"
@@ -51,6 +52,18 @@ constexpr bool all_fast(const Params& params) {
   return params.joint_count > 0;
 }
 
+/// What the servos' Bus Watchdog is set to while torque is on: they hold by themselves somewhat
+/// later than the controller would have begun to let them down.
+inline std::uint8_t bus_watchdog_units(const Params& params) {
+  constexpr float kLater_s = 0.1F;
+  constexpr float kUnit_s = 1e-6F * static_cast<float>(dxl::kBusWatchdogUnit_us);
+  const std::int32_t units =
+      math::to_int32((params.tuning.safety.stale_release_s + kLater_s) / kUnit_s);
+  return static_cast<std::uint8_t>(units < 1                       ? 1
+                                   : units > dxl::kBusWatchdogMost ? dxl::kBusWatchdogMost
+                                                                   : units);
+}
+
 /// Devices in the tick's second read: IMU, feet, and one servo in turn.
 constexpr std::size_t sensor_devices(const Params& params) {
   std::size_t devices = 1;
@@ -59,15 +72,15 @@ constexpr std::size_t sensor_devices(const Params& params) {
   return devices;
 }
 
-/// Bytes of the longest tick in which every device answers: reads, goals, torque of all servos, one
-/// alert looked up.
+/// Bytes of the longest tick in which every device answers: reads, goals, torque of all servos,
+/// their Bus Watchdog cleared and set, one alert looked up.
 constexpr std::size_t schedule_bytes(const Params& params) {
   const std::size_t joints = params.joint_count;
   const std::size_t positions =
       all_fast(params) ? fast_sync_read_bytes(joints, 4) : sync_read_bytes(joints, 4);
   return positions + sync_read_bytes(sensor_devices(params), dxl::sensor_block::kBytes) +
          (dxl::kInstructionBytes + 4 + dxl::kStatusBytes + 1) + sync_write_bytes(joints, 4) +
-         sync_write_bytes(joints, 1);
+         3 * sync_write_bytes(joints, 1);
 }
 
 /// Time that tick takes on the wire, replies' slack included. Over 80 % of the period leaves no

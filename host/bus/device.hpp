@@ -40,6 +40,13 @@ class Device {
   dxl::Error reg_write(std::uint16_t address, std::span<const std::uint8_t> data);
   dxl::Error action();
 
+  /// An instruction packet, for whomever, was on the wire until `time_us`.
+  void heard(std::uint64_t time_us) { heard_us_ = time_us; }
+  /// When the device does something by itself if nothing more is heard.
+  virtual std::uint64_t deadline_us() const { return kNever_us; }
+  /// The plant stands at deadline_us().
+  virtual void expire() {}
+
   /// Power off and on: RAM registers as they begin, a hardware error gone.
   void reboot();
   /// Not with torque on. Unless kept, the id becomes 1 and the baud rate 57600.
@@ -61,7 +68,9 @@ class Device {
   std::uint8_t byte(std::uint16_t address) const {
     return static_cast<std::uint8_t>(table_.get(address));
   }
+  static constexpr std::uint64_t kNever_us = ~std::uint64_t{0};
   RegisterTable table_;
+  std::uint64_t heard_us_ = 0;
 
  private:
   struct Piece {  ///< of a write, on consecutive registers

@@ -27,7 +27,10 @@ bool VirtualBus::begins_tick(const dxl::Packet& packet) {
 
 void VirtualBus::handle(const dxl::Packet& packet, std::uint64_t end_ns) {
   if (packet.is_status()) return;
-  plant_.advance_to(end_ns / 1000);
+  advance_plant(end_ns / 1000);
+  for (const auto& each : devices_) {
+    if (hears(*each)) each->heard(end_ns / 1000);
+  }
   const std::span<const std::uint8_t> parameters(packet.parameters, packet.size);
   const bool has_address = packet.size > 2;
   const std::uint16_t address = has_address ? dxl::get_u16(packet.parameters) : std::uint16_t{0};

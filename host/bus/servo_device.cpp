@@ -60,7 +60,7 @@ std::vector<Register> servo_registers(const ServoIdentity& identity) {
       {at::kPositionPGain, 2, true, mx ? 850 : 800, 0, kGain},
       {at::kFeedforward2Gain, 2, true, 0, 0, kGain},
       {at::kFeedforward1Gain, 2, true, 0, 0, kGain},
-      {at::kBusWatchdog, 1, true, 0, 0, 127},
+      {at::kBusWatchdog, 1, true, 0, 0, dxl::kBusWatchdogMost},
       {at::kGoalPwm, 2, true, dxl::kFullPwm, -dxl::kFullPwm, dxl::kFullPwm},
       {at::kGoalCurrent, 2, true, 1193, -1193, 1193},
       {at::kGoalVelocity, 4, true, 0, -1023, 1023},
@@ -148,6 +148,17 @@ void ServoDevice::watch_limits(const sim::ServoMeasurement& measured) {
 dxl::Error ServoDevice::check(std::uint16_t address, std::span<const std::uint8_t> data) const {
   const dxl::Error error = table_.check(address, data, torque_on());
   if (error != dxl::Error::kNone) return error;
+  if (tripped()) {
+    const auto size = static_cast<std::uint16_t>(data.size());
+    if (overlaps(address, size, at::kGoalPwm, at::kProfileAcceleration) ||
+        overlaps(address, size, at::kGoalPosition, at::kGoalPosition + 4)) {
+      return dxl::Error::kDataRange;
+    }
+    if (overlaps(address, size, at::kBusWatchdog, at::kBusWatchdog + 1) &&
+        data[at::kBusWatchdog - address] != 0) {
+      return dxl::Error::kDataRange;
+    }
+  }
   const Register& goal = *table_.find(at::kGoalPosition);
   if (byte(at::kOperatingMode) != dxl::kPositionMode || address > at::kGoalPosition ||
       address + data.size() <= at::kGoalPosition) {
@@ -174,6 +185,19 @@ void ServoDevice::written(std::uint16_t address, std::uint16_t length) {
     table_.set(at::kGoalPosition, plant_.measure(joint_).position_count);
     goal_written_ = true;
   }
+  apply();
+}
+
+// e-Manual, Bus Watchdog (98): counts instruction packets for anybody, and only with torque on.
+std::uint64_t ServoDevice::deadline_us() const {
+  const std::uint8_t units = byte(at::kBusWatchdog);
+  if (!torque_on() || units == 0 || tripped()) return kNever_us;
+  return heard_us_ + std::uint64_t{units} * dxl::kBusWatchdogUnit_us;
+}
+
+void ServoDevice::expire() {
+  table_.set(at::kBusWatchdog, dxl::kBusWatchdogTripped);
+  table_.set(at::kGoalPosition, plant_.measure(joint_).position_count);
   apply();
 }
 

@@ -23,6 +23,8 @@ class ServoDevice final : public Device {
   bool answers_fast_sync_read() const override { return fast_sync_read_; }
   bool alert() const override { return byte(dxl::address::kHardwareError) != 0; }
   void refresh(std::uint16_t address, std::uint16_t length) override;
+  std::uint64_t deadline_us() const override;
+  void expire() override;
 
  private:
   dxl::Error check(std::uint16_t address, std::span<const std::uint8_t> data) const override;
@@ -30,6 +32,7 @@ class ServoDevice final : public Device {
   void restarted() override;
   bool moving() override;
   bool torque_on() const override { return byte(dxl::address::kTorqueEnable) != 0; }
+  bool tripped() const { return byte(dxl::address::kBusWatchdog) == dxl::kBusWatchdogTripped; }
   void watch_limits(const sim::ServoMeasurement& measured);
   void apply();
 

@@ -98,12 +98,25 @@ std::size_t VirtualBus::poll(std::uint8_t* buffer, std::size_t capacity, std::ui
 
 void VirtualBus::advance_to(std::uint64_t time_us) {
   now_ns_ = std::max(now_ns_, time_us * 1000);
-  plant_.advance_to(std::max(now_ns_, wire_free_ns_) / 1000);
+  advance_plant(std::max(now_ns_, wire_free_ns_) / 1000);
+}
+
+void VirtualBus::advance_plant(std::uint64_t time_us) {
+  for (;;) {
+    Device* next = nullptr;
+    for (const auto& each : devices_) {
+      if (next == nullptr || each->deadline_us() < next->deadline_us()) next = each.get();
+    }
+    if (next == nullptr || next->deadline_us() > time_us) break;
+    plant_.advance_to(next->deadline_us());
+    next->expire();
+  }
+  plant_.advance_to(time_us);
 }
 
 void VirtualBus::wait_us(std::uint32_t delay_us) {
   wire_free_ns_ += std::uint64_t{delay_us} * 1000;
-  plant_.advance_to(wire_free_ns_ / 1000);
+  advance_plant(wire_free_ns_ / 1000);
 }
 
 void VirtualBus::reply(std::uint8_t id, std::uint8_t error, std::span<const std::uint8_t> data) {

@@ -63,6 +63,8 @@ class VirtualBus {
   std::uint64_t begin_tick(std::uint64_t ready_ns);
   /// False for a device that is unplugged, or set to another baud rate.
   bool hears(const Device& device) const;
+  /// Takes the plant there, and on the way lets devices do what they do by themselves.
+  void advance_plant(std::uint64_t time_us);
   /// Lets a Return Delay Time pass and the plant follow; the reply's bytes come next.
   void wait_us(std::uint32_t delay_us);
   void reply(std::uint8_t id, std::uint8_t error, std::span<const std::uint8_t> data);

@@ -20,7 +20,8 @@ TEST_F(AppLoop, BringUpWritesEepromOnlyOnce) {
   tap.frames.clear();
   ready();
   EXPECT_GT(writes, 4 * kJoints);
-  EXPECT_EQ(frames_of(dxl::Instruction::kWrite), kJoints) << "torque off, and nothing else";
+  EXPECT_EQ(frames_of(dxl::Instruction::kWrite), 2 * kJoints)
+      << "torque and Bus Watchdog off, and nothing else";
 }
 
 TEST_F(AppLoop, ATickBringsEveryValueFresh) {
@@ -43,10 +44,10 @@ TEST_F(AppLoop, ATickBringsEveryValueFresh) {
 
 TEST_F(AppLoop, OneTickIsOnePeriodOfBusTime) {
   ready();
-  ticks(1);
+  ticks(4);  // the first three end later: they tell all servos that torque is off
   const std::uint64_t first_us = bus.now_us();
-  ticks(100);
-  EXPECT_EQ(bus.now_us() - first_us, 100u * params.period_us);
+  ticks(97);
+  EXPECT_EQ(bus.now_us() - first_us, 97u * params.period_us);
   EXPECT_EQ(app.inputs().tick, 100u);
   EXPECT_EQ(bus.tick(), 100u);
   ASSERT_EQ(memory.records.size(), 101u);
@@ -58,7 +59,7 @@ TEST_F(AppLoop, OneTickIsOnePeriodOfBusTime) {
   }
 }
 
-TEST_F(AppLoop, ATickNeedsTwoPollsAndFourFrames) {
+TEST_F(AppLoop, ATickNeedsTwoPollsAndFiveFrames) {
   ready();
   wanted.torque_enable = all();
   ticks(5);
@@ -66,7 +67,7 @@ TEST_F(AppLoop, ATickNeedsTwoPollsAndFourFrames) {
   tap.polls = 0;
   ticks(10);
   EXPECT_EQ(tap.polls, 20);
-  EXPECT_EQ(tap.frames.size(), 40u);
+  EXPECT_EQ(tap.frames.size(), 50u);
 }
 
 TEST_F(AppLoop, StaysInsideItsSchedule) {
@@ -86,9 +87,10 @@ TEST_F(AppLoop, GoalsArriveBeforeTorqueAndOnlyWhereTorqueIsWanted) {
   wanted.torque_enable = 0b101;
   tap.frames.clear();
   ticks(1);
-  ASSERT_GE(tap.frames.size(), 2u);
-  EXPECT_EQ(tap.frames[tap.frames.size() - 2][8], dxl::address::kGoalPosition);
-  EXPECT_EQ(tap.frames.back()[8], dxl::address::kTorqueEnable);
+  ASSERT_GE(tap.frames.size(), 3u);
+  EXPECT_EQ(tap.frames[tap.frames.size() - 3][8], dxl::address::kGoalPosition);
+  EXPECT_EQ(tap.frames[tap.frames.size() - 2][8], dxl::address::kTorqueEnable);
+  EXPECT_EQ(tap.frames.back()[8], dxl::address::kBusWatchdog);
   EXPECT_TRUE(plant.setpoint(0).torque_on);
   EXPECT_EQ(plant.setpoint(0).goal_count, 1000);
   EXPECT_FALSE(plant.setpoint(1).torque_on);
