@@ -1,7 +1,7 @@
 # The core once more, by every compiler and optimisation level that must agree, each linked with the program that prints
 # its digests; and once to count the lines and branches that the trace reaches.
 get_target_property(core_sources verp_core SOURCES)
-list(FILTER core_sources EXCLUDE REGEX "/(protocol/.*|model/image|control/golden|control/self_test)\\.cpp$")
+list(FILTER core_sources EXCLUDE REGEX "/(protocol/.*|model/image|control/golden|control/self_test|control/boot_check|control/built_in_robot)\\.cpp$")
 get_target_property(contract verp_floating_point INTERFACE_COMPILE_OPTIONS)
 string(REGEX MATCHALL "-f[a-z-]+(=[a-z]+)?" contract "${contract}")
 get_target_property(contract_definitions verp_floating_point INTERFACE_COMPILE_DEFINITIONS)
