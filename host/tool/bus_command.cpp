@@ -33,10 +33,6 @@ bus::Client open(const BusOptions& options) {
           static_cast<std::uint32_t>(options.timeout_ms * 1000)};
 }
 
-void stop_if_interrupted() {
-  if (interrupted()) throw ToolError(kRunFailed, "verp bus: interrupted");
-}
-
 [[noreturn]] void nobody(const std::string& what) {
   throw ToolError(kNoDevice, what + "; check power, wiring and baud rate, or raise --timeout");
 }
@@ -71,13 +67,11 @@ int scan(const BusOptions& options) {
   std::vector<bus::Identity> found;
   if (options.each) {
     for (int id = 0; id <= dxl::kMaxId; ++id) {
-      stop_if_interrupted();
       const auto one = client.ping(static_cast<std::uint8_t>(id), 1);
       if (one) found.push_back(*one);
     }
   } else {
     found = client.scan();
-    stop_if_interrupted();
   }
   if (client.crc_errors() > 0) {
     complain(
@@ -142,7 +136,6 @@ int read(const BusOptions& options) {
   const auto id = static_cast<std::uint8_t>(options.id);
   Json values = Json::object();
   for (const bus::NamedRegister& each : wanted(client, options)) {
-    stop_if_interrupted();
     const auto bytes = client.read(id, each.address, static_cast<std::uint16_t>(each.bytes()));
     if (options.json) {
       values[options.address >= 0 ? std::to_string(each.address) : each.name] =
@@ -179,6 +172,7 @@ int write(const BusOptions& options) {
 int bench(const BusOptions& options) {
   bus::Client client = open(options);
   identify(client, options);
+  catch_interrupts();
   const BusBench result = run_bus_bench(client, static_cast<std::uint8_t>(options.id),
                                         static_cast<std::uint16_t>(options.bench_address),
                                         static_cast<std::uint16_t>(options.size), options.seconds);
