@@ -29,7 +29,6 @@ struct BusOptions {
 };
 
 bus::Client open(const BusOptions& options) {
-  catch_interrupts();
   return {wire::parse_endpoint(options.link),
           static_cast<std::uint32_t>(options.timeout_ms * 1000)};
 }
