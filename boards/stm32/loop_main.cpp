@@ -1,16 +1,19 @@
 #include "boards/stm32/hardware.hpp"
+#include "boards/stm32/operator_setup.hpp"
 #include "common/control/boot_check.hpp"
 #include "common/model/image.hpp"
 #include "firmware/app/app.hpp"
 #include "firmware/app/link_bus.hpp"
 #include "firmware/app/lockstep_bus.hpp"
+#include "firmware/app/operator_device.hpp"
 #include "firmware/boot/boot.hpp"
 #include "firmware/boot/crash.hpp"
 
 /// loop_<board>: the robot's control loop over the board's serial ports. At the servo port may be
 /// servos, or a twin that says so when it is greeted (firmware/app/lockstep_messages.hpp): the
 /// image asks for the one and for the other in turn until somebody is there. Torque is off until
-/// then.
+/// then. At the operator's port the controller is a Dynamixel device, from the start on and
+/// whatever the boot check found.
 extern "C" const std::uint8_t verp_params_begin[];
 extern "C" const std::uint8_t verp_params_bytes[];  ///< an address that is a size (memory.ld)
 
@@ -23,21 +26,27 @@ constexpr std::uint64_t kBlink_us = 500'000;
 /// Of a loop that ticks every 5 to 20 ms. Shorter would bite a loop that a lost reply held up.
 constexpr std::uint32_t kWatchdog_us = 100'000;
 
-/// Gives no orders: the robot stays limp.
-struct Nobody {
-  app::OperatorOrder order(std::uint32_t) const { return {}; }
-  void record(const TickRecord& record, const State&, const Outputs&) {
-    boot::note_tick(record.inputs.tick);
-  }
-};
+/// A run of so many ticks has shown that it does not crash at once again.
+constexpr std::uint32_t kSettledTicks = 1000;
+/// What is left of a period when a real-time loop stops serving the operator: SysTick's
+/// millisecond, should the compare interrupt be late, and a slice of the operator's bytes.
+constexpr std::uint64_t kServingEnds_us = 2'000;
+/// The longest reply and the one to Reboot at 1 Mbaud take half of it.
+constexpr std::uint64_t kLastWords_us = 40'000;
+
+using Operator = app::OperatorDevice<Port>;
 
 struct Board {
-  explicit Board(const Start& start) : started(start), dog(start.cause) {}
+  Board(const Start& start, const Params& params, control::BootVerdict verdict)
+      : started(start),
+        dog(start.cause),
+        operator_device(operator_port, params, operator_setup(start, verdict)) {}
 
   /// What can be done whenever nothing arrives. Waiting for a twin is life; a dead loop does not
   /// wait.
   void idle() {
     dog.feed();
+    serve();
     const std::uint64_t now_us = timer.now_us();
     if (now_us < blink_us) return;
     blink_us = now_us + kBlink_us;
@@ -45,12 +54,43 @@ struct Board {
     gpio.write(kLed, lit);
   }
 
+  /// The operator's link. True if there was anything to do.
+  bool serve() {
+    if (operator_device.reboot_asked()) {
+      const std::uint64_t now_us = timer.now_us();
+      if (reboot_us == 0) reboot_us = now_us + kLastWords_us;
+      if (now_us >= reboot_us) verp_exit(0);
+    }
+    return operator_device.poll();
+  }
+  /// Serves the operator, and else sleeps: an interrupt or SysTick wakes.
+  void serve_until(std::uint64_t end_us) {
+    while (timer.now_us() < end_us) {
+      if (!serve()) timer.doze_until(end_us, [] { return false; });
+    }
+  }
+
+  // Recorder
+  void record(const TickRecord& record, const State& state, const Outputs& outputs) {
+    boot::note_tick(record.inputs.tick);
+    if (++ticks == kSettledTicks) boot::forget_crashes();
+    operator_device.record(record, state, outputs);
+  }
+  template <class Loop>
+  void report(const Loop& loop) {
+    operator_device.report({.bus = loop.counters(),
+                            .bus_crc_errors = loop.crc_errors(),
+                            .deadline_misses = deadline_misses});
+  }
+
   const Start& started;
   stm32::IndependentWatchdog<Io> dog;
   stm32::Gpio<Io> gpio;
-  Nobody nobody;
-  control::BootReport boot;  ///< no servo is driven unless it is sound
+  Operator operator_device;
   std::uint64_t blink_us = 0;
+  std::uint64_t reboot_us = 0;  ///< when the operator's reset comes; 0: not asked for
+  std::uint32_t ticks = 0;      ///< since the start, of all loops
+  std::uint32_t deadline_misses = 0;
   bool lit = false;
 };
 
@@ -85,10 +125,11 @@ bool run_in_lockstep(Board& board, const Params& params) {
   app::LockstepBus<Port, Patience> bus(servo_port, {board, until_us});
   if (bus.greet(params) != lockstep::Verdict::kAccepted) return false;
   until_us = kForever_us;
-  app::App loop(params, bus, board.nobody, board.nobody);
+  app::App loop(params, bus, board.operator_device, board);
   if (loop.bring_up().status != app::BringUpStatus::kReady) return true;
   while (!bus.stopped()) {
     loop.tick();
+    board.report(loop);
     board.idle();
   }
   return true;
@@ -98,7 +139,7 @@ bool run_in_lockstep(Board& board, const Params& params) {
 void run_in_real_time(Board& board, const Params& params) {
   PatientPort port{board};
   app::LinkBus<PatientPort, Timer> bus(port, timer);
-  app::App loop(params, bus, board.nobody, board.nobody);
+  app::App loop(params, bus, board.operator_device, board);
   if (loop.bring_up().status != app::BringUpStatus::kReady) return;
   board.idle();
   const bool guarded =
@@ -106,9 +147,12 @@ void run_in_real_time(Board& board, const Params& params) {
   if (!guarded || !timer.start(params.period_us)) return;
   port.ticking = true;
   for (;;) {
-    timer.wait();
+    board.deadline_misses += timer.wait() - 1;
+    const std::uint64_t begun_us = timer.now_us();
     loop.tick();
+    board.report(loop);
     board.idle();
+    board.serve_until(begun_us + params.period_us - kServingEnds_us);
   }
 }
 
@@ -119,14 +163,19 @@ extern "C" int verp_main() {
   using namespace verp;
   const board::Start start = board::start_hardware();
   if (!start.good || !board::open_operator_port(start)) return 1;
-  static board::Board here(start);
-  here.gpio.output(board::kLed, false);
   const auto size = reinterpret_cast<std::uintptr_t>(verp_params_bytes);
   static Params scratch;
   static State state;
-  here.boot = control::check_boot(verp_params_begin, size, scratch, state);
-  while (here.boot.verdict != control::BootVerdict::kSound) here.idle();
-  const Params& params = reinterpret_cast<const ParamsImage*>(verp_params_begin)->params;
+  const control::BootVerdict verdict =
+      control::check_boot(verp_params_begin, size, scratch, state).verdict;
+  scratch = {};  // the robot of a board that was given none
+  const bool has_robot = check_image(verp_params_begin, size) == ImageFault::kNone;
+  const Params& params =
+      has_robot ? reinterpret_cast<const ParamsImage*>(verp_params_begin)->params : scratch;
+  static board::Board here(start, params, verdict);
+  here.gpio.output(board::kLed, false);
+  // No loop, so no torque: all that is left is to tell the operator why.
+  while (verdict != control::BootVerdict::kSound) here.idle();
   if (!board::open_servo_port(start, params.baud)) return 1;
   here.gpio.output(board::kServoPower, true);
   for (;;) {

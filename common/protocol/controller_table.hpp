@@ -87,6 +87,8 @@ enum class ResetCause : std::uint8_t {
   kLowPower,
   kFault
 };
+/// As hal/chip/stm32/clock.hpp; kUnknown: the board does not say.
+enum class ClockSource : std::uint8_t { kUnknown, kCrystal, kInternalPll, kInternal, kAbsent };
 enum class WindowState : std::uint8_t { kIdle, kReceiving, kAccepted, kRefused };
 
 inline constexpr std::uint16_t kWindowBytes = 128;
@@ -133,11 +135,14 @@ inline constexpr Register kTable[] = {
     r(57, "reset_cause", u8, "", "0 unknown, 1 power, 2 reset pin, 3 software, 4 watchdog, 5 low power, 6 fault"),
     r(58, "action_count", u16, "", "actions in the library"),
     r(60, "parameter_count", u16, "", "numbers that parameter_id names"),
+    r(62, "clock_source", u8, "", "0 unknown, 1 crystal, 2 internal oscillator with PLL, 3 without, 4 none (emulator); 2, 3: no CAN"),
     // Where every Dynamixel has it.
     r(64, "torque_enable", u8, "", "1 while any servo holds torque (\"armed\")"),
     rw(68, "status_return_level", u8, 2, "", "replies: 0 to ping, 1 to ping and reads, 2 to all"),
     r(69, "registered_instruction", u8, "", "1: a Reg Write waits for its Action"),
     r(70, "hardware_error", u8, "bits", "faults that stop the robot: the low byte of faults; not 0: alert bit"),
+    r(72, "crash_pc", u32, "", "the crash before this start: its instruction; 0 with crash_count 1 or more: stack overflow"),
+    r(76, "crash_cause", u32, "bits", "CFSR of the core at that crash"),
     // The operator's order: every write to 80..99 makes it fresh and feeds the operator watchdog.
     rw(80, "request", u8, 2, "", "0 relax, 1 stand, 2 walk"),
     rw(81, "command_sequence", u8, 255, "", "count the orders here; it is recorded with each tick"),
@@ -158,6 +163,8 @@ inline constexpr Register kTable[] = {
     rw(108, "parameter_value", f32, kAll32, "", "its value in force; writing is refused out of its range"),
     r(112, "parameter_low", f32, "", "lowest value allowed"),
     r(116, "parameter_high", f32, "", "highest value allowed"),
+    r(120, "crash_tick", u32, "ticks", "when it crashed, counted as tick"),
+    r(124, "crash_count", u32, "", "crashes in a row before this start; 0: none is known"),
     // The last tick.
     r(128, "digest", u64, "", "chained digest of all ticks so far"),
     r(136, "tick", u32, "ticks", "control periods since power-up"),

@@ -16,6 +16,14 @@
 
 namespace verp::app {
 
+/// The crash that ended the run before (firmware/boot/crash.hpp). count 0: there was none.
+struct CrashNote {
+  std::uint32_t pc = 0;
+  std::uint32_t cause = 0;  ///< CFSR
+  std::uint32_t tick = 0;
+  std::uint32_t count = 0;  ///< crashes in a row
+};
+
 /// What the board knows before the first tick.
 struct OperatorSetup {
   std::uint8_t id = table::kDefaultId;
@@ -23,6 +31,8 @@ struct OperatorSetup {
   std::uint8_t imu_sources = 1 << static_cast<int>(table::ImuSource::kBus);  ///< bit mask
   table::SelfTest self_test = table::SelfTest::kNotRun;
   table::ResetCause reset_cause = table::ResetCause::kUnknown;
+  table::ClockSource clock_source = table::ClockSource::kUnknown;
+  CrashNote crash{};
 };
 
 /// The controller's registers and what a read or write of them does; knows no packets. Errors are
@@ -47,6 +57,11 @@ class OperatorRegisters {
     image_.set(reg("imu_sources"), setup.imu_sources);
     image_.set(reg("self_test"), setup.self_test);
     image_.set(reg("reset_cause"), setup.reset_cause);
+    image_.set(reg("clock_source"), setup.clock_source);
+    image_.set(reg("crash_pc"), setup.crash.pc);
+    image_.set(reg("crash_cause"), setup.crash.cause);
+    image_.set(reg("crash_tick"), setup.crash.tick);
+    image_.set(reg("crash_count"), setup.crash.count);
     image_.set(reg("parameter_count"), static_cast<std::uint16_t>(kTuningCount));
     image_.set(reg("status_return_level"), std::uint8_t{2});
     show_parameter();

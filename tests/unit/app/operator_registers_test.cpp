@@ -18,6 +18,23 @@ Bench<>& fresh_bench() {
   return renewed<Bench<>>(no_images);
 }
 
+// What the board found at its start, for an operator who comes later.
+TEST(OperatorStart, IsToldInRegisters) {
+  const OperatorSetup setup = {
+      .self_test = table::SelfTest::kKinematics,
+      .reset_cause = table::ResetCause::kFault,
+      .clock_source = table::ClockSource::kInternalPll,
+      .crash = {.pc = 0x0800'1234, .cause = 0x8200, .tick = 77, .count = 3}};
+  Bench<>& bench = renewed<Bench<>>(no_images, setup);
+  EXPECT_EQ(bench.value<std::uint8_t>(reg("self_test")), 5);
+  EXPECT_EQ(bench.value<std::uint8_t>(reg("reset_cause")), 6);
+  EXPECT_EQ(bench.value<std::uint8_t>(reg("clock_source")), 2);
+  EXPECT_EQ(bench.value<std::uint32_t>(reg("crash_pc")), 0x0800'1234u);
+  EXPECT_EQ(bench.value<std::uint32_t>(reg("crash_cause")), 0x8200u);
+  EXPECT_EQ(bench.value<std::uint32_t>(reg("crash_tick")), 77u);
+  EXPECT_EQ(bench.value<std::uint32_t>(reg("crash_count")), 3u);
+}
+
 TEST(OperatorOrders, AreFreshInTheOneTickThatFollowsAWrite) {
   Bench<>& bench = fresh_bench();
   EXPECT_EQ(bench.device.order(0).flags, 0);

@@ -1,0 +1,35 @@
+#pragma once
+#include "boards/stm32/hardware.hpp"
+#include "common/control/boot_check.hpp"
+#include "firmware/app/operator_registers.hpp"
+#include "firmware/boot/crash.hpp"
+
+/// How this start went, in the words of the operator's registers.
+namespace verp::board {
+
+/// Takes the crash record; call once.
+inline app::OperatorSetup operator_setup(const Start& start, control::BootVerdict verdict) {
+  using dxl::controller::ClockSource;
+  using dxl::controller::ResetCause;
+  using dxl::controller::SelfTest;
+  // Registers count as the boot check and the chip do; the check and the clock from 1 on.
+  static_assert(static_cast<int>(SelfTest::kControl) ==
+                static_cast<int>(control::BootVerdict::kControl) + 1);
+  static_assert(static_cast<int>(ClockSource::kAbsent) ==
+                static_cast<int>(stm32::ClockSource::kAbsent) + 1);
+  static_assert(static_cast<int>(ResetCause::kLowPower) ==
+                static_cast<int>(stm32::ResetCause::kLowPower));
+  app::OperatorSetup setup;
+  setup.self_test = static_cast<SelfTest>(static_cast<int>(verdict) + 1);
+  setup.clock_source = static_cast<ClockSource>(static_cast<int>(start.clocks.source) + 1);
+  setup.reset_cause = static_cast<ResetCause>(start.cause);
+  boot::CrashRecord crash;
+  if (boot::take_crash(crash)) {
+    setup.reset_cause = ResetCause::kFault;
+    setup.crash = {
+        .pc = crash.pc, .cause = crash.cause, .tick = crash.tick, .count = crash.crashes};
+  }
+  return setup;
+}
+
+}  // namespace verp::board
