@@ -79,6 +79,13 @@ function(verp_add_fault_tests machine)
   endforeach()
 endfunction()
 
+# The loop's image through its emulated serial ports.
+function(verp_add_serial_tests machine)
+  add_test(NAME hil.${VERP_BOARD}.operator COMMAND ${CMAKE_SOURCE_DIR}/tests/target/ask_operator
+    ${machine} $<TARGET_FILE:loop_${VERP_BOARD}> ${VERP_HOST_DIR}/host/tool/verp)
+  set_tests_properties(hil.${VERP_BOARD}.operator PROPERTIES LABELS "hil;target" TIMEOUT 300)
+endfunction()
+
 function(verp_add_mps2_images machine)
   verp_add_fault_tests(${machine})
   verp_add_unit_tests(${machine})
