@@ -114,6 +114,10 @@ void LockstepServer::take(std::span<const std::uint8_t> bytes, std::vector<std::
   }
 }
 
+std::vector<std::uint8_t> LockstepServer::unannounced() {
+  return greeted_ ? std::vector<std::uint8_t>{} : std::exchange(frames_, {});
+}
+
 void LockstepServer::handle(const dxl::Packet& packet, std::vector<std::uint8_t>& answer) {
   lockstep::Hello greeting;
   lockstep::Advance request;
@@ -134,7 +138,8 @@ void LockstepServer::handle(const dxl::Packet& packet, std::vector<std::uint8_t>
 
 void LockstepServer::hello(const lockstep::Hello& hello, std::vector<std::uint8_t>& answer) {
   frames_.clear();
-  const lockstep::Verdict verdict = verdict_on(hello, params_);
+  const lockstep::Verdict verdict =
+      real_time_ ? lockstep::Verdict::kNoLockstep : verdict_on(hello, params_);
   const bool repeated = greeted_ && !answered_;
   greeted_ = verdict == lockstep::Verdict::kAccepted;
   if (greeted_ && !repeated) {

@@ -48,6 +48,11 @@ class LockstepServer {
   /// Takes what the controller sent; appends to `answer` what it is to get.
   void take(std::span<const std::uint8_t> bytes, std::vector<std::uint8_t>& answer);
 
+  /// What came before the first hello and is not for the clock, once; afterwards nothing.
+  std::vector<std::uint8_t> unannounced();
+  /// From now on every hello is refused: the twin runs in real time.
+  void refuse_lockstep() { real_time_ = true; }
+
   /// True once a controller has announced lockstep.
   bool greeted() const { return greeted_; }
   /// The controller was told to stop.
@@ -74,6 +79,7 @@ class LockstepServer {
   bool answered_ = false;             ///< since the hello
   bool greeted_ = false;
   bool stopped_ = false;
+  bool real_time_ = false;
 };
 
 /// One line of what differs, for a person; empty for kAccepted.

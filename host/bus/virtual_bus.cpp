@@ -83,6 +83,22 @@ bool VirtualBus::send(const std::uint8_t* data, std::size_t size) {
 std::size_t VirtualBus::poll(std::uint8_t* buffer, std::size_t capacity, std::uint32_t timeout_us) {
   const std::uint64_t deadline_ns =
       std::max(now_ns_, send_start_ns_ + std::uint64_t{timeout_us} * 1000);
+  const std::size_t count = arrive(deadline_ns, buffer, capacity);
+  if (count == 0 && capacity > 0) now_ns_ = deadline_ns;
+  return count;
+}
+
+std::size_t VirtualBus::bring_until(std::uint64_t time_us, std::uint8_t* buffer,
+                                    std::size_t capacity) {
+  const std::uint64_t deadline_ns = std::max(now_ns_, time_us * 1000);
+  const std::size_t count = arrive(deadline_ns, buffer, capacity);
+  if (count < capacity) now_ns_ = deadline_ns;
+  advance_plant(std::max(now_ns_, wire_free_ns_) / 1000);
+  return count;
+}
+
+std::size_t VirtualBus::arrive(std::uint64_t deadline_ns, std::uint8_t* buffer,
+                               std::size_t capacity) {
   std::size_t count = 0;
   while (!replies_.empty() && count < capacity) {
     Chunk& chunk = replies_.front();
@@ -92,13 +108,7 @@ std::size_t VirtualBus::poll(std::uint8_t* buffer, std::size_t capacity, std::ui
     now_ns_ = std::max(now_ns_, arrival_ns);
     if (chunk.taken == chunk.bytes.size()) replies_.pop_front();
   }
-  if (count == 0 && capacity > 0) now_ns_ = deadline_ns;
   return count;
-}
-
-void VirtualBus::advance_to(std::uint64_t time_us) {
-  now_ns_ = std::max(now_ns_, time_us * 1000);
-  advance_plant(std::max(now_ns_, wire_free_ns_) / 1000);
 }
 
 void VirtualBus::advance_plant(std::uint64_t time_us) {

@@ -42,11 +42,11 @@ class VirtualBus {
   /// Whether a packet makes a tick begin, if time does not go on by itself.
   static bool begins_tick(const dxl::Packet& packet);
 
-  /// From now on time goes on by advance_to() alone and by what crosses the wire; no read waits for
-  /// a period to begin.
-  void run_in_real_time() { real_time_ = true; }
-  /// Lets time go on while the wire is quiet, and the plant follow.
-  void advance_to(std::uint64_t time_us);
+  /// In real time no read waits for a period to begin; bring_until() lets time go on.
+  void set_real_time(bool real_time) { real_time_ = real_time; }
+  /// Lets time go on up to `time_us`, and the plant follow; stores the bytes that arrive until then
+  /// and returns how many. If there are more than `capacity`, time stops with the last one stored.
+  std::size_t bring_until(std::uint64_t time_us, std::uint8_t* buffer, std::size_t capacity);
 
   /// Bytes that crossed the wire in either direction.
   std::uint64_t bytes_on_wire() const { return bytes_on_wire_; }
@@ -61,6 +61,7 @@ class VirtualBus {
   std::uint64_t bytes_ns(std::size_t count) const;
   Device* device(std::uint8_t id);
   std::uint64_t begin_tick(std::uint64_t ready_ns);
+  std::size_t arrive(std::uint64_t deadline_ns, std::uint8_t* buffer, std::size_t capacity);
   /// False for a device that is unplugged, or set to another baud rate.
   bool hears(const Device& device) const;
   /// Takes the plant there, and on the way lets devices do what they do by themselves.

@@ -6,10 +6,8 @@
 #include "host/model/load.hpp"
 #include "host/model/params.hpp"
 #include "host/tool/command.hpp"
-#include "host/tool/console.hpp"
 #include "host/tool/interrupt.hpp"
-#include "host/tool/walk_files.hpp"
-#include "host/tool/walk_report.hpp"
+#include "host/tool/walk_ending.hpp"
 
 namespace verp::tool {
 namespace {
@@ -27,24 +25,6 @@ WalkPlan make_plan(const WalkOptions& options) {
   return plan;
 }
 
-/// Why the run is not good; the trace is of the first walk, not of the sweep. Empty: it is good.
-std::string reason(const WalkResult& result, const Sweep& swept, const std::string& trace) {
-  if (!result.good()) {
-    return (result.failure.empty() ? "interrupted" : result.failure) +
-           (trace.empty() ? "" : fmt::format("; `verp trace export {}` shows the run", trace));
-  }
-  if (!swept.failure.empty())
-    return swept.failure + "; walk it with --step and --record to see why";
-  return swept.interrupted ? "interrupted in the sweep; rows up to there are kept" : "";
-}
-
-/// Exit status, and on stderr why it is not good.
-int ending(const std::string& reason, const WalkFiles& files) {
-  for (const std::string& line : files.lost()) complain(line);
-  if (!reason.empty()) complain("verp walk: " + reason);
-  return reason.empty() && files.lost().empty() ? kGood : kRunFailed;
-}
-
 int run_walk(WalkOptions options) {
   const WalkPlan plan = make_plan(options);
   sweep_of(options);  // before the long run: a mistake in it is found now
@@ -55,16 +35,7 @@ int run_walk(WalkOptions options) {
       walk(plan, files.trace(), progress, plan.params.name, files.wants_report());
   const Sweep swept = sweep(plan, options, progress);
   progress.clear();
-
-  files.finish(result, to_report(plan, options, result, swept));
-  if (options.json) {
-    Json json = to_json(plan, result, swept);
-    files.add_to(json);
-    print_json(json);
-  } else {
-    answer(to_text(plan, result, swept) + files.text());
-  }
-  return ending(reason(result, swept, files.trace_path().string()), files);
+  return finish_walk(plan, options, files, result, swept);
 }
 
 }  // namespace

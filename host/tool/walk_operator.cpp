@@ -12,7 +12,7 @@ constexpr double kSettle_s = 0.5;    // a person waits for the robot to stand qu
 constexpr double kStandUp_s = 15.0;  // bring-up pose, rise and gyro calibration take a few seconds
 constexpr double kIdle_s = 1.0;      // a gait that pauses by itself this long has given up
 constexpr double kOverrun_s = 5.0;   // a gait that has not ended by then never will
-constexpr std::uint32_t kFrameTicks = 10;  // operator frames come at a tenth of the control rate
+constexpr std::uint32_t kFrameTicks = 10;  // the least often that the operator's frames come
 constexpr float kSomeError_rad = 1e-3F;    // a robot is never quite on its heading
 constexpr int kMostSteps = 1000;           // any stride has shrunk to nothing by then
 
@@ -61,6 +61,7 @@ void WalkOperator::stop_in_time(const State& state) {
     return;
   }
   stopping_ = true;
+  changed_ = true;
   command_.request = Request::kStand;
   lead_s_ = lead_s(state, false);
   longer_than_asked_ = !could_walk_on_ && walked_s_ + lead_s_ > walk_s_ + period_s_;
@@ -68,10 +69,11 @@ void WalkOperator::stop_in_time(const State& state) {
 
 app::OperatorOrder WalkOperator::order(std::uint32_t tick) {
   app::OperatorOrder order;
-  if (tick % kFrameTicks == 0) {
+  if (tick % kFrameTicks == 0 || changed_) {
     ++command_.sequence;
     order.flags = kCommandFresh;
   }
+  changed_ = false;
   order.command = command_;
   return order;
 }
@@ -87,7 +89,8 @@ void WalkOperator::observe(const State& state, const Outputs& outputs) {
     waited_s_ += period_s_;
     stood_s_ = standing ? stood_s_ + period_s_ : 0;
   }
-  if (!gait_seen_ && stood_s_ >= kSettle_s) {
+  if (!gait_seen_ && stood_s_ >= kSettle_s && command_.request != Request::kWalk) {
+    changed_ = true;
     const std::uint8_t sequence = command_.sequence;
     command_ = velocity_;
     command_.sequence = sequence;

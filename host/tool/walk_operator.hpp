@@ -45,6 +45,7 @@ class WalkOperator {
   double stopping_s_ = 0;  ///< since stop was said
   double lead_s_ = 0;      ///< length of the gait's rest when stop was said
   bool gait_seen_ = false, stopping_ = false, done_ = false;
+  bool changed_ = true;  ///< the order, since it was given last
   bool could_walk_on_ = false, longer_than_asked_ = false;
   const char* failed_ = "";
 };

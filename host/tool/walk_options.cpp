@@ -33,12 +33,12 @@ std::vector<std::string> split(const std::string& text, char separator) {
 }
 
 /// parse_number with the option's name in the error.
-double number(const std::string& option, const std::string& text, double low, double high,
-              const std::string& unit) {
+double number(const std::string& command, const std::string& option, const std::string& text,
+              double low, double high, const std::string& unit) {
   try {
     return parse_number(text, low, high, unit);
   } catch (const CLI::ValidationError& error) {
-    throw ToolError(kBadInput, fmt::format("verp walk: {}: {}", option, error.what()));
+    throw ToolError(kBadInput, fmt::format("{}: {}: {}", command, option, error.what()));
   }
 }
 
@@ -76,21 +76,18 @@ void set_by_name(Tuning& tuning, const std::string& setting) {
   }
   // Ranges are float32: 0.03 is inside one that ends at 0.03F, whatever its double is.
   const Range& range = kTuningRanges[*id];
-  const double value = number("--set " + name, setting.substr(equals + 1), decimal(range.low),
-                              decimal(range.high), "");
+  const double value = number("verp walk", "--set " + name, setting.substr(equals + 1),
+                              decimal(range.low), decimal(range.high), "");
   set_tuning_value(tuning, *id, std::clamp(static_cast<float>(value), range.low, range.high));
 }
 
 }  // namespace
 
-void declare(CLI::App& app, WalkOptions& options) {
+void declare_basics(CLI::App& app, WalkOptions& options) {
   app.add_option("MODEL", options.model, "a robot of common/robots, or the path of an SDF file")
       ->capture_default_str();
   app.add_option("--step", options.step_m, "step length, m")
       ->check(number_between(0, kMaxStep_m, "m"))
-      ->capture_default_str();
-  app.add_option("--cycle", options.cycle_s, "two steps, s")
-      ->check(number_between(0.3, 2.0, "s"))
       ->capture_default_str();
   app.add_option("--velocity", options.velocity_text,
                  "VX,VY,WZ in m/s and rad/s instead of --step");
@@ -104,6 +101,16 @@ void declare(CLI::App& app, WalkOptions& options) {
       ->capture_default_str();
   app.add_option("--record", options.record_file, "write the trace here (.mcap)");
   app.add_option("--report", options.report_folder, "write the report here (default: report)");
+  app.add_flag("--record-state", options.record_state,
+               "keep the full State of every tick in the trace");
+  add_json_flag(app, options.json);
+}
+
+void declare(CLI::App& app, WalkOptions& options) {
+  declare_basics(app, options);
+  app.add_option("--cycle", options.cycle_s, "two steps, s")
+      ->check(number_between(0.3, 2.0, "s"))
+      ->capture_default_str();
   app.add_option("--sweep-step", options.sweep_text,
                  "FROM:TO:BY in m: also walk at each step length, with and without the multibody "
                  "correction")
@@ -115,9 +122,6 @@ void declare(CLI::App& app, WalkOptions& options) {
   app.add_flag("--no-feedback", options.no_feedback, "switch gyro and tilt feedback off");
   app.add_flag("--no-gravity", options.no_gravity, "switch the gravity feed-forward off");
   app.add_flag("--no-zeros", options.no_zeros, "leave the legs' learnt zero errors out");
-  app.add_flag("--record-state", options.record_state,
-               "keep the full State of every tick in the trace");
-  add_json_flag(app, options.json);
 }
 
 Command velocity_of(const WalkOptions& options, double step_m) {
@@ -126,12 +130,15 @@ Command velocity_of(const WalkOptions& options, double step_m) {
     const std::vector<std::string> parts = split(options.velocity_text, ',');
     if (parts.size() != 3) {
       throw ToolError(kBadInput,
-                      fmt::format("verp walk: --velocity '{}' is not VX,VY,WZ; example: 0.1,0,0.2",
-                                  options.velocity_text));
+                      fmt::format("{}: --velocity '{}' is not VX,VY,WZ; example: 0.1,0,0.2",
+                                  options.command, options.velocity_text));
     }
-    vx_m_s = number("--velocity VX", parts[0], -kMaxSpeed_m_s, kMaxSpeed_m_s, "m/s");
-    vy_m_s = number("--velocity VY", parts[1], -kMaxSpeed_m_s, kMaxSpeed_m_s, "m/s");
-    wz_rad_s = number("--velocity WZ", parts[2], -kMaxTurn_rad_s, kMaxTurn_rad_s, "rad/s");
+    vx_m_s =
+        number(options.command, "--velocity VX", parts[0], -kMaxSpeed_m_s, kMaxSpeed_m_s, "m/s");
+    vy_m_s =
+        number(options.command, "--velocity VY", parts[1], -kMaxSpeed_m_s, kMaxSpeed_m_s, "m/s");
+    wz_rad_s = number(options.command, "--velocity WZ", parts[2], -kMaxTurn_rad_s, kMaxTurn_rad_s,
+                      "rad/s");
   }
   Command command;
   command.vx_tenth_mm_s = static_cast<std::int16_t>(std::lround(1e4 * vx_m_s));
@@ -161,9 +168,9 @@ std::vector<double> sweep_of(const WalkOptions& options) {
         fmt::format("verp walk: --sweep-step '{}' is not FROM:TO:BY; example: 0.02:0.06:0.01",
                     options.sweep_text));
   }
-  const double from_m = number("--sweep-step FROM", parts[0], 0, kMaxStep_m, "m");
-  const double to_m = number("--sweep-step TO", parts[1], from_m, kMaxStep_m, "m");
-  const double by_m = number("--sweep-step BY", parts[2], 0.001, kMaxStep_m, "m");
+  const double from_m = number("verp walk", "--sweep-step FROM", parts[0], 0, kMaxStep_m, "m");
+  const double to_m = number("verp walk", "--sweep-step TO", parts[1], from_m, kMaxStep_m, "m");
+  const double by_m = number("verp walk", "--sweep-step BY", parts[2], 0.001, kMaxStep_m, "m");
   std::vector<double> steps;
   for (std::size_t i = 0; i < kMaxSweep; ++i) {
     const double step_m = from_m + static_cast<double>(i) * by_m;

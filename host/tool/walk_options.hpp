@@ -18,11 +18,15 @@ struct WalkOptions {
   std::uint64_t seed = 1;
   std::string velocity_text, sweep_text, record_file, report_folder, board;
   std::vector<std::string> settings;  ///< NAME=VALUE
+  std::string command = "verp walk";  ///< that complains
   bool no_multibody = false, no_feedback = false, no_gravity = false, no_zeros = false;
   bool record_state = false, json = false;
 };
 
 void declare(CLI::App& app, WalkOptions& options);
+
+/// Those of them that say which robot walks how far, and what is kept of it.
+void declare_basics(CLI::App& app, WalkOptions& options);
 
 /// Velocity asked for: --velocity, or two steps a cycle straight ahead. Throws ToolError.
 Command velocity_of(const WalkOptions& options, double step_m);

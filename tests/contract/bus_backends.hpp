@@ -10,9 +10,12 @@
 #include "common/protocol/dynamixel2.hpp"
 #include "firmware/app/link_bus.hpp"
 #include "firmware/app/link_stream.hpp"
+#include "firmware/app/lockstep_bus.hpp"
 #include "firmware/app/remote_bus.hpp"
 #include "hal/fake/scripted_bus.hpp"
 #include "host/bus/bus_server.hpp"
+#include "host/bus/link_pump.hpp"
+#include "host/bus/lockstep_server.hpp"
 #include "host/bus/virtual_bus.hpp"
 #include "host/link/system_clock.hpp"
 #include "tests/contract/link_pairs.hpp"
@@ -115,6 +118,33 @@ struct RemoteOver : SimulatedTime {
   Stream far{pair.far()};
   std::thread server;
   app::RemoteBus<Stream, Stream> bus{near, near};
+};
+
+/// ... and in lockstep, as a board with a serial port is served.
+template <class Pair>
+struct LockstepOver : SimulatedTime {
+  explicit LockstepOver(int) {
+    server = std::thread([this] {
+      bus::LinkPump pump(pair.far(), service);
+      while (!over) pump.turn(1000);
+    });
+    EXPECT_EQ(bus.greet(params), lockstep::Verdict::kAccepted);
+  }
+  ~LockstepOver() {
+    over = true;
+    server.join();
+  }
+  struct Idle {
+    bool operator()() const { return true; }
+  };
+  Params params = bus_params(2);
+  FakePlant plant;
+  bus::VirtualBus virtual_bus{params, plant};
+  bus::LockstepServer service{params, virtual_bus, {}};
+  Pair pair;
+  std::atomic<bool> over = false;
+  std::thread server;
+  app::LockstepBus<wire::Link, Idle> bus{pair.near(), Idle{}};
 };
 
 /// A servo in real time at the other end of a ByteLink.

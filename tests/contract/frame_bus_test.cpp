@@ -38,6 +38,8 @@ using Backends = ::testing::Types<
     test::Scripted, test::ScriptedInPieces, test::Virtual, test::Remote,
     test::RemoteOver<test::SerialPair<false>>, test::RemoteOver<test::TcpPair<false>>,
     test::RemoteOver<test::TcpPair<true>>, test::RemoteOver<test::UnixPair<false>>,
+    test::LockstepOver<test::SerialPair<false>>, test::LockstepOver<test::SerialPair<true>>,
+    test::LockstepOver<test::TcpPair<false>>, test::LockstepOver<test::UnixPair<true>>,
     test::LinkBusOver<test::SerialPair<false>>, test::LinkBusOver<test::TcpPair<false>>,
     test::LinkBusOver<test::UnixPair<true>>>;
 TYPED_TEST_SUITE(FrameBusContract, Backends);

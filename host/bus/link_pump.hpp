@@ -1,0 +1,49 @@
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "hal/contract/byte_link.hpp"
+
+namespace verp::bus {
+
+/// Bytes in, bytes out: LockstepServer.
+template <class Server>
+concept ByteServer = requires(Server& server, const std::uint8_t* bytes,
+                              std::vector<std::uint8_t>& answer) {
+  server.take({bytes, std::size_t{1}}, answer);
+};
+
+/// Serves a link: passes what comes in to the server and its answers back.
+template <hal::ByteLink Link, ByteServer Server>
+class LinkPump {
+ public:
+  LinkPump(Link& link, Server& server) : link_(link), server_(server) {}
+
+  /// Waits up to timeout_us for bytes and has them answered. False: none came.
+  bool turn(std::uint32_t timeout_us) {
+    std::uint8_t piece[4096];
+    const std::size_t count = link_.read(piece, sizeof piece, timeout_us);
+    if (count == 0) return false;
+    answer_.clear();
+    server_.take({piece, count}, answer_);
+    const std::uint8_t* from = answer_.data();
+    std::size_t size = answer_.size();
+    // To one who went away, or who doesn't read, nothing is owed: it asks again.
+    for (int i = 0; i < kPieces && size > 0; ++i) {
+      const std::size_t written = link_.write(from, size, kPatience_us);
+      from += written;
+      size -= written;
+      if (!link_.connected()) break;
+    }
+    return true;
+  }
+
+ private:
+  static constexpr int kPieces = 20;
+  static constexpr std::uint32_t kPatience_us = 50'000;
+  Link& link_;
+  Server& server_;
+  std::vector<std::uint8_t> answer_;
+};
+
+}  // namespace verp::bus

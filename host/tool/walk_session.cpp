@@ -1,0 +1,124 @@
+#include "host/tool/walk_session.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "host/record/trace_error.hpp"
+#include "host/sim/planned_zmp.hpp"
+#include "host/tool/interrupt.hpp"
+
+namespace verp::tool {
+namespace {
+
+constexpr double kAfterFall_s = 0.5;  // the report should show how it fell
+constexpr double kAfterStop_s = 0.3;  // and how it stands still
+
+record::ros::BodyPose pose_of(const sim::Transform& body) {
+  const Eigen::Quaterniond q(body.linear());
+  const auto& p = body.translation();
+  return {{p.x(), p.y(), p.z()}, {q.x(), q.y(), q.z(), q.w()}};
+}
+
+sim::TwinOptions twin_options(const WalkPlan& plan) {
+  sim::TwinOptions options;
+  options.seed = plan.seed;
+  return options;
+}
+
+}  // namespace
+
+WalkSession::WalkSession(const WalkPlan& plan, record::TraceWriter* trace, Progress& progress,
+                         std::string label, bool keep_series)
+    : plan_(plan),
+      trace_(trace),
+      progress_(progress),
+      label_(std::move(label)),
+      robot_(world_, plan.entity, twin_options(plan)),
+      bus_(plan.params, robot_),
+      walker_(plan.params, plan.velocity, plan.walk_s),
+      meter_(plan.entity, keep_series) {}
+
+bool WalkSession::over() const {
+  return over_ || interrupted();
+}
+
+double WalkSession::simulated_s() const {
+  return static_cast<double>(world_.now_us()) * 1e-6;
+}
+
+void WalkSession::record(const TickRecord& tick, const State& state, const Outputs& outputs) {
+  walker_.observe(state, outputs);
+  const gait::Xy by_m = state.gait.footsteps.stride.by_m;
+  if (state.gait.queued > 0) {
+    result_.longest_step_m =
+        std::max(result_.longest_step_m,
+                 std::hypot(static_cast<double>(by_m.x), static_cast<double>(by_m.y)));
+  }
+  const sim::Observation seen = sim::observe(robot_);
+  meter_.tick(seen, outputs, sim::planned_zmp_world_m(state.tuning, state.gait, seen.truth));
+  ++result_.ticks;
+  result_.digest = tick.digest.chain;
+  result_.faults = outputs.faults;
+  if (trace_ != nullptr) {
+    append(tick, state, outputs.faults, seen.truth.body_world);
+  }
+  const bool ended = robot_.fallen() || walker_.done();
+  after_s_ += ended ? plan_.params.period_us * 1e-6 : 0;
+  over_ = after_s_ > (robot_.fallen() ? kAfterFall_s : kAfterStop_s);
+  progress_.show(walker_.walked_s() / plan_.walk_s,
+                 fmt::format("{}  {:.1f} of {:g} s", label_, walker_.walked_s(), plan_.walk_s));
+}
+
+void WalkSession::watch() {
+  const Outputs nothing;
+  meter_.tick(sim::observe(robot_), nothing);
+  ++result_.ticks;
+  watched_ = true;
+  const double served_s = simulated_s();
+  after_s_ += robot_.fallen() ? plan_.params.period_us * 1e-6 : 0;
+  over_ = served_s >= plan_.walk_s || after_s_ > kAfterFall_s;
+  progress_.show(served_s / plan_.walk_s,
+                 fmt::format("{}  {:.1f} of {:g} s", label_, served_s, plan_.walk_s));
+}
+
+WalkResult WalkSession::result(double wall_s, std::string failure) {
+  result_.wall_s = wall_s;
+  result_.simulated_s = simulated_s();
+  result_.interrupted = interrupted();
+  result_.metrics = meter_.result();
+  result_.series = meter_.series();
+  result_.failure = std::move(failure);
+  if (result_.failure.empty() && !result_.interrupted) result_.failure = failure_of_walk();
+  if (result_.good() && walker_.longer_than_asked()) {
+    result_.remark = fmt::format("{:g} s were asked; the shortest walk with this cycle is {:.2f} s",
+                                 plan_.walk_s, result_.metrics.walk_s);
+  }
+  return std::move(result_);
+}
+
+/// A disk that is full costs the trace, not the walk.
+void WalkSession::append(const TickRecord& tick, const State& state, std::uint32_t faults,
+                         const sim::Transform& body_world) {
+  try {
+    const record::ros::BodyPose body = pose_of(body_world);
+    trace_->append(tick, state, faults, &body);
+  } catch (const record::TraceError& error) {
+    result_.trace_failure = error.what();
+    trace_ = nullptr;
+  }
+}
+
+std::string WalkSession::failure_of_walk() const {
+  constexpr std::uint32_t kStopping = 0xFFFF;  // the lower half of Fault stops the robot
+  if (watched_) return robot_.fallen() ? "fell" : "";
+  if (result_.metrics.fallen) {
+    return fmt::format("fell after {:.2f} s of gait", walker_.walked_s());
+  }
+  const std::string faults = fault_names(result_.faults & kStopping);
+  return faults.empty() ? walker_.failed() : "stopped by fault: " + faults;
+}
+
+}  // namespace verp::tool

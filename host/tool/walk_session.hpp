@@ -1,0 +1,60 @@
+#pragma once
+#include <cstdint>
+#include <string>
+
+#include "firmware/app/contracts.hpp"
+#include "host/bus/virtual_bus.hpp"
+#include "host/record/trace_writer.hpp"
+#include "host/sim/metrics.hpp"
+#include "host/sim/robot.hpp"
+#include "host/tool/progress.hpp"
+#include "host/tool/walk_operator.hpp"
+#include "host/tool/walk_run.hpp"
+
+namespace verp::tool {
+
+/// Twin, bus, operator, meter and trace of one walk; the controller is somewhere else. A Recorder
+/// for it.
+class WalkSession {
+ public:
+  /// `trace` may be null. The plan and the other references must outlive the session.
+  WalkSession(const WalkPlan& plan, record::TraceWriter* trace, Progress& progress,
+              std::string label, bool keep_series);
+
+  bus::VirtualBus& bus() { return bus_; }
+  WalkOperator& walker() { return walker_; }
+  /// The walk has ended, or somebody interrupts.
+  bool over() const;
+
+  /// A tick of the controller, wherever it ran.
+  void record(const TickRecord& tick, const State& state, const Outputs& outputs);
+  /// A tick of a controller that tells nothing of itself: only what the twin did is scored.
+  void watch();
+
+  double simulated_s() const;
+  bool fallen() const { return robot_.fallen(); }
+
+  /// Once, at the end. `failure` says what went wrong besides the walk; empty: nothing.
+  WalkResult result(double wall_s, std::string failure);
+
+ private:
+  void append(const TickRecord& tick, const State& state, std::uint32_t faults,
+              const sim::Transform& body_world);
+  std::string failure_of_walk() const;
+
+  const WalkPlan& plan_;
+  record::TraceWriter* trace_;
+  Progress& progress_;
+  std::string label_;
+  sim::World world_;
+  sim::TwinRobot robot_;
+  bus::VirtualBus bus_;
+  WalkOperator walker_;
+  sim::WalkMeter meter_;
+  WalkResult result_;
+  double after_s_ = 0;
+  bool over_ = false;
+  bool watched_ = false;
+};
+
+}  // namespace verp::tool
