@@ -1,0 +1,158 @@
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "host/link/endpoint.hpp"
+#include "host/link/latency.hpp"
+#include "host/model/find.hpp"
+#include "host/model/load.hpp"
+#include "host/model/params.hpp"
+#include "host/tool/command.hpp"
+#include "host/tool/console.hpp"
+#include "host/tool/hil_run.hpp"
+#include "host/tool/interrupt.hpp"
+#include "host/tool/walk_ending.hpp"
+
+namespace verp::tool {
+namespace {
+
+struct HilWords {
+  WalkOptions walk;
+  HilOptions hil;
+  bool lockstep = false, real_time = false;
+};
+
+WalkPlan make_plan(const WalkOptions& options) {
+  WalkPlan plan;
+  plan.entity = model::load_robot(model::find_model(options.model));
+  plan.params = model::make_params(plan.entity);
+  plan.velocity = velocity_of(options, options.step_m);
+  plan.walk_s = options.walk_s;
+  plan.seed = options.seed;
+  plan.board = options.board;
+  return plan;
+}
+
+void check(HilWords& words) {
+  if (words.real_time && !words.hil.operator_link.empty()) {
+    throw ToolError(kBadInput,
+                    "verp hil: --operator gives orders tick by tick, which takes lockstep; leave "
+                    "out --realtime or --operator");
+  }
+  words.hil.pace = words.lockstep    ? HilPace::kLockstep
+                   : words.real_time ? HilPace::kRealTime
+                                     : HilPace::kAuto;
+  const wire::Endpoint endpoint = wire::parse_endpoint(words.hil.link);
+  if (endpoint.kind != wire::Endpoint::Kind::kSerial) return;
+  const std::string advice = wire::latency_advice(endpoint.place);
+  if (!advice.empty()) complain("verp hil: " + advice);
+}
+
+Json to_json(const HilResult& result) {
+  Json link = {{"losses", result.losses}};
+  if (result.real_time) {
+    link["bytes"] = result.realtime.bytes;
+    link["late"] = result.realtime.late;
+    link["worst_late_us"] = result.realtime.worst_late_us;
+  } else {
+    link["polls"] = result.lockstep.polls;
+    link["repeats"] = result.lockstep.repeats;
+    link["damaged"] = result.lockstep.damaged;
+    link["greetings"] = result.lockstep.greetings;
+  }
+  return {{"pace", result.real_time ? "real time" : "lockstep"},
+          {"ticks_per_s", result.ticks_per_s()},
+          {"compared_ticks", result.compared},
+          {"link", link}};
+}
+
+std::string to_text(const HilResult& result) {
+  std::string out = fmt::format("  {:<18}{:.0f}, {}\n", "ticks per second", result.ticks_per_s(),
+                                result.real_time ? "in real time" : "in lockstep");
+  if (result.compared > 0) {
+    out += fmt::format("  {:<18}{} ticks told by the controller, all equal to this PC's\n",
+                       "digests", result.compared);
+  }
+  if (result.real_time) {
+    out += fmt::format("  {:<18}{} times over 1 ms, worst {:.1f} ms; link lost {} times\n", "late",
+                       result.realtime.late,
+                       1e-3 * static_cast<double>(result.realtime.worst_late_us), result.losses);
+  } else {
+    out += fmt::format("  {:<18}{} polls, {} answered again, {} damaged; lost {} times\n", "link",
+                       result.lockstep.polls, result.lockstep.repeats, result.lockstep.damaged,
+                       result.losses);
+  }
+  return out;
+}
+
+/// Of a controller that told nothing, only what became of the robot is known.
+int answer_served(const WalkPlan& plan, const WalkOptions& options, const HilResult& result) {
+  const WalkResult& walk = result.walk;
+  if (options.json) {
+    Json json = {{"model", plan.params.name},     {"controller", plan.board},
+                 {"ticks", walk.ticks},           {"simulated_s", walk.simulated_s},
+                 {"fallen", walk.metrics.fallen}, {"interrupted", walk.interrupted},
+                 {"failure", walk.failure},       {"real_time_factor", walk.real_time_factor()}};
+    json.update(to_json(result));
+    print_json(json);
+  } else {
+    answer(fmt::format("{}: served {:.1f} s{}\n", plan.params.name, walk.simulated_s,
+                       walk.metrics.fallen ? "; the robot fell" : "") +
+           to_text(result));
+  }
+  if (!walk.failure.empty()) complain("verp hil: " + walk.failure);
+  return walk.failure.empty() ? kGood : result.device_trouble ? kNoDevice : kRunFailed;
+}
+
+int run_hil(HilWords words) {
+  WalkOptions& options = words.walk;
+  check(words);
+  options.board = words.hil.link;
+  if (words.hil.operator_link.empty() && !options.record_file.empty()) {
+    throw ToolError(kBadInput,
+                    "verp hil: a trace needs the controller's inputs, which only --operator "
+                    "brings; give it or leave out --record");
+  }
+  const WalkPlan plan = make_plan(options);
+  const bool tells = !words.hil.operator_link.empty();
+  if (tells && options.report_folder.empty() && !options.json) options.report_folder = "report";
+  if (!tells && !options.report_folder.empty()) {
+    throw ToolError(kBadInput,
+                    "verp hil: a report needs the controller's outputs, which only --operator "
+                    "brings; give it or leave out --report");
+  }
+  WalkFiles files(options, plan);
+  Progress progress(!options.json);
+  const HilResult result =
+      serve_controller(plan, words.hil, files.trace(), progress, files.wants_report());
+  if (!tells) return answer_served(plan, options, result);
+  const int status =
+      finish_walk(plan, options, files, result.walk, {}, to_json(result), to_text(result));
+  return status != kGood && result.device_trouble ? kNoDevice : status;
+}
+
+}  // namespace
+
+Subcommand add_hil(CLI::App& root) {
+  CLI::App* app =
+      root.add_subcommand("hil", "Hardware in the loop: the twin answers a controller on a link");
+  auto words = std::make_shared<HilWords>();
+  words->walk.command = "verp hil";
+  declare_basics(*app, words->walk);
+  app->add_option("--link", words->hil.link,
+                  "the controller's servo bus: serial:DEVICE@BAUD, pty:PATH, tcp:HOST:PORT, "
+                  "tcp-listen:PORT, unix:PATH or unix-listen:PATH")
+      ->required();
+  app->add_option("--operator", words->hil.operator_link,
+                  "its operator's port: orders go there, digests come back");
+  CLI::Option* lockstep = app->add_flag("--lockstep", words->lockstep,
+                                        "time stands until the controller announces lockstep");
+  app->add_flag("--realtime", words->real_time, "time goes on by the clock on the wall")
+      ->excludes(lockstep);
+  return {app, [words] {
+            catch_interrupts();
+            return run_hil(*words);
+          }};
+}
+
+}  // namespace verp::tool

@@ -1,0 +1,43 @@
+#pragma once
+#include <string>
+
+#include "host/bus/lockstep_server.hpp"
+#include "host/bus/realtime_server.hpp"
+#include "host/tool/walk_run.hpp"
+
+namespace verp::tool {
+
+/// How the twin lets time go on.
+enum class HilPace {
+  kAuto,      ///< lockstep if the controller announces it, else by the wall's clock
+  kLockstep,  ///< time stands until a controller announces lockstep
+  kRealTime,  ///< by the wall's clock; lockstep is refused
+};
+
+struct HilOptions {
+  std::string link;           ///< where the controller's servo bus is
+  std::string operator_link;  ///< where its operator's port is; empty: somebody else gives orders
+  HilPace pace = HilPace::kAuto;
+};
+
+struct HilResult {
+  WalkResult walk;
+  bool device_trouble = false;  ///< walk.failure is the link's or the controller's
+  bool real_time = false;
+  std::uint64_t compared = 0;  ///< ticks whose digest the controller told, equal to this PC's
+  std::uint32_t losses = 0;    ///< times the link was lost
+  bus::LockstepServer::Counters lockstep;
+  bus::RealtimeServer::Counters realtime;
+
+  double ticks_per_s() const {
+    return walk.wall_s > 0 ? static_cast<double>(walk.ticks) / walk.wall_s : 0;
+  }
+};
+
+/// The twin of plan.entity answers a controller at the other end of a link. With an operator link
+/// it walks as walk() does, and holds every tick of the controller against this PC's; without one
+/// it serves for plan.walk_s and scores what the twin did. Throws what opening a link throws.
+HilResult serve_controller(const WalkPlan& plan, const HilOptions& options,
+                           record::TraceWriter* trace, Progress& progress, bool keep_series);
+
+}  // namespace verp::tool

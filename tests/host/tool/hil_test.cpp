@@ -1,0 +1,157 @@
+#include <nlohmann/json.hpp>
+
+#include "firmware/app/link_bus.hpp"
+#include "host/link/system_clock.hpp"
+#include "host/model/find.hpp"
+#include "host/model/load.hpp"
+#include "host/model/params.hpp"
+#include "tests/host/tool/link_controller.hpp"
+#include "tests/host/tool/program.hpp"
+
+namespace verp::tool::test {
+namespace {
+
+using nlohmann::json;
+using verp::test::ControllerPort;
+using verp::test::LinkController;
+
+class Hil : public Program {
+ protected:
+  Params params() const {
+    return model::make_params(model::load_robot(model::find_model("generic21")));
+  }
+  std::string place(const std::string& name) const { return (folder_ / name).string(); }
+  /// The twin makes two sockets, `bus` and `orders`.
+  std::string sockets() const {
+    return "--link unix-listen:" + place("bus") + " --operator unix-listen:" + place("orders");
+  }
+  Outcome hil(const std::string& arguments) const { return verp("hil " + arguments, "hil"); }
+
+  /// What software in the loop gives.
+  json here(const std::string& arguments) const {
+    const Outcome walk = verp("walk --json " + arguments, "walk");
+    EXPECT_EQ(walk.status, 0) << walk.err;
+    return json::parse(walk.out);
+  }
+};
+
+/// The same bits as in software: digest, ticks, and with them every number of the summary.
+void expect_same(const Outcome& outcome, const json& expected) {
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const json result = json::parse(outcome.out);
+  for (const char* key : {"digest", "ticks", "duration_s", "distance_m", "zmp_bias_mean_mm"}) {
+    EXPECT_EQ(result.at(key), expected.at(key)) << key;
+  }
+  EXPECT_EQ(result.at("compared_ticks"), expected.at("ticks"));
+  EXPECT_GT(result.at("ticks_per_s").get<double>(), 0);
+}
+
+// A controller on any kind of port walks as the one in this process does, and says so every tick.
+TEST_F(Hil, WalksWithTheBitsOfSoftwareInTheLoopOnEveryKindOfLink) {
+  const json expected = here("--for 3");
+  const std::string port = std::to_string(20000 + ::getpid() % 20000);
+  const struct {
+    std::string twin, controller;
+  } links[] = {{"pty:" + place("pty"), "serial:" + place("pty") + "@2000000"},
+               {"tcp-listen:" + port, "tcp:127.0.0.1:" + port},
+               {"unix-listen:" + place("bus"), "unix:" + place("bus")}};
+  for (const auto& link : links) {
+    LinkController controller(params(), link.controller, "serial:" + place("orders") + "@1000000");
+    const Outcome outcome = hil("--for 3 --json --record hil.mcap --link " + link.twin +
+                                " --operator pty:" + place("orders"));
+    controller.join();
+    EXPECT_EQ(controller.verdict(), lockstep::Verdict::kAccepted);
+    expect_same(outcome, expected);
+    const Outcome replay = verp("replay hil.mcap --json", "replay");
+    EXPECT_EQ(replay.status, 0) << replay.err;
+    EXPECT_EQ(json::parse(replay.out).at("digest_replayed"), expected.at("digest"));
+  }
+}
+
+// Bytes that are spoilt on the way to the controller, and a cable that is pulled and put back, cost
+// time and no bit.
+TEST_F(Hil, LosesNoBitOnABadCable) {
+  const json expected = here("--for 3");
+  LinkController controller(params(), "unix:" + place("bus"), "unix:" + place("orders"),
+                            [](ControllerPort& port) {
+                              port.flips_per_million = 300;
+                              port.cut_every = 400;
+                            });
+  const Outcome outcome = hil("--for 3 --json " + sockets());
+  controller.join();
+  expect_same(outcome, expected);
+  EXPECT_GT(controller.spoilt(), 10u);
+  EXPECT_GT(controller.cuts(), 1);
+  EXPECT_GT(json::parse(outcome.out).at("link").at("repeats").get<int>(), 10);
+  EXPECT_NE(outcome.err.find("the link is lost"), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.err.find("the link is back"), std::string::npos) << outcome.err;
+}
+
+TEST_F(Hil, RefusesAControllerOfAnotherRobotByName) {
+  Params other = params();
+  other.joint[3].mass_kg *= 2;
+  LinkController controller(other, "unix:" + place("bus"), "unix:" + place("orders"));
+  const Outcome outcome = hil("--for 3 --json " + sockets());
+  controller.join();
+  EXPECT_EQ(outcome.status, 3);
+  EXPECT_EQ(controller.verdict(), lockstep::Verdict::kOtherRobot);
+  EXPECT_NE(outcome.err.find("Params are not those of generic21"), std::string::npos)
+      << outcome.err;
+}
+
+// Ctrl-C ends the run, not the program: the trace is whole and the summary printed.
+TEST_F(Hil, KeepsTheTraceWhenInterrupted) {
+  LinkController controller(params(), "unix:" + place("bus"), "unix:" + place("orders"));
+  const Outcome outcome = shell("timeout -s INT 6 " + std::string(VERP_PROGRAM) +
+                                " hil --for 600 --json --record cut.mcap " + sockets());
+  controller.join();
+  const json result = json::parse(outcome.out);
+  EXPECT_TRUE(result.at("interrupted"));
+  EXPECT_GT(result.at("ticks").get<int>(), 0);
+  const Outcome info = verp("trace info cut.mcap --json", "info");
+  EXPECT_EQ(json::parse(info.out).at("ticks"), result.at("ticks"));
+}
+
+TEST_F(Hil, SaysWhenTheOperatorsPortIsSilent) {
+  LinkController controller(params(), "unix:" + place("bus"), "unix:" + place("elsewhere"));
+  const Outcome outcome = hil("--for 3 --json " + sockets());
+  EXPECT_EQ(outcome.status, 3);
+  EXPECT_NE(outcome.err.find("device 200"), std::string::npos) << outcome.err;
+}
+
+// A master that never heard of lockstep gets its answers by the clock on the wall.
+TEST_F(Hil, ServesAStockMasterInRealTime) {
+  Outcome outcome;
+  std::thread twin([&] { outcome = hil("--for 3 --json --link unix-listen:" + place("bus")); });
+  ControllerPort port("unix:" + place("bus"));
+  const wire::SystemClock clock;
+  app::LinkBus master(port, clock);
+  const std::uint8_t id = params().joint[0].servo_id;
+  int answers = 0;
+  std::uint64_t begun_us = 0;
+  while (begun_us == 0 || clock.now_us() < begun_us + 4'000'000) {
+    std::uint8_t frame[16], reply[64];
+    const std::size_t size =
+        dxl::encode_read(frame, sizeof frame, id, dxl::address::kPresentPosition, 4);
+    if (!master.send(frame, size)) continue;
+    if (master.poll(reply, sizeof reply, 50'000) > 0) ++answers;
+    if (answers > 0 && begun_us == 0) begun_us = clock.now_us();
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  twin.join();
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const json result = json::parse(outcome.out);
+  EXPECT_EQ(result.at("pace"), "real time");
+  EXPECT_NEAR(result.at("simulated_s").get<double>(), 3, 0.2);
+  EXPECT_GT(answers, 20);
+}
+
+TEST_F(Hil, RefusesWhatCannotBe) {
+  expect_refused("hil", "--link");
+  expect_refused("hil --link nonsense", "nonsense");
+  expect_refused("hil --link pty: --operator pty: --realtime", "lockstep");
+  expect_refused("hil --link pty: --record a.mcap", "--operator");
+}
+
+}  // namespace
+}  // namespace verp::tool::test

@@ -1,0 +1,120 @@
+#pragma once
+#include <atomic>
+#include <chrono>
+#include <functional>
+#include <optional>
+#include <random>
+#include <string>
+#include <thread>
+
+#include "firmware/app/app.hpp"
+#include "firmware/app/lockstep_bus.hpp"
+#include "firmware/app/operator_device.hpp"
+#include "host/link/link.hpp"
+
+/// A controller with two serial ports, as firmware on a board is one: in a thread of the test.
+namespace verp::test {
+
+/// A port that opens as soon as there is something to open, and can be made to suffer.
+class ControllerPort {
+ public:
+  explicit ControllerPort(std::string endpoint) : endpoint_(std::move(endpoint)) {}
+
+  std::size_t write(const std::uint8_t* data, std::size_t size, std::uint32_t timeout_us) {
+    return open(timeout_us) ? link_->write(data, size, timeout_us) : 0;
+  }
+  std::size_t read(std::uint8_t* buffer, std::size_t capacity, std::uint32_t timeout_us) {
+    if (!open(timeout_us)) return 0;
+    const std::size_t count = link_->read(buffer, capacity, timeout_us);
+    for (std::size_t i = 0; i < count; ++i) {
+      if (flips_per_million > random_() % 1'000'000) buffer[i] ^= 1;
+    }
+    if (count > 0 && cut_every > 0 && ++reads_ % cut_every == 0) {
+      link_.reset();  // what was read is lost, too
+      ++cuts;
+      return 0;
+    }
+    return count;
+  }
+  bool connected() const { return link_ && link_->connected(); }
+  hal::LinkErrors errors() const { return link_ ? link_->errors() : hal::LinkErrors{}; }
+
+  unsigned flips_per_million = 0;  ///< of received bytes
+  int cut_every = 0;               ///< reads that brought something
+  int cuts = 0;
+
+ private:
+  bool open(std::uint32_t timeout_us) {
+    if (link_) return true;
+    try {
+      link_.emplace(wire::parse_endpoint(endpoint_));
+    } catch (const wire::LinkError&) {
+      std::this_thread::sleep_for(std::chrono::microseconds(timeout_us + 1000));
+    }
+    return link_.has_value();
+  }
+  std::string endpoint_;
+  std::optional<wire::Link> link_;
+  std::minstd_rand random_{7};
+  int reads_ = 0;
+};
+
+/// Ends when the twin says stop or refuses, or with this object.
+class LinkController {
+ public:
+  LinkController(const Params& params, const std::string& bus, const std::string& operators,
+                 const std::function<void(ControllerPort&)>& prepare = {})
+      : params_(params), bus_port_(bus), operator_port_(operators) {
+    if (prepare) prepare(bus_port_);
+    thread_ = std::thread([this] { run(); });
+  }
+  ~LinkController() { join(); }
+  /// Waits for the end, which comes by itself once the twin has ended well.
+  void join() {
+    if (!thread_.joinable()) return;
+    for (int i = 0; i < 200 && !done_; ++i) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+    over_ = true;
+    thread_.join();
+  }
+  int cuts() const { return bus_port_.cuts; }
+  std::uint32_t spoilt() const { return spoilt_; }
+  std::uint32_t ticks() const { return ticks_; }
+  lockstep::Verdict verdict() const { return verdict_; }
+
+ private:
+  struct Idle {
+    bool operator()() const {
+      controller->device_.poll();
+      return !controller->over_;
+    }
+    LinkController* controller;
+  };
+  using Bus = app::LockstepBus<ControllerPort, Idle>;
+  using Device = app::OperatorDevice<ControllerPort>;
+
+  void run() {
+    Bus bus(bus_port_, Idle{this});
+    app::App<Bus, Device, Device> loop(params_, bus, device_, device_);
+    verdict_ = bus.greet(params_);
+    if (verdict_ == lockstep::Verdict::kAccepted) {
+      loop.bring_up();
+      while (!bus.stopped()) loop.tick();
+    }
+    spoilt_ = bus.counters().spoilt;
+    ticks_ = loop.inputs().tick;
+    done_ = true;
+  }
+
+  const Params params_;
+  ControllerPort bus_port_;
+  ControllerPort operator_port_;
+  Device device_{operator_port_, params_, {}};
+  std::atomic<bool> over_ = false, done_ = false;
+  lockstep::Verdict verdict_ = lockstep::Verdict::kNoAnswer;
+  std::uint32_t spoilt_ = 0, ticks_ = 0;
+  std::thread thread_;
+};
+
+}  // namespace verp::test
