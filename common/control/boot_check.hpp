@@ -34,9 +34,9 @@ struct BootReport {
 };
 
 /// Everything a boot checks before torque may ever be on: the arithmetic contract, the code on a
-/// robot that is part of it, the image's CRC and version, then code and image together. All inputs
-/// come from an integer generator. `image` holds at most `size` bytes and is aligned as
-/// ParamsImage; both scratches are overwritten.
+/// robot that is part of it, the image's CRC and version, then code and image together. What the
+/// walks sense comes from an integer generator and from what the core itself made of it. `image`
+/// holds at most `size` bytes and is aligned as ParamsImage; both scratches are overwritten.
 BootReport check_boot(const void* image, std::size_t size, Params& robot, State& state);
 
 /// The built-in robot's last link of the chain, as this core computes it now; what it must be.

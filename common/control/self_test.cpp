@@ -1,5 +1,8 @@
 #include "common/control/self_test.hpp"
 
+#include <bit>
+#include <cstddef>
+
 #include "common/control/step.hpp"
 #include "common/math/convert.hpp"
 
@@ -7,7 +10,10 @@ namespace verp::control {
 namespace {
 
 constexpr float kGravity = 9.80665F;
-constexpr std::uint32_t kStandUntil = 160;  // ticks; then the operator walks
+constexpr std::uint32_t kStandUntil = 60, kWalkUntil = 120;  // ticks; then the walk ends
+constexpr float kRise_s = 0.2F;
+constexpr auto kRiseId = static_cast<std::uint16_t>(
+    (offsetof(Tuning, safety) + offsetof(SafetyTuning, rise_s)) / sizeof(float));
 
 std::uint32_t next(std::uint32_t& random) {
   random = random * 1664525u + 1013904223u;
@@ -50,8 +56,12 @@ std::uint64_t self_test_digest(const Params& params, State& scratch) {
   std::uint32_t random = 1;
   for (std::uint32_t tick = 0; tick < kSelfTestTicks; ++tick) {
     sense(params, tick, random, outputs, inputs);
-    inputs.command.request = tick < kStandUntil ? Request::kStand : Request::kWalk;
-    inputs.command.vx_tenth_mm_s = tick < kStandUntil ? std::int16_t{0} : std::int16_t{1000};
+    const bool walks = tick >= kStandUntil && tick < kWalkUntil;
+    inputs.command.request = walks ? Request::kWalk : Request::kStand;
+    inputs.command.vx_tenth_mm_s = 1000;
+    inputs.parameter_id = kRiseId;  // a short rise leaves more ticks for steps
+    inputs.parameter_bits = std::bit_cast<std::uint32_t>(kRise_s);
+    if (tick == 0) inputs.flags |= kParameterWrite;
     inputs.command.sequence = static_cast<std::uint8_t>(tick);
     inputs.flags |= kCommandFresh;
     step(params, scratch, inputs, outputs);

@@ -40,22 +40,28 @@ float length_of(const Stride& stride) {
   return math::hypot(stride.by_m.x, 2.0F * stride.by_m.y);
 }
 
-Stride wanted_stride(const GaitTuning& tuning, const VelocityIn& wanted, FootstepState& state) {
+Stride shortened(Stride stride, float most_m) {
+  const float length_m = length_of(stride);
+  if (length_m > most_m) stride.by_m = (most_m / length_m) * stride.by_m;
+  return stride;
+}
+
+Stride wanted_stride(const GaitTuning& tuning, const VelocityIn& wanted, float reach_m,
+                     FootstepState& state) {
   const float step_s = 0.5F * tuning.cycle_s;
   Stride stride;
   if (wanted.stop) return stride;
   stride.by_m = {wanted.vx_m_s * step_s, wanted.vy_m_s * step_s};
   stride.turn_rad = wanted.wz_rad_s * step_s + tuning.heading_gain * wanted.heading_error_rad;
-  const float length_m = length_of(stride);
-  float share = 1.0F;
-  if (length_m > tuning.max_step_m) share = tuning.max_step_m / length_m;
-  if (share < 1.0F || math::abs(stride.turn_rad) > tuning.max_turn_rad) {
+  if (length_of(stride) > tuning.max_step_m || math::abs(stride.turn_rad) > tuning.max_turn_rad) {
     state.notes |= kStrideLimited;
   }
   if (state.scale < 1.0F) state.notes |= kZmpShortened;
-  stride.by_m = (share * state.scale) * stride.by_m;
+  stride = shortened(stride, tuning.max_step_m);
+  stride.by_m = state.scale * stride.by_m;
+  if (length_of(stride) > reach_m) state.notes |= kReachShortened;
   stride.turn_rad = math::clamp(stride.turn_rad, -tuning.max_turn_rad, tuning.max_turn_rad);
-  return stride;
+  return shortened(stride, reach_m);
 }
 
 // Longest step at which the leg still reaches the ground beside or behind the body, by Pythagoras.
@@ -145,23 +151,20 @@ Step next_step(const Params& params, const GaitTuning& tuning, const VelocityIn&
     return step;
   }
 
-  const Stride goal = wanted_stride(tuning, wanted, state);
+  const float reach_m = reach_limit_m(params, tuning);
+  const Stride goal = wanted_stride(tuning, wanted, reach_m, state);
   const float most_m = tuning.step_change_m;
   Stride stride{{toward(state.stride.by_m.x, goal.by_m.x, most_m),
                  toward(state.stride.by_m.y, goal.by_m.y, most_m)},
                 toward(state.stride.turn_rad, goal.turn_rad, 0.25F * tuning.max_turn_rad)};
-  const float reach_m = reach_limit_m(params, tuning);
-  const float length_m = length_of(stride);
-  if (length_m > reach_m) {
-    stride.by_m = (reach_m / length_m) * stride.by_m;
-    state.notes |= kReachShortened;
-  }
+  const bool reached = stride.by_m.x == goal.by_m.x && stride.by_m.y == goal.by_m.y;
+  // On the way from one direction to another a stride may be longer than both.
+  if (!reached) stride = shortened(stride, math::min(tuning.max_step_m, reach_m));
   state.stride = stride;
 
   Step step;
   set_times(tuning, 0.5F * tuning.cycle_s, step);
   step.swing = last.swing == kLeft ? kRight : kLeft;
-  const bool reached = stride.by_m.x == goal.by_m.x && stride.by_m.y == goal.by_m.y;
   step.phase = wanted.stop                                   ? Phase::kFinal
                : last.phase == Phase::kTransition || reached ? Phase::kTransition
                                                              : Phase::kStart;

@@ -45,7 +45,9 @@ TEST(BootCheck, BuiltInRobotWalksForReal) {
   built_in_digest(robot, state);
   EXPECT_TRUE(is_well_formed(robot));
   EXPECT_TRUE(state.machine.mode == safety::Mode::kWalking);
-  EXPECT_NE(int{state.gait.queued}, 0);
+  EXPECT_TRUE(state.gait.queue[0].phase == gait::Phase::kFinal) << "stopping, after";
+  EXPECT_NE(int{state.gait.previous.swing}, int{gait::kBoth}) << "steps";
+  EXPECT_NE(int{state.gait.queue[0].swing}, int{gait::kBoth}) << "of both feet";
   EXPECT_TRUE(test::struct_is_finite(state));
 }
 

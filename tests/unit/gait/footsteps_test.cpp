@@ -102,6 +102,23 @@ TEST(Footsteps, TooFastIsLimitedAndNoted) {
   EXPECT_LE(math::abs(stride.turn_rad), walk.tuning.max_turn_rad + 1e-6F);
 }
 
+// While x shrinks and y grows, too.
+TEST(Footsteps, NoStepIsLongerThanTheLongestAdmittedOnTheWayToAnother) {
+  test::Random random(5);
+  Walk walk;
+  for (int turn = 0; turn < 40; ++turn) {
+    const VelocityIn wanted{.vx_m_s = random.between(-0.5F, 0.5F),
+                            .vy_m_s = random.between(-0.3F, 0.3F)};
+    for (int i = 0; i < 8; ++i) {
+      walk.take(wanted);
+      const Stride& stride = walk.state.stride;
+      EXPECT_LE(math::hypot(stride.by_m.x, 2 * stride.by_m.y), walk.tuning.max_step_m + 1e-6F);
+    }
+    for (int i = 0; i < 16; ++i) walk.take(wanted);
+    EXPECT_TRUE(walk.last.phase == Phase::kTransition) << "it gets there";
+  }
+}
+
 TEST(Footsteps, StepsBeyondTheLegsReachAreShortenedAndNoted) {
   Walk walk;
   walk.tuning.hip_height_m = 0.185F;
@@ -128,6 +145,7 @@ TEST(Footsteps, ReachIsTheSameInEveryDirection) {
     if (longest_m == 0) longest_m = length_m;
     EXPECT_NEAR(length_m, longest_m, 1e-6F) << way.vx_m_s << ", " << way.vy_m_s;
     EXPECT_NE(walk.state.notes & kReachShortened, 0u);
+    EXPECT_TRUE(walk.last.phase == Phase::kTransition) << "the longest stride is steady too";
   }
 }
 
