@@ -84,6 +84,18 @@ function(verp_add_serial_tests machine)
   add_test(NAME hil.${VERP_BOARD}.operator COMMAND ${CMAKE_SOURCE_DIR}/tests/target/ask_operator
     ${machine} $<TARGET_FILE:loop_${VERP_BOARD}> ${VERP_HOST_DIR}/host/tool/verp)
   set_tests_properties(hil.${VERP_BOARD}.operator PROPERTIES LABELS "hil;target" TIMEOUT 300)
+  # Nine seconds of these walks are for standing up and standing still (tests/target/twin_run.cpp).
+  foreach(ticks 1200 1900)
+    set(name hil.${VERP_BOARD}.walk)
+    set(labels "hil;target")
+    if(ticks GREATER 1200)
+      set(name hil_full.${VERP_BOARD}.walk)
+      set(labels full)
+    endif()
+    add_test(NAME ${name} COMMAND ${VERP_HOST_DIR}/target/target_tests --gtest_filter=SerialLoop.*)
+    set_tests_properties(${name} PROPERTIES LABELS "${labels}" TIMEOUT 600
+      ENVIRONMENT "VERP_TEST_BOARD=${VERP_BOARD};VERP_TEST_TICKS=${ticks};VERP_FIRMWARE_DIR=${CMAKE_BINARY_DIR}/images")
+  endforeach()
 endfunction()
 
 function(verp_add_mps2_images machine)

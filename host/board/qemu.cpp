@@ -31,16 +31,20 @@ std::vector<std::string> command_of(const QemuProcess::Launch& launch) {
                                       "none",
                                       "-monitor",
                                       "none",
-                                      "-serial",
-                                      "none",
                                       "-semihosting-config",
                                       semihosting,
                                       "-kernel",
                                       launch.image.string()};
-  if (!launch.plugin.empty()) {
-    command.push_back("-plugin");
-    command.push_back(launch.plugin);
+  const auto add = [&](const std::string& option, const std::string& value) {
+    command.push_back(option);
+    command.push_back(value);
+  };
+  if (launch.serial_ports.empty()) add("-serial", "none");
+  for (const auto& port : launch.serial_ports) {
+    add("-serial", "unix:" + port.string() + ",server=on,wait=off");
   }
+  if (!launch.plugin.empty()) add("-plugin", launch.plugin);
+  command.insert(command.end(), launch.options.begin(), launch.options.end());
   return command;
 }
 

@@ -21,6 +21,9 @@ class QemuProcess {
     std::vector<std::string>
         arguments;            ///< what the image gets as its command line; no spaces, no commas
     std::string plugin = {};  ///< QEMU's -plugin option; empty: none
+    /// Where QEMU listens for the peers of the board's serial ports, in order: paths of sockets.
+    std::vector<std::filesystem::path> serial_ports = {};
+    std::vector<std::string> options = {};  ///< further words of QEMU's command line
   };
 
   /// Throws BoardError if QEMU isn't installed. $VERP_QEMU names another emulator.

@@ -1,0 +1,158 @@
+#include "tests/target/serial_board.hpp"
+
+#include <chrono>
+#include <cstring>
+#include <fstream>
+#include <thread>
+
+#include "host/board/board_error.hpp"
+#include "host/bus/lockstep_server.hpp"
+#include "host/bus/register_names.hpp"
+#include "host/bus/shadow_loop.hpp"
+#include "host/model/export.hpp"
+#include "host/sim/robot.hpp"
+#include "host/sim/world.hpp"
+
+namespace verp::test {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// Longer than the boot check takes on a machine under load.
+constexpr std::uint32_t kPatience_us = 3'000'000;
+constexpr std::chrono::seconds kStart{20};
+/// boards/olimex_h405/memory.ld, verp_params_begin.
+constexpr const char* kParamsAddress = "0x08020000";
+
+const bus::NamedRegister& named(const char* name) {
+  const bus::NamedRegister* found = bus::find_register(dxl::controller::kModel, name);
+  if (found == nullptr) throw board::BoardError(std::string("no register ") + name);
+  return *found;
+}
+
+bus::Client connect(const wire::Endpoint& endpoint) {
+  const auto deadline = Clock::now() + kStart;
+  while (!std::filesystem::exists(endpoint.place) && Clock::now() < deadline) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  return bus::Client(endpoint, kPatience_us);
+}
+
+}  // namespace
+
+SerialBoard::SerialBoard(const std::string& board, const std::vector<std::uint8_t>& params_image)
+    : firmware_(start(board, params_image)), operator_port_(connect(endpoint("operator.sock"))) {}
+
+wire::Endpoint SerialBoard::endpoint(const char* name) const {
+  return {.kind = wire::Endpoint::Kind::kUnix, .place = (directory_.path() / name).string()};
+}
+
+board::QemuProcess SerialBoard::start(const std::string& board,
+                                      const std::vector<std::uint8_t>& image) const {
+  const board::EmulatedBoard& emulated = board::find_emulated_board(board);
+  board::QemuProcess::Launch launch{
+      .board = emulated,
+      .image = board::firmware_image(emulated, "loop"),
+      .arguments = {},
+      .serial_ports = {directory_.path() / "servo.sock", directory_.path() / "operator.sock"}};
+  if (!image.empty()) {
+    const std::string file = (directory_.path() / "params.bin").string();
+    std::ofstream(file, std::ios::binary)
+        .write(reinterpret_cast<const char*>(image.data()),
+               static_cast<std::streamsize>(image.size()));
+    launch.options = {"-device", "loader,file=" + file + ",addr=" + kParamsAddress +
+                                     std::string(",force-raw=on")};
+  }
+  return board::QemuProcess(launch);
+}
+
+std::uint64_t SerialBoard::read(const char* name) {
+  const bus::NamedRegister& found = named(name);
+  const std::vector<std::uint8_t> bytes = operator_port_.read(
+      dxl::controller::kDefaultId, found.address, static_cast<std::uint16_t>(found.bytes()));
+  std::uint64_t value = 0;
+  std::memcpy(&value, bytes.data(), std::min(bytes.size(), sizeof value));
+  return value;
+}
+
+void SerialBoard::write(const char* name, std::int64_t value) {
+  const bus::NamedRegister& found = named(name);
+  std::vector<std::uint8_t> bytes(found.bytes());
+  std::memcpy(bytes.data(), &value, std::min(bytes.size(), sizeof value));
+  operator_port_.write(dxl::controller::kDefaultId, found.address, bytes);
+}
+
+std::vector<std::uint8_t> params_image(const Robot& robot) {
+  const ParamsImage image = model::make_image(robot.entity);
+  std::vector<std::uint8_t> bytes(sizeof image);
+  std::memcpy(bytes.data(), &image, sizeof image);
+  return bytes;
+}
+
+namespace {
+
+/// The order in registers request to walk_wz, in one write.
+void give(SerialBoard& board, const Command& command) {
+  std::vector<std::uint8_t> bytes(8);
+  bytes[0] = static_cast<std::uint8_t>(command.request);
+  bytes[1] = command.sequence;
+  const std::int16_t velocity[] = {command.vx_tenth_mm_s, command.vy_tenth_mm_s, command.wz_mrad_s};
+  std::memcpy(bytes.data() + 2, velocity, sizeof velocity);
+  board.operator_port().write(dxl::controller::kDefaultId, named("request").address, bytes);
+}
+
+void serve(SerialBoard& board, bus::LockstepServer& server) {
+  wire::Link link(board.servo_port());
+  std::vector<std::uint8_t> chunk(4096), answer;
+  while (!server.stopped()) {
+    const std::size_t size = link.read(chunk.data(), chunk.size(), kPatience_us);
+    if (size == 0) throw board::BoardError(board.described("sent nothing for a minute"));
+    answer.clear();
+    server.take({chunk.data(), size}, answer);
+    if (link.write(answer.data(), answer.size(), kPatience_us) != answer.size()) {
+      throw board::BoardError(board.described("took nothing for a minute"));
+    }
+  }
+}
+
+}  // namespace
+
+SerialRun run_over_serial(SerialBoard& board, const Robot& robot, std::uint32_t ticks) {
+  sim::World world;
+  sim::TwinRobot body(world, robot.entity);
+  bus::VirtualBus bus(robot.params, body);
+  const sim::Vec3 start = body.truth().com_world_m;
+  const ScriptedOperator orders(robot.params, ticks, false);
+  SerialRun run;
+  bus::ShadowLoop shadow(robot.params, [&](const TickRecord& record, const State&, const Outputs&) {
+    run.twin.records.push_back(record);
+  });
+  Clock::time_point begun;
+  bus::LockstepHooks hooks;
+  hooks.refused = [](const std::string& why) { throw board::BoardError(why); };
+  hooks.sent = [&](auto frame) { shadow.sent(frame); };
+  hooks.damaged = [&] { shadow.damaged(); };
+  hooks.polled = [&](auto bytes, std::uint64_t now_us) { shadow.polled(bytes, now_us); };
+  hooks.tick_begins = [&](std::uint32_t tick) {
+    const app::OperatorOrder order = orders.order(tick);
+    give(board, order.command);
+    shadow.ordered(order);
+  };
+  hooks.tick_ends = [&] {
+    shadow.catch_up();
+    if (run.twin.records.empty()) begun = Clock::now();
+    if (run.twin.records.size() < ticks) return true;
+    run.ticks_per_s = ticks / std::chrono::duration<double>(Clock::now() - begun).count();
+    run.digest = board.read("digest");
+    run.tick = static_cast<std::uint32_t>(board.read("tick"));
+    return false;
+  };
+  bus::LockstepServer server(robot.params, bus, hooks);
+  serve(board, server);
+  run.difference = shadow.difference();
+  run.twin.distance_m = (body.truth().com_world_m - start).head<2>().norm();
+  run.twin.fallen = body.truth().fallen;
+  return run;
+}
+
+}  // namespace verp::test

@@ -1,0 +1,53 @@
+#pragma once
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "common/protocol/controller_table.hpp"
+#include "host/board/qemu.hpp"
+#include "host/board/temporary_directory.hpp"
+#include "host/bus/client.hpp"
+#include "tests/target/twin_run.hpp"
+
+/// The image loop_<board> in QEMU, with a socket at each of its serial ports.
+namespace verp::test {
+
+class SerialBoard {
+ public:
+  /// Boots with `params_image` in flash where the board's memory.ld has it; empty: with none.
+  SerialBoard(const std::string& board, const std::vector<std::uint8_t>& params_image);
+
+  wire::Endpoint servo_port() const { return endpoint("servo.sock"); }
+  /// The operator's end; what a register of the controller holds, as an integer.
+  bus::Client& operator_port() { return operator_port_; }
+  std::uint64_t read(const char* name);
+  void write(const char* name, std::int64_t value);
+  /// For messages.
+  std::string described(const std::string& what) const { return firmware_.described(what); }
+
+ private:
+  wire::Endpoint endpoint(const char* name) const;
+  board::QemuProcess start(const std::string& board, const std::vector<std::uint8_t>& image) const;
+
+  board::TemporaryDirectory directory_;
+  board::QemuProcess firmware_;
+  bus::Client operator_port_;
+};
+
+/// The bytes that the flash of `robot`'s controller holds.
+std::vector<std::uint8_t> params_image(const Robot& robot);
+
+struct SerialRun {
+  TwinRun twin;
+  std::uint64_t digest = 0;  ///< as the controller itself told it after the last tick
+  std::uint32_t tick = 0;    ///< likewise
+  std::string difference;    ///< see bus::ShadowLoop
+  double ticks_per_s = 0;    ///< of the wall's clock
+};
+
+/// The controller on the board; the twin in lockstep at its servo port, ScriptedOperator at the
+/// other. Throws BoardError or DeviceError.
+SerialRun run_over_serial(SerialBoard& board, const Robot& robot, std::uint32_t ticks);
+
+}  // namespace verp::test

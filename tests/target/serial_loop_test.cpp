@@ -1,0 +1,75 @@
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+
+#include "tests/target/serial_board.hpp"
+
+// VERP_TEST_BOARD names the emulated board, VERP_TEST_TICKS the length of a walk; ctest of a
+// firmware build sets both.
+namespace verp::test {
+namespace {
+
+using dxl::controller::SelfTest;
+
+std::string test_board() {
+  const char* board = std::getenv("VERP_TEST_BOARD");
+  return board == nullptr ? "" : board;
+}
+
+std::uint32_t test_ticks() {
+  const char* ticks = std::getenv("VERP_TEST_TICKS");
+  return ticks == nullptr ? 0 : static_cast<std::uint32_t>(std::strtoul(ticks, nullptr, 10));
+}
+
+// The operator's port speaks Dynamixel as soon as the boot check is over, twin or no twin, and
+// tells how the start went.
+TEST(SerialLoop, AnswersItsOperatorAsDevice200) {
+  SerialBoard board(test_board(), params_image(load_robot("generic21")));
+  const auto identity = board.operator_port().ping(dxl::controller::kDefaultId);
+  ASSERT_TRUE(identity.has_value()) << board.described("no answer to a ping");
+  EXPECT_EQ(identity->model, dxl::controller::kModel);
+  EXPECT_EQ(board.read("self_test"), static_cast<std::uint64_t>(SelfTest::kPassed));
+  EXPECT_EQ(board.read("joint_count"), 21u);
+  EXPECT_EQ(board.read("crash_count"), 0u);
+  EXPECT_EQ(board.read("clock_source"),
+            static_cast<std::uint64_t>(dxl::controller::ClockSource::kAbsent));
+  EXPECT_EQ(board.read("torque_enable"), 0u);
+}
+
+// A board without a robot in its flash drives nothing, whatever it is told, and says why.
+TEST(SerialLoop, TellsItsOperatorWhyItRefusesTorque) {
+  SerialBoard board(test_board(), {});
+  ASSERT_TRUE(board.operator_port().ping(dxl::controller::kDefaultId).has_value());
+  EXPECT_EQ(board.read("self_test"), static_cast<std::uint64_t>(SelfTest::kImage));
+  EXPECT_EQ(board.read("joint_count"), 0u);
+  board.write("request", static_cast<std::int64_t>(Request::kStand));
+  EXPECT_EQ(board.read("tick"), 0u) << "the loop must not run";
+  EXPECT_EQ(board.read("torque_enable"), 0u);
+}
+
+// The firmware image on its emulated chip, its bus through one USART and its orders through
+// another, decides what the same loop decides in this process: every stage of every tick.
+TEST(SerialLoop, WalksTheSameBitsThroughItsUsartsAndInThisProcess) {
+  const std::uint32_t ticks = test_ticks();
+  ASSERT_GT(ticks, 0u) << "set VERP_TEST_TICKS";
+  const Robot robot = load_robot("generic21");
+  const TwinRun here = run_here(robot, ticks, false);
+  ASSERT_EQ(here.records.size(), ticks);
+  SerialBoard board(test_board(), params_image(robot));
+  ASSERT_TRUE(board.operator_port().ping(dxl::controller::kDefaultId).has_value());
+  const SerialRun there = run_over_serial(board, robot, ticks);
+  EXPECT_EQ(there.difference, "");
+  ASSERT_EQ(there.twin.records.size(), ticks);
+  for (std::uint32_t i = 0; i < ticks; ++i) {
+    ASSERT_EQ(here.records[i].digest.chain, there.twin.records[i].digest.chain) << "tick " << i;
+  }
+  EXPECT_EQ(there.digest, here.records.back().digest.chain) << "as the controller itself tells it";
+  EXPECT_EQ(there.tick, here.records.back().inputs.tick);
+  EXPECT_EQ(there.twin.distance_m, here.distance_m);
+  EXPECT_FALSE(there.twin.fallen);
+  EXPECT_GT(there.twin.distance_m, 0.2) << "it should have walked";
+  std::printf("%s: %u ticks at %.0f ticks/s\n", test_board().c_str(), ticks, there.ticks_per_s);
+}
+
+}  // namespace
+}  // namespace verp::test
