@@ -48,22 +48,17 @@ Posture posture_at(const Params& params, const Tuning& tuning, const GaitState& 
                     foot_at(*moment.step, kLeft, time_s), foot_at(*moment.step, kRight, time_s));
 }
 
-// The final step and all after it: both feet carry and the ZMP comes to rest.
-bool ends_walk(const Step& step) {
-  return step.swing == kBoth && step.phase != Phase::kStart;
-}
-
 // Ends the plan where walking on, or standing, would take it, and carries that back to the head's
 // step.
 void set_dcm_ends(const Params& params, const Tuning& tuning, const VelocityIn& wanted,
                   GaitState& state) {
   Step& last = state.queue[state.queued - 1];
   last.dcm_end_m = last.zmp_end_m;
-  if (!ends_walk(last)) {
+  if (!last.ends_walk()) {
     // Two more steps as now wanted, only to see where the ZMP goes.
     FootstepState ahead = state.footsteps;
     const Step next = next_step(params, tuning.gait, wanted, last, ahead);
-    if (ends_walk(next)) {
+    if (next.ends_walk()) {
       last.dcm_end_m = next.zmp_end_m;
     } else {
       const Step second = next_step(params, tuning.gait, wanted, next, ahead);
@@ -82,7 +77,7 @@ void extend_queue(const Params& params, const Tuning& tuning, const GaitIn& in, 
   wanted.stop = wanted.stop || !in.walk || (state.footsteps.notes & kPlanRefused) != 0;
   while (state.queued < kQueue && state.queued < state.preview.head_step + 2) {
     const Step& last = state.queue[state.queued - 1];
-    state.queue[state.queued] = ends_walk(last)
+    state.queue[state.queued] = last.ends_walk()
                                     ? rest_step(tuning.gait, last)
                                     : next_step(params, tuning.gait, wanted, last, state.footsteps);
     ++state.queued;

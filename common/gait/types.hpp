@@ -76,6 +76,8 @@ struct Step {
   constexpr float duration_s() const { return static_cast<float>(duration_us()) * 1e-6F; }
   constexpr float key_s() const { return static_cast<float>(key_us) * 1e-6F; }
   constexpr int carrying() const { return swing == kBoth ? kBoth : 1 - swing; }
+  /// The final step and all after it: both feet carry and the ZMP comes to rest.
+  constexpr bool ends_walk() const { return swing == kBoth && phase != Phase::kStart; }
   /// Footholds once the step is over.
   constexpr Foothold after(int side) const { return side == swing ? landing : foot[side]; }
 };

@@ -16,10 +16,6 @@ constexpr std::uint32_t kFrameTicks = 10;  // the least often that the operator'
 constexpr float kSomeError_rad = 1e-3F;    // a robot is never quite on its heading
 constexpr int kMostSteps = 1000;           // any stride has shrunk to nothing by then
 
-bool ends_walk(const gait::Step& step) {
-  return step.swing == gait::kBoth && step.phase != gait::Phase::kStart;
-}
-
 }  // namespace
 
 WalkOperator::WalkOperator(const Params& params, const Command& velocity, double walk_s)
@@ -45,7 +41,7 @@ double WalkOperator::lead_s(const State& state, bool one_more) const {
   for (int i = 0; i < gait.queued; ++i) rest_us += gait.queue[i].duration_us();
   gait::Step last = gait.queue[gait.queued - 1];
   wanted.stop = !one_more;
-  for (int i = 0; i < kMostSteps && !ends_walk(last); ++i) {
+  for (int i = 0; i < kMostSteps && !last.ends_walk(); ++i) {
     last = gait::next_step(params_, tuning, wanted, last, footsteps);
     rest_us += last.duration_us();
     wanted.stop = true;
@@ -55,7 +51,7 @@ double WalkOperator::lead_s(const State& state, bool one_more) const {
 
 /// Strides are whole: stops where one step more would be too much.
 void WalkOperator::stop_in_time(const State& state) {
-  if (state.gait.queued == 0 || ends_walk(state.gait.queue[state.gait.queued - 1])) return;
+  if (state.gait.queued == 0 || state.gait.queue[state.gait.queued - 1].ends_walk()) return;
   if (walked_s_ + lead_s(state, true) <= walk_s_) {
     could_walk_on_ = true;
     return;
