@@ -11,6 +11,7 @@
 #include "firmware/app/remote_bus.hpp"
 #include "tests/host/bus/fake_plant.hpp"
 #include "tests/host/bus/pipes.hpp"
+#include "tests/host/bus/walker.hpp"
 
 namespace verp {
 namespace {
@@ -176,33 +177,20 @@ TEST_F(BusServer, EndsWhenTheLinkBreaksOrSpeaksNonsense) {
   EXPECT_EQ(result.exit_code, 3u);
 }
 
-/// An operator that walks from tick 20, and a recorder.
-struct Walker {
-  app::OperatorOrder order(std::uint32_t tick) const {
-    app::OperatorOrder order;
-    order.command.request = tick < 20 ? Request::kStand : Request::kWalk;
-    order.command.sequence = static_cast<std::uint8_t>(tick);
-    order.flags = kCommandFresh;
-    return order;
-  }
-  void record(const TickRecord& record, const State&, const Outputs&) { records.push_back(record); }
-  std::vector<TickRecord> records;
-};
-
 // The same robot, the same order: whether the controller is in this process or at the end of a
 // link, each tick's inputs and digests are the same bits.
 TEST(RemoteLoop, RecordsWhatTheLoopInThisProcessRecords) {
   constexpr std::uint32_t kTicks = 300;
   const Params params = test::bus_params(2);
-  Walker local;
+  test::Walker local;
   {
     test::FakePlant plant;
     bus::VirtualBus direct(params, plant);
-    app::App<bus::VirtualBus, Walker, Walker> loop(params, direct, local, local);
+    app::App<bus::VirtualBus, test::Walker, test::Walker> loop(params, direct, local, local);
     ASSERT_EQ(loop.bring_up().status, app::BringUpStatus::kReady);
     for (std::uint32_t i = 0; i < kTicks; ++i) loop.tick();
   }
-  Walker distant;
+  test::Walker distant;
   test::FakePlant plant;
   bus::VirtualBus served(params, plant);
   test::PipePair pipes;

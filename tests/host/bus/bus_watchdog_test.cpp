@@ -120,6 +120,23 @@ TEST_F(BusWatchdog, ARobotCutOffForSecondsArmsAgain) {
   EXPECT_EQ(plant.setpoint(4).goal_count, 2500);
 }
 
+// Bus and torque come back in the same tick: no servo wakes up deaf to its goals.
+TEST_F(BusWatchdog, ARobotThatArmsAsSoonAsTheBusIsBackMoves) {
+  ready();
+  wanted.torque_enable = all();
+  ticks(5);
+  for (int j = 0; j < kJoints; ++j) bus.set_connected(params.joint[j].servo_id, false);
+  ticks(100);
+  wanted.torque_enable = 0;
+  ticks(10);
+  for (int j = 0; j < kJoints; ++j) bus.set_connected(params.joint[j].servo_id, true);
+  EXPECT_TRUE(tripped(0) && tripped(kJoints - 1));
+  wanted.torque_enable = all();
+  for (int j = 0; j < kJoints; ++j) wanted.goal_count[j] = 2500;
+  ticks(1);
+  for (int j = 0; j < kJoints; ++j) EXPECT_EQ(plant.setpoint(j).goal_count, 2500) << j;
+}
+
 // A host that was late for longer than the watchdogs wait: the servos hold, then follow again.
 TEST_F(BusWatchdog, APauseOfTheControllerLeavesNoServoBehind) {
   ready();

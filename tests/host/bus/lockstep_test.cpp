@@ -9,22 +9,10 @@
 #include "host/bus/shadow_loop.hpp"
 #include "tests/host/bus/fake_plant.hpp"
 #include "tests/host/bus/lockstep_pair.hpp"
+#include "tests/host/bus/walker.hpp"
 
 namespace verp {
 namespace {
-
-/// An operator that walks from tick 20, and a recorder.
-struct Walker {
-  app::OperatorOrder order(std::uint32_t tick) const {
-    app::OperatorOrder order;
-    order.command.request = tick < 20 ? Request::kStand : Request::kWalk;
-    order.command.sequence = static_cast<std::uint8_t>(tick);
-    order.flags = kCommandFresh;
-    return order;
-  }
-  void record(const TickRecord& record, const State&, const Outputs&) { records.push_back(record); }
-  std::vector<TickRecord> records;
-};
 
 /// An operator's port: holds the order that the PC gave last.
 struct Port {
@@ -51,8 +39,8 @@ constexpr int kTicks = 300;
 std::vector<TickRecord> records_here(const Params& params) {
   test::FakePlant plant;
   bus::VirtualBus bus(params, plant);
-  Walker walker;
-  app::App<bus::VirtualBus, Walker, Walker> loop(params, bus, walker, walker);
+  test::Walker walker;
+  app::App<bus::VirtualBus, test::Walker, test::Walker> loop(params, bus, walker, walker);
   loop.bring_up();
   for (int i = 0; i < kTicks; ++i) loop.tick();
   return walker.records;
@@ -88,7 +76,7 @@ class Lockstep : public ::testing::Test {
       return !ending;
     };
     hooks.tick_begins = [this](std::uint32_t tick) {
-      port.next = Walker{}.order(tick);
+      port.next = test::Walker{}.order(tick);
       shadow.ordered(port.next);
     };
     hooks.sent = [this](auto frame) { shadow.sent(frame); };
