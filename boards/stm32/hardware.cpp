@@ -2,6 +2,7 @@
 
 #include "boards/stm32/vectors.hpp"
 #include "hal/chip/stm32/clock_gate.hpp"
+#include "hal/chip/stm32/instruction_cache.hpp"
 #include "hal/chip/stm32/interrupts.hpp"
 
 namespace verp::board {
@@ -47,6 +48,7 @@ std::uint32_t clock_of(const SerialPort& port, const stm32::Clocks& clocks) {
 Start start_hardware() {
   Start start;
   start.cause = stm32::take_reset_cause(Io{});
+  if constexpr (kFamily == stm32::Family::kF746) stm32::enable_instruction_cache(Io{});
   start.clocks = stm32::ClockTree<Io>(kFamily, kClockPlan).start();
   if (start.clocks.source == stm32::ClockSource::kAbsent) start.clocks = kWithoutClockController;
   stm32::enable_clock(Io{}, stm32::rcc::kApb1enr, stm32::rcc::kApb1Tim2);

@@ -1,15 +1,17 @@
 #pragma once
 #include <cstdint>
 
+#include "hal/chip/stm32/clock_gate.hpp"
 #include "hal/chip/stm32/io.hpp"
 #include "hal/chip/stm32/registers/flash.hpp"
 #include "hal/chip/stm32/registers/memory_map.hpp"
 #include "hal/chip/stm32/registers/pwr.hpp"
 #include "hal/chip/stm32/registers/rcc.hpp"
 
-/// The clock tree: crystal, PLL, bus clocks, flash wait states. Every wait ends. A crystal that
-/// does not start, or a PLL that does not lock on it, leaves the processor at the same speed on the
-/// internal oscillator; if that fails too, on the oscillator itself, slowly.
+/// The clock tree: crystal, PLL, overdrive, bus clocks, flash wait states. Every wait ends. A
+/// crystal that does not start, or a PLL that does not lock on it, leaves the processor at the same
+/// speed on the internal oscillator; if that fails too, or the overdrive that the speed needs, on
+/// the oscillator itself, slowly.
 namespace verp::hal::stm32 {
 
 enum class ClockSource : std::uint8_t {
@@ -59,9 +61,11 @@ class ClockTree {
 
  private:
   // On the 16 MHz of HSI a read and a test take about 10 cycles. Crystal: 2 ms typical, some take
-  // ten times that; PLL: 300 us at most (DS8626). Both with a margin of about ten.
+  // ten times that; PLL: 300 us at most (DS8626); overdrive: 100 us at most (DS10916, over-drive
+  // switching characteristics). All with a margin of about ten.
   static constexpr std::uint32_t kCrystalPolls = 200'000;
   static constexpr std::uint32_t kLockPolls = 5'000;
+  static constexpr std::uint32_t kOverdrivePolls = 2'000;
   static constexpr std::uint32_t kSwitchPolls = 1'000;
 
   std::uint32_t at(std::uint32_t offset) const { return base::kRcc + offset; }
@@ -95,8 +99,23 @@ class ClockTree {
         rcc::kPllcfgrM | rcc::kPllcfgrN | rcc::kPllcfgrP | rcc::kPllcfgrSrcHse | rcc::kPllcfgrQ,
         m | n << rcc::kPllcfgrNShift | source | q << rcc::kPllcfgrQShift);
     modify32(io_, at(rcc::kCr), 0, rcc::kCrPllon);
-    return wait_for(rcc::kCr, rcc::kCrPllrdy, rcc::kCrPllrdy, kLockPolls) && set_wait_states() &&
-           switch_to(rcc::kClockPll);
+    return overdrive() && wait_for(rcc::kCr, rcc::kCrPllrdy, rcc::kCrPllrdy, kLockPolls) &&
+           set_wait_states() && switch_to(rcc::kClockPll);
+  }
+
+  // In this order, while the PLL settles (RM0385 4.1.4, RM0390 5.1.4: entering overdrive). The
+  // regulator's scale is the highest one after a reset.
+  bool overdrive() {
+    if (plan_.sysclk_hz <= limits(family_).sysclk_max_hz) return true;
+    enable_clock(io_, rcc::kApb1enr, rcc::kApb1Pwr);
+    return raise(pwr::kCrOden, pwr::kCsrOdrdy) && raise(pwr::kCrOdswen, pwr::kCsrOdswrdy);
+  }
+  bool raise(std::uint32_t enable, std::uint32_t ready) {
+    modify32(io_, base::kPwr + pwr::kCr, 0, enable);
+    for (std::uint32_t poll = 0; poll < kOverdrivePolls; ++poll) {
+      if ((io_.read32(base::kPwr + pwr::kCsr) & ready) != 0) return true;
+    }
+    return false;
   }
 
   // Bus clocks are divided before SYSCLK rises, so that no bus ever runs too fast.
@@ -149,14 +168,14 @@ class ClockTree {
   ClockPlan plan_;
 };
 
-/// True if the plan keeps the family's limits, without overdrive, and divides evenly.
+/// True if the plan keeps the family's limits, of overdrive where it has that, and divides evenly.
 constexpr bool is_possible(const ClockPlan& plan, Family family) {
   const Limits& limit = limits(family);
   const std::uint32_t n = plan.vco_hz / 1'000'000;
   return plan.crystal_hz >= 2'000'000 && plan.crystal_hz <= 63'000'000 &&
          plan.crystal_hz % 1'000'000 == 0 && plan.vco_hz % 1'000'000 == 0 && n >= limit.n_min &&
          n <= limit.n_max && plan.vco_hz >= limit.vco_min_hz && plan.vco_hz <= limit.vco_max_hz &&
-         plan.vco_hz == 2 * plan.sysclk_hz && plan.sysclk_hz <= limit.sysclk_max_hz &&
+         plan.vco_hz == 2 * plan.sysclk_hz && plan.sysclk_hz <= limit.sysclk_overdrive_max_hz &&
          plan.sysclk_hz / 4 <= limit.apb1_max_hz && plan.sysclk_hz / 2 <= limit.apb2_max_hz;
 }
 

@@ -1,0 +1,60 @@
+#pragma once
+#include "boards/stm32/wiring.hpp"
+
+/// ROBOTIS OpenCR 1.0: STM32F746ZGT6 (Cortex-M7, single precision).
+/// Pins: ROBOTIS-GIT/OpenCR, arduino/opencr_arduino/opencr/variants/OpenCR (variant.cpp,
+/// drv_uart.c, drv_dxl.c); alternate functions and DMA streams are those that its drv_uart.c sets.
+/// README.md has the wiring and names the source of each pin.
+namespace verp::board {
+
+namespace stm32 = hal::stm32;
+
+inline constexpr const char* kName = "opencr";
+inline constexpr const char* kCore = "Cortex-M7";
+/// Ticks that a replay moves at once.
+inline constexpr int kReplayBlock = 64;
+
+inline constexpr stm32::Family kFamily = stm32::Family::kF746;
+using UsartKind = stm32::UsartV2;
+
+inline constexpr stm32::ClockPlan kClockPlan = {
+    .crystal_hz = 25'000'000, .external = false, .vco_hz = 432'000'000, .sysclk_hz = 216'000'000};
+static_assert(stm32::is_possible(kClockPlan, kFamily));
+/// A chip without a clock controller is no F746: the timer is refused, and nothing runs.
+inline constexpr stm32::Clocks kWithoutClockController = {};
+
+/// The DYNAMIXEL connectors, TTL and RS-485 alike: one USART, one direction pin.
+inline constexpr SerialPort kServoPort = {.wiring = {.base = stm32::base::kUsart3,
+                                                     .dma_base = stm32::base::kDma1,
+                                                     .dma_stream = 1,
+                                                     .dma_channel = 4,
+                                                     .direction = {'C', 9}},
+                                          .transmit = {'C', 10},
+                                          .receive = {'C', 11},
+                                          .function = 7,
+                                          .gate = {stm32::rcc::kApb1enr, stm32::rcc::kApb1Usart3},
+                                          .dma_gate = {stm32::rcc::kAhb1enr, stm32::rcc::kAhb1Dma1},
+                                          .on_apb2 = false,
+                                          .interrupt = stm32::irq::kUsart3,
+                                          .dma_interrupt = stm32::irq::dma1(1)};
+/// The connector named UART1.
+inline constexpr SerialPort kOperatorPort = {
+    .wiring = {.base = stm32::base::kUsart2,
+               .dma_base = stm32::base::kDma1,
+               .dma_stream = 5,
+               .dma_channel = 4,
+               .direction = {}},
+    .transmit = {'D', 5},
+    .receive = {'D', 6},
+    .function = 7,
+    .gate = {stm32::rcc::kApb1enr, stm32::rcc::kApb1Usart2},
+    .dma_gate = {stm32::rcc::kAhb1enr, stm32::rcc::kAhb1Dma1},
+    .on_apb2 = false,
+    .interrupt = stm32::irq::kUsart2,
+    .dma_interrupt = stm32::irq::dma1(5)};
+inline constexpr std::uint32_t kOperatorBaud = 1'000'000;
+
+inline constexpr Pin kLed = {'G', 9};          ///< STATUS
+inline constexpr Pin kServoPower = {'F', 15};  ///< high: the DYNAMIXEL connectors have power
+
+}  // namespace verp::board
