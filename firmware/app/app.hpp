@@ -7,6 +7,7 @@
 #include "firmware/app/bus_master.hpp"
 #include "firmware/app/contracts.hpp"
 #include "firmware/app/schedule.hpp"
+#include "hal/contract/imu.hpp"
 
 /// The one control loop: the same template drives real servos, virtual ones and an emulated
 /// microcontroller's. bring_up() once, then tick() once a control period. Nothing here knows where
@@ -14,11 +15,18 @@
 /// tick's first read reaches it; a board with a timer waits before it calls tick().
 namespace verp::app {
 
-template <hal::FrameBus Bus, OperatorLink Operator, Recorder Sink>
+/// Of a robot whose IMU is on the servo bus.
+struct NoImu {
+  hal::ImuStatus read(hal::ImuSample&) { return hal::ImuStatus::kStale; }
+  std::uint32_t faults() const { return 0; }
+};
+
+template <hal::FrameBus Bus, OperatorLink Operator, Recorder Sink, hal::Imu Chip = NoImu>
 class App {
  public:
-  App(const Params& params, Bus& bus, Operator& operator_link, Sink& sink)
-      : params_(params), master_(bus), operator_(operator_link), sink_(sink) {
+  /// `chip` is read in every tick if Params names no IMU on the bus; null: there is none.
+  App(const Params& params, Bus& bus, Operator& operator_link, Sink& sink, Chip* chip = nullptr)
+      : params_(params), master_(bus), operator_(operator_link), sink_(sink), chip_(chip) {
     for (int j = 0; j < params.joint_count; ++j) {
       joints_.add(params.joint[j].servo_id, static_cast<std::uint8_t>(j));
     }
@@ -36,12 +44,13 @@ class App {
   /// up.
   BringUpReport bring_up() { return BringUp<Bus>(params_, master_).run(); }
 
-  void tick() {
+  void tick(const Beat& beat = {}) {
     inputs_.fresh = 0;
     inputs_.flags = 0;
     read_positions();
-    count_tick();
+    count_tick(beat);
     read_sensors();
+    read_chip();
     take_order();
     step(params_, state_, inputs_, outputs_);
     send_goals();
@@ -107,15 +116,17 @@ class App {
     inputs_.fresh |= 1u << joint;
   }
 
-  // Ticks are counted on bus time, at the end of the first read: a period that was missed is
-  // skipped, not squeezed.
-  void count_tick() {
+  // Ticks are counted on the clock that paces them, or else on bus time, at the end of the first
+  // read: a period that was missed is skipped, not squeezed.
+  void count_tick(const Beat& beat) {
     const std::uint64_t now_us = master_.now_us();
     if (ticking_) {
       const std::uint64_t elapsed_us = now_us - last_read_us_ + params_.period_us / 2;
-      const auto periods = static_cast<std::uint32_t>(elapsed_us / params_.period_us);
+      const auto periods = beat.periods > 0
+                               ? beat.periods
+                               : static_cast<std::uint32_t>(elapsed_us / params_.period_us);
       inputs_.tick += periods > 1 ? periods : 1;
-      if (periods > 1) inputs_.flags |= kOverrun;
+      if (periods > 1 || beat.overran) inputs_.flags |= kOverrun;
       const std::uint32_t patience_us = bus_watchdog_ * dxl::kBusWatchdogUnit_us;
       if (elapsed_us >= patience_us) clear_watchdogs_ = true;
     }
@@ -176,6 +187,17 @@ class App {
       }
       feet_seen_ |= 1u << foot;
     }
+  }
+
+  void read_chip() {
+    hal::ImuSample sample;
+    if (chip_ == nullptr || params_.imu.device_id != 0) return;
+    if (chip_->read(sample) != hal::ImuStatus::kFresh) return;
+    for (int axis = 0; axis < 3; ++axis) {
+      inputs_.gyro_count[axis] = sample.gyro_count[axis];
+      inputs_.accel_count[axis] = sample.accel_count[axis];
+    }
+    inputs_.flags |= kImuFresh;
   }
 
   // The alert bit says that Hardware Error Status is not zero; only then is it worth a read of its
@@ -257,6 +279,7 @@ class App {
   BusMaster<Bus> master_;
   Operator& operator_;
   Sink& sink_;
+  Chip* chip_;
   ReadChain<kMaxJoints> joints_;
   ReadChain<kServoSlot + 1> sensors_;
   State state_;

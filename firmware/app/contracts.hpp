@@ -7,8 +7,8 @@
 #include "common/io/io.hpp"
 #include "common/record/tick_record.hpp"
 
-/// What the control loop needs besides a FrameBus: somebody who gives orders and somebody who keeps
-/// the record.
+/// What the control loop needs besides a FrameBus: somebody who gives orders, somebody who keeps
+/// the record, and perhaps a clock.
 namespace verp::app {
 
 /// What an operator may put into one tick's Inputs.
@@ -29,6 +29,12 @@ static_assert(packed_size<OperatorOrder>() == sizeof(OperatorOrder));
 template <class Link>
 concept OperatorLink = requires(Link& link, std::uint32_t tick) {
   { link.order(tick) } -> std::same_as<OperatorOrder>;
+};
+
+/// What the clock that paces a loop says of the tick that begins.
+struct Beat {
+  std::uint32_t periods = 0;  ///< since the tick before; 0: no clock, bus time tells
+  bool overran = false;       ///< the tick before ended after its deadline
 };
 
 /// Recorder: takes each tick after its goals were sent, so that recording never delays them. It

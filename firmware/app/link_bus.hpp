@@ -20,8 +20,9 @@ concept Clock = requires(const Source& clock) {
 template <hal::ByteLink Link, Clock Source>
 class LinkBus {
  public:
-  LinkBus(Link& link, const Source& clock)
-      : link_(link), clock_(clock), opened_us_(clock.now_us()) {}
+  /// `held_us`: how long the link may hold bytes back, there and back together; 0 for a wire.
+  LinkBus(Link& link, const Source& clock, std::uint32_t held_us = 0)
+      : link_(link), clock_(clock), opened_us_(clock.now_us()), held_us_(held_us) {}
 
   bool send(const std::uint8_t* data, std::size_t size) {
     if (size == 0 || size > hal::kMaxFrame) return false;
@@ -36,7 +37,7 @@ class LinkBus {
   }
 
   std::size_t poll(std::uint8_t* buffer, std::size_t capacity, std::uint32_t timeout_us) {
-    const std::uint64_t deadline_us = sent_us_ + timeout_us;
+    const std::uint64_t deadline_us = sent_us_ + timeout_us + held_us_;
     for (;;) {
       push();
       const std::uint64_t time_us = now_us();
@@ -65,6 +66,7 @@ class LinkBus {
   Link& link_;
   const Source& clock_;
   std::uint64_t opened_us_;
+  std::uint32_t held_us_;
   std::uint64_t sent_us_ = 0;
   std::size_t sent_ = 0;
   std::size_t left_ = 0;  ///< bytes of outbox_ that the link has not taken yet

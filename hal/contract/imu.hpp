@@ -14,8 +14,8 @@
 ///  - After kFault (a silent, stuck or foreign chip) the backend tries again by itself in later
 ///    reads, none of which waits longer for it. faults() counts them, modulo 2^32.
 ///  - Bias and calibration are not its business. No call allocates or throws.
-/// Implementations: hal/fake/scripted_imu.hpp, the SPI and I2C chips of hal/chip. User: a board
-/// whose robot has imu_source chip.
+/// Implementations: hal/fake/scripted_imu.hpp, the SPI and I2C chips of hal/chip. User:
+/// firmware/app/app.hpp, for a robot whose Params name no IMU on the servo bus.
 namespace verp::hal {
 
 inline constexpr std::uint32_t kImuMaxWait_us = 500;  ///< 14 bytes at 400 kbit/s of I2C take 340

@@ -16,7 +16,7 @@
 ///    least start + k * period_us.
 ///  - It never returns early; how late, is the backend's to say. No call allocates or throws.
 /// Implementations: hal/fake/manual_clock.hpp, host/link/system_clock.hpp. User: a real-time loop,
-/// which calls wait() and then App::tick().
+/// which calls wait() and then App::tick(); firmware/app/pacer.hpp does it and keeps account.
 namespace verp::hal {
 
 template <class Source>

@@ -1,3 +1,4 @@
+#include "hal/fake/scripted_imu.hpp"
 #include "tests/host/bus/app_fixture.hpp"
 
 namespace verp::test {
@@ -99,6 +100,46 @@ TEST_F(AppInTrouble, AMissedPeriodIsSkippedAndReported) {
   EXPECT_NE(app.inputs().flags & kOverrun, 0);
   ticks(1);
   EXPECT_EQ(app.inputs().flags & kOverrun, 0);
+}
+
+// A loop that is paced by a clock stands on that clock's ticks, and says when it was late.
+TEST_F(AppInTrouble, AClocksTicksAreTakenAsTheyAre) {
+  ready();
+  ticks(1);
+  app.tick({.periods = 1, .overran = false});
+  EXPECT_EQ(app.inputs().tick, 1u);
+  EXPECT_EQ(app.inputs().flags & kOverrun, 0);
+  app.tick({.periods = 1, .overran = true});
+  EXPECT_EQ(app.inputs().tick, 2u);
+  EXPECT_NE(app.inputs().flags & kOverrun, 0);
+  app.tick({.periods = 40, .overran = true});
+  EXPECT_EQ(app.inputs().tick, 42u);
+  EXPECT_NE(app.inputs().flags & kOverrun, 0);
+  app.tick({.periods = 1, .overran = false});
+  EXPECT_EQ(app.inputs().tick, 43u);
+  EXPECT_EQ(app.inputs().flags & kOverrun, 0);
+}
+
+// An IMU on the controller's board is read in place of one on the bus, and a sample it does not
+// give is not fresh.
+TEST_F(AppInTrouble, AnImuOnTheBoardIsReadIfTheBusHasNone) {
+  hal::ScriptedImu chip;
+  app::App<Tap, Script, Memory, hal::ScriptedImu> on_bus{params, tap, script, memory, &chip};
+  ASSERT_TRUE(chip.measure({{7, 8, 9}, {10, 11, 12}, 1}));
+  on_bus.tick();
+  EXPECT_EQ(on_bus.inputs().gyro_count[0], 1) << "the device on the bus has this";
+  Params own = params;
+  own.imu.device_id = 0;
+  app::App<Tap, Script, Memory, hal::ScriptedImu> on_board{own, tap, script, memory, &chip};
+  on_board.tick();
+  EXPECT_NE(on_board.inputs().flags & kImuFresh, 0);
+  EXPECT_EQ(on_board.inputs().gyro_count[0], 7);
+  EXPECT_EQ(on_board.inputs().accel_count[2], 12);
+  on_board.tick();
+  EXPECT_EQ(on_board.inputs().flags & kImuFresh, 0) << "no sample is taken twice";
+  app::App<Tap, Script, Memory> without{own, tap, script, memory};
+  without.tick();
+  EXPECT_EQ(without.inputs().flags & kImuFresh, 0);
 }
 
 // Lost and changed bytes make values stale; none ever becomes a position, and none costs the loop
