@@ -45,6 +45,14 @@ function(verp_add_unit_tests_by_folder machine)
   endforeach()
 endfunction()
 
+# The suites of tests/contract, against the fakes and, for what the emulators lack, the drivers against their models.
+function(verp_add_contract_tests machine)
+  file(GLOB tests CONFIGURE_DEPENDS
+    ${CMAKE_SOURCE_DIR}/tests/contract/*_test.cpp ${CMAKE_SOURCE_DIR}/tests/support/stm32/*.cpp)
+  verp_add_unit_image(contract contract.${VERP_BOARD} ${machine} ${tests})
+  set_tests_properties(contract.${VERP_BOARD} PROPERTIES LABELS "contract;target")
+endfunction()
+
 # Tests with a half on the PC: that half comes from a PC build, which must be there.
 set(VERP_HOST_DIR ${CMAKE_SOURCE_DIR}/build/host-release CACHE PATH "PC build whose programs test this board")
 function(verp_add_target_test name suite)
@@ -101,6 +109,7 @@ endfunction()
 function(verp_add_mps2_images machine)
   verp_add_fault_tests(${machine})
   verp_add_unit_tests(${machine})
+  verp_add_contract_tests(${machine})
   verp_add_replay_tests(${machine})
   verp_add_emulated_image(loop loop ${machine})
   verp_add_target_test(loop ClosedLoop)

@@ -1,12 +1,13 @@
 #include <cerrno>
 #include <cstddef>
 #include <cstdint>
+#include <cstdlib>
 
 #include "firmware/boot/boot.hpp"
 #include "hal/chip/semihosting/semihosting.hpp"
 
-/// What newlib asks of a system, for test images only: number formatting wants a heap. Files are
-/// refused.
+/// What newlib and the C++ library ask of a system, for test images only: number formatting and
+/// containers want a heap. Files are refused; whatever is written is printed.
 extern "C" {
 extern char verp_heap_begin[];
 extern char verp_heap_end[];
@@ -24,7 +25,11 @@ void* _sbrk(std::ptrdiff_t bytes) {
 [[noreturn]] void _exit(int status) {
   verp_exit(status);
 }
-int _write(int, const char*, int size) {
+int _write(int, const char* text, int size) {
+  for (int i = 0; i < size; ++i) {
+    const char letter[2] = {text[i], 0};
+    verp::hal::semihosting::print(letter);
+  }
   return size;
 }
 int _read(int, char*, int) {
@@ -48,4 +53,49 @@ int _kill(int, int) {
 int _getpid() {
   return 1;
 }
+/// The library's own would bring in its exceptions.
+[[noreturn]] void __cxa_pure_virtual() {
+  std::abort();
 }
+}
+
+void* operator new(std::size_t bytes) {
+  void* const block = std::malloc(bytes);
+  if (block == nullptr) {
+    verp::hal::semihosting::print("the heap is full\n");
+    std::abort();
+  }
+  return block;
+}
+void operator delete(void* block) noexcept {
+  std::free(block);
+}
+void operator delete(void* block, std::size_t) noexcept {
+  std::free(block);
+}
+
+/// What containers would throw.
+namespace std {
+[[noreturn]] void __throw_length_error(const char* why) {
+  verp::hal::semihosting::print(why);
+  abort();
+}
+[[noreturn]] void __throw_logic_error(const char* why) {
+  __throw_length_error(why);
+}
+[[noreturn]] void __throw_out_of_range(const char* why) {
+  __throw_length_error(why);
+}
+[[noreturn]] void __throw_out_of_range_fmt(const char* why, ...) {
+  __throw_length_error(why);
+}
+[[noreturn]] void __throw_bad_alloc() {
+  __throw_length_error("bad_alloc");
+}
+[[noreturn]] void __throw_bad_array_new_length() {
+  __throw_length_error("bad_array_new_length");
+}
+[[noreturn]] void __throw_bad_function_call() {
+  __throw_length_error("bad_function_call");
+}
+}  // namespace std

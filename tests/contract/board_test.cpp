@@ -1,40 +1,24 @@
 #include <gtest/gtest.h>
 
-#include <chrono>
 #include <cstdint>
-#include <thread>
 
 #include "hal/contract/imu.hpp"
 #include "hal/contract/tick_source.hpp"
 #include "hal/contract/watchdog.hpp"
-#include "hal/fake/fake_watchdog.hpp"
-#include "hal/fake/manual_clock.hpp"
 #include "hal/fake/scripted_imu.hpp"
-#include "host/link/system_clock.hpp"
+#include "tests/contract/backends.hpp"
 
 // The promises of hal/contract/tick_source.hpp, watchdog.hpp and imu.hpp.
 
 namespace verp {
 namespace {
 
-struct Manual {
-  void spend(std::uint32_t time_us) { source.advance(time_us); }
-  hal::ManualClock source;
-};
-struct System {
-  static void spend(std::uint32_t time_us) {
-    std::this_thread::sleep_for(std::chrono::microseconds(time_us));
-  }
-  wire::SystemClock source;
-};
-
 template <class Backend>
 class TickSourceContract : public ::testing::Test {
  protected:
   Backend backend;
 };
-using Sources = ::testing::Types<Manual, System>;
-TYPED_TEST_SUITE(TickSourceContract, Sources);
+TYPED_TEST_SUITE(TickSourceContract, test::TickSources);
 
 TYPED_TEST(TickSourceContract, MakesNoTickBeforeItIsStarted) {
   EXPECT_EQ(this->backend.source.wait(), 0u);
@@ -77,12 +61,6 @@ TYPED_TEST(TickSourceContract, BeginsAnewWhenStartedAgain) {
   EXPECT_GE(source.now_us(), begin_us + 1000);
 }
 
-/// kPercent of its timeout is what the watchdog really waits.
-template <std::uint32_t kPercent>
-struct Fake {
-  hal::FakeWatchdog dog{kPercent};
-};
-
 template <class Backend>
 class WatchdogContract : public ::testing::Test {
  protected:
@@ -90,8 +68,7 @@ class WatchdogContract : public ::testing::Test {
   Backend backend;
   decltype(backend.dog)& dog = backend.dog;
 };
-using Watchdogs = ::testing::Types<Fake<100>, Fake<150>, Fake<100 * hal::kWatchdogSlack>>;
-TYPED_TEST_SUITE(WatchdogContract, Watchdogs);
+TYPED_TEST_SUITE(WatchdogContract, test::Watchdogs);
 
 TYPED_TEST(WatchdogContract, LeavesAFedControllerAlone) {
   ASSERT_TRUE(this->dog.start(this->kTimeout_us));

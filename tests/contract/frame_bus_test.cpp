@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "hal/contract/frame_bus.hpp"
-#include "tests/contract/bus_backends.hpp"
+#include "tests/contract/backends.hpp"
 
 // The promises of hal/contract/frame_bus.hpp, held against each backend.
 
@@ -34,15 +34,7 @@ class FrameBusContract : public ::testing::Test {
   }
 };
 
-using Backends = ::testing::Types<
-    test::Scripted, test::ScriptedInPieces, test::Virtual, test::Remote,
-    test::RemoteOver<test::SerialPair<false>>, test::RemoteOver<test::TcpPair<false>>,
-    test::RemoteOver<test::TcpPair<true>>, test::RemoteOver<test::UnixPair<false>>,
-    test::LockstepOver<test::SerialPair<false>>, test::LockstepOver<test::SerialPair<true>>,
-    test::LockstepOver<test::TcpPair<false>>, test::LockstepOver<test::UnixPair<true>>,
-    test::LinkBusOver<test::SerialPair<false>>, test::LinkBusOver<test::TcpPair<false>>,
-    test::LinkBusOver<test::UnixPair<true>>>;
-TYPED_TEST_SUITE(FrameBusContract, Backends);
+TYPED_TEST_SUITE(FrameBusContract, test::FrameBuses);
 
 TYPED_TEST(FrameBusContract, ModelsTheConcept) {
   static_assert(hal::FrameBus<decltype(TypeParam::bus)>);
@@ -100,7 +92,8 @@ TYPED_TEST(FrameBusContract, DeliversALateReplyToALaterPoll) {
 TYPED_TEST(FrameBusContract, NeverTurnsTimeBack) {
   TypeParam backend(4);
   std::uint64_t last_us = backend.bus.now_us();
-  for (const std::uint32_t timeout_us : {0u, 500u, 100u, TypeParam::kPlenty_us}) {
+  const std::uint32_t timeouts_us[] = {0, 500, 100, TypeParam::kPlenty_us};
+  for (const std::uint32_t timeout_us : timeouts_us) {
     ASSERT_TRUE(this->ping(backend));
     this->collect(backend, 5, timeout_us);
     EXPECT_GE(backend.bus.now_us(), last_us);

@@ -5,10 +5,8 @@
 #include <random>
 #include <vector>
 
-#include "firmware/store/flash_store.hpp"
 #include "hal/contract/store.hpp"
-#include "hal/fake/fake_flash.hpp"
-#include "hal/fake/memory_store.hpp"
+#include "tests/contract/backends.hpp"
 
 // The promises of hal/contract/store.hpp, held against each backend; what a power cut leaves is in
 // tests/unit/store.
@@ -19,18 +17,6 @@ namespace {
 using hal::PutResult;
 using hal::WorkState;
 using Bytes = std::vector<std::uint8_t>;
-
-struct InMemory {
-  hal::MemoryStore store;
-};
-
-template <std::size_t kUnit>
-struct InFlash {
-  using Flash = hal::FakeFlash<4096, kUnit>;
-  InFlash() { store.open(); }
-  Flash flash;
-  store::FlashStore<Flash> store{flash};
-};
 
 template <class Backend>
 class StoreContract : public ::testing::Test {
@@ -52,8 +38,7 @@ class StoreContract : public ::testing::Test {
   decltype(backend.store)& store = backend.store;
 };
 
-using Backends = ::testing::Types<InMemory, InFlash<1>, InFlash<2>, InFlash<4>, InFlash<8>>;
-TYPED_TEST_SUITE(StoreContract, Backends);
+TYPED_TEST_SUITE(StoreContract, test::Stores);
 
 TYPED_TEST(StoreContract, ModelsTheConcept) {
   static_assert(hal::Store<decltype(TypeParam::store)>);

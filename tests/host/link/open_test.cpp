@@ -9,7 +9,7 @@
 #include "host/link/latency.hpp"
 #include "host/link/line_rate.hpp"
 #include "host/link/link.hpp"
-#include "tests/contract/link_pairs.hpp"
+#include "tests/contract/pc/link_pairs.hpp"
 
 // What keeps a port from being opened is named in one line, with a remedy.
 

@@ -1,42 +1,12 @@
 #pragma once
 #include <gtest/gtest.h>
 
-#include "hal/chip/stm32/clock.hpp"
-#include "hal/chip/stm32/clock_gate.hpp"
-#include "hal/chip/stm32/interrupts.hpp"
-#include "hal/chip/stm32/tick_timer.hpp"
-#include "tests/support/stm32/machine.hpp"
-#include "tests/support/stm32/rcc_model.hpp"
-#include "tests/support/stm32/timer_model.hpp"
+#include <string>
 
-/// A chip of a family with its clocks up and its timer running: where most drivers begin. Nothing
-/// may have been done against the manual by the end.
+#include "tests/support/stm32/rig.hpp"
+
+/// Tests of drivers run on a chip of each family.
 namespace verp::hal::stm32::test {
-
-using model::kNever;
-using model::Machine;
-using model::ms;
-using model::us;
-using Io = model::ModelIo;
-using Timer = TickTimer<Io>;
-
-inline constexpr ClockPlan kPlan = {
-    .crystal_hz = 8'000'000, .external = false, .vco_hz = 336'000'000, .sysclk_hz = 168'000'000};
-
-struct Rig {
-  explicit Rig(Family family) : machine(family) {
-    clocks = ClockTree<Io>(family, kPlan, machine.io()).start();
-    enable_clock(machine.io(), rcc::kApb1enr, rcc::kApb1Tim2);
-    EXPECT_TRUE(timer.open(clocks.apb1_timer_hz, clocks.sysclk_hz));
-    machine.attach(irq::kTim2, [this] { timer.on_timer(); });
-    enable_interrupt(machine.io(), irq::kTim2, 12);
-  }
-  ~Rig() { EXPECT_EQ(machine.violations_text(), ""); }
-
-  Machine machine;
-  Clocks clocks;
-  Timer timer{base::kTim2, machine.io()};
-};
 
 class EachFamily : public ::testing::TestWithParam<Family> {};
 inline std::string name_of(const ::testing::TestParamInfo<Family>& info) {

@@ -12,6 +12,9 @@ namespace verp::hal::stm32::model {
 
 class Machine;
 
+/// A test or a model that can't be: says why and ends the program.
+[[noreturn]] void broken(const std::string& why);
+
 /// Which bit of which RCC enable register lets a peripheral run.
 struct Gate {
   std::uint32_t enable_offset = 0;  ///< 0: always on

@@ -1,7 +1,5 @@
 #include "tests/support/stm32/flash_model.hpp"
 
-#include <cstddef>
-
 #include "tests/support/stm32/rcc_model.hpp"
 
 namespace verp::hal::stm32::model {
@@ -9,9 +7,7 @@ namespace verp::hal::stm32::model {
 using namespace flash;
 
 FlashModel::FlashModel(Machine& machine)
-    : Bank(machine, "FLASH", base::kFlash, flash::table(machine.family()), {}),
-      memory_(limits(machine.family()).flash_bytes, 0xFF),
-      unsure_(memory_.size(), 0) {}
+    : Bank(machine, "FLASH", base::kFlash, flash::table(machine.family()), {}) {}
 
 void FlashModel::reset() {
   Bank::reset();
@@ -145,10 +141,10 @@ bool FlashModel::power_goes() {
 void FlashModel::power_on() {
   cut_planned_ = false;
   const std::uint32_t mood = random() % 4;
-  for (std::size_t i = 0; i < memory_.size(); ++i) {
-    if (unsure_[i] == 0) continue;
+  for (const auto& [address, bits] : unsure_) {
+    if (bits == 0) continue;
     const std::uint32_t fallen = mood == 0 ? 0xFFu : (mood == 1 ? 0u : random());
-    memory_[i] = static_cast<std::uint8_t>((memory_[i] & ~unsure_[i]) | (fallen & unsure_[i]));
+    byte(address) = static_cast<std::uint8_t>((byte(address) & ~bits) | (fallen & bits));
   }
 }
 
@@ -167,13 +163,19 @@ void FlashModel::start_erase() {
   }
   ++erases_;
   const Sector& sector = chip.sectors[number];
-  const std::size_t first = sector.address - kFlashBase;
   const bool cut = power_goes();
   const bool failed = !cut && fail_next > 0;
   if (failed) --fail_next;
-  for (std::size_t i = first; i < first + sector.bytes; ++i) {
-    if (!cut && (!failed || random() % 2 == 0)) memory_[i] = 0xFF;
-    unsure_[i] = cut ? 0xFF : 0;
+  const auto end = static_cast<std::uint32_t>(sector.address + sector.bytes);
+  unsure_.erase(unsure_.lower_bound(sector.address), unsure_.lower_bound(end));
+  if (cut || failed) {
+    for (std::uint32_t at = sector.address; at < end; ++at) {
+      if (cut) unsure_[at] = 0xFF;
+      if (failed && random() % 2 == 0) byte(at) = 0xFF;
+    }
+  } else {
+    chunks_.erase(chunks_.lower_bound(sector.address / kChunkBytes),
+                  chunks_.lower_bound(end / kChunkBytes));
   }
   error_pending_ = failed;
   if (cut) return machine().power_off();
@@ -185,7 +187,9 @@ std::uint32_t FlashModel::memory_read(std::uint32_t address, unsigned width) {
   if (address % width != 0) violate("unaligned read");
   std::uint32_t value = 0;
   for (unsigned i = 0; i < width; ++i) {
-    value |= static_cast<std::uint32_t>(memory_[address - kFlashBase + i]) << (8 * i);
+    const auto chunk = chunks_.find(address / kChunkBytes);
+    const std::uint32_t at = (address + i) % kChunkBytes;
+    value |= (chunk == chunks_.end() ? 0xFFu : chunk->second.bytes[at]) << (8 * i);
   }
   return value;
 }
@@ -207,15 +211,17 @@ void FlashModel::memory_write(std::uint32_t address, std::uint32_t value, unsign
   const bool failed = !cut && fail_next > 0;
   if (failed) --fail_next;
   for (unsigned i = 0; i < width; ++i) {
-    std::uint8_t& cell = memory_[address - kFlashBase + i];
-    std::uint8_t& unsure = unsure_[address - kFlashBase + i];
+    std::uint8_t& cell = byte(address + i);
     const auto zeros = static_cast<std::uint8_t>(~(value >> (8 * i)));
     if (cut) {
-      unsure = static_cast<std::uint8_t>(unsure | (cell & zeros));
+      unsure_[address + i] = static_cast<std::uint8_t>(unsure_[address + i] | (cell & zeros));
     } else {
       const auto cleared = static_cast<std::uint8_t>(failed ? zeros & random() : zeros);
       cell = static_cast<std::uint8_t>(cell & ~cleared);
-      unsure = static_cast<std::uint8_t>(unsure & ~cleared);
+      const auto unsure = unsure_.find(address + i);
+      if (unsure != unsure_.end()) {
+        unsure->second = static_cast<std::uint8_t>(unsure->second & ~cleared);
+      }
     }
   }
   error_pending_ = failed;

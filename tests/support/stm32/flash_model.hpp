@@ -1,6 +1,6 @@
 #pragma once
 #include <cstdint>
-#include <vector>
+#include <map>
 
 #include "hal/chip/stm32/registers/flash.hpp"
 #include "tests/support/stm32/bank.hpp"
@@ -36,11 +36,15 @@ class FlashModel : public Bank {
   std::uint32_t erases() const { return erases_; }
 
   std::uint32_t wait_states() const;
-  bool has_memory(std::uint32_t address) const { return address - kFlashBase < memory_.size(); }
+  bool has_memory(std::uint32_t address) const {
+    return address - kFlashBase < limits(machine().family()).flash_bytes;
+  }
   std::uint32_t memory_read(std::uint32_t address, unsigned width);
   void memory_write(std::uint32_t address, std::uint32_t value, unsigned width);
   /// Contents without a bus access.
-  std::uint8_t& byte(std::uint32_t address) { return memory_[address - kFlashBase]; }
+  std::uint8_t& byte(std::uint32_t address) {
+    return chunks_[address / kChunkBytes].bytes[address % kChunkBytes];
+  }
 
   void reset() override;
   void run() override;
@@ -62,8 +66,15 @@ class FlashModel : public Bank {
   bool power_goes();
   std::uint32_t random();
 
-  std::vector<std::uint8_t> memory_;
-  std::vector<std::uint8_t> unsure_;
+  // Only what was written is kept: a microcontroller that runs the model has no room for a flash.
+  static constexpr std::uint32_t kChunkBytes = 1024;
+  struct Chunk {
+    Chunk() { __builtin_memset(bytes, 0xFF, sizeof bytes); }
+    std::uint8_t bytes[kChunkBytes];
+  };
+
+  std::map<std::uint32_t, Chunk> chunks_;         ///< by number
+  std::map<std::uint32_t, std::uint8_t> unsure_;  ///< bits, by address
   Time done_at_ = kNever;
   unsigned keys_ = 0, option_keys_ = 0;
   bool key_locked_ = false;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <stdexcept>
 
 #include "tests/support/stm32/core_model.hpp"
 #include "tests/support/stm32/dma_model.hpp"
@@ -16,6 +15,18 @@ namespace {
 /// More than that at one moment is a handler that doesn't clear its cause, or a request that a
 /// transfer doesn't satisfy.
 constexpr unsigned kStorm = 1000;
+
+/// A flag that is up until the end of its scope, also when a test's handler throws its way out.
+class During {
+ public:
+  explicit During(bool& flag) : flag_(flag) { flag = true; }
+  ~During() { flag_ = false; }
+  During(const During&) = delete;
+  During& operator=(const During&) = delete;
+
+ private:
+  bool& flag_;
+};
 
 }  // namespace
 
@@ -183,14 +194,8 @@ bool Machine::deliver(unsigned irq) {
   for (const auto& bank : banks_) up = up || bank->interrupt(irq);
   if (!up || !core_->enabled(irq)) return false;
   core_->unpend(irq);
-  in_handler_ = true;
-  try {
-    handlers_.at(irq)();
-  } catch (...) {
-    in_handler_ = false;
-    throw;
-  }
-  in_handler_ = false;
+  const During handling(in_handler_);
+  handlers_.at(irq)();
   return true;
 }
 
@@ -209,8 +214,8 @@ void Machine::dispatch_interrupts() {
 
 void Machine::settle() {
   if (!dirty_ || settling_) return;
-  settling_ = true;
-  try {
+  {
+    const During settling(settling_);
     unsigned round = 0;
     while (dirty_) {
       dirty_ = false;
@@ -223,12 +228,8 @@ void Machine::settle() {
       }
     }
     next_ = next_event();
-    settling_ = false;
-    dispatch_interrupts();
-  } catch (...) {
-    settling_ = false;
-    throw;
   }
+  dispatch_interrupts();
 }
 
 void Machine::attach(unsigned irq, std::function<void()> handler) {

@@ -1,5 +1,4 @@
 #include <memory>
-#include <stdexcept>
 #include <string>
 #include <utility>
 
@@ -33,7 +32,7 @@ Gate ahb1(std::uint32_t mask) {
 template <class Map>
 auto& part(Map& parts, typename Map::key_type key, const char* what) {
   const auto found = parts.find(key);
-  if (found == parts.end()) throw std::out_of_range(std::string("the model has no such ") + what);
+  if (found == parts.end()) broken(std::string("the model has no such ") + what);
   return *found->second;
 }
 

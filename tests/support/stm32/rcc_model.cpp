@@ -61,7 +61,7 @@ bool RccModel::ready(std::uint32_t source) const {
 std::uint32_t RccModel::pll_input_hz() const {
   const std::uint32_t m = field(reg(kPllcfgr), kPllcfgrM);
   const bool hse = has(kPllcfgr, kPllcfgrSrcHse);
-  return (hse ? machine().options().hse_hz : kHsi_hz) / std::max(1u, m);
+  return (hse ? machine().options().hse_hz : kHsi_hz) / std::max<std::uint32_t>(1u, m);
 }
 std::uint32_t RccModel::pll_hz() const {
   const std::uint64_t vco = std::uint64_t{pll_input_hz()} * field(reg(kPllcfgr), kPllcfgrN);

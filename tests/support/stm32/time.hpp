@@ -18,15 +18,18 @@ constexpr Time ms(std::uint64_t count) {
   return count * 1'000'000'000;
 }
 
-__extension__ using Wide = unsigned __int128;
-
 /// Whole periods of a clock that fit in a time, and the time (rounded up) that a number of periods
-/// takes.
+/// takes. A product of both has no room in 64 bits, so each divides in steps; hz: up to 10^9.
 constexpr std::uint64_t periods(Time time, std::uint64_t hz) {
-  return static_cast<std::uint64_t>(static_cast<Wide>(time) * hz / kSecond);
+  constexpr Time kMicrosecond = us(1);
+  const Time part = time % kSecond;
+  const std::uint64_t millionths =
+      part / kMicrosecond * hz + part % kMicrosecond * hz / kMicrosecond;
+  return time / kSecond * hz + millionths / 1'000'000;
 }
 constexpr Time duration(std::uint64_t count, std::uint64_t hz) {
-  return static_cast<Time>((static_cast<Wide>(count) * kSecond + hz - 1) / hz);
+  const std::uint64_t part_us = count % hz * 1'000'000;
+  return count / hz * kSecond + us(part_us / hz) + (us(part_us % hz) + hz - 1) / hz;
 }
 
 }  // namespace verp::hal::stm32::model

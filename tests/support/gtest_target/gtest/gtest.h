@@ -6,8 +6,9 @@
 #include <cstring>
 #include <type_traits>
 
-/// The part of GoogleTest's interface that tests/unit uses, small enough for a microcontroller: no
-/// heap, no exceptions, no fixtures. The same test sources compile against the real one on the PC.
+/// The part of GoogleTest's interface that tests/unit and tests/contract use, small enough for a
+/// microcontroller: no exceptions, no fixtures but those of typed tests; only these need a heap.
+/// The same test sources compile against the real one on the PC.
 /// The program that includes this supplies testing::put() and calls testing::run_all().
 namespace testing {
 
@@ -58,19 +59,36 @@ class Message {
 
 /// One TEST, linked into a list by its constructor, before the program starts.
 struct Case {
-  Case(const char* suite_name, const char* case_name, void (*test_body)())
-      : suite(suite_name), name(case_name), body(test_body) {
+  Case(const char* suite_name, const char* case_name, void (*test_body)(), int type_number = -1)
+      : suite(suite_name), name(case_name), body(test_body), type(type_number) {
     *tail = this;
     tail = &next;
   }
   const char* suite;
   const char* name;
   void (*body)();
+  int type;  ///< of a typed test, from 0; -1: not typed
   Case* next = nullptr;
 
   static inline Case* first = nullptr;
   static inline Case** tail = &first;
   static inline int failures = 0;  ///< of the running test
+};
+
+/// Fixtures of typed tests derive from it.
+class Test {};
+template <class... Type>
+struct Types {};
+
+/// One TYPED_TEST: a case for each of the suite's types.
+template <template <class> class Body, class List>
+struct TypedCases;
+template <template <class> class Body, class... Type>
+struct TypedCases<Body, Types<Type...>> {
+  TypedCases(const char* suite, const char* name)
+      : cases{Case(suite, name, &Body<Type>::run, number++)...} {}
+  int number = 0;
+  Case cases[sizeof...(Type)];
 };
 
 /// Outcome of one comparison; the message is only built when it failed.
@@ -152,10 +170,12 @@ inline Outcome truth(const char* text, bool actual, bool expected) {
   return outcome;
 }
 
-inline bool selected(const Case& test, const char* filter) {
+inline Message full_name(const Case& test) {
   Message full;
-  full << test.suite << "." << test.name;
-  return std::strstr(full.text(), filter) != nullptr;
+  full << test.suite;
+  if (test.type >= 0) full << "/" << test.type;
+  full << "." << test.name;
+  return full;
 }
 
 /// Runs every test whose full name contains `filter`; returns how many failed, and 1 if there was
@@ -164,9 +184,9 @@ inline int run_all(const char* filter) {
   int run = 0;
   int failed = 0;
   for (const Case* test = Case::first; test != nullptr; test = test->next) {
-    if (!selected(*test, filter)) continue;
-    Message line;
-    line << test->suite << "." << test->name << "\n";
+    Message line = full_name(*test);
+    if (std::strstr(line.text(), filter) == nullptr) continue;
+    line << "\n";
     put("[ RUN      ] ");
     put(line.text());
     Case::failures = 0;
@@ -189,6 +209,23 @@ inline int run_all(const char* filter) {
   static void suite##_##name##_body();                                                 \
   static ::testing::Case suite##_##name##_case(#suite, #name, &suite##_##name##_body); \
   static void suite##_##name##_body()
+
+#define TYPED_TEST_SUITE(suite, types) using suite##_types = types
+// On the heap: a fixture may hold more than a stack.
+#define TYPED_TEST(suite, name)                                                              \
+  template <class TypeParam>                                                                 \
+  struct suite##_##name : suite<TypeParam> {                                                 \
+    static void run() {                                                                      \
+      auto* const test = new suite##_##name;                                                 \
+      test->body();                                                                          \
+      delete test;                                                                           \
+    }                                                                                        \
+    void body();                                                                             \
+  };                                                                                         \
+  static ::testing::TypedCases<suite##_##name, suite##_types> suite##_##name##_cases(#suite, \
+                                                                                     #name); \
+  template <class TypeParam>                                                                 \
+  void suite##_##name<TypeParam>::body()
 
 // The switch keeps a caller's dangling `else` from binding to ours.
 #define VERP_CHECK_(outcome_expression, on_failure)                                 \

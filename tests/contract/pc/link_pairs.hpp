@@ -7,13 +7,12 @@
 #include <stdexcept>
 #include <string>
 
-#include "hal/fake/memory_link.hpp"
 #include "host/link/endpoint.hpp"
 #include "host/link/link.hpp"
 #include "host/link/system_clock.hpp"
 
-/// Two ends of one ByteLink, of every kind there is on the PC. `near()` is the end under test;
-/// cut() takes the far end away, mend() brings it back.
+/// Two ends of one ByteLink, of every kind that the PC has for real. `near()` is the end under
+/// test; cut() takes the far end away, mend() brings it back.
 namespace verp::test {
 
 /// A folder that is gone at the end of the test.
@@ -34,20 +33,11 @@ class Folder {
   char path_[32] = "/tmp/verp-link-XXXXXX";
 };
 
-struct MemoryPair {
-  static constexpr bool kKeepsBytesOnLoss = true;
-  hal::MemoryLink& near() { return wire.left(); }
-  hal::MemoryLink& far() { return wire.right(); }
-  void cut() { wire.cut(); }
-  void mend() { wire.mend(); }
-  std::uint64_t now_us() const { return wire.now_us(); }
-  hal::MemoryWire wire;
-};
-
 /// `Server` is the end that is there first; kNearServes says whether it is the one under test.
 template <bool kNearServes>
 class HostPair {
  public:
+  static constexpr bool kDetectsLoss = true;
   HostPair(const std::string& server, const std::string& client)
       : server_text_(server), client_text_(client) {
     server_.emplace(wire::parse_endpoint(server));

@@ -7,54 +7,22 @@
 #include <thread>
 #include <vector>
 
-#include "common/protocol/dynamixel2.hpp"
 #include "firmware/app/link_bus.hpp"
 #include "firmware/app/link_stream.hpp"
 #include "firmware/app/lockstep_bus.hpp"
 #include "firmware/app/remote_bus.hpp"
-#include "hal/fake/scripted_bus.hpp"
 #include "host/bus/bus_server.hpp"
 #include "host/bus/link_pump.hpp"
 #include "host/bus/lockstep_server.hpp"
 #include "host/bus/virtual_bus.hpp"
 #include "host/link/system_clock.hpp"
-#include "tests/contract/link_pairs.hpp"
+#include "tests/contract/fakes.hpp"
+#include "tests/contract/pc/link_pairs.hpp"
 #include "tests/host/bus/fake_plant.hpp"
 #include "tests/host/bus/pipes.hpp"
 
-/// Every FrameBus there is on the PC, prepared for `pings` pings of servo 1. Each answers with the
-/// e-Manual's status packet, but for the firmware version. kPlenty_us is enough for an answer;
-/// kSlack_us is how much its clock may move when it should stand: 0 if time is simulated.
+/// Every FrameBus that only the PC has, as fakes.hpp prepares its own.
 namespace verp::test {
-
-inline const std::vector<std::uint8_t> kPing = {0xFF, 0xFF, 0xFD, 0x00, 0x01,
-                                                0x03, 0x00, 0x01, 0x19, 0x4E};
-
-inline std::vector<std::uint8_t> ping_reply() {
-  std::vector<std::uint8_t> reply(32);
-  const std::uint8_t identity[] = {0x06, 0x04, 45};
-  reply.resize(dxl::encode_status(reply.data(), reply.size(), 1, 0, identity, 3));
-  return reply;
-}
-
-struct SimulatedTime {
-  static constexpr std::uint32_t kPlenty_us = 20'000;
-  static constexpr std::uint64_t kSlack_us = 0;
-};
-
-struct Scripted : SimulatedTime {
-  explicit Scripted(int pings) {
-    const auto reply = ping_reply();
-    for (int i = 0; i < pings; ++i) {
-      bus.expect(kPing.data(), kPing.size(), reply.data(), reply.size(), 200);
-    }
-  }
-  hal::ScriptedBus bus;
-};
-
-struct ScriptedInPieces : Scripted {
-  explicit ScriptedInPieces(int pings) : Scripted(pings) { bus.set_piece(3); }
-};
 
 struct Virtual : SimulatedTime {
   explicit Virtual(int) {}

@@ -1,0 +1,17 @@
+#pragma once
+#include "tests/contract/chip_models.hpp"
+#include "tests/contract/fakes.hpp"
+
+/// What each suite runs against on an emulated board. The models' own PC is slow there: one chip.
+namespace verp::test {
+
+using FrameBuses = ::testing::Types<Scripted, ScriptedInPieces, UsartBus>;
+using ByteLinks = ::testing::Types<MemoryPair, UsartPair>;
+using Stores = ::testing::Types<InMemory, InFlash<1>, InFlash<2>, InFlash<4>, InFlash<8>,
+                                ChipFlash<Family::kF405>>;
+using TickSources = ::testing::Types<Manual, ChipTicks>;
+using Watchdogs =
+    ::testing::Types<FakeDog<100>, FakeDog<150>, FakeDog<100 * hal::kWatchdogSlack>,
+                     ChipWatchdog<17'000>, ChipWatchdog<32'000>, ChipWatchdog<47'000>>;
+
+}  // namespace verp::test

@@ -1,0 +1,85 @@
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "common/protocol/dynamixel2.hpp"
+#include "firmware/store/flash_store.hpp"
+#include "hal/fake/fake_flash.hpp"
+#include "hal/fake/fake_watchdog.hpp"
+#include "hal/fake/manual_clock.hpp"
+#include "hal/fake/memory_link.hpp"
+#include "hal/fake/memory_store.hpp"
+#include "hal/fake/scripted_bus.hpp"
+
+/// The fakes of hal/fake as backends of the suites: on the PC and on target.
+namespace verp::test {
+
+/// A FrameBus backend is prepared for `pings` pings of servo 1. Each answers with the e-Manual's
+/// status packet, but for the firmware version. kPlenty_us is enough for an answer; kSlack_us is
+/// how much its clock may move when it should stand: 0 if time is simulated.
+inline const std::vector<std::uint8_t> kPing = {0xFF, 0xFF, 0xFD, 0x00, 0x01,
+                                                0x03, 0x00, 0x01, 0x19, 0x4E};
+
+inline std::vector<std::uint8_t> ping_reply() {
+  std::vector<std::uint8_t> reply(32);
+  const std::uint8_t identity[] = {0x06, 0x04, 45};
+  reply.resize(dxl::encode_status(reply.data(), reply.size(), 1, 0, identity, 3));
+  return reply;
+}
+
+struct SimulatedTime {
+  static constexpr std::uint32_t kPlenty_us = 20'000;
+  static constexpr std::uint64_t kSlack_us = 0;
+};
+
+struct Scripted : SimulatedTime {
+  explicit Scripted(int pings) {
+    const auto reply = ping_reply();
+    for (int i = 0; i < pings; ++i) {
+      bus.expect(kPing.data(), kPing.size(), reply.data(), reply.size(), 200);
+    }
+  }
+  hal::ScriptedBus bus;
+};
+
+struct ScriptedInPieces : Scripted {
+  explicit ScriptedInPieces(int pings) : Scripted(pings) { bus.set_piece(3); }
+};
+
+/// A ByteLink backend: `near()` is the end under test; cut() takes the far end away, mend() brings
+/// it back.
+struct MemoryPair {
+  static constexpr bool kDetectsLoss = true;
+  static constexpr bool kKeepsBytesOnLoss = true;
+  hal::MemoryLink& near() { return wire.left(); }
+  hal::MemoryLink& far() { return wire.right(); }
+  void cut() { wire.cut(); }
+  void mend() { wire.mend(); }
+  std::uint64_t now_us() const { return wire.now_us(); }
+  hal::MemoryWire wire;
+};
+
+struct InMemory {
+  hal::MemoryStore store;
+};
+
+template <std::size_t kUnit>
+struct InFlash {
+  using Flash = hal::FakeFlash<4096, kUnit>;
+  InFlash() { store.open(); }
+  Flash flash;
+  store::FlashStore<Flash> store{flash};
+};
+
+struct Manual {
+  void spend(std::uint32_t time_us) { source.advance(time_us); }
+  hal::ManualClock source;
+};
+
+/// kPercent of its timeout is what the watchdog really waits.
+template <std::uint32_t kPercent>
+struct FakeDog {
+  hal::FakeWatchdog dog{kPercent};
+};
+
+}  // namespace verp::test

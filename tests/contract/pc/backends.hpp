@@ -1,0 +1,36 @@
+#pragma once
+#include <chrono>
+#include <thread>
+
+#include "host/link/system_clock.hpp"
+#include "tests/contract/chip_models.hpp"
+#include "tests/contract/fakes.hpp"
+#include "tests/contract/pc/buses.hpp"
+#include "tests/contract/pc/link_pairs.hpp"
+
+/// What each suite runs against on the PC.
+namespace verp::test {
+
+struct System {
+  static void spend(std::uint32_t time_us) {
+    std::this_thread::sleep_for(std::chrono::microseconds(time_us));
+  }
+  wire::SystemClock source;
+};
+
+using FrameBuses = ::testing::Types<
+    Scripted, ScriptedInPieces, UsartBus, Virtual, Remote, RemoteOver<SerialPair<false>>,
+    RemoteOver<TcpPair<false>>, RemoteOver<TcpPair<true>>, RemoteOver<UnixPair<false>>,
+    LockstepOver<SerialPair<false>>, LockstepOver<SerialPair<true>>, LockstepOver<TcpPair<false>>,
+    LockstepOver<UnixPair<true>>, LinkBusOver<SerialPair<false>>, LinkBusOver<TcpPair<false>>,
+    LinkBusOver<UnixPair<true>>>;
+using ByteLinks = ::testing::Types<MemoryPair, UsartPair, SerialPair<false>, SerialPair<true>,
+                                   TcpPair<false>, TcpPair<true>, UnixPair<false>, UnixPair<true>>;
+using Stores = ::testing::Types<InMemory, InFlash<1>, InFlash<2>, InFlash<4>, InFlash<8>,
+                                ChipFlash<Family::kF405>, ChipFlash<Family::kF746>>;
+using TickSources = ::testing::Types<Manual, ChipTicks, System>;
+using Watchdogs =
+    ::testing::Types<FakeDog<100>, FakeDog<150>, FakeDog<100 * hal::kWatchdogSlack>,
+                     ChipWatchdog<17'000>, ChipWatchdog<32'000>, ChipWatchdog<47'000>>;
+
+}  // namespace verp::test
