@@ -1,4 +1,5 @@
 #include "boards/stm32/hardware.hpp"
+#include "boards/stm32/kept.hpp"
 #include "boards/stm32/operator_setup.hpp"
 #include "common/control/boot_check.hpp"
 #include "common/model/image.hpp"
@@ -34,19 +35,28 @@ constexpr std::uint64_t kServingEnds_us = 2'000;
 /// The longest reply and the one to Reboot at 1 Mbaud take half of it.
 constexpr std::uint64_t kLastWords_us = 40'000;
 
-using Operator = app::OperatorDevice<Port>;
+using Operator = app::OperatorDevice<Port, app::ParamsImages>;
 
 struct Board {
   Board(const Start& start, const Params& params, control::BootVerdict verdict)
       : started(start),
         dog(start.cause),
-        operator_device(operator_port, params, operator_setup(start, verdict)) {}
+        kept(dog, *reinterpret_cast<const ParamsImage*>(verp_params_begin)),
+        operator_device(operator_port, params, setup(start, verdict), kept.images) {}
+
+  app::OperatorSetup setup(const Start& start, control::BootVerdict verdict) {
+    app::OperatorSetup setup = operator_setup(start, verdict);
+    kept.settings.load(setup);
+    return setup;
+  }
 
   /// What can be done whenever nothing arrives. Waiting for a twin is life; a dead loop does not
   /// wait.
   void idle() {
     dog.feed();
     serve();
+    kept.settings.keep({operator_device.id(), operator_device.imu_source()},
+                       !operator_device.armed());
     const std::uint64_t now_us = timer.now_us();
     if (now_us < blink_us) return;
     blink_us = now_us + kBlink_us;
@@ -56,12 +66,15 @@ struct Board {
 
   /// The operator's link. True if there was anything to do.
   bool serve() {
-    if (operator_device.reboot_asked()) {
-      const std::uint64_t now_us = timer.now_us();
-      if (reboot_us == 0) reboot_us = now_us + kLastWords_us;
-      if (now_us >= reboot_us) verp_exit(0);
-    }
+    if (operator_device.reboot_asked() || kept.new_robot()) start_anew();
     return operator_device.poll();
+  }
+  /// Both are asked for with torque off only, and nothing ticks from here on.
+  [[noreturn]] void start_anew() {
+    const std::uint64_t end_us = timer.now_us() + kLastWords_us;
+    while (timer.now_us() < end_us) operator_device.poll();
+    if (kept.new_robot()) kept.write_robot();
+    verp_exit(0);
   }
   /// Serves the operator, and else sleeps: an interrupt or SysTick wakes.
   void serve_until(std::uint64_t end_us) {
@@ -86,10 +99,10 @@ struct Board {
   const Start& started;
   stm32::IndependentWatchdog<Io> dog;
   stm32::Gpio<Io> gpio;
+  Kept kept;
   Operator operator_device;
   std::uint64_t blink_us = 0;
-  std::uint64_t reboot_us = 0;  ///< when the operator's reset comes; 0: not asked for
-  std::uint32_t ticks = 0;      ///< since the start, of all loops
+  std::uint32_t ticks = 0;  ///< since the start, of all loops
   std::uint32_t deadline_misses = 0;
   bool lit = false;
 };

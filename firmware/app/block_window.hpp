@@ -21,7 +21,7 @@ inline constexpr std::uint8_t kWrongWindowCrc = 255;
 ///  - begin(kind): forgets what was written of a new one.
 ///  - write(kind, offset, from, count): a block of the new one, any order; inside its size.
 ///  - commit(kind, crc): asked with torque off only. 0: the bytes have that CRC-32 and are a good
-///    image, which is in force from the next start; else why not, and nothing changed.
+///    image, with which the controller starts next; else why not, and nothing changed.
 template <class Store>
 concept Images = requires(Store& store, const Store& seen, ImageKind kind, std::size_t offset,
                           std::uint8_t* to, const std::uint8_t* from, std::size_t count,

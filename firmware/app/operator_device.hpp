@@ -51,6 +51,7 @@ class OperatorDevice {
 
   std::uint8_t id() const { return registers_.id(); }
   table::ImuSource imu_source() const { return registers_.imu_source(); }
+  bool armed() const { return registers_.armed(); }
   /// The operator wants a new start; asked with torque off only.
   bool reboot_asked() const { return reboot_asked_ && sent_ == reply_size_; }
 

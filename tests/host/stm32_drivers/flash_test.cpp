@@ -1,6 +1,9 @@
 #include "hal/chip/stm32/flash_pages.hpp"
 
+#include <vector>
+
 #include "firmware/store/flash_store.hpp"
+#include "firmware/store/program_page.hpp"
 #include "hal/chip/stm32/watchdog.hpp"
 #include "tests/host/stm32_drivers/rig.hpp"
 #include "tests/support/stm32/flash_model.hpp"
@@ -66,6 +69,20 @@ TEST_P(FlashDriver, ABusyFlagThatSticksIsAnErrorAndNotAWait) {
   EXPECT_FALSE(pages.program(0, 0, word));
   EXPECT_FALSE(pages.program(0, 4, word));
   EXPECT_FALSE(pages.erase(0));
+}
+
+// What a board does with a robot that the operator sent: thousands of units, the slowest that the
+// manual allows, and a watchdog that would not wait for them all.
+TEST_P(FlashDriver, ReplacesAPageUnderAWatchdog) {
+  rig.machine.flash().program_time = us(100);
+  ASSERT_TRUE(dog.start(100'000));
+  std::vector<std::uint8_t> image(6000);
+  for (std::size_t i = 0; i < image.size(); ++i) image[i] = static_cast<std::uint8_t>(i * 7);
+  EXPECT_TRUE(store::program_page(pages, 0, image.data(), image.size(), [this] { dog.feed(); }));
+  std::vector<std::uint8_t> there(image.size());
+  pages.read(0, 0, there.data(), there.size());
+  EXPECT_EQ(there, image);
+  EXPECT_EQ(rig.machine.resets(), 0u);
 }
 
 TEST_P(FlashDriver, RefusesWhatIsNoUnitOfAPage) {

@@ -1,0 +1,59 @@
+#pragma once
+#include <cstddef>
+#include <cstdint>
+
+#include "common/protocol/controller_table.hpp"
+#include "firmware/app/operator_registers.hpp"
+#include "hal/contract/store.hpp"
+
+/// What the operator set and a loss of power must not undo. Where nothing was kept, or by another
+/// version, or what this board can't do, the defaults of OperatorSetup hold.
+namespace verp::app {
+
+inline constexpr std::uint16_t kSettingsKey = 1;  ///< in the board's Store
+
+struct Settings {
+  std::uint8_t id = table::kDefaultId;
+  table::ImuSource imu_source = table::ImuSource::kBus;
+
+  friend bool operator==(const Settings&, const Settings&) = default;
+};
+
+template <hal::Store Memory>
+class SettingsKeeper {
+ public:
+  explicit SettingsKeeper(Memory& memory) : memory_(memory) {}
+
+  /// At the start: what was kept, into the setup of the operator's link.
+  void load(OperatorSetup& setup) {
+    kept_ = {setup.id, setup.imu_source};
+    std::uint8_t bytes[kBytes];
+    if (memory_.get(kSettingsKey, bytes, sizeof bytes) != kBytes || bytes[0] != kVersion) return;
+    if (bytes[1] <= table::find("id")->maximum) setup.id = bytes[1];
+    if (bytes[2] < 8 && (setup.imu_sources >> bytes[2] & 1) != 0) {
+      setup.imu_source = static_cast<table::ImuSource>(bytes[2]);
+    }
+    kept_ = {setup.id, setup.imu_source};
+  }
+
+  /// Whenever there is time: keeps what has changed, a step of the memory at a time. True while
+  /// something is not durable yet. A memory that refuses is asked once for each change: the
+  /// settings then hold until the next start.
+  bool keep(const Settings& now, bool may_erase) {
+    const hal::WorkState state = memory_.work(may_erase);
+    if (now == kept_) return state == hal::WorkState::kWorking;
+    const std::uint8_t bytes[kBytes] = {kVersion, now.id,
+                                        static_cast<std::uint8_t>(now.imu_source)};
+    const hal::PutResult result = memory_.put(kSettingsKey, bytes, sizeof bytes);
+    if (result != hal::PutResult::kBusy) kept_ = now;
+    return true;
+  }
+
+ private:
+  static constexpr std::uint8_t kVersion = 1;
+  static constexpr std::size_t kBytes = 3;
+  Memory& memory_;
+  Settings kept_;
+};
+
+}  // namespace verp::app
