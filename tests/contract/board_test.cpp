@@ -2,13 +2,11 @@
 
 #include <cstdint>
 
-#include "hal/contract/imu.hpp"
 #include "hal/contract/tick_source.hpp"
 #include "hal/contract/watchdog.hpp"
-#include "hal/fake/scripted_imu.hpp"
 #include "tests/contract/backends.hpp"
 
-// The promises of hal/contract/tick_source.hpp, watchdog.hpp and imu.hpp.
+// The promises of hal/contract/tick_source.hpp and watchdog.hpp.
 
 namespace verp {
 namespace {
@@ -100,32 +98,6 @@ TYPED_TEST(WatchdogContract, ArmsOnceAndOnlyForWhatItCanWait) {
   EXPECT_FALSE(this->dog.start(2 * this->kTimeout_us));
   this->dog.advance(hal::kWatchdogSlack * this->kTimeout_us + 1);
   EXPECT_TRUE(this->dog.caused_reset());
-}
-
-TEST(ScriptedImu, GivesEachSampleOnceAndTheNewestOnly) {
-  hal::ScriptedImu imu;
-  hal::ImuSample sample{.time_us = 7};
-  EXPECT_EQ(imu.read(sample), hal::ImuStatus::kStale);
-  EXPECT_EQ(sample.time_us, 7u);
-  EXPECT_TRUE(imu.measure({{1, 2, 3}, {4, 5, 6}, 100}));
-  EXPECT_TRUE(imu.measure({{-1, -2, -3}, {-4, -5, -6}, 200}));
-  EXPECT_FALSE(imu.measure({{}, {}, 200}));
-  EXPECT_EQ(imu.read(sample), hal::ImuStatus::kFresh);
-  EXPECT_EQ(sample.gyro_count[2], -3);
-  EXPECT_EQ(sample.time_us, 200u);
-  EXPECT_EQ(imu.read(sample), hal::ImuStatus::kStale);
-}
-
-TEST(ScriptedImu, CountsFaultsAndComesBack) {
-  hal::ScriptedImu imu;
-  imu.measure({{1, 2, 3}, {4, 5, 6}, 100});
-  imu.fail(2);
-  hal::ImuSample sample;
-  EXPECT_EQ(imu.read(sample), hal::ImuStatus::kFault);
-  EXPECT_EQ(imu.read(sample), hal::ImuStatus::kFault);
-  EXPECT_EQ(sample.time_us, 0u);
-  EXPECT_EQ(imu.faults(), 2u);
-  EXPECT_EQ(imu.read(sample), hal::ImuStatus::kFresh);
 }
 
 }  // namespace

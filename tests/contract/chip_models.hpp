@@ -11,6 +11,7 @@
 #include "tests/contract/fakes.hpp"
 #include "tests/support/stm32/dma_model.hpp"
 #include "tests/support/stm32/flash_model.hpp"
+#include "tests/support/stm32/imu_rig.hpp"
 #include "tests/support/stm32/iwdg_model.hpp"
 #include "tests/support/stm32/rig.hpp"
 #include "tests/support/stm32/usart_model.hpp"
@@ -192,5 +193,43 @@ struct ChipFlash {
   Pages pages{kFamily, 1, 2, rig.timer, dog, rig.machine.io()};
   store::FlashStore<Pages> store{pages};
 };
+
+/// A motion sensor behind a chip's SPI.
+template <hal::stm32::model::ImuKind kKind>
+struct ChipImu {
+  ChipImu() { settle(); }
+  void measure(std::int16_t gyro_x) {
+    board.device.motion({gyro_x, 0, 0}, {0, 0, 0});
+    board.device.frozen = false;
+    board.rig.machine.advance(hal::stm32::model::ms(8));
+    look();
+    board.device.frozen = true;
+  }
+  void break_chip(bool yes) { board.device.silent = yes; }
+  hal::ImuStatus read(hal::ImuSample& sample) {
+    board.rig.machine.advance(hal::stm32::model::us(100));
+    const hal::ImuStatus status = board.read();
+    if (status == hal::ImuStatus::kFresh) sample = board.sample;
+    return status;
+  }
+  std::uint32_t faults() const { return board.imu.faults(); }
+  void settle() {
+    board.device.frozen = true;
+    for (int tick = 0; tick < 30; ++tick) {
+      board.read();
+      board.rig.machine.advance(hal::stm32::model::ms(8));
+    }
+  }
+  /// The model samples when it is spoken to.
+  void look() {
+    board.device.select(true, board.rig.machine.now());
+    board.device.select(false, board.rig.machine.now());
+  }
+
+  hal::stm32::test::ImuRig board{Family::kF405, kKind};
+};
+
+using Mpu9250 = ChipImu<hal::stm32::model::ImuKind::kMpu9250>;
+using Icm20648 = ChipImu<hal::stm32::model::ImuKind::kIcm20648>;
 
 }  // namespace verp::test

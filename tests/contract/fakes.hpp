@@ -10,6 +10,7 @@
 #include "hal/fake/memory_link.hpp"
 #include "hal/fake/memory_store.hpp"
 #include "hal/fake/scripted_bus.hpp"
+#include "hal/fake/scripted_imu.hpp"
 
 /// The fakes of hal/fake as backends of the suites: on the PC and on target.
 namespace verp::test {
@@ -80,6 +81,24 @@ struct Manual {
 template <std::uint32_t kPercent>
 struct FakeDog {
   hal::FakeWatchdog dog{kPercent};
+};
+
+/// An Imu backend: measure(gyro_x): the chip takes a sample that shows this, and no other for now.
+/// break_chip(yes): it does not answer, or does again. settle(): time to come up again, without
+/// samples.
+struct ScriptedChip {
+  void measure(std::int16_t gyro_x) { imu.measure({{gyro_x, 0, 0}, {0, 0, 0}, time_us += 8000}); }
+  void break_chip(bool yes) { broken = yes; }
+  hal::ImuStatus read(hal::ImuSample& sample) {
+    if (broken) imu.fail(1);
+    return imu.read(sample);
+  }
+  std::uint32_t faults() const { return imu.faults(); }
+  void settle() {}
+
+  hal::ScriptedImu imu;
+  std::uint64_t time_us = 0;
+  bool broken = false;
 };
 
 }  // namespace verp::test

@@ -90,9 +90,10 @@ void SpiModel::run() {
   shifting_ = false;
   done_at_ = kNever;
   const std::uint8_t in = exchange(shift_);
-  if (rx_.size() < depth()) {
+  if (rx_.size() < depth() && !overrun_next) {
     rx_.push_back(in);
   } else {
+    overrun_next = false;
     set(kSr, kSrOvr);
     overrun_seen_data_ = false;
   }

@@ -28,7 +28,8 @@ class SpiModel : public Bank {
   SpiModel(Machine& machine, unsigned number, std::uint32_t base, Gate gate, unsigned irq);
 
   // Script.
-  bool busy_stuck = false;  ///< the shift register never ends: no RXNE, BSY for ever
+  bool busy_stuck = false;    ///< the shift register never ends: no RXNE, BSY for ever
+  bool overrun_next = false;  ///< the next byte finds the receiver full, whatever was fetched
   bool miso_stuck_high = false, miso_stuck_low = false;
   void attach(SpiDevice& device, GpioModel& port, unsigned select_pin);
   /// The SCK, MISO or MOSI pin must have this alternate function for anything to pass.

@@ -1,0 +1,34 @@
+#pragma once
+#include <cstdint>
+
+#include "hal/chip/invensense/registers.hpp"
+
+namespace verp::hal::invensense {
+
+namespace detail {
+/// The step of `steps`, each twice the one before, that is within 2 % of `wanted`; -1: none is.
+constexpr int nearest_step(float wanted, float finest, int steps) {
+  float step = finest;
+  for (int i = 0; i < steps; ++i, step *= 2.0F) {
+    if (wanted > 0.98F * step && wanted < 1.02F * step) return i;
+  }
+  return -1;
+}
+}  // namespace detail
+
+/// The full scales that give a robot's Params their counts. False: the chip has no such scale, so
+/// it is not the robot's sensor. The finest scales: 250 deg/s (in rad/s) and 2 g (in m/s^2) over
+/// 32768 counts, on both chips.
+constexpr bool choose_ranges(float gyro_rad_s_per_count, float accel_m_s2_per_count,
+                             Ranges& ranges) {
+  constexpr float kGyroFinest = 4.36332313F / 32768.0F;
+  constexpr float kAccelFinest = 2.0F * 9.80665F / 32768.0F;
+  constexpr int kSteps = 4;
+  const int gyro = detail::nearest_step(gyro_rad_s_per_count, kGyroFinest, kSteps);
+  const int accel = detail::nearest_step(accel_m_s2_per_count, kAccelFinest, kSteps);
+  if (gyro < 0 || accel < 0) return false;
+  ranges = {static_cast<std::uint8_t>(gyro), static_cast<std::uint8_t>(accel)};
+  return true;
+}
+
+}  // namespace verp::hal::invensense
