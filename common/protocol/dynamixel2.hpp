@@ -170,7 +170,8 @@ bool fast_block(const Packet& reply, std::size_t index, std::size_t length, Fast
 
 /// Finds packets in a stream of bytes. Noise, cut packets and bad CRCs cost only themselves: after
 /// a failed check the search goes on from the byte after the false header, so a good packet that
-/// follows is found.
+/// follows is found. Each byte is searched once, and summed and moved at most once for each false
+/// header within the 512 bytes before it: noise costs a few steps a byte.
 class Parser {
  public:
   /// Takes a byte; true when a packet is complete. Then call next() until it says false, before the
@@ -180,24 +181,31 @@ class Parser {
   bool next();
   const Packet& packet() const { return packet_; }
   /// Forgets bytes taken so far; the counts stay.
-  void reset() { size_ = done_ = need_ = 0; }
+  void reset() { begin_ = size_ = done_ = need_ = 0; }
 
   std::uint32_t crc_errors() const { return crc_errors_; }
   /// Bytes that belonged to no packet.
   std::uint32_t noise_bytes() const { return noise_bytes_; }
+  /// Bytes stored, searched, summed and moved so far: what the stream has cost; wraps.
+  std::uint32_t steps() const { return steps_; }
 
  private:
   enum class Look { kMore, kDrop, kPacket };
   Look look();
+  bool may_begin_at(std::size_t offset) const;
+  void search_on();
   void drop(std::size_t count);
+  void make_room();
   void decode(std::size_t end);
 
   std::uint8_t buffer_[kMaxPacket];
-  std::size_t size_ = 0;
-  std::size_t done_ = 0;  ///< bytes of the packet last reported; dropped by the next call
-  std::size_t need_ = 0;  ///< no use looking before so many bytes are there
+  std::size_t begin_ = 0;  ///< of the bytes in use, where a packet may begin
+  std::size_t size_ = 0;   ///< bytes in use
+  std::size_t done_ = 0;   ///< bytes of the packet last reported; dropped by the next call
+  std::size_t need_ = 0;   ///< no use looking before so many bytes are there; at most kMaxPacket
   std::uint32_t crc_errors_ = 0;
   std::uint32_t noise_bytes_ = 0;
+  std::uint32_t steps_ = 0;
   Packet packet_;
 };
 

@@ -1,0 +1,183 @@
+#include <gtest/gtest.h>
+
+#include <cstddef>
+#include <cstdint>
+
+#include "common/protocol/dynamixel2.hpp"
+
+// The parser against one that looks at a whole stream at once and tries every byte as a beginning:
+// what is found, when it is known, and what it costs.
+
+namespace verp::dxl {
+namespace {
+
+constexpr std::size_t kStream = 1500;
+
+struct Random {
+  std::uint32_t state = 88172645u;
+  std::uint32_t next() {
+    state ^= state << 13;
+    state ^= state >> 17;
+    state ^= state << 5;
+    return state;
+  }
+  std::uint32_t below(std::uint32_t count) { return (next() >> 8) % count; }
+};
+
+struct Stream {
+  std::uint8_t bytes[kStream];
+  std::size_t size = 0;
+  void add(std::uint32_t byte) {
+    if (size < kStream) bytes[size++] = static_cast<std::uint8_t>(byte);
+  }
+};
+
+void add_packet(Stream& stream, Random& random, bool spoilt) {
+  std::uint8_t packet[kMaxPacket];
+  std::uint8_t data[64];
+  const std::size_t count = random.below(sizeof data);
+  for (std::size_t i = 0; i < count; ++i) {
+    // Much that must be stuffed, and the header itself.
+    data[i] = static_cast<std::uint8_t>(random.below(3) == 0 ? random.next() : 0xFD + i % 3);
+  }
+  const std::size_t size = encode_status(packet, sizeof packet, 1, 0, data, count);
+  if (spoilt) packet[random.below(static_cast<std::uint32_t>(size))] ^= 1;
+  for (std::size_t i = 0; i < size; ++i) stream.add(packet[i]);
+}
+
+void add_false_header(Stream& stream, Random& random) {
+  for (std::uint32_t byte : {0xFFu, 0xFFu, 0xFDu, 0x00u, 0x01u}) stream.add(byte);
+  const std::uint32_t length = random.below(700);  // some longer than any packet
+  stream.add(length);
+  stream.add(length >> 8);
+}
+
+/// Packets, spoilt ones, false headers and pieces of headers in noise.
+void fill(Stream& stream, Random& random) {
+  stream.size = 0;
+  while (stream.size < kStream) {
+    switch (random.below(6)) {
+      case 0:
+      case 1:
+        add_packet(stream, random, false);
+        break;
+      case 2:
+        add_packet(stream, random, true);
+        break;
+      case 3:
+        add_false_header(stream, random);
+        break;
+      case 4:
+        for (std::uint32_t i = random.below(60); i > 0; --i) stream.add(random.next() >> 16);
+        break;
+      default:
+        for (std::uint32_t i = random.below(12); i > 0; --i) stream.add(0xFF - 2 * random.below(2));
+    }
+  }
+}
+
+/// What there is to find in a stream, by trying each byte in turn.
+struct Reference {
+  std::size_t at = 0;     ///< where the search stands
+  std::size_t known = 0;  ///< bytes that must have come for it to get there
+  std::uint32_t crc_errors = 0, noise = 0;
+
+  /// Finds the next packet; false: only its beginning, or nothing, is there.
+  bool next(const Stream& stream, std::size_t& start, std::size_t& end) {
+    for (;; ++at, ++noise) {
+      const std::uint8_t* from = stream.bytes + at;
+      const std::size_t left = stream.size - at;
+      constexpr std::uint8_t kMark[4] = {0xFF, 0xFF, 0xFD, 0x00};
+      std::size_t same = 0;
+      while (same < 4 && same < left && from[same] == kMark[same]) ++same;
+      if (same < 4 && same < left) continue;
+      if (left < kHeaderBytes) return false;
+      const std::size_t size = kHeaderBytes + get_u16(from + 5);
+      if (size < kInstructionBytes || size > kMaxPacket) continue;
+      if (size > left) return false;
+      known = known > at + size ? known : at + size;
+      if (crc16(from, size - 2) == get_u16(from + size - 2)) {
+        start = at;
+        end = at += size;
+        return true;
+      }
+      ++crc_errors;
+    }
+  }
+};
+
+TEST(Parser, FindsWhatIsThereAsSoonAsItCanBeKnown) {
+  static Stream stream;
+  Random random;
+  int packets = 0;
+  for (int run = 0; run < 60; ++run) {
+    fill(stream, random);
+    Reference reference;
+    Parser parser;
+    std::size_t pushed = 0, start = 0, end = 0;
+    while (reference.next(stream, start, end)) {
+      bool found = pushed > 0 && parser.next();
+      while (!found && pushed < reference.known) found = parser.push(stream.bytes[pushed++]);
+      ASSERT_TRUE(found) << "run " << run << ", the packet at byte " << start;
+      ASSERT_EQ(pushed, reference.known) << "run " << run << ", the packet at byte " << start;
+      ASSERT_EQ(parser.packet().id, stream.bytes[start + 4]);
+      ASSERT_EQ(parser.crc_errors(), reference.crc_errors) << "run " << run;
+      ASSERT_EQ(parser.noise_bytes(), reference.noise) << "run " << run;
+      ++packets;
+    }
+    while (pushed < stream.size) ASSERT_FALSE(parser.next() || parser.push(stream.bytes[pushed++]));
+    ASSERT_EQ(parser.crc_errors(), reference.crc_errors) << "run " << run;
+    ASSERT_EQ(parser.noise_bytes(), reference.noise) << "run " << run;
+  }
+  EXPECT_GT(packets, 500);
+}
+
+std::uint32_t steps_of(Parser& parser, const std::uint8_t* bytes, std::size_t size) {
+  const std::uint32_t before = parser.steps();
+  for (std::size_t i = 0; i < size; ++i) {
+    for (bool found = parser.push(bytes[i]); found; found = parser.next()) {
+    }
+  }
+  return parser.steps() - before;
+}
+
+// A false header that announces a long packet, then noise: the line at its worst in a real robot.
+TEST(Parser, PaysAFewStepsForEachByteOfNoise) {
+  static Stream stream;
+  Random random;
+  for (std::uint32_t announced : {0x1F0u, 0x100u, 0x40u}) {
+    stream.size = 0;
+    for (std::uint32_t byte : {0xFFu, 0xFFu, 0xFDu, 0x00u, 0x01u}) stream.add(byte);
+    stream.add(announced);
+    stream.add(announced >> 8);
+    while (stream.size < kStream) stream.add(random.below(4) == 0 ? 0xFF : random.next() >> 16);
+    Parser parser;
+    EXPECT_LT(steps_of(parser, stream.bytes, stream.size), 4 * kStream) << announced;
+  }
+}
+
+// Nobody can make it cost more than so many steps a byte, whatever he sends: headers stand at least
+// seven bytes apart, and each is good for one sum over, and one move of, what follows.
+TEST(Parser, HasABoundForTheWorstOfStreams) {
+  static Stream stream;
+  constexpr std::uint32_t kMost = 2 + 2 * (kMaxPacket / kHeaderBytes + 1);
+  std::uint32_t worst = 0;
+  for (std::uint32_t step = 0; step < 3; ++step) {
+    stream.size = 0;
+    for (std::uint32_t k = 0; stream.size < kStream; ++k) {
+      // All end in the same byte, or one by one, or as far away as they can.
+      const std::uint32_t length = step == 2 ? 505 : 498 - (step == 0 ? 7 * (k % 71) : k % 71);
+      for (std::uint32_t byte : {0xFFu, 0xFFu, 0xFDu, 0x00u, 0x01u, length, length >> 8}) {
+        stream.add(byte);
+      }
+    }
+    Parser parser;
+    const std::uint32_t steps = steps_of(parser, stream.bytes, stream.size);
+    EXPECT_LT(steps, kMost * kStream) << step;
+    worst = steps > worst ? steps : worst;
+  }
+  EXPECT_GT(worst, 10 * kStream) << "these streams are not what the bound is for";
+}
+
+}  // namespace
+}  // namespace verp::dxl
