@@ -71,6 +71,7 @@ class App {
   /// state again in its turn: one lost frame neither leaves a limp robot stiff nor a walking one
   /// with a slack joint.
   static constexpr std::uint8_t kTorqueRepeats = 3;
+  static constexpr std::uint16_t kLongSilence = 5000;  ///< ticks; counted no further
 
   // Fast Sync Read is one packet for all, so one missing servo spoils it: after an incomplete read
   // the next one is plain, where each servo's reply stands for itself, until all answer again.
@@ -84,6 +85,9 @@ class App {
     const std::size_t bytes =
         fast ? fast_sync_read_bytes(count, kPositionBytes) : sync_read_bytes(count, kPositionBytes);
     joints_.begin();
+    for (std::uint16_t& ticks : silent_ticks_) {
+      if (ticks < kLongSilence) ++ticks;
+    }
     master_.request(frame, timeout_us(bytes, fast ? 1 : count, params_.baud),
                     [&](const dxl::Packet& packet) {
                       return packet.is_fast_reply() ? take_fast(packet) : take_position(packet);
@@ -112,6 +116,11 @@ class App {
 
   void set_position(int joint, std::uint8_t error, const std::uint8_t* data) {
     if ((error & ~dxl::kAlert) != 0) return;
+    // One that was silent for so long may have heard nothing either.
+    if (silent_ticks_[joint] * params_.period_us >= patience_us()) {
+      watchdog_clears_ = kTorqueRepeats;
+    }
+    silent_ticks_[joint] = 0;
     inputs_.position_count[joint] = static_cast<std::int32_t>(dxl::get_u32(data));
     inputs_.fresh |= 1u << joint;
   }
@@ -127,12 +136,13 @@ class App {
                                : static_cast<std::uint32_t>(elapsed_us / params_.period_us);
       inputs_.tick += periods > 1 ? periods : 1;
       if (periods > 1 || beat.overran) inputs_.flags |= kOverrun;
-      const std::uint32_t patience_us = bus_watchdog_ * dxl::kBusWatchdogUnit_us;
-      if (elapsed_us >= patience_us) clear_watchdogs_ = true;
+      if (elapsed_us >= patience_us()) watchdog_clears_ = kTorqueRepeats;
     }
     ticking_ = true;
     last_read_us_ = now_us;
   }
+
+  std::uint32_t patience_us() const { return bus_watchdog_ * dxl::kBusWatchdogUnit_us; }
 
   void read_sensors() {
     if (sensors_.count() == 0) return;
@@ -237,10 +247,10 @@ class App {
     const std::uint32_t wanted = torque_wanted();
     if (wanted == 0) return;
     // A servo whose watchdog has tripped takes no goals: cleared first, and set again after them.
-    if (clear_watchdogs_ || torque_sent_ == 0) {
+    if (watchdog_clears_ > 0 || torque_sent_ == 0) {
       send_bytes(dxl::address::kBusWatchdog, 0, true);
       torque_repeats_ = kTorqueRepeats;
-      clear_watchdogs_ = false;
+      if (watchdog_clears_ > 0) --watchdog_clears_;
     }
     dxl::Encoder encoder(master_.frame(), master_.capacity());
     dxl::begin_sync_write(encoder, dxl::address::kGoalPosition, 4);
@@ -286,6 +296,7 @@ class App {
   Inputs inputs_;
   Outputs outputs_;
   std::uint64_t last_read_us_ = 0;
+  std::uint16_t silent_ticks_[kMaxJoints] = {};  ///< since each servo answered
   std::uint32_t torque_sent_ = 0;
   std::uint32_t feet_expected_ = 0;
   std::uint32_t feet_seen_ = 0;
@@ -294,7 +305,7 @@ class App {
   bool slow_alert_ = false;
   bool ticking_ = false;  ///< a tick was counted before
   bool positions_complete_ = true;
-  bool clear_watchdogs_ = false;  ///< a pause may have tripped them
+  std::uint8_t watchdog_clears_ = 0;  ///< still to send: silence may have tripped them
   const std::uint8_t bus_watchdog_ = bus_watchdog_units(params_);
   const bool all_fast_ = all_fast(params_);
 };

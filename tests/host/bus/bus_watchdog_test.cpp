@@ -137,6 +137,37 @@ TEST_F(BusWatchdog, ARobotThatArmsAsSoonAsTheBusIsBackMoves) {
   for (int j = 0; j < kJoints; ++j) EXPECT_EQ(plant.setpoint(j).goal_count, 2500) << j;
 }
 
+// The bus comes back while the robot still has torque, as when it sits down after a loss: it must
+// not stay deaf until it lets go. One lost frame does not matter.
+TEST_F(BusWatchdog, ARobotWhoseBusComesBackUnderTorqueMoves) {
+  ready();
+  wanted.torque_enable = all();
+  ticks(30);
+  for (int j = 0; j < kJoints; ++j) bus.set_connected(params.joint[j].servo_id, false);
+  ticks(100);
+  for (int j = 0; j < kJoints; ++j) bus.set_connected(params.joint[j].servo_id, true);
+  EXPECT_TRUE(tripped(0) && tripped(kJoints - 1));
+  for (int j = 0; j < kJoints; ++j) wanted.goal_count[j] = 2500;
+  ticks(1);
+  for (int j = 0; j < kJoints; ++j) EXPECT_EQ(plant.setpoint(j).goal_count, 2500) << j;
+  ticks(3);
+  for (int j = 0; j < kJoints; ++j)
+    EXPECT_EQ(watchdog(params.joint[j].servo_id), app::bus_watchdog_units(params)) << j;
+}
+
+// One servo is plugged in again: it had no ears meanwhile.
+TEST_F(BusWatchdog, AServoThatComesBackAloneMoves) {
+  ready();
+  wanted.torque_enable = all();
+  ticks(30);
+  bus.set_connected(params.joint[4].servo_id, false);
+  ticks(100);
+  bus.set_connected(params.joint[4].servo_id, true);
+  wanted.goal_count[4] = 2500;
+  ticks(3);
+  EXPECT_EQ(plant.setpoint(4).goal_count, 2500);
+}
+
 // A host that was late for longer than the watchdogs wait: the servos hold, then follow again.
 TEST_F(BusWatchdog, APauseOfTheControllerLeavesNoServoBehind) {
   ready();
