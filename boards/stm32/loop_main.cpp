@@ -93,6 +93,7 @@ struct Board {
   void report(const Loop& loop) {
     operator_device.report({.bus = loop.counters(),
                             .bus_crc_errors = loop.crc_errors(),
+                            .bus_noise_bytes = loop.noise_bytes(),
                             .deadline_misses = deadline_misses});
   }
 

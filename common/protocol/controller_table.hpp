@@ -198,6 +198,7 @@ inline constexpr Register kTable[] = {
     r(240, "link_framing", u32, "", "this link: bytes without a stop bit"),
     r(244, "link_noise", u32, "", "this link: bytes with noise or wrong parity"),
     r(248, "link_losses", u32, "", "this link: times it was lost"),
+    r(252, "bus_noise", u32, "bytes", "servo bus: bytes that belonged to no whole packet"),
     // The joints, in the order of Params.
     r(256, "present_position", i32, "counts", "as last read from each servo", kMaxJoints),
     r(384, "goal_position", i32, "counts", "as last sent to each servo", kMaxJoints),
@@ -208,10 +209,10 @@ inline constexpr Register kTable[] = {
     // Every device: rows 0..31 servos, 32 IMU, 33 and 34 feet, 35 servo bus, 36 this link.
     r(672, "device_kind", u8, "", "0 none, 1 servo, 2 IMU, 3 foot, 4 servo bus, 5 operator link", kDevices),
     r(712, "device_id", u8, "", "bus id; 0: has none", kDevices),
-    r(752, "device_state", u8, "", "0 never seen, 1 good, 2 stale, 3 lost, 4 reports a hardware error", kDevices),
+    r(752, "device_state", u8, "", "0 never seen, 1 good, 2 stale: silent, or a servo that tells the same position while its goal moves away, 3 lost, 4 reports a hardware error", kDevices),
     r(792, "device_rate", u16, "1/s", "reports in the last second (the link: packets)", kDevices),
     r(872, "device_age", u16, "ticks", "since the last report, up to 65535", kDevices),
-    r(952, "device_errors", u32, "", "reports missed; bus: CRC errors, timeouts, refused; link: CRC, overruns, framing, noise", kDevices),
+    r(952, "device_errors", u32, "", "reports missed or stale; bus: CRC errors, timeouts, refused; link: CRC, overruns, framing, noise", kDevices),
     // Whole images, block by block.
     rw(1112, "window_kind", u8, 2, "", "what the window shows: 0 nothing, 1 the Params image, 2 actions; begins anew"),
     r(1113, "window_state", u8, "", "0 idle, 1 receiving, 2 accepted: a board stores it and starts anew with it, 3 refused"),

@@ -63,6 +63,7 @@ class App {
   const State& state() const { return state_; }
   const BusCounters& counters() const { return master_.counters(); }
   std::uint32_t crc_errors() const { return master_.crc_errors(); }
+  std::uint32_t noise_bytes() const { return master_.noise_bytes(); }
 
  private:
   enum Slot : std::uint8_t { kImuSlot = 0, kFootSlot = 1, kServoSlot = kFootSlot + kFeet };

@@ -31,6 +31,8 @@ class BusMaster {
   std::uint64_t now_us() { return bus_.now_us(); }
   const BusCounters& counters() const { return counters_; }
   std::uint32_t crc_errors() const { return parser_.crc_errors(); }
+  /// Bytes that belonged to no packet, those of damaged packets included.
+  std::uint32_t noise_bytes() const { return parser_.noise_bytes(); }
 
   /// Sends `size` bytes of frame(); for frames nobody answers.
   bool send(std::size_t size) {
@@ -60,16 +62,20 @@ class BusMaster {
   }
 
  private:
-  /// Drops what an unanswered request may still have brought.
+  /// Drops what an unanswered request may still have brought; whole packets count as strays.
   void settle() {
     constexpr int kMostPieces = 8;  // a bus that babbles must not hold the loop
-    for (int i = 0; i < kMostPieces && bus_.poll(rx_, sizeof rx_, 0) != 0; ++i) {
+    const auto stray = [](const dxl::Packet&) { return Take::kStray; };
+    for (int i = 0; i < kMostPieces; ++i) {
+      const std::size_t count = bus_.poll(rx_, sizeof rx_, 0);
+      if (count == 0) break;
+      digest(count, stray);
     }
     unsettled_ = false;
   }
 
   template <class Handler>
-  bool digest(std::size_t count, Handler& take) {
+  bool digest(std::size_t count, const Handler& take) {
     bool done = false;
     for (std::size_t i = 0; i < count; ++i) {
       for (bool found = parser_.push(rx_[i]); found; found = parser_.next()) {

@@ -35,7 +35,7 @@ class DeviceWatch {
   void link_errors(std::uint32_t sum) { errors(table::kDeviceLink, sum); }
 
   /// Once a tick.
-  void tick(const Inputs& inputs, const State& state) {
+  void tick(const Inputs& inputs, const State& state, const Outputs& outputs) {
     const std::uint32_t ticks = ticking_ ? inputs.tick - tick_ : 1;
     elapsed_ = static_cast<std::uint16_t>(ticks < kOldest ? ticks : kOldest);
     tick_ = inputs.tick;
@@ -44,7 +44,9 @@ class DeviceWatch {
     const Limits fast = limits(safety.stale_hold_s, safety.stale_release_s);
     for (int j = 0; j < params_.joint_count; ++j) {
       const bool faulty = image_.get<std::uint8_t>(element(reg("joint_error"), j, 1)) != 0;
-      sense(j, (inputs.fresh >> j & 1u) != 0, faulty, fast);
+      const bool heard = (inputs.fresh >> j & 1u) != 0;
+      sense(j, heard, faulty, fast);
+      if (heard && stands_still(j, inputs, outputs) && !faulty) mark_stale(j);
     }
     sense(table::kDeviceImu, (inputs.flags & kImuFresh) != 0, false, fast);
     for (int foot = 0; foot < kFeet; ++foot) {
@@ -86,6 +88,29 @@ class DeviceWatch {
     watch(row, fresh ? 1 : 0, faulty, limits);
   }
 
+  /// A servo that has told one and the same position for a while, though its goal has moved away
+  /// from where it was then: its encoder, or whatever answers for it, repeats an old value, or the
+  /// joint is stuck.
+  bool stands_still(int j, const Inputs& inputs, const Outputs& outputs) {
+    constexpr std::uint8_t kPatience = 5;      // ticks: a servo's lag, and its start from rest
+    constexpr std::int32_t kAway_counts = 40;  // 3.5 degrees: beyond any sag or backlash
+    Still& still = still_[j];
+    const bool holds = (outputs.torque_enable >> j & 1u) != 0;
+    if (!holds || inputs.position_count[j] != still.position_count) {
+      still = {inputs.position_count[j], outputs.goal_count[j], 0};
+      return false;
+    }
+    if (still.ticks < kPatience) ++still.ticks;
+    const std::int64_t moved = std::int64_t{outputs.goal_count[j]} - still.goal_count;
+    return still.ticks == kPatience && (moved > kAway_counts || moved < -kAway_counts);
+  }
+
+  void mark_stale(int row) {
+    const std::uint16_t errors_at = element(reg("device_errors"), row, 4);
+    image_.set(errors_at, image_.get<std::uint32_t>(errors_at) + 1);
+    image_.set(element(reg("device_state"), row, 1), table::DeviceState::kStale);
+  }
+
   void watch(int row, std::uint16_t reports, bool faulty, const Limits& limits) {
     using table::DeviceState;
     reports_[row] = static_cast<std::uint16_t>(reports_[row] + reports);
@@ -116,8 +141,16 @@ class DeviceWatch {
     window_us_ = 0;
   }
 
+  /// Since when a servo has told the same position.
+  struct Still {
+    std::int32_t position_count = 0;
+    std::int32_t goal_count = 0;  ///< at that time
+    std::uint8_t ticks = 0;       ///< reports since then, up to a few
+  };
+
   const Params& params_;
   RegisterImage& image_;
+  Still still_[kMaxJoints];
   std::uint16_t reports_[table::kDevices] = {};  ///< since the window began
   std::uint32_t window_us_ = 0;
   std::uint32_t tick_ = 0;

@@ -16,6 +16,7 @@ namespace verp::app {
 struct LoopHealth {
   BusCounters bus{};
   std::uint32_t bus_crc_errors = 0;
+  std::uint32_t bus_noise_bytes = 0;
   std::uint32_t deadline_misses = 0;  ///< sum of what TickSource::wait() returned above 1
   std::uint32_t imu_faults = 0;
   std::uint16_t battery_tenth_v = 0;  ///< as the board measures it; 0: it doesn't
@@ -52,7 +53,7 @@ class TickReport {
       image_.set(reg("overruns"), image_.get<std::uint32_t>(reg("overruns")) + 1);
     }
     if ((inputs.flags & kSlowFresh) != 0) take_telemetry(inputs);
-    devices_.tick(inputs, state);
+    devices_.tick(inputs, state, outputs);
   }
 
   void health(const LoopHealth& health) {
@@ -62,6 +63,7 @@ class TickReport {
     image_.set(reg("bus_strays"), bus.strays);
     image_.set(reg("bus_errors"), bus.errors);
     image_.set(reg("bus_refused"), bus.refused);
+    image_.set(reg("bus_noise"), health.bus_noise_bytes);
     image_.set(reg("deadline_misses"), health.deadline_misses);
     image_.set(reg("imu_faults"), health.imu_faults);
     devices_.bus_errors(health.bus_crc_errors + bus.timeouts + bus.refused);
