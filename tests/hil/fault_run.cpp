@@ -1,0 +1,291 @@
+#include "tests/hil/fault_run.hpp"
+
+#include <algorithm>
+#include <memory>
+#include <optional>
+
+#include "firmware/app/app.hpp"
+#include "host/sim/robot.hpp"
+#include "host/sim/world.hpp"
+#include "tests/hil/level_plant.hpp"
+#include "tests/hil/operator_desk.hpp"
+#include "tests/hil/safe_table.hpp"
+
+namespace verp::test {
+namespace {
+
+namespace table = dxl::controller;
+using app::reg;
+
+constexpr std::uint8_t kWalking = 3;
+constexpr std::uint32_t kOrderTicks = 10;
+constexpr double kUpright_s = 8;               // standing up and learning the gyro's bias take less
+constexpr double kFirstSteps_s = 1.2;          // of walking before the fault
+constexpr std::uint64_t kLimp_us = 1'500'000;  // torque off reaches every servo by then
+constexpr std::uint64_t kFall_us = 1'000'000;  // for tilt to be seen and confirmed
+constexpr double kLyingUp = 0.5;               // 60 degrees; the table says fallen at 46
+constexpr std::int16_t kSpeed_tenth_mm_s = 1778;  // two 4 cm steps in 0.450 s
+
+using Device = app::OperatorDevice<hal::MemoryLink>;
+
+/// One life of a controller, from power-up to reset.
+struct Controller {
+  struct Sink {
+    void record(const TickRecord& record, const State& state, const Outputs& outputs) {
+      safe.tick(record.inputs, outputs);
+      device.record(record, state, outputs);
+    }
+    Device& device;
+    SafeTable& safe;
+  };
+
+  Controller(const Params& params, FaultyLine& line, OperatorDesk& desk, table::ResetCause cause)
+      : device(desk.controller_end(), params, {.reset_cause = cause}),
+        safe(params),
+        sink{device, safe},
+        loop(params, line, device, sink) {
+    desk.serve = [this] {
+      while (device.poll()) {
+      }
+    };
+  }
+  void report(std::uint32_t misses) {
+    device.report({.bus = loop.counters(),
+                   .bus_crc_errors = loop.crc_errors(),
+                   .bus_noise_bytes = loop.noise_bytes(),
+                   .deadline_misses = misses});
+  }
+
+  Device device;
+  SafeTable safe;
+  Sink sink;
+  app::App<FaultyLine, Device, Sink> loop;
+};
+
+class FaultRun {
+ public:
+  FaultRun(const Robot& robot, const FaultPlan& plan, std::uint32_t seed)
+      : params_(robot.params), plan_(plan), random_(seed + 1) {
+    if (plan.physics) {
+      sim::TwinOptions options;
+      options.seed = seed;
+      world_.emplace();
+      body_.emplace(*world_, robot.entity, options);
+      plant_ = std::make_unique<FrozenJoint>(*body_);
+    } else {
+      level_.emplace(robot.params);
+      plant_ = std::make_unique<FrozenJoint>(*level_);
+    }
+    bus_.emplace(params_, *plant_);
+    line_.emplace(*bus_, seed);
+    result_.joint = static_cast<int>(random_() % params_.joint_count);
+  }
+
+  FaultResult run() {
+    if (!power_up(table::ResetCause::kPower)) return result_;
+    const double walk_s = kFirstSteps_s + 1e-3 * static_cast<double>(random_() % 500);
+    if (!walk_for(walk_s)) return result_;
+    result_.ready = true;
+    result_.before = registers();
+    start_m_ = position();
+    begin();
+    const double lasts_s = plan_.lasts_s > 0 ? plan_.lasts_s : plan_.walks_s;
+    spend(lasts_s);
+    result_.during = registers();
+    end();
+    spend(plan_.walks_s - lasts_s);
+    finish();
+    return result_;
+  }
+
+ private:
+  double seconds(std::uint64_t ticks) const {
+    return 1e-6 * static_cast<double>(ticks * params_.period_us);
+  }
+  Eigen::Vector2d position() const {
+    if (!body_) return Eigen::Vector2d::Zero();
+    return body_->truth().com_world_m.head<2>();
+  }
+
+  bool power_up(table::ResetCause cause) {
+    controller_.reset();
+    controller_ = std::make_unique<Controller>(params_, *line_, desk_, cause);
+    misses_ = 0;
+    const app::BringUpReport report = controller_->loop.bring_up();
+    next_us_ = line_->now_us();
+    if (report.status == app::BringUpStatus::kReady) return true;
+    fault("device " + std::to_string(report.device_id) + " did not come up");
+    return false;
+  }
+
+  bool walk_for(double duration_s) {
+    std::uint64_t walked = 0;
+    for (std::uint64_t ticks = 0; seconds(ticks) < kUpright_s; ++ticks) {
+      tick();
+      walked += controller_->safe.mode() == kWalking ? 1 : 0;
+      if (seconds(walked) >= duration_s) return true;
+    }
+    fault("the robot did not walk before the fault");
+    return false;
+  }
+
+  void begin() {
+    line_->faults = plan_.line;
+    switch (plan_.event) {
+      case Event::kServoGone:
+        ++result_.events;
+        bus_->set_connected(params_.joint[result_.joint].servo_id, false);
+        break;
+      case Event::kServoRepeats:
+        ++result_.events;
+        // A knee or a hip: what walks must move.
+        result_.joint = params_.leg[random_() % kFeet].joint[2 + random_() % 3];
+        plant_->freeze(result_.joint);
+        break;
+      case Event::kReset:
+        ++result_.events;
+        restart();
+        break;
+      default:
+        break;
+    }
+  }
+
+  void end() {
+    line_->faults = {};
+    if (plan_.event == Event::kServoGone) {
+      if (plan_.lasts_s > 0) bus_->set_connected(params_.joint[result_.joint].servo_id, true);
+    }
+    if (plan_.event == Event::kServoRepeats) plant_->thaw();
+  }
+
+  // The chip's start and its boot check take their time; the servos hear nothing meanwhile.
+  void restart() {
+    keep(controller_->safe);
+    line_->wait_until(line_->now_us() + 150'000 + random_() % 850'000);
+    power_up(table::ResetCause::kWatchdog);
+  }
+
+  void spend(double duration_s) {
+    for (std::uint64_t ticks = 0; seconds(ticks) < duration_s; ++ticks) {
+      if (plan_.event == Event::kLateLoop && random_() % 25 == 0) {
+        ++result_.events;
+        line_->wait_until(line_->now_us() + 15'000 + random_() % 25'000);
+      }
+      tick();
+      ++result_.ticks;
+      result_.walking_ticks += controller_->safe.mode() == kWalking ? 1 : 0;
+    }
+  }
+
+  void wait() {
+    next_us_ += params_.period_us;
+    if (line_->now_us() < next_us_) return line_->wait_until(next_us_);
+    const std::uint64_t missed = (line_->now_us() - next_us_) / params_.period_us;
+    misses_ += static_cast<std::uint32_t>(missed);
+    next_us_ += missed * params_.period_us;
+  }
+
+  void tick() {
+    wait();
+    if (ticks_++ % kOrderTicks == 0) give_order();
+    const std::uint64_t begun_us = line_->now_us();
+    controller_->loop.tick();
+    result_.worst_tick_us = std::max(result_.worst_tick_us, line_->now_us() - begun_us);
+    controller_->report(misses_);
+    controller_->device.poll();
+    watch_torque();
+    watch_fall();
+  }
+
+  void give_order() {
+    const auto speed = static_cast<std::uint16_t>(kSpeed_tenth_mm_s);
+    desk_.write(
+        reg("request"),
+        {static_cast<std::uint8_t>(Request::kWalk), static_cast<std::uint8_t>(ticks_),
+         static_cast<std::uint8_t>(speed), static_cast<std::uint8_t>(speed >> 8), 0, 0, 0, 0});
+  }
+
+  /// A robot that lies on the floor is limp soon, whatever its controller knows.
+  void watch_fall() {
+    const bool lies = body_ && body_->truth().body_world.linear()(2, 2) < kLyingUp;
+    if (!lies) fallen_us_ = line_->now_us();
+    if (line_->now_us() < fallen_us_ + kFall_us) return;
+    if (controller_->loop.outputs().torque_enable != 0) fault("it has fallen, and is not limp");
+  }
+
+  /// A limp robot's servos are limp, even those whose frames were lost.
+  void watch_torque() {
+    const bool limp = controller_->loop.outputs().torque_enable == 0;
+    if (!limp || line_->faults.cut) limp_since_us_ = line_->now_us();
+    if (line_->now_us() < limp_since_us_ + kLimp_us) return;
+    const bool gone = plan_.event == Event::kServoGone;
+    for (int j = 0; j < params_.joint_count; ++j) {
+      if (gone && j == result_.joint) continue;
+      if (plant_->setpoint(j).torque_on) {
+        fault("joint " + std::to_string(j) + " kept its torque on a limp robot");
+      }
+    }
+  }
+
+  Registers registers() {
+    Registers all;
+    all.mode = desk_.read<std::uint8_t>(reg("mode"));
+    all.reset_cause = desk_.read<std::uint8_t>(reg("reset_cause"));
+    all.tick = desk_.counter("tick");
+    all.faults = desk_.counter("faults");
+    all.fresh = desk_.counter("joints_fresh");
+    all.crc_errors = desk_.counter("bus_crc_errors");
+    all.timeouts = desk_.counter("bus_timeouts");
+    all.strays = desk_.counter("bus_strays");
+    all.noise = desk_.counter("bus_noise");
+    all.overruns = desk_.counter("overruns");
+    all.misses = desk_.counter("deadline_misses");
+    all.state = desk_.read<decltype(all.state)>(reg("device_state"));
+    all.age = desk_.read<decltype(all.age)>(reg("device_age"));
+    all.errors = desk_.read<decltype(all.errors)>(reg("device_errors"));
+    return all;
+  }
+
+  void fault(const std::string& what) {
+    if (result_.violation.empty()) result_.violation = what;
+  }
+  void keep(const SafeTable& safe) {
+    result_.seen |= safe.seen();
+    if (!safe.violation().empty()) fault(safe.violation());
+  }
+  void finish() {
+    keep(controller_->safe);
+    result_.after = registers();
+    result_.damage = line_->damage();
+    result_.distance_m = (position() - start_m_).norm();
+    result_.fallen = body_ && body_->truth().fallen;
+  }
+
+  const Params& params_;
+  const FaultPlan& plan_;
+  std::minstd_rand random_;
+  std::optional<sim::World> world_;
+  std::optional<sim::TwinRobot> body_;
+  std::optional<LevelPlant> level_;
+  std::unique_ptr<FrozenJoint> plant_;
+  std::optional<bus::VirtualBus> bus_;
+  std::optional<FaultyLine> line_;
+  OperatorDesk desk_;
+  std::unique_ptr<Controller> controller_;
+  FaultResult result_;
+  Eigen::Vector2d start_m_ = Eigen::Vector2d::Zero();
+  std::uint64_t next_us_ = 0;
+  std::uint64_t limp_since_us_ = 0;
+  std::uint64_t fallen_us_ = 0;  ///< when it was last seen upright
+  std::uint32_t ticks_ = 0;
+  std::uint32_t misses_ = 0;
+};
+
+}  // namespace
+
+FaultResult run_fault(const Robot& robot, const FaultPlan& plan, std::uint32_t seed) {
+  return FaultRun(robot, plan, seed).run();
+}
+
+}  // namespace verp::test

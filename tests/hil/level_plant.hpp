@@ -1,0 +1,92 @@
+#pragma once
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "common/math/scalar.hpp"
+#include "common/model/params.hpp"
+#include "common/model/tree.hpp"
+#include "host/sim/plant.hpp"
+
+namespace verp::test {
+
+/// A robot on a stand: joints follow their goals at their top speed, the body stays level and the
+/// soles share its weight. Costs next to nothing, and never falls.
+class LevelPlant final : public sim::Plant {
+ public:
+  explicit LevelPlant(const Params& params) : params_(params) {
+    for (int j = 0; j < params.joint_count; ++j) {
+      const JointParams& joint = params.joint[j];
+      count_[index(j)] = joint.zero_count + joint.counts_per_rad * joint.sit_rad;
+    }
+    const float gravity = math::kGravityMS2 / params.imu.accel_m_s2_per_count;
+    for (std::size_t i = 0; i < 3; ++i) {
+      imu_.accel_count[i] =
+          static_cast<std::int16_t>(std::lround(params.imu.body_imu[6 + i] * gravity));
+    }
+    const float weight_n = model::total_mass(params) * math::kGravityMS2;
+    foot_count_ = static_cast<std::uint16_t>(weight_n / params.feet.newton_per_count / 8);
+  }
+
+  std::uint64_t now_us() const override { return now_us_; }
+  void advance_to(std::uint64_t time_us) override {
+    if (time_us <= now_us_) return;
+    const float passed_s = 1e-6F * static_cast<float>(time_us - now_us_);
+    now_us_ = time_us;
+    for (int j = 0; j < params_.joint_count; ++j) {
+      if (!setpoint_[index(j)].torque_on) continue;
+      const JointParams& joint = params_.joint[j];
+      const float most = std::abs(joint.counts_per_rad) * joint.velocity_limit_rad_s * passed_s;
+      const float goal = static_cast<float>(setpoint_[index(j)].goal_count);
+      count_[index(j)] = std::clamp(goal, count_[index(j)] - most, count_[index(j)] + most);
+    }
+  }
+  sim::ServoSetpoint& setpoint(int joint) override { return setpoint_[index(joint)]; }
+  sim::ServoMeasurement measure(int joint) override {
+    sim::ServoMeasurement measured;
+    measured.position_count = static_cast<std::int32_t>(std::lround(count_[index(joint)]));
+    return measured;
+  }
+  sim::ImuMeasurement imu() override { return imu_; }
+  std::array<std::uint16_t, 4> foot_counts(int) override {
+    return {foot_count_, foot_count_, foot_count_, foot_count_};
+  }
+
+ private:
+  static std::size_t index(int joint) { return static_cast<std::size_t>(joint); }
+  const Params& params_;
+  std::uint64_t now_us_ = 0;
+  std::array<float, kMaxJoints> count_{};
+  std::array<sim::ServoSetpoint, kMaxJoints> setpoint_{};
+  sim::ImuMeasurement imu_;
+  std::uint16_t foot_count_ = 0;
+};
+
+/// Passes everything on, but lets one servo's encoder repeat what it told last.
+class FrozenJoint final : public sim::Plant {
+ public:
+  explicit FrozenJoint(sim::Plant& plant) : plant_(plant) {}
+  void freeze(int joint) {
+    frozen_ = plant_.measure(joint);
+    joint_ = joint;
+  }
+  void thaw() { joint_ = -1; }
+
+  std::uint64_t now_us() const override { return plant_.now_us(); }
+  void advance_to(std::uint64_t time_us) override { plant_.advance_to(time_us); }
+  sim::ServoSetpoint& setpoint(int joint) override { return plant_.setpoint(joint); }
+  sim::ServoMeasurement measure(int joint) override {
+    return joint == joint_ ? frozen_ : plant_.measure(joint);
+  }
+  sim::ImuMeasurement imu() override { return plant_.imu(); }
+  std::array<std::uint16_t, 4> foot_counts(int foot) override { return plant_.foot_counts(foot); }
+
+ private:
+  sim::Plant& plant_;
+  sim::ServoMeasurement frozen_;
+  int joint_ = -1;
+};
+
+}  // namespace verp::test

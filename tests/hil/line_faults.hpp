@@ -1,0 +1,76 @@
+#pragma once
+#include <cstdint>
+#include <deque>
+#include <random>
+#include <vector>
+
+#include "hal/contract/frame_bus.hpp"
+#include "host/bus/virtual_bus.hpp"
+
+namespace verp::test {
+
+/// What a bad cable does, in both directions: shares of bytes, and of frames.
+struct LineFaults {
+  double lost = 0, doubled = 0, flipped = 0;  ///< of bytes
+  double delayed = 0;                         ///< of replies: from some byte on they come later,
+  std::uint32_t delay_us = 0;                 ///< by up to so much
+  double bursts = 0;  ///< of frames and replies: noise within, before or behind
+  bool cut = false;   ///< nothing gets through
+};
+
+/// What was done to the line so far, and to what.
+struct LineDamage {
+  std::uint32_t lost = 0, doubled = 0, flipped = 0, delayed = 0, bursts = 0;
+  std::uint32_t cut_frames = 0;
+  /// Requests that can't have been answered whole: a byte of them or of the reply lost or changed.
+  std::uint32_t spoilt_reads = 0;
+  std::uint32_t noise_heard = 0;  ///< bytes of noise that came to the controller
+  std::uint32_t faults() const { return lost + doubled + flipped + delayed + bursts + cut_frames; }
+};
+
+/// The cable between a controller and its servos: a FrameBus in bus time around a VirtualBus, which
+/// runs by a timer's clock here. All chance comes from one seed.
+class FaultyLine {
+ public:
+  FaultyLine(bus::VirtualBus& bus, std::uint32_t seed) : bus_(bus), random_(seed) {
+    bus.set_real_time(true);
+  }
+
+  LineFaults faults;
+  const LineDamage& damage() const { return damage_; }
+
+  // FrameBus
+  bool send(const std::uint8_t* data, std::size_t size);
+  std::size_t poll(std::uint8_t* buffer, std::size_t capacity, std::uint32_t timeout_us);
+  std::uint64_t now_us() { return bus_.now_us(); }
+
+  /// Lets bus time go on while the controller does something else.
+  void wait_until(std::uint64_t time_us);
+
+ private:
+  struct Arrived {
+    std::uint64_t due_us;
+    std::uint8_t byte;
+  };
+  bool chance(double share) {
+    return share > 0 && std::uniform_real_distribution<double>(0, 1)(random_) < share;
+  }
+  /// What is left of `bytes` at the other end.
+  std::vector<std::uint8_t> spoilt(const std::vector<std::uint8_t>& bytes, bool inbound);
+  void arrive(const std::uint8_t* data, std::size_t size);
+  /// Bytes that have come by now.
+  std::size_t fetch(std::uint8_t* buffer, std::size_t capacity);
+  void note_spoilt();
+
+  bus::VirtualBus& bus_;
+  std::minstd_rand random_;
+  LineDamage damage_;
+  std::deque<Arrived> inbox_;
+  std::uint64_t sent_us_ = 0;      ///< when the last frame began, whether it got through or not
+  std::uint64_t bus_sent_us_ = 0;  ///< when the last one that reached the bus did
+  bool reading_ = false;           ///< the last frame wants an answer
+  bool spoilt_ = false;            ///< and cannot get all of it
+};
+static_assert(hal::FrameBus<FaultyLine>);
+
+}  // namespace verp::test

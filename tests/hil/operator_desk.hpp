@@ -1,0 +1,59 @@
+#pragma once
+#include <cstdint>
+#include <cstring>
+#include <functional>
+#include <stdexcept>
+#include <vector>
+
+#include "firmware/app/operator_device.hpp"
+#include "hal/fake/memory_link.hpp"
+
+namespace verp::test {
+
+/// The operator's end of a controller's port: device 200, by the bytes of the protocol.
+class OperatorDesk {
+ public:
+  hal::MemoryLink& controller_end() { return wire_.left(); }
+  /// Lets the controller serve its port.
+  std::function<void()> serve = [] {};
+
+  void write(std::uint16_t address, const std::vector<std::uint8_t>& data) {
+    ask(dxl::encode_write(frame_, sizeof frame_, kId, address, data.data(), data.size()));
+  }
+  template <class Value>
+  Value read(std::uint16_t address) {
+    Value value;
+    const std::vector<std::uint8_t> data =
+        ask(dxl::encode_read(frame_, sizeof frame_, kId, address, sizeof value));
+    if (data.size() != sizeof value) throw std::runtime_error("a short answer of the controller");
+    std::memcpy(&value, data.data(), sizeof value);
+    return value;
+  }
+  std::uint32_t counter(const char* name) {
+    return read<std::uint32_t>(dxl::controller::find(name)->address);
+  }
+
+ private:
+  static constexpr std::uint8_t kId = dxl::controller::kDefaultId;
+
+  std::vector<std::uint8_t> ask(std::size_t size) {
+    wire_.right().write(frame_, size, 0);
+    serve();
+    std::uint8_t bytes[dxl::kMaxPacket];
+    const std::size_t count = wire_.right().read(bytes, sizeof bytes, 0);
+    dxl::Parser parser;
+    for (std::size_t i = 0; i < count; ++i) {
+      if (!parser.push(bytes[i])) continue;
+      const dxl::Packet& packet = parser.packet();
+      if (packet.id == kId && (packet.error & ~dxl::kAlert) == 0) {
+        return {packet.parameters, packet.parameters + packet.size};
+      }
+    }
+    throw std::runtime_error("the controller did not answer its operator");
+  }
+
+  hal::MemoryWire wire_;
+  std::uint8_t frame_[dxl::kMaxPacket];
+};
+
+}  // namespace verp::test

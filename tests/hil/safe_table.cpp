@@ -1,0 +1,143 @@
+#include "tests/hil/safe_table.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace verp::test {
+namespace {
+
+enum Mode { kRelaxed, kRising, kStanding, kWalking, kHolding, kSitting, kFallen, kStopped };
+constexpr const char* kNames[] = {"relaxed", "rising",  "standing", "walking",
+                                  "holding", "sitting", "fallen",   "stopped"};
+
+constexpr std::uint32_t bit(int mode) {
+  return 1u << mode;
+}
+
+/// Where each mode may lead, whatever the reason: the arrows of the table.
+constexpr std::uint32_t kMayLeadTo[] = {
+    /* relaxed  */ bit(kRising) | bit(kStopped),
+    /* rising   */ bit(kStanding) | bit(kHolding) | bit(kSitting) | bit(kFallen) | bit(kStopped),
+    /* standing */ bit(kWalking) | bit(kHolding) | bit(kSitting) | bit(kFallen) | bit(kStopped),
+    /* walking  */ bit(kStanding) | bit(kHolding) | bit(kFallen) | bit(kStopped),
+    /* holding  */ bit(kRising) | bit(kSitting) | bit(kFallen) | bit(kStopped),
+    /* sitting  */ bit(kRelaxed) | bit(kFallen) | bit(kStopped),
+    /* fallen   */ bit(kRelaxed) | bit(kStopped),
+    /* stopped  */ bit(kRelaxed)};
+
+bool limp(int mode) {
+  return mode == kRelaxed || mode == kFallen || mode == kStopped;
+}
+bool moving(int mode) {
+  return mode == kRising || mode == kStanding || mode == kWalking;
+}
+
+}  // namespace
+
+SafeTable::SafeTable(const Params& params) : params_(params) {}
+
+void SafeTable::fault(const std::string& what) {
+  if (violation_.empty()) violation_ = "tick " + std::to_string(tick_) + ": " + what;
+}
+
+void SafeTable::count_silence(const Inputs& inputs) {
+  imu_silent_ = (inputs.flags & kImuFresh) != 0 ? 0 : imu_silent_ + 1;
+  operator_silent_ = (inputs.flags & kCommandFresh) != 0 ? 0 : operator_silent_ + 1;
+  silent_ = imu_silent_;
+  for (int j = 0; j < params_.joint_count; ++j) {
+    servo_silent_[j] = (inputs.fresh >> j & 1u) != 0 ? 0 : servo_silent_[j] + 1;
+    silent_ = std::max(silent_, servo_silent_[j]);
+  }
+}
+
+void SafeTable::check_transition(const Inputs& inputs, int to) {
+  const SafetyTuning& safety = params_.tuning.safety;
+  const auto longer = [&](std::uint32_t ticks, double duration_s) {
+    return 1e-6 * params_.period_us * ticks >= duration_s - 1e-6;
+  };
+  const bool stale = longer(silent_, safety.stale_hold_s);
+  const bool lost = longer(silent_, safety.stale_release_s);
+  const Request request = inputs.command.request;
+  if (to != mode_ && (kMayLeadTo[mode_] & bit(to)) == 0) {
+    return fault(std::string(kNames[mode_]) + " became " + kNames[to]);
+  }
+  if (moving(to) && stale) fault(std::string(kNames[to]) + " though a device is silent");
+  if (to == kHolding && mode_ == kHolding && lost) fault("holding though a device is lost");
+  if (to == mode_) return;
+  if (to == kHolding && !stale) fault("holding without a silent device");
+  if (mode_ == kHolding && to == kSitting && !lost && request != Request::kRelax) {
+    fault("sitting down though nobody asked and nothing is lost");
+  }
+  if (mode_ == kStanding && to == kSitting && request != Request::kRelax &&
+      !longer(operator_silent_, safety.command_release_s)) {
+    fault("sitting down though the operator is there");
+  }
+  if (to == kRising && mode_ == kRelaxed && request == Request::kRelax) fault("rose unasked");
+  if (to == kWalking && request != Request::kWalk) fault("walked unasked");
+  if (to == kWalking && longer(operator_silent_, safety.command_hold_s + 0.02)) {
+    fault("walked with nobody watching");
+  }
+  if (to == kStanding && mode_ == kRising &&
+      !longer(static_cast<std::uint32_t>(in_mode_ticks_ + 1), safety.rise_s)) {
+    fault("rose too fast");
+  }
+  if (to == kRelaxed && mode_ == kSitting &&
+      !longer(static_cast<std::uint32_t>(in_mode_ticks_ + 1), safety.sit_s)) {
+    fault("let go before it sat");
+  }
+  if (to == kRelaxed && (mode_ == kFallen || mode_ == kStopped) && request != Request::kRelax) {
+    fault("left " + std::string(kNames[mode_]) + " unasked");
+  }
+}
+
+// A tick decides its mode last: its goals are still those of the mode it began in, and the first
+// under a new one come a tick later. Torque goes at once.
+void SafeTable::check_goals(const Inputs& inputs, const Outputs& outputs) {
+  for (int j = 0; j < params_.joint_count; ++j) {
+    const JointParams& joint = params_.joint[j];
+    const double one =
+        joint.zero_count + static_cast<double>(joint.counts_per_rad) * joint.lower_rad;
+    const double other =
+        joint.zero_count + static_cast<double>(joint.counts_per_rad) * joint.upper_rad;
+    const double low = std::min(one, other), high = std::max(one, other);
+    const double goal = outputs.goal_count[j];
+    if (goal < low - 1 || goal > high + 1)
+      fault("goal of joint " + std::to_string(j) + " beyond its limits");
+    const double step = std::abs(goal - goal_[j]);
+    const double most =
+        1e-6 * params_.period_us * joint.velocity_limit_rad_s * std::abs(joint.counts_per_rad);
+    if (limp(mode_)) {
+      const double here = std::clamp<double>(inputs.position_count[j], low, high);
+      if (std::abs(goal - here) > 1.5)
+        fault("limp, and goal " + std::to_string(j) + " is not where the joint is");
+    } else if (mode_ == kHolding && step > 0) {
+      fault("holding, and goal " + std::to_string(j) + " moves");
+    } else if (step > most + 1.5) {
+      fault("goal of joint " + std::to_string(j) + " faster than the joint may be");
+    }
+    goal_[j] = outputs.goal_count[j];
+  }
+}
+
+void SafeTable::check_outputs(const Inputs& inputs, const Outputs& outputs, int to) {
+  const std::uint32_t all = params_.joint_count >= 32 ? ~0u : (1u << params_.joint_count) - 1;
+  if (limp(to) && outputs.torque_enable != 0) fault(std::string(kNames[to]) + " with torque");
+  if (!limp(to) && outputs.torque_enable != all) fault(std::string(kNames[to]) + " without torque");
+  check_goals(inputs, outputs);
+}
+
+void SafeTable::tick(const Inputs& inputs, const Outputs& outputs) {
+  if (begun_ && inputs.tick <= tick_) fault("time stands still");
+  tick_ = inputs.tick;
+  const int to = outputs.mode;
+  if (to > kStopped) return fault("no such mode");
+  count_silence(inputs);
+  check_transition(inputs, to);
+  check_outputs(inputs, outputs, to);
+  in_mode_ticks_ = to == mode_ ? in_mode_ticks_ + 1 : 0;
+  mode_ = to;
+  seen_ |= bit(to);
+  begun_ = true;
+}
+
+}  // namespace verp::test

@@ -1,0 +1,47 @@
+#pragma once
+#include <cstdint>
+#include <string>
+
+#include "common/control/state.hpp"
+#include "common/io/io.hpp"
+#include "common/model/params.hpp"
+
+namespace verp::test {
+
+/// A referee of the safety table, written from the words of common/safety/README.md and not from
+/// its code: sees Inputs and Outputs of every tick and remembers what they must not do. One for
+/// each life of a controller.
+class SafeTable {
+ public:
+  explicit SafeTable(const Params& params);
+
+  void tick(const Inputs& inputs, const Outputs& outputs);
+
+  /// The first thing that broke a rule, and when; empty: nothing did.
+  const std::string& violation() const { return violation_; }
+  int mode() const { return mode_; }
+  /// Bit m: the controller has been in mode m.
+  std::uint32_t seen() const { return seen_; }
+
+ private:
+  void count_silence(const Inputs& inputs);
+  void check_transition(const Inputs& inputs, int to);
+  void check_outputs(const Inputs& inputs, const Outputs& outputs, int to);
+  void check_goals(const Inputs& inputs, const Outputs& outputs);
+  void fault(const std::string& what);
+
+  const Params& params_;
+  std::string violation_;
+  std::uint32_t tick_ = 0;
+  std::uint32_t seen_ = 1;
+  int mode_ = 0;
+  int in_mode_ticks_ = 0;
+  std::uint32_t servo_silent_[kMaxJoints] = {};  ///< ticks
+  std::uint32_t imu_silent_ = 0;
+  std::uint32_t operator_silent_ = 0;
+  std::uint32_t silent_ = 0;  ///< the longest of servos and IMU
+  std::int32_t goal_[kMaxJoints] = {};
+  bool begun_ = false;
+};
+
+}  // namespace verp::test
