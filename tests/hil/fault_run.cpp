@@ -4,12 +4,10 @@
 #include <memory>
 #include <optional>
 
-#include "firmware/app/app.hpp"
 #include "host/sim/robot.hpp"
 #include "host/sim/world.hpp"
 #include "tests/hil/level_plant.hpp"
-#include "tests/hil/operator_desk.hpp"
-#include "tests/hil/safe_table.hpp"
+#include "tests/hil/software_board.hpp"
 
 namespace verp::test {
 namespace {
@@ -25,42 +23,6 @@ constexpr std::uint64_t kLimp_us = 1'500'000;  // torque off reaches every servo
 constexpr std::uint64_t kFall_us = 1'000'000;  // for tilt to be seen and confirmed
 constexpr double kLyingUp = 0.5;               // 60 degrees; the table says fallen at 46
 constexpr std::int16_t kSpeed_tenth_mm_s = 1778;  // two 4 cm steps in 0.450 s
-
-using Device = app::OperatorDevice<hal::MemoryLink>;
-
-/// One life of a controller, from power-up to reset.
-struct Controller {
-  struct Sink {
-    void record(const TickRecord& record, const State& state, const Outputs& outputs) {
-      safe.tick(record.inputs, outputs);
-      device.record(record, state, outputs);
-    }
-    Device& device;
-    SafeTable& safe;
-  };
-
-  Controller(const Params& params, FaultyLine& line, OperatorDesk& desk, table::ResetCause cause)
-      : device(desk.controller_end(), params, {.reset_cause = cause}),
-        safe(params),
-        sink{device, safe},
-        loop(params, line, device, sink) {
-    desk.serve = [this] {
-      while (device.poll()) {
-      }
-    };
-  }
-  void report(std::uint32_t misses) {
-    device.report({.bus = loop.counters(),
-                   .bus_crc_errors = loop.crc_errors(),
-                   .bus_noise_bytes = loop.noise_bytes(),
-                   .deadline_misses = misses});
-  }
-
-  Device device;
-  SafeTable safe;
-  Sink sink;
-  app::App<FaultyLine, Device, Sink> loop;
-};
 
 class FaultRun {
  public:
@@ -110,9 +72,8 @@ class FaultRun {
   bool power_up(table::ResetCause cause) {
     controller_.reset();
     controller_ = std::make_unique<Controller>(params_, *line_, desk_, cause);
-    misses_ = 0;
     const app::BringUpReport report = controller_->loop.bring_up();
-    next_us_ = line_->now_us();
+    controller_->pacer.start(params_.period_us);
     if (report.status == app::BringUpStatus::kReady) return true;
     fault("device " + std::to_string(report.device_id) + " did not come up");
     return false;
@@ -171,6 +132,7 @@ class FaultRun {
       if (plan_.event == Event::kLateLoop && random_() % 25 == 0) {
         ++result_.events;
         line_->wait_until(line_->now_us() + 15'000 + random_() % 25'000);
+        late_us_ = line_->now_us();
       }
       tick();
       ++result_.ticks;
@@ -178,22 +140,12 @@ class FaultRun {
     }
   }
 
-  void wait() {
-    next_us_ += params_.period_us;
-    if (line_->now_us() < next_us_) return line_->wait_until(next_us_);
-    const std::uint64_t missed = (line_->now_us() - next_us_) / params_.period_us;
-    misses_ += static_cast<std::uint32_t>(missed);
-    next_us_ += missed * params_.period_us;
-  }
-
   void tick() {
-    wait();
     if (ticks_++ % kOrderTicks == 0) give_order();
-    const std::uint64_t begun_us = line_->now_us();
-    controller_->loop.tick();
+    const std::uint64_t due_us = controller_->clock.due_us();
+    controller_->tick();
+    const std::uint64_t begun_us = std::max(due_us, late_us_);
     result_.worst_tick_us = std::max(result_.worst_tick_us, line_->now_us() - begun_us);
-    controller_->report(misses_);
-    controller_->device.poll();
     watch_torque();
     watch_fall();
   }
@@ -275,11 +227,10 @@ class FaultRun {
   std::unique_ptr<Controller> controller_;
   FaultResult result_;
   Eigen::Vector2d start_m_ = Eigen::Vector2d::Zero();
-  std::uint64_t next_us_ = 0;
+  std::uint64_t late_us_ = 0;  ///< when the loop came back from being busy elsewhere
   std::uint64_t limp_since_us_ = 0;
   std::uint64_t fallen_us_ = 0;  ///< when it was last seen upright
   std::uint32_t ticks_ = 0;
-  std::uint32_t misses_ = 0;
 };
 
 }  // namespace

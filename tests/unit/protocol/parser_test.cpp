@@ -30,6 +30,13 @@ struct Stream {
   void add(std::uint32_t byte) {
     if (size < kStream) bytes[size++] = static_cast<std::uint8_t>(byte);
   }
+  /// A header to device 1 that announces `length` bytes.
+  void add_header(std::uint32_t length) {
+    constexpr std::uint8_t kMark[] = {0xFF, 0xFF, 0xFD, 0x00, 0x01};
+    for (const std::uint8_t byte : kMark) add(byte);
+    add(length);
+    add(length >> 8);
+  }
 };
 
 void add_packet(Stream& stream, Random& random, bool spoilt) {
@@ -45,13 +52,6 @@ void add_packet(Stream& stream, Random& random, bool spoilt) {
   for (std::size_t i = 0; i < size; ++i) stream.add(packet[i]);
 }
 
-void add_false_header(Stream& stream, Random& random) {
-  for (std::uint32_t byte : {0xFFu, 0xFFu, 0xFDu, 0x00u, 0x01u}) stream.add(byte);
-  const std::uint32_t length = random.below(700);  // some longer than any packet
-  stream.add(length);
-  stream.add(length >> 8);
-}
-
 /// Packets, spoilt ones, false headers and pieces of headers in noise.
 void fill(Stream& stream, Random& random) {
   stream.size = 0;
@@ -65,7 +65,7 @@ void fill(Stream& stream, Random& random) {
         add_packet(stream, random, true);
         break;
       case 3:
-        add_false_header(stream, random);
+        stream.add_header(random.below(700));  // some longer than any packet
         break;
       case 4:
         for (std::uint32_t i = random.below(60); i > 0; --i) stream.add(random.next() >> 16);
@@ -145,11 +145,10 @@ std::uint32_t steps_of(Parser& parser, const std::uint8_t* bytes, std::size_t si
 TEST(Parser, PaysAFewStepsForEachByteOfNoise) {
   static Stream stream;
   Random random;
-  for (std::uint32_t announced : {0x1F0u, 0x100u, 0x40u}) {
+  constexpr std::uint32_t kAnnounced[] = {0x1F0, 0x100, 0x40};
+  for (const std::uint32_t announced : kAnnounced) {
     stream.size = 0;
-    for (std::uint32_t byte : {0xFFu, 0xFFu, 0xFDu, 0x00u, 0x01u}) stream.add(byte);
-    stream.add(announced);
-    stream.add(announced >> 8);
+    stream.add_header(announced);
     while (stream.size < kStream) stream.add(random.below(4) == 0 ? 0xFF : random.next() >> 16);
     Parser parser;
     EXPECT_LT(steps_of(parser, stream.bytes, stream.size), 4 * kStream) << announced;
@@ -167,9 +166,7 @@ TEST(Parser, HasABoundForTheWorstOfStreams) {
     for (std::uint32_t k = 0; stream.size < kStream; ++k) {
       // All end in the same byte, or one by one, or as far away as they can.
       const std::uint32_t length = step == 2 ? 505 : 498 - (step == 0 ? 7 * (k % 71) : k % 71);
-      for (std::uint32_t byte : {0xFFu, 0xFFu, 0xFDu, 0x00u, 0x01u, length, length >> 8}) {
-        stream.add(byte);
-      }
+      stream.add_header(length);
     }
     Parser parser;
     const std::uint32_t steps = steps_of(parser, stream.bytes, stream.size);
