@@ -24,6 +24,9 @@ class LinkBus {
   LinkBus(Link& link, const Source& clock, std::uint32_t held_us = 0)
       : link_(link), clock_(clock), opened_us_(clock.now_us()), held_us_(held_us) {}
 
+  /// From the next poll on.
+  void set_held(std::uint32_t held_us) { held_us_ = held_us; }
+
   bool send(const std::uint8_t* data, std::size_t size) {
     if (size == 0 || size > hal::kMaxFrame) return false;
     push();

@@ -28,13 +28,27 @@ Client::Client(const wire::Endpoint& endpoint, std::uint32_t timeout_us)
     : text_(wire::to_text(endpoint)),
       baud_(endpoint.baud),
       timeout_us_(timeout_us),
-      link_(endpoint),
+      own_(endpoint),
+      link_(*own_),
       bus_(link_, clock_),
       master_(bus_) {
-  if (!link_.wait_connected(std::max(timeout_us, kArrival_us))) {
-    throw DeviceError(fmt::format(
-        "{}: nobody is at the other end; start it, or check the cable, and try again", text_));
-  }
+  wait_for_somebody();
+}
+
+Client::Client(wire::Link& link, const wire::Endpoint& endpoint, std::uint32_t timeout_us)
+    : text_(wire::to_text(endpoint)),
+      baud_(endpoint.baud),
+      timeout_us_(timeout_us),
+      link_(link),
+      bus_(link_, clock_),
+      master_(bus_) {
+  wait_for_somebody();
+}
+
+void Client::wait_for_somebody() {
+  if (link_.wait_connected(std::max(timeout_us_, kArrival_us))) return;
+  throw DeviceError(fmt::format(
+      "{}: nobody is at the other end; start it, or check the cable, and try again", text_));
 }
 
 std::uint32_t Client::patience_us(std::size_t bytes) const {

@@ -33,6 +33,8 @@ class Client {
 
   /// `timeout_us` is what a reply may take beyond its own bytes.
   Client(const wire::Endpoint& endpoint, std::uint32_t timeout_us);
+  /// Over a link that stays the caller's, and outlives this; `endpoint` is what it was opened on.
+  Client(wire::Link& link, const wire::Endpoint& endpoint, std::uint32_t timeout_us);
 
   /// Every device that answers a Ping to all, by id; waits as long as id 252 may take.
   std::vector<Identity> scan();
@@ -43,6 +45,7 @@ class Client {
   /// One read without a second attempt; false if it failed.
   bool read_once(std::uint8_t id, std::uint16_t address, std::uint16_t length);
 
+  const std::string& place() const { return text_; }
   const app::BusCounters& counters() const { return master_.counters(); }
   std::uint32_t crc_errors() const { return master_.crc_errors(); }
   hal::LinkErrors link_errors() const { return link_.errors(); }
@@ -61,11 +64,14 @@ class Client {
   void expect_good(std::uint8_t id, std::uint16_t address, const char* what,
                    const std::optional<Answer>& answer) const;
 
+  void wait_for_somebody();
+
   std::string text_;    ///< of the endpoint
   std::uint32_t baud_;  ///< 0: the link has none
   std::uint32_t timeout_us_;
   wire::SystemClock clock_;
-  wire::Link link_;
+  std::optional<wire::Link> own_;
+  wire::Link& link_;
   Bus bus_;
   app::BusMaster<Bus> master_;
 };

@@ -21,6 +21,7 @@ struct Subcommand {
 
 Subcommand add_walk(CLI::App& root);
 Subcommand add_hil(CLI::App& root);
+Subcommand add_run(CLI::App& root);
 Subcommand add_replay(CLI::App& root);
 Subcommand add_diff(CLI::App& root);
 Subcommand add_check(CLI::App& root);

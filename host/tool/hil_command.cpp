@@ -2,6 +2,7 @@
 
 #include <memory>
 
+#include "host/bus/link_fit.hpp"
 #include "host/link/endpoint.hpp"
 #include "host/link/latency.hpp"
 #include "host/model/find.hpp"
@@ -33,7 +34,7 @@ WalkPlan make_plan(const WalkOptions& options) {
   return plan;
 }
 
-void check(HilWords& words) {
+void check(HilWords& words, const Params& params) {
   if (words.real_time && !words.hil.operator_link.empty()) {
     throw ToolError(kBadInput,
                     "verp hil: --operator gives orders tick by tick, which takes lockstep; leave "
@@ -44,6 +45,10 @@ void check(HilWords& words) {
                                      : HilPace::kAuto;
   const wire::Endpoint endpoint = wire::parse_endpoint(words.hil.link);
   if (endpoint.kind != wire::Endpoint::Kind::kSerial) return;
+  if (words.real_time) {
+    const std::string trouble = bus::adapter_too_slow(params, endpoint);
+    if (!trouble.empty()) throw ToolError(kNoDevice, "verp hil: " + trouble);
+  }
   const std::string advice = wire::latency_advice(endpoint.place);
   if (!advice.empty()) complain("verp hil: " + advice);
 }
@@ -106,7 +111,6 @@ int answer_served(const WalkPlan& plan, const WalkOptions& options, const HilRes
 
 int run_hil(HilWords words) {
   WalkOptions& options = words.walk;
-  check(words);
   options.board = words.hil.link;
   if (words.hil.operator_link.empty() && !options.record_file.empty()) {
     throw ToolError(kBadInput,
@@ -114,6 +118,7 @@ int run_hil(HilWords words) {
                     "brings; give it or leave out --record");
   }
   const WalkPlan plan = make_plan(options);
+  check(words, plan.params);
   const bool tells = !words.hil.operator_link.empty();
   if (tells && options.report_folder.empty() && !options.json) options.report_folder = "report";
   if (!tells && !options.report_folder.empty()) {

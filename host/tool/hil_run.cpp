@@ -15,6 +15,7 @@
 #include "host/link/system_clock.hpp"
 #include "host/tool/console.hpp"
 #include "host/tool/interrupt.hpp"
+#include "host/tool/real_time.hpp"
 #include "host/tool/walk_session.hpp"
 
 namespace verp::tool {
@@ -123,6 +124,8 @@ class HilRun {
       lockstep_.refuse_lockstep();
       start_ns_ = now_ns();
       say("the master does not announce lockstep: the twin runs in real time");
+      const RealTime got = become_real_time();
+      if (!got.advice.empty()) say(got.advice);
     }
     while (session_.bus().now_us() >= next_watch_us_ && !session_.over()) {
       session_.watch();
@@ -218,7 +221,7 @@ class HilRun {
   std::vector<std::uint8_t> answer_;
   bus::ControllerReport last_;
   bool recorded_ = false;
-  bool connected_ = true;
+  bool connected_ = false;
   bool device_trouble_ = false;
   std::string failure_;
   std::uint64_t compared_ = 0;

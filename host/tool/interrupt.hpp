@@ -11,6 +11,12 @@ void keep_failing_writes();
 /// subcommands that look at interrupted().
 void catch_interrupts();
 
+/// Likewise, but no press ends the program: who holds a robot's torque lets go of it first.
+void catch_interrupts_to_the_end();
+
+/// 0, 1, or 2: somebody asked, and asked again.
+int presses();
+
 /// Whether somebody asked.
 bool interrupted();
 

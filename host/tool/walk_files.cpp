@@ -64,7 +64,8 @@ record::mcap::StringMap metadata(const WalkPlan& plan, const WalkOptions& option
 
 }  // namespace
 
-WalkFiles::WalkFiles(const WalkOptions& options, const WalkPlan& plan)
+WalkFiles::WalkFiles(const WalkOptions& options, const WalkPlan& plan,
+                     const record::mcap::StringMap& more)
     : folder_(options.report_folder) {
   if (wants_report()) make_folder(folder_);
   if (!options.record_file.empty()) {
@@ -72,18 +73,20 @@ WalkFiles::WalkFiles(const WalkOptions& options, const WalkPlan& plan)
   } else if (wants_report()) {
     trace_path_ = folder_ / "run.mcap";
   }
-  if (!trace_path_.empty()) open_trace(options, plan);
+  if (!trace_path_.empty()) open_trace(options, plan, more);
 }
 
-void WalkFiles::open_trace(const WalkOptions& options, const WalkPlan& plan) {
+void WalkFiles::open_trace(const WalkOptions& options, const WalkPlan& plan,
+                           const record::mcap::StringMap& more) {
   if (trace_is_in_folder() && report::is_of_the_report(trace_path_.filename().string())) {
     throw ToolError(kBadInput, fmt::format("{}: the report has a file of that name; choose another "
                                            "with --record, such as run.mcap",
                                            trace_path_.string()));
   }
+  record::mcap::StringMap run = metadata(plan, options);
+  for (const auto& [key, value] : more) run[key] = value;
   trace_ = std::make_unique<record::TraceWriter>(
-      trace_path_, plan.params, metadata(plan, options),
-      record::TraceOptions{.every_state = options.record_state});
+      trace_path_, plan.params, run, record::TraceOptions{.every_state = options.record_state});
 }
 
 bool WalkFiles::trace_is_in_folder() const {

@@ -16,8 +16,10 @@ namespace verp::tool {
 /// the program; what it refuses later costs that file, is told, and never costs the walk's result.
 class WalkFiles {
  public:
-  /// Makes the folder, opens the trace. Throws ToolError or TraceError when there is no place.
-  WalkFiles(const WalkOptions& options, const WalkPlan& plan);
+  /// Makes the folder, opens the trace; `more` joins its metadata. Throws ToolError or TraceError
+  /// when there is no place.
+  WalkFiles(const WalkOptions& options, const WalkPlan& plan,
+            const record::mcap::StringMap& more = {});
 
   /// Null when none is wanted.
   record::TraceWriter* trace() { return trace_.get(); }
@@ -36,7 +38,8 @@ class WalkFiles {
   const std::vector<std::string>& lost() const { return lost_; }
 
  private:
-  void open_trace(const WalkOptions& options, const WalkPlan& plan);
+  void open_trace(const WalkOptions& options, const WalkPlan& plan,
+                  const record::mcap::StringMap& more);
   void close_trace(const WalkResult& result);
   void lose_trace(const std::string& why);
   void write_report(report::Run run);

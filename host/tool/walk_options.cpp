@@ -53,37 +53,36 @@ double decimal(float value) {
   return std::stod(fmt::format("{:g}", value));
 }
 
-void set_by_name(Tuning& tuning, const std::string& setting) {
+void set_by_name(Tuning& tuning, const std::string& setting, const std::string& command) {
   const std::size_t equals = setting.find('=');
   const std::string name = setting.substr(0, equals);
   const auto id = model::tuning_id(name);
   if (!id) {
     const std::string meant = nearest(name, model::tuning_names());
     throw ToolError(
-        kBadInput,
-        meant.empty()
-            ? fmt::format("verp walk: --set {}: no such parameter; names:{}", setting, all_names())
-            : fmt::format("verp walk: --set {}: no such parameter; did you mean {}?", setting,
-                          meant));
+        kBadInput, meant.empty() ? fmt::format("{}: --set {}: no such parameter; names:{}", command,
+                                               setting, all_names())
+                                 : fmt::format("{}: --set {}: no such parameter; did you mean {}?",
+                                               command, setting, meant));
   }
   if (equals == std::string::npos) {
     throw ToolError(kBadInput,
-                    fmt::format("verp walk: --set {}: no value; give NAME=VALUE", setting));
+                    fmt::format("{}: --set {}: no value; give NAME=VALUE", command, setting));
   }
   if (name == "gait.cycle_s") {
     throw ToolError(kBadInput,
-                    "verp walk: --set gait.cycle_s: give --cycle, which --step is measured by");
+                    command + ": --set gait.cycle_s: give --cycle, which --step is measured by");
   }
   // Ranges are float32: 0.03 is inside one that ends at 0.03F, whatever its double is.
   const Range& range = kTuningRanges[*id];
-  const double value = number("verp walk", "--set " + name, setting.substr(equals + 1),
+  const double value = number(command, "--set " + name, setting.substr(equals + 1),
                               decimal(range.low), decimal(range.high), "");
   set_tuning_value(tuning, *id, std::clamp(static_cast<float>(value), range.low, range.high));
 }
 
 }  // namespace
 
-void declare_basics(CLI::App& app, WalkOptions& options) {
+void declare_gait(CLI::App& app, WalkOptions& options) {
   app.add_option("MODEL", options.model, "a robot of common/robots, or the path of an SDF file")
       ->capture_default_str();
   app.add_option("--step", options.step_m, "step length, m")
@@ -96,6 +95,17 @@ void declare_basics(CLI::App& app, WalkOptions& options) {
          "length of the gait, all three phases, s; it ends with the last whole step that fits")
       ->check(number_between(3, kMaxWalk_s, "s"))
       ->capture_default_str();
+}
+
+void declare_tuning(CLI::App& app, WalkOptions& options) {
+  app.add_option("--cycle", options.cycle_s, "two steps, s")
+      ->check(number_between(0.3, 2.0, "s"))
+      ->capture_default_str();
+  app.add_option("--set", options.settings, "NAME=VALUE: a gait, balance or safety parameter");
+}
+
+void declare_basics(CLI::App& app, WalkOptions& options) {
+  declare_gait(app, options);
   app.add_option("--seed", options.seed, "of every random thing in the twin")
       ->check(whole_number_between(0, 4294967295))
       ->capture_default_str();
@@ -108,16 +118,13 @@ void declare_basics(CLI::App& app, WalkOptions& options) {
 
 void declare(CLI::App& app, WalkOptions& options) {
   declare_basics(app, options);
-  app.add_option("--cycle", options.cycle_s, "two steps, s")
-      ->check(number_between(0.3, 2.0, "s"))
-      ->capture_default_str();
+  declare_tuning(app, options);
   app.add_option("--sweep-step", options.sweep_text,
                  "FROM:TO:BY in m: also walk at each step length, with and without the multibody "
                  "correction")
       ->excludes("--velocity");
   app.add_option("--on", options.board,
                  "run the controller in firmware on this emulated board (boards/)");
-  app.add_option("--set", options.settings, "NAME=VALUE: a gait, balance or safety parameter");
   app.add_flag("--no-multibody", options.no_multibody, "switch the multibody ZMP correction off");
   app.add_flag("--no-feedback", options.no_feedback, "switch gyro and tilt feedback off");
   app.add_flag("--no-gravity", options.no_gravity, "switch the gravity feed-forward off");
@@ -184,7 +191,7 @@ std::vector<double> sweep_of(const WalkOptions& options) {
 
 void apply_tuning(const WalkOptions& options, Tuning& tuning) {
   tuning.gait.cycle_s = static_cast<float>(options.cycle_s);
-  for (const std::string& setting : options.settings) set_by_name(tuning, setting);
+  for (const std::string& setting : options.settings) set_by_name(tuning, setting, options.command);
   if (options.no_multibody) tuning.balance.multibody_enable = 0;
   if (options.no_feedback) tuning.balance.feedback_enable = 0;
   if (options.no_gravity) tuning.balance.gravity_enable = 0;

@@ -25,7 +25,13 @@ struct WalkOptions {
 
 void declare(CLI::App& app, WalkOptions& options);
 
-/// Those of them that say which robot walks how far, and what is kept of it.
+/// Those of them that say which robot walks how far.
+void declare_gait(CLI::App& app, WalkOptions& options);
+
+/// Those of them that change the robot's tuning.
+void declare_tuning(CLI::App& app, WalkOptions& options);
+
+/// declare_gait(), and what is kept of the walk in the twin.
 void declare_basics(CLI::App& app, WalkOptions& options);
 
 /// Velocity asked for: --velocity, or two steps a cycle straight ahead. Throws ToolError.

@@ -1,0 +1,55 @@
+#pragma once
+#include <cstdint>
+#include <functional>
+#include <string>
+
+#include "common/model/params.hpp"
+#include "host/bus/client.hpp"
+
+/// Whether a robot's traffic fits its control period on a link that holds bytes back, as USB serial
+/// adapters do.
+namespace verp::bus {
+
+/// How long reads took beyond their bytes' time on the wire, there and back.
+struct LinkDelay {
+  int asked = 0, answered = 0;
+  double median_us = 0, p90_us = 0, worst_us = 0;
+};
+
+/// Reads one servo of `params` again and again; ends early when `give_up` says so. Throws
+/// DeviceError if none answers.
+LinkDelay measure_delay(Client& client, const Params& params, const std::function<bool()>& give_up);
+
+/// One tick on such a link: its bytes, and two reads, of which the second waits for the first.
+struct LinkFit {
+  std::uint32_t period_us = 0;
+  std::uint32_t wire_us = 0;  ///< all bytes of the tick, and what reads of silent servos wait for
+  LinkDelay delay;
+
+  static constexpr int kReads = 2;
+  /// Share of the period that bytes and delays may take: the rest is the controller's own.
+  static constexpr double kUsable = 0.95;
+
+  double needed_us() const { return wire_us + kReads * delay.median_us; }
+  bool fits() const { return needed_us() <= kUsable * period_us; }
+  /// Also for the slowest tenth of the reads.
+  bool fits_well() const { return wire_us + kReads * delay.p90_us <= kUsable * period_us; }
+  /// What a tick's reads may each be held up: a reply that is later is not waited for.
+  std::uint32_t held_us() const;
+  /// The shortest period of whole milliseconds in which it fits well; 0: none that a robot may
+  /// have.
+  int shortest_period_ms() const;
+};
+
+LinkFit fit(const Params& params, const LinkDelay& delay);
+
+/// What a master on this PC can do about a link that doesn't fit, as words after a semicolon.
+std::string remedy(const LinkFit& fit, const Params& params, const wire::Endpoint& endpoint,
+                   const std::string& system_folder = "/sys");
+
+/// For the twin, which answers: an adapter known to hold its bytes back for too long, as a line
+/// with a remedy; empty: none is known.
+std::string adapter_too_slow(const Params& params, const wire::Endpoint& endpoint,
+                             const std::string& system_folder = "/sys");
+
+}  // namespace verp::bus

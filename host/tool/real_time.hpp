@@ -1,0 +1,16 @@
+#pragma once
+#include <string>
+
+namespace verp::tool {
+
+/// What the system lets a control loop have.
+struct RealTime {
+  bool fifo = false;    ///< this thread runs before all that is not urgent (SCHED_FIFO)
+  bool locked = false;  ///< no page of it is ever fetched from a disk
+  std::string advice;   ///< one line of what is missing, and how to get it; empty: nothing
+};
+
+/// Asks for both, for the calling thread.
+RealTime become_real_time();
+
+}  // namespace verp::tool

@@ -1,0 +1,214 @@
+#include <fmt/format.h>
+
+#include <cmath>
+#include <memory>
+
+#include "host/link/link.hpp"
+#include "host/model/find.hpp"
+#include "host/model/load.hpp"
+#include "host/model/params.hpp"
+#include "host/tool/command.hpp"
+#include "host/tool/console.hpp"
+#include "host/tool/first_power.hpp"
+#include "host/tool/interrupt.hpp"
+#include "host/tool/run_robot.hpp"
+#include "host/tool/walk_files.hpp"
+
+namespace verp::tool {
+namespace {
+
+constexpr std::uint32_t kArrival_us = 10'000'000;  // for whom `pty:` or a listener waits
+
+struct RunWords {
+  WalkOptions walk;
+  std::string link, imu = "bus";
+  double period_ms = 0;  ///< 0: the model's
+  int torque_percent = 100;
+  bool yes = false;
+};
+
+// Goals that are reached when the next ones come are joined by straight lines: a servo's profile
+// that was as long as the period stays so.
+void set_period(Params& params, double period_ms) {
+  if (period_ms <= 0) return;
+  const std::uint32_t before_us = params.period_us;
+  params.period_us = static_cast<std::uint32_t>(std::lround(1000 * period_ms));
+  for (ServoProfile& servo : params.servo) {
+    if (servo.profile_ms * 1000u != before_us) continue;
+    servo.profile_ms = static_cast<std::uint16_t>(std::lround(period_ms));
+  }
+}
+
+/// What the IMU would feed has no say; stays in the trace, as the Params that were in force.
+void do_without_imu(Params& params) {
+  params.imu.device_id = 0;
+  params.tuning.balance.feedback_enable = 0;
+  params.tuning.balance.zeros_enable = 0;
+  params.tuning.gait.heading_gain = 0;
+}
+
+RunPlan make_plan(const RunWords& words) {
+  RunPlan plan;
+  plan.link = wire::parse_endpoint(words.link);
+  plan.has_imu = words.imu == "bus";
+  plan.torque_percent = words.torque_percent;
+  WalkPlan& walk = plan.walk;
+  walk.entity = model::load_robot(model::find_model(words.walk.model));
+  walk.params = model::make_params(walk.entity);
+  apply_tuning(words.walk, walk.params.tuning);
+  set_period(walk.params, words.period_ms);
+  if (!plan.has_imu) do_without_imu(walk.params);
+  walk.velocity = velocity_of(words.walk, words.walk.step_m);
+  walk.walk_s = words.walk.walk_s;
+  if (plan.link.kind == wire::Endpoint::Kind::kSerial && plan.link.baud != walk.params.baud) {
+    throw ToolError(kBadInput, fmt::format("verp run: the link runs at {} baud, the bus of {} at "
+                                           "{}; give --link serial:{}@{}, or change baud in "
+                                           "<verp:bus>",
+                                           plan.link.baud, walk.params.name, walk.params.baud,
+                                           plan.link.place, walk.params.baud));
+  }
+  return plan;
+}
+
+const char* scheduler_name(const RealTime& got) {
+  return got.fifo ? "SCHED_FIFO" : "an ordinary program's";
+}
+
+Json to_json(const RunPlan& plan, const RunResult& result) {
+  const WalkResult& walk = result.walk;
+  const app::Deadlines& deadlines = result.deadlines;
+  const bus::LinkFit& fit = result.fit;
+  return {{"model", plan.walk.params.name},
+          {"link", wire::to_text(plan.link)},
+          {"imu", plan.has_imu ? "bus" : "none"},
+          {"period_us", plan.walk.params.period_us},
+          {"ticks", walk.ticks},
+          {"walked_s", result.walked_s},
+          {"wall_s", walk.wall_s},
+          {"digest", fmt::format("0x{:016x}", walk.digest)},
+          {"faults", fault_names(walk.faults)},
+          {"failure", walk.failure},
+          {"interrupted", walk.interrupted},
+          {"torque_percent", plan.torque_percent},
+          {"let_go", result.silent_servos + result.stiff_servos == 0},
+          {"deadlines",
+           {{"missed", deadlines.missed},
+            {"skipped_periods", deadlines.skipped},
+            {"worst_late_us", deadlines.worst_late_us}}},
+          {"latency",
+           {{"reads", fit.delay.answered},
+            {"median_us", fit.delay.median_us},
+            {"p90_us", fit.delay.p90_us},
+            {"worst_us", fit.delay.worst_us},
+            {"wire_us", fit.wire_us},
+            {"needed_us", fit.needed_us()}}},
+          {"bus",
+           {{"timeouts", result.bus.timeouts},
+            {"crc_errors", result.crc_errors},
+            {"strays", result.bus.strays},
+            {"refused", result.bus.refused},
+            {"losses", result.link.losses}}},
+          {"real_time", {{"fifo", result.real_time.fifo}, {"locked", result.real_time.locked}}}};
+}
+
+std::string to_text(const RunPlan& plan, const RunResult& result) {
+  const app::Deadlines& deadlines = result.deadlines;
+  const auto row = [](const char* name, const std::string& what) {
+    return fmt::format("  {:<18}{}\n", name, what);
+  };
+  return fmt::format("{}: walked {:.1f} s on {}\n", plan.walk.params.name, result.walked_s,
+                     wire::to_text(plan.link)) +
+         row("ticks", fmt::format("{} of {:g} ms, digest 0x{:016x}", result.walk.ticks,
+                                  1e-3 * plan.walk.params.period_us, result.walk.digest)) +
+         row("deadlines", fmt::format("{} missed, {} periods skipped, latest tick {:.1f} ms late",
+                                      deadlines.missed, deadlines.skipped,
+                                      1e-3 * static_cast<double>(deadlines.worst_late_us))) +
+         row("scheduling", fmt::format("{}{}", scheduler_name(result.real_time),
+                                       result.real_time.locked ? ", memory locked" : "")) +
+         row("latency",
+             fmt::format("a read held up for {:.2f} ms, slowest tenth {:.2f}",
+                         1e-3 * result.fit.delay.median_us, 1e-3 * result.fit.delay.p90_us)) +
+         row("bus", fmt::format("{} timeouts, {} CRC errors; link lost {} times",
+                                result.bus.timeouts, result.crc_errors, result.link.losses)) +
+         row("IMU", plan.has_imu ? fmt::format("device {}", plan.walk.params.imu.device_id)
+                                 : "none: upright was assumed, balance was off") +
+         row("torque", result.silent_servos + result.stiff_servos == 0
+                           ? "off, said every servo"
+                           : "NOT known to be off everywhere");
+}
+
+int tell(const RunWords& words, const RunPlan& plan, WalkFiles& files, const RunResult& result) {
+  files.finish(result.walk, {});
+  if (words.walk.json) {
+    Json json = to_json(plan, result);
+    files.add_to(json);
+    print_json(json);
+  } else {
+    answer(to_text(plan, result) + files.text());
+  }
+  for (const std::string& line : files.lost()) complain(line);
+  const std::string& failure = result.walk.failure;
+  if (!failure.empty()) complain("verp run: " + failure);
+  if (!failure.empty() && result.device_trouble) return kNoDevice;
+  return result.walk.good() && files.lost().empty() ? kGood : kRunFailed;
+}
+
+int run_robot(const RunWords& words) {
+  const RunPlan plan = make_plan(words);
+  WalkFiles files(words.walk, plan.walk,
+                  {{"link", words.link}, {"imu", plan.has_imu ? "bus" : "none: assumed upright"}});
+  wire::Link link(plan.link);
+  if (!link.connected()) {
+    complain("verp run: waiting for the robot on " + link.place());
+    for (std::uint32_t i = 0; i < 100 && !interrupted(); ++i) {
+      if (link.wait_connected(kArrival_us / 100)) break;
+    }
+  }
+  const bus::LinkFit fit = check_latency(link, plan);
+  check_imu(link, plan);
+  if (!plan.has_imu) {
+    complain(
+        "verp run: no IMU: the controller is told that the body is upright and still; balance is "
+        "off, and a fall is not noticed");
+  }
+  Answers answers;
+  if (plan.link.kind == wire::Endpoint::Kind::kSerial) {
+    confirm_first_power(plan.walk.params, words.yes, answers);
+  }
+  Progress progress(!words.walk.json);
+  return tell(words, plan, files, drive(link, plan, fit, files.trace(), progress));
+}
+
+}  // namespace
+
+Subcommand add_run(CLI::App& root) {
+  CLI::App* app = root.add_subcommand("run", "This PC controls the real servos on a link");
+  auto words = std::make_shared<RunWords>();
+  words->walk.command = "verp run";
+  declare_gait(*app, words->walk);
+  declare_tuning(*app, words->walk);
+  app->add_option("--link", words->link,
+                  "the robot's servo bus: serial:DEVICE@BAUD, pty:PATH, tcp:HOST:PORT, "
+                  "unix:PATH, ...")
+      ->required();
+  app->add_option("--imu", words->imu,
+                  "bus: the model's IMU device; none: balance off, upright assumed")
+      ->check(CLI::IsMember({"bus", "none"}))
+      ->capture_default_str();
+  app->add_option("--period", words->period_ms, "control period instead of the model's, ms")
+      ->check(number_between(4, 20, "ms"));
+  app->add_option("--torque", words->torque_percent, "of what the servos can, percent")
+      ->check(whole_number_between(5, 100))
+      ->capture_default_str();
+  app->add_flag("--yes", words->yes, "the first-power checklist is confirmed");
+  app->add_option("--record", words->walk.record_file, "write the trace here (.mcap)");
+  app->add_flag("--record-state", words->walk.record_state,
+                "keep the full State of every tick in the trace");
+  add_json_flag(*app, words->walk.json);
+  return {app, [words] {
+            catch_interrupts_to_the_end();
+            return run_robot(*words);
+          }};
+}
+
+}  // namespace verp::tool

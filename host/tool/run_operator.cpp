@@ -1,0 +1,54 @@
+#include "host/tool/run_operator.hpp"
+
+#include <utility>
+
+#include "host/tool/walk_run.hpp"
+
+namespace verp::tool {
+
+using safety::Mode;
+
+RunOperator::RunOperator(const Params& params, const Command& velocity, double walk_s, Told told)
+    : walker_(params, velocity, walk_s), told_(std::move(told)) {}
+
+app::OperatorOrder RunOperator::order(std::uint32_t tick) {
+  if (!sitting_ && !limp_) return walker_.order(tick);
+  app::OperatorOrder order;
+  relax_.request = Request::kRelax;
+  ++relax_.sequence;
+  order.command = relax_;
+  order.flags = kCommandFresh;
+  if (limp_) order.flags |= kEmergencyStop;
+  return order;
+}
+
+void RunOperator::fail(const std::string& why) {
+  if (failure_.empty()) failure_ = why;
+  sitting_ = true;
+}
+
+void RunOperator::observe(const State& state, const Outputs& outputs) {
+  const auto mode = static_cast<Mode>(outputs.mode);
+  const Mode before = std::exchange(mode_, mode);
+  if (mode != before) told_(before, mode, outputs.faults);
+  risen_ = risen_ || outputs.torque_enable != 0;
+  if (mode == Mode::kFallen) fail("the robot fell");
+  if (mode == Mode::kStopped && !limp_) fail("stopped");
+  if (mode == Mode::kRelaxed && risen_ && !sitting_) {
+    fail("the robot let go by itself: " + fault_names(outputs.faults));
+  }
+  // What the robot does by itself takes none of the operator's patience.
+  const bool by_itself = mode == Mode::kHolding || mode == Mode::kSitting ||
+                         (mode == Mode::kRising && walker_.walked_s() > 0);
+  if (!sitting_ && !by_itself) {
+    walker_.observe(state, outputs);
+    if (walker_.done()) {
+      failure_ = walker_.failed();
+      sitting_ = true;
+    }
+  }
+  const bool ending = sitting_ || limp_;
+  quiet_ticks_ = ending && outputs.torque_enable == 0 ? quiet_ticks_ + 1 : 0;
+}
+
+}  // namespace verp::tool

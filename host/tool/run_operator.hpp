@@ -1,0 +1,52 @@
+#pragma once
+#include <cstdint>
+#include <functional>
+#include <string>
+
+#include "common/control/state.hpp"
+#include "common/safety/machine.hpp"
+#include "firmware/app/contracts.hpp"
+#include "host/tool/walk_operator.hpp"
+
+namespace verp::tool {
+
+/// The person at the desk during `verp run`: has the robot stand, walk and stop, and in the end,
+/// whatever happened, sit down and let go. Waits while the robot holds; a robot that let go by
+/// itself is not made to rise again.
+class RunOperator {
+ public:
+  /// Called when the robot's mode has changed.
+  using Told = std::function<void(safety::Mode from, safety::Mode to, std::uint32_t faults)>;
+
+  RunOperator(const Params& params, const Command& velocity, double walk_s, Told told);
+
+  app::OperatorOrder order(std::uint32_t tick);
+  /// What the controller put out in the tick just done.
+  void observe(const State& state, const Outputs& outputs);
+
+  /// From now on: sit down, then let go.
+  void sit_down() { sitting_ = true; }
+  /// From now on: no torque.
+  void let_go() { limp_ = true; }
+
+  /// Torque is off, and was so for as long as it takes to tell every servo.
+  bool over() const { return quiet_ticks_ >= kQuietTicks; }
+  double walked_s() const { return walker_.walked_s(); }
+  /// Why the walk is no good, in words; empty: it is.
+  const std::string& failure() const { return failure_; }
+
+ private:
+  static constexpr int kQuietTicks = 10;  ///< over three times App's repeats of a change of torque
+
+  void fail(const std::string& why);
+
+  WalkOperator walker_;
+  Told told_;
+  Command relax_;
+  safety::Mode mode_ = safety::Mode::kRelaxed;
+  std::string failure_;
+  int quiet_ticks_ = 0;
+  bool sitting_ = false, limp_ = false, risen_ = false;
+};
+
+}  // namespace verp::tool

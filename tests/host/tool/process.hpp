@@ -1,0 +1,100 @@
+#pragma once
+#include <fcntl.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <fstream>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "tests/host/tool/program.hpp"
+
+namespace verp::tool::test {
+
+/// A program of the test's own that runs beside it; ends with this object at the latest.
+class Process {
+ public:
+  /// Its outputs go to files `name`.out and .err of the folder; `input` is all it may read.
+  Process(const fs::path& folder, const std::string& name, std::vector<std::string> arguments,
+          const std::string& input = "")
+      : out_(folder / (name + ".out")), err_(folder / (name + ".err")) {
+    const fs::path in = folder / (name + ".in");
+    std::ofstream(in) << input;
+    arguments.insert(arguments.begin(), VERP_PROGRAM);
+    std::vector<char*> words;
+    for (std::string& word : arguments) words.push_back(word.data());
+    words.push_back(nullptr);
+    pid_ = ::fork();
+    if (pid_ != 0) return;
+    if (::chdir(folder.c_str()) != 0) ::_exit(126);
+    redirect(in, O_RDONLY, STDIN_FILENO);
+    redirect(out_, O_WRONLY | O_CREAT | O_TRUNC, STDOUT_FILENO);
+    redirect(err_, O_WRONLY | O_CREAT | O_TRUNC, STDERR_FILENO);
+    ::execv(words[0], words.data());
+    ::_exit(127);
+  }
+  ~Process() {
+    if (pid_ <= 0 || ended_) return;
+    ::kill(pid_, SIGKILL);
+    ::waitpid(pid_, nullptr, 0);
+  }
+  Process(const Process&) = delete;
+  Process& operator=(const Process&) = delete;
+
+  void signal(int number) const { ::kill(pid_, number); }
+  /// Stops it for a while; returns for how long it surely stood still.
+  std::uint64_t stand_still_us(std::uint64_t time_us) {
+    ::kill(pid_, SIGSTOP);
+    int status = 0;
+    if (::waitpid(pid_, &status, WUNTRACED) != pid_ || !WIFSTOPPED(status)) {
+      ended_ = true;
+      return 0;
+    }
+    const auto begun = std::chrono::steady_clock::now();
+    std::this_thread::sleep_for(std::chrono::microseconds(time_us));
+    const auto stood = std::chrono::steady_clock::now() - begun;
+    ::kill(pid_, SIGCONT);
+    return static_cast<std::uint64_t>(
+        std::chrono::duration_cast<std::chrono::microseconds>(stood).count());
+  }
+  /// Waits until standard error holds `needle`; false: it ended, or two minutes have passed.
+  bool says(const std::string& needle) {
+    for (int i = 0; i < 12000; ++i) {
+      const bool last = over();
+      if (slurp(err_).find(needle) != std::string::npos) return true;
+      if (last) return false;
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+    return false;
+  }
+  bool over() {
+    int status = 0;
+    if (!ended_ && ::waitpid(pid_, &status, WNOHANG) == pid_) note(status);
+    return ended_;
+  }
+  Outcome wait() {
+    int status = 0;
+    if (!ended_ && ::waitpid(pid_, &status, 0) == pid_) note(status);
+    return {status_, slurp(out_), slurp(err_)};
+  }
+
+ private:
+  static void redirect(const fs::path& file, int flags, int stream) {
+    const int descriptor = ::open(file.c_str(), flags, 0600);
+    if (descriptor < 0 || ::dup2(descriptor, stream) < 0) ::_exit(126);
+  }
+  void note(int status) {
+    ended_ = true;
+    status_ = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  }
+
+  fs::path out_, err_;
+  pid_t pid_ = -1;
+  int status_ = -1;
+  bool ended_ = false;
+};
+
+}  // namespace verp::tool::test

@@ -1,0 +1,82 @@
+#pragma once
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "common/control/step.hpp"
+#include "common/safety/machine.hpp"
+#include "host/record/trace.hpp"
+#include "tests/host/tool/process.hpp"
+#include "tests/support/delaying_link.hpp"
+
+namespace verp::tool::test {
+
+using Json = nlohmann::json;
+
+/// `verp run` on a serial port whose other end is the twin, served in real time by `verp hil`, with
+/// a cable between them that can be made to suffer.
+class RunBench : public Program {
+ protected:
+  void serve(const std::string& model = "generic21") {
+    const std::string twin = "unix-listen:" + (folder_ / "twin").string();
+    twin_ = std::make_unique<Process>(folder_, "twin",
+                                      std::vector<std::string>{"hil", model, "--realtime", "--for",
+                                                               "3600", "--json", "--link", twin});
+    ASSERT_TRUE(twin_->says("waits for a controller"));
+  }
+  void plug(const verp::test::Latency& latency) {
+    cable_.reset();
+    cable_ = std::make_unique<verp::test::DelayingLink>(
+        "pty:" + port(), "unix:" + (folder_ / "twin").string(), latency);
+  }
+  std::string port() const { return (folder_ / "tty").string(); }
+  std::unique_ptr<Process> run(std::vector<std::string> more, const std::string& input = "") {
+    std::vector<std::string> words = {"run", "generic21", "--link", "serial:" + port() + "@2000000",
+                                      "--json"};
+    if (std::find(more.begin(), more.end(), "--for") == more.end()) {
+      words.insert(words.end(), {"--for", "3"});
+    }
+    words.insert(words.end(), more.begin(), more.end());
+    return std::make_unique<Process>(folder_, "run", words, input);
+  }
+  record::Trace trace() const { return record::read_trace(folder_ / "run.mcap"); }
+
+  std::unique_ptr<Process> twin_;
+  std::unique_ptr<verp::test::DelayingLink> cable_;
+};
+
+/// Everything the report says of deadlines stands in the trace too.
+inline void expect_same_account(const Json& result, const record::Trace& trace) {
+  std::uint64_t overruns = 0, skipped = 0;
+  for (std::size_t i = 0; i < trace.ticks.size(); ++i) {
+    overruns += (trace.ticks[i].inputs.flags & kOverrun) != 0 ? 1 : 0;
+    if (i > 0) skipped += trace.ticks[i].inputs.tick - trace.ticks[i - 1].inputs.tick - 1;
+  }
+  EXPECT_EQ(result.at("ticks"), trace.ticks.size());
+  EXPECT_EQ(result.at("deadlines").at("missed"), overruns);
+  EXPECT_EQ(result.at("deadlines").at("skipped_periods"), skipped);
+}
+
+/// The controller, once more on what it was given: every change of mode is a row of the safety
+/// table, and torque is off at the end.
+inline void expect_table(const record::Trace& trace) {
+  auto state = std::make_unique<State>();
+  Outputs outputs;
+  auto mode = safety::Mode::kRelaxed;
+  for (const TickRecord& tick : trace.ticks) {
+    step(trace.params, *state, tick.inputs, outputs);
+    ASSERT_EQ(state->digest.chain, tick.digest.chain) << "tick " << tick.inputs.tick;
+    const auto next = static_cast<safety::Mode>(outputs.mode);
+    bool in_table = next == mode;
+    for (int row = 0; row < safety::kRows; ++row) {
+      const safety::Row& each = safety::kTable[row];
+      in_table = in_table || ((each.from >> static_cast<int>(mode) & 1) != 0 && each.to == next);
+    }
+    EXPECT_TRUE(in_table) << safety::kModeNames[static_cast<int>(mode)] << " to "
+                          << safety::kModeNames[static_cast<int>(next)];
+    mode = next;
+  }
+  EXPECT_EQ(outputs.torque_enable, 0u);
+}
+
+}  // namespace verp::tool::test

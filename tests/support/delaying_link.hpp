@@ -1,0 +1,120 @@
+#pragma once
+#include <sched.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "common/protocol/control_table.hpp"
+#include "common/protocol/dynamixel2.hpp"
+#include "host/link/link.hpp"
+#include "host/link/system_clock.hpp"
+
+/// A cable with an adapter that keeps bytes back, as those for USB do: what comes first starts a
+/// timer, and all that has come goes on when it expires. Both ends are links; a thread carries.
+namespace verp::test {
+
+struct Latency {
+  std::uint64_t to_device_us = 0;
+  std::uint64_t to_pc_us = 0;
+};
+
+class DelayingLink {
+ public:
+  /// Makes `pc`, and opens `device` as soon as it is there.
+  DelayingLink(const std::string& pc, std::string device, const Latency& latency)
+      : pc_(wire::parse_endpoint(pc)), device_place_(std::move(device)), latency_(latency) {
+    thread_ = std::thread([this] { carry(); });
+  }
+  ~DelayingLink() {
+    over_ = true;
+    thread_.join();
+  }
+  DelayingLink(const DelayingLink&) = delete;
+  DelayingLink& operator=(const DelayingLink&) = delete;
+
+  /// From now on nothing gets through, and what was on its way is lost.
+  void cut() { cut_ = true; }
+  void mend() { cut_ = false; }
+  /// All that comes in the next `time_us` waits until they are over; more by the same with each
+  /// further call.
+  void stall(std::uint64_t time_us) { stall_until_us_ = now_us() + time_us; }
+
+  /// Ticks of a control loop on the PC's side: its reads of Present Position from all servos.
+  std::uint32_t ticks() const { return ticks_; }
+
+ private:
+  static constexpr std::uint64_t kTurn_us = 100;
+
+  struct Way {
+    std::vector<std::uint8_t> held;
+    std::uint64_t due_us = 0;  ///< when they go on
+  };
+
+  static std::uint64_t now_us() { return wire::monotonic_ns() / 1000; }
+
+  void carry() {
+    const sched_param urgent{.sched_priority = 30};
+    ::sched_setscheduler(0, SCHED_FIFO, &urgent);  // if it may
+    while (!over_) {
+      wire::sleep_until_ns(wire::monotonic_ns() + kTurn_us * 1000);
+      if (!open_device()) continue;
+      take(pc_, to_device_, latency_.to_device_us, true);
+      take(*device_, to_pc_, latency_.to_pc_us, false);
+      pass(to_device_, *device_);
+      pass(to_pc_, pc_);
+    }
+  }
+
+  bool open_device() {
+    if (device_) return true;
+    try {
+      device_.emplace(wire::parse_endpoint(device_place_));
+    } catch (const wire::LinkError&) {  // not there yet
+    }
+    return device_.has_value();
+  }
+
+  void take(wire::Link& from, Way& way, std::uint64_t latency_us, bool watched) {
+    std::uint8_t piece[1024];
+    const std::size_t count = from.read(piece, sizeof piece, 0);
+    if (count == 0) return;
+    if (way.held.empty()) way.due_us = now_us() + latency_us;
+    for (std::size_t i = 0; i < count; ++i) {
+      for (bool found = watched && line_.push(piece[i]); found; found = line_.next()) watch();
+    }
+    if (!cut_) way.held.insert(way.held.end(), piece, piece + count);
+  }
+
+  void watch() {
+    const dxl::Packet& packet = line_.packet();
+    const bool fast = packet.instruction == dxl::Instruction::kFastSyncRead;
+    if (!fast && packet.instruction != dxl::Instruction::kSyncRead) return;
+    if (packet.size < 4) return;
+    ticks_ += dxl::get_u16(packet.parameters) == dxl::address::kPresentPosition ? 1 : 0;
+  }
+
+  void pass(Way& way, wire::Link& to) {
+    if (cut_) way.held.clear();
+    if (way.held.empty() || now_us() < std::max(way.due_us, stall_until_us_.load())) return;
+    to.write(way.held.data(), way.held.size(), 0);
+    way.held.clear();
+  }
+
+  wire::Link pc_;
+  std::string device_place_;
+  std::optional<wire::Link> device_;
+  Latency latency_;
+  Way to_device_, to_pc_;
+  dxl::Parser line_;
+  std::atomic<std::uint32_t> ticks_ = 0;
+  std::atomic<std::uint64_t> stall_until_us_ = 0;
+  std::atomic<bool> cut_ = false, over_ = false;
+  std::thread thread_;
+};
+
+}  // namespace verp::test
