@@ -51,6 +51,7 @@ ImageFault check_image(const void* bytes, std::size_t size) {
 
 bool is_well_formed(const Params& params) {
   if (params.joint_count > kMaxJoints) return false;
+  if (params.rise_torque_percent == 0 || params.rise_torque_percent > 100) return false;
   for (int j = 0; j < params.joint_count; ++j) {
     if (params.joint[j].parent > j || params.joint[j].servo_profile >= kServoProfiles) return false;
   }

@@ -120,7 +120,7 @@ struct Params {
   std::uint8_t joint_count = 0;
   std::uint8_t head_pan = 0xFF;  ///< joint index, 0xFF: none
   std::uint8_t head_tilt = 0xFF;
-  std::uint8_t reserved = 0;
+  std::uint8_t rise_torque_percent = 100;  ///< of each servo's full duty, while it rises
   float body_mass_kg = 0;
   Xyz body_com_m;
   JointParams joint[kMaxJoints];
@@ -129,8 +129,8 @@ struct Params {
   ImuParams imu;
   FootSensorParams feet;
   Tuning tuning;
-  VERP_FIELDS(name, period_us, baud, joint_count, head_pan, head_tilt, reserved, body_mass_kg,
-              body_com_m, joint, leg, servo, imu, feet, tuning)
+  VERP_FIELDS(name, period_us, baud, joint_count, head_pan, head_tilt, rise_torque_percent,
+              body_mass_kg, body_com_m, joint, leg, servo, imu, feet, tuning)
 };
 VERP_PACKED(Params);
 

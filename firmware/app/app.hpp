@@ -3,6 +3,7 @@
 
 #include "common/control/step.hpp"
 #include "common/protocol/control_table.hpp"
+#include "common/safety/machine.hpp"
 #include "firmware/app/bring_up.hpp"
 #include "firmware/app/bus_master.hpp"
 #include "firmware/app/contracts.hpp"
@@ -249,10 +250,11 @@ class App {
     if (wanted == 0) return;
     // A servo whose watchdog has tripped takes no goals: cleared first, and set again after them.
     if (watchdog_clears_ > 0 || torque_sent_ == 0) {
-      send_bytes(dxl::address::kBusWatchdog, 0, true);
+      send_to(dxl::address::kBusWatchdog, 1, 0, true);
       torque_repeats_ = kTorqueRepeats;
       if (watchdog_clears_ > 0) --watchdog_clears_;
     }
+    send_strength(wanted);
     dxl::Encoder encoder(master_.frame(), master_.capacity());
     dxl::begin_sync_write(encoder, dxl::address::kGoalPosition, 4);
     for (int j = 0; j < params_.joint_count; ++j) {
@@ -263,6 +265,17 @@ class App {
     master_.send(encoder.finish());
   }
 
+  // On its way up a robot may lie against anything, a hand too: its servos push as hard as its
+  // entity allows, and no harder, before they get torque at all.
+  void send_strength(std::uint32_t wanted) {
+    const bool rising = outputs_.mode == static_cast<std::uint8_t>(safety::Mode::kRising);
+    const auto strength = static_cast<std::uint16_t>(
+        rising ? dxl::kFullPwm * params_.rise_torque_percent / 100 : dxl::kFullPwm);
+    if (strength != strength_sent_ || wanted != torque_sent_) torque_repeats_ = kTorqueRepeats;
+    strength_sent_ = strength;
+    send_to(dxl::address::kGoalPwm, 2, strength, torque_repeats_ > 0);
+  }
+
   void send_torque() {
     if (params_.joint_count == 0) return;
     const std::uint32_t wanted = torque_wanted();
@@ -270,18 +283,20 @@ class App {
     torque_sent_ = wanted;
     const bool to_all = torque_repeats_ > 0;
     if (to_all) --torque_repeats_;
-    send_bytes(dxl::address::kTorqueEnable, 1, to_all);
-    send_bytes(dxl::address::kBusWatchdog, bus_watchdog_, to_all);
+    send_to(dxl::address::kTorqueEnable, 1, 1, to_all);
+    send_to(dxl::address::kBusWatchdog, 1, bus_watchdog_, to_all);
   }
 
   // One register of all joints, or of the one in turn: `value` where torque is on, 0 elsewhere.
-  void send_bytes(std::uint16_t address, std::uint8_t value, bool to_all) {
+  void send_to(std::uint16_t address, std::uint16_t bytes, std::uint16_t value, bool to_all) {
     dxl::Encoder encoder(master_.frame(), master_.capacity());
-    dxl::begin_sync_write(encoder, address, 1);
+    dxl::begin_sync_write(encoder, address, bytes);
     for (int j = 0; j < params_.joint_count; ++j) {
       if (!to_all && j != slow_joint_) continue;
       encoder.u8(params_.joint[j].servo_id);
-      encoder.u8((torque_wanted() >> j & 1) != 0 ? value : std::uint8_t{0});
+      const std::uint16_t here = (torque_wanted() >> j & 1) != 0 ? value : std::uint16_t{0};
+      encoder.u8(static_cast<std::uint8_t>(here));
+      if (bytes == 2) encoder.u8(static_cast<std::uint8_t>(here >> 8));
     }
     master_.send(encoder.finish());
   }
@@ -299,6 +314,7 @@ class App {
   std::uint64_t last_read_us_ = 0;
   std::uint16_t silent_ticks_[kMaxJoints] = {};  ///< since each servo answered
   std::uint32_t torque_sent_ = 0;
+  std::uint16_t strength_sent_ = 0;
   std::uint32_t feet_expected_ = 0;
   std::uint32_t feet_seen_ = 0;
   std::uint8_t torque_repeats_ = kTorqueRepeats;

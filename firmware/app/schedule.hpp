@@ -72,15 +72,15 @@ constexpr std::size_t sensor_devices(const Params& params) {
   return devices;
 }
 
-/// Bytes of the longest tick in which every device answers: reads, goals, torque of all servos,
-/// their Bus Watchdog cleared and set, one alert looked up.
+/// Bytes of the longest tick in which every device answers: reads, goals, torque and strength of
+/// all servos, their Bus Watchdog cleared and set, one alert looked up.
 constexpr std::size_t schedule_bytes(const Params& params) {
   const std::size_t joints = params.joint_count;
   const std::size_t positions =
       all_fast(params) ? fast_sync_read_bytes(joints, 4) : sync_read_bytes(joints, 4);
   return positions + sync_read_bytes(sensor_devices(params), dxl::sensor_block::kBytes) +
          (dxl::kInstructionBytes + 4 + dxl::kStatusBytes + 1) + sync_write_bytes(joints, 4) +
-         3 * sync_write_bytes(joints, 1);
+         sync_write_bytes(joints, 2) + 3 * sync_write_bytes(joints, 1);
 }
 
 /// Time that tick takes on the wire, replies' slack included. Over 80 % of the period leaves no

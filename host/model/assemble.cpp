@@ -29,6 +29,7 @@ class Assembler {
     e_.protocol = facts_.protocol;
     e_.baud = facts_.baud;
     e_.period_us = facts_.period_us;
+    e_.rise_torque_percent = facts_.rise_torque_percent;
     tree_.grow();
     join_servos();
     apply_poses();

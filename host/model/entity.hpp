@@ -96,6 +96,9 @@ struct OtherSensor {  ///< camera and laser: described and checked
   Transform pose = Transform::Identity();  ///< in the link frame
 };
 
+/// What a robot may use of its servos' strength while it stands up, if its file does not say.
+inline constexpr std::uint8_t kRiseTorquePercent = 60;
+
 struct Entity {
   std::string name;
   std::string file;
@@ -108,6 +111,7 @@ struct Entity {
   std::string protocol = "dynamixel2";
   std::uint32_t baud = 2000000;
   std::uint32_t period_us = 10000;
+  std::uint8_t rise_torque_percent = kRiseTorquePercent;
   std::vector<std::pair<std::string, double>>
       tuning;  ///< overrides of Tuning's defaults: "gait.lift_m" -> value
   std::vector<std::string>

@@ -170,13 +170,15 @@ class FactReader {
   }
   void bus(const XmlElement& e) {
     once(e, f_.bus);
-    e.allow({"name", "protocol", "baud", "period_us"});
+    e.allow({"name", "protocol", "baud", "period_us", "rise_torque_percent"});
     f_.bus = e;
     f_.protocol = e.text("protocol");
     if (f_.protocol != "dynamixel2") {
       e.fail("no bus protocol '" + f_.protocol + "'", "write protocol=\"dynamixel2\"");
     }
     f_.baud = static_cast<std::uint32_t>(e.integer("baud", 9600, 4500000, 2000000));
+    f_.rise_torque_percent =
+        static_cast<std::uint8_t>(e.integer("rise_torque_percent", 10, 100, kRiseTorquePercent));
     f_.period_us = static_cast<std::uint32_t>(e.integer("period_us", 4000, 20000, 10000));
     for (const XmlElement& child : e.children()) {
       if (child.name() != "verp:servo") {

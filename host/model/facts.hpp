@@ -70,6 +70,7 @@ struct Facts {
   std::string protocol = "dynamixel2";
   std::uint32_t baud = 2000000;
   std::uint32_t period_us = 10000;
+  std::uint8_t rise_torque_percent = kRiseTorquePercent;
   std::vector<ServoFact> servos;
   std::optional<ImuFact> imu;
   std::optional<FeetFact> feet;

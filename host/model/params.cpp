@@ -159,6 +159,7 @@ Params make_params(const Entity& entity) {
   Params params;
   put_name(entity, entity.name, params.name);
   params.period_us = entity.period_us;
+  params.rise_torque_percent = entity.rise_torque_percent;
   params.baud = entity.baud;
   params.joint_count = static_cast<std::uint8_t>(entity.joints.size());
   params.body_mass_kg = static_cast<float>(entity.nodes[0].mass_kg);

@@ -59,7 +59,7 @@ TEST_F(AppLoop, OneTickIsOnePeriodOfBusTime) {
   }
 }
 
-TEST_F(AppLoop, ATickNeedsTwoPollsAndFiveFrames) {
+TEST_F(AppLoop, ATickNeedsTwoPollsAndSixFrames) {
   ready();
   wanted.torque_enable = all();
   ticks(5);
@@ -67,7 +67,7 @@ TEST_F(AppLoop, ATickNeedsTwoPollsAndFiveFrames) {
   tap.polls = 0;
   ticks(10);
   EXPECT_EQ(tap.polls, 20);
-  EXPECT_EQ(tap.frames.size(), 50u);
+  EXPECT_EQ(tap.frames.size(), 60u);
 }
 
 TEST_F(AppLoop, StaysInsideItsSchedule) {
@@ -98,6 +98,49 @@ TEST_F(AppLoop, GoalsArriveBeforeTorqueAndOnlyWhereTorqueIsWanted) {
   EXPECT_TRUE(plant.setpoint(2).torque_on);
   ticks(1);
   EXPECT_EQ(app.inputs().position_count[2], 1002);
+}
+
+// What lies in a rising robot's way must not meet its full strength: not even for a tick, and no
+// longer than the rise.
+TEST_F(AppLoop, ARiseIsTorqueLimitedFromBeforeTorqueUntilItsEnd) {
+  params.rise_torque_percent = 40;
+  ready();
+  const auto rising = static_cast<std::uint8_t>(safety::Mode::kRising);
+  const auto standing = static_cast<std::uint8_t>(safety::Mode::kStanding);
+  constexpr std::uint16_t kLimited = dxl::kFullPwm * 40 / 100;
+  wanted.torque_enable = 0b111;
+  wanted.mode = rising;
+  bool seen_torque = false;
+  for (int tick = 0; tick < 30; ++tick) {
+    ticks(1);
+    for (int j = 0; j < kJoints; ++j) {
+      if (!plant.setpoint(j).torque_on) continue;
+      seen_torque = true;
+      EXPECT_EQ(plant.setpoint(j).pwm_limit, kLimited) << "joint " << j << ", tick " << tick;
+    }
+  }
+  EXPECT_TRUE(seen_torque);
+  wanted.mode = standing;
+  ticks(1);
+  for (int j = 0; j < 3; ++j) EXPECT_EQ(plant.setpoint(j).pwm_limit, dxl::kFullPwm);
+}
+
+// A frame that is lost leaves no joint weak: each is told again in its turn.
+TEST_F(AppLoop, AServoThatMissedItsStrengthHearsItAgain) {
+  ready();
+  wanted.torque_enable = 0b111;
+  wanted.mode = static_cast<std::uint8_t>(safety::Mode::kStanding);
+  ticks(5);
+  std::uint8_t frame[32];
+  const std::uint8_t weak[2] = {100, 0};
+  bus.send(frame, dxl::encode_write(frame, sizeof frame, params.joint[1].servo_id,
+                                    dxl::address::kGoalPwm, weak, sizeof weak));
+  std::uint8_t reply[32];
+  while (bus.poll(reply, sizeof reply, 1000) > 0) {
+  }
+  EXPECT_EQ(plant.setpoint(1).pwm_limit, 100);
+  ticks(kJoints);
+  EXPECT_EQ(plant.setpoint(1).pwm_limit, dxl::kFullPwm);
 }
 
 TEST_F(AppLoop, NothingIsSentToJointsBeyondTheRobots) {
