@@ -3,11 +3,11 @@
 
 #include "common/control/step.hpp"
 #include "common/protocol/control_table.hpp"
-#include "common/safety/machine.hpp"
 #include "firmware/app/bring_up.hpp"
 #include "firmware/app/bus_master.hpp"
 #include "firmware/app/contracts.hpp"
 #include "firmware/app/schedule.hpp"
+#include "firmware/app/servo_writer.hpp"
 #include "hal/contract/imu.hpp"
 
 /// The one control loop: the same template drives real servos, virtual ones and an emulated
@@ -54,8 +54,7 @@ class App {
     read_chip();
     take_order();
     step(params_, state_, inputs_, outputs_);
-    send_goals();
-    send_torque();
+    servos_.send(outputs_, slow_joint_);
     sink_.record(TickRecord{state_.digest, inputs_}, state_, outputs_);
   }
 
@@ -69,10 +68,6 @@ class App {
  private:
   enum Slot : std::uint8_t { kImuSlot = 0, kFootSlot = 1, kServoSlot = kFootSlot + kFeet };
   static constexpr std::uint16_t kPositionBytes = 4;
-  /// A Sync Write has no reply, so a change of torque is sent in this many ticks, and every servo's
-  /// state again in its turn: one lost frame neither leaves a limp robot stiff nor a walking one
-  /// with a slack joint.
-  static constexpr std::uint8_t kTorqueRepeats = 3;
   static constexpr std::uint16_t kLongSilence = 5000;  ///< ticks; counted no further
 
   // Fast Sync Read is one packet for all, so one missing servo spoils it: after an incomplete read
@@ -119,8 +114,8 @@ class App {
   void set_position(int joint, std::uint8_t error, const std::uint8_t* data) {
     if ((error & ~dxl::kAlert) != 0) return;
     // One that was silent for so long may have heard nothing either.
-    if (silent_ticks_[joint] * params_.period_us >= patience_us()) {
-      watchdog_clears_ = kTorqueRepeats;
+    if (silent_ticks_[joint] * params_.period_us >= servos_.patience_us()) {
+      servos_.expect_tripped();
     }
     silent_ticks_[joint] = 0;
     inputs_.position_count[joint] = static_cast<std::int32_t>(dxl::get_u32(data));
@@ -138,13 +133,11 @@ class App {
                                : static_cast<std::uint32_t>(elapsed_us / params_.period_us);
       inputs_.tick += periods > 1 ? periods : 1;
       if (periods > 1 || beat.overran) inputs_.flags |= kOverrun;
-      if (elapsed_us >= patience_us()) watchdog_clears_ = kTorqueRepeats;
+      if (elapsed_us >= servos_.patience_us()) servos_.expect_tripped();
     }
     ticking_ = true;
     last_read_us_ = now_us;
   }
-
-  std::uint32_t patience_us() const { return bus_watchdog_ * dxl::kBusWatchdogUnit_us; }
 
   void read_sensors() {
     if (sensors_.count() == 0) return;
@@ -238,71 +231,9 @@ class App {
     inputs_.mailbox = order.mailbox;
   }
 
-  std::uint32_t torque_wanted() const {
-    const std::uint32_t all =
-        params_.joint_count >= kMaxJoints ? ~0u : (1u << params_.joint_count) - 1;
-    return outputs_.torque_enable & all;
-  }
-
-  // Goals go out before torque, so that a servo never wakes up with an old goal.
-  void send_goals() {
-    const std::uint32_t wanted = torque_wanted();
-    if (wanted == 0) return;
-    // A servo whose watchdog has tripped takes no goals: cleared first, and set again after them.
-    if (watchdog_clears_ > 0 || torque_sent_ == 0) {
-      send_to(dxl::address::kBusWatchdog, 1, 0, true);
-      torque_repeats_ = kTorqueRepeats;
-      if (watchdog_clears_ > 0) --watchdog_clears_;
-    }
-    send_strength(wanted);
-    dxl::Encoder encoder(master_.frame(), master_.capacity());
-    dxl::begin_sync_write(encoder, dxl::address::kGoalPosition, 4);
-    for (int j = 0; j < params_.joint_count; ++j) {
-      if ((wanted >> j & 1) == 0) continue;
-      encoder.u8(params_.joint[j].servo_id);
-      encoder.u32(static_cast<std::uint32_t>(outputs_.goal_count[j]));
-    }
-    master_.send(encoder.finish());
-  }
-
-  // On its way up a robot may lie against anything, a hand too: its servos push as hard as its
-  // entity allows, and no harder, before they get torque at all.
-  void send_strength(std::uint32_t wanted) {
-    const bool rising = outputs_.mode == static_cast<std::uint8_t>(safety::Mode::kRising);
-    const auto strength = static_cast<std::uint16_t>(
-        rising ? dxl::kFullPwm * params_.rise_torque_percent / 100 : dxl::kFullPwm);
-    if (strength != strength_sent_ || wanted != torque_sent_) torque_repeats_ = kTorqueRepeats;
-    strength_sent_ = strength;
-    send_to(dxl::address::kGoalPwm, 2, strength, torque_repeats_ > 0);
-  }
-
-  void send_torque() {
-    if (params_.joint_count == 0) return;
-    const std::uint32_t wanted = torque_wanted();
-    if (wanted != torque_sent_) torque_repeats_ = kTorqueRepeats;
-    torque_sent_ = wanted;
-    const bool to_all = torque_repeats_ > 0;
-    if (to_all) --torque_repeats_;
-    send_to(dxl::address::kTorqueEnable, 1, 1, to_all);
-    send_to(dxl::address::kBusWatchdog, 1, bus_watchdog_, to_all);
-  }
-
-  // One register of all joints, or of the one in turn: `value` where torque is on, 0 elsewhere.
-  void send_to(std::uint16_t address, std::uint16_t bytes, std::uint16_t value, bool to_all) {
-    dxl::Encoder encoder(master_.frame(), master_.capacity());
-    dxl::begin_sync_write(encoder, address, bytes);
-    for (int j = 0; j < params_.joint_count; ++j) {
-      if (!to_all && j != slow_joint_) continue;
-      encoder.u8(params_.joint[j].servo_id);
-      const std::uint16_t here = (torque_wanted() >> j & 1) != 0 ? value : std::uint16_t{0};
-      encoder.u8(static_cast<std::uint8_t>(here));
-      if (bytes == 2) encoder.u8(static_cast<std::uint8_t>(here >> 8));
-    }
-    master_.send(encoder.finish());
-  }
-
   const Params& params_;
   BusMaster<Bus> master_;
+  ServoWriter<Bus> servos_{params_, master_};
   Operator& operator_;
   Sink& sink_;
   Chip* chip_;
@@ -313,17 +244,12 @@ class App {
   Outputs outputs_;
   std::uint64_t last_read_us_ = 0;
   std::uint16_t silent_ticks_[kMaxJoints] = {};  ///< since each servo answered
-  std::uint32_t torque_sent_ = 0;
-  std::uint16_t strength_sent_ = 0;
   std::uint32_t feet_expected_ = 0;
   std::uint32_t feet_seen_ = 0;
-  std::uint8_t torque_repeats_ = kTorqueRepeats;
   std::uint8_t slow_joint_ = 0;
   bool slow_alert_ = false;
   bool ticking_ = false;  ///< a tick was counted before
   bool positions_complete_ = true;
-  std::uint8_t watchdog_clears_ = 0;  ///< still to send: silence may have tripped them
-  const std::uint8_t bus_watchdog_ = bus_watchdog_units(params_);
   const bool all_fast_ = all_fast(params_);
 };
 
