@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include "common/control/boot_check.hpp"
 #include "common/control/step.hpp"
 #include "host/model/find.hpp"
 #include "host/model/load.hpp"
@@ -9,6 +10,7 @@
 
 // The core of planted.cmake: one constant of the gait is off by one unit in its last place.
 extern "C" void planted_step(const void* params, void* state, const void* inputs, void* outputs);
+extern "C" int planted_boot_verdict();
 
 namespace verp::replay {
 namespace {
@@ -57,6 +59,14 @@ TEST(PlantedUlp, DoesNotShowBeforeTheFirstStep) {
   EXPECT_EQ(state.gait.queued, 0) << "nothing planned before";
   step(trace.params, state, trace.ticks[result.divergence->index].inputs, outputs);
   EXPECT_GT(state.gait.queued, 0);
+}
+
+// Code that a bad flash cell or a wrong compiler changed by so little is not given torque.
+TEST(PlantedUlp, IsFoundByTheBootCheckBeforeAnyRobotIsLookedAt) {
+  EXPECT_EQ(planted_boot_verdict(), static_cast<int>(control::BootVerdict::kCode));
+  Params robot;
+  State state;
+  EXPECT_EQ(control::check_boot(nullptr, 0, robot, state).verdict, control::BootVerdict::kImage);
 }
 
 TEST(PlantedUlp, RecordingReplaysWithItsOwnCore) {
