@@ -3,6 +3,7 @@
 #include <array>
 
 #include "common/protocol/control_table.hpp"
+#include "firmware/app/lockstep_messages.hpp"
 
 namespace verp::bus {
 namespace {
@@ -108,12 +109,14 @@ struct Model {
   const char* name;
   std::span<const NamedRegister> registers;
 };
-constexpr std::array<Model, 6> kModels = {{
+// A lockstep clock is spoken to by messages (firmware/app/lockstep_messages.hpp), not registers.
+constexpr std::array<Model, 7> kModels = {{
     {dxl::kModelXm430W210, "XM430-W210", kServo},
     {dxl::kModelXm430W350, "XM430-W350", kServo},
     {dxl::kModelMx28, "MX-28(2.0)", kServo},
     {dxl::kModelImu, "IMU device", kImu},
     {dxl::kModelFoot, "foot device", kFoot},
+    {lockstep::kClockModel, "twin's clock", {}},
     {dxl::controller::kModel, "controller", dxl::controller::kTable},
 }};
 

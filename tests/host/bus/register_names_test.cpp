@@ -8,6 +8,7 @@
 #include <string>
 
 #include "common/protocol/control_table.hpp"
+#include "firmware/app/lockstep_messages.hpp"
 
 namespace verp::bus {
 namespace {
@@ -43,6 +44,11 @@ TEST(RegisterNames, ServoRegistersHaveTheManualsSizes) {
   EXPECT_EQ(size("present_input_voltage"), 2u);
   EXPECT_EQ(size("torque_enable"), 1u);
   EXPECT_EQ(size("homing_offset"), 4u);
+}
+
+TEST(RegisterNames, TheTwinsClockIsNamedThoughItHasNoRegisters) {
+  EXPECT_EQ(model_name(lockstep::kClockModel), "twin's clock");
+  EXPECT_TRUE(registers_of(lockstep::kClockModel).empty());
 }
 
 TEST(RegisterNames, UnknownOnesAreNotGuessed) {
