@@ -11,6 +11,7 @@
 #include "hal/chip/stm32/registers/i2c.hpp"
 #include "hal/chip/stm32/registers/iwdg.hpp"
 #include "hal/chip/stm32/registers/memory_map.hpp"
+#include "hal/chip/stm32/registers/otg_fs_tables.hpp"
 #include "hal/chip/stm32/registers/pwr.hpp"
 #include "hal/chip/stm32/registers/rcc_tables.hpp"
 #include "hal/chip/stm32/registers/spi.hpp"
@@ -22,14 +23,51 @@ namespace verp::hal::stm32 {
 namespace {
 
 const Table kTables[] = {
-    adc::kTable,        adc::kCommonTable,  dma::kTable,        dma::kStreamTable,
-    exti::kTable,       exti::kTableF7,     flash::kTableF405,  flash::kTableF446,
-    flash::kTableF746,  gpio::kTable,       i2c_v1::kTableF405, i2c_v1::kTableF446,
-    i2c_v2::kTable,     iwdg::kTable,       iwdg::kTableF7,     pwr::kTableF405,
-    pwr::kTableF446,    pwr::kTableF746,    rcc::kTableF405,    rcc::kTableF446,
-    rcc::kTableF746,    spi::kTableF405,    spi::kTableF446,    spi::kTableF746,
-    syscfg::kTableF405, syscfg::kTableF446, syscfg::kTableF746, timer::kTable,
-    timer::kTableF7,    usart_v1::kTable,   usart_v2::kTable,
+    adc::kTable,
+    adc::kCommonTable,
+    dma::kTable,
+    dma::kStreamTable,
+    exti::kTable,
+    exti::kTableF7,
+    flash::kTableF405,
+    flash::kTableF446,
+    flash::kTableF746,
+    gpio::kTable,
+    i2c_v1::kTableF405,
+    i2c_v1::kTableF446,
+    i2c_v2::kTable,
+    iwdg::kTable,
+    iwdg::kTableF7,
+    otg_fs::kTableF405,
+    otg_fs::kTableF7,
+    otg_fs::kFifoTable,
+    otg_fs::kDeviceTableF405,
+    otg_fs::kDeviceTableF7,
+    otg_fs::kIn0TableF405,
+    otg_fs::kIn0TableF7,
+    otg_fs::kInTableF405,
+    otg_fs::kInTableF7,
+    otg_fs::kOut0TableF405,
+    otg_fs::kOut0TableF7,
+    otg_fs::kOutTableF405,
+    otg_fs::kOutTableF7,
+    otg_fs::kPowerTable,
+    pwr::kTableF405,
+    pwr::kTableF446,
+    pwr::kTableF746,
+    rcc::kTableF405,
+    rcc::kTableF446,
+    rcc::kTableF746,
+    spi::kTableF405,
+    spi::kTableF446,
+    spi::kTableF746,
+    syscfg::kTableF405,
+    syscfg::kTableF446,
+    syscfg::kTableF746,
+    timer::kTable,
+    timer::kTableF7,
+    usart_v1::kTable,
+    usart_v2::kTable,
 };
 
 // A named array: a braced list would need a header that the target does without.

@@ -20,7 +20,7 @@ inline constexpr std::uint32_t kTim1 = 0x40010000, kUsart1 = 0x40011000, kUsart6
                                kSyscfg = 0x40013800, kExti = 0x40013C00;
 inline constexpr std::uint32_t kGpioA = 0x40020000, kGpioStep = 0x400, kRcc = 0x40023800,
                                kFlash = 0x40023C00, kBackupSram = 0x40024000, kDma1 = 0x40026000,
-                               kDma2 = 0x40026400;
+                               kDma2 = 0x40026400, kOtgFs = 0x50000000;
 constexpr std::uint32_t gpio(char port) {
   return kGpioA + kGpioStep * static_cast<std::uint32_t>(port - 'A');
 }
@@ -31,8 +31,8 @@ inline constexpr unsigned kFlash = 4, kRcc = 5, kExti0 = 6, kAdc = 18, kTim2 = 2
                           kTim4 = 30, kI2c1Event = 31, kI2c1Error = 32, kI2c2Event = 33,
                           kI2c2Error = 34, kSpi1 = 35, kSpi2 = 36, kUsart1 = 37, kUsart2 = 38,
                           kUsart3 = 39, kExti15To10 = 40, kTim5 = 50, kSpi3 = 51, kUart4 = 52,
-                          kUart5 = 53, kUsart6 = 71, kI2c3Event = 72, kI2c3Error = 73,
-                          kUart7F746 = 82, kUart8F746 = 83;
+                          kUart5 = 53, kOtgFs = 67, kOtgFsWakeup = 42, kUsart6 = 71,
+                          kI2c3Event = 72, kI2c3Error = 73, kUart7F746 = 82, kUart8F746 = 83;
 constexpr unsigned dma1(unsigned stream) {
   return stream < 7 ? 11 + stream : 47;
 }
