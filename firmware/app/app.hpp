@@ -43,7 +43,13 @@ class App {
 
   /// Call before the first tick; torque is off afterwards. Never ticks a robot that did not come
   /// up.
-  BringUpReport bring_up() { return BringUp<Bus>(params_, master_).run(); }
+  BringUpReport bring_up() {
+    const BringUpReport report = BringUp<Bus>(params_, master_).run();
+    servos_.set_full(report.full_pwm);
+    return report;
+  }
+  /// Of every servo's strength, from the next tick on: for a robot's first steps. 1 to 100.
+  void limit_torque(std::uint8_t percent) { servos_.limit_torque(percent); }
 
   void tick(const Beat& beat = {}) {
     inputs_.fresh = 0;

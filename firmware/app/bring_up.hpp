@@ -11,13 +11,15 @@ namespace verp::app {
 
 enum class BringUpStatus : std::uint8_t { kReady, kSilent, kWrongModel, kRefused, kNotVerified };
 
-/// The first device that stopped the bring-up, and where.
+/// The first device that stopped the bring-up, and where; and what was found.
 struct BringUpReport {
   BringUpStatus status = BringUpStatus::kReady;
   std::uint8_t device_id = 0;
   std::uint16_t address = 0;   ///< register at which it failed
   std::uint16_t expected = 0;  ///< model numbers, for kWrongModel
   std::uint16_t found = 0;
+  /// PWM Limit of each joint's servo: its owner may have set less than the servo can.
+  std::uint16_t full_pwm[kMaxJoints] = {};
 };
 
 template <hal::FrameBus Bus>
@@ -26,7 +28,7 @@ class BringUp {
   BringUp(const Params& params, BusMaster<Bus>& master) : params_(params), master_(master) {}
 
   BringUpReport run() {
-    for (int j = 0; j < params_.joint_count && ready(); ++j) servo(params_.joint[j]);
+    for (int j = 0; j < params_.joint_count && ready(); ++j) servo(j);
     if (params_.imu.device_id != 0 && ready()) sensor(params_.imu.device_id, dxl::kModelImu);
     for (std::uint8_t id : params_.feet.device_id) {
       if (id != 0 && ready()) sensor(id, dxl::kModelFoot);
@@ -104,7 +106,8 @@ class BringUp {
     return fail(BringUpStatus::kNotVerified, id, address);
   }
 
-  bool servo(const JointParams& joint) {
+  bool servo(int j) {
+    const JointParams& joint = params_.joint[j];
     const ServoProfile& profile = params_.servo[joint.servo_profile % kServoProfiles];
     const std::uint8_t id = joint.servo_id;
     const std::uint8_t off = 0;
@@ -123,7 +126,15 @@ class BringUp {
            establish(id, dxl::address::kStatusReturnLevel, &answer_all, sizeof answer_all) &&
            establish(id, dxl::address::kReturnDelay, mode, sizeof mode) &&
            establish(id, dxl::address::kPositionDGain, gains, sizeof gains) &&
-           establish(id, dxl::address::kProfileAcceleration, motion, sizeof motion);
+           establish(id, dxl::address::kProfileAcceleration, motion, sizeof motion) &&
+           learn_strength(j, id);
+  }
+
+  bool learn_strength(int j, std::uint8_t id) {
+    std::uint8_t limit[2];
+    if (!read(id, dxl::address::kPwmLimit, limit, sizeof limit)) return false;
+    report_.full_pwm[j] = dxl::get_u16(limit);
+    return true;
   }
 
   bool sensor(std::uint8_t id, std::uint16_t model) {

@@ -18,12 +18,19 @@ class ServoWriter {
  public:
   ServoWriter(const Params& params, BusMaster<Bus>& master) : params_(params), master_(master) {}
 
+  /// What Goal PWM may be at most, of each joint: a servo refuses more.
+  void set_full(const std::uint16_t (&full_pwm)[kMaxJoints]) {
+    for (int j = 0; j < kMaxJoints; ++j) full_pwm_[j] = full_pwm[j];
+  }
+  /// Of that, in every mode; 1 to 100.
+  void limit_torque(std::uint8_t percent) { most_percent_ = percent; }
+
   /// Strength and goals go out before torque, so that a servo never wakes up with old ones.
   /// `turn` is the joint whose turn it is.
   void send(const Outputs& outputs, int turn) {
     if (params_.joint_count == 0) return;
     const std::uint32_t wanted = outputs.torque_enable & all_joints();
-    const std::uint16_t strength = strength_in(outputs.mode);
+    const std::uint8_t strength = strength_in(outputs.mode);
     if (wanted != 0 && (watchdog_clears_ > 0 || torque_ == 0)) clear_watchdogs();
     if (wanted != torque_ || (wanted != 0 && strength != strength_)) repeats_ = kRepeats;
     if (wanted != 0) strength_ = strength;
@@ -32,11 +39,11 @@ class ServoWriter {
     last_ = repeats_ > 0 ? params_.joint_count - 1 : turn;
     if (repeats_ > 0) --repeats_;
     if (wanted != 0) {
-      send_to(dxl::address::kGoalPwm, 2, strength);
+      send_strength();
       send_goals(outputs);
     }
-    send_to(dxl::address::kTorqueEnable, 1, 1);
-    send_to(dxl::address::kBusWatchdog, 1, bus_watchdog_);
+    send_to(dxl::address::kTorqueEnable, 1);
+    send_to(dxl::address::kBusWatchdog, bus_watchdog_);
   }
 
   /// A servo's Bus Watchdog trips when it hears nothing for so long.
@@ -53,17 +60,17 @@ class ServoWriter {
 
   // On its way up a robot may lie against anything, a hand too: its servos push as hard as its
   // entity allows, and no harder.
-  std::uint16_t strength_in(std::uint8_t mode) const {
+  std::uint8_t strength_in(std::uint8_t mode) const {
     const bool rising = mode == static_cast<std::uint8_t>(safety::Mode::kRising);
-    return static_cast<std::uint16_t>(rising ? dxl::kFullPwm * params_.rise_torque_percent / 100
-                                             : dxl::kFullPwm);
+    return rising && params_.rise_torque_percent < most_percent_ ? params_.rise_torque_percent
+                                                                 : most_percent_;
   }
 
   // A servo whose watchdog has tripped takes no goals: cleared before them, and set again after.
   void clear_watchdogs() {
     first_ = 0;
     last_ = params_.joint_count - 1;
-    send_to(dxl::address::kBusWatchdog, 1, 0);
+    send_to(dxl::address::kBusWatchdog, 0);
     repeats_ = kRepeats;
     if (watchdog_clears_ > 0) --watchdog_clears_;
   }
@@ -79,23 +86,35 @@ class ServoWriter {
     master_.send(encoder.finish());
   }
 
-  // One register of the joints from first_ to last_: `value` where torque is on, 0 elsewhere.
-  void send_to(std::uint16_t address, std::uint16_t bytes, std::uint16_t value) {
+  void send_strength() {
     dxl::Encoder encoder(master_.frame(), master_.capacity());
-    dxl::begin_sync_write(encoder, address, bytes);
+    dxl::begin_sync_write(encoder, dxl::address::kGoalPwm, 2);
     for (int j = first_; j <= last_; ++j) {
-      const std::uint16_t here = (torque_ >> j & 1) != 0 ? value : std::uint16_t{0};
+      const auto pwm = static_cast<std::uint16_t>(full_pwm_[j] * strength_ / 100);
       encoder.u8(params_.joint[j].servo_id);
-      encoder.u8(static_cast<std::uint8_t>(here));
-      if (bytes == 2) encoder.u8(static_cast<std::uint8_t>(here >> 8));
+      encoder.u8(static_cast<std::uint8_t>(pwm));
+      encoder.u8(static_cast<std::uint8_t>(pwm >> 8));
+    }
+    master_.send(encoder.finish());
+  }
+
+  // One register of the joints from first_ to last_: `value` where torque is on, 0 elsewhere.
+  void send_to(std::uint16_t address, std::uint8_t value) {
+    dxl::Encoder encoder(master_.frame(), master_.capacity());
+    dxl::begin_sync_write(encoder, address, 1);
+    for (int j = first_; j <= last_; ++j) {
+      encoder.u8(params_.joint[j].servo_id);
+      encoder.u8((torque_ >> j & 1) != 0 ? value : std::uint8_t{0});
     }
     master_.send(encoder.finish());
   }
 
   const Params& params_;
   BusMaster<Bus>& master_;
-  std::uint32_t torque_ = 0;    ///< as sent last
-  std::uint16_t strength_ = 0;  ///< likewise
+  std::uint16_t full_pwm_[kMaxJoints] = {};
+  std::uint32_t torque_ = 0;   ///< as sent last
+  std::uint8_t strength_ = 0;  ///< likewise, percent
+  std::uint8_t most_percent_ = 100;
   std::uint8_t repeats_ = kRepeats;
   std::uint8_t watchdog_clears_ = 0;  ///< still to send
   int first_ = 0;                     ///< who is told

@@ -86,7 +86,7 @@ class RobotRun {
   RunResult run() {
     const app::BringUpReport report = app_.bring_up();
     if (report.status != app::BringUpStatus::kReady) not_up(report, place());
-    limit_torque();
+    app_.limit_torque(static_cast<std::uint8_t>(plan_.torque_percent));
     bus_.set_held(result_.fit.held_us());  // nobody waited for the bring-up
     result_.real_time = become_real_time();
     if (!result_.real_time.advice.empty()) say(result_.real_time.advice);
@@ -151,23 +151,6 @@ class RobotRun {
     const std::string why = fault_names(faults & 0xFFFF);  // the lower half stops the robot
     say(fmt::format("{} to {}{}", safety::kModeNames[static_cast<int>(from)],
                     safety::kModeNames[static_cast<int>(to)], why.empty() ? "" : " (" + why + ")"));
-  }
-
-  // Goal PWM bounds what the position loop may ask of the motor.
-  void limit_torque() {
-    if (plan_.torque_percent >= 100) return;
-    bus::Client client(link_, plan_.link, kAnswer_us);
-    const int limit = dxl::kFullPwm * plan_.torque_percent / 100;
-    const std::vector<std::uint8_t> bytes = {static_cast<std::uint8_t>(limit & 0xFF),
-                                             static_cast<std::uint8_t>(limit >> 8)};
-    for (int j = 0; j < params_.joint_count; ++j) {
-      const std::uint8_t id = params_.joint[j].servo_id;
-      client.write(id, dxl::address::kGoalPwm, bytes);
-      if (client.read(id, dxl::address::kGoalPwm, 2) == bytes) continue;
-      throw ToolError(kNoDevice, fmt::format("{}: device {} does not keep its torque limit; torque "
-                                             "stays off",
-                                             place(), id));
-    }
   }
 
   // Torque Enable is sent to all and answered by nobody: so each servo is asked.

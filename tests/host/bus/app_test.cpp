@@ -100,6 +100,39 @@ TEST_F(AppLoop, GoalsArriveBeforeTorqueAndOnlyWhereTorqueIsWanted) {
   EXPECT_EQ(app.inputs().position_count[2], 1002);
 }
 
+// Whoever set a servo's own limit below what it can keeps it: a servo refuses a Goal PWM above it.
+TEST_F(AppLoop, AServosOwnLimitIsItsFullStrength) {
+  std::uint8_t frame[32];
+  const std::uint8_t own[2] = {200, 0};
+  bus.send(frame, dxl::encode_write(frame, sizeof frame, params.joint[1].servo_id,
+                                    dxl::address::kPwmLimit, own, sizeof own));
+  params.rise_torque_percent = 50;
+  ready();
+  wanted.torque_enable = 0b111;
+  wanted.mode = static_cast<std::uint8_t>(safety::Mode::kRising);
+  ticks(1);
+  EXPECT_EQ(plant.setpoint(0).pwm_limit, dxl::kFullPwm / 2);
+  EXPECT_EQ(plant.setpoint(1).pwm_limit, 100);
+  wanted.mode = static_cast<std::uint8_t>(safety::Mode::kWalking);
+  ticks(1);
+  EXPECT_EQ(plant.setpoint(0).pwm_limit, dxl::kFullPwm);
+  EXPECT_EQ(plant.setpoint(1).pwm_limit, 200);
+}
+
+// A first walk in a harness: no mode may ask for more than the operator of `verp run` allows.
+TEST_F(AppLoop, TorqueIsLimitedInEveryModeIfSomebodySaysSo) {
+  ready();
+  app.limit_torque(30);
+  wanted.torque_enable = all();
+  for (int mode = 0; mode < safety::kModes; ++mode) {
+    wanted.mode = static_cast<std::uint8_t>(mode);
+    ticks(1);
+    for (int j = 0; j < kJoints; ++j) {
+      EXPECT_EQ(plant.setpoint(j).pwm_limit, dxl::kFullPwm * 30 / 100) << "mode " << mode;
+    }
+  }
+}
+
 // What lies in a rising robot's way must not meet its full strength: not even for a tick, and no
 // longer than the rise.
 TEST_F(AppLoop, ARiseIsTorqueLimitedFromBeforeTorqueUntilItsEnd) {
