@@ -60,7 +60,7 @@ class App {
     read_chip();
     take_order();
     step(params_, state_, inputs_, outputs_);
-    servos_.send(outputs_, slow_joint_);
+    servos_.send(master_, outputs_, slow_joint_);
     sink_.record(TickRecord{state_.digest, inputs_}, state_, outputs_);
   }
 
@@ -239,7 +239,7 @@ class App {
 
   const Params& params_;
   BusMaster<Bus> master_;
-  ServoWriter<Bus> servos_{params_, master_};
+  ServoWriter<Bus> servos_{params_};
   Operator& operator_;
   Sink& sink_;
   Chip* chip_;

@@ -13,10 +13,11 @@ namespace verp::app {
 /// The tick's second half: what the core wants of the servos, as Sync Writes. These have no reply,
 /// so a change of anything but goals is sent in kRepeats ticks, and every servo's state again in
 /// its turn: one lost frame neither leaves a limp robot stiff nor a walking one with a slack joint.
+/// Copied with its loop, so it holds no reference into it.
 template <hal::FrameBus Bus>
 class ServoWriter {
  public:
-  ServoWriter(const Params& params, BusMaster<Bus>& master) : params_(params), master_(master) {}
+  explicit ServoWriter(const Params& params) : params_(params) {}
 
   /// What Goal PWM may be at most, of each joint: a servo refuses more.
   void set_full(const std::uint16_t (&full_pwm)[kMaxJoints]) {
@@ -27,11 +28,11 @@ class ServoWriter {
 
   /// Strength and goals go out before torque, so that a servo never wakes up with old ones.
   /// `turn` is the joint whose turn it is.
-  void send(const Outputs& outputs, int turn) {
+  void send(BusMaster<Bus>& master, const Outputs& outputs, int turn) {
     if (params_.joint_count == 0) return;
     const std::uint32_t wanted = outputs.torque_enable & all_joints();
     const std::uint8_t strength = strength_in(outputs.mode);
-    if (wanted != 0 && (watchdog_clears_ > 0 || torque_ == 0)) clear_watchdogs();
+    if (wanted != 0 && (watchdog_clears_ > 0 || torque_ == 0)) clear_watchdogs(master);
     if (wanted != torque_ || (wanted != 0 && strength != strength_)) repeats_ = kRepeats;
     if (wanted != 0) strength_ = strength;
     torque_ = wanted;
@@ -39,11 +40,11 @@ class ServoWriter {
     last_ = repeats_ > 0 ? params_.joint_count - 1 : turn;
     if (repeats_ > 0) --repeats_;
     if (wanted != 0) {
-      send_strength();
-      send_goals(outputs);
+      send_strength(master);
+      send_goals(master, outputs);
     }
-    send_to(dxl::address::kTorqueEnable, 1);
-    send_to(dxl::address::kBusWatchdog, bus_watchdog_);
+    send_to(master, dxl::address::kTorqueEnable, 1);
+    send_to(master, dxl::address::kBusWatchdog, bus_watchdog_);
   }
 
   /// A servo's Bus Watchdog trips when it hears nothing for so long.
@@ -67,27 +68,27 @@ class ServoWriter {
   }
 
   // A servo whose watchdog has tripped takes no goals: cleared before them, and set again after.
-  void clear_watchdogs() {
+  void clear_watchdogs(BusMaster<Bus>& master) {
     first_ = 0;
     last_ = params_.joint_count - 1;
-    send_to(dxl::address::kBusWatchdog, 0);
+    send_to(master, dxl::address::kBusWatchdog, 0);
     repeats_ = kRepeats;
     if (watchdog_clears_ > 0) --watchdog_clears_;
   }
 
-  void send_goals(const Outputs& outputs) {
-    dxl::Encoder encoder(master_.frame(), master_.capacity());
+  void send_goals(BusMaster<Bus>& master, const Outputs& outputs) {
+    dxl::Encoder encoder(master.frame(), master.capacity());
     dxl::begin_sync_write(encoder, dxl::address::kGoalPosition, 4);
     for (int j = 0; j < params_.joint_count; ++j) {
       if ((torque_ >> j & 1) == 0) continue;
       encoder.u8(params_.joint[j].servo_id);
       encoder.u32(static_cast<std::uint32_t>(outputs.goal_count[j]));
     }
-    master_.send(encoder.finish());
+    master.send(encoder.finish());
   }
 
-  void send_strength() {
-    dxl::Encoder encoder(master_.frame(), master_.capacity());
+  void send_strength(BusMaster<Bus>& master) {
+    dxl::Encoder encoder(master.frame(), master.capacity());
     dxl::begin_sync_write(encoder, dxl::address::kGoalPwm, 2);
     for (int j = first_; j <= last_; ++j) {
       const auto pwm = static_cast<std::uint16_t>(full_pwm_[j] * strength_ / 100);
@@ -95,22 +96,21 @@ class ServoWriter {
       encoder.u8(static_cast<std::uint8_t>(pwm));
       encoder.u8(static_cast<std::uint8_t>(pwm >> 8));
     }
-    master_.send(encoder.finish());
+    master.send(encoder.finish());
   }
 
   // One register of the joints from first_ to last_: `value` where torque is on, 0 elsewhere.
-  void send_to(std::uint16_t address, std::uint8_t value) {
-    dxl::Encoder encoder(master_.frame(), master_.capacity());
+  void send_to(BusMaster<Bus>& master, std::uint16_t address, std::uint8_t value) {
+    dxl::Encoder encoder(master.frame(), master.capacity());
     dxl::begin_sync_write(encoder, address, 1);
     for (int j = first_; j <= last_; ++j) {
       encoder.u8(params_.joint[j].servo_id);
       encoder.u8((torque_ >> j & 1) != 0 ? value : std::uint8_t{0});
     }
-    master_.send(encoder.finish());
+    master.send(encoder.finish());
   }
 
   const Params& params_;
-  BusMaster<Bus>& master_;
   std::uint16_t full_pwm_[kMaxJoints] = {};
   std::uint32_t torque_ = 0;   ///< as sent last
   std::uint8_t strength_ = 0;  ///< likewise, percent
