@@ -54,5 +54,9 @@ inline constexpr std::uint32_t kOperatorBaud = 1'000'000;
 
 inline constexpr Pin kLed = {'A', 5};
 inline constexpr Pin kServoPower = {};  ///< the board switches none
+inline constexpr ImuPort kImu = {};
+inline constexpr stm32::AnalogWiring kBattery = {};
+inline constexpr Pin kEmergencyStop = {};
+inline constexpr Button kButtons[2] = {};
 
 }  // namespace verp::board

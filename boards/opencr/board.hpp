@@ -57,4 +57,25 @@ inline constexpr std::uint32_t kOperatorBaud = 1'000'000;
 inline constexpr Pin kLed = {'G', 9};          ///< STATUS
 inline constexpr Pin kServoPower = {'F', 15};  ///< high: the DYNAMIXEL connectors have power
 
+/// MPU-9250, or ICM-20648 on boards from 2020 on.
+inline constexpr ImuPort kImu = {.wiring = {.base = stm32::base::kSpi1,
+                                            .enable_register = stm32::rcc::kApb2enr,
+                                            .mask = stm32::rcc::kApb2Spi1,
+                                            .clock = {'A', 5},
+                                            .data_in = {'A', 6},
+                                            .data_out = {'B', 5},
+                                            .select = {'A', 4},
+                                            .function = 5},
+                                 .on_apb2 = true};
+/// 3.3 V at the converter are 18.81 V at the battery: variant.cpp, getPowerInVoltage().
+inline constexpr stm32::AnalogWiring kBattery = {.base = stm32::base::kAdc3,
+                                                 .mask = stm32::rcc::kApb2Adc3,
+                                                 .pin = {'C', 0},
+                                                 .channel = 10,
+                                                 .full_scale_mv = 18'810};
+/// Extension connector, pin 3; pin 2 beside it is ground.
+inline constexpr Pin kEmergencyStop = {'B', 10};
+inline constexpr Button kButtons[2] = {{.pin = {'G', 3}, .pressed_high = true},
+                                       {.pin = {'C', 12}, .pressed_high = true}};
+
 }  // namespace verp::board

@@ -10,6 +10,7 @@ namespace verp::board {
 Timer timer(stm32::base::kTim2);
 Port servo_port(kServoPort.wiring, timer);
 Port operator_port(kOperatorPort.wiring, timer);
+Battery battery(kBattery, timer);
 
 namespace {
 
@@ -56,6 +57,7 @@ Start start_hardware() {
   stm32::enable_interrupt(Io{}, stm32::irq::kTim2, kTimerPriority);
   connect(kServoPort, kServoPriority);
   connect(kOperatorPort, kOperatorPriority);
+  battery.open(start.clocks.apb2_hz);
   return start;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 #include "board.hpp"
+#include "hal/chip/stm32/analog_input.hpp"
 #include "hal/chip/stm32/memory_io.hpp"
 #include "hal/chip/stm32/reset_cause.hpp"
 #include "hal/chip/stm32/tick_timer.hpp"
@@ -14,9 +15,12 @@ using Io = stm32::MemoryIo;
 using Timer = stm32::TickTimer<Io>;
 using Port = stm32::Usart<Io, UsartKind, Timer>;
 
+using Battery = stm32::AnalogInput<Io, Timer>;
+
 extern Timer timer;
 extern Port servo_port;
 extern Port operator_port;
+extern Battery battery;
 
 struct Start {
   stm32::Clocks clocks;

@@ -1,6 +1,8 @@
 #include "boards/stm32/hardware.hpp"
 #include "boards/stm32/kept.hpp"
 #include "boards/stm32/operator_setup.hpp"
+#include "boards/stm32/own_imu.hpp"
+#include "boards/stm32/panel_pins.hpp"
 #include "common/control/boot_check.hpp"
 #include "common/model/image.hpp"
 #include "firmware/app/app.hpp"
@@ -42,10 +44,15 @@ struct Board {
       : started(start),
         dog(start.cause),
         kept(dog, *reinterpret_cast<const ParamsImage*>(verp_params_begin)),
-        operator_device(operator_port, params, setup(start, verdict), kept.images) {}
+        imu(params, kept.log),
+        operator_device(operator_port, params, setup(start, verdict), kept.images) {
+    imu.open(start);
+    pins.open();
+  }
 
   app::OperatorSetup setup(const Start& start, control::BootVerdict verdict) {
     app::OperatorSetup setup = operator_setup(start, verdict);
+    imu.offer(setup);
     kept.settings.load(setup);
     return setup;
   }
@@ -57,6 +64,7 @@ struct Board {
     serve();
     kept.settings.keep({operator_device.id(), operator_device.imu_source()},
                        !operator_device.armed());
+    imu.serve(operator_device.take_calibration_order(), operator_device.armed());
     const std::uint64_t now_us = timer.now_us();
     if (now_us < blink_us) return;
     blink_us = now_us + kBlink_us;
@@ -94,14 +102,24 @@ struct Board {
     operator_device.report({.bus = loop.counters(),
                             .bus_crc_errors = loop.crc_errors(),
                             .bus_noise_bytes = loop.noise_bytes(),
-                            .deadline_misses = deadline_misses});
+                            .deadline_misses = deadline_misses,
+                            .imu_faults = imu.faults(),
+                            .imu_calibration = imu.calibration(),
+                            .battery_tenth_v = tenth_v(battery.poll_mv())});
+  }
+
+  static std::uint16_t tenth_v(std::uint32_t mv) {
+    return static_cast<std::uint16_t>((mv + 50) / 100);
   }
 
   const Start& started;
   stm32::IndependentWatchdog<Io> dog;
   stm32::Gpio<Io> gpio;
   Kept kept;
+  OwnImu<kImu.exists(), decltype(Kept::log)> imu;
+  PanelPins pins;
   Operator operator_device;
+  app::WithPanel<Operator, PanelPins> panel{operator_device, pins, PanelPins::kHasStop};
   std::uint64_t blink_us = 0;
   std::uint32_t ticks = 0;  ///< since the start, of all loops
   std::uint32_t deadline_misses = 0;
@@ -133,7 +151,8 @@ struct Patience {
   const std::uint64_t& until_us;
 };
 
-/// Serves a twin for as long as it is there. False: there is none.
+/// Serves a twin for as long as it is there. False: there is none. The board's own IMU and stop
+/// know nothing of the twin's world, so they do not count.
 bool run_in_lockstep(Board& board, const Params& params) {
   std::uint64_t until_us = timer.now_us() + kGreeting_us;
   app::LockstepBus<Port, Patience> bus(servo_port, {board, until_us});
@@ -153,7 +172,7 @@ bool run_in_lockstep(Board& board, const Params& params) {
 void run_in_real_time(Board& board, const Params& params) {
   PatientPort port{board};
   app::LinkBus<PatientPort, Timer> bus(port, timer);
-  app::App loop(params, bus, board.operator_device, board);
+  app::App loop(params, bus, board.panel, board, board.imu.chip());
   if (loop.bring_up().status != app::BringUpStatus::kReady) return;
   board.idle();
   const bool guarded =
@@ -163,6 +182,7 @@ void run_in_real_time(Board& board, const Params& params) {
   for (;;) {
     board.deadline_misses += timer.wait() - 1;
     const std::uint64_t begun_us = timer.now_us();
+    loop.use_chip(board.operator_device.imu_source() == app::table::ImuSource::kChip);
     loop.tick();
     board.report(loop);
     board.idle();
@@ -187,6 +207,7 @@ extern "C" int verp_main() {
   const Params& params =
       has_robot ? reinterpret_cast<const ParamsImage*>(verp_params_begin)->params : scratch;
   static board::Board here(start, params, verdict);
+  here.gpio.output(board::kServoPower, false);
   here.gpio.output(board::kLed, false);
   // No loop, so no torque: all that is left is to tell the operator why.
   while (verdict != control::BootVerdict::kSound) here.idle();

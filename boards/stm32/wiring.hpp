@@ -1,8 +1,10 @@
 #pragma once
 #include <cstdint>
 
+#include "hal/chip/stm32/analog_input.hpp"
 #include "hal/chip/stm32/clock.hpp"
 #include "hal/chip/stm32/gpio.hpp"
+#include "hal/chip/stm32/spi_master.hpp"
 #include "hal/chip/stm32/usart.hpp"
 
 /// The words in which a board.hpp says how its STM32 is connected.
@@ -27,6 +29,19 @@ struct SerialPort {
   bool on_apb2 = false;  ///< else on APB1
   unsigned interrupt = 0;
   unsigned dma_interrupt = 0;
+};
+
+/// A motion sensor of hal/chip/invensense on the board; {}: there is none.
+struct ImuPort {
+  hal::stm32::SpiWiring wiring;
+  bool on_apb2 = false;
+
+  constexpr bool exists() const { return wiring.base != 0; }
+};
+
+struct Button {
+  Pin pin;
+  bool pressed_high = false;
 };
 
 }  // namespace verp::board

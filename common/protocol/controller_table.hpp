@@ -67,6 +67,8 @@ enum class DeviceKind : std::uint8_t { kNone, kServo, kImu, kFoot, kServoBus, kO
 enum class DeviceState : std::uint8_t { kNeverSeen, kGood, kStale, kLost, kFaulty };
 enum class HeadMode : std::uint8_t { kAngles = 0, kLookAt = 1 };
 enum class ImuSource : std::uint8_t { kChip = 0, kBus = 1 };
+enum class ImuCalibrationOrder : std::uint8_t { kNone = 0, kMeasure = 1, kForget = 2 };
+enum class ImuCalibrationState : std::uint8_t { kNone, kMeasuring, kDone, kMoved, kNotUpright };
 /// control::BootVerdict and one more.
 enum class SelfTest : std::uint8_t {
   kNotRun,
@@ -157,6 +159,8 @@ inline constexpr Register kTable[] = {
     rw(98, "head_mode", u8, 1, "", "0 head_pan and head_tilt, 1 the point look_x, look_y, look_z"),
     rw(99, "emergency_stop", u8, 1, "", "1: pressed; stays until written 0"),
     rw(100, "action_request", u16, 0xFFFF, "", "number of the action to play, up to action_count; 0: none"),
+    disarmed(102, "imu_calibrate", u8, 2, "", "1: measure the chip's bias and mounting, robot upright and still; 2: forget them; reads as 0"),
+    r(103, "imu_calibration", u8, "", "0 none, 1 measuring, 2 kept; refused, the old one counts: 3 moved, 4 not upright"),
     // One number of the tuning. A write of parameter_value reaches exactly one tick; before that
     // tick a second one is refused (Result Fail).
     rw(106, "parameter_id", u16, kTuningCount - 1, "", "which number; see the list below"),

@@ -25,7 +25,8 @@ struct NoImu {
 template <hal::FrameBus Bus, OperatorLink Operator, Recorder Sink, hal::Imu Chip = NoImu>
 class App {
  public:
-  /// `chip` is read in every tick if Params names no IMU on the bus; null: there is none.
+  /// `chip` is the board's own IMU, read in every tick if Params names none on the bus or
+  /// use_chip() says so; null: there is none.
   App(const Params& params, Bus& bus, Operator& operator_link, Sink& sink, Chip* chip = nullptr)
       : params_(params), master_(bus), operator_(operator_link), sink_(sink), chip_(chip) {
     for (int j = 0; j < params.joint_count; ++j) {
@@ -62,6 +63,12 @@ class App {
     step(params_, state_, inputs_, outputs_);
     servos_.send(master_, outputs_, slow_joint_);
     sink_.record(TickRecord{state_.digest, inputs_}, state_, outputs_);
+  }
+
+  /// Whose counts become Inputs from the next tick on: the chip's, or the bus device's (which is
+  /// asked all the same). Not while any servo holds torque; not what the robot does not have.
+  void use_chip(bool yes) {
+    if (chip_ != nullptr && params_.imu.device_id != 0 && torque_sent_ == 0) from_chip_ = yes;
   }
 
   const Inputs& inputs() const { return inputs_; }
@@ -176,6 +183,7 @@ class App {
   void set_sensor(int slot, const dxl::Packet& packet) {
     const std::uint8_t* data = packet.parameters;
     if (slot == kImuSlot) {
+      if (from_chip_) return;
       for (int axis = 0; axis < 3; ++axis) {
         inputs_.gyro_count[axis] = static_cast<std::int16_t>(dxl::get_u16(data + 2 * axis));
         inputs_.accel_count[axis] = static_cast<std::int16_t>(dxl::get_u16(data + 6 + 2 * axis));
@@ -202,7 +210,7 @@ class App {
 
   void read_chip() {
     hal::ImuSample sample;
-    if (chip_ == nullptr || params_.imu.device_id != 0) return;
+    if (chip_ == nullptr || !from_chip_) return;
     if (chip_->read(sample) != hal::ImuStatus::kFresh) return;
     for (int axis = 0; axis < 3; ++axis) {
       inputs_.gyro_count[axis] = sample.gyro_count[axis];
@@ -243,6 +251,7 @@ class App {
   Operator& operator_;
   Sink& sink_;
   Chip* chip_;
+  bool from_chip_ = params_.imu.device_id == 0;
   ReadChain<kMaxJoints> joints_;
   ReadChain<kServoSlot + 1> sensors_;
   State state_;

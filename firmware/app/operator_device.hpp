@@ -52,6 +52,9 @@ class OperatorDevice {
   std::uint8_t id() const { return registers_.id(); }
   table::ImuSource imu_source() const { return registers_.imu_source(); }
   bool armed() const { return registers_.armed(); }
+  table::ImuCalibrationOrder take_calibration_order() {
+    return registers_.take_calibration_order();
+  }
   /// The operator wants a new start; asked with torque off only.
   bool reboot_asked() const { return reboot_asked_ && sent_ == reply_size_; }
 

@@ -77,6 +77,12 @@ class OperatorRegisters {
   table::ImuSource imu_source() const {
     return image_.template get<table::ImuSource>(reg("imu_source"));
   }
+  /// What the operator wants done with the chip's calibration; told once.
+  table::ImuCalibrationOrder take_calibration_order() {
+    const table::ImuCalibrationOrder order = calibration_order_;
+    calibration_order_ = table::ImuCalibrationOrder::kNone;
+    return order;
+  }
   TickReport& report() { return report_; }
 
   /// The bytes of a read; nullptr if any of them stands outside the table. Gaps read as zero.
@@ -186,6 +192,11 @@ class OperatorRegisters {
         (byte(reg("imu_sources")) >> *write.from(reg("imu_source")) & 1) == 0) {
       return dxl::Error::kDataRange;
     }
+    // The samples that are measured are those that steer.
+    if (write.covers(reg("imu_calibrate")) && *write.from(reg("imu_calibrate")) != 0 &&
+        imu_source() != table::ImuSource::kChip) {
+      return dxl::Error::kResultFail;
+    }
     if (write.covers(reg("window_kind"))) {
       const auto kind = static_cast<ImageKind>(*write.from(reg("window_kind")));
       if (kind != ImageKind::kNone && store_.size(kind) == 0) return dxl::Error::kDataRange;
@@ -227,6 +238,10 @@ class OperatorRegisters {
       parameter_id_ = parameter_in(write);
       parameter_bits_ = dxl::get_u32(write.from(reg("parameter_value")));
       parameter_pending_ = true;
+    }
+    if (write.covers(reg("imu_calibrate"))) {
+      calibration_order_ = image_.template get<table::ImuCalibrationOrder>(reg("imu_calibrate"));
+      image_.set(reg("imu_calibrate"), std::uint8_t{0});
     }
     if (write.touches(reg("parameter_id"), reg_end("parameter_value"))) show_parameter();
     if (write.covers(reg("window_kind"))) {
@@ -301,6 +316,7 @@ class OperatorRegisters {
   std::uint16_t registered_address_ = 0;
   std::uint16_t parameter_id_ = 0;
   std::uint32_t parameter_bits_ = 0;
+  table::ImuCalibrationOrder calibration_order_ = table::ImuCalibrationOrder::kNone;
   bool parameter_pending_ = false;
   bool fresh_ = false;
 };

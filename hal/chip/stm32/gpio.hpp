@@ -47,6 +47,12 @@ class Gpio {
     set(pin, gpio::kPupdr, pull);
     set(pin, gpio::kModer, gpio::kModeInput);
   }
+  void analog(Pin pin) {
+    if (!pin.exists()) return;
+    enable(pin);
+    set(pin, gpio::kPupdr, gpio::kPullNone);
+    set(pin, gpio::kModer, gpio::kModeAnalog);
+  }
   void write(Pin pin, bool high) {
     if (!pin.exists()) return;
     io_.write32(at(pin, gpio::kBsrr), 1u << (pin.number + (high ? 0u : 16u)));

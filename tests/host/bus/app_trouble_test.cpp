@@ -142,6 +142,36 @@ TEST_F(AppInTrouble, AnImuOnTheBoardIsReadIfTheBusHasNone) {
   EXPECT_EQ(without.inputs().flags & kImuFresh, 0);
 }
 
+// Chosen by the operator on a board that has both, but never under a robot that stands on it.
+TEST_F(AppInTrouble, TheChipOrTheBusSteersAsChosenBeforeTorqueComesOn) {
+  ready();
+  hal::ScriptedImu chip;
+  app::App<Tap, Script, Memory, hal::ScriptedImu> both{params, tap, script, memory, &chip};
+  std::uint64_t time_us = 0;
+  const auto gyro_x = [&] {
+    EXPECT_TRUE(chip.measure({{7, 8, 9}, {10, 11, 12}, ++time_us}));
+    both.tick();
+    EXPECT_NE(both.inputs().flags & kImuFresh, 0);
+    return both.inputs().gyro_count[0];
+  };
+  EXPECT_EQ(gyro_x(), 1) << "the device on the bus has this";
+  both.use_chip(true);
+  EXPECT_EQ(gyro_x(), 7);
+  both.tick();
+  EXPECT_EQ(both.inputs().flags & kImuFresh, 0) << "the device on the bus does not stand in";
+  both.use_chip(false);
+  EXPECT_EQ(gyro_x(), 1);
+  both.use_chip(true);
+  wanted.torque_enable = all();
+  EXPECT_EQ(gyro_x(), 7);
+  both.use_chip(false);
+  EXPECT_EQ(gyro_x(), 7);
+  wanted.torque_enable = 0;
+  gyro_x();
+  both.use_chip(false);
+  EXPECT_EQ(gyro_x(), 1);
+}
+
 // Lost and changed bytes make values stale; none ever becomes a position, and none costs the loop
 // its time.
 TEST_F(AppInTrouble, NoiseMakesValuesStaleButNeverWrong) {

@@ -136,6 +136,24 @@ TEST(OperatorDevice, ArmedItKeepsIdAndSourceAndDoesNotRestart) {
   EXPECT_EQ(bench.read(0, 2).packets, 1);
 }
 
+TEST(OperatorDevice, CalibratesTheChipThatSteersAndNoOther) {
+  using Order = table::ImuCalibrationOrder;
+  Bench<>& bench = fresh_bench({.imu_sources = 3});
+  EXPECT_TRUE(bench.write(reg("imu_calibrate"), std::uint8_t{1}) == Error::kResultFail);
+  EXPECT_TRUE(bench.device.take_calibration_order() == Order::kNone);
+  ASSERT_TRUE(bench.write(reg("imu_source"), std::uint8_t{0}) == Error::kNone);
+  for (const std::uint8_t order : {std::uint8_t{1}, std::uint8_t{2}}) {
+    EXPECT_TRUE(bench.write(reg("imu_calibrate"), order) == Error::kNone);
+    EXPECT_EQ(bench.value<std::uint8_t>(reg("imu_calibrate")), 0);
+    EXPECT_TRUE(bench.device.take_calibration_order() == static_cast<Order>(order));
+    EXPECT_TRUE(bench.device.take_calibration_order() == Order::kNone) << "once";
+  }
+  bench.arm(true);
+  EXPECT_TRUE(bench.write(reg("imu_calibrate"), std::uint8_t{1}) == Error::kAccess);
+  bench.device.report({.imu_calibration = table::ImuCalibrationState::kMoved});
+  EXPECT_EQ(bench.value<std::uint8_t>(reg("imu_calibration")), 3);
+}
+
 TEST(OperatorDevice, StatusReturnLevelIsKept) {
   Bench<>& bench = fresh_bench();
   const std::uint8_t level_at[] = {0, 1, 2};

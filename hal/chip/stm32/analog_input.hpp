@@ -1,0 +1,97 @@
+#pragma once
+#include <cstdint>
+
+#include "hal/chip/stm32/clock_gate.hpp"
+#include "hal/chip/stm32/gpio.hpp"
+#include "hal/chip/stm32/io.hpp"
+#include "hal/chip/stm32/registers/adc.hpp"
+#include "hal/chip/stm32/registers/rcc.hpp"
+
+/// One channel of an analog-to-digital converter as a slow voltage: poll() never waits.
+namespace verp::hal::stm32 {
+
+struct AnalogWiring {
+  std::uint32_t base = 0;  ///< ADC1 to ADC3; 0: there is no such input
+  std::uint32_t mask = 0;  ///< its bit of rcc::kApb2enr
+  Pin pin;
+  std::uint8_t channel = 0;         ///< up to 15
+  std::uint32_t full_scale_mv = 0;  ///< at the wire, before the divider, for 4096 counts
+
+  constexpr bool exists() const { return base != 0; }
+};
+
+/// `Timer` is a TickTimer.
+template <Io Access, class Timer>
+class AnalogInput {
+ public:
+  AnalogInput(const AnalogWiring& wiring, Timer& timer, Access io = {})
+      : io_(io), wiring_(wiring), timer_(timer) {}
+
+  /// `bus_hz` clocks APB2. Once, before poll(). The converters share their clock's divider.
+  void open(std::uint32_t bus_hz) {
+    if (!wiring_.exists()) return;
+    enable_clock(io_, rcc::kApb2enr, wiring_.mask);
+    Gpio<Access>(io_).analog(wiring_.pin);
+    std::uint32_t divider = 0;  // the clock is APB2 / (2 * (divider + 1))
+    while (divider < 3 && bus_hz / (2 * (divider + 1)) > kMost_hz) ++divider;
+    modify32(io_, base::kAdcCommon + adc::kCommonCcr, adc::kCcrAdcpre,
+             divider << adc::kCcrAdcpreShift);
+    const bool upper = wiring_.channel >= 10;
+    const unsigned shift = 3u * (wiring_.channel - (upper ? 10u : 0u));
+    modify32(io_, at(upper ? adc::kSmpr1 : adc::kSmpr2), 7u << shift, kLongest << shift);
+    io_.write32(at(adc::kSqr1), 0);  // one conversion
+    io_.write32(at(adc::kSqr3), wiring_.channel);
+    io_.write32(at(adc::kCr2), adc::kCr2Adon);
+    asked_us_ = timer_.now_us();
+  }
+
+  /// Fetches what has been converted and asks for the next one. The mean of the last results, about
+  /// kWeight of them; 0: there is none, or the converter has stopped.
+  std::uint32_t poll_mv() {
+    if (!wiring_.exists()) return 0;
+    const std::uint64_t now_us = timer_.now_us();
+    const bool done = (io_.read32(at(adc::kSr)) & adc::kSrEoc) != 0;
+    if (!done && now_us - asked_us_ < (asked_ ? kPatience_us : kPowerUp_us)) return mean_mv();
+    if (done) {
+      take(io_.read32(at(adc::kDr)) & 0xFFF);
+    } else if (asked_) {
+      sum_ = 0;
+      ++timeouts_;
+    }
+    modify32(io_, at(adc::kCr2), 0, adc::kCr2Swstart);
+    asked_us_ = now_us;
+    asked_ = true;
+    return mean_mv();
+  }
+  /// Conversions that never ended, modulo 2^32.
+  std::uint32_t timeouts() const { return timeouts_; }
+
+ private:
+  /// DS8626, ADC characteristics: 36 MHz and 3 us to power up; the F446 and F746 alike.
+  static constexpr std::uint32_t kMost_hz = 36'000'000;
+  static constexpr std::uint64_t kPowerUp_us = 4;
+  /// A conversion takes 492 cycles of at least 2 MHz (16 MHz of APB2, divided by 8).
+  static constexpr std::uint64_t kPatience_us = 1000;
+  static constexpr std::uint32_t kLongest = 7;  ///< of SMPR: 480 cycles, for a divider of 100 kohm
+  static constexpr std::uint32_t kWeight = 16;
+
+  std::uint32_t at(std::uint32_t offset) const { return wiring_.base + offset; }
+  void take(std::uint32_t count) {
+    sum_ = sum_ == 0 ? count * kWeight : sum_ - sum_ / kWeight + count;
+  }
+  std::uint32_t mean_mv() const {
+    constexpr std::uint32_t kAll = 4096 * kWeight;
+    return static_cast<std::uint32_t>((std::uint64_t{sum_} * wiring_.full_scale_mv + kAll / 2) /
+                                      kAll);
+  }
+
+  [[no_unique_address]] Access io_;
+  AnalogWiring wiring_;
+  Timer& timer_;
+  std::uint64_t asked_us_ = 0;
+  std::uint32_t sum_ = 0;  ///< kWeight times the mean count; 0: none
+  std::uint32_t timeouts_ = 0;
+  bool asked_ = false;
+};
+
+}  // namespace verp::hal::stm32
