@@ -68,7 +68,8 @@ class App {
   /// Whose counts become Inputs from the next tick on: the chip's, or the bus device's (which is
   /// asked all the same). Not while any servo holds torque; not what the robot does not have.
   void use_chip(bool yes) {
-    if (chip_ != nullptr && params_.imu.device_id != 0 && torque_sent_ == 0) from_chip_ = yes;
+    if (chip_ != nullptr && params_.imu.device_id != 0 && outputs_.torque_enable == 0)
+      from_chip_ = yes;
   }
 
   const Inputs& inputs() const { return inputs_; }
