@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <cstring>
+#include <initializer_list>
 #include <type_traits>
 
 /// The part of GoogleTest's interface that tests/unit and tests/contract use, small enough for a
