@@ -62,5 +62,6 @@ inline constexpr ImuPort kImu = {};
 inline constexpr stm32::AnalogWiring kBattery = {};
 inline constexpr Pin kEmergencyStop = {};
 inline constexpr Button kButtons[2] = {};
+inline constexpr Pin kBuzzer = {};
 
 }  // namespace verp::board

@@ -77,5 +77,6 @@ inline constexpr stm32::AnalogWiring kBattery = {.base = stm32::base::kAdc3,
 inline constexpr Pin kEmergencyStop = {'B', 10};
 inline constexpr Button kButtons[2] = {{.pin = {'G', 3}, .pressed_high = true},
                                        {.pin = {'C', 12}, .pressed_high = true}};
+inline constexpr Pin kBuzzer = {'F', 14};  ///< no timer reaches it
 
 }  // namespace verp::board

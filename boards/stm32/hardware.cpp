@@ -11,6 +11,7 @@ Timer timer(stm32::base::kTim2);
 Port servo_port(kServoPort.wiring, timer);
 Port operator_port(kOperatorPort.wiring, timer);
 Battery battery(kBattery, timer);
+stm32::Buzzer<Io> buzzer(kBuzzer);
 
 namespace {
 
@@ -22,6 +23,9 @@ constexpr std::uint8_t kTimerPriority = 12;
 
 void on_timer() {
   timer.on_timer();
+}
+void on_buzzer() {
+  buzzer.on_interrupt();
 }
 void on_servo_port() {
   servo_port.on_interrupt();
@@ -58,6 +62,8 @@ Start start_hardware() {
   connect(kServoPort, kServoPriority);
   connect(kOperatorPort, kOperatorPriority);
   battery.open(start.clocks.apb2_hz);
+  buzzer.open(start.clocks.apb1_timer_hz);
+  stm32::enable_interrupt(Io{}, stm32::irq::kTim3, kTimerPriority);
   return start;
 }
 
@@ -77,6 +83,7 @@ extern const verp::board::InterruptTable verp_interrupts;
 __attribute__((section(".vectors.interrupts"), used))
 const verp::board::InterruptTable verp_interrupts = verp::board::make_interrupts({
     {verp::hal::stm32::irq::kTim2, verp::board::on_timer},
+    {verp::hal::stm32::irq::kTim3, verp::board::on_buzzer},
     {verp::board::kServoPort.interrupt, verp::board::on_servo_port},
     {verp::board::kServoPort.dma_interrupt, verp::board::on_servo_port},
     {verp::board::kOperatorPort.interrupt, verp::board::on_operator_port},

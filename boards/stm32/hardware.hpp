@@ -1,6 +1,7 @@
 #pragma once
 #include "board.hpp"
 #include "hal/chip/stm32/analog_input.hpp"
+#include "hal/chip/stm32/buzzer.hpp"
 #include "hal/chip/stm32/memory_io.hpp"
 #include "hal/chip/stm32/reset_cause.hpp"
 #include "hal/chip/stm32/tick_timer.hpp"
@@ -21,6 +22,7 @@ extern Timer timer;
 extern Port servo_port;
 extern Port operator_port;
 extern Battery battery;
+extern stm32::Buzzer<Io> buzzer;
 
 struct Start {
   stm32::Clocks clocks;

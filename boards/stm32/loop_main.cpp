@@ -9,6 +9,7 @@
 #include "firmware/app/link_bus.hpp"
 #include "firmware/app/lockstep_bus.hpp"
 #include "firmware/app/operator_device.hpp"
+#include "firmware/app/signals.hpp"
 #include "firmware/boot/boot.hpp"
 #include "firmware/boot/crash.hpp"
 
@@ -96,6 +97,10 @@ struct Board {
     boot::note_tick(record.inputs.tick);
     if (++ticks == kSettledTicks) boot::forget_crashes();
     operator_device.record(record, state, outputs);
+    say(signals.after_tick(timer.now_us(), outputs.faults));
+  }
+  static void say(const app::Tone& tone) {
+    if (tone.duration_ms > 0) buzzer.sound(tone.hz, tone.duration_ms);
   }
   template <class Loop>
   void report(const Loop& loop) {
@@ -120,6 +125,7 @@ struct Board {
   PanelPins pins;
   Operator operator_device;
   app::WithPanel<Operator, PanelPins> panel{operator_device, pins, PanelPins::kHasStop};
+  app::Signals signals;
   std::uint64_t blink_us = 0;
   std::uint32_t ticks = 0;  ///< since the start, of all loops
   std::uint32_t deadline_misses = 0;
@@ -209,6 +215,7 @@ extern "C" int verp_main() {
   static board::Board here(start, params, verdict);
   here.gpio.output(board::kServoPower, false);
   here.gpio.output(board::kLed, false);
+  here.say(app::Signals::at_start(verdict == control::BootVerdict::kSound));
   // No loop, so no torque: all that is left is to tell the operator why.
   while (verdict != control::BootVerdict::kSound) here.idle();
   if (!board::open_servo_port(start, params.baud)) return 1;
