@@ -117,8 +117,10 @@ TEST(ImuCalibration, TurnsBothAlike) {
     const hal::ImuSample sample = turn.corrected(raw);
     for (int axis = 0; axis < 3; ++axis) {
       EXPECT_EQ(sample.gyro_count[axis], sample.accel_count[axis]);
-      length += math::to_float(raw.gyro_count[axis]) * math::to_float(raw.gyro_count[axis]);
-      turned += math::to_float(sample.gyro_count[axis]) * math::to_float(sample.gyro_count[axis]);
+      const float before = math::to_float(std::int32_t{raw.gyro_count[axis]});
+      const float after = math::to_float(std::int32_t{sample.gyro_count[axis]});
+      length += before * before;
+      turned += after * after;
     }
     EXPECT_NEAR(math::sqrt(turned), math::sqrt(length), 6.0F);
   }
