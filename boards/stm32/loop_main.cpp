@@ -9,6 +9,7 @@
 #include "firmware/app/link_bus.hpp"
 #include "firmware/app/lockstep_bus.hpp"
 #include "firmware/app/operator_device.hpp"
+#include "firmware/app/pacer.hpp"
 #include "firmware/app/signals.hpp"
 #include "firmware/boot/boot.hpp"
 #include "firmware/boot/crash.hpp"
@@ -183,13 +184,15 @@ void run_in_real_time(Board& board, const Params& params) {
   board.idle();
   const bool guarded =
       board.dog.start(kWatchdog_us) || board.started.clocks.source == stm32::ClockSource::kAbsent;
-  if (!guarded || !timer.start(params.period_us)) return;
+  app::Pacer pacer(timer);
+  if (!guarded || !pacer.start(params.period_us)) return;
   port.ticking = true;
   for (;;) {
-    board.deadline_misses += timer.wait() - 1;
+    const app::Beat beat = pacer.next();
+    board.deadline_misses = static_cast<std::uint32_t>(pacer.deadlines().skipped);
     const std::uint64_t begun_us = timer.now_us();
     loop.use_chip(board.operator_device.imu_source() == app::table::ImuSource::kChip);
-    loop.tick();
+    loop.tick(beat);
     board.report(loop);
     board.idle();
     board.serve_until(begun_us + params.period_us - kServingEnds_us);
