@@ -158,27 +158,29 @@ struct Patience {
   const std::uint64_t& until_us;
 };
 
-/// Serves a twin for as long as it is there. False: there is none. The board's own IMU and stop
-/// know nothing of the twin's world, so they do not count.
-bool run_in_lockstep(Board& board, const Params& params) {
+/// Serves a twin for as long as it is there, or says why there is none. The board's own IMU and
+/// stop know nothing of the twin's world, so they do not count.
+lockstep::Verdict run_in_lockstep(Board& board, const Params& params) {
   std::uint64_t until_us = timer.now_us() + kGreeting_us;
   app::LockstepBus<Port, Patience> bus(servo_port, {board, until_us});
-  if (bus.greet(params) != lockstep::Verdict::kAccepted) return false;
+  const lockstep::Verdict verdict = bus.greet(params);
+  if (verdict != lockstep::Verdict::kAccepted) return verdict;
   until_us = kForever_us;
   app::App loop(params, bus, board.operator_device, board);
-  if (loop.bring_up().status != app::BringUpStatus::kReady) return true;
+  if (loop.bring_up().status != app::BringUpStatus::kReady) return verdict;
   while (!bus.stopped()) {
     loop.tick();
     board.report(loop);
     board.idle();
   }
-  return true;
+  return verdict;
 }
 
-/// Drives servos until the power goes. Returns if they are not all there.
-void run_in_real_time(Board& board, const Params& params) {
+/// Drives servos until the power goes. Returns if they are not all there. `held_us`: how long what
+/// is between them and this port may hold bytes back.
+void run_in_real_time(Board& board, const Params& params, std::uint32_t held_us) {
   PatientPort port{board};
-  app::LinkBus<PatientPort, Timer> bus(port, timer);
+  app::LinkBus<PatientPort, Timer> bus(port, timer, held_us);
   app::App loop(params, bus, board.panel, board, board.imu.chip());
   if (loop.bring_up().status != app::BringUpStatus::kReady) return;
   board.idle();
@@ -224,6 +226,10 @@ extern "C" int verp_main() {
   if (!board::open_servo_port(start, params.baud)) return 1;
   here.gpio.output(board::kServoPower, true);
   for (;;) {
-    if (!board::run_in_lockstep(here, params)) board::run_in_real_time(here, params);
+    const lockstep::Verdict twin = board::run_in_lockstep(here, params);
+    if (twin == lockstep::Verdict::kAccepted) continue;
+    // A twin that keeps its own time answers through a PC, and perhaps a USB adapter.
+    const bool through_pc = twin == lockstep::Verdict::kNoLockstep;
+    board::run_in_real_time(here, params, through_pc ? params.period_us / 4 : 0);
   }
 }

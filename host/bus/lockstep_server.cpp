@@ -93,7 +93,8 @@ std::string words_for(lockstep::Verdict verdict, const lockstep::Hello& theirs,
              hex(theirs.params_crc) + ", here " + hex(params_crc(ours)) +
              "); flash this model's Params, or name the controller's model";
     case lockstep::Verdict::kNoLockstep:
-      return "the controller wants lockstep, but the twin runs in real time; leave out --realtime";
+      return "the controller wants lockstep, but the twin already serves a master in real time; "
+             "start verp hil again, then the controller";
     case lockstep::Verdict::kAccepted:
     case lockstep::Verdict::kNoAnswer:
       break;

@@ -143,7 +143,9 @@ class HilRun {
   bus::LockstepHooks hooks() {
     bus::LockstepHooks hooks;
     hooks.greeted = [this] { greeted(); };
-    hooks.refused = [this](const std::string& why) { fail(why); };
+    hooks.refused = [this](const std::string& why) {
+      options_.pace == HilPace::kRealTime ? decline() : fail(why);
+    };
     hooks.tick_ends = [this] { return tick_ends(); };
     hooks.tick_begins = [this](std::uint32_t tick) { tick_begins(tick); };
     hooks.sent = [this](std::span<const std::uint8_t> frame) {
@@ -156,6 +158,12 @@ class HilRun {
       if (shadow_) shadow_->polled(bytes, now_us);
     };
     return hooks;
+  }
+
+  // Our own boards ask for lockstep first, and keep time by themselves where there is none.
+  void decline() {
+    if (!std::exchange(declined_, true))
+      say("the controller offers lockstep: real time, it is told");
   }
 
   void greeted() {
@@ -222,6 +230,7 @@ class HilRun {
   bus::ControllerReport last_;
   bool recorded_ = false;
   bool connected_ = false;
+  bool declined_ = false;
   bool device_trouble_ = false;
   std::string failure_;
   std::uint64_t compared_ = 0;
