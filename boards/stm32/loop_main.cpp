@@ -103,6 +103,10 @@ struct Board {
   static void say(const app::Tone& tone) {
     if (tone.duration_ms > 0) buzzer.sound(tone.hz, tone.duration_ms);
   }
+  bool is_up(const app::BringUpReport& report) {
+    operator_device.brought_up(report);
+    return report.status == app::BringUpStatus::kReady;
+  }
   template <class Loop>
   void report(const Loop& loop) {
     operator_device.report({.bus = loop.counters(),
@@ -167,7 +171,7 @@ lockstep::Verdict run_in_lockstep(Board& board, const Params& params) {
   if (verdict != lockstep::Verdict::kAccepted) return verdict;
   until_us = kForever_us;
   app::App loop(params, bus, board.operator_device, board);
-  if (loop.bring_up().status != app::BringUpStatus::kReady) return verdict;
+  if (!board.is_up(loop.bring_up())) return verdict;
   while (!bus.stopped()) {
     loop.tick();
     board.report(loop);
@@ -182,7 +186,7 @@ void run_in_real_time(Board& board, const Params& params, std::uint32_t held_us)
   PatientPort port{board};
   app::LinkBus<PatientPort, Timer> bus(port, timer, held_us);
   app::App loop(params, bus, board.panel, board, board.imu.chip());
-  if (loop.bring_up().status != app::BringUpStatus::kReady) return;
+  if (!board.is_up(loop.bring_up())) return;
   board.idle();
   const bool guarded =
       board.dog.start(kWatchdog_us) || board.started.clocks.source == stm32::ClockSource::kAbsent;

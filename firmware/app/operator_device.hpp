@@ -46,6 +46,9 @@ class OperatorDevice {
     return busy;
   }
 
+  /// How the loop's bring-up ended: the operator wants to know which servo to look at.
+  void brought_up(const BringUpReport& report) { registers_.report().bring_up(report); }
+
   /// Bus counters and the like, as often as they should be readable.
   void report(const LoopHealth& health) { registers_.report().health(health); }
 

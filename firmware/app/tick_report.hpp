@@ -5,6 +5,7 @@
 #include "common/io/io.hpp"
 #include "common/model/params.hpp"
 #include "common/record/tick_record.hpp"
+#include "firmware/app/bring_up.hpp"
 #include "firmware/app/bus_master.hpp"
 #include "firmware/app/device_watch.hpp"
 #include "firmware/app/register_image.hpp"
@@ -55,6 +56,12 @@ class TickReport {
     }
     if ((inputs.flags & kSlowFresh) != 0) take_telemetry(inputs);
     devices_.tick(inputs, state, outputs);
+  }
+
+  void bring_up(const BringUpReport& report) {
+    image_.set(reg("bring_up"), static_cast<std::uint8_t>(static_cast<int>(report.status) + 1));
+    image_.set(reg("bring_up_device"), report.device_id);
+    image_.set(reg("bring_up_register"), report.address);
   }
 
   void health(const LoopHealth& health) {

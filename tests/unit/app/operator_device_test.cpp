@@ -35,6 +35,18 @@ bool answered(const Bench<>& bench, const std::uint8_t (&bytes)[kSize]) {
   return true;
 }
 
+// A robot that does not come up must say which of its twenty servos to look at.
+TEST(OperatorDevice, TellsAtWhichDeviceTheBringUpEnded) {
+  Bench<>& bench = fresh_bench();
+  EXPECT_EQ(bench.value<std::uint8_t>(reg("bring_up")), 0);
+  bench.device.brought_up({.status = BringUpStatus::kNotVerified, .device_id = 14, .address = 84});
+  EXPECT_EQ(bench.value<std::uint8_t>(reg("bring_up")), 5);
+  EXPECT_EQ(bench.value<std::uint8_t>(reg("bring_up_device")), 14);
+  EXPECT_EQ(bench.value<std::uint16_t>(reg("bring_up_register")), 84);
+  bench.device.brought_up({});
+  EXPECT_EQ(bench.value<std::uint8_t>(reg("bring_up")), 1);
+}
+
 TEST(OperatorDevice, AnswersTheDocumentedPing) {
   Bench<>& bench = fresh_bench({.id = 1});
   const std::uint8_t ping[] = {0xFF, 0xFF, 0xFD, 0x00, 0x01, 0x03, 0x00, 0x01, 0x19, 0x4E};
