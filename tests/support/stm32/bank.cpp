@@ -62,7 +62,7 @@ void Bank::reset() {
 }
 
 std::uint32_t Bank::bus_read(std::uint32_t address, unsigned width) {
-  const std::uint32_t offset = (address - base_) & ~3u;
+  const std::uint32_t offset = fold((address - base_) & ~3u);
   const unsigned lane = 8 * (address & 3u);
   Slot* found = find(offset);
   if (found == nullptr) {
@@ -92,7 +92,8 @@ bool Bank::check_write(const Slot& slot, std::uint32_t raw) const {
   }
   const std::uint32_t reserved = (raw ^ rule.reset) & ~rule.defined();
   if (reserved != 0) violate(what + " changes reserved bits " + hex(reserved));
-  if ((rule.rc_w0 | rule.rc_w1) == 0) {
+  // Where writing 0 leaves bits alone, one may be written without the others.
+  if ((rule.rc_w0 | rule.rc_w1 | rule.rs) == 0) {
     // What a driver read and wrote back may have changed in between: not its fault.
     const std::uint32_t forced = (raw ^ slot.value) & (raw ^ slot.last_read) & rule.r;
     if (forced != 0) violate(what + " means to change read-only bits " + hex(forced));
@@ -101,7 +102,7 @@ bool Bank::check_write(const Slot& slot, std::uint32_t raw) const {
 }
 
 void Bank::bus_write(std::uint32_t address, std::uint32_t value, unsigned width) {
-  const std::uint32_t offset = (address - base_) & ~3u;
+  const std::uint32_t offset = fold((address - base_) & ~3u);
   Slot* found = find(offset);
   if (found == nullptr) {
     violate("write to no register at " + hex(address));

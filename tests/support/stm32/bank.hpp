@@ -61,6 +61,8 @@ class Bank {
   virtual bool may_write(std::uint32_t /*offset*/, std::uint32_t /*raw*/) { return true; }
   /// After a write: `raw` is what software wrote, `old` what the register held before.
   virtual void on_write(std::uint32_t /*offset*/, std::uint32_t /*raw*/, std::uint32_t /*old*/) {}
+  /// The register behind an offset, where a register answers at several.
+  virtual std::uint32_t fold(std::uint32_t offset) const { return offset; }
   /// Registers that may be accessed with less than 32 bits.
   virtual bool narrow_ok(std::uint32_t /*offset*/, unsigned /*width*/) const { return false; }
 

@@ -26,6 +26,7 @@ class FlashModel;
 class GpioModel;
 class I2cModel;
 class IwdgModel;
+class OtgFsModel;
 class PwrModel;
 class RccModel;
 class SpiModel;
@@ -104,6 +105,7 @@ class Machine {
   GpioModel& gpio(char port);
   I2cModel& i2c(unsigned number);
   IwdgModel& iwdg() { return *iwdg_; }
+  OtgFsModel& otg_fs() { return *otg_fs_; }
   PwrModel& pwr() { return *pwr_; }
   RccModel& rcc() { return *rcc_; }
   SpiModel& spi(unsigned number);
@@ -172,6 +174,7 @@ class Machine {
   std::unique_ptr<CoreModel> core_;
   FlashModel* flash_ = nullptr;
   IwdgModel* iwdg_ = nullptr;
+  OtgFsModel* otg_fs_ = nullptr;
   PwrModel* pwr_ = nullptr;
   RccModel* rcc_ = nullptr;
   std::map<char, GpioModel*> gpio_;

@@ -11,6 +11,7 @@
 #include "tests/support/stm32/i2c_model.hpp"
 #include "tests/support/stm32/iwdg_model.hpp"
 #include "tests/support/stm32/machine.hpp"
+#include "tests/support/stm32/otg_fs_model.hpp"
 #include "tests/support/stm32/rcc_model.hpp"
 #include "tests/support/stm32/spi_model.hpp"
 #include "tests/support/stm32/timer_model.hpp"
@@ -97,6 +98,7 @@ void Machine::add_others() {
   tim_[4] = &add<TimerModel>(4u, base::kTim4, apb1(rcc::kApb1Tim4), irq::kTim4);
   tim_[5] = &add<TimerModel>(5u, base::kTim5, apb1(rcc::kApb1Tim5), irq::kTim5);
   iwdg_ = &add<IwdgModel>();
+  otg_fs_ = &add<OtgFsModel>();
   adc_[1] = &add<AdcModel>(1u, base::kAdc1, Gate{rcc::kApb2enr, rcc::kApb2Adc1, rcc::kApb2Adc1});
   adc_[2] = &add<AdcModel>(2u, base::kAdc2, Gate{rcc::kApb2enr, rcc::kApb2Adc2, rcc::kApb2Adc1});
   adc_[3] = &add<AdcModel>(3u, base::kAdc3, Gate{rcc::kApb2enr, rcc::kApb2Adc3, rcc::kApb2Adc1});

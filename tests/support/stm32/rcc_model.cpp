@@ -67,6 +67,16 @@ std::uint32_t RccModel::pll_hz() const {
   const std::uint64_t vco = std::uint64_t{pll_input_hz()} * field(reg(kPllcfgr), kPllcfgrN);
   return static_cast<std::uint32_t>(vco / (2 * (field(reg(kPllcfgr), kPllcfgrP) + 1)));
 }
+std::uint32_t RccModel::usb_hz() const {
+  const std::uint32_t select = machine().family() == Family::kF405   ? 0
+                               : machine().family() == Family::kF446 ? kDckcfgr2F446
+                                                                     : kDckcfgr2F746;
+  if (select != 0 && has(select, kDckcfgr2Ck48msel)) return 0;
+  if (!has(kCr, kCrPllrdy)) return 0;
+  const std::uint64_t vco = std::uint64_t{pll_input_hz()} * field(reg(kPllcfgr), kPllcfgrN);
+  return static_cast<std::uint32_t>(vco /
+                                    std::max<std::uint32_t>(1u, field(reg(kPllcfgr), kPllcfgrQ)));
+}
 std::uint32_t RccModel::sysclk_hz() const {
   return source_hz(field(reg(kCfgr), kCfgrSws));
 }

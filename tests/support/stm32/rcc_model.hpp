@@ -26,6 +26,8 @@ class RccModel : public Bank {
   std::uint32_t bus_hz(std::uint32_t base) const;  ///< of the APB on which `base` lies
   std::uint32_t timer_hz(std::uint32_t base) const;
   std::uint32_t pll_hz() const;
+  /// What OTG_FS gets from the main PLL; 0 while that doesn't run. PLLSAI is not modelled: 0.
+  std::uint32_t usb_hz() const;
 
   bool enabled(const Gate& gate) const { return (peek(gate.enable_offset) & gate.enable_bit) != 0; }
   /// An enable bit was set by the last access: the peripheral's clock isn't there yet.

@@ -59,6 +59,8 @@ inline constexpr std::uint32_t kCsrLsion = bit(0), kCsrLsirdy = bit(1), kCsrRmvf
                                kCsrWwdgrstf = bit(30), kCsrLpwrrstf = bit(31);
 /// DCKCFGR: timers run at 4 times their bus clock, not 2, if its prescaler is 4 or more.
 inline constexpr std::uint32_t kDckcfgrTimpre = bit(24);
+/// DCKCFGR2 of F446 and F746: OTG_FS gets its 48 MHz from PLLSAI, not from the main PLL's Q.
+inline constexpr std::uint32_t kDckcfgr2Ck48msel = bit(27);
 /// DCKCFGR2 of the F746: two bits a USART, 0: its bus clock, 1: SYSCLK, 2: HSI, 3: LSE.
 constexpr unsigned usart_clock_shift(unsigned usart_number) {
   return 2u * (usart_number - 1u);

@@ -1,0 +1,95 @@
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "tests/support/stm32/machine.hpp"
+#include "tests/support/stm32/otg_fs_model.hpp"
+
+/// The PC at the other end of the cable: makes transfers of tokens, in the machine's time. Each
+/// call returns when the transfer is over or was given up; meanwhile interrupts come and `firmware`
+/// runs.
+namespace verp::hal::stm32::model {
+
+/// The eight bytes of a control request (USB 2.0, 9.3).
+struct UsbSetup {
+  std::uint8_t type = 0;  ///< bit 7: the device sends
+  std::uint8_t request = 0;
+  std::uint16_t value = 0, index = 0, length = 0;
+};
+
+enum class UsbResult : std::uint8_t {
+  kDone,
+  kStalled,
+  kNaked,    ///< refused for longer than `patience`
+  kNoAnswer  ///< nobody answered three times in a row
+};
+
+struct UsbReply {
+  UsbResult result = UsbResult::kNoAnswer;
+  std::vector<std::uint8_t> bytes;
+};
+
+class UsbHost {
+ public:
+  explicit UsbHost(Machine& machine) : machine_(machine), core_(machine.otg_fs()) {}
+
+  // Script.
+  Time patience = ms(50);
+  Time retry = us(20);              ///< between a NAK and the next try
+  std::function<void()> firmware;   ///< runs after each token, and each 100 us of pass()
+  std::uint32_t lose_acks = 0;      ///< so many of the next acknowledgements get lost on the way
+  std::uint32_t control_size = 64;  ///< of a packet of endpoint 0
+  std::uint32_t bulk_size = 64;
+
+  /// Power, up to 1 s for the pull-up, 100 ms of rest (USB 2.0, 7.1.7.3), a bus reset. False: no
+  /// device came.
+  bool plug();
+  void unplug();
+  /// 10 ms of SE0 and 10 ms of rest. The device is back at address 0 and all toggles at DATA0.
+  bool reset();
+  void suspend() { core_.idle(); }
+  /// 20 ms of resume signalling.
+  void resume();
+  void pass(Time time);
+
+  UsbReply control(const UsbSetup& setup, const std::vector<std::uint8_t>& data = {});
+  /// SET_ADDRESS, and its rest of 2 ms.
+  UsbResult set_address(std::uint8_t address);
+  /// SET_CONFIGURATION: toggles begin at DATA0.
+  UsbResult configure(std::uint8_t configuration);
+  /// CLEAR_FEATURE(ENDPOINT_HALT): as above for that endpoint; bit 7 of the address: IN.
+  UsbResult clear_halt(std::uint8_t endpoint_address);
+  /// Packets of bulk_size and one that is shorter, if there is a rest; nothing: one empty packet.
+  UsbResult out(unsigned endpoint, const std::vector<std::uint8_t>& bytes);
+  /// Packets until one is short or there are `most` bytes.
+  UsbReply in(unsigned endpoint, std::size_t most);
+
+  std::uint8_t address() const { return address_; }
+  std::uint32_t naks() const { return naks_; }
+  std::uint32_t duplicates() const { return duplicates_; }  ///< IN packets with the old toggle
+  std::size_t last_packet() const { return last_packet_; }  ///< bytes of the last IN packet
+
+ private:
+  UsbResult send(unsigned endpoint, bool& data1, const std::uint8_t* bytes, std::size_t count);
+  /// One new packet, appended to `bytes`.
+  UsbResult fetch(unsigned endpoint, bool& data1, std::vector<std::uint8_t>& bytes);
+  UsbReply read_stage(const UsbSetup& setup);
+  UsbReply write_stage(const std::vector<std::uint8_t>& data);
+  void token(std::size_t bytes);
+  /// What to do after an answer that is no ACK; true: try again.
+  bool again(UsbAnswer answer, Time until, unsigned& silent, UsbResult& result);
+  bool ack_arrives();
+  void forget_toggles();
+
+  static constexpr unsigned kEndpoints = 16;
+  Machine& machine_;
+  OtgFsModel& core_;
+  std::uint8_t address_ = 0;
+  bool in_data1_[kEndpoints] = {}, out_data1_[kEndpoints] = {};
+  std::uint32_t naks_ = 0, duplicates_ = 0;
+  std::size_t last_packet_ = 0;
+};
+
+}  // namespace verp::hal::stm32::model
