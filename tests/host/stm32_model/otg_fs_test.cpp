@@ -81,11 +81,35 @@ TEST(OtgFs, NothingToSendAndNoRoomAreNaks) {
   ASSERT_TRUE(device.ready());
   EXPECT_EQ(device.host.in(1, 64).result, UsbResult::kNaked);
   EXPECT_NE(device.get(diepint(1)) & kDiepIttxfe, 0u);
+  EXPECT_NE(device.get(diepint(1)) & kDiepNak, 0u);  // told by the newer core only
   device.polling = false;  // nobody empties the FIFO: one packet is taken, the next is not
   EXPECT_EQ(device.host.out(1, ramp(64)), UsbResult::kDone);
   EXPECT_EQ(device.host.out(1, ramp(64)), UsbResult::kNaked);
   device.polling = true;
   EXPECT_EQ(device.host.out(1, ramp(64)), UsbResult::kDone);
+  EXPECT_EQ(device.machine.violations_text(), "");
+}
+
+TEST(OtgFs, TheReceiveFifoTakesWhatItsWordsHold) {
+  UsbDevice device(Family::kF405);
+  device.window = 640;
+  ASSERT_TRUE(device.ready());
+  device.polling = false;
+  // 128 words; a packet has 16 and its status word, and room is kept for the word of the end.
+  for (int packet = 0; packet < 7; ++packet) {
+    EXPECT_EQ(device.host.out(1, ramp(64)), UsbResult::kDone);
+  }
+  EXPECT_EQ(device.host.out(1, ramp(64)), UsbResult::kNaked);
+  EXPECT_EQ(device.get(doepctl(1)) & kEpctlNaksts, 0u);
+  device.polling = true;
+  EXPECT_EQ(device.host.out(1, ramp(64)), UsbResult::kDone);
+  device.polling = false;
+  EXPECT_EQ(device.host.out(1, ramp(3)), UsbResult::kDone);  // short: the transfer ends early
+  EXPECT_NE(device.get(doepctl(1)) & kEpctlNaksts, 0u);
+  EXPECT_EQ(device.host.out(1, ramp(3)), UsbResult::kNaked);
+  device.polling = true;
+  device.poll();
+  EXPECT_EQ(device.received.size(), 8 * 64 + 3u);
   EXPECT_EQ(device.machine.violations_text(), "");
 }
 
@@ -237,6 +261,9 @@ TEST(OtgFs, TheBusSuspendsResumesAndMayBeWoken) {
   device.change(kPcgcctl, kPcgcctlStppclk, 0);
   device.change(kDctl, 0, kDctlRwusig);
   EXPECT_TRUE(device.core.wakes_host());
+  device.change(kDctl, kDctlRwusig, 0);
+  EXPECT_TRUE(one_violation(device.machine, "1 to 15 ms"));
+  device.change(kDctl, 0, kDctlRwusig);
   device.machine.advance(ms(5));
   device.change(kDctl, kDctlRwusig, 0);
   device.host.resume();
@@ -252,6 +279,7 @@ TEST(OtgFs, ABusResetClosesEndpointsAndSoftwareMustForgetTheAddress) {
   device.polling = false;
   EXPECT_TRUE(device.host.reset());
   EXPECT_EQ(device.get(diepctl(1)) & kEpctlUsbaep, 0u);
+  EXPECT_EQ(device.get(doepctl(1)) & kEpctlUsbaep, 0u);
   EXPECT_NE(device.get(diepctl(0)) & kEpctlUsbaep, 0u);
   EXPECT_EQ((device.get(kDsts) & kDstsEnumspd) >> kDstsEnumspdShift, kEnumspdFullSpeed);
   EXPECT_EQ(device.host.control(kGetDescriptor).result, UsbResult::kNoAnswer);
@@ -315,6 +343,14 @@ TEST(OtgFs, WhatTheManualForbidsIsSeen) {
   EXPECT_TRUE(one_violation(machine, "without USBAEP"));
   device.change(diepctl(1), 0, kEpctlEpdis);
   EXPECT_TRUE(one_violation(machine, "isn't enabled"));
+  device.put(dieptsiz(1), 4 | 2u << kTsizPktcntShift);
+  device.change(diepctl(1), 0, kEpctlEpena | kEpctlSnak);
+  EXPECT_TRUE(one_violation(machine, "PKTCNT"));
+  device.change(diepctl(1), 0, kEpctlEpdis);
+  machine.advance(us(10));
+  device.put(doeptsiz(0), 24 | 1u << kTsizPktcntShift);
+  device.change(doepctl(0), 0, kEpctlEpena);
+  EXPECT_TRUE(one_violation(machine, "no multiple"));
   device.send(1, ramp(4));
   device.put(fifo(1), 0);
   EXPECT_TRUE(one_violation(machine, "beyond XFRSIZ"));

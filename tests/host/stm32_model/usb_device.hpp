@@ -72,7 +72,7 @@ struct UsbDevice {
         receives = false;
         send(0, {});
       } else if (e == 1) {
-        listen(1, 64);
+        listen(1, window);
       }
     }
   }
@@ -130,13 +130,13 @@ struct UsbDevice {
     const std::uint32_t bulk = 64 | kEpctlUsbaep | kTypeBulk << kEpctlEptypShift | kEpctlSd0pid;
     put(diepctl(1), bulk | 1u << kDiepctlTxfnumShift | kEpctlSnak);
     put(doepctl(1), bulk);
-    listen(1, 64);
+    listen(1, window);
   }
 
   void listen(unsigned endpoint, std::uint32_t bytes) {
     using namespace otg_fs;
     const std::uint32_t setups = endpoint == 0 ? 3u << kDoeptsizStupcntShift : 0;
-    put(doeptsiz(endpoint), bytes | 1u << kTsizPktcntShift | setups);
+    put(doeptsiz(endpoint), bytes | (bytes + 63) / 64 << kTsizPktcntShift | setups);
     change(doepctl(endpoint), 0, kEpctlEpena | kEpctlCnak);
   }
 
@@ -169,6 +169,7 @@ struct UsbDevice {
   OtgFsModel& core;
   UsbHost host;
   bool polling = true, refuse = false, receives = false;
+  std::uint32_t window = 64;  ///< bytes that endpoint 1 is ready for at a time
   std::vector<std::uint8_t> answer = {18, 1, 0, 2}, setup, written, received;
 };
 
