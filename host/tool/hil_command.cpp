@@ -68,6 +68,7 @@ Json to_json(const HilResult& result) {
   return {{"pace", result.real_time ? "real time" : "lockstep"},
           {"ticks_per_s", result.ticks_per_s()},
           {"compared_ticks", result.compared},
+          {"controller_resets", result.resets},
           {"link", link}};
 }
 
@@ -77,6 +78,10 @@ std::string to_text(const HilResult& result) {
   if (result.compared > 0) {
     out += fmt::format("  {:<18}{} ticks told by the controller, all equal to this PC's\n",
                        "digests", result.compared);
+  }
+  if (result.resets > 0) {
+    out += fmt::format("  {:<18}{} times; what is told of it is of the last start\n",
+                       "controller reset", result.resets);
   }
   if (result.real_time) {
     out += fmt::format("  {:<18}{} times over 1 ms, worst {:.1f} ms; link lost {} times\n", "late",

@@ -26,6 +26,7 @@ struct HilResult {
   bool real_time = false;
   std::uint64_t compared = 0;  ///< ticks whose digest the controller told, equal to this PC's
   std::uint32_t losses = 0;    ///< times the link was lost
+  std::uint32_t resets = 0;    ///< times a controller began anew on a robot that was under way
   bus::LockstepServer::Counters lockstep;
   bus::RealtimeServer::Counters realtime;
 

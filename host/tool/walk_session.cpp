@@ -38,7 +38,7 @@ WalkSession::WalkSession(const WalkPlan& plan, record::TraceWriter* trace, Progr
       label_(std::move(label)),
       robot_(world_, plan.entity, twin_options(plan)),
       bus_(plan.params, robot_),
-      walker_(plan.params, plan.velocity, plan.walk_s),
+      walker_(std::in_place, plan.params, plan.velocity, plan.walk_s),
       meter_(plan.entity, keep_series) {}
 
 bool WalkSession::over() const {
@@ -49,8 +49,18 @@ double WalkSession::simulated_s() const {
   return static_cast<double>(world_.now_us()) * 1e-6;
 }
 
+double WalkSession::walked_s() const {
+  return walked_s_ + walker_->walked_s();
+}
+
+void WalkSession::begin_anew() {
+  walked_s_ = walked_s();
+  walker_.emplace(plan_.params, plan_.velocity, std::max(0.0, plan_.walk_s - walked_s_));
+  trace_ = nullptr;
+}
+
 void WalkSession::record(const TickRecord& tick, const State& state, const Outputs& outputs) {
-  walker_.observe(state, outputs);
+  walker_->observe(state, outputs);
   const gait::Xy by_m = state.gait.footsteps.stride.by_m;
   if (state.gait.queued > 0) {
     result_.longest_step_m =
@@ -65,11 +75,11 @@ void WalkSession::record(const TickRecord& tick, const State& state, const Outpu
   if (trace_ != nullptr) {
     append(tick, state, outputs.faults, seen.truth.body_world);
   }
-  const bool ended = robot_.fallen() || walker_.done();
+  const bool ended = robot_.fallen() || walker_->done();
   after_s_ += ended ? plan_.params.period_us * 1e-6 : 0;
   over_ = after_s_ > (robot_.fallen() ? kAfterFall_s : kAfterStop_s);
-  progress_.show(walker_.walked_s() / plan_.walk_s,
-                 fmt::format("{}  {:.1f} of {:g} s", label_, walker_.walked_s(), plan_.walk_s));
+  progress_.show(walked_s() / plan_.walk_s,
+                 fmt::format("{}  {:.1f} of {:g} s", label_, walked_s(), plan_.walk_s));
 }
 
 void WalkSession::watch() {
@@ -92,7 +102,7 @@ WalkResult WalkSession::result(double wall_s, std::string failure) {
   result_.series = meter_.series();
   result_.failure = std::move(failure);
   if (result_.failure.empty() && !result_.interrupted) result_.failure = failure_of_walk();
-  if (result_.good() && walker_.longer_than_asked()) {
+  if (result_.good() && walker_->longer_than_asked()) {
     result_.remark = fmt::format("{:g} s were asked; the shortest walk with this cycle is {:.2f} s",
                                  plan_.walk_s, result_.metrics.walk_s);
   }
@@ -115,10 +125,10 @@ std::string WalkSession::failure_of_walk() const {
   constexpr std::uint32_t kStopping = 0xFFFF;  // the lower half of Fault stops the robot
   if (watched_) return robot_.fallen() ? "fell" : "";
   if (result_.metrics.fallen) {
-    return fmt::format("fell after {:.2f} s of gait", walker_.walked_s());
+    return fmt::format("fell after {:.2f} s of gait", walked_s());
   }
   const std::string faults = fault_names(result_.faults & kStopping);
-  return faults.empty() ? walker_.failed() : "stopped by fault: " + faults;
+  return faults.empty() ? walker_->failed() : "stopped by fault: " + faults;
 }
 
 }  // namespace verp::tool

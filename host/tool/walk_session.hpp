@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <optional>
 #include <string>
 
 #include "firmware/app/contracts.hpp"
@@ -22,7 +23,10 @@ class WalkSession {
               std::string label, bool keep_series);
 
   bus::VirtualBus& bus() { return bus_; }
-  WalkOperator& walker() { return walker_; }
+  WalkOperator& walker() { return *walker_; }
+  /// The controller began anew, on the robot as it is: the operator has it stand up and walk for
+  /// what is left of the time. The trace ends before: a tick has no other one to follow there.
+  void begin_anew();
   /// The walk has ended, or somebody interrupts.
   bool over() const;
 
@@ -41,6 +45,7 @@ class WalkSession {
   void append(const TickRecord& tick, const State& state, std::uint32_t faults,
               const sim::Transform& body_world);
   std::string failure_of_walk() const;
+  double walked_s() const;
 
   const WalkPlan& plan_;
   record::TraceWriter* trace_;
@@ -49,7 +54,8 @@ class WalkSession {
   sim::World world_;
   sim::TwinRobot robot_;
   bus::VirtualBus bus_;
-  WalkOperator walker_;
+  std::optional<WalkOperator> walker_;
+  double walked_s_ = 0;  ///< by controllers that are no more
   sim::WalkMeter meter_;
   WalkResult result_;
   double after_s_ = 0;

@@ -87,6 +87,39 @@ TEST_F(Hil, LosesNoBitOnABadCable) {
   EXPECT_NE(outcome.err.find("the link is back"), std::string::npos) << outcome.err;
 }
 
+// A controller that is reset finds the same twin again, its servos as they were left, and goes on
+// from there; the run tells of it, and its trace ends where the first start did.
+TEST_F(Hil, GoesOnServingAControllerThatWasReset) {
+  constexpr std::uint32_t kReset = 250;  // it stands
+  LinkController controller(params(), "unix:" + place("bus"), "unix:" + place("orders"), {},
+                            kReset);
+  const Outcome outcome = hil("--for 3 --json --record hil.mcap " + sockets());
+  controller.join();
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const json result = json::parse(outcome.out);
+  EXPECT_EQ(result.at("controller_resets"), 1);
+  EXPECT_GT(result.at("ticks").get<std::uint32_t>(), kReset + 400) << "it had to stand up again";
+  EXPECT_GE(result.at("compared_ticks").get<int>() + 2, result.at("ticks").get<int>());
+  EXPECT_GT(result.at("distance_m").get<double>(), 0.1) << "it walked then";
+  EXPECT_NE(outcome.err.find("the controller began anew at"), std::string::npos) << outcome.err;
+  const Outcome replay = verp("replay hil.mcap --json", "replay");
+  EXPECT_EQ(replay.status, 0) << replay.err;
+  EXPECT_NEAR(json::parse(replay.out).at("ticks").get<int>(), static_cast<int>(kReset), 2);
+}
+
+// In mid-walk the robot stands on one foot, with servos that hold, then limp: whether it falls is
+// the twin's to say, and no failure of the link.
+TEST_F(Hil, TellsWhatBecameOfARobotWhoseControllerWasResetInMidWalk) {
+  LinkController controller(params(), "unix:" + place("bus"), "unix:" + place("orders"), {}, 600);
+  const Outcome outcome = hil("--for 3 --json " + sockets());
+  controller.join();
+  const json result = json::parse(outcome.out);
+  EXPECT_EQ(result.at("controller_resets"), 1);
+  EXPECT_EQ(outcome.status, result.at("fallen").get<bool>() ? 1 : 0) << outcome.err;
+  EXPECT_GT(result.at("ticks").get<int>(), 600) << "it was served on";
+  EXPECT_EQ(controller.verdict(), lockstep::Verdict::kAccepted);
+}
+
 TEST_F(Hil, RefusesAControllerOfAnotherRobotByName) {
   Params other = params();
   other.joint[3].mass_kg *= 2;

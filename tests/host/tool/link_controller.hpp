@@ -59,12 +59,14 @@ class ControllerPort {
   int reads_ = 0;
 };
 
-/// Ends when the twin says stop or refuses, or with this object.
+/// Ends when the twin says stop or refuses, or with this object. At tick `reset_at` it is reset,
+/// once.
 class LinkController {
  public:
   LinkController(const Params& params, const std::string& bus, const std::string& operators,
-                 const std::function<void(ControllerPort&)>& prepare = {})
-      : params_(params), bus_port_(bus), operator_port_(operators) {
+                 const std::function<void(ControllerPort&)>& prepare = {},
+                 std::uint32_t reset_at = 0)
+      : params_(params), bus_port_(bus), operator_port_(operators), reset_at_(reset_at) {
     if (prepare) prepare(bus_port_);
     thread_ = std::thread([this] { run(); });
   }
@@ -84,33 +86,50 @@ class LinkController {
   lockstep::Verdict verdict() const { return verdict_; }
 
  private:
-  struct Idle {
-    bool operator()() const {
-      controller->device_.poll();
-      return !controller->over_;
-    }
-    LinkController* controller;
+  /// From power-up on.
+  struct Life {
+    Life(LinkController& owner)
+        : device(owner.operator_port_, owner.params_, {}),
+          bus(owner.bus_port_, Idle{&owner, &device}),
+          loop(owner.params_, bus, device, device) {}
+
+    struct Idle {
+      bool operator()() const {
+        device->poll();
+        return !controller->over_;
+      }
+      LinkController* controller;
+      app::OperatorDevice<ControllerPort>* device;
+    };
+    using Bus = app::LockstepBus<ControllerPort, Idle>;
+    using Device = app::OperatorDevice<ControllerPort>;
+    Device device;
+    Bus bus;
+    app::App<Bus, Device, Device> loop;
   };
-  using Bus = app::LockstepBus<ControllerPort, Idle>;
-  using Device = app::OperatorDevice<ControllerPort>;
 
   void run() {
-    Bus bus(bus_port_, Idle{this});
-    app::App<Bus, Device, Device> loop(params_, bus, device_, device_);
-    verdict_ = bus.greet(params_);
-    if (verdict_ == lockstep::Verdict::kAccepted) {
-      loop.bring_up();
-      while (!bus.stopped()) loop.tick();
+    bool again = true;
+    for (std::uint32_t until = reset_at_; again; until = 0) {
+      Life life(*this);
+      verdict_ = life.bus.greet(params_);
+      if (verdict_ == lockstep::Verdict::kAccepted) {
+        life.loop.bring_up();
+        while (!life.bus.stopped() && (until == 0 || life.loop.inputs().tick < until)) {
+          life.loop.tick();
+        }
+      }
+      again = until > 0 && verdict_ == lockstep::Verdict::kAccepted && !life.bus.stopped();
+      spoilt_ = life.bus.counters().spoilt;
+      ticks_ = life.loop.inputs().tick;
     }
-    spoilt_ = bus.counters().spoilt;
-    ticks_ = loop.inputs().tick;
     done_ = true;
   }
 
   const Params params_;
   ControllerPort bus_port_;
   ControllerPort operator_port_;
-  Device device_{operator_port_, params_, {}};
+  const std::uint32_t reset_at_;
   std::atomic<bool> over_ = false, done_ = false;
   lockstep::Verdict verdict_ = lockstep::Verdict::kNoAnswer;
   std::uint32_t spoilt_ = 0, ticks_ = 0;
