@@ -92,6 +92,10 @@ function(verp_add_serial_tests machine)
   add_test(NAME hil.${VERP_BOARD}.operator COMMAND ${CMAKE_SOURCE_DIR}/tests/target/ask_operator
     ${machine} $<TARGET_FILE:loop_${VERP_BOARD}> ${VERP_HOST_DIR}/host/tool/verp)
   set_tests_properties(hil.${VERP_BOARD}.operator PROPERTIES LABELS "hil;target" TIMEOUT 300)
+  # The same with a bad cable.
+  add_test(NAME hil.${VERP_BOARD}.faults COMMAND ${VERP_HOST_DIR}/target/target_tests --gtest_filter=SerialFaults.*)
+  set_tests_properties(hil.${VERP_BOARD}.faults PROPERTIES LABELS "hil;target" TIMEOUT 900
+    ENVIRONMENT "VERP_TEST_BOARD=${VERP_BOARD};VERP_TEST_TICKS=1050;VERP_FIRMWARE_DIR=${CMAKE_BINARY_DIR}/images")
   # Nine seconds of these walks are for standing up and standing still (tests/target/twin_run.cpp).
   foreach(ticks 1200 1900)
     set(name hil.${VERP_BOARD}.walk)

@@ -14,8 +14,8 @@
 namespace verp::app {
 
 /// What a controller does while it waits for the twin: feeds its watchdog, serves its operator.
-/// Called at least every LockstepBus::kSlice_us while nothing arrives. False: stop waiting; the bus
-/// is lost then.
+/// Called at least every LockstepBus::kLongSlice_us while nothing arrives. False: stop waiting; the
+/// bus is lost then.
 template <class Idle>
 concept IdleHook = requires(Idle& idle) {
   { idle() } -> std::same_as<bool>;
@@ -27,8 +27,10 @@ concept IdleHook = requires(Idle& idle) {
 template <hal::ByteLink Link, IdleHook Idle>
 class LockstepBus {
  public:
-  /// Longest wait of one read of the link.
+  /// Longest wait of one read of the link: at first, and once nothing has come for kEager_us. A
+  /// clock that wakes every millisecond makes of a short wait a long one, which adds up.
   static constexpr std::uint32_t kSlice_us = 100;
+  static constexpr std::uint32_t kLongSlice_us = 1000;
 
   /// Trouble on the link since the bus was made; all of it was made good, but for `damaged`.
   struct Counters {
@@ -91,8 +93,9 @@ class LockstepBus {
 
  private:
   static constexpr std::size_t kOutbox = 2 * hal::kMaxFrame;
-  static constexpr std::uint32_t kFirstPatience = 50'000 / kSlice_us;  ///< slices
-  static constexpr std::uint32_t kLastPatience = 1'000'000 / kSlice_us;
+  static constexpr std::uint32_t kEager_us = 2000;
+  static constexpr std::uint32_t kFirstPatience_us = 50'000;
+  static constexpr std::uint32_t kLastPatience_us = 1'000'000;
   /// A link that brings so many bytes without the answer brings something else.
   static constexpr std::uint32_t kMostBytes = 4 * lockstep::kMaxPollBytes;
 
@@ -124,9 +127,9 @@ class LockstepBus {
   /// Waits for the answer to request_ and asks again as often as it must; false: given up.
   template <class Reply>
   bool ask(Reply& reply, std::uint8_t* buffer, std::size_t capacity) {
-    std::uint32_t patience = kFirstPatience;
+    std::uint32_t patience_us = kFirstPatience_us;
     for (;;) {
-      switch (collect(reply, buffer, capacity, patience)) {
+      switch (collect(reply, buffer, capacity, patience_us)) {
         case Outcome::kWhole:
           return true;
         case Outcome::kGone:
@@ -135,7 +138,7 @@ class LockstepBus {
           ++counters_.spoilt;
           break;
         default:
-          patience = 2 * patience < kLastPatience ? 2 * patience : kLastPatience;
+          patience_us = 2 * patience_us < kLastPatience_us ? 2 * patience_us : kLastPatience_us;
           break;
       }
       ++counters_.repeats;
@@ -147,7 +150,7 @@ class LockstepBus {
 
   template <class Reply>
   Outcome collect(Reply& reply, std::uint8_t* buffer, std::size_t capacity,
-                  std::uint32_t patience) {
+                  std::uint32_t patience_us) {
     std::size_t count = 0;
     std::uint32_t heard = 0;
     sieve_.forget();
@@ -155,11 +158,12 @@ class LockstepBus {
       if (count < capacity) buffer[count] = byte;
       ++count;
     };
-    for (std::uint32_t quiet = 0; quiet < patience && heard < kMostBytes;) {
-      const std::size_t size = link_.read(chunk_, sizeof chunk_, kSlice_us);
+    for (std::uint32_t quiet_us = 0; quiet_us < patience_us && heard < kMostBytes;) {
+      const std::uint32_t slice_us = quiet_us < kEager_us ? kSlice_us : kLongSlice_us;
+      const std::size_t size = link_.read(chunk_, sizeof chunk_, slice_us);
       heard += static_cast<std::uint32_t>(size);
       if (size == 0) {
-        ++quiet;
+        quiet_us += slice_us;
         if (!idle_()) return Outcome::kGone;
       }
       for (std::size_t i = 0; i < size; ++i) {

@@ -3,10 +3,10 @@
 #include <chrono>
 #include <cstring>
 #include <fstream>
+#include <optional>
 #include <thread>
 
 #include "host/board/board_error.hpp"
-#include "host/bus/lockstep_server.hpp"
 #include "host/bus/register_names.hpp"
 #include "host/bus/shadow_loop.hpp"
 #include "host/model/export.hpp"
@@ -21,6 +21,8 @@ using Clock = std::chrono::steady_clock;
 /// Longer than the boot check takes on a machine under load.
 constexpr std::uint32_t kPatience_us = 3'000'000;
 constexpr std::chrono::seconds kStart{20};
+/// A controller asks again after a second at most, by a clock that stutters in an emulator.
+constexpr std::uint32_t kSilence_us = 10'000'000;
 /// boards/olimex_h405/memory.ld, verp_params_begin.
 constexpr const char* kParamsAddress = "0x08020000";
 
@@ -101,23 +103,56 @@ void give(SerialBoard& board, const Command& command) {
   board.operator_port().write(dxl::controller::kDefaultId, named("request").address, bytes);
 }
 
-void serve(SerialBoard& board, bus::LockstepServer& server) {
-  wire::Link link(board.servo_port());
-  std::vector<std::uint8_t> chunk(4096), answer;
-  while (!server.stopped()) {
-    const std::size_t size = link.read(chunk.data(), chunk.size(), kPatience_us);
-    if (size == 0) throw board::BoardError(board.described("sent nothing for a minute"));
-    answer.clear();
-    server.take({chunk.data(), size}, answer);
-    if (link.write(answer.data(), answer.size(), kPatience_us) != answer.size()) {
-      throw board::BoardError(board.described("took nothing for a minute"));
+/// The cable between the twin and the board's servo port, and what becomes of it.
+class Cable {
+ public:
+  Cable(SerialBoard& board, const SerialTrouble& trouble)
+      : board_(board), trouble_(trouble), spoiler_(trouble.seed), link_(board.servo_port()) {}
+
+  /// Trouble begins with the loop's first tick: before, it may end a start for good.
+  void serve(bus::LockstepServer& server, const SerialRun& run) {
+    std::vector<std::uint8_t> chunk(4096), heard, answer;
+    while (!server.stopped()) {
+      const std::size_t size = link_->read(chunk.data(), chunk.size(), kSilence_us);
+      if (size == 0) throw board::BoardError(board_.described("sent nothing for a while"));
+      const bool bad = !run.twin.records.empty();
+      heard.clear();
+      answer.clear();
+      spoiler_.spoil({chunk.data(), size}, heard, bad ? trouble_.from_board : LinkFaults{});
+      server.take(heard, answer);
+      if (!answer.empty()) send(answer, bad && !server.stopped());
     }
   }
-}
+  std::uint64_t faults() const { return spoiler_.faults(); }
+  int cuts() const { return cuts_; }
+
+ private:
+  void send(const std::vector<std::uint8_t>& answer, bool bad) {
+    if (bad && trouble_.cut_every > 0 && ++answers_ % trouble_.cut_every == 0) return cut();
+    std::vector<std::uint8_t> bytes;
+    spoiler_.spoil(answer, bytes, bad ? trouble_.to_board : LinkFaults{});
+    if (link_->write(bytes.data(), bytes.size(), kPatience_us) != bytes.size()) {
+      throw board::BoardError(board_.described("took nothing for a while"));
+    }
+  }
+  void cut() {
+    link_.reset();
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    link_.emplace(board_.servo_port());
+    ++cuts_;
+  }
+
+  SerialBoard& board_;
+  const SerialTrouble& trouble_;
+  LinkSpoiler spoiler_;
+  std::optional<wire::Link> link_;
+  int answers_ = 0, cuts_ = 0;
+};
 
 }  // namespace
 
-SerialRun run_over_serial(SerialBoard& board, const Robot& robot, std::uint32_t ticks) {
+SerialRun run_over_serial(SerialBoard& board, const Robot& robot, std::uint32_t ticks,
+                          const SerialTrouble& trouble) {
   sim::World world;
   sim::TwinRobot body(world, robot.entity);
   bus::VirtualBus bus(robot.params, body);
@@ -145,10 +180,16 @@ SerialRun run_over_serial(SerialBoard& board, const Robot& robot, std::uint32_t 
     run.ticks_per_s = ticks / std::chrono::duration<double>(Clock::now() - begun).count();
     run.digest = board.read("digest");
     run.tick = static_cast<std::uint32_t>(board.read("tick"));
+    run.bus_timeouts = static_cast<std::uint32_t>(board.read("bus_timeouts"));
+    run.bus_noise = static_cast<std::uint32_t>(board.read("bus_noise"));
     return false;
   };
   bus::LockstepServer server(robot.params, bus, hooks);
-  serve(board, server);
+  Cable cable(board, trouble);
+  cable.serve(server, run);
+  run.faults = cable.faults();
+  run.cuts = cable.cuts();
+  run.lockstep = server.counters();
   run.difference = shadow.difference();
   run.twin.distance_m = (body.truth().com_world_m - start).head<2>().norm();
   run.twin.fallen = body.truth().fallen;

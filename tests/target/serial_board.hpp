@@ -8,6 +8,8 @@
 #include "host/board/qemu.hpp"
 #include "host/board/temporary_directory.hpp"
 #include "host/bus/client.hpp"
+#include "host/bus/lockstep_server.hpp"
+#include "tests/support/link_faults.hpp"
 #include "tests/target/twin_run.hpp"
 
 /// The image loop_<board> in QEMU, with a socket at each of its serial ports.
@@ -38,16 +40,29 @@ class SerialBoard {
 /// The bytes that the flash of `robot`'s controller holds.
 std::vector<std::uint8_t> params_image(const Robot& robot);
 
+/// What happens to the servo port's cable once the loop ticks.
+struct SerialTrouble {
+  LinkFaults to_board, from_board;
+  int cut_every = 0;  ///< answers of the twin: then the cable is pulled, and that answer lost
+  std::uint32_t seed = 1;
+};
+
 struct SerialRun {
   TwinRun twin;
   std::uint64_t digest = 0;  ///< as the controller itself told it after the last tick
   std::uint32_t tick = 0;    ///< likewise
   std::string difference;    ///< see bus::ShadowLoop
   double ticks_per_s = 0;    ///< of the wall's clock
+  std::uint64_t faults = 0;  ///< done to bytes on the cable
+  int cuts = 0;
+  std::uint32_t bus_timeouts = 0;  ///< as the controller told its operator
+  std::uint32_t bus_noise = 0;     ///< likewise
+  bus::LockstepServer::Counters lockstep;
 };
 
 /// The controller on the board; the twin in lockstep at its servo port, ScriptedOperator at the
 /// other. Throws BoardError or DeviceError.
-SerialRun run_over_serial(SerialBoard& board, const Robot& robot, std::uint32_t ticks);
+SerialRun run_over_serial(SerialBoard& board, const Robot& robot, std::uint32_t ticks,
+                          const SerialTrouble& trouble = {});
 
 }  // namespace verp::test

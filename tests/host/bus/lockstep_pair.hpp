@@ -3,20 +3,16 @@
 #include <cstdint>
 #include <deque>
 #include <functional>
-#include <random>
 #include <span>
 #include <vector>
 
 #include "hal/contract/byte_link.hpp"
 #include "host/bus/lockstep_server.hpp"
+#include "tests/support/link_faults.hpp"
 
 /// A controller's link to a server in the same thread: the server answers while the controller
 /// waits. Bytes may be lost, doubled or flipped on the way, by chance from a seed.
 namespace verp::test {
-
-struct LinkFaults {
-  double lost = 0, doubled = 0, flipped = 0;  ///< of bytes
-};
 
 class ServedLink {
  public:
@@ -51,17 +47,8 @@ class ServedLink {
  private:
   template <class To>
   void spoil(std::span<const std::uint8_t> from, To& to, const LinkFaults& odds) {
-    std::uniform_real_distribution<double> chance(0, 1);
-    for (std::uint8_t byte : from) {
-      const double dice = odds.lost + odds.doubled + odds.flipped > 0 ? chance(random_) : 1;
-      const bool lost = dice < odds.lost;
-      const bool doubled = !lost && dice < odds.lost + odds.doubled;
-      const bool flipped = !lost && !doubled && dice < odds.lost + odds.doubled + odds.flipped;
-      faults += lost || doubled || flipped ? 1 : 0;
-      if (flipped) byte = static_cast<std::uint8_t>(byte ^ (1u << (random_() % 8)));
-      if (!lost) to.push_back(byte);
-      if (doubled) to.push_back(byte);
-    }
+    spoiler_.spoil(from, to, odds);
+    faults = spoiler_.faults();
   }
   void serve() {
     std::vector<std::uint8_t> answer;
@@ -74,7 +61,7 @@ class ServedLink {
   bus::LockstepServer& server_;
   std::vector<std::uint8_t> to_server_;
   std::deque<std::uint8_t> to_client_;
-  std::minstd_rand random_{1};
+  LinkSpoiler spoiler_{1};
   int answers_ = 0;
 };
 static_assert(hal::ByteLink<ServedLink>);
