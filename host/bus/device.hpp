@@ -24,6 +24,8 @@ class Device {
   }
   std::uint8_t firmware_version() const { return byte(dxl::address::kFirmwareVersion); }
   std::uint32_t return_delay_us() const { return 2u * byte(dxl::address::kReturnDelay); }
+  /// Secondary ID: of a group that is written together and does not answer.
+  virtual bool in_group(std::uint8_t) const { return false; }
   virtual std::uint8_t status_level() const { return 2; }
   virtual bool answers_fast_sync_read() const { return true; }
   virtual bool alert() const { return false; }

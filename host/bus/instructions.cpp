@@ -1,6 +1,8 @@
+#include <algorithm>
 #include <utility>
 
 #include "common/protocol/device_end.hpp"
+#include "host/bus/collision.hpp"
 #include "host/bus/virtual_bus.hpp"
 
 // What each instruction of the protocol does on the bus.
@@ -9,6 +11,19 @@ namespace {
 
 std::uint8_t error_field(const Device& device, dxl::Error error) {
   return dxl::error_field(error, device.alert());
+}
+
+std::vector<std::uint8_t> status(std::uint8_t id, std::uint8_t error,
+                                 std::span<const std::uint8_t> data) {
+  std::vector<std::uint8_t> packet(dxl::kMaxPacket);
+  packet.resize(
+      dxl::encode_status(packet.data(), packet.size(), id, error, data.data(), data.size()));
+  return packet;
+}
+
+/// The EEPROM cannot be written by a Secondary ID.
+bool in_ram(std::uint16_t address) {
+  return address >= dxl::address::kTorqueEnable;
 }
 
 }  // namespace
@@ -40,25 +55,25 @@ void VirtualBus::handle(const dxl::Packet& packet, std::uint64_t end_ns) {
     case dxl::Instruction::kRead:
       return read(packet);
     case dxl::Instruction::kWrite:
-      return command(packet.id, [&](Device& each) {
+      return command(packet.id, in_ram(address), [&](Device& each) {
         return has_address ? each.write(address, parameters.subspan(2)) : dxl::Error::kDataLength;
       });
     case dxl::Instruction::kRegWrite:
-      return command(packet.id, [&](Device& each) {
+      return command(packet.id, in_ram(address), [&](Device& each) {
         return has_address ? each.reg_write(address, parameters.subspan(2))
                            : dxl::Error::kDataLength;
       });
     case dxl::Instruction::kAction:
-      return command(packet.id, [](Device& each) { return each.action(); });
+      return command(packet.id, true, [](Device& each) { return each.action(); });
     case dxl::Instruction::kReboot:
-      return command(packet.id, [](Device& each) {
+      return command(packet.id, true, [](Device& each) {
         each.reboot();
         return dxl::Error::kNone;
       });
     case dxl::Instruction::kFactoryReset:
       return factory_reset(packet);
     case dxl::Instruction::kClear:
-      return command(packet.id, [&](Device& each) { return each.clear(parameters); });
+      return command(packet.id, true, [&](Device& each) { return each.clear(parameters); });
     case dxl::Instruction::kSyncRead:
     case dxl::Instruction::kBulkRead:
     case dxl::Instruction::kFastSyncRead:
@@ -69,48 +84,84 @@ void VirtualBus::handle(const dxl::Packet& packet, std::uint64_t end_ns) {
       return write_each(packet);
     default:
       if (packet.id == dxl::kBroadcast) return;
-      return command(packet.id, [](Device&) { return dxl::Error::kInstruction; });
+      return command(packet.id, false, [](Device&) { return dxl::Error::kInstruction; });
   }
+}
+
+template <class Say>
+void VirtualBus::speak(const std::vector<Device*>& speakers, bool at_once, Say&& say) {
+  if (speakers.empty()) return;
+  const auto delay_us = [&](const Device* each) { return at_once ? 0 : each->return_delay_us(); };
+  std::uint32_t first_us = delay_us(speakers.front());
+  for (const Device* each : speakers) first_us = std::min(first_us, delay_us(each));
+  wait_us(first_us);
+  std::vector<Voice> voices;
+  for (std::size_t i = 0; i < speakers.size(); ++i) {
+    // No two clocks are the same: each next one is a bit later.
+    const std::uint64_t late_us = delay_us(speakers[i]) - first_us;
+    const auto late_bits = static_cast<std::uint32_t>(late_us * baud_ / 1'000'000 + i);
+    voices.push_back({say(*speakers[i]), late_bits});
+  }
+  put_on_wire(heard(voices));
 }
 
 // A reply bears the id that the device was asked by, though it may have another one by then.
 template <class Apply>
-void VirtualBus::command(std::uint8_t id, Apply apply) {
+void VirtualBus::command(std::uint8_t id, bool for_group, Apply apply) {
+  std::vector<Device*> speakers;
+  std::vector<dxl::Error> errors;
   for (const auto& each : devices_) {
-    if (!hears(*each) || (id != dxl::kBroadcast && id != each->id())) continue;
+    if (!hears(*each)) continue;
+    const bool asked = id == each->id();
+    if (!asked && id != dxl::kBroadcast && !(for_group && each->in_group(id))) continue;
     const dxl::Error error = apply(*each);
-    if (id == dxl::kBroadcast) continue;
-    if (each->status_level() < 2) return;
-    wait_us(each->return_delay_us());
-    return reply(id, error_field(*each, error), {});
+    if (!asked || each->status_level() < 2) continue;
+    speakers.push_back(each.get());
+    errors.push_back(error);
   }
+  std::size_t next = 0;
+  speak(speakers, false,
+        [&](const Device& each) { return status(id, error_field(each, errors[next++]), {}); });
 }
 
-void VirtualBus::ping(std::uint8_t id) {
-  const int first = id == dxl::kBroadcast ? 0 : id;
-  const int last = id == dxl::kBroadcast ? dxl::kMaxId : id;
-  for (int i = first; i <= last; ++i) {
-    Device* each = device(static_cast<std::uint8_t>(i));
-    if (each == nullptr) continue;
-    wait_us(each->return_delay_us());
+void VirtualBus::identify(std::uint8_t id) {
+  speak(devices(id), false, [id](const Device& each) {
     std::array<std::uint8_t, 3> identity{};
-    dxl::put_u16(identity.data(), each->model());
-    identity[2] = each->firmware_version();
-    reply(each->id(), error_field(*each, dxl::Error::kNone), identity);
+    dxl::put_u16(identity.data(), each.model());
+    identity[2] = each.firmware_version();
+    return status(id, error_field(each, dxl::Error::kNone), identity);
+  });
+}
+
+// The e-Manual says of a Ping to all that devices answer in their order; how far apart, the
+// vendor's SDK, which waits 3 ms for each id and 16 ms, and Dynamixel2Arduino's issue 106: with 10
+// ms to answer, ids 1 and 2 are found and id 5 is not.
+void VirtualBus::ping(std::uint8_t id) {
+  if (id != dxl::kBroadcast) return identify(id);
+  const std::uint64_t end_ns = wire_free_ns_;
+  for (int i = 0; i <= dxl::kMaxId; ++i) {
+    const auto each = static_cast<std::uint8_t>(i);
+    if (devices(each).empty()) continue;
+    const std::uint64_t slot_ns = end_ns + each * kPingSlot_us * 1000;
+    wire_free_ns_ = std::max(wire_free_ns_, slot_ns);
+    advance_plant(wire_free_ns_ / 1000);
+    identify(each);
   }
 }
 
 void VirtualBus::read(const dxl::Packet& packet) {
-  Device* target = packet.id == dxl::kBroadcast ? nullptr : device(packet.id);
-  if (target == nullptr || target->status_level() < 1) return;
-  wait_us(target->return_delay_us());
-  std::span<const std::uint8_t> data;
-  dxl::Error error = dxl::Error::kDataLength;
-  if (packet.size == 4) {
-    data = target->read(dxl::get_u16(packet.parameters), dxl::get_u16(packet.parameters + 2));
-    error = data.empty() ? dxl::Error::kAccess : dxl::Error::kNone;
-  }
-  reply(packet.id, error_field(*target, error), data);
+  if (packet.id == dxl::kBroadcast) return;
+  std::vector<Device*> speakers = devices(packet.id);
+  std::erase_if(speakers, [](const Device* each) { return each->status_level() < 1; });
+  speak(speakers, false, [&](Device& each) {
+    std::span<const std::uint8_t> data;
+    dxl::Error error = dxl::Error::kDataLength;
+    if (packet.size == 4) {
+      data = each.read(dxl::get_u16(packet.parameters), dxl::get_u16(packet.parameters + 2));
+      error = data.empty() ? dxl::Error::kAccess : dxl::Error::kNone;
+    }
+    return status(packet.id, error_field(each, error), data);
+  });
 }
 
 // To all at once, firmware 42 and above ignores the order to forget even the ids.
@@ -119,19 +170,21 @@ void VirtualBus::factory_reset(const dxl::Packet& packet) {
   const bool known = reset == dxl::Reset::kAll || reset == dxl::Reset::kAllButId ||
                      reset == dxl::Reset::kAllButIdAndBaud;
   if (packet.id == dxl::kBroadcast && (!known || reset == dxl::Reset::kAll)) return;
-  command(packet.id,
+  command(packet.id, false,
           [&](Device& each) { return known ? each.factory_reset(reset) : dxl::Error::kDataRange; });
 }
 
 void VirtualBus::read_each(const dxl::Packet& packet) {
   dxl::ReadEntry want;
   for (std::size_t i = 0; dxl::read_entry(packet, i, want); ++i) {
-    Device* each = device(want.id);
-    if (each == nullptr || each->status_level() < 1) return;
-    wait_us(each->return_delay_us());
-    const auto data = each->read(want.address, want.length);
-    reply(want.id, error_field(*each, data.empty() ? dxl::Error::kAccess : dxl::Error::kNone),
-          data);
+    std::vector<Device*> speakers = devices(want.id);
+    std::erase_if(speakers, [](const Device* each) { return each->status_level() < 1; });
+    if (speakers.empty()) return;
+    speak(speakers, false, [&](Device& each) {
+      const auto data = each.read(want.address, want.length);
+      const dxl::Error error = data.empty() ? dxl::Error::kAccess : dxl::Error::kNone;
+      return status(want.id, error_field(each, error), data);
+    });
   }
 }
 
@@ -143,24 +196,31 @@ void VirtualBus::read_fast(const dxl::Packet& packet) {
   }
   std::uint16_t crc = 0;
   for (std::size_t i = 0; dxl::read_entry(packet, i, want); ++i) {
-    Device* each = device(want.id);
-    if (each == nullptr || each->status_level() < 1 || !each->answers_fast_sync_read()) return;
-    wait_us(i == 0 ? each->return_delay_us() : 0);
-    const auto data = each->read(want.address, want.length);
-    if (data.empty()) return;
-    std::vector<std::uint8_t> block(dxl::kFastHeaderBytes + dxl::kFastBlockBytes + data.size());
-    block.resize(dxl::encode_fast_block(block.data(), i == 0, all_bytes, want.id,
-                                        error_field(*each, dxl::Error::kNone), data.data(),
-                                        data.size(), crc));
-    put_on_wire(std::move(block));
+    const std::vector<Device*> speakers = devices(want.id);
+    const bool all_can = std::all_of(speakers.begin(), speakers.end(), [](const Device* each) {
+      return each->status_level() > 0 && each->answers_fast_sync_read();
+    });
+    if (speakers.empty() || !all_can) return;
+    const std::uint16_t crc_before = crc;
+    bool told = false;
+    speak(speakers, i > 0, [&](Device& each) {
+      const auto data = each.read(want.address, want.length);
+      std::vector<std::uint8_t> block(dxl::kFastHeaderBytes + dxl::kFastBlockBytes + data.size());
+      crc = crc_before;
+      block.resize(dxl::encode_fast_block(block.data(), i == 0, all_bytes, want.id,
+                                          error_field(each, dxl::Error::kNone), data.data(),
+                                          data.size(), crc));
+      told = !data.empty();
+      return told ? block : std::vector<std::uint8_t>{};
+    });
+    if (!told) return;
   }
 }
 
 void VirtualBus::write_each(const dxl::Packet& packet) {
   dxl::WriteEntry entry;
   for (std::size_t offset = 0; dxl::write_entry(packet, offset, entry);) {
-    Device* each = device(entry.id);
-    if (each != nullptr) each->write(entry.address, {entry.data, entry.size});
+    for (Device* each : devices(entry.id)) each->write(entry.address, {entry.data, entry.size});
   }
 }
 

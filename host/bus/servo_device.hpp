@@ -19,6 +19,10 @@ class ServoDevice final : public Device {
  public:
   ServoDevice(const ServoIdentity& identity, sim::Plant& plant, int joint);
 
+  /// e-Manual, Secondary(Shadow) ID (12): off from 253 on; the ID (7) comes first.
+  bool in_group(std::uint8_t id) const override {
+    return byte(dxl::address::kSecondaryId) == id && id <= dxl::kMaxId && id != this->id();
+  }
   std::uint8_t status_level() const override { return byte(dxl::address::kStatusReturnLevel); }
   bool answers_fast_sync_read() const override { return fast_sync_read_; }
   bool alert() const override { return byte(dxl::address::kHardwareError) != 0; }

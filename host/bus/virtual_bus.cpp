@@ -42,11 +42,12 @@ bool VirtualBus::hears(const Device& device) const {
   return !unplugged_[device.id()] && device.baud_code() == dxl::baud_rate_code(baud_);
 }
 
-Device* VirtualBus::device(std::uint8_t id) {
+std::vector<Device*> VirtualBus::devices(std::uint8_t id) {
+  std::vector<Device*> all;
   for (const auto& candidate : devices_) {
-    if (candidate->id() == id && hears(*candidate)) return candidate.get();
+    if (candidate->id() == id && hears(*candidate)) all.push_back(candidate.get());
   }
-  return nullptr;
+  return all;
 }
 
 void VirtualBus::set_connected(std::uint8_t id, bool connected) {
@@ -127,13 +128,6 @@ void VirtualBus::advance_plant(std::uint64_t time_us) {
 void VirtualBus::wait_us(std::uint32_t delay_us) {
   wire_free_ns_ += std::uint64_t{delay_us} * 1000;
   advance_plant(wire_free_ns_ / 1000);
-}
-
-void VirtualBus::reply(std::uint8_t id, std::uint8_t error, std::span<const std::uint8_t> data) {
-  std::vector<std::uint8_t> packet(dxl::kMaxPacket);
-  packet.resize(
-      dxl::encode_status(packet.data(), packet.size(), id, error, data.data(), data.size()));
-  put_on_wire(std::move(packet));
 }
 
 void VirtualBus::put_on_wire(std::vector<std::uint8_t> bytes) {

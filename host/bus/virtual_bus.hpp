@@ -22,7 +22,9 @@ namespace verp::bus {
 /// take effect when their last byte has arrived.
 ///
 /// In a Sync or Bulk Read each device waits for the one before it: a silent one silences those
-/// behind it. Deterministic: the same frames give the same replies at the same times.
+/// behind it. Devices with the same id answer over each other, and what arrives is neither's packet
+/// (collision.hpp). One set to another baud rate hears and says nothing. Deterministic: the same
+/// frames give the same replies at the same times.
 class VirtualBus {
  public:
   /// Servos, IMU and feet as `params` names them. The plant must outlive the bus and stand at time
@@ -58,8 +60,12 @@ class VirtualBus {
     std::vector<std::uint8_t> bytes;
   };
 
+  /// A Ping to all is answered in slots: the device with id n after n of them.
+  static constexpr std::uint64_t kPingSlot_us = 3000;
+
   std::uint64_t bytes_ns(std::size_t count) const;
-  Device* device(std::uint8_t id);
+  /// All that have this id; only ids given twice make them more than one.
+  std::vector<Device*> devices(std::uint8_t id);
   std::uint64_t begin_tick(std::uint64_t ready_ns);
   std::size_t arrive(std::uint64_t deadline_ns, std::uint8_t* buffer, std::size_t capacity);
   /// False for a device that is unplugged, or set to another baud rate.
@@ -68,15 +74,20 @@ class VirtualBus {
   void advance_plant(std::uint64_t time_us);
   /// Lets a Return Delay Time pass and the plant follow; the reply's bytes come next.
   void wait_us(std::uint32_t delay_us);
-  void reply(std::uint8_t id, std::uint8_t error, std::span<const std::uint8_t> data);
+  /// Lets each of `speakers` say what `say` makes of it, all after the shortest of their delays, or
+  /// at once.
+  template <class Say>
+  void speak(const std::vector<Device*>& speakers, bool at_once, Say&& say);
   void put_on_wire(std::vector<std::uint8_t> bytes);
 
   // instructions.cpp
   void handle(const dxl::Packet& packet, std::uint64_t end_ns);
-  /// Does it to all devices addressed; one that was asked alone replies.
+  /// Does it to all devices addressed, by a Secondary ID too if it is `for_group`; one that was
+  /// asked by its own id replies.
   template <class Apply>
-  void command(std::uint8_t id, Apply apply);
+  void command(std::uint8_t id, bool for_group, Apply apply);
   void ping(std::uint8_t id);
+  void identify(std::uint8_t id);
   void read(const dxl::Packet& packet);
   void factory_reset(const dxl::Packet& packet);
   void read_each(const dxl::Packet& packet);

@@ -34,10 +34,15 @@ const bus::NamedRegister& named(const char* name) {
 
 bus::Client connect(const wire::Endpoint& endpoint) {
   const auto deadline = Clock::now() + kStart;
-  while (!std::filesystem::exists(endpoint.place) && Clock::now() < deadline) {
-    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  // The socket's file is there a moment before somebody listens at it.
+  for (;;) {
+    try {
+      return bus::Client(endpoint, kPatience_us);
+    } catch (const wire::LinkError&) {
+      if (Clock::now() > deadline) throw;
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
   }
-  return bus::Client(endpoint, kPatience_us);
 }
 
 }  // namespace

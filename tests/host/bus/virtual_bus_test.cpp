@@ -27,10 +27,10 @@ class VirtualBus : public ::testing::Test {
     buffer.resize(bus.poll(buffer.data(), buffer.size(), timeout_us));
     return buffer;
   }
-  std::vector<Reply> replies() {
+  std::vector<Reply> replies(std::uint32_t timeout_us = 100000) {
     dxl::Parser parser;
     std::vector<Reply> all;
-    for (const std::uint8_t byte : poll()) {
+    for (const std::uint8_t byte : poll(timeout_us)) {
       for (bool found = parser.push(byte); found; found = parser.next()) {
         const dxl::Packet& packet = parser.packet();
         all.push_back(
@@ -81,7 +81,7 @@ TEST_F(VirtualBus, BroadcastPingIsAnsweredByAllInOrderOfId) {
   Bytes frame(16);
   bus.send(frame.data(), dxl::encode_ping(frame.data(), frame.size(), dxl::kBroadcast));
   std::vector<int> ids;
-  for (const Reply& each : replies()) ids.push_back(each.id);
+  for (const Reply& each : replies(253 * 3000)) ids.push_back(each.id);
   EXPECT_EQ(ids, (std::vector<int>{1, 2, 3, test::kImuId, test::kLeftFootId, test::kRightFootId}));
 }
 
