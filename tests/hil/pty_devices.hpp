@@ -1,0 +1,122 @@
+#pragma once
+#include <unistd.h>
+
+#include <atomic>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "firmware/app/operator_device.hpp"
+#include "host/bus/realtime_server.hpp"
+#include "host/bus/virtual_bus.hpp"
+#include "host/link/link.hpp"
+#include "host/link/system_clock.hpp"
+#include "tests/host/bus/fake_plant.hpp"
+
+/// Dynamixel devices at a pseudo-terminal, each in a thread of the test, as another program or a
+/// board would be; and whoever opens the other end as a serial port.
+namespace verp::test {
+
+inline std::string pty_path(const char* name) {
+  return (std::filesystem::temp_directory_path() /
+          ("verp-" + std::string(name) + "-" + std::to_string(::getpid())))
+      .string();
+}
+
+/// Calls `turn(link)` again and again until the end of its life.
+class PtyThread {
+ public:
+  template <class Turn>
+  PtyThread(const std::string& path, Turn turn)
+      : link_(wire::parse_endpoint("pty:" + path)), thread_([this, turn] {
+          while (!over_) turn(link_);
+        }) {}
+  ~PtyThread() {
+    over_ = true;
+    thread_.join();
+  }
+
+ private:
+  wire::Link link_;
+  std::atomic<bool> over_ = false;
+  std::thread thread_;
+};
+
+/// The twin's servos, by the wall's clock.
+class PtyServos {
+ public:
+  PtyServos(const Params& params, FakePlant& plant, const std::string& path)
+      : bus_(params, plant),
+        server_(bus_),
+        thread_(path, [this](wire::Link& link) { turn(link); }) {}
+
+ private:
+  void turn(wire::Link& link) {
+    constexpr std::uint32_t kTurn_us = 500;
+    std::uint8_t heard[512];
+    const std::size_t count = link.read(heard, sizeof heard, kTurn_us);
+    answer_.clear();
+    server_.turn(clock_.now_us(), {heard, count}, answer_);
+    if (!answer_.empty()) link.write(answer_.data(), answer_.size(), 100'000);
+  }
+  wire::SystemClock clock_;
+  bus::VirtualBus bus_;
+  bus::RealtimeServer server_;
+  std::vector<std::uint8_t> answer_;
+  PtyThread thread_;
+};
+
+/// A controller's operator port. `state` is what its registers show.
+class PtyController {
+ public:
+  PtyController(const Params& params, const State& state, const std::string& path)
+      : thread_(path, [this, &params, &state](wire::Link& link) {
+          if (!device_) {
+            device_ = std::make_unique<Device>(link, params, app::OperatorSetup{});
+            device_->record(TickRecord{state.digest, Inputs{}}, state, Outputs{});
+          }
+          if (!device_->poll()) std::this_thread::sleep_for(std::chrono::microseconds(500));
+          reboot_asked = device_->reboot_asked();
+        }) {}
+  std::atomic<bool> reboot_asked = false;
+
+ private:
+  using Device = app::OperatorDevice<wire::Link>;
+  std::unique_ptr<Device> device_;
+  PtyThread thread_;
+};
+
+/// The other end, through libserial.
+class SerialMaster {
+ public:
+  explicit SerialMaster(const std::string& path)
+      : link_(wire::parse_endpoint("serial:" + path + "@2000000")) {}
+
+  /// Sends `bytes`; returns what comes, up to `wanted` bytes: all of them long before the time is
+  /// over, or what came until then.
+  std::vector<std::uint8_t> exchange(const std::vector<std::uint8_t>& bytes, std::size_t wanted,
+                                     std::uint32_t timeout_us = 5'000'000) {
+    link_.write(bytes.data(), bytes.size(), 1'000'000);
+    std::vector<std::uint8_t> reply;
+    const wire::SystemClock clock;
+    const std::uint64_t end_us = clock.now_us() + timeout_us;
+    while (reply.size() < wanted && clock.now_us() < end_us) {
+      std::uint8_t piece[512];
+      const std::size_t count = link_.read(piece, sizeof piece, 10'000);
+      reply.insert(reply.end(), piece, piece + count);
+    }
+    return reply;
+  }
+  /// What comes although nothing should.
+  std::vector<std::uint8_t> expect_silence(const std::vector<std::uint8_t>& bytes) {
+    return exchange(bytes, 1, 150'000);
+  }
+
+ private:
+  wire::Link link_;
+};
+
+}  // namespace verp::test
