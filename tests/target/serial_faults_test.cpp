@@ -84,15 +84,15 @@ TEST_F(SerialFaults, LetItWalkOnWithOneByteInAThousandLost) {
   EXPECT_NEAR(there.twin.distance_m, here.distance_m, 0.1 * here.distance_m);
 }
 
-// One byte in a hundred: whatever the robot can still do, nothing hangs and nothing is
-// misunderstood.
+// Three bytes in a thousand, in both directions: whatever the robot can still do, nothing hangs and
+// nothing is misunderstood.
 TEST_F(SerialFaults, EndInOrderOnALineFullOfNoise) {
-  constexpr LinkFaults kAwful{.lost = 4e-3, .doubled = 3e-3, .flipped = 3e-3};
-  ticks = 120;
+  constexpr LinkFaults kAwful{.lost = 1e-3, .doubled = 1e-3, .flipped = 1e-3};
+  ticks = 150;
   const SerialRun there = run({.to_board = kAwful, .from_board = kAwful, .seed = 4});
   expect_known(there);
   EXPECT_GT(there.bus_timeouts, 20u);
-  EXPECT_GT(there.lockstep.damaged, 50u);
+  EXPECT_GT(there.lockstep.damaged, 40u);
 }
 
 }  // namespace
