@@ -222,6 +222,7 @@ constexpr Register out_interrupts(std::uint32_t more) {
   return {.name = "DOEPINTx",
           .offset = kDoepint - kDoepctl,
           .paragraph = 52,
+          .reset = 0x80,  // a reserved bit
           .rc_w1 = kDoepXfrc | kDoepEpdisd | kDoepStup | kDoepOtepdis | kDoepB2bstup | more};
 }
 inline constexpr std::uint32_t kInNew =

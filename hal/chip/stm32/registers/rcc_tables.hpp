@@ -162,7 +162,7 @@ inline constexpr Register kRegistersF446[] = {
     {.name = "PLLSAICFGR",
      .offset = kPllsaicfgr,
      .paragraph = 24,
-     .reset = 0x24003010,
+     .reset = 0x04003010,
      .rw = 0x0F037FFF},
     {.name = "DCKCFGR", .offset = kDckcfgr, .paragraph = 25, .rw = 0x1FF01F1F},
     {.name = "CKGATENR", .offset = kCkgatenrF446, .paragraph = 26, .rw = bits(0, 7)},
