@@ -45,6 +45,15 @@ struct LineCoding {
 class CdcAcm {
  public:
   static constexpr std::size_t kSetupBytes = 8;
+  /// Besides the control endpoint.
+  struct Endpoint {
+    std::uint8_t address;
+    std::uint8_t type;  ///< USB 2.0 table 9-13: 2 bulk, 3 interrupt
+    std::uint8_t packet;
+  };
+  static constexpr Endpoint kEndpoints[] = {{kDataOut, 2, kBulkPacket},
+                                            {kDataIn, 2, kBulkPacket},
+                                            {kNotification, 3, kNotificationPacket}};
 
   /// `product` outlives it; kStringUnits characters of ASCII are shown.
   CdcAcm(const char* product, const std::uint8_t (&serial)[kSerialBytes]) : product_(product) {

@@ -166,6 +166,19 @@ TEST(UsbRequests, KnownOnesWithWrongFieldsAreRefused) {
   EXPECT_TRUE(port.configured());
 }
 
+TEST(UsbRequests, TakesEveryAddressThereIsAndNoOther) {
+  for (unsigned address = 0; address < 0x1'0000; ++address) {
+    CdcAcm port = make();
+    const Answer answer = ask(port, 0x0005, address, 0, 0);
+    if (address < 128) {
+      ASSERT_TRUE(done(answer, Action::kAddress, address));
+    } else {
+      ASSERT_TRUE(stalls(answer)) << address;
+    }
+    ASSERT_EQ(port.address(), address < 128 ? address : 0);
+  }
+}
+
 TEST(UsbRequests, BeforeAConfigurationThereIsNoPort) {
   CdcAcm port = make();
   EXPECT_EQ(status(port, 0x8000, 0), 0);

@@ -1,0 +1,269 @@
+#pragma once
+#include <cstddef>
+#include <cstdint>
+
+#include "hal/chip/stm32/interrupts.hpp"
+#include "hal/chip/stm32/otg_fs_control.hpp"
+#include "hal/chip/stm32/otg_fs_core.hpp"
+#include "hal/contract/byte_link.hpp"
+
+/// USB full speed as a ByteLink: a serial port at a host's USB socket. `Function` says what the
+/// port answers at its control endpoint (hal/chip/usb/cdc_acm.hpp); here packets move between the
+/// bulk endpoints and two rings. Connected while a program on the host has the port open: the
+/// device is configured, DTR is set, the bus is awake.
+///
+/// The host hears NAK while the ring has no room for a packet: nothing is lost that was sent
+/// while connected. At a loss, what was queued is dropped; what had arrived is read first.
+///
+/// The board calls on_interrupt() from OTG_FS's vector. It may take a fraction of a millisecond
+/// when a transfer must be given up. Waits end: what is stuck costs its bytes, and is counted.
+namespace verp::hal::stm32 {
+
+/// `Timer` is a TickTimer.
+template <Io Access, class Function, class Timer, std::size_t kRing = 1024>
+class OtgFs {
+ public:
+  OtgFs(Family family, Function& function, Timer& timer, Access io = {})
+      : io_(io), core_(family, io), control_(core_, function), function_(function), timer_(timer) {}
+
+  /// The core's clocks are on (48 MHz within 0.25 %, and the bus's, `hclk_hz`), and its pins. Takes
+  /// 25 ms, which the core needs to become a device. False: it does not.
+  bool open(std::uint32_t hclk_hz, bool sense_vbus) {
+    if (otg_fs::turnaround(hclk_hz) == 0 || !core_.reset()) return false;
+    core_.force_device(hclk_hz);
+    const std::uint64_t end_us = timer_.now_us() + otg_fs::kForceModeTime_ms * 1000;
+    while (timer_.now_us() < end_us) timer_.doze_until(end_us, [] { return false; });
+    if (!core_.is_device()) return false;
+    core_.set_up(sense_vbus, kInterrupts);
+    core_.connect();
+    return true;
+  }
+
+  // ByteLink
+  std::size_t write(const std::uint8_t* data, std::size_t size, std::uint32_t timeout_us) {
+    const std::uint64_t deadline_us = timer_.now_us() + timeout_us;
+    std::size_t queued = 0;
+    for (bool lost = false;;) {
+      lost = see_loss() || lost;
+      if (!lost) see_host();  // else that the host is back is for the next call to tell
+      queued += queue(data + queued, size - queued);
+      if (queued == size || timer_.now_us() >= deadline_us) return queued;
+      timer_.doze_until(deadline_us, [&] {
+        return lost_ || (connected_ ? queued_ - sent_ < kRing : up_ && !lost);
+      });
+    }
+  }
+  std::size_t read(std::uint8_t* buffer, std::size_t capacity, std::uint32_t timeout_us) {
+    const std::uint64_t deadline_us = timer_.now_us() + timeout_us;
+    for (;;) {
+      const std::size_t count = take(buffer, capacity);
+      if (count > 0 || see_loss()) return count;
+      see_host();
+      if (timer_.now_us() >= deadline_us) return 0;
+      timer_.doze_until(deadline_us,
+                        [&] { return received_ != taken_ || lost_ || up_ != connected_; });
+    }
+  }
+  bool connected() const { return connected_; }
+  LinkErrors errors() const {
+    const Masked<Access> masked(io_);
+    return {.overruns = overruns_, .framing = function_.breaks(), .noise = 0, .losses = losses_};
+  }
+
+  void on_interrupt() {
+    const std::uint32_t status = core_.pending();
+    const std::uint32_t before = moved_;
+    core_.clear(status);
+    if ((status & otg_fs::kGintRxflvl) != 0) fetch();
+    // A resume may follow at once; the next suspend takes 3 ms of silence.
+    if ((status & otg_fs::kGintUsbsusp) != 0) suspended_ = true;
+    if ((status & otg_fs::kGintWkup) != 0) suspended_ = false;
+    if ((status & otg_fs::kGintOtg) != 0 && (core_.take_otg() & otg_fs::kGotgintSedet) != 0) {
+      function_.reset();
+    }
+    if ((status & otg_fs::kGintUsbrst) != 0) start_over();
+    if ((status & otg_fs::kGintIep) != 0) serve_in();
+    if ((status & otg_fs::kGintOep) != 0) serve_out();
+    follow_host();
+    watch_storm(moved_ == before ? core_.pending() & status : 0);
+  }
+
+  /// Times that a bit did not come or go in time.
+  std::uint32_t stuck() const { return core_.stuck(); }
+
+ private:
+  static constexpr std::uint32_t kInterrupts =
+      otg_fs::kGintUsbrst | otg_fs::kGintUsbsusp | otg_fs::kGintWkup | otg_fs::kGintOtg |
+      otg_fs::kGintRxflvl | otg_fs::kGintIep | otg_fs::kGintOep;
+  static constexpr std::uint32_t kPacket = OtgFsCore<Access>::kPacket;
+  static constexpr unsigned kData = 1;           ///< number of both bulk endpoints
+  static constexpr std::uint32_t kStorm = 1000;  ///< interrupts in a row that nothing ended
+  static_assert((kRing & (kRing - 1)) == 0 && kRing >= 2 * kPacket, "the counters wrap at 2^32");
+
+  // By interrupt.
+
+  /// Fetches what arrived: at most what the FIFO can hold, should its flag be stuck.
+  void fetch() {
+    for (std::uint32_t i = 0; i < otg_fs::kFifoWords; ++i) {
+      const auto arrival = core_.arrival();
+      if (arrival.what == 0) return;
+      fetch(arrival);
+    }
+  }
+  void fetch(const typename OtgFsCore<Access>::Arrival& arrival) {
+    if (arrival.what == otg_fs::kPacketSetup) {
+      control_.fetch_setup(arrival.size);
+    } else if (arrival.what == otg_fs::kPacketOut && arrival.endpoint == 0) {
+      control_.fetch_data(arrival.size);
+    } else if (arrival.what == otg_fs::kPacketOut) {
+      core_.take(arrival.size, [this](std::uint8_t byte) { store(byte); });
+    } else if (arrival.what != otg_fs::kPacketSetupDone && arrival.what != otg_fs::kPacketOutDone) {
+      return;
+    }
+    suspended_ = false;
+    ++moved_;
+  }
+  void store(std::uint8_t byte) {
+    if (received_ - taken_ == kRing) {
+      ++overruns_;
+      return;
+    }
+    ring_[received_++ % kRing] = byte;
+  }
+
+  void start_over() {
+    function_.reset();
+    control_.start_over();
+    core_.start_over();
+    suspended_ = false;
+  }
+
+  void serve_in() {
+    if (control_.serve_in()) ++moved_;
+    if (core_.take_in(kData) == 0) return;
+    ++moved_;
+    sending_ = false;
+    pump();
+  }
+  void serve_out() {
+    if (control_.serve_out()) {
+      ++moved_;
+      follow_host();
+      pump();  // an endpoint may have been released
+    }
+    if (core_.take_out(kData) == 0) return;
+    ++moved_;
+    expecting_ = false;
+    listen();
+  }
+
+  /// Begins and ends what the host began and ended.
+  void follow_host() {
+    const bool up = function_.opened() && !suspended_;
+    if (up == up_) return;
+    up_ = up;
+    if (up) return listen();
+    lost_ = true;
+    lost_at_ = received_;
+    sent_ = queued_;
+    full_ = false;
+    if (sending_) core_.cancel_send(kData);
+    sending_ = false;
+    expecting_ = false;  // what may come already is not asked for twice
+  }
+
+  // Also by read() and write(), with interrupts held back.
+
+  /// Lets the next packet in if there is room for it.
+  void listen() {
+    if (!up_ || expecting_ || kRing - (received_ - taken_) < kPacket) return;
+    expecting_ = true;
+    core_.expect(kData);
+  }
+  /// Sends the next packet. An empty one tells the host that a full one was the last.
+  void pump() {
+    const std::uint32_t waiting = queued_ - sent_;
+    if (!up_ || sending_ || (waiting == 0 && !full_)) return;
+    const std::uint32_t size = waiting < kPacket ? waiting : kPacket;
+    const std::uint32_t from = sent_;
+    sending_ =
+        core_.send(kData, size, [&](std::uint32_t i) { return outbox_[(from + i) % kRing]; });
+    if (!sending_) return;
+    sent_ += size;
+    full_ = size == kPacket;
+  }
+
+  void watch_storm(std::uint32_t left) {
+    storm_ = left != 0 ? storm_ + 1 : 0;
+    if (storm_ < kStorm) return;
+    // A flag that nothing clears would keep the processor here for ever.
+    core_.ignore(left);
+    core_.count_stuck();
+    storm_ = 0;
+  }
+
+  // By read() and write().
+
+  std::size_t take(std::uint8_t* buffer, std::size_t capacity) {
+    std::size_t count = arrived();
+    if (count > capacity) count = capacity;
+    for (std::size_t i = 0; i < count; ++i) buffer[i] = ring_[(taken_ + i) % kRing];
+    const Masked<Access> masked(io_);
+    taken_ += static_cast<std::uint32_t>(count);
+    listen();
+    return count;
+  }
+  std::uint32_t arrived() {
+    const Masked<Access> masked(io_);
+    return (lost_ ? lost_at_ : received_) - taken_;
+  }
+  std::size_t queue(const std::uint8_t* data, std::size_t size) {
+    const Masked<Access> masked(io_);
+    if (!connected_ || !up_ || lost_) return 0;
+    std::size_t count = 0;
+    for (; count < size && queued_ - sent_ < kRing; ++count) {
+      outbox_[queued_++ % kRing] = data[count];
+    }
+    pump();
+    return count;
+  }
+  bool see_loss() {
+    const Masked<Access> masked(io_);
+    const bool seen = lost_ && connected_;  // else nobody knew of the host that is gone
+    lost_ = false;
+    if (!seen) return false;
+    connected_ = false;
+    ++losses_;
+    return true;
+  }
+  void see_host() {
+    const Masked<Access> masked(io_);
+    connected_ = up_ && !lost_;
+  }
+
+  [[no_unique_address]] mutable Access io_;
+  OtgFsCore<Access> core_;
+  OtgFsControl<Access, Function> control_;
+  Function& function_;
+  Timer& timer_;
+  bool suspended_ = false;
+  bool up_ = false;         ///< the host has the port open
+  bool connected_ = false;  ///< the same, as read() and write() have seen it
+  bool lost_ = false;       ///< a loss that they have not seen
+  bool sending_ = false;    ///< a packet waits for the host
+  bool full_ = false;       ///< the last packet was full, and none has ended it
+  bool expecting_ = false;  ///< a packet may come
+  std::uint32_t lost_at_ = 0;
+  std::uint32_t losses_ = 0;
+  std::uint32_t overruns_ = 0;
+  std::uint32_t moved_ = 0;  ///< packets and stages, to tell a storm of interrupts from work
+  std::uint32_t storm_ = 0;
+  std::uint32_t received_ = 0;  ///< bytes since open(), as are the next three
+  std::uint32_t taken_ = 0;
+  std::uint32_t queued_ = 0;
+  std::uint32_t sent_ = 0;
+  std::uint8_t ring_[kRing];
+  std::uint8_t outbox_[kRing];
+};
+
+}  // namespace verp::hal::stm32
