@@ -49,8 +49,8 @@ inline constexpr SerialPort kOperatorPort = {
     .dma_gate = {stm32::rcc::kAhb1enr, stm32::rcc::kAhb1Dma1},
     .on_apb2 = false,
     .interrupt = stm32::irq::kUsart2,
-    .dma_interrupt = stm32::irq::dma1(5)};
-inline constexpr std::uint32_t kOperatorBaud = 1'000'000;
+    .dma_interrupt = stm32::irq::dma1(5),
+    .baud = 1'000'000};
 
 inline constexpr Pin kLed = {'A', 5};
 inline constexpr Pin kServoPower = {};  ///< the board switches none

@@ -3,8 +3,8 @@
 
 /// ROBOTIS OpenCR 1.0: STM32F746ZGT6 (Cortex-M7, single precision).
 /// Pins: ROBOTIS-GIT/OpenCR, arduino/opencr_arduino/opencr/variants/OpenCR (variant.cpp,
-/// drv_uart.c, drv_dxl.c); alternate functions and DMA streams are those that its drv_uart.c sets.
-/// README.md has the wiring and names the source of each pin.
+/// drv_uart.c, drv_dxl.c, hw/usb_cdc); alternate functions and DMA streams are those that its
+/// drv_uart.c sets. README.md has the wiring and names the source of each pin.
 namespace verp::board {
 
 namespace stm32 = hal::stm32;
@@ -37,22 +37,12 @@ inline constexpr SerialPort kServoPort = {.wiring = {.base = stm32::base::kUsart
                                           .on_apb2 = false,
                                           .interrupt = stm32::irq::kUsart3,
                                           .dma_interrupt = stm32::irq::dma1(1)};
-/// The connector named UART1.
-inline constexpr SerialPort kOperatorPort = {
-    .wiring = {.base = stm32::base::kUsart2,
-               .dma_base = stm32::base::kDma1,
-               .dma_stream = 5,
-               .dma_channel = 4,
-               .direction = {}},
-    .transmit = {'D', 5},
-    .receive = {'D', 6},
-    .function = 7,
-    .gate = {stm32::rcc::kApb1enr, stm32::rcc::kApb1Usart2},
-    .dma_gate = {stm32::rcc::kAhb1enr, stm32::rcc::kAhb1Dma1},
-    .on_apb2 = false,
-    .interrupt = stm32::irq::kUsart2,
-    .dma_interrupt = stm32::irq::dma1(5)};
-inline constexpr std::uint32_t kOperatorBaud = 1'000'000;
+/// The USB connector. VBUS is not sensed: usb_cdc/usbd_conf.c.
+inline constexpr UsbPort kOperatorPort = {.minus = {'A', 11},
+                                          .plus = {'A', 12},
+                                          .function = 10,
+                                          .senses_vbus = false,
+                                          .product = "VERP on OpenCR"};
 
 inline constexpr Pin kLed = {'G', 9};          ///< STATUS
 inline constexpr Pin kServoPower = {'F', 15};  ///< high: the DYNAMIXEL connectors have power

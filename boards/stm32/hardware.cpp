@@ -1,15 +1,13 @@
 #include "boards/stm32/hardware.hpp"
 
 #include "boards/stm32/vectors.hpp"
-#include "hal/chip/stm32/clock_gate.hpp"
 #include "hal/chip/stm32/instruction_cache.hpp"
-#include "hal/chip/stm32/interrupts.hpp"
 
 namespace verp::board {
 
 Timer timer(stm32::base::kTim2);
-Port servo_port(kServoPort.wiring, timer);
-Port operator_port(kOperatorPort.wiring, timer);
+Port servo_port = ServoSide::make(kServoPort, kFamily, timer);
+OperatorPort operator_port = OperatorSide::make(kOperatorPort, kFamily, timer);
 Battery battery(kBattery, timer);
 stm32::Buzzer<Io> buzzer(kBuzzer);
 
@@ -34,20 +32,6 @@ void on_operator_port() {
   operator_port.on_interrupt();
 }
 
-void connect(const SerialPort& port, std::uint8_t priority) {
-  stm32::enable_clock(Io{}, port.gate.enable_register, port.gate.mask);
-  stm32::enable_clock(Io{}, port.dma_gate.enable_register, port.dma_gate.mask);
-  stm32::Gpio<Io> gpio;
-  gpio.alternate(port.transmit, port.function);
-  gpio.alternate(port.receive, port.function, stm32::gpio::kPullUp);
-  stm32::enable_interrupt(Io{}, port.interrupt, priority);
-  stm32::enable_interrupt(Io{}, port.dma_interrupt, priority);
-}
-
-std::uint32_t clock_of(const SerialPort& port, const stm32::Clocks& clocks) {
-  return port.on_apb2 ? clocks.apb2_hz : clocks.apb1_hz;
-}
-
 }  // namespace
 
 Start start_hardware() {
@@ -59,8 +43,8 @@ Start start_hardware() {
   stm32::enable_clock(Io{}, stm32::rcc::kApb1enr, stm32::rcc::kApb1Tim2);
   start.good = timer.open(start.clocks.apb1_timer_hz, start.clocks.sysclk_hz);
   stm32::enable_interrupt(Io{}, stm32::irq::kTim2, kTimerPriority);
-  connect(kServoPort, kServoPriority);
-  connect(kOperatorPort, kOperatorPriority);
+  ServoSide::connect(kServoPort, kServoPriority);
+  OperatorSide::connect(kOperatorPort, kOperatorPriority);
   battery.open(start.clocks.apb2_hz);
   buzzer.open(start.clocks.apb1_timer_hz);
   stm32::enable_interrupt(Io{}, stm32::irq::kTim3, kTimerPriority);
@@ -68,10 +52,10 @@ Start start_hardware() {
 }
 
 bool open_servo_port(const Start& start, std::uint32_t baud) {
-  return servo_port.open(clock_of(kServoPort, start.clocks), baud);
+  return ServoSide::open(servo_port, kServoPort, start.clocks, baud);
 }
 bool open_operator_port(const Start& start) {
-  return operator_port.open(clock_of(kOperatorPort, start.clocks), kOperatorBaud);
+  return OperatorSide::open(operator_port, kOperatorPort, start.clocks);
 }
 
 }  // namespace verp::board

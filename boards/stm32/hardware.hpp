@@ -1,11 +1,11 @@
 #pragma once
 #include "board.hpp"
+#include "boards/stm32/ports.hpp"
 #include "hal/chip/stm32/analog_input.hpp"
 #include "hal/chip/stm32/buzzer.hpp"
 #include "hal/chip/stm32/memory_io.hpp"
 #include "hal/chip/stm32/reset_cause.hpp"
 #include "hal/chip/stm32/tick_timer.hpp"
-#include "hal/chip/stm32/usart.hpp"
 #include "hal/chip/stm32/watchdog.hpp"
 
 /// The chip of the board that is being built: its drivers, and how they come up. Static, because
@@ -14,13 +14,18 @@ namespace verp::board {
 
 using Io = stm32::MemoryIo;
 using Timer = stm32::TickTimer<Io>;
-using Port = stm32::Usart<Io, UsartKind, Timer>;
+template <auto& kWiring>
+using KindOf = PortKind<std::remove_cvref_t<decltype(kWiring)>, Io, UsartKind, Timer>;
+using ServoSide = KindOf<kServoPort>;
+using OperatorSide = KindOf<kOperatorPort>;
+using Port = ServoSide::Port;
+using OperatorPort = OperatorSide::Port;
 
 using Battery = stm32::AnalogInput<Io, Timer>;
 
 extern Timer timer;
 extern Port servo_port;
-extern Port operator_port;
+extern OperatorPort operator_port;
 extern Battery battery;
 extern stm32::Buzzer<Io> buzzer;
 
@@ -34,6 +39,7 @@ struct Start {
 Start start_hardware();
 /// False if no divider makes this rate. Never waits.
 bool open_servo_port(const Start& start, std::uint32_t baud);
+/// False if it can't be clocked, or does not answer. USB takes 25 ms.
 bool open_operator_port(const Start& start);
 
 }  // namespace verp::board

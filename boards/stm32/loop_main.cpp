@@ -39,7 +39,7 @@ constexpr std::uint64_t kServingEnds_us = 2'000;
 /// The longest reply and the one to Reboot at 1 Mbaud take half of it.
 constexpr std::uint64_t kLastWords_us = 40'000;
 
-using Operator = app::OperatorDevice<Port, app::ParamsImages>;
+using Operator = app::OperatorDevice<OperatorPort, app::ParamsImages>;
 
 struct Board {
   Board(const Start& start, const Params& params, control::BootVerdict verdict)

@@ -29,6 +29,18 @@ struct SerialPort {
   bool on_apb2 = false;  ///< else on APB1
   unsigned interrupt = 0;
   unsigned dma_interrupt = 0;
+  std::uint32_t baud = 0;  ///< of the operator's port; the servos' is the robot's
+};
+
+/// USB full speed, a serial port to the PC it is plugged into.
+struct UsbPort {
+  Pin minus;
+  Pin plus;
+  std::uint32_t function = 0;  ///< alternate function of both pins
+  bool senses_vbus = false;    ///< PA9 is wired to the connector's VBUS
+  const char* product = "";    ///< what the PC shows; ASCII, 24 characters at most
+  static constexpr unsigned interrupt = hal::stm32::irq::kOtgFs;
+  static constexpr unsigned dma_interrupt = interrupt;  ///< it has no other
 };
 
 /// A motion sensor of hal/chip/invensense on the board; {}: there is none.
