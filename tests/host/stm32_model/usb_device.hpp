@@ -67,7 +67,7 @@ struct UsbDevice {
     if ((get(doepint(0)) & kDoepStup) != 0) request();
     for (unsigned e = 0; e < 2; ++e) {
       if ((get(doepint(e)) & kDoepXfrc) == 0) continue;
-      put(doepint(e), kDoepXfrc);
+      acknowledge(e, kDoepXfrc);
       if (e == 0 && receives) {
         receives = false;
         send(0, {});
@@ -75,6 +75,11 @@ struct UsbDevice {
         listen(1, window);
       }
     }
+  }
+
+  /// Bit 7 is reserved, and set after reset.
+  void acknowledge(unsigned endpoint, std::uint32_t flag) {
+    put(otg_fs::doepint(endpoint), flag | (get(otg_fs::doepint(endpoint)) & bit(7)));
   }
 
   void bus_reset() {
@@ -104,7 +109,7 @@ struct UsbDevice {
 
   void request() {
     using namespace otg_fs;
-    put(doepint(0), kDoepStup);
+    acknowledge(0, kDoepStup);
     const unsigned length = setup[6] + 256u * setup[7];
     if (refuse) {
       change(diepctl(0), 0, kEpctlStall);

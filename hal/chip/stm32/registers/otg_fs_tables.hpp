@@ -217,12 +217,12 @@ constexpr Register in_interrupts(std::uint32_t more) {
           .r = kDiepInepne | kDiepTxfe,
           .rc_w1 = kDiepXfrc | kDiepEpdisd | kDiepToc | kDiepIttxfe | more};
 }
-/// The manuals print 0x80, which is IN endpoints' TXFE; here that bit is reserved.
+/// Bit 7, TXFE of IN endpoints, is reserved here but set after reset: a write keeps it.
 constexpr Register out_interrupts(std::uint32_t more) {
   return {.name = "DOEPINTx",
           .offset = kDoepint - kDoepctl,
           .paragraph = 52,
-          .reset = 0x80,  // a reserved bit
+          .reset = bit(7),
           .rc_w1 = kDoepXfrc | kDoepEpdisd | kDoepStup | kDoepOtepdis | kDoepB2bstup | more};
 }
 inline constexpr std::uint32_t kInNew =
