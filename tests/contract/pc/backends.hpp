@@ -7,6 +7,7 @@
 #include "tests/contract/fakes.hpp"
 #include "tests/contract/pc/buses.hpp"
 #include "tests/contract/pc/link_pairs.hpp"
+#include "tests/contract/usb_pair.hpp"
 
 /// What each suite runs against on the PC.
 namespace verp::test {
@@ -24,8 +25,10 @@ using FrameBuses = ::testing::Types<
     LockstepOver<SerialPair<false>>, LockstepOver<SerialPair<true>>, LockstepOver<TcpPair<false>>,
     LockstepOver<UnixPair<true>>, LinkBusOver<SerialPair<false>>, LinkBusOver<TcpPair<false>>,
     LinkBusOver<UnixPair<true>>>;
-using ByteLinks = ::testing::Types<MemoryPair, UsartPair, SerialPair<false>, SerialPair<true>,
-                                   TcpPair<false>, TcpPair<true>, UnixPair<false>, UnixPair<true>>;
+using ByteLinks =
+    ::testing::Types<MemoryPair, UsartPair, UsbPair<Family::kF405, true>,
+                     UsbPair<Family::kF746, false>, SerialPair<false>, SerialPair<true>,
+                     TcpPair<false>, TcpPair<true>, UnixPair<false>, UnixPair<true>>;
 using Stores = ::testing::Types<InMemory, InFlash<1>, InFlash<2>, InFlash<4>, InFlash<8>,
                                 ChipFlash<Family::kF405>, ChipFlash<Family::kF746>>;
 using TickSources = ::testing::Types<Manual, ChipTicks, System>;
