@@ -15,6 +15,7 @@
 #include "host/link/line_rate.hpp"
 #include "host/link/link_error.hpp"
 #include "host/link/port.hpp"
+#include "host/link/serial_check.hpp"
 
 namespace verp::wire {
 namespace {
@@ -47,8 +48,9 @@ LinkError busy(const std::string& device) {
           device + ": another program has it open; end that, fuser -v " + device + " names it"};
 }
 
-/// Throws what keeps `device` from being opened, as far as it shows from outside.
-void check(const std::string& device) {
+}  // namespace
+
+void check_serial_port(const std::string& device) {
   struct stat status {};
   if (::stat(device.c_str(), &status) != 0) {
     if (errno == EACCES) throw no_permission(device);
@@ -68,6 +70,8 @@ void check(const std::string& device) {
   throw LinkError(Kind::kNoDevice,
                   device + ": " + std::strerror(error) + "; unplug it and plug it in again");
 }
+
+namespace {
 
 /// libserial's name of a rate, or BAUD_INVALID: then the kernel is asked directly.
 BaudRate standard_rate(std::uint32_t baud) {
@@ -97,7 +101,7 @@ class SerialPort final : public Port {
   ~SerialPort() override { close(); }
 
   int open() override {
-    check(device_);
+    check_serial_port(device_);
     port_ = std::make_unique<LibSerial::SerialPort>();
     try {
       port_->Open(device_);
