@@ -20,34 +20,6 @@ namespace {
 
 constexpr auto kPollInterval = std::chrono::milliseconds(2);
 
-std::vector<std::string> command_of(const QemuProcess::Launch& launch) {
-  const char* other = std::getenv("VERP_QEMU");
-  std::string semihosting = "enable=on,target=native,arg=" + launch.image.filename().string();
-  for (const std::string& argument : launch.arguments) semihosting += ",arg=" + argument;
-  std::vector<std::string> command = {other != nullptr ? other : "qemu-system-arm",
-                                      "-M",
-                                      launch.board.machine,
-                                      "-display",
-                                      "none",
-                                      "-monitor",
-                                      "none",
-                                      "-semihosting-config",
-                                      semihosting,
-                                      "-kernel",
-                                      launch.image.string()};
-  const auto add = [&](const std::string& option, const std::string& value) {
-    command.push_back(option);
-    command.push_back(value);
-  };
-  if (launch.serial_ports.empty()) add("-serial", "none");
-  for (const auto& port : launch.serial_ports) {
-    add("-serial", "unix:" + port.string() + ",server=on,wait=off");
-  }
-  if (!launch.plugin.empty()) add("-plugin", launch.plugin);
-  command.insert(command.end(), launch.options.begin(), launch.options.end());
-  return command;
-}
-
 int exit_status(int wait_status) {
   return WIFEXITED(wait_status) ? WEXITSTATUS(wait_status) : 128 + WTERMSIG(wait_status);
 }
@@ -78,13 +50,41 @@ int spawn(std::vector<std::string> command, const std::filesystem::path& log, pi
 
 }  // namespace
 
+std::vector<std::string> QemuProcess::command(const Launch& launch) {
+  const char* other = std::getenv("VERP_QEMU");
+  std::string semihosting = "enable=on,target=native,arg=" + launch.image.filename().string();
+  for (const std::string& argument : launch.arguments) semihosting += ",arg=" + argument;
+  std::vector<std::string> command = {other != nullptr ? other : "qemu-system-arm",
+                                      "-M",
+                                      launch.board.machine,
+                                      "-display",
+                                      "none",
+                                      "-monitor",
+                                      "none",
+                                      "-semihosting-config",
+                                      semihosting,
+                                      "-kernel",
+                                      launch.image.string()};
+  const auto add = [&](const std::string& option, const std::string& value) {
+    command.push_back(option);
+    command.push_back(value);
+  };
+  if (launch.serial_ports.empty()) add("-serial", "none");
+  for (const auto& port : launch.serial_ports) {
+    add("-serial", "unix:" + port.string() + ",server=on,wait=off");
+  }
+  if (!launch.plugin.empty()) add("-plugin", launch.plugin);
+  command.insert(command.end(), launch.options.begin(), launch.options.end());
+  return command;
+}
+
 QemuProcess::QemuProcess(const Launch& launch) : name_(launch.image.filename().string()) {
   setenv("QEMU_AUDIO_DRV", "none", 1);  // no sound card is looked for
-  const std::vector<std::string> command = command_of(launch);
-  const int error = spawn(command, directory_.path() / "output", pid_);
+  const std::vector<std::string> words = command(launch);
+  const int error = spawn(words, directory_.path() / "output", pid_);
   if (error != 0) {
     pid_ = -1;
-    throw BoardError(command[0] + ": can't start the emulator (" + std::strerror(error) +
+    throw BoardError(words[0] + ": can't start the emulator (" + std::strerror(error) +
                      "); install it: apt-get install qemu-system-arm");
   }
 }

@@ -26,6 +26,9 @@ class QemuProcess {
     std::vector<std::string> options = {};  ///< further words of QEMU's command line
   };
 
+  /// The command line that a launch comes to.
+  static std::vector<std::string> command(const Launch& launch);
+
   /// Throws BoardError if QEMU isn't installed. $VERP_QEMU names another emulator.
   explicit QemuProcess(const Launch& launch);
   ~QemuProcess();

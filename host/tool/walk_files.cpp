@@ -4,13 +4,12 @@
 #include <stdlib.h>
 #include <unistd.h>
 
-#include <algorithm>
-#include <cctype>
 #include <cerrno>
 #include <cstring>
 #include <optional>
 
 #include "host/files/folder_lock.hpp"
+#include "host/files/shell_line.hpp"
 #include "host/record/trace_error.hpp"
 #include "host/report/report.hpp"
 #include "host/tool/console.hpp"
@@ -38,17 +37,6 @@ void make_folder(const fs::path& folder) {
   }
   ::close(descriptor);
   ::unlink(probe.c_str());
-}
-
-/// As a shell takes it: as it is, or in quotes.
-std::string shell_word(const std::string& text) {
-  const auto plain = [](char c) {
-    return std::isalnum(static_cast<unsigned char>(c)) || std::strchr("/._-+", c) != nullptr;
-  };
-  if (!text.starts_with('-') && std::all_of(text.begin(), text.end(), plain)) return text;
-  std::string word = "'";
-  for (const char c : text) word += c == '\'' ? "'\\''" : std::string(1, c);
-  return word + "'";
 }
 
 record::mcap::StringMap metadata(const WalkPlan& plan, const WalkOptions& options) {
@@ -120,7 +108,7 @@ void WalkFiles::lose_trace(const std::string& why) {
   if (trace_->safe_ticks() > 0) {
     lost_.push_back(fmt::format(
         "{}: the trace breaks off: {}; `verp trace recover {} -o {}` gives what is there", name,
-        why, shell_word(part), shell_word(name)));
+        why, files::shell_word(part), files::shell_word(name)));
   } else {
     trace_->discard();
     lost_.push_back(fmt::format("{}: no trace: {}", name, why));
