@@ -29,6 +29,8 @@ Subcommand add_export(CLI::App& root);
 Subcommand add_trace(CLI::App& root);
 Subcommand add_bench(CLI::App& root);
 Subcommand add_bus(CLI::App& root);
+Subcommand add_flash(CLI::App& root);
+Subcommand add_deploy(CLI::App& root);
 
 /// Adds --json. With it stdout holds one JSON object and nothing else; everything for people goes
 /// to stderr.

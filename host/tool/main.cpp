@@ -4,13 +4,10 @@
 #include <string_view>
 #include <vector>
 
-#include "host/board/board_error.hpp"
-#include "host/bus/client.hpp"
-#include "host/model/load_error.hpp"
 #include "host/record/trace.hpp"
-#include "host/report/report.hpp"
 #include "host/tool/command.hpp"
 #include "host/tool/console.hpp"
+#include "host/tool/failure.hpp"
 #include "host/tool/interrupt.hpp"
 #include "host/tool/suggest.hpp"
 
@@ -118,9 +115,10 @@ int run(int argc, char** argv) {
   CLI::App root("VERP: a humanoid robot's controller and its twin", "verp");
   root.set_version_flag("--version", "verp " + record::build_info().at("source_revision"));
   root.require_subcommand(1);
-  const std::vector<Subcommand> commands = {
-      add_walk(root),  add_hil(root),    add_run(root),   add_replay(root), add_diff(root),
-      add_check(root), add_export(root), add_trace(root), add_bench(root),  add_bus(root)};
+  const std::vector<Subcommand> commands = {add_walk(root),   add_hil(root),   add_run(root),
+                                            add_replay(root), add_diff(root),  add_check(root),
+                                            add_export(root), add_trace(root), add_bench(root),
+                                            add_bus(root),    add_flash(root), add_deploy(root)};
   // After the subcommands, which would have it too.
   root.footer("Besides, the launcher has `./verp test`: everything that is promised, checked.");
   try {
@@ -130,25 +128,9 @@ int run(int argc, char** argv) {
     }
   } catch (const CLI::ParseError& error) {
     return parse_failure(root, error, json);
-  } catch (const ToolError& error) {
-    return fail(error.status(), error.what(), json);
-  } catch (const model::LoadError& error) {
-    return fail(kBadInput, error.what(), json);
-  } catch (const wire::EndpointError& error) {
-    return fail(kBadInput, error.what(), json);
-  } catch (const wire::LinkError& error) {
-    return fail(kNoDevice, error.what(), json);
-  } catch (const bus::DeviceError& error) {
-    return fail(kNoDevice, error.what(), json);
-  } catch (const board::BoardError& error) {
-    return fail(kNoDevice, error.what(), json);
-  } catch (const record::TraceError& error) {
-    return fail(kBadInput, error.what(), json);
-  } catch (const report::ReportError& error) {
-    return fail(kBadInput, error.what(), json);
-  } catch (const std::exception& error) {
-    return fail(kRunFailed, fmt::format("verp: unexpected: {}; please report it", error.what()),
-                json);
+  } catch (...) {
+    const Failure failure = current_failure();
+    return fail(failure.status, failure.line, json);
   }
   return kGood;
 }

@@ -1,0 +1,96 @@
+#include "host/flash/images.hpp"
+
+#include <fmt/format.h>
+
+#include <cstdlib>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+#include <vector>
+
+#include "common/model/image.hpp"
+#include "host/flash/flash_error.hpp"
+#include "host/model/export.hpp"
+#include "host/model/load_error.hpp"
+
+namespace verp::flash {
+namespace {
+
+using Bytes = std::vector<char>;
+
+[[noreturn]] void refuse(const std::filesystem::path& file, const std::string& why) {
+  throw FlashError(FlashError::Kind::kBadFile, file.string() + ": " + why);
+}
+
+Bytes read(const std::filesystem::path& file, const char* what, const Span& region) {
+  if (region.bytes == 0) refuse(file, fmt::format("this board keeps no {} in its flash", what));
+  if (std::filesystem::is_directory(file)) refuse(file, "is a folder; name a file");
+  std::ifstream in(file, std::ios::binary);
+  if (!in) refuse(file, "cannot be read; check the path and its permissions");
+  Bytes bytes{std::istreambuf_iterator<char>(in), {}};
+  if (bytes.empty()) refuse(file, "is empty; write it again");
+  if (bytes.size() > region.bytes) {
+    refuse(file, fmt::format("{} bytes are too many: {:#010x} has {} for the {}; is it the right "
+                             "file?",
+                             bytes.size(), region.begin, region.bytes, what));
+  }
+  return bytes;
+}
+
+std::uint32_t word(const Bytes& bytes, std::size_t index) {
+  std::uint32_t value = 0;
+  std::memcpy(&value, bytes.data() + 4 * index, sizeof value);
+  return value;
+}
+
+}  // namespace
+
+std::filesystem::path code_image(const std::string& board) {
+  const char* folder = std::getenv("VERP_FIRMWARE_DIR");
+  const std::filesystem::path file =
+      (folder != nullptr
+           ? std::filesystem::path(folder)
+           : std::filesystem::path(VERP_SOURCE_DIR) / "build" / ("fw-" + board) / "images") /
+      ("loop_" + board + ".bin");
+  if (!std::filesystem::exists(file)) {
+    refuse(file, fmt::format("not built; run ./verp flash --board {0}, which builds it, or: cmake "
+                             "--preset fw-{0} && cmake --build --preset fw-{0}",
+                             board));
+  }
+  return file;
+}
+
+void check_code(const std::filesystem::path& file, const MemoryMap& map) {
+  constexpr std::size_t kFewestVectors = 16;  // those that every Cortex-M has
+  const Bytes bytes = read(file, "code", map.code);
+  const char* again = "build the firmware again";
+  if (bytes.size() < 4 * kFewestVectors) refuse(file, fmt::format("is cut off; {}", again));
+  const std::uint32_t stack = word(bytes, 0), entry = word(bytes, 1);
+  const bool stack_in_ram = stack > map.ram.begin && stack <= map.ram.end() && stack % 4 == 0;
+  const bool entry_in_code =
+      entry % 2 == 1 && entry > map.code.begin && entry < map.code.begin + bytes.size();
+  if (stack_in_ram && entry_in_code) return;
+  refuse(file, fmt::format("does not begin with a vector table for {:#010x} (stack {:#010x}, entry "
+                           "{:#010x}), so it is no firmware of this board; {}",
+                           map.code.begin, stack, entry, again));
+}
+
+std::string check_params(const std::filesystem::path& file, const MemoryMap& map) {
+  read(file, "robot", map.params);
+  try {
+    const ParamsImage image = model::read_image(file.string());
+    return {image.params.name, ::strnlen(image.params.name, kNameLength)};
+  } catch (const model::LoadError& error) {
+    throw FlashError(FlashError::Kind::kBadFile, error.what());
+  }
+}
+
+void check_actions(const std::filesystem::path& file, const MemoryMap& map) {
+  const Bytes bytes = read(file, "actions", map.actions);
+  if (bytes.size() >= sizeof kImageMagic &&
+      std::memcmp(bytes.data(), kImageMagic, sizeof kImageMagic) == 0) {
+    refuse(file, "is a robot (a Params image), not actions; give it to --params");
+  }
+}
+
+}  // namespace verp::flash

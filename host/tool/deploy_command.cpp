@@ -1,0 +1,260 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+
+#include "host/board/replay_on_target.hpp"
+#include "host/flash/recipe.hpp"
+#include "host/flash/tool_run.hpp"
+#include "host/model/find.hpp"
+#include "host/model/load.hpp"
+#include "host/model/params.hpp"
+#include "host/record/trace_writer.hpp"
+#include "host/tool/command.hpp"
+#include "host/tool/console.hpp"
+#include "host/tool/failure.hpp"
+#include "host/tool/flash_run.hpp"
+#include "host/tool/interrupt.hpp"
+#include "host/tool/walk_options.hpp"
+#include "host/tool/walk_run.hpp"
+
+namespace verp::tool {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct DeployOptions {
+  std::string model;
+  double walk_s = 10;
+  FlashOptions flash;
+  bool no_build = false, json = false;
+};
+
+/// What one step has to say when it went well.
+struct StepAnswer {
+  std::string text;
+  Json json = Json::object();
+};
+
+/// One step of the way from a model to a robot; each throws, or answers.
+class Deployment {
+ public:
+  explicit Deployment(const DeployOptions& options)
+      : options_(options),
+        recipe_(flash::find_recipe(options.flash.board)),
+        folder_(fs::path(VERP_SOURCE_DIR) / "build" / "deploy" / options.flash.board),
+        progress_(!options.json) {
+    plan_.entity = model::load_robot(model::find_model(options.model));
+    plan_.params = model::make_params(plan_.entity);
+    const WalkOptions usual;  // two 4 cm steps a cycle, straight ahead
+    plan_.velocity = velocity_of(usual, usual.step_m);
+    plan_.walk_s = options.walk_s;
+  }
+
+  StepAnswer build() {
+    if (options_.no_build) return {"left out (--no-build)"};
+    build({"loop_" + options_.flash.board}, options_.flash.board);
+    build({std::string("replay_") + recipe_.replay_board}, recipe_.replay_board);
+    return {fmt::format("loop_{}, replay_{}", options_.flash.board, recipe_.replay_board)};
+  }
+
+  /// Walks in the twin, this PC being the controller, and keeps what it saw.
+  StepAnswer walk() {
+    const fs::path file = folder() / "walk.mcap";
+    record::TraceWriter writer(file, plan_.params, {{"robot", plan_.params.name}});
+    const WalkResult result =
+        tool::walk(plan_, &writer, progress_, "walk of " + std::string(plan_.params.name), false);
+    progress_.clear();
+    if (!result.trace_failure.empty()) throw ToolError(kRunFailed, result.trace_failure);
+    writer.close();
+    if (result.interrupted) throw ToolError(kRunFailed, "interrupted");
+    if (!result.good()) {
+      throw ToolError(kRunFailed, fmt::format("{}; `verp trace export {}` shows the run",
+                                              result.failure, file.string()));
+    }
+    trace_ = record::read_trace(file);
+    return {fmt::format("{} ticks, digest 0x{:016x}", result.ticks, result.digest),
+            {{"ticks", result.ticks},
+             {"digest", fmt::format("0x{:016x}", result.digest)},
+             {"trace", file.string()}}};
+  }
+
+  /// The same inputs on a core like the board's must give the same bits.
+  StepAnswer replay() {
+    const std::string board = recipe_.replay_board;
+    std::vector<Inputs> inputs;
+    for (const TickRecord& tick : trace_.ticks) inputs.push_back(tick.inputs);
+    progress_.show(0, "replay on " + board);
+    const board::TargetReplay there = board::replay_on(board, trace_.params, inputs);
+    progress_.clear();
+    for (std::size_t i = 0; i < trace_.ticks.size(); ++i) expect_same(i, there.digests[i]);
+    const bool itself = board == options_.flash.board;
+    return {fmt::format("{} ticks on emulated {}{}, every stage the same bits", inputs.size(),
+                        board, itself ? "" : ", which has the same core"),
+            {{"board", board}, {"ticks", inputs.size()}, {"same_board", itself}}};
+  }
+
+  StepAnswer flash() {
+    FlashOptions options = options_.flash;
+    options.stay = false;
+    if (recipe_.chip != nullptr) options.params = options_.model;
+    FlashAnswer answer = flash_board(options, progress_, [](const std::string&) {});
+    while (!answer.text.empty() && answer.text.back() == '\n') answer.text.pop_back();
+    return {(options.dry_run ? "would run:\n" : "") + answer.text, answer.json};
+  }
+
+ private:
+  const fs::path& folder() const {
+    std::error_code error;
+    fs::create_directories(folder_, error);
+    if (error) {
+      throw ToolError(kBadInput, folder_.string() +
+                                     ": cannot be made; build as the user who owns " +
+                                     folder_.parent_path().string());
+    }
+    return folder_;
+  }
+
+  /// One at a time with ./verp, whose lock this takes as well.
+  void build(const std::vector<std::string>& targets, const std::string& board) {
+    const fs::path root = VERP_SOURCE_DIR;
+    std::vector<std::string> make = {"cmake", "--build",
+                                     (root / "build" / ("fw-" + board)).string(), "--target"};
+    make.insert(make.end(), targets.begin(), targets.end());
+    const std::string lock = (root / "build" / ".lock").string();
+    must({"flock", lock, "env", "-C", root.string(), "cmake", "--preset", "fw-" + board});
+    must([&] {
+      std::vector<std::string> words = {"flock", lock};
+      words.insert(words.end(), make.begin(), make.end());
+      return words;
+    }());
+  }
+
+  void must(const std::vector<std::string>& command) {
+    const flash::ToolHooks hooks{.share = [&](double share) { progress_.show(share, "build"); },
+                                 .stop = interrupted};
+    progress_.show(0, "build");
+    const flash::ToolRun run = flash::run_tool(command, "cmake", hooks);
+    progress_.clear();
+    if (run.interrupted) throw ToolError(kRunFailed, "interrupted");
+    if (run.status == 0) return;
+    const fs::path log = folder() / "build.log";
+    std::ofstream(log) << run.output;
+    const std::size_t error = run.output.find("rror: ");
+    const std::size_t begin =
+        error == std::string::npos ? error : run.output.rfind('\n', error) + 1;
+    throw ToolError(kRunFailed, fmt::format("{}; all of it: {}",
+                                            error == std::string::npos
+                                                ? flash::last_line(run.output)
+                                                : run.output.substr(
+                                                      begin, run.output.find('\n', error) - begin),
+                                            log.string()));
+  }
+
+  void expect_same(std::size_t index, const TickDigest& there) const {
+    const TickRecord& here = trace_.ticks[index];
+    for (int stage = 0; stage < kStages; ++stage) {
+      if (here.digest.stage[stage] == there.stage[stage]) continue;
+      throw ToolError(
+          kRunFailed,
+          fmt::format("{} differs from this PC at tick {} in stage {}; please report it",
+                      recipe_.replay_board, here.inputs.tick, kStageNames[stage]));
+    }
+  }
+
+  const DeployOptions& options_;
+  const flash::Recipe& recipe_;
+  fs::path folder_;
+  Progress progress_;
+  WalkPlan plan_;
+  record::Trace trace_;
+};
+
+struct NamedStep {
+  const char* name;
+  StepAnswer (Deployment::*run)();
+};
+constexpr NamedStep kSteps[] = {{"build", &Deployment::build},
+                                {"walk", &Deployment::walk},
+                                {"replay", &Deployment::replay},
+                                {"flash", &Deployment::flash}};
+
+void tell(const DeployOptions& options, const std::string& line) {
+  if (options.json) {
+    complain(line);
+  } else {
+    answer(line + "\n");
+    std::fflush(stdout);
+  }
+}
+
+/// Up to the first step that fails. Returns the exit status.
+int run_steps(const DeployOptions& options, Deployment& deployment, Json& rows,
+              std::string& failure) {
+  using Clock = std::chrono::steady_clock;
+  for (const NamedStep& step : kSteps) {
+    const auto begun = Clock::now();
+    Json row = {{"step", step.name}, {"good", true}};
+    Failure failed{kGood, ""};
+    StepAnswer answer;
+    try {
+      answer = (deployment.*step.run)();
+    } catch (...) {
+      failed = current_failure();
+    }
+    row["good"] = failed.status == kGood;
+    row["seconds"] = std::chrono::duration<double>(Clock::now() - begun).count();
+    row.update(answer.json);
+    rows.push_back(row);
+    if (failed.status != kGood) {
+      failure = fmt::format("{}: {}", step.name, failed.line);
+      return failed.status;
+    }
+    tell(options, fmt::format("  {:<8}{}", step.name, answer.text));
+  }
+  return kGood;
+}
+
+int run_deploy(const DeployOptions& options) {
+  Deployment deployment(options);
+  Json rows = Json::array();
+  std::string failure;
+  const int status = run_steps(options, deployment, rows, failure);
+  if (status != kGood) complain("verp deploy: " + failure);
+  if (options.json) {
+    Json json = {{"model", options.model}, {"board", options.flash.board}, {"steps", rows}};
+    if (status != kGood) {
+      json["error"] = failure;
+      json["exit"] = status;
+    }
+    print_json(json);
+  }
+  return status;
+}
+
+}  // namespace
+
+Subcommand add_deploy(CLI::App& root) {
+  CLI::App* app = root.add_subcommand(
+      "deploy",
+      "From a model to a robot: build, walk in the twin, replay on an emulated core, flash");
+  auto options = std::make_shared<DeployOptions>();
+  app->add_option("MODEL", options->model, "a robot of common/robots, or the path of an SDF file")
+      ->required();
+  declare_target(*app, options->flash);
+  app->add_option("--for", options->walk_s, "length of the walk, s")
+      ->check(number_between(3, 3600, "s"))
+      ->capture_default_str();
+  app->add_flag("--no-build", options->no_build, "take the images as they are");
+  add_json_flag(*app, options->json);
+  return {app, [options] {
+            catch_interrupts();
+            return run_deploy(*options);
+          }};
+}
+
+}  // namespace verp::tool

@@ -1,0 +1,52 @@
+#include "host/tool/failure.hpp"
+
+#include <fmt/format.h>
+
+#include <exception>
+
+#include "host/board/board_error.hpp"
+#include "host/bus/client.hpp"
+#include "host/flash/flash_error.hpp"
+#include "host/model/load_error.hpp"
+#include "host/record/trace.hpp"
+#include "host/report/report.hpp"
+#include "host/tool/exit_status.hpp"
+
+namespace verp::tool {
+namespace {
+
+int status_of(flash::FlashError::Kind kind) {
+  using Kind = flash::FlashError::Kind;
+  if (kind == Kind::kInterrupted) return kRunFailed;
+  return kind == Kind::kUsage || kind == Kind::kBadFile ? kBadInput : kNoDevice;
+}
+
+}  // namespace
+
+Failure current_failure() {
+  try {
+    throw;
+  } catch (const ToolError& error) {
+    return {error.status(), error.what()};
+  } catch (const model::LoadError& error) {
+    return {kBadInput, error.what()};
+  } catch (const wire::EndpointError& error) {
+    return {kBadInput, error.what()};
+  } catch (const wire::LinkError& error) {
+    return {kNoDevice, error.what()};
+  } catch (const bus::DeviceError& error) {
+    return {kNoDevice, error.what()};
+  } catch (const board::BoardError& error) {
+    return {kNoDevice, error.what()};
+  } catch (const flash::FlashError& error) {
+    return {status_of(error.kind()), error.what()};
+  } catch (const record::TraceError& error) {
+    return {kBadInput, error.what()};
+  } catch (const report::ReportError& error) {
+    return {kBadInput, error.what()};
+  } catch (const std::exception& error) {
+    return {kRunFailed, fmt::format("verp: unexpected: {}; please report it", error.what())};
+  }
+}
+
+}  // namespace verp::tool

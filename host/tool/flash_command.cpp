@@ -1,0 +1,56 @@
+#include <cstdio>
+#include <memory>
+
+#include "host/tool/command.hpp"
+#include "host/tool/console.hpp"
+#include "host/tool/flash_run.hpp"
+#include "host/tool/interrupt.hpp"
+
+namespace verp::tool {
+namespace {
+
+struct FlashWords {
+  FlashOptions flash;
+  bool code = false, json = false;
+};
+
+int run_flash(FlashWords words) {
+  const bool data = !words.flash.params.empty() || !words.flash.actions.empty();
+  words.flash.code = words.code || !data;
+  Progress progress(!words.json);
+  const FlashAnswer result = flash_board(words.flash, progress, [&](const std::string& text) {
+    if (words.json) {
+      complain(text);
+    } else {
+      answer(text);
+      std::fflush(stdout);
+    }
+  });
+  if (words.json) {
+    print_json(result.json);
+  } else {
+    answer(result.text);
+  }
+  return kGood;
+}
+
+}  // namespace
+
+Subcommand add_flash(CLI::App& root) {
+  CLI::App* app = root.add_subcommand(
+      "flash", "Write firmware, a robot or actions into a board, or start an emulated board");
+  auto words = std::make_shared<FlashWords>();
+  declare_target(*app, words->flash);
+  app->add_option("--params", words->flash.params,
+                  "write this robot instead of the firmware: a Params image (FILE.bin, see verp "
+                  "export), a robot of common/robots, or an SDF file");
+  app->add_option("--actions", words->flash.actions, "write these actions instead of the firmware");
+  app->add_flag("--code", words->code, "with --params or --actions: the firmware as well");
+  add_json_flag(*app, words->json);
+  return {app, [words] {
+            catch_interrupts();
+            return run_flash(*words);
+          }};
+}
+
+}  // namespace verp::tool

@@ -1,0 +1,183 @@
+#include "host/tool/flash_run.hpp"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <thread>
+
+#include "host/files/shell_line.hpp"
+#include "host/flash/emulation.hpp"
+#include "host/flash/flash_error.hpp"
+#include "host/flash/flasher.hpp"
+#include "host/flash/images.hpp"
+#include "host/model/export.hpp"
+#include "host/model/find.hpp"
+#include "host/model/load.hpp"
+#include "host/tool/interrupt.hpp"
+
+namespace verp::tool {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The file that --params names, or the one made of the robot that it names.
+fs::path params_file(const std::string& word, const fs::path& folder) {
+  const fs::path path = word;
+  const bool robot = path.extension() == ".sdf" || path.extension() == ".urdf";
+  if (path.extension() == ".bin" || (!robot && fs::is_regular_file(path))) return path;
+  const ParamsImage image = model::make_image(model::load_robot(model::find_model(word)));
+  const fs::path file = folder / "params.bin";
+  std::ofstream out(file, std::ios::binary);
+  out.write(reinterpret_cast<const char*>(&image), sizeof image);
+  out.close();
+  if (out) return file;
+  throw flash::FlashError(flash::FlashError::Kind::kBadFile,
+                          file.string() + ": cannot be written; free space, or set VERP_FLASH_DIR");
+}
+
+/// What goes where; every file is sound.
+std::vector<flash::Piece> pieces_of(const FlashOptions& options, const flash::MemoryMap& map,
+                                    const fs::path& folder) {
+  std::vector<flash::Piece> pieces;
+  if (options.code) {
+    const fs::path file = flash::code_image(options.board);
+    flash::check_code(file, map);
+    pieces.push_back({"code", fs::absolute(file), map.code});
+  }
+  if (!options.params.empty()) {
+    const fs::path file = params_file(options.params, folder);
+    const std::string robot = flash::check_params(file, map);
+    pieces.push_back({"robot " + robot, fs::absolute(file), map.params});
+  }
+  if (!options.actions.empty()) {
+    flash::check_actions(options.actions, map);
+    pieces.push_back({"actions", fs::absolute(options.actions), map.actions});
+  }
+  return pieces;
+}
+
+Json to_json(const std::vector<flash::Piece>& pieces) {
+  Json rows = Json::array();
+  for (const flash::Piece& piece : pieces) {
+    rows.push_back({{"what", piece.what},
+                    {"file", piece.file.string()},
+                    {"address", fmt::format("{:#010x}", piece.region.begin)},
+                    {"bytes", fs::file_size(piece.file)}});
+  }
+  return rows;
+}
+
+std::string to_text(const std::vector<flash::Piece>& pieces) {
+  std::string text;
+  for (const flash::Piece& piece : pieces) {
+    text += fmt::format("{}{} ({} bytes at {:#010x})", text.empty() ? "" : ", ", piece.what,
+                        fs::file_size(piece.file), piece.region.begin);
+  }
+  return text;
+}
+
+FlashAnswer flash_silicon(const FlashOptions& options, const flash::Recipe& recipe,
+                          Progress& progress) {
+  const flash::Tool tool = flash::choose_tool(recipe, options.tool, options.port);
+  const flash::Workspace workspace(options.board);
+  const flash::MemoryMap map = flash::read_memory_map(options.board);
+  const flash::Job job{
+      recipe, map, tool, options.port, pieces_of(options, map, workspace.path()), workspace.path()};
+  const std::vector<flash::Step> steps = flash::plan(job);
+  FlashAnswer answer;
+  answer.json = {{"board", options.board},
+                 {"tool", name_of(tool)},
+                 {"pieces", to_json(job.pieces)},
+                 {"commands", Json::array()},
+                 {"written", !options.dry_run}};
+  for (const flash::Step& step : steps) {
+    const std::string line = files::shell_line(step.command);
+    answer.json["commands"].push_back(line);
+    if (options.dry_run) answer.text += line + "\n";
+  }
+  if (options.dry_run) return answer;
+  const std::string what = to_text(job.pieces);  // one that was kept is gone afterwards
+  flash::run(
+      job, steps,
+      {.progress = [&](const flash::Step& step, double share) { progress.show(share, step.label); },
+       .stop = interrupted});
+  progress.clear();
+  answer.text = fmt::format(
+      "{}: {}: written and verified with {}{}\n", options.board, what, name_of(tool),
+      tool == flash::Tool::kOpenocd ? ", and started" : "; set BOOT0 low and press reset");
+  return answer;
+}
+
+FlashAnswer emulate(const FlashOptions& options, const flash::Recipe& recipe,
+                    const std::function<void(const std::string&)>& say) {
+  if (!options.port.empty() || !options.tool.empty()) {
+    throw flash::FlashError(flash::FlashError::Kind::kUsage,
+                            options.board +
+                                ": an emulated board has no port and no flash tool; "
+                                "leave out --port and --tool");
+  }
+  const flash::Workspace workspace(options.board);
+  const flash::MemoryMap map = flash::read_memory_map(options.board);
+  FlashOptions data_only = options;
+  data_only.code = false;
+  const auto pieces = pieces_of(data_only, map, workspace.path());
+  const flash::EmulationPlan plan = flash::plan_emulation(options.board, pieces, workspace.path());
+  const std::string line = files::shell_line(board::QemuProcess::command(plan.launch));
+  FlashAnswer answer{.text = options.dry_run ? line + "\n" : "",
+                     .json = {{"board", options.board},
+                              {"tool", "qemu-system-arm"},
+                              {"pieces", to_json(pieces)},
+                              {"commands", {line}},
+                              {"links", Json::object()},
+                              {"written", !options.dry_run}}};
+  for (const flash::EmulatedLink& link : plan.links) answer.json["links"][link.what] = link.place;
+  if (options.dry_run) return answer;
+  flash::Emulation emulation(plan);
+  std::string told = emulation.told();
+  if (!told.empty()) answer.json["told"] = told;
+  std::string text =
+      fmt::format("{}: runs in QEMU{}{}\n", options.board, told.empty() ? "" : "; ", told);
+  for (const flash::EmulatedLink& link : plan.links) {
+    text += fmt::format("  {:<18}{}\n", link.what, link.place);
+  }
+  text += recipe.chip != nullptr
+              ? fmt::format("  {:<18}verp hil MODEL --link {} --operator {}\n", "a twin for it",
+                            plan.links[0].place, plan.links[1].place)
+              : fmt::format("  {:<18}verp walk --on {} starts one with a twin\n", "a walk",
+                            options.board);
+  if (!options.stay) {
+    answer.text = text;
+    return answer;
+  }
+  say(text + "  Ctrl-C ends it\n");
+  while (emulation.running() && !interrupted()) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  }
+  if (interrupted()) return answer;
+  throw board::BoardError(emulation.described("the emulator ended"));
+}
+
+}  // namespace
+
+void declare_target(CLI::App& app, FlashOptions& options) {
+  app.add_option("--board", options.board, "a board of boards/")->required();
+  app.add_option(
+      "--port", options.port,
+      "a serial port (/dev/ttyUSB0: the chip's own boot loader), or the serial number of "
+      "a debug probe or USB device where there are several");
+  app.add_option("--tool", options.tool,
+                 "openocd, stm32flash or dfu-util, where the board can be flashed in several ways");
+  app.add_flag("--emulate", options.emulate, "start the board in QEMU instead");
+  app.add_flag("--dry-run", options.dry_run, "print the commands, but do not run them");
+}
+
+FlashAnswer flash_board(const FlashOptions& options, Progress& progress,
+                        const std::function<void(const std::string&)>& say) {
+  const flash::Recipe& recipe = flash::find_recipe(options.board);
+  if (recipe.chip == nullptr || options.emulate) return emulate(options, recipe, say);
+  return flash_silicon(options, recipe, progress);
+}
+
+}  // namespace verp::tool

@@ -1,0 +1,34 @@
+#pragma once
+#include <string>
+
+#include "host/tool/command.hpp"
+#include "host/tool/progress.hpp"
+
+namespace verp::tool {
+
+/// The command line of `verp flash`, checked.
+struct FlashOptions {
+  std::string board, port, tool;
+  std::string params;   ///< a Params image, or a robot of which one is made; empty: none
+  std::string actions;  ///< a file; empty: none
+  bool code = true;     ///< the firmware itself
+  bool emulate = false;
+  bool dry_run = false;
+  bool stay = true;  ///< an emulated board runs until somebody interrupts; else only until it is up
+};
+
+void declare_target(CLI::App& app, FlashOptions& options);
+
+/// What came of it, in text and for --json.
+struct FlashAnswer {
+  std::string text;
+  Json json;
+};
+
+/// Checks the files, then flashes them, or starts the emulated board with them, or says with which
+/// commands it would. `say` gets what must be read before the end: an emulated board's links.
+/// Throws FlashError, LoadError, BoardError, DeviceError.
+FlashAnswer flash_board(const FlashOptions& options, Progress& progress,
+                        const std::function<void(const std::string&)>& say);
+
+}  // namespace verp::tool

@@ -1,0 +1,107 @@
+#pragma once
+#include <cstring>
+#include <nlohmann/json.hpp>
+#include <random>
+
+#include "common/model/image.hpp"
+#include "host/flash/memory_map.hpp"
+#include "host/model/export.hpp"
+#include "host/model/find.hpp"
+#include "host/model/load.hpp"
+#include "tests/host/flash/boot_loader_port.hpp"
+#include "tests/host/tool/program.hpp"
+
+/// The verp program, and a board to flash. VERP_TEST_BOARD and VERP_FIRMWARE_DIR, as ctest of a
+/// firmware build sets them, make it that board with its real image.
+namespace verp::flash::test {
+
+namespace fs = std::filesystem;
+using verp::test::BootLoaderPort;
+using verp::test::RomBootLoader;
+using Bytes = std::vector<std::uint8_t>;
+using tool::test::Outcome;
+using tool::test::slurp;
+
+class Flash : public tool::test::Program {
+ protected:
+  Flash() {
+    if (const char* name = std::getenv("VERP_TEST_BOARD")) board_ = name;
+    recipe_ = &find_recipe(board_);
+    map_ = read_memory_map(board_);
+    const char* firmware = std::getenv("VERP_FIRMWARE_DIR");
+    firmware_ = firmware != nullptr ? fs::path(firmware) : folder_;
+    if (firmware == nullptr) put(image(), made_up_code());
+    ::setenv("VERP_FLASH_DIR", (folder_ / "work").c_str(), 1);
+    ::setenv("VERP_FIRMWARE_DIR", firmware_.c_str(), 1);
+  }
+  ~Flash() override {
+    ::unsetenv("VERP_FLASH_DIR");
+    if (firmware_ == folder_) ::unsetenv("VERP_FIRMWARE_DIR");
+  }
+
+  fs::path image() const { return firmware_ / ("loop_" + board_ + ".bin"); }
+  static void put(const fs::path& file, const Bytes& bytes) {
+    std::ofstream(file, std::ios::binary)
+        .write(reinterpret_cast<const char*>(bytes.data()),
+               static_cast<std::streamsize>(bytes.size()));
+  }
+  static Bytes get(const fs::path& file) {
+    const std::string text = slurp(file);
+    return {text.begin(), text.end()};
+  }
+  static Bytes noise(std::size_t bytes, unsigned seed) {
+    std::minstd_rand random(seed);
+    Bytes data(bytes);
+    for (std::uint8_t& byte : data) byte = static_cast<std::uint8_t>(random() >> 8);
+    return data;
+  }
+  /// A vector table of this board, and noise behind it.
+  Bytes made_up_code() const {
+    Bytes code = noise(50'000, 7);
+    const std::uint32_t table[] = {map_.ram.begin + 4096, map_.code.begin + 0x201};
+    std::memcpy(code.data(), table, sizeof table);
+    return code;
+  }
+  static Bytes robot() {
+    static const ParamsImage image =
+        model::make_image(model::load_robot(model::find_model("generic21")));
+    const auto* first = reinterpret_cast<const std::uint8_t*>(&image);
+    return {first, first + sizeof image};
+  }
+
+  /// A chip of this board whose flash is full of something else.
+  RomBootLoader::Chip chip() const {
+    RomBootLoader::Chip made{.device_id = recipe_->chip->device_id};
+    for (const SectorRun& run : recipe_->chip->sectors) {
+      made.sector_bytes.insert(made.sector_bytes.end(), run.count, run.bytes);
+    }
+    return made;
+  }
+  static RomBootLoader used(const RomBootLoader::Chip& chip) {
+    RomBootLoader loader(chip);
+    loader.flash = noise(loader.flash.size(), 3);
+    return loader;
+  }
+  static Bytes part(const RomBootLoader& chip, const Span& span) {
+    const auto begin = chip.flash.begin() + (span.begin - kFlashBegin);
+    return {begin, begin + span.bytes};
+  }
+
+  Outcome flash(const std::string& arguments) const {
+    return verp("flash --board " + board_ + " " + arguments);
+  }
+  /// Device trouble: exit 3, nothing on stdout, one line on stderr that holds `needle`.
+  static void expect_trouble(const Outcome& outcome, const std::string& needle) {
+    EXPECT_EQ(outcome.status, 3) << outcome.err;
+    EXPECT_EQ(outcome.out, "");
+    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+    EXPECT_NE(outcome.err.find(needle), std::string::npos) << outcome.err;
+  }
+
+  std::string board_ = "olimex_h405";
+  const Recipe* recipe_;
+  MemoryMap map_;
+  fs::path firmware_;
+};
+
+}  // namespace verp::flash::test

@@ -1,0 +1,67 @@
+#pragma once
+#include <cstdint>
+#include <set>
+#include <vector>
+
+/// The USART boot loader in an STM32's ROM, as AN3155 describes it, with the flash behind it:
+/// bytes in, bytes out. Written from the application note, not from any flash tool.
+namespace verp::test {
+
+class RomBootLoader {
+ public:
+  static constexpr std::uint8_t kSync = 0x7F, kAck = 0x79, kNack = 0x1F;
+  static constexpr std::uint32_t kFlashBegin = 0x08000000;
+
+  struct Chip {
+    std::uint16_t device_id = 0x413;               ///< STM32F405 (AN2606)
+    std::vector<std::uint32_t> sector_bytes = {};  ///< empty: those of an STM32F405RG
+    bool readout_protected = false;                ///< level 1
+    std::set<std::uint32_t> refused = {};          ///< writes that cover these addresses: NACK
+    std::set<std::uint32_t> stuck = {};            ///< bytes that are 0 whatever is written
+  };
+
+  explicit RomBootLoader(Chip chip);
+
+  /// One byte arrives; what goes back is appended.
+  void take(std::uint8_t byte, std::vector<std::uint8_t>& reply);
+  /// The reset button, with BOOT0 high: the flash keeps what it holds.
+  void reset() { state_ = State::kAsleep; }
+
+  std::vector<std::uint8_t> flash;  ///< from kFlashBegin on
+  std::uint32_t writes = 0, erased_sectors = 0;
+  bool started = false;  ///< by Go; the boot loader answers no more
+
+ private:
+  enum class State : std::uint8_t {
+    kAsleep,
+    kCommand,
+    kComplement,
+    kAddress,
+    kReadLength,
+    kWriteData,
+    kErase,
+    kProtect,
+    kRunning
+  };
+  using Reply = std::vector<std::uint8_t>;
+
+  void command(Reply& reply);
+  void address(Reply& reply);
+  void read(Reply& reply);
+  void write(Reply& reply);
+  void erase(Reply& reply);
+  void expect(State next, Reply& reply);
+  void refuse(Reply& reply);
+  bool in_flash(std::uint32_t address, std::size_t bytes) const;
+  bool checksum_is_good(std::uint8_t seed) const;
+  void erase_sector(std::size_t sector);
+  void erase_all();
+
+  Chip chip_;
+  State state_ = State::kAsleep;
+  std::uint8_t command_ = 0;
+  std::uint32_t address_ = 0;
+  std::vector<std::uint8_t> got_;  ///< of the part that is arriving
+};
+
+}  // namespace verp::test
