@@ -61,6 +61,13 @@ function(verp_add_target_test name suite)
     ENVIRONMENT "VERP_TEST_BOARD=${VERP_BOARD};VERP_FIRMWARE_DIR=${CMAKE_BINARY_DIR}/images")
 endfunction()
 
+# What `verp flash` would do with the board's image.
+function(verp_add_dry_run_test)
+  add_test(NAME flash.${VERP_BOARD}.dry_run COMMAND ${CMAKE_SOURCE_DIR}/tests/target/dry_run
+    ${VERP_BOARD} $<TARGET_FILE:loop_${VERP_BOARD}> ${VERP_HOST_DIR}/host/tool/verp)
+  set_tests_properties(flash.${VERP_BOARD}.dry_run PROPERTIES LABELS "flash;target" TIMEOUT 60)
+endfunction()
+
 # Recorded inputs run through the core in the board: short ones, and the long trace of tests/replay.
 function(verp_add_replay_tests machine)
   verp_add_emulated_image(replay replay ${machine})
@@ -117,6 +124,7 @@ function(verp_add_mps2_images machine)
   verp_add_replay_tests(${machine})
   verp_add_emulated_image(loop loop ${machine})
   verp_add_target_test(loop ClosedLoop)
+  verp_add_dry_run_test()
   verp_add_emulated_image(link link ${machine})
   add_custom_target(benchmarks DEPENDS replay_${VERP_BOARD} link_${VERP_BOARD})  # what `verp bench` runs
   add_test(NAME bench.${VERP_BOARD} COMMAND ${VERP_HOST_DIR}/target/target_bench --check ${VERP_BOARD})

@@ -31,7 +31,7 @@ esac"
   stub id 'echo 0'
   # shellcheck disable=SC2016
   stub cmake 'mkdir -p "build/${!#}" && echo configured && : >"build/${!#}/build.ninja"'
-  stub ninja "mkdir -p build/host-release/host/tool && touch build/host-release/.ninja_log && echo '[1/1] noise'
+  stub ninja "echo \"\$*\" >>'$scratch/built'; mkdir -p build/host-release/host/tool && touch build/host-release/.ninja_log && echo '[1/1] noise'
 printf '#!/bin/bash\necho \"\$*\"\nexit 7\n' >'$scratch/new' && chmod +x '$scratch/new'
 mv '$scratch/new' build/host-release/host/tool/verp"
 }
@@ -66,6 +66,14 @@ check 'an unknown board is left to the program' 7 'walk --on b9' ''
 launch walk --on=b1 --yes
 check 'a board that is named gets its firmware built' 7 'walk --on=b1' 'missing: gcc-arm'
 [[ -e $scratch/build/fw-b1 ]] || { echo 'FAILED: no firmware built' && failed=1; }
+: >"$scratch/built"
+launch flash --board b1
+check 'flash builds the image that it writes' 7 'flash --board b1' ''
+grep -q 'fw-b1 loop_b1$' "$scratch/built" || { echo "FAILED: flash built: $(<"$scratch/built")" && failed=1; }
+: >"$scratch/built"
+launch deploy m --board b1
+check 'deploy builds for itself' 7 'deploy m --board b1' ''
+! grep -q fw-b1 "$scratch/built" || { echo 'FAILED: built before deploy' && failed=1; }
 
 fresh_project
 echo g++ >>"$scratch/installed"
