@@ -68,6 +68,13 @@ function(verp_add_dry_run_test)
   set_tests_properties(flash.${VERP_BOARD}.dry_run PROPERTIES LABELS "flash;target" TIMEOUT 60)
 endfunction()
 
+# From a model to the board, which is its own stand-in.
+function(verp_add_deploy_test)
+  add_test(NAME deploy.${VERP_BOARD} COMMAND ${CMAKE_SOURCE_DIR}/tests/target/deploy ${VERP_BOARD} ${VERP_HOST_DIR}/host/tool/verp)
+  set_tests_properties(deploy.${VERP_BOARD} PROPERTIES LABELS "flash;target" TIMEOUT 300
+    ENVIRONMENT "VERP_FIRMWARE_DIR=${CMAKE_BINARY_DIR}/images")
+endfunction()
+
 # Recorded inputs run through the core in the board: short ones, and the long trace of tests/replay.
 function(verp_add_replay_tests machine)
   verp_add_emulated_image(replay replay ${machine})
@@ -125,6 +132,7 @@ function(verp_add_mps2_images machine)
   verp_add_emulated_image(loop loop ${machine})
   verp_add_target_test(loop ClosedLoop)
   verp_add_dry_run_test()
+  verp_add_deploy_test()
   verp_add_emulated_image(link link ${machine})
   add_custom_target(benchmarks DEPENDS replay_${VERP_BOARD} link_${VERP_BOARD})  # what `verp bench` runs
   add_test(NAME bench.${VERP_BOARD} COMMAND ${VERP_HOST_DIR}/target/target_bench --check ${VERP_BOARD})

@@ -119,11 +119,13 @@ void run(const Job& job, const std::vector<Step>& steps, const FlashHooks& hooks
   std::filesystem::remove(job.folder / "kept_actions.bin", error);
 }
 
-Workspace::Workspace(const std::string& board) {
+std::filesystem::path work_root() {
   const char* folder = std::getenv("VERP_FLASH_DIR");
-  path_ = (folder != nullptr ? std::filesystem::path(folder)
-                             : std::filesystem::path(VERP_SOURCE_DIR) / "build" / "flash") /
-          board;
+  return folder != nullptr ? std::filesystem::absolute(folder)
+                           : std::filesystem::path(VERP_SOURCE_DIR) / "build" / "flash";
+}
+
+Workspace::Workspace(const std::string& board) : path_(work_root() / board) {
   std::error_code error;
   std::filesystem::create_directories(path_, error);
   lock_ = ::open(path_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);

@@ -17,7 +17,10 @@ struct FlashHooks {
 /// FlashError: then nothing was written, unless it says so.
 void run(const Job& job, const std::vector<Step>& steps, const FlashHooks& hooks);
 
-/// A folder for one run: $VERP_FLASH_DIR or build/flash, and in it the board's name. Empty at
+/// Where runs put their files: $VERP_FLASH_DIR, or build/flash.
+std::filesystem::path work_root();
+
+/// A folder for one run: in work_root() and of the board's name. Empty at
 /// first, but for what an earlier run that failed could not write back.
 class Workspace {
  public:

@@ -20,6 +20,10 @@ const Chip kF446 = {"STM32F446",
                     0x421,
                     "target/stm32f4x.cfg",
                     {{4, 16 * kKilobyte}, {1, 64 * kKilobyte}, {3, 128 * kKilobyte}}};
+const Chip kF746 = {"STM32F746",
+                    0x449,
+                    "target/stm32f7x.cfg",
+                    {{4, 32 * kKilobyte}, {1, 128 * kKilobyte}, {3, 256 * kKilobyte}}};
 
 }  // namespace
 
@@ -46,6 +50,8 @@ const std::vector<Recipe>& recipes() {
        "PA9, PA10",
        "olimex_h405"},
       {"nucleo_f446re", &kF446, {kOpenocd, kStm32flash}, kStLink, "PA9, PA10", "olimex_h405"},
+      // The boot loader's serial pins of this chip are on no connector of OpenCR but the servos'.
+      {"opencr", &kF746, {kDfuUtil, kOpenocd}, kStLink, "", "mps2_an500"},
       {"mps2_an385", nullptr, {}, "", "", "mps2_an385"},
       {"mps2_an386", nullptr, {}, "", "", "mps2_an386"},
       {"mps2_an500", nullptr, {}, "", "", "mps2_an500"},

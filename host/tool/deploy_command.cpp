@@ -8,6 +8,7 @@
 #include <memory>
 
 #include "host/board/replay_on_target.hpp"
+#include "host/flash/flasher.hpp"
 #include "host/flash/recipe.hpp"
 #include "host/flash/tool_run.hpp"
 #include "host/model/find.hpp"
@@ -46,7 +47,7 @@ class Deployment {
   explicit Deployment(const DeployOptions& options)
       : options_(options),
         recipe_(flash::find_recipe(options.flash.board)),
-        folder_(fs::path(VERP_SOURCE_DIR) / "build" / "deploy" / options.flash.board),
+        folder_(flash::work_root() / "deploy" / options.flash.board),
         progress_(!options.json) {
     plan_.entity = model::load_robot(model::find_model(options.model));
     plan_.params = model::make_params(plan_.entity);
@@ -57,8 +58,8 @@ class Deployment {
 
   StepAnswer build() {
     if (options_.no_build) return {"left out (--no-build)"};
-    build({"loop_" + options_.flash.board}, options_.flash.board);
-    build({std::string("replay_") + recipe_.replay_board}, recipe_.replay_board);
+    build("loop_" + options_.flash.board, options_.flash.board);
+    build(std::string("replay_") + recipe_.replay_board, recipe_.replay_board);
     return {fmt::format("loop_{}, replay_{}", options_.flash.board, recipe_.replay_board)};
   }
 
@@ -114,27 +115,22 @@ class Deployment {
     if (error) {
       throw ToolError(kBadInput, folder_.string() +
                                      ": cannot be made; build as the user who owns " +
-                                     folder_.parent_path().string());
+                                     folder_.parent_path().string() + ", or set VERP_FLASH_DIR");
     }
     return folder_;
   }
 
   /// One at a time with ./verp, whose lock this takes as well.
-  void build(const std::vector<std::string>& targets, const std::string& board) {
+  void build(const std::string& target, const std::string& board) {
     const fs::path root = VERP_SOURCE_DIR;
-    std::vector<std::string> make = {"cmake", "--build",
-                                     (root / "build" / ("fw-" + board)).string(), "--target"};
-    make.insert(make.end(), targets.begin(), targets.end());
-    const std::string lock = (root / "build" / ".lock").string();
-    must({"flock", lock, "env", "-C", root.string(), "cmake", "--preset", "fw-" + board});
-    must([&] {
-      std::vector<std::string> words = {"flock", lock};
-      words.insert(words.end(), make.begin(), make.end());
-      return words;
-    }());
+    const std::vector<std::string> locked = {"flock", (root / "build" / ".lock").string()};
+    const std::string preset = "fw-" + board;
+    must(locked, {"env", "-C", root.string(), "cmake", "--preset", preset});
+    must(locked, {"cmake", "--build", (root / "build" / preset).string(), "--target", target});
   }
 
-  void must(const std::vector<std::string>& command) {
+  void must(std::vector<std::string> command, const std::vector<std::string>& more) {
+    command.insert(command.end(), more.begin(), more.end());
     const flash::ToolHooks hooks{.share = [&](double share) { progress_.show(share, "build"); },
                                  .stop = interrupted};
     progress_.show(0, "build");
@@ -145,14 +141,12 @@ class Deployment {
     const fs::path log = folder() / "build.log";
     std::ofstream(log) << run.output;
     const std::size_t error = run.output.find("rror: ");
-    const std::size_t begin =
-        error == std::string::npos ? error : run.output.rfind('\n', error) + 1;
-    throw ToolError(kRunFailed, fmt::format("{}; all of it: {}",
-                                            error == std::string::npos
-                                                ? flash::last_line(run.output)
-                                                : run.output.substr(
-                                                      begin, run.output.find('\n', error) - begin),
-                                            log.string()));
+    std::string words = flash::last_line(run.output);
+    if (error != std::string::npos) {
+      const std::size_t begin = run.output.rfind('\n', error) + 1;
+      words = run.output.substr(begin, run.output.find('\n', error) - begin);
+    }
+    throw ToolError(kRunFailed, fmt::format("{}; all of it: {}", words, log.string()));
   }
 
   void expect_same(std::size_t index, const TickDigest& there) const {
@@ -203,6 +197,7 @@ int run_steps(const DeployOptions& options, Deployment& deployment, Json& rows,
     StepAnswer answer;
     try {
       answer = (deployment.*step.run)();
+      if (interrupted()) throw ToolError(kRunFailed, "interrupted");
     } catch (...) {
       failed = current_failure();
     }

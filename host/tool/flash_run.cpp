@@ -110,7 +110,31 @@ FlashAnswer flash_silicon(const FlashOptions& options, const flash::Recipe& reci
   return answer;
 }
 
-FlashAnswer emulate(const FlashOptions& options, const flash::Recipe& recipe,
+/// What can be done with a board that runs in QEMU.
+std::string to_text(const FlashOptions& options, const flash::EmulationPlan& plan,
+                    const std::string& told) {
+  std::string text =
+      fmt::format("{}: runs in QEMU{}{}\n", options.board, told.empty() ? "" : "; ", told);
+  for (const flash::EmulatedLink& link : plan.links) {
+    text += fmt::format("  {:<18}{}\n", link.what, link.place);
+  }
+  if (plan.launch.serial_ports.empty()) {
+    return text + fmt::format("  {:<18}verp walk --on {} starts one with a twin\n", "a walk",
+                              options.board);
+  }
+  return text + fmt::format("  {:<18}verp hil MODEL --link {} --operator {}\n", "a twin for it",
+                            plan.links[0].place, plan.links[1].place);
+}
+
+/// Until somebody interrupts.
+void run_on(flash::Emulation& emulation) {
+  while (!interrupted()) {
+    if (!emulation.running()) throw board::BoardError(emulation.described("the emulator ended"));
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  }
+}
+
+FlashAnswer emulate(const FlashOptions& options,
                     const std::function<void(const std::string&)>& say) {
   if (!options.port.empty() || !options.tool.empty()) {
     throw flash::FlashError(flash::FlashError::Kind::kUsage,
@@ -121,7 +145,7 @@ FlashAnswer emulate(const FlashOptions& options, const flash::Recipe& recipe,
   const flash::Workspace workspace(options.board);
   const flash::MemoryMap map = flash::read_memory_map(options.board);
   FlashOptions data_only = options;
-  data_only.code = false;
+  data_only.code = false;  // QEMU takes it from the ELF file
   const auto pieces = pieces_of(data_only, map, workspace.path());
   const flash::EmulationPlan plan = flash::plan_emulation(options.board, pieces, workspace.path());
   const std::string line = files::shell_line(board::QemuProcess::command(plan.launch));
@@ -135,28 +159,15 @@ FlashAnswer emulate(const FlashOptions& options, const flash::Recipe& recipe,
   for (const flash::EmulatedLink& link : plan.links) answer.json["links"][link.what] = link.place;
   if (options.dry_run) return answer;
   flash::Emulation emulation(plan);
-  std::string told = emulation.told();
-  if (!told.empty()) answer.json["told"] = told;
-  std::string text =
-      fmt::format("{}: runs in QEMU{}{}\n", options.board, told.empty() ? "" : "; ", told);
-  for (const flash::EmulatedLink& link : plan.links) {
-    text += fmt::format("  {:<18}{}\n", link.what, link.place);
+  const std::string told = emulation.told();
+  answer.json["told"] = told;
+  if (options.stay) {
+    say(to_text(options, plan, told) + "  Ctrl-C ends it\n");
+    run_on(emulation);
+  } else {
+    answer.text = to_text(options, plan, told);
   }
-  text += recipe.chip != nullptr
-              ? fmt::format("  {:<18}verp hil MODEL --link {} --operator {}\n", "a twin for it",
-                            plan.links[0].place, plan.links[1].place)
-              : fmt::format("  {:<18}verp walk --on {} starts one with a twin\n", "a walk",
-                            options.board);
-  if (!options.stay) {
-    answer.text = text;
-    return answer;
-  }
-  say(text + "  Ctrl-C ends it\n");
-  while (emulation.running() && !interrupted()) {
-    std::this_thread::sleep_for(std::chrono::milliseconds(50));
-  }
-  if (interrupted()) return answer;
-  throw board::BoardError(emulation.described("the emulator ended"));
+  return answer;
 }
 
 }  // namespace
@@ -176,7 +187,7 @@ void declare_target(CLI::App& app, FlashOptions& options) {
 FlashAnswer flash_board(const FlashOptions& options, Progress& progress,
                         const std::function<void(const std::string&)>& say) {
   const flash::Recipe& recipe = flash::find_recipe(options.board);
-  if (recipe.chip == nullptr || options.emulate) return emulate(options, recipe, say);
+  if (recipe.chip == nullptr || options.emulate) return emulate(options, say);
   return flash_silicon(options, recipe, progress);
 }
 

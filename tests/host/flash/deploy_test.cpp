@@ -1,0 +1,63 @@
+#include "tests/host/flash/flash_fixture.hpp"
+
+/// `verp deploy` stops at the first step that fails, and says which. The way that succeeds needs an
+/// emulated board: ctest of a firmware build walks it (tests/target/deploy).
+namespace verp::flash::test {
+namespace {
+
+using nlohmann::json;
+
+class Deploy : public Flash {
+ protected:
+  Outcome deploy(const std::string& arguments, const std::string& environment = "") const {
+    return shell(environment + " " VERP_PROGRAM " deploy generic21 --for 3 --json --board " +
+                 board_ + " " + arguments);
+  }
+  void script(const std::string& name, const std::string& text) const {
+    put(folder_ / name, {text.begin(), text.end()});
+    fs::permissions(folder_ / name, fs::perms::owner_all);
+  }
+  /// The last step there is failed, with these words; all before it went well.
+  static void expect_stop(const Outcome& outcome, int status, const std::string& step,
+                          const std::string& needle) {
+    EXPECT_EQ(outcome.status, status) << outcome.err;
+    const json result = json::parse(outcome.out);
+    const json& steps = result.at("steps");
+    ASSERT_FALSE(steps.empty());
+    for (std::size_t i = 0; i + 1 < steps.size(); ++i) EXPECT_TRUE(steps[i].at("good"));
+    EXPECT_EQ(steps.back().at("step"), step);
+    EXPECT_FALSE(steps.back().at("good"));
+    EXPECT_EQ(result.at("exit"), status);
+    const std::string error = result.at("error");
+    EXPECT_TRUE(error.starts_with(step + ": ")) << error;
+    EXPECT_NE(error.find(needle), std::string::npos) << error;
+    EXPECT_NE(outcome.err.find("verp deploy: " + error + "\n"), std::string::npos) << outcome.err;
+  }
+};
+
+TEST_F(Deploy, StopsWhenTheBuildFailsWithTheCompilersWords) {
+  script("cmake",
+         "#!/bin/sh\n[ \"$1\" = --preset ] && exit\necho '[1/2] Building a.o'\n"
+         "echo 'a.cpp:3:7: error: no such thing'\necho 'ninja: build stopped'\nexit 1\n");
+  const Outcome outcome = deploy("--dry-run", "PATH=.:$PATH");
+  expect_stop(outcome, 1, "build", "a.cpp:3:7: error: no such thing");
+  EXPECT_NE(outcome.err.find("build.log"), std::string::npos);
+}
+
+// A limit on the size of files stands in for a disk that is full: a walk without its trace is none.
+TEST_F(Deploy, StopsWhenTheWalkFails) {
+  const Outcome outcome = shell("ulimit -f 200; " VERP_PROGRAM
+                                " deploy generic21 --for 3 --json --dry-run --no-build --board " +
+                                board_);
+  expect_stop(outcome, 1, "walk", "walk.mcap");
+}
+
+TEST_F(Deploy, StopsWhenTheCoreCannotReplay) {
+  put(folder_ / ("replay_" + std::string(recipe_->replay_board) + ".elf"), {1});
+  script("broken", "#!/bin/sh\necho 'HardFault at 0x08000123'\nexit 70\n");
+  expect_stop(deploy("--dry-run --no-build", "VERP_QEMU=./broken"), 3, "replay",
+              "HardFault at 0x08000123");
+}
+
+}  // namespace
+}  // namespace verp::flash::test
