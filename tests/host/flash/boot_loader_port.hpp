@@ -44,6 +44,7 @@ class BootLoaderPort {
   BootLoaderPort& operator=(const BootLoaderPort&) = delete;
 
   const std::string& path() const { return path_; }
+  std::uint32_t writes() const { return writes_; }
   /// The port is gone afterwards.
   void unplug() {
     over_ = true;
@@ -63,6 +64,7 @@ class BootLoaderPort {
       }
       reply.clear();
       chip_.take(byte, reply);
+      writes_ = chip_.writes;
       if (trouble_.cut_after_writes > 0 && chip_.writes >= trouble_.cut_after_writes &&
           ++bytes_since_ > 100) {
         break;
@@ -79,6 +81,7 @@ class BootLoaderPort {
   int ours_ = -1, theirs_ = -1;
   int bytes_since_ = 0;
   std::atomic<bool> over_ = false;
+  std::atomic<std::uint32_t> writes_ = 0;
   std::thread thread_;
 };
 

@@ -1,3 +1,5 @@
+#include <signal.h>
+
 #include <thread>
 
 #include "tests/host/flash/flash_fixture.hpp"
@@ -16,6 +18,13 @@ class SerialFlash : public Flash {
     port.unplug();
     chip.reset();
     return outcome;
+  }
+  template <class Condition>
+  static void wait_until(const Condition& condition) {
+    for (int i = 0; i < 3000 && !condition(); ++i) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+    ASSERT_TRUE(condition());
   }
   void expect_code(const RomBootLoader& chip) const {
     const Bytes code = get(image());
@@ -161,13 +170,11 @@ TEST_F(SerialFlash, WithoutAResetAfterACutTheRemedyIsTold) {
 
 TEST_F(SerialFlash, SecondCopyIsRefusedAndTheFirstGoesOn) {
   RomBootLoader chip = used(this->chip());
-  BootLoaderPort port(chip, {.byte_us = 20});
+  BootLoaderPort port(chip, {.byte_us = 60});
   Outcome first;
   std::thread one(
       [&] { first = verp("flash --board " + board_ + " --port " + port.path(), "one"); });
-  for (int i = 0; i < 500 && !fs::exists(folder_ / "work" / board_ / "first.bin"); ++i) {
-    std::this_thread::sleep_for(std::chrono::milliseconds(10));
-  }
+  wait_until([&] { return port.writes() > 0; });
   const Outcome second = flash("--port " + port.path());
   const Outcome third = shell("VERP_FLASH_DIR=elsewhere " VERP_PROGRAM " flash --board " + board_ +
                               " --port " + port.path());
@@ -182,9 +189,14 @@ TEST_F(SerialFlash, SecondCopyIsRefusedAndTheFirstGoesOn) {
 TEST_F(SerialFlash, InterruptionEndsItCleanlyAndIsTold) {
   RomBootLoader chip = used(this->chip());
   BootLoaderPort port(chip, {.byte_us = 200});
-  const Outcome outcome =
-      shell("timeout --preserve-status -s INT 2 " VERP_PROGRAM " flash --board " + board_ +
-            " --port " + port.path());
+  Outcome outcome;
+  std::thread run([&] {
+    outcome = shell(VERP_PROGRAM " flash --board " + board_ + " --port " + port.path() +
+                    " & echo $! >pid; wait $!");
+  });
+  wait_until([&] { return port.writes() > 0; });
+  ::kill(static_cast<pid_t>(std::stol(slurp(folder_ / "pid"))), SIGINT);
+  run.join();
   EXPECT_EQ(outcome.status, 1);
   EXPECT_NE(outcome.err.find("interrupted while writing"), std::string::npos) << outcome.err;
   EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
