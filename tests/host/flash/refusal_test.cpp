@@ -107,13 +107,10 @@ while [ $# -gt 0 ]; do
       "name=\"@Internal Flash  /0x08000000/$LAYOUT\", serial=\"1\""; exit ;;
   -s) address=${2%%:*} length=${2#*:}; shift ;;
   -U) [ ! -e "$2" ] || { echo "dfu-util: Cannot open file $2 for writing: File exists"; exit 74; }
-      tail -c "+$((address - 0x08000000 + 1))" chip |
-                                 head - c "$length" > "$2";
-;
+      tail -c "+$((address - 0x08000000 + 1))" chip | head -c "$length" >"$2" ;;
   -D) ${SPOIL:-cat} <"$2" | dd of=chip seek=$((address - 0x08000000)) oflag=seek_bytes \
-        conv=notrunc status=none;
-  echo 'Download [=====] 100%';
-  ;
+        conv=notrunc status=none
+      echo 'Download [=====] 100%' ;;
   esac
   shift
 done
