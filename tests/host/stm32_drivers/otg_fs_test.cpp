@@ -269,8 +269,10 @@ TEST_P(UsbPort, OutlivesTheEndOfAConnectionAtAnyMoment) {
       EXPECT_FALSE(rig.port.connected());
       EXPECT_EQ(rig.port.errors().losses, ++losses);
       EXPECT_EQ(write(sent, 500), 0u) << "nobody is there";
+      rig.host.take();
       ASSERT_TRUE(each.come_back(rig));
-      rig.machine.advance(ms(50));  // what the PC had asked for arrives
+      rig.machine.advance(ms(50));
+      EXPECT_TRUE(rig.host.take().empty()) << "it was for the program before";
       while (!read_all().empty()) {
       }
       expect_alive();
