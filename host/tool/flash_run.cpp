@@ -165,7 +165,8 @@ FlashAnswer emulate(const FlashOptions& options,
     say(to_text(options, plan, told) + "  Ctrl-C ends it\n");
     run_on(emulation);
   } else {
-    answer.text = to_text(options, plan, told);
+    answer.text = fmt::format("{}: runs in QEMU{}{}; verp flash --emulate keeps it running\n",
+                              options.board, told.empty() ? "" : "; ", told);
   }
   return answer;
 }
