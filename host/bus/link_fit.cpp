@@ -87,7 +87,8 @@ std::string remedy(const LinkFit& fit, const Params& params, const wire::Endpoin
     const std::string advice = wire::latency_advice(endpoint.place, system_folder);
     if (!advice.empty()) add(advice);
   }
-  if (const int period_ms = fit.shortest_period_ms(); period_ms * 1000u > fit.period_us) {
+  if (const int period_ms = fit.shortest_period_ms();
+      1000 * period_ms > static_cast<int>(fit.period_us)) {
     add(fmt::format("give --period {} (for good: period_us=\"{}\" in <verp:bus> of the model)",
                     period_ms, 1000 * period_ms));
   }

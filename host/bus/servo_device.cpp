@@ -15,6 +15,8 @@ constexpr double kCurrentUnitA = 0.00269;  // X-series, Present Current
 constexpr double kLoadFull = 1000;         // MX(2.0), Present Load in 0.1 %
 constexpr std::int64_t kRealtimeTickWrap = 32768;
 
+constexpr std::int32_t kMostHoming = 1024;  // counts
+
 bool overlaps(std::uint16_t address, std::uint16_t length, std::uint16_t first, std::uint16_t end) {
   return address < end && first < address + length;
 }
@@ -120,11 +122,19 @@ void ServoDevice::refresh(std::uint16_t address, std::uint16_t length) {
   table_.set(at::kPresentCurrent, has_current ? std::llround(measured.current_a / kCurrentUnitA)
                                               : std::llround(measured.duty * kLoadFull));
   table_.set(at::kPresentVelocity, velocity);
-  table_.set(at::kPresentPosition, measured.position_count);
+  table_.set(at::kPresentPosition, measured.position_count + homing());
   table_.set(at::kPositionTrajectory, table_.get(at::kGoalPosition));
   table_.set(at::kPresentVoltage, std::llround(measured.voltage_v * 10));
   table_.set(at::kPresentTemperature, std::llround(measured.temperature_c));
   watch_limits(measured);
+}
+
+// e-Manual, Homing Offset (20): Present Position is the encoder's plus this; in position mode more
+// than a quarter turn is ignored.
+std::int32_t ServoDevice::homing() const {
+  const auto offset = static_cast<std::int32_t>(table_.get(at::kHomingOffset));
+  const bool valid = offset >= -kMostHoming && offset <= kMostHoming;
+  return valid || byte(at::kOperatingMode) != dxl::kPositionMode ? offset : 0;
 }
 
 // A hardware error stays until reboot; those that Shutdown selects also take the torque away.
@@ -182,7 +192,7 @@ void ServoDevice::written(std::uint16_t address, std::uint16_t length) {
     table_.set(at::kTorqueEnable, 0);
   }
   if (torque_on() && !goal_written_) {
-    table_.set(at::kGoalPosition, plant_.measure(joint_).position_count);
+    table_.set(at::kGoalPosition, plant_.measure(joint_).position_count + homing());
     goal_written_ = true;
   }
   apply();
@@ -197,7 +207,7 @@ std::uint64_t ServoDevice::deadline_us() const {
 
 void ServoDevice::expire() {
   table_.set(at::kBusWatchdog, dxl::kBusWatchdogTripped);
-  table_.set(at::kGoalPosition, plant_.measure(joint_).position_count);
+  table_.set(at::kGoalPosition, plant_.measure(joint_).position_count + homing());
   apply();
 }
 
@@ -218,7 +228,7 @@ void ServoDevice::apply() {
   };
   sim::ServoSetpoint& setpoint = plant_.setpoint(joint_);
   setpoint.torque_on = torque_on();
-  setpoint.goal_count = static_cast<std::int32_t>(table_.get(at::kGoalPosition));
+  setpoint.goal_count = static_cast<std::int32_t>(table_.get(at::kGoalPosition)) - homing();
   setpoint.p_gain = unsigned16(at::kPositionPGain);
   setpoint.i_gain = unsigned16(at::kPositionIGain);
   setpoint.d_gain = unsigned16(at::kPositionDGain);

@@ -37,6 +37,7 @@ class ServoDevice final : public Device {
   bool moving() override;
   bool torque_on() const override { return byte(dxl::address::kTorqueEnable) != 0; }
   bool tripped() const { return byte(dxl::address::kBusWatchdog) == dxl::kBusWatchdogTripped; }
+  std::int32_t homing() const;
   void watch_limits(const sim::ServoMeasurement& measured);
   void apply();
 

@@ -9,6 +9,7 @@
 #include "host/tool/console.hpp"
 #include "host/tool/interrupt.hpp"
 #include "host/tool/register_value.hpp"
+#include "host/tool/setup_command.hpp"
 #include "host/tool/suggest.hpp"
 
 namespace verp::tool {
@@ -242,6 +243,8 @@ Subcommand add_bus(CLI::App& root) {
   measure->add_option("--size", options->size, "bytes of it")
       ->check(CLI::Range(1, 400))
       ->capture_default_str();
+  const Subcommand setup = add_bus_setup(*app);
+  const Subcommand checklist = add_bus_checklist(*app);
   CLI::App* list = app->add_subcommand("registers", "the controller's registers, as a page");
   return {app, [=] {
             if (find->parsed()) return scan(*options);
@@ -249,6 +252,9 @@ Subcommand add_bus(CLI::App& root) {
             if (show->parsed()) return read(*options);
             if (put->parsed()) return write(*options);
             if (measure->parsed()) return bench(*options);
+            for (const Subcommand& each : {setup, checklist}) {
+              if (each.app->parsed()) return each.run();
+            }
             if (list->parsed()) answer(bus::controller_document());
             return int{kGood};
           }};

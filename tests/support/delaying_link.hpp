@@ -37,9 +37,9 @@ class DelayingLink {
   DelayingLink(const DelayingLink&) = delete;
   DelayingLink& operator=(const DelayingLink&) = delete;
 
-  /// From now on nothing gets through, and what was on its way is lost.
-  void cut() { cut_ = true; }
-  void mend() { cut_ = false; }
+  /// Nothing gets through for so many ticks of the loop on the PC's side; what was on its way is
+  /// lost.
+  void cut_for(std::uint32_t ticks) { mended_at_ = ticks_ + ticks; }
   /// All that comes in the next `time_us` waits until they are over; more by the same with each
   /// further call.
   void stall(std::uint64_t time_us) { stall_until_us_ = now_us() + time_us; }
@@ -55,6 +55,7 @@ class DelayingLink {
     std::uint64_t due_us = 0;  ///< when they go on
   };
 
+  bool cut() const { return ticks_ < mended_at_; }
   static std::uint64_t now_us() { return wire::monotonic_ns() / 1000; }
 
   void carry() {
@@ -87,7 +88,7 @@ class DelayingLink {
     for (std::size_t i = 0; i < count; ++i) {
       for (bool found = watched && line_.push(piece[i]); found; found = line_.next()) watch();
     }
-    if (!cut_) way.held.insert(way.held.end(), piece, piece + count);
+    if (!cut()) way.held.insert(way.held.end(), piece, piece + count);
   }
 
   void watch() {
@@ -99,7 +100,7 @@ class DelayingLink {
   }
 
   void pass(Way& way, wire::Link& to) {
-    if (cut_) way.held.clear();
+    if (cut()) way.held.clear();
     if (way.held.empty() || now_us() < std::max(way.due_us, stall_until_us_.load())) return;
     to.write(way.held.data(), way.held.size(), 0);
     way.held.clear();
@@ -113,7 +114,8 @@ class DelayingLink {
   dxl::Parser line_;
   std::atomic<std::uint32_t> ticks_ = 0;
   std::atomic<std::uint64_t> stall_until_us_ = 0;
-  std::atomic<bool> cut_ = false, over_ = false;
+  std::atomic<std::uint32_t> mended_at_ = 0;
+  std::atomic<bool> over_ = false;
   std::thread thread_;
 };
 

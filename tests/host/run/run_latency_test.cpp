@@ -1,4 +1,4 @@
-#include "tests/host/tool/run_bench.hpp"
+#include "tests/host/run/run_bench.hpp"
 
 // Must show 8 of the links: adapters that hold bytes back. What is asserted of time is either a
 // least that the injected delay enforces, or an equality of two counts; a loaded machine may be

@@ -6,7 +6,7 @@
 #include "common/control/step.hpp"
 #include "common/safety/machine.hpp"
 #include "host/record/trace.hpp"
-#include "tests/host/tool/process.hpp"
+#include "tests/host/run/process.hpp"
 #include "tests/support/delaying_link.hpp"
 
 namespace verp::tool::test {
@@ -30,14 +30,14 @@ class RunBench : public Program {
         "pty:" + port(), "unix:" + (folder_ / "twin").string(), latency);
   }
   std::string port() const { return (folder_ / "tty").string(); }
-  std::unique_ptr<Process> run(std::vector<std::string> more, const std::string& input = "") {
+  std::unique_ptr<Process> run(std::vector<std::string> more) {
     std::vector<std::string> words = {"run", "generic21", "--link", "serial:" + port() + "@2000000",
                                       "--json"};
     if (std::find(more.begin(), more.end(), "--for") == more.end()) {
       words.insert(words.end(), {"--for", "3"});
     }
     words.insert(words.end(), more.begin(), more.end());
-    return std::make_unique<Process>(folder_, "run", words, input);
+    return std::make_unique<Process>(folder_, "run", words);
   }
   record::Trace trace() const { return record::read_trace(folder_ / "run.mcap"); }
 

@@ -1,0 +1,10 @@
+#pragma once
+#include "host/tool/command.hpp"
+
+namespace verp::tool {
+
+// Below `verp bus`.
+Subcommand add_bus_setup(CLI::App& bus);
+Subcommand add_bus_checklist(CLI::App& bus);
+
+}  // namespace verp::tool

@@ -1,0 +1,199 @@
+#include "host/tool/setup_guide.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstdlib>
+
+#include "host/bus/register_names.hpp"
+#include "host/tool/console.hpp"
+#include "host/tool/interrupt.hpp"
+
+namespace verp::tool {
+namespace {
+
+constexpr std::int32_t kMoved = 60;  // counts, 5 degrees: no tremble, and no joint is that stiff
+
+/// The right hand's thumb for a positive turn. Robots look ahead along x, y is their left, z up.
+std::string thumb(const JointParams& joint) {
+  constexpr const char* kWords[] = {"ahead", "to its left", "up", "back", "to its right", "down"};
+  const auto kind = static_cast<std::size_t>(joint.axis_kind);
+  if (kind < std::size(kWords)) return kWords[kind];
+  return fmt::format("along ({:.2f} {:.2f} {:.2f}), x ahead, y left, z up", joint.axis.x,
+                     joint.axis.y, joint.axis.z);
+}
+
+Json to_json(const std::vector<bus::Change>& changes) {
+  Json all = Json::array();
+  for (const bus::Change& each : changes) {
+    all.push_back({{"register", each.name}, {"before", each.before}, {"after", each.after}});
+  }
+  return all;
+}
+
+void add_todo(Json& entry, const std::string& what) {
+  const std::string before = entry.value("todo", "");
+  entry["todo"] = before.empty() ? what : before + "; " + what;
+}
+
+}  // namespace
+
+SetupGuide::SetupGuide(const Params& params, const wire::Endpoint& endpoint,
+                       const SetupChoice& choice, SetupReport& report, Answers& answers)
+    : params_(params),
+      line_(endpoint, params.baud),
+      choice_(choice),
+      report_(report),
+      answers_(answers) {}
+
+SetupGuide::Answer SetupGuide::ask(const std::string& question) {
+  const auto word = answers_.line(question);
+  if (!word || *word == "q") throw Stop{};
+  return *word == "s" ? Answer::kSkip : Answer::kGoOn;
+}
+
+bool SetupGuide::run() {
+  bool all = true;
+  try {
+    for (int j = 0; j < params_.joint_count; ++j) {
+      const std::string name = params_.joint[j].name;
+      const bool wanted = choice_.joint.empty() ? !report_.done(name) : choice_.joint == name;
+      if (!wanted) continue;
+      all = joint(j) && all;
+    }
+    return all;
+  } catch (const Stop&) {
+    complain("verp bus setup: stopped; the same command goes on from here");
+    return false;
+  }
+}
+
+bool SetupGuide::joint(int index) {
+  const JointParams& joint = params_.joint[index];
+  complain(fmt::format("\n{} ({} of {}): id {}, {}", joint.name, index + 1, params_.joint_count,
+                       joint.servo_id,
+                       bus::model_name(params_.servo[joint.servo_profile].model_number)));
+  const char* question = choice_.wired ? "Press Enter to begin (s skips the joint, q ends): "
+                                       : "Connect its servo alone and power it, then press Enter "
+                                         "(s skips the joint, q ends): ";
+  while (ask(question) == Answer::kGoOn) {
+    try {
+      Json entry = {{"outcome", "done"}, {"id", joint.servo_id}};
+      bus::FoundServo servo = meet(joint);
+      entry["found"] = {{"id", servo.identity.id}, {"baud", servo.baud}};
+      const auto changes =
+          bus::configure(line_, servo, joint.servo_id, params_.baud, choice_.dry_run);
+      entry["changes"] = to_json(changes);
+      for (const bus::Change& each : changes) {
+        complain(fmt::format("  {} {} to {}", each.name, each.before, each.after));
+      }
+      bus::Client& client = line_.at(servo.baud);
+      measure_zero(joint, client, servo.identity.id, entry);
+      check_direction(joint, client, servo.identity.id, entry);
+      if (entry.contains("todo")) entry["outcome"] = "to do";
+      if (choice_.dry_run) entry["outcome"] = "dry run";
+      report_.keep(joint.name, entry);
+      complain(fmt::format("  {}", entry.at("outcome").get<std::string>()));
+      return !entry.contains("todo");
+    } catch (const bus::DeviceError& error) {
+      complain(std::string("  ") + error.what());
+      question = "Press Enter to try again (s skips the joint, q ends): ";
+    }
+  }
+  report_.keep(joint.name, {{"outcome", "skipped"}, {"id", joint.servo_id}});
+  return false;
+}
+
+bus::FoundServo SetupGuide::meet(const JointParams& joint) {
+  bus::FoundServo servo;
+  if (choice_.wired) {
+    const auto identity = line_.at(params_.baud).ping(joint.servo_id);
+    if (!identity) {
+      throw bus::DeviceError(
+          fmt::format("device {} does not answer; check power and wiring, or "
+                      "set it up alone, without --wired",
+                      joint.servo_id));
+    }
+    servo = {*identity, params_.baud};
+  } else {
+    const auto found = line_.find([] { return interrupted(); });
+    if (interrupted()) throw Stop{};
+    if (found.empty())
+      throw bus::DeviceError("no servo answers at any rate; check power and wiring");
+    if (found.size() > 1) {
+      throw bus::DeviceError(
+          fmt::format("{} devices answer (ids {} and {} among them); leave only "
+                      "this joint's servo connected",
+                      found.size(), found[0].identity.id, found[1].identity.id));
+    }
+    servo = found[0];
+  }
+  complain(fmt::format("  found: id {} at {} baud, {}", servo.identity.id, servo.baud,
+                       bus::model_name(servo.identity.model)));
+  const std::uint16_t wanted = params_.servo[joint.servo_profile].model_number;
+  if (servo.identity.model != wanted) {
+    throw bus::DeviceError(fmt::format(
+        "it is a {}, the model wants a {}: take the right servo, or correct its type in the model",
+        bus::model_name(servo.identity.model), bus::model_name(wanted)));
+  }
+  return servo;
+}
+
+void SetupGuide::measure_zero(const JointParams& joint, bus::Client& client, std::uint8_t id,
+                              Json& entry) {
+  if (ask(fmt::format(
+          "  Zero: torque is off. Put {} where the model has its angle 0, hold it, Enter "
+          "(s leaves the zero as it is): ",
+          joint.name)) == Answer::kSkip) {
+    return add_todo(entry, "measure the zero");
+  }
+  const auto model_count = static_cast<std::int32_t>(std::lround(joint.zero_count));
+  const bus::ZeroFix fix = bus::zero_fix(client, id, bus::still_position(client, id), model_count);
+  entry["zero"] = {{"count", fix.count},
+                   {"model_offset", model_count},
+                   {"homing_before", fix.homing_before},
+                   {"homing_after", fix.servo_can ? fix.homing_after : fix.homing_before}};
+  if (!fix.servo_can) {
+    complain(
+        fmt::format("  at zero it reads {}, the model says {}: too far for the servo's Homing "
+                    "Offset (it would be {})",
+                    fix.count, model_count, fix.homing_after));
+    return add_todo(entry, fmt::format("turn the horn, or set offset=\"{}\" of {} in the model",
+                                       fix.model_offset, joint.name));
+  }
+  complain(
+      fmt::format("  at zero it reads {}, the model says {}: Homing Offset {} to {}, in the "
+                  "servo{}",
+                  fix.count, model_count, fix.homing_before, fix.homing_after,
+                  choice_.dry_run ? " (not written)" : ""));
+  if (!choice_.dry_run && fix.homing_after != fix.homing_before) {
+    bus::write_homing(client, id, fix);
+  }
+}
+
+void SetupGuide::check_direction(const JointParams& joint, bus::Client& client, std::uint8_t id,
+                                 Json& entry) {
+  const std::int32_t from = bus::still_position(client, id);
+  std::int32_t moved = 0;
+  while (std::abs(moved) < kMoved) {
+    if (ask(fmt::format("  Direction: turn {} by 10 degrees or more its positive way (right hand's "
+                        "thumb {}: the fingers show it), hold it, Enter: ",
+                        joint.name, thumb(joint))) == Answer::kSkip) {
+      return add_todo(entry, "check the direction");
+    }
+    moved = bus::still_position(client, id) - from;
+    if (std::abs(moved) < kMoved) {
+      complain(fmt::format("  it moved by {} counts only: turn it further", moved));
+    }
+  }
+  const bool right = (moved > 0) == (joint.counts_per_rad > 0);
+  entry["direction"] = {{"moved", moved}, {"right", right}};
+  complain(
+      fmt::format("  {} counts: the direction is {}", moved, right ? "right" : "not the model's"));
+  if (!right) {
+    add_todo(entry, fmt::format("set direction=\"{}\" of {} in the model",
+                                joint.counts_per_rad > 0 ? -1 : 1, joint.name));
+  }
+}
+
+}  // namespace verp::tool

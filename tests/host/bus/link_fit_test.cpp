@@ -1,0 +1,149 @@
+#include "host/bus/link_fit.hpp"
+
+#include <gtest/gtest.h>
+
+#include <unistd.h>
+
+#include <Eigen/Geometry>
+#include <filesystem>
+#include <fstream>
+#include <random>
+
+#include "firmware/app/schedule.hpp"
+#include "host/bus/assumed_imu.hpp"
+#include "tests/host/bus/fake_plant.hpp"
+#include "tests/unit/support/test_robot.hpp"
+
+namespace verp::bus {
+namespace {
+
+namespace fs = std::filesystem;
+
+LinkDelay held(double time_us) {
+  return {
+      .asked = 80, .answered = 80, .median_us = time_us, .p90_us = time_us, .worst_us = time_us};
+}
+
+/// /sys with one USB adapter whose latency timer is set to `time_ms`.
+struct Sys {
+  explicit Sys(int time_ms) {
+    const fs::path adapter = root / "bus/usb-serial/devices/ttyUSB7";
+    fs::create_directories(adapter);
+    std::ofstream(adapter / "latency_timer") << time_ms << '\n';
+  }
+  ~Sys() { fs::remove_all(root); }
+  std::string folder() const { return root.string(); }
+  const fs::path root = fs::temp_directory_path() / ("verp-fit-" + std::to_string(::getpid()));
+};
+
+const wire::Endpoint kAdapter{wire::Endpoint::Kind::kSerial, "/dev/ttyUSB7", 2'000'000, 0};
+const wire::Endpoint kSocket{wire::Endpoint::Kind::kUnix, "/tmp/twin", 0, 0};
+
+// For robots of any size, rate and period: a tick on a link that fits, each of whose two reads is
+// held up as long as is waited for, with nobody answering, ends within the period; and one that
+// does not fit could not.
+TEST(LinkFit, WhatFitsEndsWithinThePeriod) {
+  std::minstd_rand random(3);
+  int fitting = 0;
+  for (int i = 0; i < 2000; ++i) {
+    Params params = verp::test::bus_params(1 + static_cast<int>(random() % 30), random() % 2 == 0);
+    params.baud = 1'000'000u << random() % 3;
+    params.period_us = static_cast<std::uint32_t>(4000 + random() % 16001);
+    const double delay_us = static_cast<double>(random() % 12000);
+    const LinkFit each = fit(params, held(delay_us));
+    const double all_held_us = each.wire_us + 2.0 * each.held_us();
+    EXPECT_GE(each.wire_us, app::schedule_us(params));
+    if (each.fits()) {
+      ++fitting;
+      EXPECT_LE(all_held_us, params.period_us);
+      EXPECT_GE(each.held_us() + 1, delay_us) << "what is usual is waited for";
+    } else {
+      EXPECT_GT(each.wire_us + 2 * delay_us, LinkFit::kUsable * params.period_us);
+    }
+  }
+  EXPECT_GT(fitting, 200);
+  EXPECT_LT(fitting, 1800);
+}
+
+// The period that is offered is the shortest in which the link fits, and one that a robot may have.
+TEST(LinkFit, ThePeriodOfferedFitsAndAShorterOneDoesNot) {
+  for (double delay_us = 0; delay_us < 12000; delay_us += 100) {
+    Params params = verp::test::bus_params(21);
+    const int offered_ms = fit(params, held(delay_us)).shortest_period_ms();
+    if (offered_ms == 0) {
+      params.period_us = 20'000;
+      EXPECT_FALSE(fit(params, held(delay_us)).fits_well()) << delay_us;
+      continue;
+    }
+    EXPECT_GE(offered_ms, 4);
+    EXPECT_LE(offered_ms, 20);
+    params.period_us = 1000u * static_cast<unsigned>(offered_ms);
+    EXPECT_TRUE(fit(params, held(delay_us)).fits_well()) << delay_us;
+    params.period_us -= 1000;
+    EXPECT_TRUE(offered_ms == 4 || !fit(params, held(delay_us)).fits_well()) << delay_us;
+  }
+}
+
+TEST(LinkFit, TheRemedyNamesTheAdaptersTimerThePeriodAndTheRate) {
+  const Sys sys(16);
+  Params params = verp::test::bus_params(21);
+  const LinkFit slow = fit(params, held(5000));
+  EXPECT_FALSE(slow.fits());
+  const std::string all = remedy(slow, params, kAdapter, sys.folder());
+  EXPECT_NE(all.find(sys.folder() + "/bus/usb-serial/devices/ttyUSB7/latency_timer"),
+            std::string::npos)
+      << all;
+  EXPECT_NE(all.find("--period 1"), std::string::npos) << all;
+  EXPECT_EQ(all.find("baud"), std::string::npos) << "of no use here: " << all;
+  EXPECT_EQ(remedy(slow, params, kSocket, sys.folder()).find("tee"), std::string::npos);
+  params.period_us = 5000;
+  params.baud = 1'000'000;
+  const LinkFit crowded = fit(params, held(100));
+  EXPECT_NE(remedy(crowded, params, kSocket, sys.folder()).find("to 2000000 baud"),
+            std::string::npos);
+  const LinkFit hopeless = fit(params, held(40'000));
+  EXPECT_NE(remedy(hopeless, params, kSocket, sys.folder()).find("adapter"), std::string::npos);
+}
+
+// The twin in real time: only an adapter that is known to be too slow is turned away.
+TEST(LinkFit, ASlowAdapterIsTurnedAwayByTheTwin) {
+  const Params params = verp::test::bus_params(21);
+  {
+    const Sys sys(16);
+    const std::string line = adapter_too_slow(params, kAdapter, sys.folder());
+    EXPECT_NE(line.find("16 ms"), std::string::npos) << line;
+    EXPECT_NE(line.find("latency_timer"), std::string::npos) << line;
+    EXPECT_EQ(adapter_too_slow(params, kSocket, sys.folder()), "");
+  }
+  const Sys sys(1);
+  EXPECT_EQ(adapter_too_slow(params, kAdapter, sys.folder()), "");
+  EXPECT_EQ(adapter_too_slow(params, kAdapter, "/nowhere"), "") << "no such adapter";
+}
+
+// However the missing IMU would be mounted: the controller learns of a body that stands upright.
+TEST(AssumedImu, SaysUprightInTheMountingOfTheModel) {
+  std::minstd_rand random(5);
+  std::uniform_real_distribution<float> angle(-3.0F, 3.0F);
+  for (int i = 0; i < 50; ++i) {
+    const Eigen::Matrix3f turned(
+        Eigen::AngleAxisf(angle(random), Eigen::Vector3f(angle(random), 1, 0.5F).normalized()));
+    ImuParams imu;
+    for (int k = 0; k < 9; ++k) imu.body_imu[k] = turned(k / 3, k % 3);
+    imu.accel_m_s2_per_count = 0.0012F;
+    AssumedImu chip(imu);
+    hal::ImuSample sample;
+    ASSERT_EQ(chip.read(sample), hal::ImuStatus::kFresh);
+    const Eigen::Vector3f up =
+        turned *
+        Eigen::Vector3f(sample.accel_count[0], sample.accel_count[1], sample.accel_count[2]) *
+        imu.accel_m_s2_per_count;
+    EXPECT_NEAR((up - Eigen::Vector3f(0, 0, 9.80665F)).norm(), 0, 0.002);
+    EXPECT_EQ(sample.gyro_count[0], 0);
+    const std::uint64_t before_us = sample.time_us;
+    ASSERT_EQ(chip.read(sample), hal::ImuStatus::kFresh);
+    EXPECT_GT(sample.time_us, before_us);
+  }
+}
+
+}  // namespace
+}  // namespace verp::bus

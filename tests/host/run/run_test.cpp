@@ -1,0 +1,205 @@
+#include <fstream>
+
+#include "tests/host/run/run_bench.hpp"
+
+// `verp run` as people meet it: what it refuses, how it ends, what it leaves. None of it asks that
+// the machine be in time.
+namespace verp::tool::test {
+namespace {
+
+using RealRobot = RunBench;
+
+Json result_of(const Outcome& outcome) {
+  const Json result = Json::parse(outcome.out, nullptr, false);
+  EXPECT_TRUE(result.is_object()) << outcome.out << outcome.err;
+  return result.is_object() ? result : Json::object();
+}
+
+TEST_F(RealRobot, RefusesWhatCannotBe) {
+  expect_refused("run", "--link");
+  expect_refused("run --link nonsense", "nonsense");
+  expect_refused("run --link pty: --imu maybe", "--imu");
+  expect_refused("run --link pty: --period 40", "--period");
+  expect_refused("run --link pty: --torque 0", "--torque");
+  expect_refused("run --link pty: --set gait.lift=1", "verp run: --set");
+  expect_refused("run nobody --link pty:", "nobody");
+  const std::string rate = "run --link serial:/dev/null@1000000";
+  expect_refused(rate, "the bus of generic21 at 2000000");
+  const Outcome nothing = verp("run --link serial:/dev/nothing@2000000");
+  EXPECT_EQ(nothing.status, 3);
+  EXPECT_NE(nothing.err.find("no such device"), std::string::npos);
+}
+
+// On a serial port torque waits for the checklist, and for the very word.
+TEST_F(RealRobot, NoTorqueBeforeTheChecklistIsConfirmed) {
+  serve();
+  plug({1000, 1000});
+  for (const char* typed : {"", "no\n", "\n"}) {
+    auto program = run({"--period", "20"});
+    ASSERT_TRUE(program->says("Type yes")) << program->wait().err;
+    program->type(typed);
+    program->hang_up();
+    const Outcome outcome = program->wait();
+    EXPECT_EQ(outcome.status, 2);
+    for (const char* point : {"hangs from a strap", "switch cuts", "--torque 30"}) {
+      EXPECT_NE(outcome.err.find(point), std::string::npos) << point;
+    }
+  }
+  EXPECT_EQ(cable_->ticks(), 0u);
+  auto program = run({"--period", "20"});
+  ASSERT_TRUE(program->says("Type yes"));
+  program->type("yes\n");
+  EXPECT_TRUE(program->says("relaxed to rising"));
+}
+
+// One press: down, then limp, in the order of the table. A terminal that closes and a system that
+// shuts down are presses too.
+TEST_F(RealRobot, AnInterruptSitsTheRobotDown) {
+  serve();
+  plug({1000, 1000});
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    auto program = run({"--yes", "--period", "20", "--for", "60", "--record", "run.mcap"});
+    ASSERT_TRUE(program->says("relaxed to rising"));
+    program->signal(signal);
+    const Outcome outcome = program->wait();
+    EXPECT_EQ(outcome.status, 1);
+    EXPECT_NE(outcome.err.find("sits down"), std::string::npos) << outcome.err;
+    EXPECT_NE(outcome.err.find("to sitting"), std::string::npos) << outcome.err;
+    const Json result = result_of(outcome);
+    EXPECT_EQ(result.value("interrupted", false), true);
+    EXPECT_EQ(result.value("let_go", false), true) << outcome.err;
+    expect_table(trace());
+    fs::remove(folder_ / "run.mcap");
+  }
+}
+
+// Two presses: limp at once, and every servo asked.
+TEST_F(RealRobot, ASecondInterruptLetsGoAtOnce) {
+  serve();
+  plug({1000, 1000});
+  auto program = run({"--yes", "--period", "20", "--for", "60", "--record", "run.mcap"});
+  ASSERT_TRUE(program->says("relaxed to rising"));
+  program->signal(SIGINT);
+  ASSERT_TRUE(program->says("sits down"));
+  std::this_thread::sleep_for(std::chrono::milliseconds(400));  // else it is the same press
+  program->signal(SIGINT);
+  const Outcome outcome = program->wait();
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_NE(outcome.err.find("to stopped (emergency stop"), std::string::npos) << outcome.err;
+  EXPECT_EQ(result_of(outcome).value("let_go", false), true) << outcome.err;
+  expect_table(trace());
+}
+
+// A cable that is pulled and stays out: the robot holds, sits and lets go by itself, the program
+// says what it does not know, and ends.
+TEST_F(RealRobot, ALostCableIsNamedAndEndsByTheTable) {
+  serve();
+  plug({1000, 1000});
+  auto program = run({"--yes", "--period", "20", "--for", "60", "--record", "run.mcap"});
+  ASSERT_TRUE(program->says("rising to standing"));
+  cable_.reset();
+  const Outcome outcome = program->wait();
+  EXPECT_EQ(outcome.status, 3);
+  for (const char* said : {"the link is lost", "to holding (", "holding to sitting",
+                           "sitting to relaxed", "21 servos did not say that they let go"}) {
+    EXPECT_NE(outcome.err.find(said), std::string::npos) << said << "\n" << outcome.err;
+  }
+  const Json result = result_of(outcome);
+  EXPECT_EQ(result.value("let_go", true), false);
+  EXPECT_NE(result.value("failure", "").find("let go by itself"), std::string::npos);
+  EXPECT_EQ(result.at("bus").at("losses"), 1);
+  expect_same_account(result, trace());
+  expect_table(trace());
+}
+
+// A cable that is out for ten ticks: the robot holds, rises again and goes on.
+TEST_F(RealRobot, ACableThatComesBackGoesOn) {
+  serve();
+  plug({1000, 1000});
+  auto program = run({"--yes", "--period", "20", "--for", "60", "--record", "run.mcap"});
+  ASSERT_TRUE(program->says("rising to standing"));
+  cable_->cut_for(10);
+  ASSERT_TRUE(program->says("to holding ("));
+  EXPECT_TRUE(program->says("holding to rising"));
+  EXPECT_TRUE(program->says("rising to standing"));
+  program->signal(SIGINT);
+  EXPECT_EQ(program->wait().status, 1);
+  expect_table(trace());
+}
+
+// Killed in the middle, it leaves a trace that is whole up to its last chunk.
+TEST_F(RealRobot, ACrashLeavesTheTrace) {
+  serve();
+  plug({1000, 1000});
+  auto program = run({"--yes", "--period", "20", "--for", "60", "--record", "run.mcap"});
+  ASSERT_TRUE(program->says("relaxed to rising"));
+  while (cable_->ticks() < 300 && !program->over()) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  program->signal(SIGKILL);
+  program->wait();
+  std::string part;
+  for (const auto& entry : fs::directory_iterator(folder_)) {
+    const std::string name = entry.path().filename().string();
+    if (name.starts_with("run.mcap")) part = name;
+  }
+  ASSERT_EQ(verp("trace recover " + part + " -o whole.mcap").status, 0) << part;
+  const record::Trace whole = record::read_trace(folder_ / "whole.mcap");
+  EXPECT_GE(whole.ticks.size(), 250u);
+  EXPECT_EQ(verp("replay whole.mcap").status, 0);
+}
+
+/// A robot like generic21 without `what` of its file.
+std::string without(const fs::path& folder, const std::string& what) {
+  std::ifstream in(std::string(VERP_SOURCE_DIR) + "/common/robots/generic21/robot.sdf");
+  const fs::path file = folder / "without.sdf";
+  std::ofstream out(file);
+  for (std::string line; std::getline(in, line);) {
+    if (line.find(what) == std::string::npos) out << line << '\n';
+  }
+  return file.string();
+}
+
+// Without the IMU of the model no torque; with --imu none it goes without balance, says so, and the
+// trace has it in writing.
+TEST_F(RealRobot, ASilentImuIsNeverPassedOver) {
+  serve(without(folder_, "<verp:imu "));
+  plug({1000, 1000});
+  const Outcome refused = run({"--yes", "--period", "20"})->wait();
+  EXPECT_EQ(refused.status, 3);
+  EXPECT_NE(refused.err.find("the IMU (device 120) does not answer"), std::string::npos)
+      << refused.err;
+  EXPECT_NE(refused.err.find("--imu none"), std::string::npos);
+  EXPECT_EQ(cable_->ticks(), 0u);
+  auto program = run({"--yes", "--period", "20", "--imu", "none", "--record", "run.mcap"});
+  EXPECT_TRUE(program->says("balance is off"));
+  EXPECT_TRUE(program->says("rising to standing"));
+  program->signal(SIGINT);
+  const Json result = result_of(program->wait());
+  EXPECT_EQ(result.value("imu", ""), "none");
+  const record::Trace taken = trace();
+  EXPECT_EQ(taken.params.imu.device_id, 0);
+  EXPECT_EQ(taken.params.tuning.balance.feedback_enable, 0);
+  EXPECT_EQ(taken.params.tuning.balance.zeros_enable, 0);
+  EXPECT_EQ(taken.params.tuning.gait.heading_gain, 0);
+  EXPECT_EQ(taken.metadata.at("imu"), "none: assumed upright");
+  expect_table(taken);
+}
+
+// The limit stands in every servo before torque is on.
+TEST_F(RealRobot, TorqueIsLimitedInEveryServo) {
+  serve();
+  plug({1000, 1000});
+  auto program = run({"--yes", "--period", "20", "--torque", "30"});
+  ASSERT_TRUE(program->says("relaxed to rising"));
+  program->signal(SIGINT);
+  EXPECT_EQ(result_of(program->wait()).value("torque_percent", 0), 30);
+  for (const char* id : {"1", "14", "21"}) {
+    const Outcome read = verp("bus read --register goal_pwm --json --id " + std::string(id) +
+                              " --link serial:" + port() + "@2000000");
+    EXPECT_EQ(Json::parse(read.out).at("registers").at("goal_pwm"), 885 * 30 / 100) << read.err;
+  }
+}
+
+}  // namespace
+}  // namespace verp::tool::test

@@ -1,0 +1,178 @@
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "tests/host/run/lone_servo.hpp"
+#include "tests/host/run/process.hpp"
+
+// `verp bus setup` against servos out of their boxes, with a scripted hand.
+namespace verp::tool::test {
+namespace {
+
+using Json = nlohmann::json;
+using verp::test::LoneServo;
+namespace at = dxl::address;
+
+constexpr bus::ServoIdentity kFromTheBox{.id = 1, .model = dxl::kModelXm430W210, .baud = 57600};
+
+class Setup : public Program {
+ protected:
+  std::unique_ptr<Process> setup(std::vector<std::string> more) {
+    std::vector<std::string> words = {"bus", "setup", "generic21", "--link", "serial:" + port()};
+    words.insert(words.end(), more.begin(), more.end());
+    return std::make_unique<Process>(folder_, "setup", words);
+  }
+  std::string port() const { return (folder_ / "tty").string(); }
+  Json report() const {
+    return Json::parse(slurp(folder_ / "generic21-setup.json"), nullptr, false);
+  }
+
+  /// One joint as a person does it: connects, holds it at zero where the encoder reads `zero`, then
+  /// turns it by `turn` counts.
+  void do_joint(Process& program, std::int32_t zero, std::int32_t turn) {
+    ASSERT_TRUE(program.says("Connect its servo alone"));
+    servos_.turn_to(zero);
+    program.type("\n");
+    ASSERT_TRUE(program.says("Zero: torque is off")) << program.wait().err;
+    EXPECT_EQ(servos_.value(at::kTorqueEnable, 1), 0);
+    program.type("\n");
+    ASSERT_TRUE(program.says("Direction:")) << program.wait().err;
+    servos_.turn_to(zero + turn);
+    program.type("\n");
+  }
+
+  LoneServo servos_{port()};
+};
+
+// l_knee: id 14, direction +1, zero at count 2048.
+TEST_F(Setup, AServoOutOfItsBoxBecomesOneOfTheRobot) {
+  servos_.connect(kFromTheBox);
+  auto program = setup({"--joint", "l_knee", "--json"});
+  do_joint(*program, 1900, 150);
+  const Outcome outcome = program->wait();
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_EQ(servos_.value(at::kId, 1), 14);
+  EXPECT_EQ(servos_.value(at::kBaudRate, 1), dxl::baud_rate_code(2'000'000));
+  EXPECT_EQ(servos_.value(at::kReturnDelay, 1), 0);
+  EXPECT_EQ(servos_.value(at::kStatusReturnLevel, 1), 2);
+  EXPECT_EQ(servos_.value(at::kHomingOffset, 4), 148);
+  servos_.turn_to(1900);
+  EXPECT_EQ(servos_.value(at::kPresentPosition, 4), 2048) << "zero is where the model has it";
+  const Json joint = report().at("joints").at("l_knee");
+  EXPECT_EQ(joint.at("outcome"), "done");
+  EXPECT_EQ(joint.at("found"), (Json{{"id", 1}, {"baud", 57600}}));
+  EXPECT_EQ(joint.at("zero").at("homing_after"), 148);
+  EXPECT_EQ(joint.at("direction").at("right"), true);
+  EXPECT_EQ(Json::parse(outcome.out).at("joints").at("l_knee"), joint);
+}
+
+// A servo that answers neither writes nor reads, as it may be set, is made to.
+TEST_F(Setup, AServoThatIsSetToSilenceIsHeard) {
+  servos_.connect({.id = 77, .model = dxl::kModelXm430W210, .baud = 1'000'000});
+  LoneServo& servos = servos_;
+  ASSERT_EQ(servos.value(at::kStatusReturnLevel, 1), 2);
+  ASSERT_EQ(verp("bus write --id 77 --register status_return_level 0 --link serial:" + port() +
+                 "@1000000")
+                .status,
+            0);
+  auto program = setup({"--joint", "l_knee"});
+  do_joint(*program, 2048, 150);
+  EXPECT_EQ(program->wait().status, 0);
+  EXPECT_EQ(servos.value(at::kId, 1), 14);
+  EXPECT_EQ(servos.value(at::kStatusReturnLevel, 1), 2);
+  EXPECT_EQ(servos.value(at::kHomingOffset, 4), 0);
+}
+
+// What cannot be set right in the servo is named, with what to write into the model.
+TEST_F(Setup, AReversedJointAndAFarZeroAreLeftToThePerson) {
+  servos_.connect(kFromTheBox);
+  auto program = setup({"--joint", "l_knee"});
+  do_joint(*program, 300, -20);
+  ASSERT_TRUE(program->says("turn it further"));
+  servos_.turn_to(150);
+  program->type("\n");
+  const Outcome outcome = program->wait();
+  EXPECT_EQ(outcome.status, 1);
+  const Json joint = report().at("joints").at("l_knee");
+  EXPECT_EQ(joint.at("outcome"), "to do");
+  const std::string todo = joint.at("todo");
+  EXPECT_NE(todo.find("offset=\"300\""), std::string::npos) << todo;
+  EXPECT_NE(todo.find("direction=\"-1\""), std::string::npos) << todo;
+  EXPECT_EQ(servos_.value(at::kHomingOffset, 4), 0) << "it would not have counted";
+  EXPECT_NE(outcome.out.find("to do: "), std::string::npos) << outcome.out;
+}
+
+// The end of the input is an end, not a failure to be looked into; the next run goes on.
+TEST_F(Setup, GoesOnWhereItEnded) {
+  servos_.connect(kFromTheBox);
+  auto first = setup({});
+  ASSERT_TRUE(first->says("head_yaw (1 of 21): id 19"));
+  do_joint(*first, 2048, 200);
+  ASSERT_TRUE(first->says("head_pitch (2 of 21)"));
+  first->hang_up();
+  const Outcome ended = first->wait();
+  EXPECT_EQ(ended.status, 1);
+  EXPECT_NE(ended.err.find("the same command goes on from here"), std::string::npos) << ended.err;
+  EXPECT_EQ(report().at("joints").size(), 1u);
+  auto second = setup({});
+  ASSERT_TRUE(second->says("Connect its servo alone"));
+  second->type("s\n");
+  ASSERT_TRUE(second->says("head_roll (3 of 21)"));
+  second->signal(SIGINT);
+  const Outcome interrupted = second->wait();
+  EXPECT_EQ(interrupted.status, 1);
+  EXPECT_EQ(interrupted.err.find("head_yaw ("), std::string::npos) << "it was done";
+  EXPECT_NE(interrupted.out.find("head_yaw          done"), std::string::npos) << interrupted.out;
+  EXPECT_EQ(report().at("joints").at("head_pitch").at("outcome"), "skipped");
+}
+
+TEST_F(Setup, ADryRunWritesNothing) {
+  servos_.connect(kFromTheBox);
+  auto program = setup({"--joint", "l_knee", "--dry-run"});
+  do_joint(*program, 1900, 150);
+  const Outcome outcome = program->wait();
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_EQ(servos_.writes(), 0);
+  for (const char* said :
+       {"id 1 to 14", "baud 57600 to 2000000", "return_delay 250 to 0", "Homing Offset 0 to 148"}) {
+    EXPECT_NE(outcome.err.find(said), std::string::npos) << said << "\n" << outcome.err;
+  }
+  EXPECT_FALSE(fs::exists(folder_ / "generic21-setup.json"));
+}
+
+// Not one servo, or not the right one: said, and tried again.
+TEST_F(Setup, TheWrongServosAreNamedAndTriedAgain) {
+  auto program = setup({"--joint", "l_knee"});
+  ASSERT_TRUE(program->says("Connect its servo alone"));
+  program->type("\n");
+  ASSERT_TRUE(program->says("no servo answers at any rate")) << program->wait().err;
+  servos_.connect({.id = 3, .model = dxl::kModelMx28, .baud = 57600});
+  program->type("\n");
+  ASSERT_TRUE(program->says("it is a MX-28(2.0), the model wants a XM430-W210"))
+      << program->wait().err;
+  servos_.connect({.id = 4, .model = dxl::kModelXm430W210, .baud = 57600});
+  program->type("\n");
+  ASSERT_TRUE(program->says("2 devices answer (ids 3 and 4 among them)")) << program->wait().err;
+  EXPECT_EQ(servos_.writes(), 0);
+  servos_.disconnect();
+  servos_.connect(kFromTheBox);
+  servos_.turn_to(2048);
+  program->type("\n");
+  EXPECT_TRUE(program->says("found: id 1 at 57600 baud, XM430-W210"));
+  program->type("q\n");
+  EXPECT_EQ(program->wait().status, 1);
+}
+
+TEST_F(Setup, WrongWordsAndReportsAreRefused) {
+  expect_refused("bus setup generic21", "--link");
+  expect_refused("bus setup generic21 --joint l_kne --link pty:", "did you mean l_knee?");
+  std::ofstream(folder_ / "other.json") << R"({"robot": "op3", "joints": {}})";
+  expect_refused("bus setup generic21 --report other.json --link pty:", "is the report of");
+  std::ofstream(folder_ / "none.json") << "none";
+  expect_refused("bus setup generic21 --report none.json --link pty:", "is no report");
+  const Outcome list = verp("bus checklist generic21");
+  EXPECT_EQ(list.status, 0);
+  EXPECT_NE(list.out.find("verp bus setup generic21"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace verp::tool::test
