@@ -20,6 +20,8 @@ class Process {
   Process(const fs::path& folder, const std::string& name, std::vector<std::string> arguments)
       : out_(folder / (name + ".out")), err_(folder / (name + ".err")) {
     ::signal(SIGPIPE, SIG_IGN);  // of one that no longer reads
+    fs::remove(out_);            // of one of that name before
+    fs::remove(err_);
     int keyboard[2] = {-1, -1};
     if (::pipe2(keyboard, O_CLOEXEC) != 0) return;
     arguments.insert(arguments.begin(), VERP_PROGRAM);

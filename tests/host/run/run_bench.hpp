@@ -18,6 +18,7 @@ using Json = nlohmann::json;
 class RunBench : public Program {
  protected:
   void serve(const std::string& model = "generic21") {
+    twin_.reset();
     const std::string twin = "unix-listen:" + (folder_ / "twin").string();
     twin_ = std::make_unique<Process>(folder_, "twin",
                                       std::vector<std::string>{"hil", model, "--realtime", "--for",

@@ -55,9 +55,9 @@ TEST_F(RealRobot, NoTorqueBeforeTheChecklistIsConfirmed) {
 // One press: down, then limp, in the order of the table. A terminal that closes and a system that
 // shuts down are presses too.
 TEST_F(RealRobot, AnInterruptSitsTheRobotDown) {
-  serve();
-  plug({1000, 1000});
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    serve();  // anew: a robot that let go falls, and that ends its twin
+    plug({1000, 1000});
     auto program = run({"--yes", "--period", "20", "--for", "60", "--record", "run.mcap"});
     ASSERT_TRUE(program->says("relaxed to rising"));
     program->signal(signal);
