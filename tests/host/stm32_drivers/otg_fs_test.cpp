@@ -290,12 +290,16 @@ TEST_P(UsbPort, TellsALossThatIsOverBeforeAnybodyLooked) {
   rig.machine.advance(ms(1));
   ASSERT_TRUE(rig.host.close());
   ASSERT_TRUE(rig.host.open());
-  EXPECT_EQ(read(100, 1000), sent);
+  const Bytes next = noise(20, 16);
+  rig.host.send(next);
+  rig.machine.advance(ms(1));
+  EXPECT_EQ(read(100, 1000), sent) << "and nothing of the next program's";
   const std::uint64_t before_us = rig.timer.now_us();
   EXPECT_TRUE(read(100, 50'000).empty());
   EXPECT_LE(rig.timer.now_us() - before_us, 100u) << "the read that sees it returns at once";
   EXPECT_FALSE(rig.port.connected());
   EXPECT_EQ(rig.port.errors().losses, 1u);
+  EXPECT_EQ(read(100, 1000), next);
   expect_alive();
   EXPECT_EQ(rig.port.errors().losses, 1u);
 }
