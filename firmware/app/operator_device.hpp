@@ -58,6 +58,8 @@ class OperatorDevice {
   table::ImuCalibrationOrder take_calibration_order() {
     return registers_.take_calibration_order();
   }
+  /// Part of a reply has found no room on the link yet.
+  bool reply_waits() const { return sent_ < reply_size_; }
   /// The operator wants a new start; asked with torque off only.
   bool reboot_asked() const { return reboot_asked_ && sent_ == reply_size_; }
 
@@ -76,6 +78,7 @@ class OperatorDevice {
   bool push() {
     if (sent_ == reply_size_) return false;
     sent_ += link_.write(reply_ + sent_, reply_size_ - sent_, 0);
+    if (!link_.connected()) sent_ = reply_size_;  // who asked is gone; the next one did not ask
     return true;
   }
 

@@ -35,6 +35,29 @@ bool answered(const Bench<>& bench, const std::uint8_t (&bytes)[kSize]) {
   return true;
 }
 
+// An operator who unplugs in mid-reply leaves nothing behind for the next.
+TEST(OperatorDevice, NeverGivesTheRestOfAReplyToTheNextOperator) {
+  Bench<>& bench = fresh_bench();
+  const std::size_t size = dxl::encode_read(bench.frame, sizeof bench.frame, bench.id, 256, 300);
+  bench.wire.right().write(bench.frame, size, 0);
+  while (bench.device.poll()) {  // until the wire takes no more
+    if (bench.device.reply_waits()) break;
+  }
+  ASSERT_TRUE(bench.device.reply_waits());
+  bench.wire.cut();
+  std::uint8_t sink[64];
+  while (bench.wire.right().read(sink, sizeof sink, 0) > 0) {
+  }
+  bench.device.poll();
+  EXPECT_FALSE(bench.device.reply_waits());
+  bench.wire.mend();
+  bench.device.poll();
+  const Reply reply = bench.plain(Instruction::kPing);
+  EXPECT_EQ(reply.packets, 1);
+  EXPECT_EQ(bench.raw[0], 0xFF) << "begins with a header";
+  EXPECT_EQ(bench.raw_size, 14u);
+}
+
 // A robot that does not come up must say which of its twenty servos to look at.
 TEST(OperatorDevice, TellsAtWhichDeviceTheBringUpEnded) {
   Bench<>& bench = fresh_bench();
