@@ -76,10 +76,12 @@ struct Board {
 
   /// The operator's link. True if there was anything to do.
   bool serve() {
-    if (operator_device.reboot_asked() || kept.new_robot()) start_anew();
+    const bool wanted = operator_device.reboot_asked() || kept.new_robot();
+    if (wanted && !operator_device.armed()) start_anew();
     return operator_device.poll();
   }
-  /// Both are asked for with torque off only, and nothing ticks from here on.
+  /// Both are asked for with torque off only; should it be on by now, they wait until it is off
+  /// again. Nothing ticks from here on.
   [[noreturn]] void start_anew() {
     const std::uint64_t end_us = timer.now_us() + kLastWords_us;
     while (timer.now_us() < end_us) operator_device.poll();
@@ -136,6 +138,15 @@ struct Board {
   std::uint32_t deadline_misses = 0;
   bool lit = false;
 };
+
+/// To all of them, whoever they are: nobody replies, so three times.
+void release_servos() {
+  constexpr std::uint8_t kOff = 0;
+  std::uint8_t frame[32];
+  const std::size_t size = dxl::encode_write(frame, sizeof frame, dxl::kBroadcast,
+                                             dxl::address::kTorqueEnable, &kOff, sizeof kOff);
+  for (int times = 0; times < 3; ++times) servo_port.write(frame, size, 10'000);
+}
 
 /// The servo port during bring-up, when no tick can feed the watchdog.
 struct PatientPort {
@@ -225,8 +236,12 @@ extern "C" int verp_main() {
   here.gpio.output(board::kServoPower, false);
   here.gpio.output(board::kLed, false);
   here.say(app::Signals::at_start(verdict == control::BootVerdict::kSound));
-  // No loop, so no torque: all that is left is to tell the operator why.
-  while (verdict != control::BootVerdict::kSound) here.idle();
+  if (verdict != control::BootVerdict::kSound) {
+    // No loop, so no torque: all that is left is to have the servos let go, should a run before
+    // this one have left them stiff, and to tell the operator why.
+    if (has_robot && board::open_servo_port(start, params.baud)) board::release_servos();
+    for (;;) here.idle();
+  }
   if (!board::open_servo_port(start, params.baud)) return 1;
   here.gpio.output(board::kServoPower, true);
   for (;;) {

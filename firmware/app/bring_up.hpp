@@ -28,17 +28,34 @@ class BringUp {
   BringUp(const Params& params, BusMaster<Bus>& master) : params_(params), master_(master) {}
 
   BringUpReport run() {
+    release_all();
     for (int j = 0; j < params_.joint_count && ready(); ++j) servo(j);
     if (params_.imu.device_id != 0 && ready()) sensor(params_.imu.device_id, dxl::kModelImu);
     for (std::uint8_t id : params_.feet.device_id) {
       if (id != 0 && ready()) sensor(id, dxl::kModelFoot);
     }
+    if (!ready()) release_all();
     return report_;
   }
 
  private:
   static constexpr int kAttempts = 3;
   static constexpr std::size_t kMostBytes = 36;
+
+  // Before anybody is asked anything, and again if somebody does not answer: what a controller that
+  // was reset left stiff must not stay so for the sake of one servo. Nobody replies, so three
+  // times.
+  void release_all() {
+    for (int times = 0; times < 3; ++times) {
+      dxl::Encoder encoder(master_.frame(), master_.capacity());
+      dxl::begin_sync_write(encoder, dxl::address::kTorqueEnable, 1);
+      for (int j = 0; j < params_.joint_count; ++j) {
+        encoder.u8(params_.joint[j].servo_id);
+        encoder.u8(0);
+      }
+      master_.send(encoder.finish());
+    }
+  }
 
   bool ready() const { return report_.status == BringUpStatus::kReady; }
 

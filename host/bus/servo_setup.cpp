@@ -89,7 +89,10 @@ std::vector<Change> configure(SetupLine& line, FoundServo& servo, std::uint8_t i
   const std::uint8_t from = servo.identity.id;
   const Setting settings[] = {{"status_return_level", at::kStatusReturnLevel, 2},
                               {"torque_enable", at::kTorqueEnable, 0},
-                              {"return_delay", at::kReturnDelay, 0}};
+                              {"return_delay", at::kReturnDelay, 0},
+                              // As the control loop will: zero and direction depend on them.
+                              {"drive_mode", at::kDriveMode, dxl::kTimeBasedProfile},
+                              {"operating_mode", at::kOperatingMode, dxl::kPositionMode}};
   if (!dry_run) tell(*client, from, at::kStatusReturnLevel, 2);  // else it may not answer a read
   for (const Setting& each : settings) {
     const std::uint8_t before = client->read(from, each.address, 1)[0];

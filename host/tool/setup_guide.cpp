@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "common/protocol/control_table.hpp"
 #include "host/bus/register_names.hpp"
 #include "host/tool/console.hpp"
 #include "host/tool/interrupt.hpp"
@@ -47,9 +48,13 @@ SetupGuide::SetupGuide(const Params& params, const wire::Endpoint& endpoint,
       answers_(answers) {}
 
 SetupGuide::Answer SetupGuide::ask(const std::string& question) {
-  const auto word = answers_.line(question);
-  if (!word || *word == "q") throw Stop{};
-  return *word == "s" ? Answer::kSkip : Answer::kGoOn;
+  for (;;) {
+    const auto word = answers_.line(question);
+    if (!word || *word == "q") throw Stop{};
+    if (word->empty()) return Answer::kGoOn;
+    if (*word == "s") return Answer::kSkip;
+    complain("  Enter alone goes on, s skips, q ends");  // what follows may write EEPROM
+  }
 }
 
 bool SetupGuide::run() {
@@ -141,9 +146,11 @@ bus::FoundServo SetupGuide::meet(const JointParams& joint) {
 
 void SetupGuide::measure_zero(const JointParams& joint, bus::Client& client, std::uint8_t id,
                               Json& entry) {
+  const bool stiff = client.read(id, dxl::address::kTorqueEnable, 1)[0] != 0;
   if (ask(fmt::format(
-          "  Zero: torque is off. Put {} where the model has its angle 0, hold it, Enter "
+          "  Zero: {}. Put {} where the model has its angle 0, hold it, Enter "
           "(s leaves the zero as it is): ",
+          stiff ? "torque is on, a dry run leaves it so: don't force the joint" : "torque is off",
           joint.name)) == Answer::kSkip) {
     return add_todo(entry, "measure the zero");
   }

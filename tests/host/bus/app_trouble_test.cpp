@@ -6,6 +6,17 @@ namespace {
 
 using AppInTrouble = AppLoop;
 
+// A controller was reset in mid-walk, and one servo is gone: the others must not stay stiff for it.
+TEST_F(AppInTrouble, ABringUpThatFailsLeavesNobodyStiff) {
+  ready();
+  wanted.torque_enable = all();
+  ticks(3);
+  for (int j = 0; j < kJoints; ++j) ASSERT_TRUE(plant.setpoint(j).torque_on) << j;
+  bus.set_connected(params.joint[0].servo_id, false);
+  EXPECT_EQ(app.bring_up().status, app::BringUpStatus::kSilent);
+  for (int j = 1; j < kJoints; ++j) EXPECT_FALSE(plant.setpoint(j).torque_on) << j;
+}
+
 TEST_F(AppInTrouble, BringUpNamesASilentDevice) {
   bus.set_connected(7, false);
   const app::BringUpReport report = app.bring_up();

@@ -158,6 +158,8 @@ TEST_F(Setup, TheWrongServosAreNamedAndTriedAgain) {
   servos_.turn_to(2048);
   program->type("\n");
   EXPECT_TRUE(program->says("found: id 1 at 57600 baud, XM430-W210"));
+  program->type("quit\n");  // what is not understood is asked again: Enter writes EEPROM
+  ASSERT_TRUE(program->says("Enter alone goes on")) << program->wait().err;
   program->type("q\n");
   EXPECT_EQ(program->wait().status, 1);
 }
