@@ -172,9 +172,9 @@ int run_robot(const RunWords& words) {
         "off, and a fall is not noticed");
   }
   Answers answers;
-  if (plan.link.kind == wire::Endpoint::Kind::kSerial) {
-    confirm_first_power(plan.walk.params, words.yes, answers);
-  }
+  // On any link: behind tcp: or pty: may be a forwarded port as well as a twin, and a twin answers
+  // as the servos do.
+  confirm_first_power(plan.walk.params, words.yes, answers);
   Progress progress(!words.walk.json);
   return tell(words, plan, files, drive(link, plan, fit, files.trace(), progress));
 }
@@ -200,7 +200,7 @@ Subcommand add_run(CLI::App& root) {
   app->add_option("--torque", words->torque_percent, "of what the servos can, percent")
       ->check(whole_number_between(5, 100))
       ->capture_default_str();
-  app->add_flag("--yes", words->yes, "the first-power checklist is confirmed");
+  app->add_flag("--yes", words->yes, "the first-power checklist is confirmed; for a twin, too");
   app->add_option("--record", words->walk.record_file, "write the trace here (.mcap)");
   app->add_flag("--record-state", words->walk.record_state,
                 "keep the full State of every tick in the trace");

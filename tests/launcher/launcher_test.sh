@@ -60,6 +60,11 @@ launch walk
 check 'the second time nothing is said' 7 'walk' ''
 [[ -z $errors ]] || { echo "FAILED: said: $errors" && failed=1; }
 
+launch run m --yes --json
+check 'after run --yes reaches the program' 7 'run m --yes --json' ''
+launch --yes run m
+check 'before run it is about packages only' 7 'run m' ''
+
 launch walk --on b9
 check 'an unknown board is left to the program' 7 'walk --on b9' ''
 [[ ! -e $scratch/build/fw-b1 ]] || { echo 'FAILED: built a board that nobody named' && failed=1; }

@@ -30,7 +30,7 @@ TEST_F(RealRobot, RefusesWhatCannotBe) {
   EXPECT_NE(nothing.err.find("no such device"), std::string::npos);
 }
 
-// On a serial port torque waits for the checklist, and for the very word.
+// Torque waits for the checklist, and for the very word.
 TEST_F(RealRobot, NoTorqueBeforeTheChecklistIsConfirmed) {
   serve();
   plug({1000, 1000});
@@ -50,6 +50,29 @@ TEST_F(RealRobot, NoTorqueBeforeTheChecklistIsConfirmed) {
   ASSERT_TRUE(program->says("Type yes"));
   program->type("yes\n");
   EXPECT_TRUE(program->says("relaxed to rising"));
+}
+
+// What is behind a socket or a pseudo-terminal may be servos as well: a port that is forwarded.
+TEST_F(RealRobot, TheChecklistIsAskedOnEveryLink) {
+  serve();
+  const auto refuses = [this](const std::string& link, const std::string& other_end) {
+    SCOPED_TRACE(link);
+    const std::vector<std::string> words = {"run",      "generic21", "--link", link,
+                                            "--period", "20",        "--for",  "3"};
+    Process program(folder_, "run", words);
+    if (!other_end.empty()) {
+      ASSERT_TRUE(program.says("waiting for the robot"));
+      cable_ = std::make_unique<verp::test::DelayingLink>(
+          other_end, "unix:" + (folder_ / "twin").string(), verp::test::Latency{});
+    }
+    EXPECT_TRUE(program.says("Type yes")) << program.wait().err;
+    program.hang_up();
+    EXPECT_EQ(program.wait().status, 2);
+    cable_.reset();
+  };
+  refuses("unix:" + (folder_ / "twin").string(), "");
+  refuses("pty:" + port(), "serial:" + port() + "@2000000");
+  refuses("unix-listen:" + port(), "unix:" + port());
 }
 
 // One press: down, then limp, in the order of the table. A terminal that closes and a system that
