@@ -64,7 +64,8 @@ struct Board {
   void idle() {
     dog.feed();
     serve();
-    kept.settings.keep({operator_device.id(), operator_device.imu_source()},
+    kept.settings.keep({operator_device.id(), operator_device.imu_source(),
+                        operator_device.torque_limit_percent()},
                        !operator_device.armed());
     imu.serve(operator_device.take_calibration_order(), operator_device.armed());
     const std::uint64_t now_us = timer.now_us();
@@ -174,7 +175,8 @@ struct Patience {
 };
 
 /// Serves a twin for as long as it is there, or says why there is none. The board's own IMU and
-/// stop know nothing of the twin's world, so they do not count.
+/// stop know nothing of the twin's world, so they do not count; nor does the torque limit, as the
+/// twin compares each frame with its own.
 lockstep::Verdict run_in_lockstep(Board& board, const Params& params) {
   std::uint64_t until_us = timer.now_us() + kGreeting_us;
   app::LockstepBus<Port, Patience> bus(servo_port, {board, until_us});
@@ -209,6 +211,7 @@ void run_in_real_time(Board& board, const Params& params, std::uint32_t held_us)
     board.deadline_misses = static_cast<std::uint32_t>(pacer.deadlines().skipped);
     const std::uint64_t begun_us = timer.now_us();
     loop.use_chip(board.operator_device.imu_source() == app::table::ImuSource::kChip);
+    loop.limit_torque(board.operator_device.torque_limit_percent());
     loop.tick(beat);
     board.report(loop);
     board.idle();

@@ -110,8 +110,9 @@ constexpr Register rw_i16(std::uint16_t address, const char* name, const char* u
   return {address, name, Type::kI16, Access::kWrite, 1, -32768, 32767, unit, meaning};
 }
 constexpr Register disarmed(std::uint16_t address, const char* name, Type type,
-                            std::uint32_t maximum, const char* unit, const char* meaning) {
-  return {address, name, type, Access::kDisarmed, 1, 0, maximum, unit, meaning};
+                            std::uint32_t maximum, const char* unit, const char* meaning,
+                            std::int32_t minimum = 0) {
+  return {address, name, type, Access::kDisarmed, 1, minimum, maximum, unit, meaning};
 }
 inline constexpr Type u8 = Type::kU8, u16 = Type::kU16, u32 = Type::kU32, u64 = Type::kU64,
                       i16 = Type::kI16, i32 = Type::kI32, f32 = Type::kF32, text = Type::kText;
@@ -138,6 +139,7 @@ inline constexpr Register kTable[] = {
     r(58, "action_count", u16, "", "actions in the library"),
     r(60, "parameter_count", u16, "", "numbers that parameter_id names"),
     r(62, "clock_source", u8, "", "0 unknown, 1 crystal, 2 internal oscillator with PLL, 3 without, 4 none (emulator); 2, 3: no CAN"),
+    disarmed(63, "torque_limit", u8, 100, "%", "of every servo's full strength, in every mode: for first steps; kept without power; 100 when new", 1),
     // Where every Dynamixel has it.
     r(64, "torque_enable", u8, "", "1 while any servo holds torque (\"armed\")"),
     rw(68, "status_return_level", u8, 2, "", "replies: 0 to ping, 1 to ping and reads, 2 to all"),

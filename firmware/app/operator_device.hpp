@@ -54,6 +54,7 @@ class OperatorDevice {
 
   std::uint8_t id() const { return registers_.id(); }
   table::ImuSource imu_source() const { return registers_.imu_source(); }
+  std::uint8_t torque_limit_percent() const { return registers_.torque_limit_percent(); }
   bool armed() const { return registers_.armed(); }
   table::ImuCalibrationOrder take_calibration_order() {
     return registers_.take_calibration_order();

@@ -29,6 +29,7 @@ struct OperatorSetup {
   std::uint8_t id = table::kDefaultId;
   table::ImuSource imu_source = table::ImuSource::kBus;
   std::uint8_t imu_sources = 1 << static_cast<int>(table::ImuSource::kBus);  ///< bit mask
+  std::uint8_t torque_limit_percent = 100;
   table::SelfTest self_test = table::SelfTest::kNotRun;
   table::ResetCause reset_cause = table::ResetCause::kUnknown;
   table::ClockSource clock_source = table::ClockSource::kUnknown;
@@ -55,6 +56,7 @@ class OperatorRegisters {
     image_.set(reg("device_count"), static_cast<std::uint8_t>(table::kDeviceLink + 1));
     image_.set(reg("imu_source"), setup.imu_source);
     image_.set(reg("imu_sources"), setup.imu_sources);
+    image_.set(reg("torque_limit"), setup.torque_limit_percent);
     image_.set(reg("self_test"), setup.self_test);
     image_.set(reg("reset_cause"), setup.reset_cause);
     image_.set(reg("clock_source"), setup.clock_source);
@@ -77,6 +79,9 @@ class OperatorRegisters {
   table::ImuSource imu_source() const {
     return image_.template get<table::ImuSource>(reg("imu_source"));
   }
+  /// What App::limit_torque() is to be told before each tick. Changes with torque off only: a robot
+  /// that stands must neither sag nor push harder all at once.
+  std::uint8_t torque_limit_percent() const { return byte(reg("torque_limit")); }
   /// What the operator wants done with the chip's calibration; told once.
   table::ImuCalibrationOrder take_calibration_order() {
     const table::ImuCalibrationOrder order = calibration_order_;

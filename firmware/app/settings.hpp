@@ -15,6 +15,8 @@ inline constexpr std::uint16_t kSettingsKey = 1;  ///< in the board's Store
 struct Settings {
   std::uint8_t id = table::kDefaultId;
   table::ImuSource imu_source = table::ImuSource::kBus;
+  /// Kept, as a reset in the middle of a robot's first steps must not set its full strength free.
+  std::uint8_t torque_limit_percent = 100;
 
   friend bool operator==(const Settings&, const Settings&) = default;
 };
@@ -26,14 +28,18 @@ class SettingsKeeper {
 
   /// At the start: what was kept, into the setup of the operator's link.
   void load(OperatorSetup& setup) {
-    kept_ = {setup.id, setup.imu_source};
+    kept_ = {setup.id, setup.imu_source, setup.torque_limit_percent};
     std::uint8_t bytes[kBytes];
-    if (memory_.get(kSettingsKey, bytes, sizeof bytes) != kBytes || bytes[0] != kVersion) return;
+    const std::size_t size = memory_.get(kSettingsKey, bytes, sizeof bytes);
+    if ((size != kBytes && size != kBytesOnce) || bytes[0] != kVersion) return;
     if (bytes[1] <= table::find("id")->maximum) setup.id = bytes[1];
     if (bytes[2] < 8 && (setup.imu_sources >> bytes[2] & 1) != 0) {
       setup.imu_source = static_cast<table::ImuSource>(bytes[2]);
     }
-    kept_ = {setup.id, setup.imu_source};
+    if (size == kBytes && bytes[3] >= kLimit.minimum && bytes[3] <= kLimit.maximum) {
+      setup.torque_limit_percent = bytes[3];
+    }
+    kept_ = {setup.id, setup.imu_source, setup.torque_limit_percent};
   }
 
   /// Whenever there is time: keeps what has changed, a step of the memory at a time. True while
@@ -42,8 +48,8 @@ class SettingsKeeper {
   bool keep(const Settings& now, bool may_erase) {
     const hal::WorkState state = memory_.work(may_erase);
     if (now == kept_) return state == hal::WorkState::kWorking;
-    const std::uint8_t bytes[kBytes] = {kVersion, now.id,
-                                        static_cast<std::uint8_t>(now.imu_source)};
+    const std::uint8_t bytes[kBytes] = {kVersion, now.id, static_cast<std::uint8_t>(now.imu_source),
+                                        now.torque_limit_percent};
     const hal::PutResult result = memory_.put(kSettingsKey, bytes, sizeof bytes);
     if (result != hal::PutResult::kBusy) kept_ = now;
     return true;
@@ -51,7 +57,9 @@ class SettingsKeeper {
 
  private:
   static constexpr std::uint8_t kVersion = 1;
-  static constexpr std::size_t kBytes = 3;
+  static constexpr std::size_t kBytes = 4;
+  static constexpr std::size_t kBytesOnce = 3;  ///< before there was a torque limit
+  static constexpr table::Register kLimit = *table::find("torque_limit");
   Memory& memory_;
   Settings kept_;
 };

@@ -17,7 +17,7 @@ std::string range_of(const Register& each) {
     return fmt::format("{}..{}", each.minimum, static_cast<std::int32_t>(each.maximum));
   }
   if (each.type == Type::kF32) return "its range";
-  return fmt::format("0..{}", each.maximum);
+  return fmt::format("{}..{}", each.minimum, each.maximum);
 }
 
 void put_registers(std::back_insert_iterator<std::string> out) {

@@ -78,6 +78,24 @@ TEST_F(OperatorOnTheLoop, AnOrderFeedsTheWatchdogOfTheCore) {
   EXPECT_EQ(read<std::uint32_t>(reg("command_age")), 1u);
 }
 
+TEST_F(OperatorOnTheLoop, TheTorqueLimitReachesEveryServoWithTheFirstTorque) {
+  ASSERT_EQ(loop.bring_up().status, app::BringUpStatus::kReady);
+  const auto tick = [&] {
+    loop.limit_torque(device.torque_limit_percent());
+    loop.tick();
+  };
+  tick();
+  write(reg("torque_limit"), {35});
+  for (int i = 0; i < 200 && !plant.setpoint(0).torque_on; ++i) {
+    write(reg("request"), {1});
+    tick();
+  }
+  for (int j = 0; j < params.joint_count; ++j) {
+    EXPECT_TRUE(plant.setpoint(j).torque_on) << j;
+    EXPECT_EQ(plant.setpoint(j).pwm_limit, dxl::kFullPwm * 35 / 100) << j;
+  }
+}
+
 TEST_F(OperatorOnTheLoop, ATuningWriteIsInTheInputsOfExactlyOneTickAndThenInForce) {
   loop.tick();
   const float lift_m = 0.0125F;

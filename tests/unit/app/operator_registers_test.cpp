@@ -35,6 +35,29 @@ TEST(OperatorStart, IsToldInRegisters) {
   EXPECT_EQ(bench.value<std::uint32_t>(reg("crash_count")), 3u);
 }
 
+// The counterpart of `verp run --torque`.
+TEST(OperatorTorqueLimit, IsAPercentageThatChangesWithTorqueOffOnly) {
+  const OperatorSetup kept = {.torque_limit_percent = 40};
+  Bench<>& bench = renewed<Bench<>>(no_images, kept);
+  EXPECT_EQ(bench.value<std::uint8_t>(reg("torque_limit")), 40) << "as the board kept it";
+  EXPECT_EQ(bench.device.torque_limit_percent(), 40);
+  for (const int percent : {1, 30, 100}) {
+    EXPECT_TRUE(bench.write(reg("torque_limit"), static_cast<std::uint8_t>(percent)) ==
+                Error::kNone);
+    EXPECT_EQ(bench.device.torque_limit_percent(), percent);
+  }
+  for (const int percent : {0, 101, 255}) {
+    EXPECT_TRUE(bench.write(reg("torque_limit"), static_cast<std::uint8_t>(percent)) ==
+                Error::kDataRange);
+  }
+  bench.arm(true);
+  EXPECT_TRUE(bench.write(reg("torque_limit"), std::uint8_t{30}) == Error::kAccess);
+  EXPECT_EQ(bench.device.torque_limit_percent(), 100);
+  bench.arm(false);
+  EXPECT_TRUE(bench.write(reg("torque_limit"), std::uint8_t{30}) == Error::kNone);
+  EXPECT_EQ(bench.device.order(0).flags, 0) << "it is no order";
+}
+
 TEST(OperatorOrders, AreFreshInTheOneTickThatFollowsAWrite) {
   Bench<>& bench = fresh_bench();
   EXPECT_EQ(bench.device.order(0).flags, 0);

@@ -41,6 +41,7 @@ TEST(Settings, AreTheDefaultsUntilTheOperatorChangesThem) {
   Life life(flash);
   EXPECT_EQ(life.setup.id, app::table::kDefaultId);
   EXPECT_TRUE(life.setup.imu_source == ImuSource::kBus);
+  EXPECT_EQ(life.setup.torque_limit_percent, 100);
   life.keep({life.setup.id, life.setup.imu_source});
   EXPECT_EQ(flash.programs(), 0u);
 }
@@ -57,6 +58,32 @@ TEST(Settings, OutliveTheNextStarts) {
   Life last(flash);
   EXPECT_EQ(last.setup.id, 18);
   EXPECT_TRUE(last.setup.imu_source == ImuSource::kBus);
+}
+
+// A reset in the middle of a robot's first steps must not set its full strength free.
+TEST(Settings, HoldTheTorqueLimitOverAnyStartUntilTheOperatorLiftsIt) {
+  Flash flash;
+  Life(flash).keep({17, ImuSource::kBus, 30});
+  for (int start = 0; start < 3; ++start) EXPECT_EQ(Life(flash).setup.torque_limit_percent, 30);
+  Life(flash).keep({17, ImuSource::kBus, 100});
+  EXPECT_EQ(Life(flash).setup.torque_limit_percent, 100);
+}
+
+// What a board kept before it was updated: id and source hold, and nothing is limited.
+TEST(Settings, OfTheVersionWithoutATorqueLimitStillHold) {
+  Flash flash;
+  Memory memory(flash);
+  memory.open();
+  const std::uint8_t once[3] = {1, 17, 0};
+  memory.put(app::kSettingsKey, once, sizeof once);
+  while (memory.work(true) == hal::WorkState::kWorking) {
+  }
+  Life life(flash);
+  EXPECT_EQ(life.setup.id, 17);
+  EXPECT_TRUE(life.setup.imu_source == ImuSource::kChip);
+  EXPECT_EQ(life.setup.torque_limit_percent, 100);
+  life.keep({17, ImuSource::kChip, 40});
+  EXPECT_EQ(Life(flash).setup.torque_limit_percent, 40);
 }
 
 // Flash wears: what has not changed is not written again.
@@ -103,6 +130,13 @@ TEST(Settings, ThatNoVersionOfOursWroteAreIgnored) {
   const Life life(flash);
   EXPECT_EQ(life.setup.id, app::table::kDefaultId);
   EXPECT_TRUE(life.setup.imu_source == ImuSource::kBus);
+  for (const std::uint8_t limit : {std::uint8_t{0}, std::uint8_t{101}, std::uint8_t{255}}) {
+    const std::uint8_t bytes[4] = {1, 17, 1, limit};
+    memory.put(app::kSettingsKey, bytes, sizeof bytes);
+    while (memory.work(true) == hal::WorkState::kWorking) {
+    }
+    EXPECT_EQ(Life(flash).setup.torque_limit_percent, 100) << int{limit};
+  }
 }
 
 }  // namespace
