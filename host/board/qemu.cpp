@@ -1,16 +1,9 @@
 #include "host/board/qemu.hpp"
 
-#include <fcntl.h>
-#include <signal.h>
-#include <spawn.h>
-#include <sys/wait.h>
-#include <unistd.h>
-
-#include <cerrno>
 #include <cstdlib>
-#include <cstring>
 #include <fstream>
 #include <sstream>
+#include <system_error>
 #include <thread>
 
 #include "host/board/board_error.hpp"
@@ -19,34 +12,6 @@ namespace verp::board {
 namespace {
 
 constexpr auto kPollInterval = std::chrono::milliseconds(2);
-
-int exit_status(int wait_status) {
-  return WIFEXITED(wait_status) ? WEXITSTATUS(wait_status) : 128 + WTERMSIG(wait_status);
-}
-
-/// Starts `command` with its output going to `log`. Returns 0, or the error number.
-int spawn(std::vector<std::string> command, const std::filesystem::path& log, pid_t& pid) {
-  std::vector<char*> arguments;
-  arguments.reserve(command.size() + 1);
-  for (std::string& word : command) arguments.push_back(word.data());
-  arguments.push_back(nullptr);
-
-  posix_spawn_file_actions_t actions;
-  posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-  posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, log.c_str(),
-                                   O_WRONLY | O_CREAT | O_TRUNC, 0600);
-  posix_spawn_file_actions_adddup2(&actions, STDOUT_FILENO, STDERR_FILENO);
-  // A group of its own: Ctrl-C must reach us, who then end the run in order, and not the emulator.
-  posix_spawnattr_t attributes;
-  posix_spawnattr_init(&attributes);
-  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
-  const int error =
-      posix_spawnp(&pid, arguments[0], &actions, &attributes, arguments.data(), environ);
-  posix_spawnattr_destroy(&attributes);
-  posix_spawn_file_actions_destroy(&actions);
-  return error;
-}
 
 }  // namespace
 
@@ -81,24 +46,13 @@ std::vector<std::string> QemuProcess::command(const Launch& launch) {
 QemuProcess::QemuProcess(const Launch& launch) : name_(launch.image.filename().string()) {
   setenv("QEMU_AUDIO_DRV", "none", 1);  // no sound card is looked for
   const std::vector<std::string> words = command(launch);
-  const int error = spawn(words, directory_.path() / "output", pid_);
-  if (error != 0) {
-    pid_ = -1;
-    throw BoardError(words[0] + ": can't start the emulator (" + std::strerror(error) +
+  try {
+    child_.emplace(process::Command{
+        .words = words, .input = {}, .output = {.file = directory_.path() / "output"}});
+  } catch (const std::system_error& error) {
+    throw BoardError(words[0] + ": can't start the emulator (" + error.code().message() +
                      "); install it: apt-get install qemu-system-arm");
   }
-}
-
-QemuProcess::~QemuProcess() {
-  if (pid_ < 0 || poll_status()) return;
-  kill(pid_, SIGKILL);
-  waitpid(pid_, nullptr, 0);
-}
-
-std::optional<int> QemuProcess::poll_status() {
-  int wait_status = 0;
-  if (!status_ && waitpid(pid_, &wait_status, WNOHANG) == pid_) status_ = exit_status(wait_status);
-  return status_;
 }
 
 int QemuProcess::wait(std::chrono::seconds limit) {
@@ -109,7 +63,7 @@ int QemuProcess::wait(std::chrono::seconds limit) {
     }
     std::this_thread::sleep_for(kPollInterval);
   }
-  return *status_;
+  return *poll_status();
 }
 
 void QemuProcess::wait_for_success(std::chrono::seconds limit) {

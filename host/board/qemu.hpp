@@ -1,6 +1,4 @@
 #pragma once
-#include <sys/types.h>
-
 #include <chrono>
 #include <filesystem>
 #include <optional>
@@ -9,10 +7,11 @@
 
 #include "host/board/emulated_board.hpp"
 #include "host/board/temporary_directory.hpp"
+#include "host/process/child.hpp"
 
 namespace verp::board {
 
-/// One run of a firmware image in QEMU. Ends with this object at the latest.
+/// One run of a firmware image in QEMU. Ends with this object at the latest, and with this process.
 class QemuProcess {
  public:
   struct Launch {
@@ -31,12 +30,9 @@ class QemuProcess {
 
   /// Throws BoardError if QEMU isn't installed. $VERP_QEMU names another emulator.
   explicit QemuProcess(const Launch& launch);
-  ~QemuProcess();
-  QemuProcess(const QemuProcess&) = delete;
-  QemuProcess& operator=(const QemuProcess&) = delete;
 
   /// The image's exit status, once it has one; 128 + signal if QEMU itself was killed.
-  std::optional<int> poll_status();
+  std::optional<int> poll_status() { return child_->status(); }
 
   /// Waits for the end. Throws BoardError with the image's last words if that takes too long.
   int wait(std::chrono::seconds limit);
@@ -53,8 +49,7 @@ class QemuProcess {
  private:
   std::string name_;
   TemporaryDirectory directory_;
-  pid_t pid_ = -1;
-  std::optional<int> status_;
+  std::optional<process::Child> child_;
 };
 
 }  // namespace verp::board

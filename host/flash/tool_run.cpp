@@ -4,15 +4,16 @@
 #include <fmt/format.h>
 #include <poll.h>
 #include <signal.h>
-#include <spawn.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
+#include <optional>
+#include <system_error>
 
 #include "host/flash/flash_error.hpp"
+#include "host/process/child.hpp"
 
 namespace verp::flash {
 namespace {
@@ -20,29 +21,26 @@ namespace {
 constexpr int kLook_ms = 50;
 constexpr int kGrace_looks = 60;  ///< 3 s between the polite end and the other one
 
-/// A child with both its streams in one pipe; it ends with this object at the latest.
-class Child {
+/// A tool with both its streams in one pipe; it ends with this object at the latest.
+class Tool {
  public:
-  Child(std::vector<std::string> command, const std::string& package) {
+  Tool(const std::vector<std::string>& command, const std::string& package) {
     int ends[2];
     if (::pipe2(ends, O_CLOEXEC) != 0) fail(command[0], errno, package);
     out_ = ends[0];
-    const int error = spawn(std::move(command), ends[1]);
-    ::close(ends[1]);
-    if (error != 0) {
+    try {
+      child_.emplace(
+          process::Command{.words = command, .input = {}, .output = {.descriptor = ends[1]}});
+    } catch (const std::system_error& error) {
+      ::close(ends[1]);
       ::close(out_);
-      fail(program_, error, package);
+      fail(command[0], error.code().value(), package);
     }
+    ::close(ends[1]);
   }
-  ~Child() {
-    if (pid_ > 0) {
-      ::kill(pid_, SIGKILL);
-      ::waitpid(pid_, nullptr, 0);
-    }
-    ::close(out_);
-  }
-  Child(const Child&) = delete;
-  Child& operator=(const Child&) = delete;
+  ~Tool() { ::close(out_); }
+  Tool(const Tool&) = delete;
+  Tool& operator=(const Tool&) = delete;
 
   /// Appends what comes within kLook_ms. False: nothing will come any more.
   bool read(std::string& output) const {
@@ -53,14 +51,8 @@ class Child {
     if (count > 0) output.append(chunk, static_cast<std::size_t>(count));
     return count > 0 || (count < 0 && errno == EINTR);
   }
-  void tell(int signal) const { ::kill(pid_, signal); }
-  int wait() {
-    int status = 0;
-    while (::waitpid(pid_, &status, 0) < 0 && errno == EINTR) {
-    }
-    pid_ = -1;
-    return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
-  }
+  void tell(int signal) const { child_->tell(signal); }
+  int wait() { return child_->wait(); }
 
  private:
   [[noreturn]] static void fail(const std::string& program, int error, const std::string& package) {
@@ -74,31 +66,8 @@ class Child {
                                  std::strerror(error), program));
   }
 
-  int spawn(std::vector<std::string> command, int output) {
-    program_ = command[0];
-    std::vector<char*> arguments;
-    arguments.reserve(command.size() + 1);
-    for (std::string& word : command) arguments.push_back(word.data());
-    arguments.push_back(nullptr);
-    posix_spawn_file_actions_t actions;
-    posix_spawn_file_actions_init(&actions);
-    posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-    posix_spawn_file_actions_adddup2(&actions, output, STDOUT_FILENO);
-    posix_spawn_file_actions_adddup2(&actions, output, STDERR_FILENO);
-    posix_spawnattr_t attributes;
-    posix_spawnattr_init(&attributes);
-    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
-    const int error =
-        posix_spawnp(&pid_, arguments[0], &actions, &attributes, arguments.data(), environ);
-    posix_spawnattr_destroy(&attributes);
-    posix_spawn_file_actions_destroy(&actions);
-    if (error != 0) pid_ = -1;
-    return error;
-  }
-
-  std::string program_;
   int out_ = -1;
-  pid_t pid_ = -1;
+  std::optional<process::Child> child_;
 };
 
 /// The number before the last percent sign, as a share; negative when there is none.
@@ -114,18 +83,18 @@ double last_share(const std::string& output) {
 
 ToolRun run_tool(const std::vector<std::string>& command, const std::string& package,
                  const ToolHooks& hooks) {
-  Child child(command, package);
+  Tool tool(command, package);
   ToolRun run;
   int looks = 0;
-  while (child.read(run.output)) {
+  while (tool.read(run.output)) {
     const double share = last_share(run.output);
     if (share >= 0) hooks.share(share);
     if (!run.interrupted && !hooks.stop()) continue;
-    if (looks++ == 0) child.tell(SIGINT);
-    if (looks == kGrace_looks) child.tell(SIGKILL);
+    if (looks++ == 0) tool.tell(SIGINT);
+    if (looks == kGrace_looks) tool.tell(SIGKILL);
     run.interrupted = true;
   }
-  run.status = child.wait();
+  run.status = tool.wait();
   return run;
 }
 

@@ -1,23 +1,18 @@
 #include "host/report/gnuplot.hpp"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <spawn.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
-#include <array>
 #include <cstdlib>
-#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <system_error>
 #include <utility>
 
 #include "host/files/temporary_directory.hpp"
+#include "host/process/child.hpp"
 #include "host/report/palette.hpp"
-
-extern char** environ;
 
 namespace verp::report {
 namespace {
@@ -34,31 +29,18 @@ std::string slurp(const fs::path& file) {
 /// Runs gnuplot with its output in files. Returns how it failed, or nothing.
 std::string run_gnuplot(const std::string& argument, const std::string& out,
                         const std::string& error) {
-  posix_spawn_file_actions_t actions;
-  posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-  posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, out.c_str(),
-                                   O_WRONLY | O_CREAT | O_TRUNC, 0600);
-  posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, error.c_str(),
-                                   O_WRONLY | O_CREAT | O_TRUNC, 0600);
-  // A group of its own: Ctrl-C asks us to end in order, and the report is part of that.
-  posix_spawnattr_t attributes;
-  posix_spawnattr_init(&attributes);
-  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
-  std::string program = "gnuplot", file = argument;
-  std::array<char*, 3> arguments{program.data(), file.data(), nullptr};
-  pid_t child = 0;
-  const int failed =
-      ::posix_spawnp(&child, "gnuplot", &actions, &attributes, arguments.data(), environ);
-  posix_spawnattr_destroy(&attributes);
-  posix_spawn_file_actions_destroy(&actions);
-  if (failed != 0) return fmt::format("it cannot be started: {}", std::strerror(failed));
-  int status = 0;
-  while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
+  try {
+    // Ctrl-C asks us to end in order, and the report is part of that.
+    process::Child gnuplot({.words = {"gnuplot", argument},
+                            .input = {},
+                            .output = {.file = out},
+                            .error = process::Stream{.file = error}});
+    const int status = gnuplot.wait();
+    if (status > 128) return fmt::format("it was ended by signal {}", status - 128);
+    return status == 0 ? "" : fmt::format("it ended with status {}", status);
+  } catch (const std::system_error& failed) {
+    return fmt::format("it cannot be started: {}", failed.code().message());
   }
-  if (WIFSIGNALED(status)) return fmt::format("it was ended by signal {}", WTERMSIG(status));
-  return WEXITSTATUS(status) == 0 ? ""
-                                  : fmt::format("it ended with status {}", WEXITSTATUS(status));
 }
 
 void replace_all(std::string& text, const std::string& from, const std::string& to) {

@@ -5,15 +5,19 @@
 #include <unistd.h>
 
 #include <chrono>
+#include <optional>
+#include <stdexcept>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
+#include "host/process/child.hpp"
 #include "tests/host/tool/program.hpp"
 
 namespace verp::tool::test {
 
-/// A program of the test's own that runs beside it; ends with this object at the latest.
+/// The verp program, beside the test; ends with this object at the latest.
 class Process {
  public:
   /// Its outputs go to files `name`.out and .err of the folder; it reads what is typed.
@@ -23,29 +27,17 @@ class Process {
     fs::remove(out_);            // of one of that name before
     fs::remove(err_);
     int keyboard[2] = {-1, -1};
-    if (::pipe2(keyboard, O_CLOEXEC) != 0) return;
+    if (::pipe2(keyboard, O_CLOEXEC) != 0) throw std::runtime_error("no pipe");
+    keyboard_ = keyboard[1];
     arguments.insert(arguments.begin(), VERP_PROGRAM);
-    std::vector<char*> words;
-    for (std::string& word : arguments) words.push_back(word.data());
-    words.push_back(nullptr);
-    pid_ = ::fork();
-    if (pid_ != 0) {
-      ::close(keyboard[0]);
-      keyboard_ = keyboard[1];
-      return;
-    }
-    if (::chdir(folder.c_str()) != 0 || ::dup2(keyboard[0], STDIN_FILENO) < 0) ::_exit(126);
-    redirect(out_, O_WRONLY | O_CREAT | O_TRUNC, STDOUT_FILENO);
-    redirect(err_, O_WRONLY | O_CREAT | O_TRUNC, STDERR_FILENO);
-    ::execv(words[0], words.data());
-    ::_exit(127);
+    child_.emplace(process::Command{.words = std::move(arguments),
+                                    .input = {.descriptor = keyboard[0]},
+                                    .output = {.file = out_},
+                                    .error = process::Stream{.file = err_},
+                                    .folder = folder});
+    ::close(keyboard[0]);
   }
-  ~Process() {
-    hang_up();
-    if (pid_ <= 0 || ended_) return;
-    ::kill(pid_, SIGKILL);
-    ::waitpid(pid_, nullptr, 0);
-  }
+  ~Process() { hang_up(); }
   Process(const Process&) = delete;
   Process& operator=(const Process&) = delete;
 
@@ -57,19 +49,19 @@ class Process {
     if (keyboard_ >= 0) ::close(keyboard_);
     keyboard_ = -1;
   }
-  void signal(int number) const { ::kill(pid_, number); }
+  void signal(int number) const { child_->tell(number); }
   /// Stops it for a while; returns for how long it surely stood still.
   std::uint64_t stand_still_us(std::uint64_t time_us) {
-    ::kill(pid_, SIGSTOP);
-    int status = 0;
-    if (::waitpid(pid_, &status, WUNTRACED) != pid_ || !WIFSTOPPED(status)) {
-      ended_ = true;
+    child_->tell(SIGSTOP);
+    siginfo_t stopped{};
+    if (::waitid(P_PID, static_cast<id_t>(child_->id()), &stopped, WSTOPPED | WEXITED | WNOWAIT) !=
+            0 ||
+        stopped.si_code != CLD_STOPPED)
       return 0;
-    }
     const auto begun = std::chrono::steady_clock::now();
     std::this_thread::sleep_for(std::chrono::microseconds(time_us));
     const auto stood = std::chrono::steady_clock::now() - begun;
-    ::kill(pid_, SIGCONT);
+    child_->tell(SIGCONT);
     return static_cast<std::uint64_t>(
         std::chrono::duration_cast<std::chrono::microseconds>(stood).count());
   }
@@ -88,33 +80,17 @@ class Process {
     }
     return false;
   }
-  bool over() {
-    int status = 0;
-    if (!ended_ && ::waitpid(pid_, &status, WNOHANG) == pid_) note(status);
-    return ended_;
-  }
+  bool over() { return child_->status().has_value(); }
   Outcome wait() {
-    int status = 0;
-    if (!ended_ && ::waitpid(pid_, &status, 0) == pid_) note(status);
-    return {status_, slurp(out_), slurp(err_)};
+    const int status = child_->wait();
+    return {status < 128 ? status : -1, slurp(out_), slurp(err_)};
   }
 
  private:
-  static void redirect(const fs::path& file, int flags, int stream) {
-    const int descriptor = ::open(file.c_str(), flags, 0600);
-    if (descriptor < 0 || ::dup2(descriptor, stream) < 0) ::_exit(126);
-  }
-  void note(int status) {
-    ended_ = true;
-    status_ = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-  }
-
   fs::path out_, err_;
-  pid_t pid_ = -1;
+  std::optional<process::Child> child_;
   int keyboard_ = -1;
   std::size_t seen_ = 0;  ///< of standard error
-  int status_ = -1;
-  bool ended_ = false;
 };
 
 }  // namespace verp::tool::test
