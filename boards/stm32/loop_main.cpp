@@ -1,8 +1,10 @@
 #include "boards/stm32/hardware.hpp"
 #include "boards/stm32/kept.hpp"
+#include "boards/stm32/no_time.hpp"
 #include "boards/stm32/operator_setup.hpp"
 #include "boards/stm32/own_imu.hpp"
 #include "boards/stm32/panel_pins.hpp"
+#include "boards/stm32/servos.hpp"
 #include "common/control/boot_check.hpp"
 #include "common/model/image.hpp"
 #include "firmware/app/app.hpp"
@@ -11,6 +13,7 @@
 #include "firmware/app/operator_device.hpp"
 #include "firmware/app/pacer.hpp"
 #include "firmware/app/signals.hpp"
+#include "firmware/app/start_fault.hpp"
 #include "firmware/boot/boot.hpp"
 #include "firmware/boot/crash.hpp"
 
@@ -27,7 +30,6 @@ namespace {
 
 constexpr std::uint64_t kGreeting_us = 300'000;
 constexpr std::uint64_t kForever_us = ~std::uint64_t{0};
-constexpr std::uint64_t kBlink_us = 500'000;
 /// Of a loop that ticks every 5 to 20 ms. Shorter would bite a loop that a lost reply held up.
 constexpr std::uint32_t kWatchdog_us = 100'000;
 
@@ -39,12 +41,13 @@ constexpr std::uint64_t kServingEnds_us = 2'000;
 /// The longest reply and the one to Reboot at 1 Mbaud take half of it.
 constexpr std::uint64_t kLastWords_us = 40'000;
 
+using app::table::StartFault;
 using Operator = app::OperatorDevice<OperatorPort, app::ParamsImages>;
 
 struct Board {
   Board(const Start& start, const Params& params, control::BootVerdict verdict)
-      : started(start),
-        dog(start.cause),
+      : dog(start.cause),
+        guard(dog, start.clocks.source != stm32::ClockSource::kAbsent),
         kept(dog, *reinterpret_cast<const ParamsImage*>(verp_params_begin)),
         imu(params, kept.log),
         operator_device(operator_port, params, setup(start, verdict), kept.images) {
@@ -68,15 +71,20 @@ struct Board {
                         operator_device.torque_limit_percent()},
                        !operator_device.armed());
     imu.serve(operator_device.take_calibration_order(), operator_device.armed());
-    const std::uint64_t now_us = timer.now_us();
-    if (now_us < blink_us) return;
-    blink_us = now_us + kBlink_us;
-    lit = !lit;
-    gpio.write(kLed, lit);
+    const app::LifeSign::Now sign = life.at(timer.now_us(), fault);
+    if (sign.changed) gpio.write(kLed, sign.lit);
+    say(sign.tone);
+  }
+  /// From now on nothing ticks: no loop, so no torque. All that is left is to tell a person why.
+  [[noreturn]] void refuse(StartFault why) {
+    fault = why;
+    operator_device.show(why);
+    for (;;) idle();
   }
 
   /// The operator's link. True if there was anything to do.
   bool serve() {
+    if (fault == StartFault::kOperatorPort) return false;
     const bool wanted = operator_device.reboot_asked() || kept.new_robot();
     if (wanted && !operator_device.armed()) start_anew();
     return operator_device.poll();
@@ -125,8 +133,8 @@ struct Board {
     return static_cast<std::uint16_t>((mv + 50) / 100);
   }
 
-  const Start& started;
   stm32::IndependentWatchdog<Io> dog;
+  app::LoopGuard<stm32::IndependentWatchdog<Io>> guard;
   stm32::Gpio<Io> gpio;
   Kept kept;
   OwnImu<kImu.exists(), decltype(Kept::log)> imu;
@@ -134,20 +142,11 @@ struct Board {
   Operator operator_device;
   app::WithPanel<Operator, PanelPins> panel{operator_device, pins, PanelPins::kHasStop};
   app::Signals signals;
-  std::uint64_t blink_us = 0;
+  app::LifeSign life;
   std::uint32_t ticks = 0;  ///< since the start, of all loops
   std::uint32_t deadline_misses = 0;
-  bool lit = false;
+  StartFault fault = StartFault::kNone;
 };
-
-/// To all of them, whoever they are: nobody replies, so three times.
-void release_servos() {
-  constexpr std::uint8_t kOff = 0;
-  std::uint8_t frame[32];
-  const std::size_t size = dxl::encode_write(frame, sizeof frame, dxl::kBroadcast,
-                                             dxl::address::kTorqueEnable, &kOff, sizeof kOff);
-  for (int times = 0; times < 3; ++times) servo_port.write(frame, size, 10'000);
-}
 
 /// The servo port during bring-up, when no tick can feed the watchdog.
 struct PatientPort {
@@ -195,16 +194,19 @@ lockstep::Verdict run_in_lockstep(Board& board, const Params& params) {
 
 /// Drives servos until the power goes. Returns if they are not all there. `held_us`: how long what
 /// is between them and this port may hold bytes back.
-void run_in_real_time(Board& board, const Params& params, std::uint32_t held_us) {
+void run_in_real_time(Board& board, Servos& servos, const Params& params, std::uint32_t held_us) {
   PatientPort port{board};
   app::LinkBus<PatientPort, Timer> bus(port, timer, held_us);
   app::App loop(params, bus, board.panel, board, board.imu.chip());
   if (!board.is_up(loop.bring_up())) return;
   board.idle();
-  const bool guarded =
-      board.dog.start(kWatchdog_us) || board.started.clocks.source == stm32::ClockSource::kAbsent;
   app::Pacer pacer(timer);
-  if (!guarded || !pacer.start(params.period_us)) return;
+  const StartFault fault = board.guard.begin(pacer, params.period_us, kWatchdog_us);
+  if (fault != StartFault::kNone) {
+    servos.power(false);
+    servos.release();
+    board.refuse(fault);
+  }
   port.ticking = true;
   for (;;) {
     const app::Beat beat = pacer.next();
@@ -219,13 +221,22 @@ void run_in_real_time(Board& board, const Params& params, std::uint32_t held_us)
   }
 }
 
+StartFault judge(bool has_desk, control::BootVerdict verdict) {
+  if (!has_desk) return StartFault::kOperatorPort;
+  return verdict == control::BootVerdict::kSound ? StartFault::kNone : StartFault::kSelfTest;
+}
+
 }  // namespace
 }  // namespace verp::board
 
 extern "C" int verp_main() {
   using namespace verp;
   const board::Start start = board::start_hardware();
-  if (!start.good || !board::open_operator_port(start)) return 1;
+  hal::stm32::Gpio<board::Io> gpio;
+  gpio.output(board::kServoPower, false);
+  gpio.output(board::kLed, false);
+  if (!start.good) board::refuse_without_time(start);
+  const bool has_desk = board::open_operator_port(start);
   const auto size = reinterpret_cast<std::uintptr_t>(verp_params_bytes);
   static Params scratch;
   static State state;
@@ -236,22 +247,15 @@ extern "C" int verp_main() {
   const Params& params =
       has_robot ? reinterpret_cast<const ParamsImage*>(verp_params_begin)->params : scratch;
   static board::Board here(start, params, verdict);
-  here.gpio.output(board::kServoPower, false);
-  here.gpio.output(board::kLed, false);
-  here.say(app::Signals::at_start(verdict == control::BootVerdict::kSound));
-  if (verdict != control::BootVerdict::kSound) {
-    // No loop, so no torque: all that is left is to have the servos let go, should a run before
-    // this one have left them stiff, and to tell the operator why.
-    if (has_robot && board::open_servo_port(start, params.baud)) board::release_servos();
-    for (;;) here.idle();
-  }
-  if (!board::open_servo_port(start, params.baud)) return 1;
-  here.gpio.output(board::kServoPower, true);
+  board::Servos servos{start, params.baud, has_robot};
+  const auto fault = app::open_servos(servos, board::judge(has_desk, verdict));
+  here.say(app::Signals::at_start(fault == board::StartFault::kNone));
+  if (fault != board::StartFault::kNone) here.refuse(fault);
   for (;;) {
     const lockstep::Verdict twin = board::run_in_lockstep(here, params);
     if (twin == lockstep::Verdict::kAccepted) continue;
     // A twin that keeps its own time answers through a PC, and perhaps a USB adapter.
     const bool through_pc = twin == lockstep::Verdict::kNoLockstep;
-    board::run_in_real_time(here, params, through_pc ? params.period_us / 4 : 0);
+    board::run_in_real_time(here, servos, params, through_pc ? params.period_us / 4 : 0);
   }
 }

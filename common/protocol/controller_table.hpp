@@ -91,6 +91,17 @@ enum class ResetCause : std::uint8_t {
 };
 /// As hal/chip/stm32/clock.hpp; kUnknown: the board does not say.
 enum class ClockSource : std::uint8_t { kUnknown, kCrystal, kInternalPll, kInternal, kAbsent };
+/// What keeps a board from ever giving torque; its number is that of the LED's flashes, hence from
+/// 2 on: one flash is the sign of life.
+enum class StartFault : std::uint8_t {
+  kNone,
+  kSelfTest = 2,
+  kTimer,
+  kOperatorPort,
+  kServoPort,
+  kPeriod,
+  kWatchdog
+};
 enum class WindowState : std::uint8_t { kIdle, kReceiving, kAccepted, kRefused };
 
 inline constexpr std::uint16_t kWindowBytes = 128;
@@ -145,6 +156,7 @@ inline constexpr Register kTable[] = {
     rw(68, "status_return_level", u8, 2, "", "replies: 0 to ping, 1 to ping and reads, 2 to all"),
     r(69, "registered_instruction", u8, "", "1: a Reg Write waits for its Action"),
     r(70, "hardware_error", u8, "bits", "faults that stop the robot: the low byte of faults; not 0: alert bit"),
+    r(71, "start_fault", u8, "", "no torque until a reset; so many flashes: 2 self_test failed, 3 timer, 4 this port, 5 servo port, 6 period_us, 7 watchdog; 0: none"),
     r(72, "crash_pc", u32, "", "the crash before this start: its instruction; 0 with crash_count 1 or more: stack overflow"),
     r(76, "crash_cause", u32, "bits", "CFSR of the core at that crash"),
     // The operator's order: every write to 80..99 makes it fresh and feeds the operator watchdog.

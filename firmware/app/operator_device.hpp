@@ -49,6 +49,9 @@ class OperatorDevice {
   /// How the loop's bring-up ended: the operator wants to know which servo to look at.
   void brought_up(const BringUpReport& report) { registers_.report().bring_up(report); }
 
+  /// Why there will be no torque until the next start (start_fault.hpp).
+  void show(table::StartFault fault) { registers_.report().start_fault(fault); }
+
   /// Bus counters and the like, as often as they should be readable.
   void report(const LoopHealth& health) { registers_.report().health(health); }
 

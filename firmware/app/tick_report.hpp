@@ -64,6 +64,8 @@ class TickReport {
     image_.set(reg("bring_up_register"), report.address);
   }
 
+  void start_fault(table::StartFault fault) { image_.set(reg("start_fault"), fault); }
+
   void health(const LoopHealth& health) {
     const BusCounters& bus = health.bus;
     image_.set(reg("bus_crc_errors"), health.bus_crc_errors);

@@ -10,6 +10,7 @@ namespace verp::test {
 namespace {
 
 using dxl::controller::SelfTest;
+using dxl::controller::StartFault;
 
 std::string test_board() {
   const char* board = std::getenv("VERP_TEST_BOARD");
@@ -31,6 +32,7 @@ TEST(SerialLoop, AnswersItsOperatorAsDevice200) {
   EXPECT_EQ(board.read("self_test"), static_cast<std::uint64_t>(SelfTest::kPassed));
   EXPECT_EQ(board.read("joint_count"), 21u);
   EXPECT_EQ(board.read("crash_count"), 0u);
+  EXPECT_EQ(board.read("start_fault"), 0u);
   EXPECT_EQ(board.read("clock_source"),
             static_cast<std::uint64_t>(dxl::controller::ClockSource::kAbsent));
   EXPECT_EQ(board.read("torque_enable"), 0u);
@@ -41,7 +43,21 @@ TEST(SerialLoop, TellsItsOperatorWhyItRefusesTorque) {
   SerialBoard board(test_board(), {});
   ASSERT_TRUE(board.operator_port().ping(dxl::controller::kDefaultId).has_value());
   EXPECT_EQ(board.read("self_test"), static_cast<std::uint64_t>(SelfTest::kImage));
+  EXPECT_EQ(board.read("start_fault"), static_cast<std::uint64_t>(StartFault::kSelfTest));
   EXPECT_EQ(board.read("joint_count"), 0u);
+  board.write("request", static_cast<std::int64_t>(Request::kStand));
+  EXPECT_EQ(board.read("tick"), 0u) << "the loop must not run";
+  EXPECT_EQ(board.read("torque_enable"), 0u);
+}
+
+// A servo port that cannot be opened is told, not tried again from reset to reset.
+TEST(SerialLoop, TellsItsOperatorThatTheServoPortDoesNotOpen) {
+  Robot robot = load_robot("generic21");
+  robot.entity.baud = 50'000'000;  // no divider of the chip makes it
+  SerialBoard board(test_board(), params_image(robot));
+  ASSERT_TRUE(board.operator_port().ping(dxl::controller::kDefaultId).has_value());
+  EXPECT_EQ(board.read("self_test"), static_cast<std::uint64_t>(SelfTest::kPassed));
+  EXPECT_EQ(board.read("start_fault"), static_cast<std::uint64_t>(StartFault::kServoPort));
   board.write("request", static_cast<std::int64_t>(Request::kStand));
   EXPECT_EQ(board.read("tick"), 0u) << "the loop must not run";
   EXPECT_EQ(board.read("torque_enable"), 0u);
