@@ -71,6 +71,7 @@ struct Board {
                         operator_device.torque_limit_percent()},
                        !operator_device.armed());
     imu.serve(operator_device.take_calibration_order(), operator_device.armed());
+    operator_device.show(imu.calibration());
     const app::LifeSign::Now sign = life.at(timer.now_us(), fault);
     if (sign.changed) gpio.write(kLed, sign.lit);
     say(sign.tone);
@@ -125,7 +126,6 @@ struct Board {
                             .bus_noise_bytes = loop.noise_bytes(),
                             .deadline_misses = deadline_misses,
                             .imu_faults = imu.faults(),
-                            .imu_calibration = imu.calibration(),
                             .battery_tenth_v = tenth_v(battery.poll_mv())});
   }
 

@@ -60,8 +60,9 @@ class OwnImu<true, Log> {
   /// What the operator ordered; and, whenever there is time, keeps what was measured.
   void serve(ImuCalibrationOrder order, bool armed) {
     if (armed) chip_.abandon();
-    if (order == ImuCalibrationOrder::kMeasure) chip_.measure();
+    if (order == ImuCalibrationOrder::kMeasure) chip_.measure(timer.now_us());
     if (order == ImuCalibrationOrder::kForget) chip_.forget();
+    chip_.watch(timer.now_us());
     chip_.keep();
   }
   Chip* chip() { return fits_ ? &chip_ : nullptr; }

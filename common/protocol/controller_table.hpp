@@ -68,7 +68,15 @@ enum class DeviceState : std::uint8_t { kNeverSeen, kGood, kStale, kLost, kFault
 enum class HeadMode : std::uint8_t { kAngles = 0, kLookAt = 1 };
 enum class ImuSource : std::uint8_t { kChip = 0, kBus = 1 };
 enum class ImuCalibrationOrder : std::uint8_t { kNone = 0, kMeasure = 1, kForget = 2 };
-enum class ImuCalibrationState : std::uint8_t { kNone, kMeasuring, kDone, kMoved, kNotUpright };
+enum class ImuCalibrationState : std::uint8_t {
+  kNone,
+  kMeasuring,
+  kDone,
+  kMoved,
+  kNotUpright,
+  kSilent,
+  kDropped
+};
 /// control::BootVerdict and one more.
 enum class SelfTest : std::uint8_t {
   kNotRun,
@@ -174,7 +182,7 @@ inline constexpr Register kTable[] = {
     rw(99, "emergency_stop", u8, 1, "", "1: pressed; stays until written 0"),
     rw(100, "action_request", u16, 0xFFFF, "", "number of the action to play, up to action_count; 0: none"),
     disarmed(102, "imu_calibrate", u8, 2, "", "1: measure the chip's bias and mounting, robot upright and still; 2: forget them; reads as 0"),
-    r(103, "imu_calibration", u8, "", "0 none, 1 measuring, 2 kept; refused, the old one counts: 3 moved, 4 not upright"),
+    r(103, "imu_calibration", u8, "", "0 none, 1 measuring, 2 kept; refused, the old one counts: 3 moved, 4 not upright, 5 too few samples in 20 s (chip silent, or a twin in lockstep); 6 none counts: the kept one is of another scale or mounting"),
     r(104, "bring_up", u8, "", "0 not yet, 1 every device is ready; the last failure: 2 silent, 3 another model, 4 refused a write, 5 does not keep it"),
     r(105, "bring_up_device", u8, "", "bus id of the device at which it failed"),
     // One number of the tuning. A write of parameter_value reaches exactly one tick; before that

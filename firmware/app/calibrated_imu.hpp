@@ -16,13 +16,16 @@ template <hal::Imu Chip, hal::Store Memory>
 class CalibratedImu {
  public:
   CalibratedImu(Chip& chip, Memory& memory, const ImuParams& imu)
-      : chip_(chip), memory_(memory), calibrator_(imu) {}
+      : chip_(chip), memory_(memory), basis_(basis_of(imu)), calibrator_(imu) {}
 
-  /// At the start: takes what was kept.
+  /// At the start: takes what was kept. What was measured for Params with another scale or mounting
+  /// does not count; it stays in memory until there is a new one, as that robot may come back.
   void load() {
     std::uint8_t bytes[ImuCalibration::kBytes];
-    if (memory_.get(kImuCalibrationKey, bytes, sizeof bytes) != sizeof bytes) return;
-    if (calibration_.decode(bytes)) state_ = State::kDone;
+    const std::size_t size = memory_.get(kImuCalibrationKey, bytes, sizeof bytes);
+    if (size == 0) return;
+    const bool ours = size == sizeof bytes && calibration_.decode(bytes, basis_);
+    state_ = ours ? State::kDone : State::kDropped;
   }
 
   hal::ImuStatus read(hal::ImuSample& sample) {
@@ -35,11 +38,22 @@ class CalibratedImu {
   }
   std::uint32_t faults() const { return chip_.faults(); }
 
+  /// The samples of the longest period, 20 ms, twice over. Only read() brings any: a chip that went
+  /// silent, or a loop that does not ask it, as in lockstep with a twin, must not measure for ever.
+  static constexpr std::uint64_t kMost_us = 2 * ImuCalibrator::kSamples * std::uint64_t{20'000};
+
   /// The robot stands upright and still, torque off. The old calibration counts until there is
   /// a new one.
-  void measure() {
+  void measure(std::uint64_t now_us) {
     calibrator_.begin();
     state_ = State::kMeasuring;
+    end_us_ = now_us + kMost_us;
+  }
+  /// Whenever there is time: ends a measurement that lacks samples.
+  void watch(std::uint64_t now_us) {
+    if (calibrator_.state() != State::kMeasuring || now_us < end_us_) return;
+    calibrator_.stop();
+    state_ = State::kSilent;
   }
   /// Torque is coming on: what steers must not change under a robot that stands on it.
   void abandon() {
@@ -57,7 +71,7 @@ class CalibratedImu {
   void keep() {
     if (unkept_ == Unkept::kNothing) return;
     std::uint8_t bytes[ImuCalibration::kBytes];
-    calibration_.encode(bytes);
+    calibration_.encode(bytes, basis_);
     const std::size_t size = unkept_ == Unkept::kRemoval ? 0 : sizeof bytes;
     if (memory_.put(kImuCalibrationKey, bytes, size) == hal::PutResult::kBusy) return;
     unkept_ = Unkept::kNothing;
@@ -77,6 +91,8 @@ class CalibratedImu {
 
   Chip& chip_;
   Memory& memory_;
+  const std::uint32_t basis_;
+  std::uint64_t end_us_ = 0;  ///< of the measurement, at the latest
   ImuCalibrator calibrator_;
   ImuCalibration calibration_;
   State state_ = State::kNone;

@@ -2,6 +2,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "common/base/crc32.hpp"
 #include "common/math/convert.hpp"
 #include "common/math/linear.hpp"
 #include "common/math/scalar.hpp"
@@ -36,18 +37,20 @@ struct ImuCalibration {
     return sample;
   }
 
-  static constexpr std::size_t kBytes = 1 + 2 * (3 + 9);
-  static constexpr std::uint8_t kVersion = 1;
-  void encode(std::uint8_t (&to)[kBytes]) const {
+  static constexpr std::size_t kBytes = 1 + 2 * (3 + 9) + 4;
+  static constexpr std::uint8_t kVersion = 2;  ///< 1 did not say what it was measured in
+  /// `basis`: see basis_of().
+  void encode(std::uint8_t (&to)[kBytes], std::uint32_t basis) const {
     to[0] = kVersion;
+    dxl::put_u32(to + kBytes - 4, basis);
     for (std::size_t i = 0; i < 12; ++i) {
       const std::int16_t value = i < 3 ? gyro_bias_count[i] : turn[i - 3];
       dxl::put_u16(to + 1 + 2 * i, static_cast<std::uint16_t>(value));
     }
   }
-  /// False: another version wrote it.
-  bool decode(const std::uint8_t (&from)[kBytes]) {
-    if (from[0] != kVersion) return false;
+  /// False, and nothing changes: another version wrote it, or on another basis.
+  bool decode(const std::uint8_t (&from)[kBytes], std::uint32_t basis) {
+    if (from[0] != kVersion || dxl::get_u32(from + kBytes - 4) != basis) return false;
     for (std::size_t i = 0; i < 12; ++i) {
       const auto value = static_cast<std::int16_t>(dxl::get_u16(from + 1 + 2 * i));
       (i < 3 ? gyro_bias_count[i] : turn[i - 3]) = value;
@@ -64,6 +67,13 @@ struct ImuCalibration {
     return static_cast<std::int16_t>(count < -32768 ? -32768 : count > 32767 ? 32767 : count);
   }
 };
+
+/// What a calibration is measured in: counts of a scale, turned to a mounting. In another scale its
+/// bias is wrong, in another mounting its turn is; CRC-32 of both.
+inline std::uint32_t basis_of(const ImuParams& imu) {
+  const float scales[2] = {imu.gyro_rad_s_per_count, imu.accel_m_s2_per_count};
+  return crc32(imu.body_imu, sizeof imu.body_imu, crc32(scales, sizeof scales));
+}
 
 /// Measures a calibration: the robot stands upright and still for kSamples samples.
 class ImuCalibrator {

@@ -52,6 +52,9 @@ class OperatorDevice {
   /// Why there will be no torque until the next start (start_fault.hpp).
   void show(table::StartFault fault) { registers_.report().start_fault(fault); }
 
+  /// What came of the order to calibrate, or of what was kept; also before there is a loop.
+  void show(table::ImuCalibrationState state) { registers_.report().imu_calibration(state); }
+
   /// Bus counters and the like, as often as they should be readable.
   void report(const LoopHealth& health) { registers_.report().health(health); }
 

@@ -20,7 +20,6 @@ struct LoopHealth {
   std::uint32_t bus_noise_bytes = 0;
   std::uint32_t deadline_misses = 0;  ///< sum of what TickSource::wait() returned above 1
   std::uint32_t imu_faults = 0;
-  table::ImuCalibrationState imu_calibration = table::ImuCalibrationState::kNone;
   std::uint16_t battery_tenth_v = 0;  ///< as the board measures it; 0: it doesn't
 };
 
@@ -66,6 +65,10 @@ class TickReport {
 
   void start_fault(table::StartFault fault) { image_.set(reg("start_fault"), fault); }
 
+  void imu_calibration(table::ImuCalibrationState state) {
+    image_.set(reg("imu_calibration"), state);
+  }
+
   void health(const LoopHealth& health) {
     const BusCounters& bus = health.bus;
     image_.set(reg("bus_crc_errors"), health.bus_crc_errors);
@@ -76,7 +79,6 @@ class TickReport {
     image_.set(reg("bus_noise"), health.bus_noise_bytes);
     image_.set(reg("deadline_misses"), health.deadline_misses);
     image_.set(reg("imu_faults"), health.imu_faults);
-    image_.set(reg("imu_calibration"), health.imu_calibration);
     devices_.bus_errors(health.bus_crc_errors + bus.timeouts + bus.refused);
     battery_tenth_v_ = health.battery_tenth_v;
     if (battery_tenth_v_ != 0) image_.set(reg("battery_voltage"), battery_tenth_v_);

@@ -190,7 +190,7 @@ TEST(CalibratedImu, MeasuresAppliesAndKeeps) {
   const ImuParams params = upright();
   Life first(memory, params);
   EXPECT_NEAR(first.next(memory, params).gyro_count[0], 30, 9.0F) << "as it comes";
-  first.imu.measure();
+  first.imu.measure(0);
   EXPECT_TRUE(first.imu.state() == State::kMeasuring);
   for (int i = 0; i < ImuCalibrator::kSamples; ++i) first.next(memory, params);
   EXPECT_TRUE(first.imu.state() == State::kDone);
@@ -209,10 +209,10 @@ TEST(CalibratedImu, ARefusedMeasurementLeavesTheOldOneInForceAndInMemory) {
   hal::MemoryStore memory;
   const ImuParams params = upright();
   Life life(memory, params);
-  life.imu.measure();
+  life.imu.measure(0);
   for (int i = 0; i < ImuCalibrator::kSamples; ++i) life.next(memory, params);
   ASSERT_TRUE(life.imu.state() == State::kDone);
-  life.imu.measure();
+  life.imu.measure(0);
   hal::ImuSample push{{3000, 0, 0}, {0, 0, 8192}, ++life.time_us};
   life.chip.measure(push);
   life.imu.read(push);
@@ -228,7 +228,7 @@ TEST(CalibratedImu, AbandonedItChangesNothingAnyMore) {
   Life life(memory, params);
   life.imu.abandon();
   EXPECT_TRUE(life.imu.state() == State::kNone) << "nothing was under way";
-  life.imu.measure();
+  life.imu.measure(0);
   life.next(memory, params);
   life.imu.abandon();
   EXPECT_TRUE(life.imu.state() == State::kMoved);
@@ -241,16 +241,84 @@ TEST(CalibratedImu, AbandonedItChangesNothingAnyMore) {
 TEST(CalibratedImu, OfAnotherVersionOrSizeIsNotTaken) {
   hal::MemoryStore memory;
   std::uint8_t bytes[ImuCalibration::kBytes];
-  ImuCalibration{}.encode(bytes);
+  const ImuParams params = upright();
+  ImuCalibration{}.encode(bytes, basis_of(params));
   bytes[0] ^= 0xFF;
   memory.put(kImuCalibrationKey, bytes, sizeof bytes);
   memory.work(true);
-  const ImuParams params = upright();
-  EXPECT_TRUE(Life(memory, params).imu.state() == State::kNone);
+  EXPECT_TRUE(Life(memory, params).imu.state() == State::kDropped);
   bytes[0] ^= 0xFF;
   memory.put(kImuCalibrationKey, bytes, sizeof bytes - 1);
   memory.work(true);
-  EXPECT_TRUE(Life(memory, params).imu.state() == State::kNone);
+  EXPECT_TRUE(Life(memory, params).imu.state() == State::kDropped);
+}
+
+// A bias is in counts of a scale, a turn belongs to a mounting: for a robot that has another of
+// either, what was measured is worse than nothing. It is not used, the operator is told, and the
+// robot it was measured in finds it again.
+TEST(CalibratedImu, MeasuredInAnotherScaleOrMountingIsDroppedAndSaid) {
+  hal::MemoryStore memory;
+  const ImuParams params = upright();
+  Life first(memory, params);
+  first.imu.measure(0);
+  for (int i = 0; i < ImuCalibrator::kSamples; ++i) first.next(memory, params);
+  ASSERT_TRUE(first.imu.state() == State::kDone);
+  ImuParams other[11];
+  for (int i = 0; i < 11; ++i) {
+    other[i] = params;
+    float& value = i < 9    ? other[i].body_imu[i]
+                   : i == 9 ? other[i].gyro_rad_s_per_count
+                            : other[i].accel_m_s2_per_count;
+    value = value == 0.0F ? 0.01F : 0.5F * value;
+    Life life(memory, other[i]);
+    EXPECT_TRUE(life.imu.state() == State::kDropped) << i;
+    EXPECT_NEAR(life.next(memory, params).gyro_count[0], 30, 9.0F) << "as it comes: " << i;
+  }
+  ImuParams on_bus = params;
+  on_bus.device_id = 120;
+  EXPECT_TRUE(Life(memory, on_bus).imu.state() == State::kDone) << "the chip is the same";
+  EXPECT_TRUE(Life(memory, params).imu.state() == State::kDone);
+}
+
+// Samples come from read() alone; a chip that goes silent half-way, or a loop that asks no more.
+TEST(CalibratedImu, AMeasurementWithoutSamplesEndsWithAVerdict) {
+  constexpr std::uint64_t kBegin_us = 5'000'000;
+  for (const int samples : {0, 1, ImuCalibrator::kSamples - 1}) {
+    hal::MemoryStore memory;
+    const ImuParams params = upright();
+    Life life(memory, params);
+    life.imu.measure(0);
+    for (int i = 0; i < ImuCalibrator::kSamples; ++i) life.next(memory, params);
+    ASSERT_TRUE(life.imu.state() == State::kDone);
+    life.imu.measure(kBegin_us);
+    for (int i = 0; i < samples; ++i) life.next(memory, params);
+    life.imu.watch(kBegin_us + Chip::kMost_us - 1);
+    EXPECT_TRUE(life.imu.state() == State::kMeasuring) << samples;
+    life.imu.watch(kBegin_us + Chip::kMost_us);
+    EXPECT_TRUE(life.imu.state() == State::kSilent) << samples;
+    for (int i = 0; i < ImuCalibrator::kSamples; ++i) life.next(memory, params);
+    EXPECT_TRUE(life.imu.state() == State::kSilent) << "what comes late is no measurement";
+    EXPECT_NEAR(life.next(memory, params).gyro_count[0], 0, 10.0F) << "the old one counts";
+    EXPECT_TRUE(Life(memory, params).imu.state() == State::kDone);
+  }
+}
+
+// One that gets its samples is never cut short, even in the slowest loop; and no verdict comes
+// where nothing was asked.
+TEST(CalibratedImu, TheSlowestLoopHasTimeToMeasure) {
+  hal::MemoryStore memory;
+  const ImuParams params = upright();
+  Life life(memory, params);
+  life.imu.watch(~std::uint64_t{0});
+  EXPECT_TRUE(life.imu.state() == State::kNone);
+  life.imu.measure(0);
+  for (std::uint64_t i = 1; i <= ImuCalibrator::kSamples; ++i) {
+    life.next(memory, params);
+    life.imu.watch(i * 20'000);
+  }
+  EXPECT_TRUE(life.imu.state() == State::kDone);
+  life.imu.watch(~std::uint64_t{0});
+  EXPECT_TRUE(life.imu.state() == State::kDone);
 }
 
 TEST(CalibratedImu, FaultsPassThrough) {

@@ -185,7 +185,7 @@ TEST(OperatorDevice, CalibratesTheChipThatSteersAndNoOther) {
   }
   bench.arm(true);
   EXPECT_TRUE(bench.write(reg("imu_calibrate"), std::uint8_t{1}) == Error::kAccess);
-  bench.device.report({.imu_calibration = table::ImuCalibrationState::kMoved});
+  bench.device.show(table::ImuCalibrationState::kMoved);
   EXPECT_EQ(bench.value<std::uint8_t>(reg("imu_calibration")), 3);
 }
 
