@@ -99,15 +99,22 @@ std::string to_text(const HilResult& result) {
 int answer_served(const WalkPlan& plan, const WalkOptions& options, const HilResult& result) {
   const WalkResult& walk = result.walk;
   if (options.json) {
-    Json json = {{"model", plan.params.name},     {"controller", plan.board},
-                 {"ticks", walk.ticks},           {"simulated_s", walk.simulated_s},
-                 {"fallen", walk.metrics.fallen}, {"interrupted", walk.interrupted},
-                 {"failure", walk.failure},       {"real_time_factor", walk.real_time_factor()}};
+    Json json = {{"model", plan.params.name},
+                 {"controller", plan.board},
+                 {"ticks", walk.ticks},
+                 {"simulated_s", walk.simulated_s},
+                 {"fallen", walk.metrics.fallen},
+                 {"let_go_and_lies", result.lay_down},
+                 {"interrupted", walk.interrupted},
+                 {"failure", walk.failure},
+                 {"real_time_factor", walk.real_time_factor()}};
     json.update(to_json(result));
     print_json(json);
   } else {
     answer(fmt::format("{}: served {:.1f} s{}\n", plan.params.name, walk.simulated_s,
-                       walk.metrics.fallen ? "; the robot fell" : "") +
+                       walk.metrics.fallen ? "; the robot fell"
+                       : result.lay_down   ? "; the robot was let go, and lies"
+                                           : "") +
            to_text(result));
   }
   if (!walk.failure.empty()) complain("verp hil: " + walk.failure);
@@ -149,6 +156,9 @@ Subcommand add_hil(CLI::App& root) {
   auto words = std::make_shared<HilWords>();
   words->walk.command = "verp hil";
   declare_basics(*app, words->walk);
+  app->get_option("--for")->description(
+      "with --operator: length of the gait, all three phases, s; without: how long the robot is "
+      "served from when a servo first has torque, s");
   app->add_option("--link", words->hil.link,
                   "the controller's servo bus: serial:DEVICE@BAUD, pty:PATH, tcp:HOST:PORT, "
                   "tcp-listen:PORT, unix:PATH or unix-listen:PATH")

@@ -49,9 +49,11 @@ class HilRun {
     }
     progress_.clear();
     HilResult result;
-    const double wall_s = start_ns_ == 0 ? 0 : 1e-9 * static_cast<double>(now_ns() - start_ns_);
+    const std::uint64_t start_ns = drive_ns_ == 0 ? start_ns_ : drive_ns_;
+    const double wall_s = start_ns == 0 ? 0 : 1e-9 * static_cast<double>(now_ns() - start_ns);
     result.walk = session_.result(wall_s, failure_);
     result.device_trouble = device_trouble_;
+    result.lay_down = session_.verdict().lay_down();
     result.real_time = realtime_.begun();
     result.compared = compared_;
     result.losses = link_.errors().losses;
@@ -128,8 +130,20 @@ class HilRun {
       if (!got.advice.empty()) say(got.advice);
     }
     while (session_.bus().now_us() >= next_watch_us_ && !session_.over()) {
-      session_.watch();
+      watch_robot();
       next_watch_us_ += plan_.params.period_us;
+    }
+  }
+
+  void watch_robot() {
+    session_.watch();
+    const FallVerdict& verdict = session_.verdict();
+    if (verdict.driven() && drive_ns_ == 0) {
+      drive_ns_ = now_ns();
+      say("a servo has torque: the session begins");
+    }
+    if (verdict.lay_down() && !std::exchange(lay_down_, true)) {
+      say("the robot was let go and lies down: that is no fall, and it is served on");
     }
   }
 
@@ -200,7 +214,7 @@ class HilRun {
 
   bool tick_ends() {
     if (!shadow_) {
-      if (session_.bus().ticking()) session_.watch();
+      if (session_.bus().ticking()) watch_robot();
       return !session_.over();
     }
     shadow_->catch_up();
@@ -258,6 +272,8 @@ class HilRun {
   std::uint64_t compared_ = 0;
   std::uint32_t resets_ = 0;
   std::uint64_t start_ns_ = 0;
+  std::uint64_t drive_ns_ = 0;  ///< when torque was first seen
+  bool lay_down_ = false;
   std::uint64_t heard_ns_ = 0;  ///< when something that is not for the clock came first
   std::uint64_t next_watch_us_ = 0;
 };

@@ -23,6 +23,7 @@ struct HilOptions {
 struct HilResult {
   WalkResult walk;
   bool device_trouble = false;  ///< walk.failure is the link's or the controller's
+  bool lay_down = false;        ///< the robot was let go, and lies
   bool real_time = false;
   std::uint64_t compared = 0;  ///< ticks whose digest the controller told, equal to this PC's
   std::uint32_t losses = 0;    ///< times the link was lost
@@ -37,7 +38,8 @@ struct HilResult {
 
 /// The twin of plan.entity answers a controller at the other end of a link. With an operator link
 /// it walks as walk() does, and holds every tick of the controller against this PC's; without one
-/// it serves for plan.walk_s and scores what the twin did. Throws what opening a link throws.
+/// it serves for plan.walk_s from the first torque on (WalkSession::watch) and scores what the twin
+/// did. Throws what opening a link throws.
 HilResult serve_controller(const WalkPlan& plan, const HilOptions& options,
                            record::TraceWriter* trace, Progress& progress, bool keep_series);
 

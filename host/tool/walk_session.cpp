@@ -82,13 +82,26 @@ void WalkSession::record(const TickRecord& tick, const State& state, const Outpu
                  fmt::format("{}  {:.1f} of {:g} s", label_, walked_s(), plan_.walk_s));
 }
 
+bool WalkSession::has_torque() {
+  for (int j = 0; j < plan_.params.joint_count; ++j) {
+    if (robot_.setpoint(j).torque_on) return true;
+  }
+  return false;
+}
+
 void WalkSession::watch() {
-  const Outputs nothing;
-  meter_.tick(sim::observe(robot_), nothing);
-  ++result_.ticks;
+  const bool torque = has_torque();
   watched_ = true;
-  const double served_s = simulated_s();
-  after_s_ += robot_.fallen() ? plan_.params.period_us * 1e-6 : 0;
+  if (!torque && !verdict_.driven()) return;
+  if (!verdict_.driven()) begun_s_ = simulated_s();
+  const Outputs nothing;
+  const sim::Observation seen = sim::observe(robot_);
+  meter_.tick(seen, nothing);
+  ++result_.ticks;
+  const double up = std::clamp(seen.truth.body_world.linear()(2, 2), -1.0, 1.0);
+  verdict_.see(torque, std::acos(up), robot_.fallen());
+  const double served_s = simulated_s() - begun_s_;
+  after_s_ += verdict_.fell() ? plan_.params.period_us * 1e-6 : 0;
   over_ = served_s >= plan_.walk_s || after_s_ > kAfterFall_s;
   progress_.show(served_s / plan_.walk_s,
                  fmt::format("{}  {:.1f} of {:g} s", label_, served_s, plan_.walk_s));
@@ -99,6 +112,10 @@ WalkResult WalkSession::result(double wall_s, std::string failure) {
   result_.simulated_s = simulated_s();
   result_.interrupted = interrupted();
   result_.metrics = meter_.result();
+  if (watched_) {
+    result_.simulated_s = verdict_.driven() ? simulated_s() - begun_s_ : 0;
+    result_.metrics.fallen = verdict_.fell();
+  }
   result_.series = meter_.series();
   result_.failure = std::move(failure);
   if (result_.failure.empty() && !result_.interrupted) result_.failure = failure_of_walk();
@@ -123,7 +140,7 @@ void WalkSession::append(const TickRecord& tick, const State& state, std::uint32
 
 std::string WalkSession::failure_of_walk() const {
   constexpr std::uint32_t kStopping = 0xFFFF;  // the lower half of Fault stops the robot
-  if (watched_) return robot_.fallen() ? "fell" : "";
+  if (watched_) return verdict_.fell() ? "fell" : "";
   if (result_.metrics.fallen) {
     return fmt::format("fell after {:.2f} s of gait", walked_s());
   }

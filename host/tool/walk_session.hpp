@@ -8,6 +8,7 @@
 #include "host/record/trace_writer.hpp"
 #include "host/sim/metrics.hpp"
 #include "host/sim/robot.hpp"
+#include "host/tool/fall_verdict.hpp"
 #include "host/tool/progress.hpp"
 #include "host/tool/walk_operator.hpp"
 #include "host/tool/walk_run.hpp"
@@ -32,11 +33,16 @@ class WalkSession {
 
   /// A tick of the controller, wherever it ran.
   void record(const TickRecord& tick, const State& state, const Outputs& outputs);
-  /// A tick of a controller that tells nothing of itself: only what the twin did is scored.
+  /// A tick of a controller that tells nothing of itself: only what the twin did is scored. The
+  /// session begins when a servo first has torque, not when somebody looks for servos, and has
+  /// plan.walk_s from then on. It ends sooner if the robot falls; one that is let go may lie down
+  /// (FallVerdict), and is served on.
   void watch();
 
   double simulated_s() const;
   bool fallen() const { return robot_.fallen(); }
+  /// Of what was watched.
+  const FallVerdict& verdict() const { return verdict_; }
 
   /// Once, at the end. `failure` says what went wrong besides the walk; empty: nothing.
   WalkResult result(double wall_s, std::string failure);
@@ -46,6 +52,7 @@ class WalkSession {
               const sim::Transform& body_world);
   std::string failure_of_walk() const;
   double walked_s() const;
+  bool has_torque();
 
   const WalkPlan& plan_;
   record::TraceWriter* trace_;
@@ -58,6 +65,8 @@ class WalkSession {
   double walked_s_ = 0;  ///< by controllers that are no more
   sim::WalkMeter meter_;
   WalkResult result_;
+  FallVerdict verdict_;
+  double begun_s_ = 0;  ///< when torque was first seen, in simulated time
   double after_s_ = 0;
   bool over_ = false;
   bool watched_ = false;

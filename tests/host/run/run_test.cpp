@@ -79,7 +79,7 @@ TEST_F(RealRobot, TheChecklistIsAskedOnEveryLink) {
 // shuts down are presses too.
 TEST_F(RealRobot, AnInterruptSitsTheRobotDown) {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
-    serve();  // anew: a robot that let go falls, and that ends its twin
+    serve();  // anew: the robot that was let go lies
     plug({1000, 1000});
     auto program = run({"--yes", "--period", "20", "--for", "60", "--record", "run.mcap"});
     ASSERT_TRUE(program->says("relaxed to rising"));
@@ -94,6 +94,41 @@ TEST_F(RealRobot, AnInterruptSitsTheRobotDown) {
     expect_table(trace());
     fs::remove(folder_ / "run.mcap");
   }
+}
+
+/// What `verp hil` says of the robot once it is told to end.
+Json verdict_of(Process& twin, int status) {
+  twin.signal(SIGINT);
+  const Outcome outcome = twin.wait();
+  EXPECT_EQ(outcome.status, status) << outcome.err;
+  return result_of(outcome);
+}
+
+// A robot that did all it was asked to and was then let go lies down; to the twin that is no fall,
+// and it goes on serving whoever looks at the servos.
+TEST_F(RealRobot, LyingDownLimpAfterAGoodWalkIsNoFall) {
+  serve();
+  plug({1000, 1000});
+  auto program = run({"--yes", "--period", "20", "--for", "60"});
+  ASSERT_TRUE(program->says("rising to standing"));
+  program->signal(SIGINT);
+  EXPECT_EQ(result_of(program->wait()).value("let_go", false), true);
+  EXPECT_TRUE(twin_->says("let go and lies down"));
+  EXPECT_EQ(verp("bus ping --id 1 --link serial:" + port() + "@2000000").status, 0);
+  const Json result = verdict_of(*twin_, 0);
+  EXPECT_EQ(result.value("fallen", true), false);
+  EXPECT_EQ(result.value("let_go_and_lies", false), true);
+}
+
+// With servos too weak for the robot's weight it goes down under torque.
+TEST_F(RealRobot, GoingDownUnderTorqueIsAFall) {
+  serve();
+  plug({1000, 1000});
+  auto program = run({"--yes", "--period", "20", "--torque", "5", "--for", "60"});
+  const Outcome fell = twin_->wait();
+  EXPECT_EQ(fell.status, 1) << fell.err;
+  EXPECT_EQ(result_of(fell).value("fallen", false), true);
+  EXPECT_NE(program->wait().status, 0);
 }
 
 // Two presses: limp at once, and every servo asked.

@@ -1,0 +1,64 @@
+#include "host/tool/fall_verdict.hpp"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+namespace verp::tool {
+namespace {
+
+constexpr double kUpright = 0.1, kLying = 1.5;
+
+TEST(FallVerdict, AFallWithTorqueIsOneAndStaysOne) {
+  FallVerdict verdict;
+  verdict.see(true, kUpright, false);
+  verdict.see(true, kLying, true);
+  EXPECT_TRUE(verdict.fell());
+  verdict.see(false, kLying, true);
+  EXPECT_TRUE(verdict.fell());
+  EXPECT_FALSE(verdict.lay_down());
+}
+
+TEST(FallVerdict, AControllerThatLetsGoOfATippingRobotDoesNotMakeItGood) {
+  FallVerdict verdict;
+  verdict.see(true, 0.8, false);  // fall_tilt_rad: the controller's mode is fallen, and limp
+  for (int i = 0; i < 20; ++i) verdict.see(false, 0.8 + 0.01 * i, false);
+  verdict.see(false, 1.01, true);
+  EXPECT_TRUE(verdict.fell());
+}
+
+TEST(FallVerdict, ARobotThatIsLetGoUprightLiesDown) {
+  FallVerdict verdict;
+  verdict.see(true, kUpright, false);
+  for (const double tilt : {0.1, 0.4, 0.8}) verdict.see(false, tilt, false);
+  verdict.see(false, kLying, true);
+  EXPECT_TRUE(verdict.lay_down());
+  EXPECT_FALSE(verdict.fell());
+  verdict.see(true, kLying, true);  // somebody tries again, with a robot that lies
+  EXPECT_FALSE(verdict.fell());
+}
+
+// Whatever happens: never both, neither is taken back, and without torque nobody is to blame.
+TEST(FallVerdict, IsOneThingAndStaysThat) {
+  std::minstd_rand random(3);
+  std::uniform_real_distribution<double> tilt(0, 2);
+  for (int run = 0; run < 500; ++run) {
+    FallVerdict verdict;
+    const bool ever = run % 4 != 0;
+    bool fell = false, lay_down = false, lies = false;
+    for (int i = 0; i < 50; ++i) {
+      lies = lies || random() % 20 == 0;
+      verdict.see(ever && random() % 2 == 0, tilt(random), lies);
+      EXPECT_FALSE(verdict.fell() && verdict.lay_down());
+      EXPECT_TRUE(verdict.fell() || !fell);
+      EXPECT_TRUE(verdict.lay_down() || !lay_down);
+      EXPECT_EQ(verdict.fell() || verdict.lay_down(), lies);
+      fell = verdict.fell();
+      lay_down = verdict.lay_down();
+    }
+    EXPECT_FALSE(!ever && (fell || verdict.driven()));
+  }
+}
+
+}  // namespace
+}  // namespace verp::tool
