@@ -14,6 +14,7 @@ namespace verp::bus {
 namespace {
 
 constexpr int kReadings = 80;
+constexpr int kSilent = 20;                        // readings without any answer that are enough
 constexpr std::uint16_t kBytes = 4;                // of Present Position, as every tick reads it
 constexpr int kShortest_ms = 4, kLongest_ms = 20;  // Params::period_us
 
@@ -32,6 +33,17 @@ std::uint8_t somebody(Client& client, const Params& params, const std::function<
       client.place(), params.name));
 }
 
+/// What the replies that came took says nothing of those that did not come.
+[[noreturn]] void too_few(const Client& client, std::uint8_t id, const LinkDelay& delay) {
+  const std::string how_many =
+      delay.answered == 0 ? "none" : fmt::format("only {}", delay.answered);
+  throw DeviceError(fmt::format(
+      "{}: device {} answers a ping, but {} of {} reads: how late its replies are is not known; "
+      "check its Status Return Level (`verp bus setup` makes it 2), the wiring, and that no other "
+      "program uses this bus",
+      client.place(), id, how_many, delay.asked));
+}
+
 }  // namespace
 
 LinkDelay measure_delay(Client& client, const Params& params,
@@ -41,7 +53,10 @@ LinkDelay measure_delay(Client& client, const Params& params,
   const double wire_us =
       app::wire_us(dxl::kInstructionBytes + 4 + dxl::kStatusBytes + kBytes, params.baud);
   std::vector<double> held_us;
-  while (delay.asked < kReadings && !give_up()) {
+  const auto enough = [&] {
+    return delay.asked >= kReadings || (held_us.empty() && delay.asked >= kSilent);
+  };
+  while (!enough() && !give_up()) {
     const std::uint64_t begun_ns = wire::monotonic_ns();
     const bool good = client.read_once(id, dxl::address::kPresentPosition, kBytes);
     const double took_us = 1e-3 * static_cast<double>(wire::monotonic_ns() - begun_ns);
@@ -50,6 +65,7 @@ LinkDelay measure_delay(Client& client, const Params& params,
   }
   std::sort(held_us.begin(), held_us.end());
   delay.answered = static_cast<int>(held_us.size());
+  if (2 * delay.answered < delay.asked && !give_up()) too_few(client, id, delay);
   delay.median_us = quantile(held_us, 0.5);
   delay.p90_us = quantile(held_us, 0.9);
   delay.worst_us = quantile(held_us, 1);
@@ -111,7 +127,9 @@ std::string adapter_too_slow(const Params& params, const wire::Endpoint& endpoin
   const auto timer_ms = wire::latency_timer_ms(endpoint.place, system_folder);
   if (!timer_ms) return "";
   const double held_us = 1000.0 * *timer_ms;
-  const LinkFit known = fit(params, {.median_us = held_us, .p90_us = held_us, .worst_us = held_us});
+  const LinkFit known = fit(
+      params,
+      {.asked = 1, .answered = 1, .median_us = held_us, .p90_us = held_us, .worst_us = held_us});
   if (known.fits()) return "";
   return fmt::format(
       "a period of {:g} ms has no room for two reads that are each held up for {} ms, and {:.1f} "

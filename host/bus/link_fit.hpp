@@ -10,14 +10,14 @@
 /// adapters do.
 namespace verp::bus {
 
-/// How long reads took beyond their bytes' time on the wire, there and back.
+/// How long the reads that were answered took beyond their bytes' time on the wire, there and back.
 struct LinkDelay {
   int asked = 0, answered = 0;
   double median_us = 0, p90_us = 0, worst_us = 0;
 };
 
 /// Reads one servo of `params` again and again; ends early when `give_up` says so. Throws
-/// DeviceError if none answers.
+/// DeviceError if no servo answers a ping, or fewer than half of the reads are answered.
 LinkDelay measure_delay(Client& client, const Params& params, const std::function<bool()>& give_up);
 
 /// One tick on such a link: its bytes, and two reads, of which the second waits for the first.
@@ -31,9 +31,12 @@ struct LinkFit {
   static constexpr double kUsable = 0.95;
 
   double needed_us() const { return wire_us + kReads * delay.median_us; }
-  bool fits() const { return needed_us() <= kUsable * period_us; }
+  /// Not if no read was answered: nothing is known then.
+  bool fits() const { return delay.answered > 0 && needed_us() <= kUsable * period_us; }
   /// Also for the slowest tenth of the reads.
-  bool fits_well() const { return wire_us + kReads * delay.p90_us <= kUsable * period_us; }
+  bool fits_well() const {
+    return delay.answered > 0 && wire_us + kReads * delay.p90_us <= kUsable * period_us;
+  }
   /// What a tick's reads may each be held up: a reply that is later is not waited for.
   std::uint32_t held_us() const;
   /// The shortest period of whole milliseconds in which it fits well; 0: none that a robot may

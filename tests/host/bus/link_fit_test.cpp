@@ -65,6 +65,14 @@ TEST(LinkFit, WhatFitsEndsWithinThePeriod) {
   EXPECT_LT(fitting, 1800);
 }
 
+// Nothing heard is not "no delay".
+TEST(LinkFit, WithoutAnAnswerNothingFits) {
+  const LinkFit silent = fit(verp::test::bus_params(3), {.asked = 80});
+  EXPECT_LT(silent.needed_us(), LinkFit::kUsable * silent.period_us) << "zeros would";
+  EXPECT_FALSE(silent.fits());
+  EXPECT_FALSE(silent.fits_well());
+}
+
 // The period that is offered is the shortest in which the link fits, and one that a robot may have.
 TEST(LinkFit, ThePeriodOfferedFitsAndAShorterOneDoesNot) {
   for (double delay_us = 0; delay_us < 12000; delay_us += 100) {

@@ -82,6 +82,19 @@ TEST_F(Setup, AServoThatIsSetToSilenceIsHeard) {
   EXPECT_EQ(servos.value(at::kHomingOffset, 4), 0);
 }
 
+// To `verp run` a servo that answers pings only is one of which no delay is known, not one without.
+TEST_F(Setup, ARunIsRefusedWhereNoReadIsAnswered) {
+  servos_.connect({.id = 14, .model = dxl::kModelXm430W210, .baud = 2'000'000});
+  const std::string link = " --link serial:" + port() + "@2000000";
+  ASSERT_EQ(verp("bus write --id 14 --register status_return_level 0" + link).status, 0);
+  const Outcome outcome = verp("run generic21 --yes" + link);
+  EXPECT_EQ(outcome.status, 3);
+  EXPECT_NE(outcome.err.find("device 14 answers a ping, but none of 20 reads"), std::string::npos)
+      << outcome.err;
+  EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+  EXPECT_EQ(servos_.value(at::kTorqueEnable, 1), 0);
+}
+
 // What cannot be set right in the servo is named, with what to write into the model.
 TEST_F(Setup, AReversedJointAndAFarZeroAreLeftToThePerson) {
   servos_.connect(kFromTheBox);
