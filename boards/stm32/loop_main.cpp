@@ -8,6 +8,7 @@
 #include "common/control/boot_check.hpp"
 #include "common/model/image.hpp"
 #include "firmware/app/app.hpp"
+#include "firmware/app/drive_power.hpp"
 #include "firmware/app/link_bus.hpp"
 #include "firmware/app/lockstep_bus.hpp"
 #include "firmware/app/operator_device.hpp"
@@ -53,6 +54,7 @@ struct Board {
         operator_device(operator_port, params, setup(start, verdict), kept.images) {
     imu.open(start);
     pins.open();
+    supply.open();
   }
 
   app::OperatorSetup setup(const Start& start, control::BootVerdict verdict) {
@@ -72,6 +74,7 @@ struct Board {
                        !operator_device.armed());
     imu.serve(operator_device.take_calibration_order(), operator_device.armed());
     operator_device.show(imu.calibration());
+    operator_device.show(supply.state());
     const app::LifeSign::Now sign = life.at(timer.now_us(), fault);
     if (sign.changed) gpio.write(kLed, sign.lit);
     say(sign.tone);
@@ -138,9 +141,10 @@ struct Board {
   stm32::Gpio<Io> gpio;
   Kept kept;
   OwnImu<kImu.exists(), decltype(Kept::log)> imu;
-  PanelPins pins;
+  PanelPins<Io> pins{kEmergencyStop, kButtons};
+  ServoPower<Io> supply{kServoPower, kEmergencyStop};
   Operator operator_device;
-  app::WithPanel<Operator, PanelPins> panel{operator_device, pins, PanelPins::kHasStop};
+  app::WithPanel<Operator, PanelPins<Io>> panel{operator_device, pins, kEmergencyStop.exists()};
   app::Signals signals;
   app::LifeSign life;
   std::uint32_t ticks = 0;  ///< since the start, of all loops
@@ -154,7 +158,10 @@ struct PatientPort {
     return servo_port.write(data, size, timeout_us);
   }
   std::size_t read(std::uint8_t* buffer, std::size_t capacity, std::uint32_t timeout_us) {
-    if (!ticking) board.idle();
+    if (!ticking) {
+      board.supply.watch();
+      board.idle();
+    }
     return servo_port.read(buffer, capacity, timeout_us);
   }
   bool connected() const { return servo_port.connected(); }
@@ -192,8 +199,9 @@ lockstep::Verdict run_in_lockstep(Board& board, const Params& params) {
   return verdict;
 }
 
-/// Drives servos until the power goes. Returns if they are not all there. `held_us`: how long what
-/// is between them and this port may hold bytes back.
+/// Drives servos until the power goes. Returns if they are not all there, or after an emergency
+/// stop that took their power. `held_us`: how long what is between them and this port may hold
+/// bytes back.
 void run_in_real_time(Board& board, Servos& servos, const Params& params, std::uint32_t held_us) {
   PatientPort port{board};
   app::LinkBus<PatientPort, Timer> bus(port, timer, held_us);
@@ -208,6 +216,7 @@ void run_in_real_time(Board& board, Servos& servos, const Params& params, std::u
     board.refuse(fault);
   }
   port.ticking = true;
+  app::DrivePower drive;
   for (;;) {
     const app::Beat beat = pacer.next();
     board.deadline_misses = static_cast<std::uint32_t>(pacer.deadlines().skipped);
@@ -215,6 +224,10 @@ void run_in_real_time(Board& board, Servos& servos, const Params& params, std::u
     loop.use_chip(board.operator_device.imu_source() == app::table::ImuSource::kChip);
     loop.limit_torque(board.operator_device.torque_limit_percent());
     loop.tick(beat);
+    const auto mode = static_cast<safety::Mode>(loop.outputs().mode);
+    const auto power = drive.after_tick(board.panel.pressed(), mode);
+    if (board.supply.exists() && power == app::DrivePower::Step::kOff) board.supply.set(false);
+    if (board.supply.exists() && power == app::DrivePower::Step::kAnew) return;
     board.report(loop);
     board.idle();
     board.serve_until(begun_us + params.period_us - kServingEnds_us);
@@ -234,6 +247,8 @@ extern "C" int verp_main() {
   const board::Start start = board::start_hardware();
   hal::stm32::Gpio<board::Io> gpio;
   gpio.output(board::kServoPower, false);
+  gpio.input(board::kEmergencyStop,
+             hal::stm32::gpio::kPullUp);  // by the time it counts, it is charged
   gpio.output(board::kLed, false);
   if (!start.good) board::refuse_without_time(start);
   const bool has_desk = board::open_operator_port(start);
@@ -247,11 +262,12 @@ extern "C" int verp_main() {
   const Params& params =
       has_robot ? reinterpret_cast<const ParamsImage*>(verp_params_begin)->params : scratch;
   static board::Board here(start, params, verdict);
-  board::Servos servos{start, params.baud, has_robot};
+  board::Servos servos{start, params.baud, has_robot, here.supply};
   const auto fault = app::open_servos(servos, board::judge(has_desk, verdict));
   here.say(app::Signals::at_start(fault == board::StartFault::kNone));
   if (fault != board::StartFault::kNone) here.refuse(fault);
   for (;;) {
+    here.supply.set(true);  // unless the stop is pressed
     const lockstep::Verdict twin = board::run_in_lockstep(here, params);
     if (twin == lockstep::Verdict::kAccepted) continue;
     // A twin that keeps its own time answers through a PC, and perhaps a USB adapter.

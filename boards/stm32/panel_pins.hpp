@@ -1,26 +1,30 @@
 #pragma once
-#include "boards/stm32/hardware.hpp"
+#include "boards/stm32/wiring.hpp"
 #include "firmware/app/panel.hpp"
+#include "hal/chip/stm32/gpio.hpp"
 
 namespace verp::board {
 
 /// The emergency stop and the buttons of board.hpp. The stop circuit joins its pin to ground while
 /// all is well; a pull-up makes an open one read as pressed.
+template <hal::stm32::Io Access>
 class PanelPins {
  public:
-  static constexpr bool kHasStop = kEmergencyStop.exists();
+  PanelPins(Pin stop, const Button (&buttons)[app::kPanelButtons], Access io = {})
+      : gpio_(io), stop_(stop), buttons_(buttons) {}
 
   void open() {
-    gpio_.input(kEmergencyStop, stm32::gpio::kPullUp);
-    for (const Button& button : kButtons) {
-      gpio_.input(button.pin, button.pressed_high ? stm32::gpio::kPullDown : stm32::gpio::kPullUp);
+    gpio_.input(stop_, hal::stm32::gpio::kPullUp);
+    for (const Button& button : buttons_) {
+      gpio_.input(button.pin,
+                  button.pressed_high ? hal::stm32::gpio::kPullDown : hal::stm32::gpio::kPullUp);
     }
   }
   app::PanelReading read() {
     app::PanelReading reading;
-    reading.stop_pressed = kHasStop && gpio_.read(kEmergencyStop);
+    reading.stop_pressed = gpio_.read(stop_);
     for (int i = 0; i < app::kPanelButtons; ++i) {
-      const Button& button = kButtons[i];
+      const Button& button = buttons_[i];
       reading.button_pressed[i] =
           button.pin.exists() && gpio_.read(button.pin) == button.pressed_high;
     }
@@ -28,7 +32,9 @@ class PanelPins {
   }
 
  private:
-  stm32::Gpio<Io> gpio_;
+  hal::stm32::Gpio<Access> gpio_;
+  const Pin stop_;
+  const Button (&buttons_)[app::kPanelButtons];
 };
 
 }  // namespace verp::board

@@ -3,6 +3,7 @@
 #include <cstdint>
 
 #include "boards/stm32/hardware.hpp"
+#include "boards/stm32/servo_power.hpp"
 #include "common/protocol/control_table.hpp"
 #include "common/protocol/dynamixel2.hpp"
 
@@ -12,7 +13,7 @@ namespace verp::board {
 struct Servos {
   /// Without a robot nobody knows their baud rate.
   bool open() { return has_robot && open_servo_port(start, baud); }
-  void power(bool on) { stm32::Gpio<Io>().output(kServoPower, on); }
+  void power(bool on) { supply.set(on); }
   /// All of them, whoever they are: nobody replies, so three times.
   void release() {
     constexpr std::uint8_t kOff = 0;
@@ -25,6 +26,7 @@ struct Servos {
   const Start& start;
   std::uint32_t baud;
   bool has_robot;
+  ServoPower<Io>& supply;
 };
 
 }  // namespace verp::board

@@ -110,6 +110,7 @@ enum class StartFault : std::uint8_t {
   kPeriod,
   kWatchdog
 };
+enum class ServoPower : std::uint8_t { kNotSwitched, kOn, kOff };
 enum class WindowState : std::uint8_t { kIdle, kReceiving, kAccepted, kRefused };
 
 inline constexpr std::uint16_t kWindowBytes = 128;
@@ -161,6 +162,7 @@ inline constexpr Register kTable[] = {
     disarmed(63, "torque_limit", u8, 100, "%", "of every servo's full strength, in every mode: for first steps; kept without power; 100 when new", 1),
     // Where every Dynamixel has it.
     r(64, "torque_enable", u8, "", "1 while any servo holds torque (\"armed\")"),
+    r(65, "servo_power", u8, "", "0 this board does not switch it, 1 on, 2 off: emergency stop or start fault"),
     rw(68, "status_return_level", u8, 2, "", "replies: 0 to ping, 1 to ping and reads, 2 to all"),
     r(69, "registered_instruction", u8, "", "1: a Reg Write waits for its Action"),
     r(70, "hardware_error", u8, "bits", "faults that stop the robot: the low byte of faults; not 0: alert bit"),

@@ -52,6 +52,7 @@ class OperatorDevice {
   /// Why there will be no torque until the next start (start_fault.hpp).
   void show(table::StartFault fault) { registers_.report().start_fault(fault); }
 
+  void show(table::ServoPower power) { registers_.report().servo_power(power); }
   /// What came of the order to calibrate, or of what was kept; also before there is a loop.
   void show(table::ImuCalibrationState state) { registers_.report().imu_calibration(state); }
 

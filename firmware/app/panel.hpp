@@ -48,14 +48,21 @@ class WithPanel {
 
   OperatorOrder order(std::uint32_t tick) {
     OperatorOrder order = link_.order(tick);
+    const bool from_link = (order.flags & kEmergencyStop) != 0;
     const PanelReading reading = pins_.read();
     if (stop_.update(reading.stop_pressed)) order.flags |= kEmergencyStop;
+    released_ = released_ || !stop_.on();
+    pressed_ =
+        (order.flags & kEmergencyStop) != 0 && (from_link || released_ || reading.stop_pressed);
     for (int i = 0; i < kPanelButtons; ++i) {
       const auto bit = static_cast<std::uint16_t>(1u << i);
       if (button_[i].update(reading.button_pressed[i])) order.mailbox |= bit;
     }
     return order;
   }
+  /// In the last order somebody held a stop pressed, here or at the link. False while a stop that
+  /// reads released only counts as pressed because nobody knows yet.
+  bool pressed() const { return pressed_; }
 
  private:
   /// A stop is taken on the second reading, as one may be a spark; it is over after a quarter of
@@ -65,6 +72,8 @@ class WithPanel {
   Link& link_;
   Pins& pins_;
   Contact stop_;
+  bool released_ = false;  ///< once since the start
+  bool pressed_ = false;
   Contact button_[kPanelButtons] = {{false, kButton, kButton}, {false, kButton, kButton}};
 };
 

@@ -69,6 +69,8 @@ class TickReport {
     image_.set(reg("imu_calibration"), state);
   }
 
+  void servo_power(table::ServoPower power) { image_.set(reg("servo_power"), power); }
+
   void health(const LoopHealth& health) {
     const BusCounters& bus = health.bus;
     image_.set(reg("bus_crc_errors"), health.bus_crc_errors);

@@ -55,6 +55,51 @@ TEST(Panel, StopsWithinThreeTicksOfAnOpenCircuitAndStays) {
   for (int tick = 0; tick < 1000; ++tick) EXPECT_TRUE(bench.stopped());
 }
 
+// What takes the servos' power must not take it at each start, when the stop only counts as pressed
+// because nobody knows yet; but if it is pressed then, it is.
+TEST(Panel, TellsAStopThatIsPressedFromOneThatIsNotYetKnown) {
+  Bench closed;
+  for (int tick = 0; tick < 1000; ++tick) {
+    closed.stopped();
+    EXPECT_FALSE(closed.panel.pressed()) << tick;
+  }
+  Bench open;
+  open.pins.now.stop_pressed = true;
+  for (int tick = 0; tick < 1000; ++tick) {
+    EXPECT_TRUE(open.stopped());
+    EXPECT_TRUE(open.panel.pressed()) << tick;
+  }
+}
+
+TEST(Panel, ABouncingReleaseIsPressedUntilItIsReleased) {
+  Bench bench;
+  for (int tick = 0; tick < 100; ++tick) bench.stopped();
+  bench.pins.now.stop_pressed = true;
+  for (int tick = 0; tick < 100; ++tick) bench.stopped();
+  ASSERT_TRUE(bench.panel.pressed());
+  test::Random random(2);
+  for (int tick = 0; tick < 300; ++tick) {
+    bench.pins.now.stop_pressed = tick % 16 == 0 || random.below(2) == 0;
+    bench.stopped();
+    EXPECT_TRUE(bench.panel.pressed());
+  }
+  bench.pins.now.stop_pressed = false;
+  while (bench.stopped()) EXPECT_TRUE(bench.panel.pressed());
+  EXPECT_FALSE(bench.panel.pressed());
+}
+
+TEST(Panel, TheStopOfTheOperatorsLinkIsAPressedOneToo) {
+  Orders operator_link;
+  operator_link.next.flags = kEmergencyStop;
+  Pins pins;
+  WithPanel<Orders, Pins> panel(operator_link, pins, false);
+  panel.order(0);
+  EXPECT_TRUE(panel.pressed());
+  operator_link.next.flags = 0;
+  panel.order(1);
+  EXPECT_FALSE(panel.pressed());
+}
+
 // A contact that rattles while it opens never reads as closed; one spark of a closed one is none.
 TEST(Panel, BouncingNeverReleasesAndASparkNeverStops) {
   Bench bench;
