@@ -29,6 +29,18 @@ bool is_pseudo_terminal(const std::string& port) {
   return std::filesystem::weakly_canonical(port, error).string().starts_with("/dev/pts/");
 }
 
+/// OpenOCD's commands are Tcl, in which anything between braces is one word but for these. Throws
+/// FlashError for a word that has one.
+void require_tcl_word(const std::string& word, const std::string& remedy) {
+  const bool odd = std::any_of(word.begin(), word.end(), [](unsigned char each) {
+    return each < ' ' || each == 0x7F || each == '{' || each == '}' || each == '\\';
+  });
+  if (!odd) return;
+  throw FlashError(FlashError::Kind::kUsage,
+                   fmt::format("{}: OpenOCD takes no braces, backslashes or control characters; {}",
+                               word, remedy));
+}
+
 /// How one tool is told what; places are absolute addresses.
 class Commands {
  public:
@@ -83,7 +95,9 @@ class Commands {
     switch (job_.tool) {
       case Tool::kOpenocd: {
         Words words = {"openocd", "-f", job_.recipe.probe};
-        if (!job_.port.empty()) words = with(words, {"-c", "adapter serial " + job_.port});
+        if (!job_.port.empty()) {
+          words = with(words, {"-c", fmt::format("adapter serial {{{}}}", job_.port)});
+        }
         // No server: a second copy, or a debugger's, could not listen beside it.
         return with(words, {"-f", job_.recipe.chip->openocd_target, "-c",
                             "gdb_port disabled; tcl_port disabled; telnet_port disabled"});
@@ -190,10 +204,25 @@ Tool choose_tool(const Recipe& recipe, const std::string& asked, const std::stri
                                  "example --port /dev/ttyUSB0",
                                  recipe.serial_pins));
   }
+  if (*found != Tool::kStm32flash && port.starts_with('/')) {
+    throw FlashError(
+        FlashError::Kind::kUsage,
+        fmt::format("--port {}: {} takes the serial number of a {}, no path; leave it out where "
+                    "only one is connected, or give --tool stm32flash",
+                    port, name_of(*found),
+                    *found == Tool::kOpenocd ? "debug probe" : "USB device"));
+  }
   return *found;
 }
 
 std::vector<Step> plan(const Job& job) {
+  if (job.tool == Tool::kOpenocd) {
+    require_tcl_word(job.port, "give --port the debug probe's serial number");
+    require_tcl_word(job.folder.string(), "set VERP_FLASH_DIR to another folder");
+    for (const Piece& piece : job.pieces) {
+      require_tcl_word(piece.file.string(), "give the file another name or place");
+    }
+  }
   std::vector<Step> steps = {{Kind::kCheckChip, "checking the chip", Commands(job).check_chip()}};
   std::map<std::uint32_t, std::vector<Piece>> groups;  // by their first sector's address
   for (const Piece& piece : job.pieces) {

@@ -46,11 +46,13 @@ struct Step {
 };
 
 /// The tool for a board and a port: the one asked for, else stm32flash for a path, else the board's
-/// usual one. Throws FlashError when the board has no such way, or the way needs a port.
+/// usual one. Throws FlashError when the board has no such way, the way needs a port, or the port
+/// is of another way.
 Tool choose_tool(const Recipe& recipe, const std::string& asked, const std::string& port);
 
 /// All of it in order. A sector is erased as a whole: where a piece shares one with another region,
-/// the sector is read first and written back with the new piece in it.
+/// the sector is read first and written back with the new piece in it. Throws FlashError for a port
+/// or path that the tool would take for something else.
 std::vector<Step> plan(const Job& job);
 
 }  // namespace verp::flash

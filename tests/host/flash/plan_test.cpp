@@ -200,5 +200,38 @@ TEST(ShellLine, ShellTakesItApartIntoTheSameWords) {
   EXPECT_EQ(out, expected);
 }
 
+// OpenOCD's commands are a language. Whatever stands in a port or path stays one word of it, or is
+// refused: nothing in it is ever run.
+TEST_F(Plan, NoPortOrPathIsTakenForACommandOfOpenocd) {
+  const Recipe& recipe = find_recipe("olimex_h405");
+  const auto words_of = [](const Job& made) {
+    std::string words;
+    for (const Step& step : plan(made)) {
+      for (const std::string& word : step.command) words += word + "\n";
+    }
+    return words;
+  };
+  for (const char* odd : {"A; shutdown", "[exit]", "$env(HOME)", "two words", "\"", "#"}) {
+    Job made = job(recipe, Tool::kOpenocd, 1);
+    made.port = odd;
+    EXPECT_NE(words_of(made).find("adapter serial {" + std::string(odd) + "}\n"),
+              std::string::npos);
+    made.pieces[0].file = folder_.path() / odd;
+    std::ofstream(made.pieces[0].file) << "some bytes";
+    EXPECT_NE(words_of(made).find("{" + made.pieces[0].file.string() + "}"), std::string::npos);
+  }
+  for (const char* odd : {"A}; shutdown; {", "A\\", "A\nshutdown", "{"}) {
+    Job made = job(recipe, Tool::kOpenocd, 1);
+    made.port = odd;
+    EXPECT_THROW(plan(made), FlashError) << odd;
+    made.port = "";
+    made.pieces[0].file = folder_.path() / odd;
+    EXPECT_THROW(plan(made), FlashError) << odd;
+    Job elsewhere = job(recipe, Tool::kOpenocd, 1);
+    elsewhere.folder = odd;
+    EXPECT_THROW(plan(elsewhere), FlashError) << odd;
+  }
+}
+
 }  // namespace
 }  // namespace verp::flash::test

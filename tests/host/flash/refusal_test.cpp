@@ -68,6 +68,8 @@ TEST_F(Refusal, WordsThatMakeNoSense) {
   expect_refused("flash --board olimex", "olimex_h405");
   expect_refused_file("--tool st-flash", "openocd, stm32flash, dfu-util");
   expect_refused_file("--tool stm32flash", "--port /dev/ttyUSB0");
+  expect_refused_file("--tool openocd --port /dev/ttyACM0", "serial number of a debug probe");
+  expect_refused_file("--tool openocd --port '}; exit'", "OpenOCD takes no braces");
   expect_refused("flash --board nucleo_f446re --emulate", "no emulator has this chip");
   expect_refused("flash --board mps2_an386 --port /dev/ttyUSB0", "leave out --port");
   expect_refused("flash --board mps2_an386 --params generic21", "keeps no robot");
