@@ -11,6 +11,7 @@
 
 #include "host/flash/diagnosis.hpp"
 #include "host/flash/flash_error.hpp"
+#include "host/flash/images.hpp"
 #include "host/flash/tool_run.hpp"
 #include "host/link/link_error.hpp"
 #include "host/link/serial_check.hpp"
@@ -116,7 +117,7 @@ void run(const Job& job, const std::vector<Step>& steps, const FlashHooks& hooks
   }
   std::error_code error;  // of an earlier run that failed: they are old now
   std::filesystem::remove(job.folder / "kept_params.bin", error);
-  std::filesystem::remove(job.folder / "kept_actions.bin", error);
+  std::filesystem::remove(job.folder / kKeptActions, error);
 }
 
 std::filesystem::path work_root() {

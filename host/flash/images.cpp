@@ -91,6 +91,10 @@ void check_actions(const std::filesystem::path& file, const MemoryMap& map) {
       std::memcmp(bytes.data(), kImageMagic, sizeof kImageMagic) == 0) {
     refuse(file, "is a robot (a Params image), not actions; give it to --params");
   }
+  if (file.filename() == kKeptActions && bytes.size() == map.actions.bytes) return;
+  refuse(file, fmt::format("there is no format for actions yet, so nothing can be checked; only "
+                           "{}, which verp flash itself kept, can be given back",
+                           kKeptActions));
 }
 
 }  // namespace verp::flash

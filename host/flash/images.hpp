@@ -20,7 +20,10 @@ void check_code(const std::filesystem::path& file, const MemoryMap& map);
 /// robot's name.
 std::string check_params(const std::filesystem::path& file, const MemoryMap& map);
 
-/// Anything but nothing, a Params image or more than fits: the controller looks at the rest.
+/// What a run that failed kept of a sector's actions is in a file of this name, and all of them.
+inline constexpr const char* kKeptActions = "kept_actions.bin";
+
+/// Such a file: until actions have a format nothing else can be told from noise.
 void check_actions(const std::filesystem::path& file, const MemoryMap& map);
 
 }  // namespace verp::flash

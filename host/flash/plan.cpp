@@ -6,6 +6,7 @@
 #include <map>
 
 #include "host/flash/flash_error.hpp"
+#include "host/flash/images.hpp"
 
 namespace verp::flash {
 namespace {
@@ -150,7 +151,7 @@ std::vector<Piece> neighbours(const Job& job, const Span& sectors,
                               const std::vector<Piece>& pieces) {
   std::vector<Piece> others;
   for (const Piece& each : {Piece{"params", job.folder / "kept_params.bin", job.map.params},
-                            Piece{"actions", job.folder / "kept_actions.bin", job.map.actions}}) {
+                            Piece{"actions", job.folder / kKeptActions, job.map.actions}}) {
     const bool replaced = std::any_of(pieces.begin(), pieces.end(), [&](const Piece& piece) {
       return piece.region.begin == each.region.begin;
     });

@@ -38,13 +38,16 @@ int run_flash(FlashWords words) {
 
 Subcommand add_flash(CLI::App& root) {
   CLI::App* app = root.add_subcommand(
-      "flash", "Write firmware, a robot or actions into a board, or start an emulated board");
+      "flash", "Write firmware or a robot into a board, or start an emulated board");
   auto words = std::make_shared<FlashWords>();
   declare_target(*app, words->flash);
   app->add_option("--params", words->flash.params,
                   "write this robot instead of the firmware: a Params image (FILE.bin, see verp "
                   "export), a robot of common/robots, or an SDF file");
-  app->add_option("--actions", words->flash.actions, "write these actions instead of the firmware");
+  app->add_option(
+      "--actions", words->flash.actions,
+      "give back the actions that a run which failed has kept (it names the file); other "
+      "actions have no format yet");
   app->add_flag("--code", words->code, "with --params or --actions: the firmware as well");
   add_json_flag(*app, words->json);
   return {app, [words] {

@@ -34,6 +34,10 @@ TEST_F(Refusal, FilesThatAreNotWhatTheyShouldBe) {
   expect_refused_file("--actions .", "is a folder");
   put(folder_ / "many", Bytes(map_.actions.bytes + 1));
   expect_refused_file("--actions many", "too many");
+  put(folder_ / "acts", noise(map_.actions.bytes, 4));
+  expect_refused_file("--actions acts", "no format for actions yet");
+  put(folder_ / "kept_actions.bin", noise(map_.actions.bytes - 1, 4));
+  expect_refused_file("--actions kept_actions.bin", "no format for actions yet");
 }
 
 TEST_F(Refusal, CodeThatIsNotOfThisBoard) {

@@ -58,10 +58,10 @@ TEST_F(SerialFlash, RobotOrActionsAloneLeaveEverythingElse) {
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_EQ(chip.flash, expected);
 
-  piece = noise(3000, 9);
-  put(folder_ / "acts", piece);
+  piece = noise(map_.actions.bytes, 9);
+  put(folder_ / "kept_actions.bin", piece);
   std::copy(piece.begin(), piece.end(), expected.begin() + (map_.actions.begin - kFlashBegin));
-  outcome = over_serial(chip, "--actions acts");
+  outcome = over_serial(chip, "--actions kept_actions.bin");
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_EQ(chip.flash, expected);
 }
