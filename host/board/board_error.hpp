@@ -11,4 +11,10 @@ class BoardError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// No such emulated board, or no image for it: nothing is wrong with a device, and exit status 2.
+class NoSuchBoard : public BoardError {
+ public:
+  using BoardError::BoardError;
+};
+
 }  // namespace verp::board

@@ -24,7 +24,7 @@ const EmulatedBoard& find_emulated_board(const std::string& name) {
   if (found != boards.end()) return *found;
   std::string known;
   for (const EmulatedBoard& board : boards) known += std::string(" ") + board.name;
-  throw BoardError("no emulated board '" + name + "'; there is:" + known);
+  throw NoSuchBoard("no emulated board '" + name + "'; there is:" + known);
 }
 
 std::filesystem::path firmware_image(const EmulatedBoard& board, const std::string& what) {
@@ -35,8 +35,8 @@ std::filesystem::path firmware_image(const EmulatedBoard& board, const std::stri
                          : std::filesystem::path(VERP_BUILD_ROOT) / ("fw-" + name) / "images") /
       (what + "_" + name + ".elf");
   if (!std::filesystem::exists(image)) {
-    throw BoardError(image.string() + ": no such firmware image; build it: cmake --preset fw-" +
-                     name + " && cmake --build --preset fw-" + name);
+    throw NoSuchBoard(image.string() + ": no such firmware image; build it: cmake --preset fw-" +
+                      name + " && cmake --build --preset fw-" + name);
   }
   return image;
 }

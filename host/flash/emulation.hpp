@@ -21,7 +21,7 @@ struct EmulationPlan {
 };
 
 /// The board with these pieces in its memory, its links in `folder`. Throws FlashError when the
-/// board has no emulator or the links' paths are too long, BoardError when its image is not built.
+/// board has no emulator or the links' paths are too long, NoSuchBoard when its image is not built.
 EmulationPlan plan_emulation(const std::string& board, const std::vector<Piece>& pieces,
                              const std::filesystem::path& folder);
 

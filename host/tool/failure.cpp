@@ -36,6 +36,8 @@ Failure current_failure() {
     return {kNoDevice, error.what()};
   } catch (const bus::DeviceError& error) {
     return {kNoDevice, error.what()};
+  } catch (const board::NoSuchBoard& error) {
+    return {kBadInput, error.what()};
   } catch (const board::BoardError& error) {
     return {kNoDevice, error.what()};
   } catch (const flash::FlashError& error) {
