@@ -116,11 +116,12 @@ constexpr std::uint8_t baud_rate_code(std::uint32_t baud) {
 
 /// The sensor block: what one Sync Read fetches every tick from the IMU, both feet and one servo
 /// together, because a Sync Read has one address and one length for all. Twelve bytes from 136 are
-///   IMU device    gyro x y z, accel x y z: int16 each, IMU frame
-///   foot device   front-left, front-right, back-left, back-right: uint16 each; then 4 bytes of
-///   zero servo         Velocity Trajectory, Position Trajectory, Present Input Voltage, Present
-///   Temperature, Backup Ready
-/// and, unlike Present Position, they don't begin a tick.
+///   IMU device:  gyro x y z, accel x y z; int16 each, IMU frame;
+///   foot device: front-left, front-right, back-left, back-right; uint16 each; then 4 zero bytes;
+///   servo:       Velocity Trajectory, Position Trajectory, Present Input Voltage, Present
+///                Temperature, Backup Ready;
+/// and, unlike Present Position, they don't begin a tick. A read may begin a few bytes earlier
+/// (BusMaster::spare_bytes); what stands there does not matter.
 namespace sensor_block {
 inline constexpr std::uint16_t kAddress = 136;
 inline constexpr std::uint16_t kBytes = 12;

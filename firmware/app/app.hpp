@@ -89,15 +89,19 @@ class App {
   void read_positions() {
     const auto count = static_cast<std::size_t>(joints_.count());
     const bool fast = all_fast_ && positions_complete_;
+    spare_ = master_.spare_bytes();
+    const auto length = static_cast<std::uint16_t>(kPositionBytes + spare_);
     const std::size_t frame =
         dxl::encode_sync_read(master_.frame(), master_.capacity(),
                               fast ? dxl::Instruction::kFastSyncRead : dxl::Instruction::kSyncRead,
-                              dxl::address::kPresentPosition, kPositionBytes, joints_.ids(), count);
+                              static_cast<std::uint16_t>(dxl::address::kPresentPosition - spare_),
+                              length, joints_.ids(), count);
     const std::size_t bytes =
-        fast ? fast_sync_read_bytes(count, kPositionBytes) : sync_read_bytes(count, kPositionBytes);
+        fast ? fast_sync_read_bytes(count, length) : sync_read_bytes(count, length);
     joints_.begin();
-    for (std::uint16_t& ticks : silent_ticks_) {
-      if (ticks < kLongSilence) ++ticks;
+    for (int j = 0; j < params_.joint_count; ++j) {
+      if (silent_ticks_[j] * params_.period_us > servos_.kDoubt_us) servos_.doubt(j);
+      if (silent_ticks_[j] < kLongSilence) ++silent_ticks_[j];
     }
     master_.request(frame, timeout_us(bytes, fast ? 1 : count, params_.baud),
                     [&](const dxl::Packet& packet) {
@@ -107,20 +111,21 @@ class App {
   }
 
   Take take_position(const dxl::Packet& packet) {
-    if (packet.size != kPositionBytes) return Take::kStray;
+    if (packet.size != std::size_t{kPositionBytes} + spare_) return Take::kStray;
     const int joint = joints_.match(packet.id);
     if (joint < 0) return Take::kStray;
-    set_position(joint, packet.error, packet.parameters);
+    set_position(joint, packet.error, packet.parameters + spare_);
     return joints_.ended() ? Take::kDone : Take::kMore;
   }
 
   Take take_fast(const dxl::Packet& packet) {
     const auto count = static_cast<std::size_t>(joints_.count());
-    if (packet.size != count * (kPositionBytes + dxl::kFastBlockBytes)) return Take::kStray;
+    const std::size_t length = std::size_t{kPositionBytes} + spare_;
+    if (packet.size != count * (length + dxl::kFastBlockBytes)) return Take::kStray;
     dxl::FastBlock block;
-    for (std::size_t i = 0; dxl::fast_block(packet, i, kPositionBytes, block); ++i) {
+    for (std::size_t i = 0; dxl::fast_block(packet, i, length, block); ++i) {
       const int joint = joints_.match(block.id);
-      if (joint >= 0) set_position(joint, block.error, block.data);
+      if (joint >= 0) set_position(joint, block.error, block.data + spare_);
     }
     return Take::kDone;
   }
@@ -131,6 +136,7 @@ class App {
     if (silent_ticks_[joint] * params_.period_us >= servos_.patience_us()) {
       servos_.expect_tripped();
     }
+    servos_.heard(joint);
     silent_ticks_[joint] = 0;
     inputs_.position_count[joint] = static_cast<std::int32_t>(dxl::get_u32(data));
     inputs_.fresh |= 1u << joint;
@@ -159,14 +165,16 @@ class App {
         static_cast<std::uint8_t>(slow_joint_ + 1 < params_.joint_count ? slow_joint_ + 1 : 0);
     sensors_.set_id(kServoSlot, params_.joint[slow_joint_].servo_id);
     const auto count = static_cast<std::size_t>(sensors_.count());
-    constexpr std::uint16_t kBytes = dxl::sensor_block::kBytes;
+    spare_ = master_.spare_bytes();
+    const auto length = static_cast<std::uint16_t>(dxl::sensor_block::kBytes + spare_);
     const std::size_t frame =
         dxl::encode_sync_read(master_.frame(), master_.capacity(), dxl::Instruction::kSyncRead,
-                              dxl::sensor_block::kAddress, kBytes, sensors_.ids(), count);
+                              static_cast<std::uint16_t>(dxl::sensor_block::kAddress - spare_),
+                              length, sensors_.ids(), count);
     sensors_.begin();
     feet_seen_ = 0;
     slow_alert_ = false;
-    master_.request(frame, timeout_us(sync_read_bytes(count, kBytes), count, params_.baud),
+    master_.request(frame, timeout_us(sync_read_bytes(count, length), count, params_.baud),
                     [&](const dxl::Packet& packet) { return take_sensor(packet); });
     sensors_.complete();
     if (feet_expected_ != 0 && feet_seen_ == feet_expected_) inputs_.flags |= kFeetFresh;
@@ -174,15 +182,15 @@ class App {
   }
 
   Take take_sensor(const dxl::Packet& packet) {
-    if (packet.size != dxl::sensor_block::kBytes) return Take::kStray;
+    if (packet.size != std::size_t{dxl::sensor_block::kBytes} + spare_) return Take::kStray;
     const int slot = sensors_.match(packet.id);
     if (slot < 0) return Take::kStray;
-    if ((packet.error & ~dxl::kAlert) == 0) set_sensor(slot, packet);
+    if ((packet.error & ~dxl::kAlert) == 0)
+      set_sensor(slot, packet.error, packet.parameters + spare_);
     return sensors_.ended() ? Take::kDone : Take::kMore;
   }
 
-  void set_sensor(int slot, const dxl::Packet& packet) {
-    const std::uint8_t* data = packet.parameters;
+  void set_sensor(int slot, std::uint8_t error, const std::uint8_t* data) {
     if (slot == kImuSlot) {
       if (from_chip_) return;
       for (int axis = 0; axis < 3; ++axis) {
@@ -199,7 +207,7 @@ class App {
       inputs_.slow_temperature_c = data[kTemperatureAt];
       inputs_.slow_error = 0;
       inputs_.flags |= kSlowFresh;
-      slow_alert_ = (packet.error & dxl::kAlert) != 0;
+      slow_alert_ = (error & dxl::kAlert) != 0;
     } else {
       const int foot = slot - kFootSlot;
       for (int i = 0; i < kFootSensors; ++i) {
@@ -262,6 +270,7 @@ class App {
   std::uint16_t silent_ticks_[kMaxJoints] = {};  ///< since each servo answered
   std::uint32_t feet_expected_ = 0;
   std::uint32_t feet_seen_ = 0;
+  std::uint8_t spare_ = 0;  ///< of the read under way
   std::uint8_t slow_joint_ = 0;
   bool slow_alert_ = false;
   bool ticking_ = false;  ///< a tick was counted before

@@ -4,6 +4,7 @@
 #include "common/model/params.hpp"
 #include "common/protocol/control_table.hpp"
 #include "firmware/app/bus_master.hpp"
+#include "firmware/app/servo_ram.hpp"
 
 /// Finds every device of the robot on the bus and writes what Params wants into it, torque off.
 /// EEPROM is written only where it differs (it wears out) and all that was written is read back.
@@ -125,25 +126,20 @@ class BringUp {
 
   bool servo(int j) {
     const JointParams& joint = params_.joint[j];
-    const ServoProfile& profile = params_.servo[joint.servo_profile % kServoProfiles];
+    const ServoProfile& profile = profile_of(params_, j);
+    const ServoRam ram(profile);
     const std::uint8_t id = joint.servo_id;
     const std::uint8_t off = 0;
     const std::uint8_t answer_all = 2;
     // Return Delay Time, Drive Mode, Operating Mode stand side by side.
     const std::uint8_t mode[3] = {0, dxl::kTimeBasedProfile, dxl::kPositionMode};
-    std::uint8_t gains[6];
-    dxl::put_u16(gains, profile.position_d_gain);
-    dxl::put_u16(gains + 2, profile.position_i_gain);
-    dxl::put_u16(gains + 4, profile.position_p_gain);
-    std::uint8_t motion[8] = {};  // Profile Acceleration 0, Profile Velocity in ms
-    dxl::put_u16(motion + 4, profile.profile_ms);
     return ping(id, profile.model_number) &&
            write(id, dxl::address::kTorqueEnable, &off, sizeof off) &&
            write(id, dxl::address::kBusWatchdog, &off, sizeof off) &&
            establish(id, dxl::address::kStatusReturnLevel, &answer_all, sizeof answer_all) &&
            establish(id, dxl::address::kReturnDelay, mode, sizeof mode) &&
-           establish(id, dxl::address::kPositionDGain, gains, sizeof gains) &&
-           establish(id, dxl::address::kProfileAcceleration, motion, sizeof motion) &&
+           establish(id, dxl::address::kPositionDGain, ram.gains, sizeof ram.gains) &&
+           establish(id, dxl::address::kProfileAcceleration, ram.motion, sizeof ram.motion) &&
            learn_strength(j, id);
   }
 

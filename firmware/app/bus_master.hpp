@@ -6,8 +6,9 @@
 #include "firmware/app/schedule.hpp"
 #include "hal/contract/frame_bus.hpp"
 
-/// Requests and replies over a FrameBus. A lost reply costs its timeout, never more; a reply that
-/// belongs to an earlier request is never taken for this one's.
+/// Requests and replies over a FrameBus. A lost reply costs its timeout, never more. What came too
+/// late for its own request and before the next is dropped; what comes later still is known by its
+/// length, if requests that are alike ask for spare_bytes() too.
 namespace verp::app {
 
 /// What went wrong on the bus since power-up.
@@ -34,6 +35,11 @@ class BusMaster {
   /// Bytes that belonged to no packet, those of damaged packets included.
   std::uint32_t noise_bytes() const { return parser_.noise_bytes(); }
 
+  /// A reply does not say which request it answers. To be asked for in front of what is wanted: as
+  /// many as none of the last requests asked for that went unanswered, so that no late reply, by up
+  /// to kMostSpare periods, has this one's length.
+  std::uint8_t spare_bytes() const { return spare_; }
+
   /// Sends `size` bytes of frame(); for frames nobody answers.
   bool send(std::size_t size) {
     if (size != 0 && bus_.send(tx_, size)) return true;
@@ -58,6 +64,7 @@ class BusMaster {
       }
     }
     ++counters_.timeouts;
+    spare_ = spare_ < kMostSpare ? static_cast<std::uint8_t>(spare_ + 1) : std::uint8_t{0};
     return false;
   }
 
@@ -94,6 +101,7 @@ class BusMaster {
   dxl::Parser parser_;
   BusCounters counters_;
   bool unsettled_ = true;
+  std::uint8_t spare_ = 0;
   std::uint8_t tx_[hal::kMaxFrame];
   std::uint8_t rx_[hal::kMaxFrame];
 };

@@ -72,15 +72,24 @@ constexpr std::size_t sensor_devices(const Params& params) {
   return devices;
 }
 
+/// Bytes that a read asks for beyond what is wanted of each device, at most (BusMaster).
+inline constexpr std::uint8_t kMostSpare = 2;
+/// Servos that get their gains and profile again in one tick, at most.
+inline constexpr int kRenewedAtOnce = 2;
+
 /// Bytes of the longest tick in which every device answers: reads, goals, torque and strength of
-/// all servos, their Bus Watchdog cleared and set, one alert looked up.
+/// all servos, their Bus Watchdog cleared and set, gains and profiles given again to some, one
+/// alert looked up.
 constexpr std::size_t schedule_bytes(const Params& params) {
   const std::size_t joints = params.joint_count;
+  const std::size_t position = 4 + kMostSpare;
   const std::size_t positions =
-      all_fast(params) ? fast_sync_read_bytes(joints, 4) : sync_read_bytes(joints, 4);
-  return positions + sync_read_bytes(sensor_devices(params), dxl::sensor_block::kBytes) +
+      all_fast(params) ? fast_sync_read_bytes(joints, position) : sync_read_bytes(joints, position);
+  const std::size_t block = dxl::sensor_block::kBytes + kMostSpare;
+  return positions + sync_read_bytes(sensor_devices(params), block) +
          (dxl::kInstructionBytes + 4 + dxl::kStatusBytes + 1) + sync_write_bytes(joints, 4) +
-         sync_write_bytes(joints, 2) + 3 * sync_write_bytes(joints, 1);
+         sync_write_bytes(joints, 2) + 3 * sync_write_bytes(joints, 1) +
+         sync_write_bytes(kRenewedAtOnce, 6) + sync_write_bytes(kRenewedAtOnce, 8);
 }
 
 /// Time that tick takes on the wire, replies' slack included. Over 80 % of the period leaves no

@@ -169,15 +169,22 @@ dxl::Error ServoDevice::check(std::uint16_t address, std::span<const std::uint8_
       return dxl::Error::kDataRange;
     }
   }
-  const Register& goal = *table_.find(at::kGoalPosition);
-  if (byte(at::kOperatingMode) != dxl::kPositionMode || address > at::kGoalPosition ||
-      address + data.size() <= at::kGoalPosition) {
-    return error;
-  }
-  const std::int64_t value = RegisterTable::value_in(goal, address, data);
-  const bool inside =
-      value >= table_.get(at::kMinPositionLimit) && value <= table_.get(at::kMaxPositionLimit);
-  return inside ? dxl::Error::kNone : dxl::Error::kDataLimit;
+  return within_limits(address, data) ? dxl::Error::kNone : dxl::Error::kDataLimit;
+}
+
+// e-Manual, Goal PWM (100) and Goal Position (116): not beyond what the limits in EEPROM say.
+bool ServoDevice::within_limits(std::uint16_t address, std::span<const std::uint8_t> data) const {
+  const auto inside = [&](std::uint16_t goal, std::int64_t least, std::int64_t most) {
+    const Register& reg = *table_.find(goal);
+    if (address > goal || address + data.size() < std::size_t{goal} + reg.size) return true;
+    const std::int64_t value = RegisterTable::value_in(reg, address, data);
+    return value >= least && value <= most;
+  };
+  const std::int64_t pwm = table_.get(at::kPwmLimit);
+  return inside(at::kGoalPwm, -pwm, pwm) &&
+         (byte(at::kOperatingMode) != dxl::kPositionMode ||
+          inside(at::kGoalPosition, table_.get(at::kMinPositionLimit),
+                 table_.get(at::kMaxPositionLimit)));
 }
 
 void ServoDevice::written(std::uint16_t address, std::uint16_t length) {

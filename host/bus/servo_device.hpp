@@ -32,6 +32,7 @@ class ServoDevice final : public Device {
 
  private:
   dxl::Error check(std::uint16_t address, std::span<const std::uint8_t> data) const override;
+  bool within_limits(std::uint16_t address, std::span<const std::uint8_t> data) const;
   void written(std::uint16_t address, std::uint16_t length) override;
   void restarted() override;
   bool moving() override;

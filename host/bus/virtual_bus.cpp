@@ -54,6 +54,13 @@ void VirtualBus::set_connected(std::uint8_t id, bool connected) {
   unplugged_[id] = !connected;
 }
 
+void VirtualBus::set_powered(std::uint8_t id, bool powered) {
+  if (!powered) {
+    for (Device* device : devices(id)) device->reboot();
+  }
+  set_connected(id, powered);
+}
+
 std::uint64_t VirtualBus::begin_tick(std::uint64_t ready_ns) {
   std::uint64_t start_ns = (ready_ns + period_ns_ - 1) / period_ns_ * period_ns_;
   if (ticking_) start_ns = std::max(start_ns, tick_start_ns_ + period_ns_);

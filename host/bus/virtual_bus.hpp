@@ -41,6 +41,8 @@ class VirtualBus {
   bool ticking() const { return ticking_; }
   /// Unplugs a device or plugs it in again; unplugged it neither hears nor answers.
   void set_connected(std::uint8_t id, bool connected);
+  /// Cuts a device's power or gives it back: it is unplugged meanwhile and begins anew.
+  void set_powered(std::uint8_t id, bool powered);
   /// Whether a packet makes a tick begin, if time does not go on by itself.
   static bool begins_tick(const dxl::Packet& packet);
 

@@ -85,7 +85,17 @@ void doubled(const FaultResult& result) {
 void delayed(const FaultResult& result) {
   EXPECT_GE(result.after.timeouts, result.damage.delayed / 2) << "some are late by too little";
   EXPECT_GT(result.after.strays, 0u) << "what comes too late belongs to nobody";
-  keeps_walking(result);
+  EXPECT_EQ(was(result, kHolding), result.stale) << "late replies are silence, and as long";
+  if (!result.stale) keeps_walking(result);
+}
+
+// An adapter that gives everything a period late: nothing that it brings may pass for fresh.
+void held_back(const FaultResult& result) {
+  EXPECT_EQ(result.during.fresh, 0u);
+  EXPECT_NE(result.during.state[kBus], DeviceState::kGood);
+  EXPECT_GT(result.after.timeouts, 0u);
+  EXPECT_GT(result.after.strays, 0u);
+  EXPECT_TRUE(was(result, kHolding));
 }
 
 void noise(const FaultResult& result) {
@@ -175,11 +185,15 @@ const std::vector<Kind>& kinds() {
       {{"lost_1_percent", 18, false, {.lost = 10 * kPerMille}}, {lost_many}},
       {{"doubled", 16, false, {.doubled = kPerMille}}, {doubled}},
       {{"flipped", 16, false, {.flipped = kPerMille}}, {flipped}},
-      {{"delayed", 16, false, {.delayed = 0.05, .delay_us = 15'000}}, {delayed}},
+      {{"delayed", 12, false, {.delayed = 0.05, .delay_us = 15'000}}, {delayed}},
+      {{"all_held_back", 4, false, {.held_us = 12'000}, Event::kNone, 0.2, 8},
+       {held_back, walks_again}},
       {{"noise", 16, false, {.bursts = 0.05}}, {noise}},
       {{"everything", 12, false, kAll}, {everything}},
       {{"servo_gone_0_1_s_physics", 4, true, {}, Event::kServoGone, 0.1}, {gone_briefly}},
-      {{"servo_gone_0_1_s", 14, false, {}, Event::kServoGone, 0.1}, {gone_briefly, walks_again}},
+      {{"servo_gone_0_1_s", 8, false, {}, Event::kServoGone, 0.1}, {gone_briefly, walks_again}},
+      {{"servo_unpowered_0_1_s", 6, false, {}, Event::kServoUnpowered, 0.1},
+       {gone_briefly, walks_again}},
       {{"servo_gone_for_good_physics", 3, true, {}, Event::kServoGone}, {gone_for_good}},
       {{"servo_gone_for_good", 13, false, {}, Event::kServoGone}, {gone_for_good}},
       {{"stale_values", 12, false, {}, Event::kServoRepeats, 1}, {repeats}},

@@ -1,8 +1,10 @@
 #include "tests/hil/fault_run.hpp"
 
 #include <algorithm>
+#include <array>
 #include <memory>
 #include <optional>
+#include <utility>
 
 #include "host/sim/robot.hpp"
 #include "host/sim/world.hpp"
@@ -97,6 +99,10 @@ class FaultRun {
         ++result_.events;
         bus_->set_connected(params_.joint[result_.joint].servo_id, false);
         break;
+      case Event::kServoUnpowered:
+        ++result_.events;
+        bus_->set_powered(params_.joint[result_.joint].servo_id, false);
+        break;
       case Event::kServoRepeats:
         ++result_.events;
         // A knee or a hip: what walks must move.
@@ -116,6 +122,9 @@ class FaultRun {
     line_->faults = {};
     if (plan_.event == Event::kServoGone) {
       if (plan_.lasts_s > 0) bus_->set_connected(params_.joint[result_.joint].servo_id, true);
+    }
+    if (plan_.event == Event::kServoUnpowered && plan_.lasts_s > 0) {
+      bus_->set_powered(params_.joint[result_.joint].servo_id, true);
     }
     if (plan_.event == Event::kServoRepeats) plant_->thaw();
   }
@@ -143,7 +152,11 @@ class FaultRun {
   void tick() {
     if (ticks_++ % kOrderTicks == 0) give_order();
     const std::uint64_t due_us = controller_->clock.due_us();
+    if (level_) note_positions(due_us);
     controller_->tick();
+    if (level_) watch_positions();
+    watch_silence();
+    watch_gains();
     const std::uint64_t begun_us = std::max(due_us, late_us_);
     result_.worst_tick_us = std::max(result_.worst_tick_us, line_->now_us() - begun_us);
     watch_torque();
@@ -156,6 +169,53 @@ class FaultRun {
         reg("request"),
         {static_cast<std::uint8_t>(Request::kWalk), static_cast<std::uint8_t>(ticks_),
          static_cast<std::uint8_t>(speed), static_cast<std::uint8_t>(speed >> 8), 0, 0, 0, 0});
+  }
+
+  void watch_silence() {
+    const Inputs& inputs = controller_->loop.inputs();
+    int longest = (inputs.flags & kImuFresh) != 0 ? silent_[kMaxJoints] = 0 : ++silent_[kMaxJoints];
+    for (std::size_t j = 0; j < static_cast<std::size_t>(params_.joint_count); ++j) {
+      silent_[j] = (inputs.fresh >> j & 1) != 0 ? 0 : silent_[j] + 1;
+      longest = std::max(longest, silent_[j]);
+    }
+    const double silent_s = seconds(static_cast<std::uint64_t>(longest));
+    const double half_s = seconds(1) / 2;  // how it rounds is the core's affair
+    result_.stale = result_.stale || silent_s > params_.tuning.safety.stale_hold_s - half_s;
+  }
+  void watch_gains() {
+    for (int j = 0; j < params_.joint_count; ++j) {
+      const sim::ServoSetpoint& servo = plant_->setpoint(j);
+      const ServoProfile& profile = app::profile_of(params_, j);
+      if (!servo.torque_on) continue;
+      if (servo.p_gain != profile.position_p_gain || servo.d_gain != profile.position_d_gain ||
+          servo.profile_ms != profile.profile_ms) {
+        fault("joint " + std::to_string(j) + " has torque with gains that are not its own");
+      }
+    }
+  }
+  /// Where each servo stands, and where it is bound for: what it tells next lies between. A goal
+  /// that the line's noise held up may reach it only with the next request.
+  void note_positions(std::uint64_t due_us) {
+    line_->wait_until(due_us);
+    for (int j = 0; j < params_.joint_count; ++j) {
+      const std::int32_t stands = level_->measure(j).position_count;
+      const bool moves = level_->setpoint(j).torque_on;
+      tells_[static_cast<std::size_t>(j)] =
+          moves ? std::minmax({stands, level_->setpoint(j).goal_count,
+                               controller_->loop.outputs().goal_count[j]})
+                : std::pair{stands, stands};
+    }
+  }
+  void watch_positions() {
+    const Inputs& inputs = controller_->loop.inputs();
+    for (int j = 0; j < params_.joint_count; ++j) {
+      const auto [low, high] = tells_[static_cast<std::size_t>(j)];
+      const bool repeats = plan_.event == Event::kServoRepeats && j == result_.joint;
+      const bool fresh = (inputs.fresh >> j & 1) != 0 && !repeats;
+      if (fresh && (inputs.position_count[j] < low || inputs.position_count[j] > high)) {
+        fault("joint " + std::to_string(j) + "'s position was old");
+      }
+    }
   }
 
   /// A robot that lies on the floor is limp soon, whatever its controller knows.
@@ -226,6 +286,8 @@ class FaultRun {
   OperatorDesk desk_;
   std::unique_ptr<Controller> controller_;
   FaultResult result_;
+  std::array<std::pair<std::int32_t, std::int32_t>, kMaxJoints> tells_{};
+  std::array<int, kMaxJoints + 1> silent_{};  ///< ticks; the last is the IMU's
   Eigen::Vector2d start_m_ = Eigen::Vector2d::Zero();
   std::uint64_t late_us_ = 0;  ///< when the loop came back from being busy elsewhere
   std::uint64_t limp_since_us_ = 0;

@@ -12,10 +12,11 @@ namespace verp::test {
 /// What goes wrong besides the line.
 enum class Event {
   kNone,
-  kServoGone,     ///< unplugged
-  kServoRepeats,  ///< tells the same position again and again
-  kLateLoop,      ///< the controller is busy elsewhere for longer than a period, now and then
-  kReset,         ///< the controller starts anew
+  kServoGone,       ///< unplugged from the bus, not from its power
+  kServoUnpowered,  ///< unplugged: back again, it starts anew
+  kServoRepeats,    ///< tells the same position again and again
+  kLateLoop,        ///< the controller is busy elsewhere for longer than a period, now and then
+  kReset,           ///< the controller starts anew
 };
 
 struct FaultPlan {
@@ -53,6 +54,7 @@ struct FaultResult {
   std::uint32_t ticks = 0;          ///< likewise
   std::uint64_t worst_tick_us = 0;  ///< bus time
   double distance_m = 0;            ///< over ground, physics only
+  bool stale = false;               ///< a servo or the IMU was silent for stale_hold_s
   bool fallen = false;
   bool ready = false;  ///< the controller came up, and walked before the fault
 };

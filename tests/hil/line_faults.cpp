@@ -87,9 +87,9 @@ void FaultyLine::arrive(const std::uint8_t* data, std::size_t size) {
   const bool late = chance(faults.delayed);
   const std::size_t late_from = late ? random_() % size : left.size();
   const std::uint64_t delay_us = late ? 1 + random_() % faults.delay_us : 0;
-  damage_.delayed += late ? 1 : 0;
+  damage_.delayed += late || faults.held_us > 0 ? 1 : 0;
   for (std::size_t i = 0; i < left.size(); ++i) {
-    const std::uint64_t due_us = bus_.now_us() + (i >= late_from ? delay_us : 0);
+    const std::uint64_t due_us = bus_.now_us() + faults.held_us + (i >= late_from ? delay_us : 0);
     inbox_.push_back({inbox_.empty() ? due_us : std::max(due_us, inbox_.back().due_us), left[i]});
   }
 }

@@ -14,8 +14,9 @@ struct LineFaults {
   double lost = 0, doubled = 0, flipped = 0;  ///< of bytes
   double delayed = 0;                         ///< of replies: from some byte on they come later,
   std::uint32_t delay_us = 0;                 ///< by up to so much
-  double bursts = 0;  ///< of frames and replies: noise within, before or behind
-  bool cut = false;   ///< nothing gets through
+  std::uint32_t held_us = 0;  ///< all replies come so much later, as from a slow adapter
+  double bursts = 0;          ///< of frames and replies: noise within, before or behind
+  bool cut = false;           ///< nothing gets through
 };
 
 /// What was done to the line so far, and to what.

@@ -17,6 +17,60 @@ TEST_F(AppInTrouble, ABringUpThatFailsLeavesNobodyStiff) {
   for (int j = 1; j < kJoints; ++j) EXPECT_FALSE(plant.setpoint(j).torque_on) << j;
 }
 
+// A loose plug: the servo is back with the factory's gains and no profile. In no tick does it get
+// torque with these.
+TEST_F(AppInTrouble, AServoThatLostItsPowerIsSetUpBeforeItGetsTorqueAgain) {
+  ready();
+  wanted.torque_enable = all();
+  ticks(5);
+  const int lost[] = {3, 5, 11};  // more than a tick's frames have room for
+  for (int joint : lost) bus.set_powered(params.joint[joint].servo_id, false);
+  ticks(12);
+  for (int joint : lost) {
+    bus.set_powered(params.joint[joint].servo_id, true);
+    ASSERT_NE(plant.setpoint(joint).p_gain, 3500);
+    ASSERT_NE(plant.setpoint(joint).profile_ms, 10u);
+  }
+  for (int tick = 0; tick < 30; ++tick) {
+    ticks(1);
+    for (int joint : lost) {
+      if (!plant.setpoint(joint).torque_on) continue;
+      EXPECT_EQ(plant.setpoint(joint).p_gain, 3500) << "tick " << tick;
+      EXPECT_EQ(plant.setpoint(joint).d_gain, 20) << "tick " << tick;
+      EXPECT_EQ(plant.setpoint(joint).profile_ms, 10u) << "tick " << tick;
+    }
+  }
+  for (int joint : lost) EXPECT_TRUE(plant.setpoint(joint).torque_on) << joint;
+}
+
+// One that only could not be heard keeps what it holds: limp, it would let the robot fall.
+TEST_F(AppInTrouble, AServoThatWasOnlySilentKeepsItsTorque) {
+  ready();
+  wanted.torque_enable = all();
+  ticks(5);
+  bus.set_connected(params.joint[5].servo_id, false);
+  ticks(8);
+  EXPECT_TRUE(plant.setpoint(5).torque_on);
+  bus.set_connected(params.joint[5].servo_id, true);
+  for (int tick = 0; tick < 12; ++tick) {
+    ticks(1);
+    EXPECT_TRUE(plant.setpoint(5).torque_on) << "tick " << tick;
+  }
+}
+
+// A robot that shall be limp is, however much is doubted.
+TEST_F(AppInTrouble, ADoubtedServoIsLetGoAllTheSame) {
+  ready();
+  wanted.torque_enable = all();
+  ticks(5);
+  for (int j = 0; j < kJoints; ++j) bus.set_connected(params.joint[j].servo_id, false);
+  ticks(6);
+  for (int j = 0; j < kJoints; ++j) bus.set_connected(params.joint[j].servo_id, true);
+  wanted.torque_enable = 0;
+  ticks(1);
+  for (int j = 0; j < kJoints; ++j) EXPECT_FALSE(plant.setpoint(j).torque_on) << j;
+}
+
 TEST_F(AppInTrouble, BringUpNamesASilentDevice) {
   bus.set_connected(7, false);
   const app::BringUpReport report = app.bring_up();

@@ -177,6 +177,10 @@ TEST_F(VirtualBus, RefusesWritesAsTheProtocolSays) {
   EXPECT_EQ(write(1, at::kGoalPosition, {0, 0}), code(dxl::Error::kDataLength));
   EXPECT_EQ(write(1, at::kTorqueEnable, {2}), code(dxl::Error::kDataRange));
   EXPECT_EQ(write(1, at::kGoalPosition, {0, 0x10, 0, 0}), code(dxl::Error::kDataLimit));
+  EXPECT_EQ(write(1, at::kPwmLimit, {0x90, 1}), 0);
+  EXPECT_EQ(write(1, at::kGoalPwm, {0x91, 1}), code(dxl::Error::kDataLimit));
+  EXPECT_EQ(write(1, at::kGoalPwm, {0x6F, 0xFE}), code(dxl::Error::kDataLimit)) << "-401";
+  EXPECT_EQ(write(1, at::kGoalPwm, {0x90, 1}), 0);
   Bytes reboot = {0xFF, 0xFF, 0xFD, 0x00, 0x01, 0x03, 0x00, 0x7F};
   const std::uint16_t crc = dxl::crc16(reboot.data(), reboot.size());
   reboot.push_back(static_cast<std::uint8_t>(crc));
