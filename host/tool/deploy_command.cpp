@@ -7,7 +7,9 @@
 #include <fstream>
 #include <memory>
 
+#include "host/board/board_error.hpp"
 #include "host/board/replay_on_target.hpp"
+#include "host/flash/flash_error.hpp"
 #include "host/flash/flasher.hpp"
 #include "host/flash/recipe.hpp"
 #include "host/flash/tool_run.hpp"
@@ -41,7 +43,8 @@ struct StepAnswer {
   Json json = Json::object();
 };
 
-/// One step of the way from a model to a robot; each throws, or answers.
+/// One step of the way from a model to a robot; each throws, or answers. A dry run only says what
+/// each would do.
 class Deployment {
  public:
   explicit Deployment(const DeployOptions& options)
@@ -58,13 +61,17 @@ class Deployment {
 
   StepAnswer build() {
     if (options_.no_build) return {"left out (--no-build)"};
+    const std::string images =
+        fmt::format("loop_{}, replay_{}", options_.flash.board, recipe_.replay_board);
+    if (dry()) return {"would build " + images};
     build("loop_" + options_.flash.board, options_.flash.board);
     build(std::string("replay_") + recipe_.replay_board, recipe_.replay_board);
-    return {fmt::format("loop_{}, replay_{}", options_.flash.board, recipe_.replay_board)};
+    return {images};
   }
 
   /// Walks in the twin, this PC being the controller, and keeps what it saw.
   StepAnswer walk() {
+    if (dry()) return {fmt::format("would walk {:g} s in the twin", plan_.walk_s)};
     const fs::path file = folder() / "walk.mcap";
     record::TraceWriter writer(file, plan_.params, {{"robot", plan_.params.name}});
     const WalkResult result =
@@ -87,6 +94,7 @@ class Deployment {
   /// The same inputs on a core like the board's must give the same bits.
   StepAnswer replay() {
     const std::string board = recipe_.replay_board;
+    if (dry()) return {"would replay that walk on emulated " + board};
     std::vector<Inputs> inputs;
     for (const TickRecord& tick : trace_.ticks) inputs.push_back(tick.inputs);
     progress_.show(0, "replay on " + board);
@@ -103,12 +111,26 @@ class Deployment {
     FlashOptions options = options_.flash;
     options.stay = false;
     if (recipe_.chip != nullptr) options.params = options_.model;
-    FlashAnswer answer = flash_board(options, progress_, [](const std::string&) {});
-    while (!answer.text.empty() && answer.text.back() == '\n') answer.text.pop_back();
-    return {(options.dry_run ? "would run:\n" : "") + answer.text, answer.json};
+    try {
+      FlashAnswer answer = flash_board(options, progress_, [](const std::string&) {});
+      while (!answer.text.empty() && answer.text.back() == '\n') answer.text.pop_back();
+      return {(dry() ? "would run:\n" : "") + answer.text, answer.json};
+    } catch (const flash::FlashError& error) {
+      if (error.kind() != flash::FlashError::Kind::kBadFile || !builds_later()) throw;
+    } catch (const board::NoSuchBoard&) {
+      if (!builds_later()) throw;
+    }
+    return {
+        fmt::format("would flash loop_{0}, which is not built yet; after that, verp flash "
+                    "--board {0} --dry-run tells the commands",
+                    options.board)};
   }
 
  private:
+  bool dry() const { return options_.flash.dry_run; }
+  /// What is wrong with an image now need not be so when it is flashed.
+  bool builds_later() const { return dry() && !options_.no_build; }
+
   const fs::path& folder() const {
     std::error_code error;
     fs::create_directories(folder_, error);
@@ -221,7 +243,10 @@ int run_deploy(const DeployOptions& options) {
   const int status = run_steps(options, deployment, rows, failure);
   if (status != kGood) complain("verp deploy: " + failure);
   if (options.json) {
-    Json json = {{"model", options.model}, {"board", options.flash.board}, {"steps", rows}};
+    Json json = {{"model", options.model},
+                 {"board", options.flash.board},
+                 {"dry_run", options.flash.dry_run},
+                 {"steps", rows}};
     if (status != kGood) {
       json["error"] = failure;
       json["exit"] = status;

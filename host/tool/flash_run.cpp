@@ -182,7 +182,8 @@ void declare_target(CLI::App& app, FlashOptions& options) {
   app.add_option("--tool", options.tool,
                  "openocd, stm32flash or dfu-util, where the board can be flashed in several ways");
   app.add_flag("--emulate", options.emulate, "start the board in QEMU instead");
-  app.add_flag("--dry-run", options.dry_run, "print the commands, but do not run them");
+  app.add_flag("--dry-run", options.dry_run,
+               "say what would be done, with the commands, and do none of it");
 }
 
 FlashAnswer flash_board(const FlashOptions& options, Progress& progress,

@@ -39,24 +39,47 @@ TEST_F(Deploy, StopsWhenTheBuildFailsWithTheCompilersWords) {
   script("cmake",
          "#!/bin/sh\n[ \"$1\" = --preset ] && exit\necho '[1/2] Building a.o'\n"
          "echo 'a.cpp:3:7: error: no such thing'\necho 'ninja: build stopped'\nexit 1\n");
-  const Outcome outcome = deploy("--dry-run", "PATH=.:$PATH");
+  const Outcome outcome = deploy("", "PATH=.:$PATH");
   expect_stop(outcome, 1, "build", "a.cpp:3:7: error: no such thing");
   EXPECT_NE(outcome.err.find("build.log"), std::string::npos);
 }
 
 // A limit on the size of files stands in for a disk that is full: a walk without its trace is none.
 TEST_F(Deploy, StopsWhenTheWalkFails) {
-  const Outcome outcome = shell("ulimit -f 200; " VERP_PROGRAM
-                                " deploy generic21 --for 3 --json --dry-run --no-build --board " +
-                                board_);
+  const Outcome outcome =
+      shell("ulimit -f 200; " VERP_PROGRAM " deploy generic21 --for 3 --json --no-build --board " +
+            board_);
   expect_stop(outcome, 1, "walk", "walk.mcap");
 }
 
 TEST_F(Deploy, StopsWhenTheCoreCannotReplay) {
   put(folder_ / ("replay_" + std::string(recipe_->replay_board) + ".elf"), {1});
   script("broken", "#!/bin/sh\necho 'HardFault at 0x08000123'\nexit 70\n");
-  expect_stop(deploy("--dry-run --no-build", "VERP_QEMU=./broken"), 3, "replay",
-              "HardFault at 0x08000123");
+  expect_stop(deploy("--no-build", "VERP_QEMU=./broken"), 3, "replay", "HardFault at 0x08000123");
+}
+
+// A dry run builds, walks and replays nothing; it says what would be done, also while there is
+// nothing yet to be flashed.
+TEST_F(Deploy, ADryRunOnlySays) {
+  for (const char* program : {"cmake", "flock", "qemu-system-arm", "openocd", "dfu-util"}) {
+    script(program, "#!/bin/sh\ntouch ran\nexit 1\n");
+  }
+  for (const bool built : {true, false}) {
+    if (!built) fs::remove(image());
+    const Outcome outcome = deploy("--dry-run", "PATH=.:$PATH");
+    ASSERT_EQ(outcome.status, 0) << outcome.err;
+    const json result = json::parse(outcome.out);
+    EXPECT_TRUE(result.at("dry_run"));
+    EXPECT_EQ(result.at("steps").size(), 4u);
+    EXPECT_FALSE(fs::exists(folder_ / "ran"));
+    EXPECT_FALSE(fs::exists(folder_ / "work" / "deploy"));
+    for (const char* word : {"would build loop_", "would walk 3 s", "would replay",
+                             built ? "would run:" : "not built yet"}) {
+      EXPECT_NE(outcome.err.find(word), std::string::npos) << word << "\n" << outcome.err;
+    }
+    EXPECT_EQ(outcome.err.find("program {") != std::string::npos, built) << outcome.err;
+  }
+  EXPECT_EQ(deploy("--dry-run --no-build").status, 2) << "nobody would build it";
 }
 
 }  // namespace
