@@ -127,7 +127,7 @@ struct Board {
     operator_device.report({.bus = loop.counters(),
                             .bus_crc_errors = loop.crc_errors(),
                             .bus_noise_bytes = loop.noise_bytes(),
-                            .deadline_misses = deadline_misses,
+                            .skipped_periods = skipped_periods,
                             .imu_faults = imu.faults(),
                             .battery_tenth_v = tenth_v(battery.poll_mv())});
   }
@@ -148,7 +148,7 @@ struct Board {
   app::Signals signals;
   app::LifeSign life;
   std::uint32_t ticks = 0;  ///< since the start, of all loops
-  std::uint32_t deadline_misses = 0;
+  std::uint32_t skipped_periods = 0;
   StartFault fault = StartFault::kNone;
 };
 
@@ -219,7 +219,7 @@ void run_in_real_time(Board& board, Servos& servos, const Params& params, std::u
   app::DrivePower drive;
   for (;;) {
     const app::Beat beat = pacer.next();
-    board.deadline_misses = static_cast<std::uint32_t>(pacer.deadlines().skipped);
+    board.skipped_periods = static_cast<std::uint32_t>(pacer.deadlines().skipped);
     const std::uint64_t begun_us = timer.now_us();
     loop.use_chip(board.operator_device.imu_source() == app::table::ImuSource::kChip);
     loop.limit_torque(board.operator_device.torque_limit_percent());

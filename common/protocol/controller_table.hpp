@@ -170,7 +170,9 @@ inline constexpr Register kTable[] = {
     r(72, "crash_pc", u32, "", "the crash before this start: its instruction; 0 with crash_count 1 or more: stack overflow"),
     r(76, "crash_cause", u32, "bits", "CFSR of the core at that crash"),
     // The operator's order: every write to 80..99 makes it fresh and feeds the operator watchdog.
-    rw(80, "request", u8, 2, "", "0 relax, 1 stand, 2 walk"),
+    // With torque off, request is set back to 0 when a loop begins, and when one has stood still for
+    // longer than an order lasts.
+    rw(80, "request", u8, 2, "", "0 relax, 1 stand, 2 walk; with torque off back to 0 when a loop begins or stood still"),
     rw(81, "command_sequence", u8, 255, "", "count the orders here; it is recorded with each tick"),
     rw_i16(82, "walk_vx", "0.1 mm/s", "forward velocity, body frame"),
     rw_i16(84, "walk_vy", "0.1 mm/s", "velocity to the left, body frame"),
@@ -222,7 +224,7 @@ inline constexpr Register kTable[] = {
     r(212, "bus_errors", u32, "", "servo bus: status packets with an error number"),
     r(216, "bus_refused", u32, "", "servo bus: frames the port did not take"),
     r(220, "overruns", u32, "", "ticks that followed one which ended after its deadline"),
-    r(224, "deadline_misses", u32, "ticks", "beginnings of ticks that the loop missed"),
+    r(224, "skipped_periods", u32, "", "control periods that passed without a tick"),
     r(228, "imu_faults", u32, "", "times the IMU chip was silent, stuck or foreign"),
     r(232, "link_crc_errors", u32, "", "this link: packets with a wrong CRC"),
     r(236, "link_overruns", u32, "", "this link: times bytes were lost for coming too fast"),

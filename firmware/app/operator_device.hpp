@@ -46,8 +46,12 @@ class OperatorDevice {
     return busy;
   }
 
-  /// How the loop's bring-up ended: the operator wants to know which servo to look at.
-  void brought_up(const BringUpReport& report) { registers_.report().bring_up(report); }
+  /// How the loop's bring-up ended: the operator wants to know which servo to look at. What was
+  /// ordered while there was nobody to obey is not obeyed when there is.
+  void brought_up(const BringUpReport& report) {
+    registers_.report().bring_up(report);
+    withdraw_orders();
+  }
 
   /// Why there will be no torque until the next start (start_fault.hpp).
   void show(table::StartFault fault) { registers_.report().start_fault(fault); }
@@ -72,7 +76,10 @@ class OperatorDevice {
   bool reboot_asked() const { return reboot_asked_ && sent_ == reply_size_; }
 
   // OperatorLink
-  OperatorOrder order(std::uint32_t) { return registers_.order(); }
+  OperatorOrder order(std::uint32_t tick) {
+    if (registers_.slept_until(tick)) withdraw_orders();
+    return registers_.order();
+  }
 
   // Recorder
   void record(const TickRecord& record, const State& state, const Outputs& outputs) {
@@ -81,7 +88,15 @@ class OperatorDevice {
 
  private:
   static constexpr std::size_t kSlice = 64;
+  static constexpr int kMostSlices = 64;  ///< more than a board's port can hold
   enum StatusLevel : std::uint8_t { kPingOnly = 0, kReads = 1, kAll = 2 };
+
+  // What the link still holds was sent before now too.
+  void withdraw_orders() {
+    for (int slice = 0; slice < kMostSlices && poll(); ++slice) {
+    }
+    registers_.withdraw_orders();
+  }
 
   bool push() {
     if (sent_ == reply_size_) return false;

@@ -125,6 +125,22 @@ class OperatorRegisters {
     return write(registered_address_, registered_, size);  // what was allowed may not be now
   }
 
+  /// Whether the loop stood still before this tick for longer than an order lasts: an erase of
+  /// flash holds the processor for seconds. Call once a tick; a loop that begins counts from there.
+  bool slept_until(std::uint32_t tick) {
+    const std::uint32_t ticks = ticking_ && tick > tick_ ? tick - tick_ : 0;
+    tick_ = tick;
+    ticking_ = true;
+    const float gap_s = 1e-6F * static_cast<float>(params_.period_us) * static_cast<float>(ticks);
+    return gap_s > tuning_.safety.command_hold_s;
+  }
+  /// Orders that were given until now are none any more: whoever gave them may be gone. A robot
+  /// with torque keeps what it does, and waits for the next one as the core says.
+  void withdraw_orders() {
+    fresh_ = false;
+    if (!armed()) image_.set(reg("request"), Request::kRelax);
+  }
+
   /// What the operator wants in the next tick; a write is fresh in one tick only.
   OperatorOrder order() {
     OperatorOrder order;
@@ -322,6 +338,8 @@ class OperatorRegisters {
   std::uint16_t parameter_id_ = 0;
   std::uint32_t parameter_bits_ = 0;
   table::ImuCalibrationOrder calibration_order_ = table::ImuCalibrationOrder::kNone;
+  std::uint32_t tick_ = 0;  ///< the last one that asked
+  bool ticking_ = false;
   bool parameter_pending_ = false;
   bool fresh_ = false;
 };

@@ -18,7 +18,7 @@ struct LoopHealth {
   BusCounters bus{};
   std::uint32_t bus_crc_errors = 0;
   std::uint32_t bus_noise_bytes = 0;
-  std::uint32_t deadline_misses = 0;  ///< sum of what TickSource::wait() returned above 1
+  std::uint32_t skipped_periods = 0;  ///< without a tick: Deadlines::skipped
   std::uint32_t imu_faults = 0;
   std::uint16_t battery_tenth_v = 0;  ///< as the board measures it; 0: it doesn't
 };
@@ -79,7 +79,7 @@ class TickReport {
     image_.set(reg("bus_errors"), bus.errors);
     image_.set(reg("bus_refused"), bus.refused);
     image_.set(reg("bus_noise"), health.bus_noise_bytes);
-    image_.set(reg("deadline_misses"), health.deadline_misses);
+    image_.set(reg("skipped_periods"), health.skipped_periods);
     image_.set(reg("imu_faults"), health.imu_faults);
     devices_.bus_errors(health.bus_crc_errors + bus.timeouts + bus.refused);
     battery_tenth_v_ = health.battery_tenth_v;

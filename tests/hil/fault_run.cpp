@@ -252,7 +252,7 @@ class FaultRun {
     all.strays = desk_.counter("bus_strays");
     all.noise = desk_.counter("bus_noise");
     all.overruns = desk_.counter("overruns");
-    all.misses = desk_.counter("deadline_misses");
+    all.misses = desk_.counter("skipped_periods");
     all.state = desk_.read<decltype(all.state)>(reg("device_state"));
     all.age = desk_.read<decltype(all.age)>(reg("device_age"));
     all.errors = desk_.read<decltype(all.errors)>(reg("device_errors"));

@@ -68,7 +68,7 @@ struct Controller {
     device.report({.bus = loop.counters(),
                    .bus_crc_errors = loop.crc_errors(),
                    .bus_noise_bytes = loop.noise_bytes(),
-                   .deadline_misses = static_cast<std::uint32_t>(pacer.deadlines().skipped)});
+                   .skipped_periods = static_cast<std::uint32_t>(pacer.deadlines().skipped)});
     device.poll();
   }
 

@@ -84,6 +84,61 @@ TEST(OperatorOrders, TheSameOrderAgainIsFreshAgain) {
   }
 }
 
+// An erase of flash holds the processor for up to two seconds: who ordered before it, or into it,
+// may be gone when it is over.
+TEST(OperatorOrders, DoNotOutliveALoopThatStoodStill) {
+  const auto hold_ticks = static_cast<std::uint32_t>(1e6F * kRobot.tuning.safety.command_hold_s /
+                                                     static_cast<float>(kRobot.period_us));
+  for (const bool in_the_link : {false, true}) {
+    for (const std::uint32_t gap : {1u, hold_ticks, hold_ticks + 1, 10 * hold_ticks, 2'000'000u}) {
+      Bench<>& bench = fresh_bench();
+      bench.device.order(100);
+      const std::uint8_t stand = 1;
+      if (in_the_link) {
+        const std::size_t size =
+            dxl::encode_write(bench.frame, sizeof bench.frame, bench.id, reg("request"), &stand, 1);
+        ASSERT_EQ(bench.wire.right().write(bench.frame, size, 0), size);
+      } else {
+        bench.write(reg("request"), stand);
+      }
+      const bool slept = gap > hold_ticks;
+      const OperatorOrder order = bench.device.order(100 + gap);
+      if (in_the_link && !slept) continue;  // it comes with the next poll
+      EXPECT_EQ(order.flags, slept ? 0 : kCommandFresh) << gap;
+      EXPECT_TRUE(order.command.request == (slept ? Request::kRelax : Request::kStand)) << gap;
+      EXPECT_EQ(bench.value<std::uint8_t>(reg("request")), slept ? 0 : 1) << gap;
+      EXPECT_EQ(bench.device.order(101 + gap).flags, 0);
+      bench.write(reg("request"), stand);
+      EXPECT_EQ(bench.device.order(102 + gap).flags, kCommandFresh) << "given anew it counts";
+    }
+  }
+}
+
+// Nor does an order wait for servos to be found: a robot must not rise minutes after it was asked.
+TEST(OperatorOrders, DoNotWaitForABringUp) {
+  Bench<>& bench = fresh_bench();
+  bench.write(reg("request"), std::uint8_t{1});
+  bench.device.brought_up({});
+  const OperatorOrder order = bench.device.order(0);
+  EXPECT_EQ(order.flags, 0);
+  EXPECT_TRUE(order.command.request == Request::kRelax);
+}
+
+// With torque on a robot must not be told to sit down because its loop was late; an emergency stop
+// outlives everything.
+TEST(OperatorOrders, OfARobotWithTorqueAndTheStopStandWhateverHappens) {
+  Bench<>& bench = fresh_bench();
+  bench.device.order(0);
+  bench.write(reg("request"), std::uint8_t{2});
+  bench.write(reg("emergency_stop"), std::uint8_t{1});
+  bench.arm(true);
+  const OperatorOrder order = bench.device.order(100'000);
+  EXPECT_EQ(order.flags, kEmergencyStop) << "not fresh";
+  EXPECT_TRUE(order.command.request == Request::kWalk);
+  bench.arm(false);
+  EXPECT_EQ(bench.device.order(200'000).flags, kEmergencyStop);
+}
+
 TEST(OperatorOrders, ReadsTuningAndRefusedWritesAreNoOrders) {
   Bench<>& bench = fresh_bench();
   bench.read(reg("request"), 20);
@@ -224,14 +279,14 @@ TEST(OperatorReport, CountsWhatWentWrong) {
   Bench<>& bench = fresh_bench();
   bench.device.report({.bus = {.refused = 1, .timeouts = 2, .strays = 3, .errors = 4},
                        .bus_crc_errors = 5,
-                       .deadline_misses = 6,
+                       .skipped_periods = 6,
                        .imu_faults = 7});
   EXPECT_EQ(bench.value<std::uint32_t>(reg("bus_refused")), 1u);
   EXPECT_EQ(bench.value<std::uint32_t>(reg("bus_timeouts")), 2u);
   EXPECT_EQ(bench.value<std::uint32_t>(reg("bus_strays")), 3u);
   EXPECT_EQ(bench.value<std::uint32_t>(reg("bus_errors")), 4u);
   EXPECT_EQ(bench.value<std::uint32_t>(reg("bus_crc_errors")), 5u);
-  EXPECT_EQ(bench.value<std::uint32_t>(reg("deadline_misses")), 6u);
+  EXPECT_EQ(bench.value<std::uint32_t>(reg("skipped_periods")), 6u);
   EXPECT_EQ(bench.value<std::uint32_t>(reg("imu_faults")), 7u);
   EXPECT_EQ(bench.value<std::uint32_t>(element(reg("device_errors"), table::kDeviceBus, 4)), 8u);
   bench.inputs.flags = kOverrun;
