@@ -11,7 +11,7 @@ namespace verp::tool {
 class SetupReport {
  public:
   /// Reads `file` if it is there; `writes`: it is kept up to date. Throws ToolError if it is of
-  /// another robot, or no such report.
+  /// another robot, no such report, or can't be read or written.
   SetupReport(std::string file, const Params& params, bool writes);
 
   /// That joint needs no more: nothing is left to do for a person.

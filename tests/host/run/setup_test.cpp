@@ -184,6 +184,17 @@ TEST_F(Setup, WrongWordsAndReportsAreRefused) {
   expect_refused("bus setup generic21 --report other.json --link pty:", "is the report of");
   std::ofstream(folder_ / "none.json") << "none";
   expect_refused("bus setup generic21 --report none.json --link pty:", "is no report");
+  // A servo that is written to and not entered would be done twice: the place is looked at first.
+  expect_refused("bus setup generic21 --report gone/r.json --link pty:", "cannot be written");
+  expect_refused("bus setup generic21 --report . --link pty:", "is a folder");
+  for (const char* entry :
+       {"7", R"({"outcome": 3})", R"({"outcome": "done", "todo": []})", R"({"changes": {}})",
+        R"({"changes": [1]})", R"({"changes": [{"register": 7, "before": 0, "after": 1}]})",
+        R"({"changes": [{"register": "id"}]})"}) {
+    std::ofstream(folder_ / "odd.json")
+        << R"({"robot": "generic21", "joints": {"l_knee": )" << entry << "}}";
+    expect_refused("bus setup generic21 --report odd.json --link pty:", "joint 'l_knee'");
+  }
   const Outcome list = verp("bus checklist generic21");
   EXPECT_EQ(list.status, 0);
   EXPECT_NE(list.out.find("verp bus setup generic21"), std::string::npos);
