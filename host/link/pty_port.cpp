@@ -59,10 +59,26 @@ class PtyPort final : public Port {
   void make_symbolic_link() {
     if (target().starts_with("/dev/pts/")) ::unlink(path_.c_str());  // of one that was killed
     if (::symlink(name_.c_str(), path_.c_str()) == 0) return;
-    const int error = errno;
-    throw LinkError(error == EEXIST ? LinkError::Kind::kBusy : LinkError::Kind::kPermission,
-                    "pty:" + path_ + ": " + std::strerror(error) +
-                        "; name a path in a folder of yours where nothing is yet");
+    refuse_link(errno);
+  }
+
+  [[noreturn]] void refuse_link(int error) const {
+    const std::string at = "pty:" + path_ + ": ";
+    if (error == EEXIST) {
+      throw LinkError(LinkError::Kind::kBusy,
+                      at +
+                          "that is there already, and pty: makes a new port; name another path, "
+                          "or open what is there with serial:" +
+                          path_);
+    }
+    const std::string::size_type end = path_.rfind('/');
+    const std::string folder = end == std::string::npos ? "." : path_.substr(0, end + 1);
+    if (error == ENOENT || error == ENOTDIR) {
+      throw LinkError(LinkError::Kind::kNoDevice,
+                      at + "there is no folder " + folder + "; make it, or name another path");
+    }
+    throw LinkError(LinkError::Kind::kPermission,
+                    at + std::strerror(error) + "; name a path in a folder of yours");
   }
 
   std::string path_;

@@ -173,10 +173,12 @@ int write(const BusOptions& options) {
 int bench(const BusOptions& options) {
   bus::Client client = open(options);
   identify(client, options);
+  const auto id = static_cast<std::uint8_t>(options.id);
+  const auto address = static_cast<std::uint16_t>(options.bench_address);
+  const auto size = static_cast<std::uint16_t>(options.size);
+  client.read(id, address, size);  // says so if there is nothing to be read
   catch_interrupts();
-  const BusBench result = run_bus_bench(client, static_cast<std::uint8_t>(options.id),
-                                        static_cast<std::uint16_t>(options.bench_address),
-                                        static_cast<std::uint16_t>(options.size), options.seconds);
+  const BusBench result = run_bus_bench(client, id, address, size, options.seconds);
   if (options.json) {
     print_json(to_json(result));
   } else {

@@ -107,6 +107,19 @@ TEST(Open, NeverReplacesAFileByATerminal) {
   EXPECT_EQ(failure("pty:" + folder.link()).kind(), Kind::kBusy);
 }
 
+TEST(Open, ATerminalThatCannotBeMadeSaysWhatToDo) {
+  const test::Folder folder;
+  const auto says = [](const std::string& path, const std::string& words) {
+    const std::string what = failure("pty:" + path).what();
+    EXPECT_NE(what.find(words), std::string::npos) << what;
+  };
+  says("/nope/x", "there is no folder /nope/; make it");
+  says(folder.link() + "/x", "there is no folder " + folder.link() + "/; make it");
+  std::ofstream(folder.link()) << "mine";
+  says(folder.link() + "/x", "there is no folder");
+  says(folder.link(), "open what is there with serial:" + folder.link());
+}
+
 TEST(Open, SetsAnyRate) {
   const Link terminal(parse_endpoint("pty:"));
   for (const char* baud : {"9600", "57600", "1000000", "2000000", "4000000", "4500000", "123457"}) {

@@ -102,6 +102,11 @@ TEST_F(BusCommand, BenchCountsRoundTrips) {
   EXPECT_EQ(result["link_losses"], 0);
 }
 
+// It is the register that is wrong, not the wiring.
+TEST_F(BusCommand, BenchOfNoRegisterSaysSo) {
+  refused("bench --address 9999 --for 0.3", 3, "refused the read at address 9999: Access Error");
+}
+
 // What was measured until then is told.
 TEST_F(BusCommand, AnInterruptedBenchStillReports) {
   const Outcome outcome = shell(std::string("timeout -s INT --preserve-status 1 ") + VERP_PROGRAM +
