@@ -171,8 +171,9 @@ inline constexpr Register kTable[] = {
     r(76, "crash_cause", u32, "bits", "CFSR of the core at that crash"),
     // The operator's order: every write to 80..99 makes it fresh and feeds the operator watchdog.
     // With torque off, request is set back to 0 when a loop begins, and when one has stood still for
-    // longer than an order lasts.
-    rw(80, "request", u8, 2, "", "0 relax, 1 stand, 2 walk; with torque off back to 0 when a loop begins or stood still"),
+    // longer than an order lasts. After each start, a watchdog's too, it takes 1 and 2 (Result Fail)
+    // only once 0 was written: what a program repeats must not raise a robot that was reset.
+    rw(80, "request", u8, 2, "", "0 relax, 1 stand, 2 walk; after each start 1 and 2 are refused until 0 was written; with torque off back to 0 when a loop begins or stood still"),
     rw(81, "command_sequence", u8, 255, "", "count the orders here; it is recorded with each tick"),
     rw_i16(82, "walk_vx", "0.1 mm/s", "forward velocity, body frame"),
     rw_i16(84, "walk_vy", "0.1 mm/s", "velocity to the left, body frame"),

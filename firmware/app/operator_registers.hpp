@@ -209,6 +209,12 @@ class OperatorRegisters {
         dxl::get_u16(write.from(reg("action_request"))) > word(reg("action_count"))) {
       return dxl::Error::kDataRange;
     }
+    // The core rises on a level, not on an edge: an order that a program repeats would raise the
+    // robot out of a reset that nobody expected.
+    if (write.covers(reg("request")) && !relaxed_once_ &&
+        *write.from(reg("request")) != static_cast<std::uint8_t>(Request::kRelax)) {
+      return dxl::Error::kResultFail;
+    }
     if (write.covers(reg("imu_source")) &&
         (byte(reg("imu_sources")) >> *write.from(reg("imu_source")) & 1) == 0) {
       return dxl::Error::kDataRange;
@@ -255,6 +261,7 @@ class OperatorRegisters {
 
   dxl::Error take_effect(const Write& write) {
     if (write.touches(reg("request"), reg_end("emergency_stop"))) fresh_ = true;
+    if (write.covers(reg("request"))) relaxed_once_ = true;  // the first one can be no other
     if (write.covers(reg("parameter_value"))) {
       parameter_id_ = parameter_in(write);
       parameter_bits_ = dxl::get_u32(write.from(reg("parameter_value")));
@@ -340,6 +347,7 @@ class OperatorRegisters {
   table::ImuCalibrationOrder calibration_order_ = table::ImuCalibrationOrder::kNone;
   std::uint32_t tick_ = 0;  ///< the last one that asked
   bool ticking_ = false;
+  bool relaxed_once_ = false;  ///< since the start
   bool parameter_pending_ = false;
   bool fresh_ = false;
 };

@@ -64,6 +64,18 @@ void OperatorPort::add_order(const app::OperatorOrder& order) {
 
 ControllerReport OperatorPort::exchange(const app::OperatorOrder* order) {
   if (order != nullptr) add_order(*order);
+  const ControllerReport report = ask_report();
+  if (order == nullptr || !refused_) return report;
+  // A controller that has started obeys nobody who did not ask it to relax first. Behind this one
+  // is a twin, and nobody stands beside it.
+  app::OperatorOrder again = *order;
+  again.flags &= static_cast<std::uint16_t>(~kParameterWrite);  // that was another write, and taken
+  add_write(reg("request"), {static_cast<std::uint8_t>(Request::kRelax)});
+  add_order(again);
+  return ask_report();
+}
+
+ControllerReport OperatorPort::ask_report() {
   constexpr std::uint16_t kFirst = reg("digest");
   constexpr std::uint16_t kBytes = app::reg_end("tick") - kFirst;
   add_read(kFirst, kBytes);
@@ -105,6 +117,7 @@ bool OperatorPort::collect(std::vector<std::uint8_t>& data) {
   dxl::Parser parser;
   std::uint8_t piece[256];
   std::size_t answers = 0;
+  refused_ = false;
   for (std::uint32_t waited_us = 0; waited_us < kPatience_us && !give_up_();) {
     const std::size_t count = link_.read(piece, sizeof piece, kSlice_us);
     if (count == 0) waited_us += kSlice_us;
@@ -112,7 +125,10 @@ bool OperatorPort::collect(std::vector<std::uint8_t>& data) {
       for (bool found = parser.push(piece[i]); found; found = parser.next()) {
         const dxl::Packet& packet = parser.packet();
         if (!packet.is_status() || packet.id != kId) continue;
-        if ((packet.error & ~dxl::kAlert) != 0) {
+        const auto error = static_cast<dxl::Error>(packet.error & ~dxl::kAlert);
+        const bool not_now = answers == 0 && error == dxl::Error::kResultFail;
+        refused_ = refused_ || not_now;
+        if (error != dxl::Error::kNone && !not_now) {
           throw SinkError(text_ + ": the controller refuses an order (error " +
                           std::to_string(packet.error & ~dxl::kAlert) +
                           "); it may be of another version: rebuild its firmware");

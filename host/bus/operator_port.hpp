@@ -27,6 +27,8 @@ class OperatorPort final : public OrderSink {
   void add_write(std::uint16_t address, const std::vector<std::uint8_t>& data);
   void add_read(std::uint16_t address, std::uint16_t length);
   void add_order(const app::OperatorOrder& order);
+  /// Sends what was added and a request for the report.
+  ControllerReport ask_report();
   /// Sends what was added until each request is answered; returns the data of the last answer.
   std::vector<std::uint8_t> ask();
   bool collect(std::vector<std::uint8_t>& data);
@@ -36,6 +38,7 @@ class OperatorPort final : public OrderSink {
   wire::Link link_;
   std::vector<std::uint8_t> outbox_;
   std::size_t asked_ = 0;  ///< requests in outbox_
+  bool refused_ = false;   ///< the first of them, as "not now", when all were answered
 };
 
 }  // namespace verp::bus

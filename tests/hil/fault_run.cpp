@@ -47,6 +47,7 @@ class FaultRun {
 
   FaultResult run() {
     if (!power_up(table::ResetCause::kPower)) return result_;
+    desk_.write(reg("request"), {0});
     const double walk_s = kFirstSteps_s + 1e-3 * static_cast<double>(random_() % 500);
     if (!walk_for(walk_s)) return result_;
     result_.ready = true;
@@ -134,6 +135,8 @@ class FaultRun {
     keep(controller_->safe);
     line_->wait_until(line_->now_us() + 150'000 + random_() % 850'000);
     power_up(table::ResetCause::kWatchdog);
+    expect_held();
+    desk_.write(reg("request"), {0});
   }
 
   void spend(double duration_s) {
@@ -163,9 +166,19 @@ class FaultRun {
     watch_fall();
   }
 
-  void give_order() {
+  /// A program that repeats its order does not raise a robot whose controller was reset: it takes
+  /// somebody who asks it to relax.
+  void expect_held() {
+    for (int ticks = 0; ticks < 50; ++ticks) {
+      if (give_order()) fault("an order from before the reset was taken");
+      controller_->tick();
+      if (controller_->loop.outputs().torque_enable != 0) fault("the robot rose unasked");
+    }
+  }
+
+  bool give_order() {
     const auto speed = static_cast<std::uint16_t>(kSpeed_tenth_mm_s);
-    desk_.write(
+    return desk_.write(
         reg("request"),
         {static_cast<std::uint8_t>(Request::kWalk), static_cast<std::uint8_t>(ticks_),
          static_cast<std::uint8_t>(speed), static_cast<std::uint8_t>(speed >> 8), 0, 0, 0, 0});

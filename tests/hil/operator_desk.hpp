@@ -17,8 +17,10 @@ class OperatorDesk {
   /// Lets the controller serve its port.
   std::function<void()> serve = [] {};
 
-  void write(std::uint16_t address, const std::vector<std::uint8_t>& data) {
+  /// False: the controller refused it as "not now".
+  bool write(std::uint16_t address, const std::vector<std::uint8_t>& data) {
     ask(dxl::encode_write(frame_, sizeof frame_, kId, address, data.data(), data.size()));
+    return !refused_;
   }
   template <class Value>
   Value read(std::uint16_t address) {
@@ -45,7 +47,9 @@ class OperatorDesk {
     for (std::size_t i = 0; i < count; ++i) {
       if (!parser.push(bytes[i])) continue;
       const dxl::Packet& packet = parser.packet();
-      if (packet.id == kId && (packet.error & ~dxl::kAlert) == 0) {
+      const auto error = static_cast<dxl::Error>(packet.error & ~dxl::kAlert);
+      refused_ = error == dxl::Error::kResultFail;
+      if (packet.id == kId && (error == dxl::Error::kNone || refused_)) {
         return {packet.parameters, packet.parameters + packet.size};
       }
     }
@@ -54,6 +58,7 @@ class OperatorDesk {
 
   hal::MemoryWire wire_;
   std::uint8_t frame_[dxl::kMaxPacket];
+  bool refused_ = false;
 };
 
 }  // namespace verp::test

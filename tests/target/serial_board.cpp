@@ -175,6 +175,7 @@ SerialRun run_over_serial(SerialBoard& board, const Robot& robot, std::uint32_t 
   hooks.polled = [&](auto bytes, std::uint64_t now_us) { shadow.polled(bytes, now_us); };
   hooks.tick_begins = [&](std::uint32_t tick) {
     const app::OperatorOrder order = orders.order(tick);
+    if (run.twin.records.empty()) board.write("request", 0);  // nothing else is obeyed at first
     give(board, order.command);
     shadow.ordered(order);
   };

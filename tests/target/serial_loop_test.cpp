@@ -45,6 +45,7 @@ TEST(SerialLoop, TellsItsOperatorWhyItRefusesTorque) {
   EXPECT_EQ(board.read("self_test"), static_cast<std::uint64_t>(SelfTest::kImage));
   EXPECT_EQ(board.read("start_fault"), static_cast<std::uint64_t>(StartFault::kSelfTest));
   EXPECT_EQ(board.read("joint_count"), 0u);
+  board.write("request", static_cast<std::int64_t>(Request::kRelax));
   board.write("request", static_cast<std::int64_t>(Request::kStand));
   EXPECT_EQ(board.read("tick"), 0u) << "the loop must not run";
   EXPECT_EQ(board.read("torque_enable"), 0u);
@@ -58,6 +59,7 @@ TEST(SerialLoop, TellsItsOperatorThatTheServoPortDoesNotOpen) {
   ASSERT_TRUE(board.operator_port().ping(dxl::controller::kDefaultId).has_value());
   EXPECT_EQ(board.read("self_test"), static_cast<std::uint64_t>(SelfTest::kPassed));
   EXPECT_EQ(board.read("start_fault"), static_cast<std::uint64_t>(StartFault::kServoPort));
+  board.write("request", static_cast<std::int64_t>(Request::kRelax));
   board.write("request", static_cast<std::int64_t>(Request::kStand));
   EXPECT_EQ(board.read("tick"), 0u) << "the loop must not run";
   EXPECT_EQ(board.read("torque_enable"), 0u);

@@ -20,7 +20,11 @@ using test::FakePlant;
 
 class OperatorOnTheLoop : public ::testing::Test {
  protected:
-  OperatorOnTheLoop() { EXPECT_EQ(loop.bring_up().status, app::BringUpStatus::kReady); }
+  OperatorOnTheLoop() {
+    EXPECT_EQ(loop.bring_up().status, app::BringUpStatus::kReady);
+    write(reg("request"), {0});
+    device.order(0);
+  }
 
   /// Sends a frame, serves the port, and returns the reply's data.
   std::vector<std::uint8_t> ask(std::size_t size) {

@@ -81,6 +81,8 @@ class Bench {
   Reply plain(dxl::Instruction instruction) {
     return send(dxl::encode_plain(frame, sizeof frame, id, instruction));
   }
+  /// What a controller wants to hear before it takes any other request.
+  void relax() { EXPECT_TRUE(write(reg("request"), std::uint8_t{0}) == dxl::Error::kNone); }
   /// One tick's outcome.
   void record() { device.record({state.digest, inputs}, state, outputs); }
   void arm(bool on) {

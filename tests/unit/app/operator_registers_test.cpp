@@ -17,6 +17,13 @@ using dxl::Error;
 Bench<>& fresh_bench() {
   return renewed<Bench<>>(no_images);
 }
+/// One that was asked to relax, and takes any other request.
+Bench<>& relaxed_bench() {
+  Bench<>& bench = fresh_bench();
+  bench.relax();
+  bench.device.order(0);
+  return bench;
+}
 
 // What the board found at its start, for an operator who comes later.
 TEST(OperatorStart, IsToldInRegisters) {
@@ -58,8 +65,46 @@ TEST(OperatorTorqueLimit, IsAPercentageThatChangesWithTorqueOffOnly) {
   EXPECT_EQ(bench.device.order(0).flags, 0) << "it is no order";
 }
 
-TEST(OperatorOrders, AreFreshInTheOneTickThatFollowsAWrite) {
+// The core rises on a level. A program that repeats its order to stand raises no robot that was
+// reset, by its watchdog or by a supply that sagged: somebody asks it to relax first.
+TEST(OperatorOrders, ToStandOrWalkAreRefusedAfterEachStartUntilOneToRelaxWasGiven) {
+  using Cause = table::ResetCause;
+  for (const Cause cause : {Cause::kUnknown, Cause::kPower, Cause::kPin, Cause::kSoftware,
+                            Cause::kWatchdog, Cause::kLowPower, Cause::kFault}) {
+    const OperatorSetup setup = {.reset_cause = cause};
+    Bench<>& bench = renewed<Bench<>>(no_images, setup);
+    for (std::uint32_t tick = 0; tick < 20; ++tick) {
+      const std::uint8_t order[] = {static_cast<std::uint8_t>(1 + tick % 2), 5, 0x2C, 0x01};
+      EXPECT_TRUE(bench.write_bytes(reg("request"), order, sizeof order).error ==
+                  Error::kResultFail);
+      const OperatorOrder held = bench.device.order(tick);
+      EXPECT_EQ(held.flags, 0) << "nor is it fresh";
+      EXPECT_TRUE(held.command.request == Request::kRelax);
+      EXPECT_EQ(held.command.vx_tenth_mm_s, 0) << "a write is done whole or not at all";
+    }
+    bench.write(reg("walk_vx"), std::int16_t{7});
+    EXPECT_TRUE(bench.write(reg("request"), std::uint8_t{1}) == Error::kResultFail)
+        << "another register is no request to relax";
+    bench.relax();
+    for (const int request : {2, 1, 0, 1}) {
+      EXPECT_TRUE(bench.write(reg("request"), static_cast<std::uint8_t>(request)) == Error::kNone);
+    }
+  }
+}
+
+// A Reg Write is an order when its Action comes, not before.
+TEST(OperatorOrders, AKeptRequestToRelaxCountsFromItsActionOn) {
   Bench<>& bench = fresh_bench();
+  const std::uint8_t relax = 0;
+  bench.send(
+      dxl::encode_reg_write(bench.frame, sizeof bench.frame, bench.id, reg("request"), &relax, 1));
+  EXPECT_TRUE(bench.write(reg("request"), std::uint8_t{1}) == Error::kResultFail);
+  bench.plain(dxl::Instruction::kAction);
+  EXPECT_TRUE(bench.write(reg("request"), std::uint8_t{1}) == Error::kNone);
+}
+
+TEST(OperatorOrders, AreFreshInTheOneTickThatFollowsAWrite) {
+  Bench<>& bench = relaxed_bench();
   EXPECT_EQ(bench.device.order(0).flags, 0);
   const std::uint8_t order[] = {2, 5, 0x2C, 0x01, 0xCE, 0xFF, 0x64, 0};  // walk, 30, -5 mm/s, turn
   EXPECT_TRUE(bench.write_bytes(reg("request"), order, sizeof order).error == Error::kNone);
@@ -77,7 +122,7 @@ TEST(OperatorOrders, AreFreshInTheOneTickThatFollowsAWrite) {
 }
 
 TEST(OperatorOrders, TheSameOrderAgainIsFreshAgain) {
-  Bench<>& bench = fresh_bench();
+  Bench<>& bench = relaxed_bench();
   for (int i = 0; i < 3; ++i) {
     EXPECT_TRUE(bench.write(reg("request"), std::uint8_t{1}) == Error::kNone);
     EXPECT_EQ(bench.device.order(0).flags, kCommandFresh);
@@ -91,7 +136,7 @@ TEST(OperatorOrders, DoNotOutliveALoopThatStoodStill) {
                                                      static_cast<float>(kRobot.period_us));
   for (const bool in_the_link : {false, true}) {
     for (const std::uint32_t gap : {1u, hold_ticks, hold_ticks + 1, 10 * hold_ticks, 2'000'000u}) {
-      Bench<>& bench = fresh_bench();
+      Bench<>& bench = relaxed_bench();
       bench.device.order(100);
       const std::uint8_t stand = 1;
       if (in_the_link) {
@@ -116,7 +161,7 @@ TEST(OperatorOrders, DoNotOutliveALoopThatStoodStill) {
 
 // Nor does an order wait for servos to be found: a robot must not rise minutes after it was asked.
 TEST(OperatorOrders, DoNotWaitForABringUp) {
-  Bench<>& bench = fresh_bench();
+  Bench<>& bench = relaxed_bench();
   bench.write(reg("request"), std::uint8_t{1});
   bench.device.brought_up({});
   const OperatorOrder order = bench.device.order(0);
@@ -127,7 +172,7 @@ TEST(OperatorOrders, DoNotWaitForABringUp) {
 // With torque on a robot must not be told to sit down because its loop was late; an emergency stop
 // outlives everything.
 TEST(OperatorOrders, OfARobotWithTorqueAndTheStopStandWhateverHappens) {
-  Bench<>& bench = fresh_bench();
+  Bench<>& bench = relaxed_bench();
   bench.device.order(0);
   bench.write(reg("request"), std::uint8_t{2});
   bench.write(reg("emergency_stop"), std::uint8_t{1});
@@ -157,7 +202,7 @@ TEST(OperatorOrders, TheEmergencyStopStaysPressed) {
 }
 
 TEST(OperatorOrders, TheHeadTakesAnglesOrAPointWhileWalking) {
-  Bench<>& bench = fresh_bench();
+  Bench<>& bench = relaxed_bench();
   bench.write(reg("request"), std::uint8_t{2});
   const std::int16_t angles[] = {250, -100, 1000, 1000, 110};  // the point is level with the head
   std::uint8_t bytes[sizeof angles];
