@@ -15,6 +15,13 @@
 /// control writes is kept, and what endpoint 1 receives is kept until the test sends something.
 namespace verp::hal::stm32::model {
 
+/// So many bytes that differ from their neighbours.
+inline std::vector<std::uint8_t> ramp(std::size_t count) {
+  std::vector<std::uint8_t> bytes(count);
+  for (std::size_t i = 0; i < count; ++i) bytes[i] = static_cast<std::uint8_t>(3 * i + 1);
+  return bytes;
+}
+
 struct UsbDevice {
   explicit UsbDevice(Family family, Time crystal_start = ms(2))
       : machine(family), io(machine.io()), core(machine.otg_fs()), host(machine) {
