@@ -4,7 +4,6 @@
 
 #include "common/control/state.hpp"
 #include "common/io/io.hpp"
-#include "common/kinematics/look_at.hpp"
 #include "common/model/image.hpp"
 #include "common/model/params.hpp"
 #include "common/model/tuning_ranges.hpp"
@@ -12,6 +11,7 @@
 #include "firmware/app/block_window.hpp"
 #include "firmware/app/contracts.hpp"
 #include "firmware/app/register_image.hpp"
+#include "firmware/app/standing_order.hpp"
 #include "firmware/app/tick_report.hpp"
 
 namespace verp::app {
@@ -42,7 +42,7 @@ template <Images Store>
 class OperatorRegisters {
  public:
   OperatorRegisters(const Params& params, const OperatorSetup& setup, Store& store)
-      : params_(params), store_(store), report_(params, image_), tuning_(params.tuning) {
+      : store_(store), report_(params, image_), standing_(params, image_), tuning_(params.tuning) {
     image_.set(reg("model_number"), table::kModel);
     image_.set(reg("model_information"), params_crc(params));
     image_.set(reg("firmware_version"), table::kTableVersion);
@@ -125,39 +125,22 @@ class OperatorRegisters {
     return write(registered_address_, registered_, size);  // what was allowed may not be now
   }
 
-  /// Whether the loop stood still before this tick for longer than an order lasts: an erase of
-  /// flash holds the processor for seconds. Call once a tick; a loop that begins counts from there.
+  /// See StandingOrder.
   bool slept_until(std::uint32_t tick) {
-    const std::uint32_t ticks = ticking_ && tick > tick_ ? tick - tick_ : 0;
-    tick_ = tick;
-    ticking_ = true;
-    const float gap_s = 1e-6F * static_cast<float>(params_.period_us) * static_cast<float>(ticks);
-    return gap_s > tuning_.safety.command_hold_s;
+    return standing_.slept_until(tick, tuning_.safety.command_hold_s);
   }
-  /// Orders that were given until now are none any more: whoever gave them may be gone. A robot
-  /// with torque keeps what it does, and waits for the next one as the core says.
-  void withdraw_orders() {
-    fresh_ = false;
-    if (!armed()) image_.set(reg("request"), Request::kRelax);
-  }
+  void withdraw_orders() { standing_.withdraw(armed()); }
 
-  /// What the operator wants in the next tick; a write is fresh in one tick only.
+  /// What the operator wants in the next tick.
   OperatorOrder order() {
     OperatorOrder order;
-    order.command.request = image_.template get<Request>(reg("request"));
-    order.command.sequence = byte(reg("command_sequence"));
-    order.command.vx_tenth_mm_s = word(reg("walk_vx"));
-    order.command.vy_tenth_mm_s = word(reg("walk_vy"));
-    order.command.wz_mrad_s = word(reg("walk_wz"));
-    point_head(order.command);
-    if (fresh_) order.flags |= kCommandFresh;
-    if (byte(reg("emergency_stop")) != 0) order.flags |= kEmergencyStop;
+    order.command = standing_.take(order.flags);
     if (parameter_pending_) {
       order.flags |= kParameterWrite;
       order.parameter_id = parameter_id_;
       order.parameter_bits = parameter_bits_;
     }
-    fresh_ = parameter_pending_ = false;
+    parameter_pending_ = false;
     return order;
   }
 
@@ -209,10 +192,8 @@ class OperatorRegisters {
         dxl::get_u16(write.from(reg("action_request"))) > word(reg("action_count"))) {
       return dxl::Error::kDataRange;
     }
-    // The core rises on a level, not on an edge: an order that a program repeats would raise the
-    // robot out of a reset that nobody expected.
-    if (write.covers(reg("request")) && !relaxed_once_ &&
-        *write.from(reg("request")) != static_cast<std::uint8_t>(Request::kRelax)) {
+    if (write.covers(reg("request")) &&
+        !standing_.takes(static_cast<Request>(*write.from(reg("request"))))) {
       return dxl::Error::kResultFail;
     }
     if (write.covers(reg("imu_source")) &&
@@ -260,8 +241,8 @@ class OperatorRegisters {
   }
 
   dxl::Error take_effect(const Write& write) {
-    if (write.touches(reg("request"), reg_end("emergency_stop"))) fresh_ = true;
-    if (write.covers(reg("request"))) relaxed_once_ = true;  // the first one can be no other
+    if (write.touches(reg("request"), reg_end("emergency_stop"))) standing_.given();
+    if (write.covers(reg("request"))) standing_.requested();
     if (write.covers(reg("parameter_value"))) {
       parameter_id_ = parameter_in(write);
       parameter_bits_ = dxl::get_u32(write.from(reg("parameter_value")));
@@ -322,22 +303,10 @@ class OperatorRegisters {
     image_.set(reg("parameter_high"), kTuningRanges[id].high);
   }
 
-  void point_head(Command& command) const {
-    command.head_pan_mrad = word(reg("head_pan"));
-    command.head_tilt_mrad = word(reg("head_tilt"));
-    if (image_.template get<table::HeadMode>(reg("head_mode")) != table::HeadMode::kLookAt) return;
-    const Vec3 point_body_mm{math::to_float(std::int32_t{word(reg("look_x"))}),
-                             math::to_float(std::int32_t{word(reg("look_y"))}),
-                             math::to_float(std::int32_t{word(reg("look_z"))})};
-    const kinematics::HeadAngles angles = kinematics::look_at(params_, 1e-3F * point_body_mm);
-    command.head_pan_mrad = static_cast<std::int16_t>(math::to_int32(1e3F * angles.pan_rad));
-    command.head_tilt_mrad = static_cast<std::int16_t>(math::to_int32(1e3F * angles.tilt_rad));
-  }
-
-  const Params& params_;
   Store& store_;
   RegisterImage image_;
   TickReport report_;
+  StandingOrder standing_;
   Tuning tuning_;  ///< in force
   std::uint8_t registered_[table::longest_write()] = {};
   std::size_t registered_size_ = 0;
@@ -345,11 +314,7 @@ class OperatorRegisters {
   std::uint16_t parameter_id_ = 0;
   std::uint32_t parameter_bits_ = 0;
   table::ImuCalibrationOrder calibration_order_ = table::ImuCalibrationOrder::kNone;
-  std::uint32_t tick_ = 0;  ///< the last one that asked
-  bool ticking_ = false;
-  bool relaxed_once_ = false;  ///< since the start
   bool parameter_pending_ = false;
-  bool fresh_ = false;
 };
 
 }  // namespace verp::app

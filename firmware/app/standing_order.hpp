@@ -1,0 +1,80 @@
+#pragma once
+#include <cstdint>
+
+#include "common/io/io.hpp"
+#include "common/kinematics/look_at.hpp"
+#include "common/math/convert.hpp"
+#include "common/model/params.hpp"
+#include "firmware/app/register_image.hpp"
+
+namespace verp::app {
+
+/// The order that stands in registers request to emergency_stop, and whether it still counts. The
+/// core rises on a level, not on an edge; here is where an order that a program repeats, or that
+/// lay around, is kept from raising a robot that nobody looks at.
+class StandingOrder {
+ public:
+  StandingOrder(const Params& params, RegisterImage& image) : params_(params), image_(image) {}
+
+  /// After each start, a watchdog's too, only a request to relax is taken at first.
+  bool takes(Request request) const { return relaxed_once_ || request == Request::kRelax; }
+  /// One that takes() was written to register request.
+  void requested() { relaxed_once_ = true; }
+  /// Any of the registers was written: the operator is there.
+  void given() { fresh_ = true; }
+
+  /// Whether the loop stood still before this tick for longer than an order lasts: an erase of
+  /// flash holds the processor for seconds. Call once a tick; a loop that begins counts from there.
+  bool slept_until(std::uint32_t tick, float order_lasts_s) {
+    const std::uint32_t ticks = ticking_ && tick > tick_ ? tick - tick_ : 0;
+    tick_ = tick;
+    ticking_ = true;
+    const float gap_s = 1e-6F * static_cast<float>(params_.period_us) * static_cast<float>(ticks);
+    return gap_s > order_lasts_s;
+  }
+  /// What was ordered until now is none any more: whoever ordered may be gone. A robot with torque
+  /// keeps what it does, and waits for the next order as the core says.
+  void withdraw(bool armed) {
+    fresh_ = false;
+    if (!armed) image_.set(reg("request"), Request::kRelax);
+  }
+
+  /// For the next tick; it is fresh in one tick only.
+  Command take(std::uint16_t& flags) {
+    Command command;
+    command.request = image_.get<Request>(reg("request"));
+    command.sequence = image_.get<std::uint8_t>(reg("command_sequence"));
+    command.vx_tenth_mm_s = word(reg("walk_vx"));
+    command.vy_tenth_mm_s = word(reg("walk_vy"));
+    command.wz_mrad_s = word(reg("walk_wz"));
+    point_head(command);
+    if (fresh_) flags |= kCommandFresh;
+    if (image_.get<std::uint8_t>(reg("emergency_stop")) != 0) flags |= kEmergencyStop;
+    fresh_ = false;
+    return command;
+  }
+
+ private:
+  std::int16_t word(std::uint16_t address) const { return image_.get<std::int16_t>(address); }
+
+  void point_head(Command& command) const {
+    command.head_pan_mrad = word(reg("head_pan"));
+    command.head_tilt_mrad = word(reg("head_tilt"));
+    if (image_.get<table::HeadMode>(reg("head_mode")) != table::HeadMode::kLookAt) return;
+    const Vec3 point_body_mm{math::to_float(std::int32_t{word(reg("look_x"))}),
+                             math::to_float(std::int32_t{word(reg("look_y"))}),
+                             math::to_float(std::int32_t{word(reg("look_z"))})};
+    const kinematics::HeadAngles angles = kinematics::look_at(params_, 1e-3F * point_body_mm);
+    command.head_pan_mrad = static_cast<std::int16_t>(math::to_int32(1e3F * angles.pan_rad));
+    command.head_tilt_mrad = static_cast<std::int16_t>(math::to_int32(1e3F * angles.tilt_rad));
+  }
+
+  const Params& params_;
+  RegisterImage& image_;
+  std::uint32_t tick_ = 0;  ///< the last one that asked
+  bool ticking_ = false;
+  bool relaxed_once_ = false;  ///< since the start
+  bool fresh_ = false;
+};
+
+}  // namespace verp::app
