@@ -68,24 +68,46 @@ std::vector<Identity> Client::scan() {
   return found;
 }
 
-std::optional<Client::Answer> Client::ask(std::uint8_t id, std::size_t frame,
-                                          std::size_t reply_bytes, int attempts) {
+std::optional<Client::Answer> Client::ask(std::uint8_t id, std::size_t frame, std::size_t size,
+                                          int attempts) {
+  if (owed_.replies > 0 && owed_.id == id && owed_.size == size) drop_late();
+  const std::uint32_t patience = patience_us(frame + dxl::kStatusBytes + size);
   std::optional<Answer> answer;
-  for (int i = 0; i < attempts && !answer; ++i) {
-    master_.request(frame, patience_us(frame + reply_bytes), [&](const dxl::Packet& packet) {
-      if (packet.id != id) return app::Take::kStray;
-      answer = {static_cast<std::uint8_t>(packet.error & ~dxl::kAlert),
-                {packet.parameters, packet.parameters + packet.size}};
+  int made = 0;
+  while (made < attempts && !answer) {
+    ++made;
+    master_.request(frame, patience, [&](const dxl::Packet& packet) {
+      const auto error = static_cast<std::uint8_t>(packet.error & ~dxl::kAlert);
+      if (packet.id != id || (error == 0 && packet.size != size)) return app::Take::kStray;
+      answer = {error, {packet.parameters, packet.parameters + packet.size}};
       return app::Take::kDone;
     });
   }
+  tries_ = std::max(tries_, made);
+  owed_ = {answer ? made - 1 : made, id, size, patience};
   return answer;
+}
+
+/// Waits for them as long again as each was waited for already: what is later than that is lost.
+void Client::drop_late() {
+  dxl::Parser late;
+  std::uint8_t bytes[256];
+  while (owed_.replies > 0) {
+    const std::size_t count = bus_.poll(bytes, sizeof bytes, 2 * owed_.patience_us);
+    if (count == 0) break;
+    for (std::size_t i = 0; i < count; ++i) {
+      for (bool found = late.push(bytes[i]); found; found = late.next()) {
+        owed_.replies -= late.packet().is_status() && late.packet().id == owed_.id ? 1 : 0;
+      }
+    }
+  }
+  owed_.replies = 0;
 }
 
 std::optional<Identity> Client::ping(std::uint8_t id, int attempts) {
   const std::size_t frame = dxl::encode_ping(master_.frame(), master_.capacity(), id);
-  const auto answer = ask(id, frame, dxl::kStatusBytes + 3, attempts);
-  if (!answer || answer->data.size() != 3) return std::nullopt;
+  const auto answer = ask(id, frame, 3, attempts);
+  if (!answer || answer->error != 0) return std::nullopt;
   return Identity{id, dxl::get_u16(answer->data.data()), answer->data[2]};
 }
 
@@ -93,37 +115,33 @@ std::vector<std::uint8_t> Client::read(std::uint8_t id, std::uint16_t address,
                                        std::uint16_t length) {
   const std::size_t frame =
       dxl::encode_read(master_.frame(), master_.capacity(), id, address, length);
-  const auto answer = ask(id, frame, dxl::kStatusBytes + length, kAttempts);
+  const auto answer = ask(id, frame, length, kAttempts);
   expect_good(id, address, "read", answer);
-  if (answer->data.size() != length) {
-    throw DeviceError(
-        fmt::format("{}: device {} answered a read of {} bytes with {}; is another "
-                    "program using this bus?",
-                    text_, id, length, answer->data.size()));
-  }
   return answer->data;
 }
 
 bool Client::read_once(std::uint8_t id, std::uint16_t address, std::uint16_t length) {
   const std::size_t frame =
       dxl::encode_read(master_.frame(), master_.capacity(), id, address, length);
-  const auto answer = ask(id, frame, dxl::kStatusBytes + length, 1);
-  return answer && answer->error == 0 && answer->data.size() == length;
+  const auto answer = ask(id, frame, length, 1);
+  return answer && answer->error == 0;
 }
 
 void Client::write(std::uint8_t id, std::uint16_t address, const std::vector<std::uint8_t>& data) {
   const std::size_t frame =
       dxl::encode_write(master_.frame(), master_.capacity(), id, address, data.data(), data.size());
-  expect_good(id, address, "write", ask(id, frame, dxl::kStatusBytes, kAttempts));
+  expect_good(id, address, "write", ask(id, frame, 0, kAttempts));
 }
 
 void Client::silent(std::uint8_t id) const {
-  const std::string reason = !link_.connected()      ? "the link was lost; plug it in again"
-                             : counters().strays > 0 ? "others answer; see `verp bus scan`"
-                             : crc_errors() > 0
-                                 ? "only damaged packets came; check the baud rate and the wiring"
-                                 : "check power, wiring, id and baud rate, or raise --timeout";
-  throw DeviceError(fmt::format("{}: device {} did not answer: {}", text_, id, reason));
+  const std::string reason =
+      !link_.connected()      ? "the link was lost; plug it in again"
+      : counters().strays > 0 ? "what came was no answer to it; is another program using this "
+                                "bus? See `verp bus scan`"
+      : crc_errors() > 0      ? "only damaged packets came; check the baud rate and the wiring"
+                              : "check power, wiring, id and baud rate, or raise --timeout";
+  throw DeviceError(fmt::format("{}: device {} did not answer, asked {} times: {}", text_, id,
+                                kAttempts, reason));
 }
 
 void Client::expect_good(std::uint8_t id, std::uint16_t address, const char* what,

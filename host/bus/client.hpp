@@ -25,8 +25,10 @@ struct Identity {
   std::uint8_t firmware = 0;
 };
 
-/// Dynamixel devices at the other end of a link, one request at a time. Throws DeviceError, and
-/// LinkError from the constructor.
+/// Dynamixel devices at the other end of a link, one request at a time. What gets no answer is
+/// asked again; a reply that comes late does not say which request it answers, so that it is told
+/// by its device and length, and waited for before something like it is asked. Throws DeviceError,
+/// and LinkError from the constructor.
 class Client {
  public:
   static constexpr int kAttempts = 3;  ///< of a request that got no answer
@@ -45,6 +47,8 @@ class Client {
   /// One read without a second attempt; false if it failed.
   bool read_once(std::uint8_t id, std::uint16_t address, std::uint16_t length);
 
+  /// The most times that one of the requests so far had to be made.
+  int tries() const { return tries_; }
   const std::string& place() const { return text_; }
   const app::BusCounters& counters() const { return master_.counters(); }
   std::uint32_t crc_errors() const { return master_.crc_errors(); }
@@ -58,13 +62,22 @@ class Client {
   };
   /// Time a request may take: `bytes` on the wire in both directions, and the timeout.
   std::uint32_t patience_us(std::size_t bytes) const;
-  std::optional<Answer> ask(std::uint8_t id, std::size_t frame, std::size_t reply_bytes,
-                            int attempts);
+  /// Of `frame` bytes in the master's frame; `size`: the bytes of data a good answer has.
+  std::optional<Answer> ask(std::uint8_t id, std::size_t frame, std::size_t size, int attempts);
+  void drop_late();
   [[noreturn]] void silent(std::uint8_t id) const;
   void expect_good(std::uint8_t id, std::uint16_t address, const char* what,
                    const std::optional<Answer>& answer) const;
 
   void wait_for_somebody();
+
+  /// Replies that are missing, and may still come.
+  struct Owed {
+    int replies = 0;
+    std::uint8_t id = 0;
+    std::size_t size = 0;
+    std::uint32_t patience_us = 0;
+  };
 
   std::string text_;    ///< of the endpoint
   std::uint32_t baud_;  ///< 0: the link has none
@@ -74,6 +87,8 @@ class Client {
   wire::Link& link_;
   Bus bus_;
   app::BusMaster<Bus> master_;
+  Owed owed_;
+  int tries_ = 0;
 };
 
 }  // namespace verp::bus

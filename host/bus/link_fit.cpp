@@ -14,7 +14,7 @@ namespace verp::bus {
 namespace {
 
 constexpr int kReadings = 80;
-constexpr int kSilent = 20;                        // readings without any answer that are enough
+constexpr int kSilent = 10;                        // readings without any answer that are enough
 constexpr std::uint16_t kBytes = 4;                // of Present Position, as every tick reads it
 constexpr int kShortest_ms = 4, kLongest_ms = 20;  // Params::period_us
 

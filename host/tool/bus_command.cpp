@@ -34,13 +34,29 @@ bus::Client open(const BusOptions& options) {
           static_cast<std::uint32_t>(options.timeout_ms * 1000)};
 }
 
+/// What the answer does not show: that it took more than one try.
+void tell_tries(const bus::Client& client, const BusOptions& options, Json* json) {
+  if (client.tries() <= 1) return;
+  if (json != nullptr) {
+    (*json)["tries"] = client.tries();
+  } else {
+    complain(
+        fmt::format("{}: an answer took {} tries: the link is late or loses bytes; raise "
+                    "--timeout, or see `verp bus bench`",
+                    options.link, client.tries()));
+  }
+}
+
 [[noreturn]] void nobody(const std::string& what) {
   throw ToolError(kNoDevice, what + "; check power, wiring and baud rate, or raise --timeout");
 }
 
 bus::Identity identify(bus::Client& client, const BusOptions& options) {
   const auto identity = client.ping(static_cast<std::uint8_t>(options.id));
-  if (!identity) nobody(fmt::format("{}: device {} does not answer", options.link, options.id));
+  if (!identity) {
+    nobody(fmt::format("{}: device {} does not answer, asked {} times", options.link, options.id,
+                       bus::Client::kAttempts));
+  }
   return *identity;
 }
 
@@ -89,9 +105,12 @@ int ping(const BusOptions& options) {
   bus::Client client = open(options);
   const bus::Identity identity = identify(client, options);
   if (options.json) {
-    print_json(to_json(identity));
+    Json json = to_json(identity);
+    tell_tries(client, options, &json);
+    print_json(json);
   } else {
     print({identity}, options);
+    tell_tries(client, options, nullptr);
   }
   return kGood;
 }
@@ -148,7 +167,9 @@ int read(const BusOptions& options) {
                          each.unit));
     }
   }
-  if (options.json) print_json({{"id", id}, {"registers", values}});
+  Json json = {{"id", id}, {"registers", values}};
+  tell_tries(client, options, options.json ? &json : nullptr);
+  if (options.json) print_json(json);
   return kGood;
 }
 
@@ -164,9 +185,9 @@ int write(const BusOptions& options) {
   const auto id = static_cast<std::uint8_t>(options.id);
   const std::vector<std::uint8_t> bytes = parse_values(reg, options.values);
   client.write(id, reg.address, bytes);
-  if (options.json) {
-    print_json({{"id", id}, {"address", reg.address}, {"bytes", bytes.size()}});
-  }
+  Json json = {{"id", id}, {"address", reg.address}, {"bytes", bytes.size()}};
+  tell_tries(client, options, options.json ? &json : nullptr);
+  if (options.json) print_json(json);
   return kGood;
 }
 

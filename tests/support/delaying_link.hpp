@@ -44,6 +44,9 @@ class DelayingLink {
   /// further call.
   void stall(std::uint64_t time_us) { stall_until_us_ = now_us() + time_us; }
 
+  /// The next so many replies of devices are lost.
+  void lose_replies(int count) { to_lose_ = count; }
+
   /// Ticks of a control loop on the PC's side: its reads of Present Position from all servos.
   std::uint32_t ticks() const { return ticks_; }
 
@@ -88,7 +91,17 @@ class DelayingLink {
     for (std::size_t i = 0; i < count; ++i) {
       for (bool found = watched && line_.push(piece[i]); found; found = line_.next()) watch();
     }
+    if (!watched && lost(piece, count)) return;
     if (!cut()) way.held.insert(way.held.end(), piece, piece + count);
+  }
+
+  /// A reply comes in one piece, but where pieces are torn: then all of it is lost as well.
+  bool lost(const std::uint8_t* piece, std::size_t count) {
+    if (to_lose_ <= 0) return false;
+    for (std::size_t i = 0; i < count; ++i) {
+      for (bool found = replies_.push(piece[i]); found; found = replies_.next()) --to_lose_;
+    }
+    return true;
   }
 
   void watch() {
@@ -111,7 +124,8 @@ class DelayingLink {
   std::optional<wire::Link> device_;
   Latency latency_;
   Way to_device_, to_pc_;
-  dxl::Parser line_;
+  dxl::Parser line_, replies_;
+  std::atomic<int> to_lose_ = 0;
   std::atomic<std::uint32_t> ticks_ = 0;
   std::atomic<std::uint64_t> stall_until_us_ = 0;
   std::atomic<std::uint32_t> mended_at_ = 0;

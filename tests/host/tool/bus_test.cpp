@@ -1,10 +1,14 @@
 #include <atomic>
+#include <deque>
 #include <nlohmann/json.hpp>
 #include <thread>
 
 #include "firmware/app/operator_device.hpp"
+#include "host/bus/register_names.hpp"
 #include "host/link/link.hpp"
+#include "host/link/system_clock.hpp"
 #include "tests/host/tool/program.hpp"
+#include "tests/support/delaying_link.hpp"
 #include "tests/unit/support/test_robot.hpp"
 
 // `verp bus` as people use it, against a controller on the other end of a socket.
@@ -118,7 +122,110 @@ TEST_F(BusCommand, AnInterruptedBenchStillReports) {
   EXPECT_LT(result["duration_s"], 30);
 }
 
+/// The same behind a cable that is late or loses replies.
+class BusCable : public BusCommand {
+ protected:
+  using Cable = verp::test::DelayingLink;
+  std::unique_ptr<Cable> cable(const verp::test::Latency& latency) const {
+    return std::make_unique<Cable>("unix-listen:" + (folder_ / "late").string(),
+                                   "unix:" + (folder_ / "port").string(), latency);
+  }
+  Outcome late(const std::string& arguments) const {
+    return verp("bus " + arguments + " --link unix:" + (folder_ / "late").string());
+  }
+};
+
+// A reply that is lost is asked for again, and the answer says so; three times, then it is told.
+TEST_F(BusCable, LostRepliesAreAskedForAgain) {
+  const auto line = cable({});
+  for (const char* command : {"ping", "read --register robot_name", "write --register look_x 3"}) {
+    for (int lost = 0; lost < 3; ++lost) {
+      line->lose_replies(lost);
+      const Outcome outcome = late(std::string(command) + " --json");
+      ASSERT_EQ(outcome.status, 0) << command << ", " << lost << " lost: " << outcome.err;
+      EXPECT_EQ(Json::parse(outcome.out).value("tries", 1), lost + 1) << command;
+    }
+    line->lose_replies(1);
+    EXPECT_NE(late(command).err.find("took 2 tries"), std::string::npos);
+  }
+  line->lose_replies(3);
+  const Outcome silent = late("ping");
+  EXPECT_EQ(silent.status, 3);
+  EXPECT_NE(silent.err.find("does not answer, asked 3 times"), std::string::npos) << silent.err;
+}
+
 using BusLinks = Program;
+
+/// A controller each of whose replies comes some time after its own request. Each byte of a
+/// register holds the register's address.
+class SlowController {
+ public:
+  SlowController(const std::string& place, std::uint64_t delay_us)
+      : link_(wire::parse_endpoint(place)), delay_us_(delay_us) {
+    thread_ = std::thread([this] { serve(); });
+  }
+  ~SlowController() {
+    stop_ = true;
+    thread_.join();
+  }
+
+ private:
+  struct Reply {
+    std::uint64_t due_us = 0;
+    std::vector<std::uint8_t> bytes;
+  };
+
+  void serve() {
+    while (!stop_) {
+      std::uint8_t piece[256];
+      const std::size_t count = link_.read(piece, sizeof piece, 1000);
+      for (std::size_t i = 0; i < count; ++i) {
+        for (bool found = parser_.push(piece[i]); found; found = parser_.next()) answer();
+      }
+      while (!replies_.empty() && wire::monotonic_ns() / 1000 >= replies_.front().due_us) {
+        link_.write(replies_.front().bytes.data(), replies_.front().bytes.size(), 100'000);
+        replies_.pop_front();
+      }
+    }
+  }
+  void answer() {
+    const dxl::Packet& packet = parser_.packet();
+    std::vector<std::uint8_t> data = {0, 0, 1};
+    if (packet.instruction == dxl::Instruction::kPing) {
+      dxl::put_u16(data.data(), dxl::controller::kModel);
+    } else {
+      data.assign(dxl::get_u16(packet.parameters + 2), packet.parameters[0]);
+    }
+    std::vector<std::uint8_t> frame(128);
+    frame.resize(dxl::encode_status(frame.data(), frame.size(), dxl::controller::kDefaultId, 0,
+                                    data.data(), data.size()));
+    replies_.push_back({wire::monotonic_ns() / 1000 + delay_us_, frame});
+  }
+
+  wire::Link link_;
+  std::uint64_t delay_us_;
+  dxl::Parser parser_;
+  std::deque<Reply> replies_;
+  std::atomic<bool> stop_ = false;
+  std::thread thread_;
+};
+
+// Replies that all come after the time they are waited for answer what was asked before: none is
+// taken for another register's, though these have the same length.
+TEST_F(BusLinks, LateRepliesAreNotTakenForOthers) {
+  const SlowController controller("unix-listen:" + (folder_ / "port").string(), 300'000);
+  const Outcome outcome = verp(
+      "bus read --register walk_vx --register walk_vy --register walk_wz --timeout 200 "
+      "--json --link unix:port");
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const Json result = Json::parse(outcome.out);
+  for (const auto& [name, value] : result.at("registers").items()) {
+    const auto address =
+        static_cast<int>(bus::find_register(dxl::controller::kModel, name)->address);
+    EXPECT_EQ(value, address * 0x101) << name;
+  }
+  EXPECT_GE(result.at("tries"), 2);
+}
 
 TEST_F(BusLinks, ThatCannotBeOpenedSayWhy) {
   EXPECT_EQ(verp("bus scan --link unix:/nowhere/port").status, 3);
