@@ -91,7 +91,8 @@ TEST(OperatorOrders, DoNotOutliveALoopThatStoodStill) {
   const auto hold_ticks = static_cast<std::uint32_t>(1e6F * kRobot.tuning.safety.command_hold_s /
                                                      static_cast<float>(kRobot.period_us));
   for (const bool in_the_link : {false, true}) {
-    for (const std::uint32_t gap : {1u, hold_ticks, hold_ticks + 1, 10 * hold_ticks, 2'000'000u}) {
+    const std::uint32_t gaps[] = {1, hold_ticks, hold_ticks + 1, 10 * hold_ticks, 2'000'000};
+    for (const std::uint32_t gap : gaps) {
       Bench<>& bench = relaxed_bench();
       bench.device.order(100);
       const std::uint8_t stand = 1;
