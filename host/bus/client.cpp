@@ -47,6 +47,12 @@ Client::Client(wire::Link& link, const wire::Endpoint& endpoint, std::uint32_t t
 
 void Client::wait_for_somebody() {
   if (link_.wait_connected(std::max(timeout_us_, kArrival_us))) return;
+  if (text_.starts_with("pty:")) {
+    throw DeviceError(fmt::format(
+        "{}: nobody has opened this port, which is made anew; to open one that is there, give "
+        "serial:PATH",
+        link_.place()));
+  }
   throw DeviceError(fmt::format(
       "{}: nobody is at the other end; start it, or check the cable, and try again", text_));
 }

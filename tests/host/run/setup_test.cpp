@@ -195,6 +195,10 @@ TEST_F(Setup, WrongWordsAndReportsAreRefused) {
         << R"({"robot": "generic21", "joints": {"l_knee": )" << entry << "}}";
     expect_refused("bus setup generic21 --report odd.json --link pty:", "joint 'l_knee'");
   }
+  const Outcome nothing = verp("bus setup generic21 --link serial:/dev/nothing");
+  EXPECT_EQ(nothing.status, 3);
+  EXPECT_EQ(nothing.out, "") << "no servo is asked for on a port that is not there";
+  EXPECT_NE(nothing.err.find("no such device"), std::string::npos) << nothing.err;
   const Outcome list = verp("bus checklist generic21");
   EXPECT_EQ(list.status, 0);
   EXPECT_NE(list.out.find("verp bus setup generic21"), std::string::npos);
