@@ -35,9 +35,10 @@ class BusMaster {
   /// Bytes that belonged to no packet, those of damaged packets included.
   std::uint32_t noise_bytes() const { return parser_.noise_bytes(); }
 
-  /// A reply does not say which request it answers. To be asked for in front of what is wanted: as
-  /// many as none of the last requests asked for that went unanswered, so that no late reply, by up
-  /// to kMostSpare periods, has this one's length.
+  /// A reply does not say which request it answers. To be asked for in front of what is wanted, in
+  /// a read that is alike in every tick: none after an answered request, as bytes come in the order
+  /// they were sent in; after an unanswered one another number than in the last ones, so that its
+  /// late reply has another length.
   std::uint8_t spare_bytes() const { return spare_; }
 
   /// Sends `size` bytes of frame(); for frames nobody answers.
@@ -60,6 +61,7 @@ class BusMaster {
       if (count == 0) break;
       if (digest(count, take)) {
         unsettled_ = false;
+        spare_ = 0;
         return true;
       }
     }

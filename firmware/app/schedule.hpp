@@ -72,24 +72,26 @@ constexpr std::size_t sensor_devices(const Params& params) {
   return devices;
 }
 
-/// Bytes that a read asks for beyond what is wanted of each device, at most (BusMaster).
+/// Bytes that a read after an unanswered one asks for beyond what is wanted, of each device and at
+/// most (BusMaster).
 inline constexpr std::uint8_t kMostSpare = 2;
 /// Servos that get their gains and profile again in one tick, at most.
-inline constexpr int kRenewedAtOnce = 2;
+inline constexpr std::size_t kRenewedAtOnce = 4;
 
-/// Bytes of the longest tick in which every device answers: reads, goals, torque and strength of
-/// all servos, their Bus Watchdog cleared and set, gains and profiles given again to some, one
-/// alert looked up.
+/// Bytes of the longest tick in which every device answers: reads, one alert looked up, goals; and
+/// either torque and strength of all servos, their Bus Watchdog cleared and set, or those of one
+/// servo, and gains and profiles of some.
 constexpr std::size_t schedule_bytes(const Params& params) {
   const std::size_t joints = params.joint_count;
-  const std::size_t position = 4 + kMostSpare;
   const std::size_t positions =
-      all_fast(params) ? fast_sync_read_bytes(joints, position) : sync_read_bytes(joints, position);
-  const std::size_t block = dxl::sensor_block::kBytes + kMostSpare;
-  return positions + sync_read_bytes(sensor_devices(params), block) +
+      all_fast(params) ? fast_sync_read_bytes(joints, 4) : sync_read_bytes(joints, 4);
+  const std::size_t told_to_all = sync_write_bytes(joints, 2) + 3 * sync_write_bytes(joints, 1);
+  const std::size_t renewed = joints < kRenewedAtOnce ? joints : kRenewedAtOnce;
+  const std::size_t told_to_some = sync_write_bytes(1, 2) + 2 * sync_write_bytes(1, 1) +
+                                   sync_write_bytes(renewed, 6) + sync_write_bytes(renewed, 8);
+  return positions + sync_read_bytes(sensor_devices(params), dxl::sensor_block::kBytes) +
          (dxl::kInstructionBytes + 4 + dxl::kStatusBytes + 1) + sync_write_bytes(joints, 4) +
-         sync_write_bytes(joints, 2) + 3 * sync_write_bytes(joints, 1) +
-         sync_write_bytes(kRenewedAtOnce, 6) + sync_write_bytes(kRenewedAtOnce, 8);
+         (told_to_all > told_to_some ? told_to_all : told_to_some);
 }
 
 /// Time that tick takes on the wire, replies' slack included. Over 80 % of the period leaves no

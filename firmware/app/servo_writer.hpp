@@ -33,14 +33,15 @@ class ServoWriter {
     if (params_.joint_count == 0) return;
     const std::uint32_t wanted = outputs.torque_enable & all_joints();
     const std::uint8_t strength = strength_in(outputs.mode);
-    if (returned_ != 0 || renewals_ > 0) renew(master);
     if (wanted != 0 && (watchdog_clears_ > 0 || torque_ == 0)) clear_watchdogs(master);
     if (wanted != torque_ || (wanted != 0 && strength != strength_)) repeats_ = kRepeats;
     if (wanted != 0) strength_ = strength;
     torque_ = wanted;
-    first_ = repeats_ > 0 ? 0 : turn;
-    last_ = repeats_ > 0 ? params_.joint_count - 1 : turn;
-    if (repeats_ > 0) --repeats_;
+    const bool all = repeats_ > 0;
+    first_ = all ? 0 : turn;
+    last_ = all ? params_.joint_count - 1 : turn;
+    if (all) --repeats_;
+    if (!all && (returned_ != 0 || renewals_ > 0)) renew(master);
     if (wanted != 0) {
       send_strength(master);
       send_goals(master, outputs);
@@ -72,14 +73,16 @@ class ServoWriter {
     return params_.joint_count >= kMaxJoints ? ~0u : (1u << params_.joint_count) - 1;
   }
 
-  // A few servos at a time, as a tick has little room, each as often as all that matters.
+  // A few servos at a time and only when there is no more to say, as a tick has little room; each
+  // as often as all that matters.
   void renew(BusMaster<Bus>& master) {
     if (renewals_ == 0) {
       batch_ = 0;
-      for (int j = 0, n = 0; j < params_.joint_count && n < kRenewedAtOnce; ++j) {
+      std::size_t count = 0;
+      for (int j = 0; j < params_.joint_count && count < kRenewedAtOnce; ++j) {
         if ((returned_ >> j & 1) == 0) continue;
         batch_ |= 1u << j;
-        ++n;
+        ++count;
       }
       renewals_ = kRepeats;
     }
@@ -88,7 +91,7 @@ class ServoWriter {
     if (--renewals_ > 0) return;
     doubted_ &= ~(batch_ & returned_);
     returned_ &= ~batch_;
-    repeats_ = kRepeats;
+    if (returned_ == 0) repeats_ = kRepeats;
   }
   template <std::size_t bytes>
   void send_ram(BusMaster<Bus>& master, std::uint16_t address,

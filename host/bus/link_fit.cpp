@@ -73,12 +73,12 @@ LinkDelay measure_delay(Client& client, const Params& params,
 }
 
 LinkFit fit(const Params& params, const LinkDelay& delay) {
-  // A bus on which nobody answers must not cost deadlines either.
+  // A bus on which nobody answers must not cost deadlines either, nor the reads that follow.
   const std::size_t joints = params.joint_count, sensors = app::sensor_devices(params);
   const std::uint32_t silence_us =
-      app::timeout_us(app::sync_read_bytes(joints, kBytes), joints, params.baud) +
-      app::timeout_us(app::sync_read_bytes(sensors, dxl::sensor_block::kBytes), sensors,
-                      params.baud);
+      app::timeout_us(app::sync_read_bytes(joints, kBytes + app::kMostSpare), joints, params.baud) +
+      app::timeout_us(app::sync_read_bytes(sensors, dxl::sensor_block::kBytes + app::kMostSpare),
+                      sensors, params.baud);
   return {.period_us = params.period_us,
           .wire_us = std::max(app::schedule_us(params), silence_us),
           .delay = delay};

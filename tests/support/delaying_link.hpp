@@ -11,6 +11,7 @@
 
 #include "common/protocol/control_table.hpp"
 #include "common/protocol/dynamixel2.hpp"
+#include "host/bus/virtual_bus.hpp"
 #include "host/link/link.hpp"
 #include "host/link/system_clock.hpp"
 
@@ -106,10 +107,7 @@ class DelayingLink {
 
   void watch() {
     const dxl::Packet& packet = line_.packet();
-    const bool fast = packet.instruction == dxl::Instruction::kFastSyncRead;
-    if (!fast && packet.instruction != dxl::Instruction::kSyncRead) return;
-    if (packet.size < 4) return;
-    ticks_ += dxl::get_u16(packet.parameters) == dxl::address::kPresentPosition ? 1 : 0;
+    if (!packet.is_status() && bus::VirtualBus::begins_tick(packet)) ++ticks_;
   }
 
   void pass(Way& way, wire::Link& to) {

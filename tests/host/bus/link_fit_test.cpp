@@ -65,6 +65,15 @@ TEST(LinkFit, WhatFitsEndsWithinThePeriod) {
   EXPECT_LT(fitting, 1800);
 }
 
+// What the reference robot's owner will plug in: an adapter with its latency timer at 1 ms.
+TEST(LinkFit, OneMillisecondEachWayFitsTwentyOneServosAt100Hz) {
+  Params params = verp::test::bus_params(21, true);
+  params.baud = 2'000'000;
+  params.period_us = 10'000;
+  EXPECT_TRUE(fit(params, held(2000)).fits());
+  EXPECT_FALSE(fit(params, held(5000)).fits()) << "nor could two reads of 5 ms";
+}
+
 // Nothing heard is not "no delay".
 TEST(LinkFit, WithoutAnAnswerNothingFits) {
   const LinkFit silent = fit(verp::test::bus_params(3), {.asked = 80});
