@@ -1,19 +1,45 @@
 #include <fcntl.h>
 #include <poll.h>
 #include <pty.h>
+#include <sys/file.h>
+#include <sys/stat.h>
 #include <termios.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
+#include <string_view>
 
 #include "host/link/link_error.hpp"
 #include "host/link/port.hpp"
 
 namespace verp::wire {
 namespace {
+
+constexpr std::string_view kTerminals = "/dev/pts/";
+
+/// The folder of a path, as it may be opened.
+std::string folder_of(const std::string& path) {
+  const std::string::size_type end = path.rfind('/');
+  return end == std::string::npos ? "." : path.substr(0, end + 1);
+}
+
+/// A pseudo-terminal's name, as ptsname() gives it.
+bool is_terminal_name(std::string_view name) {
+  if (!name.starts_with(kTerminals) || name.size() == kTerminals.size()) return false;
+  name.remove_prefix(kTerminals.size());
+  return std::all_of(name.begin(), name.end(), [](char c) { return c >= '0' && c <= '9'; });
+}
+
+/// The kernel takes the name away with the master. It is not opened to see: its master would take
+/// that for a peer that came and left.
+bool exists(const std::string& name) {
+  struct stat status {};
+  return ::stat(name.c_str(), &status) == 0;
+}
 
 /// The master's end of a pseudo-terminal: whoever opens the other end finds a serial port.
 class PtyPort final : public Port {
@@ -57,9 +83,30 @@ class PtyPort final : public Port {
     return ::readlink(path_.c_str(), target.data(), target.size() - 1) > 0 ? target.data() : "";
   }
   void make_symbolic_link() {
-    if (target().starts_with("/dev/pts/")) ::unlink(path_.c_str());  // of one that was killed
-    if (::symlink(name_.c_str(), path_.c_str()) == 0) return;
-    refuse_link(errno);
+    const int error = link();
+    if (error == 0) return;
+    if (error != EEXIST || !is_terminal_name(target())) refuse_link(error);
+    // Of two that find the link of one that was killed, the second must see what the first made.
+    const Descriptor folder(::open(folder_of(path_).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+    if (folder.get() >= 0) ::flock(folder.get(), LOCK_EX);
+    const std::string other = target();
+    if (is_terminal_name(other)) {
+      if (exists(other)) refuse_served(other);
+      ::unlink(path_.c_str());
+    }
+    if (const int still = link(); still != 0) refuse_link(still);
+  }
+  /// What kept the link from being made, an errno. The number of one that was killed may be ours
+  /// now: then its link is, too.
+  int link() const {
+    const int error = ::symlink(name_.c_str(), path_.c_str()) == 0 ? 0 : errno;
+    return error == EEXIST && target() == name_ ? 0 : error;
+  }
+
+  [[noreturn]] void refuse_served(const std::string& other) const {
+    throw LinkError(LinkError::Kind::kBusy,
+                    "pty:" + path_ + ": another program serves it, on " + other +
+                        "; end that, name another path, or remove the link if nobody does");
   }
 
   [[noreturn]] void refuse_link(int error) const {
@@ -71,8 +118,7 @@ class PtyPort final : public Port {
                           "or open what is there with serial:" +
                           path_);
     }
-    const std::string::size_type end = path_.rfind('/');
-    const std::string folder = end == std::string::npos ? "." : path_.substr(0, end + 1);
+    const std::string folder = folder_of(path_);
     if (error == ENOENT || error == ENOTDIR) {
       throw LinkError(LinkError::Kind::kNoDevice,
                       at + "there is no folder " + folder + "; make it, or name another path");

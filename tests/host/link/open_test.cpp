@@ -107,6 +107,61 @@ TEST(Open, NeverReplacesAFileByATerminal) {
   EXPECT_EQ(failure("pty:" + folder.link()).kind(), Kind::kBusy);
 }
 
+std::string target(const std::string& link) {
+  char name[64] = {};
+  return ::readlink(link.c_str(), name, sizeof name - 1) > 0 ? name : "";
+}
+
+// A second copy takes nothing from the first: neither its link, nor its peer, nor at its end.
+TEST(Open, NeverTakesATerminalThatIsServed) {
+  const test::Folder folder;
+  const Link first(parse_endpoint("pty:" + folder.link()));
+  const std::string served = target(folder.link());
+  Link peer(parse_endpoint("serial:" + folder.link() + "@2000000"));
+  const LinkError error = failure("pty:" + folder.link());
+  EXPECT_EQ(error.kind(), Kind::kBusy);
+  EXPECT_NE(std::string(error.what()).find("another program serves it"), std::string::npos);
+  EXPECT_EQ(target(folder.link()), served);
+  std::uint8_t byte = 0;
+  EXPECT_EQ(peer.read(&byte, 1, 1000), 0u);
+  EXPECT_TRUE(peer.connected());
+}
+
+// The link of one that was killed is replaced, whether its number is free, or ours by chance.
+TEST(Open, TakesTheTerminalOfAProgramThatWasKilled) {
+  const test::Folder folder;
+  ASSERT_EQ(::symlink("/dev/pts/99999999", folder.link().c_str()), 0);
+  std::string name;
+  {
+    const Link link(parse_endpoint("pty:" + folder.link()));
+    name = target(folder.link());
+    EXPECT_EQ(::access(name.c_str(), F_OK), 0) << name;
+  }
+  EXPECT_EQ(target(folder.link()), "") << "removed at its end";
+  ASSERT_EQ(::symlink(name.c_str(), folder.link().c_str()), 0);
+  const Link again(parse_endpoint("pty:" + folder.link()));  // most often of the same number
+  EXPECT_EQ(::access(target(folder.link()).c_str(), F_OK), 0);
+}
+
+// What somebody else put at the path meanwhile is theirs.
+TEST(Open, RemovesNoLinkButItsOwn) {
+  const test::Folder folder;
+  const Link other(parse_endpoint("pty:"));
+  {
+    const Link link(parse_endpoint("pty:" + folder.link()));
+    ASSERT_EQ(::unlink(folder.link().c_str()), 0);
+    ASSERT_EQ(::symlink(other.place().c_str(), folder.link().c_str()), 0);
+  }
+  EXPECT_EQ(target(folder.link()), other.place());
+  ::unlink(folder.link().c_str());
+  for (const char* elsewhere : {"/dev/pts/", "/dev/pts/../gone", "/dev/pts/9x"}) {
+    ASSERT_EQ(::symlink(elsewhere, folder.link().c_str()), 0);
+    EXPECT_EQ(failure("pty:" + folder.link()).kind(), Kind::kBusy);
+    EXPECT_EQ(target(folder.link()), elsewhere);
+    ::unlink(folder.link().c_str());
+  }
+}
+
 TEST(Open, ATerminalThatCannotBeMadeSaysWhatToDo) {
   const test::Folder folder;
   const auto says = [](const std::string& path, const std::string& words) {
