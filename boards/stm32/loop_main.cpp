@@ -74,6 +74,7 @@ struct Board {
                        !operator_device.armed());
     imu.serve(operator_device.take_calibration_order(), operator_device.armed());
     operator_device.show(imu.calibration());
+    supply.permit(operator_device.take_relax());
     operator_device.show(supply.state());
     const app::LifeSign::Now sign = life.at(timer.now_us(), fault);
     if (sign.changed) gpio.write(kLed, sign.lit);
@@ -173,6 +174,7 @@ struct PatientPort {
 
 struct Patience {
   bool operator()() const {
+    if (until_us != kForever_us) board.supply.watch();  // no twin has answered yet
     board.idle();
     return timer.now_us() < until_us;
   }
@@ -225,9 +227,8 @@ void run_in_real_time(Board& board, Servos& servos, const Params& params, std::u
     loop.limit_torque(board.operator_device.torque_limit_percent());
     loop.tick(beat);
     const auto mode = static_cast<safety::Mode>(loop.outputs().mode);
-    const auto power = drive.after_tick(board.panel.pressed(), mode);
-    if (board.supply.exists() && power == app::DrivePower::Step::kOff) board.supply.set(false);
-    if (board.supply.exists() && power == app::DrivePower::Step::kAnew) return;
+    const auto power = board.supply.after_tick(drive, board.panel.pressed(), mode);
+    if (power == app::DrivePower::Step::kAnew) return;
     board.report(loop);
     board.idle();
     board.serve_until(begun_us + params.period_us - kServingEnds_us);
@@ -267,7 +268,7 @@ extern "C" int verp_main() {
   here.say(app::Signals::at_start(fault == board::StartFault::kNone));
   if (fault != board::StartFault::kNone) here.refuse(fault);
   for (;;) {
-    here.supply.set(true);  // unless the stop is pressed
+    here.supply.set(true);  // unless a stop took it
     const lockstep::Verdict twin = board::run_in_lockstep(here, params);
     if (twin == lockstep::Verdict::kAccepted) continue;
     // A twin that keeps its own time answers through a PC, and perhaps a USB adapter.

@@ -1,13 +1,15 @@
 #pragma once
 #include "boards/stm32/wiring.hpp"
 #include "common/protocol/controller_table.hpp"
+#include "firmware/app/drive_power.hpp"
 #include "hal/chip/stm32/gpio.hpp"
 
 namespace verp::board {
 
 /// The switch of the servos' power, high is on, and the emergency stop beside it, which joins its
-/// pin to ground while all is well: while that circuit is open, nothing switches the power on.
-/// Either pin may not exist.
+/// pin to ground while all is well: while that circuit is open, nothing switches the power on, and
+/// what a stop took or kept away comes back only by permit(), whether or not a loop ticks. Either
+/// pin may not exist.
 template <hal::stm32::Io Access>
 class ServoPower {
  public:
@@ -20,22 +22,43 @@ class ServoPower {
   }
   bool exists() const { return power_.exists(); }
   void set(bool on) {
-    on_ = on && !gpio_.read(stop_);
+    if (on && gpio_.read(stop_)) taken_ = true;
+    on_ = on && !taken_;
     gpio_.output(power_, on_);
   }
   /// While no tick reads the stop: an open circuit takes the power at once.
   void watch() {
-    if (on_ && gpio_.read(stop_)) set(false);
+    if (on_ && gpio_.read(stop_)) take();
   }
+  /// After each tick of a loop that drives servos: kAnew asks for a new bring-up.
+  app::DrivePower::Step after_tick(app::DrivePower& drive, bool pressed, safety::Mode mode) {
+    const auto step = drive.after_tick(pressed || taken(), mode);
+    if (step == app::DrivePower::Step::kOff && on_) take();
+    return exists() ? step : app::DrivePower::Step::kOn;
+  }
+  /// As often as there is time. `relax_asked`: since the last call the operator wrote `request` 0.
+  /// What he wrote while the circuit was open permits nothing.
+  void permit(bool relax_asked) {
+    if (relax_asked && !gpio_.read(stop_)) taken_ = false;
+    if (!on_ && gpio_.read(stop_)) taken_ = true;
+  }
+  /// By a stop, and permit() has not given it back.
+  bool taken() const { return exists() && taken_; }
   dxl::controller::ServoPower state() const {
     using State = dxl::controller::ServoPower;
     return !exists() ? State::kNotSwitched : on_ ? State::kOn : State::kOff;
   }
 
  private:
+  void take() {
+    taken_ = true;
+    set(false);
+  }
+
   hal::stm32::Gpio<Access> gpio_;
   const Pin power_, stop_;
   bool on_ = false;
+  bool taken_ = false;
 };
 
 }  // namespace verp::board

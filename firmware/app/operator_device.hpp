@@ -70,6 +70,7 @@ class OperatorDevice {
   table::ImuCalibrationOrder take_calibration_order() {
     return registers_.take_calibration_order();
   }
+  bool take_relax() { return registers_.take_relax(); }
   /// Part of a reply has found no room on the link yet.
   bool reply_waits() const { return sent_ < reply_size_; }
   /// The operator wants a new start; asked with torque off only.

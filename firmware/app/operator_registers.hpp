@@ -88,6 +88,8 @@ class OperatorRegisters {
     calibration_order_ = table::ImuCalibrationOrder::kNone;
     return order;
   }
+  /// The operator wrote `request` 0; told once.
+  bool take_relax() { return standing_.take_relax(); }
   TickReport& report() { return report_; }
 
   /// The bytes of a read; nullptr if any of them stands outside the table. Gaps read as zero.

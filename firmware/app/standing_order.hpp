@@ -19,7 +19,16 @@ class StandingOrder {
   /// After each start, a watchdog's too, only a request to relax is taken at first.
   bool takes(Request request) const { return relaxed_once_ || request == Request::kRelax; }
   /// One that takes() was written to register request.
-  void requested() { relaxed_once_ = true; }
+  void requested() {
+    relaxed_once_ = true;
+    relax_asked_ = relax_asked_ || image_.get<Request>(reg("request")) == Request::kRelax;
+  }
+  /// A request to relax was written, whether or not one stood there; told once.
+  bool take_relax() {
+    const bool asked = relax_asked_;
+    relax_asked_ = false;
+    return asked;
+  }
   /// Any of the registers was written: the operator is there.
   void given() { fresh_ = true; }
 
@@ -74,6 +83,7 @@ class StandingOrder {
   std::uint32_t tick_ = 0;  ///< the last one that asked
   bool ticking_ = false;
   bool relaxed_once_ = false;  ///< since the start
+  bool relax_asked_ = false;
   bool fresh_ = false;
 };
 

@@ -1,5 +1,6 @@
 #include "boards/stm32/servo_power.hpp"
 
+#include <utility>
 #include <vector>
 
 #include "boards/opencr/board.hpp"
@@ -44,11 +45,23 @@ class ServoPowerSwitch : public ::testing::Test {
     mode = safety::next_mode(mode, safety::kServosKnown | (emergency ? safety::kEmergency : 0u) |
                                        (stand ? safety::kAskStand : safety::kAskRelax));
     torque_off_ticks = safety::has_torque(mode) ? 0 : torque_off_ticks + 1;
-    const auto step = drive.after_tick(panel.pressed(), mode);
-    if (step == app::DrivePower::Step::kOff) supply.set(false);
+    const auto step = supply.after_tick(drive, panel.pressed(), mode);
+    idle();
     return step;
   }
-  void ask(Request request) { desk.next.command.request = request; }
+  void idle() { supply.permit(std::exchange(relax_asked, false)); }
+  /// Nothing ticks, and the board's loop tries again and again to bring servos up.
+  void try_in_vain() {
+    for (int i = 0; i < 10; ++i) {
+      supply.set(true);
+      supply.watch();
+      idle();
+    }
+  }
+  void ask(Request request) {
+    desk.next.command.request = request;
+    relax_asked = request == Request::kRelax;
+  }
   void stand_up() {
     supply.set(true);
     for (int i = 0; i < 50; ++i) tick();
@@ -67,6 +80,7 @@ class ServoPowerSwitch : public ::testing::Test {
   app::DrivePower drive;
   safety::Mode mode = safety::Mode::kRelaxed;
   int torque_off_ticks = 0;
+  bool relax_asked = false;  ///< and not told to the switch yet
 };
 
 TEST_F(ServoPowerSwitch, IsOffUntilTheLoopSwitchesItOn) {
@@ -87,7 +101,60 @@ TEST_F(ServoPowerSwitch, IsNeverSwitchedOnWhileTheCircuitIsOpen) {
   circuit(true);
   EXPECT_FALSE(powered()) << "closing it is not enough";
   supply.set(true);
+  EXPECT_FALSE(powered()) << "nor that the loop begins anew";
+  ask(Request::kRelax);
+  idle();
+  supply.set(true);
   EXPECT_TRUE(powered());
+}
+
+// Bring-up fails without power, and the board's loop then wants it back at once.
+TEST_F(ServoPowerSwitch, ComesBackAfterAStopDuringBringUpByReleaseAndRequestInThisOrder) {
+  supply.set(true);
+  circuit(false);
+  supply.watch();
+  try_in_vain();
+  ask(Request::kRelax);
+  try_in_vain();
+  EXPECT_FALSE(powered()) << "the stop is pressed";
+  circuit(true);
+  try_in_vain();
+  EXPECT_FALSE(powered()) << "what was asked before counts no more";
+  ask(Request::kStand);
+  try_in_vain();
+  EXPECT_FALSE(powered());
+  EXPECT_EQ(supply.state(), State::kOff);
+  ask(Request::kRelax);
+  try_in_vain();
+  EXPECT_TRUE(powered());
+  EXPECT_EQ(supply.state(), State::kOn);
+}
+
+// A bring-up that was over in the moment of the stop: the loop ticks, and must not do so for ever.
+TEST_F(ServoPowerSwitch, IsGivenBackByALoopThatBeganWithoutIt) {
+  supply.set(true);
+  circuit(false);
+  supply.watch();
+  circuit(true);
+  for (int i = 0; i < 200; ++i) EXPECT_NE(tick(), app::DrivePower::Step::kAnew);
+  EXPECT_FALSE(powered());
+  ask(Request::kRelax);
+  tick();
+  EXPECT_EQ(tick(), app::DrivePower::Step::kAnew);
+}
+
+// A robot that lies relaxed has its request to relax standing there since long.
+TEST_F(ServoPowerSwitch, WantsARequestThatIsWrittenAfterTheRelease) {
+  supply.set(true);
+  for (int i = 0; i < 50; ++i) tick();
+  circuit(false);
+  for (int i = 0; i < 50; ++i) tick();
+  EXPECT_FALSE(powered());
+  circuit(true);
+  for (int i = 0; i < 200; ++i) EXPECT_EQ(tick(), app::DrivePower::Step::kOff);
+  ask(Request::kRelax);
+  tick();
+  EXPECT_EQ(tick(), app::DrivePower::Step::kAnew);
 }
 
 TEST_F(ServoPowerSwitch, GoesAtOnceIfTheCircuitOpensWhileNothingTicks) {
@@ -120,6 +187,7 @@ TEST_F(ServoPowerSwitch, ComesBackNeitherByReleaseNorByAnOrderToStand) {
     ASSERT_FALSE(powered());
   }
   ask(Request::kRelax);
+  idle();
   EXPECT_EQ(tick(), app::DrivePower::Step::kAnew);
   EXPECT_FALSE(powered()) << "that is for the new bring-up";
   EXPECT_EQ(mode, safety::Mode::kRelaxed);

@@ -21,6 +21,20 @@ Bench<>& relaxed_bench() {
   return bench;
 }
 
+// What gives power back after a stop is that somebody writes 0, not that 0 stands there.
+TEST(OperatorOrders, ToRelaxIsToldOnceForEachTimeItIsWritten) {
+  Bench<>& bench = fresh_bench();
+  EXPECT_FALSE(bench.device.take_relax()) << "0 stands there from the start";
+  for (int times = 0; times < 3; ++times) {
+    bench.relax();
+    EXPECT_TRUE(bench.device.take_relax());
+    EXPECT_FALSE(bench.device.take_relax());
+  }
+  EXPECT_TRUE(bench.write(reg("request"), std::uint8_t{1}) == Error::kNone);
+  EXPECT_TRUE(bench.write(reg("walk_vx"), std::int16_t{0}) == Error::kNone);
+  EXPECT_FALSE(bench.device.take_relax());
+}
+
 // The core rises on a level. A program that repeats its order to stand raises no robot that was
 // reset, by its watchdog or by a supply that sagged: somebody asks it to relax first.
 TEST(OperatorOrders, ToStandOrWalkAreRefusedAfterEachStartUntilOneToRelaxWasGiven) {
