@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <vector>
 
 #include "common/protocol/control_table.hpp"
@@ -24,10 +25,13 @@ double quantile(const std::vector<double>& sorted, double share) {
   return sorted[std::max<std::size_t>(rank, 1) - 1];
 }
 
-std::uint8_t somebody(Client& client, const Params& params, const std::function<bool()>& give_up) {
+/// None: was given up.
+std::optional<std::uint8_t> somebody(Client& client, const Params& params,
+                                     const std::function<bool()>& give_up) {
   for (int j = 0; j < params.joint_count && !give_up(); ++j) {
     if (client.ping(params.joint[j].servo_id, 1)) return params.joint[j].servo_id;
   }
+  if (give_up()) return std::nullopt;
   throw DeviceError(fmt::format(
       "{}: no servo of {} answers; check power, wiring and baud rate, see `verp bus scan`",
       client.place(), params.name));
@@ -49,7 +53,9 @@ std::uint8_t somebody(Client& client, const Params& params, const std::function<
 LinkDelay measure_delay(Client& client, const Params& params,
                         const std::function<bool()>& give_up) {
   LinkDelay delay;
-  const std::uint8_t id = somebody(client, params, give_up);
+  const std::optional<std::uint8_t> found = somebody(client, params, give_up);
+  if (!found) return delay;
+  const std::uint8_t id = *found;
   const double wire_us =
       app::wire_us(dxl::kInstructionBytes + 4 + dxl::kStatusBytes + kBytes, params.baud);
   std::vector<double> held_us;

@@ -16,8 +16,9 @@ struct LinkDelay {
   double median_us = 0, p90_us = 0, worst_us = 0;
 };
 
-/// Reads one servo of `params` again and again; ends early when `give_up` says so. Throws
-/// DeviceError if no servo answers a ping, or fewer than half of the reads are answered.
+/// Reads one servo of `params` again and again; ends early, perhaps with nothing asked, when
+/// `give_up` says so. Otherwise throws DeviceError if no servo answers a ping, or fewer than half
+/// of the reads are answered.
 LinkDelay measure_delay(Client& client, const Params& params, const std::function<bool()>& give_up);
 
 /// One tick on such a link: its bytes, and two reads, of which the second waits for the first.

@@ -39,6 +39,25 @@ struct Sys {
 const wire::Endpoint kAdapter{wire::Endpoint::Kind::kSerial, "/dev/ttyUSB7", 2'000'000, 0};
 const wire::Endpoint kSocket{wire::Endpoint::Kind::kUnix, "/tmp/twin", 0, 0};
 
+// Whoever gives up, at once or in the middle of the search, was not told that no servo answers.
+TEST(LinkFit, GivingUpTheSearchForAServoIsNoFaultOfTheRobot) {
+  const std::string place =
+      (fs::temp_directory_path() / ("verp-fit-bus-" + std::to_string(::getpid()))).string();
+  wire::Link silent(wire::parse_endpoint("unix-listen:" + place));
+  const wire::Endpoint endpoint = wire::parse_endpoint("unix:" + place);
+  wire::Link link(endpoint);
+  ASSERT_TRUE(silent.wait_connected(1'000'000));
+  Client client(link, endpoint, 1000);
+  const Params params = verp::test::bus_params(6, true);
+  for (int most = 0; most <= params.joint_count; ++most) {
+    int asked = 0;
+    const LinkDelay delay = measure_delay(client, params, [&] { return asked++ >= most; });
+    EXPECT_EQ(delay.asked, 0) << most;
+    EXPECT_EQ(delay.answered, 0);
+  }
+  EXPECT_THROW(measure_delay(client, params, [] { return false; }), DeviceError);
+}
+
 // For robots of any size, rate and period: a tick on a link that fits, each of whose two reads is
 // held up as long as is waited for, with nobody answering, ends within the period; and one that
 // does not fit could not.
