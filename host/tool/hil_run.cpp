@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -68,6 +69,8 @@ class HilRun {
   static constexpr std::uint32_t kRealTimeTurn_us = 500;
   static constexpr std::uint64_t kListen_ns = 1'000'000'000;
   static constexpr std::uint32_t kWrite_us = 100'000;
+  static constexpr std::uint64_t kLossRest_ns =
+      50'000'000;  // from one loss of the link to the next
   /// What a start takes by the twin's clock: reset, boot check, greeting.
   static constexpr std::uint32_t kRestart_us = 1'000'000;
 
@@ -107,6 +110,19 @@ class HilRun {
       sent += more;
     }
     watch_link();
+    rest_after_loss();
+  }
+
+  // Somebody who hangs up at once, again and again, is not met as fast as a processor can. The
+  // first loss after a while costs no time.
+  void rest_after_loss() {
+    if (link_.errors().losses == losses_) return;
+    losses_ = link_.errors().losses;
+    const std::uint64_t now = now_ns();
+    if (now < rested_ns_ + kLossRest_ns) {
+      std::this_thread::sleep_for(std::chrono::nanoseconds(rested_ns_ + kLossRest_ns - now));
+    }
+    rested_ns_ = now_ns();
   }
 
   // A controller may look for servos before it asks for a twin: it gets time to do so.
@@ -271,6 +287,8 @@ class HilRun {
   std::string failure_;
   std::uint64_t compared_ = 0;
   std::uint32_t resets_ = 0;
+  std::uint32_t losses_ = 0;     ///< of the link, as last seen
+  std::uint64_t rested_ns_ = 0;  ///< when rest_after_loss() was last over
   std::uint64_t start_ns_ = 0;
   std::uint64_t drive_ns_ = 0;  ///< when torque was first seen
   bool lay_down_ = false;

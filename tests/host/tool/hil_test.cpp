@@ -1,3 +1,4 @@
+#include <atomic>
 #include <nlohmann/json.hpp>
 
 #include "firmware/app/link_bus.hpp"
@@ -143,6 +144,27 @@ TEST_F(Hil, KeepsTheTraceWhenInterrupted) {
   EXPECT_GT(result.at("ticks").get<int>(), 0);
   const Outcome info = verp("trace info cut.mcap --json", "info");
   EXPECT_EQ(json::parse(info.out).at("ticks"), result.at("ticks"));
+}
+
+// Somebody takes the call and hangs up, for ever: the twin goes on trying, and lets the computer
+// be.
+TEST_F(Hil, MeetsALinkThatIsCutAtOnceSomeTensOfTimesASecond) {
+  std::atomic<bool> over = false;
+  std::thread other([&] {
+    const wire::Endpoint endpoint = wire::parse_endpoint("unix-listen:" + place("bus"));
+    while (!over) {
+      wire::Link port(endpoint);
+      while (!over && !port.wait_connected(1000)) {
+      }
+    }
+  });
+  const Outcome outcome = shell("sleep 0.3; timeout -s INT 3 " + std::string(VERP_PROGRAM) +
+                                " hil --lockstep --json --link unix:" + place("bus"));
+  over = true;
+  other.join();
+  const int losses = json::parse(outcome.out).at("link").at("losses").get<int>();
+  EXPECT_GT(losses, 3) << outcome.err;
+  EXPECT_LT(losses, 3 * 30) << outcome.err;
 }
 
 TEST_F(Hil, SaysWhenTheOperatorsPortIsSilent) {
