@@ -6,6 +6,7 @@
 #include "firmware/app/bring_up.hpp"
 #include "firmware/app/bus_master.hpp"
 #include "firmware/app/contracts.hpp"
+#include "firmware/app/doubted_servos.hpp"
 #include "firmware/app/schedule.hpp"
 #include "firmware/app/servo_writer.hpp"
 #include "hal/contract/imu.hpp"
@@ -61,7 +62,8 @@ class App {
     read_chip();
     take_order();
     step(params_, state_, inputs_, outputs_);
-    servos_.send(master_, outputs_, slow_joint_);
+    servos_.send(master_, outputs_, slow_joint_, doubted_.all());
+    if (!servos_.told_all()) doubted_.resolve(master_, outputs_.torque_enable != 0);
     sink_.record(TickRecord{state_.digest, inputs_}, state_, outputs_);
   }
 
@@ -100,7 +102,7 @@ class App {
         fast ? fast_sync_read_bytes(count, length) : sync_read_bytes(count, length);
     joints_.begin();
     for (int j = 0; j < params_.joint_count; ++j) {
-      if (silent_ticks_[j] * params_.period_us > servos_.kDoubt_us) servos_.doubt(j);
+      doubted_.silent_for(j, silent_ticks_[j] * params_.period_us);
       if (silent_ticks_[j] < kLongSilence) ++silent_ticks_[j];
     }
     master_.request(frame, timeout_us(bytes, fast ? 1 : count, params_.baud),
@@ -136,8 +138,8 @@ class App {
     if (silent_ticks_[joint] * params_.period_us >= servos_.patience_us()) {
       servos_.expect_tripped();
     }
-    servos_.heard(joint);
     silent_ticks_[joint] = 0;
+    if (!doubted_.counts(joint)) return;
     inputs_.position_count[joint] = static_cast<std::int32_t>(dxl::get_u32(data));
     inputs_.fresh |= 1u << joint;
   }
@@ -257,6 +259,7 @@ class App {
   const Params& params_;
   BusMaster<Bus> master_;
   ServoWriter<Bus> servos_{params_};
+  DoubtedServos<Bus> doubted_{params_};
   Operator& operator_;
   Sink& sink_;
   Chip* chip_;

@@ -75,20 +75,22 @@ constexpr std::size_t sensor_devices(const Params& params) {
 /// Bytes that a read after an unanswered one asks for beyond what is wanted, of each device and at
 /// most (BusMaster).
 inline constexpr std::uint8_t kMostSpare = 2;
-/// Servos that get their gains and profile again in one tick, at most.
-inline constexpr std::size_t kRenewedAtOnce = 4;
+/// Servos that are asked or set up again in one tick, at most (DoubtedServos).
+inline constexpr int kResolvedAtOnce = 4;
 
 /// Bytes of the longest tick in which every device answers: reads, one alert looked up, goals; and
 /// either torque and strength of all servos, their Bus Watchdog cleared and set, or those of one
-/// servo, and gains and profiles of some.
+/// servo, and a few that are asked for their torque, or set up again.
 constexpr std::size_t schedule_bytes(const Params& params) {
   const std::size_t joints = params.joint_count;
   const std::size_t positions =
       all_fast(params) ? fast_sync_read_bytes(joints, 4) : sync_read_bytes(joints, 4);
   const std::size_t told_to_all = sync_write_bytes(joints, 2) + 3 * sync_write_bytes(joints, 1);
-  const std::size_t renewed = joints < kRenewedAtOnce ? joints : kRenewedAtOnce;
-  const std::size_t told_to_some = sync_write_bytes(1, 2) + 2 * sync_write_bytes(1, 1) +
-                                   sync_write_bytes(renewed, 6) + sync_write_bytes(renewed, 8);
+  const std::size_t few = joints < kResolvedAtOnce ? joints : kResolvedAtOnce;
+  const std::size_t asked = sync_read_bytes(few, 1);
+  const std::size_t renewed = sync_write_bytes(few, 6) + sync_write_bytes(few, 8);
+  const std::size_t told_to_some =
+      sync_write_bytes(1, 2) + 2 * sync_write_bytes(1, 1) + (asked > renewed ? asked : renewed);
   return positions + sync_read_bytes(sensor_devices(params), dxl::sensor_block::kBytes) +
          (dxl::kInstructionBytes + 4 + dxl::kStatusBytes + 1) + sync_write_bytes(joints, 4) +
          (told_to_all > told_to_some ? told_to_all : told_to_some);

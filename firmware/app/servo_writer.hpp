@@ -7,7 +7,6 @@
 #include "common/safety/machine.hpp"
 #include "firmware/app/bus_master.hpp"
 #include "firmware/app/schedule.hpp"
-#include "firmware/app/servo_ram.hpp"
 
 namespace verp::app {
 
@@ -28,8 +27,8 @@ class ServoWriter {
   void limit_torque(std::uint8_t percent) { most_percent_ = percent; }
 
   /// Strength and goals go out before torque, so that a servo never wakes up with old ones.
-  /// `turn` is the joint whose turn it is.
-  void send(BusMaster<Bus>& master, const Outputs& outputs, int turn) {
+  /// `turn` is the joint whose turn it is; those in `doubted` hear of no torque but its end.
+  void send(BusMaster<Bus>& master, const Outputs& outputs, int turn, std::uint32_t doubted) {
     if (params_.joint_count == 0) return;
     const std::uint32_t wanted = outputs.torque_enable & all_joints();
     const std::uint8_t strength = strength_in(outputs.mode);
@@ -37,74 +36,30 @@ class ServoWriter {
     if (wanted != torque_ || (wanted != 0 && strength != strength_)) repeats_ = kRepeats;
     if (wanted != 0) strength_ = strength;
     torque_ = wanted;
-    const bool all = repeats_ > 0;
-    first_ = all ? 0 : turn;
-    last_ = all ? params_.joint_count - 1 : turn;
-    if (all) --repeats_;
-    if (!all && (returned_ != 0 || renewals_ > 0)) renew(master);
+    told_all_ = repeats_ > 0;
+    first_ = told_all_ ? 0 : turn;
+    last_ = told_all_ ? params_.joint_count - 1 : turn;
+    if (told_all_) --repeats_;
     if (wanted != 0) {
       send_strength(master);
       send_goals(master, outputs);
     }
-    send_torque(master);
+    send_to(master, dxl::address::kTorqueEnable, 1, doubted & torque_);
     send_to(master, dxl::address::kBusWatchdog, bus_watchdog_);
   }
 
   /// A servo's Bus Watchdog trips when it hears nothing for so long.
   std::uint32_t patience_us() const { return bus_watchdog_ * dxl::kBusWatchdogUnit_us; }
+  /// Whether the last tick had to tell all servos; one that does not leaves room on the bus.
+  bool told_all() const { return told_all_; }
   /// Some servo has, or may have, heard nothing for longer.
   void expect_tripped() { watchdog_clears_ = kRepeats; }
-
-  /// A servo that was silent for so long may have lost its power: it gets no torque any more (what
-  /// it holds, it keeps) until it has answered and been given its gains and profile again. Three
-  /// ticks of 10 ms: a bad line seldom takes as many in a row.
-  static constexpr std::uint32_t kDoubt_us = 30'000;
-  void doubt(int joint) {
-    doubted_ |= 1u << joint;
-    returned_ &= ~(1u << joint);
-  }
-  /// It answered.
-  void heard(int joint) { returned_ |= doubted_ & 1u << joint; }
 
  private:
   static constexpr std::uint8_t kRepeats = 3;
 
   std::uint32_t all_joints() const {
     return params_.joint_count >= kMaxJoints ? ~0u : (1u << params_.joint_count) - 1;
-  }
-
-  // A few servos at a time and only when there is no more to say, as a tick has little room; each
-  // as often as all that matters.
-  void renew(BusMaster<Bus>& master) {
-    if (renewals_ == 0) {
-      batch_ = 0;
-      std::size_t count = 0;
-      for (int j = 0; j < params_.joint_count && count < kRenewedAtOnce; ++j) {
-        if ((returned_ >> j & 1) == 0) continue;
-        batch_ |= 1u << j;
-        ++count;
-      }
-      renewals_ = kRepeats;
-    }
-    send_ram(master, dxl::address::kPositionDGain, &ServoRam::gains);
-    send_ram(master, dxl::address::kProfileAcceleration, &ServoRam::motion);
-    if (--renewals_ > 0) return;
-    doubted_ &= ~(batch_ & returned_);
-    returned_ &= ~batch_;
-    if (returned_ == 0) repeats_ = kRepeats;
-  }
-  template <std::size_t bytes>
-  void send_ram(BusMaster<Bus>& master, std::uint16_t address,
-                std::uint8_t (ServoRam::*part)[bytes]) {
-    dxl::Encoder encoder(master.frame(), master.capacity());
-    dxl::begin_sync_write(encoder, address, bytes);
-    for (int j = 0; j < params_.joint_count; ++j) {
-      if ((batch_ >> j & 1) == 0) continue;
-      encoder.u8(params_.joint[j].servo_id);
-      const ServoRam ram(profile_of(params_, j));
-      for (const std::uint8_t byte : ram.*part) encoder.u8(byte);
-    }
-    master.send(encoder.finish());
   }
 
   // On its way up a robot may lie against anything, a hand too: its servos push as hard as its
@@ -147,11 +102,6 @@ class ServoWriter {
     master.send(encoder.finish());
   }
 
-  // A doubted servo hears of no torque but its end.
-  void send_torque(BusMaster<Bus>& master) {
-    send_to(master, dxl::address::kTorqueEnable, 1, doubted_ & torque_);
-  }
-
   // One register of the joints from first_ to last_ that are not left out: `value` where torque is
   // on, 0 elsewhere.
   void send_to(BusMaster<Bus>& master, std::uint16_t address, std::uint8_t value,
@@ -175,11 +125,8 @@ class ServoWriter {
   std::uint8_t most_percent_ = 100;
   std::uint8_t repeats_ = kRepeats;
   std::uint8_t watchdog_clears_ = 0;  ///< still to send
-  std::uint8_t renewals_ = 0;         ///< likewise, of the gains and profiles of batch_
-  std::uint32_t batch_ = 0;
-  std::uint32_t doubted_ = 0;   ///< may have started anew
-  std::uint32_t returned_ = 0;  ///< of these, those that answered since
-  int first_ = 0;               ///< who is told
+  bool told_all_ = false;
+  int first_ = 0;  ///< who is told
   int last_ = 0;
   const std::uint8_t bus_watchdog_ = bus_watchdog_units(params_);
 };

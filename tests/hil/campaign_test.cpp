@@ -112,6 +112,11 @@ void gone_briefly(const FaultResult& result) {
   EXPECT_EQ(result.after.state[row(result)], DeviceState::kGood) << "it is back";
 }
 
+void let_go(const FaultResult& result) {
+  EXPECT_TRUE(was(result, kSitting));
+  EXPECT_TRUE(was(result, kRelaxed));
+}
+
 void gone_for_good(const FaultResult& result) {
   EXPECT_EQ(result.after.state[row(result)], DeviceState::kLost);
   EXPECT_GE(result.after.age[row(result)], 250u);
@@ -192,8 +197,8 @@ const std::vector<Kind>& kinds() {
       {{"everything", 12, false, kAll}, {everything}},
       {{"servo_gone_0_1_s_physics", 4, true, {}, Event::kServoGone, 0.1}, {gone_briefly}},
       {{"servo_gone_0_1_s", 8, false, {}, Event::kServoGone, 0.1}, {gone_briefly, walks_again}},
-      {{"servo_unpowered_0_1_s", 6, false, {}, Event::kServoUnpowered, 0.1},
-       {gone_briefly, walks_again}},
+      {{"servo_unpowered_0_1_s", 6, false, {}, Event::kServoUnpowered, 0.1, 8},
+       {gone_briefly, let_go, walks_again}},
       {{"servo_gone_for_good_physics", 3, true, {}, Event::kServoGone}, {gone_for_good}},
       {{"servo_gone_for_good", 13, false, {}, Event::kServoGone}, {gone_for_good}},
       {{"stale_values", 12, false, {}, Event::kServoRepeats, 1}, {repeats}},

@@ -103,6 +103,7 @@ class FaultRun {
       case Event::kServoUnpowered:
         ++result_.events;
         bus_->set_powered(params_.joint[result_.joint].servo_id, false);
+        unready_ = true;
         break;
       case Event::kServoRepeats:
         ++result_.events;
@@ -196,6 +197,7 @@ class FaultRun {
     result_.stale = result_.stale || silent_s > params_.tuning.safety.stale_hold_s - half_s;
   }
   void watch_gains() {
+    unready_ = unready_ && controller_->loop.outputs().torque_enable != 0;
     for (int j = 0; j < params_.joint_count; ++j) {
       const sim::ServoSetpoint& servo = plant_->setpoint(j);
       const ServoProfile& profile = app::profile_of(params_, j);
@@ -204,6 +206,7 @@ class FaultRun {
           servo.profile_ms != profile.profile_ms) {
         fault("joint " + std::to_string(j) + " has torque with gains that are not its own");
       }
+      if (unready_ && j == result_.joint) fault("a servo without power was thrown at its goal");
     }
   }
   /// Where each servo stands, and where it is bound for: what it tells next lies between. A goal
@@ -302,6 +305,7 @@ class FaultRun {
   std::array<std::pair<std::int32_t, std::int32_t>, kMaxJoints> tells_{};
   std::array<int, kMaxJoints + 1> silent_{};  ///< ticks; the last is the IMU's
   Eigen::Vector2d start_m_ = Eigen::Vector2d::Zero();
+  bool unready_ = false;       ///< result_.joint lost its power, and the robot has not let go since
   std::uint64_t late_us_ = 0;  ///< when the loop came back from being busy elsewhere
   std::uint64_t limp_since_us_ = 0;
   std::uint64_t fallen_us_ = 0;  ///< when it was last seen upright

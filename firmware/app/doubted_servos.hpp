@@ -1,0 +1,142 @@
+#pragma once
+#include <cstddef>
+#include <cstdint>
+
+#include "common/model/params.hpp"
+#include "common/protocol/control_table.hpp"
+#include "firmware/app/bus_master.hpp"
+#include "firmware/app/schedule.hpp"
+#include "firmware/app/servo_ram.hpp"
+
+namespace verp::app {
+
+/// Servos that were silent for so long that they may have lost their power. One that did comes back
+/// limp, with the factory's gains and no profile: torque would throw it at its goal. So until it is
+/// known what it holds, it is told of no torque but its end, and its position does not count, by
+/// which the core holds and lets the robot down as for one that is gone. One that kept its torque
+/// kept all else, and counts again; any other gets gains and profile, and counts, once the robot
+/// has been let go: from there it rises from the pose it is found in.
+template <hal::FrameBus Bus>
+class DoubtedServos {
+ public:
+  explicit DoubtedServos(const Params& params) : params_(params) {}
+
+  /// Bit j: joint j's.
+  std::uint32_t all() const { return doubted_; }
+
+  /// It did not answer for so long.
+  void silent_for(int joint, std::uint32_t time_us) {
+    if (time_us < patience_us_) return;
+    doubted_ |= 1u << joint;
+    here_ &= ~(1u << joint);
+  }
+  /// It answered: true if what it says counts.
+  bool counts(int joint) {
+    here_ |= doubted_ & 1u << joint;
+    return (doubted_ >> joint & 1) == 0;
+  }
+
+  /// For ticks with room on the bus: a few servos are asked, or set up again. `torque`: the robot
+  /// is to have some.
+  void resolve(BusMaster<Bus>& master, bool torque) {
+    if (!torque) limp_ = 0;
+    if (torque) renewals_ = 0;
+    const std::uint32_t open = here_ & ~limp_;
+    if (open == 0) return;
+    if (torque) {
+      ask(master, some(open));
+    } else {
+      renew(master);
+    }
+  }
+
+ private:
+  static constexpr std::uint8_t kRepeats = 3;  ///< of writes, which nobody acknowledges
+  /// From when on the core holds anyway. A servo's processor takes longer than the longest to
+  /// start.
+  static constexpr std::uint32_t kLongest_us = 50'000;
+  static std::uint32_t patience_us(const Params& params) {
+    const auto hold_us =
+        static_cast<std::uint32_t>(math::to_int32(1e6F * params.tuning.safety.stale_hold_s));
+    return hold_us < kLongest_us ? hold_us : kLongest_us;
+  }
+
+  /// The first few of them.
+  std::uint32_t some(std::uint32_t joints) const {
+    std::uint32_t chosen = 0;
+    std::size_t count = 0;
+    for (int j = 0; j < params_.joint_count && count < kResolvedAtOnce; ++j) {
+      if ((joints >> j & 1) == 0) continue;
+      chosen |= 1u << j;
+      ++count;
+    }
+    return chosen;
+  }
+
+  void ask(BusMaster<Bus>& master, std::uint32_t joints) {
+    ReadChain<kResolvedAtOnce> chain;
+    for (int j = 0; j < params_.joint_count; ++j) {
+      if ((joints >> j & 1) != 0) {
+        chain.add(params_.joint[j].servo_id, static_cast<std::uint8_t>(j));
+      }
+    }
+    const std::uint8_t spare = master.spare_bytes();
+    const auto length = static_cast<std::uint16_t>(1 + spare);
+    const auto count = static_cast<std::size_t>(chain.count());
+    const std::size_t frame =
+        dxl::encode_sync_read(master.frame(), master.capacity(), dxl::Instruction::kSyncRead,
+                              static_cast<std::uint16_t>(dxl::address::kTorqueEnable - spare),
+                              length, chain.ids(), count);
+    chain.begin();
+    master.request(frame, timeout_us(sync_read_bytes(count, length), count, params_.baud),
+                   [&](const dxl::Packet& packet) {
+                     if (packet.size != length) return Take::kStray;
+                     const int joint = chain.match(packet.id);
+                     if (joint < 0) return Take::kStray;
+                     learn(joint, packet.parameters[spare] != 0);
+                     return chain.ended() ? Take::kDone : Take::kMore;
+                   });
+  }
+  void learn(int joint, bool kept) {
+    const std::uint32_t bit = 1u << joint;
+    if (kept) trust(bit);
+    if (!kept) limp_ |= bit;
+  }
+  void trust(std::uint32_t joints) {
+    doubted_ &= ~joints;
+    here_ &= ~joints;
+  }
+
+  void renew(BusMaster<Bus>& master) {
+    if (renewals_ == 0) {
+      batch_ = some(here_);
+      renewals_ = kRepeats;
+    }
+    send_ram(master, dxl::address::kPositionDGain, &ServoRam::gains);
+    send_ram(master, dxl::address::kProfileAcceleration, &ServoRam::motion);
+    if (--renewals_ == 0) trust(batch_ & here_);
+  }
+  template <std::size_t bytes>
+  void send_ram(BusMaster<Bus>& master, std::uint16_t address,
+                std::uint8_t (ServoRam::*part)[bytes]) {
+    dxl::Encoder encoder(master.frame(), master.capacity());
+    dxl::begin_sync_write(encoder, address, bytes);
+    for (int j = 0; j < params_.joint_count; ++j) {
+      if ((batch_ >> j & 1) == 0) continue;
+      encoder.u8(params_.joint[j].servo_id);
+      const ServoRam ram(profile_of(params_, j));
+      for (const std::uint8_t byte : ram.*part) encoder.u8(byte);
+    }
+    master.send(encoder.finish());
+  }
+
+  const Params& params_;
+  std::uint32_t doubted_ = 0;
+  std::uint32_t here_ = 0;  ///< of these, those that have answered since
+  std::uint32_t limp_ = 0;  ///< of these, those known to have no torque
+  std::uint32_t batch_ = 0;
+  std::uint8_t renewals_ = 0;  ///< still to send to batch_
+  const std::uint32_t patience_us_ = patience_us(params_);
+};
+
+}  // namespace verp::app
