@@ -26,6 +26,8 @@ const char* words_for(verp::app::BringUpStatus status) {
       return "bring-up: a device refused a setting";
     case BringUpStatus::kNotVerified:
       return "bring-up: a device did not keep a setting";
+    case BringUpStatus::kHardwareError:
+      return "bring-up: a servo has a hardware error";
   }
   return "bring-up failed";
 }

@@ -139,7 +139,7 @@ class App {
       servos_.expect_tripped();
     }
     silent_ticks_[joint] = 0;
-    if (!doubted_.counts(joint)) return;
+    if (!doubted_.counts(joint, (error & dxl::kAlert) != 0)) return;
     inputs_.position_count[joint] = static_cast<std::int32_t>(dxl::get_u32(data));
     inputs_.fresh |= 1u << joint;
   }
@@ -231,16 +231,21 @@ class App {
   }
 
   // The alert bit says that Hardware Error Status is not zero; only then is it worth a read of its
-  // own.
+  // own, and so is whether the servo has shut off its torque, which stands a few bytes before.
   void read_hardware_error() {
+    constexpr std::uint16_t kAddress = dxl::address::kTorqueEnable;
+    constexpr std::uint16_t kBytes = kAlertBytes;
+    static_assert(kAddress + kBytes == dxl::address::kHardwareError + 1);
     const std::uint8_t id = params_.joint[slow_joint_].servo_id;
     const std::size_t frame =
-        dxl::encode_read(master_.frame(), master_.capacity(), id, dxl::address::kHardwareError, 1);
+        dxl::encode_read(master_.frame(), master_.capacity(), id, kAddress, kBytes);
     const bool answered =
-        master_.request(frame, timeout_us(frame + dxl::kStatusBytes + 1, 1, params_.baud),
+        master_.request(frame, timeout_us(frame + dxl::kStatusBytes + kBytes, 1, params_.baud),
                         [&](const dxl::Packet& packet) {
-                          if (packet.id != id || packet.size != 1) return Take::kStray;
-                          inputs_.slow_error = packet.parameters[0];
+                          if (packet.id != id || packet.size != kBytes) return Take::kStray;
+                          inputs_.slow_error = packet.parameters[kBytes - 1];
+                          const bool limp = packet.parameters[0] == 0;
+                          if (limp && servos_.has_torque()) doubted_.shut_down(slow_joint_);
                           return Take::kDone;
                         });
     if (!answered) inputs_.flags &= static_cast<std::uint16_t>(~kSlowFresh);

@@ -10,7 +10,14 @@
 /// EEPROM is written only where it differs (it wears out) and all that was written is read back.
 namespace verp::app {
 
-enum class BringUpStatus : std::uint8_t { kReady, kSilent, kWrongModel, kRefused, kNotVerified };
+enum class BringUpStatus : std::uint8_t {
+  kReady,
+  kSilent,
+  kWrongModel,
+  kRefused,
+  kNotVerified,
+  kHardwareError,  ///< it may have shut its torque off, and stays limp until it is rebooted
+};
 
 /// The first device that stopped the bring-up, and where; and what was found.
 struct BringUpReport {
@@ -18,7 +25,7 @@ struct BringUpReport {
   std::uint8_t device_id = 0;
   std::uint16_t address = 0;   ///< register at which it failed
   std::uint16_t expected = 0;  ///< model numbers, for kWrongModel
-  std::uint16_t found = 0;
+  std::uint16_t found = 0;     ///< and bits of dxl::HardwareError, for kHardwareError
   /// PWM Limit of each joint's servo: its owner may have set less than the servo can.
   std::uint16_t full_pwm[kMaxJoints] = {};
 };
@@ -78,6 +85,7 @@ class BringUp {
       const bool answered = master_.request(frame, timeout, [&](const dxl::Packet& packet) {
         if (packet.id != id) return Take::kStray;
         refused = (packet.error & ~dxl::kAlert) != 0;
+        alert_ = (packet.error & dxl::kAlert) != 0;
         if (!refused && packet.size != size) return Take::kStray;
         for (std::size_t i = 0; i < size && !refused; ++i) data[i] = packet.parameters[i];
         return Take::kDone;
@@ -140,7 +148,16 @@ class BringUp {
            establish(id, dxl::address::kReturnDelay, mode, sizeof mode) &&
            establish(id, dxl::address::kPositionDGain, ram.gains, sizeof ram.gains) &&
            establish(id, dxl::address::kProfileAcceleration, ram.motion, sizeof ram.motion) &&
-           learn_strength(j, id);
+           learn_strength(j, id) && is_well(id);
+  }
+
+  // The alert bit of its last reply says that Hardware Error Status is not zero.
+  bool is_well(std::uint8_t id) {
+    if (!alert_) return true;
+    std::uint8_t errors = 0;
+    if (!read(id, dxl::address::kHardwareError, &errors, sizeof errors)) return false;
+    report_.found = errors;
+    return errors == 0 || fail(BringUpStatus::kHardwareError, id, dxl::address::kHardwareError);
   }
 
   bool learn_strength(int j, std::uint8_t id) {
@@ -158,6 +175,7 @@ class BringUp {
   const Params& params_;
   BusMaster<Bus>& master_;
   BringUpReport report_;
+  bool alert_ = false;  ///< in the last reply
 };
 
 }  // namespace verp::app

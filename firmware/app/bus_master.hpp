@@ -37,9 +37,14 @@ class BusMaster {
 
   /// A reply does not say which request it answers. To be asked for in front of what is wanted, in
   /// a read that is alike in every tick: none after an answered request, as bytes come in the order
-  /// they were sent in; after an unanswered one another number than in the last ones, so that its
-  /// late reply has another length.
-  std::uint8_t spare_bytes() const { return spare_; }
+  /// they were sent in; after an unanswered one another number than in the last two reads, so that
+  /// their late replies have other lengths. To be called for two reads a tick at most: then it
+  /// takes three ticks for a number to come again.
+  std::uint8_t spare_bytes() {
+    if (missed_) spare_ = spare_ < kMostSpare ? static_cast<std::uint8_t>(spare_ + 1) : 0;
+    missed_ = false;
+    return spare_;
+  }
 
   /// Sends `size` bytes of frame(); for frames nobody answers.
   bool send(std::size_t size) {
@@ -62,11 +67,12 @@ class BusMaster {
       if (digest(count, take)) {
         unsettled_ = false;
         spare_ = 0;
+        missed_ = false;
         return true;
       }
     }
     ++counters_.timeouts;
-    spare_ = spare_ < kMostSpare ? static_cast<std::uint8_t>(spare_ + 1) : std::uint8_t{0};
+    missed_ = true;
     return false;
   }
 
@@ -104,6 +110,7 @@ class BusMaster {
   BusCounters counters_;
   bool unsettled_ = true;
   std::uint8_t spare_ = 0;
+  bool missed_ = false;  ///< the last request went unanswered
   std::uint8_t tx_[hal::kMaxFrame];
   std::uint8_t rx_[hal::kMaxFrame];
 };

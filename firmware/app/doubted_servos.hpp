@@ -10,12 +10,15 @@
 
 namespace verp::app {
 
-/// Servos that were silent for so long that they may have lost their power. One that did comes back
+/// Servos whose torque is not what it was told to be.
+///
+/// One that was silent for long may have lost its power. If it did it comes back
 /// limp, with the factory's gains and no profile: torque would throw it at its goal. So until it is
 /// known what it holds, it is told of no torque but its end, and its position does not count, by
 /// which the core holds and lets the robot down as for one that is gone. One that kept its torque
 /// kept all else, and counts again; any other gets gains and profile, and counts, once the robot
-/// has been let go: from there it rises from the pose it is found in.
+/// has been let go: from there it rises from the pose it is found in. One that shut its torque off
+/// for a hardware error is treated likewise, until it is rebooted.
 template <hal::FrameBus Bus>
 class DoubtedServos {
  public:
@@ -30,10 +33,17 @@ class DoubtedServos {
     doubted_ |= 1u << joint;
     here_ &= ~(1u << joint);
   }
-  /// It answered: true if what it says counts.
-  bool counts(int joint) {
-    here_ |= doubted_ & 1u << joint;
+  /// It answered, with the alert bit of a hardware error or without: true if what it says counts.
+  bool counts(int joint, bool alert) {
+    if (!alert) broken_ &= ~(1u << joint);
+    here_ |= doubted_ & ~broken_ & 1u << joint;
     return (doubted_ >> joint & 1) == 0;
+  }
+  /// It has a hardware error, and not the torque that it was told to have.
+  void shut_down(int joint) {
+    doubted_ |= 1u << joint;
+    broken_ |= 1u << joint;
+    here_ &= ~(1u << joint);
   }
 
   /// For ticks with room on the bus: a few servos are asked, or set up again. `torque`: the robot
@@ -80,20 +90,18 @@ class DoubtedServos {
         chain.add(params_.joint[j].servo_id, static_cast<std::uint8_t>(j));
       }
     }
-    const std::uint8_t spare = master.spare_bytes();
-    const auto length = static_cast<std::uint16_t>(1 + spare);
+    constexpr std::uint16_t kBytes = 1;
     const auto count = static_cast<std::size_t>(chain.count());
     const std::size_t frame =
         dxl::encode_sync_read(master.frame(), master.capacity(), dxl::Instruction::kSyncRead,
-                              static_cast<std::uint16_t>(dxl::address::kTorqueEnable - spare),
-                              length, chain.ids(), count);
+                              dxl::address::kTorqueEnable, kBytes, chain.ids(), count);
     chain.begin();
-    master.request(frame, timeout_us(sync_read_bytes(count, length), count, params_.baud),
+    master.request(frame, timeout_us(sync_read_bytes(count, kBytes), count, params_.baud),
                    [&](const dxl::Packet& packet) {
-                     if (packet.size != length) return Take::kStray;
+                     if (packet.size != kBytes) return Take::kStray;
                      const int joint = chain.match(packet.id);
                      if (joint < 0) return Take::kStray;
-                     learn(joint, packet.parameters[spare] != 0);
+                     learn(joint, packet.parameters[0] != 0);
                      return chain.ended() ? Take::kDone : Take::kMore;
                    });
   }
@@ -133,6 +141,7 @@ class DoubtedServos {
   const Params& params_;
   std::uint32_t doubted_ = 0;
   std::uint32_t here_ = 0;  ///< of these, those that have answered since
+  std::uint32_t broken_ = 0;
   std::uint32_t limp_ = 0;  ///< of these, those known to have no torque
   std::uint32_t batch_ = 0;
   std::uint8_t renewals_ = 0;  ///< still to send to batch_

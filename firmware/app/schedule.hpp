@@ -75,6 +75,8 @@ constexpr std::size_t sensor_devices(const Params& params) {
 /// Bytes that a read after an unanswered one asks for beyond what is wanted, of each device and at
 /// most (BusMaster).
 inline constexpr std::uint8_t kMostSpare = 2;
+/// Of a servo with an alert: from Torque Enable to Hardware Error Status.
+inline constexpr std::uint16_t kAlertBytes = 7;
 /// Servos that are asked or set up again in one tick, at most (DoubtedServos).
 inline constexpr int kResolvedAtOnce = 4;
 
@@ -92,8 +94,8 @@ constexpr std::size_t schedule_bytes(const Params& params) {
   const std::size_t told_to_some =
       sync_write_bytes(1, 2) + 2 * sync_write_bytes(1, 1) + (asked > renewed ? asked : renewed);
   return positions + sync_read_bytes(sensor_devices(params), dxl::sensor_block::kBytes) +
-         (dxl::kInstructionBytes + 4 + dxl::kStatusBytes + 1) + sync_write_bytes(joints, 4) +
-         (told_to_all > told_to_some ? told_to_all : told_to_some);
+         (dxl::kInstructionBytes + 4 + dxl::kStatusBytes + kAlertBytes) +
+         sync_write_bytes(joints, 4) + (told_to_all > told_to_some ? told_to_all : told_to_some);
 }
 
 /// Time that tick takes on the wire, replies' slack included. Over 80 % of the period leaves no

@@ -50,6 +50,8 @@ class ServoWriter {
 
   /// A servo's Bus Watchdog trips when it hears nothing for so long.
   std::uint32_t patience_us() const { return bus_watchdog_ * dxl::kBusWatchdogUnit_us; }
+  /// All servos were told to have torque, often enough for each to have heard it.
+  bool has_torque() const { return torque_ != 0 && !told_all_; }
   /// Whether the last tick had to tell all servos; one that does not leaves room on the bus.
   bool told_all() const { return told_all_; }
   /// Some servo has, or may have, heard nothing for longer.

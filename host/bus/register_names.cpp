@@ -1,6 +1,7 @@
 #include "host/bus/register_names.hpp"
 
 #include <array>
+#include <utility>
 
 #include "common/protocol/control_table.hpp"
 #include "firmware/app/lockstep_messages.hpp"
@@ -128,6 +129,19 @@ const Model* find_model(std::uint16_t number) {
 }
 
 }  // namespace
+
+std::string hardware_errors(unsigned bits) {
+  constexpr std::pair<unsigned, const char*> kNames[] = {
+      {dxl::kInputVoltageError, "input voltage"}, {dxl::kOverheatingError, "overheating"},
+      {dxl::kEncoderError, "motor encoder"},      {dxl::kElectricalShockError, "electrical shock"},
+      {dxl::kOverloadError, "overload"},
+  };
+  std::string text;
+  for (const auto& [bit, name] : kNames) {
+    if ((bits & bit) != 0) text += (text.empty() ? "" : ", ") + std::string(name);
+  }
+  return text.empty() ? "unknown: " + std::to_string(bits) : text;
+}
 
 std::string model_name(std::uint16_t model) {
   const Model* known = find_model(model);

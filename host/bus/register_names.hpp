@@ -14,6 +14,8 @@ using NamedRegister = dxl::controller::Register;
 
 /// "XM430-W350", "controller", ...; "model N" if it is not known.
 std::string model_name(std::uint16_t model);
+/// Bits of Hardware Error Status, as words.
+std::string hardware_errors(unsigned bits);
 
 /// In the order of their addresses; empty if the model is not known.
 std::span<const NamedRegister> registers_of(std::uint16_t model);

@@ -38,6 +38,11 @@ constexpr std::uint32_t kAnswer_us = 100'000;  // the slowest adapter known hold
       throw ToolError(kNoDevice, fmt::format("{}does not keep what is written to register {}; is "
                                              "another program using this bus?",
                                              at, report.address));
+    case app::BringUpStatus::kHardwareError:
+      throw ToolError(kNoDevice,
+                      fmt::format("{}has a hardware error ({}) and may be limp; cure it, then "
+                                  "switch the servo off and on, which clears it",
+                                  at, bus::hardware_errors(report.found)));
     default:
       throw ToolError(kNoDevice, fmt::format("{}does not answer; check power, wiring and ids "
                                              "(`verp bus scan`, `verp bus setup`)",

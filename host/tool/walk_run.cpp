@@ -22,8 +22,12 @@ using SilApp = app::App<bus::VirtualBus, WalkOperator, WalkSession>;
 void come_up(SilApp& app) {
   const app::BringUpReport report = app.bring_up();
   if (report.status == app::BringUpStatus::kReady) return;
-  constexpr const char* kWhat[] = {"is ready", "does not answer", "is of another model",
-                                   "refuses a write", "does not keep what is written"};
+  constexpr const char* kWhat[] = {"is ready",
+                                   "does not answer",
+                                   "is of another model",
+                                   "refuses a write",
+                                   "does not keep what is written",
+                                   "has a hardware error"};
   throw ToolError(kNoDevice, fmt::format("bus: device {} {} (register {}); check ids in the model",
                                          report.device_id, kWhat[static_cast<int>(report.status)],
                                          report.address));

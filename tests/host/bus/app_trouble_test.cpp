@@ -17,71 +17,6 @@ TEST_F(AppInTrouble, ABringUpThatFailsLeavesNobodyStiff) {
   for (int j = 1; j < kJoints; ++j) EXPECT_FALSE(plant.setpoint(j).torque_on) << j;
 }
 
-// A loose plug: the servo is back limp, with the factory's gains and no profile. Torque would throw
-// it at its goal: it counts as gone until the robot has let go, and only then gets what it lacks.
-TEST_F(AppInTrouble, AServoThatLostItsPowerIsGoneUntilTheRobotHasLetGo) {
-  ready();
-  wanted.torque_enable = all();
-  ticks(5);
-  const int lost[] = {1, 3, 5, 8, 11, 12};  // more than a tick has room for
-  std::uint32_t lost_bits = 0;
-  for (int joint : lost) {
-    lost_bits |= 1u << joint;
-    bus.set_powered(params.joint[joint].servo_id, false);
-  }
-  ticks(12);
-  for (int joint : lost) {
-    bus.set_powered(params.joint[joint].servo_id, true);
-    ASSERT_NE(plant.setpoint(joint).p_gain, 3500);
-    ASSERT_NE(plant.setpoint(joint).profile_ms, 10u);
-  }
-  for (int tick = 0; tick < 50; ++tick) {
-    ticks(1);
-    EXPECT_EQ(app.inputs().fresh, all() & ~lost_bits) << "tick " << tick;
-    for (int joint : lost) EXPECT_FALSE(plant.setpoint(joint).torque_on) << "tick " << tick;
-  }
-  wanted.torque_enable = 0;
-  ticks(20);
-  EXPECT_EQ(app.inputs().fresh, all());
-  wanted.torque_enable = all();
-  ticks(5);
-  for (int joint : lost) {
-    EXPECT_TRUE(plant.setpoint(joint).torque_on) << joint;
-    EXPECT_EQ(plant.setpoint(joint).p_gain, 3500) << joint;
-    EXPECT_EQ(plant.setpoint(joint).d_gain, 20) << joint;
-    EXPECT_EQ(plant.setpoint(joint).profile_ms, 10u) << joint;
-  }
-}
-
-// Those that only could not be heard keep what they hold, and soon count again: a cable that was
-// out must not end a walk.
-TEST_F(AppInTrouble, ServosThatWereOnlySilentKeepTheirTorqueAndCountAgain) {
-  ready();
-  wanted.torque_enable = all();
-  ticks(5);
-  for (int j = 0; j < kJoints; ++j) bus.set_connected(params.joint[j].servo_id, false);
-  ticks(8);
-  for (int j = 0; j < kJoints; ++j) bus.set_connected(params.joint[j].servo_id, true);
-  for (int tick = 0; tick < 12; ++tick) {
-    ticks(1);
-    for (int j = 0; j < kJoints; ++j) EXPECT_TRUE(plant.setpoint(j).torque_on) << "tick " << tick;
-  }
-  EXPECT_EQ(app.inputs().fresh, all());
-}
-
-// A robot that shall be limp is, however much is doubted.
-TEST_F(AppInTrouble, ADoubtedServoIsLetGoAllTheSame) {
-  ready();
-  wanted.torque_enable = all();
-  ticks(5);
-  for (int j = 0; j < kJoints; ++j) bus.set_connected(params.joint[j].servo_id, false);
-  ticks(6);
-  for (int j = 0; j < kJoints; ++j) bus.set_connected(params.joint[j].servo_id, true);
-  wanted.torque_enable = 0;
-  ticks(1);
-  for (int j = 0; j < kJoints; ++j) EXPECT_FALSE(plant.setpoint(j).torque_on) << j;
-}
-
 TEST_F(AppInTrouble, BringUpNamesASilentDevice) {
   bus.set_connected(7, false);
   const app::BringUpReport report = app.bring_up();
@@ -163,6 +98,17 @@ TEST_F(AppInTrouble, AnAlertIsLookedUp) {
     EXPECT_EQ(app.inputs().slow_error, app.inputs().slow_joint == 3 ? dxl::kOverheatingError : 0);
     EXPECT_NE(app.inputs().flags & kSlowFresh, 0);
   }
+}
+
+TEST_F(AppInTrouble, BringUpNamesAServoWithAHardwareError) {
+  ready();
+  plant.measured[3].temperature_c = 90;
+  ticks(kJoints + 1);
+  plant.measured[3].temperature_c = 40;
+  const app::BringUpReport report = app.bring_up();
+  EXPECT_EQ(report.status, app::BringUpStatus::kHardwareError);
+  EXPECT_EQ(report.device_id, params.joint[3].servo_id);
+  EXPECT_EQ(report.found, dxl::kOverheatingError);
 }
 
 TEST_F(AppInTrouble, AMissedPeriodIsSkippedAndReported) {

@@ -1,0 +1,98 @@
+#include "tests/host/bus/app_fixture.hpp"
+
+// Servos whose torque is not what they were told.
+namespace verp::test {
+namespace {
+
+using DoubtedServos = AppLoop;
+
+// A loose plug: the servo is back limp, with the factory's gains and no profile. Torque would throw
+// it at its goal: it counts as gone until the robot has let go, and only then gets what it lacks.
+TEST_F(DoubtedServos, AServoThatLostItsPowerIsGoneUntilTheRobotHasLetGo) {
+  ready();
+  wanted.torque_enable = all();
+  ticks(5);
+  const int lost[] = {1, 3, 5, 8, 11, 12};  // more than a tick has room for
+  std::uint32_t lost_bits = 0;
+  for (int joint : lost) {
+    lost_bits |= 1u << joint;
+    bus.set_powered(params.joint[joint].servo_id, false);
+  }
+  ticks(12);
+  for (int joint : lost) {
+    bus.set_powered(params.joint[joint].servo_id, true);
+    ASSERT_NE(plant.setpoint(joint).p_gain, 3500);
+    ASSERT_NE(plant.setpoint(joint).profile_ms, 10u);
+  }
+  for (int tick = 0; tick < 50; ++tick) {
+    ticks(1);
+    EXPECT_EQ(app.inputs().fresh, all() & ~lost_bits) << "tick " << tick;
+    for (int joint : lost) EXPECT_FALSE(plant.setpoint(joint).torque_on) << "tick " << tick;
+  }
+  wanted.torque_enable = 0;
+  ticks(20);
+  EXPECT_EQ(app.inputs().fresh, all());
+  wanted.torque_enable = all();
+  ticks(5);
+  for (int joint : lost) {
+    EXPECT_TRUE(plant.setpoint(joint).torque_on) << joint;
+    EXPECT_EQ(plant.setpoint(joint).p_gain, 3500) << joint;
+    EXPECT_EQ(plant.setpoint(joint).d_gain, 20) << joint;
+    EXPECT_EQ(plant.setpoint(joint).profile_ms, 10u) << joint;
+  }
+}
+
+// Those that only could not be heard keep what they hold, and soon count again: a cable that was
+// out must not end a walk.
+TEST_F(DoubtedServos, ServosThatWereOnlySilentKeepTheirTorqueAndCountAgain) {
+  ready();
+  wanted.torque_enable = all();
+  ticks(5);
+  for (int j = 0; j < kJoints; ++j) bus.set_connected(params.joint[j].servo_id, false);
+  ticks(8);
+  for (int j = 0; j < kJoints; ++j) bus.set_connected(params.joint[j].servo_id, true);
+  for (int tick = 0; tick < 12; ++tick) {
+    ticks(1);
+    for (int j = 0; j < kJoints; ++j) EXPECT_TRUE(plant.setpoint(j).torque_on) << "tick " << tick;
+  }
+  EXPECT_EQ(app.inputs().fresh, all());
+}
+
+// A robot that shall be limp is, however much is doubted.
+TEST_F(DoubtedServos, ADoubtedServoIsLetGoAllTheSame) {
+  ready();
+  wanted.torque_enable = all();
+  ticks(5);
+  for (int j = 0; j < kJoints; ++j) bus.set_connected(params.joint[j].servo_id, false);
+  ticks(6);
+  for (int j = 0; j < kJoints; ++j) bus.set_connected(params.joint[j].servo_id, true);
+  wanted.torque_enable = 0;
+  ticks(1);
+  for (int j = 0; j < kJoints; ++j) EXPECT_FALSE(plant.setpoint(j).torque_on) << j;
+}
+
+// One that shut off its torque would let the robot walk on without a knee.
+TEST_F(DoubtedServos, AServoThatShutItsTorqueOffIsGoneUntilItIsRebooted) {
+  ready();
+  wanted.torque_enable = all();
+  ticks(5);
+  plant.measured[3].temperature_c = 90;
+  ticks(kJoints + 1);
+  ASSERT_FALSE(plant.setpoint(3).torque_on);
+  EXPECT_EQ(app.inputs().fresh, all() & ~(1u << 3));
+  plant.measured[3].temperature_c = 40;  // its error stays
+  wanted.torque_enable = 0;
+  ticks(20);
+  EXPECT_EQ(app.inputs().fresh, all() & ~(1u << 3)) << "nothing may rise on it";
+  bus.set_powered(params.joint[3].servo_id, false);
+  bus.set_powered(params.joint[3].servo_id, true);
+  ticks(5);
+  EXPECT_EQ(app.inputs().fresh, all());
+  wanted.torque_enable = all();
+  ticks(5);
+  EXPECT_TRUE(plant.setpoint(3).torque_on);
+  EXPECT_EQ(plant.setpoint(3).p_gain, 3500);
+}
+
+}  // namespace
+}  // namespace verp::test
