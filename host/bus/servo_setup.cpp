@@ -14,7 +14,8 @@ namespace at = dxl::address;
 
 constexpr std::uint32_t kTimeout_us = 60'000;  // 16 ms of an adapter, twice, and some
 constexpr int kReadings = 9;
-constexpr std::int32_t kStill = 6;  // counts, half a degree: a hand trembles
+constexpr std::uint8_t kAllReplies = 2;  // e-Manual, Status Return Level (68)
+constexpr std::int32_t kStill = 6;       // counts, half a degree: a hand trembles
 
 /// Every rate a servo can have (e-Manual, Baud Rate (8)), the likely ones first.
 constexpr std::array<std::uint32_t, 8> kRates = {dxl::kFactoryBaud, 1'000'000, 2'000'000, 115'200,
@@ -39,6 +40,18 @@ void tell(Client& client, std::uint8_t id, std::uint16_t address, std::uint8_t v
     client.write(id, address, {value});
   } catch (const DeviceError&) {  // what came of it is read afterwards
   }
+}
+
+/// Has it answer reads and writes, and says if it did not.
+void make_it_answer(Client& client, std::uint8_t id, const Changed& changed) {
+  std::uint8_t before = 0;
+  try {
+    before = client.read(id, at::kStatusReturnLevel, 1)[0];
+  } catch (const DeviceError&) {  // 0: pings only
+  }
+  if (before == kAllReplies) return;
+  tell(client, id, at::kStatusReturnLevel, kAllReplies);
+  changed({"status_return_level", before, kAllReplies});
 }
 
 struct Setting {
@@ -82,39 +95,36 @@ std::vector<FoundServo> SetupLine::find(const std::function<bool()>& give_up) {
   return found;
 }
 
-std::vector<Change> configure(SetupLine& line, FoundServo& servo, std::uint8_t id,
-                              std::uint32_t baud, bool dry_run) {
-  std::vector<Change> changes;
+void configure(SetupLine& line, FoundServo& servo, std::uint8_t id, std::uint32_t baud,
+               bool dry_run, const Changed& changed) {
   Client* client = &line.at(servo.baud);
   const std::uint8_t from = servo.identity.id;
-  const Setting settings[] = {{"status_return_level", at::kStatusReturnLevel, 2},
+  const Setting settings[] = {{"status_return_level", at::kStatusReturnLevel, kAllReplies},
                               {"torque_enable", at::kTorqueEnable, 0},
                               {"return_delay", at::kReturnDelay, 0},
                               // As the control loop will: zero and direction depend on them.
                               {"drive_mode", at::kDriveMode, dxl::kTimeBasedProfile},
                               {"operating_mode", at::kOperatingMode, dxl::kPositionMode}};
-  if (!dry_run) tell(*client, from, at::kStatusReturnLevel, 2);  // else it may not answer a read
+  if (!dry_run) make_it_answer(*client, from, changed);
   for (const Setting& each : settings) {
     const std::uint8_t before = client->read(from, each.address, 1)[0];
     if (before == each.value) continue;
-    changes.push_back({each.name, before, each.value});
     if (!dry_run) client->write(from, each.address, {each.value});
+    changed({each.name, before, each.value});
   }
-  const auto wants = [&](const char* name, std::int64_t before, std::int64_t after) {
-    if (before == after) return false;
-    changes.push_back({name, before, after});
-    return !dry_run;
-  };
-  if (wants("id", from, id)) {
-    tell(*client, from, at::kId, id);
-    if (!client->ping(id)) {
+  if (from != id) {
+    if (!dry_run) tell(*client, from, at::kId, id);
+    changed({"id", from, id});
+    if (!dry_run && !client->ping(id)) {
       throw DeviceError(fmt::format("{}: device {} did not become {}; is it alone on the bus?",
                                     client->place(), from, id));
     }
-    servo.identity.id = id;
+    if (!dry_run) servo.identity.id = id;
   }
-  if (wants("baud", servo.baud, baud)) {
-    tell(*client, servo.identity.id, at::kBaudRate, dxl::baud_rate_code(baud));
+  if (servo.baud != baud) {
+    if (!dry_run) tell(*client, servo.identity.id, at::kBaudRate, dxl::baud_rate_code(baud));
+    changed({"baud", servo.baud, baud});
+    if (dry_run) return;
     client = &line.at(baud);
     if (!client->ping(servo.identity.id)) {
       throw DeviceError(fmt::format("{}: device {} does not answer at {} baud, to which it was set",
@@ -127,7 +137,6 @@ std::vector<Change> configure(SetupLine& line, FoundServo& servo, std::uint8_t i
     throw DeviceError(fmt::format("{}: device {} does not keep {}", client->place(),
                                   servo.identity.id, each.name));
   }
-  return changes;
 }
 
 std::int32_t still_position(Client& client, std::uint8_t id) {

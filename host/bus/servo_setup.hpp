@@ -40,11 +40,14 @@ class SetupLine {
   std::optional<Client> client_;
 };
 
-/// Torque off, every reply given, no return delay, then `id` and `baud`; each is read back. Says
-/// what was not so; with `dry_run` only that. Afterwards the servo is where `servo` says. Throws
-/// DeviceError.
-std::vector<Change> configure(SetupLine& line, FoundServo& servo, std::uint8_t id,
-                              std::uint32_t baud, bool dry_run);
+/// Told of each register when it was written, or would be.
+using Changed = std::function<void(const Change&)>;
+
+/// Torque off, every reply given, no return delay, then `id` and `baud`; each is read back. Tells
+/// `changed` at once of what was not so; with `dry_run` only that. Afterwards the servo is where
+/// `servo` says. Throws DeviceError.
+void configure(SetupLine& line, FoundServo& servo, std::uint8_t id, std::uint32_t baud,
+               bool dry_run, const Changed& changed);
 
 /// Present Position, the middle of some readings; counts. Throws DeviceError if it moves.
 std::int32_t still_position(Client& client, std::uint8_t id);

@@ -4,7 +4,6 @@
 #include <memory>
 #include <vector>
 
-#include "host/link/serial_check.hpp"
 #include "host/model/find.hpp"
 #include "host/model/load.hpp"
 #include "host/model/params.hpp"
@@ -43,8 +42,6 @@ int set_up(const SetupWords& words) {
       words.report.empty() ? fmt::format("{}-setup.json", params.name) : words.report, params,
       !words.choice.dry_run);
   const wire::Endpoint endpoint = wire::parse_endpoint(words.link);
-  // Not only when a person has wired the first servo up.
-  if (endpoint.kind == wire::Endpoint::Kind::kSerial) wire::check_serial_port(endpoint.place);
   Answers answers;
   SetupGuide guide(params, endpoint, words.choice, report, answers);
   const bool done = guide.run();

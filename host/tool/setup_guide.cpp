@@ -24,14 +24,6 @@ std::string thumb(const JointParams& joint) {
                      joint.axis.y, joint.axis.z);
 }
 
-Json to_json(const std::vector<bus::Change>& changes) {
-  Json all = Json::array();
-  for (const bus::Change& each : changes) {
-    all.push_back({{"register", each.name}, {"before", each.before}, {"after", each.after}});
-  }
-  return all;
-}
-
 void add_todo(Json& entry, const std::string& what) {
   const std::string before = entry.value("todo", "");
   entry["todo"] = before.empty() ? what : before + "; " + what;
@@ -59,11 +51,14 @@ SetupGuide::Answer SetupGuide::ask(const std::string& question) {
 
 bool SetupGuide::run() {
   bool all = true;
+  bool open = false;
   try {
     for (int j = 0; j < params_.joint_count; ++j) {
       const std::string name = params_.joint[j].name;
       const bool wanted = choice_.joint.empty() ? !report_.done(name) : choice_.joint == name;
       if (!wanted) continue;
+      if (!open) line_.at(params_.baud);  // not only when a person has wired the first servo up
+      open = true;
       all = joint(j) && all;
     }
     return all;
@@ -82,31 +77,60 @@ bool SetupGuide::joint(int index) {
                                        : "Connect its servo alone and power it, then press Enter "
                                          "(s skips the joint, q ends): ";
   while (ask(question) == Answer::kGoOn) {
+    Json entry = begun(joint);
     try {
-      Json entry = {{"outcome", "done"}, {"id", joint.servo_id}};
-      bus::FoundServo servo = meet(joint);
-      entry["found"] = {{"id", servo.identity.id}, {"baud", servo.baud}};
-      const auto changes =
-          bus::configure(line_, servo, joint.servo_id, params_.baud, choice_.dry_run);
-      entry["changes"] = to_json(changes);
-      for (const bus::Change& each : changes) {
-        complain(fmt::format("  {} {} to {}", each.name, each.before, each.after));
-      }
-      bus::Client& client = line_.at(servo.baud);
-      measure_zero(joint, client, servo.identity.id, entry);
-      check_direction(joint, client, servo.identity.id, entry);
-      if (entry.contains("todo")) entry["outcome"] = "to do";
-      if (choice_.dry_run) entry["outcome"] = "dry run";
-      report_.keep(joint.name, entry);
-      complain(fmt::format("  {}", entry.at("outcome").get<std::string>()));
+      set_up(joint, entry);
       return !entry.contains("todo");
     } catch (const bus::DeviceError& error) {
       complain(std::string("  ") + error.what());
+      if (entry.contains("found") && !choice_.dry_run) {  // a write may have failed half-way
+        entry["error"] = error.what();
+        report_.keep(joint.name, entry);
+      }
       question = "Press Enter to try again (s skips the joint, q ends): ";
     }
   }
-  report_.keep(joint.name, {{"outcome", "skipped"}, {"id", joint.servo_id}});
+  skip(joint);
   return false;
+}
+
+Json SetupGuide::begun(const JointParams& joint) const {
+  Json entry = {{"outcome", "begun"}, {"id", joint.servo_id}, {"changes", Json::array()}};
+  const Json before = report_.of(joint.name);
+  if (!choice_.dry_run && !report_.done(joint.name) && before.contains("changes")) {
+    entry["changes"] = before.at("changes");
+  }
+  return entry;
+}
+
+void SetupGuide::set_up(const JointParams& joint, Json& entry) {
+  bus::FoundServo servo = meet(joint);
+  entry["found"] = {{"id", servo.identity.id}, {"baud", servo.baud}};
+  bus::configure(line_, servo, joint.servo_id, params_.baud, choice_.dry_run,
+                 [&](const bus::Change& change) {
+                   note(joint, change, entry);
+                   complain(fmt::format("  {} {} to {}", change.name, change.before, change.after));
+                 });
+  bus::Client& client = line_.at(servo.baud);
+  measure_zero(joint, client, servo.identity.id, entry);
+  check_direction(joint, client, servo.identity.id, entry);
+  entry["outcome"] = choice_.dry_run ? "dry run" : entry.contains("todo") ? "to do" : "done";
+  report_.keep(joint.name, entry);
+  complain(fmt::format("  {}", entry.at("outcome").get<std::string>()));
+}
+
+void SetupGuide::note(const JointParams& joint, const bus::Change& change, Json& entry) {
+  entry["changes"].push_back(
+      {{"register", change.name}, {"before", change.before}, {"after", change.after}});
+  if (!choice_.dry_run) report_.keep(joint.name, entry);
+}
+
+void SetupGuide::skip(const JointParams& joint) {
+  if (report_.done(joint.name)) return;  // it stays so
+  Json entry = report_.of(joint.name);
+  entry["outcome"] = "skipped";
+  entry["id"] = joint.servo_id;
+  report_.keep(joint.name, entry);
 }
 
 bus::FoundServo SetupGuide::meet(const JointParams& joint) {
@@ -175,6 +199,7 @@ void SetupGuide::measure_zero(const JointParams& joint, bus::Client& client, std
                   choice_.dry_run ? " (not written)" : ""));
   if (!choice_.dry_run && fix.homing_after != fix.homing_before) {
     bus::write_homing(client, id, fix);
+    note(joint, {"homing_offset", fix.homing_before, fix.homing_after}, entry);
   }
 }
 

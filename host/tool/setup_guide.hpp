@@ -33,6 +33,12 @@ class SetupGuide {
   Answer ask(const std::string& question);
   /// False: something is left to do.
   bool joint(int index);
+  /// What is known of a joint whose turn it is: what earlier tries changed in its servo.
+  Json begun(const JointParams& joint) const;
+  void set_up(const JointParams& joint, Json& entry);
+  /// Keeps what was just written to a servo, before anything else may fail.
+  void note(const JointParams& joint, const bus::Change& change, Json& entry);
+  void skip(const JointParams& joint);
   bus::FoundServo meet(const JointParams& joint);
   void measure_zero(const JointParams& joint, bus::Client& client, std::uint8_t id, Json& entry);
   void check_direction(const JointParams& joint, bus::Client& client, std::uint8_t id, Json& entry);

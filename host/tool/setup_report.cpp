@@ -1,6 +1,7 @@
 #include "host/tool/setup_report.hpp"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
@@ -9,6 +10,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "host/tool/console.hpp"
 #include "host/tool/exit_status.hpp"
 
 namespace verp::tool {
@@ -34,15 +36,59 @@ std::string wrong_in(const Json& entry) {
   return all ? "" : "changes";
 }
 
-/// Known before a servo is written to, whose entry would then be lost.
-void check_place(const std::string& file) {
+constexpr std::size_t kMost = 1 << 20;      // no report is that long
+constexpr std::size_t kRoomOfEntry = 2048;  // more than a joint takes
+
+std::string part_of(const std::string& file) {
+  return file + ".part";
+}
+
+/// All of it, or nothing: then errno.
+int write_part(const std::string& file, const std::string& text) {
+  const std::string part = part_of(file);
+  errno = 0;
+  std::ofstream out(part, std::ios::binary);
+  const bool opened = out.is_open();
+  out << text;
+  out.close();
+  if (out) return 0;
+  const int error = errno;
+  if (opened) ::unlink(part.c_str());
+  return error == 0 ? EIO : error;
+}
+
+/// The same of the file itself, which is then the new one or still the old one.
+int write_file(const std::string& file, const std::string& text) {
+  if (const int error = write_part(file, text); error != 0) return error;
+  if (std::rename(part_of(file).c_str(), file.c_str()) == 0) return 0;
+  const int error = errno;
+  ::unlink(part_of(file).c_str());
+  return error;
+}
+
+[[noreturn]] void refuse_place(const std::string& file, int error) {
+  refuse(file, std::string("cannot be written: ") + std::strerror(error));
+}
+
+/// Known before a servo is written to, whose entry would then be lost. `now`: what the file holds,
+/// if it is there; `room`: what may be added to it.
+void check_place(const std::string& file, const std::string& now, std::size_t room) {
+  int error = write_part(file, now + std::string(room, ' '));
+  if (error == 0) ::unlink(part_of(file).c_str());
+  if (error == 0 && !now.empty()) error = write_file(file, now);
+  if (error != 0) refuse_place(file, error);
+}
+
+std::string contents(const std::string& file) {
   std::error_code error;
   if (std::filesystem::is_directory(file, error)) refuse(file, "is a folder");
-  const std::string part = file + ".part";
-  if (!std::ofstream(part, std::ios::app)) {
-    refuse(file, std::string("cannot be written: ") + std::strerror(errno));
-  }
-  std::filesystem::remove(part, error);
+  if (!std::filesystem::is_regular_file(file, error)) refuse(file, "is no file");
+  std::ifstream in(file, std::ios::binary);
+  std::string text(kMost, '\0');
+  if (in) in.read(text.data(), static_cast<std::streamsize>(text.size()));
+  if (!in && !in.eof()) refuse(file, std::string("cannot be read: ") + std::strerror(errno));
+  text.resize(static_cast<std::size_t>(in.gcount()));
+  return text;
 }
 
 std::string line_of(const std::string& joint, const Json& entry) {
@@ -64,12 +110,14 @@ SetupReport::SetupReport(std::string file, const Params& params, bool writes)
     : file_(std::move(file)),
       writes_(writes),
       json_({{"robot", params.name}, {"baud", params.baud}, {"joints", Json::object()}}) {
-  if (writes) check_place(file_);
   std::error_code error;
-  if (!std::filesystem::exists(file_, error)) return;
-  std::ifstream in(file_);
-  if (!in) refuse(file_, std::string("cannot be read: ") + std::strerror(errno));
-  Json read = Json::parse(in, nullptr, false);
+  if (std::filesystem::exists(file_, error)) read(params);
+  const std::size_t room = kRoomOfEntry * static_cast<std::size_t>(params.joint_count);
+  if (writes) check_place(file_, written_ ? json_.dump(2) + '\n' : "", room);
+}
+
+void SetupReport::read(const Params& params) {
+  Json read = Json::parse(contents(file_), nullptr, false);
   if (!read.is_object() || !read.contains("robot") || !read.contains("joints") ||
       !read.at("joints").is_object()) {
     refuse(file_, "is no report of `verp bus setup`");
@@ -94,18 +142,16 @@ bool SetupReport::done(const std::string& joint) const {
          joints.at(joint).value("outcome", "") == "done";
 }
 
+Json SetupReport::of(const std::string& joint) const {
+  return json_.at("joints").value(joint, Json::object());
+}
+
 void SetupReport::keep(const std::string& joint, const Json& entry) {
   json_["joints"][joint] = entry;
   if (!writes_) return;
-  const std::string part = file_ + ".part";
-  {
-    std::ofstream out(part);
-    out << json_.dump(2) << '\n';
-    out.flush();
-    if (!out) refuse(file_, std::string("cannot be written: ") + std::strerror(errno));
-  }
-  if (std::rename(part.c_str(), file_.c_str()) != 0) {
-    refuse(file_, std::string("cannot be written: ") + std::strerror(errno));
+  if (const int error = write_file(file_, json_.dump(2) + '\n'); error != 0) {
+    complain("  not in the report: " + Json{{joint, entry}}.dump());
+    refuse_place(file_, error);
   }
   written_ = true;
 }

@@ -10,13 +10,16 @@ namespace verp::tool {
 /// next run goes on where this one ended.
 class SetupReport {
  public:
-  /// Reads `file` if it is there; `writes`: it is kept up to date. Throws ToolError if it is of
-  /// another robot, no such report, or can't be read or written.
+  /// Reads `file` if it is there; `writes`: it is kept up to date, and there is room for it. Throws
+  /// ToolError if it is of another robot, no such report, or can't be read or written.
   SetupReport(std::string file, const Params& params, bool writes);
 
   /// That joint needs no more: nothing is left to do for a person.
   bool done(const std::string& joint) const;
-  /// Keeps `entry` for the joint; throws ToolError if the file can't be written.
+  /// What is known of the joint; nothing: an empty object.
+  Json of(const std::string& joint) const;
+  /// Keeps `entry` for the joint; if the file can't be written, prints the entry and throws
+  /// ToolError.
   void keep(const std::string& joint, const Json& entry);
 
   const Json& json() const { return json_; }
@@ -27,6 +30,8 @@ class SetupReport {
   std::string text(const Params& params) const;
 
  private:
+  void read(const Params& params);
+
   std::string file_;
   bool writes_;
   bool written_ = false;

@@ -1,6 +1,7 @@
 #pragma once
 #include <fcntl.h>
 #include <signal.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -79,6 +80,11 @@ class Process {
       std::this_thread::sleep_for(std::chrono::milliseconds(10));
     }
     return false;
+  }
+  /// From now on no file it writes grows beyond that: to it, the disk is full.
+  void fill_disk(rlim_t most_bytes) const {
+    const rlimit limit{most_bytes, most_bytes};
+    ASSERT_EQ(::prlimit(child_->id(), RLIMIT_FSIZE, &limit, nullptr), 0);
   }
   bool over() { return child_->status().has_value(); }
   Outcome wait() {

@@ -138,6 +138,104 @@ TEST_F(Setup, GoesOnWhereItEnded) {
   EXPECT_EQ(report().at("joints").at("head_pitch").at("outcome"), "skipped");
 }
 
+// However a person leaves at the question for the zero, what the servo was told before is kept, and
+// the next run adds to it.
+TEST_F(Setup, WhatWasWrittenIsKeptAtOnce) {
+  const auto ends = {+[](Process& p) { p.type("q\n"); }, +[](Process& p) { p.hang_up(); },
+                     +[](Process& p) { p.signal(SIGINT); }};
+  const Json delay = {{"register", "return_delay"}, {"before", 250}, {"after", 0}};
+  const auto has_delay = [&] {
+    const Json changes = report()["joints"]["l_knee"]["changes"];
+    return std::count(changes.begin(), changes.end(), delay);
+  };
+  for (const auto& end : ends) {
+    servos_.disconnect();
+    servos_.connect(kFromTheBox);
+    servos_.turn_to(2000);
+    fs::remove(folder_ / "generic21-setup.json");
+    auto program = setup({"--joint", "l_knee"});
+    ASSERT_TRUE(program->says("Connect its servo alone"));
+    program->type("\n");
+    ASSERT_TRUE(program->says("Zero: torque is off"));
+    end(*program);
+    const Outcome outcome = program->wait();
+    EXPECT_EQ(outcome.status, 1) << outcome.err;
+    EXPECT_EQ(servos_.value(at::kReturnDelay, 1), 0);
+    EXPECT_EQ(outcome.out.find("nothing was written"), std::string::npos) << outcome.out;
+    EXPECT_NE(outcome.out.find("generic21-setup.json"), std::string::npos) << outcome.out;
+    ASSERT_EQ(has_delay(), 1) << report().dump();
+    EXPECT_EQ(report()["joints"]["l_knee"]["outcome"], "begun");
+  }
+  auto next = setup({"--joint", "l_knee"});
+  ASSERT_TRUE(next->says("Connect its servo alone"));
+  next->type("s\n");
+  EXPECT_EQ(next->wait().status, 1);
+  EXPECT_EQ(has_delay(), 1) << "skipped, not forgotten";
+  auto last = setup({"--joint", "l_knee"});
+  do_joint(*last, 2000, 150);
+  EXPECT_EQ(last->wait().status, 0);
+  EXPECT_EQ(has_delay(), 1);
+  EXPECT_EQ(report()["joints"]["l_knee"]["changes"].back()["register"], "homing_offset");
+  EXPECT_EQ(report()["joints"]["l_knee"]["outcome"], "done");
+}
+
+// A disk that fills up costs the end of the session, not what a person held a joint for.
+TEST_F(Setup, WhatAFullDiskDoesNotTakeIsPrinted) {
+  const Json before = {{"robot", "generic21"},
+                       {"joints", {{"head_yaw", {{"note", std::string(20000, '.')}}}}}};
+  std::ofstream(folder_ / "generic21-setup.json") << before.dump();
+  servos_.connect(kFromTheBox);
+  servos_.turn_to(1900);
+  auto program = setup({"--joint", "l_knee"});
+  ASSERT_TRUE(program->says("Connect its servo alone"));
+  program->type("\n");
+  ASSERT_TRUE(program->says("Zero: torque is off"));
+  program->fill_disk(8192);
+  program->type("\n");
+  program->hang_up();
+  const Outcome outcome = program->wait();
+  EXPECT_EQ(outcome.status, 2);
+  const std::size_t at = outcome.err.find("not in the report: {\"l_knee\"");
+  ASSERT_NE(at, std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.err.find("\"homing_after\":148", at), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.err.find("cannot be written: File too large", at), std::string::npos);
+  EXPECT_EQ(report()["joints"]["head_yaw"], before["joints"]["head_yaw"]);
+  EXPECT_EQ(report()["joints"]["l_knee"]["outcome"], "begun") << "as it was kept last";
+  EXPECT_FALSE(fs::exists(folder_ / "generic21-setup.json.part"));
+}
+
+// Where no report can be kept no servo is asked for.
+TEST_F(Setup, PlacesThatHoldNoReportAreRefusedFirst) {
+  fs::create_directories(folder_ / "here.part");
+  for (const char* place : {"/proc/x.json", "/tmp", "/proc/self/mem", "/dev/full", "here"}) {
+    const std::string words = std::string("bus setup --link unix:none --report ") + place;
+    expect_refused(words, std::string(place) + ": ");
+  }
+  for (const char* place : {"/tmp", "/proc/self/mem", "/dev/full"}) {
+    expect_refused(std::string("bus setup --link unix:none --dry-run --report ") + place,
+                   std::string(place) + ": ");
+  }
+  const Outcome full =
+      shell("ulimit -f 8; " VERP_PROGRAM " bus setup --link unix:none --report x.json");
+  EXPECT_EQ(full.status, 2) << full.err;
+  EXPECT_NE(full.err.find("x.json: cannot be written: File too large"), std::string::npos)
+      << full.err;
+  EXPECT_FALSE(fs::exists(folder_ / "x.json.part"));
+  EXPECT_FALSE(fs::exists(folder_ / "x.json"));
+  std::ofstream(folder_ / "y.json") << R"({"joints": {"head_yaw": {"outcome": 5}}})";
+  expect_refused("bus setup --link unix:none --report y.json", "y.json: is no report");
+}
+
+// Nor on a link that is not there.
+TEST_F(Setup, OpensTheLinkBeforeItAsks) {
+  for (const char* link : {"unix:none", "tcp:127.0.0.1:1", "serial:/dev/nothing", "pty:nobody"}) {
+    const Outcome outcome = verp(std::string("bus setup --link ") + link);
+    EXPECT_EQ(outcome.status, 3) << link;
+    EXPECT_EQ(outcome.out, "") << link;
+    EXPECT_EQ(outcome.err.find("Connect its servo"), std::string::npos) << outcome.err;
+  }
+}
+
 TEST_F(Setup, ADryRunWritesNothing) {
   servos_.connect(kFromTheBox);
   auto program = setup({"--joint", "l_knee", "--dry-run"});
