@@ -31,6 +31,8 @@ namespace {
 
 constexpr std::uint64_t kGreeting_us = 300'000;
 constexpr std::uint64_t kForever_us = ~std::uint64_t{0};
+/// A twin that has begun no new tick for so long holds no torque against the operator any more.
+constexpr std::uint64_t kTwinSilent_us = 5'000'000;
 /// Of a loop that ticks every 5 to 20 ms. Shorter would bite a loop that a lost reply held up.
 constexpr std::uint32_t kWatchdog_us = 100'000;
 
@@ -112,6 +114,7 @@ struct Board {
   // Recorder
   void record(const TickRecord& record, const State& state, const Outputs& outputs) {
     boot::note_tick(record.inputs.tick);
+    ticked_us = timer.now_us();
     if (++ticks == kSettledTicks) boot::forget_crashes();
     operator_device.record(record, state, outputs);
     say(signals.after_tick(timer.now_us(), outputs.faults));
@@ -148,7 +151,8 @@ struct Board {
   app::WithPanel<Operator, PanelPins<Io>> panel{operator_device, pins, kEmergencyStop.exists()};
   app::Signals signals;
   app::LifeSign life;
-  std::uint32_t ticks = 0;  ///< since the start, of all loops
+  std::uint32_t ticks = 0;      ///< since the start, of all loops
+  std::uint64_t ticked_us = 0;  ///< when the last one was over
   std::uint32_t skipped_periods = 0;
   StartFault fault = StartFault::kNone;
 };
@@ -174,9 +178,12 @@ struct PatientPort {
 
 struct Patience {
   bool operator()() const {
-    if (until_us != kForever_us) board.supply.watch();  // no twin has answered yet
+    const std::uint64_t now_us = timer.now_us();
+    const bool answered = until_us == kForever_us;
+    if (!answered) board.supply.watch();
+    if (answered && now_us - board.ticked_us > kTwinSilent_us) board.operator_device.servos_gone();
     board.idle();
-    return timer.now_us() < until_us;
+    return now_us < until_us;
   }
   Board& board;
   const std::uint64_t& until_us;
@@ -184,7 +191,8 @@ struct Patience {
 
 /// Serves a twin for as long as it is there, or says why there is none. The board's own IMU and
 /// stop know nothing of the twin's world, so they do not count; nor does the torque limit, as the
-/// twin compares each frame with its own.
+/// twin compares each frame with its own. One that falls silent is waited for without end, as it
+/// may be paused, and goes on with the same bits; all that while its operator can start it anew.
 lockstep::Verdict run_in_lockstep(Board& board, const Params& params) {
   std::uint64_t until_us = timer.now_us() + kGreeting_us;
   app::LockstepBus<Port, Patience> bus(servo_port, {board, until_us});
@@ -198,6 +206,7 @@ lockstep::Verdict run_in_lockstep(Board& board, const Params& params) {
     board.report(loop);
     board.idle();
   }
+  board.operator_device.servos_gone();
   return verdict;
 }
 

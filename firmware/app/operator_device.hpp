@@ -60,6 +60,11 @@ class OperatorDevice {
   /// What came of the order to calibrate, or of what was kept; also before there is a loop.
   void show(table::ImuCalibrationState state) { registers_.report().imu_calibration(state); }
 
+  /// No servo can hold torque, as the twin that played them is silent or gone: the operator gets
+  /// back what torque keeps from him, a new start among it, until the next tick says otherwise.
+  /// Takes no order away: a twin that answers again finds the loop as it left it.
+  void servos_gone() { registers_.report().servos_gone(); }
+
   /// Bus counters and the like, as often as they should be readable.
   void report(const LoopHealth& health) { registers_.report().health(health); }
 

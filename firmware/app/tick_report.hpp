@@ -57,6 +57,12 @@ class TickReport {
     devices_.tick(inputs, state, outputs);
   }
 
+  /// What the tick's orders to servos came to, once there is none that could obey.
+  void servos_gone() {
+    image_.set(reg("torque_enable"), std::uint8_t{0});
+    image_.set(reg("joints_torque"), std::uint32_t{0});
+  }
+
   void bring_up(const BringUpReport& report) {
     image_.set(reg("bring_up"), static_cast<std::uint8_t>(static_cast<int>(report.status) + 1));
     image_.set(reg("bring_up_device"), report.device_id);

@@ -174,6 +174,7 @@ SerialRun run_over_serial(SerialBoard& board, const Robot& robot, std::uint32_t 
   hooks.damaged = [&] { shadow.damaged(); };
   hooks.polled = [&](auto bytes, std::uint64_t now_us) { shadow.polled(bytes, now_us); };
   hooks.tick_begins = [&](std::uint32_t tick) {
+    if (tick == trouble.pause_before && trouble.pause) trouble.pause();
     const app::OperatorOrder order = orders.order(tick);
     if (run.twin.records.empty()) board.write("request", 0);  // nothing else is obeyed at first
     give(board, order.command);

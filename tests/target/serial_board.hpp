@@ -1,6 +1,7 @@
 #pragma once
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -45,6 +46,9 @@ struct SerialTrouble {
   LinkFaults to_board, from_board;
   int cut_every = 0;  ///< answers of the twin: then the cable is pulled, and that answer lost
   std::uint32_t seed = 1;
+  /// The twin stands still before it begins this tick, until `pause` is over. 0: never.
+  std::uint32_t pause_before = 0;
+  std::function<void()> pause{};
 };
 
 struct SerialRun {

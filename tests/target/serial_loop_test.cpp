@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cstdlib>
+#include <thread>
 
 #include "tests/target/serial_board.hpp"
 
@@ -87,6 +89,41 @@ TEST(SerialLoop, WalksTheSameBitsThroughItsUsartsAndInThisProcess) {
   EXPECT_FALSE(there.twin.fallen);
   EXPECT_GT(there.twin.distance_m, 0.2) << "it should have walked";
   std::printf("%s: %u ticks at %.0f ticks/s\n", test_board().c_str(), ticks, there.ticks_per_s);
+}
+
+/// Longer than a twin may be silent before it counts as gone.
+void wait_for_no_torque(SerialBoard& board) {
+  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+  while (board.read("torque_enable") != 0 && std::chrono::steady_clock::now() < end) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  }
+}
+
+// A twin that stands still, in a debugger or for good, does not lock the operator's desk; it goes
+// on where it was with the bits of one that never paused. So does one whose session is over.
+TEST(SerialLoop, UnlocksItsOperatorsDeskWhileTheTwinIsSilentAndGoesOnWithTheSameBits) {
+  constexpr std::uint32_t kTicks = 400, kPause = 300;  // it stands up
+  const Robot robot = load_robot("generic21");
+  const TwinRun here = run_here(robot, kTicks, false);
+  SerialBoard board(test_board(), params_image(robot));
+  ASSERT_TRUE(board.operator_port().ping(dxl::controller::kDefaultId).has_value());
+  const std::int64_t source = static_cast<std::int64_t>(dxl::controller::ImuSource::kBus);
+  SerialTrouble trouble;
+  trouble.pause_before = kPause;
+  trouble.pause = [&] {
+    EXPECT_EQ(board.read("torque_enable"), 1u);
+    EXPECT_THROW(board.write("imu_source", source), bus::DeviceError);
+    wait_for_no_torque(board);
+    EXPECT_EQ(board.read("torque_enable"), 0u) << "nobody could hold it";
+    EXPECT_NO_THROW(board.write("imu_source", source));
+    EXPECT_LT(board.read("tick"), kPause) << "the loop stands, and lives";
+  };
+  const SerialRun there = run_over_serial(board, robot, kTicks, trouble);
+  EXPECT_EQ(there.difference, "");
+  EXPECT_EQ(there.digest, here.records.back().digest.chain);
+  EXPECT_EQ(there.lockstep.greetings, 1u);
+  wait_for_no_torque(board);
+  EXPECT_EQ(board.read("torque_enable"), 0u);
 }
 
 }  // namespace

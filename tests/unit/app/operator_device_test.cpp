@@ -178,6 +178,31 @@ TEST(OperatorDevice, ArmedItKeepsIdAndSourceAndDoesNotRestart) {
   EXPECT_EQ(bench.read(0, 2).packets, 1);
 }
 
+// A twin that falls silent in mid-walk must not lock the desk; one that goes on locks it again, and
+// finds the order that stood.
+TEST(OperatorDevice, WithoutServosItOpensWhatTorqueKeptUntilTheNextTick) {
+  Bench<>& bench = fresh_bench();
+  bench.relax();
+  bench.device.order(0);
+  EXPECT_TRUE(bench.write(reg("request"), std::uint8_t{2}) == Error::kNone);
+  bench.arm(true);
+  bench.device.servos_gone();
+  EXPECT_FALSE(bench.device.armed());
+  EXPECT_EQ(bench.value<std::uint8_t>(reg("torque_enable")), 0);
+  EXPECT_EQ(bench.value<std::uint32_t>(reg("joints_torque")), 0u);
+  EXPECT_TRUE(bench.write(reg("torque_limit"), std::uint8_t{50}) == Error::kNone);
+  const OperatorOrder order = bench.device.order(1);
+  EXPECT_TRUE(order.command.request == static_cast<Request>(2));
+  EXPECT_EQ(order.flags, kCommandFresh);
+  bench.record();
+  EXPECT_TRUE(bench.device.armed());
+  EXPECT_TRUE(bench.write(reg("torque_limit"), std::uint8_t{60}) == Error::kAccess);
+  EXPECT_TRUE(bench.plain(Instruction::kReboot).error == Error::kResultFail);
+  bench.device.servos_gone();
+  EXPECT_TRUE(bench.plain(Instruction::kReboot).error == Error::kNone);
+  EXPECT_TRUE(bench.device.reboot_asked());
+}
+
 TEST(OperatorDevice, CalibratesTheChipThatSteersAndNoOther) {
   using Order = table::ImuCalibrationOrder;
   Bench<>& bench = fresh_bench({.imu_sources = 3});
