@@ -61,7 +61,7 @@ class LockstepBus {
   }
 
   /// The twin wants no further tick, or is gone.
-  bool stopped() const { return lost_ || (answer_.flags & lockstep::kStop) != 0; }
+  bool stopped() const { return lost_ || over(); }
   /// Not greeted, refused, given up by `idle`, or met by a twin that began anew: greet() again.
   bool lost() const { return lost_; }
   const Counters& counters() const { return counters_; }
@@ -92,6 +92,9 @@ class LockstepBus {
   std::uint64_t now_us() const { return answer_.now_us; }
 
  private:
+  /// The twin said stop. It may have hung up since, in the middle of a tick: nobody is waited for.
+  bool over() const { return (answer_.flags & lockstep::kStop) != 0; }
+
   static constexpr std::size_t kOutbox = 2 * hal::kMaxFrame;
   static constexpr std::uint32_t kEager_us = 2000;
   static constexpr std::uint32_t kFirstPatience_us = 50'000;
@@ -119,7 +122,7 @@ class LockstepBus {
       const std::size_t count = link_.write(from, size, kSlice_us);
       from += count;
       size -= count;
-      if (count == 0 && !idle_()) return false;
+      if (count == 0 && (!idle_() || over())) return false;
     }
     return true;
   }
@@ -138,6 +141,7 @@ class LockstepBus {
           ++counters_.spoilt;
           break;
         default:
+          if (over()) return false;
           patience_us = 2 * patience_us < kLastPatience_us ? 2 * patience_us : kLastPatience_us;
           break;
       }

@@ -165,6 +165,19 @@ TEST_F(Lockstep, WaitsOutACutLinkWithoutASingleTimeout) {
   EXPECT_GT(server.counters().repeats, 10u);
 }
 
+// A twin that ends in the middle of a tick may be gone before that tick's next poll.
+TEST_F(Lockstep, EndsTheTickWithATwinThatHungUpBehindItsStop) {
+  run(5);
+  ASSERT_TRUE(bus.stopped());
+  ASSERT_FALSE(bus.lost());
+  link.outbound.lost = 1;
+  waiting.mends = false;
+  waiting.most = waiting.calls + 1000;
+  loop.tick();
+  EXPECT_LT(waiting.calls, waiting.most) << "it waited for somebody who is gone";
+  EXPECT_TRUE(bus.stopped());
+}
+
 TEST_F(Lockstep, GivesUpWhenItsIdleHookSaysSo) {
   ASSERT_EQ(bus.greet(params), lockstep::Verdict::kAccepted);
   link.cut = true;
