@@ -8,6 +8,7 @@
 
 #include <cerrno>
 #include <cstdlib>
+#include <sstream>
 #include <system_error>
 #include <utility>
 
@@ -47,12 +48,25 @@ struct Report {
   }
 };
 
+/// Where PATH has it; itself if it says where it is, or if it is nowhere. execvp() would look too,
+/// but gives what is no program to a shell, which fails with words about something else.
+std::string place_of(const std::string& program) {
+  const char* path = std::getenv("PATH");
+  if (path == nullptr || program.find('/') != std::string::npos) return program;
+  std::istringstream folders(path);
+  for (std::string folder; std::getline(folders, folder, ':');) {
+    const std::string file = (folder.empty() ? "." : folder) + "/" + program;
+    if (::access(file.c_str(), X_OK) == 0) return file;
+  }
+  return program;
+}
+
 /// The forked half, up to its new program. Only what is safe after fork: no memory is allocated, as
 /// another thread's lock may be held here for ever.
 class Becoming {
  public:
-  Becoming(const Command& command, char* const* words, int report)
-      : command_(command), words_(words), report_(report) {}
+  Becoming(const Command& command, const char* program, char* const* words, int report)
+      : command_(command), program_(program), words_(words), report_(report) {}
 
   [[noreturn]] void become(pid_t parent) {
     // A descriptor below may be the report's, where our own streams were closed.
@@ -67,7 +81,7 @@ class Becoming {
     must(::dup2(output, STDOUT_FILENO));
     must(::dup2(error, STDERR_FILENO));
     if (!command_.folder.empty()) must(::chdir(command_.folder.c_str()));
-    must(::execvp(words_[0], words_));
+    must(::execv(program_, words_));
     ::_exit(kNotStarted);
   }
 
@@ -90,6 +104,7 @@ class Becoming {
   }
 
   const Command& command_;
+  const char* program_;
   char* const* words_;
   int report_;
 };
@@ -102,10 +117,11 @@ Child::Child(const Command& command) {
   words.reserve(own.size() + 1);
   for (std::string& word : own) words.push_back(word.data());
   words.push_back(nullptr);
+  const std::string program = place_of(own[0]);
   Report report;
   const pid_t parent = ::getpid();
   pid_ = ::fork();
-  if (pid_ == 0) Becoming(command, words.data(), report.write_end).become(parent);
+  if (pid_ == 0) Becoming(command, program.c_str(), words.data(), report.write_end).become(parent);
   const int error = pid_ < 0 ? errno : report.read();
   if (error == 0) return;
   if (pid_ > 0) reap(0);

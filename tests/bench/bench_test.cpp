@@ -59,7 +59,7 @@ TEST_F(Bench, BadUsageIsRefused) {
 
 TEST_F(Bench, BoardWithoutImageIsToldBeforeTheTimings) {
   const Outcome outcome = shell("VERP_FIRMWARE_DIR=. " VERP_PROGRAM " bench --json");
-  EXPECT_EQ(outcome.status, 3);
+  EXPECT_EQ(outcome.status, 2);
   EXPECT_NE(outcome.err.find("build it"), std::string::npos) << outcome.err;
 }
 
