@@ -12,13 +12,13 @@ namespace verp::app {
 
 /// Servos whose torque is not what it was told to be.
 ///
-/// One that was silent for long may have lost its power. If it did it comes back
-/// limp, with the factory's gains and no profile: torque would throw it at its goal. So until it is
-/// known what it holds, it is told of no torque but its end, and its position does not count, by
-/// which the core holds and lets the robot down as for one that is gone. One that kept its torque
-/// kept all else, and counts again; any other gets gains and profile, and counts, once the robot
-/// has been let go: from there it rises from the pose it is found in. One that shut its torque off
-/// for a hardware error is treated likewise, until it is rebooted.
+/// One that was silent for long may have lost its power. Then it comes back limp, with the
+/// factory's gains and no profile, and torque would throw it at its goal. So until it is known what
+/// it holds, it is told of no torque but its end, and its position does not count, by which the
+/// core holds and lets the robot down as for one that is gone. One that kept its torque kept all
+/// else, and counts again; any other gets gains and profile, and counts, once the robot has been
+/// let go: from there it rises from the pose it is found in. One that shut its torque off for a
+/// hardware error is treated likewise, until it is rebooted.
 template <hal::FrameBus Bus>
 class DoubtedServos {
  public:
