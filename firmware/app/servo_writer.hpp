@@ -26,8 +26,9 @@ class ServoWriter {
   /// Of that, in every mode; 1 to 100.
   void limit_torque(std::uint8_t percent) { most_percent_ = percent; }
 
-  /// Strength and goals go out before torque, so that a servo never wakes up with old ones.
-  /// `turn` is the joint whose turn it is; those in `doubted` hear of no torque but its end.
+  /// Strength and goals go out before torque, so that a servo does not wake up with old ones: but
+  /// once, in the same tick, so one whose frame of these is lost does, for a tick. `turn` is the
+  /// joint whose turn it is; those in `doubted` hear of no torque but its end.
   void send(BusMaster<Bus>& master, const Outputs& outputs, int turn, std::uint32_t doubted) {
     if (params_.joint_count == 0) return;
     const std::uint32_t wanted = outputs.torque_enable & all_joints();

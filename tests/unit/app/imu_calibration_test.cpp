@@ -179,6 +179,12 @@ struct Life {
     memory.work(true);
     return sample;
   }
+  /// Measures with as many samples as it takes.
+  State calibrated(hal::MemoryStore& memory, const ImuParams& params) {
+    imu.measure(0);
+    for (int i = 0; i < ImuCalibrator::kSamples; ++i) next(memory, params);
+    return imu.state();
+  }
   hal::ScriptedImu chip;
   Chip imu;
   test::Random random{5};
@@ -209,9 +215,7 @@ TEST(CalibratedImu, ARefusedMeasurementLeavesTheOldOneInForceAndInMemory) {
   hal::MemoryStore memory;
   const ImuParams params = upright();
   Life life(memory, params);
-  life.imu.measure(0);
-  for (int i = 0; i < ImuCalibrator::kSamples; ++i) life.next(memory, params);
-  ASSERT_TRUE(life.imu.state() == State::kDone);
+  ASSERT_TRUE(life.calibrated(memory, params) == State::kDone);
   life.imu.measure(0);
   hal::ImuSample push{{3000, 0, 0}, {0, 0, 8192}, ++life.time_us};
   life.chip.measure(push);
@@ -260,9 +264,7 @@ TEST(CalibratedImu, MeasuredInAnotherScaleOrMountingIsDroppedAndSaid) {
   hal::MemoryStore memory;
   const ImuParams params = upright();
   Life first(memory, params);
-  first.imu.measure(0);
-  for (int i = 0; i < ImuCalibrator::kSamples; ++i) first.next(memory, params);
-  ASSERT_TRUE(first.imu.state() == State::kDone);
+  ASSERT_TRUE(first.calibrated(memory, params) == State::kDone);
   ImuParams other[11];
   for (int i = 0; i < 11; ++i) {
     other[i] = params;
