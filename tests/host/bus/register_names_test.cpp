@@ -64,5 +64,14 @@ TEST(RegisterNames, TheControllersPageIsWhatTheTableSays) {
       << "out of date: ./verp bus registers > firmware/app/registers.md";
 }
 
+// Each bit that the e-Manual gives a meaning (Hardware Error Status, 70) has its own words, and no
+// bit goes unsaid.
+TEST(RegisterNames, HardwareErrorsAreToldInWords) {
+  EXPECT_EQ(hardware_errors(0x01), "input voltage");
+  EXPECT_EQ(hardware_errors(0x04 | 0x20), "overheating, overload");
+  EXPECT_EQ(hardware_errors(0x08 | 0x10), "motor encoder, electrical shock");
+  EXPECT_EQ(hardware_errors(0x80), "unknown: 128");
+}
+
 }  // namespace
 }  // namespace verp::bus
