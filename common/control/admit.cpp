@@ -11,9 +11,6 @@ namespace {
 
 using namespace safety;
 
-constexpr std::uint8_t kPowerReadings =
-    21;  // one bad reading is noise; a round of all servos is not
-
 std::uint8_t older(std::uint8_t age) {
   return age < 255 ? static_cast<std::uint8_t>(age + 1) : age;
 }
@@ -64,18 +61,39 @@ void watch_silence(const Params& params, const Tuning& tuning, const Inputs& inp
   if (oldest < hold) out.conditions |= kServosKnown;
 }
 
-void watch_power(const Tuning& tuning, const Inputs& inputs, AdmitState& state, AdmitOut& out) {
-  if (flag(inputs, kSlowFresh)) {
-    std::uint32_t faults = 0;
+// Servo `bit` has told that all is well with it, or not.
+void count_alarm(std::uint32_t bit, bool bad, AdmitState& state) {
+  static_assert(kAlarmReadings == 3, "two bits count to three");
+  const std::uint32_t before = state.alarm_low;
+  state.alarm_low &= ~bit;
+  if (bad) {
+    state.alarm_low |= ~state.alarm_high & bit;
+    state.alarm_high |= before & bit;
+  } else {
+    state.alarm_high &= ~bit;
+  }
+}
+
+std::uint32_t alarmed(const AdmitState& state) {
+  return state.alarm_high & ~state.alarm_low;
+}
+
+void watch_power(const Params& params, const Tuning& tuning, const Inputs& inputs,
+                 AdmitState& state, AdmitOut& out) {
+  if (flag(inputs, kSlowFresh) && inputs.slow_joint < params.joint_count) {
+    const std::uint32_t bit = 1U << inputs.slow_joint;
     const auto voltage_v = 0.1F * math::to_float(std::int32_t{inputs.slow_voltage_tenth_v});
     const auto temperature_c = math::to_float(std::int32_t{inputs.slow_temperature_c});
-    if (voltage_v < tuning.safety.voltage_low_v) faults |= kFaultVoltage;
+    std::uint32_t faults = 0;
     if (temperature_c > tuning.safety.temperature_high_c) faults |= kFaultTemperature;
     if (inputs.slow_error != 0) faults |= kFaultServoError;
-    state.power_bad = faults != 0 ? older(state.power_bad) : std::uint8_t{0};
-    if (state.power_bad >= kPowerReadings) out.faults |= faults;
+    count_alarm(bit, faults != 0, state);
+    if ((alarmed(state) & bit) != 0) out.faults |= faults;
+    const bool low = voltage_v < tuning.safety.voltage_low_v;
+    state.voltage_low = low ? older(state.voltage_low) : std::uint8_t{0};
+    if (state.voltage_low >= kSupplyReadings) out.faults |= kFaultVoltage;
   }
-  if (state.power_bad >= kPowerReadings) out.conditions |= kPowerBad;
+  if (alarmed(state) != 0 || state.voltage_low >= kSupplyReadings) out.conditions |= kPowerBad;
 }
 
 void take_command(const Params& params, const Tuning& tuning, const Inputs& inputs,
@@ -128,7 +146,7 @@ AdmitOut admit(const Params& params, AdmitState& state, Tuning& tuning, const In
   write_parameter(inputs, tuning, out);
   read_imu(params, inputs, state, out);
   watch_silence(params, tuning, inputs, state, out);
-  watch_power(tuning, inputs, state, out);
+  watch_power(params, tuning, inputs, state, out);
   take_command(params, tuning, inputs, state, out);
   if (flag(inputs, kEmergencyStop)) {
     out.conditions |= kEmergency;

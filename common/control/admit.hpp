@@ -8,13 +8,26 @@
 /// write is checked.
 namespace verp {
 
+/// A servo is alarmed when this many readings of its own in a row were bad. One is noise. A servo
+/// is read once in a round of all, 0.2 s for 21: three are half a second, in which no glitch lasts
+/// and no hot one cools down.
+inline constexpr int kAlarmReadings = 3;
+/// The supply is low when so many readings in a row were, whichever servos they are of: they share
+/// it. 0.2 s at 10 ms: the current of a step's peak is over by then. A servo that alone sees too
+/// little has a bad cable, and reports it as a hardware error.
+inline constexpr std::uint8_t kSupplyReadings = 21;
+
 struct AdmitState {
   std::uint8_t servo_age[kMaxJoints] = {};  ///< ticks since the servo last reported, up to 255
   std::uint32_t operator_age = 0;           ///< ticks since the last operator frame, saturating
-  std::uint8_t imu_age = 0;                 ///< ticks, up to 255
-  std::uint8_t power_bad = 0;               ///< bad telemetry readings in a row, up to 255
+  /// Bit j of both: how often in a row servo j's telemetry told of heat or an error. Gray code:
+  /// (high, low) is 00, 01, 11, 10 for 0 to kAlarmReadings.
+  std::uint32_t alarm_low = 0;
+  std::uint32_t alarm_high = 0;
+  std::uint8_t imu_age = 0;      ///< ticks, up to 255
+  std::uint8_t voltage_low = 0;  ///< telemetry readings in a row, of whatever servo, up to 255
   std::uint16_t reserved = 0;
-  VERP_FIELDS(servo_age, operator_age, imu_age, power_bad, reserved)
+  VERP_FIELDS(servo_age, operator_age, alarm_low, alarm_high, imu_age, voltage_low, reserved)
 };
 VERP_PACKED(AdmitState);
 

@@ -35,7 +35,7 @@ enum Condition : std::uint32_t {
   kLost = 1 << 10,           ///< likewise for stale_release_s
   kOperatorQuiet = 1 << 11,  ///< no operator frame for command_hold_s
   kOperatorGone = 1 << 12,   ///< no operator frame for command_release_s
-  kPowerBad = 1 << 13,       ///< a servo too hot, its voltage too low, or a hardware error
+  kPowerBad = 1 << 13,       ///< a servo too hot or in a hardware error, or the supply too low
 };
 
 /// Latched until the operator relaxes the robot. The upper half reports what was limited; it stops
