@@ -11,8 +11,8 @@ namespace {
 
 using namespace safety;
 
-std::uint8_t older(std::uint8_t age) {
-  return age < 255 ? static_cast<std::uint8_t>(age + 1) : age;
+std::uint8_t older(std::uint8_t age, std::uint32_t periods = 1) {
+  return static_cast<std::uint8_t>(periods < 255U - age ? age + periods : 255U);
 }
 
 bool flag(const Inputs& inputs, InputFlag which) {
@@ -28,8 +28,17 @@ Vec3 in_body(const ImuParams& imu, const std::int16_t* count, float scale) {
   return scale * (body_imu * raw);
 }
 
-void read_imu(const Params& params, const Inputs& inputs, AdmitState& state, AdmitOut& out) {
-  state.imu_age = older(state.imu_age);
+// At least one: a count that stands still must not stop the ages. One that goes back is none, and
+// wraps to a long silence.
+std::uint32_t count_periods(const Inputs& inputs, AdmitState& state) {
+  const std::uint32_t periods = inputs.tick - state.tick;
+  state.tick = inputs.tick;
+  return periods > 0 ? periods : 1;
+}
+
+void read_imu(const Params& params, const Inputs& inputs, std::uint32_t periods, AdmitState& state,
+              AdmitOut& out) {
+  state.imu_age = older(state.imu_age, periods);
   if (!flag(inputs, kImuFresh)) return;
   state.imu_age = 0;
   out.imu_fresh = true;
@@ -37,13 +46,14 @@ void read_imu(const Params& params, const Inputs& inputs, AdmitState& state, Adm
   out.accel_body_m_s2 = in_body(params.imu, inputs.accel_count, params.imu.accel_m_s2_per_count);
 }
 
-// The oldest servo decides: one silent knee is enough to fall.
+// The oldest servo decides: one silent knee is enough to fall. So do periods without a tick, in
+// which all were silent, whoever reports after them.
 void watch_silence(const Params& params, const Tuning& tuning, const Inputs& inputs,
-                   AdmitState& state, AdmitOut& out) {
+                   std::uint32_t periods, AdmitState& state, AdmitOut& out) {
   std::uint8_t oldest = 0;
   for (int j = 0; j < params.joint_count; ++j) {
     std::uint8_t& age = state.servo_age[j];
-    age = (inputs.fresh >> j & 1U) != 0 ? std::uint8_t{0} : older(age);
+    age = (inputs.fresh >> j & 1U) != 0 ? std::uint8_t{0} : older(age, periods);
     oldest = age > oldest ? age : oldest;
   }
   const float period_s = static_cast<float>(params.period_us) * 1e-6F;
@@ -55,7 +65,9 @@ void watch_silence(const Params& params, const Tuning& tuning, const Inputs& inp
   const int hold = ticks(tuning.safety.stale_hold_s);
   if (oldest >= hold) out.faults |= kFaultServoSilent;
   if (state.imu_age >= hold) out.faults |= kFaultImuSilent;
-  const int silent = oldest > state.imu_age ? oldest : state.imu_age;
+  const std::uint8_t skipped = older(0, periods - 1);
+  int silent = oldest > state.imu_age ? oldest : state.imu_age;
+  silent = silent > skipped ? silent : skipped;
   if (silent >= hold) out.conditions |= kStale;
   if (silent >= ticks(tuning.safety.stale_release_s)) out.conditions |= kLost;
   if (oldest < hold) out.conditions |= kServosKnown;
@@ -97,11 +109,13 @@ void watch_power(const Params& params, const Tuning& tuning, const Inputs& input
 }
 
 void take_command(const Params& params, const Tuning& tuning, const Inputs& inputs,
-                  AdmitState& state, AdmitOut& out) {
+                  std::uint32_t periods, AdmitState& state, AdmitOut& out) {
+  constexpr std::uint32_t kOldest = 0xFFFFFFFFU;
   if (flag(inputs, kCommandFresh)) {
     state.operator_age = 0;
-  } else if (state.operator_age < 0xFFFFFFFFU) {
-    ++state.operator_age;
+  } else {
+    state.operator_age =
+        periods < kOldest - state.operator_age ? state.operator_age + periods : kOldest;
   }
   const float age_s =
       math::to_float(state.operator_age) * 1e-6F * static_cast<float>(params.period_us);
@@ -141,13 +155,19 @@ void write_parameter(const Inputs& inputs, Tuning& tuning, AdmitOut& out) {
 
 }  // namespace
 
+void start(const Inputs& inputs, AdmitState& state) {
+  state.tick = inputs.tick - 1;
+  state.started = 1;
+}
+
 AdmitOut admit(const Params& params, AdmitState& state, Tuning& tuning, const Inputs& inputs) {
   AdmitOut out;
+  const std::uint32_t periods = count_periods(inputs, state);
   write_parameter(inputs, tuning, out);
-  read_imu(params, inputs, state, out);
-  watch_silence(params, tuning, inputs, state, out);
+  read_imu(params, inputs, periods, state, out);
+  watch_silence(params, tuning, inputs, periods, state, out);
   watch_power(params, tuning, inputs, state, out);
-  take_command(params, tuning, inputs, state, out);
+  take_command(params, tuning, inputs, periods, state, out);
   if (flag(inputs, kEmergencyStop)) {
     out.conditions |= kEmergency;
     out.faults |= kFaultEmergency;

@@ -17,17 +17,25 @@ inline constexpr int kAlarmReadings = 3;
 /// little has a bad cable, and reports it as a hardware error.
 inline constexpr std::uint8_t kSupplyReadings = 21;
 
+/// Age of what was never heard: older than any patience.
+inline constexpr std::uint8_t kNeverHeard = 255;
+
+/// Ages count control periods, those without a tick too: a controller that stood still has heard
+/// nothing.
 struct AdmitState {
-  std::uint8_t servo_age[kMaxJoints] = {};  ///< ticks since the servo last reported, up to 255
-  std::uint32_t operator_age = 0;           ///< ticks since the last operator frame, saturating
+  std::uint8_t servo_age[kMaxJoints] = {};  ///< since the servo last reported, up to 255
+  std::uint32_t tick = 0;                   ///< Inputs::tick, as of the last tick
+  std::uint32_t operator_age = 0;           ///< since the last operator frame, saturating
   /// Bit j of both: how often in a row servo j's telemetry told of heat or an error. Gray code:
   /// (high, low) is 00, 01, 11, 10 for 0 to kAlarmReadings.
   std::uint32_t alarm_low = 0;
   std::uint32_t alarm_high = 0;
-  std::uint8_t imu_age = 0;      ///< ticks, up to 255
+  std::uint8_t imu_age = 0;      ///< up to 255
   std::uint8_t voltage_low = 0;  ///< telemetry readings in a row, of whatever servo, up to 255
-  std::uint16_t reserved = 0;
-  VERP_FIELDS(servo_age, operator_age, alarm_low, alarm_high, imu_age, voltage_low, reserved)
+  std::uint8_t started = 0;      ///< 0 until start()
+  std::uint8_t reserved = 0;
+  VERP_FIELDS(servo_age, tick, operator_age, alarm_low, alarm_high, imu_age, voltage_low, started,
+              reserved)
 };
 VERP_PACKED(AdmitState);
 
@@ -43,6 +51,9 @@ struct AdmitOut {
   float head_pan_rad = 0;
   float head_tilt_rad = 0;
 };
+
+/// Before the first tick, whose inputs these are: nothing was heard yet, and no period went by.
+void start(const Inputs& inputs, AdmitState& state);
 
 /// Also applies the tick's parameter write to `tuning`.
 AdmitOut admit(const Params& params, AdmitState& state, Tuning& tuning, const Inputs& inputs);

@@ -102,9 +102,9 @@ void enter(Mode mode, std::int32_t period_us, safety::MachineState& machine) {
 
 }  // namespace
 
-void start(const Params& params, State& state) {
+void start(const Params& params, const Inputs& inputs, State& state) {
   state.tuning = params.tuning;
-  state.started = 1;
+  verp::start(inputs, state.admit);
 }
 
 balance::AttitudeOut estimate(const Params& params, State& state, const AdmitOut& admitted) {

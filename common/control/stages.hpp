@@ -5,8 +5,8 @@
 /// The stages of step(), each one thought. They join the modules; the arithmetic is in the modules.
 namespace verp::control {
 
-/// First tick: tuning from Params, limits from where the joints are.
-void start(const Params& params, State& state);
+/// First tick: tuning from Params, ages from its inputs.
+void start(const Params& params, const Inputs& inputs, State& state);
 
 balance::AttitudeOut estimate(const Params& params, State& state, const AdmitOut& admitted);
 

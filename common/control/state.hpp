@@ -35,9 +35,7 @@ struct State {
   balance::ZeroState zeros;
   safety::LimitState limit;
   safety::MachineState machine;
-  std::uint32_t started = 0;  ///< 0 until the first tick has copied Params::tuning
-  VERP_FIELDS(digest, tuning, admit, attitude, steer, gait, feedback, zeros, limit, machine,
-              started)
+  VERP_FIELDS(digest, tuning, admit, attitude, steer, gait, feedback, zeros, limit, machine)
 };
 VERP_PACKED(State);
 static_assert(sizeof(State) <= 2048, "hashed State is at most 2 KB");

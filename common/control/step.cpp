@@ -7,7 +7,7 @@ namespace verp {
 
 void step(const Params& params, State& state, const Inputs& inputs, Outputs& outputs) noexcept {
   using namespace control;
-  if (state.started == 0) start(params, state);
+  if (state.admit.started == 0) start(params, inputs, state);
 
   const AdmitOut admitted = admit(params, state.admit, state.tuning, inputs);
   const balance::AttitudeOut attitude = estimate(params, state, admitted);

@@ -8,18 +8,27 @@
 namespace verp::replay {
 namespace {
 
-/// Any bits in every field, and the campaign with one damaged word in some ticks, by turns.
-void damage(std::uint32_t tick, test::SmallRandom& random, Inputs& in) {
+/// Any bits in every field but the tick, and the campaign with one damaged word in some ticks, by
+/// turns. `nth`: of the run.
+void damage(std::uint32_t nth, test::SmallRandom& random, Inputs& in) {
   constexpr std::uint32_t kTurn = 200;
   std::uint32_t words[sizeof(Inputs) / 4];
   __builtin_memcpy(words, &in, sizeof in);
-  if (tick / kTurn % 4 == 3) {
+  if (nth / kTurn % 4 == 3) {
     for (std::uint32_t& word : words) word = random.bits();
   } else if (random.bits() % 8 == 0) {
     words[random.bits() % std::size(words)] = random.bits();
   }
+  const std::uint32_t tick = in.tick;
   __builtin_memcpy(static_cast<void*>(&in), words, sizeof in);
   in.tick = tick;
+}
+
+/// Periods from one tick to the next: one; of a damaged clock now and then some, none or any.
+std::uint32_t periods(bool damaged, test::SmallRandom& random) {
+  if (!damaged || random.bits() % 256 != 0) return 1;
+  const std::uint32_t bits = random.bits();
+  return bits % 4 == 0 ? random.bits() : bits % 4 == 1 ? 0 : bits / 4 % 16;
 }
 
 Segment run(const Robot& robot, std::uint32_t ticks) {
@@ -30,12 +39,14 @@ Segment run(const Robot& robot, std::uint32_t ticks) {
   EchoPlant plant(segment.params, robot.seed + 1);
   State state;
   Outputs outputs;
-  for (std::uint32_t tick = 0; tick < ticks; ++tick) {
+  std::uint32_t tick = 0;
+  for (std::uint32_t nth = 0; nth < ticks; ++nth) {
     Inputs inputs;
     inputs.tick = tick;
     const std::uint32_t events = campaign.advance(outputs, inputs);
     plant.sense(outputs, events, inputs);
-    if (robot.damaged) damage(tick, random, inputs);
+    if (robot.damaged) damage(nth, random, inputs);
+    tick += periods(robot.damaged, random);
     step(segment.params, state, inputs, outputs);
     segment.ticks.push_back({state.digest, inputs});
   }

@@ -132,5 +132,116 @@ TEST(Admit, OneHotServoEndsTheWalk) {
   EXPECT_EQ(loop.outputs.stance, gait::kBoth);
 }
 
+// A controller that was away, and came back.
+constexpr int kHold_ticks = 5;  // stale_hold_s at 10 ms
+
+/// Inputs of a robot of which all devices report, and its ages.
+struct Senses {
+  AdmitOut tick(std::uint32_t periods = 1) {
+    inputs.tick += periods;
+    // Counts that change, as a sensor's noise makes them.
+    inputs.gyro_count[0] = static_cast<std::int16_t>(++count % 7);
+    if (state.started == 0) start(inputs, state);
+    return last = admit(kRobot, state, tuning, inputs);
+  }
+  bool is(safety::Condition condition) const { return (last.conditions & condition) != 0; }
+
+  Senses() {
+    inputs.flags = kImuFresh | kFeetFresh | kCommandFresh;
+    inputs.fresh = ~0U;
+    inputs.accel_count[2] = 8172;
+  }
+  AdmitState state;
+  Tuning tuning = kRobot.tuning;
+  Inputs inputs;
+  AdmitOut last;
+  int count = 0;
+};
+
+TEST(Admit, FirstTickMayHaveAnyNumberAndTheCountMayWrap) {
+  for (const std::uint32_t first : {0U, 1U, 12345U, 0x80000000U, 0xFFFFFFF0U, 0xFFFFFFFFU}) {
+    Senses senses;
+    senses.inputs.tick = first - 1;
+    for (int i = 0; i < 40; ++i) {
+      senses.tick();
+      ASSERT_EQ(senses.last.faults, 0U) << "first " << first << ", tick " << i;
+      ASSERT_FALSE(senses.is(safety::kStale)) << "first " << first << ", tick " << i;
+    }
+  }
+}
+
+// Whoever reports afterwards: meanwhile nobody was heard, and nobody steered.
+TEST(Admit, ControllerThatStoodStillIsStale) {
+  for (const std::uint32_t skipped : {0U, 1U, 4U, 5U, 6U, 49U, 50U, 300U, 100'000U, 0xFFFFFFF0U}) {
+    Senses senses;
+    for (int i = 0; i < 10; ++i) senses.tick();
+    senses.tick(1 + skipped);
+    EXPECT_EQ(senses.is(safety::kStale), skipped >= kHold_ticks + 0U) << skipped << " skipped";
+    EXPECT_EQ(senses.is(safety::kLost), skipped >= 50U) << skipped << " skipped";
+    senses.tick();
+    EXPECT_FALSE(senses.is(safety::kStale)) << "in time again";
+  }
+}
+
+// Silence is as long in a loop that skips every other period as in one that skips none.
+TEST(Admit, AgesAreTimesNotTicks) {
+  for (const std::uint32_t periods : {1U, 2U, 4U}) {
+    Senses servo, imu, person;
+    for (Senses* each : {&servo, &imu, &person}) each->tick();
+    const std::uint32_t begun = servo.inputs.tick;
+    servo.inputs.fresh = ~(1U << 7);
+    imu.inputs.flags = kFeetFresh | kCommandFresh;
+    person.inputs.flags = kImuFresh | kFeetFresh;
+    while (servo.inputs.tick - begun < 60) {
+      for (Senses* each : {&servo, &imu, &person}) each->tick(periods);
+      const std::uint32_t silent = servo.inputs.tick - begun;
+      EXPECT_EQ(servo.is(safety::kStale), silent >= 5) << silent << " by " << periods;
+      EXPECT_EQ(imu.is(safety::kStale), silent >= 5) << silent << " by " << periods;
+      EXPECT_EQ(servo.is(safety::kLost), silent >= 50) << silent << " by " << periods;
+      EXPECT_EQ(person.is(safety::kOperatorQuiet), silent > 50) << silent << " by " << periods;
+    }
+  }
+}
+
+// A clock that has stopped does not stop the ages; one that goes back is no clock.
+TEST(Admit, TickThatDoesNotComeIsNoReasonToBeYoung) {
+  Senses stopped;
+  stopped.tick();
+  stopped.inputs.fresh = 0;
+  for (int i = 0; i < kHold_ticks; ++i) stopped.tick(0);
+  EXPECT_TRUE(stopped.is(safety::kStale));
+  Senses back;
+  for (int i = 0; i < 10; ++i) back.tick();
+  back.tick(0U - 3U);
+  EXPECT_TRUE(back.is(safety::kStale));
+}
+
+TEST(Admit, AgesOfAnOperatorWhoIsGoneForEverDoNotWrap) {
+  Senses senses;
+  senses.tick();
+  senses.inputs.flags = kImuFresh;
+  for (int i = 0; i < 5; ++i) {
+    senses.tick(0x7FFFFFFFU);
+    EXPECT_TRUE(senses.is(safety::kOperatorGone));
+  }
+}
+
+// Through the whole tick: the walk is not taken up where it was; the robot holds, then rises anew.
+TEST(Admit, WalkEndsWhereTheControllerStoodStill) {
+  static Loop loop;
+  loop = Loop{};
+  loop.walk(1000);
+  ASSERT_GE(loop.until(safety::Mode::kWalking, 600), 0);
+  loop.inputs.tick += kHold_ticks - 1;
+  loop.tick();
+  EXPECT_TRUE(loop.is_in(safety::Mode::kWalking)) << "what a missed deadline takes";
+  loop.inputs.tick += 300;
+  loop.tick();
+  EXPECT_TRUE(loop.is_in(safety::Mode::kHolding));
+  loop.tick();
+  EXPECT_TRUE(loop.is_in(safety::Mode::kRising));
+  EXPECT_GE(loop.until(safety::Mode::kWalking, 600), 100) << "by way of a stand";
+}
+
 }  // namespace
 }  // namespace verp::control
