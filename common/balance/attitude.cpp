@@ -32,6 +32,7 @@ AttitudeOut update(AttitudeState& state, const AttitudeIn& in) {
   if (in.fresh) {
     learn_bias(state, in);
     const Vec3 rate = in.gyro_body_rad_s - math::to_vec(state.gyro_bias_rad_s);
+    if (in.anew) up = in.accel_body_m_s2 / math::kGravityMS2;
     up -= in.period_s * math::cross(rate, up);
     // Linear in the acceleration, not in its direction: over a step its motion part averages to
     // zero, its direction does not.

@@ -3,7 +3,9 @@
 #include "common/math/linear.hpp"
 
 /// Body tilt and heading from the IMU: the gyro turns the estimate, the accelerometer pulls it
-/// slowly to the vertical (complementary filter). Heading has the gyro only.
+/// slowly to the vertical (complementary filter). Where there is no estimate yet, or none any more,
+/// the accelerometer alone says it: a robot that lies must not believe that it stands. Heading has
+/// the gyro only.
 namespace verp::balance {
 
 struct AttitudeState {
@@ -20,6 +22,7 @@ inline constexpr float kCalibrated_s = 2.0F;
 
 struct AttitudeIn {
   bool fresh = false;  ///< gyro and accelerometer are of this tick
+  bool anew = false;   ///< the estimate is of before a silence, or the initial one: not to be used
   Vec3 gyro_body_rad_s{0, 0, 0};
   Vec3 accel_body_m_s2{0, 0, 0};  ///< specific force: +g up when still
   bool standing = false;          ///< on both feet, not walking: the bias may be learnt

@@ -36,10 +36,20 @@ std::uint32_t count_periods(const Inputs& inputs, AdmitState& state) {
   return periods > 0 ? periods : 1;
 }
 
-void read_imu(const Params& params, const Inputs& inputs, std::uint32_t periods, AdmitState& state,
-              AdmitOut& out) {
+// Periods in which a silence is stale. At least one: a servo that is fresh in every tick is never
+// stale, however short the time set.
+int ticks(const Params& params, float duration_s) {
+  const float period_s = static_cast<float>(params.period_us) * 1e-6F;
+  const std::int32_t whole = math::to_int32(duration_s / period_s);
+  return whole > 1 ? whole : 1;
+}
+
+// Of what a body does in `lost` periods its last tilt tells nothing: it may have fallen meanwhile.
+void read_imu(const Params& params, const Inputs& inputs, int lost, std::uint32_t periods,
+              AdmitState& state, AdmitOut& out) {
   state.imu_age = older(state.imu_age, periods);
   if (!flag(inputs, kImuFresh)) return;
+  out.imu_anew = state.imu_age > lost;
   state.imu_age = 0;
   out.imu_fresh = true;
   out.gyro_body_rad_s = in_body(params.imu, inputs.gyro_count, params.imu.gyro_rad_s_per_count);
@@ -48,7 +58,7 @@ void read_imu(const Params& params, const Inputs& inputs, std::uint32_t periods,
 
 // The oldest servo decides: one silent knee is enough to fall. So do periods without a tick, in
 // which all were silent, whoever reports after them.
-void watch_silence(const Params& params, const Tuning& tuning, const Inputs& inputs,
+void watch_silence(const Params& params, const Tuning& tuning, const Inputs& inputs, int lost,
                    std::uint32_t periods, AdmitState& state, AdmitOut& out) {
   std::uint8_t oldest = 0;
   for (int j = 0; j < params.joint_count; ++j) {
@@ -56,20 +66,14 @@ void watch_silence(const Params& params, const Tuning& tuning, const Inputs& inp
     age = (inputs.fresh >> j & 1U) != 0 ? std::uint8_t{0} : older(age, periods);
     oldest = age > oldest ? age : oldest;
   }
-  const float period_s = static_cast<float>(params.period_us) * 1e-6F;
-  // A servo that is fresh in every tick is never stale, however short the time set.
-  const auto ticks = [&](float duration_s) {
-    const std::int32_t whole = math::to_int32(duration_s / period_s);
-    return whole > 1 ? whole : 1;
-  };
-  const int hold = ticks(tuning.safety.stale_hold_s);
+  const int hold = ticks(params, tuning.safety.stale_hold_s);
   if (oldest >= hold) out.faults |= kFaultServoSilent;
   if (state.imu_age >= hold) out.faults |= kFaultImuSilent;
   const std::uint8_t skipped = older(0, periods - 1);
   int silent = oldest > state.imu_age ? oldest : state.imu_age;
   silent = silent > skipped ? silent : skipped;
   if (silent >= hold) out.conditions |= kStale;
-  if (silent >= ticks(tuning.safety.stale_release_s)) out.conditions |= kLost;
+  if (silent >= lost) out.conditions |= kLost;
   if (oldest < hold) out.conditions |= kServosKnown;
 }
 
@@ -155,7 +159,9 @@ void write_parameter(const Inputs& inputs, Tuning& tuning, AdmitOut& out) {
 
 }  // namespace
 
-void start(const Inputs& inputs, AdmitState& state) {
+void start(const Params& params, const Inputs& inputs, AdmitState& state) {
+  for (int j = 0; j < params.joint_count; ++j) state.servo_age[j] = kNeverHeard;
+  state.imu_age = kNeverHeard;
   state.tick = inputs.tick - 1;
   state.started = 1;
 }
@@ -164,8 +170,9 @@ AdmitOut admit(const Params& params, AdmitState& state, Tuning& tuning, const In
   AdmitOut out;
   const std::uint32_t periods = count_periods(inputs, state);
   write_parameter(inputs, tuning, out);
-  read_imu(params, inputs, periods, state, out);
-  watch_silence(params, tuning, inputs, periods, state, out);
+  const int lost = ticks(params, tuning.safety.stale_release_s);
+  read_imu(params, inputs, lost, periods, state, out);
+  watch_silence(params, tuning, inputs, lost, periods, state, out);
   watch_power(params, tuning, inputs, state, out);
   take_command(params, tuning, inputs, periods, state, out);
   if (flag(inputs, kEmergencyStop)) {

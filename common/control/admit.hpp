@@ -43,6 +43,8 @@ struct AdmitOut {
   std::uint32_t conditions = 0;  ///< safety::Condition bits that follow from the inputs alone
   std::uint32_t faults = 0;      ///< safety::Fault bits raised this tick
   bool imu_fresh = false;
+  bool imu_anew =
+      false;  ///< fresh after stale_release_s: what was sensed before it says nothing any more
   Vec3 gyro_body_rad_s{0, 0, 0};
   Vec3 accel_body_m_s2{0, 0, 0};
   float vx_m_s = 0;
@@ -52,8 +54,8 @@ struct AdmitOut {
   float head_tilt_rad = 0;
 };
 
-/// Before the first tick, whose inputs these are: nothing was heard yet, and no period went by.
-void start(const Inputs& inputs, AdmitState& state);
+/// Before the first tick, whose inputs these are: no device was heard yet, and no period went by.
+void start(const Params& params, const Inputs& inputs, AdmitState& state);
 
 /// Also applies the tick's parameter write to `tuning`.
 AdmitOut admit(const Params& params, AdmitState& state, Tuning& tuning, const Inputs& inputs);

@@ -82,7 +82,10 @@ std::uint32_t conditions_of(const State& state, const AdmitOut& admitted,
   const SafetyTuning& tuning = state.tuning.safety;
   std::uint32_t conditions = admitted.conditions;
   const auto microseconds = [](float duration_s) { return math::to_int32(duration_s * 1e6F); };
-  if (state.steer.fallen_us > microseconds(tuning.fall_confirm_s)) conditions |= safety::kFell;
+  // A robot that lies must not even begin to rise: one without torque need not be sure of its fall.
+  const bool limp = !safety::has_torque(state.machine.mode);
+  const std::int32_t confirm_us = limp ? 0 : microseconds(tuning.fall_confirm_s);
+  if (state.steer.fallen_us > confirm_us) conditions |= safety::kFell;
   if (attitude.calibrated) conditions |= safety::kCalibrated;
   if (state.gait.queued == 0) conditions |= safety::kGaitOver;
   const bool rising = state.machine.mode == Mode::kRising;
@@ -104,12 +107,13 @@ void enter(Mode mode, std::int32_t period_us, safety::MachineState& machine) {
 
 void start(const Params& params, const Inputs& inputs, State& state) {
   state.tuning = params.tuning;
-  verp::start(inputs, state.admit);
+  verp::start(params, inputs, state.admit);
 }
 
 balance::AttitudeOut estimate(const Params& params, State& state, const AdmitOut& admitted) {
   balance::AttitudeIn in;
   in.fresh = admitted.imu_fresh;
+  in.anew = admitted.imu_anew;
   in.gyro_body_rad_s = admitted.gyro_body_rad_s;
   in.accel_body_m_s2 = admitted.accel_body_m_s2;
   in.standing = state.machine.mode == Mode::kStanding;

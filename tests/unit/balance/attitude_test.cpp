@@ -127,6 +127,18 @@ TEST(Attitude, AccelerometerPullsAWrongTiltToTheVertical) {
   EXPECT_NEAR(out.pitch_rad, 0.0F, 1e-3F);
 }
 
+// Nothing is waited for: whichever way the body lies, it is known with the first reading.
+TEST(Attitude, FirstReadingIsTheTilt) {
+  for (const Vec3& up : {Vec3(1, 0, 0), Vec3(-1, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, -1)}) {
+    AttitudeState state;
+    AttitudeIn in = still();
+    in.anew = true;
+    in.accel_body_m_s2 = kG * up;
+    EXPECT_NEAR(update(state, in).up, up.z(), 1e-6F);
+    EXPECT_NEAR(math::norm(math::to_vec(state.up_body) - up), 0.0F, 1e-6F);
+  }
+}
+
 // A step's accelerations, to and fro, average out.
 TEST(Attitude, SwayOfAStepDoesNotTilt) {
   AttitudeState state;

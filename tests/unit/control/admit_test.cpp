@@ -141,7 +141,7 @@ struct Senses {
     inputs.tick += periods;
     // Counts that change, as a sensor's noise makes them.
     inputs.gyro_count[0] = static_cast<std::int16_t>(++count % 7);
-    if (state.started == 0) start(inputs, state);
+    if (state.started == 0) start(kRobot, inputs, state);
     return last = admit(kRobot, state, tuning, inputs);
   }
   bool is(safety::Condition condition) const { return (last.conditions & condition) != 0; }

@@ -182,6 +182,60 @@ TEST(Step, FallMakesItLimpAndIsLatchedUntilAcknowledged) {
   EXPECT_EQ(loop.outputs.faults & safety::kFaultFall, 0u) << "acknowledged";
 }
 
+/// The IMU of a robot that lies: on its belly, back, sides, or head.
+void lie(int way, Loop& loop) {
+  constexpr std::int16_t kWays[5][3] = {
+      {8172, 0, 0}, {-8172, 0, 0}, {0, 8172, 0}, {0, -8172, 0}, {0, 300, -8166}};
+  for (int axis = 0; axis < 3; ++axis) loop.inputs.accel_count[axis] = kWays[way][axis];
+}
+
+// Stand is asked from the first tick on, and the estimate begins upright: not one tick of torque.
+TEST(Step, RobotThatLiesDoesNotBeginToRise) {
+  static Loop loop;
+  for (int way = 0; way < 5; ++way) {
+    loop = Loop{};
+    loop.command.request = Request::kStand;
+    lie(way, loop);
+    for (int i = 0; i < 200; ++i) {
+      loop.tick();
+      ASSERT_EQ(loop.outputs.torque_enable, 0u) << "way " << way << ", tick " << i;
+    }
+    loop.inputs.accel_count[0] = loop.inputs.accel_count[1] = 0;
+    loop.inputs.accel_count[2] = 8172;
+    EXPECT_GE(loop.until(Mode::kRising, 1000), 0) << "set on its feet, it rises";
+  }
+}
+
+// What it knew of its tilt before the silence says nothing: it fell over meanwhile, and relaxed.
+TEST(Step, RobotThatFellWhileItsImuWasSilentDoesNotRise) {
+  static Loop loop;
+  loop = Loop{};
+  loop.command.request = Request::kStand;
+  ASSERT_GE(loop.until(Mode::kStanding, 200), 0);
+  loop.inputs.flags = static_cast<std::uint16_t>(loop.inputs.flags & ~kImuFresh);
+  ASSERT_GE(loop.until(Mode::kRelaxed, 400), 0);
+  loop.inputs.flags |= kImuFresh;
+  lie(1, loop);
+  for (int i = 0; i < 200; ++i) {
+    loop.tick();
+    ASSERT_EQ(loop.outputs.torque_enable, 0u) << "tick " << i;
+  }
+}
+
+// A servo that was never read is at no known place: goals must not begin at count 0.
+TEST(Step, RobotWaitsForEveryServosFirstReport) {
+  static Loop loop;
+  for (int j = 0; j < test::kJointCount; ++j) {
+    loop = Loop{};
+    loop.command.request = Request::kStand;
+    loop.inputs.fresh = ~(1u << j);
+    loop.ticks(3);
+    EXPECT_EQ(loop.outputs.torque_enable, 0u) << "joint " << j;
+    loop.inputs.fresh = ~0u;
+    EXPECT_EQ(loop.until(Mode::kRising, 3), 0) << "joint " << j;
+  }
+}
+
 TEST(Step, EmergencyStopIsImmediate) {
   static Loop loop;
   get_walking(loop);
