@@ -26,17 +26,27 @@ class ServoWriter {
   /// Of that, in every mode; 1 to 100.
   void limit_torque(std::uint8_t percent) { most_percent_ = percent; }
 
-  /// Strength and goals go out before torque, so that a servo does not wake up with old ones: but
-  /// once, in the same tick, so one whose frame of these is lost does, for a tick. `turn` is the
-  /// joint whose turn it is; those in `doubted` hear of no torque but its end.
+  /// Strength and goals go out in kRepeats ticks, the last of which is the first to tell of torque:
+  /// whichever frame is lost, no servo wakes up with old goals, with a strength that was not meant,
+  /// or deaf to both behind a Bus Watchdog that has tripped. `turn` is the joint whose turn it is;
+  /// those in `doubted` hear of no torque but its end.
   void send(BusMaster<Bus>& master, const Outputs& outputs, int turn, std::uint32_t doubted) {
     if (params_.joint_count == 0) return;
     const std::uint32_t wanted = outputs.torque_enable & all_joints();
     const std::uint8_t strength = strength_in(outputs.mode);
     if (wanted != 0 && (watchdog_clears_ > 0 || torque_ == 0)) clear_watchdogs(master);
-    if (wanted != torque_ || (wanted != 0 && strength != strength_)) repeats_ = kRepeats;
+    if ((wanted & ~wanted_) != 0) {
+      early_ = kRepeats - 1;
+    } else if (early_ > 0) {
+      --early_;
+    }
+    const std::uint32_t torque = early_ > 0 ? torque_ & wanted : wanted;
+    if (torque != torque_ || wanted != wanted_ || (wanted != 0 && strength != strength_)) {
+      repeats_ = kRepeats;
+    }
     if (wanted != 0) strength_ = strength;
-    torque_ = wanted;
+    torque_ = torque;
+    wanted_ = wanted;
     told_all_ = repeats_ > 0;
     first_ = told_all_ ? 0 : turn;
     last_ = told_all_ ? params_.joint_count - 1 : turn;
@@ -86,7 +96,7 @@ class ServoWriter {
     dxl::Encoder encoder(master.frame(), master.capacity());
     dxl::begin_sync_write(encoder, dxl::address::kGoalPosition, 4);
     for (int j = 0; j < params_.joint_count; ++j) {
-      if ((torque_ >> j & 1) == 0) continue;
+      if ((wanted_ >> j & 1) == 0) continue;
       encoder.u8(params_.joint[j].servo_id);
       encoder.u32(static_cast<std::uint32_t>(outputs.goal_count[j]));
     }
@@ -124,7 +134,9 @@ class ServoWriter {
   const Params& params_;
   std::uint16_t full_pwm_[kMaxJoints] = {};
   std::uint32_t torque_ = 0;   ///< as sent last
-  std::uint8_t strength_ = 0;  ///< likewise, percent
+  std::uint32_t wanted_ = 0;   ///< who gets goals; torque_ follows
+  std::uint8_t strength_ = 0;  ///< as sent last, percent
+  std::uint8_t early_ = 0;     ///< ticks still to go before who is wanted gets torque
   std::uint8_t most_percent_ = 100;
   std::uint8_t repeats_ = kRepeats;
   std::uint8_t watchdog_clears_ = 0;  ///< still to send

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <random>
+#include <set>
 #include <vector>
 
 #include "firmware/app/app.hpp"
@@ -43,6 +44,7 @@ struct Memory {
 struct Tap {
   bool send(const std::uint8_t* data, std::size_t size) {
     frames.emplace_back(data, data + size);
+    if (lost.count(frames.size() - 1) > 0) return true;
     if (lose_sends > 0 && --lose_sends >= 0) return true;
     return bus.send(data, size);
   }
@@ -61,6 +63,7 @@ struct Tap {
   bus::VirtualBus& bus;
   std::vector<std::vector<std::uint8_t>> frames;
   int lose_sends = 0;
+  std::set<std::size_t> lost{};  ///< frames that nobody hears, by their number in `frames`
   int polls = 0;
   unsigned faults_per_mille = 0;  ///< of received bytes: half are lost, half are changed
   std::minstd_rand noise{};

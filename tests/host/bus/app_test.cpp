@@ -85,6 +85,12 @@ TEST_F(AppLoop, GoalsArriveBeforeTorqueAndOnlyWhereTorqueIsWanted) {
   ticks(1);
   EXPECT_EQ(plant.setpoint(0).goal_count, 0);
   wanted.torque_enable = 0b101;
+  for (int tick = 0; tick < 2; ++tick) {
+    ticks(1);
+    EXPECT_EQ(plant.setpoint(0).goal_count, 1000);
+    EXPECT_EQ(plant.setpoint(1).goal_count, 0);
+    EXPECT_FALSE(plant.setpoint(0).torque_on) << "a frame before it may have been lost";
+  }
   tap.frames.clear();
   ticks(1);
   ASSERT_GE(tap.frames.size(), 3u);
@@ -98,6 +104,47 @@ TEST_F(AppLoop, GoalsArriveBeforeTorqueAndOnlyWhereTorqueIsWanted) {
   EXPECT_TRUE(plant.setpoint(2).torque_on);
   ticks(1);
   EXPECT_EQ(app.inputs().position_count[2], 1002);
+}
+
+// A robot that was put into another pose while it was limp rises again. Whichever two frames of
+// that are lost, no servo wakes up for its old goal, or with all its strength.
+TEST_F(AppLoop, LostFramesWakeNoServoWithOldOrders) {
+  params.rise_torque_percent = 30;
+  constexpr int kOld = 1000, kNew = 3000, kTicks = 8;
+  const auto wake = [&](std::set<std::size_t> lost) {
+    FakePlant twin;
+    bus::VirtualBus twin_bus(params, twin);
+    Tap twin_tap{twin_bus, {}};
+    Memory records;
+    app::App<Tap, Script, Memory> loop{params, twin_tap, script, records};
+    EXPECT_EQ(loop.bring_up().status, app::BringUpStatus::kReady);
+    const auto run = [&](safety::Mode mode, std::uint32_t torque, int goal, int count) {
+      wanted.mode = static_cast<std::uint8_t>(mode);
+      wanted.torque_enable = torque;
+      for (int j = 0; j < kJoints; ++j) wanted.goal_count[j] = goal;
+      for (int tick = 0; tick < count; ++tick) {
+        loop.tick();
+        for (int j = 0; j < kJoints && goal == kNew; ++j) {
+          if (!twin.setpoint(j).torque_on) continue;
+          EXPECT_EQ(twin.setpoint(j).goal_count, kNew) << "joint " << j << ", tick " << tick;
+          EXPECT_EQ(twin.setpoint(j).pwm_limit, dxl::kFullPwm * 30 / 100) << "joint " << j;
+        }
+      }
+    };
+    run(safety::Mode::kStanding, all(), kOld, 5);
+    run(safety::Mode::kFallen, 0, kOld, 30);
+    for (auto& joint : twin.measured) joint.position_count = kNew;
+    twin_tap.frames.clear();
+    twin_tap.lost = std::move(lost);
+    run(safety::Mode::kRising, all(), kNew, kTicks);
+    for (int j = 0; j < kJoints; ++j) EXPECT_TRUE(twin.setpoint(j).torque_on) << "joint " << j;
+    return twin_tap.frames.size();
+  };
+  const std::size_t frames = wake({});
+  ASSERT_GE(frames, kTicks * std::size_t{6});
+  for (std::size_t one = 0; one < frames / 2; ++one) {
+    for (std::size_t other = one; other < frames / 2; ++other) wake({one, other});
+  }
 }
 
 // Whoever set a servo's own limit below what it can keeps it: a servo refuses a Goal PWM above it.
