@@ -44,11 +44,26 @@ int ticks(const Params& params, float duration_s) {
   return whole > 1 ? whole : 1;
 }
 
+// Counts how often in a row the IMU has told the same.
+bool is_frozen(const Inputs& inputs, AdmitState& state) {
+  std::uint32_t changed = 0;
+  for (int i = 0; i < 3; ++i) {
+    changed |= static_cast<std::uint32_t>(state.imu_count[i] ^ inputs.gyro_count[i]);
+    changed |= static_cast<std::uint32_t>(state.imu_count[3 + i] ^ inputs.accel_count[i]);
+    state.imu_count[i] = inputs.gyro_count[i];
+    state.imu_count[3 + i] = inputs.accel_count[i];
+  }
+  state.imu_alike = changed != 0                        ? 0
+                    : state.imu_alike < kFrozenReadings ? state.imu_alike + 1
+                                                        : kFrozenReadings;
+  return state.imu_alike >= kFrozenReadings;
+}
+
 // Of what a body does in `lost` periods its last tilt tells nothing: it may have fallen meanwhile.
 void read_imu(const Params& params, const Inputs& inputs, int lost, std::uint32_t periods,
               AdmitState& state, AdmitOut& out) {
   state.imu_age = older(state.imu_age, periods);
-  if (!flag(inputs, kImuFresh)) return;
+  if (!flag(inputs, kImuFresh) || is_frozen(inputs, state)) return;
   out.imu_anew = state.imu_age > lost;
   state.imu_age = 0;
   out.imu_fresh = true;

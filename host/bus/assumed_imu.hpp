@@ -9,7 +9,8 @@
 namespace verp::bus {
 
 /// The Imu of a robot that has none: it says in every read that the body is upright and still. With
-/// it a robot walks without balance, and nobody notices that it falls.
+/// it a robot walks without balance, and nobody notices that it falls. Its gyro trembles by a count
+/// about zero, for the core takes an IMU that repeats itself for a dead one.
 class AssumedImu {
  public:
   /// Speaks in the counts and the mounting of `imu`.
@@ -23,6 +24,7 @@ class AssumedImu {
 
   hal::ImuStatus read(hal::ImuSample& sample) {
     ++sample_.time_us;
+    sample_.gyro_count[2] = sample_.time_us % 2 == 0 ? 1 : -1;
     sample = sample_;
     return hal::ImuStatus::kFresh;
   }

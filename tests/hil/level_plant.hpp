@@ -13,7 +13,8 @@
 namespace verp::test {
 
 /// A robot on a stand: joints follow their goals at their top speed, the body stays level and the
-/// soles share its weight. Costs next to nothing, and never falls.
+/// soles share its weight. Costs next to nothing, and never falls. Its IMU's noise is one count of
+/// the gyro.
 class LevelPlant final : public sim::Plant {
  public:
   explicit LevelPlant(const Params& params) : params_(params) {
@@ -49,7 +50,11 @@ class LevelPlant final : public sim::Plant {
     measured.position_count = static_cast<std::int32_t>(std::lround(count_[index(joint)]));
     return measured;
   }
-  sim::ImuMeasurement imu() override { return imu_; }
+  sim::ImuMeasurement imu() override {
+    sim::ImuMeasurement measured = imu_;
+    measured.gyro_count[2] = static_cast<std::int16_t>(now_us_ / params_.period_us % 2);
+    return measured;
+  }
   std::array<std::uint16_t, 4> foot_counts(int) override {
     return {foot_count_, foot_count_, foot_count_, foot_count_};
   }

@@ -176,8 +176,10 @@ TEST(AssumedImu, SaysUprightInTheMountingOfTheModel) {
     EXPECT_NEAR((up - Eigen::Vector3f(0, 0, 9.80665F)).norm(), 0, 0.002);
     EXPECT_EQ(sample.gyro_count[0], 0);
     const std::uint64_t before_us = sample.time_us;
+    const std::int16_t before_count = sample.gyro_count[2];
     ASSERT_EQ(chip.read(sample), hal::ImuStatus::kFresh);
     EXPECT_GT(sample.time_us, before_us);
+    EXPECT_NE(sample.gyro_count[2], before_count) << "the core takes what never changes for dead";
   }
 }
 

@@ -8,7 +8,8 @@ namespace verp::control::test {
 using namespace verp::test;
 using safety::Mode;
 
-/// step() with servos that are always where their goals were, an IMU at rest and an operator.
+/// step() with servos that are always where their goals were, an IMU at rest and an operator. The
+/// accelerometer has the least noise there is, and none that tilts.
 struct Loop {
   Loop() {
     command.request = Request::kRelax;
@@ -23,6 +24,7 @@ struct Loop {
     inputs.command = command;
     step(kRobot, state, inputs, outputs);
     ++inputs.tick;
+    if (noise) inputs.accel_count[2] = static_cast<std::int16_t>(inputs.accel_count[2] ^ 1);
     ++command.sequence;
     if (outputs.torque_enable == 0) return;
     for (int j = 0; j < kJointCount; ++j) inputs.position_count[j] = outputs.goal_count[j];
@@ -48,6 +50,7 @@ struct Loop {
   Inputs inputs;
   Outputs outputs;
   Command command;
+  bool noise = true;  ///< of the IMU
 };
 
 inline void write_parameter(int id, float value, Inputs& inputs) {
