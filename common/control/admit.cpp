@@ -71,16 +71,29 @@ void read_imu(const Params& params, const Inputs& inputs, int lost, std::uint32_
   out.accel_body_m_s2 = in_body(params.imu, inputs.accel_count, params.imu.accel_m_s2_per_count);
 }
 
+// Age of the oldest servo.
+std::uint8_t count_ages(const Params& params, std::uint32_t fresh, std::uint32_t periods,
+                        AdmitState& state) {
+  const auto all = static_cast<std::uint32_t>((std::uint64_t{1} << params.joint_count) - 1U);
+  if ((fresh & all) ==
+      all) {  // as in nearly every tick, where the loop would cost most of this stage
+    for (std::uint8_t& age : state.servo_age) age = 0;
+    return 0;
+  }
+  std::uint8_t oldest = 0;
+  for (int j = 0; j < params.joint_count; ++j) {
+    std::uint8_t& age = state.servo_age[j];
+    age = (fresh >> j & 1U) != 0 ? std::uint8_t{0} : older(age, periods);
+    oldest = age > oldest ? age : oldest;
+  }
+  return oldest;
+}
+
 // The oldest servo decides: one silent knee is enough to fall. So do periods without a tick, in
 // which all were silent, whoever reports after them.
 void watch_silence(const Params& params, const Tuning& tuning, const Inputs& inputs, int lost,
                    std::uint32_t periods, AdmitState& state, AdmitOut& out) {
-  std::uint8_t oldest = 0;
-  for (int j = 0; j < params.joint_count; ++j) {
-    std::uint8_t& age = state.servo_age[j];
-    age = (inputs.fresh >> j & 1U) != 0 ? std::uint8_t{0} : older(age, periods);
-    oldest = age > oldest ? age : oldest;
-  }
+  const std::uint8_t oldest = count_ages(params, inputs.fresh, periods, state);
   const int hold = ticks(params, tuning.safety.stale_hold_s);
   if (oldest >= hold) out.faults |= kFaultServoSilent;
   if (state.imu_age >= hold) out.faults |= kFaultImuSilent;
