@@ -40,12 +40,26 @@ void SafeTable::fault(const std::string& what) {
   if (violation_.empty()) violation_ = "tick " + std::to_string(tick_) + ": " + what;
 }
 
+// In periods, with or without a tick: in one without, nobody is heard. Before the first tick nobody
+// was.
 void SafeTable::count_silence(const Inputs& inputs) {
-  imu_silent_ = (inputs.flags & kImuFresh) != 0 ? 0 : imu_silent_ + 1;
-  operator_silent_ = (inputs.flags & kCommandFresh) != 0 ? 0 : operator_silent_ + 1;
-  silent_ = imu_silent_;
+  const std::uint32_t periods = begun_ ? std::min(inputs.tick - tick_, kForEver) : kForEver;
+  const auto count = [periods](std::uint32_t& silent, bool heard) {
+    silent = heard ? 0 : std::min(silent + periods, kForEver);
+  };
+  constexpr int kAxes = 3;
+  if ((inputs.flags & kImuFresh) != 0) {
+    const bool stirs = !begun_ || !std::equal(gyro_, gyro_ + kAxes, inputs.gyro_count) ||
+                       !std::equal(accel_, accel_ + kAxes, inputs.accel_count);
+    alike_ = stirs ? 0 : alike_ + 1;
+    std::copy_n(inputs.gyro_count, kAxes, gyro_);
+    std::copy_n(inputs.accel_count, kAxes, accel_);
+  }
+  count(imu_silent_, (inputs.flags & kImuFresh) != 0 && alike_ < kFrozen);
+  count(operator_silent_, (inputs.flags & kCommandFresh) != 0);
+  silent_ = std::max(imu_silent_, begun_ ? periods - 1 : 0);
   for (int j = 0; j < params_.joint_count; ++j) {
-    servo_silent_[j] = (inputs.fresh >> j & 1u) != 0 ? 0 : servo_silent_[j] + 1;
+    count(servo_silent_[j], (inputs.fresh >> j & 1u) != 0);
     silent_ = std::max(silent_, servo_silent_[j]);
   }
 }
@@ -54,6 +68,10 @@ void SafeTable::check_transition(const Inputs& inputs, int to) {
   const SafetyTuning& safety = params_.tuning.safety;
   const auto longer = [&](std::uint32_t ticks, double duration_s) {
     return 1e-6 * params_.period_us * ticks >= duration_s - 1e-6;
+  };
+  // Where the period is no whole part of it, the core may be early by half a period.
+  const auto nearly = [&](std::uint32_t ticks, double duration_s) {
+    return longer(ticks, duration_s - 0.5e-6 * params_.period_us);
   };
   const bool stale = longer(silent_, safety.stale_hold_s);
   const bool lost = longer(silent_, safety.stale_release_s);
@@ -64,8 +82,10 @@ void SafeTable::check_transition(const Inputs& inputs, int to) {
   if (moving(to) && stale) fault(std::string(kNames[to]) + " though a device is silent");
   if (to == kHolding && mode_ == kHolding && lost) fault("holding though a device is lost");
   if (to == mode_) return;
-  if (to == kHolding && !stale) fault("holding without a silent device");
-  if (mode_ == kHolding && to == kSitting && !lost && request != Request::kRelax) {
+  if (to == kHolding && !nearly(silent_, safety.stale_hold_s))
+    fault("holding without a silent device");
+  if (mode_ == kHolding && to == kSitting && !nearly(silent_, safety.stale_release_s) &&
+      request != Request::kRelax) {
     fault("sitting down though nobody asked and nothing is lost");
   }
   if (mode_ == kStanding && to == kSitting && request != Request::kRelax &&
@@ -128,10 +148,10 @@ void SafeTable::check_outputs(const Inputs& inputs, const Outputs& outputs, int 
 
 void SafeTable::tick(const Inputs& inputs, const Outputs& outputs) {
   if (begun_ && inputs.tick <= tick_) fault("time stands still");
-  tick_ = inputs.tick;
   const int to = outputs.mode;
   if (to > kStopped) return fault("no such mode");
   count_silence(inputs);
+  tick_ = inputs.tick;
   check_transition(inputs, to);
   check_outputs(inputs, outputs, to);
   in_mode_ticks_ = to == mode_ ? in_mode_ticks_ + 1 : 0;

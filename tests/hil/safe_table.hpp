@@ -36,10 +36,14 @@ class SafeTable {
   std::uint32_t seen_ = 1;
   int mode_ = 0;
   int in_mode_ticks_ = 0;
-  std::uint32_t servo_silent_[kMaxJoints] = {};  ///< ticks
+  static constexpr std::uint32_t kForEver = 1'000'000;  ///< periods; counted no further
+  static constexpr std::uint32_t kFrozen = 20;          ///< readings alike: the IMU repeats itself
+  std::uint32_t servo_silent_[kMaxJoints] = {};         ///< periods
   std::uint32_t imu_silent_ = 0;
   std::uint32_t operator_silent_ = 0;
-  std::uint32_t silent_ = 0;  ///< the longest of servos and IMU
+  std::uint32_t silent_ = 0;  ///< the longest of servos, IMU, and a controller that had no tick
+  std::uint32_t alike_ = 0;   ///< fresh readings of the IMU since they changed
+  std::int16_t gyro_[3] = {}, accel_[3] = {};
   std::int32_t goal_[kMaxJoints] = {};
   bool begun_ = false;
 };
