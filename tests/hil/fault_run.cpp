@@ -24,6 +24,9 @@ constexpr double kFirstSteps_s = 1.2;          // of walking before the fault
 constexpr std::uint64_t kLimp_us = 1'500'000;  // torque off reaches every servo by then
 constexpr std::uint64_t kFall_us = 1'000'000;  // for tilt to be seen and confirmed
 constexpr double kLyingUp = 0.5;               // 60 degrees; the table says fallen at 46
+constexpr double kHot_c = 76;                  // beyond temperature_high_c, below a shutdown
+constexpr double kTooHot_c = 90;               // beyond the servo's own limit, 80
+constexpr double kLow_v = 9.5;                 // below voltage_low_v, not below the servo's own
 constexpr std::int16_t kSpeed_tenth_mm_s = 1778;  // two 4 cm steps in 0.450 s
 
 class FaultRun {
@@ -35,10 +38,10 @@ class FaultRun {
       options.seed = seed;
       world_.emplace();
       body_.emplace(*world_, robot.entity, options);
-      plant_ = std::make_unique<FrozenJoint>(*body_);
+      plant_ = std::make_unique<SickPlant>(*body_);
     } else {
       level_.emplace(robot.params);
-      plant_ = std::make_unique<FrozenJoint>(*level_);
+      plant_ = std::make_unique<SickPlant>(*level_);
     }
     bus_.emplace(params_, *plant_);
     line_.emplace(*bus_, seed);
@@ -115,6 +118,23 @@ class FaultRun {
         ++result_.events;
         restart();
         break;
+      case Event::kHot:
+      case Event::kOverheated:
+        ++result_.events;
+        plant_->heat(result_.joint, plan_.event == Event::kHot ? kHot_c : kTooHot_c);
+        break;
+      case Event::kLowVoltage:
+        ++result_.events;
+        plant_->sag_to(kLow_v);
+        break;
+      case Event::kImuGone:
+        ++result_.events;
+        bus_->set_connected(params_.imu.device_id, false);
+        break;
+      case Event::kImuRepeats:
+        ++result_.events;
+        plant_->freeze_imu();
+        break;
       default:
         break;
     }
@@ -128,7 +148,8 @@ class FaultRun {
     if (plan_.event == Event::kServoUnpowered && plan_.lasts_s > 0) {
       bus_->set_powered(params_.joint[result_.joint].servo_id, true);
     }
-    if (plan_.event == Event::kServoRepeats) plant_->thaw();
+    if (plan_.event == Event::kImuGone) bus_->set_connected(params_.imu.device_id, true);
+    plant_->cure();
   }
 
   // The chip's start and its boot check take their time; the servos hear nothing meanwhile.
@@ -296,7 +317,7 @@ class FaultRun {
   std::optional<sim::World> world_;
   std::optional<sim::TwinRobot> body_;
   std::optional<LevelPlant> level_;
-  std::unique_ptr<FrozenJoint> plant_;
+  std::unique_ptr<SickPlant> plant_;
   std::optional<bus::VirtualBus> bus_;
   std::optional<FaultyLine> line_;
   OperatorDesk desk_;

@@ -17,6 +17,11 @@ enum class Event {
   kServoRepeats,    ///< tells the same position again and again
   kLateLoop,        ///< the controller is busy elsewhere for longer than a period, now and then
   kReset,           ///< the controller starts anew
+  kHot,             ///< a servo is hotter than it should, and goes on
+  kOverheated,      ///< so hot that it shuts its torque off
+  kLowVoltage,      ///< the supply sags
+  kImuGone,         ///< unplugged from the bus
+  kImuRepeats,      ///< tells the same reading again and again
 };
 
 struct FaultPlan {

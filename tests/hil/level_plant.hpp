@@ -69,29 +69,51 @@ class LevelPlant final : public sim::Plant {
   std::uint16_t foot_count_ = 0;
 };
 
-/// Passes everything on, but lets one servo's encoder repeat what it told last.
-class FrozenJoint final : public sim::Plant {
+/// Passes everything on, but lets one servo's encoder or the IMU repeat what it told last, one
+/// servo be hot, and the supply sag.
+class SickPlant final : public sim::Plant {
  public:
-  explicit FrozenJoint(sim::Plant& plant) : plant_(plant) {}
+  explicit SickPlant(sim::Plant& plant) : plant_(plant) {}
   void freeze(int joint) {
     frozen_ = plant_.measure(joint);
-    joint_ = joint;
+    frozen_joint_ = joint;
   }
-  void thaw() { joint_ = -1; }
+  void freeze_imu() {
+    frozen_imu_ = plant_.imu();
+    imu_frozen_ = true;
+  }
+  void heat(int joint, double temperature_c) {
+    hot_joint_ = joint;
+    temperature_c_ = temperature_c;
+  }
+  void sag_to(double voltage_v) { voltage_v_ = voltage_v; }
+  void cure() {
+    frozen_joint_ = hot_joint_ = -1;
+    imu_frozen_ = false;
+    voltage_v_ = 0;
+  }
 
   std::uint64_t now_us() const override { return plant_.now_us(); }
   void advance_to(std::uint64_t time_us) override { plant_.advance_to(time_us); }
   sim::ServoSetpoint& setpoint(int joint) override { return plant_.setpoint(joint); }
   sim::ServoMeasurement measure(int joint) override {
-    return joint == joint_ ? frozen_ : plant_.measure(joint);
+    sim::ServoMeasurement measured = joint == frozen_joint_ ? frozen_ : plant_.measure(joint);
+    if (joint == hot_joint_) measured.temperature_c = temperature_c_;
+    if (voltage_v_ > 0) measured.voltage_v = voltage_v_;
+    return measured;
   }
-  sim::ImuMeasurement imu() override { return plant_.imu(); }
+  sim::ImuMeasurement imu() override { return imu_frozen_ ? frozen_imu_ : plant_.imu(); }
   std::array<std::uint16_t, 4> foot_counts(int foot) override { return plant_.foot_counts(foot); }
 
  private:
   sim::Plant& plant_;
   sim::ServoMeasurement frozen_;
-  int joint_ = -1;
+  sim::ImuMeasurement frozen_imu_;
+  int frozen_joint_ = -1;
+  int hot_joint_ = -1;
+  double temperature_c_ = 25;
+  double voltage_v_ = 0;  ///< of all servos; 0: what the plant says
+  bool imu_frozen_ = false;
 };
 
 }  // namespace verp::test
