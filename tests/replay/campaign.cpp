@@ -126,6 +126,8 @@ void silences(Script& script) {
   get_up(script);
   script.push_back({2800, kUntilRelaxed, kStand, 0, 0, 0, kSilentServo});
   get_up(script);
+  script.push_back({700, kUntilSitting, kStand, 0, 0, 0, kFrozenImu});
+  get_up(script);
   script.push_back({700, kUntilSitting, kStand, 0, 0, 0, kSilentImu});
   script.push_back({300, kUntilRelaxed, kStand});
   script.push_back({2700, kItsTime, kRelax, 0, 0, 0, kSilentServo});

@@ -28,6 +28,7 @@ enum Event : std::uint32_t {
   kWrite = 1 << 14,      ///< the first tick writes Episode::value
   kRestore = 1 << 15,    ///< one tuning value a tick is written back to the robot's own
   kScan = 1 << 16,       ///< one value a tick, out of range above, below, and not a number
+  kFrozenImu = 1 << 17,  ///< repeats its last reading
 };
 
 struct Episode {

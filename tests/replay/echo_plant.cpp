@@ -76,7 +76,19 @@ void EchoPlant::feel_motion(std::uint32_t events, Inputs& in) {
   }
   if ((events & kTremble) != 0) add(0, in.tick % 2 == 0 ? one : -one);
   if ((events & kYawDrift) != 0) add(2, one);
+  remember_motion((events & kFrozenImu) != 0, in);
   if ((events & kSilentImu) == 0 && random_.bits() % 64 != 0) in.flags |= kImuFresh;
+}
+
+void EchoPlant::remember_motion(bool frozen, Inputs& in) {
+  for (int i = 0; i < 3; ++i) {
+    if (frozen) {
+      in.gyro_count[i] = gyro_count_[i];
+      in.accel_count[i] = accel_count_[i];
+    }
+    gyro_count_[i] = in.gyro_count[i];
+    accel_count_[i] = in.accel_count[i];
+  }
 }
 
 void EchoPlant::feel_ground(std::uint32_t events, Inputs& in) {

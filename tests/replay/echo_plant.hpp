@@ -17,6 +17,7 @@ class EchoPlant {
  private:
   void move_joints(const Outputs& last, std::uint32_t events, Inputs& in);
   void feel_motion(std::uint32_t events, Inputs& in);
+  void remember_motion(bool frozen, Inputs& in);
   void feel_ground(std::uint32_t events, Inputs& in);
   void report_slowly(std::uint32_t events, Inputs& in) const;
 
@@ -27,6 +28,7 @@ class EchoPlant {
   std::int32_t rest_count_[3];  ///< accelerometer, standing
   std::int32_t nose_count_[3];  ///< accelerometer, lying on the nose
   std::int32_t foot_count_;     ///< one corner's share of the weight, on one foot
+  std::int16_t gyro_count_[3] = {}, accel_count_[3] = {};  ///< told last
 };
 
 }  // namespace verp::replay
