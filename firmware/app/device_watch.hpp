@@ -48,7 +48,9 @@ class DeviceWatch {
       sense(j, heard, faulty, fast);
       if (heard && stands_still(j, inputs, outputs) && !faulty) mark_stale(j);
     }
-    sense(table::kDeviceImu, (inputs.flags & kImuFresh) != 0, false, fast);
+    const bool imu_heard = (inputs.flags & kImuFresh) != 0;
+    sense(table::kDeviceImu, imu_heard, false, fast);
+    if (imu_heard && state.admit.imu_alike >= kFrozenReadings) mark_stale(table::kDeviceImu);
     for (int foot = 0; foot < kFeet; ++foot) {
       if (params_.feet.device_id[foot] == 0) continue;
       sense(table::kDeviceFoot + foot, (inputs.flags & kFeetFresh) != 0, false, fast);
