@@ -3,7 +3,6 @@
 namespace verp::balance {
 namespace {
 
-constexpr float kAccelTime_s = 1.0F;   // slower than a step by far: its accelerations average out
 constexpr float kLeastLevel2 = 0.01F;  // x axis all but vertical: no heading to speak of
 constexpr float kWindow_s = 4.0F;      // the mean forgets what is older
 constexpr float kStillRate_rad_s =
@@ -32,11 +31,12 @@ AttitudeOut update(AttitudeState& state, const AttitudeIn& in) {
   if (in.fresh) {
     learn_bias(state, in);
     const Vec3 rate = in.gyro_body_rad_s - math::to_vec(state.gyro_bias_rad_s);
-    if (in.anew) up = in.accel_body_m_s2 / math::kGravityMS2;
+    if (in.anew) state.mean_s = 0;
+    state.mean_s = math::min(state.mean_s + in.period_s, kAccelTime_s);
     up -= in.period_s * math::cross(rate, up);
     // Linear in the acceleration, not in its direction: over a step its motion part averages to
     // zero, its direction does not.
-    up += (in.period_s / kAccelTime_s) * (in.accel_body_m_s2 / math::kGravityMS2 - up);
+    up += (in.period_s / state.mean_s) * (in.accel_body_m_s2 / math::kGravityMS2 - up);
     up = math::normalized_or(up, Vec3(0, 0, 1));
     state.up_body = math::to_xyz(up);
     // Turn of the body's x axis over the ground. The rate about the vertical is not the same: a

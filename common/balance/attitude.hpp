@@ -4,8 +4,9 @@
 
 /// Body tilt and heading from the IMU: the gyro turns the estimate, the accelerometer pulls it
 /// slowly to the vertical (complementary filter). Where there is no estimate yet, or none any more,
-/// the accelerometer alone says it: a robot that lies must not believe that it stands. Heading has
-/// the gyro only.
+/// it begins as the accelerometer's first reading, and is the mean of all until it is as slow as
+/// ever: a robot that lies must not believe that it stands, and one that was just let go reads
+/// more than gravity. Heading has the gyro only.
 namespace verp::balance {
 
 struct AttitudeState {
@@ -13,10 +14,13 @@ struct AttitudeState {
   float heading_rad = 0;  ///< turned to the left since power-up, in (-pi, pi]
   Xyz gyro_bias_rad_s;    ///< learnt while standing still
   float still_s = 0;      ///< how long the robot has stood still, up to kCalibrated_s
-  VERP_FIELDS(up_body, heading_rad, gyro_bias_rad_s, still_s)
+  float mean_s = 0;       ///< over how long up_body is the accelerometer's mean, up to kAccelTime_s
+  VERP_FIELDS(up_body, heading_rad, gyro_bias_rad_s, still_s, mean_s)
 };
 VERP_PACKED(AttitudeState);
 
+/// The accelerometer's share: slower than a step by far, so that its accelerations average out.
+inline constexpr float kAccelTime_s = 1.0F;
 /// This long still, and the mean of the gyro is taken for its bias.
 inline constexpr float kCalibrated_s = 2.0F;
 

@@ -53,10 +53,12 @@ bool is_frozen(const Inputs& inputs, AdmitState& state) {
     state.imu_count[i] = inputs.gyro_count[i];
     state.imu_count[3 + i] = inputs.accel_count[i];
   }
-  state.imu_alike = changed != 0                        ? 0
-                    : state.imu_alike < kFrozenReadings ? state.imu_alike + 1
-                                                        : kFrozenReadings;
-  return state.imu_alike >= kFrozenReadings;
+  if (changed != 0) {
+    state.imu_alike = 0;
+  } else if (state.imu_alike < kFrozenReadings) {
+    ++state.imu_alike;
+  }
+  return state.imu_alike == kFrozenReadings;
 }
 
 // Of what a body does in `lost` periods its last tilt tells nothing: it may have fallen meanwhile.

@@ -21,7 +21,7 @@ inline constexpr std::uint8_t kSupplyReadings = 21;
 /// silent. Noise moves a count: of an ICM-20648 by 1.5 (gyro) and 9 (accelerometer) one sigma, so
 /// that two readings are alike once in five million. This many are alike by chance once in 1e15
 /// even where all sigmas are a third of a count; at 10 ms an IMU may renew itself at 5 Hz.
-inline constexpr std::uint32_t kFrozenReadings = 20;
+inline constexpr std::uint8_t kFrozenReadings = 20;
 /// Age of what was never heard: older than any patience.
 inline constexpr std::uint8_t kNeverHeard = 255;
 
@@ -36,13 +36,12 @@ struct AdmitState {
   std::uint32_t alarm_low = 0;
   std::uint32_t alarm_high = 0;
   std::int16_t imu_count[6] = {};  ///< gyro and accelerometer of the last fresh reading
-  std::uint32_t imu_alike = 0;     ///< fresh readings since they changed
   std::uint8_t imu_age = 0;        ///< up to 255
   std::uint8_t voltage_low = 0;    ///< telemetry readings in a row, of whatever servo, up to 255
   std::uint8_t started = 0;        ///< 0 until start()
-  std::uint8_t reserved = 0;
-  VERP_FIELDS(servo_age, tick, operator_age, alarm_low, alarm_high, imu_count, imu_alike, imu_age,
-              voltage_low, started, reserved)
+  std::uint8_t imu_alike = 0;  ///< fresh readings since imu_count changed, up to kFrozenReadings
+  VERP_FIELDS(servo_age, tick, operator_age, alarm_low, alarm_high, imu_count, imu_age, voltage_low,
+              started, imu_alike)
 };
 VERP_PACKED(AdmitState);
 

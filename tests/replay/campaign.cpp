@@ -99,6 +99,9 @@ void other_gaits(Script& script, const Params& params) {
   script.push_back({400, kItsTime, kWalk, 500, 0, 0, kRestore});
   script.push_back({400, kItsTime, kWalk, 500, 0, 0, kScan});
   stop_walking(script);
+  script.insert(script.end(), {write(gait_id(offsetof(GaitTuning, joint_delay_s)), 0.030F, kStand),
+                               {20, kItsTime, kStand},
+                               write(gait_id(offsetof(GaitTuning, joint_delay_s)), 0.0F, kStand)});
 }
 
 /// A margin wider than the sole: strides shrink until the plan is refused, and stays so until the

@@ -26,7 +26,7 @@ class FakePlant final : public sim::Plant {
     sampled_us[static_cast<std::size_t>(joint)] = now_us_;
     return measured[static_cast<std::size_t>(joint)];
   }
-  sim::ImuMeasurement imu() override { return {{1, -2, 3}, {-4, 5, 4096}}; }
+  sim::ImuMeasurement imu() override { return motion; }
   std::array<std::uint16_t, 4> foot_counts(int foot) override {
     const auto base = static_cast<std::uint16_t>(100 * (foot + 1));
     return {base, static_cast<std::uint16_t>(base + 1), static_cast<std::uint16_t>(base + 2),
@@ -36,6 +36,7 @@ class FakePlant final : public sim::Plant {
   std::array<sim::ServoSetpoint, kMaxJoints> setpoints{};
   std::array<sim::ServoMeasurement, kMaxJoints> measured{};
   std::array<std::uint64_t, kMaxJoints> sampled_us{};
+  sim::ImuMeasurement motion{{1, -2, 3}, {-4, 5, 4096}};
   bool went_back = false;
 
  private:

@@ -120,6 +120,7 @@ TEST(Attitude, SwayAboutTwoAxesDoesNotTurnTheHeading) {
 TEST(Attitude, AccelerometerPullsAWrongTiltToTheVertical) {
   AttitudeState state;
   state.up_body = {0.3F, -0.2F, 0.93F};
+  state.mean_s = kAccelTime_s;
   AttitudeIn in = still();
   in.standing = false;
   const AttitudeOut out = run(state, in, 800);
@@ -139,9 +140,26 @@ TEST(Attitude, FirstReadingIsTheTilt) {
   }
 }
 
+// A robot that was let go a moment ago still moves when its controller begins: what its first
+// readings say of the vertical is soon outvoted, and not believed for seconds.
+TEST(Attitude, FirstReadingsOfABodyInMotionFade) {
+  for (const Vec3& wrong : {Vec3(6, 0, 3), Vec3(0, -6, 3), Vec3(3, 3, -2), Vec3(0, 0, 0)}) {
+    AttitudeState state;
+    AttitudeIn in = still();
+    in.anew = true;
+    in.accel_body_m_s2 = wrong;
+    update(state, in);
+    in.anew = false;
+    run(state, in, 4);
+    EXPECT_GT(run(state, still(), 45).up, 0.94F) << "half a second later: less than 20 degrees";
+    EXPECT_GT(run(state, still(), 200).up, 0.999F);
+  }
+}
+
 // A step's accelerations, to and fro, average out.
 TEST(Attitude, SwayOfAStepDoesNotTilt) {
   AttitudeState state;
+  state.mean_s = kAccelTime_s;
   AttitudeOut out;
   for (int i = 0; i < 900; ++i) {
     AttitudeIn in;
