@@ -77,8 +77,8 @@ void read_imu(const Params& params, const Inputs& inputs, int lost, std::uint32_
 std::uint8_t count_ages(const Params& params, std::uint32_t fresh, std::uint32_t periods,
                         AdmitState& state) {
   const auto all = static_cast<std::uint32_t>((std::uint64_t{1} << params.joint_count) - 1U);
-  if ((fresh & all) ==
-      all) {  // as in nearly every tick, where the loop would cost most of this stage
+  // As in nearly every tick, where the loop below would cost most of this stage.
+  if ((fresh & all) == all) {
     for (std::uint8_t& age : state.servo_age) age = 0;
     return 0;
   }

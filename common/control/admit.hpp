@@ -49,8 +49,8 @@ struct AdmitOut {
   std::uint32_t conditions = 0;  ///< safety::Condition bits that follow from the inputs alone
   std::uint32_t faults = 0;      ///< safety::Fault bits raised this tick
   bool imu_fresh = false;
-  bool imu_anew =
-      false;  ///< fresh after stale_release_s: what was sensed before it says nothing any more
+  /// Fresh after stale_release_s: what was sensed before it says nothing any more.
+  bool imu_anew = false;
   Vec3 gyro_body_rad_s{0, 0, 0};
   Vec3 accel_body_m_s2{0, 0, 0};
   float vx_m_s = 0;

@@ -243,7 +243,7 @@ inline constexpr Register kTable[] = {
     // Every device: rows 0..31 servos, 32 IMU, 33 and 34 feet, 35 servo bus, 36 this link.
     r(672, "device_kind", u8, "", "0 none, 1 servo, 2 IMU, 3 foot, 4 servo bus, 5 operator link", kDevices),
     r(712, "device_id", u8, "", "bus id; 0: has none", kDevices),
-    r(752, "device_state", u8, "", "0 never seen, 1 good, 2 stale: silent, or a servo that tells the same position while its goal moves away, 3 lost, 4 reports a hardware error", kDevices),
+    r(752, "device_state", u8, "", "0 never seen, 1 good, 2 stale: silent, or a servo that tells the same position while its goal moves away, or an IMU that repeats itself, 3 lost, 4 reports a hardware error", kDevices),
     r(792, "device_rate", u16, "1/s", "reports in the last second (the link: packets)", kDevices),
     r(872, "device_age", u16, "ticks", "since the last report, up to 65535", kDevices),
     r(952, "device_errors", u32, "", "reports missed or stale; bus: CRC errors, timeouts, refused; link: CRC, overruns, framing, noise", kDevices),
