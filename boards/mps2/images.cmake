@@ -21,7 +21,12 @@ endfunction()
 
 # <name>_<board>.elf runs the unit tests of the given sources; ctest has it as `test`.
 function(verp_add_unit_image name test machine)
-  verp_add_emulated_image(${name} unit ${machine} ${VERP_MPS2_DIR}/newlib.cpp ${ARGN})
+  set(library newlib.cpp)
+  if(CMAKE_SYSTEM_PROCESSOR STREQUAL riscv32)
+    list(APPEND library riscv_library.cpp)
+  endif()
+  list(TRANSFORM library PREPEND ${VERP_MPS2_DIR}/)
+  verp_add_emulated_image(${name} unit ${machine} ${library} ${ARGN})
   target_include_directories(${name}_${VERP_BOARD} SYSTEM PRIVATE ${CMAKE_SOURCE_DIR}/tests/support/gtest_target)
   add_test(NAME ${test} COMMAND ${name}_${VERP_BOARD})
   set_tests_properties(${test} PROPERTIES LABELS "unit;target" TIMEOUT 300)
@@ -45,12 +50,17 @@ function(verp_add_unit_tests_by_folder machine)
   endforeach()
 endfunction()
 
-# The suites of tests/contract, against the fakes and, for what the emulators lack, the drivers against their models.
+# The suites of tests/contract, against the fakes and, for what the emulators lack, the drivers against their models. That
+# of CAN has an image of its own: one chip's RAM does not hold the models of both.
 function(verp_add_contract_tests machine)
-  file(GLOB tests CONFIGURE_DEPENDS
-    ${CMAKE_SOURCE_DIR}/tests/contract/*_test.cpp ${CMAKE_SOURCE_DIR}/tests/support/stm32/*.cpp)
-  verp_add_unit_image(contract contract.${VERP_BOARD} ${machine} ${tests})
-  set_tests_properties(contract.${VERP_BOARD} PROPERTIES LABELS "contract;target")
+  file(GLOB tests CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/tests/contract/*_test.cpp)
+  file(GLOB models CONFIGURE_DEPENDS
+    ${CMAKE_SOURCE_DIR}/tests/support/stm32/*.cpp ${CMAKE_SOURCE_DIR}/tests/support/can/*.cpp)
+  set(can ${CMAKE_SOURCE_DIR}/tests/contract/can_bus_test.cpp)
+  list(REMOVE_ITEM tests ${can})
+  verp_add_unit_image(contract contract.${VERP_BOARD} ${machine} ${tests} ${models})
+  verp_add_unit_image(contract_can contract_can.${VERP_BOARD} ${machine} ${can} ${models})
+  set_tests_properties(contract.${VERP_BOARD} contract_can.${VERP_BOARD} PROPERTIES LABELS "contract;target")
 endfunction()
 
 # Tests with a half on the PC: that half comes from a PC build, which must be there.
@@ -92,6 +102,25 @@ function(verp_add_replay_tests machine)
     ENVIRONMENT "VERP_TEST_BOARD=${VERP_BOARD};VERP_TEST_TICKS=${trace_ticks};VERP_FIRMWARE_DIR=${CMAKE_BINARY_DIR}/images")
 endfunction()
 
+# The board's own CAN driver in the emulator, on a CAN bus of this PC.
+function(verp_add_can_tests machine)
+  verp_add_emulated_image(can can ${machine})
+  verp_add_emulated_image(loop can_loop ${machine})
+  add_custom_target(benchmarks DEPENDS loop_${VERP_BOARD})  # what `verp bench` runs
+  add_test(NAME can.${VERP_BOARD} COMMAND ${CMAKE_SOURCE_DIR}/tests/support/with-can --timeout 240 --memory 1500M
+    ${VERP_HOST_DIR}/target/target_tests --gtest_filter=CanBoard.*)
+  set_tests_properties(can.${VERP_BOARD} PROPERTIES LABELS "hil-can;target" TIMEOUT 300
+    ENVIRONMENT "VERP_TEST_BOARD=${VERP_BOARD};VERP_FIRMWARE_DIR=${CMAKE_BINARY_DIR}/images")
+endfunction()
+
+# The loop over it for so many ticks, of which nine seconds are for standing up and standing still (tests/target/twin_run.cpp).
+function(verp_add_can_loop_test ticks)
+  add_test(NAME can_loop.${VERP_BOARD} COMMAND ${CMAKE_SOURCE_DIR}/tests/support/with-can --timeout 280 --memory 1500M
+    ${VERP_HOST_DIR}/target/target_tests --gtest_filter=CanLoop.*)
+  set_tests_properties(can_loop.${VERP_BOARD} PROPERTIES LABELS "loop;hil-can;target" TIMEOUT 300
+    ENVIRONMENT "VERP_TEST_BOARD=${VERP_BOARD};VERP_TEST_TICKS=${ticks};VERP_FIRMWARE_DIR=${CMAKE_BINARY_DIR}/images")
+endfunction()
+
 # What a fault leaves behind for the next start.
 function(verp_add_fault_tests machine)
   verp_add_emulated_image(fault fault ${machine})
@@ -104,7 +133,7 @@ endfunction()
 # The loop's image through its emulated serial ports.
 function(verp_add_serial_tests machine)
   add_test(NAME hil.${VERP_BOARD}.operator COMMAND ${CMAKE_SOURCE_DIR}/tests/target/ask_operator
-    ${machine} $<TARGET_FILE:loop_${VERP_BOARD}> ${VERP_HOST_DIR}/host/tool/verp)
+    ${machine} $<TARGET_FILE:loop_${VERP_BOARD}> $<TARGET_FILE:loop_can_${VERP_BOARD}> ${VERP_HOST_DIR}/host/tool/verp)
   set_tests_properties(hil.${VERP_BOARD}.operator PROPERTIES LABELS "hil;target" TIMEOUT 300)
   # The same with a bad cable.
   add_test(NAME hil.${VERP_BOARD}.faults COMMAND ${VERP_HOST_DIR}/target/target_tests --gtest_filter=SerialFaults.*)

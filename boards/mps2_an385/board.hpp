@@ -1,4 +1,5 @@
 #pragma once
+#include <cstdint>
 
 /// Arm MPS2 FPGA board with the AN385 image (Cortex-M3), as QEMU's mps2-an385 emulates it.
 namespace verp::board {
@@ -6,4 +7,6 @@ inline constexpr const char* kName = "mps2_an385";
 inline constexpr const char* kCore = "Cortex-M3";
 /// Ticks that a replay moves at once.
 inline constexpr int kReplayBlock = 256;
+/// No memory is here, for tests of faults: no external memory.
+inline constexpr std::uintptr_t kNowhere = 0x6FFFFFF0;
 }  // namespace verp::board

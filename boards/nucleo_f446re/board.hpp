@@ -36,6 +36,14 @@ inline constexpr SerialPort kServoPort = {.wiring = {.base = stm32::base::kUsart
                                           .on_apb2 = true,
                                           .interrupt = stm32::irq::kUsart1,
                                           .dma_interrupt = stm32::irq::dma2(2)};
+/// Arduino pins D14 and D15. They go to a CAN transceiver.
+inline constexpr CanPort kCanPort = {.base = stm32::base::kCan1,
+                                     .filters = {},
+                                     .clocks = stm32::rcc::kApb1Can1,
+                                     .transmit = {'B', 9},
+                                     .receive = {'B', 8},
+                                     .function = 9,
+                                     .first_interrupt = stm32::irq::kCan1Tx};
 inline constexpr SerialPort kOperatorPort = {
     .wiring = {.base = stm32::base::kUsart2,
                .dma_base = stm32::base::kDma1,

@@ -1,4 +1,6 @@
 #pragma once
+#include <cstdint>
+
 #include "boards/stm32/wiring.hpp"
 
 /// Olimex STM32-H405: STM32F405RGT6 (Cortex-M4F). QEMU's netduinoplus2 has the same chip.
@@ -12,6 +14,8 @@ inline constexpr const char* kName = "olimex_h405";
 inline constexpr const char* kCore = "Cortex-M4F";
 /// Ticks that a replay moves at once.
 inline constexpr int kReplayBlock = 64;
+/// No memory is here, for tests of faults: no external memory.
+inline constexpr std::uintptr_t kNowhere = 0x6FFFFFF0;
 
 inline constexpr stm32::Family kFamily = stm32::Family::kF405;
 using UsartKind = stm32::UsartV1;
@@ -40,6 +44,14 @@ inline constexpr SerialPort kServoPort = {.wiring = {.base = stm32::base::kUsart
                                           .on_apb2 = true,
                                           .interrupt = stm32::irq::kUsart1,
                                           .dma_interrupt = stm32::irq::dma2(2)};
+/// They go to a CAN transceiver.
+inline constexpr CanPort kCanPort = {.base = stm32::base::kCan1,
+                                     .filters = {},
+                                     .clocks = stm32::rcc::kApb1Can1,
+                                     .transmit = {'B', 9},
+                                     .receive = {'B', 8},
+                                     .function = 9,
+                                     .first_interrupt = stm32::irq::kCan1Tx};
 inline constexpr SerialPort kOperatorPort = {
     .wiring = {.base = stm32::base::kUsart2,
                .dma_base = stm32::base::kDma1,

@@ -3,8 +3,8 @@
 
 /// ROBOTIS OpenCR 1.0: STM32F746ZGT6 (Cortex-M7, single precision).
 /// Pins: ROBOTIS-GIT/OpenCR, arduino/opencr_arduino/opencr/variants/OpenCR (variant.cpp,
-/// drv_uart.c, drv_dxl.c, hw/usb_cdc); alternate functions and DMA streams are those that its
-/// drv_uart.c sets. README.md has the wiring and names the source of each pin.
+/// drv_uart.c, drv_dxl.c, drv_can.c, hw/usb_cdc); alternate functions and DMA streams are those
+/// that its drv_uart.c sets. README.md has the wiring and names the source of each pin.
 namespace verp::board {
 
 namespace stm32 = hal::stm32;
@@ -37,6 +37,14 @@ inline constexpr SerialPort kServoPort = {.wiring = {.base = stm32::base::kUsart
                                           .on_apb2 = false,
                                           .interrupt = stm32::irq::kUsart3,
                                           .dma_interrupt = stm32::irq::dma1(1)};
+/// The CAN connector: drv_can.c, its second channel.
+inline constexpr CanPort kCanPort = {.base = stm32::base::kCan2,
+                                     .filters = stm32::kCan2Filters,
+                                     .clocks = stm32::rcc::kApb1Can1 | stm32::rcc::kApb1Can2,
+                                     .transmit = {'B', 13},
+                                     .receive = {'B', 12},
+                                     .function = 9,
+                                     .first_interrupt = stm32::irq::kCan2Tx};
 /// The USB connector. VBUS is not sensed: usb_cdc/usbd_conf.c.
 inline constexpr UsbPort kOperatorPort = {.minus = {'A', 11},
                                           .plus = {'A', 12},

@@ -6,16 +6,16 @@
 namespace verp::board {
 
 Timer timer(stm32::base::kTim2);
-Port servo_port = ServoSide::make(kServoPort, kFamily, timer);
+Port robot_port = RobotSide::make(timer);
 OperatorPort operator_port = OperatorSide::make(kOperatorPort, kFamily, timer);
 Battery battery(kBattery, timer);
 stm32::Buzzer<Io> buzzer(kBuzzer);
 
 namespace {
 
-// Servo replies may not wait for the operator. Handlers of one port share a priority: they must not
-// interrupt each other.
-constexpr std::uint8_t kServoPriority = 4;
+// Servos' replies may not wait for the operator. Handlers of one port share a priority: they must
+// not interrupt each other.
+constexpr std::uint8_t kRobotPriority = 4;
 constexpr std::uint8_t kOperatorPriority = 8;
 constexpr std::uint8_t kTimerPriority = 12;
 
@@ -25,8 +25,8 @@ void on_timer() {
 void on_buzzer() {
   buzzer.on_interrupt();
 }
-void on_servo_port() {
-  servo_port.on_interrupt();
+void on_robot_port() {
+  robot_port.on_interrupt();
 }
 void on_operator_port() {
   operator_port.on_interrupt();
@@ -43,7 +43,7 @@ Start start_hardware() {
   stm32::enable_clock(Io{}, stm32::rcc::kApb1enr, stm32::rcc::kApb1Tim2);
   start.good = timer.open(start.clocks.apb1_timer_hz, start.clocks.sysclk_hz);
   stm32::enable_interrupt(Io{}, stm32::irq::kTim2, kTimerPriority);
-  ServoSide::connect(kServoPort, kServoPriority);
+  RobotSide::connect(kRobotPriority);
   OperatorSide::connect(kOperatorPort, kOperatorPriority);
   battery.open(start.clocks.apb2_hz);
   buzzer.open(start.clocks.apb1_timer_hz);
@@ -51,8 +51,8 @@ Start start_hardware() {
   return start;
 }
 
-bool open_servo_port(const Start& start, std::uint32_t baud) {
-  return ServoSide::open(servo_port, kServoPort, start.clocks, baud);
+bool open_robot_port(const Start& start, std::uint32_t baud) {
+  return RobotSide::open(robot_port, start.clocks, baud);
 }
 bool open_operator_port(const Start& start) {
   return OperatorSide::open(operator_port, kOperatorPort, start.clocks);
@@ -63,13 +63,23 @@ bool open_operator_port(const Start& start) {
 /// SysTick only ends a wait (hal/chip/stm32/tick_timer.hpp).
 extern "C" void verp_systick() {}
 
+namespace verp::board {
+namespace {
+
+constexpr InterruptTable all_interrupts() {
+  InterruptTable table = make_interrupts({
+      {stm32::irq::kTim2, on_timer},
+      {stm32::irq::kTim3, on_buzzer},
+      {kOperatorPort.interrupt, on_operator_port},
+      {kOperatorPort.dma_interrupt, on_operator_port},
+  });
+  for (const unsigned each : kRobotInterrupts) table.handler[each] = on_robot_port;
+  return table;
+}
+
+}  // namespace
+}  // namespace verp::board
+
 extern const verp::board::InterruptTable verp_interrupts;
 __attribute__((section(".vectors.interrupts"), used))
-const verp::board::InterruptTable verp_interrupts = verp::board::make_interrupts({
-    {verp::hal::stm32::irq::kTim2, verp::board::on_timer},
-    {verp::hal::stm32::irq::kTim3, verp::board::on_buzzer},
-    {verp::board::kServoPort.interrupt, verp::board::on_servo_port},
-    {verp::board::kServoPort.dma_interrupt, verp::board::on_servo_port},
-    {verp::board::kOperatorPort.interrupt, verp::board::on_operator_port},
-    {verp::board::kOperatorPort.dma_interrupt, verp::board::on_operator_port},
-});
+const verp::board::InterruptTable verp_interrupts = verp::board::all_interrupts();

@@ -7,6 +7,7 @@
 #include "hal/chip/stm32/reset_cause.hpp"
 #include "hal/chip/stm32/tick_timer.hpp"
 #include "hal/chip/stm32/watchdog.hpp"
+#include "robot_port.hpp"
 
 /// The chip of the board that is being built: its drivers, and how they come up. Static, because
 /// interrupts find them here.
@@ -16,15 +17,15 @@ using Io = stm32::MemoryIo;
 using Timer = stm32::TickTimer<Io>;
 template <auto& kWiring>
 using KindOf = PortKind<std::remove_cvref_t<decltype(kWiring)>, Io, UsartKind, Timer>;
-using ServoSide = KindOf<kServoPort>;
+using RobotSide = RobotWiring<Io, UsartKind, Timer>;
 using OperatorSide = KindOf<kOperatorPort>;
-using Port = ServoSide::Port;
+using Port = RobotSide::Port;
 using OperatorPort = OperatorSide::Port;
 
 using Battery = stm32::AnalogInput<Io, Timer>;
 
 extern Timer timer;
-extern Port servo_port;
+extern Port robot_port;
 extern OperatorPort operator_port;
 extern Battery battery;
 extern stm32::Buzzer<Io> buzzer;
@@ -37,8 +38,8 @@ struct Start {
 
 /// Clocks, pins, timer and interrupts; the ports are opened at their baud rates later. Once.
 Start start_hardware();
-/// False if no divider makes this rate. Never waits.
-bool open_servo_port(const Start& start, std::uint32_t baud);
+/// False if this rate can't be had. Waits for milliseconds at most.
+bool open_robot_port(const Start& start, std::uint32_t baud);
 /// False if it can't be clocked, or does not answer. USB takes 25 ms.
 bool open_operator_port(const Start& start);
 

@@ -1,10 +1,10 @@
 # The image that goes on an STM32 board: loop_<board>.elf, held to its budget of flash, RAM and stack.
 set(VERP_STM32_DIR ${CMAKE_CURRENT_LIST_DIR})
 
-function(verp_add_stm32_loop)
-  set(image loop_${VERP_BOARD})
+# <image>.elf speaks with the robot by the robot_port.hpp of folder `way`: serial or can.
+function(verp_add_stm32_image image way)
   add_executable(${image} ${VERP_STM32_DIR}/loop_main.cpp ${VERP_STM32_DIR}/hardware.cpp ${VERP_STM32_DIR}/end.cpp)
-  target_include_directories(${image} PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
+  target_include_directories(${image} PRIVATE ${CMAKE_CURRENT_SOURCE_DIR} ${VERP_STM32_DIR}/${way})
   target_link_libraries(${image} PRIVATE verp_boot verp_app verp_core verp_warnings)
   target_link_options(${image} PRIVATE -T ${CMAKE_CURRENT_SOURCE_DIR}/memory.ld)
   set_target_properties(${image} PROPERTIES
@@ -16,10 +16,24 @@ function(verp_add_stm32_loop)
     COMMAND ${CMAKE_OBJCOPY} -O binary $<TARGET_FILE:${image}> ${CMAKE_BINARY_DIR}/images/${image}.bin
     COMMAND ${VERP_STM32_DIR}/budget $<TARGET_FILE:${image}> ${CMAKE_SOURCE_DIR}/host/board/stack_depth
     VERBATIM)
-  add_test(NAME budget.${VERP_BOARD} COMMAND ${VERP_STM32_DIR}/budget
-    $<TARGET_FILE:${image}> ${CMAKE_SOURCE_DIR}/host/board/stack_depth)
-  set_tests_properties(budget.${VERP_BOARD} PROPERTIES LABELS "gate;target")
+endfunction()
+
+function(verp_add_budget_test name image)
+  add_test(NAME ${name} COMMAND ${VERP_STM32_DIR}/budget $<TARGET_FILE:${image}> ${CMAKE_SOURCE_DIR}/host/board/stack_depth)
+  set_tests_properties(${name} PROPERTIES LABELS "gate;target")
+endfunction()
+
+# loop_<board> for a robot on the servo port.
+function(verp_add_stm32_loop)
+  verp_add_stm32_image(loop_${VERP_BOARD} serial)
+  verp_add_budget_test(budget.${VERP_BOARD} loop_${VERP_BOARD})
   verp_add_dry_run_test()
+endfunction()
+
+# loop_can_<board> for one on CAN: both in one image are more than the flash in front of what is kept there.
+function(verp_add_stm32_can_loop)
+  verp_add_stm32_image(loop_can_${VERP_BOARD} can)
+  verp_add_budget_test(budget.${VERP_BOARD}.can loop_can_${VERP_BOARD})
 endfunction()
 
 # The real image through a flash tool, as far as that goes without silicon: `tests` of tests/host/flash.

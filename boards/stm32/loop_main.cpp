@@ -9,20 +9,20 @@
 #include "common/model/image.hpp"
 #include "firmware/app/app.hpp"
 #include "firmware/app/drive_power.hpp"
-#include "firmware/app/link_bus.hpp"
-#include "firmware/app/lockstep_bus.hpp"
 #include "firmware/app/operator_device.hpp"
 #include "firmware/app/pacer.hpp"
 #include "firmware/app/signals.hpp"
 #include "firmware/app/start_fault.hpp"
+#include "firmware/app/tick_log.hpp"
 #include "firmware/boot/boot.hpp"
 #include "firmware/boot/crash.hpp"
 
-/// loop_<board>: the robot's control loop over the board's serial ports. At the servo port may be
-/// servos, or a twin that says so when it is greeted (firmware/app/lockstep_messages.hpp): the
-/// image asks for the one and for the other in turn until somebody is there. Torque is off until
-/// then. At the operator's port the controller is a Dynamixel device, from the start on and
-/// whatever the boot check found.
+/// loop_<board>: the robot's control loop over the board's ports; loop_can_<board>: the same for a
+/// robot on CAN (robot_port.hpp of serial/ and can/). At the robot's port may be servos, or a twin
+/// that says so when it is greeted (firmware/app/lockstep_messages.hpp and its like): the image
+/// asks for the one and for the other in turn until somebody is there. Torque is off until then. At
+/// the operator's port the controller is a Dynamixel device, from the start on and whatever the
+/// boot check found.
 extern "C" const std::uint8_t verp_params_begin[];
 extern "C" const std::uint8_t verp_params_bytes[];  ///< an address that is a size (memory.ld)
 
@@ -45,7 +45,8 @@ constexpr std::uint64_t kServingEnds_us = 2'000;
 constexpr std::uint64_t kLastWords_us = 40'000;
 
 using app::table::StartFault;
-using Operator = app::OperatorDevice<OperatorPort, app::ParamsImages>;
+using Ticks = app::TickLog<app::ParamsImages>;
+using Operator = app::OperatorDevice<OperatorPort, Ticks>;
 
 struct Board {
   Board(const Start& start, const Params& params, control::BootVerdict verdict)
@@ -53,7 +54,7 @@ struct Board {
         guard(dog, start.clocks.source != stm32::ClockSource::kAbsent),
         kept(dog, *reinterpret_cast<const ParamsImage*>(verp_params_begin)),
         imu(params, kept.log),
-        operator_device(operator_port, params, setup(start, verdict), kept.images) {
+        operator_device(operator_port, params, setup(start, verdict), ticks_kept) {
     imu.open(start);
     pins.open();
     supply.open();
@@ -147,6 +148,7 @@ struct Board {
   OwnImu<kImu.exists(), decltype(Kept::log)> imu;
   PanelPins<Io> pins{kEmergencyStop, kButtons};
   ServoPower<Io> supply{kServoPower, kEmergencyStop};
+  Ticks ticks_kept{kept.images};  ///< beside what is kept in flash
   Operator operator_device;
   app::WithPanel<Operator, PanelPins<Io>> panel{operator_device, pins, kEmergencyStop.exists()};
   app::Signals signals;
@@ -157,23 +159,16 @@ struct Board {
   StartFault fault = StartFault::kNone;
 };
 
-/// The servo port during bring-up, when no tick can feed the watchdog.
-struct PatientPort {
-  std::size_t write(const std::uint8_t* data, std::size_t size, std::uint32_t timeout_us) {
-    return servo_port.write(data, size, timeout_us);
+/// What is done while the robot's port is waited for during bring-up, when no tick can feed the
+/// watchdog.
+struct UntilTicks {
+  void operator()() const {
+    if (ticking) return;
+    board.supply.watch();
+    board.idle();
   }
-  std::size_t read(std::uint8_t* buffer, std::size_t capacity, std::uint32_t timeout_us) {
-    if (!ticking) {
-      board.supply.watch();
-      board.idle();
-    }
-    return servo_port.read(buffer, capacity, timeout_us);
-  }
-  bool connected() const { return servo_port.connected(); }
-  hal::LinkErrors errors() const { return servo_port.errors(); }
-
   Board& board;
-  bool ticking = false;
+  const bool& ticking;
 };
 
 struct Patience {
@@ -195,7 +190,7 @@ struct Patience {
 /// may be paused, and goes on with the same bits; all that while its operator can start it anew.
 lockstep::Verdict run_in_lockstep(Board& board, const Params& params) {
   std::uint64_t until_us = timer.now_us() + kGreeting_us;
-  app::LockstepBus<Port, Patience> bus(servo_port, {board, until_us});
+  LockstepOn<Port, Patience> bus(robot_port, {board, until_us});
   const lockstep::Verdict verdict = bus.greet(params);
   if (verdict != lockstep::Verdict::kAccepted) return verdict;
   until_us = kForever_us;
@@ -214,9 +209,9 @@ lockstep::Verdict run_in_lockstep(Board& board, const Params& params) {
 /// stop that took their power. `held_us`: how long what is between them and this port may hold
 /// bytes back.
 void run_in_real_time(Board& board, Servos& servos, const Params& params, std::uint32_t held_us) {
-  PatientPort port{board};
-  app::LinkBus<PatientPort, Timer> bus(port, timer, held_us);
-  app::App loop(params, bus, board.panel, board, board.imu.chip());
+  bool ticking = false;
+  RealTimeOn<Port, Timer, UntilTicks> way(robot_port, timer, {board, ticking}, held_us);
+  app::App loop(params, way.bus(), board.panel, board, board.imu.chip());
   if (!board.is_up(loop.bring_up())) return;
   board.idle();
   app::Pacer pacer(timer);
@@ -226,7 +221,7 @@ void run_in_real_time(Board& board, Servos& servos, const Params& params, std::u
     servos.release();
     board.refuse(fault);
   }
-  port.ticking = true;
+  ticking = true;
   app::DrivePower drive;
   for (;;) {
     const app::Beat beat = pacer.next();
@@ -244,9 +239,10 @@ void run_in_real_time(Board& board, Servos& servos, const Params& params, std::u
   }
 }
 
-StartFault judge(bool has_desk, control::BootVerdict verdict) {
+StartFault judge(bool has_desk, control::BootVerdict verdict, const Params& params) {
   if (!has_desk) return StartFault::kOperatorPort;
-  return verdict == control::BootVerdict::kSound ? StartFault::kNone : StartFault::kSelfTest;
+  if (verdict != control::BootVerdict::kSound) return StartFault::kSelfTest;
+  return params.bus_protocol == kProtocol ? StartFault::kNone : StartFault::kProtocol;
 }
 
 }  // namespace
@@ -273,7 +269,7 @@ extern "C" int verp_main() {
       has_robot ? reinterpret_cast<const ParamsImage*>(verp_params_begin)->params : scratch;
   static board::Board here(start, params, verdict);
   board::Servos servos{start, params.baud, has_robot, here.supply};
-  const auto fault = app::open_servos(servos, board::judge(has_desk, verdict));
+  const auto fault = app::open_servos(servos, board::judge(has_desk, verdict, params));
   here.say(app::Signals::at_start(fault == board::StartFault::kNone));
   if (fault != board::StartFault::kNone) here.refuse(fault);
   for (;;) {

@@ -2,6 +2,7 @@
 #include <cstdint>
 
 #include "hal/chip/stm32/analog_input.hpp"
+#include "hal/chip/stm32/bxcan.hpp"
 #include "hal/chip/stm32/clock.hpp"
 #include "hal/chip/stm32/gpio.hpp"
 #include "hal/chip/stm32/spi_master.hpp"
@@ -30,6 +31,17 @@ struct SerialPort {
   unsigned interrupt = 0;
   unsigned dma_interrupt = 0;
   std::uint32_t baud = 0;  ///< of the operator's port; the servos' is the robot's
+};
+
+/// A bxCAN, on APB1. Its pins go to a CAN transceiver.
+struct CanPort {
+  std::uint32_t base = 0;
+  hal::stm32::CanFilterBanks filters;
+  std::uint32_t clocks = 0;  ///< mask in APB1ENR, with that of who keeps its filters
+  Pin transmit;
+  Pin receive;
+  std::uint32_t function = 0;    ///< alternate function of both pins
+  unsigned first_interrupt = 0;  ///< transmission; reception of either FIFO and errors follow
 };
 
 /// USB full speed, a serial port to the PC it is plugged into.

@@ -14,6 +14,22 @@ bool well_formed_leg(const Params& params, const LegParams& leg) {
   return true;
 }
 
+// Node ids are 1 to 127 on CAN, and a drive's is its place in every table there.
+bool well_formed_bus(const Params& params) {
+  if (params.bus_protocol == BusProtocol::kDynamixel2) return true;
+  if (params.bus_protocol != BusProtocol::kCia402) return false;
+  constexpr std::uint8_t kMaxNode = 127;
+  for (int j = 0; j < params.joint_count; ++j) {
+    const std::uint8_t id = params.joint[j].servo_id;
+    if (id == 0 || id > kMaxNode) return false;
+  }
+  if (params.imu.device_id > kMaxNode) return false;
+  for (const std::uint8_t id : params.feet.device_id) {
+    if (id > kMaxNode) return false;
+  }
+  return true;
+}
+
 }  // namespace
 
 std::uint32_t params_crc(const Params& params) {
@@ -59,7 +75,8 @@ bool is_well_formed(const Params& params) {
   for (const std::uint8_t head : heads) {
     if (head != 0xFF && head >= params.joint_count) return false;
   }
-  return well_formed_leg(params, params.leg[0]) && well_formed_leg(params, params.leg[1]);
+  return well_formed_bus(params) && well_formed_leg(params, params.leg[0]) &&
+         well_formed_leg(params, params.leg[1]);
 }
 
 }  // namespace verp

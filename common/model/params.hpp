@@ -80,7 +80,8 @@ VERP_PACKED(LegParams);
 
 /// What the firmware writes into a servo when it arms it, and what it may use on the wire.
 struct ServoProfile {
-  std::uint16_t model_number = 0;     ///< control table 0; 1030 is XM430-W210, 30 is MX-28(2.0)
+  /// Control table 0; 1030 is XM430-W210, 30 is MX-28(2.0). On CAN the product code (1018h:2).
+  std::uint16_t model_number = 0;
   std::uint16_t position_p_gain = 0;  ///< control table units
   std::uint16_t position_i_gain = 0;
   std::uint16_t position_d_gain = 0;
@@ -113,16 +114,24 @@ struct FootSensorParams {
 };
 VERP_PACKED(FootSensorParams);
 
+/// What servos and bus sensors speak.
+enum class BusProtocol : std::uint8_t {
+  kDynamixel2 = 0,  ///< serial, Dynamixel Protocol 2.0
+  kCia402 = 1,      ///< CAN, CANopen with CiA 402 drives; ids are node ids, 1 to 127
+};
+
 struct Params {
   char name[kNameLength] = {};
   std::uint32_t period_us = 10000;  ///< control period, 4000 to 20000
-  std::uint32_t baud = 2000000;     ///< servo bus
+  std::uint32_t baud = 2000000;     ///< servo bus; on CAN its nominal bit rate
   std::uint8_t joint_count = 0;
   std::uint8_t head_pan = 0xFF;  ///< joint index, 0xFF: none
   std::uint8_t head_tilt = 0xFF;
   std::uint8_t rise_torque_percent = 100;  ///< of each servo's full duty, while it rises
   float body_mass_kg = 0;
   Xyz body_com_m;
+  BusProtocol bus_protocol = BusProtocol::kDynamixel2;
+  std::uint8_t reserved[3] = {};
   JointParams joint[kMaxJoints];
   LegParams leg[kFeet];
   ServoProfile servo[kServoProfiles];
@@ -130,7 +139,8 @@ struct Params {
   FootSensorParams feet;
   Tuning tuning;
   VERP_FIELDS(name, period_us, baud, joint_count, head_pan, head_tilt, rise_torque_percent,
-              body_mass_kg, body_com_m, joint, leg, servo, imu, feet, tuning)
+              body_mass_kg, body_com_m, bus_protocol, reserved, joint, leg, servo, imu, feet,
+              tuning)
 };
 VERP_PACKED(Params);
 

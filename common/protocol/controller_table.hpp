@@ -19,13 +19,17 @@ inline constexpr std::uint16_t kModel = 0x7600;  ///< ours, as the sensors' in c
 /// Firmware Version (6). Changes whenever a register moves or changes its meaning.
 inline constexpr std::uint8_t kTableVersion = 1;
 
-enum class Type : std::uint8_t { kU8, kU16, kU32, kU64, kI16, kI32, kF32, kText };
-inline constexpr const char* kTypeNames[] = {"u8",  "u16", "u32", "u64",
+enum class Type : std::uint8_t { kU8, kU16, kU32, kU64, kI8, kI16, kI32, kF32, kText };
+inline constexpr const char* kTypeNames[] = {"u8",  "u16", "u32", "u64", "i8",
                                              "i16", "i32", "f32", "text"};
 /// Bytes of one element.
 constexpr std::uint8_t type_bytes(Type type) {
-  constexpr std::uint8_t kBytes[] = {1, 2, 4, 8, 2, 4, 4, 1};
+  constexpr std::uint8_t kBytes[] = {1, 2, 4, 8, 1, 2, 4, 4, 1};
   return kBytes[static_cast<std::size_t>(type)];
+}
+/// A whole number that may be below zero.
+constexpr bool is_signed(Type type) {
+  return type == Type::kI8 || type == Type::kI16 || type == Type::kI32;
 }
 
 enum class Access : std::uint8_t {
@@ -108,7 +112,8 @@ enum class StartFault : std::uint8_t {
   kOperatorPort,
   kServoPort,
   kPeriod,
-  kWatchdog
+  kWatchdog,
+  kProtocol  ///< the robot's bus is not the one that this image speaks
 };
 enum class ServoPower : std::uint8_t { kNotSwitched, kOn, kOff };
 enum class WindowState : std::uint8_t { kIdle, kReceiving, kAccepted, kRefused };
@@ -166,7 +171,7 @@ inline constexpr Register kTable[] = {
     rw(68, "status_return_level", u8, 2, "", "replies: 0 to ping, 1 to ping and reads, 2 to all"),
     r(69, "registered_instruction", u8, "", "1: a Reg Write waits for its Action"),
     r(70, "hardware_error", u8, "bits", "faults that stop the robot: the low byte of faults; not 0: alert bit"),
-    r(71, "start_fault", u8, "", "no torque until a reset; so many flashes: 2 self_test failed, 3 timer, 4 this port, 5 servo port, 6 period_us, 7 watchdog; 0: none"),
+    r(71, "start_fault", u8, "", "no torque until a reset; so many flashes: 2 self_test failed, 3 timer, 4 this port, 5 servo port, 6 period_us, 7 watchdog, 8 bus protocol; 0: none"),
     r(72, "crash_pc", u32, "", "the crash before this start: its instruction; 0 with crash_count 1 or more: stack overflow"),
     r(76, "crash_cause", u32, "bits", "CFSR of the core at that crash"),
     // The operator's order: every write to 80..99 makes it fresh and feeds the operator watchdog.
@@ -248,7 +253,7 @@ inline constexpr Register kTable[] = {
     r(872, "device_age", u16, "ticks", "since the last report, up to 65535", kDevices),
     r(952, "device_errors", u32, "", "reports missed or stale; bus: CRC errors, timeouts, refused; link: CRC, overruns, framing, noise", kDevices),
     // Whole images, block by block.
-    rw(1112, "window_kind", u8, 2, "", "what the window shows: 0 nothing, 1 the Params image, 2 actions; begins anew"),
+    rw(1112, "window_kind", u8, 4, "", "what the window shows: 0 nothing, 1 the Params image, 2 actions; only to read: 3 the last tick, with tick_hold, 4 the last ticks; begins anew"),
     r(1113, "window_state", u8, "", "0 idle, 1 receiving, 2 accepted: a board stores it and starts anew with it, 3 refused"),
     r(1114, "window_fault", u8, "", "why refused: ImageFault; 255: the bytes do not have window_crc"),
     r(1116, "window_size", u32, "bytes", "of a whole image of that kind"),
@@ -256,6 +261,11 @@ inline constexpr Register kTable[] = {
     rw(1124, "window_data", u8, 255, "", "reads show the image in force; writes go to a new one", kWindowBytes),
     rw(1252, "window_crc", u32, kAll32, "", "CRC-32 (zip) of all bytes of the new image"),
     disarmed(1256, "window_commit", u8, 1, "", "1: check the new image and take it; reads as 0"),
+    // For one who runs the same controller beside this one, and compares.
+    rw(1257, "tick_hold", u8, 2, "", "1: the State of the last tick stands still, to be read as an image, 2: the last ticks too; the loop goes on; refused where none are kept"),
+    r(1258, "inputs_flags", u16, "bits", "of the last tick: InputFlag; on CAN also 256 IMU counts in parts, and from 4096 on the number of parts"),
+    r(1260, "tick_low", u16, "ticks", "low half of tick"),
+    r(1264, "inputs_part", u64, "", "on CAN: one part of the last tick's Inputs: half its offset, its size, up to 6 bytes"),
 };
 // clang-format on
 }  // namespace row
@@ -288,6 +298,7 @@ struct Rule {
   std::uint16_t count = 0;
   std::uint8_t size = 0;  ///< of an element
   Access access = Access::kRead;
+  bool is_text = false;
   std::int32_t minimum = 0;
   std::uint32_t maximum = 0;
 };
@@ -299,8 +310,9 @@ consteval Rules make_rules() {
   Rules rules{};
   for (std::size_t i = 0; i < kRegisters; ++i) {
     const Register& from = row::kTable[i];
-    rules.rule[i] = {from.address, from.count,   type_bytes(from.type),
-                     from.access,  from.minimum, from.maximum};
+    rules.rule[i] = {
+        from.address, from.count,  type_bytes(from.type), from.access, from.type == Type::kText,
+        from.minimum, from.maximum};
   }
   return rules;
 }

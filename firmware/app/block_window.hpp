@@ -10,7 +10,13 @@
 /// block by block.
 namespace verp::app {
 
-enum class ImageKind : std::uint8_t { kNone = 0, kParams = 1, kActions = 2 };
+enum class ImageKind : std::uint8_t {
+  kNone = 0,
+  kParams = 1,
+  kActions = 2,
+  kState = 3,  ///< read only, while tick_hold is 1: tick_log.hpp
+  kTicks = 4,  ///< read only
+};
 
 /// Why a commit was refused, above the values of ImageFault.
 inline constexpr std::uint8_t kWrongWindowCrc = 255;

@@ -3,32 +3,13 @@
 
 #include "common/model/params.hpp"
 #include "common/protocol/control_table.hpp"
+#include "firmware/app/bring_up_report.hpp"
 #include "firmware/app/bus_master.hpp"
 #include "firmware/app/servo_ram.hpp"
 
 /// Finds every device of the robot on the bus and writes what Params wants into it, torque off.
 /// EEPROM is written only where it differs (it wears out) and all that was written is read back.
 namespace verp::app {
-
-enum class BringUpStatus : std::uint8_t {
-  kReady,
-  kSilent,
-  kWrongModel,
-  kRefused,
-  kNotVerified,
-  kHardwareError,  ///< it may have shut its torque off, and stays limp until it is rebooted
-};
-
-/// The first device that stopped the bring-up, and where; and what was found.
-struct BringUpReport {
-  BringUpStatus status = BringUpStatus::kReady;
-  std::uint8_t device_id = 0;
-  std::uint16_t address = 0;   ///< register at which it failed
-  std::uint16_t expected = 0;  ///< model numbers, for kWrongModel
-  std::uint16_t found = 0;     ///< and bits of dxl::HardwareError, for kHardwareError
-  /// PWM Limit of each joint's servo: its owner may have set less than the servo can.
-  std::uint16_t full_pwm[kMaxJoints] = {};
-};
 
 template <hal::FrameBus Bus>
 class BringUp {
@@ -163,7 +144,7 @@ class BringUp {
   bool learn_strength(int j, std::uint8_t id) {
     std::uint8_t limit[2];
     if (!read(id, dxl::address::kPwmLimit, limit, sizeof limit)) return false;
-    report_.full_pwm[j] = dxl::get_u16(limit);
+    report_.full_strength[j] = dxl::get_u16(limit);
     return true;
   }
 

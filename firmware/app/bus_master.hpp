@@ -3,6 +3,7 @@
 #include <cstdint>
 
 #include "common/protocol/dynamixel2.hpp"
+#include "firmware/app/bus_counters.hpp"
 #include "firmware/app/schedule.hpp"
 #include "hal/contract/frame_bus.hpp"
 
@@ -10,14 +11,6 @@
 /// late for its own request and before the next is dropped; what comes later still is known by its
 /// length, if requests that are alike ask for spare_bytes() too.
 namespace verp::app {
-
-/// What went wrong on the bus since power-up.
-struct BusCounters {
-  std::uint32_t refused = 0;   ///< frames the backend did not take
-  std::uint32_t timeouts = 0;  ///< requests that some device did not answer in time
-  std::uint32_t strays = 0;    ///< good packets nobody had asked for
-  std::uint32_t errors = 0;    ///< status packets with an error number
-};
 
 /// What a reply handler says about a packet.
 enum class Take { kStray, kMore, kDone };

@@ -6,10 +6,44 @@
 #include "common/control/state.hpp"
 #include "common/io/io.hpp"
 #include "common/record/tick_record.hpp"
+#include "firmware/app/bring_up_report.hpp"
+#include "firmware/app/bus_counters.hpp"
 
-/// What the control loop needs besides a FrameBus: somebody who gives orders, somebody who keeps
-/// the record, and perhaps a clock.
+/// What the control loop needs: servos in some protocol, somebody who gives orders, somebody who
+/// keeps the record, and perhaps a clock.
 namespace verp::app {
+
+/// ServoBinding: a robot's servos, and the sensors on their bus, in one protocol. Promises:
+///  - bring_up(): finds every device and sets it up; torque is off afterwards, also if it failed.
+///  - read_positions(inputs): begins the tick on the bus. Sets position_count and the fresh bit of
+///    each servo that answered in this tick and holds what it was told to hold; touches no other.
+///  - read_sensors(inputs, imu): IMU (only if `imu`), feet, and slow telemetry of at most one
+///    servo, each with its flag; what did not come leaves its counts as they were.
+///  - heard_nothing_for(us): before this tick the servos may have heard nothing for so long.
+///  - send(outputs): goals, strength and torque. Never gives torque to a servo that may not know
+///    its goal, nor to one that may have lost what bring_up() wrote; outputs of one tick reach all
+///    servos or, if the bus lost some, those of a tick soon after do.
+///  - limit_torque(percent): of every servo's strength, from the next send() on; 1 to 100.
+///  - now_us(): bus time. After read_positions(), when that ended.
+///  - counters(), damaged(), noise(): what went wrong so far; damaged: packets or frames that came
+///    in pieces; noise: bytes or frames that came to nothing.
+/// A lost, late or foreign answer never blocks a tick beyond its timeout and never counts as an
+/// answer. No call allocates.
+template <class Servos>
+concept ServoBinding = requires(Servos& servos, const Servos& seen, Inputs& inputs,
+                                const Outputs& outputs, std::uint64_t time_us, std::uint8_t percent,
+                                bool imu) {
+  { servos.bring_up() } -> std::same_as<BringUpReport>;
+  { servos.read_positions(inputs) } -> std::same_as<void>;
+  { servos.read_sensors(inputs, imu) } -> std::same_as<void>;
+  { servos.heard_nothing_for(time_us) } -> std::same_as<void>;
+  { servos.send(outputs) } -> std::same_as<void>;
+  { servos.limit_torque(percent) } -> std::same_as<void>;
+  { servos.now_us() } -> std::same_as<std::uint64_t>;
+  { seen.counters() } -> std::same_as<const BusCounters&>;
+  { seen.damaged() } -> std::same_as<std::uint32_t>;
+  { seen.noise() } -> std::same_as<std::uint32_t>;
+};
 
 /// What an operator may put into one tick's Inputs.
 struct OperatorOrder {

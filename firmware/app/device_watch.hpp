@@ -4,6 +4,7 @@
 #include "common/control/state.hpp"
 #include "common/io/io.hpp"
 #include "common/math/convert.hpp"
+#include "common/math/scalar.hpp"
 #include "common/model/params.hpp"
 #include "firmware/app/register_image.hpp"
 
@@ -94,8 +95,8 @@ class DeviceWatch {
   /// from where it was then: its encoder, or whatever answers for it, repeats an old value, or the
   /// joint is stuck.
   bool stands_still(int j, const Inputs& inputs, const Outputs& outputs) {
-    constexpr std::uint8_t kPatience = 5;      // ticks: a servo's lag, and its start from rest
-    constexpr std::int32_t kAway_counts = 40;  // 3.5 degrees: beyond any sag or backlash
+    constexpr std::uint8_t kPatience = 5;  // ticks: a servo's lag, and its start from rest
+    constexpr float kAway_rad = 0.0614F;   // 3.5 degrees: beyond any sag or backlash
     Still& still = still_[j];
     const bool holds = (outputs.torque_enable >> j & 1u) != 0;
     if (!holds || inputs.position_count[j] != still.position_count) {
@@ -104,7 +105,9 @@ class DeviceWatch {
     }
     if (still.ticks < kPatience) ++still.ticks;
     const std::int64_t moved = std::int64_t{outputs.goal_count[j]} - still.goal_count;
-    return still.ticks == kPatience && (moved > kAway_counts || moved < -kAway_counts);
+    const std::int32_t away =
+        math::to_int32(kAway_rad * math::abs(params_.joint[j].counts_per_rad));
+    return still.ticks == kPatience && (moved > away || moved < -away);
   }
 
   void mark_stale(int row) {

@@ -12,6 +12,7 @@
 #include "firmware/app/contracts.hpp"
 #include "firmware/app/register_image.hpp"
 #include "firmware/app/standing_order.hpp"
+#include "firmware/app/tick_log.hpp"
 #include "firmware/app/tick_report.hpp"
 
 namespace verp::app {
@@ -151,6 +152,7 @@ class OperatorRegisters {
     report_.tick(record, state, outputs);
     tuning_ = state.tuning;
     show_parameter();
+    if constexpr (KeepsTicks<Store>) store_.keep(record, state);
   }
 
  private:
@@ -207,6 +209,10 @@ class OperatorRegisters {
         imu_source() != table::ImuSource::kChip) {
       return dxl::Error::kResultFail;
     }
+    if (!KeepsTicks<Store> && write.covers(reg("tick_hold")) &&
+        *write.from(reg("tick_hold")) != 0) {
+      return dxl::Error::kResultFail;
+    }
     if (write.covers(reg("window_kind"))) {
       const auto kind = static_cast<ImageKind>(*write.from(reg("window_kind")));
       if (kind != ImageKind::kNone && store_.size(kind) == 0) return dxl::Error::kDataRange;
@@ -255,6 +261,9 @@ class OperatorRegisters {
       image_.set(reg("imu_calibrate"), std::uint8_t{0});
     }
     if (write.touches(reg("parameter_id"), reg_end("parameter_value"))) show_parameter();
+    if constexpr (KeepsTicks<Store>) {
+      if (write.covers(reg("tick_hold"))) store_.hold(byte(reg("tick_hold")));
+    }
     if (write.covers(reg("window_kind"))) {
       store_.begin(window_kind());
       const std::size_t size = store_.size(window_kind());

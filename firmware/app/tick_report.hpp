@@ -5,8 +5,8 @@
 #include "common/io/io.hpp"
 #include "common/model/params.hpp"
 #include "common/record/tick_record.hpp"
-#include "firmware/app/bring_up.hpp"
-#include "firmware/app/bus_master.hpp"
+#include "firmware/app/bring_up_report.hpp"
+#include "firmware/app/bus_counters.hpp"
 #include "firmware/app/device_watch.hpp"
 #include "firmware/app/register_image.hpp"
 #include "hal/contract/byte_link.hpp"
@@ -35,6 +35,8 @@ class TickReport {
     image_.set(reg("hardware_error"), static_cast<std::uint8_t>(outputs.faults));
     image_.set(reg("digest"), record.digest.chain);
     image_.set(reg("tick"), inputs.tick);
+    image_.set(reg("tick_low"), static_cast<std::uint16_t>(inputs.tick));
+    image_.set(reg("inputs_flags"), inputs.flags);
     image_.set(reg("faults"), outputs.faults);
     image_.set(reg("mode"), outputs.mode);
     image_.set(reg("gait_phase"), outputs.gait_phase);
@@ -56,6 +58,10 @@ class TickReport {
     if ((inputs.flags & kSlowFresh) != 0) take_telemetry(inputs);
     devices_.tick(inputs, state, outputs);
   }
+
+  /// What stands in TPDOs of the last tick (canopen/published_tick.hpp).
+  void publish_flags(std::uint16_t flags) { image_.set(reg("inputs_flags"), flags); }
+  void publish_part(std::uint64_t part) { image_.set(reg("inputs_part"), part); }
 
   /// What the tick's orders to servos came to, once there is none that could obey.
   void servos_gone() {

@@ -35,10 +35,18 @@ std::uint32_t check_of(const Kept& of) {
 bool is_whole() {
   return verp_kept.check == check_of(verp_kept);
 }
+/// The record is in memory before a reset.
+void wait_for_memory() {
+#ifdef __riscv
+  __asm__ volatile("fence" ::: "memory");
+#else
+  __asm__ volatile("dsb" ::: "memory");
+#endif
+}
 void seal(std::uint32_t mark) {
   verp_kept.mark = mark;
   verp_kept.check = check_of(verp_kept);
-  __asm__ volatile("dsb" ::: "memory");  // in memory before a reset
+  wait_for_memory();
 }
 
 }  // namespace

@@ -8,9 +8,17 @@ namespace verp::board {
 /// A folder of boards/ that QEMU can stand in for.
 struct EmulatedBoard {
   const char* name;     ///< as in boards/ and VERP_BOARD
-  const char* machine;  ///< qemu-system-arm -M
+  const char* machine;  ///< QEMU's -M
   const char* core;
   bool measured;  ///< one of those whose costs `verp bench` shows: has an image that times the link
+  const char* program = "qemu-system-arm";
+  const char* package = "qemu-system-arm";  ///< which has the program
+  std::vector<std::string> options = {};    ///< further words that the machine needs
+  /// How QEMU gets the image: an option and what stands before the file's name.
+  const char* image_option = "-kernel";
+  const char* image_prefix = "";
+  /// Words that join its CAN controller to QEMU's bus `can0_bus`; none: it has no CAN.
+  std::vector<std::string> can = {};
 };
 
 const std::vector<EmulatedBoard>& emulated_boards();

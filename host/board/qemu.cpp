@@ -19,7 +19,7 @@ std::vector<std::string> QemuProcess::command(const Launch& launch) {
   const char* other = std::getenv("VERP_QEMU");
   std::string semihosting = "enable=on,target=native,arg=" + launch.image.filename().string();
   for (const std::string& argument : launch.arguments) semihosting += ",arg=" + argument;
-  std::vector<std::string> command = {other != nullptr ? other : "qemu-system-arm",
+  std::vector<std::string> command = {other != nullptr ? other : launch.board.program,
                                       "-M",
                                       launch.board.machine,
                                       "-display",
@@ -28,8 +28,9 @@ std::vector<std::string> QemuProcess::command(const Launch& launch) {
                                       "none",
                                       "-semihosting-config",
                                       semihosting,
-                                      "-kernel",
-                                      launch.image.string()};
+                                      launch.board.image_option,
+                                      launch.board.image_prefix + launch.image.string()};
+  command.insert(command.end(), launch.board.options.begin(), launch.board.options.end());
   const auto add = [&](const std::string& option, const std::string& value) {
     command.push_back(option);
     command.push_back(value);
@@ -39,6 +40,11 @@ std::vector<std::string> QemuProcess::command(const Launch& launch) {
     add("-serial", "unix:" + port.string() + ",server=on,wait=off");
   }
   if (!launch.plugin.empty()) add("-plugin", launch.plugin);
+  if (!launch.can_interface.empty()) {
+    add("-object", "can-bus,id=can0_bus");
+    add("-object", "can-host-socketcan,id=can0_host,canbus=can0_bus,if=" + launch.can_interface);
+    command.insert(command.end(), launch.board.can.begin(), launch.board.can.end());
+  }
   command.insert(command.end(), launch.options.begin(), launch.options.end());
   return command;
 }
@@ -51,7 +57,7 @@ QemuProcess::QemuProcess(const Launch& launch) : name_(launch.image.filename().s
         .words = words, .input = {}, .output = {.file = directory_.path() / "output"}});
   } catch (const std::system_error& error) {
     throw BoardError(words[0] + ": can't start the emulator (" + error.code().message() +
-                     "); install it: apt-get install qemu-system-arm");
+                     "); install it: apt-get install " + launch.board.package);
   }
 }
 

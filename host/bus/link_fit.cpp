@@ -50,31 +50,37 @@ std::optional<std::uint8_t> somebody(Client& client, const Params& params,
 
 }  // namespace
 
-LinkDelay measure_delay(Client& client, const Params& params,
+LinkDelay measure_delay(const std::function<bool()>& read, double wire_us,
                         const std::function<bool()>& give_up) {
   LinkDelay delay;
-  const std::optional<std::uint8_t> found = somebody(client, params, give_up);
-  if (!found) return delay;
-  const std::uint8_t id = *found;
-  const double wire_us =
-      app::wire_us(dxl::kInstructionBytes + 4 + dxl::kStatusBytes + kBytes, params.baud);
   std::vector<double> held_us;
   const auto enough = [&] {
     return delay.asked >= kReadings || (held_us.empty() && delay.asked >= kSilent);
   };
   while (!enough() && !give_up()) {
     const std::uint64_t begun_ns = wire::monotonic_ns();
-    const bool good = client.read_once(id, dxl::address::kPresentPosition, kBytes);
+    const bool good = read();
     const double took_us = 1e-3 * static_cast<double>(wire::monotonic_ns() - begun_ns);
     ++delay.asked;
     if (good) held_us.push_back(std::max(0.0, took_us - wire_us));
   }
   std::sort(held_us.begin(), held_us.end());
   delay.answered = static_cast<int>(held_us.size());
-  if (2 * delay.answered < delay.asked && !give_up()) too_few(client, id, delay);
   delay.median_us = quantile(held_us, 0.5);
   delay.p90_us = quantile(held_us, 0.9);
   delay.worst_us = quantile(held_us, 1);
+  return delay;
+}
+
+LinkDelay measure_delay(Client& client, const Params& params,
+                        const std::function<bool()>& give_up) {
+  const std::optional<std::uint8_t> found = somebody(client, params, give_up);
+  if (!found) return {};
+  const std::uint8_t id = *found;
+  const LinkDelay delay = measure_delay(
+      [&] { return client.read_once(id, dxl::address::kPresentPosition, kBytes); },
+      app::wire_us(dxl::kInstructionBytes + 4 + dxl::kStatusBytes + kBytes, params.baud), give_up);
+  if (2 * delay.answered < delay.asked && !give_up()) too_few(client, id, delay);
   return delay;
 }
 
@@ -92,12 +98,12 @@ LinkFit fit(const Params& params, const LinkDelay& delay) {
 
 std::uint32_t LinkFit::held_us() const {
   const double room_us = kUsable * period_us - wire_us;
-  return room_us > 0 ? static_cast<std::uint32_t>(room_us / kReads) : 0;
+  return room_us > 0 ? static_cast<std::uint32_t>(room_us / reads) : 0;
 }
 
 int LinkFit::shortest_period_ms() const {
   const double slow_us = std::max(delay.median_us, delay.p90_us);
-  const auto least_ms = static_cast<int>(std::ceil((wire_us + kReads * slow_us) / kUsable / 1000));
+  const auto least_ms = static_cast<int>(std::ceil((wire_us + reads * slow_us) / kUsable / 1000));
   return least_ms <= kLongest_ms ? std::max(least_ms, kShortest_ms) : 0;
 }
 
@@ -116,13 +122,15 @@ std::string remedy(const LinkFit& fit, const Params& params, const wire::Endpoin
   }
   // A faster bus saves wire time only: offered where that is what is missing.
   const double half_wire_us = fit.needed_us() - 0.5 * fit.wire_us;
-  if (dxl::baud_rate_code(2 * params.baud) != 0xFF &&
+  const bool can = endpoint.kind == wire::Endpoint::Kind::kCan;
+  if (!can && dxl::baud_rate_code(2 * params.baud) != 0xFF &&
       half_wire_us <= LinkFit::kUsable * fit.period_us) {
     add(fmt::format("raise the bus from {} to {} baud", params.baud, 2 * params.baud));
   }
   if (text.empty()) {
-    add("use an adapter that answers within 1 ms (an FTDI with latency_timer 1), or a controller "
-        "on the robot");
+    add(can ? "use an interface that answers sooner (on PCIe or SPI), or a controller on the robot"
+            : "use an adapter that answers within 1 ms (an FTDI with latency_timer 1), or a "
+              "controller on the robot");
   }
   return text;
 }

@@ -21,22 +21,27 @@ struct LinkDelay {
 /// of the reads are answered.
 LinkDelay measure_delay(Client& client, const Params& params, const std::function<bool()>& give_up);
 
-/// One tick on such a link: its bytes, and two reads, of which the second waits for the first.
+/// The same of any `read`, which says whether it was answered and takes `wire_us` on the wire.
+/// Fewer than half of them may have been answered.
+LinkDelay measure_delay(const std::function<bool()>& read, double wire_us,
+                        const std::function<bool()>& give_up);
+
+/// One tick on such a link: its bytes, and its reads, each of which waits for the one before.
 struct LinkFit {
   std::uint32_t period_us = 0;
   std::uint32_t wire_us = 0;  ///< all bytes of the tick, and what reads of silent servos wait for
   LinkDelay delay;
+  int reads = 2;  ///< positions, sensors; on CAN: SYNCs
 
-  static constexpr int kReads = 2;
   /// Share of the period that bytes and delays may take: the rest is the controller's own.
   static constexpr double kUsable = 0.95;
 
-  double needed_us() const { return wire_us + kReads * delay.median_us; }
+  double needed_us() const { return wire_us + reads * delay.median_us; }
   /// Not if no read was answered: nothing is known then.
   bool fits() const { return delay.answered > 0 && needed_us() <= kUsable * period_us; }
   /// Also for the slowest tenth of the reads.
   bool fits_well() const {
-    return delay.answered > 0 && wire_us + kReads * delay.p90_us <= kUsable * period_us;
+    return delay.answered > 0 && wire_us + reads * delay.p90_us <= kUsable * period_us;
   }
   /// What a tick's reads may each be held up: a reply that is later is not waited for.
   std::uint32_t held_us() const;

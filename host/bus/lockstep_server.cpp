@@ -37,17 +37,6 @@ bool payload_of(const dxl::Packet& packet, std::uint16_t address, Payload& paylo
   return true;
 }
 
-lockstep::Verdict verdict_on(const lockstep::Hello& theirs, const Params& params) {
-  using lockstep::Verdict;
-  if (theirs.version != lockstep::kVersion) return Verdict::kOtherLink;
-  if (theirs.params_size != sizeof(Params) || theirs.record_size != sizeof(TickRecord) ||
-      theirs.state_size != sizeof(State)) {
-    return Verdict::kOtherLayout;
-  }
-  if (theirs.core_version != kCoreVersion) return Verdict::kOtherCore;
-  return theirs.params_crc == params_crc(params) ? Verdict::kAccepted : Verdict::kOtherRobot;
-}
-
 /// Where the next frame begins behind the first byte of `bytes`: a header, which occurs in no
 /// instruction packet but at its start.
 std::size_t frame_size(std::span<const std::uint8_t> bytes) {
@@ -66,6 +55,17 @@ bool begins_tick(std::span<const std::uint8_t> frame) {
 }
 
 }  // namespace
+
+lockstep::Verdict verdict_on(const lockstep::Hello& theirs, const Params& params) {
+  using lockstep::Verdict;
+  if (theirs.version != lockstep::kVersion) return Verdict::kOtherLink;
+  if (theirs.params_size != sizeof(Params) || theirs.record_size != sizeof(TickRecord) ||
+      theirs.state_size != sizeof(State)) {
+    return Verdict::kOtherLayout;
+  }
+  if (theirs.core_version != kCoreVersion) return Verdict::kOtherCore;
+  return theirs.params_crc == params_crc(params) ? Verdict::kAccepted : Verdict::kOtherRobot;
+}
 
 std::string words_for(lockstep::Verdict verdict, const lockstep::Hello& theirs,
                       const Params& ours) {

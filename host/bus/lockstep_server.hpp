@@ -82,6 +82,8 @@ class LockstepServer {
   bool real_time_ = false;
 };
 
+/// The first thing on which a controller that says `theirs` and this program differ.
+lockstep::Verdict verdict_on(const lockstep::Hello& theirs, const Params& params);
 /// One line of what differs, for a person; empty for kAccepted.
 std::string words_for(lockstep::Verdict verdict, const lockstep::Hello& theirs, const Params& ours);
 

@@ -1,11 +1,12 @@
 #pragma once
+#include <algorithm>
 #include <cstdint>
 #include <deque>
 #include <functional>
 #include <memory>
 #include <optional>
-#include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "common/model/params.hpp"
@@ -13,70 +14,179 @@
 
 namespace verp::bus {
 
+/// What a controller at the end of a link sent and got, poll by poll, as OperatorLink and Recorder
+/// of a loop here that is to do the same once more. What it takes to be the bus, too, is added by
+/// the kind of bus:
+///  - Sent: a frame that the controller sent. Received: all that one answer brought.
+///  - kWholeTicks: catch_up() is called each time when a tick begins, so that none has to be tried.
+template <class Sent_, class Received_>
+class ShadowTape {
+ public:
+  using Sent = Sent_;
+  using Received = Received_;
+  using Record = std::function<void(const TickRecord&, const State&, const Outputs&)>;
+  struct Poll {
+    std::vector<Sent> frames;  ///< sent since the poll before
+    bool comparable = true;
+    std::optional<app::OperatorOrder> order;
+    Received received;
+    std::uint64_t now_us = 0;
+  };
+  /// Where the loop here is.
+  struct Mark {
+    std::size_t played = 0;    ///< of polls
+    std::vector<Sent> frames;  ///< of the loop here, since the poll before
+    Received received;         ///< by the poll played last
+    std::size_t taken = 0;     ///< of that
+    app::OperatorOrder standing;
+    std::uint64_t time_us = 0;
+  };
+
+  std::uint64_t now_us() const { return here.time_us; }
+  app::OperatorOrder order(std::uint32_t) {
+    const app::OperatorOrder order = here.standing;
+    here.standing.flags = 0;
+    return order;
+  }
+  void record(const TickRecord& record, const State& state, const Outputs& outputs) {
+    if (torn) return;
+    tick = record.inputs.tick;
+    if (recorder) recorder(record, state, outputs);
+  }
+
+  std::deque<Poll> polls;
+  Record recorder;
+  std::string difference;
+  Mark here;
+  std::uint32_t tick = 0;
+  bool ticking = false;
+  bool torn = false;  ///< the loop asked for a poll that has not been yet
+
+ protected:
+  /// Goes on to the next poll; false if the tape ends.
+  template <class Same>
+  bool play(Same same) {
+    torn = torn || here.played == polls.size();
+    if (torn) return false;
+    const Poll& poll = polls[here.played++];
+    if (difference.empty() && poll.comparable && !same(here.frames, poll.frames)) {
+      difference = (ticking ? "in tick " + std::to_string(tick) : std::string("in the bring-up")) +
+                   " the controller's " + std::to_string(poll.frames.size()) +
+                   " frames before a poll are not those that this PC sends";
+    }
+    here.frames.clear();
+    here.received = poll.received;
+    here.taken = 0;
+    here.time_us = poll.now_us;
+    if (poll.order) here.standing = *poll.order;
+    return true;
+  }
+};
+
 /// The controller at the end of a link, once more, here: the same control loop, given the bytes,
 /// times and orders that the other one got, a tick behind it. It brings back what no link carries
 /// (Inputs, State, Outputs of each tick) and tells whether the other one sent the same frames.
-class ShadowLoop {
+template <class Tape>
+class ShadowLoopOver {
  public:
-  using Record = std::function<void(const TickRecord&, const State&, const Outputs&)>;
-
-  ShadowLoop(const Params& params, Record record);
-  ~ShadowLoop();
+  ShadowLoopOver(const Params& params, typename Tape::Record record)
+      : loop_(std::make_unique<Loop>(params, tape_, tape_, tape_)) {
+    tape_.recorder = std::move(record);
+  }
+  ShadowLoopOver(const ShadowLoopOver&) = delete;
+  ShadowLoopOver& operator=(const ShadowLoopOver&) = delete;
 
   // What the other controller does, in its order.
-  void sent(std::span<const std::uint8_t> frame);
+  void sent(typename Tape::Sent frame) { next_.frames.push_back(std::move(frame)); }
   /// Frames were lost on the link: what was sent up to the next poll can't be compared.
-  void damaged();
-  void polled(std::span<const std::uint8_t> bytes, std::uint64_t now_us);
+  void damaged() { next_.comparable = false; }
+  void polled(typename Tape::Received received, std::uint64_t now_us) {
+    next_.received = std::move(received);
+    next_.now_us = now_us;
+    tape_.polls.push_back(std::exchange(next_, {}));
+  }
   /// Holds from the next poll on; its flags for one tick.
-  void ordered(const app::OperatorOrder& order);
+  void ordered(const app::OperatorOrder& order) { next_.order = order; }
 
-  /// Goes through all ticks (at first: the bring-up) of which every poll is known.
-  void catch_up();
+  /// Goes through all ticks (at first: the bring-up) of which every poll is known. With
+  /// kWholeTicks: through the bring-up when the first tick begins, then through one tick each time,
+  /// and further ones whose beginning was lost on the link.
+  void catch_up() {
+    if constexpr (Tape::kWholeTicks) {
+      const bool began = tape_.ticking;
+      const bool whole = std::all_of(tape_.polls.begin(), tape_.polls.end(),
+                                     [](const auto& poll) { return poll.comparable; });
+      do run();
+      while (!tape_.ticking && !tape_.torn);
+      if (tape_.torn) miss_polls(began);
+      forget_played();
+      if (tape_.torn) return;
+      // What was lost may have been the beginning of one more.
+      while (!whole && !tape_.polls.empty() && try_to_run()) forget_played();
+    } else {
+      while (!tape_.polls.empty() && try_to_run()) forget_played();
+    }
+  }
 
-  /// The first frame that the other controller sent and this one did not, in words; empty while
-  /// there is none.
+  /// Where the other controller first sent other frames than this one, in words; empty while it has
+  /// not.
   const std::string& difference() const { return tape_.difference; }
 
  private:
-  struct Poll {
-    std::vector<std::vector<std::uint8_t>> frames;  ///< sent since the poll before
-    bool comparable = true;
-    std::optional<app::OperatorOrder> order;
-    std::vector<std::uint8_t> bytes;
-    std::uint64_t now_us = 0;
-  };
-
-  /// What was recorded, as FrameBus, OperatorLink and Recorder of the loop here.
-  struct Tape {
-    bool send(const std::uint8_t* data, std::size_t size);
-    std::size_t poll(std::uint8_t* buffer, std::size_t capacity, std::uint32_t timeout_us);
-    std::uint64_t now_us() const { return here.time_us; }
-    app::OperatorOrder order(std::uint32_t tick);
-    void record(const TickRecord& record, const State& state, const Outputs& outputs);
-    void compare(const Poll& poll);
-
-    std::deque<Poll> polls;
-    Record recorder;
-    std::string difference;
-    struct Mark {
-      std::size_t played = 0;                         ///< of polls
-      std::vector<std::vector<std::uint8_t>> frames;  ///< of the loop here, since the poll before
-      app::OperatorOrder standing;
-      std::uint64_t time_us = 0;
-    } here;
-    std::uint32_t tick = 0;
-    bool ticking = false;
-    bool torn = false;  ///< the loop asked for a poll that has not been yet
-  };
   using Loop = app::App<Tape, Tape, Tape>;
 
-  /// One tick or bring-up; false, and nothing happened, if the tape ends within it.
-  bool play();
+  void forget_played() {
+    tape_.polls.erase(tape_.polls.begin(),
+                      tape_.polls.begin() + static_cast<std::ptrdiff_t>(tape_.here.played));
+    tape_.here.played = 0;
+  }
+  void miss_polls(bool ticking) {
+    if (!tape_.difference.empty()) return;
+    tape_.difference = (ticking ? "in the tick after " + std::to_string(tape_.tick)
+                                : std::string("in the bring-up")) +
+                       " the controller did not ask for all that this PC asks for";
+  }
+  /// One tick or bring-up.
+  void run() {
+    tape_.torn = false;
+    if (tape_.ticking) return loop_->tick();
+    // A controller tries to come up until it can.
+    const bool ready = loop_->bring_up().status == app::BringUpStatus::kReady;
+    tape_.ticking = ready && !tape_.torn;
+  }
+  /// The same; false, and nothing happened, if the tape ends within it. Where a tick ends can't be
+  /// seen from its polls: after trouble, the next one begins with a poll that clears the line. So a
+  /// tick is tried, and tried again once more is known.
+  bool try_to_run() {
+    const Loop before(*loop_);
+    const typename Tape::Mark mark = tape_.here;
+    run();
+    if (!tape_.torn) return true;
+    loop_ = std::make_unique<Loop>(before);
+    tape_.here = mark;
+    return false;
+  }
 
   Tape tape_;
-  Poll next_;
+  typename Tape::Poll next_;
   std::unique_ptr<Loop> loop_;
 };
+
+/// Of a serial bus: bytes.
+class SerialTape : public ShadowTape<std::vector<std::uint8_t>, std::vector<std::uint8_t>> {
+ public:
+  static constexpr bool kWholeTicks = false;
+  bool send(const std::uint8_t* data, std::size_t size) {
+    here.frames.emplace_back(data, data + size);
+    return true;
+  }
+  std::size_t poll(std::uint8_t* buffer, std::size_t capacity, std::uint32_t) {
+    if (!play([](const auto& a, const auto& b) { return a == b; })) return 0;
+    const std::size_t count = std::min(capacity, here.received.size());
+    std::copy_n(here.received.begin(), count, buffer);
+    return count;
+  }
+};
+using ShadowLoop = ShadowLoopOver<SerialTape>;
 
 }  // namespace verp::bus

@@ -55,6 +55,7 @@ const std::vector<Recipe>& recipes() {
       {"mps2_an385", nullptr, {}, "", "", "mps2_an385"},
       {"mps2_an386", nullptr, {}, "", "", "mps2_an386"},
       {"mps2_an500", nullptr, {}, "", "", "mps2_an500"},
+      {"mps3_an547", nullptr, {}, "", "", "mps3_an547"},
   };
   return rows;
 }

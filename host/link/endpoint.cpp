@@ -1,5 +1,6 @@
 #include "host/link/endpoint.hpp"
 
+#include <net/if.h>
 #include <sys/un.h>
 
 #include <array>
@@ -17,13 +18,14 @@ struct Scheme {
   Kind kind;
   const char* example;
 };
-constexpr std::array<Scheme, 6> kSchemes = {{
+constexpr std::array<Scheme, 7> kSchemes = {{
     {"serial", Kind::kSerial, "serial:/dev/ttyUSB0@2000000"},
     {"pty", Kind::kPty, "pty: or pty:/tmp/robot"},
     {"tcp", Kind::kTcp, "tcp:localhost:6000"},
     {"tcp-listen", Kind::kTcpListen, "tcp-listen:6000"},
     {"unix", Kind::kUnix, "unix:/tmp/robot.sock"},
     {"unix-listen", Kind::kUnixListen, "unix-listen:/tmp/robot.sock"},
+    {"can", Kind::kCan, "can:can0"},
 }};
 constexpr std::uint32_t kLeastBaud = 1200;
 constexpr std::uint32_t kMostBaud = 12'000'000;  // USB 2.0 full speed, FT232H
@@ -95,6 +97,24 @@ Endpoint unix_socket(const std::string& text, std::string_view rest, const Schem
   return {.kind = scheme.kind, .place = std::string(rest)};
 }
 
+Endpoint can(const std::string& text, std::string_view rest, const Scheme& scheme) {
+  if (rest.empty()) refuse(text, "it names no interface", scheme);
+  if (rest.find('@') != std::string_view::npos) {
+    refuse(text, "its bit rate is the interface's (ip link set ... type can bitrate)", scheme);
+  }
+  if (rest[0] == '/') {
+    refuse(text,
+           "it is a path; a serial CAN adapter becomes an interface with: sudo slcand -o -s8 " +
+               std::string(rest) + " can0 && sudo ip link set can0 up",
+           scheme);
+  }
+  if (rest.size() >= IFNAMSIZ) refuse(text, "an interface has at most 15 characters", scheme);
+  if (rest.find_first_of("/: \t\n") != std::string_view::npos) {
+    refuse(text, "ip link has no such names", scheme);
+  }
+  return {.kind = scheme.kind, .place = std::string(rest)};
+}
+
 }  // namespace
 
 Endpoint parse_endpoint(const std::string& text) {
@@ -115,14 +135,16 @@ Endpoint parse_endpoint(const std::string& text) {
       case Kind::kUnix:
       case Kind::kUnixListen:
         return unix_socket(text, rest, scheme);
+      case Kind::kCan:
+        return can(text, rest, scheme);
     }
   }
   if (text.starts_with("/dev/")) {
     throw EndpointError("link '" + text + "': say what it is; write serial:" + text + "@2000000");
   }
   throw EndpointError("link '" + text +
-                      "': it begins with none of serial: pty: tcp: tcp-listen: unix: unix-listen:; "
-                      "write for example " +
+                      "': it begins with none of serial: pty: tcp: tcp-listen: unix: unix-listen: "
+                      "can:; write for example " +
                       kSchemes[0].example);
 }
 
@@ -139,6 +161,7 @@ std::string to_text(const Endpoint& endpoint) {
     case Kind::kPty:
     case Kind::kUnix:
     case Kind::kUnixListen:
+    case Kind::kCan:
       break;
   }
   return head + endpoint.place;

@@ -13,10 +13,11 @@ namespace verp::wire {
 ///     tcp-listen:PORT               waits for one peer of this PC; PORT 0 takes a free one
 ///     tcp-listen:HOST:PORT          ... on one address; 0.0.0.0 lets the whole network in
 ///     unix:PATH  unix-listen:PATH   a socket in the file system
+///     can:can0                      a CAN interface of this PC, as `ip link` names it
 struct Endpoint {
-  enum class Kind : std::uint8_t { kSerial, kPty, kTcp, kTcpListen, kUnix, kUnixListen };
+  enum class Kind : std::uint8_t { kSerial, kPty, kTcp, kTcpListen, kUnix, kUnixListen, kCan };
   Kind kind = Kind::kPty;
-  std::string place;       ///< device, host or path; empty: pty: without a path
+  std::string place;       ///< device, host, path or interface; empty: pty: without a path
   std::uint32_t baud = 0;  ///< kSerial
   std::uint16_t port = 0;  ///< kTcp, kTcpListen
   bool operator==(const Endpoint&) const = default;

@@ -50,9 +50,14 @@ std::unique_ptr<Port> make_port(const Endpoint& endpoint) {
     case Endpoint::Kind::kUnix:
       return make_unix_port(endpoint);
     case Endpoint::Kind::kUnixListen:
+      return make_unix_listener(endpoint);
+    case Endpoint::Kind::kCan:
       break;
   }
-  return make_unix_listener(endpoint);
+  throw LinkError(LinkError::Kind::kUnsuitable,
+                  to_text(endpoint) +
+                      ": a CAN bus carries frames, not a stream of bytes; give a "
+                      "serial:, pty:, tcp: or unix: link here");
 }
 
 Link::Link(const Endpoint& endpoint) : port_(make_port(endpoint)), descriptor_(port_->open()) {}

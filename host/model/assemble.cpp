@@ -9,7 +9,7 @@
 #include <sdf/sdf.hh>
 
 #include "common/model/tuning_ranges.hpp"
-#include "firmware/app/schedule.hpp"
+#include "host/model/bus_time.hpp"
 #include "host/model/leg.hpp"
 #include "host/model/link_tree.hpp"
 #include "host/model/params.hpp"
@@ -26,10 +26,13 @@ class Assembler {
   Entity build() {
     e_.name = model_.Name();
     e_.file = source_.path();
-    e_.protocol = facts_.protocol;
-    e_.baud = facts_.baud;
-    e_.period_us = facts_.period_us;
-    e_.rise_torque_percent = facts_.rise_torque_percent;
+    const BusFact& bus = facts_.bus();
+    e_.bus = bus.name;
+    for (const BusFact& each : facts_.buses) e_.buses.push_back(each.name);
+    e_.protocol = bus.protocol;
+    e_.baud = bus.baud;
+    e_.period_us = bus.period_us;
+    e_.rise_torque_percent = bus.rise_torque_percent;
     tree_.grow();
     join_servos();
     apply_poses();
@@ -57,7 +60,7 @@ class Assembler {
 
   void join_servos() {
     std::map<std::string, const ServoFact*> servo_of;
-    for (const ServoFact& fact : facts_.servos) {
+    for (const ServoFact& fact : facts_.bus().servos) {
       Joint* joint = joint_named(fact.joint);
       if (!joint)
         fact.at.fail("there is no moving joint '" + fact.joint + "'", "name one that exists");
@@ -242,9 +245,9 @@ class Assembler {
 
   /// A bus that cannot carry a tick's packets in a period would make every tick late.
   void check_bus() const {
-    const double needed_us = app::schedule_us(make_params(e_));
+    const double needed_us = bus_time(make_params(e_)).us;
     if (needed_us <= e_.period_us) return;
-    facts_.bus->fail(
+    facts_.bus().at.fail(
         fmt::format("a tick's packets take {:.0f} us at {} baud, and the period is {} us",
                     needed_us, e_.baud, e_.period_us),
         "raise baud, or period_us");

@@ -8,7 +8,7 @@
 #include <numbers>
 
 #include "common/model/image.hpp"
-#include "firmware/app/schedule.hpp"
+#include "host/model/bus_time.hpp"
 #include "host/model/find.hpp"
 #include "host/model/leg.hpp"
 #include "host/model/load.hpp"
@@ -58,13 +58,19 @@ Vec3 center_of_mass(const Entity& entity) {
   return sum / total_mass(entity);
 }
 
-struct BusLoad {
-  std::size_t bytes;
-  double share;
-};
-BusLoad bus_load(const Params& params) {
-  return {app::schedule_bytes(params),
-          app::schedule_us(params) / static_cast<double>(params.period_us)};
+std::string bus_text(const Entity& entity, const Params& params) {
+  const BusTime time = bus_time(params);
+  const bool can = params.bus_protocol == BusProtocol::kCia402;
+  std::string text = fmt::format("bus: {}, {} baud, {} us period, {} {} a tick: {:.1f} % of it\n",
+                                 protocol_name(entity.protocol), entity.baud, entity.period_us,
+                                 can ? time.bits : time.bytes,
+                                 can ? "bits with worst stuffing" : "bytes", 100 * time.share);
+  if (entity.buses.size() < 2) return text;
+  text += fmt::format("buses: this is {}, with --bus also", entity.bus);
+  for (const std::string& name : entity.buses) {
+    if (name != entity.bus) text += " " + name;
+  }
+  return text + "\n";
 }
 
 std::string leg_text(const Limb& limb, const LegGeometry& g) {
@@ -181,9 +187,7 @@ std::string describe(const Entity& entity) {
   }
   text += joint_rows(entity);
   text += sensor_rows(entity);
-  const BusLoad load = bus_load(params);
-  text += fmt::format("bus: {}, {} baud, {} us period, {} bytes a tick: {:.1f} % of it\n",
-                      entity.protocol, entity.baud, entity.period_us, load.bytes, 100 * load.share);
+  text += bus_text(entity, params);
   text += fmt::format("params: {} bytes, CRC-32 {:08x}\n", sizeof params, params_crc(params));
   for (const std::string& note : entity.notes) text += "note: " + note + "\n";
   return text;
@@ -193,7 +197,7 @@ std::string describe_json(const Entity& entity) {
   const Params params = make_params(entity);
   const Vec3 size = measures(entity);
   const Vec3 com = center_of_mass(entity);
-  const BusLoad load = bus_load(params);
+  const BusTime load = bus_time(params);
   nlohmann::ordered_json out = {{"name", entity.name},
                                 {"file", entity.file},
                                 {"dof", entity.joints.size()},
@@ -209,18 +213,21 @@ std::string describe_json(const Entity& entity) {
   for (const OtherSensor& sensor : entity.sensors) {
     out["sensors"].push_back({{"name", sensor.name}, {"type", sensor.type}, {"link", sensor.link}});
   }
-  out["bus"] = {{"protocol", entity.protocol},
+  out["bus"] = {{"name", entity.bus},
+                {"buses", entity.buses},
+                {"protocol", protocol_name(entity.protocol)},
                 {"baud", entity.baud},
                 {"period_us", entity.period_us},
                 {"bytes_per_tick", load.bytes},
+                {"bits_per_tick", load.bits},
                 {"share", load.share}};
   out["params"] = {{"bytes", sizeof params}, {"crc32", fmt::format("{:08x}", params_crc(params))}};
   out["notes"] = entity.notes;
   return out.dump(2) + "\n";
 }
 
-int check_command(const std::string& name_or_path, bool json) {
-  const Entity entity = load_robot(find_model(name_or_path));
+int check_command(const std::string& name_or_path, const std::string& bus, bool json) {
+  const Entity entity = load_robot(find_model(name_or_path), bus);
   const std::string text = json ? describe_json(entity) : describe(entity);
   std::fputs(text.c_str(), stdout);
   return 0;

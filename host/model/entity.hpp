@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "common/model/params.hpp"
+
 /// The robot as the PC knows it, after loading and checking an SDF file (load.hpp). Double
 /// precision, SI units. Frames as in common/model/params.hpp: body frame at the trunk's centre;
 /// every link frame is parallel to the body frame at the zero pose with its origin on the joint
@@ -47,7 +49,7 @@ struct Servo {
   double no_load_speed_rad_s = 0;
   double stall_current_a = 0;
   double counts_per_rev = 4096;
-  std::uint16_t model_number = 0;
+  std::uint16_t model_number = 0;  ///< Params' ServoProfile says what it is on which bus
   bool fast_sync_read = false;
   std::uint16_t p_gain = 0, i_gain = 0, d_gain = 0;  ///< written at arming
   std::uint16_t profile_ms = 0;
@@ -108,7 +110,9 @@ struct Entity {
   std::optional<ImuSensor> imu;
   FootSensor feet;
   std::vector<OtherSensor> sensors;
-  std::string protocol = "dynamixel2";
+  std::string bus;                 ///< name of the one of its buses that is used
+  std::vector<std::string> buses;  ///< names of all it has, in the order of the file
+  BusProtocol protocol = BusProtocol::kDynamixel2;
   std::uint32_t baud = 2000000;
   std::uint32_t period_us = 10000;
   std::uint8_t rise_torque_percent = kRiseTorquePercent;
@@ -117,5 +121,8 @@ struct Entity {
   std::vector<std::string>
       notes;  ///< what the file declares about third-party data: one line each, for people
 };
+
+/// As a file has it: protocol="...".
+const char* protocol_name(BusProtocol protocol);
 
 }  // namespace verp::model

@@ -11,7 +11,7 @@
 
 #include "common/control/golden.hpp"
 #include "common/control/self_test.hpp"
-#include "firmware/app/schedule.hpp"
+#include "host/model/bus_time.hpp"
 #include "host/model/find.hpp"
 #include "host/model/load.hpp"
 #include "host/model/params.hpp"
@@ -22,7 +22,7 @@ namespace {
 constexpr double kLargestBusShare = 0.8;
 
 void require_bus_time(const Entity& entity, const Params& params) {
-  const double share = app::schedule_us(params) / static_cast<double>(params.period_us);
+  const double share = bus_time(params).share;
   if (share <= kLargestBusShare) return;
   throw LoadError(
       entity.file, 1,
@@ -104,8 +104,9 @@ std::string image_header(const ParamsImage& image) {
   return text + "\n};\n";
 }
 
-int export_command(const std::string& name_or_path, const std::string& directory) {
-  const ParamsImage image = make_image(load_robot(find_model(name_or_path)));
+int export_command(const std::string& name_or_path, const std::string& bus,
+                   const std::string& directory) {
+  const ParamsImage image = make_image(load_robot(find_model(name_or_path), bus));
   std::error_code error;
   std::filesystem::create_directories(directory, error);
   if (error || !std::filesystem::is_directory(directory)) {

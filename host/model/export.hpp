@@ -20,6 +20,7 @@ std::string image_header(const ParamsImage& image);
 
 /// `verp export MODEL -o DIR`: writes DIR/params.bin and DIR/params.hpp and says so. Throws
 /// LoadError; else returns 0.
-int export_command(const std::string& name_or_path, const std::string& directory);
+int export_command(const std::string& name_or_path, const std::string& bus,
+                   const std::string& directory);
 
 }  // namespace verp::model

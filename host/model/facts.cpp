@@ -2,17 +2,15 @@
 
 #include <algorithm>
 #include <map>
-#include <numbers>
+#include <utility>
 
 #include "host/model/bounds.hpp"
+#include "host/model/bus_facts.hpp"
 #include "host/model/number.hpp"
 #include "host/model/servo_types.hpp"
 
 namespace verp::model {
 namespace {
-
-constexpr int kHighestId =
-    199;  // 200 is the controller, 201 the clock, 253 and up are the protocol's
 
 /// The optional <pose>x y z roll pitch yaw</pose> child, as in SDF.
 Transform read_pose(const XmlElement& element) {
@@ -34,54 +32,6 @@ Transform read_pose(const XmlElement& element) {
                    Eigen::AngleAxisd(v[3], Vec3::UnitX()))
                       .toRotationMatrix();
   return pose;
-}
-
-template <class Type>
-std::string names_of(const std::vector<Type>& types) {
-  std::string list;
-  for (const Type& type : types) list += (list.empty() ? "" : ", ") + std::string(type.name);
-  return list;
-}
-
-std::uint16_t gain(const XmlElement& e, const char* name, int fallback) {
-  return static_cast<std::uint16_t>(e.integer(name, 0, 16383, fallback));  // e-Manual: 0 to 16,383
-}
-
-ServoFact read_servo(const XmlElement& e) {
-  e.allow({"joint", "id", "type", "direction", "offset", "backlash_rad", "p_gain", "i_gain",
-           "d_gain", "profile_ms", "lower_rad", "upper_rad"});
-  const std::string type_name = e.text("type");
-  const ServoType* type = find_servo_type(type_name);
-  if (!type)
-    e.fail("no servo type '" + type_name + "'", "choose one of: " + names_of(servo_types()));
-  ServoFact fact{e, e.text("joint"), {}, {}, {}};
-  Servo& s = fact.servo;
-  s.type = type->name;
-  s.id = e.integer("id", 1, kHighestId);
-  s.direction = e.integer("direction", -1, 1, 1);
-  if (s.direction == 0)
-    e.fail("<verp:servo> direction is 0", "write 1, or -1 for a servo mounted backwards");
-  s.offset_count = e.integer("offset", 0, static_cast<int>(type->counts_per_rev) - 1, 2048);
-  s.backlash_rad = e.number("backlash_rad", 0);
-  if (s.backlash_rad < 0 || s.backlash_rad > 0.1) {
-    e.fail("<verp:servo> backlash_rad is not within 0 to 0.1",
-           "write the gear play in radians, like 0.0044");
-  }
-  s.stall_torque_n_m = type->stall_torque_n_m;
-  s.no_load_speed_rad_s = type->no_load_rev_min * 2 * std::numbers::pi / 60;
-  s.stall_current_a = type->stall_current_a;
-  s.counts_per_rev = type->counts_per_rev;
-  s.model_number = type->model_number;
-  s.fast_sync_read = type->fast_sync_read;
-  s.p_gain = gain(e, "p_gain", type->default_p_gain);
-  s.i_gain = gain(e, "i_gain", 0);
-  s.d_gain = gain(e, "d_gain", 0);
-  s.profile_ms = static_cast<std::uint16_t>(e.integer("profile_ms", 0, 1000, 0));
-  if (s.p_gain == 0)
-    e.fail("<verp:servo> p_gain is 0: the servo would hold nothing", "write 1 to 16383");
-  if (e.has("lower_rad")) fact.lower_rad = e.number("lower_rad");
-  if (e.has("upper_rad")) fact.upper_rad = e.number("upper_rad");
-  return fact;
 }
 
 ImuFact read_imu(const XmlElement& e) {
@@ -107,7 +57,7 @@ ImuFact read_imu(const XmlElement& e) {
 
 class FactReader {
  public:
-  Facts read(const XmlElement& model) {
+  Facts read(const XmlElement& model, const std::string& bus) {
     for (const XmlElement& child : model.children()) {
       if (child.name().starts_with("verp:")) {
         element(child);
@@ -115,7 +65,9 @@ class FactReader {
         refuse_strays(child);
       }
     }
-    unique_ids(model);
+    require_parts(model);
+    for (const BusFact& each : f_.buses) unique_ids(each);
+    choose_bus(model, bus);
     return std::move(f_);
   }
 
@@ -169,24 +121,12 @@ class FactReader {
     f_.limbs.push_back({e, name, e.text("base"), e.text("tip")});
   }
   void bus(const XmlElement& e) {
-    once(e, f_.bus);
-    e.allow({"name", "protocol", "baud", "period_us", "rise_torque_percent"});
-    f_.bus = e;
-    f_.protocol = e.text("protocol");
-    if (f_.protocol != "dynamixel2") {
-      e.fail("no bus protocol '" + f_.protocol + "'", "write protocol=\"dynamixel2\"");
+    BusFact fact = read_bus(e);
+    for (const BusFact& other : f_.buses) {
+      if (other.name != fact.name) continue;
+      e.fail("bus '" + fact.name + "' is given twice", "give each <verp:bus> a name of its own");
     }
-    f_.baud = static_cast<std::uint32_t>(e.integer("baud", 9600, 4500000, 2000000));
-    f_.rise_torque_percent =
-        static_cast<std::uint8_t>(e.integer("rise_torque_percent", 10, 100, kRiseTorquePercent));
-    f_.period_us = static_cast<std::uint32_t>(e.integer("period_us", 4000, 20000, 10000));
-    for (const XmlElement& child : e.children()) {
-      if (child.name() != "verp:servo") {
-        child.fail("unknown element <" + child.name() + "> in <verp:bus>",
-                   "it holds <verp:servo> only");
-      }
-      f_.servos.push_back(read_servo(child));
-    }
+    f_.buses.push_back(std::move(fact));
   }
   void imu(const XmlElement& e) {
     once(e, f_.imu);
@@ -252,10 +192,23 @@ class FactReader {
     f_.drops.push_back({e, what, e.text("name")});
   }
 
-  void unique_ids(const XmlElement& model) {
+  void require_parts(const XmlElement& model) const {
+    if (!f_.body)
+      model.fail("the model has no <verp:body>", "add <verp:body link=\"TRUNK LINK\"/>");
+    if (f_.buses.empty())
+      model.fail("the model has no <verp:bus>",
+                 "add <verp:bus protocol=\"dynamixel2\"> with its servos");
+  }
+
+  void unique_ids(const BusFact& bus) const {
+    const bool can = bus.protocol == BusProtocol::kCia402;
     std::map<int, int> line_of;
     const auto take = [&](int id, const XmlElement& e) {
       if (id == 0) return;
+      if (can && id > kHighestNode) {
+        e.fail("id " + std::to_string(id) + " is no node id of bus '" + bus.name + "'",
+               "choose from 1 to " + std::to_string(kHighestNode));
+      }
       const auto [other, fresh] = line_of.insert({id, e.line()});
       if (!fresh) {
         e.fail("bus id " + std::to_string(id) + " is used twice (also in line " +
@@ -263,16 +216,21 @@ class FactReader {
                "give each device its own id");
       }
     };
-    for (const ServoFact& servo : f_.servos) take(servo.servo.id, servo.at);
+    for (const ServoFact& servo : bus.servos) take(servo.servo.id, servo.at);
     if (f_.imu) take(f_.imu->imu.id, f_.imu->at);
     if (f_.feet) {
       for (const int id : f_.feet->feet.id) take(id, f_.feet->at);
     }
-    if (!f_.body)
-      model.fail("the model has no <verp:body>", "add <verp:body link=\"TRUNK LINK\"/>");
-    if (!f_.bus)
-      model.fail("the model has no <verp:bus>",
-                 "add <verp:bus protocol=\"dynamixel2\"> with its servos");
+  }
+
+  void choose_bus(const XmlElement& model, const std::string& name) {
+    if (name.empty()) return;
+    std::string list;
+    for (f_.used = 0; f_.used < f_.buses.size(); ++f_.used) {
+      if (f_.bus().name == name) return;
+      list += (list.empty() ? "" : ", ") + f_.bus().name;
+    }
+    model.fail("the model has no bus '" + name + "'", "choose one of: " + list);
   }
 
   Facts f_;
@@ -286,8 +244,8 @@ bool Facts::is_dropped(const std::string& what, const std::string& name) const {
   });
 }
 
-Facts read_facts(const XmlElement& model) {
-  return FactReader().read(model);
+Facts read_facts(const XmlElement& model, const std::string& bus) {
+  return FactReader().read(model, bus);
 }
 
 }  // namespace verp::model

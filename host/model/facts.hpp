@@ -63,15 +63,22 @@ struct DropFact {
   std::string name;  ///< link or joint; "*": all
 };
 
-struct Facts {
-  std::optional<BodyFact> body;
-  std::vector<LimbFact> limbs;
-  std::optional<XmlElement> bus;
-  std::string protocol = "dynamixel2";
+/// One way to reach all servos; sensors of the robot have the same ids on each.
+struct BusFact {
+  XmlElement at;
+  std::string name;
+  BusProtocol protocol = BusProtocol::kDynamixel2;
   std::uint32_t baud = 2000000;
   std::uint32_t period_us = 10000;
   std::uint8_t rise_torque_percent = kRiseTorquePercent;
   std::vector<ServoFact> servos;
+};
+
+struct Facts {
+  std::optional<BodyFact> body;
+  std::vector<LimbFact> limbs;
+  std::vector<BusFact> buses;  ///< at least one
+  std::size_t used = 0;        ///< of them
   std::optional<ImuFact> imu;
   std::optional<FeetFact> feet;
   std::vector<PoseFact> poses;
@@ -80,11 +87,12 @@ struct Facts {
   std::vector<BoxFact> boxes;
   std::vector<DropFact> drops;
 
+  const BusFact& bus() const { return buses[used]; }
   bool is_dropped(const std::string& what, const std::string& name) const;
 };
 
 /// Throws LoadError for an unknown element or attribute, a missing one, a bad number, an id used
-/// twice.
-Facts read_facts(const XmlElement& model);
+/// twice. `bus` names the bus to be used, empty: the first; all are checked.
+Facts read_facts(const XmlElement& model, const std::string& bus);
 
 }  // namespace verp::model

@@ -70,6 +70,10 @@ class HumanoidWriter {
         R"(type="{}" offset="2048" backlash_rad="{:.6g}" p_gain="{:.0f}" i_gain="{:.0f}" d_gain="{:.0f}" profile_ms="{:.0f}")",
         t_.text("servo"), number("servo_backlash_rad"), number("servo_p_gain"),
         number("servo_i_gain"), number("servo_d_gain"), number("servo_profile_ms"));
+    drive_ = fmt::format(
+        R"(type="{}" backlash_rad="{:.6g}" p_gain="{:.0f}" i_gain="{:.0f}" d_gain="{:.0f}")",
+        t_.text("can_servo"), number("servo_backlash_rad"), number("can_servo_p_gain"),
+        number("can_servo_i_gain"), number("can_servo_d_gain"));
     thigh_ = number("thigh_m");
     shank_ = number("shank_m");
     ankle_ = number("ankle_above_sole_m");
@@ -127,8 +131,12 @@ class HumanoidWriter {
          h.upper_rad);
     line("    </joint>");
     link(part, h.name, {0, 0, 0});
-    servos_ += fmt::format("      <verp:servo joint=\"{}\" id=\"{}\" direction=\"{}\" {}/>\n",
-                           h.name, h.id, h.direction, servo_);
+    const auto row = [&](const std::string& servo) {
+      return fmt::format("      <verp:servo joint=\"{}\" id=\"{}\" direction=\"{}\" {}/>\n", h.name,
+                         h.id, h.direction, servo);
+    };
+    servos_ += row(servo_);
+    drives_ += row(drive_);
   }
 
   void trunk() {
@@ -282,6 +290,11 @@ class HumanoidWriter {
          number("baud"), number("period_us"));
     out_ += servos_;
     line("    </verp:bus>");
+    line("    <!-- The same joints on CAN, for --bus can. -->");
+    line(R"(    <verp:bus name="can" protocol="cia402" baud="{:.0f}" period_us="{:.0f}">)",
+         number("can_baud"), number("period_us"));
+    out_ += drives_;
+    line("    </verp:bus>");
     line(R"(    <verp:imu sensor="imu" id="120" type="icm20648"/>)");
     line(R"(    <verp:feet left_id="111" right_id="112" newton_per_count="0.01"/>)");
     poses();
@@ -315,7 +328,7 @@ class HumanoidWriter {
   }
 
   RobotTable& t_;
-  std::string out_, servos_, servo_, name_;
+  std::string out_, servos_, servo_, drives_, drive_, name_;
   double servo_kg_ = 0, thigh_ = 0, shank_ = 0, ankle_ = 0, hip_ = 0;
   double friction_ = 0, stiffness_ = 0, damping_ = 0;
 };

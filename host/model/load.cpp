@@ -80,10 +80,10 @@ void cross_check(const XmlSource& source, const Facts& facts, const sdf::Model& 
 
 }  // namespace
 
-Entity load_robot(const std::string& path) {
+Entity load_robot(const std::string& path, const std::string& bus) {
   const XmlSource source(path);
   const XmlElement model = source.model();
-  const Facts facts = read_facts(model);
+  const Facts facts = read_facts(model, bus);
   const LibraryConsole silence;
   configure(path);
   sdf::Root root;

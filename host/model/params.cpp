@@ -161,6 +161,7 @@ Params make_params(const Entity& entity) {
   params.period_us = entity.period_us;
   params.rise_torque_percent = entity.rise_torque_percent;
   params.baud = entity.baud;
+  params.bus_protocol = entity.protocol;
   params.joint_count = static_cast<std::uint8_t>(entity.joints.size());
   params.body_mass_kg = static_cast<float>(entity.nodes[0].mass_kg);
   params.body_com_m = to_xyz(entity.nodes[0].com_m);

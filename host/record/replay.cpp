@@ -15,7 +15,8 @@ std::string hex(std::uint64_t value) {
   return fmt::format("0x{:016x}", value);
 }
 
-/// The first stage whose digests differ, or the chain alone; nothing when the ticks are equal.
+}  // namespace
+
 std::optional<Divergence> compare_digests(const TickDigest& left, const TickDigest& right) {
   for (int stage = 0; stage < kStages; ++stage) {
     if (left.stage[stage] == right.stage[stage]) continue;
@@ -33,11 +34,12 @@ std::optional<Divergence> compare_digests(const TickDigest& left, const TickDige
   return found;
 }
 
-/// Differences of two States without the digests themselves, which differ as a consequence.
 std::vector<FieldDifference> diff_states(const State& left, State right) {
   right.digest = left.digest;
   return diff_fields(left, right);
 }
+
+namespace {
 
 const Keyframe* keyframe_from(const Trace& trace, std::size_t index) {
   const auto found =

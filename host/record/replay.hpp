@@ -24,6 +24,13 @@ struct Divergence {
       0;  ///< the tick whose fields those are: this one, or the next kept State's
 };
 
+/// The first stage whose digests differ, or the chain alone; nothing when the ticks are equal. Has
+/// no tick and no fields yet.
+std::optional<Divergence> compare_digests(const TickDigest& left, const TickDigest& right);
+
+/// Differences of two States without the digests themselves, which differ as a consequence.
+std::vector<FieldDifference> diff_states(const State& left, State right);
+
 struct ReplayResult {
   std::size_t ticks = 0;
   std::uint64_t recorded_digest = 0;

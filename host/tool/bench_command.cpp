@@ -23,6 +23,9 @@ namespace {
 
 constexpr double kMostTick_us = 3;
 constexpr double kLeastTimesFasterThanKdl = 100;
+/// Where CAN sockets are. The answers of several minutes of walking take their time.
+constexpr const char* kWithCan =
+    "'" VERP_SOURCE_DIR "/tests/support/with-can' --timeout 600 --memory 1500M ";
 constexpr const char* kTiming = " --benchmark_format=json --benchmark_min_time=0.1";
 
 struct BenchOptions {
@@ -45,10 +48,11 @@ std::string last_line(const std::filesystem::path& file) {
   return last;
 }
 
-/// Runs a program of this build tree, gives each line of its stdout to `take`. Throws ToolError
-/// with its last words if it fails.
+/// Runs a program of this build tree, after `where`, and gives each line of its stdout to `take`.
+/// Throws ToolError with its last words if it fails.
 template <class Take>
-void run_program(const std::string& program, const std::string& arguments, Take take) {
+void run_program(const std::string& program, const std::string& arguments, Take take,
+                 const std::string& where = "") {
   const std::string path = std::string(VERP_BUILD_DIR) + "/" + program;
   if (!std::filesystem::exists(path)) {
     throw ToolError(kNoDevice, path +
@@ -57,7 +61,7 @@ void run_program(const std::string& program, const std::string& arguments, Take 
   }
   const board::TemporaryDirectory scratch;
   const auto errors = scratch.path() / "errors";
-  const std::string command = quoted(path) + arguments + " 2>" + quoted(errors.string());
+  const std::string command = where + quoted(path) + arguments + " 2>" + quoted(errors.string());
   FILE* pipe = popen(command.c_str(), "r");
   if (pipe == nullptr) throw ToolError(kNoDevice, path + ": cannot be started");
   std::string line;
@@ -157,6 +161,15 @@ void add_board_rows(const Json& line, std::vector<BenchRow>& rows, Json& heading
         promised == Bar::kNone ? Bar::kNone : Bar::kAtLeast, board::kLeastLinkTicksPerS, false);
     return;
   }
+  if (line.contains("can_ticks_per_s")) {
+    headings[where] = fmt::format("{}, {} ticks", line.at("core").get<std::string>(),
+                                  line.at("ticks").get<std::uint64_t>());
+    add("can_ticks_per_s", "ticks a second over CAN, without physics", "", Bar::kAtLeast,
+        board::kLeastCanTicksPerS, false);
+    add("can_frames_per_tick", "frames on vcan0 of a tick, the clock's included", "", Bar::kNone, 0,
+        true);
+    return;
+  }
   headings[where] = fmt::format("{}, {} ticks", line.at("core").get<std::string>(),
                                 line.at("ticks").get<std::uint64_t>());
   add("instructions_average", "instructions of a tick, average", "", promised,
@@ -175,12 +188,13 @@ int run_bench(const BenchOptions& options) {
   std::size_t boards = 0;
   if (!options.pc) {
     for (const auto& each : board::emulated_boards()) {
-      if (each.measured) firmware_image(each, "replay"), ++boards;
+      if (each.measured) firmware_image(each, "replay"), boards += 2;
+      if (!each.can.empty()) firmware_image(each, "loop"), ++boards;
     }
   }
   const board::TemporaryDirectory folder;
   Progress progress(!options.json);
-  const double steps = options.repetitions + 2.0 * static_cast<double>(boards);
+  const double steps = options.repetitions + static_cast<double>(boards);
   std::vector<BenchRow> rows;
   Json headings = {
       {"pc", fmt::format("CPU time here, generic21 walking, median of {}", options.repetitions)}};
@@ -198,6 +212,14 @@ int run_bench(const BenchOptions& options) {
       add_board_rows(Json::parse(line), rows, headings);
       progress.show(++done / steps, "counting instructions on emulated boards");
     });
+    progress.show(done / steps, "walking over emulated CAN");
+    run_program(
+        "target/can_bench", "",
+        [&](const std::string& line) {
+          add_board_rows(Json::parse(line), rows, headings);
+          progress.show(++done / steps, "walking over emulated CAN");
+        },
+        kWithCan);
   }
   progress.clear();
   const bool good = bench_held(rows);

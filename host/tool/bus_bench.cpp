@@ -23,28 +23,38 @@ double quantile(const std::vector<double>& sorted, double share) {
 
 }  // namespace
 
-BusBench run_bus_bench(bus::Client& client, std::uint8_t id, std::uint16_t address,
-                       std::uint16_t size, double seconds) {
-  const app::BusCounters before = client.counters();
-  const std::uint32_t crc_before = client.crc_errors();
+BusBench run_bus_bench(const std::function<bool()>& read, std::uint16_t size, double seconds) {
+  BusBench result;
   std::vector<double> took_us;
   const std::uint64_t start_ns = wire::monotonic_ns();
   const auto end_ns = start_ns + static_cast<std::uint64_t>(seconds * 1e9);
   std::uint64_t now_ns = start_ns;
   while (now_ns < end_ns && !interrupted()) {
     const std::uint64_t begun_ns = now_ns;
-    const bool good = client.read_once(id, address, size);
+    const bool good = read();
     now_ns = wire::monotonic_ns();
-    if (good) took_us.push_back(static_cast<double>(now_ns - begun_ns) * 1e-3);
+    if (good) {
+      took_us.push_back(static_cast<double>(now_ns - begun_ns) * 1e-3);
+    } else {
+      ++result.timeouts;
+    }
   }
   std::sort(took_us.begin(), took_us.end());
-  BusBench result;
   result.good = took_us.size();
   result.duration_s = static_cast<double>(now_ns - start_ns) * 1e-9;
   result.payload_bytes = result.good * size;
   result.median_us = quantile(took_us, 0.5);
   result.p99_us = quantile(took_us, 0.99);
   result.worst_us = quantile(took_us, 1);
+  return result;
+}
+
+BusBench run_bus_bench(bus::Client& client, std::uint8_t id, std::uint16_t address,
+                       std::uint16_t size, double seconds) {
+  const app::BusCounters before = client.counters();
+  const std::uint32_t crc_before = client.crc_errors();
+  BusBench result =
+      run_bus_bench([&] { return client.read_once(id, address, size); }, size, seconds);
   result.crc_errors = client.crc_errors() - crc_before;
   result.timeouts = client.counters().timeouts - before.timeouts;
   result.errors = client.counters().errors - before.errors;

@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <functional>
 #include <string>
 
 #include "host/bus/client.hpp"
@@ -25,6 +26,9 @@ struct BusBench {
 /// Ends early when interrupted.
 BusBench run_bus_bench(bus::Client& client, std::uint8_t id, std::uint16_t address,
                        std::uint16_t size, double seconds);
+/// Of any bus: `read` makes one read of `size` bytes and says whether it was answered. What was not
+/// counts as a timeout.
+BusBench run_bus_bench(const std::function<bool()>& read, std::uint16_t size, double seconds);
 
 std::string to_text(const BusBench& result);
 Json to_json(const BusBench& result);

@@ -3,9 +3,13 @@
 #include <algorithm>
 #include <memory>
 
+#include "common/protocol/canopen/robot_plan.hpp"
 #include "host/bus/client.hpp"
 #include "host/bus/register_names.hpp"
+#include "host/eds/eds.hpp"
 #include "host/tool/bus_bench.hpp"
+#include "host/tool/bus_on_can.hpp"
+#include "host/tool/bus_options.hpp"
 #include "host/tool/console.hpp"
 #include "host/tool/interrupt.hpp"
 #include "host/tool/register_value.hpp"
@@ -15,21 +19,12 @@
 namespace verp::tool {
 namespace {
 
-struct BusOptions {
-  std::string link;
-  double timeout_ms = 100;
-  int id = dxl::controller::kDefaultId;
-  std::vector<std::string> names;
-  int address = -1;
-  int size = 4;
-  std::vector<std::string> values;
-  bool each = false;
-  double seconds = 2;
-  int bench_address = 0;
-  bool json = false;
-};
-
 bus::Client open(const BusOptions& options) {
+  if (!options.object.empty()) {
+    throw ToolError(kBadInput,
+                    "--object is of CAN's nodes (--link can:...); devices on other links "
+                    "have --register or --address");
+  }
   return {wire::parse_endpoint(options.link),
           static_cast<std::uint32_t>(options.timeout_ms * 1000)};
 }
@@ -215,7 +210,7 @@ CLI::App* add(CLI::App* bus, const std::shared_ptr<BusOptions>& options, const c
               const char* description) {
   CLI::App* app = bus->add_subcommand(name, description);
   app->add_option("--link", options->link,
-                  "serial:/dev/ttyUSB0@1000000, pty:PATH, tcp:HOST:PORT, unix:PATH")
+                  "serial:/dev/ttyUSB0@1000000, pty:PATH, tcp:HOST:PORT, unix:PATH, can:can0")
       ->required();
   app->add_option("--timeout", options->timeout_ms, "what an answer may take, ms")
       ->transform(number_between(1, 10000, "ms"))
@@ -225,9 +220,10 @@ CLI::App* add(CLI::App* bus, const std::shared_ptr<BusOptions>& options, const c
 }
 
 void add_id(CLI::App* app, const std::shared_ptr<BusOptions>& options) {
-  app->add_option("--id", options->id, "the device")
-      ->check(CLI::Range(0, int{dxl::kMaxId}))
-      ->capture_default_str();
+  app->add_option("--id", options->id,
+                  fmt::format("the device, on CAN the node [the controller: {}, on CAN {}]",
+                              dxl::controller::kDefaultId, canopen::plan::kControllerNode))
+      ->check(CLI::Range(0, int{dxl::kMaxId}));
 }
 
 void add_registers(CLI::App* app, const std::shared_ptr<BusOptions>& options, const char* help) {
@@ -238,12 +234,15 @@ void add_registers(CLI::App* app, const std::shared_ptr<BusOptions>& options, co
   app->add_option("--size", options->size, "bytes at --address")
       ->check(CLI::IsMember({1, 2, 4}))
       ->capture_default_str();
+  app->add_option("--object", options->object, "on CAN: INDEX:SUBINDEX, such as 6064:0")
+      ->excludes(name);
 }
 
 }  // namespace
 
 Subcommand add_bus(CLI::App& root) {
-  CLI::App* app = root.add_subcommand("bus", "Dynamixel devices: find them, read, write, measure");
+  CLI::App* app = root.add_subcommand(
+      "bus", "Dynamixel devices and CANopen nodes: find them, read, write, measure");
   app->require_subcommand(1);
   auto options = std::make_shared<BusOptions>();
   CLI::App* find = add(app, options, "scan", "every device that answers");
@@ -268,17 +267,33 @@ Subcommand add_bus(CLI::App& root) {
       ->capture_default_str();
   const Subcommand setup = add_bus_setup(*app);
   const Subcommand checklist = add_bus_checklist(*app);
+  const Subcommand load = add_bus_load(*app);
   CLI::App* list = app->add_subcommand("registers", "the controller's registers, as a page");
+  CLI::App* sheet = app->add_subcommand("eds", "a node's electronic data sheet, for CANopen tools");
+  std::vector<std::string> nodes;
+  for (const eds::Sheet& each : eds::sheets()) nodes.emplace_back(each.node);
+  sheet->add_option("node", options->node, "of which node")
+      ->required()
+      ->check(CLI::IsMember(nodes));
   return {app, [=] {
-            if (find->parsed()) return scan(*options);
-            if (call->parsed()) return ping(*options);
-            if (show->parsed()) return read(*options);
-            if (put->parsed()) return write(*options);
-            if (measure->parsed()) return bench(*options);
-            for (const Subcommand& each : {setup, checklist}) {
+            const bool can = on_can(*options);
+            if (options->id < 0) {
+              options->id = can ? canopen::plan::kControllerNode : dxl::controller::kDefaultId;
+            }
+            if (find->parsed()) return can ? scan_can(*options) : scan(*options);
+            if (call->parsed()) return can ? ping_can(*options) : ping(*options);
+            if (show->parsed()) return can ? read_can(*options) : read(*options);
+            if (put->parsed()) return can ? write_can(*options) : write(*options);
+            if (measure->parsed()) return can ? bench_can(*options) : bench(*options);
+            for (const Subcommand& each : {setup, checklist, load}) {
               if (each.app->parsed()) return each.run();
             }
             if (list->parsed()) answer(bus::controller_document());
+            for (const eds::Sheet& each : eds::sheets()) {
+              if (sheet->parsed() && options->node == each.node) {
+                answer(eds::to_text(each.describe()));
+              }
+            }
             return int{kGood};
           }};
 }

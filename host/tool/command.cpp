@@ -8,6 +8,10 @@
 
 namespace verp::tool {
 
+void add_bus_option(CLI::App& app, std::string& bus) {
+  app.add_option("--bus", bus, "name of the robot's bus to use (default: its first)");
+}
+
 void add_json_flag(CLI::App& app, bool& json) {
   app.add_flag("--json", json, "one JSON object on stdout, everything else on stderr")
       ->disable_flag_override();  // --json=no would be taken for no

@@ -22,6 +22,7 @@ struct Subcommand {
 Subcommand add_walk(CLI::App& root);
 Subcommand add_hil(CLI::App& root);
 Subcommand add_run(CLI::App& root);
+Subcommand add_shadow(CLI::App& root);
 Subcommand add_replay(CLI::App& root);
 Subcommand add_diff(CLI::App& root);
 Subcommand add_check(CLI::App& root);
@@ -35,6 +36,9 @@ Subcommand add_deploy(CLI::App& root);
 /// Adds --json. With it stdout holds one JSON object and nothing else; everything for people goes
 /// to stderr.
 void add_json_flag(CLI::App& app, bool& json);
+
+/// Adds --bus: which of the robot's buses is used, by name.
+void add_bus_option(CLI::App& app, std::string& bus);
 
 /// Writes one object and a newline to stdout.
 void print_json(const Json& object);

@@ -52,8 +52,9 @@ class Deployment {
         recipe_(flash::find_recipe(options.flash.board)),
         folder_(flash::work_root() / "deploy" / options.flash.board),
         progress_(!options.json) {
-    plan_.entity = model::load_robot(model::find_model(options.model));
+    plan_.entity = model::load_robot(model::find_model(options.model), options.flash.bus);
     plan_.params = model::make_params(plan_.entity);
+    require_serial("verp deploy", plan_.entity);
     const WalkOptions usual;  // two 4 cm steps a cycle, straight ahead
     plan_.velocity = velocity_of(usual, usual.step_m);
     plan_.walk_s = options.walk_s;
@@ -265,6 +266,7 @@ Subcommand add_deploy(CLI::App& root) {
   auto options = std::make_shared<DeployOptions>();
   app->add_option("MODEL", options->model, "a robot of common/robots, or the path of an SDF file")
       ->required();
+  add_bus_option(*app, options->flash.bus);
   declare_target(*app, options->flash);
   app->add_option("--for", options->walk_s, "length of the walk, s")
       ->check(number_between(3, 3600, "s"))

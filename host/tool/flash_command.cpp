@@ -44,6 +44,7 @@ Subcommand add_flash(CLI::App& root) {
   app->add_option("--params", words->flash.params,
                   "write this robot instead of the firmware: a Params image (FILE.bin, see verp "
                   "export), a robot of common/robots, or an SDF file");
+  add_bus_option(*app, words->flash.bus);
   app->add_option(
       "--actions", words->flash.actions,
       "give back the actions that a run which failed has kept (it names the file); other "

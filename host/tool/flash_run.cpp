@@ -23,11 +23,11 @@ namespace {
 namespace fs = std::filesystem;
 
 /// The file that --params names, or the one made of the robot that it names.
-fs::path params_file(const std::string& word, const fs::path& folder) {
+fs::path params_file(const std::string& word, const std::string& bus, const fs::path& folder) {
   const fs::path path = word;
   const bool robot = path.extension() == ".sdf" || path.extension() == ".urdf";
   if (path.extension() == ".bin" || (!robot && fs::is_regular_file(path))) return path;
-  const ParamsImage image = model::make_image(model::load_robot(model::find_model(word)));
+  const ParamsImage image = model::make_image(model::load_robot(model::find_model(word), bus));
   const fs::path file = folder / "params.bin";
   std::ofstream out(file, std::ios::binary);
   out.write(reinterpret_cast<const char*>(&image), sizeof image);
@@ -47,7 +47,7 @@ std::vector<flash::Piece> pieces_of(const FlashOptions& options, const flash::Me
     pieces.push_back({"code", fs::absolute(file), map.code});
   }
   if (!options.params.empty()) {
-    const fs::path file = params_file(options.params, folder);
+    const fs::path file = params_file(options.params, options.bus, folder);
     const std::string robot = flash::check_params(file, map);
     pieces.push_back({"robot " + robot, fs::absolute(file), map.params});
   }

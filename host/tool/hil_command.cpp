@@ -25,7 +25,7 @@ struct HilWords {
 
 WalkPlan make_plan(const WalkOptions& options) {
   WalkPlan plan;
-  plan.entity = model::load_robot(model::find_model(options.model));
+  plan.entity = model::load_robot(model::find_model(options.model), options.bus);
   plan.params = model::make_params(plan.entity);
   plan.velocity = velocity_of(options, options.step_m);
   plan.walk_s = options.walk_s;
@@ -44,6 +44,7 @@ void check(HilWords& words, const Params& params) {
                    : words.real_time ? HilPace::kRealTime
                                      : HilPace::kAuto;
   const wire::Endpoint endpoint = wire::parse_endpoint(words.hil.link);
+  require_fit("verp hil", words.hil.link, params);
   if (endpoint.kind != wire::Endpoint::Kind::kSerial) return;
   if (words.real_time) {
     const std::string trouble = bus::adapter_too_slow(params, endpoint);
@@ -54,9 +55,15 @@ void check(HilWords& words, const Params& params) {
 }
 
 Json to_json(const HilResult& result) {
-  Json link = {{"losses", result.losses}};
+  Json link = {{"losses", result.losses}, {"overruns", result.overruns}};
   if (result.real_time) {
-    link["bytes"] = result.realtime.bytes;
+    if (result.can) {
+      link["frames"] = result.can->heard;
+      link["dropped"] = result.can->dropped;
+      link["skipped_us"] = result.can->skipped_us;
+    } else {
+      link["bytes"] = result.realtime.bytes;
+    }
     link["late"] = result.realtime.late;
     link["worst_late_us"] = result.realtime.worst_late_us;
   } else {
@@ -82,6 +89,14 @@ std::string to_text(const HilResult& result) {
   if (result.resets > 0) {
     out += fmt::format("  {:<18}{} times; what is told of it is of the last start\n",
                        "controller reset", result.resets);
+  }
+  if (result.can) {
+    out += fmt::format("  {:<18}{} frames heard, {} dropped\n", "master", result.can->heard,
+                       result.can->dropped);
+  }
+  if (result.can && result.can->skipped_us > 0) {
+    out += fmt::format("  {:<18}{:.1f} s of the clock, in which this PC was too slow\n", "skipped",
+                       1e-6 * static_cast<double>(result.can->skipped_us));
   }
   if (result.real_time) {
     out += fmt::format("  {:<18}{} times over 1 ms, worst {:.1f} ms; link lost {} times\n", "late",
@@ -161,7 +176,7 @@ Subcommand add_hil(CLI::App& root) {
       "served from when a servo first has torque, s");
   app->add_option("--link", words->hil.link,
                   "the controller's servo bus: serial:DEVICE@BAUD, pty:PATH, tcp:HOST:PORT, "
-                  "tcp-listen:PORT, unix:PATH or unix-listen:PATH")
+                  "tcp-listen:PORT, unix:PATH, unix-listen:PATH or can:INTERFACE")
       ->required();
   app->add_option("--operator", words->hil.operator_link,
                   "its operator's port: orders go there, digests come back");

@@ -4,19 +4,20 @@
 
 #include <chrono>
 #include <memory>
-#include <optional>
 #include <span>
 #include <thread>
 #include <utility>
 #include <vector>
 
-#include "host/bus/operator_port.hpp"
 #include "host/bus/shadow_loop.hpp"
 #include "host/link/link.hpp"
 #include "host/link/system_clock.hpp"
+#include "host/tool/can_hil_run.hpp"
 #include "host/tool/console.hpp"
+#include "host/tool/hil_judge.hpp"
 #include "host/tool/interrupt.hpp"
 #include "host/tool/real_time.hpp"
+#include "host/tool/robot_watch.hpp"
 #include "host/tool/walk_session.hpp"
 
 namespace verp::tool {
@@ -32,12 +33,12 @@ class HilRun {
         progress_(progress),
         session_(plan, trace, progress, plan.params.name, keep_series),
         link_(wire::parse_endpoint(options.link)),
+        watch_(session_, [this](const std::string& line) { say(line); }),
+        judge_(
+            plan, session_, session_.bus(), options.operator_link,
+            [this](const std::string& line) { say(line); }, [this] { watch_.see(); }),
         lockstep_(plan.params, session_.bus(), hooks()),
         realtime_(session_.bus()) {
-    if (!options.operator_link.empty()) {
-      orders_.emplace(options.operator_link, [] { return interrupted(); });
-      begin_shadow();
-    }
     if (options.pace == HilPace::kRealTime) lockstep_.refuse_lockstep();
   }
 
@@ -46,19 +47,20 @@ class HilRun {
     try {
       while (!over()) turn();
     } catch (const bus::SinkError& error) {
-      fail(error.what());
+      judge_.fail(error.what());
     }
     progress_.clear();
     HilResult result;
-    const std::uint64_t start_ns = drive_ns_ == 0 ? start_ns_ : drive_ns_;
+    const std::uint64_t start_ns = watch_.drive_ns() == 0 ? start_ns_ : watch_.drive_ns();
     const double wall_s = start_ns == 0 ? 0 : 1e-9 * static_cast<double>(now_ns() - start_ns);
-    result.walk = session_.result(wall_s, failure_);
-    result.device_trouble = device_trouble_;
+    result.walk = session_.result(wall_s, judge_.failure());
+    result.device_trouble = judge_.device_trouble();
     result.lay_down = session_.verdict().lay_down();
     result.real_time = realtime_.begun();
-    result.compared = compared_;
+    result.compared = judge_.compared();
     result.losses = link_.errors().losses;
-    result.resets = resets_;
+    result.overruns = link_.errors().overruns;
+    result.resets = judge_.resets();
     result.lockstep = lockstep_.counters();
     result.realtime = realtime_.counters();
     return result;
@@ -71,8 +73,6 @@ class HilRun {
   static constexpr std::uint32_t kWrite_us = 100'000;
   static constexpr std::uint64_t kLossRest_ns =
       50'000'000;  // from one loss of the link to the next
-  /// What a start takes by the twin's clock: reset, boot check, greeting.
-  static constexpr std::uint32_t kRestart_us = 1'000'000;
 
   static std::uint64_t now_ns() { return wire::monotonic_ns(); }
 
@@ -81,20 +81,14 @@ class HilRun {
     complain("verp hil: " + line);
   }
 
-  void fail(const std::string& why, bool device = true) {
-    if (!failure_.empty()) return;
-    failure_ = why;
-    device_trouble_ = device;
-  }
-
   bool over() const {
-    return !failure_.empty() || lockstep_.stopped() || interrupted() ||
+    return !judge_.failure().empty() || lockstep_.stopped() || interrupted() ||
            (realtime_.begun() && session_.over());
   }
 
   bool may_run_in_real_time() const {
     return options_.pace == HilPace::kRealTime ||
-           (options_.pace == HilPace::kAuto && !shadow_ && !lockstep_.greeted());
+           (options_.pace == HilPace::kAuto && !judge_.shadows() && !lockstep_.greeted());
   }
 
   void turn() {
@@ -145,22 +139,7 @@ class HilRun {
       const RealTime got = become_real_time();
       if (!got.advice.empty()) say(got.advice);
     }
-    while (session_.bus().now_us() >= next_watch_us_ && !session_.over()) {
-      watch_robot();
-      next_watch_us_ += plan_.params.period_us;
-    }
-  }
-
-  void watch_robot() {
-    session_.watch();
-    const FallVerdict& verdict = session_.verdict();
-    if (verdict.driven() && drive_ns_ == 0) {
-      drive_ns_ = now_ns();
-      say("a servo has torque: the session begins");
-    }
-    if (verdict.lay_down() && !std::exchange(lay_down_, true)) {
-      say("the robot was let go and lies down: that is no fall, and it is served on");
-    }
+    watch_.see_until(session_.bus().now_us(), plan_.params.period_us);
   }
 
   void watch_link() {
@@ -174,18 +153,18 @@ class HilRun {
     bus::LockstepHooks hooks;
     hooks.greeted = [this] { greeted(); };
     hooks.refused = [this](const std::string& why) {
-      options_.pace == HilPace::kRealTime ? decline() : fail(why);
+      options_.pace == HilPace::kRealTime ? decline() : judge_.fail(why);
     };
-    hooks.tick_ends = [this] { return tick_ends(); };
-    hooks.tick_begins = [this](std::uint32_t tick) { tick_begins(tick); };
+    hooks.tick_ends = [this] { return judge_.tick_ends(); };
+    hooks.tick_begins = [this](std::uint32_t tick) { judge_.tick_begins(tick); };
     hooks.sent = [this](std::span<const std::uint8_t> frame) {
-      if (shadow_) shadow_->sent(frame);
+      if (judge_.shadows()) judge_.shadow()->sent({frame.begin(), frame.end()});
     };
     hooks.damaged = [this] {
-      if (shadow_) shadow_->damaged();
+      if (judge_.shadows()) judge_.shadow()->damaged();
     };
     hooks.polled = [this](std::span<const std::uint8_t> bytes, std::uint64_t now_us) {
-      if (shadow_) shadow_->polled(bytes, now_us);
+      if (judge_.shadows()) judge_.shadow()->polled({bytes.begin(), bytes.end()}, now_us);
     };
     return hooks;
   }
@@ -197,76 +176,9 @@ class HilRun {
   }
 
   void greeted() {
-    if (lockstep_.counters().greetings == 1) {
-      start_ns_ = now_ns();
-      return say("a controller has come, in lockstep");
-    }
-    if (!session_.bus().ticking()) return say("the controller greets again");
-    ++resets_;
-    say(fmt::format(
-        "the controller began anew at {:.2f} s; the servos hold what they were told last",
-        session_.simulated_s()));
-    pass_restart();
-    if (!shadow_) return;
-    // What it knew is gone, and with it what this PC knew of it.
-    recorded_ = false;
-    begin_shadow();
-    session_.begin_anew();
-  }
-
-  // In lockstep no time goes by while a controller is away; on a robot it does, and the servos' Bus
-  // Watchdogs see it.
-  void pass_restart() {
-    bus::VirtualBus& bus = session_.bus();
-    const std::uint64_t back_us = bus.now_us() + kRestart_us;
-    std::uint8_t unheard[hal::kMaxFrame];
-    while (bus.now_us() < back_us) bus.bring_until(back_us, unheard, sizeof unheard);
-  }
-
-  void begin_shadow() {
-    shadow_.emplace(plan_.params, [this](const TickRecord& tick, const State& state,
-                                         const Outputs& outputs) { record(tick, state, outputs); });
-  }
-
-  bool tick_ends() {
-    if (!shadow_) {
-      if (session_.bus().ticking()) watch_robot();
-      return !session_.over();
-    }
-    shadow_->catch_up();
-    if (!shadow_->difference().empty()) {
-      fail("not the same bits: " + shadow_->difference(), false);
-    }
-    if (session_.over()) compare(orders_->exchange(nullptr));
-    return failure_.empty() && !session_.over();
-  }
-
-  // The controller waits for the answer that begins its tick, and serves its operator meanwhile:
-  // what is written now, it takes in this very tick.
-  void tick_begins(std::uint32_t tick) {
-    if (!shadow_) return;
-    const app::OperatorOrder order = session_.walker().order(tick);
-    const bool news = order.flags != 0;
-    compare(orders_->exchange(news ? &order : nullptr));
-    if (news) shadow_->ordered(order);
-  }
-
-  void record(const TickRecord& tick, const State& state, const Outputs& outputs) {
-    session_.record(tick, state, outputs);
-    last_ = {tick.inputs.tick, tick.digest.chain};
-    recorded_ = true;
-  }
-
-  void compare(const bus::ControllerReport& told) {
-    if (!recorded_ || told.tick != last_.tick) return;
-    if (told.digest == last_.digest) {
-      ++compared_;
-      return;
-    }
-    fail(fmt::format("not the same bits: at tick {} the controller's digest is 0x{:016x}, this "
-                     "PC's 0x{:016x}",
-                     last_.tick, told.digest, last_.digest),
-         false);
+    const bool first = lockstep_.counters().greetings == 1;
+    if (first) start_ns_ = now_ns();
+    judge_.greeted(first);
   }
 
   const WalkPlan& plan_;
@@ -274,32 +186,26 @@ class HilRun {
   Progress& progress_;
   WalkSession session_;
   wire::Link link_;
-  std::optional<bus::OperatorPort> orders_;
-  std::optional<bus::ShadowLoop> shadow_;
+  RobotWatch watch_;
+  HilJudge<bus::VirtualBus, bus::ShadowLoop> judge_;
   bus::LockstepServer lockstep_;
   bus::RealtimeServer realtime_;
   std::vector<std::uint8_t> answer_;
-  bus::ControllerReport last_;
-  bool recorded_ = false;
   bool connected_ = false;
   bool declined_ = false;
-  bool device_trouble_ = false;
-  std::string failure_;
-  std::uint64_t compared_ = 0;
-  std::uint32_t resets_ = 0;
   std::uint32_t losses_ = 0;     ///< of the link, as last seen
   std::uint64_t rested_ns_ = 0;  ///< when rest_after_loss() was last over
   std::uint64_t start_ns_ = 0;
-  std::uint64_t drive_ns_ = 0;  ///< when torque was first seen
-  bool lay_down_ = false;
   std::uint64_t heard_ns_ = 0;  ///< when something that is not for the clock came first
-  std::uint64_t next_watch_us_ = 0;
 };
 
 }  // namespace
 
 HilResult serve_controller(const WalkPlan& plan, const HilOptions& options,
                            record::TraceWriter* trace, Progress& progress, bool keep_series) {
+  if (plan.params.bus_protocol == BusProtocol::kCia402) {
+    return serve_on_can(plan, options, trace, progress, keep_series);
+  }
   return HilRun(plan, options, trace, progress, keep_series).run();
 }
 

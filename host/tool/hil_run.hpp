@@ -1,4 +1,6 @@
 #pragma once
+#include <cstdint>
+#include <optional>
 #include <string>
 
 #include "host/bus/lockstep_server.hpp"
@@ -20,6 +22,13 @@ struct HilOptions {
   HilPace pace = HilPace::kAuto;
 };
 
+/// What came from a CAN interface.
+struct CanFrames {
+  std::uint64_t heard = 0;
+  std::uint32_t dropped = 0;  ///< of these, or before: faster than the simulated wire, or this PC
+  std::uint64_t skipped_us = 0;  ///< of the clock: where this PC was slower than it
+};
+
 struct HilResult {
   WalkResult walk;
   bool device_trouble = false;  ///< walk.failure is the link's or the controller's
@@ -27,9 +36,11 @@ struct HilResult {
   bool real_time = false;
   std::uint64_t compared = 0;  ///< ticks whose digest the controller told, equal to this PC's
   std::uint32_t losses = 0;    ///< times the link was lost
+  std::uint32_t overruns = 0;  ///< bytes, or CAN frames, that found no room at this PC
   std::uint32_t resets = 0;    ///< times a controller began anew on a robot that was under way
   bus::LockstepServer::Counters lockstep;
   bus::RealtimeServer::Counters realtime;
+  std::optional<CanFrames> can;  ///< over CAN in real time
 
   double ticks_per_s() const {
     return walk.wall_s > 0 ? static_cast<double>(walk.ticks) / walk.wall_s : 0;

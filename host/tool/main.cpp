@@ -115,10 +115,10 @@ int run(int argc, char** argv) {
   CLI::App root("VERP: a humanoid robot's controller and its twin", "verp");
   root.set_version_flag("--version", "verp " + record::build_info().at("source_revision"));
   root.require_subcommand(1);
-  const std::vector<Subcommand> commands = {add_walk(root),   add_hil(root),   add_run(root),
-                                            add_replay(root), add_diff(root),  add_check(root),
-                                            add_export(root), add_trace(root), add_bench(root),
-                                            add_bus(root),    add_flash(root), add_deploy(root)};
+  const std::vector<Subcommand> commands = {
+      add_walk(root), add_hil(root),   add_run(root),    add_shadow(root), add_replay(root),
+      add_diff(root), add_check(root), add_export(root), add_trace(root),  add_bench(root),
+      add_bus(root),  add_flash(root), add_deploy(root)};
   // After the subcommands, which would have it too.
   root.footer("Besides, the launcher has `./verp test`: everything that is promised, checked.");
   try {

@@ -8,7 +8,7 @@ namespace verp::tool {
 
 Subcommand add_check(CLI::App& root) {
   struct Options {
-    std::string model;
+    std::string model, bus;
     bool json = false;
   };
   CLI::App* app = root.add_subcommand(
@@ -16,21 +16,26 @@ Subcommand add_check(CLI::App& root) {
   auto options = std::make_shared<Options>();
   app->add_option("MODEL", options->model, "a robot of common/robots, or the path of an SDF file")
       ->required();
+  add_bus_option(*app, options->bus);
   add_json_flag(*app, options->json);
-  return {app, [options] { return model::check_command(options->model, options->json); }};
+  return {app,
+          [options] { return model::check_command(options->model, options->bus, options->json); }};
 }
 
 Subcommand add_export(CLI::App& root) {
   struct Options {
-    std::string model, folder;
+    std::string model, bus, folder;
   };
   CLI::App* app =
       root.add_subcommand("export", "Write a robot's Params image and header for firmware");
   auto options = std::make_shared<Options>();
   app->add_option("MODEL", options->model, "a robot of common/robots, or the path of an SDF file")
       ->required();
+  add_bus_option(*app, options->bus);
   app->add_option("-o,--output", options->folder, "folder")->required();
-  return {app, [options] { return model::export_command(options->model, options->folder); }};
+  return {app, [options] {
+            return model::export_command(options->model, options->bus, options->folder);
+          }};
 }
 
 }  // namespace verp::tool

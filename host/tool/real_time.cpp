@@ -38,4 +38,9 @@ RealTime become_real_time() {
   return got;
 }
 
+void leave_real_time() {
+  const sched_param usual{};
+  ::sched_setscheduler(0, SCHED_OTHER, &usual);
+}
+
 }  // namespace verp::tool

@@ -12,5 +12,7 @@ struct RealTime {
 
 /// Asks for both, for the calling thread.
 RealTime become_real_time();
+/// Gives the priority back: who can't keep up must not keep all others from running as well.
+void leave_real_time();
 
 }  // namespace verp::tool

@@ -10,12 +10,9 @@
 namespace verp::tool {
 namespace {
 
+using dxl::controller::is_signed;
 using dxl::controller::Type;
 using dxl::controller::type_bytes;
-
-bool is_signed(Type type) {
-  return type == Type::kI16 || type == Type::kI32;
-}
 
 Json element(Type type, const std::uint8_t* bytes) {
   if (type == Type::kF32) {
@@ -26,6 +23,7 @@ Json element(Type type, const std::uint8_t* bytes) {
   std::uint64_t raw = 0;
   const unsigned size = type_bytes(type);
   for (unsigned i = 0; i < size; ++i) raw |= std::uint64_t{bytes[i]} << (8 * i);
+  if (type == Type::kI8) return static_cast<std::int8_t>(raw);
   if (type == Type::kI16) return static_cast<std::int16_t>(raw);
   if (type == Type::kI32) return static_cast<std::int32_t>(raw);
   return raw;

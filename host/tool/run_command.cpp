@@ -3,6 +3,7 @@
 #include <cmath>
 #include <memory>
 
+#include "host/link/can_claim.hpp"
 #include "host/link/link.hpp"
 #include "host/model/find.hpp"
 #include "host/model/load.hpp"
@@ -11,6 +12,7 @@
 #include "host/tool/console.hpp"
 #include "host/tool/first_power.hpp"
 #include "host/tool/interrupt.hpp"
+#include "host/tool/run_can.hpp"
 #include "host/tool/run_robot.hpp"
 #include "host/tool/walk_files.hpp"
 
@@ -53,8 +55,9 @@ RunPlan make_plan(const RunWords& words) {
   plan.has_imu = words.imu == "bus";
   plan.torque_percent = words.torque_percent;
   WalkPlan& walk = plan.walk;
-  walk.entity = model::load_robot(model::find_model(words.walk.model));
+  walk.entity = model::load_robot(model::find_model(words.walk.model), words.walk.bus);
   walk.params = model::make_params(walk.entity);
+  require_fit("verp run", words.link, walk.params);
   apply_tuning(words.walk, walk.params.tuning);
   set_period(walk.params, words.period_ms);
   if (!plan.has_imu) do_without_imu(walk.params);
@@ -128,8 +131,12 @@ std::string to_text(const RunPlan& plan, const RunResult& result) {
          row("latency",
              fmt::format("a read held up for {:.2f} ms, slowest tenth {:.2f}",
                          1e-3 * result.fit.delay.median_us, 1e-3 * result.fit.delay.p90_us)) +
-         row("bus", fmt::format("{} timeouts, {} CRC errors; link lost {} times",
-                                result.bus.timeouts, result.crc_errors, result.link.losses)) +
+         row("bus",
+             fmt::format("{} timeouts, {} {}; link lost {} times", result.bus.timeouts,
+                         result.crc_errors,
+                         plan.walk.params.bus_protocol == BusProtocol::kCia402 ? "error frames"
+                                                                               : "CRC errors",
+                         result.link.losses)) +
          row("IMU", plan.has_imu ? fmt::format("device {}", plan.walk.params.imu.device_id)
                                  : "none: upright was assumed, balance was off") +
          row("torque", result.silent_servos + result.stiff_servos == 0
@@ -153,17 +160,9 @@ int tell(const RunWords& words, const RunPlan& plan, WalkFiles& files, const Run
   return result.walk.good() && files.lost().empty() ? kGood : kRunFailed;
 }
 
-int run_robot(const RunWords& words) {
-  const RunPlan plan = make_plan(words);
-  WalkFiles files(words.walk, plan.walk,
-                  {{"link", words.link}, {"imu", plan.has_imu ? "bus" : "none: assumed upright"}});
-  wire::Link link(plan.link);
-  if (!link.connected()) {
-    complain("verp run: waiting for the robot on " + link.place());
-    for (std::uint32_t i = 0; i < 100 && !interrupted(); ++i) {
-      if (link.wait_connected(kArrival_us / 100)) break;
-    }
-  }
+/// What is done with a robot, however it is reached.
+template <class Link>
+int run_on(Link& link, const RunWords& words, const RunPlan& plan, WalkFiles& files) {
   const bus::LinkFit fit = check_latency(link, plan);
   check_imu(link, plan);
   if (!plan.has_imu) {
@@ -179,6 +178,38 @@ int run_robot(const RunWords& words) {
   return tell(words, plan, files, drive(link, plan, fit, files.trace(), progress));
 }
 
+void check_bit_rate(const wire::CanInterface& interface, const Params& params) {
+  const std::string known = wire::advice(interface);
+  if (!known.empty()) complain("verp run: " + known);
+  if (interface.bitrate == 0 || interface.bitrate == params.baud) return;
+  throw ToolError(kBadInput, fmt::format("verp run: {} runs at {} bit/s, the bus of {} at {}; ip "
+                                         "link set {} down && ip link set {} up type can bitrate "
+                                         "{}, or change baud in <verp:bus>",
+                                         interface.name, interface.bitrate, params.name,
+                                         params.baud, interface.name, interface.name, params.baud));
+}
+
+int run_robot(const RunWords& words) {
+  const RunPlan plan = make_plan(words);
+  WalkFiles files(words.walk, plan.walk,
+                  {{"link", words.link}, {"imu", plan.has_imu ? "bus" : "none: assumed upright"}});
+  if (plan.link.kind == wire::Endpoint::Kind::kCan) {
+    wire::CanPort port(plan.link);
+    check_bit_rate(port.interface(), plan.walk.params);
+    const wire::CanClaim claim(port.interface().name, "controller", "`verp run`");
+    refuse_second_controller(port, plan);
+    return run_on(port, words, plan, files);
+  }
+  wire::Link link(plan.link);
+  if (!link.connected()) {
+    complain("verp run: waiting for the robot on " + link.place());
+    for (std::uint32_t i = 0; i < 100 && !interrupted(); ++i) {
+      if (link.wait_connected(kArrival_us / 100)) break;
+    }
+  }
+  return run_on(link, words, plan, files);
+}
+
 }  // namespace
 
 Subcommand add_run(CLI::App& root) {
@@ -189,7 +220,7 @@ Subcommand add_run(CLI::App& root) {
   declare_tuning(*app, words->walk);
   app->add_option("--link", words->link,
                   "the robot's servo bus: serial:DEVICE@BAUD, pty:PATH, tcp:HOST:PORT, "
-                  "unix:PATH, ...")
+                  "unix:PATH, can:can0")
       ->required();
   app->add_option("--imu", words->imu,
                   "bus: the model's IMU device; none: balance off, upright assumed")

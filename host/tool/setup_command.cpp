@@ -13,6 +13,7 @@
 #include "host/tool/setup_command.hpp"
 #include "host/tool/setup_guide.hpp"
 #include "host/tool/suggest.hpp"
+#include "host/tool/walk_options.hpp"
 
 namespace verp::tool {
 namespace {
@@ -24,7 +25,9 @@ struct SetupWords {
 };
 
 Params params_of(const std::string& model) {
-  return model::make_params(model::load_robot(model::find_model(model)));
+  const model::Entity entity = model::load_robot(model::find_model(model));
+  require_serial("verp bus setup", entity);
+  return model::make_params(entity);
 }
 
 void check_joint(const Params& params, const std::string& wanted) {

@@ -6,5 +6,6 @@ namespace verp::tool {
 // Below `verp bus`.
 Subcommand add_bus_setup(CLI::App& bus);
 Subcommand add_bus_checklist(CLI::App& bus);
+Subcommand add_bus_load(CLI::App& bus);
 
 }  // namespace verp::tool

@@ -15,7 +15,8 @@ namespace {
 WalkPlan make_plan(const WalkOptions& options) {
   check_board(options);
   WalkPlan plan;
-  plan.entity = model::load_robot(model::find_model(options.model));
+  plan.entity = model::load_robot(model::find_model(options.model), options.bus);
+  if (!options.board.empty()) require_serial("verp walk --on", plan.entity);
   plan.params = model::make_params(plan.entity);
   apply_tuning(options, plan.params.tuning);
   plan.velocity = velocity_of(options, options.step_m);

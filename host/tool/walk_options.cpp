@@ -7,6 +7,7 @@
 
 #include "common/model/tuning_ranges.hpp"
 #include "host/board/emulated_board.hpp"
+#include "host/link/endpoint.hpp"
 #include "host/model/params.hpp"
 #include "host/tool/command.hpp"
 #include "host/tool/suggest.hpp"
@@ -85,6 +86,7 @@ void set_by_name(Tuning& tuning, const std::string& setting, const std::string& 
 void declare_gait(CLI::App& app, WalkOptions& options) {
   app.add_option("MODEL", options.model, "a robot of common/robots, or the path of an SDF file")
       ->capture_default_str();
+  add_bus_option(app, options.bus);
   app.add_option("--step", options.step_m, "step length, m")
       ->check(number_between(0, kMaxStep_m, "m"))
       ->capture_default_str();
@@ -129,6 +131,25 @@ void declare(CLI::App& app, WalkOptions& options) {
   app.add_flag("--no-feedback", options.no_feedback, "switch gyro and tilt feedback off");
   app.add_flag("--no-gravity", options.no_gravity, "switch the gravity feed-forward off");
   app.add_flag("--no-zeros", options.no_zeros, "leave the legs' learnt zero errors out");
+}
+
+void require_serial(const std::string& command, const model::Entity& entity) {
+  if (entity.protocol == BusProtocol::kDynamixel2) return;
+  throw ToolError(
+      kBadInput,
+      fmt::format("{}: bus '{}' of {} speaks {}, and this needs dynamixel2; choose "
+                  "another of its buses with --bus",
+                  command, entity.bus, entity.name, model::protocol_name(entity.protocol)));
+}
+
+void require_fit(const std::string& command, const std::string& link, const Params& params) {
+  const bool can_link = wire::parse_endpoint(link).kind == wire::Endpoint::Kind::kCan;
+  if (can_link == (params.bus_protocol == BusProtocol::kCia402)) return;
+  throw ToolError(kBadInput,
+                  fmt::format("{}: {} is {} CAN interface, and the chosen bus of {} speaks {}; "
+                              "choose another of its buses with --bus",
+                              command, link, can_link ? "a" : "no", params.name,
+                              model::protocol_name(params.bus_protocol)));
 }
 
 Command velocity_of(const WalkOptions& options, double step_m) {

@@ -6,12 +6,14 @@
 #include <vector>
 
 #include "common/model/params.hpp"
+#include "host/model/entity.hpp"
 
 namespace verp::tool {
 
 /// The command line of `verp walk`, checked.
 struct WalkOptions {
   std::string model = "generic21";
+  std::string bus;  ///< by name; empty: the model's first
   double step_m = 0.04;
   double cycle_s = 0.45;
   double walk_s = 20;
@@ -33,6 +35,11 @@ void declare_tuning(CLI::App& app, WalkOptions& options);
 
 /// declare_gait(), and what is kept of the walk in the twin.
 void declare_basics(CLI::App& app, WalkOptions& options);
+
+/// For what speaks to Dynamixel servos only. Throws ToolError if the robot's bus has others.
+void require_serial(const std::string& command, const model::Entity& entity);
+/// Throws ToolError unless the robot's bus is CAN where `link` is a CAN interface, and only there.
+void require_fit(const std::string& command, const std::string& link, const Params& params);
 
 /// Velocity asked for: --velocity, or two steps a cycle straight ahead. Throws ToolError.
 Command velocity_of(const WalkOptions& options, double step_m);

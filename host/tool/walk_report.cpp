@@ -245,6 +245,7 @@ Json to_json(const WalkPlan& plan, const WalkResult& result, const Sweep& sweep)
     bias_by_state.push_back(number_or_null(bias_mm));
   }
   Json json = {{"model", name_of(plan.params)},
+               {"bus", plan.entity.bus},
                {"seed", plan.seed},
                {"controller", plan.board.empty() ? "this PC" : plan.board},
                {"ticks", result.ticks},
@@ -267,6 +268,11 @@ Json to_json(const WalkPlan& plan, const WalkResult& result, const Sweep& sweep)
                {"notes", fault_names(result.faults)},
                {"real_time_factor", result.real_time_factor()}};
   if (!sweep.rows.empty()) json["sweep"] = sweep_json(sweep.rows);
+  if (result.can) {
+    json["can_bits_per_tick"] = result.can->bits_per_tick;
+    json["can_bits_per_tick_without_stuffing"] = result.can->bare_bits_per_tick;
+    json["can_overruns"] = result.can->overruns;
+  }
   return json;
 }
 

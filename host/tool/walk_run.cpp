@@ -10,6 +10,7 @@
 #include "host/board/board_error.hpp"
 #include "host/board/loop_on_target.hpp"
 #include "host/bus/virtual_bus.hpp"
+#include "host/can/virtual_can.hpp"
 #include "host/tool/exit_status.hpp"
 #include "host/tool/interrupt.hpp"
 #include "host/tool/walk_session.hpp"
@@ -17,10 +18,7 @@
 namespace verp::tool {
 namespace {
 
-using SilApp = app::App<bus::VirtualBus, WalkOperator, WalkSession>;
-
-void come_up(SilApp& app) {
-  const app::BringUpReport report = app.bring_up();
+void require_ready(const app::BringUpReport& report, BusProtocol protocol) {
   if (report.status == app::BringUpStatus::kReady) return;
   constexpr const char* kWhat[] = {"is ready",
                                    "does not answer",
@@ -28,14 +26,18 @@ void come_up(SilApp& app) {
                                    "refuses a write",
                                    "does not keep what is written",
                                    "has a hardware error"};
-  throw ToolError(kNoDevice, fmt::format("bus: device {} {} (register {}); check ids in the model",
-                                         report.device_id, kWhat[static_cast<int>(report.status)],
-                                         report.address));
+  const std::string where = protocol == BusProtocol::kCia402
+                                ? fmt::format("object {:04X}h", report.address)
+                                : fmt::format("register {}", report.address);
+  throw ToolError(kNoDevice,
+                  fmt::format("bus: device {} {} ({}); check ids in the model", report.device_id,
+                              kWhat[static_cast<int>(report.status)], where));
 }
 
-void run_here(const WalkPlan& plan, WalkSession& session) {
-  SilApp app(plan.params, session.bus(), session.walker(), session);
-  come_up(app);
+template <class Bus>
+void run_here(const WalkPlan& plan, WalkSession& session, Bus& bus) {
+  app::App<Bus, WalkOperator, WalkSession> app(plan.params, bus, session.walker(), session);
+  require_ready(app.bring_up(), plan.params.bus_protocol);
   while (!session.over()) app.tick();
 }
 
@@ -78,7 +80,11 @@ WalkResult walk(const WalkPlan& plan, record::TraceWriter* trace, Progress& prog
   const auto start = Clock::now();
   std::string failure;
   if (plan.board.empty()) {
-    run_here(plan, session);
+    if (plan.params.bus_protocol == BusProtocol::kCia402) {
+      run_here(plan, session, session.can());
+    } else {
+      run_here(plan, session, session.bus());
+    }
   } else {
     failure = run_on_board(plan, session);
   }

@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,12 @@ struct WalkPlan {
   std::string board;  ///< emulated board that runs the controller; empty: this process
 };
 
+/// What a CAN bus carried in a walk, from its first tick on.
+struct CanTraffic {
+  double bits_per_tick = 0, bare_bits_per_tick = 0;  ///< with and without stuff bits
+  std::uint32_t overruns = 0;                        ///< frames that the controller lost
+};
+
 struct WalkResult {
   sim::WalkMetrics metrics;
   std::vector<sim::SeriesRow> series;  ///< from the first tick on
@@ -30,6 +37,7 @@ struct WalkResult {
   double longest_step_m = 0;  ///< that the gait made: the asked one, or what limits left of it
   double simulated_s = 0, wall_s = 0;
   bool interrupted = false;
+  std::optional<CanTraffic> can;  ///< of a walk over CAN
   std::string trace_failure;  ///< why the trace breaks off; the walk went on. Empty: it does not
   std::string failure;        ///< why the walk is no good, in words; empty: it is good
   std::string remark;         ///< how a good walk is not what was asked; empty: it is
@@ -39,9 +47,9 @@ struct WalkResult {
 };
 
 /// Closed loop: the firmware/app loop talks Dynamixel bytes to virtual servos on the twin, in this
-/// process or on an emulated board. `trace` (may be null) gets every tick. Ends by itself when the
-/// gait is over, the robot has fallen, or somebody interrupts. Throws ToolError when the robot does
-/// not come up.
+/// process or on an emulated board, or, in this process, CAN frames to virtual drives. `trace` (may
+/// be null) gets every tick. Ends by itself when the gait is over, the robot has fallen, or
+/// somebody interrupts. Throws ToolError when the robot does not come up.
 WalkResult walk(const WalkPlan& plan, record::TraceWriter* trace, Progress& progress,
                 const std::string& label, bool keep_series);
 

@@ -37,9 +37,14 @@ WalkSession::WalkSession(const WalkPlan& plan, record::TraceWriter* trace, Progr
       progress_(progress),
       label_(std::move(label)),
       robot_(world_, plan.entity, twin_options(plan)),
-      bus_(plan.params, robot_),
       walker_(std::in_place, plan.params, plan.velocity, plan.walk_s),
-      meter_(plan.entity, keep_series) {}
+      meter_(plan.entity, keep_series) {
+  if (plan.params.bus_protocol == BusProtocol::kCia402) {
+    can_.emplace(plan.params, robot_);
+  } else {
+    bus_.emplace(plan.params, robot_);
+  }
+}
 
 bool WalkSession::over() const {
   return over_ || interrupted();
@@ -69,6 +74,10 @@ void WalkSession::record(const TickRecord& tick, const State& state, const Outpu
   }
   const sim::Observation seen = sim::observe(robot_);
   meter_.tick(seen, outputs, sim::planned_zmp_world_m(state.tuning, state.gait, seen.truth));
+  if (can_ && result_.ticks == 0) {
+    bits_before_ = can_->bits_on_wire();
+    bare_bits_before_ = can_->bare_bits_on_wire();
+  }
   ++result_.ticks;
   result_.digest = tick.digest.chain;
   result_.faults = outputs.faults;
@@ -117,6 +126,7 @@ WalkResult WalkSession::result(double wall_s, std::string failure) {
     result_.metrics.fallen = verdict_.fell();
   }
   result_.series = meter_.series();
+  if (can_) count_traffic();
   result_.failure = std::move(failure);
   if (result_.failure.empty() && !result_.interrupted) result_.failure = failure_of_walk();
   if (result_.good() && walker_->longer_than_asked()) {
@@ -124,6 +134,16 @@ WalkResult WalkSession::result(double wall_s, std::string failure) {
                                  plan_.walk_s, result_.metrics.walk_s);
   }
   return std::move(result_);
+}
+
+void WalkSession::count_traffic() {
+  const double ticks = std::max(1.0, static_cast<double>(result_.ticks) - 1);
+  const auto each_tick = [&](std::uint64_t now, std::uint64_t before) {
+    return static_cast<double>(now - before) / ticks;
+  };
+  result_.can =
+      CanTraffic{each_tick(can_->bits_on_wire(), bits_before_),
+                 each_tick(can_->bare_bits_on_wire(), bare_bits_before_), can_->errors().overruns};
 }
 
 /// A disk that is full costs the trace, not the walk.
@@ -141,6 +161,10 @@ void WalkSession::append(const TickRecord& tick, const State& state, std::uint32
 std::string WalkSession::failure_of_walk() const {
   constexpr std::uint32_t kStopping = 0xFFFF;  // the lower half of Fault stops the robot
   if (watched_) return verdict_.fell() ? "fell" : "";
+  if (result_.can && result_.can->overruns > 0) {
+    return fmt::format("the controller lost {} CAN frames that it had no room for",
+                       result_.can->overruns);
+  }
   if (result_.metrics.fallen) {
     return fmt::format("fell after {:.2f} s of gait", walked_s());
   }

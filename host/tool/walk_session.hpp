@@ -5,6 +5,7 @@
 
 #include "firmware/app/contracts.hpp"
 #include "host/bus/virtual_bus.hpp"
+#include "host/can/virtual_can.hpp"
 #include "host/record/trace_writer.hpp"
 #include "host/sim/metrics.hpp"
 #include "host/sim/robot.hpp"
@@ -23,7 +24,9 @@ class WalkSession {
   WalkSession(const WalkPlan& plan, record::TraceWriter* trace, Progress& progress,
               std::string label, bool keep_series);
 
-  bus::VirtualBus& bus() { return bus_; }
+  /// The bus that the plan's Params speak of; the other one is not there.
+  bus::VirtualBus& bus() { return *bus_; }
+  can::VirtualCan& can() { return *can_; }
   WalkOperator& walker() { return *walker_; }
   /// The controller began anew, on the robot as it is: the operator has it stand up and walk for
   /// what is left of the time. The trace ends before: a tick has no other one to follow there.
@@ -51,6 +54,7 @@ class WalkSession {
   void append(const TickRecord& tick, const State& state, std::uint32_t faults,
               const sim::Transform& body_world);
   std::string failure_of_walk() const;
+  void count_traffic();
   double walked_s() const;
   bool has_torque();
 
@@ -60,11 +64,13 @@ class WalkSession {
   std::string label_;
   sim::World world_;
   sim::TwinRobot robot_;
-  bus::VirtualBus bus_;
+  std::optional<bus::VirtualBus> bus_;
+  std::optional<can::VirtualCan> can_;
   std::optional<WalkOperator> walker_;
   double walked_s_ = 0;  ///< by controllers that are no more
   sim::WalkMeter meter_;
   WalkResult result_;
+  std::uint64_t bits_before_ = 0, bare_bits_before_ = 0;  ///< the first tick
   FallVerdict verdict_;
   double begun_s_ = 0;  ///< when torque was first seen, in simulated time
   double after_s_ = 0;

@@ -5,10 +5,12 @@
 
 #include "firmware/app/link_bus.hpp"
 #include "firmware/store/flash_store.hpp"
+#include "hal/chip/stm32/bxcan.hpp"
 #include "hal/chip/stm32/flash_pages.hpp"
 #include "hal/chip/stm32/usart.hpp"
 #include "hal/chip/stm32/watchdog.hpp"
 #include "tests/contract/fakes.hpp"
+#include "tests/support/stm32/can_rig.hpp"
 #include "tests/support/stm32/dma_model.hpp"
 #include "tests/support/stm32/flash_model.hpp"
 #include "tests/support/stm32/imu_rig.hpp"
@@ -142,6 +144,33 @@ struct UsartBus {
   int left;
   app::LinkBus<std::remove_reference_t<decltype(pair.near())>, ChipTimer> bus{pair.near(),
                                                                               pair.clock()};
+};
+
+/// A chip's bxCAN on a bus with another node.
+template <Family kFamily>
+struct ChipCan {
+  static constexpr std::uint32_t kPlenty_us = 20'000;
+  static constexpr std::uint64_t kSlack_us = 200;  // each access of the driver takes time
+  static constexpr bool kBusOff = true;
+
+  void far_send(const CanFrame& frame) { board.can.send(frame); }
+  bool far_take(CanFrame& frame) {
+    if (taken == board.can.sent().size()) return false;
+    frame = board.can.sent()[taken++].frame;
+    return true;
+  }
+  void fill_and_bus_off(const CanFrame& frame, int count) {
+    board.can.break_next = 1000;
+    for (int i = 0; i < count; ++i) EXPECT_TRUE(bus.send(frame));
+    for (int i = 0; i < 100 && bus.errors().bus_offs == 0; ++i) {
+      board.rig.machine.advance(hal::stm32::model::us(100));
+    }
+    board.can.break_next = 0;
+  }
+
+  hal::stm32::test::CanRig board{kFamily};
+  hal::stm32::test::Can& bus = board.driver;
+  std::size_t taken = 0;
 };
 
 struct ChipTicks {

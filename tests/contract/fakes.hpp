@@ -10,6 +10,7 @@
 #include "hal/fake/memory_link.hpp"
 #include "hal/fake/memory_store.hpp"
 #include "hal/fake/scripted_bus.hpp"
+#include "hal/fake/scripted_can.hpp"
 #include "hal/fake/scripted_imu.hpp"
 
 /// The fakes of hal/fake as backends of the suites: on the PC and on target.
@@ -45,6 +46,23 @@ struct Scripted : SimulatedTime {
 
 struct ScriptedInPieces : Scripted {
   explicit ScriptedInPieces(int pings) : Scripted(pings) { bus.set_piece(3); }
+};
+
+/// A CanBus backend: `bus` is one node, of which the other one is the test's: far_send() puts a
+/// frame onto the wire as soon as it is free, far_take() is the next one that node has heard.
+/// kPlenty_us is enough for hal::kCanQueue frames. kBusOff: fill_and_bus_off() makes so many frames
+/// wait and the node then leave the bus for too many errors.
+struct ScriptedWire : SimulatedTime {
+  static constexpr bool kBusOff = true;
+  void far_send(const CanFrame& frame) { bus.inject(frame, bus.now_us() + 100); }
+  bool far_take(CanFrame& frame) { return bus.take_sent(frame); }
+  void fill_and_bus_off(const CanFrame& frame, int count) {
+    bus.hold(true);
+    for (int i = 0; i < count; ++i) bus.send(frame);
+    bus.bus_off();
+    bus.hold(false);
+  }
+  hal::ScriptedCan bus;
 };
 
 /// A ByteLink backend: `near()` is the end under test; cut() takes the far end away, mend() brings

@@ -65,12 +65,24 @@ test_symbols() {
   symbols_case 'a constant table' '' '-fPIC' 'extern const char* const t[]; const char* const t[] = {"a", "b"};'
   symbols_case 'a call of libm' 'must not need' '' 'extern "C" float sinf(float); float f(float x) { return sinf(x); }'
   symbols_case 'a heap' 'must not need' '' 'int* f() { return new int; }'
+  symbols_case 'soft floats where there is an FPU' 'must not need' '' 'extern "C" float __addsf3(float, float); float f(float a) { return __addsf3(a, a); }'
   symbols_case 'a counter' 'a run can change' '' 'int f() { static int n; return ++n; }'
   symbols_case 'initialised data' 'a run can change' '' 'int n = 3;'
   symbols_case 'a constructor before main' 'a run can change' '' 'extern int g(); extern const int n; const int n = g();'
   symbols_case 'fused multiply-add' 'fused or double' '-mfma -ffp-contract=fast' 'float f(float a, float b, float c) { return a * b + c; }'
   symbols_case 'double arithmetic' 'fused or double' '' 'double f(double a) { return a * 3.0; }'
+  disassembly_case 'Helium with integers' '' '   4:  vadd.i32  q0, q0, q1'
+  disassembly_case 'one float' '' '   4:  vadd.f32  s0, s0, s1'
+  disassembly_case 'Helium with floats' 'flush subnormals' '   4:  vadd.f32  q0, q0, q1'
+  disassembly_case 'Helium converting' 'flush subnormals' '   4:  vcvt.f32.s32  q0, q1'
   symbols_case 'a general product' 'general products' '' 'void gebp() {}'
+}
+
+# Says what a disassembler would of code for another core than the compiler's.
+disassembly_case() { # what reason line
+  printf '#!/bin/sh\n[ "$1" != -d ] || echo "%s"\n' "$3" >"$scratch/objdump"
+  chmod +x "$scratch/objdump"
+  objdump=$scratch/objdump symbols_case "$1" "$2" '' 'int f() { return 1; }'
 }
 
 test_format() {

@@ -5,6 +5,7 @@
 #  - Eigen chose no general matrix product: those allocate
 #  - it holds no data that a run could change, and nothing that runs before main
 #  - no fused multiply-add and no double-precision instruction: both would change bits between machines
+#  - no Arm vectors of floats: they flush subnormals
 set -euo pipefail
 shopt -s lastpipe # so that `complain` at the end of a pipe can set `bad`
 
@@ -20,6 +21,8 @@ complain() { # reason, then the offending lines on stdin; nothing on stdin is no
 
 allowed='memcpy|memmove|memset|memcmp|_GLOBAL_OFFSET_TABLE_|__aeabi_mem(cpy|move|set|clr)[48]?'
 allowed+='|__aeabi_(u?idiv(mod)?|u?ldivmod|lmul|l(lsl|lsr|asr)|u?lcmp|u?l2f|f2u?lz)'
+allowed+='|__(u?divdi3|u?moddi3|muldi3|(ashl|ashr|lshr)di3|(clz|ctz|bswap|popcount)[sd]i2)' # RISC-V's names
+[[ $float != soft ]] || allowed+='|__((add|sub|mul|div|neg)sf3|(eq|ne|lt|le|gt|ge|unord)sf2|float(un)?sisf|fix(uns)?sfsi)'
 [[ $float != soft ]] || allowed+='|sqrtf|__aeabi_(c?f(add|sub|rsub|mul|div|neg|cmp(eq|lt|le|ge|gt|un)|cmple|rcmple|cmpeq)|u?i2f|f2u?iz)'
 
 symbols=$("$nm" "$archive" 2>/dev/null)
@@ -36,4 +39,7 @@ awk 'NF == 2 && $1 == "U" { wanted[$2] } NF == 3 { defined[$3] }
 "$objdump" -d --no-show-raw-insn "$archive" |
   { grep -iE '[[:space:]](vfn?m[as]|vfmadd|vfmsub|vfnm|fn?m(add|sub)|[a-z.0-9]+\.f64|v?(add|sub|mul|div|sqrt|cvtss2|cvtsi2)sd)' || true; } |
   complain "has fused or double-precision instructions"
+"$objdump" -d --no-show-raw-insn "$archive" |
+  { grep -iE '[[:space:]]v[a-z]+\.f(16|32)(\.[a-z0-9]+)?[[:space:]]+q[0-7]' || true; } |
+  complain "has vectors of floats, which flush subnormals on Arm"
 exit "$bad"

@@ -1,15 +1,12 @@
 #include <gtest/gtest.h>
 
-#include <cstdio>
-#include <cstdlib>
 #include <functional>
-#include <map>
-#include <numeric>
 #include <string>
 #include <vector>
 
-#include "common/safety/machine.hpp"
+#include "tests/hil/campaign_table.hpp"
 #include "tests/hil/fault_run.hpp"
+#include "tests/hil/promises.hpp"
 
 // 200 runs of a robot that walks while its servo bus goes wrong, in bus time: whatever happens, the
 // controller stays in the safe table, never waits longer than its requests may take, and tells its
@@ -23,9 +20,6 @@ namespace {
 
 using dxl::controller::DeviceState;
 
-enum Mode { kRelaxed, kRising, kStanding, kWalking, kHolding, kSitting, kFallen, kStopped };
-constexpr const char* kNames[] = {"relaxed", "rising",  "standing", "walking",
-                                  "holding", "sitting", "fallen",   "stopped"};
 constexpr int kBus = dxl::controller::kDeviceBus;
 
 const Robot& robot() {
@@ -33,28 +27,13 @@ const Robot& robot() {
   return loaded;
 }
 
-std::size_t row(const FaultResult& result) {
-  return static_cast<std::size_t>(result.joint);
-}
-bool was(const FaultResult& result, Mode mode) {
-  return (result.seen >> mode & 1u) != 0;
-}
-std::uint32_t missed_reports(const Registers& registers) {
-  return std::accumulate(registers.errors.begin(), registers.errors.begin() + kBus, 0u);
-}
-
 // What each kind promises besides what all do, as the operator sees it.
-
-void keeps_walking(const FaultResult& result) {
-  EXPECT_EQ(result.walking_ticks, result.ticks) << "left its walk";
-  EXPECT_FALSE(result.fallen);
-}
 
 /// A read of which a byte was lost or changed shows: in a timeout, or with the device whose report
 /// it was.
 void shows_each_spoilt_read(const FaultResult& result) {
   EXPECT_GT(result.damage.spoilt_reads, 0u);
-  EXPECT_GE(result.after.timeouts + missed_reports(result.after), result.damage.spoilt_reads);
+  EXPECT_GE(result.after.timeouts + result.after.missed_reports(), result.damage.spoilt_reads);
 }
 
 void lost_few(const FaultResult& result) {
@@ -79,7 +58,7 @@ void flipped(const FaultResult& result) {
 void doubled(const FaultResult& result) {
   EXPECT_GT(result.after.crc_errors, 0u);
   EXPECT_GT(result.after.noise, 0u);
-  EXPECT_GT(result.after.timeouts + missed_reports(result.after), 0u);
+  EXPECT_GT(result.after.timeouts + result.after.missed_reports(), 0u);
   keeps_walking(result);
 }
 
@@ -105,120 +84,21 @@ void noise(const FaultResult& result) {
   keeps_walking(result);
 }
 
-void gone_briefly(const FaultResult& result) {
-  EXPECT_EQ(result.during.state[row(result)], DeviceState::kStale);
-  EXPECT_GE(result.during.errors[row(result)], 9u);
-  EXPECT_EQ(result.during.fresh >> row(result) & 1u, 0u);
-  EXPECT_TRUE(was(result, kHolding));
-  EXPECT_EQ(result.after.state[row(result)], DeviceState::kGood) << "it is back";
-}
-
-void let_go(const FaultResult& result) {
-  EXPECT_TRUE(was(result, kSitting));
-  EXPECT_TRUE(was(result, kRelaxed));
-}
-
-void gone_for_good(const FaultResult& result) {
-  EXPECT_EQ(result.after.state[row(result)], DeviceState::kLost);
-  EXPECT_GE(result.after.age[row(result)], 250u);
-  EXPECT_EQ(result.after.state[kBus], DeviceState::kGood) << "one servo is not the bus";
-  EXPECT_TRUE(was(result, kHolding));
-  EXPECT_TRUE(was(result, kSitting) || was(result, kFallen));
-  EXPECT_TRUE(result.after.mode == kRelaxed || result.after.mode == kFallen);
-}
-
-void repeats(const FaultResult& result) {
-  EXPECT_GT(result.during.errors[row(result)], 0u);
-  EXPECT_EQ(missed_reports(result.during), result.during.errors[row(result)]) << "others are well";
-  EXPECT_EQ(result.during.timeouts, 0u) << "the bus is well";
-  EXPECT_EQ(result.after.state[row(result)], DeviceState::kGood);
-  keeps_walking(result);
-}
-
-void late(const FaultResult& result) {
-  EXPECT_GE(result.after.misses, result.events) << "each was longer than a period";
-  EXPECT_GE(result.after.overruns, result.events);
-  keeps_walking(result);
-}
-
-void cut(const FaultResult& result) {
-  EXPECT_GT(result.during.timeouts, 0u);
+void cut_all(const FaultResult& result) {
   EXPECT_GE(result.during.timeouts, result.damage.spoilt_reads);
-  EXPECT_NE(result.during.state[kBus], DeviceState::kGood);
-  EXPECT_EQ(result.during.fresh, 0u);
-  EXPECT_TRUE(was(result, kHolding));
-  EXPECT_EQ(result.after.state[kBus], DeviceState::kGood) << "the bus is back";
-}
-
-void reset(const FaultResult& result) {
-  constexpr int kWatchdog = static_cast<int>(dxl::controller::ResetCause::kWatchdog);
-  EXPECT_EQ(result.after.reset_cause, kWatchdog);
-  EXPECT_LT(result.after.tick, result.before.tick + result.ticks) << "it counts anew";
-}
-
-/// The walk ends on both feet, in time, and the robot stands as long as it lasts.
-void stops_walking(const FaultResult& result, std::uint32_t fault) {
-  EXPECT_EQ(result.before.faults & fault, 0u);
-  EXPECT_EQ(result.during.faults & fault, fault);
-  EXPECT_EQ(result.during.mode, kStanding) << kNames[result.during.mode];
-  EXPECT_FALSE(was(result, kHolding)) << "nobody was silent";
-}
-
-// One servo of all, whichever; the others are well.
-void hot(const FaultResult& result) {
-  stops_walking(result, safety::kFaultTemperature);
-}
-
-void low_voltage(const FaultResult& result) {
-  stops_walking(result, safety::kFaultVoltage);
-}
-
-// A servo that has shut itself off is no servo any more: the robot is let down.
-void overheated(const FaultResult& result) {
-  constexpr std::uint32_t kBoth = safety::kFaultServoError | safety::kFaultTemperature;
-  EXPECT_EQ(result.after.faults & kBoth, kBoth);
-  EXPECT_TRUE(was(result, kHolding));
-  EXPECT_EQ(result.after.mode, kRelaxed) << kNames[result.after.mode];
-}
-
-void no_imu(const FaultResult& result) {
-  EXPECT_NE(result.during.faults & safety::kFaultImuSilent, 0u);
-  EXPECT_EQ(result.during.faults & safety::kFaultServoSilent, 0u);
-  EXPECT_TRUE(was(result, kHolding));
-  EXPECT_TRUE(was(result, kSitting)) << "silent for longer than stale_release_s";
-}
-
-void imu_gone(const FaultResult& result) {
-  constexpr int kImu = dxl::controller::kDeviceImu;
-  EXPECT_EQ(result.during.state[kImu], DeviceState::kLost);
-  EXPECT_EQ(result.after.state[kImu], DeviceState::kGood) << "it is back";
-  no_imu(result);
-}
-
-// It answers, and still it is not well: the operator sees that too.
-void imu_repeats(const FaultResult& result) {
-  constexpr int kImu = dxl::controller::kDeviceImu;
-  EXPECT_EQ(result.during.state[kImu], DeviceState::kStale);
-  EXPECT_GT(result.during.errors[kImu], 0u);
-  EXPECT_EQ(result.during.timeouts, 0u) << "the bus is well";
-  EXPECT_EQ(result.after.state[kImu], DeviceState::kGood) << "it is back";
-  no_imu(result);
+  cut(result);
 }
 
 void everything(const FaultResult& result) {
   EXPECT_GT(result.after.crc_errors, 0u);
   EXPECT_GT(result.after.timeouts, 0u);
   EXPECT_GT(result.after.noise, 0u);
-  EXPECT_GT(missed_reports(result.after), 0u);
-}
-
-void walks_again(const FaultResult& result) {
-  EXPECT_EQ(result.after.mode, kWalking) << kNames[result.after.mode];
+  EXPECT_GT(result.after.missed_reports(), 0u);
 }
 
 struct Kind {
   FaultPlan plan;
-  std::vector<void (*)(const FaultResult&)> promises;
+  std::vector<std::function<void(const FaultResult&)>> promises;
   bool as_far = false;  ///< as the same robot without the fault
 };
 
@@ -253,8 +133,8 @@ const std::vector<Kind>& kinds() {
       {{"servo_gone_for_good", 13, false, {}, Event::kServoGone}, {gone_for_good}},
       {{"stale_values", 12, false, {}, Event::kServoRepeats, 1}, {repeats}},
       {{"late_loop", 6, false, {}, Event::kLateLoop}, {late}},
-      {{"cut_0_2_s_physics", 3, true, {.cut = true}, Event::kNone, 0.2}, {cut}},
-      {{"cut_1_s", 9, false, {.cut = true}, Event::kNone, 1, 8}, {cut, walks_again}},
+      {{"cut_0_2_s_physics", 3, true, {.cut = true}, Event::kNone, 0.2}, {cut_all}},
+      {{"cut_1_s", 9, false, {.cut = true}, Event::kNone, 1, 8}, {cut_all, walks_again}},
       {{"controller_reset_physics", 3, true, {}, Event::kReset}, {reset}},
       {{"controller_reset", 7, false, {}, Event::kReset, 0, 6}, {reset, walks_again}},
       {{"hot_servo", 3, false, {}, Event::kHot, 3, 6}, {hot, walks_again}},
@@ -270,7 +150,7 @@ void keeps_what_all_promise(const Kind& kind, const FaultResult& result) {
   ASSERT_TRUE(result.ready) << result.violation;
   EXPECT_EQ(result.violation, "");
   EXPECT_GT(result.damage.faults() + result.events, 0u) << "nothing was done to it";
-  EXPECT_EQ(result.before.counted() + missed_reports(result.before), 0u) << "all was well before";
+  EXPECT_EQ(result.before.counted() + result.before.missed_reports(), 0u) << "all was well before";
   EXPECT_LT(result.worst_tick_us, robot().params.period_us) << "it waited for longer than a tick";
   if (kind.plan.event == Event::kLateLoop) return;
   EXPECT_EQ(result.after.misses, 0u) << "no cable may cost the loop its time";
@@ -287,65 +167,31 @@ void went_as_far(const Kind& kind, const FaultResult& result, std::uint32_t seed
   EXPECT_NEAR(result.distance_m, expected_m, 0.02 * expected_m);
 }
 
-struct Row {
-  int runs = 0;
-  std::uint64_t injected = 0, counted = 0;
-  std::map<int, int> ends;
-};
-
-std::string to_text(const Kind& kind, const Row& sum) {
-  std::string ends;
-  for (const auto& [mode, count] : sum.ends) {
-    ends += (ends.empty() ? "" : ", ") + std::to_string(count) + " " + kNames[mode];
-  }
-  char line[200];
-  std::snprintf(line, sizeof line, "%-28s %5d %9llu %9llu  %s", kind.plan.name, sum.runs,
-                static_cast<unsigned long long>(sum.injected),
-                static_cast<unsigned long long>(sum.counted), ends.c_str());
-  return line;
-}
-
-/// Prints what all kinds came to.
-struct Table : ::testing::Environment {
-  void TearDown() override {
-    if (rows.empty()) return;
-    std::printf("%-28s %5s %9s %9s  %s\n", "fault", "runs", "injected", "counted", "ends");
-    for (const std::string& each : rows) std::printf("%s\n", each.c_str());
-  }
-  static inline std::vector<std::string> rows;
-};
-[[maybe_unused]] const auto* const kTablePrinter = ::testing::AddGlobalTestEnvironment(new Table);
-
-int setting(const char* name) {
-  const char* value = std::getenv(name);
-  return value == nullptr ? 0 : std::atoi(value);
-}
-
 void run_kind(const Kind& kind, int runs) {
-  const int only = setting("VERP_SEED");
-  Row sum;
+  const int only = campaign_setting("VERP_SEED");
+  CampaignRow sum;
   for (int seed = 1; seed <= runs; ++seed) {
     if (only != 0 && seed != only) continue;
     SCOPED_TRACE("VERP_SEED=" + std::to_string(seed) + " of " + kind.plan.name);
     const FaultResult result = run_fault(robot(), kind.plan, static_cast<std::uint32_t>(seed));
     keeps_what_all_promise(kind, result);
-    for (const auto promise : kind.promises) promise(result);
+    for (const auto& promise : kind.promises) promise(result);
     if (kind.as_far) went_as_far(kind, result, static_cast<std::uint32_t>(seed));
     ++sum.runs;
     sum.injected += result.damage.faults() + result.events;
-    sum.counted += result.after.counted() + missed_reports(result.after) +
+    sum.counted += result.after.counted() + result.after.missed_reports() +
                    (result.after.reset_cause > 1 ? 1 : 0);
     ++sum.ends[result.after.mode];
   }
   EXPECT_GT(sum.runs, 0) << "no such seed";
-  Table::rows.push_back(to_text(kind, sum));
+  note_campaign_row(kind.plan.name, sum);
 }
 
 class Campaign : public ::testing::TestWithParam<std::size_t> {};
 
 TEST_P(Campaign, StaysSafeAndTells) {
   const Kind& kind = kinds()[GetParam()];
-  const int most = setting("VERP_RUNS");
+  const int most = campaign_setting("VERP_RUNS");
   run_kind(kind, most > 0 && most < kind.plan.runs ? most : kind.plan.runs);
 }
 

@@ -1,14 +1,13 @@
 #include "tests/hil/fault_run.hpp"
 
 #include <algorithm>
-#include <array>
 #include <memory>
 #include <optional>
-#include <utility>
 
 #include "host/sim/robot.hpp"
 #include "host/sim/world.hpp"
 #include "tests/hil/level_plant.hpp"
+#include "tests/hil/run_watch.hpp"
 #include "tests/hil/software_board.hpp"
 
 namespace verp::test {
@@ -19,14 +18,12 @@ using app::reg;
 
 constexpr std::uint8_t kWalking = 3;
 constexpr std::uint32_t kOrderTicks = 10;
-constexpr double kUpright_s = 8;               // standing up and learning the gyro's bias take less
-constexpr double kFirstSteps_s = 1.2;          // of walking before the fault
-constexpr std::uint64_t kLimp_us = 1'500'000;  // torque off reaches every servo by then
-constexpr std::uint64_t kFall_us = 1'000'000;  // for tilt to be seen and confirmed
-constexpr double kLyingUp = 0.5;               // 60 degrees; the table says fallen at 46
-constexpr double kHot_c = 76;                  // beyond temperature_high_c, below a shutdown
-constexpr double kTooHot_c = 90;               // beyond the servo's own limit, 80
-constexpr double kLow_v = 9.5;                 // below voltage_low_v, not below the servo's own
+constexpr double kUpright_s = 8;       // standing up and learning the gyro's bias take less
+constexpr double kFirstSteps_s = 1.2;  // of walking before the fault
+constexpr double kLyingUp = 0.5;       // 60 degrees; the table says fallen at 46
+constexpr double kHot_c = 76;          // beyond temperature_high_c, below a shutdown
+constexpr double kTooHot_c = 90;       // beyond the servo's own limit, 80
+constexpr double kLow_v = 9.5;         // below voltage_low_v, not below the servo's own
 constexpr std::int16_t kSpeed_tenth_mm_s = 1778;  // two 4 cm steps in 0.450 s
 
 class FaultRun {
@@ -43,16 +40,17 @@ class FaultRun {
       level_.emplace(robot.params);
       plant_ = std::make_unique<SickPlant>(*level_);
     }
+    watch_.emplace(params_, *plant_);
     bus_.emplace(params_, *plant_);
     line_.emplace(*bus_, seed);
     result_.joint = static_cast<int>(random_() % params_.joint_count);
   }
 
   FaultResult run() {
-    if (!power_up(table::ResetCause::kPower)) return result_;
+    if (!power_up(table::ResetCause::kPower)) return unready();
     desk_.write(reg("request"), {0});
     const double walk_s = kFirstSteps_s + 1e-3 * static_cast<double>(random_() % 500);
-    if (!walk_for(walk_s)) return result_;
+    if (!walk_for(walk_s)) return unready();
     result_.ready = true;
     result_.before = registers();
     start_m_ = position();
@@ -67,6 +65,10 @@ class FaultRun {
   }
 
  private:
+  FaultResult unready() {
+    result_.violation = watch_->violation();
+    return result_;
+  }
   double seconds(std::uint64_t ticks) const {
     return 1e-6 * static_cast<double>(ticks * params_.period_us);
   }
@@ -177,15 +179,24 @@ class FaultRun {
   void tick() {
     if (ticks_++ % kOrderTicks == 0) give_order();
     const std::uint64_t due_us = controller_->clock.due_us();
-    if (level_) note_positions(due_us);
+    const int joint = result_.joint;
+    if (level_) {
+      line_->wait_until(due_us);
+      watch_->note_positions(controller_->loop.outputs());
+    }
     controller_->tick();
-    if (level_) watch_positions();
-    watch_silence();
+    const Inputs& inputs = controller_->loop.inputs();
+    const Outputs& outputs = controller_->loop.outputs();
+    const bool repeats = plan_.event == Event::kServoRepeats;
+    if (level_) watch_->watch_positions(inputs, repeats ? joint : RunWatch::kNobody);
+    watch_->watch_silence(inputs);
     watch_gains();
     const std::uint64_t begun_us = std::max(due_us, late_us_);
     result_.worst_tick_us = std::max(result_.worst_tick_us, line_->now_us() - begun_us);
-    watch_torque();
-    watch_fall();
+    const bool gone = plan_.event == Event::kServoGone;
+    watch_->watch_torque(outputs, line_->now_us(), line_->faults.cut,
+                         gone ? joint : RunWatch::kNobody);
+    watch_->watch_fall(outputs, line_->now_us(), lies());
   }
 
   /// A program that repeats its order does not raise a robot whose controller was reset: it takes
@@ -206,17 +217,6 @@ class FaultRun {
          static_cast<std::uint8_t>(speed), static_cast<std::uint8_t>(speed >> 8), 0, 0, 0, 0});
   }
 
-  void watch_silence() {
-    const Inputs& inputs = controller_->loop.inputs();
-    int longest = (inputs.flags & kImuFresh) != 0 ? silent_[kMaxJoints] = 0 : ++silent_[kMaxJoints];
-    for (std::size_t j = 0; j < static_cast<std::size_t>(params_.joint_count); ++j) {
-      silent_[j] = (inputs.fresh >> j & 1) != 0 ? 0 : silent_[j] + 1;
-      longest = std::max(longest, silent_[j]);
-    }
-    const double silent_s = seconds(static_cast<std::uint64_t>(longest));
-    const double half_s = seconds(1) / 2;  // how it rounds is the core's affair
-    result_.stale = result_.stale || silent_s > params_.tuning.safety.stale_hold_s - half_s;
-  }
   void watch_gains() {
     unready_ = unready_ && controller_->loop.outputs().torque_enable != 0;
     for (int j = 0; j < params_.joint_count; ++j) {
@@ -230,75 +230,10 @@ class FaultRun {
       if (unready_ && j == result_.joint) fault("a servo without power was thrown at its goal");
     }
   }
-  /// Where each servo stands, and where it is bound for: what it tells next lies between. A goal
-  /// that the line's noise held up may reach it only with the next request.
-  void note_positions(std::uint64_t due_us) {
-    line_->wait_until(due_us);
-    for (int j = 0; j < params_.joint_count; ++j) {
-      const std::int32_t stands = level_->measure(j).position_count;
-      const bool moves = level_->setpoint(j).torque_on;
-      tells_[static_cast<std::size_t>(j)] =
-          moves ? std::minmax({stands, level_->setpoint(j).goal_count,
-                               controller_->loop.outputs().goal_count[j]})
-                : std::pair{stands, stands};
-    }
-  }
-  void watch_positions() {
-    const Inputs& inputs = controller_->loop.inputs();
-    for (int j = 0; j < params_.joint_count; ++j) {
-      const auto [low, high] = tells_[static_cast<std::size_t>(j)];
-      const bool repeats = plan_.event == Event::kServoRepeats && j == result_.joint;
-      const bool fresh = (inputs.fresh >> j & 1) != 0 && !repeats;
-      if (fresh && (inputs.position_count[j] < low || inputs.position_count[j] > high)) {
-        fault("joint " + std::to_string(j) + "'s position was old");
-      }
-    }
-  }
+  bool lies() const { return body_ && body_->truth().body_world.linear()(2, 2) < kLyingUp; }
+  Registers registers() { return read_registers(desk_); }
 
-  /// A robot that lies on the floor is limp soon, whatever its controller knows.
-  void watch_fall() {
-    const bool lies = body_ && body_->truth().body_world.linear()(2, 2) < kLyingUp;
-    if (!lies) fallen_us_ = line_->now_us();
-    if (line_->now_us() < fallen_us_ + kFall_us) return;
-    if (controller_->loop.outputs().torque_enable != 0) fault("it has fallen, and is not limp");
-  }
-
-  /// A limp robot's servos are limp, even those whose frames were lost.
-  void watch_torque() {
-    const bool limp = controller_->loop.outputs().torque_enable == 0;
-    if (!limp || line_->faults.cut) limp_since_us_ = line_->now_us();
-    if (line_->now_us() < limp_since_us_ + kLimp_us) return;
-    const bool gone = plan_.event == Event::kServoGone;
-    for (int j = 0; j < params_.joint_count; ++j) {
-      if (gone && j == result_.joint) continue;
-      if (plant_->setpoint(j).torque_on) {
-        fault("joint " + std::to_string(j) + " kept its torque on a limp robot");
-      }
-    }
-  }
-
-  Registers registers() {
-    Registers all;
-    all.mode = desk_.read<std::uint8_t>(reg("mode"));
-    all.reset_cause = desk_.read<std::uint8_t>(reg("reset_cause"));
-    all.tick = desk_.counter("tick");
-    all.faults = desk_.counter("faults");
-    all.fresh = desk_.counter("joints_fresh");
-    all.crc_errors = desk_.counter("bus_crc_errors");
-    all.timeouts = desk_.counter("bus_timeouts");
-    all.strays = desk_.counter("bus_strays");
-    all.noise = desk_.counter("bus_noise");
-    all.overruns = desk_.counter("overruns");
-    all.misses = desk_.counter("skipped_periods");
-    all.state = desk_.read<decltype(all.state)>(reg("device_state"));
-    all.age = desk_.read<decltype(all.age)>(reg("device_age"));
-    all.errors = desk_.read<decltype(all.errors)>(reg("device_errors"));
-    return all;
-  }
-
-  void fault(const std::string& what) {
-    if (result_.violation.empty()) result_.violation = what;
-  }
+  void fault(const std::string& what) { watch_->fault(what); }
   void keep(const SafeTable& safe) {
     result_.seen |= safe.seen();
     if (!safe.violation().empty()) fault(safe.violation());
@@ -308,6 +243,8 @@ class FaultRun {
     result_.after = registers();
     result_.damage = line_->damage();
     result_.distance_m = (position() - start_m_).norm();
+    result_.violation = watch_->violation();
+    result_.stale = watch_->stale();
     result_.fallen = body_ && body_->truth().fallen;
   }
 
@@ -318,18 +255,15 @@ class FaultRun {
   std::optional<sim::TwinRobot> body_;
   std::optional<LevelPlant> level_;
   std::unique_ptr<SickPlant> plant_;
+  std::optional<RunWatch> watch_;
   std::optional<bus::VirtualBus> bus_;
   std::optional<FaultyLine> line_;
   OperatorDesk desk_;
   std::unique_ptr<Controller> controller_;
   FaultResult result_;
-  std::array<std::pair<std::int32_t, std::int32_t>, kMaxJoints> tells_{};
-  std::array<int, kMaxJoints + 1> silent_{};  ///< ticks; the last is the IMU's
   Eigen::Vector2d start_m_ = Eigen::Vector2d::Zero();
   bool unready_ = false;       ///< result_.joint lost its power, and the robot has not let go since
   std::uint64_t late_us_ = 0;  ///< when the loop came back from being busy elsewhere
-  std::uint64_t limp_since_us_ = 0;
-  std::uint64_t fallen_us_ = 0;  ///< when it was last seen upright
   std::uint32_t ticks_ = 0;
 };
 

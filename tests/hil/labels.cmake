@@ -1,3 +1,5 @@
 set_tests_properties(${hil_serial} PROPERTIES LABELS "hil;scenario" TIMEOUT 900)
 set_tests_properties(${hil_sample} PROPERTIES LABELS "hil;unit" TIMEOUT 900)
 set_tests_properties(${hil_documented_bytes} PROPERTIES LABELS "hil;unit" TIMEOUT 120)
+set_tests_properties(${hil_can} PROPERTIES LABELS "hil;hil-can;scenario" TIMEOUT 900)
+set_tests_properties(${hil_can_sample} PROPERTIES LABELS "hil;hil-can;unit" TIMEOUT 900)

@@ -45,6 +45,7 @@ class FaultyLine {
   std::size_t poll(std::uint8_t* buffer, std::size_t capacity, std::uint32_t timeout_us);
   std::uint64_t now_us() const { return bus_.now_us(); }
 
+  std::uint64_t time_us() const { return now_us(); }
   /// Lets bus time go on while the controller does something else.
   void wait_until(std::uint64_t time_us);
 

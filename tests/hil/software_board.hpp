@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <vector>
 
 #include "firmware/app/app.hpp"
 #include "firmware/app/operator_device.hpp"
@@ -12,49 +13,55 @@
 namespace verp::test {
 
 /// A board's timer, which here goes by the bus.
+template <class Line>
 class BusClock {
  public:
-  explicit BusClock(FaultyLine& line) : line_(line) {}
+  explicit BusClock(Line& line) : line_(line) {}
   bool start(std::uint32_t period_us) {
     period_us_ = period_us;
-    next_us_ = line_.now_us() + period_us;
+    next_us_ = line_.time_us() + period_us;
     return true;
   }
   std::uint32_t wait() {
     line_.wait_until(next_us_);
-    const std::uint64_t begun = 1 + (line_.now_us() - next_us_) / period_us_;
+    const std::uint64_t begun = 1 + (line_.time_us() - next_us_) / period_us_;
     next_us_ += begun * period_us_;
     return static_cast<std::uint32_t>(begun);
   }
-  std::uint64_t now_us() const { return line_.now_us(); }
+  std::uint64_t now_us() const { return line_.time_us(); }
   /// When the next tick begins.
   std::uint64_t due_us() const { return next_us_; }
 
  private:
-  FaultyLine& line_;
+  Line& line_;
   std::uint32_t period_us_ = 0;
   std::uint64_t next_us_ = 0;
 };
-static_assert(hal::TickSource<BusClock>);
 
 using Device = app::OperatorDevice<hal::MemoryLink>;
 
-/// One life of a controller, from power-up to reset.
-struct Controller {
+/// One life of a controller, from power-up to reset. `Line` is its servo bus, of any kind, with
+/// time_us(), which a board's timer tells, and wait_until() such a time.
+template <class Line>
+struct ControllerOnBoard {
+  static_assert(hal::TickSource<BusClock<Line>>);
   struct Sink {
     void record(const TickRecord& record, const State& state, const Outputs& outputs) {
       safe.tick(record.inputs, outputs);
       device.record(record, state, outputs);
+      if (trace != nullptr) trace->push_back(record);
     }
     Device& device;
     SafeTable& safe;
+    std::vector<TickRecord>* trace;
   };
 
-  Controller(const Params& params, FaultyLine& line, OperatorDesk& desk,
-             dxl::controller::ResetCause cause)
+  /// `trace` may be null.
+  ControllerOnBoard(const Params& params, Line& line, OperatorDesk& desk,
+                    dxl::controller::ResetCause cause, std::vector<TickRecord>* trace = nullptr)
       : device(desk.controller_end(), params, {.reset_cause = cause}),
         safe(params),
-        sink{device, safe},
+        sink{device, safe, trace},
         loop(params, line, device, sink),
         clock(line),
         pacer(clock) {
@@ -75,9 +82,10 @@ struct Controller {
   Device device;
   SafeTable safe;
   Sink sink;
-  app::App<FaultyLine, Device, Sink> loop;
-  BusClock clock;
-  app::Pacer<BusClock> pacer;
+  app::App<Line, Device, Sink> loop;
+  BusClock<Line> clock;
+  app::Pacer<BusClock<Line>> pacer;
 };
+using Controller = ControllerOnBoard<FaultyLine>;
 
 }  // namespace verp::test

@@ -170,9 +170,11 @@ SerialRun run_over_serial(SerialBoard& board, const Robot& robot, std::uint32_t 
   Clock::time_point begun;
   bus::LockstepHooks hooks;
   hooks.refused = [](const std::string& why) { throw board::BoardError(why); };
-  hooks.sent = [&](auto frame) { shadow.sent(frame); };
+  hooks.sent = [&](auto frame) { shadow.sent({frame.begin(), frame.end()}); };
   hooks.damaged = [&] { shadow.damaged(); };
-  hooks.polled = [&](auto bytes, std::uint64_t now_us) { shadow.polled(bytes, now_us); };
+  hooks.polled = [&](auto bytes, std::uint64_t now_us) {
+    shadow.polled({bytes.begin(), bytes.end()}, now_us);
+  };
   hooks.tick_begins = [&](std::uint32_t tick) {
     if (tick == trouble.pause_before && trouble.pause) trouble.pause();
     const app::OperatorOrder order = orders.order(tick);

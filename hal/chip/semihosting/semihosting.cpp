@@ -14,12 +14,37 @@ enum class Call : std::uint32_t {
 };
 constexpr std::uint32_t kApplicationExit = 0x20026;  // ADP_Stopped_ApplicationExit
 
+// How a family of cores asks (the specification, "The semihosting interface"; RISC-V's own adds its
+// sequence, which must lie in one page of memory).
+#if defined(__riscv)
+std::int32_t call(Call number, const void* argument) {
+  register std::uint32_t a0 __asm__("a0") = static_cast<std::uint32_t>(number);
+  register const void* a1 __asm__("a1") = argument;
+  __asm__ volatile(
+      ".balign 16\n"
+      ".option push\n .option norvc\n"
+      "slli zero, zero, 0x1F\n"
+      "ebreak\n"
+      "srai zero, zero, 7\n"
+      ".option pop\n"
+      : "+r"(a0)
+      : "r"(a1)
+      : "memory");
+  return static_cast<std::int32_t>(a0);
+}
+#else
+#if __ARM_ARCH_PROFILE == 'M'
+#define VERP_SEMIHOSTING "bkpt 0xAB"
+#else
+#define VERP_SEMIHOSTING "svc 0x123456"
+#endif
 std::int32_t call(Call number, const void* argument) {
   register std::uint32_t r0 __asm__("r0") = static_cast<std::uint32_t>(number);
   register const void* r1 __asm__("r1") = argument;
-  __asm__ volatile("bkpt 0xAB" : "+r"(r0) : "r"(r1) : "memory");
+  __asm__ volatile(VERP_SEMIHOSTING : "+r"(r0) : "r"(r1) : "memory");
   return static_cast<std::int32_t>(r0);
 }
+#endif
 
 std::uint32_t word(const void* pointer) {
   return reinterpret_cast<std::uint32_t>(pointer);

@@ -60,6 +60,10 @@ class TickTimer {
     last_ = count;
     return high_ + count - origin_us_;
   }
+  /// The low 32 bits of now_us(): what interrupts may ask for.
+  std::uint32_t stamp_us() const {
+    return io_.read32(base_ + timer::kCnt) - static_cast<std::uint32_t>(origin_us_);
+  }
 
   /// Sleeps until the next interrupt or until now_us() is deadline_us, but not if `ready()`, which
   /// is asked with interrupts held back: what they bring cannot slip in before the sleep.

@@ -1,4 +1,5 @@
 #pragma once
+#include "tests/contract/can_chips.hpp"
 #include "tests/contract/chip_models.hpp"
 #include "tests/contract/fakes.hpp"
 
@@ -6,6 +7,8 @@
 namespace verp::test {
 
 using FrameBuses = ::testing::Types<Scripted, ScriptedInPieces, UsartBus>;
+using CanBuses =
+    ::testing::Types<ScriptedWire, Sja1000Chip, ZynqmpSilicon, ZynqmpQemu, ChipCan<Family::kF405>>;
 using ByteLinks = ::testing::Types<MemoryPair, UsartPair>;
 using Stores = ::testing::Types<InMemory, InFlash<1>, InFlash<2>, InFlash<4>, InFlash<8>,
                                 ChipFlash<Family::kF405>>;

@@ -3,10 +3,12 @@
 #include <thread>
 
 #include "host/link/system_clock.hpp"
+#include "tests/contract/can_chips.hpp"
 #include "tests/contract/chip_models.hpp"
 #include "tests/contract/fakes.hpp"
 #include "tests/contract/pc/buses.hpp"
 #include "tests/contract/pc/link_pairs.hpp"
+#include "tests/contract/pc/virtual_wire.hpp"
 #include "tests/contract/usb_pair.hpp"
 
 /// What each suite runs against on the PC.
@@ -25,6 +27,9 @@ using FrameBuses = ::testing::Types<
     LockstepOver<SerialPair<false>>, LockstepOver<SerialPair<true>>, LockstepOver<TcpPair<false>>,
     LockstepOver<UnixPair<true>>, LinkBusOver<SerialPair<false>>, LinkBusOver<TcpPair<false>>,
     LinkBusOver<UnixPair<true>>>;
+using CanBuses =
+    ::testing::Types<ScriptedWire, VirtualWire, Sja1000Chip, ZynqmpSilicon, ZynqmpQemu,
+                     ChipCan<Family::kF405>, ChipCan<Family::kF446>, ChipCan<Family::kF746>>;
 using ByteLinks =
     ::testing::Types<MemoryPair, UsartPair, UsbPair<Family::kF405, true>,
                      UsbPair<Family::kF746, false>, SerialPair<false>, SerialPair<true>,

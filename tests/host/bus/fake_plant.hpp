@@ -16,7 +16,8 @@ class FakePlant final : public sim::Plant {
     went_back = went_back || time_us < now_us_;
     now_us_ = time_us;
     for (std::size_t j = 0; j < setpoints.size(); ++j) {
-      if (setpoints[j].torque_on) measured[j].position_count = setpoints[j].goal_count;
+      if (setpoints[j].torque_on && !blocked[j])
+        measured[j].position_count = setpoints[j].goal_count;
     }
   }
   sim::ServoSetpoint& setpoint(int joint) override {
@@ -37,6 +38,7 @@ class FakePlant final : public sim::Plant {
   std::array<sim::ServoMeasurement, kMaxJoints> measured{};
   std::array<std::uint64_t, kMaxJoints> sampled_us{};
   sim::ImuMeasurement motion{{1, -2, 3}, {-4, 5, 4096}};
+  std::array<bool, kMaxJoints> blocked{};  ///< stays where it is
   bool went_back = false;
 
  private:

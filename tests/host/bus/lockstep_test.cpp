@@ -79,9 +79,11 @@ class Lockstep : public ::testing::Test {
       port.next = test::Walker{}.order(tick);
       shadow.ordered(port.next);
     };
-    hooks.sent = [this](auto frame) { shadow.sent(frame); };
+    hooks.sent = [this](auto frame) { shadow.sent({frame.begin(), frame.end()}); };
     hooks.damaged = [this] { shadow.damaged(); };
-    hooks.polled = [this](auto bytes, std::uint64_t now_us) { shadow.polled(bytes, now_us); };
+    hooks.polled = [this](auto bytes, std::uint64_t now_us) {
+      shadow.polled({bytes.begin(), bytes.end()}, now_us);
+    };
     hooks.refused = [this](const std::string& why) { refusal = why; };
     return hooks;
   }

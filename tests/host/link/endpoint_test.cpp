@@ -35,12 +35,14 @@ TEST(Endpoint, ReadsWhatTheManualSays) {
             (Endpoint{Kind::kTcpListen, "0.0.0.0", 0, 6000}));
   EXPECT_EQ(parse_endpoint("unix:/tmp/a:b"), (Endpoint{Kind::kUnix, "/tmp/a:b", 0, 0}));
   EXPECT_EQ(parse_endpoint("unix-listen:s"), (Endpoint{Kind::kUnixListen, "s", 0, 0}));
+  EXPECT_EQ(parse_endpoint("can:vcan0"), (Endpoint{Kind::kCan, "vcan0", 0, 0}));
+  EXPECT_EQ(parse_endpoint("can:can-of-fifteen!"), (Endpoint{Kind::kCan, "can-of-fifteen!", 0, 0}));
 }
 
 TEST(Endpoint, IsWrittenAsItIsRead) {
   for (const char* text :
        {"serial:/dev/ttyUSB0@2000000", "pty:", "pty:/tmp/robot", "tcp:host:6000", "tcp:[fe80::1]:1",
-        "tcp-listen:127.0.0.1:0", "unix:/run/a", "unix-listen:b"}) {
+        "tcp-listen:127.0.0.1:0", "unix:/run/a", "unix-listen:b", "can:can0"}) {
     EXPECT_EQ(to_text(parse_endpoint(text)), text);
   }
 }
@@ -77,6 +79,11 @@ TEST(Endpoint, RefusesWithARemedy) {
       {"tcp-listen:abc", "port"},
       {"unix:", "names no path"},
       {"unix-listen:", "names no path"},
+      {"can:", "names no interface"},
+      {"can:can0@1000000", "bit rate is the interface's"},
+      {"can:/dev/serial/by-id/adapter", "slcand -o -s8 /dev/serial/by-id/adapter can0"},
+      {"can:can0/", "no such names"},
+      {"can:sixteen-letters!", "15 characters"},
   };
   for (const auto& [text, says] : cases) {
     const std::string why = refusal(text);
@@ -93,8 +100,8 @@ TEST(Endpoint, IsTotal) {
   std::mt19937 random(1);
   const std::string letters = "serialptcunx-:/@[].0129 \t";
   for (int i = 0; i < 100'000; ++i) {
-    const char* heads[] = {"", "serial:/", "tcp:", "tcp-listen:", "unix:", "pty:"};
-    std::string text = heads[random() % 6];
+    const char* heads[] = {"", "serial:/", "tcp:", "tcp-listen:", "unix:", "pty:", "can:"};
+    std::string text = heads[random() % 7];
     for (std::size_t n = random() % 12; n > 0; --n) text += letters[random() % letters.size()];
     try {
       const Endpoint endpoint = parse_endpoint(text);

@@ -60,17 +60,17 @@ class ControllerPort {
 };
 
 /// Ends when the twin says stop or refuses, or with this object. At tick `reset_at` it is reset,
-/// once.
-class LinkController {
+/// once. `Lockstep<Port, Idle>` is its servo bus over a `Port`.
+template <class Port, template <class, class> class Lockstep>
+class ControllerOn {
  public:
-  LinkController(const Params& params, const std::string& bus, const std::string& operators,
-                 const std::function<void(ControllerPort&)>& prepare = {},
-                 std::uint32_t reset_at = 0)
+  ControllerOn(const Params& params, const std::string& bus, const std::string& operators,
+               const std::function<void(Port&)>& prepare = {}, std::uint32_t reset_at = 0)
       : params_(params), bus_port_(bus), operator_port_(operators), reset_at_(reset_at) {
     if (prepare) prepare(bus_port_);
     thread_ = std::thread([this] { run(); });
   }
-  ~LinkController() { join(); }
+  ~ControllerOn() { join(); }
   /// Waits for the end, which comes by itself once the twin has ended well.
   void join() {
     if (!thread_.joinable()) return;
@@ -88,7 +88,7 @@ class LinkController {
  private:
   /// From power-up on.
   struct Life {
-    Life(LinkController& owner)
+    Life(ControllerOn& owner)
         : device(owner.operator_port_, owner.params_, {}),
           bus(owner.bus_port_, Idle{&owner, &device}),
           loop(owner.params_, bus, device, device) {}
@@ -98,10 +98,10 @@ class LinkController {
         device->poll();
         return !controller->over_;
       }
-      LinkController* controller;
+      ControllerOn* controller;
       app::OperatorDevice<ControllerPort>* device;
     };
-    using Bus = app::LockstepBus<ControllerPort, Idle>;
+    using Bus = Lockstep<Port, Idle>;
     using Device = app::OperatorDevice<ControllerPort>;
     Device device;
     Bus bus;
@@ -127,7 +127,7 @@ class LinkController {
   }
 
   const Params params_;
-  ControllerPort bus_port_;
+  Port bus_port_;
   ControllerPort operator_port_;
   const std::uint32_t reset_at_;
   std::atomic<bool> over_ = false, done_ = false;
@@ -135,5 +135,6 @@ class LinkController {
   std::uint32_t spoilt_ = 0, ticks_ = 0;
   std::thread thread_;
 };
+using LinkController = ControllerOn<ControllerPort, app::LockstepBus>;
 
 }  // namespace verp::test

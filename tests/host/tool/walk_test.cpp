@@ -176,8 +176,10 @@ TEST_F(Walk, WhatWasNotMeasuredIsNullOrADash) {
   EXPECT_NE(text.out.find("- steady"), std::string::npos) << text.out;
   EXPECT_EQ(text.out.find("0.000 m/s"), std::string::npos) << text.out;
   EXPECT_NE(slurp(folder_ / "out/index.html").find("no cycle was steady"), std::string::npos);
-  const Outcome ended =  // while it still rises
-      shell("timeout -s INT 0.3 " VERP_PROGRAM " walk --set safety.rise_s=10 --json");
+  const Outcome ended =  // while it still rises, and not before it has begun
+      shell(VERP_PROGRAM
+            " walk --set safety.rise_s=10 --json --record t.mcap & "
+            "until ls | grep -q t.mcap; do sleep 0.02; done; sleep 0.1; kill -INT $!; wait $!");
   const json none = json::parse(ended.out);
   EXPECT_EQ(none.at("duration_s"), 0);
   for (const char* name : {"speed_mean_m_s", "speed_steady_m_s", "zmp_bias_mean_mm",

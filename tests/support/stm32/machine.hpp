@@ -20,6 +20,7 @@ namespace verp::hal::stm32::model {
 
 class Machine;
 class AdcModel;
+class CanModel;
 class CoreModel;
 class DmaModel;
 class FlashModel;
@@ -99,6 +100,10 @@ class Machine {
   void power_on();
 
   AdcModel& adc(unsigned number);
+  /// There from the first call on, which comes before the firmware looks for it: its registers take
+  /// more memory than a chip that runs these models has to spare.
+  CanModel& can1();
+  CanModel& can2();
   CoreModel& core() { return *core_; }
   DmaModel& dma(unsigned number);
   FlashModel& flash() { return *flash_; }
@@ -172,6 +177,8 @@ class Machine {
   std::uint32_t next_region_ = 0x20000000;
   std::vector<std::unique_ptr<Bank>> banks_;
   std::unique_ptr<CoreModel> core_;
+  CanModel* can1_ = nullptr;
+  CanModel* can2_ = nullptr;
   FlashModel* flash_ = nullptr;
   IwdgModel* iwdg_ = nullptr;
   OtgFsModel* otg_fs_ = nullptr;

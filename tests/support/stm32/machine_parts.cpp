@@ -4,6 +4,7 @@
 
 #include "hal/chip/stm32/registers/syscfg.hpp"
 #include "tests/support/stm32/adc_model.hpp"
+#include "tests/support/stm32/can_model.hpp"
 #include "tests/support/stm32/core_model.hpp"
 #include "tests/support/stm32/dma_model.hpp"
 #include "tests/support/stm32/flash_model.hpp"
@@ -58,6 +59,19 @@ Machine::Machine(Family family, Options options) : family_(family), options_(opt
 }
 
 Machine::~Machine() = default;
+
+CanModel& Machine::can1() {
+  if (can1_ == nullptr) {
+    can1_ = &add<CanModel>(base::kCan1, apb1(rcc::kApb1Can1), irq::kCan1Tx);
+  }
+  return *can1_;
+}
+CanModel& Machine::can2() {
+  if (can2_ == nullptr) {
+    can2_ = &add<CanModel>(base::kCan2, apb1(rcc::kApb1Can2), irq::kCan2Tx, &can1());
+  }
+  return *can2_;
+}
 
 void Machine::add_serial() {
   const auto usart = [this](unsigned number, std::uint32_t address, Gate gate, unsigned line) {

@@ -11,9 +11,9 @@ namespace {
 
 using table::StartFault;
 
-constexpr StartFault kAll[] = {StartFault::kSelfTest,     StartFault::kTimer,
-                               StartFault::kOperatorPort, StartFault::kServoPort,
-                               StartFault::kPeriod,       StartFault::kWatchdog};
+constexpr StartFault kAll[] = {
+    StartFault::kSelfTest, StartFault::kTimer,    StartFault::kOperatorPort, StartFault::kServoPort,
+    StartFault::kPeriod,   StartFault::kWatchdog, StartFault::kProtocol};
 
 /// Servos with a port that may not open; a switch that may not be closed before it did.
 struct Servos {

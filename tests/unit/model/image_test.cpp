@@ -84,6 +84,25 @@ TEST(Image, IndicesOutsideTheirTablesAreFound) {
   EXPECT_TRUE(check() == ImageFault::kOutOfBounds);
 }
 
+TEST(Image, ABusThatCannotBeIsFound) {
+  make_image();
+  for (int j = 0; j < 3; ++j) image.params.joint[j].servo_id = static_cast<std::uint8_t>(j + 125);
+  image.params.imu.device_id = 200;
+  EXPECT_TRUE(is_well_formed(image.params)) << "on the serial bus";
+  image.params.bus_protocol = BusProtocol::kCia402;
+  EXPECT_FALSE(is_well_formed(image.params)) << "node 200";
+  image.params.imu.device_id = 0;
+  EXPECT_TRUE(is_well_formed(image.params));
+  image.params.feet.device_id[1] = 128;
+  EXPECT_FALSE(is_well_formed(image.params));
+  image.params.feet.device_id[1] = 0;
+  image.params.joint[1].servo_id = 0;
+  EXPECT_FALSE(is_well_formed(image.params));
+  image.params.joint[1].servo_id = 1;
+  image.params.bus_protocol = static_cast<BusProtocol>(2);
+  EXPECT_FALSE(is_well_formed(image.params));
+}
+
 // A difference of a micrometre changes what kinematics gives.
 TEST(Image, GoldenVectorsNoticeAnotherRobot) {
   make_image();

@@ -277,7 +277,7 @@ TEST(Parser, RejectsEveryFlippedBit) {
   const std::uint8_t data[] = {0xA6, 0x00, 0x12, 0x34};
   const std::size_t length = encode_status(good, sizeof good, 1, 0, data, sizeof data);
   for (std::size_t bit = 0; bit < length * 8; ++bit) {
-    std::uint8_t bad[32];
+    std::uint8_t bad[32] = {};
     for (std::size_t i = 0; i < length; ++i) bad[i] = good[i];
     bad[bit / 8] = static_cast<std::uint8_t>(bad[bit / 8] ^ 1u << bit % 8);
     Parser parser;

@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "hal/chip/stm32/registers/adc.hpp"
+#include "hal/chip/stm32/registers/can.hpp"
 #include "hal/chip/stm32/registers/cortex_m.hpp"
 #include "hal/chip/stm32/registers/dma.hpp"
 #include "hal/chip/stm32/registers/flash.hpp"
@@ -25,6 +26,11 @@ namespace {
 const Table kTables[] = {
     adc::kTable,
     adc::kCommonTable,
+    can::kTable,
+    can::kTransmitTable,
+    can::kReceiveTable,
+    can::kFilterTable,
+    can::kBankTable,
     dma::kTable,
     dma::kStreamTable,
     exti::kTable,

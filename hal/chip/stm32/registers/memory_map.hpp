@@ -12,8 +12,8 @@ inline constexpr std::uint32_t kTim2 = 0x40000000, kTim3 = 0x40000400, kTim4 = 0
                                kSpi3 = 0x40003C00, kUsart2 = 0x40004400, kUsart3 = 0x40004800,
                                kUart4 = 0x40004C00, kUart5 = 0x40005000, kI2c1 = 0x40005400,
                                kI2c2 = 0x40005800, kI2c3 = 0x40005C00, kI2c4F746 = 0x40006000,
-                               kCan1 = 0x40006400, kPwr = 0x40007000, kUart7F746 = 0x40007800,
-                               kUart8F746 = 0x40007C00;
+                               kCan1 = 0x40006400, kCan2 = 0x40006800, kPwr = 0x40007000,
+                               kUart7F746 = 0x40007800, kUart8F746 = 0x40007C00;
 inline constexpr std::uint32_t kTim1 = 0x40010000, kUsart1 = 0x40011000, kUsart6 = 0x40011400,
                                kAdc1 = 0x40012000, kAdc2 = 0x40012100, kAdc3 = 0x40012200,
                                kAdcCommon = 0x40012300, kSpi1 = 0x40013000, kSpi4 = 0x40013400,
@@ -27,12 +27,14 @@ constexpr std::uint32_t gpio(char port) {
 }  // namespace base
 
 namespace irq {
-inline constexpr unsigned kFlash = 4, kRcc = 5, kExti0 = 6, kAdc = 18, kTim2 = 28, kTim3 = 29,
-                          kTim4 = 30, kI2c1Event = 31, kI2c1Error = 32, kI2c2Event = 33,
-                          kI2c2Error = 34, kSpi1 = 35, kSpi2 = 36, kUsart1 = 37, kUsart2 = 38,
-                          kUsart3 = 39, kExti15To10 = 40, kTim5 = 50, kSpi3 = 51, kUart4 = 52,
-                          kUart5 = 53, kOtgFs = 67, kOtgFsWakeup = 42, kUsart6 = 71,
-                          kI2c3Event = 72, kI2c3Error = 73, kUart7F746 = 82, kUart8F746 = 83;
+inline constexpr unsigned kFlash = 4, kRcc = 5, kExti0 = 6, kAdc = 18, kCan1Tx = 19, kCan1Rx0 = 20,
+                          kCan1Rx1 = 21, kCan1Error = 22, kTim2 = 28, kTim3 = 29, kTim4 = 30,
+                          kI2c1Event = 31, kI2c1Error = 32, kI2c2Event = 33, kI2c2Error = 34,
+                          kSpi1 = 35, kSpi2 = 36, kUsart1 = 37, kUsart2 = 38, kUsart3 = 39,
+                          kExti15To10 = 40, kTim5 = 50, kSpi3 = 51, kUart4 = 52, kUart5 = 53,
+                          kCan2Tx = 63, kCan2Error = 66, kOtgFs = 67, kOtgFsWakeup = 42,
+                          kUsart6 = 71, kI2c3Event = 72, kI2c3Error = 73, kUart7F746 = 82,
+                          kUart8F746 = 83;
 constexpr unsigned dma1(unsigned stream) {
   return stream < 7 ? 11 + stream : 47;
 }

@@ -44,7 +44,8 @@ inline constexpr std::uint32_t kApb1Tim2 = bit(0), kApb1Tim3 = bit(1), kApb1Tim4
                                kApb1Tim5 = bit(3), kApb1Spi2 = bit(14), kApb1Spi3 = bit(15),
                                kApb1Usart2 = bit(17), kApb1Usart3 = bit(18), kApb1Uart4 = bit(19),
                                kApb1Uart5 = bit(20), kApb1I2c1 = bit(21), kApb1I2c2 = bit(22),
-                               kApb1I2c3 = bit(23), kApb1Can1 = bit(25), kApb1Pwr = bit(28);
+                               kApb1I2c3 = bit(23), kApb1Can1 = bit(25), kApb1Can2 = bit(26),
+                               kApb1Pwr = bit(28);
 /// F746 only.
 inline constexpr std::uint32_t kApb1I2c4 = bit(24), kApb1Uart7 = bit(30), kApb1Uart8 = bit(31);
 inline constexpr std::uint32_t kApb2Tim1 = bit(0), kApb2Usart1 = bit(4), kApb2Usart6 = bit(5),

@@ -9,6 +9,7 @@ constexpr std::uintptr_t kBfar = 0xE000ED38;   // B3.2.18
 constexpr std::uintptr_t kMmfar = 0xE000ED34;  // B3.2.17
 constexpr std::uint32_t kBfarValid = 1u << 15;
 constexpr std::uint32_t kMmfarValid = 1u << 7;
+constexpr std::uint32_t kStackLimit = 1u << 20;  // STKOF of ARMv8-M; reads as zero before
 
 std::uint32_t read_register(std::uintptr_t address) {
   return *reinterpret_cast<const volatile std::uint32_t*>(address);
@@ -22,7 +23,8 @@ extern "C" [[noreturn]] void verp_fault_capture(const std::uint32_t* frame) {
   report.cause = read_register(kCfsr);
   if ((report.cause & kBfarValid) != 0) report.address = read_register(kBfar);
   if ((report.cause & kMmfarValid) != 0) report.address = read_register(kMmfar);
-  report.stack_overflow = reinterpret_cast<std::uintptr_t>(frame) < verp::boot::stack_limit();
+  report.stack_overflow = (report.cause & kStackLimit) != 0 ||
+                          reinterpret_cast<std::uintptr_t>(frame) < verp::boot::stack_limit();
   if (!report.stack_overflow) {
     report.lr = frame[5];
     report.pc = frame[6];

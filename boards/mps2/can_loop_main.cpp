@@ -1,0 +1,93 @@
+#include "board.hpp"
+#include "boards/mps2/arguments.hpp"
+#include "can.hpp"
+#include "firmware/app/app.hpp"
+#include "firmware/app/can_loop_job.hpp"
+#include "firmware/app/lockstep_can.hpp"
+#include "firmware/app/operator_node.hpp"
+#include "firmware/app/tick_log.hpp"
+#include "firmware/boot/boot.hpp"
+#include "hal/chip/semihosting/semihosting.hpp"
+
+/// loop_<board> JOB RECORDS: the robot's control loop over the board's own CAN bus, at whose other
+/// end is a twin in lockstep. The robot and its operator's orders come from file JOB
+/// (can_loop_job.hpp), each tick goes to file RECORDS; what the controller knows and does of the
+/// robot passes over CAN alone. It is a node there, too, and tells of each tick.
+namespace {
+
+using verp::hal::semihosting::File;
+
+/// Nothing is to be done meanwhile, and each look at the clock costs an emulator more than a frame.
+constexpr std::uint32_t kSlice_us = 100'000;
+
+/// A twin that is gone is the PC's affair: it ends the emulator.
+struct Patience {
+  bool operator()() const { return true; }
+};
+
+using Log = verp::app::TickLog<>;
+using Node = verp::app::OperatorNode<verp::board::Can, Log>;
+
+struct Desk {
+  // OperatorLink. Orders of ticks that were skipped are skipped.
+  verp::app::OperatorOrder order(std::uint32_t tick) {
+    while (next <= tick && job.read(&latest, sizeof latest)) ++next;
+    return latest;
+  }
+  // Recorder
+  void record(const verp::TickRecord& record, const verp::State& state,
+              const verp::Outputs& outputs) {
+    kept = records.write(&record, sizeof record) && kept;
+    node->record(record, state, outputs);
+  }
+
+  File& job;
+  File& records;
+  Node* node = nullptr;
+  verp::app::OperatorOrder latest = {};
+  std::uint32_t next = 0;
+  bool kept = true;
+};
+
+verp::board::Can can = verp::board::make_can();
+verp::Params params;
+
+int fail(const char* why) {
+  verp::hal::semihosting::print(why);
+  return 3;
+}
+
+int run(Desk& desk, std::uint32_t ticks) {
+  static Log log(verp::app::no_images);
+  static Node node(can, params, verp::app::OperatorSetup{}, log);
+  desk.node = &node;
+  using Bus = verp::app::LockstepCan<Node, Patience>;
+  static Bus bus(node, Patience{}, kSlice_us);
+  if (bus.greet(params) != verp::lockstep::Verdict::kAccepted) {
+    return fail("loop: the twin refused\n");
+  }
+  static verp::app::App<Bus, Desk, Desk> app(params, bus, desk, desk);
+  if (app.bring_up().status != verp::app::BringUpStatus::kReady) {
+    return fail("loop: a device of the robot did not come up\n");
+  }
+  for (std::uint32_t n = 0; n < ticks && !bus.stopped(); ++n) app.tick();
+  const verp::hal::CanErrors errors = can.errors();
+  if (errors.overruns != 0) return fail("loop: the CAN controller lost frames\n");
+  return desk.kept ? 0 : fail("loop: the records can't be written\n");
+}
+
+}  // namespace
+
+extern "C" int verp_main() {
+  const verp::board::Arguments arguments;
+  static File job(arguments[1], File::Mode::kRead);
+  static File records(arguments[2], File::Mode::kWrite);
+  verp::app::CanLoopJob head;
+  if (!job.is_open() || !records.is_open() || !job.read(&head, sizeof head) || !head.fits() ||
+      !job.read(&params, sizeof params)) {
+    return fail("loop: no job, of another build, or no place for records\n");
+  }
+  if (!verp::board::open_can(can)) return fail("loop: no CAN controller here\n");
+  static Desk desk{job, records};
+  return run(desk, head.ticks);
+}

@@ -1,0 +1,74 @@
+#pragma once
+#include <cstddef>
+#include <cstdint>
+
+#include "boards/stm32/ports.hpp"
+#include "common/model/params.hpp"
+#include "common/protocol/control_table.hpp"
+#include "common/protocol/dynamixel2.hpp"
+#include "firmware/app/link_bus.hpp"
+#include "firmware/app/lockstep_bus.hpp"
+
+/// The way to a robot on a serial bus: the board's servo port. boards/stm32/can has the other way.
+namespace verp::board {
+
+inline constexpr BusProtocol kProtocol = BusProtocol::kDynamixel2;
+inline constexpr unsigned kRobotInterrupts[] = {kServoPort.interrupt, kServoPort.dma_interrupt};
+
+template <class Io, class UsartKind, class Timer>
+struct RobotWiring {
+  using Side = PortKind<std::remove_cvref_t<decltype(kServoPort)>, Io, UsartKind, Timer>;
+  using Port = typename Side::Port;
+
+  static Port make(Timer& timer) { return Side::make(kServoPort, kFamily, timer); }
+  static void connect(std::uint8_t priority) { Side::connect(kServoPort, priority); }
+  /// False if no divider makes this rate.
+  static bool open(Port& port, const hal::stm32::Clocks& clocks, std::uint32_t baud) {
+    return Side::open(port, kServoPort, clocks, baud);
+  }
+  /// All of them, whoever they are: nobody replies, so three times.
+  static void release(Port& port) {
+    constexpr std::uint8_t kOff = 0;
+    std::uint8_t frame[32];
+    const std::size_t size = dxl::encode_write(frame, sizeof frame, dxl::kBroadcast,
+                                               dxl::address::kTorqueEnable, &kOff, sizeof kOff);
+    for (int times = 0; times < 3; ++times) port.write(frame, size, 10'000);
+  }
+};
+
+/// At the other end is a twin that says so.
+template <class Port, class Idle>
+using LockstepOn = app::LockstepBus<Port, Idle>;
+
+/// At the other end are servos. `Watch`: called whenever the port is asked and no tick is to come
+/// soon.
+template <class Port, class Timer, class Watch>
+class RealTimeOn {
+  struct Patient {
+    std::size_t write(const std::uint8_t* data, std::size_t size, std::uint32_t timeout_us) {
+      return port.write(data, size, timeout_us);
+    }
+    std::size_t read(std::uint8_t* buffer, std::size_t capacity, std::uint32_t timeout_us) {
+      watch();
+      return port.read(buffer, capacity, timeout_us);
+    }
+    bool connected() const { return port.connected(); }
+    hal::LinkErrors errors() const { return port.errors(); }
+
+    Port& port;
+    Watch watch;
+  };
+
+ public:
+  using Bus = app::LinkBus<Patient, Timer>;
+
+  RealTimeOn(Port& port, const Timer& timer, Watch watch, std::uint32_t held_us)
+      : patient_{port, watch}, bus_(patient_, timer, held_us) {}
+  Bus& bus() { return bus_; }
+
+ private:
+  Patient patient_;
+  Bus bus_;
+};
+
+}  // namespace verp::board

@@ -1,0 +1,58 @@
+#pragma once
+#include <cstddef>
+#include <cstdint>
+
+#include "common/base/can_frame.hpp"
+
+namespace verp {
+
+/// CAN frames that wait for the wire. What leaves first is what would win the bus; frames of one
+/// identifier keep their order.
+template <std::size_t kCapacity>
+class CanOutbox {
+ public:
+  bool empty() const { return size_ == 0; }
+  bool full() const { return size_ == kCapacity; }
+  std::size_t size() const { return size_; }
+
+  /// False: there is no room.
+  bool push(const CanFrame& frame) {
+    if (full()) return false;
+    frames_[size_++] = frame;
+    return true;
+  }
+
+  /// The next to leave; none must not be asked for.
+  const CanFrame& best() const { return frames_[best_index()]; }
+  /// Takes best() out.
+  void pop() {
+    const std::size_t gone = best_index();
+    --size_;
+    // Those behind move up, so that the first of equals is the oldest.
+    for (std::size_t i = gone; i < size_; ++i) frames_[i] = frames_[i + 1];
+  }
+  /// Back to where it was taken from, before all others of its identifier: it could not be sent
+  /// yet. False: there is no room.
+  bool put_back(const CanFrame& frame) {
+    if (full()) return false;
+    for (std::size_t i = size_; i > 0; --i) frames_[i] = frames_[i - 1];
+    frames_[0] = frame;
+    ++size_;
+    return true;
+  }
+  void clear() { size_ = 0; }
+
+ private:
+  std::size_t best_index() const {
+    std::size_t best = 0;
+    for (std::size_t i = 1; i < size_; ++i) {
+      if (can_rank(frames_[i]) < can_rank(frames_[best])) best = i;
+    }
+    return best;
+  }
+
+  CanFrame frames_[kCapacity];
+  std::size_t size_ = 0;
+};
+
+}  // namespace verp

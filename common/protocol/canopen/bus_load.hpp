@@ -1,0 +1,104 @@
+#pragma once
+#include <cstdint>
+
+#include "common/protocol/canopen/frame.hpp"
+
+/// How many bits a frame takes on the wire, and what a bus has to carry. Source: ISO 11898-1. A
+/// stuff bit follows five equal bits, and may be the first of the next five; so at worst one comes
+/// after the first five bits and one after each four from there on.
+///
+///     classic   header 19 (39) | data | CRC 15 || delimiters, ACK, end 10 | intermission 3
+///     FD        header 22 (41) | data || stuff count 4, CRC 17 (21), fixed stuff bits 6 (7) |
+///               delimiters, ACK, end 10 | intermission 3
+///
+/// In brackets: 29-bit identifiers; FD with more than 16 bytes. Stuffing covers what stands before
+/// the double line; behind it, an FD frame has its fixed stuff bits.
+namespace verp::canopen {
+
+enum class Stuffing : std::uint8_t { kNone, kWorst };
+
+/// Bits at the nominal rate, and at the data rate: the two phases of an FD frame that switches.
+struct FrameBits {
+  std::uint32_t nominal = 0;
+  std::uint32_t data = 0;
+
+  constexpr std::uint32_t all() const { return nominal + data; }
+  constexpr FrameBits& operator+=(const FrameBits& other) {
+    nominal += other.nominal;
+    data += other.data;
+    return *this;
+  }
+  constexpr FrameBits operator*(std::uint32_t times) const {
+    return {nominal * times, data * times};
+  }
+  constexpr bool operator==(const FrameBits&) const = default;
+};
+
+inline constexpr std::uint32_t kIntermissionBits = 3;
+inline constexpr std::uint32_t kFrameEndBits = 10;  ///< CRC delimiter, ACK and its delimiter, end
+
+/// Most stuff bits among `bits` bits.
+constexpr std::uint32_t worst_stuff_bits(std::uint32_t bits) {
+  return bits < 5 ? 0 : (bits - 1) / 4;
+}
+
+/// A classic data frame with `size` bytes, the intermission behind it included.
+constexpr FrameBits classic_bits(std::uint8_t size, Stuffing stuffing, bool extended = false) {
+  const std::uint32_t stuffed = (extended ? 39u : 19u) + 8u * size + 15u;
+  const std::uint32_t stuff = stuffing == Stuffing::kWorst ? worst_stuff_bits(stuffed) : 0;
+  return {stuffed + stuff + kFrameEndBits + kIntermissionBits, 0};
+}
+
+/// An FD frame with room for `size` bytes, the intermission included. `switched`: from the bit
+/// after BRS to the CRC delimiter it runs at the data rate; BRS and the delimiter, where the rate
+/// changes, count as nominal.
+constexpr FrameBits fd_bits(std::size_t size, Stuffing stuffing, bool switched,
+                            bool extended = false) {
+  const std::uint32_t bytes = can_fd_size(size);
+  const std::uint32_t arbitration = extended ? 36 : 17;  // from start of frame to BRS
+  const std::uint32_t stuffed_data = 5 + 8 * bytes;      // ESI, data length code, data
+  const std::uint32_t crc = bytes > 16 ? 4 + 21 + 7 : 4 + 17 + 6;
+  std::uint32_t arbitration_stuff = 0;
+  std::uint32_t data_stuff = 0;
+  if (stuffing == Stuffing::kWorst) {
+    arbitration_stuff = worst_stuff_bits(arbitration);
+    // One at the very end would be the CRC field's first, fixed stuff bit.
+    data_stuff = worst_stuff_bits(arbitration + stuffed_data - 1) - arbitration_stuff;
+  }
+  const std::uint32_t slow = arbitration + arbitration_stuff + kFrameEndBits + kIntermissionBits;
+  const std::uint32_t fast = stuffed_data + data_stuff + crc;
+  return switched ? FrameBits{slow, fast} : FrameBits{slow + fast, 0};
+}
+
+/// As the frame's format has it.
+constexpr FrameBits frame_bits(const Frame& frame, Stuffing stuffing) {
+  if (frame.fd) return fd_bits(frame.size, stuffing, frame.bit_rate_switch, frame.extended);
+  return classic_bits(frame.remote ? std::uint8_t{0} : frame.size, stuffing, frame.extended);
+}
+
+/// Exactly this frame's bits, with the stuff bits that its own bits cause. FD frames are counted as
+/// sent by an error-active node.
+FrameBits exact_bits(const Frame& frame);
+
+/// The CRC of a classic frame: polynomial 4599h over all bits from the start of frame to the data.
+std::uint16_t classic_crc(const Frame& frame);
+
+/// Rates of a bus in bits per second; `data` is used by FD frames that switch.
+struct BitRates {
+  std::uint32_t nominal = 1'000'000;
+  std::uint32_t data = 1'000'000;
+};
+/// How long these bits take, rounded up.
+constexpr std::uint64_t wire_time_ns(const FrameBits& bits, const BitRates& rates) {
+  constexpr std::uint64_t kSecond = 1'000'000'000;
+  return (bits.nominal * kSecond + rates.nominal - 1) / rates.nominal +
+         (bits.data * kSecond + rates.data - 1) / rates.data;
+}
+/// Which share of the time a bus is busy, in thousandths, rounded up, if it carries `bits` each
+/// `period_us`.
+constexpr std::uint32_t load_permille(const FrameBits& bits, const BitRates& rates,
+                                      std::uint32_t period_us) {
+  return static_cast<std::uint32_t>((wire_time_ns(bits, rates) + period_us - 1) / period_us);
+}
+
+}  // namespace verp::canopen

@@ -1,0 +1,223 @@
+#pragma once
+#include <cstddef>
+#include <cstdint>
+
+#include "common/protocol/canopen/communication.hpp"
+#include "common/protocol/canopen/sdo_server.hpp"
+
+/// A whole CANopen device: the services of CiA 301 around an application's objects.
+///
+///  - receive() takes each frame of the bus, next() gives a frame to send until there is none;
+///    neither waits. Call next() after each receive() and now and then: heartbeats are due by time.
+///  - What the application must know comes back as DeviceEvents.
+///  - PDOs pass in NMT state operational only; SDO, SYNC and EMCY in pre-operational, too.
+namespace verp::canopen {
+
+struct DeviceEvents {
+  NmtEvent nmt = NmtEvent::kNone;
+  bool sync = false;         ///< a SYNC; synchronous RPDOs have taken effect, TPDOs are made
+  std::uint8_t counter = 0;  ///< of that SYNC
+  bool put = false;          ///< an RPDO has written objects
+};
+
+template <Application A, DeviceSize kSize = DeviceSize{}>
+class Device {
+ public:
+  using Objects = CommunicationObjects<A, kSize>;
+
+  Device(A& application, const Identity& identity, std::uint8_t node)
+      : objects_(application, identity, node),
+        application_(application),
+        node_(node),
+        nmt_(node),
+        server_(objects_, node) {}
+
+  /// Its communication objects, for the defaults.
+  Objects& objects() { return objects_; }
+  NmtState state() const { return nmt_.state(); }
+
+  /// Starts, and again after a reset: the boot-up message is due, then it is pre-operational. Who
+  /// resets it has set the objects to their defaults before.
+  void start() {
+    server_.reset();
+    leave_operational();
+    emergencies_ = 0;
+    objects_.producer.restart();
+    nmt_.initialised();
+  }
+
+  DeviceEvents receive(const Frame& frame, std::uint64_t now_us) {
+    DeviceEvents events;
+    if (!is_canopen(frame) || nmt_.state() == NmtState::kInitialising) return events;
+    events.nmt = nmt_.receive(frame);
+    if (events.nmt != NmtEvent::kNone) {
+      if (!may_pdo(nmt_.state())) leave_operational();
+      if (!may_sdo(nmt_.state())) server_.reset();
+      return events;
+    }
+    std::uint8_t subindex = 0;
+    objects_.consumer.receive(frame, now_us, subindex);
+    if (!may_sdo(nmt_.state())) return events;
+    take_sync(frame, events);
+    take_rpdo(frame, events);
+    server_.receive(frame, now_us);
+    return events;
+  }
+
+  /// The next frame to send, if there is one.
+  bool next(Frame& frame, std::uint64_t now_us) {
+    if (objects_.producer.next(now_us, nmt_.state(), frame)) return true;
+    if (!may_sdo(nmt_.state())) return false;
+    if (emergencies_ > 0) {
+      frame = encode_emcy(queue_[0]);
+      --emergencies_;
+      for (std::size_t i = 0; i < emergencies_; ++i) queue_[i] = queue_[i + 1];
+      return true;
+    }
+    return next_tpdo(frame, now_us) || server_.next(frame, now_us);
+  }
+
+  /// TPDO `which` (from 0) has something new: an event-driven one goes out when its inhibit time
+  /// allows, an acyclic one with the next SYNC.
+  void trigger(std::size_t which) {
+    if (which < kSize.tpdos) sending_[which].event = true;
+  }
+  /// TPDO `which` (from 0) alone, if it is due: for one whose objects change more than once before
+  /// next() would come to it.
+  bool next_pdo(std::size_t which, Frame& frame, std::uint64_t now_us) {
+    if (which >= kSize.tpdos || !may_pdo(nmt_.state()) || !objects_.tpdos[which].on()) return false;
+    const auto& record = objects_.tpdos[which];
+    Sending& each = sending_[which];
+    if (each.due) {
+      each.due = false;
+      frame = each.frame;
+      return true;
+    }
+    if (is_synchronous(record.type()) || !event_due(record, each, now_us)) return false;
+    each.event = false;
+    each.sent = true;
+    each.sent_us = now_us;
+    make(which, frame);
+    return true;
+  }
+  /// An error: its EMCY goes out, and 1001h and 1003h have it. Of more than kErrorHistory that
+  /// wait, the later ones are in 1003h only. Code 0 (all errors are gone) leaves no trace there.
+  void report(ErrorCode code, std::uint8_t error_register) {
+    const auto number = static_cast<std::uint16_t>(code);
+    if (number != 0) error_register |= kErrorGeneric;  // CiA 301: whatever the error is
+    objects_.error_register = error_register;
+    if (number != 0) objects_.history.push(number);
+    if (emergencies_ < kErrorHistory) queue_[emergencies_++] = {node_, number, error_register, {}};
+  }
+  /// Finds a watched node (1016h) that has fallen silent, and reports it; false if there is none.
+  bool heartbeat_lost(std::uint64_t now_us) {
+    std::uint8_t subindex = 0;
+    if (!objects_.consumer.next_lost(now_us, subindex)) return false;
+    report(ErrorCode::kHeartbeatLost, error_register(kErrorCommunication));
+    return true;
+  }
+
+ private:
+  struct Sending {
+    SyncSchedule schedule;
+    std::uint8_t times_on = 0;  ///< of its record, when the schedule began
+    bool event = false;
+    bool due = false;  ///< a SYNC has made `frame`
+    Frame frame;
+    std::uint64_t sent_us = 0;
+    bool sent = false;
+  };
+
+  std::uint8_t error_register(std::uint8_t bit) const {
+    return static_cast<std::uint8_t>(objects_.error_register | kErrorGeneric | bit);
+  }
+  void leave_operational() {
+    for (Sending& each : sending_) each = Sending();
+    for (RpdoLatch& each : latches_) each.clear();
+  }
+
+  void take_sync(const Frame& frame, DeviceEvents& events) {
+    const SyncSeen seen = read_sync(frame, objects_.sync_overflow, events.counter);
+    if (seen == SyncSeen::kNo) return;
+    events.sync = true;
+    if (seen == SyncSeen::kWrongLength) {
+      report(ErrorCode::kSyncLength, error_register(kErrorCommunication));
+    }
+    if (!may_pdo(nmt_.state())) return;
+    for (std::size_t i = 0; i < kSize.tpdos; ++i) {
+      const auto& record = objects_.tpdos[i];
+      Sending& each = sending_[i];
+      if (!record.on() || !is_synchronous(record.type())) continue;
+      if (each.times_on != record.times_on()) each.schedule.restart();
+      each.times_on = record.times_on();
+      if (!each.schedule.on_sync(record.type(), record.sync_start(), events.counter, each.event)) {
+        continue;
+      }
+      each.event = false;
+      each.due = true;
+      make(i, each.frame);  // what was true at the SYNC, whenever it goes out
+    }
+    Frame applied;
+    for (std::size_t i = 0; i < kSize.rpdos; ++i) {
+      if (latches_[i].on_sync(applied)) put(i, applied, events);
+    }
+  }
+  void take_rpdo(const Frame& frame, DeviceEvents& events) {
+    if (!may_pdo(nmt_.state())) return;
+    for (std::size_t i = 0; i < kSize.rpdos; ++i) {
+      const auto& record = objects_.rpdos[i];
+      if (!record.on() || record.id() != frame.id) continue;
+      if (latches_[i].receive(record.type(), frame)) put(i, frame, events);
+    }
+  }
+  void put(std::size_t which, const Frame& frame, DeviceEvents& events) {
+    const PdoLength length =
+        unpack_pdo(objects_.rpdos[which].mapping(), frame,
+                   [&](Address at, unsigned bits, std::uint64_t value) {
+                     events.put = true;
+                     application_.put(at, static_cast<std::uint8_t>(bits), value);
+                   });
+    if (length == PdoLength::kTooShort) {
+      report(ErrorCode::kPdoTooShort, error_register(kErrorCommunication));
+    } else if (length == PdoLength::kTooLong) {
+      report(ErrorCode::kPdoTooLong, error_register(kErrorCommunication));
+    }
+  }
+  void make(std::size_t which, Frame& frame) {
+    frame = Frame();
+    frame.id = objects_.tpdos[which].id();
+    frame.fd = kSize.entries > kMaxCanData;
+    pack_pdo(objects_.tpdos[which].mapping(), frame, [this](Address at, unsigned bits) {
+      return application_.get(at, static_cast<std::uint8_t>(bits));
+    });
+  }
+
+  bool next_tpdo(Frame& frame, std::uint64_t now_us) {
+    for (std::size_t i = 0; i < kSize.tpdos; ++i) {
+      if (next_pdo(i, frame, now_us)) return true;
+    }
+    return false;
+  }
+  /// An event-driven TPDO goes out after an event or when its timer is over, but never before its
+  /// inhibit time is.
+  static bool event_due(const PdoRecord<kSize.entries>& record, const Sending& each,
+                        std::uint64_t now_us) {
+    const std::uint64_t timer_us = std::uint64_t{record.event_timer_ms()} * 1000;
+    const std::uint64_t inhibit_us = std::uint64_t{record.inhibit_100us()} * 100;
+    if (!each.sent) return each.event || timer_us != 0;
+    if (now_us < each.sent_us + inhibit_us) return false;
+    return each.event || (timer_us != 0 && now_us >= each.sent_us + timer_us);
+  }
+
+  Objects objects_;
+  A& application_;
+  std::uint8_t node_;
+  NmtSlave nmt_;
+  SdoServer<Objects> server_;
+  Sending sending_[kSize.tpdos];
+  RpdoLatch latches_[kSize.rpdos];
+  Emergency queue_[kErrorHistory + 1];
+  std::size_t emergencies_ = 0;
+};
+
+}  // namespace verp::canopen

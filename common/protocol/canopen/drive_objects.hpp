@@ -1,0 +1,118 @@
+#pragma once
+#include <cstddef>
+#include <cstdint>
+
+#include "common/protocol/canopen/dictionary.hpp"
+
+/// The objects of a CiA 402 drive in cyclic synchronous position mode: the one list from which a
+/// virtual drive's dictionary, a master's mapping and a description for tools follow. Positions are
+/// increments of the encoder, speeds increments per second, torques thousandths of the rated one.
+namespace verp::canopen::cia402 {
+
+/// Modes of operation (6060h) that are used here.
+inline constexpr std::int8_t kModeNone = 0;
+inline constexpr std::int8_t kModeHoming = 6;
+inline constexpr std::int8_t kModeCyclicPosition = 8;
+/// Supported drive modes (6502h): bit n - 1 for mode n.
+inline constexpr std::uint32_t kSupportedCyclicPosition = 1u << (kModeCyclicPosition - 1);
+
+namespace object {
+inline constexpr Address kErrorRegister{0x1001, 0};
+inline constexpr Address kConsumerHeartbeat{0x1016, 1};
+inline constexpr Address kProducerHeartbeat{0x1017, 0};
+inline constexpr Address kAbortConnection{0x6007, 0};
+inline constexpr Address kErrorCode{0x603F, 0};
+inline constexpr Address kControlword{0x6040, 0};
+inline constexpr Address kStatusword{0x6041, 0};
+inline constexpr Address kQuickStopOption{0x605A, 0};
+inline constexpr Address kMode{0x6060, 0};
+inline constexpr Address kModeDisplay{0x6061, 0};
+inline constexpr Address kActualPosition{0x6064, 0};
+inline constexpr Address kFollowingWindow{0x6065, 0};
+inline constexpr Address kFollowingTime{0x6066, 0};
+inline constexpr Address kActualVelocity{0x606C, 0};
+inline constexpr Address kMaxTorque{0x6072, 0};
+inline constexpr Address kActualTorque{0x6077, 0};
+inline constexpr Address kDcLinkVoltage{0x6079, 0};
+inline constexpr Address kTargetPosition{0x607A, 0};
+inline constexpr Address kHomeOffset{0x607C, 0};
+inline constexpr Address kMinPosition{0x607D, 1};
+inline constexpr Address kMaxPosition{0x607D, 2};
+inline constexpr Address kPeriodValue{0x60C2, 1};
+inline constexpr Address kPeriodExponent{0x60C2, 2};
+inline constexpr Address kSupportedModes{0x6502, 0};
+}  // namespace object
+
+/// A drive's values. Defaults are CiA 402's where it has them.
+struct DriveObjects {
+  std::int32_t target_position = 0;
+  std::int32_t actual_position = 0;
+  std::int32_t actual_velocity = 0;
+  std::int32_t home_offset = 0;  ///< added to the encoder's position
+  std::int32_t min_position = INT32_MIN;
+  std::int32_t max_position = INT32_MAX;
+  std::uint32_t following_window = UINT32_MAX;  ///< UINT32_MAX: not watched
+  std::uint32_t supported_modes = kSupportedCyclicPosition;
+  std::uint32_t dc_link_mv = 0;
+  std::uint16_t controlword = 0;
+  std::uint16_t statusword = 0;
+  std::uint16_t error_code = 0;
+  std::uint16_t following_time_ms = 0;
+  std::uint16_t max_torque = 1000;
+  std::int16_t actual_torque = 0;
+  std::int16_t abort_connection = 1;
+  std::int16_t quick_stop_option = 2;
+  std::int8_t mode = kModeNone;
+  std::int8_t mode_display = kModeNone;
+  std::uint8_t period_value = 1;
+  std::int8_t period_exponent = -3;
+};
+
+enum class ObjectAccess : std::uint8_t { kRead, kWrite };
+enum class ObjectMapping : std::uint8_t { kNone, kReceive, kTransmit, kBoth };
+
+struct ObjectRow {
+  Address at;
+  const char* name;
+  std::uint8_t bytes;
+  bool is_signed;
+  ObjectAccess access;
+  ObjectMapping mapping;
+  std::uint16_t place;  ///< of the value in DriveObjects
+};
+
+extern const ObjectRow kDriveRows[];
+extern const std::size_t kDriveRowCount;
+
+/// The row at an address; null if there is none. Subindex 0 of an object with several is not a row.
+const ObjectRow* find_row(Address at);
+/// How many subindices an object with several has, 0 for any other: what its subindex 0 gives.
+std::uint8_t highest_subindex(std::uint16_t index);
+
+/// For a Dictionary: what stands at an address of a drive, and its value.
+Abort find_object(Address at, Entry& entry);
+Abort read_object(const DriveObjects& objects, Address at, std::uint8_t* buffer);
+/// Checks the value as far as it depends on no state: a mode that is not supported, a period of 0
+/// or an unknown option code is refused.
+Abort write_object(DriveObjects& objects, Address at, const std::uint8_t* data);
+/// kNone if the object may stand in a PDO of the device with that length.
+Abort check_mappable(Address at, std::uint8_t bits, bool receive);
+
+/// Interpolation time period (60C2h): value times ten to the exponent seconds, in microseconds; 0
+/// if it is none or takes over a minute.
+std::uint32_t interpolation_period_us(std::uint8_t value, std::int8_t exponent);
+
+/// Watches the distance of target and actual position (6065h and 6066h).
+class FollowingMonitor {
+ public:
+  /// Call each cycle while the drive follows its target; true when the distance has exceeded the
+  /// window for the time allowed.
+  bool update(const DriveObjects& objects, std::uint64_t now_us);
+  void reset() { outside_ = false; }
+
+ private:
+  bool outside_ = false;
+  std::uint64_t since_us_ = 0;
+};
+
+}  // namespace verp::canopen::cia402

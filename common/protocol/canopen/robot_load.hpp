@@ -1,0 +1,96 @@
+#pragma once
+#include <cstdint>
+
+#include "common/protocol/canopen/bus_load.hpp"
+#include "common/protocol/canopen/published_tick.hpp"
+#include "common/protocol/canopen/robot_plan.hpp"
+#include "common/protocol/canopen/sdo.hpp"
+
+/// What a robot's CAN bus has to carry in one tick, frame by frame, from the same plan that its
+/// nodes are set up by (robot_plan.hpp). `verp bus load`, the refusal of a bus that is too slow and
+/// the test against the twin's own count of bits all come from here.
+namespace verp::canopen::plan {
+
+/// Which frames the nodes use.
+struct LoadFormat {
+  Stuffing stuffing = Stuffing::kWorst;
+  bool fd = false;  ///< FD frames that switch their rate; goals and words of more drives in each
+};
+
+/// A tick like most, or one in which all drives get new controlwords and strengths.
+enum class TickKind : std::uint8_t { kSteady, kChange };
+
+/// As `kind`, with so many drives to a frame as an FD frame's 64 bytes have room for.
+constexpr Shared widened(Shared kind) {
+  kind.width = static_cast<std::uint8_t>(kMaxCanFdData / kind.bytes_each());
+  return kind;
+}
+
+class TickLoad {
+ public:
+  constexpr TickLoad(const Params& params, LoadFormat format) : params_(params), format_(format) {}
+
+  constexpr FrameBits bits(TickKind kind) const {
+    FrameBits sum = of(1) * sync_groups(params_);
+    sum += of(kDriveAnswerBytes) * params_.joint_count;
+    if (params_.imu.device_id != 0) sum += of(kImuAnswerBytes) * 2;
+    for (const std::uint8_t id : params_.feet.device_id) {
+      if (id != 0) sum += of(kFootAnswerBytes);
+    }
+    sum += all(kGoals);
+    const bool change = kind == TickKind::kChange;
+    sum += change ? all(kWords) : one(kWords);
+    if (change) sum += all(kStrengths);
+    sum += of(sdo::kFrameBytes) * 2;  // one drive's telemetry, asked for and given
+    sum += of(1);                     // the controller's heartbeat
+    return sum;
+  }
+  /// What the controller tells of each tick (published_tick.hpp) comes on top.
+  constexpr FrameBits published() const { return of(published::kFrameBytes) * published::kFrames; }
+
+ private:
+  constexpr FrameBits of(std::size_t bytes) const {
+    if (format_.fd) return fd_bits(bytes, format_.stuffing, true);
+    return classic_bits(static_cast<std::uint8_t>(bytes), format_.stuffing);
+  }
+  constexpr FrameBits frame(const Shared& kind, int which) const {
+    return of(static_cast<std::size_t>(members_of(kind, params_, which)) * kind.bytes_each());
+  }
+  constexpr FrameBits all(Shared kind) const {
+    if (format_.fd) kind = widened(kind);
+    FrameBits sum;
+    for (int f = 0; f < shared_frames(kind, params_); ++f) sum += frame(kind, f);
+    return sum;
+  }
+  constexpr FrameBits one(Shared kind) const {
+    if (format_.fd) kind = widened(kind);
+    return params_.joint_count > 0 ? frame(kind, 0) : FrameBits{};
+  }
+
+  const Params& params_;
+  LoadFormat format_;
+};
+
+/// Over this share of the period there is no room for a repetition of anything: `verp export`
+/// refuses it, as on the serial bus.
+inline constexpr std::uint32_t kMostLoadPermille = 800;
+
+/// Over this share a controller does not tell of its ticks unless it is told to: a change of all
+/// states on top must not take more than a period.
+inline constexpr std::uint32_t kMostToPublishPermille = 700;
+constexpr bool has_room_to_publish(const Params& params) {
+  const TickLoad load(params, {});
+  FrameBits bits = load.bits(TickKind::kSteady);
+  bits += load.published();
+  if (params.baud == 0 || params.period_us == 0) return false;
+  return load_permille(bits, {params.baud, params.baud}, params.period_us) <=
+         kMostToPublishPermille;
+}
+
+/// Time that a steady tick takes on a classic bus with worst stuffing.
+constexpr std::uint32_t tick_us(const Params& params) {
+  const FrameBits bits = TickLoad(params, {}).bits(TickKind::kSteady);
+  return static_cast<std::uint32_t>((wire_time_ns(bits, {params.baud, params.baud}) + 999) / 1000);
+}
+
+}  // namespace verp::canopen::plan

@@ -1,0 +1,157 @@
+#pragma once
+#include <cstdint>
+
+#include "common/math/convert.hpp"
+#include "common/model/params.hpp"
+#include "common/protocol/canopen/cob_id.hpp"
+#include "common/protocol/canopen/drive_objects.hpp"
+#include "common/protocol/canopen/pdo.hpp"
+
+/// How the nodes of one robot share a CAN bus: what its controller writes into them, and what it
+/// counts on then. Node ids are the ids in Params; services have CiA 301's predefined identifiers.
+///
+/// A tick is a round of SYNCs, counted from 1 to sync_groups() (1019h). Drives answer by groups of
+/// five, in the order of joints, the first group SYNC 1; IMU and feet answer the last SYNC. Goals,
+/// controlwords and strengths of several drives share a frame: each drive maps its own part, and
+/// dummies in the places of the others.
+namespace verp::canopen::plan {
+
+/// The controller as a node: the sender of the heartbeat that drives watch.
+inline constexpr std::uint8_t kControllerNode = 127;
+
+/// 1000h of drives has the number of their profile in its low half. Sensors are of none: 0.
+inline constexpr std::uint16_t kDriveProfile = 402;
+/// 1018h:2, the product code: a drive's is its ServoProfile::model_number (0 there: any), a
+/// sensor's is dxl::kModelImu or dxl::kModelFoot.
+inline constexpr Address kDeviceType{0x1000, 0};
+inline constexpr Address kProductCode{0x1018, 2};
+inline constexpr Address kSyncOverflow{0x1019, 0};
+
+/// Objects of our own devices, beside CiA 301's and 402's.
+inline constexpr Address kTelemetry{0x2001, 0};                                ///< drives: u32
+inline constexpr Address kGyro[3] = {{0x2010, 1}, {0x2010, 2}, {0x2010, 3}};   ///< IMU: i16
+inline constexpr Address kAccel[3] = {{0x2011, 1}, {0x2011, 2}, {0x2011, 3}};  ///< IMU: i16
+inline constexpr Address kFoot[kFootSensors] = {
+    {0x2020, 1}, {0x2020, 2}, {0x2020, 3}, {0x2020, 4}};  ///< foot sensors: u16
+
+/// What kTelemetry holds.
+struct Telemetry {
+  std::uint16_t voltage_tenth_v = 0;
+  std::uint8_t temperature_c = 0;
+  std::uint8_t errors = 0;  ///< bits of dxl::HardwareError
+
+  static constexpr Telemetry from(std::uint32_t value) {
+    return {static_cast<std::uint16_t>(value), static_cast<std::uint8_t>(value >> 16),
+            static_cast<std::uint8_t>(value >> 24)};
+  }
+  constexpr std::uint32_t value() const {
+    return voltage_tenth_v | std::uint32_t{temperature_c} << 16 | std::uint32_t{errors} << 24;
+  }
+  constexpr bool operator==(const Telemetry&) const = default;
+};
+
+/// Frames that may answer one SYNC. An SJA1000 has 64 bytes for received frames; a classic frame
+/// of eight bytes takes eleven of them.
+inline constexpr int kAnswersToOneSync = 5;
+
+/// Frames of IMU (its gyro in TPDO 1, its accelerometer in TPDO 2) and feet.
+constexpr int sensor_answers(const Params& params) {
+  int frames = params.imu.device_id != 0 ? 2 : 0;
+  for (const std::uint8_t id : params.feet.device_id) frames += id != 0 ? 1 : 0;
+  return frames;
+}
+/// SYNCs of a tick, 2 or more (1019h does not know 1). The transmission type of all TPDOs.
+constexpr std::uint8_t sync_groups(const Params& params) {
+  const int joints = params.joint_count;
+  const int in_last = joints == 0 ? 0 : (joints - 1) % kAnswersToOneSync + 1;
+  int groups = (joints + kAnswersToOneSync - 1) / kAnswersToOneSync;
+  if (in_last + sensor_answers(params) > kAnswersToOneSync) ++groups;
+  return static_cast<std::uint8_t>(groups < 2 ? 2 : groups);
+}
+/// The SYNC that a joint's drive answers: its TPDO's SYNC start value. That of the sensors is
+/// sync_groups().
+constexpr std::uint8_t group_of_joint(int joint) {
+  return static_cast<std::uint8_t>(joint / kAnswersToOneSync + 1);
+}
+
+constexpr Mapped mapped(Address at, std::uint8_t bits) {
+  return {at, bits};
+}
+/// TPDO 1 of a drive. Two bytes are left for a value in turn.
+constexpr PdoMapping<> drive_answer() {
+  PdoMapping<> mapping;
+  mapping.add(mapped(cia402::object::kStatusword, 16));
+  mapping.add(mapped(cia402::object::kActualPosition, 32));
+  return mapping;
+}
+inline constexpr std::uint8_t kDriveAnswerBytes = 6;
+static_assert(drive_answer().bytes() == kDriveAnswerBytes);
+/// TPDO 1 and 2 of an IMU.
+constexpr PdoMapping<> imu_answer(const Address (&axes)[3]) {
+  PdoMapping<> mapping;
+  for (const Address& axis : axes) mapping.add(mapped(axis, 16));
+  return mapping;
+}
+inline constexpr std::uint8_t kImuAnswerBytes = 6;
+/// TPDO 1 of a foot.
+constexpr PdoMapping<> foot_answer() {
+  PdoMapping<> mapping;
+  for (const Address& sensor : kFoot) mapping.add(mapped(sensor, 16));
+  return mapping;
+}
+inline constexpr std::uint8_t kFootAnswerBytes = 8;
+
+/// What drives receive together, event-driven (type 255): it takes effect when it arrives.
+struct Shared {
+  std::uint8_t rpdo = 1;   ///< number of the PDO, 1 to 3
+  std::uint8_t width = 2;  ///< drives in one frame
+  Mapped own;
+  Mapped dummy;
+
+  constexpr std::uint8_t bytes_each() const { return static_cast<std::uint8_t>(own.bits / 8); }
+};
+inline constexpr Shared kGoals{1, 2, {cia402::object::kTargetPosition, 32}, kDummyU32};
+inline constexpr Shared kWords{2, 4, {cia402::object::kControlword, 16}, kDummyU16};
+inline constexpr Shared kStrengths{3, 4, {cia402::object::kMaxTorque, 16}, kDummyU16};
+
+/// Frames of one kind for the whole robot: frame f has joints first_of() to first_of() + members -
+/// 1.
+constexpr int shared_frames(const Shared& kind, const Params& params) {
+  return (params.joint_count + kind.width - 1) / kind.width;
+}
+constexpr int first_of(const Shared& kind, int frame) {
+  return frame * kind.width;
+}
+constexpr int members_of(const Shared& kind, const Params& params, int frame) {
+  const int left = params.joint_count - first_of(kind, frame);
+  return left < kind.width ? left : kind.width;
+}
+/// The identifier: that of the first of its drives.
+constexpr std::uint16_t shared_id(const Shared& kind, const Params& params, int frame) {
+  return rpdo_id(kind.rpdo, params.joint[first_of(kind, frame)].servo_id);
+}
+/// The RPDO of `joint`'s drive; its frame is joint / width.
+constexpr PdoMapping<> shared_mapping(const Shared& kind, const Params& params, int joint) {
+  const int frame = joint / kind.width;
+  PdoMapping<> mapping;
+  for (int i = 0; i < members_of(kind, params, frame); ++i) {
+    mapping.add(first_of(kind, frame) + i == joint ? kind.own : kind.dummy);
+  }
+  return mapping;
+}
+
+/// For how long a drive with torque does without the controller's heartbeat (1016h): somewhat
+/// longer than the controller would wait before it began to let the robot down. Then it stops and
+/// holds: abort connection option (6007h) 3, quick stop option (605Ah) 6.
+inline std::uint16_t patience_ms(const Params& params) {
+  constexpr float kLater_s = 0.1F;
+  constexpr std::int32_t kMost_ms = 60'000;
+  const float release_s = params.tuning.safety.stale_release_s;
+  const std::int32_t time_ms = math::to_int32((release_s + kLater_s) * 1000.0F);
+  return static_cast<std::uint16_t>(time_ms < 1 ? 1 : time_ms > kMost_ms ? kMost_ms : time_ms);
+}
+inline constexpr std::int16_t kQuickStopAndHold = 6;
+/// Heartbeats of the controller in that time: so many less one may be lost.
+inline constexpr std::uint16_t kHeartbeatsInPatience = 5;
+
+}  // namespace verp::canopen::plan

@@ -1,0 +1,111 @@
+#pragma once
+#include <cstddef>
+#include <cstdint>
+
+#include "common/protocol/canopen/cob_id.hpp"
+#include "common/protocol/canopen/sdo_block.hpp"
+
+/// SDO's client: reads and writes objects of one node, one at a time, as a machine that is fed with
+/// frames and bus time.
+///
+///  - download() or upload() begins; receive() takes frames, next() gives those to send, one a
+///  call;
+///    neither waits. state() tells the end: each transfer ends, at the latest when kTimeoutUs pass
+///    without progress.
+///  - kDone means that the server has confirmed a download, or that an upload's bytes are all
+///    there, their number and the block's CRC as the server announced them.
+///  - Frames that cannot belong to the transfer while it is being initiated are remains of an
+///    earlier one, and ignored; later they abort it.
+///  - The caller's memory is in use until the end.
+namespace verp::canopen {
+
+class SdoClient {
+ public:
+  enum class Mode : std::uint8_t {
+    kPlain,  ///< expedited up to 4 bytes, else segmented
+    kBlock,  ///< with CRC; a server without blocks aborts with kCommand
+  };
+  enum class State : std::uint8_t { kIdle, kBusy, kDone, kAborted };
+
+  explicit SdoClient(std::uint8_t node) : node_(node) {}
+
+  /// Begins to write; false, and nothing done, while another transfer runs.
+  bool download(Address at, const std::uint8_t* data, std::uint32_t size, Mode mode,
+                std::uint64_t now_us);
+  /// Begins to read into `buffer`; an object of more than `capacity` bytes aborts with
+  /// kOutOfMemory.
+  bool upload(Address at, std::uint8_t* buffer, std::uint32_t capacity, Mode mode,
+              std::uint64_t now_us);
+  /// Ends a running transfer with an abort.
+  void cancel(Abort reason = Abort::kGeneral) {
+    if (state_ == State::kBusy) abort(reason);
+  }
+
+  void receive(const Frame& frame, std::uint64_t now_us);
+  /// The next frame to send, if there is one.
+  bool next(Frame& frame, std::uint64_t now_us);
+
+  State state() const { return state_; }
+  /// Why the last transfer was aborted, by either end.
+  Abort reason() const { return reason_; }
+  /// Bytes that a finished upload has brought.
+  std::uint32_t size() const { return size_; }
+  std::uint8_t node() const { return node_; }
+
+ private:
+  enum class Phase : std::uint8_t {
+    kBeginDownload,
+    kDownload,
+    kBeginBlockDownload,
+    kSendBlock,
+    kEndDownload,
+    kBeginUpload,
+    kUpload,
+    kBeginBlockUpload,
+    kBlockSegments,
+    kBlockEnd,
+  };
+
+  std::uint32_t id() const { return sdo_request_id(node_); }
+  bool begin(Address at, Phase phase, std::uint64_t now_us);
+  void send(const Frame& frame);
+  void abort(Abort reason);
+  void finish();
+  bool initiating() const;
+  bool take_abort(const Frame& frame);
+  void take_initiation(const Frame& frame);
+  void take(const Frame& frame);
+  void send_segment();
+  void take_download_segment(const Frame& frame);
+  void take_block_response(const Frame& frame);
+  void take_upload(const Frame& frame);
+  void take_upload_segment(const Frame& frame);
+  void take_block_segment(const Frame& frame, std::uint64_t now_us);
+  void respond_to_block();
+  void take_block_end(const Frame& frame);
+  Abort store(const std::uint8_t* data, std::uint32_t size);
+  Abort announce(bool given, const Frame& frame);
+
+  std::uint8_t node_;
+  State state_ = State::kIdle;
+  Phase phase_ = Phase::kBeginUpload;
+  Abort reason_ = Abort::kNone;
+  bool toggle_ = false;
+  bool last_ = false;       ///< the segment under way is the last one
+  bool crc_ = false;        ///< both ends can do the block's CRC
+  bool announced_ = false;  ///< the server has told the size
+  bool sending_ = false;    ///< frame_ is to be sent
+  Address at_;
+  const std::uint8_t* data_ = nullptr;
+  std::uint8_t* buffer_ = nullptr;
+  std::uint32_t capacity_ = 0;
+  std::uint32_t size_ = 0;  ///< of a download, or of what an upload has brought
+  std::uint32_t announced_size_ = 0;
+  std::uint32_t offset_ = 0;
+  sdo::Patience patience_;
+  Frame frame_;
+  sdo::BlockSender sender_;
+  sdo::BlockReceiver receiver_;
+};
+
+}  // namespace verp::canopen

@@ -1,0 +1,60 @@
+#pragma once
+#include <cstdint>
+
+#include "common/protocol/canopen/cob_id.hpp"
+#include "common/protocol/canopen/dictionary.hpp"
+#include "common/protocol/canopen/frame.hpp"
+
+/// SYNC with its optional counter (CiA 301, objects 1005h and 1019h).
+namespace verp::canopen {
+
+inline constexpr std::uint8_t kMaxSyncCounter = 240;
+
+/// Object 1019h: 0 (no counter) or 2 to 240.
+constexpr Abort check_sync_overflow(std::uint8_t overflow) {
+  return overflow == 1 || overflow > kMaxSyncCounter ? Abort::kValueRange : Abort::kNone;
+}
+
+class SyncProducer {
+ public:
+  /// Object 1019h; the next SYNC carries 1.
+  constexpr Abort set_overflow(std::uint8_t overflow) {
+    if (const Abort refused = check_sync_overflow(overflow); refused != Abort::kNone) {
+      return refused;
+    }
+    overflow_ = overflow;
+    counter_ = 0;
+    return Abort::kNone;
+  }
+  /// The next SYNC. Counters run 1, 2 ... overflow, 1 ...
+  constexpr Frame next() {
+    Frame frame = classic_frame(kSyncId, overflow_ == 0 ? 0 : 1);
+    if (overflow_ != 0) {
+      counter_ = counter_ >= overflow_ ? std::uint8_t{1} : static_cast<std::uint8_t>(counter_ + 1);
+      frame.data[0] = counter_;
+    }
+    return frame;
+  }
+  /// As the last SYNC carried it; 0 without a counter, or before the first.
+  constexpr std::uint8_t counter() const { return counter_; }
+
+ private:
+  std::uint8_t overflow_ = 0;
+  std::uint8_t counter_ = 0;
+};
+
+enum class SyncSeen : std::uint8_t {
+  kNo,           ///< another frame
+  kSync,         ///< a SYNC as 1019h announces it
+  kWrongLength,  ///< a SYNC of another length: it counts, and EMCY 8240h is due
+};
+
+/// Reads a SYNC; `counter` is 0 if it carries none.
+constexpr SyncSeen read_sync(const Frame& frame, std::uint8_t overflow, std::uint8_t& counter) {
+  if (!is_canopen(frame) || frame.id != kSyncId) return SyncSeen::kNo;
+  counter = overflow != 0 && frame.size == 1 ? frame.data[0] : std::uint8_t{0};
+  const std::uint8_t announced = overflow == 0 ? 0 : 1;
+  return frame.size == announced ? SyncSeen::kSync : SyncSeen::kWrongLength;
+}
+
+}  // namespace verp::canopen

@@ -1,0 +1,60 @@
+#pragma once
+#include <cstdint>
+
+#include "firmware/app/bus_counters.hpp"
+#include "hal/contract/can_bus.hpp"
+
+namespace verp::app {
+
+/// A CanBus as the binding uses it: counts what is refused, and lets time pass also while the bus
+/// takes nothing.
+template <hal::CanBus Bus>
+class CanMaster {
+ public:
+  explicit CanMaster(Bus& bus) : bus_(bus) {}
+
+  bool send(const CanFrame& frame) {
+    const std::uint64_t now_us = bus_.now_us();
+    accepted_ = bus_.send(frame);
+    accepted_before_ = accepted_before_ || accepted_;
+    if (!accepted_) refused_us_ = now_us;
+    if (!accepted_) ++counters.refused;
+    return accepted_;
+  }
+  /// The next frame of another node; false when `timeout_us` are over since the last frame began on
+  /// the wire, or since it was refused.
+  bool receive(CanFrame& frame, std::uint32_t timeout_us) {
+    if (accepted_) return bus_.poll(frame, timeout_us);
+    const std::uint64_t end_us = refused_us_ + timeout_us;
+    // The bus counts from the beginning of the last frame that it took, which may be long ago: a
+    // poll that ends early shows that it is.
+    std::uint64_t wait_us = accepted_before_ ? timeout_us : end_us - begin_us_;
+    for (int polls = 0; polls < kMostPolls; ++polls) {
+      if (bus_.poll(frame, static_cast<std::uint32_t>(wait_us))) return true;
+      const std::uint64_t now_us = bus_.now_us();
+      begin_us_ = now_us - wait_us;  // or before
+      accepted_before_ = false;
+      if (now_us >= end_us) return false;
+      wait_us += end_us - now_us;
+    }
+    return false;
+  }
+  /// One that is there already.
+  bool take_waiting(CanFrame& frame) { return bus_.poll(frame, 0); }
+
+  std::uint64_t now_us() { return bus_.now_us(); }
+  hal::CanErrors errors() const { return bus_.errors(); }
+
+  BusCounters counters;
+
+ private:
+  static constexpr int kMostPolls = 1000;  ///< that may find no time to wait: then nobody waits
+
+  Bus& bus_;
+  bool accepted_ = true;
+  bool accepted_before_ = true;  ///< a frame since begin_us_ was learned
+  std::uint64_t begin_us_ = 0;   ///< when the last one that was accepted began on the wire
+  std::uint64_t refused_us_ = 0;
+};
+
+}  // namespace verp::app

@@ -1,0 +1,48 @@
+#pragma once
+#include <cstdint>
+
+#include "common/model/params.hpp"
+#include "common/protocol/canopen/cob_id.hpp"
+
+namespace verp::app {
+
+/// A robot's nodes have slots: joints their index, then come IMU and feet. A set of them is a mask.
+inline constexpr int kImuNode = kMaxJoints;
+inline constexpr int kFootNode = kImuNode + 1;
+inline constexpr int kCanNodes = kFootNode + kFeet;
+using NodeMask = std::uint64_t;
+
+constexpr NodeMask node_bit(int slot) {
+  return NodeMask{1} << slot;
+}
+constexpr bool is_joint(int slot) {
+  return slot < kMaxJoints;
+}
+/// 0: the robot has no such node.
+constexpr std::uint8_t node_id(const Params& params, int slot) {
+  if (is_joint(slot)) return slot < params.joint_count ? params.joint[slot].servo_id : 0;
+  return slot == kImuNode ? params.imu.device_id : params.feet.device_id[slot - kFootNode];
+}
+
+/// Finds the slot of a node.
+class CanNodes {
+ public:
+  explicit CanNodes(const Params& params) {
+    for (std::uint8_t& each : slot_) each = kNone;
+    for (int slot = 0; slot < kCanNodes; ++slot) {
+      const std::uint8_t id = node_id(params, slot);
+      if (canopen::is_node(id)) slot_[id] = static_cast<std::uint8_t>(slot);
+    }
+  }
+  /// -1: no node of the robot.
+  int slot_of(std::uint8_t node) const {
+    const std::uint8_t slot = canopen::is_node(node) ? slot_[node] : kNone;
+    return slot == kNone ? -1 : slot;
+  }
+
+ private:
+  static constexpr std::uint8_t kNone = 0xFF;
+  std::uint8_t slot_[canopen::kMaxNode + 1];
+};
+
+}  // namespace verp::app

@@ -1,0 +1,230 @@
+#pragma once
+#include <cstddef>
+#include <cstdint>
+
+#include "common/base/crc32.hpp"
+#include "common/protocol/canopen/communication.hpp"
+#include "common/protocol/canopen/dictionary.hpp"
+#include "common/protocol/canopen/frame.hpp"
+#include "common/protocol/canopen/published_tick.hpp"
+#include "firmware/app/operator_registers.hpp"
+
+namespace verp::app {
+
+/// The controller as a node: how many PDOs and watched nodes it has, and who it is. It follows no
+/// device profile and has no vendor id of CiA's.
+inline constexpr canopen::DeviceSize kControllerSize{2, 4, 8, 2};
+constexpr canopen::Identity controller_identity() {
+  return {.name = "VERP controller", .product = table::kModel, .revision = table::kTableVersion};
+}
+
+/// Objects of whole images: DOMAINs, one for each ImageKind.
+inline constexpr std::uint16_t kImageIndex = 0x5000;
+
+/// The object of a register of one element.
+consteval canopen::Address object(const char* name) {
+  return {table::find(name)->object_index(), 0};
+}
+/// What the controller's TPDO `number` maps out of the box.
+constexpr canopen::PdoMapping<> controller_tpdo(unsigned number) {
+  namespace published = canopen::published;
+  canopen::PdoMapping<> mapping;
+  if (number == published::kDigestPdo) mapping.add({object("digest"), 64});
+  if (number == published::kRecordPdo) {
+    mapping.add({object("tick_low"), 16});
+    mapping.add({object("joints_fresh"), 32});
+    mapping.add({object("inputs_flags"), 16});
+  }
+  if (number == published::kPartPdo) mapping.add({object("inputs_part"), 64});
+  return mapping;
+}
+/// Gives a controller's communication objects these TPDOs, switched on or off.
+template <class Objects>
+void publish_ticks(Objects& objects, std::uint8_t node, bool on) {
+  for (unsigned number = canopen::published::kDigestPdo; number <= canopen::published::kPartPdo;
+       ++number) {
+    const std::uint32_t off = on ? 0 : canopen::kPdoInvalid;
+    objects.tpdos[number - 1] = {canopen::Direction::kTransmit,
+                                 canopen::tpdo_id(number, node) | off, canopen::kEventProfile,
+                                 controller_tpdo(number)};
+  }
+}
+
+/// The controller's registers as the objects of a CANopen node (canopen::Application), next to a
+/// Dynamixel device on the same registers: index 2000h + address; an array's elements have
+/// subindices from 1 on, a text is one object. What a write does and when it is refused is the
+/// registers' business.
+///
+/// Besides them 5001h is the Params image and 5002h the actions. A download of a whole image is in
+/// force from the next start, and refused while any servo holds torque. 5003h and 5004h are the
+/// last tick and those before it (tick_log.hpp), to be read while register tick_hold is 1.
+/// TPDOs 2 to 4 tell of each tick (canopen/published_tick.hpp) once publish_ticks() has set them
+/// up.
+template <Images Store>
+class ControllerObjects {
+ public:
+  ControllerObjects(OperatorRegisters<Store>& registers, Store& store)
+      : registers_(registers), store_(store) {}
+
+  canopen::Abort find(canopen::Address at, canopen::Entry& entry) {
+    if (is_image(at.index)) return find_image(at, entry);
+    Place place;
+    const canopen::Abort refused = look(at, place);
+    if (refused == canopen::Abort::kNone) {
+      entry = {true, place.writable, place.bytes, place.bytes, place.bytes};
+    }
+    return refused;
+  }
+
+  canopen::Abort read(canopen::Address at, std::uint32_t offset, std::uint8_t* buffer,
+                      std::uint32_t size) {
+    if (is_image(at.index)) {
+      store_.read(kind_of(at.index), offset, buffer, size);
+      return canopen::Abort::kNone;
+    }
+    Place place;
+    const canopen::Abort refused = look(at, place);
+    if (refused != canopen::Abort::kNone) return refused;
+    if (place.is_count) {
+      buffer[0] = place.count;
+      return canopen::Abort::kNone;
+    }
+    const std::uint8_t* bytes = registers_.read(place.address, place.bytes);
+    if (bytes == nullptr) return canopen::Abort::kNoObject;
+    __builtin_memcpy(buffer, bytes + offset, size);
+    return canopen::Abort::kNone;
+  }
+
+  canopen::Abort write(canopen::Address at, const std::uint8_t* data, std::uint32_t size) {
+    if (is_image(at.index)) {
+      const canopen::Abort refused = write_part(at, 0, data, size);
+      return refused == canopen::Abort::kNone ? write_done(at, size) : refused;
+    }
+    Place place;
+    const canopen::Abort refused = look(at, place);
+    if (refused != canopen::Abort::kNone) return refused;
+    return abort_for(registers_.write(place.address, data, size), place);
+  }
+
+  // Whole images, piece by piece.
+  canopen::Abort write_part(canopen::Address at, std::uint32_t offset, const std::uint8_t* data,
+                            std::uint32_t size) {
+    if (registers_.armed()) return canopen::Abort::kDeviceState;
+    if (offset == 0) {
+      store_.begin(kind_of(at.index));
+      crc_ = 0;
+    }
+    store_.write(kind_of(at.index), offset, data, size);
+    crc_ = crc32(data, size, crc_);
+    return canopen::Abort::kNone;
+  }
+  canopen::Abort write_done(canopen::Address at, std::uint32_t) {
+    if (registers_.armed()) return canopen::Abort::kDeviceState;
+    return store_.commit(kind_of(at.index), crc_) == 0 ? canopen::Abort::kNone
+                                                       : canopen::Abort::kIncompatibleParameter;
+  }
+
+  // In PDOs: numbers of up to 8 bytes, whole.
+  canopen::Abort mappable(canopen::Address at, std::uint8_t bits, bool receive) {
+    Place place;
+    const canopen::Abort refused = look(at, place);
+    if (refused != canopen::Abort::kNone) return refused;
+    const bool fits = place.bytes <= kMaxCanData && bits == 8 * place.bytes;
+    if (place.is_count || !fits || (receive && !place.writable)) {
+      return canopen::Abort::kNotMappable;
+    }
+    return canopen::Abort::kNone;
+  }
+  std::uint64_t get(canopen::Address at, std::uint8_t bits) {
+    std::uint8_t bytes[8] = {};
+    read(at, 0, bytes, bits / 8u);
+    return canopen::get_le(bytes, bits / 8u);
+  }
+  /// A value that the registers refuse changes nothing: a PDO has no answer.
+  void put(canopen::Address at, std::uint8_t bits, std::uint64_t value) {
+    std::uint8_t bytes[8];
+    canopen::put_le(bytes, value, bits / 8u);
+    write(at, bytes, bits / 8u);
+  }
+
+ private:
+  struct Place {
+    std::uint16_t address = 0;
+    std::uint8_t bytes = 0;
+    std::uint8_t count = 0;
+    bool is_count = false;  ///< subindex 0 of an array
+    bool writable = false;
+    bool only_disarmed = false;
+  };
+
+  static bool is_image(std::uint16_t index) {
+    return index > kImageIndex && index <= kImageIndex + static_cast<int>(ImageKind::kTicks);
+  }
+  static bool is_log(std::uint16_t index) { return kind_of(index) >= ImageKind::kState; }
+  static ImageKind kind_of(std::uint16_t index) {
+    return static_cast<ImageKind>(index - kImageIndex);
+  }
+
+  canopen::Abort find_image(canopen::Address at, canopen::Entry& entry) const {
+    if (at.subindex != 0) return canopen::Abort::kNoSubindex;
+    const auto size = static_cast<std::uint32_t>(store_.size(kind_of(at.index)));
+    if (size == 0) return canopen::Abort::kNoObject;
+    entry = {true, !is_log(at.index), size, size, size};
+    return canopen::Abort::kNone;
+  }
+
+  /// Where the object stands among the registers.
+  static canopen::Abort look(canopen::Address at, Place& place) {
+    if (at.index < kFirst || at.index - kFirst >= table::kTableBytes) {
+      return canopen::Abort::kNoObject;
+    }
+    const auto address = static_cast<std::uint16_t>(at.index - kFirst);
+    const table::Rule* rule = table::rule_at(address);
+    if (rule == nullptr || rule->address != address) return canopen::Abort::kNoObject;
+    place.writable = rule->access != table::Access::kRead;
+    place.only_disarmed = rule->access == table::Access::kDisarmed;
+    place.address = address;
+    place.bytes = rule->size;
+    if (rule->count == 1 || rule->is_text) {
+      place.bytes = static_cast<std::uint8_t>(rule->size * rule->count);
+      return at.subindex == 0 ? canopen::Abort::kNone : canopen::Abort::kNoSubindex;
+    }
+    place.count = static_cast<std::uint8_t>(rule->count);
+    if (at.subindex > place.count) return canopen::Abort::kNoSubindex;
+    if (at.subindex == 0) {
+      place.is_count = true;
+      place.writable = false;
+      place.bytes = 1;
+    } else {
+      place.address = static_cast<std::uint16_t>(address + (at.subindex - 1) * rule->size);
+    }
+    return canopen::Abort::kNone;
+  }
+
+  static canopen::Abort abort_for(dxl::Error error, const Place& place) {
+    switch (error) {
+      case dxl::Error::kNone:
+        return canopen::Abort::kNone;
+      case dxl::Error::kDataRange:
+        return canopen::Abort::kValueRange;
+      case dxl::Error::kDataLimit:
+        return canopen::Abort::kValueTooHigh;
+      case dxl::Error::kDataLength:
+        return canopen::Abort::kLength;
+      case dxl::Error::kAccess:
+        return place.only_disarmed ? canopen::Abort::kDeviceState : canopen::Abort::kReadOnly;
+      case dxl::Error::kResultFail:
+        return canopen::Abort::kDeviceState;
+      default:
+        return canopen::Abort::kGeneral;
+    }
+  }
+
+  static constexpr std::uint16_t kFirst = 0x2000;
+
+  OperatorRegisters<Store>& registers_;
+  Store& store_;
+  std::uint32_t crc_ = 0;  ///< of the image under way
+};
+
+}  // namespace verp::app

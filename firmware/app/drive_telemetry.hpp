@@ -1,0 +1,115 @@
+#pragma once
+#include <cstdint>
+
+#include "common/io/io.hpp"
+#include "common/protocol/canopen/robot_plan.hpp"
+#include "common/protocol/canopen/sdo.hpp"
+#include "firmware/app/canopen_bring_up.hpp"
+
+namespace verp::app {
+
+/// Slow telemetry: an expedited SDO upload of one drive at the end of each tick, whose answer the
+/// next tick finds. A drive without kTelemetry (it aborts) is asked for its voltage and its error
+/// code instead; it has no temperature to tell, and one without either tells nothing.
+class DriveTelemetry {
+ public:
+  explicit DriveTelemetry(const Params& params) : params_(params) {}
+
+  /// This drive has something to tell: it is asked next.
+  void hurry(int joint) { urgent_ = joint; }
+
+  /// The next request; false if there is none. Drives in `busy` are not asked. `missed`: the
+  /// request before was not answered.
+  bool next(CanFrame& frame, NodeMask busy, bool& missed) {
+    missed = asked_ >= 0;
+    if (missed || !more_) choose();
+    more_ = false;
+    asked_ = -1;
+    if (params_.joint_count == 0 || (busy >> joint_ & 1) != 0) return false;
+    asked_ = joint_;
+    at_ = object();
+    namespace sdo = canopen::sdo;
+    frame = sdo::addressed(canopen::sdo_request_id(node_id(params_, joint_)),
+                           sdo::command(sdo::request::kUpload), at_);
+    return true;
+  }
+
+  /// An SDO response of a drive; false: not to the last request.
+  bool receive(int joint, const CanFrame& frame) {
+    namespace sdo = canopen::sdo;
+    if (joint != asked_ || frame.size != sdo::kFrameBytes || !(sdo::address_of(frame) == at_)) {
+      return false;
+    }
+    const auto value = static_cast<std::uint32_t>(canopen::get_le(frame.data + 4, 4));
+    if (frame.data[0] == sdo::kAbort) {
+      take_abort(joint, static_cast<canopen::Abort>(value));
+    } else if (sdo::specifier_of(frame) == sdo::response::kUpload &&
+               (frame.data[0] & sdo::kExpedited) != 0) {
+      take(value);
+    } else {
+      return false;
+    }
+    return true;
+  }
+
+  /// What has come since the last tick.
+  void put(Inputs& inputs) {
+    if (!fresh_) return;
+    fresh_ = false;
+    inputs.slow_joint = static_cast<std::uint8_t>(joint_);
+    inputs.slow_voltage_tenth_v = value_.voltage_tenth_v;
+    inputs.slow_temperature_c = value_.temperature_c;
+    inputs.slow_error = value_.errors;
+    inputs.flags |= kSlowFresh;
+  }
+
+ private:
+  enum class Part : std::uint8_t { kAll, kVoltage, kError };
+
+  void choose() {
+    joint_ = joint_ + 1 < params_.joint_count ? joint_ + 1 : 0;
+    if (urgent_ >= 0) joint_ = urgent_;
+    urgent_ = -1;
+    part_ = (plain_ >> joint_ & 1) != 0 ? Part::kVoltage : Part::kAll;
+  }
+  canopen::Address object() const {
+    namespace object = canopen::cia402::object;
+    if (part_ == Part::kAll) return canopen::plan::kTelemetry;
+    return part_ == Part::kVoltage ? object::kDcLinkVoltage : object::kErrorCode;
+  }
+  // One that has the object, and only cannot tell it now, is asked for it again in its next turn.
+  void take_abort(int joint, canopen::Abort why) {
+    asked_ = -1;
+    const bool absent = why == canopen::Abort::kNoObject || why == canopen::Abort::kNoSubindex;
+    if (part_ != Part::kAll || !absent) return;
+    plain_ |= 1u << joint;
+    part_ = Part::kVoltage;
+    more_ = true;
+  }
+  void take(std::uint32_t value) {
+    asked_ = -1;
+    if (part_ == Part::kAll) value_ = canopen::plan::Telemetry::from(value);
+    if (part_ == Part::kVoltage) {
+      const std::uint32_t tenths = value / 100;
+      value_ = {static_cast<std::uint16_t>(tenths < 0xFFFF ? tenths : 0xFFFF), 0, 0};
+      part_ = Part::kError;
+      more_ = true;
+      return;
+    }
+    if (part_ == Part::kError) value_.errors = hardware_error_of(static_cast<std::uint16_t>(value));
+    fresh_ = true;
+  }
+
+  const Params& params_;
+  int joint_ = 0;
+  int asked_ = -1;  ///< who has not answered yet
+  int urgent_ = -1;
+  std::uint32_t plain_ = 0;  ///< drives without kTelemetry
+  Part part_ = Part::kAll;
+  bool more_ = false;  ///< the same drive is asked again
+  bool fresh_ = false;
+  canopen::Address at_;
+  canopen::plan::Telemetry value_;
+};
+
+}  // namespace verp::app

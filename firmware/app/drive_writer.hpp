@@ -1,0 +1,201 @@
+#pragma once
+#include <cstdint>
+
+#include "common/io/io.hpp"
+#include "common/model/params.hpp"
+#include "common/protocol/canopen/cia402.hpp"
+#include "common/protocol/canopen/robot_plan.hpp"
+#include "common/safety/machine.hpp"
+#include "firmware/app/can_master.hpp"
+
+namespace verp::app {
+
+/// The tick's second half on CAN: goals, controlwords and strengths in shared RPDOs. These have no
+/// reply: a frame that changes goes out in kRepeats ticks, and one of the others in each tick in
+/// its turn. Controlwords follow from what each drive's statusword says, so a lost one costs a
+/// tick.
+template <hal::CanBus Bus>
+class DriveWriter {
+ public:
+  using State = canopen::cia402::State;
+
+  explicit DriveWriter(const Params& params) : params_(params) {}
+
+  /// Max torque of each joint that is 100 %, in thousandths of the rated one.
+  void set_full(const std::uint16_t (&full)[kMaxJoints]) {
+    for (int j = 0; j < kMaxJoints; ++j) full_[j] = full[j];
+  }
+  /// Of that, in every mode; 1 to 100.
+  void limit_torque(std::uint8_t percent) { most_percent_ = percent; }
+
+  /// A drive has said what state it is in.
+  void note(int joint, State state) {
+    state_[joint] = state;
+    if (state == State::kOperationEnabled) enabled_ |= told_ & 1u << joint;
+  }
+  State state(int joint) const { return state_[joint]; }
+  /// It was told to have torque, and has had the time to obey.
+  bool has_torque(int joint) const {
+    return ((told_ & (enabled_ | (patience_ == 0 ? ~0u : 0u))) >> joint & 1) != 0;
+  }
+
+  /// Goals go out in the first ticks in which torque is wanted; torque follows in the third at the
+  /// earliest, for all together when all are switched on. `doubted` hear of no more torque than
+  /// they have; `limp` are those of them that are known to have none.
+  void send(CanMaster<Bus>& master, const Outputs& outputs, std::uint32_t doubted,
+            std::uint32_t limp) {
+    const std::uint32_t wanted = outputs.torque_enable & all_joints();
+    begin(wanted, doubted, limp);
+    set_words(wanted, doubted);
+    if (wanted != 0) send_goals(master, outputs, wanted);
+    if (wanted != 0) set_strengths(strength_in(outputs.mode));
+    send_frames(master, canopen::plan::kWords, word_, words_due_);
+    if (wanted != 0) send_frames(master, canopen::plan::kStrengths, strength_, strengths_due_);
+    send_one_in_turn(master, wanted != 0);
+  }
+
+ private:
+  static constexpr std::uint8_t kRepeats = 3;
+  /// Drives wait for each other for so many ticks, then those that are there go ahead.
+  static constexpr std::uint8_t kTogether = 20;
+  /// Time to enable, with the release of a brake: an allowance, not a measurement.
+  static constexpr std::uint32_t kEnableUs = 300'000;
+  static constexpr int kMostFrames = (kMaxJoints + 3) / 4;
+
+  std::uint32_t all_joints() const {
+    return params_.joint_count >= kMaxJoints ? ~0u : (1u << params_.joint_count) - 1;
+  }
+  // On its way up a robot may lie against anything, a hand too: its drives push as hard as its
+  // entity allows, and no harder.
+  std::uint8_t strength_in(std::uint8_t mode) const {
+    const bool rising = mode == static_cast<std::uint8_t>(safety::Mode::kRising);
+    return rising && params_.rise_torque_percent < most_percent_ ? params_.rise_torque_percent
+                                                                 : most_percent_;
+  }
+  bool switched_on(int joint) const { return state_[joint] == State::kSwitchedOn || holds(joint); }
+  bool holds(int joint) const {
+    return state_[joint] == State::kOperationEnabled || state_[joint] == State::kQuickStopActive;
+  }
+
+  // Decides who is told to have torque.
+  void begin(std::uint32_t wanted, std::uint32_t doubted, std::uint32_t limp) {
+    if ((wanted & ~wanted_) != 0) {
+      early_ = kRepeats - 1;
+      together_ = kTogether;
+      for (std::uint8_t& due : strengths_due_) due = kRepeats;
+    } else if (early_ > 0) {
+      --early_;
+    }
+    wanted_ = wanted;
+    told_ &= wanted & ~limp;
+    enabled_ &= told_;
+    if (patience_ > 0) --patience_;
+    if (early_ > 0) return;
+    std::uint32_t on = 0;
+    for (int j = 0; j < params_.joint_count; ++j) on |= switched_on(j) ? 1u << j : 0;
+    const std::uint32_t candidates = wanted & ~doubted;
+    if (together_ > 0) --together_;
+    if ((candidates & ~on) != 0 && together_ > 0) return;
+    if ((candidates & on & ~told_) != 0) patience_ = kEnableUs / params_.period_us + kRepeats;
+    told_ |= candidates & on;
+  }
+
+  std::uint16_t word_for(int joint, bool wanted, bool doubted) const {
+    using namespace canopen::cia402;
+    if (!wanted) return kWordDisableVoltage;
+    // A drive that lost its power does not obey this word without those before it.
+    if ((told_ >> joint & 1) != 0) return kWordEnableOperation;
+    if (doubted) return kWordDisableVoltage;
+    switch (state_[joint]) {
+      case State::kSwitchOnDisabled:
+        return kWordShutdown;
+      case State::kReadyToSwitchOn:
+      case State::kSwitchedOn:
+        return kWordSwitchOn;
+      default:
+        return kWordDisableVoltage;
+    }
+  }
+  void set_words(std::uint32_t wanted, std::uint32_t doubted) {
+    for (int j = 0; j < params_.joint_count; ++j) {
+      const auto has = [j](std::uint32_t mask) { return (mask >> j & 1) != 0; };
+      std::uint8_t& due = words_due_[j / canopen::plan::kWords.width];
+      set(word_[j], word_for(j, has(wanted), has(doubted)), due);
+      const bool on = word_[j] == canopen::cia402::kWordEnableOperation;
+      const bool obeyed = on ? state_[j] == State::kOperationEnabled : !holds(j);
+      if (!obeyed && !has(doubted) && due == 0) due = 1;
+    }
+  }
+  void set_strengths(std::uint8_t percent) {
+    for (int j = 0; j < params_.joint_count; ++j) {
+      set(strength_[j], static_cast<std::uint16_t>(full_[j] * percent / 100),
+          strengths_due_[j / canopen::plan::kStrengths.width]);
+    }
+  }
+  static void set(std::uint16_t& value, std::uint16_t to, std::uint8_t& due) {
+    if (value != to) due = kRepeats;
+    value = to;
+  }
+
+  void send_goals(CanMaster<Bus>& master, const Outputs& outputs, std::uint32_t wanted) {
+    const canopen::plan::Shared& kind = canopen::plan::kGoals;
+    for (int f = 0; f < shared_frames(kind, params_); ++f) {
+      const int first = first_of(kind, f);
+      const int members = members_of(kind, params_, f);
+      if ((wanted >> first & ((1u << members) - 1)) == 0) continue;
+      CanFrame frame = empty(kind, f, members);
+      for (int i = 0; i < members; ++i) {
+        const auto goal = static_cast<std::uint32_t>(outputs.goal_count[first + i]);
+        canopen::put_le(frame.data + 4 * i, goal, 4);
+      }
+      master.send(frame);
+    }
+  }
+  CanFrame empty(const canopen::plan::Shared& kind, int frame, int members) const {
+    return canopen::classic_frame(shared_id(kind, params_, frame),
+                                  static_cast<std::uint8_t>(members * kind.bytes_each()));
+  }
+  void send_frame(CanMaster<Bus>& master, const canopen::plan::Shared& kind,
+                  const std::uint16_t (&values)[kMaxJoints], int f) {
+    const int members = members_of(kind, params_, f);
+    CanFrame frame = empty(kind, f, members);
+    for (int i = 0; i < members; ++i) {
+      canopen::put_le(frame.data + 2 * i, values[first_of(kind, f) + i], 2);
+    }
+    master.send(frame);
+  }
+  void send_frames(CanMaster<Bus>& master, const canopen::plan::Shared& kind,
+                   const std::uint16_t (&values)[kMaxJoints], std::uint8_t (&due)[kMostFrames]) {
+    for (int f = 0; f < shared_frames(kind, params_); ++f) {
+      if (due[f] == 0) continue;
+      --due[f];
+      send_frame(master, kind, values, f);
+    }
+  }
+  void send_one_in_turn(CanMaster<Bus>& master, bool strengths) {
+    const int words = shared_frames(canopen::plan::kWords, params_);
+    const int all = words + (strengths ? shared_frames(canopen::plan::kStrengths, params_) : 0);
+    if (all == 0) return;
+    turn_ = turn_ + 1 < all ? turn_ + 1 : 0;
+    if (turn_ < words) send_frame(master, canopen::plan::kWords, word_, turn_);
+    if (turn_ >= words) send_frame(master, canopen::plan::kStrengths, strength_, turn_ - words);
+  }
+
+  const Params& params_;
+  std::uint16_t full_[kMaxJoints] = {};
+  State state_[kMaxJoints] = {};
+  std::uint16_t word_[kMaxJoints] = {};      ///< as sent last
+  std::uint16_t strength_[kMaxJoints] = {};  ///< likewise
+  std::uint8_t words_due_[kMostFrames] = {};
+  std::uint8_t strengths_due_[kMostFrames] = {};
+  std::uint32_t wanted_ = 0;
+  std::uint32_t told_ = 0;      ///< to have torque
+  std::uint32_t enabled_ = 0;   ///< of these, those that have obeyed
+  std::uint32_t patience_ = 0;  ///< ticks in which those that have not may still
+  std::uint8_t early_ = 0;      ///< ticks still to go before anybody is told of torque
+  std::uint8_t together_ = 0;   ///< ticks in which drives still wait for each other
+  std::uint8_t most_percent_ = 100;
+  int turn_ = 0;
+};
+
+}  // namespace verp::app

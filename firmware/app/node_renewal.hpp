@@ -1,0 +1,103 @@
+#pragma once
+#include <cstdint>
+
+#include "common/protocol/canopen/nmt.hpp"
+#include "common/protocol/canopen/sdo_client.hpp"
+#include "firmware/app/can_master.hpp"
+#include "firmware/app/can_nodes.hpp"
+#include "firmware/app/node_settings.hpp"
+
+namespace verp::app {
+
+/// Sets nodes up again while the loop runs: one node at a time, one SDO request a tick or, while no
+/// torque is at stake, a few as answers come; nothing waits for them.
+class NodeRenewal {
+ public:
+  explicit NodeRenewal(const Params& params) : params_(params) {}
+
+  /// The node that is being set up; -1: none.
+  int slot() const { return slot_; }
+  /// An SDO response of that node.
+  void receive(const CanFrame& frame, std::uint64_t now_us) { client_.receive(frame, now_us); }
+  /// It has rebooted, or is not to be set up any more: what was written is gone.
+  void cancel(int slot) {
+    if (slot == slot_) slot_ = -1;
+  }
+
+  /// Once a tick. Chooses among `candidates`, in turn. Returns the node that is set up and was
+  /// started in this tick, or -1.
+  template <hal::CanBus Bus>
+  int run(CanMaster<Bus>& master, NodeMask candidates) {
+    if (slot_ >= 0 && (candidates & node_bit(slot_)) == 0) slot_ = -1;
+    if (slot_ < 0) {
+      if (!choose(candidates, master.now_us())) return -1;
+      // It may have been stopped, and would hear of no setting.
+      master.send(
+          canopen::nmt_frame(canopen::NmtCommand::kEnterPreOperational, node_id(params_, slot_)));
+    }
+    if (!proceed(master)) return -1;
+    if (!finished_) return -1;
+    const int done = slot_;
+    slot_ = -1;
+    master.send(canopen::nmt_frame(canopen::NmtCommand::kStart, node_id(params_, done)));
+    return done;
+  }
+  /// Sends what is due next. False if the node has refused, or was silent.
+  template <hal::CanBus Bus>
+  bool proceed(CanMaster<Bus>& master) {
+    if (slot_ < 0 || !advance(master.now_us())) {
+      ++master.counters.errors;
+      return false;
+    }
+    CanFrame frame;
+    if (!finished_ && client_.next(frame, master.now_us())) master.send(frame);
+    return true;
+  }
+
+ private:
+  bool choose(NodeMask candidates, std::uint64_t now_us) {
+    for (int i = 0; i < kCanNodes; ++i) {
+      last_ = last_ + 1 < kCanNodes ? last_ + 1 : 0;
+      if ((candidates >> last_ & 1) == 0) continue;
+      slot_ = last_;
+      client_ = canopen::SdoClient(node_id(params_, slot_));
+      step_ = 0;
+      begin(now_us);
+      return true;
+    }
+    return false;
+  }
+  void begin(std::uint64_t now_us) {
+    finished_ = !node_setting(params_, slot_, step_, setting_);
+    if (finished_) return;
+    canopen::put_le(data_, setting_.value, 4);
+    client_.download(setting_.at, data_, setting_.bytes, canopen::SdoClient::Mode::kPlain, now_us);
+  }
+  /// To the next setting when one is written; false if the node refuses it or is silent.
+  bool advance(std::uint64_t now_us) {
+    using State = canopen::SdoClient::State;
+    if (client_.state() == State::kBusy || finished_) return true;
+    if (client_.state() == State::kAborted) {
+      const canopen::Abort why = client_.reason();
+      const bool absent = why == canopen::Abort::kNoObject || why == canopen::Abort::kNoSubindex;
+      if (!setting_.optional || !absent) {
+        slot_ = -1;
+        return false;
+      }
+    }
+    ++step_;
+    begin(now_us);
+    return true;
+  }
+
+  const Params& params_;
+  canopen::SdoClient client_{1};
+  Setting setting_;
+  std::uint8_t data_[4] = {};
+  int slot_ = -1;
+  int last_ = kCanNodes - 1;
+  int step_ = 0;
+  bool finished_ = false;
+};
+
+}  // namespace verp::app

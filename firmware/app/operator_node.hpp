@@ -1,0 +1,135 @@
+#pragma once
+#include <concepts>
+#include <cstdint>
+
+#include "common/protocol/canopen/device.hpp"
+#include "common/protocol/canopen/published_tick.hpp"
+#include "common/protocol/canopen/robot_load.hpp"
+#include "firmware/app/can_schedule.hpp"
+#include "firmware/app/contracts.hpp"
+#include "firmware/app/controller_objects.hpp"
+#include "firmware/app/operator_registers.hpp"
+#include "hal/contract/can_bus.hpp"
+
+namespace verp::app {
+
+/// The controller as a node on the bus of its own drives: OperatorLink and Recorder of the loop,
+/// and the CanBus between the loop and `Bus`, where what is addressed to the node is taken out. It
+/// tells of each tick in TPDOs (canopen/published_tick.hpp), if the robot's bus has room for them;
+/// an operator may switch them off and on as any PDO (1801h:1 and the following).
+///
+/// Nothing here waits, and it sends at the end of a tick only, behind the goals: an SDO answer
+/// takes a tick, and never the loop its time. In lockstep it stands below the twin's clock: what it
+/// sends and gets is no matter of simulated time. `bus`, `params` and `images` outlive it.
+template <hal::CanBus Bus, Images Store = NoImages>
+class OperatorNode {
+ public:
+  static constexpr std::uint8_t kNode = canopen::plan::kControllerNode;
+
+  OperatorNode(Bus& bus, const Params& params, const OperatorSetup& setup, Store& images)
+      : bus_(bus),
+        bus_imu_(params.imu.device_id != 0),
+        registers_(params, setup, images),
+        objects_(registers_, images),
+        device_(objects_, controller_identity(), kNode) {
+    publish_ticks(device_.objects(), kNode, canopen::plan::has_room_to_publish(params));
+    device_.start();
+    // Its heartbeat, with the boot-up message, is the master's: drives watch it.
+    CanFrame boot_up;
+    device_.next(boot_up, bus_.now_us());
+    // It is the master that starts nodes, and has nobody to start it.
+    device_.receive(canopen::nmt_frame(canopen::NmtCommand::kStart, kNode), bus_.now_us());
+  }
+  OperatorNode(Bus& bus, const Params& params,
+               const OperatorSetup& setup) requires std::same_as<Store, NoImages>
+      : OperatorNode(bus, params, setup, no_images) {}
+
+  // CanBus, for the loop.
+  bool send(const CanFrame& frame) { return bus_.send(frame); }
+  bool poll(CanFrame& frame, std::uint32_t timeout_us) {
+    for (int taken = 0; bus_.poll(frame, timeout_us); ++taken) {
+      if (!is_for_node(frame)) return true;
+      device_.receive(frame, bus_.now_us());
+      if (taken == kMostTaken) return false;  // no babbler holds the tick
+    }
+    return false;
+  }
+  std::uint64_t now_us() { return bus_.now_us(); }
+  hal::CanErrors errors() const { return bus_.errors(); }
+
+  // OperatorLink
+  OperatorOrder order(std::uint32_t tick) {
+    if (registers_.slept_until(tick)) registers_.withdraw_orders();
+    return registers_.order();
+  }
+
+  // Recorder
+  void record(const TickRecord& record, const State& state, const Outputs& outputs) {
+    registers_.record(record, state, outputs);
+    publish(record.inputs);
+    answer();
+  }
+
+  /// Sends what else the node has to say, a little of it: a loop that does not tick yet, or does no
+  /// more, calls it now and then.
+  void answer() {
+    CanFrame frame;
+    for (int sent = 0; sent < kMostAnswers && device_.next(frame, bus_.now_us()); ++sent) {
+      bus_.send(frame);
+    }
+  }
+
+  /// As OperatorDevice's.
+  void brought_up(const BringUpReport& report) {
+    registers_.report().bring_up(report);
+    registers_.withdraw_orders();
+  }
+  void report(const LoopHealth& health) { registers_.report().health(health); }
+  const OperatorRegisters<Store>& registers() const { return registers_; }
+
+ private:
+  using Objects = ControllerObjects<Store>;
+  static constexpr int kMostTaken = 64;
+  /// Of a block that is read, so much of the bus at the end of each tick.
+  static constexpr int kMostAnswers = 4;
+  static_assert(most_sent(kMaxJoints) + canopen::published::kFrames +
+                    canopen::published::kMostParts + kMostAnswers <=
+                hal::kCanQueue);
+
+  static bool is_for_node(const CanFrame& frame) {
+    if (!canopen::is_canopen(frame)) return false;
+    const canopen::Connection to = canopen::connection_of(frame.id);
+    if (to.service == canopen::Service::kNmt) return true;
+    return to.node == kNode &&
+           (to.service == canopen::Service::kSdoRequest || to.service == canopen::Service::kRpdo);
+  }
+
+  void publish(const Inputs& inputs) {
+    namespace published = canopen::published;
+    parts_.find(before_, inputs, bus_imu_ && registers_.imu_source() == table::ImuSource::kBus);
+    before_ = inputs;
+    registers_.report().publish_flags(parts_.flags());
+    tell(published::kDigestPdo);
+    tell(published::kRecordPdo);
+    for (int i = 0; i < parts_.count(); ++i) {
+      registers_.report().publish_part(parts_.part(i).value());
+      tell(published::kPartPdo);
+    }
+  }
+  // One TPDO at once, whatever else waits behind it.
+  void tell(unsigned number) {
+    CanFrame frame;
+    device_.trigger(number - 1);
+    if (device_.next_pdo(number - 1, frame, bus_.now_us())) bus_.send(frame);
+  }
+
+  Bus& bus_;
+  const bool bus_imu_;
+  OperatorRegisters<Store> registers_;
+  Objects objects_;
+  canopen::Device<Objects, kControllerSize> device_;
+  canopen::published::Parts parts_;
+  Inputs before_;
+};
+
+}  // namespace verp::app

@@ -1,0 +1,21 @@
+#pragma once
+#include "common/protocol/canopen/sdo_client.hpp"
+#include "firmware/app/can_master.hpp"
+
+namespace verp::app {
+
+/// Pumps the client's transfer, which has begun, to its end; true if it was good. What else comes
+/// meanwhile is dropped.
+template <hal::CanBus Bus>
+bool run_transfer(canopen::SdoClient& client, CanMaster<Bus>& master) {
+  CanFrame frame;
+  while (client.state() == canopen::SdoClient::State::kBusy) {
+    while (client.next(frame, master.now_us())) master.send(frame);
+    if (client.state() != canopen::SdoClient::State::kBusy) break;
+    if (master.receive(frame, canopen::sdo::kTimeoutUs)) client.receive(frame, master.now_us());
+  }
+  while (client.next(frame, master.now_us())) master.send(frame);  // an abort of ours
+  return client.state() == canopen::SdoClient::State::kDone;
+}
+
+}  // namespace verp::app

@@ -1,0 +1,94 @@
+#pragma once
+#include <cstddef>
+#include <cstdint>
+
+#include "common/base/fields.hpp"
+#include "common/control/state.hpp"
+#include "common/record/tick_record.hpp"
+#include "firmware/app/block_window.hpp"
+
+namespace verp::app {
+
+/// One tick as the controller has it.
+struct HeldTick {
+  TickRecord record;  ///< what it saw
+  State state;        ///< what it left
+  VERP_FIELDS(record, state)
+};
+VERP_PACKED(HeldTick);
+
+/// The last tick's State and the records of a few before it, as images beside those of `Store`
+/// (Images). They can be held: the loop goes on, and what was kept stands still. So the bits of a
+/// robot that walks can be looked at, and it does not fall.
+///
+/// ImageKind::kState is a HeldTick, there while it is held. kTicks are kTicks TickRecords, that of
+/// tick n in place n modulo kTicks, the chain of one never written 0; one may be written while it
+/// is read, unless they are held too.
+template <Images Store = NoImages>
+class TickLog {
+ public:
+  static constexpr std::size_t kTicks = 16;
+
+  explicit TickLog(Store& images) : images_(images) {}
+
+  /// With the end of each tick.
+  void keep(const TickRecord& record, const State& state) {
+    if (hold_ == kAll) return;
+    ring_[record.inputs.tick % kTicks] = record;
+    any_ = true;
+    if (hold_ != kNothing) return;
+    last_.record = record;
+    last_.state = state;
+  }
+  /// What stands still from now on: register tick_hold.
+  enum Hold : std::uint8_t { kNothing = 0, kStateOnly = 1, kAll = 2 };
+  void hold(std::uint8_t what) { hold_ = what; }
+
+  // Images
+  std::size_t size(ImageKind kind) const {
+    if (kind == ImageKind::kState) return hold_ != kNothing && any_ ? sizeof last_ : 0;
+    if (kind == ImageKind::kTicks) return any_ ? sizeof ring_ : 0;
+    return images_.size(kind);
+  }
+  void read(ImageKind kind, std::size_t offset, std::uint8_t* to, std::size_t count) const {
+    if (kind == ImageKind::kState) {
+      __builtin_memcpy(to, reinterpret_cast<const std::uint8_t*>(&last_) + offset, count);
+    } else if (kind == ImageKind::kTicks) {
+      __builtin_memcpy(to, reinterpret_cast<const std::uint8_t*>(ring_) + offset, count);
+    } else {
+      images_.read(kind, offset, to, count);
+    }
+  }
+  void begin(ImageKind kind) {
+    if (!is_log(kind)) images_.begin(kind);
+  }
+  void write(ImageKind kind, std::size_t offset, const std::uint8_t* from, std::size_t count) {
+    if (!is_log(kind)) images_.write(kind, offset, from, count);
+  }
+  /// What was is not written anew.
+  std::uint8_t commit(ImageKind kind, std::uint32_t crc) {
+    return is_log(kind) ? kWrongWindowCrc : images_.commit(kind, crc);
+  }
+
+ private:
+  static bool is_log(ImageKind kind) {
+    return kind == ImageKind::kState || kind == ImageKind::kTicks;
+  }
+
+  Store& images_;
+  HeldTick last_;
+  TickRecord ring_[kTicks];
+  bool any_ = false;  ///< there was a tick
+  std::uint8_t hold_ = kNothing;
+};
+
+static_assert(Images<TickLog<>>);
+
+/// An Images that keeps ticks.
+template <class Store>
+concept KeepsTicks = requires(Store& store, const TickRecord& record, const State& state) {
+  store.keep(record, state);
+  store.hold(std::uint8_t{1});
+};
+
+}  // namespace verp::app

@@ -1,0 +1,154 @@
+#include "firmware/boot/core.hpp"
+
+#include <cstdint>
+
+#include "firmware/boot/boot.hpp"
+#include "firmware/boot/stack.hpp"
+
+/// Cortex-R5, from the ARMv7-A and ARMv7-R Architecture Reference Manual: exceptions (B1.8), system
+/// control registers of a PMSA (B6.1), its memory protection (B5).
+extern "C" {
+extern std::uint32_t verp_stack_guard[];
+extern std::uint32_t verp_code_begin[];
+extern std::uint32_t verp_code_bytes[];  ///< its address is the number
+}
+
+/// The exception vectors and behind them where they lead: eight loads and eight words, that work
+/// wherever they lie. The first is also where the core begins.
+extern "C" __attribute__((naked, section(".vectors"), used)) void verp_entry() {
+  __asm__ volatile(
+      ".rept 8\n ldr pc, [pc, #24]\n .endr\n"
+      ".word verp_start\n"  // reset
+      ".word verp_undefined_entry\n"
+      ".word verp_undefined_entry\n"  // supervisor call
+      ".word verp_prefetch_entry\n"
+      ".word verp_data_entry\n"
+      ".word verp_undefined_entry\n"  // not used
+      ".word verp_undefined_entry\n"  // IRQ: never let through
+      ".word verp_undefined_entry\n"  // FIQ
+  );
+}
+
+/// System mode, interrupts off: the one mode that everything but a fault runs in.
+extern "C" __attribute__((naked, used)) void verp_start() {
+  __asm__ volatile(
+      "cpsid if, #0x1F\n"
+      "ldr sp, =verp_stack_top\n"
+      "b verp_reset\n"
+      ".ltorg\n");
+}
+
+/// Every fault ends here, in a mode of its own whose stack starts at the top: the program's may be
+/// the very thing that broke. lr is past the instruction by 8 after a data abort, else by 4.
+extern "C" __attribute__((naked, used)) void verp_undefined_entry() {
+  __asm__ volatile(
+      "mov r2, #0\n"
+      "mov r3, #0\n"
+      "sub r0, lr, #4\n"
+      "b verp_fault_entry\n");
+}
+extern "C" __attribute__((naked, used)) void verp_prefetch_entry() {
+  __asm__ volatile(
+      "mrc p15, 0, r2, c5, c0, 1\n"  // IFSR
+      "mrc p15, 0, r3, c6, c0, 2\n"  // IFAR
+      "sub r0, lr, #4\n"
+      "b verp_fault_entry\n");
+}
+extern "C" __attribute__((naked, used)) void verp_data_entry() {
+  __asm__ volatile(
+      "mrc p15, 0, r2, c5, c0, 0\n"  // DFSR
+      "mrc p15, 0, r3, c6, c0, 0\n"  // DFAR
+      "sub r0, lr, #8\n"
+      "b verp_fault_entry\n");
+}
+extern "C" __attribute__((naked, used)) void verp_fault_entry() {
+  __asm__ volatile(
+      "ldr sp, =verp_stack_top\n"
+      "sub sp, sp, #16\n"
+      "stmia sp, {sp, lr}^\n"  // those of the program
+      "nop\n"
+      "ldr r1, [sp, #4]\n"
+      "b verp_fault_capture\n"
+      ".ltorg\n");
+}
+
+/// The program's sp lies on top of the stack as the fifth argument.
+extern "C" __attribute__((used)) [[noreturn]] void verp_fault_capture(std::uint32_t pc,
+                                                                      std::uint32_t lr,
+                                                                      std::uint32_t cause,
+                                                                      std::uint32_t address,
+                                                                      std::uint32_t sp) {
+  verp::boot::FaultReport report;
+  report.cause = cause;
+  report.address = address;
+  report.stack_overflow = sp < verp::boot::stack_limit();
+  if (!report.stack_overflow) {
+    report.lr = lr;
+    report.pc = pc;
+  }
+  verp_fault(report);
+}
+
+namespace verp::boot {
+namespace {
+
+/// Copies the vectors to address 0, where this core looks for them: the tightly coupled memory.
+void place_vectors() {
+  __asm__ volatile(
+      "ldr r0, =verp_entry\n"
+      "mov r1, #0\n"
+      "1: ldr r2, [r0], #4\n"
+      "str r2, [r1], #4\n"
+      "cmp r1, #64\n"
+      "bne 1b\n"
+      "dsb\n isb\n" ::
+          : "r0", "r1", "r2", "cc", "memory");
+}
+
+/// CPACR (B6.1.15): full access to CP10 and CP11; FPEXC (B6.1.39): on.
+void enable_fpu() {
+  std::uint32_t access;
+  __asm__ volatile("mrc p15, 0, %0, c1, c0, 2" : "=r"(access));
+  access |= 0xFu << 20;
+  __asm__ volatile("mcr p15, 0, %0, c1, c0, 2\n isb\n vmsr fpexc, %1" ::"r"(access), "r"(1u << 30));
+}
+
+constexpr std::uint32_t kNoAccess = 0;
+/// DRACR (B6.1.26): privileged code may only read; normal memory, written back.
+constexpr std::uint32_t kReadOnly = 5u << 8 | 1u << 3 | 3u;
+constexpr std::uint32_t kGuardBytes = 32;
+
+/// One region of the protection unit (B6.1.86, .27, .28, .26): a power of two of at least 32 bytes.
+void set_region(std::uint32_t number, std::uint32_t begin, std::uint32_t bytes,
+                std::uint32_t access) {
+  const auto size = static_cast<std::uint32_t>(__builtin_ctz(bytes)) - 1;
+  __asm__ volatile(
+      "mcr p15, 0, %0, c6, c2, 0\n"
+      "mcr p15, 0, %1, c6, c1, 0\n"
+      "mcr p15, 0, %2, c6, c1, 4\n"
+      "mcr p15, 0, %3, c6, c1, 2\n" ::"r"(number),
+      "r"(begin), "r"(access), "r"(size << 1 | 1u)
+      : "memory");
+}
+
+}  // namespace
+
+void enable_core() {
+  place_vectors();
+  enable_fpu();
+}
+
+/// Of regions that overlap the highest counts; outside all of them the default map does. Nobody
+/// writes code: a stack that jumped over its guard ends there.
+bool guard_stack() {
+  set_region(0, reinterpret_cast<std::uintptr_t>(verp_code_begin),
+             reinterpret_cast<std::uintptr_t>(verp_code_bytes), kReadOnly);
+  set_region(1, reinterpret_cast<std::uintptr_t>(verp_stack_guard), kGuardBytes, kNoAccess);
+  std::uint32_t control;
+  __asm__ volatile("mrc p15, 0, %0, c1, c0, 0" : "=r"(control));
+  control |= 1u << 17 | 1u;  // SCTLR: BR, M
+  __asm__ volatile("dsb\n mcr p15, 0, %0, c1, c0, 0\n isb" ::"r"(control) : "memory");
+  return true;
+}
+
+}  // namespace verp::boot

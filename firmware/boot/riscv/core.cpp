@@ -1,0 +1,96 @@
+#include "firmware/boot/core.hpp"
+
+#include <cstdint>
+
+#include "firmware/boot/boot.hpp"
+#include "firmware/boot/stack.hpp"
+
+/// RISC-V in machine mode, from "The RISC-V Instruction Set Manual, Volume II: Privileged
+/// Architecture": traps (3.1), physical memory protection (3.7).
+extern "C" {
+extern std::uint32_t verp_stack_guard[];
+extern std::uint32_t verp_code_begin[];
+extern std::uint32_t verp_code_bytes[];  ///< its address is the number
+}
+
+/// Where the core begins, which is the lowest address of the code. `tp` is for the C library's
+/// errno.
+extern "C" __attribute__((naked, section(".vectors"), used)) void verp_entry() {
+  __asm__ volatile(
+      ".option push\n .option arch, +zicsr\n"
+      "la sp, verp_stack_top\n"
+      "la tp, verp_thread_begin\n"
+      "la t0, verp_fault_entry\n"
+      "csrw mtvec, t0\n"
+      ".option pop\n"
+      "tail verp_reset\n");
+}
+
+/// Every trap ends here, in the stack's top: the stack may be the very thing that broke. Interrupts
+/// are never taken: a board that waits for one looks at what is pending.
+extern "C" __attribute__((naked, aligned(4), used)) void verp_fault_entry() {
+  __asm__ volatile(
+      ".option push\n .option arch, +zicsr\n"
+      "csrr a0, mepc\n"
+      "mv a1, ra\n"
+      "csrr a2, mcause\n"
+      "csrr a3, mtval\n"
+      "mv a4, sp\n"
+      ".option pop\n"
+      "la sp, verp_stack_top\n"
+      "tail verp_fault_capture\n");
+}
+
+extern "C" __attribute__((used)) [[noreturn]] void verp_fault_capture(std::uint32_t pc,
+                                                                      std::uint32_t lr,
+                                                                      std::uint32_t cause,
+                                                                      std::uint32_t address,
+                                                                      std::uint32_t sp) {
+  verp::boot::FaultReport report;
+  report.cause = cause;
+  report.address = address;
+  report.stack_overflow = sp < verp::boot::stack_limit();
+  if (!report.stack_overflow) {
+    report.lr = lr;
+    report.pc = pc;
+  }
+  verp_fault(report);
+}
+
+namespace verp::boot {
+namespace {
+
+// pmpcfg0 holds the settings of four entries, a byte each.
+constexpr std::uint32_t kRead = 1, kExecute = 4, kPowerOfTwo = 3u << 3, kLocked = 1u << 7;
+
+/// pmpaddr of a naturally aligned power-of-two region of at least 8 bytes.
+constexpr std::uint32_t region(std::uint32_t begin, std::uint32_t bytes) {
+  return begin >> 2 | (bytes / 8 - 1);
+}
+constexpr std::uint32_t kGuardBytes = 32;
+
+}  // namespace
+
+void enable_core() {}
+
+/// A locked entry binds machine mode too; what no entry names stays free. Nobody writes code: a
+/// stack that jumped over its guard ends there.
+bool guard_stack() {
+  const std::uint32_t guard =
+      region(reinterpret_cast<std::uintptr_t>(verp_stack_guard), kGuardBytes);
+  const std::uint32_t code = region(reinterpret_cast<std::uintptr_t>(verp_code_begin),
+                                    reinterpret_cast<std::uintptr_t>(verp_code_bytes));
+  const std::uint32_t settings =
+      (kLocked | kPowerOfTwo) | (kLocked | kPowerOfTwo | kRead | kExecute) << 8;
+  __asm__ volatile(
+      ".option push\n .option arch, +zicsr\n"
+      "csrw pmpaddr0, %0\n"
+      "csrw pmpaddr1, %1\n"
+      "csrw pmpcfg0, %2\n"
+      ".option pop\n" ::"r"(guard),
+      "r"(code), "r"(settings)
+      : "memory");
+  return true;
+}
+
+}  // namespace verp::boot

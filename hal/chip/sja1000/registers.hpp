@@ -1,0 +1,106 @@
+#pragma once
+#include <cstdint>
+
+/// Registers of the SJA1000 in PeliCAN mode, after NXP's data sheet (SJA1000, 4 January 2000): one
+/// byte each, at these offsets. Section 6.4 unless another is named.
+namespace verp::hal::sja1000 {
+
+inline constexpr std::uint32_t kMod = 0;      ///< 6.4.3 mode
+inline constexpr std::uint32_t kCmr = 1;      ///< 6.4.4 command, write only
+inline constexpr std::uint32_t kSr = 2;       ///< 6.4.5 status, read only
+inline constexpr std::uint32_t kIr = 3;       ///< 6.4.6 interrupts; reading clears all but RI
+inline constexpr std::uint32_t kIer = 4;      ///< 6.4.7 interrupt enable
+inline constexpr std::uint32_t kBtr0 = 6;     ///< 6.5.1 bit timing
+inline constexpr std::uint32_t kBtr1 = 7;     ///< 6.5.2
+inline constexpr std::uint32_t kOcr = 8;      ///< 6.5.3 output control
+inline constexpr std::uint32_t kAlc = 11;     ///< 6.4.8 arbitration lost capture
+inline constexpr std::uint32_t kEcc = 12;     ///< 6.4.9 error code capture; reading arms it again
+inline constexpr std::uint32_t kTxErr = 15;   ///< 6.4.12
+inline constexpr std::uint32_t kBuffer = 16;  ///< 6.4.13 write: transmit, 6.4.14 read: receive
+inline constexpr std::uint32_t kAcceptance = 16;  ///< 6.4.15 codes 0 to 3, in reset mode
+inline constexpr std::uint32_t kMask = 20;        ///< 6.4.15 masks 0 to 3; 1: don't care
+inline constexpr std::uint32_t kRmc = 29;         ///< 6.4.16 messages in the receive FIFO
+inline constexpr std::uint32_t kCdr = 31;         ///< 6.5.4 clock divider, and which mode
+
+// MOD. AFM 0: two short filters. QEMU 7.2's single filter refuses identifier 0x1FF with an open
+// mask.
+inline constexpr std::uint8_t kModReset = 1u << 0;
+inline constexpr std::uint8_t kModListen = 1u << 1;
+inline constexpr std::uint8_t kModSelfTest = 1u << 2;
+inline constexpr std::uint8_t kModSingleFilter = 1u << 3;
+// CMR
+inline constexpr std::uint8_t kCmrTransmit = 1u << 0;
+inline constexpr std::uint8_t kCmrAbort = 1u << 1;
+inline constexpr std::uint8_t kCmrRelease = 1u << 2;
+inline constexpr std::uint8_t kCmrClearOverrun = 1u << 3;
+// SR
+inline constexpr std::uint8_t kSrReceived = 1u << 0;
+inline constexpr std::uint8_t kSrOverrun = 1u << 1;
+inline constexpr std::uint8_t kSrBufferFree = 1u << 2;
+inline constexpr std::uint8_t kSrComplete = 1u << 3;
+inline constexpr std::uint8_t kSrReceiving = 1u << 4;
+inline constexpr std::uint8_t kSrTransmitting = 1u << 5;
+inline constexpr std::uint8_t kSrErrors = 1u << 6;
+inline constexpr std::uint8_t kSrBusOff = 1u << 7;
+// IR and IER
+inline constexpr std::uint8_t kIrReceive = 1u << 0;
+inline constexpr std::uint8_t kIrTransmit = 1u << 1;
+inline constexpr std::uint8_t kIrWarning = 1u << 2;  ///< error or bus status changed
+inline constexpr std::uint8_t kIrOverrun = 1u << 3;
+inline constexpr std::uint8_t kIrPassive = 1u << 5;
+inline constexpr std::uint8_t kIrBusError = 1u << 7;
+// OCR: normal mode, both outputs push-pull.
+inline constexpr std::uint8_t kOcrPushPull = 0x1A;
+// CDR: PeliCAN, input comparator bypassed, clock output off.
+inline constexpr std::uint8_t kCdrPeliCan = 1u << 7;
+inline constexpr std::uint8_t kCdrBypass = 1u << 6;
+inline constexpr std::uint8_t kCdrClockOff = 1u << 3;
+// First byte of a frame in a buffer
+inline constexpr std::uint8_t kFrameExtended = 1u << 7;
+inline constexpr std::uint8_t kFrameRemote = 1u << 6;
+inline constexpr std::uint8_t kFrameLength = 0x0F;
+
+inline constexpr std::uint32_t kFifoBytes = 64;        ///< 6.4.14: shared by all received frames
+inline constexpr std::uint32_t kClockDivider = 2;      ///< 6.5.1: quanta come from half the crystal
+inline constexpr std::uint32_t kMostPrescaler = 64;    ///< BTR0.BRP
+inline constexpr std::uint32_t kShortHeaderBytes = 3;  ///< of a standard frame in the FIFO
+inline constexpr std::uint32_t kLongHeaderBytes = 5;
+
+/// One register, for checks: the model holds every access against it.
+struct Register {
+  const char* name;
+  std::uint32_t offset;
+  bool read, write;     ///< in operating mode
+  bool write_in_reset;  ///< in reset mode
+};
+
+inline constexpr Register kTable[] = {
+    {"MOD", kMod, true, true, true},
+    {"CMR", kCmr, false, true, true},
+    {"SR", kSr, true, false, false},
+    {"IR", kIr, true, false, false},
+    {"IER", kIer, true, true, true},
+    {"BTR0", kBtr0, true, false, true},
+    {"BTR1", kBtr1, true, false, true},
+    {"OCR", kOcr, true, false, true},
+    {"ALC", kAlc, true, false, false},
+    {"ECC", kEcc, true, false, false},
+    {"TXERR", kTxErr, true, false, true},
+    {"BUF0", kBuffer, true, true, true},
+    {"BUF1", kBuffer + 1, true, true, true},
+    {"BUF2", kBuffer + 2, true, true, true},
+    {"BUF3", kBuffer + 3, true, true, true},
+    {"BUF4", kBuffer + 4, true, true, true},
+    {"BUF5", kBuffer + 5, true, true, true},
+    {"BUF6", kBuffer + 6, true, true, true},
+    {"BUF7", kBuffer + 7, true, true, true},
+    {"BUF8", kBuffer + 8, true, true, false},
+    {"BUF9", kBuffer + 9, true, true, false},
+    {"BUF10", kBuffer + 10, true, true, false},
+    {"BUF11", kBuffer + 11, true, true, false},
+    {"BUF12", kBuffer + 12, true, true, false},
+    {"RMC", kRmc, true, false, false},
+    {"CDR", kCdr, true, true, true},
+};
+
+}  // namespace verp::hal::sja1000

@@ -1,0 +1,142 @@
+#pragma once
+#include "hal/chip/stm32/registers/table.hpp"
+
+/// bxCAN, alike in all three families. CAN1 holds the filters of CAN2 too.
+namespace verp::hal::stm32::can {
+
+inline constexpr std::uint32_t kMcr = 0x00, kMsr = 0x04, kTsr = 0x08, kRf0r = 0x0C, kRf1r = 0x10,
+                               kIer = 0x14, kEsr = 0x18, kBtr = 0x1C;
+/// Of mailbox 0; each further one kMailboxStep behind.
+inline constexpr std::uint32_t kTir = 0x180, kTdtr = 0x184, kTdlr = 0x188, kTdhr = 0x18C;
+/// Of FIFO 0; FIFO 1 kMailboxStep behind.
+inline constexpr std::uint32_t kRir = 0x1B0, kRdtr = 0x1B4, kRdlr = 0x1B8, kRdhr = 0x1BC;
+inline constexpr std::uint32_t kMailboxStep = 0x10;
+inline constexpr unsigned kMailboxes = 3, kFifos = 2, kFifoDepth = 3;
+inline constexpr std::uint32_t kFmr = 0x200, kFm1r = 0x204, kFs1r = 0x20C, kFfa1r = 0x214,
+                               kFa1r = 0x21C;
+/// Of filter bank 0; each further one kBankStep behind.
+inline constexpr std::uint32_t kFr1 = 0x240, kFr2 = 0x244, kBankStep = 8;
+inline constexpr unsigned kBanks = 28;
+
+inline constexpr std::uint32_t kMcrInrq = bit(0), kMcrSleep = bit(1), kMcrTxfp = bit(2),
+                               kMcrRflm = bit(3), kMcrNart = bit(4), kMcrAwum = bit(5),
+                               kMcrAbom = bit(6), kMcrTtcm = bit(7), kMcrReset = bit(15),
+                               kMcrDbf = bit(16);
+inline constexpr std::uint32_t kMsrInak = bit(0), kMsrSlak = bit(1), kMsrErri = bit(2),
+                               kMsrWkui = bit(3), kMsrSlaki = bit(4), kMsrTxm = bit(8),
+                               kMsrRxm = bit(9), kMsrSamp = bit(10), kMsrRx = bit(11);
+/// Of mailbox 0; each further one 8 bits up.
+inline constexpr std::uint32_t kTsrRqcp = bit(0), kTsrTxok = bit(1), kTsrAlst = bit(2),
+                               kTsrTerr = bit(3), kTsrAbrq = bit(7);
+inline constexpr unsigned kTsrMailboxBits = 8;
+/// Of mailbox 0; each further one a bit up.
+inline constexpr std::uint32_t kTsrCode = bits(24, 2), kTsrTme = bit(26), kTsrLow = bit(29);
+inline constexpr unsigned kTsrCodeShift = 24;
+inline constexpr std::uint32_t kRfrFmp = bits(0, 2), kRfrFull = bit(3), kRfrFovr = bit(4),
+                               kRfrRfom = bit(5);
+inline constexpr std::uint32_t kIerTmeie = bit(0), kIerFmpie0 = bit(1), kIerFfie0 = bit(2),
+                               kIerFovie0 = bit(3), kIerFmpie1 = bit(4), kIerFfie1 = bit(5),
+                               kIerFovie1 = bit(6), kIerEwgie = bit(8), kIerEpvie = bit(9),
+                               kIerBofie = bit(10), kIerLecie = bit(11), kIerErrie = bit(15),
+                               kIerWkuie = bit(16), kIerSlkie = bit(17);
+inline constexpr std::uint32_t kEsrEwgf = bit(0), kEsrEpvf = bit(1), kEsrBoff = bit(2),
+                               kEsrLec = bits(4, 3), kEsrTec = bits(16, 8), kEsrRec = bits(24, 8);
+inline constexpr unsigned kEsrLecShift = 4, kEsrTecShift = 16, kEsrRecShift = 24;
+/// LEC: what the hardware never writes, so that software sees the next error.
+inline constexpr std::uint32_t kLecNone = 0, kLecStuff = 1, kLecForm = 2, kLecAck = 3,
+                               kLecRecessive = 4, kLecDominant = 5, kLecCrc = 6, kLecUnused = 7;
+/// Each field holds its value less one.
+inline constexpr std::uint32_t kBtrBrp = bits(0, 10), kBtrTs1 = bits(16, 4), kBtrTs2 = bits(20, 3),
+                               kBtrSjw = bits(24, 2), kBtrLbkm = bit(30), kBtrSilm = bit(31);
+inline constexpr unsigned kBtrTs1Shift = 16, kBtrTs2Shift = 20, kBtrSjwShift = 24;
+/// TIR and RIR; TXRQ is TIR's. A filter of 32 bits has the same layout.
+inline constexpr std::uint32_t kIrTxrq = bit(0), kIrRtr = bit(1), kIrIde = bit(2);
+inline constexpr unsigned kIrExidShift = 3, kIrStidShift = 21;
+inline constexpr std::uint32_t kDtrDlc = bits(0, 4), kDtrTgt = bit(8), kDtrFmi = bits(8, 8),
+                               kDtrTime = bits(16, 16);
+inline constexpr std::uint32_t kFmrFinit = bit(0), kFmrCan2sb = bits(8, 6);
+/// CAN2SB after a reset: CAN2's first filter bank.
+inline constexpr unsigned kFmrCan2sbShift = 8, kCan2FirstBank = 14;
+
+inline constexpr std::uint32_t kTsrDone = kTsrRqcp | kTsrTxok | kTsrAlst | kTsrTerr;
+
+inline constexpr Register kRegisters[] = {
+    {.name = "MCR",
+     .offset = kMcr,
+     .paragraph = 2,
+     .reset = 0x00010002,
+     .rw = bits(0, 8) | kMcrDbf,
+     .rs = kMcrReset},
+    {.name = "MSR",
+     .offset = kMsr,
+     .paragraph = 2,
+     .reset = 0x00000C02,
+     .r = kMsrInak | kMsrSlak | kMsrTxm | kMsrRxm | kMsrSamp | kMsrRx,
+     .rc_w1 = kMsrErri | kMsrWkui | kMsrSlaki},
+    {.name = "TSR",
+     .offset = kTsr,
+     .paragraph = 2,
+     .reset = 0x1C000000,
+     .r = bits(24, 8),
+     .rs = kTsrAbrq * 0x010101,
+     .rc_w1 = kTsrDone * 0x010101},
+    {.name = "RF0R",
+     .offset = kRf0r,
+     .paragraph = 2,
+     .r = kRfrFmp,
+     .rs = kRfrRfom,
+     .rc_w1 = kRfrFull | kRfrFovr},
+    {.name = "RF1R",
+     .offset = kRf1r,
+     .paragraph = 2,
+     .r = kRfrFmp,
+     .rs = kRfrRfom,
+     .rc_w1 = kRfrFull | kRfrFovr},
+    {.name = "IER", .offset = kIer, .paragraph = 2, .rw = 0x00038F7F},
+    {.name = "ESR",
+     .offset = kEsr,
+     .paragraph = 2,
+     .rw = kEsrLec,
+     .r = kEsrEwgf | kEsrEpvf | kEsrBoff | kEsrTec | kEsrRec},
+    {.name = "BTR",
+     .offset = kBtr,
+     .paragraph = 2,
+     .reset = 0x01230000,
+     .rw = kBtrBrp | kBtrTs1 | kBtrTs2 | kBtrSjw | kBtrLbkm | kBtrSilm},
+};
+// What a mailbox holds after a reset is not said, but that nothing is requested.
+inline constexpr Register kTransmitRegisters[] = {
+    {.name = "TIR", .offset = kTir, .paragraph = 3, .rw = bits(0, 32)},
+    {.name = "TDTR", .offset = kTdtr, .paragraph = 3, .rw = kDtrDlc | kDtrTgt | kDtrTime},
+    {.name = "TDLR", .offset = kTdlr, .paragraph = 3, .rw = bits(0, 32)},
+    {.name = "TDHR", .offset = kTdhr, .paragraph = 3, .rw = bits(0, 32)},
+};
+inline constexpr Register kReceiveRegisters[] = {
+    {.name = "RIR", .offset = kRir, .paragraph = 3, .r = bits(1, 31)},
+    {.name = "RDTR", .offset = kRdtr, .paragraph = 3, .r = kDtrDlc | kDtrFmi | kDtrTime},
+    {.name = "RDLR", .offset = kRdlr, .paragraph = 3, .r = bits(0, 32)},
+    {.name = "RDHR", .offset = kRdhr, .paragraph = 3, .r = bits(0, 32)},
+};
+inline constexpr Register kFilterRegisters[] = {
+    {.name = "FMR",
+     .offset = kFmr,
+     .paragraph = 4,
+     .reset = 0x2A1C0E01,
+     .rw = kFmrFinit | kFmrCan2sb},
+    {.name = "FM1R", .offset = kFm1r, .paragraph = 4, .rw = bits(0, kBanks)},
+    {.name = "FS1R", .offset = kFs1r, .paragraph = 4, .rw = bits(0, kBanks)},
+    {.name = "FFA1R", .offset = kFfa1r, .paragraph = 4, .rw = bits(0, kBanks)},
+    {.name = "FA1R", .offset = kFa1r, .paragraph = 4, .rw = bits(0, kBanks)},
+};
+inline constexpr Register kBankRegisters[] = {
+    {.name = "FR1", .offset = kFr1, .paragraph = 4, .rw = bits(0, 32)},
+    {.name = "FR2", .offset = kFr2, .paragraph = 4, .rw = bits(0, 32)},
+};
+inline constexpr const char* kManuals = "RM0090 32.9, RM0390 30.9, RM0385 36.9";
+inline constexpr Table kTable = make_table("CAN", kManuals, kRegisters);
+inline constexpr Table kTransmitTable = make_table("CAN mailbox", kManuals, kTransmitRegisters);
+inline constexpr Table kReceiveTable = make_table("CAN FIFO", kManuals, kReceiveRegisters);
+inline constexpr Table kFilterTable = make_table("CAN filters", kManuals, kFilterRegisters);
+inline constexpr Table kBankTable = make_table("CAN filter bank", kManuals, kBankRegisters);
+
+}  // namespace verp::hal::stm32::can

@@ -1,0 +1,83 @@
+#pragma once
+#include <cstdint>
+
+/// Registers of the CAN controllers of Zynq UltraScale+, after AMD's UG1087 (module CAN) and UG1085
+/// (chapter 20): 32 bits each, at these offsets.
+namespace verp::hal::zynqmp_can {
+
+inline constexpr std::uint32_t kSrr = 0x00;   ///< reset and enable
+inline constexpr std::uint32_t kMsr = 0x04;   ///< mode
+inline constexpr std::uint32_t kBrpr = 0x08;  ///< prescaler less 1
+inline constexpr std::uint32_t kBtr = 0x0C;   ///< segments less 1
+inline constexpr std::uint32_t kEcr = 0x10;   ///< error counters
+inline constexpr std::uint32_t kEsr = 0x14;   ///< kinds of errors seen; write 1 clears
+inline constexpr std::uint32_t kSr = 0x18;    ///< status
+inline constexpr std::uint32_t kIsr = 0x1C;   ///< interrupt status
+inline constexpr std::uint32_t kIer = 0x20;   ///< interrupt enable
+inline constexpr std::uint32_t kIcr = 0x24;   ///< clears bits of kIsr
+inline constexpr std::uint32_t kTxId = 0x30;  ///< transmit FIFO; the write of kTxData2 sends
+inline constexpr std::uint32_t kTxDlc = 0x34;
+inline constexpr std::uint32_t kTxData1 = 0x38;
+inline constexpr std::uint32_t kTxData2 = 0x3C;
+inline constexpr std::uint32_t kRxId = 0x50;  ///< receive FIFO, read in this order
+inline constexpr std::uint32_t kRxDlc = 0x54;
+inline constexpr std::uint32_t kRxData1 = 0x58;
+inline constexpr std::uint32_t kRxData2 = 0x5C;
+inline constexpr std::uint32_t kAfr = 0x60;  ///< acceptance filters in use; 0: everything is for us
+
+inline constexpr std::uint32_t kSrrReset = 1u << 0;
+inline constexpr std::uint32_t kSrrEnable = 1u << 1;
+inline constexpr std::uint32_t kSrConfig = 1u << 0;
+inline constexpr std::uint32_t kSrNormal = 1u << 3;
+inline constexpr std::uint32_t kSrState = 3u << 7;      ///< ESTAT
+inline constexpr std::uint32_t kSrBusOff = 2u << 7;     ///< of kSrState
+inline constexpr std::uint32_t kIsrSent = 1u << 1;      ///< TXOK
+inline constexpr std::uint32_t kIsrReceived = 1u << 4;  ///< RXOK
+inline constexpr std::uint32_t kIsrOverrun = 1u << 6;   ///< RXOFLW
+inline constexpr std::uint32_t kIsrNotEmpty = 1u << 7;  ///< RXNEMP
+inline constexpr std::uint32_t kIsrError = 1u << 8;
+inline constexpr std::uint32_t kIsrBusOff = 1u << 9;
+
+inline constexpr unsigned kBtrAfterShift = 4;  ///< TS2
+inline constexpr unsigned kBtrJumpShift = 7;   ///< SJW
+// The identifier words: 11 bits at 21, then these, 18 more bits at 1.
+inline constexpr std::uint32_t kIdRemote = 1u << 20;  ///< SRR in an extended frame
+inline constexpr std::uint32_t kIdExtended = 1u << 19;
+inline constexpr std::uint32_t kIdRemoteExtended = 1u << 0;
+inline constexpr unsigned kDlcShift = 28;
+inline constexpr std::uint32_t kMostPrescaler = 256;
+inline constexpr std::uint32_t kFifoFrames = 64;  ///< each way
+
+/// One register, for checks: the model holds every access against it.
+struct Register {
+  const char* name;
+  std::uint32_t offset;
+  std::uint32_t readable, writable;  ///< bits
+  bool config_only;                  ///< writable while SRR.CEN is 0 only
+};
+
+inline constexpr std::uint32_t kWord = 0xFFFFFFFFu;
+inline constexpr std::uint32_t kAllInterrupts = 0x7FFF;
+inline constexpr Register kTable[] = {
+    {"SRR", kSrr, 3, 3, false},
+    {"MSR", kMsr, 7, 7, true},
+    {"BRPR", kBrpr, 0xFF, 0xFF, true},
+    {"BTR", kBtr, 0x1FF, 0x1FF, true},
+    {"ECR", kEcr, 0xFFFF, 0, false},
+    {"ESR", kEsr, 0x1F, 0x1F, false},
+    {"SR", kSr, 0x1FFF, 0, false},
+    {"ISR", kIsr, kAllInterrupts, 0, false},
+    {"IER", kIer, kAllInterrupts, kAllInterrupts, false},
+    {"ICR", kIcr, 0, kAllInterrupts, false},
+    {"TXFIFO_ID", kTxId, 0, kWord, false},
+    {"TXFIFO_DLC", kTxDlc, 0, 0xFu << kDlcShift, false},
+    {"TXFIFO_DATA1", kTxData1, 0, kWord, false},
+    {"TXFIFO_DATA2", kTxData2, 0, kWord, false},
+    {"RXFIFO_ID", kRxId, kWord, 0, false},
+    {"RXFIFO_DLC", kRxDlc, kWord, 0, false},
+    {"RXFIFO_DATA1", kRxData1, kWord, 0, false},
+    {"RXFIFO_DATA2", kRxData2, kWord, 0, false},
+    {"AFR", kAfr, 0xF, 0xF, false},
+};
+
+}  // namespace verp::hal::zynqmp_can

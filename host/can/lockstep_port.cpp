@@ -1,0 +1,54 @@
+#include "host/can/lockstep_port.hpp"
+
+namespace verp::can {
+namespace {
+
+// With filters, and so without what this socket sent itself.
+const std::vector<wire::CanFilter> kAll = {{.id = 0, .mask = 0, .extended = false},
+                                           {.id = 0, .mask = 0, .extended = true}};
+/// The controller's messages, not those of this end, which frames_ sends and bell_ would hear.
+constexpr std::uint32_t kKind = 0x1FFFFFF8;
+const std::vector<wire::CanFilter> kClock = {
+    {.id = lockstep::kCanHelloId, .mask = kKind, .extended = true},
+    {.id = lockstep::kCanAdvanceId, .mask = kKind, .extended = true}};
+static_assert(((lockstep::kCanHelloId + lockstep::kCanHelloParts - 1) & kKind) ==
+              lockstep::kCanHelloId);
+static_assert((lockstep::kCanHelloReplyId & kKind) == lockstep::kCanHelloReplyId);
+static_assert((lockstep::kCanAdvancedId & kKind) == lockstep::kCanAdvancedId);
+
+/// Both sockets get a frame at nearly the same time.
+constexpr std::uint32_t kMoment_us = 1000;
+
+}  // namespace
+
+LockstepPort::LockstepPort(const wire::Endpoint& endpoint)
+    : frames_(endpoint, kAll, false), bell_(endpoint, kClock, false) {}
+
+bool LockstepPort::serve(LockstepServer& server, std::uint32_t wait_us) {
+  CanFrame frame;
+  const bool asked = bell_.await(frame, wait_us);
+  if (asked) ++rung_;
+  answer_.clear();
+  for (;;) {
+    const bool owed = rung_ > taken_;
+    if (!frames_.await(frame, owed ? kMoment_us : 0)) {
+      taken_ = rung_;
+      break;
+    }
+    server.take(frame, answer_);
+    if (!lockstep::is_clock_frame(frame)) continue;
+    ++taken_;
+    break;  // what comes behind it belongs to the next
+  }
+  // What doesn't leave, because nobody is there, is asked for again.
+  if (!answer_.empty()) frames_.send_all(answer_.data(), answer_.size());
+  return asked;
+}
+
+hal::CanErrors LockstepPort::errors() const {
+  hal::CanErrors errors = frames_.errors();
+  errors.overruns += bell_.errors().overruns;
+  return errors;
+}
+
+}  // namespace verp::can

@@ -1,0 +1,46 @@
+#include "host/can/realtime_server.hpp"
+
+#include <algorithm>
+
+namespace verp::can {
+
+void RealtimeServer::hear(const CanFrame& frame, std::uint64_t clock_us,
+                          std::vector<CanFrame>& answer) {
+  if (!begun_) {
+    begun_ = true;
+    offset_us_ = clock_us - bus_.now_us();
+    in_step_since_us_ = clock_us;
+    bus_.set_real_time(true);
+  }
+  turn(clock_us, answer);
+  ++counters_.frames;
+  if (!bus_.send(frame)) ++counters_.dropped;
+}
+
+void RealtimeServer::turn(std::uint64_t clock_us, std::vector<CanFrame>& answer) {
+  if (!begun_) return;
+  const std::uint64_t behind_us = due_us(clock_us) - bus_.now_us();
+  if (behind_us > kMostBehind_us) {
+    offset_us_ += behind_us - kMostBehind_us;
+    counters_.skipped_us += behind_us - kMostBehind_us;
+    in_step_since_us_ = clock_us;
+  } else if (clock_us > in_step_since_us_ + kKeepsUp_us) {
+    kept_up_ = true;
+  }
+  const std::uint64_t until_us = due_us(clock_us);
+  CanFrame frame;
+  while (bus_.bring_until(until_us, frame)) answer.push_back(frame);
+}
+
+std::uint64_t RealtimeServer::due_us(std::uint64_t clock_us) const {
+  return std::max(clock_us, offset_us_ + bus_.now_us()) - offset_us_;
+}
+
+void RealtimeServer::finished(std::uint64_t clock_us) {
+  if (!begun_) return;
+  const std::uint64_t late_us = due_us(clock_us) - bus_.now_us();
+  counters_.late += late_us > kLate_us ? 1 : 0;
+  counters_.worst_late_us = std::max(counters_.worst_late_us, late_us);
+}
+
+}  // namespace verp::can

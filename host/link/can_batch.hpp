@@ -1,0 +1,39 @@
+#pragma once
+#include <linux/can.h>
+#include <sys/socket.h>
+#include <sys/uio.h>
+
+#include <cstddef>
+#include <cstdint>
+
+#include "common/base/can_frame.hpp"
+
+/// CAN frames as the kernel has them.
+namespace verp::wire {
+
+canfd_frame to_kernel(const CanFrame& frame);
+CanFrame from_kernel(const canfd_frame& raw, bool fd);
+
+/// What came with a frame beside it.
+struct CanBeside {
+  std::uint64_t wall_ns = 0;  ///< 0: not told
+  std::uint32_t drops = 0;    ///< of the socket's queue, so far
+  bool drops_told = false;
+};
+CanBeside read_beside(msghdr& message);
+
+/// Frames on their way through one call of the kernel, and what comes with each.
+struct CanBatch {
+  static constexpr std::size_t kMost = 16;
+
+  explicit CanBatch(std::size_t size);
+  /// For receiving.
+  void expect_control();
+
+  canfd_frame raw[kMost] = {};
+  iovec part[kMost];
+  alignas(cmsghdr) std::uint8_t control[kMost][128];
+  mmsghdr message[kMost] = {};
+};
+
+}  // namespace verp::wire

@@ -1,0 +1,14 @@
+#pragma once
+#include "host/model/facts.hpp"
+
+namespace verp::model {
+
+constexpr int kHighestId =
+    199;  // 200 is the controller, 201 the clock, 253 and up are the protocol's
+constexpr int kHighestNode =
+    125;  // CiA 301 has 127; the last two are the controller's and a tool's
+
+/// A <verp:bus> with its servos. Throws LoadError.
+BusFact read_bus(const XmlElement& e);
+
+}  // namespace verp::model

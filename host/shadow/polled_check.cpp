@@ -1,0 +1,140 @@
+#include "host/shadow/polled_check.hpp"
+
+#include "common/control/step.hpp"
+#include "firmware/app/register_image.hpp"
+#include "host/shadow/identity.hpp"
+
+namespace verp::shadow {
+
+using app::reg;
+using Answer = TickPort::Answer;
+using Log = app::TickLog<>;
+
+namespace {
+constexpr int kMostReads = 100;  // of the tick, until it is another
+}
+
+bool PolledCheck::turn(std::uint64_t now_us) {
+  now_us_ = now_us;
+  if (state_ == State::kAsking) return begin();
+  return state_ == State::kFollowing && follow();
+}
+
+bool PolledCheck::good(Answer answer) {
+  if (answer == Answer::kGood) heard_us_ = now_us_;
+  return answer == Answer::kGood;
+}
+
+bool PolledCheck::begin() {
+  std::uint32_t crc = 0, core = 0, tick = 0, later = 0;
+  if (!good(port_.read(reg("model_information"), &crc, sizeof crc)) ||
+      !good(port_.read(reg("core_version"), &core, sizeof core))) {
+    return false;
+  }
+  if (const std::string why = why_another(params_, crc, core); !why.empty()) {
+    refuse(why);
+    return false;
+  }
+  // What was held before is of long ago.
+  if (!hold(Log::kNothing) || !good(port_.read(reg("tick"), &tick, sizeof tick))) return false;
+  for (int reads = 0; reads < kMostReads && (reads == 0 || later == tick); ++reads) {
+    if (!good(port_.read(reg("tick"), &later, sizeof later))) return false;
+  }
+  if (tick == later || !hold(Log::kStateOnly) || !read_state() || !hold(Log::kNothing))
+    return false;
+  shadow_ = testimony_.held.state;
+  next_ = testimony_.held.record.inputs.tick + 1;
+  state_ = State::kFollowing;
+  return true;
+}
+
+bool PolledCheck::hold(app::TickLog<>::Hold what) {
+  const Answer held = port_.write(reg("tick_hold"), what);
+  if (held == Answer::kRefused) {
+    refuse(port_.error() == dxl::Error::kResultFail ? kKeepsNoTicks : kNoTickHold);
+  }
+  return good(held);
+}
+
+bool PolledCheck::read_state() {
+  return good(
+      port_.read_image(app::ImageKind::kState, 0, &testimony_.held, sizeof testimony_.held));
+}
+
+bool PolledCheck::read_ticks() {
+  std::uint8_t image[kTicks * sizeof(TickRecord)];
+  if (!good(port_.read_image(app::ImageKind::kTicks, 0, image, sizeof image))) return false;
+  testimony_.ticks = ticks_of(image, sizeof image, testimony_.held);
+  return true;
+}
+
+bool PolledCheck::follow() {
+  TickRecord record;
+  std::uint32_t newest = 0;
+  const std::size_t place = next_ % kTicks * sizeof record;
+  if (!good(port_.read(reg("tick"), &newest, sizeof newest))) return false;
+  const std::uint32_t ahead = newest - next_;
+  if (ahead == ~0u) return false;  // it is the one before
+  if (ahead >= kTicks) {
+    const bool back = ahead >= 1u << 31;
+    boots_ += back ? 1 : 0;
+    lose(back ? "the controller began anew" : "the controller dropped ticks before they were read");
+    return false;
+  }
+  if (!good(port_.read_image(app::ImageKind::kTicks, place, &record, sizeof record))) return false;
+  if (record.inputs.tick == next_) return compare(record);
+  if (record.inputs.tick - next_ < 1u << 31) {
+    lose("the controller dropped ticks before they were read");
+    return false;
+  }
+  ++next_;  // a period without a tick
+  return true;
+}
+
+bool PolledCheck::compare(const TickRecord& record) {
+  verp::State next = shadow_;
+  Outputs outputs;
+  step(params_, next, record.inputs, outputs);
+  if (next.digest.chain != record.digest.chain) return settle(record);
+  shadow_ = next;
+  ++compared_;
+  ++next_;
+  if (++clean_ == kClean) misheard_ = 0;
+  return true;
+}
+
+// A record that was written while it was read is no difference either.
+bool PolledCheck::settle(const TickRecord& record) {
+  if (!hold(Log::kAll) || !read_state() || !read_ticks() || !hold(Log::kNothing)) {
+    ++unsettled_;
+    lose("a digest differed, and the link was lost over it");
+    return false;
+  }
+  const Judgement judgement =
+      judge(params_, {shadow_, record.inputs, record.digest.chain}, testimony_);
+  divergence_ = judgement.divergence;
+  if (judgement.verdict == Verdict::kDifference ||
+      (judgement.verdict == Verdict::kMisheard && ++misheard_ > kMostMisheard)) {
+    state_ = State::kDiffers;
+  } else if (judgement.verdict == Verdict::kTooLate) {
+    ++unsettled_;
+    lose("a digest differed, and the controller's records of that tick came too late");
+  } else {
+    lose("a tick was not read whole");
+  }
+  return false;
+}
+
+void PolledCheck::lose(const std::string& why) {
+  ++gaps_;
+  gap_ = why;
+  clean_ = 0;
+  if (state_ != State::kRefused) state_ = State::kAsking;
+}
+
+void PolledCheck::refuse(const std::string& why) {
+  refusal_ = why;
+  state_ = State::kRefused;
+}
+
+}  // namespace verp::shadow

@@ -1,0 +1,164 @@
+#include "host/tool/bus_on_can.hpp"
+
+#include <fmt/format.h>
+
+#include "common/protocol/canopen/robot_plan.hpp"
+#include "host/bus/client.hpp"
+#include "host/can/client.hpp"
+#include "host/tool/bus_bench.hpp"
+#include "host/tool/console.hpp"
+#include "host/tool/interrupt.hpp"
+#include "host/tool/node_objects.hpp"
+#include "host/tool/register_value.hpp"
+
+namespace verp::tool {
+namespace {
+
+using dxl::controller::Type;
+
+std::uint8_t node_of(const BusOptions& options) {
+  return static_cast<std::uint8_t>(options.id);
+}
+
+can::NodeIdentity identify(can::Client& client, const BusOptions& options) {
+  const auto identity = client.identify(node_of(options));
+  if (identity) return *identity;
+  throw ToolError(kNoDevice, fmt::format("{}: node {} does not answer, asked {} times; check "
+                                         "power, wiring, termination and bit rate",
+                                         client.place(), options.id, can::Client::kAttempts));
+}
+
+can::Client open(const BusOptions& options) {
+  if (options.address >= 0) {
+    throw ToolError(kBadInput,
+                    "--address is of devices on serial links; on CAN give --object "
+                    "INDEX:SUBINDEX, such as 6064:0");
+  }
+  if (!canopen::is_node(static_cast<unsigned>(options.id))) {
+    throw ToolError(kBadInput, fmt::format("--id: {} is no node id of CANopen; give 1 to {}",
+                                           options.id, canopen::kMaxNode));
+  }
+  if (!options.object.empty()) parse_object(options.object);  // before anything is sent
+  return can::Client(wire::parse_endpoint(options.link));
+}
+
+std::string kind_of(const can::NodeIdentity& each) {
+  if (!each.name.empty()) return each.name;
+  const unsigned profile = each.device_type & 0xFFFF;
+  return profile == 0 ? "of no profile" : fmt::format("CiA {}", profile);
+}
+Json to_json(const can::NodeIdentity& each) {
+  return {{"id", each.node},         {"device_type", each.device_type}, {"vendor", each.vendor},
+          {"product", each.product}, {"revision", each.revision},       {"name", each.name}};
+}
+void print(const std::vector<can::NodeIdentity>& found, const BusOptions& options) {
+  if (options.json) {
+    Json nodes = Json::array();
+    for (const can::NodeIdentity& each : found) nodes.push_back(to_json(each));
+    return print_json({{"link", options.link}, {"nodes", nodes}});
+  }
+  for (const can::NodeIdentity& each : found) {
+    answer(fmt::format("{:3}  {:<24}  type 0x{:08X}  vendor 0x{:X}  product 0x{:X}\n", each.node,
+                       kind_of(each), each.device_type, each.vendor, each.product));
+  }
+}
+
+}  // namespace
+
+bool on_can(const BusOptions& options) {
+  return !options.link.empty() &&
+         wire::parse_endpoint(options.link).kind == wire::Endpoint::Kind::kCan;
+}
+
+int scan_can(const BusOptions& options) {
+  can::Client client = open(options);
+  const auto found = client.scan(static_cast<std::uint32_t>(options.timeout_ms * 1000));
+  if (found.empty()) {
+    throw ToolError(kNoDevice, options.link +
+                                   ": no node answers; check power, wiring, termination "
+                                   "and bit rate, or raise --timeout");
+  }
+  print(found, options);
+  return kGood;
+}
+
+int ping_can(const BusOptions& options) {
+  can::Client client = open(options);
+  const can::NodeIdentity identity = identify(client, options);
+  if (options.json) {
+    print_json(to_json(identity));
+  } else {
+    print({identity}, options);
+  }
+  return kGood;
+}
+
+int read_can(const BusOptions& options) {
+  can::Client client = open(options);
+  const bool all = options.names.empty() && options.object.empty();
+  Json values = Json::object();
+  for (const NodeObject& each : wanted(options, objects_of(identify(client, options)))) {
+    std::vector<std::uint8_t> bytes;
+    try {
+      bytes = client.read(node_of(options), each.at);
+    } catch (const bus::DeviceError&) {
+      if (!all) throw;  // of all: what can't be read is left out
+      continue;
+    }
+    if (options.json) {
+      values[can::to_text(each.at)] = {{"name", each.name}, {"value", json_value(each, bytes)}};
+    } else if (!options.object.empty()) {
+      answer(show_value(each, bytes) + "\n");
+    } else {
+      answer(fmt::format("{:>7}  {:<32} {}\n", can::to_text(each.at), each.name,
+                         show_value(each, bytes)));
+    }
+  }
+  if (options.json) print_json({{"id", options.id}, {"objects", values}});
+  return kGood;
+}
+
+int write_can(const BusOptions& options) {
+  if (options.object.empty() && options.names.size() != 1) {
+    throw ToolError(kBadInput, "verp bus write: name one object, by --register or --object");
+  }
+  can::Client client = open(options);
+  NodeObject object = wanted(options, objects_of(identify(client, options))).front();
+  if (!object.writable) throw ToolError(kBadInput, object.name + " is read-only");
+  if (!object.type) {  // its size is all that can be learnt
+    const std::size_t size = client.read(node_of(options), object.at).size();
+    if (size == 1) object.type = Type::kU8;
+    if (size == 2) object.type = Type::kU16;
+    if (size == 4) object.type = Type::kU32;
+    if (!object.type) {
+      throw ToolError(kBadInput, fmt::format("{} has {} bytes; only numbers of 1, 2 and 4 bytes "
+                                             "can be written",
+                                             object.name, size));
+    }
+  }
+  const std::vector<std::uint8_t> bytes = parse_values(object.as_register(), options.values);
+  client.write(node_of(options), object.at, bytes);
+  if (options.json) {
+    print_json({{"id", options.id}, {"object", can::to_text(object.at)}, {"bytes", bytes.size()}});
+  }
+  return kGood;
+}
+
+int bench_can(const BusOptions& options) {
+  can::Client client = open(options);
+  identify(client, options);
+  catch_interrupts();
+  constexpr std::uint16_t kBytes = 4;  // of the device type
+  const BusBench result =
+      run_bus_bench([&] { return client.read_once(node_of(options), canopen::plan::kDeviceType); },
+                    kBytes, options.seconds);
+  if (options.json) {
+    print_json(to_json(result));
+  } else {
+    answer(to_text(result));
+  }
+  if (result.good == 0) throw ToolError(kNoDevice, options.link + ": no read was answered");
+  return interrupted() ? kRunFailed : kGood;
+}
+
+}  // namespace verp::tool

@@ -1,0 +1,24 @@
+#pragma once
+#include <string>
+#include <vector>
+
+namespace verp::tool {
+
+/// The words of `verp bus scan|ping|read|write|bench`, on any link.
+struct BusOptions {
+  std::string link;
+  double timeout_ms = 100;
+  int id = -1;  ///< the controller
+  std::vector<std::string> names;
+  int address = -1;
+  std::string object;  ///< on CAN: INDEX:SUBINDEX
+  int size = 4;
+  std::vector<std::string> values;
+  std::string node;
+  bool each = false;
+  double seconds = 2;
+  int bench_address = 0;
+  bool json = false;
+};
+
+}  // namespace verp::tool

@@ -1,0 +1,107 @@
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "host/can/load_table.hpp"
+#include "host/model/find.hpp"
+#include "host/model/load.hpp"
+#include "host/model/params.hpp"
+#include "host/tool/console.hpp"
+#include "host/tool/setup_command.hpp"
+
+namespace verp::tool {
+namespace {
+
+struct LoadWords {
+  std::string robot = "generic21", bus;
+  std::uint32_t data_baud = 5'000'000;  ///< the fastest rate of most FD transceivers
+  bool json = false;
+};
+
+/// The bus that is named, or else the robot's first one on CAN.
+model::Entity robot_on_can(const LoadWords& words) {
+  const std::string file = model::find_model(words.robot);
+  model::Entity entity = model::load_robot(file, words.bus);
+  if (entity.protocol == BusProtocol::kCia402) return entity;
+  for (const std::string& name : entity.buses) {
+    if (!words.bus.empty()) break;
+    model::Entity other = model::load_robot(file, name);
+    if (other.protocol == BusProtocol::kCia402) return other;
+  }
+  throw ToolError(
+      kBadInput,
+      fmt::format("verp bus load: {}: {} has no CAN bus{}; add <verp:bus name=\"can\" "
+                  "protocol=\"cia402\"> with its drives, or name another with --bus",
+                  entity.file, entity.name, words.bus.empty() ? "" : " named '" + words.bus + "'"));
+}
+
+std::string percent(std::uint32_t permille) {
+  return fmt::format("{:.1f} %", permille / 10.0);
+}
+
+std::string table_text(const Params& params, const LoadWords& words,
+                       const std::vector<can::LoadRow>& rows) {
+  std::string text =
+      fmt::format("{}: {} drives on CAN at {} bit/s; FD frames at {} bit/s from the data on\n",
+                  params.name, params.joint_count, params.baud, words.data_baud);
+  text += fmt::format("{:>5} {:>6} {:<8} {:>12} {:>15} {:>17} {:>16}\n", "Hz", "buses", "frames",
+                      "no stuffing", "worst stuffing", "all states change", "with live check");
+  for (const can::LoadRow& row : rows) {
+    text += fmt::format("{:>5} {:>6} {:<8} {:>12} {:>15} {:>17} {:>16}{}\n", row.rate_hz, row.buses,
+                        row.fd ? "FD" : "classic", percent(row.bare_permille),
+                        percent(row.worst_permille), percent(row.change_permille),
+                        percent(row.published_permille),
+                        row.refusal.empty() ? "" : "  refused: " + row.refusal);
+  }
+  return text;
+}
+
+Json table_json(const Params& params, const LoadWords& words,
+                const std::vector<can::LoadRow>& rows) {
+  Json json = {{"robot", params.name},
+               {"drives", params.joint_count},
+               {"baud", params.baud},
+               {"data_baud", words.data_baud},
+               {"rows", Json::array()}};
+  for (const can::LoadRow& row : rows) {
+    json["rows"].push_back({{"rate_hz", row.rate_hz},
+                            {"buses", row.buses},
+                            {"fd", row.fd},
+                            {"bits_without_stuffing", row.bits_bare},
+                            {"bits_with_worst_stuffing", row.bits_worst},
+                            {"share_without_stuffing", row.bare_permille / 1000.0},
+                            {"share_with_worst_stuffing", row.worst_permille / 1000.0},
+                            {"share_when_all_states_change", row.change_permille / 1000.0},
+                            {"share_with_live_check", row.published_permille / 1000.0},
+                            {"admitted", row.refusal.empty()},
+                            {"refusal", row.refusal}});
+  }
+  return json;
+}
+
+}  // namespace
+
+Subcommand add_bus_load(CLI::App& bus) {
+  CLI::App* app =
+      bus.add_subcommand("load", "what a robot's CAN bus has to carry, and what does not fit");
+  auto words = std::make_shared<LoadWords>();
+  app->add_option("--robot", words->robot, "a robot of common/robots, or the path of an SDF file")
+      ->capture_default_str();
+  app->add_option("--bus", words->bus, "name of its bus (default: its first on CAN)");
+  app->add_option("--data-baud", words->data_baud, "data rate of FD frames, bit/s")
+      ->check(whole_number_between(1'000'000, 8'000'000))
+      ->capture_default_str();
+  add_json_flag(*app, words->json);
+  return {app, [words] {
+            const Params params = model::make_params(robot_on_can(*words));
+            const std::vector<can::LoadRow> rows = can::load_table(params, words->data_baud);
+            if (words->json) {
+              print_json(table_json(params, *words, rows));
+            } else {
+              answer(table_text(params, *words, rows));
+            }
+            return int{kGood};
+          }};
+}
+
+}  // namespace verp::tool

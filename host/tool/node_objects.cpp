@@ -1,0 +1,153 @@
+#include "host/tool/node_objects.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <charconv>
+#include <cstring>
+
+#include "host/eds/eds.hpp"
+#include "host/tool/register_value.hpp"
+#include "host/tool/suggest.hpp"
+
+namespace verp::tool {
+namespace {
+
+using canopen::Address;
+using dxl::controller::Access;
+using dxl::controller::Type;
+
+std::optional<Type> type_of(eds::DataType type) {
+  switch (type) {
+    case eds::DataType::kUnsigned8:
+      return Type::kU8;
+    case eds::DataType::kUnsigned16:
+      return Type::kU16;
+    case eds::DataType::kUnsigned32:
+      return Type::kU32;
+    case eds::DataType::kUnsigned64:
+      return Type::kU64;
+    case eds::DataType::kInteger8:
+      return Type::kI8;
+    case eds::DataType::kInteger16:
+      return Type::kI16;
+    case eds::DataType::kInteger32:
+      return Type::kI32;
+    case eds::DataType::kReal32:
+      return Type::kF32;
+    case eds::DataType::kVisibleString:
+      return Type::kText;
+    case eds::DataType::kDomain:
+      return std::nullopt;
+  }
+  return std::nullopt;
+}
+
+bool parse_hex(std::string_view word, unsigned most, unsigned& value) {
+  if (word.starts_with("0x") || word.starts_with("0X")) word.remove_prefix(2);
+  const char* end = word.data() + word.size();
+  const auto [last, error] = std::from_chars(word.data(), end, value, 16);
+  return error == std::errc() && last == end && value <= most;
+}
+
+// Names are the sheet's, and a sheet has as many COB-IDs as PDOs: none of them is meant more than
+// another.
+NodeObject by_name(const std::vector<NodeObject>& known, const std::string& name) {
+  std::vector<std::string> names, places;
+  const NodeObject* found = nullptr;
+  for (const NodeObject& each : known) {
+    names.push_back(each.name);
+    if (each.name != name) continue;
+    found = &each;
+    places.push_back(can::to_text(each.at));
+  }
+  if (places.size() > 1) {
+    throw ToolError(kBadInput, fmt::format("'{}' is the name of {} objects: {}; give one of them "
+                                           "by --object",
+                                           name, places.size(), fmt::join(places, ", ")));
+  }
+  if (found != nullptr) return *found;
+  throw ToolError(kBadInput, fmt::format("the node has no object named '{}'{}; give --object "
+                                         "INDEX:SUBINDEX",
+                                         name, did_you_mean(name, names)));
+}
+
+bool fits(const NodeObject& object, const std::vector<std::uint8_t>& bytes) {
+  return object.type &&
+         (*object.type == Type::kText || bytes.size() == dxl::controller::type_bytes(*object.type));
+}
+
+/// In 1000h to 1FFFh 32 bits are fields side by side: a node and flags, an address and a length.
+bool is_fields(const NodeObject& object) {
+  return object.type == Type::kU32 && object.at.index >= 0x1000 && object.at.index <= 0x1FFF;
+}
+
+std::string as_bytes(const std::vector<std::uint8_t>& bytes) {
+  if (bytes.size() > 8) return fmt::format("{} bytes", bytes.size());
+  std::uint64_t value = 0;
+  std::memcpy(&value, bytes.data(), bytes.size());
+  return fmt::format("0x{:0{}X}", value, 2 * bytes.size());
+}
+
+}  // namespace
+
+bus::NamedRegister NodeObject::as_register() const {
+  return {.address = at.index,
+          .name = name.c_str(),
+          .type = *type,
+          .access = writable ? Access::kWrite : Access::kRead};
+}
+
+std::vector<NodeObject> objects_of(const can::NodeIdentity& identity) {
+  std::vector<NodeObject> all;
+  for (const eds::Entry& each : eds::known_entries({.device_type = identity.device_type,
+                                .vendor = identity.vendor,
+                                .product = identity.product})) {
+    all.push_back({each.at, each.value.name, type_of(each.value.type), each.value.writable});
+  }
+  return all;
+}
+
+Address parse_object(const std::string& text) {
+  const std::size_t colon = text.find(':');
+  unsigned index = 0, sub = 0;
+  const bool good = parse_hex(std::string_view(text).substr(0, colon), 0xFFFF, index) &&
+                    (colon == std::string::npos ||
+                     parse_hex(std::string_view(text).substr(colon + 1), 0xFF, sub));
+  if (!good) {
+    throw ToolError(kBadInput,
+                    fmt::format("--object: '{}' is no address; give INDEX:SUBINDEX, both "
+                                "hexadecimal, such as 6064:0",
+                                text));
+  }
+  return {static_cast<std::uint16_t>(index), static_cast<std::uint8_t>(sub)};
+}
+
+std::vector<NodeObject> wanted(const BusOptions& options, const std::vector<NodeObject>& known) {
+  std::vector<NodeObject> all;
+  for (const std::string& name : options.names) all.push_back(by_name(known, name));
+  if (!options.object.empty()) {
+    const Address at = parse_object(options.object);
+    NodeObject one{at, can::to_text(at), std::nullopt};
+    for (const NodeObject& each : known) {
+      if (each.at == at) one = each;
+    }
+    all.push_back(one);
+  }
+  if (!all.empty()) return all;
+  if (known.empty()) {
+    throw ToolError(kBadInput, "its objects have no names here; give --object INDEX:SUBINDEX");
+  }
+  return known;
+}
+
+std::string show_value(const NodeObject& object, const std::vector<std::uint8_t>& bytes) {
+  if (!fits(object, bytes) || is_fields(object)) return as_bytes(bytes);
+  return show_value(object.as_register(), bytes);
+}
+
+Json json_value(const NodeObject& object, const std::vector<std::uint8_t>& bytes) {
+  return fits(object, bytes) ? json_value(object.as_register(), bytes) : Json(as_bytes(bytes));
+}
+
+}  // namespace verp::tool

@@ -1,0 +1,41 @@
+#pragma once
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "host/bus/register_names.hpp"
+#include "host/can/client.hpp"
+#include "host/tool/bus_options.hpp"
+#include "host/tool/command.hpp"
+
+/// Objects of CANopen nodes as people name them and read their values.
+namespace verp::tool {
+
+/// One value of a node, with the name and type that a sheet has for it.
+struct NodeObject {
+  canopen::Address at;
+  std::string name;                           ///< its address if no sheet has it
+  std::optional<dxl::controller::Type> type;  ///< nothing: bytes
+  bool writable = true;
+
+  /// With a type only; this outlives what is returned.
+  bus::NamedRegister as_register() const;
+};
+
+/// What the node's sheet names; nothing if it has none here.
+std::vector<NodeObject> objects_of(const can::NodeIdentity& identity);
+
+/// INDEX:SUBINDEX; throws ToolError.
+canopen::Address parse_object(const std::string& text);
+
+/// What the words ask for; all that is known of the node if they name nothing. Throws ToolError if
+/// nothing has that name, or more than one object.
+std::vector<NodeObject> wanted(const BusOptions& options, const std::vector<NodeObject>& known);
+
+/// As its type has it, else as bytes. For people what is made of fields, as COB-IDs and mapping
+/// entries are, is hexadecimal.
+std::string show_value(const NodeObject& object, const std::vector<std::uint8_t>& bytes);
+Json json_value(const NodeObject& object, const std::vector<std::uint8_t>& bytes);
+
+}  // namespace verp::tool

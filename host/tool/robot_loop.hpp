@@ -1,0 +1,188 @@
+#pragma once
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+#include "firmware/app/app.hpp"
+#include "firmware/app/pacer.hpp"
+#include "host/bus/assumed_imu.hpp"
+#include "host/bus/register_names.hpp"
+#include "host/link/system_clock.hpp"
+#include "host/record/trace_error.hpp"
+#include "host/tool/console.hpp"
+#include "host/tool/exit_status.hpp"
+#include "host/tool/interrupt.hpp"
+#include "host/tool/run_operator.hpp"
+#include "host/tool/run_robot.hpp"
+
+namespace verp::tool {
+
+/// What a servo says when it is asked at the end.
+enum class LetGo : std::uint8_t { kYes, kNo, kSilent };
+
+/// Why a robot did not come up; `where` is the register or object at which it failed.
+ToolError not_up(const app::BringUpReport& report, const std::string& place,
+                 const std::string& where);
+/// Throws ToolError with the remedy if a tick can't fit; warns if it only just does.
+void judge_fit(const bus::LinkFit& fit, const RunPlan& plan);
+/// Throws ToolError if the robot names no IMU on its bus, or `trouble` says what is wrong with it.
+void judge_imu(const RunPlan& plan, const std::string& trouble);
+
+/// Recorder of a run: passes each tick to the operator, the trace and the result.
+struct RunKeeper {
+  void record(const TickRecord& tick, const State& state, const Outputs& outputs) {
+    person.observe(state, outputs);
+    ++walk.ticks;
+    walk.digest = tick.digest.chain;
+    walk.faults |= outputs.faults;
+    if (trace == nullptr) return;
+    try {
+      trace->append(tick, state, outputs.faults);
+    } catch (const record::TraceError& error) {  // a disk that is full costs the trace
+      walk.trace_failure = error.what();
+      trace = nullptr;
+    }
+  }
+  RunOperator& person;
+  WalkResult& walk;
+  record::TraceWriter* trace;
+};
+
+/// One robot, driven in real time. Robot is how it is reached:
+///  - Bus, bus(): what App drives it through; waits no longer than bring-up needs until
+///  set_held(us)
+///    says for how long answers may be held up;
+///  - connected(), link_errors(); let_go(joint): asks one servo, and tells it once more;
+///  - where(address): at what a bring-up failed, in words.
+template <class Robot>
+class RobotRun {
+ public:
+  RobotRun(Robot& robot, const RunPlan& plan, const bus::LinkFit& fit, record::TraceWriter* trace,
+           Progress& progress)
+      : robot_(robot),
+        plan_(plan),
+        params_(plan.walk.params),
+        progress_(progress),
+        imu_(params_.imu),
+        operator_(params_, plan.walk.velocity, plan.walk.walk_s,
+                  [this](auto from, auto to, auto faults) { tell(from, to, faults); }),
+        keeper_{operator_, result_.walk, trace},
+        app_(params_, robot_.bus(), operator_, keeper_, plan.has_imu ? nullptr : &imu_) {
+    result_.fit = fit;
+  }
+
+  RunResult run() {
+    const app::BringUpReport report = app_.bring_up();
+    if (report.status != app::BringUpStatus::kReady)
+      throw not_up(report, place(), Robot::where(report.address));
+    app_.limit_torque(static_cast<std::uint8_t>(plan_.torque_percent));
+    robot_.set_held(result_.fit.held_us());  // nobody waited for the bring-up
+    result_.real_time = become_real_time();
+    if (!result_.real_time.advice.empty()) say(result_.real_time.advice);
+    const std::uint64_t start_ns = wire::monotonic_ns();
+    loop();
+    result_.walk.wall_s = 1e-9 * static_cast<double>(wire::monotonic_ns() - start_ns);
+    progress_.clear();
+    make_sure();
+    finish();
+    return std::move(result_);
+  }
+
+ private:
+  using Loop = app::App<typename Robot::Bus, RunOperator, RunKeeper, bus::AssumedImu>;
+
+  std::string place() const { return wire::to_text(plan_.link); }
+
+  void say(const std::string& line) {
+    progress_.clear();
+    complain("verp run: " + line);
+  }
+
+  void loop() {
+    app::Pacer pacer(clock_);
+    pacer.start(params_.period_us);
+    while (!operator_.over() || result_.walk.ticks == 0) {
+      app_.tick(pacer.next());
+      watch_link();
+      watch_person();
+      progress_.show(
+          operator_.walked_s() / plan_.walk.walk_s,
+          fmt::format("{}  {:.1f} of {:g} s, {} deadlines missed", params_.name,
+                      operator_.walked_s(), plan_.walk.walk_s, pacer.deadlines().missed));
+    }
+    result_.deadlines = pacer.deadlines();
+  }
+
+  void watch_person() {
+    const int presses = tool::presses();
+    if (presses == presses_) return;
+    presses_ = presses;
+    if (presses == 1) {
+      say("interrupted: the robot sits down, then lets go; once more lets go at once");
+      operator_.sit_down();
+    } else {
+      say("torque off at once");
+      operator_.let_go();
+    }
+  }
+
+  void watch_link() {
+    if (robot_.connected() == connected_) return;
+    connected_ = robot_.connected();
+    say(connected_ ? "the link is back"
+                   : place() +
+                         ": the link is lost: the robot holds, then sits and lets go; the "
+                         "same port is tried again");
+  }
+
+  void tell(safety::Mode from, safety::Mode to, std::uint32_t faults) {
+    const std::string why = fault_names(faults & 0xFFFF);  // the lower half stops the robot
+    say(fmt::format("{} to {}{}", safety::kModeNames[static_cast<int>(from)],
+                    safety::kModeNames[static_cast<int>(to)], why.empty() ? "" : " (" + why + ")"));
+  }
+
+  // What lets go is sent to all and answered by nobody: so each servo is asked.
+  void make_sure() {
+    for (int j = 0; j < params_.joint_count; ++j) {
+      const LetGo said = robot_.connected() ? robot_.let_go(j) : LetGo::kSilent;
+      result_.stiff_servos += said == LetGo::kNo ? 1 : 0;
+      result_.silent_servos += said == LetGo::kSilent ? 1 : 0;
+    }
+    if (result_.silent_servos + result_.stiff_servos == 0) return;
+    say(fmt::format("{} servos did not say that they let go: switch their power off",
+                    result_.silent_servos + result_.stiff_servos));
+  }
+
+  void finish() {
+    WalkResult& walk = result_.walk;
+    walk.interrupted = interrupted();
+    walk.simulated_s = 1e-6 * static_cast<double>(params_.period_us) *
+                       static_cast<double>(result_.deadlines.ticks + result_.deadlines.skipped);
+    walk.failure = operator_.failure();
+    result_.walked_s = operator_.walked_s();
+    result_.bus = app_.counters();
+    result_.crc_errors = app_.crc_errors();
+    result_.link = robot_.link_errors();
+    result_.device_trouble = result_.silent_servos > 0 || !robot_.connected();
+    if (walk.failure.empty() && result_.silent_servos + result_.stiff_servos > 0) {
+      walk.failure = "not every servo let go";
+    }
+  }
+
+  Robot& robot_;
+  const RunPlan& plan_;
+  const Params& params_;
+  Progress& progress_;
+  wire::SystemClock clock_;
+  bus::AssumedImu imu_;
+  RunResult result_;
+  RunOperator operator_;
+  RunKeeper keeper_;
+  Loop app_;
+  bool connected_ = true;
+  int presses_ = 0;
+};
+
+}  // namespace verp::tool

@@ -1,0 +1,67 @@
+#pragma once
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <memory>
+#include <string>
+
+#include "host/link/can_port.hpp"
+#include "tests/contract/pc/can_sockets.hpp"
+
+/// Interfaces of a test's own. Runs inside tests/support/with-can, as root of that.
+namespace verp::test {
+
+/// `ip ARGUMENTS`, which must succeed.
+inline void ip(const std::string& arguments) {
+  ASSERT_EQ(std::system(("ip " + arguments).c_str()), 0) << arguments;
+}
+
+/// A vcan interface that lives as long as this.
+class OwnVcan {
+ public:
+  explicit OwnVcan(std::string interface = "vcan7") : name(std::move(interface)) { make(); }
+  ~OwnVcan() {
+    if (there_) ip("link del " + name);
+  }
+  OwnVcan(const OwnVcan&) = delete;
+  OwnVcan& operator=(const OwnVcan&) = delete;
+
+  void make() {
+    ip("link add " + name + " type vcan");
+    there_ = true;
+    up();
+  }
+  void remove() {
+    ip("link del " + name);
+    there_ = false;
+  }
+  void up() const { ip("link set " + name + " up"); }
+  void down() const { ip("link set " + name + " down"); }
+  wire::Endpoint endpoint() const { return wire::parse_endpoint("can:" + name); }
+
+  const std::string name;
+
+ private:
+  bool there_ = false;
+};
+
+inline CanFrame frame_of(std::uint32_t id, unsigned number = 0) {
+  CanFrame frame;
+  frame.id = id;
+  frame.size = 4;
+  for (unsigned i = 0; i < 4; ++i) frame.data[i] = static_cast<std::uint8_t>(number >> 8 * i);
+  return frame;
+}
+
+/// A poll of so long from now on, not from the last frame sent.
+inline bool poll_for(wire::CanPort& port, CanFrame& frame, std::uint32_t time_us) {
+  return port.poll(frame, static_cast<std::uint32_t>(port.now_us()) + time_us);
+}
+
+/// Takes in what is on its way; it must be nothing for us.
+inline void settle(wire::CanPort& port) {
+  CanFrame frame;
+  EXPECT_FALSE(poll_for(port, frame, 30'000));
+}
+
+}  // namespace verp::test

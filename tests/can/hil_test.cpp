@@ -1,0 +1,83 @@
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "firmware/app/lockstep_can.hpp"
+#include "host/link/can_port.hpp"
+#include "host/model/find.hpp"
+#include "host/model/load.hpp"
+#include "host/model/params.hpp"
+#include "tests/host/tool/link_controller.hpp"
+#include "tests/host/tool/program.hpp"
+
+// `verp hil` on a CAN interface, and a controller at its other end.
+namespace verp::tool::test {
+namespace {
+
+using nlohmann::json;
+
+struct CanSocket : wire::CanPort {
+  explicit CanSocket(const std::string& endpoint) : CanPort(wire::parse_endpoint(endpoint)) {}
+  ~CanSocket() { EXPECT_EQ(errors().overruns, 0u) << "the controller lost frames"; }
+};
+using CanController = verp::test::ControllerOn<CanSocket, app::LockstepCan>;
+
+class HilOnCan : public Program {
+ protected:
+  Params params() const {
+    return model::make_params(model::load_robot(model::find_model("generic21"), "can"));
+  }
+  std::string place(const std::string& name) const { return (folder_ / name).string(); }
+  Outcome hil(const std::string& arguments) const {
+    return verp("hil --bus can --link can:vcan0 --json " + arguments, "hil");
+  }
+};
+
+// Each bit of the controller. The twin is measured at the end of each tick, which the PC knows when
+// the next one begins, a few frames later: so the walk's numbers are nearly the same.
+TEST_F(HilOnCan, WalksWithTheBitsOfSoftwareInTheLoop) {
+  const Outcome walk = verp("walk --bus can --json --for 3", "walk");
+  ASSERT_EQ(walk.status, 0) << walk.err;
+  const json expected = json::parse(walk.out);
+  CanController controller(params(), "can:vcan0", "unix:" + place("orders"));
+  const Outcome outcome = hil("--for 3 --operator unix-listen:" + place("orders"));
+  controller.join();
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const json result = json::parse(outcome.out);
+  for (const char* key : {"digest", "ticks", "duration_s"}) {
+    EXPECT_EQ(result.at(key), expected.at(key)) << key;
+  }
+  EXPECT_NEAR(result.at("distance_m").get<double>(), expected.at("distance_m").get<double>(), 1e-3);
+  EXPECT_EQ(result.at("compared_ticks"), expected.at("ticks"));
+  EXPECT_EQ(result.at("link").at("damaged"), 0);
+  EXPECT_EQ(result.at("link").at("overruns"), 0);
+  std::printf("%.0f ticks/s\n", result.at("ticks_per_s").get<double>());
+}
+
+TEST_F(HilOnCan, RefusesAnotherRobot) {
+  Params other = params();
+  other.period_us = 8000;
+  CanController controller(other, "can:vcan0", "unix:" + place("orders"));
+  const Outcome outcome = hil("--for 3 --operator unix-listen:" + place("orders"));
+  controller.join();
+  EXPECT_EQ(outcome.status, 3) << outcome.err;
+  EXPECT_NE(outcome.err.find("Params are not those of generic21"), std::string::npos)
+      << outcome.err;
+}
+
+TEST_F(HilOnCan, SaysWhichBusFitsALink) {
+  const Outcome serial = verp("hil --bus can --link pty:" + place("pty"), "serial");
+  EXPECT_EQ(serial.status, 2);
+  EXPECT_NE(serial.err.find("is no CAN interface"), std::string::npos) << serial.err;
+  const Outcome can = verp("hil --link can:vcan0", "can");
+  EXPECT_EQ(can.status, 2);
+  EXPECT_NE(can.err.find("choose another of its buses with --bus"), std::string::npos) << can.err;
+  EXPECT_EQ(hil("--realtime --operator unix-listen:" + place("orders")).status, 2);
+  const Outcome away = verp("hil --bus can --link can:vcan9 --realtime", "away");
+  EXPECT_EQ(away.status, 3);
+  EXPECT_EQ(std::count(away.err.begin(), away.err.end(), '\n'), 1) << away.err;
+  EXPECT_NE(away.err.find("vcan9"), std::string::npos) << away.err;
+}
+
+}  // namespace
+}  // namespace verp::tool::test

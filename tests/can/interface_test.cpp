@@ -1,0 +1,173 @@
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <chrono>
+#include <memory>
+#include <random>
+#include <string>
+#include <thread>
+
+#include "host/can/virtual_can.hpp"
+#include "host/model/find.hpp"
+#include "host/model/load.hpp"
+#include "host/model/params.hpp"
+#include "tests/can/can_world.hpp"
+#include "tests/hil/level_plant.hpp"
+#include "tests/hil/promises.hpp"
+#include "tests/hil/software_board.hpp"
+
+// The fault campaign's part that needs a real interface, in wall time: a robot walks over vcan when
+// somebody takes it down and up again.
+namespace verp::test {
+namespace {
+
+using std::chrono::milliseconds;
+
+Params can_robot() {
+  return model::make_params(model::load_robot(model::find_model("generic21"), "can"));
+}
+
+/// The robot's nodes at an interface, by the wall's clock.
+class LiveNodes {
+ public:
+  LiveNodes(const Params& params, const wire::Endpoint& endpoint)
+      : plant_(params), nodes_(params, plant_), port_(endpoint), thread_([this] { run(); }) {}
+  ~LiveNodes() {
+    over_ = true;
+    thread_.join();
+    EXPECT_EQ(port_.errors().overruns, 0u);
+  }
+
+ private:
+  void run() {
+    CanFrame frame;
+    while (!over_) {
+      const bool came = poll_for(port_, frame, 500);
+      const std::uint64_t now_ns = 1000 * port_.now_us();
+      if (came) nodes_.crossed(frame, now_ns);
+      nodes_.work_until(now_ns);
+      while (nodes_.take_said(frame)) port_.send(frame);
+    }
+  }
+
+  LevelPlant plant_;
+  can::VirtualCan nodes_;
+  wire::CanPort port_;
+  std::atomic<bool> over_ = false;
+  std::thread thread_;
+};
+
+/// The controller's end, paced by the wall's clock.
+class PortLine {
+ public:
+  explicit PortLine(const wire::Endpoint& endpoint) : port_(endpoint) {}
+  bool send(const CanFrame& frame) { return port_.send(frame); }
+  bool poll(CanFrame& frame, std::uint32_t timeout_us) { return port_.poll(frame, timeout_us); }
+  std::uint64_t now_us() { return port_.now_us(); }
+  hal::CanErrors errors() const { return port_.errors(); }
+  std::uint64_t time_us() const {
+    const auto since = std::chrono::steady_clock::now() - opened_;
+    return static_cast<std::uint64_t>(
+        std::chrono::duration_cast<std::chrono::microseconds>(since).count());
+  }
+  void wait_until(std::uint64_t until_us) const {
+    std::this_thread::sleep_until(opened_ + std::chrono::microseconds(until_us));
+  }
+
+ private:
+  wire::CanPort port_;
+  std::chrono::steady_clock::time_point opened_ = std::chrono::steady_clock::now();
+};
+
+class InterfaceRun {
+ public:
+  explicit InterfaceRun(std::uint32_t seed) : random_(seed) {
+    board_ = std::make_unique<Board>(params_, line_, desk_, dxl::controller::ResetCause::kPower);
+  }
+  bool come_up() {
+    const bool ready = board_->loop.bring_up().status == app::BringUpStatus::kReady;
+    board_->pacer.start(params_.period_us);
+    return ready && desk_.write(app::reg("request"), {0});
+  }
+  /// Ticks until it is in `mode`, has been so for `then_ms`; false if it takes too long.
+  bool reaches(Mode mode, std::uint32_t then_ms) {
+    constexpr std::uint32_t kPatience_ms = 8000;
+    std::uint32_t there = 0;
+    for (std::uint32_t n = 0; n * params_.period_us < 1000 * kPatience_ms; ++n) {
+      if (there * params_.period_us >= 1000 * then_ms) return true;
+      tick();
+      there += board_->safe.mode() == mode ? 1 : 0;
+    }
+    return false;
+  }
+  /// Down for as long as the seed says, up again; the robot goes on meanwhile. Commands take time,
+  /// which must not be the loop's.
+  void take_down_and_up() {
+    const milliseconds gone(150 + random_() % 350);
+    std::atomic<int> stage = 0;
+    std::thread somebody([&] {
+      can.down();
+      stage = 1;
+      std::this_thread::sleep_for(gone);
+      stage = 2;
+      can.up();
+      stage = 3;
+    });
+    while (stage < 3) {
+      tick();
+      if (stage == 1) during = read_registers(desk_);
+    }
+    somebody.join();
+  }
+  void watch() {
+    EXPECT_EQ(board_->safe.violation(), "");
+    EXPECT_EQ(line_.errors().overruns, 0u);
+  }
+  bool was_holding() const { return (board_->safe.seen() >> kHolding & 1) != 0; }
+  Registers registers() { return read_registers(desk_); }
+
+  OwnVcan can{"vcan8"};
+  Registers during;  ///< while it was down
+
+ private:
+  using Board = ControllerOnBoard<PortLine>;
+  void tick() {
+    constexpr std::uint32_t kOrderTicks = 10;
+    constexpr std::uint8_t kSpeedLow = 1778 & 0xFF, kSpeedHigh = 1778 >> 8;
+    if (ticks_++ % kOrderTicks == 0) {
+      desk_.write(app::reg("request"),
+                  {static_cast<std::uint8_t>(Request::kWalk), static_cast<std::uint8_t>(ticks_),
+                   kSpeedLow, kSpeedHigh, 0, 0, 0, 0});
+    }
+    board_->tick();
+  }
+
+  const Params params_ = can_robot();
+  std::minstd_rand random_;
+  LiveNodes nodes_{params_, can.endpoint()};
+  PortLine line_{can.endpoint()};
+  OperatorDesk desk_;
+  std::unique_ptr<Board> board_;
+  std::uint32_t ticks_ = 0;
+};
+
+TEST(InterfaceDown, HoldsAndWalksAgainWhenItIsUp) {
+  InterfaceRun run(1);
+  ASSERT_TRUE(run.come_up());
+  for (int times = 1; times <= 2; ++times) {
+    SCOPED_TRACE(times);
+    ASSERT_TRUE(run.reaches(kWalking, 300)) << "first, or again";
+    const Registers before = run.registers();
+    run.take_down_and_up();
+    EXPECT_EQ(run.during.fresh, 0u);
+    EXPECT_GT(run.during.timeouts, before.timeouts);
+    EXPECT_GT(run.during.refused + run.during.noise, before.refused + before.noise)
+        << "what was not sent is told";
+    EXPECT_TRUE(run.was_holding());
+  }
+  EXPECT_TRUE(run.reaches(kWalking, 300)) << "it is back";
+  run.watch();
+}
+
+}  // namespace
+}  // namespace verp::test

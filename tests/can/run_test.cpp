@@ -1,0 +1,241 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "host/link/can_claim.hpp"
+#include "host/model/find.hpp"
+#include "host/model/load.hpp"
+#include "host/model/params.hpp"
+#include "tests/can/can_world.hpp"
+#include "tests/host/tool/program.hpp"
+
+// What this PC does with a robot on a CAN interface: `verp run`, and `verp bus` beside it. The
+// robot is the twin, in real time.
+namespace verp::tool::test {
+namespace {
+
+using nlohmann::json;
+
+class RunOnCan : public Program {
+ protected:
+  /// `command` while a twin of generic21 is on vcan0.
+  Outcome beside_twin(const std::string& command) const {
+    const std::string program = VERP_PROGRAM;
+    return shell(program +
+                 " hil generic21 --bus can --realtime --link can:vcan0 --for 600 --json "
+                 ">twin.out 2>twin.err & twin=$!; "
+                 "until grep -q 'twin waits' twin.err; do sleep 0.05; done; ( " +
+                 command + " ); status=$?; kill -INT $twin; wait $twin; exit $status");
+  }
+  Outcome bus_beside_twin(const std::string& arguments) const {
+    return beside_twin(std::string(VERP_PROGRAM) + " bus " + arguments + " --link can:vcan0");
+  }
+  static Params params() {
+    return model::make_params(model::load_robot(model::find_model("generic21"), "can"));
+  }
+};
+
+// One core may have to be the robot, its bus and this PC: a period may be missed, and the robot
+// then hold or fall, which is told by status 1; but not without it.
+TEST_F(RunOnCan, DrivesTheRobotAndLetsItGo) {
+  const Outcome outcome = beside_twin(std::string(VERP_PROGRAM) +
+                                      " run generic21 --bus can --link can:vcan0 --yes --json "
+                                      "--period 20 --for 3 --record run.mcap");
+  ASSERT_TRUE(outcome.status == 0 || outcome.status == 1) << outcome.err;
+  const json result = json::parse(outcome.out);
+  EXPECT_TRUE(result.at("let_go")) << outcome.err;
+  EXPECT_GT(result.at("ticks"), 100);
+  EXPECT_NE(outcome.err.find("relaxed to rising"), std::string::npos) << outcome.err;
+  const bool undisturbed =
+      result.at("deadlines").at("skipped_periods") == 0 && result.at("bus").at("timeouts") == 0;
+  if (undisturbed) {
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+  }
+  const Outcome replay = verp("replay run.mcap", "replay");
+  EXPECT_EQ(replay.status, 0) << replay.err;
+}
+
+TEST_F(RunOnCan, SaysThatNobodyAnswers) {
+  const Outcome outcome = verp("run generic21 --bus can --link can:vcan0 --yes");
+  EXPECT_EQ(outcome.status, 3);
+  EXPECT_NE(outcome.err.find("no drive of generic21 answers"), std::string::npos) << outcome.err;
+  EXPECT_EQ(verp("bus ping --id 3 --link can:vcan0").status, 3);
+}
+
+// Of the first one's robot, which may walk, a second one's bring-up would reset all nodes.
+TEST_F(RunOnCan, RefusesToBeTheSecondOfThisPcBeforeItSendsAnything) {
+  verp::test::OwnVcan bus;
+  wire::CanPort listener(bus.endpoint());
+  const wire::CanClaim first(bus.name, "controller", "`verp run`");
+  const Outcome outcome = verp("run generic21 --bus can --link can:vcan7 --yes");
+  EXPECT_EQ(outcome.status, 3);
+  EXPECT_NE(outcome.err.find("can:vcan7: another `verp run` has this interface"), std::string::npos)
+      << outcome.err;
+  verp::test::settle(listener);
+}
+
+TEST_F(RunOnCan, RefusesToBeTheSecondOnABusBeforeItSendsAnything) {
+  verp::test::OwnVcan bus;
+  for (const std::uint32_t id : {0x080u, 0x77Fu, 0x1FFu}) {
+    std::atomic<bool> over = false;
+    bool alone = true;
+    std::thread other([&] {
+      wire::CanPort port(bus.endpoint());
+      CanFrame heard;
+      while (!over) {
+        port.send(verp::test::frame_of(id));
+        alone = alone && !port.await(heard, 100'000);
+      }
+    });
+    const Outcome outcome = verp("run generic21 --bus can --link can:vcan7 --yes");
+    over = true;
+    other.join();
+    EXPECT_EQ(outcome.status, 3) << id;
+    EXPECT_NE(outcome.err.find("another controller (node 127) speaks on can:vcan7; end it"),
+              std::string::npos)
+        << outcome.err;
+    EXPECT_TRUE(alone) << id;
+  }
+}
+
+// Both would answer; and the name is free again when the first has ended, however that was.
+TEST_F(RunOnCan, ServesNodesOnceOnABus) {
+  verp::test::OwnVcan bus;
+  const std::string hil = "hil generic21 --bus can --realtime --link can:vcan7 --for 600";
+  {
+    const wire::CanClaim first(bus.name, "nodes", "`verp hil`");
+    const Outcome outcome = verp(hil);
+    EXPECT_EQ(outcome.status, 3);
+    EXPECT_NE(outcome.err.find("another `verp hil` has this interface"), std::string::npos)
+        << outcome.err;
+  }
+  for (const std::string& signal : {std::string("KILL"), std::string("INT")}) {
+    const std::string said = signal + ".err";  // not one of before, which speaks of its twin
+    const Outcome outcome =
+        shell(std::string(VERP_PROGRAM) + " " + hil + " 2>" + said +
+              " & twin=$!; until grep -q 'twin waits' " + said +
+              " || ! kill -0 $twin; do sleep 0.05; done; kill -" + signal + " $twin; wait $twin");
+    EXPECT_NE(slurp(folder_ / said).find("twin waits"), std::string::npos) << outcome.err;
+  }
+}
+
+// Whether it ends with status 0 or 1 is how long it ran undisturbed: CanRealTime's to test.
+TEST_F(RunOnCan, ATwinThatIsHeldUpSkipsAndSaysSoAtOnce) {
+  verp::test::OwnVcan bus;
+  std::atomic<bool> over = false;
+  std::thread master([&] {
+    wire::CanPort port(bus.endpoint());
+    CanFrame heard;
+    while (!over) {
+      port.send(verp::test::frame_of(0x080));
+      port.await(heard, 20'000);
+    }
+  });
+  const Outcome outcome =
+      shell(std::string(VERP_PROGRAM) +
+            " hil generic21 --bus can --realtime --link can:vcan7 --for 600 --json 2>twin.err & "
+            "twin=$!; until grep -q 'in real time' twin.err; do sleep 0.05; done; "
+            "for i in 1 2 3 4 5 6 7 8; do kill -STOP $twin; sleep 0.4; kill -CONT $twin; "
+            "sleep 0.02; done; cp twin.err before.err; kill -INT $twin; wait $twin");
+  over = true;
+  master.join();
+  EXPECT_TRUE(outcome.status == 0 || outcome.status == 1) << outcome.err;
+  const std::string at_once = slurp(folder_ / "before.err");
+  EXPECT_NE(at_once.find("is skipped"), std::string::npos) << at_once;
+  EXPECT_NE(at_once.find("without real-time priority"), std::string::npos) << at_once;
+  EXPECT_GT(json::parse(outcome.out).at("link").at("skipped_us"), 1'000'000) << outcome.out;
+}
+
+TEST_F(RunOnCan, FindsEveryNode) {
+  const Outcome outcome = bus_beside_twin("scan --json");
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const json nodes = json::parse(outcome.out).at("nodes");
+  const Params robot = params();
+  std::size_t expected = robot.joint_count + (robot.imu.device_id != 0 ? 1u : 0u);
+  for (const std::uint8_t foot : robot.feet.device_id) expected += foot != 0 ? 1 : 0;
+  EXPECT_EQ(nodes.size(), expected);
+  for (const json& each : nodes) {
+    if (each.at("id") == robot.joint[0].servo_id) {
+      EXPECT_EQ(each.at("device_type"), 0x20192);
+    }
+    if (each.at("id") == robot.imu.device_id) {
+      EXPECT_EQ(each.at("product"), 0x7601);
+    }
+  }
+}
+
+TEST_F(RunOnCan, ReadsAndWritesObjects) {
+  const std::string id = " --id " + std::to_string(params().joint[0].servo_id);
+  const std::string program = std::string(VERP_PROGRAM) + " bus ";
+  const std::string link = " --link can:vcan0" + id;
+  const Outcome outcome = beside_twin(program + "write --object 6065:0 1234" + link + " && " +
+                                      program + "read --object 6065:0" + link);
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_TRUE(outcome.out == "1234\n" || outcome.out == "0x000004D2\n") << outcome.out;
+  const Outcome refused = bus_beside_twin("read --object 2FFF:0" + id);
+  EXPECT_EQ(refused.status, 3);
+  EXPECT_NE(refused.err.find("abort 0x06020000"), std::string::npos) << refused.err;
+}
+
+// A drive has as many COB-IDs as PDOs.
+TEST_F(RunOnCan, LosesNoObjectWhoseNameAnotherHasToo) {
+  const std::string to = " --link can:vcan0 --id " + std::to_string(params().joint[0].servo_id);
+  const std::string program = std::string(VERP_PROGRAM) + " bus ";
+  const Outcome outcome =
+      beside_twin(program + "read" + to + " >lines && " + program + "read --json" + to + " && ! " +
+                  program + "write --register COB-ID 0x80000201" + to);
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const json objects = json::parse(outcome.out).at("objects");
+  const std::string lines = slurp(folder_ / "lines");
+  EXPECT_EQ(static_cast<std::ptrdiff_t>(objects.size()),
+            std::count(lines.begin(), lines.end(), '\n'));
+  for (const char* at : {"1400:1", "1401:1", "1800:1"}) {
+    EXPECT_EQ(objects.at(at).at("name"), "COB-ID") << at;
+  }
+  EXPECT_NE(objects.at("1400:1").at("value"), objects.at("1401:1").at("value"));
+  EXPECT_NE(outcome.err.find("1400:1, 1401:1"), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.err.find("--object"), std::string::npos) << outcome.err;
+}
+
+TEST_F(RunOnCan, ShowsFieldsInHexAndSmallIntegersWithTheirSign) {
+  const std::string to = " --link can:vcan0 --id " + std::to_string(params().joint[0].servo_id);
+  const std::string program = std::string(VERP_PROGRAM) + " bus ";
+  const std::string read = program + "read" + to + " --object ", write = program + "write" + to;
+  const Outcome outcome =
+      beside_twin(read + "1005:0 && " + read + "1A00:1 && " + write + " --object 60C2:2 -3 && " +
+                  read + "60C2:2 && " + read + "60C2:2 --json && ! " + write +
+                  " --object 60C2:2 -129 && ! " + read + "1A00:1F");
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const std::string text = "0x00000080\n0x60410010\n-3\n";  // SYNC; the statusword, 16 bits
+  ASSERT_EQ(outcome.out.substr(0, text.size()), text);
+  EXPECT_EQ(json::parse(outcome.out.substr(text.size())).at("objects").at("60C2:2").at("value"),
+            -3);
+  EXPECT_NE(outcome.err.find("-128 to 127"), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.err.find("to read 1A00:1F:"), std::string::npos) << outcome.err;
+}
+
+TEST_F(RunOnCan, MeasuresRoundTrips) {
+  const Outcome outcome =
+      bus_beside_twin("bench --for 0.5 --json --id " + std::to_string(params().joint[0].servo_id));
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_GT(json::parse(outcome.out).at("round_trips"), 10);
+}
+
+TEST_F(RunOnCan, RefusesWhatCanHasNot) {
+  expect_refused("bus read --link can:vcan0 --id 3 --address 12", "--object INDEX:SUBINDEX");
+  expect_refused("bus ping --link can:vcan0 --id 128", "no node id");
+  expect_refused("bus read --link can:vcan0 --id 3 --object 6064:xyz", "is no address");
+  expect_refused("bus read --link pty:x --id 3 --object 6064:0", "of CAN's nodes");
+  const Outcome other = verp("bus scan --link can:lo");
+  EXPECT_EQ(other.status, 3);
+  EXPECT_NE(other.err.find("is no CAN interface; CAN interfaces here: vcan0"), std::string::npos)
+      << other.err;
+  expect_refused("run generic21 --link can:vcan0", "choose another of its buses with --bus");
+}
+
+}  // namespace
+}  // namespace verp::tool::test

@@ -1,0 +1,354 @@
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "common/safety/machine.hpp"
+#include "tests/hil/campaign_table.hpp"
+#include "tests/hil/can_fault_run.hpp"
+#include "tests/hil/promises.hpp"
+
+// 200 runs and more of a robot that walks while its CAN bus goes wrong, in bus time, as
+// campaign_test.cpp has them of a serial bus: whatever happens, the controller stays in the safe
+// table, no tick takes longer than a period, the operator is told, and the same seed gives the same
+// bits. One kind of fault a test, many seeds within; a failure names its seed, and
+//
+//     VERP_SEED=7 build/host-release/tests/hil/hil_can_campaign --gtest_filter='*lost_1_percent*'
+//
+// runs that one alone. VERP_RUNS=n takes the first n seeds of each kind.
+namespace verp::test {
+namespace {
+
+using dxl::controller::DeviceState;
+
+constexpr int kBus = dxl::controller::kDeviceBus;
+constexpr int kImu = dxl::controller::kDeviceImu;
+
+const Robot& robot() {
+  static const Robot loaded = load_can_robot("generic21");
+  return loaded;
+}
+
+// What each kind promises besides what all do, as the operator sees it.
+
+/// An answer that did not come shows: in a timeout, or with the device whose report it was.
+void shows_each_lost_answer(const CanFaultResult& result) {
+  EXPECT_GT(result.damage.lost_answers, 0u);
+  EXPECT_GE(result.after.timeouts + result.after.missed_reports(), result.damage.lost_answers);
+}
+/// It holds if a device was silent for as long as the table says, and never else.
+void holds_as_the_table_says(const CanFaultResult& result) {
+  EXPECT_EQ(was(result, kHolding), result.stale);
+  if (!result.stale) keeps_walking(result);
+}
+void lost_few(const CanFaultResult& result) {
+  EXPECT_GT(result.damage.lost, 0u);
+  shows_each_lost_answer(result);
+  keeps_walking(result);
+}
+// A SYNC that is lost costs who is last in the round three ticks: two of them may be too many.
+void lost_many(const CanFaultResult& result) {
+  EXPECT_GT(result.damage.lost, 50u);
+  shows_each_lost_answer(result);
+  holds_as_the_table_says(result);
+}
+void missed(const CanFaultResult& result) {
+  EXPECT_GT(result.damage.missed, 10u);
+  EXPECT_GE(result.after.timeouts + result.after.missed_reports(), result.damage.lost_answers);
+  holds_as_the_table_says(result);
+}
+void doubled(const CanFaultResult& result) {
+  EXPECT_GT(result.damage.doubled, 10u);
+  holds_as_the_table_says(result);
+}
+void overtaken(const CanFaultResult& result) {
+  EXPECT_GT(result.damage.overtaken, 10u);
+  holds_as_the_table_says(result);
+}
+void delayed(const CanFaultResult& result) {
+  EXPECT_GT(result.damage.late, 0u);
+  EXPECT_GT(result.after.strays, 0u) << "what comes too late belongs to nobody";
+  holds_as_the_table_says(result);
+}
+// A gateway that gives everything a period late: nothing that it brings may pass for fresh.
+void held_back(const CanFaultResult& result) {
+  EXPECT_GT(result.damage.late, 0u);
+  EXPECT_EQ(result.during.fresh, 0u);
+  EXPECT_NE(result.during.state[kBus], DeviceState::kGood);
+  EXPECT_TRUE(was(result, kHolding));
+}
+void everything(const CanFaultResult& result) {
+  EXPECT_GT(result.damage.lost * result.damage.missed, 0u);
+  EXPECT_GT(result.damage.doubled * result.damage.overtaken * result.damage.late, 0u);
+  EXPECT_GT(result.after.timeouts, 0u);
+  EXPECT_GT(result.after.missed_reports(), 0u);
+}
+void errors(const CanFaultResult& result) {
+  EXPECT_GT(result.damage.broken, 0u);
+  EXPECT_GE(result.after.crc_errors, result.damage.broken * 9 / 10)
+      << "two errors within one interrupt are one";
+  EXPECT_EQ(result.bus.bus_offs, 0u);
+  keeps_walking(result);
+}
+void bus_off(const CanFaultResult& result) {
+  EXPECT_EQ(result.bus.bus_offs, 1u);
+  EXPECT_GT(result.after.noise, 0u) << "what it dropped";
+  EXPECT_GT(result.after.crc_errors, 31u);
+  keeps_walking(result);
+}
+void bus_offs(const CanFaultResult& result) {
+  EXPECT_GT(result.bus.bus_offs, 10u);
+  EXPECT_GT(result.after.noise, 0u) << "what it dropped";
+  EXPECT_GT(result.after.refused, 0u);
+  cut(result);
+}
+void reboots(const CanFaultResult& result) {
+  EXPECT_GT(result.during.errors[row(result)], 0u);
+  EXPECT_TRUE(was(result, kHolding));
+  let_go(result);
+  EXPECT_EQ(result.after.state[row(result)], DeviceState::kGood) << "it is set up again";
+}
+void many_reboot(const CanFaultResult& result) {
+  EXPECT_GT(result.events, 1u);
+  EXPECT_TRUE(was(result, kHolding));
+  let_go(result);
+  EXPECT_GT(result.after.missed_reports(), 0u);
+}
+// The switch of the servos' supply, which is an emergency stop, off and on: all are set up again.
+void all_reboot(const CanFaultResult& result) {
+  EXPECT_TRUE(was(result, kHolding));
+  let_go(result);
+  EXPECT_EQ(result.after.fresh, (1u << robot().params.joint_count) - 1);
+}
+// Set up again while the robot stands: sensors hold nothing.
+void imu_reboots(const CanFaultResult& result) {
+  EXPECT_NE(result.after.faults & safety::kFaultImuSilent, 0u);
+  EXPECT_GT(result.after.errors[kImu], 0u);
+  EXPECT_EQ(result.after.state[kImu], DeviceState::kGood) << "it is back";
+  EXPECT_TRUE(was(result, kHolding));
+  EXPECT_FALSE(was(result, kSitting)) << "it was back before stale_release_s";
+}
+void foot_reboots(const CanFaultResult& result) {
+  EXPECT_GT(result.after.timeouts, 0u);
+  EXPECT_GT(result.after.missed_reports(), 0u);
+  keeps_walking(result);
+}
+void urgent(const CanFaultResult& result) {
+  EXPECT_GT(result.intruder, 100u);
+  EXPECT_GE(result.after.strays, result.intruder * 9 / 10);
+  keeps_walking(result);
+}
+void crowd(const CanFaultResult& result) {
+  EXPECT_GT(result.intruder, 1000u);
+  EXPECT_GT(result.after.timeouts, 0u);
+}
+void flood(const CanFaultResult& result) {
+  EXPECT_GT(result.intruder, 1000u);
+  cut(result);
+}
+void foreign(const CanFaultResult& result) {
+  EXPECT_GT(result.intruder, 100u);
+  EXPECT_GT(result.after.strays, result.intruder / 4);
+  keeps_walking(result);
+}
+void unasked(const CanFaultResult& result) {
+  EXPECT_GT(result.intruder, 100u);
+  EXPECT_GE(result.after.strays, result.intruder * 9 / 10);
+  keeps_walking(result);
+}
+// Nobody knows which of two is the drive: its position does not count, and the robot is let down.
+void twin(const CanFaultResult& result) {
+  EXPECT_GE(result.intruder, 100u);
+  EXPECT_EQ(result.during.fresh >> row(result) & 1u, 0u);
+  EXPECT_TRUE(was(result, kHolding));
+  let_go(result);
+}
+void foreign_sync(const CanFaultResult& result) {
+  EXPECT_GT(result.intruder, 0u);
+}
+void down(const CanFaultResult& result) {
+  EXPECT_GT(result.damage.down, 0u);
+  EXPECT_GT(result.after.refused, 0u);
+  cut(result);
+}
+// Receive overruns are nobody's fault but the bus's that carries more than it can.
+void no_overrun(const CanFaultResult& result) {
+  EXPECT_EQ(result.bus.overruns, 0u);
+}
+
+struct Kind {
+  CanPlan plan;
+  std::vector<std::function<void(const CanFaultResult&)>> promises;
+  bool as_far = false;  ///< as the same robot without the fault
+  bool floods = false;  ///< the bus carries more than it can: receivers may overrun
+};
+
+constexpr double kPercent = 1e-2;
+constexpr CanFaults kAll{.lost = 0.1 * kPercent,
+                         .missed = 0.05 * kPercent,
+                         .doubled = 0.5 * kPercent,
+                         .heard_twice = 0.05 * kPercent,
+                         .overtaken = 0.5 * kPercent,
+                         .late = 0.5 * kPercent,
+                         .late_us = 12'000};
+using Event = CanEvent;
+using Says = Intruder::Kind;
+
+const std::vector<Kind>& kinds() {
+  static const std::vector<Kind> all = {
+      {{"lost_0_1_percent_physics", 2, {.lost = 0.1 * kPercent}, Event::kNone, {}, 0, 3, true},
+       {lost_few},
+       true},
+      {{"lost_0_1_percent", 9, {.lost = 0.1 * kPercent}}, {lost_few}},
+      {{"lost_1_percent", 7, {.lost = kPercent}}, {lost_many}},
+      {{"missed_by_one", 10, {.missed = 0.02 * kPercent}}, {missed}},
+      {{"doubled", 8, {.doubled = kPercent}}, {doubled}},
+      {{"doubled_for_one", 8, {.heard_twice = 0.02 * kPercent}}, {doubled}},
+      {{"reordered", 9, {.overtaken = kPercent}}, {overtaken}},
+      {{"delayed", 7, {.late = kPercent, .late_us = 15'000}}, {delayed}},
+      {{"all_held_back", 4, {.held_us = 12'000}, Event::kNone, {}, 0.2, 6},
+       {held_back, walks_again}},
+      {{"all_held_back_a_period", 3, {.held_us = 10'000}, Event::kNone, {}, 0.2, 6},
+       {held_back, walks_again}},
+      {{"everything", 7, kAll}, {everything}},
+      {{.name = "error_frames", .runs = 8, .line = {.broken = 0.5 * kPercent}, .chip = true},
+       {errors}},
+      {{.name = "bus_off",
+        .runs = 6,
+        .event = Event::kBusOff,
+        .lasts_s = 0.1,
+        .walks_s = 1,
+        .chip = true},
+       {bus_off}},
+      {{.name = "bus_offs_0_3_s",
+        .runs = 4,
+        .event = Event::kBusOffs,
+        .lasts_s = 0.3,
+        .walks_s = 4,
+        .chip = true},
+       {bus_offs, walks_again}},
+      {{.name = "short_circuit_0_2_s",
+        .runs = 3,
+        .event = Event::kShort,
+        .lasts_s = 0.2,
+        .walks_s = 4,
+        .chip = true},
+       {cut, walks_again}},
+      {{"node_silent_0_1_s", 7, {}, Event::kNodeSilent, {}, 0.1, 4}, {gone_briefly, walks_again}},
+      {{"node_silent_0_1_s_physics", 2, {}, Event::kNodeSilent, {}, 0.1, 3, true}, {gone_briefly}},
+      {{"node_silent_for_good", 7, {}, Event::kNodeSilent, {}, 0, 4}, {gone_for_good}},
+      {{"node_silent_for_good_physics", 2, {}, Event::kNodeSilent, {}, 0, 3, true},
+       {gone_for_good}},
+      {{"node_unpowered_0_1_s", 4, {}, Event::kNodeUnpowered, {}, 0.1, 8},
+       {gone_briefly, let_go, walks_again}},
+      {{"node_reboots", 10, {}, Event::kNodeReboots, {}, 0.5, 8}, {reboots, walks_again}},
+      {{"nodes_reboot_for_1_s", 4, {}, Event::kManyReboot, {}, 1, 10}, {many_reboot, walks_again}},
+      {{"all_reboot", 3, {}, Event::kAllReboot, {}, 2, 16}, {all_reboot, walks_again}},
+      {{"imu_reboots", 6, {}, Event::kImuReboots, {}, 0.1, 4}, {imu_reboots, walks_again}},
+      {{"foot_reboots", 2, {}, Event::kFootReboots, {}, 0.1}, {foot_reboots}},
+      {{"intruder_urgent", 6, {}, Event::kNone, Says::kUrgent}, {urgent}},
+      {{"intruder_crowds_1_s", 20, {}, Event::kNone, Says::kCrowd, 1, 6},
+       {crowd, walks_again},
+       false,
+       true},
+      {{"intruder_floods_0_3_s", 4, {}, Event::kNone, Says::kFlood, 0.3, 6},
+       {flood, walks_again},
+       false,
+       true},
+      {{"intruder_with_our_ids", 6, {}, Event::kNone, Says::kForeign}, {foreign}},
+      {{"intruder_is_a_drive", 4, {}, Event::kNone, Says::kTwin, 1, 8}, {twin, walks_again}},
+      {{"intruder_answers_unasked", 6, {}, Event::kNone, Says::kSdo}, {unasked}},
+      {{"intruder_syncs", 2, {}, Event::kNone, Says::kSync, 1, 6}, {foreign_sync, walks_again}},
+      {{"interface_down_0_2_s", 5, {.down = true}, Event::kNone, {}, 0.2, 4}, {down, walks_again}},
+      {{"interface_down_1_s", 4, {.down = true}, Event::kNone, {}, 1, 8}, {down, walks_again}},
+      {{"interface_down_0_2_s_physics", 2, {.down = true}, Event::kNone, {}, 0.2, 3, true}, {down}},
+      {{"stale_values", 3, {}, Event::kNodeRepeats, {}, 1}, {repeats}},
+      {{"late_loop", 4, {}, Event::kLateLoop}, {late}},
+      {{"controller_reset", 4, {}, Event::kReset, {}, 0, 6}, {reset, walks_again}},
+      {{"hot_drive", 2, {}, Event::kHot, {}, 3, 6}, {hot, walks_again}},
+      {{"overheated_drive", 2, {}, Event::kOverheated, {}, 0, 4}, {overheated}},
+      {{"low_voltage", 2, {}, Event::kLowVoltage, {}, 3, 6}, {low_voltage, walks_again}},
+      {{"imu_gone_1_s", 3, {}, Event::kImuGone, {}, 1, 8}, {imu_gone, walks_again}},
+      {{"imu_repeats_1_s", 2, {}, Event::kImuRepeats, {}, 1, 8}, {imu_repeats, walks_again}},
+  };
+  return all;
+}
+
+void keeps_what_all_promise(const Kind& kind, const CanFaultResult& result) {
+  ASSERT_TRUE(result.ready) << result.violation;
+  EXPECT_EQ(result.violation, "");
+  EXPECT_GT(result.faults(), 0u) << "nothing was done to it";
+  EXPECT_EQ(result.before.counted() + result.before.refused + result.before.missed_reports(), 0u)
+      << "all was well before";
+  EXPECT_EQ(result.replayed, result.ticks_recorded) << "its trace replays";
+  // Behind a flood our own SYNCs of ticks before go first.
+  const std::uint32_t period_us = robot().params.period_us;
+  EXPECT_LT(result.worst_tick_us, kind.floods ? period_us * 3 / 2 : period_us)
+      << "it waited for longer than a tick";
+  if (!kind.floods) no_overrun(result);
+  if (kind.plan.event == Event::kLateLoop) return;
+  EXPECT_EQ(result.after.misses, 0u) << "no cable may cost the loop its time";
+}
+
+/// As of a serial robot: lost goals come a tick late, lost answers leave the last ones standing.
+void went_as_far(const Kind& kind, const CanFaultResult& result, std::uint32_t seed) {
+  CanPlan clean = kind.plan;
+  clean.line = {};
+  const double expected_m = run_can_fault(robot(), clean, seed).distance_m;
+  EXPECT_GT(expected_m, 0.4) << "the bar is a walk";
+  EXPECT_NEAR(result.distance_m, expected_m, 0.02 * expected_m);
+}
+
+void run_kind(const Kind& kind, int runs) {
+  const int only = campaign_setting("VERP_SEED");
+  CampaignRow sum;
+  for (int seed = 1; seed <= runs; ++seed) {
+    if (only != 0 && seed != only) continue;
+    SCOPED_TRACE("VERP_SEED=" + std::to_string(seed) + " of " + kind.plan.name);
+    const CanFaultResult result =
+        run_can_fault(robot(), kind.plan, static_cast<std::uint32_t>(seed));
+    keeps_what_all_promise(kind, result);
+    for (const auto& promise : kind.promises) promise(result);
+    if (kind.as_far) went_as_far(kind, result, static_cast<std::uint32_t>(seed));
+    if (seed == 1) {
+      EXPECT_EQ(run_can_fault(robot(), kind.plan, 1).digest, result.digest) << "the same seed";
+    }
+    ++sum.runs;
+    sum.injected += result.faults();
+    sum.counted += result.after.counted() + result.after.refused + result.after.missed_reports() +
+                   (result.after.reset_cause > 1 ? 1 : 0);
+    ++sum.ends[result.after.mode];
+  }
+  EXPECT_GT(sum.runs, 0) << "no such seed";
+  note_campaign_row(kind.plan.name, sum);
+}
+
+class CanCampaign : public ::testing::TestWithParam<std::size_t> {};
+
+TEST_P(CanCampaign, StaysSafeAndTells) {
+  const Kind& kind = kinds()[GetParam()];
+  const int most = campaign_setting("VERP_RUNS");
+  run_kind(kind, most > 0 && most < kind.plan.runs ? most : kind.plan.runs);
+}
+
+INSTANTIATE_TEST_SUITE_P(Can, CanCampaign, ::testing::Range<std::size_t>(0, kinds().size()),
+                         [](const auto& kind) {
+                           return std::string(kinds()[kind.param].plan.name);
+                         });
+
+TEST(CanCampaignSize, Is200RunsOrMore) {
+  int runs = 0;
+  for (const Kind& kind : kinds()) runs += kind.plan.runs;
+  EXPECT_GE(runs, 200);
+}
+
+// One seed of every kind on the stand: quick enough for sanitizers and the second compiler.
+TEST(CanCampaignSample, StaysSafeAndTells) {
+  for (const Kind& kind : kinds()) {
+    if (!kind.plan.physics) run_kind(kind, 1);
+  }
+}
+
+}  // namespace
+}  // namespace verp::test

@@ -1,0 +1,38 @@
+#pragma once
+#include <cstddef>
+
+#include "tests/hil/run_result.hpp"
+
+/// What campaigns promise of a run, as the operator sees it, whatever its bus.
+namespace verp::test {
+
+enum Mode { kRelaxed, kRising, kStanding, kWalking, kHolding, kSitting, kFallen, kStopped };
+inline constexpr const char* kModeNames[] = {"relaxed", "rising",  "standing", "walking",
+                                             "holding", "sitting", "fallen",   "stopped"};
+
+inline bool was(const RunResult& result, Mode mode) {
+  return (result.seen >> mode & 1u) != 0;
+}
+inline std::size_t row(const RunResult& result) {
+  return static_cast<std::size_t>(result.joint);
+}
+
+void keeps_walking(const RunResult& result);
+void walks_again(const RunResult& result);
+/// Everybody is well at the end, and has been told to have torque.
+void gone_briefly(const RunResult& result);
+void let_go(const RunResult& result);
+void gone_for_good(const RunResult& result);
+/// One repeats its position: that is counted as its, and nobody else's, trouble.
+void repeats(const RunResult& result);
+void late(const RunResult& result);
+/// Nobody is heard, and everybody is back.
+void cut(const RunResult& result);
+void reset(const RunResult& result);
+void hot(const RunResult& result);
+void low_voltage(const RunResult& result);
+void overheated(const RunResult& result);
+void imu_gone(const RunResult& result);
+void imu_repeats(const RunResult& result);
+
+}  // namespace verp::test

@@ -1,0 +1,349 @@
+#include <gtest/gtest.h>
+
+#include "common/protocol/canopen/emcy.hpp"
+#include "common/protocol/control_table.hpp"
+#include "tests/host/can/can_bench.hpp"
+
+// What a virtual CiA 402 drive makes of its objects, as a master sees it.
+
+namespace verp {
+namespace {
+
+using canopen::Abort;
+using canopen::cia402::State;
+using test::CanBench;
+namespace cia402 = canopen::cia402;
+namespace plan = canopen::plan;
+namespace object = canopen::cia402::object;
+
+constexpr std::uint8_t kNode = 1;
+
+class VirtualDrive : public ::testing::Test {
+ protected:
+  VirtualDrive() { bench.let_pass(2000); }
+
+  void target(std::int32_t count) { bench.write(kNode, object::kTargetPosition, count, 4); }
+  std::uint16_t status() {
+    return static_cast<std::uint16_t>(bench.value(kNode, object::kStatusword));
+  }
+  sim::ServoMeasurement& measured() { return bench.plant.measured[0]; }
+  /// Emergencies that come within `time_us`.
+  std::vector<canopen::Emergency> emergencies(std::uint64_t time_us) {
+    std::vector<canopen::Emergency> all;
+    canopen::Emergency emergency;
+    for (const CanFrame& frame : bench.listen(time_us)) {
+      if (canopen::decode_emcy(frame, emergency)) all.push_back(emergency);
+    }
+    return all;
+  }
+  /// Watched by 1016h, with the master's heartbeat for `beats` times 20 ms.
+  void watch_master(std::int16_t option, std::int16_t quick_stop, int beats) {
+    bench.write(kNode, object::kAbortConnection, option, 2);
+    bench.write(kNode, object::kQuickStopOption, quick_stop, 2);
+    bench.write(kNode, object::kConsumerHeartbeat, 0x7F0000 | 100, 4);
+    for (int i = 0; i < beats; ++i) {
+      bench.bus.send(
+          canopen::heartbeat_frame(plan::kControllerNode, canopen::NmtState::kOperational));
+      bench.let_pass(20'000);
+    }
+  }
+
+  CanBench bench{1};
+};
+
+TEST_F(VirtualDrive, IsACia402ServoDriveWithItsProductCode) {
+  EXPECT_EQ(bench.value(kNode, plan::kDeviceType), 0x00020192);
+  EXPECT_EQ(bench.value(kNode, plan::kProductCode), 402);
+}
+
+TEST_F(VirtualDrive, HoldsWhereItIsUntilItsFirstTarget) {
+  measured().position_count = 8300;
+  bench.enable(kNode);
+  EXPECT_EQ(bench.state(kNode), State::kOperationEnabled);
+  EXPECT_TRUE(bench.setpoint(0).torque_on);
+  EXPECT_EQ(bench.setpoint(0).goal_count, 8300);
+  target(8400);
+  EXPECT_EQ(bench.setpoint(0).goal_count, 8400);
+}
+
+TEST_F(VirtualDrive, FollowsATargetThatWasThereBeforeTorque) {
+  target(8250);
+  bench.enable(kNode);
+  EXPECT_EQ(bench.setpoint(0).goal_count, 8250);
+}
+
+TEST_F(VirtualDrive, ForgetsItsTargetWithItsTorque) {
+  bench.enable(kNode);
+  target(8400);
+  bench.let_pass(2000);
+  bench.control(kNode, cia402::kWordDisableVoltage);
+  EXPECT_FALSE(bench.setpoint(0).torque_on);
+  measured().position_count = 7000;
+  bench.enable(kNode);
+  EXPECT_EQ(bench.setpoint(0).goal_count, 7000);
+}
+
+TEST_F(VirtualDrive, HasNoTorqueButInOperation) {
+  bench.write(kNode, object::kMode, cia402::kModeCyclicPosition, 1);
+  EXPECT_EQ(bench.state(kNode), State::kSwitchOnDisabled);
+  bench.control(kNode, cia402::kWordShutdown);
+  EXPECT_FALSE(bench.setpoint(0).torque_on);
+  bench.control(kNode, cia402::kWordSwitchOn);
+  EXPECT_EQ(bench.state(kNode), State::kSwitchedOn);
+  EXPECT_FALSE(bench.setpoint(0).torque_on);
+  bench.control(kNode, cia402::kWordEnableOperation);
+  EXPECT_TRUE(bench.setpoint(0).torque_on);
+}
+
+TEST_F(VirtualDrive, WithoutModeEightFollowsNoTarget) {
+  for (const std::uint16_t word :
+       {cia402::kWordShutdown, cia402::kWordSwitchOn, cia402::kWordEnableOperation}) {
+    bench.control(kNode, word);
+  }
+  target(9000);
+  EXPECT_EQ(bench.setpoint(0).goal_count, 8192);
+  EXPECT_EQ(status() & cia402::kFollowsCommand, 0);
+  EXPECT_EQ(bench.write(kNode, object::kMode, 1, 1), Abort::kValueRange);
+  EXPECT_EQ(bench.write(kNode, object::kMode, cia402::kModeCyclicPosition, 1), Abort::kNone);
+  EXPECT_EQ(bench.value(kNode, object::kModeDisplay), cia402::kModeCyclicPosition);
+  EXPECT_EQ(bench.setpoint(0).goal_count, 9000);
+  EXPECT_NE(status() & cia402::kFollowsCommand, 0);
+}
+
+TEST_F(VirtualDrive, CutsTargetsAtItsLimitsAndSaysSo) {
+  bench.write(kNode, object::kMinPosition, 8000, 4);
+  bench.write(kNode, object::kMaxPosition, 8500, 4);
+  bench.enable(kNode);
+  for (const auto& [asked, given] : {std::pair{7000, 8000}, {9000, 8500}, {8100, 8100}}) {
+    target(asked);
+    EXPECT_EQ(bench.setpoint(0).goal_count, given);
+    EXPECT_EQ((status() & cia402::kInternalLimit) != 0, asked != given);
+  }
+}
+
+TEST_F(VirtualDrive, AddsItsHomeOffset) {
+  bench.write(kNode, object::kHomeOffset, -192, 4);
+  EXPECT_EQ(bench.value(kNode, object::kActualPosition), 8000);
+  bench.enable(kNode);
+  target(8010);
+  EXPECT_EQ(bench.setpoint(0).goal_count, 8202);
+}
+
+TEST_F(VirtualDrive, JoinsTargetsOverTheInterpolationTime) {
+  bench.write(kNode, object::kPeriodValue, 80, 1);
+  bench.write(kNode, object::kPeriodExponent, -4, 1);
+  bench.enable(kNode);
+  EXPECT_EQ(bench.setpoint(0).profile_ms, 8u);
+}
+
+TEST_F(VirtualDrive, MaxTorqueLimitsTheDuty) {
+  bench.write(kNode, object::kMaxTorque, 600, 2);
+  EXPECT_EQ(bench.setpoint(0).pwm_limit, dxl::kFullPwm * 600 / 1000);
+  bench.write(kNode, object::kMaxTorque, 1000, 2);
+  EXPECT_EQ(bench.setpoint(0).pwm_limit, dxl::kFullPwm);
+  bench.write(kNode, object::kMaxTorque, 3000, 2);
+  EXPECT_EQ(bench.setpoint(0).pwm_limit, dxl::kFullPwm) << "there is no more than all";
+}
+
+TEST_F(VirtualDrive, HasTheGainsOfItsCommissioning) {
+  EXPECT_EQ(bench.setpoint(0).p_gain, 590);
+  EXPECT_EQ(bench.setpoint(0).d_gain, 80);
+  EXPECT_EQ(bench.write(kNode, {0x2002, 1}, 700, 2), Abort::kNone);
+  EXPECT_EQ(bench.setpoint(0).p_gain, 700);
+  EXPECT_EQ(bench.write(kNode, {0x2002, 1}, 16384, 2), Abort::kValueTooHigh);
+  EXPECT_EQ(bench.write(kNode, {0x2002, 4}, 1, 2), Abort::kNoSubindex);
+}
+
+TEST_F(VirtualDrive, AQuickStopEndsTorqueOrHoldsAsItsOptionSays) {
+  for (const int option : {2, 6}) {
+    bench.control(kNode, cia402::kWordDisableVoltage);
+    bench.write(kNode, object::kQuickStopOption, option, 2);
+    bench.enable(kNode);
+    target(9000);
+    bench.let_pass(2000);
+    bench.plant.blocked[0] = true;
+    measured() = {.position_count = 8600, .velocity_rad_s = 1};
+    bench.write(kNode, object::kControlword, cia402::kWordQuickStop, 2);
+    EXPECT_EQ(bench.state(kNode), State::kQuickStopActive) << "it still moves";
+    EXPECT_EQ(bench.setpoint(0).goal_count, 8600);
+    EXPECT_EQ(bench.setpoint(0).profile_ms, 0u);
+    measured().velocity_rad_s = 0;
+    bench.let_pass(3000);
+    const bool holds = option == 6;
+    EXPECT_EQ(bench.state(kNode), holds ? State::kQuickStopActive : State::kSwitchOnDisabled);
+    EXPECT_EQ(bench.setpoint(0).torque_on, holds);
+    bench.plant.blocked[0] = false;
+  }
+  bench.control(kNode, cia402::kWordEnableOperation);
+  EXPECT_EQ(bench.state(kNode), State::kOperationEnabled) << "option 6 lets it go on";
+}
+
+// What replaces the serial servos' Bus Watchdog.
+TEST_F(VirtualDrive, HoldsByItselfWhenItsMasterIsSilent) {
+  bench.enable(kNode);
+  target(9000);
+  watch_master(3, plan::kQuickStopAndHold, 20);
+  EXPECT_EQ(bench.state(kNode), State::kOperationEnabled);
+  bench.plant.blocked[0] = true;
+  measured().position_count = 8700;
+  bench.let_pass(110'000);
+  EXPECT_EQ(bench.state(kNode), State::kQuickStopActive);
+  EXPECT_EQ(bench.setpoint(0).goal_count, 8700);
+  EXPECT_TRUE(bench.setpoint(0).torque_on);
+  target(9100);
+  EXPECT_EQ(bench.setpoint(0).goal_count, 8700) << "deaf to targets until it is enabled again";
+  bench.control(kNode, cia402::kWordEnableOperation);
+  EXPECT_EQ(bench.setpoint(0).goal_count, 9100);
+}
+
+TEST_F(VirtualDrive, ASilentMasterIsAFaultIfTheOptionSaysSo) {
+  bench.enable(kNode);
+  watch_master(1, 2, 3);
+  std::vector<canopen::Emergency> told = emergencies(110'000);
+  ASSERT_EQ(told.size(), 1u);
+  EXPECT_EQ(told[0].code, 0x8130);
+  EXPECT_EQ(bench.state(kNode), State::kFault);
+  EXPECT_FALSE(bench.setpoint(0).torque_on);
+  EXPECT_EQ(bench.value(kNode, object::kErrorCode), 0x8130 - 0x10000) << "an i16 to this bench";
+  bench.control(kNode, cia402::kWordFaultReset);
+  EXPECT_EQ(bench.state(kNode), State::kSwitchOnDisabled);
+}
+
+TEST_F(VirtualDrive, OverheatingIsAFaultUntilItIsCool) {
+  bench.enable(kNode);
+  measured().temperature_c = 81;
+  const std::vector<canopen::Emergency> told = emergencies(10'000);
+  ASSERT_EQ(told.size(), 1u);
+  EXPECT_EQ(told[0].code, 0x4310);
+  EXPECT_EQ(bench.state(kNode), State::kFault);
+  EXPECT_FALSE(bench.setpoint(0).torque_on);
+  bench.control(kNode, cia402::kWordFaultReset);
+  EXPECT_EQ(bench.state(kNode), State::kFault);
+  measured().temperature_c = 60;
+  bench.let_pass(2000);
+  const auto before =
+      plan::Telemetry::from(static_cast<std::uint32_t>(bench.value(kNode, plan::kTelemetry)));
+  EXPECT_EQ(before, (plan::Telemetry{120, 60, dxl::kOverheatingError}));
+  bench.control(kNode, 0);
+  bench.control(kNode, cia402::kWordFaultReset);
+  EXPECT_EQ(bench.state(kNode), State::kSwitchOnDisabled);
+  EXPECT_EQ(bench.value(kNode, object::kErrorCode), 0);
+}
+
+TEST_F(VirtualDrive, ALowSupplyIsToldAndKeepsTorque) {
+  bench.enable(kNode);
+  measured().voltage_v = 9.2;
+  const std::vector<canopen::Emergency> told = emergencies(10'000);
+  ASSERT_EQ(told.size(), 1u);
+  EXPECT_EQ(told[0].code, 0x3220);
+  EXPECT_NE(status() & cia402::kWarning, 0);
+  EXPECT_TRUE(bench.setpoint(0).torque_on);
+  const auto telemetry =
+      plan::Telemetry::from(static_cast<std::uint32_t>(bench.value(kNode, plan::kTelemetry)));
+  EXPECT_EQ(telemetry.voltage_tenth_v, 92);
+  EXPECT_EQ(telemetry.errors, dxl::kInputVoltageError);
+  EXPECT_EQ(bench.value(kNode, object::kDcLinkVoltage), 9200);
+}
+
+TEST_F(VirtualDrive, AFollowingErrorIsAFaultIfItIsWatched) {
+  bench.plant.blocked[0] = true;
+  bench.enable(kNode);
+  target(9000);
+  EXPECT_TRUE(emergencies(60'000).empty()) << "not watched by default";
+  bench.write(kNode, object::kFollowingTime, 20, 2);
+  bench.write(kNode, object::kFollowingWindow, 100, 4);
+  EXPECT_TRUE(emergencies(15'000).empty());
+  const std::vector<canopen::Emergency> told = emergencies(10'000);
+  ASSERT_EQ(told.size(), 1u);
+  EXPECT_EQ(told[0].code, 0x8611);
+  EXPECT_EQ(bench.state(kNode), State::kFault);
+  EXPECT_NE(status() & cia402::kFollowingError, 0);
+  bench.control(kNode, cia402::kWordFaultReset);
+  EXPECT_EQ(bench.state(kNode), State::kSwitchOnDisabled);
+  EXPECT_EQ(status() & cia402::kFollowingError, 0);
+}
+
+TEST_F(VirtualDrive, NmtResetTakesTorqueAndSettings) {
+  bench.enable(kNode);
+  bench.write(kNode, object::kMaxTorque, 500, 2);
+  bench.nmt(canopen::NmtCommand::kResetNode, kNode);
+  EXPECT_FALSE(bench.setpoint(0).torque_on);
+  EXPECT_EQ(bench.value(kNode, object::kMaxTorque), 1000);
+}
+
+TEST_F(VirtualDrive, AStoppedNodeDoesAsWithoutItsMaster) {
+  bench.write(kNode, object::kAbortConnection, 2, 2);
+  bench.enable(kNode);
+  bench.nmt(canopen::NmtCommand::kStop, kNode);
+  EXPECT_FALSE(bench.setpoint(0).torque_on);
+}
+
+TEST_F(VirtualDrive, MeasuresSpeedAndTorque) {
+  measured().velocity_rad_s = 2;
+  measured().duty = -0.25;
+  EXPECT_EQ(bench.value(kNode, object::kActualVelocity), 5215);  // 2 * 16384 / 2 pi
+  EXPECT_EQ(bench.value(kNode, object::kActualTorque), -250);
+}
+
+// The halves of one frame are two drives'.
+TEST(VirtualDrives, TakeTheirOwnPartOfASharedFrame) {
+  CanBench bench(3);
+  for (int j = 0; j < 3; ++j) {
+    const std::uint8_t node = bench.params.joint[j].servo_id;
+    const auto mapping = plan::shared_mapping(plan::kGoals, bench.params, j);
+    bench.write(node, {0x1400, 1}, 0x80000000, 4);
+    bench.write(node, {0x1600, 0}, 0, 1);
+    for (std::uint8_t i = 0; i < mapping.count; ++i) {
+      const auto sub = static_cast<std::uint8_t>(i + 1);
+      EXPECT_EQ(bench.write(node, {0x1600, sub}, mapping.entries[i].value(), 4), Abort::kNone);
+    }
+    bench.write(node, {0x1600, 0}, mapping.count, 1);
+    const std::uint16_t id = plan::shared_id(plan::kGoals, bench.params, j / plan::kGoals.width);
+    EXPECT_EQ(bench.write(node, {0x1400, 1}, id, 4), Abort::kNone);
+  }
+  bench.nmt(canopen::NmtCommand::kStart);
+  for (std::uint8_t node = 1; node <= 3; ++node) bench.enable(node);
+  CanFrame pair = canopen::classic_frame(canopen::rpdo_id(1, 1), 8);
+  canopen::put_le(pair.data, 8001, 4);
+  canopen::put_le(pair.data + 4, 8002, 4);
+  CanFrame last = canopen::classic_frame(canopen::rpdo_id(1, 3), 4);
+  canopen::put_le(last.data, 8003, 4);
+  bench.bus.send(pair);
+  bench.bus.send(last);
+  bench.let_pass(1000);
+  for (int j = 0; j < 3; ++j) EXPECT_EQ(bench.setpoint(j).goal_count, 8001 + j);
+}
+
+// The plan's SYNC groups, with the plan's start values.
+TEST(VirtualDrives, EachGroupAnswersItsOwnSync) {
+  CanBench bench(7);
+  const std::uint8_t groups = plan::sync_groups(bench.params);
+  for (int j = 0; j < 7; ++j) {
+    const std::uint8_t node = bench.params.joint[j].servo_id;
+    bench.write(node, plan::kSyncOverflow, groups, 1);
+    bench.write(node, {0x1801, 2}, groups, 1);
+    EXPECT_EQ(bench.write(node, {0x1801, 6}, plan::group_of_joint(j), 1), Abort::kNone);
+    EXPECT_EQ(bench.write(node, {0x1801, 1}, 0x280 + node, 4), Abort::kNone);
+  }
+  bench.nmt(canopen::NmtCommand::kStart);
+  bench.let_pass(2000);
+  for (int round = 0; round < 3; ++round) {
+    for (std::uint8_t counter = 1; counter <= groups; ++counter) {
+      bench.sync(counter);
+      std::vector<std::uint32_t> drives;
+      for (const CanFrame& frame : bench.listen(2000)) {
+        if (frame.id > 0x280 && frame.id < 0x2E0) drives.push_back(frame.id - 0x280);
+      }
+      std::vector<std::uint32_t> expected;
+      for (int j = 0; j < 7; ++j) {
+        if (plan::group_of_joint(j) == counter) {
+          expected.push_back(bench.params.joint[j].servo_id);
+        }
+      }
+      EXPECT_EQ(drives, expected) << "SYNC " << int{counter};
+    }
+  }
+}
+
+}  // namespace
+}  // namespace verp

@@ -1,0 +1,120 @@
+#include "host/can/realtime_server.hpp"
+
+#include <gtest/gtest.h>
+
+#include "common/protocol/canopen/sync.hpp"
+#include "tests/host/can/can_bench.hpp"
+
+// The twin's bus by a clock of the world, for a master that keeps time by itself.
+namespace verp::can {
+namespace {
+
+CanFrame ask_1000(std::uint8_t node) {
+  CanFrame frame = canopen::classic_frame(canopen::sdo_request_id(node), 8);
+  frame.data[0] = 0x40;
+  frame.data[2] = 0x10;
+  return frame;
+}
+
+class CanRealTime : public ::testing::Test {
+ protected:
+  test::CanBench bench{3};
+  RealtimeServer server{bench.bus};
+  std::vector<CanFrame> answer;
+};
+
+// A PC that was switched on long ago, and a twin that nobody has asked for anything.
+TEST_F(CanRealTime, TimeBeginsWithTheFirstFrame) {
+  server.turn(5'000'000, answer);
+  EXPECT_FALSE(server.begun());
+  EXPECT_EQ(bench.bus.now_us(), 0u);
+  server.hear(ask_1000(1), 9'000'000, answer);
+  EXPECT_TRUE(server.begun());
+  EXPECT_TRUE(answer.empty()) << "the frame takes its time on the wire";
+  server.turn(9'010'000, answer);
+  EXPECT_EQ(bench.bus.now_us(), 10'000u);
+  const auto response = std::find_if(answer.begin(), answer.end(), [](const CanFrame& each) {
+    return each.id == canopen::sdo_response_id(1);
+  });
+  ASSERT_NE(response, answer.end());
+  EXPECT_EQ(canopen::get_le(response->data + 4, 4), 0x00020192u);
+}
+
+// Each frame is on the bus when the clock said that it came, whatever the turns.
+TEST_F(CanRealTime, FramesReachTheBusWhenTheyCame) {
+  std::vector<std::uint64_t> begun_us;
+  bench.bus.set_listener([&](const CanFrame& frame, std::uint64_t begin_ns, std::uint64_t) {
+    if (frame.id == canopen::kSyncId) begun_us.push_back(begin_ns / 1000);
+  });
+  server.hear(canopen::classic_frame(canopen::kSyncId, 0), 1000, answer);
+  for (const std::uint64_t at_us : {21'000u, 33'500u, 60'000u}) {
+    server.hear(canopen::classic_frame(canopen::kSyncId, 0), at_us, answer);
+  }
+  server.turn(80'000, answer);
+  ASSERT_EQ(begun_us.size(), 4u);
+  EXPECT_EQ(begun_us[1], 20'000u);
+  EXPECT_EQ(begun_us[2], 32'500u);
+  EXPECT_EQ(begun_us[3], 59'000u);
+}
+
+// They crossed a wire before; there no SYNC overtook them.
+TEST_F(CanRealTime, FramesKeepTheirOrder) {
+  std::vector<std::uint32_t> heard;
+  bench.bus.set_listener([&](const CanFrame& frame, std::uint64_t, std::uint64_t) {
+    if (frame.id == 0x213 || frame.id == canopen::kSyncId) heard.push_back(frame.id);
+  });
+  for (int i = 0; i < 10; ++i) {
+    server.hear(canopen::classic_frame(0x213, 4), 1000, answer);
+    server.hear(canopen::classic_frame(canopen::kSyncId, 0), 1000, answer);
+  }
+  server.turn(50'000, answer);
+  ASSERT_EQ(heard.size(), 20u);
+  for (std::size_t i = 0; i < heard.size(); ++i) {
+    EXPECT_EQ(heard[i], i % 2 == 0 ? 0x213u : canopen::kSyncId) << i;
+  }
+}
+
+TEST_F(CanRealTime, CountsWhatIsFasterThanTheWire) {
+  for (int i = 0; i < 1000; ++i) server.hear(ask_1000(1), 1000, answer);
+  EXPECT_EQ(server.counters().frames, 1000u);
+  EXPECT_EQ(server.counters().dropped, 1000 - hal::kCanQueue);
+  server.turn(500'000, answer);
+  server.hear(ask_1000(1), 500'000, answer);
+  EXPECT_EQ(server.counters().dropped, 1000 - hal::kCanQueue) << "there is room again";
+}
+
+// A PC that is slower than the twin would have more to make up for at each turn.
+TEST_F(CanRealTime, SkipsWhatItCannotMakeUpFor) {
+  server.hear(ask_1000(1), 1'000'000, answer);
+  EXPECT_TRUE(server.kept_up()) << "nothing was skipped";
+  for (int turn = 1; turn <= 20; ++turn) {
+    const std::uint64_t clock_us = 1'000'000u + 500'000u * static_cast<unsigned>(turn);
+    server.turn(clock_us, answer);
+    EXPECT_EQ(bench.bus.now_us(), 50'000u * static_cast<unsigned>(turn));
+    server.finished(clock_us);
+    EXPECT_EQ(server.counters().skipped_us, 450'000u * static_cast<unsigned>(turn));
+  }
+  EXPECT_FALSE(server.kept_up());
+  EXPECT_EQ(server.counters().late, 0u);
+  // It goes on from there; a frame from before the skip comes now.
+  server.hear(ask_1000(1), 10'500'000, answer);
+  EXPECT_EQ(bench.bus.now_us(), 1'000'000u);
+  for (std::uint64_t clock_us = 11'000'000; clock_us <= 12'100'000; clock_us += 50'000) {
+    server.turn(clock_us, answer);
+  }
+  EXPECT_EQ(bench.bus.now_us(), 2'100'000u);
+  EXPECT_EQ(server.counters().skipped_us, 9'000'000u);
+  EXPECT_TRUE(server.kept_up()) << "for a second";
+}
+
+TEST_F(CanRealTime, SaysHowLateItIs) {
+  server.hear(ask_1000(1), 1000, answer);
+  server.finished(1500);
+  EXPECT_EQ(server.counters().late, 0u);
+  server.finished(8000);
+  EXPECT_EQ(server.counters().late, 1u);
+  EXPECT_EQ(server.counters().worst_late_us, 7000u);
+}
+
+}  // namespace
+}  // namespace verp::can

@@ -1,0 +1,112 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "host/model/bus_time.hpp"
+#include "host/model/load.hpp"
+#include "host/model/load_error.hpp"
+#include "host/model/params.hpp"
+#include "tests/host/model/test_files.hpp"
+
+// A robot may name several buses; one of them is used.
+
+namespace verp::model {
+namespace {
+
+/// generic21 with one of its texts replaced, loaded with `bus`; what it is refused for.
+std::string refusal(const std::string& old_part, const std::string& new_part,
+                    const std::string& bus = "") {
+  std::string text = read_text(robot_file("generic21"));
+  const auto at = text.find(old_part);
+  EXPECT_NE(at, std::string::npos) << old_part;
+  text.replace(at, old_part.size(), new_part);
+  const TemporaryFile file("robot.sdf", text);
+  try {
+    load_robot(file.path(), bus);
+  } catch (const LoadError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+const std::string kCan = "<verp:bus name=\"can\" protocol=\"cia402\" baud=\"1000000\"";
+const std::string kDrive = "<verp:servo joint=\"head_yaw\" id=\"19\" direction=\"1\" type=\"cia402";
+
+TEST(Buses, TheFirstIsUsedUnlessAnotherIsNamed) {
+  const Entity serial = load_robot(robot_file("generic21"));
+  const Entity can = load_robot(robot_file("generic21"), "can");
+  EXPECT_EQ(serial.bus, "dxl");
+  EXPECT_EQ(can.bus, "can");
+  EXPECT_EQ(serial.buses, (std::vector<std::string>{"dxl", "can"}));
+  EXPECT_EQ(make_params(serial).bus_protocol, BusProtocol::kDynamixel2);
+  const Params params = make_params(can);
+  EXPECT_EQ(params.bus_protocol, BusProtocol::kCia402);
+  EXPECT_EQ(params.baud, 1'000'000u);
+  EXPECT_EQ(params.servo[0].profile_ms, 0) << "60C2h follows the control period";
+}
+
+// The same body, the same stiffness: only what counts mean differs.
+TEST(Buses, DrivesOfTheSameJointsAreAsStiffAsTheServos) {
+  const Params serial = make_params(load_robot(robot_file("generic21")));
+  const Params can = make_params(load_robot(robot_file("generic21"), "can"));
+  ASSERT_EQ(serial.joint_count, can.joint_count);
+  for (int j = 0; j < serial.joint_count; ++j) {
+    const JointParams& a = serial.joint[j];
+    const JointParams& b = can.joint[j];
+    EXPECT_STREQ(a.name, b.name);
+    EXPECT_EQ(a.servo_id, b.servo_id);
+    EXPECT_FLOAT_EQ(4 * a.counts_per_rad, b.counts_per_rad);
+    EXPECT_FLOAT_EQ(4 * a.zero_count, b.zero_count);
+    EXPECT_FLOAT_EQ(a.compliance_rad_nm, b.compliance_rad_nm);
+    EXPECT_NEAR(a.lower_rad, b.lower_rad, 2e-3);
+    EXPECT_NEAR(a.upper_rad, b.upper_rad, 2e-3);
+  }
+}
+
+TEST(Buses, OneThatDoesNotExistIsRefusedWithThoseThatDo) {
+  const std::string line = refusal("<mass>1.1</mass>", "<mass>1.1</mass>", "usb");
+  EXPECT_NE(line.find("no bus 'usb'; choose one of: dxl, can"), std::string::npos) << line;
+}
+
+TEST(Buses, AllAreCheckedWhicheverIsUsed) {
+  struct Case {
+    std::string from, to, said;
+  };
+  const std::string baud = "baud=\"1000000\"";
+  const Case cases[] = {
+      {kCan, "<verp:bus name=\"dxl\" protocol=\"cia402\" " + baud, "bus 'dxl' is given twice"},
+      {kCan, "<verp:bus name=\"can\" protocol=\"ethercat\" " + baud, "no bus protocol 'ethercat'"},
+      {kCan, "<verp:bus name=\"can\" protocol=\"cia402\" baud=\"600000\"", "no bit rate"},
+      {kCan, "<verp:bus name=\"can\" protocol=\"dynamixel2\" " + baud, "does not speak dynamixel2"},
+      {kDrive + "_w210\"", "<verp:servo joint=\"head_yaw\" id=\"19\" type=\"mx28\"",
+       "servo type 'mx28' does not speak cia402; choose one of: cia402_w210"},
+      {kDrive, "<verp:servo profile_ms=\"10\" joint=\"head_yaw\" id=\"19\" type=\"cia402",
+       "profile_ms"},
+      {kDrive, "<verp:servo joint=\"head_yaw\" id=\"126\" direction=\"1\" type=\"cia402", "126"},
+      {"<verp:imu sensor=\"imu\" id=\"120\"", "<verp:imu sensor=\"imu\" id=\"150\"",
+       "id 150 is no node id of bus 'can'"},
+  };
+  for (const Case& each : cases) {
+    const std::string line = refusal(each.from, each.to);
+    EXPECT_NE(line.find(each.said), std::string::npos) << each.to << '\n' << line;
+  }
+}
+
+TEST(Buses, OneThatCannotCarryATickIsRefused) {
+  const std::string line =
+      refusal(kCan, "<verp:bus name=\"can\" protocol=\"cia402\" baud=\"125000\"", "can");
+  EXPECT_NE(line.find("a tick's packets take"), std::string::npos) << line;
+}
+
+TEST(Buses, TheShareOfATickFollowsFromTheRate) {
+  Params params = make_params(load_robot(robot_file("generic21"), "can"));
+  const BusTime fast = bus_time(params);
+  EXPECT_LT(fast.share, 0.7);
+  params.baud = 500'000;
+  EXPECT_NEAR(bus_time(params).us, 2 * fast.us, 2);
+  params.period_us *= 2;
+  EXPECT_NEAR(bus_time(params).share, fast.share, 1e-3);
+}
+
+}  // namespace
+}  // namespace verp::model

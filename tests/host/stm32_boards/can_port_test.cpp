@@ -1,0 +1,135 @@
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "board.hpp"
+#include "hal/chip/stm32/tick_timer.hpp"
+#include "robot_port.hpp"
+#include "tests/support/stm32/can_model.hpp"
+#include "tests/support/stm32/gpio_model.hpp"
+#include "tests/support/stm32/machine.hpp"
+#include "tests/support/stm32/rcc_model.hpp"
+
+// How a board's loop_can image comes to its CAN bus, on a model of its chip: its own clock plan,
+// pins, interrupts and timing. Built once for each board that has a kCanPort.
+namespace verp::board {
+namespace {
+
+namespace model = stm32::model;
+using Io = model::ModelIo;
+using Timer = stm32::TickTimer<Io>;
+using Wiring = RobotWiring<Io, UsartKind, Timer>;
+
+constexpr std::uint32_t kBaud = 1'000'000;
+
+struct Chip {
+  explicit Chip(model::Time crystal_starts = model::ms(2))
+      : machine(kFamily, {.hse_hz = kClockPlan.crystal_hz}) {
+    machine.rcc().hse_start = crystal_starts;
+    clocks = stm32::ClockTree<Io>(kFamily, kClockPlan, machine.io()).start();
+    stm32::enable_clock(machine.io(), stm32::rcc::kApb1enr, stm32::rcc::kApb1Tim2);
+    EXPECT_TRUE(timer.open(clocks.apb1_timer_hz, clocks.sysclk_hz));
+    machine.attach(stm32::irq::kTim2, [this] { timer.on_timer(); });
+    stm32::enable_interrupt(machine.io(), stm32::irq::kTim2, 12);
+    for (const unsigned each : kRobotInterrupts) {
+      machine.attach(each, [this] { port.on_interrupt(); });
+    }
+    Wiring::connect(4, machine.io());
+  }
+  ~Chip() { EXPECT_STREQ(machine.violations_text().c_str(), ""); }
+  void let_pass(std::uint64_t us) {
+    const std::uint64_t end_us = timer.now_us() + us;
+    while (timer.now_us() < end_us) machine.advance(model::us(10));
+  }
+
+  model::Machine machine;
+  stm32::Clocks clocks;
+  Timer timer{stm32::base::kTim2, machine.io()};
+  model::CanModel& bus = kCanPort.base == stm32::base::kCan1 ? machine.can1() : machine.can2();
+  Wiring::Port port = Wiring::make(timer, machine.io());
+};
+
+CanFrame sync(std::uint8_t counter) {
+  CanFrame frame;
+  frame.id = 0x80;
+  frame.size = 1;
+  frame.data[0] = counter;
+  return frame;
+}
+
+TEST(CanPort, PutsItsPinsAtTheController) {
+  Chip chip;
+  for (const stm32::Pin pin : {kCanPort.transmit, kCanPort.receive}) {
+    EXPECT_EQ(chip.machine.gpio(pin.port).function(pin.number), kCanPort.function) << pin.port;
+  }
+}
+
+TEST(CanPort, BothEndsHearEachOtherAtTheRobotsRate) {
+  Chip chip;
+  ASSERT_TRUE(Wiring::open(chip.port, chip.clocks, kBaud));
+  EXPECT_EQ(chip.bus.bitrate(), kBaud);
+  EXPECT_NEAR(chip.bus.sample_point(), 0.875, 0.025);
+  ASSERT_TRUE(chip.port.send(sync(1)));
+  chip.let_pass(500);
+  ASSERT_EQ(chip.bus.sent().size(), 1u);
+  EXPECT_TRUE(chip.bus.sent()[0].frame == sync(1));
+  CanFrame answer;
+  answer.id = 0x181;
+  answer.size = 8;
+  chip.bus.send(answer);
+  CanFrame heard;
+  ASSERT_TRUE(chip.port.poll(heard, 5000));
+  EXPECT_TRUE(heard == answer);
+}
+
+// The internal oscillator is too far off for a bit of 1 us, and nobody shall drive by it.
+TEST(CanPort, DoesNotOpenWithoutTheCrystal) {
+  Chip chip(model::kNever);
+  EXPECT_NE(chip.clocks.source, stm32::ClockSource::kCrystal);
+  EXPECT_FALSE(Wiring::open(chip.port, chip.clocks, kBaud));
+}
+
+TEST(CanPort, DoesNotOpenAtARateThatTheClockDoesNotMake) {
+  Chip chip;
+  EXPECT_FALSE(Wiring::open(chip.port, chip.clocks, 0));
+  EXPECT_FALSE(Wiring::open(chip.port, chip.clocks, 2'000'000));
+}
+
+// Drives that an earlier run left stiff begin anew, and have no torque then.
+TEST(CanPort, TellsAllNodesToBeginAnew) {
+  Chip chip;
+  ASSERT_TRUE(Wiring::open(chip.port, chip.clocks, kBaud));
+  Wiring::release(chip.port);
+  chip.let_pass(2000);
+  ASSERT_EQ(chip.bus.sent().size(), 3u);
+  for (const auto& sent : chip.bus.sent()) {
+    EXPECT_EQ(sent.frame.id, 0u);
+    EXPECT_EQ(sent.frame.size, 2);
+    EXPECT_EQ(sent.frame.data[0], 129) << "CiA 301, 7.3.1.2.1.5: reset node";
+    EXPECT_EQ(sent.frame.data[1], 0) << "all nodes";
+  }
+}
+
+// Nothing else feeds the board's watchdog and its operator during bring-up.
+TEST(CanPort, LooksAfterTheBoardDuringALongWaitAndStillWaitsItsTime) {
+  Chip chip;
+  ASSERT_TRUE(Wiring::open(chip.port, chip.clocks, kBaud));
+  std::vector<std::uint64_t> looks_us;
+  const auto watch = [&] { looks_us.push_back(chip.timer.now_us()); };
+  RealTimeOn<Wiring::Port, Timer, decltype(watch)> way(chip.port, chip.timer, watch, 0);
+  ASSERT_TRUE(way.bus().send(sync(1)));
+  const std::uint64_t sent_us = chip.timer.now_us();
+  CanFrame frame;
+  EXPECT_FALSE(way.bus().poll(frame, 200'000));
+  EXPECT_GE(chip.timer.now_us() - sent_us, 200'000u);
+  EXPECT_LE(chip.timer.now_us() - sent_us, 201'000u);
+  ASSERT_GE(looks_us.size(), 20u);
+  for (std::size_t i = 1; i < looks_us.size(); ++i) {
+    EXPECT_LE(looks_us[i] - looks_us[i - 1], 10'000u) << "a tenth of the watchdog's time";
+  }
+  chip.bus.send(sync(2));
+  EXPECT_TRUE(way.bus().poll(frame, 400'000)) << "a frame ends the wait";
+}
+
+}  // namespace
+}  // namespace verp::board

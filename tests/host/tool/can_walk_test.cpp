@@ -1,0 +1,84 @@
+#include <nlohmann/json.hpp>
+
+#include "tests/host/tool/program.hpp"
+
+// Software in the loop over CAN: the same loop, bound to CiA 402 drives.
+
+namespace verp::tool::test {
+namespace {
+
+class CanWalk : public Program {
+ protected:
+  nlohmann::json walk(const std::string& arguments, const std::string& name) const {
+    const Outcome outcome = verp("walk generic21 --bus can --json " + arguments, name);
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    return nlohmann::json::parse(outcome.out, nullptr, false);
+  }
+};
+
+TEST_F(CanWalk, WalksTenSecondsWithoutAFallOrAFault) {
+  const nlohmann::json json = walk("--for 10", "ten");
+  ASSERT_TRUE(json.is_object());
+  EXPECT_EQ(json["bus"], "can");
+  EXPECT_EQ(json["fallen"], false);
+  EXPECT_GE(json["duration_s"].get<double>(), 9);
+  EXPECT_GT(json["distance_m"].get<double>(), 1);
+}
+
+// The table of `verp bus load` is what the twin's wire carries.
+TEST_F(CanWalk, PutsOnTheWireWhatBusLoadSays) {
+  const nlohmann::json json = walk("--for 5", "walk");
+  const nlohmann::json row =
+      nlohmann::json::parse(verp("bus load --robot generic21 --json", "load").out)["rows"][0];
+  ASSERT_EQ(row["rate_hz"], 100);
+  ASSERT_EQ(row["fd"], false);
+  const double bare = row["bits_without_stuffing"].get<double>();
+  const double walked = json["can_bits_per_tick_without_stuffing"].get<double>();
+  EXPECT_NEAR(walked, bare, 0.05 * bare);
+  EXPECT_GT(json["can_bits_per_tick"].get<double>(), walked);
+  EXPECT_LT(json["can_bits_per_tick"].get<double>(), row["bits_with_worst_stuffing"].get<double>());
+  EXPECT_EQ(json["can_overruns"], 0);
+}
+
+TEST_F(CanWalk, GivesTheSameDigestEachTime) {
+  const nlohmann::json first = walk("--for 3", "first");
+  const nlohmann::json second = walk("--for 3", "second");
+  ASSERT_TRUE(first.is_object());
+  EXPECT_EQ(first["digest"], second["digest"]);
+  EXPECT_EQ(first["ticks"], second["ticks"]);
+}
+
+// What was recorded over CAN is decided again from the counts alone.
+TEST_F(CanWalk, ItsTraceReplays) {
+  walk("--for 3 --record can.mcap", "recorded");
+  const Outcome replayed = verp("replay can.mcap", "replayed");
+  EXPECT_EQ(replayed.status, 0) << replayed.err << replayed.out;
+}
+
+TEST_F(CanWalk, BusesAreChosenByName) {
+  expect_refused("walk generic21 --bus usb", "dxl, can");
+  expect_refused("hil generic21 --bus can --link tcp:localhost:1", "is no CAN interface");
+  expect_refused("run generic21 --bus can --link serial:/dev/null@1000000", "is no CAN interface");
+  const Outcome checked = verp("check generic21 --bus can --json", "checked");
+  EXPECT_EQ(checked.status, 0) << checked.err;
+  const nlohmann::json bus = nlohmann::json::parse(checked.out)["bus"];
+  EXPECT_EQ(bus["protocol"], "cia402");
+  EXPECT_LT(bus["share"].get<double>(), 0.8);
+}
+
+TEST_F(CanWalk, BusLoadIsATableThatNamesWhatIsRefused) {
+  const Outcome outcome = verp("bus load --robot generic21 --json", "load");
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const nlohmann::json json = nlohmann::json::parse(outcome.out);
+  ASSERT_EQ(json["rows"].size(), 16u);
+  for (const nlohmann::json& row : json["rows"]) {
+    EXPECT_EQ(row["admitted"].get<bool>(), row["refusal"].get<std::string>().empty());
+    if (row["rate_hz"] != 125 || row["buses"] != 1 || row["fd"] == true) continue;
+    EXPECT_LE(row["share_with_worst_stuffing"].get<double>(), 0.7);
+    EXPECT_EQ(row["admitted"], true);
+  }
+  expect_refused("bus load --robot generic21 --bus dxl", "has no CAN bus named 'dxl'");
+}
+
+}  // namespace
+}  // namespace verp::tool::test

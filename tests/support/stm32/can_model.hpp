@@ -1,0 +1,104 @@
+#pragma once
+#include <cstdint>
+#include <deque>
+#include <functional>
+
+#include "common/base/can_frame.hpp"
+#include "hal/chip/stm32/registers/can.hpp"
+#include "tests/support/stm32/bank.hpp"
+
+/// bxCAN with the bus at its pins and the other nodes on it: what they send is the test's script.
+/// Frames take their bits without stuffing; who begins is decided by arbitration. Modelled: normal
+/// mode, classic frames, filters of 32 bits, both FIFOs, error counters of the transmitter.
+namespace verp::hal::stm32::model {
+
+class CanModel : public Bank {
+ public:
+  struct Sent {
+    CanFrame frame;
+    unsigned mailbox;
+    Time start, end;
+  };
+
+  /// `keeper`: of its filters, from that bank on; null: itself.
+  CanModel(Machine& machine, std::uint32_t base, Gate gate, unsigned first_irq,
+           const CanModel* keeper = nullptr);
+
+  // Script.
+  bool init_stuck = false;     ///< INAK never sets
+  bool line_dominant = false;  ///< nothing can be heard or sent
+  bool acknowledged = true;    ///< another node hears us
+  unsigned break_next = 0;     ///< so many of our frames meet a bit error
+  /// Asked at the end of each frame on the wire: true, and an error frame destroys it. Whoever sent
+  /// it sends it again.
+  std::function<bool(const CanFrame&)> breaks = [](const CanFrame&) { return false; };
+  bool abort_stuck = false;  ///< a mailbox never hears that it shall give up
+  std::uint32_t bus_bitrate = 1'000'000;
+  /// Another node sends this as soon as it may, not before `when`.
+  void send(const CanFrame& frame, Time when = 0);
+  void on_sent(std::function<void(const Sent&)> watcher) { watcher_ = std::move(watcher); }
+
+  const std::deque<Sent>& sent() const { return sent_; }
+  void forget_sent() { sent_.clear(); }
+  bool idle() const { return !talking_ && others_.empty(); }
+  /// What the registers make, 0 if nothing.
+  double bitrate() const;
+  double sample_point() const;
+
+  void reset() override;
+  void run() override;
+  Time next() const override;
+  bool interrupt(unsigned irq) const override;
+
+ protected:
+  void before_read(std::uint32_t offset) override;
+  bool may_write(std::uint32_t offset, std::uint32_t raw) override;
+  void on_write(std::uint32_t offset, std::uint32_t raw, std::uint32_t old) override;
+
+ private:
+  struct Waiting {
+    CanFrame frame;
+    Time when;
+  };
+  enum class Mode : std::uint8_t { kSleep, kInit, kNormal };
+
+  bool pending(unsigned mailbox) const { return (pending_ & 1u << mailbox) != 0; }
+  CanFrame frame_in(unsigned mailbox) const;
+  std::uint32_t wanted_rank(unsigned mailbox) const;
+  Time bit_time() const;
+  Time frame_time(const CanFrame& frame) const;
+  bool right_rate() const;
+  void request_mode();
+  void change_mode();
+  void start_next();
+  void end_of_frame();
+  void break_other();
+  void fail_transmission(std::uint32_t code);
+  void close_mailbox(unsigned mailbox, std::uint32_t how);
+  void abort(unsigned mailbox);
+  void receive(const CanFrame& frame);
+  bool passes(const CanFrame& frame, unsigned& fifo) const;
+  void raise(std::uint32_t enable);
+  void show_counters();
+  void release(unsigned fifo);
+
+  unsigned first_irq_;
+  const CanModel* keeper_;
+  Mode mode_ = Mode::kSleep;
+  Time mode_at_ = kNever;
+  Time recovered_at_ = kNever;
+  std::uint32_t pending_ = 0;
+  std::uint32_t order_[can::kMailboxes] = {};  ///< of the requests
+  std::uint32_t requests_ = 0;
+  bool talking_ = false;
+  int mailbox_ = -1;  ///< of the frame on the wire, -1: another node's
+  CanFrame on_wire_;
+  Time start_ = 0, end_ = 0, idle_at_ = 0;
+  unsigned tec_ = 0;
+  std::deque<Waiting> others_;
+  std::deque<CanFrame> fifo_[can::kFifos];
+  std::deque<Sent> sent_;  ///< a vector that grows needs twice the memory
+  std::function<void(const Sent&)> watcher_;
+};
+
+}  // namespace verp::hal::stm32::model

@@ -1,0 +1,49 @@
+#include <dlfcn.h>
+#include <elf.h>
+#include <sys/ptrace.h>
+#include <sys/types.h>
+#include <sys/uio.h>
+
+#include <cerrno>
+#include <cstdarg>
+#include <cstring>
+
+/// Loaded into Debian 12's User-Mode Linux by with-can. That keeps the extended registers of its
+/// processes in 2696 bytes (HOST_FP_SIZE, arch/x86/um/user-offsets.c of Linux 6.1): all that there
+/// was before AMX. Where the PC has more, ptrace takes them back only whole (xstateregs_set,
+/// arch/x86/kernel/fpu/regset.c) and the virtual machine ends at its first process. So what it
+/// writes is put over what the process has: the rest of which it cannot use, as nobody asks the
+/// PC's kernel for AMX.
+
+namespace {
+
+using Ptrace = long (*)(int, pid_t, void*, void*);
+
+constexpr std::size_t kMost = 65536;     // AMX: 11008
+alignas(64) unsigned char whole[kMost];  // not on the stack: the kernel's are small, and it is one
+
+long set_registers(Ptrace original, pid_t process, void* kind, void* data) {
+  auto* part = static_cast<iovec*>(data);
+  iovec all{whole, sizeof whole};
+  if (original(PTRACE_GETREGSET, process, kind, &all) != 0) return -1;
+  if (part->iov_len >= all.iov_len) return original(PTRACE_SETREGSET, process, kind, data);
+  std::memcpy(whole, part->iov_base, part->iov_len);
+  return original(PTRACE_SETREGSET, process, kind, &all);
+}
+
+}  // namespace
+
+extern "C" long ptrace(enum __ptrace_request request, ...) {
+  static const auto original = reinterpret_cast<Ptrace>(::dlsym(RTLD_NEXT, "ptrace"));
+  va_list list;
+  va_start(list, request);
+  const pid_t process = va_arg(list, pid_t);
+  void* const address = va_arg(list, void*);
+  void* const data = va_arg(list, void*);
+  va_end(list);
+  if (request == PTRACE_SETREGSET &&
+      address == reinterpret_cast<void*>(std::size_t{NT_X86_XSTATE})) {
+    return set_registers(original, process, address, data);
+  }
+  return original(request, process, address, data);
+}

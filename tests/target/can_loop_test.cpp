@@ -1,0 +1,62 @@
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <string>
+#include <vector>
+
+#include "host/can/virtual_can.hpp"
+#include "host/sim/robot.hpp"
+#include "host/sim/world.hpp"
+#include "tests/target/can_run.hpp"
+
+// The control loop in the board, its drives in the twin, and between them CAN frames on vcan0: run
+// it inside of tests/support/with-can. VERP_TEST_BOARD names the board, VERP_TEST_TICKS the length.
+namespace verp::board {
+namespace {
+
+std::string setting(const char* name) {
+  const char* value = std::getenv(name);
+  return value != nullptr ? value : "";
+}
+
+/// generic21 with its CAN bus, on its feet in a world of its own.
+struct CanTwin {
+  test::Robot robot = test::load_can_robot("generic21");
+  sim::World world;
+  sim::TwinRobot body{world, robot.entity};
+  can::VirtualCan bus{robot.params, body};
+};
+
+std::vector<TickRecord> walk_here(std::uint32_t ticks) {
+  CanTwin twin;
+  std::vector<TickRecord> records = test::run_can_here(twin.robot.params, twin.bus, ticks);
+  EXPECT_FALSE(twin.body.truth().fallen);
+  return records;
+}
+
+// Digests of every stage in every tick, and the inputs they come from.
+TEST(CanLoop, WalksInTheTwinWithTheBitsOfSoftwareInTheLoop) {
+  const std::string board = setting("VERP_TEST_BOARD"), length = setting("VERP_TEST_TICKS");
+  ASSERT_FALSE(board.empty() || length.empty()) << "set VERP_TEST_BOARD and VERP_TEST_TICKS";
+  const auto ticks = static_cast<std::uint32_t>(std::stoul(length));
+  const std::vector<TickRecord> here = walk_here(ticks);
+  ASSERT_EQ(here.size(), ticks);
+  CanTwin twin;
+  const test::CanRun run = test::run_over_can(board, twin.robot.params, twin.bus, ticks);
+  std::printf("%-10s %u ticks at %.0f ticks/s with physics, %u answers asked for again\n",
+              board.c_str(), ticks, run.ticks_per_s, run.counters.repeats);
+  const std::vector<TickRecord>& there = run.records;
+  ASSERT_EQ(there.size(), here.size());
+  for (std::size_t i = 0; i < here.size(); ++i) {
+    for (int stage = 0; stage < kStages; ++stage) {
+      ASSERT_EQ(there[i].digest.stage[stage], here[i].digest.stage[stage])
+          << "first divergence: tick " << i << ", stage " << kStageNames[stage];
+    }
+    ASSERT_EQ(std::memcmp(&there[i], &here[i], sizeof(TickRecord)), 0) << "tick " << i;
+  }
+}
+
+}  // namespace
+}  // namespace verp::board

@@ -1,0 +1,133 @@
+#include "tests/target/can_run.hpp"
+
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+
+#include "firmware/app/app.hpp"
+#include "firmware/app/can_loop_job.hpp"
+#include "host/board/board_error.hpp"
+#include "host/board/emulated_board.hpp"
+#include "host/board/qemu.hpp"
+#include "host/board/temporary_directory.hpp"
+#include "host/can/lockstep_port.hpp"
+#include "host/model/find.hpp"
+#include "host/model/load.hpp"
+#include "host/model/params.hpp"
+
+namespace verp::test {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr std::chrono::seconds kSilence{60};
+constexpr std::uint32_t kLook_us = 100'000;  ///< how often the emulator is looked at in silence
+constexpr std::chrono::seconds kEnd{10};
+
+struct Keeper {
+  std::vector<TickRecord>& records;
+  void record(const TickRecord& record, const State&, const Outputs&) { records.push_back(record); }
+};
+
+template <class T>
+void put(std::ofstream& file, const T& value) {
+  file.write(reinterpret_cast<const char*>(&value), sizeof value);
+}
+
+void write_job(const std::filesystem::path& path, const Params& params, std::uint32_t ticks) {
+  std::ofstream file(path, std::ios::binary);
+  app::CanLoopJob job;
+  job.ticks = ticks;
+  put(file, job);
+  put(file, params);
+  const ScriptedOperator operator_link(params, ticks, false);
+  for (std::uint32_t n = 0; n < ticks + ticks / 8; ++n) put(file, operator_link.order(n));
+}
+
+std::vector<TickRecord> read_records(const std::filesystem::path& path) {
+  std::vector<TickRecord> records(std::filesystem::file_size(path) / sizeof(TickRecord));
+  std::ifstream file(path, std::ios::binary);
+  file.read(reinterpret_cast<char*>(records.data()),
+            static_cast<std::streamsize>(records.size() * sizeof(TickRecord)));
+  return records;
+}
+
+/// What the clock's end tells of a run as it goes.
+struct Watch {
+  Clock::time_point first, last;
+  std::uint64_t frames = 0, frames_before = 0;
+  std::uint32_t ticks = 0;
+
+  can::LockstepHooks hooks() {
+    can::LockstepHooks hooks;
+    hooks.tick_begins = [this](std::uint32_t) {
+      last = Clock::now();
+      if (ticks++ == 0) first = last, frames_before = frames;
+    };
+    hooks.sent = [this](const CanFrame&) { ++frames; };
+    hooks.polled = [this](const std::vector<CanFrame>& burst, std::uint64_t) {
+      frames += burst.size() + 2;  // the question and its answer
+    };
+    return hooks;
+  }
+};
+
+/// Answers the controller until it ends.
+void serve(can::LockstepServer& server, can::LockstepPort& port, board::QemuProcess& firmware) {
+  Clock::time_point heard = Clock::now();
+  for (;;) {
+    if (port.serve(server, kLook_us)) {
+      heard = Clock::now();
+      continue;
+    }
+    if (firmware.poll_status()) return;
+    if (Clock::now() - heard > kSilence) throw board::BoardError(firmware.described("is silent"));
+  }
+}
+
+}  // namespace
+
+Robot load_can_robot(const std::string& name) {
+  Robot robot;
+  robot.entity = model::load_robot(model::find_model(name), "can");
+  robot.params = model::make_params(robot.entity);
+  return robot;
+}
+
+CanRun run_over_can(const std::string& name, const Params& params, can::VirtualCan& bus,
+                    std::uint32_t ticks) {
+  const board::TemporaryDirectory folder;
+  const auto job = folder.path() / "job", records = folder.path() / "records";
+  write_job(job, params, ticks);
+  can::LockstepPort port({.kind = wire::Endpoint::Kind::kCan, .place = "vcan0"});
+  Watch watch;
+  can::LockstepServer server(params, bus, watch.hooks());
+  const board::EmulatedBoard& emulated = board::find_emulated_board(name);
+  board::QemuProcess firmware({.board = emulated,
+                               .image = board::firmware_image(emulated, "loop"),
+                               .arguments = {job.string(), records.string()},
+                               .can_interface = "vcan0"});
+  serve(server, port, firmware);
+  firmware.wait_for_success(kEnd);
+  if (port.errors().overruns != 0) throw board::BoardError("vcan0: frames were lost on this PC");
+  CanRun run{.records = read_records(records), .counters = server.counters()};
+  const std::chrono::duration<double> took = watch.last - watch.first;
+  if (watch.ticks > 1) {
+    run.ticks_per_s = (watch.ticks - 1) / took.count();
+    run.frames_per_tick = static_cast<double>(watch.frames - watch.frames_before) / watch.ticks;
+  }
+  return run;
+}
+
+std::vector<TickRecord> run_can_here(const Params& params, can::VirtualCan& bus,
+                                     std::uint32_t ticks) {
+  std::vector<TickRecord> records;
+  ScriptedOperator operator_link(params, ticks, false);
+  Keeper keeper{records};
+  app::App app(params, bus, operator_link, keeper);
+  if (app.bring_up().status != app::BringUpStatus::kReady) return {};
+  for (std::uint32_t n = 0; n < ticks; ++n) app.tick();
+  return records;
+}
+
+}  // namespace verp::test

@@ -1,0 +1,35 @@
+#pragma once
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "common/model/params.hpp"
+#include "common/record/tick_record.hpp"
+#include "host/can/lockstep_server.hpp"
+#include "host/can/virtual_can.hpp"
+#include "tests/target/twin_run.hpp"
+
+/// The control loop in an emulated board, its drives and sensors on a virtual bus, CAN frames on
+/// vcan0 between them. Needs a place with CAN sockets: tests/support/with-can.
+namespace verp::test {
+
+/// A robot with its CAN bus.
+Robot load_can_robot(const std::string& name);
+
+struct CanRun {
+  std::vector<TickRecord> records;
+  can::LockstepServer::Counters counters;
+  double ticks_per_s = 0;      ///< of wall time, from the first tick to the last; without bring-up
+  double frames_per_tick = 0;  ///< on vcan0, those of the clock included
+};
+
+/// The board walks as ScriptedOperator says. Throws BoardError when it does not end well, or when
+/// frames were lost here.
+CanRun run_over_can(const std::string& board, const Params& params, can::VirtualCan& bus,
+                    std::uint32_t ticks);
+
+/// Software in the loop, over the same CANopen binding. Empty: it did not come up.
+std::vector<TickRecord> run_can_here(const Params& params, can::VirtualCan& bus,
+                                     std::uint32_t ticks);
+
+}  // namespace verp::test
