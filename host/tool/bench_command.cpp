@@ -1,3 +1,4 @@
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <sys/wait.h>
 
@@ -13,8 +14,10 @@
 #include "host/board/emulated_board.hpp"
 #include "host/board/temporary_directory.hpp"
 #include "host/tool/bench_report.hpp"
+#include "host/tool/command.hpp"
 #include "host/tool/console.hpp"
 #include "host/tool/interrupt.hpp"
+#include "host/tool/json.hpp"
 #include "host/tool/progress.hpp"
 
 /// `verp bench`: runs the programs of tests/bench and sets their numbers beside what is promised.

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "host/tool/command.hpp"
+#include "host/tool/json.hpp"
 
 namespace verp::tool {
 

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "host/bus/client.hpp"
-#include "host/tool/command.hpp"
+#include "host/tool/json.hpp"
 
 namespace verp::tool {
 

@@ -7,7 +7,9 @@
 #include "host/can/client.hpp"
 #include "host/tool/bus_bench.hpp"
 #include "host/tool/console.hpp"
+#include "host/tool/exit_status.hpp"
 #include "host/tool/interrupt.hpp"
+#include "host/tool/json.hpp"
 #include "host/tool/node_objects.hpp"
 #include "host/tool/register_value.hpp"
 

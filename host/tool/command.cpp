@@ -2,9 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
+
 #include <charconv>
 #include <cmath>
-#include <cstdio>
 
 namespace verp::tool {
 
@@ -15,13 +16,6 @@ void add_bus_option(CLI::App& app, std::string& bus) {
 void add_json_flag(CLI::App& app, bool& json) {
   app.add_flag("--json", json, "one JSON object on stdout, everything else on stderr")
       ->disable_flag_override();  // --json=no would be taken for no
-}
-
-void print_json(const Json& object) {
-  // A model's name may hold any bytes; JSON must stay JSON.
-  const std::string text = object.dump(2, ' ', false, Json::error_handler_t::replace);
-  std::fputs((text + "\n").c_str(), stdout);
-  std::fflush(stdout);
 }
 
 double parse_number(const std::string& text, double low, double high, const std::string& unit) {

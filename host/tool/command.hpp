@@ -1,16 +1,16 @@
 #pragma once
-#include <CLI/CLI.hpp>
 #include <cstdint>
 #include <functional>
-#include <nlohmann/json.hpp>
 #include <string>
 
 #include "host/tool/exit_status.hpp"
 
-namespace verp::tool {
+namespace CLI {
+class App;
+class Validator;
+}  // namespace CLI
 
-/// Keys keep the order in which they were written.
-using Json = nlohmann::ordered_json;
+namespace verp::tool {
 
 /// A subcommand: its options, and what to run once they are parsed. `run` returns the exit status
 /// or throws.
@@ -39,9 +39,6 @@ void add_json_flag(CLI::App& app, bool& json);
 
 /// Adds --bus: which of the robot's buses is used, by name.
 void add_bus_option(CLI::App& app, std::string& bus);
-
-/// Writes one object and a newline to stdout.
-void print_json(const Json& object);
 
 /// Parses all of `text` as a decimal number within [low, high]; throws CLI::ValidationError with
 /// the range otherwise (also for NaN, infinity and trailing characters).

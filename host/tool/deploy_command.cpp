@@ -1,3 +1,4 @@
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -22,6 +23,7 @@
 #include "host/tool/failure.hpp"
 #include "host/tool/flash_run.hpp"
 #include "host/tool/interrupt.hpp"
+#include "host/tool/json.hpp"
 #include "host/tool/walk_options.hpp"
 #include "host/tool/walk_run.hpp"
 

@@ -18,9 +18,8 @@ bool on_can(const Params& params) {
 
 std::string joints_are_right(const Params& params) {
   if (on_can(params)) {
-    return "`verp bus scan` shows every node, and each drive was moved alone: node id, zero "
-           "(607Ch) "
-           "and\n     direction (607Eh) are right.";
+    return "`verp bus scan` shows every node, and each drive was moved alone: ids, zeros and\n"
+           "     directions are right.";
   }
   return fmt::format(
       "`verp bus setup {}` has passed for every joint: ids, zeros and directions are right.",

@@ -1,3 +1,4 @@
+#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <memory>
 
@@ -5,6 +6,7 @@
 #include "host/tool/console.hpp"
 #include "host/tool/flash_run.hpp"
 #include "host/tool/interrupt.hpp"
+#include "host/tool/json.hpp"
 
 namespace verp::tool {
 namespace {

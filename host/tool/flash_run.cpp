@@ -1,5 +1,6 @@
 #include "host/tool/flash_run.hpp"
 
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <chrono>

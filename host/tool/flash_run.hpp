@@ -1,8 +1,13 @@
 #pragma once
+#include <functional>
 #include <string>
 
-#include "host/tool/command.hpp"
+#include "host/tool/json.hpp"
 #include "host/tool/progress.hpp"
+
+namespace CLI {
+class App;
+}
 
 namespace verp::tool {
 

@@ -1,3 +1,4 @@
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <memory>
@@ -12,6 +13,7 @@
 #include "host/tool/console.hpp"
 #include "host/tool/hil_run.hpp"
 #include "host/tool/interrupt.hpp"
+#include "host/tool/json.hpp"
 #include "host/tool/walk_ending.hpp"
 
 namespace verp::tool {

@@ -1,3 +1,4 @@
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <memory>
@@ -7,6 +8,7 @@
 #include "host/model/load.hpp"
 #include "host/model/params.hpp"
 #include "host/tool/console.hpp"
+#include "host/tool/json.hpp"
 #include "host/tool/setup_command.hpp"
 
 namespace verp::tool {

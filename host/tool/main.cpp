@@ -1,3 +1,4 @@
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -9,6 +10,7 @@
 #include "host/tool/console.hpp"
 #include "host/tool/failure.hpp"
 #include "host/tool/interrupt.hpp"
+#include "host/tool/json.hpp"
 #include "host/tool/suggest.hpp"
 
 namespace verp::tool {

@@ -7,6 +7,7 @@
 #include <cstring>
 
 #include "host/eds/eds.hpp"
+#include "host/tool/exit_status.hpp"
 #include "host/tool/register_value.hpp"
 #include "host/tool/suggest.hpp"
 

@@ -7,7 +7,7 @@
 #include "host/bus/register_names.hpp"
 #include "host/can/client.hpp"
 #include "host/tool/bus_options.hpp"
-#include "host/tool/command.hpp"
+#include "host/tool/json.hpp"
 
 /// Objects of CANopen nodes as people name them and read their values.
 namespace verp::tool {

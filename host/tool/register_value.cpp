@@ -1,4 +1,5 @@
 #include "host/tool/register_value.hpp"
+#include "host/tool/exit_status.hpp"
 
 #include <fmt/format.h>
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "host/bus/register_names.hpp"
-#include "host/tool/command.hpp"
+#include "host/tool/json.hpp"
 
 /// A register's bytes and what people write for them.
 namespace verp::tool {

@@ -1,3 +1,4 @@
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <memory>
@@ -5,6 +6,7 @@
 #include "host/record/replay.hpp"
 #include "host/tool/command.hpp"
 #include "host/tool/console.hpp"
+#include "host/tool/json.hpp"
 
 namespace verp::tool {
 namespace {

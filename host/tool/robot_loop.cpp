@@ -1,4 +1,5 @@
 #include "host/tool/robot_loop.hpp"
+#include "host/tool/exit_status.hpp"
 
 namespace verp::tool {
 

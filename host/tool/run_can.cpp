@@ -9,6 +9,7 @@
 #include "common/protocol/canopen/robot_plan.hpp"
 #include "firmware/app/can_schedule.hpp"
 #include "host/can/client.hpp"
+#include "host/tool/exit_status.hpp"
 #include "host/tool/robot_loop.hpp"
 
 namespace verp::tool {

@@ -1,3 +1,4 @@
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <cmath>
@@ -12,6 +13,7 @@
 #include "host/tool/console.hpp"
 #include "host/tool/first_power.hpp"
 #include "host/tool/interrupt.hpp"
+#include "host/tool/json.hpp"
 #include "host/tool/run_can.hpp"
 #include "host/tool/run_robot.hpp"
 #include "host/tool/walk_files.hpp"

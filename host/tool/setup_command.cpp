@@ -1,3 +1,4 @@
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,6 +11,7 @@
 #include "host/tool/console.hpp"
 #include "host/tool/first_power.hpp"
 #include "host/tool/interrupt.hpp"
+#include "host/tool/json.hpp"
 #include "host/tool/setup_command.hpp"
 #include "host/tool/setup_guide.hpp"
 #include "host/tool/suggest.hpp"

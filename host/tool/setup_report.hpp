@@ -2,7 +2,7 @@
 #include <string>
 
 #include "common/model/params.hpp"
-#include "host/tool/command.hpp"
+#include "host/tool/json.hpp"
 
 namespace verp::tool {
 

@@ -1,3 +1,4 @@
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -16,6 +17,7 @@
 #include "host/tool/command.hpp"
 #include "host/tool/console.hpp"
 #include "host/tool/interrupt.hpp"
+#include "host/tool/json.hpp"
 #include "host/tool/progress.hpp"
 
 namespace verp::tool {

@@ -1,3 +1,4 @@
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -11,6 +12,7 @@
 #include "host/record/trace_writer.hpp"
 #include "host/tool/command.hpp"
 #include "host/tool/console.hpp"
+#include "host/tool/json.hpp"
 
 namespace verp::tool {
 namespace {

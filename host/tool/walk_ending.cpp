@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "host/tool/console.hpp"
+#include "host/tool/exit_status.hpp"
 
 namespace verp::tool {
 namespace {

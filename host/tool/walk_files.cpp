@@ -13,6 +13,7 @@
 #include "host/record/trace_error.hpp"
 #include "host/report/report.hpp"
 #include "host/tool/console.hpp"
+#include "host/tool/exit_status.hpp"
 
 namespace verp::tool {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "host/record/trace_writer.hpp"
 #include "host/report/run_data.hpp"
-#include "host/tool/command.hpp"
+#include "host/tool/json.hpp"
 #include "host/tool/walk_options.hpp"
 #include "host/tool/walk_run.hpp"
 

@@ -1,5 +1,4 @@
 #pragma once
-#include <CLI/CLI.hpp>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -7,6 +6,10 @@
 
 #include "common/model/params.hpp"
 #include "host/model/entity.hpp"
+
+namespace CLI {
+class App;
+}
 
 namespace verp::tool {
 

@@ -2,7 +2,7 @@
 #include <string>
 
 #include "host/report/run_data.hpp"
-#include "host/tool/command.hpp"
+#include "host/tool/json.hpp"
 #include "host/tool/walk_options.hpp"
 #include "host/tool/walk_run.hpp"
 #include "host/tool/walk_sweep.hpp"
