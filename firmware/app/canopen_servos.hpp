@@ -73,7 +73,7 @@ class CanopenServos {
   void send(const Outputs& outputs) {
     writer_.send(master_, outputs, doubts_.all(), doubts_.limp());
     torque_ = outputs.torque_enable != 0;
-    const bool stopped = stop_rebooted();
+    const bool stopped = renewal_.stop_one(master_);  // in place of a question for telemetry
     renew();
     CanFrame frame;
     bool missed = false;
@@ -217,22 +217,9 @@ class CanopenServos {
     canopen::NmtState state{};
     if (!canopen::decode_heartbeat(frame, node, state)) return;
     if (state != canopen::NmtState::kInitialising) return;
-    renewal_.cancel(slot);
+    renewal_.rebooted(slot);
     repair_.cancel(slot);
     doubts_.rebooted(slot);
-    to_stop_ |= node_bit(slot);
-  }
-  /// What has rebooted knows nothing of our SYNCs, and may complain of each of them (EMCY 8240h),
-  /// before everybody's answers. Stopped (CiA 301), it says nothing until its turn has come. One in
-  /// a tick, in place of a question for telemetry; true if there was one.
-  bool stop_rebooted() {
-    for (int slot = 0; slot < kCanNodes; ++slot) {
-      if ((to_stop_ >> slot & 1) == 0) continue;
-      to_stop_ &= ~node_bit(slot);
-      master_.send(canopen::nmt_frame(canopen::NmtCommand::kStop, node_id(params_, slot)));
-      return true;
-    }
-    return false;
   }
   /// Nodes whose answers come at another SYNC, and that nobody doubts.
   NodeMask astray() const {
@@ -244,10 +231,7 @@ class CanopenServos {
   void renew() {
     repair_.cancel(renewal_.slot());
     const int renewed = renewal_.run(master_, doubts_.to_renew(torque_, present_));
-    if (renewal_.slot() >= 0) {
-      doubts_.rebooted(renewal_.slot());  // half of it is not enough
-      to_stop_ &= ~node_bit(renewal_.slot());
-    }
+    if (renewal_.slot() >= 0) doubts_.rebooted(renewal_.slot());  // half of it is not enough
     if (renewed < 0) return;
     doubts_.renewed(renewed);
     silent_ticks_[renewed] = 0;
@@ -291,7 +275,6 @@ class CanopenServos {
   SyncRepair repair_{params_};
   SensedCounts sensed_;
   NodeMask present_ = 0;
-  NodeMask to_stop_ = 0;  ///< have rebooted
   NodeMask given_up_ = 0;
   std::uint16_t silent_ticks_[AnswerWatch::kSources] = {};
   std::uint64_t began_us_ = 0;

@@ -19,9 +19,23 @@ class NodeRenewal {
   int slot() const { return slot_; }
   /// An SDO response of that node.
   void receive(const CanFrame& frame, std::uint64_t now_us) { client_.receive(frame, now_us); }
-  /// It has rebooted, or is not to be set up any more: what was written is gone.
-  void cancel(int slot) {
+  /// It has rebooted: what was written is gone. It knows nothing of our SYNCs, and may complain of
+  /// each of them (EMCY 8240h) before everybody's answers; stopped (CiA 301), it says nothing until
+  /// its turn has come.
+  void rebooted(int slot) {
     if (slot == slot_) slot_ = -1;
+    to_stop_ |= node_bit(slot);
+  }
+  /// Stops one node that has rebooted; false: there was none.
+  template <hal::CanBus Bus>
+  bool stop_one(CanMaster<Bus>& master) {
+    for (int slot = 0; slot < kCanNodes; ++slot) {
+      if ((to_stop_ & node_bit(slot)) == 0) continue;
+      to_stop_ &= ~node_bit(slot);
+      master.send(canopen::nmt_frame(canopen::NmtCommand::kStop, node_id(params_, slot)));
+      return true;
+    }
+    return false;
   }
 
   /// Once a tick. Chooses among `candidates`, in turn. Returns the node that is set up and was
@@ -60,6 +74,7 @@ class NodeRenewal {
       last_ = last_ + 1 < kCanNodes ? last_ + 1 : 0;
       if ((candidates >> last_ & 1) == 0) continue;
       slot_ = last_;
+      to_stop_ &= ~node_bit(slot_);
       client_ = canopen::SdoClient(node_id(params_, slot_));
       step_ = 0;
       begin(now_us);
@@ -94,6 +109,7 @@ class NodeRenewal {
   canopen::SdoClient client_{1};
   Setting setting_;
   std::uint8_t data_[4] = {};
+  NodeMask to_stop_ = 0;  ///< have rebooted
   int slot_ = -1;
   int last_ = kCanNodes - 1;
   int step_ = 0;
