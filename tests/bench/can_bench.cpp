@@ -24,7 +24,7 @@ int run(std::vector<std::string> boards, std::uint32_t ticks) {
       if (!board.can.empty()) boards.emplace_back(board.name);
     }
   }
-  const verp::test::Robot robot = verp::test::load_can_robot("generic21");
+  const verp::test::Robot robot = verp::test::load_robot("generic21", "can");
   for (const std::string& board : boards) {
     verp::test::LevelPlant plant(robot.params);
     verp::can::VirtualCan bus(robot.params, plant);

@@ -4,12 +4,20 @@
 
 #include <cstdio>
 #include <cstdlib>
+#include <map>
 #include <vector>
 
 #include "tests/hil/promises.hpp"
 
 namespace verp::test {
 namespace {
+
+/// What the runs of one kind came to.
+struct Row {
+  int runs = 0;
+  CampaignRun sum;
+  std::map<int, int> ends;  ///< mode, and how many runs ended in it
+};
 
 struct Table : ::testing::Environment {
   void TearDown() override {
@@ -27,26 +35,45 @@ Table& table() {
   return *kTable;
 }
 
-std::string to_text(const std::string& name, const CampaignRow& sum) {
+std::string to_text(const std::string& name, const Row& row) {
   std::string ends;
-  for (const auto& [mode, count] : sum.ends) {
+  for (const auto& [mode, count] : row.ends) {
     ends += (ends.empty() ? "" : ", ") + std::to_string(count) + " " + kModeNames[mode];
   }
   char line[200];
-  std::snprintf(line, sizeof line, "%-28s %5d %9llu %9llu  %s", name.c_str(), sum.runs,
-                static_cast<unsigned long long>(sum.injected),
-                static_cast<unsigned long long>(sum.counted), ends.c_str());
+  std::snprintf(line, sizeof line, "%-28s %5d %9llu %9llu  %s", name.c_str(), row.runs,
+                static_cast<unsigned long long>(row.sum.injected),
+                static_cast<unsigned long long>(row.sum.counted), ends.c_str());
   return line;
 }
 
-}  // namespace
-
-int campaign_setting(const char* name) {
+/// 0: it is not set.
+int setting(const char* name) {
   const char* value = std::getenv(name);
   return value == nullptr ? 0 : std::atoi(value);
 }
 
-void note_campaign_row(const std::string& name, const CampaignRow& row) {
+}  // namespace
+
+int wanted_runs(int runs) {
+  const int most = setting("VERP_RUNS");
+  return most > 0 && most < runs ? most : runs;
+}
+
+void run_seeds(const std::string& name, int runs,
+               const std::function<CampaignRun(std::uint32_t seed)>& run) {
+  const int only = setting("VERP_SEED");
+  Row row;
+  for (int seed = 1; seed <= runs; ++seed) {
+    if (only != 0 && seed != only) continue;
+    SCOPED_TRACE("VERP_SEED=" + std::to_string(seed) + " of " + name);
+    const CampaignRun result = run(static_cast<std::uint32_t>(seed));
+    ++row.runs;
+    row.sum.injected += result.injected;
+    row.sum.counted += result.counted;
+    ++row.ends[result.end];
+  }
+  EXPECT_GT(row.runs, 0) << "no such seed";
   table().rows.push_back(to_text(name, row));
 }
 

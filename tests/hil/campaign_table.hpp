@@ -1,20 +1,23 @@
 #pragma once
 #include <cstdint>
-#include <map>
+#include <functional>
 #include <string>
 
 namespace verp::test {
 
-/// VERP_SEED and VERP_RUNS: 0 if it is not set.
-int campaign_setting(const char* name);
-
-/// What the runs of one kind of fault came to.
-struct CampaignRow {
-  int runs = 0;
+/// What one run came to: faults that were injected, those that the operator's registers count, and
+/// the mode it ended in.
+struct CampaignRun {
   std::uint64_t injected = 0, counted = 0;
-  std::map<int, int> ends;  ///< mode, and how many runs ended in it
+  int end = 0;
 };
-/// All rows that were noted are printed when the program's tests have run.
-void note_campaign_row(const std::string& name, const CampaignRow& row);
+
+/// Of `runs` of a kind so many, if VERP_RUNS says less.
+int wanted_runs(int runs);
+
+/// Runs seeds 1 to `runs`, or VERP_SEED of them alone; a failure names its seed. What they came to
+/// is printed, a row a kind, when the program's tests have run.
+void run_seeds(const std::string& name, int runs,
+               const std::function<CampaignRun(std::uint32_t seed)>& run);
 
 }  // namespace verp::test

@@ -167,32 +167,26 @@ void went_as_far(const Kind& kind, const FaultResult& result, std::uint32_t seed
   EXPECT_NEAR(result.distance_m, expected_m, 0.02 * expected_m);
 }
 
+CampaignRun run_seed(const Kind& kind, std::uint32_t seed) {
+  const FaultResult result = run_fault(robot(), kind.plan, seed);
+  keeps_what_all_promise(kind, result);
+  for (const auto& promise : kind.promises) promise(result);
+  if (kind.as_far) went_as_far(kind, result, seed);
+  return {.injected = result.damage.faults() + result.events,
+          .counted = result.after.counted() + result.after.missed_reports() +
+                     (result.after.reset_cause > 1 ? 1 : 0),
+          .end = result.after.mode};
+}
+
 void run_kind(const Kind& kind, int runs) {
-  const int only = campaign_setting("VERP_SEED");
-  CampaignRow sum;
-  for (int seed = 1; seed <= runs; ++seed) {
-    if (only != 0 && seed != only) continue;
-    SCOPED_TRACE("VERP_SEED=" + std::to_string(seed) + " of " + kind.plan.name);
-    const FaultResult result = run_fault(robot(), kind.plan, static_cast<std::uint32_t>(seed));
-    keeps_what_all_promise(kind, result);
-    for (const auto& promise : kind.promises) promise(result);
-    if (kind.as_far) went_as_far(kind, result, static_cast<std::uint32_t>(seed));
-    ++sum.runs;
-    sum.injected += result.damage.faults() + result.events;
-    sum.counted += result.after.counted() + result.after.missed_reports() +
-                   (result.after.reset_cause > 1 ? 1 : 0);
-    ++sum.ends[result.after.mode];
-  }
-  EXPECT_GT(sum.runs, 0) << "no such seed";
-  note_campaign_row(kind.plan.name, sum);
+  run_seeds(kind.plan.name, runs, [&](std::uint32_t seed) { return run_seed(kind, seed); });
 }
 
 class Campaign : public ::testing::TestWithParam<std::size_t> {};
 
 TEST_P(Campaign, StaysSafeAndTells) {
   const Kind& kind = kinds()[GetParam()];
-  const int most = campaign_setting("VERP_RUNS");
-  run_kind(kind, most > 0 && most < kind.plan.runs ? most : kind.plan.runs);
+  run_kind(kind, wanted_runs(kind.plan.runs));
 }
 
 INSTANTIATE_TEST_SUITE_P(Serial, Campaign, ::testing::Range<std::size_t>(0, kinds().size()),

@@ -8,14 +8,10 @@
 #include <vector>
 
 #include "common/protocol/canopen/robot_plan.hpp"
-#include "host/model/find.hpp"
-#include "host/model/load.hpp"
-#include "host/model/params.hpp"
-#include "host/sim/robot.hpp"
-#include "host/sim/world.hpp"
+#include "host/record/replay.hpp"
 #include "tests/hil/chip_line.hpp"
-#include "tests/hil/level_plant.hpp"
 #include "tests/hil/promises.hpp"
+#include "tests/hil/run_body.hpp"
 #include "tests/hil/run_watch.hpp"
 #include "tests/hil/software_board.hpp"
 
@@ -28,53 +24,32 @@ using app::reg;
 constexpr std::uint32_t kOrderTicks = 10;
 constexpr double kUpright_s = 8;       // standing up and learning the gyro's bias take less
 constexpr double kFirstSteps_s = 0.6;  // of walking before the fault
-constexpr double kLyingUp = 0.5;       // 60 degrees; the table says fallen at 46
 constexpr double kHot_c = 76;          // beyond temperature_high_c, below a shutdown
 constexpr double kTooHot_c = 90;       // beyond the drive's own limit, 80
 constexpr double kLow_v = 9.5;         // below voltage_low_v, not below the drive's own
 constexpr unsigned kOneBusOff = 33;    // ISO 11898-1: 32 errors of 8 points each, and no more
 constexpr unsigned kManyErrors = 1'000'000;
-constexpr std::int16_t kSpeed_tenth_mm_s = 1778;  // two 4 cm steps in 0.450 s
-
-/// A trace through the core once more: so many ticks have the same digest.
-std::uint64_t replay(const Params& params, const std::vector<TickRecord>& trace) {
-  const auto state = std::make_unique<State>();
-  Outputs outputs;
-  std::uint64_t same = 0;
-  for (const TickRecord& each : trace) {
-    step(params, *state, each.inputs, outputs);
-    if (state->digest.chain == each.digest.chain) ++same;
-  }
-  return same;
-}
 
 template <class Line>
 class CanFaultRun {
  public:
   CanFaultRun(const Robot& robot, const CanPlan& plan, std::uint32_t seed)
-      : params_(robot.params), plan_(plan), random_(seed + 1) {
-    if (plan.physics) {
-      sim::TwinOptions options;
-      options.seed = seed;
-      world_.emplace();
-      body_.emplace(*world_, robot.entity, options);
-      plant_.emplace(*body_);
-    } else {
-      level_.emplace(robot.params);
-      plant_.emplace(*level_);
-    }
-    watch_.emplace(params_, *plant_);
-    bus_.emplace(params_, *plant_);
+      : params_(robot.params),
+        plan_(plan),
+        random_(seed + 1),
+        body_(robot, plan.physics, seed),
+        watch_(params_, body_.plant()),
+        bus_(params_, body_.plant()) {
     auto intruder = std::make_unique<Intruder>(params_, seed);
     intruder_ = intruder.get();
-    bus_->plug_in(std::move(intruder));
-    line_.emplace(*bus_, seed);
+    bus_.plug_in(std::move(intruder));
+    line_.emplace(bus_, seed);
     result_.joint = static_cast<int>(random_() % params_.joint_count);
   }
 
   CanFaultResult run() {
     if (begin_walk()) {
-      start_m_ = position();
+      start_m_ = body_.position_m();
       begin();
       const double lasts_s = plan_.lasts_s > 0 ? plan_.lasts_s : plan_.walks_s;
       spend(lasts_s);
@@ -94,12 +69,8 @@ class CanFaultRun {
   double seconds(std::uint64_t ticks) const {
     return 1e-6 * static_cast<double>(ticks * params_.period_us);
   }
-  Eigen::Vector2d position() const {
-    if (!body_) return Eigen::Vector2d::Zero();
-    return body_->truth().com_world_m.head<2>();
-  }
   std::uint8_t node(int joint) const { return params_.joint[joint].servo_id; }
-  void fault(const std::string& what) { watch_->fault(what); }
+  void fault(const std::string& what) { watch_.fault(what); }
   void keep() {
     result_.seen |= board_->safe.seen();
     if (!board_->safe.violation().empty()) fault(board_->safe.violation());
@@ -142,10 +113,10 @@ class CanFaultRun {
     ++result_.events;
     switch (plan_.event) {
       case CanEvent::kNodeSilent:
-        return bus_->set_connected(node(result_.joint), false);
+        return bus_.set_connected(node(result_.joint), false);
       case CanEvent::kNodeUnpowered:
         unready_ |= 1u << result_.joint;
-        return bus_->set_powered(node(result_.joint), false);
+        return bus_.set_powered(node(result_.joint), false);
       case CanEvent::kNodeReboots:
       case CanEvent::kManyReboot:
         return reboot(result_.joint);
@@ -158,7 +129,7 @@ class CanFaultRun {
       case CanEvent::kReset:
         return restart();
       case CanEvent::kImuGone:
-        return bus_->set_connected(params_.imu.device_id, false);
+        return bus_.set_connected(params_.imu.device_id, false);
       case CanEvent::kBusOff:
       case CanEvent::kBusOffs:
       case CanEvent::kShort:
@@ -172,15 +143,15 @@ class CanFaultRun {
       case CanEvent::kNodeRepeats:
         // A knee or a hip: what walks must move.
         result_.joint = params_.leg[random_() % kFeet].joint[2 + random_() % 3];
-        return plant_->freeze(result_.joint);
+        return body_.plant().freeze(result_.joint);
       case CanEvent::kHot:
-        return plant_->heat(result_.joint, kHot_c);
+        return body_.plant().heat(result_.joint, kHot_c);
       case CanEvent::kOverheated:
-        return plant_->heat(result_.joint, kTooHot_c);
+        return body_.plant().heat(result_.joint, kTooHot_c);
       case CanEvent::kLowVoltage:
-        return plant_->sag_to(kLow_v);
+        return body_.plant().sag_to(kLow_v);
       case CanEvent::kImuRepeats:
-        return plant_->freeze_imu();
+        return body_.plant().freeze_imu();
       default:
         return;
     }
@@ -196,11 +167,11 @@ class CanFaultRun {
   void end() {
     line_->trouble.faults = {};
     intruder_->kind = Intruder::Kind::kSilent;
-    plant_->cure();
+    body_.plant().cure();
     if (plan_.lasts_s == 0) return;
-    bus_->set_connected(node(result_.joint), true);
-    bus_->set_powered(node(result_.joint), true);
-    bus_->set_connected(params_.imu.device_id, true);
+    bus_.set_connected(node(result_.joint), true);
+    bus_.set_powered(node(result_.joint), true);
+    bus_.set_connected(params_.imu.device_id, true);
     if constexpr (kChip) {
       line_->break_own(0);
       line_->short_circuit(false);
@@ -209,8 +180,8 @@ class CanFaultRun {
 
   // A dip of its supply: it boots, and knows nothing.
   void reboot(std::uint8_t id) {
-    bus_->set_powered(id, false);
-    bus_->set_powered(id, true);
+    bus_.set_powered(id, false);
+    bus_.set_powered(id, true);
   }
   void reboot_all() {
     for (int j = 0; j < params_.joint_count; ++j) reboot(j);
@@ -234,7 +205,7 @@ class CanFaultRun {
   /// somebody who asks it to relax.
   void expect_held() {
     for (int ticks = 0; ticks < 50; ++ticks) {
-      if (give_order()) fault("an order from before the reset was taken");
+      if (desk_.order_walk(ticks_)) fault("an order from before the reset was taken");
       board_->tick();
       if (board_->loop.outputs().torque_enable != 0) fault("the robot rose unasked");
     }
@@ -259,11 +230,11 @@ class CanFaultRun {
   bool ended() const { return plan_.lasts_s > 0 && seconds(result_.ticks) >= plan_.lasts_s; }
 
   void tick() {
-    if (ticks_++ % kOrderTicks == 0) give_order();
+    if (ticks_++ % kOrderTicks == 0) desk_.order_walk(ticks_);
     const std::uint64_t due_us = board_->clock.due_us();
-    const bool sharp = level_ && plan_.intruder != Intruder::Kind::kTwin;
+    const bool sharp = body_.on_stand() && plan_.intruder != Intruder::Kind::kTwin;
     line_->wait_until(due_us);
-    if (sharp) watch_->note_positions(board_->loop.outputs());
+    if (sharp) watch_.note_positions(board_->loop.outputs());
     board_->tick();
     watch(sharp);
     const std::uint64_t begun_us = std::max(due_us, late_us_);
@@ -276,21 +247,19 @@ class CanFaultRun {
     const bool gone = plan_.event == CanEvent::kNodeSilent;
     const bool cut = line_->trouble.faults.down || plan_.event == CanEvent::kBusOffs ||
                      plan_.event == CanEvent::kShort || plan_.intruder == Intruder::Kind::kFlood;
-    const std::uint64_t now_us = bus_->now_us();
-    if (sharp) watch_->watch_positions(inputs, repeats ? result_.joint : RunWatch::kNobody);
-    watch_->watch_silence(inputs);
+    const std::uint64_t now_us = bus_.now_us();
+    if (sharp) watch_.watch_positions(inputs, repeats ? result_.joint : RunWatch::kNobody);
+    watch_.watch_silence(inputs);
     watch_setup(outputs);
     watch_orders(now_us);
-    watch_->watch_torque(outputs, now_us, cut && !ended(),
-                         gone ? result_.joint : RunWatch::kNobody);
-    const bool lies = body_ && body_->truth().body_world.linear()(2, 2) < kLyingUp;
-    watch_->watch_fall(outputs, now_us, lies);
+    watch_.watch_torque(outputs, now_us, cut && !ended(), gone ? result_.joint : RunWatch::kNobody);
+    watch_.watch_fall(outputs, now_us, body_.lies());
   }
   /// No drive has torque that is not set up, or has lost its power since the robot was let go.
   void watch_setup(const Outputs& outputs) {
     if (outputs.torque_enable == 0) unready_ = 0;
     for (int j = 0; j < params_.joint_count; ++j) {
-      const sim::ServoSetpoint& servo = plant_->setpoint(j);
+      const sim::ServoSetpoint& servo = body_.plant().setpoint(j);
       const ServoProfile& profile = app::profile_of(params_, j);
       if (!servo.torque_on) continue;
       const bool held = servo.profile_ms == 0;  // quick stop: it follows nothing
@@ -305,7 +274,7 @@ class CanFaultRun {
   void watch_orders(std::uint64_t now_us) {
     const std::uint64_t patience_us = 1000u * canopen::plan::patience_ms(params_) + kLater_us;
     for (int j = 0; j < params_.joint_count; ++j) {
-      const sim::ServoSetpoint& servo = plant_->setpoint(j);
+      const sim::ServoSetpoint& servo = body_.plant().setpoint(j);
       const std::uint64_t heard_us = line_->trouble.ordered_us(node(j));
       const bool stale = heard_us != 0 && now_us > heard_us + patience_us;
       if (stale && servo.torque_on && servo.profile_ms != 0) {
@@ -314,27 +283,25 @@ class CanFaultRun {
     }
   }
 
-  bool give_order() {
-    const auto speed = static_cast<std::uint16_t>(kSpeed_tenth_mm_s);
-    return desk_.write(
-        reg("request"),
-        {static_cast<std::uint8_t>(Request::kWalk), static_cast<std::uint8_t>(ticks_),
-         static_cast<std::uint8_t>(speed), static_cast<std::uint8_t>(speed >> 8), 0, 0, 0, 0});
-  }
-
   void finish() {
     keep();
-    result_.violation = watch_->violation();
-    result_.stale = watch_->stale();
+    result_.stale = watch_.stale();
     result_.damage = line_->trouble.damage();
     result_.intruder = intruder_->frames();
     result_.bus = line_->errors();
-    result_.distance_m = (position() - start_m_).norm();
-    result_.fallen = body_ && body_->truth().fallen;
-    for (const std::vector<TickRecord>& each : traces_) {
-      result_.ticks_recorded += each.size();
-      result_.replayed += replay(params_, each);
-    }
+    result_.distance_m = (body_.position_m() - start_m_).norm();
+    result_.fallen = body_.fallen();
+    for (const std::vector<TickRecord>& each : traces_) replay(each);
+    result_.violation = watch_.violation();
+  }
+  /// Its trace through the core once more has the same digests.
+  void replay(const std::vector<TickRecord>& ticks) {
+    result_.ticks_recorded += ticks.size();
+    record::Trace trace;
+    trace.params = params_;
+    trace.ticks = ticks;
+    const record::ReplayResult again = record::replay(trace);
+    if (again.divergence) fault(record::text(*again.divergence, params_, "then", "now"));
   }
 
   static constexpr std::uint64_t kLater_us = 20'000;  // it looks once a millisecond
@@ -342,12 +309,9 @@ class CanFaultRun {
   const Params& params_;
   const CanPlan& plan_;
   std::minstd_rand random_;
-  std::optional<sim::World> world_;
-  std::optional<sim::TwinRobot> body_;
-  std::optional<LevelPlant> level_;
-  std::optional<SickPlant> plant_;
-  std::optional<RunWatch> watch_;
-  std::optional<can::VirtualCan> bus_;
+  RunBody body_;
+  RunWatch watch_;
+  can::VirtualCan bus_;
   Intruder* intruder_ = nullptr;
   std::optional<Line> line_;
   OperatorDesk desk_;
@@ -361,13 +325,6 @@ class CanFaultRun {
 };
 
 }  // namespace
-
-Robot load_can_robot(const std::string& name) {
-  Robot robot;
-  robot.entity = model::load_robot(model::find_model(name), "can");
-  robot.params = model::make_params(robot.entity);
-  return robot;
-}
 
 CanFaultResult run_can_fault(const Robot& robot, const CanPlan& plan, std::uint32_t seed) {
   if (plan.chip) return CanFaultRun<ChipLine>(robot, plan, seed).run();

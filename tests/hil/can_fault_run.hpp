@@ -45,16 +45,12 @@ struct CanPlan {
 
 struct CanFaultResult : RunResult {
   CanDamage damage;
-  hal::CanErrors bus;          ///< at the controller's end
-  std::uint32_t intruder = 0;  ///< frames of the intruder
-  std::uint64_t digest = 0;    ///< of the last tick, chained
-  std::uint64_t replayed = 0;  ///< ticks of its trace that have the same digest in a replay
-  std::uint64_t ticks_recorded = 0;
+  hal::CanErrors bus;                ///< at the controller's end
+  std::uint32_t intruder = 0;        ///< frames of the intruder
+  std::uint64_t digest = 0;          ///< of the last tick, chained
+  std::uint64_t ticks_recorded = 0;  ///< of which each has its digest in a replay too
   std::uint32_t faults() const { return damage.faults() + events + intruder; }
 };
-
-/// A robot on a CAN bus.
-Robot load_can_robot(const std::string& name);
 
 /// One robot that stands up, walks, and meets a fault. Everything in it comes from `seed`.
 CanFaultResult run_can_fault(const Robot& robot, const CanPlan& plan, std::uint32_t seed);

@@ -2,11 +2,8 @@
 
 #include <algorithm>
 #include <memory>
-#include <optional>
 
-#include "host/sim/robot.hpp"
-#include "host/sim/world.hpp"
-#include "tests/hil/level_plant.hpp"
+#include "tests/hil/run_body.hpp"
 #include "tests/hil/run_watch.hpp"
 #include "tests/hil/software_board.hpp"
 
@@ -20,29 +17,20 @@ constexpr std::uint8_t kWalking = 3;
 constexpr std::uint32_t kOrderTicks = 10;
 constexpr double kUpright_s = 8;       // standing up and learning the gyro's bias take less
 constexpr double kFirstSteps_s = 1.2;  // of walking before the fault
-constexpr double kLyingUp = 0.5;       // 60 degrees; the table says fallen at 46
 constexpr double kHot_c = 76;          // beyond temperature_high_c, below a shutdown
 constexpr double kTooHot_c = 90;       // beyond the servo's own limit, 80
 constexpr double kLow_v = 9.5;         // below voltage_low_v, not below the servo's own
-constexpr std::int16_t kSpeed_tenth_mm_s = 1778;  // two 4 cm steps in 0.450 s
 
 class FaultRun {
  public:
   FaultRun(const Robot& robot, const FaultPlan& plan, std::uint32_t seed)
-      : params_(robot.params), plan_(plan), random_(seed + 1) {
-    if (plan.physics) {
-      sim::TwinOptions options;
-      options.seed = seed;
-      world_.emplace();
-      body_.emplace(*world_, robot.entity, options);
-      plant_ = std::make_unique<SickPlant>(*body_);
-    } else {
-      level_.emplace(robot.params);
-      plant_ = std::make_unique<SickPlant>(*level_);
-    }
-    watch_.emplace(params_, *plant_);
-    bus_.emplace(params_, *plant_);
-    line_.emplace(*bus_, seed);
+      : params_(robot.params),
+        plan_(plan),
+        random_(seed + 1),
+        body_(robot, plan.physics, seed),
+        watch_(params_, body_.plant()),
+        bus_(params_, body_.plant()),
+        line_(bus_, seed) {
     result_.joint = static_cast<int>(random_() % params_.joint_count);
   }
 
@@ -53,7 +41,7 @@ class FaultRun {
     if (!walk_for(walk_s)) return unready();
     result_.ready = true;
     result_.before = registers();
-    start_m_ = position();
+    start_m_ = body_.position_m();
     begin();
     const double lasts_s = plan_.lasts_s > 0 ? plan_.lasts_s : plan_.walks_s;
     spend(lasts_s);
@@ -66,20 +54,16 @@ class FaultRun {
 
  private:
   FaultResult unready() {
-    result_.violation = watch_->violation();
+    result_.violation = watch_.violation();
     return result_;
   }
   double seconds(std::uint64_t ticks) const {
     return 1e-6 * static_cast<double>(ticks * params_.period_us);
   }
-  Eigen::Vector2d position() const {
-    if (!body_) return Eigen::Vector2d::Zero();
-    return body_->truth().com_world_m.head<2>();
-  }
 
   bool power_up(table::ResetCause cause) {
     controller_.reset();
-    controller_ = std::make_unique<Controller>(params_, *line_, desk_, cause);
+    controller_ = std::make_unique<Controller>(params_, line_, desk_, cause);
     const app::BringUpReport report = controller_->loop.bring_up();
     controller_->pacer.start(params_.period_us);
     if (report.status == app::BringUpStatus::kReady) return true;
@@ -99,22 +83,22 @@ class FaultRun {
   }
 
   void begin() {
-    line_->faults = plan_.line;
+    line_.faults = plan_.line;
     switch (plan_.event) {
       case Event::kServoGone:
         ++result_.events;
-        bus_->set_connected(params_.joint[result_.joint].servo_id, false);
+        bus_.set_connected(params_.joint[result_.joint].servo_id, false);
         break;
       case Event::kServoUnpowered:
         ++result_.events;
-        bus_->set_powered(params_.joint[result_.joint].servo_id, false);
+        bus_.set_powered(params_.joint[result_.joint].servo_id, false);
         unready_ = true;
         break;
       case Event::kServoRepeats:
         ++result_.events;
         // A knee or a hip: what walks must move.
         result_.joint = params_.leg[random_() % kFeet].joint[2 + random_() % 3];
-        plant_->freeze(result_.joint);
+        body_.plant().freeze(result_.joint);
         break;
       case Event::kReset:
         ++result_.events;
@@ -123,19 +107,19 @@ class FaultRun {
       case Event::kHot:
       case Event::kOverheated:
         ++result_.events;
-        plant_->heat(result_.joint, plan_.event == Event::kHot ? kHot_c : kTooHot_c);
+        body_.plant().heat(result_.joint, plan_.event == Event::kHot ? kHot_c : kTooHot_c);
         break;
       case Event::kLowVoltage:
         ++result_.events;
-        plant_->sag_to(kLow_v);
+        body_.plant().sag_to(kLow_v);
         break;
       case Event::kImuGone:
         ++result_.events;
-        bus_->set_connected(params_.imu.device_id, false);
+        bus_.set_connected(params_.imu.device_id, false);
         break;
       case Event::kImuRepeats:
         ++result_.events;
-        plant_->freeze_imu();
+        body_.plant().freeze_imu();
         break;
       default:
         break;
@@ -143,21 +127,21 @@ class FaultRun {
   }
 
   void end() {
-    line_->faults = {};
+    line_.faults = {};
     if (plan_.event == Event::kServoGone) {
-      if (plan_.lasts_s > 0) bus_->set_connected(params_.joint[result_.joint].servo_id, true);
+      if (plan_.lasts_s > 0) bus_.set_connected(params_.joint[result_.joint].servo_id, true);
     }
     if (plan_.event == Event::kServoUnpowered && plan_.lasts_s > 0) {
-      bus_->set_powered(params_.joint[result_.joint].servo_id, true);
+      bus_.set_powered(params_.joint[result_.joint].servo_id, true);
     }
-    if (plan_.event == Event::kImuGone) bus_->set_connected(params_.imu.device_id, true);
-    plant_->cure();
+    if (plan_.event == Event::kImuGone) bus_.set_connected(params_.imu.device_id, true);
+    body_.plant().cure();
   }
 
   // The chip's start and its boot check take their time; the servos hear nothing meanwhile.
   void restart() {
     keep(controller_->safe);
-    line_->wait_until(line_->now_us() + 150'000 + random_() % 850'000);
+    line_.wait_until(line_.now_us() + 150'000 + random_() % 850'000);
     power_up(table::ResetCause::kWatchdog);
     expect_held();
     desk_.write(reg("request"), {0});
@@ -167,8 +151,8 @@ class FaultRun {
     for (std::uint64_t ticks = 0; seconds(ticks) < duration_s; ++ticks) {
       if (plan_.event == Event::kLateLoop && random_() % 25 == 0) {
         ++result_.events;
-        line_->wait_until(line_->now_us() + 15'000 + random_() % 25'000);
-        late_us_ = line_->now_us();
+        line_.wait_until(line_.now_us() + 15'000 + random_() % 25'000);
+        late_us_ = line_.now_us();
       }
       tick();
       ++result_.ticks;
@@ -177,50 +161,42 @@ class FaultRun {
   }
 
   void tick() {
-    if (ticks_++ % kOrderTicks == 0) give_order();
+    if (ticks_++ % kOrderTicks == 0) desk_.order_walk(ticks_);
     const std::uint64_t due_us = controller_->clock.due_us();
     const int joint = result_.joint;
-    if (level_) {
-      line_->wait_until(due_us);
-      watch_->note_positions(controller_->loop.outputs());
+    if (body_.on_stand()) {
+      line_.wait_until(due_us);
+      watch_.note_positions(controller_->loop.outputs());
     }
     controller_->tick();
     const Inputs& inputs = controller_->loop.inputs();
     const Outputs& outputs = controller_->loop.outputs();
     const bool repeats = plan_.event == Event::kServoRepeats;
-    if (level_) watch_->watch_positions(inputs, repeats ? joint : RunWatch::kNobody);
-    watch_->watch_silence(inputs);
+    if (body_.on_stand()) watch_.watch_positions(inputs, repeats ? joint : RunWatch::kNobody);
+    watch_.watch_silence(inputs);
     watch_gains();
     const std::uint64_t begun_us = std::max(due_us, late_us_);
-    result_.worst_tick_us = std::max(result_.worst_tick_us, line_->now_us() - begun_us);
+    result_.worst_tick_us = std::max(result_.worst_tick_us, line_.now_us() - begun_us);
     const bool gone = plan_.event == Event::kServoGone;
-    watch_->watch_torque(outputs, line_->now_us(), line_->faults.cut,
-                         gone ? joint : RunWatch::kNobody);
-    watch_->watch_fall(outputs, line_->now_us(), lies());
+    watch_.watch_torque(outputs, line_.now_us(), line_.faults.cut,
+                        gone ? joint : RunWatch::kNobody);
+    watch_.watch_fall(outputs, line_.now_us(), body_.lies());
   }
 
   /// A program that repeats its order does not raise a robot whose controller was reset: it takes
   /// somebody who asks it to relax.
   void expect_held() {
     for (int ticks = 0; ticks < 50; ++ticks) {
-      if (give_order()) fault("an order from before the reset was taken");
+      if (desk_.order_walk(ticks_)) fault("an order from before the reset was taken");
       controller_->tick();
       if (controller_->loop.outputs().torque_enable != 0) fault("the robot rose unasked");
     }
   }
 
-  bool give_order() {
-    const auto speed = static_cast<std::uint16_t>(kSpeed_tenth_mm_s);
-    return desk_.write(
-        reg("request"),
-        {static_cast<std::uint8_t>(Request::kWalk), static_cast<std::uint8_t>(ticks_),
-         static_cast<std::uint8_t>(speed), static_cast<std::uint8_t>(speed >> 8), 0, 0, 0, 0});
-  }
-
   void watch_gains() {
     unready_ = unready_ && controller_->loop.outputs().torque_enable != 0;
     for (int j = 0; j < params_.joint_count; ++j) {
-      const sim::ServoSetpoint& servo = plant_->setpoint(j);
+      const sim::ServoSetpoint& servo = body_.plant().setpoint(j);
       const ServoProfile& profile = app::profile_of(params_, j);
       if (!servo.torque_on) continue;
       if (servo.p_gain != profile.position_p_gain || servo.d_gain != profile.position_d_gain ||
@@ -230,10 +206,9 @@ class FaultRun {
       if (unready_ && j == result_.joint) fault("a servo without power was thrown at its goal");
     }
   }
-  bool lies() const { return body_ && body_->truth().body_world.linear()(2, 2) < kLyingUp; }
   Registers registers() { return read_registers(desk_); }
 
-  void fault(const std::string& what) { watch_->fault(what); }
+  void fault(const std::string& what) { watch_.fault(what); }
   void keep(const SafeTable& safe) {
     result_.seen |= safe.seen();
     if (!safe.violation().empty()) fault(safe.violation());
@@ -241,23 +216,20 @@ class FaultRun {
   void finish() {
     keep(controller_->safe);
     result_.after = registers();
-    result_.damage = line_->damage();
-    result_.distance_m = (position() - start_m_).norm();
-    result_.violation = watch_->violation();
-    result_.stale = watch_->stale();
-    result_.fallen = body_ && body_->truth().fallen;
+    result_.damage = line_.damage();
+    result_.distance_m = (body_.position_m() - start_m_).norm();
+    result_.violation = watch_.violation();
+    result_.stale = watch_.stale();
+    result_.fallen = body_.fallen();
   }
 
   const Params& params_;
   const FaultPlan& plan_;
   std::minstd_rand random_;
-  std::optional<sim::World> world_;
-  std::optional<sim::TwinRobot> body_;
-  std::optional<LevelPlant> level_;
-  std::unique_ptr<SickPlant> plant_;
-  std::optional<RunWatch> watch_;
-  std::optional<bus::VirtualBus> bus_;
-  std::optional<FaultyLine> line_;
+  RunBody body_;
+  RunWatch watch_;
+  bus::VirtualBus bus_;
+  FaultyLine line_;
   OperatorDesk desk_;
   std::unique_ptr<Controller> controller_;
   FaultResult result_;

@@ -5,7 +5,9 @@
 #include <stdexcept>
 #include <vector>
 
+#include "common/io/io.hpp"
 #include "firmware/app/operator_device.hpp"
+#include "firmware/app/register_image.hpp"
 #include "hal/fake/memory_link.hpp"
 
 namespace verp::test {
@@ -21,6 +23,13 @@ class OperatorDesk {
   bool write(std::uint16_t address, const std::vector<std::uint8_t>& data) {
     ask(dxl::encode_write(frame_, sizeof frame_, kId, address, data.data(), data.size()));
     return !refused_;
+  }
+  /// "Walk ahead, two 4 cm steps in 0.450 s"; `sequence` makes it another order than the last.
+  bool order_walk(std::uint32_t sequence) {
+    constexpr std::uint16_t kSpeed_tenth_mm_s = 1778;
+    return write(app::reg("request"),
+                 {static_cast<std::uint8_t>(Request::kWalk), static_cast<std::uint8_t>(sequence),
+                  kSpeed_tenth_mm_s & 0xFF, kSpeed_tenth_mm_s >> 8, 0, 0, 0, 0});
   }
   template <class Value>
   Value read(std::uint16_t address) {

@@ -23,7 +23,7 @@ std::string setting(const char* name) {
 
 /// generic21 with its CAN bus, on its feet in a world of its own.
 struct CanTwin {
-  test::Robot robot = test::load_can_robot("generic21");
+  test::Robot robot = test::load_robot("generic21", "can");
   sim::World world;
   sim::TwinRobot body{world, robot.entity};
   can::VirtualCan bus{robot.params, body};

@@ -11,9 +11,6 @@
 #include "host/board/qemu.hpp"
 #include "host/board/temporary_directory.hpp"
 #include "host/can/lockstep_port.hpp"
-#include "host/model/find.hpp"
-#include "host/model/load.hpp"
-#include "host/model/params.hpp"
 
 namespace verp::test {
 namespace {
@@ -86,13 +83,6 @@ void serve(can::LockstepServer& server, can::LockstepPort& port, board::QemuProc
 }
 
 }  // namespace
-
-Robot load_can_robot(const std::string& name) {
-  Robot robot;
-  robot.entity = model::load_robot(model::find_model(name), "can");
-  robot.params = model::make_params(robot.entity);
-  return robot;
-}
 
 CanRun run_over_can(const std::string& name, const Params& params, can::VirtualCan& bus,
                     std::uint32_t ticks) {

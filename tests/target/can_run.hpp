@@ -13,9 +13,6 @@
 /// vcan0 between them. Needs a place with CAN sockets: tests/support/with-can.
 namespace verp::test {
 
-/// A robot with its CAN bus.
-Robot load_can_robot(const std::string& name);
-
 struct CanRun {
   std::vector<TickRecord> records;
   can::LockstepServer::Counters counters;

@@ -67,9 +67,9 @@ app::OperatorOrder ScriptedOperator::order(std::uint32_t tick) const {
   return order;
 }
 
-Robot load_robot(const std::string& name) {
+Robot load_robot(const std::string& name, const std::string& bus) {
   Robot robot;
-  robot.entity = model::load_robot(model::find_model(name));
+  robot.entity = model::load_robot(model::find_model(name), bus);
   robot.params = model::make_params(robot.entity);
   return robot;
 }

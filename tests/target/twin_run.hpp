@@ -36,7 +36,8 @@ struct Robot {
   model::Entity entity;
   Params params;
 };
-Robot load_robot(const std::string& name);
+/// With its bus of that name; empty: its first.
+Robot load_robot(const std::string& name, const std::string& bus = {});
 
 /// Software in the loop: controller, bus and physics in this process.
 TwinRun run_here(const Robot& robot, std::uint32_t ticks, bool wandering);

@@ -1,0 +1,160 @@
+#include "tests/hil/can_promises.hpp"
+
+#include <gtest/gtest.h>
+
+#include "common/safety/machine.hpp"
+
+namespace verp::test {
+namespace {
+
+using dxl::controller::DeviceState;
+
+constexpr int kBus = dxl::controller::kDeviceBus;
+constexpr int kImu = dxl::controller::kDeviceImu;
+
+/// An answer that did not come shows: in a timeout, or with the device whose report it was.
+void shows_each_lost_answer(const CanFaultResult& result) {
+  EXPECT_GT(result.damage.lost_answers, 0u);
+  EXPECT_GE(result.after.timeouts + result.after.missed_reports(), result.damage.lost_answers);
+}
+/// It holds if a device was silent for as long as the table says, and never else.
+void holds_as_the_table_says(const CanFaultResult& result) {
+  EXPECT_EQ(was(result, kHolding), result.stale);
+  if (!result.stale) keeps_walking(result);
+}
+
+}  // namespace
+
+void lost_few(const CanFaultResult& result) {
+  EXPECT_GT(result.damage.lost, 0u);
+  shows_each_lost_answer(result);
+  keeps_walking(result);
+}
+// A SYNC that is lost costs who is last in the round three ticks: two of them may be too many.
+void lost_many(const CanFaultResult& result) {
+  EXPECT_GT(result.damage.lost, 50u);
+  shows_each_lost_answer(result);
+  holds_as_the_table_says(result);
+}
+void missed(const CanFaultResult& result) {
+  EXPECT_GT(result.damage.missed, 10u);
+  EXPECT_GE(result.after.timeouts + result.after.missed_reports(), result.damage.lost_answers);
+  holds_as_the_table_says(result);
+}
+void doubled(const CanFaultResult& result) {
+  EXPECT_GT(result.damage.doubled, 10u);
+  holds_as_the_table_says(result);
+}
+void overtaken(const CanFaultResult& result) {
+  EXPECT_GT(result.damage.overtaken, 10u);
+  holds_as_the_table_says(result);
+}
+void delayed(const CanFaultResult& result) {
+  EXPECT_GT(result.damage.late, 0u);
+  EXPECT_GT(result.after.strays, 0u) << "what comes too late belongs to nobody";
+  holds_as_the_table_says(result);
+}
+// A gateway that gives everything a period late: nothing that it brings may pass for fresh.
+void held_back(const CanFaultResult& result) {
+  EXPECT_GT(result.damage.late, 0u);
+  EXPECT_EQ(result.during.fresh, 0u);
+  EXPECT_NE(result.during.state[kBus], DeviceState::kGood);
+  EXPECT_TRUE(was(result, kHolding));
+}
+void everything(const CanFaultResult& result) {
+  EXPECT_GT(result.damage.lost * result.damage.missed, 0u);
+  EXPECT_GT(result.damage.doubled * result.damage.overtaken * result.damage.late, 0u);
+  EXPECT_GT(result.after.timeouts, 0u);
+  EXPECT_GT(result.after.missed_reports(), 0u);
+}
+void errors(const CanFaultResult& result) {
+  EXPECT_GT(result.damage.broken, 0u);
+  EXPECT_GE(result.after.crc_errors, result.damage.broken * 9 / 10)
+      << "two errors within one interrupt are one";
+  EXPECT_EQ(result.bus.bus_offs, 0u);
+  keeps_walking(result);
+}
+void bus_off(const CanFaultResult& result) {
+  EXPECT_EQ(result.bus.bus_offs, 1u);
+  EXPECT_GT(result.after.noise, 0u) << "what it dropped";
+  EXPECT_GT(result.after.crc_errors, 31u);
+  keeps_walking(result);
+}
+void bus_offs(const CanFaultResult& result) {
+  EXPECT_GT(result.bus.bus_offs, 10u);
+  EXPECT_GT(result.after.noise, 0u) << "what it dropped";
+  EXPECT_GT(result.after.refused, 0u);
+  cut(result);
+}
+void reboots(const CanFaultResult& result) {
+  EXPECT_GT(result.during.errors[row(result)], 0u);
+  EXPECT_TRUE(was(result, kHolding));
+  let_go(result);
+  EXPECT_EQ(result.after.state[row(result)], DeviceState::kGood) << "it is set up again";
+}
+void many_reboot(const CanFaultResult& result) {
+  EXPECT_GT(result.events, 1u);
+  EXPECT_TRUE(was(result, kHolding));
+  let_go(result);
+  EXPECT_GT(result.after.missed_reports(), 0u);
+}
+// The switch of the servos' supply, which is an emergency stop, off and on: all are set up again.
+void all_reboot(const CanFaultResult& result) {
+  EXPECT_TRUE(was(result, kHolding));
+  let_go(result);
+  EXPECT_NE(result.before.fresh, 0u);
+  EXPECT_EQ(result.after.fresh, result.before.fresh);
+}
+// Set up again while the robot stands: sensors hold nothing.
+void imu_reboots(const CanFaultResult& result) {
+  EXPECT_NE(result.after.faults & safety::kFaultImuSilent, 0u);
+  EXPECT_GT(result.after.errors[kImu], 0u);
+  EXPECT_EQ(result.after.state[kImu], DeviceState::kGood) << "it is back";
+  EXPECT_TRUE(was(result, kHolding));
+  EXPECT_FALSE(was(result, kSitting)) << "it was back before stale_release_s";
+}
+void foot_reboots(const CanFaultResult& result) {
+  EXPECT_GT(result.after.timeouts, 0u);
+  EXPECT_GT(result.after.missed_reports(), 0u);
+  keeps_walking(result);
+}
+void urgent(const CanFaultResult& result) {
+  EXPECT_GT(result.intruder, 100u);
+  EXPECT_GE(result.after.strays, result.intruder * 9 / 10);
+  keeps_walking(result);
+}
+void crowd(const CanFaultResult& result) {
+  EXPECT_GT(result.intruder, 1000u);
+  EXPECT_GT(result.after.timeouts, 0u);
+}
+void flood(const CanFaultResult& result) {
+  EXPECT_GT(result.intruder, 1000u);
+  cut(result);
+}
+void foreign(const CanFaultResult& result) {
+  EXPECT_GT(result.intruder, 100u);
+  EXPECT_GT(result.after.strays, result.intruder / 4);
+  keeps_walking(result);
+}
+void unasked(const CanFaultResult& result) {
+  EXPECT_GT(result.intruder, 100u);
+  EXPECT_GE(result.after.strays, result.intruder * 9 / 10);
+  keeps_walking(result);
+}
+// Nobody knows which of two is the drive: its position does not count, and the robot is let down.
+void twin(const CanFaultResult& result) {
+  EXPECT_GE(result.intruder, 100u);
+  EXPECT_EQ(result.during.fresh >> row(result) & 1u, 0u);
+  EXPECT_TRUE(was(result, kHolding));
+  let_go(result);
+}
+void foreign_sync(const CanFaultResult& result) {
+  EXPECT_GT(result.intruder, 0u);
+}
+void down(const CanFaultResult& result) {
+  EXPECT_GT(result.damage.down, 0u);
+  EXPECT_GT(result.after.refused, 0u);
+  cut(result);
+}
+
+}  // namespace verp::test
