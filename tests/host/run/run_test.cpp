@@ -2,8 +2,9 @@
 
 #include "tests/host/run/run_bench.hpp"
 
-// `verp run` as people meet it: what it refuses, how it ends, what it leaves. A TimelyRobot gets its
-// orders and answers within a period of 20 ms; a RealRobot's tests hold on a machine that is late.
+// `verp run` as people meet it: what it refuses, how it ends, what it leaves. A TimelyRobot gets
+// its orders and answers within a period of 20 ms; a RealRobot's tests hold on a machine that is
+// late.
 namespace verp::tool::test {
 namespace {
 
