@@ -59,7 +59,8 @@ int fail(const char* why) {
 
 int run(Desk& desk, std::uint32_t ticks) {
   static Log log(verp::app::no_images);
-  static Node node(can, params, verp::app::OperatorSetup{}, log);
+  static verp::app::OperatorRegisters<Log> registers(params, verp::app::OperatorSetup{}, log);
+  static Node node(can, params, registers, log);
   desk.node = &node;
   using Bus = verp::app::LockstepCan<Node, Patience>;
   static Bus bus(node, Patience{}, kSlice_us);

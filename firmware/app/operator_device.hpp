@@ -68,6 +68,9 @@ class OperatorDevice {
   /// Bus counters and the like, as often as they should be readable.
   void report(const LoopHealth& health) { registers_.report().health(health); }
 
+  /// For an OperatorNode beside it: one set of registers, whoever asks.
+  OperatorRegisters<Store>& registers() { return registers_; }
+
   std::uint8_t id() const { return registers_.id(); }
   table::ImuSource imu_source() const { return registers_.imu_source(); }
   std::uint8_t torque_limit_percent() const { return registers_.torque_limit_percent(); }

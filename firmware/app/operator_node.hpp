@@ -1,5 +1,4 @@
 #pragma once
-#include <concepts>
 #include <cstdint>
 
 #include "common/protocol/canopen/device.hpp"
@@ -20,16 +19,18 @@ namespace verp::app {
 ///
 /// Nothing here waits, and it sends at the end of a tick only, behind the goals: an SDO answer
 /// takes a tick, and never the loop its time. In lockstep it stands below the twin's clock: what it
-/// sends and gets is no matter of simulated time. `bus`, `params` and `images` outlive it.
+/// sends and gets is no matter of simulated time. `bus`, `params`, `registers` and `images` outlive
+/// it; the registers may be those of an OperatorDevice, which then is the loop's OperatorLink and
+/// Recorder, and has tell() called behind each tick.
 template <hal::CanBus Bus, Images Store = NoImages>
 class OperatorNode {
  public:
   static constexpr std::uint8_t kNode = canopen::plan::kControllerNode;
 
-  OperatorNode(Bus& bus, const Params& params, const OperatorSetup& setup, Store& images)
+  OperatorNode(Bus& bus, const Params& params, OperatorRegisters<Store>& registers, Store& images)
       : bus_(bus),
         bus_imu_(params.imu.device_id != 0),
-        registers_(params, setup, images),
+        registers_(registers),
         objects_(registers_, images),
         device_(objects_, controller_identity(), kNode) {
     publish_ticks(device_.objects(), kNode, canopen::plan::has_room_to_publish(params));
@@ -40,9 +41,6 @@ class OperatorNode {
     // It is the master that starts nodes, and has nobody to start it.
     device_.receive(canopen::nmt_frame(canopen::NmtCommand::kStart, kNode), bus_.now_us());
   }
-  OperatorNode(Bus& bus, const Params& params,
-               const OperatorSetup& setup) requires std::same_as<Store, NoImages>
-      : OperatorNode(bus, params, setup, no_images) {}
 
   // CanBus, for the loop.
   bool send(const CanFrame& frame) { return bus_.send(frame); }
@@ -66,7 +64,12 @@ class OperatorNode {
   // Recorder
   void record(const TickRecord& record, const State& state, const Outputs& outputs) {
     registers_.record(record, state, outputs);
-    publish(record.inputs);
+    tell(record.inputs);
+  }
+
+  /// The tick is over, and the registers show it.
+  void tell(const Inputs& inputs) {
+    publish(inputs);
     answer();
   }
 
@@ -85,7 +88,6 @@ class OperatorNode {
     registers_.withdraw_orders();
   }
   void report(const LoopHealth& health) { registers_.report().health(health); }
-  const OperatorRegisters<Store>& registers() const { return registers_; }
 
  private:
   using Objects = ControllerObjects<Store>;
@@ -109,15 +111,15 @@ class OperatorNode {
     parts_.find(before_, inputs, bus_imu_ && registers_.imu_source() == table::ImuSource::kBus);
     before_ = inputs;
     registers_.report().publish_flags(parts_.flags());
-    tell(published::kDigestPdo);
-    tell(published::kRecordPdo);
+    send_pdo(published::kDigestPdo);
+    send_pdo(published::kRecordPdo);
     for (int i = 0; i < parts_.count(); ++i) {
       registers_.report().publish_part(parts_.part(i).value());
-      tell(published::kPartPdo);
+      send_pdo(published::kPartPdo);
     }
   }
   // One TPDO at once, whatever else waits behind it.
-  void tell(unsigned number) {
+  void send_pdo(unsigned number) {
     CanFrame frame;
     device_.trigger(number - 1);
     if (device_.next_pdo(number - 1, frame, bus_.now_us())) bus_.send(frame);
@@ -125,7 +127,7 @@ class OperatorNode {
 
   Bus& bus_;
   const bool bus_imu_;
-  OperatorRegisters<Store> registers_;
+  OperatorRegisters<Store>& registers_;
   Objects objects_;
   canopen::Device<Objects, kControllerSize> device_;
   canopen::published::Parts parts_;

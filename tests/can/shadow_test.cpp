@@ -88,7 +88,8 @@ class LoneController {
   void run() {
     CanSocket port(endpoint_);
     Log log(app::no_images);
-    Node node(port, params_, {}, log);
+    app::OperatorRegisters<Log> registers(params_, {}, log);
+    Node node(port, params_, registers, log);
     Desk desk{&node};
     app::App<Node, Desk, Desk> loop(params_, node, desk, desk);
     while (!over_) {
@@ -149,7 +150,8 @@ class WalkingController {
     verp::test::ControllerPort orders(orders_);
     Device device(orders, params_, {});
     Log log(app::no_images);
-    Node node(port, params_, {}, log);
+    app::OperatorRegisters<Log> registers(params_, {}, log);
+    Node node(port, params_, registers, log);
     using Bus = app::LockstepCan<Node, Idle>;
     Bus bus(node, Idle{orders_.empty() ? nullptr : &device, &over_});
     if (bus.greet(params_) != lockstep::Verdict::kAccepted) return;

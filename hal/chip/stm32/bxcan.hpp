@@ -115,7 +115,7 @@ class BxCan {
   static constexpr int kReleasePolls = 100;  // a few bus clocks
 
   struct Arrived {
-    CanFrame frame;
+    CanReceived received;  ///< a quarter of a CanFrame, and no work for the interrupt
     std::uint32_t stamp_us;
   };
 
@@ -165,7 +165,7 @@ class BxCan {
     const Masked<Access> masked(io_);
     if (arrived_ == taken_) return false;
     const Arrived& first = inbox_[taken_++ % kInbox];
-    frame = first.frame;
+    frame = first.received.frame();
     const std::uint32_t age_us = static_cast<std::uint32_t>(time_us) - first.stamp_us;
     // An interrupt between the look at the clock and now makes it come from the future.
     const std::uint64_t end_us = (age_us < 0x80000000u ? time_us - age_us : time_us) - opened_us_;
@@ -283,11 +283,9 @@ class BxCan {
       if (arrived_ - taken_ == kInbox) {
         ++errors_.overruns;
       } else {
-        Arrived& slot = inbox_[arrived_ % kInbox];
-        slot.stamp_us = timer_.stamp_us();
-        can_read_frame(slot.frame, read(can::kRir), read(can::kRdtr), read(can::kRdlr),
-                       read(can::kRdhr));
-        ++arrived_;
+        const CanReceived received{read(can::kRir), read(can::kRdtr), read(can::kRdlr),
+                                   read(can::kRdhr)};
+        inbox_[arrived_++ % kInbox] = {received, timer_.stamp_us()};
       }
       if (!release()) return;
     }

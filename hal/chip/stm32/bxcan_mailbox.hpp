@@ -27,18 +27,23 @@ constexpr std::uint32_t can_data_word(const CanFrame& frame, unsigned from) {
   return word;
 }
 
-constexpr void can_read_frame(CanFrame& frame, std::uint32_t identifier, std::uint32_t length,
-                              std::uint32_t low, std::uint32_t high) {
-  frame = {};
-  frame.extended = (identifier & can::kIrIde) != 0;
-  frame.remote = (identifier & can::kIrRtr) != 0;
-  frame.id = identifier >> (frame.extended ? can::kIrExidShift : can::kIrStidShift);
-  const std::uint32_t code = length & can::kDtrDlc;  // 9 to 15 mean 8 (ISO 11898-1)
-  frame.size = static_cast<std::uint8_t>(code < kMaxCanData ? code : kMaxCanData);
-  for (unsigned i = 0; i < frame.size && !frame.remote; ++i) {
-    frame.data[i] = static_cast<std::uint8_t>((i < 4 ? low : high) >> 8 * (i % 4));
+/// A frame as it stands in a FIFO: RIR, RDTR, RDLR, RDHR.
+struct CanReceived {
+  std::uint32_t identifier, length, low, high;
+
+  constexpr CanFrame frame() const {
+    CanFrame frame;
+    frame.extended = (identifier & can::kIrIde) != 0;
+    frame.remote = (identifier & can::kIrRtr) != 0;
+    frame.id = identifier >> (frame.extended ? can::kIrExidShift : can::kIrStidShift);
+    const std::uint32_t code = length & can::kDtrDlc;  // 9 to 15 mean 8 (ISO 11898-1)
+    frame.size = static_cast<std::uint8_t>(code < kMaxCanData ? code : kMaxCanData);
+    for (unsigned i = 0; i < frame.size && !frame.remote; ++i) {
+      frame.data[i] = static_cast<std::uint8_t>((i < 4 ? low : high) >> 8 * (i % 4));
+    }
+    return frame;
   }
-}
+};
 
 /// Its time on the wire without stuff bits, from the start to the end of the frame.
 constexpr std::uint32_t can_frame_us(const CanFrame& frame, std::uint32_t bitrate) {

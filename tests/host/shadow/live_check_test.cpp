@@ -119,7 +119,7 @@ TEST(LiveCheck, TheControllerTicksOnWhileItIsRead) {
   const std::uint32_t tick = flip(robot, robot.state().zeros.leg[0].roll_rad);
   ASSERT_EQ(robot.check().state(), Check::kDiffers);
   EXPECT_GT(robot.controller->loop.inputs().tick, tick + 10);
-  EXPECT_EQ(robot.controller->node.registers().armed(),
+  EXPECT_EQ(robot.controller->registers.armed(),
             robot.controller->loop.outputs().torque_enable != 0);
 }
 

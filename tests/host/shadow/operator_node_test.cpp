@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include "common/protocol/canopen/sdo_client.hpp"
+#include "firmware/app/operator_device.hpp"
 #include "hal/fake/scripted_can.hpp"
+#include "tests/hil/operator_desk.hpp"
 #include "tests/unit/app/operator_bench.hpp"
 
 namespace verp::app::test {
@@ -21,7 +23,7 @@ Params quick_robot(std::uint32_t period_us) {
 
 struct Desk {
   explicit Desk(std::uint32_t period_us = 10'000)
-      : params(quick_robot(period_us)), node(bus, params, OperatorSetup{}, log) {}
+      : params(quick_robot(period_us)), node(bus, params, registers, log) {}
   int sent() {
     CanFrame frame;
     int count = 0;
@@ -35,6 +37,7 @@ struct Desk {
   hal::ScriptedCan bus;
   Params params;
   Log log{no_images};
+  OperatorRegisters<Log> registers{params, OperatorSetup{}, log};
   Node node;
   TickRecord record;
   State state;
@@ -85,6 +88,46 @@ TEST(OperatorNode, TellsOfEachTickInItsOrder) {
     }
   }
   EXPECT_FALSE(desk.bus.take_sent(frame));
+}
+
+// One set of registers: an order at the port is seen at the bus, and a tick is told of at both.
+TEST(OperatorNode, StandsBesideAnOperatorsPort) {
+  verp::test::OperatorDesk port;
+  hal::ScriptedCan bus;
+  const Params params = quick_robot(10'000);
+  Log log{no_images};
+  OperatorDevice<hal::MemoryLink, Log> device(port.controller_end(), params, {}, log);
+  port.serve = [&] {
+    while (device.poll()) {
+    }
+  };
+  Node node(bus, params, device.registers(), log);
+  EXPECT_TRUE(port.write(reg("request"), {0}));
+  EXPECT_TRUE(port.order_walk(1));
+  TickRecord record;
+  record.inputs.tick = 77;
+  record.inputs.command = device.order(77).command;
+  record.digest.chain = 0x1122334455667788;
+  EXPECT_EQ(record.inputs.command.request, Request::kWalk);
+  canopen::SdoClient client(Node::kNode);
+  std::uint8_t request = 0;
+  client.upload(object("request"), &request, 1, canopen::SdoClient::Mode::kPlain, 0);
+  CanFrame frame;
+  ASSERT_TRUE(client.next(frame, 0));
+  bus.inject(frame, 10);
+  EXPECT_FALSE(node.poll(frame, 1000)) << "the loop sees nothing of it";
+  device.record(record, State{}, Outputs{});
+  node.tell(record.inputs);
+  EXPECT_EQ(port.read<std::uint32_t>(reg("tick")), 77u);
+  bool told = false;
+  while (bus.take_sent(frame)) {
+    if (frame.id == canopen::sdo_response_id(Node::kNode)) client.receive(frame, 0);
+    if (frame.id != canopen::tpdo_id(canopen::published::kDigestPdo, Node::kNode)) continue;
+    EXPECT_EQ(canopen::get_le(frame.data, 8), record.digest.chain);
+    told = true;
+  }
+  EXPECT_TRUE(told);
+  EXPECT_EQ(request, static_cast<std::uint8_t>(Request::kWalk));
 }
 
 TEST(OperatorNode, IsSilentWhereTheBusHasNoRoom) {

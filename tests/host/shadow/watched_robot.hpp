@@ -136,8 +136,11 @@ class WatchedRobot {
   };
   struct Controller {
     Controller(const Params& params, DeafBus& bus, Chip* chip)
-        : node(bus, params, {}, log), loop(params, node, desk, desk, chip) {}
+        : registers(params, {}, log),
+          node(bus, params, registers, log),
+          loop(params, node, desk, desk, chip) {}
     app::TickLog<> log{app::no_images};
+    app::OperatorRegisters<app::TickLog<>> registers;
     Node node;
     Desk desk{&node};
     app::App<Node, Desk, Desk, Chip> loop;

@@ -52,8 +52,7 @@ TEST(BxCanTiming, RefusesARateThatTheClockDoesNotMakeExactly) {
 
 TEST(CanMailbox, ReadsALengthCodeAboveEightAsEight) {
   for (std::uint32_t code = 0; code < 16; ++code) {
-    CanFrame frame;
-    can_read_frame(frame, 0, code, 0x03020100, 0x07060504);
+    const CanFrame frame = CanReceived{0, code, 0x03020100, 0x07060504}.frame();
     EXPECT_EQ(frame.size, code < 8 ? code : 8);
     for (unsigned i = 0; i < frame.size; ++i) EXPECT_EQ(frame.data[i], i);
   }
