@@ -31,6 +31,24 @@ Params half_of(const Params& params, int which) {
   return half;
 }
 
+std::uint32_t worst_share(const Params& params, const LoadRow& row,
+                          const canopen::BitRates& rates) {
+  const plan::TickLoad load(params, {.stuffing = Stuffing::kWorst, .fd = row.fd});
+  return canopen::load_permille(load.bits(TickKind::kSteady), rates, 1'000'000 / row.rate_hz);
+}
+
+/// The first drive for which this bus has no room; empty: it has room for all.
+std::string too_much(const Params& params, const LoadRow& row, const canopen::BitRates& rates) {
+  const auto part = std::make_unique<Params>(params);
+  while (part->joint_count > 0 && worst_share(*part, row, rates) > plan::kMostLoadPermille) {
+    --part->joint_count;
+  }
+  if (part->joint_count == params.joint_count) return "";
+  const JointParams& first = params.joint[part->joint_count];
+  return fmt::format("{} (node {}) and those after it do not fit: over {} % at worst", first.name,
+                     first.servo_id, plan::kMostLoadPermille / 10);
+}
+
 /// Raises the row to what this bus takes.
 void add_bus(LoadRow& row, const Params& params, const canopen::BitRates& rates) {
   const plan::TickLoad bare(params, {.stuffing = Stuffing::kNone, .fd = row.fd});
@@ -49,14 +67,11 @@ void add_bus(LoadRow& row, const Params& params, const canopen::BitRates& rates)
   canopen::FrameBits told = worst.bits(TickKind::kSteady);
   told += worst.published();
   raise(row.published_permille, share(told));
-}
-
-std::string refusal_of(const LoadRow& row) {
-  if (row.worst_permille > plan::kMostLoadPermille) {
-    return fmt::format("over {} % at worst", plan::kMostLoadPermille / 10);
-  }
   constexpr std::uint32_t kAll = 1000;
-  return row.change_permille > kAll ? "a change of state takes more than a period" : "";
+  if (row.refusal.empty()) row.refusal = too_much(params, row, rates);
+  if (row.refusal.empty() && row.change_permille > kAll) {
+    row.refusal = "a change of state takes more than a period";
+  }
 }
 
 }  // namespace
@@ -72,7 +87,6 @@ std::vector<LoadRow> load_table(const Params& params, std::uint32_t data_baud) {
         for (int which = 0; which < 2 && buses == 2; ++which) {
           add_bus(row, *std::make_unique<Params>(half_of(params, which)), rates);
         }
-        row.refusal = refusal_of(row);
         rows.push_back(row);
       }
     }

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <string>
 
 #include "common/protocol/canopen/robot_load.hpp"
 #include "tests/host/can/can_bench.hpp"
@@ -55,6 +56,24 @@ TEST(BusLoad, AFasterTickNeedsTwoBusesOrFd) {
   EXPECT_NE(row_of(rows, 250, 1, false).refusal, "");
   EXPECT_EQ(row_of(rows, 200, 2, false).refusal, "");
   EXPECT_EQ(row_of(rows, 200, 1, true).refusal, "");
+}
+
+// Who is named is the first that has no room: without him and those after him it fits.
+TEST(BusLoad, WhatDoesNotFitIsNamed) {
+  Params params = test::can_params(21);
+  const std::string refusal = row_of(can::load_table(params, kDataBaud), 200, 1, false).refusal;
+  int first = 0;
+  while (first < params.joint_count &&
+         refusal.find("(node " + std::to_string(params.joint[first].servo_id) + ")") ==
+             std::string::npos) {
+    ++first;
+  }
+  ASSERT_LT(first, params.joint_count) << refusal;
+  for (const int drives : {first, first + 1}) {
+    params.joint_count = static_cast<std::uint8_t>(drives);
+    const LoadRow row = row_of(can::load_table(params, kDataBaud), 200, 1, false);
+    EXPECT_EQ(row.refusal.empty(), drives == first) << drives << ": " << row.refusal;
+  }
 }
 
 TEST(BusLoad, GrowsWithTheRateAndShrinksWithBusesAndFd) {
