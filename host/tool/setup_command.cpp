@@ -86,11 +86,16 @@ Subcommand add_bus_setup(CLI::App& bus) {
 
 Subcommand add_bus_checklist(CLI::App& bus) {
   CLI::App* app = bus.add_subcommand("checklist", "what to check before servos are powered");
-  auto model = std::make_shared<std::string>("generic21");
-  app->add_option("MODEL", *model, "a robot of common/robots, or the path of an SDF file")
+  struct Words {
+    std::string model = "generic21", bus;
+  };
+  auto words = std::make_shared<Words>();
+  app->add_option("MODEL", words->model, "a robot of common/robots, or the path of an SDF file")
       ->capture_default_str();
-  return {app, [model] {
-            answer(first_power_checklist(params_of(*model)));
+  add_bus_option(*app, words->bus);
+  return {app, [words] {
+            answer(first_power_checklist(model::make_params(
+                model::load_robot(model::find_model(words->model), words->bus))));
             return int{kGood};
           }};
 }
