@@ -3,6 +3,7 @@
 #include <cstdint>
 
 #include "firmware/boot/boot.hpp"
+#include "firmware/boot/fault_capture.hpp"
 #include "firmware/boot/stack.hpp"
 
 /// Cortex-R5, from the ARMv7-A and ARMv7-R Architecture Reference Manual: exceptions (B1.8), system
@@ -68,25 +69,8 @@ extern "C" __attribute__((naked, used)) void verp_fault_entry() {
       "stmia sp, {sp, lr}^\n"  // those of the program
       "nop\n"
       "ldr r1, [sp, #4]\n"
-      "b verp_fault_capture\n"
+      "b verp_fault_capture\n"  // the program's sp is on top of the stack: the fifth argument
       ".ltorg\n");
-}
-
-/// The program's sp lies on top of the stack as the fifth argument.
-extern "C" __attribute__((used)) [[noreturn]] void verp_fault_capture(std::uint32_t pc,
-                                                                      std::uint32_t lr,
-                                                                      std::uint32_t cause,
-                                                                      std::uint32_t address,
-                                                                      std::uint32_t sp) {
-  verp::boot::FaultReport report;
-  report.cause = cause;
-  report.address = address;
-  report.stack_overflow = sp < verp::boot::stack_limit();
-  if (!report.stack_overflow) {
-    report.lr = lr;
-    report.pc = pc;
-  }
-  verp_fault(report);
 }
 
 namespace verp::boot {

@@ -3,6 +3,7 @@
 #include <cstdint>
 
 #include "firmware/boot/boot.hpp"
+#include "firmware/boot/fault_capture.hpp"
 #include "firmware/boot/stack.hpp"
 
 /// RISC-V in machine mode, from "The RISC-V Instruction Set Manual, Volume II: Privileged
@@ -39,22 +40,6 @@ extern "C" __attribute__((naked, aligned(4), used)) void verp_fault_entry() {
       ".option pop\n"
       "la sp, verp_stack_top\n"
       "tail verp_fault_capture\n");
-}
-
-extern "C" __attribute__((used)) [[noreturn]] void verp_fault_capture(std::uint32_t pc,
-                                                                      std::uint32_t lr,
-                                                                      std::uint32_t cause,
-                                                                      std::uint32_t address,
-                                                                      std::uint32_t sp) {
-  verp::boot::FaultReport report;
-  report.cause = cause;
-  report.address = address;
-  report.stack_overflow = sp < verp::boot::stack_limit();
-  if (!report.stack_overflow) {
-    report.lr = lr;
-    report.pc = pc;
-  }
-  verp_fault(report);
 }
 
 namespace verp::boot {
