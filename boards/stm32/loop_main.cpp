@@ -1,6 +1,3 @@
-#include <type_traits>
-#include <utility>
-
 #include "boards/stm32/hardware.hpp"
 #include "boards/stm32/kept.hpp"
 #include "boards/stm32/no_time.hpp"
@@ -51,7 +48,6 @@ using app::table::StartFault;
 using Ticks = app::TickLog<app::ParamsImages>;
 using Operator = app::OperatorDevice<OperatorPort, Ticks>;
 using Node = RobotNode<Port, Ticks>;
-using LoopPort = std::remove_reference_t<decltype(std::declval<Node&>().port())>;
 
 struct Board {
   Board(const Start& start, const Params& params, control::BootVerdict verdict)
@@ -198,7 +194,7 @@ struct Patience {
 /// may be paused, and goes on with the same bits; all that while its operator can start it anew.
 lockstep::Verdict run_in_lockstep(Board& board, const Params& params) {
   std::uint64_t until_us = timer.now_us() + kGreeting_us;
-  LockstepOn<LoopPort, Patience> bus(board.node.port(), {board, until_us});
+  LockstepOn<Node::LoopPort, Patience> bus(board.node.port(), {board, until_us});
   const lockstep::Verdict verdict = bus.greet(params);
   if (verdict != lockstep::Verdict::kAccepted) return verdict;
   until_us = kForever_us;
@@ -218,7 +214,8 @@ lockstep::Verdict run_in_lockstep(Board& board, const Params& params) {
 /// bytes back.
 void run_in_real_time(Board& board, Servos& servos, const Params& params, std::uint32_t held_us) {
   bool ticking = false;
-  RealTimeOn<LoopPort, Timer, UntilTicks> way(board.node.port(), timer, {board, ticking}, held_us);
+  RealTimeOn<Node::LoopPort, Timer, UntilTicks> way(board.node.port(), timer, {board, ticking},
+                                                    held_us);
   app::App loop(params, way.bus(), board.panel, board, board.imu.chip());
   if (!board.is_up(loop.bring_up())) return;
   board.idle();

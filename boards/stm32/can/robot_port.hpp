@@ -53,6 +53,7 @@ struct RobotWiring {
 template <class Port, class Store>
 class RobotNode : public app::OperatorNode<Port, Store> {
  public:
+  using LoopPort = RobotNode;
   using app::OperatorNode<Port, Store>::OperatorNode;
   RobotNode& port() { return *this; }
 };

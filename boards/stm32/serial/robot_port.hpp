@@ -41,6 +41,7 @@ struct RobotWiring {
 template <class Port, class Store>
 class RobotNode {
  public:
+  using LoopPort = Port;
   RobotNode(Port& port, const Params&, app::OperatorRegisters<Store>&, Store&) : port_(port) {}
   Port& port() { return port_; }
   void tell(const Inputs&) {}
