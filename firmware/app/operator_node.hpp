@@ -35,11 +35,12 @@ class OperatorNode {
         device_(objects_, controller_identity(), kNode) {
     publish_ticks(device_.objects(), kNode, canopen::plan::has_room_to_publish(params));
     device_.start();
+    constexpr std::uint64_t kBegin_us = 0;  // a bus that is not open yet must not be asked
     // Its heartbeat, with the boot-up message, is the master's: drives watch it.
     CanFrame boot_up;
-    device_.next(boot_up, bus_.now_us());
+    device_.next(boot_up, kBegin_us);
     // It is the master that starts nodes, and has nobody to start it.
-    device_.receive(canopen::nmt_frame(canopen::NmtCommand::kStart, kNode), bus_.now_us());
+    device_.receive(canopen::nmt_frame(canopen::NmtCommand::kStart, kNode), kBegin_us);
   }
 
   // CanBus, for the loop.

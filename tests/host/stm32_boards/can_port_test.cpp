@@ -110,6 +110,20 @@ TEST(CanPort, TellsAllNodesToBeginAnew) {
   }
 }
 
+// The node is there before anybody knows of a robot.
+TEST(CanPort, ItsTimeBeginsWhenItIsOpened) {
+  Chip chip;
+  chip.let_pass(50'000);
+  const Params params;
+  app::OperatorRegisters<app::NoImages> registers(params, {}, app::no_images);
+  RobotNode<Wiring::Port, app::NoImages> node(chip.port, params, registers, app::no_images);
+  ASSERT_TRUE(Wiring::open(chip.port, chip.clocks, kBaud));
+  const std::uint64_t begun_us = node.port().now_us();
+  EXPECT_LT(begun_us, 50'000u);
+  chip.let_pass(1000);
+  EXPECT_GE(node.port().now_us() - begun_us, 1000u);
+}
+
 // Nothing else feeds the board's watchdog and its operator during bring-up.
 TEST(CanPort, LooksAfterTheBoardDuringALongWaitAndStillWaitsItsTime) {
   Chip chip;
