@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "board.hpp"
+#include "firmware/app/operator_node.hpp"
 #include "hal/chip/stm32/tick_timer.hpp"
 #include "robot_port.hpp"
 #include "tests/support/stm32/can_model.hpp"
@@ -110,18 +111,18 @@ TEST(CanPort, TellsAllNodesToBeginAnew) {
   }
 }
 
-// The node is there before anybody knows of a robot.
+// A controller's node may be there before anybody knows of a robot.
 TEST(CanPort, ItsTimeBeginsWhenItIsOpened) {
   Chip chip;
   chip.let_pass(50'000);
   const Params params;
   app::OperatorRegisters<app::NoImages> registers(params, {}, app::no_images);
-  RobotNode<Wiring::Port, app::NoImages> node(chip.port, params, registers, app::no_images);
+  app::OperatorNode<Wiring::Port> node(chip.port, params, registers, app::no_images);
   ASSERT_TRUE(Wiring::open(chip.port, chip.clocks, kBaud));
-  const std::uint64_t begun_us = node.port().now_us();
+  const std::uint64_t begun_us = node.now_us();
   EXPECT_LT(begun_us, 50'000u);
   chip.let_pass(1000);
-  EXPECT_GE(node.port().now_us() - begun_us, 1000u);
+  EXPECT_GE(node.now_us() - begun_us, 1000u);
 }
 
 // Nothing else feeds the board's watchdog and its operator during bring-up.
