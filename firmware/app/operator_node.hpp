@@ -99,10 +99,11 @@ class OperatorNode {
                     canopen::published::kMostParts + kMostAnswers <=
                 hal::kCanQueue);
 
+  // Not NMT: who starts and resets the others obeys nobody, and to its loop such a frame is a
+  // stray.
   static bool is_for_node(const CanFrame& frame) {
     if (!canopen::is_canopen(frame)) return false;
     const canopen::Connection to = canopen::connection_of(frame.id);
-    if (to.service == canopen::Service::kNmt) return true;
     return to.node == kNode &&
            (to.service == canopen::Service::kSdoRequest || to.service == canopen::Service::kRpdo);
   }

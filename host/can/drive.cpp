@@ -26,6 +26,11 @@ constexpr double kStands_rad_s = 0.1;  ///< slower than this is stopped
 
 constexpr int kPerMille = 1000;
 
+/// A position counter goes on at the other end of its 32 bits.
+std::int32_t around(std::int32_t count, std::int64_t offset) {
+  return static_cast<std::int32_t>(count + offset);
+}
+
 }  // namespace
 
 DriveApplication::DriveApplication(sim::Plant& plant, int joint, const DriveSetup& setup)
@@ -208,7 +213,7 @@ void DriveApplication::hold() {
 
 void DriveApplication::refresh() {
   const sim::ServoMeasurement measured = plant_.measure(joint_);
-  objects_.actual_position = measured.position_count + objects_.home_offset;
+  objects_.actual_position = around(measured.position_count, objects_.home_offset);
   objects_.actual_velocity =
       static_cast<std::int32_t>(std::lround(measured.velocity_rad_s * setup_.counts_per_rad));
   // Of the duty, as the serial servos' Present Load: the plant does not know the rated current.
@@ -236,7 +241,7 @@ std::int32_t DriveApplication::goal_count() {
   const std::int32_t target =
       std::min(std::max(objects_.target_position, objects_.min_position), objects_.max_position);
   limited_ = target != objects_.target_position;
-  return target - objects_.home_offset;
+  return around(target, -static_cast<std::int64_t>(objects_.home_offset));
 }
 
 void DriveApplication::apply() {

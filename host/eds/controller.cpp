@@ -62,6 +62,7 @@ Description controller() {
                           .text = "Humanoid robot controller",
                           .identity = app::controller_identity(),
                           .size = app::kControllerSize,
+                          .is_master = true,
                           .objects = {}};
   description.objects = communication_objects(description.size, description.identity);
   for (unsigned number = canopen::published::kDigestPdo; number <= canopen::published::kPartPdo;

@@ -54,6 +54,7 @@ struct Description {
   std::string text;  ///< one line for a person
   canopen::Identity identity{};
   canopen::DeviceSize size{};
+  bool is_master = false;       ///< starts the others, and obeys no NMT command
   std::vector<Object> objects;  ///< rising index
 };
 

@@ -34,10 +34,11 @@ void put_header(const Description& about, Out out) {
     fmt::format_to(out, "BaudRate_{}={}\n", rate, rate >= kLeastRate_kbit_s ? 1 : 0);
   }
   fmt::format_to(out,
-                 "SimpleBootUpMaster=0\nSimpleBootUpSlave=1\nGranularity=8\n"
+                 "SimpleBootUpMaster={}\nSimpleBootUpSlave={}\nGranularity=8\n"
                  "DynamicChannelsSupported=0\nGroupMessaging=0\nNrOfRXPDO={}\nNrOfTXPDO={}\n"
                  "LSS_Supported=0\n\n[DummyUsage]\n",
-                 about.size.rpdos, about.size.tpdos);
+                 about.is_master ? 1 : 0, about.is_master ? 0 : 1, about.size.rpdos,
+                 about.size.tpdos);
   for (std::uint16_t index = 1; index <= 7; ++index) {
     fmt::format_to(out, "Dummy{:04X}={}\n", index, canopen::dummy_bits({index, 0}) > 0 ? 1 : 0);
   }

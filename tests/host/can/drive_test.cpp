@@ -209,6 +209,14 @@ TEST_F(VirtualDrive, ASilentMasterIsAFaultIfTheOptionSaysSo) {
   EXPECT_EQ(bench.state(kNode), State::kSwitchOnDisabled);
 }
 
+// Anything may be written there, from a wrong tool, too.
+TEST_F(VirtualDrive, ItsCounterGoesOnAtTheOtherEndOf32Bits) {
+  measured().position_count = 10;
+  bench.write(kNode, object::kHomeOffset, 0x7FFFFFFF, 4);
+  bench.let_pass(2000);
+  EXPECT_EQ(bench.value(kNode, object::kActualPosition), -0x7FFFFFFF - 1 + 9);
+}
+
 TEST_F(VirtualDrive, OverheatingIsAFaultUntilItIsCool) {
   bench.enable(kNode);
   measured().temperature_c = 81;

@@ -90,6 +90,25 @@ TEST(OperatorNode, TellsOfEachTickInItsOrder) {
   EXPECT_FALSE(desk.bus.take_sent(frame));
 }
 
+// It is the master. A tool that resets or stops all nodes must not make it fall silent for good.
+TEST(OperatorNode, ObeysNoOtherMaster) {
+  using canopen::NmtCommand;
+  auto& desk = renewed<Desk>();
+  desk.tick();
+  const int told = desk.sent();
+  EXPECT_GT(told, 0);
+  for (const std::uint8_t to : {std::uint8_t{0}, Node::kNode}) {
+    for (const auto command : {NmtCommand::kStop, NmtCommand::kEnterPreOperational,
+                               NmtCommand::kResetNode, NmtCommand::kResetCommunication}) {
+      desk.bus.inject(canopen::nmt_frame(command, to), 10);
+      CanFrame frame;
+      EXPECT_TRUE(desk.node.poll(frame, 1000)) << "the loop counts a stray";
+      desk.tick();
+      EXPECT_GE(desk.sent(), 2) << "digest and record";
+    }
+  }
+}
+
 // One set of registers: an order at the port is seen at the bus, and a tick is told of at both.
 TEST(OperatorNode, StandsBesideAnOperatorsPort) {
   verp::test::OperatorDesk port;
