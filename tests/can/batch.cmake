@@ -26,6 +26,6 @@ function(verp_can_tests_end)
   math(EXPR limit "${seconds} + 60")
   add_test(NAME can.start COMMAND ${CMAKE_SOURCE_DIR}/tests/support/with-can --timeout ${seconds}
     --writable ${CMAKE_BINARY_DIR}/can ${CMAKE_SOURCE_DIR}/tests/can/run_batch ${CMAKE_BINARY_DIR}/can)
-  # PROCESSORS: some go by the clock on the wall.
-  set_tests_properties(can.start PROPERTIES LABELS "hil-can;vm" FIXTURES_SETUP can_start TIMEOUT ${limit} PROCESSORS 2)
+  # RUN_SERIAL: some go by the clock on the wall.
+  set_tests_properties(can.start PROPERTIES LABELS "hil-can;vm" FIXTURES_SETUP can_start TIMEOUT ${limit} RUN_SERIAL TRUE)
 endfunction()

@@ -39,12 +39,16 @@ class RunOnCan : public Program {
   }
 };
 
-// One core may have to be the robot, its bus and this PC: a period may be missed, and the robot
+// One core may have to be the robot, its bus and this PC. While that is too busy for the period,
+// `verp run` refuses with status 3: it is asked again. Later a period may be missed, and the robot
 // then hold or fall, which is told by status 1; but not without it.
 TEST_F(RunOnCan, DrivesTheRobotAndLetsItGo) {
-  const Outcome outcome = beside_twin(std::string(VERP_PROGRAM) +
-                                      " run generic21 --bus can --link can:vcan0 --yes --json "
-                                      "--period 20 --for 3 --record run.mcap");
+  const std::string run = std::string(VERP_PROGRAM) +
+                          " run generic21 --bus can --link can:vcan0 --yes --json "
+                          "--period 20 --for 3 --record run.mcap";
+  const Outcome outcome = beside_twin("for attempt in 1 2 3 4 5; do " + run +
+                                      "; status=$?; [ $status = 3 ] || break; sleep 3; done; "
+                                      "exit $status");
   ASSERT_TRUE(outcome.status == 0 || outcome.status == 1) << outcome.err;
   const json result = json::parse(outcome.out);
   EXPECT_TRUE(result.at("let_go")) << outcome.err;
