@@ -28,6 +28,10 @@ const char* words_for(verp::app::BringUpStatus status) {
       return "bring-up: a device did not keep a setting";
     case BringUpStatus::kHardwareError:
       return "bring-up: a servo has a hardware error";
+    case BringUpStatus::kOccupied:
+      return "bring-up: another controller is on the bus";
+    case BringUpStatus::kNotReset:
+      return "bring-up: a device did not boot when it was reset";
   }
   return "bring-up failed";
 }

@@ -193,7 +193,7 @@ inline constexpr Register kTable[] = {
     rw(100, "action_request", u16, 0xFFFF, "", "number of the action to play, up to action_count; 0: none"),
     disarmed(102, "imu_calibrate", u8, 2, "", "1: measure the chip's bias and mounting, robot upright and still; 2: forget them; reads as 0"),
     r(103, "imu_calibration", u8, "", "0 none, 1 measuring, 2 kept; refused, the old one counts: 3 moved, 4 not upright, 5 too few samples in 20 s (chip silent, or a twin in lockstep); 6 none counts: the kept one is of another scale or mounting"),
-    r(104, "bring_up", u8, "", "0 not yet, 1 every device is ready; the last failure: 2 silent, 3 another model, 4 refused a write, 5 does not keep it, 6 has a hardware error"),
+    r(104, "bring_up", u8, "", "0 not yet, 1 every device is ready; the last failure: 2 silent, 3 another model, 4 refused a write, 5 does not keep it, 6 has a hardware error, 7 somebody else commands nodes on its bus, 8 did not boot when it was reset"),
     r(105, "bring_up_device", u8, "", "bus id of the device at which it failed"),
     // One number of the tuning. A write of parameter_value reaches exactly one tick; before that
     // tick a second one is refused (Result Fail).
@@ -222,7 +222,7 @@ inline constexpr Register kTable[] = {
     r(184, "joints_fresh", u32, "bits", "bit j: joint j was read in this tick"),
     r(188, "joints_torque", u32, "bits", "bit j: joint j holds its goal"),
     r(192, "command_age", u32, "ticks", "since the last order"),
-    r(196, "bring_up_register", u16, "", "and its register"),
+    r(196, "bring_up_register", u16, "", "and its register or object; for 7 the identifier that was heard"),
     // What went wrong since power-up; all wrap.
     r(200, "bus_crc_errors", u32, "", "servo bus: packets with a wrong CRC"),
     r(204, "bus_timeouts", u32, "", "servo bus: requests that some device did not answer in time"),

@@ -25,19 +25,13 @@ class CanMaster {
   /// the wire, or since it was refused.
   bool receive(CanFrame& frame, std::uint32_t timeout_us) {
     if (accepted_) return bus_.poll(frame, timeout_us);
-    const std::uint64_t end_us = refused_us_ + timeout_us;
-    // The bus counts from the beginning of the last frame that it took, which may be long ago: a
-    // poll that ends early shows that it is.
-    std::uint64_t wait_us = accepted_before_ ? timeout_us : end_us - begin_us_;
-    for (int polls = 0; polls < kMostPolls; ++polls) {
-      if (bus_.poll(frame, static_cast<std::uint32_t>(wait_us))) return true;
-      const std::uint64_t now_us = bus_.now_us();
-      begin_us_ = now_us - wait_us;  // or before
-      accepted_before_ = false;
-      if (now_us >= end_us) return false;
-      wait_us += end_us - now_us;
-    }
-    return false;
+    return receive_until(frame, refused_us_ + timeout_us,
+                         accepted_before_ ? timeout_us : refused_us_ + timeout_us - begin_us_);
+  }
+  /// Likewise until `end_us` of bus time, whenever a frame was sent last.
+  bool receive_until(CanFrame& frame, std::uint64_t end_us) {
+    const std::uint64_t now_us = bus_.now_us();
+    return now_us < end_us ? receive_until(frame, end_us, end_us - now_us) : take_waiting(frame);
   }
   /// One that is there already.
   bool take_waiting(CanFrame& frame) { return bus_.poll(frame, 0); }
@@ -49,6 +43,20 @@ class CanMaster {
 
  private:
   static constexpr int kMostPolls = 1000;  ///< that may find no time to wait: then nobody waits
+
+  // The bus counts from the beginning of the last frame that it took, which may be long ago: a
+  // poll that ends early shows that it is.
+  bool receive_until(CanFrame& frame, std::uint64_t end_us, std::uint64_t wait_us) {
+    for (int polls = 0; polls < kMostPolls; ++polls) {
+      if (bus_.poll(frame, static_cast<std::uint32_t>(wait_us))) return true;
+      const std::uint64_t now_us = bus_.now_us();
+      begin_us_ = now_us - wait_us;  // or before
+      accepted_before_ = false;
+      if (now_us >= end_us) return false;
+      wait_us += end_us - now_us;
+    }
+    return false;
+  }
 
   Bus& bus_;
   bool accepted_ = true;

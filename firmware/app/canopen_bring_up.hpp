@@ -27,7 +27,8 @@ constexpr std::uint8_t hardware_error_of(std::uint16_t code) {
 
 /// Finds every node of the robot, sets it up and makes it operational, torque off. All nodes are
 /// reset first: what a controller that was reset itself left stiff must not stay so, and what is
-/// not written here has its stored value.
+/// not written here has its stored value. Before, it listens: a reset would drop another
+/// controller's robot.
 template <hal::CanBus Bus>
 class CanopenBringUp {
  public:
@@ -35,14 +36,17 @@ class CanopenBringUp {
       : params_(params), master_(master), nodes_(params) {}
 
   BringUpReport run() {
-    if (!sound_ids()) return report_;
-    command_all(canopen::NmtCommand::kResetNode);
-    await_boot();
+    if (!sound_ids() || !is_alone()) return report_;
+    NodeMask missing = present();
+    for (int times = 0; times < kResets && missing != 0; ++times) {
+      command_all(canopen::NmtCommand::kResetNode, missing);
+      missing = await_boot(missing);
+    }
     for (int slot = 0; slot < kCanNodes && ready(); ++slot) {
-      if (node_id(params_, slot) != 0) set_up(slot);
+      if (node_id(params_, slot) != 0) set_up(slot, (missing & node_bit(slot)) == 0);
     }
     if (ready()) start_all();
-    if (!ready()) command_all(canopen::NmtCommand::kResetNode);
+    if (!ready()) command_all(canopen::NmtCommand::kResetNode, present());
     return report_;
   }
 
@@ -50,6 +54,7 @@ class CanopenBringUp {
   static constexpr int kAttempts = 3;
   /// How long a drive may take to boot, and to leave a fault: an allowance, not a measurement.
   static constexpr std::uint32_t kBootUs = 2'000'000;
+  static constexpr int kResets = 2;   ///< of who sends no boot-up message
   static constexpr int kRepeats = 3;  ///< of commands that nobody acknowledges
 
   bool ready() const { return report_.status == BringUpStatus::kReady; }
@@ -71,15 +76,34 @@ class CanopenBringUp {
     return true;
   }
 
-  void command_all(canopen::NmtCommand command) {
+  bool is_alone() {
+    const std::uint64_t end_us = master_.now_us() + canopen::plan::quiet_us(params_);
+    CanFrame frame;
+    while (master_.receive_until(frame, end_us) && master_.now_us() < end_us) {
+      if (!canopen::plan::is_of_master(frame)) continue;
+      report_.status = BringUpStatus::kOccupied;
+      report_.address = static_cast<std::uint16_t>(frame.id);
+      return false;
+    }
+    return true;
+  }
+
+  NodeMask present() const {
+    NodeMask mask = 0;
     for (int slot = 0; slot < kCanNodes; ++slot) {
-      const std::uint8_t id = node_id(params_, slot);
-      if (id != 0) master_.send(canopen::nmt_frame(command, id));
+      if (node_id(params_, slot) != 0) mask |= node_bit(slot);
+    }
+    return mask;
+  }
+  void command_all(canopen::NmtCommand command, NodeMask nodes) {
+    for (int slot = 0; slot < kCanNodes; ++slot) {
+      if ((nodes & node_bit(slot)) == 0) continue;
+      master_.send(canopen::nmt_frame(command, node_id(params_, slot)));
     }
   }
   void start_all() {
     for (int i = 0; i < kRepeats; ++i) {
-      command_all(canopen::NmtCommand::kStart);
+      command_all(canopen::NmtCommand::kStart, present());
       const std::uint32_t pass_us = can_frames_us(2, 2 * kCanNodes, params_.baud);
       const std::uint64_t end_us = master_.now_us() + pass_us;
       CanFrame frame;  // lets them pass: more would not find room
@@ -88,11 +112,8 @@ class CanopenBringUp {
     }
   }
 
-  void await_boot() {
-    NodeMask missing = 0;
-    for (int slot = 0; slot < kCanNodes; ++slot) {
-      if (node_id(params_, slot) != 0) missing |= node_bit(slot);
-    }
+  /// Those of `missing` that did not boot in time.
+  NodeMask await_boot(NodeMask missing) {
     CanFrame frame;
     const std::uint64_t end_us = master_.now_us() + kBootUs;
     while (missing != 0 && master_.now_us() < end_us && master_.receive(frame, kBootUs)) {
@@ -102,6 +123,7 @@ class CanopenBringUp {
       const int slot = nodes_.slot_of(node);
       if (slot >= 0) missing &= ~node_bit(slot);
     }
+    return missing;
   }
 
   /// Why the last attempt failed.
@@ -137,8 +159,11 @@ class CanopenBringUp {
     return done(id, at, attempt(id, {at, 0, bytes}, &value));
   }
 
-  bool set_up(int slot) {
-    return identify(slot) && write_all(slot) && read_back(slot) &&
+  bool set_up(int slot, bool booted) {
+    if (!identify(slot)) return false;
+    // It may have kept what a controller before us left in it.
+    if (!booted) return fail(BringUpStatus::kNotReset, node_id(params_, slot), {});
+    return write_all(slot) && read_back(slot) &&
            (!is_joint(slot) || (learn_strength(slot) && is_well(slot)));
   }
   bool expect(std::uint8_t id, canopen::Address at, std::uint16_t expected) {

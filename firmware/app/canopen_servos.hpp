@@ -36,8 +36,7 @@ class CanopenServos {
     for (std::uint8_t group = 1; group <= groups_; ++group) {
       patience_us_ += window_us(params, group);
     }
-    heartbeat_.set_period_ms(static_cast<std::uint16_t>(canopen::plan::patience_ms(params) /
-                                                        canopen::plan::kHeartbeatsInPatience));
+    heartbeat_.set_period_ms(canopen::plan::heartbeat_ms(params));
   }
 
   BringUpReport bring_up() {

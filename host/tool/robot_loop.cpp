@@ -26,6 +26,16 @@ ToolError not_up(const app::BringUpReport& report, const std::string& place,
                        fmt::format("{}has a hardware error ({}) and may be limp; cure it, then "
                                    "switch the servo off and on, which clears it",
                                    at, bus::hardware_errors(report.found)));
+    case app::BringUpStatus::kOccupied:
+      return ToolError(kNoDevice,
+                       fmt::format("{}: another controller or tool commands nodes on this bus "
+                                   "(identifier 0x{:03X} was heard); end it first",
+                                   place, report.address));
+    case app::BringUpStatus::kNotReset:
+      return ToolError(kNoDevice,
+                       fmt::format("{}sent no boot-up message when it was reset (NMT), and may "
+                                   "have kept what was written to it before; switch it off and on",
+                                   at));
     default:
       return ToolError(kNoDevice, fmt::format("{}does not answer; check power, wiring and ids "
                                               "(`verp bus scan`, `verp bus setup`)",

@@ -89,29 +89,18 @@ std::optional<std::uint8_t> somebody(can::Client& client, const Params& params) 
   return std::nullopt;
 }
 
-/// Only a controller sends such.
-bool is_of_controller(const CanFrame& frame) {
-  using canopen::Service;
-  if (frame.extended) return false;
-  const canopen::Connection from = canopen::connection_of(frame.id);
-  if (from.service == Service::kSync) return true;
-  return from.node == canopen::plan::kControllerNode &&
-         (from.service == Service::kHeartbeat || from.service == Service::kTpdo);
-}
-
 }  // namespace
 
 void refuse_second_controller(wire::CanPort& port, const RunPlan& plan) {
-  constexpr std::uint32_t kMore_us = 50'000;
-  const std::uint32_t period_us =
-      1000u * canopen::plan::patience_ms(plan.walk.params) / canopen::plan::kHeartbeatsInPatience;
-  const std::uint64_t end_ns = wire::monotonic_ns() + (period_us + kMore_us) * 1000ull;
+  constexpr std::uint32_t kLook_us = 50'000;
+  const std::uint64_t end_ns =
+      wire::monotonic_ns() + canopen::plan::quiet_us(plan.walk.params) * 1000ull;
   CanFrame frame;
   while (wire::monotonic_ns() < end_ns && !interrupted()) {
-    if (!port.await(frame, kMore_us) || !is_of_controller(frame)) continue;
-    throw ToolError(kNoDevice,
-                    fmt::format("verp run: another controller (node {}) speaks on {}; end it first",
-                                canopen::plan::kControllerNode, wire::to_text(plan.link)));
+    if (!port.await(frame, kLook_us) || !canopen::plan::is_of_master(frame)) continue;
+    throw not_up(
+        {.status = app::BringUpStatus::kOccupied, .address = static_cast<std::uint16_t>(frame.id)},
+        wire::to_text(plan.link), "");
   }
 }
 

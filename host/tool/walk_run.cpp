@@ -25,7 +25,9 @@ void require_ready(const app::BringUpReport& report, BusProtocol protocol) {
                                    "is of another model",
                                    "refuses a write",
                                    "does not keep what is written",
-                                   "has a hardware error"};
+                                   "has a hardware error",
+                                   "is not the only one to be commanded",
+                                   "does not boot when it is reset"};
   const std::string where = protocol == BusProtocol::kCia402
                                 ? fmt::format("object {:04X}h", report.address)
                                 : fmt::format("register {}", report.address);

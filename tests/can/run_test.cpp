@@ -84,14 +84,14 @@ TEST_F(RunOnCan, RefusesToBeTheSecondOfThisPcBeforeItSendsAnything) {
 
 TEST_F(RunOnCan, RefusesToBeTheSecondOnABusBeforeItSendsAnything) {
   verp::test::OwnVcan bus;
-  for (const std::uint32_t id : {0x080u, 0x77Fu, 0x1FFu}) {
+  for (const std::string id : {"0x000", "0x080", "0x77F", "0x1FF", "0x605"}) {
     std::atomic<bool> over = false;
     bool alone = true;
     std::thread other([&] {
       wire::CanPort port(bus.endpoint());
       CanFrame heard;
       while (!over) {
-        port.send(verp::test::frame_of(id));
+        port.send(verp::test::frame_of(static_cast<std::uint32_t>(std::stoul(id, nullptr, 16))));
         alone = alone && !port.await(heard, 100'000);
       }
     });
@@ -99,9 +99,10 @@ TEST_F(RunOnCan, RefusesToBeTheSecondOnABusBeforeItSendsAnything) {
     over = true;
     other.join();
     EXPECT_EQ(outcome.status, 3) << id;
-    EXPECT_NE(outcome.err.find("another controller (node 127) speaks on can:vcan7; end it"),
+    EXPECT_NE(outcome.err.find("can:vcan7: another controller or tool commands nodes on this bus"),
               std::string::npos)
         << outcome.err;
+    EXPECT_NE(outcome.err.find(id + " was heard"), std::string::npos) << outcome.err;
     EXPECT_TRUE(alone) << id;
   }
 }

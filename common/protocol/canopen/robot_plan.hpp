@@ -5,6 +5,7 @@
 #include "common/model/params.hpp"
 #include "common/protocol/canopen/cob_id.hpp"
 #include "common/protocol/canopen/drive_objects.hpp"
+#include "common/protocol/canopen/frame.hpp"
 #include "common/protocol/canopen/pdo.hpp"
 
 /// How the nodes of one robot share a CAN bus: what its controller writes into them, and what it
@@ -153,5 +154,33 @@ inline std::uint16_t patience_ms(const Params& params) {
 inline constexpr std::int16_t kQuickStopAndHold = 6;
 /// Heartbeats of the controller in that time: so many less one may be lost.
 inline constexpr std::uint16_t kHeartbeatsInPatience = 5;
+inline std::uint16_t heartbeat_ms(const Params& params) {
+  return static_cast<std::uint16_t>(patience_ms(params) / kHeartbeatsInPatience);
+}
+
+/// Only who commands a robot's nodes sends such: a controller, or a tool that asks them.
+constexpr bool is_of_master(const Frame& frame) {
+  if (!is_canopen(frame)) return false;
+  const Connection from = connection_of(frame.id);
+  const bool controller = from.node == kControllerNode;
+  switch (from.service) {
+    case Service::kNmt:
+    case Service::kSync:
+      return true;
+    case Service::kRpdo:
+    case Service::kSdoRequest:
+      return !controller;
+    case Service::kHeartbeat:
+    case Service::kTpdo:
+      return controller;
+    default:
+      return false;
+  }
+}
+/// For how long a bus without such frames has no controller: a little more than the period of its
+/// heartbeat.
+inline std::uint32_t quiet_us(const Params& params) {
+  return 1000u * heartbeat_ms(params) + 50'000;
+}
 
 }  // namespace verp::canopen::plan

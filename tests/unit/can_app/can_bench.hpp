@@ -83,6 +83,8 @@ class CanBench {
   SensorNode right{dxl::kModelFoot, kBenchFoot + 1};
   bool down = false;          ///< the bus takes no frame
   bool babble = false;        ///< a stranger answers each SYNC, with the highest priority
+  CanFrame of_other;          ///< another master sends this
+  int others = 0;             ///< so many times, as soon as the wire is free
   std::uint32_t sent = 0;     ///< frames that the bus took
   std::uint64_t bits = 0;     ///< that the wire carried
   std::uint32_t deaf_to = 0;  ///< nobody hears this identifier of the controller
@@ -99,11 +101,16 @@ class CanBench {
   static constexpr int kNodes = kBenchJoints + 4;
   /// Says things that no node of the robot would: short answers, other PDOs, strange identifiers.
   struct Stranger : WireNode {
-    explicit Stranger(const bool& on) : speaks(on) {}
+    explicit Stranger(CanBench& of) : bench(of) {}
     void receive(const CanFrame& frame, std::uint64_t) override {
-      if (frame.id == canopen::kSyncId) says = speaks ? 4 : 0;
+      if (frame.id == canopen::kSyncId) says = bench.babble ? 4 : 0;
     }
     bool next(CanFrame& frame, std::uint64_t) override {
+      if (bench.others > 0) {
+        frame = bench.of_other;
+        --bench.others;
+        return true;
+      }
       if (says == 0) return false;
       constexpr std::uint32_t kIds[] = {0, 0x18B, 0x28C, 0x5FF, 0x7FF};
       frame = canopen::classic_frame(kIds[says], 2);
@@ -111,7 +118,7 @@ class CanBench {
       --says;
       return true;
     }
-    const bool& speaks;
+    CanBench& bench;
     int says = 0;
   };
   static constexpr int kController = -1;
@@ -180,13 +187,13 @@ class CanBench {
       node(i).receive(frame, free_us_);
       if (fate >= 1000 - trouble) node(i).receive(frame, free_us_);
     }
-    if (from == kController || frame.id == lost || gone) return false;
+    if (from == kController || (frame.id == lost && lost != 0) || gone) return false;
     now_us_ = free_us_;
     heard = frame;
     return true;
   }
 
-  Stranger stranger_{babble};
+  Stranger stranger_{*this};
   CanFrame queue_[hal::kCanQueue + 1];
   std::uint64_t due_us_[hal::kCanQueue + 1] = {};
   CanFrame ready_[kNodes];

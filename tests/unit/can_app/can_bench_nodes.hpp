@@ -115,7 +115,7 @@ class PoweredNode : public WireNode {
   }
 
   void receive(const CanFrame& frame, std::uint64_t now_us) override {
-    if (off) return;
+    if (off || overhears(frame)) return;
     const canopen::DeviceEvents events = device.receive(frame, now_us);
     if (events.nmt != canopen::NmtEvent::kResetNode) return;
     ++resets;
@@ -140,12 +140,18 @@ class PoweredNode : public WireNode {
   canopen::Device<Application, kSize> device;
   bool off = false;
   int resets = 0;
+  int missed_resets = 0;  ///< so many it does not hear
 
  protected:
   virtual void on_reset() {}
   virtual void on_abandoned() {}
 
  private:
+  bool overhears(const CanFrame& frame) {
+    const bool is_reset = frame.id == canopen::kNmtId && frame.data[1] == node_ &&
+                          frame.data[0] == static_cast<int>(canopen::NmtCommand::kResetNode);
+    return is_reset && missed_resets > 0 && missed_resets-- > 0;
+  }
   // What a device knows before anybody has told it anything.
   void forget() {
     auto& objects = device.objects();

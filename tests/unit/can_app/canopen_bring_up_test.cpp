@@ -59,6 +59,44 @@ TEST(CanopenBringUp, NamesASilentNodeAndLeavesNobodyStiff) {
   }
 }
 
+// Its reset would drop another controller's robot.
+TEST(CanopenBringUp, SendsNothingWhileSomebodyElseCommandsNodes) {
+  for (const std::uint32_t id : {0x000u, 0x080u, 0x77Fu, 0x1FFu, 0x20Bu, 0x60Bu}) {
+    Loop& loop = test::new_can_loop();
+    loop.bench.of_other = canopen::classic_frame(id, 2);
+    loop.bench.others = 1;
+    const BringUpReport report = loop.servos.bring_up();
+    EXPECT_TRUE(report.status == BringUpStatus::kOccupied) << id;
+    EXPECT_EQ(report.address, id);
+    EXPECT_EQ(loop.bench.sent, 0u) << id;
+    loop.up();  // when the other has gone
+  }
+}
+TEST(CanopenBringUp, IsNotKeptFromItByWhatNodesAndDesksSay) {
+  for (const std::uint32_t id : {0x08Bu, 0x18Bu, 0x58Bu, 0x67Fu, 0x70Bu, 0x7FFu}) {
+    Loop& loop = test::new_can_loop();
+    loop.bench.of_other = canopen::classic_frame(id, 2);
+    loop.bench.others = 1;
+    loop.up();
+  }
+}
+
+// What a controller before it wrote must not stay, its weaker torque above all.
+TEST(CanopenBringUp, ResetsOneAgainThatDidNotHearIt) {
+  Loop& loop = test::new_can_loop();
+  loop.bench.drives[2].missed_resets = 1;
+  loop.up();
+  EXPECT_EQ(loop.bench.drives[2].resets, 1);
+  EXPECT_EQ(loop.bench.drives[1].resets, 1);
+}
+TEST(CanopenBringUp, NamesOneThatAnswersAndCannotBeReset) {
+  Loop& loop = test::new_can_loop();
+  loop.bench.drives[2].missed_resets = 1000;
+  const BringUpReport report = loop.servos.bring_up();
+  EXPECT_TRUE(report.status == BringUpStatus::kNotReset);
+  EXPECT_EQ(report.device_id, 13);
+}
+
 TEST(CanopenBringUp, RefusesAnotherModelAndNamesBoth) {
   Loop& loop = test::new_can_loop();
   loop.bench.params.servo[0].model_number = 4321;
