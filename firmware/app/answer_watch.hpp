@@ -53,6 +53,9 @@ class AnswerWatch {
     if (tardy) --tardy_ticks_;
     owing_ |= owing_since_ | (tardy ? 0 : missed);
     owing_since_ = tardy ? missed : 0;
+    for (int i = 0; i < kSources; ++i) {
+      if ((answered_ & node_bit(i)) == 0) source_[i].times = 0;
+    }
     before_ = fresh_;
     answered_ = fresh_ = spoilt_ = 0;
   }
@@ -92,10 +95,15 @@ class AnswerWatch {
     if (each.group != last_window) move(each, last_window);
   }
 
-  /// Who is to answer this SYNC and has not; those in `given_up` are not waited for.
+  /// Who is to answer this SYNC and has not, or answered it in the last tick in place of another;
+  /// those in `given_up` are not waited for.
   NodeMask due(std::uint8_t window, NodeMask given_up) const {
     NodeMask mask = 0;
-    for (int i = 0; i < kSources; ++i) mask |= source_[i].group == window ? node_bit(i) : 0;
+    for (int i = 0; i < kSources; ++i) {
+      const Source& each = source_[i];
+      const bool again = each.times > 0 && each.heard == window;
+      mask |= each.group == window || again ? node_bit(i) : 0;
+    }
     return mask & planned_ & ~answered_ & ~given_up;
   }
   NodeMask planned() const { return planned_; }

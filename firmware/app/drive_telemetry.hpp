@@ -18,14 +18,18 @@ class DriveTelemetry {
   /// This drive has something to tell: it is asked next.
   void hurry(int joint) { urgent_ = joint; }
 
-  /// The next request; false if there is none. Drives in `busy` are not asked. `missed`: the
-  /// request before was not answered.
+  /// Who has not answered yet.
+  NodeMask asked() const { return asked_ < 0 ? 0 : node_bit(asked_); }
+
+  /// The next request; false if there is none. Drives in `busy` are passed over: by an answer the
+  /// binding knows in each tick that the bus is not late. `missed`: the request before was not
+  /// answered.
   bool next(CanFrame& frame, NodeMask busy, bool& missed) {
     missed = asked_ >= 0;
-    if (missed || !more_) choose();
+    if (missed || !more_ || is_in(busy, joint_)) choose(busy);
     more_ = false;
     asked_ = -1;
-    if (params_.joint_count == 0 || (busy >> joint_ & 1) != 0) return false;
+    if (params_.joint_count == 0 || is_in(busy, joint_)) return false;
     asked_ = joint_;
     at_ = object();
     namespace sdo = canopen::sdo;
@@ -66,10 +70,17 @@ class DriveTelemetry {
  private:
   enum class Part : std::uint8_t { kAll, kVoltage, kError };
 
-  void choose() {
-    joint_ = joint_ + 1 < params_.joint_count ? joint_ + 1 : 0;
-    if (urgent_ >= 0) joint_ = urgent_;
-    urgent_ = -1;
+  static bool is_in(NodeMask mask, int joint) { return (mask & node_bit(joint)) != 0; }
+  void choose(NodeMask busy) {
+    if (urgent_ >= 0 && !is_in(busy, urgent_)) {
+      joint_ = urgent_;
+      urgent_ = -1;
+    } else {
+      for (int i = 0; i < params_.joint_count; ++i) {
+        joint_ = joint_ + 1 < params_.joint_count ? joint_ + 1 : 0;
+        if (!is_in(busy, joint_)) break;
+      }
+    }
     part_ = (plain_ >> joint_ & 1) != 0 ? Part::kVoltage : Part::kAll;
   }
   canopen::Address object() const {

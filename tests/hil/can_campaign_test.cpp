@@ -51,7 +51,7 @@ const std::vector<Kind>& kinds() {
       {{"lost_0_1_percent_physics", 2, {.lost = 0.1 * kPercent}, Event::kNone, {}, 0, 3, true},
        {lost_few},
        true},
-      {{"lost_0_1_percent", 9, {.lost = 0.1 * kPercent}}, {lost_few}},
+      {{"lost_0_1_percent", 40, {.lost = 0.1 * kPercent}}, {lost_few}},
       {{"lost_1_percent", 7, {.lost = kPercent}}, {lost_many}},
       {{"missed_by_one", 10, {.missed = 0.02 * kPercent}}, {missed}},
       {{"doubled", 8, {.doubled = kPercent}}, {doubled}},

@@ -34,6 +34,24 @@ TEST(AnswerWatch, ALateAnswerOfTheTickBeforeDoesNotCountWhereverItComes) {
   }
 }
 
+// Where nobody waits, an answer is read a window later, and seems to move again.
+TEST(AnswerWatch, IsAlsoWaitedForWhereItCameInThePlaceOfItsOwn) {
+  AnswerWatch watch = watch_of_group(5);
+  watch.begin();
+  EXPECT_TRUE(watch.take(kNode, 5) == Answer::kFresh);
+  watch.begin();
+  EXPECT_EQ(watch.due(1, 0), 0u);
+  watch.begin();
+  EXPECT_TRUE(watch.take(kNode, 1) == Answer::kOld);
+  EXPECT_EQ(watch.due(1, 0), 0u) << "it has answered";
+  watch.begin();
+  EXPECT_EQ(watch.due(1, 0), node_bit(kNode));
+  EXPECT_EQ(watch.due(5, 0), node_bit(kNode)) << "here, too, until it is known";
+  EXPECT_EQ(watch.due(2, 0), 0u);
+  watch.begin();
+  EXPECT_EQ(watch.due(1, 0), 0u) << "once only: nothing came there";
+}
+
 TEST(AnswerWatch, OfTwoAnswersInATickNobodyKnowsWhichIsOld) {
   AnswerWatch watch = watch_of_group(2);
   watch.begin();
@@ -140,6 +158,28 @@ TEST(SyncRepair, ADriveThatMissedASyncIsBroughtBackToItsOwnWhileItHoldsTorque) {
 }
 
 // Whoever aborts for another reason has the object, and its temperature is worth having.
+// Nodes that are set up again take turns as telemetry does: who waited for one of them would ask
+// nobody as long as they do, and nobody would know that the bus is prompt.
+TEST(DriveTelemetry, PassesOverWhoIsBusy) {
+  Params params;
+  params.joint_count = 5;
+  for (int j = 0; j < 5; ++j) params.joint[j].servo_id = static_cast<std::uint8_t>(11 + j);
+  DriveTelemetry telemetry(params);
+  std::uint8_t last = 0;
+  for (int tick = 0; tick < 20; ++tick) {
+    CanFrame request;
+    bool missed = false;
+    const int busy = (tick + 1) % 5;
+    ASSERT_TRUE(telemetry.next(request, node_bit(busy), missed)) << tick;
+    EXPECT_NE(request.id, std::uint32_t{canopen::sdo_request_id(params.joint[busy].servo_id)});
+    EXPECT_NE(static_cast<std::uint8_t>(request.id), last) << "in turn";
+    last = static_cast<std::uint8_t>(request.id);
+  }
+  CanFrame request;
+  bool missed = false;
+  EXPECT_FALSE(telemetry.next(request, node_bit(5) - 1, missed)) << "all are";
+}
+
 TEST(DriveTelemetry, OnlyADriveWithoutTheObjectIsAskedForAnother) {
   using canopen::Abort;
   Params params;
