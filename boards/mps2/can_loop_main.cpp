@@ -71,7 +71,13 @@ int run(Desk& desk, std::uint32_t ticks) {
   if (app.bring_up().status != verp::app::BringUpStatus::kReady) {
     return fail("loop: a device of the robot did not come up\n");
   }
-  for (std::uint32_t n = 0; n < ticks && !bus.stopped(); ++n) app.tick();
+  for (std::uint32_t n = 0; n < ticks && !bus.stopped(); ++n) {
+    app.tick();
+    node.report({.bus = app.counters(),
+                 .bus_crc_errors = app.crc_errors(),
+                 .bus_noise_bytes = app.noise_bytes(),
+                 .efforts = app.efforts()});
+  }
   const verp::hal::CanErrors errors = can.errors();
   if (errors.overruns != 0) return fail("loop: the CAN controller lost frames\n");
   return desk.kept ? 0 : fail("loop: the records can't be written\n");

@@ -134,7 +134,8 @@ struct Board {
                             .bus_noise_bytes = loop.noise_bytes(),
                             .skipped_periods = skipped_periods,
                             .imu_faults = imu.faults(),
-                            .battery_tenth_v = tenth_v(battery.poll_mv())});
+                            .battery_tenth_v = tenth_v(battery.poll_mv()),
+                            .efforts = loop.efforts()});
   }
 
   static std::uint16_t tenth_v(std::uint32_t mv) {

@@ -266,6 +266,9 @@ inline constexpr Register kTable[] = {
     r(1258, "inputs_flags", u16, "bits", "of the last tick: InputFlag; on CAN also 256 IMU counts in parts, and from 4096 on the number of parts"),
     r(1260, "tick_low", u16, "ticks", "low half of tick"),
     r(1264, "inputs_part", u64, "", "on CAN: one part of the last tick's Inputs: half its offset, its size, up to 6 bytes"),
+    // The joints once more.
+    r(1272, "joint_velocity", i32, "counts/s", "as each drive told last (606Ch); CiA 402 only", kMaxJoints),
+    r(1400, "joint_torque", i16, "0.1 %", "of the rated torque, as each drive told last (6077h); CiA 402 only", kMaxJoints),
 };
 // clang-format on
 }  // namespace row

@@ -62,6 +62,7 @@ class App {
   const BusCounters& counters() const { return servos_.counters(); }
   std::uint32_t crc_errors() const { return servos_.damaged(); }
   std::uint32_t noise_bytes() const { return servos_.noise(); }
+  const JointEffort* efforts() const { return servos_.efforts(); }
 
  private:
   // Ticks are counted on the clock that paces them, or else on bus time, at the end of the first

@@ -36,7 +36,7 @@ constexpr std::uint32_t window_us(const Params& params, std::uint8_t group) {
 }
 
 /// Frames that the controller sends at the end of a tick, at most: all goals, controlwords and
-/// strengths, two SDO requests, a heartbeat and an NMT command.
+/// strengths, two SDO requests, a heartbeat or a third one, and an NMT command.
 constexpr std::uint32_t most_sent(int joints) {
   Params params;
   params.joint_count = static_cast<std::uint8_t>(joints);

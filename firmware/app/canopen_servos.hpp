@@ -11,6 +11,7 @@
 #include "firmware/app/can_schedule.hpp"
 #include "firmware/app/canopen_bring_up.hpp"
 #include "firmware/app/doubted_drives.hpp"
+#include "firmware/app/drive_efforts.hpp"
 #include "firmware/app/drive_telemetry.hpp"
 #include "firmware/app/drive_writer.hpp"
 #include "firmware/app/node_renewal.hpp"
@@ -82,9 +83,9 @@ class CanopenServos {
     if (!answers_.all_owe()) busy |= doubts_.silent();  // else anybody's answer is worth having
     if (!stopped && telemetry_.next(frame, busy, missed)) master_.send(frame);
     if (missed) ++master_.counters.timeouts;
-    if (heartbeat_.next(master_.now_us(), canopen::NmtState::kOperational, frame)) {
-      master_.send(frame);
-    }
+    // A heartbeat or a question, never both: what a tick sends has to find room.
+    const bool beat = heartbeat_.next(master_.now_us(), canopen::NmtState::kOperational, frame);
+    if (beat || efforts_.next(frame, busy | telemetry_.asked())) master_.send(frame);
   }
 
   const BusCounters& counters() const { return master_.counters; }
@@ -93,6 +94,7 @@ class CanopenServos {
     const hal::CanErrors errors = master_.errors();
     return errors.overruns + errors.dropped;
   }
+  const JointEffort* efforts() const { return efforts_.efforts(); }
 
  private:
   static constexpr int kMostWaiting = 64;   ///< frames read before a tick: no babbler holds it
@@ -200,7 +202,9 @@ class CanopenServos {
       --hurries_;
       renewal_.proceed(master_);
     } else {
-      if (!is_joint(slot) || !telemetry_.receive(slot, frame)) return false;
+      if (!is_joint(slot)) return false;
+      if (efforts_.receive(slot, frame)) return true;  // may be ticks old, and prompts nobody
+      if (!telemetry_.receive(slot, frame)) return false;
       if (window_ <= 1) answers_.prompt();
     }
     return true;
@@ -271,6 +275,7 @@ class CanopenServos {
   DoubtedDrives doubts_{params_};
   NodeRenewal renewal_{params_};
   DriveTelemetry telemetry_{params_};
+  DriveEfforts efforts_{params_};
   SyncRepair repair_{params_};
   SensedCounts sensed_;
   NodeMask present_ = 0;

@@ -8,6 +8,7 @@
 #include "common/record/tick_record.hpp"
 #include "firmware/app/bring_up_report.hpp"
 #include "firmware/app/bus_counters.hpp"
+#include "firmware/app/joint_effort.hpp"
 
 /// What the control loop needs: servos in some protocol, somebody who gives orders, somebody who
 /// keeps the record, and perhaps a clock.
@@ -27,6 +28,7 @@ namespace verp::app {
 ///  - now_us(): bus time. After read_positions(), when that ended.
 ///  - counters(), damaged(), noise(): what went wrong so far; damaged: packets or frames that came
 ///    in pieces; noise: bytes or frames that came to nothing.
+///  - efforts(): of kMaxJoints joints, from time to time; null: this protocol does not tell.
 /// A lost, late or foreign answer never blocks a tick beyond its timeout and never counts as an
 /// answer. No call allocates.
 template <class Servos>
@@ -43,6 +45,7 @@ concept ServoBinding = requires(Servos& servos, const Servos& seen, Inputs& inpu
   { seen.counters() } -> std::same_as<const BusCounters&>;
   { seen.damaged() } -> std::same_as<std::uint32_t>;
   { seen.noise() } -> std::same_as<std::uint32_t>;
+  { seen.efforts() } -> std::same_as<const JointEffort*>;
 };
 
 /// What an operator may put into one tick's Inputs.

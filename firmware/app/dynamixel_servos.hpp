@@ -99,6 +99,8 @@ class DynamixelServos {
   const BusCounters& counters() const { return master_.counters(); }
   std::uint32_t damaged() const { return master_.crc_errors(); }
   std::uint32_t noise() const { return master_.noise_bytes(); }
+  /// Not asked for: a tick's bytes are for positions.
+  const JointEffort* efforts() const { return nullptr; }
 
  private:
   enum Slot : std::uint8_t { kImuSlot = 0, kFootSlot = 1, kServoSlot = kFootSlot + kFeet };

@@ -8,6 +8,7 @@
 #include "firmware/app/bring_up_report.hpp"
 #include "firmware/app/bus_counters.hpp"
 #include "firmware/app/device_watch.hpp"
+#include "firmware/app/joint_effort.hpp"
 #include "firmware/app/register_image.hpp"
 #include "hal/contract/byte_link.hpp"
 
@@ -20,7 +21,8 @@ struct LoopHealth {
   std::uint32_t bus_noise_bytes = 0;
   std::uint32_t skipped_periods = 0;  ///< without a tick: Deadlines::skipped
   std::uint32_t imu_faults = 0;
-  std::uint16_t battery_tenth_v = 0;  ///< as the board measures it; 0: it doesn't
+  std::uint16_t battery_tenth_v = 0;     ///< as the board measures it; 0: it doesn't
+  const JointEffort* efforts = nullptr;  ///< of each joint; null: its bus does not tell
 };
 
 /// Writes what can be read of a tick into the register image.
@@ -96,6 +98,10 @@ class TickReport {
     devices_.bus_errors(health.bus_crc_errors + bus.timeouts + bus.refused);
     battery_tenth_v_ = health.battery_tenth_v;
     if (battery_tenth_v_ != 0) image_.set(reg("battery_voltage"), battery_tenth_v_);
+    for (int j = 0; health.efforts != nullptr && j < params_.joint_count; ++j) {
+      image_.set(element(reg("joint_velocity"), j, 4), health.efforts[j].velocity);
+      image_.set(element(reg("joint_torque"), j, 2), health.efforts[j].torque);
+    }
   }
 
   void link(std::uint32_t crc_errors, const hal::LinkErrors& errors) {

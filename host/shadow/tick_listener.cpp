@@ -108,6 +108,8 @@ void TickListener::take_request(int joint, const CanFrame& frame) {
   namespace sdo = canopen::sdo;
   if (frame.size != sdo::kFrameBytes || sdo::specifier_of(frame) != sdo::request::kUpload) return;
   const canopen::Address at = sdo::address_of(frame);
+  namespace object = canopen::cia402::object;
+  if (!(at == plan::kTelemetry || at == object::kDcLinkVoltage || at == object::kErrorCode)) return;
   if (asked_.joint != joint) asked_.told = {.joint = static_cast<std::uint8_t>(joint)};
   asked_.joint = joint;
   asked_.index = at.index;

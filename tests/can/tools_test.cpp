@@ -242,7 +242,7 @@ TEST_F(CanTools, TsharkReadsAWalkAsWeSayItIs) {
   EXPECT_TRUE(some(0, frames.size(), "EMCY").empty());
 
   State state;
-  std::size_t driven = 0;
+  std::size_t driven = 0, uploads = 0, velocities = 0, torques = 0;
   Frames telemetry;
   for (std::size_t i = 0; i + 1 < trace.ticks.size() && !HasFailure(); ++i) {
     const std::size_t from = at[i], to = at[i + 1];
@@ -258,8 +258,10 @@ TEST_F(CanTools, TsharkReadsAWalkAsWeSayItIs) {
       ++driven;
     }
     for (const Decoded& each : some(from, to, "Default-SDO (tx): Initiate upload")) {
-      EXPECT_EQ(each.index, plan::kTelemetry.index);
-      telemetry.push_back(each);
+      ++uploads;
+      if (each.index == plan::kTelemetry.index) telemetry.push_back(each);
+      velocities += each.index == 0x606C ? 1 : 0;
+      torques += each.index == 0x6077 ? 1 : 0;
     }
     // The answer to the last request: the one to the next may have come, too.
     if ((inputs.flags & kSlowFresh) != 0) {
@@ -272,6 +274,9 @@ TEST_F(CanTools, TsharkReadsAWalkAsWeSayItIs) {
   EXPECT_GT(driven, 80u);
   expect_heartbeats(at.front(), at[trace.ticks.size() - 1]);
   EXPECT_GT(telemetry.size(), trace.ticks.size() / 2);
+  EXPECT_EQ(uploads, telemetry.size() + velocities + torques) << "nothing else is asked";
+  EXPECT_GT(velocities, trace.ticks.size() / (3 * plan::kEffortTicks));
+  EXPECT_GT(torques, trace.ticks.size() / (3 * plan::kEffortTicks));
 }
 
 // Others' frames are no controller's: not a bit of the walk is another.

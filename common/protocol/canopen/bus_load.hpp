@@ -31,6 +31,9 @@ struct FrameBits {
   constexpr FrameBits operator*(std::uint32_t times) const {
     return {nominal * times, data * times};
   }
+  constexpr FrameBits operator/(std::uint32_t parts) const {
+    return {(nominal + parts - 1) / parts, (data + parts - 1) / parts};
+  }
   constexpr bool operator==(const FrameBits&) const = default;
 };
 

@@ -41,8 +41,9 @@ class TickLoad {
     const bool change = kind == TickKind::kChange;
     sum += change ? all(kWords) : one(kWords);
     if (change) sum += all(kStrengths);
-    sum += of(sdo::kFrameBytes) * 2;  // one drive's telemetry, asked for and given
-    sum += of(1);                     // the controller's heartbeat
+    sum += of(sdo::kFrameBytes) * 2;                 // one drive's telemetry, asked for and given
+    sum += of(sdo::kFrameBytes) * 2 / kEffortTicks;  // one drive's velocity or torque
+    sum += of(1);                                    // the controller's heartbeat
     return sum;
   }
   /// What the controller tells of each tick (published_tick.hpp) comes on top.

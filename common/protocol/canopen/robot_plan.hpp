@@ -51,6 +51,9 @@ struct Telemetry {
   constexpr bool operator==(const Telemetry&) const = default;
 };
 
+/// Once in so many ticks one drive is asked for its velocity or torque.
+inline constexpr std::uint8_t kEffortTicks = 4;
+
 /// Frames that may answer one SYNC. An SJA1000 has 64 bytes for received frames; a classic frame
 /// of eight bytes takes eleven of them.
 inline constexpr int kAnswersToOneSync = 5;

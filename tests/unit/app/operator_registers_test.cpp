@@ -182,6 +182,20 @@ TEST(OperatorReport, CountsWhatWentWrong) {
   EXPECT_EQ(bench.value<std::uint32_t>(reg("link_framing")), 1u);
 }
 
+TEST(OperatorReport, ShowsHowJointsMoveAndPushIfTheirBusTells) {
+  Bench<>& bench = fresh_bench();
+  JointEffort efforts[kMaxJoints];
+  for (int j = 0; j < kMaxJoints; ++j) {
+    efforts[j] = {-1000 * j, static_cast<std::int16_t>(-j)};
+  }
+  bench.device.report({.efforts = efforts});
+  bench.device.report({});
+  for (int j = 0; j < kRobot.joint_count; ++j) {
+    EXPECT_EQ(bench.value<std::int32_t>(element(reg("joint_velocity"), j, 4)), -1000 * j);
+    EXPECT_EQ(bench.value<std::int16_t>(element(reg("joint_torque"), j, 2)), -j);
+  }
+}
+
 TEST(OperatorDevices, HaveStateRateAgeAndErrors) {
   Bench<>& bench = fresh_bench();
   constexpr int kSilent = 4;

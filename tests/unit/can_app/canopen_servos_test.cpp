@@ -160,6 +160,56 @@ TEST(CanopenServos, TellsTheTelemetryOfOneDriveATickInTurn) {
   EXPECT_EQ(seen, kAll);
 }
 
+TEST(CanopenServos, TellsEachDrivesVelocityAndTorqueInTurnWithItsTelemetry) {
+  Loop& loop = test::new_can_loop();
+  loop.up();
+  for (int j = 0; j < kBenchJoints; ++j) {
+    auto& objects = loop.bench.drives[j].application.objects;
+    objects.actual_velocity = j % 2 == 0 ? -100'000 * j : 100'000 * j;
+    objects.actual_torque = static_cast<std::int16_t>(-7 * j);
+  }
+  // Never both of them and a heartbeat: that costs a question a few ticks.
+  int told = 0, ticks = 2 * kBenchJoints * (canopen::plan::kEffortTicks + 1);
+  for (int i = 0; i < ticks; ++i) {
+    loop.tick();
+    told += (loop.inputs.flags & kSlowFresh) != 0 ? 1 : 0;
+  }
+  EXPECT_GE(told, ticks - 1) << "telemetry has lost no turn to it";
+  for (int j = 0; j < kBenchJoints; ++j) {
+    const auto& objects = loop.bench.drives[j].application.objects;
+    EXPECT_EQ(loop.servos.efforts()[j].velocity, objects.actual_velocity) << j;
+    EXPECT_EQ(loop.servos.efforts()[j].torque, objects.actual_torque) << j;
+  }
+}
+TEST(CanopenServos, TellsTheOthersVelocityAndTorqueWhileOneDriveIsGone) {
+  Loop& loop = test::new_can_loop();
+  loop.up();
+  for (test::DriveNode& drive : loop.bench.drives) {
+    drive.application.objects.actual_velocity = 1000;
+    drive.application.objects.actual_torque = 50;
+  }
+  loop.bench.drives[2].off = true;
+  loop.run(4 * kBenchJoints * (canopen::plan::kEffortTicks + 1));
+  for (int j = 0; j < kBenchJoints; ++j) {
+    const JointEffort expected = j == 2 ? JointEffort{} : JointEffort{1000, 50};
+    EXPECT_EQ(loop.servos.efforts()[j], expected) << j;
+  }
+}
+TEST(CanopenServos, AsksADriveWithAnEmergencyFirstInAnyRound) {
+  for (int ticks = 1; ticks < 3 * kBenchJoints; ++ticks) {
+    Loop& loop = test::new_can_loop();
+    loop.enable();
+    loop.run(ticks);
+    loop.bench.drives[4].fail(canopen::ErrorCode::kOverTemperature, true);
+    bool told = false;
+    for (int i = 0; i < 4 && !told; ++i) {
+      loop.tick();
+      told = (loop.inputs.flags & kSlowFresh) != 0 && loop.inputs.slow_joint == 4;
+    }
+    EXPECT_TRUE(told) << ticks;
+  }
+}
+
 // A vendor's drive has its voltage and its error code where CiA 402 has them.
 TEST(CanopenServos, TakesVoltageAndErrorOfADriveWithoutOurObject) {
   Loop& loop = test::new_can_loop();
