@@ -157,7 +157,6 @@ TEST(SyncRepair, ADriveThatMissedASyncIsBroughtBackToItsOwnWhileItHoldsTorque) {
   EXPECT_EQ(times_on(loop, kNode), before + 1) << "once was enough: it is where it should be";
 }
 
-// Whoever aborts for another reason has the object, and its temperature is worth having.
 // Nodes that are set up again take turns as telemetry does: who waited for one of them would ask
 // nobody as long as they do, and nobody would know that the bus is prompt.
 TEST(DriveTelemetry, PassesOverWhoIsBusy) {
@@ -180,6 +179,7 @@ TEST(DriveTelemetry, PassesOverWhoIsBusy) {
   EXPECT_FALSE(telemetry.next(request, node_bit(5) - 1, missed)) << "all are";
 }
 
+// Whoever aborts for another reason has the object, and its temperature is worth having.
 TEST(DriveTelemetry, OnlyADriveWithoutTheObjectIsAskedForAnother) {
   using canopen::Abort;
   Params params;
