@@ -16,7 +16,7 @@ struct MemoryMap {
 /// what this reader does not understand.
 MemoryMap read_memory_map(const std::string& board);
 
-/// The same of any file: symbols verp_{code,params,actions}_{begin,bytes} and MEMORY's FLASH and
+/// The same of any file: symbols verp_{params,actions}_{begin,bytes} and MEMORY's FLASH and
 /// RAM, each a number, a name or `DEFINED(x) ? a : b`, of which b holds for images that are
 /// flashed.
 MemoryMap parse_memory_map(const std::filesystem::path& file);
