@@ -6,6 +6,8 @@ function(verp_add_stm32_image image way)
   add_executable(${image} ${VERP_STM32_DIR}/loop_main.cpp ${VERP_STM32_DIR}/hardware.cpp ${VERP_STM32_DIR}/end.cpp)
   target_include_directories(${image} PRIVATE ${CMAKE_CURRENT_SOURCE_DIR} ${VERP_STM32_DIR}/${way})
   target_link_libraries(${image} PRIVATE verp_boot verp_app verp_core verp_warnings)
+  # Flash is what is short here, not time: a tick's reckoning is verp_core's, which keeps its flags, and the rest mostly waits.
+  target_compile_options(${image} PRIVATE -Os)
   target_link_options(${image} PRIVATE -T ${CMAKE_CURRENT_SOURCE_DIR}/memory.ld)
   set_target_properties(${image} PROPERTIES
     SUFFIX .elf
@@ -30,7 +32,7 @@ function(verp_add_stm32_loop)
   verp_add_dry_run_test()
 endfunction()
 
-# loop_can_<board> for one on CAN: both in one image are more than the flash in front of what is kept there.
+# loop_can_<board> for one on CAN: both in one image would all but fill the flash in front of what is kept there.
 function(verp_add_stm32_can_loop)
   verp_add_stm32_image(loop_can_${VERP_BOARD} can)
   verp_add_budget_test(budget.${VERP_BOARD}.can loop_can_${VERP_BOARD})
