@@ -47,6 +47,7 @@ constexpr std::uint64_t kLastWords_us = 40'000;
 using app::table::StartFault;
 using Ticks = app::TickLog<app::ParamsImages>;
 using Operator = app::OperatorDevice<OperatorPort, Ticks>;
+using Node = RobotNode<Port, Ticks>;
 
 struct Board {
   Board(const Start& start, const Params& params, control::BootVerdict verdict)
@@ -54,7 +55,8 @@ struct Board {
         guard(dog, start.clocks.source != stm32::ClockSource::kAbsent),
         kept(dog, *reinterpret_cast<const ParamsImage*>(verp_params_begin)),
         imu(params, kept.log),
-        operator_device(operator_port, params, setup(start, verdict), ticks_kept) {
+        operator_device(operator_port, params, setup(start, verdict), ticks_kept),
+        node(robot_port, params, operator_device.registers(), ticks_kept) {
     imu.open(start);
     pins.open();
     supply.open();
@@ -118,6 +120,7 @@ struct Board {
     ticked_us = timer.now_us();
     if (++ticks == kSettledTicks) boot::forget_crashes();
     operator_device.record(record, state, outputs);
+    node.tell(record.inputs);
     say(signals.after_tick(timer.now_us(), outputs.faults));
   }
   static void say(const app::Tone& tone) {
@@ -151,6 +154,7 @@ struct Board {
   ServoPower<Io> supply{kServoPower, kEmergencyStop};
   Ticks ticks_kept{kept.images};  ///< beside what is kept in flash
   Operator operator_device;
+  Node node;
   app::WithPanel<Operator, PanelPins<Io>> panel{operator_device, pins, kEmergencyStop.exists()};
   app::Signals signals;
   app::LifeSign life;
@@ -191,7 +195,7 @@ struct Patience {
 /// may be paused, and goes on with the same bits; all that while its operator can start it anew.
 lockstep::Verdict run_in_lockstep(Board& board, const Params& params) {
   std::uint64_t until_us = timer.now_us() + kGreeting_us;
-  LockstepOn<Port, Patience> bus(robot_port, {board, until_us});
+  LockstepOn<Node::LoopPort, Patience> bus(board.node.port(), {board, until_us});
   const lockstep::Verdict verdict = bus.greet(params);
   if (verdict != lockstep::Verdict::kAccepted) return verdict;
   until_us = kForever_us;
@@ -211,7 +215,8 @@ lockstep::Verdict run_in_lockstep(Board& board, const Params& params) {
 /// bytes back.
 void run_in_real_time(Board& board, Servos& servos, const Params& params, std::uint32_t held_us) {
   bool ticking = false;
-  RealTimeOn<Port, Timer, UntilTicks> way(robot_port, timer, {board, ticking}, held_us);
+  RealTimeOn<Node::LoopPort, Timer, UntilTicks> way(board.node.port(), timer, {board, ticking},
+                                                    held_us);
   app::App loop(params, way.bus(), board.panel, board, board.imu.chip());
   if (!board.is_up(loop.bring_up())) return;
   board.idle();

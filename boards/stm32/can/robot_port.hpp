@@ -5,6 +5,7 @@
 #include "common/model/params.hpp"
 #include "common/protocol/canopen/nmt.hpp"
 #include "firmware/app/lockstep_can.hpp"
+#include "firmware/app/operator_node.hpp"
 #include "hal/chip/stm32/bxcan.hpp"
 #include "hal/chip/stm32/clock_gate.hpp"
 
@@ -46,6 +47,15 @@ struct RobotWiring {
       port.send(canopen::nmt_frame(canopen::NmtCommand::kResetNode, 0));
     }
   }
+};
+
+/// The controller as a node there, which tells of each tick: the port, to its loop.
+template <class Port, class Store>
+class RobotNode : public app::OperatorNode<Port, Store> {
+ public:
+  using LoopPort = RobotNode;
+  using app::OperatorNode<Port, Store>::OperatorNode;
+  RobotNode& port() { return *this; }
 };
 
 /// At the other end is a twin that says so.

@@ -8,6 +8,7 @@
 #include "common/protocol/dynamixel2.hpp"
 #include "firmware/app/link_bus.hpp"
 #include "firmware/app/lockstep_bus.hpp"
+#include "firmware/app/operator_registers.hpp"
 
 /// The way to a robot on a serial bus: the board's servo port. boards/stm32/can has the other way.
 namespace verp::board {
@@ -34,6 +35,19 @@ struct RobotWiring {
                                                dxl::address::kTorqueEnable, &kOff, sizeof kOff);
     for (int times = 0; times < 3; ++times) port.write(frame, size, 10'000);
   }
+};
+
+/// Here nobody is told of ticks but at the operator's port.
+template <class Port, class Store>
+class RobotNode {
+ public:
+  using LoopPort = Port;
+  RobotNode(Port& port, const Params&, app::OperatorRegisters<Store>&, Store&) : port_(port) {}
+  Port& port() { return port_; }
+  void tell(const Inputs&) {}
+
+ private:
+  Port& port_;
 };
 
 /// At the other end is a twin that says so.

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "board.hpp"
-#include "firmware/app/operator_node.hpp"
+#include "common/protocol/canopen/sdo_client.hpp"
 #include "hal/chip/stm32/tick_timer.hpp"
 #include "robot_port.hpp"
 #include "tests/support/stm32/can_model.hpp"
@@ -111,18 +111,50 @@ TEST(CanPort, TellsAllNodesToBeginAnew) {
   }
 }
 
-// A controller's node may be there before anybody knows of a robot.
+// The node is there before anybody knows of a robot.
 TEST(CanPort, ItsTimeBeginsWhenItIsOpened) {
   Chip chip;
   chip.let_pass(50'000);
   const Params params;
   app::OperatorRegisters<app::NoImages> registers(params, {}, app::no_images);
-  app::OperatorNode<Wiring::Port> node(chip.port, params, registers, app::no_images);
+  RobotNode<Wiring::Port, app::NoImages> node(chip.port, params, registers, app::no_images);
   ASSERT_TRUE(Wiring::open(chip.port, chip.clocks, kBaud));
-  const std::uint64_t begun_us = node.now_us();
+  const std::uint64_t begun_us = node.port().now_us();
   EXPECT_LT(begun_us, 50'000u);
   chip.let_pass(1000);
-  EXPECT_GE(node.now_us() - begun_us, 1000u);
+  EXPECT_GE(node.port().now_us() - begun_us, 1000u);
+}
+
+// Who watches the robot, or asks the controller, needs no other way to it than the robot's bus.
+TEST(CanPort, TellsOfEachTickAndAnswersWhoAsksThere) {
+  Chip chip;
+  ASSERT_TRUE(Wiring::open(chip.port, chip.clocks, kBaud));
+  Params params;
+  params.baud = kBaud;
+  params.period_us = 10'000;
+  app::OperatorRegisters<app::NoImages> registers(params, {}, app::no_images);
+  RobotNode<Wiring::Port, app::NoImages> node(chip.port, params, registers, app::no_images);
+  canopen::SdoClient client(canopen::plan::kControllerNode);
+  std::uint8_t crc[4] = {};
+  client.upload(app::object("model_information"), crc, 4, canopen::SdoClient::Mode::kPlain, 0);
+  CanFrame frame;
+  ASSERT_TRUE(client.next(frame, 0));
+  chip.bus.send(frame);
+  EXPECT_FALSE(node.port().poll(frame, 5000)) << "the loop sees nothing of it";
+  TickRecord record;
+  record.digest.chain = 0x1122334455667788;
+  registers.record(record, State{}, Outputs{});
+  node.tell(record.inputs);
+  chip.let_pass(2000);
+  const auto& sent = chip.bus.sent();
+  ASSERT_EQ(sent.size(), 3u);
+  namespace published = canopen::published;
+  EXPECT_EQ(sent[0].frame.id, canopen::tpdo_id(published::kDigestPdo, node.kNode));
+  EXPECT_EQ(canopen::get_le(sent[0].frame.data, 8), record.digest.chain);
+  EXPECT_EQ(sent[1].frame.id, canopen::tpdo_id(published::kRecordPdo, node.kNode));
+  EXPECT_EQ(sent[2].frame.id, canopen::sdo_response_id(node.kNode));
+  client.receive(sent[2].frame, 0);
+  EXPECT_EQ(canopen::get_le(crc, 4), params_crc(params));
 }
 
 // Nothing else feeds the board's watchdog and its operator during bring-up.
