@@ -12,8 +12,10 @@
 namespace verp::app {
 
 /// The controller as a node: how many PDOs and watched nodes it has, and who it is. It follows no
-/// device profile and has no vendor id of CiA's.
-inline constexpr canopen::DeviceSize kControllerSize{2, 4, 8, 2};
+/// device profile and has no vendor id of CiA's. Its heartbeat is the binding's, which drives
+/// watch.
+inline constexpr canopen::DeviceSize kControllerSize{
+    .rpdos = 2, .tpdos = 4, .watched = 2, .beats = false};
 constexpr canopen::Identity controller_identity() {
   return {.name = "VERP controller", .product = table::kModel, .revision = table::kTableVersion};
 }

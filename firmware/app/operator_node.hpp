@@ -18,10 +18,11 @@ namespace verp::app {
 /// an operator may switch them off and on as any PDO (1801h:1 and the following).
 ///
 /// Nothing here waits, and it sends at the end of a tick only, behind the goals: an SDO answer
-/// takes a tick, and never the loop its time. In lockstep it stands below the twin's clock: what it
-/// sends and gets is no matter of simulated time. `bus`, `params`, `registers` and `images` outlive
-/// it; the registers may be those of an OperatorDevice, which then is the loop's OperatorLink and
-/// Recorder, and has tell() called behind each tick.
+/// takes a tick, and never the loop its time. Before the first one it answers when it is asked. In
+/// lockstep it stands below the twin's clock: what it sends and gets is no matter of simulated
+/// time. `bus`, `params`, `registers` and `images` outlive it; the registers may be those of an
+/// OperatorDevice, which then is the loop's OperatorLink and Recorder, and has tell() called behind
+/// each tick.
 template <hal::CanBus Bus, Images Store = NoImages>
 class OperatorNode {
  public:
@@ -34,11 +35,9 @@ class OperatorNode {
         objects_(registers_, images),
         device_(objects_, controller_identity(), kNode) {
     publish_ticks(device_.objects(), kNode, canopen::plan::has_room_to_publish(params));
+    device_.objects().producer.set_period_ms(canopen::plan::heartbeat_ms(params));
     device_.start();
     constexpr std::uint64_t kBegin_us = 0;  // a bus that is not open yet must not be asked
-    // Its heartbeat, with the boot-up message, is the master's: drives watch it.
-    CanFrame boot_up;
-    device_.next(boot_up, kBegin_us);
     // It is the master that starts nodes, and has nobody to start it.
     device_.receive(canopen::nmt_frame(canopen::NmtCommand::kStart, kNode), kBegin_us);
   }
@@ -49,6 +48,7 @@ class OperatorNode {
     for (int taken = 0; bus_.poll(frame, timeout_us); ++taken) {
       if (!is_for_node(frame)) return true;
       device_.receive(frame, bus_.now_us());
+      if (!ticks_) answer();
       if (taken == kMostTaken) return false;  // no babbler holds the tick
     }
     return false;
@@ -70,6 +70,7 @@ class OperatorNode {
 
   /// The tick is over, and the registers show it.
   void tell(const Inputs& inputs) {
+    ticks_ = true;
     publish(inputs);
     answer();
   }
@@ -134,6 +135,7 @@ class OperatorNode {
   canopen::Device<Objects, kControllerSize> device_;
   canopen::published::Parts parts_;
   Inputs before_;
+  bool ticks_ = false;  ///< there has been one
 };
 
 }  // namespace verp::app

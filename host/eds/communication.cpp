@@ -121,7 +121,7 @@ std::vector<Object> communication_objects(const canopen::DeviceSize& size,
       single(0x1014, {.name = "COB-ID EMCY", .type = u32, .initial = "$NODEID+0x80"}));
   objects.push_back(array(0x1016, "Consumer heartbeat time", size.watched, u32, true));
   objects.push_back(
-      single(0x1017, {.name = "Producer heartbeat time", .type = u16, .writable = true}));
+      single(0x1017, {.name = "Producer heartbeat time", .type = u16, .writable = size.beats}));
   objects.push_back(identity_object(identity));
   objects.push_back(
       single(0x1019, {.name = "Synchronous counter overflow value", .type = u8, .writable = true}));

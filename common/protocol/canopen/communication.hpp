@@ -38,6 +38,7 @@ struct DeviceSize {
   std::size_t tpdos = 1;
   std::size_t entries = 8;  ///< of a mapping: 8 are a classic frame's bytes
   std::size_t watched = 1;  ///< nodes that 1016h can watch
+  bool beats = true;        ///< false: somebody else sends its heartbeat, and 1017h is read-only
 };
 inline constexpr std::size_t kErrorHistory = 4;
 
@@ -169,7 +170,7 @@ class CommunicationObjects {
         number = {4, false, emcy_id(node_)};
         break;
       case 0x1017:
-        number = {2, true, producer.period_ms()};
+        number = {2, kSize.beats, producer.period_ms()};
         break;
       case 0x1019:
         number = {1, true, sync_overflow};

@@ -42,6 +42,7 @@ class Device {
     server_.reset();
     leave_operational();
     emergencies_ = 0;
+    standing_ = 0;
     objects_.producer.restart();
     nmt_.initialised();
   }
@@ -56,7 +57,9 @@ class Device {
       return events;
     }
     std::uint8_t subindex = 0;
-    objects_.consumer.receive(frame, now_us, subindex);
+    if (objects_.consumer.receive(frame, now_us, subindex) == LifeEvent::kAlive) {
+      settle(kMasterSilent);
+    }
     if (!may_sdo(nmt_.state())) return events;
     take_sync(frame, events);
     take_rpdo(frame, events);
@@ -66,7 +69,7 @@ class Device {
 
   /// The next frame to send, if there is one.
   bool next(Frame& frame, std::uint64_t now_us) {
-    if (objects_.producer.next(now_us, nmt_.state(), frame)) return true;
+    if (kSize.beats && objects_.producer.next(now_us, nmt_.state(), frame)) return true;
     if (!may_sdo(nmt_.state())) return false;
     if (emergencies_ > 0) {
       frame = encode_emcy(queue_[0]);
@@ -101,10 +104,13 @@ class Device {
     return true;
   }
   /// An error: its EMCY goes out, and 1001h and 1003h have it. Of more than kErrorHistory that
-  /// wait, the later ones are in 1003h only. Code 0 (all errors are gone) leaves no trace there.
+  /// wait, the later ones are in 1003h only. Code 0 (errors are gone) leaves no trace there.
+  /// `error_register` is the application's part of 1001h; what is wrong with the communication is
+  /// added.
   void report(ErrorCode code, std::uint8_t error_register) {
     const auto number = static_cast<std::uint16_t>(code);
-    if (number != 0) error_register |= kErrorGeneric;  // CiA 301: whatever the error is
+    if (standing_ != 0) error_register |= kErrorCommunication;
+    if (number != 0 || error_register != 0) error_register |= kErrorGeneric;
     objects_.error_register = error_register;
     if (number != 0) objects_.history.push(number);
     if (emergencies_ < kErrorHistory) queue_[emergencies_++] = {node_, number, error_register, {}};
@@ -113,7 +119,7 @@ class Device {
   bool heartbeat_lost(std::uint64_t now_us) {
     std::uint8_t subindex = 0;
     if (!objects_.consumer.next_lost(now_us, subindex)) return false;
-    report(ErrorCode::kHeartbeatLost, error_register(kErrorCommunication));
+    complain(kMasterSilent, ErrorCode::kHeartbeatLost);
     return true;
   }
 
@@ -128,8 +134,22 @@ class Device {
     bool sent = false;
   };
 
-  std::uint8_t error_register(std::uint8_t bit) const {
-    return static_cast<std::uint8_t>(objects_.error_register | kErrorGeneric | bit);
+  /// What may be wrong with the communication.
+  enum Cause : std::uint8_t { kSyncOdd = 1, kPdoOdd = 2, kMasterSilent = 4 };
+  std::uint8_t application_errors() const {
+    return objects_.error_register & ~(kErrorGeneric | kErrorCommunication);
+  }
+  // One EMCY when it begins and one when it is over (CiA 301): a wrong SYNC comes a hundred times a
+  // second.
+  void complain(Cause cause, ErrorCode code) {
+    if ((standing_ & cause) != 0) return;
+    standing_ |= cause;
+    report(code, application_errors());
+  }
+  void settle(Cause cause) {
+    if ((standing_ & cause) == 0) return;
+    standing_ &= static_cast<std::uint8_t>(~cause);
+    report(ErrorCode::kNoError, application_errors());
   }
   void leave_operational() {
     for (Sending& each : sending_) each = Sending();
@@ -140,9 +160,7 @@ class Device {
     const SyncSeen seen = read_sync(frame, objects_.sync_overflow, events.counter);
     if (seen == SyncSeen::kNo) return;
     events.sync = true;
-    if (seen == SyncSeen::kWrongLength) {
-      report(ErrorCode::kSyncLength, error_register(kErrorCommunication));
-    }
+    seen == SyncSeen::kWrongLength ? complain(kSyncOdd, ErrorCode::kSyncLength) : settle(kSyncOdd);
     if (!may_pdo(nmt_.state())) return;
     for (std::size_t i = 0; i < kSize.tpdos; ++i) {
       const auto& record = objects_.tpdos[i];
@@ -178,9 +196,11 @@ class Device {
                      application_.put(at, static_cast<std::uint8_t>(bits), value);
                    });
     if (length == PdoLength::kTooShort) {
-      report(ErrorCode::kPdoTooShort, error_register(kErrorCommunication));
+      complain(kPdoOdd, ErrorCode::kPdoTooShort);
     } else if (length == PdoLength::kTooLong) {
-      report(ErrorCode::kPdoTooLong, error_register(kErrorCommunication));
+      complain(kPdoOdd, ErrorCode::kPdoTooLong);
+    } else {
+      settle(kPdoOdd);
     }
   }
   void make(std::size_t which, Frame& frame) {
@@ -218,6 +238,7 @@ class Device {
   RpdoLatch latches_[kSize.rpdos];
   Emergency queue_[kErrorHistory + 1];
   std::size_t emergencies_ = 0;
+  std::uint8_t standing_ = 0;  ///< Causes
 };
 
 }  // namespace verp::canopen

@@ -247,11 +247,41 @@ TEST(Device, ReportsWhatIsWrongOnTheBus) {
   node.device.receive(classic_frame(kSyncId, 0), 0);
   EXPECT_TRUE(node.device.next(frame, 0));
   EXPECT_TRUE(decode_emcy(frame, emergency));
+  EXPECT_EQ(emergency.code, 0) << "SYNCs are well again";
+  EXPECT_TRUE(node.device.next(frame, 0));
+  EXPECT_TRUE(decode_emcy(frame, emergency));
   EXPECT_EQ(emergency.code, 0x8210);
   EXPECT_EQ(node.drive.objects.controlword, 0) << "not even the part that is there";
   std::uint32_t newest = 0;
   EXPECT_TRUE(node.device.objects().history.read(1, newest) == Abort::kNone);
   EXPECT_EQ(newest, 0x8210u);
+}
+
+// A SYNC that does not fit comes with each tick, to each node: EMCY after EMCY would fill the bus.
+TEST(Device, SaysOnceThatTheCommunicationIsWrongAndOnceThatItIsWell) {
+  Node node;
+  node.operate();
+  Frame frame;
+  Emergency emergency;
+  int said = 0;
+  for (int i = 0; i < 20; ++i) {
+    node.device.receive(classic_frame(kSyncId, i < 10 ? 1 : 0), 0);  // 1019h is 0
+    while (node.device.next(frame, 0)) {
+      if (!decode_emcy(frame, emergency)) continue;
+      ++said;
+      EXPECT_EQ(emergency.code, i < 10 ? 0x8240 : 0);
+      EXPECT_EQ(emergency.error_register, i < 10 ? kErrorGeneric | kErrorCommunication : 0);
+    }
+  }
+  EXPECT_EQ(said, 2);
+  // What is wrong with the drive itself is another matter.
+  node.device.receive(classic_frame(kSyncId, 1), 0);
+  node.device.report(ErrorCode::kOverTemperature, kErrorTemperature);
+  node.device.receive(classic_frame(kSyncId, 0), 0);
+  EXPECT_EQ(node.device.objects().error_register, kErrorGeneric | kErrorTemperature);
+  node.device.receive(classic_frame(kSyncId, 1), 0);
+  node.device.report(ErrorCode::kNoError, 0);
+  EXPECT_EQ(node.device.objects().error_register, kErrorGeneric | kErrorCommunication);
 }
 
 TEST(Device, NoticesAMasterThatFallsSilent) {
