@@ -180,6 +180,9 @@ class CanopenBringUp {
       return expect(id, canopen::plan::kProductCode, imu ? dxl::kModelImu : dxl::kModelFoot);
     }
     if (!expect(id, canopen::plan::kDeviceType, canopen::plan::kDriveProfile)) return false;
+    std::uint32_t vendor = 0;
+    if (!read(id, canopen::plan::kVendor, 4, vendor)) return false;
+    if (vendor != canopen::plan::kOurVendor) report_.foreign_drives |= 1u << slot;
     const std::uint16_t model =
         params_.servo[params_.joint[slot].servo_profile % kServoProfiles].model_number;
     if (model != 0 && !expect(id, canopen::plan::kProductCode, model)) return false;

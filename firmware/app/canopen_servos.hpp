@@ -43,6 +43,7 @@ class CanopenServos {
   BringUpReport bring_up() {
     const BringUpReport report = CanopenBringUp<Bus>(params_, master_).run();
     writer_.set_full(report.full_strength);
+    telemetry_.set_foreign(report.foreign_drives);
     return report;
   }
   void limit_torque(std::uint8_t percent) { writer_.limit_torque(percent); }
@@ -100,7 +101,7 @@ class CanopenServos {
   static constexpr int kMostWaiting = 64;   ///< frames read before a tick: no babbler holds it
   static constexpr int kMostInWindow = 64;  ///< likewise after each SYNC
   /// SDO requests within a tick: each may make a window wait anew for one that is silent.
-  static constexpr std::uint8_t kHurries = 2;
+  static constexpr std::uint8_t kHurries = 3;
   static constexpr std::uint8_t kProbeTicks = 8;  ///< how often silent nodes are waited for again
   static constexpr std::uint16_t kLongSilence = 5000;  ///< ticks; counted no further
   static_assert(most_sent(kMaxJoints) <= hal::kCanQueue);
@@ -185,7 +186,7 @@ class CanopenServos {
       answers_.spoil(joint);
       inputs.fresh &= ~(1u << joint);
     }
-    const bool counts = doubts_.counts(joint, state, writer_.has_torque(joint));
+    const bool counts = doubts_.counts(joint, status, writer_.has_torque(joint));
     if (!counts || worth != Answer::kFresh) return;
     inputs.position_count[joint] = position;
     inputs.fresh |= 1u << joint;

@@ -12,9 +12,10 @@ namespace verp::app {
 ///
 /// A drive that was silent for long, or has sent a boot-up message, is told of no more torque than
 /// it has, and its position does not count, by which the core holds and lets the robot down as for
-/// one that is gone. Its statusword tells what it is: one that holds torque as it was told to has
-/// kept all, and counts again. One that does not, for a fault or because it has rebooted, is set up
-/// again once the robot has been let go, and counts from then on. Sensors are set up at once.
+/// one that is gone. Its statusword tells what it is: one that holds torque as it was told to, and
+/// follows its target, has kept all, and counts again. One that does not, for a fault, because it
+/// has rebooted or because somebody gave it another mode of operation, is set up again once the
+/// robot has been let go, and counts from then on. Sensors are set up at once.
 class DoubtedDrives {
  public:
   explicit DoubtedDrives(const Params& params) : patience_us_(patience_us(params)) {}
@@ -48,16 +49,18 @@ class DoubtedDrives {
     if (is_joint(slot)) limp_ &= ~(1u << slot);
   }
 
-  /// A drive answered in this state. `torque`: it was told to have torque, and had the time to
-  /// obey. True if its position counts.
-  bool counts(int joint, canopen::cia402::State state, bool torque) {
+  /// A drive answered with this statusword. `torque`: it was told to have torque, and had the time
+  /// to obey. True if its position counts.
+  bool counts(int joint, std::uint16_t statusword, bool torque) {
     using canopen::cia402::State;
+    const State state = canopen::cia402::state_of(statusword);
     const std::uint32_t bit = 1u << joint;
-    const bool holds = state == State::kOperationEnabled || state == State::kQuickStopActive;
+    const bool enabled = state == State::kOperationEnabled;
+    const bool follows = enabled && (statusword & canopen::cia402::kFollowsCommand) != 0;
     const bool faulty = state == State::kFault || state == State::kFaultReactionActive;
-    if (torque ? !holds : faulty) {
+    if (torque ? !follows && state != State::kQuickStopActive : faulty) {
       doubted_ |= bit;
-      limp_ |= bit;
+      if (!enabled) limp_ |= bit;
       lost_ |= bit;
     } else if (torque || (lost_ & bit) == 0) {
       doubted_ &= ~bit;

@@ -9,12 +9,15 @@
 namespace verp::app {
 
 /// Slow telemetry: an expedited SDO upload of one drive at the end of each tick, whose answer the
-/// next tick finds. A drive without kTelemetry (it aborts) is asked for its voltage and its error
-/// code instead; it has no temperature to tell, and one without either tells nothing.
+/// next tick finds. A drive without kTelemetry (it aborts, or another maker has something else
+/// there) is asked for its voltage and its error code instead; it has no temperature to tell, and
+/// one without either tells nothing.
 class DriveTelemetry {
  public:
   explicit DriveTelemetry(const Params& params) : params_(params) {}
 
+  /// Those of another maker.
+  void set_foreign(std::uint32_t drives) { plain_ = drives; }
   /// This drive has something to tell: it is asked next.
   void hurry(int joint) { urgent_ = joint; }
 

@@ -13,6 +13,7 @@
 #include "host/can/virtual_can.hpp"
 #include "host/tool/exit_status.hpp"
 #include "host/tool/interrupt.hpp"
+#include "host/tool/robot_loop.hpp"
 #include "host/tool/walk_session.hpp"
 
 namespace verp::tool {
@@ -20,20 +21,10 @@ namespace {
 
 void require_ready(const app::BringUpReport& report, BusProtocol protocol) {
   if (report.status == app::BringUpStatus::kReady) return;
-  constexpr const char* kWhat[] = {"is ready",
-                                   "does not answer",
-                                   "is of another model",
-                                   "refuses a write",
-                                   "does not keep what is written",
-                                   "has a hardware error",
-                                   "is not the only one to be commanded",
-                                   "does not boot when it is reset"};
   const std::string where = protocol == BusProtocol::kCia402
                                 ? fmt::format("object {:04X}h", report.address)
                                 : fmt::format("register {}", report.address);
-  throw ToolError(kNoDevice,
-                  fmt::format("bus: device {} {} ({}); check ids in the model", report.device_id,
-                              kWhat[static_cast<int>(report.status)], where));
+  throw not_up(report, "the twin's bus", where);
 }
 
 template <class Bus>

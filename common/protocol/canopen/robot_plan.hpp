@@ -25,6 +25,10 @@ inline constexpr std::uint16_t kDriveProfile = 402;
 /// 1018h:2, the product code: a drive's is its ServoProfile::model_number (0 there: any), a
 /// sensor's is dxl::kModelImu or dxl::kModelFoot.
 inline constexpr Address kDeviceType{0x1000, 0};
+/// CiA assigns these; we have none. Objects of a maker's own (2000h to 5FFFh) mean what is written
+/// here only on nodes that have none either.
+inline constexpr Address kVendor{0x1018, 1};
+inline constexpr std::uint32_t kOurVendor = 0;
 inline constexpr Address kProductCode{0x1018, 2};
 inline constexpr Address kSyncOverflow{0x1019, 0};
 

@@ -60,8 +60,11 @@ struct DriveApplication {
   bool forgetful = false;  ///< confirms a write of its following window, and keeps none
 
   void refresh() {
-    objects.statusword = drive.statusword(canopen::cia402::kRemote);
-    if (drive.state() == canopen::cia402::State::kOperationEnabled) {
+    const bool enabled = drive.state() == canopen::cia402::State::kOperationEnabled;
+    const bool follows = enabled && objects.mode == canopen::cia402::kModeCyclicPosition;
+    objects.statusword = drive.statusword(static_cast<std::uint16_t>(
+        canopen::cia402::kRemote | (follows ? canopen::cia402::kFollowsCommand : 0)));
+    if (follows) {
       objects.actual_position = objects.target_position;
     }
   }
@@ -177,8 +180,8 @@ class DriveNode : public PoweredNode<DriveApplication> {
  public:
   static constexpr std::uint32_t kProduct = 1234;
   bool stuck = false;  ///< a fault whose cause outlives a reset
-  explicit DriveNode(std::uint8_t node)
-      : PoweredNode({0x00020192, "test drive", 1, kProduct, 1, 1}, node) {
+  explicit DriveNode(std::uint8_t node, std::uint32_t vendor = canopen::plan::kOurVendor)
+      : PoweredNode({0x00020192, "test drive", vendor, kProduct, 1, 1}, node) {
     DriveNode::on_reset();
   }
   canopen::cia402::State state() const { return application.drive.state(); }

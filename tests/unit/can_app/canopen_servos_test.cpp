@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <memory>
+
 #include "common/protocol/canopen/robot_load.hpp"
 #include "firmware/app/app.hpp"
 #include "tests/unit/can_app/can_loop.hpp"
@@ -158,6 +160,26 @@ TEST(CanopenServos, TellsTheTelemetryOfOneDriveATickInTurn) {
     seen |= 1u << j;
   }
   EXPECT_EQ(seen, kAll);
+}
+
+// What stands at 2001h of another maker's drive may be anything.
+TEST(CanopenServos, ADriveOfAnotherMakerIsNotAskedForOurTelemetry) {
+  Loop& loop = test::new_can_loop();
+  test::DriveNode& drive = loop.bench.drives[3];
+  std::destroy_at(&drive);
+  std::construct_at(&drive, std::uint8_t{14}, 0x19Au);
+  drive.application.telemetry = 0xFFFF'FFFF;
+  loop.up();
+  int told = 0;
+  for (int i = 0; i < 4 * kBenchJoints; ++i) {
+    loop.tick();
+    if ((loop.inputs.flags & kSlowFresh) == 0 || loop.inputs.slow_joint != 3) continue;
+    ++told;
+    EXPECT_EQ(loop.inputs.slow_voltage_tenth_v, 123) << "6079h";
+    EXPECT_EQ(loop.inputs.slow_temperature_c, 0);
+    EXPECT_EQ(loop.inputs.slow_error, 0);
+  }
+  EXPECT_GE(told, 2);
 }
 
 TEST(CanopenServos, TellsEachDrivesVelocityAndTorqueInTurnWithItsTelemetry) {

@@ -50,6 +50,24 @@ TEST(CanopenTrouble, ADriveThatWasSetUpAgainRisesNoStrongerThanAllowed) {
   EXPECT_TRUE(loop.all_in(State::kOperationEnabled));
 }
 
+// Enabled, and yet its target moves nothing: somebody gave it another mode of operation.
+TEST(CanopenTrouble, ADriveThatDoesNotFollowItsTargetDoesNotCount) {
+  Loop& loop = test::new_can_loop();
+  loop.enable();
+  test::DriveApplication& drive = loop.bench.drives[2].application;
+  drive.objects.mode = 1;
+  drive.refresh();
+  loop.run(5);
+  EXPECT_EQ(loop.inputs.fresh, kAll & ~kThird);
+  EXPECT_TRUE(drive.drive.powered()) << "what may hold a leg is not told to let go";
+  loop.outputs.torque_enable = 0;
+  loop.run(60);
+  EXPECT_EQ(drive.objects.mode, canopen::cia402::kModeCyclicPosition) << "set up again";
+  loop.enable();
+  loop.run(5);
+  EXPECT_EQ(loop.inputs.fresh, kAll);
+}
+
 // What was written before it rebooted again is gone as well.
 TEST(CanopenTrouble, ADriveThatRebootsWhileItIsSetUpIsSetUpFromTheBeginning) {
   Loop& loop = test::new_can_loop();
@@ -66,17 +84,22 @@ TEST(CanopenTrouble, ADriveThatRebootsWhileItIsSetUpIsSetUpFromTheBeginning) {
   EXPECT_EQ(loop.bench.drives[2].application.objects.mode, canopen::cia402::kModeCyclicPosition);
 }
 
+std::uint16_t status_of(State state) {
+  return canopen::cia402::state_bits(state) | canopen::cia402::kFollowsCommand;
+}
 TEST(DoubtedDrives, OneThatRebootedCountsOnlyWhenItIsSetUpOrStillHolds) {
   DoubtedDrives doubts{Params{}};
   doubts.rebooted(2);
   EXPECT_EQ(doubts.all(), kThird);
-  EXPECT_FALSE(doubts.counts(2, State::kSwitchOnDisabled, false)) << "what it answers with?";
-  EXPECT_FALSE(doubts.counts(2, State::kSwitchOnDisabled, true));
+  EXPECT_FALSE(doubts.counts(2, status_of(State::kSwitchOnDisabled), false))
+      << "what it answers with?";
+  EXPECT_FALSE(doubts.counts(2, status_of(State::kSwitchOnDisabled), true));
   EXPECT_EQ(doubts.limp(), kThird);
   doubts.renewed(2);
-  EXPECT_TRUE(doubts.counts(2, State::kSwitchOnDisabled, false));
+  EXPECT_TRUE(doubts.counts(2, status_of(State::kSwitchOnDisabled), false));
   doubts.rebooted(2);
-  EXPECT_TRUE(doubts.counts(2, State::kOperationEnabled, true)) << "then it was no reboot";
+  EXPECT_TRUE(doubts.counts(2, status_of(State::kOperationEnabled), true))
+      << "then it was no reboot";
   EXPECT_EQ(doubts.all(), 0u);
 }
 
