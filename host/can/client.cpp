@@ -8,7 +8,6 @@
 
 #include "common/protocol/canopen/cob_id.hpp"
 #include "firmware/app/sdo_transfer.hpp"
-#include "host/bus/client.hpp"
 
 namespace verp::can {
 namespace {
@@ -34,10 +33,14 @@ std::string to_text(Address at) {
   return fmt::format("{:04X}:{:X}", at.index, at.subindex);
 }
 
-Client::Client(const wire::Endpoint& endpoint)
-    : own_(std::in_place, endpoint), port_(*own_), master_(port_), place_(to_text(endpoint)) {}
-Client::Client(wire::CanPort& port, const wire::Endpoint& endpoint)
-    : port_(port), master_(port_), place_(to_text(endpoint)) {}
+Client::Client(const wire::Endpoint& endpoint, std::uint32_t timeout_us)
+    : own_(std::in_place, endpoint),
+      port_(*own_),
+      master_(port_),
+      timeout_us_(timeout_us),
+      place_(to_text(endpoint)) {}
+Client::Client(wire::CanPort& port, const wire::Endpoint& endpoint, std::uint32_t timeout_us)
+    : port_(port), master_(port_), timeout_us_(timeout_us), place_(to_text(endpoint)) {}
 
 Abort Client::upload(std::uint8_t node, Address at, int attempts, std::vector<std::uint8_t>& data) {
   Abort why = Abort::kTimeout;
@@ -45,7 +48,7 @@ Abort Client::upload(std::uint8_t node, Address at, int attempts, std::vector<st
     data.resize(kMostBytes);
     SdoClient client(node);
     client.upload(at, data.data(), kMostBytes, SdoClient::Mode::kPlain, master_.now_us());
-    const bool good = app::run_transfer(client, master_);
+    const bool good = app::run_transfer(client, master_, timeout_us_);
     data.resize(good ? client.size() : 0);
     why = good ? Abort::kNone : client.reason();
   }
@@ -55,13 +58,13 @@ Abort Client::upload(std::uint8_t node, Address at, int attempts, std::vector<st
 void Client::fail(std::uint8_t node, Address at, const char* what, Abort why) {
   const std::string head = fmt::format("{}: node {} ", place_, node);
   if (!port_.connected()) {
-    throw bus::DeviceError(
+    throw SilentError(
         fmt::format("{}can't be asked: the interface is down or off the bus; "
                     "see `ip -details link show {}`",
                     head, port_.interface().name));
   }
   if (why == Abort::kTimeout) {
-    throw bus::DeviceError(
+    throw SilentError(
         fmt::format("{}does not answer, asked {} times; check power, wiring, "
                     "termination and bit rate, or see `verp bus scan --link {}`",
                     head, kAttempts, place_));
@@ -84,7 +87,7 @@ void Client::write(std::uint8_t node, Address at, const std::vector<std::uint8_t
     SdoClient client(node);
     client.download(at, data.data(), static_cast<std::uint32_t>(data.size()),
                     SdoClient::Mode::kPlain, master_.now_us());
-    why = app::run_transfer(client, master_) ? Abort::kNone : client.reason();
+    why = app::run_transfer(client, master_, timeout_us_) ? Abort::kNone : client.reason();
   }
   if (why != Abort::kNone) fail(node, at, "write", why);
 }
@@ -94,9 +97,10 @@ bool Client::read_once(std::uint8_t node, Address at) {
   return upload(node, at, 1, data) != Abort::kTimeout;
 }
 
-std::uint32_t Client::number(std::uint8_t node, Address at) {
+std::optional<std::uint32_t> Client::number(std::uint8_t node, Address at) {
   std::vector<std::uint8_t> data;
-  return upload(node, at, kAttempts, data) == Abort::kNone ? to_number(data) : 0;
+  if (upload(node, at, kAttempts, data) != Abort::kNone) return std::nullopt;
+  return to_number(data);
 }
 
 NodeIdentity Client::described(std::uint8_t node, std::uint32_t device_type) {
@@ -116,7 +120,7 @@ std::optional<NodeIdentity> Client::identify(std::uint8_t node, int attempts) {
   return described(node, to_number(type));
 }
 
-std::vector<NodeIdentity> Client::scan(std::uint32_t patience_us) {
+std::vector<NodeIdentity> Client::scan() {
   std::bitset<canopen::kMaxNode + 1> found;
   const auto listen = [&](std::uint32_t time_us) {
     const std::uint64_t end_us = master_.now_us() + time_us;
@@ -133,9 +137,9 @@ std::vector<NodeIdentity> Client::scan(std::uint32_t patience_us) {
     client.upload(kDeviceType, type, sizeof type, SdoClient::Mode::kPlain, master_.now_us());
     CanFrame frame;
     while (client.next(frame, master_.now_us())) master_.send(frame);
-    if (node % kRequestsAtOnce == 0) listen(patience_us / kRequestsAtOnce);
+    if (node % kRequestsAtOnce == 0) listen(timeout_us_ / kRequestsAtOnce);
   }
-  listen(patience_us);
+  listen(timeout_us_);
   std::vector<NodeIdentity> all;
   for (unsigned node = 1; node <= canopen::kMaxNode; ++node) {
     if (!found[node]) continue;

@@ -10,6 +10,9 @@ namespace verp::wire {
 /// goes, or the program, however that ends.
 class CanClaim {
  public:
+  /// Who has the part "watcher", in words: it alone asks the controller's node for its State.
+  static constexpr const char* kWatcher = "`verp shadow`, or `verp hil` without --operator,";
+
   /// Throws LinkError (kBusy) that says who has it, and to end that; `who` plays the part
   /// ("`verp run`").
   CanClaim(const std::string& interface, const std::string& part, const std::string& who);

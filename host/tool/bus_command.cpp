@@ -240,6 +240,23 @@ void add_registers(CLI::App* app, const std::shared_ptr<BusOptions>& options, co
       ->excludes(name);
 }
 
+/// Words that mean something on serial links only, and what is to be done on CAN.
+void refuse_on_can(const std::vector<CLI::App*>& commands) {
+  constexpr struct {
+    const char *word, *instead;
+  } kSerial[] = {{"--each", "on CAN every id is asked anyway"},
+                 {"--address", "on CAN give --object INDEX:SUBINDEX, such as 6064:0"},
+                 {"--size", "on CAN each object knows its own"}};
+  for (const CLI::App* each : commands) {
+    for (const auto& [word, instead] : kSerial) {
+      const CLI::Option* option = each->get_option_no_throw(word);
+      if (option == nullptr || option->count() == 0) continue;
+      throw ToolError(kBadInput,
+                      fmt::format("{} is of devices on serial links; {}", word, instead));
+    }
+  }
+}
+
 }  // namespace
 
 Subcommand add_bus(CLI::App& root) {
@@ -261,7 +278,7 @@ Subcommand add_bus(CLI::App& root) {
   measure->add_option("--for", options->seconds, "how long, s")
       ->transform(number_between(0.1, 3600, "s"))
       ->capture_default_str();
-  measure->add_option("--address", options->bench_address, "what is read")
+  measure->add_option("--address", options->bench_address, "what is read; on CAN it is 1000:0")
       ->check(CLI::Range(0, 0xFFFF))
       ->capture_default_str();
   measure->add_option("--size", options->size, "bytes of it")
@@ -279,6 +296,7 @@ Subcommand add_bus(CLI::App& root) {
       ->check(CLI::IsMember(nodes));
   return {app, [=] {
             const bool can = on_can(*options);
+            if (can) refuse_on_can({find, show, put, measure});
             if (options->id < 0) {
               options->id = can ? canopen::plan::kControllerNode : dxl::controller::kDefaultId;
             }

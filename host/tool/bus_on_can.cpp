@@ -26,22 +26,19 @@ can::NodeIdentity identify(can::Client& client, const BusOptions& options) {
   const auto identity = client.identify(node_of(options));
   if (identity) return *identity;
   throw ToolError(kNoDevice, fmt::format("{}: node {} does not answer, asked {} times; check "
-                                         "power, wiring, termination and bit rate",
+                                         "power, wiring, termination and bit rate, or raise "
+                                         "--timeout",
                                          client.place(), options.id, can::Client::kAttempts));
 }
 
 can::Client open(const BusOptions& options) {
-  if (options.address >= 0) {
-    throw ToolError(kBadInput,
-                    "--address is of devices on serial links; on CAN give --object "
-                    "INDEX:SUBINDEX, such as 6064:0");
-  }
   if (!canopen::is_node(static_cast<unsigned>(options.id))) {
     throw ToolError(kBadInput, fmt::format("--id: {} is no node id of CANopen; give 1 to {}",
                                            options.id, canopen::kMaxNode));
   }
   if (!options.object.empty()) parse_object(options.object);  // before anything is sent
-  return can::Client(wire::parse_endpoint(options.link));
+  return {wire::parse_endpoint(options.link),
+          static_cast<std::uint32_t>(options.timeout_ms * 1000)};
 }
 
 std::string kind_of(const can::NodeIdentity& each) {
@@ -49,9 +46,20 @@ std::string kind_of(const can::NodeIdentity& each) {
   const unsigned profile = each.device_type & 0xFFFF;
   return profile == 0 ? "of no profile" : fmt::format("CiA {}", profile);
 }
+using Told = std::optional<std::uint32_t>;
+Json json_of(const Told& number) {
+  return number ? Json(*number) : Json(nullptr);
+}
+std::string text_of(const Told& number) {
+  return number ? fmt::format("0x{:X}", *number) : "not told";
+}
 Json to_json(const can::NodeIdentity& each) {
-  return {{"id", each.node},         {"device_type", each.device_type}, {"vendor", each.vendor},
-          {"product", each.product}, {"revision", each.revision},       {"name", each.name}};
+  return {{"id", each.node},
+          {"device_type", each.device_type},
+          {"vendor", json_of(each.vendor)},
+          {"product", json_of(each.product)},
+          {"revision", json_of(each.revision)},
+          {"name", each.name}};
 }
 void print(const std::vector<can::NodeIdentity>& found, const BusOptions& options) {
   if (options.json) {
@@ -60,8 +68,9 @@ void print(const std::vector<can::NodeIdentity>& found, const BusOptions& option
     return print_json({{"link", options.link}, {"nodes", nodes}});
   }
   for (const can::NodeIdentity& each : found) {
-    answer(fmt::format("{:3}  {:<24}  type 0x{:08X}  vendor 0x{:X}  product 0x{:X}\n", each.node,
-                       kind_of(each), each.device_type, each.vendor, each.product));
+    answer(fmt::format("{:3}  {:<24}  type 0x{:08X}  vendor {}  product {}\n", each.node,
+                       kind_of(each), each.device_type, text_of(each.vendor),
+                       text_of(each.product)));
   }
 }
 
@@ -74,7 +83,7 @@ bool on_can(const BusOptions& options) {
 
 int scan_can(const BusOptions& options) {
   can::Client client = open(options);
-  const auto found = client.scan(static_cast<std::uint32_t>(options.timeout_ms * 1000));
+  const auto found = client.scan();
   if (found.empty()) {
     throw ToolError(kNoDevice, options.link +
                                    ": no node answers; check power, wiring, termination "
@@ -103,6 +112,8 @@ int read_can(const BusOptions& options) {
     std::vector<std::uint8_t> bytes;
     try {
       bytes = client.read(node_of(options), each.at);
+    } catch (const can::SilentError&) {
+      throw;
     } catch (const bus::DeviceError&) {
       if (!all) throw;  // of all: what can't be read is left out
       continue;

@@ -7,10 +7,12 @@
 
 #include "host/bus/order_sink.hpp"
 #include "host/can/lockstep_server.hpp"
+#include "host/can/other_nodes.hpp"
 #include "host/can/realtime_server.hpp"
 #include "host/can/shadow_loop.hpp"
 #include "host/link/can_claim.hpp"
 #include "host/link/can_port.hpp"
+#include "host/link/link_error.hpp"
 #include "host/link/system_clock.hpp"
 #include "host/shadow/live_check.hpp"
 #include "host/tool/console.hpp"
@@ -39,12 +41,13 @@ class CanHilRun {
             [this](const std::string& line) { say(line); }, [this] { watch_.see(); }),
         server_(plan.params, session_.can(), hooks()),
         realtime_(session_.can()),
+        others_(plan.params),
         params_(plan.params),
         place_(options.link) {
     if (pace_ == HilPace::kRealTime) {
       server_.refuse_lockstep();
     } else if (options.operator_link.empty()) {
-      live_.emplace(params_);
+      watch_live();
     }
   }
 
@@ -58,6 +61,9 @@ class CanHilRun {
     }
     if (live_ && (live_->suspects() || live_->unsettled() > 0)) {
       judge_.fail("not the same bits; the controller's State was not read in time", false);
+    }
+    if (live_ && live_->heard_us() > 0 && live_->compared() == 0 && !interrupted()) {
+      judge_.fail("the controller told of its ticks, and none of them could be compared", false);
     }
     if (!realtime_.kept_up()) {
       judge_.fail(
@@ -82,6 +88,16 @@ class CanHilRun {
   void say(const std::string& line) {
     progress_.clear();
     complain("verp hil: " + line);
+  }
+
+  // One that watches sees the same ticks: two would take each other's answers for their own.
+  void watch_live() {
+    try {
+      watcher_.emplace(port_.interface().name, "watcher", wire::CanClaim::kWatcher);
+      live_.emplace(params_);
+    } catch (const wire::LinkError& busy) {
+      say(std::string(busy.what()) + ", or the walk goes without a check of its own");
+    }
   }
 
   bool over() const {
@@ -125,6 +141,7 @@ class CanHilRun {
     const std::uint32_t wait_us = realtime_.begun() ? kRealTimeTurn_us : kIdle_us;
     const bool came = port_.await(frame, wait_us);
     watch_port();
+    if (came) watch_others(frame);
     answer_.clear();
     if (came && realtime_.begun() && !lockstep::is_clock_frame(frame)) {
       realtime_.hear(frame, port_.now_us(), answer_);
@@ -138,6 +155,13 @@ class CanHilRun {
       listen(each);
     }
     ask();
+  }
+
+  void watch_others(const CanFrame& frame) {
+    others_.take(frame);
+    if (others_.found() == 0) return;
+    judge_.fail("node " + std::to_string(others_.found()) + " of this robot is on " + place_ +
+                " already, beside the twin's; unplug it, or serve the twin on another interface");
   }
 
   // Without its operator's port, what the controller tells of its ticks is all that is known of it.
@@ -192,6 +216,7 @@ class CanHilRun {
     if (pace_ == HilPace::kAuto && clock_us() < heard_us_ + kListen_us) return false;
     server_.refuse_lockstep();
     live_.reset();
+    watcher_.reset();
     start_ns_ = wire::monotonic_ns();
     say("the master does not announce lockstep: the twin runs in real time");
     const RealTime got = become_real_time();
@@ -258,7 +283,9 @@ class CanHilRun {
   HilJudge<can::VirtualCan, can::ShadowLoop> judge_;
   LockstepServer server_;
   can::RealtimeServer realtime_;
+  can::OtherNodes others_;
   const Params& params_;
+  std::optional<wire::CanClaim> watcher_;
   std::optional<shadow::LiveCheck> live_;
   std::string place_;
   std::vector<CanFrame> answer_;

@@ -84,10 +84,11 @@ Json to_json(const HilResult& result) {
 std::string to_text(const HilResult& result) {
   std::string out = fmt::format("  {:<18}{:.0f}, {}\n", "ticks per second", result.ticks_per_s(),
                                 result.real_time ? "in real time" : "in lockstep");
-  if (result.compared > 0) {
-    out += fmt::format("  {:<18}{} ticks told by the controller, all equal to this PC's\n",
-                       "digests", result.compared);
-  }
+  out += result.compared > 0
+             ? fmt::format("  {:<18}{} ticks told by the controller, all equal to this PC's\n",
+                           "digests", result.compared)
+             : fmt::format("  {:<18}none compared{}\n", "digests",
+                           result.real_time ? " in real time; `verp shadow` beside it does" : "");
   if (result.resets > 0) {
     out += fmt::format("  {:<18}{} times; what is told of it is of the last start\n",
                        "controller reset", result.resets);

@@ -102,8 +102,8 @@ bus::NamedRegister NodeObject::as_register() const {
 std::vector<NodeObject> objects_of(const can::NodeIdentity& identity) {
   std::vector<NodeObject> all;
   for (const eds::Entry& each : eds::known_entries({.device_type = identity.device_type,
-                                .vendor = identity.vendor,
-                                .product = identity.product})) {
+                                .vendor = identity.vendor.value_or(0),
+                                .product = identity.product.value_or(0)})) {
     all.push_back({each.at, each.value.name, type_of(each.value.type), each.value.writable});
   }
   return all;

@@ -19,6 +19,9 @@
 
 namespace verp::tool {
 
+/// What an answer may take: the slowest adapter known holds what comes for 16 ms.
+inline constexpr std::uint32_t kAnswer_us = 100'000;
+
 /// What a servo says when it is asked at the end.
 enum class LetGo : std::uint8_t { kYes, kNo, kSilent };
 
@@ -143,10 +146,12 @@ class RobotRun {
                     safety::kModeNames[static_cast<int>(to)], why.empty() ? "" : " (" + why + ")"));
   }
 
-  // What lets go is sent to all and answered by nobody: so each servo is asked.
+  // What lets go is sent to all and answered by nobody: so each servo is asked, unless a person has
+  // no patience with those that are silent.
   void make_sure() {
     for (int j = 0; j < params_.joint_count; ++j) {
-      const LetGo said = robot_.connected() ? robot_.let_go(j) : LetGo::kSilent;
+      const bool asks = robot_.connected() && tool::presses() == presses_;
+      const LetGo said = asks ? robot_.let_go(j) : LetGo::kSilent;
       result_.stiff_servos += said == LetGo::kNo ? 1 : 0;
       result_.silent_servos += said == LetGo::kSilent ? 1 : 0;
     }

@@ -65,7 +65,7 @@ class CanRobot {
       return state == State::kOperationEnabled || state == State::kQuickStopActive;
     };
     try {
-      can::Client client(port_, plan_.link);
+      can::Client client(port_, plan_.link, kAnswer_us);
       if (!holds(client)) return LetGo::kYes;
       client.write(id, object::kControlword, {0, 0});  // disable voltage
       return holds(client) ? LetGo::kNo : LetGo::kYes;
@@ -106,7 +106,7 @@ void refuse_second_controller(wire::CanPort& port, const RunPlan& plan) {
 
 bus::LinkFit check_latency(wire::CanPort& port, const RunPlan& plan) {
   const Params& params = plan.walk.params;
-  can::Client client(port, plan.link);
+  can::Client client(port, plan.link, kAnswer_us);
   const std::optional<std::uint8_t> id = somebody(client, params);
   if (!id && !interrupted()) {
     throw ToolError(kNoDevice, fmt::format("{}: no drive of {} answers; check power, wiring, "
@@ -130,12 +130,13 @@ bus::LinkFit check_latency(wire::CanPort& port, const RunPlan& plan) {
 void check_imu(wire::CanPort& port, const RunPlan& plan) {
   if (!plan.has_imu) return;
   judge_imu(plan, "");
-  can::Client client(port, plan.link);
+  can::Client client(port, plan.link, kAnswer_us);
   const auto found = client.identify(plan.walk.params.imu.device_id);
   if (found && found->product == dxl::kModelImu) return;
-  judge_imu(plan, found ? fmt::format("has product code 0x{:X}, not 0x{:X}", found->product,
-                                      dxl::kModelImu)
-                        : "does not answer");
+  if (!found) return judge_imu(plan, "does not answer");
+  judge_imu(plan, found->product ? fmt::format("has product code 0x{:X}, not 0x{:X}",
+                                               *found->product, dxl::kModelImu)
+                                 : "tells no product code");
 }
 
 RunResult drive(wire::CanPort& port, const RunPlan& plan, const bus::LinkFit& fit,

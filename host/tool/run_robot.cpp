@@ -8,8 +8,6 @@
 namespace verp::tool {
 namespace {
 
-constexpr std::uint32_t kAnswer_us = 100'000;  // the slowest adapter known holds bytes for 16 ms
-
 /// Dynamixel servos at the other end of a link.
 class SerialRobot {
  public:

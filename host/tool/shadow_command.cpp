@@ -7,6 +7,7 @@
 #include <memory>
 #include <thread>
 
+#include "host/link/can_claim.hpp"
 #include "host/link/can_port.hpp"
 #include "host/link/system_clock.hpp"
 #include "host/model/find.hpp"
@@ -53,7 +54,9 @@ class CanSide {
   static constexpr const char* kRemedy =
       "is it running, on this bus, with a node of its own that keeps ticks?";
   CanSide(const std::string& link, const Params& params)
-      : port_(wire::parse_endpoint(link)), check(params) {}
+      : port_(wire::parse_endpoint(link)),
+        claim_(port_.interface().name, "watcher", wire::CanClaim::kWatcher),
+        check(params) {}
   void turn() {
     CanFrame frame;
     if (port_.await(frame, kIdle_us)) check.take(frame, port_.now_us());
@@ -66,6 +69,7 @@ class CanSide {
  private:
   static constexpr std::uint32_t kIdle_us = 20'000;  ///< how long Ctrl-C may have to wait
   wire::CanPort port_;
+  wire::CanClaim claim_;
 
  public:
   shadow::LiveCheck check;

@@ -1,7 +1,11 @@
 #include <gtest/gtest.h>
 
+#include <atomic>
+#include <chrono>
 #include <nlohmann/json.hpp>
+#include <thread>
 
+#include "common/protocol/canopen/nmt.hpp"
 #include "firmware/app/lockstep_can.hpp"
 #include "host/link/can_port.hpp"
 #include "host/model/find.hpp"
@@ -62,6 +66,28 @@ TEST_F(HilOnCan, RefusesAnotherRobot) {
   controller.join();
   EXPECT_EQ(outcome.status, 3) << outcome.err;
   EXPECT_NE(outcome.err.find("Params are not those of generic21"), std::string::npos)
+      << outcome.err;
+}
+
+// A robot whose cable is in as well: its drives would answer the controller, beside the twin's.
+TEST_F(HilOnCan, RefusesNodesThatAreThereAlready) {
+  const std::uint8_t id = params().joint[3].servo_id;
+  std::atomic<bool> over = false;
+  std::thread drive([&] {
+    CanSocket port("can:vcan0");
+    CanFrame heartbeat = canopen::classic_frame(canopen::heartbeat_id(id), 1);
+    heartbeat.data[0] = static_cast<std::uint8_t>(canopen::NmtState::kPreOperational);
+    while (!over) {
+      port.send(heartbeat);
+      std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    }
+  });
+  const Outcome outcome = hil("--for 3");
+  over = true;
+  drive.join();
+  EXPECT_EQ(outcome.status, 3);
+  EXPECT_NE(outcome.err.find("node " + std::to_string(id) + " of this robot is on can:vcan0"),
+            std::string::npos)
       << outcome.err;
 }
 

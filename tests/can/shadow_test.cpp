@@ -11,6 +11,7 @@
 #include "firmware/app/lockstep_can.hpp"
 #include "firmware/app/operator_node.hpp"
 #include "firmware/app/tick_log.hpp"
+#include "host/link/can_claim.hpp"
 #include "host/link/can_port.hpp"
 #include "host/model/find.hpp"
 #include "host/model/load.hpp"
@@ -259,6 +260,20 @@ TEST_F(ShadowOnCan, EndsWellWhenItIsInterruptedAndSaysWhatItKnowsAndThatTheBusIs
   person.join();
   EXPECT_EQ(outcome.status, 0) << outcome.err << outcome.out;
   EXPECT_GE(json::parse(outcome.out).at("compared_ticks"), 20);
+}
+
+// They would take each other's answers for their own: one controller has one SDO server.
+TEST_F(ShadowOnCan, OneAloneAsksAController) {
+  const wire::CanClaim first("vcan0", "watcher", wire::CanClaim::kWatcher);
+  const Outcome second = shadow("--link can:vcan0 --for 1");
+  EXPECT_EQ(second.status, 3);
+  EXPECT_NE(second.err.find("another `verp shadow`, or `verp hil`"), std::string::npos)
+      << second.err;
+  WalkingController controller(generic21(), "");
+  const Outcome hil = verp("hil generic21 --bus can --link can:vcan0 --json --for 3", "hil");
+  EXPECT_EQ(hil.status, 0) << hil.err;
+  EXPECT_NE(hil.err.find("without a check of its own"), std::string::npos) << hil.err;
+  EXPECT_EQ(json::parse(hil.out).at("compared_ticks"), 0);
 }
 
 TEST_F(ShadowOnCan, SaysThatNobodyIsThere) {
