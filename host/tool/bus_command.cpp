@@ -204,8 +204,9 @@ int bench(const BusOptions& options) {
   }
   const wire::Endpoint endpoint = wire::parse_endpoint(options.link);
   if (endpoint.kind == wire::Endpoint::Kind::kSerial) advise_latency(endpoint.place);
+  if (interrupted()) return kRunFailed;
   if (result.good == 0) nobody(options.link + ": no read was answered");
-  return interrupted() ? kRunFailed : kGood;
+  return kGood;
 }
 
 CLI::App* add(CLI::App* bus, const std::shared_ptr<BusOptions>& options, const char* name,

@@ -170,8 +170,9 @@ int bench_can(const BusOptions& options) {
   } else {
     answer(to_text(result));
   }
+  if (interrupted()) return kRunFailed;
   if (result.good == 0) throw ToolError(kNoDevice, options.link + ": no read was answered");
-  return interrupted() ? kRunFailed : kGood;
+  return kGood;
 }
 
 }  // namespace verp::tool

@@ -119,7 +119,7 @@ class CanHilRun {
     result.walk = session_.result(wall_s, judge_.failure());
     result.device_trouble = judge_.device_trouble();
     result.lay_down = session_.verdict().lay_down();
-    result.real_time = realtime_.begun();
+    result.real_time = realtime_.begun() || pace_ == HilPace::kRealTime;
     result.compared = judge_.compared() + (live_ ? live_->compared() : 0);
     result.losses = losses_;
     result.overruns = port_.errors().overruns;
@@ -131,7 +131,7 @@ class CanHilRun {
                        .greetings = counters.greetings};
     const can::RealtimeServer::Counters& real = realtime_.counters();
     result.realtime = {.bytes = 0, .late = real.late, .worst_late_us = real.worst_late_us};
-    if (realtime_.begun())
+    if (result.real_time)
       result.can = CanFrames{real.frames, real.dropped + port_.errors().overruns, real.skipped_us};
     return result;
   }

@@ -139,23 +139,28 @@ int answer_served(const WalkPlan& plan, const WalkOptions& options, const HilRes
   return walk.failure.empty() ? kGood : result.device_trouble ? kNoDevice : kRunFailed;
 }
 
-int run_hil(HilWords words) {
+/// Without an operator's port nobody is told how to walk, and nobody tells what the controller saw.
+void refuse_without_operator(const CLI::App& app) {
+  constexpr const char* kNeedIt[] = {"--record", "--record-state", "--report", "--step",
+                                     "--velocity"};
+  for (const char* word : kNeedIt) {
+    const CLI::Option* option = app.get_option_no_throw(word);
+    if (option == nullptr || option->count() == 0) continue;
+    throw ToolError(kBadInput,
+                    fmt::format("verp hil: {} needs --operator, which alone takes orders to the "
+                                "controller and brings what it tells; give it or leave out {}",
+                                word, word));
+  }
+}
+
+int run_hil(const CLI::App& app, HilWords words) {
   WalkOptions& options = words.walk;
   options.board = words.hil.link;
-  if (words.hil.operator_link.empty() && !options.record_file.empty()) {
-    throw ToolError(kBadInput,
-                    "verp hil: a trace needs the controller's inputs, which only --operator "
-                    "brings; give it or leave out --record");
-  }
   const WalkPlan plan = make_plan(options);
   check(words, plan.params);
   const bool tells = !words.hil.operator_link.empty();
+  if (!tells) refuse_without_operator(app);
   if (tells && options.report_folder.empty() && !options.json) options.report_folder = "report";
-  if (!tells && !options.report_folder.empty()) {
-    throw ToolError(kBadInput,
-                    "verp hil: a report needs the controller's outputs, which only --operator "
-                    "brings; give it or leave out --report");
-  }
   WalkFiles files(options, plan);
   Progress progress(!options.json);
   const HilResult result =
@@ -187,9 +192,9 @@ Subcommand add_hil(CLI::App& root) {
                                         "time stands until the controller announces lockstep");
   app->add_flag("--realtime", words->real_time, "time goes on by the clock on the wall")
       ->excludes(lockstep);
-  return {app, [words] {
+  return {app, [app, words] {
             catch_interrupts();
-            return run_hil(*words);
+            return run_hil(*app, *words);
           }};
 }
 

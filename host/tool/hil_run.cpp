@@ -56,7 +56,7 @@ class HilRun {
     result.walk = session_.result(wall_s, judge_.failure());
     result.device_trouble = judge_.device_trouble();
     result.lay_down = session_.verdict().lay_down();
-    result.real_time = realtime_.begun();
+    result.real_time = realtime_.begun() || options_.pace == HilPace::kRealTime;
     result.compared = judge_.compared();
     result.losses = link_.errors().losses;
     result.overruns = link_.errors().overruns;

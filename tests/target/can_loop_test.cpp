@@ -29,10 +29,19 @@ struct CanTwin {
   can::VirtualCan bus{robot.params, body};
 };
 
+/// Nine seconds of a run are for standing up and standing still (twin_run.cpp).
+constexpr double kStanding_s = 9, kLeast_m_s = 0.089;  ///< half of what the operator asks for
+
 std::vector<TickRecord> walk_here(std::uint32_t ticks) {
   CanTwin twin;
+  const sim::Vec3 start_m = twin.body.truth().com_world_m;
   std::vector<TickRecord> records = test::run_can_here(twin.robot.params, twin.bus, ticks);
+  const double walking_s = 1e-6 * ticks * twin.robot.params.period_us - kStanding_s;
+  const double walked_m = (twin.body.truth().com_world_m - start_m).head<2>().norm();
   EXPECT_FALSE(twin.body.truth().fallen);
+  EXPECT_GE(walking_s, 2.0 - 1e-9);
+  EXPECT_GT(walked_m, kLeast_m_s * walking_s);
+  std::printf("walked %.2f m in %.1f s\n", walked_m, walking_s);
   return records;
 }
 

@@ -214,7 +214,10 @@ TEST_F(Hil, RefusesWhatCannotBe) {
   expect_refused("hil", "--link");
   expect_refused("hil --link nonsense", "nonsense");
   expect_refused("hil --link pty: --operator pty: --realtime", "lockstep");
-  expect_refused("hil --link pty: --record a.mcap", "--operator");
+  for (const char* word :
+       {"--record a.mcap", "--record-state", "--report a", "--step 0.02", "--velocity 0.1,0,0"}) {
+    expect_refused(std::string("hil --link pty: ") + word, "--operator");
+  }
 }
 
 }  // namespace
