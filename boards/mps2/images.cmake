@@ -89,17 +89,10 @@ endfunction()
 function(verp_add_replay_tests machine)
   verp_add_emulated_image(replay replay ${machine})
   verp_add_target_test(replay TargetReplay)
-  # The long trace of tests/replay: whole where floats are hardware; elsewhere a fifth of each run, and the rest with --full.
-  set(trace_ticks 100000)
-  if(NOT CMAKE_CXX_FLAGS MATCHES "-mfloat-abi=hard")
-    set(trace_ticks 20000)
-    add_test(NAME trace_full.${VERP_BOARD} COMMAND ${VERP_HOST_DIR}/target/target_tests --gtest_filter=LongTrace.*)
-    set_tests_properties(trace_full.${VERP_BOARD} PROPERTIES LABELS full TIMEOUT 3600
-      ENVIRONMENT "VERP_TEST_BOARD=${VERP_BOARD};VERP_TEST_TICKS=100000;VERP_FIRMWARE_DIR=${CMAKE_BINARY_DIR}/images")
-  endif()
+  # The long trace of tests/replay, whole.
   add_test(NAME trace.${VERP_BOARD} COMMAND ${VERP_HOST_DIR}/target/target_tests --gtest_filter=LongTrace.*)
-  set_tests_properties(trace.${VERP_BOARD} PROPERTIES LABELS "replay;target" TIMEOUT 300
-    ENVIRONMENT "VERP_TEST_BOARD=${VERP_BOARD};VERP_TEST_TICKS=${trace_ticks};VERP_FIRMWARE_DIR=${CMAKE_BINARY_DIR}/images")
+  set_tests_properties(trace.${VERP_BOARD} PROPERTIES LABELS "replay;target" TIMEOUT 1200
+    ENVIRONMENT "VERP_TEST_BOARD=${VERP_BOARD};VERP_TEST_TICKS=100000;VERP_FIRMWARE_DIR=${CMAKE_BINARY_DIR}/images")
 endfunction()
 
 # The board's own CAN driver in the emulator, on a CAN bus of this PC.

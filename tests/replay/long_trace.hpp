@@ -22,8 +22,6 @@ struct Segment {
 };
 
 inline constexpr std::uint32_t kLongTraceTicks = 100'000;
-/// Each run's first fifth, in which every kind of episode has happened: for slow machines.
-inline constexpr std::uint32_t kShortTraceTicks = 20'000;
 
 /// `robot` has closed-form legs; the other robots are made from it. `ticks` is the sum over all
 /// segments: each gets its share.
