@@ -78,11 +78,17 @@ function(verp_add_dry_run_test)
   set_tests_properties(flash.${VERP_BOARD}.dry_run PROPERTIES LABELS "flash;target" TIMEOUT 60)
 endfunction()
 
-# From a model to the board, which is its own stand-in.
+# From a model to the board, which is its own stand-in; and, if `can` is asked for, from that robot on CAN.
 function(verp_add_deploy_test)
-  add_test(NAME deploy.${VERP_BOARD} COMMAND ${CMAKE_SOURCE_DIR}/tests/target/deploy ${VERP_BOARD} ${VERP_HOST_DIR}/host/tool/verp)
-  set_tests_properties(deploy.${VERP_BOARD} PROPERTIES LABELS "flash;target" TIMEOUT 300
-    ENVIRONMENT "VERP_FIRMWARE_DIR=${CMAKE_BINARY_DIR}/images")
+  foreach(bus "" ${ARGN})
+    set(name deploy.${VERP_BOARD})
+    if(bus)
+      string(APPEND name .${bus})
+    endif()
+    add_test(NAME ${name} COMMAND ${CMAKE_SOURCE_DIR}/tests/target/deploy ${VERP_BOARD} ${VERP_HOST_DIR}/host/tool/verp ${bus})
+    set_tests_properties(${name} PROPERTIES LABELS "flash;target" TIMEOUT 300
+      ENVIRONMENT "VERP_FIRMWARE_DIR=${CMAKE_BINARY_DIR}/images")
+  endforeach()
 endfunction()
 
 # Recorded inputs run through the core in the board: short ones, and the long trace of tests/replay.

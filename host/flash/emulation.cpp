@@ -14,6 +14,7 @@
 #include "host/bus/client.hpp"
 #include "host/bus/register_names.hpp"
 #include "host/flash/flash_error.hpp"
+#include "host/flash/images.hpp"
 
 namespace verp::flash {
 namespace {
@@ -52,8 +53,10 @@ void plan_serial(EmulationPlan& plan, const std::vector<Piece>& pieces, const fs
                                {"-device", fmt::format("loader,file={},addr={:#010x},force-raw=on",
                                                        piece.file.string(), piece.region.begin)});
   }
-  plan.links = {{"servo bus", "unix:" + plan.launch.serial_ports[0].string()},
-                {"operator", "unix:" + plan.launch.serial_ports[1].string()}};
+  if (plan.protocol != BusProtocol::kCia402) {  // else its bus is one that QEMU's chip has not
+    plan.links.push_back({"servo bus", "unix:" + plan.launch.serial_ports[0].string()});
+  }
+  plan.links.push_back({"operator", "unix:" + plan.launch.serial_ports[1].string()});
 }
 
 /// An MPS2 board speaks by semihosting, through two FIFOs (host/board/fifo_link.hpp).
@@ -66,18 +69,23 @@ void plan_fifos(EmulationPlan& plan, const fs::path& folder) {
 
 }  // namespace
 
-EmulationPlan plan_emulation(const std::string& board, const std::vector<Piece>& pieces,
-                             const fs::path& folder) {
+EmulationPlan plan_emulation(const Recipe& recipe, BusProtocol protocol,
+                             const std::vector<Piece>& pieces, const fs::path& folder) {
+  const std::string board = recipe.board;
   if (!is_emulated(board)) {
     throw FlashError(FlashError::Kind::kUsage,
                      fmt::format("{}: no emulator has this chip; leave out --emulate", board));
   }
   require_plain(folder / "operator.sock");
   const board::EmulatedBoard& emulated = board::find_emulated_board(board);
-  EmulationPlan plan{
-      .launch = {.board = emulated, .image = firmware_image(emulated, "loop"), .arguments = {}},
-      .links = {}};
-  if (find_recipe(board).chip != nullptr) {
+  // A chip's image as its flash would hold it: of an ELF file QEMU also clears as many bytes behind
+  // the code as there are variables, and there the robot may begin.
+  const fs::path image =
+      recipe.chip != nullptr ? code_image(recipe, protocol) : firmware_image(emulated, "loop");
+  EmulationPlan plan{.launch = {.board = emulated, .image = image, .arguments = {}},
+                     .links = {},
+                     .protocol = protocol};
+  if (recipe.chip != nullptr) {
     plan_serial(plan, pieces, folder);
   } else {
     plan_fifos(plan, folder);
@@ -101,23 +109,33 @@ Emulation::Emulation(const EmulationPlan& plan) {
       std::this_thread::sleep_for(std::chrono::milliseconds(10));
     }
   }
-  if (!plan.launch.serial_ports.empty()) operator_place_ = plan.launch.serial_ports.back().string();
+  if (plan.launch.serial_ports.empty()) return;
+  operator_place_ = plan.launch.serial_ports.back().string();
+  protocol_ = plan.protocol;
 }
 
 std::string Emulation::told() const {
   if (operator_place_.empty()) return "";
   bus::Client controller({.kind = wire::Endpoint::Kind::kUnix, .place = operator_place_},
                          kPatience_us);
-  const bus::NamedRegister* self_test = bus::find_register(dxl::controller::kModel, "self_test");
-  const std::uint8_t verdict =
-      controller.read(dxl::controller::kDefaultId, self_test->address, 1).at(0);
-  if (verdict == static_cast<std::uint8_t>(dxl::controller::SelfTest::kPassed)) {
+  const auto number = [&](const char* name) {
+    const bus::NamedRegister* found = bus::find_register(dxl::controller::kModel, name);
+    return controller.read(dxl::controller::kDefaultId, found->address, 1).at(0);
+  };
+  const std::uint8_t verdict = number("self_test");
+  if (verdict != static_cast<std::uint8_t>(dxl::controller::SelfTest::kPassed)) {
+    return fmt::format(
+        "it refuses torque: self_test is {} (firmware/app/registers.md); a robot goes "
+        "in with --params MODEL",
+        verdict);
+  }
+  const std::uint8_t fault = number("start_fault");
+  if (fault == static_cast<std::uint8_t>(dxl::controller::StartFault::kNone)) {
     return "its boot check passed";
   }
   return fmt::format(
-      "it refuses torque: self_test is {} (firmware/app/registers.md); a robot goes "
-      "in with --params MODEL",
-      verdict);
+      "its boot check passed, but it refuses torque: start_fault is {} ({})", fault,
+      protocol_ == BusProtocol::kCia402 ? "QEMU's chip has no CAN" : "firmware/app/registers.md");
 }
 
 }  // namespace verp::flash

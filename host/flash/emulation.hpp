@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "common/model/params.hpp"
 #include "host/board/qemu.hpp"
 #include "host/flash/plan.hpp"
 
@@ -18,12 +19,14 @@ struct EmulatedLink {
 struct EmulationPlan {
   board::QemuProcess::Launch launch;
   std::vector<EmulatedLink> links;
+  BusProtocol protocol;  ///< of the robot's bus
 };
 
-/// The board with these pieces in its memory, its links in `folder`. Throws FlashError when the
-/// board has no emulator or the links' paths are too long, NoSuchBoard when its image is not built.
-EmulationPlan plan_emulation(const std::string& board, const std::vector<Piece>& pieces,
-                             const std::filesystem::path& folder);
+/// The board with the image for this kind of bus and these pieces in its memory, its links in
+/// `folder`. Throws FlashError when the board has no emulator, no such image, or the links' paths
+/// are too long; this or NoSuchBoard when the image is not built.
+EmulationPlan plan_emulation(const Recipe& recipe, BusProtocol protocol,
+                             const std::vector<Piece>& pieces, const std::filesystem::path& folder);
 
 /// A board that runs until this object ends.
 class Emulation {
@@ -41,6 +44,7 @@ class Emulation {
 
  private:
   std::string operator_place_;
+  BusProtocol protocol_;
   std::unique_ptr<board::QemuProcess> firmware_;
 };
 

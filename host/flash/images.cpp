@@ -45,13 +45,27 @@ std::uint32_t word(const Bytes& bytes, std::size_t index) {
 
 }  // namespace
 
-std::filesystem::path code_image(const std::string& board) {
+std::string loop_image(const Recipe& recipe, BusProtocol protocol) {
+  if (protocol != BusProtocol::kCia402) return std::string("loop_") + recipe.board;
+  if (recipe.can_image) return std::string("loop_can_") + recipe.board;
+  std::string names;
+  for (const Recipe& row : recipes()) {
+    if (row.can_image) names += (names.empty() ? "" : ", ") + std::string(row.board);
+  }
+  throw FlashError(FlashError::Kind::kUsage,
+                   fmt::format("{} drives no robot on CAN; give --board one of: {}, or another of "
+                               "the robot's buses with --bus",
+                               recipe.board, names));
+}
+
+std::filesystem::path code_image(const Recipe& recipe, BusProtocol protocol) {
+  const std::string board = recipe.board;
   const char* folder = std::getenv("VERP_FIRMWARE_DIR");
   const std::filesystem::path file =
       (folder != nullptr
            ? std::filesystem::path(folder)
            : std::filesystem::path(VERP_SOURCE_DIR) / "build" / ("fw-" + board) / "images") /
-      ("loop_" + board + ".bin");
+      (loop_image(recipe, protocol) + ".bin");
   if (!std::filesystem::exists(file)) {
     refuse(file, fmt::format("not built; run ./verp flash --board {0}, which builds it, or: cmake "
                              "--preset fw-{0} && cmake --build --preset fw-{0}",
@@ -75,11 +89,12 @@ void check_code(const std::filesystem::path& file, const MemoryMap& map) {
                            map.code.begin, stack, entry, again));
 }
 
-std::string check_params(const std::filesystem::path& file, const MemoryMap& map) {
+Robot check_params(const std::filesystem::path& file, const MemoryMap& map) {
   read(file, "robot", map.params);
   try {
     const ParamsImage image = model::read_image(file.string());
-    return {image.params.name, ::strnlen(image.params.name, kNameLength)};
+    return {{image.params.name, ::strnlen(image.params.name, kNameLength)},
+            image.params.bus_protocol};
   } catch (const model::LoadError& error) {
     throw FlashError(FlashError::Kind::kBadFile, error.what());
   }

@@ -32,6 +32,7 @@ struct Recipe {
   const char* probe;         ///< OpenOCD's configuration of the debug probe
   const char* serial_pins;   ///< where the boot loader's serial port is
   const char* replay_board;  ///< an emulated board with the same core
+  bool can_image = false;    ///< there is a second image, for robots on CAN
 };
 
 const std::vector<Recipe>& recipes();

@@ -12,6 +12,7 @@
 #include "host/board/replay_on_target.hpp"
 #include "host/flash/flash_error.hpp"
 #include "host/flash/flasher.hpp"
+#include "host/flash/images.hpp"
 #include "host/flash/recipe.hpp"
 #include "host/flash/tool_run.hpp"
 #include "host/model/find.hpp"
@@ -56,7 +57,7 @@ class Deployment {
         progress_(!options.json) {
     plan_.entity = model::load_robot(model::find_model(options.model), options.flash.bus);
     plan_.params = model::make_params(plan_.entity);
-    require_serial("verp deploy", plan_.entity);
+    image_ = flash::loop_image(recipe_, plan_.entity.protocol);
     const WalkOptions usual;  // two 4 cm steps a cycle, straight ahead
     plan_.velocity = velocity_of(usual, usual.step_m);
     plan_.walk_s = options.walk_s;
@@ -64,10 +65,9 @@ class Deployment {
 
   StepAnswer build() {
     if (options_.no_build) return {"left out (--no-build)"};
-    const std::string images =
-        fmt::format("loop_{}, replay_{}", options_.flash.board, recipe_.replay_board);
+    const std::string images = fmt::format("{}, replay_{}", image_, recipe_.replay_board);
     if (dry()) return {"would build " + images};
-    build("loop_" + options_.flash.board, options_.flash.board);
+    build(image_, options_.flash.board);
     build(std::string("replay_") + recipe_.replay_board, recipe_.replay_board);
     return {images};
   }
@@ -124,9 +124,9 @@ class Deployment {
       if (!builds_later()) throw;
     }
     return {
-        fmt::format("would flash loop_{0}, which is not built yet; after that, verp flash "
-                    "--board {0} --dry-run tells the commands",
-                    options.board)};
+        fmt::format("would flash {}, which is not built yet; after that, --dry-run tells the "
+                    "commands",
+                    image_)};
   }
 
  private:
@@ -187,6 +187,7 @@ class Deployment {
 
   const DeployOptions& options_;
   const flash::Recipe& recipe_;
+  std::string image_;  ///< that drives the robot on its bus
   fs::path folder_;
   Progress progress_;
   WalkPlan plan_;

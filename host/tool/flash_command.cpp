@@ -46,7 +46,10 @@ Subcommand add_flash(CLI::App& root) {
   app->add_option("--params", words->flash.params,
                   "write this robot instead of the firmware: a Params image (FILE.bin, see verp "
                   "export), a robot of common/robots, or an SDF file");
-  add_bus_option(*app, words->flash.bus);
+  app->add_option("--bus", words->flash.bus,
+                  "name of the robot's bus to use (default: its first), which decides which "
+                  "firmware: for serial servos, or for drives on CAN; without --params it is a bus "
+                  "of generic21");
   app->add_option(
       "--actions", words->flash.actions,
       "give back the actions that a run which failed has kept (it names the file); other "

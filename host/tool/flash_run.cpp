@@ -23,11 +23,21 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// Whose buses --bus names where no robot is given, as for every command that has a usual MODEL.
+constexpr const char* kUsualRobot = "generic21";
+
 /// The file that --params names, or the one made of the robot that it names.
 fs::path params_file(const std::string& word, const std::string& bus, const fs::path& folder) {
   const fs::path path = word;
   const bool robot = path.extension() == ".sdf" || path.extension() == ".urdf";
-  if (path.extension() == ".bin" || (!robot && fs::is_regular_file(path))) return path;
+  if (path.extension() == ".bin" || (!robot && fs::is_regular_file(path))) {
+    if (bus.empty()) return path;
+    throw flash::FlashError(
+        flash::FlashError::Kind::kUsage,
+        fmt::format("--bus {}: {} is made for one bus already; leave out --bus, "
+                    "or give --params the model",
+                    bus, word));
+  }
   const ParamsImage image = model::make_image(model::load_robot(model::find_model(word), bus));
   const fs::path file = folder / "params.bin";
   std::ofstream out(file, std::ios::binary);
@@ -38,25 +48,48 @@ fs::path params_file(const std::string& word, const std::string& bus, const fs::
                           file.string() + ": cannot be written; free space, or set VERP_FLASH_DIR");
 }
 
-/// What goes where; every file is sound.
-std::vector<flash::Piece> pieces_of(const FlashOptions& options, const flash::MemoryMap& map,
-                                    const fs::path& folder) {
+/// What goes where, and which image drives that robot. Every file is sound.
+struct Cargo {
   std::vector<flash::Piece> pieces;
-  if (options.code) {
-    const fs::path file = flash::code_image(options.board);
-    flash::check_code(file, map);
-    pieces.push_back({"code", fs::absolute(file), map.code});
-  }
+  BusProtocol protocol = BusProtocol::kDynamixel2;
+  std::string image;
+};
+
+/// `code`: with the image itself.
+Cargo load(const FlashOptions& options, const flash::Recipe& recipe, const flash::MemoryMap& map,
+           const fs::path& folder, bool code) {
+  Cargo cargo;
   if (!options.params.empty()) {
     const fs::path file = params_file(options.params, options.bus, folder);
-    const std::string robot = flash::check_params(file, map);
-    pieces.push_back({"robot " + robot, fs::absolute(file), map.params});
+    const flash::Robot robot = flash::check_params(file, map);
+    cargo.pieces.push_back({"robot " + robot.name, fs::absolute(file), map.params});
+    cargo.protocol = robot.protocol;
+  } else if (!options.bus.empty()) {
+    cargo.protocol = model::load_robot(model::find_model(kUsualRobot), options.bus).protocol;
+  }
+  cargo.image = flash::loop_image(recipe, cargo.protocol);
+  if (code) {
+    const fs::path file = flash::code_image(recipe, cargo.protocol);
+    flash::check_code(file, map);
+    cargo.pieces.insert(cargo.pieces.begin(),
+                        {"code " + cargo.image, fs::absolute(file), map.code});
   }
   if (!options.actions.empty()) {
     flash::check_actions(options.actions, map);
-    pieces.push_back({"actions", fs::absolute(options.actions), map.actions});
+    cargo.pieces.push_back({"actions", fs::absolute(options.actions), map.actions});
   }
-  return pieces;
+  return cargo;
+}
+
+/// A robot or firmware that goes alone: what the chip must have beside it, which does not show
+/// here.
+std::string beside(const FlashOptions& options, const Cargo& cargo) {
+  if (!options.params.empty() && !options.code) {
+    return fmt::format("; this robot takes firmware {}, which --code writes too", cargo.image);
+  }
+  if (!options.code || !options.params.empty()) return "";
+  return fmt::format("; it drives a robot whose bus speaks {}, with any other start_fault is 8",
+                     model::protocol_name(cargo.protocol));
 }
 
 Json to_json(const std::vector<flash::Piece>& pieces) {
@@ -84,15 +117,13 @@ FlashAnswer flash_silicon(const FlashOptions& options, const flash::Recipe& reci
   const flash::Tool tool = flash::choose_tool(recipe, options.tool, options.port);
   const flash::Workspace workspace(options.board);
   const flash::MemoryMap map = flash::read_memory_map(options.board);
-  const flash::Job job{
-      recipe, map, tool, options.port, pieces_of(options, map, workspace.path()), workspace.path()};
+  const Cargo cargo = load(options, recipe, map, workspace.path(), options.code);
+  const flash::Job job{recipe, map, tool, options.port, cargo.pieces, workspace.path()};
   const std::vector<flash::Step> steps = flash::plan(job);
   FlashAnswer answer;
-  answer.json = {{"board", options.board},
-                 {"tool", name_of(tool)},
-                 {"pieces", to_json(job.pieces)},
-                 {"commands", Json::array()},
-                 {"written", !options.dry_run}};
+  answer.json = {{"board", options.board},    {"tool", name_of(tool)},
+                 {"image", cargo.image},      {"pieces", to_json(job.pieces)},
+                 {"commands", Json::array()}, {"written", !options.dry_run}};
   for (const flash::Step& step : steps) {
     const std::string line = files::shell_line(step.command);
     answer.json["commands"].push_back(line);
@@ -106,8 +137,9 @@ FlashAnswer flash_silicon(const FlashOptions& options, const flash::Recipe& reci
        .stop = interrupted});
   progress.clear();
   answer.text = fmt::format(
-      "{}: {}: written and verified with {}{}\n", options.board, what, name_of(tool),
-      tool == flash::Tool::kOpenocd ? ", and started" : "; set BOOT0 low and press reset");
+      "{}: {}: written and verified with {}{}{}\n", options.board, what, name_of(tool),
+      tool == flash::Tool::kOpenocd ? ", and started" : "; set BOOT0 low and press reset",
+      beside(options, cargo));
   return answer;
 }
 
@@ -123,6 +155,10 @@ std::string to_text(const FlashOptions& options, const flash::EmulationPlan& pla
     return text + fmt::format("  {:<18}verp walk --on {} starts one with a twin\n", "a walk",
                               options.board);
   }
+  if (plan.protocol == BusProtocol::kCia402) {
+    return text +
+           fmt::format("  {:<18}verp bus read --link {}\n", "its registers", plan.links[0].place);
+  }
   return text + fmt::format("  {:<18}verp hil MODEL --link {} --operator {}\n", "a twin for it",
                             plan.links[0].place, plan.links[1].place);
 }
@@ -135,7 +171,7 @@ void run_on(flash::Emulation& emulation) {
   }
 }
 
-FlashAnswer emulate(const FlashOptions& options,
+FlashAnswer emulate(const FlashOptions& options, const flash::Recipe& recipe,
                     const std::function<void(const std::string&)>& say) {
   if (!options.port.empty() || !options.tool.empty()) {
     throw flash::FlashError(flash::FlashError::Kind::kUsage,
@@ -145,15 +181,16 @@ FlashAnswer emulate(const FlashOptions& options,
   }
   const flash::Workspace workspace(options.board);
   const flash::MemoryMap map = flash::read_memory_map(options.board);
-  FlashOptions data_only = options;
-  data_only.code = false;  // QEMU takes it from the ELF file
-  const auto pieces = pieces_of(data_only, map, workspace.path());
-  const flash::EmulationPlan plan = flash::plan_emulation(options.board, pieces, workspace.path());
+  // QEMU takes the code as an image of its own, no piece.
+  const Cargo cargo = load(options, recipe, map, workspace.path(), false);
+  const flash::EmulationPlan plan =
+      flash::plan_emulation(recipe, cargo.protocol, cargo.pieces, workspace.path());
   const std::string line = files::shell_line(board::QemuProcess::command(plan.launch));
   FlashAnswer answer{.text = options.dry_run ? line + "\n" : "",
                      .json = {{"board", options.board},
                               {"tool", "qemu-system-arm"},
-                              {"pieces", to_json(pieces)},
+                              {"image", cargo.image},
+                              {"pieces", to_json(cargo.pieces)},
                               {"commands", {line}},
                               {"links", Json::object()},
                               {"written", !options.dry_run}}};
@@ -190,7 +227,7 @@ void declare_target(CLI::App& app, FlashOptions& options) {
 FlashAnswer flash_board(const FlashOptions& options, Progress& progress,
                         const std::function<void(const std::string&)>& say) {
   const flash::Recipe& recipe = flash::find_recipe(options.board);
-  if (recipe.chip == nullptr || options.emulate) return emulate(options, say);
+  if (recipe.chip == nullptr || options.emulate) return emulate(options, recipe, say);
   return flash_silicon(options, recipe, progress);
 }
 

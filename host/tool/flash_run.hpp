@@ -14,8 +14,8 @@ namespace verp::tool {
 /// The command line of `verp flash`, checked.
 struct FlashOptions {
   std::string board, port, tool;
-  std::string bus;      ///< of that robot, by name; empty: its first
   std::string params;   ///< a Params image, or a robot of which one is made; empty: none
+  std::string bus;      ///< of that robot, by name; empty: its first. It decides which image
   std::string actions;  ///< a file; empty: none
   bool code = true;     ///< the firmware itself
   bool emulate = false;

@@ -82,5 +82,16 @@ TEST_F(Deploy, ADryRunOnlySays) {
   EXPECT_EQ(deploy("--dry-run --no-build").status, 2) << "nobody would build it";
 }
 
+TEST_F(Deploy, ARobotOnCanGetsTheImageThatDrivesIt) {
+  const Outcome outcome = deploy("--bus can --dry-run");
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_NE(outcome.err.find("would build loop_can_" + board_ + ","), std::string::npos)
+      << outcome.err;
+  const json flash = json::parse(outcome.out).at("steps").back();
+  EXPECT_EQ(flash.at("image"), "loop_can_" + board_);
+  EXPECT_NE(flash.at("commands").dump().find(image("loop_can_").string()), std::string::npos);
+  EXPECT_EQ(flash.at("commands").dump().find(image().string()), std::string::npos);
+}
+
 }  // namespace
 }  // namespace verp::flash::test

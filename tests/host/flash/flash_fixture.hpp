@@ -30,7 +30,10 @@ class Flash : public tool::test::Program {
     map_ = read_memory_map(board_);
     const char* firmware = std::getenv("VERP_FIRMWARE_DIR");
     firmware_ = firmware != nullptr ? fs::path(firmware) : folder_;
-    if (firmware == nullptr) put(image(), made_up_code());
+    if (firmware == nullptr) {
+      put(image(), made_up_code(7));
+      put(image("loop_can_"), made_up_code(8));
+    }
     ::setenv("VERP_FLASH_DIR", (folder_ / "work").c_str(), 1);
     ::setenv("VERP_FIRMWARE_DIR", firmware_.c_str(), 1);
   }
@@ -39,7 +42,10 @@ class Flash : public tool::test::Program {
     if (firmware_ == folder_) ::unsetenv("VERP_FIRMWARE_DIR");
   }
 
-  fs::path image() const { return firmware_ / ("loop_" + board_ + ".bin"); }
+  /// That for robots on serial servos; "loop_can_" is the one for drives on CAN.
+  fs::path image(const std::string& kind = "loop_") const {
+    return firmware_ / (kind + board_ + ".bin");
+  }
   static void put(const fs::path& file, const Bytes& bytes) {
     std::ofstream(file, std::ios::binary)
         .write(reinterpret_cast<const char*>(bytes.data()),
@@ -56,15 +62,15 @@ class Flash : public tool::test::Program {
     return data;
   }
   /// A vector table of this board, and noise behind it.
-  Bytes made_up_code() const {
-    Bytes code = noise(50'000, 7);
+  Bytes made_up_code(unsigned seed) const {
+    Bytes code = noise(50'000, seed);
     const std::uint32_t table[] = {map_.ram.begin + 4096, map_.code.begin + 0x201};
     std::memcpy(code.data(), table, sizeof table);
     return code;
   }
-  static Bytes robot() {
-    static const ParamsImage image =
-        model::make_image(model::load_robot(model::find_model("generic21")));
+  static Bytes robot(const std::string& bus = "") {
+    const ParamsImage image =
+        model::make_image(model::load_robot(model::find_model("generic21"), bus));
     const auto* first = reinterpret_cast<const std::uint8_t*>(&image);
     return {first, first + sizeof image};
   }

@@ -41,7 +41,7 @@ TEST_F(Refusal, FilesThatAreNotWhatTheyShouldBe) {
 }
 
 TEST_F(Refusal, CodeThatIsNotOfThisBoard) {
-  const Bytes good = made_up_code();
+  const Bytes good = made_up_code(7);
   const auto with = [&](std::uint32_t stack, std::uint32_t entry) {
     Bytes code = good;
     const std::uint32_t table[] = {stack, entry};
@@ -78,6 +78,10 @@ TEST_F(Refusal, WordsThatMakeNoSense) {
   expect_refused("flash --board mps2_an386 --port /dev/ttyUSB0", "leave out --port");
   expect_refused("flash --board mps2_an386 --params generic21", "keeps no robot");
   expect_refused("deploy generic21 --board nope", "nucleo_f446re");
+  expect_refused("flash --board mps2_an386 --bus can",
+                 "drives no robot on CAN; give --board one of");
+  expect_refused("deploy generic21 --board mps2_an386 --bus can", "olimex_h405");
+  expect_refused_file("--bus nothing", "choose one of: dxl, can");
   expect_refused("deploy nobody --board olimex_h405", "nobody");
 }
 
@@ -147,6 +151,16 @@ TEST_F(DfuFlash, WritesAndVerifiesByReadingBack) {
 
   const Outcome spoilt = dfu("", "SPOIL='tr a b'");
   expect_trouble(spoilt, "reads back differently");
+}
+
+TEST_F(DfuFlash, WritesTheImageForARobotOnCan) {
+  Bytes expected = noise(RomBootLoader(chip()).flash.size(), 5);
+  put(folder_ / "chip", expected);
+  const Outcome outcome = dfu("--bus can");
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const Bytes code = get(image("loop_can_"));
+  std::copy(code.begin(), code.end(), expected.begin() + (map_.code.begin - kFlashBegin));
+  EXPECT_EQ(get(folder_ / "chip"), expected);
 }
 
 TEST_F(DfuFlash, OtherSectorsAreAnotherChip) {

@@ -26,8 +26,8 @@ class SerialFlash : public Flash {
     }
     ASSERT_TRUE(condition());
   }
-  void expect_code(const RomBootLoader& chip) const {
-    const Bytes code = get(image());
+  void expect_code(const RomBootLoader& chip, const std::string& kind = "loop_") const {
+    const Bytes code = get(image(kind));
     const Bytes there = part(chip, map_.code);
     ASSERT_LE(code.size(), there.size());
     EXPECT_TRUE(std::equal(code.begin(), code.end(), there.begin()));
@@ -78,6 +78,31 @@ TEST_F(SerialFlash, CodeAndRobotGoTogether) {
   EXPECT_EQ(json.at("written"), true);
   EXPECT_EQ(json.at("pieces").size(), 2u);
   EXPECT_EQ(json.at("commands").size(), 5u);
+}
+
+// Neither image drives the other's robot.
+TEST_F(SerialFlash, CodeIsThatOfTheRobotsBus) {
+  put(folder_ / "can.bin", robot("can"));
+  const auto expect_can = [&](const std::string& words, const std::string& told) {
+    SCOPED_TRACE(words);
+    RomBootLoader chip = used(this->chip());
+    const Outcome outcome = over_serial(chip, words);
+    ASSERT_EQ(outcome.status, 0) << outcome.err;
+    EXPECT_NE(outcome.out.find(told), std::string::npos) << outcome.out;
+    expect_code(chip, "loop_can_");
+  };
+  expect_can("--bus can", "a robot whose bus speaks cia402");
+  expect_can("--code --params generic21 --bus can", "robot generic21");
+  expect_can("--code --params can.bin", "code loop_can_" + board_);
+}
+
+TEST_F(SerialFlash, RobotAloneNamesTheFirmwareThatDrivesIt) {
+  RomBootLoader chip = used(this->chip());
+  EXPECT_NE(over_serial(chip, "--params generic21 --bus can").out.find("loop_can_" + board_),
+            std::string::npos);
+  EXPECT_NE(over_serial(chip, "--params generic21").out.find("loop_" + board_), std::string::npos);
+  put(folder_ / "can.bin", robot("can"));
+  expect_refused("flash --board " + board_ + " --params can.bin --bus dxl", "leave out --bus");
 }
 
 TEST_F(SerialFlash, WrongChipIsLeftAsItIs) {
