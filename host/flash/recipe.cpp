@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "host/board/emulated_board.hpp"
 #include "host/flash/flash_error.hpp"
 
 namespace verp::flash {
@@ -24,6 +25,15 @@ const Chip kF746 = {"STM32F746",
                     0x449,
                     "target/stm32f7x.cfg",
                     {{4, 32 * kKilobyte}, {1, 128 * kKilobyte}, {3, 256 * kKilobyte}}};
+
+/// A board that only its tests start: its loop takes its orders from a file and has a twin on a CAN
+/// interface, so neither a flash tool nor an emulator left to itself is of any use.
+bool is_for_tests(const std::string& board) {
+  const auto& boards = board::emulated_boards();
+  return std::any_of(boards.begin(), boards.end(), [&](const board::EmulatedBoard& each) {
+    return each.name == board && !each.can.empty();
+  });
+}
 
 }  // namespace
 
@@ -68,8 +78,15 @@ const Recipe& find_recipe(const std::string& board) {
   if (found != rows.end()) return *found;
   std::string names;
   for (const Recipe& row : rows) names += (names.empty() ? "" : ", ") + std::string(row.board);
+  const std::string why =
+      is_for_tests(board)
+          ? fmt::format(
+                "exists only in an emulator, where ./verp test --on {} walks it with a twin "
+                "on CAN; there is nothing to flash",
+                board)
+          : "no such board";
   throw FlashError(FlashError::Kind::kUsage,
-                   fmt::format("--board {}: no such board; give one of: {}", board, names));
+                   fmt::format("--board {}: {}; give one of: {}", board, why, names));
 }
 
 Span sectors_around(const Chip& chip, const Span& span) {

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "common/model/tuning_ranges.hpp"
-#include "host/board/emulated_board.hpp"
+#include "host/flash/recipe.hpp"
 #include "host/link/endpoint.hpp"
 #include "host/model/params.hpp"
 #include "host/tool/command.hpp"
@@ -177,15 +177,17 @@ Command velocity_of(const WalkOptions& options, double step_m) {
 }
 
 void check_board(const WalkOptions& options) {
-  std::string names;
-  for (const board::EmulatedBoard& each : board::emulated_boards()) {
-    if (options.board == each.name) return;
-    names += (names.empty() ? "" : ", ") + std::string(each.name);
-  }
   if (options.board.empty()) return;
-  throw ToolError(kBadInput,
-                  fmt::format("verp walk: --on {}: no such emulated board; give one of: {}",
-                              options.board, names));
+  std::string names;
+  for (const flash::Recipe& each : flash::recipes()) {
+    if (each.chip != nullptr) continue;  // its loop speaks to a twin by a port, not by semihosting
+    if (options.board == each.board) return;
+    names += (names.empty() ? "" : ", ") + std::string(each.board);
+  }
+  throw ToolError(
+      kBadInput, fmt::format("verp walk: --on {}: no emulated board that takes its twin from here; "
+                             "give one of: {}; others walk in `./verp test --on BOARD`",
+                             options.board, names));
 }
 
 std::vector<double> sweep_of(const WalkOptions& options) {

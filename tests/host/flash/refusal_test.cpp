@@ -85,6 +85,16 @@ TEST_F(Refusal, WordsThatMakeNoSense) {
   expect_refused("deploy nobody --board olimex_h405", "nobody");
 }
 
+// They are boards of boards/, so "no such board" would be a lie.
+TEST_F(Refusal, BoardsThatOnlyTheirTestsStartAreNamedAsSuch) {
+  for (const std::string board : {"qemu_rv32", "zcu102_r5"}) {
+    const std::string remedy = "exists only in an emulator, where ./verp test --on " + board;
+    expect_refused("flash --board " + board, remedy);
+    expect_refused("flash --board " + board + " --emulate", remedy);
+    expect_refused("deploy generic21 --bus can --board " + board, remedy);
+  }
+}
+
 TEST_F(Refusal, ToolThatIsNotInstalledNamesItsPackage) {
   for (const char* tool : {"openocd", "stm32flash", "dfu-util"}) {
     RomBootLoader chip = used(this->chip());

@@ -169,7 +169,10 @@ TEST_F(Usage, VersionIsJsonWhenJsonIsAsked) {
 }
 
 TEST_F(Usage, UnknownBoardIsBadUsageAndTheBoardsAreListed) {
-  expect_refused("walk --on nonesuch", "give one of: mps2_an385, mps2_an386, mps2_an500");
+  for (const char* board : {"nonesuch", "olimex_h405", "qemu_rv32", "zcu102_r5"}) {
+    expect_refused(std::string("walk --on ") + board,
+                   "give one of: mps2_an385, mps2_an386, mps2_an500, mps3_an547;");
+  }
 }
 
 // Whatever wanted it: an image that is not built is bad input, and no device's fault.
@@ -177,7 +180,8 @@ TEST_F(Usage, ABoardWithoutItsImageIsBadInputEverywhere) {
   ::setenv("VERP_FIRMWARE_DIR", folder_.c_str(), 1);
   for (const char* command :
        {"walk --on mps2_an386", "flash --board mps2_an386", "flash --board olimex_h405",
-        "flash --board olimex_h405 --emulate", "flash --board olimex_h405 --dry-run"}) {
+        "flash --board olimex_h405 --emulate", "flash --board olimex_h405 --dry-run",
+        "flash --board olimex_h405 --bus can", "flash --board olimex_h405 --bus can --emulate"}) {
     expect_refused(command, "cmake --preset fw-");
   }
   ::unsetenv("VERP_FIRMWARE_DIR");
