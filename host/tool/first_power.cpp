@@ -18,8 +18,11 @@ bool on_can(const Params& params) {
 
 std::string joints_are_right(const Params& params) {
   if (on_can(params)) {
-    return "`verp bus scan` shows every node, and each drive was moved alone: ids, zeros and\n"
-           "     directions are right.";
+    return "The drives have their ids, bit rate and zeros (607Ch) by their maker's tool or "
+           "switches.\n"
+           "     `verp bus scan --link can:can0` shows every node, and each drive was moved "
+           "alone:\n"
+           "     ids, zeros and directions are right.";
   }
   return fmt::format(
       "`verp bus setup {}` has passed for every joint: ids, zeros and directions are right.",

@@ -15,21 +15,42 @@
 #include "host/tool/setup_command.hpp"
 #include "host/tool/setup_guide.hpp"
 #include "host/tool/suggest.hpp"
-#include "host/tool/walk_options.hpp"
 
 namespace verp::tool {
 namespace {
 
 struct SetupWords {
-  std::string model = "generic21", link, report;
+  std::string model = "generic21", bus, link, report;
   SetupChoice choice;
   bool json = false;
 };
 
-Params params_of(const std::string& model) {
-  const model::Entity entity = model::load_robot(model::find_model(model));
-  require_serial("verp bus setup", entity);
-  return model::make_params(entity);
+/// A drive on CAN keeps its id, its bit rate and its zero by its maker's tool; all that we could
+/// write is written at every start anyway (firmware/app/node_settings.hpp).
+[[noreturn]] void refuse_can(const SetupWords& words, const wire::Endpoint& endpoint) {
+  const bool named = endpoint.kind == wire::Endpoint::Kind::kCan;
+  throw ToolError(
+      kBadInput,
+      fmt::format("verp bus setup: is for serial servos; give drives on CAN their ids, bit rate "
+                  "and zeros (607Ch) with their maker's tool or switches: every start writes the "
+                  "rest. `verp bus scan --link {}` shows who is there, `verp bus checklist {} "
+                  "--bus {}` what else to check",
+                  named ? words.link : "can:can0", words.model,
+                  words.bus.empty() ? "NAME" : words.bus));
+}
+
+model::Entity robot_of(const SetupWords& words, const wire::Endpoint& endpoint) {
+  model::Entity entity = model::load_robot(model::find_model(words.model), words.bus);
+  const bool can = entity.protocol == BusProtocol::kCia402;
+  if (can || endpoint.kind == wire::Endpoint::Kind::kCan) refuse_can(words, endpoint);
+  return entity;
+}
+
+/// Joints have other servos on each of a robot's buses, so each bus has a report.
+std::string report_of(const SetupWords& words, const model::Entity& entity) {
+  if (!words.report.empty()) return words.report;
+  const bool first = entity.bus == entity.buses.front();
+  return fmt::format("{}{}-setup.json", entity.name, first ? "" : "-" + entity.bus);
 }
 
 void check_joint(const Params& params, const std::string& wanted) {
@@ -41,12 +62,11 @@ void check_joint(const Params& params, const std::string& wanted) {
 }
 
 int set_up(const SetupWords& words) {
-  const Params params = params_of(words.model);
-  check_joint(params, words.choice.joint);
-  SetupReport report(
-      words.report.empty() ? fmt::format("{}-setup.json", params.name) : words.report, params,
-      !words.choice.dry_run);
   const wire::Endpoint endpoint = wire::parse_endpoint(words.link);
+  const model::Entity entity = robot_of(words, endpoint);
+  const Params params = model::make_params(entity);
+  check_joint(params, words.choice.joint);
+  SetupReport report(report_of(words, entity), params, !words.choice.dry_run);
   Answers answers;
   SetupGuide guide(params, endpoint, words.choice, report, answers);
   const bool done = guide.run();
@@ -64,11 +84,12 @@ int set_up(const SetupWords& words) {
 }  // namespace
 
 Subcommand add_bus_setup(CLI::App& bus) {
-  CLI::App* app =
-      bus.add_subcommand("setup", "guided, joint by joint: ids, baud, zeros, directions");
+  CLI::App* app = bus.add_subcommand(
+      "setup", "serial servos, guided, joint by joint: ids, baud, zeros, directions");
   auto words = std::make_shared<SetupWords>();
   app->add_option("MODEL", words->model, "a robot of common/robots, or the path of an SDF file")
       ->capture_default_str();
+  add_bus_option(*app, words->bus);
   app->add_option("--link", words->link, "serial:/dev/ttyUSB0, pty:PATH, tcp:HOST:PORT, unix:PATH")
       ->required();
   app->add_option("--joint", words->choice.joint, "only this one, also if it is done");

@@ -302,14 +302,5 @@ TEST_F(Setup, WrongWordsAndReportsAreRefused) {
   EXPECT_NE(list.out.find("verp bus setup generic21"), std::string::npos);
 }
 
-// Drives on CAN are commissioned with their maker's program, not by `verp bus setup`.
-TEST_F(Setup, TheChecklistIsOfTheBusThatIsNamed) {
-  const Outcome list = verp("bus checklist generic21 --bus can");
-  EXPECT_EQ(list.status, 0) << list.err;
-  EXPECT_EQ(list.out.find("verp bus setup"), std::string::npos) << list.out;
-  EXPECT_NE(list.out.find("verp bus scan"), std::string::npos) << list.out;
-  expect_refused("bus checklist generic21 --bus nothing", "nothing");
-}
-
 }  // namespace
 }  // namespace verp::tool::test
