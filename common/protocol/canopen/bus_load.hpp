@@ -15,7 +15,8 @@
 /// the double line; behind it, an FD frame has its fixed stuff bits.
 namespace verp::canopen {
 
-enum class Stuffing : std::uint8_t { kNone, kWorst };
+/// Which stuff bits are counted: none, as many as random bits take, as many as there can be.
+enum class Stuffing : std::uint8_t { kNone, kExpected, kWorst };
 
 /// Bits at the nominal rate, and at the data rate: the two phases of an FD frame that switches.
 struct FrameBits {
@@ -45,11 +46,25 @@ constexpr std::uint32_t worst_stuff_bits(std::uint32_t bits) {
   return bits < 5 ? 0 : (bits - 1) / 4;
 }
 
+/// Stuff bits among `bits` bits. Each random bit goes on with its run or begins a new one, which a
+/// stuff bit does too; from there to five equal bits it takes 2 + 4 + 8 + 16 bits on average.
+constexpr std::uint32_t stuff_bits(std::uint32_t bits, Stuffing stuffing) {
+  constexpr std::uint32_t kBetweenTwo = 30;
+  switch (stuffing) {
+    case Stuffing::kNone:
+      return 0;
+    case Stuffing::kExpected:
+      return (bits + kBetweenTwo / 2) / kBetweenTwo;
+    case Stuffing::kWorst:
+      return worst_stuff_bits(bits);
+  }
+  return 0;
+}
+
 /// A classic data frame with `size` bytes, the intermission behind it included.
 constexpr FrameBits classic_bits(std::uint8_t size, Stuffing stuffing, bool extended = false) {
   const std::uint32_t stuffed = (extended ? 39u : 19u) + 8u * size + 15u;
-  const std::uint32_t stuff = stuffing == Stuffing::kWorst ? worst_stuff_bits(stuffed) : 0;
-  return {stuffed + stuff + kFrameEndBits + kIntermissionBits, 0};
+  return {stuffed + stuff_bits(stuffed, stuffing) + kFrameEndBits + kIntermissionBits, 0};
 }
 
 /// An FD frame with room for `size` bytes, the intermission included. `switched`: from the bit
@@ -61,13 +76,10 @@ constexpr FrameBits fd_bits(std::size_t size, Stuffing stuffing, bool switched,
   const std::uint32_t arbitration = extended ? 36 : 17;  // from start of frame to BRS
   const std::uint32_t stuffed_data = 5 + 8 * bytes;      // ESI, data length code, data
   const std::uint32_t crc = bytes > 16 ? 4 + 21 + 7 : 4 + 17 + 6;
-  std::uint32_t arbitration_stuff = 0;
-  std::uint32_t data_stuff = 0;
-  if (stuffing == Stuffing::kWorst) {
-    arbitration_stuff = worst_stuff_bits(arbitration);
-    // One at the very end would be the CRC field's first, fixed stuff bit.
-    data_stuff = worst_stuff_bits(arbitration + stuffed_data - 1) - arbitration_stuff;
-  }
+  const std::uint32_t arbitration_stuff = stuff_bits(arbitration, stuffing);
+  // One at the very end would be the CRC field's first, fixed stuff bit.
+  const std::uint32_t data_stuff =
+      stuff_bits(arbitration + stuffed_data - 1, stuffing) - arbitration_stuff;
   const std::uint32_t slow = arbitration + arbitration_stuff + kFrameEndBits + kIntermissionBits;
   const std::uint32_t fast = stuffed_data + data_stuff + crc;
   return switched ? FrameBits{slow, fast} : FrameBits{slow + fast, 0};

@@ -117,6 +117,30 @@ TEST(BusLoad, AnExactFrameLiesBetweenNoneAndWorst) {
   }
 }
 
+// Random bits are what "expected" is about; of the largest frames, where it is the least rounded.
+TEST(BusLoad, RandomFramesTakeTheExpectedStuffBits) {
+  test::Dice dice(3);
+  constexpr std::uint32_t kRuns = 4000;
+  for (const bool fd : {false, true}) {
+    std::uint64_t none = 0, expected = 0, exact = 0;
+    for (std::uint32_t run = 0; run < kRuns; ++run) {
+      Frame frame;
+      frame.fd = fd;
+      frame.id = dice.below(0x800);
+      frame.size = fd ? 64 : 8;
+      for (unsigned i = 0; i < frame.size; ++i) {
+        frame.data[i] = static_cast<std::uint8_t>(dice.below(256));
+      }
+      none += frame_bits(frame, Stuffing::kNone).all();
+      expected += frame_bits(frame, Stuffing::kExpected).all();
+      exact += exact_bits(frame).all();
+    }
+    const std::uint64_t few = 3 * (expected - none) / 4, many = 5 * (expected - none) / 4;
+    EXPECT_GE(exact - none, few) << fd;
+    EXPECT_LE(exact - none, many) << fd;
+  }
+}
+
 // All data bits equal: a stuff bit each five bits, and in an FD frame none behind the last.
 TEST(BusLoad, EqualDataBitsAreStuffedEachFive) {
   Frame frame = classic_frame(0x555, 8);
