@@ -14,8 +14,9 @@ namespace verp::app {
 
 /// The controller as a node on the bus of its own drives: OperatorLink and Recorder of the loop,
 /// and the CanBus between the loop and `Bus`, where what is addressed to the node is taken out. It
-/// tells of each tick in TPDOs (canopen/published_tick.hpp), if the robot's bus has room for them;
-/// an operator may switch them off and on as any PDO (1801h:1 and the following).
+/// tells of each tick in TPDOs (canopen/published_tick.hpp), if the robot's bus has room for them
+/// with the IMU that it starts with; an operator may switch them off and on as any PDO (1801h:1 and
+/// the following).
 ///
 /// Nothing here waits, and it sends at the end of a tick only, behind the goals: an SDO answer
 /// takes a tick, and never the loop its time. Before the first one it answers when it is asked. In
@@ -34,7 +35,8 @@ class OperatorNode {
         registers_(registers),
         objects_(registers_, images),
         device_(objects_, controller_identity(), kNode) {
-    publish_ticks(device_.objects(), kNode, canopen::plan::has_room_to_publish(params));
+    publish_ticks(device_.objects(), kNode,
+                  canopen::plan::has_room_to_publish(params, !imu_on_bus()));
     device_.objects().producer.set_period_ms(canopen::plan::heartbeat_ms(params));
     device_.start();
     constexpr std::uint64_t kBegin_us = 0;  // a bus that is not open yet must not be asked
@@ -109,9 +111,11 @@ class OperatorNode {
            (to.service == canopen::Service::kSdoRequest || to.service == canopen::Service::kRpdo);
   }
 
+  bool imu_on_bus() const { return bus_imu_ && registers_.imu_source() == table::ImuSource::kBus; }
+
   void publish(const Inputs& inputs) {
     namespace published = canopen::published;
-    parts_.find(before_, inputs, bus_imu_ && registers_.imu_source() == table::ImuSource::kBus);
+    parts_.find(before_, inputs, imu_on_bus());
     before_ = inputs;
     registers_.report().publish_flags(parts_.flags());
     send_pdo(published::kDigestPdo);

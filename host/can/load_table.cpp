@@ -49,8 +49,8 @@ std::string too_much(const Params& params, const LoadRow& row, const canopen::Bi
                      first.servo_id, plan::kMostLoadPermille / 10);
 }
 
-/// Raises the row to what this bus takes.
-void add_bus(LoadRow& row, const Params& params, const canopen::BitRates& rates) {
+/// Raises the row to what this bus takes. `own_imu`: of a controller's that is a node here.
+void add_bus(LoadRow& row, const Params& params, bool own_imu, const canopen::BitRates& rates) {
   const plan::TickLoad bare(params, {.stuffing = Stuffing::kNone, .fd = row.fd});
   const plan::TickLoad worst(params, {.stuffing = Stuffing::kWorst, .fd = row.fd});
   const std::uint32_t period_us = 1'000'000 / row.rate_hz;
@@ -65,7 +65,7 @@ void add_bus(LoadRow& row, const Params& params, const canopen::BitRates& rates)
   raise(row.change_permille, share(worst.bits(TickKind::kChange)));
   // It is a node on one of the buses.
   canopen::FrameBits told = worst.bits(TickKind::kSteady);
-  told += worst.published();
+  told += worst.published(own_imu);
   raise(row.published_permille, share(told));
   constexpr std::uint32_t kAll = 1000;
   if (row.refusal.empty()) row.refusal = too_much(params, row, rates);
@@ -83,9 +83,10 @@ std::vector<LoadRow> load_table(const Params& params, std::uint32_t data_baud) {
       for (const std::uint32_t rate_hz : kRates_hz) {
         LoadRow row{.rate_hz = rate_hz, .buses = buses, .fd = fd, .refusal = ""};
         const canopen::BitRates rates{params.baud, fd ? data_baud : params.baud};
-        if (buses == 1) add_bus(row, params, rates);
+        const bool own_imu = params.imu.device_id == 0;
+        if (buses == 1) add_bus(row, params, own_imu, rates);
         for (int which = 0; which < 2 && buses == 2; ++which) {
-          add_bus(row, *std::make_unique<Params>(half_of(params, which)), rates);
+          add_bus(row, *std::make_unique<Params>(half_of(params, which)), own_imu, rates);
         }
         rows.push_back(row);
       }

@@ -33,6 +33,12 @@ inline constexpr int kMostParts = 6;
 inline constexpr unsigned kTooManyParts = 15;
 
 inline constexpr std::size_t kPartBytes = 6;
+/// Parts of each tick, if the IMU's counts are in them: gyro and accelerometer, side by side.
+inline constexpr int kImuParts = 2;
+static_assert(sizeof(Inputs::gyro_count) + sizeof(Inputs::accel_count) == kImuParts * kPartBytes);
+/// Parts of a tick with new orders, at most: a Command, a parameter write, the mailbox.
+inline constexpr int kOrderParts = 4;
+static_assert(sizeof(Command) == 2 * kPartBytes && kImuParts + kOrderParts == kMostParts);
 static_assert(sizeof(Inputs) % 2 == 0 && sizeof(Inputs) / 2 <= 256);
 
 /// A part: half the offset into Inputs, how many bytes, the bytes.

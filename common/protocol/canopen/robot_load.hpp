@@ -8,7 +8,8 @@
 
 /// What a robot's CAN bus has to carry in one tick, frame by frame, from the same plan that its
 /// nodes are set up by (robot_plan.hpp). `verp bus load`, the refusal of a bus that is too slow and
-/// the test against the twin's own count of bits all come from here.
+/// the test against the twin's own count of bits all come from here. What is counted is what comes
+/// with each tick; not what somebody asks a node for beside it.
 namespace verp::canopen::plan {
 
 /// Which frames the nodes use.
@@ -46,8 +47,15 @@ class TickLoad {
     sum += of(1);                                    // the controller's heartbeat
     return sum;
   }
-  /// What the controller tells of each tick (published_tick.hpp) comes on top.
-  constexpr FrameBits published() const { return of(published::kFrameBytes) * published::kFrames; }
+  /// What the controller tells of each tick (published_tick.hpp) comes on top. `own_imu`: the IMU's
+  /// counts stand in no other frame.
+  constexpr FrameBits published(bool own_imu) const {
+    return of(published::kFrameBytes) * (published::kFrames + (own_imu ? published::kImuParts : 0));
+  }
+  /// And more of a tick with new orders.
+  constexpr FrameBits published_order() const {
+    return of(published::kFrameBytes) * published::kOrderParts;
+  }
 
  private:
   constexpr FrameBits of(std::size_t bytes) const {
@@ -75,17 +83,26 @@ class TickLoad {
 /// Over this share of the period there is no room for a repetition of anything: `verp export`
 /// refuses it, as on the serial bus.
 inline constexpr std::uint32_t kMostLoadPermille = 800;
+/// A tick in which all drives change their state has to end before the next one.
+inline constexpr std::uint32_t kMostChangePermille = 1000;
 
-/// Over this share a controller does not tell of its ticks unless it is told to: a change of all
-/// states on top must not take more than a period.
+/// Over this share a controller does not tell of its ticks unless it is told to. Orders come when
+/// somebody gives them, and are no part of it; but new ones with each tick must find room under
+/// kMostLoadPermille, and those that come in a tick in which all drives change their state, too.
+/// `own_imu`: see TickLoad::published().
 inline constexpr std::uint32_t kMostToPublishPermille = 700;
-constexpr bool has_room_to_publish(const Params& params) {
-  const TickLoad load(params, {});
-  FrameBits bits = load.bits(TickKind::kSteady);
-  bits += load.published();
+constexpr bool has_room_to_publish(const Params& params, bool own_imu) {
   if (params.baud == 0 || params.period_us == 0) return false;
-  return load_permille(bits, {params.baud, params.baud}, params.period_us) <=
-         kMostToPublishPermille;
+  const TickLoad load(params, {});
+  const auto share = [&](TickKind kind, bool ordered) {
+    FrameBits bits = load.bits(kind);
+    bits += load.published(own_imu);
+    if (ordered) bits += load.published_order();
+    return load_permille(bits, {params.baud, params.baud}, params.period_us);
+  };
+  return share(TickKind::kSteady, false) <= kMostToPublishPermille &&
+         share(TickKind::kSteady, true) <= kMostLoadPermille &&
+         share(TickKind::kChange, true) <= kMostChangePermille;
 }
 
 /// Time that a steady tick takes on a classic bus with worst stuffing.

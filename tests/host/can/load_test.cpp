@@ -36,7 +36,8 @@ TEST(BusLoad, TwentyOneDrivesAt125HzStayUnder70PercentAtWorst) {
   EXPECT_EQ(row.refusal, "");
 }
 
-// It is on by default where it fits: two frames of eight bytes a tick, and no more.
+// It is on by default where it fits: two frames of eight bytes a tick, and no more if the IMU is on
+// the bus.
 TEST(BusLoad, TheLiveCheckFitsBeside21DrivesAt125Hz) {
   Params params = test::can_params(21);
   const LoadRow row = row_of(can::load_table(params, kDataBaud), 125, 1, false);
@@ -45,9 +46,41 @@ TEST(BusLoad, TheLiveCheckFitsBeside21DrivesAt125Hz) {
   const std::uint32_t more = canopen::load_permille(frames, {1'000'000, 1'000'000}, 8000);
   EXPECT_NEAR(row.published_permille, row.worst_permille + more, 1);
   params.period_us = 8000;
-  EXPECT_TRUE(plan::has_room_to_publish(params));
+  EXPECT_TRUE(plan::has_room_to_publish(params, false));
   params.period_us = 5000;
-  EXPECT_FALSE(plan::has_room_to_publish(params));
+  EXPECT_FALSE(plan::has_room_to_publish(params, false));
+}
+
+// Who owns the IMU tells its counts: twelve bytes more in each tick, two frames. Its own frames are
+// saved where no device has it.
+TEST(BusLoad, AnOwnImuIsToldInTwoFramesMore) {
+  Params params = test::can_params(21);
+  const plan::TickLoad load(params, {});
+  FrameBits frames = load.published(false);
+  frames += canopen::classic_bits(8, Stuffing::kWorst) * 2;
+  EXPECT_EQ(load.published(true), frames);
+  params.imu.device_id = 0;
+  const LoadRow own = row_of(can::load_table(params, kDataBaud), 125, 1, false);
+  const std::uint32_t told = canopen::load_permille(plan::TickLoad(params, {}).published(true),
+                                                    {1'000'000, 1'000'000}, 8000);
+  EXPECT_NEAR(own.published_permille, own.worst_permille + told, 1);
+  params.imu.device_id = test::kImuId;
+  params.period_us = 8000;
+  EXPECT_FALSE(plan::has_room_to_publish(params, true)) << "the device on the bus answers as well";
+}
+
+// Not counted in each tick, but there has to be room for them.
+TEST(BusLoad, NewOrdersInEachTickFitBesideTheLiveCheck) {
+  const Params params = test::can_params(21);
+  const plan::TickLoad load(params, {});
+  const auto share = [&](plan::TickKind kind) {
+    FrameBits bits = load.bits(kind);
+    bits += load.published(false);
+    bits += load.published_order();
+    return canopen::load_permille(bits, {1'000'000, 1'000'000}, 8000);
+  };
+  EXPECT_LE(share(plan::TickKind::kSteady), plan::kMostLoadPermille);
+  EXPECT_LE(share(plan::TickKind::kChange), plan::kMostChangePermille);
 }
 
 TEST(BusLoad, AFasterTickNeedsTwoBusesOrFd) {
