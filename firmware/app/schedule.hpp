@@ -99,7 +99,7 @@ constexpr std::size_t schedule_bytes(const Params& params) {
 }
 
 /// Time that tick takes on the wire, replies' slack included. Over 80 % of the period leaves no
-/// room for a retry of anything: `verp export` refuses it.
+/// room for a retry of anything: such a robot is refused (host/model/bus_time.hpp).
 constexpr std::uint32_t schedule_us(const Params& params) {
   const std::size_t replies =
       (all_fast(params) ? 1u : params.joint_count) + sensor_devices(params) + 1;

@@ -1,7 +1,5 @@
 #include "host/model/assemble.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -9,7 +7,6 @@
 #include <sdf/sdf.hh>
 
 #include "common/model/tuning_ranges.hpp"
-#include "host/model/bus_time.hpp"
 #include "host/model/leg.hpp"
 #include "host/model/link_tree.hpp"
 #include "host/model/params.hpp"
@@ -28,6 +25,8 @@ class Assembler {
     e_.file = source_.path();
     const BusFact& bus = facts_.bus();
     e_.bus = bus.name;
+    e_.bus_file = bus.at.file();
+    e_.bus_line = bus.at.line();
     for (const BusFact& each : facts_.buses) e_.buses.push_back(each.name);
     e_.protocol = bus.protocol;
     e_.baud = bus.baud;
@@ -41,7 +40,6 @@ class Assembler {
     read_sensors();
     read_tuning();
     gather_leg_frames(e_);
-    check_bus();
     add_notes();
     return std::move(e_);
   }
@@ -241,16 +239,6 @@ class Assembler {
       }
       e_.tuning.emplace_back(fact.name, fact.value);
     }
-  }
-
-  /// A bus that cannot carry a tick's packets in a period would make every tick late.
-  void check_bus() const {
-    const double needed_us = bus_time(make_params(e_)).us;
-    if (needed_us <= e_.period_us) return;
-    facts_.bus().at.fail(
-        fmt::format("a tick's packets take {:.0f} us at {} baud, and the period is {} us",
-                    needed_us, e_.baud, e_.period_us),
-        "raise baud, or period_us");
   }
 
   void add_notes() {

@@ -18,6 +18,8 @@ constexpr double kLeastSpeed_rad_s = 0.01;  ///< a joint that is meant to move
 constexpr double kMostFriction = 100;
 constexpr double kMostStiffness_n_m = 1e12;  ///< SDF's default
 constexpr double kMostDamping_n_s_m = 1e9;
+constexpr int kShortestPeriod_us = 4000;
+constexpr int kLongestPeriod_us = 20000;
 
 /// Throws LoadError at the line, with the bounds, when the value is outside them.
 void require_within(const std::string& file, int line, const std::string& what, double value,

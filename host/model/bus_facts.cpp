@@ -2,6 +2,7 @@
 
 #include <numbers>
 
+#include "host/model/bounds.hpp"
 #include "host/model/servo_types.hpp"
 
 namespace verp::model {
@@ -106,7 +107,8 @@ BusFact read_bus(const XmlElement& e) {
   fact.baud = read_baud(e, fact.protocol);
   fact.rise_torque_percent =
       static_cast<std::uint8_t>(e.integer("rise_torque_percent", 10, 100, kRiseTorquePercent));
-  fact.period_us = static_cast<std::uint32_t>(e.integer("period_us", 4000, 20000, 10000));
+  fact.period_us = static_cast<std::uint32_t>(
+      e.integer("period_us", kShortestPeriod_us, kLongestPeriod_us, 10000));
   for (const XmlElement& child : e.children()) {
     if (child.name() != "verp:servo") {
       child.fail("unknown element <" + child.name() + "> in <verp:bus>",

@@ -111,6 +111,8 @@ struct Entity {
   FootSensor feet;
   std::vector<OtherSensor> sensors;
   std::string bus;                 ///< name of the one of its buses that is used
+  std::string bus_file;            ///< where its <verp:bus> stands
+  int bus_line = 1;                ///< there
   std::vector<std::string> buses;  ///< names of all it has, in the order of the file
   BusProtocol protocol = BusProtocol::kDynamixel2;
   std::uint32_t baud = 2000000;

@@ -19,18 +19,6 @@
 namespace verp::model {
 namespace {
 
-constexpr double kLargestBusShare = 0.8;
-
-void require_bus_time(const Entity& entity, const Params& params) {
-  const double share = bus_time(params).share;
-  if (share <= kLargestBusShare) return;
-  throw LoadError(
-      entity.file, 1,
-      fmt::format("one tick's frames take {:.0f} % of the control period of {} us at {} baud",
-                  100 * share, params.period_us, params.baud),
-      "raise baud or period_us in <verp:bus>: at most 80 % is admitted");
-}
-
 const char* meaning(ImageFault fault) {
   switch (fault) {
     case ImageFault::kNone:
@@ -64,7 +52,7 @@ void write_file(const std::filesystem::path& path, const char* data, std::size_t
 ParamsImage make_image(const Entity& entity) {
   ParamsImage image;
   image.params = make_params(entity);
-  require_bus_time(entity, image.params);
+  require_bus(entity, image.params);
   for (std::uint32_t k = 0; k < kGoldenVectors; ++k) {
     image.golden[k] = control::golden_vector(image.params, k + 1);
   }

@@ -8,7 +8,7 @@
 namespace verp::model {
 
 /// The robot's Params image, sealed, with golden vectors and self-test digest of this program's
-/// core. Throws LoadError when one tick's frames need more than 80 % of the control period.
+/// core. Throws LoadError when its bus has no room for its ticks (bus_time.hpp).
 ParamsImage make_image(const Entity& entity);
 
 /// Reads an image back. Throws LoadError for a missing, truncated, damaged or foreign file.

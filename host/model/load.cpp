@@ -5,9 +5,11 @@
 #include <sdf/sdf.hh>
 
 #include "host/model/assemble.hpp"
+#include "host/model/bus_time.hpp"
 #include "host/model/facts.hpp"
 #include "host/model/find.hpp"
 #include "host/model/library_console.hpp"
+#include "host/model/params.hpp"
 #include "host/model/urdf_check.hpp"
 #include "host/model/xml_source.hpp"
 
@@ -81,6 +83,12 @@ void cross_check(const XmlSource& source, const Facts& facts, const sdf::Model& 
 }  // namespace
 
 Entity load_robot(const std::string& path, const std::string& bus) {
+  Entity entity = load_robot_on_any_bus(path, bus);
+  require_bus(entity, make_params(entity));
+  return entity;
+}
+
+Entity load_robot_on_any_bus(const std::string& path, const std::string& bus) {
   const XmlSource source(path);
   const XmlElement model = source.model();
   const Facts facts = read_facts(model, bus);

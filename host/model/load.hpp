@@ -9,7 +9,10 @@ namespace verp::model {
 /// Loads, checks and normalises the robot in an SDF file (frames and units: entity.hpp). Nothing is
 /// guessed: what the file leaves open or gets wrong throws LoadError with file, line and remedy.
 /// Not thread-safe, because libsdformat takes its settings for nested includes from a global.
-/// `bus` names one of its buses; empty: the first.
+/// `bus` names one of its buses, empty: the first; it has to have room for the robot's ticks
+/// (bus_time.hpp).
 Entity load_robot(const std::string& path, const std::string& bus = "");
+/// The same, whether or not the bus has room: for who tells that, or gives another period.
+Entity load_robot_on_any_bus(const std::string& path, const std::string& bus);
 
 }  // namespace verp::model

@@ -6,6 +6,7 @@
 
 #include "host/link/can_claim.hpp"
 #include "host/link/link.hpp"
+#include "host/model/bus_time.hpp"
 #include "host/model/find.hpp"
 #include "host/model/load.hpp"
 #include "host/model/params.hpp"
@@ -57,12 +58,13 @@ RunPlan make_plan(const RunWords& words) {
   plan.has_imu = words.imu == "bus";
   plan.torque_percent = words.torque_percent;
   WalkPlan& walk = plan.walk;
-  walk.entity = model::load_robot(model::find_model(words.walk.model), words.walk.bus);
+  walk.entity = model::load_robot_on_any_bus(model::find_model(words.walk.model), words.walk.bus);
   walk.params = model::make_params(walk.entity);
   require_fit("verp run", words.link, walk.params);
   apply_tuning(words.walk, walk.params.tuning);
   set_period(walk.params, words.period_ms);
   if (!plan.has_imu) do_without_imu(walk.params);
+  model::require_bus(walk.entity, walk.params);
   walk.velocity = velocity_of(words.walk, words.walk.step_m);
   walk.walk_s = words.walk.walk_s;
   if (plan.link.kind == wire::Endpoint::Kind::kSerial && plan.link.baud != walk.params.baud) {

@@ -80,11 +80,27 @@ class TickLoad {
   LoadFormat format_;
 };
 
-/// Over this share of the period there is no room for a repetition of anything: `verp export`
-/// refuses it, as on the serial bus.
+/// Over this share of the period there is no room for a repetition of anything: such a robot is
+/// refused, as on the serial bus.
 inline constexpr std::uint32_t kMostLoadPermille = 800;
 /// A tick in which all drives change their state has to end before the next one.
 inline constexpr std::uint32_t kMostChangePermille = 1000;
+
+/// Whether a bus carries the ticks of all drives in `params`, whose own baud and period do not
+/// count.
+constexpr bool has_room(const Params& params, bool fd, const BitRates& rates,
+                        std::uint32_t period_us) {
+  const TickLoad load(params, {.stuffing = Stuffing::kWorst, .fd = fd});
+  return load_permille(load.bits(TickKind::kSteady), rates, period_us) <= kMostLoadPermille &&
+         load_permille(load.bits(TickKind::kChange), rates, period_us) <= kMostChangePermille;
+}
+/// How many drives do, in the order of joints: the one behind them is the first that does not fit.
+/// `fits` is asked with fewer and fewer of them.
+template <class Fits>
+int drives_that_fit(Params part, const Fits& fits) {
+  while (part.joint_count > 0 && !fits(part)) --part.joint_count;
+  return part.joint_count;
+}
 
 /// Over this share a controller does not tell of its ticks unless it is told to. Orders come when
 /// somebody gives them, and are no part of it; but new ones with each tick must find room under

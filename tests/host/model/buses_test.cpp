@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "host/model/bus_time.hpp"
@@ -96,6 +97,47 @@ TEST(Buses, OneThatCannotCarryATickIsRefused) {
   const std::string line =
       refusal(kCan, "<verp:bus name=\"can\" protocol=\"cia402\" baud=\"125000\"", "can");
   EXPECT_NE(line.find("a tick's packets take"), std::string::npos) << line;
+}
+
+// 87 % of the period, and more than one when all drives change their state: the first drive that
+// does not fit is named, at the line of the bus.
+TEST(Buses, OneWithoutRoomNamesTheFirstDriveThatDoesNotFit) {
+  const std::string slow = kCan + " period_us=\"10000\"";
+  const std::string fast = kCan + " period_us=\"6000\"";
+  const std::string line = refusal(slow, fast, "can");
+  const std::string text = read_text(robot_file("generic21"));
+  const auto bus = text.begin() + static_cast<std::ptrdiff_t>(text.find(kCan));
+  const std::string place = ":" + std::to_string(1 + std::count(text.begin(), bus, '\n')) + ": ";
+  for (const std::string& part :
+       {place + "r_knee (node 13) and those after it do not fit", std::string("87.0 % of 6000 us"),
+        std::string("109.8 %"), std::string("a period of 7 ms has room")}) {
+    EXPECT_NE(line.find(part), std::string::npos) << line;
+  }
+}
+
+TEST(Buses, TheDriveThatIsNamedIsTheFirstThatDoesNotFit) {
+  const Entity entity = load_robot(robot_file("generic21"), "can");
+  Params params = make_params(entity);
+  params.period_us = 6000;
+  EXPECT_THROW(require_bus(entity, params), LoadError);
+  int knee = 0;
+  while (params.joint[knee].servo_id != 13) ++knee;
+  params.joint_count = static_cast<std::uint8_t>(knee);
+  EXPECT_NO_THROW(require_bus(entity, params));
+  params.joint_count = static_cast<std::uint8_t>(knee + 1);
+  EXPECT_THROW(require_bus(entity, params), LoadError);
+}
+
+// Under 80 %, but a tick in which all drives change their state would run into the next one.
+TEST(Buses, AChangeOfAllStatesHasToFitThePeriod) {
+  const Entity entity = load_robot(robot_file("generic21"), "can");
+  Params params = make_params(entity);
+  params.period_us = 6550;
+  EXPECT_LT(bus_time(params).share, 0.8);
+  EXPECT_GT(bus_time(params).change_us, 6550);
+  EXPECT_THROW(require_bus(entity, params), LoadError);
+  params.period_us = 7000;
+  EXPECT_NO_THROW(require_bus(entity, params));
 }
 
 TEST(Buses, TheShareOfATickFollowsFromTheRate) {

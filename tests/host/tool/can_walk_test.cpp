@@ -1,5 +1,6 @@
 #include <nlohmann/json.hpp>
 
+#include "host/model/find.hpp"
 #include "tests/host/tool/program.hpp"
 
 // Software in the loop over CAN: the same loop, bound to CiA 402 drives.
@@ -9,10 +10,22 @@ namespace {
 
 class CanWalk : public Program {
  protected:
-  nlohmann::json walk(const std::string& arguments, const std::string& name) const {
-    const Outcome outcome = verp("walk generic21 --bus can --json " + arguments, name);
+  nlohmann::json walk(const std::string& arguments, const std::string& name,
+                      const std::string& robot = "generic21") const {
+    const Outcome outcome = verp("walk " + robot + " --bus can --json " + arguments, name);
     EXPECT_EQ(outcome.status, 0) << outcome.err;
     return nlohmann::json::parse(outcome.out, nullptr, false);
+  }
+  /// generic21 with another period on its CAN bus.
+  std::string robot_at(int period_us) const {
+    std::string text = slurp(model::find_model("generic21"));
+    const std::string bus = "protocol=\"cia402\" baud=\"1000000\" period_us=\"";
+    const std::size_t at = text.find(bus + "10000");
+    EXPECT_NE(at, std::string::npos);
+    text.replace(at + bus.size(), 5, std::to_string(period_us));
+    const std::string name = "at" + std::to_string(period_us) + ".sdf";
+    std::ofstream(folder_ / name) << text;
+    return name;
   }
 };
 
@@ -38,6 +51,20 @@ TEST_F(CanWalk, PutsOnTheWireWhatBusLoadSays) {
   EXPECT_GT(json["can_bits_per_tick"].get<double>(), walked);
   EXPECT_LT(json["can_bits_per_tick"].get<double>(), row["bits_with_worst_stuffing"].get<double>());
   EXPECT_EQ(json["can_overruns"], 0);
+}
+
+// Before anything moves or any interface is opened, by everything that would run it.
+TEST_F(CanWalk, ARobotWhoseBusHasNoRoomIsRefusedByName) {
+  const std::string robot = robot_at(6000) + " --bus can";
+  const std::string needle = ": r_knee (node 13) and those after it do not fit";
+  for (const char* const command : {"check ", "walk ", "export -o image "}) {
+    expect_refused(command + robot, needle);
+  }
+  expect_refused("hil --link can:vcan0 " + robot, needle);
+  expect_refused("run --link can:vcan0 " + robot, needle);
+  expect_refused("run generic21 --bus can --link can:vcan0 --period 5",
+                 "l_ankle_roll (node 18) and those after it do not fit");
+  EXPECT_NE(verp("run --link can:nowhere --period 8 " + robot).status, 2) << "another period fits";
 }
 
 TEST_F(CanWalk, GivesTheSameDigestEachTime) {
@@ -78,6 +105,23 @@ TEST_F(CanWalk, BusLoadIsATableThatNamesWhatIsRefused) {
     EXPECT_EQ(row["admitted"], true);
   }
   expect_refused("bus load --robot generic21 --bus dxl", "has no CAN bus named 'dxl'");
+}
+
+// Who is refused needs the table most.
+TEST_F(CanWalk, BusLoadOfARobotThatDoesNotFitIsATableToo) {
+  const std::string command = "bus load --robot " + robot_at(5000);
+  const Outcome text = verp(command, "text");
+  EXPECT_EQ(text.status, 2);
+  EXPECT_NE(text.out.find("no stuffing"), std::string::npos) << text.out;
+  EXPECT_NE(text.out.find("are arithmetic"), std::string::npos) << text.out;
+  EXPECT_NE(text.err.find("at5000.sdf:"), std::string::npos) << text.err;
+  EXPECT_EQ(std::count(text.err.begin(), text.err.end(), '\n'), 1) << text.err;
+  const Outcome outcome = verp(command + " --json", "json");
+  EXPECT_EQ(outcome.status, 2);
+  const nlohmann::json json = nlohmann::json::parse(outcome.out);
+  EXPECT_EQ(json["admitted"], false);
+  EXPECT_NE(json["refusal"].get<std::string>().find("node 18"), std::string::npos);
+  EXPECT_EQ(json["rows"].size(), 16u);
 }
 
 }  // namespace
