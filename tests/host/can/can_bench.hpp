@@ -26,8 +26,9 @@ inline Params can_params(int joints) {
 /// A master that knows nothing of the firmware's: objects by SDO, frames one by one.
 class CanBench {
  public:
-  explicit CanBench(int joints) : params(can_params(joints)) {
-    for (int j = 0; j < joints; ++j) {
+  explicit CanBench(int joints) : CanBench(can_params(joints)) {}
+  explicit CanBench(const Params& robot) : params(robot) {
+    for (int j = 0; j < params.joint_count; ++j) {
       plant.measured[static_cast<std::size_t>(j)] = {.position_count = 8192, .voltage_v = 12};
     }
   }
