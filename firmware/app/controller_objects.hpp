@@ -132,7 +132,8 @@ class ControllerObjects {
     const canopen::Abort refused = look(at, place);
     if (refused != canopen::Abort::kNone) return refused;
     const bool fits = place.bytes <= kMaxCanData && bits == 8 * place.bytes;
-    if (place.is_count || !fits || (receive && !place.writable)) {
+    const bool obeyed = place.writable && registers_.obeys(place.address);
+    if (place.is_count || !fits || (receive && !obeyed)) {
       return canopen::Abort::kNotMappable;
     }
     return canopen::Abort::kNone;
@@ -203,7 +204,7 @@ class ControllerObjects {
     return canopen::Abort::kNone;
   }
 
-  static canopen::Abort abort_for(dxl::Error error, const Place& place) {
+  canopen::Abort abort_for(dxl::Error error, const Place& place) const {
     switch (error) {
       case dxl::Error::kNone:
         return canopen::Abort::kNone;
@@ -214,6 +215,7 @@ class ControllerObjects {
       case dxl::Error::kDataLength:
         return canopen::Abort::kLength;
       case dxl::Error::kAccess:
+        if (!registers_.obeys(place.address)) return canopen::Abort::kLocalControl;
         return place.only_disarmed ? canopen::Abort::kDeviceState : canopen::Abort::kReadOnly;
       case dxl::Error::kResultFail:
         return canopen::Abort::kDeviceState;

@@ -35,6 +35,8 @@ struct OperatorSetup {
   table::ResetCause reset_cause = table::ResetCause::kUnknown;
   table::ClockSource clock_source = table::ClockSource::kUnknown;
   CrashNote crash{};
+  /// false: the loop gets them from elsewhere; only what chooses what is shown can be written.
+  bool takes_orders = true;
 };
 
 /// The controller's registers and what a read or write of them does; knows no packets. Errors are
@@ -43,7 +45,11 @@ template <Images Store>
 class OperatorRegisters {
  public:
   OperatorRegisters(const Params& params, const OperatorSetup& setup, Store& store)
-      : store_(store), report_(params, image_), standing_(params, image_), tuning_(params.tuning) {
+      : store_(store),
+        report_(params, image_),
+        standing_(params, image_),
+        tuning_(params.tuning),
+        takes_orders_(setup.takes_orders) {
     image_.set(reg("model_number"), table::kModel);
     image_.set(reg("model_information"), params_crc(params));
     image_.set(reg("firmware_version"), table::kTableVersion);
@@ -92,6 +98,8 @@ class OperatorRegisters {
   /// The operator wrote `request` 0; told once.
   bool take_relax() { return standing_.take_relax(); }
   TickReport& report() { return report_; }
+  /// Whether a write at `address` may ever have the effect that the table says (OperatorSetup).
+  bool obeys(std::uint16_t address) const { return takes_orders_ || only_shows(address); }
 
   /// The bytes of a read; nullptr if any of them stands outside the table. Gaps read as zero.
   const std::uint8_t* read(std::uint16_t address, std::size_t size) {
@@ -167,6 +175,12 @@ class OperatorRegisters {
     const std::uint8_t* from(std::uint16_t at) const { return data + (at - address); }
   };
 
+  /// Registers that say what is to be read, and how long it stands still.
+  static constexpr bool only_shows(std::uint16_t address) {
+    return address == reg("parameter_id") || address == reg("window_kind") ||
+           address == reg("window_offset") || address == reg("tick_hold");
+  }
+
   std::uint8_t byte(std::uint16_t address) const {
     return image_.template get<std::uint8_t>(address);
   }
@@ -180,8 +194,9 @@ class OperatorRegisters {
         dxl::check_write(write.address, write.data, write.size, [&](std::uint16_t address) {
           const table::Rule* rule = table::rule_at(address);
           if (rule == nullptr) return dxl::WriteRule{};
-          const bool open = rule->access == table::Access::kWrite ||
-                            (rule->access == table::Access::kDisarmed && !armed());
+          const bool open =
+              obeys(address) && (rule->access == table::Access::kWrite ||
+                                 (rule->access == table::Access::kDisarmed && !armed()));
           const std::int64_t maximum = rule->minimum < 0
                                            ? std::int64_t{static_cast<std::int32_t>(rule->maximum)}
                                            : std::int64_t{rule->maximum};
@@ -319,6 +334,7 @@ class OperatorRegisters {
   TickReport report_;
   StandingOrder standing_;
   Tuning tuning_;  ///< in force
+  const bool takes_orders_;
   std::uint8_t registered_[table::longest_write()] = {};
   std::size_t registered_size_ = 0;
   std::uint16_t registered_address_ = 0;

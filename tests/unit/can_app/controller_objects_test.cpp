@@ -24,8 +24,8 @@ constexpr canopen::DeviceSize kSize = {1, 1, 8, 1};
 
 template <class Store>
 struct Node {
-  explicit Node(Store& images)
-      : registers(kRobot, OperatorSetup{}, images),
+  explicit Node(Store& images, const OperatorSetup& setup = {})
+      : registers(kRobot, setup, images),
         objects(registers, images),
         device(objects, {0, "controller", 0, 0, 0, 0}, kNode) {
     device.start();
@@ -169,6 +169,31 @@ TEST(ControllerObjects, CommandCanStandInARpdo) {
   const OperatorOrder order = node.registers.order();
   EXPECT_EQ(order.command.vx_tenth_mm_s, 450);
   EXPECT_TRUE((order.flags & kCommandFresh) != 0);
+}
+
+// Whoever writes is told that it has no effect; a reader may still say what is to be shown.
+TEST(ControllerObjects, ALoopThatObeysSomebodyElseRefusesEveryOrder) {
+  auto& node = renewed<Node<NoImages>>(no_images, OperatorSetup{.takes_orders = false});
+  const std::uint8_t zeros[8] = {}, one = 1;
+  for (const bool armed : {false, true}) {
+    node.arm(armed);
+    for (const Register& each : table::row::kTable) {
+      if (!each.writable()) continue;
+      const Address at{each.object_index(), static_cast<std::uint8_t>(each.count == 1 ? 0 : 1)};
+      const bool shows = table::same_name(each.name, "parameter_id") ||
+                         table::same_name(each.name, "window_kind") ||
+                         table::same_name(each.name, "window_offset") ||
+                         table::same_name(each.name, "tick_hold");
+      const unsigned size = table::type_bytes(each.type);
+      EXPECT_TRUE(node.write(at, zeros, size) == (shows ? Abort::kNone : Abort::kLocalControl))
+          << each.name;
+      const auto bits = static_cast<std::uint8_t>(8 * size);
+      EXPECT_EQ(node.objects.mappable(at, bits, true) == Abort::kNone, shows)
+          << each.name << ": a PDO has no answer that could refuse";
+    }
+    node.write({table::find("emergency_stop")->object_index(), 0}, &one, 1);
+    EXPECT_EQ(node.registers.order().flags, 0);
+  }
 }
 
 /// 4 KB each, and the staged one: too much for a microcontroller's stack.
