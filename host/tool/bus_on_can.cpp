@@ -136,7 +136,12 @@ int write_can(const BusOptions& options) {
     throw ToolError(kBadInput, "verp bus write: name one object, by --register or --object");
   }
   can::Client client = open(options);
-  NodeObject object = wanted(options, objects_of(identify(client, options))).front();
+  const auto objects = wanted(options, objects_of(identify(client, options)));
+  if (objects.size() != 1) {
+    throw ToolError(kBadInput, fmt::format("verp bus write: '{}' is an array; name one element: {}",
+                                           options.names.front(), objects.front().name));
+  }
+  NodeObject object = objects.front();
   if (!object.writable) throw ToolError(kBadInput, object.name + " is read-only");
   if (!object.type) {  // its size is all that can be learnt
     const std::size_t size = client.read(node_of(options), object.at).size();

@@ -5,6 +5,7 @@
 
 #include <charconv>
 #include <cstring>
+#include <utility>
 
 #include "host/eds/eds.hpp"
 #include "host/tool/exit_status.hpp"
@@ -51,9 +52,20 @@ bool parse_hex(std::string_view word, unsigned most, unsigned& value) {
   return error == std::errc() && last == end && value <= most;
 }
 
+// Elements of an array, in a sheet "joint_velocity 1" and the following.
+std::vector<NodeObject> elements_of(const std::vector<NodeObject>& known, const std::string& name) {
+  std::vector<NodeObject> elements;
+  for (const NodeObject& each : known) {
+    if (each.at.subindex > 0 && each.name == fmt::format("{} {}", name, each.at.subindex)) {
+      elements.push_back(each);
+    }
+  }
+  return elements;
+}
+
 // Names are the sheet's, and a sheet has as many COB-IDs as PDOs: none of them is meant more than
-// another.
-NodeObject by_name(const std::vector<NodeObject>& known, const std::string& name) {
+// another. An array's is all of its elements.
+std::vector<NodeObject> by_name(const std::vector<NodeObject>& known, const std::string& name) {
   std::vector<std::string> names, places;
   const NodeObject* found = nullptr;
   for (const NodeObject& each : known) {
@@ -67,7 +79,9 @@ NodeObject by_name(const std::vector<NodeObject>& known, const std::string& name
                                            "by --object",
                                            name, places.size(), fmt::join(places, ", ")));
   }
-  if (found != nullptr) return *found;
+  if (found != nullptr) return {*found};
+  std::vector<NodeObject> elements = elements_of(known, name);
+  if (!elements.empty()) return elements;
   throw ToolError(kBadInput, fmt::format("the node has no object named '{}'{}; give --object "
                                          "INDEX:SUBINDEX",
                                          name, did_you_mean(name, names)));
@@ -126,7 +140,9 @@ Address parse_object(const std::string& text) {
 
 std::vector<NodeObject> wanted(const BusOptions& options, const std::vector<NodeObject>& known) {
   std::vector<NodeObject> all;
-  for (const std::string& name : options.names) all.push_back(by_name(known, name));
+  for (const std::string& name : options.names) {
+    for (NodeObject& each : by_name(known, name)) all.push_back(std::move(each));
+  }
   if (!options.object.empty()) {
     const Address at = parse_object(options.object);
     NodeObject one{at, can::to_text(at), std::nullopt};

@@ -29,7 +29,8 @@ std::vector<NodeObject> objects_of(const can::NodeIdentity& identity);
 /// INDEX:SUBINDEX; throws ToolError.
 canopen::Address parse_object(const std::string& text);
 
-/// What the words ask for; all that is known of the node if they name nothing. Throws ToolError if
+/// What the words ask for, an array's name for its elements; all that is known of the node if they
+/// name nothing. Throws ToolError if
 /// nothing has that name, or more than one object.
 std::vector<NodeObject> wanted(const BusOptions& options, const std::vector<NodeObject>& known);
 
