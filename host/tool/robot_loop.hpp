@@ -33,9 +33,11 @@ void judge_fit(const bus::LinkFit& fit, const RunPlan& plan);
 /// Throws ToolError if the robot names no IMU on its bus, or `trouble` says what is wrong with it.
 void judge_imu(const RunPlan& plan, const std::string& trouble);
 
-/// Recorder of a run: passes each tick to the operator, the trace and the result.
+/// Recorder of a run: passes each tick to the robot, the operator, the trace and the result.
+template <class Robot>
 struct RunKeeper {
   void record(const TickRecord& tick, const State& state, const Outputs& outputs) {
+    robot.record(tick, state, outputs);  // before a disk that is slow
     person.observe(state, outputs);
     ++walk.ticks;
     walk.digest = tick.digest.chain;
@@ -48,6 +50,7 @@ struct RunKeeper {
       trace = nullptr;
     }
   }
+  Robot& robot;
   RunOperator& person;
   WalkResult& walk;
   record::TraceWriter* trace;
@@ -58,6 +61,8 @@ struct RunKeeper {
 ///  set_held(us)
 ///    says for how long answers may be held up;
 ///  - connected(), link_errors(); let_go(joint): asks one servo, and tells it once more;
+///  - brought_up(report), record(...) as a Recorder, report(health) after each tick: for those who
+///    look on from its bus;
 ///  - where(address): at what a bring-up failed, in words.
 template <class Robot>
 class RobotRun {
@@ -71,13 +76,14 @@ class RobotRun {
         imu_(params_.imu),
         operator_(params_, plan.walk.velocity, plan.walk.walk_s,
                   [this](auto from, auto to, auto faults) { tell(from, to, faults); }),
-        keeper_{operator_, result_.walk, trace},
+        keeper_{robot_, operator_, result_.walk, trace},
         app_(params_, robot_.bus(), operator_, keeper_, plan.has_imu ? nullptr : &imu_) {
     result_.fit = fit;
   }
 
   RunResult run() {
     const app::BringUpReport report = app_.bring_up();
+    robot_.brought_up(report);
     if (report.status != app::BringUpStatus::kReady)
       throw not_up(report, place(), Robot::where(report.address));
     app_.limit_torque(static_cast<std::uint8_t>(plan_.torque_percent));
@@ -94,7 +100,7 @@ class RobotRun {
   }
 
  private:
-  using Loop = app::App<typename Robot::Bus, RunOperator, RunKeeper, bus::AssumedImu>;
+  using Loop = app::App<typename Robot::Bus, RunOperator, RunKeeper<Robot>, bus::AssumedImu>;
 
   std::string place() const { return wire::to_text(plan_.link); }
 
@@ -108,6 +114,7 @@ class RobotRun {
     pacer.start(params_.period_us);
     while (!operator_.over() || result_.walk.ticks == 0) {
       app_.tick(pacer.next());
+      report(pacer.deadlines());
       watch_link();
       watch_person();
       progress_.show(
@@ -116,6 +123,14 @@ class RobotRun {
                       operator_.walked_s(), plan_.walk.walk_s, pacer.deadlines().missed));
     }
     result_.deadlines = pacer.deadlines();
+  }
+
+  void report(const app::Deadlines& deadlines) {
+    robot_.report({.bus = app_.counters(),
+                   .bus_crc_errors = app_.crc_errors(),
+                   .bus_noise_bytes = app_.noise_bytes(),
+                   .skipped_periods = static_cast<std::uint32_t>(deadlines.skipped),
+                   .efforts = app_.efforts()});
   }
 
   void watch_person() {
@@ -184,7 +199,7 @@ class RobotRun {
   bus::AssumedImu imu_;
   RunResult result_;
   RunOperator operator_;
-  RunKeeper keeper_;
+  RunKeeper<Robot> keeper_;
   Loop app_;
   bool connected_ = true;
   int presses_ = 0;

@@ -8,14 +8,14 @@
 #include "common/protocol/canopen/robot_load.hpp"
 #include "common/protocol/canopen/robot_plan.hpp"
 #include "firmware/app/can_schedule.hpp"
+#include "firmware/app/operator_node.hpp"
+#include "firmware/app/tick_log.hpp"
 #include "host/can/client.hpp"
 #include "host/tool/exit_status.hpp"
 #include "host/tool/robot_loop.hpp"
 
 namespace verp::tool {
 namespace {
-
-using canopen::cia402::State;
 
 /// The interface as a CanBus whose nodes' answers may be held up on their way.
 class PatientCan {
@@ -38,15 +38,28 @@ class PatientCan {
 };
 static_assert(hal::CanBus<PatientCan>);
 
-/// CiA 402 drives on an interface.
+/// CiA 402 drives on an interface, and this PC's controller as a node beside them, which takes no
+/// orders: whoever started the run gives them.
 class CanRobot {
+  using Ticks = app::TickLog<>;
+
  public:
-  using Bus = PatientCan;
+  using Bus = app::OperatorNode<PatientCan, Ticks>;
 
-  CanRobot(wire::CanPort& port, const RunPlan& plan) : port_(port), plan_(plan), bus_(port) {}
+  CanRobot(wire::CanPort& port, const RunPlan& plan)
+      : port_(port),
+        plan_(plan),
+        patient_(port),
+        registers_(plan.walk.params, setup(plan), ticks_),
+        node_(patient_, plan.walk.params, registers_, ticks_) {}
 
-  Bus& bus() { return bus_; }
-  void set_held(std::uint32_t held_us) { bus_.set_held(held_us); }
+  Bus& bus() { return node_; }
+  void set_held(std::uint32_t held_us) { patient_.set_held(held_us); }
+  void brought_up(const app::BringUpReport& report) { node_.brought_up(report); }
+  void record(const TickRecord& tick, const State& state, const Outputs& outputs) {
+    node_.record(tick, state, outputs);
+  }
+  void report(const app::LoopHealth& health) { node_.report(health); }
   bool connected() const { return port_.connected(); }
   hal::LinkErrors link_errors() const {
     const wire::CanTrouble& trouble = port_.trouble();
@@ -56,6 +69,7 @@ class CanRobot {
   static std::string where(std::uint16_t index) { return fmt::format("object {:04X}", index); }
 
   LetGo let_go(int joint) {
+    using canopen::cia402::State;
     namespace object = canopen::cia402::object;
     const std::uint8_t id = plan_.walk.params.joint[joint].servo_id;
     const auto holds = [id](can::Client& client) {
@@ -75,9 +89,17 @@ class CanRobot {
   }
 
  private:
+  static app::OperatorSetup setup(const RunPlan& plan) {
+    return {.torque_limit_percent = static_cast<std::uint8_t>(plan.torque_percent),
+            .takes_orders = false};
+  }
+
   wire::CanPort& port_;
   const RunPlan& plan_;
-  PatientCan bus_;
+  PatientCan patient_;
+  Ticks ticks_{app::no_images};
+  app::OperatorRegisters<Ticks> registers_;
+  Bus node_;
 };
 
 std::optional<std::uint8_t> somebody(can::Client& client, const Params& params) {

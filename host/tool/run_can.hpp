@@ -17,6 +17,8 @@ bus::LinkFit check_latency(wire::CanPort& port, const RunPlan& plan);
 /// Throws ToolError if the robot has no IMU that answers.
 void check_imu(wire::CanPort& port, const RunPlan& plan);
 
+/// As on a serial bus. The controller is a node there, too (firmware/app/operator_node.hpp): it
+/// tells of each tick, where its bus has room for it, and who asks reads its registers.
 RunResult drive(wire::CanPort& port, const RunPlan& plan, const bus::LinkFit& fit,
                 record::TraceWriter* trace, Progress& progress);
 

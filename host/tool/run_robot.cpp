@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "firmware/app/link_bus.hpp"
+#include "firmware/app/tick_report.hpp"
 #include "host/tool/robot_loop.hpp"
 
 namespace verp::tool {
@@ -21,6 +22,11 @@ class SerialRobot {
   bool connected() const { return link_.connected(); }
   hal::LinkErrors link_errors() const { return link_.errors(); }
   static std::string where(std::uint16_t address) { return fmt::format("register {}", address); }
+
+  // Nobody can ask a master on this bus.
+  void brought_up(const app::BringUpReport&) {}
+  void record(const TickRecord&, const State&, const Outputs&) {}
+  void report(const app::LoopHealth&) {}
 
   LetGo let_go(int joint) {
     const std::uint8_t id = plan_.walk.params.joint[joint].servo_id;

@@ -1,0 +1,63 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "tests/host/tool/program.hpp"
+
+// `verp run` on a CAN interface as others there see it: a node that tells of its ticks.
+namespace verp::tool::test {
+namespace {
+
+using nlohmann::json;
+
+class WatchedRun : public Program {
+ protected:
+  /// `watch` beside `verp run` on vcan0, with the twin as its robot in real time; then the run is
+  /// interrupted. As in RunOnCan one core is all of them, and a run may refuse it or end early: so
+  /// there is another one until `watch` is done. The period is one that a core can keep, from a
+  /// file that `verp shadow` knows it by, too.
+  Outcome run_beside(const std::string& watch) const {
+    const std::string on_bus = " slow.sdf --bus can --json --link can:vcan0 ";
+    return shell("sed 's/period_us=\"10000\"/period_us=\"20000\"/' " VERP_SOURCE_DIR
+                 "/common/robots/generic21/robot.sdf >slow.sdf; verp=" VERP_PROGRAM "; watch() { " +
+                 watch + "; touch watched; kill -INT $(cat run.pid); }; $verp hil" + on_bus +
+                 "--realtime --for 600 >twin.out 2>twin.err & twin=$!; "
+                 "until grep -q 'twin waits' twin.err; do sleep 0.05; done; watch & watcher=$!; "
+                 "until [ -e watched ]; do $verp run" +
+                 on_bus +
+                 "--yes --for 60 >last.out & "
+                 "echo $! >run.pid; wait $!; [ -e watched ] || sleep 3; done; "
+                 "wait $watcher; kill -INT $twin; wait $twin");
+  }
+};
+
+// Whoever is on the bus sees what the PC's controller decides, and has no say in it: an order that
+// nobody would obey is refused by name.
+TEST_F(WatchedRun, TellsOfEachTickShowsItsRegistersAndRefusesOrders) {
+  const Outcome outcome = run_beside(
+      "$verp shadow slow.sdf --json --link can:vcan0 --for 1 --patience 60 >shadow.out "
+      "2>shadow.err;"
+      " echo $? >shadow.status; "
+      "$verp bus read --link can:vcan0 --register joint_velocity --json >read.out 2>read.err; "
+      "echo $? >read.status; "
+      "$verp bus write --link can:vcan0 --register request 0 2>write.err; echo $? >write.status");
+  const json shadow = json::parse(slurp(folder_ / "shadow.out"));
+  EXPECT_EQ(slurp(folder_ / "shadow.status"), "0\n")
+      << slurp(folder_ / "shadow.err") << shadow << outcome.err;
+  EXPECT_GE(shadow.at("compared_ticks"), 50) << outcome.err;
+  EXPECT_EQ(shadow.at("differs"), false);
+  EXPECT_EQ(slurp(folder_ / "read.status"), "0\n") << slurp(folder_ / "read.err");
+  const json told = json::parse(slurp(folder_ / "read.out")).at("objects");
+  EXPECT_EQ(told.size(), 32u) << "all of them by the array's name";
+  EXPECT_TRUE(
+      std::any_of(told.begin(), told.end(), [](const json& each) { return each.at("value") != 0; }))
+      << "some joint moves: " << told;
+  EXPECT_EQ(slurp(folder_ / "write.status"), "3\n");
+  EXPECT_NE(slurp(folder_ / "write.err").find("under local control"), std::string::npos)
+      << slurp(folder_ / "write.err");
+  EXPECT_TRUE(json::parse(slurp(folder_ / "last.out")).at("let_go")) << outcome.err;
+}
+
+}  // namespace
+}  // namespace verp::tool::test
