@@ -115,6 +115,7 @@ TEST_F(ForeignMaster, StartsTheDrivesMovesAJointAndReadsItBack) {
   const json result = twin.result();
   EXPECT_EQ(result.at("pace"), "real time");
   EXPECT_EQ(result.at("link").at("dropped"), 0);
+  EXPECT_EQ(result.at("link").at("overruns"), 0);
 
   // tshark reads the same.
   const Frames frames = capture.decode();
@@ -149,6 +150,7 @@ TEST_F(ForeignMaster, FramesTypedByHandAreAnswered) {
   ask(capture, "000#0113", "713#05");                    // NMT: start
   ask(capture, "613#4041600000000000", "593#4B4160");    // SDO: statusword
   EXPECT_EQ(twin.stop(), 0) << twin.errors();
+  EXPECT_EQ(twin.result().at("link").at("overruns"), 0);
   const Frames frames = capture.decode();
   const Frames answers = of(frames, "Default-SDO (tx)", kJoint);
   ASSERT_EQ(answers.size(), 4u);

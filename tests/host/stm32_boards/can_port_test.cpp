@@ -134,6 +134,14 @@ TEST(CanPort, TellsOfEachTickAndAnswersWhoAsksThere) {
   params.period_us = 10'000;
   app::OperatorRegisters<app::NoImages> registers(params, {}, app::no_images);
   RobotNode<Wiring::Port, app::NoImages> node(chip.port, params, registers, app::no_images);
+  TickRecord record;
+  const auto tick = [&] {
+    registers.record(record, State{}, Outputs{});
+    node.tell(record.inputs);
+    chip.let_pass(2000);
+  };
+  tick();
+  const std::size_t before = chip.bus.sent().size();
   canopen::SdoClient client(canopen::plan::kControllerNode);
   std::uint8_t crc[4] = {};
   client.upload(app::object("model_information"), crc, 4, canopen::SdoClient::Mode::kPlain, 0);
@@ -141,13 +149,10 @@ TEST(CanPort, TellsOfEachTickAndAnswersWhoAsksThere) {
   ASSERT_TRUE(client.next(frame, 0));
   chip.bus.send(frame);
   EXPECT_FALSE(node.port().poll(frame, 5000)) << "the loop sees nothing of it";
-  TickRecord record;
   record.digest.chain = 0x1122334455667788;
-  registers.record(record, State{}, Outputs{});
-  node.tell(record.inputs);
-  chip.let_pass(2000);
-  const auto& sent = chip.bus.sent();
-  ASSERT_EQ(sent.size(), 3u);
+  tick();
+  ASSERT_EQ(chip.bus.sent().size(), before + 3);
+  const auto* sent = &chip.bus.sent()[before];
   namespace published = canopen::published;
   EXPECT_EQ(sent[0].frame.id, canopen::tpdo_id(published::kDigestPdo, node.kNode));
   EXPECT_EQ(canopen::get_le(sent[0].frame.data, 8), record.digest.chain);
