@@ -132,12 +132,12 @@ TEST_F(RunOnCan, ServesNodesOnceOnABus) {
 TEST_F(RunOnCan, ATwinThatIsHeldUpSkipsAndSaysSoAtOnce) {
   verp::test::OwnVcan bus;
   std::atomic<bool> over = false;
+  // Seldom: where many frames wait, the twin goes on from one to the next, and may catch up.
   std::thread master([&] {
     wire::CanPort port(bus.endpoint());
-    CanFrame heard;
     while (!over) {
       port.send(verp::test::frame_of(0x080));
-      port.await(heard, 20'000);
+      std::this_thread::sleep_for(std::chrono::milliseconds(500));
     }
   });
   const Outcome outcome =
@@ -183,7 +183,7 @@ TEST_F(RunOnCan, ReadsAndWritesObjects) {
   EXPECT_TRUE(outcome.out == "1234\n" || outcome.out == "0x000004D2\n") << outcome.out;
   const Outcome refused = bus_beside_twin("read --object 2FFF:0" + id);
   EXPECT_EQ(refused.status, 3);
-  EXPECT_NE(refused.err.find("abort 0x06020000"), std::string::npos) << refused.err;
+  EXPECT_NE(refused.err.find("no such object (0x06020000)"), std::string::npos) << refused.err;
 }
 
 // A drive has as many COB-IDs as PDOs.
@@ -220,7 +220,7 @@ TEST_F(RunOnCan, ShowsFieldsInHexAndSmallIntegersWithTheirSign) {
   EXPECT_EQ(json::parse(outcome.out.substr(text.size())).at("objects").at("60C2:2").at("value"),
             -3);
   EXPECT_NE(outcome.err.find("-128 to 127"), std::string::npos) << outcome.err;
-  EXPECT_NE(outcome.err.find("to read 1A00:1F:"), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.err.find("the read of 1A00:1F"), std::string::npos) << outcome.err;
 }
 
 TEST_F(RunOnCan, MeasuresRoundTrips) {

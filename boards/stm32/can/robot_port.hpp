@@ -35,8 +35,8 @@ struct RobotWiring {
       hal::stm32::enable_interrupt(io, each, priority);
     }
   }
-  /// False if the clock is not a crystal's, or makes no such rate. The filters let all in: a bring-up
-  /// listens for anybody who commands nodes, and that may be any identifier.
+  /// False if the clock is not a crystal's, or makes no such rate. The filters let all in: a
+  /// bring-up listens for anybody who commands nodes, and that may be any identifier.
   static bool open(Port& port, const hal::stm32::Clocks& clocks, std::uint32_t baud) {
     hal::stm32::BxCanTiming timing;
     return hal::stm32::choose_bxcan_timing(clocks.apb1_hz, baud, timing) &&
