@@ -53,7 +53,7 @@ class Reader : public Node {
     client_.receive(frame, now_us);
     if (client_.state() == canopen::SdoClient::State::kBusy) return;
     if (judges && client_.state() == canopen::SdoClient::State::kDone) judge(now_us);
-    next_ = (next_ + 1) % (kEfforts * params_.joint_count);
+    next_ = (next_ + 1) % (int{kEfforts} * params_.joint_count);
     begin(now_us);
   }
   bool say(CanFrame& frame, std::uint64_t now_us) override {
