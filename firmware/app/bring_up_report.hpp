@@ -27,8 +27,8 @@ struct BringUpReport {
   /// What is all of each joint's strength: PWM Limit of a servo, max torque (6072h) of a drive. Its
   /// owner may have set less than it can.
   std::uint16_t full_strength[kMaxJoints] = {};
-  std::uint32_t foreign_drives =
-      0;  ///< bit j: joint j's has a vendor id (1018h:1) that is not ours
+  /// Bit j: joint j's drive has a vendor id (1018h:1) that is not ours.
+  std::uint32_t foreign_drives = 0;
 };
 
 }  // namespace verp::app

@@ -29,8 +29,8 @@ struct CanTwin {
   can::VirtualCan bus{robot.params, body};
 };
 
-/// Nine seconds of a run are for standing up and standing still (twin_run.cpp).
-constexpr double kStanding_s = 9, kLeast_m_s = 0.089;  ///< half of what the operator asks for
+constexpr double kStanding_s = 9;     ///< getting up and standing still at the end (twin_run.cpp)
+constexpr double kLeast_m_s = 0.089;  ///< half of what the operator asks for
 
 std::vector<TickRecord> walk_here(std::uint32_t ticks) {
   CanTwin twin;
