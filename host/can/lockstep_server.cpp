@@ -23,7 +23,7 @@ bool is_of_controller_node(const CanFrame& frame) {
 
 /// What a controller may send; others may speak on the interface as well.
 bool may_be_of_controller(const CanFrame& frame) {
-  if (frame.extended || frame.remote) return false;
+  if (!canopen::is_canopen(frame)) return false;
   const canopen::Connection on = canopen::connection_of(frame.id);
   switch (on.service) {
     case canopen::Service::kNmt:

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "common/protocol/canopen/cob_id.hpp"
+#include "common/protocol/canopen/frame.hpp"
 #include "common/protocol/canopen/robot_plan.hpp"
 #include "host/can/device_node.hpp"
 
@@ -83,7 +84,7 @@ void VirtualCan::leave_bus() {
 }
 
 bool VirtualCan::begins_tick(const CanFrame& frame) {
-  return !frame.extended && !frame.remote && frame.id == canopen::kSyncId && frame.size == 1 &&
+  return canopen::is_canopen(frame) && frame.id == canopen::kSyncId && frame.size == 1 &&
          frame.data[0] == 1;
 }
 

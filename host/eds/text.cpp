@@ -14,8 +14,11 @@ using Out = std::back_insert_iterator<std::string>;
 // change, so these stand for the first of them.
 constexpr const char* kDate = "11-21-2026";
 constexpr const char* kTime = "12:00AM";
-constexpr int kRates_kbit_s[] = {10, 20, 50, 125, 250, 500, 800, 1000};
-constexpr int kLeastRate_kbit_s = 125;
+constexpr struct {
+  int kbit_s;
+  bool supported;  ///< 800 is none of bxCAN's; at lower ones no tick fits its period
+} kRates[] = {{10, false}, {20, false}, {50, false},  {125, true},
+              {250, true}, {500, true}, {800, false}, {1000, true}};
 
 enum ObjectCode { kVar = 7, kArray = 8, kRecord = 9, kDomainCode = 2 };
 
@@ -30,8 +33,8 @@ void put_header(const Description& about, Out out) {
                  "ProductNumber=0x{:08X}\nRevisionNumber=0x{:08X}\nOrderCode=\n",
                  about.identity.vendor, about.identity.name, about.identity.product,
                  about.identity.revision);
-  for (const int rate : kRates_kbit_s) {
-    fmt::format_to(out, "BaudRate_{}={}\n", rate, rate >= kLeastRate_kbit_s ? 1 : 0);
+  for (const auto& rate : kRates) {
+    fmt::format_to(out, "BaudRate_{}={}\n", rate.kbit_s, rate.supported ? 1 : 0);
   }
   fmt::format_to(out,
                  "SimpleBootUpMaster={}\nSimpleBootUpSlave={}\nGranularity=8\n"

@@ -111,8 +111,12 @@ std::string joint_rows(const Entity& entity) {
 
 std::string sensor_rows(const Entity& entity) {
   std::string text = fmt::format("sensors: angle in all {} joints", entity.joints.size());
-  if (entity.imu)
-    text += fmt::format(", IMU (bus id {}) on {}", entity.imu->id, entity.nodes[0].name);
+  if (entity.imu) {
+    const int id = entity.imu->id;
+    text +=
+        fmt::format(", IMU ({}) on {}", id == 0 ? "not on the bus" : "bus id " + std::to_string(id),
+                    entity.nodes[0].name);
+  }
   if (entity.feet.id[0] != 0) {
     text += fmt::format(", 4 force cells per foot (bus ids {}, {})", entity.feet.id[0],
                         entity.feet.id[1]);

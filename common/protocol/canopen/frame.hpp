@@ -27,9 +27,10 @@ constexpr Frame classic_frame(std::uint32_t id, std::uint8_t size) {
   return frame;
 }
 
-/// CANopen services are data frames with 11-bit identifiers; all else is another protocol's.
+/// CANopen services are classic data frames with 11-bit identifiers; all else is another
+/// protocol's.
 constexpr bool is_canopen(const Frame& frame) {
-  return !frame.extended && !frame.remote;
+  return !frame.extended && !frame.remote && !frame.fd;
 }
 
 }  // namespace verp::canopen

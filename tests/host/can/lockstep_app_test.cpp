@@ -28,6 +28,7 @@ std::vector<TickRecord> walk(const Params& params, Bus& bus) {
   EXPECT_EQ(report.status, app::BringUpStatus::kReady) << int{report.device_id};
   for (int i = 0; i < kTicks; ++i) loop->tick();
   EXPECT_EQ(loop->state().admit.servo_age[0], 0u) << "it heard its drives";
+  EXPECT_EQ(bus.errors().overruns, 0u);
   return walker.records;
 }
 

@@ -78,6 +78,7 @@ TEST(Buses, AllAreCheckedWhicheverIsUsed) {
       {kCan, "<verp:bus name=\"dxl\" protocol=\"cia402\" " + baud, "bus 'dxl' is given twice"},
       {kCan, "<verp:bus name=\"can\" protocol=\"ethercat\" " + baud, "no bus protocol 'ethercat'"},
       {kCan, "<verp:bus name=\"can\" protocol=\"cia402\" baud=\"600000\"", "no bit rate"},
+      {kCan, "<verp:bus name=\"can\" protocol=\"cia402\" baud=\"800000\"", "no bit rate"},
       {kCan, "<verp:bus name=\"can\" protocol=\"dynamixel2\" " + baud, "does not speak dynamixel2"},
       {kDrive + "_w210\"", "<verp:servo joint=\"head_yaw\" id=\"19\" type=\"mx28\"",
        "servo type 'mx28' does not speak cia402; choose one of: cia402_w210"},
