@@ -213,7 +213,7 @@ void DriveApplication::hold() {
 
 void DriveApplication::refresh() {
   const sim::ServoMeasurement measured = plant_.measure(joint_);
-  objects_.actual_position = around(measured.position_count, objects_.home_offset);
+  objects_.actual_position = around(measured.position_count, -std::int64_t{objects_.home_offset});
   objects_.actual_velocity =
       static_cast<std::int32_t>(std::lround(measured.velocity_rad_s * setup_.counts_per_rad));
   // Of the duty, as the serial servos' Present Load: the plant does not know the rated current.
@@ -241,7 +241,7 @@ std::int32_t DriveApplication::goal_count() {
   const std::int32_t target =
       std::min(std::max(objects_.target_position, objects_.min_position), objects_.max_position);
   limited_ = target != objects_.target_position;
-  return around(target, -static_cast<std::int64_t>(objects_.home_offset));
+  return around(target, objects_.home_offset);
 }
 
 void DriveApplication::apply() {

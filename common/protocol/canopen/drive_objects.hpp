@@ -48,7 +48,7 @@ struct DriveObjects {
   std::int32_t target_position = 0;
   std::int32_t actual_position = 0;
   std::int32_t actual_velocity = 0;
-  std::int32_t home_offset = 0;  ///< added to the encoder's position
+  std::int32_t home_offset = 0;  ///< the encoder's position at which the application's zero is
   std::int32_t min_position = INT32_MIN;
   std::int32_t max_position = INT32_MAX;
   std::uint32_t following_window = UINT32_MAX;  ///< UINT32_MAX: not watched

@@ -121,8 +121,9 @@ TEST_F(VirtualDrive, CutsTargetsAtItsLimitsAndSaysSo) {
   }
 }
 
-TEST_F(VirtualDrive, AddsItsHomeOffset) {
-  bench.write(kNode, object::kHomeOffset, -192, 4);
+// CiA 402: zero position = home position + home offset.
+TEST_F(VirtualDrive, CountsFromItsHomeOffset) {
+  bench.write(kNode, object::kHomeOffset, 192, 4);
   EXPECT_EQ(bench.value(kNode, object::kActualPosition), 8000);
   bench.enable(kNode);
   target(8010);
@@ -212,7 +213,7 @@ TEST_F(VirtualDrive, ASilentMasterIsAFaultIfTheOptionSaysSo) {
 // Anything may be written there, from a wrong tool, too.
 TEST_F(VirtualDrive, ItsCounterGoesOnAtTheOtherEndOf32Bits) {
   measured().position_count = 10;
-  bench.write(kNode, object::kHomeOffset, 0x7FFFFFFF, 4);
+  bench.write(kNode, object::kHomeOffset, -0x7FFFFFFF, 4);
   bench.let_pass(2000);
   EXPECT_EQ(bench.value(kNode, object::kActualPosition), -0x7FFFFFFF - 1 + 9);
 }
