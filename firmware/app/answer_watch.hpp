@@ -1,6 +1,7 @@
 #pragma once
 #include <cstdint>
 
+#include "common/protocol/canopen/robot_plan.hpp"
 #include "firmware/app/can_nodes.hpp"
 
 namespace verp::app {
@@ -30,10 +31,11 @@ class AnswerWatch {
  public:
   static constexpr int kImuSecond = kCanNodes;
   static constexpr int kSources = kCanNodes + 1;
+  static constexpr int kMostGroups = kMaxJoints / canopen::plan::kAnswersToOneSync + 2;
 
   void plan(int source, std::uint8_t group) {
     planned_ |= node_bit(source);
-    source_[source] = {group, group, 0, 0};
+    source_[source] = {group, group, 0, 0, 0};
   }
   /// Those who answer another SYNC than planned. In the long run too many answer the same one.
   NodeMask astray() const {
@@ -55,6 +57,7 @@ class AnswerWatch {
     owing_since_ = tardy ? missed : 0;
     for (int i = 0; i < kSources; ++i) {
       if ((answered_ & node_bit(i)) == 0) source_[i].times = 0;
+      source_[i].came = 0;
     }
     before_ = fresh_;
     answered_ = fresh_ = spoilt_ = 0;
@@ -72,8 +75,10 @@ class AnswerWatch {
   Answer take(int source, std::uint8_t window) {
     Source& each = source_[source];
     const NodeMask bit = node_bit(source);
+    const bool first = (answered_ & bit) == 0;
     answered_ |= bit;
     if (((owing_ | owing_since_ | spoilt_) & bit) != 0) return Answer::kOld;
+    if (first) each.came = window;
     if ((fresh_ & bit) != 0) return Answer::kAgain;
     const bool planned = window == each.group;
     if (planned) each.times = 0;
@@ -106,6 +111,32 @@ class AnswerWatch {
     }
     return mask & planned_ & ~answered_ & ~given_up;
   }
+  /// The group most of whose nodes answered SYNC `window` first in this tick, where most of those
+  /// it is meant for did not; 0: none. A single node shows nothing.
+  std::uint8_t group_in(std::uint8_t window) const {
+    int meant = 0, came = 0;
+    for (const Source& each : source_) {
+      if (each.planned != window) continue;
+      ++meant;
+      came += each.came == window ? 1 : 0;
+    }
+    if (came * 2 > meant) return 0;
+    return most(2, [&](int i) { return source_[i].came == window; });
+  }
+  /// Most of the nodes that SYNC `window` is meant for have been silent in this tick, and were
+  /// well in the one before. Two answers may be lost each by itself.
+  bool fell_silent(std::uint8_t window) const {
+    return most(3, [&](int i) {
+             return ((before_ & ~answered_) >> i & 1) != 0 && source_[i].planned == window;
+           }) == window;
+  }
+  /// All nodes answer the SYNCs that were planned from now on.
+  void realign() {
+    for (Source& each : source_) {
+      each.group = each.planned;
+      each.times = 0;
+    }
+  }
   NodeMask planned() const { return planned_; }
   NodeMask answered() const { return answered_; }
 
@@ -122,7 +153,23 @@ class AnswerWatch {
     std::uint8_t group = 0;  ///< where it is waited for
     std::uint8_t heard = 0;  ///< the window in which it came last when it was another
     std::uint8_t times = 0;  ///< so many times in a row
+    std::uint8_t came = 0;   ///< the window of this tick's first answer that nobody doubts; 0: none
   };
+  /// The group of most of whose nodes, `least` or more, `holds` is true; 0: none.
+  template <class Holds>
+  std::uint8_t most(int least, Holds holds) const {
+    std::uint8_t all[kMostGroups + 1] = {}, those[kMostGroups + 1] = {};
+    std::uint8_t found = 0;
+    for (int i = 0; i < kSources; ++i) {
+      const std::uint8_t group = source_[i].planned;
+      ++all[group];
+      if (group != 0 && holds(i)) ++those[group];
+    }
+    for (std::uint8_t group = 1; group <= kMostGroups; ++group) {
+      if (those[group] >= least && 2 * those[group] > all[group]) found = group;
+    }
+    return found;
+  }
   /// True if it comes there from now on.
   bool move(Source& each, std::uint8_t window) const {
     each.times = each.heard == window ? static_cast<std::uint8_t>(each.times + 1) : std::uint8_t{1};

@@ -17,6 +17,7 @@
 #include "firmware/app/node_renewal.hpp"
 #include "firmware/app/sensed_counts.hpp"
 #include "firmware/app/sync_repair.hpp"
+#include "firmware/app/sync_round.hpp"
 
 /// The ServoBinding (contracts.hpp) of CANopen and CiA 402: a robot's drives, IMU and feet on one
 /// CanBus, as common/protocol/canopen/robot_plan.hpp lays it out.
@@ -27,7 +28,6 @@ class CanopenServos {
  public:
   CanopenServos(const Params& params, Bus& bus)
       : params_(params), nodes_(params), master_(bus), groups_(canopen::plan::sync_groups(params)) {
-    sync_.set_overflow(groups_);
     for (int slot = 0; slot < kCanNodes; ++slot) {
       if (!canopen::is_node(node_id(params, slot))) continue;
       present_ |= node_bit(slot);
@@ -55,10 +55,13 @@ class CanopenServos {
     forget_stale(inputs);
     sensed_.begin();
     hurries_ = kHurries;
-    for (window_ = 1; window_ <= groups_; ++window_) {
-      master_.send(sync_.next());
-      listen(inputs);
-      if (window_ == 1) began_us_ = master_.now_us();
+    began_us_ = 0;
+    round_.begin();
+    for (window_ = 1; window_ <= groups_;) {
+      master_.send(canopen::sync_frame(window_));
+      const bool quiet = listen(inputs);
+      if (began_us_ == 0) began_us_ = master_.now_us();
+      window_ = round_.after(window_, answers_, quiet);
     }
     count_silence();
   }
@@ -121,21 +124,23 @@ class CanopenServos {
   }
 
   // Who floods the bus lets no SYNC begin, and its timeout neither: what comes in this tick may
-  // fill the time of all SYNCs, and no more.
-  void listen(Inputs& inputs) {
+  // fill the time of all SYNCs, and no more. True if nothing more came although there was room.
+  bool listen(Inputs& inputs) {
     const std::uint32_t timeout = window_us(params_, window_);
     const std::uint32_t over_us = heard_us_ + timeout;
     CanFrame frame;
     for (int i = 0; i < kMostInWindow && answers_.due(window_, given_up_) != 0; ++i) {
-      const bool heard = heard_us_ < patience_us_ && master_.receive(frame, timeout);
-      if (!heard) {
+      const bool patient = heard_us_ < patience_us_;
+      if (!patient || !master_.receive(frame, timeout)) {
+        const bool quiet = patient && heard_us_ + kReactionUs <= over_us;
         ++master_.counters.timeouts;
         if (heard_us_ < over_us) heard_us_ = over_us;
-        return;
+        return quiet;
       }
       take(frame, inputs);
       heard_us_ += can_frames_us(frame.size, 1, params_.baud);
     }
+    return false;
   }
 
   void take(const CanFrame& frame, Inputs& inputs) {
@@ -233,8 +238,8 @@ class CanopenServos {
   }
 
   void renew() {
-    repair_.cancel(renewal_.slot());
     const int renewed = renewal_.run(master_, doubts_.to_renew(torque_, present_));
+    repair_.cancel(renewal_.slot());  // whose answers are the renewal's from now on
     if (renewal_.slot() >= 0) doubts_.rebooted(renewal_.slot());  // half of it is not enough
     if (renewed < 0) return;
     doubts_.renewed(renewed);
@@ -269,7 +274,7 @@ class CanopenServos {
   CanNodes nodes_;
   CanMaster<Bus> master_;
   const std::uint8_t groups_;
-  canopen::SyncProducer sync_;
+  SyncRound round_{groups_};
   canopen::HeartbeatProducer heartbeat_{canopen::plan::kControllerNode};
   AnswerWatch answers_;
   DriveWriter<Bus> writer_{params_};

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <map>
+#include <stdexcept>
 #include <vector>
 
 #include "tests/hil/promises.hpp"
@@ -50,7 +51,12 @@ std::string to_text(const std::string& name, const Row& row) {
 /// 0: it is not set.
 int setting(const char* name) {
   const char* value = std::getenv(name);
-  return value == nullptr ? 0 : std::atoi(value);
+  if (value == nullptr) return 0;
+  const int number = std::atoi(value);
+  if (number <= 0) {
+    throw std::invalid_argument(std::string(name) + "=" + value + ": write a number, 1 or more");
+  }
+  return number;
 }
 
 }  // namespace

@@ -23,16 +23,11 @@ const Robot& robot() {
   return loaded;
 }
 
-// Receive overruns are nobody's fault but the bus's that carries more than it can.
-void no_overrun(const CanFaultResult& result) {
-  EXPECT_EQ(result.bus.overruns, 0u);
-}
-
 struct Kind {
   CanPlan plan;
   std::vector<std::function<void(const CanFaultResult&)>> promises;
   bool as_far = false;  ///< as the same robot without the fault
-  bool floods = false;  ///< the bus carries more than it can: receivers may overrun
+  bool floods = false;  ///< the bus carries more than it can: own SYNCs wait
 };
 
 constexpr double kPercent = 1e-2;
@@ -52,9 +47,9 @@ const std::vector<Kind>& kinds() {
        {lost_few},
        true},
       {{"lost_0_1_percent", 40, {.lost = 0.1 * kPercent}}, {lost_few}},
-      {{"lost_1_percent", 7, {.lost = kPercent}}, {lost_many}},
+      {{"lost_1_percent", 12, {.lost = kPercent}}, {lost_many}},
       {{"missed_by_one", 10, {.missed = 0.02 * kPercent}}, {missed}},
-      {{"doubled", 8, {.doubled = kPercent}}, {doubled}},
+      {{"doubled", 20, {.doubled = kPercent}}, {doubled}},
       {{"doubled_for_one", 8, {.heard_twice = 0.02 * kPercent}}, {doubled}},
       {{"reordered", 9, {.overtaken = kPercent}}, {overtaken}},
       {{"delayed", 7, {.late = kPercent, .late_us = 15'000}}, {delayed}},
@@ -110,7 +105,7 @@ const std::vector<Kind>& kinds() {
       {{"intruder_with_our_ids", 6, {}, Event::kNone, Says::kForeign}, {foreign}},
       {{"intruder_is_a_drive", 4, {}, Event::kNone, Says::kTwin, 1, 8}, {twin, walks_again}},
       {{"intruder_answers_unasked", 6, {}, Event::kNone, Says::kSdo}, {unasked}},
-      {{"intruder_syncs", 2, {}, Event::kNone, Says::kSync, 1, 6}, {foreign_sync, walks_again}},
+      {{"intruder_syncs", 8, {}, Event::kNone, Says::kSync, 1, 6}, {foreign_sync, walks_again}},
       {{"interface_down_0_2_s", 5, {.down = true}, Event::kNone, {}, 0.2, 4}, {down, walks_again}},
       {{"interface_down_1_s", 4, {.down = true}, Event::kNone, {}, 1, 8}, {down, walks_again}},
       {{"interface_down_0_2_s_physics", 2, {.down = true}, Event::kNone, {}, 0.2, 3, true}, {down}},
@@ -137,7 +132,7 @@ void keeps_what_all_promise(const Kind& kind, const CanFaultResult& result) {
   const std::uint32_t period_us = robot().params.period_us;
   EXPECT_LT(result.worst_tick_us, kind.floods ? period_us * 3 / 2 : period_us)
       << "it waited for longer than a tick";
-  if (!kind.floods) no_overrun(result);
+  EXPECT_EQ(result.bus.overruns, 0u) << "in a flood, too, it reads what comes";
   if (kind.plan.event == Event::kLateLoop) return;
   EXPECT_EQ(result.after.misses, 0u) << "no cable may cost the loop its time";
 }

@@ -249,7 +249,6 @@ class CanFaultRun {
                      plan_.event == CanEvent::kShort || plan_.intruder == Intruder::Kind::kFlood;
     const std::uint64_t now_us = bus_.now_us();
     if (sharp) watch_.watch_positions(inputs, repeats ? result_.joint : RunWatch::kNobody);
-    watch_.watch_silence(inputs);
     watch_setup(outputs);
     watch_orders(now_us);
     watch_.watch_torque(outputs, now_us, cut && !ended(), gone ? result_.joint : RunWatch::kNobody);
@@ -285,7 +284,6 @@ class CanFaultRun {
 
   void finish() {
     keep();
-    result_.stale = watch_.stale();
     result_.damage = line_->trouble.damage();
     result_.intruder = intruder_->frames();
     result_.bus = line_->errors();

@@ -9,10 +9,11 @@ namespace verp::test {
 
 /// The controller's end on a chip: a CanBus that is the driver of bxCAN over the model of its
 /// registers. The wire is the model's, with its errors and its bus-off; the nodes on it are those
-/// of a VirtualCan, whose time is the chip's.
+/// of a VirtualCan, whose time is the chip's. Seeds take the chips in turn.
 class ChipLine {
  public:
-  ChipLine(can::VirtualCan& bus, std::uint32_t seed) : trouble(bus, seed), bus_(bus) {
+  ChipLine(can::VirtualCan& bus, std::uint32_t seed)
+      : trouble(bus, seed), bus_(bus), board_(static_cast<hal::stm32::Family>(seed % 3)) {
     board_.can.on_sent([this](const hal::stm32::model::CanModel::Sent& sent) {
       const CanFrame frame = sent.frame;
       board_.can.forget_sent();
@@ -62,7 +63,7 @@ class ChipLine {
   }
 
   can::VirtualCan& bus_;
-  hal::stm32::test::CanRig board_{hal::stm32::Family::kF405};
+  hal::stm32::test::CanRig board_;
 };
 static_assert(hal::CanBus<ChipLine>);
 

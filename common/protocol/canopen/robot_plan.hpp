@@ -85,7 +85,8 @@ constexpr std::uint8_t group_of_joint(int joint) {
 constexpr Mapped mapped(Address at, std::uint8_t bits) {
   return {at, bits};
 }
-/// TPDO 1 of a drive. Two bytes are left for a value in turn.
+/// TPDO 1 of a drive. Two bytes are left: with velocity or torque in them 21 drives need 73 % of a
+/// bus at 125 Hz, and a mapping takes no turns; the controller asks for those by SDO, in turn.
 constexpr PdoMapping<> drive_answer() {
   PdoMapping<> mapping;
   mapping.add(mapped(cia402::object::kStatusword, 16));

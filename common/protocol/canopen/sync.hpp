@@ -15,33 +15,12 @@ constexpr Abort check_sync_overflow(std::uint8_t overflow) {
   return overflow == 1 || overflow > kMaxSyncCounter ? Abort::kValueRange : Abort::kNone;
 }
 
-class SyncProducer {
- public:
-  /// Object 1019h; the next SYNC carries 1.
-  constexpr Abort set_overflow(std::uint8_t overflow) {
-    if (const Abort refused = check_sync_overflow(overflow); refused != Abort::kNone) {
-      return refused;
-    }
-    overflow_ = overflow;
-    counter_ = 0;
-    return Abort::kNone;
-  }
-  /// The next SYNC. Counters run 1, 2 ... overflow, 1 ...
-  constexpr Frame next() {
-    Frame frame = classic_frame(kSyncId, overflow_ == 0 ? 0 : 1);
-    if (overflow_ != 0) {
-      counter_ = counter_ >= overflow_ ? std::uint8_t{1} : static_cast<std::uint8_t>(counter_ + 1);
-      frame.data[0] = counter_;
-    }
-    return frame;
-  }
-  /// As the last SYNC carried it; 0 without a counter, or before the first.
-  constexpr std::uint8_t counter() const { return counter_; }
-
- private:
-  std::uint8_t overflow_ = 0;
-  std::uint8_t counter_ = 0;
-};
+/// A SYNC that carries `counter`; 0: none, as 1019h of 0 announces it.
+constexpr Frame sync_frame(std::uint8_t counter) {
+  Frame frame = classic_frame(kSyncId, counter == 0 ? 0 : 1);
+  frame.data[0] = counter;
+  return frame;
+}
 
 enum class SyncSeen : std::uint8_t {
   kNo,           ///< another frame

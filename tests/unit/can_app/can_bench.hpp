@@ -87,6 +87,7 @@ class CanBench {
   int others = 0;             ///< so many times, as soon as the wire is free
   std::uint32_t sent = 0;     ///< frames that the bus took
   std::uint64_t bits = 0;     ///< that the wire carried
+  std::uint64_t tick_us = 0;  ///< when the last SYNC 1 began on the wire
   std::uint32_t deaf_to = 0;  ///< nobody hears this identifier of the controller
   std::uint32_t lost = 0;     ///< the controller does not hear this identifier
   std::uint32_t trouble = 0;  ///< of 1000 frames so many are lost, and so many heard twice
@@ -168,6 +169,7 @@ class CanBench {
     bits += frame_bits;
     free_us_ = start_us + frame_bits;
     if (from == kController) {
+      if (begins_tick(frame)) tick_us = start_us;
       --waiting_;
       for (std::size_t i = chosen_; i < waiting_; ++i) {
         queue_[i] = queue_[i + 1];
