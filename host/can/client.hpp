@@ -1,7 +1,10 @@
 #pragma once
 #include <cstdint>
+#include <functional>
+#include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "common/protocol/canopen/dictionary.hpp"
@@ -19,13 +22,33 @@ class SilentError : public bus::DeviceError {
 
 /// What a node says of itself.
 struct NodeIdentity {
+  /// How far it was asked. Unless to the end, what is missing below is not known.
+  enum class Asked : std::uint8_t {
+    kToTheEnd,
+    kFellSilent,   ///< it had answered, and then nothing more
+    kInterrupted,  ///< by who asked
+  };
+
   std::uint8_t node = 0;
   std::uint32_t device_type = 0;        ///< 1000h
-  std::optional<std::uint32_t> vendor;  ///< 1018h:1, as all that follow: nothing if it did not say
+  std::optional<std::uint32_t> vendor;  ///< 1018h:1, as all that follow: nothing if it refused
   std::optional<std::uint32_t> product;
   std::optional<std::uint32_t> revision;
-  std::string name;  ///< 1008h; empty if it did not say
+  std::string name;  ///< 1008h; empty if it refused
+  Asked asked = Asked::kToTheEnd;
 };
+
+/// What a Client asks through: an interface of this PC, or a bus of a test. A hal::CanBus.
+class ClientBus {
+ public:
+  virtual ~ClientBus() = default;
+  virtual bool send(const CanFrame& frame) = 0;
+  virtual bool poll(CanFrame& frame, std::uint32_t timeout_us) = 0;
+  virtual std::uint64_t now_us() = 0;
+  virtual hal::CanErrors errors() const = 0;
+  virtual bool connected() const = 0;
+};
+static_assert(hal::CanBus<ClientBus>);
 
 /// "6064:0", as people write an object's address: both hexadecimal.
 std::string to_text(canopen::Address at);
@@ -41,9 +64,16 @@ class Client {
   Client(const wire::Endpoint& endpoint, std::uint32_t timeout_us);
   /// Over a port that stays the caller's, and outlives this; `endpoint` is what it was opened on.
   Client(wire::CanPort& port, const wire::Endpoint& endpoint, std::uint32_t timeout_us);
+  /// Over a bus that stays the caller's likewise; `place` is what errors call it.
+  Client(ClientBus& bus, std::string place, std::uint32_t timeout_us);
+  Client(const Client&) = delete;
+  Client& operator=(const Client&) = delete;
+
+  /// From when on `stop` says so, scan() and identify() ask nothing more.
+  void stop_when(std::function<bool()> stop) { stop_ = std::move(stop); }
 
   /// Every node that answers a request for 1000h to each of the 127 ids within the timeout after
-  /// the last one, by id.
+  /// the last one, by id; also one that says nothing more from then on.
   std::vector<NodeIdentity> scan();
   /// Nothing if nobody answers.
   std::optional<NodeIdentity> identify(std::uint8_t node, int attempts = kAttempts);
@@ -59,16 +89,19 @@ class Client {
   /// Why it failed; kNone: it did not.
   canopen::Abort upload(std::uint8_t node, canopen::Address at, int attempts,
                         std::vector<std::uint8_t>& data);
-  std::optional<std::uint32_t> number(std::uint8_t node, canopen::Address at);
-  NodeIdentity described(std::uint8_t node, std::uint32_t device_type);
+  /// Asks for the rest, until the node falls silent.
+  void describe(NodeIdentity& identity);
+  /// Who answers the request for 1000h, and with what; indexed by node.
+  std::vector<std::optional<std::uint32_t>> device_types();
   [[noreturn]] void fail(std::uint8_t node, canopen::Address at, const char* what,
                          canopen::Abort why);
 
-  std::optional<wire::CanPort> own_;
-  wire::CanPort& port_;
-  app::CanMaster<wire::CanPort> master_;
+  std::unique_ptr<ClientBus> own_;
+  ClientBus& bus_;
+  app::CanMaster<ClientBus> master_;
   const std::uint32_t timeout_us_;
   std::string place_;
+  std::function<bool()> stop_ = [] { return false; };
 };
 
 }  // namespace verp::can

@@ -162,4 +162,13 @@ std::string advice(const CanInterface& interface) {
          " up type can restart-ms 100";
 }
 
+std::string bit_rate_trouble(const CanInterface& interface, const std::string& robot,
+                             std::uint32_t baud) {
+  if (interface.bitrate == 0 || interface.bitrate == baud) return "";
+  const std::string rate = std::to_string(baud);
+  return interface.name + " runs at " + std::to_string(interface.bitrate) + " bit/s, the bus of " +
+         robot + " at " + rate + "; ip link set " + interface.name + " down && ip link set " +
+         interface.name + " up type can bitrate " + rate + ", or change baud in <verp:bus>";
+}
+
 }  // namespace verp::wire

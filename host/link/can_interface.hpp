@@ -29,4 +29,9 @@ CanInterface find_can_interface(const std::string& name);
 /// What its user should know though it can be opened; empty: nothing.
 std::string advice(const CanInterface& interface);
 
+/// Why it can't carry a robot's bus of so many bit/s, and what to do; empty: it can, or has no bit
+/// rate that is known.
+std::string bit_rate_trouble(const CanInterface& interface, const std::string& robot,
+                             std::uint32_t baud);
+
 }  // namespace verp::wire

@@ -42,6 +42,14 @@ const Scheme& scheme_of(Kind kind) {
   throw EndpointError("link '" + text + "': " + why + "; write for example " + scheme.example);
 }
 
+std::string lower_case(std::string_view text) {
+  std::string lower(text);
+  for (char& each : lower) {
+    if (each >= 'A' && each <= 'Z') each = static_cast<char>(each - 'A' + 'a');
+  }
+  return lower;
+}
+
 /// The whole of `digits` as a number up to `most`.
 std::optional<std::uint32_t> number(std::string_view digits, std::uint32_t most) {
   std::uint32_t value = 0;
@@ -142,10 +150,17 @@ Endpoint parse_endpoint(const std::string& text) {
   if (text.starts_with("/dev/")) {
     throw EndpointError("link '" + text + "': say what it is; write serial:" + text + "@2000000");
   }
+  const std::string kind = lower_case(name);
+  std::string remedy = std::string("write for example ") + kSchemes[0].example;
+  for (const Scheme& scheme : kSchemes) {
+    if (colon != std::string::npos && kind == scheme.name) {
+      remedy = "in small letters: write " + kind + text.substr(colon);
+    }
+  }
   throw EndpointError("link '" + text +
                       "': it begins with none of serial: pty: tcp: tcp-listen: unix: unix-listen: "
-                      "can:; write for example " +
-                      kSchemes[0].example);
+                      "can:; " +
+                      remedy);
 }
 
 std::string to_text(const Endpoint& endpoint) {

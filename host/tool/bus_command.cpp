@@ -225,8 +225,19 @@ CLI::App* add(CLI::App* bus, const std::shared_ptr<BusOptions>& options, const c
 void add_id(CLI::App* app, const std::shared_ptr<BusOptions>& options) {
   app->add_option("--id", options->id,
                   fmt::format("the device, on CAN the node [the controller: {}, on CAN {}]",
-                              dxl::controller::kDefaultId, canopen::plan::kControllerNode))
-      ->check(CLI::Range(0, int{dxl::kMaxId}));
+                              dxl::controller::kDefaultId, canopen::plan::kControllerNode));
+}
+
+/// Which ids there are depends on the link.
+void check_id(const BusOptions& options, bool can) {
+  if (can && !canopen::is_node(static_cast<unsigned>(options.id))) {
+    throw ToolError(kBadInput, fmt::format("--id: {} is no node id of CANopen; give 1 to {}",
+                                           options.id, canopen::kMaxNode));
+  }
+  if (!can && (options.id < 0 || options.id > dxl::kMaxId)) {
+    throw ToolError(kBadInput, fmt::format("--id: {} is out of range; give 0 to {}", options.id,
+                                           int{dxl::kMaxId}));
+  }
 }
 
 void add_registers(CLI::App* app, const std::shared_ptr<BusOptions>& options, const char* help) {
@@ -298,9 +309,14 @@ Subcommand add_bus(CLI::App& root) {
   return {app, [=] {
             const bool can = on_can(*options);
             if (can) refuse_on_can({find, show, put, measure});
-            if (options->id < 0) {
+            bool named = false;  // the device
+            for (const CLI::App* each : {call, show, put, measure}) {
+              named = named || each->get_option("--id")->count() > 0;
+            }
+            if (!named) {
               options->id = can ? canopen::plan::kControllerNode : dxl::controller::kDefaultId;
             }
+            check_id(*options, can);
             if (find->parsed()) return can ? scan_can(*options) : scan(*options);
             if (call->parsed()) return can ? ping_can(*options) : ping(*options);
             if (show->parsed()) return can ? read_can(*options) : read(*options);

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "common/protocol/canopen/robot_plan.hpp"
 #include "host/bus/client.hpp"
 #include "host/can/client.hpp"
@@ -18,24 +20,29 @@ namespace {
 
 using dxl::controller::Type;
 
+constexpr const char* kSilenceRemedy =
+    "check power, wiring, termination and bit rate, or raise --timeout";
+
 std::uint8_t node_of(const BusOptions& options) {
   return static_cast<std::uint8_t>(options.id);
 }
 
+using Asked = can::NodeIdentity::Asked;
+
 can::NodeIdentity identify(can::Client& client, const BusOptions& options) {
   const auto identity = client.identify(node_of(options));
+  if (identity && identity->asked == Asked::kFellSilent) {
+    throw ToolError(kNoDevice, fmt::format("{}: node {} answered, then fell silent while it was "
+                                           "asked what it is; {}",
+                                           client.place(), options.id, kSilenceRemedy));
+  }
   if (identity) return *identity;
-  throw ToolError(kNoDevice, fmt::format("{}: node {} does not answer, asked {} times; check "
-                                         "power, wiring, termination and bit rate, or raise "
-                                         "--timeout",
-                                         client.place(), options.id, can::Client::kAttempts));
+  throw ToolError(kNoDevice,
+                  fmt::format("{}: node {} does not answer, asked {} times; {}", client.place(),
+                              options.id, can::Client::kAttempts, kSilenceRemedy));
 }
 
 can::Client open(const BusOptions& options) {
-  if (!canopen::is_node(static_cast<unsigned>(options.id))) {
-    throw ToolError(kBadInput, fmt::format("--id: {} is no node id of CANopen; give 1 to {}",
-                                           options.id, canopen::kMaxNode));
-  }
   if (!options.object.empty()) parse_object(options.object);  // before anything is sent
   return {wire::parse_endpoint(options.link),
           static_cast<std::uint32_t>(options.timeout_ms * 1000)};
@@ -53,13 +60,25 @@ Json json_of(const Told& number) {
 std::string text_of(const Told& number) {
   return number ? fmt::format("0x{:X}", *number) : "not told";
 }
+/// Of a node that was not asked to the end: why.
+const char* why_not_all(Asked asked) {
+  return asked == Asked::kFellSilent ? "fell silent while it was asked" : "not asked to the end";
+}
 Json to_json(const can::NodeIdentity& each) {
-  return {{"id", each.node},
-          {"device_type", each.device_type},
-          {"vendor", json_of(each.vendor)},
-          {"product", json_of(each.product)},
-          {"revision", json_of(each.revision)},
-          {"name", each.name}};
+  Json json = {{"id", each.node},
+               {"device_type", each.device_type},
+               {"vendor", json_of(each.vendor)},
+               {"product", json_of(each.product)},
+               {"revision", json_of(each.revision)},
+               {"name", each.name}};
+  if (each.asked != Asked::kToTheEnd) json["trouble"] = why_not_all(each.asked);
+  return json;
+}
+std::string to_text(const can::NodeIdentity& each) {
+  const std::string head =
+      fmt::format("{:3}  {:<24}  type 0x{:08X}  ", each.node, kind_of(each), each.device_type);
+  if (each.asked != Asked::kToTheEnd) return head + why_not_all(each.asked) + "\n";
+  return head + fmt::format("vendor {}  product {}\n", text_of(each.vendor), text_of(each.product));
 }
 void print(const std::vector<can::NodeIdentity>& found, const BusOptions& options) {
   if (options.json) {
@@ -67,11 +86,7 @@ void print(const std::vector<can::NodeIdentity>& found, const BusOptions& option
     for (const can::NodeIdentity& each : found) nodes.push_back(to_json(each));
     return print_json({{"link", options.link}, {"nodes", nodes}});
   }
-  for (const can::NodeIdentity& each : found) {
-    answer(fmt::format("{:3}  {:<24}  type 0x{:08X}  vendor {}  product {}\n", each.node,
-                       kind_of(each), each.device_type, text_of(each.vendor),
-                       text_of(each.product)));
-  }
+  for (const can::NodeIdentity& each : found) answer(to_text(each));
 }
 
 }  // namespace
@@ -83,14 +98,24 @@ bool on_can(const BusOptions& options) {
 
 int scan_can(const BusOptions& options) {
   can::Client client = open(options);
+  catch_interrupts();
+  client.stop_when(interrupted);
   const auto found = client.scan();
-  if (found.empty()) {
-    throw ToolError(kNoDevice, options.link +
-                                   ": no node answers; check power, wiring, termination "
-                                   "and bit rate, or raise --timeout");
+  if (found.empty() && !interrupted()) {
+    throw ToolError(kNoDevice, options.link + ": no node answers; " + kSilenceRemedy);
   }
   print(found, options);
-  return kGood;
+  if (interrupted()) {
+    complain(options.link + ": interrupted; there may be more nodes");
+    return kRunFailed;
+  }
+  const auto silent = std::count_if(found.begin(), found.end(), [](const auto& each) {
+    return each.asked == Asked::kFellSilent;
+  });
+  if (silent == 0) return kGood;
+  complain(fmt::format("{}: {} of {} nodes answered, then fell silent while they were asked; {}",
+                       options.link, silent, found.size(), kSilenceRemedy));
+  return kNoDevice;
 }
 
 int ping_can(const BusOptions& options) {

@@ -8,7 +8,7 @@ namespace verp::tool {
 struct BusOptions {
   std::string link;
   double timeout_ms = 100;
-  int id = -1;  ///< the controller
+  int id = -1;  ///< unless it is given, the controller's on that link
   std::vector<std::string> names;
   int address = -1;
   std::string object;  ///< on CAN: INDEX:SUBINDEX

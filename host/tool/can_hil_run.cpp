@@ -15,6 +15,7 @@
 #include "host/link/link_error.hpp"
 #include "host/link/system_clock.hpp"
 #include "host/shadow/live_check.hpp"
+#include "host/tool/bit_rate.hpp"
 #include "host/tool/console.hpp"
 #include "host/tool/hil_judge.hpp"
 #include "host/tool/interrupt.hpp"
@@ -44,6 +45,7 @@ class CanHilRun {
         others_(plan.params),
         params_(plan.params),
         place_(options.link) {
+    check_bit_rate("verp hil", port_.interface(), plan.params);
     if (pace_ == HilPace::kRealTime) {
       server_.refuse_lockstep();
     } else if (options.operator_link.empty()) {

@@ -156,6 +156,9 @@ void check_imu(wire::CanPort& port, const RunPlan& plan) {
   const auto found = client.identify(plan.walk.params.imu.device_id);
   if (found && found->product == dxl::kModelImu) return;
   if (!found) return judge_imu(plan, "does not answer");
+  if (found->asked != can::NodeIdentity::Asked::kToTheEnd) {
+    return judge_imu(plan, "fell silent while it was asked what it is");
+  }
   judge_imu(plan, found->product ? fmt::format("has product code 0x{:X}, not 0x{:X}",
                                                *found->product, dxl::kModelImu)
                                  : "tells no product code");

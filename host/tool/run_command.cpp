@@ -10,6 +10,7 @@
 #include "host/model/find.hpp"
 #include "host/model/load.hpp"
 #include "host/model/params.hpp"
+#include "host/tool/bit_rate.hpp"
 #include "host/tool/command.hpp"
 #include "host/tool/console.hpp"
 #include "host/tool/first_power.hpp"
@@ -114,6 +115,7 @@ Json to_json(const RunPlan& plan, const RunResult& result) {
             {"crc_errors", result.crc_errors},
             {"strays", result.bus.strays},
             {"refused", result.bus.refused},
+            {"overruns", result.link.overruns},
             {"losses", result.link.losses}}},
           {"real_time", {{"fifo", result.real_time.fifo}, {"locked", result.real_time.locked}}}};
 }
@@ -136,11 +138,11 @@ std::string to_text(const RunPlan& plan, const RunResult& result) {
              fmt::format("a read held up for {:.2f} ms, slowest tenth {:.2f}",
                          1e-3 * result.fit.delay.median_us, 1e-3 * result.fit.delay.p90_us)) +
          row("bus",
-             fmt::format("{} timeouts, {} {}; link lost {} times", result.bus.timeouts,
+             fmt::format("{} timeouts, {} {}, {} overruns; link lost {} times", result.bus.timeouts,
                          result.crc_errors,
                          plan.walk.params.bus_protocol == BusProtocol::kCia402 ? "error frames"
                                                                                : "CRC errors",
-                         result.link.losses)) +
+                         result.link.overruns, result.link.losses)) +
          row("IMU", plan.has_imu ? fmt::format("device {}", plan.walk.params.imu.device_id)
                                  : "none: upright was assumed, balance was off") +
          row("torque", result.silent_servos + result.stiff_servos == 0
@@ -182,24 +184,13 @@ int run_on(Link& link, const RunWords& words, const RunPlan& plan, WalkFiles& fi
   return tell(words, plan, files, drive(link, plan, fit, files.trace(), progress));
 }
 
-void check_bit_rate(const wire::CanInterface& interface, const Params& params) {
-  const std::string known = wire::advice(interface);
-  if (!known.empty()) complain("verp run: " + known);
-  if (interface.bitrate == 0 || interface.bitrate == params.baud) return;
-  throw ToolError(kBadInput, fmt::format("verp run: {} runs at {} bit/s, the bus of {} at {}; ip "
-                                         "link set {} down && ip link set {} up type can bitrate "
-                                         "{}, or change baud in <verp:bus>",
-                                         interface.name, interface.bitrate, params.name,
-                                         params.baud, interface.name, interface.name, params.baud));
-}
-
 int run_robot(const RunWords& words) {
   const RunPlan plan = make_plan(words);
   WalkFiles files(words.walk, plan.walk,
                   {{"link", words.link}, {"imu", plan.has_imu ? "bus" : "none: assumed upright"}});
   if (plan.link.kind == wire::Endpoint::Kind::kCan) {
     wire::CanPort port(plan.link);
-    check_bit_rate(port.interface(), plan.walk.params);
+    check_bit_rate("verp run", port.interface(), plan.walk.params);
     const wire::CanClaim claim(port.interface().name, "controller", "`verp run`");
     refuse_second_controller(port, plan);
     return run_on(port, words, plan, files);

@@ -15,6 +15,7 @@
 #include "host/model/params.hpp"
 #include "host/shadow/live_check.hpp"
 #include "host/shadow/polled_check.hpp"
+#include "host/tool/bit_rate.hpp"
 #include "host/tool/command.hpp"
 #include "host/tool/console.hpp"
 #include "host/tool/interrupt.hpp"
@@ -56,7 +57,9 @@ class CanSide {
   CanSide(const std::string& link, const Params& params)
       : port_(wire::parse_endpoint(link)),
         claim_(port_.interface().name, "watcher", wire::CanClaim::kWatcher),
-        check(params) {}
+        check(params) {
+    check_bit_rate("verp shadow", port_.interface(), params);
+  }
   void turn() {
     CanFrame frame;
     if (port_.await(frame, kIdle_us)) check.take(frame, port_.now_us());

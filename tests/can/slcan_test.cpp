@@ -1,19 +1,14 @@
-#include <fcntl.h>
 #include <gtest/gtest.h>
-#include <net/if.h>
-#include <sys/ioctl.h>
-#include <termios.h>
 #include <unistd.h>
 
-#include <cstdlib>
 #include <string>
 #include <vector>
 
 #include "host/link/system_clock.hpp"
 #include "tests/can/can_world.hpp"
+#include "tests/can/serial_adapter.hpp"
 
-// A serial adapter (slcan) on a pseudo-terminal: an interface of the kernel's CAN drivers, with a
-// queue that fills up while nobody reads the other end.
+// A serial adapter's queue fills up while nobody reads its other end.
 
 namespace verp::wire {
 namespace {
@@ -21,52 +16,29 @@ namespace {
 using test::frame_of;
 using test::poll_for;
 
-class Adapter {
+class Adapter : public test::SerialAdapter {
  public:
-  Adapter() : master_(::posix_openpt(O_RDWR | O_NOCTTY | O_NONBLOCK)) {
-    EXPECT_EQ(::grantpt(master_) | ::unlockpt(master_), 0);
-    slave_ = ::open(::ptsname(master_), O_RDWR | O_NOCTTY);
-    termios raw{};
-    ::tcgetattr(slave_, &raw);
-    ::cfmakeraw(&raw);
-    ::tcsetattr(slave_, TCSANOW, &raw);
-    const int slcan = 17;  // N_SLCAN of linux/tty.h
-    EXPECT_EQ(::ioctl(slave_, TIOCSETD, &slcan), 0) << "is the module slcan there?";
-    ifreq request{};
-    EXPECT_EQ(::ioctl(slave_, SIOCGIFNAME, &request), 0);
-    name = static_cast<const char*>(request.ifr_name);
-    test::ip("link set " + name + " up");
-  }
-  ~Adapter() {
-    ::close(master_);  // a hangup: the interface goes
-    ::close(slave_);
-  }
-  Adapter(const Adapter&) = delete;
-  Adapter& operator=(const Adapter&) = delete;
+  Adapter() { test::ip("link set " + name + " up"); }
 
   void say(const std::string& line) const {
-    EXPECT_EQ(::write(master_, line.data(), line.size()), static_cast<ssize_t>(line.size()));
+    EXPECT_EQ(::write(end, line.data(), line.size()), static_cast<ssize_t>(line.size()));
   }
   /// The lines that the interface has sent, as far as the adapter has read.
   std::vector<std::string> read_lines() {
     char piece[4096];
-    for (ssize_t count = 0; (count = ::read(master_, piece, sizeof piece)) > 0;) {
+    for (ssize_t count = 0; (count = ::read(end, piece, sizeof piece)) > 0;) {
       unread_.append(piece, static_cast<std::size_t>(count));
     }
     std::vector<std::string> lines;
-    for (std::size_t end = 0; (end = unread_.find('\r')) != std::string::npos;) {
-      lines.push_back(unread_.substr(0, end));
-      unread_.erase(0, end + 1);
+    for (std::size_t stop = 0; (stop = unread_.find('\r')) != std::string::npos;) {
+      lines.push_back(unread_.substr(0, stop));
+      unread_.erase(0, stop + 1);
     }
     return lines;
   }
   Endpoint endpoint() const { return parse_endpoint("can:" + name); }
 
-  std::string name;
-
  private:
-  int master_;
-  int slave_ = -1;
   std::string unread_;
 };
 

@@ -178,6 +178,7 @@ TEST(Efforts, ReadFromAWalkingControllersNodeAreWhatEachJointDidInItsTurn) {
   reader.judges = true;
   run(400);
   EXPECT_EQ(static_cast<safety::Mode>(loop->outputs().mode), safety::Mode::kWalking);
+  EXPECT_EQ(bus.errors().overruns, 0u);
   for (const Effort effort : {kVelocity, kTorque}) {
     EXPECT_GE(reader.judged[effort], 2u * params.joint_count) << effort;
     EXPECT_GT(reader.largest[effort], 100) << "it walked " << effort;

@@ -109,6 +109,9 @@ TEST(BusLoad, GrowsWithTheRateAndShrinksWithBusesAndFd) {
     EXPECT_LT(row.bare_permille, row.expected_permille);
     EXPECT_LT(row.expected_permille, row.worst_permille);
     EXPECT_LT(row.worst_permille, row.change_permille);
+    if (row.rate_hz > 100) {
+      EXPECT_GT(row.worst_permille, row_of(rows, 100, row.buses, row.fd).worst_permille);
+    }
     if (row.buses == 2) {
       EXPECT_LT(row.worst_permille, row_of(rows, row.rate_hz, 1, row.fd).worst_permille);
     }

@@ -91,5 +91,18 @@ TEST(OpenCan, IsNoStreamOfBytes) {
   }
 }
 
+// A bus at another rate than the robot's: only error frames would be there.
+TEST(CanBitRate, OfAnotherRobotIsToldWithTheRemedy) {
+  CanInterface interface;
+  interface.name = "can3";
+  interface.bitrate = 500'000;
+  EXPECT_EQ(bit_rate_trouble(interface, "generic21", 1'000'000),
+            "can3 runs at 500000 bit/s, the bus of generic21 at 1000000; ip link set can3 down && "
+            "ip link set can3 up type can bitrate 1000000, or change baud in <verp:bus>");
+  EXPECT_EQ(bit_rate_trouble(interface, "generic21", 500'000), "");
+  interface.bitrate = 0;  // vcan, or an adapter that was told its rate elsewhere
+  EXPECT_EQ(bit_rate_trouble(interface, "generic21", 1'000'000), "");
+}
+
 }  // namespace
 }  // namespace verp::wire

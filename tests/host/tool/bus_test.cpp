@@ -239,6 +239,19 @@ TEST_F(BusLinks, ThatCannotBeOpenedSayWhy) {
   EXPECT_NE(nobody.err.find("give serial:PATH"), std::string::npos);
 }
 
+// Each kind of link has ids of its own; which, is told before the link is opened.
+TEST_F(BusLinks, AnIdThatIsNoneIsRefusedWithTheRangeOfItsLink) {
+  for (const std::string id : {"-1", "0", "128", "253"}) {
+    expect_refused("bus ping --link can:none0 --id " + id, "--id: " + id + " is no node id");
+    expect_refused("bus read --link can:none0 --id " + id, "give 1 to 127");
+  }
+  for (const std::string id : {"-1", "253"}) {
+    expect_refused("bus ping --link unix:/nowhere/port --id " + id,
+                   "--id: " + id + " is out of range; give 0 to 252");
+  }
+  EXPECT_EQ(verp("bus ping --link unix:/nowhere/port --id 0").status, 3) << "an id, but no port";
+}
+
 // A device that never answers: one Ctrl-C ends the search.
 TEST_F(BusLinks, AnInterruptEndsALongScan) {
   wire::Link silent(wire::parse_endpoint("unix-listen:" + (folder_ / "port").string()));

@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "host/model/find.hpp"
 #include "tests/host/tool/program.hpp"
 
 namespace verp::tool::test {
@@ -185,6 +186,16 @@ TEST_F(Usage, ABoardWithoutItsImageIsBadInputEverywhere) {
     expect_refused(command, "cmake --preset fw-");
   }
   ::unsetenv("VERP_FIRMWARE_DIR");
+}
+
+// An IMU that the controller reads itself has no id on the robot's bus.
+TEST_F(Usage, AnImuThatIsNoDeviceOfTheBusIsShownWithoutAnId) {
+  const std::string robot = fs::absolute(model::find_model("generic21")).string();
+  const std::string other = "sed 's/sensor=\"imu\" id=\"120\"/sensor=\"imu\" id=\"0\"/' " + robot;
+  const Outcome outcome = shell(other + " >own.sdf && " VERP_PROGRAM " check own.sdf");
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_NE(outcome.out.find("IMU (not on the bus) on "), std::string::npos) << outcome.out;
+  EXPECT_NE(verp("check generic21").out.find("IMU (bus id 120) on "), std::string::npos);
 }
 
 }  // namespace
