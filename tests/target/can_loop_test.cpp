@@ -45,7 +45,17 @@ std::vector<TickRecord> walk_here(std::uint32_t ticks) {
   return records;
 }
 
-// Digests of every stage in every tick, and the inputs they come from.
+/// What `verp shadow` finds that listens meanwhile: it asks for a State first.
+void expect_same_bits_live(const shadow::LiveCheck& check, std::uint32_t ticks) {
+  constexpr std::uint32_t kFirstState = 200;
+  EXPECT_FALSE(check.over()) << (check.differs() ? "not the same bits" : check.refusal());
+  EXPECT_EQ(check.unsettled(), 0u);
+  EXPECT_EQ(check.gaps(), 0u) << check.gap();
+  EXPECT_GE(check.compared() + kFirstState, ticks) << "what the board tells of its ticks";
+}
+
+// Digests of every stage in every tick, and the inputs they come from; and those that the board
+// tells on the bus while it walks.
 TEST(CanLoop, WalksInTheTwinWithTheBitsOfSoftwareInTheLoop) {
   const std::string board = setting("VERP_TEST_BOARD"), length = setting("VERP_TEST_TICKS");
   ASSERT_FALSE(board.empty() || length.empty()) << "set VERP_TEST_BOARD and VERP_TEST_TICKS";
@@ -53,7 +63,8 @@ TEST(CanLoop, WalksInTheTwinWithTheBitsOfSoftwareInTheLoop) {
   const std::vector<TickRecord> here = walk_here(ticks);
   ASSERT_EQ(here.size(), ticks);
   CanTwin twin;
-  const test::CanRun run = test::run_over_can(board, twin.robot.params, twin.bus, ticks);
+  shadow::LiveCheck check(twin.robot.params);
+  const test::CanRun run = test::run_over_can(board, twin.robot.params, twin.bus, ticks, &check);
   std::printf("%-10s %u ticks at %.0f ticks/s with physics, %u answers asked for again\n",
               board.c_str(), ticks, run.ticks_per_s, run.counters.repeats);
   const std::vector<TickRecord>& there = run.records;
@@ -65,6 +76,7 @@ TEST(CanLoop, WalksInTheTwinWithTheBitsOfSoftwareInTheLoop) {
     }
     ASSERT_EQ(std::memcmp(&there[i], &here[i], sizeof(TickRecord)), 0) << "tick " << i;
   }
+  expect_same_bits_live(check, ticks);
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <chrono>
 #include <filesystem>
 #include <fstream>
+#include <optional>
 
 #include "firmware/app/app.hpp"
 #include "firmware/app/can_loop_job.hpp"
@@ -11,6 +12,7 @@
 #include "host/board/qemu.hpp"
 #include "host/board/temporary_directory.hpp"
 #include "host/can/lockstep_port.hpp"
+#include "host/link/can_port.hpp"
 
 namespace verp::test {
 namespace {
@@ -69,11 +71,33 @@ struct Watch {
   }
 };
 
+const wire::Endpoint kInterface{.kind = wire::Endpoint::Kind::kCan, .place = "vcan0"};
+
+/// What passes on vcan0, to the live check, which may ask the controller: as `verp shadow` does.
+class Listener {
+ public:
+  explicit Listener(shadow::LiveCheck& check) : check_(check) {}
+  void listen() {
+    CanFrame frame;
+    while (port_.poll(frame, 0)) check_.take(frame, port_.now_us());
+    while (check_.next(frame, port_.now_us()) && port_.send(frame)) {
+    }
+  }
+  std::uint32_t overruns() const { return port_.errors().overruns; }
+
+ private:
+  wire::CanPort port_{kInterface};
+  shadow::LiveCheck& check_;
+};
+
 /// Answers the controller until it ends.
-void serve(can::LockstepServer& server, can::LockstepPort& port, board::QemuProcess& firmware) {
+void serve(can::LockstepServer& server, can::LockstepPort& port, board::QemuProcess& firmware,
+           std::optional<Listener>& listener) {
   Clock::time_point heard = Clock::now();
   for (;;) {
-    if (port.serve(server, kLook_us)) {
+    const bool served = port.serve(server, kLook_us);
+    if (listener) listener->listen();
+    if (served) {
       heard = Clock::now();
       continue;
     }
@@ -85,11 +109,13 @@ void serve(can::LockstepServer& server, can::LockstepPort& port, board::QemuProc
 }  // namespace
 
 CanRun run_over_can(const std::string& name, const Params& params, can::VirtualCan& bus,
-                    std::uint32_t ticks) {
+                    std::uint32_t ticks, shadow::LiveCheck* check) {
   const board::TemporaryDirectory folder;
   const auto job = folder.path() / "job", records = folder.path() / "records";
   write_job(job, params, ticks);
-  can::LockstepPort port({.kind = wire::Endpoint::Kind::kCan, .place = "vcan0"});
+  can::LockstepPort port(kInterface);
+  std::optional<Listener> listener;
+  if (check != nullptr) listener.emplace(*check);
   Watch watch;
   can::LockstepServer server(params, bus, watch.hooks());
   const board::EmulatedBoard& emulated = board::find_emulated_board(name);
@@ -97,9 +123,12 @@ CanRun run_over_can(const std::string& name, const Params& params, can::VirtualC
                                .image = board::firmware_image(emulated, "loop"),
                                .arguments = {job.string(), records.string()},
                                .can_interface = "vcan0"});
-  serve(server, port, firmware);
+  serve(server, port, firmware, listener);
   firmware.wait_for_success(kEnd);
-  if (port.errors().overruns != 0) throw board::BoardError("vcan0: frames were lost on this PC");
+  const std::uint32_t unheard = listener ? listener->overruns() : 0;
+  if (port.errors().overruns + unheard != 0) {
+    throw board::BoardError("vcan0: frames were lost on this PC");
+  }
   CanRun run{.records = read_records(records), .counters = server.counters()};
   const std::chrono::duration<double> took = watch.last - watch.first;
   if (watch.ticks > 1) {

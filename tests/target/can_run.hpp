@@ -7,6 +7,7 @@
 #include "common/record/tick_record.hpp"
 #include "host/can/lockstep_server.hpp"
 #include "host/can/virtual_can.hpp"
+#include "host/shadow/live_check.hpp"
 #include "tests/target/twin_run.hpp"
 
 /// The control loop in an emulated board, its drives and sensors on a virtual bus, CAN frames on
@@ -21,9 +22,9 @@ struct CanRun {
 };
 
 /// The board walks as ScriptedOperator says. Throws BoardError when it does not end well, or when
-/// frames were lost here.
+/// frames were lost here. `check` listens on vcan0, if there is one.
 CanRun run_over_can(const std::string& board, const Params& params, can::VirtualCan& bus,
-                    std::uint32_t ticks);
+                    std::uint32_t ticks, shadow::LiveCheck* check = nullptr);
 
 /// Software in the loop, over the same CANopen binding. Empty: it did not come up.
 std::vector<TickRecord> run_can_here(const Params& params, can::VirtualCan& bus,
