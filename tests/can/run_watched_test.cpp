@@ -56,7 +56,9 @@ TEST_F(WatchedRun, TellsOfEachTickShowsItsRegistersAndRefusesOrders) {
   EXPECT_EQ(slurp(folder_ / "write.status"), "3\n");
   EXPECT_NE(slurp(folder_ / "write.err").find("under local control"), std::string::npos)
       << slurp(folder_ / "write.err");
-  EXPECT_TRUE(json::parse(slurp(folder_ / "last.out")).at("let_go")) << outcome.err;
+  const json run = json::parse(slurp(folder_ / "last.out"));
+  EXPECT_TRUE(run.at("let_go")) << outcome.err;
+  EXPECT_EQ(run.at("bus").at("overruns"), 0);
 }
 
 }  // namespace
