@@ -1,6 +1,7 @@
 # Images of emulated boards that speak with the PC by semihosting, as executables <what>_<board>.elf. Called in the
 # board's own folder.
 set(VERP_MPS2_DIR ${CMAKE_CURRENT_LIST_DIR})
+include(${CMAKE_SOURCE_DIR}/tests/together.cmake)
 
 # <name>_<board>.elf from <what>_main.cpp and further sources; `machine` is QEMU's name of the board.
 function(verp_add_emulated_image name what machine)
@@ -19,14 +20,15 @@ function(verp_add_emulated_image name what machine)
     LINK_DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/memory.ld;${CMAKE_SOURCE_DIR}/firmware/boot/sections.ld")
 endfunction()
 
-# <name>_<board>.elf runs the unit tests of the given sources; ctest has it as `test`.
+# <name>_<board>.elf runs the unit tests of the given sources, with `VERP_WITH`; ctest has it as `test`.
 function(verp_add_unit_image name test machine)
   set(library newlib.cpp)
   if(CMAKE_SYSTEM_PROCESSOR STREQUAL riscv32)
     list(APPEND library riscv_library.cpp)
   endif()
   list(TRANSFORM library PREPEND ${VERP_MPS2_DIR}/)
-  verp_add_emulated_image(${name} unit ${machine} ${library} ${ARGN})
+  verp_add_emulated_image(${name} unit ${machine} ${library} ${VERP_WITH} ${ARGN})
+  verp_compile_together(${name}_${VERP_BOARD} ${ARGN})
   target_include_directories(${name}_${VERP_BOARD} SYSTEM PRIVATE ${CMAKE_SOURCE_DIR}/tests/support/gtest_target)
   add_test(NAME ${test} COMMAND ${name}_${VERP_BOARD})
   set_tests_properties(${test} PROPERTIES LABELS "unit;target" TIMEOUT 300)
@@ -58,8 +60,9 @@ function(verp_add_contract_tests machine)
     ${CMAKE_SOURCE_DIR}/tests/support/stm32/*.cpp ${CMAKE_SOURCE_DIR}/tests/support/can/*.cpp)
   set(can ${CMAKE_SOURCE_DIR}/tests/contract/can_bus_test.cpp)
   list(REMOVE_ITEM tests ${can})
-  verp_add_unit_image(contract contract.${VERP_BOARD} ${machine} ${tests} ${models})
-  verp_add_unit_image(contract_can contract_can.${VERP_BOARD} ${machine} ${can} ${models})
+  set(VERP_WITH ${models})
+  verp_add_unit_image(contract contract.${VERP_BOARD} ${machine} ${tests})
+  verp_add_unit_image(contract_can contract_can.${VERP_BOARD} ${machine} ${can})
   set_tests_properties(contract.${VERP_BOARD} contract_can.${VERP_BOARD} PROPERTIES LABELS "contract;target")
 endfunction()
 

@@ -56,8 +56,11 @@ TEST_F(RunOnCan, DrivesTheRobotAndLetsItGo) {
   EXPECT_NE(outcome.err.find("relaxed to rising"), std::string::npos) << outcome.err;
   const bool undisturbed =
       result.at("deadlines").at("skipped_periods") == 0 && result.at("bus").at("timeouts") == 0;
+  EXPECT_EQ(result.at("bus").at("overruns"), 0);
   if (undisturbed) {
     EXPECT_EQ(outcome.status, 0) << outcome.err;
+    EXPECT_NE(outcome.err.find("standing to walking"), std::string::npos) << outcome.err;
+    EXPECT_GT(result.at("walked_s"), 2);
   }
   const Outcome replay = verp("replay run.mcap", "replay");
   EXPECT_EQ(replay.status, 0) << replay.err;

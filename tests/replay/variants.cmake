@@ -9,9 +9,16 @@ list(TRANSFORM contract_definitions PREPEND -D)
 set(core_flags -std=c++20 -I${CMAKE_SOURCE_DIR} -isystem ${VERP_EIGEN_DIR} ${contract} ${contract_definitions})
 find_program(VERP_CLANG NAMES clang++ clang++-14)
 
+# All of the core as one file: each compiler reads the headers once, and may inline across files as it likes.
+set(whole_core ${CMAKE_CURRENT_BINARY_DIR}/whole_core/core.cpp)
+list(TRANSFORM core_sources REPLACE "(.+)" "#include \"\\1\"\n" OUTPUT_VARIABLE whole_core_text)
+list(JOIN whole_core_text "" whole_core_text)
+file(CONFIGURE OUTPUT ${whole_core} CONTENT "${whole_core_text}" @ONLY)
+
 # Compiles one file into `folder`; appends the object to `list`.
 function(compile_one list folder compiler source)
   file(RELATIVE_PATH object ${CMAKE_SOURCE_DIR} ${source})
+  string(REPLACE "../" "" object ${object}) # a build tree elsewhere
   set(object ${CMAKE_CURRENT_BINARY_DIR}/${folder}/${object}.o)
   cmake_path(GET object PARENT_PATH parent)
   file(MAKE_DIRECTORY ${parent})
@@ -22,10 +29,11 @@ function(compile_one list folder compiler source)
   set(${list} ${${list}} ${object} PARENT_SCOPE)
 endfunction()
 
-# Program `folder`/`main` from the core compiled with the flags given, and tests/replay/main.cpp. Adds it to `programs`.
-function(link_variant folder compiler main link_flags)
+# Program `folder`/`main` from the core's files (`core`) compiled with the flags given, and tests/replay/main.cpp. Adds
+# it to `programs`.
+function(link_variant folder compiler main core link_flags)
   set(objects)
-  foreach(source ${core_sources})
+  foreach(source ${${core}})
     compile_one(objects ${folder} ${compiler} ${source} -ffreestanding -fno-exceptions -fno-rtti
       -fno-threadsafe-statics ${ARGN})
   endforeach()
@@ -38,15 +46,15 @@ function(link_variant folder compiler main link_flags)
 endfunction()
 
 set(programs)
-link_variant(gcc_O0 ${CMAKE_CXX_COMPILER} digest_main "" -O0)
-link_variant(gcc_O3 ${CMAKE_CXX_COMPILER} digest_main "" -O3)
-link_variant(gcc_O3_native ${CMAKE_CXX_COMPILER} digest_main "" -O3 -march=native)
+link_variant(gcc_O0 ${CMAKE_CXX_COMPILER} digest_main whole_core "" -O0)
+link_variant(gcc_O3 ${CMAKE_CXX_COMPILER} digest_main whole_core "" -O3)
+link_variant(gcc_O3_native ${CMAKE_CXX_COMPILER} digest_main whole_core "" -O3 -march=native)
 if(VERP_CLANG)
-  link_variant(clang_O0 ${VERP_CLANG} digest_main "" -O0)
-  link_variant(clang_O2 ${VERP_CLANG} digest_main "" -O2)
-  link_variant(clang_O3 ${VERP_CLANG} digest_main "" -O3)
-  link_variant(clang_O3_native ${VERP_CLANG} digest_main "" -O3 -march=native)
-  link_variant(clang_asan_ubsan ${VERP_CLANG} digest_main "" -O1 -g1 -fsanitize=address,undefined
+  link_variant(clang_O0 ${VERP_CLANG} digest_main whole_core "" -O0)
+  link_variant(clang_O2 ${VERP_CLANG} digest_main whole_core "" -O2)
+  link_variant(clang_O3 ${VERP_CLANG} digest_main whole_core "" -O3)
+  link_variant(clang_O3_native ${VERP_CLANG} digest_main whole_core "" -O3 -march=native)
+  link_variant(clang_asan_ubsan ${VERP_CLANG} digest_main whole_core "" -O1 -g1 -fsanitize=address,undefined
     -fno-sanitize-recover=all)
 endif()
 add_custom_target(replay_variants ALL DEPENDS ${programs})
@@ -56,10 +64,11 @@ add_test(NAME replay.matrix
 set_tests_properties(replay.matrix PROPERTIES LABELS replay FIXTURES_REQUIRED long_trace TIMEOUT 300)
 
 get_target_property(core_sources verp_core SOURCES)
-# What step() can call is what the linker keeps of one section a function.
+# What step() can call is what the linker keeps of one section a function. File by file: the linker can't wrap what is
+# called within one.
 set(programs)
 find_program(VERP_GCOV NAMES gcov-12 gcov)
-link_variant(counted ${CMAKE_CXX_COMPILER} reach_main
+link_variant(counted ${CMAKE_CXX_COMPILER} reach_main core_sources
   "-Wl,--gc-sections,--wrap=_ZN4verp6safety9next_modeENS0_4ModeEj" -O0 -g --coverage -ffunction-sections -fno-inline
   -fno-jump-tables)
 add_custom_target(replay_counted ALL DEPENDS ${programs})

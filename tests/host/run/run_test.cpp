@@ -79,7 +79,7 @@ TEST_F(RealRobot, TheChecklistIsAskedOnEveryLink) {
 
 // One press: down, then limp, in the order of the table. A terminal that closes and a system that
 // shuts down are presses too.
-TEST_F(RealRobot, AnInterruptSitsTheRobotDown) {
+TEST_F(TimelyRobot, AnInterruptSitsTheRobotDown) {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
     serve();  // anew: the robot that was let go lies
     plug({1000, 1000});

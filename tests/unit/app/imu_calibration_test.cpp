@@ -11,7 +11,7 @@
 namespace verp::app {
 namespace {
 
-using State = dxl::controller::ImuCalibrationState;
+using Outcome = dxl::controller::ImuCalibrationState;
 using Chip = CalibratedImu<hal::ScriptedImu, hal::MemoryStore>;
 
 constexpr float kGyroScale = 0.00106526F;   // 2000 deg/s
@@ -56,8 +56,8 @@ hal::ImuSample at_rest(const ImuParams& imu, float tilt_rad, int about, const st
   return sample;
 }
 
-State measured(ImuCalibrator& calibrator, const ImuParams& imu, float tilt_rad, int about,
-               const std::int16_t* bias, int noise = 8) {
+Outcome measured(ImuCalibrator& calibrator, const ImuParams& imu, float tilt_rad, int about,
+                 const std::int16_t* bias, int noise = 8) {
   test::Random random(1);
   calibrator.begin();
   for (int i = 1; i <= ImuCalibrator::kSamples; ++i) {
@@ -83,7 +83,7 @@ TEST(ImuCalibration, TakesBiasAndTiltOutHoweverTheChipIsMounted) {
     for (int about = 0; about < 3; ++about) {
       for (const float tilt_rad : {-0.3F, -0.02F, 0.0F, 0.1F, 0.3F}) {
         ImuCalibrator calibrator(imu);
-        ASSERT_TRUE(measured(calibrator, imu, tilt_rad, about, bias) == State::kDone) << tilt_rad;
+        ASSERT_TRUE(measured(calibrator, imu, tilt_rad, about, bias) == Outcome::kDone) << tilt_rad;
         test::Random random(2);
         const hal::ImuSample raw = at_rest(imu, tilt_rad, about, bias, random, 0);
         const hal::ImuSample good = calibrator.result().corrected(raw);
@@ -103,7 +103,7 @@ TEST(ImuCalibration, TurnsBothAlike) {
   const std::int16_t bias[3] = {0, 0, 0};
   const ImuParams imu = upright();
   ImuCalibrator calibrator(imu);
-  ASSERT_TRUE(measured(calibrator, imu, 0.2F, 0, bias) == State::kDone);
+  ASSERT_TRUE(measured(calibrator, imu, 0.2F, 0, bias) == Outcome::kDone);
   ImuCalibration turn = calibrator.result();
   for (std::int16_t& count : turn.gyro_bias_count) count = 0;
   test::Random random(3);
@@ -138,9 +138,9 @@ TEST(ImuCalibration, IsRefusedFromARobotThatMoves) {
   const ImuParams imu = upright();
   ImuCalibrator calibrator(imu);
   const std::int16_t none[3] = {0, 0, 0};
-  EXPECT_TRUE(measured(calibrator, imu, 0, 0, none, 40) == State::kMoved) << "it trembles";
+  EXPECT_TRUE(measured(calibrator, imu, 0, 0, none, 40) == Outcome::kMoved) << "it trembles";
   const std::int16_t turning[3] = {0, 0, 200};
-  EXPECT_TRUE(measured(calibrator, imu, 0, 0, turning) == State::kMoved) << "12 deg/s: it turns";
+  EXPECT_TRUE(measured(calibrator, imu, 0, 0, turning) == Outcome::kMoved) << "12 deg/s: it turns";
   // One push is enough, whenever it comes.
   for (const int when : {0, 100, ImuCalibrator::kSamples - 1}) {
     test::Random random(1);
@@ -150,7 +150,7 @@ TEST(ImuCalibration, IsRefusedFromARobotThatMoves) {
       if (i == when) sample.gyro_count[1] = 100;
       calibrator.take(sample);
     }
-    EXPECT_TRUE(calibrator.state() == State::kMoved) << when;
+    EXPECT_TRUE(calibrator.state() == Outcome::kMoved) << when;
   }
 }
 
@@ -158,10 +158,11 @@ TEST(ImuCalibration, IsRefusedFromARobotThatLeansOrASensorOfAnotherScale) {
   ImuParams imu = upright();
   const std::int16_t none[3] = {0, 0, 0};
   ImuCalibrator calibrator(imu);
-  EXPECT_TRUE(measured(calibrator, imu, 0.4F, 1, none) == State::kNotUpright);
-  EXPECT_TRUE(measured(calibrator, imu, 3.14159F, 1, none) == State::kNotUpright) << "on its head";
+  EXPECT_TRUE(measured(calibrator, imu, 0.4F, 1, none) == Outcome::kNotUpright);
+  EXPECT_TRUE(measured(calibrator, imu, 3.14159F, 1, none) == Outcome::kNotUpright)
+      << "on its head";
   imu.accel_m_s2_per_count *= 0.5F;
-  EXPECT_TRUE(measured(calibrator, imu, 0, 1, none) == State::kNotUpright) << "half of gravity";
+  EXPECT_TRUE(measured(calibrator, imu, 0, 1, none) == Outcome::kNotUpright) << "half of gravity";
 }
 
 /// A chip at rest on a board, through one start of it.
@@ -180,7 +181,7 @@ struct Life {
     return sample;
   }
   /// Measures with as many samples as it takes.
-  State calibrated(hal::MemoryStore& memory, const ImuParams& params) {
+  Outcome calibrated(hal::MemoryStore& memory, const ImuParams& params) {
     imu.measure(0);
     for (int i = 0; i < ImuCalibrator::kSamples; ++i) next(memory, params);
     return imu.state();
@@ -197,33 +198,33 @@ TEST(CalibratedImu, MeasuresAppliesAndKeeps) {
   Life first(memory, params);
   EXPECT_NEAR(first.next(memory, params).gyro_count[0], 30, 9.0F) << "as it comes";
   first.imu.measure(0);
-  EXPECT_TRUE(first.imu.state() == State::kMeasuring);
+  EXPECT_TRUE(first.imu.state() == Outcome::kMeasuring);
   for (int i = 0; i < ImuCalibrator::kSamples; ++i) first.next(memory, params);
-  EXPECT_TRUE(first.imu.state() == State::kDone);
+  EXPECT_TRUE(first.imu.state() == Outcome::kDone);
   EXPECT_NEAR(first.next(memory, params).gyro_count[0], 0, 10.0F);
   Life second(memory, params);
-  EXPECT_TRUE(second.imu.state() == State::kDone);
+  EXPECT_TRUE(second.imu.state() == Outcome::kDone);
   const hal::ImuSample sample = second.next(memory, params);
   EXPECT_NEAR(sample.gyro_count[2], 0, 10.0F);
   EXPECT_NEAR(sample.accel_count[1], 0, 20.0F) << "the tilt is gone";
   second.imu.forget();
   EXPECT_NEAR(second.next(memory, params).gyro_count[2], -30, 9.0F);
-  EXPECT_TRUE(Life(memory, params).imu.state() == State::kNone);
+  EXPECT_TRUE(Life(memory, params).imu.state() == Outcome::kNone);
 }
 
 TEST(CalibratedImu, ARefusedMeasurementLeavesTheOldOneInForceAndInMemory) {
   hal::MemoryStore memory;
   const ImuParams params = upright();
   Life life(memory, params);
-  ASSERT_TRUE(life.calibrated(memory, params) == State::kDone);
+  ASSERT_TRUE(life.calibrated(memory, params) == Outcome::kDone);
   life.imu.measure(0);
   hal::ImuSample push{{3000, 0, 0}, {0, 0, 8192}, ++life.time_us};
   life.chip.measure(push);
   life.imu.read(push);
   for (int i = 1; i < ImuCalibrator::kSamples; ++i) life.next(memory, params);
-  EXPECT_TRUE(life.imu.state() == State::kMoved);
+  EXPECT_TRUE(life.imu.state() == Outcome::kMoved);
   EXPECT_NEAR(life.next(memory, params).gyro_count[0], 0, 10.0F);
-  EXPECT_TRUE(Life(memory, params).imu.state() == State::kDone);
+  EXPECT_TRUE(Life(memory, params).imu.state() == Outcome::kDone);
 }
 
 TEST(CalibratedImu, AbandonedItChangesNothingAnyMore) {
@@ -231,15 +232,15 @@ TEST(CalibratedImu, AbandonedItChangesNothingAnyMore) {
   const ImuParams params = upright();
   Life life(memory, params);
   life.imu.abandon();
-  EXPECT_TRUE(life.imu.state() == State::kNone) << "nothing was under way";
+  EXPECT_TRUE(life.imu.state() == Outcome::kNone) << "nothing was under way";
   life.imu.measure(0);
   life.next(memory, params);
   life.imu.abandon();
-  EXPECT_TRUE(life.imu.state() == State::kMoved);
+  EXPECT_TRUE(life.imu.state() == Outcome::kMoved);
   for (int i = 0; i < ImuCalibrator::kSamples; ++i) {
     EXPECT_NEAR(life.next(memory, params).gyro_count[0], 30, 9.0F);
   }
-  EXPECT_TRUE(Life(memory, params).imu.state() == State::kNone);
+  EXPECT_TRUE(Life(memory, params).imu.state() == Outcome::kNone);
 }
 
 TEST(CalibratedImu, OfAnotherVersionOrSizeIsNotTaken) {
@@ -250,11 +251,11 @@ TEST(CalibratedImu, OfAnotherVersionOrSizeIsNotTaken) {
   bytes[0] ^= 0xFF;
   memory.put(kImuCalibrationKey, bytes, sizeof bytes);
   memory.work(true);
-  EXPECT_TRUE(Life(memory, params).imu.state() == State::kDropped);
+  EXPECT_TRUE(Life(memory, params).imu.state() == Outcome::kDropped);
   bytes[0] ^= 0xFF;
   memory.put(kImuCalibrationKey, bytes, sizeof bytes - 1);
   memory.work(true);
-  EXPECT_TRUE(Life(memory, params).imu.state() == State::kDropped);
+  EXPECT_TRUE(Life(memory, params).imu.state() == Outcome::kDropped);
 }
 
 // A bias is in counts of a scale, a turn belongs to a mounting: for a robot that has another of
@@ -264,7 +265,7 @@ TEST(CalibratedImu, MeasuredInAnotherScaleOrMountingIsDroppedAndSaid) {
   hal::MemoryStore memory;
   const ImuParams params = upright();
   Life first(memory, params);
-  ASSERT_TRUE(first.calibrated(memory, params) == State::kDone);
+  ASSERT_TRUE(first.calibrated(memory, params) == Outcome::kDone);
   ImuParams other[11];
   for (int i = 0; i < 11; ++i) {
     other[i] = params;
@@ -273,13 +274,13 @@ TEST(CalibratedImu, MeasuredInAnotherScaleOrMountingIsDroppedAndSaid) {
                             : other[i].accel_m_s2_per_count;
     value = value == 0.0F ? 0.01F : 0.5F * value;
     Life life(memory, other[i]);
-    EXPECT_TRUE(life.imu.state() == State::kDropped) << i;
+    EXPECT_TRUE(life.imu.state() == Outcome::kDropped) << i;
     EXPECT_NEAR(life.next(memory, params).gyro_count[0], 30, 9.0F) << "as it comes: " << i;
   }
   ImuParams on_bus = params;
   on_bus.device_id = 120;
-  EXPECT_TRUE(Life(memory, on_bus).imu.state() == State::kDone) << "the chip is the same";
-  EXPECT_TRUE(Life(memory, params).imu.state() == State::kDone);
+  EXPECT_TRUE(Life(memory, on_bus).imu.state() == Outcome::kDone) << "the chip is the same";
+  EXPECT_TRUE(Life(memory, params).imu.state() == Outcome::kDone);
 }
 
 // Samples come from read() alone; a chip that goes silent half-way, or a loop that asks no more.
@@ -291,17 +292,17 @@ TEST(CalibratedImu, AMeasurementWithoutSamplesEndsWithAVerdict) {
     Life life(memory, params);
     life.imu.measure(0);
     for (int i = 0; i < ImuCalibrator::kSamples; ++i) life.next(memory, params);
-    ASSERT_TRUE(life.imu.state() == State::kDone);
+    ASSERT_TRUE(life.imu.state() == Outcome::kDone);
     life.imu.measure(kBegin_us);
     for (int i = 0; i < samples; ++i) life.next(memory, params);
     life.imu.watch(kBegin_us + Chip::kMost_us - 1);
-    EXPECT_TRUE(life.imu.state() == State::kMeasuring) << samples;
+    EXPECT_TRUE(life.imu.state() == Outcome::kMeasuring) << samples;
     life.imu.watch(kBegin_us + Chip::kMost_us);
-    EXPECT_TRUE(life.imu.state() == State::kSilent) << samples;
+    EXPECT_TRUE(life.imu.state() == Outcome::kSilent) << samples;
     for (int i = 0; i < ImuCalibrator::kSamples; ++i) life.next(memory, params);
-    EXPECT_TRUE(life.imu.state() == State::kSilent) << "what comes late is no measurement";
+    EXPECT_TRUE(life.imu.state() == Outcome::kSilent) << "what comes late is no measurement";
     EXPECT_NEAR(life.next(memory, params).gyro_count[0], 0, 10.0F) << "the old one counts";
-    EXPECT_TRUE(Life(memory, params).imu.state() == State::kDone);
+    EXPECT_TRUE(Life(memory, params).imu.state() == Outcome::kDone);
   }
 }
 
@@ -312,15 +313,15 @@ TEST(CalibratedImu, TheSlowestLoopHasTimeToMeasure) {
   const ImuParams params = upright();
   Life life(memory, params);
   life.imu.watch(~std::uint64_t{0});
-  EXPECT_TRUE(life.imu.state() == State::kNone);
+  EXPECT_TRUE(life.imu.state() == Outcome::kNone);
   life.imu.measure(0);
   for (std::uint64_t i = 1; i <= ImuCalibrator::kSamples; ++i) {
     life.next(memory, params);
     life.imu.watch(i * 20'000);
   }
-  EXPECT_TRUE(life.imu.state() == State::kDone);
+  EXPECT_TRUE(life.imu.state() == Outcome::kDone);
   life.imu.watch(~std::uint64_t{0});
-  EXPECT_TRUE(life.imu.state() == State::kDone);
+  EXPECT_TRUE(life.imu.state() == Outcome::kDone);
 }
 
 TEST(CalibratedImu, FaultsPassThrough) {

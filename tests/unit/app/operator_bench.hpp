@@ -118,4 +118,15 @@ class Bench {
   }
 };
 
+inline Bench<>& fresh_bench(const OperatorSetup& setup = {}) {
+  return renewed<Bench<>>(no_images, setup);
+}
+/// One that was asked to relax, and takes any other request.
+inline Bench<>& relaxed_bench() {
+  Bench<>& bench = fresh_bench();
+  bench.relax();
+  bench.device.order(0);
+  return bench;
+}
+
 }  // namespace verp::app::test

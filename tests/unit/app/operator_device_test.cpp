@@ -16,17 +16,6 @@ namespace {
 using dxl::Error;
 using dxl::Instruction;
 
-Bench<>& fresh_bench(const OperatorSetup& setup = {}) {
-  return renewed<Bench<>>(no_images, setup);
-}
-/// One that was asked to relax, and takes any other request.
-Bench<>& relaxed_bench() {
-  Bench<>& bench = fresh_bench();
-  bench.relax();
-  bench.device.order(0);
-  return bench;
-}
-
 template <std::size_t kSize>
 Reply send(Bench<>& bench, const std::uint8_t (&bytes)[kSize]) {
   return bench.send(bytes, kSize);

@@ -10,17 +10,6 @@ namespace {
 
 using dxl::Error;
 
-Bench<>& fresh_bench() {
-  return renewed<Bench<>>(no_images);
-}
-/// One that was asked to relax, and takes any other request.
-Bench<>& relaxed_bench() {
-  Bench<>& bench = fresh_bench();
-  bench.relax();
-  bench.device.order(0);
-  return bench;
-}
-
 // What gives power back after a stop is that somebody writes 0, not that 0 stands there.
 TEST(OperatorOrders, ToRelaxIsToldOnceForEachTimeItIsWritten) {
   Bench<>& bench = fresh_bench();

@@ -14,9 +14,6 @@ namespace {
 
 using dxl::Error;
 
-Bench<>& fresh_bench() {
-  return renewed<Bench<>>(no_images);
-}
 // What the board found at its start, for an operator who comes later.
 TEST(OperatorStart, IsToldInRegisters) {
   const OperatorSetup setup = {

@@ -77,7 +77,7 @@ TEST(Panel, ABouncingReleaseIsPressedUntilItIsReleased) {
   bench.pins.now.stop_pressed = true;
   for (int tick = 0; tick < 100; ++tick) bench.stopped();
   ASSERT_TRUE(bench.panel.pressed());
-  test::Random random(2);
+  verp::test::Random random(2);
   for (int tick = 0; tick < 300; ++tick) {
     bench.pins.now.stop_pressed = tick % 16 == 0 || random.below(2) == 0;
     bench.stopped();
@@ -103,7 +103,7 @@ TEST(Panel, TheStopOfTheOperatorsLinkIsAPressedOneToo) {
 // A contact that rattles while it opens never reads as closed; one spark of a closed one is none.
 TEST(Panel, BouncingNeverReleasesAndASparkNeverStops) {
   Bench bench;
-  test::Random random(1);
+  verp::test::Random random(1);
   for (int tick = 0; tick < 2000; ++tick) {
     bench.pins.now.stop_pressed = tick % 8 == 0 || random.below(3) == 0;
     EXPECT_TRUE(bench.stopped());

@@ -1,0 +1,21 @@
+# verp_compile_together(TARGET SOURCES...): those of one folder are compiled as one file, for the PC and for the boards:
+# of a test's time in the compiler most is the headers'. So names in one folder's tests differ, or the test stands here
+# and is compiled alone.
+set(VERP_COMPILED_ALONE
+  balance/gravity_test.cpp can_app/canopen_servos_test.cpp can_app/controller_objects_test.cpp canopen/nmt_test.cpp
+  control/step_test.cpp gait/gait_test.cpp gait/preview_test.cpp math/elementary_test.cpp math/linear_test.cpp
+  math/scalar_test.cpp protocol/parser_test.cpp store/power_cut_test.cpp store/program_page_test.cpp)
+
+function(verp_compile_together target)
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
+  # Of types in a test's unnamed namespace GCC says that they are a header's.
+  target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
+  foreach(source ${ARGN})
+    cmake_path(GET source PARENT_PATH folder)
+    cmake_path(GET folder FILENAME folder)
+    cmake_path(GET source FILENAME name)
+    if(NOT ${folder}/${name} IN_LIST VERP_COMPILED_ALONE)
+      set_source_files_properties(${source} PROPERTIES UNITY_GROUP ${folder})
+    endif()
+  endforeach()
+endfunction()
