@@ -41,9 +41,11 @@ class Twin {
                 .input = {},
                 .output = {.file = out_},
                 .error = process::Stream{.file = err_}}) {
-    for (int i = 0; i < 200 && errors().find("waits for a controller") == std::string::npos; ++i) {
-      rest(20);
-    }
+    const auto waits = [this] {
+      return errors().find("waits for a controller") != std::string::npos;
+    };
+    for (int i = 0; i < 1000 && !waits(); ++i) rest(20);
+    EXPECT_TRUE(waits()) << errors();
   }
   /// Ctrl-C; the exit status.
   int stop() {
@@ -174,7 +176,10 @@ TEST_F(ForeignMaster, RandomTrafficEndsNothing) {
   }
   Capture capture(folder_);
   cansend("000#8100");
-  for (const unsigned node : nodes) capture.await(fmt::format("7{:02X}#00", node));
+  for (const unsigned node : nodes) {
+    capture.await(fmt::format("7{:02X}#00", node));
+    ASSERT_FALSE(HasFailure()) << "the twin's status: " << twin.stop() << '\n' << twin.errors();
+  }
   ask(capture, "613#4000100000000000", "593#4300100092010200");
   const int status = twin.stop();
   EXPECT_TRUE(status == 0 || status == 1) << status << twin.errors();
