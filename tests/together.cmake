@@ -8,8 +8,6 @@ set(VERP_COMPILED_ALONE
 
 function(verp_compile_together target)
   set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
-  # Of types in a test's unnamed namespace GCC says that they are a header's.
-  target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
   foreach(source ${ARGN})
     cmake_path(GET source PARENT_PATH folder)
     cmake_path(GET folder FILENAME folder)
