@@ -34,7 +34,7 @@
 ///    twin keeps its last answer, and lets time go on for a new number only.
 ///  - A CanAdvance of which nothing came back is sent again after a while (half a second, then
 ///    longer, up to 2 s): sooner, and the answer of a PC under load would come twice, which a small
-///    FIFO does not hold.
+///    FIFO does not hold. A PC that finds it several times was that late, and answers once.
 namespace verp::lockstep {
 
 inline constexpr std::uint32_t kCanHelloId = 0x1FFFFF00;
@@ -45,8 +45,9 @@ inline constexpr std::uint32_t kCanHelloParts = sizeof(Hello) / kMaxCanData;
 static_assert(kCanHelloParts * kMaxCanData == sizeof(Hello));
 /// Frames that one answer brings at most.
 inline constexpr std::size_t kMaxBurst = 16;
-/// And how much of an SJA1000's FIFO they may take: 64 bytes, less a CanAdvanced. A controller that
-/// is emulated, or busy, finds the whole answer there.
+/// And how much of an SJA1000's FIFO they may take, with what else the PC says to the controller's
+/// node: 64 bytes, less a CanAdvanced. A controller that is emulated, or busy, finds all of it
+/// there, unless somebody else asks it something just then; it asks for the answer again.
 inline constexpr std::size_t kBurstRoom = 64 - 13;
 /// What a frame takes of it: frame information, identifier, data.
 constexpr std::size_t room_of(const CanFrame& frame) {

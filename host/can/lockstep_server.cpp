@@ -106,10 +106,17 @@ bool LockstepServer::send_frames(bool whole) {
   return true;
 }
 
-void LockstepServer::bring_burst(std::uint32_t timeout_us) {
+std::size_t LockstepServer::bring_enclosed(std::vector<CanFrame>& answer) {
+  if (enclosed_.empty()) return 0;
+  answer.push_back(enclosed_.front());
+  enclosed_.pop_front();
+  return lockstep::room_of(answer.back());
+}
+
+void LockstepServer::bring_burst(std::uint32_t timeout_us, std::size_t room) {
   CanFrame frame;
   if (!bus_.poll(frame, timeout_us)) return;
-  std::size_t room = lockstep::room_of(frame);
+  room += lockstep::room_of(frame);
   last_.push_back(frame);
   for (const CanFrame* next = bus_.next_unread(); next != nullptr; next = bus_.next_unread()) {
     room += lockstep::room_of(*next);
@@ -143,7 +150,7 @@ void LockstepServer::advance(const lockstep::CanAdvance& advance, std::vector<Ca
   }
   last_.clear();
   stopped_ = stopped_ || !send_frames(whole);
-  if (!stopped_) bring_burst(advance.timeout_us);
+  if (!stopped_) bring_burst(advance.timeout_us, bring_enclosed(answer));
   for (const CanFrame& each : last_) {
     status.burst_sum = static_cast<std::uint16_t>(status.burst_sum + lockstep::sum_of(each));
   }

@@ -1,5 +1,7 @@
 #pragma once
+#include <cstddef>
 #include <cstdint>
+#include <deque>
 #include <functional>
 #include <string>
 #include <vector>
@@ -49,6 +51,10 @@ class LockstepServer {
   /// Takes a frame of the controller; appends to `answer` what it is to get.
   void take(const CanFrame& frame, std::vector<CanFrame>& answer);
 
+  /// Something for the controller's own node, as a request: it goes with one of the next answers,
+  /// where a small receive FIFO has room for it.
+  void enclose(const CanFrame& frame) { enclosed_.push_back(frame); }
+
   /// What came before the first hello and is not for the clock, once; afterwards nothing.
   std::vector<CanFrame> unannounced();
   /// From now on every hello is refused: the twin runs in real time.
@@ -65,8 +71,10 @@ class LockstepServer {
   void advance(const lockstep::CanAdvance& advance, std::vector<CanFrame>& answer);
   /// Puts what came since the last CanAdvance on the bus. False: there are to be no more ticks.
   bool send_frames(bool whole);
-  /// The next burst, as much of it as fits an answer: last_.
-  void bring_burst(std::uint32_t timeout_us);
+  /// The next burst, as much of it as fits an answer of which `room` is taken: last_.
+  void bring_burst(std::uint32_t timeout_us, std::size_t room);
+  /// The next of what waits for the controller's node; returns the room that it takes.
+  std::size_t bring_enclosed(std::vector<CanFrame>& answer);
   /// Whether what came is what the controller sent.
   bool is_whole(const lockstep::CanAdvance& advance) const;
   /// The same, once what others say is dropped.
@@ -77,10 +85,11 @@ class LockstepServer {
   LockstepHooks hooks_;
   lockstep::CanHello hello_;
   Counters counters_;
-  std::vector<CanFrame> frames_;  ///< came since the last CanAdvance
-  std::vector<CanFrame> last_;    ///< the whole last answer
-  std::uint8_t sequence_ = 0;     ///< of that
-  bool answered_ = false;         ///< since the hello
+  std::vector<CanFrame> frames_;   ///< came since the last CanAdvance
+  std::vector<CanFrame> last_;     ///< the whole last answer
+  std::deque<CanFrame> enclosed_;  ///< for the controller's node, and not sent yet
+  std::uint8_t sequence_ = 0;      ///< of that
+  bool answered_ = false;          ///< since the hello
   bool greeted_ = false;
   bool stopped_ = false;
   bool real_time_ = false;

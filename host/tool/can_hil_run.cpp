@@ -172,8 +172,7 @@ class CanHilRun {
   }
   void ask() {
     CanFrame frame;
-    while (live_ && live_->next(frame, port_.now_us()) && port_.send(frame)) {
-    }
+    while (live_ && live_->next(frame, port_.now_us())) server_.enclose(frame);
     if (!live_ || !live_->over()) return;
     if (live_->differs()) {
       judge_.fail(

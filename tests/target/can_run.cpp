@@ -73,15 +73,14 @@ struct Watch {
 
 const wire::Endpoint kInterface{.kind = wire::Endpoint::Kind::kCan, .place = "vcan0"};
 
-/// What passes on vcan0, to the live check, which may ask the controller: as `verp shadow` does.
+/// What passes on vcan0, to the live check, which may ask the controller: as `verp hil` does.
 class Listener {
  public:
   explicit Listener(shadow::LiveCheck& check) : check_(check) {}
-  void listen() {
+  void listen(can::LockstepServer& server) {
     CanFrame frame;
     while (port_.poll(frame, 0)) check_.take(frame, port_.now_us());
-    while (check_.next(frame, port_.now_us()) && port_.send(frame)) {
-    }
+    while (check_.next(frame, port_.now_us())) server.enclose(frame);
   }
   std::uint32_t overruns() const { return port_.errors().overruns; }
 
@@ -96,7 +95,7 @@ void serve(can::LockstepServer& server, can::LockstepPort& port, board::QemuProc
   Clock::time_point heard = Clock::now();
   for (;;) {
     const bool served = port.serve(server, kLook_us);
-    if (listener) listener->listen();
+    if (listener) listener->listen(server);
     if (served) {
       heard = Clock::now();
       continue;
@@ -124,7 +123,12 @@ CanRun run_over_can(const std::string& name, const Params& params, can::VirtualC
                                .arguments = {job.string(), records.string()},
                                .can_interface = "vcan0"});
   serve(server, port, firmware, listener);
-  firmware.wait_for_success(kEnd);
+  try {
+    firmware.wait_for_success(kEnd);
+  } catch (const board::BoardError& failed) {
+    throw board::BoardError(std::string(failed.what()) + "\nanswers asked for again: " +
+                            std::to_string(server.counters().repeats));
+  }
   const std::uint32_t unheard = listener ? listener->overruns() : 0;
   if (port.errors().overruns + unheard != 0) {
     throw board::BoardError("vcan0: frames were lost on this PC");

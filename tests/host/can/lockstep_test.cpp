@@ -144,6 +144,17 @@ TEST_F(CanLockstep, AnAnswerFitsAnSja1000) {
   EXPECT_LE(wire.most_room, 64u);
 }
 
+// Such as what the live check asks of the controller that the twin serves.
+TEST_F(CanLockstep, AnAnswerFitsAnSja1000WithARequestToTheController) {
+  ASSERT_EQ(bus.greet(params), lockstep::Verdict::kAccepted);
+  wire.most_room = 0;
+  wire.requests = 300;
+  EXPECT_TRUE(drive(params, bus) == here());
+  EXPECT_EQ(wire.requests_heard, 300u);
+  EXPECT_GT(wire.most_room, std::size_t{13 + 3 + 8 + 3 + 8});
+  EXPECT_LE(wire.most_room, 64u);
+}
+
 // What never reached the twin was never on its bus: the run goes on, and both ends know it.
 TEST_F(CanLockstep, LetsALostFrameBeLostOnTheBus) {
   wire.outbound = {.lost = 0.01, .doubled = 0.01};

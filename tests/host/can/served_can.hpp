@@ -6,6 +6,9 @@
 #include <utility>
 #include <vector>
 
+#include "common/protocol/canopen/cob_id.hpp"
+#include "common/protocol/canopen/frame.hpp"
+#include "common/protocol/canopen/robot_plan.hpp"
 #include "hal/contract/can_bus.hpp"
 #include "host/can/lockstep_server.hpp"
 
@@ -50,6 +53,8 @@ class ServedCan {
   bool cut = false;
   unsigned lost_beginnings = 0;  ///< so many of the next SYNCs 1 do not reach the server
   unsigned faults = 0, strangers = 0;
+  unsigned requests = 0;  ///< that the PC has for the controller's node, one with each answer
+  unsigned requests_heard = 0;
   std::size_t most_room = 0;  ///< that one answer takes in a receive FIFO
 
  private:
@@ -60,9 +65,17 @@ class ServedCan {
     std::size_t room = 0;
     for (const CanFrame& each : answer) {
       room += lockstep::room_of(each);
+      if (!each.extended && each.id == request().id) {
+        ++requests_heard;  // the controller's node keeps it
+        continue;
+      }
       spoil(each, inbound, to_client_);
     }
+    if (requests > 0) --requests, server_.enclose(request());
     most_room = std::max(most_room, room);
+  }
+  static CanFrame request() {
+    return canopen::classic_frame(canopen::sdo_request_id(canopen::plan::kControllerNode), 8);
   }
   // Frames with one identifier keep their order on CAN, and the clock's come last.
   void spoil(const CanFrame& frame, const Odds& odds, std::deque<CanFrame>& to) {
