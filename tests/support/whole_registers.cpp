@@ -23,10 +23,13 @@ constexpr std::size_t kMost = 65536;     // AMX: 11008
 alignas(64) unsigned char whole[kMost];  // not on the stack: the kernel's are small, and it is one
 
 long set_registers(Ptrace original, pid_t process, void* kind, void* data) {
+  static std::size_t all_there_is = sizeof whole;  // the same of each process, once it is known
   auto* part = static_cast<iovec*>(data);
-  iovec all{whole, sizeof whole};
-  if (original(PTRACE_GETREGSET, process, kind, &all) != 0) return -1;
-  if (part->iov_len >= all.iov_len) return original(PTRACE_SETREGSET, process, kind, data);
+  iovec all{whole, all_there_is};
+  if (part->iov_len < all_there_is && original(PTRACE_GETREGSET, process, kind, &all) != 0)
+    return -1;
+  all_there_is = all.iov_len;
+  if (part->iov_len >= all_there_is) return original(PTRACE_SETREGSET, process, kind, data);
   std::memcpy(whole, part->iov_base, part->iov_len);
   return original(PTRACE_SETREGSET, process, kind, &all);
 }
