@@ -9,8 +9,9 @@ namespace verp::can {
 /// Finds out whether somebody else plays a node of the twin's robot on the interface: the robot
 /// itself, or another twin. Its answers beside ours would be the controller's Inputs.
 ///
-/// It is given what others sent. The third heartbeat, TPDO or SDO answer of one node, as they are
-/// on a robot's bus, is proof: a babbler's frames seldom look like that.
+/// It is given what others sent. The fifth heartbeat, TPDO or SDO answer of one node, as they are
+/// on a robot's bus, is proof. Three of 300 random frames looked like that in 29 of 10,000 runs,
+/// five in none.
 class OtherNodes {
  public:
   explicit OtherNodes(const Params& params) : nodes_(params) {}
@@ -20,7 +21,7 @@ class OtherNodes {
   std::uint8_t found() const { return found_; }
 
  private:
-  static constexpr std::uint8_t kSigns = 3;
+  static constexpr std::uint8_t kSigns = 5;
 
   app::CanNodes nodes_;
   std::uint8_t signs_[app::kCanNodes] = {};
