@@ -4,6 +4,9 @@
 #include <atomic>
 #include <chrono>
 #include <nlohmann/json.hpp>
+#include <set>
+#include <sstream>
+#include <string>
 #include <thread>
 
 #include "host/link/can_claim.hpp"
@@ -64,6 +67,34 @@ TEST_F(RunOnCan, DrivesTheRobotAndLetsItGo) {
   }
   const Outcome replay = verp("replay run.mcap", "replay");
   EXPECT_EQ(replay.status, 0) << replay.err;
+}
+
+// At the end each drive is asked whether it let go, which takes its time where all are silent. Who
+// has no patience with that presses Ctrl-C, and is told what is not known.
+TEST_F(RunOnCan, AnInterruptEndsTheQuestionsToSilentDrives) {
+  const std::string run = std::string(VERP_PROGRAM) +
+                          " run generic21 --bus can --link can:vcan0 --yes --json --period 20 "
+                          "--for 60 >run.out 2>run.err";
+  // Status 3 is also that of a PC too busy for the period: again, then, without a drive asked.
+  const Outcome outcome = beside_twin(
+      "for attempt in 1 2 3 4 5; do " + run +
+      " & run=$!; while kill -0 $run && ! grep -q 'relaxed to rising' run.err; do sleep 0.1; done; "
+      "kill -0 $run && break; sleep 3; done; "
+      "kill -STOP $twin; candump -L vcan0,600:780 >asked & log=$!; "
+      "while kill -0 $run && ! grep -q '#40416000' asked; do sleep 0.05; done; kill -INT $run; "
+      "wait $run; status=$?; kill $log; kill -CONT $twin; exit $status");
+  const std::string errors = slurp(folder_ / "run.err");
+  EXPECT_EQ(outcome.status, 3) << errors;
+  EXPECT_NE(errors.find("21 servos did not say that they let go"), std::string::npos) << errors;
+  EXPECT_EQ(json::parse(slurp(folder_ / "run.out")).at("let_go"), false);
+  std::istringstream asked(slurp(folder_ / "asked"));
+  std::set<std::string> drives;
+  for (std::string line; std::getline(asked, line);) {
+    const std::size_t at = line.find("#40416000");
+    if (at != std::string::npos) drives.insert(line.substr(at - 3, 3));
+  }
+  EXPECT_GE(drives.size(), 1u);
+  EXPECT_LT(drives.size(), 21u) << "all of them: the press was not heard";
 }
 
 TEST_F(RunOnCan, SaysThatNobodyAnswers) {

@@ -7,6 +7,8 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
+#include "common/protocol/canopen/cob_id.hpp"
+#include "common/protocol/canopen/frame.hpp"
 #include "firmware/app/app.hpp"
 #include "firmware/app/lockstep_can.hpp"
 #include "firmware/app/operator_node.hpp"
@@ -29,6 +31,12 @@ using verp::test::OwnVcan;
 
 struct CanSocket : wire::CanPort {
   explicit CanSocket(const std::string& endpoint) : CanPort(wire::parse_endpoint(endpoint)) {}
+  bool send(const CanFrame& frame) {
+    const bool answers = canopen::is_canopen(frame) &&
+                         canopen::connection_of(frame.id).service == canopen::Service::kSdoResponse;
+    return (secretive && answers) || CanPort::send(frame);
+  }
+  bool secretive = false;  ///< tells of its ticks, and answers no question
 };
 using Log = app::TickLog<>;
 using Node = app::OperatorNode<CanSocket, Log>;
@@ -111,8 +119,11 @@ class LoneController {
 /// One in lockstep with `verp hil` that obeys its operator's port, or else stands.
 class WalkingController {
  public:
-  WalkingController(const Params& params, const std::string& orders, Spoiler* spoiler = nullptr)
-      : params_(params), orders_(orders), spoiler_(spoiler), thread_([this] { run(); }) {}
+  WalkingController(const Params& params, const std::string& orders, Spoiler* spoiler = nullptr,
+                    bool secretive = false)
+      : params_(params), orders_(orders), spoiler_(spoiler), secretive_(secretive), thread_([this] {
+          run();
+        }) {}
   ~WalkingController() {
     over_ = true;
     thread_.join();
@@ -148,6 +159,7 @@ class WalkingController {
 
   void run() {
     CanSocket port("can:vcan0");
+    port.secretive = secretive_;
     verp::test::ControllerPort orders(orders_);
     Device device(orders, params_, {});
     Log log(app::no_images);
@@ -169,6 +181,7 @@ class WalkingController {
   const Params params_;
   const std::string orders_;  ///< empty: nobody gives any
   Spoiler* const spoiler_;
+  const bool secretive_;
   std::atomic<bool> over_ = false;
   std::thread thread_;
 };
@@ -211,6 +224,15 @@ TEST_F(ShadowOnCan, VerpHilNamesABitThatFlipped) {
   EXPECT_NE(hil.err.find(tick), std::string::npos) << hil.err;
   EXPECT_NE(hil.err.find("stage kinematics"), std::string::npos) << hil.err;
   EXPECT_NE(hil.err.find("zeros.leg[1].pitch_rad"), std::string::npos) << hil.err;
+}
+
+// A check that checked nothing is no success.
+TEST_F(ShadowOnCan, VerpHilFailsWhereItComparedNothing) {
+  WalkingController controller(generic21(), "", nullptr, true);
+  const Outcome hil = verp("hil generic21 --bus can --link can:vcan0 --json --for 3", "hil");
+  EXPECT_EQ(hil.status, 1) << hil.err << hil.out;
+  EXPECT_NE(hil.err.find("none of them could be compared"), std::string::npos) << hil.err;
+  EXPECT_EQ(json::parse(hil.out).at("compared_ticks"), 0);
 }
 
 TEST_F(ShadowOnCan, NamesTickStageAndFieldOfABitThatFlipped) {
