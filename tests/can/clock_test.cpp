@@ -7,6 +7,8 @@
 #include <ctime>
 #include <thread>
 
+#include "host/link/system_clock.hpp"
+
 // Where with-can makes looks at the clock cheap (tests/support/quick_clock.cpp), they still say
 // what the kernel says. Elsewhere this holds by itself.
 namespace verp::test {
@@ -57,6 +59,17 @@ TEST(ClockOfCanTests, NeverGoesBackWhicheverThreadLooks) {
   watch();
   other.join();
   EXPECT_EQ(went_back, 0);
+}
+
+// A period that is over before its time is none, and the pacing of `verp run` counts them.
+TEST(ClockOfCanTests, SleepsUntilItsOwnTime) {
+  const std::uint64_t end_ns = wire::monotonic_ns() + kLong_ns;
+  for (std::uint64_t most_ns = 0; wire::monotonic_ns() < end_ns;
+       most_ns = (most_ns + 997) % 50'000) {
+    const std::uint64_t until_ns = wire::monotonic_ns() + most_ns;
+    wire::sleep_until_ns(until_ns);
+    ASSERT_GE(wire::monotonic_ns(), until_ns);
+  }
 }
 
 }  // namespace

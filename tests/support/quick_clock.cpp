@@ -12,7 +12,8 @@
 /// looks so often that it was half of its time. So CLOCK_MONOTONIC is read off the processor's time
 /// stamp counter, along a line through what the kernel said, which is asked again all the time.
 ///
-/// In one process it never goes back, and it is as near to the kernel's as that is quick to answer.
+/// In one process it never goes back, and it is as near to the kernel's as that is quick to answer:
+/// a sleep until a time may end some microseconds before this clock says so.
 /// with-can sees to it that the counter is one that neither stops nor changes its speed.
 namespace {
 
@@ -56,10 +57,9 @@ void write_line(const Line& next) {
 
 std::uint64_t ask_kernel(std::uint64_t& counter, bool& prompt) {
   timespec now{};
-  const std::uint64_t before = __rdtsc();
+  counter = __rdtsc();  // before it: the line is rather ahead of the kernel's time than behind
   ::syscall(SYS_clock_gettime, CLOCK_MONOTONIC, &now);
-  counter = __rdtsc();
-  prompt = counter - before < kPrompt;
+  prompt = __rdtsc() - counter < kPrompt;
   return static_cast<std::uint64_t>(now.tv_sec) * 1'000'000'000 +
          static_cast<std::uint64_t>(now.tv_nsec);
 }
