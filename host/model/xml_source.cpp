@@ -117,7 +117,7 @@ void XmlSource::read(const std::string& path) {
       !file.document.RootElement()) {
     throw LoadError(path, std::max(1, file.document.ErrorLineNum()),
                     std::string("malformed XML (") + file.document.ErrorName() + ")",
-                    "close every tag and quote up to this line");
+                    "up to this line, close every tag and quote, and give no attribute twice");
   }
   const std::string root = file.document.RootElement()->Name();
   if (root != "sdf" && root != "robot") {

@@ -62,7 +62,7 @@ void add_registers(CLI::App* app, const std::shared_ptr<BusOptions>& options, co
 }
 
 /// Words that mean something on serial links only, and what is to be done on CAN.
-void refuse_on_can(const std::vector<CLI::App*>& commands) {
+void refuse_on_can(const std::vector<CLI::App*>& commands, const CLI::App* bench) {
   constexpr struct {
     const char *word, *instead;
   } kSerial[] = {{"--each", "on CAN every id is asked anyway"},
@@ -72,8 +72,8 @@ void refuse_on_can(const std::vector<CLI::App*>& commands) {
     for (const auto& [word, instead] : kSerial) {
       const CLI::Option* option = each->get_option_no_throw(word);
       if (option == nullptr || option->count() == 0) continue;
-      throw ToolError(kBadInput,
-                      fmt::format("{} is of devices on serial links; {}", word, instead));
+      throw ToolError(kBadInput, fmt::format("{} is of devices on serial links; {}", word,
+                                             each == bench ? "on CAN 1000:0 is read" : instead));
     }
   }
 }
@@ -117,7 +117,7 @@ Subcommand add_bus(CLI::App& root) {
       ->check(CLI::IsMember(nodes));
   return {app, [=] {
             const bool can = on_can(*options);
-            if (can) refuse_on_can({find, show, put, measure});
+            if (can) refuse_on_can({find, show, put, measure}, measure);
             bool named = false;  // the device
             for (const CLI::App* each : {call, show, put, measure}) {
               named = named || each->get_option("--id")->count() > 0;

@@ -268,8 +268,8 @@ TEST_F(RunOnCan, MeasuresRoundTrips) {
 
 TEST_F(RunOnCan, RefusesWhatCanHasNot) {
   expect_refused("bus read --link can:vcan0 --id 3 --address 12", "--object INDEX:SUBINDEX");
-  expect_refused("bus bench --link can:vcan0 --id 3 --address 12", "--object INDEX:SUBINDEX");
-  expect_refused("bus bench --link can:vcan0 --id 3 --size 2", "each object knows its own");
+  expect_refused("bus bench --link can:vcan0 --id 3 --address 12", "on CAN 1000:0 is read");
+  expect_refused("bus bench --link can:vcan0 --id 3 --size 2", "on CAN 1000:0 is read");
   expect_refused("bus read --link can:vcan0 --id 3 --object 6064:0 --size 2", "--size");
   expect_refused("bus scan --link can:vcan0 --each", "every id is asked anyway");
   expect_refused("bus ping --link can:vcan0 --id 128", "no node id");
