@@ -16,7 +16,8 @@ std::string why_another(const Params& params, std::uint32_t crc, std::uint32_t c
   if (crc == params_crc(params)) return "";
   return fmt::format(
       "the controller drives another robot: its Params have CRC {:08x}, those of {} "
-      "{:08x}; name its model, or give it this one",
+      "{:08x}; name its model, with the words that `verp run` was given "
+      "(--period, --imu, --cycle, --set), or give it this one",
       crc, params.name, params_crc(params));
 }
 

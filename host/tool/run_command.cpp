@@ -1,7 +1,6 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include <cmath>
 #include <memory>
 
 #include "host/link/can_claim.hpp"
@@ -17,6 +16,7 @@
 #include "host/tool/interrupt.hpp"
 #include "host/tool/json.hpp"
 #include "host/tool/run_can.hpp"
+#include "host/tool/run_params.hpp"
 #include "host/tool/run_robot.hpp"
 #include "host/tool/walk_files.hpp"
 
@@ -27,44 +27,23 @@ constexpr std::uint32_t kArrival_us = 10'000'000;  // for whom `pty:` or a liste
 
 struct RunWords {
   WalkOptions walk;
-  std::string link, imu = "bus";
-  double period_ms = 0;  ///< 0: the model's
+  RunParams params;
+  std::string link;
   int torque_percent = 100;
   bool yes = false;
 };
 
-// Goals that are reached when the next ones come are joined by straight lines: a servo's profile
-// that was as long as the period stays so.
-void set_period(Params& params, double period_ms) {
-  if (period_ms <= 0) return;
-  const std::uint32_t before_us = params.period_us;
-  params.period_us = static_cast<std::uint32_t>(std::lround(1000 * period_ms));
-  for (ServoProfile& servo : params.servo) {
-    if (servo.profile_ms * 1000u != before_us) continue;
-    servo.profile_ms = static_cast<std::uint16_t>(std::lround(period_ms));
-  }
-}
-
-/// What the IMU would feed has no say; stays in the trace, as the Params that were in force.
-void do_without_imu(Params& params) {
-  params.imu.device_id = 0;
-  params.tuning.balance.feedback_enable = 0;
-  params.tuning.balance.zeros_enable = 0;
-  params.tuning.gait.heading_gain = 0;
-}
-
 RunPlan make_plan(const RunWords& words) {
   RunPlan plan;
   plan.link = wire::parse_endpoint(words.link);
-  plan.has_imu = words.imu == "bus";
+  plan.has_imu = words.params.has_imu();
   plan.torque_percent = words.torque_percent;
   WalkPlan& walk = plan.walk;
   walk.entity = model::load_robot_on_any_bus(model::find_model(words.walk.model), words.walk.bus);
   walk.params = model::make_params(walk.entity);
   require_fit("verp run", words.link, walk.params);
   apply_tuning(words.walk, walk.params.tuning);
-  set_period(walk.params, words.period_ms);
-  if (!plan.has_imu) do_without_imu(walk.params);
+  apply_run_params(words.params, walk.params);
   model::require_bus(walk.entity, walk.params);
   walk.velocity = velocity_of(words.walk, words.walk.step_m);
   walk.walk_s = words.walk.walk_s;
@@ -217,12 +196,7 @@ Subcommand add_run(CLI::App& root) {
                   "the robot's servo bus: serial:DEVICE@BAUD, pty:PATH, tcp:HOST:PORT, "
                   "unix:PATH, can:can0")
       ->required();
-  app->add_option("--imu", words->imu,
-                  "bus: the model's IMU device; none: balance off, upright assumed")
-      ->check(CLI::IsMember({"bus", "none"}))
-      ->capture_default_str();
-  app->add_option("--period", words->period_ms, "control period instead of the model's, ms")
-      ->check(number_between(4, 20, "ms"));
+  declare_run_params(*app, words->params);
   app->add_option("--torque", words->torque_percent, "of what the servos can, percent")
       ->check(whole_number_between(5, 100))
       ->capture_default_str();

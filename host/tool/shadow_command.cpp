@@ -21,12 +21,16 @@
 #include "host/tool/interrupt.hpp"
 #include "host/tool/json.hpp"
 #include "host/tool/progress.hpp"
+#include "host/tool/run_params.hpp"
+#include "host/tool/walk_options.hpp"
 
 namespace verp::tool {
 namespace {
 
 struct ShadowWords {
   std::string model, bus, link;
+  RunParams params;
+  WalkOptions tuning;     ///< no more of it than that
   double for_s = 0;       ///< 0: until it is told to end
   double patience_s = 5;  ///< with a controller that says nothing
   bool json = false;
@@ -219,9 +223,17 @@ class ShadowRun {
   bool connected_ = true;
 };
 
+/// Those of the model, and of what `verp run` was told besides.
+Params params_of(const ShadowWords& words, bool can) {
+  Params params = model::make_params(robot_on(words, can));
+  apply_tuning(words.tuning, params.tuning);
+  apply_run_params(words.params, params);
+  return params;
+}
+
 int run_shadow(const ShadowWords& words) {
   const bool can = wire::parse_endpoint(words.link).kind == wire::Endpoint::Kind::kCan;
-  const Params params = model::make_params(robot_on(words, can));
+  const Params params = params_of(words, can);
   return can ? ShadowRun<CanSide>(words, params).run() : ShadowRun<SerialSide>(words, params).run();
 }
 
@@ -244,6 +256,9 @@ Subcommand add_shadow(CLI::App& root) {
   app->add_option("--patience", words->patience_s, "give up when nothing was heard for so long, s")
       ->check(number_between(0.1, 1e6, "s"))
       ->capture_default_str();
+  declare_run_params(*app, words->params);
+  words->tuning.command = "verp shadow";
+  declare_tuning(*app, words->tuning);
   add_json_flag(*app, words->json);
   return {app, [words] {
             catch_interrupts();

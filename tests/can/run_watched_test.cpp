@@ -15,18 +15,16 @@ class WatchedRun : public Program {
  protected:
   /// `watch` beside `verp run` on vcan0, with the twin as its robot in real time; then the run is
   /// interrupted. As in RunOnCan one core is all of them, and a run may refuse it or end early: so
-  /// there is another one until `watch` is done. The period is one that a core can keep, from a
-  /// file that `verp shadow` knows it by, too.
+  /// there is another one until `watch` is done. The period is one that a core can keep.
   Outcome run_beside(const std::string& watch) const {
-    const std::string on_bus = " slow.sdf --bus can --json --link can:vcan0 ";
-    return shell("sed 's/period_us=\"10000\"/period_us=\"20000\"/' " VERP_SOURCE_DIR
-                 "/common/robots/generic21/robot.sdf >slow.sdf; verp=" VERP_PROGRAM "; watch() { " +
-                 watch + "; touch watched; kill -INT $(cat run.pid); }; $verp hil" + on_bus +
+    const std::string on_bus = " generic21 --bus can --json --link can:vcan0 ";
+    return shell("verp=" VERP_PROGRAM "; watch() { " + watch +
+                 "; touch watched; kill -INT $(cat run.pid); }; $verp hil" + on_bus +
                  "--realtime --for 600 >twin.out 2>twin.err & twin=$!; "
                  "until grep -q 'twin waits' twin.err; do sleep 0.05; done; watch & watcher=$!; "
                  "until [ -e watched ]; do $verp run" +
                  on_bus +
-                 "--yes --for 60 >last.out & "
+                 "--yes --period 20 --for 60 >last.out & "
                  "echo $! >run.pid; wait $!; [ -e watched ] || sleep 3; done; "
                  "wait $watcher; kill -INT $twin; wait $twin");
   }
@@ -36,7 +34,8 @@ class WatchedRun : public Program {
 // nobody would obey is refused by name.
 TEST_F(WatchedRun, TellsOfEachTickShowsItsRegistersAndRefusesOrders) {
   const Outcome outcome = run_beside(
-      "$verp shadow slow.sdf --json --link can:vcan0 --for 1 --patience 60 >shadow.out "
+      "$verp shadow generic21 --period 20 --json --link can:vcan0 --for 1 --patience 60 "
+      ">shadow.out "
       "2>shadow.err;"
       " echo $? >shadow.status; "
       "$verp bus read --link can:vcan0 --register joint_velocity --json >read.out 2>read.err; "

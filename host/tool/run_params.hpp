@@ -1,0 +1,23 @@
+#pragma once
+#include <string>
+
+#include "common/model/params.hpp"
+
+namespace CLI {
+class App;
+}
+
+namespace verp::tool {
+
+/// What `verp run` changes of a model's Params besides its tuning, and `verp shadow` beside it.
+struct RunParams {
+  std::string imu = "bus";
+  double period_ms = 0;  ///< 0: the model's
+
+  bool has_imu() const { return imu == "bus"; }
+};
+
+void declare_run_params(CLI::App& app, RunParams& words);
+void apply_run_params(const RunParams& words, Params& params);
+
+}  // namespace verp::tool
