@@ -64,6 +64,7 @@ void LockstepServer::hello(const lockstep::Hello& hello, std::vector<CanFrame>& 
   greeted_ = verdict == lockstep::Verdict::kAccepted;
   if (greeted_ && !repeated) {
     answered_ = false;
+    enclosed_.clear();
     ++counters_.greetings;
     if (hooks_.greeted) hooks_.greeted();
   }
@@ -104,6 +105,12 @@ bool LockstepServer::send_frames(bool whole) {
   }
   if (begins && hooks_.tick_begins) hooks_.tick_begins(bus_.tick());
   return true;
+}
+
+void LockstepServer::enclose(const CanFrame& frame) {
+  constexpr std::size_t kMostEnclosed = 4;  // who asks waits for the answer, or gives up and aborts
+  if (enclosed_.size() == kMostEnclosed) enclosed_.pop_front();
+  enclosed_.push_back(frame);
 }
 
 std::size_t LockstepServer::bring_enclosed(std::vector<CanFrame>& answer) {

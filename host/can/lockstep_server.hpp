@@ -52,8 +52,9 @@ class LockstepServer {
   void take(const CanFrame& frame, std::vector<CanFrame>& answer);
 
   /// Something for the controller's own node, as a request: it goes with one of the next answers,
-  /// where a small receive FIFO has room for it.
-  void enclose(const CanFrame& frame) { enclosed_.push_back(frame); }
+  /// where a small receive FIFO has room for it. Of what finds no answer the oldest is dropped, and
+  /// all of it when a controller begins.
+  void enclose(const CanFrame& frame);
 
   /// What came before the first hello and is not for the clock, once; afterwards nothing.
   std::vector<CanFrame> unannounced();

@@ -155,6 +155,19 @@ TEST_F(CanLockstep, AnAnswerFitsAnSja1000WithARequestToTheController) {
   EXPECT_LE(wire.most_room, 64u);
 }
 
+// Nobody takes the requests of an hour without a controller for those of the next one.
+TEST_F(CanLockstep, KeepsNoRequestsForAControllerThatIsGone) {
+  const CanFrame asked = canopen::classic_frame(canopen::sdo_request_id(plan::kControllerNode), 8);
+  ASSERT_EQ(bus.greet(params), lockstep::Verdict::kAccepted);
+  for (int i = 0; i < 1000; ++i) server.enclose(asked);
+  drive(params, bus);
+  EXPECT_EQ(wire.requests_heard, 4u);
+  server.enclose(asked);
+  ASSERT_EQ(bus.greet(params), lockstep::Verdict::kAccepted);
+  drive(params, bus);
+  EXPECT_EQ(wire.requests_heard, 4u);
+}
+
 // What never reached the twin was never on its bus: the run goes on, and both ends know it.
 TEST_F(CanLockstep, LetsALostFrameBeLostOnTheBus) {
   wire.outbound = {.lost = 0.01, .doubled = 0.01};
