@@ -19,8 +19,8 @@ inline std::uint64_t monotonic_ns() {
          static_cast<std::uint64_t>(now.tv_nsec);
 }
 
-/// Returns when monotonic_ns() says so. Where looks at the clock are not the kernel's
-/// (tests/support/quick_clock.cpp), its sleep may end a few microseconds before.
+/// Returns when monotonic_ns() says so. Where that is not the kernel's own word
+/// (tests/support/quick_clock.cpp), the kernel's sleep may end a few microseconds before.
 inline void sleep_until_ns(std::uint64_t time_ns) {
   const timespec until = to_timespec(time_ns);
   do {
