@@ -38,6 +38,19 @@ struct Node {
   std::vector<Collision> collisions;
 };
 
+/// What is between a motor and its joint, seen from the joint: the model of Duclusaud and Passault,
+/// arXiv 2410.08650 (M4). The friction that may oppose motion is a budget,
+///   f_base + s * f_strib + load * (l_base + s * l_strib) + f_visc * |speed|,
+///   s = exp(-|speed / w_s|^alpha),
+/// where load is the torque through the gears; the joint stands while the budget covers the rest.
+struct Gearbox {
+  double armature_kg_m2 = 0;  ///< the rotor's inertia times the gear ratio squared
+  double f_base_n_m = 0, f_strib_n_m = 0;
+  double l_base = 0, l_strib = 0;  ///< parts of the load
+  double w_s_rad_s = 1, alpha = 1;
+  double f_visc_n_m_s = 0;
+};
+
 /// A servo as its datasheet gives it, and where it sits.
 struct Servo {
   std::string type;   ///< row of the servo table (servo_types.hpp), e.g. "xm430_w210"
@@ -48,7 +61,16 @@ struct Servo {
   double stall_torque_n_m = 0;
   double no_load_speed_rad_s = 0;
   double stall_current_a = 0;
+  double nominal_v = 12;  ///< supply at which torque, speed and current above are
   double counts_per_rev = 4096;
+  double encoder_noise_deg = 0.03;  ///< rms
+  double loop_s = 0.001;            ///< period of its firmware's position loop
+  double loop_delay_s = 0;          ///< age of the angle that the loop acts on
+  Gearbox gearbox;
+  /// The real numbers lie within these parts of the ones above: 0.5 is half to one and a half
+  /// times. 0: identified on a bench.
+  double armature_band = 0, friction_band = 0;
+  std::string source;              ///< where armature and friction are from: one line for people
   std::uint16_t model_number = 0;  ///< Params' ServoProfile says what it is on which bus
   bool fast_sync_read = false;
   std::uint16_t p_gain = 0, i_gain = 0, d_gain = 0;  ///< written at arming
