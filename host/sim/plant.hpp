@@ -36,7 +36,8 @@ struct ImuMeasurement {
 };
 
 /// One robot in a world. Joint indices are those of Entity and Params. Time is simulated, in
-/// microseconds since the world began; it moves only through advance_to().
+/// microseconds since the world began. A bus asks for a time by advance_to(); whether it alone
+/// moves the world then, or others have to ask as well, it does not know.
 class Plant {
  public:
   virtual ~Plant() = default;

@@ -60,6 +60,7 @@ Start make_start(const model::Entity& entity, const TwinOptions& options) {
 
 TwinRobot::TwinRobot(World& world, const model::Entity& entity, const TwinOptions& options)
     : world_(world),
+      time_(&world),
       entity_(entity),
       options_(options),
       owner_(world.new_owner()),

@@ -59,11 +59,14 @@ class TwinRobot final : public Plant, private Actor {
   TwinRobot& operator=(const TwinRobot&) = delete;
 
   std::uint64_t now_us() const override { return world_.now_us(); }
-  void advance_to(std::uint64_t time_us) override { world_.advance_to(time_us); }
+  void advance_to(std::uint64_t time_us) override { time_->advance_to(time_us); }
   ServoSetpoint& setpoint(int joint) override { return setpoint_[static_cast<std::size_t>(joint)]; }
   ServoMeasurement measure(int joint) override { return servo(joint).measurement(); }
   ImuMeasurement imu() override { return imu_.measurement(); }
   std::array<std::uint16_t, 4> foot_counts(int foot) override;
+
+  /// Whom to ask for a time, instead of the world itself; must outlive the robot.
+  void set_time(TimeSource& time) { time_ = &time; }
 
   const model::Entity& entity() const { return entity_; }
   const ServoModel& servo(int joint) const { return servo_[static_cast<std::size_t>(joint)]; }
@@ -95,6 +98,7 @@ class TwinRobot final : public Plant, private Actor {
   int foot_of(int node) const;
 
   World& world_;
+  TimeSource* time_;
   const model::Entity entity_;
   const TwinOptions options_;
   const int owner_;

@@ -48,6 +48,15 @@ class Actor {
   virtual void after_step(double step_s) = 0;
 };
 
+/// Who lets a world's time go on. One whose bus stands alone in a world moves it; among several,
+/// somebody sees to it that the world steps once for all of them.
+class TimeSource {
+ public:
+  virtual ~TimeSource() = default;
+  /// Comes back when the world has done all whole steps that end at or before time_us.
+  virtual void advance_to(std::uint64_t time_us) = 0;
+};
+
 struct WorldOptions {
   std::uint32_t step_us = 1000;
   double gravity_m_s2 = 9.80665;
@@ -56,10 +65,10 @@ struct WorldOptions {
       .friction = 1.0, .stiffness_n_m = 0, .damping_n_s_m = 0};  ///< 0 stiffness: rigid
 };
 
-class World {
+class World final : public TimeSource {
  public:
   explicit World(const WorldOptions& options = {});
-  ~World();
+  ~World() override;
   World(const World&) = delete;
   World& operator=(const World&) = delete;
 
@@ -68,7 +77,7 @@ class World {
   const WorldOptions& options() const { return options_; }
 
   /// Runs whole steps up to the last one that ends at or before time_us; never goes back.
-  void advance_to(std::uint64_t time_us);
+  void advance_to(std::uint64_t time_us) override;
 
   /// Contact points of the last step.
   const std::vector<Contact>& contacts() const { return contacts_; }

@@ -33,15 +33,16 @@ class CanHilRun {
       : plan_(plan),
         pace_(options.pace),
         progress_(progress),
-        session_(plan, trace, progress, plan.params.name, keep_series),
+        robot_(world_, plan, shown(plan, trace, progress, plan.params.name, keep_series),
+               interrupted),
         port_(wire::parse_endpoint(options.link)),
         claim_(port_.interface().name, "nodes", "`verp hil`"),
-        watch_(session_, [this](const std::string& line) { say(line); }),
+        watch_(robot_, [this](const std::string& line) { say(line); }),
         judge_(
-            plan, session_, session_.can(), options.operator_link,
+            plan, robot_, robot_.can(), options.operator_link,
             [this](const std::string& line) { say(line); }, [this] { watch_.see(); }),
-        server_(plan.params, session_.can(), hooks()),
-        realtime_(session_.can()),
+        server_(plan.params, robot_.can(), hooks()),
+        realtime_(robot_.can()),
         others_(plan.params),
         params_(plan.params),
         place_(options.link) {
@@ -104,7 +105,7 @@ class CanHilRun {
 
   bool over() const {
     return !judge_.failure().empty() || server_.stopped() || interrupted() ||
-           (realtime_.begun() && session_.over());
+           (realtime_.begun() && robot_.over());
   }
 
   // The link asked again for what was lost, so the walk's bits are right; the PC is not fit for it.
@@ -118,9 +119,10 @@ class CanHilRun {
     const std::uint64_t start_ns = watch_.drive_ns() == 0 ? start_ns_ : watch_.drive_ns();
     const double wall_s =
         start_ns == 0 ? 0 : 1e-9 * static_cast<double>(wire::monotonic_ns() - start_ns);
-    result.walk = session_.result(wall_s, judge_.failure());
+    robot_.fail(judge_.failure());
+    result.walk = robot_.result(wall_s);
     result.device_trouble = judge_.device_trouble();
-    result.lay_down = session_.verdict().lay_down();
+    result.lay_down = robot_.verdict().lay_down();
     result.real_time = realtime_.begun() || pace_ == HilPace::kRealTime;
     result.compared = judge_.compared() + (live_ ? live_->compared() : 0);
     result.losses = losses_;
@@ -194,7 +196,7 @@ class CanHilRun {
     if (!came) realtime_.turn(clock_us(), answer_);
     realtime_.finished(clock_us());
     watch_skips();
-    watch_.see_until(session_.can().now_us(), plan_.params.period_us);
+    watch_.see_until(robot_.can().now_us(), plan_.params.period_us);
   }
 
   void watch_skips() {
@@ -277,7 +279,8 @@ class CanHilRun {
   const WalkPlan& plan_;
   const HilPace pace_;
   Progress& progress_;
-  WalkSession session_;
+  sim::World world_;
+  session::Robot robot_;
   wire::CanPort port_;
   wire::CanClaim claim_;
   RobotWatch watch_;

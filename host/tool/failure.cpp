@@ -10,6 +10,7 @@
 #include "host/model/load_error.hpp"
 #include "host/record/trace.hpp"
 #include "host/report/report.hpp"
+#include "host/session/not_up.hpp"
 #include "host/tool/exit_status.hpp"
 
 namespace verp::tool {
@@ -35,6 +36,8 @@ Failure current_failure() {
   } catch (const wire::LinkError& error) {
     return {kNoDevice, error.what()};
   } catch (const bus::DeviceError& error) {
+    return {kNoDevice, error.what()};
+  } catch (const session::NotUp& error) {
     return {kNoDevice, error.what()};
   } catch (const board::NoSuchBoard& error) {
     return {kBadInput, error.what()};

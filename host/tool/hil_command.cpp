@@ -31,7 +31,7 @@ WalkPlan make_plan(const WalkOptions& options) {
   plan.params = model::make_params(plan.entity);
   plan.velocity = velocity_of(options, options.step_m);
   plan.walk_s = options.walk_s;
-  plan.seed = options.seed;
+  plan.twin.seed = options.seed;
   plan.board = options.board;
   return plan;
 }

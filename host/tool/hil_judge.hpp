@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "host/bus/operator_port.hpp"
+#include "host/session/robot.hpp"
 #include "host/tool/interrupt.hpp"
-#include "host/tool/walk_session.hpp"
 
 namespace verp::tool {
 
@@ -22,9 +22,9 @@ class HilJudge {
 
   /// `operator_link` may be empty: then somebody else gives orders, and only the twin is watched,
   /// by `watch`. The references must outlive the judge.
-  HilJudge(const WalkPlan& plan, WalkSession& session, Bus& bus, const std::string& operator_link,
-           Say say, std::function<void()> watch)
-      : plan_(plan), session_(session), bus_(bus), say_(std::move(say)), watch_(std::move(watch)) {
+  HilJudge(const session::WalkPlan& plan, session::Robot& robot, Bus& bus,
+           const std::string& operator_link, Say say, std::function<void()> watch)
+      : plan_(plan), robot_(robot), bus_(bus), say_(std::move(say)), watch_(std::move(watch)) {
     if (operator_link.empty()) return;
     orders_.emplace(operator_link, [] { return interrupted(); });
     begin_shadow();
@@ -53,34 +53,34 @@ class HilJudge {
     ++resets_;
     say_(fmt::format(
         "the controller began anew at {:.2f} s; the servos hold what they were told last",
-        session_.simulated_s()));
+        robot_.simulated_s()));
     pass_restart();
     if (!shadow_) return;
     // What it knew is gone, and with it what this PC knew of it.
     recorded_ = false;
     begin_shadow();
-    session_.begin_anew();
+    robot_.begin_anew();
   }
 
   /// False: no further tick.
   bool tick_ends() {
     if (!shadow_) {
       if (bus_.ticking()) watch_();
-      return !session_.over();
+      return !robot_.over();
     }
     shadow_->catch_up();
     if (!shadow_->difference().empty()) {
       fail("not the same bits: " + shadow_->difference(), false);
     }
-    if (session_.over()) compare(orders_->exchange(nullptr));
-    return failure_.empty() && !session_.over();
+    if (robot_.over()) compare(orders_->exchange(nullptr));
+    return failure_.empty() && !robot_.over();
   }
 
   // The controller waits for the answer that begins its tick, and serves its operator meanwhile:
   // what is written now, it takes in this very tick.
   void tick_begins(std::uint32_t tick) {
     if (!shadow_) return;
-    const app::OperatorOrder order = session_.walker().order(tick);
+    const app::OperatorOrder order = robot_.order(tick);
     const bool news = order.flags != 0;
     compare(orders_->exchange(news ? &order : nullptr));
     if (news) shadow_->ordered(order);
@@ -93,7 +93,7 @@ class HilJudge {
   void begin_shadow() {
     shadow_.emplace(plan_.params,
                     [this](const TickRecord& tick, const State& state, const Outputs& outputs) {
-                      session_.record(tick, state, outputs);
+                      robot_.record(tick, state, outputs);
                       last_ = {tick.inputs.tick, tick.digest.chain};
                       recorded_ = true;
                     });
@@ -115,8 +115,8 @@ class HilJudge {
          false);
   }
 
-  const WalkPlan& plan_;
-  WalkSession& session_;
+  const session::WalkPlan& plan_;
+  session::Robot& robot_;
   Bus& bus_;
   Say say_;
   std::function<void()> watch_;

@@ -18,7 +18,6 @@
 #include "host/tool/interrupt.hpp"
 #include "host/tool/real_time.hpp"
 #include "host/tool/robot_watch.hpp"
-#include "host/tool/walk_session.hpp"
 
 namespace verp::tool {
 namespace {
@@ -31,14 +30,15 @@ class HilRun {
       : plan_(plan),
         options_(options),
         progress_(progress),
-        session_(plan, trace, progress, plan.params.name, keep_series),
+        robot_(world_, plan, shown(plan, trace, progress, plan.params.name, keep_series),
+               interrupted),
         link_(wire::parse_endpoint(options.link)),
-        watch_(session_, [this](const std::string& line) { say(line); }),
+        watch_(robot_, [this](const std::string& line) { say(line); }),
         judge_(
-            plan, session_, session_.bus(), options.operator_link,
+            plan, robot_, robot_.bus(), options.operator_link,
             [this](const std::string& line) { say(line); }, [this] { watch_.see(); }),
-        lockstep_(plan.params, session_.bus(), hooks()),
-        realtime_(session_.bus()) {
+        lockstep_(plan.params, robot_.bus(), hooks()),
+        realtime_(robot_.bus()) {
     if (options.pace == HilPace::kRealTime) lockstep_.refuse_lockstep();
   }
 
@@ -53,9 +53,10 @@ class HilRun {
     HilResult result;
     const std::uint64_t start_ns = watch_.drive_ns() == 0 ? start_ns_ : watch_.drive_ns();
     const double wall_s = start_ns == 0 ? 0 : 1e-9 * static_cast<double>(now_ns() - start_ns);
-    result.walk = session_.result(wall_s, judge_.failure());
+    robot_.fail(judge_.failure());
+    result.walk = robot_.result(wall_s);
     result.device_trouble = judge_.device_trouble();
-    result.lay_down = session_.verdict().lay_down();
+    result.lay_down = robot_.verdict().lay_down();
     result.real_time = realtime_.begun() || options_.pace == HilPace::kRealTime;
     result.compared = judge_.compared();
     result.losses = link_.errors().losses;
@@ -83,7 +84,7 @@ class HilRun {
 
   bool over() const {
     return !judge_.failure().empty() || lockstep_.stopped() || interrupted() ||
-           (realtime_.begun() && session_.over());
+           (realtime_.begun() && robot_.over());
   }
 
   bool may_run_in_real_time() const {
@@ -139,7 +140,7 @@ class HilRun {
       const RealTime got = become_real_time();
       if (!got.advice.empty()) say(got.advice);
     }
-    watch_.see_until(session_.bus().now_us(), plan_.params.period_us);
+    watch_.see_until(robot_.bus().now_us(), plan_.params.period_us);
   }
 
   void watch_link() {
@@ -184,7 +185,8 @@ class HilRun {
   const WalkPlan& plan_;
   const HilOptions& options_;
   Progress& progress_;
-  WalkSession session_;
+  sim::World world_;
+  session::Robot robot_;
   wire::Link link_;
   RobotWatch watch_;
   HilJudge<bus::VirtualBus, bus::ShadowLoop> judge_;

@@ -8,9 +8,10 @@
 #include "firmware/app/app.hpp"
 #include "firmware/app/pacer.hpp"
 #include "host/bus/assumed_imu.hpp"
-#include "host/bus/register_names.hpp"
 #include "host/link/system_clock.hpp"
 #include "host/record/trace_error.hpp"
+#include "host/session/fault_names.hpp"
+#include "host/session/not_up.hpp"
 #include "host/tool/console.hpp"
 #include "host/tool/exit_status.hpp"
 #include "host/tool/interrupt.hpp"
@@ -25,9 +26,6 @@ inline constexpr std::uint32_t kAnswer_us = 100'000;
 /// What a servo says when it is asked at the end.
 enum class LetGo : std::uint8_t { kYes, kNo, kSilent };
 
-/// Why a robot did not come up; `where` is the register or object at which it failed.
-ToolError not_up(const app::BringUpReport& report, const std::string& place,
-                 const std::string& where);
 /// Throws ToolError with the remedy if a tick can't fit; warns if it only just does.
 void judge_fit(const bus::LinkFit& fit, const RunPlan& plan);
 /// Throws ToolError if the robot names no IMU on its bus, or `trouble` says what is wrong with it.
@@ -85,7 +83,7 @@ class RobotRun {
     const app::BringUpReport report = app_.bring_up();
     robot_.brought_up(report);
     if (report.status != app::BringUpStatus::kReady)
-      throw not_up(report, place(), Robot::where(report.address));
+      throw session::not_up(report, place(), Robot::where(report.address));
     app_.limit_torque(static_cast<std::uint8_t>(plan_.torque_percent));
     robot_.set_held(result_.fit.held_us());  // nobody waited for the bring-up
     result_.real_time = become_real_time();
@@ -156,7 +154,8 @@ class RobotRun {
   }
 
   void tell(safety::Mode from, safety::Mode to, std::uint32_t faults) {
-    const std::string why = fault_names(faults & 0xFFFF);  // the lower half stops the robot
+    const std::string why =
+        session::fault_names(faults & 0xFFFF);  // the lower half stops the robot
     say(fmt::format("{} to {}{}", safety::kModeNames[static_cast<int>(from)],
                     safety::kModeNames[static_cast<int>(to)], why.empty() ? "" : " (" + why + ")"));
   }

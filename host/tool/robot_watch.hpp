@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "host/link/system_clock.hpp"
-#include "host/tool/walk_session.hpp"
+#include "host/session/robot.hpp"
 
 namespace verp::tool {
 
@@ -14,12 +14,12 @@ class RobotWatch {
  public:
   using Say = std::function<void(const std::string&)>;
 
-  RobotWatch(WalkSession& session, Say say) : session_(session), say_(std::move(say)) {}
+  RobotWatch(session::Robot& robot, Say say) : robot_(robot), say_(std::move(say)) {}
 
   /// Once per tick.
   void see() {
-    session_.watch();
-    const FallVerdict& verdict = session_.verdict();
+    robot_.watch();
+    const session::FallVerdict& verdict = robot_.verdict();
     if (verdict.driven() && drive_ns_ == 0) {
       drive_ns_ = wire::monotonic_ns();
       say_("a servo has torque: the session begins");
@@ -30,7 +30,7 @@ class RobotWatch {
   }
   /// All ticks of `period_us` up to bus time `now_us`, until the session is over.
   void see_until(std::uint64_t now_us, std::uint32_t period_us) {
-    while (now_us >= next_us_ && !session_.over()) {
+    while (now_us >= next_us_ && !robot_.over()) {
       see();
       next_us_ += period_us;
     }
@@ -39,7 +39,7 @@ class RobotWatch {
   std::uint64_t drive_ns() const { return drive_ns_; }
 
  private:
-  WalkSession& session_;
+  session::Robot& robot_;
   Say say_;
   std::uint64_t drive_ns_ = 0;
   std::uint64_t next_us_ = 0;

@@ -11,6 +11,7 @@
 #include "firmware/app/operator_node.hpp"
 #include "firmware/app/tick_log.hpp"
 #include "host/can/client.hpp"
+#include "host/session/not_up.hpp"
 #include "host/tool/exit_status.hpp"
 #include "host/tool/robot_loop.hpp"
 
@@ -120,7 +121,7 @@ void refuse_second_controller(wire::CanPort& port, const RunPlan& plan) {
   CanFrame frame;
   while (wire::monotonic_ns() < end_ns && !interrupted()) {
     if (!port.await(frame, kLook_us) || !canopen::plan::is_of_master(frame)) continue;
-    throw not_up(
+    throw session::not_up(
         {.status = app::BringUpStatus::kOccupied, .address = static_cast<std::uint16_t>(frame.id)},
         wire::to_text(plan.link), "");
   }

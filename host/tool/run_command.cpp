@@ -73,7 +73,7 @@ Json to_json(const RunPlan& plan, const RunResult& result) {
           {"walked_s", result.walked_s},
           {"wall_s", walk.wall_s},
           {"digest", fmt::format("0x{:016x}", walk.digest)},
-          {"faults", fault_names(walk.faults)},
+          {"faults", session::fault_names(walk.faults)},
           {"failure", walk.failure},
           {"interrupted", walk.interrupted},
           {"torque_percent", plan.torque_percent},

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "host/tool/walk_run.hpp"
+#include "host/session/fault_names.hpp"
 
 namespace verp::tool {
 
@@ -35,7 +35,7 @@ void RunOperator::observe(const State& state, const Outputs& outputs) {
   if (mode == Mode::kFallen) fail("the robot fell");
   if (mode == Mode::kStopped && !limp_) fail("stopped");
   if (mode == Mode::kRelaxed && risen_ && !sitting_) {
-    fail("the robot let go by itself: " + fault_names(outputs.faults));
+    fail("the robot let go by itself: " + session::fault_names(outputs.faults));
   }
   // What the robot does by itself takes none of the operator's patience.
   const bool by_itself = mode == Mode::kHolding || mode == Mode::kSitting ||

@@ -6,7 +6,7 @@
 #include "common/control/state.hpp"
 #include "common/safety/machine.hpp"
 #include "firmware/app/contracts.hpp"
-#include "host/tool/walk_operator.hpp"
+#include "host/session/walk_operator.hpp"
 
 namespace verp::tool {
 
@@ -40,7 +40,7 @@ class RunOperator {
 
   void fail(const std::string& why);
 
-  WalkOperator walker_;
+  session::WalkOperator walker_;
   Told told_;
   Command relax_;
   safety::Mode mode_ = safety::Mode::kRelaxed;

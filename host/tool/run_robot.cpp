@@ -4,6 +4,7 @@
 
 #include "firmware/app/link_bus.hpp"
 #include "firmware/app/tick_report.hpp"
+#include "host/bus/register_names.hpp"
 #include "host/tool/robot_loop.hpp"
 
 namespace verp::tool {

@@ -22,7 +22,7 @@ WalkPlan make_plan(const WalkOptions& options) {
   apply_tuning(options, plan.params.tuning);
   plan.velocity = velocity_of(options, options.step_m);
   plan.walk_s = options.walk_s;
-  plan.seed = options.seed;
+  plan.twin.seed = options.seed;
   plan.board = options.board;
   return plan;
 }

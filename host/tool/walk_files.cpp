@@ -43,7 +43,7 @@ void make_folder(const fs::path& folder) {
 record::mcap::StringMap metadata(const WalkPlan& plan, const WalkOptions& options) {
   return {{"robot", plan.params.name},
           {"model_file", plan.entity.file},
-          {"seed", std::to_string(plan.seed)},
+          {"seed", std::to_string(plan.twin.seed)},
           {"step_m", fmt::format("{}", options.step_m)},
           {"cycle_s", fmt::format("{}", options.cycle_s)},
           {"velocity", options.velocity_text},

@@ -6,6 +6,7 @@
 
 #include "host/record/trace.hpp"
 #include "host/report/maybe.hpp"
+#include "host/session/fault_names.hpp"
 #include "host/tool/stick_figure.hpp"
 
 namespace verp::tool {
@@ -124,13 +125,13 @@ std::vector<std::pair<std::string, std::string>> provenance(const WalkPlan& plan
   std::vector<std::pair<std::string, std::string>> rows = {
       {"robot", name_of(plan.params)},
       {"model file", plan.entity.file},
-      {"seed", std::to_string(plan.seed)},
+      {"seed", std::to_string(plan.twin.seed)},
       {"controller", plan.board.empty() ? "this PC" : plan.board},
       {"ticks", fmt::format("{} of {} us", result.ticks, plan.params.period_us)},
       {"digest", fmt::format("0x{:016x}", result.digest)},
   };
   for (const auto& [key, value] : build) rows.emplace_back(key, value);
-  if (const std::string notes = fault_names(result.faults); !notes.empty()) {
+  if (const std::string notes = session::fault_names(result.faults); !notes.empty()) {
     rows.emplace_back("controller's notes", notes);
   }
   return rows;
@@ -232,7 +233,7 @@ std::string to_text(const WalkPlan& plan, const WalkResult& result, const Sweep&
                                or_dash(percent(m.servo_saturation_worst), 1, " %"));
   line("real-time factor", fmt::format("{:.1f}", result.real_time_factor()));
   line("digest", fmt::format("0x{:016x} after {} ticks", result.digest, result.ticks));
-  if (const std::string notes = fault_names(result.faults); !notes.empty())
+  if (const std::string notes = session::fault_names(result.faults); !notes.empty())
     line("controller notes", notes);
   if (!sweep.rows.empty()) out += sweep_text(sweep.rows);
   return out;
@@ -246,7 +247,7 @@ Json to_json(const WalkPlan& plan, const WalkResult& result, const Sweep& sweep)
   }
   Json json = {{"model", name_of(plan.params)},
                {"bus", plan.entity.bus},
-               {"seed", plan.seed},
+               {"seed", plan.twin.seed},
                {"controller", plan.board.empty() ? "this PC" : plan.board},
                {"ticks", result.ticks},
                {"asked_s", plan.walk_s},
@@ -265,7 +266,7 @@ Json to_json(const WalkPlan& plan, const WalkResult& result, const Sweep& sweep)
                {"servo_saturation", number_or_null(m.servo_saturation)},
                {"servo_saturation_worst", number_or_null(m.servo_saturation_worst)},
                {"digest", fmt::format("0x{:016x}", result.digest)},
-               {"notes", fault_names(result.faults)},
+               {"notes", session::fault_names(result.faults)},
                {"real_time_factor", result.real_time_factor()}};
   if (!sweep.rows.empty()) json["sweep"] = sweep_json(sweep.rows);
   if (result.can) {

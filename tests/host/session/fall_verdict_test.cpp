@@ -1,10 +1,10 @@
-#include "host/tool/fall_verdict.hpp"
+#include "host/session/fall_verdict.hpp"
 
 #include <gtest/gtest.h>
 
 #include <random>
 
-namespace verp::tool {
+namespace verp::session {
 namespace {
 
 constexpr double kUpright = 0.1, kLying = 1.5;
@@ -61,4 +61,4 @@ TEST(FallVerdict, IsOneThingAndStaysThat) {
 }
 
 }  // namespace
-}  // namespace verp::tool
+}  // namespace verp::session

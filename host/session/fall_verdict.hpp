@@ -1,6 +1,6 @@
 #pragma once
 
-namespace verp::tool {
+namespace verp::session {
 
 /// What is to be said of a robot that lies, when all that is known of its controller is which
 /// servos have torque: whether it fell while somebody drove it, or lay down because it was let go.
@@ -30,4 +30,4 @@ class FallVerdict {
   bool driven_ = false, tipping_ = false, fell_ = false, lay_down_ = false;
 };
 
-}  // namespace verp::tool
+}  // namespace verp::session

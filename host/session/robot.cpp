@@ -1,4 +1,4 @@
-#include "host/tool/walk_session.hpp"
+#include "host/session/robot.hpp"
 
 #include <fmt/format.h>
 
@@ -7,10 +7,10 @@
 #include <utility>
 
 #include "host/record/trace_error.hpp"
+#include "host/session/fault_names.hpp"
 #include "host/sim/planned_zmp.hpp"
-#include "host/tool/interrupt.hpp"
 
-namespace verp::tool {
+namespace verp::session {
 namespace {
 
 constexpr double kAfterFall_s = 0.5;  // the report should show how it fell
@@ -22,121 +22,132 @@ record::ros::BodyPose pose_of(const sim::Transform& body) {
   return {{p.x(), p.y(), p.z()}, {q.x(), q.y(), q.z(), q.w()}};
 }
 
-sim::TwinOptions twin_options(const WalkPlan& plan) {
-  sim::TwinOptions options;
-  options.seed = plan.seed;
-  return options;
-}
-
 }  // namespace
 
-WalkSession::WalkSession(const WalkPlan& plan, record::TraceWriter* trace, Progress& progress,
-                         std::string label, bool keep_series)
+Robot::Robot(sim::World& world, const WalkPlan& plan, Hooks hooks, Interrupted interrupted)
     : plan_(plan),
-      trace_(trace),
-      progress_(progress),
-      label_(std::move(label)),
-      robot_(world_, plan.entity, twin_options(plan)),
-      walker_(std::in_place, plan.params, plan.velocity, plan.walk_s),
-      meter_(plan.entity, keep_series) {
-  if (plan.params.bus_protocol == BusProtocol::kCia402) {
-    can_.emplace(plan.params, robot_);
+      hooks_(std::move(hooks)),
+      interrupted_(std::move(interrupted)),
+      trace_(hooks_.trace),
+      twin_(world, plan_.entity, plan_.twin),
+      walker_(std::in_place, plan_.params, plan_.velocity, plan_.walk_s),
+      meter_(plan_.entity, hooks_.keep_series) {
+  if (plan_.params.bus_protocol == BusProtocol::kCia402) {
+    can_.emplace(plan_.params, twin_);
   } else {
-    bus_.emplace(plan.params, robot_);
+    bus_.emplace(plan_.params, twin_);
   }
 }
 
-bool WalkSession::over() const {
+bool Robot::over() const {
   return over_ || interrupted();
 }
 
-double WalkSession::simulated_s() const {
-  return static_cast<double>(world_.now_us()) * 1e-6;
+void Robot::fail(const std::string& why) {
+  if (result_.failure.empty()) result_.failure = why;
+  over_ = true;
 }
 
-double WalkSession::walked_s() const {
+double Robot::simulated_s() const {
+  return static_cast<double>(twin_.now_us()) * 1e-6;
+}
+
+double Robot::walked_s() const {
   return walked_s_ + walker_->walked_s();
 }
 
-void WalkSession::begin_anew() {
+double Robot::gone_s() const {
+  if (!watched_ && !hooks_.order) return walked_s();
+  const bool begun = watched_ ? verdict_.driven() : result_.ticks > 0;
+  return begun ? simulated_s() - begun_s_ : 0;
+}
+
+app::OperatorOrder Robot::order(std::uint32_t tick) {
+  return hooks_.order ? hooks_.order(tick) : walker_->order(tick);
+}
+
+void Robot::begin_anew() {
   walked_s_ = walked_s();
   walker_.emplace(plan_.params, plan_.velocity, std::max(0.0, plan_.walk_s - walked_s_));
   trace_ = nullptr;
 }
 
-void WalkSession::record(const TickRecord& tick, const State& state, const Outputs& outputs) {
-  walker_->observe(state, outputs);
-  const gait::Xy by_m = state.gait.footsteps.stride.by_m;
-  if (state.gait.queued > 0) {
+void Robot::take(const TickRecord& tick, const State& state, const Outputs& outputs) {
+  tick_ = tick;
+  state_ = state;
+  outputs_ = outputs;
+}
+
+void Robot::see() {
+  walker_->observe(state_, outputs_);
+  const gait::Xy by_m = state_.gait.footsteps.stride.by_m;
+  if (state_.gait.queued > 0) {
     result_.longest_step_m =
         std::max(result_.longest_step_m,
                  std::hypot(static_cast<double>(by_m.x), static_cast<double>(by_m.y)));
   }
-  const sim::Observation seen = sim::observe(robot_);
-  meter_.tick(seen, outputs, sim::planned_zmp_world_m(state.tuning, state.gait, seen.truth));
-  if (can_ && result_.ticks == 0) {
-    bits_before_ = can_->bits_on_wire();
-    bare_bits_before_ = can_->bare_bits_on_wire();
+  const sim::Observation seen = sim::observe(twin_);
+  meter_.tick(seen, outputs_, sim::planned_zmp_world_m(state_.tuning, state_.gait, seen.truth));
+  if (result_.ticks == 0) {
+    begun_s_ = simulated_s();
+    if (can_) {
+      bits_before_ = can_->bits_on_wire();
+      bare_bits_before_ = can_->bare_bits_on_wire();
+    }
   }
   ++result_.ticks;
-  result_.digest = tick.digest.chain;
-  result_.faults = outputs.faults;
-  if (trace_ != nullptr) {
-    append(tick, state, outputs.faults, seen.truth.body_world);
-  }
-  const bool ended = robot_.fallen() || walker_->done();
-  after_s_ += ended ? plan_.params.period_us * 1e-6 : 0;
-  over_ = after_s_ > (robot_.fallen() ? kAfterFall_s : kAfterStop_s);
-  progress_.show(walked_s() / plan_.walk_s,
-                 fmt::format("{}  {:.1f} of {:g} s", label_, walked_s(), plan_.walk_s));
+  result_.digest = tick_.digest.chain;
+  result_.faults = outputs_.faults;
+  if (trace_ != nullptr) append(seen.truth.body_world);
+  const bool done = hooks_.order ? gone_s() >= plan_.walk_s : walker_->done();
+  after_s_ += twin_.fallen() || done ? plan_.params.period_us * 1e-6 : 0;
+  over_ = over_ || after_s_ > (twin_.fallen() ? kAfterFall_s : kAfterStop_s);
+  if (hooks_.ticked) hooks_.ticked({seen, gone_s(), &tick_, &state_, &outputs_});
 }
 
-bool WalkSession::has_torque() {
+bool Robot::has_torque() {
   for (int j = 0; j < plan_.params.joint_count; ++j) {
-    if (robot_.setpoint(j).torque_on) return true;
+    if (twin_.setpoint(j).torque_on) return true;
   }
   return false;
 }
 
-void WalkSession::watch() {
+void Robot::watch() {
   const bool torque = has_torque();
   watched_ = true;
   if (!torque && !verdict_.driven()) return;
   if (!verdict_.driven()) begun_s_ = simulated_s();
   const Outputs nothing;
-  const sim::Observation seen = sim::observe(robot_);
+  const sim::Observation seen = sim::observe(twin_);
   meter_.tick(seen, nothing);
   ++result_.ticks;
   const double up = std::clamp(seen.truth.body_world.linear()(2, 2), -1.0, 1.0);
-  verdict_.see(torque, std::acos(up), robot_.fallen());
-  const double served_s = simulated_s() - begun_s_;
+  verdict_.see(torque, std::acos(up), twin_.fallen());
   after_s_ += verdict_.fell() ? plan_.params.period_us * 1e-6 : 0;
-  over_ = served_s >= plan_.walk_s || after_s_ > kAfterFall_s;
-  progress_.show(served_s / plan_.walk_s,
-                 fmt::format("{}  {:.1f} of {:g} s", label_, served_s, plan_.walk_s));
+  over_ = over_ || gone_s() >= plan_.walk_s || after_s_ > kAfterFall_s;
+  if (hooks_.ticked) hooks_.ticked({.seen = seen, .gone_s = gone_s()});
 }
 
-WalkResult WalkSession::result(double wall_s, std::string failure) {
+WalkResult Robot::result(double wall_s) {
   result_.wall_s = wall_s;
   result_.simulated_s = simulated_s();
   result_.interrupted = interrupted();
   result_.metrics = meter_.result();
   if (watched_) {
-    result_.simulated_s = verdict_.driven() ? simulated_s() - begun_s_ : 0;
+    result_.simulated_s = gone_s();
     result_.metrics.fallen = verdict_.fell();
   }
   result_.series = meter_.series();
   if (can_) count_traffic();
-  result_.failure = std::move(failure);
   if (result_.failure.empty() && !result_.interrupted) result_.failure = failure_of_walk();
-  if (result_.good() && walker_->longer_than_asked()) {
+  if (result_.good() && !hooks_.order && walker_->longer_than_asked()) {
     result_.remark = fmt::format("{:g} s were asked; the shortest walk with this cycle is {:.2f} s",
                                  plan_.walk_s, result_.metrics.walk_s);
   }
   return std::move(result_);
 }
 
-void WalkSession::count_traffic() {
+void Robot::count_traffic() {
   const double ticks = std::max(1.0, static_cast<double>(result_.ticks) - 1);
   const auto each_tick = [&](std::uint64_t now, std::uint64_t before) {
     return static_cast<double>(now - before) / ticks;
@@ -147,18 +158,17 @@ void WalkSession::count_traffic() {
 }
 
 /// A disk that is full costs the trace, not the walk.
-void WalkSession::append(const TickRecord& tick, const State& state, std::uint32_t faults,
-                         const sim::Transform& body_world) {
+void Robot::append(const sim::Transform& body_world) {
   try {
     const record::ros::BodyPose body = pose_of(body_world);
-    trace_->append(tick, state, faults, &body);
+    trace_->append(tick_, state_, outputs_.faults, &body);
   } catch (const record::TraceError& error) {
     result_.trace_failure = error.what();
     trace_ = nullptr;
   }
 }
 
-std::string WalkSession::failure_of_walk() const {
+std::string Robot::failure_of_walk() const {
   constexpr std::uint32_t kStopping = 0xFFFF;  // the lower half of Fault stops the robot
   if (watched_) return verdict_.fell() ? "fell" : "";
   if (result_.can && result_.can->overruns > 0) {
@@ -169,7 +179,8 @@ std::string WalkSession::failure_of_walk() const {
     return fmt::format("fell after {:.2f} s of gait", walked_s());
   }
   const std::string faults = fault_names(result_.faults & kStopping);
-  return faults.empty() ? walker_->failed() : "stopped by fault: " + faults;
+  if (!faults.empty()) return "stopped by fault: " + faults;
+  return hooks_.order ? "" : walker_->failed();
 }
 
-}  // namespace verp::tool
+}  // namespace verp::session

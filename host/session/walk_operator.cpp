@@ -1,11 +1,11 @@
-#include "host/tool/walk_operator.hpp"
+#include "host/session/walk_operator.hpp"
 
 #include <algorithm>
 
 #include "common/gait/footsteps.hpp"
 #include "common/safety/machine.hpp"
 
-namespace verp::tool {
+namespace verp::session {
 namespace {
 
 constexpr double kSettle_s = 0.5;    // a person waits for the robot to stand quietly
@@ -102,4 +102,4 @@ void WalkOperator::observe(const State& state, const Outputs& outputs) {
   if (stopping_s_ > lead_s_ + kOverrun_s) failed_ = "the gait did not end", done_ = true;
 }
 
-}  // namespace verp::tool
+}  // namespace verp::session

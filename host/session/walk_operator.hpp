@@ -6,7 +6,7 @@
 #include "common/model/params.hpp"
 #include "firmware/app/contracts.hpp"
 
-namespace verp::tool {
+namespace verp::session {
 
 /// The person at the desk during `verp walk`: asks the robot to stand, lets it walk once it stands,
 /// and says stop in time for the gait to be over after walk_s, or in the last step before that.
@@ -50,4 +50,4 @@ class WalkOperator {
   const char* failed_ = "";
 };
 
-}  // namespace verp::tool
+}  // namespace verp::session

@@ -1,0 +1,75 @@
+#pragma once
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/model/params.hpp"
+#include "common/record/tick_record.hpp"
+#include "firmware/app/contracts.hpp"
+#include "host/model/entity.hpp"
+#include "host/record/trace_writer.hpp"
+#include "host/sim/metrics.hpp"
+#include "host/sim/robot.hpp"
+
+/// One run: a world, the robots in it, each with its bus, controller, operator, meter and record.
+/// Knows no words, options, terminals or signals: who uses it gives what it needs and asks how it
+/// went.
+namespace verp::session {
+
+/// One walk of one robot, fully determined by these values and the world's.
+struct WalkPlan {
+  model::Entity entity;
+  Params params;
+  Command velocity;       ///< vx, vy, wz
+  double walk_s = 20;     ///< of gait; of a run whose orders come from Hooks::order: of the run
+  sim::TwinOptions twin;  ///< seed, where it stands, what of it varies
+  std::string board;      ///< emulated board that runs the controller; empty: this process
+};
+
+/// What there is to see after a tick of one robot.
+struct Tick {
+  const sim::Observation& seen;
+  double gone_s = 0;  ///< of plan.walk_s
+  /// Null of a controller that tells nothing of itself.
+  const TickRecord* record = nullptr;
+  const State* state = nullptr;
+  const Outputs* outputs = nullptr;
+};
+
+/// What a user wants of one robot's run. Empty members are allowed. All are called by whoever calls
+/// Session::tick(), in that call.
+struct Hooks {
+  /// Orders in place of the walk's own; asked once a tick, with the number of the last one begun.
+  std::function<app::OperatorOrder(std::uint32_t tick)> order;
+  std::function<void(const Tick&)> ticked;
+  record::TraceWriter* trace = nullptr;  ///< gets every tick; must outlive the run
+  bool keep_series = false;              ///< WalkResult::series
+};
+
+/// What a CAN bus carried in a walk, from its first tick on.
+struct CanTraffic {
+  double bits_per_tick = 0, bare_bits_per_tick = 0;  ///< with and without stuff bits
+  std::uint32_t overruns = 0;                        ///< frames that the controller lost
+};
+
+struct WalkResult {
+  sim::WalkMetrics metrics;
+  std::vector<sim::SeriesRow> series;  ///< from the first tick on
+  std::uint64_t ticks = 0;
+  std::uint64_t digest = 0;
+  std::uint32_t faults = 0;   ///< safety::Fault bits at the end
+  double longest_step_m = 0;  ///< that the gait made: the asked one, or what limits left of it
+  double simulated_s = 0, wall_s = 0;
+  bool interrupted = false;
+  std::optional<CanTraffic> can;  ///< of a walk over CAN
+  std::string trace_failure;  ///< why the trace breaks off; the walk went on. Empty: it does not
+  std::string failure;        ///< why the walk is no good, in words; empty: it is good
+  std::string remark;         ///< how a good walk is not what was asked; empty: it is
+
+  bool good() const { return failure.empty() && !interrupted; }
+  double real_time_factor() const { return wall_s > 0 ? simulated_s / wall_s : 0; }
+};
+
+}  // namespace verp::session

@@ -1,0 +1,95 @@
+#pragma once
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "firmware/app/contracts.hpp"
+#include "host/bus/virtual_bus.hpp"
+#include "host/can/virtual_can.hpp"
+#include "host/session/fall_verdict.hpp"
+#include "host/session/plan.hpp"
+#include "host/session/walk_operator.hpp"
+
+namespace verp::session {
+
+/// One robot of a session: its twin, bus, operator, meter and trace; the controller is somewhere
+/// else. An OperatorLink and a Recorder for it.
+class Robot {
+ public:
+  using Interrupted = std::function<bool()>;
+
+  /// The world must outlive the robot.
+  Robot(sim::World& world, const WalkPlan& plan, Hooks hooks, Interrupted interrupted);
+
+  const WalkPlan& plan() const { return plan_; }
+  sim::TwinRobot& twin() { return twin_; }
+  /// The bus that the plan's Params speak of; the other one is not there.
+  bus::VirtualBus& bus() { return *bus_; }
+  can::VirtualCan& can() { return *can_; }
+
+  /// What the person who gives orders wants in this tick.
+  app::OperatorOrder order(std::uint32_t tick);
+  /// The controller began anew, on the robot as it is: the operator has it stand up and walk for
+  /// what is left of the time. The trace ends before: a tick has no other one to follow there.
+  void begin_anew();
+  /// The walk has ended, went wrong besides, or somebody interrupts.
+  bool over() const;
+  bool interrupted() const { return interrupted_ && interrupted_(); }
+  /// Something went wrong besides the walk, which is over: why. The first reason stands.
+  void fail(const std::string& why);
+
+  /// A tick of the controller, wherever it ran: take() keeps it, see() has the meter, the trace and
+  /// the hooks look at it.
+  void take(const TickRecord& tick, const State& state, const Outputs& outputs);
+  void see();
+  void record(const TickRecord& tick, const State& state, const Outputs& outputs) {
+    take(tick, state, outputs);
+    see();
+  }
+  /// A tick of a controller that tells nothing of itself: only what the twin did is scored. The
+  /// run begins when a servo first has torque, not when somebody looks for servos, and has
+  /// plan.walk_s from then on. It ends sooner if the robot falls; one that is let go may lie down
+  /// (FallVerdict), and is served on.
+  void watch();
+
+  double simulated_s() const;
+  /// How much of plan.walk_s has gone by.
+  double gone_s() const;
+  bool fallen() const { return twin_.fallen(); }
+  /// Of what was watched.
+  const FallVerdict& verdict() const { return verdict_; }
+
+  /// Once, at the end.
+  WalkResult result(double wall_s);
+
+ private:
+  void append(const sim::Transform& body_world);
+  std::string failure_of_walk() const;
+  void count_traffic();
+  double walked_s() const;
+  bool has_torque();
+
+  const WalkPlan plan_;
+  const Hooks hooks_;
+  const Interrupted interrupted_;
+  record::TraceWriter* trace_;
+  sim::TwinRobot twin_;
+  std::optional<bus::VirtualBus> bus_;
+  std::optional<can::VirtualCan> can_;
+  std::optional<WalkOperator> walker_;
+  double walked_s_ = 0;  ///< by controllers that are no more
+  sim::WalkMeter meter_;
+  WalkResult result_;
+  TickRecord tick_;  ///< the last one taken, and what came with it
+  State state_;
+  Outputs outputs_;
+  std::uint64_t bits_before_ = 0, bare_bits_before_ = 0;  ///< the first tick
+  FallVerdict verdict_;
+  double begun_s_ = 0;  ///< when the first tick was over or torque was first seen, simulated time
+  double after_s_ = 0;
+  bool over_ = false;
+  bool watched_ = false;
+};
+
+}  // namespace verp::session

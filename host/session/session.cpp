@@ -1,0 +1,120 @@
+#include "host/session/session.hpp"
+
+#include <chrono>
+#include <stdexcept>
+#include <utility>
+
+#include "host/session/flow.hpp"
+
+namespace verp::session {
+
+/// A robot's place in the world's time. Alone in it, its bus moves the world; among others its
+/// controller is a Flow that pauses wherever its bus asks for a time.
+struct Session::Seat final : sim::TimeSource {
+  Seat(Session& session, const WalkPlan& plan, Hooks hooks)
+      : world(session.world_),
+        robot(world, plan, std::move(hooks), session.options_.interrupted),
+        controller(make_controller(robot)) {
+    robot.twin().set_time(*this);
+  }
+
+  void advance_to(std::uint64_t time_us) override {
+    if (!flow) return world.advance_to(time_us);
+    if (time_us < world.now_us() + world.options().step_us) return;
+    asked_us = time_us;
+    flow->pause();
+  }
+
+  void run(Flow& own) {
+    while (!robot.over() && controller->tick()) {
+      ticked = true;
+      own.pause();
+    }
+  }
+
+  sim::World& world;
+  Robot robot;
+  std::unique_ptr<Controller> controller;
+  std::unique_ptr<Flow> flow;  ///< null: alone. Goes before what it runs
+  std::uint64_t asked_us = 0;
+  bool ticked = false;    ///< and nobody has looked at the tick yet
+  bool finished = false;  ///< the controller has heard that it is over
+};
+
+Session::Session(Options options) : options_(std::move(options)), world_(options_.world) {}
+
+Session::~Session() = default;
+
+Robot& Session::add(const WalkPlan& plan, Hooks hooks) {
+  if (begun_) throw std::logic_error("a robot joins a session before its first tick");
+  seats_.push_back(std::make_unique<Seat>(*this, plan, std::move(hooks)));
+  return seats_.back()->robot;
+}
+
+Robot& Session::robot(std::size_t index) {
+  return seats_.at(index)->robot;
+}
+
+bool Session::over() const {
+  for (const auto& seat : seats_) {
+    if (!seat->finished) return false;
+  }
+  return true;
+}
+
+/// The one that has asked for the earliest time; of equals the first that was added.
+Session::Seat* Session::next() {
+  Seat* first = nullptr;
+  for (const auto& seat : seats_) {
+    if (seat->finished) continue;
+    if (first == nullptr || seat->asked_us < first->asked_us) first = seat.get();
+  }
+  return first;
+}
+
+/// Up to where this robot's controller has done a tick, or its bus asks for a time. False: neither,
+/// it is over.
+bool Session::go_on(Seat& seat) {
+  seat.finished = true;  // should the controller throw
+  if (seat.flow) {
+    world_.advance_to(seat.asked_us);
+    seat.finished = !seat.flow->resume();
+  } else {
+    seat.ticked = !seat.robot.over() && seat.controller->tick();
+    seat.finished = !seat.ticked;
+  }
+  if (seat.finished) seat.controller->finish();
+  return !seat.finished;
+}
+
+Robot* Session::tick() {
+  using Clock = std::chrono::steady_clock;
+  const auto start = Clock::now();
+  if (!std::exchange(begun_, true) && seats_.size() > 1) {
+    for (const auto& seat : seats_) {
+      seat->flow = std::make_unique<Flow>([seat = seat.get()](Flow& own) { seat->run(own); });
+    }
+  }
+  Robot* ticked = nullptr;
+  while (Seat* seat = ticked == nullptr ? next() : nullptr) {
+    if (!go_on(*seat) || !std::exchange(seat->ticked, false)) continue;
+    seat->robot.see();
+    ticked = &seat->robot;
+  }
+  wall_s_ += std::chrono::duration<double>(Clock::now() - start).count();
+  return ticked;
+}
+
+WalkResult Session::result(std::size_t index) {
+  return robot(index).result(wall_s_);
+}
+
+WalkResult walk(const WalkPlan& plan, Hooks hooks, Options options) {
+  Session session(std::move(options));
+  session.add(plan, std::move(hooks));
+  while (session.tick() != nullptr) {
+  }
+  return session.result(0);
+}
+
+}  // namespace verp::session

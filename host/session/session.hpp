@@ -1,0 +1,69 @@
+#pragma once
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "host/session/controller.hpp"
+#include "host/session/plan.hpp"
+#include "host/session/robot.hpp"
+#include "host/sim/world.hpp"
+
+namespace verp::session {
+
+struct Options {
+  sim::WorldOptions world = {};
+  std::function<bool()> interrupted;  ///< asked at each tick; true ends the run. Empty: nobody does
+};
+
+/// A world and the robots in it, tick by tick:
+///
+///     Session session;
+///     session.add(plan);
+///     while (session.tick()) {
+///     }
+///     const WalkResult result = session.result(0);
+///
+/// The world steps once for everybody in it. Each robot's bus asks for a time, and comes back when
+/// the world stands there, which it does when every other bus has asked for one at least as late:
+/// so no robot is told of, or acts in, another one's past. Deterministic: equal plans in equal
+/// order give equal bits, however the ticks are called for. Who does not call tick() has paused the
+/// run. All hooks are called in tick(), by its thread; errors are exceptions with text, after which
+/// the session is over.
+class Session {
+ public:
+  explicit Session(Options options = {});
+  ~Session();
+
+  /// One more robot, before the first tick. Throws what TwinRobot's constructor does.
+  Robot& add(const WalkPlan& plan, Hooks hooks = {});
+
+  /// Goes on until one robot has done one more control tick, and returns it. Null: the run is over.
+  Robot* tick();
+  /// All robots are over, or somebody interrupts.
+  bool over() const;
+
+  std::uint64_t now_us() const { return world_.now_us(); }
+  std::size_t size() const { return seats_.size(); }
+  Robot& robot(std::size_t index);
+  /// Of that robot, once, at the end.
+  WalkResult result(std::size_t index);
+
+ private:
+  struct Seat;
+
+  Seat* next();
+  bool go_on(Seat& seat);
+
+  const Options options_;
+  sim::World world_;
+  std::deque<std::unique_ptr<Seat>> seats_;
+  double wall_s_ = 0;  ///< in tick()
+  bool begun_ = false;
+};
+
+/// One walk of one robot, from its beginning to its end.
+WalkResult walk(const WalkPlan& plan, Hooks hooks = {}, Options options = {});
+
+}  // namespace verp::session

@@ -1,0 +1,74 @@
+#include "host/session/flow.hpp"
+
+#include <gtest/gtest.h>
+
+#include <stdexcept>
+#include <string>
+
+// A Flow is somebody else's loop in pieces: nothing of it runs outside resume().
+
+namespace verp::session {
+namespace {
+
+TEST(Flow, RunsOnlyInsideResumeAndUpToItsPause) {
+  std::string told;
+  Flow flow([&](Flow& own) {
+    told += "a";
+    own.pause();
+    told += "b";
+    own.pause();
+    told += "c";
+  });
+  EXPECT_EQ(told, "");
+  EXPECT_TRUE(flow.resume());
+  told += "1";
+  EXPECT_TRUE(flow.resume());
+  told += "2";
+  EXPECT_FALSE(flow.resume());
+  EXPECT_FALSE(flow.resume()) << "it has ended";
+  EXPECT_EQ(told, "a1b2c");
+}
+
+TEST(Flow, ThrowsInResumeWhatItsBodyThrew) {
+  Flow flow([](Flow& own) {
+    own.pause();
+    throw std::runtime_error("no servo");
+  });
+  EXPECT_TRUE(flow.resume());
+  EXPECT_THROW(flow.resume(), std::runtime_error);
+  EXPECT_FALSE(flow.resume());
+}
+
+TEST(Flow, UnwindsABodyThatNobodyRunsToItsEnd) {
+  struct Leaves {
+    ~Leaves() {
+      flow.pause();  // of no effect: nobody resumes
+      left = true;
+    }
+    Flow& flow;
+    bool& left;
+  };
+  bool left = false, went_on = false;
+  {
+    Flow flow([&](Flow& own) {
+      const Leaves leaves{own, left};
+      own.pause();
+      went_on = true;
+    });
+    flow.resume();
+    EXPECT_FALSE(left);
+  }
+  EXPECT_TRUE(left);
+  EXPECT_FALSE(went_on);
+}
+
+TEST(Flow, ThatNeverRanNeverDoes) {
+  bool ran = false;
+  {
+    const Flow flow([&](Flow&) { ran = true; });
+  }
+  EXPECT_FALSE(ran);
+}
+
+}  // namespace
+}  // namespace verp::session

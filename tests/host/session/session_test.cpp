@@ -1,0 +1,183 @@
+#include "host/session/session.hpp"
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "common/safety/machine.hpp"
+#include "host/model/find.hpp"
+#include "host/model/load.hpp"
+#include "host/model/params.hpp"
+#include "host/session/not_up.hpp"
+
+// A session is one world with robots in it. What a robot does there is a function of the plans
+// alone: not of how its ticks are called for, nor of who else is in the world, as long as they do
+// not touch.
+
+namespace verp::session {
+namespace {
+
+constexpr double kWalk_s = 2.0;
+
+/// generic21 on one of its buses, standing `left_m` left of the world's origin.
+WalkPlan plan_of(const std::string& bus, double left_m = 0, std::uint64_t seed = 1) {
+  WalkPlan plan;
+  plan.entity = model::load_robot(model::find_model("generic21"), bus);
+  plan.params = model::make_params(plan.entity);
+  plan.velocity.vx_tenth_mm_s = 1000;
+  plan.walk_s = kWalk_s;
+  plan.twin.seed = seed;
+  plan.twin.start_m.y() = left_m;
+  return plan;
+}
+
+using Chain = std::vector<std::uint64_t>;
+
+Hooks keep(Chain& chain) {
+  Hooks hooks;
+  hooks.ticked = [&chain](const Tick& tick) { chain.push_back(tick.record->digest.chain); };
+  return hooks;
+}
+
+Chain alone(const WalkPlan& plan) {
+  Chain chain;
+  const WalkResult result = walk(plan, keep(chain));
+  EXPECT_EQ(result.failure, "");
+  EXPECT_EQ(result.ticks, chain.size());
+  EXPECT_GT(result.metrics.distance_m, 0.04);
+  return chain;
+}
+
+TEST(Session, RobotsOnBusesOfTheirOwnWalkInOneWorldAsTheyDoAlone) {
+  const WalkPlan plans[] = {plan_of("dxl", -1), plan_of("can", 1, 2), plan_of("dxl", 3, 3)};
+  Chain together[3];
+  Session session;
+  for (int i = 0; i < 3; ++i) session.add(plans[i], keep(together[i]));
+  while (session.tick() != nullptr) {
+  }
+  EXPECT_TRUE(session.over());
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_EQ(session.result(i).failure, "");
+    EXPECT_EQ(together[i], alone(plans[i])) << "robot " << i;
+  }
+}
+
+TEST(Session, RobotsThatMeetFeelEachOther) {
+  WalkPlan one = plan_of("dxl");
+  one.walk_s = 4;
+  WalkPlan other = plan_of("dxl", 0, 2);
+  other.velocity.vx_tenth_mm_s = 0;  // stands in the way
+  other.twin.start_m.x() = 0.25;
+  Chain chain;
+  Session session;
+  session.add(one, keep(chain));
+  session.add(other);
+  while (session.tick() != nullptr) {
+  }
+  EXPECT_TRUE(chain != alone(one));
+}
+
+TEST(Session, SeveralAtATimeInOneProcessDoNotKnowOfEachOther) {
+  const WalkPlan serial = plan_of("dxl"), can = plan_of("can");
+  Chain chain[3];
+  Session first, second, third;
+  first.add(serial, keep(chain[0]));
+  second.add(can, keep(chain[1]));
+  third.add(serial, keep(chain[2]));
+  for (bool on = true; on;) {
+    on = first.tick() != nullptr;
+    on = second.tick() != nullptr || on;
+    on = third.tick() != nullptr || on;
+  }
+  EXPECT_EQ(chain[0], chain[2]);
+  EXPECT_EQ(chain[0], alone(serial));
+  EXPECT_EQ(chain[1], alone(can));
+}
+
+TEST(Session, ShowsEachTickWithWhatTheTwinKnowsOfIt) {
+  std::uint32_t next = 0;
+  double height_m = 0;
+  Hooks hooks;
+  hooks.keep_series = true;
+  hooks.ticked = [&](const Tick& tick) {
+    ASSERT_NE(tick.record, nullptr);
+    EXPECT_EQ(tick.record->inputs.tick, next++);
+    EXPECT_EQ(tick.state->digest.chain, tick.record->digest.chain);
+    height_m = tick.seen.truth.body_world.translation().z();
+    EXPECT_LE(tick.gone_s, kWalk_s + 0.5);
+  };
+  Session session;
+  Robot& robot = session.add(plan_of("dxl"), hooks);
+  EXPECT_EQ(session.tick(), &robot);
+  EXPECT_EQ(next, 1u);
+  EXPECT_GT(height_m, 0.2);
+  while (session.tick() != nullptr) {
+  }
+  EXPECT_EQ(session.result(0).series.size(), next);
+}
+
+TEST(Session, TakesOrdersInPlaceOfTheWalks) {
+  Command command;
+  command.request = Request::kStand;
+  WalkPlan plan = plan_of("dxl");
+  plan.walk_s = 4;
+  Hooks hooks;
+  hooks.order = [&](std::uint32_t) {
+    ++command.sequence;
+    return app::OperatorOrder{.command = command, .flags = kCommandFresh};
+  };
+  bool stood = false;
+  hooks.ticked = [&](const Tick& tick) {
+    stood = stood || tick.outputs->mode == static_cast<std::uint8_t>(safety::Mode::kStanding);
+    if (tick.gone_s > 3) command.request = Request::kRelax;
+  };
+  const WalkResult result = walk(plan, hooks);
+  EXPECT_TRUE(stood);
+  EXPECT_EQ(result.failure, "");
+  EXPECT_NEAR(result.simulated_s, 4.8, 0.8) << "bring-up, and plan.walk_s of orders";
+}
+
+TEST(Session, EndsWhenItsUserSaysSo) {
+  int asked = 0;
+  const WalkResult result = walk(plan_of("dxl"), {}, {.interrupted = [&] { return ++asked > 50; }});
+  EXPECT_TRUE(result.interrupted);
+  EXPECT_FALSE(result.good());
+  EXPECT_GT(result.ticks, 0u);
+  EXPECT_LE(result.ticks, 50u);
+}
+
+TEST(Session, ThatIsLeftInMidRunTakesItsRobotsWithIt) {
+  Session session;
+  session.add(plan_of("dxl", -1));
+  session.add(plan_of("can", 1));
+  for (int i = 0; i < 20; ++i) EXPECT_NE(session.tick(), nullptr);
+  EXPECT_FALSE(session.over());
+}
+
+TEST(Session, SaysWhichRobotDoesNotComeUp) {
+  for (const int robots : {1, 2}) {
+    Session session;
+    const WalkPlan plan = plan_of("dxl");
+    const int id = plan.params.joint[3].servo_id;
+    session.add(plan).bus().set_connected(static_cast<std::uint8_t>(id), false);
+    if (robots == 2) session.add(plan_of("can", 2));
+    try {
+      while (session.tick() != nullptr) {
+      }
+      FAIL() << "came up";
+    } catch (const NotUp& error) {
+      EXPECT_NE(std::string(error.what()).find("device " + std::to_string(id)), std::string::npos);
+    }
+  }
+}
+
+TEST(Session, TakesNobodyInAfterItsFirstTick) {
+  Session session;
+  session.add(plan_of("dxl"));
+  session.tick();
+  EXPECT_THROW(session.add(plan_of("dxl", 2)), std::logic_error);
+}
+
+}  // namespace
+}  // namespace verp::session
