@@ -34,9 +34,10 @@ kinematics::LegAngles leg_angles(const Params& params, const State& state,
   for (int k = 1; delay_s > 0.0F && k < kLegJoints; ++k) {
     const auto delay_us = math::to_int32(delay_s * static_cast<float>(k) * 1e6F);
     const gait::Posture earlier = gait::posture_before(params, state.tuning, state.gait, delay_us);
-    angles.angle_rad[k] =
-        kinematics::solve_leg(params, leg, gait::sole_in_body(earlier, side), previous)
-            .angle_rad[k];
+    const kinematics::LegAngles late =
+        kinematics::solve_leg(params, leg, gait::sole_in_body(earlier, side), previous);
+    angles.angle_rad[k] = late.angle_rad[k];
+    angles.turn[k] = late.turn[k];
   }
   return angles;
 }
@@ -158,7 +159,7 @@ Wanted solve_joints(const Params& params, State& state, const Inputs& inputs,
     kinematics::LegAngles angles = leg_angles(params, state, plan.posture, side, previous_rad);
     wanted.leg_limited = wanted.leg_limited || angles.flags != 0;
     const kinematics::LegChain chain =
-        kinematics::leg_chain(params, leg, plan.posture.body, angles.angle_rad);
+        kinematics::leg_chain(params, leg, plan.posture.body, angles.turn);
     balance::LegZero& zero = state.zeros.leg[side];
     if (carries_flat(state, plan, inputs, side, angles)) {
       balance::learn_zero(params, leg, chain, angles.angle_rad, plan.posture.foot[side], inputs,

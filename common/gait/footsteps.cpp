@@ -10,6 +10,10 @@ float outward(int side) {
   return side == kLeft ? 1.0F : -1.0F;
 }
 
+Xy center_in_sole(const LegParams& leg) {
+  return {0.5F * (leg.sole_front_m - leg.sole_back_m), 0.5F * (leg.sole_left_m - leg.sole_right_m)};
+}
+
 Xy middle(const Params& params, const Step& step) {
   return 0.5F * (sole_center(params, kLeft, step.after(kLeft)) +
                  sole_center(params, kRight, step.after(kRight)));
@@ -105,10 +109,7 @@ Step standing_step(const GaitTuning& tuning, const Step& last, Phase phase) {
 }  // namespace
 
 Xy sole_center(const Params& params, int side, const Foothold& foot) {
-  const LegParams& leg = params.leg[side];
-  const Xy center{0.5F * (leg.sole_front_m - leg.sole_back_m),
-                  0.5F * (leg.sole_left_m - leg.sole_right_m)};
-  return foot.at_m + turned(center, foot.yaw_rad);
+  return foot.at_m + turned(center_in_sole(params.leg[side]), foot.yaw_rad);
 }
 
 Xy zmp_under(const Params& params, const GaitTuning& tuning, int side, const Foothold& foot) {
@@ -117,7 +118,7 @@ Xy zmp_under(const Params& params, const GaitTuning& tuning, int side, const Foo
   const float half_y_m = 0.5F * (leg.sole_left_m + leg.sole_right_m) - tuning.support_margin_m;
   const Xy offset{math::clamp(tuning.zmp_x_m, -half_x_m, half_x_m),
                   math::clamp(outward(side) * tuning.zmp_y_m, -half_y_m, half_y_m)};
-  return sole_center(params, side, foot) + turned(offset, foot.yaw_rad);
+  return foot.at_m + turned(center_in_sole(leg) + offset, foot.yaw_rad);
 }
 
 Step standing_feet(const Params& params, const GaitTuning& tuning) {

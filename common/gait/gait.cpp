@@ -2,6 +2,7 @@
 
 #include "common/gait/dcm.hpp"
 #include "common/math/convert.hpp"
+#include "common/record/digest.hpp"
 
 namespace verp::gait {
 namespace {
@@ -173,13 +174,24 @@ Posture stand_posture(const Params& params, const Tuning& tuning, const Step& st
                     foot_at(stand, kRight, 0.0F));
 }
 
-// Standing: the body glides until the CoM is over the middle of the soles. From there a walk may
-// begin.
+Settled digest_stand(const Params& params, const Tuning& tuning, const GaitIn& in,
+                     const GaitState& state) {
+  record::Digest32 stand(1);
+  stand.add_struct(tuning.gait);
+  stand.add_struct(state.stand_body_m);
+  return {digest_load(params, in.goal_rad), stand.value()};
+}
+
+// Standing: the body glides until the CoM is over the middle of the soles, and stays there
+// unweighed until arms, head or tuning move. From there a walk may begin.
 void stand(const Params& params, const Tuning& tuning, const Step& feet, const GaitIn& in,
            GaitState& state) {
   constexpr float kGlideMS = 0.02F;
   constexpr float kSettledM = 2e-4F;
+  constexpr float kCentredM = 1e-6F;  // ten times what the sum of all links is rounded by
   if (!in.walk) state.footsteps.notes = 0;
+  const Settled asked = digest_stand(params, tuning, in, state);
+  if (!in.walk && asked == state.settled) return;
   state.preview.lump = lump_of(params, in.goal_rad);
   const Posture posture = stand_posture(params, tuning, feet, state);
   const Masses masses = weigh(params, state.preview.lump, posture, state.preview.leg_rad);
@@ -195,6 +207,10 @@ void stand(const Params& params, const Tuning& tuning, const Step& feet, const G
     state.first_key = 0;
     state.previous_key = static_cast<std::uint8_t>(0 - state.previous.key_points);
     begin(params, posture, masses, feet.zmp_end_m, state.preview);
+    return;
+  }
+  if (math::abs(off_m.x) < kCentredM && math::abs(off_m.y) < kCentredM) {
+    state.settled = asked;
     return;
   }
   const float most_m = kGlideMS * 1e-6F * static_cast<float>(in.period_us);

@@ -6,19 +6,30 @@
 /// worked in one tick.
 namespace verp::gait {
 
+/// Digests of all that the place of a standing body follows from: a robot that stands weighs itself
+/// anew when one of them changes.
+struct Settled {
+  std::uint32_t load = 0;   ///< angles of arms and head
+  std::uint32_t stand = 0;  ///< tuning, and the place itself
+  bool operator==(const Settled&) const = default;
+  VERP_FIELDS(load, stand)
+};
+VERP_PACKED(Settled);
+
 struct GaitState {
   Step previous;       ///< kept for joints and sensors that look back
   Step queue[kQueue];  ///< queue[0] is the step at `clock_us`
   PreviewState preview;
   FootstepState footsteps;
+  Settled settled;                ///< what stand_body_m is right for
   Xy stand_body_m;                ///< body while standing, walk frame
   std::int32_t clock_us = 0;      ///< since the beginning of queue[0]; goals are for this moment
   std::uint8_t queued = 0;        ///< steps in the queue; 0: standing
   std::uint8_t first_key = 0;     ///< fixed key point at the beginning of queue[0], mod 256
   std::uint8_t previous_key = 0;  ///< likewise of `previous`
   std::uint8_t moving = 0;        ///< 0 while the head runs ahead before the first step
-  VERP_FIELDS(previous, queue, preview, footsteps, stand_body_m, clock_us, queued, first_key,
-              previous_key, moving)
+  VERP_FIELDS(previous, queue, preview, footsteps, settled, stand_body_m, clock_us, queued,
+              first_key, previous_key, moving)
 };
 VERP_PACKED(GaitState);
 

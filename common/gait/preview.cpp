@@ -17,14 +17,15 @@ Momentum momentum_between(const Params& params, const PreviewState& state, const
                           float key_s) {
   Momentum sum{Vec3::Zero(), {}};
   for (int i = 0; i < kPoints; ++i) {
-    const float rate = point_mass_kg(params, state.lump, i) / key_s;
+    const float mass_kg = point_mass_kg(params, state.lump, i);
     const Vec3 a = math::to_vec(state.point_m[i]);
     const Vec3& b = now.point_m[i];
-    sum.linear += rate * (b - a);
-    sum.angular.x += rate * (a.y() * b.z() - a.z() * b.y());
-    sum.angular.y += rate * (a.z() * b.x() - a.x() * b.z());
+    sum.linear += mass_kg * (b - a);
+    sum.angular.x += mass_kg * (a.y() * b.z() - a.z() * b.y());
+    sum.angular.y += mass_kg * (a.z() * b.x() - a.x() * b.z());
   }
-  return sum;
+  const float per_s = 1.0F / key_s;
+  return {per_s * sum.linear, per_s * sum.angular};
 }
 
 // Where the ground's reaction must act so that gravity and inertia of all links balance.

@@ -1,6 +1,8 @@
 #include "common/gait/whole_body.hpp"
 
-#include "common/model/tree.hpp"
+#include <bit>
+
+#include "common/record/digest.hpp"
 
 namespace verp::gait {
 namespace {
@@ -34,13 +36,24 @@ Lump lump_of(const Params& params, const float* angle_rad) {
   return {mass_kg, mass_kg > 0.0F ? math::to_xyz(moment_kg_m / mass_kg) : Xyz{}};
 }
 
+std::uint32_t digest_load(const Params& params, const float* angle_rad) {
+  const std::uint32_t legs = leg_joints(params);
+  record::Digest32 digest(legs);
+  for (int j = 0; j < params.joint_count; ++j) {
+    if ((legs >> j & 1U) == 0) digest.add(std::bit_cast<std::uint32_t>(angle_rad[j]));
+  }
+  return digest.value();
+}
+
 Posture posture_of(const Params& params, const GaitTuning& tuning, Xy body_m, const FootPose& left,
                    const FootPose& right) {
   Posture posture;
   posture.foot[kLeft] = left;
   posture.foot[kRight] = right;
   const float yaw_rad = 0.5F * (left.on.yaw_rad + right.on.yaw_rad);
-  posture.body.rotation = math::rot_z(yaw_rad) * math::rot_y(tuning.trunk_pitch_rad);
+  const math::SinCos pitch = math::sincos(tuning.trunk_pitch_rad);
+  kinematics::turn_columns(math::rot_z(yaw_rad), 2, 0, 1, pitch.sin, pitch.cos,
+                           posture.body.rotation);
   const LegParams& leg = params.leg[kLeft];
   const float ankle_m = -leg.sole_foot_m.z;
   const float hip_m = posture.body.rotation.row(2).dot(math::to_vec(leg.hip_body_m));
@@ -73,7 +86,8 @@ Masses weigh(const Params& params, const Lump& lump, const Posture& posture, flo
     const kinematics::LegAngles solved =
         kinematics::solve_leg(params, leg, sole_in_body(posture, side), angle_rad);
     for (int k = 0; k < kLegJoints; ++k) angle_rad[k] = solved.angle_rad[k];
-    const kinematics::LegChain chain = kinematics::leg_chain(params, leg, posture.body, angle_rad);
+    const kinematics::LegChain chain =
+        kinematics::leg_chain(params, leg, posture.body, solved.turn);
     for (int k = 0; k < kLegJoints; ++k, ++point_m) {
       const JointParams& joint = params.joint[leg.joint[k]];
       *point_m = math::apply(chain.link[k], math::to_vec(joint.com_link_m));

@@ -18,6 +18,9 @@ VERP_PACKED(Lump);
 /// All links but the legs', at the joint angles given.
 Lump lump_of(const Params& params, const float* angle_rad);
 
+/// Of the angles that lump_of reads: equal as long as the lump is.
+std::uint32_t digest_load(const Params& params, const float* angle_rad);
+
 /// Where body and feet are at one moment, walk frame.
 struct Posture {
   Pose body;

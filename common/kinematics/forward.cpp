@@ -41,28 +41,27 @@ Pose joint_transform(const JointParams& joint, float angle_rad) {
   return {axis_rotation(joint, angle_rad), math::to_vec(joint.origin_parent_m)};
 }
 
-void chain(const Pose& parent, const JointParams& joint, float angle_rad, Pose& link) {
+void chain(const Pose& parent, const JointParams& joint, const math::SinCos& turn, Pose& link) {
   place(parent, joint.origin_parent_m, link.position_m);
-  const math::SinCos angle = math::sincos(angle_rad);
   const Mat3& from = parent.rotation;
   Mat3& to = link.rotation;
   switch (joint.axis_kind) {
     case AxisKind::kX:
-      return turn_columns(from, 1, 2, 0, angle.sin, angle.cos, to);
+      return turn_columns(from, 1, 2, 0, turn.sin, turn.cos, to);
     case AxisKind::kY:
-      return turn_columns(from, 2, 0, 1, angle.sin, angle.cos, to);
+      return turn_columns(from, 2, 0, 1, turn.sin, turn.cos, to);
     case AxisKind::kZ:
-      return turn_columns(from, 0, 1, 2, angle.sin, angle.cos, to);
+      return turn_columns(from, 0, 1, 2, turn.sin, turn.cos, to);
     case AxisKind::kMinusX:
-      return turn_columns(from, 1, 2, 0, -angle.sin, angle.cos, to);
+      return turn_columns(from, 1, 2, 0, -turn.sin, turn.cos, to);
     case AxisKind::kMinusY:
-      return turn_columns(from, 2, 0, 1, -angle.sin, angle.cos, to);
+      return turn_columns(from, 2, 0, 1, -turn.sin, turn.cos, to);
     case AxisKind::kMinusZ:
-      return turn_columns(from, 0, 1, 2, -angle.sin, angle.cos, to);
+      return turn_columns(from, 0, 1, 2, -turn.sin, turn.cos, to);
     case AxisKind::kGeneral:
       break;
   }
-  to = from * math::rotation(math::to_vec(joint.axis), angle);
+  to = from * math::rotation(math::to_vec(joint.axis), turn);
 }
 
 Pose node_pose(const Params& params, const Pose& body, const float* angle_rad, int node) {
@@ -114,14 +113,21 @@ Vec3 joint_axis(const JointParams& joint, const Mat3& link_rotation) {
 }
 
 LegChain leg_chain(const Params& params, const LegParams& leg, const Pose& body,
-                   const float* leg_angle_rad) {
+                   const math::SinCos* turn) {
   LegChain legs;
   const Pose* parent = &body;
   for (int k = 0; k < kLegJoints; ++k) {
-    chain(*parent, params.joint[leg.joint[k]], leg_angle_rad[k], legs.link[k]);
+    chain(*parent, params.joint[leg.joint[k]], turn[k], legs.link[k]);
     parent = &legs.link[k];
   }
   return legs;
+}
+
+LegChain leg_chain(const Params& params, const LegParams& leg, const Pose& body,
+                   const float* leg_angle_rad) {
+  math::SinCos turn[kLegJoints];
+  for (int k = 0; k < kLegJoints; ++k) turn[k] = math::sincos(leg_angle_rad[k]);
+  return leg_chain(params, leg, body, turn);
 }
 
 Pose sole_pose(const LegParams& leg, const LegChain& chain) {

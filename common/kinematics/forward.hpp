@@ -25,7 +25,10 @@ inline void turn_columns(const Mat3& from, int first, int second, int kept, floa
 
 /// link = parent * joint_transform, without the multiplications by zero and one of an axis along x,
 /// y or z.
-void chain(const Pose& parent, const JointParams& joint, float angle_rad, Pose& link);
+void chain(const Pose& parent, const JointParams& joint, const math::SinCos& turn, Pose& link);
+inline void chain(const Pose& parent, const JointParams& joint, float angle_rad, Pose& link) {
+  chain(parent, joint, math::sincos(angle_rad), link);
+}
 
 /// Pose of one node: recursive, from the node up to the body.
 Pose node_pose(const Params& params, const Pose& body, const float* angle_rad, int node);
@@ -40,12 +43,15 @@ Vec3 center_of_mass(const Params& params, const Pose& body, const float* angle_r
 /// fixed in it).
 Vec3 joint_axis(const JointParams& joint, const Mat3& link_rotation);
 
-/// Chain of one leg: poses of its six links, hip to ankle, in the body frame's outer frame.
-/// `leg_angle_rad` is indexed by position in the leg.
+/// Chain of one leg: poses of its six links, hip to ankle, in the body frame's outer frame. By the
+/// joints' sines where they are known (LegAngles::turn), else by their angles; both are indexed by
+/// position in the leg.
 struct LegChain {
   Pose link[kLegJoints] = {Pose(math::Unset{}), Pose(math::Unset{}), Pose(math::Unset{}),
                            Pose(math::Unset{}), Pose(math::Unset{}), Pose(math::Unset{})};
 };
+LegChain leg_chain(const Params& params, const LegParams& leg, const Pose& body,
+                   const math::SinCos* turn);
 LegChain leg_chain(const Params& params, const LegParams& leg, const Pose& body,
                    const float* leg_angle_rad);
 

@@ -18,14 +18,27 @@ Pose foot_of_sole(const LegParams& leg, const Pose& sole) {
   return foot;
 }
 
-// Writes canonical angles as joint angles, held within the limits.
-void to_joints(const Params& params, const LegParams& leg, const float* canonical_rad,
+// The angle whose sine and cosine are these but for a common factor, `norm`; 0 where there is no
+// direction in them.
+SinCos unit(float sin, float cos, float norm) {
+  constexpr float kLeast = 1e-12F;
+  return norm > kLeast ? SinCos{sin / norm, cos / norm} : SinCos{0.0F, 1.0F};
+}
+
+// Writes canonical angles as joint angles, held within the limits. Their sines are those known, but
+// where that is another angle's, or the sole is nowhere: no NaN or infinity passes a flag.
+void to_joints(const Params& params, const LegParams& leg, const SinCos* canonical,
                LegAngles& result) {
   for (int k = 0; k < kLegJoints; ++k) {
     const JointParams& joint = params.joint[leg.joint[k]];
-    const float wanted_rad = leg.direction[k] * (canonical_rad[k] - leg.offset_rad[k]);
-    result.angle_rad[k] = math::clamp(wanted_rad, joint.lower_rad, joint.upper_rad);
-    if (result.angle_rad[k] != wanted_rad) result.flags |= kJointLimited;
+    const float canonical_rad = math::atan2(canonical[k].sin, canonical[k].cos);
+    const float wanted_rad = leg.direction[k] * (canonical_rad - leg.offset_rad[k]);
+    const float angle_rad = math::clamp(wanted_rad, joint.lower_rad, joint.upper_rad);
+    if (angle_rad != wanted_rad) result.flags |= kJointLimited;
+    result.angle_rad[k] = angle_rad;
+    result.turn[k] = result.flags != 0 || leg.offset_rad[k] != 0.0F
+                         ? math::sincos(angle_rad)
+                         : SinCos{leg.direction[k] * canonical[k].sin, canonical[k].cos};
   }
 }
 
@@ -47,9 +60,9 @@ LegAngles solve_leg_closed_form(const Params& params, const LegParams& leg, cons
   // The hip seen from the ankle: ankle roll brings it into the leg's plane, ankle pitch onto the
   // shank's side.
   const Vec3 hip_m = foot.rotation.transpose() * (math::to_vec(leg.hip_body_m) - foot.position_m);
-  const float height_m = math::max(math::hypot(hip_m.y(), hip_m.z()), 1e-6F);
+  const float height_m = math::hypot(hip_m.y(), hip_m.z());
   const float side = hip_m.z() < 0.0F ? -1.0F : 1.0F;
-  const SinCos roll{side * hip_m.y() / height_m, side * hip_m.z() / height_m};
+  const SinCos roll = unit(side * hip_m.y(), side * hip_m.z(), height_m);
   const float along_m = side * height_m;
   const float distance_m = math::hypot(hip_m.x(), height_m);
   const SinCos knee = knee_of(leg, distance_m, result);
@@ -60,23 +73,25 @@ LegAngles solve_leg_closed_form(const Params& params, const LegParams& leg, cons
   const float bent_z_m = leg.shank_m + leg.thigh_m * knee.cos;
   const float pitch_sin = bent_x_m * along_m - bent_z_m * hip_m.x();
   const float pitch_cos = bent_z_m * along_m + bent_x_m * hip_m.x();
-  const float pitch_norm = math::max(math::hypot(pitch_sin, pitch_cos), 1e-12F);
-  const SinCos pitch{pitch_sin / pitch_norm, pitch_cos / pitch_norm};
+  const SinCos pitch = unit(pitch_sin, pitch_cos, math::hypot(pitch_sin, pitch_cos));
 
   // What is left of the foot's rotation once ankle and knee are undone is the hip's: Rz(yaw)
   // Rx(roll) Ry(pitch).
-  const SinCos back_roll{-roll.sin, roll.cos};
   const SinCos back_pitch{-(pitch.sin * knee.cos + pitch.cos * knee.sin),
                           pitch.cos * knee.cos - pitch.sin * knee.sin};
   Mat3 level;
-  turn_columns(foot.rotation, 1, 2, 0, back_roll.sin, back_roll.cos, level);
+  turn_columns(foot.rotation, 1, 2, 0, -roll.sin, roll.cos, level);
   Mat3 hip;
   turn_columns(level, 2, 0, 1, back_pitch.sin, back_pitch.cos, hip);
-  const float canonical_rad[kLegJoints] = {
-      math::atan2(-hip(0, 1), hip(1, 1)), math::atan2(hip(2, 1), math::hypot(hip(0, 1), hip(1, 1))),
-      math::atan2(-hip(2, 0), hip(2, 2)), math::atan2(knee.sin, knee.cos),
-      math::atan2(pitch.sin, pitch.cos),  math::atan2(roll.sin, roll.cos)};
-  to_joints(params, leg, canonical_rad, result);
+  const float cos_roll = math::hypot(hip(0, 1), hip(1, 1));
+  const SinCos canonical[kLegJoints] = {
+      unit(-hip(0, 1), hip(1, 1), cos_roll),
+      unit(hip(2, 1), cos_roll, math::hypot(hip(2, 1), cos_roll)),
+      unit(-hip(2, 0), hip(2, 2), math::hypot(hip(2, 0), hip(2, 2))),
+      knee,
+      pitch,
+      roll};
+  to_joints(params, leg, canonical, result);
   return result;
 }
 

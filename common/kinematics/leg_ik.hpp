@@ -2,6 +2,7 @@
 #include <cstdint>
 
 #include "common/kinematics/forward.hpp"
+#include "common/math/elementary.hpp"
 
 /// Inverse kinematics of a six-joint leg.
 namespace verp::kinematics {
@@ -17,6 +18,7 @@ enum LegFlag : std::uint8_t {
 
 struct LegAngles {
   float angle_rad[kLegJoints] = {};  ///< joint angles, hip to ankle, within the joints' limits
+  math::SinCos turn[kLegJoints];     ///< of these angles, to 1e-6: what leg_chain wants
   std::uint8_t flags = 0;            ///< LegFlag
 };
 

@@ -59,13 +59,14 @@ LegAngles solve_leg_newton(const Params& params, const LegParams& leg, const Pos
   for (int k = 0; k < kLegJoints; ++k) {
     const JointParams& joint = params.joint[leg.joint[k]];
     result.angle_rad[k] = math::clamp(previous_rad[k], joint.lower_rad, joint.upper_rad);
+    result.turn[k] = math::sincos(result.angle_rad[k]);
   }
   if (!is_pose(sole)) {
     result.flags = kNotConverged;
     return result;
   }
   for (int i = 0; i <= kIterations; ++i) {
-    const LegChain legs = leg_chain(params, leg, Pose{}, result.angle_rad);
+    const LegChain legs = leg_chain(params, leg, Pose{}, result.turn);
     const Pose reached = sole_pose(leg, legs);
     const Residual residual = residual_of(sole, reached);
     if (residual.small()) return result;
@@ -80,6 +81,7 @@ LegAngles solve_leg_newton(const Params& params, const LegParams& leg, const Pos
       const float wanted_rad =
           result.angle_rad[k] + math::clamp(step_rad(k), -kMaxStepRad, kMaxStepRad);
       result.angle_rad[k] = math::clamp(wanted_rad, joint.lower_rad, joint.upper_rad);
+      result.turn[k] = math::sincos(result.angle_rad[k]);
       if (result.angle_rad[k] != wanted_rad) result.flags |= kJointLimited;
     }
   }

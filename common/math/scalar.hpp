@@ -33,7 +33,7 @@ constexpr float finite_or(float x, float fallback) {
 
 /// Clears the sign bit.
 constexpr float abs(float x) {
-  return std::bit_cast<float>(std::bit_cast<std::uint32_t>(x) & 0x7FFFFFFFU);
+  return __builtin_fabsf(x);
 }
 
 /// Magnitude of the first, sign bit of the second.

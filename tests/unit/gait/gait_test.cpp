@@ -47,6 +47,47 @@ TEST(Gait, WholeWalkIsContinuousAndItsPhasesFollowEachOther) {
   EXPECT_EQ(int{walker.state.queued}, 0);
 }
 
+// Weighing is most of a standing tick: done until the body is where it should be, and again only
+// when arms, head or tuning have moved. A lump of no mass shows whether it was.
+TEST(Gait, StandsUnweighedUntilSomethingMoves) {
+  Walker walker(test::kRobot);
+  walker.run(1.5F);
+  const Lump known = walker.state.preview.lump;
+  const auto weighs = [&] {
+    walker.state.preview.lump = Lump{};
+    walker.tick();
+    const bool weighed = walker.state.preview.lump.mass_kg == known.mass_kg;
+    walker.run(1.5F);
+    return weighed;
+  };
+  const Xy rest_m = walker.state.stand_body_m;
+  EXPECT_FALSE(weighs());
+  EXPECT_EQ(apart(walker.state.stand_body_m, rest_m), 0.0F);
+  walker.goal_rad[test::kLeftArm] += 0.5F;
+  EXPECT_TRUE(weighs());
+  EXPECT_GT(apart(walker.state.stand_body_m, rest_m), 1e-4F);
+  EXPECT_FALSE(weighs());
+  walker.tuning.gait.trunk_pitch_rad += 0.01F;
+  EXPECT_TRUE(weighs());
+  EXPECT_FALSE(weighs());
+  walker.state.stand_body_m.x += 0.001F;
+  EXPECT_TRUE(weighs());
+  walker.in.walk = true;
+  EXPECT_TRUE(weighs());
+}
+
+// Where it stays is where weighing in every tick would have it.
+TEST(Gait, StandsWhereWeighingInEveryTickWouldHaveIt) {
+  Walker one(test::kRobot), other(test::kRobot);
+  for (int i = 0; i < 300; ++i) {
+    other.state.settled = Settled{};
+    if (i == 150) one.goal_rad[test::kHead] = other.goal_rad[test::kHead] = 0.4F;
+    one.tick();
+    other.tick();
+    ASSERT_EQ(apart(one.state.stand_body_m, other.state.stand_body_m), 0.0F) << "tick " << i;
+  }
+}
+
 TEST(Gait, VelocityChangesInMidWalkAreContinuous) {
   constexpr VelocityIn kOrders[] = {{.vx_m_s = 0.15F},
                                     {.vx_m_s = -0.1F},

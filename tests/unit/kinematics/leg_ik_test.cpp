@@ -60,6 +60,56 @@ TEST(LegIk, ClosedFormUndoesForwardKinematics) {
   }
 }
 
+// The sines that come with the angles are theirs, and put the sole as near as float32 can: chains
+// by them need no sine of their own.
+void expect_sines(const Params& params, const LegParams& leg, const LegAngles& solved) {
+  for (int k = 0; k < kLegJoints; ++k) {
+    const math::SinCos turn = math::sincos(solved.angle_rad[k]);
+    EXPECT_NEAR(solved.turn[k].sin, turn.sin, 5e-7F) << "joint " << k;
+    EXPECT_NEAR(solved.turn[k].cos, turn.cos, 5e-7F) << "joint " << k;
+  }
+  const Pose by_sines = sole_pose(leg, leg_chain(params, leg, Pose{}, solved.turn));
+  expect_pose(by_sines, reached(params, leg, solved), 5e-7F);
+}
+
+TEST(LegIk, SinesAreThoseOfTheAngles) {
+  Params offset = kRobot;
+  offset.leg[0].offset_rad[2] = offset.leg[1].offset_rad[4] = 0.1F;
+  offset.leg[0].direction[3] = offset.leg[1].direction[1] = -1;
+  Random random(6);
+  for (int round = 0; round < 300; ++round) {
+    float angle_rad[kMaxJoints];
+    test::random_angles(kRobot, 0.1F, random, angle_rad);
+    for (const LegParams& leg : kRobot.leg) {
+      const float* leg_rad = angle_rad + leg.joint[0];
+      Pose sole = sole_pose(leg, leg_chain(kRobot, leg, Pose{}, leg_rad));
+      const LegAngles solved = solve_leg_closed_form(kRobot, leg, sole);
+      expect_sines(kRobot, leg, solved);
+      expect_pose(sole_pose(leg, leg_chain(kRobot, leg, Pose{}, solved.turn)), sole, 5e-7F);
+      const LegParams& other = offset.leg[&leg - kRobot.leg];
+      expect_sines(offset, other, solve_leg_closed_form(offset, other, sole));
+      expect_sines(kRobot, leg, solve_leg_newton(kRobot, leg, sole, leg_rad));
+      sole.position_m.z() -= 0.1F;  // out of reach, or beyond a limit
+      expect_sines(kRobot, leg, solve_leg_closed_form(kRobot, leg, sole));
+    }
+  }
+}
+
+// The hip straight before the ankle, on its roll axis: any roll will do, but it must be one.
+TEST(LegIk, HipOnTheAnklesRollAxisIsReached) {
+  constexpr float kAsked_rad[][kLegJoints] = {
+      {-0.211472511F, 0.356358171F, -1.83568692F, 1.61554754F, 0.763026237F, 0.447418749F},
+      {-0.556965232F, -0.315718472F, -0.392023325F, 2.04143405F, 0.55008471F, 0.358561039F}};
+  for (int side = 0; side < kFeet; ++side) {
+    const LegParams& leg = kRobot.leg[side];
+    const Pose sole = sole_pose(leg, leg_chain(kRobot, leg, Pose{}, kAsked_rad[side]));
+    const LegAngles solved = solve_leg_closed_form(kRobot, leg, sole);
+    EXPECT_EQ(int{solved.flags}, 0);
+    expect_sines(kRobot, leg, solved);
+    expect_pose(reached(kRobot, leg, solved), sole);
+  }
+}
+
 // What a walk asks for: the same soles, over a grid, without any flag.
 TEST(LegIk, WalkingPosesAreReachedWithoutFlags) {
   for (float x = -0.06F; x < 0.07F; x += 0.03F) {
@@ -239,6 +289,10 @@ TEST(LegIk, PosesThatAreNoPosesGiveFiniteAnglesAndAFlag) {
       const LegAngles newton = solve_leg_newton(kRobot, leg, sole, start_rad);
       expect_within_limits(kRobot, leg, closed);
       expect_within_limits(kRobot, leg, newton);
+      for (int k = 0; k < kLegJoints; ++k) {
+        EXPECT_TRUE(math::is_finite(closed.turn[k].sin) && math::is_finite(closed.turn[k].cos));
+        EXPECT_TRUE(math::is_finite(newton.turn[k].sin) && math::is_finite(newton.turn[k].cos));
+      }
       EXPECT_NE(int{newton.flags}, 0) << bad << " at " << where;
       EXPECT_NE(int{closed.flags}, 0) << bad << " at " << where;
     }

@@ -14,6 +14,9 @@ TEST(MathConvert, RoundsToNearestTiesToEven) {
   EXPECT_EQ(to_int32(-2.5F), -2);
   EXPECT_EQ(to_int32(0.49999997F), 0);
   EXPECT_EQ(to_int32(-0.50000006F), -1);
+  EXPECT_EQ(to_int32(4194303.5F), 4194304);  // where the short way ends
+  EXPECT_EQ(to_int32(-4194302.5F), -4194302);
+  EXPECT_EQ(to_int32(4194304.5F), 4194304);
   EXPECT_EQ(to_int32(8388607.5F), 8388608);
   EXPECT_EQ(to_int32(16777215.0F), 16777215);
   EXPECT_EQ(round_even(kNan), 0.0F);
