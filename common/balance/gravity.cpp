@@ -3,10 +3,11 @@
 namespace verp::balance {
 
 Vec3 ground_point(const LegParams& leg, const gait::FootPose& foot, gait::Xy zmp_m) {
-  const gait::Xy in_sole = gait::turned(zmp_m - foot.on.at_m, -foot.on.yaw_rad);
+  const math::SinCos yaw = math::sincos(foot.on.yaw_rad);
+  const gait::Xy in_sole = gait::turned(zmp_m - foot.on.at_m, {-yaw.sin, yaw.cos});
   const gait::Xy inside{math::clamp(in_sole.x, -leg.sole_back_m, leg.sole_front_m),
                         math::clamp(in_sole.y, -leg.sole_right_m, leg.sole_left_m)};
-  const gait::Xy at_m = foot.on.at_m + gait::turned(inside, foot.on.yaw_rad);
+  const gait::Xy at_m = foot.on.at_m + gait::turned(inside, yaw);
   return {at_m.x, at_m.y, foot.height_m};
 }
 

@@ -26,9 +26,11 @@ VERP_PACKED(Xy);
 constexpr float dot(Xy a, Xy b) {
   return a.x * b.x + a.y * b.y;
 }
-inline Xy turned(Xy v, float yaw_rad) {
-  const math::SinCos yaw = math::sincos(yaw_rad);
+constexpr Xy turned(Xy v, const math::SinCos& yaw) {
   return {yaw.cos * v.x - yaw.sin * v.y, yaw.sin * v.x + yaw.cos * v.y};
+}
+inline Xy turned(Xy v, float yaw_rad) {
+  return turned(v, math::sincos(yaw_rad));
 }
 
 /// Where a sole stands: the centre of its frame, and its heading.
