@@ -117,6 +117,7 @@ class BringUp {
     const JointParams& joint = params_.joint[j];
     const ServoProfile& profile = profile_of(params_, j);
     const ServoRam ram(profile);
+    const ServoLimits limits(joint);
     const std::uint8_t id = joint.servo_id;
     const std::uint8_t off = 0;
     const std::uint8_t answer_all = 2;
@@ -127,6 +128,7 @@ class BringUp {
            write(id, dxl::address::kBusWatchdog, &off, sizeof off) &&
            establish(id, dxl::address::kStatusReturnLevel, &answer_all, sizeof answer_all) &&
            establish(id, dxl::address::kReturnDelay, mode, sizeof mode) &&
+           establish(id, dxl::address::kMaxPositionLimit, limits.bytes, sizeof limits.bytes) &&
            establish(id, dxl::address::kPositionDGain, ram.gains, sizeof ram.gains) &&
            establish(id, dxl::address::kProfileAcceleration, ram.motion, sizeof ram.motion) &&
            learn_strength(j, id) && is_well(id);

@@ -1,6 +1,7 @@
 #pragma once
 #include <cstdint>
 
+#include "common/model/counts.hpp"
 #include "common/model/params.hpp"
 #include "common/protocol/dynamixel2.hpp"
 
@@ -17,6 +18,26 @@ struct ServoRam {
   }
   std::uint8_t gains[6];        ///< from Position D Gain (80) on
   std::uint8_t motion[8] = {};  ///< Profile Acceleration (108) 0, Profile Velocity in ms
+};
+
+/// Max and Min Position Limit (48, 52), EEPROM: the servo's own last word, where a controller's is
+/// not heard. One count beyond the joint's own, so that rounding refuses no goal of the core;
+/// inside the turn that position control has.
+struct ServoLimits {
+  explicit ServoLimits(const JointParams& joint) {
+    const std::int32_t a = model::count_of(joint, joint.lower_rad);
+    const std::int32_t b = model::count_of(joint, joint.upper_rad);
+    dxl::put_u32(bytes, in_turn(a > b ? a : b, 1));
+    dxl::put_u32(bytes + 4, in_turn(a < b ? a : b, -1));
+  }
+  std::uint8_t bytes[8];
+
+ private:
+  static std::uint32_t in_turn(std::int32_t count, std::int32_t beyond) {
+    constexpr std::int32_t kLast = 4095;
+    if (count <= 0) return count + beyond > 0 ? static_cast<std::uint32_t>(count + beyond) : 0;
+    return static_cast<std::uint32_t>(count < kLast ? count + beyond : kLast);
+  }
 };
 
 inline const ServoProfile& profile_of(const Params& params, int joint) {

@@ -14,6 +14,45 @@ TEST_F(AppLoop, BringUpLeavesEveryServoAsParamsSayWithTorqueOff) {
   }
 }
 
+std::int64_t read_i32(bus::VirtualBus& bus, int joint, std::uint16_t address) {
+  std::uint8_t frame[dxl::kMaxPacket], reply[dxl::kMaxPacket];
+  const auto id = static_cast<std::uint8_t>(joint + 1);
+  bus.send(frame, dxl::encode_read(frame, sizeof frame, id, address, 4));
+  const std::size_t count = bus.poll(reply, sizeof reply, 10'000);
+  dxl::Parser parser;
+  for (std::size_t i = 0; i < count; ++i) {
+    if (parser.push(reply[i]))
+      return static_cast<std::int32_t>(dxl::get_u32(parser.packet().parameters));
+  }
+  return INT64_MIN;
+}
+
+// The servo's own last word: where a controller is not heard, or lies, no goal goes beyond.
+TEST_F(AppLoop, BringUpWritesEachJointsLimitsIntoItsServo) {
+  for (int j = 0; j < kJoints; ++j) {
+    JointParams& joint = params.joint[j];
+    joint.counts_per_rad = j % 2 == 0 ? 651.9F : -651.9F;  // mounted backwards
+    joint.lower_rad = -0.1F * static_cast<float>(j + 1);
+    joint.upper_rad = 0.5F;
+  }
+  ready();
+  for (int j = 0; j < kJoints; ++j) {
+    const JointParams& joint = params.joint[j];
+    const std::int32_t a = model::count_of(joint, joint.lower_rad);
+    const std::int32_t b = model::count_of(joint, joint.upper_rad);
+    EXPECT_EQ(read_i32(bus, j, dxl::address::kMinPositionLimit), std::min(a, b) - 1);
+    EXPECT_EQ(read_i32(bus, j, dxl::address::kMaxPositionLimit), std::max(a, b) + 1);
+  }
+}
+
+TEST_F(AppLoop, LimitsBeyondTheTurnAreTheTurns) {
+  params.joint[0].lower_rad = -9;
+  params.joint[0].upper_rad = 9;
+  ready();
+  EXPECT_EQ(read_i32(bus, 0, dxl::address::kMinPositionLimit), 0);
+  EXPECT_EQ(read_i32(bus, 0, dxl::address::kMaxPositionLimit), 4095);
+}
+
 TEST_F(AppLoop, BringUpWritesEepromOnlyOnce) {
   ready();
   const int writes = frames_of(dxl::Instruction::kWrite);

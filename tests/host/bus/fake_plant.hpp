@@ -62,6 +62,10 @@ inline Params bus_params(int joints, bool fast = true) {
   for (int j = 0; j < joints; ++j) {
     params.joint[j].servo_id = static_cast<std::uint8_t>(j + 1);
     params.joint[j].parent = static_cast<std::uint8_t>(j);
+    params.joint[j].lower_rad = -3.1F;
+    params.joint[j].upper_rad = 3.1F;
+    params.joint[j].counts_per_rad = 651.9F;
+    params.joint[j].zero_count = 2048;
   }
   params.imu.device_id = kImuId;
   params.feet.device_id[0] = kLeftFootId;
