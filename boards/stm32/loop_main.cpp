@@ -50,20 +50,20 @@ using Operator = app::OperatorDevice<OperatorPort, Ticks>;
 using Node = RobotNode<Port, Ticks>;
 
 struct Board {
-  Board(const Start& start, const Params& params, control::BootVerdict verdict)
+  Board(const Start& start, const Params& params, const control::BootReport& boot_check)
       : dog(start.cause),
         guard(dog, start.clocks.source != stm32::ClockSource::kAbsent),
         kept(dog, *reinterpret_cast<const ParamsImage*>(verp_params_begin)),
         imu(params, kept.log),
-        operator_device(operator_port, params, setup(start, verdict), ticks_kept),
+        operator_device(operator_port, params, setup(start, boot_check), ticks_kept),
         node(robot_port, params, operator_device.registers(), ticks_kept) {
     imu.open(start);
     pins.open();
     supply.open();
   }
 
-  app::OperatorSetup setup(const Start& start, control::BootVerdict verdict) {
-    app::OperatorSetup setup = operator_setup(start, verdict);
+  app::OperatorSetup setup(const Start& start, const control::BootReport& boot_check) {
+    app::OperatorSetup setup = operator_setup(start, boot_check);
     imu.offer(setup);
     kept.settings.load(setup);
     return setup;
@@ -267,15 +267,15 @@ extern "C" int verp_main() {
   const auto size = reinterpret_cast<std::uintptr_t>(verp_params_bytes);
   static Params scratch;
   static State state;
-  const control::BootVerdict verdict =
-      control::check_boot(verp_params_begin, size, scratch, state).verdict;
+  const control::BootReport boot_check =
+      control::check_boot(verp_params_begin, size, scratch, state);
   scratch = {};  // the robot of a board that was given none
   const bool has_robot = check_image(verp_params_begin, size) == ImageFault::kNone;
   const Params& params =
       has_robot ? reinterpret_cast<const ParamsImage*>(verp_params_begin)->params : scratch;
-  static board::Board here(start, params, verdict);
+  static board::Board here(start, params, boot_check);
   board::Servos servos{start, params.baud, has_robot, here.supply};
-  const auto fault = app::open_servos(servos, board::judge(has_desk, verdict, params));
+  const auto fault = app::open_servos(servos, board::judge(has_desk, boot_check.verdict, params));
   here.say(app::Signals::at_start(fault == board::StartFault::kNone));
   if (fault != board::StartFault::kNone) here.refuse(fault);
   for (;;) {

@@ -8,7 +8,8 @@
 namespace verp::board {
 
 /// Takes the crash record; call once.
-inline app::OperatorSetup operator_setup(const Start& start, control::BootVerdict verdict) {
+inline app::OperatorSetup operator_setup(const Start& start,
+                                         const control::BootReport& boot_check) {
   using dxl::controller::ClockSource;
   using dxl::controller::ResetCause;
   using dxl::controller::SelfTest;
@@ -20,7 +21,8 @@ inline app::OperatorSetup operator_setup(const Start& start, control::BootVerdic
   static_assert(static_cast<int>(ResetCause::kLowPower) ==
                 static_cast<int>(stm32::ResetCause::kLowPower));
   app::OperatorSetup setup;
-  setup.self_test = static_cast<SelfTest>(static_cast<int>(verdict) + 1);
+  setup.self_test = static_cast<SelfTest>(static_cast<int>(boot_check.verdict) + 1);
+  setup.bad_field = boot_check.bad_field;
   setup.clock_source = static_cast<ClockSource>(static_cast<int>(start.clocks.source) + 1);
   setup.reset_cause = static_cast<ResetCause>(start.cause);
   boot::CrashRecord crash;

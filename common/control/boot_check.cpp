@@ -48,6 +48,9 @@ BootReport check_boot(const void* image, std::size_t size, Params& robot, State&
   report.image = check_image(image, size);
   if (report.image != ImageFault::kNone) {
     report.verdict = BootVerdict::kImage;
+    if (report.image == ImageFault::kOutOfRange) {
+      numbers_fit(static_cast<const ParamsImage*>(image)->params, report.bad_field);
+    }
     return report;
   }
   return check_image_walk(*static_cast<const ParamsImage*>(image), state, report);

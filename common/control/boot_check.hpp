@@ -12,7 +12,7 @@ enum class BootVerdict : std::uint8_t {
   kSound = 0,
   kContracted = 1,  ///< the core was built with fused multiply-add: other bits than the twin's
   kCode = 2,        ///< the built-in robot does not walk as it should: damaged code, memory or core
-  kImage = 3,       ///< the Params image is none, damaged or of another version: see `image`
+  kImage = 3,  ///< the Params image is none, damaged, of another version or of no robot: `image`
   kKinematics = 4,  ///< the image's golden vectors do not come out
   kControl = 5,     ///< its 256 ticks do not come out
 };
@@ -30,6 +30,7 @@ struct BootReport {
   BootVerdict verdict = BootVerdict::kSound;
   ImageFault image = ImageFault::kNone;
   std::uint8_t golden_matches = 0;  ///< of kGoldenVectors
+  FieldName bad_field;              ///< with ImageFault::kOutOfRange: which number
   std::uint64_t digest = 0;         ///< of the walk that was looked at last
 };
 

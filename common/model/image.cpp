@@ -62,7 +62,9 @@ ImageFault check_image(const void* bytes, std::size_t size) {
   }
   if (header.core_version != kCoreVersion) return ImageFault::kOtherCore;
   const auto* params = reinterpret_cast<const Params*>(first + offsetof(ParamsImage, params));
-  return is_well_formed(*params) ? ImageFault::kNone : ImageFault::kOutOfBounds;
+  if (!is_well_formed(*params)) return ImageFault::kOutOfBounds;
+  FieldName bad;
+  return numbers_fit(*params, bad) ? ImageFault::kNone : ImageFault::kOutOfRange;
 }
 
 bool is_well_formed(const Params& params) {

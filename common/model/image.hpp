@@ -4,6 +4,7 @@
 
 #include "common/base/crc32.hpp"
 #include "common/base/fields.hpp"
+#include "common/model/numbers.hpp"
 #include "common/model/params.hpp"
 
 /// The Params image: a robot as bytes, in a flash section of its own, in a trace, in a file. It has
@@ -14,7 +15,7 @@ namespace verp {
 /// Changes whenever the layout of ParamsImage, or of anything in it, does.
 inline constexpr std::uint32_t kImageVersion = 3;
 /// Changes whenever the same Params and Inputs give other Outputs: the golden answers depend on it.
-inline constexpr std::uint32_t kCoreVersion = 5;
+inline constexpr std::uint32_t kCoreVersion = 6;
 
 inline constexpr char kImageMagic[8] = {'V', 'E', 'R', 'P', 'P', 'A', 'R', '1'};
 
@@ -58,6 +59,7 @@ enum class ImageFault : std::uint8_t {
   kOtherCore = 4,    ///< golden answers of another kCoreVersion
   kDamaged = 5,      ///< CRC
   kOutOfBounds = 6,  ///< an index in it points outside its tables
+  kOutOfRange = 7,   ///< a number in it is none, or none of a robot: numbers_fit() names it
 };
 
 /// Names the robot: equal only for equal bytes, up to 2^-32.

@@ -3,6 +3,7 @@
 #include <cstdint>
 
 #include "common/io/io.hpp"
+#include "common/model/numbers.hpp"
 #include "common/model/params.hpp"
 #include "common/model/tuning_ranges.hpp"
 
@@ -168,6 +169,7 @@ inline constexpr Register kTable[] = {
     // Where every Dynamixel has it.
     r(64, "torque_enable", u8, "", "1 while any servo holds torque (\"armed\")"),
     r(65, "servo_power", u8, "", "0 this board does not switch it, 1 on, 2 off: emergency stop or start fault"),
+    r(66, "joint_beyond", u8, "", "bus id of the joint for whose sake a robot was not let stand: it is beyond its limits, move it by hand; 255: none"),
     rw(68, "status_return_level", u8, 2, "", "replies: 0 to ping, 1 to ping and reads, 2 to all"),
     r(69, "registered_instruction", u8, "", "1: a Reg Write waits for its Action"),
     r(70, "hardware_error", u8, "bits", "faults that stop the robot: the low byte of faults; not 0: alert bit"),
@@ -269,6 +271,7 @@ inline constexpr Register kTable[] = {
     // The joints once more.
     r(1272, "joint_velocity", i32, "counts/s", "as each drive told last (606Ch); CiA 402 only", kMaxJoints),
     r(1400, "joint_torque", i16, "0.1 %", "of the rated torque, as each drive told last (6077h); CiA 402 only", kMaxJoints),
+    r(1464, "image_field", text, "", "with self_test 4: the number in the Params image that is none, or none of a robot; empty: it is not that", kFieldNameLength),
 };
 // clang-format on
 }  // namespace row

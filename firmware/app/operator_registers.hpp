@@ -34,6 +34,7 @@ struct OperatorSetup {
   table::SelfTest self_test = table::SelfTest::kNotRun;
   table::ResetCause reset_cause = table::ResetCause::kUnknown;
   table::ClockSource clock_source = table::ClockSource::kUnknown;
+  FieldName bad_field{};  ///< of the Params image, where self_test failed for it
   CrashNote crash{};
   /// false: the loop gets them from elsewhere; only what chooses what is shown can be written.
   bool takes_orders = true;
@@ -65,6 +66,7 @@ class OperatorRegisters {
     image_.set(reg("imu_sources"), setup.imu_sources);
     image_.set(reg("torque_limit"), setup.torque_limit_percent);
     image_.set(reg("self_test"), setup.self_test);
+    image_.set(reg("image_field"), setup.bad_field.text);
     image_.set(reg("reset_cause"), setup.reset_cause);
     image_.set(reg("clock_source"), setup.clock_source);
     image_.set(reg("crash_pc"), setup.crash.pc);

@@ -124,10 +124,14 @@ std::string Emulation::told() const {
   };
   const std::uint8_t verdict = number("self_test");
   if (verdict != static_cast<std::uint8_t>(dxl::controller::SelfTest::kPassed)) {
+    const bus::NamedRegister* field = bus::find_register(dxl::controller::kModel, "image_field");
+    const std::vector<std::uint8_t> text =
+        controller.read(dxl::controller::kDefaultId, field->address, kFieldNameLength);
+    const std::string name(text.begin(), std::find(text.begin(), text.end(), 0));
     return fmt::format(
-        "it refuses torque: self_test is {} (firmware/app/registers.md); a robot goes "
+        "it refuses torque: self_test is {} (firmware/app/registers.md){}; a robot goes "
         "in with --params MODEL",
-        verdict);
+        verdict, name.empty() ? "" : ", for " + name);
   }
   const std::uint8_t fault = number("start_fault");
   if (fault == static_cast<std::uint8_t>(dxl::controller::StartFault::kNone)) {

@@ -35,8 +35,17 @@ const char* meaning(ImageFault fault) {
       return "damaged: its CRC does not fit";
     case ImageFault::kOutOfBounds:
       return "inconsistent: an index points outside its table";
+    case ImageFault::kOutOfRange:
+      return "no robot's: a number in it is none, or far out of its range";
   }
   return "unknown";
+}
+
+/// Empty: none is.
+std::string bad_number(const Params& params) {
+  FieldName bad;
+  numbers_fit(params, bad);
+  return bad.text;
 }
 
 void write_file(const std::filesystem::path& path, const char* data, std::size_t size) {
@@ -53,6 +62,10 @@ ParamsImage make_image(const Entity& entity) {
   ParamsImage image;
   image.params = make_params(entity);
   require_bus(entity, image.params);
+  if (const std::string bad = bad_number(image.params); !bad.empty()) {
+    throw LoadError(entity.file, 0, bad + " of its Params is no number, or far out of its range",
+                    "look at what it comes from: limits, masses and verp:tuning of that name");
+  }
   for (std::uint32_t k = 0; k < kGoldenVectors; ++k) {
     image.golden[k] = control::golden_vector(image.params, k + 1);
   }
@@ -72,8 +85,13 @@ ParamsImage read_image(const std::string& path) {
   const std::string bytes{std::istreambuf_iterator<char>(file), {}};
   const ImageFault fault = check_image(bytes.data(), bytes.size());
   if (fault != ImageFault::kNone) {
-    throw LoadError(path, 1, std::string("this Params image is ") + meaning(fault),
-                    "write it again with `verp export`");
+    std::string what = std::string("this Params image is ") + meaning(fault);
+    if (fault == ImageFault::kOutOfRange) {
+      ParamsImage image;
+      std::memcpy(&image, bytes.data(), sizeof image);
+      what += " (" + bad_number(image.params) + ")";
+    }
+    throw LoadError(path, 1, what, "write it again with `verp export`");
   }
   ParamsImage image;
   std::memcpy(&image, bytes.data(), sizeof image);

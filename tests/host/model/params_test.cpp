@@ -109,6 +109,22 @@ TEST(Image, IsReadBackAsWritten) {
   EXPECT_EQ(check_image(&image, sizeof image), ImageFault::kNone);
 }
 
+// For `verp flash --params FILE`: a person is told what to look at.
+TEST(Image, NumberThatIsNoneIsToldByItsName) {
+  ParamsImage image = make_image(generic21());
+  image.params.joint[3].upper_rad = std::numeric_limits<float>::quiet_NaN();
+  seal_image(image);
+  const TemporaryFile file("params.bin",
+                           std::string(reinterpret_cast<const char*>(&image), sizeof image));
+  try {
+    read_image(file.path());
+    FAIL() << "taken";
+  } catch (const LoadError& error) {
+    EXPECT_NE(std::string(error.what()).find("joint[3].upper_rad"), std::string::npos)
+        << error.what();
+  }
+}
+
 TEST(Image, CrcIsTheOneOfZip) {
   EXPECT_EQ(crc32("123456789", 9), 0xCBF43926u);
 }

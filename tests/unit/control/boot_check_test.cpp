@@ -91,6 +91,23 @@ TEST(BootCheck, AnswersOfAnotherCoreAreRefused) {
   EXPECT_TRUE(verdict_on(image) == BootVerdict::kControl);
 }
 
+// Its answers come out, as a NaN gives the same everywhere, and still it must never have torque.
+TEST(BootCheck, ImageWithANumberThatIsNoneIsRefusedByName) {
+  ParamsImage& image = sealed_image();
+  image.params.joint[14].velocity_limit_rad_s = test::quiet_nan();
+  for (std::uint32_t k = 0; k < kGoldenVectors; ++k) {
+    image.golden[k] = golden_vector(image.params, k + 1);
+  }
+  const std::uint64_t digest = self_test_digest(image.params, state);
+  image.self_test_digest[0] = static_cast<std::uint32_t>(digest);
+  image.self_test_digest[1] = static_cast<std::uint32_t>(digest >> 32);
+  seal_image(image);
+  const BootReport report = check_boot(&image, sizeof image, robot, state);
+  EXPECT_TRUE(report.verdict == BootVerdict::kImage);
+  EXPECT_TRUE(report.image == ImageFault::kOutOfRange);
+  EXPECT_STREQ(report.bad_field.text, "joint[14].velocity_limit_rad_s");
+}
+
 TEST(BootCheck, EveryVerdictHasWords) {
   for (const char* words : kBootWords) EXPECT_TRUE(words != nullptr && words[0] != '\0');
 }

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <string>
+#include <type_traits>
+
 #include "common/control/golden.hpp"
 
 namespace verp {
@@ -22,7 +25,11 @@ void make_image() {
     joint.mass_kg = 0.1F;
     joint.lower_rad = -1;
     joint.upper_rad = 1;
+    joint.velocity_limit_rad_s = 6;
+    joint.counts_per_rad = 652;
   }
+  image.params.imu.gyro_rad_s_per_count = 1e-3F;
+  image.params.imu.accel_m_s2_per_count = 1e-3F;
   for (std::uint32_t k = 0; k < kGoldenVectors; ++k) {
     image.golden[k] = control::golden_vector(image.params, k + 1);
   }
@@ -101,6 +108,70 @@ TEST(Image, ABusThatCannotBeIsFound) {
   image.params.joint[1].servo_id = 1;
   image.params.bus_protocol = static_cast<BusProtocol>(2);
   EXPECT_FALSE(is_well_formed(image.params));
+}
+
+constexpr float kNan = __builtin_nanf("");
+
+/// Of the image's robot with one number changed; empty: all fit.
+template <class Change>
+std::string bad_with(Change change) {
+  make_image();
+  change(image.params);
+  seal_image(image);
+  FieldName bad;
+  const bool fits = numbers_fit(image.params, bad);
+  EXPECT_EQ(check() == ImageFault::kNone, fits);
+  EXPECT_EQ(check() == ImageFault::kOutOfRange, !fits);
+  return bad.text;
+}
+
+// A sound CRC does not make a number one: it is named, so that a person finds it.
+TEST(Image, NumbersThatAreNoneOrNoRobotsAreNamed) {
+  EXPECT_EQ(bad_with([](Params&) {}), "");
+  EXPECT_EQ(bad_with([](Params& p) { p.joint[2].lower_rad = kNan; }), "joint[2].lower_rad");
+  EXPECT_EQ(bad_with([](Params& p) { p.joint[1].upper_rad = -2; }), "joint[1].upper_rad")
+      << "below lower_rad";
+  EXPECT_EQ(bad_with([](Params& p) { p.joint[0].counts_per_rad = 0; }), "joint[0].counts_per_rad");
+  EXPECT_EQ(bad_with([](Params& p) { p.joint[0].velocity_limit_rad_s = -1; }),
+            "joint[0].velocity_limit_rad_s");
+  EXPECT_EQ(bad_with([](Params& p) { p.joint[1].origin_parent_m.z = 1e9F; }),
+            "joint[1].origin_parent_m");
+  EXPECT_EQ(bad_with([](Params& p) { p.body_mass_kg = -0.1F; }), "body_mass_kg");
+  EXPECT_EQ(bad_with([](Params& p) { p.period_us = 0; }), "period_us");
+  EXPECT_EQ(bad_with([](Params& p) { p.imu.accel_m_s2_per_count = 0; }),
+            "imu.accel_m_s2_per_count");
+  EXPECT_EQ(bad_with([](Params& p) { p.tuning.gait.cycle_s = 0.1F; }), "tuning.gait.cycle_s");
+  EXPECT_EQ(bad_with([](Params& p) { p.tuning.safety.temperature_high_c = kNan; }),
+            "tuning.safety.temperature_high_c");
+  EXPECT_EQ(bad_with([](Params& p) { p.joint[5].lower_rad = kNan; }), "")
+      << "no joint of this robot";
+  EXPECT_EQ(bad_with([](Params& p) { p.leg[1].thigh_m = kNan; }), "") << "it has no legs";
+  EXPECT_EQ(bad_with([](Params& p) {
+              p.leg[1].solver = LegSolver::kNewton;
+              p.leg[1].thigh_m = kNan;
+            }),
+            "leg[1].thigh_m");
+}
+
+// Each float of a joint, whichever: none is forgotten.
+TEST(Image, EveryNumberOfAJointIsLookedAt) {
+  make_image();
+  constexpr std::size_t kFloats = 18;
+  static float* number[kFloats];
+  std::size_t count = 0;
+  for_each_leaf(image.params.joint[1], [&](auto& value) {
+    if constexpr (std::is_same_v<std::remove_reference_t<decltype(value)>, float>) {
+      number[count++ % kFloats] = &value;
+    }
+  });
+  ASSERT_EQ(count, kFloats);
+  for (float* each : number) {
+    const float before = *each;
+    *each = kNan;
+    FieldName bad;
+    EXPECT_FALSE(numbers_fit(image.params, bad)) << each - number[0];
+    *each = before;
+  }
 }
 
 // A difference of a micrometre changes what kinematics gives.
