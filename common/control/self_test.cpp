@@ -5,6 +5,7 @@
 
 #include "common/control/step.hpp"
 #include "common/math/convert.hpp"
+#include "common/model/counts.hpp"
 
 namespace verp::control {
 namespace {
@@ -30,9 +31,9 @@ void sense(const Params& params, std::uint32_t tick, std::uint32_t& random, cons
   in.flags = kImuFresh | kFeetFresh;
   in.fresh = params.joint_count == 32 ? ~0u : (1u << params.joint_count) - 1u;
   for (int j = 0; j < params.joint_count; ++j) {
-    const auto zero = static_cast<std::int32_t>(params.joint[j].zero_count);
-    in.position_count[j] =
-        (last.torque_enable >> j & 1u) != 0u ? last.goal_count[j] + noise(random) / 16 : zero;
+    const bool holds = (last.torque_enable >> j & 1u) != 0u;
+    in.position_count[j] = holds ? last.goal_count[j] + noise(random) / 16
+                                 : model::count_of(params.joint[j], params.joint[j].sit_rad);
   }
   const float scale = params.imu.accel_m_s2_per_count;
   const float up_count = scale > 0.0F && scale < 1.0F ? kGravity / scale : 0.0F;

@@ -17,10 +17,17 @@ float period_s(const Params& params) {
   return static_cast<float>(params.period_us) * 1e-6F;
 }
 
+// Trouble is latched with its fault: a supply that sags only under load is not good because the
+// load is gone.
+bool power_bad(const State& state, const AdmitOut& admitted) {
+  return (admitted.conditions & safety::kPowerBad) != 0 ||
+         (state.machine.faults & safety::kPowerFaults) != 0;
+}
+
 bool walks(const State& state, const AdmitOut& admitted) {
-  constexpr std::uint32_t kNoMore = safety::kOperatorQuiet | safety::kPowerBad | safety::kStale;
+  constexpr std::uint32_t kNoMore = safety::kOperatorQuiet | safety::kStale;
   return state.machine.mode == Mode::kWalking && (admitted.conditions & safety::kAskWalk) != 0 &&
-         (admitted.conditions & kNoMore) == 0;
+         (admitted.conditions & kNoMore) == 0 && !power_bad(state, admitted);
 }
 
 // Angles of one leg: where the plan puts the sole, each joint at its own delay if the tuning asks
@@ -79,7 +86,7 @@ float heading_error(const Params& params, const State& state, const AdmitOut& ad
 }
 
 std::uint32_t conditions_of(const State& state, const AdmitOut& admitted,
-                            const balance::AttitudeOut& attitude) {
+                            const balance::AttitudeOut& attitude, const safety::LimitOut& limited) {
   const SafetyTuning& tuning = state.tuning.safety;
   std::uint32_t conditions = admitted.conditions;
   const auto microseconds = [](float duration_s) { return math::to_int32(duration_s * 1e6F); };
@@ -89,10 +96,16 @@ std::uint32_t conditions_of(const State& state, const AdmitOut& admitted,
   if (state.steer.fallen_us > confirm_us) conditions |= safety::kFell;
   if (attitude.calibrated) conditions |= safety::kCalibrated;
   if (state.gait.queued == 0) conditions |= safety::kGaitOver;
-  const bool rising = state.machine.mode == Mode::kRising;
-  const float duration_s = rising ? tuning.rise_s : tuning.sit_s;
-  if (state.machine.in_mode_us >= microseconds(duration_s)) conditions |= safety::kTimeUp;
+  if (state.machine.in_mode_us >= 1000 * state.machine.way_ms) conditions |= safety::kTimeUp;
+  if (power_bad(state, admitted)) conditions |= safety::kPowerBad;
+  if (limited.beyond) conditions |= safety::kJointBeyond;
   return conditions;
+}
+
+// Before its servos are heard nobody knows where a joint is.
+bool is_refused(Mode mode, std::uint32_t conditions) {
+  constexpr std::uint32_t kAll = safety::kAskStand | safety::kServosKnown | safety::kJointBeyond;
+  return mode == Mode::kRelaxed && (conditions & kAll) == kAll;
 }
 
 void enter(Mode mode, std::int32_t period_us, safety::MachineState& machine) {
@@ -177,17 +190,22 @@ Wanted solve_joints(const Params& params, State& state, const Inputs& inputs,
   return wanted;
 }
 
-bool limit_goals(const Params& params, State& state, const Inputs& inputs, const Wanted& wanted) {
-  return safety::limit(params, state.limit,
-                       {state.machine.mode, state.machine.in_mode_us, wanted.angle_rad,
-                        inputs.position_count, &state.tuning.safety});
+safety::LimitOut limit_goals(const Params& params, State& state, const Inputs& inputs,
+                             const Wanted& wanted) {
+  safety::MachineState& machine = state.machine;
+  const safety::LimitOut out =
+      safety::limit(params, state.limit,
+                    {machine.mode, machine.in_mode_us, machine.way_ms, wanted.angle_rad,
+                     inputs.position_count, &state.tuning.safety});
+  machine.way_ms = out.way_ms;
+  return out;
 }
 
 std::uint32_t raise_faults(const State& state, const AdmitOut& admitted, const Wanted& wanted,
-                           bool slowed) {
+                           const safety::LimitOut& limited) {
   std::uint32_t faults = admitted.faults;
   if (wanted.leg_limited) faults |= safety::kNoteLegLimited;
-  if (slowed) faults |= safety::kNoteSpeedLimited;
+  if (limited.slowed) faults |= safety::kNoteSpeedLimited;
   const std::uint32_t notes = state.gait.footsteps.notes;
   if ((notes & gait::kStrideLimited) != 0) faults |= safety::kNoteStrideLimited;
   if ((notes & (gait::kReachShortened | gait::kZmpShortened)) != 0) {
@@ -198,14 +216,15 @@ std::uint32_t raise_faults(const State& state, const AdmitOut& admitted, const W
 }
 
 void gate(const Params& params, State& state, const AdmitOut& admitted,
-          const balance::AttitudeOut& attitude, const gait::GaitOut& plan, std::uint32_t faults,
-          Outputs& outputs) {
+          const balance::AttitudeOut& attitude, const gait::GaitOut& plan,
+          const safety::LimitOut& limited, std::uint32_t faults, Outputs& outputs) {
   safety::MachineState& machine = state.machine;
   const Mode before = machine.mode;
-  const std::uint32_t conditions = conditions_of(state, admitted, attitude);
+  const std::uint32_t conditions = conditions_of(state, admitted, attitude, limited);
   enter(safety::next_mode(before, conditions), static_cast<std::int32_t>(params.period_us),
         machine);
   if (machine.mode == Mode::kFallen) faults |= safety::kFaultFall;
+  if (is_refused(before, conditions)) faults |= safety::kFaultJointBeyond;
   // Asking a relaxed robot to relax is how an operator acknowledges what is latched.
   const bool acknowledged = before == Mode::kRelaxed && machine.mode == Mode::kRelaxed &&
                             (conditions & safety::kAskRelax) != 0;

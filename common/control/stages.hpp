@@ -25,16 +25,16 @@ Wanted solve_joints(const Params& params, State& state, const Inputs& inputs,
                     const AdmitOut& admitted, const balance::AttitudeOut& attitude,
                     const gait::GaitOut& plan);
 
-/// True when a joint had to be slowed down.
-bool limit_goals(const Params& params, State& state, const Inputs& inputs, const Wanted& wanted);
+safety::LimitOut limit_goals(const Params& params, State& state, const Inputs& inputs,
+                             const Wanted& wanted);
 
 /// Fault bits of this tick.
 std::uint32_t raise_faults(const State& state, const AdmitOut& admitted, const Wanted& wanted,
-                           bool slowed);
+                           const safety::LimitOut& limited);
 
 /// The safety table has the last word: mode, torque and goals.
 void gate(const Params& params, State& state, const AdmitOut& admitted,
-          const balance::AttitudeOut& attitude, const gait::GaitOut& plan, std::uint32_t faults,
-          Outputs& outputs);
+          const balance::AttitudeOut& attitude, const gait::GaitOut& plan,
+          const safety::LimitOut& limited, std::uint32_t faults, Outputs& outputs);
 
 }  // namespace verp::control

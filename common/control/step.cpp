@@ -15,9 +15,9 @@ void step(const Params& params, State& state, const Inputs& inputs, Outputs& out
   state.feedback = balance::feedback(state.tuning.balance, attitude,
                                      state.tuning.gait.trunk_pitch_rad, plan.swing);
   const Wanted wanted = solve_joints(params, state, inputs, admitted, attitude, plan);
-  const bool slowed = limit_goals(params, state, inputs, wanted);
-  const std::uint32_t faults = raise_faults(state, admitted, wanted, slowed);
-  gate(params, state, admitted, attitude, plan, faults, outputs);
+  const safety::LimitOut limited = limit_goals(params, state, inputs, wanted);
+  const std::uint32_t faults = raise_faults(state, admitted, wanted, limited);
+  gate(params, state, admitted, attitude, plan, limited, faults, outputs);
 
   digest_state(inputs, outputs, state);
 }

@@ -10,6 +10,7 @@ constexpr std::uint32_t kAny = (1U << kModes) - 1U;
 constexpr std::uint32_t kUpright = bit(Mode::kRising) | bit(Mode::kStanding) | bit(Mode::kWalking) |
                                    bit(Mode::kHolding) | bit(Mode::kSitting);
 constexpr std::uint32_t kMoving = bit(Mode::kRising) | bit(Mode::kStanding) | bit(Mode::kWalking);
+constexpr std::uint32_t kMayRest = bit(Mode::kRising) | bit(Mode::kStanding) | bit(Mode::kHolding);
 
 }  // namespace
 
@@ -19,16 +20,19 @@ constexpr Row kTable[] = {
     {bit(Mode::kStopped), kAskRelax, kEmergency, Mode::kRelaxed},
     {kUpright, kFell, 0, Mode::kFallen},
     {bit(Mode::kFallen), kAskRelax, 0, Mode::kRelaxed},
-    // Silence: hold, then sit, then release; at once if the operator has seen enough.
+    // Silence: hold, then sit, then release; at once if the operator has seen enough, or if servos
+    // or supply are in trouble.
     {kMoving, kStale, 0, Mode::kHolding},
     {bit(Mode::kHolding), kLost, 0, Mode::kSitting},
-    {bit(Mode::kRising) | bit(Mode::kStanding) | bit(Mode::kHolding), kAskRelax, 0, Mode::kSitting},
+    {kMayRest, kAskRelax, 0, Mode::kSitting},
+    {kMayRest, kPowerBad, kStale, Mode::kSitting},
     {bit(Mode::kHolding), 0, kStale, Mode::kRising},
     {bit(Mode::kStanding), kOperatorGone, 0, Mode::kSitting},
     // What the operator asks for.
-    {bit(Mode::kRelaxed), kAskStand | kServosKnown, kFell | kStale | kOperatorQuiet, Mode::kRising},
+    {bit(Mode::kRelaxed), kAskStand | kServosKnown,
+     kFell | kStale | kOperatorQuiet | kPowerBad | kJointBeyond, Mode::kRising},
     {bit(Mode::kRising), kTimeUp, 0, Mode::kStanding},
-    {bit(Mode::kStanding), kAskWalk | kCalibrated, kOperatorQuiet | kPowerBad, Mode::kWalking},
+    {bit(Mode::kStanding), kAskWalk | kCalibrated, kOperatorQuiet, Mode::kWalking},
     {bit(Mode::kWalking), kGaitOver, kAskWalk, Mode::kStanding},
     {bit(Mode::kWalking), kGaitOver | kOperatorQuiet, 0, Mode::kStanding},
     {bit(Mode::kWalking), kGaitOver | kPowerBad, 0, Mode::kStanding},

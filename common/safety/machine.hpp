@@ -35,7 +35,8 @@ enum Condition : std::uint32_t {
   kLost = 1 << 10,           ///< likewise for stale_release_s
   kOperatorQuiet = 1 << 11,  ///< no operator frame for command_hold_s
   kOperatorGone = 1 << 12,   ///< no operator frame for command_release_s
-  kPowerBad = 1 << 13,       ///< a servo too hot or in a hardware error, or the supply too low
+  kPowerBad = 1 << 13,       ///< kPowerFaults, now or still latched
+  kJointBeyond = 1 << 14,    ///< limp, and a joint is further beyond its limits than kBeyond_rad
 };
 
 /// Latched until the operator relaxes the robot. The upper half reports what was limited; it stops
@@ -49,6 +50,7 @@ enum Fault : std::uint32_t {
   kFaultTemperature = 1 << 5,
   kFaultVoltage = 1 << 6,
   kFaultServoError = 1 << 7,
+  kFaultJointBeyond = 1 << 8,    ///< asked to stand with a joint beyond its limits: refused
   kNoteOverrun = 1 << 16,        ///< a tick ended after its deadline
   kNoteParameter = 1 << 17,      ///< a parameter write was out of range and ignored
   kNoteStrideLimited = 1 << 18,  ///< velocity asked needs longer steps than allowed
@@ -58,12 +60,16 @@ enum Fault : std::uint32_t {
   kNoteSpeedLimited = 1 << 22,   ///< a joint's goal was held to its velocity limit
 };
 
+/// Trouble that load brings and rest hides: what it made the robot do must not end with the load.
+inline constexpr std::uint32_t kPowerFaults = kFaultTemperature | kFaultVoltage | kFaultServoError;
+
 struct MachineState {
   std::uint32_t faults = 0;     ///< Fault bits
   std::int32_t in_mode_us = 0;  ///< since the mode was entered, saturating
   Mode mode = Mode::kRelaxed;
-  std::uint8_t reserved[3] = {};
-  VERP_FIELDS(faults, in_mode_us, mode, reserved)
+  std::uint8_t reserved = 0;
+  std::uint16_t way_ms = 0;  ///< how long the last rise or sitting down takes
+  VERP_FIELDS(faults, in_mode_us, mode, reserved, way_ms)
 };
 VERP_PACKED(MachineState);
 

@@ -5,6 +5,7 @@
 #include "common/io/io.hpp"
 #include "common/model/params.hpp"
 #include "common/record/tick_record.hpp"
+#include "common/safety/limit.hpp"
 #include "firmware/app/bring_up_report.hpp"
 #include "firmware/app/bus_counters.hpp"
 #include "firmware/app/device_watch.hpp"
@@ -29,7 +30,9 @@ struct LoopHealth {
 class TickReport {
  public:
   TickReport(const Params& params, RegisterImage& image)
-      : params_(params), image_(image), devices_(params, image) {}
+      : params_(params), image_(image), devices_(params, image) {
+    image_.set(reg("joint_beyond"), kNobody);
+  }
 
   void tick(const TickRecord& record, const State& state, const Outputs& outputs) {
     const Inputs& inputs = record.inputs;
@@ -40,6 +43,7 @@ class TickReport {
     image_.set(reg("tick_low"), static_cast<std::uint16_t>(inputs.tick));
     image_.set(reg("inputs_flags"), inputs.flags);
     image_.set(reg("faults"), outputs.faults);
+    image_.set(reg("joint_beyond"), refused_joint(inputs, outputs));
     image_.set(reg("mode"), outputs.mode);
     image_.set(reg("gait_phase"), outputs.gait_phase);
     image_.set(reg("gait_state"), outputs.gait_state);
@@ -117,6 +121,14 @@ class TickReport {
   void heard() { devices_.heard(); }
 
  private:
+  static constexpr std::uint8_t kNobody = 255;
+
+  std::uint8_t refused_joint(const Inputs& inputs, const Outputs& outputs) const {
+    if ((outputs.faults & safety::kFaultJointBeyond) == 0) return kNobody;
+    const int joint = safety::joint_beyond(params_, inputs.position_count);
+    return joint < kMaxJoints ? params_.joint[joint].servo_id : kNobody;
+  }
+
   void take_telemetry(const Inputs& inputs) {
     const int joint = inputs.slow_joint;
     if (joint >= params_.joint_count) return;

@@ -16,6 +16,7 @@ std::string fault_names(std::uint32_t faults) {
       {safety::kFaultTemperature, "servo too hot"},
       {safety::kFaultVoltage, "voltage low"},
       {safety::kFaultServoError, "servo hardware error"},
+      {safety::kFaultJointBeyond, "joint beyond its limits"},
       {safety::kNoteOverrun, "tick overran"},
       {safety::kNoteParameter, "parameter refused"},
       {safety::kNoteStrideLimited, "stride limited"},

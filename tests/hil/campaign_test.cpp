@@ -115,7 +115,7 @@ constexpr LineFaults kAll{.lost = kPerMille / 2,
 const std::vector<Kind>& kinds() {
   static const std::vector<Kind> all = {
       {{"lost_0_1_percent_physics", 8, true, {.lost = kPerMille}}, {lost_few}, true},
-      {{"lost_0_1_percent", 17, false, {.lost = kPerMille}}, {lost_few}},
+      {{"lost_0_1_percent", 11, false, {.lost = kPerMille}}, {lost_few}},
       {{"lost_1_percent_physics", 4, true, {.lost = 10 * kPerMille}}, {lost_many}},
       {{"lost_1_percent", 15, false, {.lost = 10 * kPerMille}}, {lost_many}},
       {{"doubled", 13, false, {.doubled = kPerMille}}, {doubled}},
@@ -137,9 +137,12 @@ const std::vector<Kind>& kinds() {
       {{"cut_1_s", 9, false, {.cut = true}, Event::kNone, 1, 8}, {cut_all, walks_again}},
       {{"controller_reset_physics", 3, true, {}, Event::kReset}, {reset}},
       {{"controller_reset", 7, false, {}, Event::kReset, 0, 6}, {reset, walks_again}},
-      {{"hot_servo", 3, false, {}, Event::kHot, 3, 6}, {hot, walks_again}},
+      {{"hot_servo", 3, false, {}, Event::kHot, 5, 9}, {hot, walks_again}},
       {{"overheated_servo", 3, false, {}, Event::kOverheated, 0, 4}, {overheated}},
-      {{"low_voltage", 3, false, {}, Event::kLowVoltage, 3, 6}, {low_voltage, walks_again}},
+      {{"low_voltage", 3, false, {}, Event::kLowVoltage, 5, 9}, {low_voltage, walks_again}},
+      {{"supply_sags_under_load", 3, false, {}, Event::kSags, 10, 14}, {sags, walks_again}},
+      {{"joint_beyond_its_limits", 3, false, {}, Event::kJointBeyond, 2, 6},
+       {joint_beyond, walks_again}},
       {{"imu_gone_1_s", 3, false, {}, Event::kImuGone, 1, 8}, {imu_gone, walks_again}},
       {{"imu_repeats_1_s", 3, false, {}, Event::kImuRepeats, 1, 8}, {imu_repeats, walks_again}},
   };

@@ -26,6 +26,7 @@ constexpr double kUpright_s = 8;       // standing up and learning the gyro's bi
 constexpr double kFirstSteps_s = 0.6;  // of walking before the fault
 constexpr double kHot_c = 76;          // beyond temperature_high_c, below a shutdown
 constexpr double kTooHot_c = 90;       // beyond the drive's own limit, 80
+constexpr double kDown_s = 4;          // ending a walk and sitting down take less
 constexpr double kLow_v = 9.5;         // below voltage_low_v, not below the drive's own
 constexpr unsigned kOneBusOff = 33;    // ISO 11898-1: 32 errors of 8 points each, and no more
 constexpr unsigned kManyErrors = 1'000'000;
@@ -54,6 +55,7 @@ class CanFaultRun {
       const double lasts_s = plan_.lasts_s > 0 ? plan_.lasts_s : plan_.walks_s;
       spend(lasts_s);
       result_.during = read_registers(desk_);
+      result_.changes = changes_;
       end();
       spend(plan_.walks_s - lasts_s);
       result_.after = read_registers(desk_);
@@ -150,6 +152,11 @@ class CanFaultRun {
         return body_.plant().heat(result_.joint, kTooHot_c);
       case CanEvent::kLowVoltage:
         return body_.plant().sag_to(kLow_v);
+      case CanEvent::kSags:
+        sags_ = true;
+        return;
+      case CanEvent::kJointBeyond:
+        return bend();
       case CanEvent::kImuRepeats:
         return body_.plant().freeze_imu();
       default:
@@ -168,6 +175,8 @@ class CanFaultRun {
     line_->trouble.faults = {};
     intruder_->kind = Intruder::Kind::kSilent;
     body_.plant().cure();
+    sags_ = false;
+    if (is_trouble()) relax(0.5);
     if (plan_.lasts_s == 0) return;
     bus_.set_connected(node(result_.joint), true);
     bus_.set_powered(node(result_.joint), true);
@@ -211,6 +220,27 @@ class CanFaultRun {
     }
   }
 
+  /// What is latched until somebody asks a relaxed robot to relax.
+  bool is_trouble() const {
+    return plan_.event == CanEvent::kHot || plan_.event == CanEvent::kLowVoltage ||
+           plan_.event == CanEvent::kSags;
+  }
+  /// Nobody asks for more than to relax.
+  void relax(double duration_s) {
+    asks_ = false;
+    desk_.write(reg("request"), {0});
+    for (std::uint64_t ticks = 0; seconds(ticks) < duration_s; ++ticks) tick();
+    asks_ = true;
+  }
+  /// A limp robot's joint is turned by hand, further than it should ever go.
+  void bend() {
+    relax(kDown_s);
+    const JointParams& joint = params_.joint[result_.joint];
+    const float way_rad = joint.upper_rad - joint.lower_rad + 0.2F;
+    result_.joint_id = joint.servo_id;
+    body_.plant().bend(result_.joint, static_cast<std::int32_t>(joint.counts_per_rad * way_rad));
+  }
+
   void spend(double duration_s) {
     for (std::uint64_t ticks = 0; seconds(ticks) < duration_s; ++ticks) {
       if (plan_.event == CanEvent::kLateLoop && random_() % 25 == 0) {
@@ -222,7 +252,9 @@ class CanFaultRun {
         ++result_.events;
         reboot(static_cast<int>(random_() % params_.joint_count));
       }
+      const int before = board_->safe.mode();
       tick();
+      changes_ += board_->safe.mode() != before ? 1 : 0;
       ++result_.ticks;
       result_.walking_ticks += board_->safe.mode() == kWalking ? 1 : 0;
     }
@@ -230,7 +262,8 @@ class CanFaultRun {
   bool ended() const { return plan_.lasts_s > 0 && seconds(result_.ticks) >= plan_.lasts_s; }
 
   void tick() {
-    if (ticks_++ % kOrderTicks == 0) desk_.order_walk(ticks_);
+    if (ticks_++ % kOrderTicks == 0 && asks_) desk_.order_walk(ticks_);
+    if (sags_) body_.plant().sag_to(board_->safe.mode() == kWalking ? kLow_v : 0);
     const std::uint64_t due_us = board_->clock.due_us();
     const bool sharp = body_.on_stand() && plan_.intruder != Intruder::Kind::kTwin;
     line_->wait_until(due_us);
@@ -320,6 +353,9 @@ class CanFaultRun {
   std::uint32_t unready_ = 0;  ///< joints that lost their power, and the robot has not let go since
   std::uint64_t late_us_ = 0;  ///< when the loop came back from being busy elsewhere
   std::uint32_t ticks_ = 0;
+  std::uint32_t changes_ = 0;  ///< of mode, since the fault began
+  bool asks_ = true;           ///< the operator repeats its order to walk
+  bool sags_ = false;          ///< the supply, while the robot walks
 };
 
 }  // namespace

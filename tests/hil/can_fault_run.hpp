@@ -23,7 +23,9 @@ enum class CanEvent : std::uint8_t {
   kReset,        ///< the controller starts anew
   kHot,          ///< a drive is hotter than it should, and goes on
   kOverheated,   ///< so hot that it shuts its torque off
-  kLowVoltage,   ///< the supply sags
+  kLowVoltage,   ///< the supply is low
+  kSags,         ///< likewise, but only while the robot walks
+  kJointBeyond,  ///< a relaxed robot's joint is turned beyond its limits
   kImuGone,      ///< unplugged from the bus
   kImuRepeats,   ///< tells the same reading again and again
   kBusOff,       ///< of the controller's chip, once

@@ -19,6 +19,7 @@ constexpr double kUpright_s = 8;       // standing up and learning the gyro's bi
 constexpr double kFirstSteps_s = 1.2;  // of walking before the fault
 constexpr double kHot_c = 76;          // beyond temperature_high_c, below a shutdown
 constexpr double kTooHot_c = 90;       // beyond the servo's own limit, 80
+constexpr double kDown_s = 4;          // ending a walk and sitting down take less
 constexpr double kLow_v = 9.5;         // below voltage_low_v, not below the servo's own
 
 class FaultRun {
@@ -46,6 +47,7 @@ class FaultRun {
     const double lasts_s = plan_.lasts_s > 0 ? plan_.lasts_s : plan_.walks_s;
     spend(lasts_s);
     result_.during = registers();
+    result_.changes = changes_;
     end();
     spend(plan_.walks_s - lasts_s);
     finish();
@@ -113,6 +115,14 @@ class FaultRun {
         ++result_.events;
         body_.plant().sag_to(kLow_v);
         break;
+      case Event::kSags:
+        ++result_.events;
+        sags_ = true;
+        break;
+      case Event::kJointBeyond:
+        ++result_.events;
+        bend();
+        break;
       case Event::kImuGone:
         ++result_.events;
         bus_.set_connected(params_.imu.device_id, false);
@@ -136,6 +146,8 @@ class FaultRun {
     }
     if (plan_.event == Event::kImuGone) bus_.set_connected(params_.imu.device_id, true);
     body_.plant().cure();
+    sags_ = false;
+    if (is_trouble()) relax(0.5);
   }
 
   // The chip's start and its boot check take their time; the servos hear nothing meanwhile.
@@ -147,6 +159,27 @@ class FaultRun {
     desk_.write(reg("request"), {0});
   }
 
+  /// What is latched until somebody asks a relaxed robot to relax.
+  bool is_trouble() const {
+    return plan_.event == Event::kHot || plan_.event == Event::kLowVoltage ||
+           plan_.event == Event::kSags;
+  }
+  /// Nobody asks for more than to relax.
+  void relax(double duration_s) {
+    asks_ = false;
+    desk_.write(reg("request"), {0});
+    for (std::uint64_t ticks = 0; seconds(ticks) < duration_s; ++ticks) tick();
+    asks_ = true;
+  }
+  /// A limp robot's joint is turned by hand, further than it should ever go.
+  void bend() {
+    relax(kDown_s);
+    const JointParams& joint = params_.joint[result_.joint];
+    const float way_rad = joint.upper_rad - joint.lower_rad + 0.2F;
+    result_.joint_id = joint.servo_id;
+    body_.plant().bend(result_.joint, static_cast<std::int32_t>(joint.counts_per_rad * way_rad));
+  }
+
   void spend(double duration_s) {
     for (std::uint64_t ticks = 0; seconds(ticks) < duration_s; ++ticks) {
       if (plan_.event == Event::kLateLoop && random_() % 25 == 0) {
@@ -154,14 +187,17 @@ class FaultRun {
         line_.wait_until(line_.now_us() + 15'000 + random_() % 25'000);
         late_us_ = line_.now_us();
       }
+      const int before = controller_->safe.mode();
       tick();
+      changes_ += controller_->safe.mode() != before ? 1 : 0;
       ++result_.ticks;
       result_.walking_ticks += controller_->safe.mode() == kWalking ? 1 : 0;
     }
   }
 
   void tick() {
-    if (ticks_++ % kOrderTicks == 0) desk_.order_walk(ticks_);
+    if (ticks_++ % kOrderTicks == 0 && asks_) desk_.order_walk(ticks_);
+    if (sags_) body_.plant().sag_to(controller_->safe.mode() == kWalking ? kLow_v : 0);
     const std::uint64_t due_us = controller_->clock.due_us();
     const int joint = result_.joint;
     if (body_.on_stand()) {
@@ -237,6 +273,9 @@ class FaultRun {
   bool unready_ = false;       ///< result_.joint lost its power, and the robot has not let go since
   std::uint64_t late_us_ = 0;  ///< when the loop came back from being busy elsewhere
   std::uint32_t ticks_ = 0;
+  std::uint32_t changes_ = 0;  ///< of mode, since the fault began
+  bool asks_ = true;           ///< the operator repeats its order to walk
+  bool sags_ = false;          ///< the supply, while the robot walks
 };
 
 }  // namespace

@@ -70,7 +70,7 @@ class LevelPlant final : public sim::Plant {
 };
 
 /// Passes everything on, but lets one servo's encoder or the IMU repeat what it told last, one
-/// servo be hot, and the supply sag.
+/// servo be hot, one joint be bent, and the supply sag.
 class SickPlant final : public sim::Plant {
  public:
   explicit SickPlant(sim::Plant& plant) : plant_(plant) {}
@@ -87,7 +87,13 @@ class SickPlant final : public sim::Plant {
     temperature_c_ = temperature_c;
   }
   void sag_to(double voltage_v) { voltage_v_ = voltage_v; }
+  /// The joint stands so many counts from where its servo would have it.
+  void bend(int joint, std::int32_t count) {
+    bent_joint_ = joint;
+    bent_count_ = count;
+  }
   void cure() {
+    bent_joint_ = -1;
     frozen_joint_ = hot_joint_ = -1;
     imu_frozen_ = false;
     voltage_v_ = 0;
@@ -98,6 +104,7 @@ class SickPlant final : public sim::Plant {
   sim::ServoSetpoint& setpoint(int joint) override { return plant_.setpoint(joint); }
   sim::ServoMeasurement measure(int joint) override {
     sim::ServoMeasurement measured = joint == frozen_joint_ ? frozen_ : plant_.measure(joint);
+    if (joint == bent_joint_) measured.position_count += bent_count_;
     if (joint == hot_joint_) measured.temperature_c = temperature_c_;
     if (voltage_v_ > 0) measured.voltage_v = voltage_v_;
     return measured;
@@ -111,6 +118,8 @@ class SickPlant final : public sim::Plant {
   sim::ImuMeasurement frozen_imu_;
   int frozen_joint_ = -1;
   int hot_joint_ = -1;
+  int bent_joint_ = -1;
+  std::int32_t bent_count_ = 0;
   double temperature_c_ = 25;
   double voltage_v_ = 0;  ///< of all servos; 0: what the plant says
   bool imu_frozen_ = false;

@@ -11,11 +11,14 @@ using dxl::controller::DeviceState;
 
 constexpr int kBus = dxl::controller::kDeviceBus;
 
-/// The walk ends on both feet, in time, and the robot stands as long as it lasts.
+/// The walk ends on both feet, and the robot sits down and stays there: walking, standing, sitting,
+/// relaxed, and no mode after that, whatever is asked.
 void stops_walking(const RunResult& result, std::uint32_t fault) {
   EXPECT_EQ(result.before.faults & fault, 0u);
   EXPECT_EQ(result.during.faults & fault, fault);
-  EXPECT_EQ(result.during.mode, kStanding) << kModeNames[result.during.mode];
+  EXPECT_EQ(result.during.mode, kRelaxed) << kModeNames[result.during.mode];
+  EXPECT_TRUE(was(result, kSitting));
+  EXPECT_EQ(result.changes, 3u);
   EXPECT_FALSE(was(result, kHolding)) << "nobody was silent";
 }
 
@@ -90,6 +93,17 @@ void hot(const RunResult& result) {
 
 void low_voltage(const RunResult& result) {
   stops_walking(result, safety::kFaultVoltage);
+}
+
+void sags(const RunResult& result) {
+  stops_walking(result, safety::kFaultVoltage);
+}
+
+void joint_beyond(const RunResult& result) {
+  EXPECT_EQ(result.during.mode, kRelaxed) << kModeNames[result.during.mode];
+  EXPECT_EQ(result.during.faults & safety::kFaultJointBeyond, safety::kFaultJointBeyond + 0u);
+  EXPECT_EQ(result.during.refused_joint, result.joint_id) << "it is named";
+  EXPECT_EQ(result.after.refused_joint, 0xFF) << "nobody is";
 }
 
 // A servo that has shut itself off is no servo any more: the robot is let down.

@@ -30,6 +30,9 @@ void late(const RunResult& result);
 void cut(const RunResult& result);
 void reset(const RunResult& result);
 void hot(const RunResult& result);
+/// Low only while it walks.
+void sags(const RunResult& result);
+void joint_beyond(const RunResult& result);
 void low_voltage(const RunResult& result);
 void overheated(const RunResult& result);
 void imu_gone(const RunResult& result);

@@ -14,6 +14,7 @@ Registers read_registers(OperatorDesk& desk) {
   Registers all;
   all.mode = desk.read<std::uint8_t>(reg("mode"));
   all.reset_cause = desk.read<std::uint8_t>(reg("reset_cause"));
+  all.refused_joint = desk.read<std::uint8_t>(reg("joint_beyond"));
   all.tick = desk.counter("tick");
   all.faults = desk.counter("faults");
   all.fresh = desk.counter("joints_fresh");

@@ -10,7 +10,7 @@ namespace verp::test {
 
 /// What the operator sees of a controller.
 struct Registers {
-  std::uint8_t mode = 0, reset_cause = 0;
+  std::uint8_t mode = 0, reset_cause = 0, refused_joint = 0;
   std::uint32_t tick = 0, faults = 0, fresh = 0;
   std::uint32_t crc_errors = 0, timeouts = 0, strays = 0, noise = 0, overruns = 0, misses = 0;
   std::uint32_t refused = 0, bus_errors = 0;
@@ -29,10 +29,12 @@ struct RunResult {
   std::string violation;  ///< of the safety table, or of another promise; empty: none
   std::uint32_t events = 0;
   int joint = 0;                    ///< whose servo the event was about
+  std::uint8_t joint_id = 0;        ///< and its id on the bus
   Registers before;                 ///< when the fault began
   Registers during;                 ///< when it ended
   Registers after;                  ///< at the end
   std::uint32_t seen = 0;           ///< bit m: was in mode m
+  std::uint32_t changes = 0;        ///< of mode, from the fault's beginning to its end
   std::uint32_t walking_ticks = 0;  ///< since the fault began
   std::uint32_t ticks = 0;          ///< likewise
   std::uint64_t worst_tick_us = 0;  ///< bus time

@@ -64,6 +64,55 @@ void SafeTable::count_silence(const Inputs& inputs) {
   }
 }
 
+// Latched: it is over when it has ended and a relaxed robot was asked to relax.
+void SafeTable::count_trouble(const Inputs& inputs, int to) {
+  const SafetyTuning& safety = params_.tuning.safety;
+  if ((inputs.flags & kSlowFresh) != 0 && inputs.slow_joint < params_.joint_count) {
+    const bool bad =
+        inputs.slow_error != 0 || inputs.slow_temperature_c > safety.temperature_high_c;
+    int& count = servo_bad_[inputs.slow_joint];
+    count = bad ? count + 1 : 0;
+    supply_low_ = 0.1 * inputs.slow_voltage_tenth_v < safety.voltage_low_v ? supply_low_ + 1 : 0;
+  }
+  const bool bad =
+      supply_low_ >= kSupply || std::any_of(servo_bad_, servo_bad_ + params_.joint_count,
+                                            [](int count) { return count >= kAlarm; });
+  const bool asked = inputs.command.request == Request::kRelax;
+  if (mode_ == kRelaxed && to == kRelaxed && asked) trouble_ = false;
+  trouble_ = trouble_ || bad;
+}
+
+void SafeTable::check_trouble(int to) {
+  constexpr double kLongestEnd_s = 4;  // a walk may have four steps planned
+  trouble_ticks_ = trouble_ && to == kWalking ? trouble_ticks_ + 1 : 0;
+  if (1e-6 * params_.period_us * trouble_ticks_ > kLongestEnd_s) fault("walks on with bad power");
+  if (!trouble_) return;
+  if (to != mode_ && (to == kRising || to == kWalking)) {
+    fault(std::string("power is bad, and ") + kNames[mode_] + " became " + kNames[to]);
+  }
+  if (to == mode_ && (to == kRising || to == kStanding)) {
+    fault(std::string("power is bad, and it goes on ") + kNames[to]);
+  }
+}
+
+// A rise and a sitting down bring every joint to its goal, none faster in the middle of its
+// minimum-jerk way (15/8 of the average) than the joint may be.
+void SafeTable::check_way(const Outputs& outputs, int to) {
+  const bool begins = to != mode_ && (to == kRising || to == kSitting);
+  const bool ends = (mode_ == kRising && to == kStanding) || (mode_ == kSitting && to == kRelaxed);
+  for (int j = 0; j < params_.joint_count; ++j) {
+    if (begins) from_[j] = outputs.goal_count[j];
+    if (!ends) continue;
+    const JointParams& joint = params_.joint[j];
+    const double way_rad =
+        (outputs.goal_count[j] - from_[j]) / std::abs(double{joint.counts_per_rad});
+    const double least_s = 15.0 / 8 * std::abs(way_rad) / joint.velocity_limit_rad_s;
+    if (1e-6 * params_.period_us * (in_mode_ticks_ + 1) < least_s - 0.02) {
+      fault("joint " + std::to_string(j) + " had too little time for its way");
+    }
+  }
+}
+
 void SafeTable::check_transition(const Inputs& inputs, int to) {
   const SafetyTuning& safety = params_.tuning.safety;
   const auto longer = [&](std::uint32_t ticks, double duration_s) {
@@ -85,10 +134,10 @@ void SafeTable::check_transition(const Inputs& inputs, int to) {
   if (to == kHolding && !nearly(silent_, safety.stale_hold_s))
     fault("holding without a silent device");
   if (mode_ == kHolding && to == kSitting && !nearly(silent_, safety.stale_release_s) &&
-      request != Request::kRelax) {
-    fault("sitting down though nobody asked and nothing is lost");
+      request != Request::kRelax && !trouble_) {
+    fault("sitting down though nobody asked, nothing is lost and power is good");
   }
-  if (mode_ == kStanding && to == kSitting && request != Request::kRelax &&
+  if (mode_ == kStanding && to == kSitting && request != Request::kRelax && !trouble_ &&
       !longer(operator_silent_, safety.command_release_s)) {
     fault("sitting down though the operator is there");
   }
@@ -121,6 +170,12 @@ void SafeTable::check_goals(const Inputs& inputs, const Outputs& outputs) {
         joint.zero_count + static_cast<double>(joint.counts_per_rad) * joint.upper_rad;
     const double low = std::min(one, other), high = std::max(one, other);
     const double goal = outputs.goal_count[j];
+    const double slack = kBeyond_rad * std::abs(joint.counts_per_rad) + 1;
+    const double stands = inputs.position_count[j];
+    const bool rises = mode_ == kRelaxed && outputs.mode == kRising;
+    if (rises && (stands < low - slack || stands > high + slack)) {
+      fault("rose though joint " + std::to_string(j) + " stands beyond its limits");
+    }
     if (goal < low - 1 || goal > high + 1)
       fault("goal of joint " + std::to_string(j) + " beyond its limits");
     const double step = std::abs(goal - goal_[j]);
@@ -152,6 +207,9 @@ void SafeTable::tick(const Inputs& inputs, const Outputs& outputs) {
   if (to > kStopped) return fault("no such mode");
   count_silence(inputs);
   tick_ = inputs.tick;
+  count_trouble(inputs, to);
+  if (silent_ == 0) check_trouble(to);
+  check_way(outputs, to);
   check_transition(inputs, to);
   check_outputs(inputs, outputs, to);
   in_mode_ticks_ = to == mode_ ? in_mode_ticks_ + 1 : 0;

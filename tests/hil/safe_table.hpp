@@ -25,6 +25,9 @@ class SafeTable {
 
  private:
   void count_silence(const Inputs& inputs);
+  void count_trouble(const Inputs& inputs, int to);
+  void check_trouble(int to);
+  void check_way(const Outputs& outputs, int to);
   void check_transition(const Inputs& inputs, int to);
   void check_outputs(const Inputs& inputs, const Outputs& outputs, int to);
   void check_goals(const Inputs& inputs, const Outputs& outputs);
@@ -43,8 +46,16 @@ class SafeTable {
   std::uint32_t operator_silent_ = 0;
   std::uint32_t silent_ = 0;  ///< the longest of servos, IMU, and a controller that had no tick
   std::uint32_t alike_ = 0;   ///< fresh readings of the IMU since they changed
+  static constexpr int kAlarm = 3;    ///< readings of one servo in a row
+  static constexpr int kSupply = 21;  ///< readings of any servos in a row
+  static constexpr double kBeyond_rad = 0.05;
+  int servo_bad_[kMaxJoints] = {};  ///< readings in a row
+  int supply_low_ = 0;
+  bool trouble_ = false;   ///< of power, and nobody has asked a relaxed robot to relax since
+  int trouble_ticks_ = 0;  ///< of a walk
   std::int16_t gyro_[3] = {}, accel_[3] = {};
   std::int32_t goal_[kMaxJoints] = {};
+  std::int32_t from_[kMaxJoints] = {};  ///< goals when the rise or the sitting down began
   bool begun_ = false;
 };
 

@@ -139,9 +139,13 @@ void silences(Script& script) {
 void alarms(Script& script) {
   for (const std::uint32_t each : {kHot | 0U, kLowVoltage | 0U, kServoAlarm | 0U}) {
     start_walking(script);
-    script.push_back({2500, kUntilStanding, kWalk, 800, 0, 0, each});
-    script.push_back({100, kItsTime, kStand, 0, 0, 0, kLate});
+    script.push_back({2500, kUntilRelaxed, kWalk, 800, 0, 0, each});
+    script.push_back({100, kItsTime, kStand, 0, 0, 0, kLate});  // stays down, though it is over
+    get_up(script);
   }
+  script.push_back({400, kUntilRelaxed, kRelax});
+  script.push_back({60, kItsTime, kStand, 0, 0, 0, kBent});
+  get_up(script);
   script.push_back({60, kItsTime, kStand, 0, 0, 0, kPressStop});
   script.push_back({60, kItsTime, kRelax, 0, 0, 0, kPressStop});
   script.push_back({60, kItsTime, kStand});

@@ -29,6 +29,7 @@ enum Event : std::uint32_t {
   kRestore = 1 << 15,    ///< one tuning value a tick is written back to the robot's own
   kScan = 1 << 16,       ///< one value a tick, out of range above, below, and not a number
   kFrozenImu = 1 << 17,  ///< repeats its last reading
+  kBent = 1 << 18,       ///< a joint stands beyond its limits
 };
 
 struct Episode {

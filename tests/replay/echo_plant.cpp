@@ -36,6 +36,8 @@ EchoPlant::EchoPlant(const Params& params, std::uint32_t seed) : params_(params)
     rest_count_[i] = math::to_int32(params.imu.body_imu[6 + i] * math::to_float(gravity));
     nose_count_[i] = math::to_int32(-params.imu.body_imu[i] * math::to_float(gravity));
   }
+  const JointParams& bent = params.joint[1];
+  bent_count_ = math::to_int32(bent.counts_per_rad * (bent.upper_rad - bent.lower_rad + 0.5F));
   const float weight_n = model::total_mass(params) * math::kGravityMS2;
   foot_count_ = per_unit(params.feet.newton_per_count, weight_n) / 4;
 }
@@ -53,6 +55,7 @@ void EchoPlant::move_joints(const Outputs& last, std::uint32_t events, Inputs& i
     if ((last.torque_enable >> j & 1U) != 0) position_count_[j] = last.goal_count[j];
     in.position_count[j] = position_count_[j] + random_.around_zero(2);
   }
+  if ((events & kBent) != 0) in.position_count[1] += bent_count_;
   in.fresh = 0xFFFFFFFFU;
   if (random_.bits() % 32 == 0) in.fresh &= ~(1U << (random_.bits() % 32));
   if ((events & kSilentServo) != 0) in.fresh &= ~4U;

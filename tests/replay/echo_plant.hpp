@@ -27,6 +27,7 @@ class EchoPlant {
   std::int32_t gyro_count_per_rad_s_;
   std::int32_t rest_count_[3];  ///< accelerometer, standing
   std::int32_t nose_count_[3];  ///< accelerometer, lying on the nose
+  std::int32_t bent_count_;     ///< takes a joint beyond its limits from wherever
   std::int32_t foot_count_;     ///< one corner's share of the weight, on one foot
   std::int16_t gyro_count_[3] = {}, accel_count_[3] = {};  ///< told last
 };

@@ -63,6 +63,7 @@ bool print_faults() {
                  {safety::kFaultTemperature, "temperature"},
                  {safety::kFaultVoltage, "voltage"},
                  {safety::kFaultServoError, "servo error"},
+                 {safety::kFaultJointBeyond, "joint beyond"},
                  {safety::kNoteOverrun, "overrun"},
                  {safety::kNoteParameter, "parameter"},
                  {safety::kNoteStrideLimited, "stride limited"},

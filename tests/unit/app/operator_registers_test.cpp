@@ -4,6 +4,7 @@
 #include <initializer_list>
 
 #include "common/base/crc32.hpp"
+#include "common/model/counts.hpp"
 #include "common/safety/machine.hpp"
 #include "tests/unit/app/operator_bench.hpp"
 
@@ -20,9 +21,11 @@ TEST(OperatorStart, IsToldInRegisters) {
       .self_test = table::SelfTest::kKinematics,
       .reset_cause = table::ResetCause::kFault,
       .clock_source = table::ClockSource::kInternalPll,
+      .bad_field = {"joint[3].lower_rad"},
       .crash = {.pc = 0x0800'1234, .cause = 0x8200, .tick = 77, .count = 3}};
   Bench<>& bench = renewed<Bench<>>(no_images, setup);
   EXPECT_EQ(bench.value<std::uint8_t>(reg("self_test")), 5);
+  EXPECT_STREQ(bench.value<FieldName>(reg("image_field")).text, "joint[3].lower_rad");
   EXPECT_EQ(bench.value<std::uint8_t>(reg("reset_cause")), 6);
   EXPECT_EQ(bench.value<std::uint8_t>(reg("clock_source")), 2);
   EXPECT_EQ(bench.value<std::uint32_t>(reg("crash_pc")), 0x0800'1234u);
@@ -137,6 +140,21 @@ TEST(OperatorReport, ShowsTheTick) {
   bench.outputs.faults |= safety::kFaultVoltage;
   bench.record();
   EXPECT_TRUE(bench.read(0, 1).alert);
+}
+
+TEST(OperatorReport, NamesTheJointThatKeepsTheRobotDown) {
+  Bench<>& bench = fresh_bench();
+  EXPECT_EQ(bench.value<std::uint8_t>(reg("joint_beyond")), 255) << "before the first tick";
+  for (int j = 0; j < kRobot.joint_count; ++j) {
+    const JointParams& joint = kRobot.joint[j];
+    bench.inputs.position_count[j] = model::count_of(joint, joint.sit_rad);
+  }
+  bench.inputs.position_count[7] = model::count_of(kRobot.joint[7], -3.0F);
+  bench.record();
+  EXPECT_EQ(bench.value<std::uint8_t>(reg("joint_beyond")), 255) << "nobody asked it to stand";
+  bench.outputs.faults = safety::kFaultJointBeyond;
+  bench.record();
+  EXPECT_EQ(bench.value<std::uint8_t>(reg("joint_beyond")), kRobot.joint[7].servo_id);
 }
 
 TEST(OperatorReport, NamesTheHottestServoAndTheLowestSupply) {

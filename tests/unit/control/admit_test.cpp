@@ -112,7 +112,7 @@ TEST(Admit, TelemetryOfNoServoIsIgnored) {
   }
 }
 
-// Through the whole tick: one hot knee ends the walk on both feet, and keeps it from another.
+// Through the whole tick: one hot knee ends the walk on both feet, and sits the robot down.
 TEST(Admit, OneHotServoEndsTheWalk) {
   static Loop loop;
   loop = Loop{};
@@ -127,9 +127,11 @@ TEST(Admit, OneHotServoEndsTheWalk) {
   };
   for (int i = 0; i < (kAlarmReadings + 1) * kJointCount; ++i) round();
   EXPECT_NE(loop.outputs.faults & safety::kFaultTemperature, 0U);
-  for (int i = 0; i < 300; ++i) round();
+  for (int i = 0; i < 300 && !loop.is_in(safety::Mode::kStanding); ++i) round();
   EXPECT_TRUE(loop.is_in(safety::Mode::kStanding));
   EXPECT_EQ(loop.outputs.stance, gait::kBoth);
+  for (int i = 0; i < 300; ++i) round();
+  EXPECT_TRUE(loop.is_in(safety::Mode::kRelaxed)) << "though a walk is asked";
 }
 
 // A controller that was away, and came back.

@@ -76,6 +76,11 @@ inline void wild(Random& random, bool fully, Inputs& inputs) {
     inputs.gyro_count[i] = static_cast<std::int16_t>(inputs.gyro_count[i] / 1024);
     inputs.accel_count[i] = static_cast<std::int16_t>(inputs.accel_count[i] / 16 + (i == 2) * 8172);
   }
+  for (int j = 0; j < kJointCount && random.bits() % 64 != 0; ++j) {
+    const JointParams& joint = kRobot.joint[j];
+    const float angle_rad = random.between(joint.lower_rad, joint.upper_rad);
+    inputs.position_count[j] = model::count_of(joint, angle_rad);
+  }
   constexpr float kBad[] = {0.0F, -1.0F, 1e30F, -1e-40F};
   const int id = random.below(kTuningCount + 4);
   if (random.bits() % 4 == 0) {

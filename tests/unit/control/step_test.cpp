@@ -222,6 +222,77 @@ TEST(Step, RobotThatFellWhileItsImuWasSilentDoesNotRise) {
   }
 }
 
+// No torque for as long as it is beyond. A hand that puts the joint back is enough: the fault only
+// tells why.
+TEST(Step, JointBeyondItsLimitsIsNotThrownBack) {
+  static Loop loop;
+  for (int j = 0; j < test::kJointCount; ++j) {
+    const JointParams& joint = kRobot.joint[j];
+    loop = Loop{};
+    loop.command.request = Request::kStand;
+    const std::int32_t before = loop.inputs.position_count[j];
+    loop.inputs.position_count[j] = model::count_of(joint, joint.upper_rad + 0.5F);
+    for (int i = 0; i < 50; ++i) {
+      loop.tick();
+      ASSERT_EQ(loop.outputs.torque_enable, 0u) << joint.name << ", tick " << i;
+    }
+    EXPECT_NE(loop.outputs.faults & safety::kFaultJointBeyond, 0u) << joint.name;
+    loop.inputs.position_count[j] = before;
+    EXPECT_GE(loop.until(Mode::kRising, 3), 0) << "put back, it rises";
+  }
+}
+
+/// Telemetry of all servos in turn, of a supply that is low whenever the robot has torque.
+void tick_with_sagging_supply(Loop& loop) {
+  loop.inputs.flags |= kSlowFresh;
+  loop.inputs.slow_joint =
+      static_cast<std::uint8_t>((loop.inputs.slow_joint + 1) % test::kJointCount);
+  loop.inputs.slow_voltage_tenth_v = loop.is_in(Mode::kWalking) ? 80 : 120;
+  loop.inputs.slow_temperature_c = 40;
+  loop.tick();
+}
+
+// Low while it walks and good while it doesn't: it would walk and stop for ever.
+TEST(Step, SupplyThatSagsUnderLoadSitsTheRobotDownOnce) {
+  static Loop loop;
+  loop = Loop{};
+  loop.walk(1000);
+  int changes = 0;
+  std::uint8_t last = loop.outputs.mode;
+  const auto minute = [&] {
+    for (int i = 0; i < 6000; ++i) {
+      tick_with_sagging_supply(loop);
+      changes += loop.outputs.mode != last ? 1 : 0;
+      last = loop.outputs.mode;
+    }
+  };
+  minute();
+  EXPECT_EQ(changes, 6) << "rising, standing, walking, standing, sitting, relaxed";
+  EXPECT_TRUE(loop.is_in(Mode::kRelaxed)) << "though a walk is asked all the time";
+  EXPECT_NE(loop.outputs.faults & safety::kFaultVoltage, 0u);
+  loop.command.request = Request::kRelax;
+  loop.ticks(2);
+  EXPECT_EQ(loop.outputs.faults, 0u) << "acknowledged";
+  loop.command.request = Request::kWalk;
+  loop.inputs.flags = static_cast<std::uint16_t>(loop.inputs.flags & ~kSlowFresh);
+  EXPECT_GE(loop.until(Mode::kWalking, 600), 0) << "left by asking to relax";
+}
+
+// As long as it lasts there is no way up, and asking again and again is none.
+TEST(Step, RobotWhosePowerIsBadDoesNotRise) {
+  static Loop loop;
+  loop = Loop{};
+  loop.inputs.flags |= kSlowFresh;
+  loop.inputs.slow_voltage_tenth_v = 80;
+  loop.inputs.slow_temperature_c = 40;
+  loop.ticks(kSupplyReadings + 1);
+  for (int i = 0; i < 100; ++i) {
+    loop.command.request = i % 2 == 0 ? Request::kRelax : Request::kStand;
+    loop.tick();
+    ASSERT_EQ(loop.outputs.torque_enable, 0u);
+  }
+}
+
 // A servo that was never read is at no known place: goals must not begin at count 0.
 TEST(Step, RobotWaitsForEveryServosFirstReport) {
   static Loop loop;

@@ -20,9 +20,13 @@ struct Joints {
   std::int32_t position_count[kMaxJoints] = {};
   SafetyTuning tuning;
   LimitState state;
+  std::uint16_t way_ms = 0;
 
-  bool run(Mode mode, std::int32_t in_mode_us) {
-    return limit(kRobot, state, {mode, in_mode_us, wanted_rad, position_count, &tuning});
+  LimitOut run(Mode mode, std::int32_t in_mode_us, const Params& robot = kRobot) {
+    const LimitOut out =
+        limit(robot, state, {mode, in_mode_us, way_ms, wanted_rad, position_count, &tuning});
+    way_ms = out.way_ms;
+    return out;
   }
 };
 
@@ -59,7 +63,7 @@ TEST(Limit, WithoutTorqueGoalsFollowTheJoints) {
       joints.wanted_rad[j] = 0.2F;
       joints.position_count[j] = model::count_of(kRobot.joint[j], 0.05F);
     }
-    EXPECT_FALSE(joints.run(mode, 0));
+    EXPECT_FALSE(joints.run(mode, 0).slowed);
     for (int j = 0; j < kRobot.joint_count; ++j) {
       EXPECT_NEAR(joints.state.goal_rad[j], 0.05F, 1e-3F);
     }
@@ -76,10 +80,10 @@ TEST(Limit, HoldingFreezesGoals) {
 TEST(Limit, WithinSpeedTheGoalIsTheWish) {
   Joints joints;
   for (int j = 0; j < kRobot.joint_count; ++j) joints.wanted_rad[j] = 0.07F;
-  EXPECT_FALSE(joints.run(Mode::kWalking, 0));
+  EXPECT_FALSE(joints.run(Mode::kWalking, 0).slowed);
   EXPECT_EQ(joints.state.goal_rad[0], 0.07F);
   joints.wanted_rad[0] = 0.5F;
-  EXPECT_TRUE(joints.run(Mode::kWalking, 0)) << "slowed down, and said so";
+  EXPECT_TRUE(joints.run(Mode::kWalking, 0).slowed) << "slowed down, and said so";
 }
 
 // Rise and sit: from the pose found, on a minimum-jerk curve, exactly to the pose meant.
@@ -114,6 +118,65 @@ TEST(Limit, RiseEndsInTheStand) {
 }
 TEST(Limit, SittingDownEndsInTheCrouch) {
   expect_arrives(Mode::kSitting, SafetyTuning{}.sit_s);
+}
+
+// The slowest joint has the longest way: the rise waits for it, and no joint is ever faster than it
+// may be, nor slowed down on its way.
+TEST(Limit, RiseTakesAsLongAsItsLongestWayNeeds) {
+  for (const Mode mode : {Mode::kRising, Mode::kSitting}) {
+    static Params slow;
+    slow = kRobot;
+    constexpr int kSlow = 3;  // a shoulder
+    slow.joint[kSlow].velocity_limit_rad_s = 0.5F;
+    Joints joints;
+    for (int j = 0; j < slow.joint_count; ++j) joints.wanted_rad[j] = slow.joint[j].stand_rad;
+    const float end_rad =
+        mode == Mode::kSitting ? slow.joint[kSlow].sit_rad : slow.joint[kSlow].stand_rad;
+    joints.state.goal_rad[kSlow] = end_rad + 1.5F;
+    joints.run(mode, 0, slow);
+    EXPECT_GE(joints.way_ms, 1875 * 15 / 5);
+    float fastest_rad = 0, before_rad = joints.state.goal_rad[kSlow];
+    const auto end_us = std::int32_t{1000} * joints.way_ms;
+    for (std::int32_t us = kPeriod_us; us <= end_us; us += kPeriod_us) {
+      joints.run(mode, us, slow);
+      fastest_rad = math::max(fastest_rad, math::abs(joints.state.goal_rad[kSlow] - before_rad));
+      before_rad = joints.state.goal_rad[kSlow];
+    }
+    EXPECT_NEAR(joints.state.goal_rad[kSlow], end_rad, 1e-3F);
+    EXPECT_LT(fastest_rad, 0.5F * 0.01F) << "its own speed is enough";
+    EXPECT_GT(fastest_rad, 0.8F * 0.5F * 0.01F) << "and it is not slower than it needs";
+  }
+}
+
+TEST(Limit, ShortWaysTakeTheTimeThatTheTuningGivesThem) {
+  Joints joints;
+  for (int j = 0; j < kRobot.joint_count; ++j) joints.wanted_rad[j] = 0.1F;
+  joints.run(Mode::kRising, 0);
+  EXPECT_EQ(joints.way_ms, 1000) << "rise_s";
+  joints.run(Mode::kSitting, 0);
+  EXPECT_EQ(joints.way_ms, 1500) << "sit_s";
+}
+
+// Torque would throw it at its limit. A little beyond is a joint that lies against its stop.
+TEST(Limit, JointBeyondItsLimitsIsNamed) {
+  for (int j = 0; j < kRobot.joint_count; ++j) {
+    const JointParams& joint = kRobot.joint[j];
+    Joints joints;
+    for (int k = 0; k < kRobot.joint_count; ++k) {
+      joints.position_count[k] = model::count_of(kRobot.joint[k], kRobot.joint[k].sit_rad);
+    }
+    EXPECT_FALSE(joints.run(Mode::kRelaxed, 0).beyond);
+    EXPECT_EQ(joint_beyond(kRobot, joints.position_count), kMaxJoints);
+    for (const float side : {-1.0F, 1.0F}) {
+      const float limit_rad = side > 0 ? joint.upper_rad : joint.lower_rad;
+      joints.position_count[j] = model::count_of(joint, limit_rad + side * 0.9F * kBeyond_rad);
+      EXPECT_FALSE(joints.run(Mode::kRelaxed, 0).beyond) << joint.name;
+      joints.position_count[j] = model::count_of(joint, limit_rad + side * 1.1F * kBeyond_rad);
+      EXPECT_TRUE(joints.run(Mode::kRelaxed, 0).beyond) << joint.name;
+      EXPECT_EQ(joint_beyond(kRobot, joints.position_count), j);
+      EXPECT_FALSE(joints.run(Mode::kStanding, 0).beyond) << "it holds its goal";
+    }
+  }
 }
 
 // The stand may move while the robot rises to it: it still arrives.

@@ -7,7 +7,7 @@
 namespace verp::safety {
 namespace {
 
-constexpr std::uint32_t kAllConditions = 1u << 14;
+constexpr std::uint32_t kAllConditions = 1u << 15;
 
 constexpr std::uint32_t bit(Mode mode) {
   return 1u << static_cast<unsigned>(mode);
@@ -72,43 +72,46 @@ TEST(SafetyTable, Row6AskedToRelaxItSitsDownFirst) {
   expect_row(6, modes(Mode::kRising, Mode::kStanding, Mode::kHolding), kAskRelax, 0,
              Mode::kSitting);
 }
-TEST(SafetyTable, Row7EndOfSilenceRisesAgain) {
-  expect_row(7, bit(Mode::kHolding), 0, kStale, Mode::kRising);
+TEST(SafetyTable, Row7PowerTroubleSitsDown) {
+  expect_row(7, modes(Mode::kRising, Mode::kStanding, Mode::kHolding), kPowerBad, kStale,
+             Mode::kSitting);
 }
-TEST(SafetyTable, Row8AbandonedRobotSitsDown) {
-  expect_row(8, bit(Mode::kStanding), kOperatorGone, 0, Mode::kSitting);
+TEST(SafetyTable, Row8EndOfSilenceRisesAgain) {
+  expect_row(8, bit(Mode::kHolding), 0, kStale, Mode::kRising);
 }
-TEST(SafetyTable, Row9RelaxedRobotRisesOnlyWhenItsSensesWork) {
-  expect_row(9, bit(Mode::kRelaxed), kAskStand | kServosKnown, kFell | kStale | kOperatorQuiet,
-             Mode::kRising);
+TEST(SafetyTable, Row9AbandonedRobotSitsDown) {
+  expect_row(9, bit(Mode::kStanding), kOperatorGone, 0, Mode::kSitting);
 }
-TEST(SafetyTable, Row10RiseEndsInTheStand) {
-  expect_row(10, bit(Mode::kRising), kTimeUp, 0, Mode::kStanding);
+TEST(SafetyTable, Row10RelaxedRobotRisesOnlyWhenAllIsWell) {
+  expect_row(10, bit(Mode::kRelaxed), kAskStand | kServosKnown,
+             kFell | kStale | kOperatorQuiet | kPowerBad | kJointBeyond, Mode::kRising);
 }
-TEST(SafetyTable, Row11WalksOnlyCalibratedWithPowerAndOperator) {
-  expect_row(11, bit(Mode::kStanding), kAskWalk | kCalibrated, kOperatorQuiet | kPowerBad,
-             Mode::kWalking);
+TEST(SafetyTable, Row11RiseEndsInTheStand) {
+  expect_row(11, bit(Mode::kRising), kTimeUp, 0, Mode::kStanding);
 }
-TEST(SafetyTable, Row12WalkEndsOnBothFeetWhenNoLongerAsked) {
-  expect_row(12, bit(Mode::kWalking), kGaitOver, kAskWalk, Mode::kStanding);
+TEST(SafetyTable, Row12WalksOnlyCalibratedAndWatched) {
+  expect_row(12, bit(Mode::kStanding), kAskWalk | kCalibrated, kOperatorQuiet, Mode::kWalking);
 }
-TEST(SafetyTable, Row13WalkEndsOnBothFeetWhenTheOperatorIsQuiet) {
-  ASSERT_LT(13, kRows);
+TEST(SafetyTable, Row13WalkEndsOnBothFeetWhenNoLongerAsked) {
+  expect_row(13, bit(Mode::kWalking), kGaitOver, kAskWalk, Mode::kStanding);
+}
+TEST(SafetyTable, Row14WalkEndsOnBothFeetWhenTheOperatorIsQuiet) {
+  ASSERT_LT(14, kRows);
   EXPECT_TRUE(next_mode(Mode::kWalking, kGaitOver | kAskWalk | kOperatorQuiet) == Mode::kStanding);
   EXPECT_TRUE(next_mode(Mode::kWalking, kAskWalk | kOperatorQuiet) == Mode::kWalking);
-  EXPECT_EQ(kTable[13].all_of, kGaitOver | kOperatorQuiet);
+  EXPECT_EQ(kTable[14].all_of, kGaitOver | kOperatorQuiet);
 }
-TEST(SafetyTable, Row14WalkEndsOnBothFeetWhenPowerIsBad) {
-  ASSERT_LT(14, kRows);
+TEST(SafetyTable, Row15WalkEndsOnBothFeetWhenPowerIsBad) {
+  ASSERT_LT(15, kRows);
   EXPECT_TRUE(next_mode(Mode::kWalking, kGaitOver | kAskWalk | kPowerBad) == Mode::kStanding);
   EXPECT_TRUE(next_mode(Mode::kWalking, kAskWalk | kPowerBad) == Mode::kWalking);
-  EXPECT_EQ(kTable[14].all_of, kGaitOver | kPowerBad);
+  EXPECT_EQ(kTable[15].all_of, kGaitOver | kPowerBad);
 }
-TEST(SafetyTable, Row15SittingRobotRelaxesWhenDown) {
-  expect_row(15, bit(Mode::kSitting), kTimeUp, 0, Mode::kRelaxed);
+TEST(SafetyTable, Row16SittingRobotRelaxesWhenDown) {
+  expect_row(16, bit(Mode::kSitting), kTimeUp, 0, Mode::kRelaxed);
 }
 TEST(SafetyTable, HasNoOtherRows) {
-  EXPECT_EQ(kRows, 16);
+  EXPECT_EQ(kRows, 17);
 }
 
 // What follows holds for every combination of conditions.
@@ -162,6 +165,16 @@ TEST(SafetyMachine, WalkingStopsOnlyOnBothFeetUnlessItMust) {
   for_all([&](Mode from, std::uint32_t conditions, Mode to) {
     if (from != Mode::kWalking || to != Mode::kStanding) return;
     if ((conditions & kGaitOver) == 0) ++wrong;
+  });
+  EXPECT_EQ(wrong, 0);
+}
+
+// Whatever else holds, trouble that stays leads down, and from there nowhere until it is over.
+TEST(SafetyMachine, PowerTroubleNeverBeginsARiseOrAWalk) {
+  int wrong = 0;
+  for_all([&](Mode from, std::uint32_t conditions, Mode to) {
+    if ((conditions & kPowerBad) == 0 || from == to) return;
+    if (to == Mode::kRising || to == Mode::kWalking) ++wrong;
   });
   EXPECT_EQ(wrong, 0);
 }
