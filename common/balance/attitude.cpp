@@ -5,21 +5,53 @@ namespace {
 
 constexpr float kLeastLevel2 = 0.01F;  // x axis all but vertical: no heading to speak of
 constexpr float kWindow_s = 4.0F;      // the mean forgets what is older
-constexpr float kStillRate_rad_s =
-    0.12F;  // above the bias of a MEMS gyro (5 deg/s), below any real motion
+// About each axis: above the bias of a MEMS gyro (data sheet of the ICM-20648: 5 deg/s), below any
+// real motion.
+constexpr float kStillRate_rad_s = 0.12F;
+// A reading counts for no more than this, so that a single one, however wrong, ends nothing.
+constexpr float kMostOfOne_rad_s = 2.0F * kStillRate_rad_s;
+// Servos that hunt for their goal tremble at 5 Hz and above, and go nowhere; whoever moves a robot
+// turns it for longer than this.
+constexpr float kTremble_s = 0.25F;
+
+// Shaken, not trembling: mean square about all axes together, of readings cut at kMostOfOne_rad_s.
+constexpr float kMostShake_rad2_s2 = 0.045F;
+
+Vec3 clamped(const Vec3& rate_rad_s) {
+  Vec3 out = rate_rad_s;
+  for (int axis = 0; axis < 3; ++axis) {
+    out(axis) = math::clamp(out(axis), -kMostOfOne_rad_s, kMostOfOne_rad_s);
+  }
+  return out;
+}
+
+bool within(const Vec3& rate_rad_s, float most_rad_s) {
+  return math::abs(rate_rad_s.x()) <= most_rad_s && math::abs(rate_rad_s.y()) <= most_rad_s &&
+         math::abs(rate_rad_s.z()) <= most_rad_s;
+}
 
 void learn_bias(AttitudeState& state, const AttitudeIn& in) {
+  const Vec3 rate = clamped(in.gyro_body_rad_s);
+  const Vec3 before = math::to_vec(state.slow_rad_s);
+  const float fade = in.period_s / (kTremble_s + in.period_s);
+  const Vec3 slow = before + fade * (rate - before);
+  state.slow_rad_s = math::to_xyz(slow);
+  state.shake_rad2_s2 += fade * ((rate - slow).squaredNorm() - state.shake_rad2_s2);
   // The raw rate decides, not the one after the bias: a bias once learnt wrong must not hide
   // stillness.
-  if (!in.standing || math::norm(in.gyro_body_rad_s) > kStillRate_rad_s) {
-    if (state.still_s < kCalibrated_s)
-      state.still_s = 0;  // still trembling from its rise: start over
+  const bool calibrated = state.still_s >= kCalibrated_s;
+  if (!in.standing || !within(slow, kStillRate_rad_s) || state.shake_rad2_s2 > kMostShake_rad2_s2) {
+    if (calibrated) return;
+    state.still_s = 0;  // moved, or still rising: start over
+    state.gyro_bias_rad_s = {};
     return;
   }
+  // Of a motion that begins, the first readings come before it is known for one.
+  if (calibrated && !within(rate, kStillRate_rad_s)) return;
   // Mean over the time stood still, then a slow tracking of warm-up drift.
   const float share = in.period_s / (state.still_s + in.period_s);
   const Vec3 bias = math::to_vec(state.gyro_bias_rad_s);
-  state.gyro_bias_rad_s = math::to_xyz(bias + share * (in.gyro_body_rad_s - bias));
+  state.gyro_bias_rad_s = math::to_xyz(bias + share * (rate - bias));
   state.still_s = math::min(state.still_s + in.period_s, kWindow_s);
 }
 

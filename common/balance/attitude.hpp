@@ -15,7 +15,9 @@ struct AttitudeState {
   Xyz gyro_bias_rad_s;    ///< learnt while standing still
   float still_s = 0;      ///< how long the robot has stood still, up to kCalibrated_s
   float mean_s = 0;       ///< over how long up_body is the accelerometer's mean, up to kAccelTime_s
-  VERP_FIELDS(up_body, heading_rad, gyro_bias_rad_s, still_s, mean_s)
+  Xyz slow_rad_s;         ///< the gyro without trembling: what tells motion from standstill
+  float shake_rad2_s2 = 0;  ///< mean square of the trembling
+  VERP_FIELDS(up_body, heading_rad, gyro_bias_rad_s, still_s, mean_s, slow_rad_s, shake_rad2_s2)
 };
 VERP_PACKED(AttitudeState);
 

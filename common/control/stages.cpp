@@ -208,7 +208,7 @@ std::uint32_t raise_faults(const State& state, const AdmitOut& admitted, const W
   if (limited.slowed) faults |= safety::kNoteSpeedLimited;
   const std::uint32_t notes = state.gait.footsteps.notes;
   if ((notes & gait::kStrideLimited) != 0) faults |= safety::kNoteStrideLimited;
-  if ((notes & (gait::kReachShortened | gait::kZmpShortened)) != 0) {
+  if ((notes & (gait::kReachShortened | gait::kZmpShortened | gait::kTurnShortened)) != 0) {
     faults |= safety::kNotePlanShortened;
   }
   if ((notes & gait::kPlanRefused) != 0) faults |= safety::kNotePlanRefused;

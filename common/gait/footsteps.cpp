@@ -6,6 +6,12 @@
 namespace verp::gait {
 namespace {
 
+// Beside the other sole a foot must not touch it, though its joints are off by half a degree each
+// and its swing bends a little inwards: 3 mm.
+constexpr float kSoleClearance_m = 0.003F;
+// A turning foot lands this much further out at most: a third of the distance between the feet.
+constexpr float kMostWider_m = 0.024F;
+
 float outward(int side) {
   return side == kLeft ? 1.0F : -1.0F;
 }
@@ -85,6 +91,84 @@ Foothold landing_of(const GaitTuning& tuning, int swing, const Stride& stride,
   return {state.body.at_m + turned(side_m, state.body.yaw_rad), state.body.yaw_rad};
 }
 
+// How far a sole reaches from its frame's origin, in a direction.
+float extent_m(const LegParams& leg, float yaw_rad, Xy direction) {
+  const Xy in_sole = turned(direction, -yaw_rad);
+  return in_sole.x * (in_sole.x > 0.0F ? leg.sole_front_m : -leg.sole_back_m) +
+         in_sole.y * (in_sole.y > 0.0F ? leg.sole_left_m : -leg.sole_right_m);
+}
+
+// Between the soles, across a line whose left is `leftward`.
+float room_m(const Params& params, const Foothold& left, const Foothold& right, Xy leftward) {
+  return dot(left.at_m - right.at_m, leftward) -
+         extent_m(params.leg[kLeft], left.yaw_rad, -1.0F * leftward) -
+         extent_m(params.leg[kRight], right.yaw_rad, leftward);
+}
+
+Xy leftward_of(const Foothold& foot) {
+  return turned({0.0F, 1.0F}, foot.yaw_rad);
+}
+
+// Between the soles of a robot that stands, and at least that much between those of one that walks.
+float clearance_m(const Params& params, const GaitTuning& tuning) {
+  const float standing_m =
+      2.0F * tuning.half_stance_m - params.leg[kLeft].sole_right_m - params.leg[kRight].sole_left_m;
+  return math::min(kSoleClearance_m, standing_m);
+}
+
+// How much further out the swing foot has to land, lest its sole come too near the carrying one's.
+float short_of_m(const Params& params, const GaitTuning& tuning, const Step& step, float yaw_rad) {
+  const Foothold left = step.after(kLeft), right = step.after(kRight);
+  const float wanted_m = clearance_m(params, tuning);
+  const Xy outward = turned({0.0F, 1.0F}, yaw_rad);
+  float short_m = kMostWider_m + 1.0F;
+  for (const Foothold& side : {left, right}) {
+    const Xy leftward = leftward_of(side);
+    const float gain = dot(outward, leftward);
+    if (gain < 0.5F) continue;
+    short_m = math::min(short_m, (wanted_m - room_m(params, left, right, leftward)) / gain);
+  }
+  return short_m;
+}
+
+// Lands the swing foot, and further out where the soles would come too near each other. False: that
+// would be too far out.
+bool land(const Params& params, const GaitTuning& tuning, const Stride& stride,
+          FootstepState& state, Step& step) {
+  step.landing = landing_of(tuning, step.swing, stride, state);
+  const float short_m = short_of_m(params, tuning, step, state.body.yaw_rad);
+  if (short_m <= 0.0F) return true;
+  state.notes |= kStepWidened;
+  const Xy out_m{0.0F, outward(step.swing) * short_m};
+  step.landing.at_m = step.landing.at_m + turned(out_m, state.body.yaw_rad);
+  return short_m <= kMostWider_m;
+}
+
+// Where wider steps are not enough, they turn as far as is. Without a turn there is always room.
+void land_beside(const Params& params, const GaitTuning& tuning, Stride& stride,
+                 FootstepState& state, Step& step) {
+  constexpr int kHalvings = 5;
+  const FootstepState before = state;
+  if (!(clearance_m(params, tuning) > 0.0F)) state.notes |= kPlanRefused;
+  if (land(params, tuning, stride, state, step)) return;
+  float enough = 0, too_much = 1;
+  const float wanted_rad = stride.turn_rad;
+  for (int i = 0; i <= kHalvings; ++i) {
+    const float share = i < kHalvings ? 0.5F * (enough + too_much) : enough;
+    state.body = before.body;
+    stride.turn_rad = share * wanted_rad;
+    (land(params, tuning, stride, state, step) ? enough : too_much) = share;
+  }
+  state.notes |= kTurnShortened;
+}
+
+// The feet stand as before a walk, not one of them further out after a turn.
+bool side_by_side(const GaitTuning& tuning, const Step& last) {
+  const Foothold left = last.after(kLeft), right = last.after(kRight);
+  const float apart_m = dot(left.at_m - right.at_m, leftward_of(left));
+  return math::abs(apart_m - 2.0F * tuning.half_stance_m) < 1e-4F;
+}
+
 bool still(const Stride& stride) {
   return stride.by_m.x == 0.0F && stride.by_m.y == 0.0F && stride.turn_rad == 0.0F;
 }
@@ -107,6 +191,11 @@ Step standing_step(const GaitTuning& tuning, const Step& last, Phase phase) {
 }
 
 }  // namespace
+
+float soles_apart_m(const Params& params, const Foothold& left, const Foothold& right) {
+  return math::max(room_m(params, left, right, leftward_of(left)),
+                   room_m(params, left, right, leftward_of(right)));
+}
 
 Xy sole_center(const Params& params, int side, const Foothold& foot) {
   return foot.at_m + turned(center_in_sole(params.leg[side]), foot.yaw_rad);
@@ -145,7 +234,7 @@ Step rest_step(const GaitTuning& tuning, const Step& last) {
 Step next_step(const Params& params, const GaitTuning& tuning, const VelocityIn& wanted,
                const Step& last, FootstepState& state) {
   const bool walked = last.swing != kBoth;
-  if (wanted.stop && walked && still(state.stride)) {
+  if (wanted.stop && walked && still(state.stride) && side_by_side(tuning, last)) {
     Step step = standing_step(tuning, last, Phase::kFinal);
     step.zmp_end_m = middle(params, step);
     step.dcm_end_m = step.zmp_end_m;
@@ -161,7 +250,6 @@ Step next_step(const Params& params, const GaitTuning& tuning, const VelocityIn&
   const bool reached = stride.by_m.x == goal.by_m.x && stride.by_m.y == goal.by_m.y;
   // On the way from one direction to another a stride may be longer than both.
   if (!reached) stride = shortened(stride, math::min(tuning.max_step_m, reach_m));
-  state.stride = stride;
 
   Step step;
   set_times(tuning, 0.5F * tuning.cycle_s, step);
@@ -176,7 +264,8 @@ Step next_step(const Params& params, const GaitTuning& tuning, const VelocityIn&
   step.settle_m = last.touchdown_m;
   step.foot[kLeft] = last.after(kLeft);
   step.foot[kRight] = last.after(kRight);
-  step.landing = landing_of(tuning, step.swing, stride, state);
+  land_beside(params, tuning, stride, state, step);
+  state.stride = stride;
   const int carrying = step.carrying();
   step.zmp_begin_m = last.zmp_end_m;
   step.zmp_end_m = zmp_under(params, tuning, carrying, step.foot[carrying]);

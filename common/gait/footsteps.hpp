@@ -18,8 +18,11 @@ VERP_PACKED(Stride);
 enum PlanNote : std::uint16_t {
   kStrideLimited = 1 << 0,   ///< velocity wanted needs longer steps than max_step_m or max_turn_rad
   kReachShortened = 1 << 1,  ///< step shortened: a leg would be too short at touch-down
-  kZmpShortened = 1 << 2,  ///< step shortened: the planned ZMP would come too near the sole's edge
-  kPlanRefused = 1 << 3,   ///< even a step on the spot leaves the support polygon: not walking
+  kZmpShortened = 1 << 2,   ///< step shortened: the planned ZMP would come too near the sole's edge
+  kPlanRefused = 1 << 3,    ///< even a step on the spot leaves the support polygon, or the soles
+                            ///< overlap where they stand: not walking
+  kStepWidened = 1 << 4,    ///< foot set down further out, beside the other sole
+  kTurnShortened = 1 << 5,  ///< step turns less: the soles would overlap however wide it may be
 };
 
 struct FootstepState {
@@ -40,6 +43,10 @@ struct VelocityIn {
       0;  ///< wanted minus actual heading; a share of it is added to the next turn
   bool stop = false;
 };
+
+/// Room between two soles, across the better of the two lines that run along one of them; not above
+/// 0: they may overlap. `left` and `right` are where the soles' frames stand.
+float soles_apart_m(const Params& params, const Foothold& left, const Foothold& right);
 
 /// Centroid of a sole on the ground.
 Xy sole_center(const Params& params, int side, const Foothold& foot);

@@ -192,6 +192,9 @@ void stand(const Params& params, const Tuning& tuning, const Step& feet, const G
   if (!in.walk) state.footsteps.notes = 0;
   const Settled asked = digest_stand(params, tuning, in, state);
   if (!in.walk && asked == state.settled) return;
+  if (in.walk && !(soles_apart_m(params, feet.foot[kLeft], feet.foot[kRight]) > 0.0F)) {
+    state.footsteps.notes |= kPlanRefused;
+  }
   state.preview.lump = lump_of(params, in.goal_rad);
   const Posture posture = stand_posture(params, tuning, feet, state);
   const Masses masses = weigh(params, state.preview.lump, posture, state.preview.leg_rad);

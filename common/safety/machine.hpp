@@ -54,7 +54,8 @@ enum Fault : std::uint32_t {
   kNoteOverrun = 1 << 16,        ///< a tick ended after its deadline
   kNoteParameter = 1 << 17,      ///< a parameter write was out of range and ignored
   kNoteStrideLimited = 1 << 18,  ///< velocity asked needs longer steps than allowed
-  kNotePlanShortened = 1 << 19,  ///< steps shortened: leg reach, or ZMP too near the sole's edge
+  kNotePlanShortened = 1 << 19,  ///< steps shortened: leg reach, ZMP near the sole's edge, or soles
+                                 ///< in each other's way
   kNotePlanRefused = 1 << 20,    ///< no step keeps the ZMP in the sole
   kNoteLegLimited = 1 << 21,     ///< a leg could not reach its target
   kNoteSpeedLimited = 1 << 22,   ///< a joint's goal was held to its velocity limit

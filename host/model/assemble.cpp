@@ -11,6 +11,7 @@
 #include "host/model/link_tree.hpp"
 #include "host/model/params.hpp"
 #include "host/model/sdf_parts.hpp"
+#include "host/model/self_collision.hpp"
 
 namespace verp::model {
 namespace {
@@ -40,6 +41,7 @@ class Assembler {
     read_sensors();
     read_tuning();
     gather_leg_frames(e_);
+    free_links();
     add_notes();
     return std::move(e_);
   }
@@ -241,7 +243,37 @@ class Assembler {
     }
   }
 
+  const std::string& link_name(int node) const {
+    return e_.nodes[static_cast<std::size_t>(node)].name;
+  }
+
+  void free_links() {
+    for (const NoCollideFact& fact : facts_.no_collides) {
+      const int a = tree_.locate(fact.link, fact.at).node,
+                b = tree_.locate(fact.other, fact.at).node;
+      if (a == b || joints_between(e_, a, b) <= 1) {
+        fact.at.fail("'" + fact.link + "' and '" + fact.other + "' never collide anyway",
+                     "remove this element, or name links that no joint connects");
+      }
+      e_.no_collide.push_back({std::min(a, b), std::max(a, b), fact.at.text("reason")});
+    }
+    for (const Clash& clash : find_near_overlaps(e_)) {
+      const std::string &link = link_name(clash.overlap.link),
+                        &other = link_name(clash.overlap.other);
+      fail(link,
+           "links '" + link + "' and '" + other + "' overlap by " +
+               std::to_string(1000 * clash.overlap.depth_m) + " mm in the " + clash.pose + " pose",
+           "correct the pose or the shapes, or add <verp:no_collide link=\"" + link +
+               "\" other=\"" + other + "\" reason=\"...\"/>");
+    }
+  }
+
   void add_notes() {
+    for (const NoCollide& pair : e_.no_collide) {
+      e_.notes.push_back("links '" + link_name(pair.link) + "' and '" + link_name(pair.other) +
+                         "' don't collide: " + pair.reason);
+    }
+
     for (const InertiaFact& fact : facts_.inertias) {
       e_.notes.push_back("inertia of '" + fact.link + "' times " + fact.at.text("scale", "1") +
                          (fact.com_m ? ", centre of mass at " + fact.at.text("com") : "") + ": " +

@@ -120,6 +120,12 @@ struct OtherSensor {  ///< camera and laser: described and checked
   Transform pose = Transform::Identity();  ///< in the link frame
 };
 
+/// Two links that never collide, though they are no neighbours.
+struct NoCollide {
+  int link = 0, other = 0;  ///< nodes, link < other
+  std::string reason;       ///< one line for people
+};
+
 /// What a robot may use of its servos' strength while it stands up, if its file does not say.
 inline constexpr std::uint8_t kRiseTorquePercent = 60;
 
@@ -131,6 +137,7 @@ struct Entity {
   std::vector<Limb> limbs;
   std::optional<ImuSensor> imu;
   FootSensor feet;
+  std::vector<NoCollide> no_collide;
   std::vector<OtherSensor> sensors;
   std::string bus;                 ///< name of the one of its buses that is used
   std::string bus_file;            ///< where its <verp:bus> stands

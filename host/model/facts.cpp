@@ -94,11 +94,17 @@ class FactReader {
   using Reader = void (FactReader::*)(const XmlElement&);
   static const std::map<std::string, Reader>& readers() {
     static const std::map<std::string, Reader> kReaders = {
-        {"verp:body", &FactReader::body},     {"verp:limb", &FactReader::limb},
-        {"verp:bus", &FactReader::bus},       {"verp:imu", &FactReader::imu},
-        {"verp:feet", &FactReader::feet},     {"verp:pose", &FactReader::pose},
-        {"verp:tuning", &FactReader::tuning}, {"verp:inertia", &FactReader::inertia},
-        {"verp:box", &FactReader::box},       {"verp:drop", &FactReader::drop},
+        {"verp:body", &FactReader::body},
+        {"verp:limb", &FactReader::limb},
+        {"verp:bus", &FactReader::bus},
+        {"verp:imu", &FactReader::imu},
+        {"verp:feet", &FactReader::feet},
+        {"verp:pose", &FactReader::pose},
+        {"verp:tuning", &FactReader::tuning},
+        {"verp:inertia", &FactReader::inertia},
+        {"verp:box", &FactReader::box},
+        {"verp:drop", &FactReader::drop},
+        {"verp:no_collide", &FactReader::no_collide},
     };
     return kReaders;
   }
@@ -190,6 +196,12 @@ class FactReader {
              "write collision, massless_link or mimic");
     }
     f_.drops.push_back({e, what, e.text("name")});
+  }
+
+  void no_collide(const XmlElement& e) {
+    e.allow({"link", "other", "reason"});
+    e.text("reason");
+    f_.no_collides.push_back({e, e.text("link"), e.text("other")});
   }
 
   void require_parts(const XmlElement& model) const {

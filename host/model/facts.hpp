@@ -63,6 +63,11 @@ struct DropFact {
   std::string name;  ///< link or joint; "*": all
 };
 
+struct NoCollideFact {
+  XmlElement at;
+  std::string link, other;
+};
+
 /// One way to reach all servos; sensors of the robot have the same ids on each.
 struct BusFact {
   XmlElement at;
@@ -86,6 +91,7 @@ struct Facts {
   std::vector<InertiaFact> inertias;
   std::vector<BoxFact> boxes;
   std::vector<DropFact> drops;
+  std::vector<NoCollideFact> no_collides;
 
   const BusFact& bus() const { return buses[used]; }
   bool is_dropped(const std::string& what, const std::string& name) const;

@@ -290,7 +290,7 @@ class HumanoidWriter {
          number("baud"), number("period_us"));
     out_ += servos_;
     line("    </verp:bus>");
-    line("    <!-- The same joints on CAN, for --bus can. -->");
+    line("    <!-- The same joints on CAN; the option bus chooses it. -->");
     line(R"(    <verp:bus name="can" protocol="cia402" baud="{:.0f}" period_us="{:.0f}">)",
          number("can_baud"), number("period_us"));
     out_ += drives_;

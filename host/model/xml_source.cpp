@@ -14,6 +14,28 @@
 #include "host/model/xml_numbers.hpp"
 
 namespace verp::model {
+namespace {
+
+/// XML 1.0, 2.5: no "--" within a comment, and none may end in "--->". tinyxml2 reads them all the
+/// same; other people's tools don't read the file then.
+class CommentCheck : public tinyxml2::XMLVisitor {
+ public:
+  explicit CommentCheck(const std::string& path) : path_(path) {}
+  bool Visit(const tinyxml2::XMLComment& comment) override {
+    const std::string text = std::string(comment.Value()) + '-';  // its end counts as one
+    const auto at = text.find("--");
+    if (at == std::string::npos) return true;
+    const auto end = text.begin() + static_cast<std::ptrdiff_t>(at);
+    throw LoadError(
+        path_, comment.GetLineNum() + static_cast<int>(std::count(text.begin(), end, '\n')),
+        "two hyphens inside a comment: not well-formed XML", "write the comment without \"--\"");
+  }
+
+ private:
+  const std::string& path_;
+};
+
+}  // namespace
 
 std::vector<XmlElement> XmlElement::children() const {
   std::vector<XmlElement> found;
@@ -124,6 +146,11 @@ void XmlSource::read(const std::string& path) {
     throw LoadError(path, file.document.RootElement()->GetLineNum(),
                     "<" + root + "> is neither SDF nor URDF",
                     "a robot's file starts with <sdf version=\"1.9\">");
+  }
+  // An included file is often somebody else's, and used as it is.
+  if (files_.size() == 1) {
+    CommentCheck comments(path);
+    file.document.Accept(&comments);
   }
   inspect(file, *file.document.RootElement());
 }

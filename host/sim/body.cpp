@@ -41,6 +41,19 @@ double lowest_point(const model::Collision& shape, const Transform& link_world) 
   return pose.translation().z() - reach;
 }
 
+/// Links that `node` passes through, one bit each: its neighbours, and what the entity exempts.
+std::uint64_t passes(const model::Entity& entity, int node) {
+  std::uint64_t links = 0;
+  const auto pair = [&](int a, int b) {
+    if (a == node) links |= std::uint64_t{1} << b;
+    if (b == node) links |= std::uint64_t{1} << a;
+  };
+  for (std::size_t j = 0; j < entity.joints.size(); ++j)
+    pair(entity.joints[j].parent, static_cast<int>(j) + 1);
+  for (const model::NoCollide& exempt : entity.no_collide) pair(exempt.link, exempt.other);
+  return links;
+}
+
 void set_pose(dBodyID body, const Transform& pose, const Vec3& com_m) {
   const Vec3 position = pose * com_m;
   dMatrix3 rotation{};
@@ -163,7 +176,10 @@ void Body::make_link(const model::Node& node, double mass_factor, int index, int
         rotation[4 * row + column] = shape.pose.linear()(row, column);
     }
     dGeomSetOffsetRotation(geom, rotation);
-    world_.tag(geom, {owner, index, {shape.friction, shape.stiffness_n_m, shape.damping_n_s_m}});
+    world_.tag(geom, {owner,
+                      index,
+                      {shape.friction, shape.stiffness_n_m, shape.damping_n_s_m},
+                      passes(entity_, index)});
     geoms_.push_back(geom);
   }
   mass_kg_ += link.mass_kg;

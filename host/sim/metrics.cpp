@@ -35,11 +35,14 @@ double ground_heading(const Truth& truth) {
 }  // namespace
 
 Observation observe(TwinRobot& robot) {
-  return {robot.truth(), robot.take_foot_loads(), robot.steps(), robot.saturated_steps()};
+  return {robot.truth(),           robot.take_foot_loads(),    robot.steps(),
+          robot.saturated_steps(), robot.self_contact_steps(), robot.self_contact_nodes()};
 }
 
 WalkMeter::WalkMeter(const model::Entity& entity, bool keep_series)
-    : joints_(entity.joints), keep_series_(keep_series), walk_saturated_(entity.joints.size(), 0) {}
+    : joints_(entity.joints), keep_series_(keep_series), walk_saturated_(entity.joints.size(), 0) {
+  for (const model::Node& node : entity.nodes) link_names_.push_back(node.name);
+}
 
 void WalkMeter::tick(const Observation& seen, const Outputs& outputs,
                      const std::optional<Vec2>& zmp_planned_world_m) {
@@ -60,6 +63,10 @@ void WalkMeter::tick(const Observation& seen, const Outputs& outputs,
 void WalkMeter::score_past_tick(const Observation& seen) {
   walk_s_ += seen.truth.t_s - last_.truth.t_s;
   walk_steps_ += seen.steps - last_.steps;
+  if (seen.self_contact_steps > last_.self_contact_steps) {
+    ++self_contact_ticks_;
+    self_contact_nodes_ = seen.self_contact_nodes;
+  }
   for (std::size_t j = 0; j < walk_saturated_.size(); ++j) {
     walk_saturated_[j] += seen.saturated_steps[j] - last_.saturated_steps[j];
   }
@@ -144,6 +151,11 @@ WalkMetrics WalkMeter::result() const {
   out.lateral_drift_m = lateral_m_;
   out.yaw_drift_deg = yaw_turned_rad_ * 180 / std::numbers::pi;
   out.fallen = last_.truth.fallen;
+  out.self_contact_ticks = self_contact_ticks_;
+  if (self_contact_ticks_ > 0) {
+    for (std::size_t i = 0; i < 2; ++i)
+      out.self_contact_links[i] = link_names_[static_cast<std::size_t>(self_contact_nodes_[i])];
+  }
   double sum = 0;
   std::uint64_t count = 0;
   for (std::size_t s = 0; s < 16; ++s) {

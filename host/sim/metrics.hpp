@@ -2,6 +2,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "common/io/io.hpp"
@@ -34,6 +35,10 @@ struct WalkMetrics {
   std::optional<double> servo_saturation;
   std::optional<double> servo_saturation_worst;
   int servo_saturation_worst_joint = 0;
+  /// Control ticks while walking in which the robot touched itself, and the links that did so last;
+  /// empty: none.
+  std::uint64_t self_contact_ticks = 0;
+  std::array<std::string, 2> self_contact_links;
 };
 
 /// One control tick, for plots.
@@ -62,6 +67,8 @@ struct Observation {
   FootLoads loads;                             ///< since the last observation
   std::uint64_t steps = 0;                     ///< physics steps since the start
   std::vector<std::uint64_t> saturated_steps;  ///< of each joint, since the start
+  std::uint64_t self_contact_steps = 0;        ///< since the start
+  std::array<int, 2> self_contact_nodes{};     ///< of the last of them
 };
 
 /// Takes the robot's foot loads: one observer per robot.
@@ -102,6 +109,7 @@ class WalkMeter {
   std::optional<double> steady_speed() const;
 
   std::vector<model::Joint> joints_;
+  std::vector<std::string> link_names_;
   bool keep_series_;
   std::vector<SeriesRow> series_;
 
@@ -125,6 +133,8 @@ class WalkMeter {
   std::array<std::uint64_t, 16> bias_count_{};
   std::uint64_t walk_steps_ = 0;  ///< physics steps
   std::vector<std::uint64_t> walk_saturated_;
+  std::uint64_t self_contact_ticks_ = 0;
+  std::array<int, 2> self_contact_nodes_{};
 };
 
 }  // namespace verp::sim

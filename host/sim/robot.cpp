@@ -122,6 +122,7 @@ void TwinRobot::after_step(double step_s) {
   body_.read_joints();
   update_servos(step_s);
   update_imu(step_s);
+  update_self_contacts();
   update_feet(step_s);
   update_fallen();
 }
@@ -164,12 +165,22 @@ void TwinRobot::update_imu(double step_s) {
               world_.options().gravity_m_s2, step_s);
 }
 
+void TwinRobot::update_self_contacts() {
+  for (const Contact& contact : world_.contacts()) {
+    if (contact.owner != owner_ || contact.other_owner != owner_) continue;
+    self_contact_nodes_ = {contact.node, contact.other_node};
+    ++self_contact_steps_;
+    return;
+  }
+}
+
 void TwinRobot::update_feet(double step_s) {
   step_loads_ = FootLoads{};
   foot_force_n_ = {};
   for (FootModel& foot : foot_) foot.begin_step();
   for (const Contact& contact : world_.contacts()) {
-    if (contact.owner != owner_) continue;
+    // A sole that touches the robot's other foot carries nothing by that.
+    if (contact.owner != owner_ || contact.other_owner == owner_) continue;
     const int foot = foot_of(contact.node);
     if (foot < 0) continue;
     const auto index = static_cast<std::size_t>(foot);

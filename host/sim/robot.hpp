@@ -80,6 +80,10 @@ class TwinRobot final : public Plant, private Actor {
   std::uint64_t steps() const { return steps_; }
   const std::vector<std::uint64_t>& saturated_steps() const { return saturated_steps_; }
 
+  /// In how many physics steps one of its links touched another, and which two did so last.
+  std::uint64_t self_contact_steps() const { return self_contact_steps_; }
+  std::array<int, 2> self_contact_nodes() const { return self_contact_nodes_; }
+
   /// Foot forces since the last call (or the start): a control tick's mean instead of one noisy
   /// instant.
   FootLoads take_foot_loads();
@@ -90,6 +94,7 @@ class TwinRobot final : public Plant, private Actor {
   void update_cradle(double step_s);
   void update_servos(double step_s);
   void update_imu(double step_s);
+  void update_self_contacts();
   void update_feet(double step_s);
   void update_fallen();
   FootTruth foot_truth(int foot) const;
@@ -118,6 +123,8 @@ class TwinRobot final : public Plant, private Actor {
   bool fallen_ = false;
   std::uint64_t steps_ = 0;
   std::vector<std::uint64_t> saturated_steps_;
+  std::uint64_t self_contact_steps_ = 0;
+  std::array<int, 2> self_contact_nodes_{};
 };
 
 }  // namespace verp::sim

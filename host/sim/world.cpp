@@ -105,8 +105,7 @@ void World::near_callback(void* self, dGeomID a, dGeomID b) {
 void World::collide(dGeomID a, dGeomID b) {
   const auto* first = static_cast<const GeomTag*>(dGeomGetData(a));
   const auto* second = static_cast<const GeomTag*>(dGeomGetData(b));
-  // One robot's links overlap at its joints; they don't collide with each other.
-  if (first == nullptr || second == nullptr || first->owner == second->owner) return;
+  if (first == nullptr || second == nullptr || !first->collides_with(*second)) return;
   dContact points[kMaxContacts];
   const int count = dCollide(a, b, kMaxContacts, &points[0].geom, sizeof(dContact));
   for (int i = 0; i < count; ++i) {
@@ -144,11 +143,10 @@ void World::read_contacts() {
   for (std::size_t i = 0; i < touching_.size(); ++i) {
     const Touching& pair = touching_[i];
     const Vec3 force = to_vec(feedback_[i].f1);
-    contacts_.push_back(
-        {pair.first->owner, pair.first->node, pair.second->owner, pair.position_world_m, force});
-    if (pair.second->owner == kScenery) continue;
-    contacts_.push_back(
-        {pair.second->owner, pair.second->node, pair.first->owner, pair.position_world_m, -force});
+    const GeomTag &a = *pair.first, &b = *pair.second;
+    contacts_.push_back({a.owner, a.node, b.owner, b.node, pair.position_world_m, force});
+    if (b.owner == kScenery) continue;
+    contacts_.push_back({b.owner, b.node, a.owner, a.node, pair.position_world_m, -force});
   }
 }
 

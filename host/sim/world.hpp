@@ -29,6 +29,14 @@ struct GeomTag {
   int owner = kScenery;
   int node = 0;  ///< link index of the owner's Entity
   Surface surface;
+  /// Links of the same owner that it passes through, bit n: link n. Scenery never collides with
+  /// itself.
+  std::uint64_t passes = 0;
+
+  bool collides_with(const GeomTag& other) const {
+    if (owner != other.owner) return true;
+    return owner != kScenery && node != other.node && (passes >> other.node & 1) == 0;
+  }
 };
 
 /// One contact point of the last step as one of its partners felt it.
@@ -36,6 +44,7 @@ struct Contact {
   int owner = kScenery;
   int node = 0;
   int other_owner = kScenery;
+  int other_node = 0;
   Vec3 position_world_m = Vec3::Zero();
   Vec3 force_world_n = Vec3::Zero();  ///< on the owner
 };

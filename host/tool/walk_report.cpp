@@ -231,6 +231,10 @@ std::string to_text(const WalkPlan& plan, const WalkResult& result, const Sweep&
   line("ZMP bias", or_dash(m.zmp_bias_mean_mm, 1, " mm"));
   line("servo saturation", or_dash(percent(m.servo_saturation), 1, " %") + ", worst joint " +
                                or_dash(percent(m.servo_saturation_worst), 1, " %"));
+  if (m.self_contact_ticks > 0) {
+    line("touched itself", fmt::format("in {} ticks, last {} and {}", m.self_contact_ticks,
+                                       m.self_contact_links[0], m.self_contact_links[1]));
+  }
   line("real-time factor", fmt::format("{:.1f}", result.real_time_factor()));
   line("digest", fmt::format("0x{:016x} after {} ticks", result.digest, result.ticks));
   if (const std::string notes = session::fault_names(result.faults); !notes.empty())
@@ -245,6 +249,7 @@ Json to_json(const WalkPlan& plan, const WalkResult& result, const Sweep& sweep)
   for (const auto& bias_mm : m.zmp_bias_by_state_mm) {
     bias_by_state.push_back(number_or_null(bias_mm));
   }
+  const Json touched = m.self_contact_ticks > 0 ? Json(m.self_contact_links) : Json();
   Json json = {{"model", name_of(plan.params)},
                {"bus", plan.entity.bus},
                {"seed", plan.twin.seed},
@@ -265,6 +270,8 @@ Json to_json(const WalkPlan& plan, const WalkResult& result, const Sweep& sweep)
                {"zmp_bias_by_state_mm", bias_by_state},
                {"servo_saturation", number_or_null(m.servo_saturation)},
                {"servo_saturation_worst", number_or_null(m.servo_saturation_worst)},
+               {"self_contact_ticks", m.self_contact_ticks},
+               {"self_contact_links", touched},
                {"digest", fmt::format("0x{:016x}", result.digest)},
                {"notes", session::fault_names(result.faults)},
                {"real_time_factor", result.real_time_factor()}};

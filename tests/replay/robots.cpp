@@ -61,8 +61,8 @@ Params fast_and_twisted(Params params) {
   return params;
 }
 
-/// Five joints, no legs, no mass, a servo that reports nothing, limits the wrong way round, and
-/// turns without bound.
+/// Five joints, no legs, no mass, a servo that reports nothing, limits the wrong way round, an arm
+/// that turns without bound, and steps that would.
 Params limbless(Params params) {
   params.joint_count = 5;
   params.body_mass_kg = 0;
@@ -70,12 +70,15 @@ Params limbless(Params params) {
   params.joint[1].counts_per_rad = 0;
   params.joint[0].lower_rad = 1;
   params.joint[0].upper_rad = -1;
+  params.joint[3].lower_rad = -1000;
+  params.joint[3].upper_rad = params.joint[3].velocity_limit_rad_s = 1000;
+  params.joint[3].stand_rad = params.joint[3].sit_rad = 500;
   params.tuning.gait.max_turn_rad = 100;
   params.tuning.gait.heading_gain = 20;
   for (JointParams& joint : params.joint) joint.mass_kg = 0;
   for (LegParams& leg : params.leg) {
     leg = LegParams{};
-    leg.sole_front_m = leg.sole_back_m = leg.sole_left_m = leg.sole_right_m = 0.2F;
+    leg.sole_front_m = leg.sole_back_m = leg.sole_left_m = leg.sole_right_m = 0.02F;
   }
   return params;
 }

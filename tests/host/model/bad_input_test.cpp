@@ -64,6 +64,17 @@ TEST(BadInput, MalformedXmlIsRefusedAtItsLine) {
   expect_refused(edited("<mass>1.1</mass>", "<mass>1.1</mas>"), "<mass>1.1</mas>", "malformed XML");
 }
 
+// tinyxml2 and libsdformat would take them; xmllint, expat and Python would not.
+TEST(BadInput, CommentThatIsNotWellFormedIsRefusedAtItsLine) {
+  for (const char* comment : {"<!-- first line\n  for --bus can -->", "<!-- dash --->"}) {
+    const std::string part = std::string(comment).find("--bus") != std::string::npos
+                                 ? "for --bus can"
+                                 : "<!-- dash --->";
+    expect_refused(edited("<mass>1.1</mass>", std::string(comment) + "<mass>1.1</mass>"), part,
+                   "two hyphens");
+  }
+}
+
 TEST(BadInput, FileThatEndsEarlyIsRefused) {
   const std::string whole = read_text(robot_file("generic21"));
   const TemporaryFile file("robot.sdf", whole.substr(0, whole.size() / 2));

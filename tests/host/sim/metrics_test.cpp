@@ -22,6 +22,7 @@ struct ScriptedWalk {
   double turn_rad_per_step = 0;
   int start_steps = 2, transition_steps = 40, final_steps = 2;
   double fall_at_s = 1e9;
+  int touch_every = 0;  ///< ticks
   WalkMeter meter{test::biped()};
   Observation now{};
   int ticks = 0;
@@ -45,6 +46,8 @@ struct ScriptedWalk {
     now.steps = static_cast<std::uint64_t>(ticks) * 10;
     now.saturated_steps.assign(12, 0);
     now.saturated_steps[3] = now.steps / 4;
+    if (touch_every > 0) now.self_contact_steps = static_cast<std::uint64_t>(ticks / touch_every);
+    now.self_contact_nodes = {0, 3};
     now.loads = FootLoads{};
     const Vec3 sole = now.truth.foot[static_cast<std::size_t>(carrying)].centroid_world_m;
     now.loads.add(sole + Vec3(zmp_off_m, 0, 0), Vec3(0, 0, 30));
@@ -117,6 +120,16 @@ TEST(Metrics, SaturationIsPerJointAndStep) {
   EXPECT_EQ(m.servo_saturation_worst_joint, 3);
   EXPECT_NEAR(m.servo_saturation_worst.value_or(-1), 0.25, 0.001);
   EXPECT_NEAR(m.servo_saturation.value_or(-1), 0.25 / 12, 0.0001);
+}
+
+TEST(Metrics, TouchingItselfIsCountedInTicksOfTheWalk) {
+  ScriptedWalk walk;
+  walk.touch_every = 40;
+  const WalkMetrics m = walk.run();
+  EXPECT_EQ(m.self_contact_ticks, 22U) << "880 ticks, one in 40";
+  EXPECT_EQ(m.self_contact_links[0], "body");
+  EXPECT_EQ(m.self_contact_links[1], "thigh");
+  EXPECT_EQ(ScriptedWalk{}.run().self_contact_ticks, 0U);
 }
 
 TEST(Metrics, StopCountingWhenTheRobotFalls) {

@@ -60,6 +60,64 @@ TEST(Attitude, BiasIsNotLearntFromMotionNorWhileWalking) {
   EXPECT_EQ(state.gyro_bias_rad_s.x, 0.0F);
 }
 
+// Servos hunt for their goals: the body trembles about the real bias, at rates that are motion for
+// a single reading. It goes nowhere, and the bias is learnt as soon as from one that stands
+// quietly.
+TEST(Attitude, TremblingDoesNotKeepTheBiasFromBeingLearnt) {
+  for (const float frequency_hz : {5.0F, 8.0F, 13.0F, 37.0F}) {
+    AttitudeState state;
+    AttitudeOut out;
+    for (int i = 0; i < kCalibrated_ticks; ++i) {
+      const float phase = math::kTwoPi * frequency_hz * 0.01F * static_cast<float>(i);
+      AttitudeIn in = still();
+      in.gyro_body_rad_s = {0.05F + 0.18F * math::sin(phase), -0.06F + 0.18F * math::cos(phase), 0};
+      out = update(state, in);
+    }
+    EXPECT_TRUE(out.calibrated) << frequency_hz << " Hz";
+    EXPECT_NEAR(state.gyro_bias_rad_s.x, 0.05F, 0.005F) << frequency_hz << " Hz";
+    EXPECT_NEAR(state.gyro_bias_rad_s.y, -0.06F, 0.005F) << frequency_hz << " Hz";
+  }
+}
+
+// One reading that is all wrong, of each way and at any moment, costs neither time nor the bias.
+TEST(Attitude, OneWrongReadingEndsNoCalibration) {
+  for (int when = 0; when < kCalibrated_ticks; when += 7) {
+    for (const float wrong : {0.15F, -2.0F, 35.0F}) {
+      AttitudeState state;
+      AttitudeOut out;
+      for (int i = 0; i < kCalibrated_ticks; ++i) {
+        AttitudeIn in = still();
+        in.gyro_body_rad_s = {0.087F, i == when ? wrong : -0.087F, 0.087F};
+        out = update(state, in);
+      }
+      EXPECT_TRUE(out.calibrated) << wrong << " rad/s at tick " << when;
+      EXPECT_NEAR(state.gyro_bias_rad_s.y, -0.087F, 0.002F);
+    }
+  }
+}
+
+// Whoever rocks, carries or slowly turns the robot moves it, though it is never far from standing
+// still for long.
+TEST(Attitude, BiasIsNotLearntFromARobotInSomebodysHands) {
+  struct Motion {
+    float rate_rad_s, frequency_hz;
+  };
+  for (const Motion& motion : {Motion{0.15F, 0.0F}, Motion{0.2F, 0.3F}, Motion{0.3F, 0.7F},
+                               Motion{0.6F, 1.0F}, Motion{2.0F, 2.0F}}) {
+    for (int axis = 0; axis < 3; ++axis) {
+      AttitudeState state;
+      for (int i = 0; i < 20 * kCalibrated_ticks; ++i) {
+        const float time_s = 0.01F * static_cast<float>(i);
+        AttitudeIn in = still();
+        in.gyro_body_rad_s(axis) =
+            motion.rate_rad_s * math::cos(math::kTwoPi * motion.frequency_hz * time_s);
+        ASSERT_FALSE(update(state, in).calibrated)
+            << motion.rate_rad_s << " rad/s at " << motion.frequency_hz << " Hz, tick " << i;
+      }
+    }
+  }
+}
+
 TEST(Attitude, CalibrationSurvivesMotion) {
   AttitudeState state;
   run(state, still(), kCalibrated_ticks);
