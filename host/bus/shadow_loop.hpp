@@ -24,7 +24,6 @@ class ShadowTape {
  public:
   using Sent = Sent_;
   using Received = Received_;
-  using Record = std::function<void(const TickRecord&, const State&, const Outputs&)>;
   struct Poll {
     std::vector<Sent> frames;  ///< sent since the poll before
     bool comparable = true;
@@ -55,7 +54,7 @@ class ShadowTape {
   }
 
   std::deque<Poll> polls;
-  Record recorder;
+  std::function<void(const TickRecord&, const State&, const Outputs&)> recorder;
   std::string difference;
   Mark here;
   std::uint32_t tick = 0;
@@ -83,13 +82,30 @@ class ShadowTape {
   }
 };
 
+/// What every shadow is asked, whatever the bus.
+class Shadow {
+ public:
+  using Record = std::function<void(const TickRecord&, const State&, const Outputs&)>;
+
+  virtual ~Shadow() = default;
+  /// Frames were lost on the link: what was sent up to the next poll can't be compared.
+  virtual void damaged() = 0;
+  /// Holds from the next poll on; its flags for one tick.
+  virtual void ordered(const app::OperatorOrder& order) = 0;
+  /// Goes through all ticks of which every poll is known.
+  virtual void catch_up() = 0;
+  /// Where the other controller first sent other frames than this one, in words; empty while it has
+  /// not.
+  virtual const std::string& difference() const = 0;
+};
+
 /// The controller at the end of a link, once more, here: the same control loop, given the bytes,
 /// times and orders that the other one got, a tick behind it. It brings back what no link carries
 /// (Inputs, State, Outputs of each tick) and tells whether the other one sent the same frames.
 template <class Tape>
-class ShadowLoopOver {
+class ShadowLoopOver final : public Shadow {
  public:
-  ShadowLoopOver(const Params& params, typename Tape::Record record)
+  ShadowLoopOver(const Params& params, Record record)
       : loop_(std::make_unique<Loop>(params, tape_, tape_, tape_)) {
     tape_.recorder = std::move(record);
   }
@@ -98,20 +114,18 @@ class ShadowLoopOver {
 
   // What the other controller does, in its order.
   void sent(typename Tape::Sent frame) { next_.frames.push_back(std::move(frame)); }
-  /// Frames were lost on the link: what was sent up to the next poll can't be compared.
-  void damaged() { next_.comparable = false; }
+  void damaged() override { next_.comparable = false; }
   void polled(typename Tape::Received received, std::uint64_t now_us) {
     next_.received = std::move(received);
     next_.now_us = now_us;
     tape_.polls.push_back(std::exchange(next_, {}));
   }
-  /// Holds from the next poll on; its flags for one tick.
-  void ordered(const app::OperatorOrder& order) { next_.order = order; }
+  void ordered(const app::OperatorOrder& order) override { next_.order = order; }
 
   /// Goes through all ticks (at first: the bring-up) of which every poll is known. With
   /// kWholeTicks: through the bring-up when the first tick begins, then through one tick each time,
   /// and further ones whose beginning was lost on the link.
-  void catch_up() {
+  void catch_up() override {
     if constexpr (Tape::kWholeTicks) {
       const bool began = tape_.ticking;
       const bool whole = std::all_of(tape_.polls.begin(), tape_.polls.end(),
@@ -128,9 +142,7 @@ class ShadowLoopOver {
     }
   }
 
-  /// Where the other controller first sent other frames than this one, in words; empty while it has
-  /// not.
-  const std::string& difference() const { return tape_.difference; }
+  const std::string& difference() const override { return tape_.difference; }
 
  private:
   using Loop = app::App<Tape, Tape, Tape>;

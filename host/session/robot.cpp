@@ -66,6 +66,10 @@ app::OperatorOrder Robot::order(std::uint32_t tick) {
   return hooks_.order ? hooks_.order(tick) : walker_->order(tick);
 }
 
+void Robot::let_pass(std::uint32_t time_us) {
+  can_ ? can_->let_pass(can_->now_us() + time_us) : bus_->let_pass(bus_->now_us() + time_us);
+}
+
 void Robot::begin_anew() {
   walked_s_ = walked_s();
   walker_.emplace(plan_.params, plan_.velocity, std::max(0.0, plan_.walk_s - walked_s_));
@@ -76,9 +80,11 @@ void Robot::take(const TickRecord& tick, const State& state, const Outputs& outp
   tick_ = tick;
   state_ = state;
   outputs_ = outputs;
+  taken_ = true;
 }
 
 void Robot::see() {
+  if (!std::exchange(taken_, false)) return;
   walker_->observe(state_, outputs_);
   const gait::Xy by_m = state_.gait.footsteps.stride.by_m;
   if (state_.gait.queued > 0) {

@@ -28,6 +28,11 @@ class Robot {
   bus::VirtualBus& bus() { return *bus_; }
   can::VirtualCan& can() { return *can_; }
 
+  /// Its bus has begun to tick.
+  bool ticking() const { return can_ ? can_->ticking() : bus_->ticking(); }
+  /// Lets time go on by so much; what its bus brings meanwhile, nobody hears.
+  void let_pass(std::uint32_t time_us);
+
   /// What the person who gives orders wants in this tick.
   app::OperatorOrder order(std::uint32_t tick);
   /// The controller began anew, on the robot as it is: the operator has it stand up and walk for
@@ -40,7 +45,7 @@ class Robot {
   void fail(const std::string& why);
 
   /// A tick of the controller, wherever it ran: take() keeps it, see() has the meter, the trace and
-  /// the hooks look at it.
+  /// the hooks look at it, if they have not.
   void take(const TickRecord& tick, const State& state, const Outputs& outputs);
   void see();
   void record(const TickRecord& tick, const State& state, const Outputs& outputs) {
@@ -84,6 +89,7 @@ class Robot {
   TickRecord tick_;  ///< the last one taken, and what came with it
   State state_;
   Outputs outputs_;
+  bool taken_ = false;                                    ///< and not seen yet
   std::uint64_t bits_before_ = 0, bare_bits_before_ = 0;  ///< the first tick
   FallVerdict verdict_;
   double begun_s_ = 0;  ///< when the first tick was over or torque was first seen, simulated time

@@ -11,10 +11,10 @@ namespace verp::session {
 /// A robot's place in the world's time. Alone in it, its bus moves the world; among others its
 /// controller is a Flow that pauses wherever its bus asks for a time.
 struct Session::Seat final : sim::TimeSource {
-  Seat(Session& session, const WalkPlan& plan, Hooks hooks)
+  Seat(Session& session, const WalkPlan& plan, Hooks hooks, const MakeController& make)
       : world(session.world_),
         robot(world, plan, std::move(hooks), session.options_.interrupted),
-        controller(make_controller(robot)) {
+        controller(make(robot)) {
     robot.twin().set_time(*this);
   }
 
@@ -30,6 +30,7 @@ struct Session::Seat final : sim::TimeSource {
       ticked = true;
       own.pause();
     }
+    controller->finish();
   }
 
   sim::World& world;
@@ -37,17 +38,17 @@ struct Session::Seat final : sim::TimeSource {
   std::unique_ptr<Controller> controller;
   std::unique_ptr<Flow> flow;  ///< null: alone. Goes before what it runs
   std::uint64_t asked_us = 0;
-  bool ticked = false;    ///< and nobody has looked at the tick yet
-  bool finished = false;  ///< the controller has heard that it is over
+  bool ticked = false;    ///< and nobody has looked at it yet
+  bool finished = false;  ///< and the controller has heard that it is over
 };
 
 Session::Session(Options options) : options_(std::move(options)), world_(options_.world) {}
 
 Session::~Session() = default;
 
-Robot& Session::add(const WalkPlan& plan, Hooks hooks) {
+Robot& Session::add(const WalkPlan& plan, Hooks hooks, const MakeController& make) {
   if (begun_) throw std::logic_error("a robot joins a session before its first tick");
-  seats_.push_back(std::make_unique<Seat>(*this, plan, std::move(hooks)));
+  seats_.push_back(std::make_unique<Seat>(*this, plan, std::move(hooks), make));
   return seats_.back()->robot;
 }
 
@@ -82,8 +83,8 @@ bool Session::go_on(Seat& seat) {
   } else {
     seat.ticked = !seat.robot.over() && seat.controller->tick();
     seat.finished = !seat.ticked;
+    if (seat.finished) seat.controller->finish();
   }
-  if (seat.finished) seat.controller->finish();
   return !seat.finished;
 }
 
@@ -106,7 +107,8 @@ Robot* Session::tick() {
 }
 
 WalkResult Session::result(std::size_t index) {
-  return robot(index).result(wall_s_);
+  Seat& seat = *seats_.at(index);
+  return seat.robot.result(seat.controller->wall_s(wall_s_));
 }
 
 WalkResult walk(const WalkPlan& plan, Hooks hooks, Options options) {

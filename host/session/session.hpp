@@ -29,17 +29,17 @@ struct Options {
 /// the world stands there, which it does when every other bus has asked for one at least as late:
 /// so no robot is told of, or acts in, another one's past. Deterministic: equal plans in equal
 /// order give equal bits, however the ticks are called for. Who does not call tick() has paused the
-/// run. All hooks are called in tick(), by its thread; errors are exceptions with text, after which
-/// the session is over.
+/// run. Errors are exceptions with text, after which the robot that they are of is over.
 class Session {
  public:
   explicit Session(Options options = {});
   ~Session();
 
-  /// One more robot, before the first tick. Throws what TwinRobot's constructor does.
-  Robot& add(const WalkPlan& plan, Hooks hooks = {});
+  /// One more robot, before the first tick. Throws what TwinRobot's constructor and `make` do.
+  Robot& add(const WalkPlan& plan, Hooks hooks = {}, const MakeController& make = make_controller);
 
-  /// Goes on until one robot has done one more control tick, and returns it. Null: the run is over.
+  /// Goes on until one robot has done one more control tick, or its controller has kept us waiting
+  /// for some ms, and returns it. Null: the run is over.
   Robot* tick();
   /// All robots are over, or somebody interrupts.
   bool over() const;

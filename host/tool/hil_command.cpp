@@ -21,7 +21,7 @@ namespace {
 
 struct HilWords {
   WalkOptions walk;
-  HilOptions hil;
+  session::ServeOptions hil;
   bool lockstep = false, real_time = false;
 };
 
@@ -42,9 +42,9 @@ void check(HilWords& words, const Params& params) {
                     "verp hil: --operator gives orders tick by tick, which takes lockstep; leave "
                     "out --realtime or --operator");
   }
-  words.hil.pace = words.lockstep    ? HilPace::kLockstep
-                   : words.real_time ? HilPace::kRealTime
-                                     : HilPace::kAuto;
+  words.hil.pace = words.lockstep    ? session::Pace::kLockstep
+                   : words.real_time ? session::Pace::kRealTime
+                                     : session::Pace::kAuto;
   const wire::Endpoint endpoint = wire::parse_endpoint(words.hil.link);
   require_fit("verp hil", words.hil.link, params);
   if (endpoint.kind != wire::Endpoint::Kind::kSerial) return;

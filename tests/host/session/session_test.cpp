@@ -3,51 +3,17 @@
 #include <gtest/gtest.h>
 
 #include <string>
-#include <vector>
 
 #include "common/safety/machine.hpp"
-#include "host/model/find.hpp"
-#include "host/model/load.hpp"
-#include "host/model/params.hpp"
 #include "host/session/not_up.hpp"
+#include "tests/host/session/plans.hpp"
 
 // A session is one world with robots in it. What a robot does there is a function of the plans
 // alone: not of how its ticks are called for, nor of who else is in the world, as long as they do
 // not touch.
 
-namespace verp::session {
+namespace verp::session::test {
 namespace {
-
-constexpr double kWalk_s = 2.0;
-
-/// generic21 on one of its buses, standing `left_m` left of the world's origin.
-WalkPlan plan_of(const std::string& bus, double left_m = 0, std::uint64_t seed = 1) {
-  WalkPlan plan;
-  plan.entity = model::load_robot(model::find_model("generic21"), bus);
-  plan.params = model::make_params(plan.entity);
-  plan.velocity.vx_tenth_mm_s = 1000;
-  plan.walk_s = kWalk_s;
-  plan.twin.seed = seed;
-  plan.twin.start_m.y() = left_m;
-  return plan;
-}
-
-using Chain = std::vector<std::uint64_t>;
-
-Hooks keep(Chain& chain) {
-  Hooks hooks;
-  hooks.ticked = [&chain](const Tick& tick) { chain.push_back(tick.record->digest.chain); };
-  return hooks;
-}
-
-Chain alone(const WalkPlan& plan) {
-  Chain chain;
-  const WalkResult result = walk(plan, keep(chain));
-  EXPECT_EQ(result.failure, "");
-  EXPECT_EQ(result.ticks, chain.size());
-  EXPECT_GT(result.metrics.distance_m, 0.04);
-  return chain;
-}
 
 TEST(Session, RobotsOnBusesOfTheirOwnWalkInOneWorldAsTheyDoAlone) {
   const WalkPlan plans[] = {plan_of("dxl", -1), plan_of("can", 1, 2), plan_of("dxl", 3, 3)};
@@ -180,4 +146,4 @@ TEST(Session, TakesNobodyInAfterItsFirstTick) {
 }
 
 }  // namespace
-}  // namespace verp::session
+}  // namespace verp::session::test

@@ -1,0 +1,194 @@
+#include "host/session/served.hpp"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "host/bus/operator_port.hpp"
+#include "host/link/system_clock.hpp"
+
+namespace verp::session {
+namespace {
+
+/// What a start takes by the twin's clock: reset, boot check, greeting.
+constexpr std::uint32_t kRestart_us = 1'000'000;
+constexpr std::uint64_t kListen_ns = 1'000'000'000;
+
+}  // namespace
+
+Served::Served(Robot& robot, const ServeOptions& options, bool connected)
+    : robot_(robot), options_(options), place_(options.link), connected_(connected) {}
+
+void Served::say(const std::string& line) const {
+  if (options_.told) options_.told(line);
+}
+
+void Served::fail(const std::string& why, bool device) {
+  if (!failure_.empty()) return;
+  failure_ = why;
+  device_trouble_ = device;
+}
+
+bool Served::over() const {
+  return !failure_.empty() || stopped() || robot_.interrupted() ||
+         (real_time_begun() && robot_.over());
+}
+
+bool Served::tick() {
+  try {
+    if (!std::exchange(introduced_, true)) {
+      if (!options_.operator_link.empty()) {
+        orders_ = std::make_unique<bus::OperatorPort>(options_.operator_link,
+                                                      [this] { return robot_.interrupted(); });
+        begin_shadow();
+      }
+      say("the twin waits for a controller on " + place_);
+    }
+    if (!over()) turn();
+  } catch (const bus::SinkError& error) {
+    fail(error.what());
+  }
+  return !over();
+}
+
+void Served::finish() {
+  while (tick()) {  // the controller is not told yet
+  }
+  try {
+    conclude();
+  } catch (const bus::SinkError& error) {
+    fail(error.what());
+  }
+  robot_.fail(failure_);
+}
+
+double Served::wall_s(double) const {
+  const std::uint64_t start_ns = drive_ns_ == 0 ? start_ns_ : drive_ns_;
+  return start_ns == 0 ? 0 : 1e-9 * static_cast<double>(wire::monotonic_ns() - start_ns);
+}
+
+ServedResult Served::result() const {
+  ServedResult result;
+  result.device_trouble = device_trouble_;
+  result.lay_down = robot_.verdict().lay_down();
+  result.real_time = real_time_begun() || options_.pace == Pace::kRealTime;
+  result.compared = compared_;
+  result.resets = resets_;
+  return result;
+}
+
+// What it knew is gone, and with it what this PC knew of it.
+void Served::begin_shadow() {
+  recorded_ = false;
+  shadow_ = make_shadow([this](const TickRecord& tick, const State& state, const Outputs& outputs) {
+    robot_.record(tick, state, outputs);
+    last_ = {tick.inputs.tick, tick.digest.chain};
+    recorded_ = true;
+  });
+}
+
+void Served::begins() {
+  if (!std::exchange(met_, true)) {
+    start_ns_ = wire::monotonic_ns();
+    return say("a controller has come, in lockstep");
+  }
+  if (!robot_.ticking()) return say("the controller greets again");
+  ++resets_;
+  say(fmt::format("the controller began anew at {:.2f} s; the servos hold what they were told last",
+                  robot_.simulated_s()));
+  // In lockstep no time goes by while a controller is away; on a robot it does, and the servos'
+  // watchdogs see it.
+  robot_.let_pass(kRestart_us);
+  if (!shadow_) return;
+  begin_shadow();
+  robot_.begin_anew();
+}
+
+// Our own boards ask for lockstep first, and keep time by themselves where there is none.
+void Served::refused(const std::string& why) {
+  if (options_.pace != Pace::kRealTime) return fail(why);
+  if (!std::exchange(declined_, true)) say("the controller offers lockstep: real time, it is told");
+}
+
+/// False: no further tick.
+bool Served::tick_ends() {
+  if (!shadow_) {
+    if (robot_.ticking()) watch();
+    return !robot_.over();
+  }
+  shadow_->catch_up();
+  if (!shadow_->difference().empty()) fail("not the same bits: " + shadow_->difference(), false);
+  if (robot_.over()) compare(orders_->exchange(nullptr));
+  return failure_.empty() && !robot_.over();
+}
+
+// The controller waits for the answer that begins its tick, and serves its operator meanwhile: what
+// is written now, it takes in this very tick.
+void Served::tick_begins(std::uint32_t tick) {
+  if (!shadow_) return;
+  const app::OperatorOrder order = robot_.order(tick);
+  const bool news = order.flags != 0;
+  compare(orders_->exchange(news ? &order : nullptr));
+  if (news) shadow_->ordered(order);
+}
+
+void Served::compare(const bus::ControllerReport& told) {
+  if (!recorded_ || told.tick != last_.tick) return;
+  if (told.digest == last_.digest) {
+    ++compared_;
+    return;
+  }
+  fail(fmt::format("not the same bits: at tick {} the controller's digest is 0x{:016x}, this PC's "
+                   "0x{:016x}",
+                   last_.tick, told.digest, last_.digest),
+       false);
+}
+
+void Served::watch() {
+  robot_.watch();
+  const FallVerdict& verdict = robot_.verdict();
+  if (verdict.driven() && drive_ns_ == 0) {
+    drive_ns_ = wire::monotonic_ns();
+    say("a servo has torque: the session begins");
+  }
+  if (verdict.lay_down() && !std::exchange(lay_down_, true)) {
+    say("the robot was let go and lies down: that is no fall, and it is served on");
+  }
+}
+
+void Served::watch_until(std::uint64_t now_us) {
+  while (now_us >= next_us_ && !robot_.over()) {
+    watch();
+    next_us_ += robot_.plan().params.period_us;
+  }
+}
+
+bool Served::may_run_in_real_time() const {
+  return options_.pace == Pace::kRealTime ||
+         (options_.pace == Pace::kAuto && !shadows() && !greeted());
+}
+
+bool Served::still_listening(bool heard) {
+  if (heard_ns_ == 0 && heard) heard_ns_ = wire::monotonic_ns();
+  return options_.pace == Pace::kAuto && wire::monotonic_ns() < heard_ns_ + kListen_ns;
+}
+
+void Served::begin_real_time() {
+  start_ns_ = wire::monotonic_ns();
+  say("the master does not announce lockstep: the twin runs in real time");
+  if (options_.real_time_begins) options_.real_time_begins();
+}
+
+void Served::watch_link(bool connected, std::uint32_t losses) {
+  if (connected == std::exchange(connected_, connected)) return;
+  if (!connected) say("the link is lost; waiting for it to come back");
+  if (connected && losses > 0) say("the link is back");
+}
+
+std::unique_ptr<Served> make_served(Robot& robot, const ServeOptions& options) {
+  return robot.plan().params.bus_protocol == BusProtocol::kCia402
+             ? make_served_on_can(robot, options)
+             : make_served_on_serial(robot, options);
+}
+
+}  // namespace verp::session

@@ -1,0 +1,147 @@
+#pragma once
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "host/bus/lockstep_server.hpp"
+#include "host/bus/order_sink.hpp"
+#include "host/bus/realtime_server.hpp"
+#include "host/bus/shadow_loop.hpp"
+#include "host/link/can_interface.hpp"
+#include "host/session/controller.hpp"
+
+namespace verp::session {
+
+/// How the twin lets time go on for a controller at the other end of a link.
+enum class Pace {
+  kAuto,      ///< lockstep if the controller announces it, else by the wall's clock
+  kLockstep,  ///< time stands until a controller announces lockstep
+  kRealTime,  ///< by the wall's clock; lockstep is refused
+};
+
+struct ServeOptions {
+  std::string link;  ///< where the controller's servo bus is
+  std::string operator_link =
+      {};  ///< where its operator's port is; empty: somebody else gives orders
+  Pace pace = Pace::kAuto;
+  // Empty members are allowed.
+  std::function<void(const std::string&)> told = {};  ///< what happens, in words
+  /// Of a CAN interface, before anything is sent: may throw.
+  std::function<void(const wire::CanInterface&)> check = {};
+  std::function<void()> real_time_begins = {};  ///< in its thread: the moment to ask for priority
+  std::function<void()> cannot_keep_up = {};    ///< the moment to give it back
+};
+
+/// What came from a CAN interface.
+struct CanFrames {
+  std::uint64_t heard = 0;
+  std::uint32_t dropped = 0;  ///< of these, or before: faster than the simulated wire, or this PC
+  std::uint64_t skipped_us = 0;  ///< of the clock: where this PC was slower than it
+};
+
+struct ServedResult {
+  bool device_trouble = false;  ///< the walk's failure is the link's or the controller's
+  bool lay_down = false;        ///< the robot was let go, and lies
+  bool real_time = false;
+  std::uint64_t compared = 0;  ///< ticks whose digest the controller told, equal to this PC's
+  std::uint32_t losses = 0;    ///< times the link was lost
+  std::uint32_t overruns = 0;  ///< bytes, or CAN frames, that found no room at this PC
+  std::uint32_t resets = 0;    ///< times a controller began anew on a robot that was under way
+  bus::LockstepServer::Counters lockstep;
+  bus::RealtimeServer::Counters realtime;
+  std::optional<CanFrames> can;  ///< over CAN in real time
+};
+
+/// A controller at the other end of a link: the twin answers it. With an operator link it walks as
+/// one here does, and every tick of it is held against this PC's; without one the robot is served
+/// for plan.walk_s from the first torque on (Robot::watch), and scored by what the twin did. What
+/// differs between buses is added by the kind of bus.
+class Served : public Controller {
+ public:
+  bool tick() final;
+  void finish() final;
+  double wall_s(double session_s) const final;
+  /// Once, at the end.
+  virtual ServedResult result() const;
+
+ protected:
+  /// `connected`: the link is there from the beginning.
+  Served(Robot& robot, const ServeOptions& options, bool connected);
+
+  /// What came, and what it asks for; waits kIdle_us for it, in real time kRealTimeTurn_us.
+  virtual void turn() = 0;
+  virtual bool stopped() const = 0;  ///< the controller was told to
+  virtual bool greeted() const = 0;  ///< it has announced lockstep
+  virtual bool real_time_begun() const = 0;
+  virtual void conclude() {}  ///< after the last turn
+  virtual std::unique_ptr<bus::Shadow> make_shadow(bus::Shadow::Record record) = 0;
+
+  void say(const std::string& line) const;
+  void fail(const std::string& why, bool device = true);
+  bool over() const;
+  bool shadows() const { return shadow_ != nullptr; }
+  bool may_run_in_real_time() const;
+  /// A controller may look around before it asks for a twin: it gets time to do so. `heard`:
+  /// something that is not for the clock has come.
+  bool still_listening(bool heard);
+  void begin_real_time();
+  /// All ticks up to bus time `now_us` of a robot whose controller tells nothing, until it is over.
+  void watch_until(std::uint64_t now_us);
+  /// The link is there, or not: tells of each change. `losses`: of it so far.
+  void watch_link(bool connected, std::uint32_t losses);
+
+  /// The hooks of a lockstep server that mean the same on every bus.
+  template <class Hooks>
+  Hooks hooks() {
+    Hooks hooks;
+    hooks.greeted = [this] { begins(); };
+    hooks.refused = [this](const std::string& why) { refused(why); };
+    hooks.tick_ends = [this] { return tick_ends(); };
+    hooks.tick_begins = [this](std::uint32_t tick) { tick_begins(tick); };
+    hooks.damaged = [this] {
+      if (shadow_) shadow_->damaged();
+    };
+    return hooks;
+  }
+
+  static constexpr std::uint32_t kIdle_us = 20'000;  // how long an interrupt may have to wait
+  static constexpr std::uint32_t kRealTimeTurn_us = 500;
+
+  Robot& robot_;
+  const ServeOptions options_;
+  std::string place_;  ///< of the link
+
+ private:
+  void begins();
+  void refused(const std::string& why);
+  bool tick_ends();
+  void tick_begins(std::uint32_t tick);
+  void begin_shadow();
+  void compare(const bus::ControllerReport& told);
+  void watch();
+
+  std::unique_ptr<bus::OrderSink> orders_;
+  std::unique_ptr<bus::Shadow> shadow_;  ///< null without an operator's port
+  bus::ControllerReport last_;
+  std::string failure_;
+  std::uint64_t compared_ = 0;
+  std::uint64_t start_ns_ = 0;  ///< when it began, by the monotonic clock; 0: not yet
+  std::uint64_t drive_ns_ = 0;  ///< when a servo first had torque
+  std::uint64_t heard_ns_ = 0;  ///< when something that is not for the clock came first
+  std::uint64_t next_us_ = 0;   ///< tick to be watched
+  std::uint32_t resets_ = 0;
+  bool device_trouble_ = false, recorded_ = false, met_ = false, declined_ = false;
+  bool lay_down_ = false, introduced_ = false, connected_;
+};
+
+/// That controller, on a byte link or a CAN interface as the robot's bus is. Throws what opening a
+/// link throws.
+std::unique_ptr<Served> make_served(Robot& robot, const ServeOptions& options);
+
+/// The two kinds of it.
+std::unique_ptr<Served> make_served_on_serial(Robot& robot, const ServeOptions& options);
+std::unique_ptr<Served> make_served_on_can(Robot& robot, const ServeOptions& options);
+
+}  // namespace verp::session

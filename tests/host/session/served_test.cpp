@@ -1,0 +1,62 @@
+#include "host/session/served.hpp"
+
+#include <unistd.h>
+
+#include <filesystem>
+
+#include "tests/host/session/plans.hpp"
+#include "tests/host/tool/link_controller.hpp"
+
+// A controller at the other end of a link is one more controller of a session's robots.
+
+namespace verp::session::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+TEST(Served, WalksBesideARobotOfThisProcessAndBothHaveTheBitsTheyHaveAlone) {
+  const WalkPlan here = plan_of("can", -1), there = plan_of("dxl", 1, 2);
+  const fs::path folder = fs::temp_directory_path() / ("served" + std::to_string(::getpid()));
+  fs::create_directory(folder);
+  const std::string bus = (folder / "bus").string(), orders = (folder / "orders").string();
+  std::string told;
+  const ServeOptions options{.link = "unix-listen:" + bus,
+                             .operator_link = "unix-listen:" + orders,
+                             .pace = Pace::kLockstep,
+                             .told = [&](const std::string& line) { told += line + "\n"; }};
+  Chain chain_here, chain_there;
+  verp::test::LinkController controller(there.params, "unix:" + bus, "unix:" + orders);
+  Session session;
+  session.add(here, keep(chain_here));
+  Served* served = nullptr;
+  session.add(there, keep(chain_there), [&](Robot& robot) {
+    auto made = make_served(robot, options);
+    served = made.get();
+    return made;
+  });
+  while (session.tick() != nullptr) {
+  }
+  controller.join();
+  EXPECT_EQ(session.result(0).failure, "");
+  EXPECT_EQ(session.result(1).failure, "") << told;
+  EXPECT_EQ(served->result().compared, chain_there.size());
+  EXPECT_NE(told.find("a controller has come, in lockstep"), std::string::npos) << told;
+  EXPECT_TRUE(chain_here == alone(here));
+  EXPECT_TRUE(chain_there == alone(there));
+  fs::remove_all(folder);
+}
+
+TEST(Served, LetsTheSessionsUserInWhileNobodyComes) {
+  const fs::path place = fs::temp_directory_path() / ("nobody" + std::to_string(::getpid()));
+  int asked = 0;
+  Session session({.interrupted = [&] { return asked > 3; }});
+  session.add(plan_of("dxl"), {}, [&](Robot& robot) {
+    return make_served(robot, {.link = "unix-listen:" + place.string()});
+  });
+  while (session.tick() != nullptr) ++asked;
+  EXPECT_EQ(asked, 4);
+  EXPECT_TRUE(session.result(0).interrupted);
+}
+
+}  // namespace
+}  // namespace verp::session::test
