@@ -14,7 +14,7 @@
 ///  - After kFault (a silent, stuck or foreign chip) the backend tries again by itself in later
 ///    reads, none of which waits longer for it. faults() counts them, modulo 2^32.
 ///  - Bias and calibration are not its business. No call allocates or throws.
-/// Implementations: hal/fake/scripted_imu.hpp, the SPI and I2C chips of hal/chip. User:
+/// Implementations: hal/fake/scripted_imu.hpp, the SPI chips of hal/chip. User:
 /// firmware/app/app.hpp, for a robot whose Params name no IMU on the servo bus.
 namespace verp::hal {
 

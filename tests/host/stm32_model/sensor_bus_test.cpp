@@ -1,9 +1,7 @@
 #include <gtest/gtest.h>
 
-#include "hal/chip/stm32/registers/i2c.hpp"
 #include "hal/chip/stm32/registers/spi.hpp"
 #include "tests/host/stm32_model/chip.hpp"
-#include "tests/support/stm32/i2c_model.hpp"
 #include "tests/support/stm32/imu_device.hpp"
 #include "tests/support/stm32/spi_model.hpp"
 
@@ -144,139 +142,6 @@ TEST(Imu, ResetTakesItsTimeAndClearsSettings) {
   line.machine.advance(ms(101));
   EXPECT_EQ(line.read(0x75), 0x71);
   EXPECT_EQ(line.read(0x1B), 0);
-}
-
-constexpr std::uint32_t kI = base::kI2c1;
-
-/// I2C1 at 400 kHz with a sensor at 0x68 and its pins at PB8 and PB9.
-struct I2cLine {
-  explicit I2cLine(Family family) : machine(family), io(machine.io()), imu(ImuKind::kMpu9250) {
-    machine.i2c(1).bus().attach(imu);
-    enable(io, rcc::kAhb1enr, rcc::kAhb1GpioA << 1);
-    enable(io, rcc::kApb1enr, rcc::kApb1I2c1);
-    machine.i2c(1).bus().wire(machine.gpio('B'), 8, 9);
-    if (family == Family::kF746) {
-      io.write32(kI + i2c_v2::kTimingr, 1u << 28 | 9u << 8 | 9u);
-      io.write32(kI + i2c_v2::kCr1, i2c_v2::kCr1Pe);
-    } else {
-      io.write32(kI + i2c_v1::kCr2, 16);
-      io.write32(kI + i2c_v1::kCcr, i2c_v1::kCcrFs | 14);
-      io.write32(kI + i2c_v1::kTrise, 5);
-      io.write32(kI + i2c_v1::kCr1, i2c_v1::kCr1Pe);
-    }
-  }
-  Machine machine;
-  ModelIo io;
-  ImuDevice imu;
-};
-
-/// As RM0090 27.3.3 has it: write the register's address, repeated start, read one byte.
-bool read_v1(I2cLine& line, std::uint8_t device, std::uint8_t address, std::uint8_t& value) {
-  using namespace i2c_v1;
-  ModelIo& io = line.io;
-  const auto wait = [&](std::uint32_t mask) {
-    return wait_set(line.machine, kI + kSr1, mask, us(200));
-  };
-  modify32(io, kI + kCr1, 0, kCr1Start | kCr1Ack);
-  if (!wait(kSr1Sb)) return false;
-  io.write32(kI + kDr, device * 2u);
-  if (!wait(kSr1Addr)) return false;
-  io.read32(kI + kSr2);
-  io.write32(kI + kDr, address);
-  if (!wait(kSr1Btf)) return false;
-  modify32(io, kI + kCr1, 0, kCr1Start);
-  if (!wait(kSr1Sb)) return false;
-  io.write32(kI + kDr, device * 2u + 1u);
-  if (!wait(kSr1Addr)) return false;
-  modify32(io, kI + kCr1, kCr1Ack, 0);
-  io.read32(kI + kSr2);
-  modify32(io, kI + kCr1, 0, kCr1Stop);
-  if (!wait(kSr1Rxne)) return false;
-  value = static_cast<std::uint8_t>(io.read32(kI + kDr));
-  return wait_clear(line.machine, kI + kSr2, kSr2Busy, us(200));
-}
-
-bool read_v2(I2cLine& line, std::uint8_t device, std::uint8_t address, std::uint8_t& value) {
-  using namespace i2c_v2;
-  ModelIo& io = line.io;
-  const auto wait = [&](std::uint32_t mask) {
-    return wait_set(line.machine, kI + kIsr, mask, us(200));
-  };
-  io.write32(kI + kCr2, device * 2u | 1u << kCr2NbytesShift | kCr2Start);
-  if (!wait(kIsrTxis)) return false;
-  io.write32(kI + kTxdr, address);
-  if (!wait(kIsrTc)) return false;
-  io.write32(kI + kCr2, device * 2u | kCr2RdWrn | 1u << kCr2NbytesShift | kCr2Autoend | kCr2Start);
-  if (!wait(kIsrRxne)) return false;
-  value = static_cast<std::uint8_t>(io.read32(kI + kRxdr));
-  if (!wait(kIsrStopf)) return false;
-  io.write32(kI + kIcr, kIsrStopf);
-  return true;
-}
-
-bool read(I2cLine& line, std::uint8_t device, std::uint8_t address, std::uint8_t& value) {
-  return line.machine.family() == Family::kF746 ? read_v2(line, device, address, value)
-                                                : read_v1(line, device, address, value);
-}
-
-TEST(I2c, ReadsARegisterAsTheManualSays) {
-  for (const Family family : kFamilies) {
-    I2cLine line(family);
-    std::uint8_t value = 0;
-    EXPECT_TRUE(read(line, 0x68, 0x75, value));
-    EXPECT_EQ(value, 0x71);
-    EXPECT_TRUE(read(line, 0x68, 0x6B, value));
-    EXPECT_EQ(value, 0x01);
-    EXPECT_EQ(line.machine.violations_text(), "");
-  }
-}
-
-TEST(I2c, NobodyAtAnAddressIsNoAcknowledge) {
-  for (const Family family : kFamilies) {
-    I2cLine line(family);
-    std::uint8_t value = 0;
-    EXPECT_FALSE(read(line, 0x33, 0x75, value));
-    const bool v2 = family == Family::kF746;
-    const std::uint32_t flags = line.io.read32(kI + (v2 ? i2c_v2::kIsr : i2c_v1::kSr1));
-    EXPECT_NE(flags & (v2 ? i2c_v2::kIsrNackf : i2c_v1::kSr1Af), 0u);
-  }
-}
-
-TEST(I2c, AHeldDataLineStopsEverythingUntilItWasClockedFree) {
-  for (const Family family : kFamilies) {
-    I2cLine line(family);
-    line.machine.i2c(1).bus().hold_data(5);
-    std::uint8_t value = 0;
-    EXPECT_FALSE(read(line, 0x68, 0x75, value));
-    const std::uint32_t port = base::gpio('B');
-    modify32(line.io, port + gpio::kOtyper, 0, 1u << 8);
-    line.io.write32(port + gpio::kBsrr, 1u << 8);
-    modify32(line.io, port + gpio::kModer, 0, gpio::kModeOutput << 16);
-    int pulses = 0;
-    while ((line.io.read32(port + gpio::kIdr) & 1u << 9) == 0 && pulses < 9) {
-      line.io.write32(port + gpio::kBsrr, 1u << 24);
-      line.io.write32(port + gpio::kBsrr, 1u << 8);
-      ++pulses;
-    }
-    EXPECT_EQ(pulses, 5);
-    EXPECT_FALSE(line.machine.i2c(1).bus().data_held());
-  }
-}
-
-TEST(I2c, BusErrorsAndLostArbitrationAreFlagged) {
-  for (const Family family : kFamilies) {
-    const bool v2 = family == Family::kF746;
-    const std::uint32_t status = kI + (v2 ? i2c_v2::kIsr : i2c_v1::kSr1);
-    I2cLine line(family);
-    line.machine.i2c(1).bus_errors = 1;
-    std::uint8_t value = 0;
-    EXPECT_FALSE(read(line, 0x68, 0x75, value));
-    EXPECT_NE(line.io.read32(status) & (v2 ? i2c_v2::kIsrBerr : i2c_v1::kSr1Berr), 0u);
-    I2cLine lost(family);
-    lost.machine.i2c(1).arbitration_losses = 1;
-    EXPECT_FALSE(read(lost, 0x68, 0x75, value));
-    EXPECT_NE(lost.io.read32(status) & (v2 ? i2c_v2::kIsrArlo : i2c_v1::kSr1Arlo), 0u);
-  }
 }
 
 }  // namespace

@@ -9,11 +9,11 @@ constexpr std::uint8_t kMpuDivider = 0x19, kMpuIntStatus = 0x3A, kMpuData = 0x3B
 // ICM-20648: bank 0, but the dividers are in bank 2.
 constexpr std::uint8_t kIcmWho = 0x00, kIcmUserCtrl = 0x03, kIcmPower = 0x06, kIcmIntStatus1 = 0x1A,
                        kIcmData = 0x2D, kIcmDataEnd = 0x3A, kIcmBank = 0x7F, kIcmDivider2 = 0x00;
-constexpr std::uint8_t kReset = 0x80, kSleep = 0x40, kI2cOff = 0x10;
+constexpr std::uint8_t kReset = 0x80, kSleep = 0x40;
 
 }  // namespace
 
-ImuDevice::ImuDevice(ImuKind kind, std::uint8_t address) : kind_(kind), address_(address) {
+ImuDevice::ImuDevice(ImuKind kind) : kind_(kind) {
   power_on();
 }
 
@@ -137,33 +137,6 @@ std::uint8_t ImuDevice::exchange(std::uint8_t out, Time now) {
   }
   pointer_ = (pointer_ + 1) & 0x7F;
   return in;
-}
-
-bool ImuDevice::begin(std::uint8_t address, bool read, Time now) {
-  const std::uint8_t control = registers_[0][mpu() ? kMpuUserCtrl : kIcmUserCtrl];
-  if (silent || address != address_ || (control & kI2cOff) != 0) return false;
-  reading_ = read;
-  if (read) {
-    update(now);
-  } else {
-    addressed_ = false;
-  }
-  return true;
-}
-bool ImuDevice::take(std::uint8_t byte, Time now) {
-  if (!addressed_) {
-    addressed_ = true;
-    pointer_ = byte & 0x7F;
-    return true;
-  }
-  write(pointer_, byte, now);
-  pointer_ = (pointer_ + 1) & 0x7F;
-  return true;
-}
-std::uint8_t ImuDevice::give(Time now) {
-  const std::uint8_t value = read(pointer_, now);
-  pointer_ = (pointer_ + 1) & 0x7F;
-  return value;
 }
 
 }  // namespace verp::hal::stm32::model

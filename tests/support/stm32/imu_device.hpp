@@ -1,22 +1,21 @@
 #pragma once
 #include <cstdint>
 
-#include "tests/support/stm32/i2c_bus.hpp"
 #include "tests/support/stm32/spi_model.hpp"
 
-/// A 6-axis motion sensor behind SPI or I2C: an MPU-9250 (registers: RM-MPU-9250A-00) or an
+/// A 6-axis motion sensor behind SPI: an MPU-9250 (registers: RM-MPU-9250A-00) or an
 /// ICM-20648 (DS-000179). It samples at the rate its registers ask for; all counts of a sample are
 /// of one instant. Registers that the models don't know are remembered as written.
 namespace verp::hal::stm32::model {
 
 enum class ImuKind : std::uint8_t { kMpu9250, kIcm20648 };
 
-class ImuDevice : public SpiDevice, public I2cDevice {
+class ImuDevice : public SpiDevice {
  public:
-  explicit ImuDevice(ImuKind kind, std::uint8_t address = 0x68);
+  explicit ImuDevice(ImuKind kind);
 
   // Script.
-  bool silent = false;        ///< answers nothing: SPI all ones, I2C no acknowledge
+  bool silent = false;        ///< answers nothing: all ones
   bool frozen = false;        ///< takes no further samples
   int who_am_i = -1;          ///< another identity than the kind's
   Time reset_time = ms(100);  ///< after DEVICE_RESET
@@ -36,11 +35,6 @@ class ImuDevice : public SpiDevice, public I2cDevice {
   bool takes_mode(unsigned mode) const override { return mode == 0 || mode == 3; }
   std::uint32_t max_hz() const override;
 
-  bool begin(std::uint8_t address, bool read, Time now) override;
-  bool take(std::uint8_t byte, Time now) override;
-  std::uint8_t give(Time now) override;
-  void end(Time) override {}
-
  private:
   void power_on();
   void update(Time now);
@@ -53,7 +47,6 @@ class ImuDevice : public SpiDevice, public I2cDevice {
   bool mpu() const { return kind_ == ImuKind::kMpu9250; }
 
   ImuKind kind_;
-  std::uint8_t address_;
   std::uint8_t registers_[4][128] = {};
   std::int16_t gyro_[3] = {}, accel_[3] = {};
   bool addressed_ = false;  ///< the register address of this transfer has come

@@ -25,7 +25,6 @@ class CoreModel;
 class DmaModel;
 class FlashModel;
 class GpioModel;
-class I2cModel;
 class IwdgModel;
 class OtgFsModel;
 class PwrModel;
@@ -108,7 +107,6 @@ class Machine {
   DmaModel& dma(unsigned number);
   FlashModel& flash() { return *flash_; }
   GpioModel& gpio(char port);
-  I2cModel& i2c(unsigned number);
   IwdgModel& iwdg() { return *iwdg_; }
   OtgFsModel& otg_fs() { return *otg_fs_; }
   PwrModel& pwr() { return *pwr_; }
@@ -187,7 +185,6 @@ class Machine {
   std::map<char, GpioModel*> gpio_;
   std::map<unsigned, AdcModel*> adc_;
   std::map<unsigned, DmaModel*> dma_;
-  std::map<unsigned, I2cModel*> i2c_;
   std::map<unsigned, SpiModel*> spi_;
   std::map<unsigned, TimerModel*> tim_;
   std::map<unsigned, UsartModel*> usart_;

@@ -9,7 +9,6 @@
 #include "tests/support/stm32/dma_model.hpp"
 #include "tests/support/stm32/flash_model.hpp"
 #include "tests/support/stm32/gpio_model.hpp"
-#include "tests/support/stm32/i2c_model.hpp"
 #include "tests/support/stm32/iwdg_model.hpp"
 #include "tests/support/stm32/machine.hpp"
 #include "tests/support/stm32/otg_fs_model.hpp"
@@ -90,15 +89,6 @@ void Machine::add_serial() {
   spi_[1] = &add<SpiModel>(1u, base::kSpi1, apb2(rcc::kApb2Spi1), irq::kSpi1);
   spi_[2] = &add<SpiModel>(2u, base::kSpi2, apb1(rcc::kApb1Spi2), irq::kSpi2);
   spi_[3] = &add<SpiModel>(3u, base::kSpi3, apb1(rcc::kApb1Spi3), irq::kSpi3);
-  const auto i2c = [this](unsigned number, std::uint32_t address, std::uint32_t mask,
-                          unsigned line) {
-    i2c_[number] = family_ == Family::kF746
-                       ? static_cast<I2cModel*>(&add<I2cV2Model>(number, address, apb1(mask), line))
-                       : &add<I2cV1Model>(number, address, apb1(mask), line);
-  };
-  i2c(1, base::kI2c1, rcc::kApb1I2c1, irq::kI2c1Event);
-  i2c(2, base::kI2c2, rcc::kApb1I2c2, irq::kI2c2Event);
-  i2c(3, base::kI2c3, rcc::kApb1I2c3, irq::kI2c3Event);
 }
 
 void Machine::add_others() {
@@ -129,9 +119,6 @@ DmaModel& Machine::dma(unsigned number) {
 }
 GpioModel& Machine::gpio(char port) {
   return part(gpio_, port, "GPIO port");
-}
-I2cModel& Machine::i2c(unsigned number) {
-  return part(i2c_, number, "I2C");
 }
 SpiModel& Machine::spi(unsigned number) {
   return part(spi_, number, "SPI");

@@ -9,7 +9,6 @@
 #include "hal/chip/stm32/registers/dma.hpp"
 #include "hal/chip/stm32/registers/flash.hpp"
 #include "hal/chip/stm32/registers/gpio.hpp"
-#include "hal/chip/stm32/registers/i2c.hpp"
 #include "hal/chip/stm32/registers/iwdg.hpp"
 #include "hal/chip/stm32/registers/memory_map.hpp"
 #include "hal/chip/stm32/registers/otg_fs_tables.hpp"
@@ -39,9 +38,6 @@ const Table kTables[] = {
     flash::kTableF446,
     flash::kTableF746,
     gpio::kTable,
-    i2c_v1::kTableF405,
-    i2c_v1::kTableF446,
-    i2c_v2::kTable,
     iwdg::kTable,
     iwdg::kTableF7,
     otg_fs::kTableF405,

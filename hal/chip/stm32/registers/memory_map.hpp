@@ -29,12 +29,10 @@ constexpr std::uint32_t gpio(char port) {
 namespace irq {
 inline constexpr unsigned kFlash = 4, kRcc = 5, kExti0 = 6, kAdc = 18, kCan1Tx = 19, kCan1Rx0 = 20,
                           kCan1Rx1 = 21, kCan1Error = 22, kTim2 = 28, kTim3 = 29, kTim4 = 30,
-                          kI2c1Event = 31, kI2c1Error = 32, kI2c2Event = 33, kI2c2Error = 34,
                           kSpi1 = 35, kSpi2 = 36, kUsart1 = 37, kUsart2 = 38, kUsart3 = 39,
                           kExti15To10 = 40, kTim5 = 50, kSpi3 = 51, kUart4 = 52, kUart5 = 53,
                           kCan2Tx = 63, kCan2Error = 66, kOtgFs = 67, kOtgFsWakeup = 42,
-                          kUsart6 = 71, kI2c3Event = 72, kI2c3Error = 73, kUart7F746 = 82,
-                          kUart8F746 = 83;
+                          kUsart6 = 71, kUart7F746 = 82, kUart8F746 = 83;
 constexpr unsigned dma1(unsigned stream) {
   return stream < 7 ? 11 + stream : 47;
 }

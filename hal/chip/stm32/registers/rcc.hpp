@@ -66,9 +66,4 @@ inline constexpr std::uint32_t kDckcfgr2Ck48msel = bit(27);
 constexpr unsigned usart_clock_shift(unsigned usart_number) {
   return 2u * (usart_number - 1u);
 }
-/// DCKCFGR2 of the F746: two bits an I2C, 0: APB1, 1: SYSCLK, 2: HSI.
-constexpr unsigned i2c_clock_shift(unsigned i2c_number) {
-  return 14u + 2u * i2c_number;
-}
-
 }  // namespace verp::hal::stm32::rcc
