@@ -103,4 +103,14 @@ Entity load_robot_on_any_bus(const std::string& path, const std::string& bus) {
   return assemble(source, facts, *root.Model());
 }
 
+Entity load_robot_on_can(const std::string& path, const std::string& bus) {
+  Entity entity = load_robot_on_any_bus(path, bus);
+  if (!bus.empty() || entity.protocol == BusProtocol::kCia402) return entity;
+  for (const std::string& name : entity.buses) {
+    Entity other = load_robot_on_any_bus(path, name);
+    if (other.protocol == BusProtocol::kCia402) return other;
+  }
+  return entity;
+}
+
 }  // namespace verp::model

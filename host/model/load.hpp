@@ -14,5 +14,7 @@ namespace verp::model {
 Entity load_robot(const std::string& path, const std::string& bus = "");
 /// The same, whether or not the bus has room: for who tells that, or gives another period.
 Entity load_robot_on_any_bus(const std::string& path, const std::string& bus);
+/// The same, where no bus is named on the first that is CAN; without one, on the robot's first bus.
+Entity load_robot_on_can(const std::string& path, const std::string& bus);
 
 }  // namespace verp::model

@@ -25,14 +25,8 @@ struct LoadWords {
 
 /// The bus that is named, or else the robot's first one on CAN.
 model::Entity robot_on_can(const LoadWords& words) {
-  const std::string file = model::find_model(words.robot);
-  model::Entity entity = model::load_robot_on_any_bus(file, words.bus);
+  model::Entity entity = model::load_robot_on_can(model::find_model(words.robot), words.bus);
   if (entity.protocol == BusProtocol::kCia402) return entity;
-  for (const std::string& name : entity.buses) {
-    if (!words.bus.empty()) break;
-    model::Entity other = model::load_robot_on_any_bus(file, name);
-    if (other.protocol == BusProtocol::kCia402) return other;
-  }
   throw ToolError(
       kBadInput,
       fmt::format("verp bus load: {}: {} has no CAN bus{}; add <verp:bus name=\"can\" "

@@ -10,6 +10,7 @@
 #include "host/link/can_claim.hpp"
 #include "host/link/can_port.hpp"
 #include "host/link/system_clock.hpp"
+#include "host/model/bus_time.hpp"
 #include "host/model/find.hpp"
 #include "host/model/load.hpp"
 #include "host/model/params.hpp"
@@ -39,13 +40,12 @@ struct ShadowWords {
 /// The robot's bus that is named, or else its first that has what the link is on.
 model::Entity robot_on(const ShadowWords& words, bool can) {
   const std::string file = model::find_model(words.model);
-  model::Entity entity = model::load_robot(file, words.bus);
-  if (!can) return entity;  // what is read there has no bus in it
-  for (const std::string& name : entity.buses) {
-    if (!words.bus.empty() || entity.protocol == BusProtocol::kCia402) break;
-    entity = model::load_robot(file, name);
+  if (!can) return model::load_robot(file, words.bus);  // what is read there has no bus in it
+  model::Entity entity = model::load_robot_on_can(file, words.bus);
+  if (entity.protocol == BusProtocol::kCia402) {
+    model::require_bus(entity, model::make_params(entity));
+    return entity;
   }
-  if (entity.protocol == BusProtocol::kCia402) return entity;
   throw ToolError(
       kBadInput,
       fmt::format("verp shadow: {}: the bus of {} speaks {}, and {} is a CAN interface; "

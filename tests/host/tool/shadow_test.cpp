@@ -61,5 +61,15 @@ TEST_F(ShadowOnSerial, RefusesAnotherRobotAndAControllerThatIsNotThere) {
   EXPECT_NE(outcome.err.find("no controller was heard"), std::string::npos) << outcome.err;
 }
 
+/// A robot has several buses: a CAN interface is met by the first that is CAN, without --bus.
+TEST_F(ShadowOnSerial, TakesTheBusThatTheLinkIsOn) {
+  const auto outcome = verp("shadow generic21 --link can:verp_none0");
+  EXPECT_EQ(outcome.status, 3);
+  EXPECT_EQ(outcome.err.find("speaks"), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.err.find("can:verp_none0"), std::string::npos) << outcome.err;
+  expect_refused("shadow generic21 --bus dxl --link can:verp_none0", "speaks dynamixel2");
+  expect_refused("shadow op3 --link can:verp_none0", "speaks dynamixel2");
+}
+
 }  // namespace
 }  // namespace verp::shadow::test
