@@ -50,6 +50,47 @@ test_layers() {
   layers_case 'a folder nobody planned' 'no rule for this folder' common/magic/a.cpp 'int a();'
 }
 
+golden_case() { # what reason version digest table: in a repository whose last commit has versions 4 and 5
+  local tree=$scratch/golden
+  rm -rf "$tree"
+  mkdir -p "$tree/tests/golden" "$tree/common/model"
+  git -C "$tree" init -q
+  printf '4 aa\n5 bb\n' >"$tree/tests/golden/core_versions.txt"
+  git -C "$tree" add . && git -C "$tree" -c user.name=a -c user.email=a@b commit -qm a
+  printf 'inline constexpr std::uint32_t kCoreVersion = %s;  ///<\n' "$3" >"$tree/common/model/image.hpp"
+  printf '# digests\nall 100 %s\n' "$4" >"$tree/tests/golden/long_trace.txt"
+  printf "$5" >"$tree/tests/golden/core_versions.txt"
+  expect "$1" "$2" "$here/golden.sh" "$tree"
+}
+
+test_golden() {
+  golden_case 'as it was' '' 5 bb '4 aa\n5 bb\n'
+  golden_case 'a new version with its digest' '' 6 cc '4 aa\n5 bb\n6 cc\n'
+  golden_case 'a changed digest, the version unchanged' 'raise kCoreVersion' 5 cc '4 aa\n5 bb\n'
+  golden_case 'the same, the table edited too' 'Raise kCoreVersion' 5 cc '4 aa\n5 cc\n'
+  golden_case 'a new version, not in the table' 'ends with version 5' 6 bb '4 aa\n5 bb\n'
+  golden_case 'a new version of the same digest' 'a digest of its own' 6 bb '4 aa\n5 bb\n6 bb\n'
+  golden_case 'a version that goes back' 'versions rise' 3 cc '4 aa\n5 bb\n3 cc\n'
+}
+
+seeds_case() { # what reason path text [table]
+  rm -rf "$scratch/tree"
+  mkdir -p "$scratch/tree/tests/scenario" "$scratch/tree/$(dirname "$3")"
+  cp "$root/tests/scenario/seeds.txt" "$scratch/tree/tests/scenario/"
+  [[ -z ${5:-} ]] || printf "$5" >"$scratch/tree/tests/scenario/seeds.txt"
+  printf '%s\n' "$4" >"$scratch/tree/$3"
+  expect "$1" "$2" "$here/seeds.sh" "$scratch/tree"
+}
+
+test_seeds() {
+  seeds_case 'a gate seed' '' tests/scenario/a_test.cpp 'walk("--seed 7");'
+  seeds_case 'a gate on a tuning seed' 'seed 1007 is no gate seed' tests/scenario/a_test.cpp 'walk("--seed 7 --seed=1007");'
+  seeds_case 'the right sets' '' common/robots/a/README.md 'Tuned on tuning seeds 1001-1020, shown on report seeds 2001-2050 and gate seeds 1-10.'
+  seeds_case 'tuned on what the gate sees' 'seed 1-20 is no tuning seed' common/robots/a/a.sdf '<!-- tuning seeds 1-20 -->'
+  seeds_case 'reported from tuning' 'is no report seed' host/README.md 'report seeds 1990-2010'
+  seeds_case 'sets that overlap' 'in common' a.md '' 'gate 1 100\ntuning 100 2000\nreport 2001 9999\n'
+}
+
 symbols_case() { # what reason flags text
   local flags=()
   read -ra flags <<<"$3"
@@ -100,6 +141,8 @@ case $gate in
 layers) test_layers ;;
 symbols) test_symbols ;;
 format) test_format ;;
+golden) test_golden ;;
+seeds) test_seeds ;;
 *) echo "no gate '$gate'" && exit 2 ;;
 esac
 echo "$gate gate: $planted cases"

@@ -61,7 +61,7 @@ add_custom_target(replay_variants ALL DEPENDS ${programs})
 add_test(NAME replay.matrix
   COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/matrix ${VERP_LONG_TRACE} ${VERP_LONG_TRACE_GOLDEN} gcc_O2=$<TARGET_FILE:replay_digest>
     ${programs})
-set_tests_properties(replay.matrix PROPERTIES LABELS replay FIXTURES_REQUIRED long_trace TIMEOUT 300)
+set_tests_properties(replay.matrix PROPERTIES LABELS replay FIXTURES_REQUIRED long_trace)
 
 get_target_property(core_sources verp_core SOURCES)
 # What step() can call is what the linker keeps of one section a function. File by file: the linker can't wrap what is
@@ -75,7 +75,7 @@ add_custom_target(replay_counted ALL DEPENDS ${programs})
 add_test(NAME replay.coverage
   COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/coverage ${CMAKE_SOURCE_DIR} ${CMAKE_CURRENT_BINARY_DIR}/counted ${VERP_LONG_TRACE}
     ${VERP_GCOV} ${CMAKE_NM})
-set_tests_properties(replay.coverage PROPERTIES LABELS replay FIXTURES_REQUIRED long_trace TIMEOUT 300)
+set_tests_properties(replay.coverage PROPERTIES LABELS replay FIXTURES_REQUIRED long_trace)
 
 # What a boot would say of a core whose products are not rounded. The x87 keeps them in 80 bits, as fused multiply-add
 # keeps them whole, and every x86-64 has one.

@@ -18,7 +18,14 @@ struct Walk {
   json result;      ///< empty when there was no JSON
 };
 
+/// seeds.txt: those of gates.
+inline constexpr unsigned long kLastGateSeed = 100;
+
 inline Walk walk(const std::string& arguments) {
+  const std::size_t seed = arguments.find("--seed ");
+  if (seed != std::string::npos) {
+    EXPECT_LE(std::stoul(arguments.substr(seed + 7)), kLastGateSeed) << "seeds.txt";
+  }
   const std::string command = std::string(VERP_PROGRAM) + " walk " + arguments + " --json 2>&1";
   Walk walk;
   std::string text;
