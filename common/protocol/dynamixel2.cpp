@@ -4,9 +4,6 @@ namespace verp::dxl {
 namespace {
 
 constexpr std::uint16_t kPolynomial = 0x8005;
-constexpr std::uint8_t kHeader[4] = {0xFF, 0xFF, 0xFD, 0x00};
-constexpr std::size_t kLengthAt = 5;
-constexpr std::size_t kCrcBytes = 2;
 
 struct CrcTable {
   std::uint16_t row[256];

@@ -54,7 +54,10 @@ inline constexpr std::uint8_t kClearTurns[] = {0x01, 0x44, 0x58, 0x4C, 0x22};
 
 inline constexpr std::uint8_t kBroadcast = 0xFE;
 inline constexpr std::uint8_t kMaxId = 252;
-inline constexpr std::size_t kHeaderBytes = 7;        ///< up to and including `length`
+inline constexpr std::uint8_t kHeader[4] = {0xFF, 0xFF, 0xFD, 0x00};
+inline constexpr std::size_t kLengthAt = 5;
+inline constexpr std::size_t kHeaderBytes = 7;  ///< up to and including `length`
+inline constexpr std::size_t kCrcBytes = 2;
 inline constexpr std::size_t kInstructionBytes = 10;  ///< a packet without parameters
 inline constexpr std::size_t kStatusBytes = 11;       ///< a status packet without data
 inline constexpr std::size_t kMaxPacket =

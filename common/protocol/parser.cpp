@@ -3,10 +3,7 @@
 namespace verp::dxl {
 namespace {
 
-constexpr std::uint8_t kHeader[4] = {0xFF, 0xFF, 0xFD, 0x00};
-constexpr std::size_t kLengthAt = 5;
 constexpr std::size_t kInstructionAt = 7;
-constexpr std::size_t kCrcBytes = 2;
 
 }  // namespace
 

@@ -4,6 +4,7 @@
 #include <cstdlib>
 
 #include "host/board/board_error.hpp"
+#include "host/files/places.hpp"
 
 namespace verp::board {
 
@@ -76,7 +77,7 @@ std::filesystem::path firmware_image(const EmulatedBoard& board, const std::stri
   const char* folder = std::getenv("VERP_FIRMWARE_DIR");
   std::filesystem::path image =
       (folder != nullptr ? std::filesystem::path(folder)
-                         : std::filesystem::path(VERP_BUILD_ROOT) / ("fw-" + name) / "images") /
+                         : files::source_dir() / "build" / ("fw-" + name) / "images") /
       (what + "_" + name + ".elf");
   if (!std::filesystem::exists(image)) {
     throw NoSuchBoard(image.string() + ": no such firmware image; build it: cmake --preset fw-" +

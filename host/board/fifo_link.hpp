@@ -8,6 +8,11 @@
 
 namespace verp::board {
 
+/// The firmware starts and answers at once or hangs; these only end what hangs, however busy the
+/// PC.
+inline constexpr std::chrono::seconds kStart{60};
+inline constexpr std::chrono::milliseconds kSilence{120'000};
+
 /// Two FIFOs that firmware in QEMU opens by semihosting: a byte stream each way, 15,000 round trips
 /// a second. Make it first, pass its paths to the image, then connect(). Firmware opens to_board()
 /// first.

@@ -14,8 +14,6 @@
 namespace verp::board {
 namespace {
 
-constexpr std::chrono::seconds kStart{20};
-constexpr std::chrono::milliseconds kSilence{30000};
 constexpr std::size_t kAnswerBytes = 200;
 
 /// Answers every poll at once with the same bytes. Counts polls until the board says kQuit.

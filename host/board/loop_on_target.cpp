@@ -8,10 +8,7 @@
 
 namespace verp::board {
 namespace {
-constexpr std::chrono::seconds kStart{20};
 constexpr std::chrono::seconds kEnd{10};
-/// The firmware answers at once or hangs; a machine under load gets some time.
-constexpr std::chrono::milliseconds kSilence{30000};
 }  // namespace
 
 bus::ServerResult run_loop_on(const std::string& board, const Params& params, bus::VirtualBus& bus,

@@ -14,6 +14,7 @@
 #include "host/board/emulated_board.hpp"
 #include "host/board/replay_on_target.hpp"
 #include "host/board/temporary_directory.hpp"
+#include "host/files/places.hpp"
 
 namespace verp::board {
 namespace {
@@ -60,7 +61,8 @@ std::vector<Count> read_counts(const std::filesystem::path& path) {
 }
 
 std::string plugin_option(const std::filesystem::path& out) {
-  return fmt::format("{},out={}", VERP_INSTRUCTION_COUNT, out.string());
+  return (files::build_dir() / "host/board/libverp_instruction_count.so").string() +
+         ",out=" + out.string();
 }
 
 std::string symbols_of(const std::string& image) {
@@ -68,9 +70,9 @@ std::string symbols_of(const std::string& image) {
 }
 
 void measure_stack(const std::string& image, TargetCost& cost) {
-  std::istringstream line(
-      output_of(VERP_STACK_DEPTH " " + image + " " + kStep,
-                "its message above says why; perl and binutils-arm-none-eabi are needed"));
+  std::istringstream line(output_of(
+      (files::source_dir() / "host/board/stack_depth").string() + " " + image + " " + kStep,
+      "its message above says why; perl and binutils-arm-none-eabi are needed"));
   line >> cost.stack_static_bytes;
   std::getline(line >> std::ws, cost.stack_chain);
 }

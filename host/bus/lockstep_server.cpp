@@ -40,9 +40,8 @@ bool payload_of(const dxl::Packet& packet, std::uint16_t address, Payload& paylo
 /// Where the next frame begins behind the first byte of `bytes`: a header, which occurs in no
 /// instruction packet but at its start.
 std::size_t frame_size(std::span<const std::uint8_t> bytes) {
-  constexpr std::uint8_t kHeader[] = {0xFF, 0xFF, 0xFD, 0x00};
   const auto next =
-      std::search(bytes.begin() + 1, bytes.end(), std::begin(kHeader), std::end(kHeader));
+      std::search(bytes.begin() + 1, bytes.end(), std::begin(dxl::kHeader), std::end(dxl::kHeader));
   return std::min(static_cast<std::size_t>(next - bytes.begin()), hal::kMaxFrame);
 }
 

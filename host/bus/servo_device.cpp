@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "host/bus/servo_setup.hpp"
+
 namespace verp::bus {
 namespace {
 
@@ -14,8 +16,6 @@ constexpr double kVelocityUnitRadS = 0.229 * 2.0 * std::numbers::pi / 60.0;
 constexpr double kCurrentUnitA = 0.00269;  // X-series, Present Current
 constexpr double kLoadFull = 1000;         // MX(2.0), Present Load in 0.1 %
 constexpr std::int64_t kRealtimeTickWrap = 32768;
-
-constexpr std::int32_t kMostHoming = 1024;  // counts
 
 bool overlaps(std::uint16_t address, std::uint16_t length, std::uint16_t first, std::uint16_t end) {
   return address < end && first < address + length;

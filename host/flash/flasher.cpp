@@ -9,6 +9,7 @@
 #include <fstream>
 #include <iterator>
 
+#include "host/files/places.hpp"
 #include "host/flash/diagnosis.hpp"
 #include "host/flash/flash_error.hpp"
 #include "host/flash/images.hpp"
@@ -123,7 +124,7 @@ void run(const Job& job, const std::vector<Step>& steps, const FlashHooks& hooks
 std::filesystem::path work_root() {
   const char* folder = std::getenv("VERP_FLASH_DIR");
   return folder != nullptr ? std::filesystem::absolute(folder)
-                           : std::filesystem::path(VERP_SOURCE_DIR) / "build" / "flash";
+                           : files::source_dir() / "build" / "flash";
 }
 
 Workspace::Workspace(const std::string& board) : path_(work_root() / board) {

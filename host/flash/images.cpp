@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "common/model/image.hpp"
+#include "host/files/places.hpp"
 #include "host/flash/flash_error.hpp"
 #include "host/model/export.hpp"
 #include "host/model/load_error.hpp"
@@ -62,9 +63,8 @@ std::filesystem::path code_image(const Recipe& recipe, BusProtocol protocol) {
   const std::string board = recipe.board;
   const char* folder = std::getenv("VERP_FIRMWARE_DIR");
   const std::filesystem::path file =
-      (folder != nullptr
-           ? std::filesystem::path(folder)
-           : std::filesystem::path(VERP_SOURCE_DIR) / "build" / ("fw-" + board) / "images") /
+      (folder != nullptr ? std::filesystem::path(folder)
+                         : files::source_dir() / "build" / ("fw-" + board) / "images") /
       (loop_image(recipe, protocol) + ".bin");
   if (!std::filesystem::exists(file)) {
     refuse(file, fmt::format("not built; run ./verp flash --board {0}, which builds it, or: cmake "

@@ -7,6 +7,7 @@
 #include <iterator>
 #include <regex>
 
+#include "host/files/places.hpp"
 #include "host/flash/flash_error.hpp"
 
 namespace verp::flash {
@@ -97,7 +98,7 @@ MemoryMap parse_memory_map(const std::filesystem::path& file) {
 }
 
 MemoryMap read_memory_map(const std::string& board) {
-  return parse_memory_map(std::filesystem::path(VERP_SOURCE_DIR) / "boards" / board / "memory.ld");
+  return parse_memory_map(files::source_dir() / "boards" / board / "memory.ld");
 }
 
 }  // namespace verp::flash

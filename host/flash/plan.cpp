@@ -12,7 +12,6 @@ namespace verp::flash {
 namespace {
 
 using Words = std::vector<std::string>;
-using Kind = Step::Kind;
 
 /// Every Cortex-M3 to M7 of ST has DBGMCU_IDCODE here (RM0090 38.6.1).
 constexpr const char* kReadDeviceId =
@@ -136,14 +135,15 @@ void add_write(std::vector<Step>& steps, const Job& job, const std::string& what
                const std::filesystem::path& file, std::uint32_t bytes, const Span& to) {
   const Commands commands(job);
   const bool verifies = job.tool != Tool::kDfuUtil;
-  steps.push_back({Kind::kWrite,
+  steps.push_back({Step::Kind::kWrite,
                    fmt::format("writing {}{}", verifies ? "and verifying " : "", what),
                    commands.write(file, to)});
   if (verifies) return;
   const auto back = job.folder / fmt::format("back_{:08x}.bin", to.begin);
-  steps.push_back({Kind::kReadBack, "reading back " + what, commands.read({to.begin, bytes}, back),
-                   back, bytes});
-  steps.push_back({Kind::kCompare, "verifying " + what, {"cmp", file.string(), back.string()}});
+  steps.push_back({Step::Kind::kReadBack, "reading back " + what,
+                   commands.read({to.begin, bytes}, back), back, bytes});
+  steps.push_back(
+      {Step::Kind::kCompare, "verifying " + what, {"cmp", file.string(), back.string()}});
 }
 
 /// What is in these sectors besides the pieces.
@@ -168,10 +168,10 @@ void add_pieces(std::vector<Step>& steps, const Job& job, const Span& sectors,
                      pieces[0].region);
   }
   const auto sector = job.folder / fmt::format("sector_{:08x}.bin", sectors.begin);
-  steps.push_back({Kind::kRead, "reading what shares a sector with the " + names(pieces),
+  steps.push_back({Step::Kind::kRead, "reading what shares a sector with the " + names(pieces),
                    Commands(job).read(sectors, sector), sector, sectors.bytes});
   for (const Piece& piece : pieces) {
-    steps.push_back({Kind::kCompose,
+    steps.push_back({Step::Kind::kCompose,
                      "putting in the " + piece.what,
                      {"dd", "if=" + piece.file.string(), "of=" + sector.string(),
                       fmt::format("seek={}", piece.region.begin - sectors.begin),
@@ -224,7 +224,8 @@ std::vector<Step> plan(const Job& job) {
       require_tcl_word(piece.file.string(), "give the file another name or place");
     }
   }
-  std::vector<Step> steps = {{Kind::kCheckChip, "checking the chip", Commands(job).check_chip()}};
+  std::vector<Step> steps = {
+      {Step::Kind::kCheckChip, "checking the chip", Commands(job).check_chip()}};
   std::map<std::uint32_t, std::vector<Piece>> groups;  // by their first sector's address
   for (const Piece& piece : job.pieces) {
     groups[sectors_around(*job.recipe.chip, piece.region).begin].push_back(piece);

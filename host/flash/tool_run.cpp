@@ -22,9 +22,9 @@ constexpr int kLook_ms = 50;
 constexpr int kGrace_looks = 60;  ///< 3 s between the polite end and the other one
 
 /// A tool with both its streams in one pipe; it ends with this object at the latest.
-class Tool {
+class StartedTool {
  public:
-  Tool(const std::vector<std::string>& command, const std::string& package) {
+  StartedTool(const std::vector<std::string>& command, const std::string& package) {
     int ends[2];
     if (::pipe2(ends, O_CLOEXEC) != 0) fail(command[0], errno, package);
     out_ = ends[0];
@@ -38,9 +38,9 @@ class Tool {
     }
     ::close(ends[1]);
   }
-  ~Tool() { ::close(out_); }
-  Tool(const Tool&) = delete;
-  Tool& operator=(const Tool&) = delete;
+  ~StartedTool() { ::close(out_); }
+  StartedTool(const StartedTool&) = delete;
+  StartedTool& operator=(const StartedTool&) = delete;
 
   /// Appends what comes within kLook_ms. False: nothing will come any more.
   bool read(std::string& output) const {
@@ -83,7 +83,7 @@ double last_share(const std::string& output) {
 
 ToolRun run_tool(const std::vector<std::string>& command, const std::string& package,
                  const ToolHooks& hooks) {
-  Tool tool(command, package);
+  StartedTool tool(command, package);
   ToolRun run;
   int looks = 0;
   while (tool.read(run.output)) {

@@ -11,27 +11,25 @@
 namespace verp::wire {
 namespace {
 
-using Kind = Endpoint::Kind;
-
 struct Scheme {
   const char* name;
-  Kind kind;
+  Endpoint::Kind kind;
   const char* example;
 };
 constexpr std::array<Scheme, 7> kSchemes = {{
-    {"serial", Kind::kSerial, "serial:/dev/ttyUSB0@2000000"},
-    {"pty", Kind::kPty, "pty: or pty:/tmp/robot"},
-    {"tcp", Kind::kTcp, "tcp:localhost:6000"},
-    {"tcp-listen", Kind::kTcpListen, "tcp-listen:6000"},
-    {"unix", Kind::kUnix, "unix:/tmp/robot.sock"},
-    {"unix-listen", Kind::kUnixListen, "unix-listen:/tmp/robot.sock"},
-    {"can", Kind::kCan, "can:can0"},
+    {"serial", Endpoint::Kind::kSerial, "serial:/dev/ttyUSB0@2000000"},
+    {"pty", Endpoint::Kind::kPty, "pty: or pty:/tmp/robot"},
+    {"tcp", Endpoint::Kind::kTcp, "tcp:localhost:6000"},
+    {"tcp-listen", Endpoint::Kind::kTcpListen, "tcp-listen:6000"},
+    {"unix", Endpoint::Kind::kUnix, "unix:/tmp/robot.sock"},
+    {"unix-listen", Endpoint::Kind::kUnixListen, "unix-listen:/tmp/robot.sock"},
+    {"can", Endpoint::Kind::kCan, "can:can0"},
 }};
 constexpr std::uint32_t kLeastBaud = 1200;
 constexpr std::uint32_t kMostBaud = 12'000'000;  // USB 2.0 full speed, FT232H
 constexpr const char* kLocalHost = "127.0.0.1";
 
-const Scheme& scheme_of(Kind kind) {
+const Scheme& scheme_of(Endpoint::Kind kind) {
   for (const Scheme& scheme : kSchemes) {
     if (scheme.kind == kind) return scheme;
   }
@@ -86,11 +84,11 @@ Endpoint tcp(const std::string& text, std::string_view rest, const Scheme& schem
     }
     if (host.empty()) refuse(text, "it names no host", scheme);
     endpoint.place = std::string(host);
-  } else if (scheme.kind == Kind::kTcp) {
+  } else if (scheme.kind == Endpoint::Kind::kTcp) {
     refuse(text, "it needs a host and a port", scheme);
   }
   const auto port = number(rest.substr(colon == std::string_view::npos ? 0 : colon + 1), 65535);
-  if (!port || (*port == 0 && scheme.kind == Kind::kTcp)) {
+  if (!port || (*port == 0 && scheme.kind == Endpoint::Kind::kTcp)) {
     refuse(text, "the port must be a number from 1 to 65535", scheme);
   }
   endpoint.port = static_cast<std::uint16_t>(*port);
@@ -133,17 +131,17 @@ Endpoint parse_endpoint(const std::string& text) {
     const std::string_view rest = std::string_view(text).substr(colon + 1);
     if (rest.find('\0') != std::string_view::npos) refuse(text, "a path has no zero byte", scheme);
     switch (scheme.kind) {
-      case Kind::kSerial:
+      case Endpoint::Kind::kSerial:
         return serial(text, rest, scheme);
-      case Kind::kPty:
-        return {.kind = Kind::kPty, .place = std::string(rest)};
-      case Kind::kTcp:
-      case Kind::kTcpListen:
+      case Endpoint::Kind::kPty:
+        return {.kind = Endpoint::Kind::kPty, .place = std::string(rest)};
+      case Endpoint::Kind::kTcp:
+      case Endpoint::Kind::kTcpListen:
         return tcp(text, rest, scheme);
-      case Kind::kUnix:
-      case Kind::kUnixListen:
+      case Endpoint::Kind::kUnix:
+      case Endpoint::Kind::kUnixListen:
         return unix_socket(text, rest, scheme);
-      case Kind::kCan:
+      case Endpoint::Kind::kCan:
         return can(text, rest, scheme);
     }
   }
@@ -167,16 +165,16 @@ std::string to_text(const Endpoint& endpoint) {
   const std::string head = std::string(scheme_of(endpoint.kind).name) + ":";
   const bool bracket = endpoint.place.find(':') != std::string::npos;
   switch (endpoint.kind) {
-    case Kind::kSerial:
+    case Endpoint::Kind::kSerial:
       return head + endpoint.place + "@" + std::to_string(endpoint.baud);
-    case Kind::kTcp:
-    case Kind::kTcpListen:
+    case Endpoint::Kind::kTcp:
+    case Endpoint::Kind::kTcpListen:
       return head + (bracket ? "[" + endpoint.place + "]" : endpoint.place) + ":" +
              std::to_string(endpoint.port);
-    case Kind::kPty:
-    case Kind::kUnix:
-    case Kind::kUnixListen:
-    case Kind::kCan:
+    case Endpoint::Kind::kPty:
+    case Endpoint::Kind::kUnix:
+    case Endpoint::Kind::kUnixListen:
+    case Endpoint::Kind::kCan:
       break;
   }
   return head + endpoint.place;

@@ -22,6 +22,8 @@ constexpr std::uint32_t kRetryClient_us = 50'000;
 constexpr std::uint32_t kRetryListener_us = 1000;
 
 /// Where sockets of one endpoint are bound or connected.
+using Kind = LinkError::Kind;
+
 struct Address {
   int family = AF_UNIX;
   socklen_t size = 0;
@@ -30,7 +32,6 @@ struct Address {
 };
 
 [[noreturn]] void fail(const Endpoint& endpoint, int error) {
-  using Kind = LinkError::Kind;
   const bool listens =
       endpoint.kind == Endpoint::Kind::kTcpListen || endpoint.kind == Endpoint::Kind::kUnixListen;
   Kind kind = Kind::kNoDevice;

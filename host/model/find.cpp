@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <filesystem>
 
+#include "host/files/places.hpp"
 #include "host/model/load_error.hpp"
 
 namespace verp::model {
@@ -12,7 +13,7 @@ namespace {
 namespace fs = std::filesystem;
 
 std::vector<fs::path> robot_folders() {
-  return {fs::path("common/robots"), fs::path(VERP_SOURCE_DIR) / "common/robots"};
+  return {fs::path("common/robots"), files::source_dir() / "common/robots"};
 }
 
 bool is_file(const fs::path& path) {
@@ -65,7 +66,7 @@ std::string find_model(const std::string& name_or_path) {
 std::vector<std::string> model_path() {
   const char* variable = std::getenv("VERP_MODEL_PATH");
   if (!variable || !*variable) {
-    return {(fs::path(VERP_SOURCE_DIR) / "../shared/models").lexically_normal().string()};
+    return {(files::source_dir() / "../shared/models").lexically_normal().string()};
   }
   std::vector<std::string> folders;
   std::string rest = variable;

@@ -10,6 +10,7 @@
 
 #include "host/board/board_error.hpp"
 #include "host/board/replay_on_target.hpp"
+#include "host/files/places.hpp"
 #include "host/flash/flash_error.hpp"
 #include "host/flash/flasher.hpp"
 #include "host/flash/images.hpp"
@@ -147,7 +148,7 @@ class Deployment {
 
   /// One at a time with ./verp, whose lock this takes as well.
   void build(const std::string& target, const std::string& board) {
-    const fs::path root = VERP_SOURCE_DIR;
+    const fs::path root = files::source_dir();
     const std::vector<std::string> locked = {"flock", (root / "build" / ".lock").string()};
     const std::string preset = "fw-" + board;
     must(locked, {"env", "-C", root.string(), "cmake", "--preset", preset});
