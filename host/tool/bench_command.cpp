@@ -13,6 +13,7 @@
 #include "host/board/cost_promise.hpp"
 #include "host/board/emulated_board.hpp"
 #include "host/board/temporary_directory.hpp"
+#include "host/files/places.hpp"
 #include "host/tool/bench_report.hpp"
 #include "host/tool/command.hpp"
 #include "host/tool/console.hpp"
@@ -27,8 +28,7 @@ namespace {
 constexpr double kMostTick_us = 3;
 constexpr double kLeastTimesFasterThanKdl = 100;
 /// Where CAN sockets are. The answers of several minutes of walking take their time.
-constexpr const char* kWithCan =
-    "'" VERP_SOURCE_DIR "/tests/support/with-can' --timeout 600 --memory 1500M ";
+constexpr const char* kWithCan = " --timeout 600 --memory 1500M ";
 constexpr const char* kTiming = " --benchmark_format=json --benchmark_min_time=0.1";
 
 struct BenchOptions {
@@ -56,7 +56,7 @@ std::string last_line(const std::filesystem::path& file) {
 template <class Take>
 void run_program(const std::string& program, const std::string& arguments, Take take,
                  const std::string& where = "") {
-  const std::string path = std::string(VERP_BUILD_DIR) + "/" + program;
+  const std::string path = (files::build_dir() / program).string();
   if (!std::filesystem::exists(path)) {
     throw ToolError(kNoDevice, path +
                                    ": not built; run ./verp bench, which installs Google "
@@ -90,7 +90,7 @@ void sample(const std::string& program, const std::string& folder, Samples& samp
   for (const Json& benchmark : result.at("benchmarks")) {
     const std::string name = benchmark.at("name");
     samples[name].push_back(benchmark.at("cpu_time"));
-    for (const char* counter : {"apart_rad", "apart_m", "iterations", "targets"}) {
+    for (const char* counter : {"is_newton", "apart_rad", "apart_m", "iterations", "targets"}) {
       if (benchmark.contains(counter)) {
         samples[name + "." + counter].push_back(benchmark[counter]);
       }
@@ -128,7 +128,7 @@ void add_pc_rows(const Samples& samples, std::vector<BenchRow>& rows) {
                        Bar::kNone, 0));
   rows.push_back(
       timed("leg_ik_us", "leg IK, closed form", "µs", scaled(ours, 1e-3), Bar::kNone, 0));
-  rows.push_back(timed("kdl_leg_ik_us", "the same by KDL's LMA, warm", "µs", scaled(kdl, 1e-3),
+  rows.push_back(timed("kdl_leg_ik_us", "the same by KDL's fastest, warm", "µs", scaled(kdl, 1e-3),
                        Bar::kNone, 0));
   rows.push_back(timed("leg_ik_times_faster", "so ours is faster by", "times", times, Bar::kAtLeast,
                        kLeastTimesFasterThanKdl));
@@ -222,11 +222,13 @@ int run_bench(const BenchOptions& options) {
           add_board_rows(Json::parse(line), rows, headings);
           progress.show(++done / steps, "walking over emulated CAN");
         },
-        kWithCan);
+        quoted((files::source_dir() / "tests/support/with-can").string()) + kWithCan);
   }
   progress.clear();
   const bool good = bench_held(rows);
-  const Json kdl = {{"targets", samples.at("kdl_leg_ik.targets").front()},
+  const bool newton = samples.at("kdl_leg_ik.is_newton").front() != 0;
+  const Json kdl = {{"solver", newton ? "NR with WDLS" : "LMA"},
+                    {"targets", samples.at("kdl_leg_ik.targets").front()},
                     {"iterations_mean", samples.at("kdl_leg_ik.iterations").front()},
                     {"apart_rad", samples.at("kdl_leg_ik.apart_rad").front()},
                     {"apart_m", samples.at("kdl_leg_ik.apart_m").front()}};
@@ -237,9 +239,10 @@ int run_bench(const BenchOptions& options) {
                 {"results", bench_json(rows)}});
   } else {
     fmt::print(
-        "{}KDL gave our angles within {:.1f} mrad on {} targets, in {:.1f} iterations each.\n",
-        bench_table(rows, headings), 1e3 * kdl["apart_rad"].get<double>(),
-        kdl["targets"].get<double>(), kdl["iterations_mean"].get<double>());
+        "{}KDL's {} gave our angles within {:.1f} mrad on {} targets, in {:.1f} iterations each.\n",
+        bench_table(rows, headings), kdl["solver"].get<std::string>(),
+        1e3 * kdl["apart_rad"].get<double>(), kdl["targets"].get<double>(),
+        kdl["iterations_mean"].get<double>());
   }
   if (!good) complain("verp bench: a promise on counts is not kept; see MISSED");
   return good ? kGood : kRunFailed;

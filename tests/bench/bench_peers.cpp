@@ -1,22 +1,30 @@
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <functional>
 #include <kdl/chain.hpp>
+#include <kdl/chainfksolverpos_recursive.hpp>
 #include <kdl/chainiksolverpos_lma.hpp>
+#include <kdl/chainiksolverpos_nr.hpp>
+#include <kdl/chainiksolvervel_wdls.hpp>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "tests/bench/leg_problem.hpp"
 
-/// bench_peers FOLDER [--benchmark_...]: KDL's Levenberg-Marquardt inverse kinematics on the leg
-/// and targets that bench_core left there. Exit 1 if its answers and ours are not the same.
+/// bench_peers FOLDER [--benchmark_...]: KDL's inverse kinematics on the leg and targets that
+/// bench_core left there, by the faster of two solvers on this PC: Levenberg-Marquardt, and
+/// Newton-Raphson with weighted damped least squares. Exit 1 if an answer of either is not ours.
 ///
-/// KDL gets every help it can take: it is set up once, its tolerance is the default (a residual of
-/// 1e-5, in metres, a radian weighing 0.01 m), single-axis joints where the axis is x, y or z, the
+/// KDL gets every help it can take: it is set up once, tolerances are no finer than the answer
+/// needs (Levenberg-Marquardt's default is a residual of 1e-5, in metres, a radian weighing 0.01 m;
+/// Newton-Raphson ends at 1e-5 m and rad), single-axis joints where the axis is x, y or z, the
 /// compiler's vectors in Eigen, and as a start the true answer of the tick before, 10 ms earlier,
-/// which a closed form does without. Joint limits, which ours keeps as well, KDL's solver does not
+/// which a closed form does without. Joint limits, which ours keeps as well, these solvers do not
 /// know.
 namespace verp::bench {
 namespace {
@@ -24,6 +32,20 @@ namespace {
 // Solutions are the same within what KDL's tolerance leaves: 1e-5 m is 1e-3 rad of a 0.01 m weight.
 constexpr double kMostApart_rad = 5e-3;
 constexpr double kMostApart_m = 1e-4;
+
+constexpr double kNewtonEnds = 1e-5;
+constexpr unsigned kMostIterations = 100;
+
+/// Counts the iterations of who uses it.
+struct CountingWdls : KDL::ChainIkSolverVel_wdls {
+  using ChainIkSolverVel_wdls::CartToJnt;
+  using ChainIkSolverVel_wdls::ChainIkSolverVel_wdls;
+  int CartToJnt(const KDL::JntArray& at, const KDL::Twist& by, KDL::JntArray& rate) override {
+    ++calls;
+    return ChainIkSolverVel_wdls::CartToJnt(at, by, rate);
+  }
+  double calls = 0;
+};
 
 struct Question {
   KDL::Frame sole;
@@ -69,38 +91,53 @@ std::vector<Question> make_questions(const LegProblem& leg) {
   return questions;
 }
 
-/// How far apart KDL's answers and ours are, over all targets.
+/// How far apart KDL's answers and ours are, over all targets, and how long they took.
 struct Agreement {
-  double apart_rad = 0, apart_m = 0, iterations = 0;
+  double apart_rad = 0, apart_m = 0, iterations = 0, seconds = 0;
   int unsolved = 0;
 };
 
-Agreement compare(const LegProblem& leg, const std::vector<Question>& questions,
-                  KDL::ChainIkSolverPos_LMA& solver) {
+/// One of KDL's solvers; `iterations` counts those of all calls so far, if it can.
+struct Peer {
+  const char* name;
+  KDL::ChainIkSolverPos& solver;
+  std::function<double()> iterations;
+};
+
+Agreement compare(const LegProblem& leg, const KDL::Chain& chain,
+                  const std::vector<Question>& questions, const Peer& peer) {
   Agreement agreement;
   KDL::JntArray found(kJoints);
+  KDL::ChainFkSolverPos_recursive forward(chain);
+  KDL::Frame sole;
   for (std::size_t n = 0; n < questions.size(); ++n) {
-    if (solver.CartToJnt(questions[n].start, questions[n].sole, found) < 0) ++agreement.unsolved;
+    const auto begin = std::chrono::steady_clock::now();
+    const int error = peer.solver.CartToJnt(questions[n].start, questions[n].sole, found);
+    agreement.seconds +=
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    if (error < 0) ++agreement.unsolved;
     for (unsigned k = 0; k < kJoints; ++k) {
       agreement.apart_rad =
           std::max(agreement.apart_rad, std::abs(found(k) - leg.targets[n].answer_rad[k]));
     }
-    agreement.apart_m = std::max(agreement.apart_m, solver.lastTransDiff);
-    agreement.iterations += solver.lastNrOfIter / static_cast<double>(questions.size());
+    forward.JntToCart(found, sole);
+    agreement.apart_m = std::max(agreement.apart_m, (sole.p - questions[n].sole.p).Norm());
+    agreement.iterations += peer.iterations() / static_cast<double>(questions.size());
   }
   return agreement;
 }
 
-bool is_good(const Agreement& agreement) {
+bool is_good(const Agreement& agreement, const Peer& peer) {
   if (agreement.unsolved == 0 && agreement.apart_rad <= kMostApart_rad &&
       agreement.apart_m <= kMostApart_m) {
     return true;
   }
-  std::fprintf(stderr,
-               "bench_peers: KDL and ours disagree by %g rad (at most %g), %g m (at most %g), %d "
-               "targets not solved by KDL\n",
-               agreement.apart_rad, kMostApart_rad, agreement.apart_m, kMostApart_m,
-               agreement.unsolved);
+  std::fprintf(
+      stderr,
+      "bench_peers: KDL's %s and ours disagree by %g rad (at most %g), %g m (at most %g), %d "
+      "targets not solved by KDL\n",
+      peer.name, agreement.apart_rad, kMostApart_rad, agreement.apart_m, kMostApart_m,
+      agreement.unsolved);
   return false;
 }
 
@@ -113,9 +150,18 @@ int run(int argc, char** argv) {
     return 2;
   }
   const KDL::Chain chain = make_chain(leg);
-  KDL::ChainIkSolverPos_LMA solver(chain);
+  KDL::ChainIkSolverPos_LMA lma(chain);
+  KDL::ChainFkSolverPos_recursive forward(chain);
+  CountingWdls wdls(chain);
+  KDL::ChainIkSolverPos_NR newton(chain, forward, wdls, kMostIterations, kNewtonEnds);
+  const Peer peers[] = {{"LMA", lma, [&] { return lma.lastNrOfIter; }},
+                        {"NR with WDLS", newton, [&] { return std::exchange(wdls.calls, 0); }}};
   const std::vector<Question> questions = make_questions(leg);
-  const Agreement agreement = compare(leg, questions, solver);
+  const Agreement agreements[] = {compare(leg, chain, questions, peers[0]),
+                                  compare(leg, chain, questions, peers[1])};
+  const bool second = agreements[1].seconds < agreements[0].seconds;
+  const Agreement& agreement = agreements[second];
+  KDL::ChainIkSolverPos& solver = peers[second].solver;
   benchmark::RegisterBenchmark("kdl_leg_ik", [&](benchmark::State& timer) {
     KDL::JntArray found(kJoints);
     std::size_t n = 0;
@@ -124,13 +170,14 @@ int run(int argc, char** argv) {
       benchmark::DoNotOptimize(found.data.data());
       if (++n == questions.size()) n = 0;
     }
+    timer.counters["is_newton"] = second;
     timer.counters["apart_rad"] = agreement.apart_rad;
     timer.counters["apart_m"] = agreement.apart_m;
     timer.counters["iterations"] = agreement.iterations;
     timer.counters["targets"] = static_cast<double>(questions.size());
   });
   benchmark::RunSpecifiedBenchmarks();
-  return is_good(agreement) ? 0 : 1;
+  return is_good(agreements[0], peers[0]) && is_good(agreements[1], peers[1]) ? 0 : 1;
 }
 
 }  // namespace

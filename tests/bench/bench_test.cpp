@@ -25,6 +25,8 @@ TEST_F(Bench, JsonIsOneObjectWithEveryCostOfThePcAndKdlAgreesWithUs) {
       "kdl_leg_ik_us", "leg_ik_times_faster", "body_kinematics_us",
       "state_bytes"};
   EXPECT_EQ(names, wanted);
+  const std::string solver = json.at("kdl_check").at("solver");
+  EXPECT_EQ(solver, "NR with WDLS") << "the better of KDL's, by five or six times";
   EXPECT_GE(json.at("kdl_check").at("targets"), 500);
   EXPECT_LT(json.at("kdl_check").at("apart_rad"), 5e-3);
   EXPECT_LT(json.at("kdl_check").at("apart_m"), 1e-4);
