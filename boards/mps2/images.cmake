@@ -31,7 +31,7 @@ function(verp_add_unit_image name test machine)
   verp_compile_together(${name}_${VERP_BOARD} ${ARGN})
   target_include_directories(${name}_${VERP_BOARD} SYSTEM PRIVATE ${CMAKE_SOURCE_DIR}/tests/support/gtest_target)
   add_test(NAME ${test} COMMAND ${name}_${VERP_BOARD})
-  set_tests_properties(${test} PROPERTIES LABELS "unit;target" TIMEOUT 300)
+  set_tests_properties(${test} PROPERTIES LABELS "unit;target")
 endfunction()
 
 # All unit tests in one image, where memory is plenty.
@@ -70,7 +70,7 @@ endfunction()
 set(VERP_HOST_DIR ${CMAKE_SOURCE_DIR}/build/host-release CACHE PATH "PC build whose programs test this board")
 function(verp_add_target_test name suite)
   add_test(NAME ${name}.${VERP_BOARD} COMMAND ${VERP_HOST_DIR}/target/target_tests --gtest_filter=${suite}.*)
-  set_tests_properties(${name}.${VERP_BOARD} PROPERTIES LABELS "${name};target" TIMEOUT 600
+  set_tests_properties(${name}.${VERP_BOARD} PROPERTIES LABELS "${name};target"
     ENVIRONMENT "VERP_TEST_BOARD=${VERP_BOARD};VERP_FIRMWARE_DIR=${CMAKE_BINARY_DIR}/images")
 endfunction()
 
@@ -78,7 +78,7 @@ endfunction()
 function(verp_add_dry_run_test)
   add_test(NAME flash.${VERP_BOARD}.dry_run COMMAND ${CMAKE_SOURCE_DIR}/tests/target/dry_run
     ${VERP_BOARD} $<TARGET_FILE:loop_${VERP_BOARD}> ${VERP_HOST_DIR}/host/tool/verp)
-  set_tests_properties(flash.${VERP_BOARD}.dry_run PROPERTIES LABELS "flash;target" TIMEOUT 60)
+  set_tests_properties(flash.${VERP_BOARD}.dry_run PROPERTIES LABELS "flash;target")
 endfunction()
 
 # From a model to the board, which is its own stand-in; and, if `can` is asked for, from that robot on CAN.
@@ -89,7 +89,7 @@ function(verp_add_deploy_test)
       string(APPEND name .${bus})
     endif()
     add_test(NAME ${name} COMMAND ${CMAKE_SOURCE_DIR}/tests/target/deploy ${VERP_BOARD} ${VERP_HOST_DIR}/host/tool/verp ${bus})
-    set_tests_properties(${name} PROPERTIES LABELS "flash;target" TIMEOUT 300
+    set_tests_properties(${name} PROPERTIES LABELS "flash;target"
       ENVIRONMENT "VERP_FIRMWARE_DIR=${CMAKE_BINARY_DIR}/images")
   endforeach()
 endfunction()
@@ -100,7 +100,7 @@ function(verp_add_replay_tests machine)
   verp_add_target_test(replay TargetReplay)
   # The long trace of tests/replay, whole.
   add_test(NAME trace.${VERP_BOARD} COMMAND ${VERP_HOST_DIR}/target/target_tests --gtest_filter=LongTrace.*)
-  set_tests_properties(trace.${VERP_BOARD} PROPERTIES LABELS "replay;target" TIMEOUT 1200
+  set_tests_properties(trace.${VERP_BOARD} PROPERTIES LABELS "replay;target"
     ENVIRONMENT "VERP_TEST_BOARD=${VERP_BOARD};VERP_TEST_TICKS=100000;VERP_FIRMWARE_DIR=${CMAKE_BINARY_DIR}/images")
 endfunction()
 
@@ -109,17 +109,17 @@ function(verp_add_can_tests machine)
   verp_add_emulated_image(can can ${machine})
   verp_add_emulated_image(loop can_loop ${machine})
   add_custom_target(benchmarks DEPENDS loop_${VERP_BOARD})  # what `verp bench` runs
-  add_test(NAME can.${VERP_BOARD} COMMAND ${CMAKE_SOURCE_DIR}/tests/support/with-can --timeout 240 --memory 1500M
+  add_test(NAME can.${VERP_BOARD} COMMAND ${CMAKE_SOURCE_DIR}/tests/support/with-can --timeout 1700 --memory 1500M
     ${VERP_HOST_DIR}/target/target_tests --gtest_filter=CanBoard.*)
-  set_tests_properties(can.${VERP_BOARD} PROPERTIES LABELS "hil-can;target" TIMEOUT 300
+  set_tests_properties(can.${VERP_BOARD} PROPERTIES LABELS "hil-can;target"
     ENVIRONMENT "VERP_TEST_BOARD=${VERP_BOARD};VERP_FIRMWARE_DIR=${CMAKE_BINARY_DIR}/images")
 endfunction()
 
 # The loop over it for so many ticks, of which nine seconds are for standing up and standing still (tests/target/twin_run.cpp).
 function(verp_add_can_loop_test ticks)
-  add_test(NAME can_loop.${VERP_BOARD} COMMAND ${CMAKE_SOURCE_DIR}/tests/support/with-can --timeout 280 --memory 1500M
+  add_test(NAME can_loop.${VERP_BOARD} COMMAND ${CMAKE_SOURCE_DIR}/tests/support/with-can --timeout 1700 --memory 1500M
     ${VERP_HOST_DIR}/target/target_tests --gtest_filter=CanLoop.*)
-  set_tests_properties(can_loop.${VERP_BOARD} PROPERTIES LABELS "loop;hil-can;target" TIMEOUT 300
+  set_tests_properties(can_loop.${VERP_BOARD} PROPERTIES LABELS "loop;hil-can;target"
     ENVIRONMENT "VERP_TEST_BOARD=${VERP_BOARD};VERP_TEST_TICKS=${ticks};VERP_FIRMWARE_DIR=${CMAKE_BINARY_DIR}/images")
 endfunction()
 
@@ -128,7 +128,7 @@ function(verp_add_fault_tests machine)
   verp_add_emulated_image(fault fault ${machine})
   foreach(how overflow jump read)
     add_test(NAME fault.${VERP_BOARD}.${how} COMMAND fault_${VERP_BOARD} ${how})
-    set_tests_properties(fault.${VERP_BOARD}.${how} PROPERTIES LABELS "unit;target" TIMEOUT 20)
+    set_tests_properties(fault.${VERP_BOARD}.${how} PROPERTIES LABELS "unit;target")
   endforeach()
 endfunction()
 
@@ -136,10 +136,10 @@ endfunction()
 function(verp_add_serial_tests machine)
   add_test(NAME hil.${VERP_BOARD}.operator COMMAND ${CMAKE_SOURCE_DIR}/tests/target/ask_operator
     ${machine} $<TARGET_FILE:loop_${VERP_BOARD}> $<TARGET_FILE:loop_can_${VERP_BOARD}> ${VERP_HOST_DIR}/host/tool/verp)
-  set_tests_properties(hil.${VERP_BOARD}.operator PROPERTIES LABELS "hil;target" TIMEOUT 300)
+  set_tests_properties(hil.${VERP_BOARD}.operator PROPERTIES LABELS "hil;target")
   # The same with a bad cable.
   add_test(NAME hil.${VERP_BOARD}.faults COMMAND ${VERP_HOST_DIR}/target/target_tests --gtest_filter=SerialFaults.*)
-  set_tests_properties(hil.${VERP_BOARD}.faults PROPERTIES LABELS "hil;target" TIMEOUT 900
+  set_tests_properties(hil.${VERP_BOARD}.faults PROPERTIES LABELS "hil;target"
     ENVIRONMENT "VERP_TEST_BOARD=${VERP_BOARD};VERP_TEST_TICKS=1050;VERP_FIRMWARE_DIR=${CMAKE_BINARY_DIR}/images")
   # Nine seconds of these walks are for standing up and standing still (tests/target/twin_run.cpp).
   foreach(ticks 1200 1900)
@@ -150,7 +150,7 @@ function(verp_add_serial_tests machine)
       set(labels full)
     endif()
     add_test(NAME ${name} COMMAND ${VERP_HOST_DIR}/target/target_tests --gtest_filter=SerialLoop.*)
-    set_tests_properties(${name} PROPERTIES LABELS "${labels}" TIMEOUT 600
+    set_tests_properties(${name} PROPERTIES LABELS "${labels}"
       ENVIRONMENT "VERP_TEST_BOARD=${VERP_BOARD};VERP_TEST_TICKS=${ticks};VERP_FIRMWARE_DIR=${CMAKE_BINARY_DIR}/images")
   endforeach()
 endfunction()
@@ -168,6 +168,6 @@ function(verp_add_mps2_images machine)
   add_custom_target(benchmarks DEPENDS replay_${VERP_BOARD} link_${VERP_BOARD})  # what `verp bench` runs
   add_test(NAME bench.${VERP_BOARD} COMMAND ${VERP_HOST_DIR}/target/target_bench --check ${VERP_BOARD})
   # Times the link, so it runs alone.
-  set_tests_properties(bench.${VERP_BOARD} PROPERTIES LABELS "bench;target" TIMEOUT 600 RUN_SERIAL ON
+  set_tests_properties(bench.${VERP_BOARD} PROPERTIES LABELS "bench;target" RUN_SERIAL ON
     ENVIRONMENT "VERP_TEST_BOARD=${VERP_BOARD};VERP_FIRMWARE_DIR=${CMAKE_BINARY_DIR}/images")
 endfunction()

@@ -41,6 +41,6 @@ endfunction()
 # The real image through a flash tool, as far as that goes without silicon: `tests` of tests/host/flash.
 function(verp_add_flash_tests tests)
   add_test(NAME flash.${VERP_BOARD}.real COMMAND ${VERP_HOST_DIR}/tests/host/flash/verp_flash_test --gtest_filter=${tests})
-  set_tests_properties(flash.${VERP_BOARD}.real PROPERTIES LABELS "flash;target" TIMEOUT 120
+  set_tests_properties(flash.${VERP_BOARD}.real PROPERTIES LABELS "flash;target"
     ENVIRONMENT "VERP_TEST_BOARD=${VERP_BOARD};VERP_FIRMWARE_DIR=${CMAKE_BINARY_DIR}/images")
 endfunction()

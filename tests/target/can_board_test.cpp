@@ -42,7 +42,7 @@ class Echo {
     frame.id = kEnd;
     EXPECT_TRUE(send(frame));
     EXPECT_TRUE(take(frame));
-    EXPECT_EQ(firmware_.wait(std::chrono::seconds(10)), 0) << firmware_.output();
+    EXPECT_EQ(firmware_.wait(std::chrono::seconds(60)), 0) << firmware_.output();
     return frame;
   }
 

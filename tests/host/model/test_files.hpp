@@ -43,9 +43,9 @@ inline bool has_third_party(const std::string& uri) {
   return !resolve_model_uri(uri, ".").empty();
 }
 
-#define VERP_NEEDS_THIRD_PARTY(uri)                                                       \
-  if (!has_third_party(uri)) {                                                            \
-    GTEST_SKIP() << uri << " is not in " << model_path_text() << ": set VERP_MODEL_PATH"; \
+#define VERP_NEEDS_THIRD_PARTY(uri)                                                 \
+  if (!has_third_party(uri)) {                                                      \
+    FAIL() << uri << " is not in " << model_path_text() << ": set VERP_MODEL_PATH"; \
   }
 
 }  // namespace verp::model

@@ -58,9 +58,9 @@ class RunLatency : public RunBench {
     EXPECT_TRUE(was(safety::Mode::kRising)) << "nothing moved";
     const bool absent = result.at("deadlines").at("skipped_periods") > 0;
     const bool unheard = result.at("bus").at("timeouts") > 0 && was(safety::Mode::kHolding);
-    if (absent || unheard) {
-      EXPECT_TRUE(outcome.status == 0 || outcome.status == 1) << outcome.err;
-    } else {
+    const std::string failure = result.at("failure");
+    EXPECT_EQ(outcome.status, failure.empty() ? 0 : 1) << failure << '\n' << outcome.err;
+    if (!absent && !unheard) {
       EXPECT_EQ(outcome.status, 0) << outcome.err;
       EXPECT_FALSE(was(safety::Mode::kFallen));
       EXPECT_TRUE(was(safety::Mode::kWalking));

@@ -31,7 +31,7 @@ class Trouble : public Program {
     return part;
   }
   bool wait_for_walk(const fs::path& folder) const {
-    for (int i = 0; i < 500; ++i) {
+    for (int i = 0; i < 6000; ++i) {
       std::error_code error;
       for (const auto& entry : fs::directory_iterator(folder, error)) {
         if (entry.path().extension() == ".part" && fs::file_size(entry, error) > 150000)
