@@ -91,6 +91,7 @@ void WalkMeter::end_walk() {
 
 void WalkMeter::follow_path(const Truth& truth, const Outputs& outputs) {
   const Vec2 offset = here_m_ - line_origin_m_;
+  ahead_m_ = std::cos(line_heading_rad_) * offset.x() + std::sin(line_heading_rad_) * offset.y();
   lateral_m_ = std::cos(line_heading_rad_) * offset.y() - std::sin(line_heading_rad_) * offset.x();
   const bool cycle_begins =
       walking_ && outputs.stance == gait::kLeft && previous_.stance != gait::kLeft;
@@ -148,6 +149,7 @@ WalkMetrics WalkMeter::result() const {
   out.distance_m = path_m_ + (walking_ ? (here_m_ - last_mark_m_).norm() : 0);
   if (walk_s_ > 0) out.speed_mean_m_s = out.distance_m / walk_s_;
   out.speed_steady_m_s = steady_speed();
+  out.ahead_m = ahead_m_;
   out.lateral_drift_m = lateral_m_;
   out.yaw_drift_deg = yaw_turned_rad_ * 180 / std::numbers::pi;
   out.fallen = last_.truth.fallen;

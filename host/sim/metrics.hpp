@@ -23,6 +23,7 @@ struct WalkMetrics {
   std::optional<double> speed_mean_m_s;  ///< distance_m / walk_s
   /// Transition phase only, without its first and last two cycles, if anything is left then.
   std::optional<double> speed_steady_m_s;
+  double ahead_m = 0;          ///< along the heading at the walk's start; backward is negative
   double lateral_drift_m = 0;  ///< to the left of the line along the heading at the walk's start
   double yaw_drift_deg = 0;    ///< of the body since the walk's start, turns counted
   bool fallen = false;
@@ -122,6 +123,7 @@ class WalkMeter {
   double walk_s_ = 0;
   Vec2 line_origin_m_ = Vec2::Zero();
   double line_heading_rad_ = 0;
+  double ahead_m_ = 0;
   double lateral_m_ = 0;
   double yaw_turned_rad_ = 0;
   Vec2 last_mark_m_ = Vec2::Zero();

@@ -260,6 +260,7 @@ Json to_json(const WalkPlan& plan, const WalkResult& result, const Sweep& sweep)
                {"distance_m", m.distance_m},
                {"speed_mean_m_s", number_or_null(m.speed_mean_m_s)},
                {"speed_steady_m_s", number_or_null(m.speed_steady_m_s)},
+               {"ahead_m", m.ahead_m},
                {"lateral_drift_m", m.lateral_drift_m},
                {"yaw_drift_deg", m.yaw_drift_deg},
                {"fallen", m.fallen},

@@ -75,17 +75,49 @@ TEST(Generic21, EachPartOfBalanceLowersTheZmpBias) {
   EXPECT_GT(mean_bias_mm(" --no-zeros"), all_mm);
 }
 
-TEST(Generic21, WalksSidewaysBackwardsAndInCircles) {
-  for (const char* velocity : {"0,0.05,0", "-0.1,0,0", "0.1,0,0.3", "0,0,-0.4"}) {
-    SCOPED_TRACE(velocity);
-    expect_walked(walk(std::string("generic21 --for 12 --velocity=") + velocity));
-  }
+// 12 s, of which it stands for one. Bands are a quarter of the ordered way to both sides; in a
+// circle, and turning on the spot, also how far it comes.
+TEST(Generic21, WalksSideways) {
+  const Walk left = walk("generic21 --for 12 --velocity=0,0.05,0");
+  expect_walked(left);
+  expect_between(0.045, number(left, "speed_steady_m_s"), 0.056, "steady speed, m/s");
+  expect_between(0.42, number(left, "lateral_drift_m"), 0.68, "way to the left, m");
+  expect_between(-0.15, number(left, "ahead_m"), 0.15, "way ahead, m");
+  expect_between(-10, number(left, "yaw_drift_deg"), 10, "turn, degrees");
+}
+
+TEST(Generic21, WalksBackwards) {
+  const Walk back = walk("generic21 --for 12 --velocity=-0.1,0,0");
+  expect_walked(back);
+  expect_between(0.088, number(back, "speed_steady_m_s"), 0.110, "steady speed, m/s");
+  expect_between(-1.2, number(back, "ahead_m"), -0.75, "way ahead, m");
+  expect_between(-0.15, number(back, "lateral_drift_m"), 0.15, "way to the left, m");
+  expect_between(-10, number(back, "yaw_drift_deg"), 10, "turn, degrees");
+}
+
+TEST(Generic21, WalksInCirclesAndTurnsOnTheSpot) {
+  const Walk circle = walk("generic21 --for 12 --velocity=0.1,0,0.3");
+  expect_walked(circle);
+  expect_between(0.09, number(circle, "speed_steady_m_s"), 0.12, "steady speed, m/s");
+  expect_between(140, number(circle, "yaw_drift_deg"), 230, "turn, degrees");
+  // 2 v / w across the circle, and half of it done.
+  expect_between(0.4, number(circle, "lateral_drift_m"), 0.9, "way to the left, m");
+  const Walk turn = walk("generic21 --for 12 --velocity=0,0,-0.4");
+  expect_walked(turn);
+  expect_between(-310, number(turn, "yaw_drift_deg"), -200, "turn, degrees");
+  expect_between(0, number(turn, "distance_m"), 0.2, "way, m");
 }
 
 TEST(Generic21, WalksSlowlyAndWithShortSteps) {
-  expect_walked(walk("generic21 --for 12 --cycle 0.6"));
-  expect_walked(walk("generic21 --for 12 --step 0.01"));
-  expect_walked(walk("generic21 --for 12 --step 0"));
+  const Walk slow = walk("generic21 --for 12 --cycle 0.6");
+  expect_walked(slow);
+  expect_between(0.12, number(slow, "speed_steady_m_s"), 0.145, "0.133 m/s asked");
+  const Walk shorter = walk("generic21 --for 12 --step 0.01");
+  expect_walked(shorter);
+  expect_between(0.035, number(shorter, "speed_steady_m_s"), 0.055, "0.044 m/s asked");
+  const Walk on_the_spot = walk("generic21 --for 12 --step 0");
+  expect_walked(on_the_spot);
+  expect_between(0, number(on_the_spot, "distance_m"), 0.1, "way, m");
 }
 
 // The robot is one table: thighs a tenth longer, everything else as it is, and it walks.

@@ -29,8 +29,8 @@ TEST_F(Walk, JsonTraceReplayAndDiffAgree) {
   const json result = json::parse(walk.out);
   for (const char* key :
        {"model", "ticks", "duration_s", "distance_m", "speed_mean_m_s", "speed_steady_m_s",
-        "lateral_drift_m", "yaw_drift_deg", "fallen", "zmp_bias_mean_mm", "zmp_bias_by_state_mm",
-        "servo_saturation", "digest", "real_time_factor"}) {
+        "ahead_m", "lateral_drift_m", "yaw_drift_deg", "fallen", "zmp_bias_mean_mm",
+        "zmp_bias_by_state_mm", "servo_saturation", "digest", "real_time_factor"}) {
     EXPECT_TRUE(result.contains(key)) << key;
   }
   EXPECT_EQ(result.at("model"), "generic21");
