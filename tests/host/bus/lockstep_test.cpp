@@ -219,5 +219,21 @@ TEST_F(Lockstep, RefusesOtherParamsByName) {
   EXPECT_EQ(bus.greet(params), lockstep::Verdict::kAccepted);
 }
 
+// Serial and CAN ask this of each Hello: a version is one digest (tests/golden/core_versions.txt).
+TEST_F(Lockstep, RefusesAnotherCoreByName) {
+  lockstep::Hello theirs{.core_version = kCoreVersion,
+                         .params_size = sizeof(Params),
+                         .params_crc = params_crc(params),
+                         .record_size = sizeof(TickRecord),
+                         .state_size = sizeof(State)};
+  EXPECT_EQ(bus::verdict_on(theirs, params), lockstep::Verdict::kAccepted);
+  theirs.core_version = kCoreVersion - 1;
+  EXPECT_EQ(bus::verdict_on(theirs, params), lockstep::Verdict::kOtherCore);
+  const std::string words = bus::words_for(lockstep::Verdict::kOtherCore, theirs, params);
+  for (const std::uint32_t version : {kCoreVersion, kCoreVersion - 1}) {
+    EXPECT_NE(words.find(std::to_string(version)), std::string::npos) << words;
+  }
+}
+
 }  // namespace
 }  // namespace verp
