@@ -2,15 +2,20 @@
 #include <cstdio>
 
 #include "common/control/step.hpp"
+#include "common/model/image.hpp"
+#include "common/safety/machine.hpp"
 #include "tests/replay/trace_file.hpp"
 
 /// replay_digest FILE: runs the core over the inputs of FILE and prints the last link of each
-/// segment's digest chain, and one for all. Exit status 1 when a digest is not the recorded one;
-/// the first such tick and its stage go to stderr. Nothing but the core and this file: built by
-/// every compiler and optimisation level that must agree.
+/// segment's digest chain, one for all, the core's version, and the legs' goals at some ticks,
+/// which show a reader what has changed behind a digest. Exit status 1 when a digest is not the
+/// recorded one; the first such tick and its stage go to stderr. Nothing but the core and this
+/// file: built by every compiler and optimisation level that must agree.
 namespace {
 
 using namespace verp;
+
+constexpr std::size_t kSummaryTicks = 5;  ///< a segment
 
 bool same(const TickDigest& a, const TickDigest& b) {
   return __builtin_memcmp(&a, &b, sizeof a) == 0;
@@ -23,16 +28,40 @@ void complain(const replay::Segment& segment, const TickRecord& recorded, const 
                recorded.inputs.tick, kStageNames[stage]);
 }
 
-/// Replaces the recorded digests' last link by this core's.
-bool replay_here(replay::Segment& segment) {
+/// Mode and both legs' goal angles, mrad, hip to ankle.
+std::string legs(const Params& params, const Outputs& outputs) {
+  std::string text = safety::kModeNames[outputs.mode];
+  for (const LegParams& leg : params.leg) {
+    text += " |";
+    for (const std::uint8_t j : leg.joint) {
+      if (j >= params.joint_count || params.joint[j].counts_per_rad == 0) continue;
+      const JointParams& joint = params.joint[j];
+      const double rad =
+          (double{1} * outputs.goal_count[j] - joint.zero_count) / joint.counts_per_rad;
+      char word[32];
+      std::snprintf(word, sizeof word, " %.0f", 1000 * rad);
+      text += word;
+    }
+  }
+  return text;
+}
+
+/// Replaces the recorded digests' last link by this core's; appends the summary's lines.
+bool replay_here(replay::Segment& segment, std::string& summary) {
+  const std::size_t pace = segment.ticks.size() / kSummaryTicks;
   State state;
   Outputs outputs;
   bool good = true;
+  std::size_t nth = 0;
   for (TickRecord& tick : segment.ticks) {
     step(segment.params, state, tick.inputs, outputs);
     if (good && !same(tick.digest, state.digest)) {
       complain(segment, tick, state.digest);
       good = false;
+    }
+    if (++nth % pace == 0) {
+      summary +=
+          segment.name + " " + std::to_string(nth) + " " + legs(segment.params, outputs) + "\n";
     }
   }
   segment.ticks.back().digest = state.digest;
@@ -50,12 +79,14 @@ int main(int count, char** argument) {
   }
   bool good = true;
   std::size_t ticks = 0;
+  std::string summary;
   for (replay::Segment& segment : trace) {
-    good = replay_here(segment) && good;
+    good = replay_here(segment, summary) && good;
     ticks += segment.ticks.size();
     std::printf("%-14s %7zu %016" PRIx64 "\n", segment.name.c_str(), segment.ticks.size(),
                 segment.digest());
   }
   std::printf("%-14s %7zu %016" PRIx64 "\n", "all", ticks, replay::digest_of(trace));
+  std::printf("%-14s %7" PRIu32 "\n%s", "core_version", kCoreVersion, summary.c_str());
   return good ? 0 : 1;
 }
