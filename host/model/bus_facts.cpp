@@ -3,22 +3,19 @@
 #include <numbers>
 
 #include "host/model/bounds.hpp"
-#include "host/model/servo_types.hpp"
+#include "host/model/servo_type_facts.hpp"
 
 namespace verp::model {
 namespace {
 
-/// Names of the types that speak the bus's protocol.
-std::vector<ServoType> types_of(BusProtocol protocol) {
-  std::vector<ServoType> types = servo_types();
-  std::erase_if(types, [=](const ServoType& type) { return type.protocol != protocol; });
-  return types;
-}
-
-const ServoType& read_type(const XmlElement& e, BusProtocol protocol) {
+const ServoType& read_type(const XmlElement& e, const std::vector<ServoType>& types,
+                           BusProtocol protocol) {
   const std::string name = e.text("type");
-  const ServoType* type = find_servo_type(name);
-  const std::string choice = "choose one of: " + names_of(types_of(protocol));
+  const ServoType* type = find_servo_type(types, name);
+  std::vector<ServoType> fitting = types;
+  std::erase_if(fitting, [=](const ServoType& each) { return each.protocol != protocol; });
+  const std::string choice =
+      "choose one of: " + names_of(fitting) + ", or describe it in a <verp:servo_type>";
   if (!type) e.fail("no servo type '" + name + "'", choice);
   if (type->protocol != protocol) {
     e.fail("servo type '" + name + "' does not speak " + protocol_name(protocol), choice);
@@ -32,7 +29,15 @@ Servo servo_of(const ServoType& type) {
   s.stall_torque_n_m = type.stall_torque_n_m;
   s.no_load_speed_rad_s = type.no_load_rev_min * 2 * std::numbers::pi / 60;
   s.stall_current_a = type.stall_current_a;
+  s.nominal_v = type.nominal_v;
   s.counts_per_rev = type.counts_per_rev;
+  s.encoder_noise_deg = type.encoder_noise_deg;
+  s.loop_s = type.loop_us * 1e-6;
+  s.loop_delay_s = type.loop_delay_us * 1e-6;
+  s.gearbox = type.gearbox;
+  s.armature_band = type.armature_band;
+  s.friction_band = type.friction_band;
+  s.source = type.source;
   s.model_number = type.model_number;
   s.fast_sync_read = type.fast_sync_read;
   return s;
@@ -42,7 +47,8 @@ std::uint16_t gain(const XmlElement& e, const char* name, int fallback) {
   return static_cast<std::uint16_t>(e.integer(name, 0, 16383, fallback));  // e-Manual: 0 to 16,383
 }
 
-ServoFact read_servo(const XmlElement& e, BusProtocol protocol) {
+ServoFact read_servo(const XmlElement& e, const std::vector<ServoType>& types,
+                     BusProtocol protocol) {
   e.allow({"joint", "id", "type", "direction", "offset", "backlash_rad", "p_gain", "i_gain",
            "d_gain", "profile_ms", "lower_rad", "upper_rad"});
   const bool can = protocol == BusProtocol::kCia402;
@@ -50,7 +56,7 @@ ServoFact read_servo(const XmlElement& e, BusProtocol protocol) {
     e.fail("<verp:servo> profile_ms: a CiA 402 drive joins its targets over the control period",
            "leave it out");
   }
-  const ServoType& type = read_type(e, protocol);
+  const ServoType& type = read_type(e, types, protocol);
   ServoFact fact{e, e.text("joint"), servo_of(type), {}, {}};
   Servo& s = fact.servo;
   s.id = e.integer("id", 1, can ? kHighestNode : kHighestId);
@@ -75,14 +81,6 @@ ServoFact read_servo(const XmlElement& e, BusProtocol protocol) {
   return fact;
 }
 
-BusProtocol read_protocol(const XmlElement& e) {
-  const std::string name = e.text("protocol");
-  for (const BusProtocol each : {BusProtocol::kDynamixel2, BusProtocol::kCia402}) {
-    if (name == protocol_name(each)) return each;
-  }
-  e.fail("no bus protocol '" + name + "'", "write protocol=\"dynamixel2\" or \"cia402\"");
-}
-
 // CiA 301's bit rates, but 800 kbit/s: bxCAN makes none of 42, 45 or 54 MHz. At the lowest ones no
 // robot's tick fits its period, which is another check's.
 std::uint32_t read_baud(const XmlElement& e, BusProtocol protocol) {
@@ -102,7 +100,7 @@ std::uint32_t read_baud(const XmlElement& e, BusProtocol protocol) {
 
 }  // namespace
 
-BusFact read_bus(const XmlElement& e) {
+BusFact read_bus(const XmlElement& e, const std::vector<ServoType>& types) {
   e.allow({"name", "protocol", "baud", "period_us", "rise_torque_percent"});
   BusFact fact{.at = e, .name = e.text("name", "bus"), .protocol = read_protocol(e), .servos = {}};
   fact.baud = read_baud(e, fact.protocol);
@@ -115,7 +113,7 @@ BusFact read_bus(const XmlElement& e) {
       child.fail("unknown element <" + child.name() + "> in <verp:bus>",
                  "it holds <verp:servo> only");
     }
-    fact.servos.push_back(read_servo(child, fact.protocol));
+    fact.servos.push_back(read_servo(child, types, fact.protocol));
   }
   return fact;
 }

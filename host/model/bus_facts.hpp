@@ -1,5 +1,6 @@
 #pragma once
 #include "host/model/facts.hpp"
+#include "host/model/servo_types.hpp"
 
 namespace verp::model {
 
@@ -8,7 +9,7 @@ constexpr int kHighestId =
 constexpr int kHighestNode =
     125;  // CiA 301 has 127; the last two are the controller's and a tool's
 
-/// A <verp:bus> with its servos. Throws LoadError.
-BusFact read_bus(const XmlElement& e);
+/// A <verp:bus> with its servos, each of one of these types. Throws LoadError.
+BusFact read_bus(const XmlElement& e, const std::vector<ServoType>& types);
 
 }  // namespace verp::model

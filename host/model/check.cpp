@@ -84,6 +84,12 @@ std::string leg_text(const Limb& limb, const LegGeometry& g) {
       1000 * (limb.sole_max_m.y() - limb.sole_min_m.y()), -1000 * limb.tip.translation().z());
 }
 
+/// What gearbox friction takes of the motor's torque when it stalls against nothing but itself.
+double stall_friction_n_m(const Servo& servo) {
+  const Gearbox& g = servo.gearbox;
+  return g.f_base_n_m + g.f_strib_n_m + servo.stall_torque_n_m * (g.l_base + g.l_strib);
+}
+
 bool is_leg(const Limb& limb) {
   return limb.name == "left_leg" || limb.name == "right_leg";
 }
@@ -105,6 +111,23 @@ std::string joint_rows(const Entity& entity) {
         joint.lower_rad * kDegrees, joint.upper_rad * kDegrees, joint.velocity_limit_rad_s,
         joint.servo.stall_torque_n_m, servo_stiffness_n_m_rad(joint.servo),
         entity.nodes[j + 1].mass_kg);
+  }
+  return text;
+}
+
+/// One line per servo type: what is known of its rotor and gears, and from where.
+std::string servo_type_rows(const Entity& entity) {
+  std::map<std::string, const Servo*> used;
+  for (const Joint& joint : entity.joints) used.insert({joint.servo.type, &joint.servo});
+  std::string text;
+  for (const auto& [name, servo] : used) {
+    const auto band = [](double part) {
+      return part > 0 ? fmt::format(" +-{:.0f} %", 100 * part) : std::string();
+    };
+    text += fmt::format(
+        "servo {}: rotor {:.4f} kg m2 at the joint{}, friction at stall {:.2f} N m{}; {}\n", name,
+        servo->gearbox.armature_kg_m2, band(servo->armature_band), stall_friction_n_m(*servo),
+        band(servo->friction_band), servo->source);
   }
   return text;
 }
@@ -163,7 +186,12 @@ nlohmann::ordered_json joint_json(const Entity& entity, std::size_t j) {
             {"stall_torque_n_m", servo.stall_torque_n_m},
             {"no_load_speed_rad_s", servo.no_load_speed_rad_s},
             {"stiffness_n_m_rad", servo_stiffness_n_m_rad(servo)},
-            {"p_gain", servo.p_gain}}}};
+            {"p_gain", servo.p_gain},
+            {"armature_kg_m2", servo.gearbox.armature_kg_m2},
+            {"armature_band", servo.armature_band},
+            {"stall_friction_n_m", stall_friction_n_m(servo)},
+            {"friction_band", servo.friction_band},
+            {"source", servo.source}}}};
 }
 
 }  // namespace
@@ -190,6 +218,7 @@ std::string describe(const Entity& entity) {
     if (is_leg(limb)) text += leg_text(limb, classify_leg(entity, limb));
   }
   text += joint_rows(entity);
+  text += servo_type_rows(entity);
   text += sensor_rows(entity);
   text += bus_text(entity, params);
   text += fmt::format("params: {} bytes, CRC-32 {:08x}\n", sizeof params, params_crc(params));

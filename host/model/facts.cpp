@@ -7,7 +7,7 @@
 #include "host/model/bounds.hpp"
 #include "host/model/bus_facts.hpp"
 #include "host/model/number.hpp"
-#include "host/model/servo_types.hpp"
+#include "host/model/servo_type_facts.hpp"
 
 namespace verp::model {
 namespace {
@@ -58,7 +58,9 @@ ImuFact read_imu(const XmlElement& e) {
 class FactReader {
  public:
   Facts read(const XmlElement& model, const std::string& bus) {
+    types_ = read_servo_types(model);
     for (const XmlElement& child : model.children()) {
+      if (child.name() == "verp:servo_type") continue;
       if (child.name().starts_with("verp:")) {
         element(child);
       } else {
@@ -85,8 +87,8 @@ class FactReader {
   void element(const XmlElement& e) {
     const auto known = readers().find(e.name());
     if (known == readers().end()) {
-      std::string list;
-      for (const auto& [name, reader] : readers()) list += (list.empty() ? "" : ", ") + name;
+      std::string list = "verp:servo_type";
+      for (const auto& [name, reader] : readers()) list += ", " + name;
       e.fail("unknown element <" + e.name() + ">", "use one of: " + list);
     }
     (this->*known->second)(e);
@@ -127,7 +129,7 @@ class FactReader {
     f_.limbs.push_back({e, name, e.text("base"), e.text("tip")});
   }
   void bus(const XmlElement& e) {
-    BusFact fact = read_bus(e);
+    BusFact fact = read_bus(e, types_);
     for (const BusFact& other : f_.buses) {
       if (other.name != fact.name) continue;
       e.fail("bus '" + fact.name + "' is given twice", "give each <verp:bus> a name of its own");
@@ -246,6 +248,7 @@ class FactReader {
   }
 
   Facts f_;
+  std::vector<ServoType> types_;
 };
 
 }  // namespace

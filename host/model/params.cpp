@@ -79,6 +79,11 @@ JointParams joint_params(const Entity& entity, std::size_t j, Params& params) {
       static_cast<float>(servo.direction * servo.counts_per_rev / (2 * std::numbers::pi));
   p.zero_count = static_cast<float>(servo.offset_count);
   p.compliance_rad_nm = static_cast<float>(1 / servo_stiffness_n_m_rad(servo));
+  const Gearbox& gears = servo.gearbox;
+  p.armature_kg_m2 = static_cast<float>(gears.armature_kg_m2);
+  p.friction_n_m = static_cast<float>(joint.friction_n_m + gears.f_base_n_m + gears.f_strib_n_m);
+  p.load_friction = static_cast<float>(gears.l_base + gears.l_strib);
+  p.friction_speed_rad_s = static_cast<float>(gears.w_s_rad_s);
   p.stand_rad = static_cast<float>(joint.stand_rad);
   p.sit_rad = static_cast<float>(joint.sit_rad);
   return p;

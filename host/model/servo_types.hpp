@@ -4,25 +4,30 @@
 #include <string_view>
 #include <vector>
 
-#include "common/model/params.hpp"
+#include "host/model/entity.hpp"
 
 namespace verp::model {
 
-/// One row per servo type at 12 V, from its page of the ROBOTIS e-Manual
-/// (emanual.robotis.com/docs/en/dxl/...), or of a drive with such a motor. The twin's DC motor,
-/// Params and `verp check` all use these; a robot's file only names the type.
+/// One servo type: what <verp:servo type="..."> names. The twin's motor and gearbox, Params and
+/// `verp check` all use these. A type that is not shipped is described in the robot's own file
+/// (<verp:servo_type>, servo_type_facts.hpp).
 struct ServoType {
-  const char* name;  ///< as in <verp:servo type="...">
-  const char* title;
-  BusProtocol protocol;        ///< what it speaks
-  std::uint16_t model_number;  ///< control table address 0; product code of a CiA 402 drive
-  double stall_torque_n_m;
-  double no_load_rev_min;
-  double stall_current_a;
-  double counts_per_rev;
-  double mass_kg;
-  bool fast_sync_read;           ///< answers instruction 0x8A
-  std::uint16_t default_p_gain;  ///< control table units, or a drive's 2002h:1
+  std::string name;                                 ///< as in <verp:servo type="...">
+  std::string title;                                ///< as its maker calls it
+  BusProtocol protocol = BusProtocol::kDynamixel2;  ///< what it speaks
+  std::uint16_t model_number = 0;  ///< control table address 0; product code of a CiA 402 drive
+  double stall_torque_n_m = 0;     ///< of the motor's line, at nominal_v, before friction
+  double no_load_rev_min = 0;
+  double stall_current_a = 0;
+  double nominal_v = 12;
+  double counts_per_rev = 4096;
+  double encoder_noise_deg = 0.03;
+  double loop_us = 1000, loop_delay_us = 0;
+  bool fast_sync_read = false;         ///< answers instruction 0x8A
+  std::uint16_t default_p_gain = 800;  ///< control table units, or a drive's 2002h:1
+  Gearbox gearbox;
+  double armature_band = 0, friction_band = 0;  ///< as in Servo
+  std::string source;
 };
 
 /// Of rows as these, for a person to choose from.
@@ -33,9 +38,10 @@ std::string names_of(const std::vector<Type>& types) {
   return list;
 }
 
-/// nullptr when there is no such type.
-const ServoType* find_servo_type(std::string_view name);
+/// The types that are shipped.
 const std::vector<ServoType>& servo_types();
+/// nullptr when there is no such type among these.
+const ServoType* find_servo_type(const std::vector<ServoType>& types, std::string_view name);
 
 /// One row per IMU type: scales of its registers and noise, from the datasheet.
 struct ImuType {

@@ -159,8 +159,8 @@ Body::~Body() {
 
 void Body::make_link(const model::Node& node, double mass_factor, int index, int owner) {
   if (!(node.mass_kg > 0)) throw std::invalid_argument("link '" + node.name + "' has no mass");
-  const Link link{dBodyCreate(world_.ode_world()), node.com_m, node.mass_kg * mass_factor};
   const Mat3 inertia = node.inertia_kg_m2 * mass_factor + Mat3::Identity() * kMinInertia;
+  const Link link{dBodyCreate(world_.ode_world()), node.com_m, node.mass_kg * mass_factor, inertia};
   dMass mass;
   dMassSetParameters(&mass, link.mass_kg, 0, 0, 0, inertia(0, 0), inertia(1, 1), inertia(2, 2),
                      inertia(0, 1), inertia(0, 2), inertia(1, 2));
@@ -216,15 +216,48 @@ void Body::read_joints() {
 }
 
 void Body::drive(int joint, const Drive& drive) {
+  // ODE solves  rate = speed - CFM * torque:  the torque-speed line, implicit in the new rate. A
+  // torque that no speed changes is a very flat line.
+  constexpr double kLeastSlope = 1e-6;
   const dJointID hinge = hinges_[index_of(joint)];
-  if (drive.slope_n_m_s <= 0) {
-    dJointSetHingeParam(hinge, dParamFMax, 0);
-    return;
+  const bool idle = drive.standstill_n_m == 0 && drive.slope_n_m_s <= 0;
+  const double slope = std::max(drive.slope_n_m_s, kLeastSlope);
+  dJointSetHingeParam(hinge, dParamVel, drive.standstill_n_m / slope);
+  dJointSetHingeParam(hinge, dParamCFM, 1.0 / slope);
+  dJointSetHingeParam(hinge, dParamFMax, idle ? 0 : dInfinity);
+}
+
+std::vector<double> Body::inertias_kg_m2() const {
+  // Of each link and all beyond it, about the body's origin: from the tips inwards.
+  struct Sum {
+    double mass_kg = 0;
+    Vec3 moment_kg_m = Vec3::Zero();
+    Mat3 inertia_kg_m2 = Mat3::Zero();
+  };
+  const Vec3 origin = link_pose(0).translation();
+  std::vector<Sum> beyond(links_.size());
+  std::vector<double> inertia(hinges_.size());
+  for (std::size_t n = links_.size() - 1; n > 0; --n) {
+    const Link& link = links_[n];
+    const Transform pose = link_pose(static_cast<int>(n));
+    const Vec3 com = pose * link.com_m - origin;
+    Sum& sum = beyond[n];
+    sum.mass_kg += link.mass_kg;
+    sum.moment_kg_m += link.mass_kg * com;
+    sum.inertia_kg_m2 +=
+        pose.linear() * link.inertia_kg_m2 * pose.linear().transpose() +
+        link.mass_kg * (com.squaredNorm() * Mat3::Identity() - com * com.transpose());
+    const model::Joint& joint = entity_.joints[n - 1];
+    const Vec3 axis = pose.linear() * joint.axis;
+    const Vec3 arm = axis.cross(pose.translation() - origin);
+    inertia[n - 1] = axis.dot(sum.inertia_kg_m2 * axis) + sum.mass_kg * arm.squaredNorm() -
+                     2 * arm.dot(axis.cross(sum.moment_kg_m));
+    Sum& parent = beyond[index_of(joint.parent)];
+    parent.mass_kg += sum.mass_kg;
+    parent.moment_kg_m += sum.moment_kg_m;
+    parent.inertia_kg_m2 += sum.inertia_kg_m2;
   }
-  // ODE solves  rate = speed - CFM * torque:  the torque-speed line, implicit in the new rate.
-  dJointSetHingeParam(hinge, dParamVel, drive.speed_rad_s);
-  dJointSetHingeParam(hinge, dParamCFM, 1.0 / drive.slope_n_m_s);
-  dJointSetHingeParam(hinge, dParamFMax, std::isinf(drive.limit_n_m) ? dInfinity : drive.limit_n_m);
+  return inertia;
 }
 
 void Body::hold() {

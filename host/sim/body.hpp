@@ -40,6 +40,8 @@ class Body {
   /// Reads joint angles and rates; call after every step.
   void read_joints();
   void drive(int joint, const Drive& drive);
+  /// What each joint turns as it stands now: its link and all beyond, about its axis.
+  std::vector<double> inertias_kg_m2() const;
   /// Fixes the body to the world where it is, as a robot stand does.
   void hold();
   void release();
@@ -63,6 +65,7 @@ class Body {
     dBodyID body = nullptr;
     Vec3 com_m = Vec3::Zero();  ///< ODE's body frame sits here, parallel to the link frame
     double mass_kg = 0;
+    Mat3 inertia_kg_m2 = Mat3::Zero();  ///< about the centre of mass, link axes
   };
   void make_link(const model::Node& node, double mass_factor, int index, int owner);
   void make_hinge(const model::Joint& joint, int index, const std::vector<Transform>& zero_pose);

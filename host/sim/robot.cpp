@@ -67,7 +67,10 @@ TwinRobot::TwinRobot(World& world, const model::Entity& entity, const TwinOption
       body_(world, entity_, mass_factors(entity, options), owner_),
       setpoint_(entity.joints.size()),
       imu_(entity.imu.value_or(model::ImuSensor{}), options.imperfections.imu, options.seed),
-      supply_v_(options.supply_v),
+      nominal_v_(options.supply_v.value_or(
+          entity.joints.empty() ? 0.0 : entity.joints[0].servo.nominal_v)),
+      supply_v_(nominal_v_),
+      external_n_m_(entity.joints.size(), 0),
       saturated_steps_(entity.joints.size(), 0) {
   const Start start = make_start(entity_, options);
   body_.place(start.body_world, start.joint_rad);
@@ -108,10 +111,13 @@ FootLoads TwinRobot::take_foot_loads() {
 
 void TwinRobot::before_step(double step_s) {
   update_cradle(step_s);
+  inertia_kg_m2_ = body_.inertias_kg_m2();
   for (std::size_t j = 0; j < servo_.size(); ++j) {
     const int joint = static_cast<int>(j);
-    body_.drive(joint, servo_[j].drive(setpoint_[j], body_.angle_rad(joint),
-                                       body_.rate_rad_s(joint), supply_v_, step_s));
+    body_.drive(joint,
+                servo_[j].drive(setpoint_[j], body_.angle_rad(joint), body_.rate_rad_s(joint),
+                                external_n_m_[j], supply_v_, step_s));
+    external_n_m_[j] = -inertia_kg_m2_[j] * body_.rate_rad_s(joint) / step_s;
     saturated_steps_[j] += servo_[j].saturated() ? 1 : 0;
   }
   imu_velocity_world_m_s_ = imu_point_velocity();
@@ -142,10 +148,13 @@ void TwinRobot::update_cradle(double step_s) {
 void TwinRobot::update_servos(double step_s) {
   double current_a = 0;
   for (std::size_t j = 0; j < servo_.size(); ++j) {
-    servo_[j].finish(body_.rate_rad_s(static_cast<int>(j)), step_s);
+    const double rate_rad_s = body_.rate_rad_s(static_cast<int>(j));
+    servo_[j].finish(rate_rad_s, step_s);
+    // What the servo did not do to its links, the rest of the world did.
+    external_n_m_[j] += inertia_kg_m2_[j] * rate_rad_s / step_s - servo_[j].torque_n_m();
     current_a += servo_[j].supply_current_a();
   }
-  supply_v_ = options_.supply_v - options_.supply_ohm * current_a;
+  supply_v_ = nominal_v_ - options_.supply_ohm * current_a;
 }
 
 Transform TwinRobot::imu_pose() const {

@@ -1,6 +1,7 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "host/model/entity.hpp"
@@ -42,7 +43,7 @@ struct TwinOptions {
   /// Released this long after all leg servos have torque: the firmware then stands in its pose
   /// (rise_s is 1 s), and does not walk yet.
   double cradle_s = 1.2;
-  double supply_v = 12.0;
+  std::optional<double> supply_v;  ///< unloaded; none: what the servos are made for
   /// Internal resistance of battery and harness. An estimate: 3 LiPo cells of about 10 mOhm (hobby
   /// packs of 1 to 2 Ah), plug, fuse and the first metre of daisy chain.
   double supply_ohm = 0.1;
@@ -117,7 +118,10 @@ class TwinRobot final : public Plant, private Actor {
   FootLoads step_loads_;  ///< of the last step
   FootLoads loads_;       ///< since take_foot_loads()
   std::array<double, 2> foot_force_n_{};
+  const double nominal_v_;  ///< of the supply, unloaded
   double supply_v_;
+  std::vector<double> inertia_kg_m2_;  ///< of each joint's links, at the start of the step
+  std::vector<double> external_n_m_;   ///< what turned each joint besides its servo, last step
   double armed_s_ = 0;
   double initial_height_m_ = 0;
   bool fallen_ = false;

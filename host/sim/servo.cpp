@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <stdexcept>
 
@@ -15,8 +14,6 @@ constexpr double kFullPwm = 885.0;  ///< e-manual X-series, PWM Limit: 885 is 10
 constexpr double kPerP = 1.0 / 128.0;
 constexpr double kPerI = 1.0 / 65536.0;
 constexpr double kPerD = 1.0 / 16.0;
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 void require(bool good, const model::Joint& joint, const char* what) {
   if (!good) throw std::invalid_argument("joint '" + joint.name + "': " + what);
@@ -34,10 +31,6 @@ double angle_of(const model::Servo& servo, double count) {
          servo.counts_per_rev;
 }
 
-double Drive::torque_n_m(double rate_rad_s) const {
-  return std::clamp(slope_n_m_s * (speed_rad_s - rate_rad_s), -limit_n_m, limit_n_m);
-}
-
 ServoModel::ServoModel(const model::Joint& joint, const ServoNoise& noise, Random encoder_random,
                        double initial_rad, const ServoConstants& constants)
     : joint_(joint), noise_(noise), constants_(constants), random_(encoder_random) {
@@ -45,10 +38,15 @@ ServoModel::ServoModel(const model::Joint& joint, const ServoNoise& noise, Rando
   require(servo.stall_torque_n_m > 0, joint, "its servo needs a stall torque above 0");
   require(servo.no_load_speed_rad_s > 0, joint, "its servo needs a no-load speed above 0");
   require(servo.counts_per_rev > 0, joint, "its servo needs counts per revolution above 0");
+  require(servo.nominal_v > 0, joint, "its servo needs a nominal supply above 0");
+  require(servo.loop_s > 0, joint, "its servo's loop needs a period above 0");
   require(servo.backlash_rad >= 0, joint, "backlash is negative");
-  resistance_ohm_ = servo.stall_current_a > 0 ? constants.nominal_v / servo.stall_current_a : 0;
+  require(servo.gearbox.armature_kg_m2 >= 0, joint, "its servo's armature is negative");
+  require(servo.gearbox.w_s_rad_s > 0, joint, "its servo's Stribeck speed is not above 0");
+  resistance_ohm_ = servo.stall_current_a > 0 ? servo.nominal_v / servo.stall_current_a : 0;
   measurement_.temperature_c = constants.ambient_c;
-  measurement_.voltage_v = constants.nominal_v;
+  measurement_.voltage_v = servo.nominal_v;
+  stuck_rad_ = initial_rad;
   sample_encoder(initial_rad);
   goal_count_ = measurement_.position_count;
   profile_count_ = goal_count_;
@@ -57,12 +55,14 @@ ServoModel::ServoModel(const model::Joint& joint, const ServoNoise& noise, Rando
 void ServoModel::sample_encoder(double angle_rad) {
   double count = count_of(joint_.servo, angle_rad + noise_.zero_error_rad);
   if (noise_.encoder) {
-    count += random_.normal() * constants_.encoder_noise_deg / 360.0 * joint_.servo.counts_per_rev;
+    count +=
+        random_.normal() * joint_.servo.encoder_noise_deg / 360.0 * joint_.servo.counts_per_rev;
   }
   measurement_.position_count = static_cast<std::int32_t>(std::lround(count));
 }
 
-void ServoModel::follow_profile(const ServoSetpoint& setpoint, double step_s) {
+void ServoModel::follow_profile(const ServoSetpoint& setpoint) {
+  const double step_s = joint_.servo.loop_s;
   const bool armed_now = setpoint.torque_on && !was_on_;
   if (armed_now) profile_count_ = measurement_.position_count;
   if (armed_now || setpoint.goal_count != goal_count_) {
@@ -75,8 +75,8 @@ void ServoModel::follow_profile(const ServoSetpoint& setpoint, double step_s) {
   profile_count_ = std::abs(move) >= std::abs(remaining) ? goal_count_ : profile_count_ + move;
 }
 
-double ServoModel::position_loop(const ServoSetpoint& setpoint, double step_s) {
-  const double step_ms = step_s * 1e3;
+double ServoModel::position_loop(const ServoSetpoint& setpoint) {
+  const double step_ms = joint_.servo.loop_s * 1e3;
   const double limit = std::min(static_cast<double>(setpoint.pwm_limit), kFullPwm);
   const double error = profile_count_ - measurement_.position_count;
   const double gain_i = setpoint.i_gain * kPerI;
@@ -89,70 +89,142 @@ double ServoModel::position_loop(const ServoSetpoint& setpoint, double step_s) {
   return std::clamp(pwm, -limit, limit) / kFullPwm;
 }
 
-bool ServoModel::engage(double rate_rad_s, double step_s) {
-  const double half = joint_.servo.backlash_rad / 2;
-  if (half <= 0) return true;
-  // Inside the play the rotor has nothing to push: it turns at its no-load speed.
-  const double wanted = play_rad_ + (motor_.speed_rad_s - rate_rad_s) * step_s;
-  play_rad_ = std::clamp(wanted, -half, half);
-  return std::abs(wanted) >= half;
+// The firmware knows nothing of physics steps: its loop runs at its own instants, on the angle of a
+// little earlier, and its duty stands until the next.
+double ServoModel::mean_duty(const ServoSetpoint& setpoint, double angle_rad, double rate_rad_s,
+                             double step_s) {
+  constexpr double kSameInstant_s = 1e-9;
+  const model::Servo& servo = joint_.servo;
+  double sum_s = 0, until_s = 0;
+  for (; next_loop_s_ < step_s - kSameInstant_s; next_loop_s_ += servo.loop_s) {
+    sum_s += measurement_.duty * (next_loop_s_ - until_s);
+    until_s = next_loop_s_;
+    sample_encoder(angle_rad + rate_rad_s * (next_loop_s_ - servo.loop_delay_s));
+    follow_profile(setpoint);
+    saturated_ = false;
+    if (setpoint.torque_on) {
+      measurement_.duty = position_loop(setpoint);
+    } else {
+      measurement_.duty = integral_ = 0;
+    }
+    was_on_ = setpoint.torque_on;
+  }
+  next_loop_s_ -= step_s;
+  return (sum_s + measurement_.duty * (step_s - until_s)) / step_s;
 }
 
-void ServoModel::drive_motor(double rate_rad_s, double supply_v, double step_s) {
+Drive ServoModel::motor_line(double supply_v) const {
   const model::Servo& servo = joint_.servo;
   const double warm =
       1.0 + constants_.copper_per_k * (measurement_.temperature_c - constants_.ambient_c);
-  motor_.speed_rad_s = duty_ * servo.no_load_speed_rad_s * supply_v / constants_.nominal_v;
-  motor_.slope_n_m_s = servo.stall_torque_n_m / servo.no_load_speed_rad_s / warm;
-  motor_.limit_n_m = constants_.current_limit_stalls * servo.stall_torque_n_m;
-  if (!engage(rate_rad_s, step_s)) motor_.slope_n_m_s = 0;
+  const Drive line{duty_ * servo.stall_torque_n_m * supply_v / servo.nominal_v / warm,
+                   servo.stall_torque_n_m / servo.no_load_speed_rad_s / warm};
+  const double limit = constants_.current_limit_stalls * servo.stall_torque_n_m;
+  const double torque = line.torque_n_m(rotor_rad_s_);
+  return std::abs(torque) > limit ? Drive{std::copysign(limit, torque), 0} : line;
 }
 
-Drive ServoModel::with_gearbox(double angle_rad, double rate_rad_s, double step_s) const {
-  const double friction =
-      joint_.friction_n_m / std::max(std::abs(rate_rad_s), constants_.friction_corner_rad_s);
+double ServoModel::friction_budget_n_m(double rate_rad_s, double load_n_m) const {
+  const model::Gearbox& gears = joint_.servo.gearbox;
+  const double speed = std::abs(rate_rad_s);
+  const double stribeck = std::exp(-std::pow(speed / gears.w_s_rad_s, gears.alpha));
+  return joint_.friction_n_m + gears.f_base_n_m + stribeck * gears.f_strib_n_m +
+         load_n_m * (gears.l_base + stribeck * gears.l_strib) + gears.f_visc_n_m_s * speed;
+}
+
+// On a flank while that pushes. Inside the play the rotor has but itself to turn: how it would move
+// decides whether it reaches a flank.
+bool ServoModel::engage(double rate_rad_s, double step_s) {
+  const double half = joint_.servo.backlash_rad / 2;
+  const double push = gear_n_m_ * play_rad_;
+  if (half <= 0 || (engaged_ && push > 0)) return true;
+  const double inertia = joint_.servo.gearbox.armature_kg_m2 / step_s;
+  const double drive = motor_.standstill_n_m + inertia * rotor_rad_s_;
+  const double slope = motor_.slope_n_m_s + inertia;
+  const double budget =
+      friction_budget_n_m(rotor_rad_s_, std::abs(motor_.torque_n_m(rotor_rad_s_)));
+  const double rest = std::max(std::abs(drive) - budget, 0.0);
+  const double alone_rad_s = slope > 0 ? std::copysign(rest, drive) / slope : rate_rad_s;
+  const double wanted = play_rad_ + (alone_rad_s - rate_rad_s) * step_s;
+  const bool pulls = engaged_ && push < 0;
+  play_rad_ = std::clamp(wanted, -half, half);
+  const bool meets = std::abs(wanted) >= half && !pulls;
+  if (!meets) rotor_rad_s_ = alone_rad_s;
+  return meets;
+}
+
+// Where rotor and joint meet they go on together, the way the joint goes.
+void ServoModel::meet(double angle_rad, double rate_rad_s) {
+  const double speed = std::abs(rate_rad_s) > constants_.still_rad_s ? rate_rad_s : rotor_rad_s_;
+  const bool still = std::abs(speed) <= constants_.still_rad_s;
+  sliding_ = still ? 0 : speed > 0 ? 1 : -1;
+  stuck_rad_ = angle_rad;
+}
+
+// Stuck: held where it stands, until that took more than the budget. Sliding: the budget against
+// the motion, until that ends; where it may end within this step, a line through standstill, which
+// cannot turn the motion round.
+Drive ServoModel::friction_line(double angle_rad, double rate_rad_s, double rest_n_m,
+                                double budget_n_m, double step_s) {
+  const bool wins = rest_n_m * sliding_ >= budget_n_m;
+  const double along = rate_rad_s * sliding_;
+  if (sliding_ != 0 && along <= (wins ? 0.0 : constants_.still_rad_s)) {
+    sliding_ = 0;
+    stuck_rad_ = angle_rad;
+  } else if (sliding_ == 0 && std::abs(friction_n_m_) > budget_n_m) {
+    sliding_ = friction_n_m_ > 0 ? -1 : 1;
+    return {-budget_n_m * sliding_, 0};
+  }
+  if (sliding_ != 0) {
+    const double speed = std::max(std::abs(rate_rad_s), constants_.still_rad_s);
+    return wins ? Drive{-budget_n_m * sliding_, 0} : Drive{0, budget_n_m / speed};
+  }
+  const double slope = budget_n_m / constants_.hold_speed_rad_s;
+  return {slope * constants_.hold_return * (stuck_rad_ - angle_rad) / step_s, slope};
+}
+
+Drive ServoModel::joint_line(double angle_rad, double step_s) const {
+  Drive line{0, joint_.damping_n_m_s};
   const double past_stop = angle_rad - std::clamp(angle_rad, joint_.lower_rad, joint_.upper_rad);
-  double stop_slope = 0;
-  double stop_torque = 0;  // at standstill
   if (past_stop != 0) {
-    stop_slope = step_s * constants_.stop_stiffness_n_m + constants_.stop_damping_n_m_s;
-    stop_torque = -constants_.stop_stiffness_n_m * past_stop;
+    line += {-constants_.stop_stiffness_n_m * past_stop,
+             step_s * constants_.stop_stiffness_n_m + constants_.stop_damping_n_m_s};
   }
-  Drive sum;
-  sum.slope_n_m_s = motor_.slope_n_m_s + friction + joint_.damping_n_m_s + stop_slope;
-  if (sum.slope_n_m_s > 0) {
-    sum.speed_rad_s = (motor_.slope_n_m_s * motor_.speed_rad_s + stop_torque) / sum.slope_n_m_s;
-  }
-  const double motor_torque = motor_.slope_n_m_s * (motor_.speed_rad_s - rate_rad_s);
-  const bool limiting = std::abs(motor_torque) > motor_.limit_n_m && past_stop == 0;
-  sum.limit_n_m = limiting ? motor_.limit_n_m + joint_.friction_n_m : kInfinity;
-  return sum;
+  return line;
 }
 
 Drive ServoModel::drive(const ServoSetpoint& setpoint, double angle_rad, double rate_rad_s,
-                        double supply_v, double step_s) {
-  sample_encoder(angle_rad);
-  follow_profile(setpoint, step_s);
+                        double external_n_m, double supply_v, double step_s) {
+  duty_ = mean_duty(setpoint, angle_rad, rate_rad_s, step_s) * joint_.servo.direction;
   measurement_.voltage_v = supply_v;
-  motor_ = Drive{};
-  saturated_ = false;
-  if (setpoint.torque_on) {
-    measurement_.duty = position_loop(setpoint, step_s);
-    duty_ = measurement_.duty * joint_.servo.direction;
-    drive_motor(rate_rad_s, supply_v, step_s);
-  } else {
-    measurement_.duty = duty_ = 0;
-    integral_ = 0;
+  if (engaged_) rotor_rad_s_ = rate_rad_s;
+  motor_ = setpoint.torque_on ? motor_line(supply_v) : Drive{};
+  const bool was_engaged = engaged_;
+  engaged_ = engage(rate_rad_s, step_s);
+  if (engaged_ && !was_engaged) meet(angle_rad, rate_rad_s);
+  gear_ = friction_ = Drive{};
+  if (engaged_) {
+    const double inertia = joint_.servo.gearbox.armature_kg_m2 / step_s;
+    const double load = std::abs(external_n_m - motor_.torque_n_m(rate_rad_s));
+    const double rest = motor_.standstill_n_m + external_n_m + inertia * rate_rad_s;
+    friction_ =
+        friction_line(angle_rad, rate_rad_s, rest, friction_budget_n_m(rate_rad_s, load), step_s);
+    gear_ = motor_;
+    gear_ += {inertia * rotor_rad_s_, inertia};
+    gear_ += friction_;
   }
-  was_on_ = setpoint.torque_on;
-  drive_ = with_gearbox(angle_rad, rate_rad_s, step_s);
+  drive_ = gear_;
+  drive_ += joint_line(angle_rad, step_s);
   return drive_;
 }
 
 void ServoModel::finish(double rate_rad_s, double step_s) {
   const model::Servo& servo = joint_.servo;
+  if (engaged_) rotor_rad_s_ = rate_rad_s;
   torque_n_m_ = drive_.torque_n_m(rate_rad_s);
-  const double motor_torque = motor_.torque_n_m(rate_rad_s);
+  gear_n_m_ = gear_.torque_n_m(rate_rad_s);
+  friction_n_m_ = friction_.torque_n_m(rate_rad_s);
+  const double motor_torque = motor_.torque_n_m(rotor_rad_s_);
   torque_use_ = std::abs(motor_torque) / servo.stall_torque_n_m;
   const double current = motor_torque / servo.stall_torque_n_m * servo.stall_current_a;
   measurement_.current_a = current * servo.direction;

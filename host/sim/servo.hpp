@@ -11,15 +11,18 @@
 /// became of it.
 namespace verp::sim {
 
-/// The joint's drive during one physics step: torque = slope * (speed - joint speed at the end of
-/// the step), within
-/// +-limit. Being linear in the new speed it is stable at any stiffness.
+/// The joint's drive during one physics step: a line over the joint's speed at the end of the step.
+/// Being linear in the new speed it is stable at any stiffness and any inertia.
 struct Drive {
-  double speed_rad_s = 0;
-  double slope_n_m_s = 0;  ///< never negative; 0: no drive at all
-  double limit_n_m = 0;    ///< infinite unless the motor's current limit may act in this step
+  double standstill_n_m = 0;
+  double slope_n_m_s = 0;  ///< never negative
 
-  double torque_n_m(double rate_rad_s) const;
+  double torque_n_m(double rate_rad_s) const { return standstill_n_m - slope_n_m_s * rate_rad_s; }
+  Drive& operator+=(const Drive& other) {
+    standstill_n_m += other.standstill_n_m;
+    slope_n_m_s += other.slope_n_m_s;
+    return *this;
+  }
 };
 
 /// Encoder counts of a joint angle and back, as the controller computes them: without zero error,
@@ -30,11 +33,6 @@ double angle_of(const model::Servo& servo, double count);
 /// What the datasheets and e-manuals of the X-series say beyond Entity's servo facts, and estimates
 /// where silent.
 struct ServoConstants {
-  /// Stall torque and no-load speed are taken at this supply (e-manual XM430: performance at 12 V).
-  double nominal_v = 12.0;
-  /// ams AS5045, the encoder named by the e-manuals of MX and X: transition noise 0.03 degrees rms
-  /// in slow mode.
-  double encoder_noise_deg = 0.03;
   /// Housing of an XM430: 82 g (e-manual) of mostly aluminium, 0.9 kJ/(kg K); 77 cm2 of surface
   /// (28.5 x 46.5 x 34 mm) in still air at 10 W/(m2 K). An estimate: it sets how fast a servo
   /// warms, never whether it walks.
@@ -46,9 +44,11 @@ struct ServoConstants {
   /// XM430 Current Limit register: 1193 units of 2.69 mA, 1.4 times the stall current at 12 V.
   /// Back-driven motors go beyond stall torque up to here.
   double current_limit_stalls = 1.4;
-  /// Coulomb friction is replaced by viscous friction below this speed, so a stuck joint creeps
-  /// instead of locking.
-  double friction_corner_rad_s = 0.02;
+  /// A stuck joint is a stiff line back to where it stuck: it would carry its whole friction at
+  /// this speed, and takes back this part of its displacement a step. It does not creep.
+  double hold_speed_rad_s = 1e-4;
+  double hold_return = 0.2;
+  double still_rad_s = 1e-3;  ///< slower than this, and braked, a joint stands
   /// End stops: a housing's plastic, stiff enough to hold stall torque within half a degree.
   double stop_stiffness_n_m = 500.0;
   double stop_damping_n_m_s = 1.0;
@@ -65,10 +65,11 @@ class ServoModel {
   ServoModel(const model::Joint& joint, const ServoNoise& noise, Random encoder_random,
              double initial_rad, const ServoConstants& constants = {});
 
-  /// Samples the encoder and runs the position loop, once per physics step, as the servo does at 1
-  /// kHz.
-  Drive drive(const ServoSetpoint& setpoint, double angle_rad, double rate_rad_s, double supply_v,
-              double step_s);
+  /// Runs the firmware's loop as often as it falls into this physics step, then motor and gearbox.
+  /// external_n_m is what turns the joint besides this servo (gravity, ground, other links): with
+  /// the motor's torque it loads the gears.
+  Drive drive(const ServoSetpoint& setpoint, double angle_rad, double rate_rad_s,
+              double external_n_m, double supply_v, double step_s);
   /// The step is over; rate_rad_s is the joint's new speed.
   void finish(double rate_rad_s, double step_s);
 
@@ -89,11 +90,17 @@ class ServoModel {
 
  private:
   void sample_encoder(double angle_rad);
-  void follow_profile(const ServoSetpoint& setpoint, double step_s);
-  double position_loop(const ServoSetpoint& setpoint, double step_s);
-  void drive_motor(double rate_rad_s, double supply_v, double step_s);
+  void follow_profile(const ServoSetpoint& setpoint);
+  double position_loop(const ServoSetpoint& setpoint);
+  double mean_duty(const ServoSetpoint& setpoint, double angle_rad, double rate_rad_s,
+                   double step_s);
+  Drive motor_line(double supply_v) const;
+  double friction_budget_n_m(double rate_rad_s, double load_n_m) const;
   bool engage(double rate_rad_s, double step_s);
-  Drive with_gearbox(double angle_rad, double rate_rad_s, double step_s) const;
+  void meet(double angle_rad, double rate_rad_s);
+  Drive friction_line(double angle_rad, double rate_rad_s, double rest_n_m, double budget_n_m,
+                      double step_s);
+  Drive joint_line(double angle_rad, double step_s) const;
 
   model::Joint joint_;
   ServoNoise noise_;
@@ -103,20 +110,27 @@ class ServoModel {
   double resistance_ohm_ = 0;
 
   bool was_on_ = false;
+  double next_loop_s_ = 0;  ///< from the start of the next physics step
   std::int32_t goal_count_ = 0;
   double profile_count_ = 0;
   double profile_step_count_s_ = 0;  ///< counts per second until the goal
   double integral_ = 0;              ///< PWM units
   double last_error_ = 0;            ///< counts
+  bool saturated_ = false;
 
-  double duty_ = 0;      ///< joint sense
-  double play_rad_ = 0;  ///< motor side ahead of joint side, within +-backlash/2
-  Drive motor_;          ///< the motor alone, of the last step
-  Drive drive_;          ///< with gearbox and end stops
+  double duty_ = 0;         ///< joint sense, mean of the step
+  Drive motor_;             ///< the motor alone, in the last step
+  double rotor_rad_s_ = 0;  ///< seen from the joint; its own while inside the play
+  double play_rad_ = 0;     ///< motor side ahead of joint side, within +-backlash/2
+  bool engaged_ = true;     ///< not inside the play
+  int sliding_ = 0;         ///< sign of the motion that friction opposes; 0: stuck
+  double stuck_rad_ = 0;    ///< where
+  Drive friction_, gear_;   ///< in the last step; gear_ is all that comes through the gears
+  Drive drive_;             ///< with end stops and the joint's own damping
+  double gear_n_m_ = 0, friction_n_m_ = 0;
   double torque_n_m_ = 0;
   double torque_use_ = 0;
   double supply_current_a_ = 0;
-  bool saturated_ = false;
 };
 
 }  // namespace verp::sim

@@ -125,7 +125,7 @@ TEST(BadInput, ServoForNoJointIsRefused) {
 
 TEST(BadInput, UnknownServoTypeListsTheTypes) {
   expect_refused(edited("type=\"xm430_w210\"", "type=\"ax12\""), "type=\"ax12\"",
-                 "xm430_w210, xm430_w350, mx28");
+                 "xm430_w210, xm430_w350, xh430_w210");
 }
 
 TEST(BadInput, FiveJointLegIsRefused) {
@@ -314,6 +314,53 @@ TEST(BadInput, MissingThirdPartyFileNamesTheVariable) {
     EXPECT_EQ(error.line, 2);
     EXPECT_NE(error.fix.find("VERP_MODEL_PATH"), std::string::npos) << error.what();
   }
+}
+
+// A servo that is not shipped is described in the robot's file, and a slip of the pen found there.
+TEST(BadInput, ServoTypesOfTheFileAreReadAndTheirSlipsNamed) {
+  const auto with = [](const std::string& type) {
+    return edited("<verp:bus name=\"dxl\"", type + "\n    <verp:bus name=\"dxl\"");
+  };
+  const auto mine = [&](const std::string& attributes) {
+    return with("<verp:servo_type name=\"mine\" " + attributes + "/>");
+  };
+  const std::string motor =
+      "protocol=\"dynamixel2\" model_number=\"4711\" kt_n_m_a=\"1.5\" resistance_ohm=\"4\" ";
+  const std::string gears =
+      "armature_kg_m2=\"0.01\" f_base_n_m=\"0.05\" f_strib_n_m=\"0.02\" l_base=\"0.01\" "
+      "l_strib=\"0.2\" "
+      "w_s_rad_s=\"1.5\" alpha=\"1.3\" f_visc_n_m_s=\"0.01\" ";
+  const std::string source = "source=\"my bench\"";
+  const std::string at = "<verp:servo_type";
+
+  std::string good = mine(motor + gears + source);
+  const std::string old_type = "type=\"xm430_w210\"";
+  for (auto from = good.find(old_type); from != std::string::npos; from = good.find(old_type)) {
+    good.replace(from, old_type.size(), "type=\"mine\"");
+  }
+  const TemporaryFile file("robot.sdf", good);
+  const Servo servo = load_robot(file.path()).joints.front().servo;
+  EXPECT_DOUBLE_EQ(servo.stall_torque_n_m, 1.5 * 12 / 4);
+  EXPECT_DOUBLE_EQ(servo.no_load_speed_rad_s, 12 / 1.5);
+  EXPECT_DOUBLE_EQ(servo.gearbox.armature_kg_m2, 0.01);
+  EXPECT_DOUBLE_EQ(servo.gearbox.l_strib, 0.2);
+  EXPECT_EQ(servo.source, "my bench");
+  EXPECT_EQ(servo.armature_band, 0);
+
+  expect_refused(mine(motor + gears), at, "source");
+  expect_refused(mine(gears + source), at, "protocol");
+  expect_refused(mine(motor + source), at, "armature_kg_m2");
+  expect_refused(mine(motor + gears + "stall_torque_n_m=\"3\" " + source), at, "motor twice");
+  expect_refused(mine("like=\"xm430\" armature_kg_m2=\"0.01\" " + source), at,
+                 "no servo type 'xm430'");
+  expect_refused(mine("like=\"mx64\" armature_kg_m2=\"-0.01\" " + source), at, "armature_kg_m2");
+  expect_refused(mine("like=\"mx64\" l_strib=\"1.2\""), at, "l_strib");
+  expect_refused(mine("like=\"mx64\" alpha=\"0\""), at, "alpha");
+  expect_refused(mine("like=\"mx64\" friction_band=\"1\""), at, "friction_band");
+  expect_refused(mine("like=\"mx64\" nominal_v=\"24\""), at, "nominal_v");
+  expect_refused(mine("like=\"mx64\" loop_us=\"0\""), at, "loop_us");
+  expect_refused(mine("like=\"mx64\" gear=\"200\""), at, "gear");
+  expect_refused(with("<verp:servo_type name=\"mx64\" like=\"mx106\"/>"), at, "already");
 }
 
 }  // namespace

@@ -40,7 +40,7 @@ TEST(Servo, GivesStallTorqueAtStandstill) {
   BareServo bare;
   ServoModel servo = bare.model();
   bare.setpoint.goal_count = 4000;
-  const Drive drive = servo.drive(bare.setpoint, 0, 0, 12.0, kStepS);
+  const Drive drive = servo.drive(bare.setpoint, 0, 0, 0, 12.0, kStepS);
   EXPECT_NEAR(drive.torque_n_m(0), 3.0, 1e-9);
   EXPECT_TRUE(servo.saturated());
   servo.finish(0, kStepS);
@@ -52,7 +52,7 @@ TEST(Servo, HasNoTorqueLeftAtNoLoadSpeedAndHalfAtHalf) {
   BareServo bare;
   ServoModel servo = bare.model();
   bare.setpoint.goal_count = 4000;
-  const Drive drive = servo.drive(bare.setpoint, 0, 8.0, 12.0, kStepS);
+  const Drive drive = servo.drive(bare.setpoint, 0, 8.0, 0, 12.0, kStepS);
   EXPECT_NEAR(drive.torque_n_m(8.0), 0, 1e-9);
   EXPECT_NEAR(drive.torque_n_m(4.0), 1.5, 1e-9);
 }
@@ -61,7 +61,7 @@ TEST(Servo, WeakensWithTheSupply) {
   BareServo bare;
   ServoModel servo = bare.model();
   bare.setpoint.goal_count = 4000;
-  EXPECT_NEAR(servo.drive(bare.setpoint, 0, 0, 9.0, kStepS).torque_n_m(0), 3.0 * 9 / 12, 1e-9);
+  EXPECT_NEAR(servo.drive(bare.setpoint, 0, 0, 0, 9.0, kStepS).torque_n_m(0), 3.0 * 9 / 12, 1e-9);
 }
 
 TEST(Servo, ObeysItsPwmLimit) {
@@ -69,7 +69,7 @@ TEST(Servo, ObeysItsPwmLimit) {
   ServoModel servo = bare.model();
   bare.setpoint.goal_count = 4000;
   bare.setpoint.pwm_limit = 177;  // 20 %
-  EXPECT_NEAR(servo.drive(bare.setpoint, 0, 0, 12.0, kStepS).torque_n_m(0), 0.6, 1e-9);
+  EXPECT_NEAR(servo.drive(bare.setpoint, 0, 0, 0, 12.0, kStepS).torque_n_m(0), 0.6, 1e-9);
   EXPECT_NEAR(servo.measurement().duty, 0.2, 1e-9);
 }
 
@@ -77,7 +77,8 @@ TEST(Servo, IsLimitedByItsCurrentWhenDrivenBackwards) {
   BareServo bare;
   ServoModel servo = bare.model();
   bare.setpoint.goal_count = 4000;
-  EXPECT_NEAR(servo.drive(bare.setpoint, 0, -8.0, 12.0, kStepS).torque_n_m(-8.0), 1.4 * 3.0, 1e-9);
+  EXPECT_NEAR(servo.drive(bare.setpoint, 0, -8.0, 0, 12.0, kStepS).torque_n_m(-8.0), 1.4 * 3.0,
+              1e-9);
 }
 
 TEST(Servo, CountsBackwardsWhenMountedBackwards) {
@@ -85,7 +86,7 @@ TEST(Servo, CountsBackwardsWhenMountedBackwards) {
   bare.joint.servo.direction = -1;
   ServoModel servo = bare.model();
   bare.setpoint.goal_count = 4000;
-  EXPECT_NEAR(servo.drive(bare.setpoint, 0.5, 0, 12.0, kStepS).torque_n_m(0), -3.0, 1e-9);
+  EXPECT_NEAR(servo.drive(bare.setpoint, 0.5, 0, 0, 12.0, kStepS).torque_n_m(0), -3.0, 1e-9);
   EXPECT_EQ(servo.measurement().position_count, 2048 - 326);
   EXPECT_GT(servo.measurement().duty, 0);
 }
@@ -93,19 +94,19 @@ TEST(Servo, CountsBackwardsWhenMountedBackwards) {
 TEST(Servo, ProfileIsAStraightLineOverItsTime) {
   BareServo bare;
   ServoModel servo = bare.model();
-  servo.drive(bare.setpoint, 0, 0, 12.0, kStepS);
+  servo.drive(bare.setpoint, 0, 0, 0, 12.0, kStepS);
   bare.setpoint.profile_ms = 10;
   bare.setpoint.goal_count = 2048 + 100;
   for (int ms = 1; ms <= 10; ++ms) {
-    servo.drive(bare.setpoint, 0, 0, 12.0, kStepS);
+    servo.drive(bare.setpoint, 0, 0, 0, 12.0, kStepS);
     EXPECT_NEAR(count_of(bare.joint.servo, servo.profile_rad()), 2048 + 10.0 * ms, 1e-6) << ms;
   }
   // A new goal in mid-move starts from where the profile stands, not from the old goal.
   bare.setpoint.goal_count = 2048;
-  for (int ms = 1; ms <= 5; ++ms) servo.drive(bare.setpoint, 0, 0, 12.0, kStepS);
+  for (int ms = 1; ms <= 5; ++ms) servo.drive(bare.setpoint, 0, 0, 0, 12.0, kStepS);
   EXPECT_NEAR(count_of(bare.joint.servo, servo.profile_rad()), 2048 + 50, 1e-6);
   bare.setpoint.goal_count = 2048 + 100;
-  for (int ms = 1; ms <= 5; ++ms) servo.drive(bare.setpoint, 0, 0, 12.0, kStepS);
+  for (int ms = 1; ms <= 5; ++ms) servo.drive(bare.setpoint, 0, 0, 0, 12.0, kStepS);
   EXPECT_NEAR(count_of(bare.joint.servo, servo.profile_rad()), 2048 + 75, 1e-6);
 }
 
@@ -113,7 +114,7 @@ TEST(Servo, HoldsTheAngleThatItsZeroErrorMakesOfTheGoal) {
   BareServo bare;
   ServoModel servo(bare.joint, {.encoder = false, .zero_error_rad = 0.01},
                    Random(1, Draw::kEncoder), 0.0);
-  servo.drive(bare.setpoint, 0, 0, 12.0, kStepS);
+  servo.drive(bare.setpoint, 0, 0, 0, 12.0, kStepS);
   EXPECT_NEAR(servo.profile_rad(), -0.01, 1e-12);
   EXPECT_EQ(servo.measurement().position_count, 2048 + 7);  // 0.01 rad = 6.5 counts
 }
@@ -123,13 +124,13 @@ TEST(Servo, PushesNothingInsideItsPlay) {
   bare.joint.servo.backlash_rad = 0.02;
   ServoModel servo = bare.model();
   bare.setpoint.goal_count = 4000;  // rotor runs at 8 rad/s: 8 mrad a step
-  EXPECT_EQ(servo.drive(bare.setpoint, 0, 0, 12.0, kStepS).torque_n_m(0), 0);
-  EXPECT_NEAR(servo.drive(bare.setpoint, 0, 0, 12.0, kStepS).torque_n_m(0), 3.0, 1e-9);
+  EXPECT_EQ(servo.drive(bare.setpoint, 0, 0, 0, 12.0, kStepS).torque_n_m(0), 0);
+  EXPECT_NEAR(servo.drive(bare.setpoint, 0, 0, 0, 12.0, kStepS).torque_n_m(0), 3.0, 1e-9);
   bare.setpoint.goal_count = 0;  // the other flank is 20 mrad away
   for (int step = 0; step < 2; ++step) {
-    EXPECT_EQ(servo.drive(bare.setpoint, 0, 0, 12.0, kStepS).torque_n_m(0), 0);
+    EXPECT_EQ(servo.drive(bare.setpoint, 0, 0, 0, 12.0, kStepS).torque_n_m(0), 0);
   }
-  EXPECT_NEAR(servo.drive(bare.setpoint, 0, 0, 12.0, kStepS).torque_n_m(0), -3.0, 1e-9);
+  EXPECT_NEAR(servo.drive(bare.setpoint, 0, 0, 0, 12.0, kStepS).torque_n_m(0), -3.0, 1e-9);
 }
 
 TEST(Servo, WarmsByItsCurrentAndThenGivesLess) {
@@ -138,7 +139,7 @@ TEST(Servo, WarmsByItsCurrentAndThenGivesLess) {
   bare.setpoint.goal_count = 4000;
   double torque = 0;
   for (int s = 0; s < 100; ++s) {  // one-second steps: only heat matters here
-    torque = servo.drive(bare.setpoint, 0, 0, 12.0, 1.0).torque_n_m(0);
+    torque = servo.drive(bare.setpoint, 0, 0, 0, 12.0, 1.0).torque_n_m(0);
     servo.finish(0, 1.0);
   }
   // 27.6 W at first, into 74 J/K.
@@ -217,6 +218,7 @@ TEST(ServoInOde, StepResponseIsThatOfASecondOrderSystem) {
   options.supply_ohm = 0;
   model::Entity entity = test::arm();
   entity.joints[0].servo.counts_per_rev = 4096 * 64;  // so fine that quantisation does not show
+  entity.joints[0].servo.loop_s = 0.0001;             // and so fast that sampling does not
   entity.joints[0].servo.offset_count = 0;
   TwinRobot robot(world, entity, options);
   const double goal = 0.02;
