@@ -11,8 +11,44 @@ Vec3 ground_point(const LegParams& leg, const gait::FootPose& foot, gait::Xy zmp
   return {at_m.x, at_m.y, foot.height_m};
 }
 
-void add_sag(const Params& params, const LegParams& leg, const kinematics::LegChain& chain,
-             const LegLoad& load, float* leg_rad) {
+LegMotion follow(const Params& params, int side, const float* leg_rad, DriveState& state) {
+  const float period_s = static_cast<float>(params.period_us) * 1e-6F;
+  LegMotion motion;
+  for (int k = 0; k < kLegJoints; ++k) {
+    float& last_rad = state.angle_rad[side * kLegJoints + k];
+    float& last_rad_s = state.rate_rad_s[side * kLegJoints + k];
+    const float rate = (leg_rad[k] - last_rad) / period_s;
+    const JointParams& joint = params.joint[params.leg[side].joint[k]];
+    if (math::abs(rate) <= joint.velocity_limit_rad_s) {
+      motion.rate_rad_s[k] = rate;
+      motion.accel_rad_s2[k] = (rate - last_rad_s) / period_s;
+    }
+    last_rad = leg_rad[k];
+    last_rad_s = motion.rate_rad_s[k];
+  }
+  return motion;
+}
+
+namespace {
+
+// The torque that rotor and gears take beside the load. Friction changes sides smoothly: a joint
+// that hardly turns may be on either.
+float taken_nm(const BalanceTuning& tuning, const JointParams& joint, float load_nm, float rate,
+               float accel) {
+  constexpr float kSure_rad_s = 0.1F;
+  const float slow = 1.0F / (1.0F + math::square(rate / joint.friction_speed_rad_s));
+  // The load pushes on one side of the gears and the motor on the other: both bear on them.
+  const float budget =
+      slow * (joint.friction_n_m + 2.0F * joint.load_friction * math::abs(load_nm));
+  return tuning.inertia_share * joint.armature_kg_m2 * accel +
+         tuning.friction_share * budget * rate / (math::abs(rate) + kSure_rad_s);
+}
+
+}  // namespace
+
+void add_sag(const Params& params, const BalanceTuning& tuning, const LegParams& leg,
+             const kinematics::LegChain& chain, const LegLoad& load, const LegMotion& motion,
+             float* leg_rad) {
   // Force beyond the joint, and its moment about the origin: summed from the sole upwards.
   Vec3 force_n = load.push_n;
   Vec3 moment_nm = math::cross(load.ground_m, load.push_n);
@@ -29,7 +65,9 @@ void add_sag(const Params& params, const LegParams& leg, const kinematics::LegCh
     moment_nm += math::cross(com_m, weight_n);
     const Vec3 axis = kinematics::joint_axis(joint, link.rotation);
     const float servo_nm = -axis.dot(moment_nm - math::cross(link.position_m, force_n));
-    leg_rad[k] += joint.compliance_rad_nm * servo_nm;
+    const float taken =
+        taken_nm(tuning, joint, servo_nm, motion.rate_rad_s[k], motion.accel_rad_s2[k]);
+    leg_rad[k] += joint.compliance_rad_nm * (servo_nm + taken);
   }
 }
 

@@ -40,6 +40,10 @@ void make_leg(int foot, Params& params) {
     joint.counts_per_rad = k % 2 == 0 ? 651.9F : -651.9F;
     joint.zero_count = 2048;
     joint.compliance_rad_nm = 0.026F;
+    joint.armature_kg_m2 = 0.0064F;
+    joint.friction_n_m = 0.035F;
+    joint.load_friction = 0.233F;
+    joint.friction_speed_rad_s = 1.57F;
     joint.stand_rad = kStand_rad[k];
     joint.sit_rad = kSit_rad[k];
   }

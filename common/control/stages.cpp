@@ -178,8 +178,10 @@ Wanted solve_joints(const Params& params, State& state, const Inputs& inputs,
       balance::learn_zero(params, leg, chain, angles.angle_rad, plan.posture.foot[side], inputs,
                           attitude, tuning.gait.trunk_pitch_rad, zero);
     }
+    const balance::LegMotion motion = balance::follow(params, side, angles.angle_rad, state.drive);
     if (tuning.balance.gravity_enable > 0.5F) {
-      balance::add_sag(params, leg, chain, load_of(params, plan, side, mass_kg), angles.angle_rad);
+      balance::add_sag(params, tuning.balance, leg, chain, load_of(params, plan, side, mass_kg),
+                       motion, angles.angle_rad);
     }
     if (tuning.balance.zeros_enable > 0.5F) balance::add_zero(leg, zero, angles.angle_rad);
     balance::add(leg, state.feedback.leg[side], angles.angle_rad);

@@ -1,6 +1,7 @@
 #pragma once
 #include "common/balance/attitude.hpp"
 #include "common/balance/feedback.hpp"
+#include "common/balance/gravity.hpp"
 #include "common/balance/zeros.hpp"
 #include "common/base/fields.hpp"
 #include "common/control/admit.hpp"
@@ -33,9 +34,10 @@ struct State {
   gait::GaitState gait;
   balance::FeedbackOut feedback;
   balance::ZeroState zeros;
+  balance::DriveState drive;
   safety::LimitState limit;
   safety::MachineState machine;
-  VERP_FIELDS(digest, tuning, admit, attitude, steer, gait, feedback, zeros, limit, machine)
+  VERP_FIELDS(digest, tuning, admit, attitude, steer, gait, feedback, zeros, drive, limit, machine)
 };
 VERP_PACKED(State);
 static_assert(sizeof(State) <= 2048, "hashed State is at most 2 KB");

@@ -18,6 +18,9 @@ constexpr Range kCompliance_rad_nm{0, 100};
 constexpr Range kGyro_rad_s{1e-7F, 1};
 constexpr Range kAccel_m_s2{1e-6F, 10};
 constexpr Range kForce_n{0, 1000};
+constexpr Range kArmature_kg_m2{0, 1000};
+constexpr Range kTorque_n_m{0, 1e4F};
+constexpr Range kFrictionSpeed_rad_s{1e-3F, 1000};
 constexpr std::uint32_t kShortest_us = 4000, kLongest_us = 20000;  // as Params says
 
 /// Remembers the first number that does not fit.
@@ -81,6 +84,10 @@ void look_at_joint(const JointParams& joint, Search& search) {
   search.check("counts_per_rad", math::abs(joint.counts_per_rad), kScale_per_rad);
   search.check("zero_count", joint.zero_count, kZero_count);
   search.check("compliance_rad_nm", joint.compliance_rad_nm, kCompliance_rad_nm);
+  search.check("armature_kg_m2", joint.armature_kg_m2, kArmature_kg_m2);
+  search.check("friction_n_m", joint.friction_n_m, kTorque_n_m);
+  search.check("load_friction", joint.load_friction, {0, 1});
+  search.check("friction_speed_rad_s", joint.friction_speed_rad_s, kFrictionSpeed_rad_s);
   search.check("stand_rad", joint.stand_rad, kAngle_rad);
   search.check("sit_rad", joint.sit_rad, kAngle_rad);
 }

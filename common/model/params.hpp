@@ -42,11 +42,17 @@ struct JointParams {
   float counts_per_rad = 0;  ///< signed: the servo may be mounted backwards
   float zero_count = 0;      ///< count at which the joint stands at zero
   float compliance_rad_nm = 0;  ///< sag of the servo's position loop under load
+  /// Rotor and gears, seen from the joint; host/model/entity.hpp, Gearbox.
+  float armature_kg_m2 = 0;
+  float friction_n_m = 0;          ///< while it hardly turns
+  float load_friction = 0;         ///< part of the load that is added to it
+  float friction_speed_rad_s = 1;  ///< at which half of it is left
   float stand_rad = 0;  ///< where the joint rests while standing and walking (legs: ignored)
   float sit_rad = 0;    ///< the crouch from which torque may be released
   VERP_FIELDS(name, parent, axis_kind, servo_id, servo_profile, origin_parent_m, axis, mass_kg,
               com_link_m, lower_rad, upper_rad, velocity_limit_rad_s, counts_per_rad, zero_count,
-              compliance_rad_nm, stand_rad, sit_rad)
+              compliance_rad_nm, armature_kg_m2, friction_n_m, load_friction, friction_speed_rad_s,
+              stand_rad, sit_rad)
 };
 VERP_PACKED(JointParams);
 

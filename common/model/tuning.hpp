@@ -25,7 +25,7 @@ struct GaitTuning {
   /// Goal of joint k of a limb lags by k times this (paper: 0.030), by 12 key points at most: with
   /// 0.030 in cycles under 0.375 s the last joints lag by less.
   float joint_delay_s = 0.0f;
-  float look_ahead_s = 0.0180f;     ///< goals are computed for this much later: bus and servo delay
+  float look_ahead_s = 0.0210f;     ///< goals are computed for this much later: bus and servo delay
   float support_margin_m = 0.004f;  ///< planned ZMP keeps this distance from the sole's edge
   float heading_gain = 0.12f;       ///< share of the heading error that one step turns back
   VERP_FIELDS(cycle_s, double_support, lift_m, half_stance_m, hip_height_m, trunk_pitch_rad,
@@ -37,6 +37,8 @@ VERP_PACKED(GaitTuning);
 /// Balance; each `enable` is 1 or 0, to show what that part does.
 struct BalanceTuning {
   float gravity_enable = 1.0f;       ///< gravity feed-forward through the servos' compliance
+  float inertia_share = 0.5f;        ///< of the rotors' inertia, fed forward
+  float friction_share = 1.0f;       ///< of the gears' friction, fed forward
   float multibody_enable = 1.0f;     ///< multibody ZMP correction
   float feedback_enable = 1.0f;      ///< gyro and tilt feedback
   float zeros_enable = 1.0f;         ///< learnt zero errors of the legs taken into their goals
@@ -50,9 +52,10 @@ struct BalanceTuning {
   float hip_roll_rate_s = 0.041f;
   float swing_level = 0.169f;        ///< swing ankle turned back by this share of the tilt
   float feedback_limit_rad = 0.25f;  ///< largest correction on any joint
-  VERP_FIELDS(gravity_enable, multibody_enable, feedback_enable, zeros_enable, ankle_pitch_tilt,
-              ankle_pitch_rate_s, ankle_roll_tilt, ankle_roll_rate_s, hip_pitch_tilt,
-              hip_pitch_rate_s, hip_roll_tilt, hip_roll_rate_s, swing_level, feedback_limit_rad)
+  VERP_FIELDS(gravity_enable, inertia_share, friction_share, multibody_enable, feedback_enable,
+              zeros_enable, ankle_pitch_tilt, ankle_pitch_rate_s, ankle_roll_tilt,
+              ankle_roll_rate_s, hip_pitch_tilt, hip_pitch_rate_s, hip_roll_tilt, hip_roll_rate_s,
+              swing_level, feedback_limit_rad)
 };
 VERP_PACKED(BalanceTuning);
 

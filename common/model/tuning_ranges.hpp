@@ -32,6 +32,8 @@ inline constexpr Range kTuningRanges[] = {
     {0.0F, 1.0F},     // heading_gain
     // balance
     {0.0F, 1.0F},   // gravity_enable
+    {0.0F, 2.0F},   // inertia_share
+    {0.0F, 2.0F},   // friction_share
     {0.0F, 1.0F},   // multibody_enable
     {0.0F, 1.0F},   // feedback_enable
     {0.0F, 1.0F},   // zeros_enable

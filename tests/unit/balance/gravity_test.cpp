@@ -29,7 +29,7 @@ Sag sag_of(const Params& params, const LegParams& leg, const float* pose_rad, fl
   Sag sag;
   for (int k = 0; k < kLegJoints; ++k) sag.leg_rad[k] = pose_rad[k];
   sag.before = kinematics::leg_chain(params, leg, Pose{}, pose_rad);
-  add_sag(params, leg, sag.before, carrying(leg, sag.before, push_n), sag.leg_rad);
+  add_sag(params, {}, leg, sag.before, carrying(leg, sag.before, push_n), {}, sag.leg_rad);
   for (int k = 0; k < kLegJoints; ++k) sag.added_rad[k] = sag.leg_rad[k] - pose_rad[k];
   sag.after = kinematics::leg_chain(params, leg, Pose{}, sag.leg_rad);
   return sag;
@@ -98,9 +98,60 @@ TEST(Gravity, SagIsTorqueTimesCompliance) {
   LegLoad load = carrying(leg, chain, 10);
   load.ground_m.x() += 0.05F;
   float leg_rad[kLegJoints] = {};
-  add_sag(massless, leg, chain, load, leg_rad);
+  add_sag(massless, {}, leg, chain, load, {}, leg_rad);
   // The push turns the shank nose up (negative about y): the servo must hold with +0.5 N m.
   EXPECT_NEAR(leg_rad[3], 0.5F * 0.0263F, 1e-5F);
+}
+
+// What rotor and gears take of a motor's torque is added the way the joint turns: friction with the
+// speed's sign and more under load, inertia with the acceleration's; neither when switched off.
+TEST(Gravity, FrictionAndInertiaAreFedForward) {
+  static const Params massless = test::make_massless_legs_robot();
+  Params geared = massless;
+  const LegParams& leg = geared.leg[0];
+  JointParams& knee = geared.joint[leg.joint[3]];
+  knee.friction_n_m = 0.04F;
+  knee.load_friction = 0.2F;
+  knee.friction_speed_rad_s = 1.5F;
+  knee.armature_kg_m2 = 0.01F;
+  const float straight_rad[kLegJoints] = {};
+  const kinematics::LegChain chain = kinematics::leg_chain(geared, leg, Pose{}, straight_rad);
+  LegLoad load = carrying(leg, chain, 10);
+  load.ground_m.x() += 0.05F;  // 0.5 N m on the knee
+  const auto knee_nm = [&](float rate, float accel, float share) {
+    LegMotion motion;
+    motion.rate_rad_s[3] = rate;
+    motion.accel_rad_s2[3] = accel;
+    BalanceTuning tuning;
+    tuning.friction_share = tuning.inertia_share = share;
+    float leg_rad[kLegJoints] = {};
+    add_sag(geared, tuning, leg, chain, load, motion, leg_rad);
+    return leg_rad[3] / knee.compliance_rad_nm;
+  };
+  // At the speed where half is left: (0.04 + 2 * 0.2 * 0.5) / 2, less what is not sure of its sign.
+  EXPECT_NEAR(knee_nm(1.5F, 0, 1) - 0.5F, 0.12F * 1.5F / 1.6F, 1e-3F);
+  EXPECT_NEAR(knee_nm(-1.5F, 0, 1) - 0.5F, -0.12F * 1.5F / 1.6F, 1e-3F);
+  EXPECT_NEAR(knee_nm(0, 20, 1) - 0.5F, 0.2F, 1e-3F);
+  EXPECT_NEAR(knee_nm(1.5F, 20, 0), 0.5F, 1e-3F);
+}
+
+// Rates and accelerations are those of the plan; where a plan begins there are none.
+TEST(Gravity, FollowsThePlanButNotItsLeaps) {
+  DriveState state;
+  const float period_s = static_cast<float>(kRobot.period_us) * 1e-6F;
+  float leg_rad[kLegJoints] = {};
+  for (float& angle : leg_rad) angle = 2;
+  LegMotion motion = follow(kRobot, 1, leg_rad, state);
+  for (int k = 0; k < kLegJoints; ++k) {
+    EXPECT_EQ(motion.rate_rad_s[k], 0.0F);
+    EXPECT_EQ(motion.accel_rad_s2[k], 0.0F);
+  }
+  for (int tick = 1; tick <= 3; ++tick) {  // 10 rad/s2 from rest
+    for (float& angle : leg_rad) angle += 10 * static_cast<float>(tick) * period_s * period_s;
+    motion = follow(kRobot, 1, leg_rad, state);
+  }
+  EXPECT_NEAR(motion.rate_rad_s[3], 10 * 3 * period_s, 1e-3F);
+  EXPECT_NEAR(motion.accel_rad_s2[3], 10, 0.1F);
 }
 
 TEST(Gravity, GroundPointIsTheZmpHeldInsideTheSole) {

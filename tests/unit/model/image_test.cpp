@@ -156,7 +156,7 @@ TEST(Image, NumbersThatAreNoneOrNoRobotsAreNamed) {
 // Each float of a joint, whichever: none is forgotten.
 TEST(Image, EveryNumberOfAJointIsLookedAt) {
   make_image();
-  constexpr std::size_t kFloats = 18;
+  constexpr std::size_t kFloats = 22;
   static float* number[kFloats];
   std::size_t count = 0;
   for_each_leaf(image.params.joint[1], [&](auto& value) {
