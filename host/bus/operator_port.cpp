@@ -1,9 +1,9 @@
 #include "host/bus/operator_port.hpp"
 
-#include <bit>
 #include <utility>
 
 #include "firmware/app/register_image.hpp"
+#include "host/bus/order_packets.hpp"
 #include "host/link/endpoint.hpp"
 
 namespace verp::bus {
@@ -16,21 +16,13 @@ constexpr std::uint32_t kSlice_us = 50'000;
 constexpr std::uint32_t kLinger_us = 20'000;
 constexpr int kAttempts = 6;
 
-void put16(std::vector<std::uint8_t>& bytes, int value) {
-  bytes.push_back(static_cast<std::uint8_t>(value));
-  bytes.push_back(static_cast<std::uint8_t>(value >> 8));
-}
-
 }  // namespace
 
 OperatorPort::OperatorPort(const std::string& endpoint, std::function<bool()> give_up)
     : text_(endpoint), give_up_(std::move(give_up)), link_(wire::parse_endpoint(endpoint)) {}
 
 void OperatorPort::add_write(std::uint16_t address, const std::vector<std::uint8_t>& data) {
-  std::uint8_t packet[dxl::kMaxPacket];
-  const std::size_t size =
-      dxl::encode_write(packet, sizeof packet, kId, address, data.data(), data.size());
-  outbox_.insert(outbox_.end(), packet, packet + size);
+  append_write(outbox_, address, data);
   ++asked_;
 }
 
@@ -41,25 +33,8 @@ void OperatorPort::add_read(std::uint16_t address, std::uint16_t length) {
   ++asked_;
 }
 
-// request to emergency_stop stand side by side: one write, one order.
 void OperatorPort::add_order(const app::OperatorOrder& order) {
-  const Command& command = order.command;
-  std::vector<std::uint8_t> bytes = {static_cast<std::uint8_t>(command.request), command.sequence};
-  put16(bytes, command.vx_tenth_mm_s);
-  put16(bytes, command.vy_tenth_mm_s);
-  put16(bytes, command.wz_mrad_s);
-  put16(bytes, command.head_pan_mrad);
-  put16(bytes, command.head_tilt_mrad);
-  bytes.resize(reg("head_mode") - reg("request"));  // no point to look at
-  bytes.push_back(static_cast<std::uint8_t>(dxl::controller::HeadMode::kAngles));
-  bytes.push_back((order.flags & kEmergencyStop) != 0 ? 1 : 0);
-  add_write(reg("request"), bytes);
-  if ((order.flags & kParameterWrite) == 0) return;
-  std::vector<std::uint8_t> parameter;
-  put16(parameter, order.parameter_id);
-  put16(parameter, static_cast<int>(order.parameter_bits & 0xFFFF));
-  put16(parameter, static_cast<int>(order.parameter_bits >> 16));
-  add_write(reg("parameter_id"), parameter);
+  asked_ += append_order(outbox_, order);
 }
 
 ControllerReport OperatorPort::exchange(const app::OperatorOrder* order) {

@@ -7,6 +7,7 @@
 #include "firmware/app/app.hpp"
 #include "host/board/board_error.hpp"
 #include "host/board/loop_on_target.hpp"
+#include "host/session/desk.hpp"
 #include "host/session/flow.hpp"
 #include "host/session/not_up.hpp"
 
@@ -18,7 +19,7 @@ template <class Bus>
 class LocalController final : public Controller {
  public:
   LocalController(Robot& robot, Bus& bus)
-      : robot_(robot), app_(robot.plan().params, bus, robot, sink_) {}
+      : robot_(robot), desk_(robot), app_(robot.plan().params, bus, desk_, desk_) {}
 
   bool tick() override {
     if (!std::exchange(up_, true)) bring_up();
@@ -27,16 +28,9 @@ class LocalController final : public Controller {
   }
 
  private:
-  /// Recorder that lets the session decide when a tick is looked at.
-  struct Sink {
-    void record(const TickRecord& tick, const State& state, const Outputs& outputs) {
-      robot.take(tick, state, outputs);
-    }
-    Robot& robot;
-  };
-
   void bring_up() {
     const app::BringUpReport report = app_.bring_up();
+    desk_.brought_up(report);
     if (report.status == app::BringUpStatus::kReady) return;
     const bool can = robot_.plan().params.bus_protocol == BusProtocol::kCia402;
     throw not_up(report, "the twin's bus",
@@ -45,8 +39,8 @@ class LocalController final : public Controller {
   }
 
   Robot& robot_;
-  Sink sink_{robot_};
-  app::App<Bus, Robot, Sink> app_;
+  Desk desk_;
+  app::App<Bus, Desk, Desk> app_;
   bool up_ = false;
 };
 

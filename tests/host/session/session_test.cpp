@@ -5,6 +5,7 @@
 #include <string>
 
 #include "common/safety/machine.hpp"
+#include "host/bus/order_sink.hpp"
 #include "host/session/not_up.hpp"
 #include "tests/host/session/plans.hpp"
 
@@ -27,6 +28,38 @@ TEST(Session, RobotsOnBusesOfTheirOwnWalkInOneWorldAsTheyDoAlone) {
     EXPECT_EQ(session.result(i).failure, "");
     EXPECT_EQ(together[i], alone(plans[i])) << "robot " << i;
   }
+}
+
+// What a board refuses is refused here: no struct takes a short cut around the registers.
+TEST(Session, OrdersGoThroughTheOperatorsRegisters) {
+  WalkPlan plan = plan_of("dxl");
+  Hooks hooks;
+  std::uint32_t refuse_at = 200;
+  hooks.order = [&](std::uint32_t tick) {
+    app::OperatorOrder order;
+    order.command.request = Request::kStand;
+    order.command.head_pan_mrad = 123;
+    order.flags = kCommandFresh;
+    if (tick != refuse_at) return order;
+    order.flags |= kParameterWrite;
+    order.parameter_id = 0;  // cycle_s, at least 0.3
+    order.parameter_bits = 0;
+    return order;
+  };
+  std::uint32_t seen = 0;
+  std::uint16_t flags = 0;
+  hooks.ticked = [&](const Tick& tick) {
+    seen = tick.record->inputs.tick;
+    flags = tick.record->inputs.flags;
+    EXPECT_EQ(tick.record->inputs.command.head_pan_mrad, 123) << seen;
+    EXPECT_TRUE(tick.record->inputs.command.request == Request::kStand) << seen;
+    EXPECT_NE(tick.outputs->mode, static_cast<std::uint8_t>(safety::Mode::kStopped));
+  };
+  Session session;
+  session.add(plan, hooks);
+  EXPECT_THROW(while (session.tick() != nullptr){}, bus::SinkError);
+  EXPECT_EQ(seen + 1, refuse_at);
+  EXPECT_NE(flags & kCommandFresh, 0);
 }
 
 TEST(Session, RobotsThatMeetFeelEachOther) {
