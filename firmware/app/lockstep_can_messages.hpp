@@ -41,6 +41,10 @@ inline constexpr std::uint32_t kCanHelloId = 0x1FFFFF00;
 inline constexpr std::uint32_t kCanHelloReplyId = 0x1FFFFF08;
 inline constexpr std::uint32_t kCanAdvanceId = 0x1FFFFF10;
 inline constexpr std::uint32_t kCanAdvancedId = 0x1FFFFF18;
+/// For anybody, in real time too: one byte, 1, as register set_upright; the answer is one byte, 0,
+/// or 1: a servo has torque.
+inline constexpr std::uint32_t kCanSetUprightId = 0x1FFFFF20;
+inline constexpr std::uint32_t kCanSetUprightReplyId = 0x1FFFFF28;
 inline constexpr std::uint32_t kCanHelloParts = sizeof(Hello) / kMaxCanData;
 static_assert(kCanHelloParts * kMaxCanData == sizeof(Hello));
 /// Frames that one answer brings at most.

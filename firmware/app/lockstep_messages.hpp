@@ -56,6 +56,9 @@ inline constexpr std::uint16_t kClockModel = 0x7603;  ///< ours, as those in con
 inline constexpr std::uint8_t kVersion = 1;           ///< of this page
 inline constexpr std::uint16_t kHelloAddress = 64;
 inline constexpr std::uint16_t kAdvanceAddress = 96;
+/// Register set_upright, one byte: 1 sets a limp robot that lies on its feet, and holds it until it
+/// is armed. Of the twin alone, for anybody, in real time too. Result Fail: a servo has torque.
+inline constexpr std::uint16_t kSetUprightAddress = 120;
 inline constexpr std::size_t kMaxPollBytes =
     dxl::kMaxPacket;                                ///< most bytes that one answer brings
 inline constexpr std::size_t kMaxClockPacket = 64;  ///< stuffing included

@@ -128,12 +128,22 @@ void LockstepServer::handle(const dxl::Packet& packet, std::vector<std::uint8_t>
     frames_.clear();
     return append_error(answer, dxl::Error::kAccess);
   }
+  std::uint8_t upright = 0;
+  if (payload_of(packet, lockstep::kSetUprightAddress, upright)) {
+    return append_error(answer, set_upright(upright));
+  }
   if (packet.instruction != dxl::Instruction::kPing) {
     return append_error(answer, dxl::Error::kInstruction);
   }
   const std::uint8_t identity[3] = {lockstep::kClockModel & 0xFF, lockstep::kClockModel >> 8,
                                     lockstep::kVersion};
   append_status(answer, dxl::Error::kNone, identity);
+}
+
+dxl::Error LockstepServer::set_upright(std::uint8_t value) {
+  if (value != 1) return dxl::Error::kDataRange;
+  if (!hooks_.set_upright) return dxl::Error::kAccess;
+  return hooks_.set_upright() ? dxl::Error::kNone : dxl::Error::kResultFail;
 }
 
 void LockstepServer::hello(const lockstep::Hello& hello, std::vector<std::uint8_t>& answer) {

@@ -27,6 +27,8 @@ struct LockstepHooks {
   std::function<void(std::span<const std::uint8_t> frame)> sent;
   /// Frames before this poll were damaged on the link.
   std::function<void()> damaged;
+  /// Somebody wants the robot set on its feet. False: not now.
+  std::function<bool()> set_upright;
   /// What a poll brought.
   std::function<void(std::span<const std::uint8_t> bytes, std::uint64_t now_us)> polled;
 };
@@ -61,6 +63,7 @@ class LockstepServer {
 
  private:
   void handle(const dxl::Packet& packet, std::vector<std::uint8_t>& answer);
+  dxl::Error set_upright(std::uint8_t value);
   void hello(const lockstep::Hello& hello, std::vector<std::uint8_t>& answer);
   void advance(const lockstep::Advance& advance, std::vector<std::uint8_t>& answer);
   /// Puts what came since the last Advance on the bus; true: a tick has begun.

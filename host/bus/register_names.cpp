@@ -105,19 +105,23 @@ constexpr auto kFoot = std::to_array<NamedRegister>({
     row(dxl::sensor_block::kFoot, "force", Type::kU16, kFootSensors, "counts"),
 });
 
+// Its messages (firmware/app/lockstep_messages.hpp) are for controllers; this is for people.
+constexpr auto kClock = std::to_array<NamedRegister>({
+    used(lockstep::kSetUprightAddress, "set_upright", Type::kU8),
+});
+
 struct Model {
   std::uint16_t number;
   const char* name;
   std::span<const NamedRegister> registers;
 };
-// A lockstep clock is spoken to by messages (firmware/app/lockstep_messages.hpp), not registers.
 constexpr std::array<Model, 7> kModels = {{
     {dxl::kModelXm430W210, "XM430-W210", kServo},
     {dxl::kModelXm430W350, "XM430-W350", kServo},
     {dxl::kModelMx28, "MX-28(2.0)", kServo},
     {dxl::kModelImu, "IMU device", kImu},
     {dxl::kModelFoot, "foot device", kFoot},
-    {lockstep::kClockModel, "twin's clock", {}},
+    {lockstep::kClockModel, "twin's clock", kClock},
     {dxl::controller::kModel, "controller", dxl::controller::kTable},
 }};
 

@@ -47,6 +47,13 @@ void LockstepServer::take(const CanFrame& frame, std::vector<CanFrame>& answer) 
   if (lockstep::take_message(frame, lockstep::kCanAdvanceId, request)) {
     return advance(request, answer);
   }
+  std::uint8_t upright = 0;
+  if (lockstep::take_message(frame, lockstep::kCanSetUprightId, upright) && upright == 1) {
+    const bool done = hooks_.set_upright && hooks_.set_upright();
+    answer.push_back(lockstep::can_message(lockstep::kCanSetUprightReplyId,
+                                           static_cast<std::uint8_t>(done ? 0 : 1)));
+    return;
+  }
   if (hello_.take(frame)) return hello(hello_.hello, answer);
   if (is_of_controller_node(frame)) return;
   if (!lockstep::is_clock_frame(frame) && frames_.size() < kMostHeld) frames_.push_back(frame);

@@ -28,6 +28,8 @@ struct LockstepHooks {
   std::function<void(const CanFrame& frame)> sent;
   /// Frames before this poll were lost on the way, or came twice.
   std::function<void()> damaged;
+  /// Somebody wants the robot set on its feet. False: not now.
+  std::function<bool()> set_upright;
   /// What a poll brought: a burst.
   std::function<void(const std::vector<CanFrame>& burst, std::uint64_t now_us)> polled;
 };

@@ -20,6 +20,9 @@ class FallVerdict {
     (torque || tipping_ ? fell_ : lay_down_) = true;
   }
 
+  /// Somebody set it on its feet.
+  void set_upright() { tipping_ = lay_down_ = false; }
+
   /// Torque was on at some time.
   bool driven() const { return driven_; }
   bool fell() const { return fell_; }

@@ -63,6 +63,7 @@ struct WalkResult {
   std::uint32_t faults = 0;   ///< safety::Fault bits at the end
   double longest_step_m = 0;  ///< that the gait made: the asked one, or what limits left of it
   double simulated_s = 0, wall_s = 0;
+  std::vector<double> set_upright_s;  ///< when somebody set it on its feet, simulated time
   bool interrupted = false;
   std::optional<CanTraffic> can;  ///< of a walk over CAN
   std::string trace_failure;  ///< why the trace breaks off; the walk went on. Empty: it does not

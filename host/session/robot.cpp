@@ -118,6 +118,13 @@ bool Robot::has_torque() {
   return false;
 }
 
+bool Robot::set_upright() {
+  if (!twin_.set_upright()) return false;
+  verdict_.set_upright();
+  result_.set_upright_s.push_back(simulated_s());
+  return true;
+}
+
 void Robot::watch() {
   const bool torque = has_torque();
   watched_ = true;

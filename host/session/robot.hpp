@@ -58,6 +58,10 @@ class Robot {
   /// (FallVerdict), and is served on.
   void watch();
 
+  /// Somebody sets it on its feet (sim::TwinRobot): kept in the result, with the time. False: not
+  /// now, a servo has torque.
+  bool set_upright();
+
   double simulated_s() const;
   /// How much of plan.walk_s has gone by.
   double gone_s() const;

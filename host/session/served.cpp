@@ -152,8 +152,17 @@ void Served::watch() {
     say("a servo has torque: the session begins");
   }
   if (verdict.lay_down() && !std::exchange(lay_down_, true)) {
-    say("the robot was let go and lies down: that is no fall, and it is served on");
+    say("the robot was let go and lies down: that is no fall, and it is served on; u and Enter, or "
+        "set_upright of its clock, sets it on its feet");
   }
+}
+
+bool Served::set_upright() {
+  const bool done = robot_.set_upright();
+  if (done) lay_down_ = false;
+  say(done ? "the robot is set on its feet, and held until its legs have torque"
+           : "a servo has torque: nobody can set the robot on its feet");
+  return done;
 }
 
 void Served::watch_until(std::uint64_t now_us) {

@@ -63,6 +63,8 @@ class Served : public Controller {
   bool tick() final;
   void finish() final;
   double wall_s(double session_s) const final;
+  /// Somebody sets the robot on its feet. False: not now, a servo has torque.
+  bool set_upright();
   /// Once, at the end.
   virtual ServedResult result() const;
 
@@ -99,6 +101,7 @@ class Served : public Controller {
     hooks.greeted = [this] { begins(); };
     hooks.refused = [this](const std::string& why) { refused(why); };
     hooks.tick_ends = [this] { return tick_ends(); };
+    hooks.set_upright = [this] { return set_upright(); };
     hooks.tick_begins = [this](std::uint32_t tick) { tick_begins(tick); };
     hooks.damaged = [this] {
       if (shadow_) shadow_->damaged();

@@ -133,6 +133,23 @@ void TwinRobot::after_step(double step_s) {
   update_fallen();
 }
 
+bool TwinRobot::set_upright() {
+  for (const ServoSetpoint& each : setpoint_) {
+    if (each.torque_on) return false;
+  }
+  const Transform lies = body_.link_pose(0);
+  TwinOptions here = options_;
+  here.start_m.head<2>() = lies.translation().head<2>();
+  here.start_yaw_rad = std::atan2(lies.linear()(1, 0), lies.linear()(0, 0));
+  const Start start = make_start(entity_, here);
+  body_.release();
+  body_.place(start.body_world, start.joint_rad);
+  if (options_.cradle != Cradle::kNone) body_.hold();
+  armed_s_ = 0;
+  fallen_ = false;
+  return true;
+}
+
 void TwinRobot::update_cradle(double step_s) {
   if (options_.cradle != Cradle::kUntilArmed || !body_.held()) return;
   bool armed = true;

@@ -76,6 +76,9 @@ class TwinRobot final : public Plant, private Actor {
   /// Lets go of the body at once, whatever the cradle waits for.
   void release() { body_.release(); }
   bool fallen() const { return fallen_; }
+  /// Somebody puts a limp robot on its feet where it lies, in the pose in which it began, and holds
+  /// it as then (Cradle). False: a servo has torque, and nothing was done.
+  bool set_upright();
   double supply_v() const { return supply_v_; }
   /// Physics steps since the start, and in how many of them each joint's duty was at its limit.
   std::uint64_t steps() const { return steps_; }

@@ -123,6 +123,7 @@ int answer_served(const WalkPlan& plan, const WalkOptions& options, const HilRes
                  {"simulated_s", walk.simulated_s},
                  {"fallen", walk.metrics.fallen},
                  {"let_go_and_lies", result.lay_down},
+                 {"set_upright_s", walk.set_upright_s},
                  {"interrupted", walk.interrupted},
                  {"failure", walk.failure},
                  {"real_time_factor", walk.real_time_factor()}};

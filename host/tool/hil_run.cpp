@@ -7,6 +7,7 @@
 #include "host/tool/console.hpp"
 #include "host/tool/interrupt.hpp"
 #include "host/tool/real_time.hpp"
+#include "host/tool/typed_lines.hpp"
 
 namespace verp::tool {
 
@@ -33,7 +34,9 @@ HilResult serve_controller(const WalkPlan& plan, session::ServeOptions options,
                 served = made.get();
                 return made;
               });
+  TypedLines typed;
   while (session.tick() != nullptr) {
+    if (typed.next() == "u") served->set_upright();
   }
   progress.clear();
   HilResult result{served->result(), {}};

@@ -115,6 +115,35 @@ TEST_F(Lockstep, RecordsWhatTheLoopInThisProcessRecords) {
   EXPECT_EQ(server.counters().repeats + bus.counters().repeats, 0u);
 }
 
+// A person's, not a controller's: before any hello, and while there is none at all.
+TEST(SetUpright, IsARegisterOfTheTwinsClock) {
+  const Params params = test::bus_params(2);
+  test::FakePlant plant;
+  bus::VirtualBus twin(params, plant);
+  int asked = 0;
+  bool limp = true;
+  bus::LockstepHooks hooks;
+  hooks.set_upright = [&] { return ++asked, limp; };
+  bus::LockstepServer server(params, twin, hooks);
+  const auto error_of = [&](std::uint8_t value) {
+    std::uint8_t frame[32];
+    const std::size_t size = dxl::encode_write(frame, sizeof frame, lockstep::kClockId,
+                                               lockstep::kSetUprightAddress, &value, 1);
+    std::vector<std::uint8_t> answer;
+    server.take({frame, size}, answer);
+    dxl::Parser parser;
+    for (const std::uint8_t byte : answer) {
+      if (parser.push(byte)) return static_cast<dxl::Error>(parser.packet().error);
+    }
+    return dxl::Error::kCrc;
+  };
+  EXPECT_EQ(error_of(1), dxl::Error::kNone);
+  EXPECT_EQ(error_of(0), dxl::Error::kDataRange);
+  EXPECT_EQ(asked, 1);
+  limp = false;
+  EXPECT_EQ(error_of(1), dxl::Error::kResultFail);
+}
+
 // What is damaged on the way to the controller is asked for again, and no bit of the run changes.
 TEST_F(Lockstep, MakesGoodWhatTheLinkSpoilsOnTheWayToTheController) {
   const std::vector<TickRecord> expected = records_here(params);

@@ -46,9 +46,12 @@ TEST(RegisterNames, ServoRegistersHaveTheManualsSizes) {
   EXPECT_EQ(size("homing_offset"), 4u);
 }
 
-TEST(RegisterNames, TheTwinsClockIsNamedThoughItHasNoRegisters) {
+// Its messages are for controllers; one register is for people.
+TEST(RegisterNames, TheTwinsClockIsNamed) {
   EXPECT_EQ(model_name(lockstep::kClockModel), "twin's clock");
-  EXPECT_TRUE(registers_of(lockstep::kClockModel).empty());
+  const NamedRegister* upright = find_register(lockstep::kClockModel, "set_upright");
+  ASSERT_NE(upright, nullptr);
+  EXPECT_EQ(upright->address, lockstep::kSetUprightAddress);
 }
 
 TEST(RegisterNames, UnknownOnesAreNotGuessed) {

@@ -136,6 +136,26 @@ TEST_F(CanLockstep, TakesNoHarmFromAnotherOrderOnTheWay) {
 }
 
 // The smallest receive FIFO there is holds a whole answer, so that a slow controller loses nothing.
+TEST(CanSetUpright, IsAMessageOfTheTwinsClock) {
+  const Params params = test::bus_params(2);
+  test::FakePlant plant;
+  VirtualCan twin(params, plant);
+  bool limp = true;
+  LockstepHooks hooks;
+  hooks.set_upright = [&] { return limp; };
+  LockstepServer server(params, twin, hooks);
+  for (const bool each : {true, false}) {
+    limp = each;
+    std::vector<CanFrame> answer;
+    server.take(lockstep::can_message(lockstep::kCanSetUprightId, std::uint8_t{1}), answer);
+    std::uint8_t result = 9;
+    ASSERT_EQ(answer.size(), 1u);
+    ASSERT_TRUE(lockstep::take_message(answer[0], lockstep::kCanSetUprightReplyId, result));
+    EXPECT_EQ(result, each ? 0 : 1);
+  }
+  EXPECT_TRUE(server.unannounced().empty()) << "no frame of the robot's bus";
+}
+
 TEST_F(CanLockstep, AnAnswerFitsAnSja1000) {
   ASSERT_EQ(bus.greet(params), lockstep::Verdict::kAccepted);
   wire.most_room = 0;

@@ -27,6 +27,21 @@ TEST(FallVerdict, AControllerThatLetsGoOfATippingRobotDoesNotMakeItGood) {
   EXPECT_TRUE(verdict.fell());
 }
 
+TEST(FallVerdict, OneThatWasSetOnItsFeetMayLieDownAgainOrFall) {
+  for (const bool torque : {false, true}) {
+    FallVerdict verdict;
+    verdict.see(true, kUpright, false);
+    verdict.see(false, kLying, true);
+    ASSERT_TRUE(verdict.lay_down());
+    verdict.set_upright();
+    verdict.see(torque, kUpright, false);
+    EXPECT_FALSE(verdict.lay_down());
+    verdict.see(torque, kLying, true);
+    EXPECT_EQ(verdict.lay_down(), !torque);
+    EXPECT_EQ(verdict.fell(), torque);
+  }
+}
+
 TEST(FallVerdict, ARobotThatIsLetGoUprightLiesDown) {
   FallVerdict verdict;
   verdict.see(true, kUpright, false);

@@ -182,6 +182,33 @@ TEST(Robot, CradleHoldsUntilTheLegsAreArmed) {
   EXPECT_FALSE(robot.truth().held);
 }
 
+// As often as it falls, and wherever: nobody needs a new twin.
+TEST(Robot, IsSetOnItsFeetWhenItIsLimpAndHeldUntilItIsArmed) {
+  World world;
+  const model::Entity entity = test::biped();
+  TwinRobot robot(world, entity, crouched(entity));
+  robot.advance_to(100'000);
+  for (int time = 0; time < 2; ++time) {
+    robot.release();
+    robot.advance_to(world.now_us() + 2'000'000);
+    ASSERT_TRUE(robot.fallen());
+    const Vec3 lies_m = robot.truth().body_world.translation();
+    robot.setpoint(1).torque_on = true;
+    EXPECT_FALSE(robot.set_upright()) << "its servos would fight the hands";
+    EXPECT_TRUE(robot.fallen());
+    robot.setpoint(1).torque_on = false;
+    ASSERT_TRUE(robot.set_upright());
+    const Transform stands = robot.truth().body_world;
+    EXPECT_FALSE(robot.fallen());
+    EXPECT_TRUE(robot.truth().held);
+    EXPECT_GT(stands.linear()(2, 2), 0.99);
+    EXPECT_LT((stands.translation() - lies_m).head<2>().norm(), 0.1) << "where it lay";
+    robot.advance_to(world.now_us() + 1'000'000);
+    EXPECT_TRUE(robot.truth().held) << "nobody has armed it";
+    EXPECT_FALSE(robot.fallen());
+  }
+}
+
 struct Sample {
   std::vector<std::int32_t> counts;
   Truth truth;
