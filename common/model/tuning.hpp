@@ -25,7 +25,7 @@ struct GaitTuning {
   /// Goal of joint k of a limb lags by k times this (paper: 0.030), by 12 key points at most: with
   /// 0.030 in cycles under 0.375 s the last joints lag by less.
   float joint_delay_s = 0.0f;
-  float look_ahead_s = 0.0210f;     ///< goals are computed for this much later: bus and servo delay
+  float look_ahead_s = 0.0180f;     ///< goals are computed for this much later: bus and servo delay
   float support_margin_m = 0.004f;  ///< planned ZMP keeps this distance from the sole's edge
   float heading_gain = 0.12f;       ///< share of the heading error that one step turns back
   VERP_FIELDS(cycle_s, double_support, lift_m, half_stance_m, hip_height_m, trunk_pitch_rad,

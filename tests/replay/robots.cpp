@@ -61,8 +61,8 @@ Params fast_and_twisted(Params params) {
   return params;
 }
 
-/// Five joints, no legs, no mass, a servo that reports nothing, limits the wrong way round, an arm
-/// that turns without bound, and steps that would.
+/// Five joints, no legs, no mass, a servo that reports nothing, limits the wrong way round, arms
+/// that turn without bound, and steps that would.
 Params limbless(Params params) {
   params.joint_count = 5;
   params.body_mass_kg = 0;
@@ -70,9 +70,12 @@ Params limbless(Params params) {
   params.joint[1].counts_per_rad = 0;
   params.joint[0].lower_rad = 1;
   params.joint[0].upper_rad = -1;
-  params.joint[3].lower_rad = -1000;
-  params.joint[3].upper_rad = params.joint[3].velocity_limit_rad_s = 1000;
-  params.joint[3].stand_rad = params.joint[3].sit_rad = 500;
+  for (const int j : {3, 4}) {
+    JointParams& joint = params.joint[j];
+    joint.lower_rad = -1000;
+    joint.upper_rad = joint.velocity_limit_rad_s = 1000;
+    joint.stand_rad = joint.sit_rad = j == 3 ? 500.0F : -500.0F;
+  }
   params.tuning.gait.max_turn_rad = 100;
   params.tuning.gait.heading_gain = 20;
   for (JointParams& joint : params.joint) joint.mass_kg = 0;
