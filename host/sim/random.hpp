@@ -15,7 +15,17 @@ enum class Draw : std::uint64_t {
   kMass = 4,
   kImuNoise = 5,
   kFootNoise = 10,  ///< plus the foot's index
-  kEncoder = 100,   ///< plus the joint's index
+  kVaryMass = 20,   ///< this and the next: vary.hpp
+  kVaryFriction = 21,
+  kVaryDelay = 22,
+  kVaryBacklash = 23,
+  kVaryStrength = 24,
+  kVaryRotor = 25,
+  kVaryGearFriction = 26,
+  kVaryGyroBias = 27,
+  kVaryTilt = 28,
+  kVarySupply = 29,
+  kEncoder = 100,  ///< plus the joint's index
 };
 
 /// xoshiro256** (Blackman and Vigna, public domain), seeded by splitmix64 from (seed, purpose). Own

@@ -66,7 +66,8 @@ TwinRobot::TwinRobot(World& world, const model::Entity& entity, const TwinOption
       owner_(world.new_owner()),
       body_(world, entity_, mass_factors(entity, options), owner_),
       setpoint_(entity.joints.size()),
-      imu_(entity.imu.value_or(model::ImuSensor{}), options.imperfections.imu, options.seed),
+      imu_(entity.imu.value_or(model::ImuSensor{}), options.imperfections.imu, options.seed,
+           options.gyro_bias_rad_s),
       nominal_v_(options.supply_v.value_or(
           entity.joints.empty() ? 0.0 : entity.joints[0].servo.nominal_v)),
       supply_v_(nominal_v_),
@@ -92,6 +93,9 @@ TwinRobot::TwinRobot(World& world, const model::Entity& entity, const TwinOption
                        Random(options.seed, Draw::kFootNoise, foot));
   }
   initial_height_m_ = start.body_world.translation().z();
+  const auto delay_steps =
+      static_cast<std::size_t>(std::lround(options.goal_delay_s / world.step_s()));
+  arriving_.assign(delay_steps + 1, setpoint_);
   if (options.cradle != Cradle::kNone) body_.hold();
   world_.add(*this);
 }
@@ -109,14 +113,21 @@ FootLoads TwinRobot::take_foot_loads() {
   return std::exchange(loads_, FootLoads{});
 }
 
+/// Set-points as they stood goal_delay_s ago, in whole steps.
+const std::vector<ServoSetpoint>& TwinRobot::arrived() {
+  arriving_.push_back(setpoint_);
+  arriving_.pop_front();
+  return arriving_.front();
+}
+
 void TwinRobot::before_step(double step_s) {
   update_cradle(step_s);
   inertia_kg_m2_ = body_.inertias_kg_m2();
+  const std::vector<ServoSetpoint>& acting = arrived();
   for (std::size_t j = 0; j < servo_.size(); ++j) {
     const int joint = static_cast<int>(j);
-    body_.drive(joint,
-                servo_[j].drive(setpoint_[j], body_.angle_rad(joint), body_.rate_rad_s(joint),
-                                external_n_m_[j], supply_v_, step_s));
+    body_.drive(joint, servo_[j].drive(acting[j], body_.angle_rad(joint), body_.rate_rad_s(joint),
+                                       external_n_m_[j], supply_v_, step_s));
     external_n_m_[j] = -inertia_kg_m2_[j] * body_.rate_rad_s(joint) / step_s;
     saturated_steps_[j] += servo_[j].saturated() ? 1 : 0;
   }
@@ -188,7 +199,7 @@ void TwinRobot::update_imu(double step_s) {
   const int node = entity_.imu ? entity_.imu->node : 0;
   const Vec3 acceleration = (imu_point_velocity() - imu_velocity_world_m_s_) / step_s;
   imu_.sample(imu_pose().linear(), body_.angular_velocity_world_rad_s(node), acceleration,
-              world_.options().gravity_m_s2, step_s);
+              world_.options().gravity_m_s2 * world_.options().up.normalized(), step_s);
 }
 
 void TwinRobot::update_self_contacts() {

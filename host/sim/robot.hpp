@@ -1,6 +1,7 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <deque>
 #include <optional>
 #include <vector>
 
@@ -32,18 +33,20 @@ enum class Cradle { kNone, kUntilArmed, kAlways };
 
 struct TwinOptions {
   std::uint64_t seed = 1;
-  Imperfections imperfections;
-  double zero_error_deg = 0.5;      ///< uniform in +- this
-  double mass_scale = 1.0;          ///< of every link
-  double mass_spread = 0.0;         ///< each link: uniform in 1 +- this
-  std::vector<double> initial_rad;  ///< joint angles at the start; empty: Entity's stand_rad
-  Vec3 start_m = Vec3::Zero();      ///< midpoint of the soles
+  Imperfections imperfections = {};
+  double zero_error_deg = 0.5;           ///< uniform in +- this
+  double mass_scale = 1.0;               ///< of every link
+  double mass_spread = 0.0;              ///< each link: uniform in 1 +- this
+  double goal_delay_s = 0;               ///< from a set-point's arrival until its servo acts on it
+  Vec3 gyro_bias_rad_s = Vec3::Zero();   ///< sensor axes, on top of the noise's own
+  std::vector<double> initial_rad = {};  ///< joint angles at the start; empty: Entity's stand_rad
+  Vec3 start_m = Vec3::Zero();           ///< midpoint of the soles
   double start_yaw_rad = 0;
   Cradle cradle = Cradle::kUntilArmed;
   /// Released this long after all leg servos have torque: the firmware then stands in its pose
   /// (rise_s is 1 s), and does not walk yet.
   double cradle_s = 1.2;
-  std::optional<double> supply_v;  ///< unloaded; none: what the servos are made for
+  std::optional<double> supply_v = {};  ///< unloaded; none: what the servos are made for
   /// Internal resistance of battery and harness. An estimate: 3 LiPo cells of about 10 mOhm (hobby
   /// packs of 1 to 2 Ah), plug, fuse and the first metre of daisy chain.
   double supply_ohm = 0.1;
@@ -95,6 +98,7 @@ class TwinRobot final : public Plant, private Actor {
  private:
   void before_step(double step_s) override;
   void after_step(double step_s) override;
+  const std::vector<ServoSetpoint>& arrived();
   void update_cradle(double step_s);
   void update_servos(double step_s);
   void update_imu(double step_s);
@@ -114,6 +118,7 @@ class TwinRobot final : public Plant, private Actor {
   Body body_;
   std::vector<ServoModel> servo_;
   std::vector<ServoSetpoint> setpoint_;
+  std::deque<std::vector<ServoSetpoint>> arriving_;  ///< of the last steps, the oldest first
   ImuModel imu_;
   std::vector<FootModel> foot_;  ///< none, or left and right
   std::array<int, 2> foot_node_{-1, -1};

@@ -38,26 +38,31 @@ double LowPass::operator()(double value, double step_s) {
   return value_;
 }
 
-ImuModel::ImuModel(const model::ImuSensor& sensor, bool noise, std::uint64_t seed)
-    : sensor_(sensor), noise_(noise), random_(seed, Draw::kImuNoise) {
+ImuModel::ImuModel(const model::ImuSensor& sensor, bool noise, std::uint64_t seed,
+                   const Vec3& gyro_bias_rad_s)
+    : sensor_(sensor),
+      noise_(noise),
+      random_(seed, Draw::kImuNoise),
+      gyro_bias_rad_s_(gyro_bias_rad_s) {
   if (!noise) return;
   Random bias(seed, Draw::kImuBias);
-  gyro_bias_rad_s_ = normal3(bias, sensor.gyro_bias_rad_s);
+  gyro_bias_rad_s_ += normal3(bias, sensor.gyro_bias_rad_s);
   accel_bias_m_s2_ = normal3(bias, sensor.accel_bias_m_s2);
 }
 
 void ImuModel::sample(const Mat3& world_imu, const Vec3& angular_velocity_world_rad_s,
-                      const Vec3& acceleration_world_m_s2, double gravity_m_s2, double step_s) {
-  const Vec3 up(0, 0, gravity_m_s2);
+                      const Vec3& acceleration_world_m_s2, const Vec3& up_world_m_s2,
+                      double step_s) {
   Vec3 gyro = world_imu.transpose() * angular_velocity_world_rad_s;
-  Vec3 accel = world_imu.transpose() * (acceleration_world_m_s2 + up);
+  Vec3 accel = world_imu.transpose() * (acceleration_world_m_s2 + up_world_m_s2);
   for (int axis = 0; axis < 3; ++axis) {
     const auto i = static_cast<std::size_t>(axis);
     gyro[axis] = gyro_filter_[i](gyro[axis], step_s);
     accel[axis] = accel_filter_[i](accel[axis], step_s);
   }
+  gyro += gyro_bias_rad_s_;
   if (noise_) {
-    gyro += gyro_bias_rad_s_ + normal3(random_, sensor_.gyro_noise_rad_s);
+    gyro += normal3(random_, sensor_.gyro_noise_rad_s);
     accel += accel_bias_m_s2_ + normal3(random_, sensor_.accel_noise_m_s2);
   }
   for (int axis = 0; axis < 3; ++axis) {

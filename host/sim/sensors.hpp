@@ -27,12 +27,14 @@ class LowPass {
 /// false turning.
 class ImuModel {
  public:
-  ImuModel(const model::ImuSensor& sensor, bool noise, std::uint64_t seed);
+  /// gyro_bias_rad_s: on top of what the seed makes of the sensor's own.
+  ImuModel(const model::ImuSensor& sensor, bool noise, std::uint64_t seed,
+           const Vec3& gyro_bias_rad_s = Vec3::Zero());
 
   /// Angular velocity and acceleration of the sensor's own point, world axes; the specific force
-  /// follows.
+  /// follows. up_world_m_s2: against gravity.
   void sample(const Mat3& world_imu, const Vec3& angular_velocity_world_rad_s,
-              const Vec3& acceleration_world_m_s2, double gravity_m_s2, double step_s);
+              const Vec3& acceleration_world_m_s2, const Vec3& up_world_m_s2, double step_s);
   const ImuMeasurement& measurement() const { return measurement_; }
 
  private:

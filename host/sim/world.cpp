@@ -61,7 +61,8 @@ World::World(const WorldOptions& options) : options_(options) {
   world_ = dWorldCreate();
   space_ = dSimpleSpaceCreate(nullptr);
   contact_group_ = dJointGroupCreate(0);
-  dWorldSetGravity(world_, 0, 0, -options.gravity_m_s2);
+  const Vec3 gravity_m_s2 = -options.gravity_m_s2 * options.up.normalized();
+  dWorldSetGravity(world_, gravity_m_s2.x(), gravity_m_s2.y(), gravity_m_s2.z());
   dWorldSetERP(world_, kErrorReduction);
   dWorldSetCFM(world_, kConstraintSoftness);
   dWorldSetContactSurfaceLayer(world_, 0);

@@ -69,7 +69,9 @@ class TimeSource {
 struct WorldOptions {
   std::uint32_t step_us = 1000;
   double gravity_m_s2 = 9.80665;
-  bool ground = true;  ///< the plane z = 0
+  Vec3 up = Vec3::UnitZ();  ///< against gravity; the world's frame is the floor's, so a tilted up
+                            ///< is a tilted floor
+  bool ground = true;       ///< the plane z = 0
   Surface ground_surface{
       .friction = 1.0, .stiffness_n_m = 0, .damping_n_s_m = 0};  ///< 0 stiffness: rigid
 };

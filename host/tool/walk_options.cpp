@@ -126,6 +126,21 @@ void declare(CLI::App& app, WalkOptions& options) {
                  "FROM:TO:BY in m: also walk at each step length, with and without the multibody "
                  "correction")
       ->excludes("--velocity");
+  app.add_flag(
+      "--vary", options.vary,
+      "another robot of this kind, drawn from the seed: masses, friction, delay, backlash, "
+      "strength, gears, gyro bias, floor, supply; the controller does not know");
+  app.add_option("--seeds", options.seeds_text,
+                 "A-B: one walk for each of these seeds, as many at a time as there are cores; "
+                 "1-100 are for gates, 1001 and up for tuning, 2001 and up for reports")
+      ->excludes("--sweep-step")
+      ->excludes("--seed")
+      ->excludes("--record")
+      ->excludes("--report");
+  app.add_option("--physics-step", options.physics_step_ms,
+                 "of the twin, ms: 0.25, 0.5, 1, or 2, which is twice as fast and within 1 %")
+      ->check(CLI::IsMember({0.25, 0.5, 1.0, 2.0}))
+      ->capture_default_str();
   app.add_option("--on", options.board,
                  "run the controller in firmware on this emulated board (boards/)");
   app.add_flag("--no-multibody", options.no_multibody, "switch the multibody ZMP correction off");
@@ -188,6 +203,29 @@ void check_board(const WalkOptions& options) {
       kBadInput, fmt::format("verp walk: --on {}: no emulated board that takes its twin from here; "
                              "give one of: {}; others walk in `./verp test --on BOARD`",
                              options.board, names));
+}
+
+sim::WorldOptions world_of(const WalkOptions& options) {
+  sim::WorldOptions world;
+  world.step_us = static_cast<std::uint32_t>(std::lround(1e3 * options.physics_step_ms));
+  return world;
+}
+
+std::pair<std::uint64_t, std::uint64_t> seeds_of(const WalkOptions& options) {
+  constexpr double kMost = 4294967295;
+  const std::vector<std::string> parts = split(options.seeds_text, '-');
+  const std::string& command = options.command;
+  if (parts.size() != 2) {
+    throw ToolError(kBadInput, fmt::format("{}: --seeds '{}' is not A-B; example: 1-20", command,
+                                           options.seeds_text));
+  }
+  const double first = number(command, "--seeds A", parts[0], 0, kMost, "");
+  const double last = number(command, "--seeds B", parts[1], first, kMost, "");
+  if (first != std::floor(first) || last != std::floor(last)) {
+    throw ToolError(kBadInput, fmt::format("{}: --seeds '{}': seeds are whole numbers", command,
+                                           options.seeds_text));
+  }
+  return {static_cast<std::uint64_t>(first), static_cast<std::uint64_t>(last)};
 }
 
 std::vector<double> sweep_of(const WalkOptions& options) {

@@ -2,10 +2,12 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "common/model/params.hpp"
 #include "host/model/entity.hpp"
+#include "host/sim/world.hpp"
 
 namespace CLI {
 class App;
@@ -26,6 +28,9 @@ struct WalkOptions {
   std::string command = "verp walk";  ///< that complains
   bool no_multibody = false, no_feedback = false, no_gravity = false, no_zeros = false;
   bool record_state = false, json = false;
+  bool vary = false;           ///< the twin is another robot of this kind (host/sim/vary.hpp)
+  std::string seeds_text;      ///< A-B: these seeds, one after the other
+  double physics_step_ms = 1;  ///< 2: half as long a wait
 };
 
 void declare(CLI::App& app, WalkOptions& options);
@@ -49,6 +54,12 @@ Command velocity_of(const WalkOptions& options, double step_m);
 
 /// Throws ToolError, with the boards there are, when --on names none of them.
 void check_board(const WalkOptions& options);
+
+/// --physics-step.
+sim::WorldOptions world_of(const WalkOptions& options);
+
+/// First and last of --seeds. Throws ToolError.
+std::pair<std::uint64_t, std::uint64_t> seeds_of(const WalkOptions& options);
 
 /// Step lengths of --sweep-step; empty when it was not given. Throws ToolError.
 std::vector<double> sweep_of(const WalkOptions& options);

@@ -19,9 +19,9 @@ session::Hooks shown(const WalkPlan& plan, record::TraceWriter* trace, Progress&
 }
 
 WalkResult walk(const WalkPlan& plan, record::TraceWriter* trace, Progress& progress,
-                const std::string& label, bool keep_series) {
+                const std::string& label, bool keep_series, const sim::WorldOptions& world) {
   return session::walk(plan, shown(plan, trace, progress, label, keep_series),
-                       {.interrupted = interrupted});
+                       {.world = world, .interrupted = interrupted});
 }
 
 }  // namespace verp::tool

@@ -15,8 +15,8 @@ using session::WalkResult;
 session::Hooks shown(const WalkPlan& plan, record::TraceWriter* trace, Progress& progress,
                      const std::string& label, bool keep_series);
 
-/// session::walk() with these.
+/// session::walk() with these, in such a world.
 WalkResult walk(const WalkPlan& plan, record::TraceWriter* trace, Progress& progress,
-                const std::string& label, bool keep_series);
+                const std::string& label, bool keep_series, const sim::WorldOptions& world = {});
 
 }  // namespace verp::tool

@@ -16,7 +16,7 @@ WalkResult sweep_walk(WalkPlan plan, const WalkOptions& options, double step_m, 
   plan.params.tuning.balance.multibody_enable = multibody ? 1.0f : 0.0f;
   const std::string label =
       fmt::format("step {:g} cm{}", 100 * step_m, multibody ? "" : ", no multibody");
-  return walk(plan, nullptr, progress, label, false);
+  return walk(plan, nullptr, progress, label, false, world_of(options));
 }
 
 SweepWalk entry(const WalkResult& result) {

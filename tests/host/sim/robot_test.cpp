@@ -131,7 +131,7 @@ TEST(Robot, ImuMeasuresInItsOwnAxes) {
   model::ImuSensor sensor = *test::biped().imu;
   ImuModel imu(sensor, false, 1);
   const Mat3 world_imu = Eigen::AngleAxisd(1.5707963267948966, Vec3::UnitZ()).toRotationMatrix();
-  imu.sample(world_imu, Vec3(1.5, 0, 0), Vec3(2, 0, 0), kGravity, 0.001);
+  imu.sample(world_imu, Vec3(1.5, 0, 0), Vec3(2, 0, 0), Vec3(0, 0, kGravity), 0.001);
   EXPECT_EQ(imu.measurement().gyro_count[1], -1500);
   EXPECT_EQ(imu.measurement().gyro_count[0], 0);
   EXPECT_EQ(imu.measurement().accel_count[1], -2000);
@@ -150,7 +150,7 @@ TEST(Robot, ImuFeelsNothingInFreeFallAndSaturatesInsteadOfWrapping) {
   robot.advance_to(100'000);
   for (const std::int16_t count : robot.imu().accel_count) EXPECT_LE(std::abs(count), 20);
   ImuModel imu(*entity.imu, false, 1);
-  imu.sample(Mat3::Identity(), Vec3(1000, -1000, 0), Vec3::Zero(), kGravity, 0.001);
+  imu.sample(Mat3::Identity(), Vec3(1000, -1000, 0), Vec3::Zero(), Vec3(0, 0, kGravity), 0.001);
   EXPECT_EQ(imu.measurement().gyro_count[0], 32767);
   EXPECT_EQ(imu.measurement().gyro_count[1], -32768);
 }

@@ -1,0 +1,151 @@
+#include "host/tool/walk_seeds.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <fstream>
+#include <map>
+#include <memory>
+#include <sstream>
+#include <thread>
+
+#include "host/files/temporary_directory.hpp"
+#include "host/process/child.hpp"
+#include "host/tool/console.hpp"
+#include "host/tool/exit_status.hpp"
+#include "host/tool/interrupt.hpp"
+#include "host/tool/json.hpp"
+#include "host/tool/progress.hpp"
+
+namespace verp::tool {
+namespace {
+
+/// The words of one of them.
+std::vector<std::string> words_of(const WalkOptions& o, std::uint64_t seed) {
+  std::vector<std::string> words = {"/proc/self/exe", "walk", o.model, "--json"};
+  const auto add = [&](const char* option, const std::string& value) {
+    words.push_back(fmt::format("{}={}", option, value));
+  };
+  add("--seed", std::to_string(seed));
+  add("--cycle", fmt::format("{}", o.cycle_s));
+  add("--for", fmt::format("{}", o.walk_s));
+  add("--physics-step", fmt::format("{}", o.physics_step_ms));
+  o.velocity_text.empty() ? add("--step", fmt::format("{}", o.step_m))
+                          : add("--velocity", o.velocity_text);
+  if (!o.bus.empty()) add("--bus", o.bus);
+  if (!o.board.empty()) add("--on", o.board);
+  for (const std::string& setting : o.settings) add("--set", setting);
+  for (const auto& [flag, given] : {std::pair{"--vary", o.vary},
+                                    {"--no-multibody", o.no_multibody},
+                                    {"--no-feedback", o.no_feedback},
+                                    {"--no-gravity", o.no_gravity},
+                                    {"--no-zeros", o.no_zeros}}) {
+    if (given) words.push_back(flag);
+  }
+  return words;
+}
+
+struct Walking {
+  std::uint64_t seed;
+  std::filesystem::path output;
+  std::unique_ptr<process::Child> child;
+};
+
+class Seeds {
+ public:
+  explicit Seeds(const WalkOptions& options) : options_(options), progress_(!options.json) {}
+
+  int run() {
+    const auto [first, last] = seeds_of(options_);
+    const std::size_t most = std::max(1U, std::thread::hardware_concurrency());
+    of_ = last - first + 1;
+    for (std::uint64_t next = first; !interrupted() && (next <= last || !walking_.empty());) {
+      while (next <= last && walking_.size() < most) start(next++);
+      reap();
+      std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    }
+    progress_.clear();
+    tell();
+    return interrupted() ? kRunFailed : status_;
+  }
+
+ private:
+  void start(std::uint64_t seed) {
+    const auto output = folder_.path() / std::to_string(seed);
+    walking_.push_back(
+        {seed, output,
+         std::make_unique<process::Child>(process::Command{
+             .words = words_of(options_, seed), .input = {}, .output = {.file = output}})});
+  }
+
+  void reap() {
+    std::erase_if(walking_, [&](Walking& walking) {
+      const auto status = walking.child->status();
+      if (status) take(walking, *status);
+      return status.has_value();
+    });
+    progress_.show(static_cast<double>(rows_.size()) / static_cast<double>(of_),
+                   fmt::format("{} of {} walks, {} survived", rows_.size(), of_, survived_));
+  }
+
+  void take(const Walking& walking, int status) {
+    std::stringstream text;
+    text << std::ifstream(walking.output).rdbuf();
+    const std::string said = text.str();
+    const std::size_t from = std::min(said.find('{'), said.size()), to = said.rfind('}');
+    const Json json =
+        Json::parse(said.substr(from, to == std::string::npos ? 0 : to + 1 - from), nullptr, false);
+    if (status > kRunFailed || !json.is_object()) {
+      if (status_ == kGood) complain(said);
+      status_ = status_ == kGood ? std::max(status, int{kRunFailed}) : status_;
+      return;
+    }
+    const bool good = status == kGood;
+    survived_ += good ? 1 : 0;
+    Json row = {{"seed", walking.seed}, {"survived", good}};
+    for (const char* key : {"failure", "fallen", "distance_m", "speed_steady_m_s", "yaw_drift_deg",
+                            "zmp_bias_mean_mm", "self_contact_ticks", "digest", "varied"}) {
+      if (json.contains(key)) row[key] = json[key];
+    }
+    rows_[walking.seed] = row;
+  }
+
+  void tell() const {
+    Json all = Json::array();
+    std::string fell;
+    for (const auto& [seed, row] : rows_) {
+      all.push_back(row);
+      if (!row["survived"].get<bool>()) {
+        fell += fmt::format("  seed {}: {}\n", seed, row["failure"].get<std::string>());
+      }
+    }
+    if (options_.json) {
+      print_json({{"model", options_.model},
+                  {"of", rows_.size()},
+                  {"survived", survived_},
+                  {"interrupted", interrupted()},
+                  {"walks", all}});
+    } else {
+      answer(fmt::format("{}: {} of {} walked {:g} s\n", options_.model, survived_, rows_.size(),
+                         options_.walk_s) +
+             fell);
+    }
+  }
+
+  const WalkOptions& options_;
+  const files::TemporaryDirectory folder_;
+  Progress progress_;
+  std::vector<Walking> walking_;
+  std::map<std::uint64_t, Json> rows_;
+  std::uint64_t of_ = 0, survived_ = 0;
+  int status_ = kGood;
+};
+
+}  // namespace
+
+int walk_seeds(const WalkOptions& options) {
+  return Seeds(options).run();
+}
+
+}  // namespace verp::tool
