@@ -26,8 +26,8 @@ Vec3 clamped(const Vec3& rate_rad_s) {
 }
 
 bool within(const Vec3& rate_rad_s, float most_rad_s) {
-  return math::abs(rate_rad_s.x()) <= most_rad_s && math::abs(rate_rad_s.y()) <= most_rad_s &&
-         math::abs(rate_rad_s.z()) <= most_rad_s;
+  const float larger_rad_s = math::max(math::abs(rate_rad_s.x()), math::abs(rate_rad_s.y()));
+  return math::max(larger_rad_s, math::abs(rate_rad_s.z())) <= most_rad_s;
 }
 
 void learn_bias(AttitudeState& state, const AttitudeIn& in) {

@@ -30,7 +30,7 @@ std::uint16_t time_for_way(const Params& params, const LimitState& state, const 
 // Share of what is left to go that this tick takes, so that the whole way is a minimum-jerk curve
 // wherever it began and however its end moves meanwhile.
 float blend(const Params& params, std::int32_t in_mode_us, std::uint16_t way_ms) {
-  const float duration_s = 1e-3F * math::to_float(way_ms > 0 ? way_ms : 1);
+  const float duration_s = 1e-3F * math::to_float(std::int32_t{way_ms > 0 ? way_ms : 1});
   const float now_s = static_cast<float>(in_mode_us) * 1e-6F;
   const float period_s = static_cast<float>(params.period_us) * 1e-6F;
   const auto way = [&](float time_s) {

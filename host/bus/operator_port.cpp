@@ -52,10 +52,10 @@ ControllerReport OperatorPort::exchange(const app::OperatorOrder* order) {
 
 ControllerReport OperatorPort::ask_report() {
   constexpr std::uint16_t kFirst = reg("digest");
-  constexpr std::uint16_t kBytes = app::reg_end("tick") - kFirst;
-  add_read(kFirst, kBytes);
+  constexpr std::uint16_t kSpan = app::reg_end("tick") - kFirst;
+  add_read(kFirst, kSpan);
   const std::vector<std::uint8_t> data = ask();
-  if (data.size() != kBytes) {
+  if (data.size() != kSpan) {
     throw SinkError(text_ + ": device 200 is not a controller of this program; check --operator");
   }
   return {.tick = dxl::get_u32(data.data() + reg("tick") - kFirst),

@@ -104,6 +104,18 @@ void other_gaits(Script& script, const Params& params) {
                                write(gait_id(offsetof(GaitTuning, joint_delay_s)), 0.0F, kStand)});
 }
 
+/// Soles that would stand on each other: before a walk, and in one.
+void cross_feet(Script& script) {
+  const Episode narrow = write(gait_id(offsetof(GaitTuning, half_stance_m)), 0.015F, kWalk);
+  start_walking(script);
+  script.insert(script.end(), {{300, kItsTime, kWalk, 800, 0, 0},
+                               narrow,
+                               {900, kItsTime, kWalk, 800, 0, 300},
+                               {500, kUntilStanding, kStand},
+                               {300, kItsTime, kWalk, 800, 0, 0},
+                               {400, kItsTime, kStand, 0, 0, 0, kRestore}});
+}
+
 /// A margin wider than the sole: strides shrink until the plan is refused, and stays so until the
 /// operator no longer asks to walk.
 void refuse(Script& script) {
@@ -124,7 +136,7 @@ void silences(Script& script) {
   // Silent operator: the walk ends by itself.
   script.push_back({3000, kUntilStanding, kWalk, 800, 0, 0, kQuietOperator});
   script.push_back(write(safety_id(offsetof(SafetyTuning, command_release_s)), 0.6F));
-  script.push_back({1200, kUntilRelaxed, kWalk, 0, 0, 0, kQuietOperator});
+  script.push_back({1200, kUntilRelaxed, kStand, 0, 0, 0, kQuietOperator});
   script.push_back({100, kItsTime, kStand, 0, 0, 0, kQuietOperator});
   get_up(script);
   script.push_back({2800, kUntilRelaxed, kStand, 0, 0, 0, kSilentServo});
@@ -146,6 +158,8 @@ void alarms(Script& script) {
   script.push_back({400, kUntilRelaxed, kRelax});
   script.push_back({60, kItsTime, kStand, 0, 0, 0, kBent});
   get_up(script);
+  script.push_back({600, kItsTime, kStand, 0, 0, 0, kTremble});  // shaken, then turned round
+  script.push_back({300, kItsTime, kStand, 0, 0, 0, kYawDrift});
   script.push_back({60, kItsTime, kStand, 0, 0, 0, kPressStop});
   script.push_back({60, kItsTime, kRelax, 0, 0, 0, kPressStop});
   script.push_back({60, kItsTime, kStand});
@@ -172,6 +186,7 @@ Script script_of(const Params& params) {
   get_up(script);
   other_gaits(script, params);
   refuse(script);
+  cross_feet(script);
   script.push_back({100, kItsTime, kStand});
   script.push_back({400, kUntilRelaxed, kRelax, 0, 0, 0, kSilentImu});
   return script;

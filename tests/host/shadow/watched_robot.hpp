@@ -151,6 +151,7 @@ class WatchedRobot {
     auto ear_node = std::make_unique<Ear>(listened);
     ear = ear_node.get();
     twin.plug_in(std::move(ear_node));
+    for (auto& joint : plant.measured) joint.position_count = 2048;  // far from its limits
     power_on();
   }
   explicit WatchedRobot(const Params& robot, Chip* chip = nullptr)
