@@ -13,7 +13,7 @@
 namespace verp::sim {
 namespace {
 
-constexpr double kGravity = 9.80665;
+constexpr double kGravity_m_s2 = 9.80665;
 
 model::Servo servo_of(const model::ServoType& type) {
   model::Servo servo = test::plain_servo();
@@ -170,11 +170,12 @@ TEST_P(IdentifiedMotor, SwingsAPendulumAsThePaperSays) {
   ASSERT_EQ(type->armature_band, 0);
   model::Joint joint = joint_with({});
   joint.servo = servo_of(*type);
-  const double mass_kg = 0.3 * type->stall_torque_n_m / kGravity / 0.1;  // 0.3 of stall when level
+  const double mass_kg =
+      0.3 * type->stall_torque_n_m / kGravity_m_s2 / 0.1;  // 0.3 of stall when level
   const double inertia = mass_kg * 0.1 * 0.1;
   PaperPendulum paper{type->gearbox, type->stall_torque_n_m,
                       type->stall_torque_n_m / joint.servo.no_load_speed_rad_s, inertia,
-                      mass_kg * kGravity * 0.1};
+                      mass_kg * kGravity_m_s2 * 0.1};
   for (const double step_s : {0.00025, 0.001, 0.002}) {
     PaperPendulum expected = paper;
     Bench bench(joint, inertia, step_s);
@@ -199,12 +200,12 @@ TEST_P(IdentifiedMotor, SwingsAPendulumAsThePaperSaysInOde) {
   ASSERT_NE(type, nullptr);
   model::Entity entity = test::arm();
   entity.joints[0].servo = servo_of(*type);
-  const double mass_kg = 0.3 * type->stall_torque_n_m / kGravity / test::kArmLength;
+  const double mass_kg = 0.3 * type->stall_torque_n_m / kGravity_m_s2 / test::kArmLength;
   entity.nodes[1].mass_kg = mass_kg;
   PaperPendulum paper{type->gearbox, type->stall_torque_n_m,
                       type->stall_torque_n_m / entity.joints[0].servo.no_load_speed_rad_s,
                       test::kArmInertia + 1e-7 + mass_kg * test::kArmLength * test::kArmLength,
-                      mass_kg * kGravity * test::kArmLength};
+                      mass_kg * kGravity_m_s2 * test::kArmLength};
   World world;
   TwinOptions options;
   options.imperfections = Imperfections::none();

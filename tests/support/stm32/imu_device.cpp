@@ -5,10 +5,10 @@ namespace {
 
 // MPU-9250: no banks.
 constexpr std::uint8_t kMpuDivider = 0x19, kMpuIntStatus = 0x3A, kMpuData = 0x3B,
-                       kMpuDataEnd = 0x48, kMpuUserCtrl = 0x6A, kMpuPower = 0x6B, kMpuWho = 0x75;
+                       kMpuDataEnd = 0x48, kMpuPower = 0x6B, kMpuWho = 0x75;
 // ICM-20648: bank 0, but the dividers are in bank 2.
-constexpr std::uint8_t kIcmWho = 0x00, kIcmUserCtrl = 0x03, kIcmPower = 0x06, kIcmIntStatus1 = 0x1A,
-                       kIcmData = 0x2D, kIcmDataEnd = 0x3A, kIcmBank = 0x7F, kIcmDivider2 = 0x00;
+constexpr std::uint8_t kIcmWho = 0x00, kIcmPower = 0x06, kIcmIntStatus1 = 0x1A, kIcmData = 0x2D,
+                       kIcmDataEnd = 0x3A, kIcmBank = 0x7F, kIcmDivider2 = 0x00;
 constexpr std::uint8_t kReset = 0x80, kSleep = 0x40;
 
 }  // namespace
