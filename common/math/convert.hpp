@@ -50,12 +50,6 @@ constexpr std::int32_t to_int32(float x) {
 constexpr std::int16_t to_int16(float x) {
   return round_to<std::int16_t>(x);
 }
-constexpr std::int8_t to_int8(float x) {
-  return round_to<std::int8_t>(x);
-}
-constexpr std::uint32_t to_uint32(float x) {
-  return round_to<std::uint32_t>(x);
-}
 constexpr std::uint16_t to_uint16(float x) {
   return round_to<std::uint16_t>(x);
 }

@@ -12,11 +12,8 @@ inline constexpr float kPi = 0x1.921fb6p+1F;         ///< nearest float, 8.7e-8 
 inline constexpr float kTwoPi = 0x1.921fb6p+2F;      ///< exactly 2 kPi
 inline constexpr float kHalfPi = 0x1.921fb6p+0F;     ///< exactly kPi / 2
 inline constexpr float kQuarterPi = 0x1.921fb6p-1F;  ///< exactly kPi / 4
-inline constexpr float kRadPerDeg = 0x1.1df46ap-6F;  ///< for codecs and UI; the core is in radians
-inline constexpr float kDegPerRad = 0x1.ca5dc2p+5F;
-inline constexpr float kGravityMS2 = 9.80665F;  ///< standard gravity, m/s^2 (CGPM 1901)
+inline constexpr float kGravityMS2 = 9.80665F;       ///< standard gravity, m/s^2 (CGPM 1901)
 inline constexpr float kMaxFloat = std::numeric_limits<float>::max();
-inline constexpr float kMinNormal = std::numeric_limits<float>::min();
 
 static_assert(std::numeric_limits<float>::is_iec559,
               "the bit-identity contract needs IEEE float32");
@@ -68,9 +65,6 @@ constexpr std::int32_t clamp(std::int32_t x, std::int32_t lo, std::int32_t hi) {
 
 constexpr float square(float x) {
   return x * x;
-}
-constexpr float cube(float x) {
-  return x * x * x;
 }
 
 /// a + t (b - a): exactly a at t = 0; within one rounding of b at t = 1. t is not limited.

@@ -24,7 +24,6 @@ inline constexpr std::uint16_t kBitEnableVoltage = 1 << 1;
 inline constexpr std::uint16_t kBitQuickStop = 1 << 2;  ///< 0 stops
 inline constexpr std::uint16_t kBitEnableOperation = 1 << 3;
 inline constexpr std::uint16_t kBitFaultReset = 1 << 7;  ///< its rising edge counts
-inline constexpr std::uint16_t kBitHalt = 1 << 8;
 
 // The words that a master sends.
 inline constexpr std::uint16_t kWordDisableVoltage = 0x0000;
@@ -82,7 +81,6 @@ enum class Trigger : std::uint8_t {
   kFault,
   kFaultReactionDone,
 };
-inline constexpr unsigned kTriggers = 11;
 
 /// The command of a controlword; `previous` is the one before it. A fault reset is an edge, and
 /// goes before all else.

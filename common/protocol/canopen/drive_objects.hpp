@@ -11,7 +11,6 @@ namespace verp::canopen::cia402 {
 
 /// Modes of operation (6060h) that are used here.
 inline constexpr std::int8_t kModeNone = 0;
-inline constexpr std::int8_t kModeHoming = 6;
 inline constexpr std::int8_t kModeCyclicPosition = 8;
 /// Supported drive modes (6502h): bit n - 1 for mode n.
 inline constexpr std::uint32_t kSupportedCyclicPosition = 1u << (kModeCyclicPosition - 1);

@@ -29,12 +29,10 @@ enum class ErrorCode : std::uint16_t {
 
 /// Bits of the error register, object 1001h.
 inline constexpr std::uint8_t kErrorGeneric = 1;
-inline constexpr std::uint8_t kErrorCurrent = 2;
 inline constexpr std::uint8_t kErrorVoltage = 4;
 inline constexpr std::uint8_t kErrorTemperature = 8;
 inline constexpr std::uint8_t kErrorCommunication = 16;
 inline constexpr std::uint8_t kErrorProfile = 32;
-inline constexpr std::uint8_t kErrorManufacturer = 128;
 
 struct Emergency {
   std::uint8_t node = 0;

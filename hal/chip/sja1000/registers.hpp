@@ -25,8 +25,6 @@ inline constexpr std::uint32_t kCdr = 31;         ///< 6.5.4 clock divider, and 
 // MOD. AFM 0: two short filters. QEMU 7.2's single filter refuses identifier 0x1FF with an open
 // mask.
 inline constexpr std::uint8_t kModReset = 1u << 0;
-inline constexpr std::uint8_t kModListen = 1u << 1;
-inline constexpr std::uint8_t kModSelfTest = 1u << 2;
 inline constexpr std::uint8_t kModSingleFilter = 1u << 3;
 // CMR
 inline constexpr std::uint8_t kCmrTransmit = 1u << 0;
@@ -38,8 +36,6 @@ inline constexpr std::uint8_t kSrReceived = 1u << 0;
 inline constexpr std::uint8_t kSrOverrun = 1u << 1;
 inline constexpr std::uint8_t kSrBufferFree = 1u << 2;
 inline constexpr std::uint8_t kSrComplete = 1u << 3;
-inline constexpr std::uint8_t kSrReceiving = 1u << 4;
-inline constexpr std::uint8_t kSrTransmitting = 1u << 5;
 inline constexpr std::uint8_t kSrErrors = 1u << 6;
 inline constexpr std::uint8_t kSrBusOff = 1u << 7;
 // IR and IER
@@ -47,7 +43,6 @@ inline constexpr std::uint8_t kIrReceive = 1u << 0;
 inline constexpr std::uint8_t kIrTransmit = 1u << 1;
 inline constexpr std::uint8_t kIrWarning = 1u << 2;  ///< error or bus status changed
 inline constexpr std::uint8_t kIrOverrun = 1u << 3;
-inline constexpr std::uint8_t kIrPassive = 1u << 5;
 inline constexpr std::uint8_t kIrBusError = 1u << 7;
 // OCR: normal mode, both outputs push-pull.
 inline constexpr std::uint8_t kOcrPushPull = 0x1A;

@@ -29,7 +29,6 @@ inline constexpr std::uint32_t kSrrReset = 1u << 0;
 inline constexpr std::uint32_t kSrrEnable = 1u << 1;
 inline constexpr std::uint32_t kSrConfig = 1u << 0;
 inline constexpr std::uint32_t kSrNormal = 1u << 3;
-inline constexpr std::uint32_t kSrState = 3u << 7;      ///< ESTAT
 inline constexpr std::uint32_t kSrBusOff = 2u << 7;     ///< of kSrState
 inline constexpr std::uint32_t kIsrSent = 1u << 1;      ///< TXOK
 inline constexpr std::uint32_t kIsrReceived = 1u << 4;  ///< RXOK

@@ -10,11 +10,9 @@ inline constexpr std::uint32_t kSr = 0x00, kCr1 = 0x04, kCr2 = 0x08, kSmpr1 = 0x
 /// From the base of the common registers, which serve all three converters.
 inline constexpr std::uint32_t kCommonCsr = 0x00, kCommonCcr = 0x04, kCommonCdr = 0x08;
 
-inline constexpr std::uint32_t kSrAwd = bit(0), kSrEoc = bit(1), kSrJeoc = bit(2),
-                               kSrJstrt = bit(3), kSrStrt = bit(4), kSrOvr = bit(5);
-inline constexpr std::uint32_t kCr2Adon = bit(0), kCr2Cont = bit(1), kCr2Eocs = bit(10),
-                               kCr2Swstart = bit(30);
-inline constexpr std::uint32_t kCcrAdcpre = bits(16, 2), kCcrVbate = bit(22), kCcrTsvrefe = bit(23);
+inline constexpr std::uint32_t kSrEoc = bit(1), kSrStrt = bit(4), kSrOvr = bit(5);
+inline constexpr std::uint32_t kCr2Adon = bit(0), kCr2Cont = bit(1), kCr2Swstart = bit(30);
+inline constexpr std::uint32_t kCcrAdcpre = bits(16, 2);
 inline constexpr unsigned kCcrAdcpreShift = 16;  ///< ADC clock = APB2 / (2 * (ADCPRE + 1))
 
 constexpr Register word(const char* name, std::uint32_t offset, std::uint32_t paragraph,

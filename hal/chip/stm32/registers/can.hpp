@@ -30,21 +30,18 @@ inline constexpr std::uint32_t kTsrRqcp = bit(0), kTsrTxok = bit(1), kTsrAlst = 
                                kTsrTerr = bit(3), kTsrAbrq = bit(7);
 inline constexpr unsigned kTsrMailboxBits = 8;
 /// Of mailbox 0; each further one a bit up.
-inline constexpr std::uint32_t kTsrCode = bits(24, 2), kTsrTme = bit(26), kTsrLow = bit(29);
-inline constexpr unsigned kTsrCodeShift = 24;
+inline constexpr std::uint32_t kTsrTme = bit(26);
 inline constexpr std::uint32_t kRfrFmp = bits(0, 2), kRfrFull = bit(3), kRfrFovr = bit(4),
                                kRfrRfom = bit(5);
 inline constexpr std::uint32_t kIerTmeie = bit(0), kIerFmpie0 = bit(1), kIerFfie0 = bit(2),
-                               kIerFovie0 = bit(3), kIerFmpie1 = bit(4), kIerFfie1 = bit(5),
-                               kIerFovie1 = bit(6), kIerEwgie = bit(8), kIerEpvie = bit(9),
-                               kIerBofie = bit(10), kIerLecie = bit(11), kIerErrie = bit(15),
-                               kIerWkuie = bit(16), kIerSlkie = bit(17);
+                               kIerFovie0 = bit(3), kIerEwgie = bit(8), kIerEpvie = bit(9),
+                               kIerBofie = bit(10), kIerLecie = bit(11), kIerErrie = bit(15);
 inline constexpr std::uint32_t kEsrEwgf = bit(0), kEsrEpvf = bit(1), kEsrBoff = bit(2),
                                kEsrLec = bits(4, 3), kEsrTec = bits(16, 8), kEsrRec = bits(24, 8);
-inline constexpr unsigned kEsrLecShift = 4, kEsrTecShift = 16, kEsrRecShift = 24;
+inline constexpr unsigned kEsrLecShift = 4, kEsrTecShift = 16;
 /// LEC: what the hardware never writes, so that software sees the next error.
-inline constexpr std::uint32_t kLecNone = 0, kLecStuff = 1, kLecForm = 2, kLecAck = 3,
-                               kLecRecessive = 4, kLecDominant = 5, kLecCrc = 6, kLecUnused = 7;
+inline constexpr std::uint32_t kLecNone = 0, kLecStuff = 1, kLecAck = 3, kLecRecessive = 4,
+                               kLecUnused = 7;
 /// Each field holds its value less one.
 inline constexpr std::uint32_t kBtrBrp = bits(0, 10), kBtrTs1 = bits(16, 4), kBtrTs2 = bits(20, 3),
                                kBtrSjw = bits(24, 2), kBtrLbkm = bit(30), kBtrSilm = bit(31);

@@ -12,12 +12,10 @@ inline constexpr std::uint32_t kCr = 0x10, kNdtr = 0x14, kPar = 0x18, kM0ar = 0x
                                kFcr = 0x24, kStreamStep = 0x18;
 
 inline constexpr std::uint32_t kCrEn = bit(0), kCrDmeie = bit(1), kCrTeie = bit(2),
-                               kCrHtie = bit(3), kCrTcie = bit(4), kCrPfctrl = bit(5),
-                               kCrDir = bits(6, 2), kCrDirToMemory = 0u,
+                               kCrHtie = bit(3), kCrTcie = bit(4), kCrDir = bits(6, 2),
                                kCrDirToPeripheral = bit(6), kCrCirc = bit(8), kCrPinc = bit(9),
                                kCrMinc = bit(10), kCrPsize = bits(11, 2), kCrMsize = bits(13, 2),
-                               kCrPincos = bit(15), kCrPl = bits(16, 2), kCrDbm = bit(18),
-                               kCrCt = bit(19), kCrPburst = bits(21, 2), kCrMburst = bits(23, 2),
+                               kCrPl = bits(16, 2), kCrDbm = bit(18), kCrCt = bit(19),
                                kCrChsel = bits(25, 3);
 inline constexpr unsigned kCrChselShift = 25;
 inline constexpr std::uint32_t kFcrFth = bits(0, 2), kFcrDmdis = bit(2), kFcrFs = bits(3, 3),

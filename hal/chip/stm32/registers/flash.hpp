@@ -25,7 +25,7 @@ inline constexpr std::uint32_t kCrPg = bit(0), kCrSer = bit(1), kCrMer = bit(2),
                                kCrEopie = bit(24), kCrErrie = bit(25), kCrLock = bit(31);
 inline constexpr unsigned kCrSnbShift = 3, kCrPsizeShift = 8;
 /// PSIZE: the width of each write to the memory. 32 bits need 2.7 to 3.6 V.
-inline constexpr std::uint32_t kPsize8 = 0, kPsize16 = 1, kPsize32 = 2;
+inline constexpr std::uint32_t kPsize32 = 2;
 
 constexpr Register acr(std::uint32_t paragraph, std::uint32_t rw, std::uint32_t w) {
   return {.name = "ACR", .offset = kAcr, .paragraph = paragraph, .rw = rw, .w = w};

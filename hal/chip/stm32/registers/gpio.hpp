@@ -10,7 +10,7 @@ inline constexpr std::uint32_t kModer = 0x00, kOtyper = 0x04, kOspeedr = 0x08, k
 
 /// Two bits a pin.
 inline constexpr std::uint32_t kModeInput = 0, kModeOutput = 1, kModeAlternate = 2, kModeAnalog = 3;
-inline constexpr std::uint32_t kSpeedLow = 0, kSpeedMedium = 1, kSpeedHigh = 2, kSpeedVeryHigh = 3;
+inline constexpr std::uint32_t kSpeedMedium = 1, kSpeedHigh = 2;
 inline constexpr std::uint32_t kPullNone = 0, kPullUp = 1, kPullDown = 2;
 
 inline constexpr std::uint32_t kModerResetA = 0xA8000000, kModerResetB = 0x00000280,

@@ -11,28 +11,26 @@ inline constexpr std::uint32_t kTim2 = 0x40000000, kTim3 = 0x40000400, kTim4 = 0
                                kTim5 = 0x40000C00, kIwdg = 0x40003000, kSpi2 = 0x40003800,
                                kSpi3 = 0x40003C00, kUsart2 = 0x40004400, kUsart3 = 0x40004800,
                                kUart4 = 0x40004C00, kUart5 = 0x40005000, kI2c1 = 0x40005400,
-                               kI2c2 = 0x40005800, kI2c3 = 0x40005C00, kI2c4F746 = 0x40006000,
-                               kCan1 = 0x40006400, kCan2 = 0x40006800, kPwr = 0x40007000,
-                               kUart7F746 = 0x40007800, kUart8F746 = 0x40007C00;
+                               kI2c2 = 0x40005800, kI2c3 = 0x40005C00, kCan1 = 0x40006400,
+                               kCan2 = 0x40006800, kPwr = 0x40007000, kUart7F746 = 0x40007800,
+                               kUart8F746 = 0x40007C00;
 inline constexpr std::uint32_t kTim1 = 0x40010000, kUsart1 = 0x40011000, kUsart6 = 0x40011400,
                                kAdc1 = 0x40012000, kAdc2 = 0x40012100, kAdc3 = 0x40012200,
-                               kAdcCommon = 0x40012300, kSpi1 = 0x40013000, kSpi4 = 0x40013400,
-                               kSyscfg = 0x40013800, kExti = 0x40013C00;
+                               kAdcCommon = 0x40012300, kSpi1 = 0x40013000, kSyscfg = 0x40013800;
 inline constexpr std::uint32_t kGpioA = 0x40020000, kGpioStep = 0x400, kRcc = 0x40023800,
-                               kFlash = 0x40023C00, kBackupSram = 0x40024000, kDma1 = 0x40026000,
-                               kDma2 = 0x40026400, kOtgFs = 0x50000000;
+                               kFlash = 0x40023C00, kDma1 = 0x40026000, kDma2 = 0x40026400,
+                               kOtgFs = 0x50000000;
 constexpr std::uint32_t gpio(char port) {
   return kGpioA + kGpioStep * static_cast<std::uint32_t>(port - 'A');
 }
 }  // namespace base
 
 namespace irq {
-inline constexpr unsigned kFlash = 4, kRcc = 5, kExti0 = 6, kAdc = 18, kCan1Tx = 19, kCan1Rx0 = 20,
-                          kCan1Rx1 = 21, kCan1Error = 22, kTim2 = 28, kTim3 = 29, kTim4 = 30,
-                          kSpi1 = 35, kSpi2 = 36, kUsart1 = 37, kUsart2 = 38, kUsart3 = 39,
-                          kExti15To10 = 40, kTim5 = 50, kSpi3 = 51, kUart4 = 52, kUart5 = 53,
-                          kCan2Tx = 63, kCan2Error = 66, kOtgFs = 67, kOtgFsWakeup = 42,
-                          kUsart6 = 71, kUart7F746 = 82, kUart8F746 = 83;
+inline constexpr unsigned kFlash = 4, kRcc = 5, kAdc = 18, kCan1Tx = 19, kCan1Error = 22,
+                          kTim2 = 28, kTim3 = 29, kTim4 = 30, kSpi1 = 35, kSpi2 = 36, kUsart1 = 37,
+                          kUsart2 = 38, kUsart3 = 39, kTim5 = 50, kSpi3 = 51, kUart4 = 52,
+                          kUart5 = 53, kCan2Tx = 63, kOtgFs = 67, kUsart6 = 71, kUart7F746 = 82,
+                          kUart8F746 = 83;
 constexpr unsigned dma1(unsigned stream) {
   return stream < 7 ? 11 + stream : 47;
 }
@@ -66,7 +64,7 @@ struct Limits {
   char last_port;                   ///< GPIO ports A to this one
 };
 
-inline constexpr std::uint32_t kFlashBase = 0x08000000, kDbgmcuIdcode = 0xE0042000;
+inline constexpr std::uint32_t kFlashBase = 0x08000000;
 inline constexpr std::uint32_t kHsi_hz = 16000000;
 /// LSI: typically 32 kHz, 17 to 47 kHz (DS8626 table "LSI oscillator characteristics").
 inline constexpr std::uint32_t kLsi_hz = 32000, kLsiMin_hz = 17000, kLsiMax_hz = 47000;

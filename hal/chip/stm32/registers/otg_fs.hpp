@@ -67,9 +67,7 @@ inline constexpr std::uint32_t kGotgctlSrqscs = bit(0), kGotgctlSrq = bit(1),
                                kGotgctlCidsts = bit(16), kGotgctlDbct = bit(17),
                                kGotgctlAsvld = bit(18), kGotgctlBsvld = bit(19);
 /// Not on the F405: software's word for VBUS instead of the comparator's (there, NOVBUSSENS).
-inline constexpr std::uint32_t kGotgctlVbvaloen = bit(2), kGotgctlVbvaloval = bit(3),
-                               kGotgctlAvaloen = bit(4), kGotgctlAvaloval = bit(5),
-                               kGotgctlBvaloen = bit(6), kGotgctlBvaloval = bit(7),
+inline constexpr std::uint32_t kGotgctlBvaloen = bit(6), kGotgctlBvaloval = bit(7),
                                kGotgctlEhen = bit(12), kGotgctlOtgver = bit(20);
 inline constexpr std::uint32_t kGotgintSedet = bit(2), kGotgintSrsschg = bit(8),
                                kGotgintHnsschg = bit(9), kGotgintHngdet = bit(17),
@@ -171,8 +169,7 @@ inline constexpr std::uint32_t kEpctlMpsiz = bits(0, 11), kEpctlMpsiz0 = bits(0,
                                kEpctlCnak = bit(26), kEpctlSnak = bit(27), kEpctlSd0pid = bit(28),
                                kEpctlSd1pid = bit(29), kEpctlEpdis = bit(30), kEpctlEpena = bit(31);
 inline constexpr unsigned kEpctlEptypShift = 18, kDiepctlTxfnumShift = 22;
-inline constexpr std::uint32_t kTypeControl = 0, kTypeIsochronous = 1, kTypeBulk = 2,
-                               kTypeInterrupt = 3;
+inline constexpr std::uint32_t kTypeIsochronous = 1, kTypeBulk = 2;
 
 /// DIEPTSIZx and DOEPTSIZx: bytes and packets to go. Endpoint 0 has fewer bits.
 inline constexpr std::uint32_t kTsizXfrsiz = bits(0, 19), kTsizPktcnt = bits(19, 10),

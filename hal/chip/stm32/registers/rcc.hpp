@@ -24,33 +24,30 @@ inline constexpr std::uint32_t kCrHsion = bit(0), kCrHsirdy = bit(1), kCrHsitrim
 inline constexpr std::uint32_t kPllcfgrM = bits(0, 6), kPllcfgrN = bits(6, 9),
                                kPllcfgrP = bits(16, 2), kPllcfgrSrcHse = bit(22),
                                kPllcfgrQ = bits(24, 4), kPllcfgrR = bits(28, 3);
-inline constexpr unsigned kPllcfgrNShift = 6, kPllcfgrPShift = 16, kPllcfgrQShift = 24;
+inline constexpr unsigned kPllcfgrNShift = 6, kPllcfgrQShift = 24;
 /// What SW asks for and SWS says is in use.
 inline constexpr std::uint32_t kClockHsi = 0, kClockHse = 1, kClockPll = 2;
 inline constexpr std::uint32_t kCfgrSw = bits(0, 2), kCfgrSws = bits(2, 2), kCfgrHpre = bits(4, 4),
                                kCfgrPpre1 = bits(10, 3), kCfgrPpre2 = bits(13, 3),
-                               kCfgrRtcpre = bits(16, 5), kCfgrMco1 = bits(21, 2),
-                               kCfgrI2ssrc = bit(23), kCfgrMcoAll = bits(24, 8);
-inline constexpr unsigned kCfgrSwsShift = 2, kCfgrHpreShift = 4, kCfgrPpre1Shift = 10,
-                          kCfgrPpre2Shift = 13;
+                               kCfgrI2ssrc = bit(23);
+inline constexpr unsigned kCfgrSwsShift = 2, kCfgrPpre1Shift = 10, kCfgrPpre2Shift = 13;
 /// PPRE1 and PPRE2: not divided, by 2, by 4.
-inline constexpr std::uint32_t kPpre1 = 0, kPpre2 = 4, kPpre4 = 5;
+inline constexpr std::uint32_t kPpre2 = 4, kPpre4 = 5;
 
 /// Enable bits; the reset registers have the same ones, but one reset (ADC1's) for all three ADCs.
 inline constexpr std::uint32_t kAhb1GpioA = bit(0);  ///< ports B, C, ... follow
-inline constexpr std::uint32_t kAhb1Bkpsram = bit(18), kAhb1Dma1 = bit(21), kAhb1Dma2 = bit(22);
+inline constexpr std::uint32_t kAhb1Dma1 = bit(21), kAhb1Dma2 = bit(22);
 inline constexpr std::uint32_t kAhb2OtgFs = bit(7);
 inline constexpr std::uint32_t kApb1Tim2 = bit(0), kApb1Tim3 = bit(1), kApb1Tim4 = bit(2),
                                kApb1Tim5 = bit(3), kApb1Spi2 = bit(14), kApb1Spi3 = bit(15),
                                kApb1Usart2 = bit(17), kApb1Usart3 = bit(18), kApb1Uart4 = bit(19),
-                               kApb1Uart5 = bit(20), kApb1I2c1 = bit(21), kApb1I2c2 = bit(22),
-                               kApb1I2c3 = bit(23), kApb1Can1 = bit(25), kApb1Can2 = bit(26),
+                               kApb1Uart5 = bit(20), kApb1Can1 = bit(25), kApb1Can2 = bit(26),
                                kApb1Pwr = bit(28);
 /// F746 only.
-inline constexpr std::uint32_t kApb1I2c4 = bit(24), kApb1Uart7 = bit(30), kApb1Uart8 = bit(31);
-inline constexpr std::uint32_t kApb2Tim1 = bit(0), kApb2Usart1 = bit(4), kApb2Usart6 = bit(5),
-                               kApb2Adc1 = bit(8), kApb2Adc2 = bit(9), kApb2Adc3 = bit(10),
-                               kApb2Spi1 = bit(12), kApb2Spi4 = bit(13), kApb2Syscfg = bit(14);
+inline constexpr std::uint32_t kApb1Uart7 = bit(30), kApb1Uart8 = bit(31);
+inline constexpr std::uint32_t kApb2Usart1 = bit(4), kApb2Usart6 = bit(5), kApb2Adc1 = bit(8),
+                               kApb2Adc2 = bit(9), kApb2Adc3 = bit(10), kApb2Spi1 = bit(12),
+                               kApb2Syscfg = bit(14);
 
 inline constexpr std::uint32_t kBdcrLseon = bit(0), kBdcrLserdy = bit(1), kBdcrRtcsel = bits(8, 2),
                                kBdcrRtcen = bit(15), kBdcrBdrst = bit(16);

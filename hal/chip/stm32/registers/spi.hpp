@@ -11,8 +11,7 @@ inline constexpr std::uint32_t kCr1 = 0x00, kCr2 = 0x04, kSr = 0x08, kDr = 0x0C,
 inline constexpr std::uint32_t kCr1Cpha = bit(0), kCr1Cpol = bit(1), kCr1Mstr = bit(2),
                                kCr1Br = bits(3, 3), kCr1Spe = bit(6), kCr1Lsbfirst = bit(7),
                                kCr1Ssi = bit(8), kCr1Ssm = bit(9), kCr1Rxonly = bit(10),
-                               kCr1DffF4 = bit(11), kCr1CrclF7 = bit(11), kCr1Crcen = bit(13),
-                               kCr1Bidioe = bit(14), kCr1Bidimode = bit(15);
+                               kCr1DffF4 = bit(11), kCr1Crcen = bit(13), kCr1Bidimode = bit(15);
 /// SCK = bus clock / (2 << BR).
 inline constexpr unsigned kCr1BrShift = 3;
 inline constexpr std::uint32_t kCr2Rxdmaen = bit(0), kCr2Txdmaen = bit(1), kCr2Ssoe = bit(2),

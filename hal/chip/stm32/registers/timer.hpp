@@ -12,15 +12,12 @@ inline constexpr std::uint32_t kCr1 = 0x00, kCr2 = 0x04, kSmcr = 0x08, kDier = 0
 
 inline constexpr std::uint32_t kCr1Cen = bit(0), kCr1Udis = bit(1), kCr1Urs = bit(2),
                                kCr1Opm = bit(3), kCr1Dir = bit(4), kCr1Cms = bits(5, 2),
-                               kCr1Arpe = bit(7), kCr1Ckd = bits(8, 2);
-inline constexpr std::uint32_t kDierUie = bit(0), kDierCc1ie = bit(1), kDierCc2ie = bit(2);
-inline constexpr std::uint32_t kSrUif = bit(0), kSrCc1if = bit(1), kSrCc2if = bit(2),
-                               kSrCc3if = bit(3), kSrCc4if = bit(4), kSrTif = bit(6),
+                               kCr1Arpe = bit(7);
+inline constexpr std::uint32_t kDierUie = bit(0), kDierCc1ie = bit(1);
+inline constexpr std::uint32_t kSrUif = bit(0), kSrCc1if = bit(1), kSrTif = bit(6),
                                kSrCcOf = bits(9, 4),
                                kSrAll = kSrUif | bits(1, 4) | kSrTif | kSrCcOf;
 inline constexpr std::uint32_t kEgrUg = bit(0);
-inline constexpr std::uint32_t kCcmr1Oc1pe = bit(3), kCcmr1Oc1m = bits(4, 3);
-inline constexpr std::uint32_t kCcerCc1e = bit(0);
 
 /// What differs: the F7's counter mode and slave mode have an extra bit each, its compare modes
 /// too.

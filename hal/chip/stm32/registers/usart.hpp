@@ -13,12 +13,12 @@ inline constexpr std::uint32_t kSr = 0x00, kDr = 0x04, kBrr = 0x08, kCr1 = 0x0C,
 inline constexpr std::uint32_t kSrPe = bit(0), kSrFe = bit(1), kSrNf = bit(2), kSrOre = bit(3),
                                kSrIdle = bit(4), kSrRxne = bit(5), kSrTc = bit(6), kSrTxe = bit(7),
                                kSrLbd = bit(8), kSrCts = bit(9);
-inline constexpr std::uint32_t kCr1Sbk = bit(0), kCr1Rwu = bit(1), kCr1Re = bit(2), kCr1Te = bit(3),
-                               kCr1Idleie = bit(4), kCr1Rxneie = bit(5), kCr1Tcie = bit(6),
-                               kCr1Txeie = bit(7), kCr1Peie = bit(8), kCr1Ps = bit(9),
-                               kCr1Pce = bit(10), kCr1Wake = bit(11), kCr1M = bit(12),
-                               kCr1Ue = bit(13), kCr1Over8 = bit(15);
-inline constexpr std::uint32_t kCr2Stop = bits(12, 2), kCr2Linen = bit(14);
+inline constexpr std::uint32_t kCr1Re = bit(2), kCr1Te = bit(3), kCr1Idleie = bit(4),
+                               kCr1Rxneie = bit(5), kCr1Tcie = bit(6), kCr1Txeie = bit(7),
+                               kCr1Peie = bit(8), kCr1Ps = bit(9), kCr1Pce = bit(10),
+                               kCr1Wake = bit(11), kCr1M = bit(12), kCr1Ue = bit(13),
+                               kCr1Over8 = bit(15);
+inline constexpr std::uint32_t kCr2Stop = bits(12, 2);
 inline constexpr std::uint32_t kCr3Eie = bit(0), kCr3Hdsel = bit(3), kCr3Dmar = bit(6),
                                kCr3Dmat = bit(7), kCr3Onebit = bit(11);
 
@@ -55,14 +55,12 @@ inline constexpr std::uint32_t kCr1Ue = bit(0), kCr1Re = bit(2), kCr1Te = bit(3)
                                kCr1Txeie = bit(7), kCr1Peie = bit(8), kCr1Ps = bit(9),
                                kCr1Pce = bit(10), kCr1M0 = bit(12), kCr1Over8 = bit(15),
                                kCr1Dedt = bits(16, 5), kCr1Deat = bits(21, 5), kCr1M1 = bit(28);
-inline constexpr std::uint32_t kCr2Stop = bits(12, 2), kCr2Swap = bit(15);
+inline constexpr std::uint32_t kCr2Stop = bits(12, 2);
 inline constexpr std::uint32_t kCr3Eie = bit(0), kCr3Hdsel = bit(3), kCr3Dmar = bit(6),
                                kCr3Dmat = bit(7), kCr3Onebit = bit(11), kCr3Ovrdis = bit(12),
                                kCr3Ddre = bit(13), kCr3Dem = bit(14), kCr3Dep = bit(15);
-inline constexpr std::uint32_t kRqrSbkrq = bit(1), kRqrRxfrq = bit(3), kRqrTxfrq = bit(4);
-inline constexpr std::uint32_t kIsrPe = bit(0), kIsrFe = bit(1), kIsrNf = bit(2), kIsrOre = bit(3),
-                               kIsrIdle = bit(4), kIsrRxne = bit(5), kIsrTc = bit(6),
-                               kIsrTxe = bit(7), kIsrBusy = bit(16), kIsrTeack = bit(21);
+inline constexpr std::uint32_t kRqrRxfrq = bit(3);
+inline constexpr std::uint32_t kIsrBusy = bit(16), kIsrTeack = bit(21);
 inline constexpr std::uint32_t kIcrPe = bit(0), kIcrFe = bit(1), kIcrNf = bit(2), kIcrOre = bit(3),
                                kIcrIdle = bit(4), kIcrTc = bit(6), kIcrLbd = bit(8),
                                kIcrCts = bit(9), kIcrRto = bit(11), kIcrEob = bit(12),
