@@ -77,9 +77,12 @@ void run_seeds(const std::string& name, int runs,
     ++row.runs;
     row.sum.injected += result.injected;
     row.sum.counted += result.counted;
+    row.sum.walked_m += result.walked_m;
+    row.sum.clean_m += result.clean_m;
     ++row.ends[result.end];
   }
   EXPECT_GT(row.runs, 0) << "no such seed";
+  EXPECT_NEAR(row.sum.walked_m, row.sum.clean_m, 0.02 * row.sum.clean_m) << name;
   table().rows.push_back(to_text(name, row));
 }
 
