@@ -5,6 +5,9 @@ namespace {
 
 constexpr float kLeastLevel2 = 0.01F;  // x axis all but vertical: no heading to speak of
 constexpr float kWindow_s = 4.0F;      // the mean forgets what is older
+// For so long a body just risen still settles, joint by joint, into what the balance asks: 0.3
+// degrees, which over the mean would pass for a bias of 0.15 degrees a second.
+constexpr float kSettle_s = 0.35F;
 // About each axis: above the bias of a MEMS gyro (data sheet of the ICM-20648: 5 deg/s), below any
 // real motion.
 constexpr float kStillRate_rad_s = 0.12F;
@@ -49,7 +52,8 @@ void learn_bias(AttitudeState& state, const AttitudeIn& in) {
   // Of a motion that begins, the first readings come before it is known for one.
   if (calibrated && !within(rate, kStillRate_rad_s)) return;
   // Mean over the time stood still, then a slow tracking of warm-up drift.
-  const float share = in.period_s / (state.still_s + in.period_s);
+  const float meant_s = math::max(state.still_s - kSettle_s, 0.0F);
+  const float share = in.period_s / (meant_s + in.period_s);
   const Vec3 bias = math::to_vec(state.gyro_bias_rad_s);
   state.gyro_bias_rad_s = math::to_xyz(bias + share * (rate - bias));
   state.still_s = math::min(state.still_s + in.period_s, kWindow_s);

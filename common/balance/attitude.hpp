@@ -24,7 +24,7 @@ VERP_PACKED(AttitudeState);
 /// The accelerometer's share: slower than a step by far, so that its accelerations average out.
 inline constexpr float kAccelTime_s = 1.0F;
 /// This long still, and the mean of the gyro is taken for its bias.
-inline constexpr float kCalibrated_s = 2.0F;
+inline constexpr float kCalibrated_s = 3.0F;
 
 struct AttitudeIn {
   bool fresh = false;  ///< gyro and accelerometer are of this tick

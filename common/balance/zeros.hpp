@@ -7,7 +7,8 @@
 /// Zero errors of the legs. Every encoder is a fraction of a degree off; over a leg that adds up to
 /// a sole set down tilted, which throws the body to and fro in every step. A foot that carries
 /// alone, with the pressure well inside its sole, stands flat on the ground: what encoders and IMU
-/// then make of its tilt is the leg's error, and the ankle's goals move by as much.
+/// then make of its tilt is the leg's error, and the ankle's goals move by as much. Without force
+/// cells a foot that carries alone is trusted to stand flat in the middle of its step.
 namespace verp::balance {
 
 /// Of one leg: the sole's tilt by its encoders less its true one, in the sole frame.

@@ -49,13 +49,22 @@ kinematics::LegAngles leg_angles(const Params& params, const State& state,
   return angles;
 }
 
+// The third to the sixth state after an exchange of feet: landing is over, the next not yet begun.
+bool in_mid_step(const gait::GaitOut& plan) {
+  const int state = plan.cycle_state & 7;
+  return state >= 3 && state <= 6;
+}
+
 // One foot in the air, and the pressure under the other well inside a sole that is planned level:
-// by a leg that is short or whose joints lag behind each other it is not.
-bool carries_flat(const State& state, const gait::GaitOut& plan, const Inputs& inputs, int side,
-                  const kinematics::LegAngles& angles) {
-  return plan.swing != gait::kBoth && plan.swing != side && (inputs.flags & kFeetFresh) != 0 &&
-         angles.flags == 0 && state.tuning.gait.joint_delay_s == 0.0F &&
-         balance::stands_flat(inputs.foot_count[side]);
+// by a leg that is short or whose joints lag behind each other it is not. A foot that cannot feel
+// is taken to stand flat in the middle of its step.
+bool carries_flat(const Params& params, const State& state, const gait::GaitOut& plan,
+                  const Inputs& inputs, int side, const kinematics::LegAngles& angles) {
+  if (plan.swing == gait::kBoth || plan.swing == side || angles.flags != 0 ||
+      state.tuning.gait.joint_delay_s != 0.0F)
+    return false;
+  if (params.feet.device_id[side] == 0) return in_mid_step(plan);
+  return (inputs.flags & kFeetFresh) != 0 && balance::stands_flat(inputs.foot_count[side]);
 }
 
 balance::LegLoad load_of(const Params& params, const gait::GaitOut& plan, int side, float mass_kg) {
@@ -174,7 +183,7 @@ Wanted solve_joints(const Params& params, State& state, const Inputs& inputs,
     const kinematics::LegChain chain =
         kinematics::leg_chain(params, leg, plan.posture.body, angles.turn);
     balance::LegZero& zero = state.zeros.leg[side];
-    if (carries_flat(state, plan, inputs, side, angles)) {
+    if (carries_flat(params, state, plan, inputs, side, angles)) {
       balance::learn_zero(params, leg, chain, angles.angle_rad, plan.posture.foot[side], inputs,
                           attitude, tuning.gait.trunk_pitch_rad, zero);
     }

@@ -31,33 +31,31 @@ ServoType identified(ServoType type, double kt_n_m_a, double resistance_ohm, con
   return type;
 }
 
-// How much of what follows is in the twin. 0: the gaits of common/robots are not tuned for it yet
-// (with all of it generic21's bias is 13.6 mm on the worst of ten seeds, 12 are promised); 1: all
-// of it.
-constexpr double kScaledGears = 0;
-
 // Nobody has published these motors. Data sheet (e-Manual, at 12 V) for the motor's line, friction
-// on top: of the identified MX-64 the sheet says 6.0 N m, its line 6.3. Rotor and friction from the
-// paper's coarser model M1 (Coulomb and viscous), which is all that carries over from one gearbox
-// to another: load friction is within the identified ones' own spread only for gears of one make,
-// and is left to those who measure it. Rotors: MX-64, MX-106 and XL-330 have 0.95, 1.05 and 1.10e-5
-// kg m2 per N m of stall torque at the rotor; 1.0e-5 times gear ratio squared times stall torque
-// through it. Coulomb: 1.4, 0.9 and 2.3 % of stall torque; viscous 1.3, 1.7 and 8.4 % of the line's
-// slope: the metal gears' means. The band: half of each.
+// on top: of the identified MX-64 the sheet says 6.0 N m, its line 6.3. Rotor and friction are the
+// means of the identified metal gears, MX-64 and MX-106, as shares of what scales them:
+//   rotor      0.95, 1.05 (XL-330: 1.10) e-5 kg m2 per N m of stall torque at the rotor, seen
+//              through the gear ratio
+//   f_base     0.98, 0 % of stall torque; f_strib 0.38, 0.93 %
+//   l_base     0, 0.009; l_strib 0.234, 0.222: of the load, whatever the motor
+//   f_visc     1.7, 2.4 % of the line's slope
+// The band: half of each.
 ServoType scaled(ServoType type, double gear_ratio, double stall_torque_n_m, double no_load_rev_min,
                  double stall_current_a) {
   type.stall_torque_n_m = stall_torque_n_m;
   type.no_load_rev_min = no_load_rev_min;
   type.stall_current_a = stall_current_a;
   const double slope = stall_torque_n_m / (no_load_rev_min * 2 * std::numbers::pi / 60);
-  type.gearbox = {.armature_kg_m2 = kScaledGears * 1.0e-5 * gear_ratio * stall_torque_n_m,
-                  .f_base_n_m = kScaledGears * 0.012 * stall_torque_n_m,
-                  .f_visc_n_m_s = kScaledGears * 0.015 * slope};
+  type.gearbox = {.armature_kg_m2 = 1.0e-5 * gear_ratio * stall_torque_n_m,
+                  .f_base_n_m = 0.005 * stall_torque_n_m,
+                  .f_strib_n_m = 0.0065 * stall_torque_n_m,
+                  .l_base = 0.005,
+                  .l_strib = 0.228,
+                  .w_s_rad_s = 1.57,
+                  .alpha = 1.33,
+                  .f_visc_n_m_s = 0.02 * slope};
   type.armature_band = type.friction_band = 0.5;
-  type.source =
-      kScaledGears > 0
-          ? "scaled by stall torque and gear ratio from the identified MX-64, MX-106, XL-330"
-          : "data sheet; rotor and gears left out: nobody has published them";
+  type.source = "scaled by stall torque and gear ratio from the identified MX-64 and MX-106";
   return type;
 }
 

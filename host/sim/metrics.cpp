@@ -72,10 +72,20 @@ void WalkMeter::score_past_tick(const Observation& seen) {
   }
   yaw_turned_rad_ += std::remainder(seen.truth.yaw_rad - last_.truth.yaw_rad, 2 * std::numbers::pi);
   score_zmp(seen.truth, seen.loads);
+  add_slip(seen.truth);
+}
+
+void WalkMeter::add_slip(const Truth& truth) {
+  if (previous_.stance == gait::kBoth) return;
+  const auto& before = last_.truth.foot[previous_.stance];
+  const auto& after = truth.foot[previous_.stance];
+  if (std::min(before.normal_force_n, after.normal_force_n) < kContactForceN) return;
+  slid_m_ += (after.centroid_world_m - before.centroid_world_m).head<2>();
 }
 
 void WalkMeter::begin_walk(const Truth& truth) {
   last_mark_m_ = here_m_;
+  slid_m_.setZero();
   pending_.clear();
   if (ever_walked_) return;
   ever_walked_ = true;
@@ -96,9 +106,12 @@ void WalkMeter::follow_path(const Truth& truth, const Outputs& outputs) {
   const bool cycle_begins =
       walking_ && outputs.stance == gait::kLeft && previous_.stance != gait::kLeft;
   if (!cycle_begins) return;
-  path_m_ += (here_m_ - last_mark_m_).norm();
+  const Vec2 way_m = here_m_ - last_mark_m_;
+  path_m_ += way_m.norm();
+  slip_m_ += slid_m_.dot(way_m.normalized());
   last_mark_m_ = here_m_;
-  marks_.push_back({truth.t_s, path_m_, outputs.gait_phase});
+  slid_m_.setZero();
+  marks_.push_back({truth.t_s, path_m_, slip_m_, outputs.gait_phase});
 }
 
 void WalkMeter::score_zmp(const Truth& truth, const FootLoads& loads) {
@@ -123,10 +136,9 @@ void WalkMeter::add_bias(int state, double distance_mm) {
   ++bias_count_[static_cast<std::size_t>(state)];
 }
 
-std::optional<double> WalkMeter::steady_speed() const {
+void WalkMeter::score_steady(WalkMetrics& out) const {
   const int transition = static_cast<int>(gait::Phase::kTransition);
-  double length_m = 0;
-  double time_s = 0;
+  double length_m = 0, slip_m = 0, time_s = 0;
   for (std::size_t begin = 0; begin < marks_.size();) {
     std::size_t end = begin;
     while (end < marks_.size() && marks_[end].phase == transition) ++end;
@@ -134,12 +146,14 @@ std::optional<double> WalkMeter::steady_speed() const {
       const Mark& first = marks_[begin + kUnsteadyCycles];
       const Mark& last = marks_[end - 1 - kUnsteadyCycles];
       length_m += last.path_m - first.path_m;
+      slip_m += last.slip_m - first.slip_m;
       time_s += last.t_s - first.t_s;
     }
     begin = std::max(end, begin + 1);
   }
-  if (time_s > 0) return length_m / time_s;
-  return {};
+  if (time_s <= 0) return;
+  out.speed_steady_m_s = length_m / time_s;
+  out.slip_steady_m_s = slip_m / time_s;
 }
 
 WalkMetrics WalkMeter::result() const {
@@ -148,7 +162,7 @@ WalkMetrics WalkMeter::result() const {
   out.walk_s = walk_s_;
   out.distance_m = path_m_ + (walking_ ? (here_m_ - last_mark_m_).norm() : 0);
   if (walk_s_ > 0) out.speed_mean_m_s = out.distance_m / walk_s_;
-  out.speed_steady_m_s = steady_speed();
+  score_steady(out);
   out.ahead_m = ahead_m_;
   out.lateral_drift_m = lateral_m_;
   out.yaw_drift_deg = yaw_turned_rad_ * 180 / std::numbers::pi;

@@ -23,6 +23,9 @@ struct WalkMetrics {
   std::optional<double> speed_mean_m_s;  ///< distance_m / walk_s
   /// Transition phase only, without its first and last two cycles, if anything is left then.
   std::optional<double> speed_steady_m_s;
+  /// What of it is the carrying sole sliding along the way; what else differs from the speed that
+  /// was asked are steps that end elsewhere than planned.
+  std::optional<double> slip_steady_m_s;
   double ahead_m = 0;          ///< along the heading at the walk's start; backward is negative
   double lateral_drift_m = 0;  ///< to the left of the line along the heading at the walk's start
   double yaw_drift_deg = 0;    ///< of the body since the walk's start, turns counted
@@ -92,6 +95,7 @@ class WalkMeter {
   struct Mark {  ///< a cycle's beginning
     double t_s;
     double path_m;
+    double slip_m;
     int phase;
   };
   struct Pending {  ///< double support, until it is known which foot carries next
@@ -100,6 +104,7 @@ class WalkMeter {
   };
 
   void score_past_tick(const Observation& seen);
+  void add_slip(const Truth& truth);
   void begin_walk(const Truth& truth);
   void end_walk();
   void follow_path(const Truth& truth, const Outputs& outputs);
@@ -107,7 +112,7 @@ class WalkMeter {
   void add_bias(int state, double distance_mm);
   void keep(const Observation& seen, const Outputs& outputs,
             const std::optional<Vec2>& zmp_planned_world_m);
-  std::optional<double> steady_speed() const;
+  void score_steady(WalkMetrics& out) const;
 
   std::vector<model::Joint> joints_;
   std::vector<std::string> link_names_;
@@ -128,7 +133,8 @@ class WalkMeter {
   double yaw_turned_rad_ = 0;
   Vec2 last_mark_m_ = Vec2::Zero();
   Vec2 here_m_ = Vec2::Zero();
-  double path_m_ = 0;  ///< up to last_mark_m_
+  double path_m_ = 0, slip_m_ = 0;  ///< up to last_mark_m_
+  Vec2 slid_m_ = Vec2::Zero();      ///< the carrying sole, since then
   std::vector<Mark> marks_;
   std::vector<Pending> pending_;
   std::array<double, 16> bias_sum_mm_{};

@@ -84,18 +84,34 @@ std::optional<double> percent(const std::optional<double>& share) {
   return 100 * *share;
 }
 
+/// By how much the robot is faster than it was told to be, and why; empty where it was told to
+/// turn, or nothing was steady.
+std::string beyond_asked(const WalkPlan& plan, const sim::WalkMetrics& m) {
+  const double asked_m_s =
+      1e-4 * std::hypot(plan.velocity.vx_tenth_mm_s, plan.velocity.vy_tenth_mm_s);
+  if (!m.speed_steady_m_s || !m.slip_steady_m_s || asked_m_s <= 0 || plan.velocity.wz_mrad_s != 0)
+    return {};
+  const double all = 100 * (*m.speed_steady_m_s / asked_m_s - 1);
+  const double slip = 100 * *m.slip_steady_m_s / asked_m_s;
+  return fmt::format(
+      "{:+.1f} %: {:+.1f} % is the carrying sole sliding, {:+.1f} % steps that end elsewhere than "
+      "planned, as servos give way",
+      all, slip, all - slip);
+}
+
 std::vector<report::Fact> facts(const WalkPlan& plan, const WalkResult& result) {
   using report::or_dash;
   const sim::WalkMetrics& m = result.metrics;
   const double commanded_m_s =
       1e-4 * std::hypot(plan.velocity.vx_tenth_mm_s, plan.velocity.vy_tenth_mm_s);
+  const std::string beyond = beyond_asked(plan, m);
   return {
       {"Distance", fmt::format("{:.2f} m", m.distance_m),
        fmt::format("in {:.1f} s of gait{}", m.walk_s,
                    result.remark.empty() ? "" : "; " + result.remark)},
       {"Mean speed", or_dash(m.speed_mean_m_s, 3, " m/s"), "start, transition and finalisation"},
       {"Steady speed", or_dash(m.speed_steady_m_s, 3, " m/s"),
-       fmt::format("commanded {:.3f} m/s{}", commanded_m_s,
+       fmt::format("commanded {:.3f} m/s{}{}", commanded_m_s, beyond.empty() ? "" : "; " + beyond,
                    m.speed_steady_m_s ? "" : "; no cycle was steady")},
       {"ZMP bias", or_dash(m.zmp_bias_mean_mm, 1, " mm"),
        "mean distance to the supporting sole's centre"},
@@ -226,6 +242,7 @@ std::string to_text(const WalkPlan& plan, const WalkResult& result, const Sweep&
            ? fmt::format("{} mean, {} steady", or_dash(m.speed_mean_m_s, 3, " m/s"),
                          or_dash(m.speed_steady_m_s, 3, " m/s"))
            : fmt::format("{} mean, - steady: no cycle was", or_dash(m.speed_mean_m_s, 3, " m/s")));
+  if (const std::string text = beyond_asked(plan, m); !text.empty()) line("beyond asked", text);
   line("drift",
        fmt::format("{:+.3f} m to the left, {:+.1f} degrees", m.lateral_drift_m, m.yaw_drift_deg));
   line("ZMP bias", or_dash(m.zmp_bias_mean_mm, 1, " mm"));
@@ -260,6 +277,7 @@ Json to_json(const WalkPlan& plan, const WalkResult& result, const Sweep& sweep)
                {"distance_m", m.distance_m},
                {"speed_mean_m_s", number_or_null(m.speed_mean_m_s)},
                {"speed_steady_m_s", number_or_null(m.speed_steady_m_s)},
+               {"slip_steady_m_s", number_or_null(m.slip_steady_m_s)},
                {"ahead_m", m.ahead_m},
                {"lateral_drift_m", m.lateral_drift_m},
                {"yaw_drift_deg", m.yaw_drift_deg},

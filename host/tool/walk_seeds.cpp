@@ -67,7 +67,7 @@ class Seeds {
     }
     progress_.clear();
     tell();
-    return interrupted() ? kRunFailed : status_;
+    return interrupted() || survived_ < rows_.size() ? std::max(status_, int{kRunFailed}) : status_;
   }
 
  private:
@@ -114,9 +114,13 @@ class Seeds {
   void tell() const {
     Json all = Json::array();
     std::string fell;
+    std::vector<double> bias_mm, speed_m_s;
     for (const auto& [seed, row] : rows_) {
       all.push_back(row);
-      if (!row["survived"].get<bool>()) {
+      if (row["survived"].get<bool>()) {
+        keep(row, "zmp_bias_mean_mm", bias_mm);
+        keep(row, "speed_steady_m_s", speed_m_s);
+      } else {
         fell += fmt::format("  seed {}: {}\n", seed, row["failure"].get<std::string>());
       }
     }
@@ -129,8 +133,20 @@ class Seeds {
     } else {
       answer(fmt::format("{}: {} of {} walked {:g} s\n", options_.model, survived_, rows_.size(),
                          options_.walk_s) +
-             fell);
+             range("ZMP bias, mm", bias_mm, 1) + range("steady speed, m/s", speed_m_s, 3) + fell);
     }
+  }
+
+  static void keep(const Json& row, const char* key, std::vector<double>& values) {
+    if (row.contains(key) && row[key].is_number()) values.push_back(row[key].get<double>());
+  }
+
+  /// Least, middle and largest of those that walked.
+  static std::string range(const char* name, std::vector<double>& values, int digits) {
+    if (values.empty()) return {};
+    std::sort(values.begin(), values.end());
+    return fmt::format("  {:<18}{:.{}f} to {:.{}f}, median {:.{}f}\n", name, values.front(), digits,
+                       values.back(), digits, values[values.size() / 2], digits);
   }
 
   const WalkOptions& options_;

@@ -96,11 +96,15 @@ void EchoPlant::remember_motion(bool frozen, Inputs& in) {
 
 void EchoPlant::feel_ground(std::uint32_t events, Inputs& in) {
   const bool in_air = (events & kFeetInAir) != 0;
+  // The pressure walks round the sole, now and then so near an edge that the foot stands on it.
+  const std::uint32_t turn = 4 * (in.tick / 20);
+  const std::int32_t fore = wave(turn, 32, foot_count_ * 5 / 8);
+  const std::int32_t aside = wave(turn + 8, 32, foot_count_ * 5 / 8);
   for (auto& foot : in.foot_count) {
-    std::uint32_t corner = in.tick / 20;
-    for (std::uint16_t& count : foot) {
-      const std::int32_t load = foot_count_ + wave(8 * corner++, 32, foot_count_ / 2);
-      count = in_air ? std::uint16_t{0} : static_cast<std::uint16_t>(load);
+    for (int corner = 0; corner < 4; ++corner) {
+      const std::int32_t load =
+          foot_count_ + (corner < 2 ? fore : -fore) + (corner % 2 == 0 ? aside : -aside);
+      foot[corner] = in_air ? std::uint16_t{0} : static_cast<std::uint16_t>(load);
     }
   }
   if ((events & kFeetGone) == 0) in.flags |= kFeetFresh;

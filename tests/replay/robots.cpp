@@ -35,10 +35,11 @@ Params mirrored(Params params) {
 }
 
 /// Control periods longer than the time between two key points; feet so heavy that their swing
-/// nearly lifts the robot; thighs that its shanks cannot fold against; no head.
+/// nearly lifts the robot; thighs that its shanks cannot fold against; no head, no force cells.
 Params slow_and_heavy(Params params) {
   params.period_us = 20'000;
   params.head_pan = params.head_tilt = 0xFF;
+  for (auto& device_id : params.feet.device_id) device_id = 0;
   for (LegParams& leg : params.leg) {
     leg.thigh_m *= 2.0F;
     for (int k = 3; k < kLegJoints; ++k) params.joint[leg.joint[k]].mass_kg *= 20.0F;

@@ -18,19 +18,23 @@ TEST(PhysicsStep, TwoMillisecondsWalkLikeOne) {
 }
 
 // Robots drawn at random (host/sim/vary.hpp) are walked by a controller that knows nothing of it.
+TEST(RandomRobots, NineteenOfTwentyWalk) {
+  const Walk seeds = walk("generic21 --vary --for 20 --physics-step 2 --seeds 1-20");
+  EXPECT_GE(number(seeds, "survived"), 19);
+}
+
 TEST(RandomRobots, WalksSayWhatWasDrawnAndWhoSurvived) {
-  const Walk seeds = walk("generic21 --vary --for 8 --physics-step 2 --seeds 1-20");
-  EXPECT_EQ(seeds.status, 0);
-  EXPECT_EQ(seeds.result.value("of", 0), 20);
+  const Walk seeds = walk("generic21 --vary --for 3 --physics-step 2 --seeds 1-6");
   const json walks = seeds.result.value("walks", json::array());
-  ASSERT_EQ(walks.size(), 20u);
+  ASSERT_EQ(walks.size(), 6u);
   int survived = 0;
   for (const json& each : walks) {
     survived += each.at("survived").get<bool>() ? 1 : 0;
     EXPECT_GE(each.at("varied").at("friction").get<double>(), 0.4);
     EXPECT_LE(each.at("varied").at("goal_delay_s").get<double>(), 0.020);
   }
-  EXPECT_EQ(seeds.result.value("survived", -1), survived);
+  EXPECT_EQ(number(seeds, "survived"), survived);
+  EXPECT_EQ(seeds.status, survived == 6 ? 0 : 1) << "who asks for walks wants to know of falls";
 }
 
 // One of the many is the one that --seed walks.

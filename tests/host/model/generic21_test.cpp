@@ -79,7 +79,7 @@ TEST(Generic21, CarriesTheDatasheetsServos) {
     EXPECT_EQ(joint.servo.model_number, 1030);
     EXPECT_DOUBLE_EQ(joint.servo.stall_torque_n_m, 3.0);
     EXPECT_NEAR(joint.servo.no_load_speed_rad_s, 77 * 2 * std::numbers::pi / 60, 1e-12);
-    EXPECT_NEAR(servo_stiffness_n_m_rad(joint.servo), 40.7, 0.1);
+    EXPECT_NEAR(servo_stiffness_n_m_rad(joint.servo), 53.7, 0.1);
     EXPECT_LE(joint.velocity_limit_rad_s, joint.servo.no_load_speed_rad_s);
   }
 }

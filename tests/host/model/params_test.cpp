@@ -76,7 +76,7 @@ TEST(Params, ServoScalesFollowDirectionAndOffset) {
     EXPECT_EQ(params.joint[j].counts_per_rad < 0,
               generic21().joints[static_cast<std::size_t>(j)].servo.direction < 0);
     EXPECT_EQ(params.joint[j].zero_count, 2048.0F);
-    EXPECT_NEAR(params.joint[j].compliance_rad_nm, 1 / 40.7F, 1e-4F);
+    EXPECT_NEAR(params.joint[j].compliance_rad_nm, 1 / 53.7F, 1e-4F);
   }
   EXPECT_EQ(params.servo[0].model_number, 1030);
   EXPECT_EQ(params.servo[1].model_number, 0);

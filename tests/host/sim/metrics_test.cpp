@@ -23,6 +23,7 @@ struct ScriptedWalk {
   int start_steps = 2, transition_steps = 40, final_steps = 2;
   double fall_at_s = 1e9;
   int touch_every = 0;  ///< ticks
+  double sole_n = 0;    ///< what either sole carries; they move along all the time
   WalkMeter meter{test::biped()};
   Observation now{};
   int ticks = 0;
@@ -33,6 +34,7 @@ struct ScriptedWalk {
     for (std::size_t foot = 0; foot < 2; ++foot) {
       FootTruth& truth = now.truth.foot[foot];
       truth.present = truth.contact = true;
+      truth.normal_force_n = sole_n;
       truth.sole_world.linear() = Eigen::AngleAxisd(heading_rad, Vec3::UnitZ()).toRotationMatrix();
       truth.sole_world.translation() = ahead * forward_m + left * (foot == 0 ? 0.04 : -0.04);
       truth.centroid_world_m = truth.sole_world.translation();
@@ -107,6 +109,15 @@ TEST(Metrics, ZmpBiasIsTakenFromTheCarryingSoleAndInDoubleSupportFromTheNext) {
   EXPECT_NEAR(m.zmp_bias_by_state_mm[7].value_or(-1), 10, 1e-6);
   EXPECT_FALSE(m.zmp_bias_by_state_mm[0]);
   EXPECT_NEAR(m.zmp_bias_mean_mm.value_or(-1), 10, 1e-6);
+}
+
+// 15 of 20 ticks of a step are single support, in which the script's carrying sole slides along.
+TEST(Metrics, OnlyASoleOnTheGroundSlips) {
+  ScriptedWalk slides, floats;
+  slides.heading_rad = 2.0;
+  slides.sole_n = 30;
+  EXPECT_NEAR(slides.run().slip_steady_m_s.value_or(-1), 0.75 * 0.2, 1e-9);
+  EXPECT_NEAR(floats.run().slip_steady_m_s.value_or(-1), 0, 1e-9);
 }
 
 TEST(Metrics, YawIsCountedBeyondHalfATurn) {

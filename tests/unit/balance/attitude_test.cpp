@@ -49,6 +49,20 @@ TEST(Attitude, BiasIsLearntWhileStanding) {
   EXPECT_NEAR(out.roll_rate_rad_s, 0.0F, 1e-3F);
 }
 
+// A body that has just risen settles by some tenths of a degree. The heading must not drift by it
+// for the rest of the walk.
+TEST(Attitude, BiasIsNotLearntFromABodyThatSettles) {
+  for (int when = 0; when < 30; when += 5) {
+    AttitudeState state;
+    for (int i = 0; i < kCalibrated_ticks; ++i) {
+      AttitudeIn in = still();
+      in.gyro_body_rad_s = {0, 0, i >= when && i < when + 5 ? 0.002F - 0.1F : 0.002F};
+      update(state, in);
+    }
+    EXPECT_NEAR(state.gyro_bias_rad_s.z, 0.002F, 1e-5F) << "settles after tick " << when;
+  }
+}
+
 TEST(Attitude, BiasIsNotLearntFromMotionNorWhileWalking) {
   AttitudeState state;
   AttitudeIn in = still();
