@@ -163,7 +163,14 @@ class FactReader {
   }
   void tuning(const XmlElement& e) {
     e.allow({"name", "value"});
-    f_.tuning.push_back({e, e.text("name"), e.number("value")});
+    const std::string name = e.text("name");
+    for (const TuningFact& other : f_.tuning) {
+      if (other.name != name) continue;
+      e.fail("tuning value '" + name + "' is given twice (first in line " +
+                 std::to_string(other.at.line()) + ")",
+             "keep one of them");
+    }
+    f_.tuning.push_back({e, name, e.number("value")});
   }
   void inertia(const XmlElement& e) {
     e.allow({"link", "scale", "com", "reason"});

@@ -158,6 +158,10 @@ void LinkTree::lump(Node& node, const RawLink& link, const Vec3& origin) {
 
 int LinkTree::add_joint(const sdf::Joint& sdf, const std::string& child, int parent) {
   const Transform pose = model_body_.inverse() * model_pose(sdf.SemanticPose());
+  if (sdf.Axis() == nullptr) {
+    fail(sdf.Name(), "joint '" + sdf.Name() + "' turns about no axis",
+         "give it <axis><xyz>x y z</xyz></axis>, or type=\"fixed\"");
+  }
   const sdf::JointAxis& axis = *sdf.Axis();
   ignition::math::Vector3d direction;
   axis.ResolveXyz(direction, "__model__");

@@ -57,7 +57,7 @@ void configure(const std::string& path) {
 void cross_check(const XmlSource& source, const Facts& facts, const sdf::Model& model) {
   UrdfTotals expected;
   for (const XmlElement& urdf : source.urdfs()) {
-    const UrdfTotals totals = check_urdf(urdf, facts);
+    const UrdfTotals totals = check_urdf(source, urdf, facts);
     expected.moving_joints += totals.moving_joints;
     expected.mass_kg += totals.mass_kg;
   }
@@ -96,7 +96,7 @@ Entity load_robot_on_any_bus(const std::string& path, const std::string& bus) {
   configure(path);
   sdf::Root root;
   const sdf::Errors errors = root.Load(path);
-  for (const XmlElement& urdf : source.urdfs()) check_urdf(urdf, facts);
+  for (const XmlElement& urdf : source.urdfs()) check_urdf(source, urdf, facts);
   if (!errors.empty()) fail(source, errors.front());
   if (!root.Model()) model.fail("libsdformat finds no model here", "put one <model> below <sdf>");
   cross_check(source, facts, *root.Model());

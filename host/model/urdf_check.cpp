@@ -4,8 +4,10 @@
 #include <urdf_model/model.h>
 #include <urdf_parser/urdf_parser.h>
 
+#include <memory>
 #include <set>
 #include <string>
+#include <vector>
 
 #include "host/model/load_error.hpp"
 
@@ -18,6 +20,62 @@ XmlElement element_of(const XmlElement& robot, const char* kind, const std::stri
     if (child.text("name", "") == name) return child;
   }
   return robot;
+}
+
+/// What urdfdom says while it reads: the cause first, and then what could not be read for it.
+class UrdfErrors : public console_bridge::OutputHandler {
+ public:
+  void log(const std::string& text, console_bridge::LogLevel level, const char* /*file*/,
+           int /*line*/) override {
+    if (level < console_bridge::CONSOLE_BRIDGE_LOG_ERROR) return;
+    if (cause_.empty()) cause_ = text.substr(0, text.find(".  "));  // then comes advice, in lines
+    all_ += text + '\n';
+  }
+  const std::string& cause() const { return cause_; }
+  const std::string& all() const { return all_; }
+
+ private:
+  std::string cause_, all_;
+};
+
+void refuse_duplicates(const XmlElement& robot, const char* kind) {
+  std::set<std::string> names;
+  for (const XmlElement& child : robot.children(kind)) {
+    if (names.insert(child.text("name")).second) continue;
+    child.fail(std::string(kind) + " '" + child.text("name") + "' is given twice",
+               "rename one of them");
+  }
+}
+
+/// A link that no joint carries, beside the trunk.
+void refuse_second_root(const XmlElement& robot, const Facts& facts) {
+  std::set<std::string> carried;
+  for (const XmlElement& joint : robot.children("joint")) {
+    for (const XmlElement& child : joint.children("child")) carried.insert(child.text("link", ""));
+  }
+  std::vector<XmlElement> roots = robot.children("link");
+  std::erase_if(roots, [&](const XmlElement& link) { return carried.contains(link.text("name")); });
+  if (roots.size() < 2) return;
+  const bool trunk_first = roots[0].text("name") == facts.body->link;
+  roots[trunk_first ? 1 : 0].fail(
+      "two root links: '" + roots[0].text("name") + "' and '" + roots[1].text("name") + "'",
+      "add the joint that carries one of them");
+}
+
+std::shared_ptr<urdf::ModelInterface> read_urdf(const XmlSource& source, const XmlElement& robot,
+                                                const Facts& facts) {
+  for (const char* kind : {"link", "joint"}) refuse_duplicates(robot, kind);
+  refuse_second_root(robot, facts);
+  UrdfErrors errors;
+  console_bridge::useOutputHandler(&errors);
+  auto urdf = urdf::parseURDFFile(robot.file());
+  console_bridge::noOutputHandler();
+  if (urdf) return urdf;
+  const auto place = source.blame(errors.all());
+  const bool named = place.file == robot.file();
+  throw LoadError(robot.file(), named ? place.line : robot.line(),
+                  "this is no URDF of a robot: " + errors.cause(),
+                  "correct it; wiki.ros.org/urdf/XML says what is needed");
 }
 
 void check_links(const XmlElement& robot, const urdf::ModelInterface& urdf, const Facts& facts) {
@@ -40,12 +98,8 @@ void check_links(const XmlElement& robot, const urdf::ModelInterface& urdf, cons
 
 }  // namespace
 
-UrdfTotals check_urdf(const XmlElement& robot, const Facts& facts) {
-  console_bridge::noOutputHandler();
-  const auto urdf = urdf::parseURDFFile(robot.file());
-  if (!urdf) {
-    robot.fail("urdfdom cannot read this URDF", "run check_urdf on it (package liburdfdom-tools)");
-  }
+UrdfTotals check_urdf(const XmlSource& source, const XmlElement& robot, const Facts& facts) {
+  const auto urdf = read_urdf(source, robot, facts);
   std::set<std::string> names;
   for (const auto& [name, link] : urdf->links_) names.insert(name);
   check_links(robot, *urdf, facts);

@@ -11,7 +11,8 @@ struct UrdfTotals {
 };
 
 /// Throws LoadError for what libsdformat's import would lose without a word, unless <verp:drop>
-/// declares it: mimic joints, and links without mass (with all that hangs on them).
-UrdfTotals check_urdf(const XmlElement& robot, const Facts& facts);
+/// declares it: mimic joints, and links without mass (with all that hangs on them). What urdfdom
+/// cannot read is refused with its cause, where the link or joint it names stands in `source`.
+UrdfTotals check_urdf(const XmlSource& source, const XmlElement& robot, const Facts& facts);
 
 }  // namespace verp::model

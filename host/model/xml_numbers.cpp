@@ -35,7 +35,7 @@ constexpr Numbers kPose = {0, -kMostAngle, kMostAngle, "", true};
 constexpr Numbers kPower = {1, -kLargest, kLargest, "", false, true};  // the servo's own hold too
 constexpr Numbers kResistance = {1, -100, 100};  // of a joint, N m and N m s/rad
 
-// Leaves of SDF that hold numbers.
+// Leaves of SDF that hold numbers; from mu1 on those that libsdformat reads in a URDF's <gazebo>.
 const std::map<std::string_view, Numbers> kSdfNumbers = {
     {"mass", kMass},
     {"ixx", kInertia},
@@ -74,7 +74,20 @@ const std::map<std::string_view, Numbers> kSdfNumbers = {
     {"bias_stddev", kFree},
     {"samples", kFree},
     {"min_angle", kFree},
-    {"max_angle", kFree}};
+    {"max_angle", kFree},
+    {"mu1", {1, 0, kMostFriction}},
+    {"maxVel", kFree},
+    {"minDepth", kFree},
+    {"maxContacts", kFree},
+    {"stopCfm", kFree},
+    {"stopErp", kFree},
+    {"stopKp", kFree},
+    {"stopKd", kFree},
+    {"springStiffness", kFree},
+    {"springReference", kFree},
+    {"fudgeFactor", kFree},
+    {"dampingFactor", kFree},
+    {"laserRetro", kFree}};
 
 // Attributes of URDF, by themselves or as ELEMENT.ATTRIBUTE.
 const std::map<std::string, Numbers, std::less<>> kUrdfNumbers = {
@@ -112,10 +125,13 @@ void check(const std::string& file, int line, const std::string& what, const std
 
 }  // namespace
 
-void check_sdf_leaf(const std::string& file, int line, const std::string& element,
-                    const std::string& text) {
+void check_leaf(const std::string& file, int line, const std::string& element,
+                const std::string& text, bool is_urdf) {
   const auto wanted = kSdfNumbers.find(element);
-  if (wanted != kSdfNumbers.end()) check(file, line, "<" + element + ">", text, wanted->second);
+  if (wanted == kSdfNumbers.end()) return;
+  const bool one = wanted->second.count == 1;
+  if (is_urdf && !one) return;
+  check(file, line, "<" + element + ">", text, is_urdf ? kFree : wanted->second);
 }
 
 void check_urdf_attribute(const std::string& file, int line, const std::string& element,

@@ -6,8 +6,9 @@
 /// compute with. Each throws LoadError; what is not known as a number is not looked at.
 namespace verp::model {
 
-void check_sdf_leaf(const std::string& file, int line, const std::string& element,
-                    const std::string& text);
+/// Of SDF; or of what a URDF tells Gazebo, where any number goes: mu1 is 9000 in good files.
+void check_leaf(const std::string& file, int line, const std::string& element,
+                const std::string& text, bool is_urdf);
 void check_urdf_attribute(const std::string& file, int line, const std::string& element,
                           const std::string& attribute, const std::string& text);
 /// One number of any size, or three of a position or size in metres.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <set>
 #include <string_view>
@@ -15,6 +16,12 @@
 
 namespace verp::model {
 namespace {
+
+// A robot has a body and a few parts; files that include two others each reach this at once.
+constexpr std::size_t kMostFiles = 64;
+
+// Of the elements that SDF has not.
+constexpr const char* kNamespace = "https://verp.dev/sdf/1";
 
 /// XML 1.0, 2.5: no "--" within a comment, and none may end in "--->". tinyxml2 reads them all the
 /// same; other people's tools don't read the file then.
@@ -34,6 +41,21 @@ class CommentCheck : public tinyxml2::XMLVisitor {
  private:
   const std::string& path_;
 };
+
+/// Of what an element has one of, libraries take the first or the last and don't tell.
+void refuse_repeats(const std::string& path, const tinyxml2::XMLElement& element) {
+  for (const char* once :
+       {"mass", "inertia", "inertial", "pose", "axis", "limit", "parent", "child", "origin",
+        "geometry", "xyz", "lower", "upper", "effort", "velocity", "size", "radius", "length"}) {
+    const auto* first = element.FirstChildElement(once);
+    const auto* second = first ? first->NextSiblingElement(once) : nullptr;
+    if (second == nullptr) continue;
+    throw LoadError(path, second->GetLineNum(),
+                    "<" + std::string(once) + "> is given twice in <" + element.Name() +
+                        "> (first in line " + std::to_string(first->GetLineNum()) + ")",
+                    "keep one of them");
+  }
+}
 
 }  // namespace
 
@@ -152,7 +174,31 @@ void XmlSource::read(const std::string& path) {
     CommentCheck comments(path);
     file.document.Accept(&comments);
   }
+  open_.push_back(std::filesystem::weakly_canonical(path));
   inspect(file, *file.document.RootElement());
+  open_.pop_back();
+}
+
+void XmlSource::include(const File& file, const tinyxml2::XMLElement& element) {
+  const int line = element.GetLineNum();
+  const auto* uri = element.FirstChildElement("uri");
+  const std::string text = uri && uri->GetText() ? uri->GetText() : "";
+  const std::string found = resolve_model_uri(text, file.path);
+  if (found.empty()) {
+    throw LoadError(file.path, line, "'" + text + "' is not in " + model_path_text(),
+                    "set VERP_MODEL_PATH to the folder that model:// names start in");
+  }
+  if (std::find(open_.begin(), open_.end(), std::filesystem::weakly_canonical(found)) !=
+      open_.end()) {
+    throw LoadError(file.path, line, "'" + text + "' includes itself",
+                    "remove this <include>, or the one that leads here");
+  }
+  if (files_.size() == kMostFiles) {
+    throw LoadError(file.path, line,
+                    "more than " + std::to_string(kMostFiles) + " files are included",
+                    "write what repeats into the robot's own file");
+  }
+  read(found);
 }
 
 void XmlSource::inspect(const File& file, const tinyxml2::XMLElement& element) {
@@ -166,19 +212,12 @@ void XmlSource::inspect(const File& file, const tinyxml2::XMLElement& element) {
     for (const auto* a = element.FirstAttribute(); a; a = a->Next()) {
       check_urdf_attribute(file.path, line, std::string(name), a->Name(), a->Value());
     }
-  } else if (!element.FirstChildElement() && element.GetText()) {
-    check_sdf_leaf(file.path, line, std::string(name), element.GetText());
   }
-  if (!is_urdf && name == "include") {
-    const auto* uri = element.FirstChildElement("uri");
-    const std::string text = uri && uri->GetText() ? uri->GetText() : "";
-    const std::string found = resolve_model_uri(text, file.path);
-    if (found.empty()) {
-      throw LoadError(file.path, line, "'" + text + "' is not in " + model_path_text(),
-                      "set VERP_MODEL_PATH to the folder that model:// names start in");
-    }
-    read(found);
+  if (!element.FirstChildElement() && element.GetText()) {
+    check_leaf(file.path, line, std::string(name), element.GetText(), is_urdf);
   }
+  refuse_repeats(file.path, element);
+  if (!is_urdf && name == "include") include(file, element);
   for (const auto* child = element.FirstChildElement(); child;
        child = child->NextSiblingElement()) {
     inspect(file, *child);
@@ -191,6 +230,15 @@ XmlElement XmlSource::model() const {
   if (root.name() == "robot") {
     root.fail("this is a bare URDF: it says nothing about servos, limbs and sensors",
               "include it from an SDF file, as common/robots/op3/robot.sdf does");
+  }
+  const std::string version = root.text("version");
+  if (!version.starts_with("1.") || parse_number(version).value_or(2) > 1.9) {
+    root.fail("SDF " + version + " is not known here", "write <sdf version=\"1.9\">");
+  }
+  if (root.text("xmlns:verp", "") != kNamespace) {
+    root.fail(root.has("xmlns:verp") ? "xmlns:verp is '" + root.text("xmlns:verp") + "'"
+                                     : "xmlns:verp is missing",
+              "write <sdf version=\"1.9\" xmlns:verp=\"" + std::string(kNamespace) + "\">");
   }
   if (models.size() != 1) {
     root.fail("one <model> is needed, there are " + std::to_string(models.size()),

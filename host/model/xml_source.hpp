@@ -79,9 +79,11 @@ class XmlSource {
     tinyxml2::XMLDocument document;
   };
   void read(const std::string& path);
+  void include(const File& file, const tinyxml2::XMLElement& element);
   void inspect(const File& file, const tinyxml2::XMLElement& element);
 
   std::vector<std::unique_ptr<File>> files_;
+  std::vector<std::string> open_;  ///< the main file, the one that it includes now, ...
   std::map<std::string, Place> names_;
 };
 
