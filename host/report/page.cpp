@@ -130,6 +130,10 @@ std::string page(const Run& run, const std::vector<Picture>& pictures, const std
   }
   out += "<section><h2>Numbers and trace</h2><div class=\"wide\"><table>\n" + rows(files, true) +
          "</table></div></section>\n";
+  if (!run.changed.empty()) {
+    out += "<section><h2>What is not as by default</h2><div class=\"wide\"><table>\n" +
+           rows(run.changed, false) + "</table></div></section>\n";
+  }
   out += "<section><h2>How it was made</h2><div class=\"wide\"><table>\n" +
          rows(run.provenance, false) + "</table></div></section>\n";
   return out + "</main></body></html>\n";

@@ -24,6 +24,27 @@ std::string mean_line(const std::optional<double>& mean, const char* title) {
       *mean, kInk, title);
 }
 
+/// What a view from above has to hold, and the paper for it: no flatter than a third of its width.
+class Extent2 {
+ public:
+  void add(double x, double y) {
+    low_x_ = std::min(low_x_, x), high_x_ = std::max(high_x_, x);
+    low_y_ = std::min(low_y_, y), high_y_ = std::max(high_y_, y);
+  }
+  std::string ranges() const {
+    const double margin = 0.05 * std::max({high_x_ - low_x_, high_y_ - low_y_, 0.4});
+    return fmt::format("set xrange [{:.4g}:{:.4g}]\nset yrange [{:.4g}:{:.4g}]\n", low_x_ - margin,
+                       high_x_ + margin, low_y_ - margin, high_y_ + margin);
+  }
+  int height_px() const {
+    const double wide = std::max(high_x_ - low_x_, 0.2), high = std::max(high_y_ - low_y_, 0.2);
+    return static_cast<int>(std::clamp(820 * high / wide + 100, 360.0, 620.0));
+  }
+
+ private:
+  double low_x_ = 0, high_x_ = 0, low_y_ = 0, high_y_ = 0;
+};
+
 Plot bias_plot(const Run& run) {
   Data data("bias");
   for (std::size_t i = 0; i < 16; ++i) data.row(i, run.bias_by_state_mm[i].value_or(kNone));
@@ -40,6 +61,33 @@ Plot bias_plot(const Run& run) {
           "Ground-plane distance from the measured ZMP to the centre of the supporting sole.",
           920,
           300,
+          script};
+}
+
+/// Ahead is up, as the robot saw it; one centimetre ahead is as long as one aside.
+Plot way_plot(const Run& run) {
+  Data asked("asked"), walked("walked");
+  for (const Point2& point : run.asked) asked.row(-point.y_m, point.x_m);
+  const std::size_t stride = std::max<std::size_t>(1, run.samples.size() / 1500);
+  Extent2 seen;
+  for (const Point2& point : run.asked) seen.add(-point.y_m, point.x_m);
+  for (std::size_t i = 0; i < run.samples.size(); i += stride) {
+    const Point3& body = run.samples[i].body;
+    walked.row(-body.y_m, body.x_m);
+    seen.add(-body.y_m, body.x_m);
+  }
+  std::string script = preamble() + asked.text() + walked.text();
+  script += fmt::format(
+      "set size ratio -1\nset xlabel 'to the right, m'\nset ylabel 'ahead, m'\n{}"
+      "set key outside top center horizontal\n"
+      "plot $asked using 1:2 with lines linecolor rgb '{}' linewidth 1.2 dashtype 2 title 'asked', "
+      "$walked using 1:2 with lines linetype 1 title 'walked'\n",
+      seen.ranges(), kInk);
+  return {"way",
+          "The way asked and walked",
+          "From above: where the command leads from where the gait began, and where the body went.",
+          920,
+          seen.height_px(),
           script};
 }
 
@@ -114,6 +162,7 @@ std::vector<Plot> plots(const Run& run) {
   }
   if (run.samples.size() > 1) {
     if (run.bias_mean_mm) all.push_back(bias_plot(run));
+    if (!run.asked.empty()) all.push_back(way_plot(run));
     all.push_back(speed_plot(run));
     all.push_back(torque_plot(run));
   }

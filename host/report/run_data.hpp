@@ -84,11 +84,13 @@ struct Run {
   std::array<std::vector<int>, 2> leg_joints;  ///< left, right; from hip to ankle
   std::vector<Limb> limbs;
   std::vector<Sample> samples;
+  std::vector<Point2> asked;  ///< the way that the command makes from where the gait began
   std::vector<Fact> facts;
   std::array<std::optional<double>, 16> bias_by_state_mm{};
   std::optional<double> bias_mean_mm;
   std::optional<double> speed_mean_m_s;
   std::vector<SweepRow> sweep;
+  std::vector<std::pair<std::string, std::string>> changed;  ///< what is not as by default
   std::vector<std::pair<std::string, std::string>>
       provenance;          ///< revision, compiler, command, digest
   std::string trace_file;  ///< name inside the folder; empty: none

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "host/record/trace_error.hpp"
+#include "host/session/asked.hpp"
 #include "host/session/fault_names.hpp"
 #include "host/sim/planned_zmp.hpp"
 
@@ -193,7 +194,9 @@ std::string Robot::failure_of_walk() const {
   }
   const std::string faults = fault_names(result_.faults & kStopping);
   if (!faults.empty()) return "stopped by fault: " + faults;
-  return hooks_.order ? "" : walker_->failed();
+  if (hooks_.order) return "";
+  const std::string failed = walker_->failed();
+  return failed.empty() ? shortfall(plan_.velocity, result_.metrics) : failed;
 }
 
 }  // namespace verp::session

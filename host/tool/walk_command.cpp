@@ -73,8 +73,9 @@ Subcommand add_walk(CLI::App& root) {
   CLI::App* app = root.add_subcommand("walk", "Walk in the twin: summary, trace and report");
   auto options = std::make_shared<WalkOptions>();
   declare(*app, *options);
-  return {app, [options] {
+  return {app, [app, options] {
             catch_interrupts();
+            options->changed = changed_options(*app);
             return run_walk(*options);
           }};
 }

@@ -33,12 +33,12 @@ int finish_walk(const WalkPlan& plan, const WalkOptions& options, WalkFiles& fil
                 const std::string& more_text) {
   files.finish(result, to_report(plan, options, result, swept));
   if (options.json) {
-    Json json = to_json(plan, result, swept);
+    Json json = to_json(plan, options, result, swept);
     json.update(more);
     files.add_to(json);
     print_json(json);
   } else {
-    answer(to_text(plan, result, swept) + more_text + files.text());
+    answer(to_text(plan, options, result, swept) + more_text + files.text());
   }
   return ending(options.command, reason(result, swept, files.trace_path().string()), files);
 }

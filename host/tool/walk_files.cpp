@@ -41,6 +41,10 @@ void make_folder(const fs::path& folder) {
 }
 
 record::mcap::StringMap metadata(const WalkPlan& plan, const WalkOptions& options) {
+  std::string changed;
+  for (const auto& [name, value] : options.changed) {
+    changed += (changed.empty() ? "" : " ") + name + (value.empty() ? "" : " " + value);
+  }
   return {{"robot", plan.params.name},
           {"model_file", plan.entity.file},
           {"seed", std::to_string(plan.twin.seed)},
@@ -48,6 +52,7 @@ record::mcap::StringMap metadata(const WalkPlan& plan, const WalkOptions& option
           {"cycle_s", fmt::format("{}", options.cycle_s)},
           {"velocity", options.velocity_text},
           {"walk_s", fmt::format("{}", options.walk_s)},
+          {"changed", changed},
           {"controller", options.board.empty() ? "this PC" : options.board}};
 }
 

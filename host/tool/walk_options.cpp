@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "common/model/tuning_ranges.hpp"
 #include "host/flash/recipe.hpp"
@@ -117,6 +118,23 @@ void declare_basics(CLI::App& app, WalkOptions& options) {
   app.add_flag("--record-state", options.record_state,
                "keep the full State of every tick in the trace");
   add_json_flag(app, options.json);
+}
+
+std::vector<std::pair<std::string, std::string>> changed_options(const CLI::App& app) {
+  const std::set<std::string> kOfNoEffect = {"--json", "--report", "--record", "--record-state"};
+  std::vector<std::pair<std::string, std::string>> changed;
+  for (const CLI::Option* option : app.get_options()) {
+    if (option->count() == 0 || option->get_positional() ||
+        kOfNoEffect.contains(option->get_name())) {
+      continue;
+    }
+    for (const std::string& value : option->results()) {
+      if (value == option->get_default_str()) continue;
+      const bool flag = option->get_items_expected_max() == 0;
+      changed.emplace_back(option->get_name(), flag ? "" : value);
+    }
+  }
+  return changed;
 }
 
 void declare(CLI::App& app, WalkOptions& options) {

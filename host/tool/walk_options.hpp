@@ -28,12 +28,17 @@ struct WalkOptions {
   std::string command = "verp walk";  ///< that complains
   bool no_multibody = false, no_feedback = false, no_gravity = false, no_zeros = false;
   bool record_state = false, json = false;
-  bool vary = false;           ///< the twin is another robot of this kind (host/sim/vary.hpp)
+  bool vary = false;  ///< the twin is another robot of this kind (host/sim/vary.hpp)
+  std::vector<std::pair<std::string, std::string>>
+      changed;                 ///< what is not as by default, in words
   std::string seeds_text;      ///< A-B: these seeds, one after the other
   double physics_step_ms = 1;  ///< 2: half as long a wait
 };
 
 void declare(CLI::App& app, WalkOptions& options);
+
+/// Of the command line's options that change a run, those that are not as by default: name, value.
+std::vector<std::pair<std::string, std::string>> changed_options(const CLI::App& app);
 
 /// Those of them that say which robot walks how far.
 void declare_gait(CLI::App& app, WalkOptions& options);

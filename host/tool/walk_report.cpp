@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include <Eigen/Geometry>
+#include <numbers>
 
 #include "host/record/trace.hpp"
 #include "host/report/maybe.hpp"
+#include "host/session/asked.hpp"
 #include "host/session/fault_names.hpp"
 #include "host/tool/stick_figure.hpp"
 
@@ -84,6 +86,22 @@ std::optional<double> percent(const std::optional<double>& share) {
   return 100 * *share;
 }
 
+bool turns(const WalkPlan& plan) {
+  return plan.velocity.wz_mrad_s != 0;
+}
+
+double asked_turn_deg(const WalkPlan& plan, const sim::WalkMetrics& m) {
+  return session::asked_way(plan.velocity, m.walk_s).turn_rad * 180 / std::numbers::pi;
+}
+
+/// A commanded curve or sideways walk is no drift.
+std::string way_text(const WalkPlan& plan, const sim::WalkMetrics& m) {
+  const std::string aside = fmt::format("{:+.3f} m to the left, ", m.lateral_drift_m);
+  const std::string turn = fmt::format("{:+.1f} degrees", m.yaw_drift_deg);
+  if (!turns(plan)) return aside + turn;
+  return aside + turn + fmt::format(" of the {:+.0f} asked", asked_turn_deg(plan, m));
+}
+
 /// By how much the robot is faster than it was told to be, and why; empty where it was told to
 /// turn, or nothing was steady.
 std::string beyond_asked(const WalkPlan& plan, const sim::WalkMetrics& m) {
@@ -115,9 +133,11 @@ std::vector<report::Fact> facts(const WalkPlan& plan, const WalkResult& result) 
                    m.speed_steady_m_s ? "" : "; no cycle was steady")},
       {"ZMP bias", or_dash(m.zmp_bias_mean_mm, 1, " mm"),
        "mean distance to the supporting sole's centre"},
-      {"Lateral drift", fmt::format("{:+.3f} m", m.lateral_drift_m),
-       "to the left of the starting line"},
-      {"Yaw drift", fmt::format("{:+.1f}°", m.yaw_drift_deg), "turned to the left"},
+      {plan.velocity.vy_tenth_mm_s != 0 || turns(plan) ? "Went aside" : "Lateral drift",
+       fmt::format("{:+.3f} m", m.lateral_drift_m), "to the left of the starting line"},
+      {turns(plan) ? "Turned" : "Yaw drift", fmt::format("{:+.1f}°", m.yaw_drift_deg),
+       turns(plan) ? fmt::format("to the left; asked {:+.0f}°", asked_turn_deg(plan, m))
+                   : "turned to the left"},
       {"Servo saturation", or_dash(percent(m.servo_saturation), 1, " %"),
        "of joint time at full duty"},
       {"Real-time factor", fmt::format("{:.1f}", result.real_time_factor()),
@@ -151,6 +171,24 @@ std::vector<std::pair<std::string, std::string>> provenance(const WalkPlan& plan
     rows.emplace_back("controller's notes", notes);
   }
   return rows;
+}
+
+Json changed_json(const WalkOptions& options) {
+  Json out = Json::array();
+  for (const auto& [name, value] : options.changed) out.push_back({name, value});
+  return out;
+}
+
+/// The way that was asked, from where the body was and looked when the gait began.
+std::vector<report::Point2> asked_points(const WalkPlan& plan, const report::Sample& start,
+                                         double walk_s) {
+  std::vector<report::Point2> points;
+  const Eigen::Rotation2Dd turned(start.roll_pitch_yaw_rad[2]);
+  for (const sim::Vec2& point : session::asked_way(plan.velocity, walk_s).point_m) {
+    const sim::Vec2 at = turned * point;
+    points.push_back({start.body.x_m + at.x(), start.body.y_m + at.y()});
+  }
+  return points;
 }
 
 std::string sweep_text(const std::vector<report::SweepRow>& rows) {
@@ -219,6 +257,9 @@ report::Run to_report(const WalkPlan& plan, const WalkOptions& options, const Wa
     run.samples.push_back(to_sample(plan.params, row, start_s));
     run.samples.back().limb = figure.lines(row);
   }
+  if (!run.samples.empty())
+    run.asked = asked_points(plan, run.samples.front(), result.metrics.walk_s);
+  run.changed = options.changed;
   run.facts = facts(plan, result);
   run.bias_by_state_mm = result.metrics.zmp_bias_by_state_mm;
   run.bias_mean_mm = result.metrics.zmp_bias_mean_mm;
@@ -228,13 +269,15 @@ report::Run to_report(const WalkPlan& plan, const WalkOptions& options, const Wa
   return run;
 }
 
-std::string to_text(const WalkPlan& plan, const WalkResult& result, const Sweep& sweep) {
+std::string to_text(const WalkPlan& plan, const WalkOptions& options, const WalkResult& result,
+                    const Sweep& sweep) {
   using report::or_dash;
   const sim::WalkMetrics& m = result.metrics;
   std::string out = fmt::format("{}: {}\n", name_of(plan.params), verdict(result, sweep));
   const auto line = [&](const char* name, const std::string& value) {
     out += fmt::format("  {:<18}{}\n", name, value);
   };
+  for (const auto& [name, value] : options.changed) line("changed", name + " " + value);
   if (!result.remark.empty()) line("length", result.remark);
   line("distance", fmt::format("{:.2f} m", m.distance_m));
   line("speed",
@@ -243,8 +286,8 @@ std::string to_text(const WalkPlan& plan, const WalkResult& result, const Sweep&
                          or_dash(m.speed_steady_m_s, 3, " m/s"))
            : fmt::format("{} mean, - steady: no cycle was", or_dash(m.speed_mean_m_s, 3, " m/s")));
   if (const std::string text = beyond_asked(plan, m); !text.empty()) line("beyond asked", text);
-  line("drift",
-       fmt::format("{:+.3f} m to the left, {:+.1f} degrees", m.lateral_drift_m, m.yaw_drift_deg));
+  line("way asked", fmt::format("{:.2f} m", session::asked_way(plan.velocity, m.walk_s).length_m));
+  line(plan.velocity.vy_tenth_mm_s != 0 || turns(plan) ? "went aside" : "drift", way_text(plan, m));
   line("ZMP bias", or_dash(m.zmp_bias_mean_mm, 1, " mm"));
   line("servo saturation", or_dash(percent(m.servo_saturation), 1, " %") + ", worst joint " +
                                or_dash(percent(m.servo_saturation_worst), 1, " %"));
@@ -260,7 +303,8 @@ std::string to_text(const WalkPlan& plan, const WalkResult& result, const Sweep&
   return out;
 }
 
-Json to_json(const WalkPlan& plan, const WalkResult& result, const Sweep& sweep) {
+Json to_json(const WalkPlan& plan, const WalkOptions& options, const WalkResult& result,
+             const Sweep& sweep) {
   const sim::WalkMetrics& m = result.metrics;
   Json bias_by_state = Json::array();
   for (const auto& bias_mm : m.zmp_bias_by_state_mm) {
@@ -272,7 +316,10 @@ Json to_json(const WalkPlan& plan, const WalkResult& result, const Sweep& sweep)
                {"seed", plan.twin.seed},
                {"controller", plan.board.empty() ? "this PC" : plan.board},
                {"ticks", result.ticks},
+               {"changed", changed_json(options)},
                {"asked_s", plan.walk_s},
+               {"asked_m", session::asked_way(plan.velocity, m.walk_s).length_m},
+               {"asked_turn_deg", asked_turn_deg(plan, m)},
                {"duration_s", m.walk_s},
                {"distance_m", m.distance_m},
                {"speed_mean_m_s", number_or_null(m.speed_mean_m_s)},

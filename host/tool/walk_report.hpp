@@ -13,8 +13,10 @@ namespace verp::tool {
 report::Run to_report(const WalkPlan& plan, const WalkOptions& options, const WalkResult& result,
                       const Sweep& sweep);
 
-std::string to_text(const WalkPlan& plan, const WalkResult& result, const Sweep& sweep);
+std::string to_text(const WalkPlan& plan, const WalkOptions& options, const WalkResult& result,
+                    const Sweep& sweep);
 
-Json to_json(const WalkPlan& plan, const WalkResult& result, const Sweep& sweep);
+Json to_json(const WalkPlan& plan, const WalkOptions& options, const WalkResult& result,
+             const Sweep& sweep);
 
 }  // namespace verp::tool
