@@ -20,7 +20,9 @@ fresh_project() {
   cp "$root/verp" "$scratch/"
   printf 'run cmake why\nrun g++ why\nfw gcc-arm why\nbench libbench why\ntest clang why\n' >"$scratch/toolchains/packages.txt"
   echo '{}' >"$scratch/CMakePresets.json"
-  printf '#!/bin/bash\necho "tests: $*"\n' >"$scratch/tests/run" && chmod +x "$scratch/tests/run"
+  printf '#!/bin/bash\n[[ $1 != --look ]] || { [[ $* != *nonsense* ]] || exit 2; exit 0; }\necho "tests: $*"\n' >"$scratch/tests/run"
+  chmod +x "$scratch/tests/run"
+  mkdir -p "$scratch/host/tool" && echo 'what there is' >"$scratch/host/tool/help.txt"
   echo cmake >"$scratch/installed"
   stub dpkg-query "sed 's/\$/ installed/' '$scratch/installed'"
   stub apt-get "echo \"\$*\" >>'$scratch/apt'
@@ -47,6 +49,23 @@ check() { # what status output-on-stdout part-of-stderr
   echo "FAILED: $1: status $status (want $2), stdout '$output' (want '$3'), stderr '$errors' (want '$4')"
   failed=1
 }
+
+# Before anything is installed, built or waited for.
+fresh_project
+mkdir -p "$scratch/build" && exec 7>"$scratch/build/.lock" && flock 7
+for word in --help -h; do
+  launch "$word"
+  check "$word is answered by the launcher" 0 'what there is' ''
+done
+launch --version
+[[ $status == 0 && $output == 'verp '?* && ! $errors ]] || { echo "FAILED: --version: '$output', '$errors'" && failed=1; }
+launch test --only nonsense
+check 'a wrong word costs no installation' 2 '' ''
+[[ ! -e $scratch/apt && ! -e $scratch/built ]] || { echo 'FAILED: installed or built to say so' && failed=1; }
+mkdir -p "$scratch/build/host-release/host/tool" && ln -s /bin/echo "$scratch/build/host-release/host/tool/verp"
+launch walk --help
+check 'help on a command waits for no build elsewhere' 0 'walk --help' ''
+exec 7>&-
 
 fresh_project
 launch walk --json
@@ -124,5 +143,39 @@ mkdir -p build/host-release/host/tool; ln -sf /bin/echo build/host-release/host/
 for each in 1 2 3; do (launch "$each" && check 'copies at the same time' 0 "$each" '' && exit $failed) & done
 for each in 1 2 3; do wait -n || failed=1; done
 [[ ! -e $scratch/overlap ]] || { echo 'FAILED: two builds at once' && failed=1; }
+
+# What tests/run says, on a scratch project whose ctest and cmake are stubs.
+cd "$root" || exit 1
+for words in '--only nonesuch' '--only' '--on=' '--on nonesuch' '--filter (' '--nonesuch'; do
+  # shellcheck disable=SC2086
+  errors=$(tests/run --look $words 2>&1) && echo "FAILED: accepted: $words" && failed=1
+  [[ $errors == 'verp test: '* && $errors != *$'\n'* ]] || { echo "FAILED: '$words' is answered '$errors'" && failed=1; }
+done
+for words in '--only unit' '--only=hil-can' '--only replay --full' '--filter ^host\.' '--on olimex_h405 --only flash'; do
+  # shellcheck disable=SC2086
+  tests/run --look $words || { echo "FAILED: refused: $words" && failed=1; }
+done
+
+fresh_project
+cp "$root/tests/run" "$scratch/tests/" && stub nproc 'echo 2' && stub ccache true
+stub ctest "cat '$scratch/ctest.txt'; echo \"\$*\" >>'$scratch/asked'; exit 8"
+{ for name in One Two Three Four Five Six Seven Eight Nine Ten Eleven Twelve; do
+    printf '[ RUN      ] Good.%s\nnoise of %s\n[       OK ] Good.%s (1 ms)\n' $name $name $name
+  done
+  printf '[ RUN      ] Bad.Thing\na.cpp:3: Failure\nthe robot fell\n[  FAILED  ] Bad.Thing (2 ms)\n'; } >"$scratch/said"
+{ echo ' 1/2 Test  #1: good.one .......   Passed    0.10 sec'
+  echo ' 2/2 Test  #2: unit.b1 ........***Failed    0.10 sec'
+  cat "$scratch/said"; } >"$scratch/ctest.txt"
+status=0
+output=$(cd "$scratch" && PATH="$scratch/bin:/usr/bin:/bin" tests/run --filter '^unit' 2>&1) || status=$?
+[[ $status == 1 && $output == *$'\nthe robot fell\n'* && $output != *'noise of Three'* ]] ||
+  { echo "FAILED: of a failed test its own lines are not shown: status $status, $output" && failed=1; }
+grep -q -- '-R ^unit' "$scratch/asked" || { echo "FAILED: --filter did not reach ctest: $(<"$scratch/asked")" && failed=1; }
+
+# On a terminal, which `script` stands in for, a line shows how far it is.
+stub ninja 'echo "[7/9] Building b.o"; sleep 1.5'
+stub ctest 'echo " 2/2 Test  #2: unit.b1 ........   Passed    0.10 sec"; sleep 1.5'
+output=$(cd "$scratch" && PATH="$scratch/bin:/usr/bin:/bin" script -qec 'tests/run --filter x' /dev/null </dev/null)
+[[ $output == *'build, '*'[7/9]'* ]] || { echo "FAILED: no progress on a terminal: $output" && failed=1; }
 
 exit "$failed"

@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "host/files/places.hpp"
 #include "host/model/find.hpp"
 #include "tests/host/tool/program.hpp"
 
@@ -17,6 +18,12 @@ TEST_F(Usage, HelpGoesToStdoutAndIsGood) {
     EXPECT_NE(outcome.out.find("Usage:"), std::string::npos) << arguments;
     EXPECT_EQ(outcome.err, "") << arguments;
   }
+}
+
+// ./verp --help prints that file: it needs neither packages nor a build.
+TEST_F(Usage, TheLaunchersHelpIsThePrograms) {
+  EXPECT_EQ(verp("--help").out, slurp(files::source_dir() / "host/tool/help.txt"))
+      << "mend it: build/host-release/host/tool/verp --help > host/tool/help.txt";
 }
 
 TEST_F(Usage, UnknownWordsGetAHint) {
