@@ -196,7 +196,9 @@ std::string Robot::failure_of_walk() const {
   if (!faults.empty()) return "stopped by fault: " + faults;
   if (hooks_.order) return "";
   const std::string failed = walker_->failed();
-  return failed.empty() ? shortfall(plan_.velocity, result_.metrics) : failed;
+  // A walk that a controller's reset cut in two starts and stops twice: nobody asked for that way.
+  if (!failed.empty() || walked_s_ > 0) return failed;
+  return shortfall(plan_.velocity, result_.metrics);
 }
 
 }  // namespace verp::session
