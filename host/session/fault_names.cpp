@@ -1,30 +1,36 @@
 #include "host/session/fault_names.hpp"
 
-#include <utility>
-
 #include "common/safety/machine.hpp"
 
 namespace verp::session {
+namespace {
+
+constexpr FaultName kNames[] = {
+    {safety::kFaultFall, "fall"},
+    {safety::kFaultEmergency, "emergency stop"},
+    {safety::kFaultServoSilent, "servo silent"},
+    {safety::kFaultImuSilent, "IMU silent"},
+    {safety::kFaultOperatorQuiet, "operator silent"},
+    {safety::kFaultTemperature, "servo too hot"},
+    {safety::kFaultVoltage, "voltage low"},
+    {safety::kFaultServoError, "servo hardware error"},
+    {safety::kFaultJointBeyond, "joint beyond its limits"},
+    {safety::kNoteOverrun, "tick overran"},
+    {safety::kNoteParameter, "parameter refused"},
+    {safety::kNoteStrideLimited, "stride limited"},
+    {safety::kNotePlanShortened, "steps shortened"},
+    {safety::kNotePlanRefused, "plan refused"},
+    {safety::kNoteLegLimited, "leg out of reach"},
+    {safety::kNoteSpeedLimited, "joint speed limited"},
+};
+
+}  // namespace
+
+std::span<const FaultName> all_fault_names() {
+  return kNames;
+}
 
 std::string fault_names(std::uint32_t faults) {
-  constexpr std::pair<std::uint32_t, const char*> kNames[] = {
-      {safety::kFaultFall, "fall"},
-      {safety::kFaultEmergency, "emergency stop"},
-      {safety::kFaultServoSilent, "servo silent"},
-      {safety::kFaultImuSilent, "IMU silent"},
-      {safety::kFaultOperatorQuiet, "operator silent"},
-      {safety::kFaultTemperature, "servo too hot"},
-      {safety::kFaultVoltage, "voltage low"},
-      {safety::kFaultServoError, "servo hardware error"},
-      {safety::kFaultJointBeyond, "joint beyond its limits"},
-      {safety::kNoteOverrun, "tick overran"},
-      {safety::kNoteParameter, "parameter refused"},
-      {safety::kNoteStrideLimited, "stride limited"},
-      {safety::kNotePlanShortened, "steps shortened"},
-      {safety::kNotePlanRefused, "plan refused"},
-      {safety::kNoteLegLimited, "leg out of reach"},
-      {safety::kNoteSpeedLimited, "joint speed limited"},
-  };
   std::string text;
   for (const auto& [bit, name] : kNames) {
     if ((faults & bit) == 0) continue;

@@ -44,9 +44,12 @@ struct Tick {
 struct Hooks {
   /// Orders in place of the walk's own; asked once a tick, with the number of the last one begun.
   std::function<app::OperatorOrder(std::uint32_t tick)> order;
+  /// Sees each order before it goes out, whoever gave it, and may change it (LiveOrders).
+  std::function<void(std::uint32_t tick, app::OperatorOrder& order)> amend;
   std::function<void(const Tick&)> ticked;
   record::TraceWriter* trace = nullptr;  ///< gets every tick; must outlive the run
   bool keep_series = false;              ///< WalkResult::series
+  bool open_end = false;  ///< neither its length nor a fall ends the run: its user does
 };
 
 /// What a CAN bus carried in a walk, from its first tick on.

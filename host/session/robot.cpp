@@ -64,7 +64,9 @@ double Robot::gone_s() const {
 }
 
 app::OperatorOrder Robot::order(std::uint32_t tick) {
-  return hooks_.order ? hooks_.order(tick) : walker_->order(tick);
+  app::OperatorOrder order = hooks_.order ? hooks_.order(tick) : walker_->order(tick);
+  if (hooks_.amend) hooks_.amend(tick, order);
+  return order;
 }
 
 void Robot::let_pass(std::uint32_t time_us) {
@@ -108,7 +110,8 @@ void Robot::see() {
   if (trace_ != nullptr) append(seen.truth.body_world);
   const bool done = hooks_.order ? gone_s() >= plan_.walk_s : walker_->done();
   after_s_ += twin_.fallen() || done ? plan_.params.period_us * 1e-6 : 0;
-  over_ = over_ || after_s_ > (twin_.fallen() ? kAfterFall_s : kAfterStop_s);
+  const bool ends = after_s_ > (twin_.fallen() ? kAfterFall_s : kAfterStop_s);
+  over_ = over_ || (ends && !hooks_.open_end);
   if (hooks_.ticked) hooks_.ticked({seen, gone_s(), &tick_, &state_, &outputs_});
 }
 
