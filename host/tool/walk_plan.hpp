@@ -1,0 +1,23 @@
+#pragma once
+#include <string>
+
+#include "host/session/plan.hpp"
+#include "host/tool/json.hpp"
+#include "host/tool/walk_options.hpp"
+
+/// The run that the options of `verp walk` mean.
+namespace verp::tool {
+
+/// Throws ToolError and LoadError.
+session::WalkPlan make_plan(const WalkOptions& options);
+
+/// What the robot and its world became by --vary.
+struct Drawn {
+  Json json = Json::object();
+  std::string text;
+};
+
+/// Draws robot and world anew if --vary asks for it.
+Drawn draw(const WalkOptions& options, session::WalkPlan& plan, sim::WorldOptions& world);
+
+}  // namespace verp::tool
