@@ -12,6 +12,7 @@
 #include "host/model/params.hpp"
 #include "host/model/sdf_parts.hpp"
 #include "host/model/self_collision.hpp"
+#include "host/model/visuals.hpp"
 
 namespace verp::model {
 namespace {
@@ -199,8 +200,13 @@ class Assembler {
         if (is_imu) imu = &sensor;
         LinkTree::Located place = tree_.locate(link.Name(), facts_.body->at);
         place.pose = place.pose * resolved(sensor.SemanticPose(), link.Name());
-        e_.sensors.push_back(
-            {sensor.Name(), sensor.TypeStr(), link.Name(), place.node, place.pose});
+        OtherSensor& other = e_.sensors.emplace_back();
+        other.name = sensor.Name();
+        other.type = sensor.TypeStr();
+        other.link = link.Name();
+        other.node = place.node;
+        other.pose = place.pose;
+        read_lens(sensor, other);
         if (is_imu) put_imu(place.node, place.pose, &sensor);
       }
     }

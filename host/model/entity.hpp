@@ -30,12 +30,26 @@ struct Collision {
   double damping_n_s_m = 500;  ///< <ode><kd>
 };
 
+/// What a link looks like. Physics never sees it.
+struct Visual {
+  enum class Shape { kBox, kSphere, kCapsule, kCylinder, kMesh } shape = Shape::kBox;
+  Transform pose = Transform::Identity();  ///< in the link frame
+  Vec3 size_m = Vec3::Zero();              ///< as Collision's; mesh: scale of each axis
+  std::string name;
+  std::string mesh;      ///< file; empty: of what the robot's file names, nothing is there
+  std::string mesh_uri;  ///< as the robot's file names it
+  std::optional<std::array<float, 4>> rgba;  ///< sRGB; none: the file says nothing of it
+  std::optional<std::array<float, 3>> emissive_rgb;
+  std::string texture;  ///< file of its albedo map; empty: none
+};
+
 struct Node {
   std::string name;  ///< link
   double mass_kg = 0;
   Vec3 com_m = Vec3::Zero();
   Mat3 inertia_kg_m2 = Mat3::Zero();  ///< about the centre of mass, link axes
   std::vector<Collision> collisions;
+  std::vector<Visual> visuals;
 };
 
 /// What is between a motor and its joint, seen from the joint: the model of Duclusaud and Passault,
@@ -118,6 +132,9 @@ struct OtherSensor {  ///< camera and laser: described and checked
   std::string name, type, link;
   int node = 0;
   Transform pose = Transform::Identity();  ///< in the link frame
+  double horizontal_fov_rad = 0;           ///< cameras
+  int width_px = 0, height_px = 0;
+  double near_m = 0, far_m = 0;
 };
 
 /// Two links that never collide, though they are no neighbours.

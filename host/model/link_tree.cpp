@@ -6,6 +6,7 @@
 #include "host/model/bounds.hpp"
 #include "host/model/load_error.hpp"
 #include "host/model/sdf_parts.hpp"
+#include "host/model/visuals.hpp"
 
 namespace verp::model {
 namespace {
@@ -28,7 +29,13 @@ void LinkTree::grow() {
   read_links();
   read_joints();
   place_links();
-  for (auto& [name, link] : links_) attach_shapes(link);
+  std::vector<std::string> from = {source_.path()};
+  for (const XmlElement& urdf : source_.urdfs()) from.push_back(urdf.file());
+  const PictureFiles files(std::move(from));
+  for (auto& [name, link] : links_) {
+    attach_shapes(link);
+    attach_looks(link, files);
+  }
   add_boxes();
   check_inertias();
 }
@@ -227,6 +234,14 @@ void LinkTree::attach_shapes(const RawLink& link) {
            "write its size in metres");
     }
     add_collision(link.node, link.pose * resolved(sdf.SemanticPose(), link.sdf->Name()), collision);
+  }
+}
+
+void LinkTree::attach_looks(const RawLink& link, const PictureFiles& files) {
+  for (Visual& visual : read_visuals(*link.sdf, files)) {
+    visual.pose = link.pose * visual.pose;
+    visual.pose.translation() -= origin_[static_cast<std::size_t>(link.node)];
+    e_.nodes[static_cast<std::size_t>(link.node)].visuals.push_back(std::move(visual));
   }
 }
 

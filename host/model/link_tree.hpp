@@ -12,6 +12,8 @@
 
 namespace verp::model {
 
+class PictureFiles;
+
 /// Throws LoadError where `about` is defined.
 [[noreturn]] void fail_at(const XmlSource& source, const std::string& about,
                           const std::string& message, const std::string& fix);
@@ -61,6 +63,7 @@ class LinkTree {
   void add_node(const std::string& name, const Vec3& origin);
   static Vec3 snapped(const Vec3& axis);
   void attach_shapes(const RawLink& link);
+  void attach_looks(const RawLink& link, const PictureFiles& files);
   void add_collision(int node, Transform body_pose, Collision collision);
   void add_boxes();
   void check_inertias() const;

@@ -1,0 +1,16 @@
+#pragma once
+
+/// GLSL 3.30. Lights are worked out in linear colour, in world coordinates.
+namespace verp::render {
+
+extern const char* const kSolidVertex;    ///< position, normal, texture coordinate
+extern const char* const kSolidFragment;  ///< what things look like
+extern const char* const kShadowVertex;   ///< depth seen from the sun
+extern const char* const kShadowFragment;
+extern const char* const kSkyVertex;  ///< one triangle over the whole picture
+extern const char* const kSkyFragment;
+extern const char* const kMeasureFragment;  ///< with kSolidVertex: depth and label
+extern const char* const kMarkVertex;       ///< position, normal, colour
+extern const char* const kMarkFragment;
+
+}  // namespace verp::render

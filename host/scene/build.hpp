@@ -1,0 +1,21 @@
+#pragma once
+#include "host/scene/scene.hpp"
+#include "host/scene/snapshot.hpp"
+
+namespace verp::scene {
+
+/// An empty studio: floor, sky, three lights.
+Scene studio();
+
+/// One more robot: its visuals; a link without any that can be drawn shows its collision shapes.
+/// Its cameras become the scene's. Returns its index.
+int add_robot(Scene& scene, const Entity& entity);
+
+/// A robot on its feet in its own stance at start_m, as the twin begins.
+RobotView standing(const Entity& entity, const Vec3& start_m = Vec3::Zero(), double yaw_rad = 0);
+
+/// Any pose.
+RobotView posed(const Entity& entity, const Transform& body_world,
+                const std::vector<double>& joint_rad);
+
+}  // namespace verp::scene

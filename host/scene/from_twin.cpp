@@ -1,0 +1,72 @@
+#include "host/scene/from_twin.hpp"
+
+#include "host/scene/plan_marks.hpp"
+#include "host/sim/body.hpp"
+#include "host/sim/planned_zmp.hpp"
+
+namespace verp::scene {
+namespace {
+
+void add_truth(RobotView& view, const sim::Observation& seen, const Entity& entity) {
+  const sim::Truth& truth = seen.truth;
+  view.joint_rad = truth.joint_rad;
+  view.link_world = sim::link_poses(entity, truth.body_world, truth.joint_rad);
+  view.torque_use = truth.torque_use;
+  view.com_world_m = truth.com_world_m;
+  view.support_world_m = truth.support_world_m;
+  view.held = truth.held;
+  view.fallen = truth.fallen;
+  if (seen.loads.valid()) view.zmp_world_m = seen.loads.zmp_world_m();
+  for (std::size_t side = 0; side < 2; ++side) {
+    view.foot_contact[side] = truth.foot[side].contact;
+    view.foot_force_n[side] = truth.foot[side].normal_force_n;
+  }
+}
+
+/// One force a foot, at its sole's centre: who needs each contact point asks the world.
+void add_foot_forces(RobotView& view, const sim::Truth& truth, const Entity& entity) {
+  for (int side = 0; side < 2; ++side) {
+    const sim::FootTruth& foot = truth.foot[static_cast<std::size_t>(side)];
+    const model::Limb* leg = sim::find_leg(entity, side);
+    if (!foot.contact || leg == nullptr) continue;
+    view.contacts.push_back(
+        {leg->joints.back() + 1, foot.centroid_world_m, {0, 0, foot.normal_force_n}});
+  }
+}
+
+void add_controller(RobotView& view, const session::Tick& tick, const sim::Truth& truth,
+                    const Params& params) {
+  if (tick.outputs != nullptr) add_outputs(view, *tick.outputs, params);
+  if (tick.record != nullptr) add_imu(view, tick.record->inputs, params);
+  if (tick.state == nullptr) return;
+  view.zmp_planned_world_m = sim::planned_zmp_world_m(tick.state->tuning, tick.state->gait, truth);
+  view.footsteps = footsteps(tick.state->gait, truth.foot[0].sole_world, truth.foot[1].sole_world);
+}
+
+}  // namespace
+
+RobotView look(const session::Tick& tick, const Entity& entity, const Params& params) {
+  RobotView view;
+  add_truth(view, tick.seen, entity);
+  add_foot_forces(view, tick.seen.truth, entity);
+  add_controller(view, tick, tick.seen.truth, params);
+  return view;
+}
+
+void add_contacts(RobotView& view, const sim::World& world, int owner) {
+  view.contacts.clear();
+  for (const sim::Contact& contact : world.contacts()) {
+    if (contact.owner != owner) continue;
+    view.contacts.push_back({contact.node, contact.position_world_m, contact.force_world_n});
+  }
+}
+
+Snapshot snapshot(const session::Tick& tick, const Entity& entity, const Params& params) {
+  Snapshot now;
+  now.t_s = tick.seen.truth.t_s;
+  if (tick.record != nullptr) now.tick = tick.record->inputs.tick;
+  now.robots.push_back(look(tick, entity, params));
+  return now;
+}
+
+}  // namespace verp::scene

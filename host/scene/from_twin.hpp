@@ -1,0 +1,18 @@
+#pragma once
+#include "host/scene/snapshot.hpp"
+#include "host/session/plan.hpp"
+#include "host/sim/robot.hpp"
+
+namespace verp::scene {
+
+/// What a tick of a session shows of its robot: for session::Hooks::ticked. Reads, never takes: the
+/// run has the same bits with and without it.
+RobotView look(const session::Tick& tick, const Entity& entity, const Params& params);
+
+/// Besides: contact points of the last physics step, which the twin's world knows.
+void add_contacts(RobotView& view, const sim::World& world, int owner);
+
+/// Snapshot of one robot's run.
+Snapshot snapshot(const session::Tick& tick, const Entity& entity, const Params& params);
+
+}  // namespace verp::scene
