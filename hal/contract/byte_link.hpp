@@ -23,7 +23,7 @@
 ///    survive a loss. A byte with a framing or noise error may be delivered or dropped.
 ///  - No call throws or blocks past its timeout; on a microcontroller none allocates.
 /// Implementations: hal/fake/memory_link.hpp, host/link/link.hpp. Users:
-/// firmware/app/link_bus.hpp, firmware/app/link_stream.hpp.
+/// firmware/app/link_bus.hpp, firmware/app/lockstep_bus.hpp.
 namespace verp::hal {
 
 struct LinkErrors {

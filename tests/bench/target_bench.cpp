@@ -8,8 +8,8 @@
 
 #include "host/board/cost_promise.hpp"
 #include "host/board/emulated_board.hpp"
-#include "host/board/link_speed.hpp"
-#include "host/board/target_cost.hpp"
+#include "tests/bench/link_speed.hpp"
+#include "tests/bench/target_cost.hpp"
 #include "tests/target/twin_run.hpp"
 
 /// target_bench [--check|--profile] [BOARD...]: what a tick of a walking generic21 costs on each

@@ -1,4 +1,4 @@
-#include "host/can/lockstep_port.hpp"
+#include "tests/target/lockstep_port.hpp"
 
 #include <gtest/gtest.h>
 

@@ -11,8 +11,8 @@
 #include "host/board/emulated_board.hpp"
 #include "host/board/qemu.hpp"
 #include "host/board/temporary_directory.hpp"
-#include "host/can/lockstep_port.hpp"
 #include "host/link/can_port.hpp"
+#include "tests/target/lockstep_port.hpp"
 
 namespace verp::test {
 namespace {

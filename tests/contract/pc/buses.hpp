@@ -8,11 +8,9 @@
 #include <vector>
 
 #include "firmware/app/link_bus.hpp"
-#include "firmware/app/link_stream.hpp"
 #include "firmware/app/lockstep_bus.hpp"
 #include "firmware/app/remote_bus.hpp"
 #include "host/bus/bus_server.hpp"
-#include "host/bus/link_pump.hpp"
 #include "host/bus/lockstep_server.hpp"
 #include "host/bus/virtual_bus.hpp"
 #include "host/link/system_clock.hpp"
@@ -20,6 +18,8 @@
 #include "tests/contract/pc/link_pairs.hpp"
 #include "tests/host/bus/fake_plant.hpp"
 #include "tests/host/bus/pipes.hpp"
+#include "tests/support/link_pump.hpp"
+#include "tests/support/link_stream.hpp"
 
 /// Every FrameBus that only the PC has, as fakes.hpp prepares its own.
 namespace verp::test {

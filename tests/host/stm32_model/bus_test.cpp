@@ -1,12 +1,12 @@
 #include <gtest/gtest.h>
 
 #include "hal/chip/stm32/registers/cortex_m.hpp"
-#include "hal/chip/stm32/registers/gpio.hpp"
 #include "hal/chip/stm32/registers/iwdg.hpp"
 #include "hal/chip/stm32/registers/timer.hpp"
 #include "hal/chip/stm32/registers/usart.hpp"
 #include "tests/host/stm32_model/chip.hpp"
 #include "tests/support/stm32/gpio_model.hpp"
+#include "tests/support/stm32/registers/gpio_table.hpp"
 #include "tests/support/stm32/timer_model.hpp"
 
 namespace verp::hal::stm32::model {

@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
 
 #include "hal/chip/stm32/interrupts.hpp"
-#include "hal/chip/stm32/registers/otg_fs_tables.hpp"
 #include "tests/host/stm32_model/usb_device.hpp"
+#include "tests/support/stm32/registers/otg_fs_table.hpp"
 
 // OTG_FS: status words, interrupts, and the states of the bus.
 namespace verp::hal::stm32::model {

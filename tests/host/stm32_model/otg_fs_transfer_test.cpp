@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
-#include "hal/chip/stm32/registers/otg_fs_tables.hpp"
 #include "tests/host/stm32_model/usb_device.hpp"
+#include "tests/support/stm32/registers/otg_fs_table.hpp"
 
 // OTG_FS: what passes between a host and a device, and what stops it.
 namespace verp::hal::stm32::model {

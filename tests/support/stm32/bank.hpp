@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "hal/chip/stm32/registers/table.hpp"
+#include "tests/support/stm32/registers/table.hpp"
 #include "tests/support/stm32/time.hpp"
 
 /// What every peripheral model has: registers that behave as their table says, and a record of each

@@ -3,8 +3,9 @@
 #include <algorithm>
 #include <string>
 
-#include "hal/chip/stm32/registers/dma_requests.hpp"
 #include "tests/support/stm32/machine.hpp"
+#include "tests/support/stm32/registers/dma_requests.hpp"
+#include "tests/support/stm32/registers/dma_table.hpp"
 
 namespace verp::hal::stm32::model {
 

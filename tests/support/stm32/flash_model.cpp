@@ -1,6 +1,7 @@
 #include "tests/support/stm32/flash_model.hpp"
 
 #include "tests/support/stm32/rcc_model.hpp"
+#include "tests/support/stm32/registers/flash_table.hpp"
 
 namespace verp::hal::stm32::model {
 

@@ -1,6 +1,7 @@
 #include "tests/support/stm32/iwdg_model.hpp"
 
 #include "tests/support/stm32/machine.hpp"
+#include "tests/support/stm32/registers/iwdg_table.hpp"
 
 namespace verp::hal::stm32::model {
 

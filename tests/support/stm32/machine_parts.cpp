@@ -2,7 +2,6 @@
 #include <string>
 #include <utility>
 
-#include "hal/chip/stm32/registers/syscfg.hpp"
 #include "tests/support/stm32/adc_model.hpp"
 #include "tests/support/stm32/can_model.hpp"
 #include "tests/support/stm32/core_model.hpp"
@@ -13,6 +12,7 @@
 #include "tests/support/stm32/machine.hpp"
 #include "tests/support/stm32/otg_fs_model.hpp"
 #include "tests/support/stm32/rcc_model.hpp"
+#include "tests/support/stm32/registers/syscfg_table.hpp"
 #include "tests/support/stm32/spi_model.hpp"
 #include "tests/support/stm32/timer_model.hpp"
 #include "tests/support/stm32/usart_model.hpp"

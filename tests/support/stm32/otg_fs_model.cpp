@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <string>
 
-#include "hal/chip/stm32/registers/otg_fs_tables.hpp"
 #include "tests/support/stm32/machine.hpp"
 #include "tests/support/stm32/rcc_model.hpp"
+#include "tests/support/stm32/registers/otg_fs_table.hpp"
 
 namespace verp::hal::stm32::model {
 

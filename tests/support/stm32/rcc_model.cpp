@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "tests/support/stm32/flash_model.hpp"
+#include "tests/support/stm32/registers/pwr_table.hpp"
 
 namespace verp::hal::stm32::model {
 

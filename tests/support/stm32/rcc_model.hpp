@@ -1,8 +1,8 @@
 #pragma once
 #include "hal/chip/stm32/registers/pwr.hpp"
-#include "hal/chip/stm32/registers/rcc_tables.hpp"
 #include "tests/support/stm32/bank.hpp"
 #include "tests/support/stm32/machine.hpp"
+#include "tests/support/stm32/registers/rcc_table.hpp"
 
 /// Clock tree and reset flags. Oscillators and PLL take their time or never start, as the script
 /// says; a setting that the chip cannot bear is a violation at the moment it takes effect.

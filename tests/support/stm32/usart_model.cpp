@@ -5,6 +5,7 @@
 
 #include "tests/support/stm32/machine.hpp"
 #include "tests/support/stm32/rcc_model.hpp"
+#include "tests/support/stm32/registers/usart_table.hpp"
 
 namespace verp::hal::stm32::model {
 

@@ -3,21 +3,21 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "hal/chip/stm32/registers/adc.hpp"
-#include "hal/chip/stm32/registers/can.hpp"
 #include "hal/chip/stm32/registers/cortex_m.hpp"
-#include "hal/chip/stm32/registers/dma.hpp"
-#include "hal/chip/stm32/registers/flash.hpp"
-#include "hal/chip/stm32/registers/gpio.hpp"
-#include "hal/chip/stm32/registers/iwdg.hpp"
 #include "hal/chip/stm32/registers/memory_map.hpp"
-#include "hal/chip/stm32/registers/otg_fs_tables.hpp"
-#include "hal/chip/stm32/registers/pwr.hpp"
-#include "hal/chip/stm32/registers/rcc_tables.hpp"
-#include "hal/chip/stm32/registers/spi.hpp"
-#include "hal/chip/stm32/registers/syscfg.hpp"
-#include "hal/chip/stm32/registers/timer.hpp"
-#include "hal/chip/stm32/registers/usart.hpp"
+#include "tests/support/stm32/registers/adc_table.hpp"
+#include "tests/support/stm32/registers/can_table.hpp"
+#include "tests/support/stm32/registers/dma_table.hpp"
+#include "tests/support/stm32/registers/flash_table.hpp"
+#include "tests/support/stm32/registers/gpio_table.hpp"
+#include "tests/support/stm32/registers/iwdg_table.hpp"
+#include "tests/support/stm32/registers/otg_fs_table.hpp"
+#include "tests/support/stm32/registers/pwr_table.hpp"
+#include "tests/support/stm32/registers/rcc_table.hpp"
+#include "tests/support/stm32/registers/spi_table.hpp"
+#include "tests/support/stm32/registers/syscfg_table.hpp"
+#include "tests/support/stm32/registers/timer_table.hpp"
+#include "tests/support/stm32/registers/usart_table.hpp"
 
 namespace verp::hal::stm32 {
 namespace {

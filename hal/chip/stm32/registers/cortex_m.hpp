@@ -1,5 +1,5 @@
 #pragma once
-#include "hal/chip/stm32/registers/table.hpp"
+#include "hal/chip/stm32/registers/bits.hpp"
 
 /// The core's own registers, by their addresses: Armv7-M Architecture Reference Manual (DDI 0403),
 /// B3.2 system control block, B3.3 SysTick, B3.4 NVIC, B3.5 MPU, C1.8 DWT; PM0253 for the caches of

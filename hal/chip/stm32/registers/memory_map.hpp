@@ -1,5 +1,5 @@
 #pragma once
-#include "hal/chip/stm32/registers/table.hpp"
+#include "hal/chip/stm32/registers/bits.hpp"
 
 /// Where things are, which interrupt is whose, and the electrical limits that a clock setting must
 /// keep. Base addresses: RM0090 2.3, RM0390 2.2.2, RM0385 2.2.2, alike in all three unless said;

@@ -1,5 +1,5 @@
 #pragma once
-#include "hal/chip/stm32/registers/table.hpp"
+#include "hal/chip/stm32/registers/bits.hpp"
 
 /// USB on-the-go full-speed, as a device (the host's registers are not here): offsets and bits from
 /// kOtgFs. The tables are in otg_fs_tables.hpp. The F446's and F746's core is a newer one than the

@@ -1,5 +1,5 @@
 #pragma once
-#include "hal/chip/stm32/registers/table.hpp"
+#include "hal/chip/stm32/registers/bits.hpp"
 
 /// Reset and clock control: offsets and bits. The tables are in rcc_tables.hpp.
 namespace verp::hal::stm32::rcc {

@@ -1,4 +1,4 @@
-#include "host/board/target_cost.hpp"
+#include "tests/bench/target_cost.hpp"
 
 #include <fmt/format.h>
 
@@ -46,7 +46,7 @@ struct Count {
   std::uint64_t calls = 0, sum = 0, least = 0, most = 0, most_at = 0, most_in_step = 0;
 };
 
-/// The plugin's result (host/board/instruction_count.c); the first line is step().
+/// The plugin's result (tests/bench/instruction_count.c); the first line is step().
 std::vector<Count> read_counts(const std::filesystem::path& path) {
   std::vector<Count> counts;
   std::ifstream file(path);
@@ -61,7 +61,7 @@ std::vector<Count> read_counts(const std::filesystem::path& path) {
 }
 
 std::string plugin_option(const std::filesystem::path& out) {
-  return (files::build_dir() / "host/board/libverp_instruction_count.so").string() +
+  return (files::build_dir() / "tests/bench/libverp_instruction_count.so").string() +
          ",out=" + out.string();
 }
 

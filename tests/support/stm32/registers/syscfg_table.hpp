@@ -1,5 +1,5 @@
 #pragma once
-#include "hal/chip/stm32/registers/table.hpp"
+#include "tests/support/stm32/registers/table.hpp"
 
 /// System configuration (which port an external interrupt line watches) and the interrupt lines.
 namespace verp::hal::stm32 {

@@ -1,4 +1,4 @@
-#include "host/board/link_speed.hpp"
+#include "tests/bench/link_speed.hpp"
 
 #include <chrono>
 #include <cstring>

@@ -1,5 +1,6 @@
 #pragma once
 #include "hal/chip/stm32/registers/rcc.hpp"
+#include "tests/support/stm32/registers/table.hpp"
 
 /// The registers of each family's reset and clock control. Families differ in which peripherals
 /// they have, hence in the bits of the enable registers.

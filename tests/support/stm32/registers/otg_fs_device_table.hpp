@@ -1,7 +1,8 @@
 #pragma once
 #include "hal/chip/stm32/registers/otg_fs.hpp"
+#include "tests/support/stm32/registers/table.hpp"
 
-/// The device's own registers of OTG_FS, and those of its endpoints: see otg_fs_tables.hpp.
+/// The device's own registers of OTG_FS, and those of its endpoints: see otg_fs_table.hpp.
 namespace verp::hal::stm32::otg_fs {
 
 inline constexpr char kManualF405[] = "RM0090 34.16, -, -";

@@ -2,12 +2,12 @@
 #include <cstddef>
 #include <cstdint>
 
-/// The registers of one kind of peripheral, as its reference manual tabulates them. Drivers use the
-/// offsets and bits; the tables are for checks: the models of tests/support/stm32 hold every access
-/// against them.
-namespace verp::hal::stm32 {
+#include "hal/chip/stm32/registers/bits.hpp"
 
-enum class Family : std::uint8_t { kF405 = 0, kF446 = 1, kF746 = 2 };
+/// The registers of one kind of peripheral, as its reference manual tabulates them: the models hold
+/// every access of a driver against them. Offsets and bits are the driver's own, from
+/// hal/chip/stm32/registers.
+namespace verp::hal::stm32 {
 
 /// Access types by the manuals' own abbreviations ("List of abbreviations for registers"). A bit in
 /// no mask is reserved: it must be kept at its reset value.
@@ -41,14 +41,6 @@ template <std::size_t kCount>
 constexpr Table make_table(const char* name, const char* manuals,
                            const Register (&registers)[kCount]) {
   return {name, manuals, registers, kCount};
-}
-
-/// `count` bits from bit `first` up.
-constexpr std::uint32_t bits(unsigned first, unsigned count) {
-  return (count >= 32u ? ~0u : (1u << count) - 1u) << first;
-}
-constexpr std::uint32_t bit(unsigned number) {
-  return 1u << number;
 }
 
 }  // namespace verp::hal::stm32

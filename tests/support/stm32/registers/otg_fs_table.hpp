@@ -1,5 +1,5 @@
 #pragma once
-#include "hal/chip/stm32/registers/otg_fs_device_tables.hpp"
+#include "tests/support/stm32/registers/otg_fs_device_table.hpp"
 
 /// Registers of OTG_FS in device mode: the core's, and by inclusion the device's. Paragraphs are
 /// those of RM0390 and RM0385, which number every register; RM0090 numbers only its groups: 34.16.2
