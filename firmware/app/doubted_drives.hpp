@@ -1,9 +1,9 @@
 #pragma once
 #include <cstdint>
 
-#include "common/math/convert.hpp"
 #include "common/protocol/canopen/cia402.hpp"
 #include "firmware/app/can_nodes.hpp"
+#include "firmware/app/joint_rules.hpp"
 
 namespace verp::app {
 
@@ -18,7 +18,7 @@ namespace verp::app {
 /// robot has been let go, and counts from then on. Sensors are set up at once.
 class DoubtedDrives {
  public:
-  explicit DoubtedDrives(const Params& params) : patience_us_(patience_us(params)) {}
+  explicit DoubtedDrives(const Params& params) : patience_us_(doubt_us(params)) {}
 
   /// Bit j: joint j's.
   std::uint32_t all() const { return doubted_; }
@@ -78,14 +78,6 @@ class DoubtedDrives {
   }
 
  private:
-  /// From when on the core holds anyway.
-  static constexpr std::uint32_t kLongest_us = 50'000;
-  static std::uint32_t patience_us(const Params& params) {
-    const auto hold_us =
-        static_cast<std::uint32_t>(math::to_int32(1e6F * params.tuning.safety.stale_hold_s));
-    return hold_us < kLongest_us ? hold_us : kLongest_us;
-  }
-
   const std::uint32_t patience_us_;
   std::uint32_t doubted_ = 0;
   std::uint32_t limp_ = 0;

@@ -5,6 +5,7 @@
 #include "common/model/params.hpp"
 #include "common/protocol/control_table.hpp"
 #include "firmware/app/bus_master.hpp"
+#include "firmware/app/joint_rules.hpp"
 #include "firmware/app/schedule.hpp"
 #include "firmware/app/servo_ram.hpp"
 
@@ -62,14 +63,6 @@ class DoubtedServos {
 
  private:
   static constexpr std::uint8_t kRepeats = 3;  ///< of writes, which nobody acknowledges
-  /// From when on the core holds anyway. A servo's processor takes longer than the longest to
-  /// start.
-  static constexpr std::uint32_t kLongest_us = 50'000;
-  static std::uint32_t patience_us(const Params& params) {
-    const auto hold_us =
-        static_cast<std::uint32_t>(math::to_int32(1e6F * params.tuning.safety.stale_hold_s));
-    return hold_us < kLongest_us ? hold_us : kLongest_us;
-  }
 
   /// The first few of them.
   std::uint32_t some(std::uint32_t joints) const {
@@ -145,7 +138,7 @@ class DoubtedServos {
   std::uint32_t limp_ = 0;  ///< of these, those known to have no torque
   std::uint32_t batch_ = 0;
   std::uint8_t renewals_ = 0;  ///< still to send to batch_
-  const std::uint32_t patience_us_ = patience_us(params_);
+  const std::uint32_t patience_us_ = doubt_us(params_);
 };
 
 }  // namespace verp::app

@@ -5,28 +5,21 @@
 #include "common/model/params.hpp"
 #include "common/protocol/canopen/cia402.hpp"
 #include "common/protocol/canopen/robot_plan.hpp"
-#include "common/safety/machine.hpp"
 #include "firmware/app/can_master.hpp"
+#include "firmware/app/joint_rules.hpp"
 
 namespace verp::app {
 
 /// The tick's second half on CAN: goals, controlwords and strengths in shared RPDOs. These have no
 /// reply: a frame that changes goes out in kRepeats ticks, and one of the others in each tick in
 /// its turn. Controlwords follow from what each drive's statusword says, so a lost one costs a
-/// tick.
+/// tick. Strength is Max torque, in thousandths of the rated one.
 template <hal::CanBus Bus>
-class DriveWriter {
+class DriveWriter : public JointStrength {
  public:
   using State = canopen::cia402::State;
 
-  explicit DriveWriter(const Params& params) : params_(params) {}
-
-  /// Max torque of each joint that is 100 %, in thousandths of the rated one.
-  void set_full(const std::uint16_t (&full)[kMaxJoints]) {
-    for (int j = 0; j < kMaxJoints; ++j) full_[j] = full[j];
-  }
-  /// Of that, in every mode; 1 to 100.
-  void limit_torque(std::uint8_t percent) { most_percent_ = percent; }
+  using JointStrength::JointStrength;
 
   /// A drive has said what state it is in.
   void note(int joint, State state) {
@@ -44,11 +37,11 @@ class DriveWriter {
   /// they have; `limp` are those of them that are known to have none.
   void send(CanMaster<Bus>& master, const Outputs& outputs, std::uint32_t doubted,
             std::uint32_t limp) {
-    const std::uint32_t wanted = outputs.torque_enable & all_joints();
+    const std::uint32_t wanted = outputs.torque_enable & all_joints(params_);
     begin(wanted, doubted, limp);
     set_words(wanted, doubted);
     if (wanted != 0) send_goals(master, outputs, wanted);
-    if (wanted != 0) set_strengths(strength_in(outputs.mode));
+    if (wanted != 0) set_strengths(percent_in(outputs.mode));
     send_frames(master, canopen::plan::kWords, word_, words_due_);
     if (wanted != 0) send_frames(master, canopen::plan::kStrengths, strength_, strengths_due_);
     send_one_in_turn(master, wanted != 0);
@@ -62,16 +55,6 @@ class DriveWriter {
   static constexpr std::uint32_t kEnableUs = 300'000;
   static constexpr int kMostFrames = (kMaxJoints + 3) / 4;
 
-  std::uint32_t all_joints() const {
-    return params_.joint_count >= kMaxJoints ? ~0u : (1u << params_.joint_count) - 1;
-  }
-  // On its way up a robot may lie against anything, a hand too: its drives push as hard as its
-  // entity allows, and no harder.
-  std::uint8_t strength_in(std::uint8_t mode) const {
-    const bool rising = mode == static_cast<std::uint8_t>(safety::Mode::kRising);
-    return rising && params_.rise_torque_percent < most_percent_ ? params_.rise_torque_percent
-                                                                 : most_percent_;
-  }
   bool switched_on(int joint) const { return state_[joint] == State::kSwitchedOn || holds(joint); }
   bool holds(int joint) const {
     return state_[joint] == State::kOperationEnabled || state_[joint] == State::kQuickStopActive;
@@ -128,7 +111,7 @@ class DriveWriter {
   }
   void set_strengths(std::uint8_t percent) {
     for (int j = 0; j < params_.joint_count; ++j) {
-      set(strength_[j], static_cast<std::uint16_t>(full_[j] * percent / 100),
+      set(strength_[j], strength_of(j, percent),
           strengths_due_[j / canopen::plan::kStrengths.width]);
     }
   }
@@ -181,8 +164,6 @@ class DriveWriter {
     if (turn_ >= words) send_frame(master, canopen::plan::kStrengths, strength_, turn_ - words);
   }
 
-  const Params& params_;
-  std::uint16_t full_[kMaxJoints] = {};
   State state_[kMaxJoints] = {};
   std::uint16_t word_[kMaxJoints] = {};      ///< as sent last
   std::uint16_t strength_[kMaxJoints] = {};  ///< likewise
@@ -194,7 +175,6 @@ class DriveWriter {
   std::uint32_t patience_ = 0;  ///< ticks in which those that have not may still
   std::uint8_t early_ = 0;      ///< ticks still to go before anybody is told of torque
   std::uint8_t together_ = 0;   ///< ticks in which drives still wait for each other
-  std::uint8_t most_percent_ = 100;
   int turn_ = 0;
 };
 

@@ -13,6 +13,22 @@
 
 namespace verp::app {
 
+/// Trouble on the way to the twin since a bus was made; all of it was made good, but for `damaged`.
+struct LockstepCounters {
+  std::uint32_t repeats = 0;  ///< requests sent again
+  std::uint32_t spoilt = 0;   ///< answers that were not whole
+  std::uint32_t damaged = 0;  ///< polls before which frames did not arrive as they were sent
+};
+
+/// What a controller with this core and robot says of itself.
+inline lockstep::Hello hello_of(const Params& params) {
+  return {.core_version = kCoreVersion,
+          .params_size = sizeof(Params),
+          .params_crc = params_crc(params),
+          .record_size = sizeof(TickRecord),
+          .state_size = sizeof(State)};
+}
+
 /// What a controller does while it waits for the twin: feeds its watchdog, serves its operator.
 /// Called at least every LockstepBus::kLongSlice_us while nothing arrives. False: stop waiting; the
 /// bus is lost then.
@@ -32,29 +48,17 @@ class LockstepBus {
   static constexpr std::uint32_t kSlice_us = 100;
   static constexpr std::uint32_t kLongSlice_us = 1000;
 
-  /// Trouble on the link since the bus was made; all of it was made good, but for `damaged`.
-  struct Counters {
-    std::uint32_t repeats = 0;  ///< requests sent again
-    std::uint32_t spoilt = 0;   ///< answers that were not whole
-    std::uint32_t damaged = 0;  ///< polls before which frames did not arrive as they were sent
-  };
-
   LockstepBus(Link& link, Idle idle) : link_(link), idle_(idle) {}
 
   /// Announces lockstep and this robot to the twin; waits for its answer. Begins anew after a loss:
   /// bus time is then that of the twin again, and the controller must come up again.
   lockstep::Verdict greet(const Params& params) {
-    const lockstep::Hello hello{.core_version = kCoreVersion,
-                                .params_size = sizeof(Params),
-                                .params_crc = params_crc(params),
-                                .record_size = sizeof(TickRecord),
-                                .state_size = sizeof(State)};
     lost_ = true;
     answer_ = {};
     used_ = 0;
     sieve_.forget();
     lockstep::HelloReply reply;
-    request_size_ = encode(lockstep::kHelloAddress, hello);
+    request_size_ = encode(lockstep::kHelloAddress, hello_of(params));
     if (!flush() || !ask(reply, nullptr, 0)) return lockstep::Verdict::kNoAnswer;
     lost_ = reply.verdict != lockstep::Verdict::kAccepted;
     return reply.verdict;
@@ -64,7 +68,7 @@ class LockstepBus {
   bool stopped() const { return lost_ || over(); }
   /// Not greeted, refused, given up by `idle`, or met by a twin that began anew: greet() again.
   bool lost() const { return lost_; }
-  const Counters& counters() const { return counters_; }
+  const LockstepCounters& counters() const { return counters_; }
 
   // FrameBus. Frames leave with the next poll.
   bool send(const std::uint8_t* data, std::size_t size) {
@@ -209,7 +213,7 @@ class LockstepBus {
 
   Link& link_;
   Idle idle_;
-  Counters counters_;
+  LockstepCounters counters_;
   lockstep::Advanced answer_;
   lockstep::ClockSieve sieve_;
   std::uint8_t sequence_ = 0;

@@ -2,10 +2,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "common/control/state.hpp"
-#include "common/model/image.hpp"
 #include "common/model/params.hpp"
-#include "common/record/tick_record.hpp"
 #include "firmware/app/lockstep_bus.hpp"
 #include "firmware/app/lockstep_can_messages.hpp"
 #include "hal/contract/can_bus.hpp"
@@ -18,14 +15,6 @@ namespace verp::app {
 template <hal::CanBus Bus, IdleHook Idle>
 class LockstepCan {
  public:
-  /// Trouble on the way to the twin since the bus was made; all of it was made good, but for
-  /// `damaged`.
-  struct Counters {
-    std::uint32_t repeats = 0;  ///< requests sent again
-    std::uint32_t spoilt = 0;   ///< answers that were not whole
-    std::uint32_t damaged = 0;  ///< polls before which frames did not arrive as they were sent
-  };
-
   /// `slice_us`: how long it may wait between two calls of `idle`.
   LockstepCan(Bus& bus, Idle idle, std::uint32_t slice_us = kSlice_us)
       : bus_(bus), idle_(idle), slice_us_(slice_us) {}
@@ -33,11 +22,7 @@ class LockstepCan {
   /// Announces lockstep and this robot to the twin; waits for its answer. Begins anew after a loss:
   /// bus time is then that of the twin again, and the controller must come up again.
   lockstep::Verdict greet(const Params& params) {
-    const lockstep::Hello hello{.core_version = kCoreVersion,
-                                .params_size = sizeof(Params),
-                                .params_crc = params_crc(params),
-                                .record_size = sizeof(TickRecord),
-                                .state_size = sizeof(State)};
+    const lockstep::Hello hello = hello_of(params);
     forget();
     lockstep::HelloReply reply;
     const bool answered = ask(
@@ -55,7 +40,7 @@ class LockstepCan {
   bool stopped() const { return lost_ || over_; }
   /// Not greeted, refused, given up by `idle`, or met by a twin that began anew: greet() again.
   bool lost() const { return lost_; }
-  const Counters& counters() const { return counters_; }
+  const LockstepCounters& counters() const { return counters_; }
 
   // CanBus.
   bool send(const CanFrame& frame) {
@@ -202,7 +187,7 @@ class LockstepCan {
   Bus& bus_;
   Idle idle_;
   const std::uint32_t slice_us_;
-  Counters counters_;
+  LockstepCounters counters_;
   std::uint64_t now_us_ = 0;     ///< the twin's
   std::uint64_t pushed_us_ = 0;  ///< when bus_ took its last frame
   std::size_t count_ = 0;        ///< frames that an answer brought; only kMaxBurst of them are kept

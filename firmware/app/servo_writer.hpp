@@ -4,8 +4,8 @@
 #include "common/io/io.hpp"
 #include "common/model/params.hpp"
 #include "common/protocol/control_table.hpp"
-#include "common/safety/machine.hpp"
 #include "firmware/app/bus_master.hpp"
+#include "firmware/app/joint_rules.hpp"
 #include "firmware/app/schedule.hpp"
 
 namespace verp::app {
@@ -13,18 +13,12 @@ namespace verp::app {
 /// The tick's second half: what the core wants of the servos, as Sync Writes. These have no reply,
 /// so a change of anything but goals is sent in kRepeats ticks, and every servo's state again in
 /// its turn: one lost frame neither leaves a limp robot stiff nor a walking one with a slack joint.
-/// Copied with its loop, so it holds no reference into it.
+/// Copied with its loop, so it holds no reference into it. Strength is Goal PWM: a servo refuses
+/// more than what set_full() was told.
 template <hal::FrameBus Bus>
-class ServoWriter {
+class ServoWriter : public JointStrength {
  public:
-  explicit ServoWriter(const Params& params) : params_(params) {}
-
-  /// What Goal PWM may be at most, of each joint: a servo refuses more.
-  void set_full(const std::uint16_t (&full_pwm)[kMaxJoints]) {
-    for (int j = 0; j < kMaxJoints; ++j) full_pwm_[j] = full_pwm[j];
-  }
-  /// Of that, in every mode; 1 to 100.
-  void limit_torque(std::uint8_t percent) { most_percent_ = percent; }
+  using JointStrength::JointStrength;
 
   /// Strength and goals go out in kRepeats ticks, the last of which is the first to tell of torque:
   /// whichever frame is lost, no servo wakes up with old goals, with a strength that was not meant,
@@ -32,8 +26,8 @@ class ServoWriter {
   /// those in `doubted` hear of no torque but its end.
   void send(BusMaster<Bus>& master, const Outputs& outputs, int turn, std::uint32_t doubted) {
     if (params_.joint_count == 0) return;
-    const std::uint32_t wanted = outputs.torque_enable & all_joints();
-    const std::uint8_t strength = strength_in(outputs.mode);
+    const std::uint32_t wanted = outputs.torque_enable & all_joints(params_);
+    const std::uint8_t strength = percent_in(outputs.mode);
     if (wanted != 0 && (watchdog_clears_ > 0 || torque_ == 0)) clear_watchdogs(master);
     if ((wanted & ~wanted_) != 0) {
       early_ = kRepeats - 1;
@@ -71,18 +65,6 @@ class ServoWriter {
  private:
   static constexpr std::uint8_t kRepeats = 3;
 
-  std::uint32_t all_joints() const {
-    return params_.joint_count >= kMaxJoints ? ~0u : (1u << params_.joint_count) - 1;
-  }
-
-  // On its way up a robot may lie against anything, a hand too: its servos push as hard as its
-  // entity allows, and no harder.
-  std::uint8_t strength_in(std::uint8_t mode) const {
-    const bool rising = mode == static_cast<std::uint8_t>(safety::Mode::kRising);
-    return rising && params_.rise_torque_percent < most_percent_ ? params_.rise_torque_percent
-                                                                 : most_percent_;
-  }
-
   // A servo whose watchdog has tripped takes no goals: cleared before them, and set again after.
   void clear_watchdogs(BusMaster<Bus>& master) {
     first_ = 0;
@@ -107,7 +89,7 @@ class ServoWriter {
     dxl::Encoder encoder(master.frame(), master.capacity());
     dxl::begin_sync_write(encoder, dxl::address::kGoalPwm, 2);
     for (int j = first_; j <= last_; ++j) {
-      const auto pwm = static_cast<std::uint16_t>(full_pwm_[j] * strength_ / 100);
+      const std::uint16_t pwm = strength_of(j, strength_);
       encoder.u8(params_.joint[j].servo_id);
       encoder.u8(static_cast<std::uint8_t>(pwm));
       encoder.u8(static_cast<std::uint8_t>(pwm >> 8));
@@ -131,13 +113,10 @@ class ServoWriter {
     if (told > 0) master.send(encoder.finish());
   }
 
-  const Params& params_;
-  std::uint16_t full_pwm_[kMaxJoints] = {};
   std::uint32_t torque_ = 0;   ///< as sent last
   std::uint32_t wanted_ = 0;   ///< who gets goals; torque_ follows
   std::uint8_t strength_ = 0;  ///< as sent last, percent
   std::uint8_t early_ = 0;     ///< ticks still to go before who is wanted gets torque
-  std::uint8_t most_percent_ = 100;
   std::uint8_t repeats_ = kRepeats;
   std::uint8_t watchdog_clears_ = 0;  ///< still to send
   bool told_all_ = false;

@@ -4,10 +4,6 @@
 #include <cstring>
 #include <utility>
 
-#include "common/control/state.hpp"
-#include "common/model/image.hpp"
-#include "common/record/tick_record.hpp"
-
 namespace verp::bus {
 namespace {
 
@@ -55,54 +51,8 @@ bool begins_tick(std::span<const std::uint8_t> frame) {
 
 }  // namespace
 
-lockstep::Verdict verdict_on(const lockstep::Hello& theirs, const Params& params) {
-  using lockstep::Verdict;
-  if (theirs.version != lockstep::kVersion) return Verdict::kOtherLink;
-  if (theirs.params_size != sizeof(Params) || theirs.record_size != sizeof(TickRecord) ||
-      theirs.state_size != sizeof(State)) {
-    return Verdict::kOtherLayout;
-  }
-  if (theirs.core_version != kCoreVersion) return Verdict::kOtherCore;
-  return theirs.params_crc == params_crc(params) ? Verdict::kAccepted : Verdict::kOtherRobot;
-}
-
-std::string words_for(lockstep::Verdict verdict, const lockstep::Hello& theirs,
-                      const Params& ours) {
-  const auto hex = [](std::uint32_t value) {
-    char text[11];
-    std::snprintf(text, sizeof text, "%08x", static_cast<unsigned>(value));
-    return std::string(text);
-  };
-  switch (verdict) {
-    case lockstep::Verdict::kOtherLink:
-      return "the controller speaks version " + std::to_string(theirs.version) +
-             " of the lockstep link, this program version " + std::to_string(lockstep::kVersion) +
-             "; rebuild its firmware";
-    case lockstep::Verdict::kOtherLayout:
-      return "the controller's Params, record or State have other sizes (" +
-             std::to_string(theirs.params_size) + ", " + std::to_string(theirs.record_size) + ", " +
-             std::to_string(theirs.state_size) + " bytes, here " + std::to_string(sizeof(Params)) +
-             ", " + std::to_string(sizeof(TickRecord)) + ", " + std::to_string(sizeof(State)) +
-             "); rebuild its firmware";
-    case lockstep::Verdict::kOtherCore:
-      return "the controller's core has version " + std::to_string(theirs.core_version) +
-             ", this program's " + std::to_string(kCoreVersion) + "; rebuild its firmware";
-    case lockstep::Verdict::kOtherRobot:
-      return "the controller's Params are not those of " + std::string(ours.name) + " (CRC " +
-             hex(theirs.params_crc) + ", here " + hex(params_crc(ours)) +
-             "); flash this model's Params, or name the controller's model";
-    case lockstep::Verdict::kNoLockstep:
-      return "the controller wants lockstep, but the twin already serves a master in real time; "
-             "start verp hil again, then the controller";
-    case lockstep::Verdict::kAccepted:
-    case lockstep::Verdict::kNoAnswer:
-      break;
-  }
-  return "";
-}
-
 LockstepServer::LockstepServer(const Params& params, VirtualBus& bus, LockstepHooks hooks)
-    : params_(params), bus_(bus), hooks_(std::move(hooks)) {}
+    : LockstepSession(params), bus_(bus), hooks_(std::move(hooks)) {}
 
 void LockstepServer::take(std::span<const std::uint8_t> bytes, std::vector<std::uint8_t>& answer) {
   constexpr std::size_t kMostHeld = 16 * hal::kMaxFrame;  // of one who never asks for the time
@@ -115,7 +65,7 @@ void LockstepServer::take(std::span<const std::uint8_t> bytes, std::vector<std::
 }
 
 std::vector<std::uint8_t> LockstepServer::unannounced() {
-  return greeted_ ? std::vector<std::uint8_t>{} : std::exchange(frames_, {});
+  return greeted() ? std::vector<std::uint8_t>{} : std::exchange(frames_, {});
 }
 
 void LockstepServer::handle(const dxl::Packet& packet, std::vector<std::uint8_t>& answer) {
@@ -124,7 +74,7 @@ void LockstepServer::handle(const dxl::Packet& packet, std::vector<std::uint8_t>
   if (packet.is_status()) return;
   if (payload_of(packet, lockstep::kHelloAddress, greeting)) return hello(greeting, answer);
   if (payload_of(packet, lockstep::kAdvanceAddress, request)) {
-    if (greeted_) return advance(request, answer);
+    if (greeted()) return advance(request, answer);
     frames_.clear();
     return append_error(answer, dxl::Error::kAccess);
   }
@@ -148,17 +98,8 @@ dxl::Error LockstepServer::set_upright(std::uint8_t value) {
 
 void LockstepServer::hello(const lockstep::Hello& hello, std::vector<std::uint8_t>& answer) {
   frames_.clear();
-  const lockstep::Verdict verdict =
-      real_time_ ? lockstep::Verdict::kNoLockstep : verdict_on(hello, params_);
-  const bool repeated = greeted_ && !answered_;
-  greeted_ = verdict == lockstep::Verdict::kAccepted;
-  if (greeted_ && !repeated) {
-    answered_ = false;
-    ++counters_.greetings;
-    if (hooks_.greeted) hooks_.greeted();
-  }
-  if (!greeted_ && hooks_.refused) hooks_.refused(words_for(verdict, hello, params_));
-  append_status(answer, greeted_ ? dxl::Error::kNone : dxl::Error::kDataRange,
+  const lockstep::Verdict verdict = meet(hello, hooks_).verdict;
+  append_status(answer, greeted() ? dxl::Error::kNone : dxl::Error::kDataRange,
                 lockstep::HelloReply{.verdict = verdict});
 }
 
@@ -172,8 +113,7 @@ bool LockstepServer::send_frame(std::span<const std::uint8_t> frame, bool intact
 bool LockstepServer::send_frames(const lockstep::Advance& advance) {
   const bool intact = frames_.size() == advance.sent &&
                       dxl::crc16(frames_.data(), frames_.size()) == advance.sent_crc;
-  if (!intact) ++counters_.damaged;
-  if (!intact && hooks_.damaged) hooks_.damaged();
+  if (!intact) note_damage(hooks_);
   // One of which nothing came was as long on the wire as any: nobody understood it.
   if (frames_.empty()) frames_.resize(std::min<std::size_t>(advance.sent, hal::kMaxFrame));
   const bool ticking = bus_.ticking();
@@ -191,15 +131,13 @@ bool LockstepServer::send_frames(const lockstep::Advance& advance) {
 }
 
 void LockstepServer::advance(const lockstep::Advance& advance, std::vector<std::uint8_t>& answer) {
-  if (answered_ && advance.sequence == sequence_) {
+  if (asks_again(advance.sequence)) {
     // What came with a repeat are the frames of nobody: the controller sends it alone.
     frames_.clear();
-    ++counters_.repeats;
     answer.insert(answer.end(), last_.begin(), last_.end());
     return;
   }
-  ++counters_.polls;
-  const std::uint32_t damaged = counters_.damaged;
+  const std::uint32_t damaged = counters().damaged;
   lockstep::Advanced status{.sequence = advance.sequence};
   if (!stopped_ && send_frames(advance) && hooks_.tick_begins) hooks_.tick_begins(bus_.tick());
   last_.assign(std::min<std::size_t>(advance.capacity, lockstep::kMaxPollBytes), 0);
@@ -208,11 +146,10 @@ void LockstepServer::advance(const lockstep::Advance& advance, std::vector<std::
   status.size = static_cast<std::uint16_t>(last_.size());
   status.crc = dxl::crc16(last_.data(), last_.size());
   if (stopped_) status.flags |= lockstep::kStop;
-  if (counters_.damaged != damaged) status.flags |= lockstep::kFrameDamaged;
+  if (counters().damaged != damaged) status.flags |= lockstep::kFrameDamaged;
   if (!stopped_ && hooks_.polled) hooks_.polled(last_, bus_.now_us());
   append_status(last_, dxl::Error::kNone, status);
-  answered_ = true;
-  sequence_ = advance.sequence;
+  note_answer(advance.sequence);
   answer.insert(answer.end(), last_.begin(), last_.end());
 }
 

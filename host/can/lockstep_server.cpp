@@ -6,7 +6,6 @@
 #include "common/protocol/canopen/cob_id.hpp"
 #include "common/protocol/canopen/frame.hpp"
 #include "common/protocol/canopen/robot_plan.hpp"
-#include "host/bus/lockstep_server.hpp"
 
 namespace verp::can {
 namespace {
@@ -39,7 +38,7 @@ bool may_be_of_controller(const CanFrame& frame) {
 }  // namespace
 
 LockstepServer::LockstepServer(const Params& params, VirtualCan& bus, LockstepHooks hooks)
-    : params_(params), bus_(bus), hooks_(std::move(hooks)) {}
+    : LockstepSession(params), bus_(bus), hooks_(std::move(hooks)) {}
 
 void LockstepServer::take(const CanFrame& frame, std::vector<CanFrame>& answer) {
   constexpr std::size_t kMostHeld = 4 * hal::kCanQueue;  // of one who never asks for the time
@@ -60,24 +59,15 @@ void LockstepServer::take(const CanFrame& frame, std::vector<CanFrame>& answer) 
 }
 
 std::vector<CanFrame> LockstepServer::unannounced() {
-  return greeted_ ? std::vector<CanFrame>{} : std::exchange(frames_, {});
+  return greeted() ? std::vector<CanFrame>{} : std::exchange(frames_, {});
 }
 
 void LockstepServer::hello(const lockstep::Hello& hello, std::vector<CanFrame>& answer) {
   frames_.clear();
-  const lockstep::Verdict verdict =
-      real_time_ ? lockstep::Verdict::kNoLockstep : bus::verdict_on(hello, params_);
-  const bool repeated = greeted_ && !answered_;
-  greeted_ = verdict == lockstep::Verdict::kAccepted;
-  if (greeted_ && !repeated) {
-    answered_ = false;
-    enclosed_.clear();
-    ++counters_.greetings;
-    if (hooks_.greeted) hooks_.greeted();
-  }
-  if (!greeted_ && hooks_.refused) hooks_.refused(bus::words_for(verdict, hello, params_));
-  answer.push_back(
-      lockstep::can_message(lockstep::kCanHelloReplyId, lockstep::HelloReply{.verdict = verdict}));
+  const Meeting meeting = meet(hello, hooks_);
+  if (meeting.begins) enclosed_.clear();
+  answer.push_back(lockstep::can_message(lockstep::kCanHelloReplyId,
+                                         lockstep::HelloReply{.verdict = meeting.verdict}));
 }
 
 bool LockstepServer::is_whole(const lockstep::CanAdvance& advance) const {
@@ -142,24 +132,21 @@ void LockstepServer::bring_burst(std::uint32_t timeout_us, std::size_t room) {
 
 void LockstepServer::advance(const lockstep::CanAdvance& advance, std::vector<CanFrame>& answer) {
   lockstep::CanAdvanced status{.sequence = advance.sequence};
-  if (!greeted_) {
+  if (!greeted()) {
     frames_.clear();
     status.flags_count = lockstep::kNotGreeted;
     answer.push_back(lockstep::can_message(lockstep::kCanAdvancedId, status));
     return;
   }
-  if (answered_ && advance.sequence == sequence_) {
+  if (asks_again(advance.sequence)) {
     // What came with a repeat are the frames of nobody: the controller sends it alone.
     frames_.clear();
-    ++counters_.repeats;
     answer.insert(answer.end(), last_.begin(), last_.end());
     return;
   }
-  ++counters_.polls;
   const bool whole = make_whole(advance);
   if (!whole) {
-    ++counters_.damaged;
-    if (hooks_.damaged) hooks_.damaged();
+    note_damage(hooks_);
     status.flags_count |= lockstep::kFrameDamaged;
   }
   last_.clear();
@@ -173,8 +160,7 @@ void LockstepServer::advance(const lockstep::CanAdvance& advance, std::vector<Ca
   status.flags_count |= static_cast<std::uint8_t>(last_.size() << lockstep::kCanCountShift);
   status.now_low_us = static_cast<std::uint32_t>(bus_.now_us());
   last_.push_back(lockstep::can_message(lockstep::kCanAdvancedId, status));
-  answered_ = true;
-  sequence_ = advance.sequence;
+  note_answer(advance.sequence);
   answer.insert(answer.end(), last_.begin(), last_.end());
 }
 

@@ -3,33 +3,19 @@
 #include <cstdint>
 #include <deque>
 #include <functional>
-#include <string>
 #include <vector>
 
 #include "common/model/params.hpp"
 #include "firmware/app/lockstep_can_messages.hpp"
+#include "host/bus/lockstep_session.hpp"
 #include "host/can/virtual_can.hpp"
 
 namespace verp::can {
 
 /// What a controller in lockstep does, as it does it. Empty members are allowed.
-struct LockstepHooks {
-  /// A controller began: at first, or again after a reset.
-  std::function<void()> greeted;
-  /// One was turned away; the words say on what both ends differ.
-  std::function<void(const std::string&)> refused;
-  /// The frames of a tick (before the first: of the bring-up) have all been sent, and the plant has
-  /// not gone on yet. False: no further tick; the controller is told to stop.
-  std::function<bool()> tick_ends;
-  /// Tick `tick` has begun on the bus, and the controller does not know yet: the moment to give it
-  /// orders.
-  std::function<void(std::uint32_t tick)> tick_begins;
+struct LockstepHooks : bus::SessionHooks {
   /// A frame that reached the bus, of those before a poll that all did.
   std::function<void(const CanFrame& frame)> sent;
-  /// Frames before this poll were lost on the way, or came twice.
-  std::function<void()> damaged;
-  /// Somebody wants the robot set on its feet. False: not now.
-  std::function<bool()> set_upright;
   /// What a poll brought: a burst.
   std::function<void(const std::vector<CanFrame>& burst, std::uint64_t now_us)> polled;
 };
@@ -38,15 +24,8 @@ struct LockstepHooks {
 /// interface, waits for nothing and asks no clock, so the same frames give the same answers at any
 /// speed. Others may speak on the interface as well: frames that no controller sends do not reach
 /// the bus; their requests and commands do, and are damage.
-class LockstepServer {
+class LockstepServer : public bus::LockstepSession {
  public:
-  struct Counters {
-    std::uint64_t polls = 0;
-    std::uint32_t repeats = 0;  ///< answers given again
-    std::uint32_t damaged = 0;  ///< polls before which frames were lost, or came twice
-    std::uint32_t greetings = 0;
-  };
-
   /// The bus must outlive the server.
   LockstepServer(const Params& params, VirtualCan& bus, LockstepHooks hooks);
 
@@ -60,14 +39,6 @@ class LockstepServer {
 
   /// What came before the first hello and is not for the clock, once; afterwards nothing.
   std::vector<CanFrame> unannounced();
-  /// From now on every hello is refused: the twin runs in real time.
-  void refuse_lockstep() { real_time_ = true; }
-
-  /// True once a controller has announced lockstep.
-  bool greeted() const { return greeted_; }
-  /// The controller was told to stop.
-  bool stopped() const { return stopped_; }
-  const Counters& counters() const { return counters_; }
 
  private:
   void hello(const lockstep::Hello& hello, std::vector<CanFrame>& answer);
@@ -83,19 +54,12 @@ class LockstepServer {
   /// The same, once what others say is dropped.
   bool make_whole(const lockstep::CanAdvance& advance);
 
-  const Params& params_;
   VirtualCan& bus_;
   LockstepHooks hooks_;
   lockstep::CanHello hello_;
-  Counters counters_;
   std::vector<CanFrame> frames_;   ///< came since the last CanAdvance
   std::vector<CanFrame> last_;     ///< the whole last answer
   std::deque<CanFrame> enclosed_;  ///< for the controller's node, and not sent yet
-  std::uint8_t sequence_ = 0;      ///< of that
-  bool answered_ = false;          ///< since the hello
-  bool greeted_ = false;
-  bool stopped_ = false;
-  bool real_time_ = false;
 };
 
 }  // namespace verp::can

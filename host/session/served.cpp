@@ -77,6 +77,18 @@ ServedResult Served::result() const {
   return result;
 }
 
+bus::SessionHooks Served::hooks() {
+  return {.greeted = [this] { begins(); },
+          .refused = [this](const std::string& why) { refused(why); },
+          .tick_ends = [this] { return tick_ends(); },
+          .tick_begins = [this](std::uint32_t tick) { tick_begins(tick); },
+          .damaged =
+              [this] {
+                if (shadow_) shadow_->damaged();
+              },
+          .set_upright = [this] { return set_upright(); }};
+}
+
 // What it knew is gone, and with it what this PC knew of it.
 void Served::begin_shadow() {
   recorded_ = false;

@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "host/bus/lockstep_server.hpp"
+#include "host/bus/lockstep_session.hpp"
 #include "host/bus/order_sink.hpp"
 #include "host/bus/realtime_server.hpp"
 #include "host/bus/shadow_loop.hpp"
@@ -49,7 +49,7 @@ struct ServedResult {
   std::uint32_t losses = 0;    ///< times the link was lost
   std::uint32_t overruns = 0;  ///< bytes, or CAN frames, that found no room at this PC
   std::uint32_t resets = 0;    ///< times a controller began anew on a robot that was under way
-  bus::LockstepServer::Counters lockstep;
+  bus::LockstepSession::Counters lockstep;
   bus::RealtimeServer::Counters realtime;
   std::optional<CanFrames> can;  ///< over CAN in real time
 };
@@ -95,19 +95,7 @@ class Served : public Controller {
   void watch_link(bool connected, std::uint32_t losses);
 
   /// The hooks of a lockstep server that mean the same on every bus.
-  template <class Hooks>
-  Hooks hooks() {
-    Hooks hooks;
-    hooks.greeted = [this] { begins(); };
-    hooks.refused = [this](const std::string& why) { refused(why); };
-    hooks.tick_ends = [this] { return tick_ends(); };
-    hooks.set_upright = [this] { return set_upright(); };
-    hooks.tick_begins = [this](std::uint32_t tick) { tick_begins(tick); };
-    hooks.damaged = [this] {
-      if (shadow_) shadow_->damaged();
-    };
-    return hooks;
-  }
+  bus::SessionHooks hooks();
 
   static constexpr std::uint32_t kIdle_us = 20'000;  // how long an interrupt may have to wait
   static constexpr std::uint32_t kRealTimeTurn_us = 500;

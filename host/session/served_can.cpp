@@ -40,11 +40,7 @@ class ServedOnCan final : public Served {
     if (live_) result.compared += live_->compared();
     result.losses = losses_;
     result.overruns = port_.errors().overruns;
-    const can::LockstepServer::Counters& counters = server_.counters();
-    result.lockstep = {.polls = counters.polls,
-                       .repeats = counters.repeats,
-                       .damaged = counters.damaged,
-                       .greetings = counters.greetings};
+    result.lockstep = server_.counters();
     const can::RealtimeServer::Counters& real = realtime_.counters();
     result.realtime = {.bytes = 0, .late = real.late, .worst_late_us = real.worst_late_us};
     if (result.real_time)
@@ -67,14 +63,13 @@ class ServedOnCan final : public Served {
   }
 
   can::LockstepHooks own_hooks() {
-    auto hooks = Served::hooks<can::LockstepHooks>();
-    hooks.sent = [this](const CanFrame& frame) {
-      if (shadow_ != nullptr) shadow_->sent(frame);
-    };
-    hooks.polled = [this](const std::vector<CanFrame>& burst, std::uint64_t now_us) {
-      if (shadow_ != nullptr) shadow_->polled(burst, now_us);
-    };
-    return hooks;
+    return {Served::hooks(),
+            [this](const CanFrame& frame) {
+              if (shadow_ != nullptr) shadow_->sent(frame);
+            },
+            [this](const std::vector<CanFrame>& burst, std::uint64_t now_us) {
+              if (shadow_ != nullptr) shadow_->polled(burst, now_us);
+            }};
   }
 
   // One that watches sees the same ticks: two would take each other's answers for their own.

@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "host/bus/lockstep_server.hpp"
 #include "host/link/link.hpp"
 #include "host/link/system_clock.hpp"
 #include "host/session/served.hpp"
@@ -47,14 +48,13 @@ class ServedOnSerial final : public Served {
   }
 
   bus::LockstepHooks own_hooks() {
-    auto hooks = Served::hooks<bus::LockstepHooks>();
-    hooks.sent = [this](std::span<const std::uint8_t> frame) {
-      if (shadow_ != nullptr) shadow_->sent({frame.begin(), frame.end()});
-    };
-    hooks.polled = [this](std::span<const std::uint8_t> bytes, std::uint64_t now_us) {
-      if (shadow_ != nullptr) shadow_->polled({bytes.begin(), bytes.end()}, now_us);
-    };
-    return hooks;
+    return {Served::hooks(),
+            [this](std::span<const std::uint8_t> frame) {
+              if (shadow_ != nullptr) shadow_->sent({frame.begin(), frame.end()});
+            },
+            [this](std::span<const std::uint8_t> bytes, std::uint64_t now_us) {
+              if (shadow_ != nullptr) shadow_->polled({bytes.begin(), bytes.end()}, now_us);
+            }};
   }
 
   void turn() override {

@@ -1,0 +1,56 @@
+#pragma once
+#include <cstdint>
+
+#include "common/math/convert.hpp"
+#include "common/model/params.hpp"
+#include "common/safety/machine.hpp"
+
+/// What holds for a robot's joints on every servo bus.
+namespace verp::app {
+
+/// Bit j: joint j's.
+constexpr std::uint32_t all_joints(const Params& params) {
+  return params.joint_count >= kMaxJoints ? ~0u : (1u << params.joint_count) - 1;
+}
+
+/// Who was silent for so long may have lost its power: the core holds by then anyway. A servo's
+/// processor takes longer than the longest to start.
+inline std::uint32_t doubt_us(const Params& params) {
+  constexpr std::uint32_t kLongest_us = 50'000;
+  const auto hold_us =
+      static_cast<std::uint32_t>(math::to_int32(1e6F * params.tuning.safety.stale_hold_s));
+  return hold_us < kLongest_us ? hold_us : kLongest_us;
+}
+
+/// How hard each joint may push.
+class JointStrength {
+ public:
+  explicit JointStrength(const Params& params) : params_(params) {}
+
+  /// What is 100 % of each joint, in the units of its servo.
+  void set_full(const std::uint16_t (&full)[kMaxJoints]) {
+    for (int j = 0; j < kMaxJoints; ++j) full_[j] = full[j];
+  }
+  /// Of that, in every mode; 1 to 100.
+  void limit_torque(std::uint8_t percent) { most_percent_ = percent; }
+
+ protected:
+  // On its way up a robot may lie against anything, a hand too: its servos push as hard as its
+  // entity allows, and no harder.
+  std::uint8_t percent_in(std::uint8_t mode) const {
+    const bool rising = mode == static_cast<std::uint8_t>(safety::Mode::kRising);
+    return rising && params_.rise_torque_percent < most_percent_ ? params_.rise_torque_percent
+                                                                 : most_percent_;
+  }
+  std::uint16_t strength_of(int joint, std::uint8_t percent) const {
+    return static_cast<std::uint16_t>(full_[joint] * percent / 100);
+  }
+
+  const Params& params_;
+
+ private:
+  std::uint8_t most_percent_ = 100;
+  std::uint16_t full_[kMaxJoints] = {};
+};
+
+}  // namespace verp::app
