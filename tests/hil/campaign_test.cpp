@@ -131,7 +131,7 @@ const std::vector<Kind>& kinds() {
        {gone_briefly, let_go, walks_again}},
       {{"servo_gone_for_good_physics", 3, true, {}, Event::kServoGone}, {gone_for_good}},
       {{"servo_gone_for_good", 13, false, {}, Event::kServoGone}, {gone_for_good}},
-      {{"stale_values", 12, false, {}, Event::kServoRepeats, 1}, {repeats}},
+      {{"stale_values", 12, false, {}, Event::kRepeats, 1}, {repeats}},
       {{"late_loop", 6, false, {}, Event::kLateLoop}, {late}},
       {{"cut_0_2_s_physics", 3, true, {.cut = true}, Event::kNone, 0.2}, {cut_all}},
       {{"cut_1_s", 9, false, {.cut = true}, Event::kNone, 1, 8}, {cut_all, walks_again}},

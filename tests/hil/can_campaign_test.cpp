@@ -109,7 +109,7 @@ const std::vector<Kind>& kinds() {
       {{"interface_down_0_2_s", 5, {.down = true}, Event::kNone, {}, 0.2, 4}, {down, walks_again}},
       {{"interface_down_1_s", 4, {.down = true}, Event::kNone, {}, 1, 8}, {down, walks_again}},
       {{"interface_down_0_2_s_physics", 2, {.down = true}, Event::kNone, {}, 0.2, 3, true}, {down}},
-      {{"stale_values", 3, {}, Event::kNodeRepeats, {}, 1}, {repeats}},
+      {{"stale_values", 3, {}, Event::kRepeats, {}, 1}, {repeats}},
       {{"late_loop", 4, {}, Event::kLateLoop}, {late}},
       {{"controller_reset", 4, {}, Event::kReset, {}, 0, 6}, {reset, walks_again}},
       {{"hot_drive", 2, {}, Event::kHot, {}, 5, 9}, {hot, walks_again}},

@@ -18,7 +18,7 @@ enum class CanEvent : std::uint8_t {
   kAllReboot,      ///< drives and sensors: their power was off and is on again
   kImuReboots,
   kFootReboots,
-  kNodeRepeats,  ///< tells the same position again and again
+  kRepeats,      ///< tells the same position again and again
   kLateLoop,     ///< the controller is busy elsewhere for longer than a period, now and then
   kReset,        ///< the controller starts anew
   kHot,          ///< a drive is hotter than it should, and goes on

@@ -12,7 +12,7 @@ enum class Event {
   kNone,
   kServoGone,       ///< unplugged from the bus, not from its power
   kServoUnpowered,  ///< unplugged: back again, it starts anew
-  kServoRepeats,    ///< tells the same position again and again
+  kRepeats,         ///< tells the same position again and again
   kLateLoop,        ///< the controller is busy elsewhere for longer than a period, now and then
   kReset,           ///< the controller starts anew
   kHot,             ///< a servo is hotter than it should, and goes on
