@@ -20,6 +20,8 @@ int32 sec
 uint32 nanosec
 )";
 
+const std::string_view kStringSchema = "string data\n";
+
 const std::string_view kImuSchema = R"(std_msgs/Header header
 geometry_msgs/Quaternion orientation
 float64[9] orientation_covariance
@@ -142,6 +144,19 @@ std::string joint_state(const Params& params, const Inputs& inputs, std::uint64_
   }
   out.put(std::uint32_t{0}).put(std::uint32_t{0});  // velocity and effort are not measured
   return out.take();
+}
+
+std::string string(std::string_view text) {
+  return Cdr().text(text).take();
+}
+
+std::optional<std::string> read_string(std::string_view message) {
+  std::uint32_t size = 0;
+  if (message.size() < 4 + sizeof size) return std::nullopt;
+  std::memcpy(&size, message.data() + 4, sizeof size);
+  const std::string_view text = message.substr(4 + sizeof size);
+  if (size == 0 || text.size() != size) return std::nullopt;
+  return std::string(text.substr(0, size - 1));
 }
 
 std::string imu(const Params& params, const Inputs& inputs, std::uint64_t time_ns) {

@@ -1,6 +1,7 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -15,6 +16,7 @@ namespace verp::record::ros {
 /// Message definitions with their dependencies, as MCAP's "ros2msg" schema encoding wants them.
 extern const std::string_view kJointStateSchema;  ///< sensor_msgs/msg/JointState
 extern const std::string_view kImuSchema;         ///< sensor_msgs/msg/Imu
+extern const std::string_view kStringSchema;      ///< std_msgs/msg/String
 extern const std::string_view kTfSchema;          ///< tf2_msgs/msg/TFMessage
 
 /// Position and orientation (x, y, z, w) of the body in the world.
@@ -31,6 +33,10 @@ std::string imu(const Params& params, const Inputs& inputs, std::uint64_t time_n
 /// angle.
 std::string transforms(const Params& params, const Inputs& inputs, const BodyPose& body,
                        std::uint64_t time_ns);
+
+std::string string(std::string_view text);
+/// What string() was given; nothing if that is none.
+std::optional<std::string> read_string(std::string_view message);
 
 /// Angle of a joint from its raw count.
 inline double joint_rad(const JointParams& joint, std::int32_t count) {

@@ -17,6 +17,8 @@ inline constexpr const char* kTickTopic =
     "/verp/tick";  ///< TickRecord bytes: all that replay needs
 inline constexpr const char* kStateTopic =
     "/verp/state";  ///< State bytes after the tick of the same log time
+inline constexpr const char* kChangedTopic =
+    "/verp/changed";  ///< what a person did to the twin after the tick of the same log time
 inline constexpr const char* kParamsAttachment = "params";
 inline constexpr const char* kMetadataName = "verp";
 inline constexpr const char* kTraceFormat = "1";
@@ -30,6 +32,12 @@ struct Keyframe {
   State state;
 };
 
+/// What a person did to the twin after that tick; replay does not need it.
+struct Change {
+  std::uint32_t tick = 0;
+  std::string what;
+};
+
 /// One run of the controller: everything replay needs, in memory.
 struct Trace {
   std::filesystem::path file;
@@ -37,7 +45,8 @@ struct Trace {
   mcap::StringMap metadata;
   std::vector<TickRecord> ticks;
   std::vector<Keyframe> keyframes;  ///< empty when the writer's State had another layout
-  std::string warning;              ///< read with Read::kRecover: what is missing; else empty
+  std::vector<Change> changes;
+  std::string warning;  ///< read with Read::kRecover: what is missing; else empty
 
   /// The 64-bit value that names the whole run; the chain's seed when there are no ticks.
   std::uint64_t digest() const {

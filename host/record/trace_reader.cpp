@@ -7,6 +7,7 @@
 #include "common/model/image.hpp"
 #include "host/record/fields.hpp"
 #include "host/record/mcap_reader.hpp"
+#include "host/record/ros_messages.hpp"
 #include "host/record/trace.hpp"
 
 namespace verp::record {
@@ -51,8 +52,11 @@ class Loader {
     load_params();
     std::uint16_t tick_id = 0, state_id = 0;
     const bool keyframes = find_channels(tick_id, state_id);
+    std::uint16_t changed_id = 0;
+    const bool changed = file_.find_channel(kChangedTopic, changed_id) != nullptr;
     for (const mcap::Message& message : file_.messages) {
       if (message.channel == tick_id) add_tick(message);
+      if (changed && message.channel == changed_id) add_change(message);
       if (keyframes && message.channel == state_id) add_keyframe(message);
     }
     return std::move(trace_);
@@ -147,6 +151,14 @@ class Loader {
     Keyframe& keyframe = trace_.keyframes.emplace_back();
     keyframe.index = trace_.ticks.size() - 1;
     std::memcpy(&keyframe.state, message.data.data(), sizeof(State));
+  }
+
+  void add_change(const mcap::Message& message) {
+    const auto what = ros::read_string(message.data);
+    if (!what || trace_.ticks.empty()) {
+      refuse(message.offset, "a change that belongs to no tick", "record the run again");
+    }
+    trace_.changes.push_back({trace_.ticks.back().inputs.tick, *what});
   }
 
   const fs::path& path_;

@@ -78,6 +78,15 @@ void TraceWriter::put(const TickRecord& record, const State* kept, const ros::Bo
   safe_ticks_ = ticks_;
 }
 
+void TraceWriter::note(std::uint32_t tick, const std::string& what) {
+  if (!changed_) {
+    changed_ = writer_.add_channel(
+        writer_.add_schema("std_msgs/msg/String", "ros2msg", ros::kStringSchema), kChangedTopic,
+        "cdr");
+  }
+  writer_.add_message(*changed_, std::uint64_t{tick} * params_.period_us * 1000, ros::string(what));
+}
+
 void TraceWriter::append_ros(const Inputs& inputs, const ros::BodyPose* body,
                              std::uint64_t time_ns) {
   writer_.add_message(joints_, time_ns, ros::joint_state(params_, inputs, time_ns));

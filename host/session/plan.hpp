@@ -10,6 +10,7 @@
 #include "firmware/app/contracts.hpp"
 #include "host/model/entity.hpp"
 #include "host/record/trace_writer.hpp"
+#include "host/session/intervention.hpp"
 #include "host/sim/metrics.hpp"
 #include "host/sim/robot.hpp"
 
@@ -26,6 +27,8 @@ struct WalkPlan {
   double walk_s = 20;     ///< of gait; of a run whose orders come from Hooks::order: of the run
   sim::TwinOptions twin;  ///< seed, where it stands, what of it varies
   std::string board;      ///< emulated board that runs the controller; empty: this process
+  std::string name;       ///< among other robots of the world; empty: as params have it
+  std::vector<Intervention> interventions;  ///< of what is done to the twin, in any order
 };
 
 /// What there is to see after a tick of one robot.
@@ -67,6 +70,7 @@ struct WalkResult {
   double longest_step_m = 0;  ///< that the gait made: the asked one, or what limits left of it
   double simulated_s = 0, wall_s = 0;
   std::vector<double> set_upright_s;  ///< when somebody set it on its feet, simulated time
+  std::vector<Done> interventions;    ///< what of the plan's was done, and what else
   bool interrupted = false;
   std::optional<CanTraffic> can;  ///< of a walk over CAN
   std::string trace_failure;  ///< why the trace breaks off; the walk went on. Empty: it does not

@@ -32,7 +32,10 @@ Robot::Robot(sim::World& world, const WalkPlan& plan, Hooks hooks, Interrupted i
       trace_(hooks_.trace),
       twin_(world, plan_.entity, plan_.twin),
       walker_(std::in_place, plan_.params, plan_.velocity, plan_.walk_s),
-      meter_(plan_.entity, hooks_.keep_series) {
+      meter_(plan_.entity, hooks_.keep_series),
+      pending_(plan_.interventions.begin(), plan_.interventions.end()) {
+  std::stable_sort(pending_.begin(), pending_.end(),
+                   [](const Intervention& a, const Intervention& b) { return a.at_s < b.at_s; });
   if (plan_.params.bus_protocol == BusProtocol::kCia402) {
     can_.emplace(plan_.params, twin_);
   } else {
@@ -109,10 +112,36 @@ void Robot::see() {
   result_.faults = outputs_.faults;
   if (trace_ != nullptr) append(seen.truth.body_world);
   const bool done = hooks_.order ? gone_s() >= plan_.walk_s : walker_->done();
+  intervene_in_time();
   after_s_ += twin_.fallen() || done ? plan_.params.period_us * 1e-6 : 0;
   const bool ends = after_s_ > (twin_.fallen() ? kAfterFall_s : kAfterStop_s);
   over_ = over_ || (ends && !hooks_.open_end);
   if (hooks_.ticked) hooks_.ticked({seen, gone_s(), &tick_, &state_, &outputs_});
+}
+
+void Robot::intervene_in_time() {
+  constexpr double kRounding_s = 1e-9;  // of seconds that are summed tick by tick
+  while (!pending_.empty() && pending_.front().at_s <= gone_s() + kRounding_s) {
+    intervene(pending_.front());
+    pending_.pop_front();
+  }
+}
+
+void Robot::intervene(const Intervention& intervention) {
+  apply(intervention, quantities_());
+  const std::string what = in_words(intervention);
+  result_.interventions.push_back({tick_.inputs.tick, simulated_s(), what});
+  note(what);
+}
+
+/// A disk that is full costs the trace, not the walk.
+void Robot::note(const std::string& what) {
+  try {
+    if (trace_ != nullptr) trace_->note(tick_.inputs.tick, what);
+  } catch (const record::TraceError& error) {
+    result_.trace_failure = error.what();
+    trace_ = nullptr;
+  }
 }
 
 bool Robot::has_torque() {
@@ -140,6 +169,7 @@ void Robot::watch() {
   ++result_.ticks;
   const double up = std::clamp(seen.truth.body_world.linear()(2, 2), -1.0, 1.0);
   verdict_.see(torque, std::acos(up), twin_.fallen());
+  intervene_in_time();
   after_s_ += verdict_.fell() ? plan_.params.period_us * 1e-6 : 0;
   over_ = over_ || gone_s() >= plan_.walk_s || after_s_ > kAfterFall_s;
   if (hooks_.ticked) hooks_.ticked({.seen = seen, .gone_s = gone_s()});

@@ -1,8 +1,10 @@
 #pragma once
 #include <cstdint>
+#include <deque>
 #include <functional>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "firmware/app/contracts.hpp"
 #include "host/bus/virtual_bus.hpp"
@@ -23,6 +25,7 @@ class Robot {
   Robot(sim::World& world, const WalkPlan& plan, Hooks hooks, Interrupted interrupted);
 
   const WalkPlan& plan() const { return plan_; }
+  std::string name() const { return plan_.name.empty() ? plan_.params.name : plan_.name; }
   sim::TwinRobot& twin() { return twin_; }
   /// The bus that the plan's Params speak of; the other one is not there.
   bus::VirtualBus& bus() { return *bus_; }
@@ -58,6 +61,14 @@ class Robot {
   /// (FallVerdict), and is served on.
   void watch();
 
+  /// Who gives the world's quantities and pushes; before the first tick.
+  void set_quantities(std::function<sim::Quantities&()> quantities) {
+    quantities_ = std::move(quantities);
+  }
+  /// Done now, after the last tick, and recorded. Throws std::invalid_argument if there is nothing
+  /// of that name, or the value is out of range: nothing was done then.
+  void intervene(const Intervention& intervention);
+
   /// Somebody sets it on its feet (sim::TwinRobot): kept in the result, with the time. False: not
   /// now, a servo has torque.
   bool set_upright();
@@ -75,6 +86,8 @@ class Robot {
  private:
   void append(const sim::Transform& body_world);
   std::string failure_of_walk() const;
+  void intervene_in_time();
+  void note(const std::string& what);
   void count_traffic();
   double walked_s() const;
   bool has_torque();
@@ -90,7 +103,9 @@ class Robot {
   double walked_s_ = 0;  ///< by controllers that are no more
   sim::WalkMeter meter_;
   WalkResult result_;
-  TickRecord tick_;  ///< the last one taken, and what came with it
+  std::function<sim::Quantities&()> quantities_;
+  std::deque<Intervention> pending_;  ///< the next one first
+  TickRecord tick_;                   ///< the last one taken, and what came with it
   State state_;
   Outputs outputs_;
   bool taken_ = false;                                    ///< and not seen yet

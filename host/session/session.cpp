@@ -1,5 +1,6 @@
 #include "host/session/session.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <stdexcept>
 #include <utility>
@@ -49,7 +50,23 @@ Session::~Session() = default;
 Robot& Session::add(const WalkPlan& plan, Hooks hooks, const MakeController& make) {
   if (begun_) throw std::logic_error("a robot joins a session before its first tick");
   seats_.push_back(std::make_unique<Seat>(*this, plan, std::move(hooks), make));
-  return seats_.back()->robot;
+  Robot& robot = seats_.back()->robot;
+  robot.set_quantities([this]() -> sim::Quantities& { return quantities(); });
+  return robot;
+}
+
+sim::Quantities& Session::quantities() {
+  if (quantities_) return *quantities_;
+  quantities_ = std::make_unique<sim::Quantities>(world_);
+  std::vector<std::string> names;
+  for (const auto& seat : seats_) names.push_back(seat->robot.name());
+  for (std::size_t i = 0; i < seats_.size(); ++i) {
+    const auto others =
+        std::count(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(i), names[i]);
+    const std::string number = others > 0 ? std::to_string(others + 1) : "";
+    quantities_->add(seats_[i]->robot.twin(), seats_.size() == 1 ? "" : names[i] + number + ".");
+  }
+  return *quantities_;
 }
 
 Robot& Session::robot(std::size_t index) {

@@ -8,6 +8,7 @@
 #include "host/session/controller.hpp"
 #include "host/session/plan.hpp"
 #include "host/session/robot.hpp"
+#include "host/sim/quantities.hpp"
 #include "host/sim/world.hpp"
 
 namespace verp::session {
@@ -45,6 +46,10 @@ class Session {
   bool over() const;
 
   std::uint64_t now_us() const { return world_.now_us(); }
+  /// Of the world and all in it, once all robots were added. Made when first asked for: a run that
+  /// nobody touches does not pay for it. To set one so that the run can be repeated is
+  /// Robot::intervene().
+  sim::Quantities& quantities();
   std::size_t size() const { return seats_.size(); }
   Robot& robot(std::size_t index);
   /// Of that robot, once, at the end.
@@ -59,7 +64,8 @@ class Session {
   const Options options_;
   sim::World world_;
   std::deque<std::unique_ptr<Seat>> seats_;
-  double wall_s_ = 0;  ///< in tick()
+  std::unique_ptr<sim::Quantities> quantities_;  ///< goes before what it is of
+  double wall_s_ = 0;                            ///< in tick()
   bool begun_ = false;
 };
 

@@ -1,5 +1,6 @@
 #include "host/sim/body.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -92,6 +93,12 @@ Transform between_soles(const model::Entity& entity, const std::vector<Transform
 
 }  // namespace
 
+bool is_inertia(const Mat3& inertia_kg_m2) {
+  const Vec3 moment =
+      Eigen::SelfAdjointEigenSolver<Mat3>(inertia_kg_m2, Eigen::EigenvaluesOnly).eigenvalues();
+  return moment[0] > 0 && moment[0] + moment[1] >= moment[2] * (1 - 1e-9);
+}
+
 std::vector<Transform> link_poses(const model::Entity& entity, const Transform& body_world,
                                   const std::vector<double>& joint_rad) {
   std::vector<Transform> pose(entity.nodes.size());
@@ -161,10 +168,7 @@ void Body::make_link(const model::Node& node, double mass_factor, int index, int
   if (!(node.mass_kg > 0)) throw std::invalid_argument("link '" + node.name + "' has no mass");
   const Mat3 inertia = node.inertia_kg_m2 * mass_factor + Mat3::Identity() * kMinInertia;
   const Link link{dBodyCreate(world_.ode_world()), node.com_m, node.mass_kg * mass_factor, inertia};
-  dMass mass;
-  dMassSetParameters(&mass, link.mass_kg, 0, 0, 0, inertia(0, 0), inertia(1, 1), inertia(2, 2),
-                     inertia(0, 1), inertia(0, 2), inertia(1, 2));
-  dBodySetMass(link.body, &mass);
+  weigh(link);
   for (const model::Collision& shape : node.collisions) {
     const dGeomID geom = world_.make_shape(shape);
     dGeomSetBody(geom, link.body);
@@ -184,6 +188,63 @@ void Body::make_link(const model::Node& node, double mass_factor, int index, int
   }
   mass_kg_ += link.mass_kg;
   links_.push_back(link);
+}
+
+void Body::weigh(const Link& link) const {
+  const Mat3& inertia = link.inertia_kg_m2;
+  dMass mass;
+  dMassSetParameters(&mass, link.mass_kg, 0, 0, 0, inertia(0, 0), inertia(1, 1), inertia(2, 2),
+                     inertia(0, 1), inertia(0, 2), inertia(1, 2));
+  dBodySetMass(link.body, &mass);
+}
+
+void Body::set_mass(int node, double mass_kg) {
+  Link& link = links_[index_of(node)];
+  mass_kg_ += mass_kg - link.mass_kg;
+  link.inertia_kg_m2 *= mass_kg / link.mass_kg;
+  link.mass_kg = mass_kg;
+  weigh(link);
+}
+
+void Body::set_inertia(int node, int axis, double inertia_kg_m2) {
+  Link& link = links_[index_of(node)];
+  Mat3 inertia = link.inertia_kg_m2;
+  inertia(axis, axis) = inertia_kg_m2;
+  if (!is_inertia(inertia)) {
+    throw std::invalid_argument("no body has such an inertia: no moment exceeds the other two");
+  }
+  link.inertia_kg_m2 = inertia;
+  weigh(link);
+}
+
+void Body::move(const Transform& by_world) {
+  for (std::size_t n = 0; n < links_.size(); ++n) {
+    set_pose(links_[n].body, by_world * link_pose(static_cast<int>(n)), links_[n].com_m);
+  }
+  if (held()) dJointSetFixed(hold_);
+}
+
+void Body::add_velocity(const Vec3& linear_world_m_s, const Vec3& angular_world_rad_s) {
+  const Vec3 origin = link_pose(0).translation();
+  for (const Link& link : links_) {
+    const dReal* at = dBodyGetPosition(link.body);
+    const dReal* v = dBodyGetLinearVel(link.body);
+    const dReal* w = dBodyGetAngularVel(link.body);
+    const Vec3 arm = Vec3(at[0], at[1], at[2]) - origin;
+    const Vec3 more = linear_world_m_s + angular_world_rad_s.cross(arm);
+    dBodySetLinearVel(link.body, v[0] + more.x(), v[1] + more.y(), v[2] + more.z());
+    dBodySetAngularVel(link.body, w[0] + angular_world_rad_s.x(), w[1] + angular_world_rad_s.y(),
+                       w[2] + angular_world_rad_s.z());
+  }
+}
+
+std::vector<GeomTag*> Body::tags(int node) const {
+  std::vector<GeomTag*> tags;
+  for (dGeomID geom = dBodyGetFirstGeom(ode_body(node)); geom != nullptr;
+       geom = dBodyGetNextGeom(geom)) {
+    tags.push_back(static_cast<GeomTag*>(dGeomGetData(geom)));
+  }
+  return tags;
 }
 
 void Body::make_hinge(const model::Joint& joint, int index,

@@ -22,6 +22,9 @@ Transform standing_pose(const model::Entity& entity, const std::vector<double>& 
 Transform resting(const model::Entity& entity, const std::vector<double>& joint_rad,
                   Transform body_world, double gap_m);
 
+/// Positive, and no principal moment above the sum of the other two.
+bool is_inertia(const Mat3& inertia_kg_m2);
+
 /// The leg's limb (0 left, 1 right), or null.
 const model::Limb* find_leg(const model::Entity& entity, int foot);
 
@@ -42,6 +45,17 @@ class Body {
   void drive(int joint, const Drive& drive);
   /// What each joint turns as it stands now: its link and all beyond, about its axis.
   std::vector<double> inertias_kg_m2() const;
+  /// Another mass of the same shape: the inertia goes with it.
+  void set_mass(int node, double mass_kg);
+  /// About the link's x, y or z. Throws std::invalid_argument if no body has such moments.
+  void set_inertia(int node, int axis, double inertia_kg_m2);
+  /// Moves all of it as one, at the speeds that it has.
+  void move(const Transform& by_world);
+  /// Adds to the velocity of all of it, turning about the body's origin.
+  void add_velocity(const Vec3& linear_world_m_s, const Vec3& angular_world_rad_s);
+  dBodyID ode_body(int node) const { return links_[static_cast<std::size_t>(node)].body; }
+  /// Of the link's shapes.
+  std::vector<GeomTag*> tags(int node) const;
   /// Fixes the body to the world where it is, as a robot stand does.
   void hold();
   void release();
@@ -57,6 +71,10 @@ class Body {
   Vec3 angular_velocity_world_rad_s(int node) const;
   Vec3 point_velocity_world_m_s(int node, const Vec3& point_world_m) const;
   double mass_kg() const { return mass_kg_; }
+  double mass_kg(int node) const { return links_[static_cast<std::size_t>(node)].mass_kg; }
+  const Mat3& inertia_kg_m2(int node) const {
+    return links_[static_cast<std::size_t>(node)].inertia_kg_m2;
+  }
   Vec3 com_world_m() const;
   Vec3 com_velocity_world_m_s() const;
 
@@ -68,6 +86,7 @@ class Body {
     Mat3 inertia_kg_m2 = Mat3::Zero();  ///< about the centre of mass, link axes
   };
   void make_link(const model::Node& node, double mass_factor, int index, int owner);
+  void weigh(const Link& link) const;
   void make_hinge(const model::Joint& joint, int index, const std::vector<Transform>& zero_pose);
 
   World& world_;

@@ -75,6 +75,9 @@ class TwinRobot final : public Plant, private Actor {
   const model::Entity& entity() const { return entity_; }
   const ServoModel& servo(int joint) const { return servo_[static_cast<std::size_t>(joint)]; }
   const Body& body() const { return body_; }
+  Body& body() { return body_; }
+  ServoModel& servo(int joint) { return servo_[static_cast<std::size_t>(joint)]; }
+  int owner() const { return owner_; }
   Truth truth() const;
   /// Lets go of the body at once, whatever the cradle waits for.
   void release() { body_.release(); }

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "host/sim/ode_parts.hpp"
+
 namespace verp::sim {
 namespace {
 
@@ -22,11 +24,14 @@ constexpr double kConstraintSoftness = 1e-9;
 /// Penetration is undone at this speed at most, so that a bad start doesn't throw the robot into
 /// the air.
 constexpr double kMaxCorrectingVelocity = 1.0;
+/// What meets slower than this stays: gravity's gain in a step of 2 ms, or things would never rest.
+constexpr double kLeastBounce_m_s = 0.02;
 
 /// Springs in series; stiffness 0 means rigid.
 Surface combine(const Surface& a, const Surface& b) {
   Surface both;
   both.friction = std::min(a.friction, b.friction);
+  both.restitution = std::max(a.restitution, b.restitution);
   if (a.stiffness_n_m > 0 && b.stiffness_n_m > 0) {
     both.stiffness_n_m = 1.0 / (1.0 / a.stiffness_n_m + 1.0 / b.stiffness_n_m);
     both.damping_n_s_m = a.damping_n_s_m + b.damping_n_s_m;
@@ -43,15 +48,16 @@ Surface combine(const Surface& a, const Surface& b) {
 void set_surface(dSurfaceParameters& out, const Surface& surface, double step_s) {
   out.mode = dContactApprox1;
   out.mu = surface.friction;
+  if (surface.restitution > 0) {
+    out.mode |= dContactBounce;
+    out.bounce = surface.restitution;
+    out.bounce_vel = kLeastBounce_m_s;
+  }
   if (surface.stiffness_n_m <= 0) return;
   const double spring = step_s * surface.stiffness_n_m;
   out.mode |= dContactSoftERP | dContactSoftCFM;
   out.soft_erp = spring / (spring + surface.damping_n_s_m);
   out.soft_cfm = 1.0 / (spring + surface.damping_n_s_m);
-}
-
-Vec3 to_vec(const dReal* v) {
-  return {v[0], v[1], v[2]};
 }
 
 }  // namespace
@@ -61,15 +67,14 @@ World::World(const WorldOptions& options) : options_(options) {
   world_ = dWorldCreate();
   space_ = dSimpleSpaceCreate(nullptr);
   contact_group_ = dJointGroupCreate(0);
-  const Vec3 gravity_m_s2 = -options.gravity_m_s2 * options.up.normalized();
-  dWorldSetGravity(world_, gravity_m_s2.x(), gravity_m_s2.y(), gravity_m_s2.z());
+  set_gravity(options.gravity_m_s2);
   dWorldSetERP(world_, kErrorReduction);
   dWorldSetCFM(world_, kConstraintSoftness);
   dWorldSetContactSurfaceLayer(world_, 0);
   dWorldSetContactMaxCorrectingVel(world_, kMaxCorrectingVelocity);
   if (options.ground) {
-    tag(dCreatePlane(space_, 0, 0, 1, 0),
-        GeomTag{.owner = kScenery, .surface = options.ground_surface});
+    ground_ = &tag(dCreatePlane(space_, 0, 0, 1, 0),
+                   GeomTag{.owner = kScenery, .surface = options.ground_surface});
   }
 }
 
@@ -79,9 +84,16 @@ World::~World() {
   dWorldDestroy(world_);
 }
 
-void World::tag(dGeomID geom, const GeomTag& tag) {
+void World::set_gravity(double gravity_m_s2) {
+  options_.gravity_m_s2 = gravity_m_s2;
+  const Vec3 down_m_s2 = -gravity_m_s2 * options_.up.normalized();
+  dWorldSetGravity(world_, down_m_s2.x(), down_m_s2.y(), down_m_s2.z());
+}
+
+GeomTag& World::tag(dGeomID geom, const GeomTag& tag) {
   tags_.push_back(tag);
   dGeomSetData(geom, &tags_.back());
+  return tags_.back();
 }
 
 dGeomID World::make_shape(const model::Collision& collision) {
@@ -124,7 +136,7 @@ void World::collide(dGeomID a, dGeomID b) {
     dJointAttach(joint, dGeomGetBody(point.geom.g1), dGeomGetBody(point.geom.g2));
     if (touching_.size() == feedback_.size()) feedback_.emplace_back();
     dJointSetFeedback(joint, &feedback_[touching_.size()]);
-    touching_.push_back({on, other, to_vec(point.geom.pos)});
+    touching_.push_back({on, other, vec_of(point.geom.pos)});
   }
 }
 
@@ -143,7 +155,7 @@ void World::read_contacts() {
   contacts_.clear();
   for (std::size_t i = 0; i < touching_.size(); ++i) {
     const Touching& pair = touching_[i];
-    const Vec3 force = to_vec(feedback_[i].f1);
+    const Vec3 force = vec_of(feedback_[i].f1);
     const GeomTag &a = *pair.first, &b = *pair.second;
     contacts_.push_back({a.owner, a.node, b.owner, b.node, pair.position_world_m, force});
     if (b.owner == kScenery) continue;

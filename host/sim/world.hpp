@@ -20,6 +20,7 @@ struct Surface {
   double friction = 1.0;
   double stiffness_n_m = 5e4;
   double damping_n_s_m = 500;
+  double restitution = 0;  ///< of speed; of two surfaces the larger counts. A soft one eats it up
 };
 
 inline constexpr int kScenery = -1;
@@ -99,11 +100,15 @@ class World final : public TimeSource {
   void remove(Actor& actor) { std::erase(actors_, &actor); }
 
   /// Attaches a tag that lives as long as the world, and lets the geometry collide.
-  void tag(dGeomID geom, const GeomTag& tag);
+  GeomTag& tag(dGeomID geom, const GeomTag& tag);
   /// A shape in this world's space, not attached to a body; the pose is the caller's business.
   dGeomID make_shape(const model::Collision& collision);
 
   dWorldID ode_world() const { return world_; }
+  /// From the next step on; the direction stays.
+  void set_gravity(double gravity_m_s2);
+  /// Of the plane z = 0; null if there is none.
+  GeomTag* ground_tag() { return ground_; }
 
  private:
   static void near_callback(void* self, dGeomID a, dGeomID b);
@@ -125,6 +130,7 @@ class World final : public TimeSource {
   int owners_ = 0;
   std::vector<Actor*> actors_;
   std::deque<GeomTag> tags_;
+  GeomTag* ground_ = nullptr;
   std::vector<Touching> touching_;
   std::deque<dJointFeedback>
       feedback_;  // a deque: ODE keeps pointers to its elements during the step

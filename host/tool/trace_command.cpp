@@ -49,6 +49,11 @@ int info(const TraceCommandOptions& options) {
   if (options.json) {
     Json metadata = Json::object();
     for (const auto& [key, value] : trace.metadata) metadata[key] = value;
+    Json changes = Json::array();
+    for (const record::Change& each : trace.changes) {
+      changes.push_back(
+          {{"tick", each.tick}, {"time_s", each.tick * trace.period_s()}, {"what", each.what}});
+    }
     print_json(
         {{"trace", options.file},
          {"model", std::string(trace.params.name, ::strnlen(trace.params.name, kNameLength))},
@@ -58,6 +63,7 @@ int info(const TraceCommandOptions& options) {
          {"joints", trace.params.joint_count},
          {"kept_states", trace.keyframes.size()},
          {"digest", digest},
+         {"changes", changes},
          {"metadata", metadata}});
     return kGood;
   }
@@ -65,6 +71,10 @@ int info(const TraceCommandOptions& options) {
       fmt::format("{}\n  {} ticks of {} us: {:.2f} s\n  {} joints, {} kept States\n  digest {}\n",
                   options.file, trace.ticks.size(), trace.params.period_us, duration_s,
                   trace.params.joint_count, trace.keyframes.size(), digest));
+  for (const record::Change& each : trace.changes) {
+    answer(fmt::format("  after tick {}, {:.2f} s: {}\n", each.tick, each.tick * trace.period_s(),
+                       each.what));
+  }
   for (const auto& [key, value] : trace.metadata) answer(fmt::format("  {}: {}\n", key, value));
   return kGood;
 }
@@ -146,11 +156,16 @@ int recover(const TraceCommandOptions& options) {
   record::TraceWriter writer(options.output, trace.params, run);
   // States are kept again where they stand; a damaged trace's fault bits are not known, so only
   // those.
-  std::size_t next = 0;
+  std::size_t next = 0, change = 0;
   for (std::size_t i = 0; i < trace.ticks.size(); ++i) {
     const bool kept = next < trace.keyframes.size() && trace.keyframes[next].index == i;
     writer.append(trace.ticks[i], kept ? &trace.keyframes[next].state : nullptr);
     next += kept ? 1 : 0;
+    for (;
+         change < trace.changes.size() && trace.changes[change].tick == trace.ticks[i].inputs.tick;
+         ++change) {
+      writer.note(trace.changes[change].tick, trace.changes[change].what);
+    }
   }
   writer.close({{"recovered_from", options.file}});
   complain(trace.warning.empty() ? options.file + ": is whole" : trace.warning);

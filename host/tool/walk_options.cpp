@@ -159,6 +159,7 @@ void declare(CLI::App& app, WalkOptions& options) {
                  "of the twin, ms: 0.25, 0.5, 1, or 2, which is twice as fast and within 1 %")
       ->check(CLI::IsMember({0.25, 0.5, 1.0, 2.0}))
       ->capture_default_str();
+  declare(app, options.touch);
   app.add_option("--on", options.board,
                  "run the controller in firmware on this emulated board (boards/)");
   app.add_flag("--no-multibody", options.no_multibody, "switch the multibody ZMP correction off");

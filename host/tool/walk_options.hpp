@@ -8,6 +8,7 @@
 #include "common/model/params.hpp"
 #include "host/model/entity.hpp"
 #include "host/sim/world.hpp"
+#include "host/tool/walk_touch.hpp"
 
 namespace CLI {
 class App;
@@ -33,6 +34,7 @@ struct WalkOptions {
       changed;                 ///< what is not as by default, in words
   std::string seeds_text;      ///< A-B: these seeds, one after the other
   double physics_step_ms = 1;  ///< 2: half as long a wait
+  TouchOptions touch;
 };
 
 void declare(CLI::App& app, WalkOptions& options);

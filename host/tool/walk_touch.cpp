@@ -1,0 +1,151 @@
+#include "host/tool/walk_touch.hpp"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+#include <stdexcept>
+
+#include "host/session/intervention.hpp"
+#include "host/sim/quantities.hpp"
+#include "host/tool/command.hpp"
+#include "host/tool/console.hpp"
+#include "host/tool/suggest.hpp"
+
+namespace verp::tool {
+namespace {
+
+using session::Intervention;
+
+/// What a run will have, without running it.
+struct Probe {
+  Probe(const WalkPlan& plan, const sim::WorldOptions& options)
+      : world(options), robot(world, plan.entity, plan.twin), quantities(world) {
+    quantities.add(robot);
+  }
+  sim::World world;
+  sim::TwinRobot robot;
+  sim::Quantities quantities;
+};
+
+Intervention read(const std::string& option, const std::string& text,
+                  Intervention (*reader)(const std::string&)) {
+  try {
+    return reader(text);
+  } catch (const std::invalid_argument& error) {
+    throw ToolError(kBadInput, fmt::format("verp walk: {} '{}': {}", option, text, error.what()));
+  }
+}
+
+std::string hint(const Intervention& each, const sim::Quantities& quantities) {
+  const bool push = each.kind == Intervention::Kind::kPush;
+  const std::vector<std::string> names = push ? quantities.things() : quantities.names();
+  if (std::find(names.begin(), names.end(), each.name) != names.end()) return "";
+  const std::string meant = did_you_mean(each.name, names);
+  return meant.empty() ? "; `verp walk --list-quantities` lists them" : meant;
+}
+
+void check_all(const std::vector<std::pair<std::string, Intervention>>& read, const WalkPlan& plan,
+               const sim::WorldOptions& world) {
+  Probe probe(plan, world);
+  for (const auto& [option, each] : read) {
+    try {
+      session::check(each, probe.quantities);
+    } catch (const std::invalid_argument& error) {
+      throw ToolError(kBadInput, fmt::format("verp walk: {}: {}{}", option, error.what(),
+                                             hint(each, probe.quantities)));
+    }
+    if (each.at_s <= plan.walk_s) continue;
+    throw ToolError(kBadInput,
+                    fmt::format("verp walk: {}: {:g} s is after the end, {:g} s; raise --for",
+                                option, each.at_s, plan.walk_s));
+  }
+}
+
+}  // namespace
+
+void declare(CLI::App& app, TouchOptions& options) {
+  app.add_option("--push", options.pushes,
+                 "'T: LINK fx,fy,fz N for S': push it T s into the gait, in the world's axes; may "
+                 "be repeated")
+      ->allow_extra_args(false);
+  app.add_option(
+         "--at", options.settings,
+         "'T: NAME=VALUE': set a quantity of the physics T s into the gait; may be repeated")
+      ->allow_extra_args(false);
+  app.add_flag("--list-quantities", options.list,
+               "the names that --at may set, with unit and range, and those that can be read");
+}
+
+void read_touch(const TouchOptions& options, WalkPlan& plan, const sim::WorldOptions& world) {
+  std::vector<std::pair<std::string, Intervention>> all;
+  for (const std::string& text : options.pushes)
+    all.emplace_back("--push '" + text + "'", read("--push", text, session::read_push));
+  for (const std::string& text : options.settings)
+    all.emplace_back("--at '" + text + "'", read("--at", text, session::read_setting));
+  if (all.empty()) return;
+  check_all(all, plan, world);
+  for (const auto& [option, each] : all) plan.interventions.push_back(each);
+}
+
+int list_quantities(const WalkPlan& plan, const sim::WorldOptions& world, bool json) {
+  Probe probe(plan, world);
+  Json all = Json::array();
+  std::string text;
+  std::set<std::string> kinds;
+  for (const sim::Quantity& q : probe.quantities.all()) {
+    Json row = {{"name", q.name}, {"unit", q.unit}, {"what", q.what}, {"value", q.read()}};
+    if (q.settable()) row["low"] = q.low, row["high"] = q.high;
+    all.push_back(row);
+    const std::string kind = q.name.substr(q.name.find('.') + 1);
+    if (!kinds.insert(kind + q.what).second) continue;
+    const std::string range =
+        q.settable() ? fmt::format("set {:g} to {:g}", q.low, q.high) : "read";
+    text += fmt::format("  {:<44}{:<10}{:<24}{}\n", q.name, q.unit, range, q.what);
+  }
+  if (json) {
+    print_json({{"model", plan.params.name}, {"quantities", all}});
+    return kGood;
+  }
+  std::string names;
+  for (const std::string& thing : probe.quantities.things()) names += " " + thing;
+  std::string joints;
+  for (const model::Joint& joint : plan.entity.joints) joints += " " + joint.name;
+  answer(
+      fmt::format("{}: {} quantities; one of each kind:\n{}\nthings that can be pushed:{}\n"
+                  "joints:{}\n",
+                  plan.params.name, probe.quantities.all().size(), text, names, joints));
+  return kGood;
+}
+
+Json touch_json(const WalkResult& result) {
+  Json out = Json::array();
+  for (const session::Done& each : result.interventions) {
+    out.push_back({{"tick", each.tick}, {"time_s", each.time_s}, {"what", each.what}});
+  }
+  return out;
+}
+
+std::string touch_text(const WalkResult& result) {
+  std::string out;
+  for (const session::Done& each : result.interventions) {
+    out += fmt::format("  {:<18}after tick {}, at {:.3f} s simulated: {}\n", "done", each.tick,
+                       each.time_s, each.what);
+  }
+  return out;
+}
+
+std::vector<std::string> never_done(const WalkPlan& plan, const WalkResult& result) {
+  std::vector<Intervention> sorted = plan.interventions;
+  std::stable_sort(sorted.begin(), sorted.end(),
+                   [](const Intervention& a, const Intervention& b) { return a.at_s < b.at_s; });
+  std::vector<std::string> lines;
+  for (std::size_t i = result.interventions.size(); i < sorted.size(); ++i) {
+    lines.push_back(fmt::format("verp walk: '{:g}: {}' was not done: the gait was over before",
+                                sorted[i].at_s, session::in_words(sorted[i])));
+  }
+  return lines;
+}
+
+}  // namespace verp::tool
