@@ -93,12 +93,6 @@ Transform between_soles(const model::Entity& entity, const std::vector<Transform
 
 }  // namespace
 
-bool is_inertia(const Mat3& inertia_kg_m2) {
-  const Vec3 moment =
-      Eigen::SelfAdjointEigenSolver<Mat3>(inertia_kg_m2, Eigen::EigenvaluesOnly).eigenvalues();
-  return moment[0] > 0 && moment[0] + moment[1] >= moment[2] * (1 - 1e-9);
-}
-
 std::vector<Transform> link_poses(const model::Entity& entity, const Transform& body_world,
                                   const std::vector<double>& joint_rad) {
   std::vector<Transform> pose(entity.nodes.size());
@@ -210,9 +204,8 @@ void Body::set_inertia(int node, int axis, double inertia_kg_m2) {
   Link& link = links_[index_of(node)];
   Mat3 inertia = link.inertia_kg_m2;
   inertia(axis, axis) = inertia_kg_m2;
-  if (!is_inertia(inertia)) {
-    throw std::invalid_argument("no body has such an inertia: no moment exceeds the other two");
-  }
+  if (!(Eigen::SelfAdjointEigenSolver<Mat3>(inertia, Eigen::EigenvaluesOnly).eigenvalues()[0] > 0))
+    throw std::invalid_argument("that inertia is not positive definite");
   link.inertia_kg_m2 = inertia;
   weigh(link);
 }

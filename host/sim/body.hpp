@@ -22,9 +22,6 @@ Transform standing_pose(const model::Entity& entity, const std::vector<double>& 
 Transform resting(const model::Entity& entity, const std::vector<double>& joint_rad,
                   Transform body_world, double gap_m);
 
-/// Positive, and no principal moment above the sum of the other two.
-bool is_inertia(const Mat3& inertia_kg_m2);
-
 /// The leg's limb (0 left, 1 right), or null.
 const model::Limb* find_leg(const model::Entity& entity, int foot);
 
@@ -47,7 +44,8 @@ class Body {
   std::vector<double> inertias_kg_m2() const;
   /// Another mass of the same shape: the inertia goes with it.
   void set_mass(int node, double mass_kg);
-  /// About the link's x, y or z. Throws std::invalid_argument if no body has such moments.
+  /// About the link's x, y or z. Throws std::invalid_argument unless it stays
+  /// positive definite.
   void set_inertia(int node, int axis, double inertia_kg_m2);
   /// Moves all of it as one, at the speeds that it has.
   void move(const Transform& by_world);

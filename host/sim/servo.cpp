@@ -124,6 +124,12 @@ Drive ServoModel::motor_line(double supply_v) const {
   return std::abs(torque) > limit ? Drive{std::copysign(limit, torque), 0} : line;
 }
 
+/// Friction that there was none of takes hold where the joint is, not where it once stood.
+void ServoModel::set_joint_friction(double friction_n_m) {
+  joint_.friction_n_m = friction_n_m;
+  if (std::abs(rotor_rad_s_) > constants_.still_rad_s) sliding_ = rotor_rad_s_ > 0 ? 1 : -1;
+}
+
 double ServoModel::friction_budget_n_m(double rate_rad_s, double load_n_m) const {
   const model::Gearbox& gears = joint_.servo.gearbox;
   const double speed = std::abs(rate_rad_s);

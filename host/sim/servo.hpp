@@ -87,7 +87,7 @@ class ServoModel {
   double joint_damping_n_m_s() const { return joint_.damping_n_m_s; }
   double joint_friction_n_m() const { return joint_.friction_n_m; }
   void set_joint_damping(double damping_n_m_s) { joint_.damping_n_m_s = damping_n_m_s; }
-  void set_joint_friction(double friction_n_m) { joint_.friction_n_m = friction_n_m; }
+  void set_joint_friction(double friction_n_m);
   /// Where the profile stands, as the joint's true angle.
   double profile_rad() const {
     return angle_of(joint_.servo, profile_count_) - noise_.zero_error_rad;
