@@ -7,6 +7,7 @@
 #include "common/protocol/canopen/dictionary.hpp"
 #include "common/protocol/canopen/frame.hpp"
 #include "common/protocol/canopen/published_tick.hpp"
+#include "common/protocol/canopen/robot_plan.hpp"
 #include "firmware/app/operator_registers.hpp"
 
 namespace verp::app {
@@ -15,7 +16,12 @@ namespace verp::app {
 /// device profile and has no vendor id of CiA's. Its heartbeat is the binding's, which drives
 /// watch.
 inline constexpr canopen::DeviceSize kControllerSize{
-    .rpdos = 2, .tpdos = 4, .watched = 2, .beats = false};
+    .rpdos = 2,
+    .tpdos = 4,
+    .watched = 2,
+    .beats = false,
+    .falls_back = false,
+    .further_sdos = canopen::plan::kControllerSdos};
 constexpr canopen::Identity controller_identity() {
   return {.name = "VERP controller", .product = table::kModel, .revision = table::kTableVersion};
 }
@@ -171,7 +177,9 @@ class ControllerObjects {
   canopen::Abort find_image(canopen::Address at, canopen::Entry& entry) const {
     if (at.subindex != 0) return canopen::Abort::kNoSubindex;
     const auto size = static_cast<std::uint32_t>(store_.size(kind_of(at.index)));
-    if (size == 0) return canopen::Abort::kNoObject;
+    // Not kept on this board, or not now. Actions have no format yet, and stand in no sheet.
+    const bool known = kind_of(at.index) != ImageKind::kActions;
+    if (size == 0) return known ? canopen::Abort::kNoData : canopen::Abort::kNoObject;
     entry = {true, !is_log(at.index), size, size, size};
     return canopen::Abort::kNone;
   }

@@ -4,6 +4,7 @@
 #include "common/model/counts.hpp"
 #include "common/model/params.hpp"
 #include "common/protocol/canopen/cia402.hpp"
+#include "common/protocol/canopen/nmt.hpp"
 #include "common/protocol/canopen/pdo_record.hpp"
 #include "common/protocol/canopen/robot_plan.hpp"
 #include "firmware/app/can_nodes.hpp"
@@ -56,6 +57,9 @@ class SettingList {
     add({object::kQuickStopOption, canopen::plan::kQuickStopAndHold, 2});
     add({object::kAbortConnection,
          static_cast<std::uint32_t>(canopen::cia402::AbortConnection::kQuickStop), 2});
+    // A drive that holds by itself goes on to answer: with the next heartbeat it is enabled again.
+    add({canopen::plan::kErrorBehaviour, static_cast<std::uint8_t>(canopen::ErrorBehaviour::kStay),
+         1, true, true});
     const std::uint32_t watched = std::uint32_t{canopen::plan::kControllerNode} << 16;
     add({object::kConsumerHeartbeat, watched | canopen::plan::patience_ms(params_), 4});
     const std::uint8_t group = canopen::plan::group_of_joint(slot_);

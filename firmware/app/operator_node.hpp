@@ -49,6 +49,7 @@ class OperatorNode {
   bool poll(CanFrame& frame, std::uint32_t timeout_us) {
     for (int taken = 0; bus_.poll(frame, timeout_us); ++taken) {
       if (!is_for_node(frame)) return true;
+      ++asked_;
       device_.receive(frame, bus_.now_us());
       if (!ticks_) answer();
       if (taken == kMostTaken) return false;  // no babbler holds the tick
@@ -92,6 +93,8 @@ class OperatorNode {
     registers_.withdraw_orders();
   }
   void report(const LoopHealth& health) { registers_.report().health(health); }
+  /// Frames that were addressed to it: somebody else's, who keeps no pace.
+  std::uint32_t asked() const { return asked_; }
 
  private:
   using Objects = ControllerObjects<Store>;
@@ -106,6 +109,7 @@ class OperatorNode {
   // stray.
   static bool is_for_node(const CanFrame& frame) {
     if (!canopen::is_canopen(frame)) return false;
+    if (canopen::plan::is_to_controllers_sdo(frame.id)) return true;
     const canopen::Connection to = canopen::connection_of(frame.id);
     return to.node == kNode &&
            (to.service == canopen::Service::kSdoRequest || to.service == canopen::Service::kRpdo);
@@ -140,6 +144,7 @@ class OperatorNode {
   canopen::published::Parts parts_;
   Inputs before_;
   bool ticks_ = false;  ///< there has been one
+  std::uint32_t asked_ = 0;
 };
 
 }  // namespace verp::app

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "common/protocol/canopen/cob_id.hpp"
+#include "common/protocol/canopen/robot_plan.hpp"
 #include "firmware/app/sdo_transfer.hpp"
 
 namespace verp::can {
@@ -80,12 +81,25 @@ Client::Client(wire::CanPort& port, const wire::Endpoint& endpoint, std::uint32_
 Client::Client(ClientBus& bus, std::string place, std::uint32_t timeout_us)
     : bus_(bus), master_(bus_), timeout_us_(timeout_us), place_(std::move(place)) {}
 
+canopen::SdoChannel Client::channel_to(std::uint8_t node) {
+  if (node != canopen::plan::kControllerNode) return canopen::default_sdo(node);
+  const canopen::SdoChannel own = canopen::further_sdo(canopen::plan::kToolSdo);
+  for (int times = 0; !has_own_channel_ && times < kAttempts - 1; ++times) {
+    std::uint8_t type[4];
+    SdoClient client(own);
+    client.upload(kDeviceType, type, sizeof type, SdoClient::Mode::kPlain, master_.now_us());
+    if (app::run_transfer(client, master_, timeout_us_)) has_own_channel_ = true;
+  }
+  if (!has_own_channel_) has_own_channel_ = false;
+  return *has_own_channel_ ? own : canopen::default_sdo(node);
+}
+
 Abort Client::upload(std::uint8_t node, Address at, int attempts, std::vector<std::uint8_t>& data) {
   Abort why = Abort::kTimeout;
   for (int times = 0; times < attempts && may_be_late(why); ++times) {
     if (times > 0 && stop_()) break;
     data.resize(kMostBytes);
-    SdoClient client(node);
+    SdoClient client(channel_to(node));
     client.upload(at, data.data(), kMostBytes, SdoClient::Mode::kPlain, master_.now_us());
     const bool good = app::run_transfer(client, master_, timeout_us_);
     data.resize(good ? client.size() : 0);
@@ -123,7 +137,7 @@ std::vector<std::uint8_t> Client::read(std::uint8_t node, Address at) {
 void Client::write(std::uint8_t node, Address at, const std::vector<std::uint8_t>& data) {
   Abort why = Abort::kTimeout;
   for (int times = 0; times < kAttempts && why == Abort::kTimeout; ++times) {
-    SdoClient client(node);
+    SdoClient client(channel_to(node));
     client.download(at, data.data(), static_cast<std::uint32_t>(data.size()),
                     SdoClient::Mode::kPlain, master_.now_us());
     why = app::run_transfer(client, master_, timeout_us_) ? Abort::kNone : client.reason();

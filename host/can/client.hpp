@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "common/protocol/canopen/cob_id.hpp"
 #include "common/protocol/canopen/dictionary.hpp"
 #include "firmware/app/can_master.hpp"
 #include "host/bus/client.hpp"
@@ -57,6 +58,9 @@ std::string to_text(canopen::Address at);
 /// sends nothing else. What gets no answer within `timeout_us` is asked again. Throws
 /// bus::DeviceError with the abort's reason, SilentError if nobody answers; LinkError from the
 /// constructor.
+///
+/// The controller's node is asked by a channel of its own (plan::kToolSdo) where it has that: so
+/// nobody who asks by the default one takes these answers for his.
 class Client {
  public:
   static constexpr int kAttempts = 3;  ///< of a transfer that got no answer
@@ -86,6 +90,8 @@ class Client {
   const std::string& place() const { return place_; }
 
  private:
+  /// By which channel.
+  canopen::SdoChannel channel_to(std::uint8_t node);
   /// Why it failed; kNone: it did not.
   canopen::Abort upload(std::uint8_t node, canopen::Address at, int attempts,
                         std::vector<std::uint8_t>& data);
@@ -102,6 +108,7 @@ class Client {
   const std::uint32_t timeout_us_;
   std::string place_;
   std::function<bool()> stop_ = [] { return false; };
+  std::optional<bool> has_own_channel_;  ///< the controller's node; nothing: not asked yet
 };
 
 }  // namespace verp::can

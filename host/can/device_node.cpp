@@ -84,26 +84,54 @@ DriveNode::DriveNode(const canopen::Identity& identity, std::uint8_t node, sim::
 
 void DriveNode::hear(const CanFrame& frame, std::uint64_t now_us) {
   DeviceNode::hear(frame, now_us);
+  const bool forgotten = device().standing_error() == canopen::ErrorCode::kNoError;
+  if (error_.any && forgotten) device().hold_error(error_.code, error_.error_register);
   notice_status();
 }
 
 void DriveNode::work(std::uint64_t now_us) {
-  if (device().heartbeat_lost(now_us)) application().connection_lost();
-  const DriveNews news = application().work(now_us);
-  if (news.any) {
-    in_error_ = true;
+  DeviceNode::work(now_us);
+  if (const DriveNews news = application().work(now_us); news.any) {
+    error_ = news;
     device().report(news.code, news.error_register);
   }
   notice_status();
 }
 
+void DriveNode::begin_anew() {
+  application().restart();
+  if (stored_) application().restore(*stored_);
+  error_ = {};
+}
+
+void DriveNode::keep_application(bool stores) {
+  stored_.reset();
+  if (stores) stored_ = application().settings();
+}
+
+void DriveNode::stopped() {
+  if (!application().connection_lost()) return;
+  error_ = {canopen::ErrorCode::kCommunication, canopen::kErrorCommunication, true};
+  device().report(error_.code, error_.error_register);
+}
+
+void DriveNode::master_lost() {
+  if (!application().connection_lost()) return;
+  error_ = {canopen::ErrorCode::kHeartbeatLost, canopen::kErrorCommunication, true};
+  device().hold_error(error_.code, error_.error_register);  // the device has told of it
+}
+
 void DriveNode::notice_status() {
   const auto status = static_cast<std::uint16_t>(application().get(object::kStatusword, 16));
-  if (status == told_status_) return;
+  if (status != told_status_) tell_status(status);
+  application().show_error(device().standing_error());
+}
+
+void DriveNode::tell_status(std::uint16_t status) {
   told_status_ = status;
   const bool faulty = canopen::cia402::state_of(status) == canopen::cia402::State::kFault;
-  if (in_error_ && !faulty && (status & canopen::cia402::kWarning) == 0) {
-    in_error_ = false;
+  if (error_.any && !faulty && (status & canopen::cia402::kWarning) == 0) {
+    error_ = {};
     device().report(canopen::ErrorCode::kNoError, 0);
   }
   const bool tells_events = !canopen::is_synchronous(device().objects().tpdos[0].type());

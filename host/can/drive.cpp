@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "common/protocol/canopen/frame.hpp"
 #include "common/protocol/canopen/robot_plan.hpp"
@@ -34,7 +35,7 @@ std::int32_t around(std::int32_t count, std::int64_t offset) {
 }  // namespace
 
 DriveApplication::DriveApplication(sim::Plant& plant, int joint, const DriveSetup& setup)
-    : plant_(plant), joint_(joint), setup_(setup) {
+    : plant_(plant), joint_(joint), setup_(setup), rating_(plant.rating(joint)) {
   restart();
 }
 
@@ -111,6 +112,10 @@ void DriveApplication::put(Address at, std::uint8_t bits, std::uint64_t value) {
 
 void DriveApplication::restart() {
   objects_ = cia402::DriveObjects{};
+  objects_.encoder_increments =
+      static_cast<std::uint32_t>(std::lround(setup_.counts_per_rad * 2 * std::numbers::pi));
+  objects_.rated_current_ma = static_cast<std::uint32_t>(std::lround(rating_.current_a * 1000));
+  objects_.rated_torque_mn_m = static_cast<std::uint32_t>(std::lround(rating_.torque_n_m * 1000));
   drive_ = cia402::Drive{};
   following_.reset();
   gains_[0] = setup_.p_gain;
@@ -123,23 +128,40 @@ void DriveApplication::restart() {
   settle();
 }
 
+DriveApplication::Settings DriveApplication::settings() const {
+  return {objects_, {gains_[0], gains_[1], gains_[2]}};
+}
+
+// Commands are no settings: a drive that boots does nothing by itself.
+void DriveApplication::restore(const Settings& settings) {
+  for (std::size_t i = 0; i < cia402::kDriveRowCount; ++i) {
+    const cia402::ObjectRow& row = cia402::kDriveRows[i];
+    const bool command = row.at == object::kControlword || row.at == object::kTargetPosition;
+    if (command || row.access != cia402::ObjectAccess::kWrite) continue;
+    std::uint8_t bytes[8] = {};
+    cia402::read_object(settings.objects, row.at, bytes);
+    cia402::write_object(objects_, row.at, bytes);
+  }
+  std::copy(std::begin(settings.gains), std::end(settings.gains), gains_);
+  settle();
+}
+
 void DriveApplication::power_off() {
   plant_.setpoint(joint_).torque_on = false;
 }
 
-void DriveApplication::connection_lost() {
+bool DriveApplication::connection_lost() {
   const auto option = static_cast<cia402::AbortConnection>(objects_.abort_connection);
-  const std::uint8_t taken = drive_.connection_lost(option, objects_.quick_stop_option);
-  if (taken != 0 && option == cia402::AbortConnection::kFault) {
-    objects_.error_code = static_cast<std::uint16_t>(ErrorCode::kHeartbeatLost);
-  }
+  const bool is_fault = option == cia402::AbortConnection::kFault;
+  if (is_fault && !drive_.powered()) return false;
+  const bool taken = drive_.connection_lost(option, objects_.quick_stop_option) != 0;
   settle();
+  return taken && is_fault;
 }
 
 void DriveApplication::control(std::uint16_t word) {
   constexpr std::uint8_t kFaultReset = 15;
   if (drive_.control(word, objects_.quick_stop_option) != kFaultReset) return;
-  objects_.error_code = 0;
   hardware_errors_ = 0;
   following_error_ = false;
 }
@@ -202,9 +224,14 @@ DriveNews DriveApplication::watch(std::uint64_t now_us) {
 DriveNews DriveApplication::fault(ErrorCode code, std::uint8_t error_register,
                                   std::uint8_t error_bit) {
   hardware_errors_ |= error_bit;
-  objects_.error_code = static_cast<std::uint16_t>(code);
   drive_.event(Trigger::kFault, objects_.quick_stop_option);
   return {code, error_register, true};
+}
+
+// A motor's torque follows its current; where that is not known, as the serial servos' Present
+// Load.
+double DriveApplication::share(const sim::ServoMeasurement& measured) const {
+  return rating_.current_a > 0 ? measured.current_a / rating_.current_a : measured.duty;
 }
 
 void DriveApplication::hold() {
@@ -216,8 +243,7 @@ void DriveApplication::refresh() {
   objects_.actual_position = around(measured.position_count, -std::int64_t{objects_.home_offset});
   objects_.actual_velocity =
       static_cast<std::int32_t>(std::lround(measured.velocity_rad_s * setup_.counts_per_rad));
-  // Of the duty, as the serial servos' Present Load: the plant does not know the rated current.
-  objects_.actual_torque = static_cast<std::int16_t>(std::lround(measured.duty * kPerMille));
+  objects_.actual_torque = static_cast<std::int16_t>(std::lround(share(measured) * kPerMille));
   objects_.dc_link_mv = static_cast<std::uint32_t>(std::lround(measured.voltage_v * 1000));
   objects_.statusword = drive_.statusword(status_bits());
 }

@@ -47,11 +47,25 @@ class DriveApplication {
   std::uint64_t get(canopen::Address at, std::uint8_t bits);
   void put(canopen::Address at, std::uint8_t bits, std::uint64_t value);
 
+  /// What 1010h stores.
+  struct Settings {
+    canopen::cia402::DriveObjects objects;
+    std::uint16_t gains[3] = {};
+  };
+  Settings settings() const;
+  /// After restart(): as they were stored.
+  void restore(const Settings& settings);
+
   /// Power on, or NMT's reset: all objects as commissioned, no torque.
   void restart();
   void power_off();
-  /// The heartbeat of the master is gone, or NMT has stopped the node: option 6007h.
-  void connection_lost();
+  /// The heartbeat of the master is gone, or NMT has stopped the node: option 6007h. True if that
+  /// is a fault; a drive that has no torque to lose has none.
+  bool connection_lost();
+  /// 603Fh: what its device says is wrong.
+  void show_error(canopen::ErrorCode code) {
+    objects_.error_code = static_cast<std::uint16_t>(code);
+  }
   /// Once a millisecond. What it returns is to be sent as EMCY.
   DriveNews work(std::uint64_t now_us);
 
@@ -64,6 +78,8 @@ class DriveApplication {
   void settle();
   DriveNews watch(std::uint64_t now_us);
   DriveNews fault(canopen::ErrorCode code, std::uint8_t error_register, std::uint8_t error_bit);
+  /// Of the rated torque, -1 to 1.
+  double share(const sim::ServoMeasurement& measured) const;
   void hold();
   void apply();
   std::int32_t goal_count();
@@ -72,6 +88,7 @@ class DriveApplication {
   sim::Plant& plant_;
   int joint_;
   DriveSetup setup_;
+  sim::ServoRating rating_;
   canopen::cia402::DriveObjects objects_;
   canopen::cia402::Drive drive_;
   canopen::cia402::FollowingMonitor following_;

@@ -12,7 +12,9 @@ namespace {
 
 /// Of the controller's own node, or to it: below the twin's clock (firmware/app/operator_node.hpp).
 bool is_of_controller_node(const CanFrame& frame) {
+  namespace plan = canopen::plan;
   if (!canopen::is_canopen(frame)) return false;
+  if (plan::is_to_controllers_sdo(frame.id) || plan::is_of_controllers_sdo(frame.id)) return true;
   const canopen::Connection at = canopen::connection_of(frame.id);
   if (at.node != canopen::plan::kControllerNode) return false;
   using canopen::Service;

@@ -4,21 +4,28 @@
 
 namespace verp::can {
 
-void RealtimeServer::hear(const CanFrame& frame, std::uint64_t clock_us,
+void RealtimeServer::hear(const CanFrame& frame, std::uint64_t came_us, std::uint64_t clock_us,
                           std::vector<CanFrame>& answer) {
   if (!begun_) {
     begun_ = true;
-    offset_us_ = clock_us - bus_.now_us();
-    in_step_since_us_ = clock_us;
+    offset_us_ = came_us - bus_.now_us();
+    in_step_since_us_ = came_us;
     bus_.set_real_time(true);
   }
-  turn(clock_us, answer);
+  // By the clock, not by the frame: of a PC that is slower than the frames come, each is older.
+  skip(clock_us);
+  go_on(std::max(came_us, clock_us - std::min(clock_us, kMostBehind_us / 2)), answer);
   ++counters_.frames;
   if (!bus_.send(frame)) ++counters_.dropped;
 }
 
 void RealtimeServer::turn(std::uint64_t clock_us, std::vector<CanFrame>& answer) {
   if (!begun_) return;
+  skip(clock_us);
+  go_on(clock_us, answer);
+}
+
+void RealtimeServer::skip(std::uint64_t clock_us) {
   const std::uint64_t behind_us = due_us(clock_us) - bus_.now_us();
   if (behind_us > kMostBehind_us) {
     offset_us_ += behind_us - kMostBehind_us;
@@ -27,6 +34,9 @@ void RealtimeServer::turn(std::uint64_t clock_us, std::vector<CanFrame>& answer)
   } else if (clock_us > in_step_since_us_ + kKeepsUp_us) {
     kept_up_ = true;
   }
+}
+
+void RealtimeServer::go_on(std::uint64_t clock_us, std::vector<CanFrame>& answer) {
   const std::uint64_t until_us = due_us(clock_us);
   CanFrame frame;
   while (bus_.bring_until(until_us, frame)) answer.push_back(frame);

@@ -26,10 +26,12 @@ class RealtimeServer {
 
   explicit RealtimeServer(VirtualCan& bus) : bus_(bus) {}
 
-  /// Time goes on to `clock_us`, when the master's frame has come; appends what the bus brings up
-  /// to then to `answer`.
-  void hear(const CanFrame& frame, std::uint64_t clock_us, std::vector<CanFrame>& answer);
-  /// The same without a frame; nothing before the first.
+  /// Time goes on to `came_us`, when the master's frame has come; appends what the bus brings up
+  /// to then to `answer`. It is `clock_us` by now, and the frame may have waited for long:
+  /// time goes on all the same.
+  void hear(const CanFrame& frame, std::uint64_t came_us, std::uint64_t clock_us,
+            std::vector<CanFrame>& answer);
+  /// Time goes on to `clock_us`, without a frame; nothing before the first.
   void turn(std::uint64_t clock_us, std::vector<CanFrame>& answer);
   /// What the clock says at the end of a turn: how late is the twin?
   void finished(std::uint64_t clock_us);
@@ -44,6 +46,9 @@ class RealtimeServer {
  private:
   /// What the bus's clock should say; no less than it does: frames may be older than a skip.
   std::uint64_t due_us(std::uint64_t clock_us) const;
+  /// Skips what the twin is behind by more than kMostBehind_us.
+  void skip(std::uint64_t clock_us);
+  void go_on(std::uint64_t clock_us, std::vector<CanFrame>& answer);
 
   VirtualCan& bus_;
   Counters counters_;

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <iterator>
+#include <utility>
 
 #include "host/eds/eds.hpp"
 
@@ -75,22 +76,6 @@ Object pdo_mapping(bool receive, std::size_t number, std::size_t entries) {
 
 }  // namespace
 
-void set_up_tpdo(std::vector<Object>& objects, unsigned number,
-                 const canopen::PdoMapping<>& mapping) {
-  for (Object& each : objects) {
-    if (each.index == 0x1800 + number - 1) {
-      each.values[0].initial =
-          fmt::format("$NODEID+0x{:X}", canopen::kPdoNoRemote | canopen::tpdo_id(number, 0));
-      each.values[1].initial = fmt::format("{}", canopen::kEventProfile);
-    }
-    if (each.index != 0x1A00 + number - 1) continue;
-    each.count_initial = mapping.count;
-    for (std::size_t i = 0; i < mapping.count; ++i) {
-      each.values[i].initial = hex(mapping.entries[i].value());
-    }
-  }
-}
-
 DataType integer(unsigned bytes, bool is_signed) {
   switch (bytes) {
     case 1:
@@ -117,6 +102,12 @@ std::vector<Object> communication_objects(const canopen::DeviceSize& size,
   objects.push_back(single(0x1008, {.name = "Manufacturer device name",
                                     .type = DataType::kVisibleString,
                                     .initial = identity.name}));
+  for (const auto& [index, name] : {std::pair{std::uint16_t{0x1010}, "Store parameters"},
+                                    {std::uint16_t{0x1011}, "Restore default parameters"}}) {
+    if (!size.stores) break;
+    objects.push_back(array(index, name, 1, u32, true));
+    objects.back().values[0].name = "All parameters";
+  }
   objects.push_back(
       single(0x1014, {.name = "COB-ID EMCY", .type = u32, .initial = "$NODEID+0x80"}));
   objects.push_back(array(0x1016, "Consumer heartbeat time", size.watched, u32, true));
@@ -125,6 +116,17 @@ std::vector<Object> communication_objects(const canopen::DeviceSize& size,
   objects.push_back(identity_object(identity));
   objects.push_back(
       single(0x1019, {.name = "Synchronous counter overflow value", .type = u8, .writable = true}));
+  if (size.falls_back) {
+    objects.push_back(array(0x1029, "Error behaviour", 1, u8, true));
+    objects.back().values[0].name = "Communication error";
+  }
+  for (unsigned channel = 0; size.further_sdos > 0 && channel <= size.further_sdos; ++channel) {
+    objects.push_back({.index = static_cast<std::uint16_t>(0x1200 + channel),
+                       .name = fmt::format("SDO server parameter {}", channel + 1),
+                       .values = {{.name = "COB-ID client to server", .type = u32},
+                                  {.name = "COB-ID server to client", .type = u32}},
+                       .has_members = true});
+  }
   for (const bool receive : {true, false}) {
     const std::size_t count = receive ? size.rpdos : size.tpdos;
     for (std::size_t i = 0; i < count; ++i) objects.push_back(pdo_communication(receive, i));

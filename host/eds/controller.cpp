@@ -3,6 +3,7 @@
 #include "common/protocol/controller_table.hpp"
 #include "firmware/app/controller_objects.hpp"
 #include "host/eds/eds.hpp"
+#include "host/eds/initials.hpp"
 
 namespace verp::eds {
 namespace {
@@ -55,6 +56,18 @@ Object image_object(app::ImageKind kind, const char* name, bool writable) {
           .values = {{.name = name, .type = DataType::kDomain, .writable = writable}}};
 }
 
+/// A controller's communication objects where the bus has room to tell of ticks, of any node.
+struct Fresh {
+  explicit Fresh(std::uint8_t node) : objects(application, app::controller_identity(), node) {
+    app::publish_ticks(objects, node, true);
+  }
+  using Application = app::ControllerObjects<app::NoImages>;
+  const Params params{};
+  app::OperatorRegisters<app::NoImages> registers{params, app::OperatorSetup{}, app::no_images};
+  Application application{registers, app::no_images};
+  canopen::CommunicationObjects<Application, app::kControllerSize> objects;
+};
+
 }  // namespace
 
 Description controller() {
@@ -65,10 +78,8 @@ Description controller() {
                           .is_master = true,
                           .objects = {}};
   description.objects = communication_objects(description.size, description.identity);
-  for (unsigned number = canopen::published::kDigestPdo; number <= canopen::published::kPartPdo;
-       ++number) {
-    set_up_tpdo(description.objects, number, app::controller_tpdo(number));
-  }
+  Fresh node_1(1), node_2(2);
+  fill_initials(description.objects, node_1.objects, node_2.objects);
   for (const Register& each : dxl::controller::row::kTable) {
     description.objects.push_back(object_of(each));
   }

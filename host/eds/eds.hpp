@@ -65,10 +65,6 @@ std::string to_text(const Description& description);
 std::vector<Object> communication_objects(const canopen::DeviceSize& size,
                                           const canopen::Identity& identity);
 
-/// A TPDO that is set up out of the box: on or off as the device finds room for it, event-driven.
-void set_up_tpdo(std::vector<Object>& objects, unsigned number,
-                 const canopen::PdoMapping<>& mapping);
-
 /// The robot's controller (firmware/app/controller_objects.hpp).
 Description controller();
 

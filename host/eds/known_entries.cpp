@@ -8,6 +8,10 @@ std::vector<Entry> entries_of(const Description& description, bool with_manufact
   std::vector<Entry> all;
   for (const Object& object : description.objects) {
     if (is_manufacturers(object.index) && !with_manufacturers) continue;
+    if (object.has_members) {
+      const Value count{.name = object.name + ", entries", .writable = object.count_writable};
+      all.push_back({{object.index, 0}, count});
+    }
     for (std::size_t i = 0; i < object.values.size(); ++i) {
       std::size_t subindex = 0;
       if (object.has_members) subindex = object.subindices.empty() ? i + 1 : object.subindices[i];

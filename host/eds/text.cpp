@@ -68,8 +68,10 @@ void put_value(const std::string& section, const Value& value, Out out) {
                  value.name, code, static_cast<unsigned>(value.type));
   if (!value.low.empty()) fmt::format_to(out, "LowLimit={}\n", value.low);
   if (!value.high.empty()) fmt::format_to(out, "HighLimit={}\n", value.high);
-  fmt::format_to(out, "AccessType={}\nDefaultValue={}\nPDOMapping={}\n\n",
-                 value.writable ? "rw" : "ro", value.initial, value.mappable ? 1 : 0);
+  fmt::format_to(out, "AccessType={}\n", value.writable ? "rw" : "ro");
+  // A tool may take an empty one for 0.
+  if (!value.initial.empty()) fmt::format_to(out, "DefaultValue={}\n", value.initial);
+  fmt::format_to(out, "PDOMapping={}\n\n", value.mappable ? 1 : 0);
 }
 
 void put_object(const Object& object, Out out) {

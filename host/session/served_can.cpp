@@ -93,7 +93,7 @@ class ServedOnCan final : public Served {
     if (came) watch_others(frame);
     answer_.clear();
     if (came && realtime_.begun() && !lockstep::is_clock_frame(frame)) {
-      realtime_.hear(frame, port_.now_us(), answer_);
+      realtime_.hear(frame, port_.now_us(), clock_us(), answer_);
     } else if (came) {
       listen(frame);
       server_.take(frame, answer_);
@@ -159,7 +159,7 @@ class ServedOnCan final : public Served {
     watcher_.reset();
     begin_real_time();
     // By this clock: that of the port stands at the frame, and locking memory took its time.
-    for (const CanFrame& each : heard_) realtime_.hear(each, clock_us(), answer_);
+    for (const CanFrame& each : heard_) realtime_.hear(each, clock_us(), clock_us(), answer_);
     heard_.clear();
     return true;
   }

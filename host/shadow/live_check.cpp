@@ -25,7 +25,9 @@ std::uint32_t number_of(const std::uint8_t (&bytes)[4]) {
 }  // namespace
 
 LiveCheck::LiveCheck(const Params& params)
-    : params_(params), listener_(params), client_(canopen::plan::kControllerNode) {}
+    : params_(params),
+      listener_(params),
+      client_(canopen::further_sdo(canopen::plan::kWatcherSdo)) {}
 
 void LiveCheck::take(const CanFrame& frame, std::uint64_t now_us) {
   if (over()) return;

@@ -29,6 +29,12 @@ struct ServoMeasurement {
   double voltage_v = 12;
 };
 
+/// What a servo gives at full duty while it stands, by its maker's figures; 0: not known.
+struct ServoRating {
+  double torque_n_m = 0;
+  double current_a = 0;
+};
+
 /// Raw counts as the IMU device reports them, IMU frame.
 struct ImuMeasurement {
   std::array<std::int16_t, 3> gyro_count{};
@@ -46,6 +52,7 @@ class Plant {
   virtual void advance_to(std::uint64_t time_us) = 0;
   virtual ServoSetpoint& setpoint(int joint) = 0;
   virtual ServoMeasurement measure(int joint) = 0;
+  virtual ServoRating rating(int) const { return {}; }
   virtual ImuMeasurement imu() = 0;
   /// Normal force counts of one foot's sensors: front-left, front-right, back-left, back-right.
   virtual std::array<std::uint16_t, 4> foot_counts(int foot) = 0;

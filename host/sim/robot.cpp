@@ -104,6 +104,11 @@ TwinRobot::~TwinRobot() {
   world_.remove(*this);
 }
 
+ServoRating TwinRobot::rating(int joint) const {
+  const model::Servo& servo = entity_.joints[static_cast<std::size_t>(joint)].servo;
+  return {servo.stall_torque_n_m, servo.stall_current_a};
+}
+
 std::array<std::uint16_t, 4> TwinRobot::foot_counts(int foot) {
   const auto index = static_cast<std::size_t>(foot);
   return index < foot_.size() ? foot_[index].counts() : std::array<std::uint16_t, 4>{};

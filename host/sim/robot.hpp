@@ -66,6 +66,7 @@ class TwinRobot final : public Plant, private Actor {
   void advance_to(std::uint64_t time_us) override { time_->advance_to(time_us); }
   ServoSetpoint& setpoint(int joint) override { return setpoint_[static_cast<std::size_t>(joint)]; }
   ServoMeasurement measure(int joint) override { return servo(joint).measurement(); }
+  ServoRating rating(int joint) const override;
   ImuMeasurement imu() override { return imu_.measurement(); }
   std::array<std::uint16_t, 4> foot_counts(int foot) override;
 

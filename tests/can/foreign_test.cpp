@@ -142,6 +142,30 @@ TEST_F(ForeignMaster, StartsTheDrivesMovesAJointAndReadsItBack) {
   EXPECT_EQ(states, (std::vector<unsigned>{0x00, 0x7F, 0x05}));
 }
 
+TEST_F(ForeignMaster, ACia402MasterStartsADriveByWhatItTellsByItself) {
+  Twin twin(folder_);
+  const Outcome master =
+      shell("/usr/bin/python3 " VERP_SOURCE_DIR "/tests/can/cia402_start.py vcan0 " +
+            std::to_string(kJoint));
+  ASSERT_EQ(master.status, 0) << master.err << twin.errors();
+  EXPECT_EQ(twin.stop(), 0) << twin.errors();
+  const json told = json::parse(master.out);
+  EXPECT_EQ(told.at("first"), 0x00020192) << "the first frame to a twin is answered";
+  EXPECT_EQ(told.at("start_up"), json({0x40, 0x21, 0x23, 0x27}));
+  EXPECT_EQ(told.at("again"), 0x27) << "from pre-operational, with torque";
+  const json& silent = told.at("silent");
+  EXPECT_EQ(silent.at("emergency").get<std::string>().substr(0, 6), "308111");
+  EXPECT_EQ(silent.at("state"), "7f") << "pre-operational";
+  EXPECT_EQ(silent.at("statusword"), 0x08) << "fault";
+  EXPECT_EQ(silent.at("error_register"), 0x11);
+  EXPECT_EQ(silent.at("error_code"), 0x8130);
+  EXPECT_EQ(told.at("stopped"), 0x40) << "no fault";
+  EXPECT_EQ(told.at("stored"), json({1000, 700, 1000}));
+  EXPECT_EQ(told.at("increments"), 16384);
+  EXPECT_GT(told.at("rated_ma"), 1000);
+  EXPECT_GT(told.at("rated_mn_m"), 1000);
+}
+
 TEST_F(ForeignMaster, FramesTypedByHandAreAnswered) {
   Twin twin(folder_);
   Capture capture(folder_);

@@ -35,6 +35,22 @@ constexpr std::uint16_t sdo_response_id(std::uint8_t node) {
 constexpr std::uint16_t sdo_request_id(std::uint8_t node) {
   return static_cast<std::uint16_t>(0x600 + node);
 }
+/// The two identifiers of an SDO channel: to the server, and from it.
+struct SdoChannel {
+  std::uint16_t request = 0;
+  std::uint16_t response = 0;
+  constexpr bool operator==(const SdoChannel&) const = default;
+};
+/// A node's own, which 1200h tells of.
+constexpr SdoChannel default_sdo(std::uint8_t node) {
+  return {sdo_request_id(node), sdo_response_id(node)};
+}
+/// Channel `number`, from 1, that 1201h and the following tell of, of the one node on a bus that
+/// has any: two clients of one channel would take each other's answers. In the predefined set
+/// nobody has these identifiers.
+constexpr SdoChannel further_sdo(unsigned number) {
+  return {static_cast<std::uint16_t>(0x6D0 + number), static_cast<std::uint16_t>(0x6C0 + number)};
+}
 constexpr std::uint16_t heartbeat_id(std::uint8_t node) {
   return static_cast<std::uint16_t>(0x700 + node);
 }

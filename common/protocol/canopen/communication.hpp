@@ -39,8 +39,16 @@ struct DeviceSize {
   std::size_t entries = 8;  ///< of a mapping: 8 are a classic frame's bytes
   std::size_t watched = 1;  ///< nodes that 1016h can watch
   bool beats = true;        ///< false: somebody else sends its heartbeat, and 1017h is read-only
+  bool falls_back = true;   ///< 1029h; false: no error takes it out of operational
+  bool stores = false;      ///< 1010h and 1011h
+  std::size_t further_sdos = 0;  ///< channels beside the default one: 1201h and on
 };
 inline constexpr std::size_t kErrorHistory = 4;
+
+/// What 1010h:1 and 1011h:1 order. Defaults are in force from the next reset on.
+enum class StoreOrder : std::uint8_t { kNone, kStore, kRestore };
+inline constexpr std::uint32_t kSaveSignature = 0x65766173;  ///< "save"
+inline constexpr std::uint32_t kLoadSignature = 0x64616F6C;  ///< "load"
 
 template <Application A, DeviceSize kSize>
 class CommunicationObjects {
@@ -94,6 +102,17 @@ class CommunicationObjects {
       producer.set_period_ms(static_cast<std::uint16_t>(value));
       return Abort::kNone;
     }
+    if (at.index == kStore || at.index == kRestore) {
+      const bool stores = at.index == kStore;
+      if (value != (stores ? kSaveSignature : kLoadSignature)) return Abort::kCannotStore;
+      order_ = stores ? StoreOrder::kStore : StoreOrder::kRestore;
+      return Abort::kNone;
+    }
+    if (at.index == kErrorBehaviour) {
+      if (value > static_cast<std::uint8_t>(ErrorBehaviour::kStop)) return Abort::kValueRange;
+      error_behaviour = static_cast<ErrorBehaviour>(value);
+      return Abort::kNone;
+    }
     if (at.index == 0x1019) {
       const Abort refused = check_sync_overflow(static_cast<std::uint8_t>(value));
       if (refused == Abort::kNone) sync_overflow = static_cast<std::uint8_t>(value);
@@ -109,6 +128,22 @@ class CommunicationObjects {
     return application_.write_done(at, size);
   }
 
+  /// What was ordered since the last call, once.
+  StoreOrder take_store_order() {
+    const StoreOrder order = order_;
+    order_ = StoreOrder::kNone;
+    return order;
+  }
+  /// What 1010h stores of them, out of those that were stored.
+  void restore(const CommunicationObjects& stored) {
+    for (std::size_t i = 0; i < kSize.rpdos; ++i) rpdos[i] = stored.rpdos[i];
+    for (std::size_t i = 0; i < kSize.tpdos; ++i) tpdos[i] = stored.tpdos[i];
+    producer.set_period_ms(stored.producer.period_ms());
+    for (std::uint8_t i = 1; i <= kSize.watched; ++i) consumer.write(i, stored.consumer.value(i));
+    sync_overflow = stored.sync_overflow;
+    error_behaviour = stored.error_behaviour;
+  }
+
   // Set freely before a device starts: its defaults. Then they are the bus's to change.
   Record rpdos[kSize.rpdos];
   Record tpdos[kSize.tpdos];
@@ -117,6 +152,7 @@ class CommunicationObjects {
   ErrorHistory<kErrorHistory> history;
   std::uint8_t error_register = 0;
   std::uint8_t sync_overflow = 0;
+  ErrorBehaviour error_behaviour = ErrorBehaviour::kPreOperational;
 
  private:
   /// The first four have their identifiers from the predefined set; all wait to be configured.
@@ -124,6 +160,7 @@ class CommunicationObjects {
     return {direction, number < kPdosOfSet ? id | kPdoInvalid : kPdoInvalid, kEventProfile, {}};
   }
   static constexpr Address kName{0x1008, 0};
+  static constexpr std::uint16_t kStore = 0x1010, kRestore = 0x1011, kErrorBehaviour = 0x1029;
   struct Number {
     std::uint8_t bytes = 0;
     bool writable = false;
@@ -141,6 +178,12 @@ class CommunicationObjects {
       case 0x1003:
         number = {static_cast<std::uint8_t>(at.subindex == 0 ? 1 : 4), at.subindex == 0, 0};
         return history.read(at.subindex, number.value);
+      case kStore:
+      case kRestore:
+        if (!kSize.stores) return Abort::kNoObject;
+        if (at.subindex > 1) return Abort::kNoSubindex;
+        number = {static_cast<std::uint8_t>(at.subindex == 0 ? 1 : 4), at.subindex == 1, 1};
+        return Abort::kNone;
       case 0x1016:
         number = {4, true, 0};
         if (at.subindex == 0) number = {1, false, kSize.watched};
@@ -149,10 +192,17 @@ class CommunicationObjects {
         return Abort::kNone;
       case 0x1018:
         return look_identity(at.subindex, number);
+      case kErrorBehaviour:
+        if (!kSize.falls_back) return Abort::kNoObject;
+        if (at.subindex > 1) return Abort::kNoSubindex;
+        number = {1, at.subindex == 1, 1};
+        if (at.subindex == 1) number.value = static_cast<std::uint8_t>(error_behaviour);
+        return Abort::kNone;
       default:
         break;
     }
     if (at.index >= 0x1400) return look_pdo(at, number);
+    if (at.index >= 0x1200) return look_sdo(at, number);
     return look_single(at, number);
   }
   Abort look_single(Address at, Number& number) const {
@@ -188,6 +238,15 @@ class CommunicationObjects {
     return Abort::kNone;
   }
 
+  Abort look_sdo(Address at, Number& number) const {
+    const unsigned channel = at.index - 0x1200u;
+    if (kSize.further_sdos == 0 || channel > kSize.further_sdos) return Abort::kNoObject;
+    const SdoChannel ids = channel == 0 ? default_sdo(node_) : further_sdo(channel);
+    const std::uint32_t values[] = {2, ids.request, ids.response};
+    if (at.subindex > 2) return Abort::kNoSubindex;
+    number = {static_cast<std::uint8_t>(at.subindex == 0 ? 1 : 4), false, values[at.subindex]};
+    return Abort::kNone;
+  }
   /// The record that an index belongs to; null if there is none. 200h indices each: RPDOs'
   /// communication and mapping, TPDOs' communication and mapping.
   const Record* record(std::uint16_t index) const {
@@ -223,6 +282,7 @@ class CommunicationObjects {
   A& application_;
   Identity identity_;
   std::uint8_t node_;
+  StoreOrder order_ = StoreOrder::kNone;
 };
 
 }  // namespace verp::canopen

@@ -3,7 +3,7 @@
 #include <cstdint>
 
 #include "common/protocol/canopen/communication.hpp"
-#include "common/protocol/canopen/sdo_server.hpp"
+#include "common/protocol/canopen/sdo_servers.hpp"
 
 /// A whole CANopen device: the services of CiA 301 around an application's objects.
 ///
@@ -30,7 +30,7 @@ class Device {
         application_(application),
         node_(node),
         nmt_(node),
-        server_(objects_, node) {}
+        servers_(objects_, node) {}
 
   /// Its communication objects, for the defaults.
   Objects& objects() { return objects_; }
@@ -39,10 +39,13 @@ class Device {
   /// Starts, and again after a reset: the boot-up message is due, then it is pre-operational. Who
   /// resets it has set the objects to their defaults before.
   void start() {
-    server_.reset();
+    servers_.reset();
     leave_operational();
     emergencies_ = 0;
     standing_ = 0;
+    application_errors_ = 0;
+    application_code_ = ErrorCode::kNoError;
+    show_errors();
     objects_.producer.restart();
     nmt_.initialised();
   }
@@ -53,7 +56,7 @@ class Device {
     events.nmt = nmt_.receive(frame);
     if (events.nmt != NmtEvent::kNone) {
       if (!may_pdo(nmt_.state())) leave_operational();
-      if (!may_sdo(nmt_.state())) server_.reset();
+      if (!may_sdo(nmt_.state())) servers_.reset();
       return events;
     }
     std::uint8_t subindex = 0;
@@ -63,7 +66,7 @@ class Device {
     if (!may_sdo(nmt_.state())) return events;
     take_sync(frame, events);
     take_rpdo(frame, events);
-    server_.receive(frame, now_us);
+    servers_.receive(frame, now_us);
     return events;
   }
 
@@ -77,7 +80,7 @@ class Device {
       for (std::size_t i = 0; i < emergencies_; ++i) queue_[i] = queue_[i + 1];
       return true;
     }
-    return next_tpdo(frame, now_us) || server_.next(frame, now_us);
+    return next_tpdo(frame, now_us) || servers_.next(frame, now_us);
   }
 
   /// TPDO `which` (from 0) has something new: an event-driven one goes out when its inhibit time
@@ -108,18 +111,34 @@ class Device {
   /// `error_register` is the application's part of 1001h; what is wrong with the communication is
   /// added.
   void report(ErrorCode code, std::uint8_t error_register) {
-    const auto number = static_cast<std::uint16_t>(code);
-    if (standing_ != 0) error_register |= kErrorCommunication;
-    if (number != 0 || error_register != 0) error_register |= kErrorGeneric;
-    objects_.error_register = error_register;
-    if (number != 0) objects_.history.push(number);
-    if (emergencies_ < kErrorHistory) queue_[emergencies_++] = {node_, number, error_register, {}};
+    hold_error(code, error_register);
+    tell(code);
   }
-  /// Finds a watched node (1016h) that has fallen silent, and reports it; false if there is none.
+  /// The application has an error of which an EMCY tells already.
+  void hold_error(ErrorCode code, std::uint8_t error_register) {
+    application_code_ = code;
+    application_errors_ =
+        code == ErrorCode::kNoError ? error_register : error_register | kErrorGeneric;
+    show_errors();
+  }
+  /// What is wrong now, as long as 1001h says that something is: the application's trouble before
+  /// the communication's.
+  ErrorCode standing_error() const {
+    if (application_errors_ != 0) return application_code_;
+    if ((standing_ & kMasterSilent) != 0) return ErrorCode::kHeartbeatLost;
+    if ((standing_ & kSyncOdd) != 0) return ErrorCode::kSyncLength;
+    return (standing_ & kPdoOdd) != 0 ? pdo_code_ : ErrorCode::kNoError;
+  }
+  /// Finds a watched node (1016h) that has fallen silent, reports it and does what 1029h says;
+  /// false if there is none.
   bool heartbeat_lost(std::uint64_t now_us) {
     std::uint8_t subindex = 0;
     if (!objects_.consumer.next_lost(now_us, subindex)) return false;
     complain(kMasterSilent, ErrorCode::kHeartbeatLost);
+    if (kSize.falls_back && nmt_.fall_back(objects_.error_behaviour) != NmtEvent::kNone) {
+      leave_operational();
+      if (!may_sdo(nmt_.state())) servers_.reset();
+    }
     return true;
   }
 
@@ -136,20 +155,30 @@ class Device {
 
   /// What may be wrong with the communication.
   enum Cause : std::uint8_t { kSyncOdd = 1, kPdoOdd = 2, kMasterSilent = 4 };
-  std::uint8_t application_errors() const {
-    return objects_.error_register & ~(kErrorGeneric | kErrorCommunication);
+  void show_errors() {
+    std::uint8_t all = application_errors_;
+    if (standing_ != 0) all |= kErrorCommunication;
+    objects_.error_register = all == 0 ? all : static_cast<std::uint8_t>(all | kErrorGeneric);
+  }
+  void tell(ErrorCode code) {
+    const auto number = static_cast<std::uint16_t>(code);
+    show_errors();
+    if (number != 0) objects_.history.push(number);
+    if (emergencies_ < kErrorHistory) {
+      queue_[emergencies_++] = {node_, number, objects_.error_register, {}};
+    }
   }
   // One EMCY when it begins and one when it is over (CiA 301): a wrong SYNC comes a hundred times a
   // second.
   void complain(Cause cause, ErrorCode code) {
     if ((standing_ & cause) != 0) return;
     standing_ |= cause;
-    report(code, application_errors());
+    tell(code);
   }
   void settle(Cause cause) {
     if ((standing_ & cause) == 0) return;
     standing_ &= static_cast<std::uint8_t>(~cause);
-    report(ErrorCode::kNoError, application_errors());
+    tell(ErrorCode::kNoError);
   }
   void leave_operational() {
     for (Sending& each : sending_) each = Sending();
@@ -195,13 +224,9 @@ class Device {
                      events.put = true;
                      application_.put(at, static_cast<std::uint8_t>(bits), value);
                    });
-    if (length == PdoLength::kTooShort) {
-      complain(kPdoOdd, ErrorCode::kPdoTooShort);
-    } else if (length == PdoLength::kTooLong) {
-      complain(kPdoOdd, ErrorCode::kPdoTooLong);
-    } else {
-      settle(kPdoOdd);
-    }
+    if (length == PdoLength::kRight) return settle(kPdoOdd);
+    pdo_code_ = length == PdoLength::kTooShort ? ErrorCode::kPdoTooShort : ErrorCode::kPdoTooLong;
+    complain(kPdoOdd, pdo_code_);
   }
   void make(std::size_t which, Frame& frame) {
     frame = Frame();
@@ -233,12 +258,15 @@ class Device {
   A& application_;
   std::uint8_t node_;
   NmtSlave nmt_;
-  SdoServer<Objects> server_;
+  SdoServers<Objects, kSize.further_sdos> servers_;
   Sending sending_[kSize.tpdos];
   RpdoLatch latches_[kSize.rpdos];
   Emergency queue_[kErrorHistory + 1];
   std::size_t emergencies_ = 0;
-  std::uint8_t standing_ = 0;  ///< Causes
+  std::uint8_t standing_ = 0;            ///< Causes
+  std::uint8_t application_errors_ = 0;  ///< its part of 1001h
+  ErrorCode application_code_ = ErrorCode::kNoError;
+  ErrorCode pdo_code_ = ErrorCode::kNoError;  ///< of the PDO that had the wrong length
 };
 
 }  // namespace verp::canopen

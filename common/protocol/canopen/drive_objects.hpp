@@ -6,7 +6,8 @@
 
 /// The objects of a CiA 402 drive in cyclic synchronous position mode: the one list from which a
 /// virtual drive's dictionary, a master's mapping and a description for tools follow. Positions are
-/// increments of the encoder, speeds increments per second, torques thousandths of the rated one.
+/// increments of the encoder (608Fh of them are a turn), speeds increments per second, torques
+/// thousandths of the rated one (6076h).
 namespace verp::canopen::cia402 {
 
 /// Modes of operation (6060h) that are used here.
@@ -31,12 +32,16 @@ inline constexpr Address kFollowingWindow{0x6065, 0};
 inline constexpr Address kFollowingTime{0x6066, 0};
 inline constexpr Address kActualVelocity{0x606C, 0};
 inline constexpr Address kMaxTorque{0x6072, 0};
+inline constexpr Address kRatedCurrent{0x6075, 0};
+inline constexpr Address kRatedTorque{0x6076, 0};
 inline constexpr Address kActualTorque{0x6077, 0};
 inline constexpr Address kDcLinkVoltage{0x6079, 0};
 inline constexpr Address kTargetPosition{0x607A, 0};
 inline constexpr Address kHomeOffset{0x607C, 0};
 inline constexpr Address kMinPosition{0x607D, 1};
 inline constexpr Address kMaxPosition{0x607D, 2};
+inline constexpr Address kEncoderIncrements{0x608F, 1};
+inline constexpr Address kEncoderTurns{0x608F, 2};
 inline constexpr Address kPeriodValue{0x60C2, 1};
 inline constexpr Address kPeriodExponent{0x60C2, 2};
 inline constexpr Address kSupportedModes{0x6502, 0};
@@ -53,6 +58,10 @@ struct DriveObjects {
   std::uint32_t following_window = UINT32_MAX;  ///< UINT32_MAX: not watched
   std::uint32_t supported_modes = kSupportedCyclicPosition;
   std::uint32_t dc_link_mv = 0;
+  std::uint32_t rated_current_ma = 0;
+  std::uint32_t rated_torque_mn_m = 0;
+  std::uint32_t encoder_increments = 0;  ///< in so many turns of the joint:
+  std::uint32_t encoder_turns = 1;
   std::uint16_t controlword = 0;
   std::uint16_t statusword = 0;
   std::uint16_t error_code = 0;

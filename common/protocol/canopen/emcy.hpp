@@ -17,6 +17,7 @@ enum class ErrorCode : std::uint16_t {
   kUnderVoltage = 0x3220,
   kOverVoltage = 0x3210,
   kOverTemperature = 0x4310,
+  kCommunication = 0x8100,  ///< any other trouble with it: NMT has stopped the node
   kCanOverrun = 0x8110,
   kErrorPassive = 0x8120,
   kHeartbeatLost = 0x8130,

@@ -41,6 +41,9 @@ constexpr bool may_sdo(NmtState state) {
   return state == NmtState::kOperational || state == NmtState::kPreOperational;
 }
 
+/// Object 1029h:1: what an operational node does when its communication fails.
+enum class ErrorBehaviour : std::uint8_t { kPreOperational = 0, kStay = 1, kStop = 2 };
+
 enum class NmtEvent : std::uint8_t { kNone, kState, kResetNode, kResetCommunication };
 
 /// The device's end: its NMT state.
@@ -53,6 +56,14 @@ class NmtSlave {
   /// HeartbeatProducer's first.
   constexpr void initialised() {
     if (state_ == NmtState::kInitialising) state_ = NmtState::kPreOperational;
+  }
+  /// Something is wrong with the communication: an operational node leaves that state (1029h).
+  constexpr NmtEvent fall_back(ErrorBehaviour behaviour) {
+    if (state_ != NmtState::kOperational || behaviour == ErrorBehaviour::kStay) {
+      return NmtEvent::kNone;
+    }
+    return enter(behaviour == ErrorBehaviour::kStop ? NmtState::kStopped
+                                                    : NmtState::kPreOperational);
   }
   /// What a frame means for this node. After a reset the node is initialising again, and calls
   /// initialised() when it is through.

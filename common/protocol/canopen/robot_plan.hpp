@@ -31,6 +31,7 @@ inline constexpr Address kVendor{0x1018, 1};
 inline constexpr std::uint32_t kOurVendor = 0;
 inline constexpr Address kProductCode{0x1018, 2};
 inline constexpr Address kSyncOverflow{0x1019, 0};
+inline constexpr Address kErrorBehaviour{0x1029, 1};
 
 /// Objects of our own devices, beside CiA 301's and 402's.
 inline constexpr Address kTelemetry{0x2001, 0};                                ///< drives: u32
@@ -164,6 +165,23 @@ inline constexpr std::int16_t kQuickStopAndHold = 6;
 inline constexpr std::uint16_t kHeartbeatsInPatience = 5;
 inline std::uint16_t heartbeat_ms(const Params& params) {
   return static_cast<std::uint16_t>(patience_ms(params) / kHeartbeatsInPatience);
+}
+
+/// SDO channels of the controller's node beside its own, which is anybody's.
+inline constexpr unsigned kWatcherSdo = 1;  ///< 1201h: who follows its ticks
+inline constexpr unsigned kToolSdo = 2;     ///< 1202h: `verp bus`
+inline constexpr unsigned kControllerSdos = 2;
+constexpr bool is_to_controllers_sdo(std::uint32_t id) {
+  for (unsigned number = 1; number <= kControllerSdos; ++number) {
+    if (id == further_sdo(number).request) return true;
+  }
+  return false;
+}
+constexpr bool is_of_controllers_sdo(std::uint32_t id) {
+  for (unsigned number = 1; number <= kControllerSdos; ++number) {
+    if (id == further_sdo(number).response) return true;
+  }
+  return false;
 }
 
 /// Only who commands a robot's nodes sends such: a controller, or a tool that asks them.

@@ -91,7 +91,7 @@ bool SdoClient::initiating() const {
 }
 
 void SdoClient::receive(const Frame& frame, std::uint64_t now_us) {
-  if (!is_canopen(frame) || frame.id != sdo_response_id(node_)) return;
+  if (!is_canopen(frame) || frame.id != channel_.response) return;
   if (frame.size != sdo::kFrameBytes || state_ != State::kBusy) return;
   if (patience_.over(now_us)) return abort(Abort::kTimeout);
   if (take_abort(frame)) return;

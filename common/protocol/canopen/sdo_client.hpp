@@ -27,7 +27,8 @@ class SdoClient {
   };
   enum class State : std::uint8_t { kIdle, kBusy, kDone, kAborted };
 
-  explicit SdoClient(std::uint8_t node) : node_(node) {}
+  explicit SdoClient(std::uint8_t node) : SdoClient(default_sdo(node)) {}
+  explicit SdoClient(SdoChannel channel) : channel_(channel) {}
 
   /// Begins to write; false, and nothing done, while another transfer runs.
   bool download(Address at, const std::uint8_t* data, std::uint32_t size, Mode mode,
@@ -50,7 +51,6 @@ class SdoClient {
   Abort reason() const { return reason_; }
   /// Bytes that a finished upload has brought.
   std::uint32_t size() const { return size_; }
-  std::uint8_t node() const { return node_; }
 
  private:
   enum class Phase : std::uint8_t {
@@ -66,7 +66,7 @@ class SdoClient {
     kBlockEnd,
   };
 
-  std::uint32_t id() const { return sdo_request_id(node_); }
+  std::uint32_t id() const { return channel_.request; }
   bool begin(Address at, Phase phase, std::uint64_t now_us);
   void send(const Frame& frame);
   void abort(Abort reason);
@@ -86,7 +86,7 @@ class SdoClient {
   Abort store(const std::uint8_t* data, std::uint32_t size);
   Abort announce(bool given, const Frame& frame);
 
-  std::uint8_t node_;
+  SdoChannel channel_;
   State state_ = State::kIdle;
   Phase phase_ = Phase::kBeginUpload;
   Abort reason_ = Abort::kNone;

@@ -23,10 +23,11 @@ namespace verp::canopen {
 template <Dictionary D, std::size_t kBuffer = 128>
 class SdoServer {
  public:
-  SdoServer(D& dictionary, std::uint8_t node) : object_(dictionary), node_(node) {}
+  SdoServer(D& dictionary, std::uint8_t node) : SdoServer(dictionary, default_sdo(node)) {}
+  SdoServer(D& dictionary, SdoChannel channel) : object_(dictionary), channel_(channel) {}
 
   void receive(const Frame& frame, std::uint64_t now_us) {
-    if (!is_canopen(frame) || frame.id != sdo_request_id(node_)) return;
+    if (!is_canopen(frame) || frame.id != channel_.request) return;
     if (frame.size != sdo::kFrameBytes) return;
     expire(now_us);
     if (frame.data[0] == sdo::kAbort) {
@@ -79,7 +80,7 @@ class SdoServer {
     kEndUpload,      ///< block upload: waits for the answer to its end
   };
 
-  std::uint32_t id() const { return sdo_response_id(node_); }
+  std::uint32_t id() const { return channel_.response; }
 
   void forget() { phase_ = Phase::kIdle; }
   void expire(std::uint64_t now_us) {
@@ -275,7 +276,7 @@ class SdoServer {
   }
 
   sdo::OpenObject<D, kBuffer> object_;
-  std::uint8_t node_;
+  SdoChannel channel_;
   Phase phase_ = Phase::kIdle;
   bool toggle_ = false;
   bool crc_ = false;  ///< the client wants the block's CRC

@@ -27,6 +27,7 @@ class FakePlant final : public sim::Plant {
     sampled_us[static_cast<std::size_t>(joint)] = now_us_;
     return measured[static_cast<std::size_t>(joint)];
   }
+  sim::ServoRating rating(int) const override { return rated; }
   sim::ImuMeasurement imu() override { return motion; }
   std::array<std::uint16_t, 4> foot_counts(int foot) override {
     const auto base = static_cast<std::uint16_t>(100 * (foot + 1));
@@ -37,6 +38,7 @@ class FakePlant final : public sim::Plant {
   std::array<sim::ServoSetpoint, kMaxJoints> setpoints{};
   std::array<sim::ServoMeasurement, kMaxJoints> measured{};
   std::array<std::uint64_t, kMaxJoints> sampled_us{};
+  sim::ServoRating rated{};
   sim::ImuMeasurement motion{{1, -2, 3}, {-4, 5, 4096}};
   std::array<bool, kMaxJoints> blocked{};  ///< stays where it is
   bool went_back = false;

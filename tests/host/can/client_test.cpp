@@ -36,12 +36,16 @@ class FakeNodes final : public ClientBus {
  public:
   bool send(const CanFrame& frame) override {
     if (frame.data[0] >> 5 != canopen::sdo::request::kUpload) return true;  // aborts of the client
-    const Object object{static_cast<std::uint8_t>(frame.id - 0x600),
+    const bool further = frame.id == 0x6D2;
+    if (further && !has_further_channel) return true;
+    const Object object{static_cast<std::uint8_t>(further ? 127 : frame.id - 0x600),
                         canopen::sdo::address_of(frame)};
+    by_further += further ? 1 : 0;
     const int times = ++asked[object];
     if (silent && silent(object, times)) return true;
     if (!holds.contains({object.node, {0x1000, 0}})) return true;  // nobody has this id
     answers_.push_back(answer(object));
+    if (further) answers_.back().id = 0x6C2;
     if (after_answer) after_answer(object);
     return true;
   }
@@ -69,6 +73,8 @@ class FakeNodes final : public ClientBus {
   /// What somebody else on the bus asked for.
   void overhear(const Object& object) { answers_.push_back(answer(object)); }
 
+  bool has_further_channel = false;  ///< node 127, by 1202h
+  int by_further = 0;                ///< requests
   std::map<Object, std::uint32_t> holds;
   std::map<Object, int> asked;
   std::function<bool(const Object&, int times)> silent;  ///< whether that request gets no answer
@@ -190,6 +196,32 @@ TEST_F(CanClient, AnAnswerToAnothersRequestIsNotTakenForADeviceType) {
   ASSERT_EQ(found.size(), 2u);
   EXPECT_EQ(found[1].node, 19);
   EXPECT_EQ(found[1].device_type, 0x20192u);
+}
+
+// Whoever else reads the same object of it by the default channel, and gets another value.
+TEST_F(CanClient, TheControllersNodeIsAskedByAChannelOfItsOwn) {
+  nodes.add(127);
+  nodes.has_further_channel = true;
+  nodes.after_answer = [&](const Object& object) {
+    const std::uint32_t mine = std::exchange(nodes.holds[object], 0xDEAD);
+    nodes.overhear(object);
+    nodes.holds[object] = mine;
+  };
+  const auto found = client.identify(127);
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->product, 0x200u + 127);
+  for (const Address at : {Address{0x1000, 0}, Address{0x1018, 2}}) {
+    EXPECT_EQ(client.read(127, at)[0], nodes.holds.at({127, at}) & 0xFF);
+  }
+  EXPECT_GE(nodes.by_further, 7);
+}
+
+TEST_F(CanClient, ANode127WithoutThatChannelIsAskedByTheDefaultOne) {
+  nodes.add(127);
+  const auto found = client.identify(127);
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->asked, Asked::kToTheEnd);
+  EXPECT_EQ(found->product, 0x200u + 127);
 }
 
 // Ctrl-C in a scan: what was found until then is told, and that it is not all.

@@ -2,6 +2,7 @@
 
 #include "common/protocol/canopen/emcy.hpp"
 #include "common/protocol/control_table.hpp"
+#include "host/can/device_node.hpp"
 #include "tests/host/can/can_bench.hpp"
 
 // What a virtual CiA 402 drive makes of its objects, as a master sees it.
@@ -210,6 +211,59 @@ TEST_F(VirtualDrive, ASilentMasterIsAFaultIfTheOptionSaysSo) {
   EXPECT_EQ(bench.state(kNode), State::kSwitchOnDisabled);
 }
 
+TEST_F(VirtualDrive, FallsBackToPreOperationalWithoutItsMasterAsItsErrorBehaviourSays) {
+  const std::pair<int, std::uint8_t> rows[] = {{0, 0x7F}, {1, 0x05}, {2, 0x04}};
+  for (const auto& [behaviour, state] : rows) {
+    bench.nmt(canopen::NmtCommand::kResetNode, kNode);
+    EXPECT_EQ(bench.write(kNode, {0x1029, 1}, behaviour, 1), Abort::kNone);
+    bench.write(kNode, object::kProducerHeartbeat, 10, 2);
+    bench.nmt(canopen::NmtCommand::kStart, kNode);
+    watch_master(1, 2, 3);
+    bench.let_pass(110'000);
+    std::uint8_t told = 0;
+    for (const CanFrame& frame : bench.listen(20'000)) {
+      if (frame.id == canopen::heartbeat_id(kNode)) told = frame.data[0];
+    }
+    EXPECT_EQ(told, state) << behaviour;
+  }
+  bench.nmt(canopen::NmtCommand::kResetNode, kNode);
+  EXPECT_EQ(bench.value(kNode, {0x1029, 1}), 0) << "CiA 301: pre-operational";
+  EXPECT_EQ(bench.write(kNode, {0x1029, 1}, 3, 1), Abort::kValueRange);
+}
+
+// 603Fh is of what 1001h tells, as long as it tells it.
+TEST_F(VirtualDrive, ItsErrorCodeAgreesWithItsErrorRegister) {
+  const auto expect = [this](int error_register, int code) {
+    EXPECT_EQ(bench.value(kNode, object::kErrorRegister), error_register);
+    EXPECT_EQ(bench.value(kNode, object::kErrorCode) & 0xFFFF, code);
+  };
+  bench.enable(kNode);
+  watch_master(1, 2, 3);
+  bench.let_pass(110'000);
+  expect(0x11, 0x8130);
+  watch_master(1, 2, 1);
+  expect(0x11, 0x8130);
+  bench.nmt(canopen::NmtCommand::kResetCommunication, kNode);
+  EXPECT_EQ(bench.state(kNode), State::kFault);
+  expect(0x11, 0x8130);
+  bench.control(kNode, cia402::kWordFaultReset);
+  expect(0, 0);
+  measured().voltage_v = 9;
+  bench.let_pass(2000);
+  expect(0x05, 0x3220);
+}
+
+TEST_F(VirtualDrive, AMasterThatIsSilentBeforeThereIsTorqueIsToldAndIsNoFault) {
+  watch_master(1, 2, 3);
+  const std::vector<canopen::Emergency> told = emergencies(110'000);
+  ASSERT_EQ(told.size(), 1u);
+  EXPECT_EQ(told[0].code, 0x8130);
+  EXPECT_EQ(bench.state(kNode), State::kSwitchOnDisabled);
+  EXPECT_EQ(bench.value(kNode, object::kErrorCode) & 0xFFFF, 0x8130);
+  watch_master(1, 2, 1);
+  EXPECT_EQ(bench.value(kNode, object::kErrorCode), 0);
+}
+
 // Anything may be written there, from a wrong tool, too.
 TEST_F(VirtualDrive, ItsCounterGoesOnAtTheOtherEndOf32Bits) {
   measured().position_count = 10;
@@ -287,11 +341,105 @@ TEST_F(VirtualDrive, AStoppedNodeDoesAsWithoutItsMaster) {
   EXPECT_FALSE(bench.setpoint(0).torque_on);
 }
 
+TEST_F(VirtualDrive, AStopIsAFaultWithTorqueOnlyAndIsToldWhenItMaySpeakAgain) {
+  using canopen::NmtCommand;
+  bench.nmt(NmtCommand::kStop, kNode);
+  bench.nmt(NmtCommand::kStart, kNode);
+  EXPECT_EQ(bench.state(kNode), State::kSwitchOnDisabled);
+  bench.enable(kNode);
+  bench.nmt(NmtCommand::kStop, kNode);
+  EXPECT_FALSE(bench.setpoint(0).torque_on);
+  bench.bus.send(canopen::nmt_frame(NmtCommand::kEnterPreOperational, kNode));
+  const std::vector<canopen::Emergency> told = emergencies(5000);
+  ASSERT_EQ(told.size(), 1u);
+  EXPECT_EQ(told[0].code, 0x8100);
+  EXPECT_EQ(told[0].error_register, 0x11);
+  EXPECT_EQ(bench.state(kNode), State::kFault);
+  EXPECT_EQ(bench.value(kNode, object::kErrorCode) & 0xFFFF, 0x8100);
+}
+
+// What a master of CiA 402 waits for when it has started a drive: its statusword.
+TEST_F(VirtualDrive, TellsItsStatuswordWheneverItBecomesOperational) {
+  using canopen::NmtCommand;
+  for (const NmtCommand first : {NmtCommand::kResetNode, NmtCommand::kResetCommunication,
+                                 NmtCommand::kEnterPreOperational, NmtCommand::kStop}) {
+    for (int times = 0; times < 2; ++times) {
+      bench.nmt(first, kNode);
+      bench.bus.send(canopen::nmt_frame(NmtCommand::kStart, kNode));
+      std::vector<CanFrame> told;
+      for (const CanFrame& frame : bench.listen(20'000)) {
+        if (frame.id == canopen::tpdo_id(1, kNode)) told.push_back(frame);
+      }
+      ASSERT_EQ(told.size(), 1u) << static_cast<int>(first);
+      EXPECT_EQ(told[0].size, 2);
+      EXPECT_EQ(told[0].data[0] & 0x6F, 0x40) << "switch on disabled";
+    }
+  }
+}
+
 TEST_F(VirtualDrive, MeasuresSpeedAndTorque) {
   measured().velocity_rad_s = 2;
   measured().duty = -0.25;
   EXPECT_EQ(bench.value(kNode, object::kActualVelocity), 5215);  // 2 * 16384 / 2 pi
   EXPECT_EQ(bench.value(kNode, object::kActualTorque), -250);
+}
+
+// Increments of a turn, and what a thousand thousandths are.
+TEST_F(VirtualDrive, GivesPositionAndTorqueTheirScale) {
+  EXPECT_EQ(bench.value(kNode, {0x608F, 0}), 2);
+  EXPECT_EQ(bench.value(kNode, {0x608F, 1}), 16384);
+  EXPECT_EQ(bench.value(kNode, {0x608F, 2}), 1);
+  EXPECT_EQ(bench.value(kNode, {0x6075, 0}), 0) << "this plant does not know it";
+  bench.plant.rated = {.torque_n_m = 3.1, .current_a = 2.3};
+  sim::Plant& plant = bench.plant;
+  bench.bus.plug_in(std::make_unique<can::DriveNode>(can::drive_identity(402, 50), 50, plant, 0,
+                                                     can::DriveSetup{.counts_per_rad = 1000}));
+  bench.let_pass(2000);
+  EXPECT_EQ(bench.value(50, {0x6075, 0}), 2300) << "mA";
+  EXPECT_EQ(bench.value(50, {0x6076, 0}), 3100) << "mNm";
+  measured().duty = 0.5;
+  measured().current_a = -1.15;
+  EXPECT_EQ(bench.value(50, object::kActualTorque), -500);
+}
+
+TEST_F(VirtualDrive, KeepsWhatIsStoredThroughResetsAndPowerUntilDefaultsAreRestored) {
+  using canopen::NmtCommand;
+  constexpr std::int64_t kSave = 0x65766173, kLoad = 0x64616F6C;  // "save", "load"
+  const auto values = [this] {
+    return std::vector<std::int64_t>{
+        bench.value(kNode, object::kMaxTorque), bench.value(kNode, {0x2002, 1}),
+        bench.value(kNode, {0x1800, 3}), bench.value(kNode, object::kProducerHeartbeat)};
+  };
+  const auto set = [this](int torque, int gain, int inhibit, int beat) {
+    bench.write(kNode, object::kMaxTorque, torque, 2);
+    bench.write(kNode, {0x2002, 1}, gain, 2);
+    const std::int64_t cob_id = bench.value(kNode, {0x1800, 1});
+    bench.write(kNode, {0x1800, 1}, cob_id | 0x80000000, 4);
+    bench.write(kNode, {0x1800, 3}, inhibit, 2);
+    bench.write(kNode, {0x1800, 1}, cob_id, 4);
+    bench.write(kNode, object::kProducerHeartbeat, beat, 2);
+  };
+  const std::vector<std::int64_t> defaults = values(), stored = {500, 700, 30, 200};
+  set(500, 700, 30, 200);
+  ASSERT_EQ(values(), stored);
+  EXPECT_EQ(bench.write(kNode, {0x1010, 1}, kLoad, 4), Abort::kCannotStore);
+  bench.nmt(NmtCommand::kResetNode, kNode);
+  EXPECT_EQ(values(), defaults) << "the wrong word stores nothing";
+  set(500, 700, 30, 200);
+  bench.enable(kNode);
+  EXPECT_EQ(bench.write(kNode, {0x1010, 1}, kSave, 4), Abort::kNone);
+  set(900, 100, 10, 0);
+  bench.nmt(NmtCommand::kResetNode, kNode);
+  EXPECT_EQ(values(), stored);
+  EXPECT_EQ(bench.state(kNode), State::kSwitchOnDisabled) << "a command is no setting";
+  bench.bus.set_powered(kNode, false);
+  bench.bus.set_powered(kNode, true);
+  bench.let_pass(2000);
+  EXPECT_EQ(values(), stored);
+  EXPECT_EQ(bench.write(kNode, {0x1011, 1}, kLoad, 4), Abort::kNone);
+  EXPECT_EQ(values(), stored) << "until it is reset";
+  bench.nmt(NmtCommand::kResetNode, kNode);
+  EXPECT_EQ(values(), defaults);
 }
 
 // The halves of one frame are two drives'.

@@ -84,7 +84,8 @@ class Reader : public Node {
     const sim::ServoMeasurement is = plant_.measure(joint);
     const double counts = std::abs(double{params_.joint[joint].counts_per_rad});
     return static_cast<std::int32_t>(
-        std::lround(effort == kVelocity ? is.velocity_rad_s * counts : is.duty * 1000));
+        std::lround(effort == kVelocity ? is.velocity_rad_s * counts
+                                        : is.current_a / plant_.rating(joint).current_a * 1000));
   }
   void witness(const CanFrame& frame, std::uint64_t now_us) {
     const canopen::Connection of = canopen::connection_of(frame.id);

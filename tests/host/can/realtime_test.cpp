@@ -18,6 +18,11 @@ CanFrame ask_1000(std::uint8_t node) {
 
 class CanRealTime : public ::testing::Test {
  protected:
+  /// By a PC that is never late.
+  void hear(const CanFrame& frame, std::uint64_t clock_us) {
+    server.hear(frame, clock_us, clock_us, answer);
+  }
+
   test::CanBench bench{3};
   RealtimeServer server{bench.bus};
   std::vector<CanFrame> answer;
@@ -28,7 +33,7 @@ TEST_F(CanRealTime, TimeBeginsWithTheFirstFrame) {
   server.turn(5'000'000, answer);
   EXPECT_FALSE(server.begun());
   EXPECT_EQ(bench.bus.now_us(), 0u);
-  server.hear(ask_1000(1), 9'000'000, answer);
+  hear(ask_1000(1), 9'000'000);
   EXPECT_TRUE(server.begun());
   EXPECT_TRUE(answer.empty()) << "the frame takes its time on the wire";
   server.turn(9'010'000, answer);
@@ -46,9 +51,9 @@ TEST_F(CanRealTime, FramesReachTheBusWhenTheyCame) {
   bench.bus.set_listener([&](const CanFrame& frame, std::uint64_t begin_ns, std::uint64_t) {
     if (frame.id == canopen::kSyncId) begun_us.push_back(begin_ns / 1000);
   });
-  server.hear(canopen::classic_frame(canopen::kSyncId, 0), 1000, answer);
+  hear(canopen::classic_frame(canopen::kSyncId, 0), 1000);
   for (const std::uint64_t at_us : {21'000u, 33'500u, 60'000u}) {
-    server.hear(canopen::classic_frame(canopen::kSyncId, 0), at_us, answer);
+    hear(canopen::classic_frame(canopen::kSyncId, 0), at_us);
   }
   server.turn(80'000, answer);
   ASSERT_EQ(begun_us.size(), 4u);
@@ -64,8 +69,8 @@ TEST_F(CanRealTime, FramesKeepTheirOrder) {
     if (frame.id == 0x213 || frame.id == canopen::kSyncId) heard.push_back(frame.id);
   });
   for (int i = 0; i < 10; ++i) {
-    server.hear(canopen::classic_frame(0x213, 4), 1000, answer);
-    server.hear(canopen::classic_frame(canopen::kSyncId, 0), 1000, answer);
+    hear(canopen::classic_frame(0x213, 4), 1000);
+    hear(canopen::classic_frame(canopen::kSyncId, 0), 1000);
   }
   server.turn(50'000, answer);
   ASSERT_EQ(heard.size(), 20u);
@@ -75,17 +80,17 @@ TEST_F(CanRealTime, FramesKeepTheirOrder) {
 }
 
 TEST_F(CanRealTime, CountsWhatIsFasterThanTheWire) {
-  for (int i = 0; i < 1000; ++i) server.hear(ask_1000(1), 1000, answer);
+  for (int i = 0; i < 1000; ++i) hear(ask_1000(1), 1000);
   EXPECT_EQ(server.counters().frames, 1000u);
   EXPECT_EQ(server.counters().dropped, 1000 - hal::kCanQueue);
   server.turn(500'000, answer);
-  server.hear(ask_1000(1), 500'000, answer);
+  hear(ask_1000(1), 500'000);
   EXPECT_EQ(server.counters().dropped, 1000 - hal::kCanQueue) << "there is room again";
 }
 
 // A PC that is slower than the twin would have more to make up for at each turn.
 TEST_F(CanRealTime, SkipsWhatItCannotMakeUpFor) {
-  server.hear(ask_1000(1), 1'000'000, answer);
+  hear(ask_1000(1), 1'000'000);
   EXPECT_TRUE(server.kept_up()) << "nothing was skipped";
   for (int turn = 1; turn <= 20; ++turn) {
     const std::uint64_t clock_us = 1'000'000u + 500'000u * static_cast<unsigned>(turn);
@@ -97,7 +102,7 @@ TEST_F(CanRealTime, SkipsWhatItCannotMakeUpFor) {
   EXPECT_FALSE(server.kept_up());
   EXPECT_EQ(server.counters().late, 0u);
   // It goes on from there; a frame from before the skip comes now.
-  server.hear(ask_1000(1), 10'500'000, answer);
+  hear(ask_1000(1), 10'500'000);
   EXPECT_EQ(bench.bus.now_us(), 1'000'000u);
   for (std::uint64_t clock_us = 11'000'000; clock_us <= 12'100'000; clock_us += 50'000) {
     server.turn(clock_us, answer);
@@ -107,8 +112,30 @@ TEST_F(CanRealTime, SkipsWhatItCannotMakeUpFor) {
   EXPECT_TRUE(server.kept_up()) << "for a second";
 }
 
+// Frames that come faster than this PC is done with them: each is found later than the one before.
+TEST_F(CanRealTime, IsNeverFurtherBehindTheClockHoweverOldTheFramesAre) {
+  hear(ask_1000(1), 0);
+  constexpr std::uint64_t kFrames = 1000, kApart_us = 2000, kTakes_us = 50'000;
+  for (std::uint64_t i = 1; i <= kFrames; ++i) {
+    server.hear(ask_1000(1), i * kApart_us, i * kTakes_us, answer);
+    const std::uint64_t behind_us =
+        i * kTakes_us - bench.bus.now_us() - server.counters().skipped_us;
+    ASSERT_LE(behind_us, RealtimeServer::kMostBehind_us) << i;
+  }
+  EXPECT_GT(bench.bus.now_us(), kFrames * kTakes_us / 4) << "time never stood";
+  // The next one is answered at once.
+  constexpr std::uint64_t kEnd_us = kFrames * kTakes_us;
+  server.turn(kEnd_us, answer);
+  answer.clear();
+  hear(ask_1000(2), kEnd_us + 1000);
+  server.turn(kEnd_us + 5000, answer);
+  EXPECT_TRUE(std::any_of(answer.begin(), answer.end(), [](const CanFrame& each) {
+    return each.id == canopen::sdo_response_id(2);
+  }));
+}
+
 TEST_F(CanRealTime, SaysHowLateItIs) {
-  server.hear(ask_1000(1), 1000, answer);
+  hear(ask_1000(1), 1000);
   server.finished(1500);
   EXPECT_EQ(server.counters().late, 0u);
   server.finished(8000);

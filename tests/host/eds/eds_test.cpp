@@ -109,6 +109,12 @@ void expect_same(const Sections& sections, Objects& node, unsigned least = 101) 
   EXPECT_GE(found, least);
 }
 
+/// Empty: the sheet gives none.
+std::string initial_of(const Section& section) {
+  const auto found = section.find("DefaultValue");
+  return found == section.end() ? "" : found->second;
+}
+
 /// What EDS says of a value for a node; of a negative one, its low bits.
 std::uint64_t evaluate(const std::string& text, std::uint8_t node) {
   constexpr const char* kNode = "$NODEID+";
@@ -137,7 +143,7 @@ void expect_fresh(const Sections& sections, Node& node, std::uint8_t id) {
           index >= 0x2000 && (node.application().mappable(at, bits, true) == Abort::kNone ||
                               node.application().mappable(at, bits, false) == Abort::kNone);
       EXPECT_EQ(section->at("PDOMapping") == "1", mappable) << std::hex << index;
-      const std::string& initial = section->at("DefaultValue");
+      const std::string initial = initial_of(*section);
       std::uint8_t bytes[8] = {};
       if (entry.max_size > 4 ||
           node.device().objects().read(at, 0, bytes, entry.max_size) != Abort::kNone)
@@ -167,7 +173,8 @@ void expect_same_tpdos(const Sections& sections, Objects& node, std::uint8_t id)
         ASSERT_EQ(node.read({static_cast<std::uint16_t>(each), static_cast<std::uint8_t>(subindex)},
                             0, bytes, size),
                   Abort::kNone);
-        std::string text = section_of(sections, each, subindex)->at("DefaultValue");
+        std::string text = initial_of(*section_of(sections, each, subindex));
+        EXPECT_NE(text, "") << std::hex << each << " sub " << subindex;
         const std::string relative = "$NODEID+";
         const bool adds = text.rfind(relative, 0) == 0;
         if (adds) text = text.substr(relative.size());
@@ -248,6 +255,54 @@ TEST(Eds, TheDevicesSheetsAreWhatTheyAnswer) {
   expect_device(foot(), of_foot, kNode, 40);
 }
 
+// A tool sets a node up by these, and takes what is empty for 0 or for an error.
+TEST(Eds, AllThatIsSetUpOnTheBusHasADefaultAndNoneIsEmpty) {
+  for (const Sheet& sheet : sheets()) {
+    const Sections sections = parse(to_text(sheet.describe()));
+    int writable = 0;
+    for (const auto& [name, section] : sections) {
+      const auto initial = section.find("DefaultValue");
+      if (initial != section.end()) {
+        EXPECT_NE(initial->second, "") << sheet.node << ' ' << name;
+      }
+      if (section.count("AccessType") == 0 || section.at("AccessType") != "rw") continue;
+      if (std::stoul(name, nullptr, 16) >= 0x2000) continue;
+      ++writable;
+      EXPECT_NE(initial, section.end()) << sheet.node << ' ' << name;
+    }
+    EXPECT_GE(writable, 20) << sheet.node;
+  }
+}
+
+// What a board does not keep is there all the same, and says that it has no data.
+TEST(Eds, AControllerWithoutImagesAnswersForThem) {
+  app::OperatorRegisters<app::NoImages> registers(test::kRobot, app::OperatorSetup{},
+                                                  app::no_images);
+  app::ControllerObjects<app::NoImages> objects(registers, app::no_images);
+  int domains = 0;
+  for (const Object& each : controller().objects) {
+    canopen::Entry entry;
+    const Abort abort = objects.find({each.index, 0}, entry);
+    if (each.values.front().type != DataType::kDomain) continue;
+    ++domains;
+    EXPECT_EQ(abort, Abort::kNoData) << std::hex << each.index;
+  }
+  EXPECT_EQ(domains, 3);
+}
+
+TEST(Eds, HowManyEntriesAnObjectHasIsKnownByName) {
+  const auto known = known_entries(drive().identity);
+  const auto count = [&](canopen::Address at) -> const Entry* {
+    const auto found =
+        std::find_if(known.begin(), known.end(), [&](const Entry& each) { return each.at == at; });
+    return found == known.end() ? nullptr : &*found;
+  };
+  ASSERT_NE(count({0x1A00, 0}), nullptr);
+  EXPECT_TRUE(count({0x1A00, 0})->value.writable);
+  ASSERT_NE(count({0x608F, 0}), nullptr);
+  EXPECT_EQ(count({0x608F, 0})->value.name, "Position encoder resolution, entries");
+}
+
 std::size_t count_of(const std::vector<Entry>& entries, std::uint16_t first, std::uint16_t last) {
   return static_cast<std::size_t>(std::count_if(
       entries.begin(), entries.end(),
@@ -258,14 +313,14 @@ std::size_t count_of(const std::vector<Entry>& entries, std::uint16_t first, std
 TEST(Eds, AnotherMakersDriveHasOnlyTheProfilesNames) {
   const canopen::Identity ours = drive().identity;
   const auto known = known_entries(ours);
-  EXPECT_EQ(count_of(known, 0x2000, 0x5FFF), 4u);  // telemetry, three gains
+  EXPECT_EQ(count_of(known, 0x2000, 0x5FFF), 5u);  // telemetry, three gains and how many
   canopen::Identity others[] = {ours, ours};
   others[0].vendor = 0x22;
   others[1].product += 1;
   for (const canopen::Identity& each : others) {
     const auto foreign = known_entries(each);
     EXPECT_EQ(count_of(foreign, 0x2000, 0x5FFF), 0u);
-    EXPECT_EQ(foreign.size(), known.size() - 4);
+    EXPECT_EQ(foreign.size(), known.size() - 5);
     EXPECT_GT(count_of(foreign, 0x6000, 0x9FFF), 0u);
   }
   EXPECT_TRUE(known_entries({.device_type = 0x00020191, .vendor = 0x22}).empty());

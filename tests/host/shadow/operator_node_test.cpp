@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cstring>
+#include <string>
+
 #include "common/protocol/canopen/sdo_client.hpp"
 #include "firmware/app/operator_device.hpp"
 #include "hal/fake/scripted_can.hpp"
@@ -82,6 +85,43 @@ TEST(OperatorNode, TakesWhatIsItsOwnAndSendsBehindATickOnly) {
     answered = answered || frame.id == canopen::sdo_response_id(Node::kNode);
   }
   EXPECT_TRUE(answered);
+}
+
+// `verp shadow`, `verp bus` and somebody's poller: all ask in one tick, and none takes another's
+// answer for its own.
+TEST(OperatorNode, AnswersThreeClientsAtOnceEachByItsOwnChannel) {
+  namespace plan = canopen::plan;
+  auto& desk = renewed<Desk>();
+  desk.tick();
+  canopen::SdoClient clients[] = {canopen::SdoClient(Node::kNode),
+                                  canopen::SdoClient(canopen::further_sdo(plan::kWatcherSdo)),
+                                  canopen::SdoClient(canopen::further_sdo(plan::kToolSdo))};
+  // Each reads another object, in pieces, again and again.
+  constexpr canopen::Address kAsked[] = {{0x1008, 0}, {0x1201, 1}, {0x1202, 2}};
+  const std::string expected[] = {"VERP controller", "\xD1\x06", "\xC2\x06"};
+  std::uint8_t got[3][32];
+  for (int round = 0; round < 5; ++round) {
+    for (int i = 0; i < 3; ++i) {
+      std::memset(got[i], 0, sizeof got[i]);
+      clients[i].upload(kAsked[i], got[i], sizeof got[i], canopen::SdoClient::Mode::kPlain, 0);
+    }
+    for (int tick = 0; tick < 10; ++tick) {
+      CanFrame frame;
+      for (canopen::SdoClient& each : clients) {
+        while (each.next(frame, 0)) desk.bus.inject(frame, 10);
+      }
+      while (desk.node.poll(frame, 1000)) {
+      }
+      desk.tick();
+      while (desk.bus.take_sent(frame)) {
+        for (canopen::SdoClient& each : clients) each.receive(frame, 0);
+      }
+    }
+    for (int i = 0; i < 3; ++i) {
+      ASSERT_EQ(clients[i].state(), canopen::SdoClient::State::kDone) << i;
+      EXPECT_EQ(reinterpret_cast<const char*>(got[i]), expected[i]) << i;
+    }
+  }
 }
 
 TEST(OperatorNode, TellsOfEachTickInItsOrder) {
