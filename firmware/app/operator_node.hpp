@@ -49,7 +49,7 @@ class OperatorNode {
   bool poll(CanFrame& frame, std::uint32_t timeout_us) {
     for (int taken = 0; bus_.poll(frame, timeout_us); ++taken) {
       if (!is_for_node(frame)) return true;
-      ++asked_;
+      if (frame.id != kWatchers) ++asked_;
       device_.receive(frame, bus_.now_us());
       if (!ticks_) answer();
       if (taken == kMostTaken) return false;  // no babbler holds the tick
@@ -93,11 +93,13 @@ class OperatorNode {
     registers_.withdraw_orders();
   }
   void report(const LoopHealth& health) { registers_.report().health(health); }
-  /// Frames that were addressed to it: somebody else's, who keeps no pace.
+  /// Frames that were addressed to it by others than who follows its ticks, and keeps no pace.
   std::uint32_t asked() const { return asked_; }
 
  private:
   using Objects = ControllerObjects<Store>;
+  static constexpr std::uint32_t kWatchers =
+      canopen::further_sdo(canopen::plan::kWatcherSdo).request;
   static constexpr int kMostTaken = 64;
   /// Of a block that is read, so much of the bus at the end of each tick.
   static constexpr int kMostAnswers = 4;

@@ -61,6 +61,7 @@ struct RunKeeper {
 ///  - connected(), link_errors(); let_go(joint): asks one servo, and tells it once more;
 ///  - brought_up(report), record(...) as a Recorder, report(health) after each tick: for those who
 ///    look on from its bus;
+///  - order(tick), where whoever is on its bus may give orders: as an OperatorLink;
 ///  - where(address): at what a bring-up failed, in words.
 template <class Robot>
 class RobotRun {
@@ -77,6 +78,9 @@ class RobotRun {
         keeper_{robot_, operator_, result_.walk, trace},
         app_(params_, robot_.bus(), operator_, keeper_, plan.has_imu ? nullptr : &imu_) {
     result_.fit = fit;
+    if constexpr (requires { robot.order(0u); }) {
+      if (plan.takes_orders) operator_.obey([this](auto tick) { return robot_.order(tick); });
+    }
   }
 
   RunResult run() {

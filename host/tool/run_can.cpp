@@ -39,8 +39,8 @@ class PatientCan {
 };
 static_assert(hal::CanBus<PatientCan>);
 
-/// CiA 402 drives on an interface, and this PC's controller as a node beside them, which takes no
-/// orders: whoever started the run gives them.
+/// CiA 402 drives on an interface, and this PC's controller as a node beside them, which takes
+/// orders with `--take-orders` only: else whoever started the run gives them.
 class CanRobot {
   using Ticks = app::TickLog<>;
 
@@ -60,6 +60,7 @@ class CanRobot {
   void record(const TickRecord& tick, const State& state, const Outputs& outputs) {
     node_.record(tick, state, outputs);
   }
+  app::OperatorOrder order(std::uint32_t tick) { return node_.order(tick); }
   void report(const app::LoopHealth& health) { node_.report(health); }
   bool connected() const { return port_.connected(); }
   hal::LinkErrors link_errors() const {
@@ -92,7 +93,7 @@ class CanRobot {
  private:
   static app::OperatorSetup setup(const RunPlan& plan) {
     return {.torque_limit_percent = static_cast<std::uint8_t>(plan.torque_percent),
-            .takes_orders = false};
+            .takes_orders = plan.takes_orders};
   }
 
   wire::CanPort& port_;

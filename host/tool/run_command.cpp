@@ -31,6 +31,7 @@ struct RunWords {
   std::string link;
   int torque_percent = 100;
   bool yes = false;
+  bool take_orders = false;
 };
 
 RunPlan make_plan(const RunWords& words) {
@@ -38,6 +39,12 @@ RunPlan make_plan(const RunWords& words) {
   plan.link = wire::parse_endpoint(words.link);
   plan.has_imu = words.params.has_imu();
   plan.torque_percent = words.torque_percent;
+  plan.takes_orders = words.take_orders;
+  if (words.take_orders && plan.link.kind != wire::Endpoint::Kind::kCan) {
+    throw ToolError(kBadInput, fmt::format("verp run: --take-orders is for a robot on CAN, where "
+                                           "the controller is a node; {} has no place for orders",
+                                           words.link));
+  }
   WalkPlan& walk = plan.walk;
   walk.entity = model::load_robot_on_any_bus(model::find_model(words.walk.model), words.walk.bus);
   walk.params = model::make_params(walk.entity);
@@ -204,6 +211,10 @@ Subcommand add_run(CLI::App& root) {
   app->add_option("--record", words->walk.record_file, "write the trace here (.mcap)");
   app->add_flag("--record-state", words->walk.record_state,
                 "keep the full State of every tick in the trace");
+  app->add_flag("--take-orders", words->take_orders,
+                "on CAN: whoever writes the controller's node (127) gives the orders, for --for "
+                "seconds or until Ctrl-C; the bytes: host/can/masters.md")
+      ->excludes("--velocity");
   add_json_flag(*app, words->walk.json);
   return {app, [words] {
             catch_interrupts_to_the_end();

@@ -9,10 +9,13 @@ namespace verp::tool {
 using safety::Mode;
 
 RunOperator::RunOperator(const Params& params, const Command& velocity, double walk_s, Told told)
-    : walker_(params, velocity, walk_s), told_(std::move(told)) {}
+    : walker_(params, velocity, walk_s),
+      told_(std::move(told)),
+      period_s_(1e-6 * params.period_us),
+      most_s_(walk_s) {}
 
 app::OperatorOrder RunOperator::order(std::uint32_t tick) {
-  if (!sitting_ && !limp_) return walker_.order(tick);
+  if (!sitting_ && !limp_) return orders_ ? orders_(tick) : walker_.order(tick);
   app::OperatorOrder order;
   relax_.request = Request::kRelax;
   ++relax_.sequence;
@@ -27,6 +30,17 @@ void RunOperator::fail(const std::string& why) {
   sitting_ = true;
 }
 
+// Who gives the orders may have the robot let go as well.
+void RunOperator::observe_obeying(std::uint32_t faults) {
+  constexpr std::uint32_t kStopping = 0xFFFF;
+  obeyed_s_ += period_s_;
+  if (mode_ == Mode::kWalking) walked_s_ += period_s_;
+  if (mode_ == Mode::kRelaxed && risen_ && (faults & kStopping) != 0) {
+    fail("the robot let go by itself: " + session::fault_names(faults));
+  }
+  if (obeyed_s_ >= most_s_) sitting_ = true;
+}
+
 void RunOperator::observe(const State& state, const Outputs& outputs) {
   const auto mode = static_cast<Mode>(outputs.mode);
   const Mode before = std::exchange(mode_, mode);
@@ -34,13 +48,15 @@ void RunOperator::observe(const State& state, const Outputs& outputs) {
   risen_ = risen_ || outputs.torque_enable != 0;
   if (mode == Mode::kFallen) fail("the robot fell");
   if (mode == Mode::kStopped && !limp_) fail("stopped");
-  if (mode == Mode::kRelaxed && risen_ && !sitting_) {
+  if (mode == Mode::kRelaxed && risen_ && !sitting_ && !orders_) {
     fail("the robot let go by itself: " + session::fault_names(outputs.faults));
   }
   // What the robot does by itself takes none of the operator's patience.
   const bool by_itself = mode == Mode::kHolding || mode == Mode::kSitting ||
                          (mode == Mode::kRising && walker_.walked_s() > 0);
-  if (!sitting_ && !by_itself) {
+  if (orders_ && !sitting_) {
+    observe_obeying(outputs.faults);
+  } else if (!sitting_ && !by_itself) {
     walker_.observe(state, outputs);
     if (walker_.done()) {
       failure_ = walker_.failed();

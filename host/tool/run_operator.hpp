@@ -2,6 +2,7 @@
 #include <cstdint>
 #include <functional>
 #include <string>
+#include <utility>
 
 #include "common/control/state.hpp"
 #include "common/safety/machine.hpp"
@@ -24,6 +25,10 @@ class RunOperator {
   /// What the controller put out in the tick just done.
   void observe(const State& state, const Outputs& outputs);
 
+  /// Orders come from there, for so long as the walk was to take; not from who started the run.
+  using Orders = std::function<app::OperatorOrder(std::uint32_t tick)>;
+  void obey(Orders orders) { orders_ = std::move(orders); }
+
   /// From now on: sit down, then let go.
   void sit_down() { sitting_ = true; }
   /// From now on: no torque.
@@ -31,7 +36,7 @@ class RunOperator {
 
   /// Torque is off, and was so for as long as it takes to tell every servo.
   bool over() const { return quiet_ticks_ >= kQuietTicks; }
-  double walked_s() const { return walker_.walked_s(); }
+  double walked_s() const { return orders_ ? walked_s_ : walker_.walked_s(); }
   /// Why the walk is no good, in words; empty: it is.
   const std::string& failure() const { return failure_; }
 
@@ -39,9 +44,13 @@ class RunOperator {
   static constexpr int kQuietTicks = 10;  ///< over three times App's repeats of a change of torque
 
   void fail(const std::string& why);
+  void observe_obeying(std::uint32_t faults);
 
   session::WalkOperator walker_;
   Told told_;
+  Orders orders_;
+  const double period_s_, most_s_;
+  double obeyed_s_ = 0, walked_s_ = 0;  ///< with orders_
   Command relax_;
   safety::Mode mode_ = safety::Mode::kRelaxed;
   std::string failure_;

@@ -20,6 +20,7 @@ struct RunPlan {
   wire::Endpoint link;
   bool has_imu = true;  ///< false: `--imu none`
   int torque_percent = 100;
+  bool takes_orders = false;  ///< `--take-orders`: who writes the controller's node gives them
 };
 
 struct RunResult {
