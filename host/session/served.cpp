@@ -12,7 +12,6 @@ namespace {
 
 /// What a start takes by the twin's clock: reset, boot check, greeting.
 constexpr std::uint32_t kRestart_us = 1'000'000;
-constexpr std::uint64_t kListen_ns = 1'000'000'000;
 
 }  // namespace
 
@@ -189,9 +188,9 @@ bool Served::may_run_in_real_time() const {
          (options_.pace == Pace::kAuto && !shadows() && !greeted());
 }
 
-bool Served::still_listening(bool heard) {
+bool Served::still_listening(bool heard, std::uint64_t listen_ns) {
   if (heard_ns_ == 0 && heard) heard_ns_ = wire::monotonic_ns();
-  return options_.pace == Pace::kAuto && wire::monotonic_ns() < heard_ns_ + kListen_ns;
+  return options_.pace == Pace::kAuto && wire::monotonic_ns() < heard_ns_ + listen_ns;
 }
 
 void Served::begin_real_time() {

@@ -87,7 +87,8 @@ class Served : public Controller {
   bool may_run_in_real_time() const;
   /// A controller may look around before it asks for a twin: it gets time to do so. `heard`:
   /// something that is not for the clock has come.
-  bool still_listening(bool heard);
+  static constexpr std::uint64_t kListen_ns = 1'000'000'000;
+  bool still_listening(bool heard, std::uint64_t listen_ns = kListen_ns);
   void begin_real_time();
   /// All ticks up to bus time `now_us` of a robot whose controller tells nothing, until it is over.
   void watch_until(std::uint64_t now_us);

@@ -50,6 +50,8 @@ class ServedOnCan final : public Served {
 
  private:
   static constexpr std::uint32_t kGoodbye_us = 200'000;
+  /// Who asks by SDO waits for 0.3 to 1 s; a controller that greets sends nothing before.
+  static constexpr std::uint64_t kListen_ns = 150'000'000;
   static constexpr std::uint64_t kMostSkipped_us = 1'000'000;
 
   bool stopped() const override { return server_.stopped(); }
@@ -153,7 +155,7 @@ class ServedOnCan final : public Served {
 
   bool begin_with_what_was_heard() {
     for (const CanFrame& each : server_.unannounced()) heard_.push_back(each);
-    if (heard_.empty() || still_listening(true)) return false;
+    if (heard_.empty() || still_listening(true, kListen_ns)) return false;
     server_.refuse_lockstep();
     live_.reset();
     watcher_.reset();
