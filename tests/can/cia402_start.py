@@ -29,8 +29,9 @@ def nmt(master, command, node):
 
 def reset(master, node):
     nmt(master, 0x81, node)
-    if master.hear(0x700 + node) != b"\0":
-        raise Refused("no boot-up message")
+    while (told := master.hear(0x700 + node)) != b"\0":  # heartbeats were on their way
+        if told is None:
+            raise Refused("no boot-up message")
 
 
 def started(master, node):
