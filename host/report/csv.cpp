@@ -33,6 +33,7 @@ std::string samples_csv(const Run& run) {
   }
   out += ",zmp_x_m,zmp_y_m,zmp_planned_x_m,zmp_planned_y_m,zmp_bias_mm";
   for (const std::string& joint : run.joints) out += "," + csv_field(joint + "_rad");
+  for (const std::string& joint : run.joints) out += "," + csv_field(joint + "_goal_rad");
   for (const std::string& joint : run.joints) out += "," + csv_field(joint + "_torque_use");
   out += '\n';
   for (const Sample& s : run.samples) {
@@ -49,9 +50,16 @@ std::string samples_csv(const Run& run) {
     }
     out += s.zmp_bias_mm ? number(*s.zmp_bias_mm) : ",";
     for (const double v : s.joint_rad) out += number(v);
+    for (const double v : s.goal_rad) out += number(v);
     for (const double v : s.torque_use) out += number(v);
     out += '\n';
   }
+  return out;
+}
+
+std::string asked_csv(const Run& run) {
+  std::string out = "x_m,y_m\n";
+  for (const Point2& point : run.asked) out += fmt::format("{:.4f},{:.4f}\n", point.x_m, point.y_m);
   return out;
 }
 

@@ -8,6 +8,7 @@
 namespace verp::report {
 
 std::string samples_csv(const Run& run);
+std::string asked_csv(const Run& run);
 std::string bias_csv(const Run& run);
 std::string torque_csv(const Run& run);
 std::string sweep_csv(const Run& run);

@@ -81,8 +81,10 @@ Plot joint_plot(const Run& run, const Range& cycle) {
   }
   return {"joints",
           "Joint angles of one cycle",
-          "Measured in the twin over the last steady cycle; the right leg repeats the left half a "
-          "cycle later.",
+          run.steady ? "Measured in the twin over the last steady cycle; the right leg repeats the "
+                       "left half a cycle later."
+                     : "Measured in the twin over the last whole cycle. The walk was too short to "
+                       "become steady: the legs need not repeat each other.",
           920,
           450,
           script + "unset multiplot\n"};

@@ -24,25 +24,30 @@ std::string mean_line(const std::optional<double>& mean, const char* title) {
       *mean, kInk, title);
 }
 
-/// What a view from above has to hold, and the paper for it: no flatter than a third of its width.
+/// What a view from above has to hold, and the paper for it: neither a strip nor a column.
 class Extent2 {
  public:
-  void add(double x, double y) {
-    low_x_ = std::min(low_x_, x), high_x_ = std::max(high_x_, x);
-    low_y_ = std::min(low_y_, y), high_y_ = std::max(high_y_, y);
+  void add(const Point2& point) {
+    low_.x_m = std::min(low_.x_m, point.x_m), high_.x_m = std::max(high_.x_m, point.x_m);
+    low_.y_m = std::min(low_.y_m, point.y_m), high_.y_m = std::max(high_.y_m, point.y_m);
   }
   std::string ranges() const {
-    const double margin = 0.05 * std::max({high_x_ - low_x_, high_y_ - low_y_, 0.4});
-    return fmt::format("set xrange [{:.4g}:{:.4g}]\nset yrange [{:.4g}:{:.4g}]\n", low_x_ - margin,
-                       high_x_ + margin, low_y_ - margin, high_y_ + margin);
+    return fmt::format("set xrange [{:.4g}:{:.4g}]\nset yrange [{:.4g}:{:.4g}]\n",
+                       middle_x_m() - wide_m() / 2, middle_x_m() + wide_m() / 2,
+                       middle_y_m() - high_m() / 2, middle_y_m() + high_m() / 2);
   }
-  int height_px() const {
-    const double wide = std::max(high_x_ - low_x_, 0.2), high = std::max(high_y_ - low_y_, 0.2);
-    return static_cast<int>(std::clamp(820 * high / wide + 100, 360.0, 620.0));
-  }
+  int height_px() const { return static_cast<int>(780 * high_m() / wide_m() + 110); }
 
  private:
-  double low_x_ = 0, high_x_ = 0, low_y_ = 0, high_y_ = 0;
+  double across_m() const {
+    return 1.1 * std::max({high_.x_m - low_.x_m, (high_.y_m - low_.y_m) / 0.6, 0.4});
+  }
+  double wide_m() const { return across_m(); }
+  double high_m() const { return std::max(1.1 * (high_.y_m - low_.y_m), across_m() / 4); }
+  double middle_x_m() const { return (low_.x_m + high_.x_m) / 2; }
+  double middle_y_m() const { return (low_.y_m + high_.y_m) / 2; }
+
+  Point2 low_, high_;
 };
 
 Plot bias_plot(const Run& run) {
@@ -64,24 +69,28 @@ Plot bias_plot(const Run& run) {
           script};
 }
 
-/// Ahead is up, as the robot saw it; one centimetre ahead is as long as one aside.
+/// One centimetre ahead is as long as one aside.
 Plot way_plot(const Run& run) {
-  Data asked("asked"), walked("walked");
-  for (const Point2& point : run.asked) asked.row(-point.y_m, point.x_m);
+  Data asked("asked"), walked("walked"), start("start");
   const std::size_t stride = std::max<std::size_t>(1, run.samples.size() / 1500);
   Extent2 seen;
-  for (const Point2& point : run.asked) seen.add(-point.y_m, point.x_m);
-  for (std::size_t i = 0; i < run.samples.size(); i += stride) {
-    const Point3& body = run.samples[i].body;
-    walked.row(-body.y_m, body.x_m);
-    seen.add(-body.y_m, body.x_m);
+  for (const Point2& point : run.asked) {
+    asked.row(point.x_m, point.y_m);
+    seen.add(point);
   }
-  std::string script = preamble() + asked.text() + walked.text();
+  for (std::size_t i = 0; i < run.samples.size(); i += stride) {
+    const Point2 body{run.samples[i].body.x_m, run.samples[i].body.y_m};
+    walked.row(body.x_m, body.y_m);
+    seen.add(body);
+  }
+  start.row(run.asked.front().x_m, run.asked.front().y_m);
+  std::string script = preamble() + asked.text() + walked.text() + start.text();
   script += fmt::format(
-      "set size ratio -1\nset xlabel 'to the right, m'\nset ylabel 'ahead, m'\n{}"
+      "set size ratio -1\nset xlabel 'ahead, m'\nset ylabel 'to the left, m'\n{}"
       "set key outside top center horizontal\n"
       "plot $asked using 1:2 with lines linecolor rgb '{}' linewidth 1.2 dashtype 2 title 'asked', "
-      "$walked using 1:2 with lines linetype 1 title 'walked'\n",
+      "$walked using 1:2 with lines linetype 1 title 'walked', "
+      "$start using 1:2 with points linetype 1 pointsize 0.8 title 'start'\n",
       seen.ranges(), kInk);
   return {"way",
           "The way asked and walked",

@@ -16,6 +16,20 @@
 namespace verp::report {
 namespace {
 
+constexpr std::string_view kNames[] = {"index.html", "samples.csv", "zmp_bias.csv", "torque.csv",
+                                       "asked.csv",  "sweep.csv",   "walk.png"};
+
+/// Of an earlier run into this folder: what this run has no file of would be taken for its own.
+void remove_what_is_older(const std::filesystem::path& folder,
+                          const std::vector<std::pair<std::string, std::string>>& files) {
+  for (const std::string_view name : kNames) {
+    const bool written = std::any_of(files.begin(), files.end(),
+                                     [&](const auto& file) { return file.first == name; });
+    std::error_code error;
+    if (!written && name != "index.html") std::filesystem::remove(folder / name, error);
+  }
+}
+
 /// What gnuplot made of a run. A picture that fails never costs another one, nor the numbers.
 struct Drawing {
   std::vector<Picture> pictures;
@@ -72,8 +86,6 @@ Drawing draw_what_can_be(const Run& run, Written& written) {
 }  // namespace
 
 bool is_of_the_report(std::string_view name) {
-  constexpr std::string_view kNames[] = {"index.html", "samples.csv", "zmp_bias.csv",
-                                         "torque.csv", "sweep.csv",   "walk.png"};
   return std::find(std::begin(kNames), std::end(kNames), name) != std::end(kNames);
 }
 
@@ -90,9 +102,10 @@ Written write_report(const std::filesystem::path& folder, const Run& run) {
     files.emplace_back(name, holds);
   };
   add("samples.csv", samples_csv(run),
-      "every control tick: body, feet, ZMP, joint angles, torque use");
+      "every control tick: body, feet, ZMP, joint angles, goals, torque use");
   add("zmp_bias.csv", bias_csv(run), "mean ZMP bias of each state of the cycle");
   add("torque.csv", torque_csv(run), "mean and peak torque use of each joint");
+  add("asked.csv", asked_csv(run), "the way that was asked, from where the gait began");
   if (!run.sweep.empty()) add("sweep.csv", sweep_csv(run), "the sweep over step lengths");
   if (!run.trace_file.empty()) {
     files.emplace_back(run.trace_file, "the trace: verp replay, or any MCAP viewer");
@@ -100,10 +113,15 @@ Written write_report(const std::filesystem::path& folder, const Run& run) {
   Written written;
   written.page = folder / "index.html";
   const Drawing drawing = draw_what_can_be(run, written);
+  std::string note = written.note;
+  if (note.empty() && last_steady_cycle(run).empty()) {
+    note = "No whole cycle was walked, so there are no pictures of one.";
+  }
   if (!drawing.png.empty()) {
     add("walk.png", drawing.png, "one cycle in one picture, to show to others");
   }
-  write_file(written.page, page(run, drawing.pictures, written.note, files));
+  remove_what_is_older(folder, files);
+  write_file(written.page, page(run, drawing.pictures, note, files));
   return written;
 }
 

@@ -34,6 +34,7 @@ struct Sample {
   std::optional<Point2> zmp_planned;      ///< placed by the sole that carries
   std::optional<double> zmp_bias_mm;
   std::vector<double> joint_rad;
+  std::vector<double> goal_rad;    ///< what the controller asked the servos for
   std::vector<double> torque_use;  ///< |torque| / stall torque
 };
 
@@ -78,6 +79,7 @@ struct Run {
   std::string title;    ///< what was asked, in words
   std::string verdict;  ///< how it ended, in words
   bool good = true;
+  bool steady = true;  ///< at least one cycle was: the last whole one stands for the walk
   double cycle_s = 0.45;
   double period_s = 0.01;
   std::vector<std::string> joints;

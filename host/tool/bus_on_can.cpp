@@ -149,7 +149,7 @@ int read_can(const BusOptions& options) {
       answer(show_value(each, bytes) + "\n");
     } else {
       answer(fmt::format("{:>7}  {:<32} {}\n", can::to_text(each.at), each.name,
-                         show_value(each, bytes)));
+                         with_unit(show_value(each, bytes), unit_of(each.at))));
     }
   }
   if (options.json) print_json({{"id", options.id}, {"objects", values}});

@@ -160,8 +160,8 @@ int read_serial(const BusOptions& options) {
     } else if (options.address >= 0) {
       answer(show_value(each, bytes) + "\n");
     } else {
-      answer(fmt::format("{:4}  {:<24} {} {}\n", each.address, each.name, show_value(each, bytes),
-                         each.unit));
+      answer(fmt::format("{:4}  {:<24} {}\n", each.address, each.name,
+                         with_unit(show_value(each, bytes), each.unit)));
     }
   }
   Json json = {{"id", id}, {"registers", values}};

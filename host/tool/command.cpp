@@ -9,6 +9,10 @@
 
 namespace verp::tool {
 
+CLI::Option* add_model(CLI::App& app, std::string& model) {
+  return app.add_option("MODEL,--robot", model, "a robot by its name, or the path of its SDF file");
+}
+
 void add_bus_option(CLI::App& app, std::string& bus) {
   app.add_option("--bus", bus, "name of the robot's bus to use (default: its first)");
 }

@@ -7,6 +7,7 @@
 
 namespace CLI {
 class App;
+class Option;
 class Validator;
 }  // namespace CLI
 
@@ -27,6 +28,7 @@ Subcommand add_replay(CLI::App& root);
 Subcommand add_diff(CLI::App& root);
 Subcommand add_check(CLI::App& root);
 Subcommand add_export(CLI::App& root);
+Subcommand add_parameters(CLI::App& root);
 Subcommand add_trace(CLI::App& root);
 Subcommand add_bench(CLI::App& root);
 Subcommand add_bus(CLI::App& root);
@@ -36,6 +38,9 @@ Subcommand add_deploy(CLI::App& root);
 /// Adds --json. With it stdout holds one JSON object and nothing else; everything for people goes
 /// to stderr.
 void add_json_flag(CLI::App& app, bool& json);
+
+/// Adds MODEL, the robot, everywhere by these words; --robot MODEL is the same.
+CLI::Option* add_model(CLI::App& app, std::string& model);
 
 /// Adds --bus: which of the robot's buses is used, by name.
 void add_bus_option(CLI::App& app, std::string& bus);

@@ -268,8 +268,7 @@ Subcommand add_deploy(CLI::App& root) {
       "deploy",
       "From a model to a robot: build, walk in the twin, replay on an emulated core, flash");
   auto options = std::make_shared<DeployOptions>();
-  app->add_option("MODEL", options->model, "a robot of common/robots, or the path of an SDF file")
-      ->required();
+  add_model(*app, options->model)->required();
   add_bus_option(*app, options->flash.bus);
   declare_target(*app, options->flash);
   app->add_option("--for", options->walk_s, "length of the walk, s")

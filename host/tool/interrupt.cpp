@@ -4,10 +4,13 @@
 #include <cstdint>
 #include <ctime>
 
+#include "host/tool/exit_status.hpp"
+
 namespace verp::tool {
 namespace {
 
 volatile std::sig_atomic_t asked = 0;
+volatile std::sig_atomic_t asked_by = 0;
 volatile std::sig_atomic_t to_the_end = 0;
 volatile std::int64_t asked_at_ms = 0;
 
@@ -23,6 +26,7 @@ extern "C" void ask(int signal) {
   const std::int64_t now_ms = std::int64_t{now.tv_sec} * 1000 + now.tv_nsec / 1'000'000;
   if (asked == 0) {
     asked_at_ms = now_ms;
+    asked_by = signal;
     asked = 1;
   } else if (to_the_end != 0) {
     if (now_ms - asked_at_ms >= kSamePressOfRobot_ms) asked = 2;
@@ -52,6 +56,10 @@ void catch_interrupts_to_the_end() {
 
 int presses() {
   return static_cast<int>(asked);
+}
+
+int status_if_interrupted(int status) {
+  return status == kRunFailed && asked_by != 0 ? 128 + static_cast<int>(asked_by) : status;
 }
 
 bool interrupted() {

@@ -20,4 +20,8 @@ int presses();
 /// Whether somebody asked.
 bool interrupted();
 
+/// Of a run that failed since somebody asked it to end, what shells say of one that a signal ended:
+/// 130 after Ctrl-C, 143 after SIGTERM. Any other status is as it was.
+int status_if_interrupted(int status);
+
 }  // namespace verp::tool

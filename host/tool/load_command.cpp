@@ -113,8 +113,7 @@ Subcommand add_bus_load(CLI::App& bus) {
   CLI::App* app =
       bus.add_subcommand("load", "what a robot's CAN bus has to carry, and what does not fit");
   auto words = std::make_shared<LoadWords>();
-  app->add_option("--robot", words->robot, "a robot of common/robots, or the path of an SDF file")
-      ->capture_default_str();
+  add_model(*app, words->robot)->capture_default_str();
   app->add_option("--bus", words->bus, "name of its bus (default: its first on CAN)");
   app->add_option("--data-baud", words->data_baud, "data rate of FD frames, bit/s")
       ->check(whole_number_between(1'000'000, 8'000'000))

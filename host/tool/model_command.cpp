@@ -15,8 +15,7 @@ Subcommand add_check(CLI::App& root) {
   CLI::App* app = root.add_subcommand(
       "check", "Validate a robot; limbs, links, masses, limits, servos, leg solver, bus load");
   auto options = std::make_shared<Options>();
-  app->add_option("MODEL", options->model, "a robot of common/robots, or the path of an SDF file")
-      ->required();
+  add_model(*app, options->model)->required();
   add_bus_option(*app, options->bus);
   add_json_flag(*app, options->json);
   return {app,
@@ -30,8 +29,7 @@ Subcommand add_export(CLI::App& root) {
   CLI::App* app =
       root.add_subcommand("export", "Write a robot's Params image and header for firmware");
   auto options = std::make_shared<Options>();
-  app->add_option("MODEL", options->model, "a robot of common/robots, or the path of an SDF file")
-      ->required();
+  add_model(*app, options->model)->required();
   add_bus_option(*app, options->bus);
   app->add_option("-o,--output", options->folder, "folder")->required();
   return {app, [options] {

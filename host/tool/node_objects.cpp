@@ -123,6 +123,21 @@ std::vector<NodeObject> objects_of(const can::NodeIdentity& identity) {
   return all;
 }
 
+std::string_view unit_of(Address at) {
+  constexpr std::pair<std::uint16_t, const char*> kDrive[] = {
+      {0x6062, "counts"},  {0x6063, "counts"}, {0x6064, "counts"},  {0x607A, "counts"},
+      {0x6071, "0.1 %"},   {0x6072, "0.1 %"},  {0x6073, "0.1 %"},   {0x6074, "0.1 %"},
+      {0x6077, "0.1 %"},   {0x6078, "0.1 %"},  {0x6075, "0.001 A"}, {0x6076, "0.001 N m"},
+      {0x6079, "0.001 V"}, {0x1017, "ms"},     {0x1006, "us"}};
+  for (const auto& [index, unit] : kDrive) {
+    if (at.index == index) return unit;
+  }
+  for (const dxl::controller::Register& each : dxl::controller::kTable) {
+    if (each.object_index() == at.index && at.index >= 0x2000) return each.unit;
+  }
+  return "";
+}
+
 Address parse_object(const std::string& text) {
   const std::size_t colon = text.find(':');
   unsigned index = 0, sub = 0;

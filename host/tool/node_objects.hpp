@@ -2,6 +2,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "host/bus/register_names.hpp"
@@ -25,6 +26,10 @@ struct NodeObject {
 
 /// What the node's sheet names; nothing if it has none here.
 std::vector<NodeObject> objects_of(const can::NodeIdentity& identity);
+
+/// Of the controller's registers, and of what CiA 402 gives a unit for all drives alike; else
+/// empty.
+std::string_view unit_of(canopen::Address at);
 
 /// INDEX:SUBINDEX; throws ToolError.
 canopen::Address parse_object(const std::string& text);

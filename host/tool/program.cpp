@@ -11,6 +11,7 @@
 #include "host/tool/command.hpp"
 #include "host/tool/console.hpp"
 #include "host/tool/failure.hpp"
+#include "host/tool/help_text.hpp"
 #include "host/tool/interrupt.hpp"
 #include "host/tool/json.hpp"
 #include "host/tool/suggest.hpp"
@@ -91,7 +92,7 @@ int parse_failure(const CLI::App& root, const CLI::ParseError& error, bool json)
   if (error.get_exit_code() == 0) {  // --help, --version
     const auto* version = dynamic_cast<const CLI::CallForVersion*>(&error);
     if (version != nullptr) return answer_version(error.what(), json);
-    answer(app->help());
+    answer(wrapped_help(app->help(app == &root ? "" : full_name(app->get_parent())), help_width()));
     return kGood;
   }
   std::string line = in_words(error);
@@ -140,7 +141,7 @@ int run(int argc, char** argv, AddCommands add_commands) {
 
 int run_program(int argc, char** argv, AddCommands add_commands) {
   open_missing_streams();
-  return after_the_answer(run(argc, argv, add_commands));
+  return after_the_answer(status_if_interrupted(run(argc, argv, add_commands)));
 }
 
 }  // namespace verp::tool

@@ -85,6 +85,19 @@ std::string show_value(const bus::NamedRegister& reg, const std::vector<std::uin
   return text;
 }
 
+std::string with_unit(const std::string& shown, std::string_view unit) {
+  if (unit.empty()) return shown;
+  double scale = 0, value = 0;
+  const auto [word, bad_scale] = std::from_chars(unit.data(), unit.data() + unit.size(), scale);
+  if (bad_scale != std::errc()) return fmt::format("{} {}", shown, unit);
+  const char* const end = shown.data() + shown.size();
+  const auto [last, bad_value] = std::from_chars(shown.data(), end, value);
+  const std::string scaled = fmt::format("{} x {}", shown, unit);
+  if (bad_value != std::errc() || last != end) return scaled;  // several elements
+  return fmt::format("{} = {:.6g}{}", scaled, value * scale,
+                     std::string(word, unit.data() + unit.size()));
+}
+
 std::vector<std::uint8_t> parse_values(const bus::NamedRegister& reg,
                                        const std::vector<std::string>& words) {
   if (words.size() > reg.count) {

@@ -87,8 +87,7 @@ Subcommand add_bus_setup(CLI::App& bus) {
   CLI::App* app = bus.add_subcommand(
       "setup", "serial servos, guided, joint by joint: ids, baud, zeros, directions");
   auto words = std::make_shared<SetupWords>();
-  app->add_option("MODEL", words->model, "a robot of common/robots, or the path of an SDF file")
-      ->capture_default_str();
+  add_model(*app, words->model)->capture_default_str();
   add_bus_option(*app, words->bus);
   app->add_option("--link", words->link, "serial:/dev/ttyUSB0, pty:PATH, tcp:HOST:PORT, unix:PATH")
       ->required();
@@ -111,8 +110,7 @@ Subcommand add_bus_checklist(CLI::App& bus) {
     std::string model = "generic21", bus;
   };
   auto words = std::make_shared<Words>();
-  app->add_option("MODEL", words->model, "a robot of common/robots, or the path of an SDF file")
-      ->capture_default_str();
+  add_model(*app, words->model)->capture_default_str();
   add_bus_option(*app, words->bus);
   return {app, [words] {
             answer(first_power_checklist(model::make_params(

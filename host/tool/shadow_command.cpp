@@ -243,8 +243,7 @@ Subcommand add_shadow(CLI::App& root) {
   CLI::App* app = root.add_subcommand(
       "shadow", "Run the controller once more beside one that runs, and compare each tick");
   auto words = std::make_shared<ShadowWords>();
-  app->add_option("MODEL", words->model, "a robot of common/robots, or the path of an SDF file")
-      ->required();
+  add_model(*app, words->model)->required();
   app->add_option(
          "--link", words->link,
          "can:INTERFACE, the bus of its drives; or its operator's port: serial:DEVICE@BAUD, "

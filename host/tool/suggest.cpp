@@ -1,6 +1,7 @@
 #include "host/tool/suggest.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 
@@ -23,6 +24,20 @@ std::size_t edit_distance(std::string_view from, std::string_view to) {
   return row.back();
 }
 
+/// What of a name a person remembers: "stance" of gait.half_stance_m, "gait.stance" likewise.
+std::string_view last_part(std::string_view word) {
+  return word.substr(word.rfind('.') + 1);  // npos + 1 is 0
+}
+
+std::vector<std::string> holding(std::string_view part, const std::vector<std::string>& names) {
+  std::vector<std::string> found;
+  if (part.size() < 3) return found;
+  for (const std::string& name : names) {
+    if (last_part(name).find(part) != std::string_view::npos) found.push_back(name);
+  }
+  return found;
+}
+
 }  // namespace
 
 std::string nearest(std::string_view word, const std::vector<std::string>& names) {
@@ -37,8 +52,13 @@ std::string nearest(std::string_view word, const std::vector<std::string>& names
 }
 
 std::string did_you_mean(std::string_view word, const std::vector<std::string>& names) {
-  const std::string name = nearest(word, names);
-  return name.empty() ? "" : fmt::format("; did you mean {}?", name);
+  constexpr std::size_t kMost = 5;
+  if (const std::string name = nearest(word, names); !name.empty()) {
+    return fmt::format("; did you mean {}?", name);
+  }
+  const std::vector<std::string> found = holding(last_part(word), names);
+  if (found.empty() || found.size() > kMost) return "";
+  return fmt::format("; did you mean {}?", fmt::join(found, " or "));
 }
 
 }  // namespace verp::tool

@@ -9,7 +9,7 @@ namespace verp::tool {
 /// (lift_m: gait.lift_m), else one at most two letters away. Empty when there is none.
 std::string nearest(std::string_view word, const std::vector<std::string>& names);
 
-/// "; did you mean --step?", or nothing.
+/// "; did you mean --step?", or of at most five names that hold the word's last part, or nothing.
 std::string did_you_mean(std::string_view word, const std::vector<std::string>& names);
 
 }  // namespace verp::tool

@@ -20,6 +20,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr const char* kTraceName = "run.mcap";
+
 /// A folder into which a file can be put: known now, not after a long walk.
 void make_folder(const fs::path& folder) {
   std::error_code error;
@@ -65,7 +67,7 @@ WalkFiles::WalkFiles(const WalkOptions& options, const WalkPlan& plan,
   if (!options.record_file.empty()) {
     trace_path_ = options.record_file;
   } else if (wants_report()) {
-    trace_path_ = folder_ / "run.mcap";
+    trace_path_ = folder_ / kTraceName;
   }
   if (!trace_path_.empty()) open_trace(options, plan, more);
 }
@@ -124,8 +126,12 @@ void WalkFiles::lose_trace(const std::string& why) {
 }
 
 void WalkFiles::write_report(report::Run run) {
-  if (!trace_path_.empty() && trace_is_in_folder())
+  std::error_code ignored;
+  if (!trace_path_.empty() && trace_is_in_folder()) {
     run.trace_file = trace_path_.filename().string();
+  } else {
+    fs::remove(folder_ / kTraceName, ignored);  // of an earlier run: not what the page tells of
+  }
   try {
     const report::Written written = report::write_report(folder_, run);
     page_ = written.page.string();

@@ -45,12 +45,6 @@ double number(const std::string& command, const std::string& option, const std::
   }
 }
 
-std::string all_names() {
-  std::string names;
-  for (const std::string& known : model::tuning_names()) names += " " + known;
-  return names;
-}
-
 /// The decimal number a float32 was written as: 0.06 for 0.06F.
 double decimal(float value) {
   return std::stod(fmt::format("{:g}", value));
@@ -61,12 +55,10 @@ void set_by_name(Tuning& tuning, const std::string& setting, const std::string& 
   const std::string name = setting.substr(0, equals);
   const auto id = model::tuning_id(name);
   if (!id) {
-    const std::string meant = nearest(name, model::tuning_names());
-    throw ToolError(
-        kBadInput, meant.empty() ? fmt::format("{}: --set {}: no such parameter; names:{}", command,
-                                               setting, all_names())
-                                 : fmt::format("{}: --set {}: no such parameter; did you mean {}?",
-                                               command, setting, meant));
+    const std::string meant = did_you_mean(name, model::tuning_names());
+    throw ToolError(kBadInput,
+                    fmt::format("{}: --set {}: no such parameter{}", command, setting,
+                                meant.empty() ? "; `verp parameters` lists them" : meant));
   }
   if (equals == std::string::npos) {
     throw ToolError(kBadInput,
@@ -86,8 +78,7 @@ void set_by_name(Tuning& tuning, const std::string& setting, const std::string& 
 }  // namespace
 
 void declare_gait(CLI::App& app, WalkOptions& options) {
-  app.add_option("MODEL", options.model, "a robot of common/robots, or the path of an SDF file")
-      ->capture_default_str();
+  add_model(app, options.model)->capture_default_str();
   add_bus_option(app, options.bus);
   app.add_option("--step", options.step_m, "step length, m")
       ->check(number_between(0, kMaxStep_m, "m"))

@@ -77,6 +77,7 @@ report::Sample to_sample(const Params& params, const sim::SeriesRow& row, double
     sample.zmp_bias_mm = 1000 * std::hypot(sample.zmp->x_m - x_m, sample.zmp->y_m - y_m);
   }
   sample.joint_rad = row.joint_rad;
+  sample.goal_rad = row.goal_rad;
   sample.torque_use = row.torque_use;
   return sample;
 }
@@ -260,6 +261,7 @@ report::Run to_report(const WalkPlan& plan, const WalkOptions& options, const Wa
   if (!run.samples.empty())
     run.asked = asked_points(plan, run.samples.front(), result.metrics.walk_s);
   run.changed = options.changed;
+  run.steady = result.metrics.speed_steady_m_s.has_value();
   run.facts = facts(plan, result);
   run.bias_by_state_mm = result.metrics.zmp_bias_by_state_mm;
   run.bias_mean_mm = result.metrics.zmp_bias_mean_mm;

@@ -113,7 +113,7 @@ TEST_F(SilenceOnCan, AnInterruptedScanPrintsWhatItFoundSoFar) {
                     [](unsigned node, Address at) { return node != 30 || at.index == 0x1000; });
   const Outcome outcome = shell(std::string("timeout -s INT --preserve-status -k 20 9 ") +
                                 VERP_PROGRAM + " bus scan --timeout 3000" + link);
-  EXPECT_EQ(outcome.status, 1) << outcome.err;
+  EXPECT_EQ(outcome.status, 130) << outcome.err;
   EXPECT_TRUE(says(outcome.out, "  5  DCBA")) << outcome.out;
   EXPECT_TRUE(says(outcome.out, " 30  CiA 402                   type 0x00020192  not asked"))
       << outcome.out;

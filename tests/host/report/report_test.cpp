@@ -42,6 +42,7 @@ Run sample_run() {
               {{x_m, 0, 0.35}, {x_m, 0, 0.4}},
               {{x_m, 0, 0.2}, {x_m + 0.03, 0, 0.1}, {x_m, 0, 0}}};
     s.joint_rad = {0.1, 0.2};
+    s.goal_rad = {0.3, 0.4};
     s.torque_use = {0.25, i == 10 ? 0.9 : 0.1};
     run.samples.push_back(s);
   }
@@ -105,13 +106,18 @@ TEST(ReportNumbers, JointNamesStayInTheirColumns) {
   report::Run run = sample_run();
   run.joints = {"he,ad", "say \"knee\"\nnow"};
   const auto header = header_of(samples_csv(run));
-  ASSERT_GE(header.size(), 4u);
-  const std::vector<std::string> last(header.end() - 4, header.end());
-  EXPECT_EQ(last, (std::vector<std::string>{"he,ad_rad", "say \"knee\"\nnow_rad",
-                                            "he,ad_torque_use", "say \"knee\"\nnow_torque_use"}));
+  ASSERT_GE(header.size(), 6u);
+  const std::vector<std::string> last(header.end() - 6, header.end());
+  EXPECT_EQ(last, (std::vector<std::string>{"he,ad_rad", "say \"knee\"\nnow_rad", "he,ad_goal_rad",
+                                            "say \"knee\"\nnow_goal_rad", "he,ad_torque_use",
+                                            "say \"knee\"\nnow_torque_use"}));
   const std::string torque = torque_csv(run);
   EXPECT_NE(torque.find("\n\"he,ad\",0.25"), std::string::npos) << torque;
   EXPECT_NE(torque.find("\n\"say \"\"knee\"\"\nnow\","), std::string::npos) << torque;
+}
+
+TEST(ReportNumbers, GoalsStandBesideWhatBecameOfThem) {
+  EXPECT_NE(samples_csv(sample_run()).find(",0.1,0.2,0.3,0.4,0.25,"), std::string::npos);
 }
 
 // A zero would be taken for a measurement.
@@ -179,6 +185,31 @@ TEST_F(ReportFolder, LeavesOutWhatARunHasNoDataFor) {
   EXPECT_EQ(page.find("planned ZMP"), std::string::npos);
   EXPECT_NE(page.find("id=\"zmp\""), std::string::npos);
   EXPECT_FALSE(fs::exists(folder_ / "walk.png"));
+}
+
+// The walk before had a picture and a sweep; this one has neither.
+TEST_F(ReportFolder, HoldsNothingOfTheRunBefore) {
+  report::Run run = sample_run();
+  run.sweep.push_back({});
+  write_report(folder_, run);
+  ASSERT_TRUE(fs::exists(folder_ / "sweep.csv"));
+  ASSERT_TRUE(fs::exists(folder_ / "walk.png"));
+  run.sweep.clear();
+  run.samples.resize(20);
+  std::ofstream(folder_ / "notes.txt") << "mine";
+  const Written written = write_report(folder_, run);
+  EXPECT_FALSE(fs::exists(folder_ / "sweep.csv"));
+  EXPECT_FALSE(fs::exists(folder_ / "walk.png"));
+  EXPECT_TRUE(fs::exists(folder_ / "notes.txt"));
+  EXPECT_NE(slurp(written.page).find("No whole cycle was walked"), std::string::npos);
+}
+
+TEST_F(ReportFolder, CallsNoCycleSteadyWhereNoneWas) {
+  report::Run run = sample_run();
+  run.steady = false;
+  const std::string page = slurp(write_report(folder_, run).page);
+  EXPECT_EQ(page.find("last steady cycle"), std::string::npos);
+  EXPECT_NE(page.find("too short to become steady"), std::string::npos);
 }
 
 /// A gnuplot of the test's own, the first in PATH.

@@ -132,7 +132,7 @@ TEST_F(Setup, GoesOnWhereItEnded) {
   ASSERT_TRUE(second->says("head_roll (3 of 21)"));
   second->signal(SIGINT);
   const Outcome interrupted = second->wait();
-  EXPECT_EQ(interrupted.status, 1);
+  EXPECT_EQ(interrupted.status, 130);
   EXPECT_EQ(interrupted.err.find("head_yaw ("), std::string::npos) << "it was done";
   EXPECT_NE(interrupted.out.find("head_yaw          done"), std::string::npos) << interrupted.out;
   EXPECT_EQ(report().at("joints").at("head_pitch").at("outcome"), "skipped");

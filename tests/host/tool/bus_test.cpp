@@ -72,6 +72,13 @@ TEST_F(BusCommand, RegistersAreReadByNameByAddressAndAll) {
   EXPECT_EQ(all["registers"].size(), dxl::controller::kRegisters);
 }
 
+TEST_F(BusCommand, NumbersAreReadWithTheirUnits) {
+  EXPECT_EQ(bus("write --register walk_vx 300").status, 0);
+  const std::string text = bus("read --register walk_vx --register period_us").out;
+  EXPECT_NE(text.find("300 x 0.1 mm/s = 30 mm/s\n"), std::string::npos) << text;
+  EXPECT_NE(text.find(" us\n"), std::string::npos) << text;
+}
+
 TEST_F(BusCommand, WhatIsWrittenCanBeRead) {
   for (const char* value : {"-300", "32767", "0"}) {
     EXPECT_EQ(bus(std::string("write --register walk_vx ") + value).status, 0);
@@ -115,7 +122,7 @@ TEST_F(BusCommand, BenchOfNoRegisterSaysSo) {
 TEST_F(BusCommand, AnInterruptedBenchStillReports) {
   const Outcome outcome = shell(std::string("timeout -s INT --preserve-status 1 ") + VERP_PROGRAM +
                                 " bus bench --for 60 --json --link unix:port");
-  EXPECT_EQ(outcome.status, 1) << outcome.err;
+  EXPECT_EQ(outcome.status, 130) << outcome.err;
   const Json result = Json::parse(outcome.out, nullptr, false);
   ASSERT_TRUE(result.is_object()) << outcome.out;
   EXPECT_GT(result["round_trips"], 0);

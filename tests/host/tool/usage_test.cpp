@@ -1,9 +1,12 @@
 #include <sys/stat.h>
 
 #include <nlohmann/json.hpp>
+#include <sstream>
 
+#include "common/model/tuning_ranges.hpp"
 #include "host/files/places.hpp"
 #include "host/model/find.hpp"
+#include "host/model/params.hpp"
 #include "tests/host/tool/program.hpp"
 
 namespace verp::tool::test {
@@ -24,6 +27,45 @@ TEST_F(Usage, HelpGoesToStdoutAndIsGood) {
 TEST_F(Usage, TheLaunchersHelpIsThePrograms) {
   EXPECT_EQ(verp("--help").out, slurp(files::source_dir() / "host/tool/help.txt"))
       << "mend it: build/host-release/host/tool/verp --help > host/tool/help.txt";
+}
+
+TEST_F(Usage, LinesOfHelpAreWholeCommandsAndAsWideAsTheTerminal) {
+  const Outcome outcome = shell("COLUMNS=48 " VERP_PROGRAM " bus read --help");
+  EXPECT_NE(outcome.out.find("\nUsage: verp bus read [OPTIONS]"), std::string::npos) << outcome.out;
+  std::istringstream lines(outcome.out);
+  for (std::string line; std::getline(lines, line);) {
+    const bool one_word = line.find(' ', line.find_first_not_of(' ')) == std::string::npos;
+    EXPECT_TRUE(line.size() <= 48 || one_word) << line;
+  }
+  // Nothing but spaces and line ends was changed.
+  const auto words = [](std::string text) {
+    std::erase_if(text, [](char c) { return c == ' ' || c == '\n'; });
+    return text;
+  };
+  EXPECT_EQ(words(outcome.out), words(shell("COLUMNS=400 " VERP_PROGRAM " bus read --help").out));
+}
+
+TEST_F(Usage, TheRobotIsNamedByTheSameWordsEverywhere) {
+  for (const char* command : {"check", "parameters", "bus load", "bus checklist"}) {
+    const Outcome first = verp(std::string(command) + " generic21");
+    EXPECT_EQ(first.status, 0) << command << first.err;
+    EXPECT_EQ(verp(std::string(command) + " --robot generic21").out, first.out) << command;
+    expect_refused(std::string(command) + " no_such_robot", "no_such_robot");
+  }
+}
+
+TEST_F(Usage, EveryNumberOfTheTuningIsListedWithUnitAndRange) {
+  const auto json = nlohmann::json::parse(verp("parameters --json").out).at("parameters");
+  ASSERT_EQ(json.size(), static_cast<std::size_t>(kTuningCount));
+  for (std::size_t i = 0; i < json.size(); ++i) {
+    const auto& row = json[i];
+    const int id = model::tuning_id(row.at("name")).value_or(-1);
+    ASSERT_EQ(id, static_cast<int>(i));
+    EXPECT_TRUE(in_range(id, row.at("value").get<float>())) << row;
+    EXPECT_EQ(row.at("low").get<float>(), kTuningRanges[i].low);
+    EXPECT_EQ(row.at("high").get<float>(), kTuningRanges[i].high);
+    EXPECT_EQ(row.at("name").get<std::string>().ends_with("_m"), row.at("unit") == "m") << row;
+  }
 }
 
 TEST_F(Usage, UnknownWordsGetAHint) {
@@ -87,7 +129,10 @@ TEST_F(Usage, ListsAreChecked) {
 TEST_F(Usage, ParametersAreCheckedByNameAndRange) {
   expect_refused("walk --set gait.lift=0.01", "gait.lift_m");
   expect_refused("walk --set lift_m=0.03", "did you mean gait.lift_m?");
-  expect_refused("walk --set nonsense=1", "names: gait.cycle_s gait.double_support");
+  expect_refused("walk --set nonsense=1", "`verp parameters` lists them");
+  expect_refused("walk --set gait.stance=0.03", "did you mean gait.half_stance_m?");
+  expect_refused("walk --set ankle_roll=0",
+                 "balance.ankle_roll_tilt or balance.ankle_roll_rate_s?");
   expect_refused("walk --set gait.lift_m", "NAME=VALUE");
   expect_refused("walk --set gait.lift_m=", "give 0 to 0.06\n");
   expect_refused("walk --set gait.lift_m=nan", "not a number");

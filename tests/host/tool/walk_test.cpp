@@ -1,4 +1,5 @@
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <thread>
 
 #include "host/record/trace.hpp"
@@ -48,6 +49,32 @@ TEST_F(Walk, JsonTraceReplayAndDiffAgree) {
   const Outcome csv = verp("trace export a.mcap");
   EXPECT_EQ(static_cast<std::size_t>(std::count(csv.out.begin(), csv.out.end(), '\n')),
             result.at("ticks").get<std::size_t>() + 1);
+}
+
+// A walk that was set otherwise must not be taken for the robot's own.
+TEST_F(Walk, WhatWasChangedStandsInSummaryReportJsonAndTrace) {
+  const std::string options = "walk --for 3 --set gait.lift_m=0.02 --cycle 0.45 --report out";
+  const Outcome walk = verp(options);
+  EXPECT_NE(walk.out.find("changed           --set gait.lift_m=0.02\n"), std::string::npos);
+  EXPECT_EQ(walk.out.find("--cycle"), std::string::npos) << "as by default";
+  EXPECT_NE(slurp(folder_ / "out/index.html").find("gait.lift_m=0.02"), std::string::npos);
+  const std::string info = verp("trace info out/run.mcap").out;
+  EXPECT_NE(info.find("changed: --for 3 --set gait.lift_m=0.02"), std::string::npos) << info;
+  const json changed = json::parse(verp("walk --for 3 --json --set gait.lift_m=0.02").out);
+  EXPECT_EQ(changed.at("changed"), json::parse(R"([["--for","3"],["--set","gait.lift_m=0.02"]])"));
+}
+
+// ... nor a curve that was asked for drift.
+TEST_F(Walk, ACommandedCurveIsToldAndDrawnBesideTheWayWalked) {
+  const Outcome walk = verp("walk --for 6 --velocity 0.1,0,0.4 --report out");
+  EXPECT_EQ(walk.status, 0) << walk.err;
+  EXPECT_EQ(walk.out.find("drift"), std::string::npos) << walk.out;
+  EXPECT_NE(walk.out.find(" asked\n"), std::string::npos) << walk.out;
+  EXPECT_NE(slurp(folder_ / "out/index.html").find("id=\"way\""), std::string::npos);
+  std::istringstream asked(slurp(folder_ / "out/asked.csv"));
+  std::string line, last;
+  while (std::getline(asked, line)) last = line;
+  EXPECT_GT(std::stod(last.substr(last.find(',') + 1)), 0.2) << "an arc to the left: " << last;
 }
 
 TEST_F(Walk, SameSeedSameBitsOtherSeedOtherBits) {
@@ -106,12 +133,14 @@ TEST_F(Walk, TwoCopiesDoNotClobberEachOther) {
   EXPECT_FALSE(has_leftovers(folder_));
 }
 
-// Ctrl-C: exit 1, and what was walked so far is a whole trace and a report.
+// Ctrl-C: exit 130, SIGTERM: 143, as shells have it; and what was walked so far is a whole trace
+// and a report.
 TEST_F(Walk, InterruptKeepsTraceAndReport) {
-  for (const char* signal : {"INT", "TERM"}) {
-    const std::string command = std::string("timeout -s ") + signal +
+  for (const auto& [signal, status] : {std::pair("INT", "130\n"), std::pair("TERM", "143\n")}) {
+    const std::string command = std::string("timeout --preserve-status -s ") + signal +
                                 " 3 " VERP_PROGRAM " walk --for 600 --report out; echo status $?";
     const Outcome outcome = shell(command);
+    EXPECT_TRUE(outcome.out.ends_with(std::string("status ") + status)) << outcome.out;
     EXPECT_NE(outcome.err.find("interrupted"), std::string::npos) << outcome.err;
     EXPECT_EQ(verp("replay out/run.mcap").status, 0);
     EXPECT_NE(slurp(folder_ / "out/index.html").find("Interrupted"), std::string::npos);
