@@ -29,6 +29,7 @@ class Device {
   virtual std::uint8_t status_level() const { return 2; }
   virtual bool answers_fast_sync_read() const { return true; }
   virtual bool alert() const { return false; }
+  virtual bool torque_on() const { return false; }
 
   /// Brings the registers in the range up to date; the plant stands at the moment of the reply.
   virtual void refresh(std::uint16_t address, std::uint16_t length) = 0;
@@ -65,7 +66,6 @@ class Device {
   virtual void written(std::uint16_t address, std::uint16_t length) = 0;
   /// Follows a reboot and a reset.
   virtual void restarted() {}
-  virtual bool torque_on() const { return false; }
   virtual bool moving() { return false; }
   std::uint8_t byte(std::uint16_t address) const {
     return static_cast<std::uint8_t>(table_.get(address));

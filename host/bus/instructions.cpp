@@ -9,16 +9,20 @@
 namespace verp::bus {
 namespace {
 
+constexpr std::uint8_t kTooLong = static_cast<std::uint8_t>(dxl::Error::kDataLength);
+
 std::uint8_t error_field(const Device& device, dxl::Error error) {
   return dxl::error_field(error, device.alert());
 }
 
+/// What is longer than a device can send it refuses to read.
 std::vector<std::uint8_t> status(std::uint8_t id, std::uint8_t error,
                                  std::span<const std::uint8_t> data) {
   std::vector<std::uint8_t> packet(dxl::kMaxPacket);
   packet.resize(
       dxl::encode_status(packet.data(), packet.size(), id, error, data.data(), data.size()));
-  return packet;
+  if (!packet.empty()) return packet;
+  return status(id, static_cast<std::uint8_t>((error & dxl::kAlert) | int{kTooLong}), {});
 }
 
 /// The EEPROM cannot be written by a Secondary ID.
@@ -144,7 +148,6 @@ void VirtualBus::ping(std::uint8_t id) {
     if (devices(each).empty()) continue;
     const std::uint64_t slot_ns = end_ns + each * kPingSlot_us * 1000;
     wire_free_ns_ = std::max(wire_free_ns_, slot_ns);
-    advance_plant(wire_free_ns_ / 1000);
     identify(each);
   }
 }
@@ -157,6 +160,7 @@ void VirtualBus::read(const dxl::Packet& packet) {
     std::span<const std::uint8_t> data;
     dxl::Error error = dxl::Error::kDataLength;
     if (packet.size == 4) {
+      advance_plant(wire_free_ns_ / 1000);
       data = each.read(dxl::get_u16(packet.parameters), dxl::get_u16(packet.parameters + 2));
       error = data.empty() ? dxl::Error::kAccess : dxl::Error::kNone;
     }
@@ -181,6 +185,7 @@ void VirtualBus::read_each(const dxl::Packet& packet) {
     std::erase_if(speakers, [](const Device* each) { return each->status_level() < 1; });
     if (speakers.empty()) return;
     speak(speakers, false, [&](Device& each) {
+      advance_plant(wire_free_ns_ / 1000);
       const auto data = each.read(want.address, want.length);
       const dxl::Error error = data.empty() ? dxl::Error::kAccess : dxl::Error::kNone;
       return status(want.id, error_field(each, error), data);
@@ -204,6 +209,7 @@ void VirtualBus::read_fast(const dxl::Packet& packet) {
     const std::uint16_t crc_before = crc;
     bool told = false;
     speak(speakers, i > 0, [&](Device& each) {
+      advance_plant(wire_free_ns_ / 1000);
       const auto data = each.read(want.address, want.length);
       std::vector<std::uint8_t> block(dxl::kFastHeaderBytes + dxl::kFastBlockBytes + data.size());
       crc = crc_before;

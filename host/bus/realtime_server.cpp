@@ -10,13 +10,31 @@ void RealtimeServer::begin(std::uint64_t clock_us) {
   bus_.set_real_time(true);
 }
 
+void RealtimeServer::let_go(std::uint64_t clock_us) {
+  bus_.begin_time();
+  begin(clock_us);
+}
+
+std::size_t RealtimeServer::room() const {
+  return kPort_bytes - std::min(kPort_bytes, bus_.unsent());
+}
+
+RealtimeServer::Counters RealtimeServer::counters() const {
+  Counters counters = counters_;
+  counters.lost = bus_.lost_requests();
+  return counters;
+}
+
 void RealtimeServer::turn(std::uint64_t clock_us, std::span<const std::uint8_t> heard,
                           std::vector<std::uint8_t>& answer) {
   counters_.bytes += heard.size();
-  for (std::size_t i = 0; i < heard.size() && !begun_; ++i) {
-    if (line_.push(heard[i])) begin(clock_us);
+  if (!begun_ && heard.empty()) return;
+  if (!begun_) begin(clock_us);
+  const std::uint64_t behind_us = clock_us - offset_us_ - bus_.now_us();
+  if (behind_us > kMostBehind_us) {
+    offset_us_ += behind_us - kMostBehind_us;
+    counters_.skipped_us += behind_us - kMostBehind_us;
   }
-  if (!begun_) return;
   std::uint8_t piece[hal::kMaxFrame];
   const auto bring = [&] {
     for (std::size_t count = sizeof piece; count == sizeof piece;) {

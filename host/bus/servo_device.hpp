@@ -26,6 +26,7 @@ class ServoDevice final : public Device {
   std::uint8_t status_level() const override { return byte(dxl::address::kStatusReturnLevel); }
   bool answers_fast_sync_read() const override { return fast_sync_read_; }
   bool alert() const override { return byte(dxl::address::kHardwareError) != 0; }
+  bool torque_on() const override { return byte(dxl::address::kTorqueEnable) != 0; }
   void refresh(std::uint16_t address, std::uint16_t length) override;
   std::uint64_t deadline_us() const override;
   void expire() override;
@@ -36,7 +37,6 @@ class ServoDevice final : public Device {
   void written(std::uint16_t address, std::uint16_t length) override;
   void restarted() override;
   bool moving() override;
-  bool torque_on() const override { return byte(dxl::address::kTorqueEnable) != 0; }
   bool tripped() const { return byte(dxl::address::kBusWatchdog) == dxl::kBusWatchdogTripped; }
   std::int32_t homing() const;
   void watch_limits(const sim::ServoMeasurement& measured);

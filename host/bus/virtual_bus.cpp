@@ -73,11 +73,12 @@ std::uint64_t VirtualBus::begin_tick(std::uint64_t ready_ns) {
 
 bool VirtualBus::send(const std::uint8_t* data, std::size_t size) {
   if (size == 0 || size > hal::kMaxFrame) return false;
+  if (real_time_) return talk(data, size), true;
   std::uint64_t start_ns = std::max(now_ns_, wire_free_ns_);
   bytes_on_wire_ += size;
   for (std::size_t i = 0; i < size; ++i) {
     for (bool found = line_.push(data[i]); found; found = line_.next()) {
-      if (!real_time_ && begins_tick(line_.packet())) start_ns = begin_tick(start_ns);
+      if (begins_tick(line_.packet())) start_ns = begin_tick(start_ns);
       wire_free_ns_ = std::max(wire_free_ns_, start_ns + bytes_ns(i + 1));
       handle(line_.packet(), wire_free_ns_);
     }
@@ -101,7 +102,7 @@ std::size_t VirtualBus::bring_until(std::uint64_t time_us, std::uint8_t* buffer,
   const std::uint64_t deadline_ns = std::max(now_ns_, time_us * 1000);
   const std::size_t count = arrive(deadline_ns, buffer, capacity);
   if (count < capacity) now_ns_ = deadline_ns;
-  advance_plant(std::max(now_ns_, wire_free_ns_) / 1000);
+  advance_plant(now_ns_ / 1000);
   return count;
 }
 
@@ -119,22 +120,25 @@ std::size_t VirtualBus::arrive(std::uint64_t deadline_ns, std::uint8_t* buffer,
   return count;
 }
 
+// It may be ahead: an answer is made up when it is asked for, and begins a bit later.
 void VirtualBus::advance_plant(std::uint64_t time_us) {
+  if (held_) return;
+  time_us = std::max(time_us, plant_.now_us());
   for (;;) {
     Device* next = nullptr;
     for (const auto& each : devices_) {
       if (next == nullptr || each->deadline_us() < next->deadline_us()) next = each.get();
     }
     if (next == nullptr || next->deadline_us() > time_us) break;
-    plant_.advance_to(next->deadline_us());
+    plant_.advance_to(std::max(next->deadline_us(), plant_.now_us()));
     next->expire();
   }
   plant_.advance_to(time_us);
 }
 
 void VirtualBus::wait_us(std::uint32_t delay_us) {
+  asked_ns_ = wire_free_ns_;
   wire_free_ns_ += std::uint64_t{delay_us} * 1000;
-  advance_plant(wire_free_ns_ / 1000);
 }
 
 void VirtualBus::put_on_wire(std::vector<std::uint8_t> bytes) {
@@ -142,7 +146,10 @@ void VirtualBus::put_on_wire(std::vector<std::uint8_t> bytes) {
   bytes_on_wire_ += bytes.size();
   const std::uint64_t start_ns = wire_free_ns_;
   wire_free_ns_ += bytes_ns(bytes.size());
-  replies_.push_back({start_ns, 0, std::move(bytes)});
+  const auto later = std::find_if(replies_.begin(), replies_.end(), [start_ns](const Chunk& each) {
+    return each.start_ns > start_ns;  // of a Ping to all
+  });
+  replies_.insert(later, {asked_ns_, start_ns, 0, std::move(bytes)});
 }
 
 }  // namespace verp::bus

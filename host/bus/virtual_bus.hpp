@@ -46,8 +46,27 @@ class VirtualBus {
   /// Whether a packet makes a tick begin, if time does not go on by itself.
   static bool begins_tick(const dxl::Packet& packet);
 
-  /// In real time no read waits for a period to begin; bring_until() lets time go on.
+  /// In real time no read waits for a period to begin; bring_until() lets time go on. The master
+  /// speaks when it likes (real_time_line.cpp): what it says before an answer is over is lost, as
+  /// on a wire that all share, and half a packet ends where the next begins, or with a pause.
   void set_real_time(bool real_time) { real_time_ = real_time; }
+  /// The rate of the master's port: devices set to another one hear and say nothing.
+  void set_baud(std::uint32_t baud);
+  /// While the plant is held, time goes on for bytes only.
+  void hold_plant() { held_ = true; }
+  /// Lets the plant go: it is 0 o'clock again, what the devices were told stays. What is still on
+  /// the wire is lost.
+  void begin_time();
+  bool held() const { return held_; }
+  bool torque_on() const;
+  /// Nothing is on the wire, nor is anything about to be.
+  bool quiet() const { return replies_.empty() && master_free_ns_ <= now_ns_; }
+  /// Bytes of the master's that have not left its port yet.
+  std::size_t unsent() const;
+  /// The master's port is closed: nobody will end its last packet.
+  void hung_up() { line_.reset(); }
+  /// Of the master's, which came while an answer was under way.
+  std::uint32_t lost_requests() const { return lost_requests_; }
   /// Lets time go on up to `time_us`, and the plant follow; stores the bytes that arrive until then
   /// and returns how many. If there are more than `capacity`, time stops with the last one stored.
   std::size_t bring_until(std::uint64_t time_us, std::uint8_t* buffer, std::size_t capacity);
@@ -62,6 +81,7 @@ class VirtualBus {
 
  private:
   struct Chunk {
+    std::uint64_t asked_ns = 0;  ///< from here on who says it hears nothing else
     std::uint64_t start_ns = 0;  ///< when its first byte's start bit began
     std::size_t taken = 0;
     std::vector<std::uint8_t> bytes;
@@ -75,11 +95,16 @@ class VirtualBus {
   std::vector<Device*> devices(std::uint8_t id);
   std::uint64_t begin_tick(std::uint64_t ready_ns);
   std::size_t arrive(std::uint64_t deadline_ns, std::uint8_t* buffer, std::size_t capacity);
+
+  // real_time_line.cpp
+  void talk(const std::uint8_t* data, std::size_t size);
+  /// An answer is under way then; what of it is on the line is spoilt by `byte`.
+  bool jams(std::uint8_t byte, std::uint64_t start_ns, std::uint64_t end_ns);
   /// False for a device that is unplugged, or set to another baud rate.
   bool hears(const Device& device) const;
   /// Takes the plant there, and on the way lets devices do what they do by themselves.
   void advance_plant(std::uint64_t time_us);
-  /// Lets a Return Delay Time pass and the plant follow; the reply's bytes come next.
+  /// Lets a Return Delay Time pass; the reply's bytes come next.
   void wait_us(std::uint32_t delay_us);
   /// Lets each of `speakers` say what `say` makes of it, all after the shortest of their delays, or
   /// at once.
@@ -109,14 +134,20 @@ class VirtualBus {
   dxl::Parser line_;  ///< what the devices hear
   std::deque<Chunk> replies_;
   std::uint64_t now_ns_ = 0;
-  std::uint64_t wire_free_ns_ = 0;   ///< when the last byte on the wire ends
-  std::uint64_t send_start_ns_ = 0;  ///< when the last frame sent began
+  std::uint64_t wire_free_ns_ = 0;    ///< when the last byte on the wire ends
+  std::uint64_t asked_ns_ = 0;        ///< when the device that speaks next was asked
+  std::uint64_t master_free_ns_ = 0;  ///< real time: when the master's last byte ends
+  std::uint64_t send_start_ns_ = 0;   ///< when the last frame sent began
   std::uint64_t tick_start_ns_ = 0;
   std::uint64_t first_tick_ns_ = 0;
   std::uint64_t bytes_on_wire_ = 0;
   std::uint32_t tick_ = 0;
+  std::uint32_t lost_requests_ = 0;
+  std::uint32_t last_four_ = 0;  ///< bytes of the master's, real time
+  bool jammed_ = false;          ///< its last byte
   bool ticking_ = false;
   bool real_time_ = false;
+  bool held_ = false;
 };
 
 static_assert(hal::FrameBus<VirtualBus>);

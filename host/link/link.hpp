@@ -21,6 +21,9 @@ class Link {
 
   /// What somebody else can be told to open: `/dev/pts/4`, `tcp:127.0.0.1:6000`.
   std::string place() const { return port_->place(); }
+  /// Of a pseudo-terminal: the rate in baud that its other end has set, or found; else 0.
+  std::uint32_t rate() const { return port_->rate(); }
+  void set_rate(std::uint32_t baud) { port_->set_rate(baud); }
 
   // ByteLink
   std::size_t write(const std::uint8_t* data, std::size_t size, std::uint32_t timeout_us);

@@ -48,6 +48,10 @@ class Port {
   virtual std::uint32_t retry_us() const = 0;
   /// What a peer may be told to open; see Link::place().
   virtual std::string place() const = 0;
+  /// The rate in baud that a peer has set; 0: there is none, or it is nothing to the peer.
+  virtual std::uint32_t rate() const { return 0; }
+  /// The rate that a peer finds, and may change.
+  virtual void set_rate(std::uint32_t) {}
   /// Since this Port was made, without losses.
   virtual hal::LinkErrors counted() { return {}; }
 };

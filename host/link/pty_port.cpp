@@ -13,6 +13,7 @@
 #include <cstring>
 #include <string_view>
 
+#include "host/link/line_rate.hpp"
 #include "host/link/link_error.hpp"
 #include "host/link/port.hpp"
 
@@ -72,7 +73,15 @@ class PtyPort final : public Port {
     pollfd one{master_.get(), 0, 0};
     return ::poll(&one, 1, 0) < 0 || (one.revents & POLLHUP) != 0 ? -1 : master_.get();
   }
-  void close() override {}
+  // What the one who left did not read is no business of the next one. The master's own flush does
+  // not reach what the other end's line has taken already.
+  void close() override {
+    const Descriptor slave(::open(name_.c_str(), O_RDWR | O_NOCTTY | O_CLOEXEC));
+    ::tcflush(master_.get(), TCOFLUSH);
+    ::tcflush(slave.get(), TCIFLUSH);
+  }
+  std::uint32_t rate() const override { return line_rate(master_.get()); }
+  void set_rate(std::uint32_t baud) override { set_line_rate(master_.get(), baud); }
   std::uint32_t retry_us() const override { return 1000; }
   std::string place() const override { return path_.empty() ? name_ : path_; }
 

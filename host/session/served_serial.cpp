@@ -21,7 +21,9 @@ class ServedOnSerial final : public Served {
         lockstep_(robot.plan().params, robot.bus(), own_hooks()),
         realtime_(robot.bus()) {
     place_ = link_.place();
+    link_.set_rate(robot.plan().params.baud);
     if (options.pace == Pace::kRealTime) lockstep_.refuse_lockstep();
+    if (options.pace == Pace::kAuto) robot.bus().hold_plant();
   }
 
   ServedResult result() const override {
@@ -39,7 +41,7 @@ class ServedOnSerial final : public Served {
 
   bool stopped() const override { return lockstep_.stopped(); }
   bool greeted() const override { return lockstep_.greeted(); }
-  bool real_time_begun() const override { return realtime_.begun(); }
+  bool real_time_begun() const override { return realtime_.begun() && !robot_.bus().held(); }
 
   std::unique_ptr<bus::Shadow> make_shadow(bus::Shadow::Record record) override {
     auto shadow = std::make_unique<bus::ShadowLoop>(robot_.plan().params, std::move(record));
@@ -48,22 +50,31 @@ class ServedOnSerial final : public Served {
   }
 
   bus::LockstepHooks own_hooks() {
-    return {Served::hooks(),
-            [this](std::span<const std::uint8_t> frame) {
-              if (shadow_ != nullptr) shadow_->sent({frame.begin(), frame.end()});
-            },
-            [this](std::span<const std::uint8_t> bytes, std::uint64_t now_us) {
-              if (shadow_ != nullptr) shadow_->polled({bytes.begin(), bytes.end()}, now_us);
-            }};
+    bus::LockstepHooks hooks{Served::hooks(),
+                             [this](std::span<const std::uint8_t> frame) {
+                               if (shadow_ != nullptr) shadow_->sent({frame.begin(), frame.end()});
+                             },
+                             [this](std::span<const std::uint8_t> bytes, std::uint64_t now_us) {
+                               if (shadow_ != nullptr)
+                                 shadow_->polled({bytes.begin(), bytes.end()}, now_us);
+                             }};
+    hooks.greeted = [this, begins = hooks.greeted] {
+      if (robot_.bus().held()) robot_.bus().begin_time();
+      robot_.bus().set_real_time(false);
+      begins();
+    };
+    return hooks;
   }
 
   void turn() override {
-    std::uint8_t piece[4096];
+    std::uint8_t piece[bus::RealtimeServer::kPort_bytes];
+    const std::size_t room = realtime_.begun() ? realtime_.room() : sizeof piece;
+    if (room == 0) std::this_thread::sleep_for(std::chrono::microseconds(kRealTimeTurn_us));
     const std::size_t count =
-        link_.read(piece, sizeof piece, realtime_.begun() ? kRealTimeTurn_us : kIdle_us);
+        link_.read(piece, room, realtime_.begun() ? kRealTimeTurn_us : kIdle_us);
     answer_.clear();
     lockstep_.take({piece, count}, answer_);
-    if (may_run_in_real_time()) let_time_go_on();
+    if (may_run_in_real_time()) let_time_go_on({piece, count});
     for (std::size_t sent = 0; sent < answer_.size();) {
       const std::size_t more = link_.write(answer_.data() + sent, answer_.size() - sent, kWrite_us);
       if (more == 0) break;  // nobody reads; in lockstep it asks again
@@ -78,6 +89,7 @@ class ServedOnSerial final : public Served {
   void rest_after_loss() {
     if (link_.errors().losses == losses_) return;
     losses_ = link_.errors().losses;
+    if (realtime_.begun()) robot_.bus().hung_up();
     const std::uint64_t now = wire::monotonic_ns();
     if (now < rested_ns_ + kLossRest_ns) {
       std::this_thread::sleep_for(std::chrono::nanoseconds(rested_ns_ + kLossRest_ns - now));
@@ -85,18 +97,38 @@ class ServedOnSerial final : public Served {
     rested_ns_ = wire::monotonic_ns();
   }
 
-  void let_time_go_on() {
-    const bool begun = realtime_.begun();
-    const std::vector<std::uint8_t> heard = lockstep_.unannounced();
-    if (still_listening(!heard.empty())) return;
-    realtime_.turn(wire::monotonic_ns() / 1000, heard, answer_);
+  // Whoever speaks is answered at once. Until it is known that lockstep will not be asked for, the
+  // robot stands still meanwhile: a controller that looks around before it greets finds the twin
+  // as it would have without. The clock's packets are on the wire as others are.
+  void let_time_go_on(std::span<const std::uint8_t> heard) {
+    lockstep_.unannounced();
+    bus::VirtualBus& bus = robot_.bus();
+    const std::uint64_t now_us = wire::monotonic_ns() / 1000;
+    if (link_.rate() != 0) bus.set_baud(link_.rate());
+    realtime_.turn(now_us, heard, answer_);
     realtime_.finished(wire::monotonic_ns() / 1000);
     if (!realtime_.begun()) return;
-    if (!begun) {
+    const bool looks = still_listening(true) && !bus.torque_on();
+    if (bus.held() && (looks || !bus.quiet())) return;
+    if (bus.held()) realtime_.let_go(now_us);
+    if (!std::exchange(told_, true)) {
       lockstep_.refuse_lockstep();
       begin_real_time();
     }
-    watch_until(robot_.bus().now_us());
+    tell_trouble();
+    watch_until(bus.now_us());
+  }
+
+  void tell_trouble() {
+    const bus::RealtimeServer::Counters& real = realtime_.counters();
+    if (real.lost > 0 && !std::exchange(lost_told_, true)) {
+      say("requests come while a servo is answering, and are lost, as on a wire; wait for each "
+          "answer, or write to all at once (Sync Write)");
+    }
+    if (real.skipped_us > 0 && !std::exchange(skips_told_, true)) {
+      say("the twin falls behind the clock: what it can't make up for within 50 ms is skipped, and "
+          "its time is short of the clock's");
+    }
   }
 
   wire::Link link_;
@@ -104,6 +136,7 @@ class ServedOnSerial final : public Served {
   bus::LockstepServer lockstep_;
   bus::RealtimeServer realtime_;
   std::vector<std::uint8_t> answer_;
+  bool told_ = false, lost_told_ = false, skips_told_ = false;
   std::uint32_t losses_ = 0;     ///< of the link, as last seen
   std::uint64_t rested_ns_ = 0;  ///< when rest_after_loss() was last over
 };

@@ -1,0 +1,252 @@
+#!/usr/bin/env python3
+"""Somebody else's Dynamixel software, in the standard library alone: it shares nothing with this project.
+
+    foreign_client.py VERP CASE
+
+starts `VERP hil generic21 --link pty:...` in this folder and plays CASE over the pseudo-terminal. What is sent stands in
+ROBOTIS e-Manual, "DYNAMIXEL Protocol 2.0" and "XM430-W210", or follows from it. Status 0: all was as it is there.
+"""
+import os
+import select
+import subprocess
+import sys
+import termios
+import time
+
+PING, READ, WRITE, FACTORY_RESET, REBOOT, BACKUP = 1, 2, 3, 6, 8, 0x20
+SYNC_READ, SYNC_WRITE, STATUS, BROADCAST = 0x82, 0x83, 0x55, 0xFE
+RATES = {57600: termios.B57600, 1000000: termios.B1000000, 2000000: termios.B2000000}
+
+
+def crc16(data):
+    crc = 0
+    for byte in data:
+        crc ^= byte << 8
+        for _ in range(8):
+            crc = (crc << 1 ^ 0x8005 if crc & 0x8000 else crc << 1) & 0xFFFF
+    return crc
+
+
+def packet(device, instruction, parameters=b""):
+    body, run = bytearray(), b""
+    for byte in bytes([instruction]) + bytes(parameters):
+        body.append(byte)
+        run = (run + bytes([byte]))[-3:]
+        if run == b"\xff\xff\xfd":
+            body.append(0xFD)
+    head = b"\xff\xff\xfd\x00" + bytes([device]) + (len(body) + 2).to_bytes(2, "little")
+    return head + body + crc16(head + body).to_bytes(2, "little")
+
+
+def number(value, size):
+    return (value & (1 << 8 * size) - 1).to_bytes(size, "little")
+
+
+class Status:
+    def __init__(self, device, error, data):
+        self.device, self.error, self.data = device, error, data
+
+    def value(self, signed=True):
+        return int.from_bytes(self.data, "little", signed=signed)
+
+
+def statuses(raw):
+    """The whole status packets in `raw`, and what is left of it; what is damaged is passed over."""
+    found = []
+    while True:
+        at = raw.find(b"\xff\xff\xfd\x00")
+        if at < 0:
+            return found, raw[-3:]
+        raw = raw[at:]
+        size = 7 + int.from_bytes(raw[5:7], "little") if len(raw) >= 7 else 7
+        if len(raw) < size and b"\xff\xff\xfd\x00" not in raw[1:]:
+            return found, raw
+        whole = raw[:size]
+        if len(whole) < size or size < 11 or crc16(whole[:-2]) != int.from_bytes(whole[-2:], "little"):
+            raw = raw[1:]
+            continue
+        raw = raw[size:]
+        assert whole[7] == STATUS, whole.hex()
+        body = whole[8:-2].replace(b"\xff\xff\xfd\xfd", b"\xff\xff\xfd")
+        found.append(Status(whole[4], body[0], body[1:]))
+
+
+class Port:
+    def __init__(self, path, baud=2000000):
+        self.number = os.open(path, os.O_RDWR | os.O_NOCTTY | os.O_NONBLOCK)
+        self.set_rate(baud)
+        self.rest = b""
+
+    def set_rate(self, baud):
+        settings = termios.tcgetattr(self.number)
+        settings[0] = settings[1] = settings[3] = 0
+        settings[2] = termios.CS8 | termios.CREAD | termios.CLOCAL
+        if baud:
+            settings[4] = settings[5] = RATES[baud]
+        termios.tcsetattr(self.number, termios.TCSANOW, settings)
+
+    def close(self):
+        os.close(self.number)
+
+    def send(self, raw):
+        assert os.write(self.number, raw) == len(raw)
+
+    def hear(self, seconds, wanted=1):
+        """What comes until `wanted` packets are there, or the time is over."""
+        found, end = [], time.monotonic() + seconds
+        while len(found) < wanted and time.monotonic() < end:
+            if select.select([self.number], [], [], max(0.0, end - time.monotonic()))[0]:
+                more, self.rest = statuses(self.rest + os.read(self.number, 4096))
+                found += more
+        return found
+
+    def ask(self, device, instruction, parameters=b"", seconds=2.0):
+        self.send(packet(device, instruction, parameters))
+        answers = self.hear(seconds)
+        assert answers, f"no answer of {device} to instruction {instruction:#x} {bytes(parameters).hex()}"
+        assert answers[0].device == device, f"asked {device}, {answers[0].device} answered"
+        return answers[0]
+
+    def read(self, device, address, size, signed=True):
+        answer = self.ask(device, READ, number(address, 2) + number(size, 2))
+        assert answer.error == 0 and len(answer.data) == size, (answer.error, answer.data)
+        return answer.value(signed)
+
+    def write(self, device, address, value, size):
+        answer = self.ask(device, WRITE, number(address, 2) + number(value, size))
+        assert answer.data == b""
+        return answer.error
+
+    def silence(self, raw, seconds=0.3):
+        self.send(raw)
+        answers = self.hear(seconds)
+        assert not answers, [(each.device, each.error) for each in answers]
+
+
+class Twin:
+    """`verp hil` as its user starts it; ends with the block."""
+
+    def __init__(self, program):
+        self.path = os.path.abspath("bus")
+        self.log = open("twin.err", "w+")
+        self.process = subprocess.Popen([program, "hil", "generic21", "--link", "pty:" + self.path, "--for", "60", "--json"],
+                                        stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=self.log)
+
+    def __enter__(self):
+        for _ in range(1000):
+            if os.path.islink(self.path):
+                return self
+            assert self.process.poll() is None, self.said()
+            time.sleep(0.01)
+        raise AssertionError("the twin makes no port")
+
+    def __exit__(self, *_):
+        self.process.terminate()
+        self.process.wait()
+
+    def said(self):
+        with open("twin.err") as text:
+            return text.read()
+
+
+def first_ping_to_all(twin):
+    """Point 15: the SDK waits 3 ms for each id and 16 ms, also of a twin that has just started."""
+    port = Port(twin.path)
+    port.send(packet(BROADCAST, PING))
+    found = [each.device for each in port.hear(253 * 0.003 + 0.016 + 0.2, 24)]
+    assert found[:21] == list(range(1, 22)), found
+    assert len(found) == len(set(found)), found
+
+
+def last_byte_ff(twin):
+    """Point 8: a request that ends in FFh is answered before another byte comes."""
+    port = Port(twin.path)
+    endings = 0
+    for device in range(1, 22):
+        for address in range(147):
+            asked = number(address, 2) + number(1, 2)
+            if packet(device, READ, asked)[-1] != 0xFF:
+                continue
+            endings += 1
+            assert len(port.ask(device, READ, asked, 2.0).data) == 1
+    assert endings > 3, endings
+
+
+def half_a_packet(twin):
+    """Point 10: half a packet, and a closed port or none, costs at most the next request."""
+    whole = packet(1, WRITE, number(168, 2) + bytes(200))
+    for close in (True, False):
+        port = Port(twin.path)
+        assert port.ask(1, PING).error == 0
+        port.send(whole[:20])
+        if close:
+            port.close()
+            port = Port(twin.path)
+        assert port.ask(1, PING, b"", 0.5).value(False) & 0xFFFF == 1030
+        port.close()
+
+
+def unread_answers(twin):
+    """Points 8 and 17: the answers that a program left unread are nobody's."""
+    port = Port(twin.path)
+    port.ask(1, PING)
+    for _ in range(3):
+        port.send(packet(1, PING))
+        time.sleep(0.05)
+    port.close()
+    time.sleep(0.2)
+    port = Port(twin.path)
+    assert not port.hear(0.2), "an answer to somebody else's question"
+    assert port.read(2, 7, 1) == 2
+
+
+def too_many_writes(twin):
+    """Point 9: faster than the wire, requests are lost; what is answered is answered in time."""
+    port = Port(twin.path)
+    port.ask(1, PING)
+    for _ in range(2000):  # a Status Packet leaves 0.5 ms after its request: Return Delay Time
+        port.send(packet(1, WRITE, number(65, 2) + b"\x01"))
+        time.sleep(0.0001)
+    time.sleep(0.05)
+    answers = port.hear(0.5, 2000)
+    assert 0 < len(answers) < 1990, len(answers)
+    assert port.write(1, 65, 0, 1) == 0
+    assert port.read(1, 65, 1) == 0
+    assert "lost, as on a wire" in twin.said(), twin.said()
+
+
+def another_rate(twin):
+    """Point 13: a port at another rate than the servos' hears nothing, and finds the one that was reset."""
+    port = Port(twin.path, 57600)
+    port.silence(packet(1, PING))
+    port.set_rate(2000000)
+    assert port.ask(3, FACTORY_RESET, b"\x01").error == 0  # all but the id
+    port.silence(packet(3, PING))
+    port.set_rate(57600)
+    assert port.ask(3, PING).device == 3
+    port.silence(packet(4, PING))
+    assert port.write(3, 8, 4, 1) == 0  # Baud Rate: 2 M; answered at the old rate
+    port.silence(packet(3, PING))
+    port.set_rate(2000000)
+    assert port.ask(3, PING).device == 3
+
+
+def long_packets(twin):
+    """Point 14: what is longer than a device's buffer is refused, or nobody's, and costs nothing else."""
+    port = Port(twin.path)
+    answer = port.ask(1, READ, number(0, 2) + number(600, 2))
+    assert answer.error == 5 and answer.data == b"", answer.error  # Data Length Error
+    many = b"".join(bytes([1 + i % 21]) + number(2048, 4) for i in range(150))
+    port.silence(packet(BROADCAST, SYNC_WRITE, number(116, 2) + number(4, 2) + many))
+    assert port.read(1, 64, 1) == 0
+    assert port.ask(1, PING).error == 0
+
+
+def main():
+    program, case = sys.argv[1:]
+    with Twin(program) as twin:
+        globals()[case](twin)
+
+
+if __name__ == "__main__":
+    main()
