@@ -1,5 +1,5 @@
 # RISC-V with 32 bits and no FPU: libgcc does float32 arithmetic. Debian has no C++ library for it: the headers are those
-# that Arm's is built from, the C library is picolibc, and what both would link lies in boards/mps2/newlib.cpp for tests.
+# that Arm's is built from, the C library is picolibc, and what both would link lies in tests/support/gtest_target/newlib.cpp for tests.
 set(CMAKE_SYSTEM_NAME Generic)
 set(CMAKE_SYSTEM_PROCESSOR riscv32)
 set(CMAKE_C_COMPILER riscv64-unknown-elf-gcc)

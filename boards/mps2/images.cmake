@@ -1,12 +1,17 @@
 # Images of emulated boards that speak with the PC by semihosting, as executables <what>_<board>.elf. Called in the
 # board's own folder.
 set(VERP_MPS2_DIR ${CMAKE_CURRENT_LIST_DIR})
+set(VERP_GTEST_TARGET_DIR ${CMAKE_SOURCE_DIR}/tests/support/gtest_target)  # what tests need on a board
 include(${CMAKE_SOURCE_DIR}/tests/together.cmake)
 
 # <name>_<board>.elf from <what>_main.cpp and further sources; `machine` is QEMU's name of the board.
 function(verp_add_emulated_image name what machine)
   set(image ${name}_${VERP_BOARD})
-  add_executable(${image} ${VERP_MPS2_DIR}/${what}_main.cpp ${ARGN})
+  set(folder ${VERP_MPS2_DIR})
+  if(what STREQUAL unit)
+    set(folder ${VERP_GTEST_TARGET_DIR})
+  endif()
+  add_executable(${image} ${folder}/${what}_main.cpp ${ARGN})
   if(NOT what STREQUAL fault)  # which ends in its own way
     target_sources(${image} PRIVATE ${VERP_MPS2_DIR}/emulator.cpp)
   endif()
@@ -26,10 +31,10 @@ function(verp_add_unit_image name test machine)
   if(CMAKE_SYSTEM_PROCESSOR STREQUAL riscv32)
     list(APPEND library riscv_library.cpp)
   endif()
-  list(TRANSFORM library PREPEND ${VERP_MPS2_DIR}/)
+  list(TRANSFORM library PREPEND ${VERP_GTEST_TARGET_DIR}/)
   verp_add_emulated_image(${name} unit ${machine} ${library} ${VERP_WITH} ${ARGN})
   verp_compile_together(${name}_${VERP_BOARD} ${ARGN})
-  target_include_directories(${name}_${VERP_BOARD} SYSTEM PRIVATE ${CMAKE_SOURCE_DIR}/tests/support/gtest_target)
+  target_include_directories(${name}_${VERP_BOARD} SYSTEM PRIVATE ${VERP_GTEST_TARGET_DIR})
   add_test(NAME ${test} COMMAND ${name}_${VERP_BOARD})
   set_tests_properties(${test} PROPERTIES LABELS "unit;target")
 endfunction()

@@ -1,7 +1,7 @@
 #pragma once
 #include <cstdint>
 
-#include "boards/stm32/wiring.hpp"
+#include "boards/stm32/f4_ports.hpp"
 
 /// Olimex STM32-H405: STM32F405RGT6 (Cortex-M4F). QEMU's netduinoplus2 has the same chip.
 /// Pins and alternate functions: DS8626, pin definitions and alternate function mapping; DMA
@@ -31,42 +31,9 @@ inline constexpr stm32::Clocks kWithoutClockController = {.source = stm32::Clock
                                                           .apb1_timer_hz = 1'000'000'000};
 
 /// USART1 on port B: PA9 and PA10 are also the USB connector's.
-inline constexpr SerialPort kServoPort = {.wiring = {.base = stm32::base::kUsart1,
-                                                     .dma_base = stm32::base::kDma2,
-                                                     .dma_stream = 2,
-                                                     .dma_channel = 4,
-                                                     .direction = {'B', 5}},
-                                          .transmit = {'B', 6},
-                                          .receive = {'B', 7},
-                                          .function = 7,
-                                          .gate = {stm32::rcc::kApb2enr, stm32::rcc::kApb2Usart1},
-                                          .dma_gate = {stm32::rcc::kAhb1enr, stm32::rcc::kAhb1Dma2},
-                                          .on_apb2 = true,
-                                          .interrupt = stm32::irq::kUsart1,
-                                          .dma_interrupt = stm32::irq::dma2(2)};
-/// They go to a CAN transceiver.
-inline constexpr CanPort kCanPort = {.base = stm32::base::kCan1,
-                                     .filters = {},
-                                     .clocks = stm32::rcc::kApb1Can1,
-                                     .transmit = {'B', 9},
-                                     .receive = {'B', 8},
-                                     .function = 9,
-                                     .first_interrupt = stm32::irq::kCan1Tx};
-inline constexpr SerialPort kOperatorPort = {
-    .wiring = {.base = stm32::base::kUsart2,
-               .dma_base = stm32::base::kDma1,
-               .dma_stream = 5,
-               .dma_channel = 4,
-               .direction = {}},
-    .transmit = {'A', 2},
-    .receive = {'A', 3},
-    .function = 7,
-    .gate = {stm32::rcc::kApb1enr, stm32::rcc::kApb1Usart2},
-    .dma_gate = {stm32::rcc::kAhb1enr, stm32::rcc::kAhb1Dma1},
-    .on_apb2 = false,
-    .interrupt = stm32::irq::kUsart2,
-    .dma_interrupt = stm32::irq::dma1(5),
-    .baud = 1'000'000};
+inline constexpr SerialPort kServoPort = f4_servo_port({'B', 6}, {'B', 7});
+inline constexpr CanPort kCanPort = kF4CanPort;
+inline constexpr SerialPort kOperatorPort = kF4OperatorPort;
 
 inline constexpr Pin kLed = {'C', 12};
 inline constexpr Pin kServoPower = {};  ///< the board switches none

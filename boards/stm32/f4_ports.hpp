@@ -1,0 +1,48 @@
+#pragma once
+#include "boards/stm32/wiring.hpp"
+
+/// What boards with an F405 or F446 in a package of 64 pins have in common.
+namespace verp::board {
+
+/// USART1, to the servos; the direction pin is PB5.
+constexpr SerialPort f4_servo_port(Pin transmit, Pin receive) {
+  return {.wiring = {.base = hal::stm32::base::kUsart1,
+                     .dma_base = hal::stm32::base::kDma2,
+                     .dma_stream = 2,
+                     .dma_channel = 4,
+                     .direction = {'B', 5}},
+          .transmit = transmit,
+          .receive = receive,
+          .function = 7,
+          .gate = {hal::stm32::rcc::kApb2enr, hal::stm32::rcc::kApb2Usart1},
+          .dma_gate = {hal::stm32::rcc::kAhb1enr, hal::stm32::rcc::kAhb1Dma2},
+          .on_apb2 = true,
+          .interrupt = hal::stm32::irq::kUsart1,
+          .dma_interrupt = hal::stm32::irq::dma2(2)};
+}
+/// CAN1 on PB8 and PB9, which go to a CAN transceiver.
+inline constexpr CanPort kF4CanPort = {.base = hal::stm32::base::kCan1,
+                                       .filters = {},
+                                       .clocks = hal::stm32::rcc::kApb1Can1,
+                                       .transmit = {'B', 9},
+                                       .receive = {'B', 8},
+                                       .function = 9,
+                                       .first_interrupt = hal::stm32::irq::kCan1Tx};
+/// USART2 on PA2 and PA3.
+inline constexpr SerialPort kF4OperatorPort = {
+    .wiring = {.base = hal::stm32::base::kUsart2,
+               .dma_base = hal::stm32::base::kDma1,
+               .dma_stream = 5,
+               .dma_channel = 4,
+               .direction = {}},
+    .transmit = {'A', 2},
+    .receive = {'A', 3},
+    .function = 7,
+    .gate = {hal::stm32::rcc::kApb1enr, hal::stm32::rcc::kApb1Usart2},
+    .dma_gate = {hal::stm32::rcc::kAhb1enr, hal::stm32::rcc::kAhb1Dma1},
+    .on_apb2 = false,
+    .interrupt = hal::stm32::irq::kUsart2,
+    .dma_interrupt = hal::stm32::irq::dma1(5),
+    .baud = 1'000'000};
+
+}  // namespace verp::board
