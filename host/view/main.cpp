@@ -1,0 +1,80 @@
+#include <CLI/CLI.hpp>
+#include <QApplication>
+#include <QSettings>
+#include <QSurfaceFormat>
+#include <QTimer>
+#include <memory>
+
+#include "host/tool/console.hpp"
+#include "host/tool/interrupt.hpp"
+#include "host/tool/program.hpp"
+#include "host/tool/view_command.hpp"
+#include "host/view/display.hpp"
+#include "host/view/main_window.hpp"
+#include "host/view/run_of.hpp"
+#include "host/view/theme.hpp"
+
+namespace verp::view {
+namespace {
+
+constexpr int kInterrupt_ms = 200;  // that Ctrl-C waits for at most
+
+int tell(const std::string& line) {
+  tool::complain(line);
+  return tool::kNoDevice;
+}
+
+int show(MainWindow& window) {
+  QTimer interrupts;
+  QObject::connect(&interrupts, &QTimer::timeout, [&] {
+    if (tool::interrupted()) window.close();
+  });
+  interrupts.start(kInterrupt_ms);
+  window.show();
+  survive_the_display([&window] { return window.finish(); });
+  QApplication::exec();
+  leave_the_display();
+  const std::string lost = window.finish();
+  if (!window.failure().empty()) return tell("verp view: " + window.failure());
+  if (lost.empty()) return tool::kGood;
+  tool::complain("verp view: " + lost);
+  return tool::kRunFailed;
+}
+
+int run_view(const tool::WalkOptions& options) {
+  tool::catch_interrupts();
+  RunSetup setup = run_of(options);  // a mistake in the words is told before any window
+  if (const std::string why = no_display(); !why.empty()) return tell(why);
+  QSurfaceFormat format;
+  format.setVersion(3, 3);
+  format.setProfile(QSurfaceFormat::CoreProfile);
+  QSurfaceFormat::setDefaultFormat(format);
+  int count = 1;
+  char name[] = "verp view", *words[] = {name, nullptr};
+  QApplication application(count, words);
+  QApplication::setOrganizationName("verp");
+  QApplication::setApplicationName("view");
+  QSettings settings;
+  apply_theme(application, settings.value("dark", false).toBool());
+  MainWindow window(settings, [options](const std::string& model) {
+    tool::WalkOptions other = options;
+    other.model = model;
+    other.bus.clear();
+    other.record_file.clear();
+    return run_of(other);
+  });
+  window.watch(std::move(setup));
+  return show(window);
+}
+
+std::vector<tool::Subcommand> commands(CLI::App& root) {
+  auto options = std::make_shared<tool::WalkOptions>();
+  return {{tool::declare_view(root, *options), [options] { return run_view(*options); }}};
+}
+
+}  // namespace
+}  // namespace verp::view
+
+int main(int argc, char** argv) {
+  return verp::tool::run_program(argc, argv, verp::view::commands);
+}

@@ -1,0 +1,100 @@
+#pragma once
+#include <QMainWindow>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "host/scene/build.hpp"
+#include "host/view/run/player.hpp"
+#include "host/view/run/steering.hpp"
+#include "host/view/scene_view.hpp"
+
+class QLabel;
+class QPushButton;
+class QSettings;
+class QTimer;
+class QUndoStack;
+
+namespace verp::view {
+
+class PlotPanel;
+class PosePanel;
+class SafetyPanel;
+class SignalTree;
+class Transport;
+class TuningPanel;
+
+/// The window: one robot, in the twin or in a trace, and all there is to do with it. It only brings
+/// together: what it shows is Player's, what it does is LiveRun's.
+class MainWindow final : public QMainWindow {
+ public:
+  /// `make_run`: the run of a robot by name or file; throws an exception with a line of text.
+  using MakeRun = std::function<RunSetup(const std::string& model)>;
+  MainWindow(QSettings& settings, MakeRun make_run);
+  ~MainWindow() override;
+
+  void watch(RunSetup setup);
+  /// A robot's file; a failure is told in the window.
+  void open(const QString& file);
+
+  Player* player() { return player_.get(); }
+  SceneView& scene() { return *scene_; }
+  PlotPanel& plots() { return *plots_; }
+  PosePanel& pose() { return *pose_; }
+
+  /// Why the window closed before its user wanted; empty: it did not.
+  const std::string& failure() const { return failure_; }
+  /// Ends the run, and its record. Empty, or what of it was lost.
+  std::string finish();
+
+ protected:
+  void closeEvent(QCloseEvent* event) override;
+
+ private:
+  void make_docks();
+  void make_menus();
+  void make_run_menu();
+  void make_view_menu();
+  void make_help_menu();
+  void make_status();
+  void restore();
+  void show_film(const QString& name);
+  void frame();
+  void show_numbers(const scene::Snapshot& now);
+  void drive(const std::function<void(Steering&)>& how);
+  void stop(bool pressed);
+  void pick_up();
+  void hold(const SceneView::Hold& hold);
+  void let_go(const SceneView::Hold& hold);
+  void remember(const QString& file);
+  void fill_recent();
+  void save_trace();
+  void say(const QString& text);
+
+  QSettings& settings_;
+  const MakeRun make_run_;
+  std::unique_ptr<Player> player_;
+  std::shared_ptr<const Film> film_;
+  std::shared_ptr<const scene::Entity> entity_;
+  std::unique_ptr<Steering> steering_;
+  QUndoStack* undo_;
+  SceneView* scene_;
+  PlotPanel* plots_;
+  SignalTree* signals_;
+  SafetyPanel* safety_;
+  TuningPanel* tuning_;
+  PosePanel* pose_;
+  Transport* transport_;
+  QTimer* timer_;
+  QPushButton* stop_;
+  QMenu* recent_ = nullptr;
+  QMenu* docks_ = nullptr;
+  QLabel *mode_, *speed_, *faults_, *digest_;
+  QByteArray first_layout_;
+  std::string failure_, said_;
+  std::optional<scene::Vec3> foot_from_m_;  ///< of the foot that is dragged, when it was taken
+  int frames_ = 0;
+};
+
+}  // namespace verp::view

@@ -1,0 +1,49 @@
+#pragma once
+#include <QWidget>
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "host/view/run/film.hpp"
+#include "host/view/run/pose_hand.hpp"
+
+class QCheckBox;
+class QDoubleSpinBox;
+class QGridLayout;
+class QLabel;
+class QSlider;
+
+namespace verp::view {
+
+/// A slider for each joint of the robot held in the air, and what a dragged foot's inverse
+/// kinematics says.
+class PosePanel final : public QWidget {
+ public:
+  explicit PosePanel(QWidget* parent = nullptr);
+
+  void set_robot(std::shared_ptr<const scene::Entity> entity, const Params& params);
+  bool posing() const;
+  void set_posing(bool posing);
+  PoseHand* hand() { return hand_.get(); }
+  /// A foot that is dragged to there.
+  void drag_foot(int side, const scene::Vec3& sole_world_m);
+  scene::Vec3 sole_world_m(int side) const;
+  Picture picture() const;
+
+  std::function<void()> changed;  ///< pose, or whether there is one
+
+ private:
+  void show_hand();
+
+  std::shared_ptr<const scene::Entity> entity_;
+  Params params_;
+  std::unique_ptr<PoseHand> hand_;
+  QCheckBox* posing_;
+  QLabel* legs_;
+  QWidget* joints_ = nullptr;
+  QGridLayout* grid_ = nullptr;
+  std::vector<QSlider*> sliders_;
+  std::vector<QLabel*> angles_;
+};
+
+}  // namespace verp::view

@@ -1,0 +1,104 @@
+#pragma once
+#include <condition_variable>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "host/record/mcap_format.hpp"
+#include "host/session/live_orders.hpp"
+#include "host/session/session.hpp"
+#include "host/view/run/film.hpp"
+#include "host/view/run/pace.hpp"
+#include "host/view/run/run_record.hpp"
+
+namespace verp::view {
+
+struct RunSetup {
+  session::WalkPlan plan;
+  sim::WorldOptions world = {};
+  std::string record_file = {};  ///< gets the run as it goes on; empty: none
+  record::mcap::StringMap metadata = {};
+};
+
+/// A session that runs beside a window, in a thread of its own: paced, paused, touched, wound up
+/// anew. All that a person does reaches it between two ticks, so the window's own pace changes no
+/// bit of it.
+class LiveRun {
+ public:
+  /// Paused before the first tick.
+  explicit LiveRun(RunSetup setup);
+  ~LiveRun();
+  LiveRun(const LiveRun&) = delete;
+  LiveRun& operator=(const LiveRun&) = delete;
+
+  void play();
+  void pause();
+  void tick_once();
+  /// 1: as fast as the clock; 0: as fast as it can.
+  void set_speed(double factor);
+  /// The same run from its beginning, as it was played or paused; a record begins anew.
+  void reset();
+
+  /// What can be touched between two ticks.
+  struct Hands {
+    session::Session& session;
+    session::Robot& robot;
+    session::LiveOrders& orders;
+  };
+  /// Done in the run's thread before its next tick. What it throws is Status::complaint.
+  void touch(std::function<void(Hands&)> what);
+
+  /// Writes what has run so far as a trace. Empty, or why there is none.
+  std::string save(const std::filesystem::path& file);
+  /// The record's file is whole from here on, and the run over. Empty, or why it is not.
+  std::string finish();
+
+  struct Status {
+    bool playing = false, over = false, driving = false, emergency_stop = false;
+    double speed = 1, real_time_factor = 0, simulated_s = 0;
+    std::uint64_t ticks = 0, digest = 0;
+    std::optional<Tuning> tuning = {};  ///< in force
+    std::string failure = {};           ///< of a run that is over
+    std::string complaint = {};         ///< of the last touch that went wrong
+    int runs = 0;                       ///< it was begun so often
+  };
+  Status status() const;
+
+  const RunSetup& setup() const { return setup_; }
+  std::shared_ptr<const LiveFilm> film() const;
+
+ private:
+  struct Going;
+
+  void loop();
+  bool work(std::unique_lock<std::mutex>& lock);
+  void tick(std::unique_lock<std::mutex>& lock);
+  void ticked(const session::Tick& tick);
+  void begin();
+  std::string close_record();
+  double wall_s() const;
+  template <class Change>
+  void change(Change&& change);
+
+  const RunSetup setup_;
+  const std::shared_ptr<const model::Entity> entity_;
+  mutable std::mutex mutex_;
+  std::condition_variable woken_;
+  // Under the mutex:
+  Status status_;
+  Pace pace_;
+  std::shared_ptr<LiveFilm> film_;
+  std::vector<std::function<void(Hands&)>> touches_;
+  int single_ticks_ = 0;
+  bool quit_ = false, reset_ = false;
+  // The run's thread alone:
+  std::unique_ptr<Going> going_;
+  std::thread thread_;
+};
+
+}  // namespace verp::view

@@ -1,0 +1,29 @@
+#include "host/view/run/run_record.hpp"
+
+#include <fmt/format.h>
+
+#include "common/control/step.hpp"
+#include "host/record/trace_writer.hpp"
+
+namespace verp::view {
+
+void RunRecord::add(const session::Tick& tick) {
+  const sim::Transform& body = tick.seen.truth.body_world;
+  const Eigen::Quaterniond q(body.linear());
+  const auto& p = body.translation();
+  ticks_.push_back({*tick.record, {{p.x(), p.y(), p.z()}, {q.x(), q.y(), q.z(), q.w()}}});
+}
+
+void RunRecord::save(const std::filesystem::path& file, const Params& params,
+                     const record::mcap::StringMap& metadata) const {
+  record::TraceWriter writer(file, params, metadata);
+  State state;
+  Outputs outputs;
+  for (const Kept& kept : ticks_) {
+    step(params, state, kept.record.inputs, outputs);
+    writer.append(kept.record, state, outputs.faults, &kept.body);
+  }
+  writer.close({{"digest", fmt::format("0x{:016x}", state.digest.chain)}, {"failure", ""}});
+}
+
+}  // namespace verp::view

@@ -1,0 +1,32 @@
+#pragma once
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "common/record/tick_record.hpp"
+#include "host/record/mcap_format.hpp"
+#include "host/record/ros_messages.hpp"
+#include "host/session/plan.hpp"
+
+namespace verp::view {
+
+/// A run in memory, so that who has watched it can still keep it: what went into each tick, and
+/// where the body was. State is made again from that when it is saved.
+class RunRecord {
+ public:
+  void add(const session::Tick& tick);
+  std::size_t ticks() const { return ticks_.size(); }
+
+  /// Throws record::TraceError.
+  void save(const std::filesystem::path& file, const Params& params,
+            const record::mcap::StringMap& metadata) const;
+
+ private:
+  struct Kept {
+    TickRecord record;
+    record::ros::BodyPose body;
+  };
+  std::vector<Kept> ticks_;
+};
+
+}  // namespace verp::view

@@ -1,0 +1,27 @@
+#pragma once
+#include "common/io/io.hpp"
+#include "common/model/params.hpp"
+
+namespace verp::view {
+
+/// Keys into a walk: each press is a quarter of what the robot's longest steps allow more that way,
+/// and it goes on until stop.
+class Steering {
+ public:
+  explicit Steering(const Params& params);
+
+  /// Quarters ahead, to the left, and of a turn to the left. The robot walks.
+  void nudge(int ahead, int left, int turn);
+  void stop();
+  void relax();
+  const Command& command() const { return command_; }
+
+ private:
+  void ask();
+
+  double ahead_m_s_, left_m_s_, turn_rad_s_;  ///< a quarter of the most
+  int ahead_ = 0, left_ = 0, turn_ = 0;
+  Command command_;
+};
+
+}  // namespace verp::view

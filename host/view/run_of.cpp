@@ -1,0 +1,27 @@
+#include "host/view/run_of.hpp"
+
+#include <fmt/format.h>
+
+#include "host/tool/walk_plan.hpp"
+
+namespace verp::view {
+
+RunSetup run_of(const tool::WalkOptions& options) {
+  RunSetup setup;
+  setup.plan = tool::make_plan(options);
+  setup.world = tool::world_of(options);
+  tool::draw(options, setup.plan, setup.world);
+  setup.record_file = options.record_file;
+  setup.metadata = {{"robot", setup.plan.params.name},
+                    {"model_file", setup.plan.entity.file},
+                    {"seed", std::to_string(setup.plan.twin.seed)},
+                    {"step_m", fmt::format("{}", options.step_m)},
+                    {"cycle_s", fmt::format("{}", options.cycle_s)},
+                    {"velocity", options.velocity_text},
+                    {"walk_s", fmt::format("{}", options.walk_s)},
+                    {"controller", "this PC"},
+                    {"watched", "in a window"}};
+  return setup;
+}
+
+}  // namespace verp::view

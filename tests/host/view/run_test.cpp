@@ -1,0 +1,137 @@
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <filesystem>
+#include <thread>
+
+#include "host/model/params.hpp"
+#include "host/record/replay.hpp"
+#include "host/record/trace.hpp"
+#include "host/view/run/live_run.hpp"
+#include "host/view/run/player.hpp"
+#include "host/view/run/pose_hand.hpp"
+#include "host/view/run/steering.hpp"
+#include "tests/host/session/plans.hpp"
+
+namespace verp::view {
+namespace {
+
+using namespace std::chrono_literals;
+using session::test::plan_of;
+
+TEST(Pace, WaitsForTheClockTimesItsSpeed) {
+  Pace pace;
+  pace.set_speed(0.5, 2, 100);
+  EXPECT_DOUBLE_EQ(pace.wait_s(2, 100), 0);
+  EXPECT_NEAR(pace.wait_s(2.01, 100), 0.02, 1e-9);
+  pace.set_speed(20, 3, 200);
+  EXPECT_NEAR(pace.wait_s(3.01, 200), 0.0005, 1e-9);
+  pace.set_speed(0, 3, 200);
+  EXPECT_EQ(pace.wait_s(1000, 200), 0);
+}
+
+TEST(Pace, CatchesUpNoLongDelay) {
+  Pace pace;
+  pace.set_speed(1, 0, 0);
+  EXPECT_EQ(pace.wait_s(1, 1.1), 0) << "a short one";
+  EXPECT_NEAR(pace.wait_s(1.2, 1.1), 0.1, 1e-9) << "is caught up";
+  EXPECT_EQ(pace.wait_s(1.3, 9), 0) << "a long one";
+  EXPECT_NEAR(pace.wait_s(1.4, 9), 0.1, 1e-9) << "is not";
+}
+
+void until(const LiveRun& run, std::uint64_t ticks) {
+  for (int i = 0; i < 60000 && run.status().ticks < ticks; ++i) std::this_thread::sleep_for(1ms);
+  ASSERT_GE(run.status().ticks, ticks) << run.status().failure;
+}
+
+TEST(LiveRun, HasTheBitsOfTheSameWalkWithoutAWindowAtAnySpeed) {
+  const session::WalkPlan plan = plan_of("dxl");
+  const session::test::Chain expected = session::test::alone(plan);
+  LiveRun run({.plan = plan});
+  const auto check = [&](std::uint64_t at_least) {
+    until(run, at_least);
+    run.pause();
+    std::this_thread::sleep_for(50ms);
+    const LiveRun::Status status = run.status();
+    ASSERT_LE(status.ticks, expected.size());
+    EXPECT_EQ(status.digest, expected[status.ticks - 1]) << "tick " << status.ticks;
+  };
+  run.tick_once();
+  check(1);
+  std::uint64_t ticks = run.status().ticks;
+  EXPECT_EQ(ticks, 1U) << "one is one";
+  for (const double speed : {0.1, 1.0, 20.0, 0.0}) {
+    run.set_speed(speed);
+    run.play();
+    ticks += speed < 1 ? 5 : 60;
+    check(ticks);
+  }
+  run.reset();
+  while (run.status().runs < 2) std::this_thread::sleep_for(1ms);
+  run.set_speed(0);
+  run.play();
+  check(100);
+}
+
+TEST(LiveRun, ARunThatAPersonTouchedReplaysFromItsTrace) {
+  const auto file = std::filesystem::temp_directory_path() / "verp_view_touched.mcap";
+  const session::WalkPlan plan = plan_of("dxl");
+  LiveRun run({.plan = plan});
+  run.set_speed(0);
+  run.play();
+  until(run, 50);
+  Steering steering(plan.params);
+  steering.nudge(1, 0, 1);
+  run.touch([&](LiveRun::Hands& hands) {
+    hands.orders.take(steering.command());
+    hands.orders.write(*model::tuning_id("gait.lift_m"), 0.02F);
+  });
+  until(run, 300);
+  run.pause();
+  ASSERT_EQ(run.save(file), "");
+  const LiveRun::Status status = run.status();
+  EXPECT_EQ(status.tuning->gait.lift_m, 0.02F);
+  EXPECT_TRUE(status.driving);
+  const record::Trace trace = record::read_trace(file);
+  EXPECT_EQ(trace.ticks.size(), status.ticks);
+  EXPECT_EQ(trace.digest(), status.digest);
+  EXPECT_EQ(trace.ticks.back().inputs.command.vx_tenth_mm_s, steering.command().vx_tenth_mm_s);
+  EXPECT_FALSE(record::replay(trace).divergence);
+  EXPECT_NE(run.save("/nowhere/at/all.mcap"), "") << "is told";
+
+  std::filesystem::remove(file);
+}
+
+TEST(Player, WindsARunBackTickByTick) {
+  Player player(RunSetup{.plan = plan_of("dxl")});
+  player.set_speed(0);
+  player.play();
+  until(*player.live(), 150);
+  player.seek(player.film()->begin_s() + 1);
+  EXPECT_FALSE(player.playing());
+  const double one_s = player.shown_s();
+  player.step(1);
+  const double physics_step_s = 0.001;  // on which a tick's time falls
+  EXPECT_NEAR(player.shown_s() - one_s, player.film()->period_s(), 1.5 * physics_step_s);
+  player.step(-1);
+  EXPECT_NEAR(player.shown_s(), one_s, 1e-6);
+}
+
+TEST(PoseHand, AFootGoesWhereItIsDraggedAsFarAsTheLegReaches) {
+  const session::WalkPlan plan = plan_of("dxl");
+  PoseHand hand(plan.entity, plan.params);
+  hand.set_joint(plan.params.leg[0].joint[3], 0.6);  // a bent knee reaches both ways
+  hand.move_foot(0, hand.sole_body_m(0) + scene::Vec3(0, 0, 0.01));
+  const scene::Vec3 to = hand.sole_body_m(0) + scene::Vec3(0.01, 0.005, 0.005);
+  hand.move_foot(0, to);
+  EXPECT_LT((hand.sole_body_m(0) - to).norm(), 1e-4);
+  EXPECT_EQ(hand.reach(0), "within reach");
+  EXPECT_EQ(hand.solver(0), "closed form");
+  hand.move_foot(0, to - scene::Vec3(0, 0, 0.5));
+  EXPECT_NE(hand.reach(0).find("out of reach"), std::string::npos);
+  EXPECT_EQ(hand.foot_of(plan.params.leg[1].joint[5] + 1), 1);
+  EXPECT_EQ(hand.foot_of(0), -1);
+}
+
+}  // namespace
+}  // namespace verp::view

@@ -1,0 +1,221 @@
+#include <gtest/gtest.h>
+
+#include <QAction>
+#include <QDockWidget>
+#include <QDoubleSpinBox>
+#include <QLabel>
+#include <QMenuBar>
+#include <QPushButton>
+#include <QSettings>
+#include <QSlider>
+#include <QTemporaryDir>
+#include <QTreeWidget>
+#include <QUndoStack>
+#include <QtTest/QTest>
+#include <filesystem>
+
+#include "common/safety/machine.hpp"
+#include "host/record/replay.hpp"
+#include "host/record/trace.hpp"
+#include "host/view/main_window.hpp"
+#include "host/view/plot_panel.hpp"
+#include "host/view/pose_panel.hpp"
+#include "host/view/run_of.hpp"
+
+namespace verp::view {
+namespace {
+
+/// A person's sessions, with one window. VERP_UI_PICTURES names a folder that gets a picture of
+/// each.
+class Window : public testing::Test {
+ protected:
+  Window()
+      : settings_(folder_.filePath("view.ini"), QSettings::IniFormat),
+        window_(settings_, [](const std::string& model) {
+          tool::WalkOptions options;
+          options.model = model;
+          return run_of(options);
+        }) {
+    window_.show();
+    EXPECT_TRUE(QTest::qWaitForWindowExposed(&window_));
+  }
+  ~Window() override {
+    const char* folder = std::getenv("VERP_UI_PICTURES");
+    if (folder != nullptr) {
+      const auto* test = testing::UnitTest::GetInstance()->current_test_info();
+      window_.grab().save(QString("%1/%2.png").arg(folder, test->name()));
+    }
+    window_.close();
+    window_.finish();
+  }
+
+  template <class Met>
+  bool wait_for(Met met, int seconds = 60) {
+    return QTest::qWaitFor(met, seconds * 1000);
+  }
+  LiveRun& live() { return *window_.player()->live(); }
+  void watch_robot(int ticks = 60) {
+    window_.open("generic21");
+    ASSERT_NE(window_.player(), nullptr);
+    live().set_speed(0);
+    ASSERT_TRUE(wait_for([&] { return live().status().ticks >= std::uint64_t(ticks); }));
+  }
+  template <class Widget>
+  Widget* find(const char* name) {
+    auto* found = window_.findChild<Widget*>(name);
+    EXPECT_NE(found, nullptr) << name;
+    return found;
+  }
+  void key(Qt::Key key) { QTest::keyClick(&window_, key); }
+  QPoint middle() { return {window_.scene().width() / 2, window_.scene().height() / 2}; }
+  int mode() {
+    const Picture now = live().film()->last();
+    return now ? now->robots.front().mode : -1;
+  }
+  double shown_s() { return window_.player()->shown_s(); }
+
+  QTemporaryDir folder_;
+  QSettings settings_;
+  MainWindow window_;
+};
+
+TEST_F(Window, PlaysPausesAndTicksByKeys) {
+  watch_robot();
+  EXPECT_TRUE(window_.player()->playing());
+  key(Qt::Key_P);
+  EXPECT_FALSE(window_.player()->playing());
+  QTest::qWait(100);
+  const std::uint64_t ticks = live().status().ticks;
+  key(Qt::Key_Period);
+  ASSERT_TRUE(wait_for([&] { return live().status().ticks > ticks; }));
+  QTest::qWait(100);
+  EXPECT_EQ(live().status().ticks, ticks + 1);
+  key(Qt::Key_Comma);
+  EXPECT_NEAR(live().film()->end_s() - shown_s(), live().film()->period_s(), 1e-6);
+  EXPECT_TRUE(wait_for([&] { return window_.scene().drawn() > 3; })) << "and was drawn";
+}
+
+TEST_F(Window, TheMouseTurnsMovesAndZoomsThePicture) {
+  watch_robot(5);
+  key(Qt::Key_P);
+  ASSERT_TRUE(wait_for([&] { return window_.scene().drawn() > 0; }));
+  SceneView& scene = window_.scene();
+  const scene::Orbit before = scene.orbit();
+  QTest::mousePress(&scene, Qt::LeftButton, {}, middle());
+  QTest::mouseMove(&scene, middle() + QPoint(60, 20));
+  QMouseEvent drag(QEvent::MouseMove, middle() + QPoint(60, 20), QPointF(), Qt::NoButton,
+                   Qt::LeftButton, {});
+  QApplication::sendEvent(&scene, &drag);
+  QTest::mouseRelease(&scene, Qt::LeftButton, {}, middle() + QPoint(60, 20));
+  EXPECT_LT(scene.orbit().azimuth_rad, before.azimuth_rad - 0.2);
+  QWheelEvent wheel(middle(), scene.mapToGlobal(middle()), {}, {0, 240}, {}, {}, Qt::NoScrollPhase,
+                    false);
+  QApplication::sendEvent(&scene, &wheel);
+  EXPECT_LT(scene.orbit().distance_m, 0.85 * before.distance_m);
+  key(Qt::Key_2);
+  EXPECT_EQ(scene.view(), "side");
+}
+
+TEST_F(Window, WalksByKeysAndStopsBySpace) {
+  watch_robot(20);
+  key(Qt::Key_W);
+  key(Qt::Key_W);
+  key(Qt::Key_Q);
+  ASSERT_TRUE(wait_for([&] { return mode() == int(safety::Mode::kWalking); }));
+  const std::string file = folder_.filePath("walked.mcap").toStdString();
+  key(Qt::Key_Space);
+  ASSERT_TRUE(wait_for([&] { return mode() == int(safety::Mode::kStanding); }));
+  ASSERT_EQ(live().save(file), "");
+  const record::Trace trace = record::read_trace(file);
+  int asked_vx = 0, asked_wz = 0;
+  for (const TickRecord& tick : trace.ticks) {
+    asked_vx = std::max<int>(asked_vx, tick.inputs.command.vx_tenth_mm_s);
+    asked_wz = std::max<int>(asked_wz, tick.inputs.command.wz_mrad_s);
+  }
+  EXPECT_GT(asked_vx, 1500);
+  EXPECT_GT(asked_wz, 100);
+  EXPECT_FALSE(record::replay(trace).divergence);
+}
+
+TEST_F(Window, TheEmergencyStopTakesTheTorque) {
+  watch_robot(300);
+  key(Qt::Key_Escape);
+  ASSERT_TRUE(wait_for([&] { return mode() == int(safety::Mode::kStopped); }));
+  ASSERT_TRUE(
+      wait_for([&] { return find<QLabel>("fault_emergency stop")->styleSheet().contains("600"); }));
+}
+
+TEST_F(Window, ASignalIsPlottedAndAClickShowsItsInstant) {
+  watch_robot(120);
+  auto* tree = find<QTreeWidget>("signals");
+  QTreeWidgetItem* height = tree->findItems("z", Qt::MatchExactly | Qt::MatchRecursive).front();
+  height->setCheckState(0, Qt::Checked);
+  const int number = height->data(0, Qt::UserRole).toInt();
+  ASSERT_TRUE(wait_for([&] { return window_.plots().points_of(number) > 100; }));
+  key(Qt::Key_P);
+  QTest::qWait(300);
+  auto* plot = window_.plots().findChild<QWidget*>("plot");
+  QTest::mouseClick(plot, Qt::LeftButton, {}, QPoint(plot->width() / 2, plot->height() / 2));
+  EXPECT_LT(shown_s(), live().film()->end_s() - 0.05);
+  EXPECT_FALSE(window_.player()->follows());
+}
+
+TEST_F(Window, ANumberChangesWhileItRunsAndIsUndone) {
+  watch_robot(30);
+  auto* lift = find<QDoubleSpinBox>("gait.lift_m");
+  const double own = lift->value();
+  lift->setValue(0.02);
+  const auto in_force = [&] { return double(live().status().tuning->gait.lift_m); };
+  ASSERT_TRUE(wait_for([&] { return std::abs(in_force() - 0.02) < 1e-6; }));
+  EXPECT_TRUE(lift->font().bold());
+  QTest::keyClick(&window_, Qt::Key_Z, Qt::ControlModifier);
+  ASSERT_TRUE(wait_for([&] { return std::abs(in_force() - own) < 1e-4; }));
+  EXPECT_NEAR(lift->value(), own, 1e-4);
+}
+
+TEST_F(Window, AJointAndAFootMoveInTheHand) {
+  watch_robot(5);
+  find<QDockWidget>("dock_Pose")->raise();
+  QTest::qWait(50);
+  auto* knee = find<QSlider>("joint_l_knee");
+  knee->setFocus();
+  const int before = knee->value();
+  for (int i = 0; i < 3; ++i) QTest::keyClick(knee, Qt::Key_PageUp);
+  EXPECT_NE(knee->value(), before);
+  EXPECT_TRUE(window_.pose().posing());
+  EXPECT_FALSE(window_.player()->playing());
+  EXPECT_NEAR(window_.pose().hand()->joint_rad()[3], knee->value() / 1000.0, 1e-3);
+  const scene::Vec3 from = window_.pose().sole_world_m(0);
+  SceneView::Hold hold;
+  hold.node = 0;
+  while (window_.pose().hand()->foot_of(hold.node) != 0) ++hold.node;
+  hold.to_world_m = scene::Vec3(0.02, 0, 0.01);
+  window_.scene().held(hold);
+  EXPECT_LT((window_.pose().sole_world_m(0) - from - hold.to_world_m).norm(), 2e-3)
+      << find<QLabel>("reach")->text().toStdString();
+  hold.to_world_m = scene::Vec3(0, 0, -1);
+  window_.scene().held(hold);
+  EXPECT_TRUE(find<QLabel>("reach")->text().contains("out of reach"));
+}
+
+TEST_F(Window, WhatCannotBeOpenedIsToldAndTheRunGoesOn) {
+  watch_robot(5);
+  window_.open("/nowhere/robot.sdf");
+  EXPECT_TRUE(window_.player()->live() != nullptr);
+  window_.open("/nowhere/run.mcap");
+  EXPECT_TRUE(window_.player()->live() != nullptr);
+  EXPECT_FALSE(settings_.value("recent").toStringList().contains("/nowhere/run.mcap"));
+  EXPECT_EQ(settings_.value("recent").toStringList().size(), 1);
+}
+
+TEST_F(Window, RemembersItsLayout) {
+  find<QDockWidget>("dock_Signals")->hide();
+  window_.close();
+  MainWindow again(settings_, [](const std::string&) { return RunSetup{}; });
+  again.show();
+  EXPECT_TRUE(again.findChild<QDockWidget*>("dock_Signals")->isHidden());
+  EXPECT_TRUE(again.findChild<QDockWidget*>("dock_Plots")->isVisible());
+}
+
+}  // namespace
+}  // namespace verp::view
