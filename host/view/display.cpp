@@ -1,5 +1,6 @@
 #include "host/view/display.hpp"
 
+#include <dlfcn.h>
 #include <unistd.h>
 
 #include <QString>
@@ -30,6 +31,19 @@ void at_exit() {
   ::_exit(tool::kNoDevice);
 }
 
+/// Xlib's own way to end the program, with lines of its own, asks this first.
+int hear_xlib(void*) {
+  at_exit();
+  return 0;
+}
+
+/// Only where Qt has brought Xlib along, and without its headers.
+void listen_to_xlib() {
+  using Handler = int (*)(void*);
+  void* found = ::dlsym(RTLD_DEFAULT, "XSetIOErrorHandler");
+  if (found != nullptr) reinterpret_cast<Handler (*)(Handler)>(found)(hear_xlib);
+}
+
 void hear_qt(QtMsgType type, const QMessageLogContext&, const QString& text) {
   if (type == QtFatalMsg) {  // before there is a window: no platform could start
     tool::complain("verp view: the display " +
@@ -53,6 +67,7 @@ std::string no_display() {
 void survive_the_display(std::function<std::string()> save) {
   save_before_the_end = std::move(save);
   showing = true;
+  listen_to_xlib();
   std::atexit(at_exit);
 }
 

@@ -28,8 +28,10 @@ namespace verp::view {
 namespace {
 
 constexpr int kFrame_ms = 33;
-constexpr int kNumbersEvery = 4;  // frames: nobody reads faster
-constexpr int kLayout = 1;        // version of what is remembered of it
+constexpr int kNumbersEvery = 4;   // frames: nobody reads faster
+constexpr double kPush_n_m = 100;  // of a drag
+constexpr double kPush_s = 0.1;
+constexpr int kLayout = 1;  // version of what is remembered of it
 
 double wall_s() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
@@ -110,17 +112,18 @@ void MainWindow::make_docks() {
 }
 
 void MainWindow::make_status() {
-  const auto add = [this](const char* name, int stretch) {
+  const auto add = [this](const char* name, int stretch, int width_px) {
     auto* label = new QLabel(this);
+    label->setMinimumWidth(width_px);
     label->setObjectName(name);
     label->setContentsMargins(6, 0, 10, 0);
     statusBar()->addWidget(label, stretch);
     return label;
   };
-  mode_ = add("status_mode", 0);
-  speed_ = add("status_speed", 0);
-  faults_ = add("status_faults", 1);
-  digest_ = add("status_digest", 0);
+  mode_ = add("status_mode", 0, 170);
+  speed_ = add("status_speed", 0, 230);
+  faults_ = add("status_faults", 1, 100);
+  digest_ = add("status_digest", 0, 210);
   digest_->setTextInteractionFlags(Qt::TextSelectableByMouse);
   digest_->setToolTip("What names the whole run to this tick: equal without a window");
 }
@@ -247,15 +250,35 @@ void MainWindow::pick_up() {
 }
 
 void MainWindow::hold(const SceneView::Hold& at) {
-  if (!pose_->posing()) return;
+  if (!pose_->posing()) {
+    const session::Intervention push = push_of(at);
+    return scene_->say(QString("push %1 with %2 N for %3 s: let go")
+                           .arg(QString::fromStdString(push.name))
+                           .arg(push.force_world_n.norm(), 0, 'f', 1)
+                           .arg(push.for_s));
+  }
   const int side = pose_->hand()->foot_of(at.node);
   if (side < 0) return;
   if (!foot_from_m_) foot_from_m_ = pose_->sole_world_m(side);
   pose_->drag_foot(side, *foot_from_m_ + at.to_world_m - at.at_world_m);
 }
 
-void MainWindow::let_go(const SceneView::Hold&) {
+void MainWindow::let_go(const SceneView::Hold& at) {
   foot_from_m_.reset();
+  if (pose_->posing() || !player_ || player_->live() == nullptr) return;
+  scene_->say("");
+  player_->live()->intervene(push_of(at));
+  say("Pushed: " + QString::fromStdString(session::in_words(push_of(at))));
+}
+
+session::Intervention MainWindow::push_of(const SceneView::Hold& at) const {
+  session::Intervention push{.kind = session::Intervention::Kind::kPush, .name = {}};
+  push.name = entity_->nodes[static_cast<std::size_t>(at.node)].name;
+  push.force_world_n = kPush_n_m * (at.to_world_m - at.at_world_m);
+  // As a person would type it.
+  for (double& axis : push.force_world_n) axis = std::round(10 * axis) / 10;
+  push.for_s = kPush_s;
+  return push;
 }
 
 void MainWindow::save_trace() {

@@ -67,6 +67,7 @@ class MainWindow final : public QMainWindow {
   void pick_up();
   void hold(const SceneView::Hold& hold);
   void let_go(const SceneView::Hold& hold);
+  session::Intervention push_of(const SceneView::Hold& at) const;
   void remember(const QString& file);
   void fill_recent();
   void save_trace();

@@ -30,6 +30,8 @@ QToolButton* button(QWidget* parent, const char* text, const char* tip) {
 PlotPanel::PlotPanel(QWidget* parent)
     : QWidget(parent), plot_(new QCustomPlot(this)), cursor_(new QCPItemStraightLine(plot_)) {
   setObjectName("plots");
+  cursor_->point1->setCoords(0, 0);
+  cursor_->point2->setCoords(0, 1);
   plot_->setObjectName("plot");
   plot_->setMinimumHeight(110);
   plot_->setInteractions(QCP::iRangeDrag | QCP::iRangeZoom);

@@ -81,6 +81,13 @@ void LiveRun::touch(std::function<void(Hands&)> what) {
   change([this, &what] { touches_.push_back(std::move(what)); });
 }
 
+void LiveRun::intervene(session::Intervention what) {
+  touch([this, what = std::move(what)](Hands& hands) {
+    hands.robot.intervene(what);
+    going_->record.note(session::in_words(what));
+  });
+}
+
 std::string LiveRun::save(const std::filesystem::path& file) {
   std::promise<std::string> answer;
   touch([&](Hands&) {

@@ -53,6 +53,9 @@ class LiveRun {
   /// Done in the run's thread before its next tick. What it throws is Status::complaint.
   void touch(std::function<void(Hands&)> what);
 
+  /// A push, or a quantity set to a value, as `verp walk` does them: recorded, with its tick.
+  void intervene(session::Intervention what);
+
   /// Writes what has run so far as a trace. Empty, or why there is none.
   std::string save(const std::filesystem::path& file);
   /// The record's file is whole from here on, and the run over. Empty, or why it is not.

@@ -14,6 +14,10 @@ void RunRecord::add(const session::Tick& tick) {
   ticks_.push_back({*tick.record, {{p.x(), p.y(), p.z()}, {q.x(), q.y(), q.z(), q.w()}}});
 }
 
+void RunRecord::note(const std::string& what) {
+  if (!ticks_.empty()) ticks_.back().notes.push_back(what);
+}
+
 void RunRecord::save(const std::filesystem::path& file, const Params& params,
                      const record::mcap::StringMap& metadata) const {
   record::TraceWriter writer(file, params, metadata);
@@ -22,6 +26,7 @@ void RunRecord::save(const std::filesystem::path& file, const Params& params,
   for (const Kept& kept : ticks_) {
     step(params, state, kept.record.inputs, outputs);
     writer.append(kept.record, state, outputs.faults, &kept.body);
+    for (const std::string& what : kept.notes) writer.note(kept.record.inputs.tick, what);
   }
   writer.close({{"digest", fmt::format("0x{:016x}", state.digest.chain)}, {"failure", ""}});
 }

@@ -15,6 +15,8 @@ namespace verp::view {
 class RunRecord {
  public:
   void add(const session::Tick& tick);
+  /// What was done to the twin after the last tick.
+  void note(const std::string& what);
   std::size_t ticks() const { return ticks_.size(); }
 
   /// Throws record::TraceError.
@@ -25,6 +27,7 @@ class RunRecord {
   struct Kept {
     TickRecord record;
     record::ros::BodyPose body;
+    std::vector<std::string> notes = {};
   };
   std::vector<Kept> ticks_;
 };

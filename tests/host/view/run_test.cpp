@@ -102,6 +102,20 @@ TEST(LiveRun, ARunThatAPersonTouchedReplaysFromItsTrace) {
   std::filesystem::remove(file);
 }
 
+TEST(LiveRun, APushThatIsNoneIsToldAndTheRunGoesOn) {
+  LiveRun run({.plan = plan_of("dxl")});
+  run.set_speed(0);
+  run.play();
+  session::Intervention push{.kind = session::Intervention::Kind::kPush, .name = "no_such_link"};
+  push.for_s = 0.1;
+  until(run, 5);
+  run.intervene(push);
+  until(run, 20);
+  for (int i = 0; i < 5000 && run.status().complaint.empty(); ++i) std::this_thread::sleep_for(1ms);
+  EXPECT_NE(run.status().complaint.find("no_such_link"), std::string::npos);
+  EXPECT_EQ(run.status().failure, "");
+}
+
 TEST(Player, WindsARunBackTickByTick) {
   Player player(RunSetup{.plan = plan_of("dxl")});
   player.set_speed(0);

@@ -12,6 +12,7 @@
 #include <QTreeWidget>
 #include <QUndoStack>
 #include <QtTest/QTest>
+#include <algorithm>
 #include <filesystem>
 
 #include "common/safety/machine.hpp"
@@ -38,6 +39,10 @@ class Window : public testing::Test {
         }) {
     window_.show();
     EXPECT_TRUE(QTest::qWaitForWindowExposed(&window_));
+    QApplication::setActiveWindow(&window_);  // no window manager does
+    if (std::getenv("VERP_UI_PICTURES") == nullptr) {
+      window_.scene().effects().shadows = window_.scene().effects().antialias = false;
+    }
   }
   ~Window() override {
     const char* folder = std::getenv("VERP_UI_PICTURES");
@@ -145,6 +150,31 @@ TEST_F(Window, TheEmergencyStopTakesTheTorque) {
       wait_for([&] { return find<QLabel>("fault_emergency stop")->styleSheet().contains("600"); }));
 }
 
+TEST_F(Window, APushByTheMouseIsTheRecordedCommand) {
+  watch_robot(100);
+  SceneView& scene = window_.scene();
+  ASSERT_TRUE(wait_for([&] { return scene.drawn() > 0; }));
+  const auto drag = [&](QPoint to) {
+    QMouseEvent event(QEvent::MouseMove, to, scene.mapToGlobal(to), Qt::NoButton, Qt::LeftButton,
+                      Qt::ShiftModifier);
+    QApplication::sendEvent(&scene, &event);
+  };
+  QTest::mousePress(&scene, Qt::LeftButton, Qt::ShiftModifier, middle());
+  drag(middle() + QPoint(40, 0));
+  drag(middle() + QPoint(90, 0));
+  QTest::mouseRelease(&scene, Qt::LeftButton, Qt::ShiftModifier, middle() + QPoint(90, 0));
+  const std::uint64_t ticks = live().status().ticks;
+  ASSERT_TRUE(wait_for([&] { return live().status().ticks > ticks + 60; }));
+  EXPECT_EQ(live().status().complaint, "");
+  const std::string file = folder_.filePath("pushed.mcap").toStdString();
+  ASSERT_EQ(live().save(file), "");
+  const record::Trace trace = record::read_trace(file);
+  ASSERT_EQ(trace.changes.size(), 1U);
+  EXPECT_EQ(trace.changes[0].what.rfind("push ", 0), 0U) << trace.changes[0].what;
+  EXPECT_GE(trace.changes[0].tick, 99U);
+  EXPECT_FALSE(record::replay(trace).divergence);
+}
+
 TEST_F(Window, ASignalIsPlottedAndAClickShowsItsInstant) {
   watch_robot(120);
   auto* tree = find<QTreeWidget>("signals");
@@ -184,7 +214,11 @@ TEST_F(Window, AJointAndAFootMoveInTheHand) {
   EXPECT_NE(knee->value(), before);
   EXPECT_TRUE(window_.pose().posing());
   EXPECT_FALSE(window_.player()->playing());
-  EXPECT_NEAR(window_.pose().hand()->joint_rad()[3], knee->value() / 1000.0, 1e-3);
+  const auto& joints = live().setup().plan.entity.joints;
+  const auto moved = std::find_if(joints.begin(), joints.end(),
+                                  [](const model::Joint& j) { return j.name == "l_knee"; });
+  EXPECT_NEAR(window_.pose().hand()->joint_rad()[std::size_t(moved - joints.begin())],
+              knee->value() / 1000.0, 1e-3);
   const scene::Vec3 from = window_.pose().sole_world_m(0);
   SceneView::Hold hold;
   hold.node = 0;
