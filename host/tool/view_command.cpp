@@ -59,8 +59,7 @@ CLI::App* declare_view(CLI::App& root, WalkOptions& options) {
        {"--report", "--record-state", "--json", "--sweep-step", "--seeds", "--on"}) {
     app->remove_option(app->get_option(name));
   }
-  app->get_option("MODEL")->description(
-      "a robot of common/robots, the path of an SDF file, or a trace (.mcap)");
+  app->get_option("MODEL")->description("a robot of common/robots, or the path of an SDF file");
   return app;
 }
 

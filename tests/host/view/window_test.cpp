@@ -117,7 +117,7 @@ TEST_F(Window, TheMouseTurnsMovesAndZoomsThePicture) {
                     false);
   QApplication::sendEvent(&scene, &wheel);
   EXPECT_LT(scene.orbit().distance_m, 0.85 * before.distance_m);
-  key(Qt::Key_2);
+  key(Qt::Key_3);
   EXPECT_EQ(scene.view(), "side");
 }
 
