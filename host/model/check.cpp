@@ -12,6 +12,7 @@
 #include "host/model/find.hpp"
 #include "host/model/leg.hpp"
 #include "host/model/load.hpp"
+#include "host/model/load_world.hpp"
 #include "host/model/params.hpp"
 #include "host/model/servo_types.hpp"
 
@@ -260,6 +261,11 @@ std::string describe_json(const Entity& entity) {
 }
 
 int check_command(const std::string& name_or_path, const std::string& bus, bool json) {
+  if (is_world(name_or_path)) {
+    const World world = load_world(find_world(name_or_path));
+    std::fputs((json ? describe_json(world) : describe(world)).c_str(), stdout);
+    return 0;
+  }
   const Entity entity = load_robot(find_model(name_or_path), bus);
   const std::string text = json ? describe_json(entity) : describe(entity);
   std::fputs(text.c_str(), stdout);

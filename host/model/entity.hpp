@@ -128,6 +128,21 @@ struct FootSensor {
   double newton_per_count = 0;
 };
 
+/// A laser range finder that turns about its z axis; one sample: a single ray along x.
+struct LaserSensor {
+  std::string name;
+  int node = 0;
+  Transform pose = Transform::Identity();  ///< in the link frame
+  double rate_hz = 10;
+  int samples = 1;
+  double first_rad = 0, last_rad = 0;
+  double min_m = 0, max_m = 1, resolution_m = 0;
+  double noise_mean_m = 0, noise_stddev_m = 0;  ///< of each ray
+
+  double step_rad() const { return samples > 1 ? (last_rad - first_rad) / (samples - 1) : 0; }
+  double angle_rad(int sample) const { return first_rad + sample * step_rad(); }
+};
+
 struct OtherSensor {  ///< camera and laser: described and checked
   std::string name, type, link;
   int node = 0;
@@ -156,10 +171,11 @@ struct Entity {
   FootSensor feet;
   std::vector<NoCollide> no_collide;
   std::vector<OtherSensor> sensors;
-  std::string bus;                 ///< name of the one of its buses that is used
-  std::string bus_file;            ///< where its <verp:bus> stands
-  int bus_line = 1;                ///< there
-  std::vector<std::string> buses;  ///< names of all it has, in the order of the file
+  std::vector<LaserSensor> lasers;  ///< also among the sensors
+  std::string bus;                  ///< name of the one of its buses that is used
+  std::string bus_file;             ///< where its <verp:bus> stands
+  int bus_line = 1;                 ///< there
+  std::vector<std::string> buses;   ///< names of all it has, in the order of the file
   BusProtocol protocol = BusProtocol::kDynamixel2;
   std::uint32_t baud = 2000000;
   std::uint32_t period_us = 10000;

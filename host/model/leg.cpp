@@ -55,6 +55,9 @@ void shift_frame(Entity& entity, int node, const Vec3& shift) {
   for (Limb& limb : entity.limbs) {
     if (limb.joints.back() == node - 1) limb.tip.translation() -= shift;
   }
+  for (LaserSensor& laser : entity.lasers) {
+    if (laser.node == node) laser.pose.translation() -= shift;
+  }
   for (OtherSensor& sensor : entity.sensors) {
     if (sensor.node == node) sensor.pose.translation() -= shift;
   }

@@ -20,6 +20,26 @@ int32 sec
 uint32 nanosec
 )";
 
+const std::string_view kLaserScanSchema = R"(std_msgs/Header header
+float32 angle_min
+float32 angle_max
+float32 angle_increment
+float32 time_increment
+float32 scan_time
+float32 range_min
+float32 range_max
+float32[] ranges
+float32[] intensities
+================================================================================
+MSG: std_msgs/Header
+builtin_interfaces/Time stamp
+string frame_id
+================================================================================
+MSG: builtin_interfaces/Time
+int32 sec
+uint32 nanosec
+)";
+
 const std::string_view kStringSchema = "string data\n";
 
 const std::string_view kImuSchema = R"(std_msgs/Header header
@@ -143,6 +163,19 @@ std::string joint_state(const Params& params, const Inputs& inputs, std::uint64_
     out.put(joint_rad(params.joint[j], inputs.position_count[j]));
   }
   out.put(std::uint32_t{0}).put(std::uint32_t{0});  // velocity and effort are not measured
+  return out.take();
+}
+
+std::string laser_scan(const LaserScan& scan, std::uint64_t time_ns) {
+  Cdr out;
+  out.header(time_ns, scan.frame);
+  for (const double value :
+       {scan.first_rad, scan.last_rad, scan.step_rad, 0.0, scan.period_s, scan.min_m, scan.max_m}) {
+    out.put(static_cast<float>(value));
+  }
+  out.put(static_cast<std::uint32_t>(scan.range_m.size()));
+  for (const float range_m : scan.range_m) out.put(range_m);
+  out.put(std::uint32_t{0});
   return out.take();
 }
 

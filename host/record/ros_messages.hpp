@@ -25,6 +25,15 @@ struct BodyPose {
   std::array<double, 4> orientation_xyzw{0, 0, 0, 1};
 };
 
+/// Of one laser, from the first angle to the last; inf: nothing within range.
+struct LaserScan {
+  std::string frame;
+  double first_rad = 0, last_rad = 0, step_rad = 0, period_s = 0, min_m = 0, max_m = 0;
+  std::vector<float> range_m;
+};
+extern const std::string_view kLaserScanSchema;  ///< sensor_msgs/msg/LaserScan
+std::string laser_scan(const LaserScan& scan, std::uint64_t time_ns);
+
 /// Measured joint angles.
 std::string joint_state(const Params& params, const Inputs& inputs, std::uint64_t time_ns);
 /// Gyro and accelerometer, rotated into the body frame; orientation is declared unknown.

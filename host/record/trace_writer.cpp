@@ -78,6 +78,18 @@ void TraceWriter::put(const TickRecord& record, const State* kept, const ros::Bo
   safe_ticks_ = ticks_;
 }
 
+void TraceWriter::append(const std::string& sensor, std::uint32_t tick,
+                         const ros::LaserScan& scan) {
+  if (!options_.ros) return;
+  if (!sensors_.contains(sensor)) {
+    sensors_[sensor] = writer_.add_channel(
+        writer_.add_schema("sensor_msgs/msg/LaserScan", "ros2msg", ros::kLaserScanSchema),
+        "/" + sensor, "cdr");
+  }
+  const std::uint64_t time_ns = std::uint64_t{tick} * params_.period_us * 1000;
+  writer_.add_message(sensors_[sensor], time_ns, ros::laser_scan(scan, time_ns));
+}
+
 void TraceWriter::note(std::uint32_t tick, const std::string& what) {
   if (!changed_) {
     changed_ = writer_.add_channel(

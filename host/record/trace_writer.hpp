@@ -1,6 +1,7 @@
 #pragma once
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <optional>
 
 #include "host/record/mcap_writer.hpp"
@@ -33,6 +34,9 @@ class TraceWriter {
               const ros::BodyPose* body = nullptr);
   /// One tick of a run that is copied: with the State its trace kept, if it did (null: none).
   void append(const TickRecord& record, const State* kept);
+  /// What a sensor that the controller does not have measured up to that tick, on /SENSOR. Nothing
+  /// without TraceOptions::ros.
+  void append(const std::string& sensor, std::uint32_t tick, const ros::LaserScan& scan);
   /// What a person did to the twin after that tick.
   void note(std::uint32_t tick, const std::string& what);
   /// Adds `result` as metadata, ends the file and gives it its name.
@@ -55,6 +59,7 @@ class TraceWriter {
   Params params_;
   TraceOptions options_;
   std::uint16_t tick_ = 0, state_ = 0, joints_ = 0, imu_ = 0, tf_ = 0;
+  std::map<std::string, std::uint16_t> sensors_;
   std::optional<std::uint16_t> changed_;  ///< a channel of runs in which something was
   std::uint64_t ticks_ = 0, safe_ticks_ = 0;
   std::uint32_t faults_ = 0;

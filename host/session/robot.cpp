@@ -209,10 +209,24 @@ void Robot::append(const sim::Transform& body_world) {
   try {
     const record::ros::BodyPose body = pose_of(body_world);
     trace_->append(tick_, state_, outputs_.faults, &body);
+    for (const sim::Scan& scan : twin_.take_scans()) append(scan);
   } catch (const record::TraceError& error) {
     result_.trace_failure = error.what();
     trace_ = nullptr;
   }
+}
+
+void Robot::append(const sim::Scan& scan) {
+  const model::LaserSensor& laser = plan_.entity.lasers[scan.laser];
+  trace_->append(laser.name, tick_.inputs.tick,
+                 record::ros::LaserScan{.frame = laser.name,
+                                        .first_rad = laser.first_rad,
+                                        .last_rad = laser.last_rad,
+                                        .step_rad = laser.step_rad(),
+                                        .period_s = 1 / laser.rate_hz,
+                                        .min_m = laser.min_m,
+                                        .max_m = laser.max_m,
+                                        .range_m = scan.range_m});
 }
 
 std::string Robot::failure_of_walk() const {

@@ -85,6 +85,7 @@ class Robot {
 
  private:
   void append(const sim::Transform& body_world);
+  void append(const sim::Scan& scan);
   std::string failure_of_walk() const;
   void intervene_in_time();
   void note(const std::string& what);

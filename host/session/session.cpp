@@ -49,7 +49,12 @@ Session::~Session() = default;
 
 Robot& Session::add(const WalkPlan& plan, Hooks hooks, const MakeController& make) {
   if (begun_) throw std::logic_error("a robot joins a session before its first tick");
-  seats_.push_back(std::make_unique<Seat>(*this, plan, std::move(hooks), make));
+  constexpr double kFootprint_m = 0.12;  // around where the robot is put down
+  WalkPlan placed = plan;
+  sim::Vec3& start_m = placed.twin.start_m;
+  if (world_.scenery() != nullptr)
+    start_m.z() = world_.height_m(start_m.x(), start_m.y(), kFootprint_m);
+  seats_.push_back(std::make_unique<Seat>(*this, placed, std::move(hooks), make));
   Robot& robot = seats_.back()->robot;
   robot.set_quantities([this]() -> sim::Quantities& { return quantities(); });
   return robot;
@@ -58,6 +63,7 @@ Robot& Session::add(const WalkPlan& plan, Hooks hooks, const MakeController& mak
 sim::Quantities& Session::quantities() {
   if (quantities_) return *quantities_;
   quantities_ = std::make_unique<sim::Quantities>(world_);
+  if (world_.scenery() != nullptr) quantities_->add(*world_.scenery());
   std::vector<std::string> names;
   for (const auto& seat : seats_) names.push_back(seat->robot.name());
   for (std::size_t i = 0; i < seats_.size(); ++i) {

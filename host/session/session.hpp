@@ -9,6 +9,7 @@
 #include "host/session/plan.hpp"
 #include "host/session/robot.hpp"
 #include "host/sim/quantities.hpp"
+#include "host/sim/scenery.hpp"
 #include "host/sim/world.hpp"
 
 namespace verp::session {
@@ -50,6 +51,8 @@ class Session {
   /// nobody touches does not pay for it. To set one so that the run can be repeated is
   /// Robot::intervene().
   sim::Quantities& quantities();
+  /// What the world's file put there; null: it had none.
+  const sim::Scenery* scenery() { return world_.scenery(); }
   std::size_t size() const { return seats_.size(); }
   Robot& robot(std::size_t index);
   /// Of that robot, once, at the end.

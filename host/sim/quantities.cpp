@@ -32,6 +32,39 @@ Thing thing_of(TwinRobot& robot, const std::string& prefix, int node) {
   return thing;
 }
 
+/// An object that moves: it stands by itself.
+Thing thing_of(Scenery& scenery, std::size_t index) {
+  const Scenery::Item& item = scenery.items()[index];
+  const dBodyID body = item.body;
+  Thing thing;
+  thing.name = item.object->name;
+  thing.body = body;
+  thing.tags = item.tags;
+  thing.pose = [&scenery, index] { return scenery.pose(index); };
+  thing.set_mass = [body](double mass_kg) {
+    dMass mass;
+    dBodyGetMass(body, &mass);
+    dMassAdjust(&mass, mass_kg);
+    dBodySetMass(body, &mass);
+  };
+  thing.set_inertia = [body](int axis, double inertia_kg_m2) {
+    dMass mass;
+    dBodyGetMass(body, &mass);
+    mass.I[5 * axis] = inertia_kg_m2;
+    dBodySetMass(body, &mass);
+  };
+  thing.move = [&scenery, index](const Transform& by) {
+    scenery.place(index, by * scenery.pose(index));
+  };
+  thing.add_velocity = [body](const Vec3& linear, const Vec3& angular) {
+    const Vec3 v = vec_of(dBodyGetLinearVel(body)) + linear;
+    const Vec3 w = vec_of(dBodyGetAngularVel(body)) + angular;
+    dBodySetLinearVel(body, v.x(), v.y(), v.z());
+    dBodySetAngularVel(body, w.x(), w.y(), w.z());
+  };
+  return thing;
+}
+
 /// ODE takes away this part of a speed in each step.
 double lost_per_step(double damping_1_s, double step_s) {
   return -std::expm1(-damping_1_s * step_s);
@@ -65,6 +98,18 @@ void Quantities::add(TwinRobot& robot, const std::string& prefix) {
   for (std::size_t j = 0; j < entity.joints.size(); ++j) {
     const std::string name = prefix + entity.joints[j].name;
     for (Quantity& each : quantities_of(name, robot, static_cast<int>(j)))
+      all_.push_back(std::move(each));
+  }
+}
+
+void Quantities::add(Scenery& scenery) {
+  for (std::size_t i = 0; i < scenery.items().size(); ++i) {
+    const Scenery::Item& item = scenery.items()[i];
+    if (item.object->kind == model::WorldObject::Kind::kDynamic) {
+      add_thing(thing_of(scenery, i));
+      continue;
+    }
+    for (Quantity& each : surface_quantities(item.object->name, item.tags))
       all_.push_back(std::move(each));
   }
 }

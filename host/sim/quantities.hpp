@@ -6,6 +6,7 @@
 
 #include "host/sim/quantity.hpp"
 #include "host/sim/robot.hpp"
+#include "host/sim/scenery.hpp"
 #include "host/sim/world.hpp"
 
 /// Every number of a world's physics by name, to be read and set while it runs, and the hand that
@@ -44,6 +45,9 @@ class Quantities final : private Actor {
 
   /// `prefix` stands before the names of its links and joints, to tell robots apart ("red.").
   void add(TwinRobot& robot, const std::string& prefix = "");
+
+  /// Of the world's objects: those that move as things, the others by their surface.
+  void add(Scenery& scenery);
 
   const std::vector<Quantity>& all() const { return all_; }
   /// Null: there is none of this name.

@@ -39,8 +39,8 @@ Start make_start(const model::Entity& entity, const TwinOptions& options) {
     for (const model::Joint& joint : entity.joints) start.joint_rad.push_back(joint.stand_rad);
   }
   start.joint_rad.resize(entity.joints.size(), 0.0);
-  start.body_world =
-      standing_pose(entity, start.joint_rad, options.start_m, options.start_yaw_rad, kStartGap);
+  start.body_world = standing_pose(entity, start.joint_rad, options.start_m, options.start_yaw_rad,
+                                   kStartGap + options.start_m.z());
   if (!options.imperfections.initial_pose) return start;
   Random random(options.seed, Draw::kInitialPose);
   const double roll = kLeanSpread * random.normal();
@@ -52,7 +52,8 @@ Start make_start(const model::Entity& entity, const TwinOptions& options) {
        Eigen::AngleAxisd(roll, Vec3::UnitX()))
           .toRotationMatrix();
   start.body_world.linear() = lean * start.body_world.linear();
-  start.body_world = resting(entity, start.joint_rad, start.body_world, kStartGap);
+  start.body_world =
+      resting(entity, start.joint_rad, start.body_world, kStartGap + options.start_m.z());
   return start;
 }
 
@@ -92,7 +93,11 @@ TwinRobot::TwinRobot(World& world, const model::Entity& entity, const TwinOption
     foot_.emplace_back(*leg, entity_.feet.newton_per_count, options.imperfections.feet,
                        Random(options.seed, Draw::kFootNoise, foot));
   }
-  initial_height_m_ = start.body_world.translation().z();
+  for (std::size_t i = 0; i < entity_.lasers.size(); ++i) {
+    laser_.emplace_back(entity_.lasers[i], i, owner_, options.imperfections.lasers,
+                        Random(options.seed, Draw::kLaser, static_cast<int>(i)));
+  }
+  initial_height_m_ = start.body_world.translation().z() - options.start_m.z();
   const auto delay_steps =
       static_cast<std::size_t>(std::lround(options.goal_delay_s / world.step_s()));
   arriving_.assign(delay_steps + 1, setpoint_);
@@ -147,6 +152,7 @@ void TwinRobot::after_step(double step_s) {
   update_self_contacts();
   update_feet(step_s);
   update_fallen();
+  update_lasers();
 }
 
 bool TwinRobot::set_upright() {
@@ -237,6 +243,15 @@ void TwinRobot::update_feet(double step_s) {
   loads_.add(step_loads_);
 }
 
+void TwinRobot::update_lasers() {
+  constexpr std::size_t kMostScans = 1000;  // nobody asks for them: the oldest go
+  for (std::size_t i = 0; i < laser_.size(); ++i) {
+    if (!laser_[i].sample(world_, body_.link_pose(entity_.lasers[i].node))) continue;
+    if (scans_.size() == kMostScans) scans_.erase(scans_.begin());
+    scans_.push_back(laser_[i].scan());
+  }
+}
+
 int TwinRobot::foot_of(int node) const {
   if (node == foot_node_[0]) return 0;
   return node == foot_node_[1] ? 1 : -1;
@@ -245,8 +260,8 @@ int TwinRobot::foot_of(int node) const {
 void TwinRobot::update_fallen() {
   const Transform body = body_.link_pose(0);
   const double tilt = std::acos(std::clamp(body.linear()(2, 2), -1.0, 1.0));
-  fallen_ =
-      fallen_ || tilt > kFallenTilt || body.translation().z() < kFallenHeight * initial_height_m_;
+  fallen_ = fallen_ || tilt > kFallenTilt ||
+            body.translation().z() - options_.start_m.z() < kFallenHeight * initial_height_m_;
 }
 
 FootTruth TwinRobot::foot_truth(int foot) const {

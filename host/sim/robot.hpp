@@ -3,10 +3,12 @@
 #include <cstdint>
 #include <deque>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "host/model/entity.hpp"
 #include "host/sim/body.hpp"
+#include "host/sim/laser.hpp"
 #include "host/sim/plant.hpp"
 #include "host/sim/sensors.hpp"
 #include "host/sim/servo.hpp"
@@ -23,8 +25,9 @@ struct Imperfections {
   bool zero_error = true;    ///< joint zeros are off by up to zero_error_deg
   bool initial_pose = true;  ///< joints, lean and heading at the start
   bool feet = true;          ///< force noise
+  bool lasers = true;        ///< noise
 
-  static Imperfections none() { return {false, false, false, false, false}; }
+  static Imperfections none() { return {false, false, false, false, false, false}; }
 };
 
 /// Who holds the body at the start. Servos power up limp, so a robot that stands must be held until
@@ -40,7 +43,7 @@ struct TwinOptions {
   double goal_delay_s = 0;               ///< from a set-point's arrival until its servo acts on it
   Vec3 gyro_bias_rad_s = Vec3::Zero();   ///< sensor axes, on top of the noise's own
   std::vector<double> initial_rad = {};  ///< joint angles at the start; empty: Entity's stand_rad
-  Vec3 start_m = Vec3::Zero();           ///< midpoint of the soles
+  Vec3 start_m = Vec3::Zero();           ///< midpoint of the soles; z: of the ground there
   double start_yaw_rad = 0;
   Cradle cradle = Cradle::kUntilArmed;
   /// Released this long after all leg servos have torque: the firmware then stands in its pose
@@ -89,6 +92,8 @@ class TwinRobot final : public Plant, private Actor {
   double supply_v() const { return supply_v_; }
   /// Physics steps since the start, and in how many of them each joint's duty was at its limit.
   std::uint64_t steps() const { return steps_; }
+  /// Scans that were taken since they were last asked for.
+  std::vector<Scan> take_scans() { return std::exchange(scans_, {}); }
   const std::vector<std::uint64_t>& saturated_steps() const { return saturated_steps_; }
 
   /// In how many physics steps one of its links touched another, and which two did so last.
@@ -109,6 +114,7 @@ class TwinRobot final : public Plant, private Actor {
   void update_self_contacts();
   void update_feet(double step_s);
   void update_fallen();
+  void update_lasers();
   FootTruth foot_truth(int foot) const;
   Transform imu_pose() const;
   Vec3 imu_point_velocity() const;
@@ -126,6 +132,8 @@ class TwinRobot final : public Plant, private Actor {
   ImuModel imu_;
   std::vector<FootModel> foot_;  ///< none, or left and right
   std::array<int, 2> foot_node_{-1, -1};
+  std::vector<LaserModel> laser_;
+  std::vector<Scan> scans_;
   Vec3 imu_velocity_world_m_s_ = Vec3::Zero();
   FootLoads step_loads_;  ///< of the last step
   FootLoads loads_;       ///< since take_foot_loads()

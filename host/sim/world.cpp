@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "host/sim/ode_parts.hpp"
+#include "host/sim/scenery.hpp"
 
 namespace verp::sim {
 namespace {
@@ -76,9 +77,11 @@ World::World(const WorldOptions& options) : options_(options) {
     ground_ = &tag(dCreatePlane(space_, 0, 0, 1, 0),
                    GeomTag{.owner = kScenery, .surface = options.ground_surface});
   }
+  if (options.scenery) scenery_ = std::make_unique<Scenery>(*this, options.scenery);
 }
 
 World::~World() {
+  scenery_.reset();
   dJointGroupDestroy(contact_group_);
   dSpaceDestroy(space_);
   dWorldDestroy(world_);

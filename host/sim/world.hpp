@@ -3,9 +3,12 @@
 
 #include <cstdint>
 #include <deque>
+#include <memory>
+#include <optional>
 #include <vector>
 
 #include "host/model/entity.hpp"
+#include "host/model/world.hpp"
 
 /// The physics engine: ODE in double precision, stepped by dWorldStep at a fixed interval by the
 /// calling thread only. Everything in it is a function of the calls made, so two equal runs are
@@ -50,6 +53,14 @@ struct Contact {
   Vec3 force_world_n = Vec3::Zero();  ///< on the owner
 };
 
+class Scenery;
+
+/// What a ray goes through: the shapes of one link.
+struct RayFilter {
+  int owner = kScenery - 1;  ///< nobody
+  int node = 0;
+};
+
 /// Something that acts in every physics step: a robot.
 class Actor {
  public:
@@ -75,6 +86,8 @@ struct WorldOptions {
   bool ground = true;       ///< the plane z = 0
   Surface ground_surface{
       .friction = 1.0, .stiffness_n_m = 0, .damping_n_s_m = 0};  ///< 0 stiffness: rigid
+  /// What a world's file has, its ground too; null: nothing. Gravity is given above.
+  std::shared_ptr<const model::World> scenery = {};
 };
 
 class World final : public TimeSource {
@@ -105,6 +118,14 @@ class World final : public TimeSource {
   dGeomID make_shape(const model::Collision& collision);
 
   dWorldID ode_world() const { return world_; }
+  dSpaceID ode_space() const { return space_; }
+  /// Null: the world was made without.
+  Scenery* scenery() { return scenery_.get(); }
+  /// How far it is to the first shape in that direction; nothing within range_m.
+  std::optional<double> ray_m(const Vec3& from_world_m, const Vec3& direction_world, double range_m,
+                              const RayFilter& filter = {}) const;
+  /// Of the highest thing below 1.5 m, within around_m of there: where a robot can be put down.
+  double height_m(double x_m, double y_m, double around_m) const;
   /// From the next step on; the direction stays.
   void set_gravity(double gravity_m_s2);
   /// Of the plane z = 0; null if there is none.
@@ -131,6 +152,7 @@ class World final : public TimeSource {
   std::vector<Actor*> actors_;
   std::deque<GeomTag> tags_;
   GeomTag* ground_ = nullptr;
+  std::unique_ptr<Scenery> scenery_;
   std::vector<Touching> touching_;
   std::deque<dJointFeedback>
       feedback_;  // a deque: ODE keeps pointers to its elements during the step

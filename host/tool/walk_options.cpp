@@ -150,6 +150,7 @@ void declare(CLI::App& app, WalkOptions& options) {
                  "of the twin, ms: 0.25, 0.5, 1, or 2, which is twice as fast and within 1 %")
       ->check(CLI::IsMember({0.25, 0.5, 1.0, 2.0}))
       ->capture_default_str();
+  declare(app, options.place);
   declare(app, options.touch);
   app.add_option("--on", options.board,
                  "run the controller in firmware on this emulated board (boards/)");
@@ -218,6 +219,7 @@ void check_board(const WalkOptions& options) {
 sim::WorldOptions world_of(const WalkOptions& options) {
   sim::WorldOptions world;
   world.step_us = static_cast<std::uint32_t>(std::lround(1e3 * options.physics_step_ms));
+  read_place(options.place, world);
   return world;
 }
 

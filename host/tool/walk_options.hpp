@@ -8,6 +8,7 @@
 #include "common/model/params.hpp"
 #include "host/model/entity.hpp"
 #include "host/sim/world.hpp"
+#include "host/tool/walk_place.hpp"
 #include "host/tool/walk_touch.hpp"
 
 namespace CLI {
@@ -35,6 +36,8 @@ struct WalkOptions {
   std::string seeds_text;      ///< A-B: these seeds, one after the other
   double physics_step_ms = 1;  ///< 2: half as long a wait
   TouchOptions touch;
+  PlaceOptions place;
+  bool model_given = false;
 };
 
 void declare(CLI::App& app, WalkOptions& options);

@@ -8,6 +8,7 @@
 #include "host/model/load.hpp"
 #include "host/model/params.hpp"
 #include "host/sim/vary.hpp"
+#include "host/tool/exit_status.hpp"
 
 namespace verp::tool {
 
@@ -25,6 +26,33 @@ WalkPlan make_plan(const WalkOptions& options) {
   plan.twin.seed = options.seed;
   plan.board = options.board;
   return plan;
+}
+
+std::vector<WalkPlan> make_plans(const WalkOptions& options, const sim::WorldOptions& world) {
+  if (world.scenery == nullptr || world.scenery->robots.empty()) {
+    WalkPlan plan = make_plan(options);
+    place_robot(options.place, plan);
+    return {plan};
+  }
+  const std::vector<model::WorldRobot>& robots = world.scenery->robots;
+  if (options.model_given || !options.place.pose_text.empty() || !options.board.empty()) {
+    throw ToolError(kBadInput,
+                    fmt::format("verp walk: {} has robots of its own; leave MODEL, --at-pose and "
+                                "--on out, or take its <include>s out",
+                                world.scenery->file));
+  }
+  std::vector<WalkPlan> plans;
+  for (const model::WorldRobot& robot : robots) {
+    WalkOptions own = options;
+    own.model = robot.file;
+    own.seed = options.seed + plans.size();
+    WalkPlan plan = make_plan(own);
+    plan.name = robot.name;
+    plan.twin.start_m = {robot.x_m, robot.y_m, 0};
+    plan.twin.start_yaw_rad = robot.yaw_rad;
+    plans.push_back(std::move(plan));
+  }
+  return plans;
 }
 
 Drawn draw(const WalkOptions& options, WalkPlan& plan, sim::WorldOptions& world) {

@@ -1,5 +1,6 @@
 #pragma once
 #include <string>
+#include <vector>
 
 #include "host/session/plan.hpp"
 #include "host/tool/json.hpp"
@@ -10,6 +11,11 @@ namespace verp::tool {
 
 /// Throws ToolError and LoadError.
 session::WalkPlan make_plan(const WalkOptions& options);
+
+/// That robot alone, or those that the world has of its own, which all walk likewise, the first
+/// with report and trace. Throws ToolError if both are asked for.
+std::vector<session::WalkPlan> make_plans(const WalkOptions& options,
+                                          const sim::WorldOptions& world);
 
 /// What the robot and its world became by --vary.
 struct Drawn {

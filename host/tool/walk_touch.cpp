@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <deque>
 #include <set>
 #include <stdexcept>
 
@@ -20,12 +21,18 @@ using session::Intervention;
 
 /// What a run will have, without running it.
 struct Probe {
-  Probe(const WalkPlan& plan, const sim::WorldOptions& options)
-      : world(options), robot(world, plan.entity, plan.twin), quantities(world) {
-    quantities.add(robot);
+  Probe(const WalkPlan& plan, const std::vector<WalkPlan>& others, const sim::WorldOptions& options)
+      : world(options), quantities(world) {
+    if (world.scenery() != nullptr) quantities.add(*world.scenery());
+    add(plan, others.empty());
+    for (const WalkPlan& other : others) add(other, false);
+  }
+  void add(const WalkPlan& plan, bool alone) {
+    robots.emplace_back(world, plan.entity, plan.twin);
+    quantities.add(robots.back(), alone ? "" : plan.name + ".");
   }
   sim::World world;
-  sim::TwinRobot robot;
+  std::deque<sim::TwinRobot> robots;
   sim::Quantities quantities;
 };
 
@@ -47,8 +54,8 @@ std::string hint(const Intervention& each, const sim::Quantities& quantities) {
 }
 
 void check_all(const std::vector<std::pair<std::string, Intervention>>& read, const WalkPlan& plan,
-               const sim::WorldOptions& world) {
-  Probe probe(plan, world);
+               const std::vector<WalkPlan>& others, const sim::WorldOptions& world) {
+  Probe probe(plan, others, world);
   for (const auto& [option, each] : read) {
     try {
       session::check(each, probe.quantities);
@@ -78,19 +85,21 @@ void declare(CLI::App& app, TouchOptions& options) {
                "the names that --at may set, with unit and range, and those that can be read");
 }
 
-void read_touch(const TouchOptions& options, WalkPlan& plan, const sim::WorldOptions& world) {
+void read_touch(const TouchOptions& options, WalkPlan& plan, const std::vector<WalkPlan>& others,
+                const sim::WorldOptions& world) {
   std::vector<std::pair<std::string, Intervention>> all;
   for (const std::string& text : options.pushes)
     all.emplace_back("--push '" + text + "'", read("--push", text, session::read_push));
   for (const std::string& text : options.settings)
     all.emplace_back("--at '" + text + "'", read("--at", text, session::read_setting));
   if (all.empty()) return;
-  check_all(all, plan, world);
+  check_all(all, plan, others, world);
   for (const auto& [option, each] : all) plan.interventions.push_back(each);
 }
 
-int list_quantities(const WalkPlan& plan, const sim::WorldOptions& world, bool json) {
-  Probe probe(plan, world);
+int list_quantities(const WalkPlan& plan, const std::vector<WalkPlan>& others,
+                    const sim::WorldOptions& world, bool json) {
+  Probe probe(plan, others, world);
   Json all = Json::array();
   std::string text;
   std::set<std::string> kinds;

@@ -20,12 +20,14 @@ struct TouchOptions {
 
 void declare(CLI::App& app, TouchOptions& options);
 
-/// Reads them into the plan, and checks them against the robot and the world that the run will
+/// Reads them into the plan, and checks them against the robots and the world that the run will
 /// have. Throws ToolError.
-void read_touch(const TouchOptions& options, WalkPlan& plan, const sim::WorldOptions& world);
+void read_touch(const TouchOptions& options, WalkPlan& plan, const std::vector<WalkPlan>& others,
+                const sim::WorldOptions& world);
 
 /// All quantities of that robot in that world: for people one line for each kind.
-int list_quantities(const WalkPlan& plan, const sim::WorldOptions& world, bool json);
+int list_quantities(const WalkPlan& plan, const std::vector<WalkPlan>& others,
+                    const sim::WorldOptions& world, bool json);
 
 /// What was done when; empty if nothing was.
 Json touch_json(const WalkResult& result);

@@ -1,0 +1,107 @@
+#include "host/tool/walk_place.hpp"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <cmath>
+#include <memory>
+
+#include "host/model/load_world.hpp"
+#include "host/model/number.hpp"
+#include "host/sim/scenery.hpp"
+#include "host/tool/command.hpp"
+#include "host/tool/interrupt.hpp"
+
+namespace verp::tool {
+
+void declare(CLI::App& app, PlaceOptions& options) {
+  app.add_option("--world", options.world,
+                 "a world of common/worlds, or the path of an SDF file (default: a level floor)")
+      ->excludes("--vary")
+      ->excludes("--sweep-step");
+  app.add_option("--at-pose", options.pose_text,
+                 "X,Y,YAW in m and rad: where the robot stands at the start");
+}
+
+void read_place(const PlaceOptions& options, sim::WorldOptions& world) {
+  if (options.world.empty()) return;
+  auto scenery =
+      std::make_shared<model::World>(model::load_world(model::find_world(options.world)));
+  world.gravity_m_s2 = scenery->gravity_m_s2.norm();
+  if (world.gravity_m_s2 > 0) world.up = -scenery->gravity_m_s2 / world.gravity_m_s2;
+  world.ground = false;
+  world.scenery = std::move(scenery);
+}
+
+void place_robot(const PlaceOptions& options, WalkPlan& plan) {
+  constexpr double kFar_m = 1000;
+  if (options.pose_text.empty()) return;
+  std::string spaced = options.pose_text;
+  for (char& c : spaced) c = c == ',' ? ' ' : c;
+  const auto value = model::parse_numbers(spaced);
+  const bool far = value && value->size() == 3 &&
+                   (std::abs((*value)[0]) > kFar_m || std::abs((*value)[1]) > kFar_m ||
+                    std::abs((*value)[2]) > kFar_m);
+  if (!value || value->size() != 3 || far) {
+    throw ToolError(kBadInput,
+                    fmt::format("verp walk: --at-pose '{}' is not X,Y,YAW; example: 1,0.5,1.57",
+                                options.pose_text));
+  }
+  plan.twin.start_m.x() = (*value)[0];
+  plan.twin.start_m.y() = (*value)[1];
+  plan.twin.start_yaw_rad = (*value)[2];
+}
+
+Walks walk_together(const WalkPlan& plan, const std::vector<WalkPlan>& others,
+                    record::TraceWriter* trace, Progress& progress, bool keep_series,
+                    const sim::WorldOptions& world) {
+  session::Session session({.world = world, .interrupted = interrupted});
+  session.add(plan, shown(plan, trace, progress, plan.params.name, keep_series));
+  for (const WalkPlan& other : others) session.add(other);
+  while (session.tick() != nullptr) {
+  }
+  Walks walks;
+  walks.result = session.result(0);
+  for (std::size_t i = 0; i < others.size(); ++i)
+    walks.others.emplace_back(others[i].name, session.result(i + 1));
+  const sim::Scenery* scenery = session.scenery();
+  for (std::size_t i = 0; scenery != nullptr && i < scenery->items().size(); ++i) {
+    const model::WorldObject& object = *scenery->items()[i].object;
+    if (object.kind == model::WorldObject::Kind::kStatic) continue;
+    const model::Vec3 at = scenery->pose(i).translation();
+    walks.objects.push_back({{"name", object.name}, {"position_m", {at.x(), at.y(), at.z()}}});
+  }
+  return walks;
+}
+
+std::string place_text(const Walks& walks, const sim::WorldOptions& world) {
+  if (world.scenery == nullptr) return "";
+  std::string out =
+      fmt::format("  {:<18}{}, {}\n", "world", world.scenery->name, world.scenery->file);
+  for (const Json& each : walks.objects) {
+    const Json& at = each["position_m"];
+    out += fmt::format("  {:<18}at the end at {:.3f} {:.3f} {:.3f} m\n",
+                       each["name"].get<std::string>(), at[0].get<double>(), at[1].get<double>(),
+                       at[2].get<double>());
+  }
+  for (const auto& [name, result] : walks.others) {
+    out += fmt::format("  {:<18}{}, {:.2f} m, digest 0x{:016x}\n", name,
+                       result.failure.empty() ? "walked" : result.failure,
+                       result.metrics.distance_m, result.digest);
+  }
+  return out;
+}
+
+Json place_json(const Walks& walks, const sim::WorldOptions& world) {
+  if (world.scenery == nullptr) return Json::object();
+  Json out = {{"world", world.scenery->file}, {"objects", walks.objects}};
+  for (const auto& [name, result] : walks.others) {
+    out["others"].push_back({{"name", name},
+                             {"failure", result.failure},
+                             {"distance_m", result.metrics.distance_m},
+                             {"digest", fmt::format("0x{:016x}", result.digest)}});
+  }
+  return out;
+}
+
+}  // namespace verp::tool
