@@ -1,0 +1,82 @@
+#include <gtest/gtest.h>
+
+#include "common/safety/machine.hpp"
+#include "host/tool/run_operator.hpp"
+
+// `verp run --take-orders`: who gives them decides, for the time that the run has.
+namespace verp::tool {
+namespace {
+
+using safety::Mode;
+
+class Obeying : public ::testing::Test {
+ protected:
+  static constexpr std::uint32_t kPeriod_us = 10'000;
+  static constexpr double kMost_s = 2;
+
+  Obeying() {
+    params.period_us = kPeriod_us;
+    who.obey([this](std::uint32_t tick) {
+      app::OperatorOrder order;
+      order.command.request = ordered;
+      order.command.sequence = static_cast<std::uint8_t>(tick);
+      order.flags = kCommandFresh;
+      return order;
+    });
+  }
+  /// One tick in which the robot is in this mode; what was ordered for it.
+  Request tick(Mode mode, std::uint32_t faults = 0) {
+    const app::OperatorOrder order = who.order(ticks++);
+    Outputs outputs;
+    outputs.mode = static_cast<std::uint8_t>(mode);
+    outputs.torque_enable = mode == Mode::kRelaxed ? 0 : 1;
+    outputs.faults = faults;
+    who.observe(State{}, outputs);
+    return order.command.request;
+  }
+
+  Params params;
+  RunOperator who{params, {}, kMost_s, [](auto, auto, auto) {}};
+  Request ordered = Request::kStand;
+  std::uint32_t ticks = 0;
+};
+
+TEST_F(Obeying, PassesOnWhatIsOrderedUntilItsTimeIsOverThenSitsDown) {
+  EXPECT_EQ(tick(Mode::kRising), Request::kStand);
+  ordered = Request::kWalk;
+  for (int i = 0; i < 150; ++i) EXPECT_EQ(tick(Mode::kWalking), Request::kWalk);
+  EXPECT_NEAR(who.walked_s(), 1.5, 1e-9);
+  for (int i = 0; i < 49; ++i) tick(Mode::kStanding);
+  EXPECT_EQ(tick(Mode::kStanding), Request::kRelax) << "2 s are over, whatever is ordered";
+  EXPECT_FALSE(who.over());
+  for (int i = 0; i < 20; ++i) tick(Mode::kRelaxed);
+  EXPECT_TRUE(who.over());
+  EXPECT_EQ(who.failure(), "");
+}
+
+TEST_F(Obeying, ARobotThatWasOrderedToLetGoHasNotFailed) {
+  tick(Mode::kStanding);
+  ordered = Request::kRelax;
+  for (int i = 0; i < 20; ++i) tick(Mode::kRelaxed);
+  EXPECT_EQ(who.failure(), "");
+  EXPECT_FALSE(who.over()) << "it may be ordered to stand again";
+  ordered = Request::kStand;
+  EXPECT_EQ(tick(Mode::kRising), Request::kStand);
+}
+
+TEST_F(Obeying, OneThatLetGoForAFaultHas) {
+  tick(Mode::kStanding);
+  tick(Mode::kRelaxed, 1);
+  EXPECT_NE(who.failure(), "");
+  EXPECT_EQ(tick(Mode::kRelaxed), Request::kRelax);
+}
+
+TEST_F(Obeying, CtrlCGoesBeforeOrders) {
+  ordered = Request::kWalk;
+  tick(Mode::kWalking);
+  who.sit_down();
+  EXPECT_EQ(tick(Mode::kWalking), Request::kRelax);
+}
+
+}  // namespace
+}  // namespace verp::tool
