@@ -1,4 +1,5 @@
 #include "tests/support/can/sja1000_model.hpp"
+#include "tests/support/can/sja1000_table.hpp"
 
 namespace verp::test {
 

@@ -1,4 +1,5 @@
 #include "tests/support/can/zynqmp_can_model.hpp"
+#include "tests/support/can/zynqmp_can_table.hpp"
 
 namespace verp::test {
 
