@@ -1,12 +1,17 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
+#include <atomic>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "host/can/virtual_can.hpp"
+#include "host/link/can_port.hpp"
 #include "host/sim/robot.hpp"
 #include "host/sim/world.hpp"
 #include "tests/target/can_run.hpp"
@@ -77,6 +82,60 @@ TEST(CanLoop, WalksInTheTwinWithTheBitsOfSoftwareInTheLoop) {
     ASSERT_EQ(std::memcmp(&there[i], &here[i], sizeof(TickRecord)), 0) << "tick " << i;
   }
   expect_same_bits_live(check, ticks);
+}
+
+/// Somebody's tool, which asks the board's node for its mode without a rest, and now and then to
+/// relax.
+class Poller {
+ public:
+  ~Poller() { end(); }
+  void end() {
+    over_ = true;
+    if (thread_.joinable()) thread_.join();
+  }
+  std::atomic<unsigned> told{0}, refused{0}, others{0};
+
+ private:
+  static CanFrame request(const std::array<std::uint8_t, 8>& bytes) {
+    CanFrame frame;
+    frame.id = 0x67F;
+    frame.size = 8;
+    std::copy(bytes.begin(), bytes.end(), frame.data);
+    return frame;
+  }
+  void run() {
+    constexpr std::uint32_t kPatience_us = 20'000;
+    wire::CanPort port({.kind = wire::Endpoint::Kind::kCan, .place = "vcan0"}, {{0x5FF, 0x7FF}});
+    CanFrame frame;
+    for (unsigned n = 0; !over_; ++n) {
+      port.send(n % 8 == 7 ? request({0x2F, 0x50, 0x20, 0, 0, 0, 0, 0})
+                           : request({0x40, 0x90, 0x20, 0, 0, 0, 0, 0}));
+      if (!port.await(frame, kPatience_us)) continue;
+      const bool local_control = frame.data[0] == 0x80 && frame.data[4] == 0x21;
+      ++(frame.data[0] == 0x4F ? told : local_control ? refused : others);
+    }
+  }
+
+  std::atomic<bool> over_{false};
+  std::thread thread_{[this] { run(); }};
+};
+
+// It would lose frames of its small FIFO to somebody else's, and an order that it took would be
+// none that it obeys.
+TEST(CanLoop, IsNeitherEndedNorOrderedByWhoPollsItsNode) {
+  const std::string board = setting("VERP_TEST_BOARD");
+  ASSERT_FALSE(board.empty()) << "set VERP_TEST_BOARD";
+  constexpr std::uint32_t kTicks = 100;
+  CanTwin here, twin;
+  const auto expected = test::run_can_here(here.robot.params, here.bus, kTicks);
+  Poller poller;
+  const test::CanRun run = test::run_over_can(board, twin.robot.params, twin.bus, kTicks);
+  poller.end();
+  ASSERT_EQ(run.records.size(), kTicks);
+  EXPECT_EQ(run.records.back().digest.chain, expected.back().digest.chain);
+  EXPECT_GT(poller.told, 10u);
+  EXPECT_GT(poller.refused, 1u);
+  EXPECT_EQ(poller.others, 0u);
 }
 
 }  // namespace
