@@ -130,6 +130,7 @@ void enter(Mode mode, std::int32_t period_us, safety::MachineState& machine) {
 
 void start(const Params& params, const Inputs& inputs, State& state) {
   state.tuning = params.tuning;
+  gait::stand_legs(params, state.gait.preview.leg_rad);
   verp::start(params, inputs, state.admit);
 }
 
@@ -176,8 +177,12 @@ Wanted solve_joints(const Params& params, State& state, const Inputs& inputs,
   for (int side = 0; side < kFeet; ++side) {
     const LegParams& leg = params.leg[side];
     if (leg.solver == LegSolver::kNone) continue;
+    // A robot that doesn't walk may be found in any pose; the one wanted was solved when weighed.
     float previous_rad[kLegJoints];
-    for (int k = 0; k < kLegJoints; ++k) previous_rad[k] = state.limit.goal_rad[leg.joint[k]];
+    for (int k = 0; k < kLegJoints; ++k) {
+      previous_rad[k] = state.gait.queued == 0 ? state.gait.preview.leg_rad[side * kLegJoints + k]
+                                               : state.limit.goal_rad[leg.joint[k]];
+    }
     kinematics::LegAngles angles = leg_angles(params, state, plan.posture, side, previous_rad);
     wanted.leg_limited = wanted.leg_limited || angles.flags != 0;
     const kinematics::LegChain chain =

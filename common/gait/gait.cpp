@@ -86,6 +86,19 @@ void extend_queue(const Params& params, const Tuning& tuning, const GaitIn& in, 
   }
 }
 
+// A joint held at its limit still stands nearly where it should; the others don't.
+bool reaches(std::uint8_t leg_flags) {
+  return (leg_flags & (kinematics::kOutOfReach | kinematics::kNotConverged)) == 0;
+}
+
+void shorten(std::uint16_t note, FootstepState& footsteps) {
+  constexpr float kLess = 0.01F;
+  if (footsteps.scale <= 0.1F) footsteps.notes |= kPlanRefused;
+  footsteps.scale = math::max(0.1F, footsteps.scale - kLess);
+  footsteps.calm = 0;
+  footsteps.notes |= note;
+}
+
 // The walk's plan is shortened step by step while its ZMP would leave the sole, and grows again
 // after a cycle that left more room than the next longer one can need. The correction takes misses
 // back, but it is linear in them: it is trusted with half a sole, and no more.
@@ -102,13 +115,12 @@ void watch_zmp(const Params& params, const Tuning& tuning, const Step& step, Xy 
   const auto within = [&](float share) {
     return math::abs(out_m.x) <= share * room_x_m && math::abs(out_m.y) <= share * room_y_m;
   };
-  constexpr float kLess = 0.01F, kMore = 1.2F, kCalm = 0.8F;
+  constexpr float kMore = 1.2F, kCalm = 0.8F;
   static_assert(kMore * kCalm < 1.0F, "what grows must not have to shrink again");
   FootstepState& footsteps = state.footsteps;
   if (!within(kCalm)) footsteps.calm = 0;
   if (!within(1.0F)) {
-    if (footsteps.scale <= 0.1F) footsteps.notes |= kPlanRefused;
-    footsteps.scale = math::max(0.1F, footsteps.scale - kLess);
+    shorten(0, footsteps);
   } else if (footsteps.scale < 1.0F && ++footsteps.calm > 2 * kKeyPointsPerStep) {
     footsteps.scale = math::min(1.0F, kMore * footsteps.scale);
     footsteps.calm = 0;
@@ -123,8 +135,9 @@ void lay_key_points(const Params& params, const Tuning& tuning, const GaitIn& in
   for (int i = 0; i < most; ++i) {
     if (static_cast<std::uint8_t>(preview.head - preview.fixed) >= kHorizon) return;
     extend_queue(params, tuning, in, state);
-    Xy miss_m = lay_key_point(params, tuning, state.queue, preview);
-    watch_zmp(params, tuning, state.queue[preview.head_step], miss_m, state);
+    const Laid laid = lay_key_point(params, tuning, state.queue, preview);
+    watch_zmp(params, tuning, state.queue[preview.head_step], laid.zmp_miss_m, state);
+    if (!reaches(laid.leg_flags)) shorten(kReachShortened, state.footsteps);
     if (!(tuning.balance.multibody_enable > 0.5F)) {
       preview.ring[static_cast<std::uint8_t>(preview.head - 1) % kRing].zmp_miss_m = Xy{};
     }
@@ -198,6 +211,7 @@ void stand(const Params& params, const Tuning& tuning, const Step& feet, const G
   state.preview.lump = lump_of(params, in.goal_rad);
   const Posture posture = stand_posture(params, tuning, feet, state);
   const Masses masses = weigh(params, state.preview.lump, posture, state.preview.leg_rad);
+  if (in.walk && !reaches(masses.leg_flags)) state.footsteps.notes |= kPlanRefused;
   const Xy off_m = feet.zmp_end_m - Xy{masses.com_m.x(), masses.com_m.y()};
   const bool may_walk = (state.footsteps.notes & kPlanRefused) == 0 &&
                         math::abs(off_m.x) < kSettledM && math::abs(off_m.y) < kSettledM;

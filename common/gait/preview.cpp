@@ -67,8 +67,8 @@ void begin(const Params& params, const Posture& stand, const Masses& masses, Xy 
   state.head_step = state.head_key = state.head = state.fixed = 0;
 }
 
-Xy lay_key_point(const Params& params, const Tuning& tuning, const Step* queue,
-                 PreviewState& state) {
+Laid lay_key_point(const Params& params, const Tuning& tuning, const Step* queue,
+                   PreviewState& state) {
   if (state.head_key >= queue[state.head_step].key_points) {
     ++state.head_step;
     state.head_key = 0;
@@ -99,7 +99,7 @@ Xy lay_key_point(const Params& params, const Tuning& tuning, const Step* queue,
   state.com_real_m = ground(masses.com_m);
   state.offset_m[1] = state.offset_m[0];
   state.offset_m[0] = state.com_real_m - body_m;
-  return miss_m;
+  return {miss_m, masses.leg_flags};
 }
 
 void fix_key_point(const Step& step, PreviewState& state) {

@@ -51,10 +51,15 @@ VERP_PACKED(PreviewState);
 void begin(const Params& params, const Posture& stand, const Masses& masses, Xy com_m,
            PreviewState& state);
 
-/// Lays the head's next key point; queue[head_step] holds it. Returns the ZMP miss of the key point
-/// before.
-Xy lay_key_point(const Params& params, const Tuning& tuning, const Step* queue,
-                 PreviewState& state);
+/// What laying a key point found.
+struct Laid {
+  Xy zmp_miss_m;               ///< of the key point before
+  std::uint8_t leg_flags = 0;  ///< kinematics::LegFlag, of both legs at the one laid
+};
+
+/// Lays the head's next key point; queue[head_step] holds it.
+Laid lay_key_point(const Params& params, const Tuning& tuning, const Step* queue,
+                   PreviewState& state);
 
 /// Fixes the next key point from what the ring holds beyond it.
 void fix_key_point(const Step& step, PreviewState& state);

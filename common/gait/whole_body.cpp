@@ -74,6 +74,12 @@ float point_mass_kg(const Params& params, const Lump& lump, int point) {
   return params.joint[params.leg[leg].joint[(point - 1) % kLegJoints]].mass_kg;
 }
 
+void stand_legs(const Params& params, float* leg_rad) {
+  for (const LegParams& leg : params.leg) {
+    for (const std::uint8_t joint : leg.joint) *leg_rad++ = params.joint[joint].stand_rad;
+  }
+}
+
 Masses weigh(const Params& params, const Lump& lump, const Posture& posture, float* leg_rad) {
   Masses masses;
   masses.point_m[0] = math::apply(posture.body, math::to_vec(lump.com_body_m));
@@ -85,7 +91,11 @@ Masses weigh(const Params& params, const Lump& lump, const Posture& posture, flo
     float* angle_rad = leg_rad + side * kLegJoints;
     const kinematics::LegAngles solved =
         kinematics::solve_leg(params, leg, sole_in_body(posture, side), angle_rad);
-    for (int k = 0; k < kLegJoints; ++k) angle_rad[k] = solved.angle_rad[k];
+    masses.leg_flags |= solved.flags;
+    const bool lost = (solved.flags & kinematics::kNotConverged) != 0;
+    for (int k = 0; k < kLegJoints; ++k) {
+      angle_rad[k] = lost ? params.joint[leg.joint[k]].stand_rad : solved.angle_rad[k];
+    }
     const kinematics::LegChain chain =
         kinematics::leg_chain(params, leg, posture.body, solved.turn);
     for (int k = 0; k < kLegJoints; ++k, ++point_m) {

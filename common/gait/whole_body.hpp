@@ -41,10 +41,15 @@ struct Masses {
   Vec3 point_m[kPoints];
   Vec3 com_m;
   float mass_kg = 0;
+  std::uint8_t leg_flags = 0;  ///< LegFlag of both legs: not 0, they don't get where they should
 };
 
+/// Where Newton's legs start from: their stand pose, as their zero may be bent the wrong way.
+void stand_legs(const Params& params, float* leg_rad);
+
 /// Solves both legs for `posture` and weighs them and the lump. `leg_rad` holds the twelve leg
-/// angles of the time before (Newton's warm start) and takes the new ones.
+/// angles of the time before (Newton's warm start) and takes the new ones; those of a leg that did
+/// not get there are its stand pose again.
 Masses weigh(const Params& params, const Lump& lump, const Posture& posture, float* leg_rad);
 float point_mass_kg(const Params& params, const Lump& lump, int point);
 

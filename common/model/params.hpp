@@ -47,7 +47,8 @@ struct JointParams {
   float friction_n_m = 0;          ///< while it hardly turns
   float load_friction = 0;         ///< part of the load that is added to it
   float friction_speed_rad_s = 1;  ///< at which half of it is left
-  float stand_rad = 0;  ///< where the joint rests while standing and walking (legs: ignored)
+  /// Where the joint rests while standing and walking. Legs are solved; Newton starts from here.
+  float stand_rad = 0;
   float sit_rad = 0;    ///< the crouch from which torque may be released
   VERP_FIELDS(name, parent, axis_kind, servo_id, servo_profile, origin_parent_m, axis, mass_kg,
               com_link_m, lower_rad, upper_rad, velocity_limit_rad_s, counts_per_rad, zero_count,

@@ -77,6 +77,24 @@ TEST(Step, GoalsKeepTheJointsSpeed) {
   }
 }
 
+// Whatever pose a robot without torque is found in, where it shall stand is known.
+TEST(Step, NewtonLegsReachTheirStandFromTheFirstTickOn) {
+  static const Params robot = test::make_hyperextended_robot();
+  static State state;
+  state = State{};
+  Inputs inputs;
+  Outputs outputs;
+  inputs.fresh = ~0u;
+  for (int tick = 0; tick < 10; ++tick) {
+    for (int j = 0; j < robot.joint_count; ++j) {
+      inputs.position_count[j] = model::count_of(robot.joint[j], tick < 5 ? 0.0F : 0.4F);
+    }
+    step(robot, state, inputs, outputs);
+    ++inputs.tick;
+    ASSERT_EQ(outputs.faults & safety::kNoteLegLimited, 0u) << "tick " << tick;
+  }
+}
+
 // A robot of no joints, no legs, no masses and no scales.
 TEST(Step, IsTotalForAnEmptyRobot) {
   static const Params nothing;

@@ -372,6 +372,16 @@ void expect_total(const Tuning& tuning, const VelocityIn& wanted, int what) {
   }
 }
 
+// A hip that is higher than the leg is long.
+TEST(Gait, WalkIsRefusedWhereTheLegsDontReachTheFloor) {
+  Walker walker(test::kRobot);
+  walker.tuning.gait.hip_height_m = 0.21F;
+  walker.set_off({.vx_m_s = 0.1F});
+  walker.run(3.0F);
+  EXPECT_EQ(walker.state.queued, 0);
+  EXPECT_NE(walker.state.footsteps.notes & kPlanRefused, 0);
+}
+
 // Every number of the gait at the ends of its range, one at a time, under a bold operator.
 TEST(Gait, EndsOfEveryTuningRangeGiveFinitePlans) {
   for (int id = 0; id < kTuningCount && id < static_cast<int>(sizeof(GaitTuning) / 4); ++id) {

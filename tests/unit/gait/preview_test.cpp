@@ -76,8 +76,9 @@ TEST(Preview, RebaseChangesNothingButTheOrigin) {
   EXPECT_LT(apart(body_at(here, here.fixed, 0.0F), body_at(there, there.fixed, 0.0F) + origin_m),
             1e-6F);
   for (int i = 0; i < 8; ++i) {
-    const Xy miss_here = lay_key_point(test::kRobot, walker.tuning, walker.state.queue, here);
-    const Xy miss_there = lay_key_point(test::kRobot, walker.tuning, queue, there);
+    const Xy miss_here =
+        lay_key_point(test::kRobot, walker.tuning, walker.state.queue, here).zmp_miss_m;
+    const Xy miss_there = lay_key_point(test::kRobot, walker.tuning, queue, there).zmp_miss_m;
     EXPECT_LT(apart(miss_here, miss_there), 2e-4F) << "key point " << i;
     fix_key_point(walker.state.queue[0], here);
     fix_key_point(queue[0], there);

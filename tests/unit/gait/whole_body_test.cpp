@@ -66,6 +66,20 @@ TEST(WholeBody, ComShareIsHowFarTheComFollowsTheBody) {
   }
 }
 
+// Newton from zero ends in a knee that is pressed against its stop.
+TEST(WholeBody, HyperextendedZeroIsNoPlaceToStartFrom) {
+  static const Params robot = test::make_hyperextended_robot();
+  const Lump lump{2, {}};
+  float leg_rad[kFeet * kLegJoints] = {};
+  EXPECT_NE(weigh(robot, lump, standing({}), leg_rad).leg_flags, 0);
+  EXPECT_EQ(leg_rad[3], robot.joint[test::kLeftLeg + 3].stand_rad) << "its own way out";
+  EXPECT_EQ(weigh(robot, lump, standing({}), leg_rad).leg_flags, 0);
+  float from_stand_rad[kFeet * kLegJoints] = {};
+  stand_legs(robot, from_stand_rad);
+  EXPECT_EQ(weigh(robot, lump, standing({}), from_stand_rad).leg_flags, 0);
+  EXPECT_GT(from_stand_rad[3], 1.0F);
+}
+
 TEST(Swing, FootRestsLiftsAndLandsWhereItShould) {
   Step step;
   step.key_us = 15000;

@@ -144,6 +144,26 @@ inline Params make_offset_robot() {
   return params;
 }
 
+/// The same, drawn with its knees bent 15 degrees the wrong way: there joint and other angles are
+/// zero, the feet flat.
+inline Params make_hyperextended_robot() {
+  Params params = make_robot();
+  constexpr float kBack_rad = 0.2617994F, kSin = 0.2588190F, kCos = 0.9659258F;
+  for (const int first : {kLeftLeg, kRightLeg}) {
+    params.joint[first + 4].origin_parent_m = {0.093F * kSin, 0, -0.093F * kCos};
+    params.joint[first + 3].upper_rad += kBack_rad;
+    params.joint[first + 3].stand_rad += kBack_rad;
+    params.joint[first + 3].sit_rad += kBack_rad;
+    for (float* const angle_rad :
+         {&params.joint[first + 4].lower_rad, &params.joint[first + 4].upper_rad,
+          &params.joint[first + 4].stand_rad, &params.joint[first + 4].sit_rad}) {
+      *angle_rad -= kBack_rad;
+    }
+  }
+  for (LegParams& leg : params.leg) leg.solver = LegSolver::kNewton;
+  return params;
+}
+
 /// The same with all mass in trunk, arms and head.
 inline Params make_massless_legs_robot() {
   Params params = make_robot();
