@@ -187,9 +187,11 @@ WalkResult Robot::result(double wall_s) {
   result_.series = meter_.series();
   if (can_) count_traffic();
   if (result_.failure.empty() && !result_.interrupted) result_.failure = failure_of_walk();
+  result_.remark = plan_.remark;
   if (result_.good() && !hooks_.order && walker_->longer_than_asked()) {
-    result_.remark = fmt::format("{:g} s were asked; the shortest walk with this cycle is {:.2f} s",
-                                 plan_.walk_s, result_.metrics.walk_s);
+    result_.remark +=
+        fmt::format("{}{:g} s were asked; the shortest walk with this cycle is {:.2f} s",
+                    result_.remark.empty() ? "" : "; ", plan_.walk_s, result_.metrics.walk_s);
   }
   return std::move(result_);
 }

@@ -7,6 +7,7 @@
 #include "host/model/find.hpp"
 #include "host/model/load.hpp"
 #include "host/model/params.hpp"
+#include "host/session/stride.hpp"
 #include "host/sim/vary.hpp"
 #include "host/tool/exit_status.hpp"
 
@@ -21,7 +22,10 @@ WalkPlan make_plan(const WalkOptions& options) {
   if (!options.board.empty()) require_serial("verp walk --on", plan.entity);
   plan.params = model::make_params(plan.entity);
   apply_tuning(options, plan.params.tuning);
-  plan.velocity = velocity_of(options, options.step_m);
+  const session::Followed followed =
+      session::within_servo_speed(plan.params, velocity_of(options, options.step_m));
+  plan.velocity = followed.velocity;
+  plan.remark = followed.remark;
   plan.walk_s = options.walk_s;
   plan.twin.seed = options.seed;
   plan.board = options.board;

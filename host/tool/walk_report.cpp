@@ -280,7 +280,7 @@ std::string to_text(const WalkPlan& plan, const WalkOptions& options, const Walk
     out += fmt::format("  {:<18}{}\n", name, value);
   };
   for (const auto& [name, value] : options.changed) line("changed", name + " " + value);
-  if (!result.remark.empty()) line("length", result.remark);
+  if (!result.remark.empty()) line("remark", result.remark);
   line("distance", fmt::format("{:.2f} m", m.distance_m));
   line("speed",
        m.speed_steady_m_s

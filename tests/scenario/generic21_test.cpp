@@ -116,6 +116,16 @@ TEST(Generic21, WalksInCirclesAndTurnsOnTheSpot) {
   expect_between(0, number(turn, "distance_m"), 0.2, "way, m");
 }
 
+// Fifteen centimetres in a cycle of 0.34 s: the robot fell after three seconds. It says what it
+// does.
+TEST(Generic21, StepsThatItsServosCannotFollowAreShortened) {
+  const Walk result =
+      walk("generic21 --step 0.15 --cycle 0.34 --set gait.max_step_m=0.3 --for 8 --physics-step 2");
+  expect_walked(result);
+  expect_between(1.5, number(result, "ahead_m"), 4.0, "way ahead, m");
+  EXPECT_NE(result.result.value("remark", "").find("greatest speed"), std::string::npos);
+}
+
 TEST(Generic21, WalksSlowlyAndWithShortSteps) {
   const Walk slow = walk("generic21 --for 12 --cycle 0.6");
   expect_walked(slow);
