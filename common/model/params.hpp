@@ -49,7 +49,7 @@ struct JointParams {
   float friction_speed_rad_s = 1;  ///< at which half of it is left
   /// Where the joint rests while standing and walking. Legs are solved; Newton starts from here.
   float stand_rad = 0;
-  float sit_rad = 0;    ///< the crouch from which torque may be released
+  float sit_rad = 0;  ///< the crouch from which torque may be released
   VERP_FIELDS(name, parent, axis_kind, servo_id, servo_profile, origin_parent_m, axis, mass_kg,
               com_link_m, lower_rad, upper_rad, velocity_limit_rad_s, counts_per_rad, zero_count,
               compliance_rad_nm, armature_kg_m2, friction_n_m, load_friction, friction_speed_rad_s,

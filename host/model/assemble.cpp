@@ -12,6 +12,7 @@
 #include "host/model/params.hpp"
 #include "host/model/sdf_parts.hpp"
 #include "host/model/self_collision.hpp"
+#include "host/model/stance.hpp"
 #include "host/model/visuals.hpp"
 
 namespace verp::model {
@@ -19,8 +20,9 @@ namespace {
 
 class Assembler {
  public:
-  Assembler(const XmlSource& source, const Facts& facts, const sdf::Model& model)
-      : source_(source), facts_(facts), model_(model), tree_(source, facts, model, e_) {}
+  Assembler(const XmlSource& source, const Facts& facts, const sdf::Model& model,
+            const UrdfNames& names)
+      : source_(source), facts_(facts), model_(model), tree_(source, facts, model, names, e_) {}
 
   Entity build() {
     e_.name = model_.Name();
@@ -36,12 +38,16 @@ class Assembler {
     e_.rise_torque_percent = bus.rise_torque_percent;
     tree_.grow();
     join_servos();
+    check_names();
     apply_poses();
     for (const LimbFact& fact : facts_.limbs) add_limb(fact);
     check_legs();
     read_sensors();
     read_tuning();
     gather_leg_frames(e_);
+    fit_gains();
+    settle_stance(facts_, e_);
+    check_poses();
     free_links();
     add_notes();
     return std::move(e_);
@@ -85,6 +91,40 @@ class Assembler {
     }
   }
 
+  /// Controllers have room for 23 characters, and tables, plots and traces one line for each.
+  void check_names() const {
+    std::vector<std::string> names = {e_.name};
+    for (const Joint& joint : e_.joints) names.push_back(joint.name);
+    for (const std::string& name : names) {
+      const bool control = std::any_of(name.begin(), name.end(), [](char c) {
+        return static_cast<unsigned char>(c) < ' ' || c == 0x7F;
+      });
+      if (control) fail(name, "the name '" + name + "' has a line break or tab in it", "rename it");
+      if (name.size() < kNameLength) continue;
+      fail(name,
+           "the name '" + name + "' is longer than " + std::to_string(kNameLength - 1) +
+               " characters",
+           "shorten it");
+    }
+  }
+
+  /// Servos whose file gives no P gain get the one that fits the robot, and an eighth to damp it.
+  void fit_gains() {
+    std::map<std::string, std::uint16_t> fitted;
+    for (const ServoFact& fact : facts_.bus().servos) {
+      Servo& servo = joint_named(fact.joint)->servo;
+      const std::uint16_t gain = fact.gives_p_gain ? std::uint16_t{0} : fitting_p_gain(e_, servo);
+      if (gain == 0) continue;
+      servo.p_gain = gain;
+      if (!fact.gives_d_gain) servo.d_gain = static_cast<std::uint16_t>(gain / 8);
+      fitted[servo.type] = gain;
+    }
+    for (const auto& [type, gain] : fitted) {
+      e_.defaults.push_back("p_gain " + std::to_string(gain) + " of " + type +
+                            ", from its mass and legs");
+    }
+  }
+
   void check_limits(Joint& joint, const ServoFact& fact) const {
     const auto wrong = [&](const std::string& message, const std::string& fix) {
       if (fact.lower_rad || fact.upper_rad) fact.at.fail(message, fix);
@@ -123,6 +163,9 @@ class Assembler {
       }
       (fact.pose == "stand" ? joint->stand_rad : joint->sit_rad) = fact.rad;
     }
+  }
+
+  void check_poses() const {
     for (const Joint& joint : e_.joints) {
       for (const double rad : {joint.stand_rad, joint.sit_rad}) {
         if (rad >= joint.lower_rad && rad <= joint.upper_rad) continue;
@@ -331,8 +374,9 @@ class Assembler {
 
 }  // namespace
 
-Entity assemble(const XmlSource& source, const Facts& facts, const sdf::Model& model) {
-  return Assembler(source, facts, model).build();
+Entity assemble(const XmlSource& source, const Facts& facts, const sdf::Model& model,
+                const UrdfNames& names) {
+  return Assembler(source, facts, model, names).build();
 }
 
 }  // namespace verp::model

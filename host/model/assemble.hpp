@@ -3,13 +3,15 @@
 
 #include "host/model/entity.hpp"
 #include "host/model/facts.hpp"
+#include "host/model/urdf_prepare.hpp"
 #include "host/model/xml_source.hpp"
 
 namespace verp::model {
 
 /// Turns a model that libsdformat has read, and the facts beside it, into an Entity: lumps fixed
 /// joints, brings all frames to the body's axes at the zero pose, joins servos to joints, finds the
-/// limbs. Throws LoadError.
-Entity assemble(const XmlSource& source, const Facts& facts, const sdf::Model& model);
+/// limbs. `names`: what its import changed. Throws LoadError.
+Entity assemble(const XmlSource& source, const Facts& facts, const sdf::Model& model,
+                const UrdfNames& names);
 
 }  // namespace verp::model

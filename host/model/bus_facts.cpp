@@ -47,8 +47,8 @@ std::uint16_t gain(const XmlElement& e, const char* name, int fallback) {
   return static_cast<std::uint16_t>(e.integer(name, 0, 16383, fallback));  // e-Manual: 0 to 16,383
 }
 
-ServoFact read_servo(const XmlElement& e, const std::vector<ServoType>& types,
-                     BusProtocol protocol) {
+ServoFact read_servo(const XmlElement& e, const std::vector<ServoType>& types, BusProtocol protocol,
+                     std::uint32_t period_us) {
   e.allow({"joint", "id", "type", "direction", "offset", "backlash_rad", "p_gain", "i_gain",
            "d_gain", "profile_ms", "lower_rad", "upper_rad"});
   const bool can = protocol == BusProtocol::kCia402;
@@ -57,7 +57,7 @@ ServoFact read_servo(const XmlElement& e, const std::vector<ServoType>& types,
            "leave it out");
   }
   const ServoType& type = read_type(e, types, protocol);
-  ServoFact fact{e, e.text("joint"), servo_of(type), {}, {}};
+  ServoFact fact{e, e.text("joint"), servo_of(type), {}, {}, true, true};
   Servo& s = fact.servo;
   s.id = e.integer("id", 1, can ? kHighestNode : kHighestId);
   s.direction = e.integer("direction", -1, 1, 1);
@@ -71,9 +71,13 @@ ServoFact read_servo(const XmlElement& e, const std::vector<ServoType>& types,
            "write the gear play in radians, like 0.0044");
   }
   s.p_gain = gain(e, "p_gain", type.default_p_gain);
+  fact.gives_p_gain = e.has("p_gain");
+  fact.gives_d_gain = e.has("d_gain");
   s.i_gain = gain(e, "i_gain", 0);
   s.d_gain = gain(e, "d_gain", 0);
-  s.profile_ms = static_cast<std::uint16_t>(e.integer("profile_ms", 0, 1000, 0));
+  // As long as a period: goals are joined by straight lines.
+  const int joined_ms = can ? 0 : static_cast<int>(period_us / 1000);
+  s.profile_ms = static_cast<std::uint16_t>(e.integer("profile_ms", 0, 1000, joined_ms));
   if (s.p_gain == 0)
     e.fail("<verp:servo> p_gain is 0: the servo would hold nothing", "write 1 to 16383");
   if (e.has("lower_rad")) fact.lower_rad = e.number("lower_rad");
@@ -113,7 +117,7 @@ BusFact read_bus(const XmlElement& e, const std::vector<ServoType>& types) {
       child.fail("unknown element <" + child.name() + "> in <verp:bus>",
                  "it holds <verp:servo> only");
     }
-    fact.servos.push_back(read_servo(child, types, fact.protocol));
+    fact.servos.push_back(read_servo(child, types, fact.protocol, fact.period_us));
   }
   return fact;
 }

@@ -15,6 +15,7 @@
 #include "host/model/load_world.hpp"
 #include "host/model/params.hpp"
 #include "host/model/servo_types.hpp"
+#include "host/model/stance.hpp"
 
 namespace verp::model {
 namespace {
@@ -129,6 +130,12 @@ std::string servo_type_rows(const Entity& entity) {
         "servo {}: rotor {:.4f} kg m2 at the joint{}, friction at stall {:.2f} N m{}; {}\n", name,
         servo->gearbox.armature_kg_m2, band(servo->armature_band), stall_friction_n_m(*servo),
         band(servo->friction_band), servo->source);
+    const std::uint16_t fitting = fitting_p_gain(entity, *servo);
+    if (fitting == 0) continue;
+    text += fmt::format(
+        "  p_gain {} makes {:.1f} N m/rad; this mass and leg want about {:.1f}, p_gain {} "
+        "(host/model/gains.md)\n",
+        servo->p_gain, servo_stiffness_n_m_rad(*servo), fitting_stiffness_n_m_rad(entity), fitting);
   }
   return text;
 }
@@ -188,6 +195,7 @@ nlohmann::ordered_json joint_json(const Entity& entity, std::size_t j) {
             {"no_load_speed_rad_s", servo.no_load_speed_rad_s},
             {"stiffness_n_m_rad", servo_stiffness_n_m_rad(servo)},
             {"p_gain", servo.p_gain},
+            {"p_gain_fitting", fitting_p_gain(entity, servo)},
             {"armature_kg_m2", servo.gearbox.armature_kg_m2},
             {"armature_band", servo.armature_band},
             {"stall_friction_n_m", stall_friction_n_m(servo)},
@@ -223,6 +231,7 @@ std::string describe(const Entity& entity) {
   text += sensor_rows(entity);
   text += bus_text(entity, params);
   text += fmt::format("params: {} bytes, CRC-32 {:08x}\n", sizeof params, params_crc(params));
+  for (const std::string& line : entity.defaults) text += "not in the file: " + line + "\n";
   for (const std::string& note : entity.notes) text += "note: " + note + "\n";
   return text;
 }
@@ -256,6 +265,7 @@ std::string describe_json(const Entity& entity) {
                 {"bits_per_tick", load.bits},
                 {"share", load.share}};
   out["params"] = {{"bytes", sizeof params}, {"crc32", fmt::format("{:08x}", params_crc(params))}};
+  out["defaults"] = entity.defaults;
   out["notes"] = entity.notes;
   return out.dump(2) + "\n";
 }

@@ -182,6 +182,8 @@ struct Entity {
   std::uint8_t rise_torque_percent = kRiseTorquePercent;
   std::vector<std::pair<std::string, double>>
       tuning;  ///< overrides of Tuning's defaults: "gait.lift_m" -> value
+  /// What the file leaves open and is taken from legs, soles, mass and servos: a line each.
+  std::vector<std::string> defaults;
   std::vector<std::string>
       notes;  ///< what the file declares about third-party data: one line each, for people
 };

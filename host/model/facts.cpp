@@ -96,17 +96,12 @@ class FactReader {
   using Reader = void (FactReader::*)(const XmlElement&);
   static const std::map<std::string, Reader>& readers() {
     static const std::map<std::string, Reader> kReaders = {
-        {"verp:body", &FactReader::body},
-        {"verp:limb", &FactReader::limb},
-        {"verp:bus", &FactReader::bus},
-        {"verp:imu", &FactReader::imu},
-        {"verp:feet", &FactReader::feet},
-        {"verp:pose", &FactReader::pose},
-        {"verp:tuning", &FactReader::tuning},
-        {"verp:inertia", &FactReader::inertia},
-        {"verp:box", &FactReader::box},
-        {"verp:drop", &FactReader::drop},
-        {"verp:no_collide", &FactReader::no_collide},
+        {"verp:body", &FactReader::body},     {"verp:limb", &FactReader::limb},
+        {"verp:bus", &FactReader::bus},       {"verp:imu", &FactReader::imu},
+        {"verp:feet", &FactReader::feet},     {"verp:pose", &FactReader::pose},
+        {"verp:tuning", &FactReader::tuning}, {"verp:inertia", &FactReader::inertia},
+        {"verp:box", &FactReader::box},       {"verp:drop", &FactReader::drop},
+        {"verp:fix", &FactReader::fix},       {"verp:no_collide", &FactReader::no_collide},
     };
     return kReaders;
   }
@@ -207,6 +202,19 @@ class FactReader {
     f_.drops.push_back({e, what, e.text("name")});
   }
 
+  void fix(const XmlElement& e) {
+    e.allow({"joint", "rad", "reason"});
+    e.text("reason");
+    FixFact fact{e, e.text("joint"), e.number_within("rad", -7, 7, " rad", 0)};
+    if (fact.rad != 0 && fact.joint.ends_with('*')) {
+      e.fail("several joints are fixed at one angle", "name each joint that is fixed beside zero");
+    }
+    if (f_.fix_of(fact.joint) != nullptr) {
+      e.fail("joint '" + fact.joint + "' is fixed twice", "keep one of them");
+    }
+    f_.fixes.push_back(fact);
+  }
+
   void no_collide(const XmlElement& e) {
     e.allow({"link", "other", "reason"});
     e.text("reason");
@@ -264,6 +272,17 @@ bool Facts::is_dropped(const std::string& what, const std::string& name) const {
   return std::any_of(drops.begin(), drops.end(), [&](const DropFact& drop) {
     return drop.what == what && (drop.name == "*" || drop.name == name);
   });
+}
+
+bool FixFact::fixes(const std::string& name) const {
+  if (!joint.ends_with('*')) return name == joint;
+  return name.starts_with(std::string_view(joint).substr(0, joint.size() - 1));
+}
+
+const FixFact* Facts::fix_of(const std::string& joint) const {
+  const auto found = std::find_if(fixes.begin(), fixes.end(),
+                                  [&](const FixFact& fix) { return fix.fixes(joint); });
+  return found == fixes.end() ? nullptr : &*found;
 }
 
 Facts read_facts(const XmlElement& model, const std::string& bus) {

@@ -25,6 +25,8 @@ struct ServoFact {
   std::string joint;
   Servo servo;
   std::optional<double> lower_rad, upper_rad;
+  bool gives_p_gain = true;  ///< else the servo has its type's, until the robot is known
+  bool gives_d_gain = true;  ///< else none, until then
 };
 struct ImuFact {
   XmlElement at;
@@ -63,6 +65,14 @@ struct DropFact {
   std::string name;  ///< link or joint; "*": all
 };
 
+/// A joint that doesn't turn, though the file says that it could.
+struct FixFact {
+  XmlElement at;
+  std::string joint;  ///< ends in *: all that begin like this
+  double rad = 0;
+  bool fixes(const std::string& name) const;
+};
+
 struct NoCollideFact {
   XmlElement at;
   std::string link, other;
@@ -91,10 +101,12 @@ struct Facts {
   std::vector<InertiaFact> inertias;
   std::vector<BoxFact> boxes;
   std::vector<DropFact> drops;
+  std::vector<FixFact> fixes;
   std::vector<NoCollideFact> no_collides;
 
   const BusFact& bus() const { return buses[used]; }
   bool is_dropped(const std::string& what, const std::string& name) const;
+  const FixFact* fix_of(const std::string& joint) const;  ///< nullptr: it may turn
 };
 
 /// Throws LoadError for an unknown element or attribute, a missing one, a bad number, an id used

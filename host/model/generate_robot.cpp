@@ -12,7 +12,7 @@ int main(int argc, char** argv) {
   }
   try {
     verp::model::RobotTable table(argv[1]);
-    const std::string sdf = verp::model::generate_humanoid_sdf(table);
+    const std::string sdf = verp::model::generate_sdf(table);
     table.require_all_read();
     std::fputs(sdf.c_str(), stdout);
   } catch (const verp::model::LoadError& error) {

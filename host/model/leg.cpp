@@ -49,6 +49,7 @@ void shift_frame(Entity& entity, int node, const Vec3& shift) {
   Node& moved = entity.nodes[static_cast<std::size_t>(node)];
   moved.com_m -= shift;
   for (Collision& collision : moved.collisions) collision.pose.translation() -= shift;
+  for (Visual& visual : moved.visuals) visual.pose.translation() -= shift;
   for (Joint& child : entity.joints) {
     if (child.parent == node) child.origin_m -= shift;
   }

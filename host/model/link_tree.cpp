@@ -65,6 +65,10 @@ void LinkTree::read_links() {
     link.inertia_kg_m2 =
         inertia_scale(sdf.Name()) *
         (com.linear() * to_matrix(inertial.MassMatrix().Moi()) * com.linear().transpose());
+    if (names_.massless_links.contains(sdf.Name())) {
+      link.mass_kg = 0;
+      link.inertia_kg_m2 = Mat3::Zero();
+    }
     links_[sdf.Name()] = link;
   }
 }
@@ -99,9 +103,11 @@ void LinkTree::read_joints() {
     if (parent == "world") {
       fail(joint.Name(), "joint '" + joint.Name() + "' ties the robot to the world", "remove it");
     }
-    if (joint.Type() != sdf::JointType::REVOLUTE && joint.Type() != sdf::JointType::FIXED) {
-      fail(joint.Name(), "joint '" + joint.Name() + "' is neither revolute nor fixed",
-           "model it as a revolute joint with limits, or fix it");
+    if (joint.Type() != sdf::JointType::REVOLUTE && !is_fixed(joint)) {
+      const std::string& name = names_.joint_name(joint.Name());
+      fail(name, "joint '" + name + "' is neither revolute nor fixed",
+           "model it as a revolute joint with limits, or add <verp:fix joint=\"" + name +
+               "\" reason=\"...\"/>");
     }
     if (parent_joint_.contains(child)) {
       fail(joint.Name(),
@@ -114,19 +120,47 @@ void LinkTree::read_joints() {
   }
 }
 
+void LinkTree::check_fixes() const {
+  for (const FixFact& fix : facts_.fixes) {
+    const sdf::Joint* joint = nullptr;
+    for (std::uint64_t i = 0; i < model_.JointCount(); ++i) {
+      const sdf::Joint* const each = model_.JointByIndex(i);
+      if (fix.fixes(names_.joint_name(each->Name()))) joint = each;
+    }
+    if (!joint) fix.at.fail("there is no joint '" + fix.joint + "'", "name one that exists");
+    if (joint->Type() == sdf::JointType::REVOLUTE || fix.rad == 0) continue;
+    fix.at.fail("joint '" + fix.joint + "' does not turn", "leave rad out");
+  }
+}
+
+bool LinkTree::is_fixed(const sdf::Joint& joint) const {
+  return joint.Type() == sdf::JointType::FIXED ||
+         facts_.fix_of(names_.joint_name(joint.Name())) != nullptr;
+}
+
+/// Where all beyond a fixed joint is moved to, the joint itself having been moved by `turned`.
+Transform LinkTree::turn_of(const sdf::Joint& joint, const Transform& turned) const {
+  const FixFact* const fix = facts_.fix_of(names_.joint_name(joint.Name()));
+  if (fix == nullptr || fix->rad == 0) return turned;
+  const Vec3 at = (model_body_.inverse() * model_pose(joint.SemanticPose())).translation();
+  return turned * Eigen::Translation3d(at) * Eigen::AngleAxisd(fix->rad, axis_of(joint)) *
+         Eigen::Translation3d(-at);
+}
+
 /// Node 0 is the body's link with all that is fixed to it; then depth first, in the file's order.
 void LinkTree::place_links() {
   std::string top = facts_.body->link;
   while (parent_joint_.contains(top)) {
     const sdf::Joint& joint = *parent_joint_[top];
-    if (joint.Type() != sdf::JointType::FIXED) {
+    if (!is_fixed(joint)) {
       facts_.body->at.fail("link '" + facts_.body->link + "' hangs on joint '" + joint.Name() + "'",
                            "name the link at the root of the tree");
     }
     joint.ResolveParentLink(top);
   }
   add_node(facts_.body->link, Vec3::Zero());
-  place_link(top, 0);
+  check_fixes();
+  place_link(top, 0, Transform::Identity());
   for (const auto& [name, link] : links_) {
     if (link.node < 0) {
       fail(name, "link '" + name + "' is not connected to '" + facts_.body->link + "'",
@@ -139,15 +173,19 @@ void LinkTree::place_links() {
   }
 }
 
-void LinkTree::place_link(const std::string& name, int node) {
+void LinkTree::place_link(const std::string& name, int node, const Transform& turned) {
   RawLink& link = links_.at(name);
   link.node = node;
+  link.turned = turned;
+  link.pose = turned * link.pose;
+  link.com_m = turned * link.com_m;
+  link.inertia_kg_m2 = turned.linear() * link.inertia_kg_m2 * turned.linear().transpose();
   lump(e_.nodes[static_cast<std::size_t>(node)], link, origin_[static_cast<std::size_t>(node)]);
   for (const auto& [joint, child] : children_[name]) {
-    if (joint->Type() == sdf::JointType::FIXED) {
-      place_link(child, node);
+    if (is_fixed(*joint)) {
+      place_link(child, node, turn_of(*joint, turned));
     } else {
-      place_link(child, add_joint(*joint, child, node));
+      place_link(child, add_joint(*joint, child, node, turned), turned);
     }
   }
 }
@@ -163,20 +201,26 @@ void LinkTree::lump(Node& node, const RawLink& link, const Vec3& origin) {
   node.mass_kg = total;
 }
 
-int LinkTree::add_joint(const sdf::Joint& sdf, const std::string& child, int parent) {
-  const Transform pose = model_body_.inverse() * model_pose(sdf.SemanticPose());
-  if (sdf.Axis() == nullptr) {
-    fail(sdf.Name(), "joint '" + sdf.Name() + "' turns about no axis",
+Vec3 LinkTree::axis_of(const sdf::Joint& joint) const {
+  if (joint.Axis() == nullptr) {
+    const std::string& name = names_.joint_name(joint.Name());
+    fail(name, "joint '" + name + "' turns about no axis",
          "give it <axis><xyz>x y z</xyz></axis>, or type=\"fixed\"");
   }
-  const sdf::JointAxis& axis = *sdf.Axis();
   ignition::math::Vector3d direction;
-  axis.ResolveXyz(direction, "__model__");
+  joint.Axis()->ResolveXyz(direction, "__model__");
+  return snapped(model_body_.linear().transpose() * to_vector(direction));
+}
+
+int LinkTree::add_joint(const sdf::Joint& sdf, const std::string& child, int parent,
+                        const Transform& turned) {
+  const Transform pose = turned * model_body_.inverse() * model_pose(sdf.SemanticPose());
   Joint joint;
-  joint.name = sdf.Name();
+  joint.name = names_.joint_name(sdf.Name());
   joint.parent = parent;
   joint.origin_m = pose.translation() - origin_[static_cast<std::size_t>(parent)];
-  joint.axis = snapped(model_body_.linear().transpose() * to_vector(direction));
+  joint.axis = snapped(turned.linear() * axis_of(sdf));
+  const sdf::JointAxis& axis = *sdf.Axis();
   joint.lower_rad = axis.Lower();
   joint.upper_rad = axis.Upper();
   joint.velocity_limit_rad_s = axis.MaxVelocity() > 0 ? axis.MaxVelocity() : kInfinity;
@@ -256,7 +300,7 @@ LinkTree::Located LinkTree::locate(const std::string& name, const XmlElement& at
   Transform pose = Transform::Identity();
   if (const sdf::Frame* frame = model_.FrameByName(name)) {
     frame->ResolveAttachedToBody(link_name);
-    pose = model_body_.inverse() * model_pose(frame->SemanticPose());
+    pose = links_.at(link_name).turned * model_body_.inverse() * model_pose(frame->SemanticPose());
   } else if (links_.contains(name)) {
     pose = links_.at(name).pose;
   } else {

@@ -8,6 +8,7 @@
 
 #include "host/model/entity.hpp"
 #include "host/model/facts.hpp"
+#include "host/model/urdf_prepare.hpp"
 #include "host/model/xml_source.hpp"
 
 namespace verp::model {
@@ -23,8 +24,9 @@ class PictureFiles;
 class LinkTree {
  public:
   /// All must outlive the tree.
-  LinkTree(const XmlSource& source, const Facts& facts, const sdf::Model& model, Entity& entity)
-      : source_(source), facts_(facts), model_(model), e_(entity) {}
+  LinkTree(const XmlSource& source, const Facts& facts, const sdf::Model& model,
+           const UrdfNames& names, Entity& entity)
+      : source_(source), facts_(facts), model_(model), names_(names), e_(entity) {}
 
   /// Fills in the entity's nodes and joints.
   void grow();
@@ -41,6 +43,7 @@ class LinkTree {
   struct RawLink {
     const sdf::Link* sdf = nullptr;
     Transform pose = Transform::Identity();
+    Transform turned = Transform::Identity();  ///< by fixed joints between it and the body
     double mass_kg = 0;
     Vec3 com_m = Vec3::Zero();
     Mat3 inertia_kg_m2 = Mat3::Zero();
@@ -56,10 +59,15 @@ class LinkTree {
   double inertia_scale(const std::string& link) const;
   std::optional<Vec3> corrected_com(const std::string& link) const;
   void read_joints();
+  void check_fixes() const;
+  bool is_fixed(const sdf::Joint& joint) const;
+  Transform turn_of(const sdf::Joint& joint, const Transform& turned) const;
   void place_links();
-  void place_link(const std::string& name, int node);
+  void place_link(const std::string& name, int node, const Transform& turned);
   static void lump(Node& node, const RawLink& link, const Vec3& origin);
-  int add_joint(const sdf::Joint& sdf, const std::string& child, int parent);
+  int add_joint(const sdf::Joint& sdf, const std::string& child, int parent,
+                const Transform& turned);
+  Vec3 axis_of(const sdf::Joint& joint) const;
   void add_node(const std::string& name, const Vec3& origin);
   static Vec3 snapped(const Vec3& axis);
   void attach_shapes(const RawLink& link);
@@ -71,6 +79,7 @@ class LinkTree {
   const XmlSource& source_;
   const Facts& facts_;
   const sdf::Model& model_;
+  const UrdfNames& names_;
   Entity& e_;
   Transform model_body_ = Transform::Identity();
   std::map<std::string, RawLink> links_;

@@ -11,6 +11,7 @@
 #include "host/model/library_console.hpp"
 #include "host/model/params.hpp"
 #include "host/model/urdf_check.hpp"
+#include "host/model/urdf_prepare.hpp"
 #include "host/model/xml_source.hpp"
 
 namespace verp::model {
@@ -18,19 +19,28 @@ namespace {
 
 /// libsdformat's strictest reading. Settings are global because an <include> ignores those given to
 /// Load().
-void configure(const std::string& path) {
+sdf::Errors read(const std::string& path, const PreparedUrdfs& urdfs, sdf::Root& root) {
   sdf::ParserConfig& config = sdf::ParserConfig::GlobalConfig();
-  config.SetFindCallback([path](const std::string& uri) { return resolve_model_uri(uri, path); });
+  config.SetFindCallback([path, &urdfs](const std::string& uri) {
+    const std::string found = resolve_model_uri(uri, path);
+    return found.empty() ? found : urdfs.copy_of(found);
+  });
   config.SetUnrecognizedElementsPolicy(sdf::EnforcementPolicy::ERR);
   config.SetDeprecatedElementsPolicy(sdf::EnforcementPolicy::ERR);
   config.SetWarningsPolicy(sdf::EnforcementPolicy::ERR);
+  const sdf::Errors errors = root.Load(path);
+  // The copies are about to vanish.
+  config.SetFindCallback([path](const std::string& uri) { return resolve_model_uri(uri, path); });
+  return errors;
 }
 
-[[noreturn]] void fail(const XmlSource& source, const sdf::Error& error) {
+[[noreturn]] void fail(const XmlSource& source, const PreparedUrdfs& urdfs,
+                       const sdf::Error& error) {
   XmlSource::Place place = source.blame(error.Message());
-  if (error.LineNumber() && *error.LineNumber() > 0) {
+  const std::string file = error.FilePath().value_or(source.path());
+  if (error.LineNumber() && *error.LineNumber() > 0 && !urdfs.is_copy(file)) {
     place.line = *error.LineNumber();
-    place.file = error.FilePath().value_or(source.path());
+    place.file = file;
   }
   std::string fix = "see sdformat.org/spec for what SDF allows here";
   switch (error.Code()) {
@@ -88,19 +98,49 @@ Entity load_robot(const std::string& path, const std::string& bus) {
   return entity;
 }
 
-Entity load_robot_on_any_bus(const std::string& path, const std::string& bus) {
+namespace {
+
+/// Without these nobody walks, and nothing would say why.
+void require_legs_and_imu(const XmlElement& model, const Facts& facts) {
+  for (const std::string leg : {"left_leg", "right_leg"}) {
+    const bool has = std::any_of(facts.limbs.begin(), facts.limbs.end(),
+                                 [&](const LimbFact& limb) { return limb.name == leg; });
+    if (!has) {
+      model.fail("the robot has no " + leg,
+                 "add <verp:limb name=\"" + leg + "\" base=\"TRUNK LINK\" tip=\"SOLE FRAME\"/>");
+    }
+  }
+  if (!facts.imu) {
+    model.fail("the robot has no IMU, and balances by nothing else",
+               "add <verp:imu link=\"TRUNK LINK\" id=\"120\" type=\"icm20648\"/>");
+  }
+}
+
+Entity load(const std::string& path, const std::string& bus, bool whole) {
   const XmlSource source(path);
   const XmlElement model = source.model();
   const Facts facts = read_facts(model, bus);
   const LibraryConsole silence;
-  configure(path);
-  sdf::Root root;
-  const sdf::Errors errors = root.Load(path);
   for (const XmlElement& urdf : source.urdfs()) check_urdf(source, urdf, facts);
-  if (!errors.empty()) fail(source, errors.front());
+  const PreparedUrdfs urdfs(source);
+  sdf::Root root;
+  const sdf::Errors errors = read(path, urdfs, root);
+  if (!errors.empty()) fail(source, urdfs, errors.front());
   if (!root.Model()) model.fail("libsdformat finds no model here", "put one <model> below <sdf>");
   cross_check(source, facts, *root.Model());
-  return assemble(source, facts, *root.Model());
+  Entity entity = assemble(source, facts, *root.Model(), urdfs.names());
+  if (whole) require_legs_and_imu(model, facts);
+  return entity;
+}
+
+}  // namespace
+
+Entity load_robot_on_any_bus(const std::string& path, const std::string& bus) {
+  return load(path, bus, true);
+}
+
+Entity load_part_of_robot(const std::string& path) {
+  return load(path, "", false);
 }
 
 Entity load_robot_on_can(const std::string& path, const std::string& bus) {

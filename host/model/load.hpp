@@ -14,6 +14,8 @@ namespace verp::model {
 Entity load_robot(const std::string& path, const std::string& bus = "");
 /// The same, whether or not the bus has room: for who tells that, or gives another period.
 Entity load_robot_on_any_bus(const std::string& path, const std::string& bus);
+/// The same of anything that has a body and a bus, legs and IMU or not: nobody can control it.
+Entity load_part_of_robot(const std::string& path);
 /// The same, where no bus is named on the first that is CAN; without one, on the robot's first bus.
 Entity load_robot_on_can(const std::string& path, const std::string& bus);
 

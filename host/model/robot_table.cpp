@@ -1,5 +1,6 @@
 #include "host/model/robot_table.hpp"
 
+#include <algorithm>
 #include <fstream>
 
 #include "host/model/load_error.hpp"
@@ -54,6 +55,55 @@ double RobotTable::number(const std::string& key) {
                     "write it like 0.093");
   }
   return *value;
+}
+
+std::string RobotTable::part(const std::string& key, std::size_t which) {
+  std::string rest = text(key);
+  for (std::size_t i = 0; i < which; ++i) {
+    const auto bar = rest.find('|');
+    if (bar == std::string::npos) {
+      fail(key, "'" + key + "' has only " + std::to_string(i + 1) + " parts",
+           "write all parts, with | between them");
+    }
+    rest.erase(0, bar + 1);
+  }
+  return trim(rest.substr(0, rest.find('|')));
+}
+
+std::vector<double> RobotTable::numbers(const std::string& key, std::size_t which,
+                                        std::size_t count) {
+  const std::string text = part(key, which);
+  const auto values = parse_numbers(text);
+  if (!values || values->size() != count) {
+    fail(key,
+         "'" + key + "', part " + std::to_string(which + 1) + " is not " + std::to_string(count) +
+             " finite numbers: " + text,
+         "write them like 0.093, with blanks between them");
+  }
+  return *values;
+}
+
+std::vector<std::string> RobotTable::keys(const std::string& beginning) const {
+  std::vector<std::string> found;
+  for (const auto& [key, entry] : entries_) {
+    if (key.starts_with(beginning)) found.push_back(key);
+  }
+  std::sort(found.begin(), found.end(), [&](const std::string& a, const std::string& b) {
+    return entries_.at(a).line < entries_.at(b).line;
+  });
+  return found;
+}
+
+void RobotTable::fail(const std::string& key, const std::string& message,
+                      const std::string& fix) const {
+  throw LoadError(path_, entries_.at(key).line, message, fix);
+}
+
+std::string generate_sdf(RobotTable& table) {
+  if (!table.has("layout")) return generate_humanoid_sdf(table);
+  if (table.text("layout") == "tree") return generate_tree_sdf(table);
+  table.fail("layout", "there is no layout '" + table.text("layout") + "'",
+             "write tree, or leave it out: a 21-joint humanoid by its lengths");
 }
 
 void RobotTable::require_all_read() const {

@@ -78,21 +78,15 @@ std::shared_ptr<urdf::ModelInterface> read_urdf(const XmlSource& source, const X
                   "correct it; wiki.ros.org/urdf/XML says what is needed");
 }
 
+/// A frame for a sensor or a tool needs no mass; what has a shape, or turns, was meant to have one.
 void check_links(const XmlElement& robot, const urdf::ModelInterface& urdf, const Facts& facts) {
   for (const auto& [name, link] : urdf.links_) {
-    if (link->inertial || facts.is_dropped("massless_link", name)) continue;
+    const bool is_frame = link->visual_array.empty() && link->collision_array.empty();
+    if (link->inertial || is_frame || facts.is_dropped("massless_link", name)) continue;
     element_of(robot, "link", name)
-        .fail(
-            "link '" + name + "' has no mass: the import would drop it and all that hangs on it",
-            "declare it: <verp:drop what=\"massless_link\" name=\"" + name + "\" reason=\"...\"/>");
-  }
-  for (const auto& [name, link] : urdf.links_) {
-    if (link->inertial || link->child_joints.empty()) continue;
-    if (link->parent_joint == nullptr) continue;  // a massless root is lumped, not lost
-    element_of(robot, "link", name)
-        .fail(
-            "link '" + name + "' has no mass but carries other links, which would be lost with it",
-            "use a file that gives it a mass");
+        .fail("link '" + name + "' has a shape and no mass",
+              "give it an <inertial>, or declare: <verp:drop what=\"massless_link\" name=\"" +
+                  name + "\" reason=\"...\"/>");
   }
 }
 
@@ -100,18 +94,17 @@ void check_links(const XmlElement& robot, const urdf::ModelInterface& urdf, cons
 
 UrdfTotals check_urdf(const XmlSource& source, const XmlElement& robot, const Facts& facts) {
   const auto urdf = read_urdf(source, robot, facts);
-  std::set<std::string> names;
-  for (const auto& [name, link] : urdf->links_) names.insert(name);
   check_links(robot, *urdf, facts);
   UrdfTotals totals;
   for (const auto& [name, joint] : urdf->joints_) {
     const XmlElement at = element_of(robot, "joint", name);
-    if (names.contains(name)) {
-      at.fail("a link and a joint are both called '" + name + "'", "rename one of them");
-    }
-    if (joint->mimic && !facts.is_dropped("mimic", name)) {
-      at.fail("joint '" + name + "' mimics another: the import would make it free",
-              "declare it: <verp:drop what=\"mimic\" name=\"" + name + "\" reason=\"...\"/>");
+    if (joint->mimic && facts.fix_of(name) == nullptr && !facts.is_dropped("mimic", name)) {
+      at.fail("joint '" + name + "' mimics '" + joint->mimic->joint_name +
+                  "': one motor for two joints is nothing that this controller can drive",
+              "if it doesn't matter to walking, <verp:fix joint=\"" + name +
+                  "\" reason=\"...\"/>; if it has a servo of its own, <verp:drop what=\"mimic\" "
+                  "name=\"" +
+                  name + "\" reason=\"...\"/>");
     }
     if (joint->type != urdf::Joint::FIXED) ++totals.moving_joints;
   }

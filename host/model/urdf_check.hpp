@@ -10,8 +10,8 @@ struct UrdfTotals {
   double mass_kg = 0;
 };
 
-/// Throws LoadError for what libsdformat's import would lose without a word, unless <verp:drop>
-/// declares it: mimic joints, and links without mass (with all that hangs on them). What urdfdom
+/// Throws LoadError for what libsdformat's import would lose without a word, unless <verp:drop> or
+/// <verp:fix> declares it: mimic joints, and shapes without mass. What urdfdom
 /// cannot read is refused with its cause, where the link or joint it names stands in `source`.
 UrdfTotals check_urdf(const XmlSource& source, const XmlElement& robot, const Facts& facts);
 

@@ -20,6 +20,9 @@ namespace {
 // A robot has a body and a few parts; files that include two others each reach this at once.
 constexpr std::size_t kMostFiles = 64;
 
+// Of one kind side by side. Hands with sensors in every finger bring some hundreds of links.
+constexpr std::size_t kMostElements = 1000;
+
 // Of the elements that SDF has not.
 constexpr const char* kNamespace = "https://verp.dev/sdf/1";
 
@@ -55,6 +58,21 @@ void refuse_repeats(const std::string& path, const tinyxml2::XMLElement& element
                         "> (first in line " + std::to_string(first->GetLineNum()) + ")",
                     "keep one of them");
   }
+}
+
+/// Before anything looks at each of them in turn.
+void refuse_many(const std::string& path, const tinyxml2::XMLElement& element) {
+  std::map<std::string_view, std::size_t> count;
+  for (const auto* child = element.FirstChildElement(); child;
+       child = child->NextSiblingElement()) {
+    if (++count[child->Name()] <= kMostElements) continue;
+    throw LoadError(path, child->GetLineNum(),
+                    "more than " + std::to_string(kMostElements) + " <" + child->Name() + "> in <" +
+                        element.Name() + ">",
+                    "a robot has at most 32 joints: leave out what is none of it");
+  }
+  const auto* model = element.FirstChildElement("model");
+  if (model) refuse_many(path, *model);
 }
 
 }  // namespace
@@ -169,6 +187,7 @@ void XmlSource::read(const std::string& path) {
                     "<" + root + "> is neither SDF nor URDF",
                     "a robot's file starts with <sdf version=\"1.9\">");
   }
+  refuse_many(path, *file.document.RootElement());
   // An included file is often somebody else's, and used as it is.
   if (files_.size() == 1) {
     CommentCheck comments(path);
@@ -229,7 +248,7 @@ XmlElement XmlSource::model() const {
   const auto models = root.children("model");
   if (root.name() == "robot") {
     root.fail("this is a bare URDF: it says nothing about servos, limbs and sensors",
-              "include it from an SDF file, as common/robots/op3/robot.sdf does");
+              "include it from an SDF file, as common/robots/op3_urdf/robot.sdf does");
   }
   const std::string version = root.text("version");
   if (!version.starts_with("1.") || parse_number(version).value_or(2) > 1.9) {

@@ -3,7 +3,7 @@
 namespace verp::scenario {
 namespace {
 
-// Robots of other people, through their SDF wrappers alone. They walk, and get somewhere.
+// Robots of other people. They walk, and get somewhere.
 void expect_walks(const char* model) {
   const Walk result = walk(std::string(model) + " --for 20");
   expect_walked(result);
@@ -33,6 +33,16 @@ TEST(ThirdParty, Op3LearnsItsZeros) {
 
 TEST(ThirdParty, DarwinOpWalks) {
   expect_walks("darwin_op");
+}
+
+// Knees that are bent the wrong way at zero, axes that don't meet, fingers, massless links, and a
+// wrapper that gives no gait, gain or pose at all.
+TEST(ThirdParty, OddRobotWalksFromTheLeastWrapper) {
+  const Walk result =
+      walk(VERP_SOURCE_DIR "/tests/host/model/odd_robot/robot.sdf --for 30 --physics-step 2");
+  expect_walked(result);
+  expect_between(2.5, number(result, "ahead_m"), 6.5, "way ahead, m");
+  EXPECT_EQ(result.result.value("notes", "").find("out of reach"), std::string::npos);
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 
 #include "host/model/load.hpp"
@@ -182,6 +183,163 @@ TEST(OthersFiles, UrdfThatIsNoTreeIsRefusedWithTheCause) {
 TEST(OthersFiles, UrdfJointOfAnUnknownTypeIsRefused) {
   expect_urdf_refused(urdf_joint("j", hung("a", "b") + kLimit, "hinge"), "<joint name=\"j\"",
                       "[hinge]");
+}
+
+/// The same fault in ten places of one file.
+struct Fault {
+  const char* what;   ///< for people
+  const char* from;   ///< in the joint's text, or in that of the link beyond it
+  const char* until;  ///< what is replaced ends with this; "": with `from`
+  const char* to;     ///< instead; NAME is the joint's name
+  const char* said;   ///< part of the message
+  bool in_link = false;
+};
+
+std::string with_fault(std::string text, const Fault& fault, const std::string& joint, int& line) {
+  auto at = text.find("<joint name=\"" + joint + "\"");
+  EXPECT_NE(at, std::string::npos) << joint;
+  if (fault.in_link) at = text.find("<link name=\"", at);
+  at = text.find(fault.from, at);
+  EXPECT_NE(at, std::string::npos) << fault.what;
+  const std::string until = *fault.until ? fault.until : fault.from;
+  std::string to = fault.to;
+  if (const auto name = to.find("NAME"); name != std::string::npos) to.replace(name, 4, joint);
+  line = 1 + static_cast<int>(std::count(text.begin(), text.begin() + static_cast<long>(at), '\n'));
+  return text.replace(at, text.find(until, at) + until.size() - at, to);
+}
+
+void expect_refused_near(const LoadError& error, const Fault& fault, const std::string& joint,
+                         int line) {
+  EXPECT_NE(error.message.find(fault.said), std::string::npos)
+      << fault.what << " at " << joint << ": " << error.what();
+  EXPECT_NEAR(error.line, line, 5) << fault.what << " at " << joint << ": " << error.what();
+}
+
+TEST(OthersFiles, TenOfEachFaultOfAnSdfAreRefusedWhereTheyStand) {
+  const Fault faults[] = {
+      {"no axis", "<axis>", "</axis>", "", "axis"},
+      {"a limit twice", "<lower>", "", "<lower>0</lower><lower>", "given twice"},
+      {"a type that is none", "\"revolute\"", "", "\"hinge\"", "hinge"},
+      {"no such parent", "<parent>", "", "<parent>nobody_", "nobody_"},
+      {"limits swapped", "<lower>", "</limit>", "<lower>1</lower><upper>-1</upper></limit>",
+       "lower limit"},
+      {"no limits", "<limit>", "</limit>", "", "limit"},
+      {"a mass twice", "<mass>", "", "<mass>1</mass><mass>", "<mass> is given twice", true},
+      {"ten thousand tons", "<mass>", "", "<mass>1000000", "<mass>", true},
+      {"kilometres", "<size>", "", "<size>1000", "<size>", true},
+      {"a word for a number", "<ixx>", "", "<ixx>about ", "about", true},
+  };
+  const std::string joints[] = {"l_hip_roll",    "l_hip_pitch", "l_knee",      "l_ankle_pitch",
+                                "l_ankle_roll",  "r_hip_roll",  "r_hip_pitch", "r_knee",
+                                "r_ankle_pitch", "head_pitch"};
+  const std::string text = read_text(robot_file("generic21"));
+  for (const Fault& fault : faults) {
+    for (const std::string& joint : joints) {
+      int line = 0;
+      const TemporaryFile robot("robot.sdf", with_fault(text, fault, joint, line));
+      expect_refused_near(refusal(robot.path()), fault, joint, line);
+    }
+  }
+}
+
+TEST(OthersFiles, TenOfEachFaultOfAUrdfAreRefusedWhereTheyStand) {
+  const Fault faults[] = {
+      {"no axis", "<axis", "/>", "<axis xyz=\"0 0 0\"/>", "axis"},
+      {"no limit", "<limit", "/>", "", "limit"},
+      {"no effort", " effort=\"3\"", "", "", "effort"},
+      {"no such parent", "<parent link=\"", "", "<parent link=\"nobody_", "nobody_"},
+      {"a type that is none", "\"revolute\"", "", "\"hinge\"", "hinge"},
+      {"a mimic", "<limit", "", "<mimic joint=\"neck\"/><limit", "mimics 'neck'"},
+      {"a joint twice", "<joint name=", "",
+       "<joint name=\"NAME\" type=\"fixed\"/>\n<joint name=", "given twice"},
+      {"a second root", "<joint name=", "", "<link name=\"alone\"/>\n<joint name=", "root"},
+      {"a comma", "xyz=\"0", "", "xyz=\"0,0", "finite"},
+      {"ten thousand tons", "<mass value=\"", "", "<mass value=\"1000000", "<mass>", true},
+  };
+  const std::string joints[] = {"l_hip_roll",    "l_hip_pitch", "l_knee",      "l_ankle_pitch",
+                                "l_ankle_roll",  "r_hip_roll",  "r_hip_pitch", "r_knee",
+                                "r_ankle_pitch", "neck"};
+  const std::string folder = VERP_SOURCE_DIR "/tests/host/model/odd_robot/";
+  const std::string text = read_text(folder + "odd.urdf");
+  const TemporaryFile robot("robot.sdf", read_text(folder + "robot.sdf"));
+  const std::string urdf_path = std::filesystem::path(robot.path()).parent_path() / "odd.urdf";
+  for (const Fault& fault : faults) {
+    for (const std::string& joint : joints) {
+      int line = 0;
+      std::ofstream(urdf_path) << with_fault(text, fault, joint, line);
+      expect_refused_near(refusal(robot.path()), fault, joint, line);
+    }
+  }
+  std::filesystem::remove(urdf_path);
+}
+
+// The smallest wrapper of them all is the one to begin with; its file gives no pose, gain or gait.
+TEST(OthersFiles, OddRobotStandsOnWhatIsFoundForIt) {
+  const Entity e = load_robot(VERP_SOURCE_DIR "/tests/host/model/odd_robot/robot.sdf");
+  EXPECT_EQ(e.joints.size(), 15u);
+  double mass_kg = 0;
+  for (const Node& node : e.nodes) mass_kg += node.mass_kg;
+  EXPECT_NEAR(mass_kg, 3.264, 1e-9) << "massless links have none, fingers have";
+  for (const Joint& joint : e.joints) {
+    if (!joint.name.ends_with("knee")) continue;
+    EXPECT_GT(std::abs(joint.stand_rad), 1.0) << joint.name;
+    EXPECT_GT(std::abs(joint.sit_rad), std::abs(joint.stand_rad)) << joint.name;
+    EXPECT_GT(joint.servo.p_gain, 2000) << joint.name;
+    EXPECT_EQ(joint.servo.profile_ms, 10) << joint.name;
+  }
+  EXPECT_FALSE(e.defaults.empty());
+}
+
+void expect_generic21_refused(const std::string& from, const std::string& to,
+                              const std::string& said) {
+  std::string text = read_text(robot_file("generic21"));
+  const auto at = text.find(from);
+  ASSERT_NE(at, std::string::npos) << from;
+  text.replace(at, from.size(), to);
+  expect_sdf_refused(text, to, said);
+}
+
+TEST(OthersFiles, WhatTheLegsCannotDoIsRefused) {
+  expect_generic21_refused("name=\"gait.hip_height_m\" value=\"0.",
+                           "name=\"gait.hip_height_m\" value=\"0.9", "cannot stand level");
+  expect_generic21_refused("name=\"left_leg\" base=\"trunk\" tip=\"l_sole\"/>",
+                           "name=\"left_leg\" base=\"trunk\" tip=\"r_sole\"/>", "left_leg hangs");
+  expect_generic21_refused("name=\"l_ankle_pitch\" rad=\"-0.", "name=\"l_ankle_pitch\" rad=\"0.",
+                           "tilts the sole");
+  expect_generic21_refused("joint=\"r_knee\" id=\"13\" direction=\"-1\" type=\"xm430_w210\"",
+                           "joint=\"r_knee\" id=\"13\" direction=\"-1\" type=\"xl330\"",
+                           "stands on one leg");
+}
+
+TEST(OthersFiles, RobotWithoutLegsOrImuIsRefused) {
+  for (const std::string part : {"<verp:imu sensor=", "<verp:limb name=\"left_leg\""}) {
+    std::string text = read_text(robot_file("generic21"));
+    const auto at = text.find(part);
+    ASSERT_NE(at, std::string::npos) << part;
+    text.erase(at, text.find("/>", at) + 2 - at);
+    expect_sdf_refused(text, "<model name", part[6] == 'i' ? "no IMU" : "left_leg");
+  }
+}
+
+// Names are lines of tables, and 23 characters of a controller's memory.
+TEST(OthersFiles, NamesThatNothingHasRoomForAreRefused) {
+  for (const std::string name : {"head&#10;yaw", "head_yaw_as_the_maker_calls_it"}) {
+    std::string text = read_text(robot_file("generic21"));
+    for (auto at = text.find("\"head_yaw\""); at != std::string::npos;
+         at = text.find("\"head_yaw\"")) {
+      text.replace(at + 1, 8, name);
+    }
+    expect_sdf_refused(text, "<joint name=\"" + name, "the name '");
+  }
+}
+
+// Read by programs that were written for a handful of links, this took minutes.
+TEST(OthersFiles, TwentyThousandLinksAreRefusedAtOnce) {
+  std::string links;
+  for (int i = 0; i < 20000; ++i) links += sdf_link("a" + std::to_string(i));
+  const TemporaryFile file("robot.sdf", sdf_of(links));
+  const LoadError error = refusal(file.path());
+  EXPECT_NE(error.message.find("more than 1000 <link>"), std::string::npos) << error.what();
 }
 
 }  // namespace

@@ -91,7 +91,6 @@ TEST(SelfCollision, DeclarationsThatSayNothingAreRefused) {
 }
 
 TEST(SelfCollision, ThirdPartyRobotsLoad) {
-  VERP_NEEDS_THIRD_PARTY("model://op3/op3.urdf");
   for (const char* name : {"op3", "darwin_op"}) {
     const Entity e = load_robot(robot_file(name));
     for (const NoCollide& pair : e.no_collide)
