@@ -4,6 +4,7 @@
 #include <urdf_model/model.h>
 #include <urdf_parser/urdf_parser.h>
 
+#include <map>
 #include <memory>
 #include <set>
 #include <string>
@@ -47,17 +48,22 @@ void refuse_duplicates(const XmlElement& robot, const char* kind) {
   }
 }
 
-/// A link that no joint carries, beside the trunk.
+/// A link that no joint carries, beside the one that the trunk hangs on.
 void refuse_second_root(const XmlElement& robot, const Facts& facts) {
-  std::set<std::string> carried;
+  std::map<std::string, std::string> parent;
   for (const XmlElement& joint : robot.children("joint")) {
-    for (const XmlElement& child : joint.children("child")) carried.insert(child.text("link", ""));
+    for (const XmlElement& child : joint.children("child")) {
+      for (const XmlElement& carrier : joint.children("parent")) {
+        parent[child.text("link", "")] = carrier.text("link", "");
+      }
+    }
   }
+  std::string trunk = facts.body->link;
+  for (std::size_t i = 0; i < parent.size() && parent.contains(trunk); ++i) trunk = parent[trunk];
   std::vector<XmlElement> roots = robot.children("link");
-  std::erase_if(roots, [&](const XmlElement& link) { return carried.contains(link.text("name")); });
+  std::erase_if(roots, [&](const XmlElement& link) { return parent.contains(link.text("name")); });
   if (roots.size() < 2) return;
-  const bool trunk_first = roots[0].text("name") == facts.body->link;
-  roots[trunk_first ? 1 : 0].fail(
+  roots[roots[0].text("name") == trunk ? 1 : 0].fail(
       "two root links: '" + roots[0].text("name") + "' and '" + roots[1].text("name") + "'",
       "add the joint that carries one of them");
 }

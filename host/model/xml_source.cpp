@@ -60,6 +60,17 @@ void refuse_repeats(const std::string& path, const tinyxml2::XMLElement& element
   }
 }
 
+/// libsdformat tells that a type is none, and not whose.
+void check_joint_type(const std::string& path, const tinyxml2::XMLElement& joint) {
+  const std::string_view type = joint.Attribute("type") ? joint.Attribute("type") : "";
+  for (const std::string_view known : {"revolute", "fixed", "continuous", "prismatic", "ball",
+                                       "screw", "universal", "gearbox", "revolute2"}) {
+    if (type == known) return;
+  }
+  throw LoadError(path, joint.GetLineNum(), "there is no joint type '" + std::string(type) + "'",
+                  "write revolute, or fixed");
+}
+
 /// Before anything looks at each of them in turn.
 void refuse_many(const std::string& path, const tinyxml2::XMLElement& element) {
   std::map<std::string_view, std::size_t> count;
@@ -236,6 +247,7 @@ void XmlSource::inspect(const File& file, const tinyxml2::XMLElement& element) {
     check_leaf(file.path, line, std::string(name), element.GetText(), is_urdf);
   }
   refuse_repeats(file.path, element);
+  if (!is_urdf && name == "joint") check_joint_type(file.path, element);
   if (!is_urdf && name == "include") include(file, element);
   for (const auto* child = element.FirstChildElement(); child;
        child = child->NextSiblingElement()) {
