@@ -172,7 +172,7 @@ inline constexpr Register kTable[] = {
     r(66, "joint_beyond", u8, "", "bus id of the joint for whose sake a robot was not let stand: it is beyond its limits, move it by hand; 255: none"),
     rw(68, "status_return_level", u8, 2, "", "replies: 0 to ping, 1 to ping and reads, 2 to all"),
     r(69, "registered_instruction", u8, "", "1: a Reg Write waits for its Action"),
-    r(70, "hardware_error", u8, "bits", "faults that stop the robot: the low byte of faults; not 0: alert bit"),
+    r(70, "hardware_error", u8, "bits", "the low byte of faults, but for a quiet operator's; not 0: alert bit"),
     r(71, "start_fault", u8, "", "no torque until a reset; so many flashes: 2 self_test failed, 3 timer, 4 this port, 5 servo port, 6 period_us, 7 watchdog, 8 bus protocol; 0: none"),
     r(72, "crash_pc", u32, "", "the crash before this start: its instruction; 0 with crash_count 1 or more: stack overflow"),
     r(76, "crash_cause", u32, "bits", "CFSR of the core at that crash"),

@@ -6,6 +6,7 @@
 #include "common/model/params.hpp"
 #include "common/record/tick_record.hpp"
 #include "common/safety/limit.hpp"
+#include "common/safety/machine.hpp"
 #include "firmware/app/bring_up_report.hpp"
 #include "firmware/app/bus_counters.hpp"
 #include "firmware/app/device_watch.hpp"
@@ -37,7 +38,10 @@ class TickReport {
   void tick(const TickRecord& record, const State& state, const Outputs& outputs) {
     const Inputs& inputs = record.inputs;
     image_.set(reg("torque_enable"), static_cast<std::uint8_t>(outputs.torque_enable != 0));
-    image_.set(reg("hardware_error"), static_cast<std::uint8_t>(outputs.faults));
+    // A robot whose operator is quiet stands, and nothing is wrong with it: no alert.
+    image_.set(
+        reg("hardware_error"),
+        static_cast<std::uint8_t>(outputs.faults & ~std::uint32_t{safety::kFaultOperatorQuiet}));
     image_.set(reg("digest"), record.digest.chain);
     image_.set(reg("tick"), inputs.tick);
     image_.set(reg("tick_low"), static_cast<std::uint16_t>(inputs.tick));

@@ -71,6 +71,10 @@ std::vector<Identity> Client::scan() {
   });
   std::sort(found.begin(), found.end(),
             [](const Identity& a, const Identity& b) { return a.id < b.id; });
+  // An answer to somebody who asked before may be among them.
+  const auto again = std::unique(found.begin(), found.end(),
+                                 [](const Identity& a, const Identity& b) { return a.id == b.id; });
+  found.erase(again, found.end());
   return found;
 }
 

@@ -84,10 +84,15 @@ dxl::Error Device::action() {
   return store(std::exchange(registered_, {}));  // what was allowed then may not be now
 }
 
-void Device::reboot() {
+void Device::lose_power() {
   registered_.clear();
   table_.restore_initial(at::kTorqueEnable, 0xFFFF);
   restarted();
+}
+
+void Device::reboot() {
+  lose_power();
+  started();
 }
 
 dxl::Error Device::factory_reset(dxl::Reset reset) {

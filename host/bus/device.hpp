@@ -50,8 +50,12 @@ class Device {
   /// The plant stands at deadline_us().
   virtual void expire() {}
 
-  /// Power off and on: RAM registers as they begin, a hardware error gone.
+  /// RAM registers as they begin, a hardware error gone.
+  void lose_power();
+  /// Power off and on.
   void reboot();
+  /// e-Manual, Control Table Backup: keeps what stands there, or puts EEPROM back and begins anew.
+  virtual dxl::Error backup(std::span<const std::uint8_t>) { return dxl::Error::kInstruction; }
   /// Not with torque on. Unless kept, the id becomes 1 and the baud rate 57600.
   dxl::Error factory_reset(dxl::Reset reset);
   /// Takes the turns off Present Position, which here never has any; not while moving.
@@ -66,6 +70,8 @@ class Device {
   virtual void written(std::uint16_t address, std::uint16_t length) = 0;
   /// Follows a reboot and a reset.
   virtual void restarted() {}
+  /// Power is there, and the registers are as they begin.
+  virtual void started() {}
   virtual bool moving() { return false; }
   std::uint8_t byte(std::uint16_t address) const {
     return static_cast<std::uint8_t>(table_.get(address));

@@ -9,6 +9,7 @@
 namespace verp::bus {
 namespace {
 
+constexpr auto kBackup = static_cast<dxl::Instruction>(0x20);  // e-Manual: Control Table Backup
 constexpr std::uint8_t kTooLong = static_cast<std::uint8_t>(dxl::Error::kDataLength);
 
 std::uint8_t error_field(const Device& device, dxl::Error error) {
@@ -53,6 +54,9 @@ void VirtualBus::handle(const dxl::Packet& packet, std::uint64_t end_ns) {
   const std::span<const std::uint8_t> parameters(packet.parameters, packet.size);
   const bool has_address = packet.size > 2;
   const std::uint16_t address = has_address ? dxl::get_u16(packet.parameters) : std::uint16_t{0};
+  if (packet.instruction == kBackup) {
+    return command(packet.id, false, [&](Device& each) { return each.backup(parameters); });
+  }
   switch (packet.instruction) {
     case dxl::Instruction::kPing:
       return ping(packet.id);

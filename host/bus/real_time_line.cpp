@@ -76,6 +76,9 @@ void VirtualBus::talk(const std::uint8_t* data, std::size_t size) {
     }
     for (bool found = line_.push(data[i]); found; found = line_.next()) {
       wire_free_ns_ = master_free_ns_;
+      // Whose turn in a Ping to all is still to come has something else to do now.
+      std::erase_if(replies_,
+                    [this](const Chunk& each) { return each.asked_ns > master_free_ns_; });
       handle(line_.packet(), master_free_ns_);
     }
   }

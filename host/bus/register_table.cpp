@@ -49,6 +49,10 @@ void RegisterTable::restore_initial(std::uint16_t first, std::uint16_t end) {
   }
 }
 
+void RegisterTable::copy(const RegisterTable& other, std::uint16_t first, std::uint16_t end) {
+  std::copy(other.image_.begin() + first, other.image_.begin() + end, image_.begin() + first);
+}
+
 std::span<const std::uint8_t> RegisterTable::bytes(std::uint16_t address,
                                                    std::uint16_t length) const {
   if (static_cast<std::size_t>(address) + length > image_.size()) return {};

@@ -27,6 +27,8 @@ class RegisterTable {
   void set(std::uint16_t address, std::int64_t value);
   const Register* find(std::uint16_t address) const;
   void restore_initial(std::uint16_t first, std::uint16_t end);
+  /// Takes over the bytes from `first` to `end` of another table with the same registers.
+  void copy(const RegisterTable& other, std::uint16_t first, std::uint16_t end);
 
   /// Bytes of `length` registers' bytes from `address`, empty past the table's end. Gaps read as
   /// zero, as real servos do it.

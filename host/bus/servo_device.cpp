@@ -4,108 +4,27 @@
 #include <cmath>
 #include <numbers>
 
+#include "host/bus/servo_registers.hpp"
 #include "host/bus/servo_setup.hpp"
 
 namespace verp::bus {
 namespace {
 
+using namespace servo;
 namespace at = dxl::address;
-
-// Units of the control table; source: e-Manual, XM430-W210 and MX-28(2.0).
-constexpr double kVelocityUnitRadS = 0.229 * 2.0 * std::numbers::pi / 60.0;
-constexpr double kCurrentUnitA = 0.00269;  // X-series, Present Current
-constexpr double kLoadFull = 1000;         // MX(2.0), Present Load in 0.1 %
-constexpr std::int64_t kRealtimeTickWrap = 32768;
 
 bool overlaps(std::uint16_t address, std::uint16_t length, std::uint16_t first, std::uint16_t end) {
   return address < end && first < address + length;
 }
 
-// Initial values and ranges: e-Manual, as control_table.hpp. Current registers are the X-series'
-// own, Acceleration Limit the MX's.
-std::vector<Register> servo_registers(const ServoIdentity& identity) {
-  const bool mx = identity.model < 1000;
-  constexpr std::int64_t kTurn = 1044479;  // Homing Offset's range
-  constexpr std::int64_t kGain = 16383;
-  std::vector<Register> registers = {
-      {at::kModelNumber, 2, false, identity.model},
-      {at::kModelInformation, 4, false, 0},
-      {at::kFirmwareVersion, 1, false, 45},  // first with Fast Sync Read
-      {at::kId, 1, true, identity.id, 0, dxl::kMaxId},
-      {at::kBaudRate, 1, true, dxl::baud_rate_code(identity.baud), 0, 7},
-      {at::kReturnDelay, 1, true, 250, 0, 254},
-      {at::kDriveMode, 1, true, 0, 0, 5},
-      {at::kOperatingMode, 1, true, dxl::kPositionMode, 0, 16},
-      {at::kSecondaryId, 1, true, 255, 0, 255},
-      {at::kProtocolVersion, 1, true, 2, 1, 2},
-      {at::kHomingOffset, 4, true, 0, -kTurn, kTurn},
-      {at::kMovingThreshold, 4, true, 10, 0, 1023},
-      {at::kTemperatureLimit, 1, true, 80, 0, 100},
-      {at::kMaxVoltageLimit, 2, true, 160, 95, 160},
-      {at::kMinVoltageLimit, 2, true, 95, 95, 160},
-      {at::kPwmLimit, 2, true, dxl::kFullPwm, 0, dxl::kFullPwm},
-      {at::kCurrentLimit, 2, true, 1193, 0, 1193},
-      {at::kAccelerationLimit, 4, true, 32767, 0, 32767},
-      {at::kVelocityLimit, 4, true, mx ? 380 : 330, 0, 1023},
-      {at::kMaxPositionLimit, 4, true, 4095, 0, 4095},
-      {at::kMinPositionLimit, 4, true, 0, 0, 4095},
-      {at::kShutdown, 1, true, 52, 0, 255},
-      {at::kTorqueEnable, 1, true, 0, 0, 1},
-      {at::kLed, 1, true, 0, 0, 1},
-      {at::kStatusReturnLevel, 1, true, 2, 0, 2},
-      {at::kRegisteredInstruction, 1, false, 0},
-      {at::kHardwareError, 1, false, 0},
-      {at::kVelocityIGain, 2, true, 1920, 0, kGain},
-      {at::kVelocityPGain, 2, true, 100, 0, kGain},
-      {at::kPositionDGain, 2, true, 0, 0, kGain},
-      {at::kPositionIGain, 2, true, 0, 0, kGain},
-      {at::kPositionPGain, 2, true, mx ? 850 : 800, 0, kGain},
-      {at::kFeedforward2Gain, 2, true, 0, 0, kGain},
-      {at::kFeedforward1Gain, 2, true, 0, 0, kGain},
-      {at::kBusWatchdog, 1, true, 0, 0, dxl::kBusWatchdogMost},
-      {at::kGoalPwm, 2, true, dxl::kFullPwm, -dxl::kFullPwm, dxl::kFullPwm},
-      {at::kGoalCurrent, 2, true, 1193, -1193, 1193},
-      {at::kGoalVelocity, 4, true, 0, -1023, 1023},
-      {at::kProfileAcceleration, 4, true, 0, 0, 32767},
-      {at::kProfileVelocity, 4, true, 0, 0, 32767},
-      {at::kGoalPosition, 4, true, 0, -kTurn, kTurn},
-      {at::kRealtimeTick, 2, false, 0},
-      {at::kMoving, 1, false, 0},
-      {at::kMovingStatus, 1, false, 0},
-      {at::kPresentPwm, 2, false, 0, -1},
-      {at::kPresentCurrent, 2, false, 0, -1},
-      {at::kPresentVelocity, 4, false, 0, -1},
-      {at::kPresentPosition, 4, false, 0, -1},
-      {at::kVelocityTrajectory, 4, false, 0, -1},
-      {at::kPositionTrajectory, 4, false, 0, -1},
-      {at::kPresentVoltage, 2, false, 120},
-      {at::kPresentTemperature, 1, false, 25},
-      {at::kBackupReady, 1, false, 0},
-  };
-  for (const auto& [addresses, data] : {std::pair{at::kIndirectAddress1, at::kIndirectData1},
-                                        std::pair{at::kIndirectAddress29, at::kIndirectData29}}) {
-    for (std::uint16_t n = 0; n < dxl::kIndirectBlock; ++n) {
-      registers.push_back({static_cast<std::uint16_t>(addresses + 2 * n), 2, true, data + n,
-                           dxl::kIndirectFirst, dxl::kIndirectLast});
-    }
-    for (std::uint16_t n = 0; n < dxl::kIndirectBlock; ++n) {
-      registers.push_back({static_cast<std::uint16_t>(data + n), 1, true, 0, 0, 255});
-    }
-  }
-  std::erase_if(registers, [mx](const Register& reg) {
-    if (mx) return reg.address == at::kCurrentLimit || reg.address == at::kGoalCurrent;
-    return reg.address == at::kAccelerationLimit;
-  });
-  return registers;
-}
-
 }  // namespace
 
 ServoDevice::ServoDevice(const ServoIdentity& identity, sim::Plant& plant, int joint)
-    : Device(servo_registers(identity)),
+    : Device(registers_of(identity)),
       plant_(plant),
       joint_(joint),
-      fast_sync_read_(identity.fast_sync_read) {
+      fast_sync_read_(identity.fast_sync_read),
+      stored_(table_) {
   apply();
 }
 
@@ -113,17 +32,13 @@ void ServoDevice::refresh(std::uint16_t address, std::uint16_t length) {
   const bool present = overlaps(address, length, at::kRealtimeTick, at::kBackupReady + 1);
   if (!present && !overlaps(address, length, at::kHardwareError, at::kHardwareError + 1)) return;
   const sim::ServoMeasurement measured = plant_.measure(joint_);
-  const std::int64_t velocity = std::llround(measured.velocity_rad_s / kVelocityUnitRadS);
-  const bool has_current = table_.find(at::kGoalCurrent) != nullptr;
+  refresh_motion(measured);
   table_.set(at::kRealtimeTick,
              static_cast<std::int64_t>(plant_.now_us() / 1000) % kRealtimeTickWrap);
-  table_.set(at::kMoving, std::abs(velocity) > table_.get(at::kMovingThreshold) ? 1 : 0);
-  table_.set(at::kPresentPwm, std::llround(measured.duty * dxl::kFullPwm));
-  table_.set(at::kPresentCurrent, has_current ? std::llround(measured.current_a / kCurrentUnitA)
-                                              : std::llround(measured.duty * kLoadFull));
-  table_.set(at::kPresentVelocity, velocity);
-  table_.set(at::kPresentPosition, measured.position_count + homing());
-  table_.set(at::kPositionTrajectory, table_.get(at::kGoalPosition));
+  table_.set(at::kPresentPwm, std::llround(sign() * measured.duty * dxl::kFullPwm));
+  table_.set(at::kPresentCurrent,
+             std::llround(sign() * (is_mx() ? measured.duty * kLoadFull
+                                            : measured.current_a / kCurrentUnitA)));
   table_.set(at::kPresentVoltage, std::llround(measured.voltage_v * 10));
   table_.set(at::kPresentTemperature, std::llround(measured.temperature_c));
   watch_limits(measured);
@@ -158,6 +73,7 @@ void ServoDevice::watch_limits(const sim::ServoMeasurement& measured) {
 dxl::Error ServoDevice::check(std::uint16_t address, std::span<const std::uint8_t> data) const {
   const dxl::Error error = table_.check(address, data, torque_on());
   if (error != dxl::Error::kNone) return error;
+  if (!known(address, data)) return dxl::Error::kDataRange;
   if (tripped()) {
     const auto size = static_cast<std::uint16_t>(data.size());
     if (overlaps(address, size, at::kGoalPwm, at::kProfileAcceleration) ||
@@ -172,37 +88,72 @@ dxl::Error ServoDevice::check(std::uint16_t address, std::span<const std::uint8_
   return within_limits(address, data) ? dxl::Error::kNone : dxl::Error::kDataLimit;
 }
 
-// e-Manual, Goal PWM (100) and Goal Position (116): not beyond what the limits in EEPROM say.
+/// Modes that it has.
+bool ServoDevice::known(std::uint16_t address, std::span<const std::uint8_t> data) const {
+  const auto written = [&](std::uint16_t at) {
+    return address <= at && at < address + data.size() ? data[at - address] : byte(at);
+  };
+  const std::uint8_t mode = written(at::kOperatingMode);
+  const bool of_current = mode == kCurrentMode || mode == kCurrentPositionMode;
+  const bool is_mode = mode == kVelocityMode || mode == dxl::kPositionMode || mode == kTurnsMode ||
+                       mode == kPwmMode || (of_current && !is_mx());
+  return is_mode && (written(at::kDriveMode) & 1 << 1) == 0;  // of dual joints only
+}
+
+// e-Manual, Goal PWM (100), Goal Current (102), Goal Velocity (104), Acceleration Limit (40) and
+// Goal Position (116): not beyond what the limits in EEPROM say.
 bool ServoDevice::within_limits(std::uint16_t address, std::span<const std::uint8_t> data) const {
   const auto inside = [&](std::uint16_t goal, std::int64_t least, std::int64_t most) {
-    const Register& reg = *table_.find(goal);
-    if (address > goal || address + data.size() < std::size_t{goal} + reg.size) return true;
-    const std::int64_t value = RegisterTable::value_in(reg, address, data);
+    const Register* reg = table_.find(goal);
+    if (reg == nullptr || address > goal || address + data.size() < std::size_t{goal} + reg->size) {
+      return true;
+    }
+    const std::int64_t value = RegisterTable::value_in(*reg, address, data);
     return value >= least && value <= most;
   };
-  const std::int64_t pwm = table_.get(at::kPwmLimit);
-  return inside(at::kGoalPwm, -pwm, pwm) &&
+  const auto within = [&](std::uint16_t goal, std::uint16_t limit) {
+    return inside(goal, -table_.get(limit), table_.get(limit));
+  };
+  return within(at::kGoalPwm, at::kPwmLimit) && within(at::kGoalCurrent, at::kCurrentLimit) &&
+         within(at::kGoalVelocity, at::kVelocityLimit) &&
+         (!is_mx() || within(at::kProfileAcceleration, at::kAccelerationLimit)) &&
          (byte(at::kOperatingMode) != dxl::kPositionMode ||
           inside(at::kGoalPosition, table_.get(at::kMinPositionLimit),
                  table_.get(at::kMaxPositionLimit)));
 }
 
 void ServoDevice::written(std::uint16_t address, std::uint16_t length) {
+  const auto touches = [&](std::uint16_t first, std::uint16_t end) {
+    return overlaps(address, length, first, end);
+  };
   // e-Manual, Operating Mode (11): a new mode resets gains, profile and goals.
   if (mode_ != byte(at::kOperatingMode)) {
     mode_ = byte(at::kOperatingMode);
     table_.restore_initial(at::kVelocityIGain, at::kGoalPosition);
-    goal_written_ = false;
+    reset_goals();
   }
-  if (overlaps(address, length, at::kGoalPosition, at::kGoalPosition + 4)) goal_written_ = true;
+  if (touches(at::kPwmLimit, at::kAccelerationLimit)) reset_goals();
+  if (touches(at::kGoalPosition, at::kGoalPosition + 4)) goal_written_ = true;
+  const bool goal = touches(at::kGoalPwm, at::kProfileAcceleration) ||
+                    touches(at::kGoalPosition, at::kGoalPosition + 4);
+  if (goal && (byte(at::kDriveMode) & kTorqueOnByGoal) != 0) table_.set(at::kTorqueEnable, 1);
   if ((table_.get(at::kHardwareError) & table_.get(at::kShutdown)) != 0) {
     table_.set(at::kTorqueEnable, 0);
   }
-  if (torque_on() && !goal_written_) {
-    table_.set(at::kGoalPosition, plant_.measure(joint_).position_count + homing());
-    goal_written_ = true;
-  }
+  if (torque_on() && !goal_written_) hold_here();
   apply();
+}
+
+void ServoDevice::hold_here() {
+  const sim::ServoMeasurement measured = plant_.measure(joint_);
+  table_.set(at::kGoalPosition, std::llround(shown(measured.position_count)));
+  goal_written_ = true;
+}
+
+void ServoDevice::reset_goals() {
+  table_.set(at::kGoalPwm, table_.get(at::kPwmLimit));
+  table_.set(at::kGoalCurrent, table_.get(at::kCurrentLimit));
+  goal_written_ = false;
 }
 
 // e-Manual, Bus Watchdog (98): counts instruction packets for anybody, and only with torque on.
@@ -214,36 +165,23 @@ std::uint64_t ServoDevice::deadline_us() const {
 
 void ServoDevice::expire() {
   table_.set(at::kBusWatchdog, dxl::kBusWatchdogTripped);
-  table_.set(at::kGoalPosition, plant_.measure(joint_).position_count + homing());
+  hold_here();
+  table_.set(at::kGoalVelocity, 0);
+  if (mode_ == kPwmMode) table_.set(at::kGoalPwm, 0);
+  if (mode_ == kCurrentMode) table_.set(at::kGoalCurrent, 0);
   apply();
 }
 
 void ServoDevice::restarted() {
   mode_ = byte(at::kOperatingMode);
-  goal_written_ = false;
+  table_.set(at::kBackupReady, stored_.get(at::kBackupReady));
+  reset_goals();
   apply();
 }
 
 bool ServoDevice::moving() {
   refresh(at::kMoving, 1);
   return byte(at::kMoving) != 0;
-}
-
-void ServoDevice::apply() {
-  const auto unsigned16 = [this](std::uint16_t address) {
-    return static_cast<std::uint16_t>(table_.get(address));
-  };
-  sim::ServoSetpoint& setpoint = plant_.setpoint(joint_);
-  setpoint.torque_on = torque_on();
-  setpoint.goal_count = static_cast<std::int32_t>(table_.get(at::kGoalPosition)) - homing();
-  setpoint.p_gain = unsigned16(at::kPositionPGain);
-  setpoint.i_gain = unsigned16(at::kPositionIGain);
-  setpoint.d_gain = unsigned16(at::kPositionDGain);
-  setpoint.pwm_limit = static_cast<std::uint16_t>(
-      std::min(table_.get(at::kPwmLimit), std::abs(table_.get(at::kGoalPwm))));
-  const bool time_based = (byte(at::kDriveMode) & dxl::kTimeBasedProfile) != 0;
-  setpoint.profile_ms =
-      time_based ? static_cast<std::uint32_t>(table_.get(at::kProfileVelocity)) : 0;
 }
 
 }  // namespace verp::bus

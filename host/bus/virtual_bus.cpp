@@ -55,9 +55,8 @@ void VirtualBus::set_connected(std::uint8_t id, bool connected) {
 }
 
 void VirtualBus::set_powered(std::uint8_t id, bool powered) {
-  if (!powered) {
-    for (Device* device : devices(id)) device->reboot();
-  }
+  if (powered) set_connected(id, true);
+  for (Device* device : devices(id)) powered ? device->reboot() : device->lose_power();
   set_connected(id, powered);
 }
 

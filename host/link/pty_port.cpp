@@ -115,7 +115,8 @@ class PtyPort final : public Port {
   [[noreturn]] void refuse_served(const std::string& other) const {
     throw LinkError(LinkError::Kind::kBusy,
                     "pty:" + path_ + ": another program serves it, on " + other +
-                        "; end that, name another path, or remove the link if nobody does");
+                        "; to talk to that give serial:" + path_ +
+                        ", to serve it yourself end that or name another path");
   }
 
   [[noreturn]] void refuse_link(int error) const {

@@ -9,6 +9,10 @@ namespace verp::sim {
 
 /// What a servo's control table tells its motor control; counts and units of an X-series/MX(2.0)
 /// control table.
+enum class ServoMode : std::uint8_t { kPosition, kVelocity, kCurrent, kPwm };
+/// As in Moving Status (123).
+enum class ProfileKind : std::uint8_t { kStep, kRectangular, kTriangular, kTrapezoidal };
+
 struct ServoSetpoint {
   bool torque_on = false;
   std::int32_t goal_count = 0;
@@ -16,8 +20,17 @@ struct ServoSetpoint {
   std::uint16_t i_gain = 0;    ///< i/65536
   std::uint16_t d_gain = 0;    ///< d/16
   std::uint16_t pwm_limit = 885;
-  std::uint32_t profile_ms =
-      0;  ///< time-based profile with zero acceleration: straight line to the goal
+  std::uint32_t profile_ms = 0;  ///< time-based profile: how long the way takes; 0: velocity-based
+  double accelerate_ms = 0;      ///< of it, at either end; 0: a straight line
+  double profile_count_s = 0;    ///< velocity-based profile: its top speed; 0: a step
+  double accelerate_count_s2 = 0;  ///< and its acceleration, of velocity mode too; 0: at once
+  ServoMode mode = ServoMode::kPosition;
+  double goal_count_s = 0;               ///< velocity mode
+  double goal_a = 0;                     ///< current mode
+  double goal_pwm = 0;                   ///< PWM mode
+  double current_limit_a = -1;           ///< position mode: no more than that; negative: any
+  std::uint16_t velocity_p_gain = 100;   ///< the loop uses p/128, of 0.229 rev/min
+  std::uint16_t velocity_i_gain = 1920;  ///< i/65536
 };
 
 struct ServoMeasurement {
@@ -27,6 +40,10 @@ struct ServoMeasurement {
   double current_a = 0;
   double temperature_c = 25;
   double voltage_v = 12;
+  double trajectory_count = 0;    ///< where the profile stands
+  double trajectory_count_s = 0;  ///< and how fast it goes
+  ProfileKind profile = ProfileKind::kStep;
+  bool profile_ongoing = false;
 };
 
 /// What a servo gives at full duty while it stands, by its maker's figures; 0: not known.

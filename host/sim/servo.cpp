@@ -14,6 +14,7 @@ constexpr double kFullPwm = 885.0;  ///< e-manual X-series, PWM Limit: 885 is 10
 constexpr double kPerP = 1.0 / 128.0;
 constexpr double kPerI = 1.0 / 65536.0;
 constexpr double kPerD = 1.0 / 16.0;
+constexpr double kVelocityUnit_rev_s = 0.229 / 60;  ///< e-manual X-series, Velocity Limit
 
 void require(bool good, const model::Joint& joint, const char* what) {
   if (!good) throw std::invalid_argument("joint '" + joint.name + "': " + what);
@@ -48,8 +49,7 @@ ServoModel::ServoModel(const model::Joint& joint, const ServoNoise& noise, Rando
   measurement_.voltage_v = servo.nominal_v;
   stuck_rad_ = initial_rad;
   sample_encoder(initial_rad);
-  goal_count_ = measurement_.position_count;
-  profile_count_ = goal_count_;
+  profile_ = Profile(measurement_.position_count);
 }
 
 void ServoModel::sample_encoder(double angle_rad) {
@@ -64,21 +64,26 @@ void ServoModel::sample_encoder(double angle_rad) {
 void ServoModel::follow_profile(const ServoSetpoint& setpoint) {
   const double step_s = joint_.servo.loop_s;
   const bool armed_now = setpoint.torque_on && !was_on_;
-  if (armed_now) profile_count_ = measurement_.position_count;
-  if (armed_now || setpoint.goal_count != goal_count_) {
-    goal_count_ = setpoint.goal_count;
-    const double duration_s = std::max(setpoint.profile_ms * 1e-3, step_s);
-    profile_step_count_s_ = (goal_count_ - profile_count_) / duration_s;
+  if (armed_now) profile_.stand(measurement_.position_count);
+  if (setpoint.mode != ServoMode::kPosition) {
+    const bool steers = setpoint.mode == ServoMode::kVelocity && setpoint.torque_on;
+    const double goal = steers ? setpoint.goal_count_s : 0;
+    profile_.stand(measurement_.position_count, steers ? profile_.count_s() : 0);
+    profile_.follow_speed(goal, setpoint.accelerate_count_s2, step_s);
+  } else {
+    if (armed_now || setpoint.goal_count != profile_.goal_count()) profile_.begin(setpoint, step_s);
+    profile_.advance(step_s);
   }
-  const double move = profile_step_count_s_ * step_s;
-  const double remaining = goal_count_ - profile_count_;
-  profile_count_ = std::abs(move) >= std::abs(remaining) ? goal_count_ : profile_count_ + move;
+  measurement_.trajectory_count = profile_.count();
+  measurement_.trajectory_count_s = profile_.count_s();
+  measurement_.profile = profile_.kind();
+  measurement_.profile_ongoing = profile_.ongoing();
 }
 
 double ServoModel::position_loop(const ServoSetpoint& setpoint) {
   const double step_ms = joint_.servo.loop_s * 1e3;
   const double limit = std::min(static_cast<double>(setpoint.pwm_limit), kFullPwm);
-  const double error = profile_count_ - measurement_.position_count;
+  const double error = profile_.count() - measurement_.position_count;
   const double gain_i = setpoint.i_gain * kPerI;
   integral_ += gain_i * error * step_ms;
   integral_ = std::clamp(integral_, -limit, limit);
@@ -87,6 +92,49 @@ double ServoModel::position_loop(const ServoSetpoint& setpoint) {
   const double pwm = setpoint.p_gain * kPerP * error + integral_ + setpoint.d_gain * kPerD * change;
   saturated_ = std::abs(pwm) >= limit;
   return std::clamp(pwm, -limit, limit) / kFullPwm;
+}
+
+// e-Manual, Velocity PI Gain (76, 78). The unit of its error is not told: that of the register is
+// an estimate.
+double ServoModel::velocity_loop(const ServoSetpoint& setpoint) {
+  const double step_ms = joint_.servo.loop_s * 1e3;
+  const double limit = std::min(static_cast<double>(setpoint.pwm_limit), kFullPwm);
+  const double per_unit = joint_.servo.counts_per_rev * kVelocityUnit_rev_s;
+  const double rate_count_s =
+      measurement_.velocity_rad_s * joint_.servo.counts_per_rev / (2 * std::numbers::pi);
+  const double error = (profile_.count_s() - rate_count_s) / per_unit;
+  integral_ += setpoint.velocity_i_gain * kPerI * error * step_ms;
+  integral_ = std::clamp(integral_, -limit, limit);
+  const double pwm = setpoint.velocity_p_gain * kPerP * error + integral_;
+  saturated_ = std::abs(pwm) >= limit;
+  return std::clamp(pwm, -limit, limit) / kFullPwm;
+}
+
+double ServoModel::duty_for(double current_a) const {
+  const model::Servo& servo = joint_.servo;
+  if (servo.stall_current_a <= 0) return std::copysign(1.0, current_a);
+  const double warm =
+      1.0 + constants_.copper_per_k * (measurement_.temperature_c - constants_.ambient_c);
+  return (current_a / servo.stall_current_a * warm +
+          measurement_.velocity_rad_s / servo.no_load_speed_rad_s) *
+         servo.nominal_v / measurement_.voltage_v;
+}
+
+double ServoModel::duty(const ServoSetpoint& setpoint) {
+  const double limit = std::min(static_cast<double>(setpoint.pwm_limit), kFullPwm) / kFullPwm;
+  switch (setpoint.mode) {
+    case ServoMode::kVelocity:
+      return velocity_loop(setpoint);
+    case ServoMode::kCurrent:
+      return std::clamp(duty_for(setpoint.goal_a), -limit, limit);
+    case ServoMode::kPwm:
+      return std::clamp(setpoint.goal_pwm / kFullPwm, -limit, limit);
+    case ServoMode::kPosition:
+      break;
+  }
+  const double duty = position_loop(setpoint);
+  if (setpoint.current_limit_a < 0) return duty;
+  return std::clamp(duty, duty_for(-setpoint.current_limit_a), duty_for(setpoint.current_limit_a));
 }
 
 // The firmware knows nothing of physics steps: its loop runs at its own instants, on the angle of a
@@ -103,7 +151,7 @@ double ServoModel::mean_duty(const ServoSetpoint& setpoint, double angle_rad, do
     follow_profile(setpoint);
     saturated_ = false;
     if (setpoint.torque_on) {
-      measurement_.duty = position_loop(setpoint);
+      measurement_.duty = duty(setpoint);
     } else {
       measurement_.duty = integral_ = 0;
     }

@@ -3,6 +3,7 @@
 
 #include "host/model/entity.hpp"
 #include "host/sim/plant.hpp"
+#include "host/sim/profile.hpp"
 #include "host/sim/random.hpp"
 
 /// One position servo: encoder, position loop, DC motor, gearbox, housing temperature. It knows no
@@ -90,13 +91,17 @@ class ServoModel {
   void set_joint_friction(double friction_n_m);
   /// Where the profile stands, as the joint's true angle.
   double profile_rad() const {
-    return angle_of(joint_.servo, profile_count_) - noise_.zero_error_rad;
+    return angle_of(joint_.servo, profile_.count()) - noise_.zero_error_rad;
   }
 
  private:
   void sample_encoder(double angle_rad);
   void follow_profile(const ServoSetpoint& setpoint);
   double position_loop(const ServoSetpoint& setpoint);
+  double velocity_loop(const ServoSetpoint& setpoint);
+  /// The duty with which the motor draws that current now.
+  double duty_for(double current_a) const;
+  double duty(const ServoSetpoint& setpoint);
   double mean_duty(const ServoSetpoint& setpoint, double angle_rad, double rate_rad_s,
                    double step_s);
   Drive motor_line(double supply_v) const;
@@ -116,11 +121,9 @@ class ServoModel {
 
   bool was_on_ = false;
   double next_loop_s_ = 0;  ///< from the start of the next physics step
-  std::int32_t goal_count_ = 0;
-  double profile_count_ = 0;
-  double profile_step_count_s_ = 0;  ///< counts per second until the goal
-  double integral_ = 0;              ///< PWM units
-  double last_error_ = 0;            ///< counts
+  Profile profile_{0};
+  double integral_ = 0;    ///< PWM units
+  double last_error_ = 0;  ///< counts
   bool saturated_ = false;
 
   double duty_ = 0;         ///< joint sense, mean of the step

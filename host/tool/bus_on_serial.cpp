@@ -122,6 +122,7 @@ int scan_serial(const BusOptions& options) {
     }
   } else {
     found = client.scan();
+    if (found.empty()) found = client.scan();  // who was answering somebody else did not hear it
   }
   if (client.crc_errors() > 0) {
     complain(

@@ -6,6 +6,7 @@
 starts `VERP hil generic21 --link pty:...` in this folder and plays CASE over the pseudo-terminal. What is sent stands in
 ROBOTIS e-Manual, "DYNAMIXEL Protocol 2.0" and "XM430-W210", or follows from it. Status 0: all was as it is there.
 """
+import json
 import os
 import select
 import subprocess
@@ -127,6 +128,7 @@ class Twin:
     """`verp hil` as its user starts it; ends with the block."""
 
     def __init__(self, program):
+        self.program = program
         self.path = os.path.abspath("bus")
         self.log = open("twin.err", "w+")
         self.process = subprocess.Popen([program, "hil", "generic21", "--link", "pty:" + self.path, "--for", "60", "--json"],
@@ -156,6 +158,19 @@ def first_ping_to_all(twin):
     found = [each.device for each in port.hear(253 * 0.003 + 0.016 + 0.2, 24)]
     assert found[:21] == list(range(1, 22)), found
     assert len(found) == len(set(found)), found
+
+
+def scan_at_once(twin):
+    """Point 17: `verp bus scan` finds all of a twin that has just started, also when somebody scanned and left before."""
+    port = Port(twin.path)
+    port.send(packet(BROADCAST, PING))
+    port.close()
+    for _ in range(2):
+        done = subprocess.run([twin.program, "bus", "scan", "--link", f"serial:{twin.path}@2000000", "--json"],
+                              capture_output=True, text=True, timeout=60)
+        assert done.returncode == 0, done.stderr
+        found = [each["id"] for each in json.loads(done.stdout)["devices"]]
+        assert found[:21] == list(range(1, 22)) and len(found) == len(set(found)), found
 
 
 def last_byte_ff(twin):
@@ -240,6 +255,154 @@ def long_packets(twin):
     port.silence(packet(BROADCAST, SYNC_WRITE, number(116, 2) + number(4, 2) + many))
     assert port.read(1, 64, 1) == 0
     assert port.ask(1, PING).error == 0
+
+
+HEAD = 19  # turns about the vertical: no load but itself
+DRIVE_MODE, MODE, STARTUP, TORQUE, VELOCITY_P, POSITION_P = 10, 11, 60, 64, 78, 84
+GOAL_PWM, GOAL_CURRENT, GOAL_VELOCITY, ACCELERATION, VELOCITY, GOAL = 100, 102, 104, 108, 112, 116
+TICK, MOVING, STATUS_123, PWM, CURRENT, SPEED, POSITION, SPEED_WANTED, POSITION_WANTED = 120, 122, 123, 124, 126, 128, 132, 136, 140
+RANGE_ERROR, LIMIT_ERROR, RESULT_FAIL = 4, 6, 1
+
+
+def set_up(port, mode, drive=0):
+    """Torque off, and a mode; head in the middle of its turn."""
+    assert port.write(HEAD, TORQUE, 0, 1) == 0
+    assert port.write(HEAD, DRIVE_MODE, drive, 1) == 0
+    assert port.write(HEAD, MODE, mode, 1) == 0
+
+
+def rest(port, milliseconds):
+    """By the servo's own clock."""
+    begun = port.read(HEAD, TICK, 2, False)
+    while (port.read(HEAD, TICK, 2, False) - begun) % 32768 < milliseconds:
+        time.sleep(0.01)
+
+
+def travel(port, goal):
+    """Goes there; ms by the servo's own clock, and what its trajectory showed on the way."""
+    assert port.write(HEAD, GOAL, goal, 4) == 0
+    begun, seen = port.read(HEAD, TICK, 2, False), []
+    rest(port, 5)
+    while True:
+        status = port.read(HEAD, STATUS_123, 1, False)
+        took = (port.read(HEAD, TICK, 2, False) - begun) % 32768
+        if not status & 2:
+            return took, seen
+        seen.append((status >> 4, port.read(HEAD, SPEED_WANTED, 4), port.read(HEAD, MOVING, 1)))
+        assert took < 5000, seen[-1]
+
+
+def profiles(twin):
+    """Point 12: e-Manual, "What is the Profile": its kinds, how long each takes, and Moving Status."""
+    port = Port(twin.path)
+    set_up(port, 3)
+    here = port.read(HEAD, POSITION, 4)
+    assert port.write(HEAD, TORQUE, 1, 1) == 0
+    # 600 counts at 50 * 0.229 rev/min = 782 counts/s; with 20 * 214.577 rev/min^2 = 4883 counts/s^2 0.16 s more.
+    for acceleration, kind, least, most in ((0, 1, 700, 850), (20, 3, 860, 1010)):
+        assert port.write(HEAD, ACCELERATION, acceleration, 4) == 0
+        assert port.write(HEAD, VELOCITY, 50, 4) == 0
+        goal = here + 600 if kind == 1 else here
+        took, seen = travel(port, goal)
+        assert least <= took <= most, took
+        assert {each[0] for each in seen} == {kind} and all(each[2] == 1 for each in seen), seen
+        assert max(abs(each[1]) for each in seen) == 50, seen
+        rest(port, 500)
+        status = port.read(HEAD, STATUS_123, 1)
+        assert status & 2 == 0 and status & 8 == 0 and status & 1, status
+        assert abs(port.read(HEAD, POSITION_WANTED, 4) - goal) <= 1
+    set_up(port, 3, 4)  # time-based: a second, of which a half is too much to accelerate in
+    assert port.write(HEAD, TORQUE, 1, 1) == 0
+    for acceleration, kind in ((0, 1), (250, 3), (800, 2)):
+        assert port.write(HEAD, VELOCITY, 1000, 4) == 0
+        assert port.write(HEAD, ACCELERATION, acceleration, 4) == 0
+        took, seen = travel(port, here + 500 if kind != 3 else here)
+        assert 940 <= took <= 1100, (kind, took)
+        assert {each[0] for each in seen} == {kind}, seen
+
+
+def modes(twin):
+    """Point 12: velocity, PWM, current, extended and current-based position mode; reverse mode; limits."""
+    port = Port(twin.path)
+    set_up(port, 3)
+    here = port.read(HEAD, POSITION, 4)
+    assert port.write(HEAD, MODE, 2, 1) == RANGE_ERROR
+    assert port.write(HEAD, GOAL, 5000, 4) == LIMIT_ERROR
+    set_up(port, 4)
+    assert port.write(HEAD, GOAL, -100000, 4) == 0
+    assert port.write(HEAD, GOAL, 1048576, 4) == RANGE_ERROR
+
+    set_up(port, 1)
+    assert port.write(HEAD, GOAL_VELOCITY, 331, 4) == LIMIT_ERROR
+    assert port.write(HEAD, TORQUE, 1, 1) == 0
+    assert port.write(HEAD, GOAL_VELOCITY, -20, 4) == 0
+    rest(port, 600)
+    assert port.read(HEAD, SPEED_WANTED, 4) == -20
+    assert abs(port.read(HEAD, SPEED, 4) + 20) <= 2, port.read(HEAD, SPEED, 4)
+    assert port.read(HEAD, POSITION, 4) < here - 100
+
+    set_up(port, 16)
+    assert port.read(HEAD, GOAL_PWM, 2) == 885  # of a new mode: the limit
+    assert port.write(HEAD, GOAL_PWM, 0, 2) == 0
+    assert port.write(HEAD, TORQUE, 1, 1) == 0
+    assert port.write(HEAD, GOAL_PWM, 150, 2) == 0
+    rest(port, 300)
+    assert port.read(HEAD, PWM, 2) == 150 and port.read(HEAD, SPEED, 4) > 10
+
+    set_up(port, 0)
+    assert port.write(HEAD, GOAL_CURRENT, 1194, 2) != 0
+    assert port.write(HEAD, GOAL_CURRENT, 0, 2) == 0
+    assert port.write(HEAD, TORQUE, 1, 1) == 0
+    assert port.write(HEAD, GOAL_CURRENT, 90, 2) == 0
+    rest(port, 1500)  # as far as its stop
+    assert abs(port.read(HEAD, CURRENT, 2) - 90) <= 4, port.read(HEAD, CURRENT, 2)
+
+    set_up(port, 5)
+    stop = port.read(HEAD, POSITION, 4)
+    assert port.write(HEAD, GOAL_CURRENT, 60, 2) == 0
+    assert port.write(HEAD, TORQUE, 1, 1) == 0
+    assert port.write(HEAD, GOAL, stop + 900, 4) == 0  # behind its stop
+    rest(port, 700)
+    assert abs(port.read(HEAD, CURRENT, 2) - 60) <= 4, port.read(HEAD, CURRENT, 2)
+    assert port.read(HEAD, STATUS_123, 1) & 9 == 8  # it does not follow, and is not there
+    assert port.write(HEAD, GOAL, here, 4) == 0
+    rest(port, 1500)
+
+    set_up(port, 3)
+    forward = port.read(HEAD, POSITION, 4)
+    set_up(port, 3, 1)  # reverse
+    assert abs(port.read(HEAD, POSITION, 4) - (4096 - forward)) <= 2
+    assert port.write(HEAD, TORQUE, 1, 1) == 0
+    assert port.write(HEAD, GOAL, 4096 - forward + 300, 4) == 0
+    rest(port, 1000)
+    assert abs(port.read(HEAD, POSITION, 4) - (4096 - forward + 300)) <= 25
+    set_up(port, 3)
+    assert abs(port.read(HEAD, POSITION, 4) - (forward - 300)) <= 25
+
+
+def startup(twin):
+    """Point 12: Startup Configuration (60) and Control Table Backup."""
+    port = Port(twin.path)
+    store, restore = b"\x01CTRL", b"\x02CTRL"
+    assert port.ask(HEAD, BACKUP, restore).error == RESULT_FAIL  # nothing is kept
+    assert port.write(HEAD, POSITION_P, 900, 2) == 0
+    assert port.write(HEAD, TORQUE, 1, 1) == 0
+    assert port.ask(HEAD, BACKUP, store).error == RESULT_FAIL
+    assert port.write(HEAD, TORQUE, 0, 1) == 0
+    assert port.ask(HEAD, BACKUP, store).error == 0
+    assert port.read(HEAD, 147, 1) == 1  # Backup Ready
+    assert port.ask(HEAD, REBOOT).error == 0
+    assert port.read(HEAD, POSITION_P, 2) == 800 and port.read(HEAD, TORQUE, 1) == 0
+    assert port.write(HEAD, STARTUP, 3, 1) == 0
+    assert port.ask(HEAD, REBOOT).error == 0
+    assert port.read(HEAD, POSITION_P, 2) == 900 and port.read(HEAD, TORQUE, 1) == 1
+    assert abs(port.read(HEAD, GOAL, 4) - port.read(HEAD, POSITION, 4)) <= 10
+    assert port.write(HEAD, TORQUE, 0, 1) == 0
+    assert port.ask(HEAD, BACKUP, restore).error == 0  # of EEPROM: 60 was 0 then
+    assert port.read(HEAD, STARTUP, 1) == 0
+    set_up(port, 3, 8)  # Torque On by Goal Update
+    assert port.write(HEAD, GOAL, port.read(HEAD, POSITION, 4), 4) == 0
+    assert port.read(HEAD, TORQUE, 1) == 1
 
 
 def main():

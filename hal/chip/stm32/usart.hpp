@@ -154,13 +154,12 @@ class Usart {
     pump(status);
     return status;
   }
-  // A full ring leaves the byte where it is: whoever can wait (an emulator) does, and real hardware
-  // says by its overrun flag what was lost.
+  // A full ring leaves the next byte where it is: whoever can wait (an emulator) does, and real
+  // hardware says by its overrun flag what was lost. QEMU takes an interrupt back when a byte is
+  // read, not when it is no longer wanted: so the one that fills the ring must be the last.
   void receive_byte() {
-    if (received_ - taken_ == kRing) {
-      clear_bits(Kind::kCr1, usart_v1::kCr1Rxneie);
-      return;
-    }
+    if (received_ - taken_ == kRing) return;
+    if (received_ - taken_ + 1 == kRing) clear_bits(Kind::kCr1, usart_v1::kCr1Rxneie);
     ring_[received_++ % kRing] = static_cast<std::uint8_t>(read(Kind::kReceive));
   }
   /// Counts what the DMA has stored. Called at least twice a turn of the ring: by its interrupts.

@@ -17,6 +17,9 @@ class ForeignClient : public Program {
 TEST_F(ForeignClient, FindsAllServosWithTheFirstPingToATwinThatJustStarted) {
   plays("first_ping_to_all");
 }
+TEST_F(ForeignClient, AndAScanFindEachServoOnce) {
+  plays("scan_at_once");
+}
 TEST_F(ForeignClient, IsAnsweredWhenARequestEndsLikeAHeaderBegins) {
   plays("last_byte_ff");
 }
@@ -34,6 +37,15 @@ TEST_F(ForeignClient, HearsOnlyServosOfItsPortsRate) {
 }
 TEST_F(ForeignClient, IsRefusedWhatNoServosBufferHolds) {
   plays("long_packets");
+}
+TEST_F(ForeignClient, FollowsEveryKindOfProfile) {
+  plays("profiles");
+}
+TEST_F(ForeignClient, DrivesAServoInEveryMode) {
+  plays("modes");
+}
+TEST_F(ForeignClient, FindsAServoAsItWasToldToStart) {
+  plays("startup");
 }
 
 }  // namespace

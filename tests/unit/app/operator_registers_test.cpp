@@ -137,6 +137,10 @@ TEST(OperatorReport, ShowsTheTick) {
   EXPECT_EQ(bench.value<std::uint8_t>(reg("mode")), 3);
   EXPECT_EQ(bench.value<std::int16_t>(reg("tilt_pitch")), -12);
   EXPECT_FALSE(bench.read(0, 1).alert) << "a note stops nothing";
+  bench.outputs.faults |= safety::kFaultOperatorQuiet;
+  bench.record();
+  EXPECT_FALSE(bench.read(0, 1).alert) << "nothing is wrong with the robot of a quiet operator";
+  EXPECT_EQ(bench.value<std::uint8_t>(reg("hardware_error")), 0);
   bench.outputs.faults |= safety::kFaultVoltage;
   bench.record();
   EXPECT_TRUE(bench.read(0, 1).alert);
