@@ -77,6 +77,11 @@ std::shared_ptr<urdf::ModelInterface> read_urdf(const XmlSource& source, const X
   auto urdf = urdf::parseURDFFile(robot.file());
   console_bridge::noOutputHandler();
   if (urdf) return urdf;
+  for (const XmlElement& joint : robot.children("joint")) {  // a link may have the same name
+    if (errors.all().find("joint [" + joint.text("name", "") + "]") == std::string::npos) continue;
+    joint.fail("this is no URDF of a robot: " + errors.cause(),
+               "correct it; wiki.ros.org/urdf/XML says what is needed");
+  }
   const auto place = source.blame(errors.all());
   const bool named = place.file == robot.file();
   throw LoadError(robot.file(), named ? place.line : robot.line(),
