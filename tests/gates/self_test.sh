@@ -136,12 +136,40 @@ test_format() {
   expect 'unformatted code' 'clang-format' "$here/format.sh" "$scratch"
 }
 
+# A new board, as boards/README.md has it: until its last step is done the gate names the next one.
+test_boards() {
+  local tree=$scratch/tree old=nucleo_f446re new=my_board gate=("$here/boards.sh" "$scratch/tree")
+  mkdir -p "$tree/host/flash" "$tree/tests/host/stm32_boards"
+  cp -r "$root/boards" "$root/CMakePresets.json" "$tree/"
+  cp "$root/host/flash/recipe.cpp" "$tree/host/flash/"
+  cp "$root/tests/host/stm32_boards/CMakeLists.txt" "$tree/tests/host/stm32_boards/"
+  expect 'the boards there are' '' "${gate[@]}"
+  cp -r "$tree/boards/$old" "$tree/boards/$new"
+  expect 'another name in board.hpp' "kName is not \"$new\"" "${gate[@]}"
+  sed -i "s/$old/$new/g" "$tree/boards/$new"/*
+  sed -i '/kBuzzer/d' "$tree/boards/$new/board.hpp"
+  expect 'a word of board.hpp' 'no kBuzzer' "${gate[@]}"
+  cp "$tree/boards/$old/board.hpp" "$tree/boards/$new/" && sed -i "s/$old/$new/" "$tree/boards/$new/board.hpp"
+  expect 'no presets' "fw-$new is not there three times" "${gate[@]}"
+  sed -i "s/^.*\"name\": \"fw-$old\".*/&\n&/" "$tree/CMakePresets.json"
+  awk -v old="fw-$old" -v new="fw-$new" '{ if (index($0, "\"name\": \"" old "\"") && ++n % 2) gsub(old, new); print }' \
+    "$tree/CMakePresets.json" >"$tree/p" && mv "$tree/p" "$tree/CMakePresets.json"
+  expect 'no recipe' "no row for $new" "${gate[@]}"
+  echo "// {\"$new\"}" >>"$tree/host/flash/recipe.cpp"
+  expect 'not on a model of its chip' "$new is not in its list" "${gate[@]}"
+  sed -i "s/foreach(board /&$new /" "$tree/tests/host/stm32_boards/CMakeLists.txt"
+  expect 'not in the table' "boards/README.md: no row for $new" "${gate[@]}"
+  sed -i "s/^| \`$old\/\` .*/&\n| \`$new\/\` | Cortex-M4F | mine |/" "$tree/boards/README.md"
+  expect 'every step done' '' "${gate[@]}"
+}
+
 compiler=${3:-g++} nm=${4:-nm} objdump=${5:-objdump}
 case $gate in
 layers) test_layers ;;
 symbols) test_symbols ;;
 format) test_format ;;
 golden) test_golden ;;
+boards) test_boards ;;
 seeds) test_seeds ;;
 *) echo "no gate '$gate'" && exit 2 ;;
 esac
