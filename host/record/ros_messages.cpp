@@ -226,4 +226,47 @@ std::string transforms(const Params& params, const Inputs& inputs, const BodyPos
   return out.take();
 }
 
+namespace {
+
+/// CDR read back, little-endian; a read beyond the end leaves zeros, and `good` says so.
+class CdrReader {
+ public:
+  explicit CdrReader(std::string_view data) : data_(data) {}
+  template <class Number>
+  Number get() {
+    while (at_ >= 4 && (at_ - 4) % sizeof(Number) != 0) ++at_;
+    Number value{};
+    good = good && at_ + sizeof(Number) <= data_.size();
+    if (good) std::memcpy(&value, data_.data() + at_, sizeof(Number));
+    at_ += sizeof(Number);
+    return value;
+  }
+  void skip_text() {
+    const auto length = get<std::uint32_t>();
+    good = good && length <= data_.size();
+    if (good) at_ += length;
+  }
+  bool good = true;
+
+ private:
+  std::string_view data_;
+  std::size_t at_ = 4;
+};
+
+}  // namespace
+
+std::optional<BodyPose> body_pose(std::string_view transforms) {
+  CdrReader in(transforms);
+  const bool any = in.get<std::uint32_t>() > 0;
+  in.get<std::int32_t>();
+  in.get<std::uint32_t>();
+  in.skip_text();
+  in.skip_text();
+  BodyPose pose;
+  for (double& value : pose.position_m) value = in.get<double>();
+  for (double& value : pose.orientation_xyzw) value = in.get<double>();
+  if (!in.good || !any) return std::nullopt;
+  return pose;
+}
+
 }  // namespace verp::record::ros

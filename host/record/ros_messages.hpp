@@ -47,6 +47,9 @@ std::string string(std::string_view text);
 /// What string() was given; nothing if that is none.
 std::optional<std::string> read_string(std::string_view message);
 
+/// The body's pose in what transforms() made. None: it is no such message.
+std::optional<BodyPose> body_pose(std::string_view transforms);
+
 /// Angle of a joint from its raw count.
 inline double joint_rad(const JointParams& joint, std::int32_t count) {
   if (joint.counts_per_rad == 0.0f) return 0;

@@ -8,6 +8,7 @@
 #include "common/model/params.hpp"
 #include "common/record/tick_record.hpp"
 #include "host/record/mcap_format.hpp"
+#include "host/record/ros_messages.hpp"
 #include "host/record/trace_error.hpp"
 
 namespace verp::record {
@@ -38,6 +39,12 @@ struct Change {
   std::string what;
 };
 
+/// Where the body was at the tick at `index`, as a twin knew.
+struct BodyAt {
+  std::size_t index = 0;
+  ros::BodyPose pose;
+};
+
 /// One run of the controller: everything replay needs, in memory.
 struct Trace {
   std::filesystem::path file;
@@ -46,7 +53,8 @@ struct Trace {
   std::vector<TickRecord> ticks;
   std::vector<Keyframe> keyframes;  ///< empty when the writer's State had another layout
   std::vector<Change> changes;
-  std::string warning;  ///< read with Read::kRecover: what is missing; else empty
+  std::vector<BodyAt> bodies;  ///< of some ticks; empty: no twin was there
+  std::string warning;         ///< read with Read::kRecover: what is missing; else empty
 
   /// The 64-bit value that names the whole run; the chain's seed when there are no ticks.
   std::uint64_t digest() const {

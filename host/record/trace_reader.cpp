@@ -52,11 +52,13 @@ class Loader {
     load_params();
     std::uint16_t tick_id = 0, state_id = 0;
     const bool keyframes = find_channels(tick_id, state_id);
-    std::uint16_t changed_id = 0;
+    std::uint16_t changed_id = 0, tf_id = 0;
     const bool changed = file_.find_channel(kChangedTopic, changed_id) != nullptr;
+    const bool bodies = file_.find_channel("/tf", tf_id) != nullptr;
     for (const mcap::Message& message : file_.messages) {
       if (message.channel == tick_id) add_tick(message);
       if (changed && message.channel == changed_id) add_change(message);
+      if (bodies && message.channel == tf_id) add_body(message);
       if (keyframes && message.channel == state_id) add_keyframe(message);
     }
     return std::move(trace_);
@@ -159,6 +161,12 @@ class Loader {
       refuse(message.offset, "a change that belongs to no tick", "record the run again");
     }
     trace_.changes.push_back({trace_.ticks.back().inputs.tick, *what});
+  }
+
+  /// Replay never reads them: what is no pose is nothing.
+  void add_body(const mcap::Message& message) {
+    const std::optional<ros::BodyPose> pose = ros::body_pose(message.data);
+    if (pose && !trace_.ticks.empty()) trace_.bodies.push_back({trace_.ticks.size() - 1, *pose});
   }
 
   const fs::path& path_;

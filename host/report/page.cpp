@@ -122,6 +122,7 @@ std::string page(const Run& run, const std::vector<Picture>& pictures, const std
       escape(run.verdict));
   out += facts(run);
   if (!note.empty()) out += fmt::format("<section><p>{}</p></section>\n", escape(note));
+  out += run.replay_html;
   out += sweep_table(run);
   for (const Picture& picture : pictures) {
     out += fmt::format("<section id=\"{}\"><h2>{}</h2><p class=\"quiet\">{}</p>\n{}</section>\n",

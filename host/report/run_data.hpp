@@ -94,8 +94,9 @@ struct Run {
   std::vector<SweepRow> sweep;
   std::vector<std::pair<std::string, std::string>> changed;  ///< what is not as by default
   std::vector<std::pair<std::string, std::string>>
-      provenance;          ///< revision, compiler, command, digest
-  std::string trace_file;  ///< name inside the folder; empty: none
+      provenance;           ///< revision, compiler, command, digest
+  std::string replay_html;  ///< a section that shows the run in three dimensions; empty: none
+  std::string trace_file;   ///< name inside the folder; empty: none
 };
 
 }  // namespace verp::report

@@ -35,14 +35,10 @@ Shape shape_of(model::Collision::Shape shape) {
   return kShapes[static_cast<int>(shape)];
 }
 
-bool can_be_drawn(const model::Visual& visual) {
-  return visual.shape != model::Visual::Shape::kMesh || !visual.mesh.empty();
-}
-
 class RobotBuilder {
  public:
-  RobotBuilder(Scene& scene, const Entity& entity)
-      : scene_(scene), e_(entity), robot_(static_cast<int>(scene.robots.size())) {}
+  RobotBuilder(Scene& scene, const Entity& entity, Meshes meshes)
+      : scene_(scene), e_(entity), meshes_(meshes), robot_(static_cast<int>(scene.robots.size())) {}
 
   int build() {
     for (int node = 0; node < static_cast<int>(e_.nodes.size()); ++node) add_link(node);
@@ -55,6 +51,11 @@ class RobotBuilder {
   }
 
  private:
+  bool can_be_drawn(const model::Visual& visual) const {
+    if (visual.shape != model::Visual::Shape::kMesh) return true;
+    return meshes_ == Meshes::kFromFiles && !visual.mesh.empty();
+  }
+
   Item& add(int node, const std::string& name, Shape shape, const Vec3& size_m,
             const Transform& pose) {
     Item& item = scene_.items.emplace_back();
@@ -168,6 +169,7 @@ class RobotBuilder {
 
   Scene& scene_;
   const Entity& e_;
+  const Meshes meshes_;
   const int robot_;
 };
 
@@ -185,8 +187,8 @@ Scene studio() {
   return scene;
 }
 
-int add_robot(Scene& scene, const Entity& entity) {
-  return RobotBuilder(scene, entity).build();
+int add_robot(Scene& scene, const Entity& entity, Meshes meshes) {
+  return RobotBuilder(scene, entity, meshes).build();
 }
 
 RobotView posed(const Entity& entity, const Transform& body_world,

@@ -7,9 +7,11 @@ namespace verp::scene {
 /// An empty studio: floor, sky, three lights.
 Scene studio();
 
+enum class Meshes { kFromFiles, kNone };
+
 /// One more robot: its visuals; a link without any that can be drawn shows its collision shapes.
 /// Its cameras become the scene's. Returns its index.
-int add_robot(Scene& scene, const Entity& entity);
+int add_robot(Scene& scene, const Entity& entity, Meshes meshes = Meshes::kFromFiles);
 
 /// A robot on its feet in its own stance at start_m, as the twin begins.
 RobotView standing(const Entity& entity, const Vec3& start_m = Vec3::Zero(), double yaw_rad = 0);

@@ -1,12 +1,16 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <memory>
 
 #include "host/record/replay.hpp"
+#include "host/report/files.hpp"
 #include "host/tool/command.hpp"
 #include "host/tool/console.hpp"
+#include "host/tool/exit_status.hpp"
 #include "host/tool/json.hpp"
+#include "host/web/replay_page.hpp"
 
 namespace verp::tool {
 namespace {
@@ -36,11 +40,27 @@ record::Trace load(const std::string& file, bool recover) {
 }
 
 struct ReplayOptions {
-  std::string file;
+  std::string file, page;
   bool json = false, recover = false;
 };
 
+int make_page(const ReplayOptions& options) {
+  const web::Replay replay = web::replay_of(options.file);
+  if (replay.html.empty()) throw ToolError(kNoDevice, "verp replay --page: " + replay.note);
+  if (!replay.note.empty()) complain(replay.note);
+  report::write_file(
+      options.page,
+      web::page_of(std::filesystem::path(options.file).filename().string(), replay.html));
+  if (options.json) {
+    print_json({{"trace", options.file}, {"page", options.page}});
+  } else {
+    answer(options.page + "\n");
+  }
+  return kGood;
+}
+
 int run_replay(const ReplayOptions& options) {
+  if (!options.page.empty()) return make_page(options);
   const record::Trace trace = load(options.file, options.recover);
   const record::ReplayResult result = record::replay(trace);
   const bool equal = !result.divergence;
@@ -105,6 +125,8 @@ Subcommand add_replay(CLI::App& root) {
   auto options = std::make_shared<ReplayOptions>();
   app->add_option("TRACE", options->file, "an .mcap file written by verp")->required();
   app->add_flag("--recover", options->recover, "take what stands before a truncation or damage");
+  app->add_option("--page", options->page,
+                  "write a page that shows the run in 3D instead, for any browser (.html)");
   add_json_flag(*app, options->json);
   return {app, [options] { return run_replay(*options); }};
 }

@@ -14,6 +14,7 @@
 #include "host/report/report.hpp"
 #include "host/tool/console.hpp"
 #include "host/tool/exit_status.hpp"
+#include "host/web/replay_page.hpp"
 
 namespace verp::tool {
 namespace {
@@ -125,7 +126,18 @@ void WalkFiles::lose_trace(const std::string& why) {
   trace_path_.clear();
 }
 
+void WalkFiles::add_replay(report::Run& run) {
+  if (trace_path_.empty()) return;
+  try {
+    web::Replay replay = web::replay_of(trace_path_);
+    run.replay_html = std::move(replay.html);
+    if (!replay.note.empty()) complain(replay.note);
+  } catch (const record::TraceError&) {  // a walk without a single tick
+  }
+}
+
 void WalkFiles::write_report(report::Run run) {
+  add_replay(run);
   std::error_code ignored;
   if (!trace_path_.empty() && trace_is_in_folder()) {
     run.trace_file = trace_path_.filename().string();

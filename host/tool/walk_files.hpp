@@ -42,6 +42,7 @@ class WalkFiles {
                   const record::mcap::StringMap& more);
   void close_trace(const WalkResult& result);
   void lose_trace(const std::string& why);
+  void add_replay(report::Run& run);
   void write_report(report::Run run);
   bool trace_is_in_folder() const;
 

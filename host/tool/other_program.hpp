@@ -1,0 +1,11 @@
+#pragma once
+#include "host/tool/command.hpp"
+
+namespace verp::tool {
+
+/// Words of `verp` that a program of its own answers, so that this one needs none of its libraries:
+/// shot and video are host/pictures.
+Subcommand add_shot(CLI::App& root);
+Subcommand add_video(CLI::App& root);
+
+}  // namespace verp::tool

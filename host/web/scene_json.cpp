@@ -1,0 +1,152 @@
+#include "host/web/scene_json.hpp"
+
+#include <cstring>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+namespace verp::web {
+namespace {
+
+using Json = nlohmann::json;
+using scene::Vec2;
+using scene::Vec3;
+
+std::string base64(const std::vector<float>& values) {
+  constexpr const char* kDigits =
+      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string bytes(values.size() * sizeof(float), '\0');
+  std::memcpy(bytes.data(), values.data(), bytes.size());
+  std::string out;
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    std::uint32_t word = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      word = word << 8 | (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0u);
+    }
+    for (std::size_t k = 0; k < 4; ++k) {
+      out += i + k <= bytes.size() ? kDigits[word >> (18 - 6 * k) & 63] : '=';
+    }
+  }
+  return out;
+}
+
+Json numbers(const Vec3& v) {
+  return {v.x(), v.y(), v.z()};
+}
+
+Json pose_json(const scene::Transform& pose) {
+  const Eigen::Quaterniond q(pose.linear());
+  const Vec3 at = pose.translation();
+  return {at.x(), at.y(), at.z(), q.x(), q.y(), q.z(), q.w()};
+}
+
+Json item_json(const scene::Item& item) {
+  constexpr const char* kNames[] = {"box", "sphere", "capsule", "cylinder", "plane", "", ""};
+  const scene::Material& m = item.material;
+  return {{"node", item.robot == scene::kWorld ? -1 : item.node},
+          {"shape", kNames[static_cast<int>(item.shape)]},
+          {"size", numbers(item.size_m)},
+          {"round", item.round_m},
+          {"pose", pose_json(item.pose)},
+          {"rgba", {m.colour.r, m.colour.g, m.colour.b, m.colour.a}},
+          {"glow", {m.glow.r, m.glow.g, m.glow.b}},
+          {"rough", m.roughness},
+          {"metal", m.metallic}};
+}
+
+/// One frame: what viewer.js calls its columns.
+class Row {
+ public:
+  explicit Row(std::vector<float>& out) : out_(out) {}
+  void add(double value) { out_.push_back(static_cast<float>(value)); }
+  void add(const Vec3& v) {
+    for (const double value : v) add(value);
+  }
+  /// What is not known is NaN.
+  template <class Vector>
+  void add(const std::optional<Vector>& v) {
+    constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+    for (int i = 0; i < Vector::SizeAtCompileTime; ++i) add(v ? (*v)[i] : kNone);
+  }
+
+ private:
+  std::vector<float>& out_;
+};
+
+void add_frame(std::vector<float>& out, const scene::Snapshot& now, std::size_t joints) {
+  Row row(out);
+  const scene::RobotView& robot = now.robots.front();
+  row.add(now.t_s);
+  const scene::Transform& body = robot.link_world.front();
+  row.add(Vec3(body.translation()));
+  for (const double value : Eigen::Quaterniond(body.linear()).coeffs()) row.add(value);
+  row.add(robot.phase);
+  row.add(robot.gait_state);
+  row.add(robot.com_world_m);
+  row.add(robot.zmp_world_m);
+  row.add(robot.zmp_planned_world_m);
+  for (std::size_t side = 0; side < 2; ++side) {
+    const bool has = side < robot.contacts.size();
+    row.add(has ? robot.contacts[side].position_world_m : Vec3(Vec3::Zero()));
+    row.add(has ? robot.contacts[side].force_world_n.z() : 0);
+  }
+  for (std::size_t j = 0; j < joints; ++j) row.add(robot.joint_rad[j]);
+}
+
+Json footstep_json(const std::vector<scene::Snapshot>& frames) {
+  Json all = Json::array();
+  for (const scene::Snapshot& now : frames) {
+    Json steps = Json::array();
+    for (const scene::Footstep& step : now.robots.front().footsteps) {
+      const auto mm = [](double m) { return std::round(m * 1e4) / 1e4; };
+      steps.push_back(
+          {step.side, mm(step.at_world_m.x()), mm(step.at_world_m.y()), mm(step.yaw_rad)});
+    }
+    all.push_back(std::move(steps));
+  }
+  return all;
+}
+
+Json soles_json(const model::Entity& entity) {
+  Json soles = Json::array();
+  for (const char* name : {"left_leg", "right_leg"}) {
+    for (const model::Limb& limb : entity.limbs) {
+      if (limb.name != name) continue;
+      soles.push_back(
+          {limb.sole_min_m.x(), limb.sole_min_m.y(), limb.sole_max_m.x(), limb.sole_max_m.y()});
+    }
+  }
+  return soles;
+}
+
+}  // namespace
+
+std::string scene_json(const scene::Scene& scene, const std::vector<scene::Snapshot>& frames) {
+  const scene::Robot& robot = scene.robots.front();
+  const model::Entity& entity = *robot.entity;
+  double mass_kg = 0;
+  for (const model::Node& node : entity.nodes) mass_kg += node.mass_kg;
+  Json json = {{"name", robot.name},
+               {"height", robot.height_m},
+               {"weight", 9.81 * mass_kg},
+               {"soles", soles_json(entity)},
+               {"footsteps", footstep_json(frames)},
+               {"joints", Json::array()},
+               {"items", Json::array()}};
+  for (const model::Joint& joint : entity.joints) {
+    json["joints"].push_back({{"name", joint.name},
+                              {"parent", joint.parent},
+                              {"at", numbers(joint.origin_m)},
+                              {"axis", numbers(joint.axis)}});
+  }
+  for (const scene::Item& item : scene.items) {
+    if (!item.collision && item.shape < scene::Shape::kMesh)
+      json["items"].push_back(item_json(item));
+  }
+  std::vector<float> values;
+  for (const scene::Snapshot& now : frames) add_frame(values, now, entity.joints.size());
+  json["frames"] = base64(values);
+  json["count"] = frames.size();
+  return json.dump(-1, ' ', true, Json::error_handler_t::replace);
+}
+
+}  // namespace verp::web

@@ -1,0 +1,7 @@
+#pragma once
+
+namespace verp::web {
+
+extern const char* const kViewerScript;  ///< viewer.js
+
+}  // namespace verp::web

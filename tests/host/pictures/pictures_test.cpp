@@ -1,0 +1,203 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "host/model/find.hpp"
+#include "host/model/load.hpp"
+#include "host/render/files.hpp"
+#include "host/render/offscreen_context.hpp"
+#include "host/render/renderer.hpp"
+#include "host/scene/build.hpp"
+#include "tests/host/tool/program.hpp"
+
+// Pictures show what there is, each effect changes what it should, and bad input costs one line.
+
+namespace verp::render {
+namespace {
+
+using scene::Vec3;
+
+/// A ball of 0.1 m in front of a wall, seen along x from the origin.
+struct Bench {
+  OffscreenContext context;
+  Renderer renderer;
+  scene::Scene scene = scene::studio();
+  scene::Snapshot now;
+  scene::Camera camera;
+  Size size{160, 120};
+
+  Bench() {
+    scene::Item ball;
+    ball.name = "ball";
+    ball.node = scene::kWorld;
+    ball.shape = scene::Shape::kSphere;
+    ball.size_m = {0.1, 0, 0};
+    ball.pose.translation() = Vec3(1, 0, 0.3);
+    ball.material.colour = {0.8F, 0.1F, 0.1F, 1};
+    scene::Item wall = ball;
+    wall.name = "wall";
+    wall.shape = scene::Shape::kBox;
+    wall.size_m = {0.1, 4, 4};
+    wall.pose.translation() = Vec3(3.05, 0, 0.3);
+    wall.material.colour = {0.5F, 0.5F, 0.5F, 1};
+    scene.items = {ball, wall};
+    camera.eye_m = Vec3(0, 0, 0.3);
+    camera.target_m = Vec3(1, 0, 0.3);
+    renderer.set_scene(scene);
+  }
+  Image image(const Effects& effects = {}) { return renderer.image(now, camera, size, effects); }
+  std::size_t middle() const {
+    return static_cast<std::size_t>(size.height / 2 * size.width + size.width / 2);
+  }
+};
+
+/// Mean difference of two pictures, in steps of 255.
+double apart(const Image& a, const Image& b) {
+  double sum = 0;
+  for (std::size_t i = 0; i < a.rgb.size(); ++i) sum += std::abs(a.rgb[i] - b.rgb[i]);
+  return sum / static_cast<double>(a.rgb.size());
+}
+
+TEST(Renderer, DepthAndLabelsAreThoseOfTheSceneToTheMillimetre) {
+  Bench bench;
+  const Measured seen = bench.renderer.measure(bench.now, bench.camera, bench.size);
+  const std::size_t corner = static_cast<std::size_t>(10 * bench.size.width + 10);
+  EXPECT_NEAR(seen.depth_m[bench.middle()], 0.9, 1e-3);
+  EXPECT_NEAR(seen.depth_m[corner], 3.0, 1e-3);
+  EXPECT_EQ(scene::label_name(bench.scene, seen.label[bench.middle()]), "ball");
+  EXPECT_EQ(scene::label_name(bench.scene, seen.label[corner]), "wall");
+  const Renderer::Hit hit = bench.renderer.pick(bench.now, bench.camera, bench.size, 80, 60);
+  EXPECT_EQ(hit.item, 0);
+  EXPECT_NEAR(hit.point_world_m.x(), 0.9, 2e-3);
+}
+
+TEST(Renderer, TwoPicturesOfOneInstantAreTheSameBytes) {
+  Bench bench;
+  EXPECT_EQ(bench.image().rgb, bench.image().rgb);
+}
+
+TEST(Renderer, EachEffectChangesThePictureAsMeant) {
+  Bench bench;
+  const Image all = bench.image();
+  const auto without = [&](auto change) {
+    Effects effects;
+    change(effects);
+    return apart(all, bench.image(effects));
+  };
+  EXPECT_GT(without([](Effects& e) { e.shadows = false; }), 0.05);
+  EXPECT_GT(without([](Effects& e) { e.antialias = false; }), 0.01);
+  EXPECT_GT(without([](Effects& e) { e.ground = false; }), 1.0);
+  EXPECT_GT(without([](Effects& e) { e.ground_grid = false; }), 0.02);
+  EXPECT_GT(without([](Effects& e) { e.visuals = false; }), 5.0);
+  bench.scene.fog = {true, {1, 1, 1, 1}, 0.5, 3};
+  bench.renderer.set_looks(bench.scene);
+  const Image fog = bench.image();
+  EXPECT_GT(apart(all, fog), 3.0);
+  Effects clear;
+  clear.fog = false;
+  EXPECT_EQ(apart(all, bench.image(clear)), 0);
+  bench.scene.fog.on = false;
+  bench.scene.items[0].material.colour.a = 0.4F;
+  bench.renderer.set_looks(bench.scene);
+  const Image glass = bench.image();
+  EXPECT_GT(glass.rgb[3 * bench.middle() + 1],
+            all.rgb[3 * bench.middle() + 1] + 20);  // grey wall behind
+  Effects solid;
+  solid.transparency = false;
+  EXPECT_LT(apart(all, bench.image(solid)), 0.5);  // but it casts no shadow
+}
+
+TEST(Renderer, NumbersThatAreNotFiniteAndFilesThatAreNoMeshesAreLeftOut) {
+  Bench bench;
+  scene::Item bad = bench.scene.items[0];
+  bad.shape = scene::Shape::kMesh;
+  bad.size_m = {1, 1, 1};
+  bad.mesh_file = VERP_PROGRAM;
+  bench.scene.items.push_back(bad);
+  bad.mesh_file = "/nowhere/a.stl";
+  bench.scene.items.push_back(bad);
+  bench.scene.items[0].pose.translation().x() = std::nan("");
+  bench.renderer.set_scene(bench.scene);
+  ASSERT_EQ(bench.renderer.notes().size(), 2u);
+  EXPECT_NE(bench.renderer.notes()[0].find("not a mesh"), std::string::npos)
+      << bench.renderer.notes()[0];
+  EXPECT_NE(bench.renderer.notes()[1].find("no such file"), std::string::npos);
+  EXPECT_NEAR(bench.renderer.measure(bench.now, bench.camera, bench.size).depth_m[bench.middle()],
+              3.0, 1e-3);
+  EXPECT_THROW(bench.renderer.image(bench.now, bench.camera, {100000, 10}), RenderError);
+}
+
+}  // namespace
+}  // namespace verp::render
+
+namespace verp::tool::test {
+namespace {
+
+class Pictures : public Program {
+ protected:
+  /// Mean difference from a picture that somebody has looked at.
+  double from_golden(const std::string& name) const {
+    const render::Image now = render::read_png((folder_ / name).string());
+    const render::Image then = render::read_png(std::string(VERP_GOLDEN) + "/" + name);
+    EXPECT_EQ(now.rgb.size(), then.rgb.size());
+    return now.rgb.size() == then.rgb.size() ? render::apart(now, then) : 255;
+  }
+};
+
+// Drivers differ in the edges of shapes and shadows; a missing leg is 3 and more.
+constexpr double kDriver = 1.5;
+
+TEST_F(Pictures, AStandingRobotAndItsEyeAreAsSomebodyLookedAtThem) {
+  ASSERT_EQ(verp("shot generic21 -o stands.png --size 320x240").status, 0);
+  EXPECT_LT(from_golden("stands.png"), kDriver);
+  ASSERT_EQ(verp("shot generic21 -o back.png --camera back --size 320x240").status, 0);
+  EXPECT_GT(render::apart(render::read_png((folder_ / "back.png").string()),
+                          render::read_png((folder_ / "stands.png").string())),
+            2.0);
+  ASSERT_EQ(verp("shot generic21 -o depth.png --depth --size 160x120").status, 0);
+  const Outcome parts = verp("shot generic21 -o parts.png --segmentation --size 320x240 --json");
+  ASSERT_EQ(parts.status, 0) << parts.err;
+  const auto labels = nlohmann::json::parse(parts.out).at("labels");
+  EXPECT_GT(labels.size(), 15u);
+  EXPECT_TRUE(std::any_of(labels.begin(), labels.end(), [](const auto& label) {
+    return label.at("name") == "generic21/trunk" && label.at("pixels") > 1000;
+  })) << labels;
+}
+
+TEST_F(Pictures, OfAWalkAndOfItsTraceShowTheSameInstantAndTheWalkKeepsItsBits) {
+  const Outcome walk = verp("walk generic21 --for 3 --record a.mcap --json");
+  ASSERT_EQ(walk.status, 0) << walk.err;
+  ASSERT_EQ(verp("shot a.mcap --at 4 -o trace.png --size 320x240").status, 0);
+  ASSERT_EQ(verp("shot generic21 --for 3 --at 4 -o twin.png --size 320x240").status, 0);
+  EXPECT_LT(render::apart(render::read_png((folder_ / "trace.png").string()),
+                          render::read_png((folder_ / "twin.png").string())),
+            1.0);
+  ASSERT_EQ(verp("video a.mcap -o a.gif --from 3 --to 3.4 --fps 10 --size 64x64").status, 0);
+  EXPECT_EQ(slurp(folder_ / "a.gif").substr(0, 6), "GIF89a");
+}
+
+TEST_F(Pictures, WrongWordsAndMissingThingsCostOneLineEach) {
+  expect_refused("shot generic21 -o a.png --camera moon", "three-quarter, front");
+  expect_refused("shot generic21 -o a.png --size 5x", "--size 5x");
+  expect_refused("shot generic21 -o a.jpg", ".png");
+  expect_refused("shot generic21 -o none/a.png", "no folder");
+  expect_refused("shot nobody -o a.png", "nobody");
+  expect_refused("shot none.mcap -o a.png", "no such file");
+  expect_refused("shot generic21", "-o");
+  expect_refused("video generic21 -o a.avi", ".mp4");
+  const Outcome no_driver = shell(
+      "EGL_PLATFORM=none LIBGL_DRIVERS_PATH=/nowhere __EGL_VENDOR_LIBRARY_FILENAMES=/dev/null " +
+      std::string(VERP_PROGRAM) + " shot generic21 -o a.png");
+  EXPECT_EQ(no_driver.status, 3) << no_driver.err;
+  EXPECT_EQ(std::count(no_driver.err.begin(), no_driver.err.end(), '\n'), 1) << no_driver.err;
+  EXPECT_NE(no_driver.err.find("GL driver"), std::string::npos) << no_driver.err;
+  const Outcome no_ffmpeg =
+      shell("PATH=/nowhere " + std::string(VERP_PROGRAM) + " video generic21 -o a.mp4");
+  EXPECT_EQ(no_ffmpeg.status, 3);
+  EXPECT_NE(no_ffmpeg.err.find("apt-get install ffmpeg"), std::string::npos) << no_ffmpeg.err;
+  EXPECT_FALSE(fs::exists(folder_ / "a.mp4.part"));
+}
+
+}  // namespace
+}  // namespace verp::tool::test

@@ -1,0 +1,102 @@
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "host/scene/build.hpp"
+#include "host/scene/camera.hpp"
+#include "tests/host/session/plans.hpp"
+
+// A scene has what a robot's file shows of it, and cameras find it in the picture.
+
+namespace verp::scene {
+namespace {
+
+Entity generic21() {
+  return model::load_robot(model::find_model("generic21"));
+}
+
+std::size_t drawn_on(const Scene& scene, int node) {
+  std::size_t count = 0;
+  for (const Item& item : scene.items) count += item.node == node && !item.collision;
+  return count;
+}
+
+TEST(Scene, EachLinkOfARobotIsDrawnAndHasALabelOfItsOwn) {
+  const Entity entity = generic21();
+  Scene scene = studio();
+  EXPECT_EQ(add_robot(scene, entity), 0);
+  EXPECT_EQ(add_robot(scene, entity), 1);
+  std::set<std::string> names;
+  for (std::size_t n = 0; n < entity.nodes.size(); ++n) {
+    EXPECT_FALSE(entity.nodes[n].visuals.empty()) << entity.nodes[n].name;
+    EXPECT_GE(drawn_on(scene, static_cast<int>(n)), 2u) << entity.nodes[n].name;
+  }
+  for (const Item& item : scene.items) names.insert(label_name(scene, label_of(scene, item)));
+  EXPECT_EQ(names.size(), entity.nodes.size());  // two robots of one name share theirs
+  EXPECT_EQ(label_of(scene, scene.items.back()), static_cast<int>(2 * entity.nodes.size()) -
+                                                     static_cast<int>(entity.nodes.size()) + 1 +
+                                                     scene.items.back().node);
+}
+
+TEST(Scene, ALinkWithoutLooksShowsItsCollisionShapesOrItsInertia) {
+  Entity entity = generic21();
+  entity.nodes[3].visuals.clear();
+  entity.nodes[4].visuals.clear();
+  entity.nodes[4].collisions.clear();
+  model::Visual gone;
+  gone.shape = model::Visual::Shape::kMesh;  // its file is not there
+  entity.nodes[5].visuals = {gone};
+  Scene scene = studio();
+  add_robot(scene, entity);
+  for (const int node : {3, 4, 5}) EXPECT_GE(drawn_on(scene, node), 1u) << node;
+  for (const Item& item : scene.items) {
+    EXPECT_TRUE(item.size_m.allFinite() && item.pose.matrix().allFinite()) << item.name;
+    EXPECT_NE(item.shape, Shape::kMesh);
+  }
+}
+
+TEST(Scene, AnUntouchedThirdPartyRobotKeepsItsMaterialsAndTheMeshesThatAreThere) {
+  if (model::resolve_model_uri("model://op3/op3.urdf", "").empty()) {
+    GTEST_SKIP() << "no third-party robots in " << model::model_path_text();
+  }
+  const Entity entity = model::load_robot(model::find_model("op3"));
+  std::size_t meshes = 0, missing = 0, coloured = 0;
+  for (const model::Node& node : entity.nodes) {
+    for (const model::Visual& visual : node.visuals) {
+      if (visual.shape != model::Visual::Shape::kMesh) continue;
+      (visual.mesh.empty() ? missing : meshes) += 1;
+      coloured += visual.rgba.has_value();
+      EXPECT_FALSE(visual.mesh_uri.empty());
+    }
+  }
+  EXPECT_GT(meshes, 0u);   // the feet's
+  EXPECT_GT(missing, 0u);  // all others
+  EXPECT_EQ(coloured, meshes + missing);
+}
+
+TEST(Camera, EachViewLooksAtTheRobotAndItsOwnCameraLooksAhead) {
+  const Entity entity = generic21();
+  Scene scene = studio();
+  add_robot(scene, entity);
+  Snapshot now;
+  now.robots.push_back(standing(entity, Vec3(3, -2, 0), 1.1));
+  for (const std::string& name : view_names(scene)) {
+    const auto camera = view(name, scene, now, 0, 1.5);
+    ASSERT_TRUE(camera) << name;
+    const Vec3 body = now.robots[0].link_world[0].translation();
+    if (name == "head" || name == "camera") {
+      EXPECT_GT((camera->target_m - camera->eye_m)
+                    .normalized()
+                    .dot(Vec3(std::cos(1.1), std::sin(1.1), 0)),
+                0.9);
+      EXPECT_LT((camera->eye_m - body).norm(), 0.4);
+    } else {
+      EXPECT_LT((camera->target_m - body).norm(), 0.2) << name;
+      EXPECT_GT((camera->eye_m - body).norm(), 0.5) << name;
+    }
+  }
+  EXPECT_FALSE(view("nobody", scene, now, 0, 1.5));
+}
+
+}  // namespace
+}  // namespace verp::scene
