@@ -78,7 +78,8 @@ std::shared_ptr<urdf::ModelInterface> read_urdf(const XmlSource& source, const X
   console_bridge::noOutputHandler();
   if (urdf) return urdf;
   for (const XmlElement& joint : robot.children("joint")) {  // a link may have the same name
-    if (errors.all().find("joint [" + joint.text("name", "") + "]") == std::string::npos) continue;
+    const std::string own = "oint [" + joint.text("name", "") + "]";
+    if (errors.all().find(own) == std::string::npos) continue;
     joint.fail("this is no URDF of a robot: " + errors.cause(),
                "correct it; wiki.ros.org/urdf/XML says what is needed");
   }
