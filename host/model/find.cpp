@@ -12,8 +12,25 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// The folders of a variable such as PATH.
+std::vector<std::string> folders_in(const char* variable) {
+  std::vector<std::string> folders;
+  std::string rest = variable == nullptr ? "" : variable;
+  while (!rest.empty()) {
+    const auto colon = std::min(rest.find(':'), rest.size());
+    if (colon > 0) folders.push_back(rest.substr(0, colon));
+    rest.erase(0, std::min(colon + 1, rest.size()));
+  }
+  return folders;
+}
+
+/// A robot of the project is not replaced by what happens to stand in the working folder.
 std::vector<fs::path> robot_folders() {
-  return {fs::path("common/robots"), files::source_dir() / "common/robots"};
+  std::vector<fs::path> folders;
+  for (const std::string& each : folders_in(std::getenv("VERP_ROBOT_PATH")))
+    folders.push_back(each);
+  folders.insert(folders.end(), {"common/robots", files::source_dir() / "common/robots", "."});
+  return folders;
 }
 
 bool is_file(const fs::path& path) {
@@ -68,14 +85,7 @@ std::vector<std::string> model_path() {
   if (!variable || !*variable) {
     return {(files::source_dir() / "../shared/models").lexically_normal().string()};
   }
-  std::vector<std::string> folders;
-  std::string rest = variable;
-  while (!rest.empty()) {
-    const auto colon = std::min(rest.find(':'), rest.size());
-    if (colon > 0) folders.push_back(rest.substr(0, colon));
-    rest.erase(0, colon + 1);
-  }
-  return folders;
+  return folders_in(variable);
 }
 
 std::string model_path_text() {

@@ -5,11 +5,12 @@
 namespace verp::model {
 
 /// The SDF file of a robot given as a path to one, or as a name NAME that stands for
-/// common/robots/NAME/robot.sdf, below the current folder or below the source tree this program was
-/// built from. Throws LoadError with the names that exist.
+/// NAME/robot.sdf in a folder of VERP_ROBOT_PATH (separated by ':'), in common/robots below the
+/// current folder or below the source tree this program was built from, or in the current folder.
+/// Throws LoadError with the names that exist.
 std::string find_model(const std::string& name_or_path);
 
-/// Names of the robots in common/robots, sorted.
+/// Names of the robots in those places, sorted.
 std::vector<std::string> model_names();
 
 /// Folders searched for model:// addresses: VERP_MODEL_PATH (separated by ':'), by default the

@@ -40,8 +40,6 @@ int32 sec
 uint32 nanosec
 )";
 
-const std::string_view kStringSchema = "string data\n";
-
 const std::string_view kImuSchema = R"(std_msgs/Header header
 geometry_msgs/Quaternion orientation
 float64[9] orientation_covariance
@@ -101,6 +99,8 @@ float64 z
 float64 w
 )";
 
+const std::string_view kStringSchema = "string data\n";
+
 namespace {
 
 /// CDR, little-endian: every number stands at a multiple of its size after the 4-byte encapsulation
@@ -153,16 +153,18 @@ std::array<double, 3> rotated(const float (&matrix)[9], const std::int16_t (&cou
 
 }  // namespace
 
-std::string joint_state(const Params& params, const Inputs& inputs, std::uint64_t time_ns) {
+std::string joint_state(const Params& params, const std::int32_t (&position_count)[kMaxJoints],
+                        std::span<const double> velocity_rad_s, std::uint64_t time_ns) {
   Cdr out;
   const std::uint32_t count = params.joint_count;
   out.header(time_ns, "").put(count);
   for (std::uint32_t j = 0; j < count; ++j) out.text(name_of(params.joint[j]));
   out.put(count);
   for (std::uint32_t j = 0; j < count; ++j) {
-    out.put(joint_rad(params.joint[j], inputs.position_count[j]));
+    out.put(joint_rad(params.joint[j], position_count[j]));
   }
-  out.put(std::uint32_t{0}).put(std::uint32_t{0});  // velocity and effort are not measured
+  out.put(static_cast<std::uint32_t>(velocity_rad_s.size())).doubles(velocity_rad_s);
+  out.put(std::uint32_t{0});
   return out.take();
 }
 

@@ -2,6 +2,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -15,8 +16,9 @@ namespace verp::record::ros {
 
 /// Message definitions with their dependencies, as MCAP's "ros2msg" schema encoding wants them.
 extern const std::string_view kJointStateSchema;  ///< sensor_msgs/msg/JointState
-extern const std::string_view kImuSchema;         ///< sensor_msgs/msg/Imu
 extern const std::string_view kStringSchema;      ///< std_msgs/msg/String
+extern const std::string_view kControlSchema;     ///< JSON schema
+extern const std::string_view kImuSchema;         ///< sensor_msgs/msg/Imu
 extern const std::string_view kTfSchema;          ///< tf2_msgs/msg/TFMessage
 
 /// Position and orientation (x, y, z, w) of the body in the world.
@@ -34,8 +36,12 @@ struct LaserScan {
 extern const std::string_view kLaserScanSchema;  ///< sensor_msgs/msg/LaserScan
 std::string laser_scan(const LaserScan& scan, std::uint64_t time_ns);
 
-/// Measured joint angles.
-std::string joint_state(const Params& params, const Inputs& inputs, std::uint64_t time_ns);
+/// Joint angles as JointState: of position counts, with velocities in rad/s if there are any. What
+/// a servo does not tell, effort, is left out.
+std::string joint_state(const Params& params, const std::int32_t (&position_count)[kMaxJoints],
+                        std::span<const double> velocity_rad_s, std::uint64_t time_ns);
+/// One tick of the controller as JSON, by kControlSchema.
+std::string control(const Params& params, const Inputs& inputs, const Outputs& outputs);
 /// Gyro and accelerometer, rotated into the body frame; orientation is declared unknown.
 std::string imu(const Params& params, const Inputs& inputs, std::uint64_t time_ns);
 /// world -> body, then one transform per joint: parent link to the link it moves, at the measured

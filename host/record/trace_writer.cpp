@@ -2,6 +2,7 @@
 
 #include "host/record/fields.hpp"
 #include "host/record/trace_error.hpp"
+#include "host/record/urdf.hpp"
 
 namespace verp::record {
 namespace {
@@ -19,7 +20,10 @@ std::string_view image(const T& value) {
 
 TraceWriter::TraceWriter(const std::filesystem::path& file, const Params& params,
                          const mcap::StringMap& run, TraceOptions options)
-    : writer_(file, options.ros ? "ros2" : "", "verp"), params_(params), options_(options) {
+    : writer_(file, options.ros ? "ros2" : "", "verp"),
+      params_(params),
+      options_(options),
+      speeds_(params) {
   try {
     begin(run);
   } catch (const TraceError&) {
@@ -48,6 +52,11 @@ void TraceWriter::begin(const mcap::StringMap& run) {
     joints_ = add("/joint_states", "sensor_msgs/msg/JointState", ros::kJointStateSchema);
     imu_ = add("/imu", "sensor_msgs/msg/Imu", ros::kImuSchema);
     tf_ = add("/tf", "tf2_msgs/msg/TFMessage", ros::kTfSchema);
+    goals_ = add("/joint_goals", "sensor_msgs/msg/JointState", ros::kJointStateSchema);
+    control_ = writer_.add_channel(
+        writer_.add_schema("verp.Control", "jsonschema", ros::kControlSchema), "/control", "json");
+    const auto robot = add("/robot_description", "std_msgs/msg/String", ros::kStringSchema);
+    writer_.add_message(robot, 0, ros::string(urdf(params_)));
   }
   writer_.flush();
 }
@@ -56,22 +65,24 @@ TraceWriter::~TraceWriter() {
   if (ticks_ == 0) writer_.discard();
 }
 
-void TraceWriter::append(const TickRecord& record, const State& state, std::uint32_t faults,
+void TraceWriter::append(const TickRecord& record, const State& state, const Outputs& outputs,
                          const ros::BodyPose* body) {
-  const bool keep = options_.every_state || ticks_ % kKeyframeTicks == 0 || faults != faults_;
-  faults_ = faults;
-  put(record, keep ? &state : nullptr, body);
+  const bool keep =
+      options_.every_state || ticks_ % kKeyframeTicks == 0 || outputs.faults != faults_;
+  faults_ = outputs.faults;
+  put(record, keep ? &state : nullptr, &outputs, body);
 }
 
 void TraceWriter::append(const TickRecord& record, const State* kept) {
-  put(record, kept, nullptr);
+  put(record, kept, nullptr, nullptr);
 }
 
-void TraceWriter::put(const TickRecord& record, const State* kept, const ros::BodyPose* body) {
+void TraceWriter::put(const TickRecord& record, const State* kept, const Outputs* outputs,
+                      const ros::BodyPose* body) {
   const std::uint64_t time_ns = std::uint64_t{record.inputs.tick} * params_.period_us * 1000;
   writer_.add_message(tick_, time_ns, image(record));
   if (kept != nullptr) writer_.add_message(state_, time_ns, image(*kept));
-  if (options_.ros) append_ros(record.inputs, body, time_ns);
+  if (options_.ros) append_ros(record.inputs, outputs, body, time_ns);
   ++ticks_;
   if (ticks_ % options_.chunk_ticks != 0) return;
   writer_.flush();
@@ -99,9 +110,16 @@ void TraceWriter::note(std::uint32_t tick, const std::string& what) {
   writer_.add_message(*changed_, std::uint64_t{tick} * params_.period_us * 1000, ros::string(what));
 }
 
-void TraceWriter::append_ros(const Inputs& inputs, const ros::BodyPose* body,
-                             std::uint64_t time_ns) {
-  writer_.add_message(joints_, time_ns, ros::joint_state(params_, inputs, time_ns));
+void TraceWriter::append_ros(const Inputs& inputs, const Outputs* outputs,
+                             const ros::BodyPose* body, std::uint64_t time_ns) {
+  writer_.add_message(
+      joints_, time_ns,
+      ros::joint_state(params_, inputs.position_count, speeds_.after(inputs), time_ns));
+  if (outputs != nullptr) {
+    writer_.add_message(goals_, time_ns,
+                        ros::joint_state(params_, outputs->goal_count, {}, time_ns));
+    writer_.add_message(control_, time_ns, ros::control(params_, inputs, *outputs));
+  }
   writer_.add_message(imu_, time_ns, ros::imu(params_, inputs, time_ns));
   if (body != nullptr && ticks_ % kTransformTicks == 0) {
     writer_.add_message(tf_, time_ns, ros::transforms(params_, inputs, *body, time_ns));

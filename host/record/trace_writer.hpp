@@ -4,6 +4,7 @@
 #include <map>
 #include <optional>
 
+#include "host/record/joint_speeds.hpp"
 #include "host/record/mcap_writer.hpp"
 #include "host/record/ros_messages.hpp"
 #include "host/record/trace.hpp"
@@ -13,7 +14,7 @@ namespace verp::record {
 struct TraceOptions {
   bool every_state =
       false;        ///< keep State at every tick, so that any divergence names its field exactly
-  bool ros = true;  ///< add /joint_states, /imu and /tf for viewers
+  bool ros = true;  ///< add channels for viewers: README.md
   std::uint64_t chunk_ticks = 125;  ///< a crash loses at most this many
 };
 
@@ -28,9 +29,9 @@ class TraceWriter {
   TraceWriter(const TraceWriter&) = delete;
   TraceWriter& operator=(const TraceWriter&) = delete;
 
-  /// One tick: what went in with its digests, State and fault bits after it, and where the body
+  /// One tick: what went in with its digests, State after it, what came out, and where the body
   /// really was, if a twin knows (null: no /tf for this tick).
-  void append(const TickRecord& record, const State& state, std::uint32_t faults,
+  void append(const TickRecord& record, const State& state, const Outputs& outputs,
               const ros::BodyPose* body = nullptr);
   /// One tick of a run that is copied: with the State its trace kept, if it did (null: none).
   void append(const TickRecord& record, const State* kept);
@@ -52,13 +53,16 @@ class TraceWriter {
 
  private:
   void begin(const mcap::StringMap& run);
-  void put(const TickRecord& record, const State* kept, const ros::BodyPose* body);
-  void append_ros(const Inputs& inputs, const ros::BodyPose* body, std::uint64_t time_ns);
+  void put(const TickRecord& record, const State* kept, const Outputs* outputs,
+           const ros::BodyPose* body);
+  void append_ros(const Inputs& inputs, const Outputs* outputs, const ros::BodyPose* body,
+                  std::uint64_t time_ns);
 
   mcap::Writer writer_;
   Params params_;
   TraceOptions options_;
-  std::uint16_t tick_ = 0, state_ = 0, joints_ = 0, imu_ = 0, tf_ = 0;
+  std::uint16_t tick_ = 0, state_ = 0, joints_ = 0, imu_ = 0, tf_ = 0, goals_ = 0, control_ = 0;
+  JointSpeeds speeds_;
   std::map<std::string, std::uint16_t> sensors_;
   std::optional<std::uint16_t> changed_;  ///< a channel of runs in which something was
   std::uint64_t ticks_ = 0, safe_ticks_ = 0;

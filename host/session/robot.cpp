@@ -210,7 +210,7 @@ void Robot::count_traffic() {
 void Robot::append(const sim::Transform& body_world) {
   try {
     const record::ros::BodyPose body = pose_of(body_world);
-    trace_->append(tick_, state_, outputs_.faults, &body);
+    trace_->append(tick_, state_, outputs_, &body);
     for (const sim::Scan& scan : twin_.take_scans()) append(scan);
   } catch (const record::TraceError& error) {
     result_.trace_failure = error.what();

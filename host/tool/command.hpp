@@ -28,6 +28,8 @@ Subcommand add_replay(CLI::App& root);
 Subcommand add_diff(CLI::App& root);
 Subcommand add_check(CLI::App& root);
 Subcommand add_export(CLI::App& root);
+Subcommand add_new(CLI::App& root);
+Subcommand add_completion(CLI::App& root);
 Subcommand add_parameters(CLI::App& root);
 Subcommand add_trace(CLI::App& root);
 Subcommand add_bench(CLI::App& root);

@@ -80,12 +80,12 @@ double shortest(float value) {
   return std::stod(fmt::format("{}", value));
 }
 
-struct Options {
+struct ParametersWords {
   std::string model = "generic21", bus, word;
   bool json = false;
 };
 
-int tell(const Options& options) {
+int tell(const ParametersWords& options) {
   const model::Entity entity = model::load_robot(model::find_model(options.model), options.bus);
   const Tuning tuning = model::make_params(entity).tuning;
   const std::vector<std::string> names = model::tuning_names();
@@ -121,7 +121,7 @@ int tell(const Options& options) {
 Subcommand add_parameters(CLI::App& root) {
   CLI::App* app = root.add_subcommand(
       "parameters", "The numbers that --set changes: value, unit, range and meaning of each");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<ParametersWords>();
   add_model(*app, options->model)->capture_default_str();
   add_json_flag(*app, options->json);
   return {app, [options] { return tell(*options); }};

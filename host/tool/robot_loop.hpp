@@ -42,7 +42,7 @@ struct RunKeeper {
     walk.faults |= outputs.faults;
     if (trace == nullptr) return;
     try {
-      trace->append(tick, state, outputs.faults);
+      trace->append(tick, state, outputs);
     } catch (const record::TraceError& error) {  // a disk that is full costs the trace
       walk.trace_failure = error.what();
       trace = nullptr;

@@ -7,7 +7,10 @@
 #include <iostream>
 #include <memory>
 
+#include "common/control/step.hpp"
 #include "host/files/csv_field.hpp"
+#include "host/record/fields.hpp"
+#include "host/record/joint_speeds.hpp"
 #include "host/record/replay.hpp"
 #include "host/record/trace_writer.hpp"
 #include "host/tool/command.hpp"
@@ -19,7 +22,7 @@ namespace {
 
 struct TraceCommandOptions {
   std::string file, output;
-  bool json = false, recover = false;
+  bool json = false, recover = false, states = false;
 };
 
 std::string joint_name(const JointParams& joint) {
@@ -79,8 +82,56 @@ int info(const TraceCommandOptions& options) {
   return kGood;
 }
 
+/// What the controller made of each tick: the run once more. Empty from where this program would
+/// decide otherwise than the one that was recorded, as another revision may.
+class Decisions {
+ public:
+  explicit Decisions(const record::Trace& trace) : trace_(trace) {}
+  /// Null where it is not known. Ticks are asked for in order.
+  const Outputs* at(const TickRecord& record) {
+    if (!same_) return nullptr;
+    step(trace_.params, state_, record.inputs, outputs_);
+    same_ = state_.digest.chain == record.digest.chain;
+    if (same_) return &outputs_;
+    complain(
+        fmt::format("{}: from tick {} on this program decides otherwise than the one that "
+                    "recorded it: goals and phases are left empty; `verp replay` names why",
+                    trace_.file.string(), record.inputs.tick));
+    return nullptr;
+  }
+  const State& state() const { return state_; }
+
+ private:
+  const record::Trace& trace_;
+  State state_;
+  Outputs outputs_;
+  bool same_ = true;
+};
+
+void write_decision_names(const Params& params, bool states, std::ostream& out) {
+  out << ",mode,gait_phase,gait_state,stance,faults,roll_rad,pitch_rad";
+  for (int j = 0; j < params.joint_count; ++j) {
+    out << ',' << files::csv_field("rad_s." + joint_name(params.joint[j]));
+  }
+  for (int j = 0; j < params.joint_count; ++j) {
+    out << ',' << files::csv_field("goal_rad." + joint_name(params.joint[j]));
+  }
+  if (!states) return;
+  for (const auto& [name, ignored] : record::print_fields(State{})) out << ",state." << name;
+}
+
+void write_decision(const Outputs* o, std::ostream& out) {
+  if (o == nullptr) {
+    out << ",,,,,,,";
+    return;
+  }
+  out << fmt::format(",{},{},{},{},{},{:.4f},{:.4f}", o->mode, o->gait_phase, o->gait_state,
+                     o->stance, o->faults, 1e-4 * o->tilt_tenth_mrad[0],
+                     1e-4 * o->tilt_tenth_mrad[1]);
+}
+
 /// One line a tick, SI units, sensor axes as the IMU has them.
-void write_csv(const record::Trace& trace, std::ostream& out) {
+void write_csv(const record::Trace& trace, bool states, std::ostream& out) {
   const Params& params = trace.params;
   out << "tick,time_s,flags";
   for (const char* axis : {"x", "y", "z"}) out << ",gyro_imu_rad_s." << axis;
@@ -91,7 +142,11 @@ void write_csv(const record::Trace& trace, std::ostream& out) {
   for (int j = 0; j < params.joint_count; ++j) {
     out << ',' << files::csv_field("rad." + joint_name(params.joint[j]));
   }
+  write_decision_names(params, states, out);
   out << '\n';
+  Decisions decisions(trace);
+  record::JointSpeeds speeds(params);
+  const std::size_t state_fields = states ? record::print_fields(State{}).size() : 0;
   for (const TickRecord& record : trace.ticks) {
     const Inputs& in = record.inputs;
     out << fmt::format("{},{:.6f},{}", in.tick, in.tick * trace.period_s(), in.flags);
@@ -109,12 +164,25 @@ void write_csv(const record::Trace& trace, std::ostream& out) {
     for (int j = 0; j < params.joint_count; ++j) {
       out << fmt::format(",{:.6f}", record::ros::joint_rad(params.joint[j], in.position_count[j]));
     }
+    const Outputs* made = decisions.at(record);
+    write_decision(made, out);
+    for (const double rad_s : speeds.after(in)) out << fmt::format(",{:.5g}", rad_s);
+    for (int j = 0; j < params.joint_count; ++j) {
+      out << (made == nullptr ? std::string(",")
+                              : fmt::format(",{:.6f}", record::ros::joint_rad(
+                                                           params.joint[j], made->goal_count[j])));
+    }
+    if (states && made != nullptr) {
+      for (const auto& [name, value] : record::print_fields(decisions.state())) out << ',' << value;
+    } else {
+      out << std::string(state_fields, ',');
+    }
     out << '\n';
   }
 }
 
 /// A file appears whole or not at all; devices and pipes get it as it comes.
-void write_whole(const record::Trace& trace, const std::filesystem::path& file) {
+void write_whole(const record::Trace& trace, bool states, const std::filesystem::path& file) {
   namespace fs = std::filesystem;
   std::error_code error;
   const bool direct = fs::exists(file, error) && !fs::is_regular_file(file, error);
@@ -125,7 +193,7 @@ void write_whole(const record::Trace& trace, const std::filesystem::path& file) 
     throw ToolError(
         kBadInput, file.string() + ": cannot be written; choose a folder that exists and is yours");
   }
-  write_csv(trace, out);
+  write_csv(trace, states, out);
   out.close();
   if (out && !direct) fs::rename(part, file, error);
   if (out && (direct || !error)) return;
@@ -138,10 +206,10 @@ int export_csv(const TraceCommandOptions& options) {
   refuse_same_file(options);
   const record::Trace trace = load(options);
   if (options.output.empty() || options.output == "-") {
-    write_csv(trace, std::cout);
+    write_csv(trace, options.states, std::cout);
     return kGood;
   }
-  write_whole(trace, options.output);
+  write_whole(trace, options.states, options.output);
   return kGood;
 }
 
@@ -186,8 +254,10 @@ Subcommand add_trace(CLI::App& root) {
     return inner;
   };
   CLI::App* show = add("info", "robot, length, digest, and how it was made");
-  CLI::App* csv = add("export", "ticks as CSV in SI units");
+  CLI::App* csv = add(
+      "export", "ticks as CSV in SI units: what was measured, and what the controller made of it");
   csv->add_option("-o,--output", options->output, "file; default: stdout");
+  csv->add_flag("--state", options->states, "every field of the controller's State, too");
   for (CLI::App* inner : {show, csv}) {
     inner->add_flag("--recover", options->recover,
                     "take what stands before a truncation or damage");

@@ -25,7 +25,7 @@ void RunRecord::save(const std::filesystem::path& file, const Params& params,
   Outputs outputs;
   for (const Kept& kept : ticks_) {
     step(params, state, kept.record.inputs, outputs);
-    writer.append(kept.record, state, outputs.faults, &kept.body);
+    writer.append(kept.record, state, outputs, &kept.body);
     for (const std::string& what : kept.notes) writer.note(kept.record.inputs.tick, what);
   }
   writer.close({{"digest", fmt::format("0x{:016x}", state.digest.chain)}, {"failure", ""}});

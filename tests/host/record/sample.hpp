@@ -89,7 +89,7 @@ inline void write_run(const fs::path& file, std::uint32_t ticks, TraceOptions op
     Outputs outputs;
     const Inputs inputs = sample_inputs(tick);
     step(params, state, inputs, outputs);
-    writer.append(record_of(inputs, state.digest), state, 0, &body);
+    writer.append(record_of(inputs, state.digest), state, {}, &body);
   }
   if (close) writer.close();
 }

@@ -23,6 +23,12 @@ std::string error_of(const fs::path& file) {
   return "";
 }
 
+Outputs with_faults(std::uint32_t faults) {
+  Outputs outputs;
+  outputs.faults = faults;
+  return outputs;
+}
+
 TEST_F(TraceFile, RoundTripKeepsEveryBit) {
   const fs::path file = folder_ / "run.mcap";
   write_run(file, 300);
@@ -54,7 +60,7 @@ TEST_F(TraceFile, StateIsKeptWhenAFaultAppears) {
   {
     TraceWriter writer(folder_ / "run.mcap", sample_params(), {});
     for (std::uint32_t tick = 0; tick < 50; ++tick) {
-      writer.append(record_of(sample_inputs(tick)), State{}, tick < 20 ? 0u : 4u);
+      writer.append(record_of(sample_inputs(tick)), State{}, with_faults(tick < 20 ? 0u : 4u));
     }
     writer.close();
   }
@@ -71,7 +77,7 @@ TEST_F(TraceFile, CrashLosesAtMostTheOpenChunk) {
     TraceWriter writer(file, params, {}, {.chunk_ticks = 10});
     part = writer.part_path();
     for (std::uint32_t tick = 0; tick < 25; ++tick) {
-      writer.append(record_of(sample_inputs(tick)), State{}, 0);
+      writer.append(record_of(sample_inputs(tick)), State{}, Outputs{});
     }
     fs::copy_file(part, folder_ / "crashed.mcap");  // what the disk holds if the process dies here
   }
@@ -145,7 +151,7 @@ TEST_F(TraceFile, ParamsThatAreNoRobotAreRefused) {
     spoil(params);
     {
       TraceWriter writer(folder_ / "spoilt.mcap", params, {});
-      writer.append(record_of(sample_inputs(0)), State{}, 0);
+      writer.append(record_of(sample_inputs(0)), State{}, Outputs{});
       writer.close();
     }
     EXPECT_NE(error_of(folder_ / "spoilt.mcap").find("is not a robot"), std::string::npos);
