@@ -3,8 +3,11 @@
 #include <QSettings>
 #include <QSurfaceFormat>
 #include <QTimer>
+#include <filesystem>
 #include <memory>
+#include <optional>
 
+#include "host/record/trace.hpp"
 #include "host/tool/console.hpp"
 #include "host/tool/interrupt.hpp"
 #include "host/tool/program.hpp"
@@ -43,7 +46,10 @@ int show(MainWindow& window) {
 
 int run_view(const tool::WalkOptions& options) {
   tool::catch_interrupts();
-  RunSetup setup = run_of(options);  // a mistake in the words is told before any window
+  const bool trace = options.model.ends_with(".mcap");
+  std::optional<RunSetup> setup;  // a mistake in the words is told before any window
+  if (trace) record::read_trace(options.model);
+  if (!trace) setup = run_of(options);
   if (const std::string why = no_display(); !why.empty()) return tell(why);
   QSurfaceFormat format;
   format.setVersion(3, 3);
@@ -63,7 +69,7 @@ int run_view(const tool::WalkOptions& options) {
     other.record_file.clear();
     return run_of(other);
   });
-  window.watch(std::move(setup));
+  trace ? window.watch(std::filesystem::path(options.model)) : window.watch(std::move(*setup));
   return show(window);
 }
 

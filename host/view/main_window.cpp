@@ -18,6 +18,7 @@
 #include "host/session/fault_names.hpp"
 #include "host/view/plot_panel.hpp"
 #include "host/view/pose_panel.hpp"
+#include "host/view/run/trace_film.hpp"
 #include "host/view/safety_panel.hpp"
 #include "host/view/signal_tree.hpp"
 #include "host/view/theme.hpp"
@@ -81,7 +82,7 @@ MainWindow::MainWindow(QSettings& settings, MakeRun make_run)
   pose_->changed = [this] { pick_up(); };
   first_layout_ = saveState(kLayout);
   restore();
-  scene_->say("Open a robot: Ctrl+O");
+  scene_->say("Open a robot or a trace: Ctrl+O");
   connect(timer_, &QTimer::timeout, this, [this] { frame(); });
   timer_->start(kFrame_ms);
 }
@@ -141,6 +142,19 @@ void MainWindow::watch(RunSetup setup) {
   player_->play();
 }
 
+void MainWindow::watch(const std::filesystem::path& trace) {
+  const auto film = std::make_shared<const TraceFilm>(trace);
+  player_ = std::make_unique<Player>(film);
+  steering_.reset();
+  entity_ = std::make_shared<const scene::Entity>(film->entity());
+  const Params& params = film->player().trace().params;
+  tuning_->set_robot(params.tuning, false);
+  pose_->set_robot(entity_, params);
+  remember(QString::fromStdString(std::filesystem::absolute(trace).string()));
+  show_film(QString::fromStdString(trace.filename().string()));
+  say(QString::fromStdString(film->player().note()));
+}
+
 void MainWindow::show_film(const QString& name) {
   undo_->clear();
   pose_->set_posing(false);
@@ -170,6 +184,7 @@ void MainWindow::show_film(const QString& name) {
 
 void MainWindow::open(const QString& file) {
   try {
+    if (file.endsWith(".mcap")) return watch(std::filesystem::path(file.toStdString()));
     watch(make_run_(file.toStdString()));
   } catch (const std::exception& error) {
     say(QString::fromUtf8(error.what()));

@@ -1,5 +1,6 @@
 #pragma once
 #include <QMainWindow>
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -35,7 +36,9 @@ class MainWindow final : public QMainWindow {
   ~MainWindow() override;
 
   void watch(RunSetup setup);
-  /// A robot's file; a failure is told in the window.
+  /// Throws record::TraceError.
+  void watch(const std::filesystem::path& trace);
+  /// A robot's file or a trace; a failure is told in the window.
   void open(const QString& file);
 
   Player* player() { return player_.get(); }

@@ -203,6 +203,22 @@ TEST_F(Window, ANumberChangesWhileItRunsAndIsUndone) {
   EXPECT_NEAR(lift->value(), own, 1e-4);
 }
 
+TEST_F(Window, ATraceIsScrubbedAndPlayed) {
+  watch_robot(200);
+  const QString file = folder_.filePath("run.mcap");
+  ASSERT_EQ(live().save(file.toStdString()), "");
+  window_.open(file);
+  ASSERT_EQ(window_.player()->live(), nullptr);
+  const double begin_s = window_.player()->film()->begin_s();
+  auto* scrub = find<QSlider>("scrub");
+  scrub->setValue(scrub->maximum() / 2);
+  EXPECT_GT(shown_s(), begin_s + 0.5);
+  const double half_s = shown_s();
+  key(Qt::Key_P);
+  ASSERT_TRUE(wait_for([&] { return shown_s() > half_s + 0.2; }));
+  EXPECT_GT(window_.plots().points_of(window_.plots().shown().front()), 100);
+}
+
 TEST_F(Window, AJointAndAFootMoveInTheHand) {
   watch_robot(5);
   find<QDockWidget>("dock_Pose")->raise();
