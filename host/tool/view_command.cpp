@@ -54,12 +54,13 @@ CLI::App* declare_view(CLI::App& root, WalkOptions& options) {
   options.command = "verp view";
   options.walk_s = 20;
   declare(*app, options);
-  // What is of a run that nobody watches.
-  for (const char* name :
-       {"--report", "--record-state", "--json", "--sweep-step", "--seeds", "--on"}) {
+  // What is of a run that nobody watches, and worlds, which the window does not draw.
+  for (const char* name : {"--report", "--record-state", "--json", "--sweep-step", "--seeds",
+                           "--on", "--list-quantities", "--world"}) {
     app->remove_option(app->get_option(name));
   }
-  app->get_option("MODEL")->description("a robot of common/robots, or the path of an SDF file");
+  app->get_option("MODEL")->description(
+      "a robot of common/robots, the path of an SDF file, or a trace (.mcap)");
   return app;
 }
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "host/tool/walk_plan.hpp"
+#include "host/tool/walk_touch.hpp"
 
 namespace verp::view {
 
@@ -10,6 +11,7 @@ RunSetup run_of(const tool::WalkOptions& options) {
   RunSetup setup;
   setup.plan = tool::make_plan(options);
   setup.world = tool::world_of(options);
+  tool::read_touch(options.touch, setup.plan, {}, setup.world);
   tool::draw(options, setup.plan, setup.world);
   setup.record_file = options.record_file;
   setup.metadata = {{"robot", setup.plan.params.name},
