@@ -60,16 +60,17 @@ void Profile::advance_straight(double step_s) {
   speed_count_s_ = ongoing_ ? line_count_s_ : 0;
 }
 
-// Never faster than it can still brake from.
+// Never faster than it can still brake from, in whole steps: v step / 2 + v^2 / 2a is left.
 void Profile::advance_curved(double step_s) {
   const double left = goal_count_ - count_;
-  const double brakes = std::sqrt(2 * accelerate_count_s2_ * std::abs(left));
   const double most = accelerate_count_s2_ * step_s;
+  const double brakes =
+      std::sqrt(most * most / 4 + 2 * accelerate_count_s2_ * std::abs(left)) - most / 2;
   speed_count_s_ =
       toward(speed_count_s_, std::copysign(std::min(top_count_s_, brakes), left), most);
   const double move = speed_count_s_ * step_s;
   const bool slow = std::abs(speed_count_s_) <= 2 * most;
-  if (std::abs(left) <= std::max(std::abs(move), 0.01) && (slow || move * left >= 0)) {
+  if (std::abs(left) <= std::max(std::abs(move), 1e-3) && (slow || move * left >= 0)) {
     return stand(goal_count_);
   }
   count_ += move;
