@@ -37,7 +37,7 @@ TEST_F(NewRobot, RefusesWhatItCannotMake) {
   expect_refused("new robot a_name_that_is_longer_than_it_may_be", "up to 23");
   expect_refused("new robot my_bot --from nonesuch", "nonesuch");
   std::ofstream(folder_ / "bad.table") << "name = x\nthigh = 3\n";
-  expect_refused("new robot my_bot --from bad.table", "trunk_length_m");
+  expect_refused("new robot my_bot --from bad.table", "is missing; add a line");
   fs::create_directories(folder_ / "kept");
   std::ofstream(folder_ / "kept/robot.sdf") << "mine";
   expect_refused("new robot kept", "is not made from a table");
