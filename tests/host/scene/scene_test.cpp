@@ -56,10 +56,9 @@ TEST(Scene, ALinkWithoutLooksShowsItsCollisionShapesOrItsInertia) {
 }
 
 TEST(Scene, AnUntouchedThirdPartyRobotKeepsItsMaterialsAndTheMeshesThatAreThere) {
-  if (model::resolve_model_uri("model://op3/op3.urdf", "").empty()) {
-    GTEST_SKIP() << "no third-party robots in " << model::model_path_text();
-  }
-  const Entity entity = model::load_robot(model::find_model("op3"));
+  ASSERT_FALSE(model::resolve_model_uri("model://op3/op3.urdf", "").empty())
+      << "not in " << model::model_path_text() << ": set VERP_MODEL_PATH";
+  const Entity entity = model::load_robot(model::find_model("op3_urdf"));
   std::size_t meshes = 0, missing = 0, coloured = 0;
   for (const model::Node& node : entity.nodes) {
     for (const model::Visual& visual : node.visuals) {
