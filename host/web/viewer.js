@@ -49,7 +49,7 @@
     texture.repeat.set(200, 200);
     texture.anisotropy = 8;
     texture.encoding = THREE.sRGBEncoding;
-    const mesh = new THREE.Mesh(new THREE.PlaneBufferGeometry(40, 40), new THREE.MeshStandardMaterial({ map: texture, roughness: 0.95 }));
+    const mesh = new THREE.Mesh(new THREE.PlaneBufferGeometry(40, 40), new THREE.MeshStandardMaterial({ map: texture, roughness: 0.95, emissive: 0xffffff, emissiveMap: texture, emissiveIntensity: 0.3 }));
     mesh.receiveShadow = true;
     return mesh;
   })();
