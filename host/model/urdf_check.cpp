@@ -4,6 +4,7 @@
 #include <urdf_model/model.h>
 #include <urdf_parser/urdf_parser.h>
 
+#include <algorithm>
 #include <map>
 #include <memory>
 #include <set>
@@ -11,6 +12,7 @@
 #include <vector>
 
 #include "host/model/load_error.hpp"
+#include "host/model/number.hpp"
 
 namespace verp::model {
 namespace {
@@ -68,10 +70,25 @@ void refuse_second_root(const XmlElement& robot, const Facts& facts) {
       "add the joint that carries one of them");
 }
 
+/// libsdformat refuses them without a name or a line.
+void refuse_no_direction(const XmlElement& robot) {
+  for (const XmlElement& joint : robot.children("joint")) {
+    for (const XmlElement& axis : joint.children("axis")) {
+      const auto xyz = parse_numbers(axis.text("xyz", "1 0 0"));
+      const bool none =
+          xyz && std::all_of(xyz->begin(), xyz->end(), [](double x) { return x == 0; });
+      if (!none) continue;
+      axis.fail("joint '" + joint.text("name") + "' turns about no axis",
+                "write the axis in <axis> xyz");
+    }
+  }
+}
+
 std::shared_ptr<urdf::ModelInterface> read_urdf(const XmlSource& source, const XmlElement& robot,
                                                 const Facts& facts) {
   for (const char* kind : {"link", "joint"}) refuse_duplicates(robot, kind);
   refuse_second_root(robot, facts);
+  refuse_no_direction(robot);
   UrdfErrors errors;
   console_bridge::useOutputHandler(&errors);
   auto urdf = urdf::parseURDFFile(robot.file());
