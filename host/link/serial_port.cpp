@@ -177,7 +177,7 @@ class SerialPort final : public Port {
     port_->SetVMin(1);  // with 0, nothing to read would look like a hang-up
     port_->SetVTime(0);
     port_->SetSerialPortBlockingStatus(false);
-    set_rate();
+    set_line();
     port_->FlushIOBuffers();
     serial_struct settings{};
     const int descriptor = port_->GetFileDescriptor();
@@ -189,7 +189,7 @@ class SerialPort final : public Port {
 
   // Receivers stand about 2 % of error; an adapter that cannot make the rate takes another one
   // without a word.
-  void set_rate() const {
+  void set_line() const {
     const int descriptor = port_->GetFileDescriptor();
     const BaudRate rate = standard_rate(baud_);
     if (rate != BaudRate::BAUD_INVALID) port_->SetBaudRate(rate);

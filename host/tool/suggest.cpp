@@ -52,12 +52,12 @@ std::string nearest(std::string_view word, const std::vector<std::string>& names
 }
 
 std::string did_you_mean(std::string_view word, const std::vector<std::string>& names) {
-  constexpr std::size_t kMost = 5;
+  constexpr std::size_t kMostNamed = 5;
   if (const std::string name = nearest(word, names); !name.empty()) {
     return fmt::format("; did you mean {}?", name);
   }
   const std::vector<std::string> found = holding(last_part(word), names);
-  if (found.empty() || found.size() > kMost) return "";
+  if (found.empty() || found.size() > kMostNamed) return "";
   return fmt::format("; did you mean {}?", fmt::join(found, " or "));
 }
 
