@@ -222,7 +222,7 @@ TEST_F(SerialFlash, InterruptionEndsItCleanlyAndIsTold) {
   wait_until([&] { return port.writes() > 0; });
   ::kill(static_cast<pid_t>(std::stol(slurp(folder_ / "pid"))), SIGINT);
   run.join();
-  EXPECT_EQ(outcome.status, 1);
+  EXPECT_EQ(outcome.status, 130);
   EXPECT_NE(outcome.err.find("interrupted while writing"), std::string::npos) << outcome.err;
   EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
 }
