@@ -89,7 +89,7 @@ class Process {
   bool over() { return child_->status().has_value(); }
   Outcome wait() {
     const int status = child_->wait();
-    return {status < 128 ? status : -1, slurp(out_), slurp(err_)};
+    return {status, slurp(out_), slurp(err_)};  // 128 and more: what a signal ended
   }
 
  private:

@@ -87,7 +87,7 @@ TEST_F(TimelyRobot, AnInterruptSitsTheRobotDown) {
     ASSERT_TRUE(program->says("relaxed to rising"));
     program->signal(signal);
     const Outcome outcome = program->wait();
-    EXPECT_EQ(outcome.status, 1);
+    EXPECT_EQ(outcome.status, 128 + signal);
     EXPECT_NE(outcome.err.find("sits down"), std::string::npos) << outcome.err;
     EXPECT_NE(outcome.err.find("to sitting"), std::string::npos) << outcome.err;
     const Json result = result_of(outcome);
@@ -144,7 +144,7 @@ TEST_F(RealRobot, ASecondInterruptLetsGoAtOnce) {
   std::this_thread::sleep_for(std::chrono::milliseconds(400));  // else it is the same press
   program->signal(SIGINT);
   const Outcome outcome = program->wait();
-  EXPECT_EQ(outcome.status, 1);
+  EXPECT_EQ(outcome.status, 128 + SIGINT);
   EXPECT_NE(outcome.err.find("to stopped (emergency stop"), std::string::npos) << outcome.err;
   EXPECT_EQ(result_of(outcome).value("let_go", false), true) << outcome.err;
   expect_table(trace());
@@ -183,7 +183,7 @@ TEST_F(TimelyRobot, ACableThatComesBackGoesOn) {
   EXPECT_TRUE(program->says("holding to rising"));
   EXPECT_TRUE(program->says("rising to standing"));
   program->signal(SIGINT);
-  EXPECT_EQ(program->wait().status, 1);
+  EXPECT_EQ(program->wait().status, 128 + SIGINT);
   expect_table(trace());
 }
 
