@@ -15,6 +15,13 @@ using test::Random;
 
 constexpr int kWildTicks = 2000;  // what soft float on an emulated core does in seconds
 
+/// One for all: a small board's RAM has no room for one each.
+State& fresh_state() {
+  static State state;
+  state = State{};
+  return state;
+}
+
 void expect_safe(const State& state, const Outputs& outputs, int tick) {
   ASSERT_TRUE(test::struct_is_finite(state)) << "tick " << tick;
   ASSERT_LT(int{outputs.mode}, safety::kModes);
@@ -31,8 +38,7 @@ void expect_safe(const State& state, const Outputs& outputs, int tick) {
 
 // Any bits in, safe outputs out: nothing outside limits, nothing that is not a number.
 void expect_total(bool fully, std::uint32_t seed) {
-  static State state;
-  state = State{};
+  State& state = fresh_state();
   Random random(seed);
   Inputs inputs;
   Outputs outputs;
@@ -63,8 +69,7 @@ TEST(Step, GoalsKeepTheJointsSpeed) {
   Random random(3);
   Inputs inputs;
   Outputs outputs, before;
-  static State state;
-  state = State{};
+  State& state = fresh_state();
   for (int tick = 0; tick < kWildTicks / 2; ++tick) {
     test::wild(random, false, inputs);
     before = outputs;
@@ -80,8 +85,7 @@ TEST(Step, GoalsKeepTheJointsSpeed) {
 // Whatever pose a robot without torque is found in, where it shall stand is known.
 TEST(Step, NewtonLegsReachTheirStandFromTheFirstTickOn) {
   static const Params robot = test::make_hyperextended_robot();
-  static State state;
-  state = State{};
+  State& state = fresh_state();
   Inputs inputs;
   Outputs outputs;
   inputs.fresh = ~0u;
@@ -98,8 +102,7 @@ TEST(Step, NewtonLegsReachTheirStandFromTheFirstTickOn) {
 // A robot of no joints, no legs, no masses and no scales.
 TEST(Step, IsTotalForAnEmptyRobot) {
   static const Params nothing;
-  static State state;
-  state = State{};
+  State& state = fresh_state();
   Random random(4);
   Inputs inputs;
   Outputs outputs;
