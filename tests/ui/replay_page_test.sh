@@ -49,10 +49,10 @@ JS
 
 look() { # name page
   local result colours
-  probe "$2" >"$scratch/$1.html"
+  probe "$2" >"$scratch/$1-probed.html"
   result=$(timeout 200 "$browser" --headless=new --no-sandbox --use-angle=swiftshader --enable-unsafe-swiftshader \
-    --user-data-dir="$scratch/profile" --host-resolver-rules='MAP * ~NOTFOUND' --window-size=640,480 \
-    --dump-dom "file://$scratch/$1.html" 2>/dev/null | grep -oE '<p>PROBE [^<]*' | sed 's/<p>PROBE //')
+    --user-data-dir="$scratch/profile-$1" --host-resolver-rules='MAP * ~NOTFOUND' --window-size=640,480 \
+    --dump-dom "file://$scratch/$1-probed.html" 2>/dev/null | grep -oE '<p>PROBE [^<]*' | sed 's/<p>PROBE //')
   colours=$(grep -oE '"colours":[0-9]+' <<<"$result" | grep -oE '[0-9]+')
   if [[ $result != *'"said":[]'* || $result != *'"scrubbed":true'* || $result != *'"slid":true'* ||
     $result != *'"turned":true'* || $result != *'"requests":0'* || ${colours:-0} -lt 50 ]]; then
