@@ -32,8 +32,11 @@ using verp::test::OwnVcan;
 struct CanSocket : wire::CanPort {
   explicit CanSocket(const std::string& endpoint) : CanPort(wire::parse_endpoint(endpoint)) {}
   bool send(const CanFrame& frame) {
-    const bool answers = canopen::is_canopen(frame) &&
-                         canopen::connection_of(frame.id).service == canopen::Service::kSdoResponse;
+    const bool answers =
+        canopen::is_canopen(frame) &&
+        (canopen::connection_of(frame.id).service == canopen::Service::kSdoResponse ||
+         frame.id == canopen::further_sdo(1).response ||
+         frame.id == canopen::further_sdo(2).response);
     return (secretive && answers) || CanPort::send(frame);
   }
   bool secretive = false;  ///< tells of its ticks, and answers no question
