@@ -9,9 +9,10 @@ std::string first_line(const std::string& text) {
   return text.substr(0, text.find('\n'));
 }
 
-GLuint compile(GLenum kind, const char* text) {
+GLuint compile(GLenum kind, const char* header, const char* text) {
   const GLuint shader = glCreateShader(kind);
-  glShaderSource(shader, 1, &text, nullptr);
+  const char* parts[] = {header, text};
+  glShaderSource(shader, 2, parts, nullptr);
   glCompileShader(shader);
   GLint good = GL_FALSE;
   glGetShaderiv(shader, GL_COMPILE_STATUS, &good);
@@ -64,9 +65,10 @@ RenderBuffer new_renderbuffer() {
   return RenderBuffer(one([](GLsizei n, GLuint* id) { glGenRenderbuffers(n, id); }));
 }
 
-Program::Program(const char* vertex, const char* fragment) : name_(glCreateProgram()) {
-  const GLuint first = compile(GL_VERTEX_SHADER, vertex),
-               second = compile(GL_FRAGMENT_SHADER, fragment);
+Program::Program(const char* vertex, const char* fragment, const char* fragment_header)
+    : name_(glCreateProgram()) {
+  const GLuint first = compile(GL_VERTEX_SHADER, "", vertex),
+               second = compile(GL_FRAGMENT_SHADER, fragment_header, fragment);
   glAttachShader(name_.id(), first);
   glAttachShader(name_.id(), second);
   glLinkProgram(name_.id());

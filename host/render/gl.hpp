@@ -54,7 +54,7 @@ RenderBuffer new_renderbuffer();
 class Program {
  public:
   /// Throws RenderError with the compiler's first line.
-  Program(const char* vertex, const char* fragment);
+  Program(const char* vertex, const char* fragment, const char* fragment_header = "");
   void use() const { glUseProgram(name_.id()); }
   GLint at(const char* uniform);
   void set(const char* uniform, const Mat4& value);

@@ -68,6 +68,14 @@ Mat4 sun_of(const Vec3& direction, const Stage::Ball& ball) {
   return clip * view;
 }
 
+/// What a picture's passes have in common.
+struct View {
+  Vec3 eye_m = Vec3::Zero();
+  Mat4 clip = Mat4::Identity(), sun = Mat4::Identity();
+  int shadow_light = -1;  ///< of the scene's; -1: none
+  double sun_radius_m = 1;
+};
+
 scene::Snapshot at_goals(const scene::Scene& scene, const scene::Snapshot& now) {
   scene::Snapshot out;
   for (std::size_t r = 0; r < std::min(scene.robots.size(), now.robots.size()); ++r) {
@@ -83,7 +91,8 @@ scene::Snapshot at_goals(const scene::Scene& scene, const scene::Snapshot& now) 
 }  // namespace
 
 struct Renderer::Impl {
-  Program solid{kSolidVertex, kSolidFragment};
+  Program solid{kSolidVertex, kLitFragment, kSolidHeader};
+  Program ground{kSolidVertex, kLitFragment, kFloorHeader};
   Program shade{kShadowVertex, kShadowFragment};
   Program backdrop{kSkyVertex, kSkyFragment};
   Program meter{kSolidVertex, kMeasureFragment};
@@ -147,10 +156,10 @@ struct Renderer::Impl {
     }
   }
 
-  void set_lights(int with_shadow, double sun_radius_m) {
+  void set_lights(Program& program, int with_shadow, double sun_radius_m) {
     const scene::Scene& scene = stage.scene();
     const int count = static_cast<int>(std::min<std::size_t>(scene.lights.size(), 8));
-    solid.set("light_count", count);
+    program.set("light_count", count);
     for (int i = 0; i < count; ++i) {
       const scene::Light& light = scene.lights[static_cast<std::size_t>(i)];
       const auto name = [&](const char* array) {
@@ -159,39 +168,49 @@ struct Renderer::Impl {
       Eigen::Vector4f at, colour;
       at << light.position_m.cast<float>(), static_cast<float>(light.kind);
       colour << linear(light.colour) * light.strength, static_cast<float>(light.range_m);
-      solid.set(name("light_at").c_str(), at);
-      solid.set(name("light_toward").c_str(),
-                Eigen::Vector3f(light.direction.normalized().cast<float>()));
-      solid.set(name("light_colour").c_str(), colour);
-      glUniform2f(solid.at(name("light_cone").c_str()),
+      program.set(name("light_at").c_str(), at);
+      program.set(name("light_toward").c_str(),
+                  Eigen::Vector3f(light.direction.normalized().cast<float>()));
+      program.set(name("light_colour").c_str(), colour);
+      glUniform2f(program.at(name("light_cone").c_str()),
                   static_cast<float>(std::cos(light.inner_rad)),
                   static_cast<float>(std::cos(light.outer_rad)));
     }
-    solid.set("shadow_light", with_shadow);
-    solid.set("shadow", 0);
-    solid.set("picture", 1);
-    solid.set("shadow_texel", 1.0F / kShadowTexels);
+    program.set("shadow_light", with_shadow);
+    program.set("shadow", 0);
+    program.set("picture", 1);
+    program.set("shadow_texel", 1.0F / kShadowTexels);
     constexpr double kSoft_m = 0.011;
-    solid.set("shadow_soft", static_cast<float>(std::clamp(
-                                 kSoft_m * kShadowTexels / (2 * sun_radius_m), 1.2, 14.0)));
+    program.set("shadow_soft", static_cast<float>(std::clamp(
+                                   kSoft_m * kShadowTexels / (2 * sun_radius_m), 1.2, 14.0)));
     glActiveTexture(GL_TEXTURE0);
     glBindTexture(GL_TEXTURE_2D, shadow.id());
   }
 
-  void set_air(const Effects& effects) {
+  /// All that a picture's things have in common.
+  void set_common(Program& program, const View& view, const Effects& effects) {
+    program.use();
+    program.set("clip_world", view.clip);
+    program.set("sun_world", view.sun);
+    program.set("eye", Eigen::Vector3f(view.eye_m.cast<float>()));
+    set_lights(program, view.shadow_light, view.sun_radius_m);
+    set_air(program, effects);
+  }
+
+  void set_air(Program& program, const Effects& effects) {
     const scene::Scene& scene = stage.scene();
-    solid.set("ambient", Eigen::Vector3f(linear(scene.ambient) * scene.ambient_strength));
-    solid.set("zenith", linear(scene.sky.zenith));
-    solid.set("horizon", linear(scene.sky.horizon));
-    solid.set("fog_on", scene.fog.on && effects.fog ? 1 : 0);
-    solid.set("fog_colour", linear(scene.fog.colour));
-    glUniform2f(solid.at("fog_range"), static_cast<float>(scene.fog.begin_m),
+    program.set("ambient", Eigen::Vector3f(linear(scene.ambient) * scene.ambient_strength));
+    program.set("zenith", linear(scene.sky.zenith));
+    program.set("horizon", linear(scene.sky.horizon));
+    program.set("fog_on", scene.fog.on && effects.fog ? 1 : 0);
+    program.set("fog_colour", linear(scene.fog.colour));
+    glUniform2f(program.at("fog_range"), static_cast<float>(scene.fog.begin_m),
                 static_cast<float>(std::max(scene.fog.end_m, scene.fog.begin_m + 0.01)));
-    solid.set("floor_light", linear(scene.ground.light));
-    solid.set("floor_dark", linear(scene.ground.dark));
-    solid.set("floor_line", linear(scene.ground.line));
-    solid.set("floor_tile", static_cast<float>(scene.ground.tile_m));
-    solid.set("floor_fade", static_cast<float>(scene.ground.fade_m));
+    program.set("floor_light", linear(scene.ground.light));
+    program.set("floor_dark", linear(scene.ground.dark));
+    program.set("floor_line", linear(scene.ground.line));
+    program.set("floor_tile", static_cast<float>(scene.ground.tile_m));
+    program.set("floor_fade", static_cast<float>(scene.ground.fade_m));
   }
 
   void draw_sky(const Mat4& clip, const Vec3& eye_m) {
@@ -200,27 +219,23 @@ struct Renderer::Impl {
     backdrop.set("eye", Eigen::Vector3f(eye_m.cast<float>()));
     backdrop.set("zenith", linear(stage.scene().sky.zenith));
     backdrop.set("horizon", linear(stage.scene().sky.horizon));
+    glDisable(GL_CULL_FACE);
     glDepthMask(GL_FALSE);
     glBindVertexArray(nothing.id());
     glDrawArrays(GL_TRIANGLES, 0, 3);
     glDepthMask(GL_TRUE);
   }
 
-  void draw_floor(const Effects& effects, const Vec3& eye_m) {
+  void draw_floor(const View& view, const Effects& effects) {
     if (!effects.ground || !stage.scene().ground.on) return;
+    glDisable(GL_CULL_FACE);
+    set_common(ground, view, effects);
     Mat4 at = Mat4::Identity();
-    at(0, 3) = static_cast<float>(eye_m.x());
-    at(1, 3) = static_cast<float>(eye_m.y());
-    solid.set("world_item", at);
-    solid.set("scale", Eigen::Vector3f(1, 1, 1));
-    solid.set("colour", Eigen::Vector4f(1, 1, 1, 1));
-    solid.set("glow", Eigen::Vector3f(0, 0, 0));
-    solid.set("roughness", 0.9F);
-    solid.set("metallic", 0.0F);
-    solid.set("textured", 0);
-    solid.set("floor_kind", effects.ground_grid ? 2 : 1);
+    at.block<2, 1>(0, 3) = view.eye_m.head<2>().cast<float>();
+    ground.set("world_item", at);
+    ground.set("scale", Eigen::Vector3f(1, 1, 1));
+    ground.set("floor_tiled", effects.ground_grid ? 1 : 0);
     floor.draw();
-    solid.set("floor_kind", 0);
   }
 
   void draw_item(const Placed& placed, const Effects& effects, float opacity) {
@@ -235,21 +250,30 @@ struct Renderer::Impl {
     solid.set("metallic", material.metallic);
     const bool textured = effects.textures && placed.texture != 0;
     solid.set("textured", textured ? 1 : 0);
+    // Of a closed shape, the far side is never seen. Files' meshes may be open, or wind either way.
+    const bool closed = placed.item->shape < scene::Shape::kPlane;
+    (closed ? glEnable : glDisable)(GL_CULL_FACE);
     glActiveTexture(GL_TEXTURE1);
     glBindTexture(GL_TEXTURE_2D, textured ? placed.texture : 0);
     placed.mesh->draw();
   }
 
-  /// What is solid first, then what one sees through, the farthest first.
-  void draw_items(const std::vector<Placed>& placed, const Effects& effects, const Vec3& eye_m,
+  bool is_clear(const Placed& placed, const Effects& effects, float opacity) const {
+    return effects.transparency && placed.item->material.colour.a * opacity < 0.99F;
+  }
+
+  void draw_solid(const std::vector<Placed>& placed, const Effects& effects) {
+    for (const Placed& item : placed) {
+      if (!is_clear(item, effects, 1)) draw_item(item, effects, 1);
+    }
+  }
+
+  /// What one sees through, the farthest first; behind everything that is solid.
+  void draw_clear(const std::vector<Placed>& placed, const Effects& effects, const Vec3& eye_m,
                   float opacity) {
     std::vector<const Placed*> clear;
     for (const Placed& item : placed) {
-      if (effects.transparency && item.item->material.colour.a * opacity < 0.99F) {
-        clear.push_back(&item);
-      } else {
-        draw_item(item, effects, opacity);
-      }
+      if (is_clear(item, effects, opacity)) clear.push_back(&item);
     }
     const Eigen::Vector3f eye = eye_m.cast<float>();
     std::stable_sort(clear.begin(), clear.end(), [&](const Placed* a, const Placed* b) {
@@ -262,6 +286,7 @@ struct Renderer::Impl {
 
   void draw_marks(const Marks& marks, const Mat4& clip) {
     if (marks.vertices.empty()) return;
+    glDisable(GL_CULL_FACE);
     mark.use();
     mark.set("clip_world", clip);
     glBindVertexArray(mark_vertices.id());
@@ -280,36 +305,46 @@ struct Renderer::Impl {
     glDrawArrays(GL_TRIANGLES, 0, count);
   }
 
+  View view_of(const scene::Snapshot& now, const scene::Camera& camera, Size size,
+               const Effects& effects) const {
+    const Stage::Ball ball = stage.extent(now, camera);
+    View view;
+    view.eye_m = camera.eye_m;
+    view.clip = clip_of(camera, size);
+    view.sun_radius_m = ball.radius_m;
+    view.shadow_light = shadow_light(effects);
+    if (view.shadow_light >= 0) {
+      const auto light = static_cast<std::size_t>(view.shadow_light);
+      view.sun = sun_of(stage.scene().lights[light].direction, ball);
+    }
+    return view;
+  }
+
+  /// Solid things first, then what they leave of the floor and the sky: a hidden pixel costs
+  /// little.
   void draw_all(const scene::Snapshot& now, const scene::Camera& camera, Size size,
                 const Effects& effects, GLuint target) {
     const std::vector<Placed> placed = stage.place(now, effects);
-    const Stage::Ball ball = stage.extent(now, camera);
-    const int with_shadow = shadow_light(effects);
-    Mat4 sun = Mat4::Identity();
-    if (with_shadow >= 0) {
-      sun = sun_of(stage.scene().lights[static_cast<std::size_t>(with_shadow)].direction, ball);
-    }
+    const View view = view_of(now, camera, size, effects);
     begin_state();
-    if (with_shadow >= 0) draw_shadows(placed, sun);
+    glDisable(GL_BLEND);
+    if (view.shadow_light >= 0) draw_shadows(placed, view.sun);
     glBindFramebuffer(GL_FRAMEBUFFER, target);
     glViewport(0, 0, size.width, size.height);
     const Colour& back = stage.scene().sky.horizon;
     glClearColor(back.r, back.g, back.b, 1);
     glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
-    const Mat4 clip = clip_of(camera, size);
-    if (effects.sky) draw_sky(clip, camera.eye_m);
+    set_common(solid, view, effects);
+    draw_solid(placed, effects);
+    draw_floor(view, effects);
+    if (effects.sky) draw_sky(view.clip, camera.eye_m);
+    glEnable(GL_BLEND);
     solid.use();
-    solid.set("clip_world", clip);
-    solid.set("sun_world", sun);
-    solid.set("eye", Eigen::Vector3f(camera.eye_m.cast<float>()));
-    set_lights(with_shadow, ball.radius_m);
-    set_air(effects);
-    draw_floor(effects, camera.eye_m);
-    draw_items(placed, effects, camera.eye_m, 1);
+    draw_clear(placed, effects, camera.eye_m, 1);
     if (effects.goals) {
-      draw_items(stage.place(at_goals(stage.scene(), now), effects), effects, camera.eye_m, 0.35F);
+      draw_clear(stage.place(at_goals(stage.scene(), now), effects), effects, camera.eye_m, 0.35F);
     }
-    draw_marks(marks_of(stage.scene(), now, effects), clip);
+    draw_marks(marks_of(stage.scene(), now, effects), view.clip);
     glBindVertexArray(0);
   }
 

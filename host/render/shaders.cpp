@@ -21,7 +21,7 @@ void main() {
 }
 )";
 
-const char* const kSolidFragment = R"(#version 330 core
+const char* const kLitFragment = R"(
 in vec3 at, normal;
 in vec4 at_sun;
 in vec2 texture_at;
@@ -43,12 +43,17 @@ uniform vec3 zenith, horizon;
 uniform int fog_on;
 uniform vec3 fog_colour;
 uniform vec2 fog_range;
-uniform int floor_kind;  // 0: not the floor; 1: plain; 2: with tiles
+uniform int floor_tiled;
 uniform vec3 floor_light, floor_dark, floor_line;
 uniform float floor_tile, floor_fade;
 out vec4 out_colour;
 
 const float kPi = 3.14159265;
+
+float power5(float x) {
+  float y = x * x;
+  return y * y * x;
+}
 
 vec3 sky(vec3 direction) {
   float up = clamp(direction.z, 0.0, 1.0);
@@ -71,6 +76,7 @@ float lit(float slope) {
   return mix(share, 1.0, smoothstep(0.40, 0.49, max(edge.x, edge.y)));
 }
 
+#ifdef FLOOR
 float grid(vec2 p, float spacing, float width) {
   vec2 q = abs(fract(p / spacing - 0.5) - 0.5) * spacing;
   vec2 w = fwidth(p);
@@ -80,7 +86,7 @@ float grid(vec2 p, float spacing, float width) {
 }
 
 vec3 floor_colour() {
-  if (floor_kind == 1) return floor_light;
+  if (floor_tiled == 0) return floor_light;
   vec2 cell = at.xy / (2.0 * floor_tile);
   vec2 w = max(fwidth(cell), 1e-5);
   // A checker, integrated over the pixel.
@@ -91,29 +97,58 @@ vec3 floor_colour() {
   return mix(base, floor_line, 0.9 * grid(at.xy, 10.0 * floor_tile, 0.0014));
 }
 
+#endif
+
+vec3 finished(vec3 light) {
+  light = light / (1.0 + 0.16 * light);  // bright parts keep their colour
+#ifdef FLOOR
+  float far = length(at.xy - eye.xy) / floor_fade;
+  light = mix(light, horizon, 1.0 - exp(-0.7 * far * far));
+#endif
+  if (fog_on == 1) {
+    light = mix(light, fog_colour, clamp((length(eye - at) - fog_range.x) / (fog_range.y - fog_range.x), 0.0, 1.0));
+  }
+  return pow(clamp(light, 0.0, 1.0), vec3(1.0 / 2.2));
+}
+
+// How strongly a light shines here, and from where.
+float power_of(int i, out vec3 to) {
+  to = -light_toward[i];
+  if (light_at[i].w < 0.5) return 1.0;
+  to = light_at[i].xyz - at;
+  float d = length(to), far = d / light_colour[i].w;
+  to /= max(d, 1e-4);
+  float part = clamp(1.0 - far * far * far * far, 0.0, 1.0);
+  float power = part * part / (d * d + 0.01);
+  if (light_at[i].w < 1.5) return power;
+  return power * smoothstep(light_cone[i].y, light_cone[i].x, dot(-to, light_toward[i]));
+}
+
+#ifdef FLOOR
+// Dull and level: no shine, no mirror.
+void main() {
+  vec3 sum = ambient * mix(horizon, zenith, 0.5);
+  for (int i = 0; i < light_count; ++i) {
+    vec3 to;
+    float power = power_of(i, to) * max(to.z, 0.0);
+    if (i == shadow_light) power *= lit(sqrt(1.0 - to.z * to.z) / max(to.z, 0.1));
+    sum += light_colour[i].rgb * power;
+  }
+  out_colour = vec4(finished(sum * floor_colour()), 1.0);
+}
+#else
 void main() {
   vec3 n = normalize(normal), v = normalize(eye - at);
   if (dot(n, v) < 0.0) n = -n;
   vec4 base = colour;
   if (textured == 1) base *= texture(picture, texture_at);
-  if (floor_kind > 0) base.rgb = floor_colour();
   float rough = clamp(roughness, 0.05, 1.0), alpha = rough * rough;
   vec3 f0 = mix(vec3(0.04), base.rgb, metallic), diffuse = base.rgb * (1.0 - metallic);
   float nv = max(dot(n, v), 1e-3);
   vec3 sum = vec3(0.0);
   for (int i = 0; i < light_count; ++i) {
-    vec3 to = -light_toward[i];
-    float power = 1.0;
-    if (light_at[i].w > 0.5) {
-      to = light_at[i].xyz - at;
-      float d = length(to);
-      to /= max(d, 1e-4);
-      float part = clamp(1.0 - pow(d / light_colour[i].w, 4.0), 0.0, 1.0);
-      power = part * part / (d * d + 0.01);
-      if (light_at[i].w > 1.5) {
-        power *= smoothstep(light_cone[i].y, light_cone[i].x, dot(-to, light_toward[i]));
-      }
-    }
+    vec3 to;
+    float power = power_of(i, to);
     float nl = dot(n, to);
     if (nl <= 0.0) continue;
     if (i == shadow_light) power *= lit(sqrt(1.0 - nl * nl) / max(nl, 0.1));
@@ -122,30 +157,23 @@ void main() {
     float d = nh * nh * (alpha * alpha - 1.0) + 1.0;
     float spread = alpha * alpha / (kPi * d * d), k = (rough + 1.0) * (rough + 1.0) / 8.0;
     float hidden = 1.0 / ((nl * (1.0 - k) + k) * (nv * (1.0 - k) + k) * 4.0);
-    vec3 fresnel = f0 + (1.0 - f0) * pow(1.0 - vh, 5.0);
-    vec3 shine = floor_kind > 0 ? vec3(0.0) : fresnel * spread * hidden * kPi;
-    sum += light_colour[i].rgb * power * nl * (diffuse * (1.0 - fresnel) + shine);
+    vec3 fresnel = f0 + (1.0 - f0) * power5(1.0 - vh);
+    sum += light_colour[i].rgb * power * nl * (diffuse * (1.0 - fresnel) + fresnel * spread * hidden * kPi);
   }
   // What comes from all around: the sky above, the floor's glow below, and a mirrored horizon.
-  vec3 below = 0.55 * (floor_kind > 0 ? horizon : floor_light);
+  vec3 below = 0.55 * floor_light;
   vec3 around = mix(below, mix(horizon, zenith, 0.5), 0.5 + 0.5 * n.z);
   vec3 mirror = reflect(-v, n);
   vec3 seen = mirror.z < 0.0 ? mix(horizon, below, clamp(-3.0 * mirror.z, 0.0, 1.0)) : sky(mirror);
-  vec3 fresnel = f0 + (max(vec3(1.0 - rough), f0) - f0) * pow(1.0 - nv, 5.0);
-  vec3 around_shine = floor_kind > 0 ? vec3(0.0) : fresnel * seen * mix(1.0, 0.4, rough);
-  vec3 light = sum + ambient * (diffuse * around + around_shine) + glow;
-  float alpha_out = base.a;
-  light = light / (1.0 + 0.16 * light);  // bright parts keep their colour
-  if (floor_kind > 0) {
-    float far = length(at.xy - eye.xy);
-    light = mix(light, horizon, 1.0 - exp(-pow(far / floor_fade, 2.0) * 0.7));
-  }
-  if (fog_on == 1) {
-    light = mix(light, fog_colour, clamp((length(eye - at) - fog_range.x) / (fog_range.y - fog_range.x), 0.0, 1.0));
-  }
-  out_colour = vec4(pow(clamp(light, 0.0, 1.0), vec3(1.0 / 2.2)), alpha_out);
+  vec3 fresnel = f0 + (max(vec3(1.0 - rough), f0) - f0) * power5(1.0 - nv);
+  vec3 light = sum + ambient * (diffuse * around + fresnel * seen * mix(1.0, 0.4, rough)) + glow;
+  out_colour = vec4(finished(light), base.a);
 }
+#endif
 )";
+
+const char* const kSolidHeader = "#version 330 core\n";
+const char* const kFloorHeader = "#version 330 core\n#define FLOOR\n";
 
 const char* const kShadowVertex = R"(#version 330 core
 layout(location = 0) in vec3 point;

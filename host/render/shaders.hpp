@@ -3,9 +3,12 @@
 /// GLSL 3.30. Lights are worked out in linear colour, in world coordinates.
 namespace verp::render {
 
-extern const char* const kSolidVertex;    ///< position, normal, texture coordinate
-extern const char* const kSolidFragment;  ///< what things look like
-extern const char* const kShadowVertex;   ///< depth seen from the sun
+extern const char* const kSolidVertex;  ///< position, normal, texture coordinate
+/// What things look like, behind one of these headers.
+extern const char* const kLitFragment;
+extern const char* const kSolidHeader;
+extern const char* const kFloorHeader;
+extern const char* const kShadowVertex;  ///< depth seen from the sun
 extern const char* const kShadowFragment;
 extern const char* const kSkyVertex;  ///< one triangle over the whole picture
 extern const char* const kSkyFragment;

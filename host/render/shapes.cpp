@@ -30,7 +30,7 @@ void add_grid(Triangles& mesh, std::uint32_t first, std::uint32_t rows, std::uin
 
 /// From -half to half: the corner's arc in steps of angle, the flat in one.
 std::vector<float> ticks(float half, float round) {
-  constexpr int kArc = 5;
+  constexpr int kArc = 2;
   std::vector<float> at;
   if (round <= 0) return {-half, half};
   for (int i = 0; i <= kArc; ++i) {
@@ -78,6 +78,10 @@ Triangles box(const scene::Vec3& edges_m, double round_m) {
     add_face(mesh, {0, 2, 1, sign}, half, round);
     add_face(mesh, {2, 1, 0, sign}, half, round);
   }
+  // The faces' grids wind inward.
+  for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+    std::swap(mesh.indices[i + 1], mesh.indices[i + 2]);
+  }
   return mesh;
 }
 
@@ -124,7 +128,7 @@ Triangles sphere(double radius_m, int around) {
 Triangles cylinder(double radius_m, double length_m, double round_m, int around) {
   const auto radius = static_cast<float>(radius_m), half = static_cast<float>(length_m / 2);
   const auto round = static_cast<float>(round_m);
-  constexpr int kArc = 4;
+  constexpr int kArc = 2;
   std::vector<Vector2f> profile = {{0, half}, {radius - round, half}}, normals = {{0, 1}, {0, 1}};
   for (int end = 0; end < 2; ++end) {
     for (int i = 0; i <= kArc; ++i) {

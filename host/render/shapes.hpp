@@ -3,11 +3,11 @@
 
 namespace verp::render {
 
-/// Triangles of the plain shapes, in the item's frame at its true size, facing outward.
+/// Triangles of the plain shapes, in the item's frame at its true size, winding outward.
 scene::Triangles box(const scene::Vec3& edges_m, double round_m);
-scene::Triangles sphere(double radius_m, int around = 32);
-scene::Triangles capsule(double radius_m, double length_m, int around = 24);
-scene::Triangles cylinder(double radius_m, double length_m, double round_m, int around = 32);
+scene::Triangles sphere(double radius_m, int around = 24);
+scene::Triangles capsule(double radius_m, double length_m, int around = 20);
+scene::Triangles cylinder(double radius_m, double length_m, double round_m, int around = 24);
 scene::Triangles plane(double x_m, double y_m);
 
 /// A closed profile (radius, height) turned about z; `normals` along.
