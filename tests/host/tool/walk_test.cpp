@@ -110,7 +110,9 @@ TEST_F(Walk, ReportFolderHoldsPageNumbersAndTrace) {
   }
   const std::string page = slurp(folder_ / "out/index.html");
   EXPECT_NE(page.find("</html>"), std::string::npos);
-  EXPECT_EQ(page.find("src="), std::string::npos) << "self-contained";
+  for (const char* word : {"<script src", "<link", "<img", "src=\"", "@import"}) {
+    EXPECT_EQ(page.find(word), std::string::npos) << "self-contained: " << word;
+  }
   EXPECT_FALSE(has_leftovers(folder_));
 }
 
