@@ -10,10 +10,18 @@ namespace verp::session {
 namespace {
 
 constexpr double kLeastShare = 0.5;
-constexpr double kStartAndStop_s = 2;
+constexpr double kStartAndStop_s = 2;  // at least
 constexpr double kDegrees = 180 / std::numbers::pi;
 // A turn or a way that small is what feet that step in place do anyway.
 constexpr double kLeastWay_m = 0.05, kLeastTurn_rad = 0.2;
+
+/// What a walk spends until its steps are as long as asked, and on ending: half of it on its way.
+double start_and_stop_s(const GaitTuning& gait, const Command& velocity) {
+  const double step_s = 0.5 * gait.cycle_s;
+  const double step_m = step_s * 1e-4 * std::hypot(velocity.vx_tenth_mm_s, velocity.vy_tenth_mm_s);
+  const double own_s = 2 * gait.start_s + step_s * (1 + step_m / gait.step_change_m);
+  return std::max(kStartAndStop_s, own_s);
+}
 
 }  // namespace
 
@@ -33,8 +41,9 @@ Way asked_way(const Command& velocity, double walk_s) {
   return way;
 }
 
-std::string shortfall(const Command& velocity, const sim::WalkMetrics& walked) {
-  const double judged_s = std::max(0.0, walked.walk_s - kStartAndStop_s);
+std::string shortfall(const Command& velocity, const sim::WalkMetrics& walked,
+                      const GaitTuning& gait) {
+  const double judged_s = std::max(0.0, walked.walk_s - start_and_stop_s(gait, velocity));
   const Way way = asked_way(velocity, judged_s);
   // A turn to the other side, or a straight way backwards, covers less than nothing.
   const double turned_rad = std::copysign(1.0, way.turn_rad) * walked.yaw_drift_deg / kDegrees;

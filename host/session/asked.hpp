@@ -17,8 +17,9 @@ struct Way {
 Way asked_way(const Command& velocity, double walk_s);
 
 /// Why a walk that ended on its feet is none: it covered less than half of the way or the turn that
-/// the velocity makes in the time, less a second each for its first and last steps. Empty: it is
-/// one.
-std::string shortfall(const Command& velocity, const sim::WalkMetrics& walked);
+/// the velocity makes in the time, less what the gait takes for its first and last steps (two
+/// seconds at least). Empty: it is one.
+std::string shortfall(const Command& velocity, const sim::WalkMetrics& walked,
+                      const GaitTuning& gait = {});
 
 }  // namespace verp::session

@@ -64,6 +64,17 @@ TEST(Shortfall, ATurnIsAskedToo) {
   EXPECT_EQ(shortfall(velocity(0.1, 0, 0.2), walked(1.9, 0.1, 0.1, 210)), "");
 }
 
+// Eight steps of a second each, the first four and the last four shorter than asked.
+TEST(Shortfall, SlowGaitsStartAndStopSlowly) {
+  GaitTuning slow;
+  slow.cycle_s = 2;
+  sim::WalkMetrics eight = walked(0.10, 0.10, 0, 0);
+  eight.walk_s = 8;
+  EXPECT_EQ(shortfall(velocity(0.04, 0, 0), eight, slow), "");
+  eight.distance_m = eight.ahead_m = 0.02;
+  EXPECT_NE(shortfall(velocity(0.04, 0, 0), eight, slow), "");
+}
+
 TEST(Shortfall, SteppingInPlaceIsWhatWasAsked) {
   EXPECT_EQ(shortfall(velocity(0, 0, 0), walked(0.02, -0.01, 0, 3)), "");
 }
