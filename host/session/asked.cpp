@@ -18,7 +18,8 @@ constexpr double kLeastWay_m = 0.05, kLeastTurn_rad = 0.2;
 /// What a walk spends until its steps are as long as asked, and on ending: half of it on its way.
 double start_and_stop_s(const GaitTuning& gait, const Command& velocity) {
   const double step_s = 0.5 * gait.cycle_s;
-  const double step_m = step_s * 1e-4 * std::hypot(velocity.vx_tenth_mm_s, velocity.vy_tenth_mm_s);
+  const double asked_m = step_s * 1e-4 * std::hypot(velocity.vx_tenth_mm_s, velocity.vy_tenth_mm_s);
+  const double step_m = std::min<double>(asked_m, gait.max_step_m);
   const double own_s = 2 * gait.start_s + step_s * (1 + step_m / gait.step_change_m);
   return std::max(kStartAndStop_s, own_s);
 }
