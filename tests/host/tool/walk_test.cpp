@@ -269,7 +269,7 @@ TEST_F(Walk, FallInASweepIsMarkedAndPointsAtNoTrace) {
 TEST_F(Walk, SweepThatIsInterruptedKeepsTheRowItWasIn) {
   const Outcome outcome = shell("timeout --preserve-status -s TERM 8 " VERP_PROGRAM
                                 " walk --for 3 --sweep-step 0.01:0.05:0.001 --report out");
-  EXPECT_EQ(outcome.status, 1);
+  EXPECT_EQ(outcome.status, 128 + SIGTERM);
   EXPECT_NE(outcome.err.find("interrupted in the sweep"), std::string::npos) << outcome.err;
   EXPECT_NE(outcome.out.find("the sweep was interrupted"), std::string::npos) << outcome.out;
   const std::string csv = slurp(folder_ / "out/sweep.csv");
