@@ -57,6 +57,7 @@ bool VirtualBus::jams(std::uint8_t byte, std::uint64_t start_ns, std::uint64_t e
 
 void VirtualBus::talk(const std::uint8_t* data, std::size_t size) {
   bytes_on_wire_ += size;
+  send_start_ns_ = std::max(now_ns_, master_free_ns_);
   for (std::size_t i = 0; i < size; ++i) {
     const std::uint64_t start_ns = std::max(now_ns_, master_free_ns_);
     if (start_ns > master_free_ns_ + kPause_ns) line_.reset();

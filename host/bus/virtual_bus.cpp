@@ -39,7 +39,8 @@ std::uint64_t VirtualBus::bytes_ns(std::size_t count) const {
 }
 
 bool VirtualBus::hears(const Device& device) const {
-  return !unplugged_[device.id()] && device.baud_code() == dxl::baud_rate_code(baud_);
+  return !unplugged_[device.id()] && !unpowered_[device.id()] &&
+         device.baud_code() == dxl::baud_rate_code(baud_);
 }
 
 std::vector<Device*> VirtualBus::devices(std::uint8_t id) {
@@ -55,9 +56,11 @@ void VirtualBus::set_connected(std::uint8_t id, bool connected) {
 }
 
 void VirtualBus::set_powered(std::uint8_t id, bool powered) {
-  if (powered) set_connected(id, true);
-  for (Device* device : devices(id)) powered ? device->reboot() : device->lose_power();
-  set_connected(id, powered);
+  if (unpowered_[id] != powered) return;
+  unpowered_[id] = !powered;
+  for (const auto& device : devices_) {
+    if (device->id() == id) powered ? device->reboot() : device->lose_power();
+  }
 }
 
 std::uint64_t VirtualBus::begin_tick(std::uint64_t ready_ns) {

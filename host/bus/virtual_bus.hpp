@@ -131,6 +131,7 @@ class VirtualBus {
   std::uint32_t baud_;
   std::vector<std::unique_ptr<Device>> devices_;
   std::array<bool, 256> unplugged_{};
+  std::array<bool, 256> unpowered_{};
   dxl::Parser line_;  ///< what the devices hear
   std::deque<Chunk> replies_;
   std::uint64_t now_ns_ = 0;
