@@ -15,6 +15,7 @@
 #include "host/tool/interrupt.hpp"
 #include "host/tool/json.hpp"
 #include "host/tool/walk_ending.hpp"
+#include "host/tool/walk_plan.hpp"
 
 namespace verp::tool {
 namespace {
@@ -25,12 +26,11 @@ struct HilWords {
   bool lockstep = false, real_time = false;
 };
 
-WalkPlan make_plan(const WalkOptions& options) {
+WalkPlan plan_of(const WalkOptions& options) {
   WalkPlan plan;
   plan.entity = model::load_robot(model::find_model(options.model), options.bus);
   plan.params = model::make_params(plan.entity);
-  plan.velocity = velocity_of(options, options.step_m);
-  plan.walk_s = options.walk_s;
+  ask_for_walk(options, plan);
   plan.twin.seed = options.seed;
   plan.board = options.board;
   return plan;
@@ -65,6 +65,8 @@ Json to_json(const HilResult& result) {
       link["skipped_us"] = result.can->skipped_us;
     } else {
       link["bytes"] = result.realtime.bytes;
+      link["lost"] = result.realtime.lost;
+      link["skipped_us"] = result.realtime.skipped_us;
     }
     link["late"] = result.realtime.late;
     link["worst_late_us"] = result.realtime.worst_late_us;
@@ -97,9 +99,14 @@ std::string to_text(const HilResult& result) {
     out += fmt::format("  {:<18}{} frames heard, {} dropped\n", "master", result.can->heard,
                        result.can->dropped);
   }
-  if (result.can && result.can->skipped_us > 0) {
+  if (result.real_time && !result.can && result.realtime.lost > 0) {
+    out += fmt::format("  {:<18}{} that came while a servo was answering\n", "lost requests",
+                       result.realtime.lost);
+  }
+  const std::uint64_t skipped_us = result.can ? result.can->skipped_us : result.realtime.skipped_us;
+  if (skipped_us > 0) {
     out += fmt::format("  {:<18}{:.1f} s of the clock, in which this PC was too slow\n", "skipped",
-                       1e-6 * static_cast<double>(result.can->skipped_us));
+                       1e-6 * static_cast<double>(skipped_us));
   }
   if (result.real_time) {
     out += fmt::format("  {:<18}{} times over 1 ms, worst {:.1f} ms; link lost {} times\n", "late",
@@ -157,7 +164,7 @@ void refuse_without_operator(const CLI::App& app) {
 int run_hil(const CLI::App& app, HilWords words) {
   WalkOptions& options = words.walk;
   options.board = words.hil.link;
-  const WalkPlan plan = make_plan(options);
+  const WalkPlan plan = plan_of(options);
   check(words, plan.params);
   const bool tells = !words.hil.operator_link.empty();
   if (!tells) refuse_without_operator(app);

@@ -132,7 +132,7 @@ class Twin:
         self.path = os.path.abspath("bus")
         self.log = open("twin.err", "w+")
         self.process = subprocess.Popen([program, "hil", "generic21", "--link", "pty:" + self.path, "--for", "60", "--json"],
-                                        stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=self.log)
+                                        stdin=subprocess.DEVNULL, stdout=open("twin.out", "w"), stderr=self.log)
 
     def __enter__(self):
         for _ in range(1000):
@@ -145,6 +145,12 @@ class Twin:
     def __exit__(self, *_):
         self.process.terminate()
         self.process.wait()
+
+    def told(self):
+        """Ends it; its JSON."""
+        self.__exit__()
+        with open("twin.out") as text:
+            return json.load(text)
 
     def said(self):
         with open("twin.err") as text:
@@ -228,6 +234,8 @@ def too_many_writes(twin):
     assert port.write(1, 65, 0, 1) == 0
     assert port.read(1, 65, 1) == 0
     assert "lost, as on a wire" in twin.said(), twin.said()
+    link = twin.told()["link"]
+    assert 0 < link["lost"] <= 2000 and link["skipped_us"] >= 0, link
 
 
 def another_rate(twin):
@@ -278,18 +286,37 @@ def rest(port, milliseconds):
         time.sleep(0.01)
 
 
-def travel(port, goal):
-    """Goes there; ms by the servo's own clock, and what its trajectory showed on the way."""
+def moment(port):
+    """Of one moment: the servo's clock, Moving Status, Velocity Trajectory, Moving."""
+    data = port.ask(HEAD, READ, number(TICK, 2) + number(SPEED_WANTED + 4 - TICK, 2)).data
+    speed = int.from_bytes(data[SPEED_WANTED - TICK:], "little", signed=True)
+    return int.from_bytes(data[:2], "little"), data[STATUS_123 - TICK], speed, data[MOVING - TICK]
+
+
+def go(port, goal):
+    """Goes there; ms by the servo's own clock, what its trajectory showed on the way, and for how long nobody looked."""
+    begun = moment(port)[0]
     assert port.write(HEAD, GOAL, goal, 4) == 0
-    begun, seen = port.read(HEAD, TICK, 2, False), []
     rest(port, 5)
+    took, longest, seen = 0, 0, []
     while True:
-        status = port.read(HEAD, STATUS_123, 1, False)
-        took = (port.read(HEAD, TICK, 2, False) - begun) % 32768
+        tick, status, speed, moving = moment(port)
+        longest = max(longest, (tick - begun) % 32768 - took)
+        took = (tick - begun) % 32768
         if not status & 2:
-            return took, seen
-        seen.append((status >> 4, port.read(HEAD, SPEED_WANTED, 4), port.read(HEAD, MOVING, 1)))
+            return took, seen, longest
+        seen.append((status >> 4, speed, moving))
         assert took < 5000, seen[-1]
+
+
+def travel(port, goal):
+    """Goes there, once more if this PC was so slow that it can't tell what it was meant to see."""
+    home = port.read(HEAD, GOAL, 4)
+    while True:
+        took, seen, longest = go(port, goal)
+        if longest < 50:
+            return took, seen
+        go(port, home)
 
 
 def profiles(twin):

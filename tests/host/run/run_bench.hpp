@@ -24,7 +24,7 @@ class RunBench : public Program {
     twin_ = std::make_unique<Process>(folder_, "twin",
                                       std::vector<std::string>{"hil", model, "--realtime", "--for",
                                                                "3600", "--json", "--link", twin});
-    ASSERT_TRUE(twin_->says("waits for a controller"));
+    ASSERT_TRUE(twin_->says("waits for a controller")) << twin_->said();
   }
   void plug(const verp::test::Latency& latency) {
     cable_.reset();
