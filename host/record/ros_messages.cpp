@@ -154,7 +154,8 @@ std::array<double, 3> rotated(const float (&matrix)[9], const std::int16_t (&cou
 }  // namespace
 
 std::string joint_state(const Params& params, const std::int32_t (&position_count)[kMaxJoints],
-                        std::span<const double> velocity_rad_s, std::uint64_t time_ns) {
+                        std::span<const double> velocity_rad_s, std::span<const double> effort_n_m,
+                        std::uint64_t time_ns) {
   Cdr out;
   const std::uint32_t count = params.joint_count;
   out.header(time_ns, "").put(count);
@@ -164,7 +165,7 @@ std::string joint_state(const Params& params, const std::int32_t (&position_coun
     out.put(joint_rad(params.joint[j], position_count[j]));
   }
   out.put(static_cast<std::uint32_t>(velocity_rad_s.size())).doubles(velocity_rad_s);
-  out.put(std::uint32_t{0});
+  out.put(static_cast<std::uint32_t>(effort_n_m.size())).doubles(effort_n_m);
   return out.take();
 }
 

@@ -36,10 +36,11 @@ struct LaserScan {
 extern const std::string_view kLaserScanSchema;  ///< sensor_msgs/msg/LaserScan
 std::string laser_scan(const LaserScan& scan, std::uint64_t time_ns);
 
-/// Joint angles as JointState: of position counts, with velocities in rad/s if there are any. What
-/// a servo does not tell, effort, is left out.
+/// Joint angles as JointState: of position counts, with velocities in rad/s and efforts in N m if
+/// there are any.
 std::string joint_state(const Params& params, const std::int32_t (&position_count)[kMaxJoints],
-                        std::span<const double> velocity_rad_s, std::uint64_t time_ns);
+                        std::span<const double> velocity_rad_s, std::span<const double> effort_n_m,
+                        std::uint64_t time_ns);
 /// One tick of the controller as JSON, by kControlSchema.
 std::string control(const Params& params, const Inputs& inputs, const Outputs& outputs);
 /// Gyro and accelerometer, rotated into the body frame; orientation is declared unknown.

@@ -66,23 +66,23 @@ TraceWriter::~TraceWriter() {
 }
 
 void TraceWriter::append(const TickRecord& record, const State& state, const Outputs& outputs,
-                         const ros::BodyPose* body) {
+                         const ros::BodyPose* body, std::span<const double> effort_n_m) {
   const bool keep =
       options_.every_state || ticks_ % kKeyframeTicks == 0 || outputs.faults != faults_;
   faults_ = outputs.faults;
-  put(record, keep ? &state : nullptr, &outputs, body);
+  put(record, keep ? &state : nullptr, &outputs, body, effort_n_m);
 }
 
 void TraceWriter::append(const TickRecord& record, const State* kept) {
-  put(record, kept, nullptr, nullptr);
+  put(record, kept, nullptr, nullptr, {});
 }
 
 void TraceWriter::put(const TickRecord& record, const State* kept, const Outputs* outputs,
-                      const ros::BodyPose* body) {
+                      const ros::BodyPose* body, std::span<const double> effort_n_m) {
   const std::uint64_t time_ns = std::uint64_t{record.inputs.tick} * params_.period_us * 1000;
   writer_.add_message(tick_, time_ns, image(record));
   if (kept != nullptr) writer_.add_message(state_, time_ns, image(*kept));
-  if (options_.ros) append_ros(record.inputs, outputs, body, time_ns);
+  if (options_.ros) append_ros(record.inputs, outputs, body, effort_n_m, time_ns);
   ++ticks_;
   if (ticks_ % options_.chunk_ticks != 0) return;
   writer_.flush();
@@ -111,13 +111,14 @@ void TraceWriter::note(std::uint32_t tick, const std::string& what) {
 }
 
 void TraceWriter::append_ros(const Inputs& inputs, const Outputs* outputs,
-                             const ros::BodyPose* body, std::uint64_t time_ns) {
+                             const ros::BodyPose* body, std::span<const double> effort_n_m,
+                             std::uint64_t time_ns) {
   writer_.add_message(
       joints_, time_ns,
-      ros::joint_state(params_, inputs.position_count, speeds_.after(inputs), time_ns));
+      ros::joint_state(params_, inputs.position_count, speeds_.after(inputs), effort_n_m, time_ns));
   if (outputs != nullptr) {
     writer_.add_message(goals_, time_ns,
-                        ros::joint_state(params_, outputs->goal_count, {}, time_ns));
+                        ros::joint_state(params_, outputs->goal_count, {}, {}, time_ns));
     writer_.add_message(control_, time_ns, ros::control(params_, inputs, *outputs));
   }
   writer_.add_message(imu_, time_ns, ros::imu(params_, inputs, time_ns));

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <map>
 #include <optional>
+#include <span>
 
 #include "host/record/joint_speeds.hpp"
 #include "host/record/mcap_writer.hpp"
@@ -29,10 +30,11 @@ class TraceWriter {
   TraceWriter(const TraceWriter&) = delete;
   TraceWriter& operator=(const TraceWriter&) = delete;
 
-  /// One tick: what went in with its digests, State after it, what came out, and where the body
-  /// really was, if a twin knows (null: no /tf for this tick).
+  /// One tick: what went in with its digests, State after it, what came out, and, if a twin knows,
+  /// where the body really was (null: no /tf for this tick) and how hard each joint was driven.
+  /// Servos are not asked for that: without a twin the effort stays empty.
   void append(const TickRecord& record, const State& state, const Outputs& outputs,
-              const ros::BodyPose* body = nullptr);
+              const ros::BodyPose* body = nullptr, std::span<const double> effort_n_m = {});
   /// One tick of a run that is copied: with the State its trace kept, if it did (null: none).
   void append(const TickRecord& record, const State* kept);
   /// What a sensor that the controller does not have measured up to that tick, on /SENSOR. Nothing
@@ -54,9 +56,9 @@ class TraceWriter {
  private:
   void begin(const mcap::StringMap& run);
   void put(const TickRecord& record, const State* kept, const Outputs* outputs,
-           const ros::BodyPose* body);
+           const ros::BodyPose* body, std::span<const double> effort_n_m);
   void append_ros(const Inputs& inputs, const Outputs* outputs, const ros::BodyPose* body,
-                  std::uint64_t time_ns);
+                  std::span<const double> effort_n_m, std::uint64_t time_ns);
 
   mcap::Writer writer_;
   Params params_;

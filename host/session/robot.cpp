@@ -110,7 +110,7 @@ void Robot::see() {
   ++result_.ticks;
   result_.digest = tick_.digest.chain;
   result_.faults = outputs_.faults;
-  if (trace_ != nullptr) append(seen.truth.body_world);
+  if (trace_ != nullptr) append(seen.truth);
   const bool done = hooks_.order ? gone_s() >= plan_.walk_s : walker_->done();
   intervene_in_time();
   after_s_ += twin_.fallen() || done ? plan_.params.period_us * 1e-6 : 0;
@@ -207,10 +207,10 @@ void Robot::count_traffic() {
 }
 
 /// A disk that is full costs the trace, not the walk.
-void Robot::append(const sim::Transform& body_world) {
+void Robot::append(const sim::Truth& truth) {
   try {
-    const record::ros::BodyPose body = pose_of(body_world);
-    trace_->append(tick_, state_, outputs_, &body);
+    const record::ros::BodyPose body = pose_of(truth.body_world);
+    trace_->append(tick_, state_, outputs_, &body, truth.torque_n_m);
     for (const sim::Scan& scan : twin_.take_scans()) append(scan);
   } catch (const record::TraceError& error) {
     result_.trace_failure = error.what();

@@ -84,7 +84,7 @@ class Robot {
   WalkResult result(double wall_s);
 
  private:
-  void append(const sim::Transform& body_world);
+  void append(const sim::Truth& truth);
   void append(const sim::Scan& scan);
   std::string failure_of_walk() const;
   void intervene_in_time();

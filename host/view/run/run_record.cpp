@@ -8,10 +8,12 @@
 namespace verp::view {
 
 void RunRecord::add(const session::Tick& tick) {
-  const sim::Transform& body = tick.seen.truth.body_world;
+  const sim::Truth& truth = tick.seen.truth;
+  const sim::Transform& body = truth.body_world;
   const Eigen::Quaterniond q(body.linear());
   const auto& p = body.translation();
-  ticks_.push_back({*tick.record, {{p.x(), p.y(), p.z()}, {q.x(), q.y(), q.z(), q.w()}}});
+  ticks_.push_back(
+      {*tick.record, {{p.x(), p.y(), p.z()}, {q.x(), q.y(), q.z(), q.w()}}, truth.torque_n_m});
 }
 
 void RunRecord::note(const std::string& what) {
@@ -25,7 +27,7 @@ void RunRecord::save(const std::filesystem::path& file, const Params& params,
   Outputs outputs;
   for (const Kept& kept : ticks_) {
     step(params, state, kept.record.inputs, outputs);
-    writer.append(kept.record, state, outputs, &kept.body);
+    writer.append(kept.record, state, outputs, &kept.body, kept.effort_n_m);
     for (const std::string& what : kept.notes) writer.note(kept.record.inputs.tick, what);
   }
   writer.close({{"digest", fmt::format("0x{:016x}", state.digest.chain)}, {"failure", ""}});

@@ -11,7 +11,8 @@
 namespace verp::view {
 
 /// A run in memory, so that who has watched it can still keep it: what went into each tick, and
-/// where the body was. State is made again from that when it is saved.
+/// where the body was and how hard its joints were driven. State is made again from that when it is
+/// saved.
 class RunRecord {
  public:
   void add(const session::Tick& tick);
@@ -27,6 +28,7 @@ class RunRecord {
   struct Kept {
     TickRecord record;
     record::ros::BodyPose body;
+    std::vector<double> effort_n_m;
     std::vector<std::string> notes = {};
   };
   std::vector<Kept> ticks_;

@@ -26,6 +26,9 @@ TEST_F(Channels, TellEachTicksGoalsAndGaitAndTheRobot) {
   auto all = messages_of(slurp(folder_ / "run.mcap"));
   EXPECT_EQ(all["/joint_goals"].size(), 40u);
   EXPECT_EQ(all["/joint_states"].size(), 40u);
+  const std::string& joints = all["/joint_states"][8];
+  const double effort_n_m[] = {0.5, -2};
+  EXPECT_TRUE(joints.ends_with({reinterpret_cast<const char*>(effort_n_m), sizeof effort_n_m}));
   ASSERT_EQ(all["/control"].size(), 40u);
   EXPECT_NE(all["/control"][7].find(R"("tick":7,"mode":)"), std::string::npos)
       << all["/control"][7];

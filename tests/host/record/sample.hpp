@@ -89,7 +89,8 @@ inline void write_run(const fs::path& file, std::uint32_t ticks, TraceOptions op
     Outputs outputs;
     const Inputs inputs = sample_inputs(tick);
     step(params, state, inputs, outputs);
-    writer.append(record_of(inputs, state.digest), state, {}, &body);
+    const double effort_n_m[] = {0.5, -0.25 * tick};
+    writer.append(record_of(inputs, state.digest), state, {}, &body, effort_n_m);
   }
   if (close) writer.close();
 }
