@@ -19,6 +19,7 @@
 #include "host/tool/run_params.hpp"
 #include "host/tool/run_robot.hpp"
 #include "host/tool/walk_files.hpp"
+#include "host/tool/walk_plan.hpp"
 
 namespace verp::tool {
 namespace {
@@ -52,8 +53,7 @@ RunPlan make_plan(const RunWords& words) {
   apply_tuning(words.walk, walk.params.tuning);
   apply_run_params(words.params, walk.params);
   model::require_bus(walk.entity, walk.params);
-  walk.velocity = velocity_of(words.walk, words.walk.step_m);
-  walk.walk_s = words.walk.walk_s;
+  ask_for_walk(words.walk, walk);
   if (plan.link.kind == wire::Endpoint::Kind::kSerial && plan.link.baud != walk.params.baud) {
     throw ToolError(kBadInput, fmt::format("verp run: the link runs at {} baud, the bus of {} at "
                                            "{}; give --link serial:{}@{}, or change baud in "
@@ -172,6 +172,7 @@ int run_on(Link& link, const RunWords& words, const RunPlan& plan, WalkFiles& fi
 
 int run_robot(const RunWords& words) {
   const RunPlan plan = make_plan(words);
+  if (!plan.walk.remark.empty()) complain("verp run: " + plan.walk.remark);
   WalkFiles files(words.walk, plan.walk,
                   {{"link", words.link}, {"imu", plan.has_imu ? "bus" : "none: assumed upright"}});
   if (plan.link.kind == wire::Endpoint::Kind::kCan) {

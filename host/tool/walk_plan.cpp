@@ -15,6 +15,14 @@ namespace verp::tool {
 
 using session::WalkPlan;
 
+void ask_for_walk(const WalkOptions& options, WalkPlan& plan) {
+  const session::Followed followed =
+      session::within_servo_speed(plan.params, velocity_of(options, options.step_m));
+  plan.velocity = followed.velocity;
+  plan.remark = followed.remark;
+  plan.walk_s = options.walk_s;
+}
+
 WalkPlan make_plan(const WalkOptions& options) {
   check_board(options);
   WalkPlan plan;
@@ -22,11 +30,7 @@ WalkPlan make_plan(const WalkOptions& options) {
   if (!options.board.empty()) require_serial("verp walk --on", plan.entity);
   plan.params = model::make_params(plan.entity);
   apply_tuning(options, plan.params.tuning);
-  const session::Followed followed =
-      session::within_servo_speed(plan.params, velocity_of(options, options.step_m));
-  plan.velocity = followed.velocity;
-  plan.remark = followed.remark;
-  plan.walk_s = options.walk_s;
+  ask_for_walk(options, plan);
   plan.twin.seed = options.seed;
   plan.board = options.board;
   return plan;

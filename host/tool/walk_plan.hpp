@@ -9,6 +9,10 @@
 /// The run that the options of `verp walk` mean.
 namespace verp::tool {
 
+/// Gives the plan the velocity that the options ask for, or as much of it as the robot's servos can
+/// follow, and the length of the walk. The plan has its Params by then.
+void ask_for_walk(const WalkOptions& options, session::WalkPlan& plan);
+
 /// Throws ToolError and LoadError.
 session::WalkPlan make_plan(const WalkOptions& options);
 
