@@ -99,6 +99,13 @@ function(verp_add_deploy_test)
   endforeach()
 endfunction()
 
+# gdb on these images; with `loop`, on the board's own loop, too.
+function(verp_add_debug_test)
+  add_test(NAME debug.${VERP_BOARD} COMMAND ${CMAKE_SOURCE_DIR}/tests/target/debug ${VERP_BOARD} ${VERP_HOST_DIR}/host/tool/verp ${ARGN})
+  set_tests_properties(debug.${VERP_BOARD} PROPERTIES LABELS "replay;target"
+    ENVIRONMENT "VERP_FIRMWARE_DIR=${CMAKE_BINARY_DIR}/images")
+endfunction()
+
 # Recorded inputs run through the core in the board: short ones, and the long trace of tests/replay.
 function(verp_add_replay_tests machine)
   verp_add_emulated_image(replay replay ${machine})

@@ -19,6 +19,7 @@ std::vector<std::string> QemuProcess::command(const Launch& launch) {
   const char* other = std::getenv("VERP_QEMU");
   std::string semihosting = "enable=on,target=native,arg=" + launch.image.filename().string();
   for (const std::string& argument : launch.arguments) semihosting += ",arg=" + argument;
+  if (!launch.console.empty()) semihosting += ",chardev=" + launch.console;
   std::vector<std::string> command = {other != nullptr ? other : launch.board.program,
                                       "-M",
                                       launch.board.machine,

@@ -23,6 +23,8 @@ class QemuProcess {
     /// Where QEMU listens for the peers of the board's serial ports, in order: paths of sockets.
     std::vector<std::filesystem::path> serial_ports = {};
     std::vector<std::string> options = {};  ///< further words of QEMU's command line
+    std::string console =
+        {};  ///< QEMU's character device that gets what the image says; empty: stdout
     /// This PC's CAN interface that the board's CAN is joined to; empty: none.
     std::string can_interface = {};
   };

@@ -21,18 +21,6 @@ void get(std::ifstream& file, T* data, std::size_t count) {
   file.read(reinterpret_cast<char*>(data), static_cast<std::streamsize>(count * sizeof(T)));
 }
 
-void write_job(const std::filesystem::path& path, const Params& params,
-               std::span<const Inputs> inputs, const TargetReplayOptions& options) {
-  const ReplayJob job{.ticks = static_cast<std::uint32_t>(inputs.size()),
-                      .state_after = options.state_after.value_or(ReplayJob::kNoState)};
-  std::ofstream file(path, std::ios::binary);
-  put(file, &job, 1);
-  put(file, &params, 1);
-  put(file, inputs.data(), inputs.size());
-  file.close();
-  if (!file) throw BoardError(path.string() + ": can't write; free some disk space or set TMPDIR");
-}
-
 TargetReplay read_result(const std::filesystem::path& path, std::size_t ticks, bool with_state) {
   TargetReplay result;
   result.digests.resize(ticks);
@@ -50,13 +38,25 @@ TargetReplay read_result(const std::filesystem::path& path, std::size_t ticks, b
 
 }  // namespace
 
+void write_replay_job(const std::filesystem::path& path, const Params& params,
+                      std::span<const Inputs> inputs, const TargetReplayOptions& options) {
+  const ReplayJob job{.ticks = static_cast<std::uint32_t>(inputs.size()),
+                      .state_after = options.state_after.value_or(ReplayJob::kNoState)};
+  std::ofstream file(path, std::ios::binary);
+  put(file, &job, 1);
+  put(file, &params, 1);
+  put(file, inputs.data(), inputs.size());
+  file.close();
+  if (!file) throw BoardError(path.string() + ": can't write; free some disk space or set TMPDIR");
+}
+
 TargetReplay replay_on(const std::string& board, const Params& params,
                        std::span<const Inputs> inputs, const TargetReplayOptions& options) {
   const EmulatedBoard& emulated = find_emulated_board(board);
   const TemporaryDirectory directory;
   const auto job = directory.path() / "job";
   const auto result = directory.path() / "result";
-  write_job(job, params, inputs, options);
+  write_replay_job(job, params, inputs, options);
   QemuProcess firmware({.board = emulated,
                         .image = firmware_image(emulated, "replay"),
                         .arguments = {job.string(), result.string()},

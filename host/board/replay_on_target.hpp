@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <span>
 #include <string>
@@ -25,6 +26,11 @@ struct TargetReplayOptions {
   std::string plugin = {};  ///< QEMU's -plugin option (tests/bench)
   std::uint32_t limit_s = 600;
 };
+
+/// The file that tells a replay image what to do: its first argument; the second is where its
+/// answer goes. Throws BoardError.
+void write_replay_job(const std::filesystem::path& path, const Params& params,
+                      std::span<const Inputs> inputs, const TargetReplayOptions& options = {});
 
 /// Runs the controller over recorded inputs in firmware on an emulated board. Throws BoardError.
 TargetReplay replay_on(const std::string& board, const Params& params,

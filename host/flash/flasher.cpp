@@ -148,6 +148,10 @@ Workspace::Workspace(const std::string& board) : path_(work_root() / board) {
   }
 }
 
+void Workspace::hand_over() const {
+  ::fcntl(lock_, F_SETFD, 0);  // open, and so locked, beyond exec
+}
+
 Workspace::~Workspace() {
   if (lock_ >= 0) ::close(lock_);
 }

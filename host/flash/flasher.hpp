@@ -31,6 +31,8 @@ class Workspace {
   Workspace& operator=(const Workspace&) = delete;
 
   const std::filesystem::path& path() const { return path_; }
+  /// The program that this process becomes has it next.
+  void hand_over() const;
 
  private:
   std::filesystem::path path_;

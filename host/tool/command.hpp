@@ -37,6 +37,7 @@ Subcommand add_bus(CLI::App& root);
 Subcommand add_flash(CLI::App& root);
 Subcommand add_view(CLI::App& root);
 Subcommand add_deploy(CLI::App& root);
+Subcommand add_debug(CLI::App& root);
 
 /// Adds --json. With it stdout holds one JSON object and nothing else; everything for people goes
 /// to stderr.

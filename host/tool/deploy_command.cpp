@@ -5,17 +5,14 @@
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
 #include <memory>
 
 #include "host/board/board_error.hpp"
 #include "host/board/replay_on_target.hpp"
-#include "host/files/places.hpp"
 #include "host/flash/flash_error.hpp"
 #include "host/flash/flasher.hpp"
 #include "host/flash/images.hpp"
 #include "host/flash/recipe.hpp"
-#include "host/flash/tool_run.hpp"
 #include "host/model/find.hpp"
 #include "host/model/load.hpp"
 #include "host/model/params.hpp"
@@ -23,6 +20,7 @@
 #include "host/tool/command.hpp"
 #include "host/tool/console.hpp"
 #include "host/tool/failure.hpp"
+#include "host/tool/firmware_build.hpp"
 #include "host/tool/flash_run.hpp"
 #include "host/tool/interrupt.hpp"
 #include "host/tool/json.hpp"
@@ -68,8 +66,12 @@ class Deployment {
     if (options_.no_build) return {"left out (--no-build)"};
     const std::string images = fmt::format("{}, replay_{}", image_, recipe_.replay_board);
     if (dry()) return {"would build " + images};
-    build(image_, options_.flash.board);
-    build(std::string("replay_") + recipe_.replay_board, recipe_.replay_board);
+    const std::string replay = std::string("replay_") + recipe_.replay_board;
+    const fs::path log = folder() / "build.log";
+    build_firmware({.board = options_.flash.board, .target = image_, .tree = {}, .log = log},
+                   progress_);
+    build_firmware({.board = recipe_.replay_board, .target = replay, .tree = {}, .log = log},
+                   progress_);
     return {images};
   }
 
@@ -144,35 +146,6 @@ class Deployment {
                                      folder_.parent_path().string() + ", or set VERP_FLASH_DIR");
     }
     return folder_;
-  }
-
-  /// One at a time with ./verp, whose lock this takes as well.
-  void build(const std::string& target, const std::string& board) {
-    const fs::path root = files::source_dir();
-    const std::vector<std::string> locked = {"flock", (root / "build" / ".lock").string()};
-    const std::string preset = "fw-" + board;
-    must(locked, {"env", "-C", root.string(), "cmake", "--preset", preset});
-    must(locked, {"cmake", "--build", (root / "build" / preset).string(), "--target", target});
-  }
-
-  void must(std::vector<std::string> command, const std::vector<std::string>& more) {
-    command.insert(command.end(), more.begin(), more.end());
-    const flash::ToolHooks hooks{.share = [&](double share) { progress_.show(share, "build"); },
-                                 .stop = interrupted};
-    progress_.show(0, "build");
-    const flash::ToolRun run = flash::run_tool(command, "cmake", hooks);
-    progress_.clear();
-    if (run.interrupted) throw ToolError(kRunFailed, "interrupted");
-    if (run.status == 0) return;
-    const fs::path log = folder() / "build.log";
-    std::ofstream(log) << run.output;
-    const std::size_t error = run.output.find("rror: ");
-    std::string words = flash::last_line(run.output);
-    if (error != std::string::npos) {
-      const std::size_t begin = run.output.rfind('\n', error) + 1;
-      words = run.output.substr(begin, run.output.find('\n', error) - begin);
-    }
-    throw ToolError(kRunFailed, fmt::format("{}; all of it: {}", words, log.string()));
   }
 
   void expect_same(std::size_t index, const TickDigest& there) const {

@@ -224,6 +224,17 @@ void declare_target(CLI::App& app, FlashOptions& options) {
                "say what would be done, with the commands, and do none of it");
 }
 
+BusProtocol bus_of(const FlashOptions& options, const flash::Recipe& recipe,
+                   const fs::path& folder) {
+  return load(options, recipe, flash::read_memory_map(options.board), folder, false).protocol;
+}
+
+flash::EmulationPlan emulation_of(const FlashOptions& options, const flash::Recipe& recipe,
+                                  const fs::path& folder) {
+  const Cargo cargo = load(options, recipe, flash::read_memory_map(options.board), folder, false);
+  return flash::plan_emulation(recipe, cargo.protocol, cargo.pieces, folder);
+}
+
 FlashAnswer flash_board(const FlashOptions& options, Progress& progress,
                         const std::function<void(const std::string&)>& say) {
   const flash::Recipe& recipe = flash::find_recipe(options.board);

@@ -1,7 +1,9 @@
 #pragma once
+#include <filesystem>
 #include <functional>
 #include <string>
 
+#include "host/flash/emulation.hpp"
 #include "host/tool/json.hpp"
 #include "host/tool/progress.hpp"
 
@@ -30,6 +32,14 @@ struct FlashAnswer {
   std::string text;
   Json json;
 };
+
+/// The kind of bus that the options' robot is on, which decides which firmware.
+BusProtocol bus_of(const FlashOptions& options, const flash::Recipe& recipe,
+                   const std::filesystem::path& folder);
+
+/// The emulated board with the robot that the options name in its memory, its links in `folder`.
+flash::EmulationPlan emulation_of(const FlashOptions& options, const flash::Recipe& recipe,
+                                  const std::filesystem::path& folder);
 
 /// Checks the files, then flashes them, or starts the emulated board with them, or says with which
 /// commands it would. `say` gets what must be read before the end: an emulated board's links.

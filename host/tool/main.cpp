@@ -10,7 +10,7 @@ std::vector<Subcommand> all_commands(CLI::App& root) {
           add_shadow(root), add_replay(root),     add_diff(root), add_check(root),
           add_export(root), add_parameters(root), add_new(root),  add_completion(root),
           add_trace(root),  add_bench(root),      add_bus(root),  add_flash(root),
-          add_deploy(root), add_shot(root),       add_video(root)};
+          add_deploy(root), add_debug(root),      add_shot(root), add_video(root)};
 }
 
 }  // namespace
