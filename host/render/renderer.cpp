@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <string>
 
 #include "host/render/marks.hpp"
 #include "host/render/shaders.hpp"
@@ -14,12 +16,15 @@
 namespace verp::render {
 
 using scene::Colour;
+using scene::Vec2;
 using scene::Vec3;
+using Area = Eigen::AlignedBox2d;
 
 namespace {
 
-constexpr int kShadowTexels = 2048;
+constexpr int kShadowTexels = 2048, kQuickShadowTexels = 1024;
 constexpr int kSamples = 4;
+constexpr std::size_t kMostLights = 8;
 constexpr double kFloor_m = 120;  // edges; what is further away is horizon anyway
 
 Eigen::Vector3f linear(const Colour& colour) {
@@ -74,7 +79,24 @@ struct View {
   Mat4 clip = Mat4::Identity(), sun = Mat4::Identity();
   int shadow_light = -1;  ///< of the scene's; -1: none
   double sun_radius_m = 1;
+  Area shaded;  ///< of the floor: what the shadow map covers
 };
+
+/// What parallel light that passes the ball's box meets on the floor.
+Area shaded_by(const Mat4& sun, const Vec3& direction, const Stage::Ball& ball) {
+  Area area;
+  const Vec3 toward = direction.normalized();
+  if (toward.z() > -0.05) return {Vec2(-kFloor_m, -kFloor_m), Vec2(kFloor_m, kFloor_m)};
+  for (const double x : {-1.0, 1.0}) {
+    for (const double y : {-1.0, 1.0}) {
+      const Vec3 across = sun.block<1, 3>(0, 0).transpose().cast<double>().normalized(),
+                 up = sun.block<1, 3>(1, 0).transpose().cast<double>().normalized();
+      const Vec3 corner = ball.centre_m + ball.radius_m * (x * across + y * up);
+      area.extend((corner - corner.z() / toward.z() * toward).head<2>());
+    }
+  }
+  return area;
+}
 
 scene::Snapshot at_goals(const scene::Scene& scene, const scene::Snapshot& now) {
   scene::Snapshot out;
@@ -91,22 +113,23 @@ scene::Snapshot at_goals(const scene::Scene& scene, const scene::Snapshot& now) 
 }  // namespace
 
 struct Renderer::Impl {
-  Program solid{kSolidVertex, kLitFragment, kSolidHeader};
-  Program ground{kSolidVertex, kLitFragment, kFloorHeader};
+  std::map<std::string, Program> lit;            ///< by their headers
+  Program *plain = nullptr, *painted = nullptr;  ///< of the picture that is being drawn
   Program shade{kShadowVertex, kShadowFragment};
   Program backdrop{kSkyVertex, kSkyFragment};
   Program meter{kSolidVertex, kMeasureFragment};
   Program mark{kMarkVertex, kMarkFragment};
-  GpuMesh floor{plane(kFloor_m, kFloor_m)};
+  GpuMesh floor{plane(1, 1)};
   VertexArray nothing = new_vertices(), mark_vertices = new_vertices();
   Buffer mark_buffer = new_buffer();
   Texture shadow = new_texture();
+  int shadow_texels = 0;
   FrameBuffer shadow_frame = new_frame();
   Canvas canvas, resolved, measured;
   Stage stage;
 
   Impl() {
-    make_shadow_map();
+    make_shadow_map(kShadowTexels);
     glBindVertexArray(mark_vertices.id());
     glBindBuffer(GL_ARRAY_BUFFER, mark_buffer.id());
     const GLint sizes[] = {3, 3, 4};
@@ -119,10 +142,12 @@ struct Renderer::Impl {
     }
   }
 
-  void make_shadow_map() {
+  void make_shadow_map(int texels) {
+    if (texels == shadow_texels) return;
+    shadow_texels = texels;
     glBindTexture(GL_TEXTURE_2D, shadow.id());
-    glTexImage2D(GL_TEXTURE_2D, 0, GL_DEPTH_COMPONENT24, kShadowTexels, kShadowTexels, 0,
-                 GL_DEPTH_COMPONENT, GL_FLOAT, nullptr);
+    glTexImage2D(GL_TEXTURE_2D, 0, GL_DEPTH_COMPONENT24, texels, texels, 0, GL_DEPTH_COMPONENT,
+                 GL_FLOAT, nullptr);
     for (const GLenum filter : {GL_TEXTURE_MIN_FILTER, GL_TEXTURE_MAG_FILTER}) {
       glTexParameteri(GL_TEXTURE_2D, filter, GL_LINEAR);
     }
@@ -144,7 +169,7 @@ struct Renderer::Impl {
 
   void draw_shadows(const std::vector<Placed>& placed, const Mat4& sun) {
     glBindFramebuffer(GL_FRAMEBUFFER, shadow_frame.id());
-    glViewport(0, 0, kShadowTexels, kShadowTexels);
+    glViewport(0, 0, shadow_texels, shadow_texels);
     glClear(GL_DEPTH_BUFFER_BIT);
     shade.use();
     shade.set("sun_world", sun);
@@ -156,10 +181,39 @@ struct Renderer::Impl {
     }
   }
 
-  void set_lights(Program& program, int with_shadow, double sun_radius_m) {
+  /// What the shader of a lit thing is compiled for.
+  std::string lit_header(const View& view, const Effects& effects, bool of_floor, bool textured) {
     const scene::Scene& scene = stage.scene();
-    const int count = static_cast<int>(std::min<std::size_t>(scene.lights.size(), 8));
-    program.set("light_count", count);
+    const std::size_t count = std::min<std::size_t>(scene.lights.size(), kMostLights);
+    std::string kinds;
+    for (std::size_t i = 0; i < count; ++i) {
+      kinds += (i == 0 ? "" : ",") + std::to_string(static_cast<int>(scene.lights[i].kind));
+    }
+    std::string header = "#version 330 core\n#define LIGHTS " + std::to_string(count) +
+                         "\n#define SHADOW " + std::to_string(view.shadow_light) +
+                         "\n#define TAPS " + std::to_string(effects.quick ? 4 : 12) +
+                         "\nconst int kKind[" + std::to_string(std::max<std::size_t>(count, 1)) +
+                         "] = int[](" + (count == 0 ? "0" : kinds) + ");\n";
+    if (of_floor) header += "#define FLOOR\n";
+    if (of_floor && effects.ground_grid) header += "#define TILED\n";
+    if (textured) header += "#define TEXTURED\n";
+    if (scene.fog.on && effects.fog) header += "#define FOG\n";
+    return header;
+  }
+
+  Program& lit_program(const View& view, const Effects& effects, bool of_floor, bool textured) {
+    const std::string header = lit_header(view, effects, of_floor, textured);
+    auto found = lit.find(header);
+    if (found == lit.end()) {
+      found = lit.emplace(header, Program(kSolidVertex, kLitFragment, header.c_str())).first;
+    }
+    set_common(found->second, view);
+    return found->second;
+  }
+
+  void set_lights(Program& program, double sun_radius_m) {
+    const scene::Scene& scene = stage.scene();
+    const int count = static_cast<int>(std::min<std::size_t>(scene.lights.size(), kMostLights));
     for (int i = 0; i < count; ++i) {
       const scene::Light& light = scene.lights[static_cast<std::size_t>(i)];
       const auto name = [&](const char* array) {
@@ -176,33 +230,31 @@ struct Renderer::Impl {
                   static_cast<float>(std::cos(light.inner_rad)),
                   static_cast<float>(std::cos(light.outer_rad)));
     }
-    program.set("shadow_light", with_shadow);
     program.set("shadow", 0);
     program.set("picture", 1);
-    program.set("shadow_texel", 1.0F / kShadowTexels);
+    program.set("shadow_texel", 1.0F / static_cast<float>(shadow_texels));
     constexpr double kSoft_m = 0.011;
     program.set("shadow_soft", static_cast<float>(std::clamp(
-                                   kSoft_m * kShadowTexels / (2 * sun_radius_m), 1.2, 14.0)));
+                                   kSoft_m * shadow_texels / (2 * sun_radius_m), 1.2, 14.0)));
     glActiveTexture(GL_TEXTURE0);
     glBindTexture(GL_TEXTURE_2D, shadow.id());
   }
 
   /// All that a picture's things have in common.
-  void set_common(Program& program, const View& view, const Effects& effects) {
+  void set_common(Program& program, const View& view) {
     program.use();
     program.set("clip_world", view.clip);
     program.set("sun_world", view.sun);
     program.set("eye", Eigen::Vector3f(view.eye_m.cast<float>()));
-    set_lights(program, view.shadow_light, view.sun_radius_m);
-    set_air(program, effects);
+    set_lights(program, view.sun_radius_m);
+    set_air(program);
   }
 
-  void set_air(Program& program, const Effects& effects) {
+  void set_air(Program& program) {
     const scene::Scene& scene = stage.scene();
     program.set("ambient", Eigen::Vector3f(linear(scene.ambient) * scene.ambient_strength));
     program.set("zenith", linear(scene.sky.zenith));
     program.set("horizon", linear(scene.sky.horizon));
-    program.set("fog_on", scene.fog.on && effects.fog ? 1 : 0);
     program.set("fog_colour", linear(scene.fog.colour));
     glUniform2f(program.at("fog_range"), static_cast<float>(scene.fog.begin_m),
                 static_cast<float>(std::max(scene.fog.end_m, scene.fog.begin_m + 0.01)));
@@ -229,12 +281,31 @@ struct Renderer::Impl {
   void draw_floor(const View& view, const Effects& effects) {
     if (!effects.ground || !stage.scene().ground.on) return;
     glDisable(GL_CULL_FACE);
-    set_common(ground, view, effects);
+    const Vec2 half(kFloor_m / 2, kFloor_m / 2), eye = view.eye_m.head<2>();
+    const Area all{eye - half, eye + half};
+    View unshaded = view;
+    unshaded.shadow_light = -1;
+    if (view.shadow_light < 0) return draw_floor_part(unshaded, effects, all);
+    // Most of it lies outside of what the shadow map covers, and needs no look at it. The parts
+    // overlap a little where neither has a shadow, so that no crack is between them.
+    constexpr double kOverlap_m = 0.001;
+    const Area in = view.shaded.intersection(all);
+    if (in.isEmpty()) return draw_floor_part(unshaded, effects, all);
+    const Vec2 low = in.min().array() + kOverlap_m, high = in.max().array() - kOverlap_m;
+    draw_floor_part(view, effects, in);
+    draw_floor_part(unshaded, effects, {all.min(), Vec2(low.x(), all.max().y())});
+    draw_floor_part(unshaded, effects, {Vec2(high.x(), all.min().y()), all.max()});
+    draw_floor_part(unshaded, effects, {Vec2(low.x(), all.min().y()), Vec2(high.x(), low.y())});
+    draw_floor_part(unshaded, effects, {Vec2(low.x(), high.y()), Vec2(high.x(), all.max().y())});
+  }
+
+  void draw_floor_part(const View& view, const Effects& effects, const Area& part) {
+    Program& ground = lit_program(view, effects, true, false);
     Mat4 at = Mat4::Identity();
-    at.block<2, 1>(0, 3) = view.eye_m.head<2>().cast<float>();
+    at.block<2, 1>(0, 3) = part.center().cast<float>();
     ground.set("world_item", at);
-    ground.set("scale", Eigen::Vector3f(1, 1, 1));
-    ground.set("floor_tiled", effects.ground_grid ? 1 : 0);
+    ground.set("scale", Eigen::Vector3f(static_cast<float>(part.sizes().x()),
+                                        static_cast<float>(part.sizes().y()), 1));
     floor.draw();
   }
 
@@ -242,14 +313,15 @@ struct Renderer::Impl {
     const scene::Material& material = placed.item->material;
     Eigen::Vector4f colour;
     colour << linear(material.colour), effects.transparency ? material.colour.a * opacity : 1.0F;
+    const bool textured = effects.textures && placed.texture != 0;
+    Program& solid = textured ? *painted : *plain;
+    solid.use();
     solid.set("world_item", placed.world);
     solid.set("scale", placed.scale);
     solid.set("colour", colour);
     solid.set("glow", linear(material.glow));
     solid.set("roughness", material.roughness);
     solid.set("metallic", material.metallic);
-    const bool textured = effects.textures && placed.texture != 0;
-    solid.set("textured", textured ? 1 : 0);
     // Of a closed shape, the far side is never seen. Files' meshes may be open, or wind either way.
     const bool closed = placed.item->shape < scene::Shape::kPlane;
     (closed ? glEnable : glDisable)(GL_CULL_FACE);
@@ -315,7 +387,9 @@ struct Renderer::Impl {
     view.shadow_light = shadow_light(effects);
     if (view.shadow_light >= 0) {
       const auto light = static_cast<std::size_t>(view.shadow_light);
-      view.sun = sun_of(stage.scene().lights[light].direction, ball);
+      const Vec3& direction = stage.scene().lights[light].direction;
+      view.sun = sun_of(direction, ball);
+      view.shaded = shaded_by(view.sun, direction, ball);
     }
     return view;
   }
@@ -328,18 +402,22 @@ struct Renderer::Impl {
     const View view = view_of(now, camera, size, effects);
     begin_state();
     glDisable(GL_BLEND);
+    make_shadow_map(effects.quick ? kQuickShadowTexels : kShadowTexels);
     if (view.shadow_light >= 0) draw_shadows(placed, view.sun);
     glBindFramebuffer(GL_FRAMEBUFFER, target);
     glViewport(0, 0, size.width, size.height);
     const Colour& back = stage.scene().sky.horizon;
     glClearColor(back.r, back.g, back.b, 1);
     glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
-    set_common(solid, view, effects);
+    plain = &lit_program(view, effects, false, false);
+    const bool any_texture =
+        effects.textures && std::any_of(placed.begin(), placed.end(),
+                                        [](const Placed& item) { return item.texture != 0; });
+    painted = any_texture ? &lit_program(view, effects, false, true) : plain;
     draw_solid(placed, effects);
     draw_floor(view, effects);
     if (effects.sky) draw_sky(view.clip, camera.eye_m);
     glEnable(GL_BLEND);
-    solid.use();
     draw_clear(placed, effects, camera.eye_m, 1);
     if (effects.goals) {
       draw_clear(stage.place(at_goals(stage.scene(), now), effects), effects, camera.eye_m, 0.35F);
@@ -406,7 +484,8 @@ struct Renderer::Impl {
     if (effects.ground && stage.scene().ground.on) {
       Mat4 at = Mat4::Identity();
       at.block<2, 1>(0, 3) = camera.eye_m.head<2>().cast<float>();
-      one(at, {1, 1, 1}, with_labels ? 0 : -1, floor);
+      const auto edge_m = static_cast<float>(kFloor_m);
+      one(at, {edge_m, edge_m, 1}, with_labels ? 0 : -1, floor);
     }
     for (const Placed& item : stage.place(now, effects)) {
       one(item.world, item.scale,
@@ -428,6 +507,13 @@ Renderer::Renderer() {
 }
 
 Renderer::~Renderer() = default;
+
+bool Renderer::on_processor() const {
+  const auto* name = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
+  const std::string text = name == nullptr ? "" : name;
+  return text.find("llvmpipe") != text.npos || text.find("softpipe") != text.npos ||
+         text.find("SwiftShader") != text.npos;
+}
 
 void Renderer::set_scene(const scene::Scene& scene) {
   impl_->stage.fill(scene);

@@ -23,6 +23,7 @@ class RenderError : public std::runtime_error {
 struct Effects {
   bool antialias = true;
   bool shadows = true;
+  bool quick = false;  ///< coarser shadows: for a window whose driver is this PC's processor
   bool fog = true;
   bool textures = true;
   bool transparency = true;
@@ -67,6 +68,9 @@ class Renderer {
   ~Renderer();
   Renderer(const Renderer&) = delete;
   Renderer& operator=(const Renderer&) = delete;
+
+  /// The driver draws with this PC's processor: pictures cost it time.
+  bool on_processor() const;
 
   /// Uploads shapes, meshes and textures; lights, fog, sky, ground and materials may be changed
   /// without by look(). A mesh or texture that cannot be read is left out: notes() says which.

@@ -29,21 +29,16 @@ uniform vec3 eye;
 uniform vec4 colour;
 uniform vec3 glow, ambient;
 uniform float roughness, metallic;
-uniform int light_count;
-uniform vec4 light_at[8];      // w: 0 sun, 1 point, 2 spot
+uniform vec4 light_at[8];      // w: of the kind
 uniform vec3 light_toward[8];  // in which it shines
 uniform vec4 light_colour[8];  // w: range
 uniform vec2 light_cone[8];    // cosines of the inner and outer angle
-uniform int shadow_light;      // -1: none
 uniform sampler2DShadow shadow;
 uniform float shadow_texel, shadow_soft;
-uniform int textured;
 uniform sampler2D picture;
 uniform vec3 zenith, horizon;
-uniform int fog_on;
 uniform vec3 fog_colour;
 uniform vec2 fog_range;
-uniform int floor_tiled;
 uniform vec3 floor_light, floor_dark, floor_line;
 uniform float floor_tile, floor_fade;
 out vec4 out_colour;
@@ -60,20 +55,24 @@ vec3 sky(vec3 direction) {
   return mix(horizon, zenith, sqrt(up));
 }
 
+// The spiral's points.
+const vec2 kTap[12] = vec2[](
+  vec2(0.2041, 0.0), vec2(-0.2607, 0.2388), vec2(0.0399, -0.4547), vec2(0.3287, 0.4287),
+  vec2(-0.6031, -0.1067), vec2(0.5715, -0.3640), vec2(-0.1888, 0.7115), vec2(-0.3666, -0.6994),
+  vec2(0.7800, 0.3084), vec2(-0.8179, 0.3459), vec2(0.3993, -0.8459), vec2(0.3020, 0.9313));
+
 float lit(float slope) {
-  if (shadow_light < 0) return 1.0;
   vec3 p = at_sun.xyz / at_sun.w * 0.5 + 0.5;
   vec2 edge = abs(p.xy - 0.5);
-  if (max(edge.x, edge.y) > 0.49 || p.z > 1.0) return 1.0;
   float bias = 0.0006 + 0.0016 * slope, sum = 0.0;
   // A spiral, turned by a per-pixel angle: soft without bands.
   float turn = fract(52.9829189 * fract(dot(gl_FragCoord.xy, vec2(0.06711056, 0.00583715)))) * 6.2831853;
-  for (int i = 0; i < 12; ++i) {
-    float r = sqrt((float(i) + 0.5) / 12.0) * shadow_soft, a = 2.3999632 * float(i) + turn;
-    sum += texture(shadow, vec3(p.xy + shadow_texel * r * vec2(cos(a), sin(a)), p.z - bias));
+  mat2 turned = shadow_texel * shadow_soft * mat2(cos(turn), sin(turn), -sin(turn), cos(turn));
+  for (int i = 0; i < TAPS; ++i) {
+    sum += texture(shadow, vec3(p.xy + turned * kTap[i * 12 / TAPS], p.z - bias));
   }
-  float share = sum / 12.0;
-  return mix(share, 1.0, smoothstep(0.40, 0.49, max(edge.x, edge.y)));
+  float share = sum / float(TAPS);
+  return p.z > 1.0 ? 1.0 : mix(share, 1.0, smoothstep(0.40, 0.49, max(edge.x, edge.y)));
 }
 
 #ifdef FLOOR
@@ -86,7 +85,9 @@ float grid(vec2 p, float spacing, float width) {
 }
 
 vec3 floor_colour() {
-  if (floor_tiled == 0) return floor_light;
+#ifndef TILED
+  return floor_light;
+#else
   vec2 cell = at.xy / (2.0 * floor_tile);
   vec2 w = max(fwidth(cell), 1e-5);
   // A checker, integrated over the pixel.
@@ -95,6 +96,7 @@ vec3 floor_colour() {
   vec3 base = mix(floor_light, floor_dark, checker);
   base = mix(base, floor_line, 0.55 * grid(at.xy, floor_tile, 0.0006));
   return mix(base, floor_line, 0.9 * grid(at.xy, 10.0 * floor_tile, 0.0014));
+#endif
 }
 
 #endif
@@ -105,22 +107,22 @@ vec3 finished(vec3 light) {
   float far = length(at.xy - eye.xy) / floor_fade;
   light = mix(light, horizon, 1.0 - exp(-0.7 * far * far));
 #endif
-  if (fog_on == 1) {
-    light = mix(light, fog_colour, clamp((length(eye - at) - fog_range.x) / (fog_range.y - fog_range.x), 0.0, 1.0));
-  }
+#ifdef FOG
+  light = mix(light, fog_colour, clamp((length(eye - at) - fog_range.x) / (fog_range.y - fog_range.x), 0.0, 1.0));
+#endif
   return pow(clamp(light, 0.0, 1.0), vec3(1.0 / 2.2));
 }
 
 // How strongly a light shines here, and from where.
 float power_of(int i, out vec3 to) {
   to = -light_toward[i];
-  if (light_at[i].w < 0.5) return 1.0;
+  if (kKind[i] == 0) return 1.0;
   to = light_at[i].xyz - at;
   float d = length(to), far = d / light_colour[i].w;
   to /= max(d, 1e-4);
   float part = clamp(1.0 - far * far * far * far, 0.0, 1.0);
   float power = part * part / (d * d + 0.01);
-  if (light_at[i].w < 1.5) return power;
+  if (kKind[i] == 1) return power;
   return power * smoothstep(light_cone[i].y, light_cone[i].x, dot(-to, light_toward[i]));
 }
 
@@ -128,10 +130,10 @@ float power_of(int i, out vec3 to) {
 // Dull and level: no shine, no mirror.
 void main() {
   vec3 sum = ambient * mix(horizon, zenith, 0.5);
-  for (int i = 0; i < light_count; ++i) {
+  for (int i = 0; i < LIGHTS; ++i) {
     vec3 to;
     float power = power_of(i, to) * max(to.z, 0.0);
-    if (i == shadow_light) power *= lit(sqrt(1.0 - to.z * to.z) / max(to.z, 0.1));
+    if (i == SHADOW) power *= lit(sqrt(1.0 - to.z * to.z) / max(to.z, 0.1));
     sum += light_colour[i].rgb * power;
   }
   out_colour = vec4(finished(sum * floor_colour()), 1.0);
@@ -141,17 +143,18 @@ void main() {
   vec3 n = normalize(normal), v = normalize(eye - at);
   if (dot(n, v) < 0.0) n = -n;
   vec4 base = colour;
-  if (textured == 1) base *= texture(picture, texture_at);
+#ifdef TEXTURED
+  base *= texture(picture, texture_at);
+#endif
   float rough = clamp(roughness, 0.05, 1.0), alpha = rough * rough;
   vec3 f0 = mix(vec3(0.04), base.rgb, metallic), diffuse = base.rgb * (1.0 - metallic);
   float nv = max(dot(n, v), 1e-3);
   vec3 sum = vec3(0.0);
-  for (int i = 0; i < light_count; ++i) {
+  for (int i = 0; i < LIGHTS; ++i) {
     vec3 to;
     float power = power_of(i, to);
-    float nl = dot(n, to);
-    if (nl <= 0.0) continue;
-    if (i == shadow_light) power *= lit(sqrt(1.0 - nl * nl) / max(nl, 0.1));
+    float nl = max(dot(n, to), 0.0);
+    if (i == SHADOW) power *= lit(sqrt(1.0 - nl * nl) / max(nl, 0.1));
     vec3 h = normalize(to + v);
     float nh = max(dot(n, h), 0.0), vh = max(dot(v, h), 0.0);
     float d = nh * nh * (alpha * alpha - 1.0) + 1.0;
@@ -171,9 +174,6 @@ void main() {
 }
 #endif
 )";
-
-const char* const kSolidHeader = "#version 330 core\n";
-const char* const kFloorHeader = "#version 330 core\n#define FLOOR\n";
 
 const char* const kShadowVertex = R"(#version 330 core
 layout(location = 0) in vec3 point;

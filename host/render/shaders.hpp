@@ -4,10 +4,9 @@
 namespace verp::render {
 
 extern const char* const kSolidVertex;  ///< position, normal, texture coordinate
-/// What things look like, behind one of these headers.
+/// What things look like, behind a header of lit_header(): a software driver runs both sides of
+/// every `if`, and looks up what a loop indexes, so what a picture does not need is left out.
 extern const char* const kLitFragment;
-extern const char* const kSolidHeader;
-extern const char* const kFloorHeader;
 extern const char* const kShadowVertex;  ///< depth seen from the sun
 extern const char* const kShadowFragment;
 extern const char* const kSkyVertex;  ///< one triangle over the whole picture

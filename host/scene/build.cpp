@@ -191,6 +191,17 @@ int add_robot(Scene& scene, const Entity& entity, Meshes meshes) {
   return RobotBuilder(scene, entity, meshes).build();
 }
 
+void tint(Scene& scene, int robot, const Colour& colour) {
+  constexpr float kShare = 0.55F;
+  const auto mix = [](float& own, float other) { own += kShare * (other - own); };
+  for (Item& item : scene.items) {
+    if (item.robot != robot || item.collision) continue;
+    mix(item.material.colour.r, colour.r);
+    mix(item.material.colour.g, colour.g);
+    mix(item.material.colour.b, colour.b);
+  }
+}
+
 RobotView posed(const Entity& entity, const Transform& body_world,
                 const std::vector<double>& joint_rad) {
   RobotView view;

@@ -13,6 +13,9 @@ enum class Meshes { kFromFiles, kNone };
 /// Its cameras become the scene's. Returns its index.
 int add_robot(Scene& scene, const Entity& entity, Meshes meshes = Meshes::kFromFiles);
 
+/// Colours a robot so that it is told from another one like it.
+void tint(Scene& scene, int robot, const Colour& colour);
+
 /// A robot on its feet in its own stance at start_m, as the twin begins.
 RobotView standing(const Entity& entity, const Vec3& start_m = Vec3::Zero(), double yaw_rad = 0);
 

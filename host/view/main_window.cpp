@@ -2,8 +2,6 @@
 
 #include <QCloseEvent>
 #include <QDockWidget>
-#include <QFileDialog>
-#include <QFileInfo>
 #include <QLabel>
 #include <QPushButton>
 #include <QSettings>
@@ -11,7 +9,6 @@
 #include <QTimer>
 #include <QUndoStack>
 #include <chrono>
-#include <cmath>
 
 #include "common/gait/types.hpp"
 #include "common/safety/machine.hpp"
@@ -29,10 +26,9 @@ namespace verp::view {
 namespace {
 
 constexpr int kFrame_ms = 33;
-constexpr int kNumbersEvery = 4;   // frames: nobody reads faster
-constexpr double kPush_n_m = 100;  // of a drag
-constexpr double kPush_s = 0.1;
-constexpr int kLayout = 1;  // version of what is remembered of it
+constexpr int kNumbersEvery = 4;                          // frames: nobody reads faster
+constexpr scene::Colour kLinked{0.16F, 0.47F, 0.86F, 1};  // of the robot at the link
+constexpr int kLayout = 1;                                // version of what is remembered of it
 
 double wall_s() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
@@ -161,9 +157,7 @@ void MainWindow::show_film(const QString& name) {
   film_.reset();
   safety_->clear();
   stop_->setEnabled(player_->live() != nullptr);
-  scene::Scene scene = scene::studio();
-  scene::add_robot(scene, *entity_);
-  scene_->set_scene(std::move(scene));
+  scene_->set_scene(scene_of_all());
   scene_->show_picture([&] {
     auto first = std::make_shared<scene::Snapshot>();
     first->robots.push_back(scene::standing(*entity_));
@@ -171,7 +165,7 @@ void MainWindow::show_film(const QString& name) {
   }());
   scene_->say("");
   const std::vector<int> ticked = plots_->shown();
-  const std::vector<Signal> all = signals_of(*entity_);
+  const std::vector<Signal> all = player_->film()->all_signals();
   signals_->set_signals(all);
   plots_->clear();
   transport_->set_player(player_.get());
@@ -180,6 +174,17 @@ void MainWindow::show_film(const QString& name) {
                                                          signal_number(all, "ZMP planned y")}
                                       : ticked);
   setWindowTitle(name + " – verp view");
+}
+
+/// In the order of the snapshots' robots.
+scene::Scene MainWindow::scene_of_all() {
+  scene::Scene scene = scene::studio();
+  scene::add_robot(scene, *entity_);
+  if (player_->live() == nullptr) return scene;
+  const RunSetup& setup = player_->live()->setup();
+  if (setup.beside) scene::tint(scene, scene::add_robot(scene, *entity_), kLinked);
+  for (const session::WalkPlan& plan : setup.others) scene::add_robot(scene, plan.entity);
+  return scene;
 }
 
 void MainWindow::open(const QString& file) {
@@ -211,7 +216,8 @@ void MainWindow::frame() {
 
 void MainWindow::show_numbers(const scene::Snapshot& now) {
   const scene::RobotView& robot = now.robots.front();
-  signals_->set_values(values_of(robot, *entity_));
+  const bool beside = live() != nullptr && live()->setup().beside;
+  signals_->set_values(values_of(robot, *entity_, beside ? &now.robots.at(1) : nullptr));
   mode_->setText(QString("%1 · %2").arg(safety::kModeNames[robot.mode % safety::kModes],
                                         phase_name(robot.phase)));
   const std::string faults = session::fault_names(robot.faults);
@@ -231,78 +237,6 @@ void MainWindow::show_numbers(const scene::Snapshot& now) {
   const std::string told = !status.failure.empty() ? status.failure : status.complaint;
   if (told != said_) say(QString::fromStdString(told));
   said_ = told;
-}
-
-void MainWindow::drive(const std::function<void(Steering&)>& how) {
-  if (!steering_ || !player_ || player_->live() == nullptr) return;
-  how(*steering_);
-  player_->live()->touch(
-      [command = steering_->command()](LiveRun::Hands& hands) { hands.orders.take(command); });
-  const Command& asked = steering_->command();
-  say(asked.request == Request::kWalk
-          ? QString("walk %1 m/s ahead, %2 m/s left, %3 rad/s")
-                .arg(1e-4 * asked.vx_tenth_mm_s, 0, 'f', 2)
-                .arg(1e-4 * asked.vy_tenth_mm_s, 0, 'f', 2)
-                .arg(1e-3 * asked.wz_mrad_s, 0, 'f', 2)
-          : QString(asked.request == Request::kStand ? "stand" : "sit down and let go"));
-  if (!player_->playing()) player_->play();
-}
-
-void MainWindow::stop(bool pressed) {
-  if (!player_ || player_->live() == nullptr) return;
-  player_->live()->touch(
-      [pressed](LiveRun::Hands& hands) { hands.orders.press_emergency_stop(pressed); });
-  stop_->setText(pressed ? "Release stop" : "Emergency stop");
-}
-
-/// The scene shows the robot in the hand as long as there is one.
-void MainWindow::pick_up() {
-  if (!player_) return;
-  if (!pose_->posing()) return scene_->say("");
-  if (player_->playing()) player_->pause();
-  scene_->say("In the hand: no physics");
-  scene_->show_picture(pose_->picture());
-}
-
-void MainWindow::hold(const SceneView::Hold& at) {
-  if (!pose_->posing()) {
-    const session::Intervention push = push_of(at);
-    return scene_->say(QString("push %1 with %2 N for %3 s: let go")
-                           .arg(QString::fromStdString(push.name))
-                           .arg(push.force_world_n.norm(), 0, 'f', 1)
-                           .arg(push.for_s));
-  }
-  const int side = pose_->hand()->foot_of(at.node);
-  if (side < 0) return;
-  if (!foot_from_m_) foot_from_m_ = pose_->sole_world_m(side);
-  pose_->drag_foot(side, *foot_from_m_ + at.to_world_m - at.at_world_m);
-}
-
-void MainWindow::let_go(const SceneView::Hold& at) {
-  foot_from_m_.reset();
-  if (pose_->posing() || !player_ || player_->live() == nullptr) return;
-  scene_->say("");
-  player_->live()->intervene(push_of(at));
-  say("Pushed: " + QString::fromStdString(session::in_words(push_of(at))));
-}
-
-session::Intervention MainWindow::push_of(const SceneView::Hold& at) const {
-  session::Intervention push{.kind = session::Intervention::Kind::kPush, .name = {}};
-  push.name = entity_->nodes[static_cast<std::size_t>(at.node)].name;
-  push.force_world_n = kPush_n_m * (at.to_world_m - at.at_world_m);
-  // As a person would type it.
-  for (double& axis : push.force_world_n) axis = std::round(10 * axis) / 10;
-  push.for_s = kPush_s;
-  return push;
-}
-
-void MainWindow::save_trace() {
-  if (!player_ || player_->live() == nullptr) return say("There is no run to save");
-  const QString file =
-      QFileDialog::getSaveFileName(this, "Save the run as a trace", "run.mcap", "Traces (*.mcap)");
-  if (file.isEmpty()) return;
-  const std::string lost = player_->live()->save(file.toStdString());
-  say(lost.empty() ? "Saved " + file : QString::fromStdString(lost));
 }
 
 void MainWindow::say(const QString& text) {

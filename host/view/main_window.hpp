@@ -63,6 +63,8 @@ class MainWindow final : public QMainWindow {
   void make_status();
   void restore();
   void show_film(const QString& name);
+  scene::Scene scene_of_all();
+  LiveRun* live() const { return player_ ? player_->live() : nullptr; }
   void frame();
   void show_numbers(const scene::Snapshot& now);
   void drive(const std::function<void(Steering&)>& how);

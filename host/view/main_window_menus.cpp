@@ -148,6 +148,10 @@ void MainWindow::make_view_menu() {
   QMenu* marks = view->addMenu("&Show");
   const auto mark = [this, marks](const char* text, bool render::Effects::*effect) {
     QAction* action = marks->addAction(text);
+    connect(marks, &QMenu::aboutToShow, action, [this, action, effect] {
+      const QSignalBlocker quiet(action);
+      action->setChecked(scene_->effects().*effect);
+    });
     action->setCheckable(true);
     const render::Effects explained = render::Effects::explained();
     action->setChecked(explained.*effect);
@@ -168,6 +172,7 @@ void MainWindow::make_view_menu() {
   marks->addSeparator();
   mark("Shadows", &E::shadows);
   mark("Antialiasing", &E::antialias);
+  mark("Coarse shadows, quicker", &E::quick);
   mark("Fog", &E::fog);
   mark("Floor's grid", &E::ground_grid);
   view->addAction("&Fit plots", Qt::Key_Home, this, [this] { plots_->fit(); });

@@ -61,7 +61,7 @@ PlotPanel::PlotPanel(QWidget* parent)
 
 void PlotPanel::set_film(std::shared_ptr<const Film> film) {
   film_ = std::move(film);
-  signals_ = signals_of(film_->entity());
+  signals_ = film_->all_signals();
   for (Curve& curve : curves_) curve.graph->data()->clear();
   moved_ = false;
 }

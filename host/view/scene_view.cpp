@@ -106,6 +106,10 @@ void SceneView::initializeGL() {
   try {
     renderer_ = std::make_unique<render::Renderer>();
     scene_changed_ = true;
+    if (renderer_->on_processor()) {  // which the twin and its controller want, too
+      effects_.quick = true;
+      effects_.antialias = false;
+    }
   } catch (const render::RenderError& error) {
     if (failed) failed(error.what());
   }

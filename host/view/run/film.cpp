@@ -12,11 +12,12 @@ constexpr double kValues_s = 1800;   // that it can be plotted; about 0.5 kB a t
 
 }  // namespace
 
-LiveFilm::LiveFilm(std::shared_ptr<const scene::Entity> entity, double period_s)
-    : entity_(std::move(entity)), period_s_(period_s) {}
+LiveFilm::LiveFilm(std::shared_ptr<const scene::Entity> entity, double period_s, bool beside)
+    : entity_(std::move(entity)), period_s_(period_s), beside_(beside) {}
 
 void LiveFilm::add(scene::Snapshot now) {
-  std::vector<float> values = values_of(now.robots.front(), *entity_);
+  std::vector<float> values =
+      values_of(now.robots.front(), *entity_, beside_ ? &now.robots.at(1) : nullptr);
   const double t_s = now.t_s;
   auto picture = std::make_shared<const scene::Snapshot>(std::move(now));
   const std::lock_guard lock(mutex_);

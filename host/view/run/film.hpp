@@ -20,6 +20,7 @@ class Film {
  public:
   virtual ~Film() = default;
   virtual const scene::Entity& entity() const = 0;
+  virtual std::vector<Signal> all_signals() const { return signals_of(entity()); }
   virtual double period_s() const = 0;
   virtual bool empty() const = 0;
   virtual double begin_s() const = 0;
@@ -33,11 +34,13 @@ class Film {
 /// The last minutes of a run. One thread adds, any looks.
 class LiveFilm final : public Film {
  public:
-  LiveFilm(std::shared_ptr<const scene::Entity> entity, double period_s);
+  /// `beside`: the second robot of each snapshot is another one like the first, to compare with.
+  LiveFilm(std::shared_ptr<const scene::Entity> entity, double period_s, bool beside = false);
 
   void add(scene::Snapshot now);
 
   const scene::Entity& entity() const override { return *entity_; }
+  std::vector<Signal> all_signals() const override { return signals_of(*entity_, beside_); }
   double period_s() const override { return period_s_; }
   bool empty() const override;
   double begin_s() const override;
@@ -56,6 +59,7 @@ class LiveFilm final : public Film {
 
   const std::shared_ptr<const scene::Entity> entity_;
   const double period_s_;
+  const bool beside_;
   mutable std::mutex mutex_;
   std::deque<Instant> instants_;
   std::size_t pictures_ = 0;  ///< how many of the last have one

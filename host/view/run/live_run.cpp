@@ -19,6 +19,7 @@ struct LiveRun::Going {
 
   session::LiveOrders orders;
   RunRecord record;
+  std::vector<scene::RobotView> others;         ///< as they were at their last tick
   std::unique_ptr<record::TraceWriter> writer;  ///< outlives the session
   session::Session session;
 };
@@ -146,10 +147,25 @@ void LiveRun::begin() {
   };
   hooks.ticked = [this](const session::Tick& tick) { ticked(tick); };
   going->session.add(setup_.plan, std::move(hooks));
+  going->others.resize(setup_.others.size());
+  for (std::size_t i = 0; i < setup_.others.size(); ++i) {
+    going->session.add(setup_.others[i], hooks_of_other(i));
+  }
   going_ = std::move(going);
   const std::lock_guard lock(mutex_);
-  film_ = std::make_shared<LiveFilm>(entity_, setup_.plan.params.period_us * 1e-6);
+  film_ = std::make_shared<LiveFilm>(entity_, setup_.plan.params.period_us * 1e-6,
+                                     setup_.beside != nullptr);
   status_ = {.playing = status_.playing, .speed = status_.speed, .runs = status_.runs + 1};
+}
+
+session::Hooks LiveRun::hooks_of_other(std::size_t index) {
+  session::Hooks hooks;
+  hooks.open_end = true;
+  hooks.ticked = [this, index](const session::Tick& tick) {
+    const session::WalkPlan& plan = setup_.others[index];
+    going_->others[index] = scene::look(tick, plan.entity, plan.params);
+  };
+  return hooks;
 }
 
 void LiveRun::loop() {
@@ -219,7 +235,10 @@ void LiveRun::tick(std::unique_lock<std::mutex>& lock) {
 void LiveRun::ticked(const session::Tick& tick) {
   if (tick.record == nullptr) return;
   going_->record.add(tick);
-  film_->add(scene::snapshot(tick, *entity_, setup_.plan.params));
+  scene::Snapshot now = scene::snapshot(tick, *entity_, setup_.plan.params);
+  if (setup_.beside) now.robots.push_back(setup_.beside(now.robots.front()));
+  now.robots.insert(now.robots.end(), going_->others.begin(), going_->others.end());
+  film_->add(std::move(now));
   const std::lock_guard lock(mutex_);
   ++status_.ticks;
   status_.digest = tick.record->digest.chain;

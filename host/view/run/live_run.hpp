@@ -20,6 +20,10 @@ namespace verp::view {
 
 struct RunSetup {
   session::WalkPlan plan;
+  std::vector<session::WalkPlan> others = {};  ///< robots of the same world, which are only watched
+  /// What stands beside the robot and is none of the world's: asked in the run's thread after each
+  /// tick, with the robot's own view.
+  std::function<scene::RobotView(const scene::RobotView&)> beside = {};
   sim::WorldOptions world = {};
   std::string record_file = {};  ///< gets the run as it goes on; empty: none
   record::mcap::StringMap metadata = {};
@@ -83,6 +87,7 @@ class LiveRun {
   void tick(std::unique_lock<std::mutex>& lock);
   void ticked(const session::Tick& tick);
   void begin();
+  session::Hooks hooks_of_other(std::size_t index);
   std::string close_record();
   double wall_s() const;
   template <class Change>

@@ -41,9 +41,20 @@ void add_point(Row& row, const std::optional<scene::Vec2>& point) {
   row.add(point->y());
 }
 
+/// Of the one at the link, and how far it is from the robot here.
+void add_beside(Row& row, const scene::RobotView& robot, const scene::RobotView& beside,
+                std::size_t joints) {
+  for (std::size_t j = 0; j < joints; ++j) {
+    const bool known = j < beside.joint_rad.size() && j < robot.joint_rad.size();
+    j < beside.goal_rad.size() ? row.add(kDegrees * beside.goal_rad[j]) : row.nothing(1);
+    known ? row.add(kDegrees * beside.joint_rad[j]) : row.nothing(1);
+    known ? row.add(kDegrees * (beside.joint_rad[j] - robot.joint_rad[j])) : row.nothing(1);
+  }
+}
+
 }  // namespace
 
-std::vector<Signal> signals_of(const scene::Entity& entity) {
+std::vector<Signal> signals_of(const scene::Entity& entity, bool beside) {
   std::vector<Signal> all = {{"Body", "x", "m"},
                              {"Body", "y", "m"},
                              {"Body", "z", "m"},
@@ -76,10 +87,18 @@ std::vector<Signal> signals_of(const scene::Entity& entity) {
     all.push_back({group, "error", "deg"});
     all.push_back({group, "load", "%"});
   }
+  for (const model::Joint& joint : entity.joints) {
+    if (!beside) break;
+    const std::string group = "Linked joints/" + joint.name;
+    all.push_back({group, "goal", "deg"});
+    all.push_back({group, "angle", "deg"});
+    all.push_back({group, "difference", "deg"});
+  }
   return all;
 }
 
-std::vector<float> values_of(const scene::RobotView& robot, const scene::Entity& entity) {
+std::vector<float> values_of(const scene::RobotView& robot, const scene::Entity& entity,
+                             const scene::RobotView* beside) {
   Row row;
   add_body(row, robot);
   if (robot.com_world_m) {
@@ -103,6 +122,7 @@ std::vector<float> values_of(const scene::RobotView& robot, const scene::Entity&
     both ? row.add(kDegrees * (robot.joint_rad[j] - robot.goal_rad[j])) : row.nothing(1);
     j < robot.torque_use.size() ? row.add(100 * robot.torque_use[j]) : row.nothing(1);
   }
+  if (beside != nullptr) add_beside(row, robot, *beside, entity.joints.size());
   return row.take();
 }
 

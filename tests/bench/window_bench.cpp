@@ -1,0 +1,137 @@
+#include <fmt/format.h>
+#include <sys/resource.h>
+
+#include <QApplication>
+#include <QElapsedTimer>
+#include <QSettings>
+#include <QSurfaceFormat>
+#include <QTemporaryDir>
+#include <QtTest/QTest>
+#include <cstring>
+
+#include "host/model/find.hpp"
+#include "host/model/load.hpp"
+#include "host/model/params.hpp"
+#include "host/render/offscreen_context.hpp"
+#include "host/scene/camera.hpp"
+#include "host/view/main_window.hpp"
+#include "host/view/theme.hpp"
+
+// What a picture costs. `frames`: the renderer alone, CPU time. `window`: frames a second of the
+// real window, and how fast the twin goes by beside it. One line of JSON each, for one robot and
+// for four.
+namespace verp::view {
+namespace {
+
+constexpr render::Size kSize{640, 480};
+constexpr double kApart_m = 0.5;
+
+double cpu_s() {
+  rusage used{};
+  ::getrusage(RUSAGE_SELF, &used);
+  const auto seconds = [](const timeval& t) {
+    return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
+  };
+  return seconds(used.ru_utime) + seconds(used.ru_stime);
+}
+
+session::WalkPlan plan_at(double left_m) {
+  session::WalkPlan plan;
+  plan.entity = model::load_robot(model::find_model("generic21"), "");
+  plan.params = model::make_params(plan.entity);
+  plan.velocity.vx_tenth_mm_s = 1000;
+  plan.walk_s = 600;
+  plan.twin.start_m.y() = left_m;
+  return plan;
+}
+
+void bench_frames(int robots, bool antialias, int frames) {
+  render::OffscreenContext context;
+  render::Renderer renderer;
+  scene::Scene scene = scene::studio();
+  scene::Snapshot now;
+  for (int i = 0; i < robots; ++i) {
+    const session::WalkPlan plan = plan_at(kApart_m * i);
+    scene::add_robot(scene, plan.entity);
+    now.robots.push_back(scene::standing(plan.entity, plan.twin.start_m));
+    now.robots.back().goal_rad = now.robots.back().joint_rad;
+  }
+  renderer.set_scene(scene);
+  render::Effects effects = render::Effects::explained();
+  effects.antialias = antialias;
+  effects.quick = !antialias;
+  const auto camera = scene::view("three-quarter", scene, now, 0, 4.0 / 3);
+  renderer.image(now, *camera, kSize, effects);
+  const double before_s = cpu_s();
+  QElapsedTimer wall;
+  wall.start();
+  for (int i = 0; i < frames; ++i) renderer.image(now, *camera, kSize, effects);
+  const double wall_s = 1e-3 * static_cast<double>(wall.elapsed());
+  fmt::print(
+      "{{\"what\":\"frames\",\"robots\":{},\"antialias\":{},\"cpu_ms\":{:.1f},"
+      "\"frames_per_s\":{:.1f}}}\n",
+      robots, antialias, 1e3 * (cpu_s() - before_s) / frames, frames / wall_s);
+}
+
+void bench_window(int robots, int seconds) {
+  QTemporaryDir folder;
+  QSettings settings(folder.filePath("view.ini"), QSettings::IniFormat);
+  MainWindow window(settings, [](const std::string&) { return RunSetup{}; });
+  RunSetup setup{.plan = plan_at(0)};
+  for (int i = 1; i < robots; ++i) setup.others.push_back(plan_at(kApart_m * i));
+  window.show();
+  window.watch(std::move(setup));
+  window.resize(window.size() + QSize(kSize.width, kSize.height) - window.scene().size());
+  LiveRun& live = *window.player()->live();
+  if (!QTest::qWaitFor([&] { return live.status().ticks > 100; }, 60000)) return;
+  const std::uint64_t drawn = window.scene().drawn();
+  const double simulated_s = live.status().simulated_s, before_s = cpu_s();
+  QElapsedTimer wall;
+  wall.start();
+  QTest::qWait(1000 * seconds);
+  const double wall_s = 1e-3 * static_cast<double>(wall.elapsed());
+  fmt::print(
+      "{{\"what\":\"window\",\"robots\":{},\"size\":\"{}x{}\",\"frames_per_s\":{:.1f},"
+      "\"real_time_factor\":{:.3f},\"cores\":{:.2f}}}\n",
+      robots, window.scene().width(), window.scene().height(),
+      static_cast<double>(window.scene().drawn() - drawn) / wall_s,
+      (live.status().simulated_s - simulated_s) / wall_s, (cpu_s() - before_s) / wall_s);
+  std::fflush(stdout);
+  window.close();
+  window.finish();
+}
+
+int run(int argc, char** argv) {
+  const bool frames = argc == 2 && std::strcmp(argv[1], "frames") == 0;
+  const bool shown = argc == 2 && std::strcmp(argv[1], "window") == 0;
+  if (!frames && !shown) {
+    fmt::print(stderr, "usage: window_bench frames|window\n");
+    return 2;
+  }
+  if (frames) {
+    for (const int robots : {1, 4}) {
+      for (const bool antialias : {false, true}) bench_frames(robots, antialias, 20);
+    }
+    return 0;
+  }
+  QSurfaceFormat format;
+  format.setVersion(3, 3);
+  format.setProfile(QSurfaceFormat::CoreProfile);
+  QSurfaceFormat::setDefaultFormat(format);
+  QApplication application(argc, argv);
+  apply_theme(application, false);
+  for (const int robots : {1, 4}) bench_window(robots, 8);
+  return 0;
+}
+
+}  // namespace
+}  // namespace verp::view
+
+int main(int argc, char** argv) {
+  try {
+    return verp::view::run(argc, argv);
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "window_bench: {}\n", error.what());
+    return 3;
+  }
+}
