@@ -19,7 +19,14 @@ struct NoImu {
   std::uint32_t faults() const { return 0; }
 };
 
-template <class Bus, OperatorLink Operator, Recorder Sink, hal::Imu Chip = NoImu>
+/// What decides a tick: the core. A PC's user may put something else there (host/session).
+struct Core {
+  void operator()(const Params& params, State& state, const Inputs& inputs, Outputs& outputs) {
+    step(params, state, inputs, outputs);
+  }
+};
+
+template <class Bus, OperatorLink Operator, Recorder Sink, hal::Imu Chip = NoImu, class Law = Core>
 class App {
  public:
   using Servos = typename ServosOn<Bus>::Type;
@@ -27,8 +34,14 @@ class App {
 
   /// `chip` is the board's own IMU, read in every tick if Params names none on the bus or
   /// use_chip() says so; null: there is none.
-  App(const Params& params, Bus& bus, Operator& operator_link, Sink& sink, Chip* chip = nullptr)
-      : params_(params), servos_(params, bus), operator_(operator_link), sink_(sink), chip_(chip) {}
+  App(const Params& params, Bus& bus, Operator& operator_link, Sink& sink, Chip* chip = nullptr,
+      Law law = {})
+      : params_(params),
+        servos_(params, bus),
+        operator_(operator_link),
+        sink_(sink),
+        chip_(chip),
+        law_(law) {}
 
   /// Call before the first tick; torque is off afterwards. Never ticks a robot that did not come
   /// up.
@@ -44,7 +57,7 @@ class App {
     servos_.read_sensors(inputs_, !from_chip_);
     read_chip();
     take_order();
-    step(params_, state_, inputs_, outputs_);
+    law_(params_, state_, inputs_, outputs_);
     servos_.send(outputs_);
     sink_.record(TickRecord{state_.digest, inputs_}, state_, outputs_);
   }
@@ -108,6 +121,7 @@ class App {
   Operator& operator_;
   Sink& sink_;
   Chip* chip_;
+  [[no_unique_address]] Law law_;
   bool from_chip_ = params_.imu.device_id == 0;
   State state_;
   Inputs inputs_;

@@ -14,12 +14,22 @@
 namespace verp::session {
 namespace {
 
+/// Who decides its ticks.
+struct Law {
+  Robot* robot = nullptr;
+  void operator()(const Params&, State& state, const Inputs& inputs, Outputs& outputs) {
+    robot->decide(state, inputs, outputs);
+  }
+};
+
 /// In this process.
 template <class Bus>
 class LocalController final : public Controller {
  public:
   LocalController(Robot& robot, Bus& bus)
-      : robot_(robot), desk_(robot), app_(robot.plan().params, bus, desk_, desk_) {}
+      : robot_(robot),
+        desk_(robot),
+        app_(robot.plan().params, bus, desk_, desk_, nullptr, {&robot}) {}
 
   bool tick() override {
     if (!std::exchange(up_, true)) bring_up();
@@ -40,7 +50,7 @@ class LocalController final : public Controller {
 
   Robot& robot_;
   Desk desk_;
-  app::App<Bus, Desk, Desk> app_;
+  app::App<Bus, Desk, Desk, app::NoImu, Law> app_;
   bool up_ = false;
 };
 

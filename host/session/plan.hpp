@@ -50,6 +50,9 @@ struct Hooks {
   std::function<app::OperatorOrder(std::uint32_t tick)> order;
   /// Sees each order before it goes out, whoever gave it, and may change it (LiveOrders).
   std::function<void(std::uint32_t tick, app::OperatorOrder& order)> amend;
+  /// In place of the core's step(), of a controller in this process: what it leaves in Outputs is
+  /// sent, what it leaves in State is recorded. It may throw, which ends the run.
+  std::function<void(const Params&, State&, const Inputs&, Outputs&)> decide;
   std::function<void(const Tick&)> ticked;
   record::TraceWriter* trace = nullptr;  ///< gets every tick; must outlive the run
   bool keep_series = false;              ///< WalkResult::series

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "common/control/step.hpp"
 #include "host/record/trace_error.hpp"
 #include "host/session/asked.hpp"
 #include "host/session/fault_names.hpp"
@@ -70,6 +71,11 @@ app::OperatorOrder Robot::order(std::uint32_t tick) {
   app::OperatorOrder order = hooks_.order ? hooks_.order(tick) : walker_->order(tick);
   if (hooks_.amend) hooks_.amend(tick, order);
   return order;
+}
+
+void Robot::decide(State& state, const Inputs& inputs, Outputs& outputs) {
+  if (hooks_.decide) return hooks_.decide(plan_.params, state, inputs, outputs);
+  step(plan_.params, state, inputs, outputs);
 }
 
 void Robot::let_pass(std::uint32_t time_us) {

@@ -38,6 +38,8 @@ class Robot {
 
   /// What the person who gives orders wants in this tick.
   app::OperatorOrder order(std::uint32_t tick);
+  /// The tick of a controller in this process.
+  void decide(State& state, const Inputs& inputs, Outputs& outputs);
   /// The controller began anew, on the robot as it is: the operator has it stand up and walk for
   /// what is left of the time. The trace ends before: a tick has no other one to follow there.
   void begin_anew();

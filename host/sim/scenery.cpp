@@ -202,4 +202,12 @@ void Scenery::before_step(double step_s) {
   }
 }
 
+WorldOptions furnished(WorldOptions options, model::World file) {
+  options.gravity_m_s2 = file.gravity_m_s2.norm();
+  if (options.gravity_m_s2 > 0) options.up = -file.gravity_m_s2 / options.gravity_m_s2;
+  options.ground = false;
+  options.scenery = std::make_shared<model::World>(std::move(file));
+  return options;
+}
+
 }  // namespace verp::sim

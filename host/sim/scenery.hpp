@@ -8,6 +8,9 @@
 /// What a world's file puts beside the robots: in the physics engine, shape by shape.
 namespace verp::sim {
 
+/// A world with what stands in `file` in place of the level floor.
+WorldOptions furnished(WorldOptions options, model::World file);
+
 class Scenery final : private Actor {
  public:
   struct Item {

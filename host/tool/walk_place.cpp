@@ -25,12 +25,7 @@ void declare(CLI::App& app, PlaceOptions& options) {
 
 void read_place(const PlaceOptions& options, sim::WorldOptions& world) {
   if (options.world.empty()) return;
-  auto scenery =
-      std::make_shared<model::World>(model::load_world(model::find_world(options.world)));
-  world.gravity_m_s2 = scenery->gravity_m_s2.norm();
-  if (world.gravity_m_s2 > 0) world.up = -scenery->gravity_m_s2 / world.gravity_m_s2;
-  world.ground = false;
-  world.scenery = std::move(scenery);
+  world = sim::furnished(world, model::load_world(model::find_world(options.world)));
 }
 
 void place_robot(const PlaceOptions& options, WalkPlan& plan) {

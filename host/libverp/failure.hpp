@@ -1,0 +1,49 @@
+#pragma once
+#include <concepts>
+#include <stdexcept>
+#include <string>
+
+#include "host/libverp/verp.h"
+
+namespace verp::abi {
+
+/// Why a call gives another status than VERP_OK.
+class Failure : public std::runtime_error {
+ public:
+  Failure(verp_status status, const std::string& why) : std::runtime_error(why), status_(status) {}
+  verp_status status() const { return status_; }
+
+ private:
+  verp_status status_;
+};
+
+/// Keeps the exception that is being handled as this thread's last error, and gives its status.
+int fail(const char* function) noexcept;
+
+/// A function of the ABI: no exception leaves it.
+template <std::invocable Body>
+int call(const char* function, Body body) noexcept {
+  try {
+    return body();
+  } catch (...) {
+    return fail(function);
+  }
+}
+
+/// Throw Failure for an argument that is null, or a struct of another size.
+void need(const void* argument, const char* name);
+template <class Struct>
+void need_struct(const Struct* argument, const char* name) {
+  need(argument, name);
+  if (argument->size == sizeof(Struct)) return;
+  throw Failure(VERP_BAD_ARGUMENT,
+                std::string(name) + "->size is " + std::to_string(argument->size) + ", not " +
+                    std::to_string(sizeof(Struct)) +
+                    "; set it to sizeof, and compile against this library's verp.h");
+}
+/// One of a whole struct's bytes.
+void need_size(std::uint64_t size, std::uint64_t wanted, const char* name);
+/// A finite number.
+double finite(double value, const char* name);
+
+}  // namespace verp::abi

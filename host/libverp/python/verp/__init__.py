@@ -1,0 +1,16 @@
+"""VERP: humanoid robots in a world, the controller that drives them, and its algorithms, with the controller's own bits.
+
+Session: robots in a world, a control tick at a time. Core: the controller alone. Env and VectorEnv (verp.env): for
+learning. SI units; frames and meanings stand in verp.h.
+"""
+
+from ._core import Core
+from ._lib import VerpError, ffi, lib
+from ._session import RELAX, STAND, WALK, Moment, Quantity, Result, Session, replay
+
+__all__ = ["Core", "Moment", "Quantity", "RELAX", "Result", "STAND", "Session", "VerpError", "WALK", "replay", "version"]
+
+
+def version() -> str:
+    """The revision of the library's sources."""
+    return ffi.string(lib.verp_version()).decode()

@@ -1,0 +1,269 @@
+"""Robots in a world, a control tick at a time."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+
+import numpy as np
+
+from ._core import INPUTS, OUTPUTS, pointer
+from ._lib import VerpError, check, dtype_of, ffi, layout_dtype, lib, text
+
+TICK = dtype_of(ffi.typeof("verp_tick"))
+RELAX, STAND, WALK = 0, 1, 2
+
+
+@dataclass(frozen=True)
+class Result:
+    """How a walk went; see verp_result."""
+
+    fallen: bool
+    ticks: int
+    digest: int
+    simulated_s: float
+    walk_s: float
+    distance_m: float
+    ahead_m: float
+    aside_m: float
+    turned_rad: float
+    speed_m_s: float
+    zmp_bias_mm: float
+    faults: int
+    failure: str
+    remark: str
+
+
+@dataclass(frozen=True)
+class Quantity:
+    """A number of the physics."""
+
+    name: str
+    unit: str
+    what: str
+    low: float
+    high: float
+    settable: bool
+
+
+class Moment:
+    """One tick in a controller's hands. `inputs` and `outputs` are numpy records; what stands in `outputs` is sent."""
+
+    def __init__(self) -> None:
+        self.robot = 0
+        self.inputs = np.zeros(1, INPUTS)
+        self.outputs = np.zeros(1, OUTPUTS)
+        self._token = 0
+        self._sent: object = ffi.NULL
+
+    def decide(self) -> None:
+        """Has the robot's own controller decide; `outputs` may then be changed."""
+        check(lib.verp_decide(self._token))
+        ffi.memmove(pointer(self.outputs, "void *"), self._sent, self.outputs.nbytes)
+
+
+Controller = Callable[[Moment], None]
+
+
+class Session:
+    """A world and the robots in it.
+
+    >>> with Session() as session:
+    ...     robot = session.add(walk_s=10)
+    ...     while session.tick():
+    ...         height_m = session.seen(robot)["truth"]["body_m"][2]
+    ...     print(session.result(robot).distance_m)
+    """
+
+    def __init__(self, world: str | None = None, physics_step_us: int = 0) -> None:
+        name = text(world)
+        what = ffi.new("verp_world *", {"physics_step_us": physics_step_us, "file": name})
+        what.size = ffi.sizeof(what[0])
+        where = ffi.new("verp_session *")
+        check(lib.verp_session_open(what, where))
+        self._session = where[0]
+        self._open = True
+        self._ticks: list[np.ndarray] = []
+        self._kept: dict[int, object] = {}
+        self._thrown: BaseException | None = None
+
+    def add(
+        self,
+        model: str = "generic21",
+        *,
+        bus: str | None = None,
+        name: str | None = None,
+        tuning: str | None = None,
+        record: str | None = None,
+        open_end: bool = False,
+        **numbers: float,
+    ) -> int:
+        """One more robot, before the first tick: its number. `numbers`: seed, walk_s, vx_m_s, vy_m_s, wz_rad_s, x_m,
+        y_m, yaw_rad. With walk_s = 0 it obeys command() alone."""
+        what = ffi.new("verp_robot *")
+        check(lib.verp_robot_defaults(what))
+        texts = {"model": text(model), "bus": text(bus), "name": text(name), "tuning": text(tuning), "record": text(record)}
+        for field, value in texts.items():
+            setattr(what, field, value)
+        what.flags = lib.VERP_OPEN_END if open_end else 0
+        for field, number in numbers.items():
+            if field not in ("seed", "walk_s", "vx_m_s", "vy_m_s", "wz_rad_s", "x_m", "y_m", "yaw_rad"):
+                raise TypeError(f"add() has no argument '{field}'")
+            setattr(what, field, number)
+        robot = ffi.new("uint32_t *")
+        check(lib.verp_session_add(self._session, what, robot))
+        tick = np.zeros(1, TICK)
+        tick["size"] = TICK.itemsize
+        check(lib.verp_session_view(self._session, robot[0], pointer(tick, "verp_tick *")))
+        self._ticks.append(tick)
+        return robot[0]
+
+    def tick(self, count: int = 1) -> bool:
+        """At most so many ticks, each of one robot. False: the run is over."""
+        status = lib.verp_session_tick(self._session, count, ffi.NULL, ffi.NULL)
+        thrown, self._thrown = self._thrown, None
+        if thrown is not None:
+            raise thrown
+        return check(status) == lib.VERP_OK
+
+    def __iter__(self) -> Iterator[np.void]:
+        """Tick by tick, of robot 0: what seen() gives."""
+        while self.tick():
+            yield self.seen()
+
+    def seen(self, robot: int = 0) -> np.void:
+        """The robot's last tick: a record that the session writes into, without a copy (see verp_tick)."""
+        return self._ticks[robot][0]
+
+    def state(self, robot: int = 0) -> np.ndarray:
+        """The controller's State after the last tick, a copy; fields as in C++."""
+        array = np.zeros(1, layout_dtype("state"))
+        check(lib.verp_session_state(self._session, robot, pointer(array, "void *"), array.nbytes))
+        return array
+
+    def digest(self, robot: int = 0) -> int:
+        """Of all its ticks so far."""
+        value = ffi.new("uint64_t *")
+        check(lib.verp_session_digest(self._session, robot, value))
+        return value[0]
+
+    def result(self, robot: int = 0) -> Result:
+        """Ends the run of all robots; traces become whole."""
+        result = ffi.new("verp_result *")
+        result.size = ffi.sizeof(result[0])
+        check(lib.verp_session_result(self._session, robot, result))
+        values = {name: getattr(result, name) for name in Result.__dataclass_fields__}
+        for name in ("failure", "remark"):
+            values[name] = ffi.string(values[name]).decode()
+        return Result(**{**values, "fallen": bool(values["fallen"])})
+
+    def command(
+        self,
+        request: int,
+        vx_m_s: float = 0,
+        vy_m_s: float = 0,
+        wz_rad_s: float = 0,
+        *,
+        pan_rad: float = 0,
+        tilt_rad: float = 0,
+        robot: int = 0,
+    ) -> None:
+        """From now on the caller has the robot: RELAX, STAND or WALK with that velocity."""
+        check(lib.verp_session_command(self._session, robot, request, vx_m_s, vy_m_s, wz_rad_s, pan_rad, tilt_rad))
+
+    def give_back(self, robot: int = 0) -> None:
+        """The walk that was asked for goes on."""
+        check(lib.verp_session_give_back(self._session, robot))
+
+    def emergency_stop(self, pressed: bool = True, robot: int = 0) -> None:
+        """While it is pressed the robot is limp."""
+        check(lib.verp_session_emergency_stop(self._session, robot, pressed))
+
+    def tune(self, name: str, value: float, robot: int = 0) -> None:
+        """A number of the tuning, in force in one of the next ticks."""
+        check(lib.verp_session_tune(self._session, robot, text(name), value))
+
+    def tuning(self, name: str, robot: int = 0) -> float:
+        """A number of the tuning as it is in force."""
+        value = ffi.new("double *")
+        check(lib.verp_session_tuning(self._session, robot, text(name), value))
+        return value[0]
+
+    def quantities(self) -> list[Quantity]:
+        """The numbers of the physics, once all robots were added."""
+        count, what = ffi.new("uint32_t *"), ffi.new("verp_quantity *")
+        what.size = ffi.sizeof(what[0])
+        check(lib.verp_session_quantities(self._session, count))
+        found = []
+        for index in range(count[0]):
+            check(lib.verp_session_quantity(self._session, index, what))
+            words = [ffi.string(field).decode() for field in (what.name, what.unit, what.what)]
+            found.append(Quantity(*words, what.low, what.high, bool(what.settable)))
+        return found
+
+    def read(self, quantity: str) -> float:
+        """A number of the physics."""
+        value = ffi.new("double *")
+        check(lib.verp_session_read(self._session, text(quantity), value))
+        return value[0]
+
+    def set(self, quantity: str, value: float) -> None:
+        """A number of the physics, from the next step on."""
+        check(lib.verp_session_set(self._session, text(quantity), value))
+
+    def push(self, thing: str, force_n: tuple[float, float, float], for_s: float) -> None:
+        """Pushes a link or an object at its centre of mass, N in the world's axes."""
+        check(lib.verp_session_push(self._session, text(thing), *force_n, for_s))
+
+    def control(self, controller: Controller | None, robot: int = 0) -> None:
+        """In place of the robot's own controller, from the next tick on; None: its own again."""
+        if controller is None:
+            callback = ffi.NULL
+        else:
+            callback = ffi.callback("verp_controller", self._callback(controller), error=1)
+        check(lib.verp_session_control(self._session, robot, callback, ffi.NULL))
+        self._kept[robot] = callback
+
+    def _callback(self, controller: Controller) -> Callable[[object, object], int]:
+        moment = Moment()
+        in_ptr, out_ptr = pointer(moment.inputs, "void *"), pointer(moment.outputs, "void *")
+        in_size, out_size = moment.inputs.nbytes, moment.outputs.nbytes
+
+        def run(seen: object, _: object) -> int:
+            try:
+                ffi.memmove(in_ptr, seen.inputs, in_size)
+                ffi.memmove(out_ptr, seen.outputs, out_size)
+                moment.robot, moment._token, moment._sent = seen.robot, seen.token, seen.outputs
+                controller(moment)
+                ffi.memmove(seen.outputs, out_ptr, out_size)
+                return 0
+            except BaseException as thrown:  # it is raised by tick()
+                self._thrown = thrown
+                return 1
+
+        return run
+
+    def close(self) -> None:
+        """Ends the run; a trace becomes whole. Later calls raise VerpError."""
+        self._open = False
+        check(lib.verp_session_close(self._session))
+
+    def __enter__(self) -> Session:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        if self._open:
+            self.close()
+
+    def __del__(self) -> None:
+        if getattr(self, "_open", False):
+            lib.verp_session_close(self._session)
+
+
+def replay(trace: str) -> tuple[int, int]:
+    """Ticks and digest of a trace that replays bit for bit; raises VerpError that says where it does not."""
+    ticks, digest = ffi.new("uint64_t *"), ffi.new("uint64_t *")
+    status = lib.verp_replay(text(trace), ticks, digest)
+    if status != lib.VERP_OK:
+        raise VerpError(status, ffi.string(lib.verp_last_error()).decode())
+    return ticks[0], digest[0]

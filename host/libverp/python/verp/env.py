@@ -1,0 +1,239 @@
+"""A robot to learn policies on: Env has the shape of Gymnasium's environments, without needing it."""
+
+from __future__ import annotations
+
+import multiprocessing
+from dataclasses import dataclass
+from multiprocessing.connection import Connection
+from types import TracebackType
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ._core import Core
+from ._session import WALK, Moment, Session
+
+Info = dict[str, Any]
+Step = tuple[NDArray[np.float32], float, bool, bool, Info]
+
+
+@dataclass(frozen=True)
+class Box:
+    """A space of arrays: between `low` and `high`, which have its shape."""
+
+    low: NDArray[np.float32]
+    high: NDArray[np.float32]
+
+    @property
+    def shape(self) -> tuple[int, ...]:
+        return self.low.shape
+
+    def sample(self, generator: np.random.Generator) -> NDArray[np.float32]:
+        return generator.uniform(self.low, self.high).astype(np.float32)
+
+    def contains(self, array: NDArray[np.float32]) -> bool:
+        return array.shape == self.shape and bool(np.all(array >= self.low) and np.all(array <= self.high))
+
+
+class Env:
+    """A robot that is asked to walk; an action is what is added to each joint's goal, rad.
+
+    An action of zeros is the robot's own controller. Observed is only what a controller is told: joint angles (rad), the
+    goals it chose (rad), gyro (rad/s), accelerometer (m/s2), the gait's phase and the velocity that is asked for. The
+    reward of a tick is the way ahead in m, less `effort` times the squared action; a fall costs 1 and ends the episode.
+
+    >>> env = Env(vx_m_s=0.15)
+    >>> seen, info = env.reset(seed=1)
+    >>> seen, reward, terminated, truncated, info = env.step(env.no_action())
+    """
+
+    def __init__(
+        self,
+        model: str = "generic21",
+        *,
+        world: str | None = None,
+        vx_m_s: float = 0.15,
+        wz_rad_s: float = 0.0,
+        most_action_rad: float = 0.2,
+        episode_s: float = 20.0,
+        effort: float = 0.01,
+    ) -> None:
+        self._model, self._world = model, world
+        self._velocity = (vx_m_s, 0.0, wz_rad_s)
+        self._episode_s, self._effort = episode_s, effort
+        with Core(model) as core:
+            params = core.params()[0]
+            self._joints = len(core.joint_names)
+            self._scale = np.array([params[f"joint[{j}].counts_per_rad"] for j in range(self._joints)])
+            self._gyro = float(params["imu.gyro_rad_s_per_count"])
+            self._accel = float(params["imu.accel_m_s2_per_count"])
+        n = 2 * self._joints + 6 + 2 + 3
+        self.observation_space = Box(np.full(n, -np.inf, np.float32), np.full(n, np.inf, np.float32))
+        most = np.full(self._joints, most_action_rad, np.float32)
+        self.action_space = Box(-most, most)
+        self._action = self.no_action()
+        self._session: Session | None = None
+
+    def no_action(self) -> NDArray[np.float32]:
+        """The robot's own controller alone."""
+        return np.zeros(self._joints, np.float32)
+
+    def reset(self, *, seed: int = 1, options: Info | None = None) -> tuple[NDArray[np.float32], Info]:
+        """A robot of that seed, which stands and begins to walk; `options` may hold vx_m_s, vy_m_s, wz_rad_s."""
+        self.close()
+        asked = dict(zip(("vx_m_s", "vy_m_s", "wz_rad_s"), self._velocity)) | (options or {})
+        self._asked = np.array([asked[k] for k in ("vx_m_s", "vy_m_s", "wz_rad_s")], np.float32)
+        self._session = Session(self._world)
+        self._session.add(self._model, seed=seed, walk_s=self._episode_s, open_end=True, **asked)
+        self._action = self.no_action()
+        self._session.control(self._decide)
+        while self._session.tick():
+            if self._session.seen()["outputs"]["gait_phase"] != 0 or self._fallen():
+                break
+        self._began_s = self._session.seen()["time_s"]
+        self._at_m = self._session.seen()["truth"]["body_m"].copy()
+        return self._observe(), {}
+
+    def step(self, action: NDArray[np.float32]) -> Step:
+        """One control tick: observation, reward, terminated (it fell), truncated (time is over), info."""
+        if self._session is None:
+            raise RuntimeError("Env.step: call reset() before")
+        action = np.asarray(action, np.float32)
+        if action.shape != self.action_space.shape or not np.all(np.isfinite(action)):
+            raise ValueError(f"Env.step: an action is {self._joints} finite numbers")
+        self._action = np.clip(action, self.action_space.low, self.action_space.high)
+        self._session.tick()
+        seen = self._session.seen()
+        terminated = self._fallen()
+        truncated = bool(seen["time_s"] - self._began_s >= self._episode_s)
+        reward = self._way_ahead(seen) - self._effort * float(np.sum(self._action**2)) - float(terminated)
+        return self._observe(), reward, terminated, truncated, {"digest": self._session.digest()}
+
+    def close(self) -> None:
+        if self._session is not None:
+            self._session.close()
+            self._session = None
+
+    def _decide(self, moment: Moment) -> None:
+        moment.decide()
+        added = np.rint(self._action * self._scale).astype(np.int32)
+        moment.outputs["goal_count"][0, : self._joints] += added
+
+    def _fallen(self) -> bool:
+        return bool(self._session.seen()["truth"]["fallen"])
+
+    def _way_ahead(self, seen: np.void) -> float:
+        """Of the body since the tick before, m, along its heading."""
+        truth = seen["truth"]
+        yaw, now_m = truth["body_rpy_rad"][2], truth["body_m"].copy()
+        by_m, self._at_m = now_m - self._at_m, now_m
+        return float(np.cos(yaw) * by_m[0] + np.sin(yaw) * by_m[1])
+
+    def _observe(self) -> NDArray[np.float32]:
+        seen = self._session.seen()
+        told, put_out = seen["inputs"], seen["outputs"]
+        angle = 2 * np.pi * put_out["gait_state"] / 16
+        walks = float(put_out["gait_phase"] != 0)
+        return np.concatenate(
+            [
+                seen["joint_rad"][: self._joints],
+                seen["goal_rad"][: self._joints],
+                self._gyro * told["gyro_count"],
+                self._accel * told["accel_count"],
+                [walks * np.sin(angle), walks * np.cos(angle)],
+                self._asked,
+            ]
+        ).astype(np.float32)
+
+
+def _serve(pipe: Connection, options: Info) -> None:
+    env = Env(**options)
+    seed = 1
+    for what, value in iter(pipe.recv, None):
+        try:
+            if what == "reset":
+                seed = value
+                answer: Any = env.reset(seed=seed)
+            else:
+                answer = env.step(value)
+                if answer[2] or answer[3]:  # the next episode begins; what this one ended with stands in info
+                    seed += 1_000_003
+                    last, first = answer, env.reset(seed=seed)
+                    answer = (first[0], *last[1:4], last[4] | {"final_observation": last[0]})
+            pipe.send((None, answer))
+        except Exception as error:  # raised where it was asked for
+            pipe.send((f"{type(error).__name__}: {error}", None))
+
+
+class VectorEnv:
+    """Many Envs, each in a process of its own; arrays with one row for each. One that ends begins anew by itself.
+
+    >>> with VectorEnv(4, vx_m_s=0.1) as envs:
+    ...     seen, infos = envs.reset(seed=1)
+    ...     seen, rewards, terminated, truncated, infos = envs.step(envs.no_action())
+    """
+
+    def __init__(self, count: int, **options: Any) -> None:
+        if count < 1:
+            raise ValueError("VectorEnv: count is at least 1")
+        example = Env(**options)
+        self.observation_space, self.action_space = example.observation_space, example.action_space
+        context = multiprocessing.get_context("spawn")
+        self._pipes, self._processes = [], []
+        for _ in range(count):
+            here, there = context.Pipe()
+            process = context.Process(target=_serve, args=(there, options), daemon=True)
+            process.start()
+            there.close()
+            self._pipes.append(here)
+            self._processes.append(process)
+
+    def no_action(self) -> NDArray[np.float32]:
+        return np.zeros((len(self._pipes), *self.action_space.shape), np.float32)
+
+    def reset(self, *, seed: int = 1) -> tuple[NDArray[np.float32], list[Info]]:
+        """Environment n has seed + n."""
+        answers = self._ask("reset", [seed + n for n in range(len(self._pipes))])
+        return np.stack([a[0] for a in answers]), [a[1] for a in answers]
+
+    def step(self, actions: NDArray[np.float32]) -> tuple[Any, ...]:
+        """What Env.step() gives, each as an array of all, infos as a list."""
+        if len(actions) != len(self._pipes):
+            raise ValueError(f"VectorEnv.step: {len(self._pipes)} rows of actions are needed, not {len(actions)}")
+        columns = list(zip(*self._ask("step", list(actions))))
+        return (np.stack(columns[0]), *(np.array(column) for column in columns[1:4]), list(columns[4]))
+
+    def close(self) -> None:
+        for pipe, process in zip(self._pipes, self._processes):
+            try:
+                pipe.send(None)
+            except OSError:
+                pass  # it has ended already
+            process.join(timeout=10)
+        self._pipes, self._processes = [], []
+
+    def __enter__(self) -> VectorEnv:
+        return self
+
+    def __exit__(self, *_: type[BaseException] | BaseException | TracebackType | None) -> None:
+        self.close()
+
+    def _ask(self, what: str, values: list[Any]) -> list[Any]:
+        for pipe, value in zip(self._pipes, values):
+            try:
+                pipe.send((what, value))
+            except OSError:
+                pass  # of a process that has ended: its answer will be missing
+        answers, failed = [], ""
+        for n, pipe in enumerate(self._pipes):
+            try:
+                error, answer = pipe.recv()
+            except EOFError:
+                error, answer = "its process has ended", None
+            if error and not failed:
+                failed = f"VectorEnv: environment {n}: {error}"
+            answers.append(answer)
+        if failed:
+            raise RuntimeError(failed)
+        return answers

@@ -1,0 +1,72 @@
+#pragma once
+#include <cstdint>
+#include <deque>
+#include <memory>
+#include <optional>
+
+#include "host/libverp/verp.h"
+#include "host/record/trace_writer.hpp"
+#include "host/session/live_orders.hpp"
+#include "host/session/session.hpp"
+
+/// What stands behind a verp_session.
+namespace verp::abi {
+
+/// One robot of it, with what its user wants of it: hooks look here, so it may change at any time.
+class Seat {
+ public:
+  Seat(const verp_robot& what, std::uint32_t index);
+
+  const session::WalkPlan& plan() const { return plan_; }
+  session::Hooks hooks();
+
+  void view(verp_tick* tick) { view_ = tick; }
+  void control(verp_controller controller, void* user) {
+    controller_ = controller;
+    user_ = user;
+  }
+  session::LiveOrders& orders() { return orders_; }
+  /// Nobody but this library's user gives it orders.
+  bool own_orders() const { return own_orders_; }
+  /// In force.
+  const Tuning& tuning() const {
+    return state_.admit.started != 0 ? state_.tuning : plan_.params.tuning;
+  }
+  /// After its last tick.
+  const State& state() const { return state_; }
+  std::uint64_t digest() const { return state_.digest.chain; }
+
+  /// The end: what came of it, and a trace that is whole. Later calls give the same.
+  const session::WalkResult& finish(session::Session& session);
+
+ private:
+  void open_trace(const char* file);
+  void decide(const Params& params, State& state, const Inputs& inputs, Outputs& outputs);
+  void ticked(const session::Tick& tick);
+  void write_view(const session::Tick& tick);
+
+  const std::uint32_t index_;
+  session::WalkPlan plan_;
+  bool open_end_ = false, own_orders_ = false;
+  std::unique_ptr<record::TraceWriter> trace_;
+  session::LiveOrders orders_;
+  verp_controller controller_ = nullptr;
+  void* user_ = nullptr;
+  verp_tick* view_ = nullptr;
+  State state_;
+  std::optional<session::WalkResult> result_;
+};
+
+struct Run {
+  explicit Run(const session::Options& options) : session(options) {}
+  Seat& seat(std::uint32_t index);
+
+  std::deque<std::unique_ptr<Seat>> seats;  ///< outlive the session, whose hooks look at them
+  session::Session session;
+  bool begun = false, ended = false;
+
+  /// The end of all robots' runs.
+  void finish();
+};
+
+}  // namespace verp::abi

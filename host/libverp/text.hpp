@@ -1,0 +1,16 @@
+#pragma once
+#include <algorithm>
+#include <cstddef>
+#include <string_view>
+
+namespace verp::abi {
+
+/// As much of a text as has room, and the zero that ends it.
+template <std::size_t kSize>
+void put_text(std::string_view from, char (&to)[kSize]) {
+  const std::size_t length = std::min(from.size(), kSize - 1);
+  std::copy_n(from.data(), length, to);
+  to[length] = '\0';
+}
+
+}  // namespace verp::abi

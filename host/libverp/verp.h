@@ -1,0 +1,351 @@
+/* VERP as a library: robots in a world, a control tick at a time, and the controller's own
+ * algorithms.
+ *
+ * Every function gives a verp_status; what went wrong, verp_last_error() says in one line that
+ * names the call. No exception leaves the library, whatever a callback throws.
+ *
+ * Handles are numbers that are never used twice, so one that was closed is known as such. A handle
+ * is for one thread at a time: a second one gets VERP_BUSY. Different handles may be used by
+ * different threads at the same time, and equal calls give equal bits whatever the others do. A
+ * callback runs inside verp_session_tick(): calls with the handle of that session then give
+ * VERP_BUSY, all others work.
+ *
+ * Structs begin with `size`, which the caller sets to sizeof: another one's is refused. Memory that
+ * the caller gives is the caller's, and no pointer to the library's own is ever handed out, but
+ * texts that never change.
+ *
+ * SI units. World frame: z up, the floor at 0. Body frame: origin at the trunk's centre, x forward,
+ * y left, z up. Index 0 is left, 1 is right. Rotations are row-major matrices, or quaternions x, y,
+ * z, w.
+ *
+ * This file keeps to the C that other languages read (README.md): no macros in declarations.
+ */
+#ifndef VERP_H
+#define VERP_H
+#include <stdint.h>
+#ifdef __cplusplus
+extern "C" {
+#endif
+#ifdef __GNUC__
+#pragma GCC visibility push(default)
+#endif
+
+typedef enum verp_status {
+  VERP_OK = 0,
+  VERP_OVER = 1,    /* the run has ended: there is no further tick */
+  VERP_DIFFERS = 2, /* a trace was replayed, and not with the same bits */
+  VERP_BAD_ARGUMENT =
+      -1,               /* null, a wrong size, no such name, out of range, too early or too late */
+  VERP_BAD_HANDLE = -2, /* closed, or never one */
+  VERP_BUSY = -3,       /* another thread is using the handle, or a callback of it */
+  VERP_BAD_FILE = -4,   /* a robot, world or trace that cannot be read, or written */
+  VERP_CALLBACK_FAILED = -5, /* the controller gave another number than 0, or threw */
+  VERP_FAILED = -6           /* anything else */
+} verp_status;
+
+enum { VERP_MAX_JOINTS = 32, VERP_LEG_JOINTS = 6, VERP_POSE = 12, VERP_NAME = 64, VERP_TEXT = 256 };
+
+/* A world and the robots in it. */
+typedef struct verp_session_handle* verp_session;
+/* The controller of one robot, without a world. */
+typedef struct verp_core_handle* verp_core;
+
+/* ---- about the library ---- */
+
+/* Of this header: a library of another first number has another ABI. */
+enum { VERP_ABI = 0 };
+/* The ABI of the library that is loaded. */
+uint32_t verp_abi(void);
+/* The revision of its sources. Never changes. */
+const char* verp_version(void);
+/* What went wrong in the last call of this thread that failed, or "". Valid until this thread's
+ * next call that fails. */
+const char* verp_last_error(void);
+/* The bytes of "inputs", "outputs", "state" or "params", a line a field: offset, type, name; null:
+ * no such struct. Never changes. */
+const char* verp_layout(const char* name);
+
+/* ---- what crosses the controller's border ---- */
+
+/* Bits of verp_inputs.flags. */
+enum {
+  VERP_IMU_FRESH = 1,
+  VERP_FEET_FRESH = 2,
+  VERP_SLOW_FRESH = 4,
+  VERP_OVERRUN = 8,
+  VERP_EMERGENCY_STOP = 16,
+  VERP_COMMAND_FRESH = 32,
+  VERP_PARAMETER_WRITE = 64
+};
+
+typedef enum verp_request { VERP_RELAX = 0, VERP_STAND = 1, VERP_WALK = 2 } verp_request;
+
+/* The operator's standing order, body frame, in the wire's units. */
+typedef struct verp_command {
+  uint8_t request; /* verp_request */
+  uint8_t sequence;
+  int16_t vx_tenth_mm_s;
+  int16_t vy_tenth_mm_s;
+  int16_t wz_mrad_s;
+  int16_t head_pan_mrad;
+  int16_t head_tilt_mrad;
+} verp_command;
+
+/* All that the controller is told in one tick, as counts (common/io/io.hpp). */
+typedef struct verp_inputs {
+  uint32_t tick;  /* counts control periods */
+  uint32_t fresh; /* bit j: position_count[j] was read in this tick */
+  uint16_t flags;
+  uint16_t parameter_id;
+  uint32_t parameter_bits;
+  verp_command command;
+  int16_t gyro_count[3];
+  int16_t accel_count[3];
+  uint16_t foot_count[2][4]; /* front-left, front-right, back-left, back-right of each sole */
+  uint8_t slow_joint;
+  uint8_t slow_temperature_c;
+  uint8_t slow_error;
+  uint8_t reserved;
+  uint16_t slow_voltage_tenth_v;
+  uint16_t mailbox;
+  int32_t position_count[32];
+} verp_inputs;
+
+/* All that the controller wants done. */
+typedef struct verp_outputs {
+  uint32_t torque_enable; /* bit j: servo j holds its goal */
+  uint32_t faults;        /* common/safety */
+  uint8_t mode;
+  uint8_t gait_phase; /* 0 idle, 1 start, 2 transition, 3 final */
+  uint8_t gait_state; /* 0 to 15, within the cycle */
+  uint8_t stance;     /* foot that carries; 2: both */
+  int16_t tilt_tenth_mrad[2];
+  int32_t goal_count[32];
+} verp_outputs;
+
+/* What really happens in the world. The controller never sees it. */
+typedef struct verp_truth {
+  double body_m[3];
+  double body_quaternion[4];
+  double body_rpy_rad[3]; /* roll, pitch, yaw */
+  double body_m_s[3];
+  double body_rad_s[3];
+  double com_m[3];
+  double com_m_s[3];
+  double zmp_m[2]; /* on the floor; valid only while a foot carries */
+  double foot_n[2];
+  double sole_m[2][3];
+  double joint_rad[32];
+  double joint_rad_s[32];
+  double torque_n_m[32];
+  uint32_t zmp_valid;
+  uint32_t held;   /* still in the cradle that holds it until its servos do */
+  uint32_t fallen; /* once, and for good */
+  uint32_t joints;
+} verp_truth;
+
+/* One tick of one robot. */
+typedef struct verp_tick {
+  uint32_t size;
+  uint32_t robot;
+  double time_s;   /* simulated */
+  double gone_s;   /* of the walk that was asked for */
+  uint64_t digest; /* of this tick and all before it */
+  verp_inputs inputs;
+  verp_outputs outputs;
+  float joint_rad[32]; /* as the controller read them */
+  float goal_rad[32];
+  verp_truth truth;
+} verp_tick;
+
+/* ---- worlds and robots ---- */
+
+typedef struct verp_world {
+  uint32_t size;
+  uint32_t physics_step_us; /* 0: 1000 */
+  const char* file;         /* a world of common/worlds, or an SDF file; null: a level floor */
+} verp_world;
+
+enum { VERP_OPEN_END = 1 /* neither its length nor a fall ends the run */ };
+
+/* A robot and its walk, as `verp walk` has it. verp_robot_defaults() fills it in. */
+typedef struct verp_robot {
+  uint32_t size;
+  uint32_t flags;
+  const char* model;  /* a robot of common/robots, or an SDF file */
+  const char* bus;    /* of its buses; null: the first */
+  const char* name;   /* among others; null: the model's */
+  const char* tuning; /* "gait.lift_m=0.012 balance.zeros_enable=0", or null */
+  const char* record; /* a trace to be written (.mcap), or null */
+  uint64_t seed;
+  double
+      walk_s; /* of gait; 0: it obeys verp_session_command() alone, and the run has an open end */
+  double vx_m_s; /* body frame */
+  double vy_m_s;
+  double wz_rad_s;
+  double x_m; /* where it stands at the start, world frame */
+  double y_m;
+  double yaw_rad;
+} verp_robot;
+
+/* How a walk went. */
+typedef struct verp_result {
+  uint32_t size;
+  uint32_t fallen;
+  uint64_t ticks;
+  uint64_t digest;
+  double simulated_s;
+  double walk_s;
+  double distance_m;
+  double ahead_m;
+  double aside_m; /* to the left */
+  double turned_rad;
+  double speed_m_s;   /* mean; 0: it did not walk */
+  double zmp_bias_mm; /* mean; 0: not measured */
+  uint32_t faults;
+  uint32_t reserved;
+  char failure[256]; /* why the walk is no good; empty: it is */
+  char remark[256];
+} verp_result;
+
+/* A number of the physics. */
+typedef struct verp_quantity {
+  uint32_t size;
+  uint32_t settable;
+  double low; /* of what it may be set to */
+  double high;
+  char name[64];
+  char unit[64];
+  char what[256];
+} verp_quantity;
+
+/* `world` null: a level floor. */
+int verp_session_open(const verp_world* world, verp_session* session);
+/* Ends the run; a trace that is being written becomes whole. The handle is closed also if that
+ * fails. */
+int verp_session_close(verp_session session);
+
+/* generic21 with seed 1, 20 s of 4 cm steps, as `verp walk` has it. */
+int verp_robot_defaults(verp_robot* robot);
+/* Before the first tick. `robot` may be null; it counts from 0. */
+int verp_session_add(verp_session session, const verp_robot* what, uint32_t* robot);
+
+/* At most so many ticks, each of one robot: `robot` had the last one, `done` were done. VERP_OVER:
+ * the run has ended. Both may be null. */
+int verp_session_tick(verp_session session, uint32_t count, uint32_t* robot, uint32_t* done);
+/* Writes each tick of the robot there from now on, until null is given: that memory outlives the
+ * session, or this. */
+int verp_session_view(verp_session session, uint32_t robot, verp_tick* tick);
+/* The controller's State after the last tick, of so many bytes: verp_layout("state"). */
+int verp_session_state(verp_session session, uint32_t robot, void* state, uint64_t size);
+int verp_session_digest(verp_session session, uint32_t robot, uint64_t* digest);
+/* Ends the run of all robots; traces become whole. */
+int verp_session_result(verp_session session, uint32_t robot, verp_result* result);
+
+/* From now on the caller has the robot: velocity in its body frame, head to the left and down. The
+ * robot takes it as any order, through its registers. */
+int verp_session_command(verp_session session, uint32_t robot, uint32_t request, double vx_m_s,
+                         double vy_m_s, double wz_rad_s, double pan_rad, double tilt_rad);
+/* The walk that was asked for goes on. */
+int verp_session_give_back(verp_session session, uint32_t robot);
+/* While it is pressed the robot is limp. */
+int verp_session_emergency_stop(verp_session session, uint32_t robot, int32_t pressed);
+/* A number of the tuning (`verp parameters`), as an order: in force one of the next ticks. */
+int verp_session_tune(verp_session session, uint32_t robot, const char* name, double value);
+/* As it is in force. */
+int verp_session_tuning(verp_session session, uint32_t robot, const char* name, double* value);
+
+/* How many numbers the physics has by name, once all robots were added, and what they are. */
+int verp_session_quantities(verp_session session, uint32_t* count);
+int verp_session_quantity(verp_session session, uint32_t index, verp_quantity* quantity);
+int verp_session_read(verp_session session, const char* quantity, double* value);
+/* From the next physics step on; it is kept in the trace of robot 0. */
+int verp_session_set(verp_session session, const char* quantity, double value);
+/* Pushes a link or an object at its centre of mass, N in the world's axes. */
+int verp_session_push(verp_session session, const char* thing, double fx_n, double fy_n,
+                      double fz_n, double for_s);
+
+/* One tick, inside a controller. `outputs` holds those of the tick before; what stands there
+ * afterwards is sent. */
+typedef struct verp_moment {
+  uint32_t size;
+  uint32_t robot;
+  uint64_t token; /* for verp_decide() */
+  const verp_inputs* inputs;
+  verp_outputs* outputs;
+} verp_moment;
+/* 0: done; any other number ends the run with VERP_CALLBACK_FAILED. The pointers are good until it
+ * returns. */
+typedef int (*verp_controller)(const verp_moment* moment, void* user);
+/* In place of the robot's own controller, from the next tick on; null: its own again. A tick's
+ * digest is the own controller's if verp_decide() was called in it, whatever the goals became; else
+ * it covers inputs and outputs. */
+int verp_session_control(verp_session session, uint32_t robot, verp_controller controller,
+                         void* user);
+/* Has the robot's own controller decide this moment, once: the controller may then change what it
+ * put out. */
+int verp_decide(uint64_t token);
+
+/* Runs the controller once more over what a trace says that it saw. VERP_DIFFERS: verp_last_error()
+ * says where. `ticks` and `digest` may be null. */
+int verp_replay(const char* file, uint64_t* ticks, uint64_t* digest);
+
+/* ---- the controller alone, bit for bit ---- */
+
+/* `bus` null: the robot's first. `tuning` as in verp_robot. */
+int verp_core_open(const char* model, const char* bus, const char* tuning, verp_core* core);
+int verp_core_close(verp_core core);
+/* As it is when power comes on. */
+int verp_core_reset(verp_core core);
+/* One control tick. */
+int verp_core_step(verp_core core, const verp_inputs* inputs, verp_outputs* outputs);
+int verp_core_digest(verp_core core, uint64_t* digest);
+int verp_core_state(verp_core core, void* state, uint64_t size);
+int verp_core_params(verp_core core, void* params, uint64_t size);
+int verp_core_joints(verp_core core, uint32_t* joints);
+/* The control period, s. */
+int verp_core_period(verp_core core, double* period_s);
+/* Into `name`, of so many bytes. */
+int verp_core_joint_name(verp_core core, uint32_t joint, char* name, uint64_t size);
+/* Between a servo's counts and its joint's angle. */
+int verp_core_count(verp_core core, uint32_t joint, float angle_rad, int32_t* count);
+int verp_core_angle(verp_core core, uint32_t joint, int32_t count, float* angle_rad);
+
+/* Forward kinematics: of `joints` angles, joints + 1 poses of 12 numbers, rotation then position,
+ * body frame; the first is the body's own. */
+int verp_core_forward(verp_core core, const float* angle_rad, uint32_t joints, float* poses);
+/* Centre of mass, body frame. */
+int verp_core_com(verp_core core, const float* angle_rad, uint32_t joints, float* com_m);
+/* Six angles, hip to ankle, that put the sole of a leg to a pose (12 numbers, body frame);
+ * `before_rad` (six angles, or null) is where a solver that iterates starts. `flags`: 1 out of
+ * reach, 2 a joint at its limit, 4 not converged. */
+int verp_core_leg_ik(verp_core core, uint32_t side, const float* sole, const float* before_rad,
+                     float* angle_rad, uint32_t* flags);
+/* Which joints those are. */
+int verp_core_leg_joints(verp_core core, uint32_t side, uint32_t* joint);
+
+/* One tick of a walk as planned. Walk frame: as the body's at the start, z up, the floor at 0; it
+ * moves on once a step. */
+typedef struct verp_plan {
+  float body[12];
+  float sole[2][12]; /* body frame */
+  float zmp_m[2];
+  float carry[2];    /* share of the weight on each foot */
+  float leg_rad[12]; /* left hip to ankle, right hip to ankle */
+  uint8_t phase;
+  uint8_t state;
+  uint8_t swing; /* foot in the air; 2: none */
+  uint8_t flags; /* of both legs' inverse kinematics */
+} verp_plan;
+/* The gait from standing, `count` ticks of a walk with that velocity, of which the last `stop` are
+ * after it was asked to stop: planned by the gait alone, without physics. */
+int verp_core_plan(verp_core core, double vx_m_s, double vy_m_s, double wz_rad_s, verp_plan* plan,
+                   uint32_t count, uint32_t stop);
+
+#ifdef __GNUC__
+#pragma GCC visibility pop
+#endif
+#ifdef __cplusplus
+}
+#endif
+#endif

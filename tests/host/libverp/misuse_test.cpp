@@ -1,0 +1,157 @@
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <limits>
+#include <stdexcept>
+#include <string>
+#include <thread>
+
+#include "host/libverp/verp.hpp"
+#include "tests/host/libverp/opened.hpp"
+
+namespace verp::abi::test {
+namespace {
+
+/// Each mistake is an error that names the call and says why, and the session goes on.
+void expect_error(int got, int wanted, const std::string& call, const std::string& why) {
+  EXPECT_EQ(got, wanted) << verp_last_error();
+  const std::string text = verp_last_error();
+  EXPECT_EQ(text.rfind(call + ": ", 0), 0U) << text;
+  EXPECT_NE(text.find(why), std::string::npos) << text;
+}
+
+TEST(LibverpMisuse, NullsAndSizes) {
+  Opened opened;
+  opened.add();
+  expect_error(verp_session_open(nullptr, nullptr), VERP_BAD_ARGUMENT, "verp_session_open", "null");
+  expect_error(verp_session_add(opened.session, nullptr, nullptr), VERP_BAD_ARGUMENT,
+               "verp_session_add", "null");
+  expect_error(verp_session_tick(nullptr, 1, nullptr, nullptr), VERP_BAD_HANDLE,
+               "verp_session_tick", "null");
+  expect_error(verp_session_read(opened.session, nullptr, nullptr), VERP_BAD_ARGUMENT,
+               "verp_session_read", "null");
+  verp_tick tick = {};
+  expect_error(verp_session_view(opened.session, 0, &tick), VERP_BAD_ARGUMENT, "verp_session_view",
+               "size");
+  char small[10];
+  expect_error(verp_session_state(opened.session, 0, small, sizeof small), VERP_BAD_ARGUMENT,
+               "verp_session_state", "10 bytes");
+  verp_world world = {};
+  verp_session other = nullptr;
+  expect_error(verp_session_open(&world, &other), VERP_BAD_ARGUMENT, "verp_session_open", "size");
+  EXPECT_EQ(other, nullptr);
+  EXPECT_EQ(verp_layout("nothing"), nullptr);
+  EXPECT_EQ(verp_layout(nullptr), nullptr);
+  expect_error(verp_replay(nullptr, nullptr, nullptr), VERP_BAD_ARGUMENT, "verp_replay", "null");
+}
+
+TEST(LibverpMisuse, NamesAndRanges) {
+  Opened opened;
+  opened.add();
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  double value = 0;
+  const auto session = opened.session;
+  expect_error(verp_session_digest(session, 7, nullptr), VERP_BAD_ARGUMENT, "verp_session_digest",
+               "null");
+  std::uint64_t digest = 0;
+  expect_error(verp_session_digest(session, 7, &digest), VERP_BAD_ARGUMENT, "verp_session_digest",
+               "no robot 7");
+  expect_error(verp_session_read(session, "trunk.colour", &value), VERP_BAD_ARGUMENT,
+               "verp_session_read", "trunk.colour");
+  expect_error(verp_session_set(session, "trunk.mass_kg", -1), VERP_BAD_ARGUMENT,
+               "verp_session_set", "trunk.mass_kg");
+  expect_error(verp_session_set(session, "trunk.mass_kg", nan), VERP_BAD_ARGUMENT,
+               "verp_session_set", "finite");
+  expect_error(verp_session_push(session, "moon", 1, 0, 0, 1), VERP_BAD_ARGUMENT,
+               "verp_session_push", "moon");
+  expect_error(verp_session_push(session, "trunk", 1, 0, 0, nan), VERP_BAD_ARGUMENT,
+               "verp_session_push", "for_s");
+  expect_error(verp_session_tune(session, 0, "gait.lift", 0.01), VERP_BAD_ARGUMENT,
+               "verp_session_tune", "gait.lift");
+  expect_error(verp_session_tune(session, 0, "gait.lift_m", 5), VERP_BAD_ARGUMENT,
+               "verp_session_tune", "may be");
+  expect_error(verp_session_command(session, 0, 9, 0, 0, 0, 0, 0), VERP_BAD_ARGUMENT,
+               "verp_session_command", "request");
+  expect_error(verp_session_command(session, 0, 2, 1e9, 0, 0, 0, 0), VERP_BAD_ARGUMENT,
+               "verp_session_command", "vx_m_s");
+  verp_core core = nullptr;
+  expect_error(verp_core_open("no_such_robot", nullptr, nullptr, &core), VERP_BAD_FILE,
+               "verp_core_open", "generic21");
+  expect_error(verp_core_open("generic21", nullptr, "gait.lift_m", &core), VERP_BAD_ARGUMENT,
+               "verp_core_open", "NAME=VALUE");
+  expect_error(verp_replay("/no/such.mcap", nullptr, nullptr), VERP_BAD_FILE, "verp_replay",
+               "/no/such.mcap");
+  EXPECT_EQ(verp_session_tick(session, 1, nullptr, nullptr), VERP_OK) << "and it still runs";
+}
+
+TEST(LibverpMisuse, CallsTooEarlyAndTooLate) {
+  Opened opened;
+  expect_error(verp_session_tick(opened.session, 1, nullptr, nullptr), VERP_BAD_ARGUMENT,
+               "verp_session_tick", "verp_session_add");
+  opened.add();
+  ASSERT_EQ(verp_session_tick(opened.session, 1, nullptr, nullptr), VERP_OK);
+  verp_robot robot;
+  ASSERT_EQ(verp_robot_defaults(&robot), VERP_OK);
+  expect_error(verp_session_add(opened.session, &robot, nullptr), VERP_BAD_ARGUMENT,
+               "verp_session_add", "before the first tick");
+  opened.result();
+  EXPECT_EQ(verp_session_tick(opened.session, 1, nullptr, nullptr), VERP_OVER);
+  const verp_session closed = opened.session;
+  ASSERT_EQ(verp_session_close(closed), VERP_OK);
+  expect_error(verp_session_tick(closed, 1, nullptr, nullptr), VERP_BAD_HANDLE, "verp_session_tick",
+               "closed");
+  expect_error(verp_session_close(closed), VERP_BAD_HANDLE, "verp_session_close", "closed");
+  const verp_lib::Core core;
+  expect_error(
+      verp_session_tick(reinterpret_cast<verp_session>(core.handle()), 1, nullptr, nullptr),
+      VERP_BAD_HANDLE, "verp_session_tick", "never was one");
+}
+
+TEST(LibverpMisuse, ControllersThatFail) {
+  const auto tick_with = [](verp_controller controller, void* user) {
+    Opened opened;
+    opened.add();
+    EXPECT_EQ(verp_session_control(opened.session, 0, controller, user), VERP_OK);
+    const int status = verp_session_tick(opened.session, 1, nullptr, nullptr);
+    EXPECT_EQ(verp_session_tick(opened.session, 1, nullptr, nullptr), VERP_OVER);
+    return status;
+  };
+  expect_error(tick_with([](const verp_moment*, void*) { return 3; }, nullptr),
+               VERP_CALLBACK_FAILED, "verp_session_tick", "gave 3");
+  expect_error(tick_with([](const verp_moment*, void*) -> int { throw std::runtime_error("ouch"); },
+                         nullptr),
+               VERP_CALLBACK_FAILED, "verp_session_tick", "ouch");
+  expect_error(verp_decide(12345), VERP_BAD_ARGUMENT, "verp_decide", "from inside one");
+  verp_lib::Session session;
+  session.add(verp_lib::Session::defaults());
+  session.control([](const verp_lib::Moment&) { throw std::out_of_range("mine"); });
+  EXPECT_THROW(session.tick(), std::out_of_range) << "C++ gets its own exception back";
+}
+
+/// A second thread, or a callback, is told; it waits for nothing and breaks nothing.
+TEST(LibverpMisuse, TwoThreadsAndACallback) {
+  Opened opened;
+  opened.add();
+  struct Seen {
+    verp_session session;
+    int own = VERP_OK, other = VERP_OK;
+  } seen{opened.session};
+  const auto controller = [](const verp_moment* moment, void* user) {
+    auto* const told = static_cast<Seen*>(user);
+    double value = 0;
+    told->own = verp_session_read(told->session, "trunk.mass_kg", &value);
+    std::thread([told] {
+      told->other = verp_session_tick(told->session, 1, nullptr, nullptr);
+    }).join();
+    return verp_decide(moment->token);
+  };
+  ASSERT_EQ(verp_session_control(opened.session, 0, controller, &seen), VERP_OK);
+  ASSERT_EQ(verp_session_tick(opened.session, 1, nullptr, nullptr), VERP_OK);
+  EXPECT_EQ(seen.own, VERP_BUSY);
+  EXPECT_EQ(seen.other, VERP_BUSY);
+  ASSERT_EQ(verp_session_control(opened.session, 0, nullptr, nullptr), VERP_OK);
+  EXPECT_EQ(verp_session_tick(opened.session, 1, nullptr, nullptr), VERP_OK);
+}
+
+}  // namespace
+}  // namespace verp::abi::test
