@@ -40,6 +40,9 @@ class WorldLoader {
     out_.name = world.Name();
     out_.gravity_m_s2 = to_vector(world.Gravity());
     if (world.Scene() != nullptr) read_scene(*world.Scene());
+    const sdf::ElementPtr camera = inner(inner(world.Element(), "gui"), "camera");
+    if (inner(camera, "pose"))
+      out_.view = to_transform(camera->Get<ignition::math::Pose3d>("pose"));
     for (std::uint64_t i = 0; i < world.LightCount(); ++i) add_light(*world.LightByIndex(i));
     for (std::uint64_t i = 0; i < world.ModelCount(); ++i) add_model(*world.ModelByIndex(i));
     if (world.ActorCount() > 0)
@@ -65,6 +68,7 @@ class WorldLoader {
     out_.ambient = to_color(scene.Ambient());
     out_.background = to_color(scene.Background());
     out_.shadows = scene.Shadows();
+    out_.sky = inner(scene.Element(), "sky") != nullptr;
     const sdf::ElementPtr fog = inner(scene.Element(), "fog");
     if (!fog) return;
     Fog read;

@@ -124,10 +124,21 @@ struct World {
   Vec3 gravity_m_s2{0, 0, -9.80665};
   Color ambient{0.4, 0.4, 0.4, 1}, background{0.7, 0.7, 0.7, 1};
   bool shadows = true;
+  bool sky = false;  ///< the background is brighter toward the horizon
   std::optional<Fog> fog;
   std::vector<Light> lights;
+  std::optional<Transform> view;     ///< of <gui><camera>: x ahead, z up
   std::vector<WorldObject> objects;  ///< one of them holds the ground
   std::vector<WorldRobot> robots;
 };
+
+/// Which of the objects are not always where they are at the start.
+inline std::vector<const WorldObject*> moving(const World& world) {
+  std::vector<const WorldObject*> out;
+  for (const WorldObject& object : world.objects) {
+    if (object.kind != WorldObject::Kind::kStatic) out.push_back(&object);
+  }
+  return out;
+}
 
 }  // namespace verp::model

@@ -6,6 +6,7 @@
 #include "host/scene/from_trace.hpp"
 #include "host/scene/from_twin.hpp"
 #include "host/session/session.hpp"
+#include "host/sim/scenery.hpp"
 #include "host/tool/command.hpp"
 #include "host/tool/interrupt.hpp"
 #include "host/tool/walk_plan.hpp"
@@ -31,41 +32,67 @@ class Shutter {
 
 class WalkFilm final : public Film {
  public:
-  explicit WalkFilm(const tool::WalkOptions& options) : plan_(tool::make_plan(options)) {
-    world_ = tool::world_of(options);
-    tool::draw(options, plan_, world_);
-    scene_ = scene::studio();
-    scene::add_robot(scene_, plan_.entity);
+  explicit WalkFilm(const tool::WalkOptions& options)
+      : world_(tool::world_of(options)), plans_(tool::make_plans(options, world_)) {
+    tool::draw(options, plans_.front(), world_);
+    scene_ = scene::surroundings(world_.scenery.get());
+    for (const session::WalkPlan& plan : plans_) scene::add_robot(scene_, plan.entity);
   }
 
-  double end_s() const override { return plan_.walk_s + 3; }  // it stands up first
+  double end_s() const override { return plans_.front().walk_s + 3; }  // it stands up first
 
   void play(double from_s, double every_s, const Show& show) override {
     Shutter shutter(from_s, every_s);
     bool enough = false;
-    session::Hooks hooks;
-    hooks.ticked = [&](const session::Tick& tick) {
-      if (enough || !shutter.opens(tick.seen.truth.t_s)) return;
-      enough = !show(scene::snapshot(tick, plan_.entity, plan_.params));
-    };
-    session::walk(plan_, hooks,
-                  {.world = world_, .interrupted = [&] { return enough || tool::interrupted(); }});
+    session::Session session(
+        {.world = world_, .interrupted = [&] { return enough || tool::interrupted(); }});
+    std::vector<scene::RobotView> seen;
+    for (std::size_t i = 0; i < plans_.size(); ++i) {
+      const session::WalkPlan& plan = plans_[i];
+      seen.push_back(scene::standing(plan.entity, plan.twin.start_m, plan.twin.start_yaw_rad));
+      session::Hooks hooks;
+      hooks.ticked = [&, i](const session::Tick& tick) {
+        if (enough) return;
+        if (i > 0) return void(seen[i] = scene::look(tick, plan.entity, plan.params));
+        if (!shutter.opens(tick.seen.truth.t_s)) return;
+        scene::Snapshot now = scene::snapshot(tick, plan.entity, plan.params);
+        now.robots.insert(now.robots.end(), seen.begin() + 1, seen.end());
+        enough = !show(std::move(now));
+      };
+      session.add(plan, std::move(hooks));
+    }
+    while (session.tick() != nullptr) {
+    }
+  }
+
+  /// As the twin puts them down.
+  scene::Snapshot start() const override {
+    const sim::World world(world_);
+    scene::Snapshot now;
+    for (const session::WalkPlan& plan : plans_) {
+      sim::Vec3 at_m = plan.twin.start_m;
+      at_m.z() = session::ground_m(world, at_m);
+      now.robots.push_back(scene::standing(plan.entity, at_m, plan.twin.start_yaw_rad));
+    }
+    if (world.scenery() != nullptr) now.body_world = world.scenery()->moving_poses();
+    return now;
   }
 
  private:
-  session::WalkPlan plan_;
   sim::WorldOptions world_;
+  std::vector<session::WalkPlan> plans_;
 };
 
 class TraceFilm final : public Film {
  public:
   explicit TraceFilm(const std::string& file) : player_(file) {
-    scene_ = scene::studio();
+    scene_ = scene::surroundings(player_.world());
     scene::add_robot(scene_, player_.entity());
     note_ = player_.note();
   }
 
   double end_s() const override { return player_.end_s(); }
+  scene::Snapshot start() const override { return player_.at(0); }
 
   void play(double from_s, double every_s, const Show& show) override {
     Shutter shutter(std::max(from_s, player_.begin_s()), every_s);
@@ -95,6 +122,7 @@ void declare_film(CLI::App& app, tool::WalkOptions& options) {
   tool::declare_gait(app, options);
   app.get_option("MODEL")->description("a robot, the path of an SDF file, or of a trace (.mcap)");
   tool::declare_tuning(app, options);
+  tool::declare(app, options.place);
   app.add_option("--seed", options.seed, "of every random thing in the twin")
       ->check(tool::whole_number_between(0, 4294967295))
       ->capture_default_str();

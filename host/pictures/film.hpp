@@ -20,6 +20,7 @@ class Film {
   /// Something to say of it in one line; empty: nothing.
   const std::string& note() const { return note_; }
   virtual double end_s() const = 0;  ///< about when it ends
+  virtual scene::Snapshot start() const = 0;
   /// Its instants from from_s on, every_s apart (0: each tick), until it or `show` ends. Once.
   virtual void play(double from_s, double every_s, const Show& show) = 0;
 

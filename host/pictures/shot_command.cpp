@@ -36,10 +36,7 @@ struct ShotOptions {
 /// The instant that is asked for: a robot that stands, or a moment of its walk or of a trace.
 scene::Snapshot instant(const ShotOptions& options, Film& film, tool::Progress& progress) {
   scene::Snapshot found;
-  if (!options.at_s && !is_trace(options.walk)) {
-    found.robots.push_back(scene::standing(film.entity()));
-    return found;
-  }
+  if (!options.at_s && !is_trace(options.walk)) return film.start();
   const double at_s = options.at_s.value_or(film.end_s() / 2);
   bool shown = false;
   double last_s = 0;

@@ -244,10 +244,18 @@ class CdrReader {
     at_ += sizeof(Number);
     return value;
   }
-  void skip_text() {
+  std::string_view text() {
     const auto length = get<std::uint32_t>();
-    good = good && length <= data_.size();
+    good = good && length > 0 && at_ + length <= data_.size();
+    const std::string_view found = good ? data_.substr(at_, length - 1) : "";
     if (good) at_ += length;
+    return found;
+  }
+  BodyPose pose() {
+    BodyPose pose;
+    for (double& value : pose.position_m) value = get<double>();
+    for (double& value : pose.orientation_xyzw) value = get<double>();
+    return pose;
   }
   bool good = true;
 
@@ -259,17 +267,33 @@ class CdrReader {
 }  // namespace
 
 std::optional<BodyPose> body_pose(std::string_view transforms) {
-  CdrReader in(transforms);
-  const bool any = in.get<std::uint32_t>() > 0;
-  in.get<std::int32_t>();
-  in.get<std::uint32_t>();
-  in.skip_text();
-  in.skip_text();
-  BodyPose pose;
-  for (double& value : pose.position_m) value = in.get<double>();
-  for (double& value : pose.orientation_xyzw) value = in.get<double>();
-  if (!in.good || !any) return std::nullopt;
-  return pose;
+  const std::vector<ObjectPose> all = read_objects(transforms);
+  if (all.empty()) return std::nullopt;
+  return all.front().pose;
+}
+
+std::string objects(std::span<const ObjectPose> objects, std::uint64_t time_ns) {
+  Cdr out;
+  out.put(static_cast<std::uint32_t>(objects.size()));
+  for (const ObjectPose& object : objects) {
+    out.header(time_ns, "world").text(object.name);
+    out.doubles(object.pose.position_m).doubles(object.pose.orientation_xyzw);
+  }
+  return out.take();
+}
+
+std::vector<ObjectPose> read_objects(std::string_view message) {
+  CdrReader in(message);
+  std::vector<ObjectPose> out;
+  for (auto left = in.get<std::uint32_t>(); in.good && left > 0; --left) {
+    in.get<std::int32_t>();
+    in.get<std::uint32_t>();
+    in.text();
+    const std::string_view name = in.text();
+    const BodyPose pose = in.pose();
+    if (in.good) out.push_back({std::string(name), pose});
+  }
+  return in.good ? out : std::vector<ObjectPose>();
 }
 
 }  // namespace verp::record::ros

@@ -27,6 +27,16 @@ struct BodyPose {
   std::array<double, 4> orientation_xyzw{0, 0, 0, 1};
 };
 
+/// A thing of the world, and where it is in it.
+struct ObjectPose {
+  std::string name;
+  BodyPose pose;
+};
+/// tf2_msgs/TFMessage, one transform for each.
+std::string objects(std::span<const ObjectPose> objects, std::uint64_t time_ns);
+/// What objects() was given. Empty: it is no such message.
+std::vector<ObjectPose> read_objects(std::string_view message);
+
 /// Of one laser, from the first angle to the last; inf: nothing within range.
 struct LaserScan {
   std::string frame;

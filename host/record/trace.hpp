@@ -20,6 +20,8 @@ inline constexpr const char* kStateTopic =
     "/verp/state";  ///< State bytes after the tick of the same log time
 inline constexpr const char* kChangedTopic =
     "/verp/changed";  ///< what a person did to the twin after the tick of the same log time
+inline constexpr const char* kObjectsTopic =
+    "/objects";  ///< where a twin's world had what can move in it, as transforms
 inline constexpr const char* kParamsAttachment = "params";
 inline constexpr const char* kMetadataName = "verp";
 inline constexpr const char* kTraceFormat = "1";
@@ -45,6 +47,12 @@ struct BodyAt {
   ros::BodyPose pose;
 };
 
+/// Where the world's things were at the tick at `index`.
+struct ObjectsAt {
+  std::size_t index = 0;
+  std::vector<ros::ObjectPose> objects;
+};
+
 /// One run of the controller: everything replay needs, in memory.
 struct Trace {
   std::filesystem::path file;
@@ -53,8 +61,9 @@ struct Trace {
   std::vector<TickRecord> ticks;
   std::vector<Keyframe> keyframes;  ///< empty when the writer's State had another layout
   std::vector<Change> changes;
-  std::vector<BodyAt> bodies;  ///< of some ticks; empty: no twin was there
-  std::string warning;         ///< read with Read::kRecover: what is missing; else empty
+  std::vector<BodyAt> bodies;      ///< of some ticks; empty: no twin was there
+  std::vector<ObjectsAt> objects;  ///< of some ticks; empty: nothing could move
+  std::string warning;             ///< read with Read::kRecover: what is missing; else empty
 
   /// The 64-bit value that names the whole run; the chain's seed when there are no ticks.
   std::uint64_t digest() const {

@@ -55,7 +55,10 @@ class Loader {
     std::uint16_t changed_id = 0, tf_id = 0;
     const bool changed = file_.find_channel(kChangedTopic, changed_id) != nullptr;
     const bool bodies = file_.find_channel("/tf", tf_id) != nullptr;
+    std::uint16_t objects_id = 0;
+    const bool objects = file_.find_channel(kObjectsTopic, objects_id) != nullptr;
     for (const mcap::Message& message : file_.messages) {
+      if (objects && message.channel == objects_id) add_objects(message);
       if (message.channel == tick_id) add_tick(message);
       if (changed && message.channel == changed_id) add_change(message);
       if (bodies && message.channel == tf_id) add_body(message);
@@ -167,6 +170,12 @@ class Loader {
   void add_body(const mcap::Message& message) {
     const std::optional<ros::BodyPose> pose = ros::body_pose(message.data);
     if (pose && !trace_.ticks.empty()) trace_.bodies.push_back({trace_.ticks.size() - 1, *pose});
+  }
+
+  void add_objects(const mcap::Message& message) {
+    std::vector<ros::ObjectPose> objects = ros::read_objects(message.data);
+    if (!objects.empty() && !trace_.ticks.empty())
+      trace_.objects.push_back({trace_.ticks.size() - 1, std::move(objects)});
   }
 
   const fs::path& path_;

@@ -101,6 +101,17 @@ void TraceWriter::append(const std::string& sensor, std::uint32_t tick,
   writer_.add_message(sensors_[sensor], time_ns, ros::laser_scan(scan, time_ns));
 }
 
+void TraceWriter::append(std::uint32_t tick, std::span<const ros::ObjectPose> objects) {
+  if (!options_.ros || objects.empty() || (ticks_ - 1) % kTransformTicks != 0) return;
+  if (!objects_) {
+    objects_ =
+        writer_.add_channel(writer_.add_schema("tf2_msgs/msg/TFMessage", "ros2msg", ros::kTfSchema),
+                            kObjectsTopic, "cdr");
+  }
+  const std::uint64_t time_ns = std::uint64_t{tick} * params_.period_us * 1000;
+  writer_.add_message(*objects_, time_ns, ros::objects(objects, time_ns));
+}
+
 void TraceWriter::note(std::uint32_t tick, const std::string& what) {
   if (!changed_) {
     changed_ = writer_.add_channel(

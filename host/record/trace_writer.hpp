@@ -40,6 +40,8 @@ class TraceWriter {
   /// What a sensor that the controller does not have measured up to that tick, on /SENSOR. Nothing
   /// without TraceOptions::ros.
   void append(const std::string& sensor, std::uint32_t tick, const ros::LaserScan& scan);
+  /// Where the twin's world had what can move in it after that tick; kept as often as the body.
+  void append(std::uint32_t tick, std::span<const ros::ObjectPose> objects);
   /// What a person did to the twin after that tick.
   void note(std::uint32_t tick, const std::string& what);
   /// Adds `result` as metadata, ends the file and gives it its name.
@@ -66,6 +68,7 @@ class TraceWriter {
   std::uint16_t tick_ = 0, state_ = 0, joints_ = 0, imu_ = 0, tf_ = 0, goals_ = 0, control_ = 0;
   JointSpeeds speeds_;
   std::map<std::string, std::uint16_t> sensors_;
+  std::optional<std::uint16_t> objects_;  ///< a channel of worlds in which something moves
   std::optional<std::uint16_t> changed_;  ///< a channel of runs in which something was
   std::uint64_t ticks_ = 0, safe_ticks_ = 0;
   std::uint32_t faults_ = 0;

@@ -226,6 +226,7 @@ struct Renderer::Impl {
       program.set(name("light_toward").c_str(),
                   Eigen::Vector3f(light.direction.normalized().cast<float>()));
       program.set(name("light_colour").c_str(), colour);
+      program.set(name("light_fading").c_str(), Eigen::Vector3f(light.fading.cast<float>()));
       glUniform2f(program.at(name("light_cone").c_str()),
                   static_cast<float>(std::cos(light.inner_rad)),
                   static_cast<float>(std::cos(light.outer_rad)));

@@ -33,6 +33,7 @@ uniform vec4 light_at[8];      // w: of the kind
 uniform vec3 light_toward[8];  // in which it shines
 uniform vec4 light_colour[8];  // w: range
 uniform vec2 light_cone[8];    // cosines of the inner and outer angle
+uniform vec3 light_fading[8];
 uniform sampler2DShadow shadow;
 uniform float shadow_texel, shadow_soft;
 uniform sampler2D picture;
@@ -121,7 +122,7 @@ float power_of(int i, out vec3 to) {
   float d = length(to), far = d / light_colour[i].w;
   to /= max(d, 1e-4);
   float part = clamp(1.0 - far * far * far * far, 0.0, 1.0);
-  float power = part * part / (d * d + 0.01);
+  float power = part * part / max(dot(light_fading[i], vec3(1.0, d, d * d)), 1e-4);
   if (kKind[i] == 1) return power;
   return power * smoothstep(light_cone[i].y, light_cone[i].x, dot(-to, light_toward[i]));
 }

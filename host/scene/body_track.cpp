@@ -6,8 +6,6 @@
 #include "host/sim/body.hpp"
 
 namespace verp::scene {
-namespace {
-
 Transform to_transform(const record::ros::BodyPose& pose) {
   const auto& [x, y, z, w] = pose.orientation_xyzw;
   Transform out(Eigen::Quaterniond(w, x, y, z).normalized());
@@ -15,7 +13,11 @@ Transform to_transform(const record::ros::BodyPose& pose) {
   return out;
 }
 
-}  // namespace
+Transform between(const Transform& from, const Transform& to, double part) {
+  Transform out(Eigen::Quaterniond(from.linear()).slerp(part, Eigen::Quaterniond(to.linear())));
+  out.translation() = (1 - part) * from.translation() + part * to.translation();
+  return out;
+}
 
 std::vector<Transform> TickPoses::operator()(const Inputs& inputs, const Transform& body) const {
   return sim::link_poses(entity_, body, measured_rad(inputs, params_));
@@ -34,10 +36,7 @@ Transform BodyTrack::between(std::size_t index) {
   const record::BodyAt &a = bodies[next_ - 1], &b = bodies[next_];
   const double share =
       static_cast<double>(index - a.index) / static_cast<double>(b.index - a.index);
-  const Transform from = to_transform(a.pose), to = to_transform(b.pose);
-  Transform out(Eigen::Quaterniond(from.linear()).slerp(share, Eigen::Quaterniond(to.linear())));
-  out.translation() = (1 - share) * from.translation() + share * to.translation();
-  return out;
+  return scene::between(to_transform(a.pose), to_transform(b.pose), share);
 }
 
 Transform BodyTrack::by_feet(const Inputs& inputs, const State& state, const Outputs& outputs) {

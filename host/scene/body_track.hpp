@@ -17,6 +17,10 @@ class TickPoses {
   const Params& params_;
 };
 
+Transform to_transform(const record::ros::BodyPose& pose);
+/// A part of the way from one pose to another.
+Transform between(const Transform& from, const Transform& to, double part);
+
 /// Where the body was, tick by tick: as the trace's twin knew, between its poses in a straight
 /// line; else by the controller's own estimate of tilt and heading, and by the lower sole, which
 /// stays where it stands.

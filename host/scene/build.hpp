@@ -1,4 +1,5 @@
 #pragma once
+#include "host/model/world.hpp"
 #include "host/scene/scene.hpp"
 #include "host/scene/snapshot.hpp"
 
@@ -6,6 +7,10 @@ namespace verp::scene {
 
 /// An empty studio: floor, sky, three lights.
 Scene studio();
+
+/// What a world's file shows: its things, lights and air; null: the studio. What moves is in
+/// Snapshot::body_world, in the order of model::moving().
+Scene surroundings(const model::World* world);
 
 enum class Meshes { kFromFiles, kNone };
 

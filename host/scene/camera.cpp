@@ -31,8 +31,11 @@ double heading_rad(const Transform& body) {
 }
 
 Camera through(const Mount& mount, const Snapshot& now, double aspect) {
-  const RobotView& robot = now.robots[static_cast<std::size_t>(mount.robot)];
-  const Transform pose = robot.link_world[static_cast<std::size_t>(mount.node)] * mount.pose;
+  Transform pose = mount.pose;
+  if (mount.robot != kWorld) {
+    const RobotView& robot = now.robots[static_cast<std::size_t>(mount.robot)];
+    pose = robot.link_world[static_cast<std::size_t>(mount.node)] * mount.pose;
+  }
   Camera camera;
   // Ahead of its own glass and rim.
   camera.eye_m = pose * Vec3(0.008, 0, 0);
@@ -75,7 +78,10 @@ void Orbit::zoom(double factor) {
 std::vector<std::string> view_names(const Scene& scene) {
   std::vector<std::string> names;
   for (const Preset& preset : kPresets) names.push_back(preset.name);
-  if (!scene.cameras.empty()) names.push_back("head");
+  if (std::any_of(scene.cameras.begin(), scene.cameras.end(),
+                  [](const Mount& mount) { return mount.robot != kWorld; })) {
+    names.push_back("head");
+  }
   for (const Mount& mount : scene.cameras) names.push_back(mount.name);
   return names;
 }
@@ -83,9 +89,8 @@ std::vector<std::string> view_names(const Scene& scene) {
 std::optional<Camera> view(const std::string& name, const Scene& scene, const Snapshot& now,
                            int robot, double aspect) {
   for (const Mount& mount : scene.cameras) {
-    if (mount.robot == robot && (mount.name == name || name == "head")) {
-      return through(mount, now, aspect);
-    }
+    const bool own = mount.robot == robot && (mount.name == name || name == "head");
+    if (own || (mount.robot == kWorld && mount.name == name)) return through(mount, now, aspect);
   }
   const auto* preset = std::find_if(std::begin(kPresets), std::end(kPresets),
                                     [&](const Preset& p) { return p.name == name; });

@@ -7,8 +7,10 @@
 #include "host/model/find.hpp"
 #include "host/model/load.hpp"
 #include "host/model/load_error.hpp"
+#include "host/model/load_world.hpp"
 #include "host/scene/body_track.hpp"
 #include "host/scene/measured.hpp"
+#include "host/scene/object_track.hpp"
 #include "host/scene/params_entity.hpp"
 #include "host/scene/plan_marks.hpp"
 #include "host/sim/body.hpp"
@@ -35,9 +37,12 @@ struct TracePlayer::Film {
   std::string note;
   std::vector<State> states;  ///< before every kEvery-th tick
   std::vector<Transform> bodies;
+  std::optional<model::World> world;
+  std::optional<ObjectTrack> objects;
 
   explicit Film(const std::filesystem::path& file) : trace(record::read_trace(file)) {
     find_entity();
+    find_world();
     const TickPoses poses(entity, trace.params);
     BodyTrack track(trace, poses);
     State state;
@@ -65,6 +70,17 @@ struct TracePlayer::Film {
     entity = entity_of(trace.params);
   }
 
+  void find_world() {
+    const auto named = trace.metadata.find("world_file");
+    if (named == trace.metadata.end() || named->second.empty()) return;
+    try {
+      world = model::load_world(model::find_world(named->second));
+      objects.emplace(trace, *world);
+    } catch (const model::LoadError& error) {
+      note += (note.empty() ? "" : "; ") + std::string(error.what()) + "; drawn without its world";
+    }
+  }
+
   /// The controller after that tick.
   void run_to(std::size_t index, State& state, Outputs& outputs) const {
     state = states[index / kEvery];
@@ -87,6 +103,9 @@ const record::Trace& TracePlayer::trace() const {
 }
 const Entity& TracePlayer::entity() const {
   return film_->entity;
+}
+const model::World* TracePlayer::world() const {
+  return film_->world ? &*film_->world : nullptr;
 }
 const std::string& TracePlayer::note() const {
   return film_->note;
@@ -120,6 +139,7 @@ Snapshot TracePlayer::at(std::size_t index) const {
   Snapshot now;
   now.tick = inputs.tick;
   now.t_s = inputs.tick * film.trace.period_s();
+  if (film.objects) now.body_world = film.objects->at(index);
   RobotView& view = now.robots.emplace_back();
   view.joint_rad = measured_rad(inputs, film.trace.params);
   view.link_world = sim::link_poses(film.entity, film.bodies[index], view.joint_rad);

@@ -2,6 +2,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "host/model/world.hpp"
 #include "host/record/trace.hpp"
 #include "host/scene/snapshot.hpp"
 
@@ -18,6 +19,8 @@ class TracePlayer {
 
   const record::Trace& trace() const;
   const Entity& entity() const;
+  /// Where it was; null: on a level floor.
+  const model::World* world() const;
   const std::string& note() const;
   double begin_s() const;
   double end_s() const;

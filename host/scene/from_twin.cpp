@@ -3,6 +3,7 @@
 #include "host/scene/plan_marks.hpp"
 #include "host/sim/body.hpp"
 #include "host/sim/planned_zmp.hpp"
+#include "host/sim/scenery.hpp"
 
 namespace verp::scene {
 namespace {
@@ -23,14 +24,11 @@ void add_truth(RobotView& view, const sim::Observation& seen, const Entity& enti
   }
 }
 
-/// One force a foot, at its sole's centre: who needs each contact point asks the world.
-void add_foot_forces(RobotView& view, const sim::Truth& truth, const Entity& entity) {
-  for (int side = 0; side < 2; ++side) {
-    const sim::FootTruth& foot = truth.foot[static_cast<std::size_t>(side)];
-    const model::Limb* leg = sim::find_leg(entity, side);
-    if (!foot.contact || leg == nullptr) continue;
-    view.contacts.push_back(
-        {leg->joints.back() + 1, foot.centroid_world_m, {0, 0, foot.normal_force_n}});
+/// Each point where the robot touched something in the last physics step.
+void add_contacts(RobotView& view, const sim::World& world, int owner) {
+  for (const sim::Contact& contact : world.contacts()) {
+    if (contact.owner != owner) continue;
+    view.contacts.push_back({contact.node, contact.position_world_m, contact.force_world_n});
   }
 }
 
@@ -48,17 +46,9 @@ void add_controller(RobotView& view, const session::Tick& tick, const sim::Truth
 RobotView look(const session::Tick& tick, const Entity& entity, const Params& params) {
   RobotView view;
   add_truth(view, tick.seen, entity);
-  add_foot_forces(view, tick.seen.truth, entity);
+  if (tick.world != nullptr) add_contacts(view, *tick.world, tick.owner);
   add_controller(view, tick, tick.seen.truth, params);
   return view;
-}
-
-void add_contacts(RobotView& view, const sim::World& world, int owner) {
-  view.contacts.clear();
-  for (const sim::Contact& contact : world.contacts()) {
-    if (contact.owner != owner) continue;
-    view.contacts.push_back({contact.node, contact.position_world_m, contact.force_world_n});
-  }
 }
 
 Snapshot snapshot(const session::Tick& tick, const Entity& entity, const Params& params) {
@@ -66,6 +56,8 @@ Snapshot snapshot(const session::Tick& tick, const Entity& entity, const Params&
   now.t_s = tick.seen.truth.t_s;
   if (tick.record != nullptr) now.tick = tick.record->inputs.tick;
   now.robots.push_back(look(tick, entity, params));
+  if (tick.world != nullptr && tick.world->scenery() != nullptr)
+    now.body_world = tick.world->scenery()->moving_poses();
   return now;
 }
 

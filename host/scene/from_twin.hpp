@@ -9,9 +9,6 @@ namespace verp::scene {
 /// run has the same bits with and without it.
 RobotView look(const session::Tick& tick, const Entity& entity, const Params& params);
 
-/// Besides: contact points of the last physics step, which the twin's world knows.
-void add_contacts(RobotView& view, const sim::World& world, int owner);
-
 /// Snapshot of one robot's run.
 Snapshot snapshot(const session::Tick& tick, const Entity& entity, const Params& params);
 

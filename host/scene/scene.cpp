@@ -17,9 +17,12 @@ int links_before(const Scene& scene, int robot) {
 int label_of(const Scene& scene, const Item& item) {
   if (item.robot != kWorld) return 1 + links_before(scene, item.robot) + item.node;
   int label = 1 + links_before(scene, static_cast<int>(scene.robots.size()));
+  const Item* last = nullptr;
   for (const Item& other : scene.items) {
+    if (other.robot != kWorld) continue;
+    if (last != nullptr && last->name != other.name) ++label;
     if (&other == &item) return label;
-    if (other.robot == kWorld) ++label;
+    last = &other;
   }
   return 0;
 }

@@ -72,6 +72,8 @@ struct Light {
   Colour colour;
   float strength = 1;
   double range_m = 10;  ///< point, spot
+  /// Of those, at distance d: strength / (x + y d + z d^2), less toward the end of the range.
+  Vec3 fading = Vec3(0.01, 0, 1);
   double inner_rad = 0.4, outer_rad = 0.6;
   bool shadows = false;  ///< one sun casts them: the first that has this
 };
@@ -98,7 +100,7 @@ struct Ground {
   double fade_m = 6;  ///< at this distance half of it is horizon
 };
 
-/// A camera that a file declares on a robot.
+/// A camera that a file declares on a robot, or for a world (robot: kWorld).
 struct Mount {
   std::string name;
   int robot = 0, node = 0;
@@ -127,7 +129,8 @@ struct Scene {
 };
 
 /// What a segmentation picture has where this item is: one number a link, from 1 on, in the order
-/// of robots and links; then one for each item of the world. 0: nothing, or the floor.
+/// of robots and links; then one for each thing of the world, whose items have one name. 0:
+/// nothing, or the floor.
 int label_of(const Scene& scene, const Item& item);
 /// The name behind such a number: ROBOT/LINK, or the item's.
 std::string label_name(const Scene& scene, int label);

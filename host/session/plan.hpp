@@ -40,6 +40,8 @@ struct Tick {
   const TickRecord* record = nullptr;
   const State* state = nullptr;
   const Outputs* outputs = nullptr;
+  const sim::World* world = nullptr;  ///< and whose contacts in it are this robot's
+  int owner = sim::kScenery;
 };
 
 /// What a user wants of one robot's run. Empty members are allowed. All are called during

@@ -11,6 +11,7 @@
 #include "host/session/asked.hpp"
 #include "host/session/fault_names.hpp"
 #include "host/sim/planned_zmp.hpp"
+#include "host/sim/scenery.hpp"
 
 namespace verp::session {
 namespace {
@@ -24,6 +25,14 @@ record::ros::BodyPose pose_of(const sim::Transform& body) {
   return {{p.x(), p.y(), p.z()}, {q.x(), q.y(), q.z(), q.w()}};
 }
 
+std::vector<record::ros::ObjectPose> objects_of(const sim::Scenery& scenery) {
+  const std::vector<sim::Transform> poses = scenery.moving_poses();
+  std::vector<record::ros::ObjectPose> out;
+  for (const model::WorldObject* object : model::moving(scenery.data()))
+    out.push_back({object->name, pose_of(poses[out.size()])});
+  return out;
+}
+
 }  // namespace
 
 Robot::Robot(sim::World& world, const WalkPlan& plan, Hooks hooks, Interrupted interrupted)
@@ -31,6 +40,7 @@ Robot::Robot(sim::World& world, const WalkPlan& plan, Hooks hooks, Interrupted i
       hooks_(std::move(hooks)),
       interrupted_(std::move(interrupted)),
       trace_(hooks_.trace),
+      world_(world),
       twin_(world, plan_.entity, plan_.twin),
       walker_(std::in_place, plan_.params, plan_.velocity, plan_.walk_s),
       meter_(plan_.entity, hooks_.keep_series),
@@ -122,7 +132,8 @@ void Robot::see() {
   after_s_ += twin_.fallen() || done ? plan_.params.period_us * 1e-6 : 0;
   const bool ends = after_s_ > (twin_.fallen() ? kAfterFall_s : kAfterStop_s);
   over_ = over_ || (ends && !hooks_.open_end);
-  if (hooks_.ticked) hooks_.ticked({seen, gone_s(), &tick_, &state_, &outputs_});
+  if (hooks_.ticked)
+    hooks_.ticked({seen, gone_s(), &tick_, &state_, &outputs_, &world_, twin_.owner()});
 }
 
 void Robot::intervene_in_time() {
@@ -178,7 +189,9 @@ void Robot::watch() {
   intervene_in_time();
   after_s_ += verdict_.fell() ? plan_.params.period_us * 1e-6 : 0;
   over_ = over_ || gone_s() >= plan_.walk_s || after_s_ > kAfterFall_s;
-  if (hooks_.ticked) hooks_.ticked({.seen = seen, .gone_s = gone_s()});
+  if (hooks_.ticked) {
+    hooks_.ticked({.seen = seen, .gone_s = gone_s(), .world = &world_, .owner = twin_.owner()});
+  }
 }
 
 WalkResult Robot::result(double wall_s) {
@@ -217,6 +230,8 @@ void Robot::append(const sim::Truth& truth) {
   try {
     const record::ros::BodyPose body = pose_of(truth.body_world);
     trace_->append(tick_, state_, outputs_, &body, truth.torque_n_m);
+    if (world_.scenery() != nullptr)
+      trace_->append(tick_.inputs.tick, objects_of(*world_.scenery()));
     for (const sim::Scan& scan : twin_.take_scans()) append(scan);
   } catch (const record::TraceError& error) {
     result_.trace_failure = error.what();

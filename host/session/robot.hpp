@@ -99,6 +99,7 @@ class Robot {
   const Hooks hooks_;
   const Interrupted interrupted_;
   record::TraceWriter* trace_;
+  const sim::World& world_;
   sim::TwinRobot twin_;
   std::optional<bus::VirtualBus> bus_;
   std::optional<can::VirtualCan> can_;

@@ -47,13 +47,16 @@ Session::Session(Options options) : options_(std::move(options)), world_(options
 
 Session::~Session() = default;
 
+double ground_m(const sim::World& world, const sim::Vec3& start_m) {
+  constexpr double kFootprint_m = 0.12;  // around where the robot is put down
+  if (world.scenery() == nullptr) return start_m.z();
+  return world.height_m(start_m.x(), start_m.y(), kFootprint_m);
+}
+
 Robot& Session::add(const WalkPlan& plan, Hooks hooks, const MakeController& make) {
   if (begun_) throw std::logic_error("a robot joins a session before its first tick");
-  constexpr double kFootprint_m = 0.12;  // around where the robot is put down
   WalkPlan placed = plan;
-  sim::Vec3& start_m = placed.twin.start_m;
-  if (world_.scenery() != nullptr)
-    start_m.z() = world_.height_m(start_m.x(), start_m.y(), kFootprint_m);
+  placed.twin.start_m.z() = ground_m(world_, placed.twin.start_m);
   seats_.push_back(std::make_unique<Seat>(*this, placed, std::move(hooks), make));
   Robot& robot = seats_.back()->robot;
   robot.set_quantities([this]() -> sim::Quantities& { return quantities(); });

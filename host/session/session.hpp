@@ -72,6 +72,9 @@ class Session {
   bool begun_ = false;
 };
 
+/// At which height a robot is put down there.
+double ground_m(const sim::World& world, const sim::Vec3& start_m);
+
 /// One walk of one robot, from its beginning to its end.
 WalkResult walk(const WalkPlan& plan, Hooks hooks = {}, Options options = {});
 

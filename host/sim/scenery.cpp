@@ -181,6 +181,14 @@ Transform Scenery::pose(std::size_t index) const {
   return pose;
 }
 
+std::vector<Transform> Scenery::moving_poses() const {
+  std::vector<Transform> poses;
+  for (std::size_t i = 0; i < items_.size(); ++i) {
+    if (items_[i].body != nullptr) poses.push_back(pose(i));
+  }
+  return poses;
+}
+
 void Scenery::place(std::size_t index, const Transform& pose_world) {
   const Item& item = items_[index];
   if (item.body != nullptr) place_body(item.body, pose_world, item.object->com_m);

@@ -30,6 +30,8 @@ class Scenery final : private Actor {
   /// In the order of data().objects.
   const std::vector<Item>& items() const { return items_; }
   Transform pose(std::size_t index) const;
+  /// Where those are now that can move, as model::moving() names them.
+  std::vector<Transform> moving_poses() const;
   /// Of one that is pushed: moves it at once, its speed stays.
   void place(std::size_t index, const Transform& pose_world);
 

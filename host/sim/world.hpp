@@ -121,6 +121,7 @@ class World final : public TimeSource {
   dSpaceID ode_space() const { return space_; }
   /// Null: the world was made without.
   Scenery* scenery() { return scenery_.get(); }
+  const Scenery* scenery() const { return scenery_.get(); }
   /// How far it is to the first shape in that direction; nothing within range_m.
   std::optional<double> ray_m(const Vec3& from_world_m, const Vec3& direction_world, double range_m,
                               const RayFilter& filter = {}) const;

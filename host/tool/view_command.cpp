@@ -54,9 +54,9 @@ CLI::App* declare_view(CLI::App& root, WalkOptions& options) {
   options.command = "verp view";
   options.walk_s = 20;
   declare(*app, options);
-  // What is of a run that nobody watches, and worlds, which the window does not draw.
+  // What is of a run that nobody watches.
   for (const char* name : {"--report", "--record-state", "--json", "--sweep-step", "--seeds",
-                           "--on", "--list-quantities", "--world"}) {
+                           "--on", "--list-quantities"}) {
     app->remove_option(app->get_option(name));
   }
   app->get_option("MODEL")->description(

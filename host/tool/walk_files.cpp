@@ -50,6 +50,7 @@ record::mcap::StringMap metadata(const WalkPlan& plan, const WalkOptions& option
   }
   return {{"robot", plan.params.name},
           {"model_file", plan.entity.file},
+          {"world_file", world_file(options)},
           {"seed", std::to_string(plan.twin.seed)},
           {"step_m", fmt::format("{}", options.step_m)},
           {"cycle_s", fmt::format("{}", options.cycle_s)},
@@ -60,6 +61,11 @@ record::mcap::StringMap metadata(const WalkPlan& plan, const WalkOptions& option
 }
 
 }  // namespace
+
+std::string world_file(const WalkOptions& options) {
+  const std::string& world = options.place.world;
+  return fs::is_regular_file(world) ? fs::absolute(world).string() : world;
+}
 
 WalkFiles::WalkFiles(const WalkOptions& options, const WalkPlan& plan,
                      const record::mcap::StringMap& more)

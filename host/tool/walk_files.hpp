@@ -12,6 +12,9 @@
 
 namespace verp::tool {
 
+/// Of --world, as find_world() finds it again wherever that is asked; empty: none.
+std::string world_file(const WalkOptions& options);
+
 /// What a walk leaves on the disk: a trace and a report. What the disk refuses before the walk ends
 /// the program; what it refuses later costs that file, is told, and never costs the walk's result.
 class WalkFiles {

@@ -16,9 +16,7 @@ namespace verp::tool {
 
 void declare(CLI::App& app, PlaceOptions& options) {
   app.add_option("--world", options.world,
-                 "a world of common/worlds, or the path of an SDF file (default: a level floor)")
-      ->excludes("--vary")
-      ->excludes("--sweep-step");
+                 "a world of common/worlds, or the path of an SDF file (default: a level floor)");
   app.add_option("--at-pose", options.pose_text,
                  "X,Y,YAW in m and rad: where the robot stands at the start");
 }

@@ -178,10 +178,12 @@ void MainWindow::show_film(const QString& name) {
 
 /// In the order of the snapshots' robots.
 scene::Scene MainWindow::scene_of_all() {
-  scene::Scene scene = scene::studio();
+  const LiveRun* run = live();
+  scene::Scene scene = scene::surroundings(run != nullptr ? run->setup().world.scenery.get()
+                                                          : player_->film()->world());
   scene::add_robot(scene, *entity_);
-  if (player_->live() == nullptr) return scene;
-  const RunSetup& setup = player_->live()->setup();
+  if (run == nullptr) return scene;
+  const RunSetup& setup = run->setup();
   if (setup.beside) scene::tint(scene, scene::add_robot(scene, *entity_), kLinked);
   for (const session::WalkPlan& plan : setup.others) scene::add_robot(scene, plan.entity);
   return scene;

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "host/tool/walk_files.hpp"
 #include "host/tool/walk_plan.hpp"
 #include "host/tool/walk_touch.hpp"
 
@@ -9,13 +10,17 @@ namespace verp::view {
 
 RunSetup run_of(const tool::WalkOptions& options) {
   RunSetup setup;
-  setup.plan = tool::make_plan(options);
   setup.world = tool::world_of(options);
-  tool::read_touch(options.touch, setup.plan, {}, setup.world);
+  std::vector<session::WalkPlan> plans = tool::make_plans(options, setup.world);
+  setup.plan = std::move(plans.front());
+  plans.erase(plans.begin());
+  setup.others = std::move(plans);
+  tool::read_touch(options.touch, setup.plan, setup.others, setup.world);
   tool::draw(options, setup.plan, setup.world);
   setup.record_file = options.record_file;
   setup.metadata = {{"robot", setup.plan.params.name},
                     {"model_file", setup.plan.entity.file},
+                    {"world_file", tool::world_file(options)},
                     {"seed", std::to_string(setup.plan.twin.seed)},
                     {"step_m", fmt::format("{}", options.step_m)},
                     {"cycle_s", fmt::format("{}", options.cycle_s)},

@@ -58,13 +58,13 @@ Replay replay_of(const std::filesystem::path& trace) {
             "no 3D replay in the page: three.js is not installed (apt-get install libjs-three)"};
   }
   const scene::TracePlayer player(trace);
-  scene::Scene scene = scene::studio();
+  scene::Scene scene = scene::surroundings(player.world());
   scene::add_robot(scene, player.entity(), scene::Meshes::kNone);
   std::string html =
       fmt::format("<section class=\"replay\" id=\"replay\"><style>{}</style>\n", kStyle);
   html += kControls;
   html += "<script>" + three + "</script>\n<script type=\"application/json\" class=\"run\">";
-  html += scene_json(scene, frames_of(player));
+  html += scene_json(scene, frames_of(player), player.world() != nullptr);
   html += "</script>\n<script>";
   html += kViewerScript;
   html += "</script></section>\n";

@@ -11,10 +11,12 @@ using Json = nlohmann::json;
 using scene::Vec2;
 using scene::Vec3;
 
-std::string base64(const std::vector<float>& values) {
+template <class Number>
+std::string base64(const std::vector<Number>& values) {
+  static_assert(sizeof(Number) == 4);
   constexpr const char* kDigits =
       "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string bytes(values.size() * sizeof(float), '\0');
+  std::string bytes(values.size() * sizeof(Number), '\0');
   std::memcpy(bytes.data(), values.data(), bytes.size());
   std::string out;
   for (std::size_t i = 0; i < bytes.size(); i += 3) {
@@ -40,17 +42,49 @@ Json pose_json(const scene::Transform& pose) {
 }
 
 Json item_json(const scene::Item& item) {
-  constexpr const char* kNames[] = {"box", "sphere", "capsule", "cylinder", "plane", "", ""};
+  constexpr const char* kNames[] = {"box",   "sphere", "capsule",  "cylinder",
+                                    "plane", "",       "triangles"};
   const scene::Material& m = item.material;
-  return {{"node", item.robot == scene::kWorld ? -1 : item.node},
-          {"shape", kNames[static_cast<int>(item.shape)]},
-          {"size", numbers(item.size_m)},
-          {"round", item.round_m},
-          {"pose", pose_json(item.pose)},
-          {"rgba", {m.colour.r, m.colour.g, m.colour.b, m.colour.a}},
-          {"glow", {m.glow.r, m.glow.g, m.glow.b}},
-          {"rough", m.roughness},
-          {"metal", m.metallic}};
+  const bool of_world = item.robot == scene::kWorld;
+  Json json = {{"node", of_world ? -1 : item.node},
+               {"body", of_world ? item.node : scene::kWorld},
+               {"shape", kNames[static_cast<int>(item.shape)]},
+               {"size", numbers(item.size_m)},
+               {"round", item.round_m},
+               {"pose", pose_json(item.pose)},
+               {"rgba", {m.colour.r, m.colour.g, m.colour.b, m.colour.a}},
+               {"glow", {m.glow.r, m.glow.g, m.glow.b}},
+               {"rough", m.roughness},
+               {"metal", m.metallic}};
+  if (item.shape == scene::Shape::kTriangles && item.triangles) {
+    std::vector<float> points;
+    for (const Eigen::Vector3f& point : item.triangles->points)
+      points.insert(points.end(), point.begin(), point.end());
+    json["points"] = base64(points);
+    json["corners"] = base64(item.triangles->indices);
+  }
+  return json;
+}
+
+Json rgb(const scene::Colour& c) {
+  return {c.r, c.g, c.b};
+}
+
+/// What stands around the robot; of the studio viewer.js has its own.
+Json air_json(const scene::Scene& scene) {
+  Json lights = Json::array();
+  for (const scene::Light& light : scene.lights) {
+    lights.push_back({{"sun", light.kind == scene::Light::Kind::kSun},
+                      {"at", numbers(light.position_m)},
+                      {"toward", numbers(light.direction)},
+                      {"rgb", rgb(light.colour)},
+                      {"range", light.range_m},
+                      {"shadows", light.shadows}});
+  }
+  return {{"floor", scene.ground.on ? rgb(scene.ground.light) : Json()},
+          {"sky", rgb(scene.sky.horizon)},
+          {"ambient", rgb(scene.ambient)},
+          {"lights", lights}};
 }
 
 /// One frame: what viewer.js calls its columns.
@@ -90,6 +124,10 @@ void add_frame(std::vector<float>& out, const scene::Snapshot& now, std::size_t 
     row.add(has ? robot.contacts[side].force_world_n.z() : 0);
   }
   for (std::size_t j = 0; j < joints; ++j) row.add(robot.joint_rad[j]);
+  for (const scene::Transform& moving : now.body_world) {
+    row.add(Vec3(moving.translation()));
+    for (const double value : Eigen::Quaterniond(moving.linear()).coeffs()) row.add(value);
+  }
 }
 
 Json footstep_json(const std::vector<scene::Snapshot>& frames) {
@@ -120,7 +158,8 @@ Json soles_json(const model::Entity& entity) {
 
 }  // namespace
 
-std::string scene_json(const scene::Scene& scene, const std::vector<scene::Snapshot>& frames) {
+std::string scene_json(const scene::Scene& scene, const std::vector<scene::Snapshot>& frames,
+                       bool with_air) {
   const scene::Robot& robot = scene.robots.front();
   const model::Entity& entity = *robot.entity;
   double mass_kg = 0;
@@ -138,8 +177,10 @@ std::string scene_json(const scene::Scene& scene, const std::vector<scene::Snaps
                               {"at", numbers(joint.origin_m)},
                               {"axis", numbers(joint.axis)}});
   }
+  if (with_air) json["air"] = air_json(scene);
+  json["bodies"] = frames.empty() ? 0 : frames.front().body_world.size();
   for (const scene::Item& item : scene.items) {
-    if (!item.collision && item.shape < scene::Shape::kMesh)
+    if (!item.collision && item.shape != scene::Shape::kMesh)
       json["items"].push_back(item_json(item));
   }
   std::vector<float> values;

@@ -7,7 +7,7 @@
   const run = JSON.parse(section.querySelector('script.run').textContent);
   const bytes = Uint8Array.from(atob(run.frames), (c) => c.charCodeAt(0));
   const data = new Float32Array(bytes.buffer);
-  const joints = run.joints.length, columns = 25 + joints;  // as scene_json's add_frame has them
+  const joints = run.joints.length, columns = 25 + joints + 7 * run.bodies;  // as scene_json's add_frame has them
   const kPhases = ['stands', 'starts', 'walks', 'ends'];
 
   let renderer;
@@ -34,6 +34,7 @@
   const reach = 1.6 * run.height;
   Object.assign(sun.shadow.camera, { left: -reach, right: reach, top: reach, bottom: -reach, near: 0.1, far: 8 * reach });
   scene.add(sun, sun.target);
+  const sunward = new THREE.Vector3(1.5, -1.05, 2.4).normalize();
 
   const floor = (function () {
     const tile = document.createElement('canvas');
@@ -54,6 +55,28 @@
     return mesh;
   })();
   scene.add(floor);
+
+  // A world's own floor, sky and lights.
+  const air = run.air;
+  if (air) {
+    const linear = (rgb) => new THREE.Color(...rgb).convertSRGBToLinear();
+    floor.visible = !!air.floor;
+    if (air.floor) {
+      floor.material.color.copy(linear(air.floor));
+      floor.material.emissive.copy(linear(air.floor));
+    }
+    scene.background = linear(air.sky);
+    scene.fog = null;
+    for (const light of air.lights) {
+      if (light.sun) {
+        if (light.shadows) sunward.set(...light.toward).normalize().negate();
+        continue;
+      }
+      const lamp = new THREE.PointLight(linear(light.rgb), 0.6, light.range);
+      lamp.position.set(...light.at);
+      scene.add(lamp);
+    }
+  }
 
   // A box with round edges: points of a grid on the box, pulled onto balls around an inner box.
   function roundBox(size, round) {
@@ -80,12 +103,21 @@
     }
     return geometry;
   }
+  const bufferOf = (text) => Uint8Array.from(atob(text), (c) => c.charCodeAt(0)).buffer;
+  function triangles(item) {
+    const geometry = new THREE.BufferGeometry();
+    geometry.setAttribute('position', new THREE.BufferAttribute(new Float32Array(bufferOf(item.points)), 3));
+    geometry.setIndex(new THREE.BufferAttribute(new Uint32Array(bufferOf(item.corners)), 1));
+    geometry.computeVertexNormals();
+    return geometry;
+  }
   function geometryOf(item) {
     const s = item.size;
     if (item.shape === 'box') return roundBox(s, item.round);
     if (item.shape === 'sphere') return new THREE.SphereBufferGeometry(s[0], 32, 20);
     if (item.shape === 'plane') return new THREE.PlaneBufferGeometry(s[0], s[1]);
     if (item.shape === 'cylinder') return new THREE.CylinderBufferGeometry(s[0], s[0], s[2], 32).rotateX(Math.PI / 2);
+    if (item.shape === 'triangles') return triangles(item);
     const profile = [];
     for (let i = 0; i <= 24; ++i) {
       const a = -Math.PI / 2 + Math.PI * i / 24;
@@ -105,6 +137,8 @@
     nodes.push(node);
     axes.push(new THREE.Vector3(...joint.axis));
   }
+  const bodies = Array.from({ length: run.bodies }, () => new THREE.Group());
+  if (bodies.length) scene.add(...bodies);
   for (const item of run.items) {
     const material = new THREE.MeshStandardMaterial({
       color: colour(item.rgba), emissive: colour(item.glow), roughness: item.rough, metalness: item.metal,
@@ -113,7 +147,7 @@
     mesh.position.set(...item.pose.slice(0, 3));
     mesh.quaternion.set(...item.pose.slice(3));
     mesh.castShadow = mesh.receiveShadow = true;
-    (item.node < 0 ? scene : nodes[item.node]).add(mesh);
+    (item.node >= 0 ? nodes[item.node] : item.body >= 0 ? bodies[item.body] : scene).add(mesh);
   }
 
   const marks = new THREE.Group();
@@ -163,6 +197,13 @@
     next.set(data[b + 4], data[b + 5], data[b + 6], data[b + 7]);
     nodes[0].quaternion.copy(q.slerp(next, share));
     for (let j = 0; j < joints; ++j) nodes[j + 1].quaternion.setFromAxisAngle(axes[j], mix(25 + j));
+    bodies.forEach((body, k) => {
+      const c = 25 + joints + 7 * k;
+      body.position.set(mix(c), mix(c + 1), mix(c + 2));
+      q.fromArray(data, a + c + 3);
+      next.fromArray(data, b + c + 3);
+      body.quaternion.copy(q.slerp(next, share));
+    });
     com.visible = !isNaN(data[a + 10]);
     com.position.set(mix(10), mix(11), mix(12));
     zmp.visible = !isNaN(data[a + 13]);
@@ -199,7 +240,7 @@
     // The floor goes along by whole tiles, so that it has no end.
     floor.position.set(Math.round(body.x / 0.2) * 0.2, Math.round(body.y / 0.2) * 0.2, 0);
     sun.target.position.copy(body);
-    sun.position.set(body.x + 3 * reach * 0.5, body.y - 3 * reach * 0.35, body.z + 3 * reach * 0.8);
+    sun.position.copy(body).addScaledVector(sunward, 3 * reach);
     marks.visible = $('marks').checked;
     renderer.render(scene, camera);
     dirty = false;

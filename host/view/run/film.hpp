@@ -4,6 +4,7 @@
 #include <mutex>
 #include <vector>
 
+#include "host/model/world.hpp"
 #include "host/scene/snapshot.hpp"
 #include "host/view/run/signals.hpp"
 
@@ -21,6 +22,8 @@ class Film {
   virtual ~Film() = default;
   virtual const scene::Entity& entity() const = 0;
   virtual std::vector<Signal> all_signals() const { return signals_of(entity()); }
+  /// Where a trace was recorded; null: on a level floor, or it is a run.
+  virtual const model::World* world() const { return nullptr; }
   virtual double period_s() const = 0;
   virtual bool empty() const = 0;
   virtual double begin_s() const = 0;

@@ -15,6 +15,7 @@ class TraceFilm final : public Film {
 
   const scene::TracePlayer& player() const { return player_; }
   const scene::Entity& entity() const override { return player_.entity(); }
+  const model::World* world() const override { return player_.world(); }
   double period_s() const override { return player_.trace().period_s(); }
   bool empty() const override { return player_.size() == 0; }
   double begin_s() const override { return player_.begin_s(); }
