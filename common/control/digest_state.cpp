@@ -20,7 +20,10 @@ void digest_state(const Inputs& inputs, const Outputs& outputs, State& state) {
   };
   set(Stage::kAdmit, digest_of(Stage::kAdmit, inputs, state.tuning, state.admit));
   set(Stage::kEstimate, digest_of(Stage::kEstimate, state.attitude, state.steer));
-  set(Stage::kPlan, digest_of(Stage::kPlan, state.gait));
+  // All zero unless an action is asked: then there is nothing to digest.
+  const bool acts = state.action.number != 0 || state.action.asked != 0;
+  set(Stage::kPlan, acts ? digest_of(Stage::kPlan, state.gait, state.action)
+                         : digest_of(Stage::kPlan, state.gait));
   set(Stage::kBalance, digest_of(Stage::kBalance, state.feedback));
   set(Stage::kKinematics, digest_of(Stage::kKinematics, state.zeros));
   set(Stage::kLimit, digest_of(Stage::kLimit, state.limit));

@@ -105,7 +105,10 @@ std::uint32_t conditions_of(const State& state, const AdmitOut& admitted,
   if (state.steer.fallen_us > confirm_us) conditions |= safety::kFell;
   if (attitude.calibrated) conditions |= safety::kCalibrated;
   if (state.gait.queued == 0) conditions |= safety::kGaitOver;
-  if (state.machine.in_mode_us >= 1000 * state.machine.way_ms) conditions |= safety::kTimeUp;
+  const bool acts = state.machine.mode == Mode::kActing;
+  if (acts ? state.action.number == 0 : state.machine.in_mode_us >= 1000 * state.machine.way_ms) {
+    conditions |= safety::kTimeUp;
+  }
   if (power_bad(state, admitted)) conditions |= safety::kPowerBad;
   if (limited.beyond) conditions |= safety::kJointBeyond;
   return conditions;
@@ -174,6 +177,7 @@ Wanted solve_joints(const Params& params, State& state, const Inputs& inputs,
   for (int j = 0; j < params.joint_count; ++j) wanted.angle_rad[j] = params.joint[j].stand_rad;
   if (params.head_pan < kMaxJoints) wanted.angle_rad[params.head_pan] = admitted.head_pan_rad;
   if (params.head_tilt < kMaxJoints) wanted.angle_rad[params.head_tilt] = admitted.head_tilt_rad;
+  for (int j = 0; j < params.joint_count; ++j) wanted.plain_rad[j] = wanted.angle_rad[j];
   for (int side = 0; side < kFeet; ++side) {
     const LegParams& leg = params.leg[side];
     if (leg.solver == LegSolver::kNone) continue;
@@ -185,6 +189,7 @@ Wanted solve_joints(const Params& params, State& state, const Inputs& inputs,
     }
     kinematics::LegAngles angles = leg_angles(params, state, plan.posture, side, previous_rad);
     wanted.leg_limited = wanted.leg_limited || angles.flags != 0;
+    for (int k = 0; k < kLegJoints; ++k) wanted.plain_rad[leg.joint[k]] = angles.angle_rad[k];
     const kinematics::LegChain chain =
         kinematics::leg_chain(params, leg, plan.posture.body, angles.turn);
     balance::LegZero& zero = state.zeros.leg[side];

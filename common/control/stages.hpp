@@ -16,6 +16,7 @@ gait::GaitOut plan_motion(const Params& params, State& state, const AdmitOut& ad
 
 struct Wanted {
   float angle_rad[kMaxJoints];
+  float plain_rad[kMaxJoints];  ///< without sag, zeros and feedback
   bool leg_limited;
 };
 

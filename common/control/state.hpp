@@ -1,4 +1,5 @@
 #pragma once
+#include "common/action/player.hpp"
 #include "common/balance/attitude.hpp"
 #include "common/balance/feedback.hpp"
 #include "common/balance/gravity.hpp"
@@ -37,9 +38,11 @@ struct State {
   balance::DriveState drive;
   safety::LimitState limit;
   safety::MachineState machine;
-  VERP_FIELDS(digest, tuning, admit, attitude, steer, gait, feedback, zeros, drive, limit, machine)
+  action::PlayerState action;
+  VERP_FIELDS(digest, tuning, admit, attitude, steer, gait, feedback, zeros, drive, limit, machine,
+              action)
 };
 VERP_PACKED(State);
-static_assert(sizeof(State) <= 2048, "hashed State is at most 2 KB");
+static_assert(sizeof(State) <= 3072, "hashed State is at most 3 KB");
 
 }  // namespace verp

@@ -1,20 +1,24 @@
 #include "common/control/step.hpp"
 
+#include "common/control/acting.hpp"
 #include "common/control/digest_state.hpp"
 #include "common/control/stages.hpp"
 
 namespace verp {
 
-void step(const Params& params, State& state, const Inputs& inputs, Outputs& outputs) noexcept {
+void step(const Params& params, const action::Library& actions, State& state, const Inputs& inputs,
+          Outputs& outputs) noexcept {
   using namespace control;
   if (state.admit.started == 0) start(params, inputs, state);
 
-  const AdmitOut admitted = admit(params, state.admit, state.tuning, inputs);
+  AdmitOut admitted = admit(params, state.admit, state.tuning, inputs);
+  ask_action(actions, state, inputs, admitted);
   const balance::AttitudeOut attitude = estimate(params, state, admitted);
   const gait::GaitOut plan = plan_motion(params, state, admitted, attitude);
   state.feedback = balance::feedback(state.tuning.balance, attitude,
                                      state.tuning.gait.trunk_pitch_rad, plan.swing);
-  const Wanted wanted = solve_joints(params, state, inputs, admitted, attitude, plan);
+  Wanted wanted = solve_joints(params, state, inputs, admitted, attitude, plan);
+  act(params, actions, state, inputs, admitted, attitude, wanted);
   const safety::LimitOut limited = limit_goals(params, state, inputs, wanted);
   const std::uint32_t faults = raise_faults(state, admitted, wanted, limited);
   gate(params, state, admitted, attitude, plan, limited, faults, outputs);

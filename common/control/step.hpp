@@ -1,4 +1,5 @@
 #pragma once
+#include "common/action/library.hpp"
 #include "common/control/state.hpp"
 #include "common/io/io.hpp"
 #include "common/model/params.hpp"
@@ -7,7 +8,12 @@ namespace verp {
 
 /// One control tick, the whole robot. Total: any input gives a safe output and, where needed, a
 /// latched fault; it never fails, blocks, allocates or logs. Same bits on every core and compiler
-/// under the floating-point contract.
-void step(const Params& params, State& state, const Inputs& inputs, Outputs& outputs) noexcept;
+/// under the floating-point contract. Without actions a robot stands and walks.
+void step(const Params& params, const action::Library& actions, State& state, const Inputs& inputs,
+          Outputs& outputs) noexcept;
+inline void step(const Params& params, State& state, const Inputs& inputs,
+                 Outputs& outputs) noexcept {
+  step(params, action::Library{}, state, inputs, outputs);
+}
 
 }  // namespace verp

@@ -56,13 +56,13 @@ struct Inputs {
   std::uint8_t slow_joint = 0;          ///< whose telemetry the next three are
   std::uint8_t slow_temperature_c = 0;  ///< degrees Celsius, as MX/X servos report it
   std::uint8_t slow_error = 0;          ///< hardware error status register
-  std::uint8_t reserved = 0;
+  std::uint8_t action = 0;              ///< number of the action that the operator asks; 0: none
   std::uint16_t slow_voltage_tenth_v = 0;
   std::uint16_t mailbox = 0;  ///< free for boards: button bits
   std::int32_t position_count[kMaxJoints] = {};
   VERP_FIELDS(tick, fresh, flags, parameter_id, parameter_bits, command, gyro_count, accel_count,
-              foot_count, slow_joint, slow_temperature_c, slow_error, reserved,
-              slow_voltage_tenth_v, mailbox, position_count)
+              foot_count, slow_joint, slow_temperature_c, slow_error, action, slow_voltage_tenth_v,
+              mailbox, position_count)
 };
 VERP_PACKED(Inputs);
 

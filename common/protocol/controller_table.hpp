@@ -176,7 +176,7 @@ inline constexpr Register kTable[] = {
     r(71, "start_fault", u8, "", "no torque until a reset; so many flashes: 2 self_test failed, 3 timer, 4 this port, 5 servo port, 6 period_us, 7 watchdog, 8 bus protocol; 0: none"),
     r(72, "crash_pc", u32, "", "the crash before this start: its instruction; 0 with crash_count 1 or more: stack overflow"),
     r(76, "crash_cause", u32, "bits", "CFSR of the core at that crash"),
-    // The operator's order: every write to 80..99 makes it fresh and feeds the operator watchdog.
+    // The operator's order: every write to 80..101 makes it fresh and feeds the operator watchdog.
     // With torque off, request is set back to 0 when a loop begins, and when one has stood still for
     // longer than an order lasts. After each start, a watchdog's too, it takes 1 and 2 (Result Fail)
     // only once 0 was written: what a program repeats must not raise a robot that was reset.
@@ -192,7 +192,7 @@ inline constexpr Register kTable[] = {
     rw_i16(96, "look_z", "mm", "point to look at, up"),
     rw(98, "head_mode", u8, 1, "", "0 head_pan and head_tilt, 1 the point look_x, look_y, look_z"),
     rw(99, "emergency_stop", u8, 1, "", "1: pressed; stays until written 0"),
-    rw(100, "action_request", u16, 0xFFFF, "", "number of the action to play, up to action_count; 0: none"),
+    rw(100, "action_request", u16, 0xFFFF, "", "number of the action to play, up to action_count; plays once, from the stand and back to it; 0: none, also ends one"),
     disarmed(102, "imu_calibrate", u8, 2, "", "1: measure the chip's bias and mounting, robot upright and still; 2: forget them; reads as 0"),
     r(103, "imu_calibration", u8, "", "0 none, 1 measuring, 2 kept; refused, the old one counts: 3 moved, 4 not upright, 5 too few samples in 20 s (chip silent, or a twin in lockstep); 6 none counts: the kept one is of another scale or mounting"),
     r(104, "bring_up", u8, "", "0 not yet, 1 every device is ready; the last failure: 2 silent, 3 another model, 4 refused a write, 5 does not keep it, 6 has a hardware error, 7 somebody else commands nodes on its bus, 8 did not boot when it was reset"),
@@ -209,7 +209,7 @@ inline constexpr Register kTable[] = {
     r(128, "digest", u64, "", "chained digest of all ticks so far"),
     r(136, "tick", u32, "ticks", "control periods since power-up"),
     r(140, "faults", u32, "bits", "safety::Fault, latched until relaxed"),
-    r(144, "mode", u8, "", "0 relaxed, 1 rising, 2 standing, 3 walking, 4 holding, 5 sitting, 6 fallen, 7 stopped"),
+    r(144, "mode", u8, "", "0 relaxed, 1 rising, 2 standing, 3 walking, 4 holding, 5 sitting, 6 fallen, 7 stopped, 8 acting"),
     r(145, "gait_phase", u8, "", "gait::Phase"),
     r(146, "gait_state", u8, "", "state within the cycle, 0 to 15"),
     r(147, "stance", u8, "", "foot that carries: 0 left, 1 right, 2 both"),

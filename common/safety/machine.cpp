@@ -8,8 +8,9 @@ constexpr std::uint32_t bit(Mode mode) {
 }
 constexpr std::uint32_t kAny = (1U << kModes) - 1U;
 constexpr std::uint32_t kUpright = bit(Mode::kRising) | bit(Mode::kStanding) | bit(Mode::kWalking) |
-                                   bit(Mode::kHolding) | bit(Mode::kSitting);
-constexpr std::uint32_t kMoving = bit(Mode::kRising) | bit(Mode::kStanding) | bit(Mode::kWalking);
+                                   bit(Mode::kHolding) | bit(Mode::kSitting) | bit(Mode::kActing);
+constexpr std::uint32_t kMoving =
+    bit(Mode::kRising) | bit(Mode::kStanding) | bit(Mode::kWalking) | bit(Mode::kActing);
 constexpr std::uint32_t kMayRest = bit(Mode::kRising) | bit(Mode::kStanding) | bit(Mode::kHolding);
 
 }  // namespace
@@ -37,6 +38,9 @@ constexpr Row kTable[] = {
     {bit(Mode::kWalking), kGaitOver | kOperatorQuiet, 0, Mode::kStanding},
     {bit(Mode::kWalking), kGaitOver | kPowerBad, 0, Mode::kStanding},
     {bit(Mode::kSitting), kTimeUp, 0, Mode::kRelaxed},
+    // Actions begin and end standing; one that is told to stop finds its way there first.
+    {bit(Mode::kStanding), kAskAction | kCalibrated, kOperatorQuiet | kPowerBad, Mode::kActing},
+    {bit(Mode::kActing), kTimeUp, 0, Mode::kStanding},
 };
 constexpr int kRows = sizeof(kTable) / sizeof(Row);
 

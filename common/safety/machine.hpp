@@ -16,17 +16,19 @@ enum class Mode : std::uint8_t {
   kSitting,  ///< down to the crouch from which torque may go
   kFallen,   ///< limp until the operator asks to relax
   kStopped,  ///< e-stop: limp until released and asked to relax
+  kActing,   ///< plays an action
 };
-inline constexpr int kModes = 8;
-inline constexpr const char* kModeNames[kModes] = {"relaxed", "rising",  "standing", "walking",
-                                                   "holding", "sitting", "fallen",   "stopped"};
+inline constexpr int kModes = 9;
+inline constexpr const char* kModeNames[kModes] = {"relaxed", "rising",  "standing",
+                                                   "walking", "holding", "sitting",
+                                                   "fallen",  "stopped", "acting"};
 
 enum Condition : std::uint32_t {
   kAskRelax = 1 << 0,
   kAskStand = 1 << 1,  ///< stand or walk
   kAskWalk = 1 << 2,
   kServosKnown = 1 << 3,  ///< every servo has reported recently
-  kTimeUp = 1 << 4,       ///< the rise or the sitting down has lasted its time
+  kTimeUp = 1 << 4,       ///< the rise or the sitting down has lasted its time, the action is over
   kGaitOver = 1 << 5,     ///< the gait stands on both feet
   kCalibrated = 1 << 6,   ///< gyro bias known
   kFell = 1 << 7,
@@ -37,6 +39,7 @@ enum Condition : std::uint32_t {
   kOperatorGone = 1 << 12,   ///< no operator frame for command_release_s
   kPowerBad = 1 << 13,       ///< kPowerFaults, now or still latched
   kJointBeyond = 1 << 14,    ///< limp, and a joint is further beyond its limits than kBeyond_rad
+  kAskAction = 1 << 15,      ///< one that has not been played for this asking
 };
 
 /// Latched until the operator relaxes the robot. The upper half reports what was limited; it stops

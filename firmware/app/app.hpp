@@ -21,8 +21,9 @@ struct NoImu {
 
 /// What decides a tick: the core. A PC's user may put something else there (host/session).
 struct Core {
+  action::Library actions;  ///< that may be asked for
   void operator()(const Params& params, State& state, const Inputs& inputs, Outputs& outputs) {
-    step(params, state, inputs, outputs);
+    step(params, actions, state, inputs, outputs);
   }
 };
 
@@ -114,6 +115,7 @@ class App {
     inputs_.parameter_id = order.parameter_id;
     inputs_.parameter_bits = order.parameter_bits;
     inputs_.mailbox = order.mailbox;
+    inputs_.action = static_cast<std::uint8_t>(order.action);
   }
 
   const Params& params_;

@@ -56,8 +56,8 @@ struct OperatorOrder {
   std::uint16_t parameter_id = 0;    ///< valid with kParameterWrite
   std::uint32_t parameter_bits = 0;  ///< valid with kParameterWrite
   std::uint16_t mailbox = 0;
-  std::uint16_t reserved = 0;
-  VERP_FIELDS(command, flags, parameter_id, parameter_bits, mailbox, reserved)
+  std::uint16_t action = 0;  ///< number of the action asked; 0: none
+  VERP_FIELDS(command, flags, parameter_id, parameter_bits, mailbox, action)
 };
 static_assert(packed_size<OperatorOrder>() == sizeof(OperatorOrder));
 

@@ -65,6 +65,9 @@ class OperatorDevice {
   /// Takes no order away: a twin that answers again finds the loop as it left it.
   void servos_gone() { registers_.report().servos_gone(); }
 
+  /// How many actions the loop's library has.
+  void offer_actions(int count) { registers_.offer_actions(count); }
+
   /// Bus counters and the like, as often as they should be readable.
   void report(const LoopHealth& health) { registers_.report().health(health); }
 

@@ -99,6 +99,10 @@ class OperatorRegisters {
   }
   /// The operator wrote `request` 0; told once.
   bool take_relax() { return standing_.take_relax(); }
+  /// Numbers that action_request takes; none before.
+  void offer_actions(int count) {
+    image_.set(reg("action_count"), static_cast<std::uint16_t>(count));
+  }
   TickReport& report() { return report_; }
   /// Whether a write at `address` may ever have the effect that the table says (OperatorSetup).
   bool obeys(std::uint16_t address) const { return takes_orders_ || only_shows(address); }
@@ -154,6 +158,7 @@ class OperatorRegisters {
       order.parameter_bits = parameter_bits_;
     }
     parameter_pending_ = false;
+    order.action = image_.template get<std::uint16_t>(reg("action_request"));
     return order;
   }
 
@@ -266,7 +271,7 @@ class OperatorRegisters {
   }
 
   dxl::Error take_effect(const Write& write) {
-    if (write.touches(reg("request"), reg_end("emergency_stop"))) standing_.given();
+    if (write.touches(reg("request"), reg_end("action_request"))) standing_.given();
     if (write.covers(reg("request"))) standing_.requested();
     if (write.covers(reg("parameter_value"))) {
       parameter_id_ = parameter_in(write);

@@ -9,7 +9,7 @@ inline constexpr double kMostInstructions = 20000;           ///< of a tick on a
 inline constexpr double kMostInstructionsWorst = 30000;
 inline constexpr double kMostInstructionsDigest = 5000;  ///< of those above
 inline constexpr double kMostStackBytes = 4096;          ///< by static analysis
-inline constexpr double kMostStateBytes = 2048;          ///< hashed every tick
+inline constexpr double kMostStateBytes = 3072;          ///< hashed every tick
 inline constexpr double kLeastLinkTicksPerS = 5000;      ///< without controller and physics
 /// The loop on any board with CAN and its robot on vcan0, without physics.
 inline constexpr double kLeastCanTicksPerS = 150;

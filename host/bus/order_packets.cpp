@@ -24,7 +24,7 @@ void append_write(std::vector<std::uint8_t>& bytes, std::uint16_t address,
   bytes.insert(bytes.end(), packet, packet + size);
 }
 
-// request to emergency_stop stand side by side: one write, one order.
+// request to action_request stand side by side: one write, one order.
 std::size_t append_order(std::vector<std::uint8_t>& bytes, const app::OperatorOrder& order) {
   const Command& command = order.command;
   std::vector<std::uint8_t> data = {static_cast<std::uint8_t>(command.request), command.sequence};
@@ -36,6 +36,7 @@ std::size_t append_order(std::vector<std::uint8_t>& bytes, const app::OperatorOr
   data.resize(reg("head_mode") - reg("request"));  // no point to look at
   data.push_back(static_cast<std::uint8_t>(dxl::controller::HeadMode::kAngles));
   data.push_back((order.flags & kEmergencyStop) != 0 ? 1 : 0);
+  put16(data, order.action);
   append_write(bytes, reg("request"), data);
   if ((order.flags & kParameterWrite) == 0) return 1;
   std::vector<std::uint8_t> parameter;

@@ -61,7 +61,7 @@ class Reference {
   void advance(std::size_t index) {
     if (!valid_) return;
     Outputs outputs;
-    step(trace_.params, state_, trace_.ticks[index].inputs, outputs);
+    step(trace_.params, trace_.library(), state_, trace_.ticks[index].inputs, outputs);
     valid_ = !compare_digests(trace_.ticks[index].digest, state_.digest);
   }
   bool valid() const { return valid_; }
@@ -90,7 +90,10 @@ void name_from_keyframe(Divergence& divergence, const Trace& trace, const Params
 }  // namespace
 
 ReplayResult replay(const Trace& trace, const Params* other, const StepFunction& core) {
-  const StepFunction run = core ? core : StepFunction(step);
+  const action::Library actions = trace.library();
+  const StepFunction own = [&](const Params& params, State& state, const Inputs& inputs,
+                               Outputs& outputs) { step(params, actions, state, inputs, outputs); };
+  const StepFunction& run = core ? core : own;
   const Params& params = other != nullptr ? *other : trace.params;
   const bool foreign = other != nullptr || core;
   ReplayResult result;

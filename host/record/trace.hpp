@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "common/action/library.hpp"
 #include "common/control/state.hpp"
 #include "common/model/params.hpp"
 #include "common/record/tick_record.hpp"
@@ -23,6 +24,7 @@ inline constexpr const char* kChangedTopic =
 inline constexpr const char* kObjectsTopic =
     "/objects";  ///< where a twin's world had what can move in it, as transforms
 inline constexpr const char* kParamsAttachment = "params";
+inline constexpr const char* kActionsAttachment = "actions";
 inline constexpr const char* kMetadataName = "verp";
 inline constexpr const char* kTraceFormat = "1";
 
@@ -57,6 +59,7 @@ struct ObjectsAt {
 struct Trace {
   std::filesystem::path file;
   Params params;
+  std::vector<std::uint32_t> actions;  ///< image of the library; empty: the robot had none
   mcap::StringMap metadata;
   std::vector<TickRecord> ticks;
   std::vector<Keyframe> keyframes;  ///< empty when the writer's State had another layout
@@ -69,6 +72,8 @@ struct Trace {
   std::uint64_t digest() const {
     return ticks.empty() ? record::kChainSeed : ticks.back().digest.chain;
   }
+  /// Valid while `actions` are.
+  action::Library library() const { return {actions.data(), 4 * actions.size()}; }
   double period_s() const { return params.period_us * 1e-6; }
 };
 

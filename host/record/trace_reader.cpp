@@ -50,6 +50,7 @@ class Loader {
   Trace load() {
     load_metadata();
     load_params();
+    load_actions();
     std::uint16_t tick_id = 0, state_id = 0;
     const bool keyframes = find_channels(tick_id, state_id);
     std::uint16_t changed_id = 0, tf_id = 0;
@@ -111,6 +112,20 @@ class Loader {
     });
     if (!sound)
       refuse(found->second.offset, "the Params image is not a robot", "record the run again");
+  }
+
+  void load_actions() {
+    const auto found = file_.attachments.find(kActionsAttachment);
+    if (found == file_.attachments.end()) return;
+    const std::string_view bytes = found->second.data;
+    trace_.actions.resize(bytes.size() / 4);
+    std::memcpy(trace_.actions.data(), bytes.data(), 4 * trace_.actions.size());
+    const auto fault = action::check_library(trace_.actions.data(), 4 * trace_.actions.size());
+    if (fault == action::LibraryFault::kNone) return;
+    refuse(found->second.offset,
+           fmt::format("the action library is {}",
+                       action::kLibraryFaultNames[static_cast<int>(fault)]),
+           "read it with verp of " + writer_of(trace_.metadata));
   }
 
   /// Whether the trace's State can be compared with ours; its TickRecord must be ours.

@@ -22,7 +22,7 @@ TraceWriter::TraceWriter(const std::filesystem::path& file, const Params& params
                          const mcap::StringMap& run, TraceOptions options)
     : writer_(file, options.ros ? "ros2" : "", "verp"),
       params_(params),
-      options_(options),
+      options_(std::move(options)),
       speeds_(params) {
   try {
     begin(run);
@@ -38,6 +38,11 @@ void TraceWriter::begin(const mcap::StringMap& run) {
   metadata.insert_or_assign("format", std::string(kTraceFormat));
   writer_.add_metadata(kMetadataName, metadata);
   writer_.add_attachment(kParamsAttachment, "application/octet-stream", image(params_));
+  if (!options_.actions.empty()) {
+    writer_.add_attachment(
+        kActionsAttachment, "application/octet-stream",
+        {reinterpret_cast<const char*>(options_.actions.data()), 4 * options_.actions.size()});
+  }
   writer_.add_attachment("params.layout", "text/plain", describe_layout<Params>("Params"));
 
   const auto raw = [&](const char* topic, const char* name, const std::string& layout) {

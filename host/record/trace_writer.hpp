@@ -4,6 +4,7 @@
 #include <map>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "host/record/joint_speeds.hpp"
 #include "host/record/mcap_writer.hpp"
@@ -16,7 +17,8 @@ struct TraceOptions {
   bool every_state =
       false;        ///< keep State at every tick, so that any divergence names its field exactly
   bool ros = true;  ///< add channels for viewers: README.md
-  std::uint64_t chunk_ticks = 125;  ///< a crash loses at most this many
+  std::uint64_t chunk_ticks = 125;     ///< a crash loses at most this many
+  std::vector<std::uint32_t> actions;  ///< image of the library that the controller has
 };
 
 /// Writes a run as it happens. Throws TraceError when the file cannot be written.

@@ -49,7 +49,7 @@ struct TracePlayer::Film {
     Outputs outputs;
     for (std::size_t i = 0; i < trace.ticks.size(); ++i) {
       if (i % kEvery == 0) states.push_back(state);
-      step(trace.params, state, trace.ticks[i].inputs, outputs);
+      step(trace.params, trace.library(), state, trace.ticks[i].inputs, outputs);
       bodies.push_back(track.at(i, state, outputs));
     }
   }
@@ -85,7 +85,7 @@ struct TracePlayer::Film {
   void run_to(std::size_t index, State& state, Outputs& outputs) const {
     state = states[index / kEvery];
     for (std::size_t i = index - index % kEvery; i <= index; ++i) {
-      step(trace.params, state, trace.ticks[i].inputs, outputs);
+      step(trace.params, trace.library(), state, trace.ticks[i].inputs, outputs);
     }
   }
 };

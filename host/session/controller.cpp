@@ -91,7 +91,7 @@ class BoardController final : public Controller {
 
   void compare(const TickRecord& tick) {
     Outputs outputs;
-    step(robot_.plan().params, state_, tick.inputs, outputs);
+    step(robot_.plan().params, robot_.actions(), state_, tick.inputs, outputs);
     for (int stage = kStages - 1; stage >= 0; --stage) {
       if (state_.digest.stage[stage] == tick.digest.stage[stage]) continue;
       failure_ = fmt::format("{} differs from this PC at tick {} in stage {}", robot_.plan().board,

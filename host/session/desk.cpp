@@ -11,7 +11,9 @@ namespace verp::session {
 Desk::Desk(Robot& robot)
     : robot_(robot),
       device_(wire_, robot.plan().params,
-              app::OperatorSetup{.self_test = app::table::SelfTest::kNotRun}) {}
+              app::OperatorSetup{.self_test = app::table::SelfTest::kNotRun}) {
+  device_.offer_actions(robot.actions().count());
+}
 
 app::OperatorOrder Desk::order(std::uint32_t tick) {
   const app::OperatorOrder wanted = robot_.order(tick);

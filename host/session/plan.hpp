@@ -23,8 +23,9 @@ namespace verp::session {
 struct WalkPlan {
   model::Entity entity;
   Params params;
-  Command velocity;       ///< vx, vy, wz
-  std::string remark;     ///< how that is not what was asked; goes into the result's
+  Command velocity;                    ///< vx, vy, wz
+  std::vector<std::uint32_t> actions;  ///< image of the library (common/action); empty: none
+  std::string remark;                  ///< how that is not what was asked; goes into the result's
   double walk_s = 20;     ///< of gait; of a run whose orders come from Hooks::order: of the run
   sim::TwinOptions twin;  ///< seed, where it stands, what of it varies
   std::string board;      ///< emulated board that runs the controller; empty: this process

@@ -85,7 +85,7 @@ app::OperatorOrder Robot::order(std::uint32_t tick) {
 
 void Robot::decide(State& state, const Inputs& inputs, Outputs& outputs) {
   if (hooks_.decide) return hooks_.decide(plan_.params, state, inputs, outputs);
-  step(plan_.params, state, inputs, outputs);
+  step(plan_.params, actions(), state, inputs, outputs);
 }
 
 void Robot::let_pass(std::uint32_t time_us) {

@@ -25,6 +25,8 @@ class Robot {
   Robot(sim::World& world, const WalkPlan& plan, Hooks hooks, Interrupted interrupted);
 
   const WalkPlan& plan() const { return plan_; }
+  /// Of the plan: what may be asked for by its number.
+  action::Library actions() const { return {plan_.actions.data(), 4 * plan_.actions.size()}; }
   std::string name() const { return plan_.name.empty() ? plan_.params.name : plan_.name; }
   sim::TwinRobot& twin() { return twin_; }
   /// The bus that the plan's Params speak of; the other one is not there.

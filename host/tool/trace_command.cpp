@@ -90,7 +90,7 @@ class Decisions {
   /// Null where it is not known. Ticks are asked for in order.
   const Outputs* at(const TickRecord& record) {
     if (!same_) return nullptr;
-    step(trace_.params, state_, record.inputs, outputs_);
+    step(trace_.params, trace_.library(), state_, record.inputs, outputs_);
     same_ = state_.digest.chain == record.digest.chain;
     if (same_) return &outputs_;
     complain(

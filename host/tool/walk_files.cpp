@@ -89,7 +89,8 @@ void WalkFiles::open_trace(const WalkOptions& options, const WalkPlan& plan,
   record::mcap::StringMap run = metadata(plan, options);
   for (const auto& [key, value] : more) run[key] = value;
   trace_ = std::make_unique<record::TraceWriter>(
-      trace_path_, plan.params, run, record::TraceOptions{.every_state = options.record_state});
+      trace_path_, plan.params, run,
+      record::TraceOptions{.every_state = options.record_state, .actions = plan.actions});
 }
 
 bool WalkFiles::trace_is_in_folder() const {

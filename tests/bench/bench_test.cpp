@@ -36,7 +36,7 @@ TEST_F(Bench, TableHasTheBarBesideEachPromisedNumber) {
   const Outcome outcome = verp("bench --pc --repetitions 1");
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_EQ(outcome.err, "");
-  for (const char* bar : {"at most 3 µs", "at least 100 times", "at most 2048 bytes"}) {
+  for (const char* bar : {"at most 3 µs", "at least 100 times", "at most 3072 bytes"}) {
     EXPECT_NE(outcome.out.find(bar), std::string::npos) << bar << '\n' << outcome.out;
   }
 }

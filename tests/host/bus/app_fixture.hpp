@@ -19,7 +19,8 @@ inline Outputs wanted;  // what step() asks for
 }
 
 // Stands in for the core's step() at link time: the loop is tested without a robot's mind.
-void step(const Params&, State& state, const Inputs&, Outputs& outputs) noexcept {
+void step(const Params&, const action::Library&, State& state, const Inputs&,
+          Outputs& outputs) noexcept {
   ++state.digest.chain;
   outputs = test::wanted;
 }

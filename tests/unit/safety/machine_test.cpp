@@ -7,7 +7,7 @@
 namespace verp::safety {
 namespace {
 
-constexpr std::uint32_t kAllConditions = 1u << 15;
+constexpr std::uint32_t kAllConditions = 1u << 16;
 
 constexpr std::uint32_t bit(Mode mode) {
   return 1u << static_cast<unsigned>(mode);
@@ -47,11 +47,11 @@ void expect_row(int index, std::uint32_t from, std::uint32_t all_of, std::uint32
   }
 }
 
-constexpr std::uint32_t kUpright =
-    modes(Mode::kRising, Mode::kStanding, Mode::kWalking, Mode::kHolding, Mode::kSitting);
+constexpr std::uint32_t kUpright = modes(Mode::kRising, Mode::kStanding, Mode::kWalking,
+                                         Mode::kHolding, Mode::kSitting, Mode::kActing);
 
 TEST(SafetyTable, Row0EmergencyStopsEveryMode) {
-  expect_row(0, 0xFFu & ~bit(Mode::kStopped), kEmergency, 0, Mode::kStopped);
+  expect_row(0, 0x1FFu & ~bit(Mode::kStopped), kEmergency, 0, Mode::kStopped);
 }
 TEST(SafetyTable, Row1StoppedRobotIsRelaxedOnceReleasedAndAsked) {
   expect_row(1, bit(Mode::kStopped), kAskRelax, kEmergency, Mode::kRelaxed);
@@ -63,7 +63,8 @@ TEST(SafetyTable, Row3FallenRobotIsRelaxedWhenAsked) {
   expect_row(3, bit(Mode::kFallen), kAskRelax, 0, Mode::kRelaxed);
 }
 TEST(SafetyTable, Row4SilenceHoldsMovingRobot) {
-  expect_row(4, modes(Mode::kRising, Mode::kStanding, Mode::kWalking), kStale, 0, Mode::kHolding);
+  expect_row(4, modes(Mode::kRising, Mode::kStanding, Mode::kWalking, Mode::kActing), kStale, 0,
+             Mode::kHolding);
 }
 TEST(SafetyTable, Row5LastingSilenceSitsDown) {
   expect_row(5, bit(Mode::kHolding), kLost, 0, Mode::kSitting);
@@ -110,8 +111,15 @@ TEST(SafetyTable, Row15WalkEndsOnBothFeetWhenPowerIsBad) {
 TEST(SafetyTable, Row16SittingRobotRelaxesWhenDown) {
   expect_row(16, bit(Mode::kSitting), kTimeUp, 0, Mode::kRelaxed);
 }
+TEST(SafetyTable, Row17ActsOnlyWhenAllIsWell) {
+  expect_row(17, bit(Mode::kStanding), kAskAction | kCalibrated, kOperatorQuiet | kPowerBad,
+             Mode::kActing);
+}
+TEST(SafetyTable, Row18ActionEndsInTheStand) {
+  expect_row(18, bit(Mode::kActing), kTimeUp, 0, Mode::kStanding);
+}
 TEST(SafetyTable, HasNoOtherRows) {
-  EXPECT_EQ(kRows, 17);
+  EXPECT_EQ(kRows, 19);
 }
 
 // What follows holds for every combination of conditions.
@@ -170,11 +178,11 @@ TEST(SafetyMachine, WalkingStopsOnlyOnBothFeetUnlessItMust) {
 }
 
 // Whatever else holds, trouble that stays leads down, and from there nowhere until it is over.
-TEST(SafetyMachine, PowerTroubleNeverBeginsARiseOrAWalk) {
+TEST(SafetyMachine, PowerTroubleNeverBeginsARiseAWalkOrAnAction) {
   int wrong = 0;
   for_all([&](Mode from, std::uint32_t conditions, Mode to) {
     if ((conditions & kPowerBad) == 0 || from == to) return;
-    if (to == Mode::kRising || to == Mode::kWalking) ++wrong;
+    if (to == Mode::kRising || to == Mode::kWalking || to == Mode::kActing) ++wrong;
   });
   EXPECT_EQ(wrong, 0);
 }
@@ -198,7 +206,7 @@ std::uint32_t reach(std::uint32_t from) {
 TEST(SafetyMachine, EveryModeIsReachedFromPowerUp) {
   std::uint32_t reached = bit(Mode::kRelaxed);
   for (int i = 0; i < 4; ++i) reached = reach(reached);
-  EXPECT_EQ(reached, 0xFFu);
+  EXPECT_EQ(reached, 0x1FFu);
 }
 
 TEST(SafetyMachine, NoModeIsWithoutAWayOutBackToRelaxed) {

@@ -1,0 +1,115 @@
+#pragma once
+#include <cstddef>
+#include <cstdint>
+
+#include "common/base/fields.hpp"
+#include "common/model/params.hpp"
+
+/// A robot's actions as a constant image beside its Params: header, actions, key frames, one after
+/// the other. Made by the host (host/action) from text; a controller only reads it.
+namespace verp::action {
+
+/// Changes whenever the layout of the image, or what it means, does.
+inline constexpr std::uint32_t kLibraryVersion = 1;
+inline constexpr char kLibraryMagic[8] = {'V', 'E', 'R', 'P', 'A', 'C', 'T', '1'};
+inline constexpr int kMaxActions = 255;  ///< numbers are a byte; 0 is none
+inline constexpr int kMaxFrames = 4096;
+
+struct LibraryHeader {
+  char magic[8] = {};
+  std::uint32_t library_version = 0;
+  std::uint32_t size = 0;   ///< of the whole image, header included
+  std::uint32_t crc32 = 0;  ///< of all bytes after the header
+  std::uint16_t actions = 0;
+  std::uint16_t frames = 0;
+  VERP_FIELDS(magic, library_version, size, crc32, actions, frames)
+};
+VERP_PACKED(LibraryHeader);
+
+struct Action {
+  char name[kNameLength] = {};
+  std::uint16_t first = 0;  ///< its first key frame
+  std::uint16_t frames = 0;
+  VERP_FIELDS(name, first, frames)
+};
+VERP_PACKED(Action);
+
+/// A frame's `next`, `otherwise` or `exit` that is no frame: back to the stand.
+inline constexpr std::uint16_t kToStand = 0xFFFF;
+
+/// What must hold before a player leaves a frame.
+enum class Condition : std::uint8_t {
+  kNone,
+  kUpright,
+  kLiesFront,
+  kLiesBack,
+  kLiesLeft,
+  kLiesRight,
+  kLeftFoot,  ///< pressed to the ground, as its sensors feel
+  kRightFoot,
+  kBothFeet,
+  kNoFoot,
+};
+inline constexpr int kConditions = 10;
+
+enum class Stance : std::uint8_t { kLeft = 0, kRight = 1, kBoth = 2, kNone = 3 };
+
+/// A pose and the way to it.
+struct Frame {
+  std::uint16_t time_ms = 0;   ///< the way there takes, at least kLeastFrame_ms
+  std::uint16_t pause_ms = 0;  ///< then it rests
+  std::uint16_t wait_ms = 0;   ///< then it waits at most so long for `condition`
+  std::uint16_t next = kToStand;
+  std::uint16_t otherwise = kToStand;  ///< next, when the condition did not come
+  std::uint16_t exit = kToStand;       ///< next, when the player is told to stop
+  std::uint16_t loop_to = kToStand;    ///< next, for the first `loops` times
+  std::uint8_t loops = 0;
+  Condition condition = Condition::kNone;
+  Stance stance = Stance::kBoth;  ///< feet that carry
+  std::uint8_t balance = 1;       ///< feedback and gravity feed-forward of the legs
+  std::uint16_t reserved = 0;
+  std::uint32_t joints = 0;  ///< bit j: joint j has a goal; others stand
+  std::uint32_t smooth = 0;  ///< bit j: jerk-limited (quintic) way; else cubic
+  std::int16_t goal_tenth_mrad[kMaxJoints] = {};
+  std::int16_t speed_mrad_s[kMaxJoints] = {};  ///< with which it passes there
+  std::uint8_t stiffness_percent[kMaxJoints] = {};
+  VERP_FIELDS(time_ms, pause_ms, wait_ms, next, otherwise, exit, loop_to, loops, condition, stance,
+              balance, reserved, joints, smooth, goal_tenth_mrad, speed_mrad_s, stiffness_percent)
+};
+VERP_PACKED(Frame);
+/// Shorter than any servo follows; and a player of however few frames ends its tick.
+inline constexpr int kLeastFrame_ms = 20;
+
+enum class LibraryFault : std::uint8_t {
+  kNone = 0,
+  kTruncated = 1,
+  kNotALibrary = 2,
+  kOtherLayout = 3,  ///< written for another kLibraryVersion
+  kDamaged = 4,      ///< CRC
+  kOutOfBounds = 5,  ///< something in it points outside its tables, or is of no known kind
+};
+inline constexpr const char* kLibraryFaultNames[] = {
+    "none", "truncated", "no action library", "of another version", "damaged", "out of bounds"};
+
+/// A checked image; it must outlive its views. Without one: no actions.
+class Library {
+ public:
+  constexpr Library() = default;
+  /// The image in `bytes`, aligned to 4; no actions if check_library() finds a fault.
+  Library(const void* bytes, std::size_t size);
+
+  int count() const { return header_ == nullptr ? 0 : header_->actions; }
+  /// Of 1 to count().
+  const Action& action(int number) const { return actions_[number - 1]; }
+  const Frame& frame(int index) const { return frames_[index]; }
+
+ private:
+  const LibraryHeader* header_ = nullptr;
+  const Action* actions_ = nullptr;
+  const Frame* frames_ = nullptr;
+};
+
+/// What is wrong with these bytes; `size` may exceed the image (a flash section).
+LibraryFault check_library(const void* bytes, std::size_t size);
+
+}  // namespace verp::action

@@ -1,0 +1,109 @@
+#include "host/tool/action_convert.hpp"
+
+#include <fmt/format.h>
+
+#include <fstream>
+#include <sstream>
+
+#include "host/action/csv.hpp"
+#include "host/action/folder.hpp"
+#include "host/action/robotis.hpp"
+#include "host/model/find.hpp"
+#include "host/model/load.hpp"
+#include "host/model/params.hpp"
+#include "host/tool/exit_status.hpp"
+
+namespace verp::tool {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kCommand = "verp action convert";
+
+void write_file(const fs::path& file, const std::string& bytes) {
+  const fs::path part = file.string() + ".part";
+  std::ofstream stream(part, std::ios::binary | std::ios::trunc);
+  stream.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  stream.close();
+  std::error_code error;
+  if (stream) fs::rename(part, file, error);
+  if (stream && !error) return;
+  fs::remove(part, error);
+  throw ToolError(kBadInput, fmt::format("{}: {} cannot be written; give another place", kCommand,
+                                         file.string()));
+}
+
+std::string read_text(const fs::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  std::ostringstream text;
+  text << stream.rdbuf();
+  if (stream && !fs::is_directory(file)) return text.str();
+  throw ToolError(kBadInput,
+                  fmt::format("{}: {} cannot be read; give a file", kCommand, file.string()));
+}
+
+std::string motion_to_folder(const Params& params, const ConvertWords& convert) {
+  const auto documents = action::from_motion(params, action::read_motion(convert.from));
+  std::error_code error;
+  fs::create_directories(convert.to, error);
+  for (const action::Document& each : documents) {
+    write_file(fs::path(convert.to) / (each.name + ".action"), action::text_of(each));
+  }
+  return fmt::format("{}: {} actions\n", convert.to, documents.size());
+}
+
+std::string folder_to_motion(const Params& params, const ConvertWords& convert) {
+  const auto documents = action::read_folder(convert.from);
+  if (documents.empty()) {
+    throw ToolError(kBadInput, fmt::format("{}: {} holds no action; give a folder of *.action",
+                                           kCommand, convert.from));
+  }
+  const action::Motion motion = action::to_motion(params, documents);
+  std::string bytes;
+  for (const action::Page& page : motion) bytes.append(page.begin(), page.end());
+  write_file(convert.to, bytes);
+  return fmt::format("{}: {} actions on {} pages\n", convert.to, documents.size(), motion.size());
+}
+
+}  // namespace
+
+std::string convert_actions(const ActionWords& words, const ConvertWords& convert) {
+  const fs::path from = convert.from, to = convert.to;
+  if (to.extension() == ".csv") {
+    ActionWords named = words;
+    named.action = convert.from;
+    const ActionRobot robot = load_action_robot(named);
+    write_file(to, action::to_csv(robot.params, robot.made, require_action(robot, named)));
+    return convert.to + "\n";
+  }
+  if (from.extension() == ".csv" && to.extension() == ".action") {
+    write_file(to, action::text_of(action::from_csv(from, read_text(from), to.stem().string())));
+    return convert.to + "\n";
+  }
+  const Params params = model::make_params(model::load_robot(model::find_model(words.model), ""));
+  if (from.extension() == ".bin" && !to.has_extension()) return motion_to_folder(params, convert);
+  if (fs::is_directory(from) && to.extension() == ".bin") return folder_to_motion(params, convert);
+  throw ToolError(kBadInput,
+                  fmt::format("{}: nothing makes {} of {}; give ACTION FILE.csv, FILE.csv "
+                              "FILE.action, MOTION.bin FOLDER or FOLDER MOTION.bin",
+                              kCommand, convert.to, convert.from));
+}
+
+std::string record_action(const RecordWords& words) {
+  const record::Trace trace = record::read_trace(words.trace);
+  const fs::path file = words.file;
+  if (file.extension() != ".action") {
+    throw ToolError(kBadInput, fmt::format("verp action record: {}: actions are *.action; give -o "
+                                           "NAME.action",
+                                           words.file));
+  }
+  action::RecordOptions options = words.options;
+  options.name = file.stem().string();
+  const action::Document document =
+      words.gait_cycles > 0 ? action::record_gait(trace, options.name, words.gait_cycles)
+                            : action::record_joints(trace, options);
+  write_file(file, action::text_of(document));
+  return fmt::format("{}: {} frames\n", words.file, document.frames.size());
+}
+
+}  // namespace verp::tool

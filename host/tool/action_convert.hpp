@@ -1,0 +1,26 @@
+#pragma once
+#include <string>
+
+#include "host/action/record.hpp"
+#include "host/tool/action_words.hpp"
+
+namespace verp::tool {
+
+struct ConvertWords {
+  std::string from, to;
+};
+
+struct RecordWords {
+  std::string trace, file;
+  action::RecordOptions options;
+  int gait_cycles = 0;  ///< 0: the joints, whatever they did
+};
+
+/// `verp action convert`: what is read and written follows from the names. Returns what was
+/// written, in a line.
+std::string convert_actions(const ActionWords& words, const ConvertWords& convert);
+
+/// `verp action record`. Returns what was written, in a line.
+std::string record_action(const RecordWords& words);
+
+}  // namespace verp::tool

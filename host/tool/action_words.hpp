@@ -1,0 +1,31 @@
+#pragma once
+#include <string>
+
+#include "host/action/compile.hpp"
+#include "host/model/entity.hpp"
+#include "host/tool/walk_options.hpp"
+
+/// What every subcommand of `verp action` is told, and the robot that it means.
+namespace verp::tool {
+
+struct ActionWords {
+  std::string action;  ///< its name, or a file
+  std::string model = "generic21";
+  bool json = false;
+  WalkOptions walk;  ///< of the twin
+};
+
+struct ActionRobot {
+  model::Entity entity;
+  Params params;
+  action::Made made;
+};
+
+/// With the actions beside its file; a file that was named is one of them, in place of one of its
+/// name. Throws LoadError.
+ActionRobot load_action_robot(const ActionWords& words);
+
+/// Number of the action that was named. Throws LoadError.
+int require_action(const ActionRobot& robot, const ActionWords& words);
+
+}  // namespace verp::tool

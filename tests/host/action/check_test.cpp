@@ -1,0 +1,56 @@
+#include "host/action/check.hpp"
+
+#include <gtest/gtest.h>
+
+#include "tests/host/action/robots.hpp"
+
+namespace verp::action {
+namespace {
+
+using test::generic21;
+using test::Robot;
+
+Checked checked(const std::string& text) {
+  const Made made = generic21().make({text});
+  return check(generic21().entity, generic21().params, made, 1);
+}
+
+void expect_bad(const std::string& text, int line, const std::string& what) {
+  const Checked result = checked(text);
+  ASSERT_NE(result.first_bad(), nullptr) << what;
+  EXPECT_EQ(result.first_bad()->line, line);
+  EXPECT_NE(result.first_bad()->problem.find(what), std::string::npos)
+      << result.first_bad()->problem;
+}
+
+TEST(ActionCheck, NamesTheFirstFrameThatIsTooFast) {
+  expect_bad("action a\nframe 1\n head_yaw 10\nframe 0.1\n head_yaw 100\n", 4, "rad/s");
+}
+
+TEST(ActionCheck, NamesTheFrameInWhichLinksMeet) {
+  expect_bad("action a\nframe 1\n r_shoulder_roll 10\n r_shoulder_pitch 0\n r_elbow 0\n", 2,
+             "meet");
+}
+
+TEST(ActionCheck, NamesTheFrameInWhichTheWeightIsBesideTheSoles) {
+  expect_bad("action a\nframe 1\n over right 0.7\nframe 0.5\n stance left\n right_foot z 0.02\n", 4,
+             "ZMP");
+}
+
+// The check is of use only if what is shipped passes it.
+TEST(ActionCheck, EveryShippedActionPasses) {
+  for (const char* name : {"generic21", "op3", "darwin_op"}) {
+    const Robot robot(name);
+    const Made made = make_library(robot.params, read_folder(folder_of(robot.entity.file)));
+    EXPECT_GE(made.library().count(), 6) << name;
+    for (int number = 1; number <= made.library().count(); ++number) {
+      const Checked result = check(robot.entity, robot.params, made, number);
+      const FrameCheck* bad = result.first_bad();
+      EXPECT_EQ(bad, nullptr) << name << " " << made.library().action(number).name << " line "
+                              << bad->line << ": " << bad->problem;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace verp::action

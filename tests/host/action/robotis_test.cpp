@@ -1,0 +1,131 @@
+#include "host/action/robotis.hpp"
+
+#include <gtest/gtest.h>
+
+#include <unistd.h>
+
+#include <fstream>
+
+#include "host/action/csv.hpp"
+#include "tests/host/action/robots.hpp"
+
+namespace verp::action {
+namespace {
+
+using test::Robot;
+
+constexpr std::size_t kStepCount = 20, kFirstStep = 64;
+
+const Robot& op3() {
+  static const Robot robot("op3");
+  return robot;
+}
+
+/// Pages as editors leave them: some blank, some with steps, links, gains, ids that nobody has,
+/// torque off, and bytes whose meaning is not known.
+Motion some_motion() {
+  Motion motion(kPages, blank_page());
+  std::uint32_t random = 7;
+  const auto next = [&] { return (random = random * 1664525U + 1013904223U) >> 16; };
+  for (std::size_t i = 1; i < kPages; i += 3) {
+    Page& page = motion[i];
+    page[kStepCount] = static_cast<std::uint8_t>(next() % 8);
+    for (std::size_t k = 0; k < 13; ++k) page[k] = static_cast<std::uint8_t>(next());
+    page[14] = static_cast<std::uint8_t>(next());
+    page[15] = static_cast<std::uint8_t>(next() % 4);
+    page[22] = static_cast<std::uint8_t>(16 + next() % 64);
+    page[25] = static_cast<std::uint8_t>(next());
+    page[26] = static_cast<std::uint8_t>(next());
+    for (std::size_t at = kFirstStep; at < kPageBytes; at += 2) {
+      const unsigned flags = next() % 8 == 0 ? 0x4000 : next() % 16 == 0 ? 0x2000 : 0;
+      const unsigned word = (next() & 0xFFF) | flags;
+      page[at] = static_cast<std::uint8_t>(word);
+      page[at + 1] = static_cast<std::uint8_t>(word >> 8);
+    }
+    seal(page);
+  }
+  return motion;
+}
+
+TEST(RobotisMotion, GoesThroughActionFilesByteForByte) {
+  const Motion motion = some_motion();
+  std::vector<Document> documents;
+  for (const Document& each : from_motion(op3().params, motion)) {
+    documents.push_back(parse_document(each.name + ".action", text_of(each)));
+  }
+  EXPECT_EQ(documents.size(), 85U);
+  EXPECT_TRUE(to_motion(op3().params, documents) == motion);
+}
+
+TEST(RobotisMotion, AnEditOfAnAngleIsOneOfItsPage) {
+  Motion motion(kPages, blank_page());
+  Page& page = motion[9];
+  page[kStepCount] = 1;
+  page[kFirstStep + 2 * 3] = 0x00;  // servo 3 at 2048: zero
+  page[kFirstStep + 2 * 3 + 1] = 0x08;
+  page[kFirstStep + 63] = 125;
+  seal(page);
+  std::vector<Document> documents = from_motion(op3().params, motion);
+  ASSERT_EQ(documents.size(), 1U);
+  ASSERT_EQ(documents[0].frames[0].goals.size(), 1U);
+  EXPECT_NEAR(documents[0].frames[0].time_s, 0.975, 1e-6);
+  documents[0].frames[0].goals[0].angle_rad = 0.5;
+  const Motion edited = to_motion(op3().params, documents);
+  const int count = edited[9][kFirstStep + 6] | edited[9][kFirstStep + 7] << 8;
+  EXPECT_EQ(std::abs(count - 2048), 326) << "half a radian of 651.9 counts";
+  documents = from_motion(op3().params, edited);
+  EXPECT_NEAR(documents[0].frames[0].goals[0].angle_rad, 0.5, 1e-3);
+}
+
+TEST(RobotisMotion, FilesOfAnotherSizeOrADamagedPageAreRefused) {
+  const std::filesystem::path file =
+      std::filesystem::temp_directory_path() / ("motion" + std::to_string(getpid()) + ".bin");
+  const auto write = [&](const Motion& motion, std::size_t bytes) {
+    std::ofstream stream(file, std::ios::binary | std::ios::trunc);
+    stream.write(reinterpret_cast<const char*>(motion.data()), static_cast<std::streamsize>(bytes));
+  };
+  Motion motion = some_motion();
+  write(motion, kPages * kPageBytes);
+  EXPECT_TRUE(read_motion(file) == motion);
+  write(motion, kPages * kPageBytes - 1);
+  EXPECT_THROW(read_motion(file), model::LoadError);
+  motion[200][70] = static_cast<std::uint8_t>(motion[200][70] + 1);
+  write(motion, kPages * kPageBytes);
+  EXPECT_THROW(read_motion(file), model::LoadError);
+  std::filesystem::remove(file);
+}
+
+TEST(ActionCsv, TableAndBackIsTheSameLibrary) {
+  const Made made =
+      op3().make({"action a\nframe 0.5 hold 0.2\n head_pan 20\n body z -0.02\n"
+                  "frame 0.4\n head_pan -20\n body stand\n"});
+  const std::string table = to_csv(op3().params, made, 1);
+  const Made again = make_library(op3().params, {from_csv("a.csv", table, "a")});
+  ASSERT_EQ(again.library().action(1).frames, 2);
+  for (int i = 0; i < 2; ++i) {
+    const Frame &one = made.library().frame(i), &other = again.library().frame(i);
+    EXPECT_EQ(one.time_ms, other.time_ms);
+    EXPECT_EQ(one.pause_ms, other.pause_ms);
+    EXPECT_EQ(one.joints, other.joints);
+    for (int j = 0; j < kMaxJoints; ++j) {
+      EXPECT_NEAR(one.goal_tenth_mrad[j], other.goal_tenth_mrad[j], 1);
+    }
+  }
+}
+
+TEST(ActionCsv, BadTablesAreRefusedAtTheirLine) {
+  const auto why = [](const std::string& table) {
+    try {
+      from_csv("t.csv", table, "t");
+    } catch (const model::LoadError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_EQ(why("a,b\n1,2\n").substr(0, 8), "t.csv:1:");
+  EXPECT_EQ(why("time_s,hold_s,head_pan\n1,0,0.1\n1,0\n").substr(0, 8), "t.csv:3:");
+  EXPECT_EQ(why("time_s,hold_s,head_pan\n1,0,many\n").substr(0, 8), "t.csv:2:");
+}
+
+}  // namespace
+}  // namespace verp::action

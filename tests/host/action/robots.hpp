@@ -1,0 +1,42 @@
+#pragma once
+#include <string>
+
+#include "host/action/compile.hpp"
+#include "host/action/folder.hpp"
+#include "host/model/find.hpp"
+#include "host/model/load.hpp"
+#include "host/model/params.hpp"
+
+namespace verp::action::test {
+
+struct Robot {
+  explicit Robot(const std::string& name)
+      : entity(model::load_robot(model::find_model(name))), params(model::make_params(entity)) {}
+  Made make(const std::vector<std::string>& texts) const {
+    std::vector<Document> documents;
+    for (const std::string& text : texts) {
+      documents.push_back(
+          parse_document("a" + std::to_string(documents.size() + 1) + ".action", text));
+    }
+    return make_library(params, documents);
+  }
+  model::Entity entity;
+  Params params;
+};
+
+inline const Robot& generic21() {
+  static const Robot robot("generic21");
+  return robot;
+}
+
+/// What an action is refused for; empty: it is not.
+inline std::string refusal(const std::vector<std::string>& texts) {
+  try {
+    generic21().make(texts);
+    return "";
+  } catch (const model::LoadError& error) {
+    return error.what();
+  }
+}
+
+}  // namespace verp::action::test
