@@ -18,7 +18,7 @@ Pose moved(const Pose& pose, const Offset& offset) {
 
 /// The gait's stand once the body has glided to where the centre of mass is over the soles.
 gait::Posture settled(const Params& params) {
-  constexpr int kMostTicks = 2000;
+  constexpr int kGlideTicks = 2000;
   gait::GaitState state;
   gait::stand_legs(params, state.preview.leg_rad);
   float goal_rad[kMaxJoints] = {};
@@ -27,7 +27,7 @@ gait::Posture settled(const Params& params) {
   in.goal_rad = goal_rad;
   in.period_us = static_cast<std::int32_t>(params.period_us);
   gait::Posture posture;
-  for (int i = 0; i < kMostTicks; ++i) {
+  for (int i = 0; i < kGlideTicks; ++i) {
     posture = gait::update(params, params.tuning, state, in).posture;
   }
   return posture;

@@ -235,7 +235,7 @@ Subcommand add_action(CLI::App& root) {
   records->add_option("--every", record->options.every_s, "between key frames, s")
       ->check(number_between(0.02, 10, "s"))
       ->capture_default_str();
-  return {app, [=] {
+  return {app, [=]() -> int {
             catch_interrupts();
             if (lists->parsed()) return list(*words);
             if (shows->parsed()) return show(*words);

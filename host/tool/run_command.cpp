@@ -9,6 +9,7 @@
 #include "host/model/find.hpp"
 #include "host/model/load.hpp"
 #include "host/model/params.hpp"
+#include "host/session/fault_names.hpp"
 #include "host/tool/bit_rate.hpp"
 #include "host/tool/command.hpp"
 #include "host/tool/console.hpp"

@@ -221,7 +221,7 @@ int recover(const TraceCommandOptions& options) {
     run["recorded_" + key] = run.contains(key) ? run[key] : "unknown";
     run.erase(key);
   }
-  record::TraceWriter writer(options.output, trace.params, run);
+  record::TraceWriter writer(options.output, trace.params, run, {.actions = trace.actions});
   // States are kept again where they stand; a damaged trace's fault bits are not known, so only
   // those.
   std::size_t next = 0, change = 0;

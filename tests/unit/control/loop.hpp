@@ -22,7 +22,7 @@ struct Loop {
   }
   void tick() {
     inputs.command = command;
-    step(kRobot, state, inputs, outputs);
+    step(kRobot, actions, state, inputs, outputs);
     ++inputs.tick;
     if (noise) inputs.accel_count[2] = static_cast<std::int16_t>(inputs.accel_count[2] ^ 1);
     ++command.sequence;
@@ -50,6 +50,7 @@ struct Loop {
   Inputs inputs;
   Outputs outputs;
   Command command;
+  action::Library actions;
   bool noise = true;  ///< of the IMU
 };
 

@@ -1,0 +1,137 @@
+#include <gtest/gtest.h>
+
+#include "tests/unit/action/shelf.hpp"
+#include "tests/unit/control/loop.hpp"
+
+/// Actions in the tick: when they begin, what ends them, what they leave. The same bits on every
+/// core, as the last test says by a number.
+namespace verp::control {
+namespace {
+
+using namespace test;
+
+/// Both arms and a knee there and back, in 0.4 s; and an action of the head.
+action::test::Shelf shelf() {
+  action::test::Shelf shelf;
+  for (const int joint : {kLeftArm, kRightArm, kLeftLeg + 3}) {
+    shelf.goal(0, joint, kRobot.joint[joint].stand_rad + 0.3F);
+    shelf.goal(1, joint, kRobot.joint[joint].stand_rad);
+  }
+  shelf.goal(2, kHead, 0.4F);
+  return shelf;
+}
+
+const action::test::Shelf kShelf = shelf();
+
+struct ActingLoop : Loop {
+  ActingLoop() {
+    actions = kShelf.library();
+    command.request = Request::kStand;
+  }
+  void stand() {
+    until(Mode::kStanding, 1000);
+    ticks(400);  // the gyro's bias is known by then
+  }
+};
+
+TEST(Acting, BeginsFromTheStandAndEndsThere) {
+  ActingLoop loop;
+  loop.stand();
+  loop.inputs.action = 1;
+  ASSERT_GE(loop.until(Mode::kActing, 5), 0);
+  float farthest = 0;
+  while (loop.is_in(Mode::kActing)) {
+    loop.tick();
+    farthest = math::max(farthest, loop.state.limit.goal_rad[kLeftArm]);
+    ASSERT_LT(loop.inputs.tick, 3000U) << "it never ends";
+  }
+  EXPECT_TRUE(loop.is_in(Mode::kStanding));
+  EXPECT_NEAR(farthest, kRobot.joint[kLeftArm].stand_rad + 0.3F, 0.01);
+  loop.ticks(100);
+  EXPECT_TRUE(loop.is_in(Mode::kStanding)) << "once for each asking";
+}
+
+TEST(Acting, NeverBeginsWithoutAStand) {
+  ActingLoop loop;
+  loop.inputs.action = 1;
+  loop.command.request = Request::kRelax;
+  loop.ticks(50);
+  EXPECT_TRUE(loop.is_in(Mode::kRelaxed));
+  loop.command.request = Request::kStand;
+  while (!loop.is_in(Mode::kStanding)) {
+    loop.tick();
+    ASSERT_FALSE(loop.is_in(Mode::kActing));
+    ASSERT_LT(loop.inputs.tick, 2000U);
+  }
+}
+
+TEST(Acting, AWalkEndsFirstAndGoesOnAfterwards) {
+  ActingLoop loop;
+  loop.walk(500);
+  ASSERT_GE(loop.until(Mode::kWalking, 1000), 0);
+  loop.ticks(200);
+  loop.inputs.action = 1;
+  ASSERT_GE(loop.until(Mode::kStanding, 600), 0);
+  EXPECT_EQ(loop.state.gait.queued, 0) << "on both feet";
+  ASSERT_GE(loop.until(Mode::kActing, 5), 0);
+  ASSERT_GE(loop.until(Mode::kWalking, 600), 0);
+}
+
+TEST(Acting, AskedToRelaxItReturnsToTheStandBeforeItSits) {
+  ActingLoop loop;
+  loop.stand();
+  loop.inputs.action = 1;
+  ASSERT_GE(loop.until(Mode::kActing, 5), 0);
+  loop.ticks(10);
+  loop.command.request = Request::kRelax;
+  std::int32_t before = loop.outputs.goal_count[kLeftArm];
+  while (!loop.is_in(Mode::kSitting)) {
+    loop.tick();
+    EXPECT_LT(std::abs(loop.outputs.goal_count[kLeftArm] - before), 40) << "a leap";
+    before = loop.outputs.goal_count[kLeftArm];
+    ASSERT_LT(loop.inputs.tick, 3000U);
+  }
+}
+
+TEST(Acting, SilenceFreezesAnAction) {
+  ActingLoop loop;
+  loop.stand();
+  loop.inputs.action = 1;
+  ASSERT_GE(loop.until(Mode::kActing, 5), 0);
+  loop.ticks(10);
+  loop.inputs.fresh = 0;
+  ASSERT_GE(loop.until(Mode::kHolding, 100), 0);
+  const std::int32_t goal = loop.outputs.goal_count[kLeftArm];
+  loop.ticks(5);
+  EXPECT_EQ(loop.outputs.goal_count[kLeftArm], goal);
+}
+
+TEST(Acting, ALibraryThatNobodyAsksOfChangesNoBit) {
+  ActingLoop with;
+  Loop without;
+  without.command.request = Request::kStand;
+  for (int i = 0; i < 600; ++i) {
+    if (i == 400) with.walk(500), without.walk(500);
+    // A number that is not there.
+    with.inputs.action = without.inputs.action = static_cast<std::uint8_t>(i >= 500 ? 7 : 0);
+    with.tick();
+    without.tick();
+    ASSERT_EQ(with.state.digest.chain, without.state.digest.chain) << i;
+  }
+}
+
+// Changes with kCoreVersion, as long as no action's numbers do.
+constexpr std::uint64_t kPlayed = 0x4db801810fafc0d9;
+
+TEST(Acting, IsTheSameBitsOnEveryCore) {
+  ActingLoop loop;
+  loop.stand();
+  loop.inputs.action = 1;
+  loop.ticks(100);
+  loop.inputs.action = 2;
+  loop.ticks(100);
+  EXPECT_EQ(loop.state.digest.chain, kPlayed) << std::hex << loop.state.digest.chain;
+}
+
+}  // namespace
+}  // namespace verp::control
