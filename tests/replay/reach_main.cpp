@@ -2,6 +2,8 @@
 
 #include "common/control/step.hpp"
 #include "tests/replay/trace_file.hpp"
+#include "tests/unit/action/shelf.hpp"
+#include "tests/unit/control/loop.hpp"
 
 /// replay_reach FILE: runs the core, compiled to count lines and branches, over the inputs of FILE
 /// and prints how often each phase of the gait, mode, row of the safety table and fault was
@@ -24,14 +26,49 @@ void note_row(safety::Mode mode, std::uint32_t conditions) {
   }
 }
 
+void count(const Outputs& outputs) {
+  ++mode_count[outputs.mode];
+  ++phase_count[outputs.gait_phase];
+  for (int i = 0; i < 32; ++i) fault_count[i] += outputs.faults >> i & 1U;
+}
+
 void run(const Segment& segment) {
   State state;
   Outputs outputs;
   for (const TickRecord& tick : segment.ticks) {
     step(segment.params, state, tick.inputs, outputs);
-    ++mode_count[outputs.mode];
-    ++phase_count[outputs.gait_phase];
-    for (int i = 0; i < 32; ++i) fault_count[i] += outputs.faults >> i & 1U;
+    count(outputs);
+  }
+}
+
+// The trace has no actions; a robot that stands plays these: there and back with a repeat, a way
+// out, each condition, and a half-stiff joint.
+void act() {
+  action::test::Shelf shelf;
+  for (int i = 0; i < 3; ++i) {
+    shelf.goal(i, test::kLeftArm, 0.3F * static_cast<float>(i));
+    shelf.frame[i].stiffness_percent[test::kLeftArm] = 50;
+  }
+  shelf.frame[1].smooth = 0;
+  shelf.frame[1].loop_to = 0;
+  shelf.frame[1].loops = 1;
+  shelf.frame[0].exit = 1;
+  shelf.frame[0].stance = action::Stance::kLeft;
+  shelf.frame[1].stance = action::Stance::kRight;
+  for (int condition = 0; condition < action::kConditions; ++condition) {
+    shelf.frame[2].condition = static_cast<action::Condition>(condition);
+    shelf.frame[2].wait_ms = 30;
+    shelf.seal();
+    control::test::Loop loop;
+    loop.actions = shelf.library();
+    loop.command.request = Request::kStand;
+    for (int tick = 0; tick < 2000; ++tick) {
+      loop.tick();
+      count(loop.outputs);
+      const bool ready = tick == 1000 || tick == 1300;
+      if (ready) loop.inputs.action = static_cast<std::uint8_t>(tick == 1000 ? 2 : 1);
+      if (tick == 1310 && condition % 2 == 0) loop.inputs.action = 0;
+    }
   }
 }
 
@@ -100,6 +137,7 @@ int main(int count, char** argument) {
     return 2;
   }
   for (const replay::Segment& segment : trace) replay::run(segment);
+  replay::act();
   constexpr const char* kPhases[] = {"idle", "start", "transition", "finalisation"};
   bool good = true;
   for (int i = 0; i < 4; ++i) {
