@@ -129,6 +129,10 @@ std::size_t TracePlayer::index_at(double t_s) const {
   return after == ticks.begin() ? 0 : static_cast<std::size_t>(after - ticks.begin()) - 1;
 }
 
+void TracePlayer::controller_at(std::size_t index, State& state, Outputs& outputs) const {
+  film_->run_to(std::min(index, film_->trace.ticks.size() - 1), state, outputs);
+}
+
 Snapshot TracePlayer::at(std::size_t index) const {
   const Film& film = *film_;
   index = std::min(index, film.trace.ticks.size() - 1);

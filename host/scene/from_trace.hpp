@@ -28,6 +28,8 @@ class TracePlayer {
   std::size_t index_at(double t_s) const;  ///< the tick at or before
 
   Snapshot at(std::size_t index) const;
+  /// The controller after that tick.
+  void controller_at(std::size_t index, State& state, Outputs& outputs) const;
 
  private:
   struct Film;

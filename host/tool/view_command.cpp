@@ -46,7 +46,8 @@ int become_window() {
 
 }  // namespace
 
-CLI::App* declare_view(CLI::App& root, WalkOptions& options) {
+CLI::App* declare_view(CLI::App& root, ViewOptions& words) {
+  WalkOptions& options = words.walk;
   CLI::App* app =
       root.add_subcommand("view",
                           "A window: watch, steer, push and tune a robot in the twin, or "
@@ -61,11 +62,18 @@ CLI::App* declare_view(CLI::App& root, WalkOptions& options) {
   }
   app->get_option("MODEL")->description(
       "a robot of common/robots, the path of an SDF file, or a trace (.mcap)");
+  app->add_option("--link", words.link,
+                  "stand the controller at the end of it beside the robot: its operator's port, "
+                  "serial:DEVICE@BAUD, pty:PATH, tcp:HOST:PORT or unix:PATH; or can:INTERFACE");
+  app->add_option("--gamepad", words.gamepad,
+                  "steer by this joystick, whenever it is plugged in: sticks walk and turn, the "
+                  "first button stands, the second is the emergency stop")
+      ->capture_default_str();
   return app;
 }
 
 Subcommand add_view(CLI::App& root) {
-  auto options = std::make_shared<WalkOptions>();
+  auto options = std::make_shared<ViewOptions>();
   return {declare_view(root, *options), [options] { return become_window(); }};
 }
 

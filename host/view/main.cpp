@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 
+#include "host/link/endpoint.hpp"
 #include "host/record/trace.hpp"
 #include "host/tool/console.hpp"
 #include "host/tool/interrupt.hpp"
@@ -44,12 +45,19 @@ int show(MainWindow& window) {
   return tool::kRunFailed;
 }
 
-int run_view(const tool::WalkOptions& options) {
+int run_view(const tool::ViewOptions& asked) {
+  const tool::WalkOptions& options = asked.walk;
   tool::catch_interrupts();
   const bool trace = options.model.ends_with(".mcap");
   std::optional<RunSetup> setup;  // a mistake in the words is told before any window
   if (trace) record::read_trace(options.model);
   if (!trace) setup = run_of(options);
+  if (!asked.link.empty()) wire::parse_endpoint(asked.link);
+  if (trace && !asked.link.empty()) {
+    throw tool::ToolError(tool::kBadInput,
+                          "verp view: --link stands a controller beside a robot that runs, and " +
+                              options.model + " is a trace; name a robot, or leave out --link");
+  }
   if (const std::string why = no_display(); !why.empty()) return tell(why);
   QSurfaceFormat format;
   format.setVersion(3, 3);
@@ -69,12 +77,14 @@ int run_view(const tool::WalkOptions& options) {
     other.record_file.clear();
     return run_of(other);
   });
+  if (!asked.link.empty()) window.link_to(asked.link);
+  window.steer_by(asked.gamepad);
   trace ? window.watch(std::filesystem::path(options.model)) : window.watch(std::move(*setup));
   return show(window);
 }
 
 std::vector<tool::Subcommand> commands(CLI::App& root) {
-  auto options = std::make_shared<tool::WalkOptions>();
+  auto options = std::make_shared<tool::ViewOptions>();
   return {{tool::declare_view(root, *options), [options] { return run_view(*options); }}};
 }
 

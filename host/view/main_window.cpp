@@ -15,9 +15,9 @@
 #include "host/session/fault_names.hpp"
 #include "host/view/plot_panel.hpp"
 #include "host/view/pose_panel.hpp"
-#include "host/view/run/trace_film.hpp"
 #include "host/view/safety_panel.hpp"
 #include "host/view/signal_tree.hpp"
+#include "host/view/state_panel.hpp"
 #include "host/view/theme.hpp"
 #include "host/view/transport.hpp"
 #include "host/view/tuning_panel.hpp"
@@ -51,6 +51,7 @@ MainWindow::MainWindow(QSettings& settings, MakeRun make_run)
       safety_(new SafetyPanel(this)),
       tuning_(new TuningPanel(*undo_, this)),
       pose_(new PosePanel(this)),
+      state_(new StatePanel(this)),
       transport_(new Transport(this)),
       timer_(new QTimer(this)) {
   setWindowTitle("verp view");
@@ -72,9 +73,11 @@ MainWindow::MainWindow(QSettings& settings, MakeRun make_run)
   };
   signals_->ticked = [this](int signal, bool on) { plots_->set_shown(signal, on); };
   tuning_->wanted = [this](int id, float value) {
-    if (!player_ || player_->live() == nullptr) return;
-    player_->live()->touch([id, value](LiveRun::Hands& hands) { hands.orders.write(id, value); });
+    if (shadow_) shadow_->write(id, value);
+    if (live() == nullptr) return;
+    live()->touch([id, value](LiveRun::Hands& hands) { hands.orders.write(id, value); });
   };
+  state_->stepped = [this](int ticks) { step_on(ticks); };
   pose_->changed = [this] { pick_up(); };
   first_layout_ = saveState(kLayout);
   restore();
@@ -101,8 +104,10 @@ void MainWindow::make_docks() {
   QDockWidget* safety = add("Safety", safety_, Qt::RightDockWidgetArea);
   QDockWidget* tuning = add("Tuning", tuning_, Qt::RightDockWidgetArea);
   QDockWidget* pose = add("Pose", pose_, Qt::RightDockWidgetArea);
+  QDockWidget* state = add("State", state_, Qt::RightDockWidgetArea);
   tabifyDockWidget(safety, tuning);
   tabifyDockWidget(tuning, pose);
+  tabifyDockWidget(pose, state);
   safety->raise();
   resizeDocks({signal, safety}, {260, 330}, Qt::Horizontal);
   resizeDocks({plots}, {190}, Qt::Vertical);
@@ -120,6 +125,7 @@ void MainWindow::make_status() {
   mode_ = add("status_mode", 0, 170);
   speed_ = add("status_speed", 0, 230);
   faults_ = add("status_faults", 1, 100);
+  link_told_ = add("status_link", 0, 0);
   digest_ = add("status_digest", 0, 210);
   digest_->setTextInteractionFlags(Qt::TextSelectableByMouse);
   digest_->setToolTip("What names the whole run to this tick: equal without a window");
@@ -129,6 +135,12 @@ void MainWindow::watch(RunSetup setup) {
   entity_ = std::make_shared<const scene::Entity>(setup.plan.entity);
   const QString file = QString::fromStdString(setup.plan.entity.file);
   const Params params = setup.plan.params;
+  trace_.reset();
+  linked_.reset();
+  if (!link_.empty()) {
+    linked_ = std::make_shared<Linked>(link_, entity_, params);
+    setup.beside = [linked = linked_](const scene::RobotView& own) { return linked->beside(own); };
+  }
   player_ = std::make_unique<Player>(std::move(setup));
   steering_ = std::make_unique<Steering>(params);
   tuning_->set_robot(params.tuning, true);
@@ -142,6 +154,8 @@ void MainWindow::watch(const std::filesystem::path& trace) {
   const auto film = std::make_shared<const TraceFilm>(trace);
   player_ = std::make_unique<Player>(film);
   steering_.reset();
+  linked_.reset();
+  trace_ = film;
   entity_ = std::make_shared<const scene::Entity>(film->entity());
   const Params& params = film->player().trace().params;
   tuning_->set_robot(params.tuning, false);
@@ -153,6 +167,9 @@ void MainWindow::watch(const std::filesystem::path& trace) {
 
 void MainWindow::show_film(const QString& name) {
   undo_->clear();
+  shadow_.reset();
+  state_index_ = ~std::size_t{0};
+  link_told_->setText("");
   pose_->set_posing(false);
   film_.reset();
   safety_->clear();
@@ -201,6 +218,7 @@ void MainWindow::open(const QString& file) {
 void MainWindow::frame() {
   ++frames_;
   if (!player_) return;
+  poll_gamepad();
   if (const auto film = player_->film(); film != film_) {
     film_ = film;
     plots_->set_film(film_);
@@ -208,12 +226,14 @@ void MainWindow::frame() {
   }
   const Picture now = player_->now(wall_s());
   const bool posing = pose_->posing();
-  if (!posing) scene_->show_picture(now);
+  if (!posing) scene_->show_picture(with_shadow(now));
   if (now) safety_->show_robot(now->t_s, now->robots.front());
   if (frames_ % kNumbersEvery != 0) return;
   transport_->refresh();
   plots_->refresh(player_->shown_s(), player_->live() != nullptr);
   if (now) show_numbers(*now);
+  show_link();
+  show_state();
 }
 
 void MainWindow::show_numbers(const scene::Snapshot& now) {

@@ -7,8 +7,12 @@
 #include <string>
 
 #include "host/scene/build.hpp"
+#include "host/view/run/gamepad.hpp"
+#include "host/view/run/linked.hpp"
 #include "host/view/run/player.hpp"
 #include "host/view/run/steering.hpp"
+#include "host/view/run/step_on.hpp"
+#include "host/view/run/trace_film.hpp"
 #include "host/view/scene_view.hpp"
 
 class QLabel;
@@ -23,6 +27,7 @@ class PlotPanel;
 class PosePanel;
 class SafetyPanel;
 class SignalTree;
+class StatePanel;
 class Transport;
 class TuningPanel;
 
@@ -38,6 +43,11 @@ class MainWindow final : public QMainWindow {
   void watch(RunSetup setup);
   /// Throws record::TraceError.
   void watch(const std::filesystem::path& trace);
+  /// From now on the controller at the end of that link stands beside each robot that is watched.
+  /// Throws wire::EndpointError.
+  void link_to(const std::string& link);
+  /// Steered by that joystick, whenever it is plugged in.
+  void steer_by(const std::string& gamepad);
   /// A robot's file or a trace; a failure is told in the window.
   void open(const QString& file);
 
@@ -76,11 +86,22 @@ class MainWindow final : public QMainWindow {
   void remember(const QString& file);
   void fill_recent();
   void save_trace();
+  void poll_gamepad();
+  void show_link();
+  void show_state();
+  void step_on(int ticks);
+  Picture with_shadow(Picture now) const;
   void say(const QString& text);
 
   QSettings& settings_;
   const MakeRun make_run_;
+  std::string link_;  ///< empty: none
+  std::shared_ptr<Linked> linked_;
+  std::unique_ptr<Gamepad> gamepad_;
   std::unique_ptr<Player> player_;
+  std::shared_ptr<const TraceFilm> trace_;     ///< null of a run
+  std::unique_ptr<StepOn> shadow_;             ///< goes on by itself from a tick of the trace
+  std::size_t state_index_ = ~std::size_t{0};  ///< of the trace: what the panel shows
   std::shared_ptr<const Film> film_;
   std::shared_ptr<const scene::Entity> entity_;
   std::unique_ptr<Steering> steering_;
@@ -91,12 +112,13 @@ class MainWindow final : public QMainWindow {
   SafetyPanel* safety_;
   TuningPanel* tuning_;
   PosePanel* pose_;
+  StatePanel* state_;
   Transport* transport_;
   QTimer* timer_;
   QPushButton* stop_;
   QMenu* recent_ = nullptr;
   QMenu* docks_ = nullptr;
-  QLabel *mode_, *speed_, *faults_, *digest_;
+  QLabel *mode_, *speed_, *faults_, *link_told_, *digest_;
   QByteArray first_layout_;
   std::string failure_, said_;
   std::optional<scene::Vec3> foot_from_m_;  ///< of the foot that is dragged, when it was taken

@@ -33,6 +33,7 @@ const char* const kKeys = R"(<table cellpadding="3">
 <tr><td><b>Ctrl+R</b></td><td>from the beginning</td></tr>
 <tr><td><b>1 to 6</b></td><td>views; <b>F</b> follows the robot</td></tr>
 <tr><td>left drag, right drag, wheel</td><td>turn, move, zoom the picture</td></tr>
+<tr><td>gamepad</td><td>sticks walk and turn; first button stands, second: emergency stop</td></tr>
 <tr><td><b>Shift</b> + drag on the robot</td><td>in the hand: drag a foot</td></tr>
 </table>)";
 

@@ -6,7 +6,7 @@
 namespace verp::view {
 namespace {
 
-constexpr int kQuarters = 4;
+constexpr double kQuarters = 4;
 
 }  // namespace
 
@@ -24,6 +24,15 @@ void Steering::nudge(int ahead, int left, int turn) {
   ahead_ = std::clamp(ahead_ + ahead, -kQuarters, kQuarters);
   left_ = std::clamp(left_ + left, -kQuarters, kQuarters);
   turn_ = std::clamp(turn_ + turn, -kQuarters, kQuarters);
+  command_.request = Request::kWalk;
+  ask();
+}
+
+void Steering::lean(double ahead, double left, double turn) {
+  if (ahead == 0 && left == 0 && turn == 0) return stop();
+  ahead_ = kQuarters * std::clamp(ahead, -1.0, 1.0);
+  left_ = kQuarters * std::clamp(left, -1.0, 1.0);
+  turn_ = kQuarters * std::clamp(turn, -1.0, 1.0);
   command_.request = Request::kWalk;
   ask();
 }

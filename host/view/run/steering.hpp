@@ -12,6 +12,8 @@ class Steering {
 
   /// Quarters ahead, to the left, and of a turn to the left. The robot walks.
   void nudge(int ahead, int left, int turn);
+  /// The same by sticks, from -1 to 1; all 0: stand.
+  void lean(double ahead, double left, double turn);
   void stop();
   void relax();
   const Command& command() const { return command_; }
@@ -20,7 +22,7 @@ class Steering {
   void ask();
 
   double ahead_m_s_, left_m_s_, turn_rad_s_;  ///< a quarter of the most
-  int ahead_ = 0, left_ = 0, turn_ = 0;
+  double ahead_ = 0, left_ = 0, turn_ = 0;    ///< quarters
   Command command_;
 };
 
