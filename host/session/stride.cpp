@@ -88,6 +88,14 @@ Fastest fastest_joint(const Params& params, const Command& velocity) {
   return plan.measure(kWalk_s);
 }
 
+Command longest_order(const Params& params) {
+  const GaitTuning& gait = params.tuning.gait;
+  const long vx = std::lround(2e4F * gait.max_step_m / gait.cycle_s);
+  Command command;
+  command.vx_tenth_mm_s = static_cast<std::int16_t>(std::min(vx, 32767L));
+  return command;
+}
+
 Followed within_servo_speed(const Params& params, const Command& velocity) {
   const Fastest asked = fastest_joint(params, velocity);
   if (asked.share <= kMostSpeedShare) return {velocity, ""};

@@ -21,6 +21,9 @@ Fastest fastest_joint(const Params& params, const Command& velocity);
 /// 0.45 s, seed 1: walks were good up to 1.28, and all fell from 1.34 on.
 inline constexpr double kMostSpeedShare = 1.25;
 
+/// An order for the longest steps that the robot's tuning admits, straight ahead.
+Command longest_order(const Params& params);
+
 /// `velocity`, or as much of it as the servos can follow; `remark` says what was taken, else it is
 /// empty.
 struct Followed {

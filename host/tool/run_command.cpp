@@ -1,6 +1,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include <cmath>
 #include <memory>
 
 #include "host/link/can_claim.hpp"
@@ -10,6 +11,7 @@
 #include "host/model/load.hpp"
 #include "host/model/params.hpp"
 #include "host/session/fault_names.hpp"
+#include "host/session/stride.hpp"
 #include "host/tool/bit_rate.hpp"
 #include "host/tool/command.hpp"
 #include "host/tool/console.hpp"
@@ -36,6 +38,23 @@ struct RunWords {
   bool take_orders = false;
 };
 
+/// Orders that come from elsewhere are not planned beforehand: what limits them is the tuning.
+void require_followed_orders(const Params& params) {
+  const Command longest = session::longest_order(params);
+  const session::Followed followed = session::within_servo_speed(params, longest);
+  if (followed.remark.empty()) return;
+  const double share = static_cast<double>(followed.velocity.vx_tenth_mm_s) / longest.vx_tenth_mm_s;
+  throw ToolError(
+      kBadInput,
+      fmt::format(
+          "verp run: --take-orders: the servos cannot follow every order that "
+          "gait.max_step_m={:g} admits in cycles of {:g} s; give --set "
+          "gait.max_step_m={:.3f}, or a longer --cycle",
+          static_cast<double>(params.tuning.gait.max_step_m),
+          static_cast<double>(params.tuning.gait.cycle_s),
+          std::floor(1000 * share * static_cast<double>(params.tuning.gait.max_step_m)) / 1000));
+}
+
 RunPlan make_plan(const RunWords& words) {
   RunPlan plan;
   plan.link = wire::parse_endpoint(words.link);
@@ -55,6 +74,7 @@ RunPlan make_plan(const RunWords& words) {
   apply_run_params(words.params, walk.params);
   model::require_bus(walk.entity, walk.params);
   ask_for_walk(words.walk, walk);
+  if (words.take_orders) require_followed_orders(walk.params);
   if (plan.link.kind == wire::Endpoint::Kind::kSerial && plan.link.baud != walk.params.baud) {
     throw ToolError(kBadInput, fmt::format("verp run: the link runs at {} baud, the bus of {} at "
                                            "{}; give --link serial:{}@{}, or change baud in "

@@ -27,6 +27,13 @@ TEST_F(RealRobot, RefusesWhatCannotBe) {
   expect_refused("run nobody --link pty:", "nobody");
   const std::string rate = "run --link serial:/dev/null@1000000";
   expect_refused(rate, "the bus of generic21 at 2000000");
+  expect_refused(
+      "run --bus can --link can:can0 --take-orders --cycle 0.3 --set gait.max_step_m=0.2",
+      "gait.max_step_m=0.0");
+  const Outcome shortened = verp(
+      "run --step 0.15 --cycle 0.34 --set gait.max_step_m=0.3 --link serial:/dev/nothing@2000000");
+  EXPECT_NE(shortened.err.find("% of the velocity asked for: its joint"), std::string::npos)
+      << shortened.err;
   const Outcome nothing = verp("run --link serial:/dev/nothing@2000000");
   EXPECT_EQ(nothing.status, 3);
   EXPECT_NE(nothing.err.find("no such device"), std::string::npos);
