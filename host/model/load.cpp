@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <sdf/sdf.hh>
 
 #include "host/model/assemble.hpp"
@@ -17,9 +18,12 @@
 namespace verp::model {
 namespace {
 
+using Text = std::optional<std::string>;  // none: what is in the file
+
 /// libsdformat's strictest reading. Settings are global because an <include> ignores those given to
 /// Load().
-sdf::Errors read(const std::string& path, const PreparedUrdfs& urdfs, sdf::Root& root) {
+sdf::Errors read(const std::string& path, const Text& text, const PreparedUrdfs& urdfs,
+                 sdf::Root& root) {
   sdf::ParserConfig& config = sdf::ParserConfig::GlobalConfig();
   config.SetFindCallback([path, &urdfs](const std::string& uri) {
     const std::string found = resolve_model_uri(uri, path);
@@ -28,7 +32,7 @@ sdf::Errors read(const std::string& path, const PreparedUrdfs& urdfs, sdf::Root&
   config.SetUnrecognizedElementsPolicy(sdf::EnforcementPolicy::ERR);
   config.SetDeprecatedElementsPolicy(sdf::EnforcementPolicy::ERR);
   config.SetWarningsPolicy(sdf::EnforcementPolicy::ERR);
-  const sdf::Errors errors = root.Load(path);
+  const sdf::Errors errors = text ? root.LoadSdfString(*text) : root.Load(path);
   // The copies are about to vanish.
   config.SetFindCallback([path](const std::string& uri) { return resolve_model_uri(uri, path); });
   return errors;
@@ -38,9 +42,10 @@ sdf::Errors read(const std::string& path, const PreparedUrdfs& urdfs, sdf::Root&
                        const sdf::Error& error) {
   XmlSource::Place place = source.blame(error.Message());
   const std::string file = error.FilePath().value_or(source.path());
+  const bool of_text = file == "data-string" || file == "<data-string>";
   if (error.LineNumber() && *error.LineNumber() > 0 && !urdfs.is_copy(file)) {
     place.line = *error.LineNumber();
-    place.file = file;
+    place.file = of_text ? source.path() : file;
   }
   std::string fix = "see sdformat.org/spec for what SDF allows here";
   switch (error.Code()) {
@@ -116,15 +121,15 @@ void require_legs_and_imu(const XmlElement& model, const Facts& facts) {
   }
 }
 
-Entity load(const std::string& path, const std::string& bus, bool whole) {
-  const XmlSource source(path);
+Entity load(const std::string& path, const std::string& bus, bool whole, const Text& text = {}) {
+  const XmlSource source(path, text);
   const XmlElement model = source.model();
   const Facts facts = read_facts(model, bus);
   const LibraryConsole silence;
   for (const XmlElement& urdf : source.urdfs()) check_urdf(source, urdf, facts);
   const PreparedUrdfs urdfs(source);
   sdf::Root root;
-  const sdf::Errors errors = read(path, urdfs, root);
+  const sdf::Errors errors = read(path, text, urdfs, root);
   if (!errors.empty()) fail(source, urdfs, errors.front());
   if (!root.Model()) model.fail("libsdformat finds no model here", "put one <model> below <sdf>");
   cross_check(source, facts, *root.Model());
@@ -141,6 +146,16 @@ Entity load_robot_on_any_bus(const std::string& path, const std::string& bus) {
 
 Entity load_part_of_robot(const std::string& path) {
   return load(path, "", false);
+}
+
+Entity load_robot_text(const std::string& path, const std::string& text) {
+  Entity entity = load(path, "", true, text);
+  require_bus(entity, make_params(entity));
+  return entity;
+}
+
+void check_numbers(const std::string& path, const std::string& text) {
+  const XmlSource source(path, text);
 }
 
 Entity load_robot_on_can(const std::string& path, const std::string& bus) {

@@ -16,6 +16,10 @@ Entity load_robot(const std::string& path, const std::string& bus = "");
 Entity load_robot_on_any_bus(const std::string& path, const std::string& bus);
 /// The same of anything that has a body and a bus, legs and IMU or not: nobody can control it.
 Entity load_part_of_robot(const std::string& path);
+/// load_robot() of a text that is not in the file yet: what it includes lies as seen from there.
+Entity load_robot_text(const std::string& path, const std::string& text);
+/// Of that text what needs no whole robot: well-formed XML, numbers, one of what there is one of.
+void check_numbers(const std::string& path, const std::string& text);
 /// The same, where no bus is named on the first that is CAN; without one, on the robot's first bus.
 Entity load_robot_on_can(const std::string& path, const std::string& bus);
 

@@ -175,19 +175,20 @@ Vec3 XmlElement::vector(const char* attribute) const {
   return {numbers[0], numbers[1], numbers[2]};
 }
 
-XmlSource::XmlSource(const std::string& path) {
-  read(path);
+XmlSource::XmlSource(const std::string& path, const std::optional<std::string>& text) {
+  read(path, text);
 }
 
-void XmlSource::read(const std::string& path) {
-  if (!std::ifstream(path)) {
+void XmlSource::read(const std::string& path, const std::optional<std::string>& text) {
+  if (!text && !std::ifstream(path)) {
     throw LoadError(path, 1, "cannot read this file", "check the path and its permissions");
   }
   files_.push_back(std::make_unique<File>());
   File& file = *files_.back();
   file.path = path;
-  if (file.document.LoadFile(path.c_str()) != tinyxml2::XML_SUCCESS ||
-      !file.document.RootElement()) {
+  const auto read =
+      text ? file.document.Parse(text->data(), text->size()) : file.document.LoadFile(path.c_str());
+  if (read != tinyxml2::XML_SUCCESS || !file.document.RootElement()) {
     throw LoadError(path, std::max(1, file.document.ErrorLineNum()),
                     std::string("malformed XML (") + file.document.ErrorName() + ")",
                     "up to this line, close every tag and quote, and give no attribute twice");

@@ -55,7 +55,9 @@ class XmlSource {
  public:
   /// Reads and checks: existence, well-formed XML, strict numbers in all standard elements. Throws
   /// LoadError.
-  explicit XmlSource(const std::string& path);
+  explicit XmlSource(const std::string& path) : XmlSource(path, std::nullopt) {}
+  /// The same of a text that would stand in that file.
+  XmlSource(const std::string& path, const std::optional<std::string>& text);
 
   const std::string& path() const { return files_.front()->path; }
   /// The one <model> of the main file. Throws LoadError when there is none or more than one.
@@ -78,7 +80,7 @@ class XmlSource {
     std::string path;
     tinyxml2::XMLDocument document;
   };
-  void read(const std::string& path);
+  void read(const std::string& path, const std::optional<std::string>& text = {});
   void include(const File& file, const tinyxml2::XMLElement& element);
   void inspect(const File& file, const tinyxml2::XMLElement& element);
 

@@ -4,8 +4,9 @@
 namespace verp::tool {
 
 /// Words of `verp` that a program of its own answers, so that this one needs none of its libraries:
-/// shot and video are host/pictures.
+/// shot and video are host/pictures, edit is host/edit/words.
 Subcommand add_shot(CLI::App& root);
 Subcommand add_video(CLI::App& root);
+Subcommand add_edit(CLI::App& root);
 
 }  // namespace verp::tool
