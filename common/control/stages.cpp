@@ -1,6 +1,7 @@
 #include "common/control/stages.hpp"
 
 #include "common/balance/gravity.hpp"
+#include "common/balance/landing.hpp"
 #include "common/math/convert.hpp"
 #include "common/model/counts.hpp"
 #include "common/model/tree.hpp"
@@ -65,6 +66,12 @@ bool carries_flat(const Params& params, const State& state, const gait::GaitOut&
     return false;
   if (params.feet.device_id[side] == 0) return in_mid_step(plan);
   return (inputs.flags & kFeetFresh) != 0 && balance::stands_flat(inputs.foot_count[side]);
+}
+
+// Joints that lag behind each other are planned at moments of their own: none of them is that of
+// the aim.
+bool aims(const Tuning& tuning) {
+  return tuning.balance.zeros_enable > 0.5F && tuning.gait.joint_delay_s == 0.0F;
 }
 
 balance::LegLoad load_of(const Params& params, const gait::GaitOut& plan, int side, float mass_kg) {
@@ -178,6 +185,15 @@ Wanted solve_joints(const Params& params, State& state, const Inputs& inputs,
   if (params.head_pan < kMaxJoints) wanted.angle_rad[params.head_pan] = admitted.head_pan_rad;
   if (params.head_tilt < kMaxJoints) wanted.angle_rad[params.head_tilt] = admitted.head_tilt_rad;
   for (int j = 0; j < params.joint_count; ++j) wanted.plain_rad[j] = wanted.angle_rad[j];
+  gait::Posture aimed = plan.posture;
+  balance::learn_landing(params, state.gait, plan, inputs, state.landing);
+  if (aims(tuning)) {
+    for (int side = 0; side < kFeet; ++side) {
+      aimed.foot[side] = balance::aim(state.gait, state.landing, side, aimed.foot[side]);
+    }
+  } else {
+    state.landing.beyond = 0;
+  }
   for (int side = 0; side < kFeet; ++side) {
     const LegParams& leg = params.leg[side];
     if (leg.solver == LegSolver::kNone) continue;
@@ -187,7 +203,7 @@ Wanted solve_joints(const Params& params, State& state, const Inputs& inputs,
       previous_rad[k] = state.gait.queued == 0 ? state.gait.preview.leg_rad[side * kLegJoints + k]
                                                : state.limit.goal_rad[leg.joint[k]];
     }
-    kinematics::LegAngles angles = leg_angles(params, state, plan.posture, side, previous_rad);
+    kinematics::LegAngles angles = leg_angles(params, state, aimed, side, previous_rad);
     wanted.leg_limited = wanted.leg_limited || angles.flags != 0;
     for (int k = 0; k < kLegJoints; ++k) wanted.plain_rad[leg.joint[k]] = angles.angle_rad[k];
     const kinematics::LegChain chain =

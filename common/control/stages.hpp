@@ -20,8 +20,8 @@ struct Wanted {
   bool leg_limited;
 };
 
-/// Legs by inverse kinematics, with gravity sag, balance corrections and learnt zero errors; arms
-/// rest; the head looks where told.
+/// Legs by inverse kinematics, with gravity sag, balance corrections and learnt zero errors and
+/// landings; arms rest; the head looks where told.
 Wanted solve_joints(const Params& params, State& state, const Inputs& inputs,
                     const AdmitOut& admitted, const balance::AttitudeOut& attitude,
                     const gait::GaitOut& plan);

@@ -3,6 +3,7 @@
 #include "common/balance/attitude.hpp"
 #include "common/balance/feedback.hpp"
 #include "common/balance/gravity.hpp"
+#include "common/balance/landing.hpp"
 #include "common/balance/zeros.hpp"
 #include "common/base/fields.hpp"
 #include "common/control/admit.hpp"
@@ -35,12 +36,13 @@ struct State {
   gait::GaitState gait;
   balance::FeedbackOut feedback;
   balance::ZeroState zeros;
+  balance::LandingState landing;
   balance::DriveState drive;
   safety::LimitState limit;
   safety::MachineState machine;
   action::PlayerState action;
-  VERP_FIELDS(digest, tuning, admit, attitude, steer, gait, feedback, zeros, drive, limit, machine,
-              action)
+  VERP_FIELDS(digest, tuning, admit, attitude, steer, gait, feedback, zeros, landing, drive, limit,
+              machine, action)
 };
 VERP_PACKED(State);
 static_assert(sizeof(State) <= 3072, "hashed State is at most 3 KB");

@@ -38,12 +38,13 @@ VERP_PACKED(GaitTuning);
 
 /// Balance; each `enable` is 1 or 0, to show what that part does.
 struct BalanceTuning {
-  float gravity_enable = 1.0f;      ///< gravity feed-forward through the servos' compliance
-  float inertia_share = 0.244f;     ///< of the rotors' inertia, fed forward
-  float friction_share = 1.24f;     ///< of the gears' friction, fed forward
-  float multibody_enable = 1.0f;    ///< multibody ZMP correction
-  float feedback_enable = 1.0f;     ///< gyro and tilt feedback
-  float zeros_enable = 1.0f;        ///< learnt zero errors of the legs taken into their goals
+  float gravity_enable = 1.0f;    ///< gravity feed-forward through the servos' compliance
+  float inertia_share = 0.244f;   ///< of the rotors' inertia, fed forward
+  float friction_share = 1.24f;   ///< of the gears' friction, fed forward
+  float multibody_enable = 1.0f;  ///< multibody ZMP correction
+  float feedback_enable = 1.0f;   ///< gyro and tilt feedback
+  float zeros_enable =
+      1.0f;  ///< what was learnt of the legs, zero errors and landings, in their goals
   float ankle_pitch_tilt = -0.27f;  ///< rad per rad
   float ankle_pitch_rate_s = 0.0239f;
   float ankle_roll_tilt = -0.0145f;

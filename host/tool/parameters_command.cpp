@@ -41,7 +41,7 @@ constexpr const char* kMeaning[] = {
     "share of the gears' friction fed forward",
     "1: multibody ZMP correction; 0: none",
     "1: gyro and tilt feedback; 0: none",
-    "1: learnt zero errors of the legs; 0: none",
+    "1: what was learnt of the legs, zero errors and landings; 0: nothing",
     "ankle pitch per tilt",
     "ankle pitch per tilt rate",
     "ankle roll per tilt",

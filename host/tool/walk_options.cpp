@@ -157,7 +157,8 @@ void declare(CLI::App& app, WalkOptions& options) {
   app.add_flag("--no-multibody", options.no_multibody, "switch the multibody ZMP correction off");
   app.add_flag("--no-feedback", options.no_feedback, "switch gyro and tilt feedback off");
   app.add_flag("--no-gravity", options.no_gravity, "switch the gravity feed-forward off");
-  app.add_flag("--no-zeros", options.no_zeros, "leave the legs' learnt zero errors out");
+  app.add_flag("--no-zeros", options.no_zeros,
+               "leave out what was learnt of the legs: zero errors and landings");
 }
 
 void require_serial(const std::string& command, const model::Entity& entity) {

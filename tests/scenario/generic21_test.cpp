@@ -116,6 +116,25 @@ TEST(Generic21, WalksInCirclesAndTurnsOnTheSpot) {
   expect_between(0, number(turn, "distance_m"), 0.2, "way, m");
 }
 
+// 8 cm in 400 ms, 0.40 m/s: legs swing as fast as their servos turn, and swing too far. It walked
+// 0.53 m/s, and fell, until landings were learnt (balance/landing.hpp). A minute of it: --full.
+TEST(Generic21, WalksFastAndNoFasterThanAsked) {
+  for (const char* seed : {"1", "2", "3"}) {
+    const Walk fast = walk(
+        std::string("generic21 --step 0.08 --cycle 0.4 --for 20 --physics-step 2 --seed ") + seed);
+    expect_walked(fast);
+    expect_between(0.40, number(fast, "speed_steady_m_s"), 0.44, "steady speed, m/s");
+    expect_between(10, number(fast, "zmp_bias_mean_mm"), 40, "mean ZMP bias, mm");
+  }
+}
+
+// Short steps in the shortest cycle: two of four seeds fell in the start.
+TEST(Generic21, WalksInTheShortestCycle) {
+  const Walk quick = walk("generic21 --step 0.06 --cycle 0.3 --for 10 --physics-step 2 --seed 1");
+  expect_walked(quick);
+  expect_between(0.28, number(quick, "speed_steady_m_s"), 0.36, "steady speed, m/s");
+}
+
 // Fifteen centimetres in a cycle of 0.34 s: the robot fell after three seconds. It says what it
 // does.
 TEST(Generic21, StepsThatItsServosCannotFollowAreShortened) {

@@ -1,7 +1,7 @@
 #include "tests/scenario/walk.hpp"
 
-// `verp test --full`: a hundred robots of each kind, drawn at random, as the twin's reference steps
-// them.
+// `verp test --full`: a hundred robots of each kind, drawn at random, and a minute of the fastest
+// walk, as the twin's reference steps them.
 namespace verp::scenario {
 namespace {
 
@@ -17,6 +17,14 @@ TEST(HundredRandomRobots, OfOp3Walk) {
 }
 TEST(HundredRandomRobots, OfDarwinOpWalk) {
   EXPECT_GE(survived_of_100("darwin_op"), 80);
+}
+
+TEST(FastestWalk, OfTenSeedsLastsAMinute) {
+  const Walk seeds = walk("generic21 --step 0.08 --cycle 0.4 --for 60 --seeds 1-10");
+  EXPECT_EQ(number(seeds, "survived"), 10);
+  for (const json& each : seeds.result.value("walks", json::array())) {
+    expect_between(0.40, each.value("speed_steady_m_s", 0.0), 0.44, "steady speed, m/s");
+  }
 }
 
 }  // namespace

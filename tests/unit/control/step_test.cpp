@@ -163,6 +163,26 @@ TEST(Step, ZeroErrorsReachTheGoalsUnlessSwitchedOff) {
   EXPECT_EQ(ankle_goals(0.02F, 0), ankle_goals(0.0F, 0));
 }
 
+TEST(Step, WhatWasLearntOfLandingsReachesTheGoalsUnlessSwitchedOff) {
+  static Loop loop;
+  get_walking(loop);
+  const auto hip_goals = [&](float beyond, float enable) {
+    State state = loop.state;
+    state.landing.beyond = beyond;
+    state.tuning.balance.zeros_enable = enable;
+    Outputs outputs;
+    step(kRobot, state, loop.inputs, outputs);
+    return outputs.goal_count[kRobot.leg[0].joint[2]] + outputs.goal_count[kRobot.leg[1].joint[2]];
+  };
+  bool moved = false;
+  for (int tick = 0; tick < 23; ++tick) {
+    loop.ticks(1);
+    moved = moved || std::abs(hip_goals(0.2F, 1) - hip_goals(0.0F, 1)) > 5;
+    EXPECT_EQ(hip_goals(0.2F, 0), hip_goals(0.0F, 0));
+  }
+  EXPECT_TRUE(moved) << "in some tick of a step";
+}
+
 TEST(Step, SilentServoHoldsThenSits) {
   static Loop loop;
   get_walking(loop);
