@@ -191,7 +191,8 @@ struct Renderer::Impl {
     }
     std::string header = "#version 330 core\n#define LIGHTS " + std::to_string(count) +
                          "\n#define SHADOW " + std::to_string(view.shadow_light) +
-                         "\n#define TAPS " + std::to_string(effects.quick ? 4 : 12) +
+                         "\n#define TAPS " +
+                         (effects.quick ? "4\n#define BIAS 3.0" : "12\n#define BIAS 1.0") +
                          "\nconst int kKind[" + std::to_string(std::max<std::size_t>(count, 1)) +
                          "] = int[](" + (count == 0 ? "0" : kinds) + ");\n";
     if (of_floor) header += "#define FLOOR\n";

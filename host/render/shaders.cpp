@@ -65,7 +65,7 @@ const vec2 kTap[12] = vec2[](
 float lit(float slope) {
   vec3 p = at_sun.xyz / at_sun.w * 0.5 + 0.5;
   vec2 edge = abs(p.xy - 0.5);
-  float bias = 0.0006 + 0.0016 * slope, sum = 0.0;
+  float bias = BIAS * (0.0006 + 0.0016 * slope), sum = 0.0;
   // A spiral, turned by a per-pixel angle: soft without bands.
   float turn = fract(52.9829189 * fract(dot(gl_FragCoord.xy, vec2(0.06711056, 0.00583715)))) * 6.2831853;
   mat2 turned = shadow_texel * shadow_soft * mat2(cos(turn), sin(turn), -sin(turn), cos(turn));

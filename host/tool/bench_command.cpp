@@ -4,10 +4,12 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <map>
 #include <memory>
+#include <string>
 
 #include "common/control/state.hpp"
 #include "host/board/cost_promise.hpp"
@@ -34,6 +36,7 @@ constexpr const char* kTiming = " --benchmark_format=json --benchmark_min_time=0
 struct BenchOptions {
   bool json = false, pc = false;
   int repetitions = 7;
+  std::string only;  ///< what pictures cost: "frames" or "window"; empty: all else
 };
 
 std::string quoted(const std::string& word) {
@@ -187,7 +190,47 @@ void add_board_rows(const Json& line, std::vector<BenchRow>& rows, Json& heading
   add("image_bytes", "code and constants of the replay image", "bytes", Bar::kNone, 0, true);
 }
 
+/// One of window_bench's lines.
+void add_picture_rows(const Json& line, std::vector<BenchRow>& rows) {
+  const int robots = line.at("robots");
+  const std::string kind = line.value("antialias", false) ? "antialiased" : "as a window draws it";
+  const std::string of = fmt::format("{} robot{}", robots, robots == 1 ? "" : "s");
+  const auto add = [&](const char* name, const std::string& what, const char* unit) {
+    rows.push_back({.name = fmt::format("{}_{}", name, robots),
+                    .where = "pc",
+                    .what = what,
+                    .unit = unit,
+                    .value = line.at(name)});
+  };
+  if (line.at("what") == "frames") {
+    add("cpu_ms", fmt::format("a picture of {}, {}, CPU time", of, kind), "ms");
+    return;
+  }
+  add("frames_per_s", fmt::format("the window with {}", of), "1/s");
+  add("real_time_factor", "the twin beside it, of real time", "times");
+  add("cores", "cores busy with both", "");
+}
+
+int run_pictures(const BenchOptions& options) {
+  std::vector<BenchRow> rows;
+  const bool needs_display = options.only == "window" && std::getenv("DISPLAY") == nullptr;
+  Progress progress(!options.json);
+  progress.show(0, "drawing");
+  run_program(
+      "bench/window_bench", " " + options.only,
+      [&](const std::string& line) { add_picture_rows(Json::parse(line), rows); },
+      needs_display ? "xvfb-run -a -s '-screen 0 1280x800x24' " : "");
+  progress.clear();
+  if (options.json) {
+    print_json({{"results", bench_json(rows)}});
+  } else {
+    fmt::print("{}", bench_table(rows, {{"pc", "pictures of 640x480, drawn here"}}));
+  }
+  return kGood;
+}
+
 int run_bench(const BenchOptions& options) {
+  if (!options.only.empty()) return run_pictures(options);
   std::size_t boards = 0;
   if (!options.pc) {
     for (const auto& each : board::emulated_boards()) {
@@ -258,6 +301,10 @@ Subcommand add_bench(CLI::App& root) {
   app->add_option("--repetitions", options->repetitions, "runs of each timing on this PC")
       ->check(whole_number_between(1, 100))
       ->capture_default_str();
+  app->add_option("--only", options->only,
+                  "what pictures cost instead: frames, by the renderer alone; window, with the "
+                  "twin in real time beside it")
+      ->check(CLI::IsMember({"frames", "window"}));
   add_json_flag(*app, options->json);
   return {app, [options] {
             catch_interrupts();

@@ -84,7 +84,8 @@ void StatePanel::make_rows(const Fields& fields) {
   std::map<QString, QTreeWidgetItem*> groups;
   for (const auto& [path, text] : fields) {
     QTreeWidgetItem* parent = tree_->invisibleRootItem();
-    QString so_far, words = QString::fromStdString(path);
+    QString so_far;
+    const QString words = QString::fromStdString(path);
     const QStringList parts = QString(words).replace("[", ".[").split('.');
     for (qsizetype i = 0; i + 1 < parts.size(); ++i) {
       so_far += "." + parts[i];
@@ -97,11 +98,11 @@ void StatePanel::make_rows(const Fields& fields) {
   groups[".state"]->setExpanded(true);
 }
 
+/// One that differs marks all that it is in.
 void StatePanel::mark(QTreeWidgetItem& item, bool differs) {
   for (QTreeWidgetItem* each = &item; each != nullptr; each = each->parent()) {
-    if (differs || each == &item) {
-      each->setForeground(0, differs ? theme().bad : theme().text);
-      each->setForeground(1, differs ? theme().bad : theme().text);
+    for (const int column : {0, 1}) {
+      each->setForeground(column, differs ? theme().bad : theme().text);
     }
   }
 }
@@ -110,9 +111,7 @@ void StatePanel::show_tick(const Tick& now, const Tick* recorded) {
   const Fields fields = fields_of(now),
                others = recorded != nullptr ? fields_of(*recorded) : Fields();
   if (rows_.empty()) make_rows(fields);
-  for (const auto& [path, group] : rows_) {
-    if (group->parent() != nullptr) mark(*group->parent(), false);
-  }
+  for (const Row& row : rows_) mark(*row.item, false);
   different_ = 0;
   for (std::size_t i = 0; i < rows_.size(); ++i) {
     QTreeWidgetItem& item = *rows_[i].item;
@@ -121,8 +120,8 @@ void StatePanel::show_tick(const Tick& now, const Tick* recorded) {
     item.setText(1, QString::fromStdString(fields[i].second));
     item.setText(2, differs ? QString::fromStdString(others[i].second) : "");
   }
-  for (std::size_t i = 0; i < rows_.size(); ++i) {
-    mark(*rows_[i].item, !rows_[i].item->text(2).isEmpty());
+  for (const Row& row : rows_) {
+    if (!row.item->text(2).isEmpty()) mark(*row.item, true);
   }
 }
 
