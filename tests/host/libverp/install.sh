@@ -1,0 +1,42 @@
+#!/usr/bin/env bash
+# install.sh CMAKE BUILD: what `cmake --install` puts into a folder runs there, and finds its robots there: program, library by
+# pkg-config, Python package, completion, manual.
+set -euo pipefail
+cmake=$1 build=$2
+to=$(mktemp -d)
+trap 'rm -rf "$to"' EXIT
+"$cmake" --install "$build" --component verp --prefix "$to" >"$to/log"
+cd "$to"
+say() { echo "install: $*" && exit 1; }
+
+"$to/bin/verp" check generic21 >check.txt || say "verp check failed"
+grep -q "$to/share/verp/common/robots/generic21/robot.sdf" check.txt || say "verp does not read its own robots: $(head -3 check.txt)"
+"$to/bin/verp" check --help >/dev/null
+# Debian's folder of libraries is lib here: multiarch is for /usr alone.
+PC=$(dirname "$(find "$to" -name verp.pc)")
+LIB=$(dirname "$PC")
+[[ $(env -u VERP_LIBRARY PYTHONPATH="$to/lib/python3/dist-packages" PYTHONDONTWRITEBYTECODE=1 LD_LIBRARY_PATH="$LIB" \
+  /usr/bin/python3 -c 'import verp; print(len(verp.Core().joint_names))') == 21 ]] || say "the Python package does not run"
+cat >a.c <<'END'
+#include <verp/verp.h>
+int main(void) {
+  verp_core core;
+  return verp_core_open("generic21", 0, 0, &core) != VERP_OK || verp_core_close(core) != VERP_OK;
+}
+END
+# shellcheck disable=SC2046
+gcc a.c -o a $(PKG_CONFIG_PATH="$PC" pkg-config --cflags --libs verp)
+LD_LIBRARY_PATH="$LIB" ./a || say "a program that was built by pkg-config fails"
+cat >CMakeLists.txt <<'END'
+cmake_minimum_required(VERSION 3.25)
+project(user C)
+find_package(verp REQUIRED)
+add_executable(user a.c)
+target_link_libraries(user PRIVATE verp::verp_shared)
+END
+"$cmake" -S . -B user -DCMAKE_PREFIX_PATH="$to" >log && "$cmake" --build user >>log || { cat log && say "find_package(verp) fails"; }
+user/user || say "a program that was built by find_package fails"
+for each in share/man/man1/verp.1 share/bash-completion/completions/verp share/zsh/vendor-completions/_verp \
+  share/fish/vendor_completions.d/verp.fish; do
+  grep -q replay "$each" || say "$each does not know the commands"
+done
