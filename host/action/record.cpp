@@ -1,5 +1,6 @@
 #include "host/action/record.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "common/control/step.hpp"
@@ -85,7 +86,9 @@ Document record_gait(const record::Trace& trace, const std::string& name, int cy
     const double time_s = tick.inputs.tick * trace.period_s();
     FrameText frame;
     frame.label = "state" + std::to_string(last);
-    frame.time_s = document.frames.empty() ? 0.6 : in_ms(time_s - last_s);
+    // The 16th state is all but the first of the next cycle: closer than any frame may be.
+    frame.time_s =
+        document.frames.empty() ? 0.6 : std::max(1e-3 * kLeastFrame_ms, in_ms(time_s - last_s));
     last_s = time_s;
     if (outputs.stance <= 2) frame.stance = static_cast<Stance>(outputs.stance);
     add_planned(trace.params, state, frame);
