@@ -51,6 +51,8 @@ class Document {
   /// Writes the text, whole or not at all. Throws LoadError when the file was changed by another
   /// program since, or cannot be written: it says where the text was put instead.
   void save();
+  /// Puts the text beside the file; says into which.
+  std::string put_aside() const;
 
   /// What one of the elements is called, for people and for find(): "link:trunk/inertial/mass".
   std::string path(int element) const;

@@ -56,6 +56,10 @@ bool is_read_only(const fs::path& file) {
 
 }  // namespace
 
+std::string Document::put_aside() const {
+  return file_.string() + ": not saved; " + keep(file_, text_);
+}
+
 void Document::save() {
   std::error_code error;
   const fs::path link = fs::weakly_canonical(file_, error);  // a link stays one

@@ -7,12 +7,14 @@
 #include <QSettings>
 #include <QStatusBar>
 #include <QTimer>
+#include <QUndoGroup>
 #include <QUndoStack>
 #include <chrono>
 
 #include "common/gait/types.hpp"
 #include "common/safety/machine.hpp"
 #include "host/session/fault_names.hpp"
+#include "host/view/editor_panel.hpp"
 #include "host/view/plot_panel.hpp"
 #include "host/view/pose_panel.hpp"
 #include "host/view/safety_panel.hpp"
@@ -45,6 +47,7 @@ MainWindow::MainWindow(QSettings& settings, MakeRun make_run)
     : settings_(settings),
       make_run_(std::move(make_run)),
       undo_(new QUndoStack(this)),
+      undos_(new QUndoGroup(this)),
       scene_(new SceneView(this)),
       plots_(new PlotPanel(this)),
       signals_(new SignalTree(this)),
@@ -57,6 +60,7 @@ MainWindow::MainWindow(QSettings& settings, MakeRun make_run)
   setWindowTitle("verp view");
   resize(1280, 740);  // with a desktop's bars on a screen of 800 lines
   setCentralWidget(scene_);
+  make_editor();
   addToolBar(Qt::BottomToolBarArea, transport_);
   make_docks();
   make_menus();
@@ -108,6 +112,7 @@ void MainWindow::make_docks() {
   tabifyDockWidget(safety, tuning);
   tabifyDockWidget(tuning, pose);
   tabifyDockWidget(pose, state);
+  tabifyDockWidget(state, add("Editor", editor_, Qt::RightDockWidgetArea));
   safety->raise();
   resizeDocks({signal, safety}, {260, 330}, Qt::Horizontal);
   resizeDocks({plots}, {190}, Qt::Vertical);
@@ -146,6 +151,7 @@ void MainWindow::watch(RunSetup setup) {
   tuning_->set_robot(params.tuning, true);
   pose_->set_robot(entity_, params);
   remember(file);
+  editor_->open(file.toStdString());
   show_film(QString::fromStdString(entity_->name));
   player_->play();
 }
@@ -174,7 +180,8 @@ void MainWindow::show_film(const QString& name) {
   film_.reset();
   safety_->clear();
   stop_->setEnabled(player_->live() != nullptr);
-  scene_->set_scene(scene_of_all());
+  edited_.reset();
+  show_scene();
   scene_->show_picture([&] {
     auto first = std::make_shared<scene::Snapshot>();
     first->robots.push_back(scene::standing(*entity_));
@@ -211,6 +218,8 @@ void MainWindow::open(const QString& file) {
     if (file.endsWith(".mcap")) return watch(std::filesystem::path(file.toStdString()));
     watch(make_run_(file.toStdString()));
   } catch (const std::exception& error) {
+    // What is not sound yet can be mended.
+    if (!file.endsWith(".mcap")) editor_->open(file.toStdString());
     say(QString::fromUtf8(error.what()));
   }
 }
@@ -226,7 +235,11 @@ void MainWindow::frame() {
   }
   const Picture now = player_->now(wall_s());
   const bool posing = pose_->posing();
-  if (!posing) scene_->show_picture(with_shadow(now));
+  if (edited_ && player_->playing()) {
+    edited_.reset();
+    show_scene();
+  }
+  if (!posing && !edited_) scene_->show_picture(with_shadow(now));
   if (now) safety_->show_robot(now->t_s, now->robots.front());
   if (frames_ % kNumbersEvery != 0) return;
   transport_->refresh();
@@ -272,10 +285,6 @@ void MainWindow::say(const QString& text) {
 void MainWindow::restore() {
   restoreGeometry(settings_.value("geometry").toByteArray());
   restoreState(settings_.value("layout").toByteArray(), kLayout);
-}
-
-std::string MainWindow::finish() {
-  return player_ && player_->live() != nullptr ? player_->live()->finish() : "";
 }
 
 void MainWindow::closeEvent(QCloseEvent* event) {

@@ -19,10 +19,12 @@ class QLabel;
 class QPushButton;
 class QSettings;
 class QTimer;
+class QUndoGroup;
 class QUndoStack;
 
 namespace verp::view {
 
+class EditorPanel;
 class PlotPanel;
 class PosePanel;
 class SafetyPanel;
@@ -55,6 +57,7 @@ class MainWindow final : public QMainWindow {
   SceneView& scene() { return *scene_; }
   PlotPanel& plots() { return *plots_; }
   PosePanel& pose() { return *pose_; }
+  EditorPanel& editor() { return *editor_; }
 
   /// Why the window closed before its user wanted; empty: it did not.
   const std::string& failure() const { return failure_; }
@@ -74,6 +77,11 @@ class MainWindow final : public QMainWindow {
   void restore();
   void show_film(const QString& name);
   scene::Scene scene_of_all();
+  void make_editor();
+  void show_edited(const scene::Entity& robot);
+  void walk_edited(const std::string& file, const std::string& text);
+  void choose_link(const std::string& link);
+  void show_scene();
   LiveRun* live() const { return player_ ? player_->live() : nullptr; }
   void frame();
   void show_numbers(const scene::Snapshot& now);
@@ -105,13 +113,17 @@ class MainWindow final : public QMainWindow {
   std::shared_ptr<const Film> film_;
   std::shared_ptr<const scene::Entity> entity_;
   std::unique_ptr<Steering> steering_;
+  std::shared_ptr<const scene::Entity> edited_;  ///< shown as it is edited, until time goes on
+  std::string chosen_link_;                      ///< that is chosen in the editor
   QUndoStack* undo_;
+  QUndoGroup* undos_;
   SceneView* scene_;
   PlotPanel* plots_;
   SignalTree* signals_;
   SafetyPanel* safety_;
   TuningPanel* tuning_;
   PosePanel* pose_;
+  EditorPanel* editor_ = nullptr;
   StatePanel* state_;
   Transport* transport_;
   QTimer* timer_;

@@ -8,9 +8,10 @@
 #include <QPushButton>
 #include <QSettings>
 #include <QShortcut>
-#include <QUndoStack>
+#include <QUndoGroup>
 
 #include "host/record/trace.hpp"
+#include "host/view/editor_panel.hpp"
 #include "host/view/main_window.hpp"
 #include "host/view/plot_panel.hpp"
 #include "host/view/safety_panel.hpp"
@@ -64,6 +65,10 @@ void MainWindow::make_menus() {
   fill_recent();
   file->addSeparator();
   file->addAction("&Save the run as a trace…", QKeySequence::Save, this, [this] { save_trace(); });
+  file->addAction("Save the edited &robot", QKeySequence("Ctrl+Shift+S"), this, [this] {
+    const std::string why = editor_->save();
+    say(QString::fromStdString(why.empty() ? "Saved" : why));
+  });
   file->addAction("Save the &picture…", this, [this] {
     const QString chosen =
         QFileDialog::getSaveFileName(this, "Save the picture", "picture.png", "Pictures (*.png)");
@@ -74,9 +79,9 @@ void MainWindow::make_menus() {
   file->addSeparator();
   file->addAction("&Quit", QKeySequence::Quit, this, &QWidget::close);
   QMenu* edit = menuBar()->addMenu("&Edit");
-  QAction* undo = undo_->createUndoAction(this);
+  QAction* undo = undos_->createUndoAction(this);
   undo->setShortcut(QKeySequence::Undo);
-  QAction* redo = undo_->createRedoAction(this);
+  QAction* redo = undos_->createRedoAction(this);
   redo->setShortcut(QKeySequence::Redo);
   edit->addActions({undo, redo});
   make_run_menu();

@@ -186,6 +186,11 @@ void SceneView::mouseReleaseEvent(QMouseEvent*) {
   update();
 }
 
+void SceneView::mouseDoubleClickEvent(QMouseEvent* event) {
+  const auto at = take_hold(event->position());
+  if (at && taken) taken(*at);
+}
+
 void SceneView::wheelEvent(QWheelEvent* event) {
   free_view();
   orbit_.zoom(std::pow(kZoomStep, event->angleDelta().y() / kNotch));

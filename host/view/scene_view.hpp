@@ -39,6 +39,7 @@ class SceneView final : public QOpenGLWidget {
     scene::Vec3 to_world_m = scene::Vec3::Zero();  ///< where it is, as far away from the eye
   };
   std::function<void(const Hold&)> held, let_go;
+  std::function<void(const Hold&)> taken;              ///< a double click on a robot
   std::function<void(const std::string& why)> failed;  ///< it cannot draw
 
   std::uint64_t drawn() const { return drawn_; }
@@ -49,6 +50,7 @@ class SceneView final : public QOpenGLWidget {
   void mousePressEvent(QMouseEvent* event) override;
   void mouseMoveEvent(QMouseEvent* event) override;
   void mouseReleaseEvent(QMouseEvent* event) override;
+  void mouseDoubleClickEvent(QMouseEvent* event) override;
   void wheelEvent(QWheelEvent* event) override;
   void resizeEvent(QResizeEvent* event) override;
 
