@@ -1,8 +1,10 @@
 #include <QComboBox>
 #include <QFileDialog>
+#include <QFileInfo>
 #include <QGridLayout>
 #include <QLineEdit>
 #include <QPushButton>
+#include <QUndoStack>
 #include <sstream>
 
 #include "host/edit/meshes/import.hpp"
