@@ -1,5 +1,7 @@
 #include "host/view/editor_table.hpp"
 
+#include <QTimer>
+
 #include "host/edit/names.hpp"
 #include "host/edit/units.hpp"
 #include "host/view/theme.hpp"
@@ -72,7 +74,12 @@ bool EditorTable::setData(const QModelIndex& index, const QVariant& value, int r
   if (!index.isValid() || role != Qt::EditRole || index.column() != 1) return false;
   const Row row = rows_[std::size_t(index.row())];
   const std::string text = value.toString().toStdString();
-  if (text != row.value && wanted) wanted(row.path, text);
+  // Once the cell is closed: the change makes all rows anew.
+  if (text != row.value) {
+    QTimer::singleShot(0, this, [this, path = row.path, text] {
+      if (wanted) wanted(path, text);
+    });
+  }
   return true;
 }
 

@@ -110,6 +110,7 @@ TEST_F(Editor, AMassIsEditedUndoneRedoneAndSavedAsOneLine) {
   QTest::keyClicks(line, "1.25");
   QTest::keyClick(line, Qt::Key_Return);
   const auto now = [&] { return window_.editor().document()->text(); };
+  ASSERT_TRUE(QTest::qWaitFor([&] { return window_.editor().changed(); }, 60000));
   EXPECT_NE(now().find("<mass>1.25</mass>"), std::string::npos);
   EXPECT_EQ(complaint(), "Sound");
   QTest::keyClick(&window_, Qt::Key_Z, Qt::ControlModifier);
@@ -180,6 +181,7 @@ TEST_F(Editor, WhatCannotBeSavedIsToldAndKept) {
   window_.open(QString::fromStdString(file));
   window_.editor().select("link:trunk");
   QTest::keyClick(type("link:trunk/inertial/mass", "1.25"), Qt::Key_Return);
+  ASSERT_TRUE(QTest::qWaitFor([&] { return window_.editor().changed(); }, 60000));
   std::ofstream(file, std::ios::binary | std::ios::app) << "<!-- somebody else -->\n";
   EXPECT_NE(window_.editor().save().find("changed by another program"), std::string::npos);
   EXPECT_EQ(text_of(file + ".unsaved"), window_.editor().document()->text());
