@@ -99,8 +99,9 @@ void MainWindow::show_scene() {
   scene::Scene scene = edited_ ? scene::studio() : scene_of_all();
   if (edited_) scene::add_robot(scene, *edited_);
   const auto& nodes = (edited_ ? edited_ : entity_)->nodes;
-  const auto chosen = std::find_if(nodes.begin(), nodes.end(),
-                                   [&](const model::Node& node) { return node.name == chosen_link_; });
+  const auto chosen = std::find_if(nodes.begin(), nodes.end(), [&](const model::Node& node) {
+    return node.name == chosen_link_;
+  });
   for (scene::Item& item : scene.items) {
     if (item.robot == 0 && item.node == chosen - nodes.begin()) item.material.colour = kChosen;
   }
