@@ -43,7 +43,8 @@ void EditorTable::add(const edit::Document& document, int element, const std::st
 
 void EditorTable::mark(const std::string& path) {
   marked_ = path;
-  if (!rows_.empty()) emit dataChanged(index(0, 0), index(rowCount() - 1, 2));
+  // Not of the values: a cell in which somebody types would be read anew.
+  if (!rows_.empty()) emit dataChanged(index(0, 0), index(rowCount() - 1, 0));
 }
 
 int EditorTable::row_of(const std::string& path) const {
