@@ -51,7 +51,10 @@ void MainWindow::make_editor() {
   undos_->addStack(stack);
   undos_->setActiveStack(undo_);
   // Undo takes back what was done last, here or there.
-  connect(stack, &QUndoStack::indexChanged, this, [this, stack] { undos_->setActiveStack(stack); });
+  // A stack is emptied last of all, when the window and the group are gone.
+  connect(stack, &QUndoStack::indexChanged, this, [this, stack] {
+    if (stack->count() > 0) undos_->setActiveStack(stack);
+  });
   connect(undo_, &QUndoStack::indexChanged, this, [this] {
     if (undo_->count() > 0) undos_->setActiveStack(undo_);
   });
