@@ -1,4 +1,5 @@
 #include <fstream>
+#include <sstream>
 
 #include "tests/host/run/run_bench.hpp"
 
@@ -216,21 +217,23 @@ TEST_F(TimelyRobot, ACrashLeavesTheTrace) {
   EXPECT_EQ(verp("replay whole.mcap").status, 0);
 }
 
-/// A robot like generic21 without `what` of its file.
-std::string without(const fs::path& folder, const std::string& what) {
+/// A robot like generic21 whose IMU has another id: nobody answers at its own.
+std::string with_its_imu_elsewhere(const fs::path& folder) {
   std::ifstream in(std::string(VERP_SOURCE_DIR) + "/common/robots/generic21/robot.sdf");
-  const fs::path file = folder / "without.sdf";
-  std::ofstream out(file);
-  for (std::string line; std::getline(in, line);) {
-    if (line.find(what) == std::string::npos) out << line << '\n';
-  }
+  std::stringstream text;
+  text << in.rdbuf();
+  std::string robot = text.str();
+  const std::string own = "id=\"120\"";
+  robot.replace(robot.find(own), own.size(), "id=\"121\"");
+  const fs::path file = folder / "elsewhere.sdf";
+  std::ofstream(file) << robot;
   return file.string();
 }
 
 // Without the IMU of the model no torque; with --imu none it goes without balance, says so, and the
 // trace has it in writing.
 TEST_F(TimelyRobot, ASilentImuIsNeverPassedOver) {
-  serve(without(folder_, "<verp:imu "));
+  serve(with_its_imu_elsewhere(folder_));
   plug({1000, 1000});
   const Outcome refused = run({"--yes", "--period", "20"})->wait();
   EXPECT_EQ(refused.status, 3);
