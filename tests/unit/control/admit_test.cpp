@@ -114,11 +114,10 @@ TEST(Admit, TelemetryOfNoServoIsIgnored) {
 
 // Through the whole tick: one hot knee ends the walk on both feet, and sits the robot down.
 TEST(Admit, OneHotServoEndsTheWalk) {
-  static Loop loop;
-  loop = Loop{};
+  Loop& loop = test::fresh_loop();
   loop.walk(1000);
   ASSERT_GE(loop.until(safety::Mode::kWalking, 600), 0);
-  const auto round = [] {
+  const auto round = [&loop] {
     loop.inputs.flags |= kSlowFresh;
     loop.inputs.slow_joint = static_cast<std::uint8_t>((loop.inputs.slow_joint + 1) % kJointCount);
     loop.inputs.slow_voltage_tenth_v = kGood_tenth_v;
@@ -257,8 +256,7 @@ TEST(Admit, ImuThatRepeatsItselfIsSilentAndOneThatStirsIsNot) {
 }
 
 TEST(Admit, FrozenImuStopsTheWalk) {
-  static Loop loop;
-  loop = Loop{};
+  Loop& loop = test::fresh_loop();
   loop.walk(1000);
   ASSERT_GE(loop.until(safety::Mode::kWalking, 600), 0);
   loop.noise = false;
@@ -271,8 +269,7 @@ TEST(Admit, FrozenImuStopsTheWalk) {
 
 // Through the whole tick: the walk is not taken up where it was; the robot holds, then rises anew.
 TEST(Admit, WalkEndsWhereTheControllerStoodStill) {
-  static Loop loop;
-  loop = Loop{};
+  Loop& loop = test::fresh_loop();
   loop.walk(1000);
   ASSERT_GE(loop.until(safety::Mode::kWalking, 600), 0);
   loop.inputs.tick += kHold_ticks - 1;

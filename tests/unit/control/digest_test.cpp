@@ -39,7 +39,7 @@ TEST(StepDigest, EqualInputsGiveEqualStatesAndDigests) {
 
 // All there is to know about the past is in State: a copy goes on as the original does.
 TEST(StepDigest, CopyOfAStateContinuesTheSame) {
-  static Loop loop;
+  Loop& loop = test::fresh_loop();
   static State copy;
   get_walking(loop);
   for (int i = 0; i < 20; ++i) {
@@ -56,7 +56,7 @@ TEST(StepDigest, CopyOfAStateContinuesTheSame) {
 
 // One bit in any byte of the inputs, used or not, is another digest.
 TEST(StepDigest, AnyBitOfTheInputsChangesTheDigest) {
-  static Loop loop;
+  Loop& loop = test::fresh_loop();
   static State before, after;
   get_walking(loop);
   before = loop.state;

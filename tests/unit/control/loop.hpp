@@ -54,6 +54,12 @@ struct Loop {
   bool noise = true;  ///< of the IMU
 };
 
+/// One for all tests, as it begins: a small board's RAM has no room for one each.
+inline Loop& fresh_loop() {
+  static Loop loop;
+  return loop = Loop{};
+}
+
 inline void write_parameter(int id, float value, Inputs& inputs) {
   inputs.flags |= kParameterWrite;
   inputs.parameter_id = static_cast<std::uint16_t>(id);

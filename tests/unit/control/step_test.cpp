@@ -114,8 +114,7 @@ TEST(Step, IsTotalForAnEmptyRobot) {
 }
 
 TEST(Step, RisesWalksStopsAndSitsDown) {
-  static Loop loop;
-  loop = Loop{};
+  Loop& loop = test::fresh_loop();
   loop.ticks(5);
   EXPECT_TRUE(loop.is_in(Mode::kRelaxed));
   loop.command.request = Request::kStand;
@@ -149,7 +148,7 @@ void get_walking(Loop& loop) {
 // What was learnt of the legs' zeros moves the ankles' goals, and nothing does once that is
 // switched off.
 TEST(Step, ZeroErrorsReachTheGoalsUnlessSwitchedOff) {
-  static Loop loop;
+  Loop& loop = test::fresh_loop();
   get_walking(loop);
   const auto ankle_goals = [&](float zero_rad, float enable) {
     State state = loop.state;
@@ -164,7 +163,7 @@ TEST(Step, ZeroErrorsReachTheGoalsUnlessSwitchedOff) {
 }
 
 TEST(Step, WhatWasLearntOfLandingsReachesTheGoalsUnlessSwitchedOff) {
-  static Loop loop;
+  Loop& loop = test::fresh_loop();
   get_walking(loop);
   const auto hip_goals = [&](float beyond, float enable) {
     State state = loop.state;
@@ -184,7 +183,7 @@ TEST(Step, WhatWasLearntOfLandingsReachesTheGoalsUnlessSwitchedOff) {
 }
 
 TEST(Step, SilentServoHoldsThenSits) {
-  static Loop loop;
+  Loop& loop = test::fresh_loop();
   get_walking(loop);
   loop.inputs.fresh = ~(1u << 12);
   const int held = loop.until(Mode::kHolding, 20);
@@ -194,7 +193,7 @@ TEST(Step, SilentServoHoldsThenSits) {
 }
 
 TEST(Step, QuietOperatorStopsTheWalkOnBothFeet) {
-  static Loop loop;
+  Loop& loop = test::fresh_loop();
   get_walking(loop);
   loop.inputs.flags = static_cast<std::uint16_t>(loop.inputs.flags & ~kCommandFresh);
   EXPECT_GE(loop.until(Mode::kStanding, 500), 0);
@@ -203,7 +202,7 @@ TEST(Step, QuietOperatorStopsTheWalkOnBothFeet) {
 }
 
 TEST(Step, FallMakesItLimpAndIsLatchedUntilAcknowledged) {
-  static Loop loop;
+  Loop& loop = test::fresh_loop();
   get_walking(loop);
   loop.inputs.accel_count[0] = 8172;
   loop.inputs.accel_count[2] = 0;
@@ -232,7 +231,7 @@ void lie(int way, Loop& loop) {
 
 // Stand is asked from the first tick on, and the estimate begins upright: not one tick of torque.
 TEST(Step, RobotThatLiesDoesNotBeginToRise) {
-  static Loop loop;
+  Loop& loop = test::fresh_loop();
   for (int way = 0; way < 5; ++way) {
     loop = Loop{};
     loop.command.request = Request::kStand;
@@ -249,8 +248,7 @@ TEST(Step, RobotThatLiesDoesNotBeginToRise) {
 
 // What it knew of its tilt before the silence says nothing: it fell over meanwhile, and relaxed.
 TEST(Step, RobotThatFellWhileItsImuWasSilentDoesNotRise) {
-  static Loop loop;
-  loop = Loop{};
+  Loop& loop = test::fresh_loop();
   loop.command.request = Request::kStand;
   ASSERT_GE(loop.until(Mode::kStanding, 200), 0);
   loop.inputs.flags = static_cast<std::uint16_t>(loop.inputs.flags & ~kImuFresh);
@@ -266,7 +264,7 @@ TEST(Step, RobotThatFellWhileItsImuWasSilentDoesNotRise) {
 // No torque for as long as it is beyond. A hand that puts the joint back is enough: the fault only
 // tells why.
 TEST(Step, JointBeyondItsLimitsIsNotThrownBack) {
-  static Loop loop;
+  Loop& loop = test::fresh_loop();
   for (int j = 0; j < test::kJointCount; ++j) {
     const JointParams& joint = kRobot.joint[j];
     loop = Loop{};
@@ -295,8 +293,7 @@ void tick_with_sagging_supply(Loop& loop) {
 
 // Low while it walks and good while it doesn't: it would walk and stop for ever.
 TEST(Step, SupplyThatSagsUnderLoadSitsTheRobotDownOnce) {
-  static Loop loop;
-  loop = Loop{};
+  Loop& loop = test::fresh_loop();
   loop.walk(1000);
   int changes = 0;
   std::uint8_t last = loop.outputs.mode;
@@ -321,8 +318,7 @@ TEST(Step, SupplyThatSagsUnderLoadSitsTheRobotDownOnce) {
 
 // As long as it lasts there is no way up, and asking again and again is none.
 TEST(Step, RobotWhosePowerIsBadDoesNotRise) {
-  static Loop loop;
-  loop = Loop{};
+  Loop& loop = test::fresh_loop();
   loop.inputs.flags |= kSlowFresh;
   loop.inputs.slow_voltage_tenth_v = 80;
   loop.inputs.slow_temperature_c = 40;
@@ -336,7 +332,7 @@ TEST(Step, RobotWhosePowerIsBadDoesNotRise) {
 
 // A servo that was never read is at no known place: goals must not begin at count 0.
 TEST(Step, RobotWaitsForEveryServosFirstReport) {
-  static Loop loop;
+  Loop& loop = test::fresh_loop();
   for (int j = 0; j < test::kJointCount; ++j) {
     loop = Loop{};
     loop.command.request = Request::kStand;
@@ -349,7 +345,7 @@ TEST(Step, RobotWaitsForEveryServosFirstReport) {
 }
 
 TEST(Step, EmergencyStopIsImmediate) {
-  static Loop loop;
+  Loop& loop = test::fresh_loop();
   get_walking(loop);
   loop.inputs.flags |= kEmergencyStop;
   loop.tick();
@@ -358,8 +354,7 @@ TEST(Step, EmergencyStopIsImmediate) {
 }
 
 TEST(Step, ParametersOutOfRangeAreRefusedAndNoted) {
-  static Loop loop;
-  loop = Loop{};
+  Loop& loop = test::fresh_loop();
   loop.tick();
   const Tuning before = loop.state.tuning;
   for (const float bad : {test::quiet_nan(), test::infinity(), -1.0F, 99.0F}) {
@@ -377,8 +372,7 @@ TEST(Step, ParametersOutOfRangeAreRefusedAndNoted) {
 }
 
 TEST(Step, TurnsTheHeadWhereToldWithinLimits) {
-  static Loop loop;
-  loop = Loop{};
+  Loop& loop = test::fresh_loop();
   loop.command.request = Request::kStand;
   loop.command.head_pan_mrad = 500;
   loop.command.head_tilt_mrad = -32768;
@@ -392,7 +386,7 @@ TEST(Step, TurnsTheHeadWhereToldWithinLimits) {
 TEST(Step, WalkIsPeriodic) {
   constexpr int kCycle = 44;
   constexpr float kMirror[kLegJoints] = {-1, -1, 1, 1, 1, -1};  // yaw and roll turn about
-  static Loop loop;
+  Loop& loop = test::fresh_loop();
   get_walking(loop);
   test::write_parameter(0, 0.44F, loop.inputs);
   loop.tick();
