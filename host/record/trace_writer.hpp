@@ -17,7 +17,7 @@ struct TraceOptions {
   bool every_state =
       false;        ///< keep State at every tick, so that any divergence names its field exactly
   bool ros = true;  ///< add channels for viewers: README.md
-  std::uint64_t chunk_ticks = 125;     ///< a crash loses at most this many
+  std::uint64_t chunk_ticks = 125;       ///< a crash loses at most this many
   std::vector<std::uint32_t> actions{};  ///< image of the library that the controller has
 };
 
