@@ -95,6 +95,9 @@ class Row {
   void add(const Vec3& v) {
     for (const double value : v) add(value);
   }
+  void add(const Eigen::Quaterniond& q) {  // x y z w
+    for (const double value : q.coeffs()) add(value);
+  }
   /// What is not known is NaN.
   template <class Vector>
   void add(const std::optional<Vector>& v) {
@@ -112,7 +115,7 @@ void add_frame(std::vector<float>& out, const scene::Snapshot& now, std::size_t 
   row.add(now.t_s);
   const scene::Transform& body = robot.link_world.front();
   row.add(Vec3(body.translation()));
-  for (const double value : Eigen::Quaterniond(body.linear()).coeffs()) row.add(value);
+  row.add(Eigen::Quaterniond(body.linear()));
   row.add(robot.phase);
   row.add(robot.gait_state);
   row.add(robot.com_world_m);
@@ -126,7 +129,7 @@ void add_frame(std::vector<float>& out, const scene::Snapshot& now, std::size_t 
   for (std::size_t j = 0; j < joints; ++j) row.add(robot.joint_rad[j]);
   for (const scene::Transform& moving : now.body_world) {
     row.add(Vec3(moving.translation()));
-    for (const double value : Eigen::Quaterniond(moving.linear()).coeffs()) row.add(value);
+    row.add(Eigen::Quaterniond(moving.linear()));
   }
 }
 
