@@ -1,15 +1,9 @@
 #include <gtest/gtest.h>
 
-#include <QApplication>
 #include <QComboBox>
 #include <QDockWidget>
-#include <QLabel>
 #include <QLineEdit>
-#include <QPushButton>
-#include <QSettings>
 #include <QTableView>
-#include <QTemporaryDir>
-#include <QtTest/QTest>
 #include <fstream>
 #include <iterator>
 
@@ -17,8 +11,7 @@
 #include "host/model/find.hpp"
 #include "host/view/editor_panel.hpp"
 #include "host/view/editor_table.hpp"
-#include "host/view/main_window.hpp"
-#include "host/view/run_of.hpp"
+#include "tests/host/view/window_fixture.hpp"
 
 namespace verp::view {
 namespace {
@@ -28,40 +21,10 @@ std::string text_of(const std::string& file) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
-/// Sessions of a person who edits a robot. VERP_UI_PICTURES names a folder that gets a picture of
-/// each.
-class Editor : public testing::Test {
+/// Sessions of a person who edits a robot.
+class Editor : public Window {
  protected:
-  Editor()
-      : settings_(folder_.filePath("view.ini"), QSettings::IniFormat),
-        window_(settings_, [](const std::string& model) {
-          tool::WalkOptions options;
-          options.model = model;
-          return run_of(options);
-        }) {
-    window_.show();
-    EXPECT_TRUE(QTest::qWaitForWindowExposed(&window_));
-    QApplication::setActiveWindow(&window_);  // no window manager does
-    find<QDockWidget>("dock_Editor")->raise();
-    if (std::getenv("VERP_UI_PICTURES") == nullptr) {
-      window_.scene().effects().shadows = window_.scene().effects().antialias = false;
-    }
-  }
-  ~Editor() override {
-    const char* folder = std::getenv("VERP_UI_PICTURES");
-    if (folder != nullptr) {
-      const auto* test = testing::UnitTest::GetInstance()->current_test_info();
-      window_.grab().save(QString("%1/%2.png").arg(folder, test->name()));
-    }
-    window_.close();
-    window_.finish();
-  }
-  template <class Widget>
-  Widget* find(const char* name) {
-    auto* found = window_.findChild<Widget*>(name);
-    EXPECT_NE(found, nullptr) << name;
-    return found;
-  }
+  Editor() { find<QDockWidget>("dock_Editor")->raise(); }
   void press(const char* button) { QTest::mouseClick(find<QPushButton>(button), Qt::LeftButton); }
   std::string complaint() { return find<QLabel>("editor_complaint")->text().toStdString(); }
 
@@ -86,10 +49,6 @@ class Editor : public testing::Test {
     QTest::keyClick(line, Qt::Key_Return);
     EXPECT_EQ(line->text(), "") << kind << ": " << complaint();
   }
-
-  QTemporaryDir folder_;
-  QSettings settings_;
-  MainWindow window_;
 };
 
 TEST_F(Editor, AMassIsEditedUndoneRedoneAndSavedAsOneLine) {

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from ._lib import check, dtype_of, ffi, layout_dtype, lib, text
+from ._lib import Handle, check, dtype_of, ffi, layout_dtype, lib, text
 
 INPUTS = dtype_of(ffi.typeof("verp_inputs"))
 OUTPUTS = dtype_of(ffi.typeof("verp_outputs"))
@@ -17,7 +17,7 @@ def pointer(array: np.ndarray, ctype: str) -> object:
     return ffi.cast(ctype, array.ctypes.data)
 
 
-class Core:
+class Core(Handle):
     """One robot's controller without a world.
 
     >>> core = Core("generic21")
@@ -28,7 +28,7 @@ class Core:
         where = ffi.new("verp_core *")
         check(lib.verp_core_open(text(model), text(bus), text(tuning), where))
         self._core = where[0]
-        self._open = True
+        super().__init__(self._core, lib.verp_core_close)
         self.joint_names: list[str] = [self._name(j) for j in range(self._get("joints", "uint32_t *"))]
         self.period_s: float = self._get("period", "double *")
         #: What the next step() reads and what the last one wrote: numpy records, memory that stays where it is.
@@ -46,22 +46,6 @@ class Core:
         name = ffi.new(f"char[{lib.VERP_NAME}]")
         check(lib.verp_core_joint_name(self._core, joint, name, lib.VERP_NAME))
         return ffi.string(name).decode()
-
-    def close(self) -> None:
-        """Later calls raise VerpError."""
-        self._open = False
-        check(lib.verp_core_close(self._core))
-
-    def __enter__(self) -> Core:
-        return self
-
-    def __exit__(self, *_: object) -> None:
-        if self._open:
-            self.close()
-
-    def __del__(self) -> None:
-        if getattr(self, "_open", False):
-            lib.verp_core_close(self._core)
 
     def reset(self) -> None:
         """As it is when power comes on."""

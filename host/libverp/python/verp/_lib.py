@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import os
 import re
+from collections.abc import Callable
 from pathlib import Path
+from typing import Self
 
 import cffi
 import numpy as np
@@ -98,3 +100,26 @@ def check(status: int) -> int:
 def text(value: str | None) -> object:
     """A C string that lives as long as what is returned, or null."""
     return ffi.NULL if value is None else ffi.new("char[]", os.fsencode(value))
+
+
+class Handle:
+    """A handle of the library's. It is closed once: by close(), at the end of a `with`, or when nobody has it any more."""
+
+    def __init__(self, handle: object, close: Callable[[object], int]) -> None:
+        self._handle, self._close, self._open = handle, close, True
+
+    def close(self) -> None:
+        """Later calls raise VerpError. Of a session: ends the run; a trace becomes whole."""
+        self._open = False
+        check(self._close(self._handle))
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        if self._open:
+            self.close()
+
+    def __del__(self) -> None:
+        if getattr(self, "_open", False):
+            self._close(self._handle)

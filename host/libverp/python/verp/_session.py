@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ._core import INPUTS, OUTPUTS, pointer
-from ._lib import VerpError, check, dtype_of, ffi, layout_dtype, lib, text
+from ._lib import Handle, VerpError, check, dtype_of, ffi, layout_dtype, lib, text
 
 TICK = dtype_of(ffi.typeof("verp_tick"))
 RELAX, STAND, WALK = 0, 1, 2
@@ -65,7 +65,7 @@ class Moment:
 Controller = Callable[[Moment], None]
 
 
-class Session:
+class Session(Handle):
     """A world and the robots in it.
 
     >>> with Session() as session:
@@ -82,7 +82,7 @@ class Session:
         where = ffi.new("verp_session *")
         check(lib.verp_session_open(what, where))
         self._session = where[0]
-        self._open = True
+        super().__init__(self._session, lib.verp_session_close)
         self._ticks: list[np.ndarray] = []
         self._kept: dict[int, object] = {}
         self._thrown: BaseException | None = None
@@ -242,23 +242,6 @@ class Session:
                 return 1
 
         return run
-
-    def close(self) -> None:
-        """Ends the run; a trace becomes whole. Later calls raise VerpError."""
-        self._open = False
-        check(lib.verp_session_close(self._session))
-
-    def __enter__(self) -> Session:
-        return self
-
-    def __exit__(self, *_: object) -> None:
-        if self._open:
-            self.close()
-
-    def __del__(self) -> None:
-        if getattr(self, "_open", False):
-            lib.verp_session_close(self._session)
-
 
 def replay(trace: str) -> tuple[int, int]:
     """Ticks and digest of a trace that replays bit for bit; raises VerpError that says where it does not."""
