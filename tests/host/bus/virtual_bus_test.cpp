@@ -265,6 +265,31 @@ TEST_F(VirtualBus, StatusLevelOneAnswersReadsButNotWrites) {
   EXPECT_EQ(read(1, at::kLed, 1).data, Bytes{1});
 }
 
+// A wait that began at power-up is long over by then: a master would wait for ever.
+TEST_F(VirtualBus, AWaitForNobodysAnswerEndsItsTimeAfterTheRequest) {
+  for (const bool real_time : {false, true}) {
+    bus::VirtualBus line{params, plant};
+    line.set_real_time(real_time);
+    Bytes byte(1), frame(16);
+    line.bring_until(5'000, byte.data(), byte.size());
+    line.send(frame.data(), dxl::encode_ping(frame.data(), frame.size(), 77));
+    EXPECT_EQ(line.poll(byte.data(), byte.size(), 800), 0u);
+    EXPECT_EQ(line.now_us(), 5'800u) << (real_time ? "in real time" : "in lockstep");
+  }
+}
+
+TEST_F(VirtualBus, PowerBeginsAServoAnewOnlyWhereItWasGone) {
+  ASSERT_EQ(write(1, at::kLed, {1}), 0);
+  bus.set_powered(1, true);
+  EXPECT_EQ(read(1, at::kLed, 1).data, Bytes{1}) << "it had power";
+  bus.set_powered(1, false);
+  Bytes frame(16);
+  bus.send(frame.data(), dxl::encode_ping(frame.data(), frame.size(), 1));
+  EXPECT_TRUE(poll().empty());
+  bus.set_powered(1, true);
+  EXPECT_EQ(read(1, at::kLed, 1).data, Bytes{0});
+}
+
 TEST_F(VirtualBus, IgnoresFramesWithABadCrc) {
   Bytes frame(16);
   const std::size_t size = dxl::encode_ping(frame.data(), frame.size(), 1);
