@@ -71,12 +71,13 @@ Document record_gait(const record::Trace& trace, const std::string& name, int cy
   Document document;
   document.name = name;
   document.note = "The gait's cycle of 16 states, from " + trace.file.filename().string();
+  const Library actions = trace.library();
   State state;
   Outputs outputs;
   int last = -1, seen = 0;
   double last_s = 0;
   for (const TickRecord& tick : trace.ticks) {
-    step(trace.params, trace.library(), state, tick.inputs, outputs);
+    step(trace.params, actions, state, tick.inputs, outputs);
     const bool walks = outputs.gait_phase == static_cast<std::uint8_t>(gait::Phase::kTransition);
     if (!walks) document.frames.clear(), seen = 0, last = -1;
     if (!walks || outputs.gait_state == last) continue;

@@ -61,7 +61,7 @@ class Reference {
   void advance(std::size_t index) {
     if (!valid_) return;
     Outputs outputs;
-    step(trace_.params, trace_.library(), state_, trace_.ticks[index].inputs, outputs);
+    step(trace_.params, actions_, state_, trace_.ticks[index].inputs, outputs);
     valid_ = !compare_digests(trace_.ticks[index].digest, state_.digest);
   }
   bool valid() const { return valid_; }
@@ -69,6 +69,7 @@ class Reference {
 
  private:
   const Trace& trace_;
+  const action::Library actions_ = trace_.library();
   State state_;
   bool valid_ = true;
 };

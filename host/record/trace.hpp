@@ -72,7 +72,7 @@ struct Trace {
   std::uint64_t digest() const {
     return ticks.empty() ? record::kChainSeed : ticks.back().digest.chain;
   }
-  /// Valid while `actions` are.
+  /// Valid while `actions` are. Checks all of them: once a run, not once a tick.
   action::Library library() const { return {actions.data(), 4 * actions.size()}; }
   double period_s() const { return params.period_us * 1e-6; }
 };

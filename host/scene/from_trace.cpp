@@ -45,11 +45,12 @@ struct TracePlayer::Film {
     find_world();
     const TickPoses poses(entity, trace.params);
     BodyTrack track(trace, poses);
+    const action::Library actions = trace.library();
     State state;
     Outputs outputs;
     for (std::size_t i = 0; i < trace.ticks.size(); ++i) {
       if (i % kEvery == 0) states.push_back(state);
-      step(trace.params, trace.library(), state, trace.ticks[i].inputs, outputs);
+      step(trace.params, actions, state, trace.ticks[i].inputs, outputs);
       bodies.push_back(track.at(i, state, outputs));
     }
   }
@@ -83,9 +84,10 @@ struct TracePlayer::Film {
 
   /// The controller after that tick.
   void run_to(std::size_t index, State& state, Outputs& outputs) const {
+    const action::Library actions = trace.library();
     state = states[index / kEvery];
     for (std::size_t i = index - index % kEvery; i <= index; ++i) {
-      step(trace.params, trace.library(), state, trace.ticks[i].inputs, outputs);
+      step(trace.params, actions, state, trace.ticks[i].inputs, outputs);
     }
   }
 };

@@ -26,7 +26,7 @@ class Robot {
 
   const WalkPlan& plan() const { return plan_; }
   /// Of the plan: what may be asked for by its number.
-  action::Library actions() const { return {plan_.actions.data(), 4 * plan_.actions.size()}; }
+  const action::Library& actions() const { return actions_; }
   std::string name() const { return plan_.name.empty() ? plan_.params.name : plan_.name; }
   sim::TwinRobot& twin() { return twin_; }
   /// The bus that the plan's Params speak of; the other one is not there.
@@ -98,6 +98,7 @@ class Robot {
   bool has_torque();
 
   const WalkPlan plan_;
+  const action::Library actions_{plan_.actions.data(), 4 * plan_.actions.size()};
   const Hooks hooks_;
   const Interrupted interrupted_;
   record::TraceWriter* trace_;

@@ -90,7 +90,7 @@ class Decisions {
   /// Null where it is not known. Ticks are asked for in order.
   const Outputs* at(const TickRecord& record) {
     if (!same_) return nullptr;
-    step(trace_.params, trace_.library(), state_, record.inputs, outputs_);
+    step(trace_.params, actions_, state_, record.inputs, outputs_);
     same_ = state_.digest.chain == record.digest.chain;
     if (same_) return &outputs_;
     complain(
@@ -103,6 +103,7 @@ class Decisions {
 
  private:
   const record::Trace& trace_;
+  const action::Library actions_ = trace_.library();
   State state_;
   Outputs outputs_;
   bool same_ = true;
