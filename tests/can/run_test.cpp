@@ -53,6 +53,7 @@ TEST_F(RunOnCan, DrivesTheRobotAndLetsItGo) {
                                       " >run.json; status=$?; [ $status = 0 ] && break; sleep 3; "
                                       "done; cat run.json; exit $status");
   const json result = json::parse(outcome.out);
+  ASSERT_TRUE(result.contains("failure")) << "refused: " << outcome.out << outcome.err;
   const std::string failure = result.at("failure");
   ASSERT_EQ(outcome.status, failure.empty() ? 0 : 1) << outcome.err;
   EXPECT_TRUE(result.at("let_go")) << outcome.err;
