@@ -1,5 +1,6 @@
 # Under sanitizers a program's start takes longer than most of its tests: there a program that is built runs its tests in one
-# go, as one test of ctest, `PREFIX` and its own name.
+# go, as one test of ctest, `PREFIX` and its own name. One with minutes of tests says so, in its property VERP_SHARDS: it runs
+# in as many parts, before all others, so that no core waits for another at the end.
 if(CMAKE_CXX_FLAGS MATCHES "-fsanitize")
   function(gtest_discover_tests target)
     cmake_parse_arguments(arg "NO_PRETTY_VALUES" "TEST_PREFIX;TEST_FILTER;TEST_LIST" "PROPERTIES" ${ARGN})
@@ -13,11 +14,29 @@ if(CMAKE_CXX_FLAGS MATCHES "-fsanitize")
       set(arg_TEST_FILTER *)
     endif()
     list(JOIN arg_PROPERTIES " " properties)
+    get_target_property(shards ${target} VERP_SHARDS)
+    set(script "")
+    set(tests "")
+    if(shards)
+      math(EXPR last "${shards} - 1")
+      foreach(shard RANGE ${last})
+        string(APPEND script
+"  add_test([=[${name}.${shard}]=] [=[$<TARGET_FILE:${target}>]=] [=[--gtest_filter=${arg_TEST_FILTER}]=])
+  set_tests_properties([=[${name}.${shard}]=] PROPERTIES TIMEOUT 1800 COST 1000 ${properties})
+  set_property(TEST [=[${name}.${shard}]=] APPEND PROPERTY ENVIRONMENT GTEST_TOTAL_SHARDS=${shards} GTEST_SHARD_INDEX=${shard})
+")
+        string(APPEND tests " [=[${name}.${shard}]=]")
+      endforeach()
+    else()
+      set(script
+"  add_test([=[${name}]=] [=[$<TARGET_FILE:${target}>]=] [=[--gtest_filter=${arg_TEST_FILTER}]=])
+  set_tests_properties([=[${name}]=] PROPERTIES TIMEOUT 1800 ${properties})
+")
+      set(tests " [=[${name}]=]")
+    endif()
     file(GENERATE OUTPUT ${CMAKE_CURRENT_BINARY_DIR}/${name}.cmake CONTENT
 "if(EXISTS [=[$<TARGET_FILE:${target}>]=])
-  add_test([=[${name}]=] [=[$<TARGET_FILE:${target}>]=] [=[--gtest_filter=${arg_TEST_FILTER}]=])
-  set_tests_properties([=[${name}]=] PROPERTIES TIMEOUT 1800 ${properties})
-  set(${arg_TEST_LIST} [=[${name}]=])
+${script}  set(${arg_TEST_LIST}${tests})
 endif()
 ")
     set_property(DIRECTORY APPEND PROPERTY TEST_INCLUDE_FILES ${CMAKE_CURRENT_BINARY_DIR}/${name}.cmake)

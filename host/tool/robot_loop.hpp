@@ -2,8 +2,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <numeric>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "firmware/app/app.hpp"
 #include "firmware/app/pacer.hpp"
@@ -22,6 +24,7 @@ namespace verp::tool {
 
 /// What an answer may take: the slowest adapter known holds what comes for 16 ms.
 inline constexpr std::uint32_t kAnswer_us = 100'000;
+inline constexpr int kAsked = 3;  ///< times that a silent servo is asked whether it let go
 
 /// What a servo says when it is asked at the end.
 enum class LetGo : std::uint8_t { kYes, kNo, kSilent };
@@ -164,15 +167,21 @@ class RobotRun {
                     safety::kModeNames[static_cast<int>(to)], why.empty() ? "" : " (" + why + ")"));
   }
 
-  // What lets go is sent to all and answered by nobody: so each servo is asked, unless a person has
-  // no patience with those that are silent.
+  // What lets go is sent to all and answered by nobody: so each servo is asked, and those that are
+  // silent once more: a wire loses a frame, a busy PC looks too late. A person who presses again has
+  // no patience with that.
   void make_sure() {
-    for (int j = 0; j < params_.joint_count; ++j) {
-      const bool asks = robot_.connected() && tool::presses() == presses_;
-      const LetGo said = asks ? robot_.let_go(j) : LetGo::kSilent;
-      result_.stiff_servos += said == LetGo::kNo ? 1 : 0;
-      result_.silent_servos += said == LetGo::kSilent ? 1 : 0;
+    std::vector<int> silent(static_cast<std::size_t>(params_.joint_count));
+    std::iota(silent.begin(), silent.end(), 0);
+    for (int round = 0; round < kAsked && !silent.empty(); ++round) {
+      std::erase_if(silent, [this](int joint) {
+        const bool asks = robot_.connected() && tool::presses() == presses_;
+        const LetGo said = asks ? robot_.let_go(joint) : LetGo::kSilent;
+        result_.stiff_servos += said == LetGo::kNo ? 1 : 0;
+        return said != LetGo::kSilent;
+      });
     }
+    result_.silent_servos = static_cast<int>(silent.size());
     if (result_.silent_servos + result_.stiff_servos == 0) return;
     say(fmt::format("{} servos did not say that they let go: switch their power off",
                     result_.silent_servos + result_.stiff_servos));

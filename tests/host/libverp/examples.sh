@@ -1,27 +1,30 @@
 #!/usr/bin/env bash
-# examples.sh VERP PROGRAMS SOURCES: the same example gives the same words in C, C++ and Python, and a walk has the digest
-# that `verp walk` gives.
+# examples.sh VERP PROGRAMS SOURCES OCTAVE: the same example gives the same words in C, C++, Python and Octave, and a walk has
+# the digest that `verp walk` gives.
 set -euo pipefail
-verp=$1 programs=$2 sources=$3
+verp=$1 programs=$2 sources=$3 octave=$4
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 cd "$scratch"
 say() { echo "examples: $*" && exit 1; }
 
 same() { # name argument...: runs it in all languages
-  local name=$1 c cpp py
+  local name=$1 c cpp py m arguments
   shift
   c=$("$programs/example_${name}_c" "$@") || say "$name.c failed: $c"
   cpp=$("$programs/example_${name}_cpp" "$@") || say "$name.cpp failed: $cpp"
   py=$(/usr/bin/python3 "$sources/$name.py" "$@") || say "$name.py failed: $py"
-  [[ $c == "$cpp" && $c == "$py" ]] || say "$name: C says '$c', C++ '$cpp', Python '$py'"
+  printf -v arguments "'%s'," "$@"
+  arguments=$(sed -E "s/'([0-9]+)'/\1/g" <<<"${arguments%,}") # numbers are no texts
+  m=$("$octave" --eval "addpath('$sources'); verp_$name($arguments)") || say "verp_$name.m failed: $m"
+  [[ $c == "$cpp" && $c == "$py" && $c == "$m" ]] || say "$name: C says '$c', C++ '$cpp', Python '$py', Octave '$m'"
   words=$c
 }
 
 same walk 3
 digest=$("$verp" walk --for 3 --json | sed -nE 's/^ *"digest": "(0x[0-9a-f]+)".*/\1/p')
 [[ $words == *" $digest" ]] || say "verp walk has digest $digest, the examples say $words"
-same record "$scratch/a.mcap" 3
+same record a.mcap 3
 [[ $words == *" $digest" ]] || say "the trace replays to $words, the walk was $digest"
 same controller 2
 same tune 2

@@ -1,0 +1,174 @@
+classdef Session < handle
+%VERP.SESSION Robots in a world, a control tick at a time.
+%
+%   session = verp.Session();             % on a level floor
+%   session.add('walk_s', 10);            % generic21, as `verp walk` has it
+%   while session.tick(1)
+%     seen = session.seen();              % what it measured, was told and did
+%   end
+%   result = session.result();
+%   session.close();
+%
+% SI units. World frame: z up, the floor at 0. Robots and joints count from 0, as in verp.h, which
+% has every field of seen() and result(). An error names the call and why.
+%
+% verp.Session(WORLD) takes a world of common/worlds, or an SDF file; verp.Session(WORLD, STEP_US)
+% a physics step in microseconds (0: 1000).
+
+  properties (SetAccess = private)
+    session              % the library's handle
+    controllers = struct('function', {}, 'own_first', {})  % one a robot
+  end
+
+  methods
+    function obj = Session(world, physics_step_us)
+      if nargin < 1, world = ''; end
+      if nargin < 2, physics_step_us = 0; end
+      obj.session = verp_mex('session_open', world, physics_step_us);
+    end
+
+    function robot = add(obj, varargin)
+    %ADD One more robot, before the first tick: its number.
+    % add('model', 'op3', 'bus', '', 'name', '', 'tuning', 'gait.lift_m=0.012', 'record',
+    % 'a.mcap', 'seed', 1, 'walk_s', 20, 'vx_m_s', 0.18, 'vy_m_s', 0, 'wz_rad_s', 0, 'x_m', 0,
+    % 'y_m', 0, 'yaw_rad', 0, 'open_end', false): all may be left out. With walk_s = 0 it obeys
+    % command() alone.
+      known = {'model', 'bus', 'name', 'tuning', 'record', 'seed', 'walk_s', 'vx_m_s', 'vy_m_s', ...
+               'wz_rad_s', 'x_m', 'y_m', 'yaw_rad', 'open_end'};
+      if mod(numel(varargin), 2) ~= 0
+        error('verp:argument', 'verp: add() takes names and values');
+      end
+      what = struct();
+      for i = 1:2:numel(varargin)
+        name = varargin{i};
+        if ~ischar(name) || ~any(strcmp(name, known))
+          error('verp:argument', 'verp: add() knows: %s', strjoin(known, ', '));
+        end
+        value = varargin{i + 1};
+        if strcmp(name, 'open_end')
+          what.flags = double(logical(value));
+        else
+          what.(name) = value;
+        end
+      end
+      robot = verp_mex('session_add', obj.session, what);
+      obj.controllers(robot + 1) = struct('function', [], 'own_first', false);
+    end
+
+    function more = tick(obj, count)
+    %TICK At most so many ticks, each of one robot (1). False: the run is over.
+      if nargin < 2, count = 1; end
+      more = verp_mex('session_tick', obj.session, count, obj.controllers);
+    end
+
+    function seen = seen(obj, robot)
+    %SEEN The robot's last tick: inputs, outputs, joint_rad, goal_rad, truth; see verp_tick.
+      if nargin < 2, robot = 0; end
+      seen = verp_mex('session_seen', obj.session, robot);
+    end
+
+    function result = result(obj, robot)
+    %RESULT Ends the run of all robots, and tells how the walk went; see verp_result.
+      if nargin < 2, robot = 0; end
+      result = verp_mex('session_result', obj.session, robot);
+    end
+
+    function digest = digest(obj, robot)
+    %DIGEST Of all its ticks so far, uint64.
+      if nargin < 2, robot = 0; end
+      digest = verp_mex('session_digest', obj.session, robot);
+    end
+
+    function command(obj, request, velocity, head_rad, robot)
+    %COMMAND From now on the caller has the robot: 'relax', 'stand' or 'walk' with the velocity
+    % [vx m/s, vy m/s, wz rad/s] in its body frame, head [to the left, down] in rad.
+      if nargin < 3, velocity = [0 0 0]; end
+      if nargin < 4, head_rad = [0 0]; end
+      if nargin < 5, robot = 0; end
+      request = find(strcmp(request, {'relax', 'stand', 'walk'})) - 1;
+      if isempty(request) || numel(velocity) ~= 3 || numel(head_rad) ~= 2
+        error('verp:argument', 'verp: command() takes relax, stand or walk, [vx vy wz], [pan tilt]');
+      end
+      verp_mex('session_command', obj.session, robot, request, velocity(1), velocity(2), ...
+               velocity(3), head_rad(1), head_rad(2));
+    end
+
+    function give_back(obj, robot)
+    %GIVE_BACK The walk that was asked for goes on.
+      if nargin < 2, robot = 0; end
+      verp_mex('session_give_back', obj.session, robot);
+    end
+
+    function emergency_stop(obj, pressed, robot)
+    %EMERGENCY_STOP While it is pressed the robot is limp.
+      if nargin < 2, pressed = true; end
+      if nargin < 3, robot = 0; end
+      verp_mex('session_stop', obj.session, robot, pressed);
+    end
+
+    function control(obj, controller, own_first, robot)
+    %CONTROL A function in place of the robot's own controller, from the next tick on:
+    %   outputs = controller(inputs, outputs)
+    % as structs of counts (verp_inputs, verp_outputs); what it gives is sent as it is. `outputs`
+    % comes in as it was in the tick before, or, with own_first, as the robot's own controller has
+    % just decided. An empty controller: its own again.
+      if nargin < 3, own_first = false; end
+      if nargin < 4, robot = 0; end
+      if ~isempty(controller) && ~isa(controller, 'function_handle')
+        error('verp:argument', 'verp: control() takes a function handle, or []');
+      end
+      verp_mex('session_control', obj.session, robot, ~isempty(controller));
+      trapped = @(inputs, outputs) verp.tried(controller, inputs, outputs);
+      obj.controllers(robot + 1) = struct('function', {trapped}, 'own_first', logical(own_first));
+    end
+
+    function tune(obj, name, value, robot)
+    %TUNE A number of the tuning (`verp parameters`), in force in one of the next ticks.
+      if nargin < 4, robot = 0; end
+      verp_mex('session_tune', obj.session, robot, name, value);
+    end
+
+    function value = tuning(obj, name, robot)
+    %TUNING A number of the tuning as it is in force.
+      if nargin < 3, robot = 0; end
+      value = verp_mex('session_tuning', obj.session, robot, name);
+    end
+
+    function found = quantities(obj)
+    %QUANTITIES The numbers of the physics, once all robots were added: name, unit, what, low,
+    % high, settable.
+      found = verp_mex('session_quantities', obj.session);
+    end
+
+    function value = read(obj, quantity)
+    %READ A number of the physics: 'trunk.mass_kg'.
+      value = verp_mex('session_read', obj.session, quantity);
+    end
+
+    function set(obj, quantity, value)
+    %SET A number of the physics, from the next step on.
+      verp_mex('session_set', obj.session, quantity, value);
+    end
+
+    function push(obj, thing, force_n, for_s)
+    %PUSH Pushes a link or an object at its centre of mass, [x y z] N in the world's axes.
+      if numel(force_n) ~= 3
+        error('verp:argument', 'verp: push() takes a force of three numbers');
+      end
+      verp_mex('session_push', obj.session, thing, force_n(1), force_n(2), force_n(3), for_s);
+    end
+
+    function close(obj)
+    %CLOSE Ends the run; a trace that is written becomes whole. Also what MATLAB's end does.
+      if ~isempty(obj.session)
+        open = obj.session;
+        obj.session = [];
+        verp_mex('session_close', open);
+      end
+    end
+
+    function delete(obj)
+      obj.close();
+    end
+  end
+end

@@ -1,0 +1,118 @@
+% The MATLAB and Octave interface: its bits, its speed, and what it says to misuse. No syntax of one of them alone.
+function octave_test()
+  core_steps_what_a_session_saw();
+  own_controller_is_in_force();
+  kinematics_come_back();
+  misuse_is_an_error_that_names_the_call();
+  controller_that_errs_ends_the_call_alone();
+  fprintf('octave: all is well\n');
+end
+
+% With 2,000 ticks a second of CPU time, one call a tick.
+function core_steps_what_a_session_saw()
+  session = verp.Session();
+  session.add('walk_s', 2);
+  saw = {};
+  while session.tick()
+    seen = session.seen();
+    saw{end + 1} = seen.inputs;  %#ok<AGROW>
+  end
+  core = verp.Core();
+  start_s = cputime();
+  for i = 1:numel(saw)
+    outputs = core.step(saw{i});
+  end
+  ticks_s = numel(saw) / (cputime() - start_s);
+  assert(isequal(outputs.goal_count, seen.outputs.goal_count));
+  assert(core.digest() == session.digest(), 'the controller did not decide what it did in the walk');
+  fprintf('%.0f ticks/s\n', ticks_s);
+  assert(ticks_s >= 2000, 'too slow');
+  session.close();
+  core.close();
+end
+
+function own_controller_is_in_force()
+  session = verp.Session();
+  session.add('walk_s', 1);
+  session.tick(50);
+  session.control(@(inputs, outputs) setfield(outputs, 'torque_enable', 0));  %#ok<SFLD>
+  session.tick(5);
+  seen = session.seen();
+  assert(seen.outputs.torque_enable == 0);
+  session.control([]);
+  session.tick(5);
+  seen = session.seen();
+  assert(seen.outputs.torque_enable ~= 0);
+  session.close();
+end
+
+function kinematics_come_back()
+  core = verp.Core();
+  assert(numel(core.joint_names) == 21 && core.period_s > 0.001);
+  sole = eye(4);
+  plan = core.plan([0.1 0 0], 200);
+  sole(1:3, 1:3) = reshape(plan(end).left_sole(1:9), 3, 3)';
+  sole(1:3, 4) = plan(end).left_sole(10:12)';
+  [angles, flags] = core.leg_ik(0, sole);
+  assert(flags == 0 && max(abs(angles - plan(end).leg_rad(1:6))) < 1e-3);
+  assert(isequal(size(core.forward(zeros(1, 21))), [4 4 22]));
+  assert(abs(core.angle(3, core.count(3, 0.5)) - 0.5) < 0.01);
+  core.close();
+end
+
+function misuse_is_an_error_that_names_the_call()
+  session = verp.Session();
+  says(@() session.tick(), 'verp_session_tick');  % no robot yet
+  says(@() session.add('colour', 1), 'add() knows');
+  says(@() session.add('seed'), 'names and values');
+  says(@() session.add('model', 'nobody'), 'nobody');
+  says(@() session.add('walk_s', [1 2]), 'walk_s: 1 real double');
+  says(@() session.add('walk_s', NaN), 'walk_s: nan does not fit');
+  session.add('walk_s', 1);
+  says(@() session.read('moon'), 'moon');
+  says(@() session.seen(3), 'no such robot');
+  says(@() session.tick(-1), 'is no count');
+  says(@() session.push('trunk', 1, 1), 'three numbers');
+  says(@() session.command('jump'), 'relax, stand or walk');
+  says(@() session.control(3), 'function handle');
+  core = verp.Core();
+  says(@() core.forward([1 2 3]), 'verp_core_forward');
+  says(@() core.leg_ik(0, [1 2 3]), '4x4');
+  says(@() core.step(3), 'a struct of inputs');
+  says(@() core.step(struct('position_count', [1 2])), 'position_count: 32');
+  says(@() core.step(struct('tick', -1)), 'does not fit');
+  core.close();
+  session.close();
+  session.close();
+  says(@() session.tick(), 'no handle');
+  says(@() verp_mex('session_close', uint64(12345)), 'verp_session_close');
+  says(@() verp_mex('dance'), 'no such call');
+  says(@() verp_mex(), 'no such call');
+  says(@() verp.replay('/nowhere.mcap'), '/nowhere.mcap');
+end
+
+function controller_that_errs_ends_the_call_alone()
+  session = verp.Session();
+  session.add('walk_s', 1);
+  session.control(@(inputs, outputs) error('on purpose'));
+  says(@() session.tick(), 'the controller of robot 0: on purpose');
+  session.close();
+  wrong = {7, struct('goal_count', zeros(1, 3)), struct('mode', 300), struct('mode', NaN)};
+  for i = 1:numel(wrong)
+    session = verp.Session();
+    session.add('walk_s', 1);
+    session.control(@(inputs, outputs) wrong{i});
+    says(@() session.tick(), 'the controller of robot 0: ');
+    session.close();
+  end
+end
+
+function says(call, words)
+  try
+    call();
+  catch thrown
+    assert(~isempty(strfind(thrown.message, words)), ['says: ' thrown.message]);  %#ok<STREMP>
+    return;
+  end
+  error('no error, but "%s" was to come', words);
+end
