@@ -56,7 +56,8 @@ TEST_F(WatchedRun, TellsOfEachTickShowsItsRegistersAndRefusesOrders) {
   EXPECT_NE(slurp(folder_ / "write.err").find("under local control"), std::string::npos)
       << slurp(folder_ / "write.err");
   const json run = json::parse(slurp(folder_ / "last.out"));
-  // Where one core was too busy to be all of them, drives may be silent to the very end: which is told.
+  // Where one core was too busy to be all of them, drives may be silent to the very end: which is
+  // told.
   if (run.at("bus").at("timeouts") == 0 || run.at("failure") != "not every servo let go") {
     EXPECT_TRUE(run.at("let_go")) << run << outcome.err;
   }
