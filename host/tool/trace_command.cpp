@@ -6,9 +6,10 @@
 #include <fstream>
 #include <iostream>
 #include <memory>
+#include <utility>
 
-#include "common/control/step.hpp"
 #include "host/files/csv_field.hpp"
+#include "host/record/decisions.hpp"
 #include "host/record/fields.hpp"
 #include "host/record/joint_speeds.hpp"
 #include "host/record/replay.hpp"
@@ -82,33 +83,6 @@ int info(const TraceCommandOptions& options) {
   return kGood;
 }
 
-/// What the controller made of each tick: the run once more. Empty from where this program would
-/// decide otherwise than the one that was recorded, as another revision may.
-class Decisions {
- public:
-  explicit Decisions(const record::Trace& trace) : trace_(trace) {}
-  /// Null where it is not known. Ticks are asked for in order.
-  const Outputs* at(const TickRecord& record) {
-    if (!same_) return nullptr;
-    step(trace_.params, actions_, state_, record.inputs, outputs_);
-    same_ = state_.digest.chain == record.digest.chain;
-    if (same_) return &outputs_;
-    complain(
-        fmt::format("{}: from tick {} on this program decides otherwise than the one that "
-                    "recorded it: goals and phases are left empty; `verp replay` names why",
-                    trace_.file.string(), record.inputs.tick));
-    return nullptr;
-  }
-  const State& state() const { return state_; }
-
- private:
-  const record::Trace& trace_;
-  const action::Library actions_ = trace_.library();
-  State state_;
-  Outputs outputs_;
-  bool same_ = true;
-};
-
 void write_decision_names(const Params& params, bool states, std::ostream& out) {
   out << ",mode,gait_phase,gait_state,stance,faults,roll_rad,pitch_rad";
   for (int j = 0; j < params.joint_count; ++j) {
@@ -131,6 +105,13 @@ void write_decision(const Outputs* o, std::ostream& out) {
                      1e-4 * o->tilt_tenth_mrad[1]);
 }
 
+void tell_of_other_decisions(const record::Trace& trace, std::uint32_t tick) {
+  complain(
+      fmt::format("{}: from tick {} on this program decides otherwise than the one that "
+                  "recorded it: goals and phases are left empty; `verp replay` names why",
+                  trace.file.string(), tick));
+}
+
 /// One line a tick, SI units, sensor axes as the IMU has them.
 void write_csv(const record::Trace& trace, bool states, std::ostream& out) {
   const Params& params = trace.params;
@@ -145,7 +126,8 @@ void write_csv(const record::Trace& trace, bool states, std::ostream& out) {
   }
   write_decision_names(params, states, out);
   out << '\n';
-  Decisions decisions(trace);
+  record::Decisions decisions(trace);
+  bool told = false;
   record::JointSpeeds speeds(params);
   const std::size_t state_fields = states ? record::print_fields(State{}).size() : 0;
   for (const TickRecord& record : trace.ticks) {
@@ -166,6 +148,7 @@ void write_csv(const record::Trace& trace, bool states, std::ostream& out) {
       out << fmt::format(",{:.6f}", record::ros::joint_rad(params.joint[j], in.position_count[j]));
     }
     const Outputs* made = decisions.at(record);
+    if (made == nullptr && !std::exchange(told, true)) tell_of_other_decisions(trace, in.tick);
     write_decision(made, out);
     for (const double rad_s : speeds.after(in)) out << fmt::format(",{:.5g}", rad_s);
     for (int j = 0; j < params.joint_count; ++j) {
