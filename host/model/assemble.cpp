@@ -12,6 +12,7 @@
 #include "host/model/params.hpp"
 #include "host/model/sdf_parts.hpp"
 #include "host/model/self_collision.hpp"
+#include "host/model/sensor_sdf.hpp"
 #include "host/model/stance.hpp"
 #include "host/model/visuals.hpp"
 
@@ -249,9 +250,11 @@ class Assembler {
         other.link = link.Name();
         other.node = place.node;
         other.pose = place.pose;
-        read_lens(sensor, other);
         if (is_imu) put_imu(place.node, place.pose, &sensor);
-        if (sensor.LidarSensor() != nullptr) put_laser(place.node, place.pose, sensor);
+        if (sensor.LidarSensor() != nullptr)
+          e_.lasers.push_back(read_laser(sensor, place.node, place.pose, wrong(sensor)));
+        if (is_camera(sensor))
+          e_.cameras.push_back(read_camera(sensor, place.node, place.pose, wrong(sensor)));
       }
     }
     if (facts_.imu && facts_.imu->sensor.empty()) {
@@ -264,35 +267,11 @@ class Assembler {
     if (facts_.feet) e_.feet = facts_.feet->feet;
   }
 
-  void put_laser(int node, const Transform& pose, const sdf::Sensor& sensor) {
-    constexpr unsigned kMostSamples = 4096;
-    constexpr double kFastest_hz = 1000;
-    const sdf::Lidar& lidar = *sensor.LidarSensor();
-    LaserSensor laser{.name = sensor.Name(), .node = node, .pose = pose};
-    const auto wrong = [&](const std::string& what, const std::string& fix) {
-      fail(sensor.Name(), "laser '" + sensor.Name() + "': " + what, fix);
+  /// Complains of the sensor where the file declares it.
+  WrongSensor wrong(const sdf::Sensor& sensor) const {
+    return [this, &sensor](const std::string& what, const std::string& fix) {
+      fail(sensor.Name(), sensor.TypeStr() + " '" + sensor.Name() + "': " + what, fix);
     };
-    if (lidar.VerticalScanSamples() > 1)
-      wrong("it scans in one plane here", "leave <vertical> out");
-    if (lidar.HorizontalScanSamples() < 1 || lidar.HorizontalScanSamples() > kMostSamples)
-      wrong("<samples> is not 1 to 4096", "write how many rays a scan has");
-    laser.samples = static_cast<int>(lidar.HorizontalScanSamples());
-    laser.first_rad = lidar.HorizontalScanMinAngle().Radian();
-    laser.last_rad = lidar.HorizontalScanMaxAngle().Radian();
-    if (laser.samples > 1 && !(laser.last_rad > laser.first_rad))
-      wrong("<max_angle> is not above <min_angle>", "swap them, or give one sample");
-    laser.min_m = lidar.RangeMin();
-    laser.max_m = lidar.RangeMax();
-    if (!(laser.min_m >= 0 && laser.max_m > laser.min_m && laser.max_m <= 1000))
-      wrong("its <range> is none", "give <min> and <max> in m, up to 1000");
-    laser.resolution_m = lidar.RangeResolution();
-    laser.noise_mean_m = lidar.LidarNoise().Mean();
-    laser.noise_stddev_m = lidar.LidarNoise().StdDev();
-    laser.rate_hz = sensor.UpdateRate();
-    if (laser.rate_hz == 0) laser.rate_hz = 10;
-    if (!(laser.rate_hz > 0 && laser.rate_hz <= kFastest_hz))
-      wrong("its <update_rate> is not up to 1000 Hz", "give scans a second");
-    e_.lasers.push_back(std::move(laser));
   }
 
   void put_imu(int node, const Transform& pose, const sdf::Sensor* sensor) {

@@ -2,6 +2,7 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -143,13 +144,33 @@ struct LaserSensor {
   double angle_rad(int sample) const { return first_rad + sample * step_rad(); }
 };
 
-struct OtherSensor {  ///< camera and laser: described and checked
+/// A camera: looks along x, z is up in its picture. What it sees in direction (x, y, 1) of its
+/// lens' axes (x right, y down) is at pixel (fx x' + cx, fy y' + cy), whole numbers at pixels'
+/// centres, where (x', y') is (x, y) through the distortion.
+struct CameraSensor {
+  enum class Kind { kColour, kDepth, kColourAndDepth, kLabels };  ///< labels: of links and things
+  std::string name;
+  Kind kind = Kind::kColour;
+  int node = 0;
+  Transform pose = Transform::Identity();  ///< in the link frame
+  double rate_hz = 30;
+  int width_px = 320, height_px = 240;
+  double near_m = 0.02, far_m = 20;
+  double fx_px = 0, fy_px = 0, cx_px = 0, cy_px = 0;
+  /// k1, k2, p1, p2, k3 of Brown and Conrady, in the order of OpenCV and ROS ("plumb_bob").
+  std::array<double, 5> distortion{};
+  double noise_mean = 0, noise_stddev = 0;  ///< of each pixel: parts of white; of depth: m
+
+  bool has_colour() const { return kind == Kind::kColour || kind == Kind::kColourAndDepth; }
+  bool has_depth() const { return kind == Kind::kDepth || kind == Kind::kColourAndDepth; }
+  double horizontal_fov_rad() const { return 2 * std::atan(width_px / (2 * fx_px)); }
+};
+
+/// Any sensor of the file: described and checked.
+struct OtherSensor {
   std::string name, type, link;
   int node = 0;
   Transform pose = Transform::Identity();  ///< in the link frame
-  double horizontal_fov_rad = 0;           ///< cameras
-  int width_px = 0, height_px = 0;
-  double near_m = 0, far_m = 0;
 };
 
 /// Two links that never collide, though they are no neighbours.
@@ -171,11 +192,12 @@ struct Entity {
   FootSensor feet;
   std::vector<NoCollide> no_collide;
   std::vector<OtherSensor> sensors;
-  std::vector<LaserSensor> lasers;  ///< also among the sensors
-  std::string bus;                  ///< name of the one of its buses that is used
-  std::string bus_file;             ///< where its <verp:bus> stands
-  int bus_line = 1;                 ///< there
-  std::vector<std::string> buses;   ///< names of all it has, in the order of the file
+  std::vector<LaserSensor> lasers;    ///< also among the sensors
+  std::vector<CameraSensor> cameras;  ///< likewise
+  std::string bus;                    ///< name of the one of its buses that is used
+  std::string bus_file;               ///< where its <verp:bus> stands
+  int bus_line = 1;                   ///< there
+  std::vector<std::string> buses;     ///< names of all it has, in the order of the file
   BusProtocol protocol = BusProtocol::kDynamixel2;
   std::uint32_t baud = 2000000;
   std::uint32_t period_us = 10000;

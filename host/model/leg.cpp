@@ -59,6 +59,9 @@ void shift_frame(Entity& entity, int node, const Vec3& shift) {
   for (LaserSensor& laser : entity.lasers) {
     if (laser.node == node) laser.pose.translation() -= shift;
   }
+  for (CameraSensor& camera : entity.cameras) {
+    if (camera.node == node) camera.pose.translation() -= shift;
+  }
   for (OtherSensor& sensor : entity.sensors) {
     if (sensor.node == node) sensor.pose.translation() -= shift;
   }

@@ -2,7 +2,6 @@
 
 #include <filesystem>
 #include <sdf/Box.hh>
-#include <sdf/Camera.hh>
 #include <sdf/Capsule.hh>
 #include <sdf/Cylinder.hh>
 #include <sdf/Geometry.hh>
@@ -90,16 +89,6 @@ std::vector<Visual> read_visuals(const sdf::Link& link, const PictureFiles& file
     visuals.push_back(std::move(visual));
   }
   return visuals;
-}
-
-void read_lens(const sdf::Sensor& sdf, OtherSensor& sensor) {
-  const sdf::Camera* camera = sdf.CameraSensor();
-  if (camera == nullptr) return;
-  sensor.horizontal_fov_rad = camera->HorizontalFov().Radian();
-  sensor.width_px = static_cast<int>(camera->ImageWidth());
-  sensor.height_px = static_cast<int>(camera->ImageHeight());
-  sensor.near_m = camera->NearClip();
-  sensor.far_m = camera->FarClip();
 }
 
 }  // namespace verp::model

@@ -1,6 +1,5 @@
 #pragma once
 #include <sdf/Link.hh>
-#include <sdf/Sensor.hh>
 #include <string>
 #include <vector>
 
@@ -23,8 +22,5 @@ class PictureFiles {
 /// What a link looks like, poses in the SDF link's own frame. Shapes that nobody draws are left
 /// out: nothing that is seen is worth refusing a robot for.
 std::vector<Visual> read_visuals(const sdf::Link& link, const PictureFiles& files);
-
-/// Lens and picture of a camera, if it is one.
-void read_lens(const sdf::Sensor& sdf, OtherSensor& sensor);
 
 }  // namespace verp::model

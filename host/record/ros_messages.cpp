@@ -3,6 +3,8 @@
 #include <cmath>
 #include <cstring>
 
+#include "host/record/cdr.hpp"
+
 namespace verp::record::ros {
 
 const std::string_view kJointStateSchema = R"(std_msgs/Header header
@@ -103,38 +105,6 @@ const std::string_view kStringSchema = "string data\n";
 
 namespace {
 
-/// CDR, little-endian: every number stands at a multiple of its size after the 4-byte encapsulation
-/// header.
-class Cdr {
- public:
-  template <class Number>
-  Cdr& put(Number value) {
-    while ((data_.size() - 4) % sizeof(Number) != 0) data_ += '\0';
-    data_.append(reinterpret_cast<const char*>(&value), sizeof(value));
-    return *this;
-  }
-  Cdr& text(std::string_view value) {
-    put(static_cast<std::uint32_t>(value.size() + 1));
-    data_.append(value);
-    data_ += '\0';
-    return *this;
-  }
-  Cdr& header(std::uint64_t time_ns, std::string_view frame) {
-    put(static_cast<std::int32_t>(time_ns / 1'000'000'000));
-    put(static_cast<std::uint32_t>(time_ns % 1'000'000'000));
-    return text(frame);
-  }
-  template <class Range>
-  Cdr& doubles(const Range& values) {
-    for (const double value : values) put(value);
-    return *this;
-  }
-  std::string take() { return std::move(data_); }
-
- private:
-  std::string data_{"\0\1\0\0", 4};  // CDR_LE
-};
-
 std::string_view name_of(const JointParams& joint) {
   return {joint.name, ::strnlen(joint.name, kNameLength)};
 }
@@ -206,6 +176,10 @@ std::string imu(const Params& params, const Inputs& inputs, std::uint64_t time_n
   return out.take();
 }
 
+std::string frame_of(const Params& params, int node) {
+  return node == 0 ? "body" : std::string(name_of(params.joint[node - 1]));
+}
+
 std::string transforms(const Params& params, const Inputs& inputs, const BodyPose& body,
                        std::uint64_t time_ns) {
   Cdr out;
@@ -214,12 +188,10 @@ std::string transforms(const Params& params, const Inputs& inputs, const BodyPos
   out.doubles(body.position_m).doubles(body.orientation_xyzw);
   for (int j = 0; j < params.joint_count; ++j) {
     const JointParams& joint = params.joint[j];
-    const std::string_view parent =
-        joint.parent == 0 ? "body" : name_of(params.joint[joint.parent - 1]);
     const double half_rad = 0.5 * joint_rad(joint, inputs.position_count[j]);
     const Xyz& origin = joint.origin_parent_m;
     const Xyz& axis = joint.axis;
-    out.header(time_ns, parent).text(name_of(joint));
+    out.header(time_ns, frame_of(params, joint.parent)).text(name_of(joint));
     for (const float value : {origin.x, origin.y, origin.z}) out.put(static_cast<double>(value));
     for (const float value : {axis.x, axis.y, axis.z}) {
       out.put(static_cast<double>(value) * std::sin(half_rad));
@@ -229,54 +201,18 @@ std::string transforms(const Params& params, const Inputs& inputs, const BodyPos
   return out.take();
 }
 
-namespace {
-
-/// CDR read back, little-endian; a read beyond the end leaves zeros, and `good` says so.
-class CdrReader {
- public:
-  explicit CdrReader(std::string_view data) : data_(data) {}
-  template <class Number>
-  Number get() {
-    while (at_ >= 4 && (at_ - 4) % sizeof(Number) != 0) ++at_;
-    Number value{};
-    good = good && at_ + sizeof(Number) <= data_.size();
-    if (good) std::memcpy(&value, data_.data() + at_, sizeof(Number));
-    at_ += sizeof(Number);
-    return value;
-  }
-  std::string_view text() {
-    const auto length = get<std::uint32_t>();
-    good = good && length > 0 && at_ + length <= data_.size();
-    const std::string_view found = good ? data_.substr(at_, length - 1) : "";
-    if (good) at_ += length;
-    return found;
-  }
-  BodyPose pose() {
-    BodyPose pose;
-    for (double& value : pose.position_m) value = get<double>();
-    for (double& value : pose.orientation_xyzw) value = get<double>();
-    return pose;
-  }
-  bool good = true;
-
- private:
-  std::string_view data_;
-  std::size_t at_ = 4;
-};
-
-}  // namespace
-
 std::optional<BodyPose> body_pose(std::string_view transforms) {
   const std::vector<ObjectPose> all = read_objects(transforms);
   if (all.empty()) return std::nullopt;
   return all.front().pose;
 }
 
-std::string objects(std::span<const ObjectPose> objects, std::uint64_t time_ns) {
+std::string objects(std::span<const ObjectPose> objects, std::uint64_t time_ns,
+                    std::string_view parent) {
   Cdr out;
   out.put(static_cast<std::uint32_t>(objects.size()));
   for (const ObjectPose& object : objects) {
-    out.header(time_ns, "world").text(object.name);
+    out.header(time_ns, parent).text(object.name);
     out.doubles(object.pose.position_m).doubles(object.pose.orientation_xyzw);
   }
   return out.take();
@@ -290,7 +226,9 @@ std::vector<ObjectPose> read_objects(std::string_view message) {
     in.get<std::uint32_t>();
     in.text();
     const std::string_view name = in.text();
-    const BodyPose pose = in.pose();
+    BodyPose pose;
+    for (double& value : pose.position_m) value = in.get<double>();
+    for (double& value : pose.orientation_xyzw) value = in.get<double>();
     if (in.good) out.push_back({std::string(name), pose});
   }
   return in.good ? out : std::vector<ObjectPose>();

@@ -14,6 +14,11 @@
 /// the tick's inputs; replay never reads them.
 namespace verp::record::ros {
 
+/// A message's name, and its definition with its dependencies.
+struct MessageType {
+  std::string_view name, schema;
+};
+
 /// Message definitions with their dependencies, as MCAP's "ros2msg" schema encoding wants them.
 extern const std::string_view kJointStateSchema;  ///< sensor_msgs/msg/JointState
 extern const std::string_view kStringSchema;      ///< std_msgs/msg/String
@@ -32,8 +37,9 @@ struct ObjectPose {
   std::string name;
   BodyPose pose;
 };
-/// tf2_msgs/TFMessage, one transform for each.
-std::string objects(std::span<const ObjectPose> objects, std::uint64_t time_ns);
+/// tf2_msgs/TFMessage, one transform for each, in the frame `parent`.
+std::string objects(std::span<const ObjectPose> objects, std::uint64_t time_ns,
+                    std::string_view parent = "world");
 /// What objects() was given. Empty: it is no such message.
 std::vector<ObjectPose> read_objects(std::string_view message);
 
@@ -55,6 +61,8 @@ std::string joint_state(const Params& params, const std::int32_t (&position_coun
 std::string control(const Params& params, const Inputs& inputs, const Outputs& outputs);
 /// Gyro and accelerometer, rotated into the body frame; orientation is declared unknown.
 std::string imu(const Params& params, const Inputs& inputs, std::uint64_t time_ns);
+/// As transforms() names the frame of a node: body, or the joint that moves it.
+std::string frame_of(const Params& params, int node);
 /// world -> body, then one transform per joint: parent link to the link it moves, at the measured
 /// angle.
 std::string transforms(const Params& params, const Inputs& inputs, const BodyPose& body,

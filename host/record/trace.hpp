@@ -1,6 +1,7 @@
 #pragma once
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -9,6 +10,7 @@
 #include "common/model/params.hpp"
 #include "common/record/tick_record.hpp"
 #include "host/record/mcap_format.hpp"
+#include "host/record/ros_camera.hpp"
 #include "host/record/ros_messages.hpp"
 #include "host/record/trace_error.hpp"
 
@@ -87,5 +89,16 @@ Trace read_trace(const std::filesystem::path& file, Read mode = Read::kStrict);
 
 /// Source revision, compiler and flags of this program, for metadata.
 mcap::StringMap build_info();
+
+/// What a camera saw, as its trace has it.
+struct RecordedPicture {
+  std::string topic;
+  std::uint64_t time_ns = 0;
+  ros::Picture picture;
+};
+/// Each picture in a trace, in the order of the file; returns how many there were. Throws
+/// TraceError.
+std::size_t for_each_picture(const std::filesystem::path& file,
+                             const std::function<void(const RecordedPicture&)>& show);
 
 }  // namespace verp::record

@@ -232,4 +232,28 @@ Trace read_trace(const fs::path& path, Read mode) {
   return trace;
 }
 
+std::size_t for_each_picture(const fs::path& path,
+                             const std::function<void(const RecordedPicture&)>& show) {
+  const std::string bytes = read_bytes(path);
+  const mcap::File file = mcap::parse(bytes);
+  if (file.flaw) {
+    throw TraceError(path, file.flaw->offset, file.flaw->what,
+                     "take an intact copy or record the run again");
+  }
+  std::size_t count = 0;
+  for (const mcap::Message& message : file.messages) {
+    const mcap::Channel& channel = file.channels.at(message.channel);
+    const std::string_view type = file.schemas.at(channel.schema).name;
+    const bool compressed = type == ros::kCompressedImage.name;
+    if (!compressed && type != ros::kImage.name) continue;
+    auto picture = compressed ? ros::read_compressed(message.data) : ros::read_image(message.data);
+    if (!picture) {
+      throw TraceError(path, message.offset, "a picture that is none", "record the run again");
+    }
+    show({std::string(channel.topic), message.time_ns, std::move(*picture)});
+    ++count;
+  }
+  return count;
+}
+
 }  // namespace verp::record

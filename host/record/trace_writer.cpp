@@ -96,14 +96,19 @@ void TraceWriter::put(const TickRecord& record, const State* kept, const Outputs
 
 void TraceWriter::append(const std::string& sensor, std::uint32_t tick,
                          const ros::LaserScan& scan) {
-  if (!options_.ros) return;
-  if (!sensors_.contains(sensor)) {
-    sensors_[sensor] = writer_.add_channel(
-        writer_.add_schema("sensor_msgs/msg/LaserScan", "ros2msg", ros::kLaserScanSchema),
-        "/" + sensor, "cdr");
-  }
   const std::uint64_t time_ns = std::uint64_t{tick} * params_.period_us * 1000;
-  writer_.add_message(sensors_[sensor], time_ns, ros::laser_scan(scan, time_ns));
+  append("/" + sensor, {"sensor_msgs/msg/LaserScan", ros::kLaserScanSchema}, time_ns,
+         ros::laser_scan(scan, time_ns));
+}
+
+void TraceWriter::append(const std::string& topic, const ros::MessageType& type,
+                         std::uint64_t time_ns, std::string_view message) {
+  if (!options_.ros) return;
+  if (!sensors_.contains(topic)) {
+    sensors_[topic] =
+        writer_.add_channel(writer_.add_schema(type.name, "ros2msg", type.schema), topic, "cdr");
+  }
+  writer_.add_message(sensors_[topic], time_ns, message);
 }
 
 void TraceWriter::append(std::uint32_t tick, std::span<const ros::ObjectPose> objects) {

@@ -42,6 +42,10 @@ class TraceWriter {
   /// What a sensor that the controller does not have measured up to that tick, on /SENSOR. Nothing
   /// without TraceOptions::ros.
   void append(const std::string& sensor, std::uint32_t tick, const ros::LaserScan& scan);
+  /// Any message of a viewer's, on `topic`, which has one type; time_ns: as ticks have it. May be
+  /// older than what stands there. Nothing without TraceOptions::ros.
+  void append(const std::string& topic, const ros::MessageType& type, std::uint64_t time_ns,
+              std::string_view message);
   /// Where the twin's world had what can move in it after that tick; kept as often as the body.
   void append(std::uint32_t tick, std::span<const ros::ObjectPose> objects);
   /// What a person did to the twin after that tick.

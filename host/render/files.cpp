@@ -98,14 +98,12 @@ scene::Triangles read_mesh(const std::string& file) {
   return out;
 }
 
-Image read_png(const std::string& file) {
-  require_file(file);
-  Png png;
-  if (png_image_begin_read_from_file(&png.image, file.c_str()) == 0) {
-    refuse(file, std::string("not a PNG picture (") + png.image.message + ")", "convert it");
-  }
+namespace {
+
+/// Of a PNG whose head has been read.
+Image finish_reading(const std::string& name, Png& png) {
   if (png.image.width > kMostTexture || png.image.height > kMostTexture) {
-    refuse(file,
+    refuse(name,
            "a picture of " + std::to_string(png.image.width) + "x" +
                std::to_string(png.image.height) + " pixels",
            "8192x8192 is the most: scale it down");
@@ -115,9 +113,29 @@ Image read_png(const std::string& file) {
   png.image.format = PNG_FORMAT_RGB;
   out.rgb.resize(PNG_IMAGE_SIZE(png.image));
   if (png_image_finish_read(&png.image, nullptr, out.rgb.data(), 0, nullptr) == 0) {
-    refuse(file, std::string("a broken PNG picture (") + png.image.message + ")", "make it anew");
+    refuse(name, std::string("a broken PNG picture (") + png.image.message + ")", "make it anew");
   }
   return out;
+}
+
+[[noreturn]] void refuse_png(const std::string& name, const Png& png) {
+  refuse(name, std::string("not a PNG picture (") + png.image.message + ")", "convert it");
+}
+
+}  // namespace
+
+Image read_png(const std::string& file) {
+  require_file(file);
+  Png png;
+  if (png_image_begin_read_from_file(&png.image, file.c_str()) == 0) refuse_png(file, png);
+  return finish_reading(file, png);
+}
+
+Image read_png(const std::string& name, std::string_view bytes) {
+  Png png;
+  if (png_image_begin_read_from_memory(&png.image, bytes.data(), bytes.size()) == 0)
+    refuse_png(name, png);
+  return finish_reading(name, png);
 }
 
 Texture read_texture(const std::string& file) {
@@ -134,6 +152,22 @@ Texture read_texture(const std::string& file) {
 
 void write_png(const std::string& file, const Image& image) {
   write(file, image.size, PNG_FORMAT_RGB, image.rgb.data());
+}
+
+std::string png_of(const Image& image) {
+  Png png;
+  png.image.width = static_cast<png_uint_32>(image.size.width);
+  png.image.height = static_cast<png_uint_32>(image.size.height);
+  png.image.format = PNG_FORMAT_RGB;
+  png.image.flags = PNG_IMAGE_FLAG_FAST;
+  png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(png.image);
+  std::string bytes(size, '\0');
+  if (png_image_write_to_memory(&png.image, bytes.data(), &size, 0, image.rgb.data(), 0, nullptr) ==
+      0) {
+    throw RenderError(std::string("a picture cannot be made a PNG (") + png.image.message + ")");
+  }
+  bytes.resize(size);
+  return bytes;
 }
 
 void write_depth_png(const std::string& file, const Measured& measured) {

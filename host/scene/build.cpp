@@ -42,9 +42,7 @@ class RobotBuilder {
 
   int build() {
     for (int node = 0; node < static_cast<int>(e_.nodes.size()); ++node) add_link(node);
-    for (const model::OtherSensor& sensor : e_.sensors) {
-      if (sensor.type == "camera") add_camera(sensor);
-    }
+    for (const model::CameraSensor& sensor : e_.cameras) add_camera(sensor);
     for (const model::Joint& joint : e_.joints) add_hub(joint);
     scene_.robots.push_back({e_.name, std::make_shared<const Entity>(e_), height_m()});
     return robot_;
@@ -120,9 +118,9 @@ class RobotBuilder {
   }
 
   /// The file's camera, and a lens where it sits.
-  void add_camera(const model::OtherSensor& sensor) {
+  void add_camera(const model::CameraSensor& sensor) {
     scene_.cameras.push_back({sensor.name, robot_, sensor.node, sensor.pose,
-                              sensor.horizontal_fov_rad, sensor.width_px, sensor.height_px,
+                              sensor.horizontal_fov_rad(), sensor.width_px, sensor.height_px,
                               sensor.near_m, sensor.far_m});
     Transform rim = sensor.pose;
     rim.translate(Vec3(-0.004, 0, 0))

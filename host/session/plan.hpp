@@ -57,6 +57,10 @@ struct Hooks {
   /// sent, what it leaves in State is recorded. It may throw, which ends the run.
   std::function<void(const Params&, State&, const Inputs&, Outputs&)> decide;
   std::function<void(const Tick&)> ticked;
+  /// When the robot's cameras looked (plan.twin.cameras), up to the tick that was just recorded;
+  /// stamp_ns: as the trace counts time. Not called any more once a trace that was given breaks
+  /// off.
+  std::function<void(const sim::Exposure&, std::uint64_t stamp_ns)> exposed;
   record::TraceWriter* trace = nullptr;  ///< gets every tick; must outlive the run
   bool keep_series = false;              ///< WalkResult::series
   bool open_end = false;  ///< neither its length nor a fall ends the run: its user does

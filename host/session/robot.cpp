@@ -127,6 +127,7 @@ void Robot::see() {
   result_.digest = tick_.digest.chain;
   result_.faults = outputs_.faults;
   if (trace_ != nullptr) append(seen.truth);
+  tell_exposures();
   const bool done = hooks_.order ? gone_s() >= plan_.walk_s : walker_->done();
   intervene_in_time();
   after_s_ += twin_.fallen() || done ? plan_.params.period_us * 1e-6 : 0;
@@ -250,6 +251,15 @@ void Robot::append(const sim::Scan& scan) {
                                         .min_m = laser.min_m,
                                         .max_m = laser.max_m,
                                         .range_m = scan.range_m});
+}
+
+void Robot::tell_exposures() {
+  if (!hooks_.exposed || (hooks_.trace != nullptr && trace_ == nullptr)) return;
+  const std::uint64_t tick_us = std::uint64_t{tick_.inputs.tick} * plan_.params.period_us;
+  for (const sim::Exposure& each : twin_.take_exposures()) {
+    const std::uint64_t ago_us = twin_.now_us() - each.time_us;
+    if (ago_us <= tick_us) hooks_.exposed(each, 1000 * (tick_us - ago_us));  // else: before tick 0
+  }
 }
 
 std::string Robot::failure_of_walk() const {

@@ -90,6 +90,7 @@ class Robot {
  private:
   void append(const sim::Truth& truth);
   void append(const sim::Scan& scan);
+  void tell_exposures();
   std::string failure_of_walk() const;
   void intervene_in_time();
   void note(const std::string& what);

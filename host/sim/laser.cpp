@@ -7,15 +7,13 @@ namespace verp::sim {
 
 LaserModel::LaserModel(const model::LaserSensor& sensor, std::size_t index, int owner, bool noise,
                        Random random)
-    : sensor_(sensor), owner_(owner), noise_(noise), random_(random) {
+    : sensor_(sensor), owner_(owner), noise_(noise), random_(random), shutter_(sensor.rate_hz) {
   scan_.laser = index;
   bias_m_ = sensor.noise_mean_m;
 }
 
 bool LaserModel::sample(const World& world, const Transform& link) {
-  const double due_s = static_cast<double>(taken_ + 1) / sensor_.rate_hz;
-  if (world.now_us() < static_cast<std::uint64_t>(std::llround(1e6 * due_s))) return false;
-  ++taken_;
+  if (!shutter_.opens(world.now_us())) return false;
   scan_.time_us = world.now_us();
   scan_.range_m.clear();
   const Transform sensor = link * sensor_.pose;

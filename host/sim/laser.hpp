@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "host/model/entity.hpp"
+#include "host/sim/exposure.hpp"
 #include "host/sim/random.hpp"
 #include "host/sim/world.hpp"
 
@@ -34,7 +35,7 @@ class LaserModel {
   const bool noise_;
   Random random_;
   double bias_m_ = 0;
-  std::uint64_t taken_ = 0;
+  Shutter shutter_;
   Scan scan_;
 };
 

@@ -26,6 +26,7 @@ enum class Draw : std::uint64_t {
   kVaryTilt = 28,
   kVarySupply = 29,
   kLaser = 50,     ///< plus the laser's index
+  kCamera = 80,    ///< plus the camera's index
   kEncoder = 100,  ///< plus the joint's index
 };
 

@@ -5,6 +5,8 @@
 #include <numbers>
 #include <utility>
 
+#include "host/sim/scenery.hpp"
+
 namespace verp::sim {
 namespace {
 
@@ -19,6 +21,8 @@ constexpr double kYawSpread = 0.5 * kDegree;
 /// Fallen: body lower than this part of its initial height, or tilted by more than this.
 constexpr double kFallenHeight = 0.6;
 constexpr double kFallenTilt = 1.0;
+// Of scans, and of exposures: where nobody asks for them the oldest go.
+constexpr std::size_t kMostScans = 1000;
 
 std::vector<double> mass_factors(const model::Entity& entity, const TwinOptions& options) {
   Random random(options.seed, Draw::kMass);
@@ -97,6 +101,9 @@ TwinRobot::TwinRobot(World& world, const model::Entity& entity, const TwinOption
     laser_.emplace_back(entity_.lasers[i], i, owner_, options.imperfections.lasers,
                         Random(options.seed, Draw::kLaser, static_cast<int>(i)));
   }
+  for (const model::CameraSensor& camera : entity_.cameras) {
+    if (options.cameras) shutter_.emplace_back(camera.rate_hz);
+  }
   initial_height_m_ = start.body_world.translation().z() - options.start_m.z();
   const auto delay_steps =
       static_cast<std::size_t>(std::lround(options.goal_delay_s / world.step_s()));
@@ -153,6 +160,7 @@ void TwinRobot::after_step(double step_s) {
   update_feet(step_s);
   update_fallen();
   update_lasers();
+  update_cameras();
 }
 
 bool TwinRobot::set_upright() {
@@ -244,12 +252,24 @@ void TwinRobot::update_feet(double step_s) {
 }
 
 void TwinRobot::update_lasers() {
-  constexpr std::size_t kMostScans = 1000;  // nobody asks for them: the oldest go
   for (std::size_t i = 0; i < laser_.size(); ++i) {
     if (!laser_[i].sample(world_, body_.link_pose(entity_.lasers[i].node))) continue;
     if (scans_.size() == kMostScans) scans_.erase(scans_.begin());
     scans_.push_back(laser_[i].scan());
   }
+}
+
+void TwinRobot::update_cameras() {
+  Exposure now{.time_us = world_.now_us(), .cameras = {}, .link_world = {}, .body_world = {}};
+  for (std::size_t i = 0; i < shutter_.size(); ++i) {
+    if (shutter_[i].opens(now.time_us)) now.cameras.push_back(i);
+  }
+  if (now.cameras.empty()) return;
+  for (std::size_t node = 0; node < entity_.nodes.size(); ++node)
+    now.link_world.push_back(body_.link_pose(static_cast<int>(node)));
+  if (world_.scenery() != nullptr) now.body_world = world_.scenery()->moving_poses();
+  if (exposures_.size() == kMostScans) exposures_.erase(exposures_.begin());
+  exposures_.push_back(std::move(now));
 }
 
 int TwinRobot::foot_of(int node) const {

@@ -8,6 +8,7 @@
 
 #include "host/model/entity.hpp"
 #include "host/sim/body.hpp"
+#include "host/sim/exposure.hpp"
 #include "host/sim/laser.hpp"
 #include "host/sim/plant.hpp"
 #include "host/sim/sensors.hpp"
@@ -53,6 +54,7 @@ struct TwinOptions {
   /// Internal resistance of battery and harness. An estimate: 3 LiPo cells of about 10 mOhm (hobby
   /// packs of 1 to 2 Ah), plug, fuse and the first metre of daisy chain.
   double supply_ohm = 0.1;
+  bool cameras = false;  ///< somebody draws what they see: take_exposures()
 };
 
 /// One robot in a World: links, servos, sensors. The controller's side is Plant, which speaks
@@ -94,6 +96,8 @@ class TwinRobot final : public Plant, private Actor {
   std::uint64_t steps() const { return steps_; }
   /// Scans that were taken since they were last asked for.
   std::vector<Scan> take_scans() { return std::exchange(scans_, {}); }
+  /// Likewise when its cameras looked.
+  std::vector<Exposure> take_exposures() { return std::exchange(exposures_, {}); }
   const std::vector<std::uint64_t>& saturated_steps() const { return saturated_steps_; }
 
   /// In how many physics steps one of its links touched another, and which two did so last.
@@ -115,6 +119,7 @@ class TwinRobot final : public Plant, private Actor {
   void update_feet(double step_s);
   void update_fallen();
   void update_lasers();
+  void update_cameras();
   FootTruth foot_truth(int foot) const;
   Transform imu_pose() const;
   Vec3 imu_point_velocity() const;
@@ -134,6 +139,8 @@ class TwinRobot final : public Plant, private Actor {
   std::array<int, 2> foot_node_{-1, -1};
   std::vector<LaserModel> laser_;
   std::vector<Scan> scans_;
+  std::vector<Shutter> shutter_;  ///< of each camera, if somebody draws
+  std::vector<Exposure> exposures_;
   Vec3 imu_velocity_world_m_s_ = Vec3::Zero();
   FootLoads step_loads_;  ///< of the last step
   FootLoads loads_;       ///< since take_foot_loads()

@@ -17,6 +17,7 @@
 #include "host/tool/command.hpp"
 #include "host/tool/console.hpp"
 #include "host/tool/json.hpp"
+#include "host/tool/trace_pictures.hpp"
 
 namespace verp::tool {
 namespace {
@@ -250,8 +251,11 @@ Subcommand add_trace(CLI::App& root) {
   CLI::App* mend =
       add("recover", "write what stands before a truncation or damage as a whole trace");
   mend->add_option("-o,--output", options->output, "file")->required();
+  CLI::App* pictures = add("pictures", "what its cameras saw (`verp walk --cameras`), as files");
+  pictures->add_option("-o,--output", options->output, "folder")->required();
   return {app, [=] {
             if (show->parsed()) return info(*options);
+            if (pictures->parsed()) return write_pictures(options->file, options->output);
             return csv->parsed() ? export_csv(*options) : recover(*options);
           }};
 }

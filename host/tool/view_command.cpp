@@ -57,7 +57,7 @@ CLI::App* declare_view(CLI::App& root, ViewOptions& words) {
   declare(*app, options);
   // What is of a run that nobody watches.
   for (const char* name : {"--report", "--record-state", "--json", "--sweep-step", "--seeds",
-                           "--on", "--list-quantities"}) {
+                           "--on", "--list-quantities", "--cameras", "--real-time"}) {
     app->remove_option(app->get_option(name));
   }
   app->get_option("MODEL")->description(

@@ -1,4 +1,6 @@
 #include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
 #include <memory>
 #include <utility>
 #include <vector>
@@ -6,12 +8,28 @@
 #include "host/tool/command.hpp"
 #include "host/tool/console.hpp"
 #include "host/tool/interrupt.hpp"
+#include "host/tool/walk_cameras.hpp"
 #include "host/tool/walk_ending.hpp"
 #include "host/tool/walk_plan.hpp"
 #include "host/tool/walk_seeds.hpp"
 
 namespace verp::tool {
 namespace {
+
+void add_cameras(const WalkCameras& cameras, const Walks& walks, Drawn& drawn, WalkFiles& files) {
+  drawn.text += cameras.text(walks.took_s);
+  drawn.json["cameras"] = cameras.json();
+  if (!cameras.failure().empty()) files.lose(cameras.failure());
+}
+
+void add_deadlines(const app::Deadlines& deadlines, Drawn& drawn) {
+  drawn.text += fmt::format("  {:<18}{} ticks, {} late, the worst began {:.1f} ms after its time\n",
+                            "real time", deadlines.ticks, deadlines.missed,
+                            1e-3 * static_cast<double>(deadlines.worst_late_us));
+  drawn.json["deadlines"] = {{"ticks", deadlines.ticks},
+                             {"missed", deadlines.missed},
+                             {"worst_late_us", deadlines.worst_late_us}};
+}
 
 int run_walk(WalkOptions options) {
   sim::WorldOptions world = world_of(options);
@@ -25,15 +43,20 @@ int run_walk(WalkOptions options) {
   sweep_of(options);  // before the long run: a mistake in it is found now
   if (options.report_folder.empty() && !options.json) options.report_folder = "report";
   WalkFiles files(options, plan);
+  std::unique_ptr<WalkCameras> cameras;
+  if (options.cameras)
+    cameras = std::make_unique<WalkCameras>(options, plan, others, world, files.trace());
   Progress progress(!options.json);
-  const Walks walks =
-      walk_together(plan, others, files.trace(), progress, files.wants_report(), world);
+  const Walks walks = walk_together(plan, others, files.trace(), progress, files.wants_report(),
+                                    world, cameras.get(), options.real_time);
   const WalkResult& result = walks.result;
   const Sweep swept = sweep(plan, options, progress);
   progress.clear();
   drawn.json["changes"] = touch_json(result);
   drawn.json.update(place_json(walks, world));
   drawn.text += touch_text(result) + place_text(walks, world);
+  if (cameras) add_cameras(*cameras, walks, drawn, files);
+  if (options.real_time) add_deadlines(walks.deadlines, drawn);
   if (result.good()) {
     for (const std::string& line : never_done(plan, result)) complain(line);
   }

@@ -28,6 +28,9 @@ class WalkFiles {
   record::TraceWriter* trace() { return trace_.get(); }
   bool wants_report() const { return !folder_.empty(); }
 
+  /// Something that was wanted is not there, and why.
+  void lose(const std::string& why) { lost_.push_back(why); }
+
   /// Ends the trace and writes the report, if they are wanted, in one go: of two runs into one
   /// folder, the files of one stand there, not some of each.
   void finish(const WalkResult& result, report::Run run);

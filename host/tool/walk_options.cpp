@@ -112,7 +112,8 @@ void declare_basics(CLI::App& app, WalkOptions& options) {
 }
 
 std::vector<std::pair<std::string, std::string>> changed_options(const CLI::App& app) {
-  const std::set<std::string> kOfNoEffect = {"--json", "--report", "--record", "--record-state"};
+  const std::set<std::string> kOfNoEffect = {"--json",         "--report",  "--record",
+                                             "--record-state", "--cameras", "--real-time"};
   std::vector<std::pair<std::string, std::string>> changed;
   for (const CLI::Option* option : app.get_options()) {
     if (option->count() == 0 || option->get_positional() ||
@@ -150,6 +151,12 @@ void declare(CLI::App& app, WalkOptions& options) {
                  "of the twin, ms: 0.25, 0.5, 1, or 2, which is twice as fast and within 1 %")
       ->check(CLI::IsMember({0.25, 0.5, 1.0, 2.0}))
       ->capture_default_str();
+  app.add_flag("--cameras", options.cameras,
+               "keep what the robot's cameras see in the trace; `verp trace pictures` takes it out")
+      ->excludes("--seeds");
+  app.add_flag("--real-time", options.real_time,
+               "walk no faster than time goes by, and say which ticks were late")
+      ->excludes("--seeds");
   declare(app, options.place);
   declare(app, options.touch);
   app.add_option("--on", options.board,

@@ -38,6 +38,8 @@ struct WalkOptions {
   TouchOptions touch;
   PlaceOptions place;
   bool model_given = false;
+  bool cameras = false;    ///< what they see goes into the trace
+  bool real_time = false;  ///< no faster than time goes by
 };
 
 void declare(CLI::App& app, WalkOptions& options);

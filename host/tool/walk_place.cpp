@@ -6,11 +6,13 @@
 #include <cmath>
 #include <memory>
 
+#include "host/link/system_clock.hpp"
 #include "host/model/load_world.hpp"
 #include "host/model/number.hpp"
 #include "host/sim/scenery.hpp"
 #include "host/tool/command.hpp"
 #include "host/tool/interrupt.hpp"
+#include "host/tool/walk_cameras.hpp"
 
 namespace verp::tool {
 
@@ -47,13 +49,23 @@ void place_robot(const PlaceOptions& options, WalkPlan& plan) {
 
 Walks walk_together(const WalkPlan& plan, const std::vector<WalkPlan>& others,
                     record::TraceWriter* trace, Progress& progress, bool keep_series,
-                    const sim::WorldOptions& world) {
+                    const sim::WorldOptions& world, WalkCameras* cameras, bool real_time) {
   session::Session session({.world = world, .interrupted = interrupted});
-  session.add(plan, shown(plan, trace, progress, plan.params.name, keep_series));
+  session::Hooks hooks = shown(plan, trace, progress, plan.params.name, keep_series);
+  if (cameras != nullptr) cameras->watch(session, plan, hooks);
+  const session::Robot& first = session.add(plan, std::move(hooks));
   for (const WalkPlan& other : others) session.add(other);
-  while (session.tick() != nullptr) {
+  wire::SystemClock clock;
+  app::Pacer pacer(clock);
+  const std::uint64_t begun_us = clock.now_us();
+  if (real_time) pacer.start(plan.params.period_us);
+  while (const session::Robot* robot = session.tick()) {
+    if (real_time && robot == &first) pacer.next();
   }
+  if (cameras != nullptr) cameras->finish();
   Walks walks;
+  walks.deadlines = pacer.deadlines();
+  walks.took_s = 1e-6 * static_cast<double>(clock.now_us() - begun_us);
   walks.result = session.result(0);
   for (std::size_t i = 0; i < others.size(); ++i)
     walks.others.emplace_back(others[i].name, session.result(i + 1));

@@ -363,5 +363,25 @@ TEST(BadInput, ServoTypesOfTheFileAreReadAndTheirSlipsNamed) {
   expect_refused(with("<verp:servo_type name=\"mx64\" like=\"mx106\"/>"), at, "already");
 }
 
+TEST(BadInput, CamerasThatCannotBeAreRefused) {
+  const std::string line = "<sensor name=\"camera\"";
+  const auto refused = [&](const std::string& was, const std::string& is, const std::string& why) {
+    expect_refused(edited(was, is), line, why);
+  };
+  refused("<width>320</width>", "<width>4</width>", "<image>");
+  refused("<far>20</far>", "<far>0.01</far>", "<clip>");
+  refused("<horizontal_fov>1.0472</horizontal_fov>", "<horizontal_fov>3.1</horizontal_fov>",
+          "<horizontal_fov>");
+  refused("<far>20</far></clip>", "<far>20</far></clip><distortion><k1>-4</k1></distortion>",
+          "folds the picture");
+  refused("<far>20</far></clip>",
+          "<far>20</far></clip><noise><type>gaussian</type><stddev>7</stddev></noise>", "<noise>");
+  refused("<far>20</far></clip>",
+          "<far>20</far></clip><lens><intrinsics><fx>0</fx><fy>280</fy><cx>160</cx><cy>120</cy>"
+          "<s>0</s></intrinsics></lens>",
+          "<intrinsics>");
+  refused("<update_rate>30</update_rate>", "<update_rate>-1</update_rate>", "<update_rate>");
+}
+
 }  // namespace
 }  // namespace verp::model

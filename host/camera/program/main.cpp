@@ -1,0 +1,63 @@
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <exception>
+
+#include "host/camera/program/drawer.hpp"
+#include "host/camera/wire.hpp"
+
+namespace {
+
+using namespace verp::camera;
+
+constexpr int kSocket = STDIN_FILENO;
+
+std::uint64_t processor_us() {
+  rusage used{};
+  ::getrusage(RUSAGE_SELF, &used);
+  const auto us = [](const timeval& time) {
+    return std::uint64_t{1'000'000} * static_cast<std::uint64_t>(time.tv_sec) +
+           static_cast<std::uint64_t>(time.tv_usec);
+  };
+  return us(used.ru_utime) + us(used.ru_stime);
+}
+
+bool answer(Drawer& drawer, const Moment& moment) {
+  for (const std::uint32_t camera : moment.cameras) {
+    for (const Picture& picture : drawer.draw(moment, camera)) {
+      if (!send(kSocket, Kind::kPicture, pack(picture))) return false;
+    }
+  }
+  return send(kSocket, Kind::kDone, pack(processor_us()));
+}
+
+void serve() {
+  const auto first = receive(kSocket);
+  const auto stage =
+      first && first->kind == Kind::kStage ? unpack_stage(first->data) : std::nullopt;
+  if (!stage) return;
+  Drawer drawer(*stage);
+  if (!send(kSocket, Kind::kReady, "")) return;
+  while (const auto message = receive(kSocket)) {
+    const auto moment = unpack_moment(message->data);
+    if (!moment || !answer(drawer, *moment)) return;
+  }
+}
+
+}  // namespace
+
+/// The program beside a run that draws what its cameras see (camera::Rig): a stage in, then moments
+/// in and pictures out, on its standard input, which is a socket.
+int main() {
+  // One picture after the other on one core: the run has the other one, and goes first.
+  ::setenv("LP_NUM_THREADS", "0", 0);
+  ::setpriority(PRIO_PROCESS, 0, 5);
+  try {
+    serve();
+    return 0;
+  } catch (const std::exception& error) {
+    send(kSocket, Kind::kFailed, error.what());
+    return 1;
+  }
+}

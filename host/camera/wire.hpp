@@ -1,0 +1,66 @@
+#pragma once
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "host/sim/exposure.hpp"
+
+/// What goes between a run and the program that draws for it, over a socket pair on one PC and of
+/// one build: numbers are as the machine has them.
+namespace verp::camera {
+
+/// What is to be drawn: the first robot has the cameras.
+struct Stage {
+  std::vector<std::string> robot_files;
+  std::string world_file;  ///< empty: a level floor
+  std::uint64_t seed = 1;  ///< of the noise
+};
+
+/// One moment of it.
+struct Moment {
+  std::uint64_t time_us = 0;
+  std::vector<std::uint32_t> cameras;                     ///< that look
+  std::vector<std::vector<model::Transform>> link_world;  ///< of each robot
+  std::vector<model::Transform> body_world;               ///< of the world's moving things
+};
+
+/// As sensor_msgs have it (host/record/ros_camera.hpp).
+struct Picture {
+  std::uint32_t camera = 0;
+  std::uint64_t time_us = 0;
+  std::uint32_t width = 0, height = 0;
+  std::string encoding, data;
+};
+
+enum class Kind : std::uint32_t {
+  kStage,    ///< to the program, first
+  kReady,    ///< from it: it can draw
+  kFailed,   ///< from it: why not, in one line
+  kMoment,   ///< to it
+  kPicture,  ///< from it, for each camera that looked one or two
+  kDone      ///< from it, after the pictures of a moment: its processor time so far, us
+};
+
+struct Message {
+  Kind kind = Kind::kDone;
+  std::string data;
+};
+
+/// Waits until all is on its way. False: the other end is gone.
+bool send(int socket, Kind kind, std::string_view data);
+/// Waits for the next. None: the other end is gone.
+std::optional<Message> receive(int socket);
+
+std::string pack(const Stage& stage);
+std::string pack(const Moment& moment);
+std::string pack(const Picture& picture);
+std::string pack(std::uint64_t number);
+/// What pack() was given. None: it is no such thing.
+std::optional<Stage> unpack_stage(std::string_view data);
+std::optional<Moment> unpack_moment(std::string_view data);
+std::optional<Picture> unpack_picture(std::string_view data);
+std::optional<std::uint64_t> unpack_number(std::string_view data);
+
+}  // namespace verp::camera

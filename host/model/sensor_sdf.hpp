@@ -1,0 +1,23 @@
+#pragma once
+#include <functional>
+#include <sdf/Sensor.hh>
+#include <string>
+
+#include "host/model/entity.hpp"
+
+/// Lasers and cameras as libsdformat read them, checked.
+namespace verp::model {
+
+/// Throws LoadError at the sensor: what is wrong, and what to do about it.
+using WrongSensor = std::function<void(const std::string& what, const std::string& fix)>;
+
+/// `pose` is in the link frame of `node`.
+LaserSensor read_laser(const sdf::Sensor& sensor, int node, const Transform& pose,
+                       const WrongSensor& wrong);
+
+/// Of type camera, depth_camera, rgbd_camera or segmentation_camera.
+bool is_camera(const sdf::Sensor& sensor);
+CameraSensor read_camera(const sdf::Sensor& sensor, int node, const Transform& pose,
+                         const WrongSensor& wrong);
+
+}  // namespace verp::model

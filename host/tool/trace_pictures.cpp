@@ -1,0 +1,71 @@
+#include "host/tool/trace_pictures.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+
+#include "host/record/trace.hpp"
+#include "host/tool/console.hpp"
+#include "host/tool/exit_status.hpp"
+
+namespace verp::tool {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// /camera/image/compressed at 1.24 s: camera_image_0001.240.
+std::string name_of(const record::RecordedPicture& recorded) {
+  constexpr std::string_view kCompressed = "/compressed";
+  std::string name = recorded.topic.substr(1);
+  if (name.ends_with(kCompressed)) name.resize(name.size() - kCompressed.size());
+  std::replace(name.begin(), name.end(), '/', '_');
+  return fmt::format("{}_{:08.3f}", name, 1e-9 * static_cast<double>(recorded.time_ns));
+}
+
+/// PGM's numbers begin with their upper byte.
+std::string pgm(const record::ros::Picture& picture) {
+  std::string out = fmt::format("P5\n{} {}\n65535\n", picture.width, picture.height);
+  for (std::size_t i = 0; i + 1 < picture.data.size(); i += 2) {
+    out += picture.data[i + 1];
+    out += picture.data[i];
+  }
+  return out;
+}
+
+void write_file(const fs::path& file, const std::string& bytes) {
+  std::ofstream out(file, std::ios::binary);
+  out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  out.close();
+  if (out) return;
+  throw ToolError(
+      kRunFailed,
+      file.string() + ": cannot be written; free space, or name another folder with -o");
+}
+
+}  // namespace
+
+int write_pictures(const std::string& trace, const std::string& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (!fs::is_directory(folder, error)) {
+    throw ToolError(kBadInput,
+                    folder + ": not a folder and cannot be made; choose another with -o");
+  }
+  const std::size_t count =
+      record::for_each_picture(trace, [&](const record::RecordedPicture& recorded) {
+        const bool png = recorded.picture.encoding == "png";
+        write_file(fs::path(folder) / (name_of(recorded) + (png ? ".png" : ".pgm")),
+                   png ? recorded.picture.data : pgm(recorded.picture));
+      });
+  if (count == 0) {
+    throw ToolError(kBadInput, trace +
+                                   ": has no pictures; `verp walk --cameras --record F.mcap` keeps "
+                                   "what the robot's cameras see");
+  }
+  answer(fmt::format("{}: {} pictures\n", folder, count));
+  return kGood;
+}
+
+}  // namespace verp::tool

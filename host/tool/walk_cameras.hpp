@@ -1,0 +1,38 @@
+#pragma once
+#include <memory>
+#include <string>
+
+#include "host/camera/recorder.hpp"
+#include "host/session/session.hpp"
+#include "host/tool/json.hpp"
+#include "host/tool/walk_options.hpp"
+#include "host/tool/walk_plan.hpp"
+
+namespace verp::tool {
+
+/// What the cameras of the robot that walks see, into its trace: --cameras. A program beside this
+/// one draws it (host/camera).
+class WalkCameras {
+ public:
+  /// Has the plan's twin say when its cameras look. Throws ToolError: there is no camera, no trace,
+  /// or nothing that draws.
+  WalkCameras(const WalkOptions& options, WalkPlan& plan, const std::vector<WalkPlan>& others,
+              const sim::WorldOptions& world, record::TraceWriter* trace);
+
+  /// The hooks of the robot that walks, before it is added to the session.
+  void watch(session::Session& session, const WalkPlan& plan, session::Hooks& hooks);
+  /// Waits for the last pictures.
+  void finish();
+
+  std::string text(double run_s) const;
+  Json json() const;
+  /// Why there are no more pictures; empty: there are all.
+  std::string failure() const { return recorder_ ? recorder_->failure() : ""; }
+
+ private:
+  record::TraceWriter& trace_;
+  std::unique_ptr<camera::Rig> rig_;
+  std::unique_ptr<camera::Recorder> recorder_;
+};
+
+}  // namespace verp::tool
