@@ -2,7 +2,7 @@
 
 #include "common/kinematics/forward.hpp"
 #include "common/math/convert.hpp"
-#include "common/model/counts.hpp"
+#include "common/model/coupling.hpp"
 #include "common/model/tree.hpp"
 
 namespace verp::control {
@@ -100,11 +100,12 @@ void act(const Params& params, const action::Library& actions, State& state, con
     state.action.asked = asked;
     return;
   }
-  const action::PlayerOut played = play(params, actions, state, inputs, admitted, attitude, wanted);
+  action::PlayerOut played = play(params, actions, state, inputs, admitted, attitude, wanted);
   if (state.action.number == 0) return;
   const bool has_legs =
       params.leg[0].solver != LegSolver::kNone && params.leg[1].solver != LegSolver::kNone;
   const Tuning& tuning = state.tuning;
+  model::lead(params, played.angle_rad);
   float goal_rad[kMaxJoints];
   for (int j = 0; j < params.joint_count; ++j) goal_rad[j] = played.angle_rad[j];
   if (has_legs && played.balance > 0.0F) {
@@ -139,6 +140,7 @@ void act(const Params& params, const action::Library& actions, State& state, con
       }
     }
   }
+  model::share_corrections(params, played.angle_rad, goal_rad);
   for (int j = 0; j < params.joint_count; ++j) {
     const float at_rad = model::angle_of(params.joint[j], inputs.position_count[j]);
     // A servo half as stiff gives way as one does whose goal stands half as far from where it is.

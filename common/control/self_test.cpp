@@ -35,6 +35,7 @@ void sense(const Params& params, std::uint32_t tick, std::uint32_t& random, cons
     in.position_count[j] = holds ? last.goal_count[j] + noise(random) / 16
                                  : model::count_of(params.joint[j], params.joint[j].sit_rad);
   }
+  model::share_counts(params, in);
   const float scale = params.imu.accel_m_s2_per_count;
   const float up_count = scale > 0.0F && scale < 1.0F ? kGravity / scale : 0.0F;
   for (int i = 0; i < 3; ++i) {

@@ -2,8 +2,9 @@
 
 #include "common/balance/gravity.hpp"
 #include "common/balance/landing.hpp"
+#include "common/gait/coupled_hips.hpp"
 #include "common/math/convert.hpp"
-#include "common/model/counts.hpp"
+#include "common/model/coupling.hpp"
 #include "common/model/tree.hpp"
 
 namespace verp::control {
@@ -194,16 +195,20 @@ Wanted solve_joints(const Params& params, State& state, const Inputs& inputs,
   } else {
     state.landing.beyond = 0;
   }
+  // A robot that doesn't walk may be found in any pose; the one wanted was solved when weighed.
+  float previous_rad[kFeet][kLegJoints];
+  for (int side = 0; side < kFeet; ++side) {
+    for (int k = 0; k < kLegJoints; ++k) {
+      previous_rad[side][k] = state.gait.queued == 0
+                                  ? state.gait.preview.leg_rad[side * kLegJoints + k]
+                                  : state.limit.goal_rad[params.leg[side].joint[k]];
+    }
+  }
+  gait::turn_to_hips(params, previous_rad, aimed);
   for (int side = 0; side < kFeet; ++side) {
     const LegParams& leg = params.leg[side];
     if (leg.solver == LegSolver::kNone) continue;
-    // A robot that doesn't walk may be found in any pose; the one wanted was solved when weighed.
-    float previous_rad[kLegJoints];
-    for (int k = 0; k < kLegJoints; ++k) {
-      previous_rad[k] = state.gait.queued == 0 ? state.gait.preview.leg_rad[side * kLegJoints + k]
-                                               : state.limit.goal_rad[leg.joint[k]];
-    }
-    kinematics::LegAngles angles = leg_angles(params, state, aimed, side, previous_rad);
+    kinematics::LegAngles angles = leg_angles(params, state, aimed, side, previous_rad[side]);
     wanted.leg_limited = wanted.leg_limited || angles.flags != 0;
     for (int k = 0; k < kLegJoints; ++k) wanted.plain_rad[leg.joint[k]] = angles.angle_rad[k];
     const kinematics::LegChain chain =
@@ -224,6 +229,7 @@ Wanted solve_joints(const Params& params, State& state, const Inputs& inputs,
       wanted.angle_rad[leg.joint[k]] = angles.angle_rad[k];
     }
   }
+  model::share_corrections(params, wanted.plain_rad, wanted.angle_rad);
   return wanted;
 }
 
@@ -276,7 +282,8 @@ void gate(const Params& params, State& state, const AdmitOut& admitted,
   outputs.tilt_tenth_mrad[0] = math::to_int16(1e4F * attitude.roll_rad);
   outputs.tilt_tenth_mrad[1] = math::to_int16(1e4F * attitude.pitch_rad);
   for (int j = 0; j < params.joint_count; ++j) {
-    outputs.goal_count[j] = model::count_of(params.joint[j], state.limit.goal_rad[j]);
+    const int driver = model::driver_of(params, j);
+    outputs.goal_count[j] = model::count_of(params.joint[driver], state.limit.goal_rad[driver]);
   }
   if (safety::has_torque(machine.mode)) {
     outputs.torque_enable =

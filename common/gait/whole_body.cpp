@@ -24,12 +24,18 @@ Lump lump_of(const Params& params, const float* angle_rad) {
     Pose at[kMaxNodes];
   } node;
   node.at[0] = Pose{};
+  for (int j = params.servo_count(); j < params.joint_count; ++j) {
+    if ((legs >> j & 1U) == 0)
+      node.at[j + 1] = kinematics::node_pose(params, Pose{}, angle_rad, j + 1);
+  }
   Vec3 moment_kg_m = params.body_mass_kg * math::to_vec(params.body_com_m);
   float mass_kg = params.body_mass_kg;
   for (int j = 0; j < params.joint_count; ++j) {
     if ((legs >> j & 1U) != 0) continue;
     const JointParams& joint = params.joint[j];
-    kinematics::chain(node.at[joint.parent], joint, angle_rad[j], node.at[j + 1]);
+    if (j < params.servo_count()) {
+      kinematics::chain(node.at[joint.parent], joint, angle_rad[j], node.at[j + 1]);
+    }
     moment_kg_m += joint.mass_kg * math::apply(node.at[j + 1], math::to_vec(joint.com_link_m));
     mass_kg += joint.mass_kg;
   }

@@ -74,7 +74,11 @@ Pose node_pose(const Params& params, const Pose& body, const float* angle_rad, i
 
 void all_poses(const Params& params, const Pose& body, const float* angle_rad, Pose* node) {
   node[0] = body;
-  for (int j = 0; j < params.joint_count; ++j) {
+  // Followers stand last in the list, but may carry joints that stand before them.
+  for (int j = params.servo_count(); j < params.joint_count; ++j) {
+    node[j + 1] = node_pose(params, body, angle_rad, j + 1);
+  }
+  for (int j = 0; j < params.servo_count(); ++j) {
     chain(node[params.joint[j].parent], params.joint[j], angle_rad[j], node[j + 1]);
   }
 }

@@ -1,5 +1,7 @@
 #include "common/model/image.hpp"
 
+#include "common/model/coupling.hpp"
+
 namespace verp {
 namespace {
 
@@ -12,6 +14,20 @@ bool well_formed_leg(const Params& params, const LegParams& leg) {
     if (joint >= params.joint_count) return false;
   }
   return true;
+}
+
+// Parents come first, but for followers, which come last: from there the way up must end. A
+// follower has somebody to follow.
+bool well_formed_place(const Params& params, int joint) {
+  const int servos = params.servo_count(), parent = params.joint[joint].parent;
+  if (parent > params.joint_count) return false;
+  if (joint < servos) return parent <= joint || parent > servos;
+  if (model::driver_of(params, joint) == joint) return false;
+  int node = joint + 1, steps = 0;
+  for (; node != 0 && node <= params.joint_count && steps < kMaxNodes; ++steps) {
+    node = params.joint[node - 1].parent;
+  }
+  return node == 0;
 }
 
 // Node ids are 1 to 127 on CAN, and a drive's is its place in every table there.
@@ -68,10 +84,12 @@ ImageFault check_image(const void* bytes, std::size_t size) {
 }
 
 bool is_well_formed(const Params& params) {
-  if (params.joint_count > kMaxJoints) return false;
+  if (params.joint_count > kMaxJoints || params.followers > params.joint_count) return false;
   if (params.rise_torque_percent == 0 || params.rise_torque_percent > 100) return false;
   for (int j = 0; j < params.joint_count; ++j) {
-    if (params.joint[j].parent > j || params.joint[j].servo_profile >= kServoProfiles) return false;
+    if (params.joint[j].servo_profile >= kServoProfiles || !well_formed_place(params, j)) {
+      return false;
+    }
   }
   const std::uint8_t heads[] = {params.head_pan, params.head_tilt};
   for (const std::uint8_t head : heads) {

@@ -24,12 +24,13 @@ inline constexpr int kNameLength = 24;
 /// Names the common axes so that a rotation costs 12 operations, not 45.
 enum class AxisKind : std::uint8_t { kX, kY, kZ, kMinusX, kMinusY, kMinusZ, kGeneral };
 
-/// Parents stand before children, so one pass in index order is a walk from root to leaves.
+/// Joints with a servo come first, and among them parents stand before children; then come those
+/// that follow another's servo (Params::followers), wherever in the tree they are.
 struct JointParams {
   char name[kNameLength] = {};
   std::uint8_t parent = 0;  ///< node whose link carries this joint
   AxisKind axis_kind = AxisKind::kGeneral;
-  std::uint8_t servo_id = 0;       ///< address on the bus
+  std::uint8_t servo_id = 0;       ///< address on the bus; a follower's is its driver's
   std::uint8_t servo_profile = 0;  ///< index into Params::servo
   Xyz origin_parent_m;             ///< joint position in the parent link's frame
   Xyz axis;                        ///< unit vector; positive rotation by the right hand
@@ -138,7 +139,10 @@ struct Params {
   float body_mass_kg = 0;
   Xyz body_com_m;
   BusProtocol bus_protocol = BusProtocol::kDynamixel2;
-  std::uint8_t reserved[3] = {};
+  /// The last joints have no servo of their own (model/coupling.hpp): one motor turns them and the
+  /// joint whose servo_id they bear.
+  std::uint8_t followers = 0;
+  std::uint8_t reserved[2] = {};
   JointParams joint[kMaxJoints];
   LegParams leg[kFeet];
   ServoProfile servo[kServoProfiles];
@@ -146,8 +150,13 @@ struct Params {
   FootSensorParams feet;
   Tuning tuning;
   VERP_FIELDS(name, period_us, baud, joint_count, head_pan, head_tilt, rise_torque_percent,
-              body_mass_kg, body_com_m, bus_protocol, reserved, joint, leg, servo, imu, feet,
-              tuning)
+              body_mass_kg, body_com_m, bus_protocol, followers, reserved, joint, leg, servo, imu,
+              feet, tuning)
+
+  /// The joints before this one have servos, and are all that a bus sees.
+  constexpr std::uint8_t servo_count() const {
+    return static_cast<std::uint8_t>(joint_count - followers);
+  }
 };
 VERP_PACKED(Params);
 

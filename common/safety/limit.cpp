@@ -2,7 +2,7 @@
 
 #include "common/math/convert.hpp"
 #include "common/math/spline.hpp"
-#include "common/model/counts.hpp"
+#include "common/model/coupling.hpp"
 
 namespace verp::safety {
 namespace {
@@ -78,6 +78,7 @@ LimitOut limit(const Params& params, LimitState& state, const LimitIn& in) {
       state.goal_rad[j] = blending ? state.goal_rad[j] + move_rad : inside_rad;
     }
   }
+  model::lead(params, state.goal_rad);
   return out;
 }
 

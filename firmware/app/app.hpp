@@ -2,6 +2,7 @@
 #include <cstdint>
 
 #include "common/control/step.hpp"
+#include "common/model/coupling.hpp"
 #include "firmware/app/contracts.hpp"
 #include "firmware/app/servos_on.hpp"
 #include "hal/contract/imu.hpp"
@@ -54,6 +55,7 @@ class App {
     inputs_.fresh = 0;
     inputs_.flags = 0;
     servos_.read_positions(inputs_);
+    model::share_counts(params_, inputs_);
     count_tick(beat);
     servos_.read_sensors(inputs_, !from_chip_);
     read_chip();

@@ -18,7 +18,7 @@ class BringUp {
 
   BringUpReport run() {
     release_all();
-    for (int j = 0; j < params_.joint_count && ready(); ++j) servo(j);
+    for (int j = 0; j < params_.servo_count() && ready(); ++j) servo(j);
     if (params_.imu.device_id != 0 && ready()) sensor(params_.imu.device_id, dxl::kModelImu);
     for (std::uint8_t id : params_.feet.device_id) {
       if (id != 0 && ready()) sensor(id, dxl::kModelFoot);
@@ -38,7 +38,7 @@ class BringUp {
     for (int times = 0; times < 3; ++times) {
       dxl::Encoder encoder(master_.frame(), master_.capacity());
       dxl::begin_sync_write(encoder, dxl::address::kTorqueEnable, 1);
-      for (int j = 0; j < params_.joint_count; ++j) {
+      for (int j = 0; j < params_.servo_count(); ++j) {
         encoder.u8(params_.joint[j].servo_id);
         encoder.u8(0);
       }

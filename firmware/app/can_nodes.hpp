@@ -20,7 +20,7 @@ constexpr bool is_joint(int slot) {
 }
 /// 0: the robot has no such node.
 constexpr std::uint8_t node_id(const Params& params, int slot) {
-  if (is_joint(slot)) return slot < params.joint_count ? params.joint[slot].servo_id : 0;
+  if (is_joint(slot)) return slot < params.servo_count() ? params.joint[slot].servo_id : 0;
   return slot == kImuNode ? params.imu.device_id : params.feet.device_id[slot - kFootNode];
 }
 

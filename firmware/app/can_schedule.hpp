@@ -28,7 +28,7 @@ constexpr std::uint32_t window_us(const Params& params, std::uint8_t group) {
   std::uint32_t answers = group == canopen::plan::sync_groups(params)
                               ? static_cast<std::uint32_t>(canopen::plan::sensor_answers(params))
                               : 0;
-  for (int j = 0; j < params.joint_count; ++j) {
+  for (int j = 0; j < params.servo_count(); ++j) {
     answers += canopen::plan::group_of_joint(j) == group ? 1u : 0u;
   }
   return can_frames_us(1, 1, params.baud) + kReactionUs +

@@ -51,7 +51,7 @@ class CanopenServos {
   /// All SYNCs of the tick: what sensors answer is kept for read_sensors().
   void read_positions(Inputs& inputs) {
     answers_.begin();
-    if (params_.joint_count == 0) answers_.prompt();  // nobody could show it
+    if (params_.servo_count() == 0) answers_.prompt();  // nobody could show it
     forget_stale(inputs);
     sensed_.begin();
     hurries_ = kHurries;

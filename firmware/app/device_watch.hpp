@@ -17,7 +17,7 @@ class DeviceWatch {
   DeviceWatch(const Params& params, RegisterImage& image) : params_(params), image_(image) {
     using table::DeviceKind;
     for (int j = 0; j < params.joint_count; ++j) {
-      name(j, DeviceKind::kServo, params.joint[j].servo_id);
+      if (j < params.servo_count()) name(j, DeviceKind::kServo, params.joint[j].servo_id);
       image_.set(element(reg("joint_id"), j, 1), params.joint[j].servo_id);
     }
     name(table::kDeviceImu, DeviceKind::kImu, params.imu.device_id);
@@ -43,7 +43,7 @@ class DeviceWatch {
     ticking_ = true;
     const SafetyTuning& safety = state.tuning.safety;
     const Limits fast = limits(safety.stale_hold_s, safety.stale_release_s);
-    for (int j = 0; j < params_.joint_count; ++j) {
+    for (int j = 0; j < params_.servo_count(); ++j) {
       const bool faulty = image_.get<std::uint8_t>(element(reg("joint_error"), j, 1)) != 0;
       const bool heard = (inputs.fresh >> j & 1u) != 0;
       sense(j, heard, faulty, fast);

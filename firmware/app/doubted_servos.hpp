@@ -68,7 +68,7 @@ class DoubtedServos {
   std::uint32_t some(std::uint32_t joints) const {
     std::uint32_t chosen = 0;
     std::size_t count = 0;
-    for (int j = 0; j < params_.joint_count && count < kResolvedAtOnce; ++j) {
+    for (int j = 0; j < params_.servo_count() && count < kResolvedAtOnce; ++j) {
       if ((joints >> j & 1) == 0) continue;
       chosen |= 1u << j;
       ++count;
@@ -78,7 +78,7 @@ class DoubtedServos {
 
   void ask(BusMaster<Bus>& master, std::uint32_t joints) {
     ReadChain<kResolvedAtOnce> chain;
-    for (int j = 0; j < params_.joint_count; ++j) {
+    for (int j = 0; j < params_.servo_count(); ++j) {
       if ((joints >> j & 1) != 0) {
         chain.add(params_.joint[j].servo_id, static_cast<std::uint8_t>(j));
       }
@@ -122,7 +122,7 @@ class DoubtedServos {
                 std::uint8_t (ServoRam::*part)[bytes]) {
     dxl::Encoder encoder(master.frame(), master.capacity());
     dxl::begin_sync_write(encoder, address, bytes);
-    for (int j = 0; j < params_.joint_count; ++j) {
+    for (int j = 0; j < params_.servo_count(); ++j) {
       if ((batch_ >> j & 1) == 0) continue;
       encoder.u8(params_.joint[j].servo_id);
       const ServoRam ram(profile_of(params_, j));

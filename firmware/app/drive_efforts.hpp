@@ -50,8 +50,8 @@ class DriveEfforts {
  private:
   bool choose(NodeMask busy) {
     asked_ = false;
-    for (int i = 0; i < params_.joint_count; ++i) {
-      joint_ = joint_ + 1 < params_.joint_count ? joint_ + 1 : 0;
+    for (int i = 0; i < params_.servo_count(); ++i) {
+      joint_ = joint_ + 1 < params_.servo_count() ? joint_ + 1 : 0;
       if (joint_ == 0) torques_ = !torques_;
       if ((busy & node_bit(joint_)) == 0) return true;
     }

@@ -32,7 +32,7 @@ class DriveTelemetry {
     if (missed || !more_ || is_in(busy, joint_)) choose(busy);
     more_ = false;
     asked_ = -1;
-    if (params_.joint_count == 0 || is_in(busy, joint_)) return false;
+    if (params_.servo_count() == 0 || is_in(busy, joint_)) return false;
     asked_ = joint_;
     at_ = object();
     namespace sdo = canopen::sdo;
@@ -79,8 +79,8 @@ class DriveTelemetry {
       joint_ = urgent_;
       urgent_ = -1;
     } else {
-      for (int i = 0; i < params_.joint_count; ++i) {
-        joint_ = joint_ + 1 < params_.joint_count ? joint_ + 1 : 0;
+      for (int i = 0; i < params_.servo_count(); ++i) {
+        joint_ = joint_ + 1 < params_.servo_count() ? joint_ + 1 : 0;
         if (!is_in(busy, joint_)) break;
       }
     }

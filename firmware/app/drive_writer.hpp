@@ -75,7 +75,7 @@ class DriveWriter : public JointStrength {
     if (patience_ > 0) --patience_;
     if (early_ > 0) return;
     std::uint32_t on = 0;
-    for (int j = 0; j < params_.joint_count; ++j) on |= switched_on(j) ? 1u << j : 0;
+    for (int j = 0; j < params_.servo_count(); ++j) on |= switched_on(j) ? 1u << j : 0;
     const std::uint32_t candidates = wanted & ~doubted;
     if (together_ > 0) --together_;
     if ((candidates & ~on) != 0 && together_ > 0) return;
@@ -100,7 +100,7 @@ class DriveWriter : public JointStrength {
     }
   }
   void set_words(std::uint32_t wanted, std::uint32_t doubted) {
-    for (int j = 0; j < params_.joint_count; ++j) {
+    for (int j = 0; j < params_.servo_count(); ++j) {
       const auto has = [j](std::uint32_t mask) { return (mask >> j & 1) != 0; };
       std::uint8_t& due = words_due_[j / canopen::plan::kWords.width];
       set(word_[j], word_for(j, has(wanted), has(doubted)), due);
@@ -110,7 +110,7 @@ class DriveWriter : public JointStrength {
     }
   }
   void set_strengths(std::uint8_t percent) {
-    for (int j = 0; j < params_.joint_count; ++j) {
+    for (int j = 0; j < params_.servo_count(); ++j) {
       set(strength_[j], strength_of(j, percent),
           strengths_due_[j / canopen::plan::kStrengths.width]);
     }

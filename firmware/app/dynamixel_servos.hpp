@@ -18,7 +18,7 @@ template <hal::FrameBus Bus>
 class DynamixelServos {
  public:
   DynamixelServos(const Params& params, Bus& bus) : params_(params), master_(bus) {
-    for (int j = 0; j < params.joint_count; ++j) {
+    for (int j = 0; j < params.servo_count(); ++j) {
       joints_.add(params.joint[j].servo_id, static_cast<std::uint8_t>(j));
     }
     if (params.imu.device_id != 0) sensors_.add(params.imu.device_id, kImuSlot);
@@ -28,7 +28,7 @@ class DynamixelServos {
       sensors_.add(id, static_cast<std::uint8_t>(kFootSlot + foot));
       feet_expected_ |= 1u << foot;
     }
-    if (params.joint_count > 0) sensors_.add(params.joint[0].servo_id, kServoSlot);
+    if (params.servo_count() > 0) sensors_.add(params.joint[0].servo_id, kServoSlot);
   }
 
   BringUpReport bring_up() {
@@ -53,7 +53,7 @@ class DynamixelServos {
     const std::size_t bytes =
         fast ? fast_sync_read_bytes(count, length) : sync_read_bytes(count, length);
     joints_.begin();
-    for (int j = 0; j < params_.joint_count; ++j) {
+    for (int j = 0; j < params_.servo_count(); ++j) {
       doubted_.silent_for(j, silent_ticks_[j] * params_.period_us);
       if (silent_ticks_[j] < kLongSilence) ++silent_ticks_[j];
     }
@@ -71,7 +71,7 @@ class DynamixelServos {
   void read_sensors(Inputs& inputs, bool imu) {
     if (sensors_.count() == 0) return;
     slow_joint_ =
-        static_cast<std::uint8_t>(slow_joint_ + 1 < params_.joint_count ? slow_joint_ + 1 : 0);
+        static_cast<std::uint8_t>(slow_joint_ + 1 < params_.servo_count() ? slow_joint_ + 1 : 0);
     sensors_.set_id(kServoSlot, params_.joint[slow_joint_].servo_id);
     const auto count = static_cast<std::size_t>(sensors_.count());
     spare_ = master_.spare_bytes();

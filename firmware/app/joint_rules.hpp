@@ -10,7 +10,7 @@ namespace verp::app {
 
 /// Bit j: joint j's.
 constexpr std::uint32_t all_joints(const Params& params) {
-  return params.joint_count >= kMaxJoints ? ~0u : (1u << params.joint_count) - 1;
+  return params.servo_count() >= kMaxJoints ? ~0u : (1u << params.servo_count()) - 1;
 }
 
 /// Who was silent for so long may have lost its power: the core holds by then anyway. A servo's

@@ -44,12 +44,12 @@ constexpr std::size_t sync_write_bytes(std::size_t devices, std::size_t length) 
 
 /// True if every servo answers Fast Sync Read; one that does not would break the chain of replies.
 constexpr bool all_fast(const Params& params) {
-  for (int j = 0; j < params.joint_count; ++j) {
+  for (int j = 0; j < params.servo_count(); ++j) {
     if (params.servo[params.joint[j].servo_profile % kServoProfiles].fast_sync_read == 0) {
       return false;
     }
   }
-  return params.joint_count > 0;
+  return params.servo_count() > 0;
 }
 
 /// What the servos' Bus Watchdog is set to while torque is on: they hold by themselves somewhat
@@ -84,7 +84,7 @@ inline constexpr int kResolvedAtOnce = 4;
 /// either torque and strength of all servos, their Bus Watchdog cleared and set, or those of one
 /// servo, and a few that are asked for their torque, or set up again.
 constexpr std::size_t schedule_bytes(const Params& params) {
-  const std::size_t joints = params.joint_count;
+  const std::size_t joints = params.servo_count();
   const std::size_t positions =
       all_fast(params) ? fast_sync_read_bytes(joints, 4) : sync_read_bytes(joints, 4);
   const std::size_t told_to_all = sync_write_bytes(joints, 2) + 3 * sync_write_bytes(joints, 1);
@@ -102,7 +102,7 @@ constexpr std::size_t schedule_bytes(const Params& params) {
 /// room for a retry of anything: such a robot is refused (host/model/bus_time.hpp).
 constexpr std::uint32_t schedule_us(const Params& params) {
   const std::size_t replies =
-      (all_fast(params) ? 1u : params.joint_count) + sensor_devices(params) + 1;
+      (all_fast(params) ? 1u : params.servo_count()) + sensor_devices(params) + 1;
   return wire_us(schedule_bytes(params), params.baud) +
          static_cast<std::uint32_t>(replies) * kReplySlackUs;
 }

@@ -25,7 +25,7 @@ class ServoWriter : public JointStrength {
   /// or deaf to both behind a Bus Watchdog that has tripped. `turn` is the joint whose turn it is;
   /// those in `doubted` hear of no torque but its end.
   void send(BusMaster<Bus>& master, const Outputs& outputs, int turn, std::uint32_t doubted) {
-    if (params_.joint_count == 0) return;
+    if (params_.servo_count() == 0) return;
     const std::uint32_t wanted = outputs.torque_enable & all_joints(params_);
     const std::uint8_t strength = percent_in(outputs.mode);
     if (wanted != 0 && (watchdog_clears_ > 0 || torque_ == 0)) clear_watchdogs(master);
@@ -43,7 +43,7 @@ class ServoWriter : public JointStrength {
     wanted_ = wanted;
     told_all_ = repeats_ > 0;
     first_ = told_all_ ? 0 : turn;
-    last_ = told_all_ ? params_.joint_count - 1 : turn;
+    last_ = told_all_ ? params_.servo_count() - 1 : turn;
     if (told_all_) --repeats_;
     if (wanted != 0) {
       send_strength(master);
@@ -68,7 +68,7 @@ class ServoWriter : public JointStrength {
   // A servo whose watchdog has tripped takes no goals: cleared before them, and set again after.
   void clear_watchdogs(BusMaster<Bus>& master) {
     first_ = 0;
-    last_ = params_.joint_count - 1;
+    last_ = params_.servo_count() - 1;
     send_to(master, dxl::address::kBusWatchdog, 0);
     repeats_ = kRepeats;
     if (watchdog_clears_ > 0) --watchdog_clears_;
@@ -77,7 +77,7 @@ class ServoWriter : public JointStrength {
   void send_goals(BusMaster<Bus>& master, const Outputs& outputs) {
     dxl::Encoder encoder(master.frame(), master.capacity());
     dxl::begin_sync_write(encoder, dxl::address::kGoalPosition, 4);
-    for (int j = 0; j < params_.joint_count; ++j) {
+    for (int j = 0; j < params_.servo_count(); ++j) {
       if ((wanted_ >> j & 1) == 0) continue;
       encoder.u8(params_.joint[j].servo_id);
       encoder.u32(static_cast<std::uint32_t>(outputs.goal_count[j]));

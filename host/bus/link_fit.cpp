@@ -28,7 +28,7 @@ double quantile(const std::vector<double>& sorted, double share) {
 /// None: was given up.
 std::optional<std::uint8_t> somebody(Client& client, const Params& params,
                                      const std::function<bool()>& give_up) {
-  for (int j = 0; j < params.joint_count && !give_up(); ++j) {
+  for (int j = 0; j < params.servo_count() && !give_up(); ++j) {
     if (client.ping(params.joint[j].servo_id, 1)) return params.joint[j].servo_id;
   }
   if (give_up()) return std::nullopt;
@@ -86,7 +86,7 @@ LinkDelay measure_delay(Client& client, const Params& params,
 
 LinkFit fit(const Params& params, const LinkDelay& delay) {
   // A bus on which nobody answers must not cost deadlines either, nor the reads that follow.
-  const std::size_t joints = params.joint_count, sensors = app::sensor_devices(params);
+  const std::size_t joints = params.servo_count(), sensors = app::sensor_devices(params);
   const std::uint32_t silence_us =
       app::timeout_us(app::sync_read_bytes(joints, kBytes + app::kMostSpare), joints, params.baud) +
       app::timeout_us(app::sync_read_bytes(sensors, dxl::sensor_block::kBytes + app::kMostSpare),

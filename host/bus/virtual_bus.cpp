@@ -15,7 +15,7 @@ constexpr std::uint64_t kBitsPerByte = 10;
 
 VirtualBus::VirtualBus(const Params& params, sim::Plant& plant)
     : plant_(plant), period_ns_(std::uint64_t{params.period_us} * 1000), baud_(params.baud) {
-  for (int j = 0; j < params.joint_count; ++j) {
+  for (int j = 0; j < params.servo_count(); ++j) {
     const JointParams& joint = params.joint[j];
     const ServoProfile& profile = params.servo[joint.servo_profile % kServoProfiles];
     const ServoIdentity identity{.id = joint.servo_id,

@@ -16,7 +16,8 @@ constexpr std::uint32_t kRates_hz[] = {100, 125, 200, 250};
 /// What is on bus `which` of two, the first of which has `first` drives.
 Params half_of(const Params& params, int which, int first) {
   Params half = params;
-  half.joint_count = static_cast<std::uint8_t>(which == 0 ? first : params.joint_count - first);
+  half.joint_count = static_cast<std::uint8_t>(which == 0 ? first : params.servo_count() - first);
+  half.followers = 0;
   const int from = which == 0 ? 0 : first;
   for (int j = 0; j < half.joint_count; ++j) half.joint[j] = params.joint[from + j];
   if (which == 0) {
@@ -52,7 +53,7 @@ void add_bus(LoadRow& row, const Params& params, int from, bool own_imu,
   raise(row.published_permille, canopen::load_permille(told, rates, period_us));
   const int fitting = plan::drives_that_fit(
       params, [&](const Params& part) { return plan::has_room(part, row.fd, rates, period_us); });
-  if (!row.no_room && fitting < params.joint_count) row.no_room = from + fitting;
+  if (!row.no_room && fitting < params.servo_count()) row.no_room = from + fitting;
 }
 
 }  // namespace
@@ -65,7 +66,7 @@ std::vector<LoadRow> load_table(const Params& params, std::uint32_t data_baud) {
         LoadRow row{.rate_hz = rate_hz, .buses = buses, .fd = fd, .no_room = {}};
         const canopen::BitRates rates{params.baud, fd ? data_baud : params.baud};
         const bool own_imu = params.imu.device_id == 0;
-        const int first = (params.joint_count + 1) / 2;
+        const int first = (params.servo_count() + 1) / 2;
         if (buses == 1) add_bus(row, params, 0, own_imu, rates);
         for (int which = 0; which < 2 && buses == 2; ++which) {
           add_bus(row, half_of(params, which, first), which * first, own_imu, rates);

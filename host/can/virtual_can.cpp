@@ -38,7 +38,7 @@ VirtualCan::VirtualCan(const Params& params, sim::Plant& plant)
     : plant_(plant),
       period_ns_(std::uint64_t{params.period_us} * 1000),
       rates_{params.baud, params.baud} {
-  for (int j = 0; j < params.joint_count; ++j) plug_in(make_drive(params, j, plant));
+  for (int j = 0; j < params.servo_count(); ++j) plug_in(make_drive(params, j, plant));
   if (const std::uint8_t id = params.imu.device_id; id != 0) {
     plug_in(std::make_unique<ImuNode>(imu_identity(id), id, plant));
   }

@@ -30,6 +30,7 @@ constexpr std::array kSdf = {
     Rule{"", "base", kLinks | kFrames},
     Rule{"", "tip", kLinks | kFrames},
     Rule{"", "joint", kJoints},
+    Rule{"verp:mimic", "follows", kJoints},
     Rule{"verp:joint", "name", kJoints},
     Rule{"", "sensor", kSensors},
 };

@@ -7,6 +7,7 @@
 #include <sdf/sdf.hh>
 
 #include "common/model/tuning_ranges.hpp"
+#include "host/model/couplings.hpp"
 #include "host/model/leg.hpp"
 #include "host/model/link_tree.hpp"
 #include "host/model/params.hpp"
@@ -39,15 +40,19 @@ class Assembler {
     e_.rise_torque_percent = bus.rise_torque_percent;
     tree_.grow();
     join_servos();
+    join_followers(facts_, e_);
     check_names();
     apply_poses();
     for (const LimbFact& fact : facts_.limbs) add_limb(fact);
     check_legs();
+    check_coupled_legs(facts_, e_);
+    refuse_servos_of_followers();
     read_sensors();
     read_tuning();
     gather_leg_frames(e_);
     fit_gains();
     settle_stance(facts_, e_);
+    pose_followers(facts_, e_);
     check_poses();
     free_links();
     add_notes();
@@ -72,6 +77,7 @@ class Assembler {
       Joint* joint = joint_named(fact.joint);
       if (!joint)
         fact.at.fail("there is no moving joint '" + fact.joint + "'", "name one that exists");
+      if (joint->follows >= 0) continue;
       if (!servo_of.insert({fact.joint, &fact}).second) {
         fact.at.fail("joint '" + fact.joint + "' has two servos", "remove one of them");
       }
@@ -84,11 +90,23 @@ class Assembler {
       check_limits(*joint, fact);
     }
     for (const Joint& joint : e_.joints) {
-      if (!servo_of.contains(joint.name)) {
+      if (joint.follows < 0 && !servo_of.contains(joint.name)) {
         fail(joint.name, "joint '" + joint.name + "' has no servo",
              "add <verp:servo joint=\"" + joint.name +
                  "\" id=\"...\" type=\"...\"/> to <verp:bus>, or fix the joint");
       }
+    }
+  }
+
+  void refuse_servos_of_followers() const {
+    for (const ServoFact& fact : facts_.bus().servos) {
+      const MimicFact* const mimic = facts_.mimic_of(fact.joint);
+      if (mimic == nullptr) continue;
+      fact.at.fail(
+          "joint '" + fact.joint + "' mimics '" + mimic->driver + "', whose servo turns both",
+          "remove its <verp:servo>; or, if it has a servo of its own, add <verp:drop "
+          "what=\"mimic\" name=\"" +
+              fact.joint + "\" reason=\"...\"/>");
     }
   }
 
@@ -113,12 +131,17 @@ class Assembler {
   void fit_gains() {
     std::map<std::string, std::uint16_t> fitted;
     for (const ServoFact& fact : facts_.bus().servos) {
+      if (facts_.mimic_of(fact.joint) != nullptr) continue;
       Servo& servo = joint_named(fact.joint)->servo;
       const std::uint16_t gain = fact.gives_p_gain ? std::uint16_t{0} : fitting_p_gain(e_, servo);
       if (gain == 0) continue;
       servo.p_gain = gain;
       if (!fact.gives_d_gain) servo.d_gain = static_cast<std::uint16_t>(gain / 8);
       fitted[servo.type] = gain;
+    }
+    for (Joint& joint : e_.joints) {
+      if (joint.follows >= 0)
+        joint.servo = e_.joints[static_cast<std::size_t>(joint.follows)].servo;
     }
     for (const auto& [type, gain] : fitted) {
       e_.defaults.push_back("p_gain " + std::to_string(gain) + " of " + type +

@@ -72,7 +72,7 @@ BusTime bus_time(const Params& params) {
 
 void require_bus(const Entity& entity, const Params& params) {
   const int fitting = plan::drives_that_fit(params, has_room);
-  if (fitting == params.joint_count) return;
+  if (fitting == params.servo_count()) return;
   const BusTime time = bus_time(params);
   const auto percent = [&](double us) { return 100 * us / params.period_us; };
   std::string needs = fmt::format(

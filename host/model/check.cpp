@@ -9,6 +9,7 @@
 
 #include "common/model/image.hpp"
 #include "host/model/bus_time.hpp"
+#include "host/model/couplings.hpp"
 #include "host/model/find.hpp"
 #include "host/model/leg.hpp"
 #include "host/model/load.hpp"
@@ -178,7 +179,14 @@ nlohmann::ordered_json limb_json(const Entity& entity, const Limb& limb) {
 nlohmann::ordered_json joint_json(const Entity& entity, std::size_t j) {
   const Joint& joint = entity.joints[j];
   const Servo& servo = joint.servo;
+  nlohmann::ordered_json follows = nullptr;
+  if (joint.follows >= 0) {
+    follows = {{"joint", entity.joints[static_cast<std::size_t>(joint.follows)].name},
+               {"multiplier", joint.ratio},
+               {"offset_rad", joint.offset_rad}};
+  }
   return {{"name", joint.name},
+          {"follows", follows},
           {"axis", {joint.axis.x(), joint.axis.y(), joint.axis.z()}},
           {"lower_rad", joint.lower_rad},
           {"upper_rad", joint.upper_rad},
@@ -227,6 +235,7 @@ std::string describe(const Entity& entity) {
     if (is_leg(limb)) text += leg_text(limb, classify_leg(entity, limb));
   }
   text += joint_rows(entity);
+  for (const std::string& line : describe_couplings(entity)) text += line + "\n";
   text += servo_type_rows(entity);
   text += sensor_rows(entity);
   text += bus_text(entity, params);

@@ -92,7 +92,7 @@ struct Servo {
   std::uint16_t profile_ms = 0;
 };
 
-/// joint[j] moves node[j + 1].
+/// joint[j] moves node[j + 1]. Those that follow another's servo stand last, as in Params.
 struct Joint {
   std::string name;
   int parent = 0;                ///< node index
@@ -102,7 +102,10 @@ struct Joint {
   double velocity_limit_rad_s = 0;
   double friction_n_m = 0, damping_n_m_s = 0;
   double stand_rad = 0, sit_rad = 0;
+  /// That of its driver, if it follows one.
   Servo servo;
+  int follows = -1;  ///< its driver, the joint whose servo moves it; -1: its own does
+  double ratio = 1, offset_rad = 0;  ///< its angle is ratio times its driver's, plus offset
 };
 
 struct Limb {
@@ -209,6 +212,22 @@ struct Entity {
   std::vector<std::string>
       notes;  ///< what the file declares about third-party data: one line each, for people
 };
+
+/// All joints, each behind the one that carries it.
+inline std::vector<std::size_t> outward(const Entity& entity) {
+  std::vector<std::size_t> order;
+  std::vector<bool> placed(entity.nodes.size(), false);
+  placed[0] = true;
+  for (std::size_t before = 1; before != order.size() && order.size() < entity.joints.size();) {
+    before = order.size();
+    for (std::size_t j = 0; j < entity.joints.size(); ++j) {
+      if (placed[j + 1] || !placed[static_cast<std::size_t>(entity.joints[j].parent)]) continue;
+      placed[j + 1] = true;
+      order.push_back(j);
+    }
+  }
+  return order;
+}
 
 /// As a file has it: protocol="...".
 const char* protocol_name(BusProtocol protocol);

@@ -102,6 +102,7 @@ class FactReader {
         {"verp:tuning", &FactReader::tuning}, {"verp:inertia", &FactReader::inertia},
         {"verp:box", &FactReader::box},       {"verp:drop", &FactReader::drop},
         {"verp:fix", &FactReader::fix},       {"verp:no_collide", &FactReader::no_collide},
+        {"verp:mimic", &FactReader::mimic},
     };
     return kReaders;
   }
@@ -215,6 +216,12 @@ class FactReader {
     f_.fixes.push_back(fact);
   }
 
+  void mimic(const XmlElement& e) {
+    e.allow({"joint", "follows", "multiplier", "offset_rad"});
+    f_.mimics.push_back({e, e.text("joint"), e.text("follows"), e.number("multiplier", 1),
+                         e.number("offset_rad", 0)});
+  }
+
   void no_collide(const XmlElement& e) {
     e.allow({"link", "other", "reason"});
     e.text("reason");
@@ -283,6 +290,12 @@ const FixFact* Facts::fix_of(const std::string& joint) const {
   const auto found = std::find_if(fixes.begin(), fixes.end(),
                                   [&](const FixFact& fix) { return fix.fixes(joint); });
   return found == fixes.end() ? nullptr : &*found;
+}
+
+const MimicFact* Facts::mimic_of(const std::string& joint) const {
+  const auto found = std::find_if(mimics.begin(), mimics.end(),
+                                  [&](const MimicFact& mimic) { return mimic.joint == joint; });
+  return found == mimics.end() ? nullptr : &*found;
 }
 
 Facts read_facts(const XmlElement& model, const std::string& bus) {

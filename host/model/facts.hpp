@@ -73,6 +73,13 @@ struct FixFact {
   bool fixes(const std::string& name) const;
 };
 
+/// A joint that another's motor turns.
+struct MimicFact {
+  XmlElement at;
+  std::string joint, driver;
+  double multiplier = 1, offset_rad = 0;
+};
+
 struct NoCollideFact {
   XmlElement at;
   std::string link, other;
@@ -102,11 +109,13 @@ struct Facts {
   std::vector<BoxFact> boxes;
   std::vector<DropFact> drops;
   std::vector<FixFact> fixes;
+  std::vector<MimicFact> mimics;  ///< also those of the URDF, once they are read
   std::vector<NoCollideFact> no_collides;
 
   const BusFact& bus() const { return buses[used]; }
   bool is_dropped(const std::string& what, const std::string& name) const;
-  const FixFact* fix_of(const std::string& joint) const;  ///< nullptr: it may turn
+  const FixFact* fix_of(const std::string& joint) const;      ///< nullptr: it may turn
+  const MimicFact* mimic_of(const std::string& joint) const;  ///< nullptr: it has a servo
 };
 
 /// Throws LoadError for an unknown element or attribute, a missing one, a bad number, an id used

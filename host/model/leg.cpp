@@ -76,9 +76,10 @@ const Limb* find_limb(const Entity& entity, const std::string& name) {
 }
 
 std::vector<Vec3> node_origins(const Entity& entity) {
-  std::vector<Vec3> origins = {Vec3::Zero()};
-  for (const Joint& joint : entity.joints) {
-    origins.push_back(origins[static_cast<std::size_t>(joint.parent)] + joint.origin_m);
+  std::vector<Vec3> origins(entity.nodes.size(), Vec3::Zero());
+  for (const std::size_t j : outward(entity)) {
+    const Joint& joint = entity.joints[j];
+    origins[j + 1] = origins[static_cast<std::size_t>(joint.parent)] + joint.origin_m;
   }
   return origins;
 }

@@ -1,9 +1,11 @@
 #include "host/model/link_tree.hpp"
 
+#include <algorithm>
 #include <limits>
 
 #include "common/io/io.hpp"
 #include "host/model/bounds.hpp"
+#include "host/model/couplings.hpp"
 #include "host/model/load_error.hpp"
 #include "host/model/sdf_parts.hpp"
 #include "host/model/visuals.hpp"
@@ -118,6 +120,12 @@ void LinkTree::read_joints() {
     parent_joint_[child] = &joint;
     children_[parent].push_back({&joint, child});
   }
+  std::vector<std::string> turning, fixed;
+  for (std::uint64_t i = 0; i < model_.JointCount(); ++i) {
+    const sdf::Joint& joint = *model_.JointByIndex(i);
+    (is_fixed(joint) ? fixed : turning).push_back(names_.joint_name(joint.Name()));
+  }
+  check_mimics(facts_, turning, fixed);
 }
 
 void LinkTree::check_fixes() const {
@@ -136,6 +144,40 @@ void LinkTree::check_fixes() const {
 bool LinkTree::is_fixed(const sdf::Joint& joint) const {
   return joint.Type() == sdf::JointType::FIXED ||
          facts_.fix_of(names_.joint_name(joint.Name())) != nullptr;
+}
+
+/// Joints without a servo stand last: a bus sees the others only, in one row.
+void LinkTree::put_followers_last() {
+  std::vector<std::size_t> order;  // of the joints as they were
+  for (const bool follower : {false, true}) {
+    for (std::size_t j = 0; j < e_.joints.size(); ++j) {
+      if ((facts_.mimic_of(e_.joints[j].name) != nullptr) == follower) order.push_back(j);
+    }
+  }
+  std::vector<int> node_of(e_.nodes.size(), 0);
+  std::vector<Node> nodes = {e_.nodes[0]};
+  std::vector<Joint> joints;
+  std::vector<Vec3> origin = {origin_[0]};
+  for (const std::size_t j : order) {
+    node_of[j + 1] = static_cast<int>(nodes.size());
+    nodes.push_back(std::move(e_.nodes[j + 1]));
+    joints.push_back(std::move(e_.joints[j]));
+    origin.push_back(origin_[j + 1]);
+  }
+  for (Joint& joint : joints) {
+    joint.parent = node_of[static_cast<std::size_t>(joint.parent)];
+    const MimicFact* const mimic = facts_.mimic_of(joint.name);
+    if (mimic == nullptr) continue;
+    const auto driver = std::find_if(joints.begin(), joints.end(),
+                                     [&](const Joint& each) { return each.name == mimic->driver; });
+    joint.follows = static_cast<int>(driver - joints.begin());
+    joint.ratio = mimic->multiplier;
+    joint.offset_rad = mimic->offset_rad;
+  }
+  for (auto& [name, link] : links_) link.node = node_of[static_cast<std::size_t>(link.node)];
+  e_.nodes = std::move(nodes);
+  e_.joints = std::move(joints);
+  origin_ = std::move(origin);
 }
 
 /// Where all beyond a fixed joint is moved to, the joint itself having been moved by `turned`.
@@ -167,6 +209,7 @@ void LinkTree::place_links() {
            "add its joint");
     }
   }
+  put_followers_last();
   if (e_.joints.size() > kMaxJoints) {
     facts_.body->at.fail("the robot has " + std::to_string(e_.joints.size()) + " joints",
                          "at most " + std::to_string(kMaxJoints) + " fit: fix some");

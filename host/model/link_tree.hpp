@@ -60,6 +60,7 @@ class LinkTree {
   std::optional<Vec3> corrected_com(const std::string& link) const;
   void read_joints();
   void check_fixes() const;
+  void put_followers_last();
   bool is_fixed(const sdf::Joint& joint) const;
   Transform turn_of(const sdf::Joint& joint, const Transform& turned) const;
   void place_links();

@@ -7,6 +7,7 @@
 
 #include "host/model/assemble.hpp"
 #include "host/model/bus_time.hpp"
+#include "host/model/couplings.hpp"
 #include "host/model/facts.hpp"
 #include "host/model/find.hpp"
 #include "host/model/library_console.hpp"
@@ -124,9 +125,12 @@ void require_legs_and_imu(const XmlElement& model, const Facts& facts) {
 Entity load(const std::string& path, const std::string& bus, bool whole, const Text& text = {}) {
   const XmlSource source(path, text);
   const XmlElement model = source.model();
-  const Facts facts = read_facts(model, bus);
+  Facts facts = read_facts(model, bus);
   const LibraryConsole silence;
-  for (const XmlElement& urdf : source.urdfs()) check_urdf(source, urdf, facts);
+  for (const XmlElement& urdf : source.urdfs()) {
+    check_urdf(source, urdf, facts);
+    for (MimicFact& mimic : urdf_mimics(urdf, facts)) facts.mimics.push_back(std::move(mimic));
+  }
   const PreparedUrdfs urdfs(source);
   sdf::Root root;
   const sdf::Errors errors = read(path, text, urdfs, root);

@@ -58,6 +58,19 @@ std::uint8_t profile_index(const Entity& entity, const Servo& servo, Params& par
                   "use the same type, gains and profile_ms for more joints");
 }
 
+/// The servo, its counts and its sag as they are seen through the coupling.
+void follow(const Joint& joint, JointParams& p) {
+  const double counts_per_rad =
+      joint.servo.direction * joint.servo.counts_per_rev / (2 * std::numbers::pi);
+  p.counts_per_rad = static_cast<float>(counts_per_rad / joint.ratio);
+  p.zero_count = static_cast<float>(joint.servo.offset_count -
+                                    counts_per_rad * joint.offset_rad / joint.ratio);
+  p.compliance_rad_nm =
+      static_cast<float>(joint.ratio * joint.ratio / servo_stiffness_n_m_rad(joint.servo));
+  p.armature_kg_m2 = 0;
+  p.friction_n_m = static_cast<float>(joint.friction_n_m);
+}
+
 JointParams joint_params(const Entity& entity, std::size_t j, Params& params) {
   const Joint& joint = entity.joints[j];
   const Node& link = entity.nodes[j + 1];
@@ -84,6 +97,7 @@ JointParams joint_params(const Entity& entity, std::size_t j, Params& params) {
   p.friction_n_m = static_cast<float>(joint.friction_n_m + gears.f_base_n_m + gears.f_strib_n_m);
   p.load_friction = static_cast<float>(gears.l_base + gears.l_strib);
   p.friction_speed_rad_s = static_cast<float>(gears.w_s_rad_s);
+  if (joint.follows >= 0) follow(joint, p);
   p.stand_rad = static_cast<float>(joint.stand_rad);
   p.sit_rad = static_cast<float>(joint.sit_rad);
   return p;
@@ -124,6 +138,7 @@ void find_head(const Entity& entity, Params& params) {
   const Limb* const head = find_limb(entity, "head");
   if (!head) return;
   for (const int j : head->joints) {
+    if (j >= params.servo_count()) continue;
     const Vec3& axis = entity.joints[static_cast<std::size_t>(j)].axis;
     if (params.head_pan == 0xFF && std::abs(axis.z()) > 0.9)
       params.head_pan = static_cast<std::uint8_t>(j);
@@ -170,8 +185,10 @@ Params make_params(const Entity& entity) {
   params.joint_count = static_cast<std::uint8_t>(entity.joints.size());
   params.body_mass_kg = static_cast<float>(entity.nodes[0].mass_kg);
   params.body_com_m = to_xyz(entity.nodes[0].com_m);
-  for (std::size_t j = 0; j < entity.joints.size(); ++j)
+  for (std::size_t j = 0; j < entity.joints.size(); ++j) {
     params.joint[j] = joint_params(entity, j, params);
+    if (entity.joints[j].follows >= 0) ++params.followers;
+  }
   const char* const legs[kFeet] = {"left_leg", "right_leg"};
   for (int foot = 0; foot < kFeet; ++foot) {
     if (const Limb* const leg = find_limb(entity, legs[foot]))

@@ -103,7 +103,7 @@ int joints_between(const Entity& entity, int link, int other) {
 
 std::vector<Overlap> overlaps(const Entity& entity, const std::vector<double>& joint_rad) {
   std::vector<Transform> pose(entity.nodes.size(), Transform::Identity());
-  for (std::size_t j = 0; j < entity.joints.size(); ++j) {
+  for (const std::size_t j : outward(entity)) {
     const Joint& joint = entity.joints[j];
     pose[j + 1] = pose[at(joint.parent)] * Eigen::Translation3d(joint.origin_m) *
                   Eigen::AngleAxisd(joint_rad[j], joint.axis);

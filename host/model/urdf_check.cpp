@@ -126,15 +126,6 @@ UrdfTotals check_urdf(const XmlSource& source, const XmlElement& robot, const Fa
   check_links(robot, *urdf, facts);
   UrdfTotals totals;
   for (const auto& [name, joint] : urdf->joints_) {
-    const XmlElement at = element_of(robot, "joint", name);
-    if (joint->mimic && facts.fix_of(name) == nullptr && !facts.is_dropped("mimic", name)) {
-      at.fail("joint '" + name + "' mimics '" + joint->mimic->joint_name +
-                  "': one motor for two joints is nothing that this controller can drive",
-              "if it doesn't matter to walking, <verp:fix joint=\"" + name +
-                  "\" reason=\"...\"/>; if it has a servo of its own, <verp:drop what=\"mimic\" "
-                  "name=\"" +
-                  name + "\" reason=\"...\"/>");
-    }
     if (joint->type != urdf::Joint::FIXED) ++totals.moving_joints;
   }
   for (const auto& [name, link] : urdf->links_) {

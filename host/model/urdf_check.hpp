@@ -11,8 +11,8 @@ struct UrdfTotals {
 };
 
 /// Throws LoadError for what libsdformat's import would lose without a word, unless <verp:drop> or
-/// <verp:fix> declares it: mimic joints, and shapes without mass. What urdfdom
-/// cannot read is refused with its cause, where the link or joint it names stands in `source`.
+/// <verp:fix> declares it: shapes without mass. What urdfdom cannot read is refused with its cause,
+/// where the link or joint it names stands in `source`.
 UrdfTotals check_urdf(const XmlSource& source, const XmlElement& robot, const Facts& facts);
 
 }  // namespace verp::model

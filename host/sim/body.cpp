@@ -97,7 +97,7 @@ std::vector<Transform> link_poses(const model::Entity& entity, const Transform& 
                                   const std::vector<double>& joint_rad) {
   std::vector<Transform> pose(entity.nodes.size());
   pose[0] = body_world;
-  for (std::size_t j = 0; j < entity.joints.size(); ++j) {
+  for (const std::size_t j : outward(entity)) {
     const model::Joint& joint = entity.joints[j];
     pose[j + 1] = pose[index_of(joint.parent)] * Eigen::Translation3d(joint.origin_m) *
                   Eigen::AngleAxisd(joint_rad[j], joint.axis);
@@ -138,7 +138,7 @@ Transform standing_pose(const model::Entity& entity, const std::vector<double>& 
 
 Body::Body(World& world, const model::Entity& entity, const std::vector<double>& mass_factor,
            int owner)
-    : world_(world), entity_(entity) {
+    : world_(world), entity_(entity), outward_(outward(entity)) {
   const std::vector<double> zero(entity.joints.size(), 0.0);
   const std::vector<Transform> zero_pose = link_poses(entity, Transform::Identity(), zero);
   for (std::size_t n = 0; n < entity.nodes.size(); ++n) {
@@ -291,7 +291,8 @@ std::vector<double> Body::inertias_kg_m2() const {
   const Vec3 origin = link_pose(0).translation();
   std::vector<Sum> beyond(links_.size());
   std::vector<double> inertia(hinges_.size());
-  for (std::size_t n = links_.size() - 1; n > 0; --n) {
+  for (auto j = outward_.rbegin(); j != outward_.rend(); ++j) {
+    const std::size_t n = *j + 1;
     const Link& link = links_[n];
     const Transform pose = link_pose(static_cast<int>(n));
     const Vec3 com = pose * link.com_m - origin;

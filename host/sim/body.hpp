@@ -89,6 +89,7 @@ class Body {
 
   World& world_;
   const model::Entity& entity_;
+  const std::vector<std::size_t> outward_;  ///< joints, parents first
   std::vector<Link> links_;
   std::vector<dJointID> hinges_;
   std::vector<dGeomID> geoms_;

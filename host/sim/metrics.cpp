@@ -200,7 +200,8 @@ void WalkMeter::keep(const Observation& seen, const Outputs& outputs,
   row.state = outputs.gait_state;
   row.stance = outputs.stance;
   for (std::size_t j = 0; j < joints_.size(); ++j) {
-    row.goal_rad.push_back(angle_of(joints_[j].servo, outputs.goal_count[j]));
+    const double servo_rad = angle_of(joints_[j].servo, outputs.goal_count[j]);
+    row.goal_rad.push_back(joints_[j].ratio * servo_rad + joints_[j].offset_rad);
   }
   row.joint_rad = truth.joint_rad;
   row.torque_use = truth.torque_use;

@@ -31,6 +31,42 @@ std::vector<double> mass_factors(const model::Entity& entity, const TwinOptions&
   return factor;
 }
 
+/// The gears, belts or rods by which one motor turns two joints, as stiff as an end stop.
+constexpr double kCouplingStiffness_n_m = 500.0;
+constexpr double kCouplingDamping_n_m_s = 1.0;
+
+/// What the coupling gives a joint's speed to work against, at the speed itself.
+double coupling_slope_n_m_s(double step_s) {
+  return kCouplingDamping_n_m_s + step_s * kCouplingStiffness_n_m;
+}
+
+/// Puts followers where their drivers take them.
+void lead(const model::Entity& entity, std::vector<double>& joint_rad) {
+  for (std::size_t j = 0; j < entity.joints.size(); ++j) {
+    const model::Joint& joint = entity.joints[j];
+    if (joint.follows < 0) continue;
+    joint_rad[j] =
+        joint.ratio * joint_rad[static_cast<std::size_t>(joint.follows)] + joint.offset_rad;
+  }
+}
+
+/// The joint as its servo has it. A follower has no rotor and gears, only its bearing; and of a
+/// rotor that has followers the coupling already carries a part (couplings()).
+model::Joint joint_at_servo(const model::Entity& entity, std::size_t j, double step_s) {
+  model::Joint joint = entity.joints[j];
+  if (joint.follows >= 0) {
+    joint.servo.gearbox = model::Gearbox{};
+    joint.servo.backlash_rad = 0;
+  }
+  double& armature_kg_m2 = joint.servo.gearbox.armature_kg_m2;
+  for (const model::Joint& other : entity.joints) {
+    if (other.follows != static_cast<int>(j)) continue;
+    const double carried = 2 * other.ratio * other.ratio * step_s * coupling_slope_n_m_s(step_s);
+    armature_kg_m2 = std::max(armature_kg_m2 - carried, 0.0);
+  }
+  return joint;
+}
+
 /// Angles and pose at the start, with what the seed makes of them.
 struct Start {
   std::vector<double> joint_rad;
@@ -43,6 +79,7 @@ Start make_start(const model::Entity& entity, const TwinOptions& options) {
     for (const model::Joint& joint : entity.joints) start.joint_rad.push_back(joint.stand_rad);
   }
   start.joint_rad.resize(entity.joints.size(), 0.0);
+  lead(entity, start.joint_rad);
   start.body_world = standing_pose(entity, start.joint_rad, options.start_m, options.start_yaw_rad,
                                    kStartGap + options.start_m.z());
   if (!options.imperfections.initial_pose) return start;
@@ -51,6 +88,7 @@ Start make_start(const model::Entity& entity, const TwinOptions& options) {
   const double pitch = kLeanSpread * random.normal();
   const double yaw = kYawSpread * random.normal();
   for (double& angle : start.joint_rad) angle += kJointSpread * random.normal();
+  lead(entity, start.joint_rad);
   const Mat3 lean =
       (Eigen::AngleAxisd(yaw, Vec3::UnitZ()) * Eigen::AngleAxisd(pitch, Vec3::UnitY()) *
        Eigen::AngleAxisd(roll, Vec3::UnitX()))
@@ -85,7 +123,7 @@ TwinRobot::TwinRobot(World& world, const model::Entity& entity, const TwinOption
     ServoNoise noise{.encoder = options.imperfections.encoder};
     const double error = zero_error.uniform(-1, 1) * options.zero_error_deg * kDegree;
     if (options.imperfections.zero_error) noise.zero_error_rad = error;
-    servo_.emplace_back(entity_.joints[j], noise,
+    servo_.emplace_back(joint_at_servo(entity_, j, world.step_s()), noise,
                         Random(options.seed, Draw::kEncoder, static_cast<int>(j)),
                         start.joint_rad[j]);
     setpoint_[j].goal_count = servo_[j].measurement().position_count;
@@ -117,7 +155,7 @@ TwinRobot::~TwinRobot() {
 }
 
 ServoRating TwinRobot::rating(int joint) const {
-  const model::Servo& servo = entity_.joints[static_cast<std::size_t>(joint)].servo;
+  const model::Servo& servo = entity_.joints[static_cast<std::size_t>(motor_of(joint))].servo;
   return {servo.stall_torque_n_m, servo.stall_current_a};
 }
 
@@ -137,14 +175,39 @@ const std::vector<ServoSetpoint>& TwinRobot::arrived() {
   return arriving_.front();
 }
 
+/// A spring and damper between a follower and where its driver takes it, which gives the driver as
+/// much back. Each end is a line in its own new speed and takes the other's as it was: ODE has no
+/// row for four links. That is stable whatever is at either end, as the two lines' slopes outweigh
+/// what they take from each other; and where both ends speed up together each seems heavier by
+/// step * slope, seen from its own side, of which the driver's rotor is relieved.
+std::vector<Drive> TwinRobot::couplings(double step_s) const {
+  std::vector<Drive> lines(servo_.size());
+  for (std::size_t j = 0; j < servo_.size(); ++j) {
+    const model::Joint& joint = entity_.joints[j];
+    if (joint.follows < 0) continue;
+    const int own = static_cast<int>(j);
+    const double driver_rad = body_.angle_rad(joint.follows);
+    const double pull_n_m = kCouplingStiffness_n_m *
+                            (body_.angle_rad(own) - joint.offset_rad - joint.ratio * driver_rad);
+    const double slope = coupling_slope_n_m_s(step_s);
+    lines[j] += {slope * joint.ratio * body_.rate_rad_s(joint.follows) - pull_n_m, slope};
+    lines[static_cast<std::size_t>(joint.follows)] +=
+        {joint.ratio * (slope * body_.rate_rad_s(own) + pull_n_m),
+         joint.ratio * joint.ratio * slope};
+  }
+  return lines;
+}
+
 void TwinRobot::before_step(double step_s) {
   update_cradle(step_s);
+  coupling_ = couplings(step_s);
   inertia_kg_m2_ = body_.inertias_kg_m2();
   const std::vector<ServoSetpoint>& acting = arrived();
   for (std::size_t j = 0; j < servo_.size(); ++j) {
     const int joint = static_cast<int>(j);
-    body_.drive(joint, servo_[j].drive(acting[j], body_.angle_rad(joint), body_.rate_rad_s(joint),
-                                       external_n_m_[j], supply_v_, step_s));
+    coupling_[j] += servo_[j].drive(acting[j], body_.angle_rad(joint), body_.rate_rad_s(joint),
+                                    external_n_m_[j], supply_v_, step_s);
+    body_.drive(joint, coupling_[j]);
     external_n_m_[j] = -inertia_kg_m2_[j] * body_.rate_rad_s(joint) / step_s;
     saturated_steps_[j] += servo_[j].saturated() ? 1 : 0;
   }

@@ -69,8 +69,11 @@ class TwinRobot final : public Plant, private Actor {
 
   std::uint64_t now_us() const override { return world_.now_us(); }
   void advance_to(std::uint64_t time_us) override { time_->advance_to(time_us); }
-  ServoSetpoint& setpoint(int joint) override { return setpoint_[static_cast<std::size_t>(joint)]; }
-  ServoMeasurement measure(int joint) override { return servo(joint).measurement(); }
+  /// Of a joint that follows another's servo: that servo's.
+  ServoSetpoint& setpoint(int joint) override {
+    return setpoint_[static_cast<std::size_t>(motor_of(joint))];
+  }
+  ServoMeasurement measure(int joint) override { return servo(motor_of(joint)).measurement(); }
   ServoRating rating(int joint) const override;
   ImuMeasurement imu() override { return imu_.measurement(); }
   std::array<std::uint16_t, 4> foot_counts(int foot) override;
@@ -109,6 +112,12 @@ class TwinRobot final : public Plant, private Actor {
   FootLoads take_foot_loads();
 
  private:
+  /// The joint that has the motor.
+  int motor_of(int joint) const {
+    const int driver = entity_.joints[static_cast<std::size_t>(joint)].follows;
+    return driver < 0 ? joint : driver;
+  }
+  std::vector<Drive> couplings(double step_s) const;
   void before_step(double step_s) override;
   void after_step(double step_s) override;
   const std::vector<ServoSetpoint>& arrived();
@@ -149,6 +158,7 @@ class TwinRobot final : public Plant, private Actor {
   double supply_v_;
   std::vector<double> inertia_kg_m2_;  ///< of each joint's links, at the start of the step
   std::vector<double> external_n_m_;   ///< what turned each joint besides its servo, last step
+  std::vector<Drive> coupling_;        ///< of each joint, with its servo, in this step
   double armed_s_ = 0;
   double initial_height_m_ = 0;
   bool fallen_ = false;

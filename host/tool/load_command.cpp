@@ -64,7 +64,7 @@ std::string table_text(const Params& params, const LoadWords& words,
                        const std::vector<can::LoadRow>& rows) {
   std::string text =
       fmt::format("{}: {} drives on CAN at {} bit/s; FD frames at {} bit/s from the data on\n",
-                  params.name, params.joint_count, params.baud, words.data_baud);
+                  params.name, params.servo_count(), params.baud, words.data_baud);
   text += fmt::format("{:>5} {:>6} {:<8} {:>12} {:>9} {:>15} {:>17} {:>16}\n", "Hz", "buses",
                       "frames", "no stuffing", "expected", "worst stuffing", "all states change",
                       "with live check");
@@ -84,7 +84,7 @@ std::string table_text(const Params& params, const LoadWords& words,
 
 Json table_json(const Params& params, const LoadWords& words, const std::vector<can::LoadRow>& rows,
                 const std::string& refused) {
-  Json json = {{"robot", params.name},         {"drives", params.joint_count},
+  Json json = {{"robot", params.name},         {"drives", params.servo_count()},
                {"baud", params.baud},          {"period_us", params.period_us},
                {"admitted", refused.empty()},  {"refusal", refused},
                {"data_baud", words.data_baud}, {"rows", Json::array()}};

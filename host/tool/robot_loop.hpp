@@ -122,6 +122,7 @@ class RobotRun {
       report(pacer.deadlines());
       watch_link();
       watch_person();
+      watch_plan();
       progress_.show(
           operator_.walked_s() / plan_.walk.walk_s,
           fmt::format("{}  {:.1f} of {:g} s, {} deadlines missed", params_.name,
@@ -160,6 +161,16 @@ class RobotRun {
                          "same port is tried again");
   }
 
+  // Whoever orders or tunes more than the legs can do gets shorter steps, or none, and hears of it.
+  void watch_plan() {
+    const std::uint32_t notes =
+        app_.outputs().faults & (safety::kNotePlanShortened | safety::kNotePlanRefused);
+    if ((notes & ~plan_notes_) != 0) {
+      say("the legs cannot do what is asked: " + session::fault_names(notes));
+    }
+    plan_notes_ = notes;
+  }
+
   void tell(safety::Mode from, safety::Mode to, std::uint32_t faults) {
     const std::string why =
         session::fault_names(faults & 0xFFFF);  // the lower half stops the robot
@@ -171,7 +182,7 @@ class RobotRun {
   // silent once more: a wire loses a frame, a busy PC looks too late. A person who presses again
   // has no patience with that.
   void make_sure() {
-    std::vector<int> silent(static_cast<std::size_t>(params_.joint_count));
+    std::vector<int> silent(static_cast<std::size_t>(params_.servo_count()));
     std::iota(silent.begin(), silent.end(), 0);
     for (int round = 0; round < kAsked && !silent.empty(); ++round) {
       std::erase_if(silent, [this](int joint) {
@@ -213,6 +224,7 @@ class RobotRun {
   RunOperator operator_;
   RunKeeper<Robot> keeper_;
   Loop app_;
+  std::uint32_t plan_notes_ = 0;
   bool connected_ = true;
   int presses_ = 0;
 };

@@ -105,7 +105,7 @@ class CanRobot {
 };
 
 std::optional<std::uint8_t> somebody(can::Client& client, const Params& params) {
-  for (int j = 0; j < params.joint_count && !interrupted(); ++j) {
+  for (int j = 0; j < params.servo_count() && !interrupted(); ++j) {
     if (client.read_once(params.joint[j].servo_id, canopen::plan::kDeviceType)) {
       return params.joint[j].servo_id;
     }

@@ -55,7 +55,7 @@ std::string report_of(const SetupWords& words, const model::Entity& entity) {
 
 void check_joint(const Params& params, const std::string& wanted) {
   std::vector<std::string> names;
-  for (int j = 0; j < params.joint_count; ++j) names.emplace_back(params.joint[j].name);
+  for (int j = 0; j < params.servo_count(); ++j) names.emplace_back(params.joint[j].name);
   if (wanted.empty() || std::find(names.begin(), names.end(), wanted) != names.end()) return;
   throw ToolError(kBadInput, fmt::format("verp bus setup: {} has no joint '{}'{}", params.name,
                                          wanted, did_you_mean(wanted, names)));

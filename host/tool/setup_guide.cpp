@@ -53,7 +53,7 @@ bool SetupGuide::run() {
   bool all = true;
   bool open = false;
   try {
-    for (int j = 0; j < params_.joint_count; ++j) {
+    for (int j = 0; j < params_.servo_count(); ++j) {
       const std::string name = params_.joint[j].name;
       const bool wanted = choice_.joint.empty() ? !report_.done(name) : choice_.joint == name;
       if (!wanted) continue;
@@ -70,7 +70,7 @@ bool SetupGuide::run() {
 
 bool SetupGuide::joint(int index) {
   const JointParams& joint = params_.joint[index];
-  complain(fmt::format("\n{} ({} of {}): id {}, {}", joint.name, index + 1, params_.joint_count,
+  complain(fmt::format("\n{} ({} of {}): id {}, {}", joint.name, index + 1, params_.servo_count(),
                        joint.servo_id,
                        bus::model_name(params_.servo[joint.servo_profile].model_number)));
   const char* question = choice_.wired ? "Press Enter to begin (s skips the joint, q ends): "

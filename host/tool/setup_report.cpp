@@ -112,7 +112,7 @@ SetupReport::SetupReport(std::string file, const Params& params, bool writes)
       json_({{"robot", params.name}, {"baud", params.baud}, {"joints", Json::object()}}) {
   std::error_code error;
   if (std::filesystem::exists(file_, error)) read(params);
-  const std::size_t room = kRoomOfEntry * static_cast<std::size_t>(params.joint_count);
+  const std::size_t room = kRoomOfEntry * static_cast<std::size_t>(params.servo_count());
   if (writes) check_place(file_, written_ ? json_.dump(2) + '\n' : "", room);
 }
 
@@ -160,7 +160,7 @@ std::string SetupReport::text(const Params& params) const {
   std::string out =
       fmt::format("{}: servos set up on the bus of {} baud\n", params.name, params.baud);
   const Json& joints = json_.at("joints");
-  for (int j = 0; j < params.joint_count; ++j) {
+  for (int j = 0; j < params.servo_count(); ++j) {
     const std::string name = params.joint[j].name;
     out += line_of(name, joints.contains(name) ? joints.at(name) : Json::object());
   }

@@ -34,6 +34,49 @@ Params mirrored(Params params) {
   return params;
 }
 
+/// Joints `first` and `second` have no servos: those of `of_first` and `of_second` turn them the
+/// other way. They stand last, wherever they are in the tree.
+Params coupled(const Params& robot, int first, int of_first, int second, int of_second) {
+  Params params = robot;
+  const int count = robot.joint_count;
+  const auto place = [=](int joint) {
+    if (joint == first) return count - 2;
+    if (joint == second) return count - 1;
+    return joint - (joint > first ? 1 : 0) - (joint > second ? 1 : 0);
+  };
+  for (int j = 0; j < count; ++j) {
+    JointParams& joint = params.joint[place(j)];
+    joint = robot.joint[j];
+    const int parent = robot.joint[j].parent;
+    joint.parent = static_cast<std::uint8_t>(parent == 0 ? 0 : place(parent - 1) + 1);
+  }
+  for (int leg = 0; leg < kFeet; ++leg) {
+    for (int k = 0; k < kLegJoints; ++k) {
+      params.leg[leg].joint[k] = static_cast<std::uint8_t>(place(robot.leg[leg].joint[k]));
+    }
+  }
+  for (std::uint8_t* const head : {&params.head_pan, &params.head_tilt}) {
+    if (*head != 0xFF) *head = static_cast<std::uint8_t>(place(*head));
+  }
+  for (const auto& [joint, driver] : {std::pair{first, of_first}, std::pair{second, of_second}}) {
+    JointParams& follower = params.joint[place(joint)];
+    follower.servo_id = robot.joint[driver].servo_id;
+    follower.counts_per_rad = -robot.joint[driver].counts_per_rad;
+    follower.zero_count = robot.joint[driver].zero_count;
+  }
+  params.followers = 2;
+  return params;
+}
+
+/// One motor for both hips' yaws, and one for an arm's joint and its neighbour.
+Params coupled_hips(const Params& robot) {
+  const int left = robot.leg[0].joint[0], right = robot.leg[1].joint[0];
+  int arm = 0;  // not of the head, the legs or the trunk, and carries something
+  while (robot.joint[arm].parent != 0 || arm == left || arm == right || arm == robot.head_pan)
+    ++arm;
+  return coupled(robot, right, left, arm, arm + 1);
+}
+
 /// Control periods longer than the time between two key points; feet so heavy that their swing
 /// nearly lifts the robot; thighs that its shanks cannot fold against; no head, no force cells.
 Params slow_and_heavy(Params params) {
@@ -92,7 +135,7 @@ Params limbless(Params params) {
 std::vector<Robot> make_robots(const Params& robot) {
   return {{"closed_form", 25, 11, false, robot},
           {"newton", 20, 22, false, newton(robot)},
-          {"mirrored", 20, 33, false, mirrored(robot)},
+          {"mirrored", 20, 33, false, coupled_hips(mirrored(robot))},
           {"slow_heavy", 10, 44, false, slow_and_heavy(robot)},
           {"fast_twisted", 15, 55, false, fast_and_twisted(robot)},
           {"limbless", 5, 66, false, limbless(robot)},

@@ -35,8 +35,8 @@ TEST(ThirdParty, DarwinOpWalks) {
   expect_walks("darwin_op");
 }
 
-// Knees that are bent the wrong way at zero, axes that don't meet, fingers, massless links, and a
-// wrapper that gives no gait, gain or pose at all.
+// Knees that are bent the wrong way at zero, axes that don't meet, one motor for both hips' yaws,
+// fingers, massless links, and a wrapper that gives no gait, gain or pose at all.
 TEST(ThirdParty, OddRobotWalksFromTheLeastWrapper) {
   const Walk result =
       walk(VERP_SOURCE_DIR "/tests/host/model/odd_robot/robot.sdf --for 30 --physics-step 2");

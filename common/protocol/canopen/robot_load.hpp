@@ -33,7 +33,7 @@ class TickLoad {
 
   constexpr FrameBits bits(TickKind kind) const {
     FrameBits sum = of(1) * sync_groups(params_);
-    sum += of(kDriveAnswerBytes) * params_.joint_count;
+    sum += of(kDriveAnswerBytes) * params_.servo_count();
     if (params_.imu.device_id != 0) sum += of(kImuAnswerBytes) * 2;
     for (const std::uint8_t id : params_.feet.device_id) {
       if (id != 0) sum += of(kFootAnswerBytes);
@@ -73,7 +73,7 @@ class TickLoad {
   }
   constexpr FrameBits one(Shared kind) const {
     if (format_.fd) kind = widened(kind);
-    return params_.joint_count > 0 ? frame(kind, 0) : FrameBits{};
+    return params_.servo_count() > 0 ? frame(kind, 0) : FrameBits{};
   }
 
   const Params& params_;
@@ -98,6 +98,8 @@ constexpr bool has_room(const Params& params, bool fd, const BitRates& rates,
 /// `fits` is asked with fewer and fewer of them.
 template <class Fits>
 int drives_that_fit(Params part, const Fits& fits) {
+  part.joint_count = part.servo_count();
+  part.followers = 0;
   while (part.joint_count > 0 && !fits(part)) --part.joint_count;
   return part.joint_count;
 }

@@ -71,7 +71,7 @@ constexpr int sensor_answers(const Params& params) {
 }
 /// SYNCs of a tick, 2 or more (1019h does not know 1). The transmission type of all TPDOs.
 constexpr std::uint8_t sync_groups(const Params& params) {
-  const int joints = params.joint_count;
+  const int joints = params.servo_count();
   const int in_last = joints == 0 ? 0 : (joints - 1) % kAnswersToOneSync + 1;
   int groups = (joints + kAnswersToOneSync - 1) / kAnswersToOneSync;
   if (in_last + sensor_answers(params) > kAnswersToOneSync) ++groups;
@@ -127,13 +127,13 @@ inline constexpr Shared kStrengths{3, 4, {cia402::object::kMaxTorque, 16}, kDumm
 /// Frames of one kind for the whole robot: frame f has joints first_of() to first_of() + members -
 /// 1.
 constexpr int shared_frames(const Shared& kind, const Params& params) {
-  return (params.joint_count + kind.width - 1) / kind.width;
+  return (params.servo_count() + kind.width - 1) / kind.width;
 }
 constexpr int first_of(const Shared& kind, int frame) {
   return frame * kind.width;
 }
 constexpr int members_of(const Shared& kind, const Params& params, int frame) {
-  const int left = params.joint_count - first_of(kind, frame);
+  const int left = params.servo_count() - first_of(kind, frame);
   return left < kind.width ? left : kind.width;
 }
 /// The identifier: that of the first of its drives.

@@ -276,7 +276,7 @@ TEST(OthersFiles, TenOfEachFaultOfAUrdfAreRefusedWhereTheyStand) {
 // The smallest wrapper of them all is the one to begin with; its file gives no pose, gain or gait.
 TEST(OthersFiles, OddRobotStandsOnWhatIsFoundForIt) {
   const Entity e = load_robot(VERP_SOURCE_DIR "/tests/host/model/odd_robot/robot.sdf");
-  EXPECT_EQ(e.joints.size(), 15u);
+  EXPECT_EQ(e.joints.size(), 15u) << "with the right hip's yaw, which has no servo";
   double mass_kg = 0;
   for (const Node& node : e.nodes) mass_kg += node.mass_kg;
   EXPECT_NEAR(mass_kg, 3.264, 1e-9) << "massless links have none, fingers have";

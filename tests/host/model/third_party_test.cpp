@@ -178,24 +178,6 @@ TEST(Urdf, IsLoadedThroughAWrapperBesideIt) {
   EXPECT_NEAR(e.joints[0].origin_m.z(), 1, 1e-12);
 }
 
-TEST(Urdf, MimicJointIsRefusedUnlessDeclared) {
-  const std::string other =
-      SmallUrdf::link("c") +
-      "<joint name=\"k\" type=\"revolute\"><parent link=\"b\"/><child link=\"c\"/><origin xyz=\"0 "
-      "0 1\"/><axis xyz=\"0 0 1\"/>"
-      "<limit lower=\"-1\" upper=\"1\" effort=\"1\" velocity=\"1\"/><mimic joint=\"j\"/></joint>\n";
-  const SmallUrdf urdf("<origin xyz=\"0 0 1\"/>", other);
-  const TemporaryFile file("robot.sdf", urdf.wrapper(""));
-  try {
-    load_robot(file.path());
-    FAIL();
-  } catch (const LoadError& error) {
-    EXPECT_NE(error.message.find("mimic"), std::string::npos) << error.what();
-    EXPECT_TRUE(error.file.ends_with(".urdf")) << error.what();
-    EXPECT_GT(error.line, 1);
-  }
-}
-
 TEST(Urdf, ShapeWithoutMassIsRefusedUnlessDeclared) {
   const std::string other =
       "<link name=\"c\"><visual><geometry><sphere radius=\"0.1\"/></geometry></visual></link>\n"

@@ -1,0 +1,33 @@
+#pragma once
+#include "tests/unit/support/test_robot.hpp"
+
+namespace verp::test {
+
+inline constexpr int kFollower = kJointCount - 1;  ///< the right hip's yaw
+
+/// `robot`, whose right hip yaw has no servo: the left one's turns it `ratio` times as far. It
+/// stands last in the list, behind the leg that hangs on it.
+inline Params with_coupled_hips(const Params& robot, float ratio) {
+  Params params = robot;
+  const auto place = [](int joint) {
+    return joint == kRightLeg ? kFollower : joint > kRightLeg ? joint - 1 : joint;
+  };
+  for (int j = 0; j < kJointCount; ++j) {
+    JointParams& joint = params.joint[place(j)];
+    joint = robot.joint[j];
+    const int parent = robot.joint[j].parent;
+    joint.parent = static_cast<std::uint8_t>(parent == 0 ? 0 : place(parent - 1) + 1);
+  }
+  for (int k = 0; k < kLegJoints; ++k) {
+    params.leg[1].joint[k] = static_cast<std::uint8_t>(place(kRightLeg + k));
+  }
+  const JointParams& driver = params.joint[kLeftLeg];
+  JointParams& follower = params.joint[kFollower];
+  follower.servo_id = driver.servo_id;
+  follower.counts_per_rad = driver.counts_per_rad / ratio;
+  follower.zero_count = driver.zero_count;
+  params.followers = 1;
+  return params;
+}
+
+}  // namespace verp::test
