@@ -7,5 +7,6 @@ namespace verp::tool {
 Subcommand add_bus_setup(CLI::App& bus);
 Subcommand add_bus_checklist(CLI::App& bus);
 Subcommand add_bus_load(CLI::App& bus);
+Subcommand add_bus_laser(CLI::App& bus);
 
 }  // namespace verp::tool

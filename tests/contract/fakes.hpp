@@ -12,6 +12,7 @@
 #include "hal/fake/scripted_bus.hpp"
 #include "hal/fake/scripted_can.hpp"
 #include "hal/fake/scripted_imu.hpp"
+#include "hal/fake/scripted_range_finder.hpp"
 
 /// The fakes of hal/fake as backends of the suites: on the PC and on target.
 namespace verp::test {
@@ -115,6 +116,30 @@ struct ScriptedChip {
   void settle() {}
 
   hal::ScriptedImu imu;
+  std::uint64_t time_us = 0;
+  bool broken = false;
+};
+
+struct ScriptedLaser {
+  static constexpr std::size_t kSteps = 21;
+  static constexpr bool kBreaks = true;
+  /// One turn of the mirror: 1 m ahead, nothing elsewhere.
+  void turn() {
+    hal::RangeScan scan;
+    scan.time_us = time_us += 50'000;
+    scan.steps = kSteps;
+    scan.range_mm[kSteps / 2] = 1000;
+    laser.measure(scan);
+  }
+  void break_it(bool silent) { broken = silent; }
+  void wait() {}
+  hal::RangeStatus read(hal::RangeScan& scan) {
+    if (broken) laser.fail(1);
+    return laser.read(scan);
+  }
+  std::uint32_t faults() const { return laser.faults(); }
+
+  hal::ScriptedRangeFinder laser;
   std::uint64_t time_us = 0;
   bool broken = false;
 };

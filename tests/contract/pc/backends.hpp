@@ -7,6 +7,7 @@
 #include "tests/contract/chip_models.hpp"
 #include "tests/contract/fakes.hpp"
 #include "tests/contract/pc/buses.hpp"
+#include "tests/contract/pc/lasers.hpp"
 #include "tests/contract/pc/link_pairs.hpp"
 #include "tests/contract/pc/virtual_wire.hpp"
 #include "tests/contract/usb_pair.hpp"
@@ -40,6 +41,7 @@ using TickSources = ::testing::Types<Manual, ChipTicks, System>;
 using Watchdogs =
     ::testing::Types<FakeDog<100>, FakeDog<150>, FakeDog<100 * hal::kWatchdogSlack>,
                      ChipWatchdog<17'000>, ChipWatchdog<32'000>, ChipWatchdog<47'000>>;
+using RangeFinders = ::testing::Types<ScriptedLaser, ScipLaser, TwinLaser>;
 using Imus = ::testing::Types<ScriptedChip, Mpu9250, Icm20648>;
 
 }  // namespace verp::test
