@@ -66,8 +66,9 @@ report::Plot angles_plot(const Comparison& c, const Pair& pair) {
         "{}\nplot $angles using 1:{} with lines linetype 1 title 'A', "
         "$angles using 1:{} with lines linetype 2 title 'B'\n",
         report::plain(joint.name), delay, pair.time_s[first] - c.from_s,
-        pair.time_s[last - 1] - c.from_s, k == 0 ? "set key top right horizontal" : "unset key",
-        2 * k + 2, 2 * k + 3);
+        pair.time_s[last - 1] - c.from_s,
+        k == 0 ? "set key at screen 0.99,0.015 right bottom horizontal" : "unset key", 2 * k + 2,
+        2 * k + 3);
   }
   return {"angles",
           "Joint angles, laid over each other",
@@ -89,12 +90,12 @@ report::Plot joints_plot(const Comparison& c) {
   std::string script = report::preamble() + data.text();
   script += fmt::format(
       "set multiplot layout 3,1\nset style fill solid 0.75 noborder\nset xrange [-0.7:{}.7]\n"
-      "set lmargin 9\nset xtics scale 0 noenhanced\nset format x ''\n"
+      "set lmargin 9\nset rmargin 9\nset xtics scale 0 noenhanced\nset format x ''\n"
       "set key outside top center horizontal\nset ylabel 'rms, degrees'\nset yrange [0:*]\n"
       "plot $joints using ($1-0.2):3:(0.36) with boxes linetype 1 title 'error', "
       "$joints using ($1+0.2):4:(0.36) with boxes linetype 3 title 'left without delay and "
       "offset'\n"
-      "unset key\nset yrange [*:*]\nset ylabel 'offset, degrees'\n"
+      "unset key\nset yrange [*<0:0<*]\nset ylabel 'offset, degrees'\n"
       "plot $joints using 1:5:(0.6) with boxes linetype 4\n"
       "set ylabel 'delay, ms'\nset format x '%s'\nset bmargin 6\n"
       "plot $joints using 1:6:(0.6):xtic(2) with boxes linetype 2\nunset multiplot\n",
