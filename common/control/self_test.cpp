@@ -5,7 +5,7 @@
 
 #include "common/control/step.hpp"
 #include "common/math/convert.hpp"
-#include "common/model/counts.hpp"
+#include "common/model/coupling.hpp"
 
 namespace verp::control {
 namespace {
