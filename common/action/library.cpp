@@ -64,4 +64,13 @@ Library::Library(const void* bytes, std::size_t size) {
   frames_ = frames_of(header_);
 }
 
+std::uint8_t Library::number_of(const char (&name)[kNameLength]) const {
+  for (int number = 1; number <= count(); ++number) {
+    if (__builtin_memcmp(action(number).name, name, kNameLength) == 0) {
+      return static_cast<std::uint8_t>(number);
+    }
+  }
+  return 0;
+}
+
 }  // namespace verp::action

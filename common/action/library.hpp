@@ -34,6 +34,14 @@ struct Action {
 };
 VERP_PACKED(Action);
 
+/// Actions that a controller plays by itself, known by their names: into the pose that bears the
+/// ground, and from the floor to the stand, by the side on which it lies.
+inline constexpr char kFallSafe[kNameLength] = "fall_safe";
+inline constexpr char kGetUpFront[kNameLength] = "get_up_front";
+inline constexpr char kGetUpBack[kNameLength] = "get_up_back";
+inline constexpr char kGetUpLeft[kNameLength] = "get_up_left";
+inline constexpr char kGetUpRight[kNameLength] = "get_up_right";
+
 /// A frame's `next`, `otherwise` or `exit` that is no frame: back to the stand.
 inline constexpr std::uint16_t kToStand = 0xFFFF;
 
@@ -102,6 +110,8 @@ class Library {
   /// Of 1 to count().
   const Action& action(int number) const { return actions_[number - 1]; }
   const Frame& frame(int index) const { return frames_[index]; }
+  /// Of the action of that name; 0: there is none.
+  std::uint8_t number_of(const char (&name)[kNameLength]) const;
 
  private:
   const LibraryHeader* header_ = nullptr;

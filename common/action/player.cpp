@@ -183,6 +183,20 @@ bool is_there(const Library& library, std::uint8_t number) {
   return number > 0 && number <= library.count();
 }
 
+// From anywhere: a joint that no frame names goes to its stand meanwhile.
+void begin_anywhere(const Params& params, const Library& library, const PlayerIn& in,
+                    PlayerState& state) {
+  state = PlayerState{};
+  state.asked = is_there(library, in.asked) ? in.asked : std::uint8_t{0};
+  state.number = in.begin;
+  state.frame = library.action(in.begin).first;
+  state.carry_left = 0.5F;
+  for (int j = 0; j < params.joint_count; ++j) {
+    state.from_rad[j] = in.from_rad[j];
+    state.moved |= 1U << j;
+  }
+}
+
 }  // namespace
 
 bool is_new(const Library& library, const PlayerState& state, std::uint8_t asked) {
@@ -191,6 +205,10 @@ bool is_new(const Library& library, const PlayerState& state, std::uint8_t asked
 
 PlayerOut update(const Params& params, const Library& library, PlayerState& state,
                  const PlayerIn& in) {
+  if (in.begin != 0) {
+    begin_anywhere(params, library, in, state);
+    return look(params, library, state, in, nullptr);
+  }
   if (state.number == 0) {
     if (in.may_begin && is_new(library, state, in.asked)) {
       begin(params, library, in, state);

@@ -31,7 +31,9 @@ VERP_PACKED(PlayerState);
 struct PlayerIn {
   std::uint8_t asked = 0;  ///< number of the action asked; 0: none, also ends one that plays
   bool may_begin = false;
-  bool stop = false;  ///< by the frame's exit, or straight back to the stand
+  std::uint8_t begin = 0;           ///< this one begins now, whatever is asked or plays; 0: none
+  const float* from_rad = nullptr;  ///< of `begin`: where the joints are
+  bool stop = false;                ///< by the frame's exit, or straight back to the stand
   std::int32_t period_us = 10000;
   const float* stand_rad = nullptr;  ///< joints as they stand
   float roll_rad = 0, pitch_rad = 0, up = 1;

@@ -1,5 +1,6 @@
 #include "common/control/acting.hpp"
 
+#include "common/control/falling.hpp"
 #include "common/kinematics/forward.hpp"
 #include "common/math/convert.hpp"
 #include "common/model/coupling.hpp"
@@ -12,10 +13,16 @@ using safety::Mode;
 
 constexpr float kPressed_n = 2.0F;  // above what an unloaded cell tells
 
-// Told to stop, an action goes by its exit.
+bool plays(Mode mode) {
+  return mode == Mode::kActing || mode == Mode::kFalling || mode == Mode::kGettingUp;
+}
+
+// Told to stop, an action goes by its exit. What a fall asks for, nobody stops.
 bool shall_stop(const State& state, const Inputs& inputs, const AdmitOut& admitted) {
   constexpr std::uint32_t kNoMore = safety::kAskRelax | safety::kOperatorQuiet | safety::kPowerBad;
-  return inputs.action != state.action.number || (admitted.conditions & kNoMore) != 0 ||
+  if (state.machine.mode == Mode::kFalling) return false;
+  const bool another = state.machine.mode == Mode::kActing && inputs.action != state.action.number;
+  return another || (admitted.conditions & kNoMore) != 0 ||
          (state.machine.faults & safety::kPowerFaults) != 0;
 }
 
@@ -32,7 +39,10 @@ action::PlayerOut play(const Params& params, const action::Library& actions, Sta
                        const balance::AttitudeOut& attitude, const Wanted& wanted) {
   action::PlayerIn in;
   in.asked = inputs.action;
-  in.may_begin = state.machine.mode == Mode::kActing && state.machine.in_mode_us == 0;
+  const bool enters = state.machine.in_mode_us == 0;
+  in.may_begin = enters && state.machine.mode == Mode::kActing;
+  if (enters) in.begin = own_action(actions, state);
+  in.from_rad = state.limit.goal_rad;
   in.stop = shall_stop(state, inputs, admitted);
   in.period_us = static_cast<std::int32_t>(params.period_us);
   in.stand_rad = wanted.plain_rad;
@@ -93,7 +103,7 @@ void ask_action(const action::Library& actions, const State& state, const Inputs
 
 void act(const Params& params, const action::Library& actions, State& state, const Inputs& inputs,
          const AdmitOut& admitted, const balance::AttitudeOut& attitude, Wanted& wanted) {
-  if (state.machine.mode != Mode::kActing) {
+  if (!plays(state.machine.mode)) {
     // What was cut off is over; one that is still asked was played.
     const std::uint8_t asked = inputs.action == state.action.asked ? state.action.asked : 0;
     state.action = action::PlayerState{};

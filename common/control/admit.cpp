@@ -164,6 +164,7 @@ void take_command(const Params& params, const Tuning& tuning, const Inputs& inpu
       out.conditions |= kAskWalk | kAskStand;
       break;
     case Request::kStand:
+    case Request::kGetUp:
       out.conditions |= kAskStand;
       break;
     default:

@@ -2,6 +2,7 @@
 
 #include "common/balance/gravity.hpp"
 #include "common/balance/landing.hpp"
+#include "common/control/falling.hpp"
 #include "common/gait/coupled_hips.hpp"
 #include "common/math/convert.hpp"
 #include "common/model/coupling.hpp"
@@ -24,6 +25,10 @@ float period_s(const Params& params) {
 bool power_bad(const State& state, const AdmitOut& admitted) {
   return (admitted.conditions & safety::kPowerBad) != 0 ||
          (state.machine.faults & safety::kPowerFaults) != 0;
+}
+
+bool lies(Mode mode) {
+  return mode == Mode::kFalling || mode == Mode::kFallen;
 }
 
 bool walks(const State& state, const AdmitOut& admitted) {
@@ -102,6 +107,19 @@ float heading_error(const Params& params, const State& state, const AdmitOut& ad
   return error_rad + steer.slip_rad;
 }
 
+bool time_is_up(const State& state) {
+  const safety::MachineState& machine = state.machine;
+  switch (machine.mode) {
+    case Mode::kActing:
+    case Mode::kGettingUp:
+      return state.action.number == 0;
+    case Mode::kFalling:
+      return machine.in_mode_us >= kFallLasts_us;
+    default:
+      return machine.in_mode_us >= 1000 * machine.way_ms;
+  }
+}
+
 std::uint32_t conditions_of(const State& state, const AdmitOut& admitted,
                             const balance::AttitudeOut& attitude, const safety::LimitOut& limited) {
   const SafetyTuning& tuning = state.tuning.safety;
@@ -113,10 +131,7 @@ std::uint32_t conditions_of(const State& state, const AdmitOut& admitted,
   if (state.steer.fallen_us > confirm_us) conditions |= safety::kFell;
   if (attitude.calibrated) conditions |= safety::kCalibrated;
   if (state.gait.queued == 0) conditions |= safety::kGaitOver;
-  const bool acts = state.machine.mode == Mode::kActing;
-  if (acts ? state.action.number == 0 : state.machine.in_mode_us >= 1000 * state.machine.way_ms) {
-    conditions |= safety::kTimeUp;
-  }
+  if (time_is_up(state)) conditions |= safety::kTimeUp;
   if (power_bad(state, admitted)) conditions |= safety::kPowerBad;
   if (limited.beyond) conditions |= safety::kJointBeyond;
   return conditions;
@@ -124,8 +139,11 @@ std::uint32_t conditions_of(const State& state, const AdmitOut& admitted,
 
 // Before its servos are heard nobody knows where a joint is.
 bool is_refused(Mode mode, std::uint32_t conditions) {
-  constexpr std::uint32_t kAll = safety::kAskStand | safety::kServosKnown | safety::kJointBeyond;
-  return mode == Mode::kRelaxed && (conditions & kAll) == kAll;
+  constexpr std::uint32_t kAll = safety::kServosKnown | safety::kJointBeyond;
+  const std::uint32_t asked = mode == Mode::kRelaxed  ? safety::kAskStand | 0U
+                              : mode == Mode::kFallen ? safety::kAskGetUp | 0U
+                                                      : 0U;
+  return (conditions & asked) != 0 && (conditions & kAll) == kAll;
 }
 
 void enter(Mode mode, std::int32_t period_us, safety::MachineState& machine) {
@@ -165,6 +183,11 @@ balance::AttitudeOut estimate(const Params& params, State& state, const AdmitOut
 
 gait::GaitOut plan_motion(const Params& params, State& state, const AdmitOut& admitted,
                           const balance::AttitudeOut& attitude) {
+  // Of a walk that ended in a fall nothing goes on, and nothing is learnt.
+  if (lies(state.machine.mode) && state.gait.queued > 0) {
+    state.gait = gait::GaitState{};
+    gait::stand_legs(params, state.gait.preview.leg_rad);
+  }
   gait::GaitIn in;
   in.walk = walks(state, admitted);
   in.wanted.vx_m_s = admitted.vx_m_s;
@@ -268,6 +291,10 @@ void gate(const Params& params, State& state, const AdmitOut& admitted,
         machine);
   if (machine.mode == Mode::kFallen) faults |= safety::kFaultFall;
   if (is_refused(before, conditions)) faults |= safety::kFaultJointBeyond;
+  // It stands: what it got up from is over.
+  if (before == Mode::kGettingUp && machine.mode == Mode::kStanding) {
+    machine.faults &= ~std::uint32_t{safety::kFaultFall};
+  }
   // Asking a relaxed robot to relax is how an operator acknowledges what is latched.
   const bool acknowledged = before == Mode::kRelaxed && machine.mode == Mode::kRelaxed &&
                             (conditions & safety::kAskRelax) != 0;

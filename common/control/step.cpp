@@ -2,6 +2,7 @@
 
 #include "common/control/acting.hpp"
 #include "common/control/digest_state.hpp"
+#include "common/control/falling.hpp"
 #include "common/control/stages.hpp"
 
 namespace verp {
@@ -14,6 +15,7 @@ void step(const Params& params, const action::Library& actions, State& state, co
   AdmitOut admitted = admit(params, state.admit, state.tuning, inputs);
   ask_action(actions, state, inputs, admitted);
   const balance::AttitudeOut attitude = estimate(params, state, admitted);
+  watch_fall(params, actions, state, inputs, attitude, admitted);
   const gait::GaitOut plan = plan_motion(params, state, admitted, attitude);
   state.feedback = balance::feedback(state.tuning.balance, attitude,
                                      state.tuning.gait.trunk_pitch_rad, plan.swing);

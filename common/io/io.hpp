@@ -24,9 +24,9 @@ enum InputFlag : std::uint16_t {
   kParameterWrite = 1 << 6,  ///< parameter_id and parameter_bits are valid
 };
 
-/// What the operator asks for. Order matters to the safety table: each includes what stands before
-/// it.
-enum class Request : std::uint8_t { kRelax = 0, kStand = 1, kWalk = 2 };
+/// What the operator asks for. kWalk and kGetUp include kStand. kGetUp is also the leave to have
+/// torque on the floor: without it no fallen robot moves.
+enum class Request : std::uint8_t { kRelax = 0, kStand = 1, kWalk = 2, kGetUp = 3 };
 
 /// The operator's standing order; it holds until the next one.
 struct Command {

@@ -180,7 +180,7 @@ inline constexpr Register kTable[] = {
     // With torque off, request is set back to 0 when a loop begins, and when one has stood still for
     // longer than an order lasts. After each start, a watchdog's too, it takes 1 and 2 (Result Fail)
     // only once 0 was written: what a program repeats must not raise a robot that was reset.
-    rw(80, "request", u8, 2, "", "0 relax, 1 stand, 2 walk; after each start 1 and 2 are refused until 0 was written; with torque off back to 0 when a loop begins or stood still"),
+    rw(80, "request", u8, 3, "", "0 relax, 1 stand, 2 walk, 3 stand, from the floor too: leave to get up by the robot's own action; after each start 1 to 3 are refused until 0 was written; with torque off back to 0 when a loop begins or stood still"),
     rw(81, "command_sequence", u8, 255, "", "count the orders here; it is recorded with each tick"),
     rw_i16(82, "walk_vx", "0.1 mm/s", "forward velocity, body frame"),
     rw_i16(84, "walk_vy", "0.1 mm/s", "velocity to the left, body frame"),
@@ -209,7 +209,7 @@ inline constexpr Register kTable[] = {
     r(128, "digest", u64, "", "chained digest of all ticks so far"),
     r(136, "tick", u32, "ticks", "control periods since power-up"),
     r(140, "faults", u32, "bits", "safety::Fault, latched until relaxed"),
-    r(144, "mode", u8, "", "0 relaxed, 1 rising, 2 standing, 3 walking, 4 holding, 5 sitting, 6 fallen, 7 stopped, 8 acting"),
+    r(144, "mode", u8, "", "0 relaxed, 1 rising, 2 standing, 3 walking, 4 holding, 5 sitting, 6 fallen, 7 stopped, 8 acting, 9 falling, 10 getting up"),
     r(145, "gait_phase", u8, "", "gait::Phase"),
     r(146, "gait_state", u8, "", "state within the cycle, 0 to 15"),
     r(147, "stance", u8, "", "foot that carries: 0 left, 1 right, 2 both"),

@@ -11,6 +11,7 @@ constexpr std::uint32_t kUpright = bit(Mode::kRising) | bit(Mode::kStanding) | b
                                    bit(Mode::kHolding) | bit(Mode::kSitting) | bit(Mode::kActing);
 constexpr std::uint32_t kMoving =
     bit(Mode::kRising) | bit(Mode::kStanding) | bit(Mode::kWalking) | bit(Mode::kActing);
+constexpr std::uint32_t kMayFall = kMoving | bit(Mode::kSitting);
 constexpr std::uint32_t kMayRest = bit(Mode::kRising) | bit(Mode::kStanding) | bit(Mode::kHolding);
 
 }  // namespace
@@ -23,7 +24,7 @@ constexpr Row kTable[] = {
     {bit(Mode::kFallen), kAskRelax, 0, Mode::kRelaxed},
     // Silence: hold, then sit, then release; at once if the operator has seen enough, or if servos
     // or supply are in trouble.
-    {kMoving, kStale, 0, Mode::kHolding},
+    {kMoving | bit(Mode::kGettingUp), kStale, 0, Mode::kHolding},
     {bit(Mode::kHolding), kLost, 0, Mode::kSitting},
     {kMayRest, kAskRelax, 0, Mode::kSitting},
     {kMayRest, kPowerBad, kStale, Mode::kSitting},
@@ -41,6 +42,15 @@ constexpr Row kTable[] = {
     // Actions begin and end standing; one that is told to stop finds its way there first.
     {bit(Mode::kStanding), kAskAction | kCalibrated, kOperatorQuiet | kPowerBad, Mode::kActing},
     {bit(Mode::kActing), kTimeUp, 0, Mode::kStanding},
+    // A fall, from before the ground is met. These rows may stand last: a fall that another row
+    // hides is seen again in the next tick.
+    {kMayFall, kFallSeen, kStale, Mode::kFalling},
+    {bit(Mode::kFalling), kTimeUp | kFell, 0, Mode::kFallen},
+    {bit(Mode::kFalling), kTimeUp, 0, Mode::kHolding},
+    {bit(Mode::kFallen) | bit(Mode::kRelaxed), kAskGetUp | kServosKnown,
+     kStale | kOperatorQuiet | kPowerBad | kJointBeyond, Mode::kGettingUp},
+    {bit(Mode::kGettingUp), kTimeUp | kFell, 0, Mode::kFallen},
+    {bit(Mode::kGettingUp), kTimeUp, 0, Mode::kStanding},
 };
 constexpr int kRows = sizeof(kTable) / sizeof(Row);
 

@@ -12,25 +12,27 @@ enum class Mode : std::uint8_t {
   kRising,   ///< from the pose found to the stand
   kStanding,
   kWalking,
-  kHolding,  ///< something went silent: goals frozen
-  kSitting,  ///< down to the crouch from which torque may go
-  kFallen,   ///< limp until the operator asks to relax
-  kStopped,  ///< e-stop: limp until released and asked to relax
-  kActing,   ///< plays an action
+  kHolding,    ///< something went silent: goals frozen
+  kSitting,    ///< down to the crouch from which torque may go
+  kFallen,     ///< limp until the operator asks to relax
+  kStopped,    ///< e-stop: limp until released and asked to relax
+  kActing,     ///< plays an action
+  kFalling,    ///< the ground will be met: into the pose that bears it, with little strength
+  kGettingUp,  ///< from the floor to the stand, by an action
 };
-inline constexpr int kModes = 9;
-inline constexpr const char* kModeNames[kModes] = {"relaxed", "rising",  "standing",
-                                                   "walking", "holding", "sitting",
-                                                   "fallen",  "stopped", "acting"};
+inline constexpr int kModes = 11;
+inline constexpr const char* kModeNames[kModes] = {"relaxed", "rising",  "standing",  "walking",
+                                                   "holding", "sitting", "fallen",    "stopped",
+                                                   "acting",  "falling", "getting up"};
 
 enum Condition : std::uint32_t {
   kAskRelax = 1 << 0,
   kAskStand = 1 << 1,  ///< stand or walk
   kAskWalk = 1 << 2,
   kServosKnown = 1 << 3,  ///< every servo has reported recently
-  kTimeUp = 1 << 4,       ///< the rise or the sitting down has lasted its time, the action is over
-  kGaitOver = 1 << 5,     ///< the gait stands on both feet
-  kCalibrated = 1 << 6,   ///< gyro bias known
+  kTimeUp = 1 << 4,      ///< the rise, sitting down or fall has lasted its time, the action is over
+  kGaitOver = 1 << 5,    ///< the gait stands on both feet
+  kCalibrated = 1 << 6,  ///< gyro bias known
   kFell = 1 << 7,
   kEmergency = 1 << 8,
   kStale = 1 << 9,           ///< a servo or the IMU silent for stale_hold_s
@@ -40,6 +42,8 @@ enum Condition : std::uint32_t {
   kPowerBad = 1 << 13,       ///< kPowerFaults, now or still latched
   kJointBeyond = 1 << 14,    ///< limp, and a joint is further beyond its limits than kBeyond_rad
   kAskAction = 1 << 15,      ///< one that has not been played for this asking
+  kFallSeen = 1 << 16,       ///< it will meet the ground, and has a pose for that
+  kAskGetUp = 1 << 17,       ///< it has lain still, and has an action for the side on which it lies
 };
 
 /// Latched until the operator relaxes the robot. The upper half reports what was limited; it stops
@@ -71,9 +75,9 @@ struct MachineState {
   std::uint32_t faults = 0;     ///< Fault bits
   std::int32_t in_mode_us = 0;  ///< since the mode was entered, saturating
   Mode mode = Mode::kRelaxed;
-  std::uint8_t reserved = 0;
-  std::uint16_t way_ms = 0;  ///< how long the last rise or sitting down takes
-  VERP_FIELDS(faults, in_mode_us, mode, reserved, way_ms)
+  std::uint8_t falling_ms = 0;  ///< how long its body has been beyond return, up to 255
+  std::uint16_t way_ms = 0;     ///< how long the last rise or sitting down takes
+  VERP_FIELDS(faults, in_mode_us, mode, falling_ms, way_ms)
 };
 VERP_PACKED(MachineState);
 

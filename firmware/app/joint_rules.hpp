@@ -35,12 +35,13 @@ class JointStrength {
   void limit_torque(std::uint8_t percent) { most_percent_ = percent; }
 
  protected:
-  // On its way up a robot may lie against anything, a hand too: its servos push as hard as its
-  // entity allows, and no harder.
+  // On its way up a robot may lie against anything, a hand too, and one that falls strikes it: its
+  // servos push as hard as its entity allows, and no harder. Getting up takes all that they have.
   std::uint8_t percent_in(std::uint8_t mode) const {
-    const bool rising = mode == static_cast<std::uint8_t>(safety::Mode::kRising);
-    return rising && params_.rise_torque_percent < most_percent_ ? params_.rise_torque_percent
-                                                                 : most_percent_;
+    const auto is = [mode](safety::Mode each) { return mode == static_cast<std::uint8_t>(each); };
+    const bool gives_way = is(safety::Mode::kRising) || is(safety::Mode::kFalling);
+    return gives_way && params_.rise_torque_percent < most_percent_ ? params_.rise_torque_percent
+                                                                    : most_percent_;
   }
   std::uint16_t strength_of(int joint, std::uint8_t percent) const {
     return static_cast<std::uint16_t>(full_[joint] * percent / 100);

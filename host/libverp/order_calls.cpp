@@ -39,8 +39,9 @@ int intervene(verp_session session, const verp::session::Intervention& what) {
 int verp_session_command(verp_session session, uint32_t robot, uint32_t request, double vx_m_s,
                          double vy_m_s, double wz_rad_s, double pan_rad, double tilt_rad) {
   return call("verp_session_command", [&] {
-    if (request > VERP_WALK)
-      throw Failure(VERP_BAD_ARGUMENT, "request is none of VERP_RELAX, VERP_STAND, VERP_WALK");
+    if (request > VERP_GET_UP)
+      throw Failure(VERP_BAD_ARGUMENT,
+                    "request is none of VERP_RELAX, VERP_STAND, VERP_WALK, VERP_GET_UP");
     verp::Command command = velocity_of(vx_m_s, vy_m_s, wz_rad_s);
     command.request = static_cast<verp::Request>(request);
     command.head_pan_mrad = milli(pan_rad, "pan_rad");

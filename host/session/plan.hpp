@@ -28,8 +28,11 @@ struct WalkPlan {
   std::string remark;                  ///< how that is not what was asked; goes into the result's
   double walk_s = 20;     ///< of gait; of a run whose orders come from Hooks::order: of the run
   sim::TwinOptions twin;  ///< seed, where it stands, what of it varies
-  std::string board;      ///< emulated board that runs the controller; empty: this process
-  std::string name;       ///< among other robots of the world; empty: as params have it
+  /// How often in a row the operator has it try to get up once it lies; 0: it lies, and a fall ends
+  /// the walk. `actions` hold how.
+  int get_ups = 0;
+  std::string board;  ///< emulated board that runs the controller; empty: this process
+  std::string name;   ///< among other robots of the world; empty: as params have it
   std::vector<Intervention> interventions;  ///< of what is done to the twin, in any order
 };
 
@@ -77,8 +80,9 @@ struct WalkResult {
   std::vector<sim::SeriesRow> series;  ///< from the first tick on
   std::uint64_t ticks = 0;
   std::uint64_t digest = 0;
-  std::uint32_t faults = 0;   ///< safety::Fault bits at the end
-  double longest_step_m = 0;  ///< that the gait made: the asked one, or what limits left of it
+  std::uint32_t faults = 0;    ///< safety::Fault bits at the end
+  int falls = 0, get_ups = 0;  ///< as the controller saw them
+  double longest_step_m = 0;   ///< that the gait made: the asked one, or what limits left of it
   double simulated_s = 0, wall_s = 0;
   std::vector<double> set_upright_s;  ///< when somebody set it on its feet, simulated time
   std::vector<Done> interventions;    ///< what of the plan's was done, and what else

@@ -42,7 +42,7 @@ Robot::Robot(sim::World& world, const WalkPlan& plan, Hooks hooks, Interrupted i
       trace_(hooks_.trace),
       world_(world),
       twin_(world, plan_.entity, plan_.twin),
-      walker_(std::in_place, plan_.params, plan_.velocity, plan_.walk_s),
+      walker_(std::in_place, plan_.params, plan_.velocity, plan_.walk_s, plan_.get_ups),
       meter_(plan_.entity, hooks_.keep_series),
       pending_(plan_.interventions.begin(), plan_.interventions.end()) {
   std::stable_sort(pending_.begin(), pending_.end(),
@@ -94,7 +94,8 @@ void Robot::let_pass(std::uint32_t time_us) {
 
 void Robot::begin_anew() {
   walked_s_ = walked_s();
-  walker_.emplace(plan_.params, plan_.velocity, std::max(0.0, plan_.walk_s - walked_s_));
+  walker_.emplace(plan_.params, plan_.velocity, std::max(0.0, plan_.walk_s - walked_s_),
+                  plan_.get_ups);
   trace_ = nullptr;
 }
 
@@ -108,6 +109,7 @@ void Robot::take(const TickRecord& tick, const State& state, const Outputs& outp
 void Robot::see() {
   if (!std::exchange(taken_, false)) return;
   walker_->observe(state_, outputs_);
+  count_falls();
   const gait::Xy by_m = state_.gait.footsteps.stride.by_m;
   if (state_.gait.queued > 0) {
     result_.longest_step_m =
@@ -130,11 +132,24 @@ void Robot::see() {
   tell_exposures();
   const bool done = hooks_.order ? gone_s() >= plan_.walk_s : walker_->done();
   intervene_in_time();
-  after_s_ += twin_.fallen() || done ? plan_.params.period_us * 1e-6 : 0;
+  const bool ended = done || (twin_.fallen() && plan_.get_ups == 0);
+  after_s_ += ended ? plan_.params.period_us * 1e-6 : 0;
   const bool ends = after_s_ > (twin_.fallen() ? kAfterFall_s : kAfterStop_s);
   over_ = over_ || (ends && !hooks_.open_end);
   if (hooks_.ticked)
     hooks_.ticked({seen, gone_s(), &tick_, &state_, &outputs_, &world_, twin_.owner()});
+}
+
+/// One that got up walks on: what the twin holds against it is over.
+void Robot::count_falls() {
+  using safety::Mode;
+  const auto mode = static_cast<Mode>(outputs_.mode);
+  const Mode before = std::exchange(mode_, mode);
+  if (mode == before) return;
+  if (mode == Mode::kFallen && before != Mode::kGettingUp) ++result_.falls;
+  if (mode != Mode::kStanding) return;
+  if (before == Mode::kGettingUp) ++result_.get_ups;
+  if (plan_.get_ups > 0) twin_.forget_fall();
 }
 
 void Robot::intervene_in_time() {
@@ -270,7 +285,8 @@ std::string Robot::failure_of_walk() const {
                        result_.can->overruns);
   }
   if (result_.metrics.fallen) {
-    return fmt::format("fell after {:.2f} s of gait", walked_s());
+    const std::string failed = hooks_.order ? "" : walker_->failed();
+    return failed.empty() ? fmt::format("fell after {:.2f} s of gait", walked_s()) : failed;
   }
   const std::string faults = fault_names(result_.faults & kStopping);
   if (!faults.empty()) return "stopped by fault: " + faults;

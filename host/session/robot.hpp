@@ -94,6 +94,7 @@ class Robot {
   std::string failure_of_walk() const;
   void intervene_in_time();
   void note(const std::string& what);
+  void count_falls();
   void count_traffic();
   double walked_s() const;
   bool has_torque();
@@ -116,6 +117,7 @@ class Robot {
   TickRecord tick_;                   ///< the last one taken, and what came with it
   State state_;
   Outputs outputs_;
+  safety::Mode mode_ = safety::Mode::kRelaxed;            ///< of the tick before
   bool taken_ = false;                                    ///< and not seen yet
   std::uint64_t bits_before_ = 0, bare_bits_before_ = 0;  ///< the first tick
   FallVerdict verdict_;

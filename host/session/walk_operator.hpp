@@ -4,6 +4,7 @@
 #include "common/control/state.hpp"
 #include "common/io/io.hpp"
 #include "common/model/params.hpp"
+#include "common/safety/machine.hpp"
 #include "firmware/app/contracts.hpp"
 
 namespace verp::session {
@@ -13,8 +14,9 @@ namespace verp::session {
 /// Sees what the controller reports and plans, never the twin's truth.
 class WalkOperator {
  public:
-  /// `velocity` holds vx, vy, wz of the walk; its other members are ignored.
-  WalkOperator(const Params& params, const Command& velocity, double walk_s);
+  /// `velocity` holds vx, vy, wz of the walk; its other members are ignored. `get_ups`: how often
+  /// in a row it asks a robot that lies to get up; one that then stands walks on.
+  WalkOperator(const Params& params, const Command& velocity, double walk_s, int get_ups = 0);
 
   app::OperatorOrder order(std::uint32_t tick);
   /// What the controller put out in the tick just done, and what it plans.
@@ -32,12 +34,18 @@ class WalkOperator {
  private:
   double lead_s(const State& state, bool one_more) const;
   void stop_in_time(const State& state);
+  bool look_after_fall(safety::Mode mode);
 
   const Params& params_;
   Command velocity_;
   double walk_s_;
   Command command_;
   double period_s_;
+  int get_ups_;
+  int tries_ = 0;      ///< to get up, since it stood last
+  bool down_;          ///< it may lie, or fell, and does not stand yet
+  double down_s_ = 0;  ///< since then
+  safety::Mode mode_ = safety::Mode::kRelaxed;
   double walked_s_ = 0;
   double waited_s_ = 0;    ///< before the gait
   double stood_s_ = 0;     ///< standing, before the gait

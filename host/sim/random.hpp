@@ -25,6 +25,7 @@ enum class Draw : std::uint64_t {
   kVaryGyroBias = 27,
   kVaryTilt = 28,
   kVarySupply = 29,
+  kLyingPose = 30,
   kLaser = 50,     ///< plus the laser's index
   kCamera = 80,    ///< plus the camera's index
   kEncoder = 100,  ///< plus the joint's index

@@ -5,6 +5,7 @@
 #include <numbers>
 #include <utility>
 
+#include "host/model/self_collision.hpp"
 #include "host/sim/scenery.hpp"
 
 namespace verp::sim {
@@ -73,15 +74,70 @@ struct Start {
   Transform body_world;
 };
 
+double uniform(Random& random, double low, double high) {
+  return low + (high - low) * 0.5 * (1 + random.uniform(-1, 1));
+}
+
+/// Angles inside their limits at which no link is within another.
+std::vector<double> any_angles(const model::Entity& entity, Random& random) {
+  constexpr int kMostDraws = 1000;
+  std::vector<double> angle_rad;
+  for (int i = 0; i < kMostDraws; ++i) {
+    angle_rad.clear();
+    for (const model::Joint& joint : entity.joints)
+      angle_rad.push_back(uniform(random, joint.lower_rad, joint.upper_rad));
+    const auto meet = model::overlaps(entity, angle_rad);
+    const bool free = std::all_of(meet.begin(), meet.end(), [&](const model::Overlap& each) {
+      return std::any_of(entity.no_collide.begin(), entity.no_collide.end(),
+                         [&](const model::NoCollide& pair) {
+                           return pair.link == each.link && pair.other == each.other;
+                         });
+    });
+    if (free) return angle_rad;
+  }
+  throw std::invalid_argument("no pose of '" + entity.name + "' was found in which no links meet");
+}
+
+/// How the standing body is turned to lie on that side.
+Mat3 laid(Lies lies, Random& random) {
+  constexpr double kQuarter = std::numbers::pi / 2;
+  const auto turn = [](double angle_rad, const Vec3& axis) {
+    return Eigen::AngleAxisd(angle_rad, axis).toRotationMatrix();
+  };
+  switch (lies) {
+    case Lies::kNo:
+      return Mat3::Identity();
+    case Lies::kFront:
+      return turn(kQuarter, Vec3::UnitY());
+    case Lies::kBack:
+      return turn(-kQuarter, Vec3::UnitY());
+    case Lies::kLeft:
+      return turn(-kQuarter, Vec3::UnitX());
+    case Lies::kRight:
+      return turn(kQuarter, Vec3::UnitX());
+    case Lies::kAny:
+      break;
+  }
+  Eigen::Quaterniond any(random.normal(), random.normal(), random.normal(), random.normal());
+  return any.normalized().toRotationMatrix();
+}
+
 Start make_start(const model::Entity& entity, const TwinOptions& options) {
   Start start{options.initial_rad, {}};
   if (start.joint_rad.empty()) {
     for (const model::Joint& joint : entity.joints) start.joint_rad.push_back(joint.stand_rad);
   }
   start.joint_rad.resize(entity.joints.size(), 0.0);
+  Random lying(options.seed, Draw::kLyingPose);
+  if (options.lies == Lies::kAny) start.joint_rad = any_angles(entity, lying);
   lead(entity, start.joint_rad);
   start.body_world = standing_pose(entity, start.joint_rad, options.start_m, options.start_yaw_rad,
                                    kStartGap + options.start_m.z());
+  if (options.lies != Lies::kNo) {
+    start.body_world.linear() *= laid(options.lies, lying);
+    start.body_world =
+        resting(entity, start.joint_rad, start.body_world, kStartGap + options.start_m.z());
+  }
   if (!options.imperfections.initial_pose) return start;
   Random random(options.seed, Draw::kInitialPose);
   const double roll = kLeanSpread * random.normal();
@@ -142,11 +198,14 @@ TwinRobot::TwinRobot(World& world, const model::Entity& entity, const TwinOption
   for (const model::CameraSensor& camera : entity_.cameras) {
     if (options.cameras) shutter_.emplace_back(camera.rate_hz);
   }
-  initial_height_m_ = start.body_world.translation().z() - options.start_m.z();
+  TwinOptions upright = options;
+  upright.lies = Lies::kNo;
+  initial_height_m_ =
+      make_start(entity_, upright).body_world.translation().z() - options.start_m.z();
   const auto delay_steps =
       static_cast<std::size_t>(std::lround(options.goal_delay_s / world.step_s()));
   arriving_.assign(delay_steps + 1, setpoint_);
-  if (options.cradle != Cradle::kNone) body_.hold();
+  if (options.cradle != Cradle::kNone && options.lies == Lies::kNo) body_.hold();
   world_.add(*this);
 }
 
@@ -221,7 +280,7 @@ void TwinRobot::after_step(double step_s) {
   update_imu(step_s);
   update_self_contacts();
   update_feet(step_s);
-  update_fallen();
+  fallen_ = fallen_ || is_down();
   update_lasers();
   update_cameras();
 }
@@ -232,6 +291,7 @@ bool TwinRobot::set_upright() {
   }
   const Transform lies = body_.link_pose(0);
   TwinOptions here = options_;
+  here.lies = Lies::kNo;
   here.start_m.head<2>() = lies.translation().head<2>();
   here.start_yaw_rad = std::atan2(lies.linear()(1, 0), lies.linear()(0, 0));
   const Start start = make_start(entity_, here);
@@ -340,11 +400,17 @@ int TwinRobot::foot_of(int node) const {
   return node == foot_node_[1] ? 1 : -1;
 }
 
-void TwinRobot::update_fallen() {
+bool TwinRobot::is_down() const {
   const Transform body = body_.link_pose(0);
   const double tilt = std::acos(std::clamp(body.linear()(2, 2), -1.0, 1.0));
-  fallen_ = fallen_ || tilt > kFallenTilt ||
-            body.translation().z() - options_.start_m.z() < kFallenHeight * initial_height_m_;
+  return tilt > kFallenTilt ||
+         body.translation().z() - options_.start_m.z() < kFallenHeight * initial_height_m_;
+}
+
+bool TwinRobot::forget_fall() {
+  if (is_down()) return false;
+  fallen_ = false;
+  return true;
 }
 
 FootTruth TwinRobot::foot_truth(int foot) const {

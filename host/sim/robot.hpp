@@ -35,6 +35,10 @@ struct Imperfections {
 /// it is armed.
 enum class Cradle { kNone, kUntilArmed, kAlways };
 
+/// How it is put down: standing, or on the floor on that side; kAny: in a pose and turned as drawn
+/// from the seed.
+enum class Lies { kNo, kFront, kBack, kLeft, kRight, kAny };
+
 struct TwinOptions {
   std::uint64_t seed = 1;
   Imperfections imperfections = {};
@@ -46,6 +50,7 @@ struct TwinOptions {
   std::vector<double> initial_rad = {};  ///< joint angles at the start; empty: Entity's stand_rad
   Vec3 start_m = Vec3::Zero();           ///< midpoint of the soles; z: of the ground there
   double start_yaw_rad = 0;
+  Lies lies = Lies::kNo;  ///< nobody holds one that does
   Cradle cradle = Cradle::kUntilArmed;
   /// Released this long after all leg servos have torque: the firmware then stands in its pose
   /// (rise_s is 1 s), and does not walk yet.
@@ -91,6 +96,9 @@ class TwinRobot final : public Plant, private Actor {
   /// Lets go of the body at once, whatever the cradle waits for.
   void release() { body_.release(); }
   bool fallen() const { return fallen_; }
+  /// It stands again as high and as upright as one that never fell: so says fallen() from now on.
+  /// False: it does not, and nothing was done.
+  bool forget_fall();
   /// Somebody puts a limp robot on its feet where it lies, in the pose in which it began, and holds
   /// it as then (Cradle). False: a servo has torque, and nothing was done.
   bool set_upright();
@@ -126,7 +134,7 @@ class TwinRobot final : public Plant, private Actor {
   void update_imu(double step_s);
   void update_self_contacts();
   void update_feet(double step_s);
-  void update_fallen();
+  bool is_down() const;
   void update_lasers();
   void update_cameras();
   FootTruth foot_truth(int foot) const;

@@ -140,6 +140,16 @@ void declare(CLI::App& app, WalkOptions& options) {
       "--vary", options.vary,
       "another robot of this kind, drawn from the seed: masses, friction, delay, backlash, "
       "strength, gears, gyro bias, floor, supply; the controller does not know");
+  app.add_flag(
+      "--get-up", options.get_up,
+      "falls end no walk: it falls softly, gets up by its actions fall_safe and get_up_..., "
+      "and walks on");
+  app.add_option("--start", options.start,
+                 "standing; or lying:SIDE on the floor: front, back, left, right is down; any: a "
+                 "pose drawn from the seed. It gets up first")
+      ->check(CLI::IsMember(
+          {"standing", "lying:front", "lying:back", "lying:left", "lying:right", "lying:any"}))
+      ->capture_default_str();
   app.add_option("--seeds", options.seeds_text,
                  "A-B: one walk for each of these seeds, as many at a time as there are cores; "
                  "1-100 are for gates, 1001 and up for tuning, 2001 and up for reports")

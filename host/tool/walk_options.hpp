@@ -30,7 +30,9 @@ struct WalkOptions {
   std::string command = "verp walk";  ///< that complains
   bool no_multibody = false, no_feedback = false, no_gravity = false, no_zeros = false;
   bool record_state = false, json = false;
-  bool vary = false;  ///< the twin is another robot of this kind (host/sim/vary.hpp)
+  bool get_up = false;             ///< a fall does not end the walk
+  std::string start = "standing";  ///< or lying:SIDE
+  bool vary = false;               ///< the twin is another robot of this kind (host/sim/vary.hpp)
   std::vector<std::pair<std::string, std::string>>
       changed;                 ///< what is not as by default, in words
   std::string seeds_text;      ///< A-B: these seeds, one after the other

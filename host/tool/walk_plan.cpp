@@ -4,6 +4,8 @@
 
 #include <utility>
 
+#include "host/action/compile.hpp"
+#include "host/action/folder.hpp"
 #include "host/model/find.hpp"
 #include "host/model/load.hpp"
 #include "host/model/params.hpp"
@@ -23,6 +25,34 @@ void ask_for_walk(const WalkOptions& options, WalkPlan& plan) {
   plan.walk_s = options.walk_s;
 }
 
+namespace {
+
+/// The robot's actions, if it is to get up, and how it is put down.
+void prepare_falls(const WalkOptions& options, WalkPlan& plan) {
+  constexpr int kTries = 3;
+  constexpr std::pair<const char*, sim::Lies> kStarts[] = {
+      {"standing", sim::Lies::kNo},       {"lying:front", sim::Lies::kFront},
+      {"lying:back", sim::Lies::kBack},   {"lying:left", sim::Lies::kLeft},
+      {"lying:right", sim::Lies::kRight}, {"lying:any", sim::Lies::kAny}};
+  for (const auto& [name, lies] : kStarts) {
+    if (options.start == name) plan.twin.lies = lies;
+  }
+  if (!options.get_up && plan.twin.lies == sim::Lies::kNo) return;
+  if (!options.board.empty()) {
+    throw ToolError(kBadInput,
+                    "verp walk --on: the board's firmware has no actions to get up by; leave "
+                    "--get-up and --start out");
+  }
+  const auto folder = action::folder_of(plan.entity.file);
+  const action::Made made = action::make_library(plan.params, action::read_folder(folder));
+  made.require(action::kGetUpFront, folder.string());
+  made.require(action::kGetUpBack, folder.string());
+  plan.actions = made.words;
+  plan.get_ups = kTries;
+}
+
+}  // namespace
+
 WalkPlan make_plan(const WalkOptions& options) {
   check_board(options);
   WalkPlan plan;
@@ -33,6 +63,7 @@ WalkPlan make_plan(const WalkOptions& options) {
   ask_for_walk(options, plan);
   plan.twin.seed = options.seed;
   plan.board = options.board;
+  prepare_falls(options, plan);
   return plan;
 }
 

@@ -146,11 +146,22 @@ std::vector<report::Fact> facts(const WalkPlan& plan, const WalkResult& result) 
   };
 }
 
+std::string times(int count) {
+  return count == 1 ? "once" : fmt::format("{} times", count);
+}
+
+std::string falls_text(const WalkResult& result) {
+  if (result.falls == 0 && result.get_ups == 0) return "without a fall";
+  if (result.falls == 0) return "after it got up";
+  return fmt::format("although it fell {}, and got up {}", times(result.falls),
+                     times(result.get_ups));
+}
+
 std::string verdict(const WalkResult& result, const Sweep& sweep) {
   if (result.interrupted)
     return fmt::format("Interrupted after {:.1f} s of gait", result.metrics.walk_s);
   if (!result.failure.empty()) return "Failed: " + result.failure;
-  std::string text = fmt::format("Walked {:.1f} s without a fall", result.metrics.walk_s);
+  std::string text = fmt::format("Walked {:.1f} s {}", result.metrics.walk_s, falls_text(result));
   if (!sweep.failure.empty()) text += "; failed: " + sweep.failure;
   if (sweep.interrupted) text += "; the sweep was interrupted";
   return text;
@@ -331,6 +342,8 @@ Json to_json(const WalkPlan& plan, const WalkOptions& options, const WalkResult&
                {"lateral_drift_m", m.lateral_drift_m},
                {"yaw_drift_deg", m.yaw_drift_deg},
                {"fallen", m.fallen},
+               {"falls", result.falls},
+               {"get_ups", result.get_ups},
                {"interrupted", result.interrupted || sweep.interrupted},
                {"failure", result.failure.empty() ? sweep.failure : result.failure},
                {"remark", result.remark},

@@ -33,6 +33,7 @@ std::vector<std::string> words_of(const WalkOptions& o, std::uint64_t seed) {
   add("--physics-step", fmt::format("{}", o.physics_step_ms));
   o.velocity_text.empty() ? add("--step", fmt::format("{}", o.step_m))
                           : add("--velocity", o.velocity_text);
+  add("--start", o.start);
   if (!o.bus.empty()) add("--bus", o.bus);
   if (!o.board.empty()) add("--on", o.board);
   for (const std::string& setting : o.settings) add("--set", setting);
@@ -41,6 +42,7 @@ std::vector<std::string> words_of(const WalkOptions& o, std::uint64_t seed) {
   for (const std::string& push : o.touch.pushes) add("--push", push);
   for (const std::string& setting : o.touch.settings) add("--at", setting);
   for (const auto& [flag, given] : {std::pair{"--vary", o.vary},
+                                    {"--get-up", o.get_up},
                                     {"--no-multibody", o.no_multibody},
                                     {"--no-feedback", o.no_feedback},
                                     {"--no-gravity", o.no_gravity},
@@ -108,8 +110,9 @@ class Seeds {
     const bool good = status == kGood;
     survived_ += good ? 1 : 0;
     Json row = {{"seed", walking.seed}, {"survived", good}};
-    for (const char* key : {"failure", "fallen", "distance_m", "speed_steady_m_s", "yaw_drift_deg",
-                            "zmp_bias_mean_mm", "self_contact_ticks", "digest", "varied"}) {
+    for (const char* key :
+         {"failure", "fallen", "distance_m", "speed_steady_m_s", "yaw_drift_deg",
+          "zmp_bias_mean_mm", "falls", "get_ups", "self_contact_ticks", "digest", "varied"}) {
       if (json.contains(key)) row[key] = json[key];
     }
     rows_[walking.seed] = row;

@@ -6,30 +6,49 @@
 namespace verp::test {
 namespace {
 
-enum Mode { kRelaxed, kRising, kStanding, kWalking, kHolding, kSitting, kFallen, kStopped };
-constexpr const char* kNames[] = {"relaxed", "rising",  "standing", "walking",
-                                  "holding", "sitting", "fallen",   "stopped"};
+enum Mode {
+  kRelaxed,
+  kRising,
+  kStanding,
+  kWalking,
+  kHolding,
+  kSitting,
+  kFallen,
+  kStopped,
+  kActing,
+  kFalling,
+  kGettingUp
+};
+constexpr const char* kNames[] = {"relaxed", "rising",  "standing",  "walking",
+                                  "holding", "sitting", "fallen",    "stopped",
+                                  "acting",  "falling", "getting up"};
 
 constexpr std::uint32_t bit(int mode) {
   return 1u << mode;
 }
 
+constexpr std::uint32_t kDown = bit(kFalling) | bit(kFallen) | bit(kStopped);
+
 /// Where each mode may lead, whatever the reason: the arrows of the table.
 constexpr std::uint32_t kMayLeadTo[] = {
-    /* relaxed  */ bit(kRising) | bit(kStopped),
-    /* rising   */ bit(kStanding) | bit(kHolding) | bit(kSitting) | bit(kFallen) | bit(kStopped),
-    /* standing */ bit(kWalking) | bit(kHolding) | bit(kSitting) | bit(kFallen) | bit(kStopped),
-    /* walking  */ bit(kStanding) | bit(kHolding) | bit(kFallen) | bit(kStopped),
+    /* relaxed  */ bit(kRising) | bit(kGettingUp) | bit(kStopped),
+    /* rising   */ bit(kStanding) | bit(kHolding) | bit(kSitting) | kDown,
+    /* standing */ bit(kWalking) | bit(kActing) | bit(kHolding) | bit(kSitting) | kDown,
+    /* walking  */ bit(kStanding) | bit(kHolding) | kDown,
     /* holding  */ bit(kRising) | bit(kSitting) | bit(kFallen) | bit(kStopped),
-    /* sitting  */ bit(kRelaxed) | bit(kFallen) | bit(kStopped),
-    /* fallen   */ bit(kRelaxed) | bit(kStopped),
-    /* stopped  */ bit(kRelaxed)};
+    /* sitting  */ bit(kRelaxed) | kDown,
+    /* fallen   */ bit(kRelaxed) | bit(kGettingUp) | bit(kStopped),
+    /* stopped  */ bit(kRelaxed),
+    /* acting   */ bit(kStanding) | bit(kHolding) | kDown,
+    /* falling  */ bit(kHolding) | bit(kFallen) | bit(kStopped),
+    /* getting up */ bit(kStanding) | bit(kHolding) | bit(kFallen) | bit(kStopped)};
 
 bool limp(int mode) {
   return mode == kRelaxed || mode == kFallen || mode == kStopped;
 }
 bool moving(int mode) {
-  return mode == kRising || mode == kStanding || mode == kWalking;
+  return mode == kRising || mode == kStanding || mode == kWalking || mode == kActing ||
+         mode == kGettingUp;
 }
 
 }  // namespace
@@ -87,7 +106,7 @@ void SafeTable::check_trouble(int to) {
   trouble_ticks_ = trouble_ && to == kWalking ? trouble_ticks_ + 1 : 0;
   if (1e-6 * params_.period_us * trouble_ticks_ > kLongestEnd_s) fault("walks on with bad power");
   if (!trouble_) return;
-  if (to != mode_ && (to == kRising || to == kWalking)) {
+  if (to != mode_ && (to == kRising || to == kWalking || to == kActing || to == kGettingUp)) {
     fault(std::string("power is bad, and ") + kNames[mode_] + " became " + kNames[to]);
   }
   if (to == mode_ && (to == kRising || to == kStanding)) {
@@ -125,13 +144,16 @@ void SafeTable::check_transition(const Inputs& inputs, int to) {
   const bool stale = longer(silent_, safety.stale_hold_s);
   const bool lost = longer(silent_, safety.stale_release_s);
   const Request request = inputs.command.request;
+  const auto nobody_watches = [&] {
+    return longer(operator_silent_, safety.command_hold_s + 0.02);
+  };
   if (to != mode_ && (kMayLeadTo[mode_] & bit(to)) == 0) {
     return fault(std::string(kNames[mode_]) + " became " + kNames[to]);
   }
   if (moving(to) && stale) fault(std::string(kNames[to]) + " though a device is silent");
   if (to == kHolding && mode_ == kHolding && lost) fault("holding though a device is lost");
   if (to == mode_) return;
-  if (to == kHolding && !nearly(silent_, safety.stale_hold_s))
+  if (to == kHolding && mode_ != kFalling && !nearly(silent_, safety.stale_hold_s))
     fault("holding without a silent device");
   if (mode_ == kHolding && to == kSitting && !nearly(silent_, safety.stale_release_s) &&
       request != Request::kRelax && !trouble_) {
@@ -142,10 +164,20 @@ void SafeTable::check_transition(const Inputs& inputs, int to) {
     fault("sitting down though the operator is there");
   }
   if (to == kRising && mode_ == kRelaxed && request == Request::kRelax) fault("rose unasked");
-  if (to == kWalking && request != Request::kWalk) fault("walked unasked");
-  if (to == kWalking && longer(operator_silent_, safety.command_hold_s + 0.02)) {
-    fault("walked with nobody watching");
+  if (to == kGettingUp && request != Request::kGetUp) fault("got up unasked");
+  if (to == kGettingUp && !longer(static_cast<std::uint32_t>(in_mode_ticks_ + 1), kLies_s)) {
+    fault("got up before it lay still");
   }
+  if (mode_ == kFalling && to != kStopped &&
+      !longer(static_cast<std::uint32_t>(in_mode_ticks_ + 1), kFalls_s)) {
+    fault("fell too short");
+  }
+  if (to == kActing && request == Request::kRelax) fault("acted unasked");
+  if ((to == kActing || to == kGettingUp) && nobody_watches()) {
+    fault(std::string(kNames[to]) + " with nobody watching");
+  }
+  if (to == kWalking && request != Request::kWalk) fault("walked unasked");
+  if (to == kWalking && nobody_watches()) fault("walked with nobody watching");
   if (to == kStanding && mode_ == kRising &&
       !longer(static_cast<std::uint32_t>(in_mode_ticks_ + 1), safety.rise_s)) {
     fault("rose too fast");
@@ -172,7 +204,7 @@ void SafeTable::check_goals(const Inputs& inputs, const Outputs& outputs) {
     const double goal = outputs.goal_count[j];
     const double slack = kBeyond_rad * std::abs(joint.counts_per_rad) + 1;
     const double stands = inputs.position_count[j];
-    const bool rises = mode_ == kRelaxed && outputs.mode == kRising;
+    const bool rises = limp(mode_) && (outputs.mode == kRising || outputs.mode == kGettingUp);
     if (rises && (stands < low - slack || stands > high + slack)) {
       fault("rose though joint " + std::to_string(j) + " stands beyond its limits");
     }
@@ -204,7 +236,7 @@ void SafeTable::check_outputs(const Inputs& inputs, const Outputs& outputs, int 
 void SafeTable::tick(const Inputs& inputs, const Outputs& outputs) {
   if (begun_ && inputs.tick <= tick_) fault("time stands still");
   const int to = outputs.mode;
-  if (to > kStopped) return fault("no such mode");
+  if (to > kGettingUp) return fault("no such mode");
   count_silence(inputs);
   tick_ = inputs.tick;
   count_trouble(inputs, to);

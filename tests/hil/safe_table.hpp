@@ -49,7 +49,9 @@ class SafeTable {
   static constexpr int kAlarm = 3;    ///< readings of one servo in a row
   static constexpr int kSupply = 21;  ///< readings of any servos in a row
   static constexpr double kBeyond_rad = 0.05;
-  int servo_bad_[kMaxJoints] = {};  ///< readings in a row
+  static constexpr double kLies_s = 1.0;   ///< limp, before it gets up
+  static constexpr double kFalls_s = 0.7;  ///< what a fall lasts
+  int servo_bad_[kMaxJoints] = {};         ///< readings in a row
   int supply_low_ = 0;
   bool trouble_ = false;   ///< of power, and nobody has asked a relaxed robot to relax since
   int trouble_ticks_ = 0;  ///< of a walk

@@ -2,8 +2,7 @@
 
 #include "common/control/step.hpp"
 #include "tests/replay/trace_file.hpp"
-#include "tests/unit/action/shelf.hpp"
-#include "tests/unit/control/loop.hpp"
+#include "tests/unit/control/falling_loop.hpp"
 
 /// replay_reach FILE: runs the core, compiled to count lines and branches, over the inputs of FILE
 /// and prints how often each phase of the gait, mode, row of the safety table and fault was
@@ -68,6 +67,47 @@ void act() {
       const bool ready = tick == 1000 || tick == 1300;
       if (ready) loop.inputs.action = static_cast<std::uint8_t>(tick == 1000 ? 2 : 1);
       if (tick == 1310 && condition % 2 == 0) loop.inputs.action = 0;
+    }
+  }
+}
+
+void follow(control::test::Loop& loop, int ticks) {
+  for (int i = 0; i < ticks; ++i) {
+    loop.tick();
+    count(loop.outputs);
+  }
+}
+
+// Toppled, it falls; asked, it gets up, in vain and then not; knocked, it holds and rises. Then
+// each side that is down, of robots with an action for it and without.
+void fall() {
+  using control::test::FallingLoop;
+  constexpr std::int16_t kOne = 8172, kKnock = 2830;
+  FallingLoop loop;
+  follow(loop, 300);
+  loop.topple(safety::Mode::kFalling);
+  count(loop.outputs);
+  loop.command.request = Request::kGetUp;
+  follow(loop, 600);
+  loop.hold_up(0, kOne);
+  follow(loop, 1000);
+  loop.inputs.gyro_count[1] = kKnock;
+  follow(loop, 20);
+  loop.inputs.gyro_count[1] = -kKnock;
+  follow(loop, 8);
+  loop.inputs.gyro_count[1] = 0;
+  follow(loop, 300);
+  action::test::Shelf shelf = control::test::falling_shelf();
+  for (const auto& name : {action::kGetUpLeft, action::kGetUpRight, action::kGetUpBack}) {
+    __builtin_memcpy(shelf.action[0].name, name, kNameLength);
+    shelf.seal();
+    for (const std::int16_t down : {kOne, static_cast<std::int16_t>(-kOne)}) {
+      FallingLoop lying;
+      lying.actions = shelf.library();
+      lying.command.request = Request::kGetUp;
+      lying.inputs.accel_count[1] = down;
+      lying.inputs.accel_count[2] = 0;
+      follow(lying, 150);
     }
   }
 }
@@ -138,6 +178,7 @@ int main(int count, char** argument) {
   }
   for (const replay::Segment& segment : trace) replay::run(segment);
   replay::act();
+  replay::fall();
   constexpr const char* kPhases[] = {"idle", "start", "transition", "finalisation"};
   bool good = true;
   for (int i = 0; i < 4; ++i) {

@@ -7,7 +7,7 @@
 namespace verp::safety {
 namespace {
 
-constexpr std::uint32_t kAllConditions = 1u << 16;
+constexpr std::uint32_t kAllConditions = 1u << 18;
 
 constexpr std::uint32_t bit(Mode mode) {
   return 1u << static_cast<unsigned>(mode);
@@ -51,7 +51,7 @@ constexpr std::uint32_t kUpright = modes(Mode::kRising, Mode::kStanding, Mode::k
                                          Mode::kHolding, Mode::kSitting, Mode::kActing);
 
 TEST(SafetyTable, Row0EmergencyStopsEveryMode) {
-  expect_row(0, 0x1FFu & ~bit(Mode::kStopped), kEmergency, 0, Mode::kStopped);
+  expect_row(0, 0x7FFu & ~bit(Mode::kStopped), kEmergency, 0, Mode::kStopped);
 }
 TEST(SafetyTable, Row1StoppedRobotIsRelaxedOnceReleasedAndAsked) {
   expect_row(1, bit(Mode::kStopped), kAskRelax, kEmergency, Mode::kRelaxed);
@@ -63,8 +63,9 @@ TEST(SafetyTable, Row3FallenRobotIsRelaxedWhenAsked) {
   expect_row(3, bit(Mode::kFallen), kAskRelax, 0, Mode::kRelaxed);
 }
 TEST(SafetyTable, Row4SilenceHoldsMovingRobot) {
-  expect_row(4, modes(Mode::kRising, Mode::kStanding, Mode::kWalking, Mode::kActing), kStale, 0,
-             Mode::kHolding);
+  expect_row(4,
+             modes(Mode::kRising, Mode::kStanding, Mode::kWalking, Mode::kActing, Mode::kGettingUp),
+             kStale, 0, Mode::kHolding);
 }
 TEST(SafetyTable, Row5LastingSilenceSitsDown) {
   expect_row(5, bit(Mode::kHolding), kLost, 0, Mode::kSitting);
@@ -118,8 +119,29 @@ TEST(SafetyTable, Row17ActsOnlyWhenAllIsWell) {
 TEST(SafetyTable, Row18ActionEndsInTheStand) {
   expect_row(18, bit(Mode::kActing), kTimeUp, 0, Mode::kStanding);
 }
+TEST(SafetyTable, Row19FallIsMetBeforeTheGroundIs) {
+  expect_row(19,
+             modes(Mode::kRising, Mode::kStanding, Mode::kWalking, Mode::kActing, Mode::kSitting),
+             kFallSeen, kStale, Mode::kFalling);
+}
+TEST(SafetyTable, Row20FallEndsLimpOnTheFloor) {
+  expect_row(20, bit(Mode::kFalling), kTimeUp | kFell, 0, Mode::kFallen);
+}
+TEST(SafetyTable, Row21FallThatWasNoneHolds) {
+  expect_row(21, bit(Mode::kFalling), kTimeUp, 0, Mode::kHolding);
+}
+TEST(SafetyTable, Row22GetsUpOnlyWhenAskedAndAllIsWell) {
+  expect_row(22, modes(Mode::kFallen, Mode::kRelaxed), kAskGetUp | kServosKnown,
+             kStale | kOperatorQuiet | kPowerBad | kJointBeyond, Mode::kGettingUp);
+}
+TEST(SafetyTable, Row23GettingUpThatEndsLyingIsAFall) {
+  expect_row(23, bit(Mode::kGettingUp), kTimeUp | kFell, 0, Mode::kFallen);
+}
+TEST(SafetyTable, Row24GettingUpEndsInTheStand) {
+  expect_row(24, bit(Mode::kGettingUp), kTimeUp, 0, Mode::kStanding);
+}
 TEST(SafetyTable, HasNoOtherRows) {
-  EXPECT_EQ(kRows, 19);
+  EXPECT_EQ(kRows, 25);
 }
 
 // What follows holds for every combination of conditions.
@@ -140,19 +162,27 @@ TEST(SafetyMachine, EmergencyAlwaysWins) {
   EXPECT_EQ(wrong, 0);
 }
 
+// But for the way down, which is short, and the way up, which somebody asked for.
 TEST(SafetyMachine, FallenRobotNeverKeepsTorque) {
+  constexpr std::uint32_t kOnTheFloor = modes(Mode::kFalling, Mode::kGettingUp);
   int wrong = 0;
-  for_all([&](Mode, std::uint32_t conditions, Mode to) {
-    if ((conditions & kFell) != 0 && has_torque(to)) ++wrong;
+  for_all([&](Mode from, std::uint32_t conditions, Mode to) {
+    if ((conditions & kFell) == 0 || !has_torque(to) || (bit(to) & kOnTheFloor) != 0) return;
+    const bool silent = from == Mode::kGettingUp && to == Mode::kHolding;  // limp in the next tick
+    if (!silent) ++wrong;
   });
   EXPECT_EQ(wrong, 0);
 }
 
-TEST(SafetyMachine, TorqueComesOnlyByRisingFromRelaxed) {
+TEST(SafetyMachine, TorqueComesOnlyByRisingAndByGettingUpAndWhenAsked) {
   int wrong = 0;
   for_all([&](Mode from, std::uint32_t conditions, Mode to) {
-    const bool risen = from == Mode::kRelaxed && to == Mode::kRising;
-    if (!has_torque(from) && has_torque(to) && !(risen && (conditions & kAskStand) != 0)) ++wrong;
+    if (has_torque(from) || !has_torque(to)) return;
+    const bool risen =
+        from == Mode::kRelaxed && to == Mode::kRising && (conditions & kAskStand) != 0;
+    const bool got_up =
+        from != Mode::kStopped && to == Mode::kGettingUp && (conditions & kAskGetUp) != 0;
+    if (!risen && !got_up) ++wrong;
   });
   EXPECT_EQ(wrong, 0);
 }
@@ -178,11 +208,14 @@ TEST(SafetyMachine, WalkingStopsOnlyOnBothFeetUnlessItMust) {
 }
 
 // Whatever else holds, trouble that stays leads down, and from there nowhere until it is over.
-TEST(SafetyMachine, PowerTroubleNeverBeginsARiseAWalkOrAnAction) {
+TEST(SafetyMachine, PowerTroubleNeverBeginsARiseAWalkAnActionOrGettingUp) {
   int wrong = 0;
   for_all([&](Mode from, std::uint32_t conditions, Mode to) {
     if ((conditions & kPowerBad) == 0 || from == to) return;
-    if (to == Mode::kRising || to == Mode::kWalking || to == Mode::kActing) ++wrong;
+    if (to == Mode::kRising || to == Mode::kWalking || to == Mode::kActing ||
+        to == Mode::kGettingUp) {
+      ++wrong;
+    }
   });
   EXPECT_EQ(wrong, 0);
 }
@@ -206,7 +239,7 @@ std::uint32_t reach(std::uint32_t from) {
 TEST(SafetyMachine, EveryModeIsReachedFromPowerUp) {
   std::uint32_t reached = bit(Mode::kRelaxed);
   for (int i = 0; i < 4; ++i) reached = reach(reached);
-  EXPECT_EQ(reached, 0x1FFu);
+  EXPECT_EQ(reached, 0x7FFu);
 }
 
 TEST(SafetyMachine, NoModeIsWithoutAWayOutBackToRelaxed) {

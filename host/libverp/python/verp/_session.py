@@ -11,7 +11,7 @@ from ._core import INPUTS, OUTPUTS, pointer
 from ._lib import Handle, VerpError, check, dtype_of, ffi, layout_dtype, lib, text
 
 TICK = dtype_of(ffi.typeof("verp_tick"))
-RELAX, STAND, WALK = 0, 1, 2
+RELAX, STAND, WALK, GET_UP = 0, 1, 2, 3
 
 
 @dataclass(frozen=True)
@@ -168,7 +168,7 @@ class Session(Handle):
         tilt_rad: float = 0,
         robot: int = 0,
     ) -> None:
-        """From now on the caller has the robot: RELAX, STAND or WALK with that velocity."""
+        """From now on the caller has the robot: RELAX, STAND, GET_UP or WALK with that velocity."""
         check(lib.verp_session_command(self._session, robot, request, vx_m_s, vy_m_s, wz_rad_s, pan_rad, tilt_rad))
 
     def give_back(self, robot: int = 0) -> None:

@@ -1,0 +1,46 @@
+#include "tests/scenario/walk.hpp"
+
+// Falls are no end: what lies gets up, what falls gets up, and walks on.
+namespace verp::scenario {
+namespace {
+
+int count(const Walk& walk, const char* name) {
+  return walk.result.value(name, -1);
+}
+
+TEST(GettingUp, FromItsBackItStandsAndWalks) {
+  const Walk lying = walk("generic21 --for 3 --physics-step 2 --start lying:back");
+  expect_walked(lying);
+  EXPECT_GE(count(lying, "get_ups"), 1);
+  expect_between(0.1, number(lying, "distance_m"), 0.4, "distance, m");
+}
+
+TEST(GettingUp, PushedOverItFallsGetsUpAndWalksOn) {
+  const Walk pushed =
+      walk("generic21 --for 5 --physics-step 2 --get-up --push '2: trunk -60,0,0 N for 0.15'");
+  expect_walked(pushed);
+  EXPECT_EQ(count(pushed, "falls"), 1);
+  EXPECT_GE(count(pushed, "get_ups"), 1);
+  EXPECT_EQ(pushed.result.value("notes", "?").find("fall"), std::string::npos) << "it is over";
+}
+
+// What nobody allows does not happen.
+TEST(GettingUp, UnaskedItStaysDown) {
+  const Walk pushed =
+      walk("generic21 --for 5 --physics-step 2 --push '2: trunk 60,0,0 N for 0.15'");
+  EXPECT_EQ(pushed.status, 1);
+  EXPECT_EQ(pushed.result.value("fallen", false), true);
+  EXPECT_EQ(count(pushed, "get_ups"), 0);
+}
+
+// One tour: lies, gets up, walks, is pushed over, gets up, walks on; twice the same bits.
+TEST(GettingUp, IsRepeatableToTheBit) {
+  const std::string tour =
+      "generic21 --for 4 --physics-step 2 --start lying:back --push '1: trunk -60,0,0 N for 0.15'";
+  const Walk once = walk(tour), again = walk(tour);
+  EXPECT_EQ(count(once, "falls"), 1);
+  EXPECT_EQ(once.result.at("digest"), again.result.at("digest"));
+}
+
+}  // namespace
+}  // namespace verp::scenario
