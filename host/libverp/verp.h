@@ -78,7 +78,12 @@ enum {
   VERP_PARAMETER_WRITE = 64
 };
 
-typedef enum verp_request { VERP_RELAX = 0, VERP_STAND = 1, VERP_WALK = 2, VERP_GET_UP = 3 } verp_request;
+typedef enum verp_request {
+  VERP_RELAX = 0,
+  VERP_STAND = 1,
+  VERP_WALK = 2,
+  VERP_GET_UP = 3
+} verp_request;
 
 /* The operator's standing order, body frame, in the wire's units. */
 typedef struct verp_command {
