@@ -369,7 +369,7 @@ TEST(BadInput, CamerasThatCannotBeAreRefused) {
     expect_refused(edited(was, is), line, why);
   };
   refused("<width>320</width>", "<width>4</width>", "<image>");
-  refused("<far>20</far>", "<far>0.01</far>", "<clip>");
+  refused("<near>0.02</near>", "<near>30</near>", "<clip>");
   refused("<horizontal_fov>1.0472</horizontal_fov>", "<horizontal_fov>3.1</horizontal_fov>",
           "<horizontal_fov>");
   refused("<far>20</far></clip>", "<far>20</far></clip><distortion><k1>-4</k1></distortion>",
