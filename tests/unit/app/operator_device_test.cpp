@@ -122,7 +122,7 @@ TEST(OperatorDevice, RefusesWithTheDocumentedErrors) {
   const std::uint8_t clear[] = {0xFF, 0xFF, 0xFD, 0x00, 0x01, 0x08, 0x00, 0x10,
                                 0x01, 0x44, 0x58, 0x4C, 0x22, 0xB1, 0xDC};
   EXPECT_TRUE(send(bench, clear).error == Error::kInstruction);
-  EXPECT_TRUE(bench.write(reg("request"), std::uint8_t{3}) == Error::kDataRange);
+  EXPECT_TRUE(bench.write(reg("request"), std::uint8_t{4}) == Error::kDataRange);
   EXPECT_TRUE(bench.write(reg("walk_vx"), std::uint8_t{3}) == Error::kDataLength);
   EXPECT_TRUE(bench.read(table::kTableBytes - 1, 2).error == Error::kAccess);
   EXPECT_TRUE(bench.read(0xFFFF, 0xFFFF).error == Error::kAccess);

@@ -142,11 +142,11 @@ TEST(ControllerObjects, WriteDoesWhatItDoesToTheRegister) {
 TEST(ControllerObjects, RefusalsSayWhy) {
   auto& node = renewed<Node<NoImages>>(no_images);
   node.arm(true);
-  const std::uint8_t one = 1, three = 3;
+  const std::uint8_t one = 1, four = 4;
   const auto index = [](const char* name) { return table::find(name)->object_index(); };
   EXPECT_TRUE(node.write({index("tick"), 0}, &one, 1) != Abort::kNone);
   EXPECT_TRUE(node.write({index("mode"), 0}, &one, 1) == Abort::kReadOnly);
-  EXPECT_TRUE(node.write({index("request"), 0}, &three, 1) == Abort::kValueRange);
+  EXPECT_TRUE(node.write({index("request"), 0}, &four, 1) == Abort::kValueRange);
   EXPECT_TRUE(node.write({index("request"), 0}, &one, 1) == Abort::kDeviceState) << "0 comes first";
   EXPECT_TRUE(node.write({index("id"), 0}, &one, 1) == Abort::kDeviceState) << "armed";
 }
