@@ -93,7 +93,7 @@ TEST_F(BusCommand, TroubleIsToldInOneLineWithItsStatus) {
   refused("read --id 3 --address 0", 3, "did not answer");
   refused("read --register robot_nmae", 2, "did you mean robot_name?");
   refused("write --register tick 1", 2, "read-only");
-  refused("write --register request 3", 3, "Data Range");
+  refused("write --register request 4", 3, "Data Range");
   refused("write --register request 300", 2, "from 0 to 255");
   refused("write --register request fast", 2, "whole number");
   refused("write --register request 1 1", 2, "1 element");
