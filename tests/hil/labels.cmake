@@ -1,7 +1,5 @@
 set_tests_properties(${hil_serial} PROPERTIES LABELS "hil;scenario")
 set_tests_properties(${hil_sample} PROPERTIES LABELS "hil;unit")
-set_tests_properties(${hil_floor_sample} PROPERTIES LABELS "hil;scenario")
-set_tests_properties(${hil_floor_all} PROPERTIES LABELS full TIMEOUT 7200)
 set_tests_properties(${hil_documented_bytes} PROPERTIES LABELS "hil;unit")
 set_tests_properties(${hil_can} PROPERTIES LABELS "hil;hil-can;scenario")
 set_tests_properties(${hil_can_sample} PROPERTIES LABELS "hil;hil-can;unit")
