@@ -9,11 +9,12 @@
 /// couples them.
 namespace verp::model {
 
-/// The mimics of a URDF that its wrapper neither fixes nor drops. Throws LoadError for one that
-/// follows itself, or by no ratio at all.
+/// The mimics of a URDF that its wrapper neither fixes nor drops. Throws LoadError for what is no
+/// number.
 std::vector<MimicFact> urdf_mimics(const XmlElement& robot, const Facts& facts);
 
-/// Throws LoadError for a mimic that follows what doesn't turn, another mimic, or nobody.
+/// Throws LoadError for a mimic that follows what doesn't turn, another mimic, itself or nobody, or
+/// by a ratio or offset that no gears have.
 /// `turning`: names of all joints that do; `fixed`: of those that don't.
 void check_mimics(const Facts& facts, const std::vector<std::string>& turning,
                   const std::vector<std::string>& fixed);

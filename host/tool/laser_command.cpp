@@ -85,8 +85,10 @@ int run_laser(const LaserWords& words) {
   Json scans = Json::array();
   const std::size_t count = watch(finder, words, scans);
   finder.stop();
-  if (words.json) print_json({{"scans", scans}, {"damaged", finder.damaged()}});
-  if (count > 0) return kGood;
+  if (count > 0) {
+    if (words.json) print_json({{"scans", scans}, {"damaged", finder.damaged()}});
+    return kGood;
+  }
   throw ToolError(
       kNoDevice,
       fmt::format(

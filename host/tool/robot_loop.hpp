@@ -179,8 +179,8 @@ class RobotRun {
   }
 
   // What lets go is sent to all and answered by nobody: so each servo is asked, and those that are
-  // silent once more: a wire loses a frame, a busy PC looks too late. A person who presses again
-  // has no patience with that.
+  // silent again: a wire loses a frame, a busy PC looks too late. A person who presses again has no
+  // patience with that.
   void make_sure() {
     std::vector<int> silent(static_cast<std::size_t>(params_.servo_count()));
     std::iota(silent.begin(), silent.end(), 0);

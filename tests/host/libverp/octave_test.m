@@ -73,7 +73,7 @@ function misuse_is_an_error_that_names_the_call()
   says(@() session.seen(3), 'no such robot');
   says(@() session.tick(-1), 'is no count');
   says(@() session.push('trunk', 1, 1), 'three numbers');
-  says(@() session.command('jump'), 'relax, stand or walk');
+  says(@() session.command('jump'), 'relax, stand, walk or get_up');
   says(@() session.control(3), 'function handle');
   core = verp.Core();
   says(@() core.forward([1 2 3]), 'verp_core_forward');

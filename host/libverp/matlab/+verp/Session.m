@@ -80,14 +80,14 @@ classdef Session < handle
     end
 
     function command(obj, request, velocity, head_rad, robot)
-    %COMMAND From now on the caller has the robot: 'relax', 'stand' or 'walk' with the velocity
+    %COMMAND From now on the caller has the robot: 'relax', 'stand', 'get_up' or 'walk' with the velocity
     % [vx m/s, vy m/s, wz rad/s] in its body frame, head [to the left, down] in rad.
       if nargin < 3, velocity = [0 0 0]; end
       if nargin < 4, head_rad = [0 0]; end
       if nargin < 5, robot = 0; end
-      request = find(strcmp(request, {'relax', 'stand', 'walk'})) - 1;
+      request = find(strcmp(request, {'relax', 'stand', 'walk', 'get_up'})) - 1;
       if isempty(request) || numel(velocity) ~= 3 || numel(head_rad) ~= 2
-        error('verp:argument', 'verp: command() takes relax, stand or walk, [vx vy wz], [pan tilt]');
+        error('verp:argument', 'verp: command() takes relax, stand, walk or get_up, [vx vy wz], [pan tilt]');
       end
       verp_mex('session_command', obj.session, robot, request, velocity(1), velocity(2), ...
                velocity(3), head_rad(1), head_rad(2));
