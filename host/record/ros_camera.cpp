@@ -1,21 +1,14 @@
 #include "host/record/ros_camera.hpp"
 
 #include "host/record/cdr.hpp"
+#include "host/record/ros_header.hpp"
 
 namespace verp::record::ros {
 
 const MessageType kCompressedImage = {"sensor_msgs/msg/CompressedImage", R"(std_msgs/Header header
 string format
 uint8[] data
-================================================================================
-MSG: std_msgs/Header
-builtin_interfaces/Time stamp
-string frame_id
-================================================================================
-MSG: builtin_interfaces/Time
-int32 sec
-uint32 nanosec
-)"};
+)" VERP_ROS_HEADER};
 
 const MessageType kImage = {"sensor_msgs/msg/Image", R"(std_msgs/Header header
 uint32 height
@@ -24,17 +17,11 @@ string encoding
 uint8 is_bigendian
 uint32 step
 uint8[] data
-================================================================================
-MSG: std_msgs/Header
-builtin_interfaces/Time stamp
-string frame_id
-================================================================================
-MSG: builtin_interfaces/Time
-int32 sec
-uint32 nanosec
-)"};
+)" VERP_ROS_HEADER};
 
-const MessageType kCameraInfo = {"sensor_msgs/msg/CameraInfo", R"(std_msgs/Header header
+const MessageType kCameraInfo = {
+    "sensor_msgs/msg/CameraInfo",
+    R"(std_msgs/Header header
 uint32 height
 uint32 width
 string distortion_model
@@ -45,15 +32,8 @@ float64[12] p
 uint32 binning_x
 uint32 binning_y
 sensor_msgs/RegionOfInterest roi
-================================================================================
-MSG: std_msgs/Header
-builtin_interfaces/Time stamp
-string frame_id
-================================================================================
-MSG: builtin_interfaces/Time
-int32 sec
-uint32 nanosec
-================================================================================
+)" VERP_ROS_HEADER
+    R"(================================================================================
 MSG: sensor_msgs/RegionOfInterest
 uint32 x_offset
 uint32 y_offset

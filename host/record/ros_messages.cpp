@@ -4,6 +4,7 @@
 #include <cstring>
 
 #include "host/record/cdr.hpp"
+#include "host/record/ros_header.hpp"
 
 namespace verp::record::ros {
 
@@ -12,15 +13,7 @@ string[] name
 float64[] position
 float64[] velocity
 float64[] effort
-================================================================================
-MSG: std_msgs/Header
-builtin_interfaces/Time stamp
-string frame_id
-================================================================================
-MSG: builtin_interfaces/Time
-int32 sec
-uint32 nanosec
-)";
+)" VERP_ROS_HEADER;
 
 const std::string_view kLaserScanSchema = R"(std_msgs/Header header
 float32 angle_min
@@ -32,32 +25,18 @@ float32 range_min
 float32 range_max
 float32[] ranges
 float32[] intensities
-================================================================================
-MSG: std_msgs/Header
-builtin_interfaces/Time stamp
-string frame_id
-================================================================================
-MSG: builtin_interfaces/Time
-int32 sec
-uint32 nanosec
-)";
+)" VERP_ROS_HEADER;
 
-const std::string_view kImuSchema = R"(std_msgs/Header header
+const std::string_view kImuSchema =
+    R"(std_msgs/Header header
 geometry_msgs/Quaternion orientation
 float64[9] orientation_covariance
 geometry_msgs/Vector3 angular_velocity
 float64[9] angular_velocity_covariance
 geometry_msgs/Vector3 linear_acceleration
 float64[9] linear_acceleration_covariance
-================================================================================
-MSG: std_msgs/Header
-builtin_interfaces/Time stamp
-string frame_id
-================================================================================
-MSG: builtin_interfaces/Time
-int32 sec
-uint32 nanosec
-================================================================================
+)" VERP_ROS_HEADER
+    R"(================================================================================
 MSG: geometry_msgs/Quaternion
 float64 x
 float64 y
@@ -70,21 +49,15 @@ float64 y
 float64 z
 )";
 
-const std::string_view kTfSchema = R"(geometry_msgs/TransformStamped[] transforms
+const std::string_view kTfSchema =
+    R"(geometry_msgs/TransformStamped[] transforms
 ================================================================================
 MSG: geometry_msgs/TransformStamped
 std_msgs/Header header
 string child_frame_id
 geometry_msgs/Transform transform
-================================================================================
-MSG: std_msgs/Header
-builtin_interfaces/Time stamp
-string frame_id
-================================================================================
-MSG: builtin_interfaces/Time
-int32 sec
-uint32 nanosec
-================================================================================
+)" VERP_ROS_HEADER
+    R"(================================================================================
 MSG: geometry_msgs/Transform
 geometry_msgs/Vector3 translation
 geometry_msgs/Quaternion rotation
