@@ -1,27 +1,11 @@
 #pragma once
 #include <cstddef>
 
+#include "tests/hil/modes.hpp"
 #include "tests/hil/run_result.hpp"
 
 /// What campaigns promise of a run, as the operator sees it, whatever its bus.
 namespace verp::test {
-
-enum Mode {
-  kRelaxed,
-  kRising,
-  kStanding,
-  kWalking,
-  kHolding,
-  kSitting,
-  kFallen,
-  kStopped,
-  kActing,
-  kFalling,
-  kGettingUp
-};
-inline constexpr const char* kModeNames[] = {"relaxed", "rising",  "standing",  "walking",
-                                             "holding", "sitting", "fallen",    "stopped",
-                                             "acting",  "falling", "getting up"};
 
 inline bool was(const RunResult& result, Mode mode) {
   return (result.seen >> mode & 1u) != 0;

@@ -3,25 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tests/hil/modes.hpp"
+
 namespace verp::test {
 namespace {
-
-enum Mode {
-  kRelaxed,
-  kRising,
-  kStanding,
-  kWalking,
-  kHolding,
-  kSitting,
-  kFallen,
-  kStopped,
-  kActing,
-  kFalling,
-  kGettingUp
-};
-constexpr const char* kNames[] = {"relaxed", "rising",  "standing",  "walking",
-                                  "holding", "sitting", "fallen",    "stopped",
-                                  "acting",  "falling", "getting up"};
 
 constexpr std::uint32_t bit(int mode) {
   return 1u << mode;
@@ -107,10 +92,10 @@ void SafeTable::check_trouble(int to) {
   if (1e-6 * params_.period_us * trouble_ticks_ > kLongestEnd_s) fault("walks on with bad power");
   if (!trouble_) return;
   if (to != mode_ && (to == kRising || to == kWalking || to == kActing || to == kGettingUp)) {
-    fault(std::string("power is bad, and ") + kNames[mode_] + " became " + kNames[to]);
+    fault(std::string("power is bad, and ") + kModeNames[mode_] + " became " + kModeNames[to]);
   }
   if (to == mode_ && (to == kRising || to == kStanding)) {
-    fault(std::string("power is bad, and it goes on ") + kNames[to]);
+    fault(std::string("power is bad, and it goes on ") + kModeNames[to]);
   }
 }
 
@@ -148,9 +133,9 @@ void SafeTable::check_transition(const Inputs& inputs, int to) {
     return longer(operator_silent_, safety.command_hold_s + 0.02);
   };
   if (to != mode_ && (kMayLeadTo[mode_] & bit(to)) == 0) {
-    return fault(std::string(kNames[mode_]) + " became " + kNames[to]);
+    return fault(std::string(kModeNames[mode_]) + " became " + kModeNames[to]);
   }
-  if (moving(to) && stale) fault(std::string(kNames[to]) + " though a device is silent");
+  if (moving(to) && stale) fault(std::string(kModeNames[to]) + " though a device is silent");
   if (to == kHolding && mode_ == kHolding && lost) fault("holding though a device is lost");
   if (to == mode_) return;
   if (to == kHolding && mode_ != kFalling && !nearly(silent_, safety.stale_hold_s))
@@ -174,7 +159,7 @@ void SafeTable::check_transition(const Inputs& inputs, int to) {
   }
   if (to == kActing && request == Request::kRelax) fault("acted unasked");
   if ((to == kActing || to == kGettingUp) && nobody_watches()) {
-    fault(std::string(kNames[to]) + " with nobody watching");
+    fault(std::string(kModeNames[to]) + " with nobody watching");
   }
   if (to == kWalking && request != Request::kWalk) fault("walked unasked");
   if (to == kWalking && nobody_watches()) fault("walked with nobody watching");
@@ -187,7 +172,7 @@ void SafeTable::check_transition(const Inputs& inputs, int to) {
     fault("let go before it sat");
   }
   if (to == kRelaxed && (mode_ == kFallen || mode_ == kStopped) && request != Request::kRelax) {
-    fault("left " + std::string(kNames[mode_]) + " unasked");
+    fault("left " + std::string(kModeNames[mode_]) + " unasked");
   }
 }
 
@@ -228,8 +213,9 @@ void SafeTable::check_goals(const Inputs& inputs, const Outputs& outputs) {
 
 void SafeTable::check_outputs(const Inputs& inputs, const Outputs& outputs, int to) {
   const std::uint32_t all = params_.joint_count >= 32 ? ~0u : (1u << params_.joint_count) - 1;
-  if (limp(to) && outputs.torque_enable != 0) fault(std::string(kNames[to]) + " with torque");
-  if (!limp(to) && outputs.torque_enable != all) fault(std::string(kNames[to]) + " without torque");
+  if (limp(to) && outputs.torque_enable != 0) fault(std::string(kModeNames[to]) + " with torque");
+  if (!limp(to) && outputs.torque_enable != all)
+    fault(std::string(kModeNames[to]) + " without torque");
   check_goals(inputs, outputs);
 }
 

@@ -1,6 +1,6 @@
 #include "tests/scenario/walk.hpp"
 
-// Falls are no end: what lies gets up, what falls gets up, and walks on.
+// Falls are no end: what lies on its back or a side gets up, what falls so gets up, and walks on.
 namespace verp::scenario {
 namespace {
 
@@ -13,6 +13,14 @@ TEST(GettingUp, FromItsBackItStandsAndWalks) {
   expect_walked(lying);
   EXPECT_GE(count(lying, "get_ups"), 1);
   expect_between(0.1, number(lying, "distance_m"), 0.4, "distance, m");
+}
+
+TEST(GettingUp, FromEitherSideItTipsOntoItsBackAndGetsUp) {
+  for (const std::string side : {"left", "right"}) {
+    const Walk lying = walk("generic21 --for 3 --physics-step 2 --start lying:" + side);
+    expect_walked(lying);
+    EXPECT_GE(count(lying, "get_ups"), 1) << side;
+  }
 }
 
 TEST(GettingUp, PushedOverItFallsGetsUpAndWalksOn) {
