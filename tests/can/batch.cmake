@@ -21,6 +21,6 @@ function(verp_can_tests_end)
   file(GENERATE OUTPUT ${CMAKE_BINARY_DIR}/can/batch CONTENT "${batch}")
   add_test(NAME can.start COMMAND ${CMAKE_SOURCE_DIR}/tests/support/with-can --timeout 1700
     --writable ${CMAKE_BINARY_DIR}/can ${CMAKE_SOURCE_DIR}/tests/can/run_batch ${CMAKE_BINARY_DIR}/can)
-  # RUN_SERIAL: some go by the clock on the wall.
-  set_tests_properties(can.start PROPERTIES LABELS "hil-can;vm" FIXTURES_SETUP can_start RUN_SERIAL TRUE)
+  # RUN_SERIAL: some go by the clock on the wall. TIMEOUT: it is many tests, and a PC that is busy is slow in each.
+  set_tests_properties(can.start PROPERTIES LABELS "hil-can;vm" FIXTURES_SETUP can_start RUN_SERIAL TRUE TIMEOUT 1750)
 endfunction()

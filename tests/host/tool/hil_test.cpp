@@ -156,10 +156,14 @@ TEST_F(Hil, MeetsALinkThatIsCutAtOnceSomeTensOfTimesASecond) {
       wire::Link port(endpoint);
       while (!over && !port.wait_connected(1000)) {
       }
+      std::ofstream(folder_ / "taken") << '\n';
     }
   });
-  const Outcome outcome = shell("sleep 0.3; timeout -s INT 3 " + std::string(VERP_PROGRAM) +
-                                " hil --lockstep --json --link unix:" + place("bus"));
+  // Three seconds of it, however long the start takes.
+  const Outcome outcome = shell("sleep 0.3; " + std::string(VERP_PROGRAM) +
+                                " hil --lockstep --json --link unix:" + place("bus") +
+                                " & twin=$!; until [ -e taken ]; do sleep 0.05; done; sleep 3; "
+                                "kill -INT $twin; wait $twin");
   over = true;
   other.join();
   const int losses = json::parse(outcome.out).at("link").at("losses").get<int>();
