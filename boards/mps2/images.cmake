@@ -121,9 +121,10 @@ function(verp_add_can_tests machine)
   verp_add_emulated_image(can can ${machine})
   verp_add_emulated_image(loop can_loop ${machine})
   add_custom_target(benchmarks DEPENDS loop_${VERP_BOARD})  # what `verp bench` runs
-  add_test(NAME can.${VERP_BOARD} COMMAND ${CMAKE_SOURCE_DIR}/tests/support/with-can --timeout 1700 --memory 1500M
+  add_test(NAME can.${VERP_BOARD} COMMAND ${CMAKE_SOURCE_DIR}/tests/support/with-can --timeout 1700 --slow 3 --memory 1500M
     ${VERP_HOST_DIR}/target/target_tests --gtest_filter=CanBoard.*)
-  set_tests_properties(can.${VERP_BOARD} PROPERTIES LABELS "hil-can;target"
+  # RESOURCE_LOCK: two virtual machines at a time may share a processor.
+  set_tests_properties(can.${VERP_BOARD} PROPERTIES LABELS "hil-can;target" RESOURCE_LOCK vm
     ENVIRONMENT "VERP_TEST_BOARD=${VERP_BOARD};VERP_FIRMWARE_DIR=${CMAKE_BINARY_DIR}/images")
 endfunction()
 
@@ -131,7 +132,7 @@ endfunction()
 function(verp_add_can_loop_test ticks)
   add_test(NAME can_loop.${VERP_BOARD} COMMAND ${CMAKE_SOURCE_DIR}/tests/support/with-can --timeout 1700 --memory 1500M
     ${VERP_HOST_DIR}/target/target_tests --gtest_filter=CanLoop.*)
-  set_tests_properties(can_loop.${VERP_BOARD} PROPERTIES LABELS "loop;hil-can;target"
+  set_tests_properties(can_loop.${VERP_BOARD} PROPERTIES LABELS "loop;hil-can;target" RESOURCE_LOCK vm
     ENVIRONMENT "VERP_TEST_BOARD=${VERP_BOARD};VERP_TEST_TICKS=${ticks};VERP_FIRMWARE_DIR=${CMAKE_BINARY_DIR}/images")
 endfunction()
 

@@ -89,6 +89,43 @@ balance::FeedbackOut keep_up(const BalanceTuning& tuning, const Vec3& up,
   return balance::feedback(tuning, rest, pitch_rad, swing);
 }
 
+// The legs with what they bear, how the body leans and what the servos' zeros are. A room of its
+// own: the centre of mass takes 1.6 KB of stack, and is done before these chains are there.
+[[gnu::noinline]] void balance_legs(const Params& params, const action::PlayerOut& played,
+                                    const balance::AttitudeOut& attitude, const Vec3& com_m,
+                                    State& state, float* goal_rad) {
+  const Tuning& tuning = state.tuning;
+  const Legs legs = legs_of(params, goal_rad);
+  const Vec3 up = math::normalized_or(played.carry[0] * legs.up[0] + played.carry[1] * legs.up[1],
+                                      Vec3(0, 0, 1));
+  state.feedback = keep_up(tuning.balance, up, played, attitude);
+  const Vec3 lift = math::kGravityMS2 * up;
+  for (int side = 0; side < kFeet; ++side) {
+    const LegParams& leg = params.leg[side];
+    // Under the centre of mass, as far as this sole reaches there.
+    const Vec3 below_m = com_m - (com_m - legs.sole_m[side]).dot(up) * up;
+    const Vec3 off_m = below_m - legs.sole_m[side];
+    const float most_m = 0.5F * (leg.sole_left_m + leg.sole_right_m);
+    const float far_m = math::sqrt(off_m.squaredNorm());
+    const Vec3 ground_m = legs.sole_m[side] + (far_m > most_m ? most_m / far_m : 1.0F) * off_m;
+    float leg_rad[kLegJoints];
+    for (int k = 0; k < kLegJoints; ++k) leg_rad[k] = goal_rad[leg.joint[k]];
+    if (tuning.balance.gravity_enable > 0.5F) {
+      const float weight_kg = played.carry[side] * model::total_mass(params);
+      balance::add_sag(params, tuning.balance, leg, legs.chain[side],
+                       {ground_m, weight_kg * lift, lift, lift}, {}, leg_rad);
+    }
+    if (tuning.balance.zeros_enable > 0.5F) {
+      balance::add_zero(leg, state.zeros.leg[side], leg_rad);
+    }
+    balance::add(leg, state.feedback.leg[side], leg_rad);
+    for (int k = 0; k < kLegJoints; ++k) {
+      float& goal = goal_rad[leg.joint[k]];
+      goal += played.balance * (leg_rad[k] - goal);
+    }
+  }
+}
+
 }  // namespace
 
 void ask_action(const action::Library& actions, const State& state, const Inputs& inputs,
@@ -114,41 +151,12 @@ void act(const Params& params, const action::Library& actions, State& state, con
   if (state.action.number == 0) return;
   const bool has_legs =
       params.leg[0].solver != LegSolver::kNone && params.leg[1].solver != LegSolver::kNone;
-  const Tuning& tuning = state.tuning;
   model::lead(params, played.angle_rad);
   float goal_rad[kMaxJoints];
   for (int j = 0; j < params.joint_count; ++j) goal_rad[j] = played.angle_rad[j];
   if (has_legs && played.balance > 0.0F) {
-    const Legs legs = legs_of(params, goal_rad);
-    const Vec3 up = math::normalized_or(played.carry[0] * legs.up[0] + played.carry[1] * legs.up[1],
-                                        Vec3(0, 0, 1));
     const Vec3 com_m = kinematics::center_of_mass(params, Pose{}, goal_rad);
-    state.feedback = keep_up(tuning.balance, up, played, attitude);
-    const Vec3 lift = math::kGravityMS2 * up;
-    for (int side = 0; side < kFeet; ++side) {
-      const LegParams& leg = params.leg[side];
-      // Under the centre of mass, as far as this sole reaches there.
-      const Vec3 below_m = com_m - (com_m - legs.sole_m[side]).dot(up) * up;
-      const Vec3 off_m = below_m - legs.sole_m[side];
-      const float most_m = 0.5F * (leg.sole_left_m + leg.sole_right_m);
-      const float far_m = math::sqrt(off_m.squaredNorm());
-      const Vec3 ground_m = legs.sole_m[side] + (far_m > most_m ? most_m / far_m : 1.0F) * off_m;
-      float leg_rad[kLegJoints];
-      for (int k = 0; k < kLegJoints; ++k) leg_rad[k] = goal_rad[leg.joint[k]];
-      if (tuning.balance.gravity_enable > 0.5F) {
-        const float weight_kg = played.carry[side] * model::total_mass(params);
-        balance::add_sag(params, tuning.balance, leg, legs.chain[side],
-                         {ground_m, weight_kg * lift, lift, lift}, {}, leg_rad);
-      }
-      if (tuning.balance.zeros_enable > 0.5F) {
-        balance::add_zero(leg, state.zeros.leg[side], leg_rad);
-      }
-      balance::add(leg, state.feedback.leg[side], leg_rad);
-      for (int k = 0; k < kLegJoints; ++k) {
-        float& goal = goal_rad[leg.joint[k]];
-        goal += played.balance * (leg_rad[k] - goal);
-      }
-    }
+    balance_legs(params, played, attitude, com_m, state, goal_rad);
   }
   model::share_corrections(params, played.angle_rad, goal_rad);
   for (int j = 0; j < params.joint_count; ++j) {

@@ -1,26 +1,34 @@
-# Tests that need CAN sockets share one start of tests/support/with-can: the test `can.start` runs them all in there, one
-# after another, and each test then shows what its own run said.
+# Tests that need CAN sockets share two starts of tests/support/with-can: the tests `can.start` and `can.slow` run them all in
+# there, one after another, and each test then shows what its own run said.
 #
-#   verp_can_test(NAME PROGRAM ARGUMENT...)   PROGRAM may be a generator expression
-#   verp_can_tests_end()                              once, behind all of them
+#   verp_can_test(START NAME PROGRAM ARGUMENT...)   PROGRAM may be a generator expression. START is
+#                                                     start: what waits for answers, however long they take
+#                                                     slow: robots in real time, whose clock in there goes at a third of the speed
+#   verp_can_tests_end()                            once, behind all of them
 #
 # VERP_CAN_ONLY='NAME NAME' ctest -R ...  starts only those.
-function(verp_can_test name)
+function(verp_can_test start name)
   list(TRANSFORM ARGN REPLACE "(.+)" "'\\1'" OUTPUT_VARIABLE words)
   list(JOIN words " " command)
-  set_property(GLOBAL APPEND_STRING PROPERTY VERP_CAN_BATCH "run ${name} ${command}\n")
-  add_test(NAME ${name} COMMAND ${CMAKE_SOURCE_DIR}/tests/can/result ${CMAKE_BINARY_DIR}/can ${name})
-  set_tests_properties(${name} PROPERTIES LABELS "hil-can;vm" FIXTURES_REQUIRED can_start)
+  set_property(GLOBAL APPEND_STRING PROPERTY VERP_CAN_BATCH_${start} "run ${name} ${command}\n")
+  add_test(NAME ${name} COMMAND ${CMAKE_SOURCE_DIR}/tests/can/result ${CMAKE_BINARY_DIR}/can/${start} ${name})
+  set_tests_properties(${name} PROPERTIES LABELS "hil-can;vm" FIXTURES_REQUIRED can_${start})
 endfunction()
 
-function(verp_can_tests_end)
-  get_property(batch GLOBAL PROPERTY VERP_CAN_BATCH)
+function(verp_can_tests_begin start)
+  get_property(batch GLOBAL PROPERTY VERP_CAN_BATCH_${start})
   if(NOT batch)
     return()
   endif()
-  file(GENERATE OUTPUT ${CMAKE_BINARY_DIR}/can/batch CONTENT "${batch}")
-  add_test(NAME can.start COMMAND ${CMAKE_SOURCE_DIR}/tests/support/with-can --timeout 1700
-    --writable ${CMAKE_BINARY_DIR}/can ${CMAKE_SOURCE_DIR}/tests/can/run_batch ${CMAKE_BINARY_DIR}/can)
+  set(folder ${CMAKE_BINARY_DIR}/can/${start})
+  file(GENERATE OUTPUT ${folder}/batch CONTENT "${batch}")
+  add_test(NAME can.${start} COMMAND ${CMAKE_SOURCE_DIR}/tests/support/with-can --timeout 1700 ${ARGN}
+    --writable ${folder} ${CMAKE_SOURCE_DIR}/tests/can/run_batch ${folder})
   # RUN_SERIAL: some go by the clock on the wall. TIMEOUT: it is many tests, and a PC that is busy is slow in each.
-  set_tests_properties(can.start PROPERTIES LABELS "hil-can;vm" FIXTURES_SETUP can_start RUN_SERIAL TRUE TIMEOUT 1750)
+  set_tests_properties(can.${start} PROPERTIES LABELS "hil-can;vm" FIXTURES_SETUP can_${start} RUN_SERIAL TRUE TIMEOUT 1750)
+endfunction()
+
+function(verp_can_tests_end)
+  verp_can_tests_begin(start)
+  verp_can_tests_begin(slow --slow 3)
 endfunction()

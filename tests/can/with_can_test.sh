@@ -87,6 +87,14 @@ launch --vm --timeout 4 sleep 100
 is 'a command that does not end' "$status $errors" '124 with-can: the time is over: 4 s (--timeout)'
 nothing_left 'the time was over'
 
+before=$(date +%s%N)
+# shellcheck disable=SC2016 # it is the virtual machine that asks
+launch --vm --slow 4 sh -c 'a=$(cut -d" " -f1 /proc/uptime); sleep 1; echo "$a $(cut -d" " -f1 /proc/uptime)"'
+took_ms=$((($(date +%s%N) - before) / 1000000))
+awk '{ exit !($2 - $1 >= 0.95 && $2 - $1 < 2) }' <<<"$output" || fail "a second of a slow clock is: $output"
+((took_ms >= 3900)) || fail "a second of a clock that goes at a quarter of the speed took no four: $took_ms ms"
+nothing_left 'a slow clock'
+
 launch_and_interrupt INT 130
 nothing_left 'an interrupt'
 launch_and_interrupt TERM 143
@@ -103,7 +111,7 @@ is 'without a place to run it is a failure' "$status" 125
   fail "the remedy is not one line: $errors"
 nothing_left 'a refusal'
 
-for arguments in '' '--timeout 0 true' '--timeout' '--memory lots true' '--writable /not/there true' '--unknown true'; do
+for arguments in '' '--timeout 0 true' '--timeout' '--memory lots true' '--slow 0 true' '--slow' '--writable /not/there true' '--unknown true'; do
   # shellcheck disable=SC2086
   launch $arguments
   is "usage of '$arguments'" "$status" 125

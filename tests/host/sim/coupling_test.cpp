@@ -9,8 +9,6 @@
 namespace verp::sim {
 namespace {
 
-constexpr double kGravity_m_s2 = 9.80665;
-
 /// Two arms side by side on one base; the second follows the first one's motor.
 constexpr double kRotor_kg_m2 = 0.02;  ///< heavier than what the coupling carries of it
 
@@ -55,7 +53,7 @@ TEST(Coupling, MotorBearsBothWeights) {
     }
     const Truth truth = robot.truth();
     const double driver_rad = truth.joint_rad[0], follower_rad = truth.joint_rad[1];
-    const double weight_n_m = test::kArmMass * kGravity_m_s2 * test::kArmLength;
+    const double weight_n_m = test::kArmMass * test::kGravity_m_s2 * test::kArmLength;
     const double follower_n_m = weight_n_m * std::sin(follower_rad);
     EXPECT_NEAR(follower_rad, ratio * driver_rad + 0.1 - follower_n_m / 500, 1e-4) << ratio;
     EXPECT_NEAR(motor_n_m, weight_n_m * std::sin(driver_rad) + ratio * follower_n_m, 5e-3) << ratio;
@@ -77,7 +75,8 @@ TEST(Coupling, BothSwingAsOnePendulum) {
     const double arm_kg_m2 =
         test::kArmInertia + test::kArmMass * test::kArmLength * test::kArmLength;
     const double inertia = (1 + ratio * ratio) * arm_kg_m2 + kRotor_kg_m2;
-    const double weight = (1 + ratio * ratio) * test::kArmMass * kGravity_m_s2 * test::kArmLength;
+    const double weight =
+        (1 + ratio * ratio) * test::kArmMass * test::kGravity_m_s2 * test::kArmLength;
     const double period_s = 2 * M_PI * std::sqrt(inertia / weight);
     double crossed_s = 0, most_rad = 0;
     int crossings = 0;

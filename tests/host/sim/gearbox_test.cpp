@@ -13,8 +13,6 @@
 namespace verp::sim {
 namespace {
 
-constexpr double kGravity_m_s2 = 9.80665;
-
 model::Servo servo_of(const model::ServoType& type) {
   model::Servo servo = test::plain_servo();
   servo.stall_torque_n_m = type.stall_torque_n_m;
@@ -171,11 +169,11 @@ TEST_P(IdentifiedMotor, SwingsAPendulumAsThePaperSays) {
   model::Joint joint = joint_with({});
   joint.servo = servo_of(*type);
   const double mass_kg =
-      0.3 * type->stall_torque_n_m / kGravity_m_s2 / 0.1;  // 0.3 of stall when level
+      0.3 * type->stall_torque_n_m / test::kGravity_m_s2 / 0.1;  // 0.3 of stall when level
   const double inertia = mass_kg * 0.1 * 0.1;
   PaperPendulum paper{type->gearbox, type->stall_torque_n_m,
                       type->stall_torque_n_m / joint.servo.no_load_speed_rad_s, inertia,
-                      mass_kg * kGravity_m_s2 * 0.1};
+                      mass_kg * test::kGravity_m_s2 * 0.1};
   for (const double step_s : {0.00025, 0.001, 0.002}) {
     PaperPendulum expected = paper;
     Bench bench(joint, inertia, step_s);
@@ -200,12 +198,12 @@ TEST_P(IdentifiedMotor, SwingsAPendulumAsThePaperSaysInOde) {
   ASSERT_NE(type, nullptr);
   model::Entity entity = test::arm();
   entity.joints[0].servo = servo_of(*type);
-  const double mass_kg = 0.3 * type->stall_torque_n_m / kGravity_m_s2 / test::kArmLength;
+  const double mass_kg = 0.3 * type->stall_torque_n_m / test::kGravity_m_s2 / test::kArmLength;
   entity.nodes[1].mass_kg = mass_kg;
   PaperPendulum paper{type->gearbox, type->stall_torque_n_m,
                       type->stall_torque_n_m / entity.joints[0].servo.no_load_speed_rad_s,
                       test::kArmInertia + 1e-7 + mass_kg * test::kArmLength * test::kArmLength,
-                      mass_kg * kGravity_m_s2 * test::kArmLength};
+                      mass_kg * test::kGravity_m_s2 * test::kArmLength};
   World world;
   TwinOptions options;
   options.imperfections = Imperfections::none();

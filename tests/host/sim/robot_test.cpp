@@ -11,8 +11,6 @@
 namespace verp::sim {
 namespace {
 
-constexpr double kGravity = 9.80665;
-
 TwinOptions crouched(const model::Entity& entity, std::uint64_t seed = 1) {
   TwinOptions options;
   options.seed = seed;
@@ -78,7 +76,7 @@ TEST(Robot, AtRestZmpIsTheProjectionOfTheCentreOfMassAndFeetCarryTheWeight) {
   const Truth truth = robot.truth();
   ASSERT_TRUE(truth.zmp_valid);
   EXPECT_LT((mean.zmp_world_m() - truth.com_world_m.head<2>()).norm(), 0.0005);
-  const double weight = robot.body().mass_kg() * kGravity;
+  const double weight = robot.body().mass_kg() * test::kGravity_m_s2;
   EXPECT_NEAR(mean.force_n() / 1000, weight, 0.01 * weight);
   EXPECT_NEAR(truth.foot[0].normal_force_n + truth.foot[1].normal_force_n, weight, 0.02 * weight);
   double sensed = 0;
@@ -120,8 +118,8 @@ TEST(Robot, ImuReadsOneGUpwardAtRest) {
     gyro += Vec3(imu.gyro_count[0], imu.gyro_count[1], imu.gyro_count[2]) * 1e-6;
   }
   const double pitch = robot.truth().pitch_rad;
-  EXPECT_NEAR(accel.z(), kGravity * std::cos(pitch), 0.01);
-  EXPECT_NEAR(accel.x(), -kGravity * std::sin(pitch), 0.01);
+  EXPECT_NEAR(accel.z(), test::kGravity_m_s2 * std::cos(pitch), 0.01);
+  EXPECT_NEAR(accel.x(), -test::kGravity_m_s2 * std::sin(pitch), 0.01);
   EXPECT_NEAR(accel.y(), 0, 0.01);
   EXPECT_LT(gyro.norm(), 0.002);
 }
@@ -131,7 +129,7 @@ TEST(Robot, ImuMeasuresInItsOwnAxes) {
   model::ImuSensor sensor = *test::biped().imu;
   ImuModel imu(sensor, false, 1);
   const Mat3 world_imu = Eigen::AngleAxisd(1.5707963267948966, Vec3::UnitZ()).toRotationMatrix();
-  imu.sample(world_imu, Vec3(1.5, 0, 0), Vec3(2, 0, 0), Vec3(0, 0, kGravity), 0.001);
+  imu.sample(world_imu, Vec3(1.5, 0, 0), Vec3(2, 0, 0), Vec3(0, 0, test::kGravity_m_s2), 0.001);
   EXPECT_EQ(imu.measurement().gyro_count[1], -1500);
   EXPECT_EQ(imu.measurement().gyro_count[0], 0);
   EXPECT_EQ(imu.measurement().accel_count[1], -2000);
@@ -150,7 +148,8 @@ TEST(Robot, ImuFeelsNothingInFreeFallAndSaturatesInsteadOfWrapping) {
   robot.advance_to(100'000);
   for (const std::int16_t count : robot.imu().accel_count) EXPECT_LE(std::abs(count), 20);
   ImuModel imu(*entity.imu, false, 1);
-  imu.sample(Mat3::Identity(), Vec3(1000, -1000, 0), Vec3::Zero(), Vec3(0, 0, kGravity), 0.001);
+  imu.sample(Mat3::Identity(), Vec3(1000, -1000, 0), Vec3::Zero(), Vec3(0, 0, test::kGravity_m_s2),
+             0.001);
   EXPECT_EQ(imu.measurement().gyro_count[0], 32767);
   EXPECT_EQ(imu.measurement().gyro_count[1], -32768);
 }
@@ -318,7 +317,7 @@ TEST(World, TwoRobotsStandSideBySide) {
   EXPECT_FALSE(a.fallen());
   EXPECT_FALSE(b.fallen());
   EXPECT_NEAR(b.truth().foot[0].normal_force_n + b.truth().foot[1].normal_force_n,
-              b.body().mass_kg() * kGravity, 1.0);
+              b.body().mass_kg() * test::kGravity_m_s2, 1.0);
 }
 
 }  // namespace

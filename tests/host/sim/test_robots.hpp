@@ -7,6 +7,8 @@
 /// Robots made in code, so that these tests need no file and every number is in sight.
 namespace verp::sim::test {
 
+inline constexpr double kGravity_m_s2 = 9.80665;  // standard gravity, as in the twin's worlds
+
 /// XM430-W210 at 12 V, without play and friction.
 inline model::Servo plain_servo() {
   model::Servo servo;
