@@ -21,9 +21,9 @@ if(CMAKE_CXX_FLAGS MATCHES "-fsanitize")
       math(EXPR last "${shards} - 1")
       foreach(shard RANGE ${last})
         string(APPEND script
-"  add_test([=[${name}.${shard}]=] [=[$<TARGET_FILE:${target}>]=] [=[--gtest_filter=${arg_TEST_FILTER}]=])
+"  add_test([=[${name}.${shard}]=] env GTEST_TOTAL_SHARDS=${shards} GTEST_SHARD_INDEX=${shard}
+    [=[$<TARGET_FILE:${target}>]=] [=[--gtest_filter=${arg_TEST_FILTER}]=])
   set_tests_properties([=[${name}.${shard}]=] PROPERTIES TIMEOUT 1800 COST 1000 ${properties})
-  set_property(TEST [=[${name}.${shard}]=] APPEND PROPERTY ENVIRONMENT GTEST_TOTAL_SHARDS=${shards} GTEST_SHARD_INDEX=${shard})
 ")
         string(APPEND tests " [=[${name}.${shard}]=]")
       endforeach()
