@@ -135,7 +135,7 @@ class Twin:
                                         stdin=subprocess.DEVNULL, stdout=open("twin.out", "w"), stderr=self.log)
 
     def __enter__(self):
-        for _ in range(1000):
+        for _ in range(6000):  # a minute: under sanitizers, beside other tests
             if os.path.islink(self.path):
                 return self
             assert self.process.poll() is None, self.said()
