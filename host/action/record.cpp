@@ -72,7 +72,7 @@ Document record_gait(const record::Trace& trace, const std::string& name, int cy
   document.name = name;
   document.note = "The gait's cycle of 16 states, from " + trace.file.filename().string();
   const Library actions = trace.library();
-  State state;
+  State state = trace.start();
   Outputs outputs;
   int last = -1, seen = 0;
   double last_s = 0;

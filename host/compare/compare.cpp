@@ -23,6 +23,14 @@ void refuse_what_has_no_ticks(const record::Trace& trace) {
   throw record::TraceError(trace.file, "holds no tick", "record a run that begins");
 }
 
+/// Of a part that was cut from a run, nobody can see when the command was given.
+void refuse_what_began_before(const record::Trace& trace) {
+  if (!trace.before) return;
+  if (trace.before->gait.queued == 0 && trace.before->action.number == 0) return;
+  throw record::TraceError(trace.file, "begins in the midst of a walk or an action",
+                           "give --shift, or the trace that it was cut from");
+}
+
 void refuse_other_joints(const record::Trace& trace_b, const Motion& a, const Motion& b) {
   if (a.joints() == b.joints()) return;
   std::size_t j = 0;
@@ -242,6 +250,9 @@ const JointResult& Comparison::worst() const {
 Comparison compare(const record::Trace& a, const record::Trace& b, const Options& options) {
   refuse_what_has_no_ticks(a);
   refuse_what_has_no_ticks(b);
+  if (!options.shift_s) {
+    for (const record::Trace* trace : {&a, &b}) refuse_what_began_before(*trace);
+  }
   return Comparing(a, b, options).run();
 }
 

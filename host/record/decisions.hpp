@@ -11,7 +11,8 @@ namespace verp::record {
 class Decisions {
  public:
   /// The trace must outlive it.
-  explicit Decisions(const Trace& trace) : trace_(trace), actions_(trace.library()) {}
+  explicit Decisions(const Trace& trace)
+      : trace_(trace), actions_(trace.library()), state_(trace.start()) {}
   /// Null where it is not known. Ticks are asked for in order, none left out.
   const Outputs* at(const TickRecord& record);
   /// After the tick last asked for.

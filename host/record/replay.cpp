@@ -57,7 +57,7 @@ void place(Divergence& divergence, const Trace& trace, std::size_t index) {
 /// recorded digests.
 class Reference {
  public:
-  explicit Reference(const Trace& trace) : trace_(trace) {}
+  explicit Reference(const Trace& trace) : trace_(trace), state_(trace.start()) {}
   void advance(std::size_t index) {
     if (!valid_) return;
     Outputs outputs;
@@ -100,7 +100,7 @@ ReplayResult replay(const Trace& trace, const Params* other, const StepFunction&
   ReplayResult result;
   result.ticks = trace.ticks.size();
   result.recorded_digest = trace.digest();
-  State state;
+  State state = trace.start();
   Reference reference(trace);
   for (std::size_t i = 0; i < trace.ticks.size(); ++i) {
     Outputs outputs;

@@ -2,6 +2,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -27,6 +28,9 @@ inline constexpr const char* kObjectsTopic =
     "/objects";  ///< where a twin's world had what can move in it, as transforms
 inline constexpr const char* kParamsAttachment = "params";
 inline constexpr const char* kActionsAttachment = "actions";
+inline constexpr const char* kStateAttachment =
+    "state";  ///< State before the first tick, of a run whose beginning was cut off
+inline constexpr const char* kStateLayoutAttachment = "state.layout";
 inline constexpr const char* kMetadataName = "verp";
 inline constexpr const char* kTraceFormat = "1";
 
@@ -63,6 +67,7 @@ struct Trace {
   Params params;
   std::vector<std::uint32_t> actions;  ///< image of the library; empty: the robot had none
   mcap::StringMap metadata;
+  std::optional<State> before;  ///< the first tick; none: the controller had just started
   std::vector<TickRecord> ticks;
   std::vector<Keyframe> keyframes;  ///< empty when the writer's State had another layout
   std::vector<Change> changes;
@@ -72,8 +77,10 @@ struct Trace {
 
   /// The 64-bit value that names the whole run; the chain's seed when there are no ticks.
   std::uint64_t digest() const {
-    return ticks.empty() ? record::kChainSeed : ticks.back().digest.chain;
+    return ticks.empty() ? start().digest.chain : ticks.back().digest.chain;
   }
+  /// With which the controller met the first tick.
+  State start() const { return before.value_or(State{}); }
   /// Valid while `actions` are. Checks all of them: once a run, not once a tick.
   action::Library library() const { return {actions.data(), 4 * actions.size()}; }
   double period_s() const { return params.period_us * 1e-6; }

@@ -9,25 +9,12 @@
 #include "host/record/mcap_reader.hpp"
 #include "host/record/ros_messages.hpp"
 #include "host/record/trace.hpp"
+#include "host/record/trace_parts.hpp"
 
 namespace verp::record {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string read_bytes(const fs::path& file) {
-  std::error_code error;
-  if (fs::is_directory(file, error))
-    throw TraceError(file, "is a folder", "name the .mcap file in it");
-  if (fs::exists(file, error) && !fs::is_regular_file(file, error))
-    throw TraceError(file, "is not a regular file", "name a .mcap file");
-  std::ifstream in(file, std::ios::binary);
-  if (!in) {
-    throw TraceError(file, "no such file, or it cannot be opened",
-                     "check the path; `verp walk --record F.mcap` writes a trace");
-  }
-  return {std::istreambuf_iterator<char>(in), {}};
-}
 
 template <class T>
 const std::string& layout_of(const char* name) {
@@ -51,6 +38,7 @@ class Loader {
     load_metadata();
     load_params();
     load_actions();
+    load_state();
     std::uint16_t tick_id = 0, state_id = 0;
     const bool keyframes = find_channels(tick_id, state_id);
     std::uint16_t changed_id = 0, tf_id = 0;
@@ -126,6 +114,19 @@ class Loader {
            fmt::format("the action library is {}",
                        action::kLibraryFaultNames[static_cast<int>(fault)]),
            "read it with verp of " + writer_of(trace_.metadata));
+  }
+
+  void load_state() {
+    const auto found = file_.attachments.find(kStateAttachment);
+    if (found == file_.attachments.end()) return;
+    const auto layout = file_.attachments.find(kStateLayoutAttachment);
+    if (found->second.data.size() != sizeof(State) || layout == file_.attachments.end() ||
+        layout->second.data != layout_of<State>("State")) {
+      refuse(found->second.offset,
+             "it begins in the midst of a run, with a State of other fields than this verp's",
+             "read it with verp of " + writer_of(trace_.metadata));
+    }
+    std::memcpy(&trace_.before.emplace(), found->second.data.data(), sizeof(State));
   }
 
   /// Whether the trace's State can be compared with ours; its TickRecord must be ours.
@@ -214,9 +215,26 @@ std::string lost_text(const mcap::File& file) {
 
 }  // namespace
 
+std::string read_trace_bytes(const fs::path& file) {
+  std::error_code error;
+  if (fs::is_directory(file, error))
+    throw TraceError(file, "is a folder", "name the .mcap file in it");
+  if (fs::exists(file, error) && !fs::is_regular_file(file, error))
+    throw TraceError(file, "is not a regular file", "name a .mcap file");
+  std::ifstream in(file, std::ios::binary);
+  if (!in) {
+    throw TraceError(file, "no such file, or it cannot be opened",
+                     "check the path; `verp walk --record F.mcap` writes a trace");
+  }
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
 Trace read_trace(const fs::path& path, Read mode) {
-  const std::string bytes = read_bytes(path);
-  const mcap::File file = mcap::parse(bytes);
+  const std::string bytes = read_trace_bytes(path);
+  return trace_of(path, mcap::parse(bytes), mode);
+}
+
+Trace trace_of(const fs::path& path, const mcap::File& file, Read mode) {
   if (file.flaw && (mode == Read::kStrict || file.attachments.empty())) {
     const bool salvage = !file.attachments.empty();
     throw TraceError(path, file.flaw->offset,
@@ -234,7 +252,7 @@ Trace read_trace(const fs::path& path, Read mode) {
 
 std::size_t for_each_picture(const fs::path& path,
                              const std::function<void(const RecordedPicture&)>& show) {
-  const std::string bytes = read_bytes(path);
+  const std::string bytes = read_trace_bytes(path);
   const mcap::File file = mcap::parse(bytes);
   if (file.flaw) {
     throw TraceError(path, file.flaw->offset, file.flaw->what,

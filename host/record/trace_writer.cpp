@@ -18,6 +18,11 @@ std::string_view image(const T& value) {
 
 }  // namespace
 
+void add_state(mcap::Writer& writer, const State& before) {
+  writer.add_attachment(kStateAttachment, "application/octet-stream", image(before));
+  writer.add_attachment(kStateLayoutAttachment, "text/plain", describe_layout<State>("State"));
+}
+
 TraceWriter::TraceWriter(const std::filesystem::path& file, const Params& params,
                          const mcap::StringMap& run, TraceOptions options)
     : writer_(file, options.ros ? "ros2" : "", "verp"),
@@ -44,6 +49,7 @@ void TraceWriter::begin(const mcap::StringMap& run) {
         {reinterpret_cast<const char*>(options_.actions.data()), 4 * options_.actions.size()});
   }
   writer_.add_attachment("params.layout", "text/plain", describe_layout<Params>("Params"));
+  if (options_.before) add_state(writer_, *options_.before);
 
   const auto raw = [&](const char* topic, const char* name, const std::string& layout) {
     return writer_.add_channel(writer_.add_schema(name, "verp", layout), topic, "verp");

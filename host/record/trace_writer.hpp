@@ -19,7 +19,11 @@ struct TraceOptions {
   bool ros = true;  ///< add channels for viewers: README.md
   std::uint64_t chunk_ticks = 125;       ///< a crash loses at most this many
   std::vector<std::uint32_t> actions{};  ///< image of the library that the controller has
+  std::optional<State> before{};         ///< the first tick, of a run whose beginning was cut off
 };
+
+/// The attachments that tell a replay with which State to begin.
+void add_state(mcap::Writer& writer, const State& before);
 
 /// Writes a run as it happens. Throws TraceError when the file cannot be written.
 class TraceWriter {

@@ -19,7 +19,7 @@ void write_file(const std::filesystem::path& file, std::string_view content) {
   if (out && !error) return;
   std::filesystem::remove(part, error);
   throw ReportError(file.string() +
-                    ": cannot be written; choose another folder with --report, or free space");
+                    ": cannot be written; choose a folder that exists and is yours, or free space");
 }
 
 }  // namespace verp::report

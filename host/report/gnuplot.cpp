@@ -97,6 +97,24 @@ std::optional<std::string> output_of(const std::string& script, std::string& err
   return std::nullopt;
 }
 
+std::optional<std::string> svg_of(const Plot& plot, const std::string& script,
+                                  const char* background, std::string& error) {
+  const std::string terminal =
+      fmt::format("set terminal svg size {},{} dynamic enhanced rounded font 'sans-serif,13' {}\n",
+                  plot.width, plot.height, background);
+  std::optional<std::string> svg = output_of(terminal + script, error);
+  if (svg && svg->find("</svg>") == std::string::npos) {
+    error = "it made no picture";
+    svg.reset();
+  }
+  return svg;
+}
+
+std::string light(std::string script) {
+  for (const Colour& colour : kPalette) replace_all(script, colour.sentinel, colour.light);
+  return script;
+}
+
 }  // namespace
 
 bool gnuplot_available() {
@@ -111,28 +129,23 @@ bool gnuplot_available() {
 }
 
 std::optional<std::string> draw(const Plot& plot, std::string& error) {
-  const std::string terminal =
-      fmt::format("set terminal svg size {},{} dynamic enhanced rounded font 'sans-serif,13'\n",
-                  plot.width, plot.height);
-  std::optional<std::string> svg = output_of(terminal + plot.script, error);
+  std::optional<std::string> svg = svg_of(plot, plot.script, "", error);
   if (svg) *svg = for_page(std::move(*svg));
-  if (svg && svg->find("</svg>") == std::string::npos) {
-    error = "it made no picture";
-    svg.reset();
-  }
   return svg;
+}
+
+std::optional<std::string> draw_svg(const Plot& plot, std::string& error) {
+  return svg_of(plot, light(plot.script), "background rgb '#ffffff'", error);
 }
 
 std::optional<std::string> draw_png(const Plot& plot, std::string& error) {
   constexpr double kScale = 1.3;  // sharp on a dense screen, and still a small file
-  std::string script = plot.script;
-  for (const Colour& colour : kPalette) replace_all(script, colour.sentinel, colour.light);
   const std::string terminal = fmt::format(
       "set terminal pngcairo size {:.0f},{:.0f} enhanced rounded font 'sans,10' fontscale {} "
       "linewidth {} "
       "pointscale {} background rgb '#ffffff'\n",
       kScale * plot.width, kScale * plot.height, kScale, kScale, kScale);
-  std::optional<std::string> png = output_of(terminal + script, error);
+  std::optional<std::string> png = output_of(terminal + light(plot.script), error);
   if (png && !png->starts_with("\x89PNG")) {
     error = "it made no picture";
     png.reset();

@@ -14,6 +14,9 @@ bool gnuplot_available();
 /// how it ended. Throws files::FileError when there is no place for the script.
 std::optional<std::string> draw(const Plot& plot, std::string& error);
 
+/// The picture as an SVG file of its own, in the light colours, on white.
+std::optional<std::string> draw_svg(const Plot& plot, std::string& error);
+
 /// The picture as PNG in the light colours, on white.
 std::optional<std::string> draw_png(const Plot& plot, std::string& error);
 

@@ -18,8 +18,8 @@ class Data {
     (cell(static_cast<double>(values)), ...);
     return end_row();
   }
-  Data& cell(double value) {
-    text_ += fmt::format("{:.6g} ", value);
+  Data& cell(double value, int digits = 6) {
+    text_ += fmt::format("{:.{}g} ", value, digits);
     return *this;
   }
   Data& label(const std::string& value) {

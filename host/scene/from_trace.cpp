@@ -46,7 +46,7 @@ struct TracePlayer::Film {
     const TickPoses poses(entity, trace.params);
     BodyTrack track(trace, poses);
     const action::Library actions = trace.library();
-    State state;
+    State state = trace.start();
     Outputs outputs;
     for (std::size_t i = 0; i < trace.ticks.size(); ++i) {
       if (i % kEvery == 0) states.push_back(state);

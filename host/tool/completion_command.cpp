@@ -24,6 +24,13 @@ std::string first_line_of(const std::string& text) {
   return text.substr(0, text.find('\n'));
 }
 
+/// A command may have a second name.
+std::vector<std::string> names_of(const CLI::App& app) {
+  std::vector<std::string> names = app.get_aliases();
+  names.insert(names.begin(), app.get_name());
+  return names;
+}
+
 void gather(const CLI::App& app, const std::string& command, std::vector<ShellWords>& all) {
   ShellWords words{.command = command, .commands = {}, .options = {}};
   for (const CLI::Option* option : app.get_options()) {
@@ -34,11 +41,15 @@ void gather(const CLI::App& app, const std::string& command, std::vector<ShellWo
   }
   const auto inner = app.get_subcommands([](const CLI::App*) { return true; });
   for (const CLI::App* each : inner) {
-    words.commands.emplace_back(each->get_name(), first_line_of(each->get_description()));
+    for (const std::string& name : names_of(*each)) {
+      words.commands.emplace_back(name, first_line_of(each->get_description()));
+    }
   }
   all.push_back(words);
   for (const CLI::App* each : inner) {
-    gather(*each, command + (command.empty() ? "" : " ") + each->get_name(), all);
+    for (const std::string& name : names_of(*each)) {
+      gather(*each, command + (command.empty() ? "" : " ") + name, all);
+    }
   }
 }
 

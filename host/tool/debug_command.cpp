@@ -64,6 +64,11 @@ void build_for_gdb(const std::string& board, const std::string& target, const fs
 
 flash::DebugPlan plan_replay(const DebugWords& words, const fs::path& folder) {
   const record::Trace trace = record::read_trace(words.trace);
+  if (trace.before) {
+    throw ToolError(kBadInput, "verp debug: " + words.trace +
+                                   ": begins in the midst of a run, and firmware cannot; give the "
+                                   "trace that it was cut from");
+  }
   std::vector<Inputs> inputs;
   for (const TickRecord& each : trace.ticks) inputs.push_back(each.inputs);
   const auto at = std::find_if(inputs.begin(), inputs.end(), [&](const Inputs& each) {

@@ -1,0 +1,31 @@
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "host/record/trace.hpp"
+
+namespace verp::tool {
+
+/// What is typed after `verp trace`: each of its commands uses some of it.
+struct TraceWords {
+  std::string file, output;
+  bool json = false, recover = false;
+  bool states = false;               ///< export
+  std::vector<std::string> signals;  ///< plot
+  bool list = false;
+  std::optional<double> from_s, to_s;
+};
+
+/// The trace; complains of what is missing in it, if that is wanted to be read.
+record::Trace load_trace(const TraceWords& words);
+/// Throws ToolError: -o names the trace itself.
+void refuse_same_file(const TraceWords& words);
+/// Says from which tick on it is not known what the controller made of a trace; nothing: of all.
+void tell_of_other_decisions(const record::Trace& trace, const std::optional<std::uint32_t>& tick);
+
+/// `verp trace export`, `verp trace plot`. Return the exit status; throw ToolError and TraceError.
+int export_csv(const TraceWords& words);
+int plot_trace(const TraceWords& words);
+
+}  // namespace verp::tool

@@ -1,0 +1,93 @@
+#include <nlohmann/json.hpp>
+
+#include "tests/host/tool/program.hpp"
+
+// What is made of a trace, as a person meets it; the numbers are held to account in
+// tests/host/signals and tests/host/record.
+
+namespace verp::tool::test {
+namespace {
+
+class TraceCommand : public Program {
+ protected:
+  void SetUp() override { ASSERT_EQ(verp("walk --for 3 --json --record a.mcap").status, 0); }
+};
+
+TEST_F(TraceCommand, PlotDrawsSignalsThatAreNamedAndHelpsWithThoseThatAreNot) {
+  const std::string list = verp("trace plot a.mcap --list").out;
+  EXPECT_EQ(list.rfind("tick\ntime_s\n", 0), 0u);
+  EXPECT_NE(list.find("\ngoal_rad.l_knee\n"), std::string::npos);
+  EXPECT_NE(list.find("\nstate.gait."), std::string::npos);
+
+  const std::string knee = "trace plot a.mcap --signal '*rad.l_knee' --signal mode ";
+  const Outcome png = verp(knee + "--from 1 --to 2 -o knee.png");
+  EXPECT_EQ(png.out, "knee.png\n") << png.err;
+  EXPECT_EQ(png.err, "");
+  EXPECT_TRUE(slurp(folder_ / "knee.png").starts_with("\x89PNG"));
+  ASSERT_EQ(verp(knee + "-o knee.svg").status, 0);
+  const std::string svg = slurp(folder_ / "knee.svg");
+  EXPECT_TRUE(svg.starts_with("<?xml"));
+  for (const char* name : {">rad.l_knee<", ">goal_rad.l_knee<", ">mode<"}) {
+    EXPECT_NE(svg.find(name), std::string::npos) << name;
+  }
+
+  expect_refused("trace plot a.mcap --signal rad.l_kne -o a.png", "did you mean rad.l_knee?");
+  expect_refused("trace plot a.mcap --signal 'x*' -o a.png", "--list prints them");
+  expect_refused("trace plot a.mcap -o a.png", "name what to draw with --signal");
+  expect_refused(knee, "name the picture with -o");
+  expect_refused(knee + "-o a.jpg", "a.jpg: pictures end in .png or .svg");
+  expect_refused(knee + "-o a.png --from 60", "it begins at 0 s and ends at");
+  expect_refused(knee + "-o a.png --from -1", "0 to");
+  expect_refused(knee + "-o none/a.png", "none/a.png: cannot be written");
+  expect_refused("trace plot a.mcap --signal 'state.*' -o a.png", "name fewer");
+  expect_refused("trace plot none.mcap --list", "none.mcap: no such file");
+  EXPECT_EQ(shell("PATH=/nowhere " VERP_PROGRAM " " + knee + "-o b.png").status, 3);
+
+  // CSV is export by another name.
+  EXPECT_EQ(verp("trace csv a.mcap --state").out, verp("trace export a.mcap --state").out);
+  EXPECT_NE(verp("trace --help").out.find("export, csv "), std::string::npos);
+  EXPECT_NE(verp("completion bash").out.find("'trace csv') words='"), std::string::npos);
+}
+
+TEST_F(TraceCommand, ACutReplaysAndEveryCommandTakesIt) {
+  const Outcome made = verp("trace cut a.mcap --from 6 --to 7 -o part.mcap");
+  EXPECT_EQ(made.status, 0) << made.err;
+  EXPECT_NE(made.out.find("; begins 0."), std::string::npos) << made.out;
+  EXPECT_NE(made.out.find(" at the last State that was kept"), std::string::npos) << made.out;
+  EXPECT_EQ(verp("replay part.mcap").status, 0);
+  EXPECT_NE(verp("trace info part.mcap").out.find("cut_from: a.mcap"), std::string::npos);
+  const std::string csv = verp("trace csv part.mcap --state").out;
+  EXPECT_NE(verp("trace csv a.mcap --state").out.find(csv.substr(csv.find('\n', 1) + 1, 200)),
+            std::string::npos);
+  EXPECT_EQ(verp("trace recover part.mcap -o mended.mcap").status, 0);
+  EXPECT_EQ(verp("replay mended.mcap").status, 0);
+  EXPECT_EQ(verp("diff part.mcap mended.mcap").status, 0);
+  expect_refused("trace cut a.mcap --from 60 -o b.mcap", "it begins at 0 s and ends at");
+  expect_refused("trace cut a.mcap -o b.mcap", "give --from, --to, or both");
+  expect_refused("trace cut a.mcap --to 3 -o a.mcap", "that is the trace itself");
+  expect_refused("compare a.mcap part.mcap", "begins in the midst of a walk");
+  expect_refused("debug --board mps2_an386 part.mcap", "begins in the midst of a run");
+}
+
+// kill -9 while it writes: what stands in the file is a run up to its last whole chunk.
+TEST_F(Program, AKilledWalkLeavesAFileThatOpens) {
+  const Outcome killed = shell(
+      VERP_PROGRAM
+      " walk --for 600 --json --record k.mcap & "
+      "for i in $(seq 3000); do "
+      "  test $(cat k.mcap.*.part 2>/dev/null | wc -c) -ge 700000 && break; sleep 0.02; done; "
+      "kill -KILL $!; wait $!; echo $?; ls");
+  ASSERT_TRUE(killed.out.starts_with("137\nk.mcap.")) << killed.out;
+  expect_refused("trace info k.mcap.*.part", "ticks before it are whole");
+  const Outcome info = verp("trace info k.mcap.*.part --recover --json");
+  EXPECT_EQ(info.status, 0) << info.err;
+  const auto json = nlohmann::json::parse(info.out);
+  EXPECT_GT(json.at("ticks"), 124);
+  EXPECT_EQ(json.at("ticks").get<int>() % 125, 0) << "whole chunks";
+  EXPECT_EQ(verp("replay k.mcap.*.part --recover").status, 0);
+  EXPECT_EQ(verp("trace recover k.mcap.*.part -o k.mcap").status, 0);
+  EXPECT_EQ(verp("replay k.mcap").status, 0);
+}
+
+}  // namespace
+}  // namespace verp::tool::test
