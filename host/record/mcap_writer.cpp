@@ -8,6 +8,7 @@
 #include <cstring>
 #include <fstream>
 
+#include "host/record/compression.hpp"
 #include "host/record/trace_error.hpp"
 
 namespace verp::record::mcap {
@@ -36,8 +37,13 @@ bool holds_something_else(const std::filesystem::path& path) {
 }
 }  // namespace
 
-Writer::Writer(std::filesystem::path path, std::string_view profile, std::string_view library)
-    : path_(std::move(path)) {
+Writer::Writer(std::filesystem::path path, std::string_view profile, std::string_view library,
+               Compression compression)
+    : path_(std::move(path)), compression_(compression) {
+  if (compression_ == Compression::kZstd && !has_zstd()) {
+    throw TraceError(path_, "cannot be compressed: this verp was built without zstd",
+                     "apt-get install libzstd-dev and build again, or record as it is");
+  }
   if (std::filesystem::is_directory(path_)) {
     throw TraceError(path_, "is a folder", "name a file, such as run.mcap");
   }
@@ -161,7 +167,10 @@ void Writer::flush() {
 void Writer::end_chunk() {
   Bytes content;
   content.u64(chunk_start_ns_).u64(chunk_end_ns_).u64(chunk_.size()).u32(crc32(chunk_));
-  content.text("").u64(chunk_.size()).raw(chunk_);
+  const std::string frame = compression_ == Compression::kZstd ? packed(chunk_) : "";
+  const std::string_view compression = frame.empty() ? "" : kZstdName,
+                         stored = frame.empty() ? chunk_ : frame;
+  content.text(compression).u64(stored.size()).raw(stored);
   const std::uint64_t chunk_offset = position_;
   put(Bytes().record(Opcode::kChunk, content.data).data);
   const std::uint64_t chunk_length = position_ - chunk_offset;
@@ -169,8 +178,8 @@ void Writer::end_chunk() {
   const Bytes offsets = write_message_indexes();
   Bytes index;
   index.u64(chunk_start_ns_).u64(chunk_end_ns_).u64(chunk_offset).u64(chunk_length);
-  index.text(offsets.data).u64(position_ - index_offset).text("");
-  index.u64(chunk_.size()).u64(chunk_.size());
+  index.text(offsets.data).u64(position_ - index_offset).text(compression);
+  index.u64(stored.size()).u64(chunk_.size());
   chunk_index_.record(Opcode::kChunkIndex, index.data);
   ++chunks_;
   chunk_.clear();

@@ -11,14 +11,18 @@
 
 namespace verp::record::mcap {
 
-/// Writes one MCAP file, append-only: uncompressed chunks with CRC and message indexes, summary and
-/// footer. What has been flushed stays readable whatever happens later; only the open chunk is lost
-/// in a crash. The file grows under a name of its own (`part_path()`) and takes its final name in
-/// close(), so two writers of one path never mix and a reader never meets a half-written file under
-/// the final name. Every member throws TraceError when the disk refuses.
+enum class Compression : std::uint8_t { kNone, kZstd };
+
+/// Writes one MCAP file, append-only: chunks with CRC and message indexes, summary and footer. What
+/// has been flushed stays readable whatever happens later; only the open chunk is lost in a crash.
+/// The file grows under a name of its own (`part_path()`) and takes its final name in close(), so
+/// two writers of one path never mix and a reader never meets a half-written file under the final
+/// name. Every member throws TraceError when the disk refuses.
 class Writer {
  public:
-  Writer(std::filesystem::path path, std::string_view profile, std::string_view library);
+  /// kZstd: of every chunk that gets shorter by it.
+  Writer(std::filesystem::path path, std::string_view profile, std::string_view library,
+         Compression compression = Compression::kNone);
   ~Writer();  ///< without close(): flushes the open chunk and leaves the part file, without summary
   Writer(const Writer&) = delete;
   Writer& operator=(const Writer&) = delete;
@@ -59,6 +63,7 @@ class Writer {
   void group(Bytes& summary, Bytes& offsets, Opcode opcode, std::string_view records) const;
 
   std::filesystem::path path_, part_;
+  const Compression compression_;
   std::FILE* file_ = nullptr;
   std::uint64_t position_ = 0;
   std::uint32_t data_crc_ = 0;

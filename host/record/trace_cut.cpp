@@ -93,7 +93,8 @@ void add_heads(const Trace& trace, const mcap::File& from, const Cut& cut,
 }  // namespace
 
 Cut cut_trace(const std::filesystem::path& file, std::optional<double> from_s,
-              std::optional<double> to_s, const std::filesystem::path& output) {
+              std::optional<double> to_s, const std::filesystem::path& output,
+              mcap::Compression compression) {
   const std::string bytes = read_trace_bytes(file);
   const mcap::File from = mcap::parse(bytes);
   const Trace trace = trace_of(file, from, Read::kStrict);
@@ -113,7 +114,7 @@ Cut cut_trace(const std::filesystem::path& file, std::optional<double> from_s,
                 .first_s = tick(ticks.first) * trace.period_s(),
                 .last_s = tick(ticks.last) * trace.period_s(),
                 .from_state = from_state};
-  mcap::Writer writer(output, from.profile, "verp");
+  mcap::Writer writer(output, from.profile, "verp", compression);
   try {
     add_heads(trace, from, cut, before, writer);
     Copy(trace, from, ticks, writer).messages();

@@ -2,6 +2,7 @@
 #include <filesystem>
 #include <optional>
 
+#include "host/record/mcap_writer.hpp"
 #include "host/record/trace.hpp"
 
 namespace verp::record {
@@ -19,6 +20,7 @@ struct Cut {
 /// somewhat earlier, at most kKeyframeTicks. None given: from the beginning, to the end. Throws
 /// TraceError.
 Cut cut_trace(const std::filesystem::path& file, std::optional<double> from_s,
-              std::optional<double> to_s, const std::filesystem::path& output);
+              std::optional<double> to_s, const std::filesystem::path& output,
+              mcap::Compression compression = mcap::Compression::kNone);
 
 }  // namespace verp::record

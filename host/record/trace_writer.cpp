@@ -25,7 +25,8 @@ void add_state(mcap::Writer& writer, const State& before) {
 
 TraceWriter::TraceWriter(const std::filesystem::path& file, const Params& params,
                          const mcap::StringMap& run, TraceOptions options)
-    : writer_(file, options.ros ? "ros2" : "", "verp"),
+    : writer_(file, options.ros ? "ros2" : "", "verp",
+              options.compress ? mcap::Compression::kZstd : mcap::Compression::kNone),
       params_(params),
       options_(std::move(options)),
       speeds_(params) {

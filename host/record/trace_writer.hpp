@@ -19,6 +19,7 @@ struct TraceOptions {
   bool ros = true;  ///< add channels for viewers: README.md
   std::uint64_t chunk_ticks = 125;       ///< a crash loses at most this many
   std::vector<std::uint32_t> actions{};  ///< image of the library that the controller has
+  bool compress = false;                 ///< by zstd: about a fifth of the bytes
   std::optional<State> before{};         ///< the first tick, of a run whose beginning was cut off
 };
 

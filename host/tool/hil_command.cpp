@@ -149,8 +149,8 @@ int answer_served(const WalkPlan& plan, const WalkOptions& options, const HilRes
 
 /// Without an operator's port nobody is told how to walk, and nobody tells what the controller saw.
 void refuse_without_operator(const CLI::App& app) {
-  constexpr const char* kNeedIt[] = {"--record", "--record-state", "--report", "--step",
-                                     "--velocity"};
+  constexpr const char* kNeedIt[] = {"--record", "--record-state", "--compress",
+                                     "--report", "--step",         "--velocity"};
   for (const char* word : kNeedIt) {
     const CLI::Option* option = app.get_option_no_throw(word);
     if (option == nullptr || option->count() == 0) continue;

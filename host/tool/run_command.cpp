@@ -233,6 +233,7 @@ Subcommand add_run(CLI::App& root) {
   app->add_option("--record", words->walk.record_file, "write the trace here (.mcap)");
   app->add_flag("--record-state", words->walk.record_state,
                 "keep the full State of every tick in the trace");
+  app->add_flag("--compress", words->walk.compress, kCompress);
   app->add_flag("--take-orders", words->take_orders,
                 "on CAN: whoever writes the controller's node (127) gives the orders, for --for "
                 "seconds or until Ctrl-C; the bytes: host/can/masters.md")

@@ -11,6 +11,7 @@
 #include "host/tool/json.hpp"
 #include "host/tool/trace_pictures.hpp"
 #include "host/tool/trace_words.hpp"
+#include "host/tool/walk_options.hpp"
 
 namespace verp::tool {
 namespace {
@@ -60,8 +61,9 @@ int recover(const TraceWords& words) {
     run["recorded_" + key] = run.contains(key) ? run[key] : "unknown";
     run.erase(key);
   }
-  record::TraceWriter writer(words.output, trace.params, run,
-                             {.actions = trace.actions, .before = trace.before});
+  record::TraceWriter writer(
+      words.output, trace.params, run,
+      {.actions = trace.actions, .compress = words.compress, .before = trace.before});
   // States are kept again where they stand; a damaged trace's fault bits are not known, so only
   // those.
   std::size_t next = 0, change = 0;
@@ -86,7 +88,9 @@ int cut(const TraceWords& words) {
   if (!words.from_s && !words.to_s) {
     throw ToolError(kBadInput, "verp trace cut: give --from, --to, or both");
   }
-  const record::Cut made = record::cut_trace(words.file, words.from_s, words.to_s, words.output);
+  const record::Cut made = record::cut_trace(
+      words.file, words.from_s, words.to_s, words.output,
+      words.compress ? record::mcap::Compression::kZstd : record::mcap::Compression::kNone);
   std::string text = fmt::format("{}: {} ticks, {:.3f} s to {:.3f} s", words.output, made.ticks,
                                  made.first_s, made.last_s);
   if (words.from_s && made.first_s < *words.from_s) {
@@ -140,6 +144,9 @@ Subcommand add_trace(CLI::App& root) {
   CLI::App* mend =
       add("recover", "write what stands before a truncation or damage as a whole trace");
   mend->add_option("-o,--output", words->output, "file")->required();
+  for (CLI::App* inner : {part, mend}) {
+    inner->add_flag("--compress", words->compress, kCompress);
+  }
   CLI::App* pictures = add("pictures", "what its cameras saw (`verp walk --cameras`), as files");
   pictures->add_option("-o,--output", words->output, "folder")->required();
   return {app, [=] {

@@ -14,6 +14,7 @@ struct TraceWords {
   bool states = false;               ///< export
   std::vector<std::string> signals;  ///< plot
   bool list = false;
+  bool compress = false;  ///< cut, recover
   std::optional<double> from_s, to_s;
 };
 

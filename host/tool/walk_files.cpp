@@ -90,7 +90,9 @@ void WalkFiles::open_trace(const WalkOptions& options, const WalkPlan& plan,
   for (const auto& [key, value] : more) run[key] = value;
   trace_ = std::make_unique<record::TraceWriter>(
       trace_path_, plan.params, run,
-      record::TraceOptions{.every_state = options.record_state, .actions = plan.actions});
+      record::TraceOptions{.every_state = options.record_state,
+                           .actions = plan.actions,
+                           .compress = options.compress});
 }
 
 bool WalkFiles::trace_is_in_folder() const {

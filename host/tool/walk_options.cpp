@@ -108,12 +108,13 @@ void declare_basics(CLI::App& app, WalkOptions& options) {
   app.add_option("--report", options.report_folder, "write the report here (default: report)");
   app.add_flag("--record-state", options.record_state,
                "keep the full State of every tick in the trace");
+  app.add_flag("--compress", options.compress, kCompress);
   add_json_flag(app, options.json);
 }
 
 std::vector<std::pair<std::string, std::string>> changed_options(const CLI::App& app) {
-  const std::set<std::string> kOfNoEffect = {"--json",         "--report",  "--record",
-                                             "--record-state", "--cameras", "--real-time"};
+  const std::set<std::string> kOfNoEffect = {
+      "--json", "--report", "--record", "--record-state", "--compress", "--cameras", "--real-time"};
   std::vector<std::pair<std::string, std::string>> changed;
   for (const CLI::Option* option : app.get_options()) {
     if (option->count() == 0 || option->get_positional() ||

@@ -17,6 +17,10 @@ class App;
 
 namespace verp::tool {
 
+/// What --compress does, wherever it is.
+inline constexpr const char* kCompress =
+    "compress the trace's chunks by zstd: about a fifth of the bytes";
+
 /// The command line of `verp walk`, checked.
 struct WalkOptions {
   std::string model = "generic21";
@@ -29,7 +33,7 @@ struct WalkOptions {
   std::vector<std::string> settings;  ///< NAME=VALUE
   std::string command = "verp walk";  ///< that complains
   bool no_multibody = false, no_feedback = false, no_gravity = false, no_zeros = false;
-  bool record_state = false, json = false;
+  bool record_state = false, compress = false, json = false;
   bool get_up = false;             ///< a fall does not end the walk
   std::string start = "standing";  ///< or lying:SIDE
   bool vary = false;               ///< the twin is another robot of this kind (host/sim/vary.hpp)

@@ -1,3 +1,4 @@
+#include "host/record/compression.hpp"
 #include "host/record/mcap_reader.hpp"
 #include "host/record/mcap_writer.hpp"
 #include "tests/host/record/sample.hpp"
@@ -7,14 +8,15 @@ namespace {
 
 using Mcap = TraceFolder;
 
-std::string small_file(const fs::path& path) {
-  mcap::Writer writer(path, "", "test");
+std::string small_file(const fs::path& path,
+                       mcap::Compression compression = mcap::Compression::kNone) {
+  mcap::Writer writer(path, "", "test", compression);
   writer.add_metadata("facts", {{"one", "1"}, {"two", "2"}});
   writer.add_attachment("blob", "application/octet-stream", "payload");
   const auto channel =
       writer.add_channel(writer.add_schema("Number", "text", "a number"), "/n", "raw");
   for (unsigned i = 0; i < 6; ++i) {
-    writer.add_message(channel, 1000 * i, "message " + std::to_string(i));
+    writer.add_message(channel, 1000 * i, "message " + std::to_string(i) + std::string(90, '.'));
     if (i % 2 == 1) writer.flush();
   }
   writer.close();
@@ -35,7 +37,7 @@ TEST_F(Mcap, ReadsBackWhatItWrote) {
   EXPECT_EQ(file.metadata.at("facts").at("two"), "2");
   EXPECT_EQ(file.attachments.at("blob").data, "payload");
   ASSERT_EQ(file.messages.size(), 6u);
-  EXPECT_EQ(file.messages[5].data, "message 5");
+  EXPECT_EQ(file.messages[5].data, "message 5" + std::string(90, '.'));
   EXPECT_EQ(file.messages[5].time_ns, 5000u);
   EXPECT_EQ(file.messages[5].sequence, 5u);
   std::uint16_t id = 9;
@@ -43,8 +45,39 @@ TEST_F(Mcap, ReadsBackWhatItWrote) {
   EXPECT_EQ(file.schemas.at(file.channels.at(id).schema).data, "a number");
 }
 
-TEST_F(Mcap, EveryTruncationIsSeenAndWholeChunksSurvive) {
-  const std::string bytes = small_file(folder_ / "a.mcap");
+TEST_F(Mcap, CompressedHoldsTheSameInLess) {
+  if (!mcap::has_zstd()) GTEST_SKIP() << "built without libzstd-dev";
+  const std::string plain = small_file(folder_ / "a.mcap");
+  const std::string bytes = small_file(folder_ / "b.mcap", mcap::Compression::kZstd);
+  EXPECT_LT(bytes.size(), plain.size() - 3 * 90);
+  const mcap::File file = mcap::parse(bytes), same = mcap::parse(plain);
+  ASSERT_FALSE(file.flaw) << file.flaw->what;
+  ASSERT_EQ(file.messages.size(), same.messages.size());
+  for (std::size_t i = 0; i < file.messages.size(); ++i) {
+    EXPECT_EQ(file.messages[i].data, same.messages[i].data);
+    EXPECT_EQ(file.messages[i].time_ns, same.messages[i].time_ns);
+  }
+  // What cannot get shorter stays as it is.
+  std::string noise(4000, '\0');
+  std::uint32_t drawn = 1;
+  for (char& c : noise) c = static_cast<char>((drawn = 1664525 * drawn + 1013904223) >> 24);
+  {
+    mcap::Writer writer(folder_ / "c.mcap", "", "test", mcap::Compression::kZstd);
+    const auto channel = writer.add_channel(writer.add_schema("N", "text", ""), "/n", "raw");
+    writer.add_message(channel, 0, noise);
+    writer.close();
+  }
+  EXPECT_EQ(slurp(folder_ / "c.mcap").find(mcap::kZstdName), std::string::npos);
+  EXPECT_FALSE(mcap::parse(slurp(folder_ / "c.mcap")).flaw);
+}
+
+class McapOf : public TraceFolder, public ::testing::WithParamInterface<mcap::Compression> {};
+INSTANTIATE_TEST_SUITE_P(EachCompression, McapOf,
+                         ::testing::Values(mcap::Compression::kNone, mcap::Compression::kZstd));
+
+TEST_P(McapOf, EveryTruncationIsSeenAndWholeChunksSurvive) {
+  if (GetParam() == mcap::Compression::kZstd && !mcap::has_zstd()) GTEST_SKIP();
+  const std::string bytes = small_file(folder_ / "a.mcap", GetParam());
   std::size_t most = 0;
   for (std::size_t size = 0; size < bytes.size(); ++size) {
     const mcap::File file = mcap::parse(std::string_view(bytes).substr(0, size));
@@ -58,8 +91,9 @@ TEST_F(Mcap, EveryTruncationIsSeenAndWholeChunksSurvive) {
   EXPECT_EQ(most, 6u);
 }
 
-TEST_F(Mcap, EveryEditedByteIsSeen) {
-  std::string bytes = small_file(folder_ / "a.mcap");
+TEST_P(McapOf, EveryEditedByteIsSeen) {
+  if (GetParam() == mcap::Compression::kZstd && !mcap::has_zstd()) GTEST_SKIP();
+  std::string bytes = small_file(folder_ / "a.mcap", GetParam());
   for (std::size_t i = 0; i < bytes.size(); ++i) {
     for (const int flip : {0x01, 0x80, 0xFF}) {
       const char kept = bytes[i];

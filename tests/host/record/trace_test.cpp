@@ -125,6 +125,27 @@ TEST_F(TraceFile, MessageSaysHowMuchIsLost) {
   EXPECT_NE(error.find("lost"), std::string::npos) << error;
 }
 
+// ... and without knowing how much, when it is compressed.
+TEST_F(TraceFile, CompressedRecoversWholeChunksToo) {
+  const fs::path file = folder_ / "run.mcap";
+  write_run(file, 12, {.chunk_ticks = 4});
+  const Trace plain = read_trace(file);
+  const std::uintmax_t plain_bytes = fs::file_size(file);
+  try {
+    write_run(file, 12, {.chunk_ticks = 4, .compress = true});
+  } catch (const TraceError& error) {
+    GTEST_SKIP() << error.what();
+  }
+  EXPECT_LT(fs::file_size(file), plain_bytes);
+  EXPECT_FALSE(diff(plain, read_trace(file)));
+  const std::string bytes = slurp(file);
+  spit(file, std::string_view(bytes).substr(0, bytes.rfind("\x28\xb5\x2f\xfd") + 40));
+  const std::string error = error_of(file);
+  EXPECT_NE(error.find("8 ticks before it are whole, later ones are lost"), std::string::npos)
+      << error;
+  EXPECT_FALSE(replay(read_trace(file, Read::kRecover)).divergence);
+}
+
 TEST_F(TraceFile, RunThatNeverTickedLeavesNothing) {
   { TraceWriter writer(folder_ / "run.mcap", sample_params(), {}); }
   EXPECT_TRUE(fs::is_empty(folder_));

@@ -65,6 +65,9 @@ TEST_F(TraceCommand, ACutReplaysAndEveryCommandTakesIt) {
   expect_refused("trace cut a.mcap --from 60 -o b.mcap", "it begins at 0 s and ends at");
   expect_refused("trace cut a.mcap -o b.mcap", "give --from, --to, or both");
   expect_refused("trace cut a.mcap --to 3 -o a.mcap", "that is the trace itself");
+  ASSERT_EQ(verp("trace cut a.mcap --from 0 --compress -o small.mcap").status, 0);
+  EXPECT_LT(3 * fs::file_size(folder_ / "small.mcap"), fs::file_size(folder_ / "a.mcap"));
+  EXPECT_EQ(verp("diff a.mcap small.mcap").status, 0);
   expect_refused("compare a.mcap part.mcap", "begins in the midst of a walk");
   expect_refused("debug --board mps2_an386 part.mcap", "begins in the midst of a run");
 }
