@@ -12,6 +12,7 @@ namespace verp::record {
 namespace {
 
 constexpr std::uint64_t kCutChunkTicks = 125;
+constexpr std::string_view kStaticTopic = "/tf_static";  ///< where cameras sit, of the whole run
 
 /// Copies what is between two ticks of a trace into a new file.
 class Copy {
@@ -58,8 +59,8 @@ class Copy {
 
   /// Ours by their place, behind their tick; a camera's come when they are drawn.
   bool is_wanted(const mcap::Message& message) const {
-    if (seen_ == 0) return true;
     const mcap::Channel& channel = from_.channels.at(message.channel);
+    if (seen_ == 0 || channel.topic == kStaticTopic) return true;
     if (channel.topic.starts_with("/verp/")) {
       return seen_ > ticks_.first && seen_ <= ticks_.last + 1;
     }

@@ -63,12 +63,8 @@ class Loader {
   }
 
   void load_metadata() {
-    const auto found = file_.metadata.find(kMetadataName);
-    if (found == file_.metadata.end()) {
-      refuse(0, "an MCAP file, but not a VERP trace (no metadata record 'verp')",
-             "give a file written by verp");
-    }
-    trace_.metadata = found->second;
+    refuse_no_trace(path_, file_);
+    trace_.metadata = file_.metadata.at(kMetadataName);
     const std::string& format = trace_.metadata["format"];
     if (format != kTraceFormat) {
       refuse(0, "trace format '" + format + "', this verp reads '" + kTraceFormat + "'",
@@ -229,6 +225,23 @@ std::string read_trace_bytes(const fs::path& file) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
+void refuse_no_trace(const fs::path& path, const mcap::File& file) {
+  if (file.metadata.contains(kMetadataName)) return;
+  const auto merged = file.metadata.lower_bound(std::string(kMetadataName) + "/");
+  if (merged != file.metadata.end() && merged->first.starts_with(kMetadataName)) {
+    throw TraceError(path, 0, "several robots' traces as one, for viewers",
+                     "give one of those that it was made of");
+  }
+  throw TraceError(path, 0, "an MCAP file, but not a VERP trace (no metadata record 'verp')",
+                   "give a file written by verp");
+}
+
+void refuse_flaw(const fs::path& path, const mcap::File& file) {
+  if (!file.flaw) return;
+  throw TraceError(path, file.flaw->offset, file.flaw->what,
+                   "take an intact copy or record the run again");
+}
+
 Trace read_trace(const fs::path& path, Read mode) {
   const std::string bytes = read_trace_bytes(path);
   return trace_of(path, mcap::parse(bytes), mode);
@@ -254,10 +267,7 @@ std::size_t for_each_picture(const fs::path& path,
                              const std::function<void(const RecordedPicture&)>& show) {
   const std::string bytes = read_trace_bytes(path);
   const mcap::File file = mcap::parse(bytes);
-  if (file.flaw) {
-    throw TraceError(path, file.flaw->offset, file.flaw->what,
-                     "take an intact copy or record the run again");
-  }
+  refuse_flaw(path, file);
   std::size_t count = 0;
   for (const mcap::Message& message : file.messages) {
     const mcap::Channel& channel = file.channels.at(message.channel);

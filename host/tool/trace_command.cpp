@@ -88,9 +88,8 @@ int cut(const TraceWords& words) {
   if (!words.from_s && !words.to_s) {
     throw ToolError(kBadInput, "verp trace cut: give --from, --to, or both");
   }
-  const record::Cut made = record::cut_trace(
-      words.file, words.from_s, words.to_s, words.output,
-      words.compress ? record::mcap::Compression::kZstd : record::mcap::Compression::kNone);
+  const record::Cut made =
+      record::cut_trace(words.file, words.from_s, words.to_s, words.output, compression_of(words));
   std::string text = fmt::format("{}: {} ticks, {:.3f} s to {:.3f} s", words.output, made.ticks,
                                  made.first_s, made.last_s);
   if (words.from_s && made.first_s < *words.from_s) {
@@ -144,7 +143,12 @@ Subcommand add_trace(CLI::App& root) {
   CLI::App* mend =
       add("recover", "write what stands before a truncation or damage as a whole trace");
   mend->add_option("-o,--output", words->output, "file")->required();
-  for (CLI::App* inner : {part, mend}) {
+  CLI::App* join = app->add_subcommand("merge", "several robots' traces as one file for viewers");
+  join->add_option("TRACES", words->files,
+                   "FILE or NAME=FILE of each robot: its topics and frames begin with NAME")
+      ->required();
+  join->add_option("-o,--output", words->output, "file")->required();
+  for (CLI::App* inner : {part, mend, join}) {
     inner->add_flag("--compress", words->compress, kCompress);
   }
   CLI::App* pictures = add("pictures", "what its cameras saw (`verp walk --cameras`), as files");
@@ -153,6 +157,7 @@ Subcommand add_trace(CLI::App& root) {
             if (show->parsed()) return info(*words);
             if (plot->parsed()) return plot_trace(*words);
             if (part->parsed()) return cut(*words);
+            if (join->parsed()) return merge(*words);
             if (pictures->parsed()) return write_pictures(words->file, words->output);
             return csv->parsed() ? export_csv(*words) : recover(*words);
           }};

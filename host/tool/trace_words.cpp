@@ -25,6 +25,10 @@ void refuse_same_file(const TraceWords& words) {
                   words.output + ": that is the trace itself; name another file with -o");
 }
 
+record::mcap::Compression compression_of(const TraceWords& words) {
+  return words.compress ? record::mcap::Compression::kZstd : record::mcap::Compression::kNone;
+}
+
 void tell_of_other_decisions(const record::Trace& trace, const std::optional<std::uint32_t>& tick) {
   if (!tick) return;
   complain(

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "host/record/mcap_writer.hpp"
 #include "host/record/trace.hpp"
 
 namespace verp::tool {
@@ -14,7 +15,8 @@ struct TraceWords {
   bool states = false;               ///< export
   std::vector<std::string> signals;  ///< plot
   bool list = false;
-  bool compress = false;  ///< cut, recover
+  bool compress = false;           ///< cut, merge, recover
+  std::vector<std::string> files;  ///< merge
   std::optional<double> from_s, to_s;
 };
 
@@ -25,8 +27,11 @@ void refuse_same_file(const TraceWords& words);
 /// Says from which tick on it is not known what the controller made of a trace; nothing: of all.
 void tell_of_other_decisions(const record::Trace& trace, const std::optional<std::uint32_t>& tick);
 
-/// `verp trace export`, `verp trace plot`. Return the exit status; throw ToolError and TraceError.
+record::mcap::Compression compression_of(const TraceWords& words);
+
+/// `verp trace export`, `plot`, `merge`. Return the exit status; throw ToolError and TraceError.
 int export_csv(const TraceWords& words);
 int plot_trace(const TraceWords& words);
+int merge(const TraceWords& words);
 
 }  // namespace verp::tool

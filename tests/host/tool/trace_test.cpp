@@ -68,6 +68,12 @@ TEST_F(TraceCommand, ACutReplaysAndEveryCommandTakesIt) {
   ASSERT_EQ(verp("trace cut a.mcap --from 0 --compress -o small.mcap").status, 0);
   EXPECT_LT(3 * fs::file_size(folder_ / "small.mcap"), fs::file_size(folder_ / "a.mcap"));
   EXPECT_EQ(verp("diff a.mcap small.mcap").status, 0);
+  const Outcome merged = verp("trace merge lead=a.mcap part.mcap -o both.mcap");
+  EXPECT_EQ(merged.out.rfind("both.mcap: 2 robots, ", 0), 0u) << merged.err;
+  expect_refused("trace info both.mcap", "several robots' traces as one");
+  expect_refused("trace merge a.mcap ./a.mcap -o b.mcap", "two robots called a");
+  expect_refused("trace merge a.mcap part.mcap -o part.mcap", "that is the trace itself");
+  expect_refused("trace merge a.mcap -o b.mcap", "two traces or more");
   expect_refused("compare a.mcap part.mcap", "begins in the midst of a walk");
   expect_refused("debug --board mps2_an386 part.mcap", "begins in the midst of a run");
 }
