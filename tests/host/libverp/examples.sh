@@ -24,6 +24,8 @@ same() { # name argument...: runs it in all languages
 same walk 3
 digest=$("$verp" walk --for 3 --json | sed -nE 's/^ *"digest": "(0x[0-9a-f]+)".*/\1/p')
 [[ $words == *" $digest" ]] || say "verp walk has digest $digest, the examples say $words"
+bound=$(/usr/bin/python3 "$sources/bind.py" "$VERP_LIBRARY" 3) || say "bind.py failed: $bound"
+[[ $bound == "$words" ]] || say "a binding from abi.json says '$bound', the others '$words'"
 same record a.mcap 3
 [[ $words == *" $digest" ]] || say "the trace replays to $words, the walk was $digest"
 same controller 2
