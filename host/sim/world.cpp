@@ -65,7 +65,12 @@ void set_surface(dSurfaceParameters& out, const Surface& surface, double step_s)
 
 World::World(const WorldOptions& options) : options_(options) {
   static const OdeRuntime runtime;
+  dAllocateODEDataForThread(dAllocateMaskAll);
   world_ = dWorldCreate();
+  // Of its own: worlds without one share ODE's, which two threads must not step by at a time.
+  threading_ = dThreadingAllocateSelfThreadedImplementation();
+  dWorldSetStepThreadingImplementation(world_, dThreadingImplementationGetFunctions(threading_),
+                                       threading_);
   space_ = dSimpleSpaceCreate(nullptr);
   contact_group_ = dJointGroupCreate(0);
   set_gravity(options.gravity_m_s2);
@@ -85,6 +90,7 @@ World::~World() {
   dJointGroupDestroy(contact_group_);
   dSpaceDestroy(space_);
   dWorldDestroy(world_);
+  dThreadingFreeImplementation(threading_);
 }
 
 void World::set_gravity(double gravity_m_s2) {

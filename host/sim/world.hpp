@@ -146,6 +146,7 @@ class World final : public TimeSource {
 
   WorldOptions options_;
   dWorldID world_;
+  dThreadingImplementationID threading_;
   dSpaceID space_;
   dJointGroupID contact_group_;
   std::uint64_t now_us_ = 0;
