@@ -16,19 +16,9 @@
 namespace verp::report {
 namespace {
 
-constexpr std::string_view kNames[] = {"index.html", "samples.csv", "zmp_bias.csv", "torque.csv",
-                                       "asked.csv",  "sweep.csv",   "walk.png"};
-
-/// Of an earlier run into this folder: what this run has no file of would be taken for its own.
-void remove_what_is_older(const std::filesystem::path& folder,
-                          const std::vector<std::pair<std::string, std::string>>& files) {
-  for (const std::string_view name : kNames) {
-    const bool written = std::any_of(files.begin(), files.end(),
-                                     [&](const auto& file) { return file.first == name; });
-    std::error_code error;
-    if (!written && name != "index.html") std::filesystem::remove(folder / name, error);
-  }
-}
+constexpr std::string_view kNames[] = {"index.html", "samples.csv", "zmp_bias.csv",
+                                       "torque.csv", "asked.csv",   "sweep.csv",
+                                       "walk.png",   "map.png",     "map.csv"};
 
 /// What gnuplot made of a run. A picture that fails never costs another one, nor the numbers.
 struct Drawing {
@@ -87,6 +77,16 @@ Drawing draw_what_can_be(const Run& run, Written& written) {
 
 bool is_of_the_report(std::string_view name) {
   return std::find(std::begin(kNames), std::end(kNames), name) != std::end(kNames);
+}
+
+void remove_what_is_older(const std::filesystem::path& folder,
+                          const std::vector<std::pair<std::string, std::string>>& files) {
+  for (const std::string_view name : kNames) {
+    const bool written = std::any_of(files.begin(), files.end(),
+                                     [&](const auto& file) { return file.first == name; });
+    std::error_code error;
+    if (!written && name != "index.html") std::filesystem::remove(folder / name, error);
+  }
 }
 
 Written write_report(const std::filesystem::path& folder, const Run& run) {

@@ -3,6 +3,8 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "host/report/run_data.hpp"
 
@@ -21,8 +23,13 @@ struct Written {
   bool lost = false;  ///< they are missing because the disk refused, not for want of gnuplot
 };
 
-/// Whether write_report() writes a file of that name.
+/// Whether write_report(), or a map's page (host/survey), writes a file of that name.
 bool is_of_the_report(std::string_view name);
+
+/// Removes those files that an earlier run left in this folder and this run has none of: they would
+/// be taken for its own. `files`: what it wrote, with what they hold.
+void remove_what_is_older(const std::filesystem::path& folder,
+                          const std::vector<std::pair<std::string, std::string>>& files);
 
 /// Writes index.html (self-contained, plots inside) and the numbers as CSV into `folder`, which is
 /// made if need be. Each file appears whole or not at all; other files in the folder stay. Throws

@@ -36,11 +36,16 @@ double ground_heading(const Truth& truth) {
 
 Observation observe(TwinRobot& robot) {
   return {robot.truth(),           robot.take_foot_loads(),    robot.steps(),
-          robot.saturated_steps(), robot.self_contact_steps(), robot.self_contact_nodes()};
+          robot.saturated_steps(), robot.self_contact_steps(), robot.self_contact_nodes(),
+          robot.supply_energy_j(), robot.joint_work_j(),       robot.weight_n()};
 }
 
 WalkMeter::WalkMeter(const model::Entity& entity, bool keep_series)
-    : joints_(entity.joints), keep_series_(keep_series), walk_saturated_(entity.joints.size(), 0) {
+    : joints_(entity.joints),
+      keep_series_(keep_series),
+      walk_saturated_(entity.joints.size(), 0),
+      torque_use_sum_(entity.joints.size(), 0),
+      torque_use_peak_(entity.joints.size(), 0) {
   for (const model::Node& node : entity.nodes) link_names_.push_back(node.name);
 }
 
@@ -53,6 +58,7 @@ void WalkMeter::tick(const Observation& seen, const Outputs& outputs,
   const bool walks = is_walking(outputs) && !seen.truth.fallen;
   if (walks && !walking_) begin_walk(seen.truth);
   if (walks) follow_path(seen.truth, outputs);
+  if (walks) add_torque_use(seen.truth);
   if (!walks && walking_) end_walk();
   walking_ = walks;
   previous_ = outputs;
@@ -63,6 +69,8 @@ void WalkMeter::tick(const Observation& seen, const Outputs& outputs,
 void WalkMeter::score_past_tick(const Observation& seen) {
   walk_s_ += seen.truth.t_s - last_.truth.t_s;
   walk_steps_ += seen.steps - last_.steps;
+  supply_energy_j_ += seen.supply_energy_j - last_.supply_energy_j;
+  joint_work_j_ += seen.joint_work_j - last_.joint_work_j;
   if (seen.self_contact_steps > last_.self_contact_steps) {
     ++self_contact_ticks_;
     self_contact_nodes_ = seen.self_contact_nodes;
@@ -81,6 +89,30 @@ void WalkMeter::add_slip(const Truth& truth) {
   const auto& after = truth.foot[previous_.stance];
   if (std::min(before.normal_force_n, after.normal_force_n) < kContactForceN) return;
   slid_m_ += (after.centroid_world_m - before.centroid_world_m).head<2>();
+}
+
+void WalkMeter::add_torque_use(const Truth& truth) {
+  if (truth.torque_use.size() != torque_use_sum_.size()) return;
+  ++walk_ticks_;
+  for (std::size_t j = 0; j < torque_use_sum_.size(); ++j) {
+    torque_use_sum_[j] += truth.torque_use[j];
+    torque_use_peak_[j] = std::max(torque_use_peak_[j], truth.torque_use[j]);
+  }
+}
+
+void WalkMeter::score_transport(WalkMetrics& out) const {
+  constexpr double kLeast_m = 0.1;
+  for (std::size_t j = 0; j < torque_use_sum_.size() && walk_ticks_ > 0; ++j) {
+    out.torque_use.push_back(
+        {torque_use_sum_[j] / static_cast<double>(walk_ticks_), torque_use_peak_[j]});
+  }
+  out.supply_energy_j = supply_energy_j_;
+  out.joint_work_j = joint_work_j_;
+  const double carried_n_m = last_.weight_n * out.distance_m;
+  if (out.distance_m < kLeast_m || carried_n_m <= 0) return;
+  // Servos whose file tells no stall current draw nothing here: that is not known, not free.
+  if (supply_energy_j_ > 0) out.cost_of_transport = supply_energy_j_ / carried_n_m;
+  out.cost_of_transport_mechanical = joint_work_j_ / carried_n_m;
 }
 
 void WalkMeter::begin_walk(const Truth& truth) {
@@ -163,6 +195,7 @@ WalkMetrics WalkMeter::result() const {
   out.distance_m = path_m_ + (walking_ ? (here_m_ - last_mark_m_).norm() : 0);
   if (walk_s_ > 0) out.speed_mean_m_s = out.distance_m / walk_s_;
   score_steady(out);
+  score_transport(out);
   out.ahead_m = ahead_m_;
   out.lateral_drift_m = lateral_m_;
   out.yaw_drift_deg = yaw_turned_rad_ * 180 / std::numbers::pi;

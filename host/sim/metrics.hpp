@@ -12,6 +12,11 @@
 /// twin's truth; neither knows of it.
 namespace verp::sim {
 
+/// Of one joint's motor, |torque| / stall torque over control ticks.
+struct TorqueUse {
+  double mean = 0, peak = 0;
+};
+
 /// The numbers of `verp walk --json` that physics decides. What nothing was measured of has no
 /// value.
 struct WalkMetrics {
@@ -39,6 +44,14 @@ struct WalkMetrics {
   std::optional<double> servo_saturation;
   std::optional<double> servo_saturation_worst;
   int servo_saturation_worst_joint = 0;
+  /// Of each joint, while walking; empty: it did not walk.
+  std::vector<TorqueUse> torque_use;
+  /// While walking: what the servos drew from the supply, and their work on the joints. Nobody
+  /// counts what controller and sensors draw.
+  double supply_energy_j = 0, joint_work_j = 0;
+  /// The same over weight and distance_m: energy that it takes to bring one newton one metre
+  /// further. None of a way too short to tell.
+  std::optional<double> cost_of_transport, cost_of_transport_mechanical;
   /// Control ticks while walking in which the robot touched itself, and the links that did so last;
   /// empty: none.
   std::uint64_t self_contact_ticks = 0;
@@ -68,11 +81,13 @@ struct SeriesRow {
 /// What the meter reads from the twin once per control tick.
 struct Observation {
   Truth truth;
-  FootLoads loads;                             ///< since the last observation
-  std::uint64_t steps = 0;                     ///< physics steps since the start
-  std::vector<std::uint64_t> saturated_steps;  ///< of each joint, since the start
-  std::uint64_t self_contact_steps = 0;        ///< since the start
-  std::array<int, 2> self_contact_nodes{};     ///< of the last of them
+  FootLoads loads;                               ///< since the last observation
+  std::uint64_t steps = 0;                       ///< physics steps since the start
+  std::vector<std::uint64_t> saturated_steps;    ///< of each joint, since the start
+  std::uint64_t self_contact_steps = 0;          ///< since the start
+  std::array<int, 2> self_contact_nodes{};       ///< of the last of them
+  double supply_energy_j = 0, joint_work_j = 0;  ///< since the start
+  double weight_n = 0;
 };
 
 /// Takes the robot's foot loads: one observer per robot.
@@ -105,6 +120,8 @@ class WalkMeter {
 
   void score_past_tick(const Observation& seen);
   void add_slip(const Truth& truth);
+  void add_torque_use(const Truth& truth);
+  void score_transport(WalkMetrics& out) const;
   void begin_walk(const Truth& truth);
   void end_walk();
   void follow_path(const Truth& truth, const Outputs& outputs);
@@ -143,6 +160,9 @@ class WalkMeter {
   std::vector<std::uint64_t> walk_saturated_;
   std::uint64_t self_contact_ticks_ = 0;
   std::array<int, 2> self_contact_nodes_{};
+  std::vector<double> torque_use_sum_, torque_use_peak_;
+  std::uint64_t walk_ticks_ = 0;
+  double supply_energy_j_ = 0, joint_work_j_ = 0;
 };
 
 }  // namespace verp::sim

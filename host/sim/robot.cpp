@@ -323,7 +323,9 @@ void TwinRobot::update_servos(double step_s) {
     // What the servo did not do to its links, the rest of the world did.
     external_n_m_[j] += inertia_kg_m2_[j] * rate_rad_s / step_s - servo_[j].torque_n_m();
     current_a += servo_[j].supply_current_a();
+    joint_work_j_ += std::max(0.0, servo_[j].torque_n_m() * rate_rad_s) * step_s;
   }
+  supply_energy_j_ += supply_v_ * current_a * step_s;
   supply_v_ = nominal_v_ - options_.supply_ohm * current_a;
 }
 

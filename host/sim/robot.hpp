@@ -103,6 +103,11 @@ class TwinRobot final : public Plant, private Actor {
   /// it as then (Cradle). False: a servo has torque, and nothing was done.
   bool set_upright();
   double supply_v() const { return supply_v_; }
+  /// What the servos drew from the supply since the start, and what work they did on the joints
+  /// (braking takes none of it back).
+  double supply_energy_j() const { return supply_energy_j_; }
+  double joint_work_j() const { return joint_work_j_; }
+  double weight_n() const { return body_.mass_kg() * world_.options().gravity_m_s2; }
   /// Physics steps since the start, and in how many of them each joint's duty was at its limit.
   std::uint64_t steps() const { return steps_; }
   /// Scans that were taken since they were last asked for.
@@ -164,6 +169,7 @@ class TwinRobot final : public Plant, private Actor {
   std::array<double, 2> foot_force_n_{};
   const double nominal_v_;  ///< of the supply, unloaded
   double supply_v_;
+  double supply_energy_j_ = 0, joint_work_j_ = 0;
   std::vector<double> inertia_kg_m2_;  ///< of each joint's links, at the start of the step
   std::vector<double> external_n_m_;   ///< what turned each joint besides its servo, last step
   std::vector<Drive> coupling_;        ///< of each joint, with its servo, in this step

@@ -10,6 +10,7 @@
 #include "host/tool/interrupt.hpp"
 #include "host/tool/walk_cameras.hpp"
 #include "host/tool/walk_ending.hpp"
+#include "host/tool/walk_map.hpp"
 #include "host/tool/walk_plan.hpp"
 #include "host/tool/walk_seeds.hpp"
 
@@ -39,6 +40,13 @@ int run_walk(WalkOptions options) {
   if (options.touch.list) return list_quantities(plan, others, world, options.json);
   read_touch(options.touch, plan, others, world);
   if (!options.seeds_text.empty()) return walk_seeds(options);
+  if (!options.map.kind.empty()) {
+    if (!others.empty()) {
+      throw ToolError(kBadInput,
+                      "verp walk: --map is of one robot; take the others out of the world");
+    }
+    return walk_map(options, plan, world);
+  }
   Drawn drawn = draw(options, plan, world);
   sweep_of(options);  // before the long run: a mistake in it is found now
   if (options.report_folder.empty() && !options.json) options.report_folder = "report";
@@ -73,6 +81,7 @@ Subcommand add_walk(CLI::App& root) {
             catch_interrupts();
             options->changed = changed_options(*app);
             options->model_given = app->get_option("MODEL")->count() > 0;
+            options->map.length_given = app->get_option("--for")->count() > 0;
             return run_walk(*options);
           }};
 }

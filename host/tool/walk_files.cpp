@@ -23,26 +23,6 @@ namespace fs = std::filesystem;
 
 constexpr const char* kTraceName = "run.mcap";
 
-/// A folder into which a file can be put: known now, not after a long walk.
-void make_folder(const fs::path& folder) {
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (!fs::is_directory(folder, error)) {
-    throw ToolError(kBadInput,
-                    fmt::format("{}: not a folder and cannot be made; choose another with --report",
-                                folder.string()));
-  }
-  std::string probe = (folder / ".verp-XXXXXX").string();
-  const int descriptor = ::mkstemp(probe.data());
-  if (descriptor < 0) {
-    throw ToolError(kBadInput, fmt::format("{}: nothing can be written there ({}); choose another "
-                                           "folder with --report",
-                                           folder.string(), std::strerror(errno)));
-  }
-  ::close(descriptor);
-  ::unlink(probe.c_str());
-}
-
 record::mcap::StringMap metadata(const WalkPlan& plan, const WalkOptions& options) {
   std::string changed;
   for (const auto& [name, value] : options.changed) {
@@ -61,6 +41,25 @@ record::mcap::StringMap metadata(const WalkPlan& plan, const WalkOptions& option
 }
 
 }  // namespace
+
+void make_folder(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (!fs::is_directory(folder, error)) {
+    throw ToolError(kBadInput,
+                    fmt::format("{}: not a folder and cannot be made; choose another with --report",
+                                folder.string()));
+  }
+  std::string probe = (folder / ".verp-XXXXXX").string();
+  const int descriptor = ::mkstemp(probe.data());
+  if (descriptor < 0) {
+    throw ToolError(kBadInput, fmt::format("{}: nothing can be written there ({}); choose another "
+                                           "folder with --report",
+                                           folder.string(), std::strerror(errno)));
+  }
+  ::close(descriptor);
+  ::unlink(probe.c_str());
+}
 
 std::string world_file(const WalkOptions& options) {
   const std::string& world = options.place.world;

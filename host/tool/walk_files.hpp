@@ -12,6 +12,9 @@
 
 namespace verp::tool {
 
+/// A folder into which a file can be put: known now, not after a long walk. Throws ToolError.
+void make_folder(const std::filesystem::path& folder);
+
 /// Of --world, as find_world() finds it again wherever that is asked; empty: none.
 std::string world_file(const WalkOptions& options);
 

@@ -130,6 +130,11 @@ std::vector<std::pair<std::string, std::string>> changed_options(const CLI::App&
   return changed;
 }
 
+bool WalkOptions::changes(const std::string& option) const {
+  return std::any_of(changed.begin(), changed.end(),
+                     [&](const auto& each) { return each.first == option; });
+}
+
 void declare(CLI::App& app, WalkOptions& options) {
   declare_basics(app, options);
   declare_tuning(app, options);
@@ -177,6 +182,7 @@ void declare(CLI::App& app, WalkOptions& options) {
   app.add_flag("--no-gravity", options.no_gravity, "switch the gravity feed-forward off");
   app.add_flag("--no-zeros", options.no_zeros,
                "leave out what was learnt of the legs: zero errors and landings");
+  declare(app, options.map);
 }
 
 void require_serial(const std::string& command, const model::Entity& entity) {

@@ -8,6 +8,7 @@
 #include "common/model/params.hpp"
 #include "host/model/entity.hpp"
 #include "host/sim/world.hpp"
+#include "host/tool/walk_map.hpp"
 #include "host/tool/walk_place.hpp"
 #include "host/tool/walk_touch.hpp"
 
@@ -43,9 +44,13 @@ struct WalkOptions {
   double physics_step_ms = 1;  ///< 2: half as long a wait
   TouchOptions touch;
   PlaceOptions place;
+  MapOptions map;
   bool model_given = false;
   bool cameras = false;    ///< what they see goes into the trace
   bool real_time = false;  ///< no faster than time goes by
+
+  /// Whether that option is not as by default.
+  bool changes(const std::string& option) const;
 };
 
 void declare(CLI::App& app, WalkOptions& options);

@@ -10,6 +10,7 @@
 #include "host/session/asked.hpp"
 #include "host/session/fault_names.hpp"
 #include "host/tool/stick_figure.hpp"
+#include "host/tool/walk_load.hpp"
 
 namespace verp::tool {
 namespace {
@@ -141,6 +142,7 @@ std::vector<report::Fact> facts(const WalkPlan& plan, const WalkResult& result) 
                    : "turned to the left"},
       {"Servo saturation", or_dash(percent(m.servo_saturation), 1, " %"),
        "of joint time at full duty"},
+      transport_fact(m),
       {"Real-time factor", fmt::format("{:.1f}", result.real_time_factor()),
        "simulated over wall time"},
   };
@@ -304,6 +306,8 @@ std::string to_text(const WalkPlan& plan, const WalkOptions& options, const Walk
   line("ZMP bias", or_dash(m.zmp_bias_mean_mm, 1, " mm"));
   line("servo saturation", or_dash(percent(m.servo_saturation), 1, " %") + ", worst joint " +
                                or_dash(percent(m.servo_saturation_worst), 1, " %"));
+  line("most torque", hardest_used(plan, m));
+  line("cost of transport", transport_text(m));
   if (m.self_contact_ticks > 0) {
     line("touched itself", fmt::format("in {} ticks, last {} and {}", m.self_contact_ticks,
                                        m.self_contact_links[0], m.self_contact_links[1]));
@@ -356,6 +360,7 @@ Json to_json(const WalkPlan& plan, const WalkOptions& options, const WalkResult&
                {"digest", fmt::format("0x{:016x}", result.digest)},
                {"notes", session::fault_names(result.faults)},
                {"real_time_factor", result.real_time_factor()}};
+  json.update(load_json(plan, m));
   if (!sweep.rows.empty()) json["sweep"] = sweep_json(sweep.rows);
   if (result.can) {
     json["can_bits_per_tick"] = result.can->bits_per_tick;

@@ -12,6 +12,7 @@
 
 #include "host/files/temporary_directory.hpp"
 #include "host/process/child.hpp"
+#include "host/survey/interval.hpp"
 #include "host/tool/console.hpp"
 #include "host/tool/exit_status.hpp"
 #include "host/tool/interrupt.hpp"
@@ -131,15 +132,18 @@ class Seeds {
         fell += fmt::format("  seed {}: {}\n", seed, row["failure"].get<std::string>());
       }
     }
+    const survey::Interval interval = survey::interval_of(survived_, rows_.size());
     if (options_.json) {
       print_json({{"model", options_.model},
                   {"of", rows_.size()},
                   {"survived", survived_},
+                  {"survived_interval_95", {interval.low, interval.high}},
                   {"interrupted", interrupted()},
                   {"walks", all}});
     } else {
-      answer(fmt::format("{}: {} of {} walked {:g} s\n", options_.model, survived_, rows_.size(),
-                         options_.walk_s) +
+      answer(fmt::format("{}: {} of {} walked {:g} s; 95 % interval {:.1f} to {:.1f} %\n",
+                         options_.model, survived_, rows_.size(), options_.walk_s,
+                         100 * interval.low, 100 * interval.high) +
              range("ZMP bias, mm", bias_mm, 1) + range("steady speed, m/s", speed_m_s, 3) + fell);
     }
   }

@@ -50,6 +50,11 @@ struct ScriptedWalk {
     now.saturated_steps[3] = now.steps / 4;
     if (touch_every > 0) now.self_contact_steps = static_cast<std::uint64_t>(ticks / touch_every);
     now.self_contact_nodes = {0, 3};
+    now.supply_energy_j = 0.5 * ticks;
+    now.joint_work_j = 0.2 * ticks;
+    now.weight_n = 20;
+    now.truth.torque_use.assign(12, phase == gait::Phase::kIdle ? 2.0 : 0.25);
+    if (ticks == 300) now.truth.torque_use[4] = 0.75;
     now.loads = FootLoads{};
     const Vec3 sole = now.truth.foot[static_cast<std::size_t>(carrying)].centroid_world_m;
     now.loads.add(sole + Vec3(zmp_off_m, 0, 0), Vec3(0, 0, 30));
@@ -124,6 +129,23 @@ TEST(Metrics, YawIsCountedBeyondHalfATurn) {
   ScriptedWalk walk;
   walk.turn_rad_per_step = 0.1;
   EXPECT_NEAR(walk.run().yaw_drift_deg, 44 * 0.1 * 180 / 3.141592653589793, 1e-6);
+}
+
+// 880 ticks of walking; what the robot draws and how hard it works while it stands is another
+// matter.
+TEST(Metrics, TransportAndTorqueAreThoseOfTheWalkAlone) {
+  ScriptedWalk walk;
+  const WalkMetrics m = walk.run();
+  EXPECT_NEAR(m.supply_energy_j, 0.5 * 880, 1e-9);
+  EXPECT_NEAR(m.cost_of_transport.value_or(-1), 0.5 * 880 / (20 * m.distance_m), 1e-9);
+  EXPECT_NEAR(m.cost_of_transport_mechanical.value_or(-1), 0.2 * 880 / (20 * m.distance_m), 1e-9);
+  ASSERT_EQ(m.torque_use.size(), 12u);
+  EXPECT_NEAR(m.torque_use[3].mean, 0.25, 1e-12);
+  EXPECT_NEAR(m.torque_use[4].mean, 0.25 + 0.5 / 880, 1e-12);
+  EXPECT_EQ(m.torque_use[4].peak, 0.75);
+  ScriptedWalk shuffle;
+  shuffle.step_m = 0.001;
+  EXPECT_FALSE(shuffle.run().cost_of_transport) << "4 cm are no way";
 }
 
 TEST(Metrics, SaturationIsPerJointAndStep) {

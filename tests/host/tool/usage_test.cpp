@@ -126,6 +126,21 @@ TEST_F(Usage, ListsAreChecked) {
   expect_refused("walk --sweep-step 0.02:0.04:0.02 --velocity 0.1,0,0", "excludes");
 }
 
+TEST_F(Usage, MapsAreOfOneRobotAndOfWalksOfTheirOwn) {
+  expect_refused("walk --map moon", "--map: moon not in {push,stability}");
+  for (const char* other :
+       {"--seeds 1-2", "--sweep-step 0.02:0.04:0.02", "--record a.mcap", "--on mps2_an386",
+        "--push '1: trunk 0,1,0 N for 0.1'", "--get-up", "--start lying:front", "--cameras"}) {
+    expect_refused(std::string("walk --map push ") + other, "excludes");
+  }
+  expect_refused("walk --map-grid 8", "requires --map");
+  expect_refused("walk --map push --map-grid 37", "give 1 to 36 directions");
+  expect_refused("walk --map push --for 5", "raise --for");
+  expect_refused("walk --map stability --map-grid 4", "give an odd number");
+  expect_refused("walk --map stability --velocity 0.1,0,0", "leave --velocity and --step out");
+  expect_refused("walk --map stability --world demo --report /proc/no", "/proc/no");
+}
+
 TEST_F(Usage, ParametersAreCheckedByNameAndRange) {
   expect_refused("walk --set gait.lift=0.01", "gait.lift_m");
   expect_refused("walk --set lift_m=0.03", "did you mean gait.lift_m?");

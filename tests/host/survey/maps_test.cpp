@@ -1,0 +1,97 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "host/session/session.hpp"
+#include "host/survey/push_map.hpp"
+#include "host/survey/stability_map.hpp"
+#include "host/survey/words.hpp"
+#include "tests/host/session/plans.hpp"
+
+namespace verp::survey {
+namespace {
+
+const sim::WorldOptions kCoarse{.step_us = 2000};
+
+session::WalkPlan plan_of(double walk_s) {
+  session::WalkPlan plan = session::test::plan_of("");
+  plan.walk_s = walk_s;
+  return plan;
+}
+
+/// What a person would try by hand: verp walk --push.
+bool survives(session::WalkPlan plan, const PushOptions& options, const PushCell& cell,
+              double impulse_n_s) {
+  plan.interventions.push_back(
+      {.kind = session::Intervention::Kind::kPush,
+       .at_s = cell.at_s,
+       .name = "trunk",
+       .force_world_n = {impulse_n_s / options.push_s * std::cos(cell.direction_rad), 0, 0},
+       .for_s = options.push_s});
+  return session::walk(plan, {}, {.world = kCoarse, .interrupted = {}}).good();
+}
+
+// The heading differs from 0 by its noise at the start alone, which is switched off here.
+TEST(PushMap, FindsTheLargestPushThatTheSameWalkSurvivesWhateverTheThreads) {
+  const PushOptions options{
+      .phases = 2, .directions = 1, .settle_s = 1.2, .after_s = 1, .step_n_s = 1, .steps = 3};
+  session::WalkPlan plan = plan_of(least_walk_s(options, 0.45));
+  plan.twin.imperfections.initial_pose = false;
+  const PushMap map = push_map(plan, kCoarse, options, {.threads = 1});
+  EXPECT_EQ(csv_of(push_map(plan, kCoarse, options, {.threads = 3})), csv_of(map));
+  EXPECT_EQ(map.walks, 4u);
+  ASSERT_EQ(map.cells.size(), 2u);
+  const PushCell& cell = map.cells[1];
+  EXPECT_EQ(cell.phase, 1);
+  EXPECT_NEAR(cell.at_s - map.cells[0].at_s, 0.225, 1e-6);
+  ASSERT_TRUE(cell.survives_n_s);
+  ASSERT_LT(*cell.survives_n_s, options.most_n_s());
+  EXPECT_TRUE(survives(plan, options, cell, *cell.survives_n_s));
+  EXPECT_FALSE(survives(plan, options, cell, *cell.survives_n_s + options.step_n_s));
+}
+
+TEST(PushMap, OfARobotThatFallsUnpushedThereIsNone) {
+  const PushOptions options{.phases = 1, .directions = 1, .settle_s = 1};
+  session::WalkPlan plan = plan_of(6);
+  plan.params.tuning.gait.lift_m = 0;
+  plan.velocity.vx_tenth_mm_s = 3000;
+  try {
+    push_map(plan, kCoarse, options, {});
+    FAIL() << "it walks";
+  } catch (const SurveyError& error) {
+    EXPECT_NE(std::string(error.what()).find("without a push"), std::string::npos) << error.what();
+  }
+}
+
+TEST(PushMap, InterruptedKeepsWhatIsDoneAndSaysSo) {
+  const PushMap map = push_map(plan_of(8), kCoarse, {}, {.interrupted = [] { return true; }});
+  EXPECT_TRUE(map.interrupted);
+  EXPECT_TRUE(sides_of(map).empty());
+}
+
+// Over so few cycles a turn is still catching up.
+TEST(StabilityMap, SaysWhatWasAskedAndWhatWasWalkedAndKeepsItWhenInterrupted) {
+  const StabilityOptions options{.on_axis = 3, .most = {0.12, 0.04, 0.5}, .begin_s = 1.5};
+  double share = 0;
+  const Watch watch{.interrupted = [&] { return share > 0.3; },
+                    .went_on = [&](double now) { share = now; },
+                    .threads = 1};
+  const StabilityMap map =
+      stability_map(plan_of(least_walk_s(options, 1)), kCoarse, options, watch);
+  EXPECT_TRUE(map.interrupted);
+  ASSERT_EQ(map.cells.size(), 15u) << "two planes of nine, which share three";
+  EXPECT_GE(count_of(map, StabilityCell::End::kWalked), 5);
+  EXPECT_GE(count_of(map, StabilityCell::End::kNone), 8);
+  for (const StabilityCell& cell : map.cells) {
+    if (cell.end == StabilityCell::End::kNone) continue;
+    ASSERT_TRUE(cell.walked) << cell.why;
+    EXPECT_NEAR(cell.walked->vx_m_s, cell.asked.vx_m_s, 0.03);
+    EXPECT_NEAR(cell.walked->vy_m_s, cell.asked.vy_m_s, 0.03);
+    EXPECT_NEAR(cell.walked->wz_rad_s, cell.asked.wz_rad_s, 0.35);
+  }
+  EXPECT_NE(text_of(map, options).find("   -0.120   + + +\n"), std::string::npos)
+      << text_of(map, options);
+}
+
+}  // namespace
+}  // namespace verp::survey
