@@ -32,7 +32,8 @@ int grid_of(const MapOptions& options, int usual, int least, int most, const cha
 
 /// No longer than it takes: most of a push map's time goes into walking up to the push.
 double usual_push_s(const WalkPlan& plan) {
-  return survey::least_walk_s(survey::PushOptions{}, static_cast<double>(plan.params.tuning.gait.cycle_s));
+  return survey::least_walk_s(survey::PushOptions{},
+                              static_cast<double>(plan.params.tuning.gait.cycle_s));
 }
 
 survey::PushOptions push_options(const WalkOptions& options, const WalkPlan& plan) {
