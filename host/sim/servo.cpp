@@ -190,7 +190,7 @@ double ServoModel::friction_budget_n_m(double rate_rad_s, double load_n_m) const
 // decides whether it reaches a flank.
 bool ServoModel::engage(double rate_rad_s, double step_s) {
   const double half = joint_.servo.backlash_rad / 2;
-  const double push = gear_n_m_ * play_rad_;
+  const double push = push_n_m_ * play_rad_;
   if (half <= 0 || (engaged_ && push > 0)) return true;
   const double inertia = joint_.servo.gearbox.armature_kg_m2 / step_s;
   const double drive = motor_.standstill_n_m + inertia * rotor_rad_s_;
@@ -261,8 +261,8 @@ Drive ServoModel::drive(const ServoSetpoint& setpoint, double angle_rad, double 
     const double inertia = joint_.servo.gearbox.armature_kg_m2 / step_s;
     const double load = std::abs(external_n_m - motor_.torque_n_m(rate_rad_s));
     const double rest = motor_.standstill_n_m + external_n_m + inertia * rate_rad_s;
-    friction_ =
-        friction_line(angle_rad, rate_rad_s, rest, friction_budget_n_m(rate_rad_s, load), step_s);
+    budget_n_m_ = friction_budget_n_m(rate_rad_s, load);
+    friction_ = friction_line(angle_rad, rate_rad_s, rest, budget_n_m_, step_s);
     gear_ = motor_;
     gear_ += {inertia * rotor_rad_s_, inertia};
     gear_ += friction_;
@@ -276,8 +276,11 @@ void ServoModel::finish(double rate_rad_s, double step_s) {
   const model::Servo& servo = joint_.servo;
   if (engaged_) rotor_rad_s_ = rate_rad_s;
   torque_n_m_ = drive_.torque_n_m(rate_rad_s);
-  gear_n_m_ = gear_.torque_n_m(rate_rad_s);
   friction_n_m_ = friction_.torque_n_m(rate_rad_s);
+  // Friction that stops a rotor takes all that this needs, for one step. That is no pull off a
+  // flank.
+  push_n_m_ = gear_.torque_n_m(rate_rad_s) - friction_n_m_ +
+              std::clamp(friction_n_m_, -budget_n_m_, budget_n_m_);
   const double motor_torque = motor_.torque_n_m(rotor_rad_s_);
   torque_use_ = std::abs(motor_torque) / servo.stall_torque_n_m;
   const double current = motor_torque / servo.stall_torque_n_m * servo.stall_current_a;

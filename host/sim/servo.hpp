@@ -135,7 +135,9 @@ class ServoModel {
   double stuck_rad_ = 0;    ///< where
   Drive friction_, gear_;   ///< in the last step; gear_ is all that comes through the gears
   Drive drive_;             ///< with end stops and the joint's own damping
-  double gear_n_m_ = 0, friction_n_m_ = 0;
+  double friction_n_m_ = 0;
+  double budget_n_m_ = 0;  ///< what friction may take for longer than a step
+  double push_n_m_ = 0;    ///< what would have come through the gears had it taken no more
   double torque_n_m_ = 0;
   double torque_use_ = 0;
   double supply_current_a_ = 0;

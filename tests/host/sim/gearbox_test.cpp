@@ -128,6 +128,70 @@ TEST(Gearbox, InsideThePlayTheRotorHasOnlyItselfToTurn) {
   EXPECT_NEAR(bench.rate_rad_s, 0.7, 0.1);
 }
 
+/// Rotor with friction and link as two bodies that meet at the flanks, in steps of 10 us.
+struct RotorAndLink {
+  const model::Servo& servo;
+  double link_kg_m2;
+  double rotor_rad = 0, rotor_rad_s = 0, link_rad = 0, link_rad_s = 0;
+
+  double flank_n_m() const {
+    constexpr double kStiff_n_m = 2e4;
+    const double ahead = rotor_rad - link_rad;
+    const double within = std::abs(ahead) - servo.backlash_rad / 2;
+    if (within <= 0) return 0;
+    const double rotor = servo.gearbox.armature_kg_m2;
+    const double damping = 2 * std::sqrt(kStiff_n_m * rotor * link_kg_m2 / (rotor + link_kg_m2));
+    const double closing =
+        std::copysign(rotor_rad_s - link_rad_s, ahead * (rotor_rad_s - link_rad_s));
+    return std::copysign(std::max(kStiff_n_m * within + damping * closing, 0.0), ahead);
+  }
+  void run(double duty, double external_n_m, double time_s) {
+    constexpr double kStep = 1e-5;
+    const model::Gearbox& gears = servo.gearbox;
+    for (double t = 0; t < time_s - kStep / 2; t += kStep) {
+      const double flank = flank_n_m();
+      const double motor =
+          servo.stall_torque_n_m * (duty - rotor_rad_s / servo.no_load_speed_rad_s);
+      const double load = std::abs((flank != 0 ? external_n_m : 0) - motor);
+      const double budget = gears.f_base_n_m + load * gears.l_base;
+      const double stop = gears.armature_kg_m2 / kStep * rotor_rad_s + motor - flank;
+      const double friction = -std::copysign(std::min(std::abs(stop), budget), stop);
+      rotor_rad_s += (motor - flank + friction) / gears.armature_kg_m2 * kStep;
+      link_rad_s += (flank + external_n_m) / link_kg_m2 * kStep;
+      rotor_rad += rotor_rad_s * kStep;
+      link_rad += link_rad_s * kStep;
+    }
+  }
+};
+
+// From goal to goal, overshooting, with gravity for and against it: where friction stops the rotor
+// at a flank for a moment the motor takes it on from there.
+TEST(Gearbox, WithPlayAJointGoesAsItsRotorAndItsLinkWouldAsTwoBodies) {
+  for (const double armature : {0.002, 0.012, 0.045}) {
+    for (const double link : {0.005, 0.03}) {
+      for (const double gravity_n_m : {-0.4, 0.1}) {
+        model::Joint joint =
+            joint_with({.armature_kg_m2 = armature, .f_base_n_m = 0.1, .l_base = 0.2});
+        joint.servo.backlash_rad = 0.0087;
+        Bench bench(joint, link);
+        bench.setpoint = {.torque_on = true, .goal_count = 2048, .p_gain = 2200};
+        RotorAndLink expected{joint.servo, link};
+        for (int ms = 0; ms < 1200; ++ms) {
+          constexpr int kGoals[] = {0, 260, 195, -65, 0, -260};
+          bench.setpoint.goal_count = 2048 + kGoals[ms / 200];
+          const double error =
+              bench.setpoint.goal_count - std::round(count_of(joint.servo, expected.link_rad));
+          expected.run(std::clamp(2200 / 128.0 * error / 885, -1.0, 1.0),
+                       gravity_n_m * std::cos(3 * expected.link_rad), 0.001);
+          bench.step(gravity_n_m * std::cos(3 * bench.angle_rad));
+          ASSERT_NEAR(bench.angle_rad, expected.link_rad, 0.02)
+              << armature << " " << link << " " << gravity_n_m << " at " << ms << " ms";
+        }
+      }
+    }
+  }
+}
+
 // Published motor, published equations, integrated by themselves in steps of 10 us: the pendulum is
 // driven up, driven back, and let go.
 struct PaperPendulum {
