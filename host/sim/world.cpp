@@ -65,7 +65,7 @@ void set_surface(dSurfaceParameters& out, const Surface& surface, double step_s)
 
 World::World(const WorldOptions& options) : options_(options) {
   static const OdeRuntime runtime;
-  dAllocateODEDataForThread(dAllocateMaskAll);
+  dAllocateODEDataForThread(static_cast<unsigned>(dAllocateMaskAll));
   world_ = dWorldCreate();
   // Of its own: worlds without one share ODE's, which two threads must not step by at a time.
   threading_ = dThreadingAllocateSelfThreadedImplementation();

@@ -2,7 +2,7 @@
 # install.sh CMAKE BUILD: what `cmake --install` puts into a folder runs there, and finds its robots there: program, library by
 # pkg-config, Python package, completion, manual.
 set -euo pipefail
-cmake=$1 build=$2
+cmake=$1 build=$2 here=$(cd "$(dirname "$0")" && pwd)
 to=$(mktemp -d)
 trap 'rm -rf "$to"' EXIT
 "$cmake" --install "$build" --component verp --prefix "$to" >"$to/log"
@@ -27,7 +27,7 @@ END
 # shellcheck disable=SC2046
 gcc a.c -o a $(PKG_CONFIG_PATH="$PC" pkg-config --cflags --libs verp)
 LD_LIBRARY_PATH="$LIB" ./a || say "a program that was built by pkg-config fails"
-/usr/bin/python3 "$(dirname "$0")/abi_asserts.py" "$to/include/verp/abi.json" | sed 's,"verp.h",<verp/verp.h>,' >abi.c
+/usr/bin/python3 "$here/abi_asserts.py" "$to/include/verp/abi.json" | sed 's,"verp.h",<verp/verp.h>,' >abi.c
 gcc -std=gnu11 -fsyntax-only -I "$to/include" abi.c || say "the list of the ABI is not that of the header beside it"
 cat >CMakeLists.txt <<'END'
 cmake_minimum_required(VERSION 3.25)
