@@ -123,6 +123,7 @@ void declare_film(CLI::App& app, tool::WalkOptions& options) {
   app.get_option("MODEL")->description("a robot, the path of an SDF file, or of a trace (.mcap)");
   tool::declare_tuning(app, options);
   tool::declare(app, options.place);
+  tool::declare_robots(app, options.team);
   app.add_option("--seed", options.seed, "of every random thing in the twin")
       ->check(tool::whole_number_between(0, 4294967295))
       ->capture_default_str();

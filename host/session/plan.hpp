@@ -32,6 +32,7 @@ struct WalkPlan {
   /// the walk. `actions` hold how.
   int get_ups = 0;
   std::string board;  ///< emulated board that runs the controller; empty: this process
+  std::string link;   ///< at whose other end its controller is (served.hpp); empty: it is not
   std::string name;   ///< among other robots of the world; empty: as params have it
   std::vector<Intervention> interventions;  ///< of what is done to the twin, in any order
 };
@@ -84,6 +85,7 @@ struct WalkResult {
   int falls = 0, get_ups = 0;  ///< as the controller saw them
   double longest_step_m = 0;   ///< that the gait made: the asked one, or what limits left of it
   double simulated_s = 0, wall_s = 0;
+  sim::Vec2 end_m{0, 0};  ///< where its body was then, in the world
   std::vector<double> set_upright_s;  ///< when somebody set it on its feet, simulated time
   std::vector<Done> interventions;    ///< what of the plan's was done, and what else
   bool interrupted = false;

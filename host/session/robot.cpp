@@ -215,6 +215,7 @@ WalkResult Robot::result(double wall_s) {
   result_.simulated_s = simulated_s();
   result_.interrupted = interrupted();
   result_.metrics = meter_.result();
+  result_.end_m = twin_.truth().body_world.translation().head<2>();
   if (watched_) {
     result_.simulated_s = gone_s();
     result_.metrics.fallen = verdict_.fell();

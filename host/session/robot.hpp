@@ -78,6 +78,8 @@ class Robot {
   bool set_upright();
 
   double simulated_s() const;
+  /// Any servo of it.
+  bool has_torque();
   /// How much of plan.walk_s has gone by.
   double gone_s() const;
   bool fallen() const { return twin_.fallen(); }
@@ -97,7 +99,6 @@ class Robot {
   void count_falls();
   void count_traffic();
   double walked_s() const;
-  bool has_torque();
 
   const WalkPlan plan_;
   const action::Library actions_{plan_.actions.data(), 4 * plan_.actions.size()};

@@ -26,11 +26,13 @@ void Served::fail(const std::string& why, bool device) {
   if (!failure_.empty()) return;
   failure_ = why;
   device_trouble_ = device;
+  if (options_.gave_up) options_.gave_up(why);
 }
 
 bool Served::over() const {
-  return !failure_.empty() || stopped() || robot_.interrupted() ||
-         (real_time_begun() && robot_.over());
+  const bool nobody_to_tell = !greeted() || real_time_begun();
+  return !failure_.empty() || ended_ || stopped() || robot_.interrupted() ||
+         (nobody_to_tell && robot_.over());
 }
 
 bool Served::tick() {
@@ -199,8 +201,23 @@ void Served::begin_real_time() {
   if (options_.real_time_begins) options_.real_time_begins();
 }
 
+void Served::waited(bool heard) {
+  const std::uint64_t now = wire::monotonic_ns();
+  if (heard || !greeted() || options_.patience_s <= 0) {
+    idle_ns_ = 0;
+  } else if (idle_ns_ == 0) {
+    idle_ns_ = now;
+  } else if (1e-9 * static_cast<double>(now - idle_ns_) > options_.patience_s) {
+    fail(fmt::format("the controller on {} kept the twin waiting for {:g} s{}", place_,
+                     options_.patience_s, connected_ ? "" : ": its link is lost"));
+  }
+}
+
 void Served::watch_link(bool connected, std::uint32_t losses) {
   if (connected == std::exchange(connected_, connected)) return;
+  ended_ = !connected && options_.ends_with_controller && robot_.verdict().driven() &&
+           !robot_.has_torque();
+  if (ended_) return say("the controller has let go and hung up");
   if (!connected) say("the link is lost; waiting for it to come back");
   if (connected && losses > 0) say("the link is back");
 }

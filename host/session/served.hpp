@@ -26,12 +26,18 @@ struct ServeOptions {
   std::string operator_link =
       {};  ///< where its operator's port is; empty: somebody else gives orders
   Pace pace = Pace::kAuto;
+  /// How long a controller that has announced lockstep may keep the twin waiting, by the wall's
+  /// clock; then the robot has none any more. 0: as long as it likes.
+  double patience_s = 0;
+  /// A controller that lets go of the robot and hangs up has ended the run; else it is served on.
+  bool ends_with_controller = false;
   // Empty members are allowed.
   std::function<void(const std::string&)> told = {};  ///< what happens, in words
   /// Of a CAN interface, before anything is sent: may throw.
   std::function<void(const wire::CanInterface&)> check = {};
   std::function<void()> real_time_begins = {};  ///< in its thread: the moment to ask for priority
   std::function<void()> cannot_keep_up = {};    ///< the moment to give it back
+  std::function<void(const std::string& why)> gave_up = {};  ///< this robot is over, and why
 };
 
 /// What came from a CAN interface.
@@ -92,6 +98,8 @@ class Served : public Controller {
   void begin_real_time();
   /// All ticks up to bus time `now_us` of a robot whose controller tells nothing, until it is over.
   void watch_until(std::uint64_t now_us);
+  /// One turn brought something from the controller, or nothing: judges its patience.
+  void waited(bool heard);
   /// The link is there, or not: tells of each change. `losses`: of it so far.
   void watch_link(bool connected, std::uint32_t losses);
 
@@ -122,10 +130,11 @@ class Served : public Controller {
   std::uint64_t start_ns_ = 0;  ///< when it began, by the monotonic clock; 0: not yet
   std::uint64_t drive_ns_ = 0;  ///< when a servo first had torque
   std::uint64_t heard_ns_ = 0;  ///< when something that is not for the clock came first
+  std::uint64_t idle_ns_ = 0;   ///< since when nothing came that lockstep waits for; 0: it does not
   std::uint64_t next_us_ = 0;   ///< tick to be watched
   std::uint32_t resets_ = 0;
   bool device_trouble_ = false, recorded_ = false, met_ = false, declined_ = false;
-  bool lay_down_ = false, introduced_ = false, connected_;
+  bool lay_down_ = false, introduced_ = false, connected_, ended_ = false;
 };
 
 /// That controller, on a byte link or a CAN interface as the robot's bus is. Throws what opening a

@@ -92,6 +92,7 @@ class ServedOnCan final : public Served {
     if (lost && !std::exchange(lost_, lost)) ++losses_;
     lost_ = lost;
     watch_link(port_.connected(), losses_);
+    waited(came);
     if (came) watch_others(frame);
     answer_.clear();
     if (came && realtime_.begun() && !lockstep::is_clock_frame(frame)) {

@@ -57,13 +57,14 @@ struct RunKeeper {
   record::TraceWriter* trace;
 };
 
-/// One robot, driven in real time. Robot is how it is reached:
+/// One robot, driven in real time, or in a twin's. Robot is how it is reached:
 ///  - Bus, bus(): what App drives it through; waits no longer than bring-up needs until
 ///  set_held(us)
 ///    says for how long answers may be held up;
 ///  - connected(), link_errors(); let_go(joint): asks one servo, and tells it once more;
 ///  - brought_up(report), record(...) as a Recorder, report(health) after each tick: for those who
 ///    look on from its bus;
+///  - stopped(), of a twin in lockstep: it wants no further tick; nothing is paced then;
 ///  - order(tick), where whoever is on its bus may give orders: as an OperatorLink;
 ///  - where(address): at what a bring-up failed, in words.
 template <class Robot>
@@ -93,7 +94,7 @@ class RobotRun {
       throw session::not_up(report, place(), Robot::where(report.address));
     app_.limit_torque(static_cast<std::uint8_t>(plan_.torque_percent));
     robot_.set_held(result_.fit.held_us());  // nobody waited for the bring-up
-    result_.real_time = become_real_time();
+    if constexpr (!kInLockstep) result_.real_time = become_real_time();
     if (!result_.real_time.advice.empty()) say(result_.real_time.advice);
     const std::uint64_t start_ns = wire::monotonic_ns();
     loop();
@@ -105,6 +106,7 @@ class RobotRun {
   }
 
  private:
+  static constexpr bool kInLockstep = requires(Robot & robot) { robot.stopped(); };
   using Loop = app::App<typename Robot::Bus, RunOperator, RunKeeper<Robot>, bus::AssumedImu>;
 
   std::string place() const { return wire::to_text(plan_.link); }
@@ -118,17 +120,25 @@ class RobotRun {
     app::Pacer pacer(clock_);
     pacer.start(params_.period_us);
     while (!operator_.over() || result_.walk.ticks == 0) {
-      app_.tick(pacer.next());
+      app_.tick(kInLockstep ? app::Beat{} : pacer.next());
+      if (twin_ended()) break;
       report(pacer.deadlines());
       watch_link();
       watch_person();
       watch_plan();
       progress_.show(
           operator_.walked_s() / plan_.walk.walk_s,
-          fmt::format("{}  {:.1f} of {:g} s, {} deadlines missed", params_.name,
-                      operator_.walked_s(), plan_.walk.walk_s, pacer.deadlines().missed));
+          fmt::format(
+              "{}  {:.1f} of {:g} s{}", params_.name, operator_.walked_s(), plan_.walk.walk_s,
+              kInLockstep ? "" : fmt::format(", {} deadlines missed", pacer.deadlines().missed)));
     }
     result_.deadlines = pacer.deadlines();
+  }
+
+  /// The world that a twin is in may end sooner than its controller wants.
+  bool twin_ended() const {
+    if constexpr (kInLockstep) return robot_.stopped();
+    return false;
   }
 
   void report(const app::Deadlines& deadlines) {
@@ -204,6 +214,9 @@ class RobotRun {
     walk.simulated_s = 1e-6 * static_cast<double>(params_.period_us) *
                        static_cast<double>(result_.deadlines.ticks + result_.deadlines.skipped);
     walk.failure = operator_.failure();
+    if (walk.failure.empty() && !operator_.over()) walk.failure = "the twin's run ended before";
+    if constexpr (kInLockstep)
+      walk.simulated_s = 1e-6 * params_.period_us * static_cast<double>(walk.ticks);
     result_.walked_s = operator_.walked_s();
     result_.bus = app_.counters();
     result_.crc_errors = app_.crc_errors();

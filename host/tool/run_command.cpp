@@ -19,6 +19,7 @@
 #include "host/tool/interrupt.hpp"
 #include "host/tool/json.hpp"
 #include "host/tool/run_can.hpp"
+#include "host/tool/run_lockstep.hpp"
 #include "host/tool/run_params.hpp"
 #include "host/tool/run_robot.hpp"
 #include "host/tool/walk_files.hpp"
@@ -36,6 +37,7 @@ struct RunWords {
   int torque_percent = 100;
   bool yes = false;
   bool take_orders = false;
+  bool lockstep = false;
 };
 
 /// Orders that come from elsewhere are not planned beforehand: what limits them is the tuning.
@@ -61,6 +63,12 @@ RunPlan make_plan(const RunWords& words) {
   plan.has_imu = words.params.has_imu();
   plan.torque_percent = words.torque_percent;
   plan.takes_orders = words.take_orders;
+  plan.lockstep = words.lockstep;
+  if (words.lockstep && plan.link.kind == wire::Endpoint::Kind::kCan) {
+    throw ToolError(kBadInput, fmt::format("verp run: --lockstep is for a twin on a byte link, and "
+                                           "{} is a CAN interface; leave it out, in real time",
+                                           words.link));
+  }
   if (words.take_orders && plan.link.kind != wire::Endpoint::Kind::kCan) {
     throw ToolError(kBadInput, fmt::format("verp run: --take-orders is for a robot on CAN, where "
                                            "the controller is a node; {} has no place for orders",
@@ -105,6 +113,7 @@ Json to_json(const RunPlan& plan, const RunResult& result) {
           {"failure", walk.failure},
           {"interrupted", walk.interrupted},
           {"torque_percent", plan.torque_percent},
+          {"lockstep", plan.lockstep},
           {"let_go", result.silent_servos + result.stiff_servos == 0},
           {"deadlines",
            {{"missed", deadlines.missed},
@@ -127,23 +136,28 @@ Json to_json(const RunPlan& plan, const RunResult& result) {
           {"real_time", {{"fifo", result.real_time.fifo}, {"locked", result.real_time.locked}}}};
 }
 
-std::string to_text(const RunPlan& plan, const RunResult& result) {
+std::string row(const char* name, const std::string& what) {
+  return fmt::format("  {:<18}{}\n", name, what);
+}
+
+std::string real_time_text(const RunResult& result) {
   const app::Deadlines& deadlines = result.deadlines;
-  const auto row = [](const char* name, const std::string& what) {
-    return fmt::format("  {:<18}{}\n", name, what);
-  };
-  return fmt::format("{}: walked {:.1f} s on {}\n", plan.walk.params.name, result.walked_s,
-                     wire::to_text(plan.link)) +
-         row("ticks", fmt::format("{} of {:g} ms, digest 0x{:016x}", result.walk.ticks,
-                                  1e-3 * plan.walk.params.period_us, result.walk.digest)) +
-         row("deadlines", fmt::format("{} missed, {} periods skipped, latest tick {:.1f} ms late",
+  return row("deadlines", fmt::format("{} missed, {} periods skipped, latest tick {:.1f} ms late",
                                       deadlines.missed, deadlines.skipped,
                                       1e-3 * static_cast<double>(deadlines.worst_late_us))) +
          row("scheduling", fmt::format("{}{}", scheduler_name(result.real_time),
                                        result.real_time.locked ? ", memory locked" : "")) +
          row("latency",
              fmt::format("a read held up for {:.2f} ms, slowest tenth {:.2f}",
-                         1e-3 * result.fit.delay.median_us, 1e-3 * result.fit.delay.p90_us)) +
+                         1e-3 * result.fit.delay.median_us, 1e-3 * result.fit.delay.p90_us));
+}
+
+std::string to_text(const RunPlan& plan, const RunResult& result) {
+  return fmt::format("{}: walked {:.1f} s on {}\n", plan.walk.params.name, result.walked_s,
+                     wire::to_text(plan.link)) +
+         row("ticks", fmt::format("{} of {:g} ms, digest 0x{:016x}", result.walk.ticks,
+                                  1e-3 * plan.walk.params.period_us, result.walk.digest)) +
+         (plan.lockstep ? row("time", "the twin's, in lockstep") : real_time_text(result)) +
          row("bus",
              fmt::format("{} timeouts, {} {}, {} overruns; link lost {} times", result.bus.timeouts,
                          result.crc_errors,
@@ -210,7 +224,9 @@ int run_robot(const RunWords& words) {
       if (link.wait_connected(kArrival_us / 100)) break;
     }
   }
-  return run_on(link, words, plan, files);
+  if (!plan.lockstep) return run_on(link, words, plan, files);
+  Progress progress(!words.walk.json);
+  return tell(words, plan, files, drive_in_lockstep(link, plan, files.trace(), progress));
 }
 
 }  // namespace
@@ -238,6 +254,11 @@ Subcommand add_run(CLI::App& root) {
                 "on CAN: whoever writes the controller's node (127) gives the orders, for --for "
                 "seconds or until Ctrl-C; the bytes: host/can/masters.md")
       ->excludes("--velocity");
+  app->add_flag(
+         "--lockstep", words->lockstep,
+         "a twin is at the other end (`verp walk --robot NAME=ext:LINK`), and its time waits "
+         "for this controller: nothing is late, however slow either is")
+      ->excludes("--take-orders");
   add_json_flag(*app, words->walk.json);
   return {app, [words] {
             catch_interrupts_to_the_end();

@@ -20,6 +20,7 @@ struct RunPlan {
   wire::Endpoint link;
   bool has_imu = true;  ///< false: `--imu none`
   int torque_percent = 100;
+  bool lockstep = false;      ///< of a twin: it waits for this controller, and that for it
   bool takes_orders = false;  ///< `--take-orders`: who writes the controller's node gives them
 };
 

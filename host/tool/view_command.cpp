@@ -56,8 +56,9 @@ CLI::App* declare_view(CLI::App& root, ViewOptions& words) {
   options.walk_s = 20;
   declare(*app, options);
   // What is of a run that nobody watches.
-  for (const char* name : {"--report", "--record-state", "--compress", "--json", "--sweep-step",
-                           "--seeds", "--on", "--list-quantities", "--cameras", "--real-time"}) {
+  for (const char* name :
+       {"--report", "--record-state", "--compress", "--json", "--sweep-step", "--seeds", "--on",
+        "--list-quantities", "--cameras", "--real-time", "--patience", "--if-lost-go-on"}) {
     app->remove_option(app->get_option(name));
   }
   app->get_option("MODEL")->description(

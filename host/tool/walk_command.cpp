@@ -1,6 +1,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -13,6 +14,7 @@
 #include "host/tool/walk_map.hpp"
 #include "host/tool/walk_plan.hpp"
 #include "host/tool/walk_seeds.hpp"
+#include "host/tool/walk_team.hpp"
 
 namespace verp::tool {
 namespace {
@@ -32,7 +34,17 @@ void add_deadlines(const app::Deadlines& deadlines, Drawn& drawn) {
                              {"worst_late_us", deadlines.worst_late_us}};
 }
 
+/// What only the controller itself can tell is not to be had from the other end of a link.
+void refuse_of_outside(const WalkOptions& options, const WalkPlan& first) {
+  const bool wanted = !options.record_file.empty() || !options.report_folder.empty();
+  if (first.link.empty() || !wanted) return;
+  throw ToolError(kBadInput,
+                  "verp walk: --record and --report are of a robot that this program drives; add "
+                  "one, or have the controller outside record its own");
+}
+
 int run_walk(WalkOptions options) {
+  read_robot_words(options);
   sim::WorldOptions world = world_of(options);
   std::vector<WalkPlan> others = make_plans(options, world);
   WalkPlan plan = others.front();
@@ -48,27 +60,39 @@ int run_walk(WalkOptions options) {
     return walk_map(options, plan, world);
   }
   Drawn drawn = draw(options, plan, world);
+  for (WalkPlan& other : others) {
+    sim::WorldOptions same = world;  // of the floor, the first one's draw holds
+    draw(options, other, same);
+  }
   sweep_of(options);  // before the long run: a mistake in it is found now
-  if (options.report_folder.empty() && !options.json) options.report_folder = "report";
+  refuse_of_outside(options, plan);
+  if (options.report_folder.empty() && !options.json && plan.link.empty())
+    options.report_folder = "report";
+  options.board = plan.board;
   WalkFiles files(options, plan);
+  OtherFiles other_files(options, files, others);
   std::unique_ptr<WalkCameras> cameras;
   if (options.cameras)
     cameras = std::make_unique<WalkCameras>(options, plan, others, world, files.trace());
   Progress progress(!options.json);
-  const Walks walks = walk_together(plan, others, files.trace(), progress, files.wants_report(),
-                                    world, cameras.get(), options.real_time);
+  const Walks walks =
+      walk_together(plan, others, options, world, files, other_files, progress, cameras.get());
   const WalkResult& result = walks.result;
   const Sweep swept = sweep(plan, options, progress);
   progress.clear();
+  other_files.finish(walks);
   drawn.json["changes"] = touch_json(result);
-  drawn.json.update(place_json(walks, world));
-  drawn.text += touch_text(result) + place_text(walks, world);
+  drawn.json.update(team_json(walks, others, other_files, world));
+  drawn.text += touch_text(result) + team_text(walks, others, other_files, world);
   if (cameras) add_cameras(*cameras, walks, drawn, files);
   if (options.real_time) add_deadlines(walks.deadlines, drawn);
   if (result.good()) {
     for (const std::string& line : never_done(plan, result)) complain(line);
   }
-  return finish_walk(plan, options, files, result, swept, drawn.json, drawn.text);
+  const int status = finish_walk(plan, options, files, result, swept, drawn.json, drawn.text);
+  const std::vector<std::string> failures = failures_of(walks, other_files);
+  for (const std::string& line : failures) complain(line);
+  return failures.empty() ? status : std::max(status, int{kRunFailed});
 }
 
 }  // namespace
@@ -80,7 +104,6 @@ Subcommand add_walk(CLI::App& root) {
   return {app, [app, options] {
             catch_interrupts();
             options->changed = changed_options(*app);
-            options->model_given = app->get_option("MODEL")->count() > 0;
             options->map.length_given = app->get_option("--for")->count() > 0;
             return run_walk(*options);
           }};

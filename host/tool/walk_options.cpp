@@ -137,6 +137,15 @@ bool WalkOptions::changes(const std::string& option) const {
 
 void declare(CLI::App& app, WalkOptions& options) {
   declare_basics(app, options);
+  app.remove_option(app.get_option("MODEL"));
+  app.add_option("MODEL,--robot", options.robot_words,
+                 "a robot by its name, or the path of its SDF file. Several: --robot "
+                 "NAME=MODEL[,ext:LINK|,on:BOARD] for each, driven by this program, by another one "
+                 "at the end of a link (in lockstep), or on an emulated board")
+      ->type_name("MODEL [generic21]")
+      ->allow_extra_args(false);
+  declare_robots(app, options.team);
+  declare_outside(app, options.team);
   declare_tuning(app, options);
   app.add_option("--sweep-step", options.sweep_text,
                  "FROM:TO:BY in m: also walk at each step length, with and without the multibody "
@@ -246,6 +255,11 @@ sim::WorldOptions world_of(const WalkOptions& options) {
   world.step_us = static_cast<std::uint32_t>(std::lround(1e3 * options.physics_step_ms));
   read_place(options.place, world);
   return world;
+}
+
+void read_robot_words(WalkOptions& options) {
+  options.model_given = sort_robot_words(options.robot_words, options.model, options.team.seats);
+  for (const std::string& seat : options.team.seats) options.changed.emplace_back("--robot", seat);
 }
 
 std::pair<std::uint64_t, std::uint64_t> seeds_of(const WalkOptions& options) {

@@ -8,6 +8,7 @@
 #include "common/model/params.hpp"
 #include "host/model/entity.hpp"
 #include "host/sim/world.hpp"
+#include "host/tool/team_options.hpp"
 #include "host/tool/walk_map.hpp"
 #include "host/tool/walk_place.hpp"
 #include "host/tool/walk_touch.hpp"
@@ -45,6 +46,8 @@ struct WalkOptions {
   TouchOptions touch;
   PlaceOptions place;
   MapOptions map;
+  TeamOptions team;
+  std::vector<std::string> robot_words;  ///< of `verp walk`: MODEL, --robot
   bool model_given = false;
   bool cameras = false;    ///< what they see goes into the trace
   bool real_time = false;  ///< no faster than time goes by
@@ -80,6 +83,9 @@ void check_board(const WalkOptions& options);
 
 /// --physics-step.
 sim::WorldOptions world_of(const WalkOptions& options);
+
+/// Takes MODEL and the robots with names of their own out of `robot_words`. Throws ToolError.
+void read_robot_words(WalkOptions& options);
 
 /// First and last of --seeds. Throws ToolError.
 std::pair<std::uint64_t, std::uint64_t> seeds_of(const WalkOptions& options);

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
 
 #include "host/action/compile.hpp"
@@ -67,30 +68,84 @@ WalkPlan make_plan(const WalkOptions& options) {
   return plan;
 }
 
+namespace {
+
+/// A served robot gets so much longer than its walk, to rise before and to sit down after.
+constexpr double kBeforeAndAfter_s = 10;
+
+void require_alone(const WalkOptions& options, const std::string& why) {
+  if (options.board.empty()) return;
+  throw ToolError(kBadInput,
+                  fmt::format("{}: {}; say whose controller runs on the board: --robot NAME=on:{}",
+                              options.command, why, options.board));
+}
+
+WalkPlan plan_of(const WalkOptions& options, const Seat& seat, std::size_t index) {
+  WalkOptions own = options;
+  if (!seat.model.empty()) own.model = seat.model;
+  own.board = seat.board;
+  own.seed = options.seed + index;
+  WalkPlan plan = make_plan(own);
+  plan.name = seat.name;
+  plan.link = seat.link;
+  if (!seat.link.empty()) plan.walk_s += kBeforeAndAfter_s;
+  return plan;
+}
+
+/// Of the robots that the world has of its own, who drives them; those that are not named have it
+/// as it is.
+std::vector<Seat> seats_of_world(const WalkOptions& options, const model::World& world) {
+  std::vector<Seat> seats;
+  for (const model::WorldRobot& robot : world.robots)
+    seats.push_back({.name = robot.name, .model = robot.file, .link = {}, .board = {}});
+  for (const Seat& named : seats_of(options.command, options.team)) {
+    const auto same = std::find_if(seats.begin(), seats.end(),
+                                   [&](const Seat& each) { return each.name == named.name; });
+    if (same == seats.end() || !named.model.empty()) {
+      throw ToolError(kBadInput,
+                      fmt::format("{}: {} has robots of its own; of these, --robot "
+                                  "NAME=ext:LINK or NAME=on:BOARD may say who drives them",
+                                  options.command, world.file));
+    }
+    same->link = named.link;
+    same->board = named.board;
+  }
+  return seats;
+}
+
+/// Those with controllers in this program first: of the first one are report and pictures.
+void put_outside_last(std::vector<WalkPlan>& plans) {
+  std::stable_partition(plans.begin(), plans.end(),
+                        [](const WalkPlan& plan) { return plan.link.empty(); });
+}
+
+}  // namespace
+
 std::vector<WalkPlan> make_plans(const WalkOptions& options, const sim::WorldOptions& world) {
-  if (world.scenery == nullptr || world.scenery->robots.empty()) {
-    WalkPlan plan = make_plan(options);
-    place_robot(options.place, plan);
-    return {plan};
+  const bool of_world = world.scenery != nullptr && !world.scenery->robots.empty();
+  if (of_world && options.model_given) {
+    throw ToolError(kBadInput, fmt::format("{}: {} has robots of its own; leave MODEL out, or take "
+                                           "its <include>s out",
+                                           options.command, world.scenery->file));
   }
-  const std::vector<model::WorldRobot>& robots = world.scenery->robots;
-  if (options.model_given || !options.place.pose_text.empty() || !options.board.empty()) {
-    throw ToolError(kBadInput,
-                    fmt::format("verp walk: {} has robots of its own; leave MODEL, --at-pose and "
-                                "--on out, or take its <include>s out",
-                                world.scenery->file));
-  }
+  const std::vector<Seat> seats =
+      of_world ? seats_of_world(options, *world.scenery) : seats_of(options.command, options.team);
   std::vector<WalkPlan> plans;
-  for (const model::WorldRobot& robot : robots) {
-    WalkOptions own = options;
-    own.model = robot.file;
-    own.seed = options.seed + plans.size();
-    WalkPlan plan = make_plan(own);
-    plan.name = robot.name;
-    plan.twin.start_m = {robot.x_m, robot.y_m, 0};
-    plan.twin.start_yaw_rad = robot.yaw_rad;
+  if (seats.empty()) plans.push_back(make_plan(options));
+  if (!seats.empty()) require_alone(options, "several robots");
+  for (const Seat& seat : seats) {
+    const std::size_t index = plans.size();
+    WalkPlan plan = plan_of(options, seat, index);
+    plan.twin.start_m.head<2>() = place_in_column(index);
+    if (of_world) {
+      const model::WorldRobot& robot = world.scenery->robots[index];
+      plan.twin.start_m = {robot.x_m, robot.y_m, 0};
+      plan.twin.start_yaw_rad = robot.yaw_rad;
+    }
     plans.push_back(std::move(plan));
   }
+  place_robots(options.place, plans);
+  put_outside_last(plans);
   return plans;
 }
 

@@ -16,8 +16,9 @@ void ask_for_walk(const WalkOptions& options, session::WalkPlan& plan);
 /// Throws ToolError and LoadError.
 session::WalkPlan make_plan(const WalkOptions& options);
 
-/// That robot alone, or those that the world has of its own, which all walk likewise, the first
-/// with report and trace. Throws ToolError if both are asked for.
+/// That robot alone; or those of --robots and --robot, or that the world has of its own, which all
+/// walk likewise, each with a seed of its own (the next one's is one more). Report and pictures are
+/// of the first. Throws ToolError and LoadError.
 std::vector<session::WalkPlan> make_plans(const WalkOptions& options,
                                           const sim::WorldOptions& world);
 

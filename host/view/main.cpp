@@ -46,7 +46,8 @@ int show(MainWindow& window) {
 }
 
 int run_view(const tool::ViewOptions& asked) {
-  const tool::WalkOptions& options = asked.walk;
+  tool::WalkOptions options = asked.walk;
+  tool::read_robot_words(options);
   tool::catch_interrupts();
   const bool trace = options.model.ends_with(".mcap");
   std::optional<RunSetup> setup;  // a mistake in the words is told before any window
@@ -73,6 +74,7 @@ int run_view(const tool::ViewOptions& asked) {
   MainWindow window(settings, [options](const std::string& model) {
     tool::WalkOptions other = options;
     other.model = model;
+    other.team = {};
     other.bus.clear();
     other.record_file.clear();
     return run_of(other);

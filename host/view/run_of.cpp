@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "host/tool/exit_status.hpp"
 #include "host/tool/walk_files.hpp"
 #include "host/tool/walk_plan.hpp"
 #include "host/tool/walk_touch.hpp"
@@ -15,6 +16,13 @@ RunSetup run_of(const tool::WalkOptions& options) {
   setup.plan = std::move(plans.front());
   plans.erase(plans.begin());
   setup.others = std::move(plans);
+  for (const session::WalkPlan& other : setup.others) {
+    if (other.link.empty() && other.board.empty()) continue;
+    throw tool::ToolError(tool::kBadInput,
+                          "verp view: --robot " + other.name +
+                              ": the window shows robots that this program drives; give the "
+                              "others to `verp walk`");
+  }
   tool::read_touch(options.touch, setup.plan, setup.others, setup.world);
   tool::draw(options, setup.plan, setup.world);
   setup.record_file = options.record_file;

@@ -1,0 +1,203 @@
+#include "host/tool/walk_team.hpp"
+
+#include <fmt/format.h>
+
+#include <cctype>
+#include <memory>
+
+#include "host/link/system_clock.hpp"
+#include "host/session/served.hpp"
+#include "host/tool/bit_rate.hpp"
+#include "host/tool/console.hpp"
+#include "host/tool/interrupt.hpp"
+
+namespace verp::tool {
+namespace {
+
+/// A file of this one's, for the robot of that name.
+std::string file_of(const std::filesystem::path& first, const std::string& robot) {
+  std::string name = robot;
+  for (char& c : name) {
+    if (std::isalnum(static_cast<unsigned char>(c)) == 0 && c != '-') c = '_';
+  }
+  const std::string file = first.stem().string() + "." + name + first.extension().string();
+  return (first.parent_path() / file).string();
+}
+
+/// Robots in one session, and who drives them.
+class Team {
+ public:
+  Team(const WalkOptions& options, session::Session& session, Progress& progress)
+      : options_(options), session_(session), progress_(progress) {}
+
+  session::Robot& add(const WalkPlan& plan, session::Hooks hooks) {
+    return session_.add(plan, std::move(hooks), [&](session::Robot& robot) {
+      return plan.link.empty() ? session::make_controller(robot) : served(plan, robot);
+    });
+  }
+
+  /// Ends what is to end with a robot that lost its controller.
+  void look_after_losses() {
+    if (lost_.empty() || options_.team.go_on || ended_) return;
+    ended_ = true;
+    for (std::size_t i = 0; i < session_.size(); ++i) {
+      session_.robot(i).fail(
+          fmt::format("stopped, because {} lost its controller; --if-lost-go-on walks on", lost_));
+    }
+  }
+
+ private:
+  std::unique_ptr<session::Controller> served(const WalkPlan& plan, session::Robot& robot) {
+    const std::string name = robot.name();
+    const auto say = [this, name](const std::string& line) {
+      progress_.clear();
+      complain(fmt::format("verp walk: {}: {}", name, line));
+    };
+    return session::make_served(
+        robot, {.link = plan.link,
+                .pace = session::Pace::kLockstep,
+                .patience_s = options_.team.patience_s,
+                .ends_with_controller = true,
+                .told = say,
+                .check =
+                    [&params = robot.plan().params](const wire::CanInterface& interface) {
+                      check_bit_rate("verp walk", interface, params);
+                    },
+                .gave_up =
+                    [this, name, say](const std::string& why) {
+                      say(why);
+                      if (lost_.empty()) lost_ = name;
+                    }});
+  }
+
+  const WalkOptions& options_;
+  session::Session& session_;
+  Progress& progress_;
+  std::string lost_;  ///< the first that lost its controller
+  bool ended_ = false;
+};
+
+std::string driver_of(const WalkPlan& plan) {
+  return !plan.link.empty() ? plan.link : plan.board.empty() ? "this PC" : plan.board;
+}
+
+}  // namespace
+
+OtherFiles::OtherFiles(const WalkOptions& options, const WalkFiles& first,
+                       const std::vector<WalkPlan>& others) {
+  if (first.trace_path().empty()) return;
+  for (const WalkPlan& other : others) {
+    WalkOptions own = options;
+    own.report_folder.clear();
+    // Of a controller outside only what the robot did is known; what it was told, it may record.
+    own.record_file = other.link.empty() ? file_of(first.trace_path(), other.name) : "";
+    own.board = other.board;
+    files_.emplace_back(own, other);
+  }
+}
+
+void OtherFiles::finish(const Walks& walks) {
+  for (std::size_t i = 0; i < files_.size(); ++i) files_[i].finish(walks.others[i].second, {});
+}
+
+std::string OtherFiles::name(std::size_t i) const {
+  return files_.empty() ? "" : files_[i].trace_path().string();
+}
+
+std::vector<std::string> OtherFiles::lost() const {
+  std::vector<std::string> lost;
+  for (const WalkFiles& each : files_)
+    lost.insert(lost.end(), each.lost().begin(), each.lost().end());
+  return lost;
+}
+
+Walks walk_together(const WalkPlan& plan, const std::vector<WalkPlan>& others,
+                    const WalkOptions& options, const sim::WorldOptions& world, WalkFiles& files,
+                    OtherFiles& other_files, Progress& progress, WalkCameras* cameras) {
+  session::Session session({.world = world, .interrupted = interrupted});
+  Team team(options, session, progress);
+  session::Hooks hooks =
+      shown(plan, files.trace(), progress, plan.params.name, files.wants_report());
+  if (cameras != nullptr) cameras->watch(session, plan, hooks);
+  const session::Robot& first = team.add(plan, std::move(hooks));
+  for (std::size_t i = 0; i < others.size(); ++i) {
+    session::Hooks own;
+    own.trace = other_files.trace(i);
+    team.add(others[i], std::move(own));
+  }
+  wire::SystemClock clock;
+  app::Pacer pacer(clock);
+  const std::uint64_t begun_us = clock.now_us();
+  if (options.real_time) pacer.start(plan.params.period_us);
+  while (const session::Robot* robot = session.tick()) {
+    if (options.real_time && robot == &first) pacer.next();
+    team.look_after_losses();
+  }
+  if (cameras != nullptr) cameras->finish();
+  Walks walks;
+  walks.deadlines = pacer.deadlines();
+  walks.took_s = 1e-6 * static_cast<double>(clock.now_us() - begun_us);
+  walks.result = session.result(0);
+  for (std::size_t i = 0; i < others.size(); ++i)
+    walks.others.emplace_back(others[i].name, session.result(i + 1));
+  if (session.scenery() != nullptr) walks.objects = objects_of(*session.scenery());
+  return walks;
+}
+
+std::string team_text(const Walks& walks, const std::vector<WalkPlan>& others,
+                      const OtherFiles& files, const sim::WorldOptions& world) {
+  std::string out;
+  if (world.scenery != nullptr)
+    out = fmt::format("  {:<18}{}, {}\n", "world", world.scenery->name, world.scenery->file);
+  for (const Json& each : walks.objects) {
+    const Json& at = each["position_m"];
+    out += fmt::format("  {:<18}at the end at {:.3f} {:.3f} {:.3f} m\n",
+                       each["name"].get<std::string>(), at[0].get<double>(), at[1].get<double>(),
+                       at[2].get<double>());
+  }
+  for (std::size_t i = 0; i < others.size(); ++i) {
+    const auto& [name, result] = walks.others[i];
+    const std::string trace = files.name(i);
+    const sim::Vec2 way_m = result.end_m - others[i].twin.start_m.head<2>();
+    out += fmt::format("  {:<18}{}, {:.2f} m, {}{}{}\n", name,
+                       result.failure.empty() ? "walked" : result.failure, way_m.norm(),
+                       result.digest == 0 ? "driven over " + driver_of(others[i])
+                                          : fmt::format("digest 0x{:016x}", result.digest),
+                       others[i].board.empty() ? "" : " on " + others[i].board,
+                       trace.empty() || result.digest == 0 ? "" : ", " + trace);
+  }
+  return out;
+}
+
+Json team_json(const Walks& walks, const std::vector<WalkPlan>& others, const OtherFiles& files,
+               const sim::WorldOptions& world) {
+  Json out = Json::object();
+  if (world.scenery != nullptr) out = {{"world", world.scenery->file}, {"objects", walks.objects}};
+  for (std::size_t i = 0; i < others.size(); ++i) {
+    const auto& [name, result] = walks.others[i];
+    Json row = {{"name", name},
+                {"model", others[i].params.name},
+                {"seed", others[i].twin.seed},
+                {"controller", driver_of(others[i])},
+                {"failure", result.failure},
+                {"ticks", result.ticks},
+                {"fallen", result.metrics.fallen},
+                {"start_m", {others[i].twin.start_m.x(), others[i].twin.start_m.y()}},
+                {"end_m", {result.end_m.x(), result.end_m.y()}},
+                {"digest", fmt::format("0x{:016x}", result.digest)}};
+    if (!files.name(i).empty()) row["trace"] = files.name(i);
+    out["others"].push_back(row);
+  }
+  return out;
+}
+
+std::vector<std::string> failures_of(const Walks& walks, const OtherFiles& files) {
+  std::vector<std::string> lines = files.lost();
+  for (const auto& [name, result] : walks.others) {
+    if (!result.failure.empty())
+      lines.push_back(fmt::format("verp walk: {}: {}", name, result.failure));
+  }
+  return lines;
+}
+
+}  // namespace verp::tool

@@ -1,0 +1,116 @@
+#include <signal.h>
+
+#include <chrono>
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "host/process/child.hpp"
+#include "tests/host/tool/program.hpp"
+
+// Several robots in one world: each walks as it does alone, whoever drives it, and one that loses
+// its controller takes nobody's result away.
+
+namespace verp::tool::test {
+namespace {
+
+using nlohmann::json;
+
+class Team : public Program {
+ protected:
+  /// This program's controller for the robot at the other end of `link`, beside the walk.
+  process::Child controller(const std::string& link, const std::string& trace = "") const {
+    for (int i = 0; i < 1500 && !fs::exists(folder_ / link); ++i)
+      std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    std::vector<std::string> words = {VERP_PROGRAM, "run",    "--lockstep", "--for",
+                                      "3",          "--json", "--link",     "unix:" + link};
+    if (!trace.empty()) words.insert(words.end(), {"--record", trace});
+    return process::Child({.words = words,
+                           .input = {},
+                           .output = {.file = folder_ / (link + ".out")},
+                           .folder = folder_});
+  }
+
+  Outcome walk_beside(const std::function<void()>& meanwhile, const std::string& words) const {
+    Outcome outcome;
+    std::thread world([&] { outcome = verp("walk --json --for 3 " + words, "world"); });
+    meanwhile();
+    world.join();
+    return outcome;
+  }
+
+  json first_difference(const std::string& trace, const std::string& other) const {
+    return json::parse(verp("diff --json " + trace + " " + other, "diff").out).at("divergence");
+  }
+};
+
+TEST_F(Team, EachWalksAsItDoesAloneAndLeavesATraceOfItsOwn) {
+  const Outcome together = verp("walk --robots 3 --for 3 --json --record a.mcap");
+  ASSERT_EQ(together.status, 0) << together.err;
+  const json all = json::parse(together.out);
+  EXPECT_EQ(all.at("digest"), json::parse(verp("walk --for 3 --json").out).at("digest"));
+  ASSERT_EQ(all.at("others").size(), 2u);
+  const json& third = all.at("others")[1];
+  EXPECT_EQ(third.at("name"), "r3");
+  const json alone = json::parse(verp("walk --for 3 --json --seed 3 --at-pose -0.8,0,0").out);
+  EXPECT_EQ(third.at("digest"), alone.at("digest"))
+      << "the third has the third seed, and its place";
+  const Outcome replay = verp("replay a.r3.mcap --json");
+  EXPECT_EQ(replay.status, 0) << replay.err;
+  EXPECT_EQ(json::parse(replay.out).at("digest_replayed"), third.at("digest"));
+}
+
+TEST_F(Team, AControllerInAnotherProcessMakesTheSameBits) {
+  const Outcome world = walk_beside(
+      [&] { EXPECT_EQ(controller("b.sock", "b.mcap").wait(), 0) << slurp(folder_ / "b.sock.out"); },
+      "--robot a=generic21 --robot b=ext:unix-listen:b.sock");
+  ASSERT_EQ(world.status, 0) << world.err;
+  const json all = json::parse(world.out);
+  EXPECT_EQ(all.at("others")[0].at("controller"), "unix-listen:b.sock");
+  EXPECT_GT(all.at("others")[0].at("end_m")[0].get<double>(), 0.1) << "it walked";
+  const Outcome own = verp("walk --seed 2 --at-pose 0,-0.8,0 --for 3 --json --record own.mcap");
+  ASSERT_EQ(own.status, 0) << own.err;
+  // Until the one that drives it from outside has it sit down, as who drives a real robot does.
+  const json first = first_difference("own.mcap", "b.mcap");
+  EXPECT_EQ(first.at("stage"), "inputs") << first;
+  EXPECT_GE(first.at("tick").get<int>() + 35, json::parse(own.out).at("ticks").get<int>()) << first;
+}
+
+TEST_F(Team, OneThatLosesItsControllerStopsTheOthersOrGoesOnWithout) {
+  for (const std::string option : {"", " --if-lost-go-on"}) {
+    const Outcome world = walk_beside(
+        [&] {
+          process::Child child = controller("b.sock");
+          while (slurp(folder_ / "world.err").find("has torque") == std::string::npos)
+            std::this_thread::sleep_for(std::chrono::milliseconds(10));
+          child.tell(SIGKILL);
+        },
+        "--robots 2 --robot r2=ext:unix-listen:b.sock --patience 0.5" + option);
+    fs::remove(folder_ / "b.sock");
+    EXPECT_EQ(world.status, 1) << world.err;
+    const json all = json::parse(world.out);
+    const std::string why = all.at("others")[0].at("failure");
+    EXPECT_NE(why.find("kept the twin waiting for 0.5 s: its link is lost"), std::string::npos)
+        << why;
+    EXPECT_EQ(all.at("failure").get<std::string>().empty(), !option.empty()) << all.at("failure");
+  }
+}
+
+TEST_F(Team, WrongWordsAreRefused) {
+  expect_refused("walk generic21 --robot op3", "two models, generic21 and op3");
+  expect_refused("walk --robot a=", "is not NAME=MODEL");
+  expect_refused("walk --robot a=ext:", "is not NAME=MODEL");
+  expect_refused("walk --robot a=generic21,over:x", "is not NAME=MODEL");
+  expect_refused("walk --robot a=generic21 --robot a=generic21", "there is a robot a already");
+  expect_refused("walk --robot a=nope", "there is no robot of this name");
+  expect_refused("walk --robot a=ext:bogus", "bogus");
+  expect_refused("walk --robots 17", "1 to 16");
+  expect_refused("walk --robots 16 --robot extra=generic21", "a world has room for 16");
+  expect_refused("walk --robots 2 --on mps2_an386", "--robot NAME=on:mps2_an386");
+  expect_refused("walk --robots 2 --at-pose 1,0,0", "say whose it is");
+  expect_refused("walk --robot a=ext:unix-listen:a.sock --record a.mcap", "record its own");
+  expect_refused("run op3 --bus can --lockstep --link can:vcan0", "--");
+}
+
+}  // namespace
+}  // namespace verp::tool::test
