@@ -33,7 +33,8 @@ class Team : public Program {
 
   Outcome walk_beside(const std::function<void()>& meanwhile, const std::string& words) const {
     Outcome outcome;
-    std::thread world([&] { outcome = verp("walk --json --for 3 " + words, "world"); });
+    std::thread world(
+        [&] { outcome = verp("walk --json --for 3 --physics-step 2 " + words, "world"); });
     meanwhile();
     world.join();
     return outcome;
@@ -45,14 +46,16 @@ class Team : public Program {
 };
 
 TEST_F(Team, EachWalksAsItDoesAloneAndLeavesATraceOfItsOwn) {
-  const Outcome together = verp("walk --robots 3 --for 3 --json --record a.mcap");
+  const Outcome together = verp("walk --robots 3 --for 3 --physics-step 2 --json --record a.mcap");
   ASSERT_EQ(together.status, 0) << together.err;
   const json all = json::parse(together.out);
-  EXPECT_EQ(all.at("digest"), json::parse(verp("walk --for 3 --json").out).at("digest"));
+  EXPECT_EQ(all.at("digest"),
+            json::parse(verp("walk --for 3 --physics-step 2 --json").out).at("digest"));
   ASSERT_EQ(all.at("others").size(), 2u);
   const json& third = all.at("others")[1];
   EXPECT_EQ(third.at("name"), "r3");
-  const json alone = json::parse(verp("walk --for 3 --json --seed 3 --at-pose -0.8,0,0").out);
+  const json alone =
+      json::parse(verp("walk --for 3 --physics-step 2 --json --seed 3 --at-pose -0.8,0,0").out);
   EXPECT_EQ(third.at("digest"), alone.at("digest"))
       << "the third has the third seed, and its place";
   const Outcome replay = verp("replay a.r3.mcap --json");
@@ -68,7 +71,8 @@ TEST_F(Team, AControllerInAnotherProcessMakesTheSameBits) {
   const json all = json::parse(world.out);
   EXPECT_EQ(all.at("others")[0].at("controller"), "unix-listen:b.sock");
   EXPECT_GT(all.at("others")[0].at("end_m")[0].get<double>(), 0.1) << "it walked";
-  const Outcome own = verp("walk --seed 2 --at-pose 0,-0.8,0 --for 3 --json --record own.mcap");
+  const Outcome own =
+      verp("walk --seed 2 --at-pose 0,-0.8,0 --for 3 --physics-step 2 --json --record own.mcap");
   ASSERT_EQ(own.status, 0) << own.err;
   // Until the one that drives it from outside has it sit down, as who drives a real robot does.
   const json first = first_difference("own.mcap", "b.mcap");
