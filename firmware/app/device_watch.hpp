@@ -91,23 +91,29 @@ class DeviceWatch {
     watch(row, fresh ? 1 : 0, faulty, limits);
   }
 
-  /// A servo that has told one and the same position for a while, though its goal has moved away
-  /// from where it was then: its encoder, or whatever answers for it, repeats an old value, or the
-  /// joint is stuck.
+  /// A servo that tells one and the same position, though its goal has been away for a while from
+  /// where it was when that began: its encoder, or whatever answers for it, repeats an old value,
+  /// or the joint is stuck.
   bool stands_still(int j, const Inputs& inputs, const Outputs& outputs) {
-    constexpr std::uint8_t kPatience = 5;  // ticks: a servo's lag, and its start from rest
-    constexpr float kAway_rad = 0.0614F;   // 3.5 degrees: beyond any sag or backlash
+    // Ticks for which the goal is away: a servo's lag, and its start from rest. A knee that stood
+    // by chance was told to step 3.7 degrees in 3 ticks, and moved one later.
+    constexpr std::uint8_t kPatience = 4;
+    constexpr float kAway_rad = 0.0614F;  // 3.5 degrees: beyond any sag or backlash
     Still& still = still_[j];
     const bool holds = (outputs.torque_enable >> j & 1u) != 0;
     if (!holds || inputs.position_count[j] != still.position_count) {
       still = {inputs.position_count[j], outputs.goal_count[j], 0};
       return false;
     }
-    if (still.ticks < kPatience) ++still.ticks;
     const std::int64_t moved = std::int64_t{outputs.goal_count[j]} - still.goal_count;
     const std::int32_t away =
         math::to_int32(kAway_rad * math::abs(params_.joint[j].counts_per_rad));
-    return still.ticks == kPatience && (moved > away || moved < -away);
+    if (moved <= away && moved >= -away) {
+      still.ticks = 0;
+    } else if (still.ticks < kPatience) {
+      ++still.ticks;
+    }
+    return still.ticks == kPatience;
   }
 
   void mark_stale(int row) {
@@ -150,7 +156,7 @@ class DeviceWatch {
   struct Still {
     std::int32_t position_count = 0;
     std::int32_t goal_count = 0;  ///< at that time
-    std::uint8_t ticks = 0;       ///< reports since then, up to a few
+    std::uint8_t ticks = 0;       ///< for which the goal was away from there, up to a few
   };
 
   const Params& params_;
