@@ -85,7 +85,7 @@ struct WalkResult {
   int falls = 0, get_ups = 0;  ///< as the controller saw them
   double longest_step_m = 0;   ///< that the gait made: the asked one, or what limits left of it
   double simulated_s = 0, wall_s = 0;
-  sim::Vec2 end_m{0, 0};  ///< where its body was then, in the world
+  sim::Vec2 end_m{0, 0};              ///< where its body was then, in the world
   std::vector<double> set_upright_s;  ///< when somebody set it on its feet, simulated time
   std::vector<Done> interventions;    ///< what of the plan's was done, and what else
   bool interrupted = false;
