@@ -21,7 +21,11 @@
 namespace verp::session {
 namespace {
 
+#ifdef VERP_ADDRESS_SANITIZER
+constexpr std::size_t kStack_bytes = 1 << 20;  // whose shadow it clears at each change
+#else
 constexpr std::size_t kStack_bytes = 8 << 20;  // a thread's
+#endif
 constexpr std::size_t kGuard_bytes = 1 << 16;
 
 // The sanitizer's shadow of a stack is changed with the stack. `keep` null: that stack ends.
