@@ -192,6 +192,7 @@ class RobotRun {
   // silent again: a wire loses a frame, a busy PC looks too late. A person who presses again has no
   // patience with that.
   void make_sure() {
+    if (twin_ended()) return;  // and with it all that could hold
     std::vector<int> silent(static_cast<std::size_t>(params_.servo_count()));
     std::iota(silent.begin(), silent.end(), 0);
     for (int round = 0; round < kAsked && !silent.empty(); ++round) {

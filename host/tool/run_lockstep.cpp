@@ -46,8 +46,8 @@ class TwinInLockstep {
   }
   void report(const app::LoopHealth&) {}
 
-  // Nothing is lost in lockstep: what was sent has arrived. A twin that has ended holds nothing.
-  LetGo let_go(int) const { return torque_ && !stopped() ? LetGo::kNo : LetGo::kYes; }
+  // Nothing is lost in lockstep: what was sent has arrived.
+  LetGo let_go(int) const { return torque_ ? LetGo::kNo : LetGo::kYes; }
 
  private:
   wire::Link& link_;

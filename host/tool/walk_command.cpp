@@ -54,8 +54,7 @@ int run_walk(WalkOptions options) {
   if (!options.seeds_text.empty()) return walk_seeds(options);
   if (!options.map.kind.empty()) {
     if (!others.empty()) {
-      throw ToolError(kBadInput,
-                      "verp walk: --map is of one robot; take the others out of the world");
+      throw ToolError(kBadInput, "verp walk: --map is of one robot; leave the others out");
     }
     return walk_map(options, plan, world);
   }
