@@ -1,13 +1,8 @@
 #include "host/record/compression.hpp"
 
-#ifdef VERP_HAS_ZSTD
 #include <zstd.h>
-#endif
 
 namespace verp::record::mcap {
-
-#ifdef VERP_HAS_ZSTD
-
 namespace {
 
 /// A walk of 20 s, 7.7 MB: 1.47 MB in 12 ms; level 3 gives 1.40 MB in 17 ms, level 9 1.31 in 72 (in
@@ -17,10 +12,6 @@ constexpr int kLevel = 1;
 constexpr std::uint64_t kMostBytes = 1u << 30;
 
 }  // namespace
-
-bool has_zstd() {
-  return true;
-}
 
 std::string packed(std::string_view bytes) {
   std::string frame(ZSTD_compressBound(bytes.size()), '\0');
@@ -42,21 +33,5 @@ std::optional<std::string> unpacked(std::string_view compression, std::string_vi
   if (ZSTD_isError(got) != 0 || got != size) return std::nullopt;
   return bytes;
 }
-
-#else
-
-bool has_zstd() {
-  return false;
-}
-
-std::string packed(std::string_view) {
-  return {};
-}
-
-std::optional<std::string> unpacked(std::string_view, std::string_view, std::uint64_t) {
-  return std::nullopt;
-}
-
-#endif
 
 }  // namespace verp::record::mcap

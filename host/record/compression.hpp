@@ -9,14 +9,11 @@ namespace verp::record::mcap {
 
 inline constexpr std::string_view kZstdName = "zstd";
 
-/// Whether this program was built where zstd is (Debian: libzstd-dev).
-bool has_zstd();
-
-/// As one zstd frame; empty where that is no shorter, or zstd is missing.
+/// As one zstd frame; empty where that is no shorter.
 std::string packed(std::string_view bytes);
 
 /// The `size` bytes that a frame of that compression holds; nothing when it is damaged, of another
-/// size, or of a compression that this program does not have.
+/// size, or of another compression than zstd.
 std::optional<std::string> unpacked(std::string_view compression, std::string_view frame,
                                     std::uint64_t size);
 

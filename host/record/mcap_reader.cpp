@@ -171,9 +171,9 @@ class Parser {
     if (!in.good() || !in.at_end()) {
       return fail(start, "edited or damaged: a chunk's fields overrun it");
     }
-    if (!compression.empty() && (compression != kZstdName || !has_zstd())) {
+    if (!compression.empty() && compression != kZstdName) {
       return fail(start, "a chunk is compressed by " + std::string(compression) +
-                             ", which this verp was built without");
+                             ", and zstd alone is known here");
     }
     if (!compression.empty()) {
       auto unpacked = mcap::unpacked(compression, records, size);

@@ -40,10 +40,6 @@ bool holds_something_else(const std::filesystem::path& path) {
 Writer::Writer(std::filesystem::path path, std::string_view profile, std::string_view library,
                Compression compression)
     : path_(std::move(path)), compression_(compression) {
-  if (compression_ == Compression::kZstd && !has_zstd()) {
-    throw TraceError(path_, "cannot be compressed: this verp was built without zstd",
-                     "apt-get install libzstd-dev and build again, or record as it is");
-  }
   if (std::filesystem::is_directory(path_)) {
     throw TraceError(path_, "is a folder", "name a file, such as run.mcap");
   }

@@ -43,6 +43,18 @@ void refuse_of_outside(const WalkOptions& options, const WalkPlan& first) {
                   "one, or have the controller outside record its own");
 }
 
+/// Robots of one world have seeds in a row: those of two walks would be the same ones in part, and
+/// no share could be told of them.
+void require_one_robot(const WalkOptions& options, const std::vector<WalkPlan>& others) {
+  const char* option = !options.seeds_text.empty() ? "--seeds"
+                       : !options.map.kind.empty() ? "--map"
+                                                   : nullptr;
+  if (option == nullptr || others.empty()) return;
+  throw ToolError(kBadInput, fmt::format("verp walk: {} is of walks of one robot; leave the others "
+                                         "out",
+                                         option));
+}
+
 int run_walk(WalkOptions options) {
   read_robot_words(options);
   sim::WorldOptions world = world_of(options);
@@ -51,13 +63,9 @@ int run_walk(WalkOptions options) {
   others.erase(others.begin());
   if (options.touch.list) return list_quantities(plan, others, world, options.json);
   read_touch(options.touch, plan, others, world);
+  require_one_robot(options, others);
   if (!options.seeds_text.empty()) return walk_seeds(options);
-  if (!options.map.kind.empty()) {
-    if (!others.empty()) {
-      throw ToolError(kBadInput, "verp walk: --map is of one robot; leave the others out");
-    }
-    return walk_map(options, plan, world);
-  }
+  if (!options.map.kind.empty()) return walk_map(options, plan, world);
   Drawn drawn = draw(options, plan, world);
   for (WalkPlan& other : others) {
     sim::WorldOptions same = world;  // of the floor, the first one's draw holds

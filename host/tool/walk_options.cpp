@@ -142,7 +142,7 @@ void declare(CLI::App& app, WalkOptions& options) {
                  "a robot by its name, or the path of its SDF file. Several: --robot "
                  "NAME=MODEL[,ext:LINK|,on:BOARD] for each, driven by this program, by another one "
                  "at the end of a link (in lockstep), or on an emulated board")
-      ->type_name("MODEL [generic21]")
+      ->type_name("TEXT=generic21")
       ->allow_extra_args(false);
   declare_robots(app, options.team);
   declare_outside(app, options.team);

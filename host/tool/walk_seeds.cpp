@@ -40,8 +40,6 @@ std::vector<std::string> words_of(const WalkOptions& o, std::uint64_t seed) {
   for (const std::string& setting : o.settings) add("--set", setting);
   if (!o.place.world.empty()) add("--world", o.place.world);
   for (const std::string& pose : o.place.poses) add("--at-pose", pose);
-  if (o.team.robots > 0) add("--robots", std::to_string(o.team.robots));
-  for (const std::string& seat : o.team.seats) add("--robot", seat);
   for (const std::string& push : o.touch.pushes) add("--push", push);
   for (const std::string& setting : o.touch.settings) add("--at", setting);
   for (const auto& [flag, given] : {std::pair{"--vary", o.vary},

@@ -46,7 +46,6 @@ TEST_F(Mcap, ReadsBackWhatItWrote) {
 }
 
 TEST_F(Mcap, CompressedHoldsTheSameInLess) {
-  if (!mcap::has_zstd()) GTEST_SKIP() << "built without libzstd-dev";
   const std::string plain = small_file(folder_ / "a.mcap");
   const std::string bytes = small_file(folder_ / "b.mcap", mcap::Compression::kZstd);
   EXPECT_LT(bytes.size(), plain.size() - 3 * 90);
@@ -76,7 +75,6 @@ INSTANTIATE_TEST_SUITE_P(EachCompression, McapOf,
                          ::testing::Values(mcap::Compression::kNone, mcap::Compression::kZstd));
 
 TEST_P(McapOf, EveryTruncationIsSeenAndWholeChunksSurvive) {
-  if (GetParam() == mcap::Compression::kZstd && !mcap::has_zstd()) GTEST_SKIP();
   const std::string bytes = small_file(folder_ / "a.mcap", GetParam());
   std::size_t most = 0;
   for (std::size_t size = 0; size < bytes.size(); ++size) {
@@ -92,7 +90,6 @@ TEST_P(McapOf, EveryTruncationIsSeenAndWholeChunksSurvive) {
 }
 
 TEST_P(McapOf, EveryEditedByteIsSeen) {
-  if (GetParam() == mcap::Compression::kZstd && !mcap::has_zstd()) GTEST_SKIP();
   std::string bytes = small_file(folder_ / "a.mcap", GetParam());
   for (std::size_t i = 0; i < bytes.size(); ++i) {
     for (const int flip : {0x01, 0x80, 0xFF}) {

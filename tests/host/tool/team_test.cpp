@@ -111,6 +111,8 @@ TEST_F(Team, WrongWordsAreRefused) {
   expect_refused("walk --robots 17", "1 to 16");
   expect_refused("walk --robots 16 --robot extra=generic21", "a world has room for 16");
   expect_refused("walk --robots 2 --on mps2_an386", "--robot NAME=on:mps2_an386");
+  expect_refused("walk --robots 2 --seeds 1-4", "--seeds is of walks of one robot");
+  expect_refused("walk --robots 2 --map push", "--map is of walks of one robot");
   expect_refused("walk --robots 2 --at-pose 1,0,0", "say whose it is");
   expect_refused("walk --robot a=ext:unix-listen:a.sock --record a.mcap", "record its own");
   expect_refused("run op3 --bus can --lockstep --link can:vcan0", "--");
