@@ -13,16 +13,16 @@ RunSetup run_of(const tool::WalkOptions& options) {
   RunSetup setup;
   setup.world = tool::world_of(options);
   std::vector<session::WalkPlan> plans = tool::make_plans(options, setup.world);
-  setup.plan = std::move(plans.front());
-  plans.erase(plans.begin());
-  setup.others = std::move(plans);
-  for (const session::WalkPlan& other : setup.others) {
-    if (other.link.empty() && other.board.empty()) continue;
+  for (const session::WalkPlan& plan : plans) {
+    if (plan.link.empty() && plan.board.empty()) continue;
     throw tool::ToolError(tool::kBadInput,
-                          "verp view: --robot " + other.name +
+                          "verp view: --robot " + plan.name +
                               ": the window shows robots that this program drives; give the "
                               "others to `verp walk`");
   }
+  setup.plan = std::move(plans.front());
+  plans.erase(plans.begin());
+  setup.others = std::move(plans);
   tool::read_touch(options.touch, setup.plan, setup.others, setup.world);
   tool::draw(options, setup.plan, setup.world);
   setup.record_file = options.record_file;
