@@ -7,8 +7,8 @@
  * Handles are numbers that are never used twice, so one that was closed is known as such. A handle
  * is for one thread at a time: a second one gets VERP_BUSY. Different handles may be used by
  * different threads at the same time, and equal calls give equal bits whatever the others do. A
- * callback runs inside verp_session_tick(): calls with the handle of that session then give
- * VERP_BUSY, all others work.
+ * callback runs inside verp_session_tick(), in its thread and on its stack: calls with the handle
+ * of that session then give VERP_BUSY, all others work.
  *
  * Structs begin with `size`, which the caller sets to sizeof: another one's is refused. Memory that
  * the caller gives is the caller's, and no pointer to the library's own is ever handed out, but

@@ -69,6 +69,15 @@ bool Flow::resume() {
   if (ended_) return false;
   if (stack_ == nullptr) begin();
   go();
+  while (outside_ != nullptr) {
+    try {
+      (*outside_)();
+    } catch (...) {
+      error_ = std::current_exception();
+    }
+    outside_ = nullptr;
+    go();
+  }
   if (error_) std::rethrow_exception(std::exchange(error_, nullptr));
   return !ended_;
 }
@@ -119,6 +128,12 @@ void Flow::pause() {
   if (unwinding_) return;  // called by a destructor
   back();
   if (unwinding_) throw Unwound{};
+}
+
+void Flow::outside(const std::function<void()>& call) {
+  outside_ = &call;
+  back();
+  if (error_) std::rethrow_exception(std::exchange(error_, nullptr));
 }
 
 }  // namespace verp::session

@@ -25,6 +25,9 @@ class Flow {
   bool resume();
   /// Called by the body: goes on at the next resume().
   void pause();
+  /// Called by the body: has this called on the stack of whoever resumed, which is for code that
+  /// knows its thread by its stack, as languages with a garbage collector do. Throws what it threw.
+  void outside(const std::function<void()>& call);
 
  private:
   struct Unwound {};  // no std::exception: nobody catches it on the way
@@ -53,6 +56,7 @@ class Flow {
   std::unique_ptr<Stack> stack_;  ///< null: not begun
   ucontext_t here_{}, there_{};   ///< of the caller and of the body, while the other one runs
   std::exception_ptr error_;
+  const std::function<void()>* outside_ = nullptr;  ///< the body waits for it
   bool ended_ = false, unwinding_ = false;
   // What the address sanitizer wants to know of a change of stacks.
   void* fake_here_ = nullptr;

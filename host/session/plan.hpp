@@ -51,7 +51,7 @@ struct Tick {
 
 /// What a user wants of one robot's run. Empty members are allowed. All are called during
 /// Session::tick(), by the thread that called it, and never at the same time; of one of several
-/// robots some are called on a stack of its own (Flow).
+/// robots `order` and `amend` are called on a stack of its own (Flow).
 struct Hooks {
   /// Orders in place of the walk's own; asked once a tick, with the number of the last one begun.
   std::function<app::OperatorOrder(std::uint32_t tick)> order;

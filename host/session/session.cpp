@@ -14,9 +14,20 @@ namespace verp::session {
 struct Session::Seat final : sim::TimeSource {
   Seat(Session& session, const WalkPlan& plan, Hooks hooks, const MakeController& make)
       : world(session.world_),
-        robot(world, plan, std::move(hooks), session.options_.interrupted),
+        robot(world, plan, with_decide_outside(std::move(hooks)), session.options_.interrupted),
         controller(make(robot)) {
     robot.twin().set_time(*this);
+  }
+
+  /// A user's controller is called on the stack that called tick(), be the robot alone or not.
+  Hooks with_decide_outside(Hooks hooks) {
+    if (!hooks.decide) return hooks;
+    hooks.decide = [this, decide = std::move(hooks.decide)](const Params& params, State& state,
+                                                            const Inputs& in, Outputs& out) {
+      if (!flow) return decide(params, state, in, out);
+      flow->outside([&] { decide(params, state, in, out); });
+    };
+    return hooks;
   }
 
   void advance_to(std::uint64_t time_us) override {

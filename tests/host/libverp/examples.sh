@@ -1,15 +1,15 @@
 #!/usr/bin/env bash
-# examples.sh VERP PROGRAMS SOURCES OCTAVE: the same example gives the same words in C, C++, Python and Octave, and a walk has
-# the digest that `verp walk` gives.
+# examples.sh VERP PROGRAMS SOURCES OCTAVE CSHARP: the same example gives the same words in C, C++, Python, Octave and C#, and a
+# walk has the digest that `verp walk` gives.
 set -euo pipefail
-verp=$1 programs=$2 sources=$3 octave=$4
+verp=$1 programs=$2 sources=$3 octave=$4 csharp=$5
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 cd "$scratch"
 say() { echo "examples: $*" && exit 1; }
 
 same() { # name argument...: runs it in all languages
-  local name=$1 c cpp py m arguments
+  local name=$1 c cpp py m cs arguments
   shift
   c=$("$programs/example_${name}_c" "$@") || say "$name.c failed: $c"
   cpp=$("$programs/example_${name}_cpp" "$@") || say "$name.cpp failed: $cpp"
@@ -17,7 +17,9 @@ same() { # name argument...: runs it in all languages
   printf -v arguments "'%s'," "$@"
   arguments=$(sed -E "s/'([0-9]+)'/\1/g" <<<"${arguments%,}") # numbers are no texts
   m=$("$octave" --eval "addpath('$sources'); verp_$name($arguments)") || say "verp_$name.m failed: $m"
-  [[ $c == "$cpp" && $c == "$py" && $c == "$m" ]] || say "$name: C says '$c', C++ '$cpp', Python '$py', Octave '$m'"
+  cs=$("$csharp" "$name" "$@") || say "$name.cs failed: $cs"
+  [[ $c == "$cpp" && $c == "$py" && $c == "$m" && $c == "$cs" ]] ||
+    say "$name: C says '$c', C++ '$cpp', Python '$py', Octave '$m', C# '$cs'"
   words=$c
 }
 

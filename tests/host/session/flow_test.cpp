@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdint>
+#include <cstdlib>
 #include <stdexcept>
 #include <string>
 
@@ -60,6 +62,34 @@ TEST(Flow, UnwindsABodyThatNobodyRunsToItsEnd) {
   }
   EXPECT_TRUE(left);
   EXPECT_FALSE(went_on);
+}
+
+TEST(Flow, HasACallMadeOnTheStackOfWhoeverResumes) {
+  const char* resumed = nullptr;
+  const auto far = [&resumed](const char* other) {
+    return std::abs(reinterpret_cast<std::intptr_t>(resumed) -
+                    reinterpret_cast<std::intptr_t>(other)) > (1 << 20);
+  };
+  bool body_is_far = false, call_is_far = true;
+  std::string told;
+  Flow flow([&](Flow& own) {
+    body_is_far = far(static_cast<const char*>(__builtin_frame_address(0)));
+    own.outside([&] { call_is_far = far(static_cast<const char*>(__builtin_frame_address(0))); });
+    try {
+      own.outside([] { throw std::runtime_error("no controller"); });
+    } catch (const std::runtime_error& error) {
+      told = error.what();
+    }
+    own.pause();
+    own.outside([] { throw std::runtime_error("nobody catches it"); });
+  });
+  resumed = static_cast<const char*>(__builtin_frame_address(0));
+  EXPECT_TRUE(flow.resume());
+  EXPECT_TRUE(body_is_far);
+  EXPECT_FALSE(call_is_far);
+  EXPECT_EQ(told, "no controller");
+  EXPECT_THROW(flow.resume(), std::runtime_error);
+  EXPECT_FALSE(flow.resume());
 }
 
 TEST(Flow, ThatNeverRanNeverDoes) {

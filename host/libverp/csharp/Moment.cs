@@ -1,0 +1,48 @@
+using System;
+
+namespace Verp {
+  /// <summary>Decides a tick. It may throw: the run ends, and Session.Tick() tells.</summary>
+  public delegate void Controller(Moment moment);
+
+  /// <summary>One tick in a controller's hands: copies, so that nothing breaks if it is looked at later.</summary>
+  public sealed unsafe class Moment {
+    public uint Robot { get; private set; }
+    public verp_inputs Inputs;
+    /// <summary>Those of the tick before; what stands here afterwards is sent.</summary>
+    public verp_outputs Outputs;
+    ulong token;
+    verp_outputs* sent;
+
+    /// <summary>The robot's own controller decides; Outputs may then be changed.</summary>
+    public void Decide() {
+      VerpException.Checked(Native.verp_decide(token));
+      Outputs = *sent;
+    }
+
+    internal void Run(verp_moment* seen, Controller controller) {
+      Robot = seen->robot;
+      Inputs = *seen->inputs;
+      Outputs = *seen->outputs;
+      token = seen->token;
+      sent = seen->outputs;
+      controller(this);
+      *seen->outputs = Outputs;
+    }
+  }
+
+  /// <summary>A trace that replays bit for bit.</summary>
+  public struct Replayed {
+    public ulong Ticks, Digest;
+
+    /// <summary>Throws where it does not.</summary>
+    public static unsafe Replayed Of(string trace) {
+      var replayed = new Replayed();
+      fixed (byte* file = Texts.ToC(trace)) {
+        int status = Native.verp_replay(file, &replayed.Ticks, &replayed.Digest);
+        if (status != (int)verp_status.VERP_OK)
+          throw new VerpException((verp_status)status, Texts.Of(Native.verp_last_error()));
+      }
+      return replayed;
+    }
+  }
+}

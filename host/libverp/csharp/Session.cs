@@ -1,0 +1,179 @@
+using System;
+using System.Collections.Generic;
+using System.Runtime.InteropServices;
+
+namespace Verp {
+  /// <summary>A robot and its walk; see verp_robot. What is null is the library's own choice.</summary>
+  public sealed class Robot {
+    public string Model = "generic21", Bus, Name, Tuning, Record;
+    public ulong Seed = 1;
+    /// <summary>0: it obeys Session.Command() alone.</summary>
+    public double Walk_s = 20;
+    /// <summary>NaN in X: the velocity of `verp walk`.</summary>
+    public double Vx_m_s = double.NaN, Vy_m_s, Wz_rad_s, X_m, Y_m, Yaw_rad;
+    public bool OpenEnd;
+  }
+
+  /// <summary>A world and the robots in it, a control tick at a time.</summary>
+  public sealed unsafe class Session : Handle {
+    readonly List<verp_tick[]> ticks = new List<verp_tick[]>();
+    readonly List<GCHandle> pinned = new List<GCHandle>();  // the library writes there
+    readonly Dictionary<uint, verp_controller> controllers = new Dictionary<uint, verp_controller>();
+    Exception thrown;
+
+    /// <summary>`world`: one of common/worlds, or an SDF file; null: a level floor.</summary>
+    public Session(string world = null, uint physicsStep_us = 0) {
+      fixed (byte* file = Texts.ToC(world)) {
+        var what = new verp_world { size = (uint)sizeof(verp_world), physics_step_us = physicsStep_us, file = file };
+        IntPtr session;
+        Checked(Native.verp_session_open(&what, &session));
+        SetHandle(session);
+      }
+    }
+
+    protected override int CloseNow() { return Native.verp_session_close(handle); }
+    protected override void LetGo() {
+      foreach (GCHandle each in pinned) each.Free();
+      pinned.Clear();
+    }
+
+    /// <summary>One more robot, before the first tick: its number.</summary>
+    public uint Add(Robot robot) {
+      if (robot == null) throw new ArgumentNullException("robot");
+      verp_robot what;
+      Checked(Native.verp_robot_defaults(&what));
+      what.flags = robot.OpenEnd ? (uint)Native.VERP_OPEN_END : 0;
+      what.seed = robot.Seed;
+      what.walk_s = robot.Walk_s;
+      if (!double.IsNaN(robot.Vx_m_s)) what.vx_m_s = robot.Vx_m_s;
+      what.vy_m_s = robot.Vy_m_s;
+      what.wz_rad_s = robot.Wz_rad_s;
+      what.x_m = robot.X_m;
+      what.y_m = robot.Y_m;
+      what.yaw_rad = robot.Yaw_rad;
+      uint index;
+      fixed (byte* model = Texts.ToC(robot.Model), bus = Texts.ToC(robot.Bus), name = Texts.ToC(robot.Name),
+             tuning = Texts.ToC(robot.Tuning), record = Texts.ToC(robot.Record)) {
+        what.model = model;
+        what.bus = bus;
+        what.name = name;
+        what.tuning = tuning;
+        what.record = record;
+        Checked(Native.verp_session_add(handle, &what, &index));
+      }
+      View(index);
+      return index;
+    }
+
+    void View(uint robot) {
+      var tick = new verp_tick[1];
+      tick[0].size = (uint)sizeof(verp_tick);
+      ticks.Add(tick);
+      GCHandle place = GCHandle.Alloc(tick, GCHandleType.Pinned);
+      pinned.Add(place);
+      Checked(Native.verp_session_view(handle, robot, (verp_tick*)place.AddrOfPinnedObject()));
+    }
+
+    /// <summary>At most so many ticks, each of one robot. False: the run is over. What a controller threw comes back as the
+    /// InnerException.</summary>
+    public bool Tick(uint count = 1) {
+      int status = Native.verp_session_tick(handle, count, null, null);
+      if (status == (int)verp_status.VERP_CALLBACK_FAILED && thrown != null) {
+        Exception inner = thrown;
+        thrown = null;
+        throw new VerpException(verp_status.VERP_CALLBACK_FAILED, Texts.Of(Native.verp_last_error()) + ": " + inner.Message,
+                                inner);
+      }
+      return Checked(status) == (int)verp_status.VERP_OK;
+    }
+
+    /// <summary>The robot's last tick, which the next one overwrites.</summary>
+    public ref verp_tick Seen(uint robot = 0) { return ref ticks[checked((int)robot)][0]; }
+
+    public ulong Digest(uint robot = 0) {
+      ulong digest;
+      Checked(Native.verp_session_digest(handle, robot, &digest));
+      return digest;
+    }
+
+    /// <summary>The controller's State after the last tick; verp_layout("state") tells its fields.</summary>
+    public void State(byte[] state, uint robot = 0) {
+      fixed (byte* to = state) Checked(Native.verp_session_state(handle, robot, to, state == null ? 0 : (ulong)state.Length));
+    }
+
+    /// <summary>Ends the run of all robots; traces become whole.</summary>
+    public verp_result Result(uint robot = 0) {
+      var result = new verp_result { size = (uint)sizeof(verp_result) };
+      Checked(Native.verp_session_result(handle, robot, &result));
+      return result;
+    }
+
+    /// <summary>From now on the caller has the robot: velocity in its body frame, head to the left and down.</summary>
+    public void Command(verp_request request, double vx_m_s = 0, double vy_m_s = 0, double wz_rad_s = 0, double pan_rad = 0,
+                        double tilt_rad = 0, uint robot = 0) {
+      Checked(Native.verp_session_command(handle, robot, (uint)request, vx_m_s, vy_m_s, wz_rad_s, pan_rad, tilt_rad));
+    }
+    /// <summary>The walk that was asked for goes on.</summary>
+    public void GiveBack(uint robot = 0) { Checked(Native.verp_session_give_back(handle, robot)); }
+    /// <summary>While it is pressed the robot is limp.</summary>
+    public void EmergencyStop(bool pressed = true, uint robot = 0) {
+      Checked(Native.verp_session_emergency_stop(handle, robot, pressed ? 1 : 0));
+    }
+
+    /// <summary>A number of the tuning, in force in one of the next ticks.</summary>
+    public void Tune(string name, double value, uint robot = 0) {
+      fixed (byte* text = Texts.ToC(name)) Checked(Native.verp_session_tune(handle, robot, text, value));
+    }
+    /// <summary>A number of the tuning as it is in force.</summary>
+    public double Tuning(string name, uint robot = 0) {
+      double value;
+      fixed (byte* text = Texts.ToC(name)) Checked(Native.verp_session_tuning(handle, robot, text, &value));
+      return value;
+    }
+
+    /// <summary>The numbers of the physics, once all robots were added.</summary>
+    public verp_quantity[] Quantities() {
+      uint count;
+      Checked(Native.verp_session_quantities(handle, &count));
+      var all = new verp_quantity[count];
+      for (uint i = 0; i < count; ++i) {
+        all[i].size = (uint)sizeof(verp_quantity);
+        fixed (verp_quantity* one = &all[i]) Checked(Native.verp_session_quantity(handle, i, one));
+      }
+      return all;
+    }
+    public double Read(string quantity) {
+      double value;
+      fixed (byte* text = Texts.ToC(quantity)) Checked(Native.verp_session_read(handle, text, &value));
+      return value;
+    }
+    /// <summary>From the next physics step on.</summary>
+    public void Set(string quantity, double value) {
+      fixed (byte* text = Texts.ToC(quantity)) Checked(Native.verp_session_set(handle, text, value));
+    }
+    /// <summary>Pushes a link or an object at its centre of mass, N in the world's axes.</summary>
+    public void Push(string thing, double fx_n, double fy_n, double fz_n, double for_s) {
+      fixed (byte* text = Texts.ToC(thing)) Checked(Native.verp_session_push(handle, text, fx_n, fy_n, fz_n, for_s));
+    }
+
+    /// <summary>In place of the robot's own controller, from the next tick on; null: its own again.</summary>
+    public void Control(Controller controller, uint robot = 0) {
+      verp_controller callback = controller == null ? (verp_controller)null : Callback(controller);
+      Checked(Native.verp_session_control(handle, robot, callback, null));
+      controllers[robot] = callback;  // is kept from the garbage collector, and the one before is not needed any more
+    }
+
+    verp_controller Callback(Controller controller) {
+      var moment = new Moment();
+      return (seen, user) => {
+        try {
+          moment.Run(seen, controller);
+          return 0;
+        } catch (Exception error) {  // must not leave: below is C. Tick() throws it
+          thrown = error;
+          return 1;
+        }
+      };
+    }
+  }
+}
