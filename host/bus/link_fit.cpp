@@ -14,7 +14,7 @@
 namespace verp::bus {
 namespace {
 
-constexpr int kReadings = 80;
+constexpr int kDelays = 80;
 constexpr int kSilent = 10;                        // readings without any answer that are enough
 constexpr std::uint16_t kBytes = 4;                // of Present Position, as every tick reads it
 constexpr int kShortest_ms = 4, kLongest_ms = 20;  // Params::period_us
@@ -55,7 +55,7 @@ LinkDelay measure_delay(const std::function<bool()>& read, double wire_us,
   LinkDelay delay;
   std::vector<double> held_us;
   const auto enough = [&] {
-    return delay.asked >= kReadings || (held_us.empty() && delay.asked >= kSilent);
+    return delay.asked >= kDelays || (held_us.empty() && delay.asked >= kSilent);
   };
   while (!enough() && !give_up()) {
     const std::uint64_t begun_ns = wire::monotonic_ns();

@@ -13,7 +13,7 @@ namespace {
 namespace at = dxl::address;
 
 constexpr std::uint32_t kTimeout_us = 60'000;  // 16 ms of an adapter, twice, and some
-constexpr int kReadings = 9;
+constexpr int kPositions = 9;
 constexpr std::uint8_t kAllReplies = 2;  // e-Manual, Status Return Level (68)
 constexpr std::int32_t kStill = 6;       // counts, half a degree: a hand trembles
 
@@ -141,13 +141,13 @@ void configure(SetupLine& line, FoundServo& servo, std::uint8_t id, std::uint32_
 
 std::int32_t still_position(Client& client, std::uint8_t id) {
   std::vector<std::int32_t> counts;
-  for (int i = 0; i < kReadings; ++i) counts.push_back(read_i32(client, id, at::kPresentPosition));
+  for (int i = 0; i < kPositions; ++i) counts.push_back(read_i32(client, id, at::kPresentPosition));
   std::sort(counts.begin(), counts.end());
   if (counts.back() - counts.front() > kStill) {
     throw DeviceError(fmt::format("device {} moves ({} to {} counts): hold the joint still", id,
                                   counts.front(), counts.back()));
   }
-  return counts[kReadings / 2];
+  return counts[kPositions / 2];
 }
 
 ZeroFix zero_fix(Client& client, std::uint8_t id, std::int32_t count, std::int32_t model_count) {

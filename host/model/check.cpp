@@ -23,12 +23,6 @@ namespace {
 
 constexpr double kDegrees = 180 / std::numbers::pi;
 
-double total_mass(const Entity& entity) {
-  double sum = 0;
-  for (const Node& node : entity.nodes) sum += node.mass_kg;
-  return sum;
-}
-
 /// Box around all collision shapes' corners and joint centres at the zero pose.
 Vec3 measures(const Entity& entity) {
   const auto origins = node_origins(entity);

@@ -213,6 +213,12 @@ struct Entity {
       notes;  ///< what the file declares about third-party data: one line each, for people
 };
 
+inline double total_mass(const Entity& entity) {
+  double sum = 0;
+  for (const Node& node : entity.nodes) sum += node.mass_kg;
+  return sum;
+}
+
 /// All joints, each behind the one that carries it.
 inline std::vector<std::size_t> outward(const Entity& entity) {
   std::vector<std::size_t> order;

@@ -7,6 +7,7 @@
 #include "host/model/find.hpp"
 #include "host/model/library_console.hpp"
 #include "host/model/mesh_file.hpp"
+#include "host/model/principal.hpp"
 #include "host/model/sdf_parts.hpp"
 #include "host/model/world_xml.hpp"
 
@@ -253,7 +254,7 @@ class WorldLoader {
       const Vec3 normal = to_vector(plane->Normal());
       if (!(normal.norm() > 0.5))
         fail(about, "a plane without a normal", "give <normal>0 0 1</normal>");
-      pose.linear() *= Eigen::Quaterniond::FromTwoVectors(Vec3::UnitZ(), normal).toRotationMatrix();
+      pose.linear() *= turn_of_z(normal).toRotationMatrix();
     } else if (const auto* mesh = geometry.MeshShape()) {
       out.kind = Shape::Kind::kMesh;
       out.mesh = mesh_at(*mesh, about);

@@ -7,7 +7,7 @@
 namespace verp::model {
 namespace {
 
-constexpr double kLargest = std::numeric_limits<float>::max();
+constexpr double kLargestFloat = std::numeric_limits<float>::max();
 constexpr std::string_view kSpace = " \t\r\n";
 
 std::string_view trim(std::string_view text) {
@@ -25,7 +25,7 @@ std::optional<double> parse_number(std::string_view text) {
   const char* end = text.data() + text.size();
   const auto result = std::from_chars(text.data(), end, value);
   // What the robot's float32 can't hold is no number to it.
-  if (result.ec != std::errc() || result.ptr != end || !(std::abs(value) <= kLargest)) {
+  if (result.ec != std::errc() || result.ptr != end || !(std::abs(value) <= kLargestFloat)) {
     return std::nullopt;
   }
   return value;

@@ -1,6 +1,5 @@
 #include "host/model/sdf_parts.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <sdf/Box.hh>
@@ -12,6 +11,7 @@
 #include <stdexcept>
 
 #include "host/model/bounds.hpp"
+#include "host/model/principal.hpp"
 
 namespace verp::model {
 
@@ -99,8 +99,7 @@ double least_measure(const Collision& collision) {
 std::string implausible(const Node& node, double extent_m) {
   if (!(node.mass_kg > 0) || !std::isfinite(node.mass_kg)) return "its mass is not positive";
   if (node.mass_kg < kLeastMass_kg) return "its mass is less than a milligram";
-  const Eigen::SelfAdjointEigenSolver<Mat3> solver(node.inertia_kg_m2, Eigen::EigenvaluesOnly);
-  const Vec3 moment = solver.eigenvalues();  // ascending
+  const Vec3 moment = principal_moments(node.inertia_kg_m2);
   if (!(moment[0] > 0) || !moment.allFinite()) return "its inertia is not positive definite";
   if (moment[0] + moment[1] < moment[2] * (1 - 1e-3)) {
     return "its inertia breaks the triangle inequality: no body has such moments";

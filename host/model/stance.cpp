@@ -31,12 +31,6 @@ constexpr double kMostGain = 8000;
 constexpr double kLeastLeg_m = 0.06, kMostLeg_m = 1.2;
 constexpr double kMostTilt_rad = 0.2, kMostUneven_m = 0.02;
 
-double total_mass(const Entity& entity) {
-  double sum = 0;
-  for (const Node& node : entity.nodes) sum += node.mass_kg;
-  return sum;
-}
-
 double leg_length(const Entity& entity, const Limb& leg) {
   const LegGeometry g = classify_leg(entity, leg);
   return g.thigh_m + g.shank_m;

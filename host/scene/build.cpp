@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numbers>
 
+#include "host/model/principal.hpp"
 #include "host/scene/looks.hpp"
 #include "host/sim/body.hpp"
 
@@ -146,7 +147,7 @@ class RobotBuilder {
       }
     }
     const double radius_m = std::clamp(0.42 * least_m, 0.006, 0.016);
-    Transform pose(Eigen::Quaterniond::FromTwoVectors(Vec3::UnitZ(), joint.axis));
+    Transform pose(model::turn_of_z(joint.axis));
     add(node, joint.name + " axle", Shape::kCylinder, {radius_m, 0, 2.4 * radius_m}, pose)
         .material = {.colour = {0.17F, 0.18F, 0.20F, 1}, .roughness = 0.45F};
   }

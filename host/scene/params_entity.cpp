@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "host/model/principal.hpp"
 #include "host/scene/measured.hpp"
 
 namespace verp::scene {
@@ -16,8 +17,7 @@ void add_bone(model::Node& node, const Vec3& to_m) {
   model::Visual bone;
   bone.shape = model::Visual::Shape::kCapsule;
   bone.size_m = {0.009, 0, length_m};
-  bone.pose = Transform(Eigen::Quaterniond::FromTwoVectors(
-      Vec3::UnitZ(), length_m > 1e-6 ? to_m : Vec3(Vec3::UnitZ())));
+  bone.pose = Transform(model::turn_of_z(length_m > 1e-6 ? to_m : Vec3(Vec3::UnitZ())));
   bone.pose.translation() = to_m / 2;
   node.visuals.push_back(bone);
 }

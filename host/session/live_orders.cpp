@@ -7,7 +7,7 @@
 namespace verp::session {
 namespace {
 
-constexpr std::uint32_t kFrameTicks = 10;  // as WalkOperator's: well inside command_hold_s
+constexpr std::uint32_t kOrderTicks = 10;  // as WalkOperator's: well inside command_hold_s
 
 }  // namespace
 
@@ -35,7 +35,7 @@ void LiveOrders::amend(std::uint32_t tick, app::OperatorOrder& order) {
   if (!driving_) {
     sequence_ = order.command.sequence;
   } else {
-    const bool fresh = changed_ || tick % kFrameTicks == 0;
+    const bool fresh = changed_ || tick % kOrderTicks == 0;
     if (fresh) ++sequence_;
     order.command = command_;
     order.command.sequence = sequence_;

@@ -1,11 +1,12 @@
 #include "host/sim/body.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
 #include <stdexcept>
+
+#include "host/model/principal.hpp"
 
 namespace verp::sim {
 namespace {
@@ -204,7 +205,7 @@ void Body::set_inertia(int node, int axis, double inertia_kg_m2) {
   Link& link = links_[index_of(node)];
   Mat3 inertia = link.inertia_kg_m2;
   inertia(axis, axis) = inertia_kg_m2;
-  if (!(Eigen::SelfAdjointEigenSolver<Mat3>(inertia, Eigen::EigenvaluesOnly).eigenvalues()[0] > 0))
+  if (!(model::principal_moments(inertia)[0] > 0))
     throw std::invalid_argument("that inertia is not positive definite");
   link.inertia_kg_m2 = inertia;
   weigh(link);

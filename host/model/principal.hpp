@@ -1,0 +1,14 @@
+#pragma once
+#include "host/model/entity.hpp"
+
+/// Eigen's decompositions that the PC needs in several places: each takes the compiler seconds, so
+/// they stand here once.
+namespace verp::model {
+
+/// Of an inertia, smallest first. Not positive: no body has it.
+Vec3 principal_moments(const Mat3& inertia_kg_m2);
+
+/// The shortest turn that brings z along `axis`, which need not be a unit vector.
+Eigen::Quaterniond turn_of_z(const Vec3& axis);
+
+}  // namespace verp::model
