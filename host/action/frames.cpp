@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/model/coupling.hpp"
 #include "common/model/tree.hpp"
 
 namespace verp::action {
@@ -70,6 +71,34 @@ void take(const Params& params, const Poser& poser, const Document& document, co
       const auto j = static_cast<std::size_t>(joint_of(params, document, stiff.line, name));
       held.stiff[j] = static_cast<std::uint8_t>(stiff.percent);
     }
+  }
+}
+
+/// One motor turns a follower and its driver: refuses a frame that wants them apart, and takes
+/// followers to where drivers take them.
+void couple(const Params& params, const Document& document, const FrameText& text,
+            Angles& angle_rad) {
+  constexpr float kApart_rad = 0.01F, kDegrees = 57.29578F;
+  for (int j = params.servo_count(); j < params.joint_count; ++j) {
+    const JointParams& follower = params.joint[j];
+    const auto named =
+        std::find_if(text.goals.begin(), text.goals.end(),
+                     [&](const JointGoal& goal) { return goal.joint == follower.name; });
+    const bool asked =
+        named != text.goals.end() || text.body || text.over_left || text.foot[0] || text.foot[1];
+    const int d = model::driver_of(params, j);
+    const JointParams& driver = params.joint[d];
+    float& angle = angle_rad[static_cast<std::size_t>(j)];
+    const float led = model::followed(driver, follower, angle_rad[static_cast<std::size_t>(d)]);
+    if (asked && std::abs(angle - led) > kApart_rad) {
+      throw model::LoadError(
+          document.file.string(), named != text.goals.end() ? named->line : text.line,
+          fmt::format("joint '{}' follows '{}', whose motor takes it to {:.1f} degrees, not to "
+                      "{:.1f}",
+                      follower.name, driver.name, kDegrees * led, kDegrees * angle),
+          fmt::format("give '{}' alone, or turn both feet as their one motor does", driver.name));
+    }
+    angle = led;
   }
 }
 
@@ -198,6 +227,7 @@ Draft draft(const Params& params, const Poser& poser, const Document& document) 
         angle_rad[j] = held.goal_rad[j];
       }
     }
+    couple(params, document, text, angle_rad);
     Frame frame = make_frame(params, document, text, held, joints);
     set_goals(params, angle_rad, frame);
     draft.frames.push_back(frame);

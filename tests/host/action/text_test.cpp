@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/host/action/robots.hpp"
+#include "tests/unit/support/coupled_robot.hpp"
 
 namespace verp::action {
 namespace {
@@ -86,6 +87,29 @@ TEST(ActionLibrary, IsWhatTheCoreTakesAndTheSameEveryTime) {
   EXPECT_EQ(made.words, generic21().make({texts[1], texts[0]}).words);
   const Frame& frame = library.frame(library.action(2).first);
   EXPECT_EQ(frame.goal_tenth_mrad[0], 1745) << "10 degrees";
+}
+
+// Followed without a word, the action would do something else than it says.
+TEST(ActionLibrary, RefusesToMoveAFollowerElsewhereThanItsMotorDoes) {
+  const Params params = verp::test::with_coupled_hips(generic21().params, -1);
+  const auto refused = [&](const std::string& text) -> std::string {
+    try {
+      (void)make_library(params, {parse_document("a.action", text)});
+      return "";
+    } catch (const model::LoadError& error) {
+      return error.what();
+    }
+  };
+  const std::string driver = params.joint[verp::test::kLeftLeg].name;
+  const std::string follower = params.joint[verp::test::kFollower].name;
+  const std::string both = "action a\nframe 1\n " + driver + " 10\n " + follower;
+  EXPECT_EQ(refused("action a\nframe 1\n " + driver + " 10\n"), "");
+  EXPECT_EQ(refused(both + " -10\n"), "");
+  const std::string words = refused(both + " 10\n");
+  EXPECT_NE(words.find("a.action:4"), std::string::npos) << words;
+  EXPECT_NE(words.find("follows '" + driver + "'"), std::string::npos) << words;
+  EXPECT_NE(refused("action a\nframe 1\n " + follower + " 10\n"), "");
+  EXPECT_NE(refused("action a\nframe 1\n left_foot yaw 10\n"), "");
 }
 
 TEST(ActionLibrary, MirroredTwiceIsTheSame) {
