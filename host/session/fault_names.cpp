@@ -1,5 +1,7 @@
 #include "host/session/fault_names.hpp"
 
+#include <utility>
+
 #include "common/safety/machine.hpp"
 
 namespace verp::session {
@@ -37,6 +39,13 @@ std::string fault_names(std::uint32_t faults) {
     text += (text.empty() ? "" : ", ") + std::string(name);
   }
   return text;
+}
+
+std::string PlanNotes::news(std::uint32_t faults) {
+  const std::uint32_t notes =
+      faults & (safety::kNoteStrideLimited | safety::kNotePlanShortened | safety::kNotePlanRefused);
+  const std::uint32_t begun = notes & ~std::exchange(on_, notes);
+  return begun == 0 ? "" : "the legs cannot do what is asked: " + fault_names(notes);
 }
 
 }  // namespace verp::session

@@ -95,6 +95,8 @@ void Served::begin_shadow() {
   recorded_ = false;
   shadow_ = make_shadow([this](const TickRecord& tick, const State& state, const Outputs& outputs) {
     robot_.record(tick, state, outputs);
+    const std::string news = plan_notes_.news(outputs.faults);
+    if (!news.empty()) say(news);
     last_ = {tick.inputs.tick, tick.digest.chain};
     recorded_ = true;
   });

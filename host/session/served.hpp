@@ -11,6 +11,7 @@
 #include "host/bus/shadow_loop.hpp"
 #include "host/link/can_interface.hpp"
 #include "host/session/controller.hpp"
+#include "host/session/fault_names.hpp"
 
 namespace verp::session {
 
@@ -125,6 +126,7 @@ class Served : public Controller {
   std::unique_ptr<bus::OrderSink> orders_;
   std::unique_ptr<bus::Shadow> shadow_;  ///< null without an operator's port
   bus::ControllerReport last_;
+  PlanNotes plan_notes_;
   std::string failure_;
   std::uint64_t compared_ = 0;
   std::uint64_t start_ns_ = 0;  ///< when it began, by the monotonic clock; 0: not yet

@@ -171,14 +171,9 @@ class RobotRun {
                          "same port is tried again");
   }
 
-  // Whoever orders or tunes more than the legs can do gets shorter steps, or none, and hears of it.
   void watch_plan() {
-    const std::uint32_t notes =
-        app_.outputs().faults & (safety::kNotePlanShortened | safety::kNotePlanRefused);
-    if ((notes & ~plan_notes_) != 0) {
-      say("the legs cannot do what is asked: " + session::fault_names(notes));
-    }
-    plan_notes_ = notes;
+    const std::string news = plan_notes_.news(app_.outputs().faults);
+    if (!news.empty()) say(news);
   }
 
   void tell(safety::Mode from, safety::Mode to, std::uint32_t faults) {
@@ -238,7 +233,7 @@ class RobotRun {
   RunOperator operator_;
   RunKeeper<Robot> keeper_;
   Loop app_;
-  std::uint32_t plan_notes_ = 0;
+  session::PlanNotes plan_notes_;
   bool connected_ = true;
   int presses_ = 0;
 };

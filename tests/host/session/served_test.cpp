@@ -46,6 +46,30 @@ TEST(Served, WalksBesideARobotOfThisProcessAndBothHaveTheBitsTheyHaveAlone) {
   fs::remove_all(folder);
 }
 
+// An operator of a board sees neither its plan nor its notes.
+TEST(Served, SaysWhenTheLegsCannotDoWhatIsAsked) {
+  WalkPlan plan = plan_of("dxl");
+  plan.velocity.vx_tenth_mm_s = 5000;  // with cycles of 450 ms steps of 11 cm; 8 are admitted
+  const fs::path folder = fs::temp_directory_path() / ("notes" + std::to_string(::getpid()));
+  fs::create_directory(folder);
+  const std::string bus = (folder / "bus").string(), orders = (folder / "orders").string();
+  std::string told;
+  verp::test::LinkController controller(plan.params, "unix:" + bus, "unix:" + orders);
+  Session session;
+  session.add(plan, {}, [&](Robot& robot) {
+    return make_served(robot, {.link = "unix-listen:" + bus,
+                               .operator_link = "unix-listen:" + orders,
+                               .pace = Pace::kLockstep,
+                               .told = [&](const std::string& line) { told += line + "\n"; }});
+  });
+  while (session.tick() != nullptr) {
+  }
+  controller.join();
+  EXPECT_EQ(session.result(0).failure, "");
+  EXPECT_NE(told.find("the legs cannot do what is asked: "), std::string::npos) << told;
+  fs::remove_all(folder);
+}
+
 TEST(Served, LetsTheSessionsUserInWhileNobodyComes) {
   const fs::path place = fs::temp_directory_path() / ("nobody" + std::to_string(::getpid()));
   int asked = 0;
