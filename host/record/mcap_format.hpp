@@ -34,6 +34,14 @@ inline constexpr std::uint64_t kFooterSize = 20;
 
 using StringMap = std::map<std::string, std::string>;
 
+struct Schema {
+  std::string_view name, encoding, data;
+};
+struct Channel {
+  std::uint16_t schema = 0;
+  std::string_view topic, encoding;
+};
+
 /// CRC-32 as in zip and zlib (reflected 0x04C11DB7). Feed pieces in order: value = crc32(piece,
 /// value).
 std::uint32_t crc32(std::string_view bytes, std::uint32_t value = 0);

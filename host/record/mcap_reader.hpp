@@ -11,13 +11,6 @@
 
 namespace verp::record::mcap {
 
-struct Schema {
-  std::string_view name, encoding, data;
-};
-struct Channel {
-  std::uint16_t schema = 0;
-  std::string_view topic, encoding;
-};
 struct Message {
   std::uint16_t channel = 0;
   std::uint32_t sequence = 0;

@@ -38,8 +38,9 @@ bool holds_something_else(const std::filesystem::path& path) {
 }  // namespace
 
 Writer::Writer(std::filesystem::path path, std::string_view profile, std::string_view library,
-               Compression compression)
-    : path_(std::move(path)), compression_(compression) {
+               Compression compression, Listener* listener)
+    : path_(std::move(path)), compression_(compression), listener_(listener) {
+  if (path_.empty()) return;
   if (std::filesystem::is_directory(path_)) {
     throw TraceError(path_, "is a folder", "name a file, such as run.mcap");
   }
@@ -70,6 +71,7 @@ Writer::~Writer() {
 }
 
 void Writer::put(std::string_view bytes) {
+  if (file_ == nullptr) return;
   if (std::fwrite(bytes.data(), 1, bytes.size(), file_) != bytes.size()) {
     throw TraceError(part_, position_, std::string("write failed: ") + std::strerror(errno),
                      "free space on the disk, or record elsewhere");
@@ -86,6 +88,7 @@ std::uint16_t Writer::add_schema(std::string_view name, std::string_view encodin
           .record(Opcode::kSchema, Bytes().u16(id).text(name).text(encoding).text(data).data)
           .data);
   schema_announced_.push_back(false);
+  if (listener_ != nullptr) listener_->schema(id, {name, encoding, data});
   return id;
 }
 
@@ -98,11 +101,14 @@ std::uint16_t Writer::add_channel(std::uint16_t schema, std::string_view topic,
                        .entries = {},
                        .announced = false,
                        .schema = schema});
+  if (listener_ != nullptr) listener_->channel(id, {schema, topic, encoding});
   return id;
 }
 
 void Writer::add_message(std::uint16_t channel, std::uint64_t time_ns, std::string_view data) {
-  Channel& to = channels_.at(channel);
+  OpenChannel& to = channels_.at(channel);
+  if (listener_ != nullptr) listener_->message(channel, time_ns, data);
+  if (file_ == nullptr) return;
   if (!to.announced) {
     const std::size_t schema = to.schema - 1u;
     if (!schema_announced_.at(schema)) chunk_ += schemas_[schema];
@@ -111,7 +117,7 @@ void Writer::add_message(std::uint16_t channel, std::uint64_t time_ns, std::stri
     to.announced = true;
   }
   const bool first = std::all_of(channels_.begin(), channels_.end(),
-                                 [](const Channel& c) { return c.entries.empty(); });
+                                 [](const OpenChannel& c) { return c.entries.empty(); });
   chunk_start_ns_ = first ? time_ns : std::min(chunk_start_ns_, time_ns);
   chunk_end_ns_ = first ? time_ns : std::max(chunk_end_ns_, time_ns);
   to.entries.push_back({time_ns, chunk_.size()});
@@ -153,6 +159,7 @@ void Writer::add_attachment(std::string_view name, std::string_view media_type,
 }
 
 void Writer::flush() {
+  if (file_ == nullptr) return;
   if (!chunk_.empty()) end_chunk();
   if (std::fflush(file_) != 0) {
     throw TraceError(part_, position_, std::string("write failed: ") + std::strerror(errno),
@@ -235,6 +242,7 @@ void Writer::write_summary() {
 }
 
 void Writer::close() {
+  if (file_ == nullptr) return;
   flush();
   put(Bytes().record(Opcode::kDataEnd, Bytes().u32(data_crc_).data).data);
   write_summary();

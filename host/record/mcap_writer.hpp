@@ -13,6 +13,16 @@ namespace verp::record::mcap {
 
 enum class Compression : std::uint8_t { kNone, kZstd };
 
+/// Who hears what a Writer is given, as soon as it is given: host/live. The views are valid for the
+/// call only.
+class Listener {
+ public:
+  virtual ~Listener() = default;
+  virtual void schema(std::uint16_t id, const Schema& schema) = 0;
+  virtual void channel(std::uint16_t id, const Channel& channel) = 0;
+  virtual void message(std::uint16_t channel, std::uint64_t time_ns, std::string_view data) = 0;
+};
+
 /// Writes one MCAP file, append-only: chunks with CRC and message indexes, summary and footer. What
 /// has been flushed stays readable whatever happens later; only the open chunk is lost in a crash.
 /// The file grows under a name of its own (`part_path()`) and takes its final name in close(), so
@@ -20,9 +30,10 @@ enum class Compression : std::uint8_t { kNone, kZstd };
 /// name. Every member throws TraceError when the disk refuses.
 class Writer {
  public:
-  /// kZstd: of every chunk that gets shorter by it.
+  /// kZstd: of every chunk that gets shorter by it. With an empty path there is no file, and all
+  /// goes to the listener only, which must outlive this.
   Writer(std::filesystem::path path, std::string_view profile, std::string_view library,
-         Compression compression = Compression::kNone);
+         Compression compression = Compression::kNone, Listener* listener = nullptr);
   ~Writer();  ///< without close(): flushes the open chunk and leaves the part file, without summary
   Writer(const Writer&) = delete;
   Writer& operator=(const Writer&) = delete;
@@ -48,7 +59,7 @@ class Writer {
     std::uint64_t time_ns = 0;
     std::uint64_t offset = 0;
   };
-  struct Channel {
+  struct OpenChannel {
     std::string record;
     std::uint32_t sequence = 0;
     std::vector<Entry> entries;  ///< of the open chunk
@@ -64,6 +75,7 @@ class Writer {
 
   std::filesystem::path path_, part_;
   const Compression compression_;
+  Listener* listener_;
   std::FILE* file_ = nullptr;
   std::uint64_t position_ = 0;
   std::uint32_t data_crc_ = 0;
@@ -73,7 +85,7 @@ class Writer {
   std::uint32_t chunks_ = 0, attachments_ = 0, metadata_ = 0;
   std::vector<std::string> schemas_;  ///< records; id is index + 1
   std::vector<bool> schema_announced_;
-  std::vector<Channel> channels_;  ///< id is index
+  std::vector<OpenChannel> channels_;  ///< id is index
   Bytes chunk_index_, attachment_index_, metadata_index_;
 };
 

@@ -3,20 +3,13 @@
 #include <algorithm>
 #include <memory>
 
-#include "host/record/ros_frames.hpp"
-#include "host/record/ros_messages.hpp"
+#include "host/record/team_channel.hpp"
 #include "host/record/trace_parts.hpp"
 
 namespace verp::record {
 namespace {
 
 constexpr std::size_t kChunkMessages = 2000;
-constexpr std::string_view kDescriptionTopic = "/robot_description";
-
-/// Whose messages tell by their frames of whom they are.
-bool is_of_all(std::string_view topic) {
-  return topic == "/tf" || topic == "/tf_static" || topic == kObjectsTopic;
-}
 
 /// One of the traces, with where its messages go.
 class Source {
@@ -42,18 +35,15 @@ class Source {
     }
     for (const auto& [id, channel] : file_.channels) {
       if (channel.topic == kObjectsTopic && !objects) continue;
-      const bool shared = is_of_all(channel.topic);
-      const std::string topic =
-          shared ? std::string(channel.topic) : "/" + named_.robot + std::string(channel.topic);
       const mcap::Schema& schema = file_.schemas.at(channel.schema);
-      if (!shared || !common.contains(topic)) {
-        common[topic] = to.add_channel(to.add_schema(schema.name, schema.encoding, schema.data),
-                                       topic, channel.encoding);
+      const TeamChannel& team =
+          channels_.try_emplace(id, named_.robot, channel.topic, schema).first->second.team;
+      if (!team.is_of_all() || !common.contains(team.topic())) {
+        common[team.topic()] =
+            to.add_channel(to.add_schema(schema.name, schema.encoding, schema.data), team.topic(),
+                           channel.encoding);
       }
-      channels_[id] = common[topic];
-      if (schema.encoding == "ros2msg" && channel.topic != kObjectsTopic) {
-        definitions_[id] = std::make_unique<ros::Definition>(schema.data);
-      }
+      channels_.at(id).id = common[team.topic()];
     }
   }
 
@@ -61,22 +51,12 @@ class Source {
   bool write(const mcap::Message& message, mcap::Writer& to) const {
     const auto channel = channels_.find(message.channel);
     if (channel == channels_.end()) return false;
-    const auto definition = definitions_.find(message.channel);
-    if (definition == definitions_.end()) {
-      to.add_message(channel->second, message.time_ns, message.data);
-      return true;
-    }
-    const std::string prefix = named_.robot + "/";
-    auto renamed = definition->second->with_frames(message.data, prefix);
+    const auto renamed = channel->second.team.message(message.data);
     if (!renamed) {
       throw TraceError(named_.file, message.offset, "a message that is none of its type",
                        "record the run again");
     }
-    if (file_.channels.at(message.channel).topic == kDescriptionTopic) {
-      const auto urdf = ros::read_string(message.data);
-      renamed = ros::string(ros::urdf_with_links(urdf.value_or(""), prefix));
-    }
-    to.add_message(channel->second, message.time_ns, *renamed);
+    to.add_message(channel->second.id, message.time_ns, *renamed);
     return true;
   }
 
@@ -84,8 +64,13 @@ class Source {
   const NamedTrace named_;
   const std::string bytes_;
   const mcap::File file_;
-  std::map<std::uint16_t, std::uint16_t> channels_;
-  std::map<std::uint16_t, std::unique_ptr<ros::Definition>> definitions_;
+  struct Channel {
+    Channel(std::string_view robot, std::string_view topic, const mcap::Schema& schema)
+        : team(robot, topic, schema) {}
+    TeamChannel team;
+    std::uint16_t id = 0;  ///< in the merged file
+  };
+  std::map<std::uint16_t, Channel> channels_;
 };
 
 struct Place {

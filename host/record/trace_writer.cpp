@@ -26,7 +26,8 @@ void add_state(mcap::Writer& writer, const State& before) {
 TraceWriter::TraceWriter(const std::filesystem::path& file, const Params& params,
                          const mcap::StringMap& run, TraceOptions options)
     : writer_(file, options.ros ? "ros2" : "", "verp",
-              options.compress ? mcap::Compression::kZstd : mcap::Compression::kNone),
+              options.compress ? mcap::Compression::kZstd : mcap::Compression::kNone,
+              options.listener),
       params_(params),
       options_(std::move(options)),
       speeds_(params) {

@@ -21,6 +21,7 @@ struct TraceOptions {
   std::vector<std::uint32_t> actions{};  ///< image of the library that the controller has
   bool compress = false;                 ///< by zstd: about a fifth of the bytes
   std::optional<State> before{};         ///< the first tick, of a run whose beginning was cut off
+  mcap::Listener* listener = nullptr;    ///< hears every message as it is written
 };
 
 /// The attachments that tell a replay with which State to begin.
@@ -29,7 +30,8 @@ void add_state(mcap::Writer& writer, const State& before);
 /// Writes a run as it happens. Throws TraceError when the file cannot be written.
 class TraceWriter {
  public:
-  /// `run` joins build_info() in the metadata: robot, seed, command line, ...
+  /// `run` joins build_info() in the metadata: robot, seed, command line, ... With an empty `file`
+  /// there is none, only the listener.
   TraceWriter(const std::filesystem::path& file, const Params& params, const mcap::StringMap& run,
               TraceOptions options = {});
   /// Without close(): keeps the part file if a tick is in it.

@@ -144,7 +144,7 @@ int play(const ActionWords& words) {
   plan.actions = robot.made.words;
   sim::WorldOptions world = world_of(options);
   const Drawn drawn = draw(options, plan, world);
-  WalkFiles files(options, plan, {{"action", words.action}});
+  WalkFiles files(options, plan, nullptr, {{"action", words.action}});
   Progress progress(!words.json);
   session::Hooks hooks;
   hooks.trace = files.trace();

@@ -149,8 +149,8 @@ int answer_served(const WalkPlan& plan, const WalkOptions& options, const HilRes
 
 /// Without an operator's port nobody is told how to walk, and nobody tells what the controller saw.
 void refuse_without_operator(const CLI::App& app) {
-  constexpr const char* kNeedIt[] = {"--record", "--record-state", "--compress",
-                                     "--report", "--step",         "--velocity"};
+  constexpr const char* kNeedIt[] = {"--record", "--record-state", "--compress", "--report",
+                                     "--step",   "--velocity",     "--live"};
   for (const char* word : kNeedIt) {
     const CLI::Option* option = app.get_option_no_throw(word);
     if (option == nullptr || option->count() == 0) continue;
@@ -169,13 +169,18 @@ int run_hil(const CLI::App& app, HilWords words) {
   const bool tells = !words.hil.operator_link.empty();
   if (!tells) refuse_without_operator(app);
   if (tells && options.report_folder.empty() && !options.json) options.report_folder = "report";
-  WalkFiles files(options, plan);
+  LiveStream live("verp hil", options.live);
+  WalkFiles files(options, plan, live.robot());
+  live.wait_for_viewer();
   Progress progress(!options.json);
   const HilResult result =
       serve_controller(plan, words.hil, files.trace(), progress, files.wants_report());
   if (!tells) return answer_served(plan, options, result);
+  live.finish();
+  Json more = to_json(result);
+  live.add_to(more);
   const int status =
-      finish_walk(plan, options, files, result.walk, {}, to_json(result), to_text(result));
+      finish_walk(plan, options, files, result.walk, {}, more, to_text(result) + live.text());
   return status != kGood && result.device_trouble ? kNoDevice : status;
 }
 
@@ -187,6 +192,7 @@ Subcommand add_hil(CLI::App& root) {
   auto words = std::make_shared<HilWords>();
   words->walk.command = "verp hil";
   declare_basics(*app, words->walk);
+  declare_live(*app, words->walk.live);
   app->get_option("--for")->description(
       "with --operator: length of the gait, all three phases, s; without: how long the robot is "
       "served from when a servo first has torque, s");

@@ -171,14 +171,17 @@ std::string to_text(const RunPlan& plan, const RunResult& result) {
                            : "NOT known to be off everywhere");
 }
 
-int tell(const RunWords& words, const RunPlan& plan, WalkFiles& files, const RunResult& result) {
+int tell(const RunWords& words, const RunPlan& plan, WalkFiles& files, LiveStream& live,
+         const RunResult& result) {
+  live.finish();
   files.finish(result.walk, {});
   if (words.walk.json) {
     Json json = to_json(plan, result);
+    live.add_to(json);
     files.add_to(json);
     print_json(json);
   } else {
-    answer(to_text(plan, result) + files.text());
+    answer(to_text(plan, result) + live.text() + files.text());
   }
   for (const std::string& line : files.lost()) complain(line);
   const std::string& failure = result.walk.failure;
@@ -189,7 +192,8 @@ int tell(const RunWords& words, const RunPlan& plan, WalkFiles& files, const Run
 
 /// What is done with a robot, however it is reached.
 template <class Link>
-int run_on(Link& link, const RunWords& words, const RunPlan& plan, WalkFiles& files) {
+int run_on(Link& link, const RunWords& words, const RunPlan& plan, WalkFiles& files,
+           LiveStream& live) {
   const bus::LinkFit fit = check_latency(link, plan);
   check_imu(link, plan);
   if (!plan.has_imu) {
@@ -202,20 +206,22 @@ int run_on(Link& link, const RunWords& words, const RunPlan& plan, WalkFiles& fi
   // as the servos do.
   confirm_first_power(plan.walk.params, words.yes, answers);
   Progress progress(!words.walk.json);
-  return tell(words, plan, files, drive(link, plan, fit, files.trace(), progress));
+  return tell(words, plan, files, live, drive(link, plan, fit, files.trace(), progress));
 }
 
 int run_robot(const RunWords& words) {
   const RunPlan plan = make_plan(words);
   if (!plan.walk.remark.empty()) complain("verp run: " + plan.walk.remark);
-  WalkFiles files(words.walk, plan.walk,
+  LiveStream live("verp run", words.walk.live);
+  WalkFiles files(words.walk, plan.walk, live.robot(),
                   {{"link", words.link}, {"imu", plan.has_imu ? "bus" : "none: assumed upright"}});
+  live.wait_for_viewer();
   if (plan.link.kind == wire::Endpoint::Kind::kCan) {
     wire::CanPort port(plan.link);
     check_bit_rate("verp run", port.interface(), plan.walk.params);
     const wire::CanClaim claim(port.interface().name, "controller", "`verp run`");
     refuse_second_controller(port, plan);
-    return run_on(port, words, plan, files);
+    return run_on(port, words, plan, files, live);
   }
   wire::Link link(plan.link);
   if (!link.connected()) {
@@ -224,9 +230,9 @@ int run_robot(const RunWords& words) {
       if (link.wait_connected(kArrival_us / 100)) break;
     }
   }
-  if (!plan.lockstep) return run_on(link, words, plan, files);
+  if (!plan.lockstep) return run_on(link, words, plan, files, live);
   Progress progress(!words.walk.json);
-  return tell(words, plan, files, drive_in_lockstep(link, plan, files.trace(), progress));
+  return tell(words, plan, files, live, drive_in_lockstep(link, plan, files.trace(), progress));
 }
 
 }  // namespace
@@ -259,6 +265,7 @@ Subcommand add_run(CLI::App& root) {
          "a twin is at the other end (`verp walk --robot NAME=ext:LINK`), and its time waits "
          "for this controller: nothing is late, however slow either is")
       ->excludes("--take-orders");
+  declare_live(*app, words->walk.live);
   add_json_flag(*app, words->walk.json);
   return {app, [words] {
             catch_interrupts_to_the_end();

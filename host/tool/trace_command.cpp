@@ -8,6 +8,7 @@
 #include "host/record/trace_writer.hpp"
 #include "host/tool/command.hpp"
 #include "host/tool/console.hpp"
+#include "host/tool/interrupt.hpp"
 #include "host/tool/json.hpp"
 #include "host/tool/trace_pictures.hpp"
 #include "host/tool/trace_words.hpp"
@@ -106,7 +107,7 @@ int cut(const TraceWords& words) {
 
 Subcommand add_trace(CLI::App& root) {
   CLI::App* app = root.add_subcommand(
-      "trace", "Look into a trace, draw, export or cut it, recover what a crash left");
+      "trace", "Look into a trace, draw, export, play or cut it, recover what a crash left");
   app->require_subcommand(1);
   auto words = std::make_shared<TraceWords>();
   const auto add = [&](const char* name, const char* description) {
@@ -153,7 +154,17 @@ Subcommand add_trace(CLI::App& root) {
   }
   CLI::App* pictures = add("pictures", "what its cameras saw (`verp walk --cameras`), as files");
   pictures->add_option("-o,--output", words->output, "folder")->required();
+  CLI::App* again = add("play", "to viewers on this PC, as fast as it was: --live");
+  declare_live(*again, words->live);
+  words->live.on = true;
+  again->add_option("--rate", words->rate, "times as fast as it was")
+      ->check(number_between(0.01, 100, ""))
+      ->capture_default_str();
   return {app, [=] {
+            if (again->parsed()) {
+              catch_interrupts();
+              return play(*words);
+            }
             if (show->parsed()) return info(*words);
             if (plot->parsed()) return plot_trace(*words);
             if (part->parsed()) return cut(*words);

@@ -5,6 +5,7 @@
 
 #include "host/record/mcap_writer.hpp"
 #include "host/record/trace.hpp"
+#include "host/tool/live_stream.hpp"
 
 namespace verp::tool {
 
@@ -18,6 +19,8 @@ struct TraceWords {
   bool compress = false;           ///< cut, merge, recover
   std::vector<std::string> files;  ///< merge
   std::optional<double> from_s, to_s;
+  LiveOptions live;  ///< play
+  double rate = 1;   ///< play: times as fast as it was
 };
 
 /// The trace; complains of what is missing in it, if that is wanted to be read.
@@ -29,9 +32,11 @@ void tell_of_other_decisions(const record::Trace& trace, const std::optional<std
 
 record::mcap::Compression compression_of(const TraceWords& words);
 
-/// `verp trace export`, `plot`, `merge`. Return the exit status; throw ToolError and TraceError.
+/// `verp trace export`, `plot`, `merge`, `play`. Return the exit status; throw ToolError and
+/// TraceError.
 int export_csv(const TraceWords& words);
 int plot_trace(const TraceWords& words);
 int merge(const TraceWords& words);
+int play(const TraceWords& words);
 
 }  // namespace verp::tool

@@ -36,11 +36,17 @@ void add_deadlines(const app::Deadlines& deadlines, Drawn& drawn) {
 
 /// What only the controller itself can tell is not to be had from the other end of a link.
 void refuse_of_outside(const WalkOptions& options, const WalkPlan& first) {
-  const bool wanted = !options.record_file.empty() || !options.report_folder.empty();
+  const bool wanted =
+      !options.record_file.empty() || !options.report_folder.empty() || options.live.on;
   if (first.link.empty() || !wanted) return;
-  throw ToolError(kBadInput,
-                  "verp walk: --record and --report are of a robot that this program drives; add "
-                  "one, or have the controller outside record its own");
+  throw ToolError(
+      kBadInput,
+      "verp walk: --record, --report and --live are of a robot that this program drives; add "
+      "one, or have the controller outside record its own");
+}
+
+std::string first_name(const WalkPlan& plan) {
+  return plan.name.empty() ? plan.params.name : plan.name;
 }
 
 /// Robots of one world have seeds in a row: those of two walks would be the same ones in part, and
@@ -76,14 +82,17 @@ int run_walk(WalkOptions options) {
   if (options.report_folder.empty() && !options.json && plan.link.empty())
     options.report_folder = "report";
   options.board = plan.board;
-  WalkFiles files(options, plan);
-  OtherFiles other_files(options, files, others);
+  LiveStream live("verp walk", options.live);
+  WalkFiles files(options, plan, live.robot(others.empty() ? "" : first_name(plan)));
+  OtherFiles other_files(options, files, others, live);
   std::unique_ptr<WalkCameras> cameras;
   if (options.cameras)
     cameras = std::make_unique<WalkCameras>(options, plan, others, world, files.trace());
+  live.wait_for_viewer();
   Progress progress(!options.json);
   const Walks walks =
       walk_together(plan, others, options, world, files, other_files, progress, cameras.get());
+  live.finish();
   const WalkResult& result = walks.result;
   const Sweep swept = sweep(plan, options, progress);
   progress.clear();
@@ -93,6 +102,8 @@ int run_walk(WalkOptions options) {
   drawn.text += touch_text(result) + team_text(walks, others, other_files, world);
   if (cameras) add_cameras(*cameras, walks, drawn, files);
   if (options.real_time) add_deadlines(walks.deadlines, drawn);
+  live.add_to(drawn.json);
+  drawn.text += live.text();
   if (result.good()) {
     for (const std::string& line : never_done(plan, result)) complain(line);
   }

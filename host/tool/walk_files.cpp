@@ -67,7 +67,7 @@ std::string world_file(const WalkOptions& options) {
 }
 
 WalkFiles::WalkFiles(const WalkOptions& options, const WalkPlan& plan,
-                     const record::mcap::StringMap& more)
+                     record::mcap::Listener* listener, const record::mcap::StringMap& more)
     : folder_(options.report_folder) {
   if (wants_report()) make_folder(folder_);
   if (!options.record_file.empty()) {
@@ -75,11 +75,11 @@ WalkFiles::WalkFiles(const WalkOptions& options, const WalkPlan& plan,
   } else if (wants_report()) {
     trace_path_ = folder_ / kTraceName;
   }
-  if (!trace_path_.empty()) open_trace(options, plan, more);
+  if (!trace_path_.empty() || listener != nullptr) open_trace(options, plan, listener, more);
 }
 
 void WalkFiles::open_trace(const WalkOptions& options, const WalkPlan& plan,
-                           const record::mcap::StringMap& more) {
+                           record::mcap::Listener* listener, const record::mcap::StringMap& more) {
   if (trace_is_in_folder() && report::is_of_the_report(trace_path_.filename().string())) {
     throw ToolError(kBadInput, fmt::format("{}: the report has a file of that name; choose another "
                                            "with --record, such as run.mcap",
@@ -91,7 +91,8 @@ void WalkFiles::open_trace(const WalkOptions& options, const WalkPlan& plan,
       trace_path_, plan.params, run,
       record::TraceOptions{.every_state = options.record_state,
                            .actions = plan.actions,
-                           .compress = options.compress});
+                           .compress = options.compress,
+                           .listener = listener});
 }
 
 bool WalkFiles::trace_is_in_folder() const {

@@ -24,10 +24,11 @@ class WalkFiles {
  public:
   /// Makes the folder, opens the trace; `more` joins its metadata. Throws ToolError or TraceError
   /// when there is no place.
+  /// `listener` hears what the trace is given, be there a file or none.
   WalkFiles(const WalkOptions& options, const WalkPlan& plan,
-            const record::mcap::StringMap& more = {});
+            record::mcap::Listener* listener = nullptr, const record::mcap::StringMap& more = {});
 
-  /// Null when none is wanted.
+  /// Null when none is wanted, and nobody listens.
   record::TraceWriter* trace() { return trace_.get(); }
   bool wants_report() const { return !folder_.empty(); }
 
@@ -48,7 +49,7 @@ class WalkFiles {
 
  private:
   void open_trace(const WalkOptions& options, const WalkPlan& plan,
-                  const record::mcap::StringMap& more);
+                  record::mcap::Listener* listener, const record::mcap::StringMap& more);
   void close_trace(const WalkResult& result);
   void lose_trace(const std::string& why);
   void add_replay(report::Run& run);

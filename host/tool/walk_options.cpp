@@ -113,8 +113,9 @@ void declare_basics(CLI::App& app, WalkOptions& options) {
 }
 
 std::vector<std::pair<std::string, std::string>> changed_options(const CLI::App& app) {
-  const std::set<std::string> kOfNoEffect = {
-      "--json", "--report", "--record", "--record-state", "--compress", "--cameras", "--real-time"};
+  const std::set<std::string> kOfNoEffect = {"--json",         "--report",   "--record",
+                                             "--record-state", "--compress", "--cameras",
+                                             "--real-time",    "--live",     "--live-wait"};
   std::vector<std::pair<std::string, std::string>> changed;
   for (const CLI::Option* option : app.get_options()) {
     if (option->count() == 0 || option->get_positional() ||
@@ -192,6 +193,8 @@ void declare(CLI::App& app, WalkOptions& options) {
   app.add_flag("--no-zeros", options.no_zeros,
                "leave out what was learnt of the legs: zero errors and landings");
   declare(app, options.map);
+  declare_live(app, options.live);
+  for (const char* many : {"--seeds", "--map"}) app.get_option("--live")->excludes(many);
 }
 
 void require_serial(const std::string& command, const model::Entity& entity) {

@@ -8,6 +8,7 @@
 #include "common/model/params.hpp"
 #include "host/model/entity.hpp"
 #include "host/sim/world.hpp"
+#include "host/tool/live_stream.hpp"
 #include "host/tool/team_options.hpp"
 #include "host/tool/walk_map.hpp"
 #include "host/tool/walk_place.hpp"
@@ -49,6 +50,7 @@ struct WalkOptions {
   TeamOptions team;
   std::vector<std::string> robot_words;  ///< of `verp walk`: MODEL, --robot
   bool model_given = false;
+  LiveOptions live;
   bool cameras = false;    ///< what they see goes into the trace
   bool real_time = false;  ///< no faster than time goes by
 

@@ -84,15 +84,17 @@ std::string driver_of(const WalkPlan& plan) {
 }  // namespace
 
 OtherFiles::OtherFiles(const WalkOptions& options, const WalkFiles& first,
-                       const std::vector<WalkPlan>& others) {
-  if (first.trace_path().empty()) return;
+                       const std::vector<WalkPlan>& others, LiveStream& live) {
+  if (first.trace_path().empty() && !options.live.on) return;
   for (const WalkPlan& other : others) {
     WalkOptions own = options;
     own.report_folder.clear();
     // Of a controller outside only what the robot did is known; what it was told, it may record.
-    own.record_file = other.link.empty() ? file_of(first.trace_path(), other.name) : "";
+    const bool ours = other.link.empty();
+    own.record_file =
+        ours && !first.trace_path().empty() ? file_of(first.trace_path(), other.name) : "";
     own.board = other.board;
-    files_.emplace_back(own, other);
+    files_.emplace_back(own, other, ours ? live.robot(other.name) : nullptr);
   }
 }
 

@@ -24,7 +24,7 @@ class OtherFiles {
  public:
   /// Throws as WalkFiles does.
   OtherFiles(const WalkOptions& options, const WalkFiles& first,
-             const std::vector<WalkPlan>& others);
+             const std::vector<WalkPlan>& others, LiveStream& live);
   /// Of the other of this number; null: none.
   record::TraceWriter* trace(std::size_t i) { return files_.empty() ? nullptr : files_[i].trace(); }
   void finish(const Walks& walks);

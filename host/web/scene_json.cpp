@@ -1,8 +1,9 @@
 #include "host/web/scene_json.hpp"
 
-#include <cstring>
 #include <limits>
 #include <nlohmann/json.hpp>
+
+#include "host/files/base64.hpp"
 
 namespace verp::web {
 namespace {
@@ -14,21 +15,7 @@ using scene::Vec3;
 template <class Number>
 std::string base64(const std::vector<Number>& values) {
   static_assert(sizeof(Number) == 4);
-  constexpr const char* kDigits =
-      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string bytes(values.size() * sizeof(Number), '\0');
-  std::memcpy(bytes.data(), values.data(), bytes.size());
-  std::string out;
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    std::uint32_t word = 0;
-    for (std::size_t k = 0; k < 3; ++k) {
-      word = word << 8 | (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0u);
-    }
-    for (std::size_t k = 0; k < 4; ++k) {
-      out += i + k <= bytes.size() ? kDigits[word >> (18 - 6 * k) & 63] : '=';
-    }
-  }
-  return out;
+  return files::base64({reinterpret_cast<const char*>(values.data()), 4 * values.size()});
 }
 
 Json numbers(const Vec3& v) {

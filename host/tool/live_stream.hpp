@@ -1,0 +1,55 @@
+#pragma once
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "host/live/robot_stream.hpp"
+#include "host/tool/json.hpp"
+
+namespace CLI {
+class App;
+}
+
+namespace verp::tool {
+
+/// What is typed of a stream.
+struct LiveOptions {
+  bool on = false;
+  std::uint16_t port = 8765;  ///< that viewers offer by themselves
+  bool waits = false;
+};
+
+/// --live and --live-wait. Once the command line is parsed, `options.on` says whether.
+void declare_live(CLI::App& app, LiveOptions& options);
+
+/// What happens, to viewers on this PC while it happens (host/live). Does nothing if nobody asked
+/// for it.
+class LiveStream {
+ public:
+  /// Tells on stderr where it is. Throws ToolError: the port is not to be had.
+  LiveStream(const std::string& command, const LiveOptions& options);
+
+  /// Who hears what a robot's trace is given; null: nobody. `name`: among several, empty if it is
+  /// alone.
+  record::mcap::Listener* robot(const std::string& name = {});
+  live::Server* server() { return server_.get(); }
+  /// With --live-wait: returns when somebody watches, or the run is interrupted. Its channels are
+  /// there by now.
+  void wait_for_viewer();
+  /// There is no more; viewers get what waits for them.
+  void finish();
+
+  /// What became of it; empty: nobody asked.
+  std::string text() const;
+  void add_to(Json& json) const;
+
+ private:
+  std::string command_;
+  LiveOptions options_;
+  std::unique_ptr<live::Server> server_;
+  std::deque<live::RobotStream> robots_;
+};
+
+}  // namespace verp::tool
