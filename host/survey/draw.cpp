@@ -163,7 +163,7 @@ report::Plot push_plot(const PushMap& map, const PushOptions& options) {
       script};
 }
 
-report::Plot push_rose(const PushMap& map, const PushOptions&) {
+report::Plot push_rose(const PushMap& map, const PushOptions& options) {
   const std::vector<Side> sides = sides_of(map);
   double most = 0.5;
   for (const Side& side : sides) most = std::max(most, side.most_n_s);
@@ -188,14 +188,18 @@ report::Plot push_rose(const PushMap& map, const PushOptions&) {
       "set key outside right center vertical\nplot {3}"
       "$least using 1:2 with filledcurves closed linetype 1 fillstyle transparent solid 0.18 "
       "noborder notitle, "
-      "$least using 1:2 with linespoints linetype 1 title 'at the weakest phase', "
-      "$middle using 1:2 with linespoints linetype 3 title 'at half of the phases', "
-      "$most using 1:2 with linespoints linetype 2 title 'at the strongest phase'\n",
-      1.3 * end, 1.12 * end, kInk, plot);
+      "$least using 1:2 with linespoints linetype 1 {4}\n",
+      1.3 * end, 1.12 * end, kInk, plot,
+      options.standing
+          ? "notitle"
+          : "title 'at the weakest phase', "
+            "$middle using 1:2 with linespoints linetype 3 title 'at half of the phases', "
+            "$most using 1:2 with linespoints linetype 2 title 'at the strongest phase'");
   return {"rose",
           "By direction",
-          "The same, seen from above: how hard a push it walks on after, in N s, by where it is "
-          "pushed to.",
+          fmt::format("Seen from above: how hard a push it {} after, in N s, by where it is pushed "
+                      "to.",
+                      options.standing ? "stands" : "walks on"),
           720,
           480,
           script};

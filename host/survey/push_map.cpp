@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "common/gait/types.hpp"
+#include "common/safety/machine.hpp"
 #include "host/session/session.hpp"
 
 namespace verp::survey {
@@ -14,7 +15,9 @@ namespace {
 
 constexpr double kTurn_rad = 2 * std::numbers::pi;
 
-/// The cycle that is pushed, of the walk without a push.
+constexpr double kStandUp_s = 15;  // it rises, and its gyro is calibrated
+
+/// The cycle that is pushed, of the run without a push. Who stands has one without length.
 struct Cycle {
   double begins_s = 0, cycle_s = 0;
   std::vector<double> heading_rad;  ///< of the body, at each phase
@@ -50,6 +53,50 @@ class CycleFinder {
   int state_ = 0;
   bool begun_ = false;
 };
+
+/// Asks it to stand, and nothing else.
+class Stander {
+ public:
+  app::OperatorOrder operator()(std::uint32_t tick) {
+    constexpr std::uint32_t kEvery = 10;  // ticks; well inside Tuning's command_hold_s
+    app::OperatorOrder order;
+    order.command.request = Request::kStand;
+    if (tick % kEvery == 0) ++sequence_, order.flags = kCommandFresh;
+    order.command.sequence = sequence_;
+    return order;
+  }
+
+ private:
+  decltype(Command::sequence) sequence_ = 0;
+};
+
+bool stands(const session::Tick& tick) {
+  return tick.outputs->mode == static_cast<std::uint8_t>(safety::Mode::kStanding);
+}
+
+/// The moment at which it has stood for settle_s without a push. Nothing: somebody interrupted.
+std::optional<Cycle> stance_of(session::WalkPlan plan, const sim::WorldOptions& world,
+                               const PushOptions& options, const Watch& watch) {
+  Cycle found;
+  double since_s = 0;
+  session::Hooks hooks;
+  hooks.order = Stander();
+  hooks.ticked = [&](const session::Tick& tick) {
+    if (!stands(tick)) since_s = tick.gone_s;
+    if (!found.heading_rad.empty() || tick.gone_s - since_s < options.settle_s) return;
+    found.begins_s = tick.gone_s;
+    found.heading_rad = {tick.seen.truth.yaw_rad};
+  };
+  plan.walk_s = kStandUp_s;
+  const session::WalkResult result =
+      session::walk(plan, hooks, {.world = world, .interrupted = watch.interrupted});
+  if (result.interrupted) return std::nullopt;
+  if (!result.failure.empty() || found.heading_rad.empty()) {
+    throw SurveyError("it does not stand without a push" +
+                      (result.failure.empty() ? "" : ": " + result.failure));
+  }
+  return found;
+}
 
 /// Nothing: somebody interrupted.
 std::optional<Cycle> cycle_of(const session::WalkPlan& plan, const sim::WorldOptions& world,
@@ -129,9 +176,16 @@ class Map {
          .force_world_n = {force_n * std::cos(to_rad), force_n * std::sin(to_rad), 0},
          .for_s = options_.push_s});
     ++walks_;
-    return session::walk(plan, {},
-                         {.world = world_, .interrupted = [&] { return workers_.stopped(); }})
-        .good();
+    bool ends_well = true;
+    session::Hooks hooks;
+    if (options_.standing) {
+      plan.walk_s = cell.at_s + options_.after_s;
+      hooks.order = Stander();
+      hooks.ticked = [&](const session::Tick& tick) { ends_well = stands(tick); };
+    }
+    const session::WalkResult result = session::walk(
+        plan, hooks, {.world = world_, .interrupted = [&] { return workers_.stopped(); }});
+    return result.good() && ends_well;
   }
 
   const session::WalkPlan& plan_;
@@ -144,13 +198,18 @@ class Map {
 
 }  // namespace
 
+PushOptions standing_pushes() {
+  return {.standing = true, .phases = 1};
+}
+
 double least_walk_s(const PushOptions& options, double cycle_s) {
   return options.settle_s + 2 * cycle_s + options.after_s;
 }
 
 PushMap push_map(const session::WalkPlan& plan, const sim::WorldOptions& world,
                  const PushOptions& options, const Watch& watch) {
-  const std::optional<Cycle> cycle = cycle_of(plan, world, options, watch);
+  const std::optional<Cycle> cycle = options.standing ? stance_of(plan, world, options, watch)
+                                                      : cycle_of(plan, world, options, watch);
   if (!cycle) return {.link = plan.entity.nodes.front().name, .cells = {}, .interrupted = true};
   return Map(plan, world, options, watch).run(*cycle);
 }

@@ -19,10 +19,11 @@ class SurveyError : public std::runtime_error {
 
 /// How hard a robot may be pushed, at each phase of its gait and from each side.
 struct PushOptions {
-  int phases = 16;     ///< of the gait cycle, evenly apart
-  int directions = 8;  ///< evenly apart, the first one ahead
+  bool standing = false;  ///< it is pushed where it stands, and `phases` is 1
+  int phases = 16;        ///< of the gait cycle, evenly apart
+  int directions = 8;     ///< evenly apart, the first one ahead
   double push_s = 0.05;
-  double settle_s = 3;    ///< of gait, at least, before the cycle that is pushed
+  double settle_s = 3;    ///< of gait, or on its feet, at least, before it is pushed
   double after_s = 3;     ///< and at least so much of it afterwards
   double step_n_s = 0.1;  ///< impulses are told apart by so much,
   int steps = 31;         ///< and are at most so many of them
@@ -48,11 +49,15 @@ struct PushMap {
   bool interrupted = false;
 };
 
-/// Walks the plan with a push of push_s in each cell, and halves the range of impulses until the
-/// largest that the robot survives is known to one step. It takes for granted that whoever survives
-/// a push survives smaller ones, which is so but for a few near the limit. Each walk has the plan's
-/// seed, and to survive is to be good (session::WalkResult). Throws SurveyError where the robot
-/// does not walk without a push, or not steadily, and what session::walk() throws.
+/// Those of a robot that stands, to the same precision.
+PushOptions standing_pushes();
+
+/// Walks the plan, or stands, with a push of push_s in each cell, and halves the range of impulses
+/// until the largest that the robot survives is known to one step. It takes for granted that
+/// whoever survives a push survives smaller ones, which is so but for a few near the limit. Each
+/// walk has the plan's seed, and to survive is to be good (session::WalkResult), and to stand in
+/// the end where it stood. Throws SurveyError where the robot does not walk, or stand, without a
+/// push, or not steadily, and what session::walk() throws.
 PushMap push_map(const session::WalkPlan& plan, const sim::WorldOptions& world,
                  const PushOptions& options, const Watch& watch);
 

@@ -90,9 +90,19 @@ std::string direction_name(double direction_rad) {
 
 std::string text_of(const PushMap& map, const PushOptions& options) {
   std::string out = fmt::format(
-      "  the hardest push of {:g} ms at '{}' that it walks on after, N s, told apart by {:g} up to "
-      "{:g}:\n  pushed to   weakest at phase   middle   strongest   phases 0 to {}\n",
-      1e3 * options.push_s, map.link, options.step_n_s, options.most_n_s(), options.phases - 1);
+      "  the hardest push of {:g} ms at '{}' that it {} after, N s, told apart by {:g} up to "
+      "{:g}:\n",
+      1e3 * options.push_s, map.link, options.standing ? "stands" : "walks on", options.step_n_s,
+      options.most_n_s());
+  if (options.standing) {
+    for (const PushCell& cell : map.cells) {
+      out += fmt::format("  {:<20}{}\n", direction_name(cell.direction_rad),
+                         cell.survives_n_s ? fmt::format("{:.1f}", *cell.survives_n_s) : "-");
+    }
+    return out;
+  }
+  out += fmt::format("  pushed to   weakest at phase   middle   strongest   phases 0 to {}\n",
+                     options.phases - 1);
   for (const Side& side : sides_of(map)) {
     // The degree sign is two bytes, one column.
     const std::string name = direction_name(side.direction_rad);

@@ -38,8 +38,15 @@ double usual_push_s(const WalkPlan& plan) {
 
 survey::PushOptions push_options(const WalkOptions& options, const WalkPlan& plan) {
   survey::PushOptions push;
+  if (options.map.kind == "stand") push = survey::standing_pushes();
   push.directions =
       grid_of(options.map, push.directions, 1, kMostDirections, "directions to push in");
+  if (push.standing) {
+    if (!options.map.length_given && !options.changes("--velocity") && !options.changes("--step"))
+      return push;
+    throw ToolError(kBadInput,
+                    "verp walk: --map stand does not walk; leave --for, --velocity and --step out");
+  }
   const double least_s =
       survey::least_walk_s(push, static_cast<double>(plan.params.tuning.gait.cycle_s));
   if (plan.walk_s >= least_s) return push;
@@ -117,8 +124,9 @@ void declare(CLI::App& app, MapOptions& options) {
   CLI::Option* map =
       app.add_option("--map", options.kind,
                      "push: the hardest push that it walks on after, at 16 phases of its gait from "
-                     "all sides; stability: which velocities it walks at, and what comes of them")
-          ->check(CLI::IsMember({"push", "stability"}));
+                     "all sides; stand: that it stands after; stability: which velocities it walks "
+                     "at, and what comes of them")
+          ->check(CLI::IsMember({"push", "stand", "stability"}));
   app.add_option("--map-grid", options.grid,
                  "how fine a map is: directions of pushes (8), or velocities on each axis (9)")
       ->check(whole_number_between(1, kMostOnAxis))
@@ -130,7 +138,7 @@ void declare(CLI::App& app, MapOptions& options) {
 }
 
 int walk_map(const WalkOptions& options, WalkPlan plan, sim::WorldOptions world) {
-  const bool push = options.map.kind == "push";
+  const bool push = options.map.kind != "stability";
   if (!options.map.length_given) plan.walk_s = push ? usual_push_s(plan) : kLength_s;
   std::optional<survey::PushOptions> pushes;
   std::optional<survey::StabilityOptions> velocities;

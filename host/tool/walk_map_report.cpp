@@ -88,23 +88,28 @@ MapTold tell(const WalkOptions& options, const WalkPlan& plan, const survey::Pus
   std::string verdict =
       tried(done_of(map), of, "pushes") + fmt::format(" found in {} walks", map.walks);
   if (weakest != sides.end()) {
-    verdict += fmt::format("; weakest: {:.1f} N s, {}, phase {}", weakest->least_n_s,
-                           survey::direction_name(weakest->direction_rad), weakest->least_phase);
+    verdict += fmt::format("; weakest: {:.1f} N s, {}", weakest->least_n_s,
+                           survey::direction_name(weakest->direction_rad));
+    if (!asked.standing) verdict += fmt::format(", phase {}", weakest->least_phase);
   }
   if (map.interrupted) verdict += "; interrupted";
-  MapTold told =
-      begun(options, plan, fmt::format("pushes of {:g} ms while it walks", 1e3 * asked.push_s),
-            verdict, map.interrupted);
+  MapTold told = begun(options, plan,
+                       fmt::format("pushes of {:g} ms while it {}", 1e3 * asked.push_s,
+                                   asked.standing ? "stands" : "walks"),
+                       verdict, map.interrupted);
   if (!plan.remark.empty()) told.text += fmt::format("  {:<18}{}\n", "remark", plan.remark);
   told.text += survey::text_of(map, asked);
   const survey::Velocity velocity = survey::velocity_of(plan.velocity);
   for (const survey::Side& side : sides) {
     told.page.facts.push_back({"Pushed " + survey::direction_name(side.direction_rad),
                                fmt::format("{:.1f} N s", side.least_n_s),
-                               fmt::format("at phase {}; {:.1f} at half of the phases",
-                                           side.least_phase, side.middle_n_s)});
+                               asked.standing
+                                   ? ""
+                                   : fmt::format("at phase {}; {:.1f} at half of the phases",
+                                                 side.least_phase, side.middle_n_s)});
   }
-  told.page.plots = {survey::push_plot(map, asked), survey::push_rose(map, asked)};
+  if (!asked.standing) told.page.plots.push_back(survey::push_plot(map, asked));
+  told.page.plots.push_back(survey::push_rose(map, asked));
   told.page.csv = survey::csv_of(map);
   Json cells = Json::array();
   for (const survey::PushCell& cell : map.cells) {

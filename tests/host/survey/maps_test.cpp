@@ -50,6 +50,25 @@ TEST(PushMap, FindsTheLargestPushThatTheSameWalkSurvivesWhateverTheThreads) {
   EXPECT_FALSE(survives(plan, options, cell, *cell.survives_n_s + options.step_n_s));
 }
 
+// Of two directions the map is as even as the robot: its feet are further apart than they are long
+// ahead of its ankles.
+TEST(PushMap, OfARobotThatStandsEndsWithIt) {
+  PushOptions options = standing_pushes();
+  options.directions = 2;
+  options.settle_s = 0.5;
+  options.after_s = 1.5;
+  options.step_n_s = 0.5;
+  options.steps = 7;
+  const PushMap map = push_map(plan_of(1), kCoarse, options, {.threads = 2});
+  ASSERT_EQ(map.cells.size(), 2u);
+  EXPECT_EQ(map.walks, 6u);
+  for (const PushCell& cell : map.cells) {
+    ASSERT_TRUE(cell.survives_n_s);
+    EXPECT_GE(*cell.survives_n_s, 0.5) << cell.direction_rad << ": a tap";
+    EXPECT_LE(*cell.survives_n_s, 3.0) << cell.direction_rad << ": as fast as it could run";
+  }
+}
+
 TEST(PushMap, OfARobotThatFallsUnpushedThereIsNone) {
   const PushOptions options{.phases = 1, .directions = 1, .settle_s = 1};
   session::WalkPlan plan = plan_of(6);

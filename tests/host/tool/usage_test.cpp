@@ -127,7 +127,7 @@ TEST_F(Usage, ListsAreChecked) {
 }
 
 TEST_F(Usage, MapsAreOfOneRobotAndOfWalksOfTheirOwn) {
-  expect_refused("walk --map moon", "--map: moon not in {push,stability}");
+  expect_refused("walk --map moon", "--map: moon not in {push,stand,stability}");
   for (const char* other :
        {"--seeds 1-2", "--sweep-step 0.02:0.04:0.02", "--record a.mcap", "--on mps2_an386",
         "--push '1: trunk 0,1,0 N for 0.1'", "--get-up", "--start lying:front", "--cameras"}) {
@@ -136,6 +136,8 @@ TEST_F(Usage, MapsAreOfOneRobotAndOfWalksOfTheirOwn) {
   expect_refused("walk --map-grid 8", "requires --map");
   expect_refused("walk --map push --map-grid 37", "give 1 to 36 directions");
   expect_refused("walk --map push --for 5", "raise --for");
+  expect_refused("walk --map stand --for 5", "does not walk");
+  expect_refused("walk --map stand --map-grid 37", "give 1 to 36 directions");
   expect_refused("walk --map stability --map-grid 4", "give an odd number");
   expect_refused("walk --map stability --velocity 0.1,0,0", "leave --velocity and --step out");
   expect_refused("walk --map stability --world demo --report /proc/no", "/proc/no");
