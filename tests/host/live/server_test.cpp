@@ -130,6 +130,11 @@ TEST(Live, RubbishIsAnsweredOrEndsOneConnectionAndTakesNothingFromOthers) {
   for (const auto& [words, answer] : greetings)
     EXPECT_TRUE(Viewer(server.port()).greet(words).starts_with(answer)) << words.substr(0, 40);
   Viewer(server.port()).put("GET / HT");  // and is gone
+  const std::string newer =
+      std::string(head).replace(head.find("foxglove.websocket.v1"), 21, "foxglove.sdk.v1");
+  EXPECT_NE(Viewer(server.port()).greet(newer).find("Protocol: foxglove.sdk.v1\r\n"),
+            std::string::npos)
+      << "the protocol's other name";
 
   const auto spoken = [&](const std::string& bytes) {
     Viewer viewer(server.port());

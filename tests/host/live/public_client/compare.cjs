@@ -95,7 +95,8 @@ async function compare(file, topics) {
   return count;
 }
 
-const run = spawn(verp, ["walk", "--for", "3", "--json", "--record", "run.mcap", "--live", "0", "--live-wait", ...words],
+if (!words.includes("--for")) words.push("--for", "3");
+const run = spawn(verp, ["walk", "--json", "--record", "run.mcap", "--live", "0", "--live-wait", ...words],
   { cwd: folder });
 let told = "", out = "", watched;
 run.stdout.on("data", (data) => { out += data; });
