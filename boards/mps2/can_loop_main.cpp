@@ -69,7 +69,8 @@ int run(Desk& desk, std::uint32_t ticks) {
   if (bus.greet(params) != verp::lockstep::Verdict::kAccepted) {
     return fail("loop: the twin refused\n");
   }
-  static verp::app::App<Bus, Desk, Desk> app(params, bus, desk, desk);
+  static verp::app::App<Bus, Desk, Desk, verp::app::NoImu, verp::app::Law> app(params, bus, desk,
+                                                                               desk);
   if (app.bring_up().status != verp::app::BringUpStatus::kReady) {
     return fail("loop: a device of the robot did not come up\n");
   }

@@ -16,7 +16,7 @@ function(verp_add_emulated_image name what machine)
     target_sources(${image} PRIVATE ${VERP_MPS2_DIR}/emulator.cpp)
   endif()
   target_include_directories(${image} PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
-  target_link_libraries(${image} PRIVATE verp_boot verp_app verp_core verp_chip_semihosting verp_warnings)
+  target_link_libraries(${image} PRIVATE verp_boot verp_law verp_app verp_core verp_chip_semihosting verp_warnings)
   target_link_options(${image} PRIVATE -T ${CMAKE_CURRENT_SOURCE_DIR}/memory.ld -Wl,--defsym,verp_test_image=1)
   set_target_properties(${image} PROPERTIES
     SUFFIX .elf
@@ -97,6 +97,12 @@ function(verp_add_deploy_test)
     set_tests_properties(${name} PROPERTIES LABELS "flash;target"
       ENVIRONMENT "VERP_FIRMWARE_DIR=${CMAKE_BINARY_DIR}/images")
   endforeach()
+endfunction()
+
+# A controller of somebody's own in the board's loop, from its folder to the same digest as on the PC.
+function(verp_add_own_controller_test)
+  add_test(NAME own.${VERP_BOARD} COMMAND ${CMAKE_SOURCE_DIR}/tests/host/own/own_controller.sh ${VERP_HOST_DIR}/host/tool/verp ${VERP_BOARD})
+  set_tests_properties(own.${VERP_BOARD} PROPERTIES LABELS "loop;target")
 endfunction()
 
 # gdb on these images; with `loop`, on the board's own loop, too.

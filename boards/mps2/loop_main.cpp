@@ -3,6 +3,7 @@
 #include "firmware/app/remote_bus.hpp"
 #include "firmware/boot/boot.hpp"
 #include "hal/chip/semihosting/semihosting.hpp"
+#include "law.hpp"
 
 /// loop_<board> TO_BOARD FROM_BOARD: the robot's control loop, whose servo bus is on the PC behind
 /// two FIFOs.
@@ -37,7 +38,8 @@ const char* words_for(verp::app::BringUpStatus status) {
 }
 
 int run(Remote& remote) {
-  static verp::app::App<Remote, Remote, Remote> app(params, remote, remote, remote);
+  using Loop = verp::app::App<Remote, Remote, Remote, verp::app::NoImu, verp::app::Law>;
+  static Loop app(params, remote, remote, remote);
   const auto report = app.bring_up();
   if (report.status != verp::app::BringUpStatus::kReady) {
     remote.quit(1, words_for(report.status));

@@ -5,7 +5,7 @@ set(VERP_STM32_DIR ${CMAKE_CURRENT_LIST_DIR})
 function(verp_add_stm32_image image way)
   add_executable(${image} ${VERP_STM32_DIR}/loop_main.cpp ${VERP_STM32_DIR}/hardware.cpp ${VERP_STM32_DIR}/end.cpp)
   target_include_directories(${image} PRIVATE ${CMAKE_CURRENT_SOURCE_DIR} ${VERP_STM32_DIR}/${way})
-  target_link_libraries(${image} PRIVATE verp_boot verp_app verp_core verp_warnings)
+  target_link_libraries(${image} PRIVATE verp_boot verp_law verp_app verp_core verp_warnings)
   # Flash is what is short here, not time: a tick's reckoning is verp_core's, which keeps its flags, and the rest mostly waits.
   target_compile_options(${image} PRIVATE -Os)
   target_link_options(${image} PRIVATE -T ${CMAKE_CURRENT_SOURCE_DIR}/memory.ld)

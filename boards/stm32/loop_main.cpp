@@ -16,6 +16,7 @@
 #include "firmware/app/tick_log.hpp"
 #include "firmware/boot/boot.hpp"
 #include "firmware/boot/crash.hpp"
+#include "law.hpp"
 
 /// loop_<board>: the robot's control loop over the board's ports; loop_can_<board>: the same for a
 /// robot on CAN (robot_port.hpp of serial/ and can/). At the robot's port may be servos, or a twin
@@ -199,7 +200,8 @@ lockstep::Verdict run_in_lockstep(Board& board, const Params& params) {
   const lockstep::Verdict verdict = bus.greet(params);
   if (verdict != lockstep::Verdict::kAccepted) return verdict;
   until_us = kForever_us;
-  app::App loop(params, bus, board.operator_device, board);
+  app::NoImu* const none = nullptr;
+  app::App loop(params, bus, board.operator_device, board, none, app::Law{});
   if (!board.is_up(loop.bring_up())) return verdict;
   while (!bus.stopped()) {
     loop.tick();
@@ -217,7 +219,7 @@ void run_in_real_time(Board& board, Servos& servos, const Params& params, std::u
   bool ticking = false;
   RealTimeOn<Node::LoopPort, Timer, UntilTicks> way(board.node.port(), timer, {board, ticking},
                                                     held_us);
-  app::App loop(params, way.bus(), board.panel, board, board.imu.chip());
+  app::App loop(params, way.bus(), board.panel, board, board.imu.chip(), app::Law{});
   if (!board.is_up(loop.bring_up())) return;
   board.idle();
   app::Pacer pacer(timer);

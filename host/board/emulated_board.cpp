@@ -72,12 +72,14 @@ const EmulatedBoard& find_emulated_board(const std::string& name) {
   throw NoSuchBoard("no emulated board '" + name + "'; there is:" + known);
 }
 
-std::filesystem::path firmware_image(const EmulatedBoard& board, const std::string& what) {
+std::filesystem::path firmware_image(const EmulatedBoard& board, const std::string& what,
+                                     const std::string& images) {
   const std::string name = board.name;
   const char* folder = std::getenv("VERP_FIRMWARE_DIR");
   std::filesystem::path image =
-      (folder != nullptr ? std::filesystem::path(folder)
-                         : files::source_dir() / "build" / ("fw-" + name) / "images") /
+      (!images.empty()     ? std::filesystem::path(images)
+       : folder != nullptr ? std::filesystem::path(folder)
+                           : files::source_dir() / "build" / ("fw-" + name) / "images") /
       (what + "_" + name + ".elf");
   if (!std::filesystem::exists(image)) {
     throw NoSuchBoard(image.string() + ": no such firmware image; build it: cmake --preset fw-" +

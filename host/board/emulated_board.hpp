@@ -26,9 +26,10 @@ const std::vector<EmulatedBoard>& emulated_boards();
 /// Throws NoSuchBoard, which lists the names there are.
 const EmulatedBoard& find_emulated_board(const std::string& name);
 
-/// Image `what` ("unit", "replay", "loop") of a board, in $VERP_FIRMWARE_DIR/<board> if that is
-/// set, else where the preset fw-<board> builds it. Throws NoSuchBoard, with the command that
-/// builds it, when it isn't there.
-std::filesystem::path firmware_image(const EmulatedBoard& board, const std::string& what);
+/// Image `what` ("unit", "replay", "loop") of a board, in the folder `images` if that is given,
+/// else in $VERP_FIRMWARE_DIR if that is set, else where the preset fw-<board> builds it. Throws
+/// NoSuchBoard, with the command that builds it, when it isn't there.
+std::filesystem::path firmware_image(const EmulatedBoard& board, const std::string& what,
+                                     const std::string& images = "");
 
 }  // namespace verp::board

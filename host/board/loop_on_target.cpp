@@ -12,11 +12,12 @@ constexpr std::chrono::seconds kEnd{10};
 }  // namespace
 
 bus::ServerResult run_loop_on(const std::string& board, const Params& params, bus::VirtualBus& bus,
-                              const bus::ServerHooks& hooks, const bus::RunOptions& options) {
+                              const bus::ServerHooks& hooks, const bus::RunOptions& options,
+                              const std::string& images) {
   const EmulatedBoard& emulated = find_emulated_board(board);
   FifoLink link;
   QemuProcess firmware({.board = emulated,
-                        .image = firmware_image(emulated, "loop"),
+                        .image = firmware_image(emulated, "loop", images),
                         .arguments = {link.to_board().string(), link.from_board().string()}});
   link.connect(firmware, kStart);
   const bus::ByteStreams streams{

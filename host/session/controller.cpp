@@ -82,7 +82,8 @@ class BoardController final : public Controller {
     const std::string& board = robot_.plan().board;
     try {
       const bus::ServerResult ended =
-          board::run_loop_on(board, robot_.plan().params, robot_.bus(), hooks, bus::RunOptions{});
+          board::run_loop_on(board, robot_.plan().params, robot_.bus(), hooks, bus::RunOptions{},
+                             robot_.plan().firmware_folder);
       if (failure_.empty() && ended.exit_code != 0) failure_ = board + ": " + ended.reason;
     } catch (const board::BoardError&) {
       if (!robot_.interrupted()) throw;  // Ctrl-C in a terminal ends the emulator too
@@ -91,11 +92,15 @@ class BoardController final : public Controller {
 
   void compare(const TickRecord& tick) {
     Outputs outputs;
-    step(robot_.plan().params, robot_.actions(), state_, tick.inputs, outputs);
+    robot_.decide(state_, tick.inputs, outputs);
     for (int stage = kStages - 1; stage >= 0; --stage) {
       if (state_.digest.stage[stage] == tick.digest.stage[stage]) continue;
       failure_ = fmt::format("{} differs from this PC at tick {} in stage {}", robot_.plan().board,
                              tick.inputs.tick, kStageNames[stage]);
+    }
+    if (failure_.empty() && state_.digest.chain != tick.digest.chain) {
+      failure_ = fmt::format("{} differs from this PC at tick {} in what is sent",
+                             robot_.plan().board, tick.inputs.tick);
     }
     robot_.take(tick, state_, outputs);
   }

@@ -19,6 +19,10 @@
 /// went.
 namespace verp::session {
 
+/// One tick of a controller in this process: what it leaves in Outputs is sent, what it leaves in
+/// State is recorded.
+using Decide = std::function<void(const Params&, State&, const Inputs&, Outputs&)>;
+
 /// One walk of one robot, fully determined by these values and the world's.
 struct WalkPlan {
   model::Entity entity;
@@ -32,8 +36,12 @@ struct WalkPlan {
   /// the walk. `actions` hold how.
   int get_ups = 0;
   std::string board;  ///< emulated board that runs the controller; empty: this process
-  std::string link;   ///< at whose other end its controller is (served.hpp); empty: it is not
-  std::string name;   ///< among other robots of the world; empty: as params have it
+  /// A controller of somebody's own in place of the core (host/own), made for one run; empty: none.
+  std::function<Decide()> own;
+  /// Where that board's images are, with such a controller in them; empty: those of this project.
+  std::string firmware_folder;
+  std::string link;  ///< at whose other end its controller is (served.hpp); empty: it is not
+  std::string name;  ///< among other robots of the world; empty: as params have it
   std::vector<Intervention> interventions;  ///< of what is done to the twin, in any order
 };
 
@@ -57,9 +65,8 @@ struct Hooks {
   std::function<app::OperatorOrder(std::uint32_t tick)> order;
   /// Sees each order before it goes out, whoever gave it, and may change it (LiveOrders).
   std::function<void(std::uint32_t tick, app::OperatorOrder& order)> amend;
-  /// In place of the core's step(), of a controller in this process: what it leaves in Outputs is
-  /// sent, what it leaves in State is recorded. It may throw, which ends the run.
-  std::function<void(const Params&, State&, const Inputs&, Outputs&)> decide;
+  /// In place of the core's step(), and of the plan's own. It may throw, which ends the run.
+  Decide decide;
   std::function<void(const Tick&)> ticked;
   /// When the robot's cameras looked (plan.twin.cameras), up to the tick that was just recorded;
   /// stamp_ns: as the trace counts time. Not called any more once a trace that was given breaks

@@ -19,6 +19,11 @@ namespace {
 constexpr double kAfterFall_s = 0.5;  // the report should show how it fell
 constexpr double kAfterStop_s = 0.3;  // and how it stands still
 
+Hooks with_own(Hooks hooks, const WalkPlan& plan) {
+  if (!hooks.decide && plan.own) hooks.decide = plan.own();
+  return hooks;
+}
+
 record::ros::BodyPose pose_of(const sim::Transform& body) {
   const Eigen::Quaterniond q(body.linear());
   const auto& p = body.translation();
@@ -37,7 +42,7 @@ std::vector<record::ros::ObjectPose> objects_of(const sim::Scenery& scenery) {
 
 Robot::Robot(sim::World& world, const WalkPlan& plan, Hooks hooks, Interrupted interrupted)
     : plan_(plan),
-      hooks_(std::move(hooks)),
+      hooks_(with_own(std::move(hooks), plan_)),
       interrupted_(std::move(interrupted)),
       trace_(hooks_.trace),
       world_(world),

@@ -8,6 +8,7 @@
 #include "host/bus/client.hpp"
 #include "host/flash/flash_error.hpp"
 #include "host/model/load_error.hpp"
+#include "host/own/loaded.hpp"
 #include "host/record/trace.hpp"
 #include "host/report/report.hpp"
 #include "host/session/not_up.hpp"
@@ -47,6 +48,8 @@ Failure current_failure() {
     return {status_of(error.kind()), error.what()};
   } catch (const record::TraceError& error) {
     return {kBadInput, error.what()};
+  } catch (const own::OwnError& error) {
+    return {kRunFailed, error.what()};
   } catch (const report::ReportError& error) {
     return {kBadInput, error.what()};
   } catch (const std::exception& error) {

@@ -1,5 +1,6 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
+#include <cstdlib>
 #include <memory>
 
 #include "host/tool/command.hpp"
@@ -7,19 +8,26 @@
 #include "host/tool/flash_run.hpp"
 #include "host/tool/interrupt.hpp"
 #include "host/tool/json.hpp"
+#include "host/tool/own_controller.hpp"
 
 namespace verp::tool {
 namespace {
 
 struct FlashWords {
   FlashOptions flash;
+  std::string controller;  ///< a folder; empty: the core decides
   bool code = false, json = false;
 };
 
 int run_flash(FlashWords words) {
   const bool data = !words.flash.params.empty() || !words.flash.actions.empty();
-  words.flash.code = words.code || !data;
+  words.flash.code = words.code || !data || !words.controller.empty();
   Progress progress(!words.json);
+  if (!words.controller.empty()) {
+    const std::string images =
+        build_firmware_of(words.controller, words.flash.board, "loops", progress);
+    setenv("VERP_FIRMWARE_DIR", images.c_str(), 1);
+  }
   const FlashAnswer result = flash_board(words.flash, progress, [&](const std::string& text) {
     if (words.json) {
       complain(text);
@@ -55,6 +63,7 @@ Subcommand add_flash(CLI::App& root) {
       "give back the actions that a run which failed has kept (it names the file); other "
       "actions have no format yet");
   app->add_flag("--code", words->code, "with --params or --actions: the firmware as well");
+  declare_controller(*app, words->controller);
   add_json_flag(*app, words->json);
   return {app, [words] {
             catch_interrupts();

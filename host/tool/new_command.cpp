@@ -15,6 +15,7 @@
 #include "host/model/robot_table.hpp"
 #include "host/tool/command.hpp"
 #include "host/tool/console.hpp"
+#include "host/tool/new_controller.hpp"
 
 namespace verp::tool {
 namespace {
@@ -141,7 +142,7 @@ int new_robot(const NewRobotWords& options) {
 }  // namespace
 
 Subcommand add_new(CLI::App& root) {
-  CLI::App* app = root.add_subcommand("new", "Begin a robot of your own");
+  CLI::App* app = root.add_subcommand("new", "Begin a robot or a controller of your own");
   app->require_subcommand(1);
   CLI::App* robot = app->add_subcommand(
       "robot", "a table of lengths, masses and servos, and the robot that is generated from it");
@@ -151,7 +152,10 @@ Subcommand add_new(CLI::App& root) {
                     "a robot that is made from a table, or a .table file (default: generic21)");
   robot->add_option("--in", options->in,
                     "folder (default: the first of VERP_ROBOT_PATH, else the working folder)");
-  return {app, [options] { return new_robot(*options); }};
+  const Subcommand controller = add_new_controller(*app);
+  return {app, [options, controller] {
+            return controller.app->parsed() ? controller.run() : new_robot(*options);
+          }};
 }
 
 }  // namespace verp::tool

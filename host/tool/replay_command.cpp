@@ -10,6 +10,7 @@
 #include "host/tool/console.hpp"
 #include "host/tool/exit_status.hpp"
 #include "host/tool/json.hpp"
+#include "host/tool/own_controller.hpp"
 #include "host/web/replay_page.hpp"
 
 namespace verp::tool {
@@ -40,7 +41,7 @@ record::Trace load(const std::string& file, bool recover) {
 }
 
 struct ReplayOptions {
-  std::string file, page;
+  std::string file, page, controller;
   bool json = false, recover = false;
 };
 
@@ -62,7 +63,16 @@ int make_page(const ReplayOptions& options) {
 int run_replay(const ReplayOptions& options) {
   if (!options.page.empty()) return make_page(options);
   const record::Trace trace = load(options.file, options.recover);
-  const record::ReplayResult result = record::replay(trace);
+  const auto recorded_by = trace.metadata.find("own_controller");
+  if (options.controller.empty() && recorded_by != trace.metadata.end() &&
+      !recorded_by->second.empty()) {
+    throw ToolError(kBadInput, fmt::format("{}: was decided by a controller of somebody's own; "
+                                           "replay it with --controller {}",
+                                           options.file, recorded_by->second));
+  }
+  record::StepFunction core;
+  if (!options.controller.empty()) core = own_controller(options.controller, !options.json)();
+  const record::ReplayResult result = record::replay(trace, nullptr, core);
   const bool equal = !result.divergence;
   if (options.json) {
     Json json = {{"trace", options.file},
@@ -125,6 +135,7 @@ Subcommand add_replay(CLI::App& root) {
   auto options = std::make_shared<ReplayOptions>();
   app->add_option("TRACE", options->file, "an .mcap file written by verp")->required();
   app->add_flag("--recover", options->recover, "take what stands before a truncation or damage");
+  declare_controller(*app, options->controller);
   app->add_option("--page", options->page,
                   "write a page that shows the run in 3D instead, for any browser (.html)");
   add_json_flag(*app, options->json);

@@ -9,6 +9,7 @@
 #include "host/tool/command.hpp"
 #include "host/tool/console.hpp"
 #include "host/tool/interrupt.hpp"
+#include "host/tool/own_controller.hpp"
 #include "host/tool/walk_cameras.hpp"
 #include "host/tool/walk_ending.hpp"
 #include "host/tool/walk_map.hpp"
@@ -65,6 +66,7 @@ int run_walk(WalkOptions options) {
   read_robot_words(options);
   sim::WorldOptions world = world_of(options);
   std::vector<WalkPlan> others = make_plans(options, world);
+  if (!options.touch.list) take_controller(options.controller, others, !options.json);
   WalkPlan plan = others.front();
   others.erase(others.begin());
   if (options.touch.list) return list_quantities(plan, others, world, options.json);

@@ -37,6 +37,8 @@ record::mcap::StringMap metadata(const WalkPlan& plan, const WalkOptions& option
           {"velocity", options.velocity_text},
           {"walk_s", fmt::format("{}", options.walk_s)},
           {"changed", changed},
+          {"own_controller",
+           options.controller.empty() ? "" : fs::weakly_canonical(options.controller).string()},
           {"controller", options.board.empty() ? "this PC" : options.board}};
 }
 

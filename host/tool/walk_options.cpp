@@ -12,6 +12,7 @@
 #include "host/link/endpoint.hpp"
 #include "host/model/params.hpp"
 #include "host/tool/command.hpp"
+#include "host/tool/own_controller.hpp"
 #include "host/tool/suggest.hpp"
 
 namespace verp::tool {
@@ -187,6 +188,7 @@ void declare(CLI::App& app, WalkOptions& options) {
   declare(app, options.touch);
   app.add_option("--on", options.board,
                  "run the controller in firmware on this emulated board (boards/)");
+  declare_controller(app, options.controller);
   app.add_flag("--no-multibody", options.no_multibody, "switch the multibody ZMP correction off");
   app.add_flag("--no-feedback", options.no_feedback, "switch gyro and tilt feedback off");
   app.add_flag("--no-gravity", options.no_gravity, "switch the gravity feed-forward off");

@@ -33,6 +33,7 @@ struct WalkOptions {
   double walk_s = 20;
   std::uint64_t seed = 1;
   std::string velocity_text, sweep_text, record_file, report_folder, board;
+  std::string controller;             ///< a folder (verp new controller); empty: the core decides
   std::vector<std::string> settings;  ///< NAME=VALUE
   std::string command = "verp walk";  ///< that complains
   bool no_multibody = false, no_feedback = false, no_gravity = false, no_zeros = false;

@@ -39,6 +39,11 @@ void prepare_falls(const WalkOptions& options, WalkPlan& plan) {
     if (options.start == name) plan.twin.lies = lies;
   }
   if (!options.get_up && plan.twin.lies == sim::Lies::kNo) return;
+  if (!options.controller.empty()) {
+    throw ToolError(kBadInput,
+                    "verp walk --controller: one of your own is given no actions to get up by; "
+                    "leave --get-up and --start out");
+  }
   if (!options.board.empty()) {
     throw ToolError(kBadInput,
                     "verp walk --on: the board's firmware has no actions to get up by; leave "

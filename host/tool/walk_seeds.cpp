@@ -37,6 +37,7 @@ std::vector<std::string> words_of(const WalkOptions& o, std::uint64_t seed) {
   add("--start", o.start);
   if (!o.bus.empty()) add("--bus", o.bus);
   if (!o.board.empty()) add("--on", o.board);
+  if (!o.controller.empty()) add("--controller", o.controller);
   for (const std::string& setting : o.settings) add("--set", setting);
   if (!o.place.world.empty()) add("--world", o.place.world);
   for (const std::string& pose : o.place.poses) add("--at-pose", pose);

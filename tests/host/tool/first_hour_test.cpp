@@ -44,6 +44,25 @@ TEST_F(NewRobot, RefusesWhatItCannotMake) {
   EXPECT_EQ(slurp(folder_ / "kept/robot.sdf"), "mine");
 }
 
+using NewController = Program;
+
+// What it lays out is built and walked by tests/host/own.
+TEST_F(NewController, RefusesWhatItCannotLayOut) {
+  for (const std::string name : {"3x", "'a b'", "a-b", "\xC3\xA4"})
+    expect_refused("new controller " + name, "letters, digits and _");
+  fs::create_directories(folder_ / "kept");
+  expect_refused("new controller kept", "kept: is there already");
+  std::ofstream(folder_ / "file") << "x";
+  expect_refused("new controller mine --in file", "cannot be made");
+  EXPECT_FALSE(fs::exists(folder_ / "mine"));
+  expect_refused("walk --controller kept", "has no controller.hpp");
+  expect_refused("walk --controller nowhere", "verp new controller NAME");
+  expect_refused("flash --board mps2_an386 --controller nowhere", "has no controller.hpp");
+  ASSERT_EQ(verp("new controller mine").status, 0);
+  expect_refused("walk --controller mine --get-up", "no actions to get up by");
+  expect_refused("flash --board nonesuch --controller mine", "no board 'nonesuch'");
+}
+
 std::vector<std::string> cells(const std::string& line) {
   std::vector<std::string> out(1);
   for (const char c : line) {

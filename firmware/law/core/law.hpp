@@ -1,0 +1,6 @@
+#pragma once
+#include "firmware/app/app.hpp"
+
+namespace verp::app {
+using Law = Core;
+}

@@ -1,0 +1,62 @@
+#pragma once
+#include <cstdint>
+#include <limits>
+
+#include "common/control/state.hpp"
+#include "common/io/io.hpp"
+#include "common/model/counts.hpp"
+#include "common/model/params.hpp"
+#include "common/record/digest.hpp"
+
+namespace verp::app {
+
+/// A controller of somebody's own in the core's place, on a board as on the PC. `Controller` is
+/// called with Params, the core's State, Inputs and Outputs, which hold those of the tick before;
+/// what it remembers besides is its own.
+///
+/// A goal outside its joint's range, as one that is not a number becomes, is not sent: the joint
+/// keeps the goal it had. The digest covers what is sent, besides what the core adds to it.
+template <class Controller>
+class OwnLaw {
+ public:
+  void operator()(const Params& params, State& state, const Inputs& inputs, Outputs& outputs) {
+    const Outputs before = outputs;
+    controller_(params, state, inputs, outputs);
+    refused_ = kNone;
+    for (int joint = params.joint_count - 1; joint >= 0; --joint) {
+      if (is_sound(params.joint[joint], joint, outputs)) continue;
+      refused_ = joint;
+      refused_count_ = outputs.goal_count[joint];
+      outputs.goal_count[joint] = before.goal_count[joint];
+    }
+    record::Digest32 digest(0);
+    digest.add_struct(outputs);
+    state.digest.chain = record::chain(state.digest.chain, digest.value());
+  }
+
+  static constexpr int kNone = -1;
+  /// The first joint whose goal was not sent in the last tick, and that goal.
+  int refused() const { return refused_; }
+  std::int32_t refused_count() const { return refused_count_; }
+
+ private:
+  /// Beyond the range: as far as the core's own goals go against gravity's sag.
+  static constexpr float kSlack_rad = 0.1F;
+
+  static bool is_sound(const JointParams& joint, int index, const Outputs& outputs) {
+    if ((outputs.torque_enable >> index & 1U) == 0) return true;
+    const float rad = model::angle_of(joint, outputs.goal_count[index]);
+    return rad >= joint.lower_rad - kSlack_rad && rad <= joint.upper_rad + kSlack_rad;
+  }
+
+  Controller controller_;
+  int refused_ = kNone;
+  std::int32_t refused_count_ = 0;
+};
+
+/// A joint's goal in counts. One that is not a number is none: OwnLaw refuses it.
+inline std::int32_t goal_of(const JointParams& joint, float rad) {
+  return rad == rad ? model::count_of(joint, rad) : std::numeric_limits<std::int32_t>::min();
+}
+
+}  // namespace verp::app

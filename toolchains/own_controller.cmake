@@ -1,0 +1,40 @@
+# For the CMakeLists.txt of a controller of one's own (verp new controller). VERP_ROOT has the sources, VERP_BUILD what ./verp made.
+set(CMAKE_CXX_STANDARD 20)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+if(NOT CMAKE_BUILD_TYPE)
+  set(CMAKE_BUILD_TYPE Release)
+endif()
+include(${VERP_ROOT}/toolchains/floating_point.cmake)
+enable_testing()
+set(verp_core ${VERP_BUILD}/common/libverp_core.a)
+if(NOT EXISTS ${verp_core})
+  message(FATAL_ERROR "${verp_core} is not there: build VERP first (${VERP_ROOT}/verp check generic21)")
+endif()
+set(VERP_EIGEN_DIR /usr/include/eigen3 CACHE PATH "where Eigen 3.4's headers are")
+
+function(verp_own_flags target)
+  target_include_directories(${target} PRIVATE ${CMAKE_CURRENT_SOURCE_DIR} ${VERP_ROOT})
+  target_include_directories(${target} SYSTEM PRIVATE ${VERP_EIGEN_DIR})
+  target_compile_options(${target} PRIVATE -O2 -Wall -Wextra -fno-exceptions -fno-rtti)
+  target_link_libraries(${target} PRIVATE verp_floating_point ${verp_core})
+endfunction()
+
+# controller.so of these sources, for `verp walk --controller`.
+function(verp_own_controller)
+  add_library(controller MODULE ${ARGN} ${VERP_ROOT}/host/own/module.cpp)
+  verp_own_flags(controller)
+  # As on a board; and its copy of the core is its own.
+  target_compile_options(controller PRIVATE -ffreestanding -fno-threadsafe-statics -Wdouble-promotion)
+  target_link_options(controller PRIVATE -Wl,--exclude-libs,ALL -Wl,--no-undefined)
+  set_target_properties(controller PROPERTIES PREFIX "" CXX_VISIBILITY_PRESET hidden)
+  set(VERP_OWN_SOURCES ${ARGN} PARENT_SCOPE)
+endfunction()
+
+# A program with these sources and those of the controller; ctest runs it.
+function(verp_own_test source)
+  cmake_path(GET source STEM name)
+  add_executable(${name} ${source} ${ARGN} ${VERP_OWN_SOURCES})
+  verp_own_flags(${name})
+  add_test(NAME ${name} COMMAND ${name})
+endfunction()
