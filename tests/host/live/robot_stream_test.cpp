@@ -65,8 +65,8 @@ TEST(RobotStream, SeveralHaveNamesAndOneWorld) {
   const Viewer viewer(server.port());
   viewer.greet();
   viewer.subscribe(5, *server.find_channel("/other/imu"));
-  auto imu = test::data_of(viewer.next());
-  while (!imu) imu = test::data_of(viewer.next());
+  const auto imu = test::next_data(viewer);
+  ASSERT_TRUE(imu.has_value());
   EXPECT_EQ(imu->time_ns, 3u * record::test::sample_params().period_us * 1000);
   EXPECT_NE(imu->bytes.find("other/"), std::string::npos) << "its frame has its name";
 }

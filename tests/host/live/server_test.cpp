@@ -65,7 +65,8 @@ TEST(Live, AViewerGetsTheLastMessageAndThenAllInOrder) {
   viewer.subscribe(71, c);
   viewer.say(R"({"op":"unsubscribe","subscriptionIds":[72]})");
   viewer.next_text("no subscription 72");  // now 71 is known
-  for (int i = 0; i < 100; ++i) server.send(i % 2 == 0 ? a : c, 100 + i, std::to_string(i));
+  for (std::uint64_t i = 0; i < 100; ++i)
+    server.send(i % 2 == 0 ? a : c, 100 + i, std::to_string(i));
   const std::vector<Data> got = read_up_to(viewer, "99");
   ASSERT_EQ(got.size(), 100u);
   for (std::uint64_t i = 0; i < 100; ++i) {

@@ -155,4 +155,12 @@ inline std::optional<Data> data_of(const Received& got) {
   return data;
 }
 
+/// The next of them; nothing: the stream ended before.
+inline std::optional<Data> next_data(const Viewer& viewer) {
+  for (Received got = viewer.next(); got.opcode >= 0; got = viewer.next()) {
+    if (auto data = data_of(got)) return data;
+  }
+  return {};
+}
+
 }  // namespace verp::live::test

@@ -126,8 +126,7 @@ TEST_F(Live, AnInterruptedRunSaysGoodbye) {
   viewer.greet();
   viewer.subscribe(1, 1);
   Viewer(port_of("live")).greet();  // and is gone at once
-  while (!live::test::data_of(viewer.next())) {
-  }
+  ASSERT_TRUE(live::test::next_data(viewer).has_value());
   walk.tell(SIGINT);
   EXPECT_EQ(viewer.next_text("there is none"), "") << "up to the end";
   viewer.leave();
