@@ -34,6 +34,7 @@ Servo servo_of(const ServoType& type) {
   s.encoder_noise_deg = type.encoder_noise_deg;
   s.loop_s = type.loop_us * 1e-6;
   s.loop_delay_s = type.loop_delay_us * 1e-6;
+  s.goal_delay_s = type.goal_delay_us * 1e-6;
   s.gearbox = type.gearbox;
   s.armature_band = type.armature_band;
   s.friction_band = type.friction_band;

@@ -81,6 +81,7 @@ struct Servo {
   double encoder_noise_deg = 0.03;  ///< rms
   double loop_s = 0.001;            ///< period of its firmware's position loop
   double loop_delay_s = 0;          ///< age of the angle that the loop acts on
+  double goal_delay_s = 0;          ///< from a goal's arrival until it acts on it
   Gearbox gearbox;
   /// The real numbers lie within these parts of the ones above: 0.5 is half to one and a half
   /// times. 0: identified on a bench.

@@ -94,6 +94,7 @@ ServoType read_type(const XmlElement& e, const std::vector<ServoType>& known) {
            "encoder_noise_deg",
            "loop_us",
            "loop_delay_us",
+           "goal_delay_us",
            "fast_sync_read",
            "p_gain",
            "armature_kg_m2",
@@ -140,6 +141,7 @@ ServoType read_type(const XmlElement& e, const std::vector<ServoType>& known) {
       e.number_within("encoder_noise_deg", 0, 10, " degrees", type.encoder_noise_deg);
   type.loop_us = e.number_within("loop_us", 10, 20000, " us, like 1000", type.loop_us);
   type.loop_delay_us = e.number_within("loop_delay_us", 0, 20000, " us", type.loop_delay_us);
+  type.goal_delay_us = e.number_within("goal_delay_us", 0, 100000, " us", type.goal_delay_us);
   type.fast_sync_read = e.integer("fast_sync_read", 0, 1, type.fast_sync_read ? 1 : 0) == 1;
   type.default_p_gain =
       static_cast<std::uint16_t>(e.integer("p_gain", 1, 16383, type.default_p_gain));

@@ -22,7 +22,7 @@ struct ServoType {
   double nominal_v = 12;
   double counts_per_rev = 4096;
   double encoder_noise_deg = 0.03;
-  double loop_us = 1000, loop_delay_us = 0;
+  double loop_us = 1000, loop_delay_us = 0, goal_delay_us = 0;
   bool fast_sync_read = false;         ///< answers instruction 0x8A
   std::uint16_t default_p_gain = 800;  ///< control table units, or a drive's 2002h:1
   Gearbox gearbox;

@@ -202,9 +202,13 @@ TwinRobot::TwinRobot(World& world, const model::Entity& entity, const TwinOption
   upright.lies = Lies::kNo;
   initial_height_m_ =
       make_start(entity_, upright).body_world.translation().z() - options.start_m.z();
-  const auto delay_steps =
-      static_cast<std::size_t>(std::lround(options.goal_delay_s / world.step_s()));
-  arriving_.assign(delay_steps + 1, setpoint_);
+  std::size_t longest = 0;
+  for (const model::Joint& joint : entity_.joints) {
+    const double delay_s = options.goal_delay_s + joint.servo.goal_delay_s;
+    delay_steps_.push_back(static_cast<std::size_t>(std::lround(delay_s / world.step_s())));
+    longest = std::max(longest, delay_steps_.back());
+  }
+  arriving_.assign(longest + 1, setpoint_);
   if (options.cradle != Cradle::kNone && options.lies == Lies::kNo) body_.hold();
   world_.add(*this);
 }
@@ -227,11 +231,9 @@ FootLoads TwinRobot::take_foot_loads() {
   return std::exchange(loads_, FootLoads{});
 }
 
-/// Set-points as they stood goal_delay_s ago, in whole steps.
-const std::vector<ServoSetpoint>& TwinRobot::arrived() {
-  arriving_.push_back(setpoint_);
-  arriving_.pop_front();
-  return arriving_.front();
+/// A joint's set-point as it stood goal_delay_s ago, in whole steps.
+const ServoSetpoint& TwinRobot::acting(std::size_t joint) const {
+  return arriving_[arriving_.size() - 1 - delay_steps_[joint]][joint];
 }
 
 /// A spring and damper between a follower and where its driver takes it, which gives the driver as
@@ -261,10 +263,11 @@ void TwinRobot::before_step(double step_s) {
   update_cradle(step_s);
   coupling_ = couplings(step_s);
   inertia_kg_m2_ = body_.inertias_kg_m2();
-  const std::vector<ServoSetpoint>& acting = arrived();
+  arriving_.push_back(setpoint_);
+  arriving_.pop_front();
   for (std::size_t j = 0; j < servo_.size(); ++j) {
     const int joint = static_cast<int>(j);
-    coupling_[j] += servo_[j].drive(acting[j], body_.angle_rad(joint), body_.rate_rad_s(joint),
+    coupling_[j] += servo_[j].drive(acting(j), body_.angle_rad(joint), body_.rate_rad_s(joint),
                                     external_n_m_[j], supply_v_, step_s);
     body_.drive(joint, coupling_[j]);
     external_n_m_[j] = -inertia_kg_m2_[j] * body_.rate_rad_s(joint) / step_s;

@@ -133,7 +133,7 @@ class TwinRobot final : public Plant, private Actor {
   std::vector<Drive> couplings(double step_s) const;
   void before_step(double step_s) override;
   void after_step(double step_s) override;
-  const std::vector<ServoSetpoint>& arrived();
+  const ServoSetpoint& acting(std::size_t joint) const;
   void update_cradle(double step_s);
   void update_servos(double step_s);
   void update_imu(double step_s);
@@ -156,6 +156,7 @@ class TwinRobot final : public Plant, private Actor {
   std::vector<ServoModel> servo_;
   std::vector<ServoSetpoint> setpoint_;
   std::deque<std::vector<ServoSetpoint>> arriving_;  ///< of the last steps, the oldest first
+  std::vector<std::size_t> delay_steps_;             ///< of each joint
   ImuModel imu_;
   std::vector<FootModel> foot_;  ///< none, or left and right
   std::array<int, 2> foot_node_{-1, -1};

@@ -21,6 +21,8 @@
 namespace verp::tool {
 namespace {
 
+constexpr double kStand_m = 1;  ///< no leg of such a robot reaches the floor from there
+
 /// What the library says of an action, in a line.
 Json facts(const action::Made& made, int number) {
   const action::Library library = made.library();
@@ -144,6 +146,18 @@ int play(const ActionWords& words) {
   plan.actions = robot.made.words;
   sim::WorldOptions world = world_of(options);
   const Drawn drawn = draw(options, plan, world);
+  if (words.gains_percent < 100) {
+    for (model::Joint& joint : plan.entity.joints) {
+      for (std::uint16_t* gain : {&joint.servo.p_gain, &joint.servo.i_gain, &joint.servo.d_gain}) {
+        *gain = static_cast<std::uint16_t>(*gain * words.gains_percent / 100);
+      }
+    }
+    plan.params = model::make_params(plan.entity);
+  }
+  if (words.held) {
+    plan.twin.cradle = sim::Cradle::kAlways;
+    plan.twin.start_m.z() += kStand_m;
+  }
   WalkFiles files(options, plan, nullptr, {{"action", words.action}});
   Progress progress(!words.json);
   session::Hooks hooks;
@@ -210,6 +224,11 @@ Subcommand add_action(CLI::App& root) {
       ->check(whole_number_between(0, 4294967295))
       ->capture_default_str();
   plays->add_flag("--vary", words->walk.vary, "another robot of this kind, drawn from the seed");
+  plays->add_flag("--held", words->held,
+                  "the trunk hangs in a stand all the time, feet in the air");
+  plays->add_option("--gains", words->gains_percent, "of the servos' position loops, percent")
+      ->check(whole_number_between(10, 100))
+      ->capture_default_str();
   plays->add_option("--record", words->walk.record_file, "write the trace here (.mcap)");
   words->walk.command = "verp action play";
   CLI::App* converts =

@@ -12,7 +12,9 @@ struct ActionWords {
   std::string action;  ///< its name, or a file
   std::string model = "generic21";
   bool json = false;
-  WalkOptions walk;  ///< of the twin
+  WalkOptions walk;         ///< of the twin
+  bool held = false;        ///< by its trunk, all the time
+  int gains_percent = 100;  ///< of the servos' position loops
 };
 
 struct ActionRobot {

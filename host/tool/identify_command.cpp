@@ -1,0 +1,137 @@
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <numbers>
+
+#include "host/identify/identify.hpp"
+#include "host/identify/motion.hpp"
+#include "host/identify/words.hpp"
+#include "host/identify/write.hpp"
+#include "host/model/find.hpp"
+#include "host/model/load.hpp"
+#include "host/record/trace.hpp"
+#include "host/tool/command.hpp"
+#include "host/tool/console.hpp"
+#include "host/tool/exit_status.hpp"
+#include "host/tool/interrupt.hpp"
+#include "host/tool/json.hpp"
+#include "host/tool/progress.hpp"
+
+namespace verp::tool {
+namespace {
+
+constexpr const char* kUsualRobot = "generic21";
+
+struct IdentifyWords {
+  std::string trace, robot, type, file, motion;
+  double motion_s = 60;
+  bool json = false;
+};
+
+int make_motion(const IdentifyWords& words) {
+  const model::Entity entity =
+      model::load_robot(model::find_model(words.robot.empty() ? kUsualRobot : words.robot));
+  action::Document document = identify::motion_of(entity, {.length_s = words.motion_s, .seed = 1});
+  document.name = std::filesystem::path(words.motion).stem().string();
+  std::ofstream out(words.motion, std::ios::binary | std::ios::trunc);
+  out << action::text_of(document);
+  out.close();
+  if (!out) throw ToolError(kBadInput, words.motion + ": cannot be written; choose another file");
+  if (words.json) {
+    print_json({{"motion", words.motion}, {"model", entity.name}});
+  } else {
+    answer(
+        fmt::format("{}: a motion of {:.0f} s for {} in a stand; in the twin:\n"
+                    "  verp action play {} --robot {} --held --gains 25 --record a.mcap\n",
+                    words.motion, words.motion_s, entity.name, words.motion,
+                    words.robot.empty() ? kUsualRobot : words.robot));
+  }
+  return kGood;
+}
+
+Json json_of(const identify::Result& result) {
+  constexpr double kDegrees = 180 / std::numbers::pi;
+  Json rows = Json::array();
+  for (const identify::Row& row : result.rows) {
+    rows.push_back({{"number", row.name},
+                    {"unit", row.unit},
+                    {"was", row.was},
+                    {"now", row.determined ? Json(row.now) : Json()},
+                    {"error", row.determined ? Json(row.error) : Json()}});
+  }
+  const auto errors = [&](const identify::Errors& each) {
+    return Json{{"before_deg", kDegrees * each.before_rad},
+                {"after_deg", kDegrees * each.after_rad}};
+  };
+  return {{"type", result.type},
+          {"joints", result.joints},
+          {"length_s", result.length_s},
+          {"fitted_until_s", result.fitted_until_s},
+          {"numbers", rows},
+          {"fitted", errors(result.fitted)},
+          {"held_out", errors(result.held_out)}};
+}
+
+int run_identify(const IdentifyWords& words) {
+  if (!words.motion.empty()) return make_motion(words);
+  if (words.trace.empty()) {
+    throw ToolError(kBadInput,
+                    "verp identify: no trace; give one, or --motion FILE for what to record");
+  }
+  if (!words.file.empty() && std::filesystem::exists(words.file)) {
+    throw ToolError(kBadInput, words.file + ": is there already; choose another name");
+  }
+  const record::Trace trace = record::read_trace(words.trace);
+  const std::filesystem::path file =
+      model::find_model(words.robot.empty() ? std::string(trace.params.name) : words.robot);
+  const model::Entity entity = model::load_robot(file);
+  catch_interrupts();
+  Progress progress(!words.json);
+  survey::Watch watch;
+  watch.interrupted = interrupted;
+  watch.went_on = [&](double share) { progress.show(share, "twins told what the robot was told"); };
+  const identify::Result result =
+      identify::identify(entity, trace, {.type = words.type, .held_out = 0.25}, watch);
+  progress.clear();
+  if (result.interrupted) throw ToolError(kRunFailed, "verp identify: interrupted");
+  Json json = json_of(result);
+  std::string text = identify::text_of(result);
+  if (!words.file.empty()) {
+    const std::string type =
+        identify::write(result, file, words.file, "verp identify " + words.trace);
+    json["file"] = words.file;
+    json["written_type"] = type;
+    text += fmt::format("{}: the robot with servos of type {}\n", words.file, type);
+  }
+  if (words.json) {
+    print_json(json);
+  } else {
+    answer(text);
+  }
+  return kGood;
+}
+
+}  // namespace
+
+Subcommand add_identify(CLI::App& root) {
+  CLI::App* app = root.add_subcommand(
+      "identify",
+      "Fit the twin's servos to a recorded robot: gain, friction, inertia, play, delay");
+  auto words = std::make_shared<IdentifyWords>();
+  app->add_option("TRACE", words->trace, "a trace of the robot in a stand, all joints moving");
+  app->add_option("--robot", words->robot,
+                  "the robot by its name, or the path of its SDF file; default: by the trace");
+  app->add_option("--type", words->type, "of the servos, where the robot has several");
+  app->add_option("--write", words->file, "write the robot's file with the new numbers there");
+  app->add_option("--motion", words->motion, "write a motion to record there (NAME.action)");
+  app->add_option("--for", words->motion_s, "length of that motion, s")
+      ->check(number_between(5, 240, "s"))
+      ->capture_default_str();
+  add_json_flag(*app, words->json);
+  return {app, [words] { return run_identify(*words); }};
+}
+
+}  // namespace verp::tool
