@@ -21,6 +21,11 @@ namespace fs = std::filesystem;
 /// The folder as it is named everywhere, with a build/ that can be written.
 fs::path checked(const std::string& words) {
   std::error_code error;
+  if (!fs::exists(files::source_dir() / "toolchains" / "own_controller.cmake", error)) {
+    throw ToolError(kBadInput,
+                    "--controller: a controller is built on VERP's sources, which an "
+                    "installed verp has none of; take the ./verp of a clone");
+  }
   const fs::path folder = fs::weakly_canonical(words, error), build = folder / "build";
   for (const char* file : {"controller.hpp", "CMakeLists.txt"}) {
     if (fs::exists(folder / file, error)) continue;
