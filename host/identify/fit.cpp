@@ -272,7 +272,9 @@ void Fit::improve(Estimate& estimate, std::size_t ticks, int rounds) {
         next.value[i] = i == delay() ? std::max(value, double{kLeastDelay} * kStep_us)
                                      : std::clamp(value, numbers()[i].low, numbers()[i].high);
       }
-      const double cost_next = cost(predict(next, ticks), ticks);
+      const auto predicted = predict(next, ticks);
+      if (stopped_) return;
+      const double cost_next = cost(predicted, ticks);
       better = cost_next < kMuchWorse * normal.cost;
       if (better) {
         estimate = next;
