@@ -107,11 +107,11 @@ CameraSensor::Kind kind_of(const sdf::Sensor& sensor) {
 
 LaserSensor read_laser(const sdf::Sensor& sensor, int node, const Transform& pose,
                        const WrongSensor& wrong) {
-  constexpr unsigned kMostSamples = 4096;
+  constexpr unsigned kMostRays = 4096;
   const sdf::Lidar& lidar = *sensor.LidarSensor();
   LaserSensor laser{.name = sensor.Name(), .node = node, .pose = pose};
   if (lidar.VerticalScanSamples() > 1) wrong("it scans in one plane here", "leave <vertical> out");
-  if (lidar.HorizontalScanSamples() < 1 || lidar.HorizontalScanSamples() > kMostSamples)
+  if (lidar.HorizontalScanSamples() < 1 || lidar.HorizontalScanSamples() > kMostRays)
     wrong("<samples> is not 1 to 4096", "write how many rays a scan has");
   laser.samples = static_cast<int>(lidar.HorizontalScanSamples());
   laser.first_rad = lidar.HorizontalScanMinAngle().Radian();
