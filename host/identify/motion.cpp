@@ -4,6 +4,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "host/action/check.hpp"
+#include "host/action/compile.hpp"
+#include "host/model/params.hpp"
 #include "host/model/self_collision.hpp"
 #include "host/sim/body.hpp"
 #include "host/sim/random.hpp"
@@ -126,6 +129,29 @@ class Drawing {
   std::vector<double> inertia_;
 };
 
+/// Joints that pass where a way ends leave the straight one, on which no links meet; where that
+/// makes them meet, they rest.
+void straighten(const model::Entity& entity, action::Document& document) {
+  constexpr double kStop_s = 0.02;
+  const Params params = model::make_params(entity);
+  const auto rest_at = [&](std::size_t frame) {
+    double& hold_s = document.frames[frame].hold_s;
+    const bool passed = hold_s < kStop_s;
+    hold_s = std::max(hold_s, kStop_s);
+    return passed;
+  };
+  for (bool changed = true; changed;) {
+    changed = false;
+    const action::Made made = action::make_library(params, {document});
+    for (const action::FrameCheck& each : action::check(entity, params, made, 1).frames) {
+      if (each.problem.empty() || each.frame < 0) continue;
+      const auto at = static_cast<std::size_t>(each.frame);
+      changed |= rest_at(at);
+      if (at > 0) changed |= rest_at(at - 1);
+    }
+  }
+}
+
 }  // namespace
 
 action::Document motion_of(const model::Entity& entity, const MotionOptions& options) {
@@ -150,6 +176,7 @@ action::Document motion_of(const model::Entity& entity, const MotionOptions& opt
     time_s += frame.time_s + frame.hold_s;
     document.frames.push_back(std::move(frame));
   }
+  straighten(entity, document);
   return document;
 }
 

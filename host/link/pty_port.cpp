@@ -11,6 +11,7 @@
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
+#include <filesystem>
 #include <string_view>
 
 #include "host/link/line_rate.hpp"
@@ -113,10 +114,12 @@ class PtyPort final : public Port {
   }
 
   [[noreturn]] void refuse_served(const std::string& other) const {
-    throw LinkError(LinkError::Kind::kBusy,
-                    "pty:" + path_ + ": another program serves it, on " + other +
-                        "; to talk to that give serial:" + path_ +
-                        ", to serve it yourself end that or name another path");
+    throw LinkError(
+        LinkError::Kind::kBusy,
+        "pty:" + path_ + ": another program serves it, on " + other +
+            "; to talk to that give serial:" + std::filesystem::absolute(path_).string() +
+            "@BAUD with the servos' baud rate, to serve it yourself end that or name "
+            "another path");
   }
 
   [[noreturn]] void refuse_link(int error) const {

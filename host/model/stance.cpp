@@ -60,6 +60,16 @@ std::vector<Transform> standing_links(const Entity& entity, const Limb& leg) {
   return links;
 }
 
+/// Level soles under the hips, as far apart as in the walk.
+Pose sole_at(const Params& params, int side, double height_m) {
+  const LegParams& leg = params.leg[side];
+  Pose sole;
+  sole.position_m = {leg.hip_body_m.x,
+                     static_cast<float>(side == 0 ? 1 : -1) * params.tuning.gait.half_stance_m,
+                     leg.hip_body_m.z - static_cast<float>(height_m) + leg.sole_foot_m.z};
+  return sole;
+}
+
 class Settler {
  public:
   Settler(const Facts& facts, Entity& entity) : f_(facts), e_(entity) {
@@ -179,16 +189,6 @@ class Settler {
     return nullptr;
   }
 
-  /// Level soles under the hips, as far apart as in the walk.
-  Pose sole_at(const Params& params, int side, double height_m) const {
-    const LegParams& leg = params.leg[side];
-    Pose sole;
-    const double out_m = (side == 0 ? 1 : -1) * tuned("gait.half_stance_m");
-    sole.position_m = {leg.hip_body_m.x, static_cast<float>(out_m),
-                       leg.hip_body_m.z - static_cast<float>(height_m) + leg.sole_foot_m.z};
-    return sole;
-  }
-
   /// Knees ahead of the straight line from hip to ankle, as people have them.
   bool bends_forward(const Params& params, int side, const float* angle_rad) const {
     const LegParams& leg = params.leg[side];
@@ -285,16 +285,7 @@ class Settler {
   /// The posture in which the gait stands, from the standing pose on.
   void check_stand() const {
     const Params params = make_params(e_);
-    const double height_m = static_cast<double>(params.tuning.gait.hip_height_m);
-    for (const int side : {0, 1}) {
-      float angle_rad[kLegJoints];
-      for (int k = 0; k < kLegJoints; ++k) {
-        angle_rad[k] = params.joint[params.leg[side].joint[k]].stand_rad;
-      }
-      const auto solved = kinematics::solve_leg(params, params.leg[side],
-                                                sole_at(params, side, height_m), angle_rad);
-      if ((solved.flags & ~kinematics::kJointLimited) != 0) refuse_height(height_m);
-    }
+    if (!can_stand(params)) refuse_height(static_cast<double>(params.tuning.gait.hip_height_m));
   }
 
   void check_knees() const {
@@ -321,6 +312,19 @@ class Settler {
 };
 
 }  // namespace
+
+bool can_stand(const Params& params) {
+  const double height_m = static_cast<double>(params.tuning.gait.hip_height_m);
+  for (const int side : {0, 1}) {
+    const LegParams& leg = params.leg[side];
+    float angle_rad[kLegJoints];
+    for (int k = 0; k < kLegJoints; ++k) angle_rad[k] = params.joint[leg.joint[k]].stand_rad;
+    const auto solved =
+        kinematics::solve_leg(params, leg, sole_at(params, side, height_m), angle_rad);
+    if ((solved.flags & ~kinematics::kJointLimited) != 0) return false;
+  }
+  return true;
+}
 
 void settle_stance(const Facts& facts, Entity& entity) {
   Settler(facts, entity).settle();

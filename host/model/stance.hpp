@@ -11,6 +11,10 @@ namespace verp::model {
 /// height or pose that they can't take, and knees that can't carry the robot.
 void settle_stance(const Facts& facts, Entity& entity);
 
+/// Whether the legs can take the posture in which the gait stands, its numbers being what they are:
+/// settle_stance refuses a file of which they cannot.
+bool can_stand(const Params& params);
+
 /// What settle_stance leaves to `verp check` and the p_gain of servos that give none: the stiffness
 /// (N m/rad) at which a robot of this mass and leg sags as little as those that walk well; 0: no
 /// legs to say.

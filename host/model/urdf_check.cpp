@@ -50,6 +50,34 @@ void refuse_duplicates(const XmlElement& robot, const char* kind) {
   }
 }
 
+/// urdfdom finds no root then, and names nobody.
+void refuse_loops(const XmlElement& robot) {
+  std::map<std::string, std::string> parent;
+  for (const XmlElement& joint : robot.children("joint")) {
+    std::string link, carrier;
+    for (const XmlElement& each : joint.children("child")) link = each.text("link", "");
+    for (const XmlElement& each : joint.children("parent")) carrier = each.text("link", "");
+    parent[link] = carrier;
+    std::string above = carrier;
+    for (std::size_t i = 0; i < parent.size() && above != link && parent.contains(above); ++i)
+      above = parent[above];
+    if (above != link || link.empty()) continue;
+    joint.fail("joint '" + joint.text("name", "") + "' hangs link '" + link + "' on itself" +
+                   (carrier == link ? "" : ", by way of '" + carrier + "'"),
+               "correct its <parent> or <child>");
+  }
+}
+
+/// Nor does it name whose numbers these are.
+void refuse_no_ratio(const XmlElement& robot) {
+  for (const XmlElement& joint : robot.children("joint")) {
+    for (const XmlElement& mimic : joint.children("mimic")) {
+      mimic.number("multiplier", 1);
+      mimic.number("offset", 0);
+    }
+  }
+}
+
 /// A link that no joint carries, beside the one that the trunk hangs on.
 void refuse_second_root(const XmlElement& robot, const Facts& facts) {
   std::map<std::string, std::string> parent;
@@ -87,6 +115,8 @@ void refuse_no_direction(const XmlElement& robot) {
 std::shared_ptr<urdf::ModelInterface> read_urdf(const XmlSource& source, const XmlElement& robot,
                                                 const Facts& facts) {
   for (const char* kind : {"link", "joint"}) refuse_duplicates(robot, kind);
+  refuse_loops(robot);
+  refuse_no_ratio(robot);
   refuse_second_root(robot, facts);
   refuse_no_direction(robot);
   UrdfErrors errors;

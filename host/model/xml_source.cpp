@@ -216,8 +216,13 @@ void XmlSource::include(const File& file, const tinyxml2::XMLElement& element) {
   const std::string text = uri && uri->GetText() ? uri->GetText() : "";
   const std::string found = resolve_model_uri(text, file.path);
   if (found.empty()) {
-    throw LoadError(file.path, line, "'" + text + "' is not in " + model_path_text(),
-                    "set VERP_MODEL_PATH to the folder that model:// names start in");
+    if (text.starts_with("model://")) {
+      throw LoadError(file.path, line, "'" + text + "' is not in " + model_path_text(),
+                      "set VERP_MODEL_PATH to the folder that model:// names start in");
+    }
+    const auto folder = std::filesystem::absolute(file.path).parent_path();
+    throw LoadError(file.path, line, "'" + text + "' is not in " + folder.string(),
+                    "give the path from this file's folder, or a model:// name");
   }
   if (std::find(open_.begin(), open_.end(), std::filesystem::weakly_canonical(found)) !=
       open_.end()) {

@@ -220,7 +220,9 @@ void Served::watch_link(bool connected, std::uint32_t losses) {
   ended_ = !connected && options_.ends_with_controller && robot_.verdict().driven() &&
            !robot_.has_torque();
   if (ended_) return say("the controller has let go and hung up");
-  if (!connected) say("the link is lost; waiting for it to come back");
+  const bool is_local = place_.starts_with("pty:") || place_.starts_with("unix");
+  if (!connected && is_local) say("the link is lost: its client hung up; waiting for the next");
+  if (!connected && !is_local) say("the link is lost; waiting for it to come back");
   if (connected && losses > 0) say("the link is back");
 }
 

@@ -53,6 +53,23 @@ void check_robot_name(const std::string& name) {
                              name, kNameLength - 1));
 }
 
+/// Shipped ones are found by name before what stands here: changes of a new one's table would do
+/// nothing.
+void refuse_shipped(const std::string& name, const fs::path& sdf) {
+  std::string found;
+  try {
+    found = model::find_model(name);
+  } catch (const model::LoadError&) {
+    return;
+  }
+  std::error_code error;
+  if (fs::equivalent(found, sdf, error)) return;
+  throw ToolError(kBadInput,
+                  fmt::format("verp new robot: there is a robot '{}' already, {}; choose "
+                              "another name",
+                              name, found));
+}
+
 /// The table that a robot of this name was generated from, or the table itself.
 fs::path table_of(const std::string& from) {
   if (from.ends_with(".table")) return from;
@@ -106,6 +123,7 @@ int new_robot(const NewRobotWords& options) {
   check_robot_name(options.name);
   const fs::path folder = place_for(options), sdf = folder / "robot.sdf";
   const fs::path table = folder / (options.name + ".table");
+  if (options.in.empty()) refuse_shipped(options.name, sdf);
   std::error_code error;
   const bool again = fs::exists(table, error);
   if (!again && fs::exists(sdf, error)) {

@@ -55,6 +55,9 @@ std::string in_words(const CLI::ParseError& error) {
   if (const std::size_t end = line.find(" was given a disallowed flag"); end != line.npos) {
     return "--" + line.substr(0, end) + " takes no value";
   }
+  if (line.starts_with("--robot is required")) {
+    return "MODEL is required: a robot's name, or the path of its SDF file";
+  }
   if (dynamic_cast<const CLI::ArgumentMismatch*>(&error) == nullptr) return line;
   const std::string name = line.substr(0, line.find(':'));
   if (line.ends_with(" missing")) return name + " needs a value";

@@ -29,6 +29,20 @@ std::string_view last_part(std::string_view word) {
   return word.substr(word.rfind('.') + 1);  // npos + 1 is 0
 }
 
+/// As a person has it who forgets the unit: "lift" of gait.lift_m.
+std::string_view without_unit(std::string_view name) {
+  const std::size_t end = name.rfind('_');
+  return end == name.npos || name.size() - end > 6 ? name : name.substr(0, end);
+}
+
+/// Whoever leaves out what comes before the point means one of the names behind it.
+std::size_t distance_to(std::string_view word, std::string_view name) {
+  if (word.find('.') != word.npos) return edit_distance(word, name);
+  const std::string_view last = last_part(name);
+  return std::min({edit_distance(word, name), edit_distance(word, last),
+                   edit_distance(word, without_unit(last))});
+}
+
 std::vector<std::string> holding(std::string_view part, const std::vector<std::string>& names) {
   std::vector<std::string> found;
   if (part.size() < 3) return found;
@@ -45,7 +59,7 @@ std::string nearest(std::string_view word, const std::vector<std::string>& names
   std::size_t best_distance = 3;
   for (const std::string& name : names) {
     if (!word.empty() && name.ends_with("." + std::string(word))) return name;
-    const std::size_t distance = edit_distance(word, name);
+    const std::size_t distance = distance_to(word, name);
     if (distance < best_distance) best = &name, best_distance = distance;
   }
   return best == nullptr ? "" : *best;

@@ -10,6 +10,7 @@
 #include "host/model/find.hpp"
 #include "host/model/load.hpp"
 #include "host/model/params.hpp"
+#include "host/model/stance.hpp"
 #include "host/session/stride.hpp"
 #include "host/sim/vary.hpp"
 #include "host/tool/exit_status.hpp"
@@ -66,6 +67,15 @@ WalkPlan make_plan(const WalkOptions& options) {
   if (!options.board.empty()) require_serial("verp walk --on", plan.entity);
   plan.params = model::make_params(plan.entity);
   apply_tuning(options, plan.params.tuning);
+  if (!options.settings.empty() && !model::can_stand(plan.params)) {
+    throw ToolError(
+        kBadInput, fmt::format("{}: --set: the legs cannot stand level with the hip {:.3f} m above "
+                               "the ankle and {:.3f} m beside the middle; choose gait.hip_height_m "
+                               "near {:.3f}",
+                               options.command, plan.params.tuning.gait.hip_height_m,
+                               plan.params.tuning.gait.half_stance_m,
+                               model::make_params(plan.entity).tuning.gait.hip_height_m));
+  }
   ask_for_walk(options, plan);
   plan.twin.seed = options.seed;
   plan.board = options.board;

@@ -178,6 +178,14 @@ TEST(OthersFiles, UrdfThatIsNoTreeIsRefusedWithTheCause) {
   expect_urdf_refused(urdf_joint("j", hung("zz", "b") + kLimit), "<joint name=\"j\"", "[zz]");
   expect_urdf_refused("<link name=\"alone\"/>\n" + urdf_joint("j", hung("a", "b") + kLimit),
                       "<link name=\"alone\"", "two root links");
+  expect_urdf_refused(urdf_joint("j", hung("b", "b") + kLimit), "<joint name=\"j\"",
+                      "hangs link 'b' on itself");
+  expect_urdf_refused(
+      urdf_joint("j", hung("a", "b") + kLimit) + urdf_joint("k", hung("b", "a") + kLimit),
+      "<joint name=\"k\"", "hangs link 'a' on itself, by way of 'b'");
+  expect_urdf_refused(
+      urdf_joint("j", hung("a", "b") + kLimit + "\n<mimic joint=\"j\" multiplier=\"x\"/>"),
+      "<mimic joint", "multiplier");
 }
 
 TEST(OthersFiles, UrdfJointOfAnUnknownTypeIsRefused) {

@@ -40,6 +40,7 @@ TEST_F(NewRobot, RefusesWhatItCannotMake) {
   expect_refused("new robot my_bot --from bad.table", "is missing; add a line");
   fs::create_directories(folder_ / "kept");
   std::ofstream(folder_ / "kept/robot.sdf") << "mine";
+  expect_refused("new robot op3", "there is a robot 'op3' already");
   expect_refused("new robot kept", "is not made from a table");
   EXPECT_EQ(slurp(folder_ / "kept/robot.sdf"), "mine");
 }

@@ -147,6 +147,9 @@ TEST_F(Usage, ParametersAreCheckedByNameAndRange) {
   expect_refused("walk --set gait.lift=0.01", "gait.lift_m");
   expect_refused("walk --set lift_m=0.03", "did you mean gait.lift_m?");
   expect_refused("walk --set nonsense=1", "`verp parameters` lists them");
+  expect_refused("walk --set hip_heigth=0.1", "did you mean gait.hip_height_m?");
+  expect_refused("walk --set gait.hip_height_m=0.9", "the legs cannot stand level");
+  expect_refused("check", "MODEL is required");
   expect_refused("walk --set gait.stance=0.03", "did you mean gait.half_stance_m?");
   expect_refused("walk --set ankle_roll=0",
                  "balance.ankle_roll_tilt or balance.ankle_roll_rate_s?");

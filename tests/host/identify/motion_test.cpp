@@ -1,0 +1,28 @@
+#include "host/identify/motion.hpp"
+
+#include <gtest/gtest.h>
+
+#include "host/action/check.hpp"
+#include "host/action/compile.hpp"
+#include "host/model/find.hpp"
+#include "host/model/load.hpp"
+#include "host/model/params.hpp"
+
+namespace verp::identify {
+namespace {
+
+// It is played on a real robot: what `verp action check` would name is not in it.
+TEST(Motion, OfAnyRobotKeepsItsLinksApartAndItsServosWithinTheirLimits) {
+  for (const char* name : {"op3", "darwin_op"}) {
+    const model::Entity robot = model::load_robot(model::find_model(name));
+    const Params params = model::make_params(robot);
+    const action::Made made = action::make_library(params, {motion_of(robot)});
+    const action::Checked checked = action::check(robot, params, made, 1);
+    EXPECT_GT(checked.length_s, 60) << name;
+    const action::FrameCheck* bad = checked.first_bad();
+    EXPECT_EQ(bad, nullptr) << name << ", frame " << bad->frame << ": " << bad->problem;
+  }
+}
+
+}  // namespace
+}  // namespace verp::identify
