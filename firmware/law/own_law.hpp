@@ -15,7 +15,8 @@ namespace verp::app {
 /// what it remembers besides is its own.
 ///
 /// A goal outside its joint's range, as one that is not a number becomes, is not sent: the joint
-/// keeps the goal it had. The digest covers what is sent, besides what the core adds to it.
+/// keeps the goal it had, or stays limp if it was. The digest covers what is sent, besides what the
+/// core adds to it.
 template <class Controller>
 class OwnLaw {
  public:
@@ -28,6 +29,9 @@ class OwnLaw {
       refused_ = joint;
       refused_count_ = outputs.goal_count[joint];
       outputs.goal_count[joint] = before.goal_count[joint];
+      // One that was limp had none: it stays limp.
+      const std::uint32_t bit = 1U << joint;
+      if ((before.torque_enable & bit) == 0) outputs.torque_enable &= ~bit;
     }
     record::Digest32 digest(0);
     digest.add_struct(outputs);
