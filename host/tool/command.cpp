@@ -30,11 +30,11 @@ double parse_number(const std::string& text, double low, double high, const std:
   const std::string space = unit.empty() ? "" : " ";
   if (error != std::errc() || end != last || !std::isfinite(value)) {
     throw CLI::ValidationError(
-        fmt::format("'{}' is not a number; give {:g} to {:g}{}{}", text, low, high, space, unit));
+        fmt::format("'{}' is not a number; give {:.10g} to {:.10g}{}{}", text, low, high, space, unit));
   }
   if (value < low || value > high) {
     throw CLI::ValidationError(
-        fmt::format("{} is out of range; give {:g} to {:g}{}{}", text, low, high, space, unit));
+        fmt::format("{} is out of range; give {:.10g} to {:.10g}{}{}", text, low, high, space, unit));
   }
   return value;
 }
