@@ -164,6 +164,7 @@ std::string verdict(const WalkResult& result, const Sweep& sweep) {
     return fmt::format("Interrupted after {:.1f} s of gait", result.metrics.walk_s);
   if (!result.failure.empty()) return "Failed: " + result.failure;
   std::string text = fmt::format("Walked {:.1f} s {}", result.metrics.walk_s, falls_text(result));
+  if (!result.remark.empty()) text += ", not as asked (remark)";
   if (!sweep.failure.empty()) text += "; failed: " + sweep.failure;
   if (sweep.interrupted) text += "; the sweep was interrupted";
   return text;
