@@ -104,15 +104,24 @@ std::string way_text(const WalkPlan& plan, const sim::WalkMetrics& m) {
   return aside + turn + fmt::format(" of the {:+.0f} asked", asked_turn_deg(plan, m));
 }
 
+double asked_m_s(const WalkPlan& plan) {
+  return 1e-4 * std::hypot(plan.velocity.vx_tenth_mm_s, plan.velocity.vy_tenth_mm_s);
+}
+
+/// The steady speed as a part of the one that was asked; nothing where it was told to turn, or
+/// nothing was steady.
+std::optional<double> share_of_asked(const WalkPlan& plan, const sim::WalkMetrics& m) {
+  if (!m.speed_steady_m_s || asked_m_s(plan) <= 0 || plan.velocity.wz_mrad_s != 0) return {};
+  return *m.speed_steady_m_s / asked_m_s(plan);
+}
+
 /// By how much the robot is faster than it was told to be, and why; empty where it was told to
 /// turn, or nothing was steady.
 std::string beyond_asked(const WalkPlan& plan, const sim::WalkMetrics& m) {
-  const double asked_m_s =
-      1e-4 * std::hypot(plan.velocity.vx_tenth_mm_s, plan.velocity.vy_tenth_mm_s);
-  if (!m.speed_steady_m_s || !m.slip_steady_m_s || asked_m_s <= 0 || plan.velocity.wz_mrad_s != 0)
-    return {};
-  const double all = 100 * (*m.speed_steady_m_s / asked_m_s - 1);
-  const double slip = 100 * *m.slip_steady_m_s / asked_m_s;
+  const std::optional<double> share = share_of_asked(plan, m);
+  if (!share || !m.slip_steady_m_s) return {};
+  const double all = 100 * (*share - 1);
+  const double slip = 100 * *m.slip_steady_m_s / asked_m_s(plan);
   return fmt::format(
       "{:+.1f} %: {:+.1f} % is the carrying sole sliding, {:+.1f} % steps that end elsewhere than "
       "planned, as servos give way",
@@ -122,8 +131,6 @@ std::string beyond_asked(const WalkPlan& plan, const sim::WalkMetrics& m) {
 std::vector<report::Fact> facts(const WalkPlan& plan, const WalkResult& result) {
   using report::or_dash;
   const sim::WalkMetrics& m = result.metrics;
-  const double commanded_m_s =
-      1e-4 * std::hypot(plan.velocity.vx_tenth_mm_s, plan.velocity.vy_tenth_mm_s);
   const std::string beyond = beyond_asked(plan, m);
   return {
       {"Distance", fmt::format("{:.2f} m", m.distance_m),
@@ -131,7 +138,7 @@ std::vector<report::Fact> facts(const WalkPlan& plan, const WalkResult& result) 
                    result.remark.empty() ? "" : "; " + result.remark)},
       {"Mean speed", or_dash(m.speed_mean_m_s, 3, " m/s"), "start, transition and finalisation"},
       {"Steady speed", or_dash(m.speed_steady_m_s, 3, " m/s"),
-       fmt::format("commanded {:.3f} m/s{}{}", commanded_m_s, beyond.empty() ? "" : "; " + beyond,
+       fmt::format("commanded {:.3f} m/s{}{}", asked_m_s(plan), beyond.empty() ? "" : "; " + beyond,
                    m.speed_steady_m_s ? "" : "; no cycle was steady")},
       {"ZMP bias", or_dash(m.zmp_bias_mean_mm, 1, " mm"),
        "mean distance to the supporting sole's centre"},
@@ -159,11 +166,15 @@ std::string falls_text(const WalkResult& result) {
                      times(result.get_ups));
 }
 
-std::string verdict(const WalkResult& result, const Sweep& sweep) {
+std::string verdict(const WalkPlan& plan, const WalkResult& result, const Sweep& sweep) {
+  constexpr double kAsAsked = 0.15;  // what is further off stands in the first line
   if (result.interrupted)
     return fmt::format("Interrupted after {:.1f} s of gait", result.metrics.walk_s);
   if (!result.failure.empty()) return "Failed: " + result.failure;
   std::string text = fmt::format("Walked {:.1f} s {}", result.metrics.walk_s, falls_text(result));
+  const std::optional<double> share = share_of_asked(plan, result.metrics);
+  if (share && std::abs(*share - 1) > kAsAsked)
+    text += fmt::format(", at {:.0f} % of the speed that was asked", 100 * *share);
   if (!result.remark.empty()) text += ", not as asked (remark)";
   if (!sweep.failure.empty()) text += "; failed: " + sweep.failure;
   if (sweep.interrupted) text += "; the sweep was interrupted";
@@ -253,7 +264,7 @@ report::Run to_report(const WalkPlan& plan, const WalkOptions& options, const Wa
                                 options.cycle_s)
                   : fmt::format("{}: velocity {}, {:g} s cycle", run.model, options.velocity_text,
                                 options.cycle_s);
-  run.verdict = verdict(result, sweep);
+  run.verdict = verdict(plan, result, sweep);
   run.good = result.good() && sweep.good();
   run.cycle_s = static_cast<double>(plan.params.tuning.gait.cycle_s);
   run.period_s = plan.params.period_us * 1e-6;
@@ -289,7 +300,7 @@ std::string to_text(const WalkPlan& plan, const WalkOptions& options, const Walk
                     const Sweep& sweep) {
   using report::or_dash;
   const sim::WalkMetrics& m = result.metrics;
-  std::string out = fmt::format("{}: {}\n", name_of(plan.params), verdict(result, sweep));
+  std::string out = fmt::format("{}: {}\n", name_of(plan.params), verdict(plan, result, sweep));
   const auto line = [&](const char* name, const std::string& value) {
     out += fmt::format("  {:<18}{}\n", name, value);
   };
