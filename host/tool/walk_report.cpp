@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <Eigen/Geometry>
+#include <cmath>
 #include <numbers>
+#include <optional>
 
 #include "host/record/trace.hpp"
 #include "host/report/maybe.hpp"
