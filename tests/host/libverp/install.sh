@@ -36,7 +36,7 @@ find_package(verp REQUIRED)
 add_executable(user a.c)
 target_link_libraries(user PRIVATE verp::verp_shared)
 END
-"$cmake" -S . -B user -DCMAKE_PREFIX_PATH="$to" >log && "$cmake" --build user >>log || { cat log && say "find_package(verp) fails"; }
+"$cmake" -G Ninja -S . -B user -DCMAKE_PREFIX_PATH="$to" >log && "$cmake" --build user >>log || { cat log && say "find_package(verp) fails"; }
 user/user || say "a program that was built by find_package fails"
 for each in share/man/man1/verp.1 share/bash-completion/completions/verp share/zsh/vendor-completions/_verp \
   share/fish/vendor_completions.d/verp.fish; do
