@@ -48,9 +48,10 @@ void Player::step(int ticks) {
     follows_ = true;
     return live_->tick_once();
   }
-  // Half a tick more: an instant is found at or before a time.
+  // Half a tick more: an instant is found at or before a time, and they are a period apart but for
+  // a step of physics.
   const double from_s = follows_ ? film->end_s() : shown_s_;
-  seek(from_s + (ticks + (ticks > 0 ? 0.5 : 0.0)) * film->period_s());
+  seek(from_s + (ticks + 0.5) * film->period_s());
 }
 
 void Player::seek(double t_s) {

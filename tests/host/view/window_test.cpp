@@ -30,7 +30,8 @@ TEST_F(Window, PlaysPausesAndTicksByKeys) {
   QTest::qWait(100);
   EXPECT_EQ(live().status().ticks, ticks + 1);
   key(Qt::Key_Comma);
-  EXPECT_NEAR(live().film()->end_s() - shown_s(), live().film()->period_s(), 1e-6);
+  // An instant is when the bus was through with it, a step of physics sooner or later.
+  EXPECT_NEAR(live().film()->end_s() - shown_s(), live().film()->period_s(), 2.1e-3);
   EXPECT_TRUE(wait_for([&] { return window_.scene().drawn() > 3; })) << "and was drawn";
 }
 
