@@ -69,6 +69,9 @@ class Drawing {
     return at_;
   }
 
+  /// The pose to stand in, if the way there is free: what an action goes back to by itself.
+  const Angles& home() { return free(stand_) ? at_ = stand_ : at_; }
+
  private:
   double angle(std::size_t j, double way_s, double share) {
     const model::Joint& joint = entity_.joints[j];
@@ -160,7 +163,9 @@ action::Document motion_of(const model::Entity& entity, const MotionOptions& opt
   document.note = "All joints to and fro, the trunk in a stand: verp identify";
   Drawing drawing(entity, options);
   double time_s = 0;
-  for (std::size_t i = 0; time_s < options.length_s; ++i) {
+  bool last = false;
+  for (std::size_t i = 0; !last; ++i) {
+    last = time_s >= options.length_s && i % std::size(kWay_s) == std::size(kWay_s) - 1;
     action::FrameText frame;
     frame.time_s = kWay_s[i % std::size(kWay_s)];
     frame.hold_s = i % std::size(kWay_s) == std::size(kWay_s) - 1 ? kRest_s : 0;
@@ -168,7 +173,7 @@ action::Document motion_of(const model::Entity& entity, const MotionOptions& opt
       frame.balance = false;
       frame.stance = action::Stance::kNone;
     }
-    const Angles& to = drawing.next(frame.time_s);
+    const Angles& to = last ? drawing.home() : drawing.next(frame.time_s);
     for (std::size_t j = 0; j < to.size(); ++j) {
       if (entity.joints[j].follows >= 0) continue;
       frame.goals.push_back({entity.joints[j].name, false, to[j], 0});

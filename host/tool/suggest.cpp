@@ -32,7 +32,7 @@ std::string_view last_part(std::string_view word) {
 /// As a person has it who forgets the unit: "lift" of gait.lift_m.
 std::string_view without_unit(std::string_view name) {
   const std::size_t end = name.rfind('_');
-  return end == name.npos || name.size() - end > 6 ? name : name.substr(0, end);
+  return end == name.npos || name.size() - end > 4 ? name : name.substr(0, end);
 }
 
 /// Whoever leaves out what comes before the point means one of the names behind it.
