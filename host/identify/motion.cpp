@@ -26,6 +26,7 @@ constexpr double kTopSpeed = 1.5, kTopAcceleration = 6;  ///< of a cubic's way o
 constexpr int kLooks = 8;                                ///< on the way, for links that meet
 constexpr double kApart_m = 0.02;  ///< what a robot is off its model by, and ways by straight ones
 constexpr int kDraws = 20;
+constexpr double kMostBeyond_s = 60;  ///< until the way to the stand is free
 
 /// Of all that a joint carries where the robot stands, about its axis.
 std::vector<double> inertias_kg_m2(const model::Entity& entity, const Angles& stand) {
@@ -69,8 +70,9 @@ class Drawing {
     return at_;
   }
 
-  /// The pose to stand in, if the way there is free: what an action goes back to by itself.
-  const Angles& home() { return free(stand_) ? at_ = stand_ : at_; }
+  /// The way to the stand is free.
+  bool may_stand() const { return free(stand_); }
+  const Angles& stand() { return at_ = stand_; }
 
  private:
   double angle(std::size_t j, double way_s, double share) {
@@ -163,17 +165,18 @@ action::Document motion_of(const model::Entity& entity, const MotionOptions& opt
   document.note = "All joints to and fro, the trunk in a stand: verp identify";
   Drawing drawing(entity, options);
   double time_s = 0;
-  bool last = false;
-  for (std::size_t i = 0; !last; ++i) {
-    last = time_s >= options.length_s && i % std::size(kWay_s) == std::size(kWay_s) - 1;
+  bool last = false;  // it ends where it stands, to which an action goes back by itself
+  for (std::size_t i = 0; !last && time_s < options.length_s + kMostBeyond_s; ++i) {
+    const bool slow = i % std::size(kWay_s) == std::size(kWay_s) - 1;
+    last = time_s >= options.length_s && slow && drawing.may_stand();
     action::FrameText frame;
     frame.time_s = kWay_s[i % std::size(kWay_s)];
-    frame.hold_s = i % std::size(kWay_s) == std::size(kWay_s) - 1 ? kRest_s : 0;
+    frame.hold_s = slow ? kRest_s : 0;
     if (i == 0) {
       frame.balance = false;
       frame.stance = action::Stance::kNone;
     }
-    const Angles& to = last ? drawing.home() : drawing.next(frame.time_s);
+    const Angles& to = last ? drawing.stand() : drawing.next(frame.time_s);
     for (std::size_t j = 0; j < to.size(); ++j) {
       if (entity.joints[j].follows >= 0) continue;
       frame.goals.push_back({entity.joints[j].name, false, to[j], 0});

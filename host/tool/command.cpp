@@ -29,12 +29,12 @@ double parse_number(const std::string& text, double low, double high, const std:
   const auto [end, error] = std::from_chars(first, last, value);
   const std::string space = unit.empty() ? "" : " ";
   if (error != std::errc() || end != last || !std::isfinite(value)) {
-    throw CLI::ValidationError(
-        fmt::format("'{}' is not a number; give {:.10g} to {:.10g}{}{}", text, low, high, space, unit));
+    throw CLI::ValidationError(fmt::format("'{}' is not a number; give {:.10g} to {:.10g}{}{}",
+                                           text, low, high, space, unit));
   }
   if (value < low || value > high) {
-    throw CLI::ValidationError(
-        fmt::format("{} is out of range; give {:.10g} to {:.10g}{}{}", text, low, high, space, unit));
+    throw CLI::ValidationError(fmt::format("{} is out of range; give {:.10g} to {:.10g}{}{}", text,
+                                           low, high, space, unit));
   }
   return value;
 }
