@@ -8,6 +8,7 @@
 #include "firmware/app/tick_log.hpp"
 #include "firmware/boot/boot.hpp"
 #include "hal/chip/semihosting/semihosting.hpp"
+#include "law.hpp"
 
 /// loop_<board> JOB RECORDS: the robot's control loop over the board's own CAN bus, at whose other
 /// end is a twin in lockstep. The robot and its operator's orders come from file JOB
