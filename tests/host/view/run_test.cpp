@@ -131,6 +131,27 @@ TEST(Player, WindsARunBackTickByTick) {
   EXPECT_NEAR(player.shown_s(), one_s, 1e-6);
 }
 
+// A tick's instant is where a bus and steps of physics put it.
+TEST(Player, StepsFromInstantToInstantHoweverFarTheyAreApart) {
+  constexpr double kInstants[] = {1.0, 1.009, 1.02, 1.029, 1.04};
+  const auto film = std::make_shared<LiveFilm>(std::make_shared<const scene::Entity>(), 0.01);
+  for (const double t_s : kInstants) {
+    scene::Snapshot snapshot;
+    snapshot.t_s = t_s;
+    snapshot.robots.resize(1);
+    film->add(snapshot);
+  }
+  Player player(film);
+  for (std::size_t i = 1; i < std::size(kInstants); ++i) {
+    player.step(1);
+    EXPECT_EQ(player.shown_s(), kInstants[i]) << "forth to " << i;
+  }
+  for (std::size_t i = std::size(kInstants) - 1; i-- > 0;) {
+    player.step(-1);
+    EXPECT_EQ(player.shown_s(), kInstants[i]) << "back to " << i;
+  }
+}
+
 TEST(PoseHand, AFootGoesWhereItIsDraggedAsFarAsTheLegReaches) {
   const session::WalkPlan plan = plan_of("dxl");
   PoseHand hand(plan.entity, plan.params);
