@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <netinet/in.h>
 #include <netinet/tcp.h>
+#include <pthread.h>
+#include <sched.h>
 #include <sys/eventfd.h>
 #include <sys/socket.h>
 #include <unistd.h>
@@ -106,6 +108,11 @@ void Server::send(std::uint32_t channel, std::uint64_t time_ns, std::string_view
     }
   }
   if (news) wake();
+}
+
+bool Server::run_before_others(int priority) {
+  const sched_param wanted{.sched_priority = priority};
+  return ::pthread_setschedparam(thread_.native_handle(), SCHED_FIFO, &wanted) == 0;
 }
 
 void Server::wait_for_viewer(const std::function<bool()>& given_up) {

@@ -50,6 +50,11 @@ class Server {
   std::optional<std::uint32_t> find_channel(std::string_view topic) const;
   void send(std::uint32_t channel, std::uint64_t time_ns, std::string_view data);
 
+  /// Its thread runs before all that is not urgent (SCHED_FIFO), if the system lets it: it holds
+  /// what a sender needs for some microseconds, and a sender that is urgent waits for no program
+  /// that took the processor meanwhile. `priority`: below the sender's. False: the system lets
+  /// nobody.
+  bool run_before_others(int priority);
   /// Returns when a viewer has subscribed to something, or when `given_up` says so.
   void wait_for_viewer(const std::function<bool()>& given_up);
   /// Sends what waits, as long as a viewer takes it, and says goodbye. Nothing is sent afterwards.

@@ -8,6 +8,7 @@
 #include "host/tool/console.hpp"
 #include "host/tool/exit_status.hpp"
 #include "host/tool/interrupt.hpp"
+#include "host/tool/real_time.hpp"
 
 namespace verp::tool {
 namespace {
@@ -64,6 +65,10 @@ record::mcap::Listener* LiveStream::robot(const std::string& name) {
 
 void LiveStream::wait_for_viewer() {
   if (server_ != nullptr && options_.waits) server_->wait_for_viewer(interrupted);
+}
+
+void LiveStream::run_beside_real_time() {
+  if (server_ != nullptr) server_->run_before_others(kLoopPriority - 1);
 }
 
 void LiveStream::finish() {

@@ -38,6 +38,8 @@ class LiveStream {
   /// With --live-wait: returns when somebody watches, or the run is interrupted. Its channels are
   /// there by now.
   void wait_for_viewer();
+  /// Before a loop in real time, whose thread sends.
+  void run_beside_real_time();
   /// There is no more; viewers get what waits for them.
   void finish();
 

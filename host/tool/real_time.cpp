@@ -8,9 +8,6 @@
 namespace verp::tool {
 namespace {
 
-// Above what desktops give to sound, below the kernel's own threads for interrupts (50).
-constexpr int kPriority = 40;
-
 bool lock_memory() {
   rlimit limit{};
   const bool unlimited =
@@ -24,7 +21,7 @@ bool lock_memory() {
 
 RealTime become_real_time() {
   RealTime got;
-  const sched_param wanted{.sched_priority = kPriority};
+  const sched_param wanted{.sched_priority = kLoopPriority};
   got.fifo = ::sched_setscheduler(0, SCHED_FIFO | SCHED_RESET_ON_FORK, &wanted) == 0;
   got.locked = lock_memory();
   if (got.fifo && got.locked) return got;

@@ -10,6 +10,9 @@ struct RealTime {
   std::string advice;   ///< one line of what is missing, and how to get it; empty: nothing
 };
 
+/// Above what desktops give to sound, below the kernel's own threads for interrupts (50).
+inline constexpr int kLoopPriority = 40;
+
 /// Asks for both, for the calling thread.
 RealTime become_real_time();
 /// Gives the priority back: who can't keep up must not keep all others from running as well.

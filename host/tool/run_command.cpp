@@ -205,6 +205,7 @@ int run_on(Link& link, const RunWords& words, const RunPlan& plan, WalkFiles& fi
   // On any link: behind tcp: or pty: may be a forwarded port as well as a twin, and a twin answers
   // as the servos do.
   confirm_first_power(plan.walk.params, words.yes, answers);
+  live.run_beside_real_time();
   Progress progress(!words.walk.json);
   return tell(words, plan, files, live, drive(link, plan, fit, files.trace(), progress));
 }

@@ -1,5 +1,10 @@
 #include "host/live/server.hpp"
 
+#include <sched.h>
+
+#include <filesystem>
+#include <string>
+#include <thread>
 #include <vector>
 
 #include "tests/host/live/viewer.hpp"
@@ -39,6 +44,27 @@ ServerOptions patient() {
   ServerOptions options;
   options.patience = options.patience_all = std::chrono::hours(1);
   return options;
+}
+
+// A robot's loop is urgent, and sends: it must not wait for a thread that others took the processor
+// from.
+TEST(Live, RunsBeforeOthersWhereTheSystemLetsAThread) {
+  const auto urgent_threads = [] {
+    int count = 0;
+    for (const auto& task : std::filesystem::directory_iterator("/proc/self/task")) {
+      const int policy = ::sched_getscheduler(std::stoi(task.path().filename().string()));
+      count += policy == SCHED_FIFO ? 1 : 0;
+    }
+    return count;
+  };
+  bool allowed = false;
+  std::thread([&] {
+    const sched_param wanted{.sched_priority = 1};
+    allowed = ::sched_setscheduler(0, SCHED_FIFO, &wanted) == 0;
+  }).join();
+  Server server(0);
+  EXPECT_EQ(server.run_before_others(1), allowed);
+  EXPECT_EQ(urgent_threads(), allowed ? 1 : 0);
 }
 
 TEST(Live, AViewerGetsTheLastMessageAndThenAllInOrder) {
