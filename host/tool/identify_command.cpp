@@ -23,7 +23,7 @@
 namespace verp::tool {
 namespace {
 
-constexpr const char* kUsualRobot = "generic21";
+constexpr const char* kRobotOfMotion = "generic21";
 
 struct IdentifyWords {
   std::string trace, robot, type, file, motion;
@@ -33,7 +33,7 @@ struct IdentifyWords {
 
 int make_motion(const IdentifyWords& words) {
   const model::Entity entity =
-      model::load_robot(model::find_model(words.robot.empty() ? kUsualRobot : words.robot));
+      model::load_robot(model::find_model(words.robot.empty() ? kRobotOfMotion : words.robot));
   action::Document document = identify::motion_of(entity, {.length_s = words.motion_s, .seed = 1});
   document.name = std::filesystem::path(words.motion).stem().string();
   std::ofstream out(words.motion, std::ios::binary | std::ios::trunc);
@@ -47,7 +47,7 @@ int make_motion(const IdentifyWords& words) {
         fmt::format("{}: a motion of {:.0f} s for {} in a stand; in the twin:\n"
                     "  verp action play {} --robot {} --held --gains 25 --record a.mcap\n",
                     words.motion, words.motion_s, entity.name, words.motion,
-                    words.robot.empty() ? kUsualRobot : words.robot));
+                    words.robot.empty() ? kRobotOfMotion : words.robot));
   }
   return kGood;
 }

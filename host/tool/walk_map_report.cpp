@@ -14,7 +14,7 @@
 namespace verp::tool {
 namespace {
 
-using End = survey::StabilityCell::End;
+using CellEnd = survey::StabilityCell::End;
 
 constexpr double kDegrees = 180 / std::numbers::pi;
 
@@ -134,19 +134,20 @@ MapTold tell(const WalkOptions& options, const WalkPlan& plan, const survey::Pus
 
 MapTold tell(const WalkOptions& options, const WalkPlan& plan, const survey::StabilityMap& map,
              const survey::StabilityOptions& asked) {
-  const auto count = [&](End end) { return survey::count_of(map, end); };
+  const auto count = [&](CellEnd end) { return survey::count_of(map, end); };
   const std::size_t of = map.cells.size();
-  const std::size_t done = of - static_cast<std::size_t>(count(End::kNone));
+  const std::size_t done = of - static_cast<std::size_t>(count(CellEnd::kNone));
   const std::string verdict =
       tried(done, of, "velocities") +
-      fmt::format(": {} walked, {} went less than half of the way, {} fell{}{}",
-                  count(End::kWalked), count(End::kShort), count(End::kFell),
-                  count(End::kFailed) > 0 ? fmt::format(", {} failed", count(End::kFailed)) : "",
-                  map.interrupted ? "; interrupted" : "");
+      fmt::format(
+          ": {} walked, {} went less than half of the way, {} fell{}{}", count(CellEnd::kWalked),
+          count(CellEnd::kShort), count(CellEnd::kFell),
+          count(CellEnd::kFailed) > 0 ? fmt::format(", {} failed", count(CellEnd::kFailed)) : "",
+          map.interrupted ? "; interrupted" : "");
   MapTold told = begun(options, plan, fmt::format("{:g} s at each velocity", plan.walk_s), verdict,
                        map.interrupted);
   told.text += survey::text_of(map, asked);
-  for (const End end : {End::kWalked, End::kShort, End::kFell}) {
+  for (const CellEnd end : {CellEnd::kWalked, CellEnd::kShort, CellEnd::kFell}) {
     told.page.facts.push_back({survey::name_of(end), std::to_string(count(end)),
                                fmt::format("of {} velocities that were tried", done)});
   }
@@ -154,7 +155,7 @@ MapTold tell(const WalkOptions& options, const WalkPlan& plan, const survey::Sta
   told.page.csv = survey::csv_of(map);
   Json cells = Json::array();
   for (const survey::StabilityCell& cell : map.cells) {
-    const bool walked = cell.end != End::kNone;
+    const bool walked = cell.end != CellEnd::kNone;
     cells.push_back({{"asked", json_of(cell.asked)},
                      {"ordered", walked ? json_of(cell.ordered) : Json()},
                      {"walked", cell.walked ? json_of(*cell.walked) : Json()},
@@ -164,10 +165,10 @@ MapTold tell(const WalkOptions& options, const WalkPlan& plan, const survey::Sta
   told.json.update({{"velocities_on_axis", asked.on_axis},
                     {"measured_from_s", asked.begin_s},
                     {"of", done},
-                    {"walked", count(End::kWalked)},
-                    {"short", count(End::kShort)},
-                    {"fell", count(End::kFell)},
-                    {"failed", count(End::kFailed)},
+                    {"walked", count(CellEnd::kWalked)},
+                    {"short", count(CellEnd::kShort)},
+                    {"fell", count(CellEnd::kFell)},
+                    {"failed", count(CellEnd::kFailed)},
                     {"cells", cells}});
   return told;
 }

@@ -35,7 +35,7 @@ esac"
   stub cmake 'mkdir -p "build/${!#}" && echo configured && : >"build/${!#}/build.ninja"'
   stub ninja "echo \"\$*\" >>'$scratch/built'; mkdir -p build/host-release/host/tool && touch build/host-release/.ninja_log && echo '[1/1] noise'
 printf '#!/bin/bash\necho \"\$*\"\nexit 7\n' >'$scratch/new' && chmod +x '$scratch/new'
-mv '$scratch/new' build/host-release/host/tool/verp"
+mv '$scratch/new' \"build/host-release/host/tool/\${!#}\""
 }
 
 launch() { # arguments of ./verp; sets status, output and errors
@@ -78,6 +78,12 @@ check '--yes installs, builds, passes the other arguments on, keeps stdout pure'
 launch walk
 check 'the second time nothing is said' 7 'walk' ''
 [[ -z $errors ]] || { echo "FAILED: said: $errors" && failed=1; }
+
+grep -q 'host-release verp_walk$' "$scratch/built" || { echo "FAILED: a first walk built: $(<"$scratch/built")" && failed=1; }
+launch trace info
+launch walk
+check 'where the program of all words is, it walks' 7 'walk' ''
+[[ $(tail -n 1 "$scratch/built") == *'host-release verp' ]] || { echo "FAILED: then a walk built: $(<"$scratch/built")" && failed=1; }
 
 launch run m --yes --json
 check 'after run --yes reaches the program' 7 'run m --yes --json' ''
