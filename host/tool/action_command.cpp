@@ -147,11 +147,7 @@ int play(const ActionWords& words) {
   sim::WorldOptions world = world_of(options);
   const Drawn drawn = draw(options, plan, world);
   if (words.gains_percent < 100) {
-    for (model::Joint& joint : plan.entity.joints) {
-      for (std::uint16_t* gain : {&joint.servo.p_gain, &joint.servo.i_gain, &joint.servo.d_gain}) {
-        *gain = static_cast<std::uint16_t>(*gain * words.gains_percent / 100);
-      }
-    }
+    soften(plan.entity, words.gains_percent);
     plan.params = model::make_params(plan.entity);
   }
   if (words.held) {

@@ -14,25 +14,41 @@ bool is_file(const std::string& word) {
 
 }  // namespace
 
+action::Made make_actions(const model::Entity& entity, const Params& params,
+                          const std::string& named) {
+  std::vector<action::Document> documents = action::read_folder(action::folder_of(entity.file));
+  if (is_file(named)) {
+    const action::Document own = action::read_document(named);
+    std::erase_if(documents, [&](const action::Document& each) { return each.name == own.name; });
+    documents.push_back(own);
+  }
+  return action::make_library(params, std::move(documents));
+}
+
+int require_action(const model::Entity& entity, const action::Made& made,
+                   const std::string& named) {
+  const std::string name = is_file(named) ? action::read_document(named).name : named;
+  return made.require(name, action::folder_of(entity.file).string());
+}
+
 ActionRobot load_action_robot(const ActionWords& words) {
   ActionRobot robot;
   robot.entity = model::load_robot(model::find_model(words.model), "");
   robot.params = model::make_params(robot.entity);
-  std::vector<action::Document> documents =
-      action::read_folder(action::folder_of(robot.entity.file));
-  if (is_file(words.action)) {
-    const action::Document named = action::read_document(words.action);
-    std::erase_if(documents, [&](const action::Document& each) { return each.name == named.name; });
-    documents.push_back(named);
-  }
-  robot.made = action::make_library(robot.params, std::move(documents));
+  robot.made = make_actions(robot.entity, robot.params, words.action);
   return robot;
 }
 
 int require_action(const ActionRobot& robot, const ActionWords& words) {
-  const std::string name =
-      is_file(words.action) ? action::read_document(words.action).name : words.action;
-  return robot.made.require(name, action::folder_of(robot.entity.file).string());
+  return require_action(robot.entity, robot.made, words.action);
+}
+
+void soften(model::Entity& entity, int percent) {
+  for (model::Joint& joint : entity.joints) {
+    for (std::uint16_t* gain : {&joint.servo.p_gain, &joint.servo.i_gain, &joint.servo.d_gain}) {
+      *gain = static_cast<std::uint16_t>(*gain * percent / 100);
+    }
+  }
 }
 
 }  // namespace verp::tool

@@ -30,4 +30,12 @@ ActionRobot load_action_robot(const ActionWords& words);
 /// Number of the action that was named. Throws LoadError.
 int require_action(const ActionRobot& robot, const ActionWords& words);
 
+/// The same of a robot that is loaded already. `named`: an action of its own, or a file.
+action::Made make_actions(const model::Entity& entity, const Params& params,
+                          const std::string& named);
+int require_action(const model::Entity& entity, const action::Made& made, const std::string& named);
+
+/// The position loops of all servos at so many percent of what they were.
+void soften(model::Entity& entity, int percent);
+
 }  // namespace verp::tool

@@ -80,8 +80,10 @@ class RobotRun {
         operator_(params_, plan.walk.velocity, plan.walk.walk_s,
                   [this](auto from, auto to, auto faults) { tell(from, to, faults); }),
         keeper_{robot_, operator_, result_.walk, trace},
-        app_(params_, robot_.bus(), operator_, keeper_, plan.has_imu ? nullptr : &imu_) {
+        app_(params_, robot_.bus(), operator_, keeper_, plan.has_imu ? nullptr : &imu_,
+             app::Core{{plan.walk.actions.data(), 4 * plan.walk.actions.size()}}) {
     result_.fit = fit;
+    if (plan.action != 0) operator_.play(plan.action);
     if constexpr (requires { robot.order(0u); }) {
       if (plan.takes_orders) operator_.obey([this](auto tick) { return robot_.order(tick); });
     }
@@ -129,10 +131,15 @@ class RobotRun {
       progress_.show(
           operator_.walked_s() / plan_.walk.walk_s,
           fmt::format(
-              "{}  {:.1f} of {:g} s{}", params_.name, operator_.walked_s(), plan_.walk.walk_s,
+              "{}  {}{}", params_.name, so_far(),
               kInLockstep ? "" : fmt::format(", {} deadlines missed", pacer.deadlines().missed)));
     }
     result_.deadlines = pacer.deadlines();
+  }
+
+  std::string so_far() const {
+    if (plan_.action != 0) return fmt::format("acting for {:.1f} s", operator_.played_s());
+    return fmt::format("{:.1f} of {:g} s", operator_.walked_s(), plan_.walk.walk_s);
   }
 
   /// The world that a twin is in may end sooner than its controller wants.
@@ -214,6 +221,7 @@ class RobotRun {
     if constexpr (kInLockstep)
       walk.simulated_s = 1e-6 * params_.period_us * static_cast<double>(walk.ticks);
     result_.walked_s = operator_.walked_s();
+    result_.played_s = operator_.played_s();
     result_.bus = app_.counters();
     result_.crc_errors = app_.crc_errors();
     result_.link = robot_.link_errors();

@@ -12,6 +12,7 @@
 #include "host/model/params.hpp"
 #include "host/session/fault_names.hpp"
 #include "host/session/stride.hpp"
+#include "host/tool/action_words.hpp"
 #include "host/tool/bit_rate.hpp"
 #include "host/tool/command.hpp"
 #include "host/tool/console.hpp"
@@ -33,8 +34,8 @@ constexpr std::uint32_t kArrival_us = 10'000'000;  // for whom `pty:` or a liste
 struct RunWords {
   WalkOptions walk;
   RunParams params;
-  std::string link;
-  int torque_percent = 100;
+  std::string link, action;
+  int torque_percent = 100, gains_percent = 100;
   bool yes = false;
   bool take_orders = false;
   bool lockstep = false;
@@ -76,6 +77,7 @@ RunPlan make_plan(const RunWords& words) {
   }
   WalkPlan& walk = plan.walk;
   walk.entity = model::load_robot_on_any_bus(model::find_model(words.walk.model), words.walk.bus);
+  soften(walk.entity, words.gains_percent);
   walk.params = model::make_params(walk.entity);
   require_fit("verp run", words.link, walk.params);
   apply_tuning(words.walk, walk.params.tuning);
@@ -83,6 +85,11 @@ RunPlan make_plan(const RunWords& words) {
   model::require_bus(walk.entity, walk.params);
   ask_for_walk(words.walk, walk);
   if (words.take_orders) require_followed_orders(walk.params);
+  if (!words.action.empty()) {
+    const action::Made made = make_actions(walk.entity, walk.params, words.action);
+    plan.action = require_action(walk.entity, made, words.action);
+    walk.actions = made.words;
+  }
   if (plan.link.kind == wire::Endpoint::Kind::kSerial && plan.link.baud != walk.params.baud) {
     throw ToolError(kBadInput, fmt::format("verp run: the link runs at {} baud, the bus of {} at "
                                            "{}; give --link serial:{}@{}, or change baud in "
@@ -107,6 +114,7 @@ Json to_json(const RunPlan& plan, const RunResult& result) {
           {"period_us", plan.walk.params.period_us},
           {"ticks", walk.ticks},
           {"walked_s", result.walked_s},
+          {"action_s", plan.action == 0 ? Json() : Json(result.played_s)},
           {"wall_s", walk.wall_s},
           {"digest", fmt::format("0x{:016x}", walk.digest)},
           {"faults", session::fault_names(walk.faults)},
@@ -153,7 +161,9 @@ std::string real_time_text(const RunResult& result) {
 }
 
 std::string to_text(const RunPlan& plan, const RunResult& result) {
-  return fmt::format("{}: walked {:.1f} s on {}\n", plan.walk.params.name, result.walked_s,
+  const bool acted = plan.action != 0;
+  return fmt::format("{}: {} {:.1f} s on {}\n", plan.walk.params.name,
+                     acted ? "acted for" : "walked", acted ? result.played_s : result.walked_s,
                      wire::to_text(plan.link)) +
          row("ticks", fmt::format("{} of {:g} ms, digest 0x{:016x}", result.walk.ticks,
                                   1e-3 * plan.walk.params.period_us, result.walk.digest)) +
@@ -214,8 +224,11 @@ int run_robot(const RunWords& words) {
   const RunPlan plan = make_plan(words);
   if (!plan.walk.remark.empty()) complain("verp run: " + plan.walk.remark);
   LiveStream live("verp run", words.walk.live);
-  WalkFiles files(words.walk, plan.walk, live.robot(),
-                  {{"link", words.link}, {"imu", plan.has_imu ? "bus" : "none: assumed upright"}});
+  record::mcap::StringMap facts = {{"link", words.link},
+                                   {"imu", plan.has_imu ? "bus" : "none: assumed upright"}};
+  if (plan.action != 0) facts["action"] = words.action;
+  if (words.gains_percent < 100) facts["gains_percent"] = std::to_string(words.gains_percent);
+  WalkFiles files(words.walk, plan.walk, live.robot(), facts);
   live.wait_for_viewer();
   if (plan.link.kind == wire::Endpoint::Kind::kCan) {
     wire::CanPort port(plan.link);
@@ -252,6 +265,14 @@ Subcommand add_run(CLI::App& root) {
   app->add_option("--torque", words->torque_percent, "of what the servos can, percent")
       ->check(whole_number_between(5, 100))
       ->capture_default_str();
+  app->add_option("--gains", words->gains_percent, "of the servos' position loops, percent")
+      ->check(whole_number_between(10, 100))
+      ->capture_default_str();
+  app->add_option("--action", words->action,
+                  "instead of a walk: stand, play this action (its name, or a file), sit down")
+      ->excludes("--velocity")
+      ->excludes("--step")
+      ->excludes("--for");
   app->add_flag("--yes", words->yes, "the first-power checklist is confirmed; for a twin, too");
   app->add_option("--record", words->walk.record_file, "write the trace here (.mcap)");
   app->add_flag("--record-state", words->walk.record_state,
@@ -260,7 +281,8 @@ Subcommand add_run(CLI::App& root) {
   app->add_flag("--take-orders", words->take_orders,
                 "on CAN: whoever writes the controller's node (127) gives the orders, for --for "
                 "seconds or until Ctrl-C; the bytes: host/can/masters.md")
-      ->excludes("--velocity");
+      ->excludes("--velocity")
+      ->excludes("--action");
   app->add_flag(
          "--lockstep", words->lockstep,
          "a twin is at the other end (`verp walk --robot NAME=ext:LINK`), and its time waits "

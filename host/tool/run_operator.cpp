@@ -15,7 +15,9 @@ RunOperator::RunOperator(const Params& params, const Command& velocity, double w
       most_s_(walk_s) {}
 
 app::OperatorOrder RunOperator::order(std::uint32_t tick) {
-  if (!sitting_ && !limp_) return orders_ ? orders_(tick) : walker_.order(tick);
+  if (!sitting_ && !limp_) {
+    return orders_ ? orders_(tick) : player_ ? player_->order(tick) : walker_.order(tick);
+  }
   app::OperatorOrder order;
   relax_.request = Request::kRelax;
   ++relax_.sequence;
@@ -41,6 +43,11 @@ void RunOperator::observe_obeying(std::uint32_t faults) {
   if (obeyed_s_ >= most_s_) sitting_ = true;
 }
 
+void RunOperator::observe_playing(const State& state, const Outputs& outputs) {
+  player_->observe(state, outputs);
+  if (player_->done()) fail(player_->failed());
+}
+
 void RunOperator::observe(const State& state, const Outputs& outputs) {
   const auto mode = static_cast<Mode>(outputs.mode);
   const Mode before = std::exchange(mode_, mode);
@@ -56,6 +63,8 @@ void RunOperator::observe(const State& state, const Outputs& outputs) {
                          (mode == Mode::kRising && walker_.walked_s() > 0);
   if (orders_ && !sitting_) {
     observe_obeying(outputs.faults);
+  } else if (!sitting_ && !by_itself && player_) {
+    observe_playing(state, outputs);
   } else if (!sitting_ && !by_itself) {
     walker_.observe(state, outputs);
     if (walker_.done()) {

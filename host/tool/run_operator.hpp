@@ -1,19 +1,21 @@
 #pragma once
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <utility>
 
 #include "common/control/state.hpp"
 #include "common/safety/machine.hpp"
 #include "firmware/app/contracts.hpp"
+#include "host/action/play_operator.hpp"
 #include "host/session/walk_operator.hpp"
 
 namespace verp::tool {
 
-/// The person at the desk during `verp run`: has the robot stand, walk and stop, and in the end,
-/// whatever happened, sit down and let go. Waits while the robot holds; a robot that let go by
-/// itself is not made to rise again.
+/// The person at the desk during `verp run`: has the robot stand, walk (or act) and stop, and in
+/// the end, whatever happened, sit down and let go. Waits while the robot holds; a robot that let
+/// go by itself is not made to rise again.
 class RunOperator {
  public:
   /// Called when the robot's mode has changed.
@@ -29,6 +31,9 @@ class RunOperator {
   using Orders = std::function<app::OperatorOrder(std::uint32_t tick)>;
   void obey(Orders orders) { orders_ = std::move(orders); }
 
+  /// Instead of a walk: this action of its library, once.
+  void play(int number) { player_.emplace(number, period_s_); }
+
   /// From now on: sit down, then let go.
   void sit_down() { sitting_ = true; }
   /// From now on: no torque.
@@ -37,6 +42,8 @@ class RunOperator {
   /// Torque is off, and was so for as long as it takes to tell every servo.
   bool over() const { return quiet_ticks_ >= kQuietTicks; }
   double walked_s() const { return orders_ ? walked_s_ : walker_.walked_s(); }
+  /// Of the action, so far.
+  double played_s() const { return player_ ? player_->played_s() : 0; }
   /// Why the walk is no good, in words; empty: it is.
   const std::string& failure() const { return failure_; }
 
@@ -45,8 +52,10 @@ class RunOperator {
 
   void fail(const std::string& why);
   void observe_obeying(std::uint32_t faults);
+  void observe_playing(const State& state, const Outputs& outputs);
 
   session::WalkOperator walker_;
+  std::optional<action::PlayOperator> player_;
   Told told_;
   Orders orders_;
   const double period_s_, most_s_;

@@ -21,13 +21,14 @@ struct RunPlan {
   bool has_imu = true;  ///< false: `--imu none`
   int torque_percent = 100;
   bool lockstep = false;      ///< of a twin: it waits for this controller, and that for it
+  int action = 0;             ///< of the library in `walk`, played instead of a walk; 0: a walk
   bool takes_orders = false;  ///< `--take-orders`: who writes the controller's node gives them
 };
 
 struct RunResult {
   WalkResult walk;              ///< what needs no twin: ticks, digest, faults, failure, interrupted
   bool device_trouble = false;  ///< walk.failure is the link's or a device's
-  double walked_s = 0;
+  double walked_s = 0, played_s = 0;
   bus::LinkFit fit;
   RealTime real_time;
   app::Deadlines deadlines;

@@ -35,7 +35,8 @@ class RunBench : public Program {
   std::unique_ptr<Process> run(std::vector<std::string> more) {
     std::vector<std::string> words = {"run", "generic21", "--link", "serial:" + port() + "@2000000",
                                       "--json"};
-    if (std::find(more.begin(), more.end(), "--for") == more.end()) {
+    const bool timed = std::find(more.begin(), more.end(), "--for") != more.end();
+    if (!timed && std::find(more.begin(), more.end(), "--action") == more.end()) {
       words.insert(words.end(), {"--for", "3"});
     }
     words.insert(words.end(), more.begin(), more.end());

@@ -26,6 +26,9 @@ TEST_F(RealRobot, RefusesWhatCannotBe) {
   expect_refused("run --link pty: --torque 0", "--torque");
   expect_refused("run --link pty: --set gait.lift=1", "verp run: --set");
   expect_refused("run nobody --link pty:", "nobody");
+  expect_refused("run --link pty: --action nonesuch", "nonesuch");
+  expect_refused("run --link pty: --action wave --for 5", "--for");
+  expect_refused("run --link pty: --gains 5", "--gains");
   const std::string rate = "run --link serial:/dev/null@1000000";
   expect_refused(rate, "the bus of generic21 at 2000000");
   expect_refused(
@@ -104,6 +107,22 @@ TEST_F(TimelyRobot, AnInterruptSitsTheRobotDown) {
     expect_table(trace());
     fs::remove(folder_ / "run.mcap");
   }
+}
+
+// Any robot's servos play what its action files say, softly if that is asked; the trace holds all
+// that a replay needs.
+TEST_F(TimelyRobot, PlaysAnActionThenSitsDownAndLetsGo) {
+  serve();
+  plug({1000, 1000});
+  auto program =
+      run({"--yes", "--period", "20", "--action", "wave", "--gains", "80", "--record", "run.mcap"});
+  const Outcome outcome = program->wait();
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_NE(outcome.err.find("standing to acting"), std::string::npos) << outcome.err;
+  const Json result = result_of(outcome);
+  EXPECT_GT(result.value("action_s", 0.0), 1.0);
+  EXPECT_EQ(result.value("let_go", false), true);
+  EXPECT_EQ(verp("replay run.mcap").status, 0);
 }
 
 /// What `verp hil` says of the robot once it is told to end.
