@@ -29,6 +29,7 @@ Subcommand add_replay(CLI::App& root);
 Subcommand add_diff(CLI::App& root);
 Subcommand add_compare(CLI::App& root);
 Subcommand add_identify(CLI::App& root);
+Subcommand add_tune(CLI::App& root);
 Subcommand add_check(CLI::App& root);
 Subcommand add_export(CLI::App& root);
 Subcommand add_new(CLI::App& root);

@@ -57,8 +57,8 @@ class Deployment {
     plan_.entity = model::load_robot(model::find_model(options.model), options.flash.bus);
     plan_.params = model::make_params(plan_.entity);
     image_ = flash::loop_image(recipe_, plan_.entity.protocol);
-    const WalkOptions usual;  // two 4 cm steps a cycle, straight ahead
-    plan_.velocity = velocity_of(usual, usual.step_m);
+    const WalkOptions usual;  // two 4 cm steps a cycle of the robot, straight ahead
+    plan_.velocity = velocity_of(usual, plan_.params.tuning.gait, usual.step_m);
     plan_.walk_s = options.walk_s;
   }
 

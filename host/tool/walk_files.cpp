@@ -33,7 +33,7 @@ record::mcap::StringMap metadata(const WalkPlan& plan, const WalkOptions& option
           {"world_file", world_file(options)},
           {"seed", std::to_string(plan.twin.seed)},
           {"step_m", fmt::format("{}", options.step_m)},
-          {"cycle_s", fmt::format("{}", options.cycle_s)},
+          {"cycle_s", fmt::format("{}", plan.params.tuning.gait.cycle_s)},
           {"velocity", options.velocity_text},
           {"walk_s", fmt::format("{}", options.walk_s)},
           {"changed", changed},

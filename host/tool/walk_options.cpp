@@ -94,9 +94,9 @@ void declare_gait(CLI::App& app, WalkOptions& options) {
 }
 
 void declare_tuning(CLI::App& app, WalkOptions& options) {
-  app.add_option("--cycle", options.cycle_s, "two steps, s")
-      ->check(number_between(0.3, 2.0, "s"))
-      ->capture_default_str();
+  app.add_option("--cycle", options.cycle_s,
+                 "two steps, s; default: the robot's gait.cycle_s, 0.45")
+      ->check(number_between(0.3, 2.0, "s"));
   app.add_option("--set", options.settings, "NAME=VALUE: a gait, balance or safety parameter");
 }
 
@@ -218,8 +218,8 @@ void require_fit(const std::string& command, const std::string& link, const Para
                               model::protocol_name(params.bus_protocol)));
 }
 
-Command velocity_of(const WalkOptions& options, double step_m) {
-  double vx_m_s = 2 * step_m / options.cycle_s, vy_m_s = 0, wz_rad_s = 0;
+Command velocity_of(const WalkOptions& options, const GaitTuning& gait, double step_m) {
+  double vx_m_s = 2 * step_m / decimal(gait.cycle_s), vy_m_s = 0, wz_rad_s = 0;
   if (!options.velocity_text.empty()) {
     const std::vector<std::string> parts = split(options.velocity_text, ',');
     if (parts.size() != 3) {
@@ -308,7 +308,7 @@ std::vector<double> sweep_of(const WalkOptions& options) {
 }
 
 void apply_tuning(const WalkOptions& options, Tuning& tuning) {
-  tuning.gait.cycle_s = static_cast<float>(options.cycle_s);
+  if (options.cycle_s > 0) tuning.gait.cycle_s = static_cast<float>(options.cycle_s);
   for (const std::string& setting : options.settings) set_by_name(tuning, setting, options.command);
   if (options.no_multibody) tuning.balance.multibody_enable = 0;
   if (options.no_feedback) tuning.balance.feedback_enable = 0;

@@ -29,7 +29,7 @@ struct WalkOptions {
   std::string model = "generic21";
   std::string bus;  ///< by name; empty: the model's first
   double step_m = 0.04;
-  double cycle_s = 0.45;
+  double cycle_s = 0;  ///< 0: the robot's own
   double walk_s = 20;
   std::uint64_t seed = 1;
   std::string velocity_text, sweep_text, record_file, report_folder, board;
@@ -78,8 +78,9 @@ void require_serial(const std::string& command, const model::Entity& entity);
 /// Throws ToolError unless the robot's bus is CAN where `link` is a CAN interface, and only there.
 void require_fit(const std::string& command, const std::string& link, const Params& params);
 
-/// Velocity asked for: --velocity, or two steps a cycle straight ahead. Throws ToolError.
-Command velocity_of(const WalkOptions& options, double step_m);
+/// Velocity asked for: --velocity, or two steps a cycle of that gait straight ahead. Throws
+/// ToolError.
+Command velocity_of(const WalkOptions& options, const GaitTuning& gait, double step_m);
 
 /// Throws ToolError, with the boards there are, when --on names none of them.
 void check_board(const WalkOptions& options);

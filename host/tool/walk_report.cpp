@@ -263,9 +263,9 @@ report::Run to_report(const WalkPlan& plan, const WalkOptions& options, const Wa
   run.model = name_of(plan.params);
   run.title = options.velocity_text.empty()
                   ? fmt::format("{}: {:g} cm steps, {:g} s cycle", run.model, 100 * options.step_m,
-                                options.cycle_s)
+                                plan.params.tuning.gait.cycle_s)
                   : fmt::format("{}: velocity {}, {:g} s cycle", run.model, options.velocity_text,
-                                options.cycle_s);
+                                plan.params.tuning.gait.cycle_s);
   run.verdict = verdict(plan, result, sweep);
   run.good = result.good() && sweep.good();
   run.cycle_s = static_cast<double>(plan.params.tuning.gait.cycle_s);

@@ -29,7 +29,7 @@ std::vector<std::string> words_of(const WalkOptions& o, std::uint64_t seed) {
     words.push_back(fmt::format("{}={}", option, value));
   };
   add("--seed", std::to_string(seed));
-  add("--cycle", fmt::format("{}", o.cycle_s));
+  if (o.cycle_s > 0) add("--cycle", fmt::format("{}", o.cycle_s));
   add("--for", fmt::format("{}", o.walk_s));
   add("--physics-step", fmt::format("{}", o.physics_step_ms));
   o.velocity_text.empty() ? add("--step", fmt::format("{}", o.step_m))

@@ -31,7 +31,7 @@ RunSetup run_of(const tool::WalkOptions& options) {
                     {"world_file", tool::world_file(options)},
                     {"seed", std::to_string(setup.plan.twin.seed)},
                     {"step_m", fmt::format("{}", options.step_m)},
-                    {"cycle_s", fmt::format("{}", options.cycle_s)},
+                    {"cycle_s", fmt::format("{}", setup.plan.params.tuning.gait.cycle_s)},
                     {"velocity", options.velocity_text},
                     {"walk_s", fmt::format("{}", options.walk_s)},
                     {"controller", "this PC"},

@@ -1,4 +1,5 @@
 #include <cmath>
+#include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "tests/host/tool/program.hpp"
@@ -7,6 +8,7 @@ namespace verp::tool::test {
 namespace {
 
 using NewRobot = Program;
+using nlohmann::json;
 
 TEST_F(NewRobot, IsATableAndTheRobotMadeFromIt) {
   const Outcome made = verp("new robot my_bot --from generic21");
@@ -21,6 +23,30 @@ TEST_F(NewRobot, IsATableAndTheRobotMadeFromIt) {
   EXPECT_EQ(again.status, 0) << again.err;
   EXPECT_NE(slurp(folder_ / "my_bot/robot.sdf"), before) << "made anew from the table";
   EXPECT_EQ(verp("check my_bot").status, 0);
+}
+
+// Every number of a robot's file is heard, its pace too; what is typed goes before it.
+TEST_F(NewRobot, WalksAtThePaceThatItsFileSays) {
+  ASSERT_EQ(verp("new robot slow_bot --from generic21").status, 0);
+  const std::string walk = "walk slow_bot --for 3 --physics-step 2 --json";
+  const json usual = json::parse(verp(walk).out),
+             slow = json::parse(verp(walk + " --cycle 0.6").out);
+  const std::string pace = "<verp:tuning name=\"gait.cycle_s\" value=\"0.6\"/>";
+  ASSERT_EQ(
+      shell("sed -i '0,/<verp:tuning/s|<verp:tuning|" + pace + "&|' slow_bot/robot.sdf").status, 0);
+  EXPECT_NE(usual.at("digest"), slow.at("digest"));
+  EXPECT_EQ(json::parse(verp(walk).out).at("digest"), slow.at("digest"));
+  EXPECT_EQ(json::parse(verp(walk + " --cycle 0.45").out).at("digest"), usual.at("digest"));
+}
+
+using NewTune = Program;
+
+TEST_F(NewTune, RefusesWhatItCannotDo) {
+  expect_refused("tune", "MODEL is required");
+  expect_refused("tune nobody", "nobody");
+  expect_refused("tune generic21 --speed 0", "--speed");
+  std::ofstream(folder_ / "kept.sdf") << "mine";
+  expect_refused("tune generic21 --write kept.sdf", "is there already");
 }
 
 TEST_F(NewRobot, StandsWhereItIsLookedFor) {
