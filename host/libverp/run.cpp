@@ -51,8 +51,8 @@ Seat::Seat(const verp_robot& what, std::uint32_t index) : index_(index) {
   Loaded loaded = load(what.model, what.bus, what.tuning);
   plan_.entity = std::move(loaded.entity);
   plan_.params = loaded.params;
-  const session::Followed followed = session::within_servo_speed(
-      plan_.params, velocity_of(what.vx_m_s, what.vy_m_s, what.wz_rad_s));
+  plan_.asked = velocity_of(what.vx_m_s, what.vy_m_s, what.wz_rad_s);
+  const session::Followed followed = session::within_servo_speed(plan_.params, *plan_.asked);
   plan_.velocity = followed.velocity;
   plan_.remark = followed.remark;
   plan_.name = text_or_empty(what.name);

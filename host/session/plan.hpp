@@ -28,6 +28,7 @@ struct WalkPlan {
   model::Entity entity;
   Params params;
   Command velocity;                    ///< vx, vy, wz
+  std::optional<Command> asked = {};   ///< what a walk is judged by, if more than the velocity
   std::vector<std::uint32_t> actions;  ///< image of the library (common/action); empty: none
   std::string remark;                  ///< how that is not what was asked; goes into the result's
   double walk_s = 20;     ///< of gait; of a run whose orders come from Hooks::order: of the run

@@ -300,7 +300,7 @@ std::string Robot::failure_of_walk() const {
   const std::string failed = walker_->failed();
   // A walk that a controller's reset cut in two starts and stops twice: nobody asked for that way.
   if (!failed.empty() || walked_s_ > 0) return failed;
-  return shortfall(plan_.velocity, result_.metrics, plan_.params.tuning.gait);
+  return shortfall(plan_.asked.value_or(plan_.velocity), result_.metrics, plan_.params.tuning.gait);
 }
 
 }  // namespace verp::session

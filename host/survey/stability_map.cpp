@@ -53,6 +53,7 @@ void walk(session::WalkPlan plan, const sim::WorldOptions& world, const Stabilit
   const session::Followed followed =
       session::within_servo_speed(plan.params, command_of(cell.asked));
   plan.velocity = followed.velocity;
+  plan.asked.reset();  // the map tells both
   SpeedMeter meter(options.begin_s, plan.walk_s - kStopping_s,
                    static_cast<double>(plan.params.tuning.gait.cycle_s));
   session::Hooks hooks;

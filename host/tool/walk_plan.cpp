@@ -20,8 +20,9 @@ namespace verp::tool {
 using session::WalkPlan;
 
 void ask_for_walk(const WalkOptions& options, WalkPlan& plan) {
-  const session::Followed followed = session::within_servo_speed(
-      plan.params, velocity_of(options, plan.params.tuning.gait, options.step_m));
+  const Command asked = velocity_of(options, plan.params.tuning.gait, options.step_m);
+  const session::Followed followed = session::within_servo_speed(plan.params, asked);
+  plan.asked = asked;
   plan.velocity = followed.velocity;
   plan.remark = followed.remark;
   plan.walk_s = options.walk_s;

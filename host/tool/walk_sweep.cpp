@@ -12,6 +12,7 @@ using report::SweepWalk;
 /// One walk with the multibody correction on or off.
 WalkResult sweep_walk(WalkPlan plan, const WalkOptions& options, double step_m, bool multibody,
                       Progress& progress) {
+  plan.asked.reset();
   plan.velocity = velocity_of(options, plan.params.tuning.gait, step_m);
   plan.params.tuning.balance.multibody_enable = multibody ? 1.0f : 0.0f;
   const std::string label =

@@ -53,10 +53,10 @@ TEST_F(Walk, JsonTraceReplayAndDiffAgree) {
 
 // A walk that was set otherwise must not be taken for the robot's own.
 TEST_F(Walk, WhatWasChangedStandsInSummaryReportJsonAndTrace) {
-  const std::string options = "walk --for 3 --set gait.lift_m=0.02 --cycle 0.45 --report out";
+  const std::string options = "walk --for 3 --set gait.lift_m=0.02 --step 0.04 --report out";
   const Outcome walk = verp(options);
   EXPECT_NE(walk.out.find("changed           --set gait.lift_m=0.02\n"), std::string::npos);
-  EXPECT_EQ(walk.out.find("--cycle"), std::string::npos) << "as by default";
+  EXPECT_EQ(walk.out.find("--step"), std::string::npos) << "as by default";
   EXPECT_NE(slurp(folder_ / "out/index.html").find("gait.lift_m=0.02"), std::string::npos);
   const std::string info = verp("trace info out/run.mcap").out;
   EXPECT_NE(info.find("changed: --for 3 --set gait.lift_m=0.02"), std::string::npos) << info;
@@ -219,6 +219,15 @@ TEST_F(Walk, WhatWasNotMeasuredIsNullOrADash) {
     EXPECT_TRUE(none.at(name).is_null()) << name;
   }
   EXPECT_TRUE(none.at("zmp_bias_by_state_mm").at(3).is_null());
+}
+
+// What the servos cannot follow is taken off before the walk; whoever asked for it did not get it.
+TEST_F(Walk, AnOrderCutToLessThanHalfIsNoGoodWalk) {
+  const Outcome outcome =
+      verp("walk --step 0.15 --cycle 0.3 --set gait.max_step_m=0.3 --for 15 --physics-step 2");
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_NE(outcome.err.find("less than half of what was asked"), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.out.find("at 38 % of the velocity asked for"), std::string::npos);
 }
 
 TEST_F(Walk, SweepGivesATable) {
