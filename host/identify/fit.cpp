@@ -15,6 +15,7 @@ constexpr double kLeastSigma = 0.5;  ///< counts: an encoder's noise and roundin
 constexpr std::size_t kAround = 10;  ///< ticks either side, over which chance is seen
 constexpr double kMuchWorse = 1.03;  ///< more than chance makes of a step
 constexpr std::size_t kBlock = 50;   ///< ticks within which errors go together
+constexpr double kFurthest = 16;     ///< steps that one becomes at most
 
 // Geman and McClure's: what is far off counts as much as any that is.
 double weight(double residual) {
@@ -244,6 +245,33 @@ Fit::Normal Fit::linearise(const Estimate& estimate, std::size_t ticks) {
   return normal;
 }
 
+/// A step, within the bounds of each number. `by`: of the free ones, in their scales.
+Estimate Fit::moved(const Estimate& from, const Eigen::VectorXd& by) const {
+  Estimate to = from;
+  Eigen::Index column = 0;
+  for (std::size_t i = 0; i < from.value.size(); ++i) {
+    if (!from.free[i]) continue;
+    const double value = from.value[i] + by[column++] * scale_[i];
+    to.value[i] = i == delay() ? std::max(value, double{kLeastDelay} * kStep_us)
+                               : std::clamp(value, numbers()[i].low, numbers()[i].high);
+  }
+  return to;
+}
+
+/// Slopes between two twins hold chance, which passes for information and makes each step too
+/// short, most of all along a valley: as long as twice as far is better, twice as far.
+Estimate Fit::go_on(const Estimate& from, const Eigen::VectorXd& by, Estimate best,
+                    double cost_best, std::size_t ticks) {
+  for (double times = 2; times <= kFurthest && !stopped_; times *= 2) {
+    const Estimate next = moved(from, times * by);
+    const double cost_next = cost(predict(next, ticks), ticks);
+    if (!(cost_next < cost_best)) break;
+    best = next;
+    cost_best = cost_next;
+  }
+  return best;
+}
+
 void Fit::improve(Estimate& estimate, std::size_t ticks, int rounds) {
   double damping = 1e-3;
   for (int round = 0; round < rounds && !stopped_; ++round) {
@@ -265,19 +293,14 @@ void Fit::improve(Estimate& estimate, std::size_t ticks, int rounds) {
       Eigen::MatrixXd damped = normal.information;
       damped.diagonal() *= 1 + damping;
       const Eigen::VectorXd by = damped.ldlt().solve(normal.gradient);
-      Estimate next = estimate;
-      for (std::size_t c = 0; c < columns.size(); ++c) {
-        const std::size_t i = columns[c];
-        const double value = estimate.value[i] + by[static_cast<Eigen::Index>(c)] * scale_[i];
-        next.value[i] = i == delay() ? std::max(value, double{kLeastDelay} * kStep_us)
-                                     : std::clamp(value, numbers()[i].low, numbers()[i].high);
-      }
-      const auto predicted = predict(next, ticks);
+      const Estimate next = moved(estimate, by);
+      const double cost_next = cost(predict(next, ticks), ticks);
       if (stopped_) return;
-      const double cost_next = cost(predicted, ticks);
       better = cost_next < kMuchWorse * normal.cost;
       if (better) {
-        estimate = next;
+        const Estimate further = go_on(estimate, by, next, cost_next, ticks);
+        if (stopped_) return;
+        estimate = further;
         damping = std::max(damping / 10, 1e-6);
         double far = 0;
         for (std::size_t c = 0; c < columns.size(); ++c) {

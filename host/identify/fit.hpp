@@ -48,6 +48,9 @@ class Fit {
                 std::uint64_t seed = 1) const;
   void see_chance(const Simulated& one, const Simulated& other, std::size_t ticks);
   Normal linearise(const Estimate& estimate, std::size_t ticks);
+  Estimate moved(const Estimate& from, const Eigen::VectorXd& by) const;
+  Estimate go_on(const Estimate& from, const Eigen::VectorXd& by, Estimate best, double cost_best,
+                 std::size_t ticks);
   Eigen::VectorXd settle(std::size_t joint, Eigen::VectorXd& left, Eigen::MatrixXd* rows) const;
   double cost(const std::vector<std::vector<float>>& predicted, std::size_t ticks) const;
 

@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kLeast_s = 5;
 constexpr double kRough_s = 10;  ///< what the first rounds look at
-constexpr int kRoughRounds = 6, kRounds = 5;
+constexpr int kRoughRounds = 6, kRounds = 7;
 constexpr double kStill_rad = 0.02;  ///< rms about the mean: no motion
 constexpr const char* kMotion =
     "record the motion that `verp identify --motion identify.action` makes";
