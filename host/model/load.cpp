@@ -1,9 +1,18 @@
 #include "host/model/load.hpp"
 
+#include <sched.h>
+#include <unistd.h>
+
 #include <algorithm>
+#include <cerrno>
 #include <cmath>
+#include <exception>
+#include <filesystem>
+#include <functional>
 #include <optional>
 #include <sdf/sdf.hh>
+#include <system_error>
+#include <thread>
 
 #include "host/model/assemble.hpp"
 #include "host/model/bus_time.hpp"
@@ -21,19 +30,39 @@ namespace {
 
 using Text = std::optional<std::string>;  // none: what is in the file
 
+/// libsdformat takes a relative <uri> for a file of the working directory before it asks us: of two
+/// people, one would stand in the robot's folder and get another robot. So it reads in a thread
+/// whose working directory has no file of such a name.
+void where_no_file_is(const std::function<void()>& work) {
+  std::exception_ptr failure;
+  std::thread([&] {
+    try {
+      if (::unshare(CLONE_FS) != 0 || ::chdir("/proc/self/fdinfo") != 0)
+        throw std::system_error(errno, std::generic_category(), "a working directory of its own");
+      work();
+    } catch (...) {
+      failure = std::current_exception();
+    }
+  }).join();
+  if (failure) std::rethrow_exception(failure);
+}
+
 /// libsdformat's strictest reading. Settings are global because an <include> ignores those given to
 /// Load().
-sdf::Errors read(const std::string& path, const Text& text, const PreparedUrdfs& urdfs,
+sdf::Errors read(const XmlSource& source, const Text& text, const PreparedUrdfs& urdfs,
                  sdf::Root& root) {
+  const std::string path = source.path();
+  const std::string whole = std::filesystem::absolute(path).string();
   sdf::ParserConfig& config = sdf::ParserConfig::GlobalConfig();
-  config.SetFindCallback([path, &urdfs](const std::string& uri) {
-    const std::string found = resolve_model_uri(uri, path);
+  config.SetFindCallback([&](const std::string& uri) {
+    const std::string found = source.included(uri);
     return found.empty() ? found : urdfs.copy_of(found);
   });
   config.SetUnrecognizedElementsPolicy(sdf::EnforcementPolicy::ERR);
   config.SetDeprecatedElementsPolicy(sdf::EnforcementPolicy::ERR);
   config.SetWarningsPolicy(sdf::EnforcementPolicy::ERR);
-  const sdf::Errors errors = text ? root.LoadSdfString(*text) : root.Load(path);
+  sdf::Errors errors;
+  where_no_file_is([&] { errors = text ? root.LoadSdfString(*text) : root.Load(whole); });
   // The copies are about to vanish.
   config.SetFindCallback([path](const std::string& uri) { return resolve_model_uri(uri, path); });
   return errors;
@@ -42,7 +71,9 @@ sdf::Errors read(const std::string& path, const Text& text, const PreparedUrdfs&
 [[noreturn]] void fail(const XmlSource& source, const PreparedUrdfs& urdfs,
                        const sdf::Error& error) {
   XmlSource::Place place = source.blame(error.Message());
-  const std::string file = error.FilePath().value_or(source.path());
+  const std::string whole = error.FilePath().value_or(source.path());
+  const bool own = whole == std::filesystem::absolute(source.path()).string();
+  const std::string file = own ? source.path() : whole;
   const bool of_text = file == "data-string" || file == "<data-string>";
   if (error.LineNumber() && *error.LineNumber() > 0 && !urdfs.is_copy(file)) {
     place.line = *error.LineNumber();
@@ -133,7 +164,7 @@ Entity load(const std::string& path, const std::string& bus, bool whole, const T
   }
   const PreparedUrdfs urdfs(source);
   sdf::Root root;
-  const sdf::Errors errors = read(path, text, urdfs, root);
+  const sdf::Errors errors = read(source, text, urdfs, root);
   if (!errors.empty()) fail(source, urdfs, errors.front());
   if (!root.Model()) model.fail("libsdformat finds no model here", "put one <model> below <sdf>");
   cross_check(source, facts, *root.Model());

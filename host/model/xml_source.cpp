@@ -234,7 +234,13 @@ void XmlSource::include(const File& file, const tinyxml2::XMLElement& element) {
                     "more than " + std::to_string(kMostFiles) + " files are included",
                     "write what repeats into the robot's own file");
   }
+  included_.insert({text, std::filesystem::absolute(found).string()});
   read(found);
+}
+
+std::string XmlSource::included(const std::string& uri) const {
+  const auto found = included_.find(uri);
+  return found == included_.end() ? "" : found->second;
 }
 
 void XmlSource::inspect(const File& file, const tinyxml2::XMLElement& element) {

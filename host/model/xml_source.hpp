@@ -62,6 +62,9 @@ class XmlSource {
   const std::string& path() const { return files_.front()->path; }
   /// The one <model> of the main file. Throws LoadError when there is none or more than one.
   XmlElement model() const;
+  /// The file that an <include> of this URI is of, whatever the working directory is then; empty:
+  /// there is none.
+  std::string included(const std::string& uri) const;
   /// Root elements (<robot>) of the URDF files among the includes.
   std::vector<XmlElement> urdfs() const;
 
@@ -87,6 +90,7 @@ class XmlSource {
   std::vector<std::unique_ptr<File>> files_;
   std::vector<std::string> open_;  ///< the main file, the one that it includes now, ...
   std::map<std::string, Place> names_;
+  std::map<std::string, std::string> included_;  ///< by its <uri>
 };
 
 }  // namespace verp::model

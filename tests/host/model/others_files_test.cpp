@@ -281,6 +281,17 @@ TEST(OthersFiles, TenOfEachFaultOfAUrdfAreRefusedWhereTheyStand) {
   std::filesystem::remove(urdf_path);
 }
 
+// libsdformat looks into the working directory before it asks who reads: whoever stood in the
+// robot's folder got the URDF as it is, in which a link and a joint of one name are two faults.
+TEST(OthersFiles, OddRobotIsTheSameForWhoeverStandsInItsFolder) {
+  const std::string folder = VERP_SOURCE_DIR "/tests/host/model/odd_robot";
+  const auto before = std::filesystem::current_path();
+  const std::size_t joints = load_robot(folder + "/robot.sdf").joints.size();
+  std::filesystem::current_path(folder);
+  EXPECT_EQ(load_robot("robot.sdf").joints.size(), joints);
+  std::filesystem::current_path(before);
+}
+
 // The smallest wrapper of them all is the one to begin with; its file gives no pose, gain or gait.
 TEST(OthersFiles, OddRobotStandsOnWhatIsFoundForIt) {
   const Entity e = load_robot(VERP_SOURCE_DIR "/tests/host/model/odd_robot/robot.sdf");
