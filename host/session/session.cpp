@@ -151,7 +151,13 @@ WalkResult Session::result(std::size_t index) {
 WalkResult walk(const WalkPlan& plan, Hooks hooks, Options options) {
   Session session(std::move(options));
   session.add(plan, std::move(hooks));
-  while (session.tick() != nullptr) {
+  try {
+    while (session.tick() != nullptr) {
+    }
+  } catch (const sim::Diverged& error) {
+    WalkResult result = session.result(0);
+    result.failure = error.what();
+    return result;
   }
   return session.result(0);
 }

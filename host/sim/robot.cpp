@@ -32,14 +32,19 @@ std::vector<double> mass_factors(const model::Entity& entity, const TwinOptions&
   return factor;
 }
 
-/// The gears, belts or rods by which one motor turns two joints, as stiff as an end stop.
-constexpr double kCouplingStiffness_n_m = 500.0;
-constexpr double kCouplingDamping_n_m_s = 1.0;
-
-/// What the coupling gives a joint's speed to work against, at the speed itself.
-double coupling_slope_n_m_s(double step_s) {
-  return kCouplingDamping_n_m_s + step_s * kCouplingStiffness_n_m;
-}
+/// The gears, belts or rods by which one motor turns two joints, as stiff as an end stop. In longer
+/// steps they are softer: each end takes the other's speed as it was, which makes both seem heavier
+/// by step * slope, and must stay less than a rotor.
+struct Coupling {
+  explicit Coupling(double step_s) {
+    constexpr double kStep_s = 0.001, kStiffness_n_m = 500.0, kDamping_n_m_s = 1.0;
+    const double softer = std::min(1.0, kStep_s / step_s);
+    stiffness_n_m = softer * softer * kStiffness_n_m;
+    slope_n_m_s = softer * kDamping_n_m_s + step_s * stiffness_n_m;
+  }
+  double stiffness_n_m;
+  double slope_n_m_s;  ///< what it gives a joint's speed to work against, at the speed itself
+};
 
 /// Puts followers where their drivers take them.
 void lead(const model::Entity& entity, std::vector<double>& joint_rad) {
@@ -62,7 +67,7 @@ model::Joint joint_at_servo(const model::Entity& entity, std::size_t j, double s
   double& armature_kg_m2 = joint.servo.gearbox.armature_kg_m2;
   for (const model::Joint& other : entity.joints) {
     if (other.follows != static_cast<int>(j)) continue;
-    const double carried = 2 * other.ratio * other.ratio * step_s * coupling_slope_n_m_s(step_s);
+    const double carried = 2 * other.ratio * other.ratio * step_s * Coupling(step_s).slope_n_m_s;
     armature_kg_m2 = std::max(armature_kg_m2 - carried, 0.0);
   }
   return joint;
@@ -243,14 +248,15 @@ const ServoSetpoint& TwinRobot::acting(std::size_t joint) const {
 /// step * slope, seen from its own side, of which the driver's rotor is relieved.
 std::vector<Drive> TwinRobot::couplings(double step_s) const {
   std::vector<Drive> lines(servo_.size());
+  const Coupling coupling(step_s);
   for (std::size_t j = 0; j < servo_.size(); ++j) {
     const model::Joint& joint = entity_.joints[j];
     if (joint.follows < 0) continue;
     const int own = static_cast<int>(j);
     const double driver_rad = body_.angle_rad(joint.follows);
-    const double pull_n_m = kCouplingStiffness_n_m *
+    const double pull_n_m = coupling.stiffness_n_m *
                             (body_.angle_rad(own) - joint.offset_rad - joint.ratio * driver_rad);
-    const double slope = coupling_slope_n_m_s(step_s);
+    const double slope = coupling.slope_n_m_s;
     lines[j] += {slope * joint.ratio * body_.rate_rad_s(joint.follows) - pull_n_m, slope};
     lines[static_cast<std::size_t>(joint.follows)] +=
         {joint.ratio * (slope * body_.rate_rad_s(own) + pull_n_m),

@@ -1,6 +1,11 @@
 #include "host/sim/world.hpp"
 
 #include <algorithm>
+#include <cstdarg>
+#include <cstdio>
+#include <mutex>
+#include <utility>
+#include <vector>
 
 #include "host/sim/ode_parts.hpp"
 #include "host/sim/scenery.hpp"
@@ -8,11 +13,30 @@
 namespace verp::sim {
 namespace {
 
+/// ODE would end the program.
+[[noreturn]] void give_up(int, const char* text, va_list arguments) {
+  char said[256];
+  std::vsnprintf(said, sizeof said, text, arguments);
+  throw std::runtime_error(said);
+}
+
 /// ODE's global state: opened by the first world, closed at exit.
 struct OdeRuntime {
-  OdeRuntime() { dInitODE2(0); }
+  OdeRuntime() {
+    dInitODE2(0);
+    dSetErrorHandler(give_up);
+    dSetDebugHandler(give_up);
+  }
   ~OdeRuntime() { dCloseODE(); }
 };
+
+/// What cannot be destroyed any more: ODE was left in the middle of a step, with jobs to do.
+void keep(dWorldID world, dThreadingImplementationID threading) {
+  static std::mutex mutex;
+  static auto& kept = *new std::vector<std::pair<dWorldID, dThreadingImplementationID>>;
+  const std::lock_guard lock(mutex);
+  kept.emplace_back(world, threading);
+}
 
 /// Per pair of geometries: a box on a plane has four, and more would only slow the solver.
 constexpr int kMaxContacts = 8;
@@ -89,6 +113,10 @@ World::~World() {
   scenery_.reset();
   dJointGroupDestroy(contact_group_);
   dSpaceDestroy(space_);
+  if (diverged_) {
+    keep(world_, threading_);
+    return;
+  }
   dWorldDestroy(world_);
   dThreadingFreeImplementation(threading_);
 }
@@ -154,7 +182,12 @@ void World::step() {
   dJointGroupEmpty(contact_group_);
   touching_.clear();
   dSpaceCollide(space_, this, &World::near_callback);
-  dWorldStep(world_, step_s());
+  try {
+    dWorldStep(world_, step_s());
+  } catch (const std::runtime_error& error) {
+    diverged_ = true;
+    throw Diverged(1e-6 * static_cast<double>(now_us_), step_s(), error.what());
+  }
   now_us_ += options_.step_us;
   read_contacts();
   for (Actor* actor : actors_) actor->after_step(step_s());

@@ -5,6 +5,8 @@
 #include <deque>
 #include <memory>
 #include <optional>
+#include <stdexcept>
+#include <string>
 #include <vector>
 
 #include "host/model/entity.hpp"
@@ -76,6 +78,18 @@ class TimeSource {
   virtual ~TimeSource() = default;
   /// Comes back when the world has done all whole steps that end at or before time_us.
   virtual void advance_to(std::uint64_t time_us) = 0;
+};
+
+/// The solver gave up: a speed is beyond all numbers. The world that threw it is over.
+class Diverged : public std::runtime_error {
+ public:
+  Diverged(double at_s, double step_s, const std::string& why)
+      : std::runtime_error("physics diverged " + std::to_string(at_s).substr(0, 6) +
+                           " s after its start, in steps of " +
+                           std::to_string(1e3 * step_s).substr(0, 4) +
+                           " ms; smaller ones may hold, or gains, masses or inertias of the "
+                           "robot's file are beyond any (" +
+                           why + ")") {}
 };
 
 struct WorldOptions {
@@ -150,6 +164,7 @@ class World final : public TimeSource {
   dSpaceID space_;
   dJointGroupID contact_group_;
   std::uint64_t now_us_ = 0;
+  bool diverged_ = false;
   int owners_ = 0;
   std::vector<Actor*> actors_;
   std::deque<GeomTag> tags_;

@@ -12,6 +12,7 @@
 #include "host/record/trace.hpp"
 #include "host/report/report.hpp"
 #include "host/session/not_up.hpp"
+#include "host/sim/world.hpp"
 #include "host/tool/exit_status.hpp"
 
 namespace verp::tool {
@@ -48,6 +49,8 @@ Failure current_failure() {
     return {status_of(error.kind()), error.what()};
   } catch (const record::TraceError& error) {
     return {kBadInput, error.what()};
+  } catch (const sim::Diverged& error) {
+    return {kRunFailed, error.what()};
   } catch (const own::OwnError& error) {
     return {kRunFailed, error.what()};
   } catch (const report::ReportError& error) {

@@ -104,14 +104,18 @@ class Seeds {
     const std::size_t from = std::min(said.find('{'), said.size()), to = said.rfind('}');
     const Json json =
         Json::parse(said.substr(from, to == std::string::npos ? 0 : to + 1 - from), nullptr, false);
-    if (status > kRunFailed || !json.is_object()) {
+    if (status == kBadInput || status == kNoDevice) {  // and so will all others say
       if (status_ == kGood) complain(said);
-      status_ = status_ == kGood ? std::max(status, int{kRunFailed}) : status_;
+      status_ = status_ == kGood ? status : status_;
       return;
     }
-    const bool good = status == kGood;
+    if (interrupted()) return;  // it was, too
+    const bool good = status == kGood && json.is_object();
     survived_ += good ? 1 : 0;
     Json row = {{"seed", walking.seed}, {"survived", good}};
+    if (!json.is_object() || !json.contains("failure")) {
+      row["failure"] = fmt::format("its program ended with status {}: {}", status, last_line(said));
+    }
     for (const char* key :
          {"failure", "fallen", "distance_m", "speed_steady_m_s", "yaw_drift_deg",
           "zmp_bias_mean_mm", "falls", "get_ups", "self_contact_ticks", "digest", "varied"}) {
@@ -147,6 +151,11 @@ class Seeds {
                          100 * interval.low, 100 * interval.high) +
              range("ZMP bias, mm", bias_mm, 1) + range("steady speed, m/s", speed_m_s, 3) + fell);
     }
+  }
+
+  static std::string last_line(std::string said) {
+    while (!said.empty() && said.back() == '\n') said.pop_back();
+    return said.substr(said.rfind('\n') + 1);
   }
 
   static void keep(const Json& row, const char* key, std::vector<double>& values) {

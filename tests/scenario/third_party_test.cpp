@@ -1,3 +1,7 @@
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
 #include "tests/scenario/walk.hpp"
 
 namespace verp::scenario {
@@ -43,6 +47,51 @@ TEST(ThirdParty, OddRobotWalksFromTheLeastWrapper) {
   expect_walked(result);
   expect_between(2.5, number(result, "ahead_m"), 6.5, "way ahead, m");
   EXPECT_EQ(result.result.value("notes", "").find("out of reach"), std::string::npos);
+}
+
+/// The odd robot with other hips: each first text replaced by the second, in a folder of its own.
+std::string odd_robot(const std::string& name,
+                      const std::vector<std::pair<std::string, std::string>>& changes) {
+  namespace fs = std::filesystem;
+  const fs::path from = VERP_SOURCE_DIR "/tests/host/model/odd_robot";
+  const fs::path to = fs::path(testing::TempDir()) / name;
+  fs::create_directories(to);
+  fs::copy_file(from / "robot.sdf", to / "robot.sdf", fs::copy_options::overwrite_existing);
+  std::stringstream text;
+  text << std::ifstream(from / "odd.urdf").rdbuf();
+  std::string urdf = text.str();
+  for (const auto& [old_text, new_text] : changes) {
+    const std::size_t at = urdf.find(old_text);
+    EXPECT_NE(at, std::string::npos) << old_text;
+    urdf.replace(at, old_text.size(), new_text);
+  }
+  std::ofstream(to / "odd.urdf") << urdf;
+  return (to / "robot.sdf").string();
+}
+
+// Hip axes that pass each other by 23 mm.
+TEST(ThirdParty, WalksWithHipAxesThatAreFarApart) {
+  const auto lower = [](const char* side) {
+    const std::string thigh = std::string("<child link=\"") + side + "_thigh\"/><origin xyz=\"";
+    return std::pair{thigh + "0.01 0 0", thigh + "0.01 0 -0.023"};
+  };
+  const Walk result = walk(odd_robot("apart", {lower("l"), lower("r")}) +
+                           " --velocity 0.2,0,0 --for 20 --physics-step 2");
+  expect_walked(result);
+  expect_between(0.19, number(result, "speed_steady_m_s"), 0.21, "steady speed, m/s");
+}
+
+// One motor turns both hips about axes that lean by 45 degrees, as NAO's do.
+TEST(ThirdParty, WalksAndTurnsWithLeaningHipAxesOnOneMotor) {
+  const std::string left = "0.037 -0.085\"/>\n    <axis xyz=\"";
+  const std::string right = "-0.037 -0.085\"/>\n    <axis xyz=\"";
+  const std::string robot =
+      odd_robot("leaning", {{" " + left + "0 0 1", " " + left + "0 0.70710678 0.70710678"},
+                            {right + "0 0 1", right + "0 -0.70710678 0.70710678"}});
+  const Walk ahead = walk(robot + " --velocity 0.2,0,0 --for 20 --physics-step 2");
+  expect_walked(ahead);
+  expect_between(0.19, number(ahead, "speed_steady_m_s"), 0.21, "steady speed, m/s");
+  expect_walked(walk(robot + " --velocity 0.1,0,0.3 --for 20 --physics-step 2"));
 }
 
 }  // namespace

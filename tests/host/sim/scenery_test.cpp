@@ -47,6 +47,15 @@ struct Place {
   std::unique_ptr<World> world;
 };
 
+// ODE ends the program when a number of its own is none: a robot of somebody's must not do that to
+// a campaign.
+TEST(World, PhysicsThatDivergesIsAnErrorOfItsRun) {
+  Place place({floor_at(0),
+               object("box", ShapeKind::kBox, {0.1, 0.1, 0.1}, {0, 0.01, 0.04}, Kind::kDynamic)});
+  place.world->set_gravity(1e160);
+  EXPECT_THROW(place.world->advance_to(1'000'000), Diverged);
+}
+
 TEST(Scenery, EachShapeHoldsABallWhereItsSurfaceIs) {
   auto field = std::make_shared<model::Heightfield>();
   *field = {.columns = 5,

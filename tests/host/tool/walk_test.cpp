@@ -221,6 +221,25 @@ TEST_F(Walk, WhatWasNotMeasuredIsNullOrADash) {
   EXPECT_TRUE(none.at("zmp_bias_by_state_mm").at(3).is_null());
 }
 
+// A walk whose program ends before it has said how it went is one of those that did not survive:
+// not one less.
+TEST_F(Walk, AProgramThatIsKilledCountsAmongItsSeeds) {
+  std::ofstream(folder_ / "kill.sh") << R"sh(
+"$1" walk --seeds 1-2 --for 8 --physics-step 2 &
+for try in $(seq 50); do
+  for stat in /proc/[0-9]*/stat; do
+    read -r pid name state parent rest <$stat || continue
+    [ "$parent" = $! ] && kill -9 "$pid" && wait $! && exit
+    [ "$parent" = $! ] && exit $?
+  done
+  sleep 0.1
+done)sh";
+  const Outcome outcome = shell("sh kill.sh " VERP_PROGRAM);
+  EXPECT_NE(outcome.out.find(": 1 of 2 walked 8 s"), std::string::npos) << outcome.out;
+  EXPECT_NE(outcome.out.find(": its program ended with status 137"), std::string::npos)
+      << outcome.out;
+}
+
 // What the servos cannot follow is taken off before the walk; whoever asked for it did not get it.
 TEST_F(Walk, AnOrderCutToLessThanHalfIsNoGoodWalk) {
   const Outcome outcome =
