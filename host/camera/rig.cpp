@@ -1,53 +1,22 @@
 #include "host/camera/rig.hpp"
 
 #include <sys/socket.h>
-#include <unistd.h>
 
-#include <cerrno>
-#include <system_error>
 #include <utility>
 
 namespace verp::camera {
 
-Rig::Rig(const std::filesystem::path& program, const Stage& stage, Pace pace) : pace_(pace) {
-  int ends[2];
-  if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0)
-    throw std::system_error(errno, std::generic_category(), "socketpair");
-  socket_ = ends[0];
-  try {
-    program_ = std::make_unique<process::Child>(
-        process::Command{.words = {program.string()},
-                         .input = {.descriptor = ends[1]},
-                         .output = {},
-                         .error = process::Stream{.descriptor = STDERR_FILENO}});
-  } catch (const std::system_error& error) {
-    ::close(ends[1]);
-    ::close(socket_);
-    throw CameraError("cameras: their program cannot be started (" + error.code().message() +
-                      "); `./verp walk --cameras` builds it, or: ninja -C build/host-release "
-                      "verp_camera");
-  }
-  ::close(ends[1]);
-  send(socket_, Kind::kStage, pack(stage));
-  const std::optional<Message> answer = receive(socket_);
-  if (!answer || answer->kind != Kind::kReady) {
-    ::close(socket_);
-    throw CameraError(answer ? "cameras: " + answer->data
-                             : "cameras: their program ended before it could draw; what it said is "
-                               "above");
-  }
-  listener_ = std::thread([this] { listen(); });
-}
+Rig::Rig(const std::filesystem::path& program, const Stage& stage, Pace pace)
+    : pace_(pace), program_(program, stage), listener_([this] { listen(); }) {}
 
 Rig::~Rig() {
-  ::shutdown(socket_, SHUT_RDWR);
+  ::shutdown(program_.socket(), SHUT_RDWR);
   listener_.join();
-  ::close(socket_);
 }
 
 void Rig::listen() {
   std::vector<Picture> pictures;
-  while (const std::optional<Message> message = receive(socket_)) {
+  while (const std::optional<Message> message = receive(program_.socket())) {
     if (message->kind == Kind::kPicture) {
       if (auto picture = unpack_picture(message->data)) pictures.push_back(std::move(*picture));
     } else if (message->kind == Kind::kDone) {
@@ -71,7 +40,7 @@ void Rig::expose(const Moment& moment) {
     ++dropped_;
     return;
   }
-  if (!send(socket_, Kind::kMoment, pack(moment))) fail_ended();
+  if (!send(program_.socket(), Kind::kMoment, pack(moment))) fail_ended();
   ++sent_;
 }
 

@@ -3,25 +3,14 @@
 #include <cstdint>
 #include <deque>
 #include <filesystem>
-#include <functional>
-#include <memory>
 #include <mutex>
-#include <stdexcept>
-#include <string>
 #include <thread>
 #include <vector>
 
+#include "host/camera/drawing_program.hpp"
 #include "host/camera/wire.hpp"
-#include "host/process/child.hpp"
 
 namespace verp::camera {
-
-/// The program that draws is not there, finds no OpenGL or a file that it cannot read, or has
-/// ended: one line for people.
-class CameraError : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
-};
 
 /// A run's cameras: a program beside it draws what they see, on another core, while the run goes
 /// on. Moments go to it, pictures come back in the order of moments.
@@ -32,7 +21,7 @@ class Rig {
     kNeverWaits     ///< it drops them
   };
   /// Starts `program` and waits until it can draw. Throws CameraError. On the main thread
-  /// (process::Child).
+  /// (DrawingProgram).
   Rig(const std::filesystem::path& program, const Stage& stage, Pace pace);
   ~Rig();
   Rig(const Rig&) = delete;
@@ -60,8 +49,7 @@ class Rig {
   [[noreturn]] void fail_ended() const;
 
   const Pace pace_;
-  int socket_ = -1;
-  std::unique_ptr<process::Child> program_;
+  DrawingProgram program_;
   std::uint64_t sent_ = 0, taken_ = 0, dropped_ = 0;
   mutable std::mutex mutex_;
   std::condition_variable came_;

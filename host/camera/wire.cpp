@@ -20,6 +20,7 @@ class Packer {
     data_.append(value);
     return *this;
   }
+  Packer& vector(const model::Vec3& value) { return put(value.x()).put(value.y()).put(value.z()); }
   Packer& poses(const std::vector<model::Transform>& poses) {
     put(std::uint64_t{poses.size()});
     for (const model::Transform& pose : poses) {
@@ -44,6 +45,10 @@ class Unpacker {
     const std::string_view from = bytes(sizeof value);
     if (good_) std::memcpy(&value, from.data(), sizeof value);
     return value;
+  }
+  model::Vec3 vector() {
+    const auto x = get<double>(), y = get<double>(), z = get<double>();
+    return {x, y, z};
   }
   std::string text() { return std::string(bytes(get<std::uint64_t>())); }
   /// How many things of that size follow.
@@ -76,6 +81,9 @@ class Unpacker {
   bool good_ = true;
 };
 
+/// One more wherever what is sent becomes another: a program of another build is known as such.
+constexpr std::uint32_t kBuild = 0x63616d02;
+
 struct Head {
   std::uint32_t kind = 0, size = 0;
 };
@@ -102,6 +110,28 @@ bool receive_all(int socket, char* data, std::size_t size) {
   return true;
 }
 
+void put_moment(const Moment& moment, Packer& out) {
+  out.put(moment.time_us).put(moment.robot).put(std::uint8_t{moment.raw});
+  out.put(std::uint64_t{moment.cameras.size()});
+  for (const std::uint32_t camera : moment.cameras) out.put(camera);
+  out.put(std::uint64_t{moment.link_world.size()});
+  for (const auto& links : moment.link_world) out.poses(links);
+  out.poses(moment.body_world);
+}
+
+Moment get_moment(Unpacker& in) {
+  Moment moment;
+  moment.time_us = in.get<std::uint64_t>();
+  moment.robot = in.get<std::uint32_t>();
+  moment.raw = in.get<std::uint8_t>() != 0;
+  for (auto left = in.count(sizeof(std::uint32_t)); left > 0; --left)
+    moment.cameras.push_back(in.get<std::uint32_t>());
+  for (auto left = in.count(sizeof(std::uint64_t)); left > 0; --left)
+    moment.link_world.push_back(in.poses());
+  moment.body_world = in.poses();
+  return moment;
+}
+
 template <class T>
 std::optional<T> if_whole(const Unpacker& in, T&& value) {
   return in.whole() ? std::optional<T>(std::forward<T>(value)) : std::nullopt;
@@ -125,40 +155,57 @@ std::optional<Message> receive(int socket) {
 
 std::string pack(const Stage& stage) {
   Packer out;
-  out.put(stage.seed).text(stage.world_file).put(std::uint64_t{stage.robot_files.size()});
-  for (const std::string& file : stage.robot_files) out.text(file);
+  out.put(kBuild).text(stage.world_file).put(std::uint64_t{stage.robots.size()});
+  for (const Stage::Robot& robot : stage.robots) out.put(robot.seed).text(robot.file);
   return out.take();
 }
 
 std::optional<Stage> unpack_stage(std::string_view data) {
   Unpacker in(data);
   Stage stage;
-  stage.seed = in.get<std::uint64_t>();
+  if (in.get<std::uint32_t>() != kBuild) return std::nullopt;
   stage.world_file = in.text();
-  for (auto left = in.count(sizeof(std::uint64_t)); left > 0; --left)
-    stage.robot_files.push_back(in.text());
+  for (auto left = in.count(2 * sizeof(std::uint64_t)); left > 0; --left) {
+    Stage::Robot& robot = stage.robots.emplace_back();
+    robot.seed = in.get<std::uint64_t>();
+    robot.file = in.text();
+  }
   return if_whole(in, std::move(stage));
 }
 
 std::string pack(const Moment& moment) {
   Packer out;
-  out.put(moment.time_us).put(std::uint64_t{moment.cameras.size()});
-  for (const std::uint32_t camera : moment.cameras) out.put(camera);
-  out.put(std::uint64_t{moment.link_world.size()});
-  for (const auto& links : moment.link_world) out.poses(links);
-  return out.poses(moment.body_world).take();
+  put_moment(moment, out);
+  return out.take();
+}
+
+std::string pack(const Moment& moment, const Outside& from) {
+  Packer out;
+  put_moment(moment, out);
+  out.text(from.view).vector(from.eye_m).vector(from.target_m).put(from.vertical_fov_rad);
+  out.put(from.width).put(from.height);
+  out.put(std::uint8_t{from.shadows}).put(std::uint8_t{from.antialias});
+  return out.take();
 }
 
 std::optional<Moment> unpack_moment(std::string_view data) {
   Unpacker in(data);
-  Moment moment;
-  moment.time_us = in.get<std::uint64_t>();
-  for (auto left = in.count(sizeof(std::uint32_t)); left > 0; --left)
-    moment.cameras.push_back(in.get<std::uint32_t>());
-  for (auto left = in.count(sizeof(std::uint64_t)); left > 0; --left)
-    moment.link_world.push_back(in.poses());
-  moment.body_world = in.poses();
-  return if_whole(in, std::move(moment));
+  return if_whole(in, get_moment(in));
+}
+
+std::optional<std::pair<Moment, Outside>> unpack_outside(std::string_view data) {
+  Unpacker in(data);
+  std::pair<Moment, Outside> both{get_moment(in), {}};
+  Outside& from = both.second;
+  from.view = in.text();
+  from.eye_m = in.vector();
+  from.target_m = in.vector();
+  from.vertical_fov_rad = in.get<double>();
+  from.width = in.get<std::uint32_t>();
+  from.height = in.get<std::uint32_t>();
+  from.shadows = in.get<std::uint8_t>() != 0;
+  from.antialias = in.get<std::uint8_t>() != 0;
+  return if_whole(in, std::move(both));
 }
 
 std::string pack(const Picture& picture) {

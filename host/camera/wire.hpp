@@ -3,6 +3,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "host/sim/exposure.hpp"
@@ -11,11 +12,14 @@
 /// one build: numbers are as the machine has them.
 namespace verp::camera {
 
-/// What is to be drawn: the first robot has the cameras.
+/// What is to be drawn.
 struct Stage {
-  std::vector<std::string> robot_files;
+  struct Robot {
+    std::string file;
+    std::uint64_t seed = 1;  ///< of its cameras' noise
+  };
+  std::vector<Robot> robots;
   std::string world_file;  ///< empty: a level floor
-  std::uint64_t seed = 1;  ///< of the noise
 };
 
 /// One moment of it.
@@ -24,6 +28,17 @@ struct Moment {
   std::vector<std::uint32_t> cameras;                     ///< that look
   std::vector<std::vector<model::Transform>> link_world;  ///< of each robot
   std::vector<model::Transform> body_world;               ///< of the world's moving things
+  std::uint32_t robot = 0;                                ///< whose cameras look
+  bool raw = false;                                       ///< colour as rgb8, not as PNG
+};
+
+/// From where somebody beside the robots looks at a moment.
+struct Outside {
+  std::string view;  ///< of scene::view(), of moment.robot; empty: from eye_m to target_m
+  model::Vec3 eye_m = model::Vec3::Zero(), target_m = model::Vec3::Zero();
+  double vertical_fov_rad = 0.5;
+  std::uint32_t width = 0, height = 0;
+  bool shadows = true, antialias = true;
 };
 
 /// As sensor_msgs have it (host/record/ros_camera.hpp).
@@ -40,7 +55,9 @@ enum class Kind : std::uint32_t {
   kFailed,   ///< from it: why not, in one line
   kMoment,   ///< to it
   kPicture,  ///< from it, for each camera that looked one or two
-  kDone      ///< from it, after the pictures of a moment: its processor time so far, us
+  kDone,     ///< from it, after the pictures of a moment: its processor time so far, us
+  kOutside,  ///< to it, a moment and from where to look at it: kPicture and kDone, or kRefused
+  kRefused   ///< from it: why it can't draw that, in one line; other things it can
 };
 
 struct Message {
@@ -55,11 +72,13 @@ std::optional<Message> receive(int socket);
 
 std::string pack(const Stage& stage);
 std::string pack(const Moment& moment);
+std::string pack(const Moment& moment, const Outside& from);
 std::string pack(const Picture& picture);
 std::string pack(std::uint64_t number);
-/// What pack() was given. None: it is no such thing.
+/// What pack() was given. None: it is no such thing; of a stage, also if another build packed it.
 std::optional<Stage> unpack_stage(std::string_view data);
 std::optional<Moment> unpack_moment(std::string_view data);
+std::optional<std::pair<Moment, Outside>> unpack_outside(std::string_view data);
 std::optional<Picture> unpack_picture(std::string_view data);
 std::optional<std::uint64_t> unpack_number(std::string_view data);
 

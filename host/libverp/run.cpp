@@ -57,6 +57,7 @@ Seat::Seat(const verp_robot& what, std::uint32_t index) : index_(index) {
   plan_.remark = followed.remark;
   plan_.name = text_or_empty(what.name);
   plan_.twin.seed = what.seed;
+  plan_.twin.cameras = true;  // some poses at each look; what is seen is drawn when it is asked for
   plan_.twin.start_m = {within(what.x_m, kFar_m, "x_m"), within(what.y_m, kFar_m, "y_m"), 0};
   plan_.twin.start_yaw_rad = within(what.yaw_rad, kFar_m, "yaw_rad");
   if (what.walk_s < 0) throw Failure(VERP_BAD_ARGUMENT, "walk_s is negative");

@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 
+#include "host/libverp/sight.hpp"
 #include "host/libverp/verp.h"
 #include "host/record/trace_writer.hpp"
 #include "host/session/live_orders.hpp"
@@ -58,11 +59,12 @@ class Seat {
 };
 
 struct Run {
-  explicit Run(const session::Options& options) : session(options) {}
+  explicit Run(const session::Options& options) : session(options), sight(options.world) {}
   Seat& seat(std::uint32_t index);
 
   std::deque<std::unique_ptr<Seat>> seats;  ///< outlive the session, whose hooks look at them
   session::Session session;
+  Sight sight;
   bool begun = false, ended = false;
 
   /// The end of all robots' runs.

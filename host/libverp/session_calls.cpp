@@ -104,6 +104,7 @@ int verp_session_add(verp_session session, const verp_robot* what, uint32_t* rob
     const auto index = static_cast<std::uint32_t>(run->seats.size());
     auto seat = std::make_unique<Seat>(*what, index);
     run->session.add(seat->plan(), seat->hooks());
+    run->sight.add(seat->plan());
     run->seats.push_back(std::move(seat));
     if (robot != nullptr) *robot = index;
     return VERP_OK;
@@ -122,7 +123,9 @@ int verp_session_tick(verp_session session, uint32_t count, uint32_t* robot, uin
       const verp::session::Robot* ticked = run->session.tick();
       if (ticked == nullptr) return VERP_OVER;
       if (done != nullptr) *done = n + 1;
-      if (robot != nullptr) *robot = number_of(*run, *ticked);
+      const std::uint32_t number = number_of(*run, *ticked);
+      run->sight.looked(run->session, number);
+      if (robot != nullptr) *robot = number;
     }
     return VERP_OK;
   });

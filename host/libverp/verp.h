@@ -32,8 +32,9 @@ extern "C" {
 
 typedef enum verp_status {
   VERP_OK = 0,
-  VERP_OVER = 1,    /* the run has ended: there is no further tick */
-  VERP_DIFFERS = 2, /* a trace was replayed, and not with the same bits */
+  VERP_OVER = 1,       /* the run has ended: there is no further tick */
+  VERP_DIFFERS = 2,    /* a trace was replayed, and not with the same bits */
+  VERP_NO_PICTURE = 3, /* a camera has not looked yet */
   VERP_BAD_ARGUMENT =
       -1,               /* null, a wrong size, no such name, out of range, too early or too late */
   VERP_BAD_HANDLE = -2, /* closed, or never one */
@@ -290,6 +291,66 @@ int verp_session_control(verp_session session, uint32_t robot, verp_controller c
 /* Has the robot's own controller decide this moment, once: the controller may then change what it
  * put out. */
 int verp_decide(uint64_t token);
+
+/* ---- what robots see, and pictures of the world ---- */
+
+/* What a picture holds: of each pixel, in rows from the top. Bits of verp_camera.gives. */
+enum {
+  VERP_COLOUR = 1, /* three bytes: red, green, blue */
+  VERP_DEPTH = 2,  /* uint16_t: along the camera's axis, mm; 0: nothing between its planes */
+  VERP_LABELS = 4  /* uint16_t: a number a link, then one a thing of the world; 0: the floor, or
+                      nothing */
+};
+
+/* A camera of a robot's file. */
+typedef struct verp_camera {
+  uint32_t size;
+  uint32_t gives; /* VERP_COLOUR and the like */
+  uint32_t width; /* pixels */
+  uint32_t height;
+  double rate_hz; /* it looks so often, at whole periods of simulated time */
+  double fx_px;   /* its lens: where a thing at x (right), y (down), z (ahead) is seen, */
+  double fy_px;   /* without distortion: fx x / z + cx, fy y / z + cy, the middle of the */
+  double cx_px;   /* first pixel being 0 */
+  double cy_px;
+  double distortion[5]; /* k1, k2, p1, p2, k3 of Brown and Conrady ("plumb_bob") */
+  double near_m;
+  double far_m;
+  double pose[12]; /* in its link, as verp_core_forward() has poses; x ahead, y left, z up */
+  uint32_t link;   /* of verp_core_forward()'s */
+  uint32_t reserved;
+  char name[64];
+} verp_camera;
+
+enum { VERP_PLAIN = 1 /* without shadows and smoothed edges, which take most of the time */ };
+
+/* From where the world is looked at. */
+typedef struct verp_view {
+  uint32_t size;
+  uint32_t flags; /* VERP_PLAIN */
+  uint32_t width; /* 16 to 8192 pixels */
+  uint32_t height;
+  const char* name; /* front, side, three-quarter, back, top, follow, head, or a camera that a file
+                       declares; null: from eye_m to target_m */
+  uint32_t robot;   /* whose front and so on */
+  uint32_t reserved;
+  double eye_m[3];
+  double target_m[3];
+  double fov_rad; /* of the height; 0: 0.5; of what has a name: its own */
+} verp_view;
+
+/* How many cameras the robot has, and what they are. */
+int verp_session_cameras(verp_session session, uint32_t robot, uint32_t* count);
+int verp_session_camera(verp_session session, uint32_t robot, uint32_t index, verp_camera* camera);
+/* What that camera saw when it last looked, up to the robot's last tick: `size` bytes of
+ * VERP_COLOUR or what else it gives, and when, as verp_tick.time_s; that may be null.
+ * VERP_NO_PICTURE: it has not looked yet. It is drawn when it is asked for, by a program beside
+ * this one that the first call starts and VERP_CAMERA_PROGRAM may name; nothing of it reaches the
+ * run. */
+int verp_session_picture(verp_session session, uint32_t robot, uint32_t camera, uint32_t what,
+                         void* picture, uint64_t size, double* time_s);
+/* The world as it is now, drawn likewise: VERP_COLOUR, so of 3 width height bytes. */
+int verp_session_render(verp_session session, const verp_view* view, void* picture, uint64_t size);
 
 /* Runs the controller once more over what a trace says that it saw. VERP_DIFFERS: verp_last_error()
  * says where. `ticks` and `digest` may be null. */

@@ -6,6 +6,7 @@
 #include <exception>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -115,6 +116,14 @@ class Moment {
   const verp_moment& moment_;
 };
 
+/// Rows from the top: of colour red, green, blue of each pixel; of depth mm, 0 where nothing is.
+template <class Pixel>
+struct Picture {
+  std::uint32_t width = 0, height = 0;
+  double time_s = 0;  ///< when a camera looked, simulated
+  std::vector<Pixel> pixels;
+};
+
 /// A world and the robots in it. Throws what a controller of its user throws, too.
 class Session {
  public:
@@ -186,6 +195,46 @@ class Session {
   void push(const std::string& thing, const std::array<double, 3>& force_n, double for_s) {
     checked(verp_session_push(handle(), thing.c_str(), force_n[0], force_n[1], force_n[2], for_s));
   }
+  std::vector<verp_camera> cameras(std::uint32_t robot = 0) const {
+    std::uint32_t count = 0;
+    checked(verp_session_cameras(handle(), robot, &count));
+    std::vector<verp_camera> all(count);
+    for (std::uint32_t i = 0; i < count; ++i) {
+      all[i].size = sizeof all[i];
+      checked(verp_session_camera(handle(), robot, i, &all[i]));
+    }
+    return all;
+  }
+  /// What that camera saw when it last looked; none: it has not yet.
+  std::optional<Picture<std::uint8_t>> colour(std::uint32_t camera = 0,
+                                              std::uint32_t robot = 0) const {
+    return picture<std::uint8_t>(VERP_COLOUR, camera, robot);
+  }
+  std::optional<Picture<std::uint16_t>> depth(std::uint32_t camera = 0,
+                                              std::uint32_t robot = 0) const {
+    return picture<std::uint16_t>(VERP_DEPTH, camera, robot);
+  }
+  std::optional<Picture<std::uint16_t>> labels(std::uint32_t camera = 0,
+                                               std::uint32_t robot = 0) const {
+    return picture<std::uint16_t>(VERP_LABELS, camera, robot);
+  }
+  /// The world as it is now; time_s stays 0.
+  Picture<std::uint8_t> render(verp_view view) const {
+    view.size = sizeof view;
+    Picture<std::uint8_t> out{view.width, view.height, 0, {}};
+    out.pixels.resize(std::size_t{3} * view.width * view.height);
+    checked(verp_session_render(handle(), &view, out.pixels.data(), out.pixels.size()));
+    return out;
+  }
+  Picture<std::uint8_t> render(const char* view, std::uint32_t width, std::uint32_t height,
+                               std::uint32_t robot = 0) const {
+    verp_view what = {};
+    what.width = width;
+    what.height = height;
+    what.name = view;
+    what.robot = robot;
+    return render(what);
+  }
   /// In place of the robot's own controller; an empty one: its own again.
   void control(Controller controller, std::uint32_t robot = 0) {
     if (!controller) {
@@ -213,6 +262,19 @@ class Session {
     Controller controller;
     std::exception_ptr* thrown;
   };
+  template <class Pixel>
+  std::optional<Picture<Pixel>> picture(std::uint32_t what, std::uint32_t camera,
+                                        std::uint32_t robot) const {
+    verp_camera by = {};
+    by.size = sizeof by;
+    checked(verp_session_camera(handle(), robot, camera, &by));
+    Picture<Pixel> out{by.width, by.height, 0, {}};
+    out.pixels.resize((what == VERP_COLOUR ? std::size_t{3} : 1) * by.width * by.height);
+    const int status =
+        checked(verp_session_picture(handle(), robot, camera, what, out.pixels.data(),
+                                     out.pixels.size() * sizeof(Pixel), &out.time_s));
+    return status == VERP_NO_PICTURE ? std::nullopt : std::optional(std::move(out));
+  }
   struct Close {
     using pointer = verp_session;
     void operator()(verp_session session) const { verp_session_close(session); }

@@ -72,7 +72,7 @@ class Becoming {
     // A descriptor below may be the report's, where our own streams were closed.
     report_ = must(::fcntl(report_, F_DUPFD_CLOEXEC, kFirstFree));
     must(::setpgid(0, 0));
-    must(::prctl(PR_SET_PDEATHSIG, SIGKILL));
+    if (command_.ends_with_thread) must(::prctl(PR_SET_PDEATHSIG, SIGKILL));
     if (::getppid() != parent) ::_exit(kNotStarted);  // it died before it could be told of
     const int input = open(command_.input, O_RDONLY);
     const int output = open(command_.output, O_WRONLY | O_CREAT | O_TRUNC);

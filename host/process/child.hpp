@@ -21,12 +21,15 @@ struct Command {
   Stream input, output;
   std::optional<Stream> error = {};   ///< none: where the output goes
   std::filesystem::path folder = {};  ///< where it works; empty: where we do
+  /// It ends with the thread that made it, even one of a process that is killed. False: for whoever
+  /// is told by its streams that we are gone, and may be made on any thread.
+  bool ends_with_thread = true;
 };
 
 /// A program that runs beside this one, in a process group of its own: a terminal's Ctrl-C reaches
 /// us, who then end it in order. It ends with this object at the latest, and with this process,
-/// even one that is killed. Make it on the main thread: to the kernel, a thread that ends is a
-/// parent that died.
+/// even one that is killed. Make it on the main thread, unless its command says otherwise: to the
+/// kernel, a thread that ends is a parent that died.
 class Child {
  public:
   /// Returns when the program runs. Throws std::system_error with the reason when it can't be

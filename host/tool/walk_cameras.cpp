@@ -2,17 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <filesystem>
-
 #include "host/tool/exit_status.hpp"
 
 namespace verp::tool {
 namespace {
-
-std::filesystem::path program() {
-  const auto self = std::filesystem::read_symlink("/proc/self/exe");
-  return self.parent_path() / "../camera/program/verp_camera";
-}
 
 record::TraceWriter& need_trace(const WalkPlan& plan, record::TraceWriter* trace) {
   if (plan.entity.cameras.empty()) {
@@ -34,14 +27,13 @@ WalkCameras::WalkCameras(const WalkOptions& options, WalkPlan& plan,
                          record::TraceWriter* trace)
     : trace_(need_trace(plan, trace)) {
   plan.twin.cameras = true;
-  camera::Stage stage{.robot_files = {plan.entity.file},
-                      .world_file = world.scenery == nullptr ? "" : world.scenery->file,
-                      .seed = plan.twin.seed};
-  for (const WalkPlan& other : others) stage.robot_files.push_back(other.entity.file);
+  camera::Stage stage{.robots = {{plan.entity.file, plan.twin.seed}},
+                      .world_file = world.scenery == nullptr ? "" : world.scenery->file};
+  for (const WalkPlan& other : others) stage.robots.push_back({other.entity.file, other.twin.seed});
   const auto pace =
       options.real_time ? camera::Rig::Pace::kNeverWaits : camera::Rig::Pace::kEveryPicture;
   try {
-    rig_ = std::make_unique<camera::Rig>(program(), stage, pace);
+    rig_ = std::make_unique<camera::Rig>(camera::find_program(), stage, pace);
   } catch (const camera::CameraError& error) {
     throw ToolError(kNoDevice, error.what());
   }

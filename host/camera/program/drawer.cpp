@@ -2,11 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <stdexcept>
 
 #include "host/model/load.hpp"
 #include "host/model/load_world.hpp"
 #include "host/render/files.hpp"
 #include "host/scene/build.hpp"
+#include "host/scene/camera.hpp"
 
 namespace verp::camera {
 namespace {
@@ -59,51 +62,94 @@ std::string depth_mm(const model::CameraSensor& camera, sim::Random& random,
   return bytes_of(out);
 }
 
-/// Its own lens, which the scene shows, is behind the point from which it sees.
-void drop_lenses(const std::vector<model::CameraSensor>& cameras, scene::Scene& scene) {
+/// A robot's own lens, which the scene shows, is behind the point from which it sees.
+scene::Scene without_lenses(scene::Scene scene, int robot,
+                            const std::vector<model::CameraSensor>& cameras) {
   std::erase_if(scene.items, [&](const scene::Item& item) {
-    return item.robot == 0 &&
+    return item.robot == robot &&
            std::any_of(cameras.begin(), cameras.end(), [&](const model::CameraSensor& camera) {
              return item.name == camera.name + " rim" || item.name == camera.name + " glass";
            });
   });
+  return scene;
 }
 
-scene::Scene scene_of(const Stage& stage, std::vector<model::CameraSensor>& cameras) {
-  std::optional<model::World> world;
-  if (!stage.world_file.empty()) world = model::load_world(stage.world_file);
-  scene::Scene scene = scene::surroundings(world ? &*world : nullptr);
-  for (const std::string& file : stage.robot_files) {
-    const model::Entity entity = model::load_robot_on_any_bus(file, "");
-    if (scene.robots.empty()) cameras = entity.cameras;
-    scene::add_robot(scene, entity);
-  }
-  drop_lenses(cameras, scene);
-  return scene;
+scene::Scene empty_scene(const std::string& world_file) {
+  if (world_file.empty()) return scene::surroundings(nullptr);
+  const model::World world = model::load_world(world_file);
+  return scene::surroundings(&world);
+}
+
+scene::Camera standing_at(const Outside& from) {
+  scene::Camera camera;
+  const model::Vec3 way = from.target_m - from.eye_m;
+  const double distance_m = way.norm();
+  if (!(distance_m > 0) || !std::isfinite(distance_m))
+    throw std::invalid_argument("the eye is where it looks at");
+  camera.eye_m = from.eye_m;
+  camera.target_m = from.target_m;
+  // Straight up or down, x is up in the picture, as in a map whose north it is.
+  constexpr double kSteep = 0.9999;
+  if (std::abs(way.z()) > kSteep * distance_m) camera.up = model::Vec3::UnitX();
+  camera.vertical_fov_rad = from.vertical_fov_rad;
+  camera.near_m = std::max(0.005, distance_m / 100);
+  camera.far_m = distance_m + 80;
+  return camera;
 }
 
 }  // namespace
 
-Drawer::Drawer(const Stage& stage) : seed_(stage.seed), scene_(scene_of(stage, cameras_)) {
-  for (const model::CameraSensor& camera : cameras_) views_.emplace_back(camera);
-  renderer_.set_scene(scene_);
+Drawer::Drawer(const Stage& stage) : scene_(empty_scene(stage.world_file)) {
+  for (const Stage::Robot& robot : stage.robots) add_robot(robot);
+}
+
+void Drawer::add_robot(const Stage::Robot& robot) {
+  const model::Entity entity = model::load_robot_on_any_bus(robot.file, "");
+  scene::add_robot(scene_, entity);
+  Eyes& eyes = eyes_.emplace_back();
+  eyes.seed = robot.seed;
+  eyes.cameras = entity.cameras;
+  for (const model::CameraSensor& camera : eyes.cameras) eyes.views.emplace_back(camera);
+}
+
+render::Renderer& Drawer::renderer_of(int robot) {
+  const auto [place, is_new] = renderers_.try_emplace(robot);
+  if (is_new) {
+    place->second.set_scene(
+        robot == scene::kWorld
+            ? scene_
+            : without_lenses(scene_, robot, eyes_.at(static_cast<std::size_t>(robot)).cameras));
+  }
+  return place->second;
+}
+
+scene::Snapshot Drawer::shown(const Moment& moment) const {
+  scene::Snapshot now;
+  now.t_s = static_cast<double>(moment.time_us) * 1e-6;
+  for (std::size_t i = 0; i < moment.link_world.size(); ++i) {
+    if (i < scene_.robots.size() &&
+        moment.link_world[i].size() == scene_.robots[i].entity->nodes.size())
+      now.robots.emplace_back().link_world = moment.link_world[i];
+  }
+  if (now.robots.size() != scene_.robots.size() || moment.robot >= now.robots.size())
+    throw std::invalid_argument("that moment is of other robots");
+  now.body_world = moment.body_world;
+  return now;
 }
 
 std::vector<Picture> Drawer::draw(const Moment& moment, std::uint32_t camera) {
-  scene::Snapshot now;
-  now.t_s = static_cast<double>(moment.time_us) * 1e-6;
-  for (const auto& links : moment.link_world) now.robots.emplace_back().link_world = links;
-  now.body_world = moment.body_world;
-  const model::CameraSensor& sensor = cameras_.at(camera);
-  const scene::Camera from = views_[camera].camera(
-      now.robots.front().link_world.at(static_cast<std::size_t>(sensor.node)));
+  const scene::Snapshot now = shown(moment);
+  const Eyes& eyes = eyes_[moment.robot];
+  const model::CameraSensor& sensor = eyes.cameras.at(camera);
+  const scene::Camera from = eyes.views[camera].camera(
+      now.robots[moment.robot].link_world.at(static_cast<std::size_t>(sensor.node)));
   constexpr std::uint64_t kSpread = 0x9E3779B97F4A7C15ULL;
-  sim::Random random(seed_ + kSpread * moment.time_us, sim::Draw::kCamera,
+  sim::Random random(eyes.seed + kSpread * moment.time_us, sim::Draw::kCamera,
                      static_cast<int>(camera));
   std::vector<Picture> out;
-  if (sensor.has_colour()) out.push_back(colour(now, from, camera, random));
+  if (sensor.has_colour()) out.push_back(colour(now, from, moment, camera, random));
   if (sensor.kind != model::CameraSensor::Kind::kColour)
-    add_measured(now, from, camera, random, out);
+    out.push_back(measured(now, from, moment, camera, random));
   for (Picture& picture : out) {
     picture.camera = camera;
     picture.time_us = moment.time_us;
@@ -113,30 +159,63 @@ std::vector<Picture> Drawer::draw(const Moment& moment, std::uint32_t camera) {
   return out;
 }
 
-Picture Drawer::colour(const scene::Snapshot& now, const scene::Camera& from, std::uint32_t camera,
-                       sim::Random& random) {
-  const View& view = views_[camera];
-  render::Image image = view.seen(renderer_.image(now, from, view.drawn(), effects()));
-  add_noise(cameras_[camera], random, image);
+Picture Drawer::draw(const Moment& moment, const Outside& from) {
+  const scene::Snapshot now = shown(moment);
+  const render::Size size{static_cast<int>(from.width), static_cast<int>(from.height)};
+  const auto robot = static_cast<int>(moment.robot);
+  std::optional<scene::Camera> camera;
+  if (from.view.empty()) {
+    camera = standing_at(from);
+  } else {
+    camera =
+        scene::view(from.view, scene_, now, robot, static_cast<double>(size.width) / size.height);
+  }
+  if (!camera) {
+    std::string names;
+    for (const std::string& name : scene::view_names(scene_))
+      names += (names.empty() ? "" : ", ") + name;
+    throw std::invalid_argument("there is no view '" + from.view + "'; there are " + names);
+  }
+  render::Effects wanted;
+  wanted.shadows = from.shadows;
+  wanted.antialias = from.antialias;
+  const render::Image image = renderer_of(scene::kWorld).image(now, *camera, size, wanted);
+  return {.time_us = moment.time_us,
+          .width = from.width,
+          .height = from.height,
+          .encoding = "rgb8",
+          .data = {image.rgb.begin(), image.rgb.end()}};
+}
+
+Picture Drawer::colour(const scene::Snapshot& now, const scene::Camera& from, const Moment& moment,
+                       std::uint32_t camera, sim::Random& random) {
+  const Eyes& eyes = eyes_[moment.robot];
+  const View& view = eyes.views[camera];
+  render::Image image = view.seen(
+      renderer_of(static_cast<int>(moment.robot)).image(now, from, view.drawn(), effects()));
+  add_noise(eyes.cameras[camera], random, image);
   Picture picture;
-  picture.encoding = "png";
-  picture.data = render::png_of(image);
+  picture.encoding = moment.raw ? "rgb8" : "png";
+  picture.data =
+      moment.raw ? std::string(image.rgb.begin(), image.rgb.end()) : render::png_of(image);
   return picture;
 }
 
-void Drawer::add_measured(const scene::Snapshot& now, const scene::Camera& from,
-                          std::uint32_t camera, sim::Random& random, std::vector<Picture>& out) {
-  const View& view = views_[camera];
-  const render::Measured measured =
-      view.seen(renderer_.measure(now, from, view.drawn(), effects()));
-  Picture& picture = out.emplace_back();
-  if (cameras_[camera].has_depth()) {
+Picture Drawer::measured(const scene::Snapshot& now, const scene::Camera& from,
+                         const Moment& moment, std::uint32_t camera, sim::Random& random) {
+  const Eyes& eyes = eyes_[moment.robot];
+  const View& view = eyes.views[camera];
+  const render::Measured measured = view.seen(
+      renderer_of(static_cast<int>(moment.robot)).measure(now, from, view.drawn(), effects()));
+  Picture picture;
+  if (eyes.cameras[camera].has_depth()) {
     picture.encoding = "16UC1";
-    picture.data = depth_mm(cameras_[camera], random, measured.depth_m);
+    picture.data = depth_mm(eyes.cameras[camera], random, measured.depth_m);
   } else {
     picture.encoding = "mono16";
     picture.data = bytes_of(measured.label);
   }
+  return picture;
 }
 
 }  // namespace verp::camera

@@ -1,6 +1,5 @@
 #pragma once
-#include <deque>
-#include <memory>
+#include <map>
 #include <vector>
 
 #include "host/camera/program/view.hpp"
@@ -11,29 +10,37 @@
 
 namespace verp::camera {
 
-/// A stage's scene in a renderer, and the first robot's cameras in it.
+/// A stage's scene, the robots' cameras in it, and a renderer for each robot whose cameras look.
 class Drawer {
  public:
   /// Throws LoadError and RenderError.
   explicit Drawer(const Stage& stage);
 
-  /// What that camera sees in that moment: one picture, of colour with depth two. The same
-  /// whatever else was drawn: noise hangs on the seed, the camera and the time.
+  /// What that camera of moment.robot sees: one picture, of colour with depth two. The same
+  /// whatever else was drawn: noise hangs on the robot's seed, the camera and the time. Throws
+  /// std::invalid_argument: the stage has no such robot, or link.
   std::vector<Picture> draw(const Moment& moment, std::uint32_t camera);
-  std::size_t cameras() const { return cameras_.size(); }
+  /// What somebody beside the robots sees. Throws std::invalid_argument: there is no such view.
+  Picture draw(const Moment& moment, const Outside& from);
 
  private:
-  Picture colour(const scene::Snapshot& now, const scene::Camera& from, std::uint32_t camera,
-                 sim::Random& random);
-  void add_measured(const scene::Snapshot& now, const scene::Camera& from, std::uint32_t camera,
-                    sim::Random& random, std::vector<Picture>& out);
+  struct Eyes {
+    std::uint64_t seed = 1;  ///< of their noise
+    std::vector<model::CameraSensor> cameras;
+    std::vector<View> views;
+  };
+  void add_robot(const Stage::Robot& robot);
+  scene::Snapshot shown(const Moment& moment) const;
+  render::Renderer& renderer_of(int robot);
+  Picture colour(const scene::Snapshot& now, const scene::Camera& from, const Moment& moment,
+                 std::uint32_t camera, sim::Random& random);
+  Picture measured(const scene::Snapshot& now, const scene::Camera& from, const Moment& moment,
+                   std::uint32_t camera, sim::Random& random);
 
-  const std::uint64_t seed_;
-  std::vector<model::CameraSensor> cameras_;
-  std::vector<View> views_;
+  std::vector<Eyes> eyes_;  ///< of each robot
   scene::Scene scene_;
   render::OffscreenContext context_;
-  render::Renderer renderer_;
+  std::map<int, render::Renderer> renderers_;  ///< of a robot that looks; of kWorld: from outside
 };
 
 }  // namespace verp::camera

@@ -2,7 +2,7 @@
 #include <unistd.h>
 
 #include <cstdlib>
-#include <exception>
+#include <stdexcept>
 
 #include "host/camera/program/drawer.hpp"
 #include "host/camera/wire.hpp"
@@ -32,16 +32,36 @@ bool answer(Drawer& drawer, const Moment& moment) {
   return send(kSocket, Kind::kDone, pack(processor_us()));
 }
 
+bool answer(Drawer& drawer, const Moment& moment, const Outside& from) {
+  Picture picture;
+  try {
+    picture = drawer.draw(moment, from);
+  } catch (const std::invalid_argument& error) {
+    return send(kSocket, Kind::kRefused, error.what());
+  }
+  return send(kSocket, Kind::kPicture, pack(picture)) &&
+         send(kSocket, Kind::kDone, pack(processor_us()));
+}
+
+bool answer(Drawer& drawer, const Message& message) {
+  if (message.kind == Kind::kOutside) {
+    const auto both = unpack_outside(message.data);
+    return both && answer(drawer, both->first, both->second);
+  }
+  const auto moment = unpack_moment(message.data);
+  return moment && answer(drawer, *moment);
+}
+
 void serve() {
   const auto first = receive(kSocket);
-  const auto stage =
-      first && first->kind == Kind::kStage ? unpack_stage(first->data) : std::nullopt;
-  if (!stage) return;
+  if (!first || first->kind != Kind::kStage) return;
+  const auto stage = unpack_stage(first->data);
+  if (!stage)
+    throw std::runtime_error("the program that draws is of another build than who asks it");
   Drawer drawer(*stage);
   if (!send(kSocket, Kind::kReady, "")) return;
   while (const auto message = receive(kSocket)) {
-    const auto moment = unpack_moment(message->data);
-    if (!moment || !answer(drawer, *moment)) return;
+    if (!answer(drawer, *message)) return;
   }
 }
 

@@ -15,7 +15,7 @@ namespace Verp {
   }
 
   /// <summary>A world and the robots in it, a control tick at a time.</summary>
-  public sealed unsafe class Session : Handle {
+  public sealed unsafe partial class Session : Handle {
     readonly List<verp_tick[]> ticks = new List<verp_tick[]>();
     readonly List<GCHandle> pinned = new List<GCHandle>();  // the library writes there
     readonly Dictionary<uint, verp_controller> controllers = new Dictionary<uint, verp_controller>();

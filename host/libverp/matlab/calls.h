@@ -20,6 +20,9 @@ void session_quantities(const arguments* a);
 void session_read(const arguments* a);
 void session_set(const arguments* a);
 void session_push(const arguments* a);
+void session_cameras(const arguments* a);
+void session_picture(const arguments* a);
+void session_render(const arguments* a);
 /* When MATLAB ends, or forgets this file: traces that are written become whole. */
 void close_all(void);
 

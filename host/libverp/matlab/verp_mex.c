@@ -25,15 +25,24 @@ static void replay(const arguments* a) {
 static const struct {
   const char* name;
   void (*call)(const arguments*);
-} kCalls[] = {
-    CALL(session_open),    CALL(session_close),      CALL(session_add),    CALL(session_tick),
-    CALL(session_control), CALL(session_seen),       CALL(session_result), CALL(session_digest),
-    CALL(session_command), CALL(session_give_back),  CALL(session_stop),   CALL(session_tune),
-    CALL(session_tuning),  CALL(session_quantities), CALL(session_read),   CALL(session_set),
-    CALL(session_push),    CALL(core_open),          CALL(core_close),     CALL(core_reset),
-    CALL(core_step),       CALL(core_digest),        CALL(core_period),    CALL(core_names),
-    CALL(core_count),      CALL(core_angle),         CALL(core_forward),   CALL(core_com),
-    CALL(core_leg_ik),     CALL(core_plan),          CALL(version),        CALL(replay)};
+} kCalls[] = {CALL(session_open),    CALL(session_close),
+              CALL(session_add),     CALL(session_tick),
+              CALL(session_control), CALL(session_seen),
+              CALL(session_result),  CALL(session_digest),
+              CALL(session_command), CALL(session_give_back),
+              CALL(session_stop),    CALL(session_tune),
+              CALL(session_tuning),  CALL(session_quantities),
+              CALL(session_read),    CALL(session_set),
+              CALL(session_push),    CALL(session_cameras),
+              CALL(session_picture), CALL(session_render),
+              CALL(core_open),       CALL(core_close),
+              CALL(core_reset),      CALL(core_step),
+              CALL(core_digest),     CALL(core_period),
+              CALL(core_names),      CALL(core_count),
+              CALL(core_angle),      CALL(core_forward),
+              CALL(core_com),        CALL(core_leg_ik),
+              CALL(core_plan),       CALL(version),
+              CALL(replay)};
 
 void mexFunction(int nlhs, mxArray* plhs[], int nrhs, const mxArray* prhs[]) {
   static int known = 0;

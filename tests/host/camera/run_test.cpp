@@ -85,11 +85,11 @@ namespace verp::camera::test {
 namespace {
 
 struct Stand {
-  Stage stage{.robot_files = {model::find_model("generic21")}, .world_file = "", .seed = 1};
+  Stage stage{.robots = {{model::find_model("generic21"), 1}}, .world_file = ""};
   Moment moment;
 
   Stand() {
-    const model::Entity robot = model::load_robot(stage.robot_files[0]);
+    const model::Entity robot = model::load_robot(stage.robots[0].file);
     moment.cameras = {0};
     moment.link_world = {scene::standing(robot).link_world};
   }

@@ -39,7 +39,7 @@ struct Sight {
               .cameras = {0},
               .link_world = {scene::standing(robot).link_world},
               .body_world = {}};
-    Drawer drawer({.robot_files = {file}, .world_file = files.world(ball), .seed = seed});
+    Drawer drawer({.robots = {{file, seed}}, .world_file = files.world(ball)});
     pictures = drawer.draw(moment, 0);
   }
 

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# examples.sh VERP PROGRAMS SOURCES OCTAVE CSHARP: the same example gives the same words in C, C++, Python, Octave and C#, and a
-# walk has the digest that `verp walk` gives.
+# examples.sh VERP PROGRAMS SOURCES OCTAVE CSHARP [pictures]: the same example gives the same words in C, C++, Python, Octave and
+# C#, and a walk has the digest that `verp walk` gives; `pictures`: likewise that which needs OpenGL, and its files are equal.
 set -euo pipefail
 verp=$1 programs=$2 sources=$3 octave=$4 csharp=$5
 scratch=$(mktemp -d)
@@ -8,21 +8,30 @@ trap 'rm -rf "$scratch"' EXIT
 cd "$scratch"
 say() { echo "examples: $*" && exit 1; }
 
+made() { # the bytes of the picture that the program before has left, if it does
+  [[ ! -e seen.ppm ]] || { head -c 15 seen.ppm | tr '\n' ' ' && cksum <seen.ppm && rm seen.ppm; }
+}
+
 same() { # name argument...: runs it in all languages
   local name=$1 c cpp py m cs arguments
   shift
-  c=$("$programs/example_${name}_c" "$@") || say "$name.c failed: $c"
-  cpp=$("$programs/example_${name}_cpp" "$@") || say "$name.cpp failed: $cpp"
-  py=$(/usr/bin/python3 "$sources/$name.py" "$@") || say "$name.py failed: $py"
+  c=$("$programs/example_${name}_c" "$@" && made) || say "$name.c failed: $c"
+  cpp=$("$programs/example_${name}_cpp" "$@" && made) || say "$name.cpp failed: $cpp"
+  py=$(/usr/bin/python3 "$sources/$name.py" "$@" && made) || say "$name.py failed: $py"
   printf -v arguments "'%s'," "$@"
   arguments=$(sed -E "s/'([0-9]+)'/\1/g" <<<"${arguments%,}") # numbers are no texts
-  m=$("$octave" --eval "addpath('$sources'); verp_$name($arguments)") || say "verp_$name.m failed: $m"
-  cs=$("$csharp" "$name" "$@") || say "$name.cs failed: $cs"
+  m=$("$octave" --eval "addpath('$sources'); verp_$name($arguments)" && made) || say "verp_$name.m failed: $m"
+  cs=$("$csharp" "$name" "$@" && made) || say "$name.cs failed: $cs"
   [[ $c == "$cpp" && $c == "$py" && $c == "$m" && $c == "$cs" ]] ||
     say "$name: C says '$c', C++ '$cpp', Python '$py', Octave '$m', C# '$cs'"
   words=$c
 }
 
+if [[ ${6:-} == pictures ]]; then
+  same camera seen.ppm 2
+  [[ $words == "camera: 320x240 at "*" s, mean "*"P6 320 240 255 "* ]] || say "camera says '$words'"
+  exit 0
+fi
 same walk 3
 digest=$("$verp" walk --for 3 --json | sed -nE 's/^ *"digest": "(0x[0-9a-f]+)".*/\1/p')
 [[ $words == *" $digest" ]] || say "verp walk has digest $digest, the examples say $words"

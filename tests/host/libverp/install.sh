@@ -17,6 +17,15 @@ PC=$(dirname "$(find "$to" -name verp.pc)")
 LIB=$(dirname "$PC")
 [[ $(env -u VERP_LIBRARY PYTHONPATH="$to/lib/python3/dist-packages" PYTHONDONTWRITEBYTECODE=1 LD_LIBRARY_PATH="$LIB" \
   /usr/bin/python3 -c 'import verp; print(len(verp.Core().joint_names))') == 21 ]] || say "the Python package does not run"
+if [[ -e $to/libexec/verp/verp_camera ]]; then # built where OpenGL's packages are
+  render() {
+    env -u VERP_LIBRARY -u VERP_CAMERA_PROGRAM PYTHONPATH="$to/lib/python3/dist-packages" PYTHONDONTWRITEBYTECODE=1 LD_LIBRARY_PATH="$LIB" \
+      /usr/bin/python3 -c 'import verp; s = verp.Session(); s.add(); print(s.render("front", width=64, height=48).shape)' 2>&1
+  }
+  [[ $(render) == "(48, 64, 3)" ]] || say "no picture: $(render)"
+  printf '#!/bin/sh\nexit 7\n' >"$to/libexec/verp/verp_camera"
+  [[ $(render) == *"has ended, with status 7"* ]] || say "pictures come from elsewhere than libexec: $(render)"
+fi
 cat >a.c <<'END'
 #include <verp/verp.h>
 int main(void) {

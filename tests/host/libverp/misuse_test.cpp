@@ -1,24 +1,19 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <cstdlib>
 #include <limits>
 #include <stdexcept>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "host/libverp/verp.hpp"
+#include "tests/host/libverp/expect_error.hpp"
 #include "tests/host/libverp/opened.hpp"
 
 namespace verp::abi::test {
 namespace {
-
-/// Each mistake is an error that names the call and says why, and the session goes on.
-void expect_error(int got, int wanted, const std::string& call, const std::string& why) {
-  EXPECT_EQ(got, wanted) << verp_last_error();
-  const std::string text = verp_last_error();
-  EXPECT_EQ(text.rfind(call + ": ", 0), 0U) << text;
-  EXPECT_NE(text.find(why), std::string::npos) << text;
-}
 
 TEST(LibverpMisuse, NullsAndSizes) {
   Opened opened;
@@ -82,6 +77,101 @@ TEST(LibverpMisuse, NamesAndRanges) {
   expect_error(verp_replay("/no/such.mcap", nullptr, nullptr), VERP_BAD_FILE, "verp_replay",
                "/no/such.mcap");
   EXPECT_EQ(verp_session_tick(session, 1, nullptr, nullptr), VERP_OK) << "and it still runs";
+}
+
+/// The program that draws is not needed to say so.
+TEST(LibverpMisuse, PicturesThatAreNone) {
+  Opened opened;
+  opened.add();
+  const auto session = opened.session;
+  std::uint32_t count = 0;
+  ASSERT_EQ(verp_session_cameras(session, 0, &count), VERP_OK);
+  ASSERT_EQ(count, 1U);
+  expect_error(verp_session_cameras(session, 0, nullptr), VERP_BAD_ARGUMENT, "verp_session_cameras",
+               "null");
+  expect_error(verp_session_cameras(session, 5, &count), VERP_BAD_ARGUMENT, "verp_session_cameras",
+               "no robot 5");
+  verp_camera camera = {};
+  expect_error(verp_session_camera(session, 0, 0, &camera), VERP_BAD_ARGUMENT,
+               "verp_session_camera", "size");
+  camera.size = sizeof camera;
+  expect_error(verp_session_camera(session, 0, 1, &camera), VERP_BAD_ARGUMENT,
+               "verp_session_camera", "no camera 1");
+  ASSERT_EQ(verp_session_camera(session, 0, 0, &camera), VERP_OK);
+  std::vector<std::uint8_t> pixels(std::size_t{3} * camera.width * camera.height);
+  const auto read = [&](std::uint32_t index, std::uint32_t what, void* to, std::uint64_t size) {
+    return verp_session_picture(session, 0, index, what, to, size, nullptr);
+  };
+  const std::string name = "verp_session_picture";
+  EXPECT_EQ(read(0, VERP_COLOUR, pixels.data(), pixels.size()), VERP_NO_PICTURE);
+  expect_error(read(0, VERP_COLOUR, nullptr, 0), VERP_BAD_ARGUMENT, name, "picture is null");
+  expect_error(read(0, VERP_COLOUR, pixels.data(), 10), VERP_BAD_ARGUMENT, name, "230400");
+  expect_error(read(3, VERP_COLOUR, pixels.data(), 10), VERP_BAD_ARGUMENT, name, "no camera 3");
+  for (const std::uint32_t what : {2U, 4U, 1U | 2U, 8U})
+    expect_error(read(0, what, pixels.data(), 10), VERP_BAD_ARGUMENT, name, "gives colour");
+  expect_error(verp_session_picture(nullptr, 0, 0, VERP_COLOUR, pixels.data(), 10, nullptr),
+               VERP_BAD_HANDLE, name, "null");
+}
+
+TEST(LibverpMisuse, ViewsThatAreNone) {
+  Opened opened;
+  opened.add();
+  verp_view view = {};
+  std::vector<std::uint8_t> pixels(std::size_t{3} * 64 * 48);
+  const auto refused = [&](const std::string& why) {
+    expect_error(verp_session_render(opened.session, &view, pixels.data(), pixels.size()),
+                 VERP_BAD_ARGUMENT, "verp_session_render", why);
+  };
+  refused("size");
+  view.size = sizeof view;
+  view.width = 64;
+  refused("height may be 16 to 8192");
+  view.height = 9000;
+  refused("height may be 16 to 8192");
+  view.height = 48;
+  refused("view->eye_m is where view->target_m is");
+  view.fov_rad = 4;
+  refused("fov_rad");
+  view.fov_rad = 0;
+  view.eye_m[1] = std::numeric_limits<double>::infinity();
+  refused("eye_m is not a finite number");
+  view.name = "";
+  refused("name is empty");
+  view.name = "front";
+  view.robot = 2;
+  refused("no robot 2");
+  view.robot = 0;
+  view.flags = 2;
+  refused("flags");
+  view.flags = 0;
+  pixels.pop_back();
+  refused("9215 bytes, not 9216");
+  expect_error(verp_session_render(opened.session, &view, nullptr, 0), VERP_BAD_ARGUMENT,
+               "verp_session_render", "picture is null");
+  expect_error(verp_session_render(opened.session, nullptr, pixels.data(), 1), VERP_BAD_ARGUMENT,
+               "verp_session_render", "view is null");
+}
+
+/// Where there is none: what is missing, where it was looked for, and who has it.
+TEST(LibverpMisuse, ProgramThatDrawsIsMissing) {
+  Opened opened;
+  opened.add();
+  verp_view view = {};
+  view.size = sizeof view;
+  view.width = 64;
+  view.height = 48;
+  view.name = "front";
+  std::vector<std::uint8_t> pixels(std::size_t{3} * 64 * 48);
+  const auto failed = [&](const char* program, const std::string& why) {
+    ASSERT_EQ(::setenv("VERP_CAMERA_PROGRAM", program, 1), 0);
+    expect_error(verp_session_render(opened.session, &view, pixels.data(), pixels.size()),
+                 VERP_FAILED, "verp_session_render", why);
+    ::unsetenv("VERP_CAMERA_PROGRAM");
+  };
+  failed("/nowhere/verp_camera", "/nowhere/verp_camera, cannot be started (No such file");
+  failed("/nowhere/verp_camera", "ninja -C build/host-release verp_camera");
+  failed("/bin/false", "has ended, with status 1");
+  EXPECT_EQ(verp_session_tick(opened.session, 1, nullptr, nullptr), VERP_OK) << "and it still runs";
 }
 
 TEST(LibverpMisuse, CallsTooEarlyAndTooLate) {

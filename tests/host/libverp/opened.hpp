@@ -10,7 +10,10 @@ namespace verp::abi::test {
 
 /// A session with robots that walk as those of plans.hpp do.
 struct Opened {
-  Opened() { EXPECT_EQ(verp_session_open(nullptr, &session), VERP_OK) << verp_last_error(); }
+  explicit Opened(const char* world = nullptr) {
+    const verp_world what = {sizeof what, 0, world};
+    EXPECT_EQ(verp_session_open(&what, &session), VERP_OK) << verp_last_error();
+  }
   ~Opened() { verp_session_close(session); }
   Opened(const Opened&) = delete;
   Opened& operator=(const Opened&) = delete;

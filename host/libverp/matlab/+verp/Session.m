@@ -158,6 +158,48 @@ classdef Session < handle
       verp_mex('session_push', obj.session, thing, force_n(1), force_n(2), force_n(3), for_s);
     end
 
+    function cameras = cameras(obj, robot)
+    %CAMERAS Those of the robot's file: name, what each gives ('colour depth'), width, height,
+    % rate_hz, matrix (fx 0 cx; 0 fy cy; 0 0 1, in pixels, the middle of the first being 0),
+    % distortion (k1 k2 p1 p2 k3), near_m, far_m, link (counted as in core.forward()) and pose in it.
+      if nargin < 2, robot = 0; end
+      cameras = verp_mex('session_cameras', obj.session, robot);
+    end
+
+    function [pixels, time_s] = picture(obj, what, camera, robot)
+    %PICTURE What a camera saw when it last looked, up to the robot's last tick, and when:
+    % 'colour' as (row, column, red green blue), uint8; 'depth' in mm (0: nothing) or 'labels' as
+    % (row, column), uint16. Empty: it has not looked yet. Cameras count from 0. It is drawn when it
+    % is asked for, and the run stays what it was.
+      if nargin < 2, what = 'colour'; end
+      if nargin < 3, camera = 0; end
+      if nargin < 4, robot = 0; end
+      bit = find(strcmp(what, {'colour', 'depth', 'labels'}));
+      if isempty(bit)
+        error('verp:argument', 'verp: picture() takes colour, depth or labels');
+      end
+      [pixels, time_s] = verp_mex('session_picture', obj.session, robot, camera, 2 ^ (bit - 1));
+    end
+
+    function pixels = render(obj, view, width, height, robot, plain)
+    %RENDER The world as it is now, as (row, column, red green blue), uint8, seen from front, side,
+    % three-quarter, back, top, follow or head of a robot, from a camera that a file declares, or
+    % from {eye, target, fov}: places in m, world frame, and the angle of the height in rad.
+    % `plain`: without shadows, and sooner.
+      if nargin < 2, view = 'follow'; end
+      if nargin < 3, width = 640; end
+      if nargin < 4, height = 480; end
+      if nargin < 5, robot = 0; end
+      if nargin < 6, plain = false; end
+      if iscell(view) && numel(view) == 3
+        pixels = verp_mex('session_render', obj.session, '', width, height, robot, plain, view{:});
+      elseif ischar(view) && ~isempty(view)
+        pixels = verp_mex('session_render', obj.session, view, width, height, robot, plain);
+      else
+        error('verp:argument', 'verp: render() takes the name of a view, or {eye, target, fov}');
+      end
+    end
+
     function close(obj)
     %CLOSE Ends the run; a trace that is written becomes whole. Also what MATLAB's end does.
       if ~isempty(obj.session)

@@ -7,8 +7,24 @@ learning. SI units; frames and meanings stand in verp.h.
 from ._core import Core
 from ._lib import VerpError, ffi, lib
 from ._session import GET_UP, RELAX, STAND, WALK, Moment, Quantity, Result, Session, replay
+from ._sight import Camera, Picture
 
-__all__ = ["Core", "GET_UP", "Moment", "Quantity", "RELAX", "Result", "STAND", "Session", "VerpError", "WALK", "replay", "version"]
+__all__ = [
+    "Camera",
+    "Core",
+    "GET_UP",
+    "Moment",
+    "Picture",
+    "Quantity",
+    "RELAX",
+    "Result",
+    "STAND",
+    "Session",
+    "VerpError",
+    "WALK",
+    "replay",
+    "version",
+]
 
 
 def version() -> str:

@@ -8,7 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from ._core import INPUTS, OUTPUTS, pointer
-from ._lib import Handle, VerpError, check, dtype_of, ffi, layout_dtype, lib, text
+from ._lib import VerpError, check, dtype_of, ffi, layout_dtype, lib, text
+from ._sight import Sight
 
 TICK = dtype_of(ffi.typeof("verp_tick"))
 RELAX, STAND, WALK, GET_UP = 0, 1, 2, 3
@@ -65,7 +66,7 @@ class Moment:
 Controller = Callable[[Moment], None]
 
 
-class Session(Handle):
+class Session(Sight):
     """A world and the robots in it.
 
     >>> with Session() as session:
@@ -81,8 +82,7 @@ class Session(Handle):
         what.size = ffi.sizeof(what[0])
         where = ffi.new("verp_session *")
         check(lib.verp_session_open(what, where))
-        self._session = where[0]
-        super().__init__(self._session, lib.verp_session_close)
+        super().__init__(where[0], lib.verp_session_close)
         self._ticks: list[np.ndarray] = []
         self._kept: dict[int, object] = {}
         self._thrown: BaseException | None = None

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from ._core import Core
 from ._session import WALK, Moment, Session
+from ._sight import Picture
 
 Info = dict[str, Any]
 Step = tuple[NDArray[np.float32], float, bool, bool, Info]
@@ -97,23 +98,35 @@ class Env:
 
     def step(self, action: NDArray[np.float32]) -> Step:
         """One control tick: observation, reward, terminated (it fell), truncated (time is over), info."""
-        if self._session is None:
-            raise RuntimeError("Env.step: call reset() before")
+        session = self._running("step")
         action = np.asarray(action, np.float32)
         if action.shape != self.action_space.shape or not np.all(np.isfinite(action)):
             raise ValueError(f"Env.step: an action is {self._joints} finite numbers")
         self._action = np.clip(action, self.action_space.low, self.action_space.high)
-        self._session.tick()
-        seen = self._session.seen()
+        session.tick()
+        seen = session.seen()
         terminated = self._fallen()
         truncated = bool(seen["time_s"] - self._began_s >= self._episode_s)
         reward = self._way_ahead(seen) - self._effort * float(np.sum(self._action**2)) - float(terminated)
-        return self._observe(), reward, terminated, truncated, {"digest": self._session.digest()}
+        return self._observe(), reward, terminated, truncated, {"digest": session.digest()}
+
+    def render(self, view: str = "follow", **options: Any) -> NDArray[np.uint8]:
+        """A picture of the robot in its world now, (480, 640, 3); see Session.render()."""
+        return self._running("render").render(view, **options)
+
+    def picture(self, what: str = "colour", **options: Any) -> Picture | None:
+        """What the robot's camera last saw; None: nothing yet. See Session.picture()."""
+        return self._running("picture").picture(what, **options)
 
     def close(self) -> None:
         if self._session is not None:
             self._session.close()
             self._session = None
+
+    def _running(self, what: str) -> Session:
+        if self._session is None:
+            raise RuntimeError(f"Env.{what}: call reset() before")
+        return self._session
 
     def _decide(self, moment: Moment) -> None:
         moment.decide()
