@@ -53,8 +53,10 @@ void prepare_falls(const WalkOptions& options, WalkPlan& plan) {
   }
   const auto folder = action::folder_of(plan.entity.file);
   const action::Made made = action::make_library(plan.params, action::read_folder(folder));
-  made.require(action::kGetUpFront, folder.string());
-  made.require(action::kGetUpBack, folder.string());
+  // One that is put down on one side needs no way up from the other.
+  const sim::Lies lies = plan.twin.lies;
+  if (lies != sim::Lies::kBack) made.require(action::kGetUpFront, folder.string());
+  if (lies != sim::Lies::kFront) made.require(action::kGetUpBack, folder.string());
   plan.actions = made.words;
   plan.get_ups = kTries;
 }
