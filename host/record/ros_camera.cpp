@@ -45,12 +45,12 @@ bool do_rectify
 std::string picture(const Picture& picture, std::string_view frame, std::uint64_t time_ns) {
   Cdr out;
   out.header(time_ns, frame);
-  if (picture.encoding == "png") {
-    out.text("png");
+  if (picture.encoding == "png" || picture.encoding == "jpeg") {
+    out.text(picture.encoding);
   } else {
-    constexpr std::uint32_t kBytesOfPixel = 2;
+    const std::uint32_t bytes_of_pixel = picture.encoding == "rgb8" ? 3 : 2;
     out.put(picture.height).put(picture.width).text(picture.encoding);
-    out.put(std::uint8_t{0}).put(kBytesOfPixel * picture.width);
+    out.put(std::uint8_t{0}).put(bytes_of_pixel * picture.width);
   }
   out.put(static_cast<std::uint32_t>(picture.data.size())).bytes(picture.data);
   return out.take();

@@ -16,13 +16,13 @@ extern const MessageType kImage;            ///< sensor_msgs/msg/Image
 extern const MessageType kCameraInfo;       ///< sensor_msgs/msg/CameraInfo
 
 struct Picture {
-  /// "png": `data` is such a file. Else pixels, rows from the top, as sensor_msgs/Image has it:
-  /// "16UC1" (depth, 1 mm a step, 0: nothing there) or "mono16" (labels).
+  /// "png", "jpeg": `data` is such a file. Else pixels, rows from the top, as sensor_msgs/Image has
+  /// it: "rgb8", "16UC1" (depth, 1 mm a step, 0: nothing there) or "mono16" (labels).
   std::string encoding;
   std::uint32_t width = 0, height = 0;
   std::string data;
 };
-/// CompressedImage for "png", else Image.
+/// CompressedImage for "png" and "jpeg", else Image.
 std::string picture(const Picture& picture, std::string_view frame, std::uint64_t time_ns);
 /// What picture() was given, of a message of type kCompressedImage or kImage; size 0: only the
 /// file knows. None: it is no such message.

@@ -109,6 +109,7 @@ Subcommand add_bus(CLI::App& root) {
   const Subcommand checklist = add_bus_checklist(*app);
   const Subcommand load = add_bus_load(*app);
   const Subcommand laser = add_bus_laser(*app);
+  const Subcommand camera = add_bus_camera(*app);
   CLI::App* list = app->add_subcommand("registers", "the controller's registers, as a page");
   CLI::App* sheet = app->add_subcommand("eds", "a node's electronic data sheet, for CANopen tools");
   std::vector<std::string> nodes;
@@ -132,7 +133,7 @@ Subcommand add_bus(CLI::App& root) {
             if (show->parsed()) return can ? read_can(*options) : read_serial(*options);
             if (put->parsed()) return can ? write_can(*options) : write_serial(*options);
             if (measure->parsed()) return can ? bench_can(*options) : bench_serial(*options);
-            for (const Subcommand& each : {setup, checklist, load, laser}) {
+            for (const Subcommand& each : {setup, checklist, load, laser, camera}) {
               if (each.app->parsed()) return each.run();
             }
             if (list->parsed()) answer(bus::controller_document());

@@ -8,5 +8,6 @@ Subcommand add_bus_setup(CLI::App& bus);
 Subcommand add_bus_checklist(CLI::App& bus);
 Subcommand add_bus_load(CLI::App& bus);
 Subcommand add_bus_laser(CLI::App& bus);
+Subcommand add_bus_camera(CLI::App& bus);
 
 }  // namespace verp::tool

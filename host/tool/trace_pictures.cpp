@@ -5,10 +5,12 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <utility>
 
 #include "host/record/trace.hpp"
 #include "host/tool/console.hpp"
 #include "host/tool/exit_status.hpp"
+#include "host/tool/png.hpp"
 
 namespace verp::tool {
 namespace {
@@ -34,6 +36,15 @@ std::string pgm(const record::ros::Picture& picture) {
   return out;
 }
 
+/// Ending and content.
+std::pair<std::string, std::string> as_file(const record::ros::Picture& picture) {
+  if (picture.encoding == "png") return {".png", picture.data};
+  if (picture.encoding == "jpeg") return {".jpg", picture.data};
+  if (picture.encoding != "rgb8") return {".pgm", pgm(picture)};
+  const auto* rgb = reinterpret_cast<const std::uint8_t*>(picture.data.data());
+  return {".png", png_of_rgb(picture.width, picture.height, {rgb, picture.data.size()})};
+}
+
 void write_file(const fs::path& file, const std::string& bytes) {
   std::ofstream out(file, std::ios::binary);
   out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
@@ -55,9 +66,8 @@ int write_pictures(const std::string& trace, const std::string& folder) {
   }
   const std::size_t count =
       record::for_each_picture(trace, [&](const record::RecordedPicture& recorded) {
-        const bool png = recorded.picture.encoding == "png";
-        write_file(fs::path(folder) / (name_of(recorded) + (png ? ".png" : ".pgm")),
-                   png ? recorded.picture.data : pgm(recorded.picture));
+        const auto [kind, bytes] = as_file(recorded.picture);
+        write_file(fs::path(folder) / (name_of(recorded) + kind), bytes);
       });
   if (count == 0) {
     throw ToolError(kBadInput, trace +

@@ -10,6 +10,7 @@
 #include "hal/fake/memory_link.hpp"
 #include "hal/fake/memory_store.hpp"
 #include "hal/fake/scripted_bus.hpp"
+#include "hal/fake/scripted_camera.hpp"
 #include "hal/fake/scripted_can.hpp"
 #include "hal/fake/scripted_imu.hpp"
 #include "hal/fake/scripted_range_finder.hpp"
@@ -140,6 +141,47 @@ struct ScriptedLaser {
   std::uint32_t faults() const { return laser.faults(); }
 
   hal::ScriptedRangeFinder laser;
+  std::uint64_t time_us = 0;
+  bool broken = false;
+};
+
+/// A Camera backend: show() makes the next picture, kWidth by kHeight pixels; is(frame, n): those
+/// bytes are picture n, counted from 0. break_it(yes): it is unplugged, or back again; wait(): so
+/// long that the next read looks for it.
+struct ScriptedEye {
+  static constexpr std::uint32_t kWidth = 4, kHeight = 2;
+  static constexpr bool kBreaks = true;
+  void show() {
+    std::uint8_t* bytes = pictures[next % kPictures];
+    for (std::uint32_t i = 0; i < kWidth * kHeight; ++i)
+      bytes[i] = static_cast<std::uint8_t>(7 * next + i);
+    camera.show({.width_px = kWidth,
+                 .height_px = kHeight,
+                 .format = hal::PixelFormat::kGrey,
+                 .stride_bytes = kWidth,
+                 .time_us = time_us += 33'000,
+                 .data = bytes,
+                 .size_bytes = kWidth * kHeight});
+    ++next;
+  }
+  bool is(const hal::CameraFrame& frame, std::uint32_t number) const {
+    for (std::uint32_t i = 0; i < kWidth * kHeight; ++i) {
+      if (frame.data[i] != static_cast<std::uint8_t>(7 * number + i)) return false;
+    }
+    return true;
+  }
+  void break_it(bool unplugged) { broken = unplugged; }
+  void wait() {}
+  hal::CameraStatus read(hal::CameraFrame& frame) {
+    if (broken) camera.fail(1);
+    return camera.read(frame);
+  }
+  std::uint32_t faults() const { return camera.faults(); }
+
+  static constexpr std::uint32_t kPictures = 32;
+  std::uint8_t pictures[kPictures][kWidth * kHeight] = {};
+  hal::ScriptedCamera camera;
+  std::uint32_t next = 0;
   std::uint64_t time_us = 0;
   bool broken = false;
 };

@@ -17,6 +17,7 @@ using Watchdogs =
     ::testing::Types<FakeDog<100>, FakeDog<150>, FakeDog<100 * hal::kWatchdogSlack>,
                      ChipWatchdog<17'000>, ChipWatchdog<32'000>, ChipWatchdog<47'000>>;
 using RangeFinders = ::testing::Types<ScriptedLaser>;
+using Cameras = ::testing::Types<ScriptedEye>;
 using Imus = ::testing::Types<ScriptedChip, Mpu9250, Icm20648>;
 
 }  // namespace verp::test

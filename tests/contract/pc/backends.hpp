@@ -7,6 +7,7 @@
 #include "tests/contract/chip_models.hpp"
 #include "tests/contract/fakes.hpp"
 #include "tests/contract/pc/buses.hpp"
+#include "tests/contract/pc/cameras.hpp"
 #include "tests/contract/pc/lasers.hpp"
 #include "tests/contract/pc/link_pairs.hpp"
 #include "tests/contract/pc/virtual_wire.hpp"
@@ -42,6 +43,7 @@ using Watchdogs =
     ::testing::Types<FakeDog<100>, FakeDog<150>, FakeDog<100 * hal::kWatchdogSlack>,
                      ChipWatchdog<17'000>, ChipWatchdog<32'000>, ChipWatchdog<47'000>>;
 using RangeFinders = ::testing::Types<ScriptedLaser, ScipLaser, TwinLaser>;
+using Cameras = ::testing::Types<ScriptedEye, KernelEye, KernelEyeOfFiles, TwinEye>;
 using Imus = ::testing::Types<ScriptedChip, Mpu9250, Icm20648>;
 
 }  // namespace verp::test

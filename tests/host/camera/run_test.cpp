@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "host/camera/rig.hpp"
+#include "host/camera/twin_camera.hpp"
 #include "host/model/find.hpp"
 #include "host/model/load.hpp"
 #include "host/record/mcap_reader.hpp"
@@ -94,6 +95,31 @@ struct Stand {
     moment.link_world = {scene::standing(robot).link_world};
   }
 };
+
+TEST(TwinCamera, GivesPicturesThatAreDrawnOfTheTwin) {
+  Stand stand;
+  Rig rig(VERP_CAMERA, stand.stage, Rig::Pace::kEveryPicture);
+  sim::World world;
+  sim::TwinRobot twin(world, model::load_robot(stand.stage.robot_files[0]),
+                      {.cradle = sim::Cradle::kAlways, .cameras = true});
+  TwinCamera<> camera(rig, twin, 0);
+  hal::CameraFrame frame;
+  EXPECT_EQ(camera.read(frame), hal::CameraStatus::kStale);
+  std::uint32_t pictures = 0;
+  for (std::uint64_t i = 1; i <= 12; ++i) {
+    world.advance_to(34'000 * i);
+    if (camera.read(frame) != hal::CameraStatus::kFresh) continue;
+    EXPECT_EQ(frame.sequence, pictures++);
+    EXPECT_EQ(frame.lost, 0u);
+    EXPECT_EQ(frame.format, hal::PixelFormat::kPng);
+    const render::Image image =
+        render::read_png("a frame", {reinterpret_cast<const char*>(frame.data), frame.size_bytes});
+    EXPECT_EQ(image.size.width, 320);
+    EXPECT_EQ(frame.width_px, 320u);
+  }
+  EXPECT_EQ(pictures, 12 - Rig::kAhead) << "a rig that keeps all is so many behind";
+  EXPECT_EQ(camera.faults(), 0u);
+}
 
 TEST(Rig, InRealTimeDropsWhatItCannotDrawAndNeverWaits) {
   Stand stand;
