@@ -1,5 +1,7 @@
 #include "host/camera/recorder.hpp"
 
+#include <cmath>
+
 #include "host/record/ros_camera.hpp"
 #include "host/record/trace_error.hpp"
 
@@ -90,13 +92,16 @@ void Recorder::keep(const std::vector<Picture>& pictures) {
     const bool colour = picture.encoding == "png";
     const char* kind =
         colour ? "/image/compressed" : (picture.encoding == "16UC1" ? "/depth" : "/labels");
-    trace_.append(topic + kind, colour ? ros::kCompressedImage : ros::kImage, stamp_ns,
+    // In the header: when it looked. In the file: when somebody could have it.
+    const auto latency_ns = static_cast<std::uint64_t>(std::llround(1e9 * camera.latency_s));
+    const std::uint64_t had_ns = stamp_ns + latency_ns;
+    trace_.append(topic + kind, colour ? ros::kCompressedImage : ros::kImage, had_ns,
                   ros::picture({picture.encoding, picture.width, picture.height, picture.data},
                                frame, stamp_ns));
     ++pictures_;
     if (&camera == last) continue;
     last = &camera;
-    trace_.append(topic + "/camera_info", ros::kCameraInfo, stamp_ns,
+    trace_.append(topic + "/camera_info", ros::kCameraInfo, had_ns,
                   ros::camera_info(info_of(camera), frame, stamp_ns));
   }
 }

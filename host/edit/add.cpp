@@ -29,7 +29,12 @@ constexpr KindWords kKinds[] = {
     {"bus", "name protocol baud period_us rise_torque_percent", true},
     {"body", "link", true},
     {"limb", "name base tip", true},
-    {"imu", "sensor link id type", true},
+    {"imu", "sensor link id type latency_s", true},
+    {"latency", "sensor s", true},
+    {"truth",
+     "name link rate_hz latency_s position_noise_m angle_noise_rad velocity_noise_m_s "
+     "rate_noise_rad_s",
+     true},
     {"feet", "left_id right_id newton_per_count", true},
     {"tuning", "name value", true},
     {"box", "frame centre size friction stiffness_n_m damping_n_s_m", true},

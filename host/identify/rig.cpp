@@ -44,6 +44,9 @@ model::Entity bare(model::Entity entity) {
   }
   entity.lasers.clear();
   entity.cameras.clear();
+  entity.force_torques.clear();
+  entity.contacts.clear();
+  entity.truths.clear();
   return entity;
 }
 

@@ -11,6 +11,7 @@
 #include "host/model/leg.hpp"
 #include "host/model/link_tree.hpp"
 #include "host/model/params.hpp"
+#include "host/model/recorded_sensors.hpp"
 #include "host/model/sdf_parts.hpp"
 #include "host/model/self_collision.hpp"
 #include "host/model/sensor_sdf.hpp"
@@ -266,6 +267,7 @@ class Assembler {
         const bool is_imu = facts_.imu && sensor.Name() == facts_.imu->sensor;
         if (is_imu) imu = &sensor;
         LinkTree::Located place = tree_.locate(link.Name(), facts_.body->at);
+        const Transform link_pose = place.pose;
         place.pose = place.pose * resolved(sensor.SemanticPose(), link.Name());
         OtherSensor& other = e_.sensors.emplace_back();
         other.name = sensor.Name();
@@ -278,8 +280,18 @@ class Assembler {
           e_.lasers.push_back(read_laser(sensor, place.node, place.pose, wrong(sensor)));
         if (is_camera(sensor))
           e_.cameras.push_back(read_camera(sensor, place.node, place.pose, wrong(sensor)));
+        if (sensor.ForceTorqueSensor() != nullptr) {
+          e_.force_torques.push_back(
+              read_force_torque(sensor, place.node, link_pose, place.pose, wrong(sensor)));
+        }
+        // One without a topic only says where the robot has it: as force cells of <verp:feet>.
+        if (sensor.Type() == sdf::SensorType::CONTACT && !sensor.Topic().empty())
+          e_.contacts.push_back(read_contact(sensor, place.node, wrong(sensor)));
       }
     }
+    read_joint_sensors();
+    add_truths_and_latencies(facts_, tree_, e_);
+    check_channels(source_, facts_, e_);
     if (facts_.imu && facts_.imu->sensor.empty()) {
       const LinkTree::LinkTree::Located place = tree_.locate(facts_.imu->link, facts_.imu->at);
       put_imu(place.node, place.pose * facts_.imu->imu.pose, nullptr);
@@ -288,6 +300,31 @@ class Assembler {
                           "name an SDF sensor of type imu");
     }
     if (facts_.feet) e_.feet = facts_.feet->feet;
+  }
+
+  void read_joint_sensors() {
+    for (std::uint64_t j = 0; j < model_.JointCount(); ++j) {
+      const sdf::Joint& joint = *model_.JointByIndex(j);
+      std::string child;
+      joint.ResolveChildLink(child);
+      for (std::uint64_t i = 0; i < joint.SensorCount(); ++i) {
+        const sdf::Sensor& sensor = *joint.SensorByIndex(i);
+        const LinkTree::Located place = tree_.locate(child, facts_.body->at);
+        // libsdformat 12 knows no frames in joints: the pose is in the joint's.
+        if (!sensor.PoseRelativeTo().empty())
+          wrong(sensor)("its <pose> has a relative_to", "give it in the joint's frame");
+        const Transform pose =
+            place.pose * resolved(joint.SemanticPose(), child) * to_transform(sensor.RawPose());
+        e_.sensors.push_back({sensor.Name(), sensor.TypeStr(), child, place.node, pose});
+        if (sensor.ForceTorqueSensor() == nullptr) continue;
+        if (e_.nodes[static_cast<std::size_t>(place.node)].name != child) {
+          wrong(sensor)("joint '" + joint.Name() + "' is fixed: what it holds is one piece here",
+                        "put it into the joint that moves that piece");
+        }
+        e_.force_torques.push_back(
+            read_force_torque(sensor, place.node, place.pose, pose, wrong(sensor)));
+      }
+    }
   }
 
   /// Complains of the sensor where the file declares it.

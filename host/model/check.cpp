@@ -6,6 +6,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 #include <numbers>
+#include <optional>
 
 #include "common/model/image.hpp"
 #include "host/model/bus_time.hpp"
@@ -135,21 +136,47 @@ std::string servo_type_rows(const Entity& entity) {
   return text;
 }
 
+/// Of one that is sampled.
+std::optional<double> latency_of(const Entity& entity, const std::string& name) {
+  std::optional<double> latency_s;
+  const auto look = [&](const auto& sensors) {
+    for (const auto& each : sensors) {
+      if (each.name == name) latency_s = each.latency_s;
+    }
+  };
+  look(entity.lasers);
+  look(entity.cameras);
+  look(entity.force_torques);
+  look(entity.contacts);
+  return latency_s;
+}
+
+std::string late_text(double latency_s) {
+  return latency_s > 0 ? fmt::format(" ({:g} ms late)", 1000 * latency_s) : "";
+}
+
 std::string sensor_rows(const Entity& entity) {
   std::string text = fmt::format("sensors: angle in all {} joints", entity.joints.size());
   if (entity.imu) {
     const int id = entity.imu->id;
-    text +=
-        fmt::format(", IMU ({}) on {}", id == 0 ? "not on the bus" : "bus id " + std::to_string(id),
-                    entity.nodes[0].name);
+    text += fmt::format(", IMU ({}) on {}{}",
+                        id == 0 ? "not on the bus" : "bus id " + std::to_string(id),
+                        entity.nodes[0].name, late_text(entity.imu->latency_s));
   }
   if (entity.feet.id[0] != 0) {
     text += fmt::format(", 4 force cells per foot (bus ids {}, {})", entity.feet.id[0],
                         entity.feet.id[1]);
   }
   for (const OtherSensor& sensor : entity.sensors) {
-    if (sensor.type == "imu" || sensor.type == "contact") continue;
-    text += fmt::format(", {} on {}", sensor.type, sensor.link);
+    const bool recorded = latency_of(entity, sensor.name).has_value();
+    if (!recorded && (sensor.type == "imu" || sensor.type == "contact")) continue;
+    text += fmt::format(", {} on {}{}", sensor.type, sensor.link,
+                        late_text(latency_of(entity, sensor.name).value_or(0)));
+  }
+  for (const TruthSensor& truth : entity.truths) {
+    text += fmt::format(", truth '{}' of {}{}", truth.name,
+                        entity.nodes[static_cast<std::size_t>(truth.node)].name,
+                        late_text(truth.latency_s));
   }
   return text + "\n";
 }
@@ -257,7 +284,19 @@ std::string describe_json(const Entity& entity) {
   for (std::size_t j = 0; j < entity.joints.size(); ++j)
     out["joints"].push_back(joint_json(entity, j));
   for (const OtherSensor& sensor : entity.sensors) {
-    out["sensors"].push_back({{"name", sensor.name}, {"type", sensor.type}, {"link", sensor.link}});
+    nlohmann::ordered_json row = {
+        {"name", sensor.name}, {"type", sensor.type}, {"link", sensor.link}};
+    const double latency_s = latency_of(entity, sensor.name).value_or(0);
+    if (latency_s > 0) row["latency_s"] = latency_s;
+    out["sensors"].push_back(row);
+  }
+  for (const TruthSensor& truth : entity.truths) {
+    nlohmann::ordered_json row = {
+        {"name", truth.name},
+        {"type", "truth"},
+        {"link", entity.nodes[static_cast<std::size_t>(truth.node)].name}};
+    if (truth.latency_s > 0) row["latency_s"] = truth.latency_s;
+    out["sensors"].push_back(row);
   }
   out["bus"] = {{"name", entity.bus},
                 {"buses", entity.buses},

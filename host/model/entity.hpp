@@ -126,6 +126,7 @@ struct ImuSensor {
   double gyro_noise_rad_s = 0,
          gyro_bias_rad_s = 0;  ///< 1-sigma per sample; 1-sigma of the constant bias
   double accel_noise_m_s2 = 0, accel_bias_m_s2 = 0;
+  double latency_s = 0;  ///< age of what it tells
 };
 
 struct FootSensor {
@@ -143,6 +144,7 @@ struct LaserSensor {
   double first_rad = 0, last_rad = 0;
   double min_m = 0, max_m = 1, resolution_m = 0;
   double noise_mean_m = 0, noise_stddev_m = 0;  ///< of each ray
+  double latency_s = 0;  ///< from the moment that it measures until somebody can have it
 
   double step_rad() const { return samples > 1 ? (last_rad - first_rad) / (samples - 1) : 0; }
   double angle_rad(int sample) const { return first_rad + sample * step_rad(); }
@@ -164,10 +166,39 @@ struct CameraSensor {
   /// k1, k2, p1, p2, k3 of Brown and Conrady, in the order of OpenCV and ROS ("plumb_bob").
   std::array<double, 5> distortion{};
   double noise_mean = 0, noise_stddev = 0;  ///< of each pixel: parts of white; of depth: m
+  double latency_s = 0;  ///< from the moment that it looks until somebody can have the picture
 
   bool has_colour() const { return kind == Kind::kColour || kind == Kind::kColourAndDepth; }
   bool has_depth() const { return kind == Kind::kDepth || kind == Kind::kColourAndDepth; }
   double horizontal_fov_rad() const { return 2 * std::atan(width_px / (2 * fx_px)); }
+};
+
+/// Force and torque between a link and what carries it, at the sensor's point and in its axes.
+struct ForceTorqueSensor {
+  std::string name, topic;
+  int node = 0;                            ///< its joint is that which moves this node
+  Transform pose = Transform::Identity();  ///< in that link's frame
+  double rate_hz = 100, latency_s = 0;
+  bool on_child = false;  ///< what the link is given; else what it gives
+  Vec3 force_mean_n = Vec3::Zero(), force_stddev_n = Vec3::Zero();  ///< noise of each axis
+  Vec3 torque_mean_n_m = Vec3::Zero(), torque_stddev_n_m = Vec3::Zero();
+};
+
+/// What touches a link, where, and how hard.
+struct ContactSensor {
+  std::string name, topic;
+  int node = 0;
+  double rate_hz = 100, latency_s = 0;
+};
+
+/// Where a point of a link really is and how it moves: no robot has such a sensor.
+struct TruthSensor {
+  std::string name;
+  int node = 0;
+  Transform pose = Transform::Identity();  ///< in the link frame
+  double rate_hz = 100, latency_s = 0;
+  /// Noise of each axis, standard deviations; 0: the truth.
+  double position_noise_m = 0, angle_noise_rad = 0, velocity_noise_m_s = 0, rate_noise_rad_s = 0;
 };
 
 /// Any sensor of the file: described and checked.
@@ -196,12 +227,15 @@ struct Entity {
   FootSensor feet;
   std::vector<NoCollide> no_collide;
   std::vector<OtherSensor> sensors;
-  std::vector<LaserSensor> lasers;    ///< also among the sensors
-  std::vector<CameraSensor> cameras;  ///< likewise
-  std::string bus;                    ///< name of the one of its buses that is used
-  std::string bus_file;               ///< where its <verp:bus> stands
-  int bus_line = 1;                   ///< there
-  std::vector<std::string> buses;     ///< names of all it has, in the order of the file
+  std::vector<LaserSensor> lasers;               ///< also among the sensors
+  std::vector<CameraSensor> cameras;             ///< likewise
+  std::vector<ForceTorqueSensor> force_torques;  ///< likewise
+  std::vector<ContactSensor> contacts;           ///< likewise: those that are recorded
+  std::vector<TruthSensor> truths;
+  std::string bus;                 ///< name of the one of its buses that is used
+  std::string bus_file;            ///< where its <verp:bus> stands
+  int bus_line = 1;                ///< there
+  std::vector<std::string> buses;  ///< names of all it has, in the order of the file
   BusProtocol protocol = BusProtocol::kDynamixel2;
   std::uint32_t baud = 2000000;
   std::uint32_t period_us = 10000;

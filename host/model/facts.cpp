@@ -34,8 +34,15 @@ Transform read_pose(const XmlElement& element) {
   return pose;
 }
 
+/// What is later than a second is another unit.
+constexpr double kMostLatency_s = 1;
+
+double read_latency_s(const XmlElement& e) {
+  return e.number_within("latency_s", 0, kMostLatency_s, " s", 0);
+}
+
 ImuFact read_imu(const XmlElement& e) {
-  e.allow({"sensor", "link", "id", "type"});
+  e.allow({"sensor", "link", "id", "type", "latency_s"});
   const std::string type_name = e.text("type");
   const ImuType* type = find_imu_type(type_name);
   if (!type) e.fail("no IMU type '" + type_name + "'", "choose one of: " + names_of(imu_types()));
@@ -52,6 +59,23 @@ ImuFact read_imu(const XmlElement& e) {
   fact.imu.gyro_bias_rad_s = type->gyro_bias_rad_s;
   fact.imu.accel_noise_m_s2 = type->accel_noise_m_s2;
   fact.imu.accel_bias_m_s2 = type->accel_bias_m_s2;
+  fact.imu.latency_s = read_latency_s(e);
+  return fact;
+}
+
+TruthFact read_truth(const XmlElement& e) {
+  e.allow({"name", "link", "rate_hz", "latency_s", "position_noise_m", "angle_noise_rad",
+           "velocity_noise_m_s", "rate_noise_rad_s"});
+  TruthFact fact{e, e.text("link"), {}};
+  TruthSensor& truth = fact.truth;
+  truth.name = e.text("name");
+  truth.pose = read_pose(e);
+  truth.rate_hz = e.number_within("rate_hz", 0.01, 1000, " Hz", truth.rate_hz);
+  truth.latency_s = read_latency_s(e);
+  truth.position_noise_m = e.number_within("position_noise_m", 0, 10, " m", 0);
+  truth.angle_noise_rad = e.number_within("angle_noise_rad", 0, 3, " rad", 0);
+  truth.velocity_noise_m_s = e.number_within("velocity_noise_m_s", 0, 10, " m/s", 0);
+  truth.rate_noise_rad_s = e.number_within("rate_noise_rad_s", 0, 10, " rad/s", 0);
   return fact;
 }
 
@@ -102,7 +126,8 @@ class FactReader {
         {"verp:tuning", &FactReader::tuning}, {"verp:inertia", &FactReader::inertia},
         {"verp:box", &FactReader::box},       {"verp:drop", &FactReader::drop},
         {"verp:fix", &FactReader::fix},       {"verp:no_collide", &FactReader::no_collide},
-        {"verp:mimic", &FactReader::mimic},
+        {"verp:mimic", &FactReader::mimic},   {"verp:latency", &FactReader::latency},
+        {"verp:truth", &FactReader::truth},
     };
     return kReaders;
   }
@@ -221,6 +246,18 @@ class FactReader {
     f_.mimics.push_back({e, e.text("joint"), e.text("follows"), e.number("multiplier", 1),
                          e.number("offset_rad", 0)});
   }
+
+  void latency(const XmlElement& e) {
+    e.allow({"sensor", "s"});
+    LatencyFact fact{e, e.text("sensor"), e.number_within("s", 0, kMostLatency_s, " s")};
+    for (const LatencyFact& other : f_.latencies) {
+      if (other.sensor == fact.sensor)
+        e.fail("sensor '" + fact.sensor + "' is given two latencies", "keep one of them");
+    }
+    f_.latencies.push_back(fact);
+  }
+
+  void truth(const XmlElement& e) { f_.truths.push_back(read_truth(e)); }
 
   void no_collide(const XmlElement& e) {
     e.allow({"link", "other", "reason"});

@@ -33,6 +33,17 @@ struct ImuFact {
   std::string sensor, link;
   ImuSensor imu;
 };
+/// How late an SDF sensor is.
+struct LatencyFact {
+  XmlElement at;
+  std::string sensor;
+  double latency_s = 0;
+};
+struct TruthFact {
+  XmlElement at;
+  std::string link;
+  TruthSensor truth;  ///< its pose is in that link's frame
+};
 struct FeetFact {
   XmlElement at;
   FootSensor feet;
@@ -103,6 +114,8 @@ struct Facts {
   std::size_t used = 0;        ///< of them
   std::optional<ImuFact> imu;
   std::optional<FeetFact> feet;
+  std::vector<LatencyFact> latencies;
+  std::vector<TruthFact> truths;
   std::vector<PoseFact> poses;
   std::vector<TuningFact> tuning;
   std::vector<InertiaFact> inertias;

@@ -62,6 +62,12 @@ void shift_frame(Entity& entity, int node, const Vec3& shift) {
   for (CameraSensor& camera : entity.cameras) {
     if (camera.node == node) camera.pose.translation() -= shift;
   }
+  for (ForceTorqueSensor& sensor : entity.force_torques) {
+    if (sensor.node == node) sensor.pose.translation() -= shift;
+  }
+  for (TruthSensor& sensor : entity.truths) {
+    if (sensor.node == node) sensor.pose.translation() -= shift;
+  }
   for (OtherSensor& sensor : entity.sensors) {
     if (sensor.node == node) sensor.pose.translation() -= shift;
   }

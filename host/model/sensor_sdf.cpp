@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <sdf/Camera.hh>
+#include <sdf/ForceTorque.hh>
 #include <sdf/Lidar.hh>
 #include <sdf/Noise.hh>
 
@@ -103,6 +104,12 @@ CameraSensor::Kind kind_of(const sdf::Sensor& sensor) {
   }
 }
 
+/// As the file names the channel, without a slash before it.
+std::string topic_of(const sdf::Sensor& sensor) {
+  const std::string topic = sensor.Topic();
+  return topic.starts_with('/') ? topic.substr(1) : topic;
+}
+
 }  // namespace
 
 LaserSensor read_laser(const sdf::Sensor& sensor, int node, const Transform& pose,
@@ -151,6 +158,48 @@ CameraSensor read_camera(const sdf::Sensor& sensor, int node, const Transform& p
   check_distortion(camera, wrong);
   read_noise(lens.ImageNoise(), camera, wrong);
   return camera;
+}
+
+ForceTorqueSensor read_force_torque(const sdf::Sensor& sensor, int node, const Transform& link,
+                                    const Transform& pose, const WrongSensor& wrong) {
+  constexpr double kMost = 1e4;
+  const sdf::ForceTorque& meter = *sensor.ForceTorqueSensor();
+  ForceTorqueSensor out{
+      .name = sensor.Name(), .topic = topic_of(sensor), .node = node, .pose = pose};
+  if (out.topic.empty()) out.topic = out.name;
+  out.rate_hz = rate_of(sensor, out.rate_hz, wrong);
+  if (node == 0)
+    wrong("nothing carries the body, so there is no force to measure",
+          "put it into the joint, or onto a link that a joint moves");
+  switch (meter.Frame()) {
+    case sdf::ForceTorqueFrame::SENSOR:
+      break;
+    case sdf::ForceTorqueFrame::CHILD:
+      out.pose.linear() = link.linear();
+      break;
+    default:
+      wrong("its <frame> is not read here", "write child or sensor");
+  }
+  out.on_child = meter.MeasureDirection() == sdf::ForceTorqueMeasureDirection::PARENT_TO_CHILD;
+  const auto read = [&](const sdf::Noise& noise, double& mean, double& stddev) {
+    mean = noise.Mean();
+    stddev = noise.StdDev();
+    if (!(std::abs(mean) <= kMost && stddev >= 0 && stddev <= kMost))
+      wrong("its <noise> is none", "give <mean> and <stddev> in N, of <torque> in N m");
+  };
+  read(meter.ForceXNoise(), out.force_mean_n.x(), out.force_stddev_n.x());
+  read(meter.ForceYNoise(), out.force_mean_n.y(), out.force_stddev_n.y());
+  read(meter.ForceZNoise(), out.force_mean_n.z(), out.force_stddev_n.z());
+  read(meter.TorqueXNoise(), out.torque_mean_n_m.x(), out.torque_stddev_n_m.x());
+  read(meter.TorqueYNoise(), out.torque_mean_n_m.y(), out.torque_stddev_n_m.y());
+  read(meter.TorqueZNoise(), out.torque_mean_n_m.z(), out.torque_stddev_n_m.z());
+  return out;
+}
+
+ContactSensor read_contact(const sdf::Sensor& sensor, int node, const WrongSensor& wrong) {
+  ContactSensor out{.name = sensor.Name(), .topic = topic_of(sensor), .node = node};
+  out.rate_hz = rate_of(sensor, out.rate_hz, wrong);
+  return out;
 }
 
 }  // namespace verp::model

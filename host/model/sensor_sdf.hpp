@@ -5,7 +5,7 @@
 
 #include "host/model/entity.hpp"
 
-/// Lasers and cameras as libsdformat read them, checked.
+/// A robot's sensors as libsdformat read them, checked.
 namespace verp::model {
 
 /// Throws LoadError at the sensor: what is wrong, and what to do about it.
@@ -19,5 +19,11 @@ LaserSensor read_laser(const sdf::Sensor& sensor, int node, const Transform& pos
 bool is_camera(const sdf::Sensor& sensor);
 CameraSensor read_camera(const sdf::Sensor& sensor, int node, const Transform& pose,
                          const WrongSensor& wrong);
+
+/// `link` is the link's own frame in that of `node`, whose axes SDF takes if no others are named.
+ForceTorqueSensor read_force_torque(const sdf::Sensor& sensor, int node, const Transform& link,
+                                    const Transform& pose, const WrongSensor& wrong);
+
+ContactSensor read_contact(const sdf::Sensor& sensor, int node, const WrongSensor& wrong);
 
 }  // namespace verp::model

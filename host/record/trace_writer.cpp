@@ -1,5 +1,7 @@
 #include "host/record/trace_writer.hpp"
 
+#include <algorithm>
+
 #include "host/record/fields.hpp"
 #include "host/record/trace_error.hpp"
 #include "host/record/urdf.hpp"
@@ -106,7 +108,7 @@ void TraceWriter::append(const std::string& sensor, std::uint32_t tick,
                          const ros::LaserScan& scan) {
   const std::uint64_t time_ns = std::uint64_t{tick} * params_.period_us * 1000;
   append("/" + sensor, {"sensor_msgs/msg/LaserScan", ros::kLaserScanSchema}, time_ns,
-         ros::laser_scan(scan, time_ns));
+         ros::laser_scan(scan, time_ns - std::min(time_ns, scan.age_ns)));
 }
 
 void TraceWriter::append(const std::string& topic, const ros::MessageType& type,

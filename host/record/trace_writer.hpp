@@ -46,8 +46,9 @@ class TraceWriter {
               const ros::BodyPose* body = nullptr, std::span<const double> effort_n_m = {});
   /// One tick of a run that is copied: with the State its trace kept, if it did (null: none).
   void append(const TickRecord& record, const State* kept);
-  /// What a sensor that the controller does not have measured up to that tick, on /SENSOR. Nothing
-  /// without TraceOptions::ros.
+  /// What a sensor that the controller does not have measured up to that tick, on /SENSOR. The
+  /// message stands at the tick's time; its header has when it was measured. Nothing without
+  /// TraceOptions::ros.
   void append(const std::string& sensor, std::uint32_t tick, const ros::LaserScan& scan);
   /// Any message of a viewer's, on `topic`, which has one type; time_ns: as ticks have it. May be
   /// older than what stands there. Nothing without TraceOptions::ros.

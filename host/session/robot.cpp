@@ -10,6 +10,7 @@
 #include "host/record/trace_error.hpp"
 #include "host/session/asked.hpp"
 #include "host/session/fault_names.hpp"
+#include "host/session/readings.hpp"
 #include "host/sim/planned_zmp.hpp"
 #include "host/sim/scenery.hpp"
 
@@ -251,10 +252,14 @@ void Robot::count_traffic() {
 void Robot::append(const sim::Truth& truth) {
   try {
     const record::ros::BodyPose body = pose_of(truth.body_world);
+    if (trace_->ticks() == 0) place_frames(*trace_, plan_.entity, plan_.params);
     trace_->append(tick_, state_, outputs_, &body, truth.torque_n_m);
     if (world_.scenery() != nullptr)
       trace_->append(tick_.inputs.tick, objects_of(*world_.scenery()));
     for (const sim::Scan& scan : twin_.take_scans()) append(scan);
+    session::append(*trace_, plan_.entity, twin_.take_readings(),
+                    std::uint64_t{1000} * tick_.inputs.tick * plan_.params.period_us,
+                    twin_.now_us());
   } catch (const record::TraceError& error) {
     result_.trace_failure = error.what();
     trace_ = nullptr;
@@ -262,6 +267,8 @@ void Robot::append(const sim::Truth& truth) {
 }
 
 void Robot::append(const sim::Scan& scan) {
+  const std::uint64_t age_us = twin_.now_us() - scan.time_us;
+  if (age_us > std::uint64_t{tick_.inputs.tick} * plan_.params.period_us) return;  // before tick 0
   const model::LaserSensor& laser = plan_.entity.lasers[scan.laser];
   trace_->append(laser.name, tick_.inputs.tick,
                  record::ros::LaserScan{.frame = laser.name,
@@ -271,7 +278,8 @@ void Robot::append(const sim::Scan& scan) {
                                         .period_s = 1 / laser.rate_hz,
                                         .min_m = laser.min_m,
                                         .max_m = laser.max_m,
-                                        .range_m = scan.range_m});
+                                        .range_m = scan.range_m,
+                                        .age_ns = 1000 * age_us});
 }
 
 void Robot::tell_exposures() {

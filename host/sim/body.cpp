@@ -282,6 +282,23 @@ void Body::drive(int joint, const Drive& drive) {
   dJointSetHingeParam(hinge, dParamFMax, idle ? 0 : dInfinity);
 }
 
+void Body::meter(int joint) {
+  const dJointID hinge = hinges_[index_of(joint)];
+  if (dJointGetFeedback(hinge) != nullptr) return;
+  dJointSetFeedback(hinge, &feedback_.emplace_back());
+}
+
+/// The link that a hinge moves is the first of its two; a body's own point in ODE is its centre of
+/// mass.
+JointLoad Body::load(int joint) const {
+  const dJointFeedback* given = dJointGetFeedback(hinges_[index_of(joint)]);
+  if (given == nullptr) return {};
+  const dReal* centre = dBodyGetPosition(links_[index_of(joint + 1)].body);
+  return {{centre[0], centre[1], centre[2]},
+          {given->f1[0], given->f1[1], given->f1[2]},
+          {given->t1[0], given->t1[1], given->t1[2]}};
+}
+
 std::vector<double> Body::inertias_kg_m2() const {
   // Of each link and all beyond it, about the body's origin: from the tips inwards.
   struct Sum {

@@ -1,4 +1,5 @@
 #pragma once
+#include <deque>
 #include <vector>
 
 #include "host/model/entity.hpp"
@@ -25,6 +26,12 @@ Transform resting(const model::Entity& entity, const std::vector<double>& joint_
 /// The leg's limb (0 left, 1 right), or null.
 const model::Limb* find_leg(const model::Entity& entity, int foot);
 
+/// What a joint gave the link that it moves in the last step, about that point.
+struct JointLoad {
+  Vec3 point_world_m = Vec3::Zero();
+  Vec3 force_world_n = Vec3::Zero(), torque_world_n_m = Vec3::Zero();
+};
+
 class Body {
  public:
   /// mass_factor scales mass and inertia of each node. Throws std::invalid_argument if a link has
@@ -40,6 +47,9 @@ class Body {
   /// Reads joint angles and rates; call after every step.
   void read_joints();
   void drive(int joint, const Drive& drive);
+  /// From the next step on load() tells what this joint bears.
+  void meter(int joint);
+  JointLoad load(int joint) const;
   /// What each joint turns as it stands now: its link and all beyond, about its axis.
   std::vector<double> inertias_kg_m2() const;
   /// Another mass of the same shape: the inertia goes with it.
@@ -93,6 +103,7 @@ class Body {
   std::vector<Link> links_;
   std::vector<dJointID> hinges_;
   std::vector<dGeomID> geoms_;
+  std::deque<dJointFeedback> feedback_;  ///< of the joints that are metered; ODE points there
   dJointID hold_ = nullptr;
   double mass_kg_ = 0;
   std::vector<double> angle_rad_;

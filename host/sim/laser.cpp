@@ -2,24 +2,33 @@
 
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace verp::sim {
 
 LaserModel::LaserModel(const model::LaserSensor& sensor, std::size_t index, int owner, bool noise,
                        Random random)
-    : sensor_(sensor), owner_(owner), noise_(noise), random_(random), shutter_(sensor.rate_hz) {
+    : sensor_(sensor),
+      owner_(owner),
+      noise_(noise),
+      random_(random),
+      shutter_(sensor.rate_hz),
+      delay_(sensor.latency_s) {
   scan_.laser = index;
   bias_m_ = sensor.noise_mean_m;
 }
 
 bool LaserModel::sample(const World& world, const Transform& link) {
-  if (!shutter_.opens(world.now_us())) return false;
-  scan_.time_us = world.now_us();
-  scan_.range_m.clear();
-  const Transform sensor = link * sensor_.pose;
-  for (int i = 0; i < sensor_.samples; ++i)
-    scan_.range_m.push_back(measure(world, sensor, sensor_.angle_rad(i)));
-  return true;
+  if (shutter_.opens(world.now_us())) {
+    Scan taken{.time_us = world.now_us(), .laser = scan_.laser, .range_m = {}};
+    const Transform sensor = link * sensor_.pose;
+    for (int i = 0; i < sensor_.samples; ++i)
+      taken.range_m.push_back(measure(world, sensor, sensor_.angle_rad(i)));
+    delay_.put(world.now_us(), std::move(taken));
+  }
+  auto arrived = delay_.take(world.now_us());
+  if (arrived) scan_ = std::move(*arrived);
+  return arrived.has_value();
 }
 
 /// Noise is drawn whether the ray hits or not: what stands in the way of one ray changes no other.

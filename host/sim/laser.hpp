@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "host/model/entity.hpp"
+#include "host/sim/delay.hpp"
 #include "host/sim/exposure.hpp"
 #include "host/sim/random.hpp"
 #include "host/sim/world.hpp"
@@ -23,7 +24,8 @@ class LaserModel {
              Random random);
 
   /// Takes a scan if one is due by now; `link` is its link's pose in the world. Scans are due at
-  /// whole periods of simulated time, in the physics step that ends there or first after.
+  /// whole periods of simulated time, in the physics step that ends there or first after. True:
+  /// there is a new scan(), which was taken its latency ago.
   bool sample(const World& world, const Transform& link);
   const Scan& scan() const { return scan_; }
 
@@ -36,6 +38,7 @@ class LaserModel {
   Random random_;
   double bias_m_ = 0;
   Shutter shutter_;
+  Delay<Scan> delay_;
   Scan scan_;
 };
 

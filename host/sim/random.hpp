@@ -26,9 +26,11 @@ enum class Draw : std::uint64_t {
   kVaryTilt = 28,
   kVarySupply = 29,
   kLyingPose = 30,
-  kLaser = 50,     ///< plus the laser's index
-  kCamera = 80,    ///< plus the camera's index
-  kEncoder = 100,  ///< plus the joint's index
+  kLaser = 50,         ///< plus the laser's index
+  kCamera = 80,        ///< plus the camera's index
+  kEncoder = 100,      ///< plus the joint's index
+  kForceTorque = 200,  ///< plus the sensor's index
+  kTruth = 250,        ///< plus the sensor's index
 };
 
 /// xoshiro256** (Blackman and Vigna, public domain), seeded by splitmix64 from (seed, purpose). Own

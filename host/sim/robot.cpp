@@ -172,6 +172,7 @@ TwinRobot::TwinRobot(World& world, const model::Entity& entity, const TwinOption
       setpoint_(entity.joints.size()),
       imu_(entity.imu.value_or(model::ImuSensor{}), options.imperfections.imu, options.seed,
            options.gyro_bias_rad_s),
+      probes_(entity_, body_, owner_, options.imperfections.probes, options.seed),
       nominal_v_(options.supply_v.value_or(
           entity.joints.empty() ? 0.0 : entity.joints[0].servo.nominal_v)),
       supply_v_(nominal_v_),
@@ -201,7 +202,9 @@ TwinRobot::TwinRobot(World& world, const model::Entity& entity, const TwinOption
                         Random(options.seed, Draw::kLaser, static_cast<int>(i)));
   }
   for (const model::CameraSensor& camera : entity_.cameras) {
-    if (options.cameras) shutter_.emplace_back(camera.rate_hz);
+    if (!options.cameras) break;
+    shutter_.emplace_back(camera.rate_hz);
+    developing_.emplace_back(camera.latency_s);
   }
   TwinOptions upright = options;
   upright.lies = Lies::kNo;
@@ -292,6 +295,7 @@ void TwinRobot::after_step(double step_s) {
   fallen_ = fallen_ || is_down();
   update_lasers();
   update_cameras();
+  probes_.sample(world_, body_);
 }
 
 bool TwinRobot::set_upright() {
@@ -393,17 +397,31 @@ void TwinRobot::update_lasers() {
   }
 }
 
+/// Cameras that look in the same step and are as late as each other share an exposure.
 void TwinRobot::update_cameras() {
-  Exposure now{.time_us = world_.now_us(), .cameras = {}, .link_world = {}, .body_world = {}};
+  const std::uint64_t now_us = world_.now_us();
+  std::vector<bool> looks;
+  for (Shutter& each : shutter_) looks.push_back(each.opens(now_us));
   for (std::size_t i = 0; i < shutter_.size(); ++i) {
-    if (shutter_[i].opens(now.time_us)) now.cameras.push_back(i);
+    if (!looks[i]) continue;
+    Exposure now{.time_us = now_us, .cameras = {}, .link_world = {}, .body_world = {}};
+    for (std::size_t other = i; other < shutter_.size(); ++other) {
+      if (!looks[other] || entity_.cameras[other].latency_s != entity_.cameras[i].latency_s)
+        continue;
+      looks[other] = false;
+      now.cameras.push_back(other);
+    }
+    for (std::size_t node = 0; node < entity_.nodes.size(); ++node)
+      now.link_world.push_back(body_.link_pose(static_cast<int>(node)));
+    if (world_.scenery() != nullptr) now.body_world = world_.scenery()->moving_poses();
+    developing_[i].put(now_us, std::move(now));
   }
-  if (now.cameras.empty()) return;
-  for (std::size_t node = 0; node < entity_.nodes.size(); ++node)
-    now.link_world.push_back(body_.link_pose(static_cast<int>(node)));
-  if (world_.scenery() != nullptr) now.body_world = world_.scenery()->moving_poses();
-  if (exposures_.size() == kMostScans) exposures_.erase(exposures_.begin());
-  exposures_.push_back(std::move(now));
+  for (Delay<Exposure>& each : developing_) {
+    while (auto exposure = each.take(now_us)) {
+      if (exposures_.size() == kMostScans) exposures_.erase(exposures_.begin());
+      exposures_.push_back(std::move(*exposure));
+    }
+  }
 }
 
 int TwinRobot::foot_of(int node) const {

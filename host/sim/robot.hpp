@@ -11,6 +11,7 @@
 #include "host/sim/exposure.hpp"
 #include "host/sim/laser.hpp"
 #include "host/sim/plant.hpp"
+#include "host/sim/probes.hpp"
 #include "host/sim/sensors.hpp"
 #include "host/sim/servo.hpp"
 #include "host/sim/truth.hpp"
@@ -27,8 +28,9 @@ struct Imperfections {
   bool initial_pose = true;  ///< joints, lean and heading at the start
   bool feet = true;          ///< force noise
   bool lasers = true;        ///< noise
+  bool probes = true;        ///< noise of force-torque and truth sensors
 
-  static Imperfections none() { return {false, false, false, false, false, false}; }
+  static Imperfections none() { return {false, false, false, false, false, false, false}; }
 };
 
 /// Who holds the body at the start. Servos power up limp, so a robot that stands must be held until
@@ -110,10 +112,12 @@ class TwinRobot final : public Plant, private Actor {
   double weight_n() const { return body_.mass_kg() * world_.options().gravity_m_s2; }
   /// Physics steps since the start, and in how many of them each joint's duty was at its limit.
   std::uint64_t steps() const { return steps_; }
-  /// Scans that were taken since they were last asked for.
+  /// Scans that could be had since they were last asked for; each tells when it was taken.
   std::vector<Scan> take_scans() { return std::exchange(scans_, {}); }
-  /// Likewise when its cameras looked.
+  /// Likewise when its cameras looked, once their pictures could be had.
   std::vector<Exposure> take_exposures() { return std::exchange(exposures_, {}); }
+  /// Likewise of its force-torque, contact and truth sensors.
+  ProbeReadings take_readings() { return probes_.take(); }
   const std::vector<std::uint64_t>& saturated_steps() const { return saturated_steps_; }
 
   /// In how many physics steps one of its links touched another, and which two did so last.
@@ -162,8 +166,10 @@ class TwinRobot final : public Plant, private Actor {
   std::array<int, 2> foot_node_{-1, -1};
   std::vector<LaserModel> laser_;
   std::vector<Scan> scans_;
-  std::vector<Shutter> shutter_;  ///< of each camera, if somebody draws
+  std::vector<Shutter> shutter_;             ///< of each camera, if somebody draws
+  std::vector<Delay<Exposure>> developing_;  ///< likewise
   std::vector<Exposure> exposures_;
+  Probes probes_;
   Vec3 imu_velocity_world_m_s_ = Vec3::Zero();
   FootLoads step_loads_;  ///< of the last step
   FootLoads loads_;       ///< since take_foot_loads()

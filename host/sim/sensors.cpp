@@ -65,11 +65,16 @@ void ImuModel::sample(const Mat3& world_imu, const Vec3& angular_velocity_world_
     gyro += normal3(random_, sensor_.gyro_noise_rad_s);
     accel += accel_bias_m_s2_ + normal3(random_, sensor_.accel_noise_m_s2);
   }
+  ImuMeasurement now;
   for (int axis = 0; axis < 3; ++axis) {
     const auto i = static_cast<std::size_t>(axis);
-    measurement_.gyro_count[i] = to_count<std::int16_t>(gyro[axis], sensor_.gyro_rad_s_per_count);
-    measurement_.accel_count[i] = to_count<std::int16_t>(accel[axis], sensor_.accel_m_s2_per_count);
+    now.gyro_count[i] = to_count<std::int16_t>(gyro[axis], sensor_.gyro_rad_s_per_count);
+    now.accel_count[i] = to_count<std::int16_t>(accel[axis], sensor_.accel_m_s2_per_count);
   }
+  on_the_way_.push_back(now);
+  const auto late_by = static_cast<std::size_t>(std::lround(sensor_.latency_s / step_s));
+  while (on_the_way_.size() > late_by + 1) on_the_way_.pop_front();
+  measurement_ = on_the_way_.front();
 }
 
 FootModel::FootModel(const model::Limb& leg, double newton_per_count, bool noise, Random random)

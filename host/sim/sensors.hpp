@@ -1,6 +1,7 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <deque>
 #include <vector>
 
 #include "host/model/entity.hpp"
@@ -32,7 +33,8 @@ class ImuModel {
            const Vec3& gyro_bias_rad_s = Vec3::Zero());
 
   /// Angular velocity and acceleration of the sensor's own point, world axes; the specific force
-  /// follows. up_world_m_s2: against gravity.
+  /// follows. up_world_m_s2: against gravity. measurement() is that of the latency ago, in whole
+  /// steps; before that long has passed, the first.
   void sample(const Mat3& world_imu, const Vec3& angular_velocity_world_rad_s,
               const Vec3& acceleration_world_m_s2, const Vec3& up_world_m_s2, double step_s);
   const ImuMeasurement& measurement() const { return measurement_; }
@@ -45,6 +47,7 @@ class ImuModel {
   Vec3 accel_bias_m_s2_ = Vec3::Zero();
   std::array<LowPass, 3> gyro_filter_;
   std::array<LowPass, 3> accel_filter_;
+  std::deque<ImuMeasurement> on_the_way_;  ///< of the last steps, within its latency
   ImuMeasurement measurement_;
 };
 
