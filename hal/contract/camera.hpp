@@ -16,9 +16,8 @@
 ///  - sequence counts what the sensor made, and lost how many of those nobody got since the frame
 ///    before: sequence is the last one's plus lost plus one, modulo 2^32, but where the camera
 ///    starts anew. A picture that came in part is lost.
-///  - time_us is when the sensor had it (not when it was read), by a clock that never goes back:
-///  the
-///    PC's monotonic one, the twin's simulated one. It rises from frame to frame.
+///  - time_us is when the sensor had it (not when it was read). Its clock never goes back: the PC's
+///    monotonic one, or the twin's simulated one. It rises from frame to frame.
 ///  - After kFault (unplugged, or its driver failed) the backend tries again by itself in later
 ///    reads. faults() counts the reads that said so, modulo 2^32.
 ///  - No call throws.
