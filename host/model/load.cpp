@@ -1,5 +1,6 @@
 #include "host/model/load.hpp"
 
+#include <fcntl.h>
 #include <sched.h>
 #include <unistd.h>
 
@@ -30,15 +31,36 @@ namespace {
 
 using Text = std::optional<std::string>;  // none: what is in the file
 
+/// Until it ends, this thread's working directory is one that has no file of any robot's name.
+/// Where a container's rules allow no thread a directory of its own, it is every thread's.
+class NoFilesHere {
+ public:
+  NoFilesHere() {
+    if (::unshare(CLONE_FS) != 0) before_ = ::open(".", O_PATH | O_DIRECTORY | O_CLOEXEC);
+    if (::chdir("/proc/self/fdinfo") == 0) return;
+    const int reason = errno;
+    if (before_ >= 0) ::close(before_);
+    throw std::system_error(reason, std::generic_category(), "/proc/self/fdinfo");
+  }
+  ~NoFilesHere() {
+    if (before_ < 0) return;
+    static_cast<void>(::fchdir(before_) == 0);
+    ::close(before_);
+  }
+  NoFilesHere(const NoFilesHere&) = delete;
+  NoFilesHere& operator=(const NoFilesHere&) = delete;
+
+ private:
+  int before_ = -1;
+};
+
 /// libsdformat takes a relative <uri> for a file of the working directory before it asks us: of two
-/// people, one would stand in the robot's folder and get another robot. So it reads in a thread
-/// whose working directory has no file of such a name.
+/// people, one would stand in the robot's folder and get another robot.
 void where_no_file_is(const std::function<void()>& work) {
   std::exception_ptr failure;
   std::thread([&] {
     try {
-      if (::unshare(CLONE_FS) != 0 || ::chdir("/proc/self/fdinfo") != 0)
-        throw std::system_error(errno, std::generic_category(), "a working directory of its own");
+      const NoFilesHere here;
       work();
     } catch (...) {
       failure = std::current_exception();

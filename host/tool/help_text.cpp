@@ -14,14 +14,22 @@ constexpr std::size_t kNarrow = 60;
 constexpr std::size_t kIndentOfNarrow = 6;
 constexpr int kElsewhere = 100, kLeast = 20;
 
+/// A word; of one that no line has room for, what ends with a comma and fits.
+std::string_view first_piece(std::string_view word, std::size_t room) {
+  if (word.size() <= room) return word;
+  const std::size_t comma = word.rfind(',', room - 1);
+  return comma == word.npos ? word : word.substr(0, comma + 1);
+}
+
 /// `first`, then the words of `text`, on lines of `width` that begin with `indent` spaces.
 std::string paragraph(std::string first, std::string_view text, std::size_t indent,
                       std::size_t width) {
   std::string out, line = std::move(first);
   bool bare = line.find_first_not_of(' ') == std::string::npos;
   while (!text.empty()) {
-    const std::string_view word = text.substr(0, text.find(' '));
-    text.remove_prefix(std::min(text.size(), word.size() + 1));
+    const std::string_view word = first_piece(text.substr(0, text.find(' ')), width - indent);
+    text.remove_prefix(word.size());
+    if (text.starts_with(' ')) text.remove_prefix(1);
     if (word.empty()) continue;
     const bool space = !bare && line.back() != ' ';
     if (!bare && line.size() + (space ? 1 : 0) + word.size() > width) {

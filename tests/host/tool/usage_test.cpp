@@ -45,6 +45,16 @@ TEST_F(Usage, LinesOfHelpAreWholeCommandsAndAsWideAsTheTerminal) {
   EXPECT_EQ(words(outcome.out), words(shell("COLUMNS=400 " VERP_PROGRAM " bus read --help").out));
 }
 
+// One word of many choices is longer than such a line.
+TEST_F(Usage, HelpFitsATerminalOfFortyColumns) {
+  for (const char* word : {"walk", "run", "hil", "tune", "bus bench", "identify"}) {
+    std::istringstream help(
+        shell(std::string("COLUMNS=40 ") + VERP_PROGRAM + " " + word + " --help").out);
+    for (std::string line; std::getline(help, line);)
+      EXPECT_LE(line.size(), 40u) << word << ": " << line;
+  }
+}
+
 TEST_F(Usage, TheRobotIsNamedByTheSameWordsEverywhere) {
   for (const char* command : {"check", "parameters", "bus load", "bus checklist"}) {
     const Outcome first = verp(std::string(command) + " generic21");
