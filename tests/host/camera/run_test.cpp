@@ -100,7 +100,7 @@ TEST(TwinCamera, GivesPicturesThatAreDrawnOfTheTwin) {
   Stand stand;
   Rig rig(VERP_CAMERA, stand.stage, Rig::Pace::kEveryPicture);
   sim::World world;
-  sim::TwinRobot twin(world, model::load_robot(stand.stage.robot_files[0]),
+  sim::TwinRobot twin(world, model::load_robot(stand.stage.robots[0].file),
                       {.cradle = sim::Cradle::kAlways, .cameras = true});
   TwinCamera<> camera(rig, twin, 0);
   hal::CameraFrame frame;
