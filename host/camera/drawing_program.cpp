@@ -47,7 +47,9 @@ fs::path find_program() {
   for (const char* file : {own.dli_fname, "/proc/self/exe"}) {
     std::error_code ignored;
     fs::path folder = file == nullptr ? fs::path() : fs::canonical(file, ignored).parent_path();
-    for (; folder.has_relative_path(); folder = folder.parent_path()) {
+    if (folder.string().starts_with(files::build_dir().string())) break;  // not installed
+    // PREFIX/bin, PREFIX/lib or PREFIX/lib/ARCHITECTURE.
+    for (int up = 0; up < 3 && folder.has_relative_path(); ++up, folder = folder.parent_path()) {
       fs::path installed = folder / "libexec/verp/verp_camera";
       if (fs::exists(installed, ignored)) return installed;
     }

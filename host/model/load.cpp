@@ -36,8 +36,9 @@ using Text = std::optional<std::string>;  // none: what is in the file
 class NoFilesHere {
  public:
   NoFilesHere() {
-    if (::unshare(CLONE_FS) != 0) before_ = ::open(".", O_PATH | O_DIRECTORY | O_CLOEXEC);
-    if (::chdir("/proc/self/fdinfo") == 0) return;
+    const bool own = ::unshare(CLONE_FS) == 0;
+    if (!own) before_ = ::open(".", O_PATH | O_DIRECTORY | O_CLOEXEC);
+    if ((own || before_ >= 0) && ::chdir("/proc/self/fdinfo") == 0) return;
     const int reason = errno;
     if (before_ >= 0) ::close(before_);
     throw std::system_error(reason, std::generic_category(), "/proc/self/fdinfo");

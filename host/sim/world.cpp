@@ -178,16 +178,23 @@ void World::collide(dGeomID a, dGeomID b) {
 }
 
 void World::step() {
-  for (Actor* actor : actors_) actor->before_step(step_s());
-  dJointGroupEmpty(contact_group_);
-  touching_.clear();
-  dSpaceCollide(space_, this, &World::near_callback);
   try {
-    dWorldStep(world_, step_s());
+    step_once();
+  } catch (const Diverged&) {
+    throw;
   } catch (const std::runtime_error& error) {
     diverged_ = true;
     throw Diverged(1e-6 * static_cast<double>(now_us_), step_s(), error.what());
   }
+}
+
+void World::step_once() {
+  if (diverged_) throw std::runtime_error("it had, before");
+  for (Actor* actor : actors_) actor->before_step(step_s());
+  dJointGroupEmpty(contact_group_);
+  touching_.clear();
+  dSpaceCollide(space_, this, &World::near_callback);
+  dWorldStep(world_, step_s());
   now_us_ += options_.step_us;
   read_contacts();
   for (Actor* actor : actors_) actor->after_step(step_s());

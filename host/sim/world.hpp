@@ -150,6 +150,7 @@ class World final : public TimeSource {
   static void near_callback(void* self, dGeomID a, dGeomID b);
   void collide(dGeomID a, dGeomID b);
   void step();
+  void step_once();
   void read_contacts();
 
   struct Touching {

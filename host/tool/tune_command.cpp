@@ -2,10 +2,12 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <fstream>
 #include <memory>
 
 #include "host/model/find.hpp"
 #include "host/model/load.hpp"
+#include "host/model/load_error.hpp"
 #include "host/model/params.hpp"
 #include "host/survey/interval.hpp"
 #include "host/tool/command.hpp"
@@ -74,11 +76,33 @@ std::string text_of(const tune::Result& result, const TuneWords& words, const st
   return text;
 }
 
-int run_tune(const TuneWords& words) {
-  if (!words.file.empty() && std::filesystem::exists(words.file)) {
-    throw ToolError(kBadInput, words.file + ": is there already; choose another name");
+std::filesystem::path folder_of(const std::filesystem::path& file) {
+  return std::filesystem::weakly_canonical(std::filesystem::absolute(file)).parent_path();
+}
+
+/// Before the search: the robot's file can be written there and is the same robot, with all that it
+/// includes.
+void require_place(const std::string& file, const std::filesystem::path& robot_file) {
+  std::error_code error;
+  if (std::filesystem::exists(file, error))
+    throw ToolError(kBadInput, file + ": is there already; choose another name");
+  std::ofstream copy(file, std::ios::binary);
+  copy << std::ifstream(robot_file, std::ios::binary).rdbuf();
+  copy.close();
+  if (!copy) throw ToolError(kBadInput, file + ": cannot be written; choose another folder");
+  try {
+    model::load_robot_on_any_bus(file, "");
+  } catch (const model::LoadError& refused) {
+    std::filesystem::remove(file, error);
+    throw ToolError(kBadInput, fmt::format("verp tune: --write {}: {}; write it beside {}", file,
+                                           refused.what(), robot_file.string()));
   }
+  std::filesystem::remove(file, error);
+}
+
+int run_tune(const TuneWords& words) {
   const std::filesystem::path robot_file = model::find_model(words.model);
+  if (!words.file.empty()) require_place(words.file, robot_file);
   session::WalkPlan plan;
   plan.entity = model::load_robot_on_any_bus(robot_file, "");
   plan.params = model::make_params(plan.entity);
@@ -102,10 +126,11 @@ int run_tune(const TuneWords& words) {
   std::string text = text_of(result, words, plan.entity.name);
   if (!words.file.empty() && result.limit.empty()) {
     tune::write(result.numbers, robot_file, words.file);
-    model::load_robot_on_any_bus(words.file, "");  // says if it is none
     json["file"] = words.file;
     text += fmt::format("{0}: the robot with these numbers; verp walk {0} --velocity {1:g},0,0\n",
                         words.file, words.speed_m_s);
+    if (folder_of(words.file) != folder_of(robot_file))
+      text += "its actions stay where they are: copy the folder `actions`, too\n";
   }
   if (words.json) {
     print_json(json);

@@ -114,7 +114,8 @@ class Seeds {
     survived_ += good ? 1 : 0;
     Json row = {{"seed", walking.seed}, {"survived", good}};
     if (!json.is_object() || !json.contains("failure")) {
-      row["failure"] = fmt::format("its program ended with status {}: {}", status, last_line(said));
+      row["failure"] = fmt::format("its program ended with status {}: {}", status,
+                                   json.is_object() ? json.value("error", "") : last_line(said));
     }
     for (const char* key :
          {"failure", "fallen", "distance_m", "speed_steady_m_s", "yaw_drift_deg",
@@ -146,9 +147,10 @@ class Seeds {
                   {"interrupted", interrupted()},
                   {"walks", all}});
     } else {
-      answer(fmt::format("{}: {} of {} walked {:g} s; 95 % interval {:.1f} to {:.1f} %\n",
+      answer(fmt::format("{}: {} of {} walked {:g} s; 95 % interval {:.1f} to {:.1f} %{}\n",
                          options_.model, survived_, rows_.size(), options_.walk_s,
-                         100 * interval.low, 100 * interval.high) +
+                         100 * interval.low, 100 * interval.high,
+                         interrupted() ? "; interrupted" : "") +
              range("ZMP bias, mm", bias_mm, 1) + range("steady speed, m/s", speed_m_s, 3) + fell);
     }
   }

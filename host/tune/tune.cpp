@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 #include "common/model/tuning_ranges.hpp"
@@ -19,6 +20,7 @@ namespace {
 constexpr int kChildren = 12;
 constexpr double kTry_s = 10, kCheck_s = 20;
 constexpr double kFirstStep = 0.5;  // of an axis' step
+constexpr double kOffSpeed = 0.1;   // who is further off walks, but not as asked
 // One robot as its file has it, and another one: what walks there alone is no gait.
 constexpr int kTrials = 2;
 
@@ -56,7 +58,7 @@ class Judge {
       const Trial trial{.walk_s = kCheck_s, .seed = kCheckSeed + i, .varied = true};
       results[i] = try_walk(plan, world_, trial, stop);
     });
-    return sum_up(results);
+    return sum_up(results, options_.speed_m_s);
   }
 
   int walks() const { return done_; }
@@ -68,15 +70,16 @@ class Judge {
   }
 
  private:
-  static Check sum_up(const std::vector<session::WalkResult>& results) {
+  static Check sum_up(const std::vector<session::WalkResult>& results, double asked_m_s) {
     Check check{
         .walked = 0, .of = static_cast<int>(results.size()), .bias_mm = {}, .speed_m_s = {}};
     double bias = 0, speed = 0;
     for (const session::WalkResult& each : results) {
-      if (!each.good()) continue;
+      const double steady_m_s = each.metrics.speed_steady_m_s.value_or(0);
+      if (!each.good() || std::abs(steady_m_s / asked_m_s - 1) > kOffSpeed) continue;
       ++check.walked;
       bias += each.metrics.zmp_bias_mean_mm.value_or(0);
-      speed += each.metrics.speed_steady_m_s.value_or(0);
+      speed += steady_m_s;
     }
     if (check.walked == 0) return check;
     check.bias_mm = bias / check.walked;

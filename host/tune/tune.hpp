@@ -22,7 +22,8 @@ struct Options {
 /// (design: 1-10, 2001 on).
 inline constexpr std::uint64_t kSearchSeed = 1001, kCheckSeed = 1501;
 
-/// How many random robots walk with a Tuning, of those that were asked; of those that do, means.
+/// How many random robots walk with a Tuning, within a tenth of the speed, of those that were
+/// asked; of those that do, means.
 struct Check {
   int walked = 0, of = 0;
   std::optional<double> bias_mm, speed_m_s;

@@ -2,6 +2,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "host/files/places.hpp"
 #include "tests/host/tool/program.hpp"
 
 namespace verp::tool::test {
@@ -47,6 +48,10 @@ TEST_F(NewTune, RefusesWhatItCannotDo) {
   expect_refused("tune generic21 --speed 0", "--speed");
   std::ofstream(folder_ / "kept.sdf") << "mine";
   expect_refused("tune generic21 --write kept.sdf", "is there already");
+  expect_refused("tune generic21 --write nowhere/tuned.sdf", "nowhere/tuned.sdf");
+  const std::string odd = (files::source_dir() / "tests/host/model/odd_robot/robot.sdf").string();
+  expect_refused("tune " + odd + " --write tuned.sdf", "write it beside");
+  EXPECT_FALSE(fs::exists(folder_ / "tuned.sdf"));
 }
 
 TEST_F(NewRobot, StandsWhereItIsLookedFor) {
