@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "host/model/self_collision.hpp"
+#include "host/sim/coupling.hpp"
 #include "host/sim/scenery.hpp"
 
 namespace verp::sim {
@@ -22,7 +23,7 @@ constexpr double kYawSpread = 0.5 * kDegree;
 /// Fallen: body lower than this part of its initial height, or tilted by more than this.
 constexpr double kFallenHeight = 0.6;
 constexpr double kFallenTilt = 1.0;
-// Of scans, and of exposures: where nobody asks for them the oldest go.
+// Where nobody asks for them the oldest go.
 constexpr std::size_t kMostScans = 1000;
 
 std::vector<double> mass_factors(const model::Entity& entity, const TwinOptions& options) {
@@ -30,47 +31,6 @@ std::vector<double> mass_factors(const model::Entity& entity, const TwinOptions&
   std::vector<double> factor(entity.nodes.size(), options.mass_scale);
   for (double& f : factor) f *= 1 + options.mass_spread * random.uniform(-1, 1);
   return factor;
-}
-
-/// The gears, belts or rods by which one motor turns two joints, as stiff as an end stop. In longer
-/// steps they are softer: each end takes the other's speed as it was, which makes both seem heavier
-/// by step * slope, and must stay less than a rotor.
-struct Coupling {
-  explicit Coupling(double step_s) {
-    constexpr double kStep_s = 0.001, kStiffness_n_m = 500.0, kDamping_n_m_s = 1.0;
-    const double softer = std::min(1.0, kStep_s / step_s);
-    stiffness_n_m = softer * softer * kStiffness_n_m;
-    slope_n_m_s = softer * kDamping_n_m_s + step_s * stiffness_n_m;
-  }
-  double stiffness_n_m;
-  double slope_n_m_s;  ///< what it gives a joint's speed to work against, at the speed itself
-};
-
-/// Puts followers where their drivers take them.
-void lead(const model::Entity& entity, std::vector<double>& joint_rad) {
-  for (std::size_t j = 0; j < entity.joints.size(); ++j) {
-    const model::Joint& joint = entity.joints[j];
-    if (joint.follows < 0) continue;
-    joint_rad[j] =
-        joint.ratio * joint_rad[static_cast<std::size_t>(joint.follows)] + joint.offset_rad;
-  }
-}
-
-/// The joint as its servo has it. A follower has no rotor and gears, only its bearing; and of a
-/// rotor that has followers the coupling already carries a part (couplings()).
-model::Joint joint_at_servo(const model::Entity& entity, std::size_t j, double step_s) {
-  model::Joint joint = entity.joints[j];
-  if (joint.follows >= 0) {
-    joint.servo.gearbox = model::Gearbox{};
-    joint.servo.backlash_rad = 0;
-  }
-  double& armature_kg_m2 = joint.servo.gearbox.armature_kg_m2;
-  for (const model::Joint& other : entity.joints) {
-    if (other.follows != static_cast<int>(j)) continue;
-    const double carried = 2 * other.ratio * other.ratio * step_s * Coupling(step_s).slope_n_m_s;
-    armature_kg_m2 = std::max(armature_kg_m2 - carried, 0.0);
-  }
-  return joint;
 }
 
 /// Angles and pose at the start, with what the seed makes of them.
@@ -172,6 +132,7 @@ TwinRobot::TwinRobot(World& world, const model::Entity& entity, const TwinOption
       setpoint_(entity.joints.size()),
       imu_(entity.imu.value_or(model::ImuSensor{}), options.imperfections.imu, options.seed,
            options.gyro_bias_rad_s),
+      shutters_(entity_, options.cameras),
       probes_(entity_, body_, owner_, options.imperfections.probes, options.seed),
       nominal_v_(options.supply_v.value_or(
           entity.joints.empty() ? 0.0 : entity.joints[0].servo.nominal_v)),
@@ -200,11 +161,6 @@ TwinRobot::TwinRobot(World& world, const model::Entity& entity, const TwinOption
   for (std::size_t i = 0; i < entity_.lasers.size(); ++i) {
     laser_.emplace_back(entity_.lasers[i], i, owner_, options.imperfections.lasers,
                         Random(options.seed, Draw::kLaser, static_cast<int>(i)));
-  }
-  for (const model::CameraSensor& camera : entity_.cameras) {
-    if (!options.cameras) break;
-    shutter_.emplace_back(camera.rate_hz);
-    developing_.emplace_back(camera.latency_s);
   }
   TwinOptions upright = options;
   upright.lies = Lies::kNo;
@@ -244,33 +200,9 @@ const ServoSetpoint& TwinRobot::acting(std::size_t joint) const {
   return arriving_[arriving_.size() - 1 - delay_steps_[joint]][joint];
 }
 
-/// A spring and damper between a follower and where its driver takes it, which gives the driver as
-/// much back. Each end is a line in its own new speed and takes the other's as it was: ODE has no
-/// row for four links. That is stable whatever is at either end, as the two lines' slopes outweigh
-/// what they take from each other; and where both ends speed up together each seems heavier by
-/// step * slope, seen from its own side, of which the driver's rotor is relieved.
-std::vector<Drive> TwinRobot::couplings(double step_s) const {
-  std::vector<Drive> lines(servo_.size());
-  const Coupling coupling(step_s);
-  for (std::size_t j = 0; j < servo_.size(); ++j) {
-    const model::Joint& joint = entity_.joints[j];
-    if (joint.follows < 0) continue;
-    const int own = static_cast<int>(j);
-    const double driver_rad = body_.angle_rad(joint.follows);
-    const double pull_n_m = coupling.stiffness_n_m *
-                            (body_.angle_rad(own) - joint.offset_rad - joint.ratio * driver_rad);
-    const double slope = coupling.slope_n_m_s;
-    lines[j] += {slope * joint.ratio * body_.rate_rad_s(joint.follows) - pull_n_m, slope};
-    lines[static_cast<std::size_t>(joint.follows)] +=
-        {joint.ratio * (slope * body_.rate_rad_s(own) + pull_n_m),
-         joint.ratio * joint.ratio * slope};
-  }
-  return lines;
-}
-
 void TwinRobot::before_step(double step_s) {
   update_cradle(step_s);
-  coupling_ = couplings(step_s);
+  coupling_ = couplings(entity_, body_, step_s);
   inertia_kg_m2_ = body_.inertias_kg_m2();
   arriving_.push_back(setpoint_);
   arriving_.pop_front();
@@ -294,7 +226,7 @@ void TwinRobot::after_step(double step_s) {
   update_feet(step_s);
   fallen_ = fallen_ || is_down();
   update_lasers();
-  update_cameras();
+  shutters_.sample(world_, body_);
   probes_.sample(world_, body_);
 }
 
@@ -394,33 +326,6 @@ void TwinRobot::update_lasers() {
     if (!laser_[i].sample(world_, body_.link_pose(entity_.lasers[i].node))) continue;
     if (scans_.size() == kMostScans) scans_.erase(scans_.begin());
     scans_.push_back(laser_[i].scan());
-  }
-}
-
-/// Cameras that look in the same step and are as late as each other share an exposure.
-void TwinRobot::update_cameras() {
-  const std::uint64_t now_us = world_.now_us();
-  std::vector<bool> looks;
-  for (Shutter& each : shutter_) looks.push_back(each.opens(now_us));
-  for (std::size_t i = 0; i < shutter_.size(); ++i) {
-    if (!looks[i]) continue;
-    Exposure now{.time_us = now_us, .cameras = {}, .link_world = {}, .body_world = {}};
-    for (std::size_t other = i; other < shutter_.size(); ++other) {
-      if (!looks[other] || entity_.cameras[other].latency_s != entity_.cameras[i].latency_s)
-        continue;
-      looks[other] = false;
-      now.cameras.push_back(other);
-    }
-    for (std::size_t node = 0; node < entity_.nodes.size(); ++node)
-      now.link_world.push_back(body_.link_pose(static_cast<int>(node)));
-    if (world_.scenery() != nullptr) now.body_world = world_.scenery()->moving_poses();
-    developing_[i].put(now_us, std::move(now));
-  }
-  for (Delay<Exposure>& each : developing_) {
-    while (auto exposure = each.take(now_us)) {
-      if (exposures_.size() == kMostScans) exposures_.erase(exposures_.begin());
-      exposures_.push_back(std::move(*exposure));
-    }
   }
 }
 

@@ -8,12 +8,12 @@
 
 #include "host/model/entity.hpp"
 #include "host/sim/body.hpp"
-#include "host/sim/exposure.hpp"
 #include "host/sim/laser.hpp"
 #include "host/sim/plant.hpp"
 #include "host/sim/probes.hpp"
 #include "host/sim/sensors.hpp"
 #include "host/sim/servo.hpp"
+#include "host/sim/shutters.hpp"
 #include "host/sim/truth.hpp"
 #include "host/sim/world.hpp"
 
@@ -115,7 +115,7 @@ class TwinRobot final : public Plant, private Actor {
   /// Scans that could be had since they were last asked for; each tells when it was taken.
   std::vector<Scan> take_scans() { return std::exchange(scans_, {}); }
   /// Likewise when its cameras looked, once their pictures could be had.
-  std::vector<Exposure> take_exposures() { return std::exchange(exposures_, {}); }
+  std::vector<Exposure> take_exposures() { return shutters_.take(); }
   /// Likewise of its force-torque, contact and truth sensors.
   ProbeReadings take_readings() { return probes_.take(); }
   const std::vector<std::uint64_t>& saturated_steps() const { return saturated_steps_; }
@@ -134,7 +134,6 @@ class TwinRobot final : public Plant, private Actor {
     const int driver = entity_.joints[static_cast<std::size_t>(joint)].follows;
     return driver < 0 ? joint : driver;
   }
-  std::vector<Drive> couplings(double step_s) const;
   void before_step(double step_s) override;
   void after_step(double step_s) override;
   const ServoSetpoint& acting(std::size_t joint) const;
@@ -145,7 +144,6 @@ class TwinRobot final : public Plant, private Actor {
   void update_feet(double step_s);
   bool is_down() const;
   void update_lasers();
-  void update_cameras();
   FootTruth foot_truth(int foot) const;
   Transform imu_pose() const;
   Vec3 imu_point_velocity() const;
@@ -166,9 +164,7 @@ class TwinRobot final : public Plant, private Actor {
   std::array<int, 2> foot_node_{-1, -1};
   std::vector<LaserModel> laser_;
   std::vector<Scan> scans_;
-  std::vector<Shutter> shutter_;             ///< of each camera, if somebody draws
-  std::vector<Delay<Exposure>> developing_;  ///< likewise
-  std::vector<Exposure> exposures_;
+  Shutters shutters_;
   Probes probes_;
   Vec3 imu_velocity_world_m_s_ = Vec3::Zero();
   FootLoads step_loads_;  ///< of the last step
