@@ -13,11 +13,14 @@
 namespace verp::sim {
 namespace {
 
-/// ODE would end the program.
+/// In whose place ODE would end the program.
+struct OdeGaveUp : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
 [[noreturn]] void give_up(int, const char* text, va_list arguments) {
   char said[256];
   std::vsnprintf(said, sizeof said, text, arguments);
-  throw std::runtime_error(said);
+  throw OdeGaveUp(said);
 }
 
 /// ODE's global state: opened by the first world, closed at exit.
@@ -178,18 +181,17 @@ void World::collide(dGeomID a, dGeomID b) {
 }
 
 void World::step() {
+  const double now_s = 1e-6 * static_cast<double>(now_us_);
+  if (diverged_) throw Diverged(now_s, step_s(), "no step can follow");
   try {
     step_once();
-  } catch (const Diverged&) {
-    throw;
-  } catch (const std::runtime_error& error) {
+  } catch (const OdeGaveUp& error) {
     diverged_ = true;
-    throw Diverged(1e-6 * static_cast<double>(now_us_), step_s(), error.what());
+    throw Diverged(now_s, step_s(), error.what());
   }
 }
 
 void World::step_once() {
-  if (diverged_) throw std::runtime_error("it had, before");
   for (Actor* actor : actors_) actor->before_step(step_s());
   dJointGroupEmpty(contact_group_);
   touching_.clear();
