@@ -234,7 +234,13 @@ void XmlSource::include(const File& file, const tinyxml2::XMLElement& element) {
                     "more than " + std::to_string(kMostFiles) + " files are included",
                     "write what repeats into the robot's own file");
   }
-  included_.insert({text, std::filesystem::absolute(found).string()});
+  // By this text libsdformat asks, and does not say for whom.
+  const std::string whole = std::filesystem::weakly_canonical(found).string();
+  const auto [same, is_new] = included_.insert({text, whole});
+  if (!is_new && same->second != whole) {
+    throw LoadError(file.path, line, "'" + text + "' is " + same->second + " for another file",
+                    "give one of the two files another name");
+  }
   read(found);
 }
 

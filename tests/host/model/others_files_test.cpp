@@ -113,6 +113,24 @@ TEST(OthersFiles, TwoThatIncludeEachOtherAreRefused) {
   EXPECT_TRUE(error.file.ends_with("pong.sdf")) << error.what();
 }
 
+// libsdformat asks for a file by the text of its <uri> and does not say for whom: the second would
+// get the first one's.
+TEST(OthersFiles, OneTextForTwoFilesIsRefused) {
+  const std::string folder = ::testing::TempDir() + "/two_of_a_name";
+  for (const char* each : {"/a", "/b"}) {
+    std::filesystem::create_directories(folder + each);
+    std::ofstream(folder + each + "/part.sdf")
+        << sdf_of("<include merge=\"true\"><uri>more.sdf</uri></include>");
+    std::ofstream(folder + each + "/more.sdf") << sdf_of(sdf_link(each + 1));
+  }
+  std::ofstream(folder + "/robot.sdf") << sdf_of(
+      "<include merge=\"true\"><uri>a/part.sdf</uri></include>\n"
+      "<include merge=\"true\"><uri>b/part.sdf</uri></include>");
+  const LoadError error = refusal(folder + "/robot.sdf");
+  EXPECT_NE(error.message.find("'more.sdf' is"), std::string::npos) << error.what();
+  EXPECT_TRUE(error.file.ends_with("b/part.sdf")) << error.what();
+}
+
 // Each file includes the next one twice: 2^20 readings of the last.
 TEST(OthersFiles, FilesThatMultiplyAreRefusedAtOnce) {
   const std::string folder = ::testing::TempDir();
