@@ -17,8 +17,7 @@
 namespace verp::tune {
 namespace {
 
-constexpr int kChildren = 12;
-constexpr double kTry_s = 10, kCheck_s = 20;
+constexpr double kLimit_s = 10;     // of the walk that tells what stops a robot
 constexpr double kFirstStep = 0.5;  // of an axis' step
 constexpr double kOffSpeed = 0.1;   // who is further off walks, but not as asked
 // One robot as its file has it, and another one: what walks there alone is no gait.
@@ -40,8 +39,9 @@ class Judge {
       const session::WalkPlan plan = with(tunings[piece / kTrials]);
       if (!model::can_stand(plan.params)) return;
       const bool varied = piece % kTrials != 0;
-      const Trial trial{.walk_s = kTry_s, .seed = seed, .varied = varied};
-      costs[piece] = cost_of(try_walk(plan, world_, trial, stop), kTry_s, options_.speed_m_s);
+      const Trial trial{.walk_s = options_.try_s, .seed = seed, .varied = varied};
+      costs[piece] =
+          cost_of(try_walk(plan, world_, trial, stop), options_.try_s, options_.speed_m_s);
     });
     std::vector<double> mean(tunings.size());
     for (std::size_t i = 0; i < mean.size(); ++i) {
@@ -55,7 +55,7 @@ class Judge {
     const session::WalkPlan plan = with(tuning);
     std::vector<session::WalkResult> results(static_cast<std::size_t>(options_.checks));
     walk(results.size(), [&](std::size_t i, const std::function<bool()>& stop) {
-      const Trial trial{.walk_s = kCheck_s, .seed = kCheckSeed + i, .varied = true};
+      const Trial trial{.walk_s = options_.check_s, .seed = kCheckSeed + i, .varied = true};
       results[i] = try_walk(plan, world_, trial, stop);
     });
     return sum_up(results, options_.speed_m_s);
@@ -70,23 +70,6 @@ class Judge {
   }
 
  private:
-  static Check sum_up(const std::vector<session::WalkResult>& results, double asked_m_s) {
-    Check check{
-        .walked = 0, .of = static_cast<int>(results.size()), .bias_mm = {}, .speed_m_s = {}};
-    double bias = 0, speed = 0;
-    for (const session::WalkResult& each : results) {
-      const double steady_m_s = each.metrics.speed_steady_m_s.value_or(0);
-      if (!each.good() || std::abs(steady_m_s / asked_m_s - 1) > kOffSpeed) continue;
-      ++check.walked;
-      bias += each.metrics.zmp_bias_mean_mm.value_or(0);
-      speed += steady_m_s;
-    }
-    if (check.walked == 0) return check;
-    check.bias_mm = bias / check.walked;
-    check.speed_m_s = speed / check.walked;
-    return check;
-  }
-
   void walk(std::size_t pieces,
             const std::function<void(std::size_t, const std::function<bool()>&)>& one) {
     if (stopped_) return;
@@ -146,17 +129,34 @@ Tuning rounded(const Tuning& from, const Tuning& was) {
 
 }  // namespace
 
+Check sum_up(const std::vector<session::WalkResult>& results, double asked_m_s) {
+  Check check{.walked = 0, .of = static_cast<int>(results.size()), .bias_mm = {}, .speed_m_s = {}};
+  double bias = 0, speed = 0;
+  for (const session::WalkResult& each : results) {
+    const double steady_m_s = each.metrics.speed_steady_m_s.value_or(0);
+    if (!each.good() || std::abs(steady_m_s / asked_m_s - 1) > kOffSpeed) continue;
+    ++check.walked;
+    bias += each.metrics.zmp_bias_mean_mm.value_or(0);
+    speed += steady_m_s;
+  }
+  if (check.walked == 0) return check;
+  check.bias_mm = bias / check.walked;
+  check.speed_m_s = speed / check.walked;
+  return check;
+}
+
 Result tune(const session::WalkPlan& plan, const sim::WorldOptions& world, const Options& options,
             const survey::Watch& watch) {
   const Space space(plan.params);
   const Tuning& was = plan.params.tuning;
   const std::vector<Tuning> looks = space.first_look(options.speed_m_s);
-  const int walks = kTrials * (static_cast<int>(looks.size()) + kChildren * options.generations) +
-                    2 * options.checks;
+  const int walks =
+      kTrials * (static_cast<int>(looks.size()) + options.children * options.generations) +
+      2 * options.checks;
   Judge judge(plan, world, options, watch, walks);
   std::uint64_t seed = kSearchSeed;
   const Tuning& begin = looks[least(judge.costs(looks, seed++))];
-  Evolution evolution(space.at(begin), kFirstStep, kChildren, options.seed);
+  Evolution evolution(space.at(begin), kFirstStep, options.children, options.seed);
   for (int generation = 0; generation < options.generations && !judge.stopped(); ++generation) {
     std::vector<Tuning> tunings;
     for (const Eigen::VectorXd& at : evolution.ask())
@@ -198,9 +198,9 @@ std::string limit_of(session::WalkPlan plan, const sim::WorldOptions& world, dou
         fastest.joint, 100 * fastest.share, speed_m_s, gait.cycle_s);
   }
   const session::WalkResult walked =
-      try_walk(plan, world, {.walk_s = kTry_s, .seed = kSearchSeed, .varied = false}, {});
+      try_walk(plan, world, {.walk_s = kLimit_s, .seed = kSearchSeed, .varied = false}, {});
   const double step_m = 0.5 * speed_m_s * static_cast<double>(gait.cycle_s);
-  if (walked.longest_step_m < kShortened * step_m && walked.metrics.walk_s > 0.5 * kTry_s) {
+  if (walked.longest_step_m < kShortened * step_m && walked.metrics.walk_s > 0.5 * kLimit_s) {
     return fmt::format("reach: steps of {:.0f} mm are needed, and the legs make {:.0f}",
                        1e3 * step_m, 1e3 * walked.longest_step_m);
   }

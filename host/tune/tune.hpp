@@ -14,8 +14,10 @@ namespace verp::tune {
 struct Options {
   double speed_m_s = 0.2;  ///< ahead
   int generations = 8;     ///< after a first look at cycles and hip heights
+  int children = 12;       ///< tries of a generation, even
   int checks = 10;         ///< random robots of this kind, by which what was found is judged
-  std::uint64_t seed = 1;  ///< of the search
+  double try_s = 10, check_s = 20;  ///< of gait, in the search and when it is judged
+  std::uint64_t seed = 1;           ///< of the search
 };
 
 /// Seeds of the twins: those of the search, and of the judgement. Of neither gates nor reports
@@ -28,6 +30,8 @@ struct Check {
   int walked = 0, of = 0;
   std::optional<double> bias_mm, speed_m_s;
 };
+
+Check sum_up(const std::vector<session::WalkResult>& results, double asked_m_s);
 
 struct Number {
   int id = 0;  ///< of the Tuning
