@@ -55,23 +55,26 @@ wire::VideoWish wish_of(const CameraWords& words) {
   return wish;
 }
 
-/// As its file is named: what is asked of a picture whose camera makes files itself is that.
-void write_camera_picture(const CameraFrame& frame, const std::string& file) {
+/// Before anything is kept: a picture is what its name says, and a camera that makes files itself
+/// gives no other.
+void require_picture_name(const std::string& file, PixelFormat format) {
   const std::string kind = std::filesystem::path(file).extension().string();
+  const bool jpeg = format == PixelFormat::kJpeg;
+  if (jpeg ? kind == ".jpg" || kind == ".jpeg" : kind == ".png") return;
+  throw ToolError(
+      kBadInput, jpeg ? fmt::format("verp bus camera: -o {}: the camera gives JPEG files, and they "
+                                    "stay as they are; name it .jpg, or ask for --format YUYV",
+                                    file)
+                      : fmt::format("verp bus camera: -o {}: the camera gives pixels; name it "
+                                    ".png, or ask for --format MJPG",
+                                    file));
+}
+
+void write_camera_picture(const CameraFrame& frame, const std::string& file) {
   const std::string_view bytes(reinterpret_cast<const char*>(frame.data), frame.size_bytes);
-  const bool jpeg = frame.format == PixelFormat::kJpeg;
-  if (jpeg != (kind == ".jpg" || kind == ".jpeg")) {
-    throw ToolError(kBadInput,
-                    jpeg ? fmt::format("verp bus camera: -o {}: the camera gives JPEG files, and "
-                                       "they stay as they are; name it .jpg, or ask for --format "
-                                       "YUYV",
-                                       file)
-                         : fmt::format("verp bus camera: -o {}: the camera gives pixels; name it "
-                                       ".png, or ask for --format MJPG",
-                                       file));
-  }
-  report::write_file(
-      file, jpeg ? bytes : png_of_rgb(frame.width_px, frame.height_px, wire::rgb_of(frame)));
+  report::write_file(file, frame.format == PixelFormat::kJpeg
+                               ? bytes
+                               : png_of_rgb(frame.width_px, frame.height_px, wire::rgb_of(frame)));
 }
 
 /// The trace of a camera alone: pictures, from the time at which the recording began.
@@ -199,6 +202,7 @@ Json camera_in_json(const wire::V4l2Camera& camera, const CameraWords& words) {
 
 int run_camera(const CameraWords& words, wire::VideoCalls& calls) {
   wire::V4l2Camera camera(words.device, wish_of(words), calls);
+  if (!words.picture.empty()) require_picture_name(words.picture, camera.format());
   Json answered = camera_in_json(camera, words);
   if (!words.json) answer(camera_in_words(camera, words));
   if (words.list) {

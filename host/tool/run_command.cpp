@@ -83,7 +83,7 @@ RunPlan make_plan(const RunWords& words) {
   apply_tuning(words.walk, walk.params.tuning);
   apply_run_params(words.params, walk.params);
   model::require_bus(walk.entity, walk.params);
-  ask_for_walk(words.walk, walk);
+  if (words.action.empty()) ask_for_walk(words.walk, walk);
   if (words.take_orders) require_followed_orders(walk.params);
   if (!words.action.empty()) {
     const action::Made made = make_actions(walk.entity, walk.params, words.action);
