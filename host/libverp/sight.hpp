@@ -9,7 +9,8 @@
 namespace verp::abi {
 
 /// What a session's robots see, and what they look like: keeps when each camera last looked and
-/// where everything was then, and has it drawn when somebody asks.
+/// where its robot and the world's things were then, and has it drawn when somebody asks. Other
+/// robots are where they are at its robot's tick.
 class Sight {
  public:
   explicit Sight(const sim::WorldOptions& world);
