@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -23,7 +24,10 @@ class CameraWord : public ::testing::Test {
  protected:
   CameraWord() {
     fs::create_directories(folder_);
-    device_.on_wait = [this] { device_.make_picture(); };
+    // As many as a test looks at: on a fast PC 0.3 s would be thousands of files.
+    device_.on_wait = [this] {
+      if (device_.made() < kPictures) device_.make_picture();
+    };
     words_.device = device_.path;
     words_.json = true;
     words_.seconds = 0.3;
@@ -54,7 +58,11 @@ class CameraWord : public ::testing::Test {
     return line;
   }
 
-  fs::path folder_ = fs::path(::testing::TempDir()) / "verp-camera-word";
+  static constexpr std::uint32_t kPictures = 40;
+  // One for each test: they run side by side, and each removes its own.
+  fs::path folder_ = fs::path(::testing::TempDir()) /
+                     fmt::format("verp-camera-word-{}",
+                                 ::testing::UnitTest::GetInstance()->current_test_info()->name());
   test::VideoDevice device_;
   CameraWords words_;
 };

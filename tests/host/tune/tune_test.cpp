@@ -75,7 +75,8 @@ TEST(Space, StaysInsideWhatEachNumberMayBe) {
   for (const double far : {-1000.0, 1000.0}) {
     const Tuning tuning = space.tuning(Eigen::VectorXd::Constant(space.size(), far), 2);
     for (int id = 0; id < kTuningCount; ++id)
-      EXPECT_TRUE(in_range(id, tuning_value(tuning, id))) << model::tuning_names()[id];
+      EXPECT_TRUE(in_range(id, tuning_value(tuning, id)))
+          << model::tuning_names()[static_cast<std::size_t>(id)];
   }
 }
 
