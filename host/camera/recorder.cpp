@@ -36,8 +36,8 @@ ros::CameraInfo info_of(const model::CameraSensor& camera) {
 }  // namespace
 
 Recorder::Recorder(Rig& rig, const model::Entity& entity, const Params& params,
-                   record::TraceWriter& trace, Others others)
-    : rig_(rig), entity_(entity), params_(params), trace_(trace), others_(std::move(others)) {
+                   record::TraceWriter& trace)
+    : rig_(rig), entity_(entity), params_(params), trace_(trace) {
   guarded([this] { place_lenses(); });
 }
 
@@ -62,13 +62,11 @@ void Recorder::guarded(const std::function<void()>& act) {
 
 void Recorder::exposed(const sim::Exposure& exposure, std::uint64_t stamp_ns) {
   guarded([&] {
-    Moment moment{.time_us = exposure.time_us,
-                  .cameras = {exposure.cameras.begin(), exposure.cameras.end()},
-                  .link_world = {exposure.link_world},
-                  .body_world = exposure.body_world};
-    if (others_) {
-      for (auto& links : others_()) moment.link_world.push_back(std::move(links));
-    }
+    const Moment moment{.time_us = exposure.time_us,
+                        .cameras = {exposure.cameras.begin(), exposure.cameras.end()},
+                        .link_world = exposure.link_world,
+                        .body_world = exposure.body_world,
+                        .robot = static_cast<std::uint32_t>(exposure.robot)};
     const std::uint64_t before = rig_.moments();
     rig_.expose(moment);
     if (rig_.moments() > before) stamps_ns_.push_back(stamp_ns);

@@ -14,12 +14,8 @@ namespace verp::camera {
 /// little later than the ticks of its time.
 class Recorder {
  public:
-  /// Of the run's other robots, where their links are now.
-  using Others = std::function<std::vector<std::vector<model::Transform>>()>;
-
   /// All of it must outlive the recorder.
-  Recorder(Rig& rig, const model::Entity& entity, const Params& params, record::TraceWriter& trace,
-           Others others = {});
+  Recorder(Rig& rig, const model::Entity& entity, const Params& params, record::TraceWriter& trace);
 
   /// For session::Hooks::exposed. Never throws: what goes wrong ends the pictures, not the run, and
   /// is failure().
@@ -39,7 +35,6 @@ class Recorder {
   const model::Entity& entity_;
   const Params& params_;
   record::TraceWriter& trace_;
-  const Others others_;
   std::deque<std::uint64_t> stamps_ns_;  ///< of the moments that are on their way
   std::uint64_t pictures_ = 0;
   std::string failure_;

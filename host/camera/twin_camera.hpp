@@ -45,8 +45,9 @@ class TwinCamera {
         if (looked != camera_) continue;
         drawer_.expose({.time_us = each.time_us,
                         .cameras = {camera_},
-                        .link_world = {std::move(each.link_world)},
-                        .body_world = std::move(each.body_world)});
+                        .link_world = std::move(each.link_world),
+                        .body_world = std::move(each.body_world),
+                        .robot = static_cast<std::uint32_t>(each.robot)});
         break;
       }
     }

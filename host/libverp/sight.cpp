@@ -8,12 +8,8 @@ namespace {
 
 std::vector<std::vector<model::Transform>> links_of_all(session::Session& session) {
   std::vector<std::vector<model::Transform>> all;
-  for (std::size_t i = 0; i < session.size(); ++i) {
-    const sim::TwinRobot& twin = session.robot(i).twin();
-    std::vector<model::Transform>& links = all.emplace_back();
-    for (std::size_t node = 0; node < twin.entity().nodes.size(); ++node)
-      links.push_back(twin.body().link_pose(static_cast<int>(node)));
-  }
+  for (std::size_t i = 0; i < session.size(); ++i)
+    all.push_back(session.robot(i).twin().body().links_world());
   return all;
 }
 
@@ -38,8 +34,7 @@ void Sight::looked(session::Session& session, std::uint32_t robot) {
   for (sim::Exposure& exposure : session.robot(robot).twin().take_exposures()) {
     auto moment = std::make_shared<camera::Moment>();
     moment->time_us = exposure.time_us;
-    moment->link_world = links_of_all(session);
-    moment->link_world[robot] = std::move(exposure.link_world);
+    moment->link_world = std::move(exposure.link_world);
     moment->body_world = std::move(exposure.body_world);
     moment->robot = robot;
     moment->raw = true;

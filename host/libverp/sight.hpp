@@ -9,8 +9,7 @@
 namespace verp::abi {
 
 /// What a session's robots see, and what they look like: keeps when each camera last looked and
-/// where its robot and the world's things were then, and has it drawn when somebody asks. Other
-/// robots are where they are at its robot's tick.
+/// where everything was then, and has it drawn when somebody asks.
 class Sight {
  public:
   explicit Sight(const sim::WorldOptions& world);

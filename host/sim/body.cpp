@@ -346,6 +346,13 @@ void Body::release() {
   hold_ = nullptr;
 }
 
+std::vector<Transform> Body::links_world() const {
+  std::vector<Transform> poses;
+  for (std::size_t node = 0; node < links_.size(); ++node)
+    poses.push_back(link_pose(static_cast<int>(node)));
+  return poses;
+}
+
 Transform Body::link_pose(int node) const {
   const Link& link = links_[index_of(node)];
   const dReal* rotation = dBodyGetRotation(link.body);

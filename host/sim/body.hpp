@@ -76,6 +76,7 @@ class Body {
   const std::vector<double>& rates_rad_s() const { return rate_rad_s_; }
 
   Transform link_pose(int node) const;
+  std::vector<Transform> links_world() const;  ///< of each node
   Vec3 angular_velocity_world_rad_s(int node) const;
   Vec3 point_velocity_world_m_s(int node, const Vec3& point_world_m) const;
   double mass_kg() const { return mass_kg_; }

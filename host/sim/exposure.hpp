@@ -10,9 +10,11 @@ namespace verp::sim {
 /// When cameras looked, and where everything was at that moment: pictures are made of it later, by
 /// whoever draws. Nothing of a run depends on it.
 struct Exposure {
-  std::uint64_t time_us = 0;                 ///< simulated
-  std::vector<std::size_t> cameras;          ///< of Entity::cameras
-  std::vector<model::Transform> link_world;  ///< of each of the robot's nodes
+  std::uint64_t time_us = 0;         ///< simulated
+  std::vector<std::size_t> cameras;  ///< of Entity::cameras
+  std::size_t robot = 0;             ///< whose: of the world's robots
+  /// Of each robot, in the order in which they came into the world, each of its nodes.
+  std::vector<std::vector<model::Transform>> link_world;
   std::vector<model::Transform> body_world;  ///< of what can move in the world
 };
 

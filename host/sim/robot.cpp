@@ -226,8 +226,12 @@ void TwinRobot::after_step(double step_s) {
   update_feet(step_s);
   fallen_ = fallen_ || is_down();
   update_lasers();
-  shutters_.sample(world_, body_);
+  shutters_.sample(world_, *this);
   probes_.sample(world_, body_);
+}
+
+std::vector<Transform> TwinRobot::link_poses() const {
+  return body_.links_world();
 }
 
 bool TwinRobot::set_upright() {

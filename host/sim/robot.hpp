@@ -136,6 +136,7 @@ class TwinRobot final : public Plant, private Actor {
   }
   void before_step(double step_s) override;
   void after_step(double step_s) override;
+  std::vector<Transform> link_poses() const override;
   const ServoSetpoint& acting(std::size_t joint) const;
   void update_cradle(double step_s);
   void update_servos(double step_s);

@@ -17,21 +17,25 @@ Shutters::Shutters(const model::Entity& entity, bool wanted) : entity_(entity) {
   }
 }
 
-Exposure Shutters::expose(const World& world, const Body& body) const {
+Exposure Shutters::expose(const World& world, const Actor& robot) {
   Exposure now{.time_us = world.now_us(), .cameras = {}, .link_world = {}, .body_world = {}};
-  for (std::size_t node = 0; node < entity_.nodes.size(); ++node)
-    now.link_world.push_back(body.link_pose(static_cast<int>(node)));
+  for (const Actor* each : world.actors()) {
+    std::vector<model::Transform> links = each->link_poses();
+    if (links.empty()) continue;
+    if (each == &robot) now.robot = now.link_world.size();
+    now.link_world.push_back(std::move(links));
+  }
   if (world.scenery() != nullptr) now.body_world = world.scenery()->moving_poses();
   return now;
 }
 
-void Shutters::sample(const World& world, const Body& body) {
+void Shutters::sample(const World& world, const Actor& robot) {
   const std::uint64_t now_us = world.now_us();
   std::vector<bool> looks;
   for (Shutter& each : shutter_) looks.push_back(each.opens(now_us));
   for (std::size_t i = 0; i < shutter_.size(); ++i) {
     if (!looks[i]) continue;
-    Exposure now = expose(world, body);
+    Exposure now = expose(world, robot);
     for (std::size_t other = i; other < shutter_.size(); ++other) {
       const bool as_late = entity_.cameras[other].latency_s == entity_.cameras[i].latency_s;
       if (!looks[other] || !as_late) continue;

@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "host/model/entity.hpp"
-#include "host/sim/body.hpp"
 #include "host/sim/delay.hpp"
 #include "host/sim/exposure.hpp"
 #include "host/sim/world.hpp"
@@ -19,13 +18,13 @@ class Shutters {
 
   /// After each step. Cameras that look in the same one and are as late as each other share an
   /// exposure.
-  void sample(const World& world, const Body& body);
+  void sample(const World& world, const Actor& robot);
   /// Those whose pictures could be had since they were last asked for; where nobody asks the oldest
   /// go.
   std::vector<Exposure> take() { return std::exchange(exposures_, {}); }
 
  private:
-  Exposure expose(const World& world, const Body& body) const;
+  static Exposure expose(const World& world, const Actor& robot);
 
   const model::Entity& entity_;
   std::vector<Shutter> shutter_;  ///< of each camera

@@ -69,6 +69,8 @@ class Actor {
   virtual ~Actor() = default;
   virtual void before_step(double step_s) = 0;
   virtual void after_step(double step_s) = 0;
+  /// Where the links of a robot are; what is none has none.
+  virtual std::vector<Transform> link_poses() const { return {}; }
 };
 
 /// Who lets a world's time go on. One whose bus stands alone in a world moves it; among several,
@@ -125,6 +127,7 @@ class World final : public TimeSource {
   /// Actors act in the order they were added. An actor removes itself before it goes.
   void add(Actor& actor) { actors_.push_back(&actor); }
   void remove(Actor& actor) { std::erase(actors_, &actor); }
+  const std::vector<Actor*>& actors() const { return actors_; }
 
   /// Attaches a tag that lives as long as the world, and lets the geometry collide.
   GeomTag& tag(dGeomID geom, const GeomTag& tag);

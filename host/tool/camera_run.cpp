@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <optional>
@@ -168,11 +169,18 @@ const char* code_of(PixelFormat format) {
   return found == kFormatCodes.end() ? "?" : found->first;
 }
 
+/// Many a driver has one rate, or the nearest of a few, and refuses nothing.
+std::string rate_in_words(const wire::V4l2Camera& camera, const CameraWords& words) {
+  if (camera.rate_hz() <= 0) return words.rate_hz > 0 ? "; it does not tell its rate" : "";
+  const bool another = words.rate_hz > 0 && std::abs(camera.rate_hz() / words.rate_hz - 1) > 0.01;
+  return fmt::format(" at {:g} Hz", camera.rate_hz()) +
+         (another ? fmt::format(", not at the {:g} of --rate", words.rate_hz) : "");
+}
+
 std::string camera_in_words(const wire::V4l2Camera& camera, const CameraWords& words) {
   std::string text =
       fmt::format("{}: {}; {} {}x{}{}\n", words.device, camera.card(), code_of(camera.format()),
-                  camera.width_px(), camera.height_px(),
-                  camera.rate_hz() > 0 ? fmt::format(" at {:g} Hz", camera.rate_hz()) : "");
+                  camera.width_px(), camera.height_px(), rate_in_words(camera, words));
   for (const wire::VideoFormat& each : camera.formats()) {
     text += fmt::format("  {}  {}{}{}\n", each.code, each.name,
                         each.sizes.empty() ? "" : ": " + each.sizes,

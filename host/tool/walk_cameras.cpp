@@ -39,18 +39,8 @@ WalkCameras::WalkCameras(const WalkOptions& options, WalkPlan& plan,
   }
 }
 
-void WalkCameras::watch(session::Session& session, const WalkPlan& plan, session::Hooks& hooks) {
-  const auto others = [&session] {
-    std::vector<std::vector<model::Transform>> poses;
-    for (std::size_t i = 1; i < session.size(); ++i) {
-      const sim::TwinRobot& twin = session.robot(i).twin();
-      std::vector<model::Transform>& links = poses.emplace_back();
-      for (std::size_t node = 0; node < twin.entity().nodes.size(); ++node)
-        links.push_back(twin.body().link_pose(static_cast<int>(node)));
-    }
-    return poses;
-  };
-  recorder_ = std::make_unique<camera::Recorder>(*rig_, plan.entity, plan.params, trace_, others);
+void WalkCameras::watch(const WalkPlan& plan, session::Hooks& hooks) {
+  recorder_ = std::make_unique<camera::Recorder>(*rig_, plan.entity, plan.params, trace_);
   hooks.exposed = [this](const sim::Exposure& exposure, std::uint64_t stamp_ns) {
     recorder_->exposed(exposure, stamp_ns);
   };

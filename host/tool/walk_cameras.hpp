@@ -20,7 +20,7 @@ class WalkCameras {
               const sim::WorldOptions& world, record::TraceWriter* trace);
 
   /// The hooks of the robot that walks, before it is added to the session.
-  void watch(session::Session& session, const WalkPlan& plan, session::Hooks& hooks);
+  void watch(const WalkPlan& plan, session::Hooks& hooks);
   /// Waits for the last pictures.
   void finish();
 

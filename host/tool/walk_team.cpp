@@ -120,7 +120,7 @@ Walks walk_together(const WalkPlan& plan, const std::vector<WalkPlan>& others,
   Team team(options, session, progress);
   session::Hooks hooks =
       shown(plan, files.trace(), progress, plan.params.name, files.wants_report());
-  if (cameras != nullptr) cameras->watch(session, plan, hooks);
+  if (cameras != nullptr) cameras->watch(plan, hooks);
   const session::Robot& first = team.add(plan, std::move(hooks));
   for (std::size_t i = 0; i < others.size(); ++i) {
     session::Hooks own;

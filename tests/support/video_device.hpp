@@ -35,6 +35,7 @@ class VideoDevice final : public wire::VideoCalls {
   std::uint32_t buffers_at_most = 8;
   bool stamps = true;  ///< its driver tells times of the monotonic clock
   bool counts = true;  ///< and numbers its pictures
+  bool takes_any_rate = true;
   int open_error = 0;
   std::map<unsigned long, int> refused;  ///< by request: the errno
   std::function<void()> on_wait;         ///< what happens while somebody waits for a picture
@@ -215,7 +216,7 @@ class VideoDevice final : public wire::VideoCalls {
     return tell_current(format);
   }
   int rate(v4l2_streamparm& parameters, bool set) {
-    if (set) period_ = parameters.parm.capture.timeperframe;
+    if (set && takes_any_rate) period_ = parameters.parm.capture.timeperframe;
     parameters.parm.capture.capability = V4L2_CAP_TIMEPERFRAME;
     parameters.parm.capture.timeperframe = period_;
     return 0;

@@ -132,12 +132,46 @@ TEST(Latency, ACameraShowsARobotThatFallsWhereItWas) {
       EXPECT_EQ(each.time_us % 20'000, 0u);
       const double t_s = 1e-6 * static_cast<double>(each.time_us);
       // The engine's steps: z = -g t (t + h) / 2.
-      EXPECT_NEAR(each.link_world.at(0).translation().z(),
+      EXPECT_NEAR(each.link_world.at(0).at(0).translation().z(),
                   from_m - kGravity_m_s2 * t_s * (t_s + 0.001) / 2, 1e-6);
     }
   }
   EXPECT_EQ(prompt, 25);
   EXPECT_EQ(late, 23);
+}
+
+TEST(Latency, ACameraShowsTheOtherRobotsWhereTheyWereToo) {
+  const model::Entity blind = falling_biped(0);
+  model::Entity entity = blind;
+  model::CameraSensor eye;
+  eye.rate_hz = 50;
+  eye.latency_s = kLate_s;
+  entity.cameras = {eye};
+  Fall fall(blind, false);
+  constexpr double kBeside_m = 3;
+  TwinRobot second(fall.world, entity,
+                   {.imperfections = Imperfections::none(),
+                    .start_m = {0, kBeside_m, 20},
+                    .cradle = Cradle::kNone,
+                    .cameras = true});
+  const double from_m = fall.robot.body().link_pose(0).translation().z();
+  int exposures = 0;
+  for (int i = 0; i < 200; ++i) {
+    fall.step();
+    for (const Exposure& each : second.take_exposures()) {
+      ++exposures;
+      EXPECT_EQ(each.robot, 1u) << "who looks";
+      ASSERT_EQ(each.link_world.size(), 2u);
+      const double t_s = 1e-6 * static_cast<double>(each.time_us);
+      for (std::size_t robot = 0; robot < 2; ++robot) {
+        ASSERT_EQ(each.link_world[robot].size(), blind.nodes.size());
+        const Vec3 there = each.link_world[robot][0].translation();
+        EXPECT_NEAR(there.z(), from_m - kGravity_m_s2 * t_s * (t_s + 0.001) / 2, 1e-6);
+        EXPECT_NEAR(there.y(), kBeside_m * static_cast<double>(robot), 0.01);
+      }
+    }
+  }
+  EXPECT_GT(exposures, 3);
 }
 
 TEST(Latency, OfSensorsThatTheControllerDoesNotHaveChangesNoBitOfTheRun) {

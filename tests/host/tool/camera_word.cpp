@@ -80,6 +80,18 @@ TEST_F(CameraWord, TellsWhatThereIsAndCountsPictures) {
   EXPECT_EQ(run(), "/dev/video7: Moving bar; YUYV 16x8 at 30 Hz\n  YUYV  a format: 16x8 32x24\n");
 }
 
+TEST_F(CameraWord, SaysThatItHasAnotherRateThanWasAsked) {
+  words_.json = false;
+  words_.list = true;
+  words_.rate_hz = 60;
+  device_.takes_any_rate = false;
+  EXPECT_NE(run().find("at 30 Hz, not at the 60 of --rate\n"), std::string::npos);
+  device_.takes_any_rate = true;
+  EXPECT_NE(run().find("at 60 Hz\n"), std::string::npos);
+  device_.refused[VIDIOC_G_PARM] = EINVAL;
+  EXPECT_NE(run().find("16x8; it does not tell its rate\n"), std::string::npos);
+}
+
 TEST_F(CameraWord, WritesAPictureThatHasThePixels) {
   words_.picture = file("a.png");
   run();

@@ -30,7 +30,7 @@ camera::Picture as_a_trace_keeps_it(const std::string& world_file) {
                   camera::Rig::Pace::kEveryPicture);
   rig.expose({.time_us = last.time_us,
               .cameras = {0},
-              .link_world = {last.link_world},
+              .link_world = last.link_world,
               .body_world = last.body_world,
               .raw = true});
   return rig.take_last().at(0);
