@@ -27,7 +27,6 @@
 namespace verp::view {
 namespace {
 
-constexpr int kFrame_ms = 33;
 constexpr int kNumbersEvery = 4;                          // frames: nobody reads faster
 constexpr scene::Colour kLinked{0.16F, 0.47F, 0.86F, 1};  // of the robot at the link
 constexpr int kLayout = 1;                                // version of what is remembered of it
@@ -87,7 +86,7 @@ MainWindow::MainWindow(QSettings& settings, MakeRun make_run)
   restore();
   scene_->say("Open a robot or a trace: Ctrl+O");
   connect(timer_, &QTimer::timeout, this, [this] { frame(); });
-  timer_->start(kFrame_ms);
+  timer_->start(frame_ms(0));
 }
 
 MainWindow::~MainWindow() = default;
@@ -233,6 +232,9 @@ void MainWindow::frame() {
     plots_->set_film(film_);
     safety_->clear();
   }
+  const bool goes_on = live() != nullptr && player_->playing();
+  const int next_ms = frame_ms(goes_on ? live()->status().late_s : 0);
+  if (timer_->interval() != next_ms) timer_->setInterval(next_ms);
   const Picture now = player_->now(wall_s());
   const bool posing = pose_->posing();
   if (edited_ && player_->playing()) {

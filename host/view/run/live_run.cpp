@@ -229,6 +229,7 @@ void LiveRun::tick(std::unique_lock<std::mutex>& lock) {
   if (status_.ticks == 1) pace_.begin(simulated_s, wall_s());  // bringing it up took its own time
   pace_.ticked(simulated_s, wall_s());
   status_.real_time_factor = pace_.factor();
+  status_.late_s = pace_.late_s();
 }
 
 /// In the run's thread, without the lock.

@@ -68,6 +68,7 @@ class LiveRun {
   struct Status {
     bool playing = false, over = false, driving = false, emergency_stop = false;
     double speed = 1, real_time_factor = 0, simulated_s = 0;
+    double late_s = 0;  ///< behind the clock
     std::uint64_t ticks = 0, digest = 0;
     std::optional<Tuning> tuning = {};  ///< in force
     std::string failure = {};           ///< of a run that is over

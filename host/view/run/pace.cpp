@@ -1,6 +1,14 @@
 #include "host/view/run/pace.hpp"
 
+#include <algorithm>
+
 namespace verp::view {
+
+int frame_ms(double late_s) {
+  constexpr double kLate_s = 0.02;
+  constexpr int kSmooth_ms = 33, kFewer_ms = 75;
+  return late_s > kLate_s ? kFewer_ms : kSmooth_ms;
+}
 
 void Pace::set_speed(double factor, double simulated_s, double wall_s) {
   speed_ = factor;
@@ -10,12 +18,14 @@ void Pace::set_speed(double factor, double simulated_s, double wall_s) {
 void Pace::begin(double simulated_s, double wall_s) {
   simulated_s_ = simulated_s;
   wall_s_ = wall_s;
+  late_s_ = 0;
   last_.clear();
 }
 
 double Pace::wait_s(double simulated_s, double wall_s) {
   if (speed_ <= 0) return 0;
   const double due_s = wall_s_ + (simulated_s - simulated_s_) / speed_;
+  late_s_ = std::max(0.0, wall_s - due_s);
   if (wall_s - due_s > kMostLate_s) {
     simulated_s_ = simulated_s;
     wall_s_ = wall_s;

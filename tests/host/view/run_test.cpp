@@ -39,6 +39,21 @@ TEST(Pace, CatchesUpNoLongDelay) {
   EXPECT_NEAR(pace.wait_s(1.4, 9), 0.1, 1e-9) << "is not";
 }
 
+TEST(Pace, BesideATwinThatIsLateThereAreFewerPictures) {
+  Pace pace;
+  pace.set_speed(1, 0, 0);
+  pace.wait_s(1, 1.01);
+  EXPECT_NEAR(pace.late_s(), 0.01, 1e-9);
+  EXPECT_LE(frame_ms(pace.late_s()), 1000 / 20) << "20 a second are promised";
+  pace.wait_s(1.1, 1.15);
+  EXPECT_GT(frame_ms(pace.late_s()), 1000 / 20);
+  EXPECT_LE(frame_ms(pace.late_s()), 1000 / 10) << "and 10 with four robots";
+  pace.wait_s(1.2, 9);
+  EXPECT_NEAR(pace.late_s(), 7.8, 1e-9) << "though it is not caught up";
+  pace.wait_s(9.2, 9.1);
+  EXPECT_EQ(pace.late_s(), 0);
+}
+
 void until(const LiveRun& run, std::uint64_t ticks) {
   for (int i = 0; i < 60000 && run.status().ticks < ticks; ++i) std::this_thread::sleep_for(1ms);
   ASSERT_GE(run.status().ticks, ticks) << run.status().failure;

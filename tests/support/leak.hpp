@@ -1,0 +1,33 @@
+#pragma once
+#if defined(__has_feature)
+#if __has_feature(address_sanitizer)
+#define VERP_FINDS_LEAKS
+#endif
+#elif defined(__SANITIZE_ADDRESS__)
+#define VERP_FINDS_LEAKS
+#endif
+#ifdef VERP_FINDS_LEAKS
+#include <sanitizer/lsan_interface.h>
+#endif
+
+namespace verp::test {
+
+/// What is allocated while it lives may be lost: a library of somebody else loses it. Its name says
+/// which one, and why.
+struct SomebodyElsesLeak {
+#ifdef VERP_FINDS_LEAKS
+  SomebodyElsesLeak() {
+    __lsan_disable();
+  }
+  ~SomebodyElsesLeak() {
+    __lsan_enable();
+  }
+#else
+  SomebodyElsesLeak() {}
+  ~SomebodyElsesLeak() {}
+#endif
+  SomebodyElsesLeak(const SomebodyElsesLeak&) = delete;
+  SomebodyElsesLeak& operator=(const SomebodyElsesLeak&) = delete;
+};
+
+}  // namespace verp::test
