@@ -2,6 +2,7 @@
 
 #include <dlfcn.h>
 #include <signal.h>
+#include <sys/resource.h>
 #include <sys/socket.h>
 #include <sys/time.h>
 #include <unistd.h>
@@ -84,6 +85,13 @@ DrawingProgram::DrawingProgram(const fs::path& program, const Stage& stage, Life
 
 DrawingProgram::~DrawingProgram() {
   ::close(socket_);
+}
+
+void DrawingProgram::step_back() {
+  constexpr int kLastOfAll = 19;
+  // The group: of a process only its first thread would be meant, and OpenGL has its own by now.
+  // It cannot be refused: everybody may step back.
+  ::setpriority(PRIO_PGRP, static_cast<id_t>(process()), kLastOfAll);
 }
 
 std::string DrawingProgram::end() {

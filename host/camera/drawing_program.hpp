@@ -39,6 +39,10 @@ class DrawingProgram {
   DrawingProgram& operator=(const DrawingProgram&) = delete;
 
   int socket() const { return socket_; }
+  /// From now on whoever else wants a core comes first: a run that keeps real time must not wait
+  /// for one on which its pictures are drawn.
+  void step_back();
+  pid_t process() const { return child_->id(); }
   /// Nothing came from the socket, as errno has it: ends the program if it still runs, and says
   /// which of both it was.
   std::string end();

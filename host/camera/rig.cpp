@@ -7,7 +7,9 @@
 namespace verp::camera {
 
 Rig::Rig(const std::filesystem::path& program, const Stage& stage, Pace pace)
-    : pace_(pace), program_(program, stage), listener_([this] { listen(); }) {}
+    : pace_(pace), program_(program, stage), listener_([this] { listen(); }) {
+  if (pace_ == Pace::kNeverWaits) program_.step_back();
+}
 
 Rig::~Rig() {
   ::shutdown(program_.socket(), SHUT_RDWR);

@@ -1,4 +1,5 @@
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 #include <map>
 #include <nlohmann/json.hpp>
@@ -131,6 +132,14 @@ TEST(Rig, InRealTimeDropsWhatItCannotDrawAndNeverWaits) {
   for (auto done = rig.take_last(); !done.empty(); done = rig.take_last()) pictures += done.size();
   EXPECT_EQ(pictures, Rig::kAhead);
   EXPECT_GT(rig.processor_s(), 0);
+}
+
+TEST(DrawingProgram, StepsBackWithAllItsThreads) {
+  DrawingProgram program(VERP_CAMERA, Stand().stage);
+  const auto group = static_cast<id_t>(program.process());
+  EXPECT_LT(::getpriority(PRIO_PGRP, group), 19) << "of the group the one that comes first";
+  program.step_back();
+  EXPECT_EQ(::getpriority(PRIO_PGRP, group), 19);
 }
 
 TEST(Rig, ElseGivesThePicturesOfAMomentAFixedNumberOfMomentsLater) {
