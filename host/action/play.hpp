@@ -7,6 +7,9 @@ struct Played {
   session::WalkResult run;
   double action_s = 0;  ///< from the stand to the stand
   double asked_s = 0;   ///< simulated, when it was asked
+  /// Where its body went meanwhile, as it stood when it was asked: x ahead, y to the left.
+  sim::Vec2 went_m = sim::Vec2::Zero();
+  double turned_rad = 0;  ///< to the left
 };
 
 /// Plays action `number` of plan.actions on the twin. What is asked of `hooks` besides is done.

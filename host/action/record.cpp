@@ -66,6 +66,15 @@ Document record_joints(const record::Trace& trace, const RecordOptions& options)
   return document;
 }
 
+/// The 16th state is all but the first of the next cycle, closer than two frames may be. What it
+/// gets more the longest of the others gives, so that the cycle is as long as the gait's.
+void give_back(double excess_s, std::vector<FrameText>& frames) {
+  const auto longest =
+      std::max_element(frames.begin() + 1, frames.end(),
+                       [](const auto& a, const auto& b) { return a.time_s < b.time_s; });
+  longest->time_s = std::max(1e-3 * kLeastFrame_ms, in_ms(longest->time_s - excess_s));
+}
+
 Document record_gait(const record::Trace& trace, const std::string& name, int cycles) {
   constexpr int kStates = 16, kCyclesBefore = 3;
   Document document;
@@ -75,11 +84,11 @@ Document record_gait(const record::Trace& trace, const std::string& name, int cy
   State state = trace.start();
   Outputs outputs;
   int last = -1, seen = 0;
-  double last_s = 0;
+  double last_s = 0, excess_s = 0;
   for (const TickRecord& tick : trace.ticks) {
     step(trace.params, actions, state, tick.inputs, outputs);
     const bool walks = outputs.gait_phase == static_cast<std::uint8_t>(gait::Phase::kTransition);
-    if (!walks) document.frames.clear(), seen = 0, last = -1;
+    if (!walks) document.frames.clear(), seen = 0, last = -1, excess_s = 0;
     if (!walks || outputs.gait_state == last) continue;
     if (outputs.gait_state < last) ++seen;
     last = outputs.gait_state;
@@ -87,9 +96,9 @@ Document record_gait(const record::Trace& trace, const std::string& name, int cy
     const double time_s = tick.inputs.tick * trace.period_s();
     FrameText frame;
     frame.label = "state" + std::to_string(last);
-    // The 16th state is all but the first of the next cycle: closer than any frame may be.
-    frame.time_s =
-        document.frames.empty() ? 0.6 : std::max(1e-3 * kLeastFrame_ms, in_ms(time_s - last_s));
+    const double since_s = in_ms(time_s - last_s);
+    frame.time_s = document.frames.empty() ? 0.6 : std::max(1e-3 * kLeastFrame_ms, since_s);
+    if (!document.frames.empty()) excess_s += frame.time_s - since_s;
     last_s = time_s;
     if (outputs.stance <= 2) frame.stance = static_cast<Stance>(outputs.stance);
     add_planned(trace.params, state, frame);
@@ -97,6 +106,7 @@ Document record_gait(const record::Trace& trace, const std::string& name, int cy
     if (document.frames.size() == kStates) frame.label = "again";
     document.frames.push_back(frame);
     if (document.frames.size() <= kStates) continue;
+    give_back(excess_s, document.frames);
     document.frames.back().repeat = Repeat{cycles, {document.frames[1].label, 0}};
     return document;
   }

@@ -1,7 +1,12 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include <cmath>
 #include <memory>
+#include <numbers>
+#include <set>
+#include <string>
+#include <utility>
 
 #include "host/action/check.hpp"
 #include "host/action/folder.hpp"
@@ -21,6 +26,7 @@
 namespace verp::tool {
 namespace {
 
+constexpr double kDegreesOfRad = 180 / std::numbers::pi;
 constexpr double kStand_m = 1;  ///< no leg of such a robot reaches the floor from there
 
 /// What the library says of an action, in a line.
@@ -107,8 +113,9 @@ int check(const ActionWords& words) {
     text += fmt::format("{} on {}: {:.2f} s\n", document.name, robot.entity.name, checked.length_s);
     text += fmt::format("  {:>6} {:>6} {:>6} {:>6} {:<18} {:>6} {:<18} {:>5}\n", "line", "from s",
                         "to s", "speed%", "of", "weight%", "on", "ZMPmm");
+    std::set<std::pair<int, std::string>> told;  // a frame played again with nothing new is not
     for (const action::FrameCheck& each : checked.frames) {
-      text += in_a_line(each);
+      if (told.insert({each.frame, each.problem}).second) text += in_a_line(each);
       frames.push_back({{"line", each.line},
                         {"begin_s", each.begin_s},
                         {"end_s", each.end_s},
@@ -117,6 +124,8 @@ int check(const ActionWords& words) {
                         {"zmp_margin_m", each.zmp_margin_m >= 1 ? Json() : Json(each.zmp_margin_m)},
                         {"problem", each.problem}});
     }
+    if (const std::size_t again = checked.frames.size() - told.size(); again > 0)
+      text += fmt::format("  {:>6} times more one of these, alike\n", again);
     const action::FrameCheck* first = checked.first_bad();
     if (first != nullptr) {
       ++bad;
@@ -134,6 +143,15 @@ int check(const ActionWords& words) {
     answer(text);
   }
   return bad == 0 ? kGood : kRunFailed;
+}
+
+/// Empty: it stayed about where it was.
+std::string way_in_words(const action::Played& played) {
+  constexpr double kStayed_m = 0.05, kStayed_rad = 0.1;
+  if (played.went_m.norm() < kStayed_m && std::abs(played.turned_rad) < kStayed_rad) return "";
+  return fmt::format("  {:<18}{:.2f} m ahead, {:.2f} m to the left, turned by {:.0f} degrees\n",
+                     "went", played.went_m.x(), played.went_m.y(),
+                     played.turned_rad * kDegreesOfRad);
 }
 
 int play(const ActionWords& words) {
@@ -172,6 +190,9 @@ int play(const ActionWords& words) {
                  {"action", words.action},
                  {"asked_s", played.asked_s},
                  {"action_s", played.action_s},
+                 {"ahead_m", played.went_m.x()},
+                 {"left_m", played.went_m.y()},
+                 {"turned_deg", played.turned_rad * kDegreesOfRad},
                  {"fallen", run.metrics.fallen},
                  {"ticks", run.ticks},
                  {"digest", digest},
@@ -183,7 +204,7 @@ int play(const ActionWords& words) {
     answer(fmt::format("{} played {}: {:.2f} s, from {:.2f} s of the run on; {} ticks, digest {}\n",
                        plan.entity.name, words.action, played.action_s, played.asked_s, run.ticks,
                        digest) +
-           drawn.text + files.text());
+           way_in_words(played) + drawn.text + files.text());
   }
   for (const std::string& line : files.lost()) complain(line);
   if (run.good()) return files.lost().empty() ? kGood : kRunFailed;
