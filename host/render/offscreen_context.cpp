@@ -1,5 +1,6 @@
 #include "host/render/offscreen_context.hpp"
 
+#include <dlfcn.h>
 #include <epoxy/egl.h>
 
 #include "host/render/renderer.hpp"
@@ -10,12 +11,26 @@ namespace {
 [[noreturn]] void no_driver(const char* what) {
   throw RenderError(std::string("no pictures without a GL driver: ") + what +
                     "; Debian's software driver is enough: apt-get install libgl1-mesa-dri "
-                    "libegl1");
+                    "libegl1 libopengl0");
+}
+
+bool can_be_loaded(const char* library) {
+  void* const handle = dlopen(library, RTLD_LAZY | RTLD_LOCAL);
+  if (handle != nullptr) dlclose(handle);
+  return handle != nullptr;
+}
+
+/// libepoxy ends the program at the first call whose library is not there.
+void require_libraries() {
+  if (!can_be_loaded("libEGL.so.1")) no_driver("libEGL.so.1 is not there");
+  if (!can_be_loaded("libOpenGL.so.0") && !can_be_loaded("libGL.so.1"))
+    no_driver("neither libOpenGL.so.0 nor libGL.so.1 is there");
 }
 
 }  // namespace
 
 OffscreenContext::OffscreenContext() {
+  require_libraries();
   if (!epoxy_has_egl_extension(EGL_NO_DISPLAY, "EGL_MESA_platform_surfaceless")) {
     no_driver("EGL has no surfaceless platform here");
   }

@@ -1,11 +1,14 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include <chrono>
 #include <cmath>
 #include <memory>
+#include <thread>
 
 #include "host/link/can_claim.hpp"
 #include "host/link/link.hpp"
+#include "host/link/link_error.hpp"
 #include "host/model/bus_time.hpp"
 #include "host/model/find.hpp"
 #include "host/model/load.hpp"
@@ -220,6 +223,25 @@ int run_on(Link& link, const RunWords& words, const RunPlan& plan, WalkFiles& fi
   return tell(words, plan, files, live, drive(link, plan, fit, files.trace(), progress));
 }
 
+/// A twin in lockstep waits for its controllers, and they for it: either may be started first.
+wire::Link open_link(const RunPlan& plan) {
+  using Kind = wire::Endpoint::Kind;
+  constexpr std::uint32_t kTry_us = 100'000;
+  const bool socket = plan.link.kind == Kind::kUnix || plan.link.kind == Kind::kTcp;
+  for (std::uint32_t waited_us = 0;; waited_us += kTry_us) {
+    try {
+      return wire::Link(plan.link);
+    } catch (const wire::LinkError& error) {
+      const bool absent = error.kind() == wire::LinkError::Kind::kNoDevice ||
+                          error.kind() == wire::LinkError::Kind::kRefused;
+      const bool patient = plan.lockstep && socket && absent;
+      if (!patient || waited_us >= kArrival_us || interrupted()) throw;
+      if (waited_us == 0) complain("verp run: waiting for the twin at " + to_text(plan.link));
+    }
+    std::this_thread::sleep_for(std::chrono::microseconds(kTry_us));
+  }
+}
+
 int run_robot(const RunWords& words) {
   const RunPlan plan = make_plan(words);
   if (!plan.walk.remark.empty()) complain("verp run: " + plan.walk.remark);
@@ -237,7 +259,7 @@ int run_robot(const RunWords& words) {
     refuse_second_controller(port, plan);
     return run_on(port, words, plan, files, live);
   }
-  wire::Link link(plan.link);
+  wire::Link link = open_link(plan);
   if (!link.connected()) {
     complain("verp run: waiting for the robot on " + link.place());
     for (std::uint32_t i = 0; i < 100 && !interrupted(); ++i) {

@@ -22,6 +22,9 @@ class Team : public Program {
   process::Child controller(const std::string& link, const std::string& trace = "") const {
     for (int i = 0; i < 1500 && !fs::exists(folder_ / link); ++i)
       std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    return controller_now(link, trace);
+  }
+  process::Child controller_now(const std::string& link, const std::string& trace = "") const {
     std::vector<std::string> words = {VERP_PROGRAM, "run",    "--lockstep", "--for",
                                       "3",          "--json", "--link",     "unix:" + link};
     if (!trace.empty()) words.insert(words.end(), {"--record", trace});
@@ -78,6 +81,16 @@ TEST_F(Team, AControllerInAnotherProcessMakesTheSameBits) {
   const json first = first_difference("own.mcap", "b.mcap");
   EXPECT_EQ(first.at("stage"), "inputs") << first;
   EXPECT_GE(first.at("tick").get<int>() + 35, json::parse(own.out).at("ticks").get<int>()) << first;
+}
+
+TEST_F(Team, AControllerMayBeStartedBeforeItsWorld) {
+  process::Child early = controller_now("c.sock");
+  const auto said = [&] { return slurp(folder_ / "c.sock.out"); };
+  while (said().find("waiting for the twin at unix:c.sock") == std::string::npos && !early.status())
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  const Outcome world = walk_beside([&] { EXPECT_EQ(early.wait(), 0) << said(); },
+                                    "--robot a=ext:unix-listen:c.sock");
+  EXPECT_EQ(world.status, 0) << world.err;
 }
 
 TEST_F(Team, OneThatLosesItsControllerStopsTheOthersOrGoesOnWithout) {
