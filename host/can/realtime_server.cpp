@@ -4,19 +4,23 @@
 
 namespace verp::can {
 
-void RealtimeServer::hear(const CanFrame& frame, std::uint64_t came_us, std::uint64_t clock_us,
+void RealtimeServer::hear(std::span<const Heard> frames, std::uint64_t clock_us,
                           std::vector<CanFrame>& answer) {
+  if (frames.empty()) return;
   if (!begun_) {
     begun_ = true;
-    offset_us_ = came_us - bus_.now_us();
-    in_step_since_us_ = came_us;
+    offset_us_ = frames.front().came_us - bus_.now_us();
+    in_step_since_us_ = frames.front().came_us;
     bus_.set_real_time(true);
   }
-  // By the clock, not by the frame: of a PC that is slower than the frames come, each is older.
+  // By the clock, not by the frames: of a PC that is slower than they come, each is older.
   skip(clock_us);
-  go_on(std::max(came_us, clock_us - std::min(clock_us, kMostBehind_us / 2)), answer);
-  ++counters_.frames;
-  if (!bus_.send(frame)) ++counters_.dropped;
+  const std::uint64_t least_us = clock_us - std::min(clock_us, kMostBehind_us / 2);
+  for (const Heard& each : frames) {
+    go_on(std::clamp(each.came_us, least_us, clock_us), answer);
+    ++counters_.frames;
+    if (!bus_.send(each.frame)) ++counters_.dropped;
+  }
 }
 
 void RealtimeServer::turn(std::uint64_t clock_us, std::vector<CanFrame>& answer) {

@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "host/can/virtual_can.hpp"
@@ -24,13 +25,19 @@ class RealtimeServer {
   static constexpr std::uint64_t kMostBehind_us = 50'000;
   static constexpr std::uint64_t kKeepsUp_us = 1'000'000;  ///< without a skip
 
+  /// Of the master, and when it came.
+  struct Heard {
+    CanFrame frame;
+    std::uint64_t came_us = 0;
+  };
+
   explicit RealtimeServer(VirtualCan& bus) : bus_(bus) {}
 
-  /// Time goes on to `came_us`, when the master's frame has come; appends what the bus brings up
-  /// to then to `answer`. It is `clock_us` by now, and the frame may have waited for long:
-  /// time goes on all the same.
-  void hear(const CanFrame& frame, std::uint64_t came_us, std::uint64_t clock_us,
-            std::vector<CanFrame>& answer);
+  /// All that came and waits, in one turn: time goes on to when each came; appends what the bus
+  /// brings up to then to `answer`. It is `clock_us` by now, and frames may have waited for long:
+  /// time goes on all the same. It does so once for all of them: where it costs this PC more than
+  /// it is worth, whoever asks more often than there are turns would be answered later and later.
+  void hear(std::span<const Heard> frames, std::uint64_t clock_us, std::vector<CanFrame>& answer);
   /// Time goes on to `clock_us`, without a frame; nothing before the first.
   void turn(std::uint64_t clock_us, std::vector<CanFrame>& answer);
   /// What the clock says at the end of a turn: how late is the twin?

@@ -86,27 +86,37 @@ class ServedOnCan final : public Served {
 
   void turn() override {
     CanFrame frame;
-    const std::uint32_t wait_us = realtime_.begun() ? kRealTimeTurn_us : kIdle_us;
-    const bool came = port_.await(frame, wait_us);
+    const bool came = port_.await(frame, realtime_.begun() ? kRealTimeTurn_us : kIdle_us);
     const bool lost = !port_.connected();
     if (lost && !std::exchange(lost_, lost)) ++losses_;
     lost_ = lost;
     watch_link(port_.connected(), losses_);
     waited(came);
-    if (came) watch_others(frame);
     answer_.clear();
-    if (came && realtime_.begun() && !lockstep::is_clock_frame(frame)) {
-      realtime_.hear(frame, port_.now_us(), clock_us(), answer_);
-    } else if (came) {
-      listen(frame);
-      server_.take(frame, answer_);
-    }
+    if (came) hear(frame);
     if (may_run_in_real_time()) let_time_go_on(came);
     for (const CanFrame& each : answer_) {
       if (!port_.send(each)) break;  // nobody is there; in lockstep it asks again
       listen(each);
     }
     ask();
+  }
+
+  // In real time all that waits, as far as a CAN controller has room for it.
+  void hear(CanFrame& frame) {
+    heard_.clear();
+    bool more = true;
+    for (std::size_t left = hal::kCanQueue; more; more = --left > 0 && port_.await(frame, 0)) {
+      watch_others(frame);
+      if (realtime_.begun() && !lockstep::is_clock_frame(frame)) {
+        heard_.push_back({frame, port_.now_us()});
+        continue;
+      }
+      listen(frame);
+      server_.take(frame, answer_);
+      if (!realtime_.begun()) break;
+    }
+    realtime_.hear(heard_, clock_us(), answer_);
   }
 
   void watch_others(const CanFrame& frame) {
@@ -155,15 +165,18 @@ class ServedOnCan final : public Served {
   }
 
   bool begin_with_what_was_heard() {
-    for (const CanFrame& each : server_.unannounced()) heard_.push_back(each);
-    if (heard_.empty() || still_listening(true, kListen_ns)) return false;
+    for (const CanFrame& each : server_.unannounced()) unannounced_.push_back(each);
+    if (unannounced_.empty() || still_listening(true, kListen_ns)) return false;
     server_.refuse_lockstep();
     live_.reset();
     watcher_.reset();
     begin_real_time();
     // By this clock: that of the port stands at the frame, and locking memory took its time.
-    for (const CanFrame& each : heard_) realtime_.hear(each, clock_us(), clock_us(), answer_);
+    const std::uint64_t now_us = clock_us();
     heard_.clear();
+    for (const CanFrame& each : unannounced_) heard_.push_back({each, now_us});
+    realtime_.hear(heard_, now_us, answer_);
+    unannounced_.clear();
     return true;
   }
 
@@ -204,7 +217,8 @@ class ServedOnCan final : public Served {
   std::optional<wire::CanClaim> watcher_;
   std::optional<shadow::LiveCheck> live_;
   std::vector<CanFrame> answer_;
-  std::vector<CanFrame> heard_;  ///< before it was known that time goes on
+  std::vector<CanFrame> unannounced_;  ///< before it was known that time goes on
+  std::vector<can::RealtimeServer::Heard> heard_;
   std::uint64_t skew_us_ = wire::monotonic_ns() / 1000 - port_.now_us();
   std::uint32_t losses_ = 0;
   bool lost_ = false;
