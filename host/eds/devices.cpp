@@ -92,9 +92,13 @@ Description drive() {
       {.index = telemetry,
        .name = "Telemetry",
        .values = {{.name = "Telemetry", .type = DataType::kUnsigned32, .mappable = true}}},
-      numbers(
-          can::kGains, "Position loop gains", {"P gain", "I gain", "D gain"},
-          {.name = "", .type = DataType::kUnsigned16, .writable = true, .low = "0", .high = most})};
+      numbers(can::kGains, "Position loop gains", {"P gain", "I gain", "D gain"},
+              {.name = "",
+               .type = DataType::kUnsigned16,
+               .writable = true,
+               .commissioned = true,
+               .low = "0",
+               .high = most})};
   add_profile(own);
   return describe<can::DriveNode>("drive.eds", "CiA 402 drive of the twin",
                                   can::drive_identity(kModel, 1), can::DrivePdos::kSize, own, 0,

@@ -32,6 +32,7 @@ struct Value {
   DataType type = DataType::kUnsigned8;
   bool writable = false;
   bool mappable = false;
+  bool commissioned = false;        ///< each node has its own there, which no sheet knows
   std::string initial = {};         ///< as EDS writes it: "", "0x20", "$NODEID+0x180"
   std::string low = {}, high = {};  ///< bounds of what may be written; empty: the type's
 };

@@ -36,6 +36,7 @@ std::string initial_at(canopen::Address at, DataType type, Objects& of_node_1, O
 /// What changes by itself has no initial value, nor has a serial number.
 inline bool has_initial(std::uint16_t index, const Value& value) {
   if (value.name == "Serial number" || value.type == DataType::kVisibleString) return false;
+  if (value.commissioned) return false;
   return value.writable || index < 0x2000 ||
          index == canopen::cia402::object::kSupportedModes.index;
 }
