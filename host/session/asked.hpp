@@ -16,10 +16,23 @@ struct Way {
 };
 Way asked_way(const Command& velocity, double walk_s);
 
+/// How far a gait gets that starts and stops as this one does, in so long from its start to its
+/// end: its strides grow from nothing to what is asked and shrink again, by a step's change a step,
+/// and nothing else holds it up. What a short walk comes to; a long one is little short of its way.
+struct Reach {
+  double length_m = 0, turn_rad = 0;
+};
+Reach within_reach(const Command& velocity, double walk_s, const GaitTuning& gait);
+
 /// Why a walk that ended on its feet is none: it covered less than half of the way or the turn that
 /// the velocity makes in the time, less what the gait takes for its first and last steps (two
-/// seconds at least). Empty: it is one.
+/// seconds at least); or, where that leaves nothing, less than half of what is within reach. Empty:
+/// it is one.
 std::string shortfall(const Command& velocity, const sim::WalkMetrics& walked,
                       const GaitTuning& gait = {});
+/// Of a walk that is one: that it was too short for its gait to come near the velocity. Empty: it
+/// was not, it went at least half the way.
+std::string slow_start(const Command& velocity, const sim::WalkMetrics& walked,
+                       const GaitTuning& gait = {});
 
 }  // namespace verp::session

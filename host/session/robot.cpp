@@ -235,6 +235,11 @@ WalkResult Robot::result(double wall_s) {
         fmt::format("{}{:g} s were asked; the shortest walk with this cycle is {:.2f} s",
                     result_.remark.empty() ? "" : "; ", plan_.walk_s, result_.metrics.walk_s);
   }
+  if (result_.good() && !hooks_.order && !watched_ && walked_s_ <= 0) {
+    const std::string slow =
+        slow_start(plan_.asked.value_or(plan_.velocity), result_.metrics, plan_.params.tuning.gait);
+    if (!slow.empty()) result_.remark += (result_.remark.empty() ? "" : "; ") + slow;
+  }
   return std::move(result_);
 }
 

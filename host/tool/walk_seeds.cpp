@@ -118,8 +118,9 @@ class Seeds {
                                    json.is_object() ? json.value("error", "") : last_line(said));
     }
     for (const char* key :
-         {"failure", "fallen", "distance_m", "speed_steady_m_s", "yaw_drift_deg",
-          "zmp_bias_mean_mm", "falls", "get_ups", "self_contact_ticks", "digest", "varied"}) {
+         {"failure", "remark", "fallen", "distance_m", "asked_m", "asked_turn_deg",
+          "speed_steady_m_s", "yaw_drift_deg", "zmp_bias_mean_mm", "falls", "get_ups",
+          "self_contact_ticks", "digest", "varied"}) {
       if (json.contains(key)) row[key] = json[key];
     }
     rows_[walking.seed] = row;
@@ -128,12 +129,16 @@ class Seeds {
   void tell() const {
     Json all = Json::array();
     std::string fell;
-    std::vector<double> bias_mm, speed_m_s;
+    std::vector<double> bias_mm, speed_m_s, went_m, asked_m, turned_deg, asked_deg;
     for (const auto& [seed, row] : rows_) {
       all.push_back(row);
       if (row["survived"].get<bool>()) {
         keep(row, "zmp_bias_mean_mm", bias_mm);
         keep(row, "speed_steady_m_s", speed_m_s);
+        keep(row, "distance_m", went_m);
+        keep(row, "asked_m", asked_m);
+        keep(row, "yaw_drift_deg", turned_deg);
+        keep(row, "asked_turn_deg", asked_deg);
       } else {
         fell += fmt::format("  seed {}: {}\n", seed, row["failure"].get<std::string>());
       }
@@ -151,6 +156,9 @@ class Seeds {
                          options_.model, survived_, rows_.size(), options_.walk_s,
                          100 * interval.low, 100 * interval.high,
                          interrupted() ? "; interrupted" : "") +
+             of_asked(range("distance, m", went_m, 2), asked_m, 2) +
+             (turns(asked_deg) ? of_asked(range("turned, degrees", turned_deg, 0), asked_deg, 0)
+                               : "") +
              range("ZMP bias, mm", bias_mm, 1) + range("steady speed, m/s", speed_m_s, 3) + fell);
     }
   }
@@ -170,6 +178,17 @@ class Seeds {
     std::sort(values.begin(), values.end());
     return fmt::format("  {:<18}{:.{}f} to {:.{}f}, median {:.{}f}\n", name, values.front(), digits,
                        values.back(), digits, values[values.size() / 2], digits);
+  }
+
+  /// What the same walks were asked for, which is a little less of one that ended sooner.
+  static std::string of_asked(std::string line, std::vector<double> asked, int digits) {
+    if (line.empty() || asked.empty()) return line;
+    std::sort(asked.begin(), asked.end());
+    line.pop_back();
+    return line + fmt::format(" of {:.{}f} asked\n", asked[asked.size() / 2], digits);
+  }
+  static bool turns(const std::vector<double>& asked_deg) {
+    return !asked_deg.empty() && asked_deg.front() != 0;
   }
 
   const WalkOptions& options_;

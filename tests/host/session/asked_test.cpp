@@ -75,6 +75,37 @@ TEST(Shortfall, SlowGaitsStartAndStopSlowly) {
   EXPECT_NE(shortfall(velocity(0.04, 0, 0), eight, slow), "");
 }
 
+// generic21's gait: strides of 1, 2, 3, 4, 3, 2, 1 cm and one that closes the feet fill 2.58 s. A
+// robot that went 17 cm of 1.55 m had "walked", and nobody said that nothing more was to be had.
+TEST(Shortfall, AShortWalkIsHeldByWhatItsGaitGoesInThatTime) {
+  const Command fast = velocity(0.6, 0, 0);
+  EXPECT_NEAR(within_reach(fast, 2.58, {}).length_m, 0.16, 1e-6);
+  sim::WalkMetrics as_planned = walked(0.17, 0.17, 0, 0);
+  as_planned.walk_s = 2.58;
+  EXPECT_EQ(shortfall(fast, as_planned), "");
+  EXPECT_NE(slow_start(fast, as_planned).find("0.17 m of the 1.55 m asked"), std::string::npos);
+  sim::WalkMetrics stuck = walked(0.03, 0.03, 0, 0);
+  stuck.walk_s = 2.58;
+  EXPECT_NE(shortfall(fast, stuck), "");
+}
+
+TEST(Shortfall, OfAShortTurnToo) {
+  const Command turn = velocity(0, 0, 1.5);
+  const double within_deg = within_reach(turn, 2.58, {}).turn_rad * 180 / std::numbers::pi;
+  EXPECT_GT(within_deg, 60);
+  sim::WalkMetrics little = walked(0, 0, 0, 0.3 * within_deg);
+  little.walk_s = 2.58;
+  EXPECT_NE(shortfall(turn, little), "");
+  little.yaw_drift_deg = 0.9 * within_deg;
+  EXPECT_EQ(shortfall(turn, little), "");
+}
+
+TEST(Shortfall, OfALongWalkTheStartIsLittle) {
+  const Command slow = velocity(0.18, 0, 0);
+  EXPECT_NEAR(within_reach(slow, 60, {}).length_m, asked_way(slow, 60).length_m, 0.4);
+  EXPECT_EQ(slow_start(slow, walked(3.3, 3.3, 0.1, 2)), "");
+}
+
 TEST(Shortfall, SteppingInPlaceIsWhatWasAsked) {
   EXPECT_EQ(shortfall(velocity(0, 0, 0), walked(0.02, -0.01, 0, 3)), "");
 }

@@ -1,4 +1,5 @@
 #include <nlohmann/json.hpp>
+#include <regex>
 #include <sstream>
 #include <thread>
 
@@ -173,12 +174,14 @@ TEST_F(Walk, LengthIsWhatWasAskedToWithinAStep) {
   struct Asked {
     const char* options;
     double walk_s, step_s;
-    int status = 0;  // 2 m/s: as fast as the limits let it, which is less than half of that
+    int status = 0;     // 2 m/s: as fast as the limits let it, which is less than half of that
+    bool slow = false;  // its strides grow until it ends: that is said
   };
   for (const Asked& asked :
-       {Asked{"", 12, 0.225}, Asked{"--velocity 2,0,0", 8, 0.225, 1}, Asked{"--cycle 2", 8, 1.0},
-        Asked{"--velocity 0.1,0.02,0.5", 6, 0.225}, Asked{"--cycle 0.3 --step 0", 5, 0.15},
-        Asked{"--set gait.step_change_m=0.001", 16, 2 * 0.225}}) {
+       {Asked{"", 12, 0.225}, Asked{"--velocity 2,0,0", 8, 0.225, 1},
+        Asked{"--cycle 2", 8, 1.0, 0, true}, Asked{"--velocity 0.1,0.02,0.5", 6, 0.225},
+        Asked{"--cycle 0.3 --step 0", 5, 0.15},
+        Asked{"--set gait.step_change_m=0.001", 16, 2 * 0.225, 0, true}}) {
     SCOPED_TRACE(asked.options);
     const Outcome walk = verp(std::string("walk --json --for ") + std::to_string(asked.walk_s) +
                               " " + asked.options);
@@ -186,8 +189,49 @@ TEST_F(Walk, LengthIsWhatWasAskedToWithinAStep) {
     const json result = json::parse(walk.out);
     EXPECT_LE(result.at("duration_s").get<double>(), asked.walk_s + 1e-6);
     EXPECT_GT(result.at("duration_s").get<double>(), asked.walk_s - asked.step_s - 0.02);
-    EXPECT_EQ(result.at("remark"), "");
+    const std::string remark = result.at("remark");
+    EXPECT_EQ(remark.find("whose strides grow and shrink step by step") != std::string::npos,
+              asked.slow)
+        << remark;
+    EXPECT_TRUE(asked.slow || remark.empty()) << remark;
   }
+}
+
+// Three seconds of 0.6 m/s are 17 cm of 1.55 m: all that such a gait goes. A robot that does not go
+// even that far had "walked" as well.
+TEST_F(Walk, AShortWalkIsHeldByWhatItsGaitGoesInThatTime) {
+  const json result =
+      json::parse(verp("walk --velocity 0.6,0,0 --for 3 --physics-step 2 --json").out);
+  EXPECT_EQ(result.at("failure"), "");
+  EXPECT_GT(result.at("distance_m").get<double>(), 0.1);
+  EXPECT_NE(result.at("remark").get<std::string>().find("m of the 1.55 m asked: this gait"),
+            std::string::npos)
+      << result.at("remark");
+  const Outcome slides =  // on ice it steps and hardly comes forward
+      verp("walk --velocity 0.6,0,0 --for 3 --at '0: ground.friction=0.001' --json");
+  EXPECT_EQ(slides.status, 1) << slides.out;
+  EXPECT_NE(slides.err.find("less than half of what its gait goes"), std::string::npos)
+      << slides.err;
+}
+
+// Who counts walks wants to see how far they went, too.
+TEST_F(Walk, SeedsTellTheWayOfTheWayAsked) {
+  const Outcome straight = verp("walk --seeds 1-2 --for 5 --physics-step 2");
+  EXPECT_EQ(straight.status, 0) << straight.out << straight.err;
+  EXPECT_TRUE(std::regex_search(
+      straight.out,
+      std::regex("distance, m +0\\.\\d+ to 0\\.\\d+, median 0\\.\\d+ of 0\\.\\d+ asked\n")))
+      << straight.out;
+  EXPECT_EQ(straight.out.find("turned"), std::string::npos);
+  const Outcome curve =
+      verp("walk --velocity 0.05,0,0.4 --seeds 1-2 --for 5 --physics-step 2 --json");
+  for (const json& walk : json::parse(curve.out).at("walks")) {
+    EXPECT_GT(walk.at("asked_turn_deg").get<double>(), 90);
+    EXPECT_NEAR(walk.at("asked_m").get<double>(), 0.24, 0.02);
+  }
+  EXPECT_NE(verp("walk --velocity 0.05,0,0.4 --seeds 1-2 --for 5 --physics-step 2")
+                .out.find("  turned, degrees"),
+            std::string::npos);
 }
 
 // A walk that the gait cannot make so short says so.
