@@ -70,6 +70,7 @@ double Served::wall_s(double) const {
 
 ServedResult Served::result() const {
   ServedResult result;
+  result.met = met();
   result.device_trouble = device_trouble_;
   result.lay_down = robot_.verdict().lay_down();
   result.real_time = real_time_begun() || options_.pace == Pace::kRealTime;

@@ -49,6 +49,7 @@ struct CanFrames {
 };
 
 struct ServedResult {
+  bool met = false;             ///< somebody has come: a controller, or a master that asks
   bool device_trouble = false;  ///< the walk's failure is the link's or the controller's
   bool lay_down = false;        ///< the robot was let go, and lies
   bool real_time = false;
@@ -84,6 +85,8 @@ class Served : public Controller {
   virtual bool stopped() const = 0;  ///< the controller was told to
   virtual bool greeted() const = 0;  ///< it has announced lockstep
   virtual bool real_time_begun() const = 0;
+  /// Somebody has come, if only to look.
+  virtual bool met() const { return greeted() || real_time_begun(); }
   virtual void conclude() {}  ///< after the last turn
   virtual std::unique_ptr<bus::Shadow> make_shadow(bus::Shadow::Record record) = 0;
 

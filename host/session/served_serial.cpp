@@ -42,6 +42,7 @@ class ServedOnSerial final : public Served {
   bool stopped() const override { return lockstep_.stopped(); }
   bool greeted() const override { return lockstep_.greeted(); }
   bool real_time_begun() const override { return realtime_.begun() && !robot_.bus().held(); }
+  bool met() const override { return greeted() || realtime_.begun(); }
 
   std::unique_ptr<bus::Shadow> make_shadow(bus::Shadow::Record record) override {
     auto shadow = std::make_unique<bus::ShadowLoop>(robot_.plan().params, std::move(record));

@@ -131,6 +131,7 @@ int answer_served(const WalkPlan& plan, const WalkOptions& options, const HilRes
                  {"fallen", walk.metrics.fallen},
                  {"let_go_and_lies", result.lay_down},
                  {"set_upright_s", walk.set_upright_s},
+                 {"met", result.met},
                  {"interrupted", walk.interrupted},
                  {"failure", walk.failure},
                  {"real_time_factor", walk.real_time_factor()}};
@@ -144,7 +145,11 @@ int answer_served(const WalkPlan& plan, const WalkOptions& options, const HilRes
            to_text(result));
   }
   if (!walk.failure.empty()) complain("verp hil: " + walk.failure);
-  return walk.failure.empty() ? kGood : result.device_trouble ? kNoDevice : kRunFailed;
+  if (!walk.failure.empty()) return result.device_trouble ? kNoDevice : kRunFailed;
+  // One that serves is ended by Ctrl-C; one whom nobody asked for anything has not served.
+  if (result.met) return kGood;
+  complain("verp hil: interrupted before anybody came");
+  return kRunFailed;
 }
 
 /// Without an operator's port nobody is told how to walk, and nobody tells what the controller saw.
@@ -195,7 +200,7 @@ Subcommand add_hil(CLI::App& root) {
   declare_live(*app, words->walk.live);
   app->get_option("--for")->description(
       "with --operator: length of the gait, all three phases, s; without: how long the robot is "
-      "served from when a servo first has torque, s");
+      "served from when a servo first has torque, s, or until Ctrl-C, which is no failure then");
   app->add_option("--link", words->hil.link,
                   "the controller's servo bus: serial:DEVICE@BAUD, pty:PATH, tcp:HOST:PORT, "
                   "tcp-listen:PORT, unix:PATH, unix-listen:PATH or can:INTERFACE")

@@ -136,14 +136,33 @@ TEST_F(Hil, RefusesAControllerOfAnotherRobotByName) {
 // Ctrl-C ends the run, not the program: the trace is whole and the summary printed.
 TEST_F(Hil, KeepsTheTraceWhenInterrupted) {
   LinkController controller(params(), "unix:" + place("bus"), "unix:" + place("orders"));
-  const Outcome outcome = shell("timeout -s INT 6 " + std::string(VERP_PROGRAM) +
+  const Outcome outcome = shell("timeout --preserve-status -s INT 6 " + std::string(VERP_PROGRAM) +
                                 " hil --for 600 --json --record cut.mcap " + sockets());
   controller.join();
+  EXPECT_EQ(outcome.status, 130);
   const json result = json::parse(outcome.out);
   EXPECT_TRUE(result.at("interrupted"));
   EXPECT_GT(result.at("ticks").get<int>(), 0);
   const Outcome info = verp("trace info cut.mcap --json", "info");
   EXPECT_EQ(json::parse(info.out).at("ticks"), result.at("ticks"));
+}
+
+// Ctrl-C is how one that serves a master ends, and no failure; of a twin that nobody asked for
+// anything, or whose walk it cuts short, it is one.
+TEST_F(Hil, CtrlCEndsWhatServedSomebodyInOrder) {
+  const std::string twin = std::string(VERP_PROGRAM) + " hil --json --link unix-listen:bus";
+  const std::string ready = "until grep -q 'waits for a controller' err; do sleep 0.05; done; ";
+  const std::string end = "kill -INT $twin; wait $twin";
+  const Outcome served = shell(twin + " 2>err & twin=$!; " + ready + VERP_PROGRAM +
+                               " bus ping --id 1 --link unix:bus >ping; " + end);
+  EXPECT_EQ(served.status, 0) << slurp(folder_ / "err") << slurp(folder_ / "ping");
+  EXPECT_TRUE(json::parse(served.out).at("interrupted"));
+  EXPECT_TRUE(json::parse(served.out).at("met"));
+  fs::remove(folder_ / "err");
+  const Outcome alone = shell(twin + " 2>err & twin=$!; " + ready + end);
+  EXPECT_EQ(alone.status, 130);
+  EXPECT_FALSE(json::parse(alone.out).at("met"));
+  EXPECT_NE(slurp(folder_ / "err").find("before anybody came"), std::string::npos);
 }
 
 // Somebody takes the call and hangs up, for ever: the twin goes on trying, and lets the computer
