@@ -73,6 +73,8 @@ struct Hooks {
   /// stamp_ns: as the trace counts time. Not called any more once a trace that was given breaks
   /// off.
   std::function<void(const sim::Exposure&, std::uint64_t stamp_ns)> exposed;
+  /// What its lasers measured, as they come, stamped likewise.
+  std::function<void(const sim::Scan&, std::uint64_t stamp_ns)> scanned;
   record::TraceWriter* trace = nullptr;  ///< gets every tick; must outlive the run
   bool keep_series = false;              ///< WalkResult::series
   bool open_end = false;  ///< neither its length nor a fall ends the run: its user does

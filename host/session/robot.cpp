@@ -134,7 +134,10 @@ void Robot::see() {
   ++result_.ticks;
   result_.digest = tick_.digest.chain;
   result_.faults = outputs_.faults;
-  if (trace_ != nullptr) append(seen.truth);
+  std::vector<sim::Scan> scans;
+  if (trace_ != nullptr || hooks_.scanned) scans = twin_.take_scans();
+  if (trace_ != nullptr) append(seen.truth, scans);
+  tell(scans);
   tell_exposures();
   const bool done = hooks_.order ? gone_s() >= plan_.walk_s : walker_->done();
   intervene_in_time();
@@ -254,14 +257,14 @@ void Robot::count_traffic() {
 }
 
 /// A disk that is full costs the trace, not the walk.
-void Robot::append(const sim::Truth& truth) {
+void Robot::append(const sim::Truth& truth, const std::vector<sim::Scan>& scans) {
   try {
     const record::ros::BodyPose body = pose_of(truth.body_world);
     if (trace_->ticks() == 0) place_frames(*trace_, plan_.entity, plan_.params);
     trace_->append(tick_, state_, outputs_, &body, truth.torque_n_m);
     if (world_.scenery() != nullptr)
       trace_->append(tick_.inputs.tick, objects_of(*world_.scenery()));
-    for (const sim::Scan& scan : twin_.take_scans()) append(scan);
+    for (const sim::Scan& scan : scans) append(scan);
     session::append(*trace_, plan_.entity, twin_.take_readings(),
                     std::uint64_t{1000} * tick_.inputs.tick * plan_.params.period_us,
                     twin_.now_us());
@@ -285,6 +288,15 @@ void Robot::append(const sim::Scan& scan) {
                                         .max_m = laser.max_m,
                                         .range_m = scan.range_m,
                                         .age_ns = 1000 * age_us});
+}
+
+void Robot::tell(const std::vector<sim::Scan>& scans) const {
+  if (!hooks_.scanned) return;
+  const std::uint64_t tick_us = std::uint64_t{tick_.inputs.tick} * plan_.params.period_us;
+  for (const sim::Scan& each : scans) {
+    const std::uint64_t ago_us = twin_.now_us() - each.time_us;
+    if (ago_us <= tick_us) hooks_.scanned(each, 1000 * (tick_us - ago_us));  // else: before tick 0
+  }
 }
 
 void Robot::tell_exposures() {

@@ -90,8 +90,9 @@ class Robot {
   WalkResult result(double wall_s);
 
  private:
-  void append(const sim::Truth& truth);
+  void append(const sim::Truth& truth, const std::vector<sim::Scan>& scans);
   void append(const sim::Scan& scan);
+  void tell(const std::vector<sim::Scan>& scans) const;
   void tell_exposures();
   std::string failure_of_walk() const;
   void intervene_in_time();

@@ -31,6 +31,7 @@ enum class Draw : std::uint64_t {
   kEncoder = 100,      ///< plus the joint's index
   kForceTorque = 200,  ///< plus the sensor's index
   kTruth = 250,        ///< plus the sensor's index
+  kRadio = 300,        ///< host/radio
 };
 
 /// xoshiro256** (Blackman and Vigna, public domain), seeded by splitmix64 from (seed, purpose). Own

@@ -22,6 +22,7 @@ struct Subcommand {
 
 Subcommand add_walk(CLI::App& root);
 Subcommand add_action(CLI::App& root);
+Subcommand add_demo(CLI::App& root);
 Subcommand add_hil(CLI::App& root);
 Subcommand add_run(CLI::App& root);
 Subcommand add_shadow(CLI::App& root);

@@ -1,0 +1,12 @@
+#include "host/demos/goal_demo.hpp"
+#include "host/demos/run.hpp"
+#include "host/demos/together.hpp"
+
+namespace verp::demos {
+
+const std::vector<Demo>& all_demos() {
+  static const std::vector<Demo> demos = {column_demo(), follow_demo(), goal_demo()};
+  return demos;
+}
+
+}  // namespace verp::demos
