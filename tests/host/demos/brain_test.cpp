@@ -140,7 +140,7 @@ TEST(Grid, AMapIsMadeAndTheRobotFoundInIt) {
   EXPECT_FALSE(grid.taken(Grid::cell(1), Grid::cell(0)));
   const Pose real{{0.06, -0.04}, 0.03};
   const Pose found = matched(grid, {}, hits(about, scan_of(about, real, walls)));
-  EXPECT_LT(distance(found.at_m, real.at_m), 0.025);
+  EXPECT_LT(distance(found.at_m, real.at_m), 0.04);  // less than a cell
   EXPECT_NEAR(found.yaw_rad, real.yaw_rad, 0.012);
 }
 
