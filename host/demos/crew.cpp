@@ -16,13 +16,17 @@ namespace {
 /// A URG-04LX tells within 10 mm up to 1 m, 1 % beyond (Hokuyo, C-42-3389); the robots' files have
 /// lasers without noise, and nobody's legs should hang on that.
 constexpr double kLaserNoise_m = 0.01;
-constexpr double kPictures_hz = 5;  // what is drawn costs time; the file has 30
+constexpr double kPictures_hz = 5;       // what is drawn costs time; the file has 30
+constexpr double kPictureLate_s = 0.06;  // a sensor's readout and USB; the file has none
 
 session::WalkPlan plan_of(const Demo& demo, const Options& options, int number, int robots) {
   session::WalkPlan plan;
   plan.entity = model::load_robot(model::find_model(options.model));
   for (model::LaserSensor& laser : plan.entity.lasers) laser.noise_stddev_m = kLaserNoise_m;
-  for (model::CameraSensor& camera : plan.entity.cameras) camera.rate_hz = kPictures_hz;
+  for (model::CameraSensor& camera : plan.entity.cameras) {
+    camera.rate_hz = kPictures_hz;
+    camera.latency_s = kPictureLate_s;
+  }
   plan.params = model::make_params(plan.entity);
   plan.name = fmt::format("r{}", number + 1);
   plan.walk_s = options.for_s > 0 ? options.for_s : demo.length_s;
@@ -51,7 +55,8 @@ Member::Member(const Demo& demo, const Options& options, int number, int robots)
     : plan_(plan_of(demo, options, number, robots)),
       placed_(demo.places(robots)[static_cast<std::size_t>(number)]),
       number_(number),
-      computer_(plan_.entity, plan_.params, {.number = number, .robots = robots}, demo.brain) {
+      computer_(plan_.entity, plan_.params, {.number = number, .robots = robots, .placed = placed_},
+                demo.brain) {
   track_.name = plan_.name;
   open_trace(options);
 }
@@ -68,7 +73,7 @@ void Member::open_trace(const Options& options) {
   trace_ = std::make_unique<record::TraceWriter>(track_.trace, plan_.params, run);
 }
 
-session::Hooks Member::hooks() {
+session::Hooks Member::hooks(Look look) {
   session::Hooks hooks;
   hooks.open_end = true;
   hooks.trace = trace_.get();
@@ -76,6 +81,14 @@ session::Hooks Member::hooks() {
   hooks.scanned = [this](const sim::Scan& scan, std::uint64_t stamp_ns) {
     if (scan.laser == 0) computer_.scanned(scan.range_m, stamp_ns);
   };
+  if (look) {
+    hooks.exposed = [this, look](const sim::Exposure& exposure, std::uint64_t stamp_ns) {
+      std::optional<camera::Picture> seen = look(exposure);
+      if (!seen) return;
+      computer_.pictured(static_cast<int>(seen->width), static_cast<int>(seen->height),
+                         std::move(seen->data), stamp_ns);
+    };
+  }
   hooks.ticked = [this](const session::Tick& tick) {
     tick_ = tick.record->inputs.tick;
     const bool touches = touches_something(*tick.world, tick.owner);

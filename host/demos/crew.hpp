@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "host/camera/wire.hpp"
 #include "host/demos/computer.hpp"
 #include "host/demos/run.hpp"
 #include "host/record/trace_writer.hpp"
@@ -23,8 +24,9 @@ class Member {
   Track& track() { return track_; }
   const Track& track() const { return track_; }
   std::uint32_t tick() const { return tick_; }
-  /// What a session calls.
-  session::Hooks hooks();
+  /// What a session calls. `look`: has a picture drawn; empty: nobody looks.
+  using Look = std::function<std::optional<camera::Picture>(const sim::Exposure&)>;
+  session::Hooks hooks(Look look);
 
   /// The referee's look.
   void watch(const sim::TwinRobot& twin, double time_s);

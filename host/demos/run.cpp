@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "host/demos/crew.hpp"
+#include "host/demos/eyes.hpp"
 #include "host/demos/outlines.hpp"
 #include "host/model/load_world.hpp"
 #include "host/sim/scenery.hpp"
@@ -34,9 +35,14 @@ class Stage {
     }
     for (int i = 0; i < robots; ++i) {
       Member& member = crew_.emplace_back(demo, options, i, robots);
-      session_.add(member.plan(), member.hooks());
+      Member::Look look;
+      if (demo.cameras) {
+        look = [this](const sim::Exposure& exposure) { return eyes_->look(exposure); };
+      }
+      session_.add(member.plan(), member.hooks(look));
       radio_.add();
     }
+    if (demo.cameras) open_eyes(world_of(demo, options));
     run_.demo = &demo;
     if (session_.scenery() != nullptr) {
       run_.outlines = outlines_of(session_.scenery()->data());
@@ -64,6 +70,12 @@ class Stage {
     const std::string& name = options.world.empty() ? demo.world : options.world;
     if (name.empty()) return world;
     return sim::furnished(world, model::load_world(model::find_world(name)));
+  }
+
+  void open_eyes(const sim::WorldOptions& world) {
+    std::vector<const session::WalkPlan*> plans;
+    for (const Member& member : crew_) plans.push_back(&member.plan());
+    eyes_ = std::make_unique<Eyes>(plans, world);
   }
 
   double now_s() const { return 1e-6 * static_cast<double>(session_.now_us()); }
@@ -166,6 +178,7 @@ class Stage {
   std::deque<Member> crew_;
   session::Session session_;
   radio::Radio radio_;
+  std::unique_ptr<Eyes> eyes_;  ///< null: nobody looks
   Run run_;
 };
 

@@ -29,6 +29,14 @@ TEST(Demos, OneFindsItsGoalThroughRooms) {
   expect_fact(run, "way", 5.5, 9);  // straight on, through two walls, it would be 3.1 m
 }
 
+#ifdef VERP_HAS_CAMERA
+TEST(Demos, TwoBringABallToAGoal) {
+  const demos::Run run = good("ball", 1);
+  expect_fact(run, "ball's way ahead", 1, 4);
+  expect_fact(run, "first touched after", 8, 25);
+}
+#endif
+
 // Without radio nobody goes, and the demo says that it failed: so what holds above is the radio's.
 TEST(Demos, FailWithoutRadio) {
   demos::Options options;

@@ -17,6 +17,12 @@ TEST(ManyDemos, GoalsAreFound) {
   for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) good("goal", seed);
 }
 
+#ifdef VERP_HAS_CAMERA
+TEST(ManyDemos, BallsComeToAGoal) {
+  for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) good("ball", seed);
+}
+#endif
+
 // A third of all messages lost, and half a second of silence now and then.
 TEST(ManyDemos, ABadRadioIsBorne) {
   demos::Options options;

@@ -66,6 +66,7 @@ struct Orders {
 /// What a robot knows of itself from the start: its file, and what it was told before.
 struct About {
   int number = 0, robots = 1;  ///< its own, from 0, and how many there are
+  Pose placed;                 ///< where it is put down, as well as whoever does that can
   double laser_first_rad = 0, laser_step_rad = 0, laser_max_m = 0;
   Point laser_m{};                                    ///< from the trunk's centre
   double fx_px = 0, fy_px = 0, cx_px = 0, cy_px = 0;  ///< the camera's lens

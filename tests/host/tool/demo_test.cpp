@@ -1,0 +1,42 @@
+#include <nlohmann/json.hpp>
+
+#include "tests/host/tool/program.hpp"
+
+namespace verp::tool::test {
+namespace {
+
+using DemoCommand = Program;
+
+TEST_F(DemoCommand, ListsWhatThereIs) {
+  const Outcome outcome = verp("demo");
+  EXPECT_EQ(outcome.status, 0);
+  for (const char* name : {"column", "follow", "goal", "ball"})
+    EXPECT_NE(outcome.out.find(name), std::string::npos) << name;
+}
+
+TEST_F(DemoCommand, WhatCannotBeIsOneLineAndBadInput) {
+  expect_refused("demo folow", "follow");  // did you mean
+  expect_refused("demo follow --robots 1", "2 to 8");
+  expect_refused("demo follow --robots 9", "2 to 8");
+  expect_refused("demo follow --radio range_m=0", "range_m");
+  expect_refused("demo follow --radio loss", "NAME=VALUE");
+  expect_refused("demo follow --radio 'loss=2'", "0 to 1");
+  expect_refused("demo follow --radio far=1", "range_m, loss");
+  expect_refused("demo follow --picture a.jpg", ".png or .svg");
+  expect_refused("demo follow --for 0", "--for");
+}
+
+// Two seconds are too few to do anything: the demo says that it failed, and how.
+TEST_F(DemoCommand, ThatFailsItsCriterionEndsWithOne) {
+  const Outcome outcome = verp("demo follow --robots 2 --for 2 --json --no-picture");
+  EXPECT_EQ(outcome.status, 1);
+  const auto json = nlohmann::json::parse(outcome.out, nullptr, false);
+  ASSERT_TRUE(json.is_object()) << outcome.out;
+  EXPECT_NE(json["verdict"], "good");
+  EXPECT_EQ(json["robots"].size(), 2u);
+  EXPECT_TRUE(json["picture"].is_null());
+  EXPECT_NE(outcome.err, "");
+}
+
+}  // namespace
+}  // namespace verp::tool::test
