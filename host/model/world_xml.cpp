@@ -9,6 +9,7 @@
 #include "host/model/bounds.hpp"
 #include "host/model/find.hpp"
 #include "host/model/load_error.hpp"
+#include "host/model/malformed_xml.hpp"
 #include "host/model/number.hpp"
 
 namespace verp::model {
@@ -94,9 +95,7 @@ WorldXml::WorldXml(const std::string& path) : path_(path) {
   text_.assign(std::istreambuf_iterator<char>(in), {});
   if (document_.Parse(text_.data(), text_.size()) != tinyxml2::XML_SUCCESS ||
       document_.RootElement() == nullptr) {
-    throw LoadError(path, std::max(1, document_.ErrorLineNum()),
-                    std::string("malformed XML (") + document_.ErrorName() + ")",
-                    "up to this line, close every tag and quote, and give no attribute twice");
+    refuse_malformed(path, text_, document_);
   }
   const XmlElement root(path_, *document_.RootElement());
   const auto worlds = root.children("world");

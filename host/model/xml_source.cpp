@@ -6,11 +6,13 @@
 #include <filesystem>
 #include <fstream>
 #include <set>
+#include <sstream>
 #include <string_view>
 
 #include "host/model/bounds.hpp"
 #include "host/model/find.hpp"
 #include "host/model/load_error.hpp"
+#include "host/model/malformed_xml.hpp"
 #include "host/model/number.hpp"
 #include "host/model/xml_numbers.hpp"
 
@@ -189,9 +191,9 @@ void XmlSource::read(const std::string& path, const std::optional<std::string>& 
   const auto read =
       text ? file.document.Parse(text->data(), text->size()) : file.document.LoadFile(path.c_str());
   if (read != tinyxml2::XML_SUCCESS || !file.document.RootElement()) {
-    throw LoadError(path, std::max(1, file.document.ErrorLineNum()),
-                    std::string("malformed XML (") + file.document.ErrorName() + ")",
-                    "up to this line, close every tag and quote, and give no attribute twice");
+    std::stringstream whole;
+    text ? whole << *text : whole << std::ifstream(path).rdbuf();
+    refuse_malformed(path, whole.str(), file.document);
   }
   const std::string root = file.document.RootElement()->Name();
   if (root != "sdf" && root != "robot") {
@@ -316,7 +318,8 @@ XmlSource::Place XmlSource::blame(const std::string& message) const {
   std::string_view rest = message;
   while (!rest.empty()) {
     const auto length = std::min(rest.find_first_of(kDelimiters), rest.size());
-    if (length > 0) {
+    const bool scope = rest.substr(length).starts_with("::");  // whose it is, not what
+    if (length > 0 && !scope) {
       if (const auto place = find(std::string(rest.substr(0, length)))) return *place;
     }
     rest.remove_prefix(std::min(length + 1, rest.size()));
