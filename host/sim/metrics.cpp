@@ -62,6 +62,8 @@ void WalkMeter::tick(const Observation& seen, const Outputs& outputs,
   if (!walks && walking_) end_walk();
   walking_ = walks;
   previous_ = outputs;
+  // A user's controller may put out any byte, and it counts feet below.
+  previous_.stance = std::min<std::uint8_t>(outputs.stance, gait::kBoth);
   last_ = seen;
   if (keep_series_) keep(seen, outputs, zmp_planned_world_m);
 }

@@ -2,6 +2,7 @@
 
 #include <atomic>
 #include <cstdlib>
+#include <cstring>
 #include <limits>
 #include <stdexcept>
 #include <string>
@@ -216,6 +217,35 @@ TEST(LibverpMisuse, ControllersThatFail) {
   session.add(verp_lib::Session::defaults());
   session.control([](const verp_lib::Moment&) { throw std::out_of_range("mine"); });
   EXPECT_THROW(session.tick(), std::out_of_range) << "C++ gets its own exception back";
+}
+
+/// Any byte is sent and measured as it is: feet that there are not, phases, modes and goals.
+TEST(LibverpMisuse, ControllersThatPutOutAnything) {
+  for (const int byte : {0x00, 0x03, 0x7f, 0x80, 0xff}) {
+    Opened opened;
+    opened.add([](verp_robot& robot) { robot.flags = VERP_OPEN_END; });
+    int user = byte;
+    const auto fill = [](const verp_moment* moment, void* given) {
+      std::memset(moment->outputs, *static_cast<int*>(given), sizeof *moment->outputs);
+      return 0;
+    };
+    ASSERT_EQ(verp_session_control(opened.session, 0, fill, &user), VERP_OK);
+    const int status = verp_session_tick(opened.session, 150, nullptr, nullptr);
+    EXPECT_TRUE(status == VERP_OK || status == VERP_OVER) << byte << ": " << verp_last_error();
+    EXPECT_GT(opened.result().ticks, 0U) << byte;
+  }
+}
+
+TEST(LibverpMisuse, RobotsInEachOther) {
+  Opened opened;
+  opened.add([](verp_robot& robot) { robot.x_m = 1; });
+  verp_robot robot;
+  ASSERT_EQ(verp_robot_defaults(&robot), VERP_OK);
+  robot.x_m = 1.05;
+  expect_error(verp_session_add(opened.session, &robot, nullptr), VERP_BAD_ARGUMENT,
+               "verp_session_add", "robot 0 stands there already");
+  robot.y_m = 0.5;
+  EXPECT_EQ(verp_session_add(opened.session, &robot, nullptr), VERP_OK) << verp_last_error();
 }
 
 /// A second thread, or a callback, is told; it waits for nothing and breaks nothing.
