@@ -17,6 +17,14 @@ def pointer(array: np.ndarray, ctype: str) -> object:
     return ffi.cast(ctype, array.ctypes.data)
 
 
+def _angles(angle_rad: NDArray[np.float32]) -> NDArray[np.float32]:
+    """As the library reads them. How many there have to be it knows itself, but not what lies beyond an array of another shape."""
+    angles = np.ascontiguousarray(angle_rad, np.float32)
+    if angles.ndim != 1 or np.ndim(angle_rad) != 1:
+        raise ValueError(f"angle_rad: one row of angles is needed, not an array of shape {np.shape(angle_rad)}")
+    return angles
+
+
 class Core(Handle):
     """One robot's controller without a world.
 
@@ -31,11 +39,20 @@ class Core(Handle):
         super().__init__(self._core, lib.verp_core_close)
         self.joint_names: list[str] = [self._name(j) for j in range(self._get("joints", "uint32_t *"))]
         self.period_s: float = self._get("period", "double *")
-        #: What the next step() reads and what the last one wrote: numpy records, memory that stays where it is.
-        self.inputs = np.zeros(1, INPUTS)
-        self.outputs = np.zeros(1, OUTPUTS)
-        self._in = pointer(self.inputs, "verp_inputs *")
-        self._out = pointer(self.outputs, "verp_outputs *")
+        self._inputs = np.zeros(1, INPUTS)
+        self._outputs = np.zeros(1, OUTPUTS)
+        self._in = pointer(self._inputs, "verp_inputs *")
+        self._out = pointer(self._outputs, "verp_outputs *")
+
+    @property
+    def inputs(self) -> np.ndarray:
+        """What the next step() reads: numpy records, memory that stays where it is; write into it: inputs[0] = ..."""
+        return self._inputs
+
+    @property
+    def outputs(self) -> np.ndarray:
+        """What the last step() wrote; memory that stays where it is."""
+        return self._outputs
 
     def _get(self, what: str, ctype: str) -> int | float:
         value = ffi.new(ctype)
@@ -85,14 +102,14 @@ class Core(Handle):
 
     def forward(self, angle_rad: NDArray[np.float32]) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
         """Rotations (n + 1, 3, 3) and positions (n + 1, 3) of all links, body frame; the first is the body's."""
-        angles = np.ascontiguousarray(angle_rad, np.float32)
+        angles = _angles(angle_rad)
         poses = np.zeros((len(angles) + 1, lib.VERP_POSE), np.float32)
         check(lib.verp_core_forward(self._core, pointer(angles, "float *"), len(angles), pointer(poses, "float *")))
         return poses[:, :9].reshape(-1, 3, 3), poses[:, 9:]
 
     def com(self, angle_rad: NDArray[np.float32]) -> NDArray[np.float32]:
         """Centre of mass, m, body frame."""
-        angles, com_m = np.ascontiguousarray(angle_rad, np.float32), np.zeros(3, np.float32)
+        angles, com_m = _angles(angle_rad), np.zeros(3, np.float32)
         check(lib.verp_core_com(self._core, pointer(angles, "float *"), len(angles), pointer(com_m, "float *")))
         return com_m
 

@@ -109,9 +109,11 @@ class Handle:
         self._handle, self._close, self._open = handle, close, True
 
     def close(self) -> None:
-        """Later calls raise VerpError. Of a session: ends the run; a trace becomes whole."""
-        self._open = False
-        check(self._close(self._handle))
+        """Later calls raise VerpError. Of a session: ends the run; a trace becomes whole. It stays open if a callback or
+        another thread is using it: that, too, raises VerpError."""
+        status = self._close(self._handle)
+        self._open = status == lib.VERP_BUSY
+        check(status)
 
     def __enter__(self) -> Self:
         return self

@@ -52,15 +52,26 @@ class Moment:
 
     def __init__(self) -> None:
         self.robot = 0
-        self.inputs = np.zeros(1, INPUTS)
-        self.outputs = np.zeros(1, OUTPUTS)
+        self._inputs = np.zeros(1, INPUTS)
+        self._outputs = np.zeros(1, OUTPUTS)
+        self._out = pointer(self._outputs, "void *")
         self._token = 0
         self._sent: object = ffi.NULL
+
+    @property
+    def inputs(self) -> np.ndarray:
+        """What the robot's sensors told."""
+        return self._inputs
+
+    @property
+    def outputs(self) -> np.ndarray:
+        """Those of the tick before; write into them: outputs["goal_count"][0, 3] = ..."""
+        return self._outputs
 
     def decide(self) -> None:
         """Has the robot's own controller decide; `outputs` may then be changed."""
         check(lib.verp_decide(self._token))
-        ffi.memmove(pointer(self.outputs, "void *"), self._sent, self.outputs.nbytes)
+        ffi.memmove(self._out, self._sent, self._outputs.nbytes)
 
 
 Controller = Callable[[Moment], None]
