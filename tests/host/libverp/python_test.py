@@ -1,5 +1,7 @@
 """The Python package: its bits, its arrays, its errors, and the environments for learning."""
 
+import os
+import signal
 import tempfile
 import unittest
 from pathlib import Path
@@ -44,6 +46,40 @@ class SessionTest(unittest.TestCase):
             session.tick()
         with self.assertRaisesRegex(verp.VerpError, "verp_core_forward: .*bytes"), verp.Core() as core:
             core.forward(np.zeros(3, np.float32))
+
+    def test_angles_of_another_shape_are_refused(self) -> None:
+        with verp.Core() as core:
+            for shape in ((21, 0), (21, 2), (1, 21), ()):
+                for call in (core.forward, core.com):
+                    with self.assertRaisesRegex(ValueError, "one row of angles"):
+                        call(np.zeros(shape))
+
+    def test_memory_that_the_library_looks_at_is_not_replaced(self) -> None:
+        def replace(moment: verp.Moment) -> None:
+            moment.outputs = np.zeros(1)
+
+        with verp.Session() as session, verp.Core() as core:
+            session.add(walk_s=1)
+            session.control(replace)
+            with self.assertRaises(AttributeError):
+                session.tick()
+            with self.assertRaises(AttributeError):
+                core.inputs = np.zeros(1)
+
+    def test_close_inside_a_controller_leaves_it_open(self) -> None:
+        with tempfile.TemporaryDirectory() as folder:
+            trace = Path(folder) / "a.mcap"
+            with verp.Session() as session:
+                session.add(walk_s=1, record=str(trace))
+
+                def close(moment: verp.Moment) -> None:
+                    moment.decide()
+                    with self.assertRaisesRegex(verp.VerpError, "verp_session_close: .*callback"):
+                        session.close()
+
+                session.control(close)
+                self.assertTrue(session.tick(3))
+            self.assertEqual(verp.replay(str(trace))[0], 3)
 
     def test_exception_of_a_controller_comes_back(self) -> None:
         with verp.Session() as session:
@@ -91,6 +127,62 @@ class EnvTest(unittest.TestCase):
         env = Env()
         with self.assertRaisesRegex(RuntimeError, "reset"):
             env.step(env.no_action())
+
+    def test_seed_is_optional_and_then_follows_from_the_last(self) -> None:
+        env, alike = Env(vx_m_s=0.1), Env(vx_m_s=0.1)
+        firsts = [env.reset(seed=None)[0], env.reset()[0]]
+        np.testing.assert_array_equal(firsts[0], alike.reset(seed=1)[0])
+        np.testing.assert_array_equal(firsts[1], alike.reset()[0])
+        self.assertFalse(np.array_equal(firsts[0], firsts[1]))
+        env.close()
+        alike.close()
+
+    def test_reset_that_failed_leaves_nothing(self) -> None:
+        env = Env()
+        env.reset(seed=1)
+        with self.assertRaisesRegex(ValueError, "no option 'vx'; there are vx_m_s"):
+            env.reset(options={"vx": 0.1})
+        with self.assertRaises(OverflowError):
+            env.reset(seed=-1)
+        with self.assertRaisesRegex(RuntimeError, "call reset"):
+            env.step(env.no_action())
+        for wrong in ({"episode_s": 0}, {"episode_s": float("nan")}, {"most_action_rad": -0.1}):
+            with self.assertRaisesRegex(ValueError, "Env: "):
+                Env(**wrong)
+
+    def test_vector_that_was_interrupted_gives_no_old_answers(self) -> None:
+        def interrupt(*_: object) -> None:
+            raise KeyboardInterrupt
+
+        with VectorEnv(2, vx_m_s=0.1) as envs:
+            first, _ = envs.reset(seed=3)
+            wanted = envs.step(envs.no_action())[4][0]["digest"]
+            os.kill(envs._processes[0].pid, signal.SIGSTOP)
+            before = signal.signal(signal.SIGALRM, interrupt)
+            signal.setitimer(signal.ITIMER_REAL, 0.2)
+            with self.assertRaises(KeyboardInterrupt):
+                envs.step(envs.no_action())
+            signal.signal(signal.SIGALRM, before)
+            for process in envs._processes:
+                os.kill(process.pid, signal.SIGINT)  # of a terminal's Ctrl-C they have their own
+                os.kill(process.pid, signal.SIGCONT)
+            np.testing.assert_array_equal(envs.reset(seed=3)[0], first)
+            self.assertEqual(envs.step(envs.no_action())[4][0]["digest"], wanted)
+
+    def test_vector_says_who_was_killed_and_that_it_was_closed(self) -> None:
+        with VectorEnv(1) as envs:
+            killed = envs._processes[0]
+            os.kill(killed.pid, signal.SIGSTOP)  # with what it is asked unread
+            envs._pipes[0].send((0, "step", envs.no_action()[0]))
+            os.kill(killed.pid, signal.SIGKILL)
+            killed.join()
+            with self.assertRaisesRegex(RuntimeError, "environment 0: its process has ended"):
+                envs.step(envs.no_action())
+        envs.close()
+        with self.assertRaisesRegex(RuntimeError, "VectorEnv.step: it was closed"):
+            envs.step(envs._pipes)
+        with self.assertRaisesRegex(RuntimeError, "VectorEnv.reset: it was closed"):
+            envs.reset()
 
     def test_vector_is_the_same_as_one_by_one(self) -> None:
         with VectorEnv(2, vx_m_s=0.1) as envs:

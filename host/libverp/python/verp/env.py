@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import multiprocessing
+import signal
 from dataclasses import dataclass
 from multiprocessing.connection import Connection
 from types import TracebackType
@@ -16,6 +17,9 @@ from ._session import WALK, Moment, Session
 from ._sight import Picture
 
 Info = dict[str, Any]
+_VELOCITY = ("vx_m_s", "vy_m_s", "wz_rad_s")
+_NEXT_SEED = 1_000_003  #: from one episode's seed to the next one's: past those of any other environment of a VectorEnv
+_PATIENCE_S = 30.0  #: simulated
 Step = tuple[NDArray[np.float32], float, bool, bool, Info]
 
 
@@ -34,7 +38,7 @@ class Box:
         return generator.uniform(self.low, self.high).astype(np.float32)
 
     def contains(self, array: NDArray[np.float32]) -> bool:
-        return array.shape == self.shape and bool(np.all(array >= self.low) and np.all(array <= self.high))
+        return np.shape(array) == self.shape and bool(np.all(array >= self.low) and np.all(array <= self.high))
 
 
 class Env:
@@ -60,6 +64,8 @@ class Env:
         episode_s: float = 20.0,
         effort: float = 0.01,
     ) -> None:
+        if not most_action_rad >= 0 or not episode_s > 0:
+            raise ValueError("Env: most_action_rad is not negative, and episode_s more than 0")
         self._model, self._world = model, world
         self._velocity = (vx_m_s, 0.0, wz_rad_s)
         self._episode_s, self._effort = episode_s, effort
@@ -75,26 +81,44 @@ class Env:
         self.action_space = Box(-most, most)
         self._action = self.no_action()
         self._session: Session | None = None
+        self._seed: int | None = None
 
     def no_action(self) -> NDArray[np.float32]:
         """The robot's own controller alone."""
         return np.zeros(self._joints, np.float32)
 
-    def reset(self, *, seed: int = 1, options: Info | None = None) -> tuple[NDArray[np.float32], Info]:
-        """A robot of that seed, which stands and begins to walk; `options` may hold vx_m_s, vy_m_s, wz_rad_s."""
+    def reset(self, *, seed: int | None = None, options: Info | None = None) -> tuple[NDArray[np.float32], Info]:
+        """A robot of that seed, which stands and begins to walk; `options` may hold vx_m_s, vy_m_s, wz_rad_s. Without a seed:
+        1 at first, then one that follows from the last, so that a series of episodes repeats and no two are alike."""
         self.close()
-        asked = dict(zip(("vx_m_s", "vy_m_s", "wz_rad_s"), self._velocity)) | (options or {})
-        self._asked = np.array([asked[k] for k in ("vx_m_s", "vy_m_s", "wz_rad_s")], np.float32)
-        self._session = Session(self._world)
-        self._session.add(self._model, seed=seed, walk_s=self._episode_s, open_end=True, **asked)
-        self._action = self.no_action()
-        self._session.control(self._decide)
-        while self._session.tick():
-            if self._session.seen()["outputs"]["gait_phase"] != 0 or self._fallen():
-                break
-        self._began_s = self._session.seen()["time_s"]
-        self._at_m = self._session.seen()["truth"]["body_m"].copy()
+        asked = dict(zip(_VELOCITY, self._velocity))
+        unknown = sorted(set(options or {}) - set(asked))
+        if unknown:
+            raise ValueError(f"Env.reset: there is no option '{unknown[0]}'; there are {', '.join(asked)}")
+        asked |= options or {}
+        if seed is None:
+            seed = 1 if self._seed is None else self._seed + _NEXT_SEED
+        try:
+            self._begin(seed, asked)
+        except BaseException:  # step() is not to find half a session
+            self.close()
+            raise
+        self._seed = seed
         return self._observe(), {}
+
+    def _begin(self, seed: int, asked: Info) -> None:
+        self._asked = np.array([asked[k] for k in _VELOCITY], np.float32)
+        session = self._session = Session(self._world)
+        session.add(self._model, seed=seed, walk_s=self._episode_s, open_end=True, **asked)
+        self._action = self.no_action()
+        session.control(self._decide)
+        while session.tick():
+            if session.seen()["outputs"]["gait_phase"] != 0 or self._fallen():
+                break
+            if session.seen()["time_s"] > _PATIENCE_S:
+                raise RuntimeError(f"Env.reset: in {_PATIENCE_S:g} s the robot did not begin to walk; give it a longer episode_s")
+        self._began_s = session.seen()["time_s"]
+        self._at_m = session.seen()["truth"]["body_m"].copy()
 
     def step(self, action: NDArray[np.float32]) -> Step:
         """One control tick: observation, reward, terminated (it fell), truncated (time is over), info."""
@@ -161,22 +185,29 @@ class Env:
 
 
 def _serve(pipe: Connection, options: Info) -> None:
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C reaches all processes of a terminal; whoever asks decides
     env = Env(**options)
-    seed = 1
-    for what, value in iter(pipe.recv, None):
+    while (asked := _asked(pipe)) is not None:
+        number, what, value = asked
         try:
             if what == "reset":
-                seed = value
-                answer: Any = env.reset(seed=seed)
+                answer: Any = env.reset(seed=value)
             else:
                 answer = env.step(value)
                 if answer[2] or answer[3]:  # the next episode begins; what this one ended with stands in info
-                    seed += 1_000_003
-                    last, first = answer, env.reset(seed=seed)
+                    last, first = answer, env.reset()
                     answer = (first[0], *last[1:4], last[4] | {"final_observation": last[0]})
-            pipe.send((None, answer))
+            pipe.send((number, None, answer))
         except Exception as error:  # raised where it was asked for
-            pipe.send((f"{type(error).__name__}: {error}", None))
+            pipe.send((number, f"{type(error).__name__}: {error}", None))
+
+
+def _asked(pipe: Connection) -> tuple[int, str, Any] | None:
+    """None: no more is asked, or whoever did is gone."""
+    try:
+        return pipe.recv()
+    except (EOFError, OSError):
+        return None
 
 
 class VectorEnv:
@@ -193,7 +224,7 @@ class VectorEnv:
         example = Env(**options)
         self.observation_space, self.action_space = example.observation_space, example.action_space
         context = multiprocessing.get_context("spawn")
-        self._pipes, self._processes = [], []
+        self._pipes, self._processes, self._number = [], [], 0
         for _ in range(count):
             here, there = context.Pipe()
             process = context.Process(target=_serve, args=(there, options), daemon=True)
@@ -205,14 +236,16 @@ class VectorEnv:
     def no_action(self) -> NDArray[np.float32]:
         return np.zeros((len(self._pipes), *self.action_space.shape), np.float32)
 
-    def reset(self, *, seed: int = 1) -> tuple[NDArray[np.float32], list[Info]]:
-        """Environment n has seed + n."""
-        answers = self._ask("reset", [seed + n for n in range(len(self._pipes))])
+    def reset(self, *, seed: int | None = None) -> tuple[NDArray[np.float32], list[Info]]:
+        """Environment n has seed + n. Without a seed: 1 at first, then each has one that follows from its last."""
+        if seed is None and self._number == 0:
+            seed = 1
+        answers = self._ask("reset", [None if seed is None else seed + n for n in range(len(self._pipes))])
         return np.stack([a[0] for a in answers]), [a[1] for a in answers]
 
     def step(self, actions: NDArray[np.float32]) -> tuple[Any, ...]:
         """What Env.step() gives, each as an array of all, infos as a list."""
-        if len(actions) != len(self._pipes):
+        if self._pipes and len(actions) != len(self._pipes):
             raise ValueError(f"VectorEnv.step: {len(self._pipes)} rows of actions are needed, not {len(actions)}")
         columns = list(zip(*self._ask("step", list(actions))))
         return (np.stack(columns[0]), *(np.array(column) for column in columns[1:4]), list(columns[4]))
@@ -224,6 +257,8 @@ class VectorEnv:
             except OSError:
                 pass  # it has ended already
             process.join(timeout=10)
+            if process.is_alive():
+                process.kill()
         self._pipes, self._processes = [], []
 
     def __enter__(self) -> VectorEnv:
@@ -233,17 +268,22 @@ class VectorEnv:
         self.close()
 
     def _ask(self, what: str, values: list[Any]) -> list[Any]:
+        if not self._pipes:
+            raise RuntimeError(f"VectorEnv.{what}: it was closed")
+        self._number += 1
         for pipe, value in zip(self._pipes, values):
             try:
-                pipe.send((what, value))
+                pipe.send((self._number, what, value))
             except OSError:
                 pass  # of a process that has ended: its answer will be missing
         answers, failed = [], ""
         for n, pipe in enumerate(self._pipes):
-            try:
-                error, answer = pipe.recv()
-            except EOFError:
-                error, answer = "its process has ended", None
+            number = 0
+            while number != self._number:  # what was asked when Ctrl-C came, nobody has read
+                try:
+                    number, error, answer = pipe.recv()
+                except (EOFError, OSError):
+                    number, error, answer = self._number, "its process has ended", None
             if error and not failed:
                 failed = f"VectorEnv: environment {n}: {error}"
             answers.append(answer)
