@@ -71,7 +71,8 @@ TEST(Packet, NumbersComeBackAndWhatIsShortIsNotGood) {
   EXPECT_NEAR(in.pose().at_m.y, -0.25, 1e-9);
   EXPECT_NEAR(in.get(1e-3), 32.767, 1e-9);  // beyond: the most there is
   EXPECT_TRUE(in.good());
-  Unpacked more(data.substr(0, 5));
+  const std::string part = data.substr(0, 5);
+  Unpacked more(part);
   more.get(1e-3);
   more.pose();
   EXPECT_FALSE(more.good());
