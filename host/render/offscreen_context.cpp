@@ -3,6 +3,8 @@
 #include <dlfcn.h>
 #include <epoxy/egl.h>
 
+#include <cstdlib>
+
 #include "host/render/renderer.hpp"
 
 namespace verp::render {
@@ -30,6 +32,7 @@ void require_libraries() {
 }  // namespace
 
 OffscreenContext::OffscreenContext() {
+  ::setenv("EGL_LOG_LEVEL", "fatal", 0);  // libEGL's own lines: what they mean is told once, by us
   require_libraries();
   if (!epoxy_has_egl_extension(EGL_NO_DISPLAY, "EGL_MESA_platform_surfaceless")) {
     no_driver("EGL has no surfaceless platform here");

@@ -31,7 +31,9 @@ int tell(const std::string& line) {
 int show(MainWindow& window) {
   QTimer interrupts;
   QObject::connect(&interrupts, &QTimer::timeout, [&] {
-    if (tool::interrupted()) window.close();
+    if (!tool::interrupted() && !window.isHidden()) return;
+    window.close();
+    QApplication::quit();  // closing what is not shown yet would end nothing
   });
   interrupts.start(kInterrupt_ms);
   window.show();
@@ -67,6 +69,11 @@ int run_view(const tool::ViewOptions& asked) {
   int count = 1;
   char name[] = "verp view", *words[] = {name, nullptr};
   QApplication application(count, words);
+  survive_the_display({});
+  if (const std::string why = no_driver(); !why.empty()) {
+    leave_the_display();
+    return tell(why);
+  }
   QApplication::setOrganizationName("verp");
   QApplication::setApplicationName("view");
   QSettings settings;
