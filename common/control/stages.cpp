@@ -181,6 +181,20 @@ balance::AttitudeOut estimate(const Params& params, State& state, const AdmitOut
   return out;
 }
 
+void locate(const Params& params, State& state, const Inputs& inputs, const AdmitOut& admitted) {
+  const Mode mode = state.machine.mode;
+  balance::EstimatorIn in;
+  in.lump = &state.gait.preview.lump;
+  in.attitude = &state.attitude;
+  in.inputs = &inputs;
+  in.imu_fresh = admitted.imu_fresh;
+  in.gyro_body_rad_s = admitted.gyro_body_rad_s;
+  in.accel_body_m_s2 = admitted.accel_body_m_s2;
+  in.on_feet = safety::has_torque(mode) && mode != Mode::kFalling && mode != Mode::kGettingUp;
+  in.carrying = state.landing.carrying;
+  balance::update(params, state.estimator, in);
+}
+
 gait::GaitOut plan_motion(const Params& params, State& state, const AdmitOut& admitted,
                           const balance::AttitudeOut& attitude) {
   // Of a walk that ended in a fall nothing goes on, and nothing is learnt.

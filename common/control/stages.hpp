@@ -10,6 +10,9 @@ void start(const Params& params, const Inputs& inputs, State& state);
 
 balance::AttitudeOut estimate(const Params& params, State& state, const AdmitOut& admitted);
 
+/// Where body and centre of mass are, by what the legs tell. The plan is that of the tick before.
+void locate(const Params& params, State& state, const Inputs& inputs, const AdmitOut& admitted);
+
 /// Walks when the safety table says so, and turns back what the heading has drifted.
 gait::GaitOut plan_motion(const Params& params, State& state, const AdmitOut& admitted,
                           const balance::AttitudeOut& attitude);

@@ -1,6 +1,7 @@
 #pragma once
 #include "common/action/player.hpp"
 #include "common/balance/attitude.hpp"
+#include "common/balance/estimator.hpp"
 #include "common/balance/feedback.hpp"
 #include "common/balance/gravity.hpp"
 #include "common/balance/landing.hpp"
@@ -32,6 +33,7 @@ struct State {
   Tuning tuning;  ///< in force: Params::tuning, moved by parameter writes
   AdmitState admit;
   balance::AttitudeState attitude;
+  balance::EstimatorState estimator;
   SteerState steer;
   gait::GaitState gait;
   balance::FeedbackOut feedback;
@@ -41,8 +43,8 @@ struct State {
   safety::LimitState limit;
   safety::MachineState machine;
   action::PlayerState action;
-  VERP_FIELDS(digest, tuning, admit, attitude, steer, gait, feedback, zeros, landing, drive, limit,
-              machine, action)
+  VERP_FIELDS(digest, tuning, admit, attitude, estimator, steer, gait, feedback, zeros, landing,
+              drive, limit, machine, action)
 };
 VERP_PACKED(State);
 static_assert(sizeof(State) <= 3072, "hashed State is at most 3 KB");

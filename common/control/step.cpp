@@ -15,6 +15,7 @@ void step(const Params& params, const action::Library& actions, State& state, co
   AdmitOut admitted = admit(params, state.admit, state.tuning, inputs);
   ask_action(actions, state, inputs, admitted);
   const balance::AttitudeOut attitude = estimate(params, state, admitted);
+  locate(params, state, inputs, admitted);
   watch_fall(params, actions, state, inputs, attitude, admitted);
   const gait::GaitOut plan = plan_motion(params, state, admitted, attitude);
   state.feedback = balance::feedback(state.tuning.balance, attitude,

@@ -272,6 +272,13 @@ inline constexpr Register kTable[] = {
     r(1272, "joint_velocity", i32, "counts/s", "as each drive told last (606Ch); CiA 402 only", kMaxJoints),
     r(1400, "joint_torque", i16, "0.1 %", "of the rated torque, as each drive told last (6077h); CiA 402 only", kMaxJoints),
     r(1464, "image_field", text, "", "with self_test 4: the number in the Params image that is none, or none of a robot; empty: it is not that", kFieldNameLength),
+    // Where the robot has itself (common/balance/estimator.hpp): z up from the ground under the soles that carry, x and y
+    // from under the body and ahead of it at power-up; they drift, as odometry does.
+    r(1504, "body_position", f32, "m", "estimated: origin of the body frame, x y z from where it was at power-up", 3),
+    r(1516, "body_attitude", f32, "rad", "estimated: roll, pitch (nose down positive) and yaw (turned to the left since power-up)", 3),
+    r(1528, "com_position", f32, "m", "estimated: centre of mass, x y z, as body_position", 3),
+    r(1540, "com_velocity", f32, "m/s", "estimated: over the ground, along the axes of body_position", 3),
+    r(1552, "dcm", f32, "m", "estimated: divergent component of motion on the ground, x y, as body_position", 2),
 };
 // clang-format on
 }  // namespace row

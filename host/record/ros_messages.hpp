@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "common/control/state.hpp"
 #include "common/io/io.hpp"
 #include "common/model/params.hpp"
 
@@ -59,7 +60,8 @@ std::string joint_state(const Params& params, const std::int32_t (&position_coun
                         std::span<const double> velocity_rad_s, std::span<const double> effort_n_m,
                         std::uint64_t time_ns);
 /// One tick of the controller as JSON, by kControlSchema.
-std::string control(const Params& params, const Inputs& inputs, const Outputs& outputs);
+std::string control(const Params& params, const Inputs& inputs, const State& state,
+                    const Outputs& outputs);
 /// Gyro and accelerometer, rotated into the body frame; orientation is declared unknown.
 std::string imu(const Params& params, const Inputs& inputs, std::uint64_t time_ns);
 /// As transforms() names the frame of a node: body, or the joint that moves it.

@@ -109,14 +109,15 @@ std::string contacts(std::string_view link, const std::vector<ContactPoint>& poi
   return out.take();
 }
 
-std::string odometry(const Motion& motion, std::string_view frame, std::uint64_t time_ns) {
+std::string odometry(const Motion& motion, std::string_view frame, std::uint64_t time_ns,
+                     std::string_view parent) {
   const auto covariance = [](double linear, double angular) {
     std::array<double, 36> out{};
     for (std::size_t i = 0; i < 6; ++i) out[7 * i] = i < 3 ? linear : angular;
     return out;
   };
   Cdr out;
-  out.header(time_ns, "world").text(frame);
+  out.header(time_ns, parent).text(frame);
   out.doubles(motion.pose.position_m).doubles(motion.pose.orientation_xyzw);
   out.doubles(covariance(motion.position_m2, motion.angle_rad2));
   out.doubles(motion.velocity_m_s).doubles(motion.rate_rad_s);

@@ -37,6 +37,11 @@ struct Motion {
   /// Variances of each axis.
   double position_m2 = 0, angle_rad2 = 0, velocity_m2_s2 = 0, rate_rad2_s2 = 0;
 };
-std::string odometry(const Motion& motion, std::string_view frame, std::uint64_t time_ns);
+std::string odometry(const Motion& motion, std::string_view frame, std::uint64_t time_ns,
+                     std::string_view parent = "world");
+/// Where the controller has its own body, in the frame "odom" (common/balance/estimator.hpp).
+/// Nobody knows the variances.
+std::string estimated_odometry(const Params& params, const Inputs& inputs, const State& state,
+                               std::uint64_t time_ns);
 
 }  // namespace verp::record::ros

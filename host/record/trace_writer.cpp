@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "host/record/fields.hpp"
+#include "host/record/ros_sensors.hpp"
 #include "host/record/trace_error.hpp"
 #include "host/record/urdf.hpp"
 
@@ -70,6 +71,7 @@ void TraceWriter::begin(const mcap::StringMap& run) {
     goals_ = add("/joint_goals", "sensor_msgs/msg/JointState", ros::kJointStateSchema);
     control_ = writer_.add_channel(
         writer_.add_schema("verp.Control", "jsonschema", ros::kControlSchema), "/control", "json");
+    odometry_ = add("/odom", ros::kOdometry.name.data(), ros::kOdometry.schema);
     const auto robot = add("/robot_description", "std_msgs/msg/String", ros::kStringSchema);
     writer_.add_message(robot, 0, ros::string(urdf(params_)));
   }
@@ -85,19 +87,19 @@ void TraceWriter::append(const TickRecord& record, const State& state, const Out
   const bool keep =
       options_.every_state || ticks_ % kKeyframeTicks == 0 || outputs.faults != faults_;
   faults_ = outputs.faults;
-  put(record, keep ? &state : nullptr, &outputs, body, effort_n_m);
+  put(record, keep ? &state : nullptr, {&state, &outputs}, body, effort_n_m);
 }
 
 void TraceWriter::append(const TickRecord& record, const State* kept) {
-  put(record, kept, nullptr, nullptr, {});
+  put(record, kept, {}, nullptr, {});
 }
 
-void TraceWriter::put(const TickRecord& record, const State* kept, const Outputs* outputs,
+void TraceWriter::put(const TickRecord& record, const State* kept, const Made& made,
                       const ros::BodyPose* body, std::span<const double> effort_n_m) {
   const std::uint64_t time_ns = std::uint64_t{record.inputs.tick} * params_.period_us * 1000;
   writer_.add_message(tick_, time_ns, image(record));
   if (kept != nullptr) writer_.add_message(state_, time_ns, image(*kept));
-  if (options_.ros) append_ros(record.inputs, outputs, body, effort_n_m, time_ns);
+  if (options_.ros) append_ros(record.inputs, made, body, effort_n_m, time_ns);
   ++ticks_;
   if (ticks_ % options_.chunk_ticks != 0) return;
   writer_.flush();
@@ -141,16 +143,18 @@ void TraceWriter::note(std::uint32_t tick, const std::string& what) {
   writer_.add_message(*changed_, std::uint64_t{tick} * params_.period_us * 1000, ros::string(what));
 }
 
-void TraceWriter::append_ros(const Inputs& inputs, const Outputs* outputs,
-                             const ros::BodyPose* body, std::span<const double> effort_n_m,
-                             std::uint64_t time_ns) {
+void TraceWriter::append_ros(const Inputs& inputs, const Made& made, const ros::BodyPose* body,
+                             std::span<const double> effort_n_m, std::uint64_t time_ns) {
   writer_.add_message(
       joints_, time_ns,
       ros::joint_state(params_, inputs.position_count, speeds_.after(inputs), effort_n_m, time_ns));
-  if (outputs != nullptr) {
+  if (made.outputs != nullptr) {
     writer_.add_message(goals_, time_ns,
-                        ros::joint_state(params_, outputs->goal_count, {}, {}, time_ns));
-    writer_.add_message(control_, time_ns, ros::control(params_, inputs, *outputs));
+                        ros::joint_state(params_, made.outputs->goal_count, {}, {}, time_ns));
+    writer_.add_message(control_, time_ns,
+                        ros::control(params_, inputs, *made.state, *made.outputs));
+    writer_.add_message(odometry_, time_ns,
+                        ros::estimated_odometry(params_, inputs, *made.state, time_ns));
   }
   writer_.add_message(imu_, time_ns, ros::imu(params_, inputs, time_ns));
   if (body != nullptr && ticks_ % kTransformTicks == 0) {

@@ -71,15 +71,21 @@ class TraceWriter {
 
  private:
   void begin(const mcap::StringMap& run);
-  void put(const TickRecord& record, const State* kept, const Outputs* outputs,
-           const ros::BodyPose* body, std::span<const double> effort_n_m);
-  void append_ros(const Inputs& inputs, const Outputs* outputs, const ros::BodyPose* body,
+  /// What the controller made of a tick; null of one that is copied.
+  struct Made {
+    const State* state = nullptr;
+    const Outputs* outputs = nullptr;
+  };
+  void put(const TickRecord& record, const State* kept, const Made& made, const ros::BodyPose* body,
+           std::span<const double> effort_n_m);
+  void append_ros(const Inputs& inputs, const Made& made, const ros::BodyPose* body,
                   std::span<const double> effort_n_m, std::uint64_t time_ns);
 
   mcap::Writer writer_;
   Params params_;
   TraceOptions options_;
-  std::uint16_t tick_ = 0, state_ = 0, joints_ = 0, imu_ = 0, tf_ = 0, goals_ = 0, control_ = 0;
+  std::uint16_t tick_ = 0, state_ = 0, joints_ = 0, imu_ = 0, tf_ = 0, goals_ = 0, control_ = 0,
+                odometry_ = 0;
   JointSpeeds speeds_;
   std::map<std::string, std::uint16_t> sensors_;
   std::optional<std::uint16_t> objects_;  ///< a channel of worlds in which something moves

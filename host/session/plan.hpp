@@ -10,6 +10,7 @@
 #include "firmware/app/contracts.hpp"
 #include "host/model/entity.hpp"
 #include "host/record/trace_writer.hpp"
+#include "host/session/estimate_meter.hpp"
 #include "host/session/intervention.hpp"
 #include "host/sim/metrics.hpp"
 #include "host/sim/robot.hpp"
@@ -88,6 +89,7 @@ struct CanTraffic {
 
 struct WalkResult {
   sim::WalkMetrics metrics;
+  EstimateErrors estimate;             ///< of the core: a controller of somebody's own makes none
   std::vector<sim::SeriesRow> series;  ///< from the first tick on
   std::uint64_t ticks = 0;
   std::uint64_t digest = 0;

@@ -124,6 +124,7 @@ void Robot::see() {
   }
   const sim::Observation seen = sim::observe(twin_);
   meter_.tick(seen, outputs_, sim::planned_zmp_world_m(state_.tuning, state_.gait, seen.truth));
+  estimate_meter_.tick(state_, outputs_, seen.truth, world_.options().up.normalized());
   if (result_.ticks == 0) {
     begun_s_ = simulated_s();
     if (can_) {
@@ -224,6 +225,7 @@ WalkResult Robot::result(double wall_s) {
   result_.simulated_s = simulated_s();
   result_.interrupted = interrupted();
   result_.metrics = meter_.result();
+  result_.estimate = estimate_meter_.result();
   result_.end_m = twin_.truth().body_world.translation().head<2>();
   if (watched_) {
     result_.simulated_s = gone_s();

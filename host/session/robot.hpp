@@ -9,6 +9,7 @@
 #include "firmware/app/contracts.hpp"
 #include "host/bus/virtual_bus.hpp"
 #include "host/can/virtual_can.hpp"
+#include "host/session/estimate_meter.hpp"
 #include "host/session/fall_verdict.hpp"
 #include "host/session/plan.hpp"
 #include "host/session/walk_operator.hpp"
@@ -113,6 +114,7 @@ class Robot {
   std::optional<WalkOperator> walker_;
   double walked_s_ = 0;  ///< by controllers that are no more
   sim::WalkMeter meter_;
+  EstimateMeter estimate_meter_;
   WalkResult result_;
   std::function<sim::Quantities&()> quantities_;
   std::deque<Intervention> pending_;  ///< the next one first

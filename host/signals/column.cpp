@@ -1,5 +1,7 @@
 #include "host/signals/column.hpp"
 
+#include <fmt/format.h>
+
 #include <array>
 #include <cstring>
 #include <utility>
@@ -90,6 +92,16 @@ std::vector<Column> columns_of(const Params& params, bool states) {
   for (const char* name : {"roll_rad", "pitch_rad"}) add(name, "rad", Format::kFixed4);
   add_joints("rad_s", "rad/s", Format::kDigits5);
   add_joints("goal_rad", "rad", Format::kFixed6);
+  const auto add_axes = [&](const char* what, const char* unit, int axes) {
+    for (int i = 0; i < axes; ++i)
+      add(fmt::format("{}.{}", what, "xyz"[i]), unit, Format::kDigits6, what);
+  };
+  add_axes("body_m", "m", 3);
+  for (const char* name : {"body_roll_rad", "body_pitch_rad", "body_yaw_rad"})
+    add(name, "rad", Format::kDigits6);
+  add_axes("com_m", "m", 3);
+  add_axes("com_velocity_m_s", "m/s", 3);
+  add_axes("dcm_m", "m", 2);
   if (!states) return all;
   for (const auto& [path, ignored] : record::print_fields(State{})) {
     add("state." + path, unit_of_field(path).c_str(), Format::kState);

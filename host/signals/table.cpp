@@ -52,6 +52,7 @@ void Table::read(const TickRecord& record) {
     numbers_.push_back(
         made == nullptr ? kUnknown : record::ros::joint_rad(params.joint[j], made->goal_count[j]));
   }
+  read_estimates(made != nullptr ? &decisions_.state() : nullptr);
   state_.clear();
   if (states_ && made != nullptr) state_ = record::print_fields(decisions_.state());
 }
@@ -66,6 +67,22 @@ void Table::read_decisions(const Outputs* made) {
   }
   numbers_.push_back(made->faults);
   for (const auto tilt : made->tilt_tenth_mrad) numbers_.push_back(1e-4 * tilt);
+}
+
+void Table::read_estimates(const State* state) {
+  if (state == nullptr) {
+    numbers_.insert(numbers_.end(), 14, kUnknown);
+    return;
+  }
+  const balance::EstimatorState& seen = state->estimator;
+  const Xyz com_m = math::to_xyz(balance::com_m(seen));
+  const gait::Xy dcm_m = balance::dcm_m(seen);
+  for (const float value : {seen.body_m.x, seen.body_m.y, seen.body_m.z, balance::roll_rad(seen),
+                            balance::pitch_rad(seen), state->attitude.heading_rad, com_m.x, com_m.y,
+                            com_m.z, seen.com_velocity_m_s.x, seen.com_velocity_m_s.y,
+                            seen.com_velocity_m_s.z, dcm_m.x, dcm_m.y}) {
+    numbers_.push_back(static_cast<double>(value));
+  }
 }
 
 double Table::number(std::size_t column) const {

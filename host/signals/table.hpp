@@ -33,6 +33,7 @@ class Table {
  private:
   void read(const TickRecord& record);
   void read_decisions(const Outputs* made);
+  void read_estimates(const State* state);
 
   const record::Trace& trace_;
   const bool states_;

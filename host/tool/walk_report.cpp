@@ -12,6 +12,7 @@
 #include "host/session/asked.hpp"
 #include "host/session/fault_names.hpp"
 #include "host/tool/stick_figure.hpp"
+#include "host/tool/walk_estimate.hpp"
 #include "host/tool/walk_load.hpp"
 
 namespace verp::tool {
@@ -322,6 +323,8 @@ std::string to_text(const WalkPlan& plan, const WalkOptions& options, const Walk
                                or_dash(percent(m.servo_saturation_worst), 1, " %"));
   line("most torque", hardest_used(plan, m));
   line("cost of transport", transport_text(m));
+  if (const std::string text = estimate_text(result.estimate); !text.empty())
+    line("estimator", text);
   if (m.self_contact_ticks > 0) {
     line("touched itself", fmt::format("in {} ticks, last {} and {}", m.self_contact_ticks,
                                        m.self_contact_links[0], m.self_contact_links[1]));
@@ -371,6 +374,7 @@ Json to_json(const WalkPlan& plan, const WalkOptions& options, const WalkResult&
                {"servo_saturation_worst", number_or_null(m.servo_saturation_worst)},
                {"self_contact_ticks", m.self_contact_ticks},
                {"self_contact_links", touched},
+               {"estimator", estimate_json(result.estimate)},
                {"digest", fmt::format("0x{:016x}", result.digest)},
                {"notes", session::fault_names(result.faults)},
                {"real_time_factor", result.real_time_factor()}};

@@ -18,6 +18,7 @@
 #include "host/tool/interrupt.hpp"
 #include "host/tool/json.hpp"
 #include "host/tool/progress.hpp"
+#include "host/tool/walk_estimate.hpp"
 
 namespace verp::tool {
 namespace {
@@ -120,7 +121,7 @@ class Seeds {
     for (const char* key :
          {"failure", "remark", "fallen", "distance_m", "asked_m", "asked_turn_deg",
           "speed_steady_m_s", "yaw_drift_deg", "zmp_bias_mean_mm", "falls", "get_ups",
-          "self_contact_ticks", "digest", "varied"}) {
+          "self_contact_ticks", "estimator", "digest", "varied"}) {
       if (json.contains(key)) row[key] = json[key];
     }
     rows_[walking.seed] = row;
@@ -130,6 +131,7 @@ class Seeds {
     Json all = Json::array();
     std::string fell;
     std::vector<double> bias_mm, speed_m_s, went_m, asked_m, turned_deg, asked_deg;
+    std::vector<Json> estimates;
     for (const auto& [seed, row] : rows_) {
       all.push_back(row);
       if (row["survived"].get<bool>()) {
@@ -139,6 +141,8 @@ class Seeds {
         keep(row, "asked_m", asked_m);
         keep(row, "yaw_drift_deg", turned_deg);
         keep(row, "asked_turn_deg", asked_deg);
+        if (row.contains("estimator") && row["estimator"].is_object())
+          estimates.push_back(row["estimator"]);
       } else {
         fell += fmt::format("  seed {}: {}\n", seed, row["failure"].get<std::string>());
       }
@@ -159,7 +163,8 @@ class Seeds {
              of_asked(range("distance, m", went_m, 2), asked_m, 2) +
              (turns(asked_deg) ? of_asked(range("turned, degrees", turned_deg, 0), asked_deg, 0)
                                : "") +
-             range("ZMP bias, mm", bias_mm, 1) + range("steady speed, m/s", speed_m_s, 3) + fell);
+             range("ZMP bias, mm", bias_mm, 1) + range("steady speed, m/s", speed_m_s, 3) +
+             estimates_text(estimates) + fell);
     }
   }
 

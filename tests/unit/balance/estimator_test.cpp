@@ -1,0 +1,299 @@
+#include "common/balance/estimator.hpp"
+
+#include <gtest/gtest.h>
+
+#include "common/kinematics/leg_ik.hpp"
+#include "common/model/counts.hpp"
+#include "tests/unit/support/test_robot.hpp"
+
+namespace verp::balance {
+namespace {
+
+using namespace verp::test;
+
+constexpr float kPeriod_s = 0.01F;
+constexpr float kStandHeight_m = 0.26F;  // of the body's origin over level soles
+
+/// A robot whose soles stay where they are put while its body is led through the room. What it
+/// feels is exact but for the counts; it looks ahead along x.
+struct Led {
+  Params params = kRobot;
+  AttitudeState attitude;
+  EstimatorState state;
+  Inputs inputs;
+  EstimatorIn in;
+  gait::Lump lump;
+  Vec3 sole_m[kFeet] = {Vec3(0, 0.037F, 0), Vec3(0, -0.037F, 0)};
+  Vec3 body_m{0, 0, kStandHeight_m}, velocity_m_s{0, 0, 0};
+  Mat3 turned = Mat3::Identity();
+  float load_n[kFeet] = {15, 15};
+
+  Led() {
+    float angle_rad[kMaxJoints] = {};
+    lump = gait::lump_of(params, angle_rad);
+    inputs.fresh = ~0u;
+    inputs.flags = kImuFresh | kFeetFresh;
+    in.lump = &lump;
+    in.attitude = &attitude;
+    in.inputs = &inputs;
+    in.imu_fresh = true;
+    in.on_feet = true;
+  }
+
+  /// The legs reach their soles; false: they can't.
+  bool place_legs() {
+    bool reached = true;
+    const float bent[kLegJoints] = {0, 0, -0.6F, 1.2F, -0.6F, 0};
+    for (int side = 0; side < kFeet; ++side) {
+      const LegParams& leg = params.leg[side];
+      const Pose sole{turned.transpose(), turned.transpose() * (sole_m[side] - body_m)};
+      const kinematics::LegAngles angles = kinematics::solve_leg(params, leg, sole, bent);
+      reached = reached && angles.flags == 0;
+      for (int k = 0; k < kLegJoints; ++k) {
+        const int j = leg.joint[k];
+        inputs.position_count[j] = model::count_of(params.joint[j], angles.angle_rad[k]);
+      }
+    }
+    return reached;
+  }
+
+  /// One tick later the body goes at that velocity.
+  bool tick(const Vec3& next_m_s) {
+    const Vec3 accel_m_s2 = (next_m_s - velocity_m_s) / kPeriod_s;
+    body_m += (0.5F * kPeriod_s) * (velocity_m_s + next_m_s);
+    velocity_m_s = next_m_s;
+    in.accel_body_m_s2 = turned.transpose() * (accel_m_s2 + Vec3(0, 0, math::kGravityMS2));
+    AttitudeIn feels;
+    feels.fresh = true;
+    feels.accel_body_m_s2 = in.accel_body_m_s2;
+    update(attitude, feels);
+    for (int side = 0; side < kFeet; ++side) {
+      for (std::uint16_t& count : inputs.foot_count[side]) {
+        count = static_cast<std::uint16_t>(25.0F * load_n[side]);
+      }
+    }
+    const bool reached = place_legs();
+    update(params, state, in);
+    return reached;
+  }
+  /// Long enough for the attitude to have settled.
+  void rest() { ticks(120); }
+  void ticks(int count, const Vec3& velocity = Vec3(0, 0, 0)) {
+    for (int i = 0; i < count; ++i) ASSERT_TRUE(tick(velocity)) << "tick " << i;
+  }
+  void stand_on(float left) {
+    load_n[0] = 30.0F * left;
+    load_n[1] = 30.0F - load_n[0];
+  }
+  Vec3 believed_m() const { return math::to_vec(state.body_m); }
+  Vec3 believed_m_s() const { return math::to_vec(state.body_velocity_m_s); }
+};
+
+Led& fresh_robot() {
+  static Led led;
+  return led = Led{};
+}
+
+// `led` holds pointers into itself.
+Led& led_robot() {
+  Led& led = fresh_robot();
+  led.in.lump = &led.lump;
+  led.in.attitude = &led.attitude;
+  led.in.inputs = &led.inputs;
+  return led;
+}
+
+// Closed form: the masses of the robot, summed by the tree of all its links.
+TEST(Estimator, CentreOfMassOfAStillRobotIsThatOfItsLinks) {
+  Led& led = led_robot();
+  led.turned = math::rot_y(0.1F) * math::rot_x(-0.05F);
+  led.ticks(300);
+  float angle_rad[kMaxJoints] = {};
+  for (int j = kLeftLeg; j < kJointCount; ++j) {
+    angle_rad[j] = model::angle_of(led.params.joint[j], led.inputs.position_count[j]);
+  }
+  const Vec3 com = kinematics::center_of_mass(led.params, Pose{led.turned, led.body_m}, angle_rad);
+  EXPECT_LT(distance(com_m(led.state), com), 1e-3F);
+  EXPECT_LT(math::norm(math::to_vec(led.state.com_velocity_m_s)), 1e-3F);
+  EXPECT_NEAR(led.state.body_m.z, kStandHeight_m, 1e-3F) << "over its soles";
+  const gait::Xy dcm = dcm_m(led.state);
+  EXPECT_NEAR(dcm.x, com.x(), 1e-3F) << "at rest the DCM is the centre of mass";
+  EXPECT_NEAR(dcm.y, com.y(), 1e-3F);
+}
+
+// A body that sways over its soles: position and velocity follow without lag, whatever the way.
+TEST(Estimator, FollowsASwayWithoutLag) {
+  constexpr float kMost_m_s = 0.15F, kPulse_per_s = 2.0F * math::kPi * 2.0F;
+  for (const Vec3& way : {Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, 0.3F)}) {
+    Led& led = led_robot();
+    led.rest();
+    float worst_m_s = 0, worst_m = 0;
+    for (int i = 0; i < 300; ++i) {
+      const float phase = kPulse_per_s * kPeriod_s * static_cast<float>(i);
+      ASSERT_TRUE(led.tick(kMost_m_s * math::sin(phase) * way));
+      if (i < 100) continue;
+      worst_m_s = math::max(worst_m_s, distance(led.believed_m_s(), led.velocity_m_s));
+      worst_m = math::max(worst_m, distance(led.believed_m(), led.body_m));
+    }
+    EXPECT_LT(worst_m_s, 0.015F) << "a tenth of it";
+    EXPECT_LT(worst_m, 1.5e-3F);
+  }
+}
+
+// Walking at a constant speed, foot before foot: no jump at a touchdown, and no creep.
+TEST(Estimator, TouchdownsNeitherJumpNorCreep) {
+  Led& led = led_robot();
+  led.rest();
+  const Vec3 speed(0.1F, 0, 0);
+  Vec3 before = led.believed_m();
+  float longest_m = 0;
+  constexpr int kStep_ticks = 25;
+  for (int i = 0; i < 12 * kStep_ticks; ++i) {
+    const int step = i / kStep_ticks, swing = step % 2;
+    // The swing sole is wherever it is, and lands half a step ahead of the body.
+    const float part = static_cast<float>(i % kStep_ticks + 1) / kStep_ticks;
+    led.sole_m[swing].x() = led.body_m.x() - 0.02F + 0.035F * part;
+    led.sole_m[swing].z() = 0.02F * math::sin(math::kPi * part);
+    led.stand_on(swing == 0 ? 0.0F : 1.0F);
+    if (i % kStep_ticks >= kStep_ticks - 2) led.stand_on(0.5F);
+    if (i % kStep_ticks >= kStep_ticks - 2) led.sole_m[swing].z() = 0;
+    if (i % kStep_ticks == kStep_ticks - 1) led.sole_m[swing].x() = led.body_m.x() + 0.015F;
+    ASSERT_TRUE(led.tick(speed)) << i;
+    longest_m = math::max(longest_m, distance(led.believed_m(), before));
+    before = led.believed_m();
+  }
+  EXPECT_LT(longest_m, 2.5e-3F) << "a tick's way is a millimetre";
+  EXPECT_LT(distance(led.believed_m_s(), speed), 0.03F);
+  EXPECT_NEAR(led.state.body_m.x, led.body_m.x(), 0.15F * led.body_m.x());
+  EXPECT_NEAR(led.state.body_m.y, 0.0F, 5e-3F);
+}
+
+// The accelerometer's mean leans with a body that speeds up: by half a degree at 0.1 m/s. The legs
+// know how it goes, and up stays up.
+TEST(Estimator, UpDoesNotLeanWithASwayingBody) {
+  Led& led = led_robot();
+  led.rest();
+  float worst_rad = 0, worst_plain_rad = 0;
+  for (int i = 0; i < 400; ++i) {
+    const float phase = 2.0F * math::kPi * 2.0F * kPeriod_s * static_cast<float>(i);
+    ASSERT_TRUE(led.tick(Vec3(0, 0.15F * math::sin(phase), 0)));
+    const Xyz& plain = led.attitude.up_body;
+    worst_plain_rad = math::max(worst_plain_rad, math::abs(math::atan2(plain.y, plain.z)));
+    worst_rad = math::max(worst_rad, math::abs(roll_rad(led.state)));
+  }
+  EXPECT_GT(worst_plain_rad, 0.012F) << "the lean is there to be taken away";
+  EXPECT_LT(worst_rad, 0.25F * worst_plain_rad);
+}
+
+// Soles whose cells fall silent: after a moment the plan says who stands, and nothing jumps.
+TEST(Estimator, SilentSolesAreReplacedByThePlan) {
+  Led& led = led_robot();
+  led.rest();
+  led.inputs.flags = kImuFresh;
+  led.load_n[0] = led.load_n[1] = 0;
+  led.in.carrying = gait::kLeft;
+  float fastest_m_s = 0;
+  for (int i = 0; i < 60; ++i) {
+    ASSERT_TRUE(led.tick(Vec3(0, 0, 0)));
+    fastest_m_s = math::max(fastest_m_s, math::norm(led.believed_m_s()));
+  }
+  EXPECT_LT(fastest_m_s, 5e-3F);
+  EXPECT_NEAR(led.state.left, 1.0F, 0.01F);
+  led.in.on_feet = false;
+  led.ticks(1);
+  EXPECT_GT(led.state.blind, 0) << "the plan does not stand";
+}
+
+// A robot that is lifted off the ground has not flown away, and knows of no velocity.
+TEST(Estimator, LiftedRobotComesToRest) {
+  Led& led = led_robot();
+  led.rest();
+  led.ticks(20, Vec3(0.1F, 0, 0));
+  led.load_n[0] = led.load_n[1] = 0;
+  const Vec3 at_m = led.believed_m();
+  for (int i = 0; i < 300; ++i) {
+    led.sole_m[i % 2].x() += 1e-3F;  // its legs dangle
+    led.tick(Vec3(0, 0, 0));
+  }
+  EXPECT_LT(math::norm(led.believed_m_s()), 1e-3F);
+  EXPECT_LT(distance(led.believed_m(), at_m), 0.05F);
+}
+
+// One leg's joints are not heard for some ticks: the other leg tells, and when they are heard again
+// the body is where it is.
+TEST(Estimator, SilentJointsNeitherStopNorThrowIt) {
+  Led& led = led_robot();
+  const Vec3 speed(0.05F, 0, 0);
+  led.rest();
+  led.ticks(60, speed);
+  float worst_m_s = 0;
+  for (int i = 0; i < 60; ++i) {
+    const bool silent = i >= 20 && i < 26;
+    led.inputs.fresh = silent ? ~(1u << (kLeftLeg + 3)) : ~0u;
+    led.tick(speed);
+    worst_m_s = math::max(worst_m_s, distance(led.believed_m_s(), speed));
+  }
+  EXPECT_LT(worst_m_s, 0.03F);
+  EXPECT_NEAR(led.state.body_m.x, led.body_m.x(), 4e-3F);
+  led.inputs.fresh = 0;  // none at all
+  led.ticks(200, Vec3(0, 0, 0));
+  EXPECT_LT(math::norm(led.believed_m_s()), 1e-3F) << "nobody knows of any motion";
+  EXPECT_TRUE(struct_is_finite(led.state));
+}
+
+// Whatever the counts are, what it believes is finite and no faster than a robot can be.
+TEST(Estimator, AnyInputsLeaveItFinite) {
+  Led& led = led_robot();
+  Random random(7);
+  for (int i = 0; i < 2000; ++i) {
+    for (std::int32_t& count : led.inputs.position_count) {
+      count = static_cast<std::int32_t>(random.bits());
+    }
+    led.inputs.fresh = random.bits();
+    led.inputs.flags = static_cast<std::uint16_t>(random.bits() & 3u);
+    for (auto& foot : led.inputs.foot_count) {
+      for (std::uint16_t& count : foot) count = static_cast<std::uint16_t>(random.bits());
+    }
+    led.in.imu_fresh = random.below(2) == 0;
+    led.in.carrying = random.bits() % 3;
+    led.in.on_feet = random.below(2) == 0;
+    led.in.accel_body_m_s2 = {random.between(-300, 300), random.between(-300, 300),
+                              random.between(-300, 300)};
+    led.in.gyro_body_rad_s = {random.between(-40, 40), random.between(-40, 40),
+                              random.between(-40, 40)};
+    led.attitude.up_body = {random.between(-1, 1), random.between(-1, 1), random.between(-1, 1)};
+    led.attitude.heading_rad = random.between(-math::kPi, math::kPi);
+    update(led.params, led.state, led.in);
+    ASSERT_TRUE(struct_is_finite(led.state)) << i;
+    ASSERT_LT(math::norm(led.believed_m_s()), 20.0F);
+    const gait::Xy dcm = dcm_m(led.state);
+    ASSERT_TRUE(math::is_finite(dcm.x) && math::is_finite(dcm.y));
+  }
+}
+
+// Left and right are the same: the mirror image of a motion gives the mirror image of what is
+// believed.
+TEST(Estimator, IsTheSameToBothSides) {
+  Vec3 one_sided[2];
+  for (int mirror = 0; mirror < 2; ++mirror) {
+    Led& led = led_robot();
+    const float sign = mirror == 0 ? 1.0F : -1.0F;
+    led.stand_on(mirror == 0 ? 0.8F : 0.2F);
+    for (int i = 0; i < 80; ++i) {
+      ASSERT_TRUE(led.tick(Vec3(0.02F, sign * 0.1F * math::sin(0.1F * static_cast<float>(i)), 0)));
+    }
+    one_sided[mirror] = led.believed_m();
+  }
+  EXPECT_LT(distance(one_sided[0], mirrored(one_sided[1])), 1e-3F);
+}
+
+TEST(Estimator, KnowsNothingOfARobotWithoutLegs) {
+  Led& led = led_robot();
+  for (LegParams& leg : led.params.leg) leg.solver = LegSolver::kNone;
+  update(led.params, led.state, led.in);
+  EXPECT_EQ(led.state.begun, 0);
+  EXPECT_EQ(led.state.body_m.z, 0.0F);
+}
+
+}  // namespace
+}  // namespace verp::balance
