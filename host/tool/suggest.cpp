@@ -52,9 +52,21 @@ std::vector<std::string> holding(std::string_view part, const std::vector<std::s
   return found;
 }
 
+/// The one name that begins as the word does: it was not misspelled, only cut off. Empty: none, or
+/// more than one.
+std::string begun(std::string_view word, const std::vector<std::string>& names) {
+  constexpr std::size_t kLetters = 3;
+  const std::size_t first = word.find_first_not_of('-');
+  if (first == word.npos || word.size() < first + kLetters) return "";
+  const auto begins = [&](const std::string& name) { return name.starts_with(word); };
+  if (std::count_if(names.begin(), names.end(), begins) != 1) return "";
+  return *std::find_if(names.begin(), names.end(), begins);
+}
+
 }  // namespace
 
 std::string nearest(std::string_view word, const std::vector<std::string>& names) {
+  if (const std::string name = begun(word, names); !name.empty()) return name;
   const std::string* best = nullptr;
   std::size_t best_distance = 3;
   for (const std::string& name : names) {
