@@ -181,7 +181,7 @@ void update(const Params& params, EstimatorState& state, const EstimatorIn& in) 
     state.body_m.z = -0.5F * (sole_m[0].z() + sole_m[1].z());
   }
   Vec3 moved_m;
-  float height_m;
+  float height_m = 0;
   const bool carried = stands && moved_over_soles(state, leg, sole_m, moved_m, height_m);
   state.blind = carried ? 0 : state.blind < 255 ? state.blind + 1 : 255;
   Vec3 accel_m_s2(0, 0, 0);
