@@ -233,7 +233,8 @@ int verp_session_close(verp_session session);
 
 /* generic21 with seed 1, 20 s of 4 cm steps, as `verp walk` has it. */
 int verp_robot_defaults(verp_robot* robot);
-/* Before the first tick. `robot` may be null; it counts from 0. */
+/* Before the first tick, and at least 0.1 m from every other robot. `robot` may be null; it counts
+ * from 0. */
 int verp_session_add(verp_session session, const verp_robot* what, uint32_t* robot);
 
 /* At most so many ticks, each of one robot: `robot` had the last one, `done` were done. VERP_OVER:
@@ -244,6 +245,7 @@ int verp_session_tick(verp_session session, uint32_t count, uint32_t* robot, uin
 int verp_session_view(verp_session session, uint32_t robot, verp_tick* tick);
 /* The controller's State after the last tick, of so many bytes: verp_layout("state"). */
 int verp_session_state(verp_session session, uint32_t robot, void* state, uint64_t size);
+/* Of all ticks of the robot so far; 0 before the first. */
 int verp_session_digest(verp_session session, uint32_t robot, uint64_t* digest);
 /* Ends the run of all robots; traces become whole. */
 int verp_session_result(verp_session session, uint32_t robot, verp_result* result);
@@ -261,9 +263,11 @@ int verp_session_tune(verp_session session, uint32_t robot, const char* name, do
 /* As it is in force. */
 int verp_session_tuning(verp_session session, uint32_t robot, const char* name, double* value);
 
-/* How many numbers the physics has by name, once all robots were added, and what they are. */
+/* How many numbers the physics has by name, once all robots were added. */
 int verp_session_quantities(verp_session session, uint32_t* count);
+/* What one of them is; `index` counts from 0. */
 int verp_session_quantity(verp_session session, uint32_t index, verp_quantity* quantity);
+/* Its value now, in the unit that verp_quantity has. */
 int verp_session_read(verp_session session, const char* quantity, double* value);
 /* From the next physics step on; it is kept in the trace of robot 0. */
 int verp_session_set(verp_session session, const char* quantity, double value);
@@ -339,8 +343,9 @@ typedef struct verp_view {
   double fov_rad; /* of the height; 0: 0.5; of what has a name: its own */
 } verp_view;
 
-/* How many cameras the robot has, and what they are. */
+/* How many cameras the robot has. */
 int verp_session_cameras(verp_session session, uint32_t robot, uint32_t* count);
+/* What one of them is; `index` counts from 0. */
 int verp_session_camera(verp_session session, uint32_t robot, uint32_t index, verp_camera* camera);
 /* What that camera saw when it last looked, up to the robot's last tick: `size` bytes of
  * VERP_COLOUR or what else it gives, and when, as verp_tick.time_s; that may be null.
@@ -360,21 +365,27 @@ int verp_replay(const char* file, uint64_t* ticks, uint64_t* digest);
 
 /* `bus` null: the robot's first. `tuning` as in verp_robot. */
 int verp_core_open(const char* model, const char* bus, const char* tuning, verp_core* core);
+/* The handle is closed, and known as such. */
 int verp_core_close(verp_core core);
 /* As it is when power comes on. */
 int verp_core_reset(verp_core core);
 /* One control tick. */
 int verp_core_step(verp_core core, const verp_inputs* inputs, verp_outputs* outputs);
+/* Of all ticks since it was opened or reset. */
 int verp_core_digest(verp_core core, uint64_t* digest);
+/* All that the last tick leaves for the next, of so many bytes: verp_layout("state"). */
 int verp_core_state(verp_core core, void* state, uint64_t size);
+/* The robot as constants, of so many bytes: verp_layout("params"). */
 int verp_core_params(verp_core core, void* params, uint64_t size);
+/* How many joints it has. */
 int verp_core_joints(verp_core core, uint32_t* joints);
 /* The control period, s. */
 int verp_core_period(verp_core core, double* period_s);
 /* Into `name`, of so many bytes. */
 int verp_core_joint_name(verp_core core, uint32_t joint, char* name, uint64_t size);
-/* Between a servo's counts and its joint's angle. */
+/* The counts at which a servo has its joint at an angle. */
 int verp_core_count(verp_core core, uint32_t joint, float angle_rad, int32_t* count);
+/* The angle of a joint whose servo is at these counts. */
 int verp_core_angle(verp_core core, uint32_t joint, int32_t count, float* angle_rad);
 
 /* Forward kinematics: of `joints` angles, joints + 1 poses of 12 numbers, rotation then position,
