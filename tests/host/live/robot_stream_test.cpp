@@ -48,7 +48,7 @@ TEST(RobotStream, ARobotAloneHasTheTopicsOfItsTrace) {
   run(&robot);
   EXPECT_EQ(topics(server, 99),
             (std::vector<std::string>{"/joint_states", "/imu", "/tf", "/joint_goals", "/control",
-                                      "/robot_description", "/objects"}))
+                                      "/odom", "/robot_description", "/objects"}))
       << "and none in an encoding that only `verp replay` reads";
 }
 
@@ -57,11 +57,12 @@ TEST(RobotStream, SeveralHaveNamesAndOneWorld) {
   RobotStream lead(server, "lead"), other(server, "other");
   run(&lead);
   run(&other);
-  EXPECT_EQ(topics(server, 99),
-            (std::vector<std::string>{"/lead/joint_states", "/lead/imu", "/tf", "/lead/joint_goals",
-                                      "/lead/control", "/lead/robot_description", "/objects",
-                                      "/other/joint_states", "/other/imu", "/other/joint_goals",
-                                      "/other/control", "/other/robot_description"}));
+  EXPECT_EQ(
+      topics(server, 99),
+      (std::vector<std::string>{
+          "/lead/joint_states", "/lead/imu", "/tf", "/lead/joint_goals", "/lead/control",
+          "/lead/odom", "/lead/robot_description", "/objects", "/other/joint_states", "/other/imu",
+          "/other/joint_goals", "/other/control", "/other/odom", "/other/robot_description"}));
   const Viewer viewer(server.port());
   viewer.greet();
   viewer.subscribe(5, *server.find_channel("/other/imu"));

@@ -47,7 +47,7 @@ TEST_F(TraceMerge, KnowsEveryTypeOfMessageByItsDefinition) {
       EXPECT_FALSE(definition.with_frames(each.data.substr(0, size), "a/")) << schema.name;
     }
   }
-  EXPECT_EQ(types.size(), 8u);
+  EXPECT_EQ(types.size(), 9u);
 }
 
 TEST_F(TraceMerge, RobotsAreToldApartByTopicAndFrame) {
