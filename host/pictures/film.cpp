@@ -1,6 +1,7 @@
 #include "host/pictures/film.hpp"
 
 #include <CLI/CLI.hpp>
+#include <fmt/format.h>
 
 #include "host/scene/build.hpp"
 #include "host/scene/from_trace.hpp"
@@ -8,6 +9,7 @@
 #include "host/session/session.hpp"
 #include "host/sim/scenery.hpp"
 #include "host/tool/command.hpp"
+#include "host/tool/exit_status.hpp"
 #include "host/tool/interrupt.hpp"
 #include "host/tool/walk_plan.hpp"
 
@@ -116,6 +118,19 @@ bool is_trace(const tool::WalkOptions& options) {
 std::unique_ptr<Film> open_film(const tool::WalkOptions& options) {
   if (is_trace(options)) return std::make_unique<TraceFilm>(options.model);
   return std::make_unique<WalkFilm>(options);
+}
+
+void refuse_walk_of_trace(const CLI::App& app, const tool::WalkOptions& options) {
+  if (!is_trace(options)) return;
+  for (const char* name : {"--bus", "--step", "--velocity", "--for", "--cycle", "--set", "--world",
+                           "--at-pose", "--robots", "--seed"}) {
+    if (app.count(name) == 0) continue;
+    throw tool::ToolError(
+        tool::kBadInput,
+        fmt::format("{}: {} is of a walk in the twin, and {} is a trace, which shows what was "
+                    "recorded; name a robot, or leave out {}",
+                    options.command, name, options.model, name));
+  }
 }
 
 void declare_film(CLI::App& app, tool::WalkOptions& options) {

@@ -38,4 +38,7 @@ void declare_film(CLI::App& app, tool::WalkOptions& options);
 
 bool is_trace(const tool::WalkOptions& options);
 
+/// A trace shows what was recorded: throws ToolError where an option of a walk stands beside one.
+void refuse_walk_of_trace(const CLI::App& app, const tool::WalkOptions& options);
+
 }  // namespace verp::pictures

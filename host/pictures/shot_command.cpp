@@ -160,8 +160,9 @@ tool::Subcommand add_shot(CLI::App& root) {
   depth->excludes(parts)->excludes(states);
   parts->excludes(states);
   tool::add_json_flag(*app, options->json);
-  return {app, [options] {
+  return {app, [app, options] {
             tool::catch_interrupts();
+            refuse_walk_of_trace(*app, options->walk);
             return run_shot(*options);
           }};
 }

@@ -92,8 +92,15 @@ tool::Subcommand add_video(CLI::App& root) {
   app->add_option("--speed", options->speed, "2: twice as fast as it was")
       ->check(tool::number_between(0.01, 100, ""))
       ->capture_default_str();
-  return {app, [options] {
+  return {app, [app, options] {
             tool::catch_interrupts();
+            refuse_walk_of_trace(*app, options->walk);
+            if (options->to_s && *options->to_s <= options->from_s) {
+              throw tool::ToolError(tool::kBadInput,
+                                    fmt::format("{}: --to {:g}: it begins at --from {:g}; give "
+                                                "more than that",
+                                                kVideo, *options->to_s, options->from_s));
+            }
             return run_video(*options);
           }};
 }

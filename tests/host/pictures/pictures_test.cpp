@@ -187,6 +187,9 @@ TEST_F(Pictures, WrongWordsAndMissingThingsCostOneLineEach) {
   expect_refused("shot nobody -o a.png", "nobody");
   expect_refused("shot none.mcap -o a.png", "no such file");
   expect_refused("shot generic21", "-o");
+  expect_refused("shot none.mcap -o a.png --world demo", "--world is of a walk");
+  expect_refused("video none.mcap -o a.mp4 --seed 3", "--seed is of a walk");
+  expect_refused("video generic21 -o a.mp4 --from 2 --to 1", "--to 1");
   expect_refused("video generic21 -o a.avi", ".mp4");
   const Outcome no_driver = shell(
       "EGL_PLATFORM=none LIBGL_DRIVERS_PATH=/nowhere __EGL_VENDOR_LIBRARY_FILENAMES=/dev/null " +
@@ -194,6 +197,10 @@ TEST_F(Pictures, WrongWordsAndMissingThingsCostOneLineEach) {
   EXPECT_EQ(no_driver.status, 3) << no_driver.err;
   EXPECT_EQ(std::count(no_driver.err.begin(), no_driver.err.end(), '\n'), 1) << no_driver.err;
   EXPECT_NE(no_driver.err.find("GL driver"), std::string::npos) << no_driver.err;
+  const Outcome no_swrast = shell("LIBGL_DRIVERS_PATH=/nowhere " + std::string(VERP_PROGRAM) +
+                                  " shot generic21 -o a.png");  // of which Mesa has lines to say
+  EXPECT_EQ(no_swrast.status, 3) << no_swrast.err;
+  EXPECT_EQ(std::count(no_swrast.err.begin(), no_swrast.err.end(), '\n'), 1) << no_swrast.err;
   const Outcome no_ffmpeg =
       shell("PATH=/nowhere " + std::string(VERP_PROGRAM) + " video generic21 -o a.mp4");
   EXPECT_EQ(no_ffmpeg.status, 3);
