@@ -219,7 +219,15 @@ class WorldLoader {
     WorldVisual out;
     out.name = sdf.Name();
     out.pose = resolved(sdf.SemanticPose(), link.Name());
-    out.shape = read_world_shape(*sdf.Geom(), sdf.Name(), out.pose);
+    if (const auto* mesh = sdf.Geom()->MeshShape()) {  // who draws it reads it
+      out.shape.kind = Shape::Kind::kMesh;
+      Mesh named;
+      named.file = file_at(mesh->Uri(), sdf.Name());
+      out.shape.mesh = std::make_shared<const Mesh>(std::move(named));
+      out.shape.size_m = to_vector(mesh->Scale());
+    } else {
+      out.shape = read_world_shape(*sdf.Geom(), sdf.Name(), out.pose);
+    }
     out.casts_shadows = sdf.CastShadows();
     if (const sdf::Material* material = sdf.Material()) {
       out.material.ambient = to_color(material->Ambient());
@@ -262,8 +270,9 @@ class WorldLoader {
       out.kind = Shape::Kind::kHeightfield;
       pose.translation() += pose.linear() * to_vector(field->Position());
       const std::string file = file_at(field->Uri(), about);
-      out.heightfield = in_file<Heightfield>(
-          file, about, [&] { return read_pgm(file, to_vector(field->Size())); });
+      out.heightfield =
+          in_file<Heightfield>(file, about, "heights are a .pgm of 2 to 2049 samples a side",
+                               [&] { return read_pgm(file, to_vector(field->Size())); });
     } else {
       read_solid(geometry, about, out);
     }
@@ -290,16 +299,17 @@ class WorldLoader {
 
   std::shared_ptr<const Mesh> mesh_at(const sdf::Mesh& mesh, const std::string& about) const {
     const std::string file = file_at(mesh.Uri(), about);
-    return in_file<Mesh>(file, about, [&] { return read_stl(file, to_vector(mesh.Scale())); });
+    return in_file<Mesh>(file, about, "touched are meshes of .stl and .obj, of 200000 triangles",
+                         [&] { return read_mesh_to_touch(file, to_vector(mesh.Scale())); });
   }
 
   template <class Thing, class Read>
   std::shared_ptr<const Thing> in_file(const std::string& file, const std::string& about,
-                                       Read read) const {
+                                       const std::string& fix, Read read) const {
     try {
       return read();
     } catch (const std::runtime_error& error) {
-      fail(about, file + ": " + error.what(), "convert it to .stl (meshes) or .pgm (heights)");
+      fail(about, file + ": " + error.what(), fix);
     }
   }
 

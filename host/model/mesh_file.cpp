@@ -1,5 +1,7 @@
 #include "host/model/mesh_file.hpp"
 
+#include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <cstring>
 #include <fstream>
@@ -7,6 +9,7 @@
 #include <map>
 #include <sstream>
 #include <stdexcept>
+#include <vector>
 
 #include "host/model/number.hpp"
 
@@ -89,7 +92,7 @@ void read_text(const std::string& bytes, MeshBuilder& out) {
   std::array<Vec3, 3> corner;
   std::size_t corners = 0;
   std::string word;
-  if (!(in >> word) || word != "solid") throw std::runtime_error("it is no STL file");
+  if (!(in >> word) || word != "solid") throw std::runtime_error("it is no .stl or .obj file");
   while (in >> word) {
     if (word != "vertex") continue;
     for (int axis = 0; axis < 3; ++axis) {
@@ -99,6 +102,50 @@ void read_text(const std::string& bytes, MeshBuilder& out) {
       corner[corners][axis] = *value;
     }
     if (++corners == 3) out.add(corner), corners = 0;
+  }
+}
+
+bool ends_in_obj(const std::string& path) {
+  std::string ending = path.substr(path.size() - std::min<std::size_t>(4, path.size()));
+  for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return ending == ".obj";
+}
+
+Vec3 obj_corner(std::istream& words) {
+  Vec3 corner;
+  for (int axis = 0; axis < 3; ++axis) {
+    std::string word;
+    words >> word;
+    const auto value = parse_number(word);
+    if (!value) throw std::runtime_error("'" + word + "' in it is not a number");
+    corner[axis] = *value;
+  }
+  return corner;
+}
+
+/// "7", "7/2/5" or "-1", which counts from the last.
+const Vec3& obj_named(const std::string& word, const std::vector<Vec3>& corners) {
+  const auto value = parse_number(word.substr(0, word.find('/')));
+  const double count = static_cast<double>(corners.size());
+  const double at = !value ? -1 : *value < 0 ? count + *value : *value - 1;
+  if (at < 0 || at >= count || at != std::floor(at))
+    throw std::runtime_error("a face names the corner '" + word + "', which is none");
+  return corners[static_cast<std::size_t>(at)];
+}
+
+/// Faces of more than three corners are fans, as in any reader of flat convex ones.
+void read_obj(const std::string& bytes, MeshBuilder& out) {
+  std::istringstream in(bytes);
+  std::vector<Vec3> corners;
+  for (std::string line; std::getline(in, line);) {
+    std::istringstream words(line);
+    std::string word;
+    words >> word;
+    if (word == "v") corners.push_back(obj_corner(words));
+    if (word != "f") continue;
+    std::vector<Vec3> face;
+    while (words >> word) face.push_back(obj_named(word, corners));
+    for (std::size_t i = 2; i < face.size(); ++i) out.add({face[0], face[i - 1], face[i]});
   }
 }
 
@@ -124,10 +171,14 @@ double sample(std::istream& in, bool text, bool wide) {
 
 }  // namespace
 
-std::shared_ptr<const Mesh> read_stl(const std::string& path, const Vec3& scale) {
+std::shared_ptr<const Mesh> read_mesh_to_touch(const std::string& path, const Vec3& scale) {
   const std::string bytes = bytes_of(path);
   MeshBuilder builder(path, scale);
-  is_binary(bytes) ? read_binary(bytes, builder) : read_text(bytes, builder);
+  if (ends_in_obj(path)) {
+    read_obj(bytes, builder);
+  } else {
+    is_binary(bytes) ? read_binary(bytes, builder) : read_text(bytes, builder);
+  }
   return builder.take();
 }
 

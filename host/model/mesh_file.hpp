@@ -6,9 +6,9 @@
 
 namespace verp::model {
 
-/// An .stl file, text or binary, its corners scaled. Throws std::runtime_error that says what is
-/// wrong with it.
-std::shared_ptr<const Mesh> read_stl(const std::string& path, const Vec3& scale);
+/// An .stl file, text or binary, or an .obj file, its corners scaled. Throws std::runtime_error
+/// that says what is wrong with it.
+std::shared_ptr<const Mesh> read_mesh_to_touch(const std::string& path, const Vec3& scale);
 
 /// A portable graymap (.pgm, P2 or P5): black is 0, white is size_z_m. Its first row is at +y.
 std::shared_ptr<const Heightfield> read_pgm(const std::string& path, const Vec3& size_m);

@@ -32,7 +32,7 @@ Studio::Studio(const Film& film) {
   }
   renderer_->set_scene(film.scene());
   if (!film.note().empty()) tool::complain(film.note());
-  for (const std::string& note : renderer_->notes()) tool::complain(note + "; it is not drawn");
+  for (const std::string& note : renderer_->notes()) tool::complain(note);
 }
 
 render::Image Studio::filmstrip(const std::vector<scene::Snapshot>& states, render::Size size,

@@ -26,11 +26,18 @@ void require_file(const std::string& file) {
   if (!fs::is_regular_file(file, error)) refuse(file, "no such file", "give one that exists");
 }
 
-void add_part(scene::Triangles& out, const aiMesh& part, const aiMatrix4x4& pose) {
+bool is_sound(const aiVector3D& point) {
+  constexpr float kFar = 1e7F;  // 10 km of millimetres
+  return std::abs(point.x) < kFar && std::abs(point.y) < kFar && std::abs(point.z) < kFar;
+}
+
+/// False: a corner is no finite number, or far off.
+bool add_part(scene::Triangles& out, const aiMesh& part, const aiMatrix4x4& pose) {
   const auto first = static_cast<std::uint32_t>(out.points.size());
   const aiMatrix3x3 turn(pose);
   for (unsigned i = 0; i < part.mNumVertices; ++i) {
     const aiVector3D point = pose * part.mVertices[i];
+    if (!is_sound(point)) return false;
     const aiVector3D normal = part.HasNormals() ? turn * part.mNormals[i] : aiVector3D(0, 0, 1);
     out.points.emplace_back(point.x, point.y, point.z);
     out.normals.push_back(Eigen::Vector3f(normal.x, normal.y, normal.z).normalized());
@@ -42,12 +49,18 @@ void add_part(scene::Triangles& out, const aiMesh& part, const aiMatrix4x4& pose
     if (part.mFaces[f].mNumIndices != 3) continue;
     for (unsigned k = 0; k < 3; ++k) out.indices.push_back(first + part.mFaces[f].mIndices[k]);
   }
+  return true;
 }
 
-void add_node(scene::Triangles& out, const aiScene& in, const aiNode& node, aiMatrix4x4 pose) {
+bool add_node(scene::Triangles& out, const aiScene& in, const aiNode& node, aiMatrix4x4 pose) {
   pose = pose * node.mTransformation;
-  for (unsigned i = 0; i < node.mNumMeshes; ++i) add_part(out, *in.mMeshes[node.mMeshes[i]], pose);
-  for (unsigned i = 0; i < node.mNumChildren; ++i) add_node(out, in, *node.mChildren[i], pose);
+  for (unsigned i = 0; i < node.mNumMeshes; ++i) {
+    if (!add_part(out, *in.mMeshes[node.mMeshes[i]], pose)) return false;
+  }
+  for (unsigned i = 0; i < node.mNumChildren; ++i) {
+    if (!add_node(out, in, *node.mChildren[i], pose)) return false;
+  }
+  return true;
 }
 
 /// libpng's simplified interface: whole pictures, no setjmp.
@@ -93,7 +106,9 @@ scene::Triangles read_mesh(const std::string& file) {
            "give an STL, OBJ, DAE or glTF file");
   }
   scene::Triangles out;
-  add_node(out, *in, *in->mRootNode, aiMatrix4x4());
+  if (!add_node(out, *in, *in->mRootNode, aiMatrix4x4())) {
+    refuse(file, "a mesh with a corner that is no finite number, or 10 km away", "export it anew");
+  }
   if (out.indices.empty()) refuse(file, "a mesh without triangles", "export its surfaces");
   return out;
 }

@@ -35,6 +35,8 @@ void set_air(const scene::Scene& scene, Program& program) {
   program.set("fog_colour", linear(scene.fog.colour));
   glUniform2f(program.at("fog_range"), static_cast<float>(scene.fog.begin_m),
               static_cast<float>(std::max(scene.fog.end_m, scene.fog.begin_m + 0.01)));
+  glUniform2f(program.at("fog_density"), static_cast<float>(scene.fog.density_1_m),
+              scene.fog.squared ? 2.0F : 1.0F);
   program.set("floor_light", linear(scene.ground.light));
   program.set("floor_dark", linear(scene.ground.dark));
   program.set("floor_line", linear(scene.ground.line));

@@ -73,7 +73,8 @@ class Renderer {
   bool on_processor() const;
 
   /// Uploads shapes, meshes and textures; lights, fog, sky, ground and materials may be changed
-  /// without by look(). A mesh or texture that cannot be read is left out: notes() says which.
+  /// without by look(). A mesh or texture that cannot be read is left out: notes() has a line of
+  /// each.
   void set_scene(const scene::Scene& scene);
   /// The same items with other materials, lights, fog, sky or ground.
   void set_looks(const scene::Scene& scene);

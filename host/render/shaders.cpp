@@ -40,6 +40,7 @@ uniform sampler2D picture;
 uniform vec3 zenith, horizon;
 uniform vec3 fog_colour;
 uniform vec2 fog_range;
+uniform vec2 fog_density;
 uniform vec3 floor_light, floor_dark, floor_line;
 uniform float floor_tile, floor_fade;
 out vec4 out_colour;
@@ -109,7 +110,10 @@ vec3 finished(vec3 light) {
   light = mix(light, horizon, 1.0 - exp(-0.7 * far * far));
 #endif
 #ifdef FOG
-  light = mix(light, fog_colour, clamp((length(eye - at) - fog_range.x) / (fog_range.y - fog_range.x), 0.0, 1.0));
+  float fog_way = length(eye - at);
+  float fog_part = fog_density.x > 0.0 ? 1.0 - exp(-pow(fog_density.x * fog_way, fog_density.y))
+                                       : (fog_way - fog_range.x) / (fog_range.y - fog_range.x);
+  light = mix(light, fog_colour, clamp(fog_part, 0.0, 1.0));
 #endif
   return pow(clamp(light, 0.0, 1.0), vec3(1.0 / 2.2));
 }

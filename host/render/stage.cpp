@@ -31,7 +31,7 @@ scene::Triangles triangles_of(const scene::Item& item) {
 
 void Stage::fill(const scene::Scene& scene) {
   scene_ = scene;
-  notes_.clear();
+  notes_ = scene.notes;
   files_.clear();
   pictures_.clear();
   const std::size_t count = scene_.items.size();
@@ -59,7 +59,7 @@ const GpuMesh& Stage::mesh_of_file(const std::string& file) {
   try {
     found->second = GpuMesh(read_mesh(file));
   } catch (const RenderError& error) {
-    notes_.push_back(error.what());
+    notes_.push_back(std::string(error.what()) + "; it is not drawn");
   }
   return found->second;
 }
@@ -70,7 +70,7 @@ GLuint Stage::texture_of_file(const std::string& file) {
   try {
     found->second = read_texture(file);
   } catch (const RenderError& error) {
-    notes_.push_back(error.what());
+    notes_.push_back(std::string(error.what()) + "; it is not drawn");
   }
   return found->second.id();
 }

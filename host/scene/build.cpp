@@ -45,6 +45,7 @@ class RobotBuilder {
     for (int node = 0; node < static_cast<int>(e_.nodes.size()); ++node) add_link(node);
     for (const model::CameraSensor& sensor : e_.cameras) add_camera(sensor);
     for (const model::Joint& joint : e_.joints) add_hub(joint);
+    if (meshes_ == Meshes::kFromFiles) note_missing();
     scene_.robots.push_back({e_.name, std::make_shared<const Entity>(e_), height_m()});
     return robot_;
   }
@@ -53,6 +54,23 @@ class RobotBuilder {
   bool can_be_drawn(const model::Visual& visual) const {
     if (visual.shape != model::Visual::Shape::kMesh) return true;
     return meshes_ == Meshes::kFromFiles && !visual.mesh.empty();
+  }
+
+  /// One line, however many: a third party's robot comes often without its meshes.
+  void note_missing() {
+    std::size_t count = 0;
+    std::string first;
+    for (const model::Node& node : e_.nodes) {
+      for (const model::Visual& visual : node.visuals) {
+        if (visual.shape != model::Visual::Shape::kMesh || !visual.mesh.empty()) continue;
+        if (count++ == 0) first = "'" + visual.mesh_uri + "' of link '" + node.name + "'";
+      }
+    }
+    if (count == 0) return;
+    const std::string others = count == 1 ? "" : " and " + std::to_string(count - 1) + " more";
+    scene_.notes.push_back(e_.name + ": there is no mesh " + first + others +
+                           "; what collides is drawn instead. VERP_MODEL_PATH says where else to "
+                           "look");
   }
 
   Item& add(int node, const std::string& name, Shape shape, const Vec3& size_m,

@@ -81,7 +81,9 @@ struct Light {
 struct Fog {
   bool on = false;
   Colour colour{0.8F, 0.83F, 0.87F, 1};
-  double begin_m = 4, end_m = 30;
+  double begin_m = 4, end_m = 30;  ///< it thickens evenly between
+  double density_1_m = 0;  ///< above 0 instead: what is left at distance d is e^-(density d)
+  bool squared = false;    ///< e^-(density d)^2
 };
 
 /// The backdrop: a soft gradient, also what smooth things mirror.
@@ -126,6 +128,7 @@ struct Scene {
   Sky sky;
   Ground ground;
   std::vector<Mount> cameras;
+  std::vector<std::string> notes;  ///< what a robot's file names and is not there, a line a robot
 };
 
 /// What a segmentation picture has where this item is: one number a link, from 1 on, in the order

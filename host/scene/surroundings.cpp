@@ -97,13 +97,11 @@ Light light_of(const model::Light& light, bool shadows) {
   return out;
 }
 
-/// Fog that thickens by e^-x is drawn as a straight line that is as thick at a half.
 Fog fog_of(const model::Fog& fog) {
   Fog out{.on = true, .colour = colour_of(fog.color), .begin_m = fog.start_m, .end_m = fog.end_m};
   if (fog.kind == model::Fog::Kind::kLinear) return out;
-  const double half_m = 0.7 / std::max(fog.density_1_m, 1e-6);
-  out.begin_m = 0;
-  out.end_m = 2 * half_m;
+  out.density_1_m = std::max(fog.density_1_m, 1e-9);
+  out.squared = fog.kind == model::Fog::Kind::kSquared;
   return out;
 }
 
@@ -154,7 +152,12 @@ class WorldBuilder {
     item.shape = shape_of(shape.kind);
     item.size_m = shape.size_m;
     item.round_m = std::min(rounding_m(item.shape, item.size_m), kMostRound_m);
-    if (shape.mesh) item.triangles = triangles_of(*shape.mesh);
+    if (shape.mesh && !shape.mesh->triangle.empty()) {
+      item.triangles = triangles_of(*shape.mesh);
+    } else if (shape.mesh) {  // to be seen: any format, and who draws reads it
+      item.shape = Shape::kMesh;
+      item.mesh_file = shape.mesh->file;
+    }
     if (shape.heightfield) item.triangles = triangles_of(*shape.heightfield);
     return item;
   }

@@ -14,6 +14,7 @@
 #include "common/gait/types.hpp"
 #include "common/safety/machine.hpp"
 #include "host/session/fault_names.hpp"
+#include "host/tool/console.hpp"
 #include "host/view/editor_panel.hpp"
 #include "host/view/plot_panel.hpp"
 #include "host/view/pose_panel.hpp"
@@ -68,6 +69,10 @@ MainWindow::MainWindow(QSettings& settings, MakeRun make_run)
   scene_->failed = [this](const std::string& why) {
     failure_ = why;
     close();
+  };
+  scene_->noted = [this](const std::string& what) {
+    say(QString::fromStdString(what));
+    if (told_.insert(what).second) tool::complain("verp view: " + what);
   };
   scene_->held = [this](const SceneView::Hold& at) { hold(at); };
   scene_->let_go = [this](const SceneView::Hold& at) { let_go(at); };

@@ -4,6 +4,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 
 #include "host/scene/build.hpp"
@@ -133,6 +134,7 @@ class MainWindow final : public QMainWindow {
   QLabel *mode_, *speed_, *faults_, *link_told_, *digest_;
   QByteArray first_layout_;
   std::string failure_, said_;
+  std::set<std::string> told_;              ///< of what is not drawn: once each
   std::optional<scene::Vec3> foot_from_m_;  ///< of the foot that is dragged, when it was taken
   int frames_ = 0;
 };

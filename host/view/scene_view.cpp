@@ -118,7 +118,12 @@ void SceneView::initializeGL() {
 void SceneView::paintGL() {
   if (!renderer_ || !now_) return;
   try {
-    if (std::exchange(scene_changed_, false)) renderer_->set_scene(scene_);
+    if (std::exchange(scene_changed_, false)) {
+      renderer_->set_scene(scene_);
+      for (const std::string& note : renderer_->notes()) {
+        if (noted) noted(note);
+      }
+    }
     scene::Snapshot now = *now_;
     if (hold_) now.rays.push_back({hold_->at_world_m, hold_->to_world_m, true});
     render::Effects effects = effects_;

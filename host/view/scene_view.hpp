@@ -41,6 +41,7 @@ class SceneView final : public QOpenGLWidget {
   std::function<void(const Hold&)> held, let_go;
   std::function<void(const Hold&)> taken;              ///< a double click on a robot
   std::function<void(const std::string& why)> failed;  ///< it cannot draw
+  std::function<void(const std::string& what)> noted;  ///< one thing of the scene it does not draw
 
   std::uint64_t drawn() const { return drawn_; }
 

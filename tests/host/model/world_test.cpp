@@ -132,7 +132,18 @@ TEST(Worlds, AMeshIsReadOrRefusedByWhatIsInIt) {
   EXPECT_EQ(mesh->triangle.size(), 1u);
   EXPECT_NEAR(mesh->vertex_m.at(1).x(), 2, 1e-12);
   const TemporaryFile junk("b.stl", "this is no mesh");
-  EXPECT_NE(refusal(with(junk.path(), fixed)).find("it is no STL file"), std::string::npos);
+  EXPECT_NE(refusal(with(junk.path(), fixed)).find("it is no .stl or .obj file"),
+            std::string::npos);
+  const TemporaryFile square("c.OBJ",
+                             "# a square\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvn 0 0 1\n"
+                             "f 1//1 2//1 3//1 -1//1\n");
+  const TemporaryFile about("square.sdf", with(square.path(), fixed));
+  const World squared = load_world(about.path());
+  const auto pair = squared.objects.at(1).collisions.at(0).shape.mesh;
+  EXPECT_EQ(pair->triangle.size(), 2u);
+  EXPECT_NEAR(pair->vertex_m.at(2).y(), 2, 1e-12);
+  const TemporaryFile wild("d.obj", "v 0 0 0\nv 1 0 0\nf 1 2 3\n");
+  EXPECT_NE(refusal(with(wild.path(), fixed)).find("names the corner '3'"), std::string::npos);
   const std::string inertial =
       "<pose>0 0 0 0 0 0</pose>";  // moves: refused before its mass is missed
   EXPECT_NE(refusal(with(text.path(), inertial)), "none");

@@ -1,8 +1,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstring>
+#include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "host/files/temporary_directory.hpp"
 #include "host/model/find.hpp"
 #include "host/model/load.hpp"
 #include "host/render/files.hpp"
@@ -97,6 +100,19 @@ TEST(Renderer, EachEffectChangesThePictureAsMeant) {
   Effects clear;
   clear.fog = false;
   EXPECT_EQ(apart(all, bench.image(clear)), 0);
+  bench.scene.items[1].material.glow = {0, 0, 0, 1};
+  const auto at_wall = [&](double begin_m, double end_m, double density_1_m, bool squared) {
+    bench.scene.fog = {true, {1, 1, 1, 1}, begin_m, end_m, density_1_m, squared};
+    bench.renderer.set_looks(bench.scene);
+    return bench.image().rgb[3 * (10 * std::size_t(bench.size.width) + 20)];
+  };
+  // The wall's corner is 3.4 m away: density 0.2 leaves e^-0.68 there, and squared e^-0.46.
+  const int thin = at_wall(0, 1e6, 0, false), thick = at_wall(0, 0.01, 0, false);
+  EXPECT_EQ(thick, 255);
+  EXPECT_GT(at_wall(4, 30, 0.2, false), thin + 20);
+  EXPECT_GT(at_wall(4, 30, 0.2, false), at_wall(4, 30, 0.2, true) + 3);
+  EXPECT_GT(at_wall(4, 30, 3, true), 253);
+  EXPECT_NEAR(at_wall(4, 30, 0.2, false), at_wall(0, 3.4 / (1 - std::exp(-0.68)), 0, false), 6);
   bench.scene.fog.on = false;
   bench.scene.items[1].material.glow = {0, 0.8F, 0, 1};
   bench.renderer.set_looks(bench.scene);
@@ -128,6 +144,34 @@ TEST(Renderer, NumbersThatAreNotFiniteAndFilesThatAreNoMeshesAreLeftOut) {
   EXPECT_NEAR(bench.renderer.measure(bench.now, bench.camera, bench.size).depth_m[bench.middle()],
               3.0, 1e-3);
   EXPECT_THROW(bench.renderer.image(bench.now, bench.camera, {100000, 10}), RenderError);
+}
+
+/// A binary .stl of these corners, three a triangle.
+std::string stl_of(const std::vector<Eigen::Vector3f>& corners) {
+  std::string bytes(84, '\0');
+  const auto count = static_cast<std::uint32_t>(corners.size() / 3);
+  std::memcpy(bytes.data() + 80, &count, sizeof count);
+  for (std::size_t t = 0; t < count; ++t) {
+    bytes.append(12, '\0');
+    bytes.append(reinterpret_cast<const char*>(&corners[3 * t]), 36);
+    bytes.append(2, '\0');
+  }
+  return bytes;
+}
+
+void keep(const std::filesystem::path& file, const std::string& bytes) {
+  std::ofstream(file, std::ios::binary) << bytes;
+}
+
+TEST(Meshes, WithACornerThatIsNoNumberAreRefused) {
+  const files::TemporaryDirectory folder;
+  const std::filesystem::path file = folder.path() / "a.stl";
+  keep(file, stl_of({{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}));
+  EXPECT_EQ(read_mesh(file.string()).indices.size(), 3u);
+  for (const float bad : {std::nanf(""), 1e20F, -INFINITY}) {
+    keep(file, stl_of({{bad, 0, 0}, {0, 1, 0}, {1, 0, 0}}));
+    EXPECT_THROW(read_mesh(file.string()), RenderError) << bad;
+  }
 }
 
 }  // namespace
@@ -206,6 +250,39 @@ TEST_F(Pictures, WrongWordsAndMissingThingsCostOneLineEach) {
   EXPECT_EQ(no_ffmpeg.status, 3);
   EXPECT_NE(no_ffmpeg.err.find("apt-get install ffmpeg"), std::string::npos) << no_ffmpeg.err;
   EXPECT_FALSE(fs::exists(folder_ / "a.mp4.part"));
+}
+
+TEST_F(Pictures, AMeshThatIsNotThereIsSaidInALineAndAWorldShowsThoseOfAnyFormat) {
+  const std::string robot = slurp(model::find_model("generic21"));
+  const std::size_t from = robot.find("<geometry>", robot.find("<visual")),
+                    to = robot.find("</geometry>", from);
+  std::ofstream(folder_ / "r.sdf")
+      << robot.substr(0, from) << "<geometry><mesh><uri>gone.stl</uri></mesh>" << robot.substr(to);
+  const Outcome gone = verp("shot r.sdf -o a.png --size 160x120");
+  EXPECT_EQ(gone.status, 0) << gone.err;
+  EXPECT_NE(gone.err.find("no mesh 'gone.stl' of link 'trunk'"), std::string::npos) << gone.err;
+  EXPECT_EQ(std::count(gone.err.begin(), gone.err.end(), '\n'), 1) << gone.err;
+
+  std::ofstream(folder_ / "wall.obj")
+      << "v 0 -1 0\nv 0 1 0\nv 0 1 2\nv 0 -1 2\nf 1 2 3 4\nf 4 3 2 1\n";
+  const auto world = [this](const std::string& mesh) {
+    std::ofstream(folder_ / "w.sdf")
+        << "<sdf version='1.9'><world name='w'><model name='floor'><static>true</static><link "
+           "name='l'><collision name='c'><geometry><plane><normal>0 0 1</normal></plane></geometry>"
+           "</collision></link></model><model name='wall'><static>true</static><pose>1 0 0 0 0 0"
+           "</pose><link name='l'><visual name='v'><geometry><mesh><uri>"
+        << mesh << "</uri></mesh></geometry></visual></link></model></world></sdf>";
+  };
+  world("wall.obj");
+  const Outcome seen = verp("shot --world w.sdf -o parts.png --segmentation --camera head --json");
+  ASSERT_EQ(seen.status, 0) << seen.err;
+  EXPECT_NE(seen.out.find("\"wall\""), std::string::npos) << seen.out;
+  std::ofstream(folder_ / "junk.dae") << "no mesh";
+  world("junk.dae");
+  const Outcome junk = verp("shot --world w.sdf -o a.png --size 160x120");
+  EXPECT_EQ(junk.status, 0);
+  EXPECT_NE(junk.err.find("junk.dae: not a mesh"), std::string::npos) << junk.err;
+  EXPECT_EQ(std::count(junk.err.begin(), junk.err.end(), '\n'), 1) << junk.err;
 }
 
 }  // namespace
