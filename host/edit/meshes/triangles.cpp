@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <assimp/Importer.hpp>
+#include <cmath>
 #include <map>
 
 namespace verp::edit {
@@ -101,7 +102,9 @@ Triangles read_triangles(const fs::path& file, double unit_m) {
   Eigen::AlignedBox3d box;
   for (const Vec3& p : out.points_m) box.extend(p);
   if (box.sizes().maxCoeff() > kMost_m) {
-    refuse(file, "it is " + std::to_string(int(box.sizes().maxCoeff())) + " m long",
+    refuse(file,
+           "it is " + std::to_string(std::llround(std::min(1e9, double(box.sizes().maxCoeff())))) +
+               " m long",
            "is it in millimetres? give --unit mm");
   }
   return out;
