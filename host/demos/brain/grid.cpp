@@ -88,9 +88,9 @@ std::vector<float> Grid::clearance_m(double most_m) const {
 }
 
 Pose matched(const Grid& grid, const Pose& about_there, const std::vector<Hit>& hits) {
-  constexpr std::size_t kFewest = 20;  // rays, for a place to be told from others
+  constexpr std::size_t kFewestRays = 20;  // for a place to be told from others
   constexpr double kLeast = 0.15;
-  if (hits.size() < kFewest) return about_there;
+  if (hits.size() < kFewestRays) return about_there;
   Pose best = about_there;
   double best_fit = grid.fit(best, hits);
   // Around what is best so far, finer each time. Nearer is better where two fit alike.
