@@ -186,7 +186,9 @@ int run_hil(const CLI::App& app, HilWords words) {
   live.add_to(more);
   const int status =
       finish_walk(plan, options, files, result.walk, {}, more, to_text(result) + live.text());
-  return status != kGood && result.device_trouble ? kNoDevice : status;
+  // Who ends it while a link is silent has still ended it.
+  const bool device = result.device_trouble && !result.walk.interrupted;
+  return status != kGood && device ? kNoDevice : status;
 }
 
 }  // namespace
