@@ -209,4 +209,20 @@ gait::Xy dcm_m(const EstimatorState& state) {
           com.y() + per_omega_s * state.com_velocity_m_s.y};
 }
 
+float roll_rad(const EstimatorState& state) {
+  return math::atan2(state.up_body.y, state.up_body.z);
+}
+
+float pitch_rad(const EstimatorState& state) {
+  return math::atan2(-state.up_body.x, math::hypot(state.up_body.y, state.up_body.z));
+}
+
+Whereabouts whereabouts(const EstimatorState& state, const AttitudeState& attitude) {
+  return {state.body_m,
+          {roll_rad(state), pitch_rad(state), attitude.heading_rad},
+          math::to_xyz(com_m(state)),
+          state.com_velocity_m_s,
+          dcm_m(state)};
+}
+
 }  // namespace verp::balance

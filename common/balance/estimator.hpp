@@ -57,11 +57,19 @@ inline Vec3 sole_m(const EstimatorState& state, int side) {
 gait::Xy dcm_m(const EstimatorState& state);
 
 /// The body's roll and pitch of fixed axes, as AttitudeOut has them.
-inline float roll_rad(const EstimatorState& state) {
-  return math::atan2(state.up_body.y, state.up_body.z);
-}
-inline float pitch_rad(const EstimatorState& state) {
-  return math::atan2(-state.up_body.x, math::hypot(state.up_body.y, state.up_body.z));
-}
+float roll_rad(const EstimatorState& state);
+float pitch_rad(const EstimatorState& state);
+
+/// All of it at once, in the order of the controller's registers from body_position on.
+struct Whereabouts {
+  Xyz body_m;
+  Xyz roll_pitch_yaw_rad;
+  Xyz com_m;
+  Xyz com_velocity_m_s;
+  gait::Xy dcm_m;
+  VERP_FIELDS(body_m, roll_pitch_yaw_rad, com_m, com_velocity_m_s, dcm_m)
+};
+VERP_PACKED(Whereabouts);
+Whereabouts whereabouts(const EstimatorState& state, const AttitudeState& attitude);
 
 }  // namespace verp::balance

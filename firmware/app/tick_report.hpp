@@ -54,7 +54,8 @@ class TickReport {
     image_.set(reg("stance"), outputs.stance);
     image_.set(reg("tilt_roll"), outputs.tilt_tenth_mrad[0]);
     image_.set(reg("tilt_pitch"), outputs.tilt_tenth_mrad[1]);
-    estimate(state);
+    static_assert(reg("body_position") + sizeof(balance::Whereabouts) == reg_end("dcm"));
+    image_.set(reg("body_position"), balance::whereabouts(state.estimator, state.attitude));
     image_.set(reg("gyro"), inputs.gyro_count);
     image_.set(reg("accel"), inputs.accel_count);
     image_.set(reg("feet"), inputs.foot_count);
@@ -127,17 +128,6 @@ class TickReport {
 
  private:
   static constexpr std::uint8_t kNobody = 255;
-
-  void estimate(const State& state) {
-    const balance::EstimatorState& seen = state.estimator;
-    const Xyz attitude_rad{balance::roll_rad(seen), balance::pitch_rad(seen),
-                           state.attitude.heading_rad};
-    image_.set(reg("body_position"), seen.body_m);
-    image_.set(reg("body_attitude"), attitude_rad);
-    image_.set(reg("com_position"), math::to_xyz(balance::com_m(seen)));
-    image_.set(reg("com_velocity"), seen.com_velocity_m_s);
-    image_.set(reg("dcm"), balance::dcm_m(seen));
-  }
 
   std::uint8_t refused_joint(const Inputs& inputs, const Outputs& outputs) const {
     if ((outputs.faults & safety::kFaultJointBeyond) == 0) return kNobody;
