@@ -7,6 +7,7 @@
 #include <string>
 
 #include "host/model/find.hpp"
+#include "host/model/load.hpp"
 
 namespace verp::model {
 
@@ -36,6 +37,18 @@ class TemporaryFile {
 
 inline std::string robot_file(const std::string& name) {
   return std::string(VERP_SOURCE_DIR) + "/common/robots/" + name + "/robot.sdf";
+}
+
+/// The error that loading it ends in. Its own time is bounded: what never ends is found by ctest.
+inline LoadError refusal_of(const std::string& path) {
+  try {
+    load_robot(path);
+  } catch (const LoadError& error) {
+    EXPECT_FALSE(error.fix.empty());
+    return error;
+  }
+  ADD_FAILURE() << "was accepted";
+  return {path, 0, "", ""};
 }
 
 /// True where the third-party model files are; they are not part of this repository.
