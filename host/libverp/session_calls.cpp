@@ -30,18 +30,6 @@ std::uint32_t number_of(Run& run, const session::Robot& ticked) {
   return index;
 }
 
-/// Robots inside each other: the solver of their contacts takes minutes for a tick.
-void need_room(const Run& run, const Seat& seat) {
-  constexpr double kLeast_m = 0.1;
-  for (std::size_t other = 0; other < run.seats.size(); ++other) {
-    const auto way_m = seat.plan().twin.start_m - run.seats[other]->plan().twin.start_m;
-    if (way_m.head<2>().norm() >= kLeast_m) continue;
-    throw Failure(VERP_BAD_ARGUMENT,
-                  "robot " + std::to_string(other) +
-                      " stands there already; x_m and y_m say where this one is to stand");
-  }
-}
-
 verp_result told(const session::WalkResult& from) {
   constexpr double kRadPerDegree = 3.14159265358979323846 / 180;
   const sim::WalkMetrics& m = from.metrics;
@@ -115,7 +103,6 @@ int verp_session_add(verp_session session, const verp_robot* what, uint32_t* rob
       throw Failure(VERP_BAD_ARGUMENT, "robots join before the first tick");
     const auto index = static_cast<std::uint32_t>(run->seats.size());
     auto seat = std::make_unique<Seat>(*what, index);
-    need_room(*run, *seat);
     run->session.add(seat->plan(), seat->hooks());
     run->sight.add(seat->plan());
     run->seats.push_back(std::move(seat));

@@ -1,5 +1,7 @@
 #include "host/session/session.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <chrono>
 #include <stdexcept>
@@ -15,7 +17,8 @@ struct Session::Seat final : sim::TimeSource {
   Seat(Session& session, const WalkPlan& plan, Hooks hooks, const MakeController& make)
       : world(session.world_),
         robot(world, plan, with_decide_outside(std::move(hooks)), session.options_.interrupted),
-        controller(make(robot)) {
+        controller(make(robot)),
+        start_m(plan.twin.start_m) {
     robot.twin().set_time(*this);
   }
 
@@ -48,6 +51,7 @@ struct Session::Seat final : sim::TimeSource {
   sim::World& world;
   Robot robot;
   std::unique_ptr<Controller> controller;
+  const sim::Vec3 start_m;
   std::unique_ptr<Flow> flow;  ///< null: alone. Goes before what it runs
   std::uint64_t asked_us = 0;
   bool ticked = false;    ///< and nobody has looked at it yet
@@ -64,8 +68,20 @@ double ground_m(const sim::World& world, const sim::Vec3& start_m) {
   return world.height_m(start_m.x(), start_m.y(), kFootprint_m);
 }
 
+/// Robots inside each other: the solver of their contacts takes minutes for a tick.
+void Session::need_room(const sim::Vec3& start_m) const {
+  constexpr double kLeast_m = 0.1;
+  for (std::size_t i = 0; i < seats_.size(); ++i) {
+    const sim::Vec3 way_m = start_m - seats_[i]->start_m;
+    if (way_m.head<2>().norm() >= kLeast_m) continue;
+    throw NoRoom(fmt::format("robot {} stands there already: robots begin at least {:g} m apart", i,
+                             kLeast_m));
+  }
+}
+
 Robot& Session::add(const WalkPlan& plan, Hooks hooks, const MakeController& make) {
   if (begun_) throw std::logic_error("a robot joins a session before its first tick");
+  need_room(plan.twin.start_m);
   WalkPlan placed = plan;
   placed.twin.start_m.z() = ground_m(world_, placed.twin.start_m);
   seats_.push_back(std::make_unique<Seat>(*this, placed, std::move(hooks), make));

@@ -19,6 +19,12 @@ struct Options {
   std::function<bool()> interrupted;  ///< asked at each tick; true ends the run. Empty: nobody does
 };
 
+/// A robot was to be put down where another one stands.
+class NoRoom : public std::invalid_argument {
+ public:
+  using std::invalid_argument::invalid_argument;
+};
+
 /// A world and the robots in it, tick by tick:
 ///
 ///     Session session;
@@ -37,7 +43,8 @@ class Session {
   explicit Session(Options options = {});
   ~Session();
 
-  /// One more robot, before the first tick. Throws what TwinRobot's constructor and `make` do.
+  /// One more robot, before the first tick. Throws NoRoom less than 0.1 m from another one, and
+  /// what TwinRobot's constructor and `make` do.
   Robot& add(const WalkPlan& plan, Hooks hooks = {}, const MakeController& make = make_controller);
 
   /// Goes on until one robot has done one more control tick, or its controller has kept us waiting
@@ -63,6 +70,7 @@ class Session {
 
   Seat* next();
   bool go_on(Seat& seat);
+  void need_room(const sim::Vec3& start_m) const;
 
   const Options options_;
   sim::World world_;

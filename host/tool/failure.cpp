@@ -12,6 +12,7 @@
 #include "host/record/trace.hpp"
 #include "host/report/report.hpp"
 #include "host/session/not_up.hpp"
+#include "host/session/session.hpp"
 #include "host/sim/world.hpp"
 #include "host/tool/exit_status.hpp"
 
@@ -39,6 +40,8 @@ Failure current_failure() {
     return {kNoDevice, error.what()};
   } catch (const bus::DeviceError& error) {
     return {kNoDevice, error.what()};
+  } catch (const session::NoRoom& error) {
+    return {kBadInput, fmt::format("verp: {}; give them places with --at-pose", error.what())};
   } catch (const session::NotUp& error) {
     return {kNoDevice, error.what()};
   } catch (const board::NoSuchBoard& error) {

@@ -30,6 +30,13 @@ TEST(Session, RobotsOnBusesOfTheirOwnWalkInOneWorldAsTheyDoAlone) {
   }
 }
 
+TEST(Session, RefusesARobotInsideAnother) {
+  Session session;
+  session.add(plan_of("dxl", 1));
+  EXPECT_THROW(session.add(plan_of("dxl", 1.05)), NoRoom);
+  EXPECT_NO_THROW(session.add(plan_of("dxl", 1.2)));
+}
+
 // What a board refuses is refused here: no struct takes a short cut around the registers.
 TEST(Session, OrdersGoThroughTheOperatorsRegisters) {
   WalkPlan plan = plan_of("dxl");

@@ -122,6 +122,7 @@ TEST_F(Team, WrongWordsAreRefused) {
   expect_refused("walk --robot a=nope", "there is no robot of this name");
   expect_refused("walk --robot a=ext:bogus", "bogus");
   expect_refused("walk --robots 17", "1 to 16");
+  expect_refused("walk --robots 2 --at-pose r2=0,0,0", "robot 0 stands there already");
   expect_refused("walk --robots 16 --robot extra=generic21", "a world has room for 16");
   expect_refused("walk --robots 2 --on mps2_an386", "--robot NAME=on:mps2_an386");
   expect_refused("walk --robots 2 --seeds 1-4", "--seeds is of walks of one robot");
