@@ -58,7 +58,7 @@ void Computer::ticked(const TickRecord& tick, const State& state, const Outputs&
   senses_.walking = mode == Mode::kWalking;
   senses_.ready = senses_.walking || (mode == Mode::kStanding && calibrated);
   senses_.down = mode == Mode::kFallen || mode == Mode::kFalling || mode == Mode::kGettingUp;
-  odometry_.update(tick.inputs, state, outputs);
+  odometry_.update(tick.inputs, state);
   senses_.odometry = odometry_.pose();
   Past past{.time_s = senses_.now_s,
             .odometry = odometry_.pose(),
