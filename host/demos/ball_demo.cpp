@@ -37,7 +37,7 @@ Verdict judge_ball(const Run& run) {
   for (const brain::Point at : ball.at_m) furthest_m = std::max(furthest_m, at.x);
   for (std::size_t i = 0; i < ball.at_m.size(); ++i) {
     begun_s = run.robots.front().moments[i].time_s;
-    if (distance(ball.at_m[i], ball.at_m.front()) > 0.03) break;
+    if (distance(ball.at_m[i], ball.at_m.front()) > kTouched_m) break;
   }
   const std::optional<double> crossed = crossed_m(ball);
   verdict.facts = {{"ball's way ahead", furthest_m - ball.at_m.front().x, "m"},

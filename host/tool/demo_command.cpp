@@ -120,9 +120,10 @@ std::string verdict_of(const demos::Run& run) {
 }
 
 std::string text_of(const demos::Run& run, const std::string& picture) {
-  std::string out = fmt::format("{}: {}\n  {:<44}{}\n", run.demo->name, run.demo->what,
-                                run.verdict.failure.empty() && !run.interrupted ? "good" : "FAILED",
-                                run.verdict.failure.empty() ? "" : run.verdict.failure);
+  std::string out =
+      fmt::format("{}: {}\n  {:<44}{}\n", run.demo->name, run.demo->what,
+                  run.verdict.failure.empty() && !run.interrupted ? "good" : "FAILED",
+                  run.verdict.failure.empty() ? run.demo->criterion : run.verdict.failure);
   const auto line = [&](const std::string& name, const std::string& value) {
     out += fmt::format("  {:<44}{}\n", name, value);
   };
@@ -185,9 +186,16 @@ demos::Options options_of(const DemoWords& words) {
   return options;
 }
 
+/// Before the run, which takes a minute.
 void check_picture(const std::string& file) {
-  if (file.empty() || file.ends_with(".png") || file.ends_with(".svg")) return;
-  throw ToolError(kBadInput, "verp demo: --picture " + file + ": pictures end in .png or .svg");
+  if (file.empty()) return;
+  if (!file.ends_with(".png") && !file.ends_with(".svg"))
+    throw ToolError(kBadInput, "verp demo: --picture " + file + ": pictures end in .png or .svg");
+  const std::filesystem::path folder = std::filesystem::path(file).parent_path();
+  if (!folder.empty() && !std::filesystem::is_directory(folder)) {
+    throw ToolError(kBadInput, fmt::format("verp demo: --picture {}: there is no folder {}", file,
+                                           folder.string()));
+  }
 }
 
 demos::Run run_it(const demos::Demo& demo, const demos::Options& options) {

@@ -3,7 +3,8 @@
 namespace verp::scenario {
 namespace {
 
-// Bands: what gate seeds give, and twice that; too good is as suspicious.
+// Besides the demo's own criterion, bands set by hand around what a few runs gave: well inside
+// that criterion, and not too good either.
 TEST(Demos, AColumnKeepsItsFormation) {
   const demos::Run run = good("column", 1);
   expect_fact(run, "guide's way", 3.4, 4.2);

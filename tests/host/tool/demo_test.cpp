@@ -23,6 +23,7 @@ TEST_F(DemoCommand, WhatCannotBeIsOneLineAndBadInput) {
   expect_refused("demo follow --radio 'loss=2'", "0 to 1");
   expect_refused("demo follow --radio far=1", "range_m, loss");
   expect_refused("demo follow --picture a.jpg", ".png or .svg");
+  expect_refused("demo follow --picture nowhere/a.png", "there is no folder nowhere");
   expect_refused("demo follow --for 0", "--for");
 }
 
