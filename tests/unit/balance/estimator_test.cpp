@@ -27,6 +27,7 @@ struct Led {
   Vec3 body_m{0, 0, kStandHeight_m}, velocity_m_s{0, 0, 0};
   Mat3 turned = Mat3::Identity();
   float load_n[kFeet] = {15, 15};
+  Vec3 accel_offset_m_s2{0, 0, 0};  ///< beyond what the attitude has taken for up
 
   Led() {
     float angle_rad[kMaxJoints] = {};
@@ -67,6 +68,7 @@ struct Led {
     feels.fresh = true;
     feels.accel_body_m_s2 = in.accel_body_m_s2;
     update(attitude, feels);
+    in.accel_body_m_s2 += accel_offset_m_s2;
     for (int side = 0; side < kFeet; ++side) {
       for (std::uint16_t& count : inputs.foot_count[side]) {
         count = static_cast<std::uint16_t>(25.0F * load_n[side]);
@@ -138,6 +140,18 @@ TEST(Estimator, FollowsASwayWithoutLag) {
     EXPECT_LT(worst_m_s, 0.015F) << "a tenth of it";
     EXPECT_LT(worst_m, 1.5e-3F);
   }
+}
+
+// A constant offset of the accelerometer is a velocity, twice it over the rate at which the legs
+// are believed, and no drift: of 5 mg 5.6 mm/s at 18 per second.
+TEST(Estimator, OffsetOfTheAccelerometerIsNoDrift) {
+  Led& led = led_robot();
+  led.rest();
+  led.accel_offset_m_s2 = Vec3(0.05F, 0, 0);
+  led.ticks(500);
+  EXPECT_GT(led.believed_m_s().x(), 0.003F) << "it is felt";
+  EXPECT_LT(led.believed_m_s().x(), 0.007F);
+  EXPECT_LT(distance(led.believed_m(), led.body_m), 1e-3F);
 }
 
 // Walking at a constant speed, foot before foot: no jump at a touchdown, and no creep.
