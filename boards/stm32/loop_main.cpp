@@ -253,6 +253,13 @@ StartFault judge(bool has_desk, control::BootVerdict verdict, const Params& para
   return params.bus_protocol == kProtocol ? StartFault::kNone : StartFault::kProtocol;
 }
 
+/// Its State is on the stack, which is free as long as no loop runs: as a variable it would take RAM
+/// for ever.
+[[gnu::noinline]] control::BootReport check_boot(std::size_t size, Params& scratch) {
+  State state;
+  return control::check_boot(verp_params_begin, size, scratch, state);
+}
+
 }  // namespace
 }  // namespace verp::board
 
@@ -268,9 +275,7 @@ extern "C" int verp_main() {
   const bool has_desk = board::open_operator_port(start);
   const auto size = reinterpret_cast<std::uintptr_t>(verp_params_bytes);
   static Params scratch;
-  static State state;
-  const control::BootReport boot_check =
-      control::check_boot(verp_params_begin, size, scratch, state);
+  const control::BootReport boot_check = board::check_boot(size, scratch);
   scratch = {};  // the robot of a board that was given none
   const bool has_robot = check_image(verp_params_begin, size) == ImageFault::kNone;
   const Params& params =
