@@ -40,6 +40,12 @@ std::string trimmed(std::string line) {
 
 }  // namespace
 
+double median(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  const std::size_t half = values.size() / 2;
+  return values.size() % 2 == 1 ? values.at(half) : (values.at(half - 1) + values.at(half)) / 2;
+}
+
 std::string bench_table(const std::vector<BenchRow>& rows, const Json& headings) {
   constexpr const char* kColumns = "  {:38} {:>14}  {:18} {:22} {}";
   std::string text =
@@ -50,6 +56,12 @@ std::string bench_table(const std::vector<BenchRow>& rows, const Json& headings)
       where = row.where;
       text += fmt::format("{}: {}\n", where, headings.value(where, ""));
     }
+    if (!row.measured()) {
+      text += fmt::format("  {:38} {}\n", row.what,
+                          row.failed.empty() ? "not measured; install it: " + row.missing
+                                             : "FAILED: " + row.failed);
+      continue;
+    }
     text += trimmed(fmt::format(kColumns, row.what, with_unit(row.value, row.unit), range_text(row),
                                 bar_text(row), verdict(row)));
   }
@@ -59,7 +71,15 @@ std::string bench_table(const std::vector<BenchRow>& rows, const Json& headings)
 Json bench_json(const std::vector<BenchRow>& rows) {
   Json array = Json::array();
   for (const BenchRow& row : rows) {
-    Json json = {{"where", row.where}, {"name", row.name}, {"value", row.value}};
+    Json json = {{"where", row.where}, {"name", row.name}};
+    if (!row.measured()) {
+      const bool failed = !row.failed.empty();
+      json[failed ? "failed" : "missing"] = failed ? row.failed : row.missing;
+      if (row.bar != Bar::kNone) json[row.bar == Bar::kAtMost ? "at_most" : "at_least"] = row.limit;
+      array.push_back(json);
+      continue;
+    }
+    json["value"] = row.value;
     if (!std::isnan(row.least)) json.update({{"least", row.least}, {"most", row.most}});
     if (row.bar != Bar::kNone) {
       json.update({{row.bar == Bar::kAtMost ? "at_most" : "at_least", row.limit},
@@ -72,8 +92,10 @@ Json bench_json(const std::vector<BenchRow>& rows) {
 }
 
 bool bench_held(const std::vector<BenchRow>& rows) {
-  return std::all_of(rows.begin(), rows.end(),
-                     [](const BenchRow& row) { return !row.exact || row.held(); });
+  return std::all_of(rows.begin(), rows.end(), [](const BenchRow& row) {
+    if (!row.measured()) return row.failed.empty();
+    return !row.exact || row.held();
+  });
 }
 
 }  // namespace verp::tool
