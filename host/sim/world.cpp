@@ -9,6 +9,7 @@
 
 #include "host/sim/ode_parts.hpp"
 #include "host/sim/scenery.hpp"
+#include "host/sim/solver.hpp"
 
 namespace verp::sim {
 namespace {
@@ -26,6 +27,7 @@ struct OdeGaveUp : std::runtime_error {
 /// ODE's global state: opened by the first world, closed at exit.
 struct OdeRuntime {
   OdeRuntime() {
+    solver_loops();  // or the linker would leave them out
     dInitODE2(0);
     dSetErrorHandler(give_up);
     dSetDebugHandler(give_up);
