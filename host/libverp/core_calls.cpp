@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <bit>
 #include <cstring>
+#include <string>
 
 #include "common/control/step.hpp"
 #include "common/kinematics/leg_ik.hpp"
@@ -40,8 +41,16 @@ const verp::LegParams& leg_of(const Core& core, std::uint32_t side) {
   return core.params.leg[side];
 }
 
-void need_all_joints(const Core& core, std::uint32_t joints) {
+/// Of a number that is none nothing could be computed but more of them.
+void need_finite(const float* values, std::size_t count, const char* name) {
+  for (std::size_t i = 0; i < count; ++i) {
+    finite(values[i], (std::string(name) + "[" + std::to_string(i) + "]").c_str());
+  }
+}
+
+void need_all_joints(const Core& core, const float* angle_rad, std::uint32_t joints) {
   need_size(4ULL * joints, 4ULL * core.params.joint_count, "angle_rad");
+  need_finite(angle_rad, joints, "angle_rad");
 }
 
 verp::Pose pose_from(const float* from) {
@@ -148,6 +157,7 @@ int verp_core_joint_name(verp_core core, uint32_t joint, char* name, uint64_t si
 int verp_core_count(verp_core core, uint32_t joint, float angle_rad, int32_t* count) {
   return call("verp_core_count", [&] {
     need(count, "count");
+    finite(angle_rad, "angle_rad");
     const auto used = cores().use(core);
     *count = verp::model::count_of(joint_of(*used, joint), angle_rad);
     return VERP_OK;
@@ -168,7 +178,7 @@ int verp_core_forward(verp_core core, const float* angle_rad, uint32_t joints, f
     need(angle_rad, "angle_rad");
     need(poses, "poses");
     const auto used = cores().use(core);
-    need_all_joints(*used, joints);
+    need_all_joints(*used, angle_rad, joints);
     verp::Pose node[verp::kMaxNodes];
     verp::kinematics::all_poses(used->params, verp::Pose(), angle_rad, node);
     for (std::uint32_t n = 0; n <= joints; ++n) put_pose(node[n], poses + VERP_POSE * n);
@@ -181,7 +191,7 @@ int verp_core_com(verp_core core, const float* angle_rad, uint32_t joints, float
     need(angle_rad, "angle_rad");
     need(com_m, "com_m");
     const auto used = cores().use(core);
-    need_all_joints(*used, joints);
+    need_all_joints(*used, angle_rad, joints);
     const verp::Vec3 com = verp::kinematics::center_of_mass(used->params, verp::Pose(), angle_rad);
     std::copy_n(com.data(), 3, com_m);
     return VERP_OK;
@@ -194,6 +204,8 @@ int verp_core_leg_ik(verp_core core, uint32_t side, const float* sole, const flo
     need(sole, "sole");
     need(angle_rad, "angle_rad");
     need(flags, "flags");
+    need_finite(sole, VERP_POSE, "sole");
+    if (before_rad != nullptr) need_finite(before_rad, VERP_LEG_JOINTS, "before_rad");
     const auto used = cores().use(core);
     const verp::LegParams& leg = leg_of(*used, side);
     float start_rad[verp::kLegJoints];

@@ -10,13 +10,26 @@
 
 namespace verp::abi {
 
+/// How many forks lie between the process that loaded the library and this one.
+unsigned forks();
+
 /// The objects behind one kind of handle. A handle is a number that is never given twice, so a
-/// closed one is known; each is in use by one call at a time.
+/// closed one is known; each is in use by one call at a time. A process that was forked
+/// has copies of its parent's objects, whose files and programs are the parent's: it may touch none
+/// of them, and its end ends none.
 template <class Object>
 class Handles {
  public:
   /// `what` it is, in words; `kind` tells its handles from others'.
-  Handles(const char* what, std::uint64_t kind) : what_(what), next_(kind) {}
+  Handles(const char* what, std::uint64_t kind) : what_(what), next_(kind) { forks(); }
+  ~Handles() {
+    for (auto& [id, place] : places_) {
+      if (place.forks == forks()) continue;
+      static_cast<void>(new std::shared_ptr<Object>(std::move(place.object)));  // the parent's
+    }
+  }
+  Handles(const Handles&) = delete;
+  Handles& operator=(const Handles&) = delete;
 
   /// A call's use of an object, from its beginning to its end.
   class Use {
@@ -40,7 +53,7 @@ class Handles {
     const std::lock_guard lock(mutex_);
     const std::uint64_t id = next_;
     next_ += kKinds;
-    places_.emplace(id, Place{std::move(object)});
+    places_.emplace(id, Place{std::move(object), forks()});
     return reinterpret_cast<Handle>(id);
   }
 
@@ -69,11 +82,15 @@ class Handles {
   static constexpr std::uint64_t kKinds = 16;
   struct Place {
     std::shared_ptr<Object> object;
+    unsigned forks = 0;
     bool busy = false;
   };
 
   Place& find(std::uint64_t id) {
     const auto found = places_.find(id);
+    if (found != places_.end() && found->second.forks != forks())
+      throw Failure(VERP_BAD_HANDLE, std::string("this ") + what_ +
+                                         " is of the process that forked this one; open one here");
     if (found != places_.end()) return found->second;
     throw Failure(VERP_BAD_HANDLE, std::string("this ") + what_ +
                                        (id == 0 ? " is null" : " was closed, or never was one") +

@@ -8,7 +8,8 @@
  * is for one thread at a time: a second one gets VERP_BUSY. Different handles may be used by
  * different threads at the same time, and equal calls give equal bits whatever the others do. A
  * callback runs inside verp_session_tick(), in its thread and on its stack: calls with the handle
- * of that session then give VERP_BUSY, all others work.
+ * of that session then give VERP_BUSY, all others work. To a process that was forked its parent's
+ * handles are VERP_BAD_HANDLE, and its end harms none of them: it opens its own.
  *
  * Structs begin with `size`, which the caller sets to sizeof: another one's is refused. Memory that
  * the caller gives is the caller's, and no pointer to the library's own is ever handed out, but
@@ -383,19 +384,19 @@ int verp_core_joints(verp_core core, uint32_t* joints);
 int verp_core_period(verp_core core, double* period_s);
 /* Into `name`, of so many bytes. */
 int verp_core_joint_name(verp_core core, uint32_t joint, char* name, uint64_t size);
-/* The counts at which a servo has its joint at an angle. */
+/* The counts at which a servo has its joint at a (finite) angle. */
 int verp_core_count(verp_core core, uint32_t joint, float angle_rad, int32_t* count);
 /* The angle of a joint whose servo is at these counts. */
 int verp_core_angle(verp_core core, uint32_t joint, int32_t count, float* angle_rad);
 
-/* Forward kinematics: of `joints` angles, joints + 1 poses of 12 numbers, rotation then position,
- * body frame; the first is the body's own. */
+/* Forward kinematics: of `joints` finite angles, joints + 1 poses of 12 numbers, rotation then
+ * position, body frame; the first is the body's own. */
 int verp_core_forward(verp_core core, const float* angle_rad, uint32_t joints, float* poses);
 /* Centre of mass, body frame. */
 int verp_core_com(verp_core core, const float* angle_rad, uint32_t joints, float* com_m);
 /* Six angles, hip to ankle, that put the sole of a leg to a pose (12 numbers, body frame);
- * `before_rad` (six angles, or null) is where a solver that iterates starts. `flags`: 1 out of
- * reach, 2 a joint at its limit, 4 not converged. */
+ * `before_rad` (six angles, or null) is where a solver that iterates starts. All of them finite.
+ * `flags`: 1 out of reach, 2 a joint at its limit, 4 not converged. */
 int verp_core_leg_ik(verp_core core, uint32_t side, const float* sole, const float* before_rad,
                      float* angle_rad, uint32_t* flags);
 /* Which joints those are. */

@@ -1,5 +1,6 @@
 #include "host/libverp/matlab/arguments.h"
 
+#include <math.h>
 #include <string.h>
 
 #include "host/libverp/verp.h"
@@ -24,10 +25,18 @@ double number(const arguments* a, int index, const char* what) {
 
 uint32_t whole(const arguments* a, int index, const char* what) {
   const double value = number(a, index, what);
-  if (!(value >= 0 && value <= UINT32_MAX)) {
+  if (!(value >= 0 && value <= UINT32_MAX && value == floor(value))) {
     mexErrMsgIdAndTxt("verp:argument", "verp: %s: %g is no count", what, value);
   }
   return (uint32_t)value;
+}
+
+int32_t signed_whole(const arguments* a, int index, const char* what) {
+  const double value = number(a, index, what);
+  if (!(value >= INT32_MIN && value <= INT32_MAX && value == floor(value))) {
+    mexErrMsgIdAndTxt("verp:argument", "verp: %s: %g is no whole number of 32 bits", what, value);
+  }
+  return (int32_t)value;
 }
 
 char* text(const arguments* a, int index) {
@@ -60,6 +69,7 @@ mxArray* word(uint64_t value) {
 }
 
 void* handle(const arguments* a) {
+  if (a->given > 0 && mxIsEmpty(a->in[0])) refuse("that is no handle: it was closed; open another");
   if (a->given < 1 || !mxIsUint64(a->in[0]) || mxGetNumberOfElements(a->in[0]) != 1) {
     refuse("that is no handle");
   }

@@ -19,6 +19,7 @@ int checked(int status);
 
 double number(const arguments* a, int index, const char* what);
 uint32_t whole(const arguments* a, int index, const char* what);
+int32_t signed_whole(const arguments* a, int index, const char* what);
 /* Null where there is an empty array, or nothing. MATLAB frees it when the call is over. */
 char* text(const arguments* a, int index);
 /* As many floats as the array has. */

@@ -66,8 +66,8 @@ void core_count(const arguments* a) {
 
 void core_angle(const arguments* a) {
   float angle_rad = 0;
-  checked(verp_core_angle(core_of(a), whole(a, 1, "joint"), (int32_t)number(a, 2, "count"),
-                          &angle_rad));
+  checked(
+      verp_core_angle(core_of(a), whole(a, 1, "joint"), signed_whole(a, 2, "count"), &angle_rad));
   a->out[0] = mxCreateDoubleScalar(angle_rad);
 }
 

@@ -170,11 +170,17 @@ static const char* out_of_range(const field* what, double value) {
   return words;
 }
 
+static const char* no_whole(const field* what, double value) {
+  snprintf(words, sizeof words, "%s: %g is no whole number; round() it", what->name, value);
+  return words;
+}
+
 const char* set_number(const field* what, size_t index, double value, void* into) {
   char* at = (char*)into + what->offset + index * bytes_of(what->type);
 #define WRITE(Type, low, high, as)                                              \
   {                                                                             \
     if (!(value >= (low) && value <= (high))) return out_of_range(what, value); \
+    if (as(value) != value) return no_whole(what, value);                       \
     const Type number = (Type)as(value);                                        \
     memcpy(at, &number, sizeof number);                                         \
     return NULL;                                                                \

@@ -69,6 +69,13 @@ static class CsharpTest {
       Says("verp_core_com: ", () => core.Com(null));
       uint flags;
       Throws<ArgumentException>(() => core.LegIk(0, new float[3], out flags));
+      var angles = new float[21];
+      angles[20] = float.NaN;
+      Says("verp_core_forward: angle_rad[20] is not a finite number", () => core.Forward(angles));
+      Says("verp_core_com: angle_rad[20]", () => core.Com(angles));
+      var sole = new float[12];
+      sole[3] = float.PositiveInfinity;
+      Says("verp_core_leg_ik: sole[3]", () => core.LegIk(0, sole, out flags));
     }
   }
 

@@ -1,6 +1,9 @@
 #include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <atomic>
+#include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <limits>
@@ -271,6 +274,68 @@ TEST(LibverpMisuse, TwoThreadsAndACallback) {
   EXPECT_EQ(seen.other, VERP_BUSY);
   ASSERT_EQ(verp_session_control(opened.session, 0, nullptr, nullptr), VERP_OK);
   EXPECT_EQ(verp_session_tick(opened.session, 1, nullptr, nullptr), VERP_OK);
+}
+
+TEST(LibverpMisuse, NumbersThatAreNoneAreNamed) {
+  verp_core core = nullptr;
+  ASSERT_EQ(verp_core_open("generic21", nullptr, nullptr, &core), VERP_OK);
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  const float infinite = std::numeric_limits<float>::infinity();
+  float angle_rad[21] = {}, poses[22 * VERP_POSE], com_m[3];
+  angle_rad[7] = nan;
+  expect_error(verp_core_forward(core, angle_rad, 21, poses), VERP_BAD_ARGUMENT,
+               "verp_core_forward", "angle_rad[7] is not a finite number");
+  angle_rad[7] = infinite;
+  expect_error(verp_core_com(core, angle_rad, 21, com_m), VERP_BAD_ARGUMENT, "verp_core_com",
+               "angle_rad[7]");
+  float sole[VERP_POSE] = {1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0.04F, -infinite};
+  float found[VERP_LEG_JOINTS], before[VERP_LEG_JOINTS] = {0, 0, 0, nan, 0, 0};
+  std::uint32_t flags = 0;
+  expect_error(verp_core_leg_ik(core, 0, sole, nullptr, found, &flags), VERP_BAD_ARGUMENT,
+               "verp_core_leg_ik", "sole[11]");
+  sole[11] = -0.3F;
+  expect_error(verp_core_leg_ik(core, 0, sole, before, found, &flags), VERP_BAD_ARGUMENT,
+               "verp_core_leg_ik", "before_rad[3]");
+  EXPECT_EQ(verp_core_leg_ik(core, 0, sole, nullptr, found, &flags), VERP_OK);
+  std::int32_t count = 0;
+  expect_error(verp_core_count(core, 0, nan, &count), VERP_BAD_ARGUMENT, "verp_core_count",
+               "angle_rad");
+  EXPECT_EQ(verp_core_close(core), VERP_OK);
+}
+
+// A child that ends as programs do, with all its destructors, in the middle of a recorded walk.
+TEST(LibverpMisuse, ForkedProcessHarmsNoTraceOfItsParent) {
+  const std::string trace = testing::TempDir() + "forked-" + std::to_string(getpid()) + ".mcap";
+  std::uint64_t digest = 0;
+  {
+    Opened opened;
+    opened.add([&](verp_robot& robot) { robot.record = trace.c_str(); });
+    for (int round = 0; round < 3; ++round) {
+      ASSERT_EQ(verp_session_tick(opened.session, 50, nullptr, nullptr), VERP_OK);
+      const pid_t child = fork();
+      ASSERT_GE(child, 0);
+      if (child == 0) {
+        const bool refused =
+            verp_session_tick(opened.session, 50, nullptr, nullptr) == VERP_BAD_HANDLE &&
+            std::string(verp_last_error()).find("forked") != std::string::npos &&
+            verp_session_close(opened.session) == VERP_BAD_HANDLE;
+        std::uint64_t ticks = 0;  // what it opens is its own
+        verp_core own = nullptr;
+        const bool works = verp_core_open("generic21", nullptr, nullptr, &own) == VERP_OK &&
+                           verp_core_digest(own, &ticks) == VERP_OK;
+        std::exit(refused && works ? 0 : 1);
+      }
+      int status = -1;
+      ASSERT_EQ(waitpid(child, &status, 0), child);
+      EXPECT_EQ(status, 0);
+    }
+    opened.run();
+    ASSERT_EQ(verp_session_digest(opened.session, 0, &digest), VERP_OK);
+  }
+  std::uint64_t replayed = 0;
+  EXPECT_EQ(verp_replay(trace.c_str(), nullptr, &replayed), VERP_OK) << verp_last_error();
+  EXPECT_EQ(replayed, digest);
+  std::remove(trace.c_str());
 }
 
 }  // namespace

@@ -65,10 +65,30 @@ function misuse_is_an_error_that_names_the_call()
   says(@() core.step(3), 'a struct of inputs');
   says(@() core.step(struct('position_count', [1 2])), 'position_count: 32');
   says(@() core.step(struct('tick', -1)), 'does not fit');
+  says(@() core.step(struct('tick', 1.5)), 'tick: 1.5 is no whole number');
+  says(@() core.count(0.5, 0), 'joint: 0.5 is no count');
+  says(@() core.angle(0, 2048.5), 'count: 2048.5 is no whole number');
+  says(@() core.leg_ik(0.5, eye(4)), 'side: 0.5 is no count');
+  says(@() core.count(0, NaN), 'angle_rad is not a finite number');
+  angles = zeros(1, 21);
+  angles(3) = NaN;
+  says(@() core.forward(angles), 'angle_rad[2] is not a finite number');
+  says(@() core.com(angles), 'angle_rad[2]');
+  sole = eye(4);
+  sole(3, 4) = Inf;
+  says(@() core.leg_ik(0, sole), 'sole[11]');
+  says(@() session.tick(1.5), 'count: 1.5 is no count');
   core.close();
+  core.close();
+  closed = {@() core.step(struct()), @() core.reset(), @() core.digest(), @() core.forward(zeros(1, 21)), ...
+            @() core.com(zeros(1, 21)), @() core.leg_ik(0, eye(4)), @() core.plan([0 0 0], 5), @() core.count(0, 0), ...
+            @() core.angle(0, 0)};
+  for i = 1:numel(closed)
+    says(closed{i}, 'it was closed');
+  end
   session.close();
   session.close();
-  says(@() session.tick(), 'no handle');
+  says(@() session.tick(), 'it was closed');
   says(@() verp_mex('session_close', uint64(12345)), 'verp_session_close');
   says(@() verp_mex('dance'), 'no such call');
   says(@() verp_mex(), 'no such call');

@@ -88,6 +88,37 @@ class SessionTest(unittest.TestCase):
             with self.assertRaisesRegex(ValueError, "nothing"):
                 session.tick()
 
+    def test_numbers_that_are_none_are_named(self) -> None:
+        with verp.Core() as core:
+            angles = core.zeros()
+            angles[4] = np.nan
+            for call in (core.forward, core.com):
+                with self.assertRaisesRegex(verp.VerpError, r"angle_rad\[4\] is not a finite number"):
+                    call(angles)
+            with self.assertRaisesRegex(verp.VerpError, r"verp_core_leg_ik: sole\[11\]"):
+                core.leg_ik(0, np.eye(3), [0, 0.04, np.inf])
+
+    def test_fork_harms_no_trace_of_the_parent(self) -> None:
+        with tempfile.TemporaryDirectory() as folder, verp.Session() as session:
+            trace = Path(folder) / "a.mcap"
+            session.add(walk_s=1, record=str(trace))
+            session.tick(50)
+            child = os.fork()
+            if child == 0:  # its end runs what Python's does: collects, closes
+                code = "not refused"
+                try:
+                    session.tick()
+                except verp.VerpError as error:
+                    code = "" if "forked" in str(error) else str(error)
+                session.__del__()
+                os._exit(code != "")
+            self.assertEqual(os.waitpid(child, 0)[1], 0)
+            while session.tick(100):
+                pass
+            digest = session.digest()
+            session.close()
+            self.assertEqual(verp.replay(str(trace))[1], digest)
+
     def test_damaged_trace_is_refused(self) -> None:
         with tempfile.TemporaryDirectory() as folder:
             trace = Path(folder) / "a.mcap"
