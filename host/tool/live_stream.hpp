@@ -1,15 +1,19 @@
 #pragma once
 #include <cstdint>
-#include <deque>
-#include <functional>
 #include <memory>
 #include <string>
 
-#include "host/live/robot_stream.hpp"
 #include "host/tool/json.hpp"
 
 namespace CLI {
 class App;
+}
+
+namespace verp::live {
+class Server;
+}
+namespace verp::record::mcap {
+class Listener;
 }
 
 namespace verp::tool {
@@ -30,11 +34,12 @@ class LiveStream {
  public:
   /// Tells on stderr where it is. Throws ToolError: the port is not to be had.
   LiveStream(const std::string& command, const LiveOptions& options);
+  ~LiveStream();
 
   /// Who hears what a robot's trace is given; null: nobody. `name`: among several, empty if it is
   /// alone.
   record::mcap::Listener* robot(const std::string& name = {});
-  live::Server* server() { return server_.get(); }
+  live::Server* server();
   /// With --live-wait: returns when somebody watches, or the run is interrupted. Its channels are
   /// there by now.
   void wait_for_viewer();
@@ -48,10 +53,8 @@ class LiveStream {
   void add_to(Json& json) const;
 
  private:
-  std::string command_;
-  LiveOptions options_;
-  std::unique_ptr<live::Server> server_;
-  std::deque<live::RobotStream> robots_;
+  struct Stream;
+  std::unique_ptr<Stream> stream_;  ///< null: nobody asked
 };
 
 }  // namespace verp::tool

@@ -1,6 +1,5 @@
 #include "host/tool/own_controller.hpp"
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -49,12 +48,6 @@ fs::path log_of(const fs::path& folder) {
 }
 
 }  // namespace
-
-void declare_controller(CLI::App& app, std::string& folder) {
-  app.add_option("--controller", folder,
-                 "folder of a controller of your own (verp new controller): it is built, and "
-                 "decides in the core's place");
-}
 
 std::function<session::Decide()> own_controller(const std::string& words, bool show) {
   const fs::path folder = checked(words), tree = folder / "build" / "pc";

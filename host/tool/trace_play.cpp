@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "host/link/system_clock.hpp"
+#include "host/live/server.hpp"
 #include "host/record/trace_parts.hpp"
 #include "host/tool/console.hpp"
 #include "host/tool/exit_status.hpp"

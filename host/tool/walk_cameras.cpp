@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "host/camera/recorder.hpp"
 #include "host/tool/exit_status.hpp"
 
 namespace verp::tool {
@@ -22,10 +23,16 @@ record::TraceWriter& need_trace(const WalkPlan& plan, record::TraceWriter* trace
 
 }  // namespace
 
+struct WalkCameras::Seen {
+  record::TraceWriter& trace;
+  std::unique_ptr<camera::Rig> rig = {};
+  std::unique_ptr<camera::Recorder> recorder = {};
+};
+
 WalkCameras::WalkCameras(const WalkOptions& options, WalkPlan& plan,
                          const std::vector<WalkPlan>& others, const sim::WorldOptions& world,
                          record::TraceWriter* trace)
-    : trace_(need_trace(plan, trace)) {
+    : seen_(new Seen{need_trace(plan, trace)}) {
   plan.twin.cameras = true;
   camera::Stage stage{.robots = {{plan.entity.file, plan.twin.seed}},
                       .world_file = world.scenery == nullptr ? "" : world.scenery->file};
@@ -33,34 +40,42 @@ WalkCameras::WalkCameras(const WalkOptions& options, WalkPlan& plan,
   const auto pace =
       options.real_time ? camera::Rig::Pace::kNeverWaits : camera::Rig::Pace::kEveryPicture;
   try {
-    rig_ = std::make_unique<camera::Rig>(camera::find_program(), stage, pace);
+    seen_->rig = std::make_unique<camera::Rig>(camera::find_program(), stage, pace);
   } catch (const camera::CameraError& error) {
     throw ToolError(kNoDevice, error.what());
   }
 }
 
+WalkCameras::~WalkCameras() = default;
+
 void WalkCameras::watch(const WalkPlan& plan, session::Hooks& hooks) {
-  recorder_ = std::make_unique<camera::Recorder>(*rig_, plan.entity, plan.params, trace_);
+  seen_->recorder =
+      std::make_unique<camera::Recorder>(*seen_->rig, plan.entity, plan.params, seen_->trace);
   hooks.exposed = [this](const sim::Exposure& exposure, std::uint64_t stamp_ns) {
-    recorder_->exposed(exposure, stamp_ns);
+    seen_->recorder->exposed(exposure, stamp_ns);
   };
 }
 
 void WalkCameras::finish() {
-  recorder_->finish();
+  seen_->recorder->finish();
 }
 
 std::string WalkCameras::text(double run_s) const {
   std::string out = fmt::format("  {:<18}{} pictures, {:.2f} of a core while it walked", "cameras",
-                                recorder_->pictures(), rig_->processor_s() / run_s);
-  if (rig_->dropped() > 0) out += fmt::format("; {} left out to keep real time", rig_->dropped());
+                                seen_->recorder->pictures(), seen_->rig->processor_s() / run_s);
+  if (seen_->rig->dropped() > 0)
+    out += fmt::format("; {} left out to keep real time", seen_->rig->dropped());
   return out + "\n";
 }
 
+std::string WalkCameras::failure() const {
+  return seen_->recorder ? seen_->recorder->failure() : "";
+}
+
 Json WalkCameras::json() const {
-  return {{"pictures", recorder_->pictures()},
-          {"dropped", rig_->dropped()},
-          {"processor_s", rig_->processor_s()}};
+  return {{"pictures", seen_->recorder->pictures()},
+          {"dropped", seen_->rig->dropped()},
+          {"processor_s", seen_->rig->processor_s()}};
 }
 
 }  // namespace verp::tool

@@ -2,7 +2,6 @@
 #include <memory>
 #include <string>
 
-#include "host/camera/recorder.hpp"
 #include "host/session/session.hpp"
 #include "host/tool/json.hpp"
 #include "host/tool/walk_options.hpp"
@@ -18,6 +17,7 @@ class WalkCameras {
   /// or nothing that draws.
   WalkCameras(const WalkOptions& options, WalkPlan& plan, const std::vector<WalkPlan>& others,
               const sim::WorldOptions& world, record::TraceWriter* trace);
+  ~WalkCameras();
 
   /// The hooks of the robot that walks, before it is added to the session.
   void watch(const WalkPlan& plan, session::Hooks& hooks);
@@ -27,12 +27,11 @@ class WalkCameras {
   std::string text(double run_s) const;
   Json json() const;
   /// Why there are no more pictures; empty: there are all.
-  std::string failure() const { return recorder_ ? recorder_->failure() : ""; }
+  std::string failure() const;
 
  private:
-  record::TraceWriter& trace_;
-  std::unique_ptr<camera::Rig> rig_;
-  std::unique_ptr<camera::Recorder> recorder_;
+  struct Seen;
+  std::unique_ptr<Seen> seen_;
 };
 
 }  // namespace verp::tool

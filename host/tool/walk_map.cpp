@@ -1,6 +1,5 @@
 #include "host/tool/walk_map.hpp"
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <chrono>
@@ -10,7 +9,6 @@
 #include "host/files/folder_lock.hpp"
 #include "host/report/report.hpp"
 #include "host/survey/words.hpp"
-#include "host/tool/command.hpp"
 #include "host/tool/console.hpp"
 #include "host/tool/interrupt.hpp"
 #include "host/tool/walk_files.hpp"
@@ -21,7 +19,7 @@ namespace verp::tool {
 namespace {
 
 constexpr double kLength_s = 10;  // of a walk in a stability map, unless --for says otherwise
-constexpr int kMostDirections = 36, kMostOnAxis = 41;
+constexpr int kMostDirections = 36;
 
 int grid_of(const MapOptions& options, int usual, int least, int most, const char* what) {
   const int grid = options.grid == 0 ? usual : options.grid;
@@ -59,7 +57,7 @@ survey::PushOptions push_options(const WalkOptions& options, const WalkPlan& pla
 survey::StabilityOptions stability_options(const WalkOptions& options, const WalkPlan& plan) {
   survey::StabilityOptions stability;
   stability.on_axis =
-      grid_of(options.map, stability.on_axis, 3, kMostOnAxis, "velocities on an axis");
+      grid_of(options.map, stability.on_axis, 3, kMostOnMapAxis, "velocities on an axis");
   if (stability.on_axis % 2 == 0) {
     throw ToolError(kBadInput,
                     fmt::format("verp walk: --map stability --map-grid {}: give an odd number, so "
@@ -119,23 +117,6 @@ int leave(const WalkOptions& options, const std::filesystem::path& folder, MapTo
 }
 
 }  // namespace
-
-void declare(CLI::App& app, MapOptions& options) {
-  CLI::Option* map =
-      app.add_option("--map", options.kind,
-                     "push: the hardest push that it walks on after, at 16 phases of its gait from "
-                     "all sides; stand: that it stands after; stability: which velocities it walks "
-                     "at, and what comes of them")
-          ->check(CLI::IsMember({"push", "stand", "stability"}));
-  app.add_option("--map-grid", options.grid,
-                 "how fine a map is: directions of pushes (8), or velocities on each axis (9)")
-      ->check(whole_number_between(1, kMostOnAxis))
-      ->needs(map);
-  for (const char* other : {"--seeds", "--sweep-step", "--record", "--record-state", "--on",
-                            "--push", "--get-up", "--start", "--cameras", "--real-time"}) {
-    map->excludes(other);
-  }
-}
 
 int walk_map(const WalkOptions& options, WalkPlan plan, sim::WorldOptions world) {
   const bool push = options.map.kind != "stability";

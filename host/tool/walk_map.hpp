@@ -19,6 +19,8 @@ struct MapOptions {
   bool length_given = false;  ///< --for
 };
 
+constexpr int kMostOnMapAxis = 41;
+
 /// After all options that it excludes.
 void declare(CLI::App& app, MapOptions& options);
 

@@ -8,7 +8,6 @@
 #include <set>
 
 #include "common/model/tuning_ranges.hpp"
-#include "host/flash/recipe.hpp"
 #include "host/link/endpoint.hpp"
 #include "host/model/params.hpp"
 #include "host/tool/command.hpp"
@@ -239,20 +238,6 @@ Command velocity_of(const WalkOptions& options, const GaitTuning& gait, double s
   command.vy_tenth_mm_s = static_cast<std::int16_t>(std::lround(1e4 * vy_m_s));
   command.wz_mrad_s = static_cast<std::int16_t>(std::lround(1e3 * wz_rad_s));
   return command;
-}
-
-void check_board(const WalkOptions& options) {
-  if (options.board.empty()) return;
-  std::string names;
-  for (const flash::Recipe& each : flash::recipes()) {
-    if (each.chip != nullptr) continue;  // its loop speaks to a twin by a port, not by semihosting
-    if (options.board == each.board) return;
-    names += (names.empty() ? "" : ", ") + std::string(each.board);
-  }
-  throw ToolError(
-      kBadInput, fmt::format("verp walk: --on {}: no emulated board that takes its twin from here; "
-                             "give one of: {}; others walk in `./verp test --on BOARD`",
-                             options.board, names));
 }
 
 sim::WorldOptions world_of(const WalkOptions& options) {

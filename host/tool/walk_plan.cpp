@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "host/action/compile.hpp"
-#include "host/action/folder.hpp"
 #include "host/model/find.hpp"
 #include "host/model/load.hpp"
 #include "host/model/params.hpp"
@@ -32,7 +30,6 @@ namespace {
 
 /// The robot's actions, if it is to get up, and how it is put down.
 void prepare_falls(const WalkOptions& options, WalkPlan& plan) {
-  constexpr int kTries = 3;
   constexpr std::pair<const char*, sim::Lies> kStarts[] = {
       {"standing", sim::Lies::kNo},       {"lying:front", sim::Lies::kFront},
       {"lying:back", sim::Lies::kBack},   {"lying:left", sim::Lies::kLeft},
@@ -51,14 +48,7 @@ void prepare_falls(const WalkOptions& options, WalkPlan& plan) {
                     "verp walk --on: the board's firmware has no actions to get up by; leave "
                     "--get-up and --start out");
   }
-  const auto folder = action::folder_of(plan.entity.file);
-  const action::Made made = action::make_library(plan.params, action::read_folder(folder));
-  // One that is put down on one side needs no way up from the other.
-  const sim::Lies lies = plan.twin.lies;
-  if (lies != sim::Lies::kBack) made.require(action::kGetUpFront, folder.string());
-  if (lies != sim::Lies::kFront) made.require(action::kGetUpBack, folder.string());
-  plan.actions = made.words;
-  plan.get_ups = kTries;
+  take_get_up_actions(plan);
 }
 
 }  // namespace

@@ -13,6 +13,9 @@ namespace verp::tool {
 /// follow, and the length of the walk. The plan has its Params by then.
 void ask_for_walk(const WalkOptions& options, session::WalkPlan& plan);
 
+/// Those of the robot's actions that it gets up by, for the way that it lies. Throws LoadError.
+void take_get_up_actions(session::WalkPlan& plan);
+
 /// Throws ToolError and LoadError.
 session::WalkPlan make_plan(const WalkOptions& options);
 

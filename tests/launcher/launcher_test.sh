@@ -80,6 +80,14 @@ check 'the second time nothing is said' 7 'walk' ''
 [[ -z $errors ]] || { echo "FAILED: said: $errors" && failed=1; }
 
 grep -q 'host-release verp_walk$' "$scratch/built" || { echo "FAILED: a first walk built: $(<"$scratch/built")" && failed=1; }
+for more in '--seeds 1-3' '--map=push' --live --cameras '--controller c' --on=b9 --get-up '--start=lying:any' '--robot a=ext:x --robot b=on:b9'; do
+  : >"$scratch/built"
+  launch walk $more # its words
+  grep -q 'host-release verp$' "$scratch/built" || { echo "FAILED: walk $more built: $(<"$scratch/built")" && failed=1; }
+done
+fresh_project
+echo g++ >>"$scratch/installed"
+launch walk
 launch trace info
 launch walk
 check 'where the program of all words is, it walks' 7 'walk' ''
