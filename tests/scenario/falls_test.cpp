@@ -42,6 +42,16 @@ TEST(GettingUp, RandomOnesDoItToo) {
   }
 }
 
+// The strong arms of this one push it up, without a roll; from its back it goes over its feet onto
+// its front first.
+TEST(GettingUp, Op3DoesItFromBackAndFront) {
+  for (const std::string side : {"back", "front"}) {
+    const Walk lying = walk("op3 --for 3 --physics-step 2 --start lying:" + side);
+    expect_walked(lying);
+    EXPECT_GE(count(lying, "get_ups"), 1) << side;
+  }
+}
+
 TEST(GettingUp, PushedOverItFallsGetsUpAndWalksOn) {
   const Walk pushed =
       walk("generic21 --for 5 --physics-step 2 --get-up --push '2: trunk -60,0,0 N for 0.15'");
