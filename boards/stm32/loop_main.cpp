@@ -253,8 +253,8 @@ StartFault judge(bool has_desk, control::BootVerdict verdict, const Params& para
   return params.bus_protocol == kProtocol ? StartFault::kNone : StartFault::kProtocol;
 }
 
-/// Its State is on the stack, which is free as long as no loop runs: as a variable it would take RAM
-/// for ever.
+/// Its State is on the stack, which is free as long as no loop runs: as a variable it would take
+/// RAM for ever.
 [[gnu::noinline]] control::BootReport check_boot(std::size_t size, Params& scratch) {
   State state;
   return control::check_boot(verp_params_begin, size, scratch, state);

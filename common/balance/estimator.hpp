@@ -13,23 +13,31 @@
 namespace verp::balance {
 
 struct EstimatorState {
-  Xyz up_body{0, 0, 1};  ///< AttitudeState's, without what the body's own motion leaned it by
-  Xyz body_m;            ///< the body frame's origin
+  /// AttitudeState's, without what the body's own motion and the accelerometer's offset leaned it
+  /// by
+  Xyz up_body{0, 0, 1};
+  Xyz body_m;  ///< the body frame's origin
   Xyz body_velocity_m_s;
-  Xyz ahead_m;                     ///< by how much the legs have the body ahead of body_m
-  Xyz sole_from_body_m[kFeet];     ///< middle of each sole, odometry axes
-  Xyz com_from_body_m;             ///< odometry axes
-  Xyz com_velocity_m_s;            ///< over the ground
-  gait::Xy slow_m_s;               ///< mean of the body's velocity: what the attitude forgets
-  float left = 0.5F;               ///< share of the weight on the left foot
+  Xyz ahead_m;                  ///< by how much the legs have the body ahead of body_m
+  Xyz sole_from_body_m[kFeet];  ///< middle of each sole, odometry axes
+  Xyz com_from_body_m;          ///< odometry axes
+  Xyz com_velocity_m_s;         ///< over the ground
+  gait::Xy slow_m_s;            ///< mean of the body's velocity: what the attitude forgets
+  Xyz uneven;         ///< of the soles' up, beside the attitude's: its mean where the robot stood
+  float stood_s = 0;  ///< over how long that is a mean, up to kUnevenTime_s
+  float left = 0.5F;  ///< share of the weight on the left foot
   std::uint8_t feet_silent = 255;  ///< ticks since the soles' cells told something, up to 255
   std::uint8_t blind = 255;        ///< ticks since a leg last told how the body moves, up to 255
   std::uint8_t grounded = 0;       ///< 1: the soles' cells bear weight
   std::uint8_t begun = 0;          ///< 0 until the first tick with masses
   VERP_FIELDS(up_body, body_m, body_velocity_m_s, ahead_m, sole_from_body_m, com_from_body_m,
-              com_velocity_m_s, slow_m_s, left, feet_silent, blind, grounded, begun)
+              com_velocity_m_s, slow_m_s, uneven, stood_s, left, feet_silent, blind, grounded,
+              begun)
 };
 VERP_PACKED(EstimatorState);
+
+/// The soles' up is remembered for so long: a robot that stands in many places knows it better.
+inline constexpr float kUnevenTime_s = 8.0F;
 
 struct EstimatorIn {
   const gait::Lump* lump = nullptr;  ///< all that the legs carry
@@ -38,6 +46,7 @@ struct EstimatorIn {
   bool imu_fresh = false;  ///< the next two are of this tick
   Vec3 gyro_body_rad_s{0, 0, 0};
   Vec3 accel_body_m_s2{0, 0, 0};
+  bool standing = false;  ///< on both soles, and not about to step: what it stands on tells of up
   /// Where soles have no cells, or these are silent: who is taken to stand, and on what.
   bool on_feet = false;
   std::uint32_t carrying = gait::kBoth;

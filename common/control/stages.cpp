@@ -190,6 +190,7 @@ void locate(const Params& params, State& state, const Inputs& inputs, const Admi
   in.imu_fresh = admitted.imu_fresh;
   in.gyro_body_rad_s = admitted.gyro_body_rad_s;
   in.accel_body_m_s2 = admitted.accel_body_m_s2;
+  in.standing = mode == Mode::kStanding;
   in.on_feet = safety::has_torque(mode) && mode != Mode::kFalling && mode != Mode::kGettingUp;
   in.carrying = state.landing.carrying;
   balance::update(params, state.estimator, in);

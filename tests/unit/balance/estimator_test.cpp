@@ -1,109 +1,11 @@
-#include "common/balance/estimator.hpp"
-
 #include <gtest/gtest.h>
 
-#include "common/kinematics/leg_ik.hpp"
-#include "common/model/counts.hpp"
-#include "tests/unit/support/test_robot.hpp"
+#include "tests/unit/support/led_robot.hpp"
 
 namespace verp::balance {
 namespace {
 
 using namespace verp::test;
-
-constexpr float kPeriod_s = 0.01F;
-constexpr float kStandHeight_m = 0.26F;  // of the body's origin over level soles
-
-/// A robot whose soles stay where they are put while its body is led through the room. What it
-/// feels is exact but for the counts; it looks ahead along x.
-struct Led {
-  Params params = kRobot;
-  AttitudeState attitude;
-  EstimatorState state;
-  Inputs inputs;
-  EstimatorIn in;
-  gait::Lump lump;
-  Vec3 sole_m[kFeet] = {Vec3(0, 0.037F, 0), Vec3(0, -0.037F, 0)};
-  Vec3 body_m{0, 0, kStandHeight_m}, velocity_m_s{0, 0, 0};
-  Mat3 turned = Mat3::Identity();
-  float load_n[kFeet] = {15, 15};
-  Vec3 accel_offset_m_s2{0, 0, 0};  ///< beyond what the attitude has taken for up
-
-  Led() {
-    float angle_rad[kMaxJoints] = {};
-    lump = gait::lump_of(params, angle_rad);
-    inputs.fresh = ~0u;
-    inputs.flags = kImuFresh | kFeetFresh;
-    in.lump = &lump;
-    in.attitude = &attitude;
-    in.inputs = &inputs;
-    in.imu_fresh = true;
-    in.on_feet = true;
-  }
-
-  /// The legs reach their soles; false: they can't.
-  bool place_legs() {
-    bool reached = true;
-    const float bent[kLegJoints] = {0, 0, -0.6F, 1.2F, -0.6F, 0};
-    for (int side = 0; side < kFeet; ++side) {
-      const LegParams& leg = params.leg[side];
-      const Pose sole{turned.transpose(), turned.transpose() * (sole_m[side] - body_m)};
-      const kinematics::LegAngles angles = kinematics::solve_leg(params, leg, sole, bent);
-      reached = reached && angles.flags == 0;
-      for (int k = 0; k < kLegJoints; ++k) {
-        const int j = leg.joint[k];
-        inputs.position_count[j] = model::count_of(params.joint[j], angles.angle_rad[k]);
-      }
-    }
-    return reached;
-  }
-
-  /// One tick later the body goes at that velocity.
-  bool tick(const Vec3& next_m_s) {
-    const Vec3 accel_m_s2 = (next_m_s - velocity_m_s) / kPeriod_s;
-    body_m += (0.5F * kPeriod_s) * (velocity_m_s + next_m_s);
-    velocity_m_s = next_m_s;
-    in.accel_body_m_s2 = turned.transpose() * (accel_m_s2 + Vec3(0, 0, math::kGravityMS2));
-    AttitudeIn feels;
-    feels.fresh = true;
-    feels.accel_body_m_s2 = in.accel_body_m_s2;
-    update(attitude, feels);
-    in.accel_body_m_s2 += accel_offset_m_s2;
-    for (int side = 0; side < kFeet; ++side) {
-      for (std::uint16_t& count : inputs.foot_count[side]) {
-        count = static_cast<std::uint16_t>(25.0F * load_n[side]);
-      }
-    }
-    const bool reached = place_legs();
-    update(params, state, in);
-    return reached;
-  }
-  /// Long enough for the attitude to have settled.
-  void rest() { ticks(120); }
-  void ticks(int count, const Vec3& velocity = Vec3(0, 0, 0)) {
-    for (int i = 0; i < count; ++i) ASSERT_TRUE(tick(velocity)) << "tick " << i;
-  }
-  void stand_on(float left) {
-    load_n[0] = 30.0F * left;
-    load_n[1] = 30.0F - load_n[0];
-  }
-  Vec3 believed_m() const { return math::to_vec(state.body_m); }
-  Vec3 believed_m_s() const { return math::to_vec(state.body_velocity_m_s); }
-};
-
-Led& fresh_robot() {
-  static Led led;
-  return led = Led{};
-}
-
-// `led` holds pointers into itself.
-Led& led_robot() {
-  Led& led = fresh_robot();
-  led.in.lump = &led.lump;
-  led.in.attitude = &led.attitude;
-  led.in.inputs = &led.inputs;
-  return led;
-}
 
 // Closed form: the masses of the robot, summed by the tree of all its links.
 TEST(Estimator, CentreOfMassOfAStillRobotIsThatOfItsLinks) {
@@ -180,23 +82,6 @@ TEST(Estimator, TouchdownsNeitherJumpNorCreep) {
   EXPECT_LT(distance(led.believed_m_s(), speed), 0.03F);
   EXPECT_NEAR(led.state.body_m.x, led.body_m.x(), 0.15F * led.body_m.x());
   EXPECT_NEAR(led.state.body_m.y, 0.0F, 5e-3F);
-}
-
-// The accelerometer's mean leans with a body that speeds up: by half a degree at 0.1 m/s. The legs
-// know how it goes, and up stays up.
-TEST(Estimator, UpDoesNotLeanWithASwayingBody) {
-  Led& led = led_robot();
-  led.rest();
-  float worst_rad = 0, worst_plain_rad = 0;
-  for (int i = 0; i < 400; ++i) {
-    const float phase = 2.0F * math::kPi * 2.0F * kPeriod_s * static_cast<float>(i);
-    ASSERT_TRUE(led.tick(Vec3(0, 0.15F * math::sin(phase), 0)));
-    const Xyz& plain = led.attitude.up_body;
-    worst_plain_rad = math::max(worst_plain_rad, math::abs(math::atan2(plain.y, plain.z)));
-    worst_rad = math::max(worst_rad, math::abs(roll_rad(led.state)));
-  }
-  EXPECT_GT(worst_plain_rad, 0.012F) << "the lean is there to be taken away";
-  EXPECT_LT(worst_rad, 0.25F * worst_plain_rad);
 }
 
 // Soles whose cells fall silent: after a moment the plan says who stands, and nothing jumps.
