@@ -8,7 +8,9 @@ namespace verp::model {
 /// Of an inertia, smallest first. Not positive: no body has it.
 Vec3 principal_moments(const Mat3& inertia_kg_m2);
 
-/// The shortest turn that brings z along `axis`, which need not be a unit vector.
+/// The shortest turn that brings z along `axis`, which need not be a unit vector; about -x where
+/// that is -z. Eigen's own FromTwoVectors brings a decomposition that costs the compiler five
+/// seconds.
 Eigen::Quaterniond turn_of_z(const Vec3& axis);
 
 }  // namespace verp::model
