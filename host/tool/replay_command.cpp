@@ -46,6 +46,11 @@ struct ReplayOptions {
 };
 
 int make_page(const ReplayOptions& options) {
+  if (std::filesystem::path(options.page).extension() != ".html") {
+    throw ToolError(kBadInput, fmt::format("verp replay --page {}: a browser shows what ends in "
+                                           ".html; name it so",
+                                           options.page));
+  }
   const web::Replay replay = web::replay_of(options.file);
   if (replay.html.empty()) throw ToolError(kNoDevice, "verp replay --page: " + replay.note);
   if (!replay.note.empty()) complain(replay.note);

@@ -59,6 +59,13 @@ TEST_F(Usage, TheFirstWalksProgramWalksTheSame) {
   EXPECT_EQ(digest(shell(VERP_FIRST_PROGRAM + words)), digest(shell(VERP_PROGRAM + words)));
 }
 
+// Told before the trace is read, and nothing is written.
+TEST_F(Usage, APageIsNamedAsBrowsersWantIt) {
+  expect_refused("replay none.mcap --page p.txt", "--page p.txt: a browser");
+  expect_refused("replay none.mcap --page p", ".html");
+  EXPECT_FALSE(fs::exists(folder_ / "p.txt"));
+}
+
 TEST_F(Usage, LinesOfHelpAreWholeCommandsAndAsWideAsTheTerminal) {
   const Outcome outcome = shell("COLUMNS=48 " VERP_PROGRAM " bus read --help");
   EXPECT_NE(outcome.out.find("\nUsage: verp bus read [OPTIONS]"), std::string::npos) << outcome.out;
