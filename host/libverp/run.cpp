@@ -13,6 +13,7 @@
 #include "host/libverp/moment.hpp"
 #include "host/libverp/robot_file.hpp"
 #include "host/libverp/velocity.hpp"
+#include "host/record/trace_error.hpp"
 #include "host/session/stride.hpp"
 
 namespace verp::abi {
@@ -111,8 +112,20 @@ void Seat::decide(const Params& params, State& state, const Inputs& inputs, Outp
   state.digest.chain = record::chain(state.digest.chain, digest.value());
 }
 
+void Seat::note_radio(record::ros::Radio radio) {
+  if (!trace_ || !radio_failure_.empty()) return;
+  radio.tick = tick_;
+  try {
+    trace_->append("/radio", record::ros::kRadio,
+                   std::uint64_t{1000} * tick_ * plan_.params.period_us, record::ros::radio(radio));
+  } catch (const record::TraceError& error) {  // a disk that is full costs the trace, not the run
+    radio_failure_ = error.what();
+  }
+}
+
 void Seat::ticked(const session::Tick& tick) {
   state_ = *tick.state;
+  tick_ = tick.record->inputs.tick;
   if (view_ != nullptr) write_view(tick);
 }
 
@@ -160,6 +173,7 @@ const session::WalkResult& Seat::finish(session::Session& session) {
   if (!trace_) return *result_;
   const std::unique_ptr<record::TraceWriter> trace = std::move(trace_);
   if (!result_->trace_failure.empty()) throw Failure(VERP_BAD_FILE, result_->trace_failure);
+  if (!radio_failure_.empty()) throw Failure(VERP_BAD_FILE, radio_failure_);
   trace->close({{"digest", fmt::format("0x{:016x}", result_->digest)},
                 {"failure", result_->failure},
                 {"interrupted", "no"}});

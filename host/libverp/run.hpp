@@ -3,9 +3,12 @@
 #include <deque>
 #include <memory>
 #include <optional>
+#include <string>
 
+#include "host/libverp/air.hpp"
 #include "host/libverp/sight.hpp"
 #include "host/libverp/verp.h"
+#include "host/record/ros_radio.hpp"
 #include "host/record/trace_writer.hpp"
 #include "host/session/live_orders.hpp"
 #include "host/session/session.hpp"
@@ -36,6 +39,8 @@ class Seat {
   /// After its last tick.
   const State& state() const { return state_; }
   std::uint64_t digest() const { return state_.digest.chain; }
+  /// Into its trace, with its last tick.
+  void note_radio(record::ros::Radio radio);
 
   /// The end: what came of it, and a trace that is whole. Later calls give the same.
   const session::WalkResult& finish(session::Session& session);
@@ -55,6 +60,8 @@ class Seat {
   void* user_ = nullptr;
   verp_tick* view_ = nullptr;
   State state_;
+  std::uint32_t tick_ = 0;
+  std::string radio_failure_;  ///< why the trace takes no further messages
   std::optional<session::WalkResult> result_;
 };
 
@@ -65,6 +72,7 @@ struct Run {
   std::deque<std::unique_ptr<Seat>> seats;  ///< outlive the session, whose hooks look at them
   session::Session session;
   Sight sight;
+  std::optional<Air> air;  ///< none: nobody has a radio
   bool begun = false, ended = false;
 
   /// The end of all robots' runs.

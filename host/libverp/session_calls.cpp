@@ -118,6 +118,7 @@ int verp_session_tick(verp_session session, uint32_t count, uint32_t* robot, uin
     if (run->seats.empty())
       throw Failure(VERP_BAD_ARGUMENT, "nobody is in the world; call verp_session_add() before");
     if (run->ended) return VERP_OVER;
+    if (!run->begun && run->air) run->air->begin(run->seats.size());
     run->begun = true;
     for (std::uint32_t n = 0; n < count; ++n) {
       const verp::session::Robot* ticked = run->session.tick();
@@ -125,6 +126,7 @@ int verp_session_tick(verp_session session, uint32_t count, uint32_t* robot, uin
       if (done != nullptr) *done = n + 1;
       const std::uint32_t number = number_of(*run, *ticked);
       run->sight.looked(run->session, number);
+      if (run->air) run->air->ticked(*run, number);
       if (robot != nullptr) *robot = number;
     }
     return VERP_OK;

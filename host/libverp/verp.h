@@ -36,6 +36,8 @@ typedef enum verp_status {
   VERP_OVER = 1,       /* the run has ended: there is no further tick */
   VERP_DIFFERS = 2,    /* a trace was replayed, and not with the same bits */
   VERP_NO_PICTURE = 3, /* a camera has not looked yet */
+  VERP_NO_MESSAGE = 4, /* the radio has brought nothing more */
+  VERP_NOT_SENT = 5,   /* too many messages wait for the air already */
   VERP_BAD_ARGUMENT =
       -1,               /* null, a wrong size, no such name, out of range, too early or too late */
   VERP_BAD_HANDLE = -2, /* closed, or never one */
@@ -357,6 +359,42 @@ int verp_session_picture(verp_session session, uint32_t robot, uint32_t camera, 
                          void* picture, uint64_t size, double* time_s);
 /* The world as it is now, drawn likewise: VERP_COLOUR, so of 3 width height bytes. */
 int verp_session_render(verp_session session, const verp_view* view, void* picture, uint64_t size);
+
+/* ---- what robots say to each other ---- */
+
+/* What a robot's modem and the air do to messages (host/radio). verp_radio_defaults() fills it in:
+ * an IEEE 802.15.4 modem, 250 kbit/s, in a hall. */
+typedef struct verp_radio {
+  uint32_t size;
+  uint32_t most_bytes;     /* of a message; a longer one is refused */
+  uint32_t most_waiting;   /* messages of one robot */
+  uint32_t overhead_bytes; /* that every message has besides its own */
+  uint64_t seed;           /* of what is lost and when: equal runs are equal */
+  double range_m;          /* nothing is heard beyond */
+  double loss;             /* share of messages lost beside the sender; all are at range_m */
+  double fade;             /* share of the time in which two robots hear nothing of each other, */
+  double fade_s;           /* at a stretch */
+  double delay_s;          /* until a message could be on the air, */
+  double jitter_s;         /* and at most so much more */
+  double bytes_s;          /* on the air, which all within range_m share */
+} verp_radio;
+
+enum { VERP_EVERYBODY = -1 };
+
+/* Fills it in. */
+int verp_radio_defaults(verp_radio* radio);
+/* Each robot of the session has a radio: before the first tick, once. It hears from the middle of
+ * its body, and sends nothing by itself. */
+int verp_session_radio(verp_session session, const verp_radio* radio);
+/* A message of `size` bytes from a robot to another one, or VERP_EVERYBODY, after the first tick.
+ * Nothing acknowledges it. It stands in the traces of who says and who hears it, at /radio.
+ * VERP_NOT_SENT: most_waiting. */
+int verp_session_send(verp_session session, uint32_t robot, int32_t to, const void* data,
+                      uint64_t size);
+/* The next message that the robot heard up to its last tick, of `size` bytes into `room`, and from
+ * whom. VERP_NO_MESSAGE: no further one. Of 256 that nobody took, the oldest is lost. */
+int verp_session_take(verp_session session, uint32_t robot, void* data, uint64_t room,
+                      uint64_t* size, uint32_t* from);
 
 /* Runs the controller once more over what a trace says that it saw. VERP_DIFFERS: verp_last_error()
  * says where. `ticks` and `digest` may be null. */

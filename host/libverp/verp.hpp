@@ -235,6 +235,31 @@ class Session {
     what.robot = robot;
     return render(what);
   }
+  static verp_radio radio_defaults() {
+    verp_radio radio;
+    checked(verp_radio_defaults(&radio));
+    return radio;
+  }
+  /// Each robot has a radio: before the first tick.
+  void radio(const verp_radio& what) { checked(verp_session_radio(handle(), &what)); }
+  /// False: too many wait for the air already. Without `to`: to everybody.
+  bool send(std::uint32_t robot, const std::string& data, std::int32_t to = VERP_EVERYBODY) {
+    return checked(verp_session_send(handle(), robot, to, data.data(), data.size())) == VERP_OK;
+  }
+  struct Message {
+    std::uint32_t from = 0;
+    std::string data;
+  };
+  /// The next that this robot heard up to its last tick; none: no further one.
+  std::optional<Message> take(std::uint32_t robot) {
+    Message message;
+    message.data.resize(65536);
+    std::uint64_t size = 0;
+    const int status = checked(verp_session_take(handle(), robot, message.data.data(),
+                                                 message.data.size(), &size, &message.from));
+    message.data.resize(size);
+    return status == VERP_NO_MESSAGE ? std::nullopt : std::optional(std::move(message));
+  }
   /// In place of the robot's own controller; an empty one: its own again.
   void control(Controller controller, std::uint32_t robot = 0) {
     if (!controller) {

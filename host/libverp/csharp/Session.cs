@@ -113,6 +113,33 @@ namespace Verp {
                         double tilt_rad = 0, uint robot = 0) {
       Checked(Native.verp_session_command(handle, robot, (uint)request, vx_m_s, vy_m_s, wz_rad_s, pan_rad, tilt_rad));
     }
+    /// <summary>What `Radio` takes, filled in: a modem of IEEE 802.15.4 in a hall.</summary>
+    public static verp_radio RadioDefaults() {
+      verp_radio radio;
+      VerpException.Checked(Native.verp_radio_defaults(&radio));
+      return radio;
+    }
+    /// <summary>Each robot has a radio: before the first tick.</summary>
+    public void Radio(verp_radio radio) { Checked(Native.verp_session_radio(handle, &radio)); }
+    /// <summary>False: too many wait for the air already. `to` -1: everybody.</summary>
+    public bool Send(byte[] data, int to = -1, uint robot = 0) {
+      if (data == null) throw new ArgumentNullException("data");
+      fixed (byte* from = data)
+        return Checked(Native.verp_session_send(handle, robot, to, from, (ulong)data.Length)) == (int)verp_status.VERP_OK;
+    }
+    /// <summary>The next message that the robot heard up to its last tick, and from whom; null: no further one.</summary>
+    public byte[] Take(out uint from, uint robot = 0) {
+      var room = new byte[65536];
+      ulong size;
+      fixed (byte* to = room)
+      fixed (uint* sender = &from) {
+        *sender = 0;
+        if (Checked(Native.verp_session_take(handle, robot, to, (ulong)room.Length, &size, sender)) != (int)verp_status.VERP_OK)
+          return null;
+      }
+      Array.Resize(ref room, (int)size);
+      return room;
+    }
     /// <summary>The walk that was asked for goes on.</summary>
     public void GiveBack(uint robot = 0) { Checked(Native.verp_session_give_back(handle, robot)); }
     /// <summary>While it is pressed the robot is limp.</summary>

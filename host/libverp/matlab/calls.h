@@ -23,6 +23,9 @@ void session_push(const arguments* a);
 void session_cameras(const arguments* a);
 void session_picture(const arguments* a);
 void session_render(const arguments* a);
+void session_radio(const arguments* a);
+void session_send(const arguments* a);
+void session_take(const arguments* a);
 /* When MATLAB ends, or forgets this file: traces that are written become whole. */
 void close_all(void);
 

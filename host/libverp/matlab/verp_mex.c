@@ -35,14 +35,15 @@ static const struct {
               CALL(session_read),    CALL(session_set),
               CALL(session_push),    CALL(session_cameras),
               CALL(session_picture), CALL(session_render),
-              CALL(core_open),       CALL(core_close),
-              CALL(core_reset),      CALL(core_step),
-              CALL(core_digest),     CALL(core_period),
-              CALL(core_names),      CALL(core_count),
-              CALL(core_angle),      CALL(core_forward),
-              CALL(core_com),        CALL(core_leg_ik),
-              CALL(core_plan),       CALL(version),
-              CALL(replay)};
+              CALL(session_radio),   CALL(session_send),
+              CALL(session_take),    CALL(core_open),
+              CALL(core_close),      CALL(core_reset),
+              CALL(core_step),       CALL(core_digest),
+              CALL(core_period),     CALL(core_names),
+              CALL(core_count),      CALL(core_angle),
+              CALL(core_forward),    CALL(core_com),
+              CALL(core_leg_ik),     CALL(core_plan),
+              CALL(version),         CALL(replay)};
 
 void mexFunction(int nlhs, mxArray* plhs[], int nrhs, const mxArray* prhs[]) {
   static int known = 0;

@@ -9,6 +9,7 @@ static class CsharpTest {
     ClosedAndNullHandlesAreKnown();
     WrongArgumentsAreErrorsThatNameTheCall();
     CoreStepsWhatASessionSaw();
+    RobotsTalkByRadio();
     ControllersExceptionComesBack();
     ControllerOutlivesGarbageCollection();
     RobotsOfOneWorldMayCollectGarbage();
@@ -87,6 +88,22 @@ static class CsharpTest {
       That(core.Digest() == session.Digest(), "the controller alone has the session's bits");
       verp_plan[] plan = core.Plan(0.1, 0, 0, 200);
       That(plan[199].phase != 0 && core.Forward(new float[21]).Length == 22 * 12, "a plan and forward kinematics");
+    }
+  }
+
+  static void RobotsTalkByRadio() {
+    using (Session session = Walking(1, 2)) {
+      verp_radio radio = Session.RadioDefaults();
+      radio.loss = radio.fade = 0;
+      session.Radio(radio);
+      session.Tick(2);
+      That(session.Send(new byte[] { 7, 0, 9 }, 0, 1), "it is on its way");
+      session.Tick(20);
+      uint from;
+      byte[] data = session.Take(out from);
+      That(data != null && data.Length == 3 && data[2] == 9 && from == 1, "it has come");
+      That(session.Take(out from) == null, "no further one");
+      Says("verp_session_send: to is 0", () => session.Send(new byte[1], 0, 0));
     }
   }
 

@@ -35,6 +35,8 @@ fi
 same walk 3
 digest=$("$verp" walk --for 3 --json | sed -nE 's/^ *"digest": "(0x[0-9a-f]+)".*/\1/p')
 [[ $words == *" $digest" ]] || say "verp walk has digest $digest, the examples say $words"
+said=$(/usr/bin/python3 "$sources/radio.py" talk.mcap) || say "radio.py failed: $said"
+grep -aq verp_msgs/msg/Radio talk.mcap || say "the trace of radio.py has no /radio"
 bound=$(/usr/bin/python3 "$sources/bind.py" "$VERP_LIBRARY" 3) || say "bind.py failed: $bound"
 [[ $bound == "$words" ]] || say "a binding from abi.json says '$bound', the others '$words'"
 same record a.mcap 3

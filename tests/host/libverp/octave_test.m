@@ -5,6 +5,7 @@ function octave_test()
   kinematics_come_back();
   misuse_is_an_error_that_names_the_call();
   controller_that_errs_ends_the_call_alone();
+  robots_talk_by_radio();
   fprintf('octave: all is well\n');
 end
 
@@ -109,6 +110,29 @@ function controller_that_errs_ends_the_call_alone()
     says(@() session.tick(), 'the controller of robot 0: ');
     session.close();
   end
+end
+
+function robots_talk_by_radio()
+  session = verp.Session();
+  session.add('walk_s', 1);
+  session.add('walk_s', 1, 'y_m', 1);
+  says(@() session.radio('colour', 1), 'radio() knows');
+  says(@() session.radio('loss', 2), 'loss');
+  says(@() session.radio('seed', 0.5), 'seed: 0.5 is no whole number');
+  says(@() session.send('x'), 'verp_session_radio() before');
+  session.radio('loss', 0, 'fade', 0);
+  session.tick(2);
+  assert(session.send('hello', 1));
+  says(@() session.send([1 2 3]), 'a row of uint8');
+  says(@() session.send('x', 0), 'to is 0');
+  says(@() session.send('x', 0.5), 'to: 0.5 is no whole number');
+  session.tick(20);
+  [data, from] = session.take(1);
+  assert(strcmp(char(data), 'hello') && from == 0);
+  [data, from] = session.take(1);
+  assert(isempty(data) && from == -1);
+  session.close();
+  says(@() session.take(0), 'it was closed');
 end
 
 function says(call, words)

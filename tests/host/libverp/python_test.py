@@ -119,6 +119,25 @@ class SessionTest(unittest.TestCase):
             session.close()
             self.assertEqual(verp.replay(str(trace))[1], digest)
 
+    def test_robots_talk_by_radio(self) -> None:
+        with verp.Session() as session:
+            session.add(walk_s=1)
+            session.add(walk_s=1, y_m=1)
+            with self.assertRaisesRegex(TypeError, "colour"):
+                session.radio(colour=1)
+            with self.assertRaisesRegex(verp.VerpError, "verp_session_radio: .*range_m"):
+                session.radio(range_m=-1)
+            session.radio(loss=0, fade=0)
+            session.tick(2)
+            self.assertTrue(session.send(b"a\0b", robot=1))
+            with self.assertRaises(TypeError):
+                session.send("a text")
+            with self.assertRaisesRegex(verp.VerpError, "verp_session_send: .*96"):
+                session.send(bytes(97))
+            session.tick(20)
+            self.assertEqual(session.take(0), [(1, b"a\0b")])
+            self.assertEqual(session.take(0), [])
+
     def test_damaged_trace_is_refused(self) -> None:
         with tempfile.TemporaryDirectory() as folder:
             trace = Path(folder) / "a.mcap"

@@ -200,6 +200,41 @@ classdef Session < handle
       end
     end
 
+    function radio(obj, varargin)
+    %RADIO Each robot has a radio, before the first tick: radio('range_m', 30, 'loss', 0.02, 'fade', 0.02,
+    % 'fade_s', 0.3, 'delay_s', 0.004, 'jitter_s', 0.004, 'bytes_s', 31250, 'most_bytes', 96,
+    % 'most_waiting', 16, 'overhead_bytes', 31, 'seed', 1): all may be left out; see verp_radio.
+      known = {'range_m', 'loss', 'fade', 'fade_s', 'delay_s', 'jitter_s', 'bytes_s', 'most_bytes', ...
+               'most_waiting', 'overhead_bytes', 'seed'};
+      if mod(numel(varargin), 2) ~= 0
+        error('verp:argument', 'verp: radio() takes names and values');
+      end
+      what = struct();
+      for i = 1:2:numel(varargin)
+        if ~ischar(varargin{i}) || ~any(strcmp(varargin{i}, known))
+          error('verp:argument', 'verp: radio() knows: %s', strjoin(known, ', '));
+        end
+        what.(varargin{i}) = varargin{i + 1};
+      end
+      verp_mex('session_radio', obj.session, what);
+    end
+
+    function sent = send(obj, data, to, robot)
+    %SEND A message of the robot's, uint8 or a text, to another one, or to everybody (-1). False: too
+    % many wait for the air already. Nothing acknowledges it.
+      if nargin < 3, to = -1; end
+      if nargin < 4, robot = 0; end
+      if ischar(data), data = uint8(data); end
+      sent = verp_mex('session_send', obj.session, robot, to, data);
+    end
+
+    function [data, from] = take(obj, robot)
+    %TAKE The next message that the robot heard up to its last tick, uint8, and from whom. `from` is
+    % -1 if there is no further one.
+      if nargin < 2, robot = 0; end
+      [data, from] = verp_mex('session_take', obj.session, robot);
+    end
+
     function close(obj)
     %CLOSE Ends the run; a trace that is written becomes whole. Also what MATLAB's end does.
       if ~isempty(obj.session)

@@ -226,6 +226,33 @@ class Session(Sight):
         """Pushes a link or an object at its centre of mass, N in the world's axes."""
         check(lib.verp_session_push(self._session, text(thing), *force_n, for_s))
 
+    def radio(self, **numbers: float) -> None:
+        """Each robot has a radio, before the first tick: range_m, loss, fade, fade_s, delay_s, jitter_s, bytes_s, most_bytes,
+        most_waiting, overhead_bytes, seed (verp_radio); what is left out is as of a modem of IEEE 802.15.4 in a hall."""
+        what = ffi.new("verp_radio *")
+        check(lib.verp_radio_defaults(what))
+        known = [name for name, _ in ffi.typeof("verp_radio").fields if name != "size"]
+        for field, number in numbers.items():
+            if field not in known:
+                raise TypeError(f"radio() has no argument '{field}': {', '.join(known)}")
+            setattr(what, field, number)
+        check(lib.verp_session_radio(self._session, what))
+
+    def send(self, data: bytes, to: int | None = None, *, robot: int = 0) -> bool:
+        """A message of the robot's to another one, or to everybody. False: too many wait for the air already. Nothing
+        acknowledges it; it stands in the traces of who says and who hears it."""
+        given = bytes(memoryview(data))  # a text has no bytes before it is encoded
+        whom = lib.VERP_EVERYBODY if to is None else to
+        return check(lib.verp_session_send(self._session, robot, whom, given, len(given))) == lib.VERP_OK
+
+    def take(self, robot: int = 0) -> list[tuple[int, bytes]]:
+        """What it heard up to its last tick and nobody took yet: from whom, and what."""
+        room, size, sender = ffi.new("char[65536]"), ffi.new("uint64_t *"), ffi.new("uint32_t *")
+        heard = []
+        while check(lib.verp_session_take(self._session, robot, room, 65536, size, sender)) == lib.VERP_OK:
+            heard.append((sender[0], ffi.buffer(room, size[0])[:]))
+        return heard
+
     def control(self, controller: Controller | None, robot: int = 0) -> None:
         """In place of the robot's own controller, from the next tick on; None: its own again."""
         if controller is None:
