@@ -27,7 +27,8 @@ bool would_block() {
 
 }  // namespace
 
-Connection::Connection(int socket, Heard heard) : socket_(socket), heard_(std::move(heard)) {}
+Connection::Connection(int socket, Heard heard, std::span<const std::string> origins)
+    : socket_(socket), heard_(std::move(heard)), origins_(origins) {}
 
 Connection::~Connection() {
   ::close(socket_);
@@ -61,7 +62,7 @@ void Connection::greet() {
   in_.append(reinterpret_cast<const char*>(bytes.data()), static_cast<std::size_t>(count));
   const std::size_t length = std::min(head_length(in_), in_.size());
   if (length == in_.size() && head_length(in_) == in_.npos && length < kMostHead) return;
-  HandshakeAnswer answer = answer_handshake(std::string_view(in_).substr(0, length));
+  HandshakeAnswer answer = answer_handshake(std::string_view(in_).substr(0, length), origins_);
   in_.erase(0, length);
   out_ = std::move(answer.text);
   stage_ = Stage::kRefused;

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <functional>
 #include <memory>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -18,7 +19,8 @@ class Connection {
   /// A whole message; binary ones as well.
   using Heard = std::function<void(bool is_text, std::string_view message)>;
 
-  Connection(int socket, Heard heard);
+  /// `origins`: of pages that are welcome besides; they outlive it.
+  Connection(int socket, Heard heard, std::span<const std::string> origins = {});
   ~Connection();
   Connection(const Connection&) = delete;
   Connection& operator=(const Connection&) = delete;
@@ -54,6 +56,7 @@ class Connection {
 
   int socket_;
   Heard heard_;
+  std::span<const std::string> origins_;
   Stage stage_ = Stage::kGreeting;
   std::string in_, out_;  ///< of the greeting; afterwards, in_ is what came with it
   std::unique_ptr<wslay_event_context, FreeContext> frames_;

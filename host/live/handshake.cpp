@@ -83,14 +83,39 @@ std::string accept_key(std::string_view key) {
   return files::base64({reinterpret_cast<const char*>(digest.data()), digest.size()});
 }
 
+/// The host of "http://host:port"; empty: that is no page of the web.
+std::string_view web_host(std::string_view origin) {
+  for (const std::string_view scheme : {"http://", "https://"}) {
+    if (!origin.starts_with(scheme)) continue;
+    const std::string_view host = origin.substr(scheme.size());
+    // A number of IPv6 has colons itself, in brackets.
+    const std::string_view name = host.starts_with("[::1]:") || host == "[::1]"
+                                      ? host.substr(0, 5)
+                                      : host.substr(0, host.rfind(':'));
+    return name.empty() ? "nameless" : name;
+  }
+  return {};
+}
+
 }  // namespace
+
+bool is_welcome(std::string_view origin, std::span<const std::string> more) {
+  const std::string told = lower(origin);
+  // Any page may call itself null, by a frame in it.
+  if (told == "null") return false;
+  const std::string_view host = web_host(told);
+  if (host.empty() || host == "localhost" || host == "127.0.0.1" || host == "[::1]") return true;
+  if (told == "https://app.foxglove.dev") return true;
+  return std::any_of(more.begin(), more.end(),
+                     [&](const std::string& each) { return lower(each) == told; });
+}
 
 std::size_t head_length(std::string_view bytes) {
   const std::size_t end = bytes.find(kEnd);
   return end == bytes.npos ? bytes.npos : end + kEnd.size();
 }
 
-HandshakeAnswer answer_handshake(std::string_view head) {
+HandshakeAnswer answer_handshake(std::string_view head, std::span<const std::string> origins) {
   const std::string_view line = head.substr(0, head.find("\r\n"));
   if (!line.starts_with("GET ") || !line.ends_with(" HTTP/1.1"))
     return refuse("400 Bad Request", "This port takes WebSocket connections only.");
@@ -100,6 +125,12 @@ HandshakeAnswer answer_handshake(std::string_view head) {
     return refuse("426 Upgrade Required",
                   "A robot's live stream (WebSocket, foxglove.websocket.v1): open this address as "
                   "a Foxglove WebSocket connection in Foxglove, Lichtblick or PlotJuggler.");
+  }
+  for (const std::string_view origin : values(head, "origin")) {
+    if (is_welcome(origin, origins)) continue;
+    return refuse("403 Forbidden",
+                  "A page of another site may not see this robot. If it is your viewer's: start "
+                  "the stream with --live-origin and the page's https://HOST.");
   }
   const auto protocol = protocol_of(head);
   if (!protocol) {

@@ -22,6 +22,7 @@ namespace verp::live {
 
 struct ServerOptions {
   std::string name = "VERP";                       ///< that viewers show
+  std::vector<std::string> origins = {};           ///< of pages of others that may watch, too
   std::size_t most_bytes = 16 * 1024 * 1024;       ///< that may wait for one viewer
   std::chrono::milliseconds patience{2000};        ///< at the end, with one that takes nothing
   std::chrono::milliseconds patience_all{10'000};  ///< at the end, with all
@@ -64,10 +65,12 @@ class Server {
  private:
   struct Viewer {
     Viewer(Server& server, int socket)
-        : connection(socket,
-                     [this, &server](bool is_text, std::string_view message) {
-                       server.hear(*this, is_text, message);
-                     }),
+        : connection(
+              socket,
+              [this, &server](bool is_text, std::string_view message) {
+                server.hear(*this, is_text, message);
+              },
+              server.options_.origins),
           subscriber(server.options_.most_bytes) {}
     Connection connection;  ///< the thread's own
     Subscriber subscriber;  ///< under the lock

@@ -13,9 +13,11 @@
 namespace verp::tool {
 namespace {
 
-std::unique_ptr<live::Server> open_server(const std::string& command, std::uint16_t port) {
+std::unique_ptr<live::Server> open_server(const std::string& command, const LiveOptions& options) {
+  const std::uint16_t port = options.port;
   try {
-    return std::make_unique<live::Server>(port, live::ServerOptions{.name = command});
+    return std::make_unique<live::Server>(
+        port, live::ServerOptions{.name = command, .origins = options.origins});
   } catch (const live::LiveError& error) {
     throw ToolError(kNoDevice,
                     fmt::format("{}: --live {}: {}; another stream has it perhaps: give "
@@ -34,7 +36,7 @@ struct LiveStream::Stream {
 
 LiveStream::LiveStream(const std::string& command, const LiveOptions& options) {
   if (!options.on) return;
-  stream_.reset(new Stream{options.waits, open_server(command, options.port)});
+  stream_.reset(new Stream{options.waits, open_server(command, options)});
   complain(
       fmt::format("{}: live on ws://127.0.0.1:{}: open that as a Foxglove WebSocket "
                   "connection{}",

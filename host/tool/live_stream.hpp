@@ -2,6 +2,7 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "host/tool/json.hpp"
 
@@ -23,9 +24,11 @@ struct LiveOptions {
   bool on = false;
   std::uint16_t port = 8765;  ///< that viewers offer by themselves
   bool waits = false;
+  std::vector<std::string> origins = {};  ///< of pages of others that may watch, too
 };
 
-/// --live and --live-wait. Once the command line is parsed, `options.on` says whether.
+/// --live, --live-wait and --live-origin. Once the command line is parsed, `options.on` says
+/// whether.
 void declare_live(CLI::App& app, LiveOptions& options);
 
 /// What happens, to viewers on this PC while it happens (host/live). Does nothing if nobody asked

@@ -29,6 +29,19 @@ void declare_live(CLI::App& app, LiveOptions& options) {
       ->default_str(std::to_string(options.port));
   app.add_flag("--live-wait", options.waits, "begin when a viewer has subscribed to something")
       ->needs("--live");
+  app.add_option("--live-origin", options.origins,
+                 "a web page that may watch besides those of this PC and Foxglove's, as a browser "
+                 "tells it: https://HOST")
+      ->needs("--live")
+      ->check(CLI::Validator(
+          [](std::string& text) {
+            const std::size_t scheme = text.find("://");
+            const bool web = text.starts_with("http://") || text.starts_with("https://");
+            return web && text.size() > scheme + 3 && text.find('/', scheme + 3) == text.npos
+                       ? ""
+                       : text + " is no origin; give https://HOST or http://HOST:PORT, no path";
+          },
+          "URL"));
 }
 
 void declare_controller(CLI::App& app, std::string& folder) {

@@ -113,9 +113,9 @@ void declare_basics(CLI::App& app, WalkOptions& options) {
 }
 
 std::vector<std::pair<std::string, std::string>> changed_options(const CLI::App& app) {
-  const std::set<std::string> kOfNoEffect = {"--json",         "--report",   "--record",
-                                             "--record-state", "--compress", "--cameras",
-                                             "--real-time",    "--live",     "--live-wait"};
+  const std::set<std::string> kOfNoEffect = {
+      "--json",    "--report",    "--record", "--record-state", "--compress",
+      "--cameras", "--real-time", "--live",   "--live-wait",    "--live-origin"};
   std::vector<std::pair<std::string, std::string>> changed;
   for (const CLI::Option* option : app.get_options()) {
     if (option->count() == 0 || option->get_positional() ||

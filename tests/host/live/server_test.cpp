@@ -199,6 +199,29 @@ TEST(Live, RubbishIsAnsweredOrEndsOneConnectionAndTakesNothingFromOthers) {
   EXPECT_EQ(server.counts().dropped, 0u);
 }
 
+// Whatever page somebody has open may ask this port, and a browser says whose it is.
+TEST(Live, APageOfAStrangerMayNotWatch) {
+  ServerOptions options = patient();
+  options.origins = {"https://viewer.example"};
+  Server server(0, options);
+  const auto answer_to = [&](const std::string& origin) {
+    const std::string head(Viewer::kGreeting);
+    return Viewer(server.port())
+        .greet(head.substr(0, head.size() - 2) + "Origin: " + origin + "\r\n\r\n");
+  };
+  for (const char* own : {"http://localhost:8080", "http://127.0.0.1", "https://[::1]:3000",
+                          "https://app.foxglove.dev", "file://", "https://Viewer.example"}) {
+    EXPECT_TRUE(answer_to(own).starts_with("HTTP/1.1 101")) << own << ": " << answer_to(own);
+  }
+  for (const char* other :
+       {"https://evil.example", "http://localhost.evil.example", "null", "http://",
+        "https://app.foxglove.dev.evil.example", "http://app.foxglove.dev", "http://[::1].evil",
+        "https://viewer.example:8443", "http://viewer.example"}) {
+    const std::string answer = answer_to(other);
+    EXPECT_TRUE(answer.starts_with("HTTP/1.1 403")) << other << ": " << answer;
+  }
+}
+
 TEST(Live, WhoNeverReadsMayNotSayWithoutEnd) {
   Server server(0, patient());
   const Viewer flood(server.port(), 4096);
