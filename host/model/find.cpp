@@ -6,6 +6,7 @@
 
 #include "host/files/places.hpp"
 #include "host/model/load_error.hpp"
+#include "host/model/not_found.hpp"
 
 namespace verp::model {
 namespace {
@@ -44,14 +45,16 @@ std::string list_of_names() {
   return list;
 }
 
-std::string why_not(const std::string& name_or_path, bool looks_like_path) {
-  std::error_code ignored;
-  if (fs::is_directory(name_or_path, ignored)) return "is a folder, not a robot's file";
-  if (fs::exists(name_or_path, ignored)) return "is not a regular file";
-  return looks_like_path ? "there is no such file" : "there is no robot of this name";
-}
-
 }  // namespace
+
+std::string why_not_found(const std::string& name_or_path, const std::string& kind) {
+  std::error_code ignored;
+  if (fs::is_directory(name_or_path, ignored)) return "is a folder, not a " + kind + "'s file";
+  if (fs::exists(name_or_path, ignored)) return "is not a regular file";
+  const bool looks_like_path =
+      name_or_path.ends_with(".sdf") || name_or_path.find('/') != std::string::npos;
+  return looks_like_path ? "there is no such file" : "there is no " + kind + " of this name";
+}
 
 std::vector<std::string> model_names() {
   std::vector<std::string> names;
@@ -76,7 +79,7 @@ std::string find_model(const std::string& name_or_path) {
       if (is_file(candidate)) return candidate.string();
     }
   }
-  throw LoadError(name_or_path, 0, why_not(name_or_path, looks_like_path),
+  throw LoadError(name_or_path, 0, why_not_found(name_or_path, "robot"),
                   "give the path of an .sdf file, or one of: " + list_of_names());
 }
 

@@ -5,6 +5,7 @@
 
 #include "host/files/places.hpp"
 #include "host/model/load_world.hpp"
+#include "host/model/not_found.hpp"
 
 namespace verp::model {
 namespace {
@@ -54,8 +55,7 @@ std::string find_world(const std::string& name_or_path) {
   }
   std::string list;
   for (const std::string& name : world_names()) list += (list.empty() ? "" : ", ") + name;
-  throw LoadError(name_or_path, 0,
-                  looks_like_path ? "there is no such file" : "there is no world of this name",
+  throw LoadError(name_or_path, 0, why_not_found(name_or_path, "world"),
                   "give the path of an .sdf file, or one of: " + list);
 }
 

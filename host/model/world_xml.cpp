@@ -113,8 +113,11 @@ void WorldXml::inspect(const tinyxml2::XMLElement& element) {
   const XmlElement at(path_, element);
   const char* own = element.Attribute("name");
   if (own != nullptr) lines_.insert({own, element.GetLineNum()});
-  if (element.FirstChildElement() == nullptr && element.GetText() != nullptr)
-    check_world_leaf(at, element.GetText());
+  // An empty pose is none. Of all else libsdformat would take its default: an emptied <mass> as 1
+  // kg.
+  const char* const text = element.GetText();
+  if (element.FirstChildElement() == nullptr && (text != nullptr || at.name() != "pose"))
+    check_world_leaf(at, text != nullptr ? text : "");
   for (const auto* child = element.FirstChildElement(); child != nullptr;
        child = child->NextSiblingElement()) {
     inspect(*child);

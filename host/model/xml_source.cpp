@@ -263,8 +263,9 @@ void XmlSource::inspect(const File& file, const tinyxml2::XMLElement& element) {
       check_urdf_attribute(file.path, line, std::string(name), a->Name(), a->Value());
     }
   }
-  if (!element.FirstChildElement() && element.GetText()) {
-    check_leaf(file.path, line, std::string(name), element.GetText(), is_urdf);
+  const char* const text = element.GetText();
+  if (!element.FirstChildElement() && (text || !is_urdf)) {
+    check_leaf(file.path, line, std::string(name), text ? text : "", is_urdf);
   }
   refuse_repeats(file.path, element);
   if (!is_urdf && name == "joint") check_joint_type(file.path, element);

@@ -92,6 +92,8 @@ TEST(BadInput, NumberWithDecimalCommaIsRefused) {
 
 TEST(BadInput, NanIsRefused) {
   expect_refused(edited("<mass>1.1</mass>", "<mass>nan</mass>"), "<mass>nan</mass>", "finite");
+  expect_refused(edited("<mass>1.1</mass>", "<mass></mass>"), "<mass></mass>", "finite");
+  expect_refused(edited("<mass>1.1</mass>", "<mass/>"), "<mass/>", "finite");
   expect_refused(edited("value=\"0.147301\"", "value=\"nan\""), "value=\"nan\"", "finite");
 }
 

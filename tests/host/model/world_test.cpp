@@ -94,6 +94,20 @@ TEST(Worlds, NoGroundAndTwoGroundsAreRefused) {
             "4: a second ground, 'stage', after 'floor' in line 3");
 }
 
+TEST(Worlds, WhatIsNoFileIsCalledWhatItIs) {
+  const auto why = [](const std::string& path) -> std::string {
+    try {
+      return find_world(path);
+    } catch (const LoadError& error) {
+      return error.what();
+    }
+  };
+  EXPECT_TRUE(why("/tmp").starts_with("/tmp: is a folder, not a world's file;")) << why("/tmp");
+  EXPECT_TRUE(why("/dev/zero").starts_with("/dev/zero: is not a regular file;"));
+  EXPECT_TRUE(why("/nowhere.sdf").starts_with("/nowhere.sdf: there is no such file;"));
+  EXPECT_TRUE(why("nowhere").starts_with("nowhere: there is no world of this name;"));
+}
+
 TEST(Worlds, MistakesAreRefusedWhereTheyStand) {
   const std::string box = "<box><size>1 1 1</size></box>";
   const std::string fixed = "<static>true</static>";
@@ -101,6 +115,8 @@ TEST(Worlds, MistakesAreRefusedWhereTheyStand) {
             "4: <radius> is not 1 finite number: '1,0'");
   EXPECT_EQ(refusal(world_of(kFloor + a_box(fixed, "<box><size>1 1 -1</size></box>"))),
             "4: <size> is out of range: -1");
+  EXPECT_EQ(refusal(world_of(kFloor + a_box("<inertial><mass></mass></inertial>", box))),
+            "4: <mass> is not 1 finite number: ''");
   EXPECT_EQ(refusal(world_of(kFloor + a_box("", box))), "4: 'thing' moves and has no <inertial>");
   EXPECT_NE(
       refusal(world_of(kFloor + a_box(fixed, "<mesh><uri>no.stl</uri></mesh>"))).find("no.stl"),
