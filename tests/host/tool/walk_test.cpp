@@ -284,6 +284,17 @@ done)sh";
       << outcome.out;
 }
 
+// A good walk all the same; but nobody has to look for that in a table.
+TEST_F(Walk, ASpeedThatIsFarFromWhatWasAskedStandsInTheFirstLine) {
+  const auto first_line = [&](const std::string& step) {
+    const Outcome walk = verp("walk --for 6 --step " + step);
+    EXPECT_EQ(walk.status, 0) << walk.err;
+    return walk.out.substr(0, walk.out.find('\n'));
+  };
+  EXPECT_NE(first_line("0.005").find(" % of the speed that was asked"), std::string::npos);
+  EXPECT_EQ(first_line("0.04").find("asked"), std::string::npos);
+}
+
 // What the servos cannot follow is taken off before the walk; whoever asked for it did not get it.
 TEST_F(Walk, AnOrderCutToLessThanHalfIsNoGoodWalk) {
   const Outcome outcome =
