@@ -52,11 +52,7 @@ int list(const ActionWords& words) {
                         row["frames"].get<int>(), row["note"].get<std::string>());
     rows.push_back(row);
   }
-  if (words.json) {
-    print_json({{"model", robot.entity.name}, {"actions", rows}});
-  } else {
-    answer(text);
-  }
+  print_answer(words.json, {{"model", robot.entity.name}, {"actions", rows}}, text);
   return kGood;
 }
 
@@ -137,11 +133,7 @@ int check(const ActionWords& words) {
                     {"length_s", checked.length_s},
                     {"frames", frames}});
   }
-  if (words.json) {
-    print_json({{"model", robot.entity.name}, {"actions", rows}});
-  } else {
-    answer(text);
-  }
+  print_answer(words.json, {{"model", robot.entity.name}, {"actions", rows}}, text);
   return bad == 0 ? kGood : kRunFailed;
 }
 

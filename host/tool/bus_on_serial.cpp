@@ -198,11 +198,7 @@ int bench_serial(const BusOptions& options) {
   client.read(id, address, size);  // says so if there is nothing to be read
   catch_interrupts();
   const BusBench result = run_bus_bench(client, id, address, size, options.seconds);
-  if (options.json) {
-    print_json(to_json(result));
-  } else {
-    answer(to_text(result));
-  }
+  print_answer(options.json, to_json(result), to_text(result));
   const wire::Endpoint endpoint = wire::parse_endpoint(options.link);
   if (endpoint.kind == wire::Endpoint::Kind::kSerial) advise_latency(endpoint.place);
   if (interrupted()) return kRunFailed;

@@ -70,11 +70,7 @@ int run_compare(const CompareWords& words) {
     json["page"] = written.page.string();
     text += written.page.string() + '\n';
   }
-  if (words.json) {
-    print_json(json);
-  } else {
-    answer(text);
-  }
+  print_answer(words.json, json, text);
   return kGood;
 }
 

@@ -219,11 +219,7 @@ int run_demo(const DemoWords& words) {
   const demos::Run run = run_it(demo, options);
   progress.clear();
   const std::string picture = draw(words, run);
-  if (words.json) {
-    print_json(json_of_run(run, words, picture));
-  } else {
-    answer(text_of(run, picture));
-  }
+  print_answer(words.json, json_of_run(run, words, picture), text_of(run, picture));
   bool good = run.verdict.failure.empty() && !run.interrupted;
   for (const demos::Track& track : run.robots) {
     if (track.trace_failure.empty()) continue;

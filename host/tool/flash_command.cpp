@@ -36,11 +36,7 @@ int run_flash(FlashWords words) {
       std::fflush(stdout);
     }
   });
-  if (words.json) {
-    print_json(result.json);
-  } else {
-    answer(result.text);
-  }
+  print_answer(words.json, result.json, result.text);
   return kGood;
 }
 

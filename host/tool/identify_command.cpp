@@ -106,11 +106,7 @@ int run_identify(const IdentifyWords& words) {
     json["written_type"] = type;
     text += fmt::format("{}: the robot with servos of type {}\n", words.file, type);
   }
-  if (words.json) {
-    print_json(json);
-  } else {
-    answer(text);
-  }
+  print_answer(words.json, json, text);
   return kGood;
 }
 

@@ -3,6 +3,8 @@
 #include <cstdio>
 #include <string>
 
+#include "host/tool/console.hpp"
+
 namespace verp::tool {
 
 void print_json(const Json& object) {
@@ -10,6 +12,10 @@ void print_json(const Json& object) {
   const std::string text = object.dump(2, ' ', false, Json::error_handler_t::replace);
   std::fputs((text + "\n").c_str(), stdout);
   std::fflush(stdout);
+}
+
+void print_answer(bool as_json, const Json& object, const std::string& text) {
+  as_json ? print_json(object) : answer(text);
 }
 
 }  // namespace verp::tool

@@ -124,11 +124,8 @@ Subcommand add_bus_load(CLI::App& bus) {
             const Params params = model::make_params(entity);
             const std::string refused = refusal(entity, params);
             const std::vector<can::LoadRow> rows = can::load_table(params, words->data_baud);
-            if (words->json) {
-              print_json(table_json(params, *words, rows, refused));
-            } else {
-              answer(table_text(params, *words, rows));
-            }
+            print_answer(words->json, table_json(params, *words, rows, refused),
+                         table_text(params, *words, rows));
             if (refused.empty()) return int{kGood};
             complain(refused);
             return int{kBadInput};

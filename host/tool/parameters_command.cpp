@@ -108,11 +108,8 @@ int tell(const ParametersWords& options) {
     text += fmt::format("  {:<29} {:>10.6g} {:<4} {:>7g} .. {:<6g}  {}\n", names[i], value,
                         unit.empty() ? "-" : unit, range.low, range.high, kMeaning[i]);
   }
-  if (options.json) {
-    print_json({{"model", entity.name}, {"parameters", rows}});
-  } else {
-    answer(text + "  The robot's own values stand in its file, as verp:tuning.\n");
-  }
+  print_answer(options.json, {{"model", entity.name}, {"parameters", rows}},
+               text + "  The robot's own values stand in its file, as verp:tuning.\n");
   return kGood;
 }
 

@@ -57,11 +57,8 @@ int make_page(const ReplayOptions& options) {
   report::write_file(
       options.page,
       web::page_of(std::filesystem::path(options.file).filename().string(), replay.html));
-  if (options.json) {
-    print_json({{"trace", options.file}, {"page", options.page}});
-  } else {
-    answer(options.page + "\n");
-  }
+  print_answer(options.json, {{"trace", options.file}, {"page", options.page}},
+               options.page + "\n");
   return kGood;
 }
 

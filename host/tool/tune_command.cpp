@@ -132,11 +132,7 @@ int run_tune(const TuneWords& words) {
     if (folder_of(words.file) != folder_of(robot_file))
       text += "its actions stay where they are: copy the folder `actions`, too\n";
   }
-  if (words.json) {
-    print_json(json);
-  } else {
-    answer(text);
-  }
+  print_answer(words.json, json, text);
   if (result.limit.empty()) return kGood;
   complain(
       fmt::format("verp tune: {} walks at {:g} m/s with nothing that was tried; what stops it "
