@@ -23,6 +23,9 @@ class FallVerdict {
   /// Somebody set it on its feet.
   void set_upright() { tipping_ = lay_down_ = false; }
 
+  /// It got up by itself.
+  void forget() { fell_ = lay_down_ = false; }
+
   /// Torque was on at some time.
   bool driven() const { return driven_; }
   bool fell() const { return fell_; }

@@ -212,8 +212,10 @@ void Robot::watch() {
   ++result_.ticks;
   const double up = std::clamp(seen.truth.body_world.linear()(2, 2), -1.0, 1.0);
   verdict_.see(torque, std::acos(up), twin_.fallen());
+  const bool may_get_up = plan_.get_ups > 0;  // only if it stays down it fell
+  if (may_get_up && twin_.forget_fall()) verdict_.forget();
   intervene_in_time();
-  after_s_ += verdict_.fell() ? plan_.params.period_us * 1e-6 : 0;
+  after_s_ += verdict_.fell() && !may_get_up ? plan_.params.period_us * 1e-6 : 0;
   over_ = over_ || gone_s() >= plan_.walk_s || after_s_ > kAfterFall_s;
   if (hooks_.ticked) {
     hooks_.ticked({.seen = seen, .gone_s = gone_s(), .world = &world_, .owner = twin_.owner()});

@@ -62,8 +62,8 @@ class Robot {
   }
   /// A tick of a controller that tells nothing of itself: only what the twin did is scored. The
   /// run begins when a servo first has torque, not when somebody looks for servos, and has
-  /// plan.walk_s from then on. It ends sooner if the robot falls; one that is let go may lie down
-  /// (FallVerdict), and is served on.
+  /// plan.walk_s from then on. It ends sooner if the robot falls and may not get up (plan.get_ups);
+  /// one that is let go may lie down (FallVerdict), and is served on.
   void watch();
 
   /// Who gives the world's quantities and pushes; before the first tick.

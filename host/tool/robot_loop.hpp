@@ -77,8 +77,9 @@ class RobotRun {
         params_(plan.walk.params),
         progress_(progress),
         imu_(params_.imu),
-        operator_(params_, plan.walk.velocity, plan.walk.walk_s,
-                  [this](auto from, auto to, auto faults) { tell(from, to, faults); }),
+        operator_(
+            params_, plan.walk.velocity, plan.walk.walk_s,
+            [this](auto from, auto to, auto faults) { tell(from, to, faults); }, plan.walk.get_ups),
         keeper_{robot_, operator_, result_.walk, trace},
         app_(params_, robot_.bus(), operator_, keeper_, plan.has_imu ? nullptr : &imu_,
              app::Core{{plan.walk.actions.data(), 4 * plan.walk.actions.size()}}) {
@@ -217,6 +218,8 @@ class RobotRun {
     walk.simulated_s = 1e-6 * static_cast<double>(params_.period_us) *
                        static_cast<double>(result_.deadlines.ticks + result_.deadlines.skipped);
     walk.failure = operator_.failure();
+    walk.falls = operator_.falls();
+    walk.get_ups = operator_.get_ups();
     if (walk.failure.empty() && !operator_.over()) walk.failure = "the twin's run ended before";
     if constexpr (kInLockstep)
       walk.simulated_s = 1e-6 * params_.period_us * static_cast<double>(walk.ticks);

@@ -41,6 +41,7 @@ struct RunWords {
   int torque_percent = 100, gains_percent = 100;
   bool yes = false;
   bool take_orders = false;
+  bool get_up = false;
   bool lockstep = false;
 };
 
@@ -59,6 +60,16 @@ void require_followed_orders(const Params& params) {
           static_cast<double>(params.tuning.gait.max_step_m),
           static_cast<double>(params.tuning.gait.cycle_s),
           std::floor(1000 * share * static_cast<double>(params.tuning.gait.max_step_m)) / 1000));
+}
+
+/// Without an IMU nobody knows that it lies, nor on which side.
+void let_robot_get_up(const RunWords& words, WalkPlan& walk) {
+  if (!words.params.has_imu()) {
+    throw ToolError(kBadInput,
+                    "verp run: --get-up needs the IMU, which tells on which side the robot lies; "
+                    "leave out --get-up or --imu none");
+  }
+  take_get_up_actions(walk);
 }
 
 RunPlan make_plan(const RunWords& words) {
@@ -88,6 +99,7 @@ RunPlan make_plan(const RunWords& words) {
   model::require_bus(walk.entity, walk.params);
   if (words.action.empty()) ask_for_walk(words.walk, walk);
   if (words.take_orders) require_followed_orders(walk.params);
+  if (words.get_up) let_robot_get_up(words, walk);
   if (!words.action.empty()) {
     const action::Made made = make_actions(walk.entity, walk.params, words.action);
     plan.action = require_action(walk.entity, made, words.action);
@@ -118,6 +130,8 @@ Json to_json(const RunPlan& plan, const RunResult& result) {
           {"ticks", walk.ticks},
           {"walked_s", result.walked_s},
           {"action_s", plan.action == 0 ? Json() : Json(result.played_s)},
+          {"falls", walk.falls},
+          {"get_ups", walk.get_ups},
           {"wall_s", walk.wall_s},
           {"digest", fmt::format("0x{:016x}", walk.digest)},
           {"faults", session::fault_names(walk.faults)},
@@ -170,6 +184,9 @@ std::string to_text(const RunPlan& plan, const RunResult& result) {
                      wire::to_text(plan.link)) +
          row("ticks", fmt::format("{} of {:g} ms, digest 0x{:016x}", result.walk.ticks,
                                   1e-3 * plan.walk.params.period_us, result.walk.digest)) +
+         (plan.walk.get_ups > 0 ? row("falls", fmt::format("{}; got up {} times", result.walk.falls,
+                                                           result.walk.get_ups))
+                                : "") +
          (plan.lockstep ? row("time", "the twin's, in lockstep") : real_time_text(result)) +
          row("bus",
              fmt::format("{} timeouts, {} {}, {} overruns; link lost {} times", result.bus.timeouts,
@@ -295,6 +312,10 @@ Subcommand add_run(CLI::App& root) {
       ->excludes("--velocity")
       ->excludes("--step")
       ->excludes("--for");
+  app->add_flag("--get-up", words->get_up,
+                "a fall ends no walk, and one that lies begins it: the robot falls softly, gets up "
+                "by its actions fall_safe and get_up_..., three tries, and walks on")
+      ->excludes("--action");
   app->add_flag("--yes", words->yes, "the first-power checklist is confirmed; for a twin, too");
   app->add_option("--record", words->walk.record_file, "write the trace here (.mcap)");
   app->add_flag("--record-state", words->walk.record_state,
@@ -304,6 +325,7 @@ Subcommand add_run(CLI::App& root) {
                 "on CAN: whoever writes the controller's node (127) gives the orders, for --for "
                 "seconds or until Ctrl-C; the bytes: host/can/masters.md")
       ->excludes("--velocity")
+      ->excludes("--get-up")
       ->excludes("--action");
   app->add_flag(
          "--lockstep", words->lockstep,

@@ -8,11 +8,13 @@ namespace verp::tool {
 
 using safety::Mode;
 
-RunOperator::RunOperator(const Params& params, const Command& velocity, double walk_s, Told told)
-    : walker_(params, velocity, walk_s),
+RunOperator::RunOperator(const Params& params, const Command& velocity, double walk_s, Told told,
+                         int get_ups)
+    : walker_(params, velocity, walk_s, get_ups),
       told_(std::move(told)),
       period_s_(1e-6 * params.period_us),
-      most_s_(walk_s) {}
+      most_s_(walk_s),
+      gets_up_(get_ups > 0) {}
 
 app::OperatorOrder RunOperator::order(std::uint32_t tick) {
   if (!sitting_ && !limp_) {
@@ -48,16 +50,24 @@ void RunOperator::observe_playing(const State& state, const Outputs& outputs) {
   if (player_->done()) fail(player_->failed());
 }
 
-void RunOperator::observe(const State& state, const Outputs& outputs) {
-  const auto mode = static_cast<Mode>(outputs.mode);
-  const Mode before = std::exchange(mode_, mode);
-  if (mode != before) told_(before, mode, outputs.faults);
+// One that may get up has the walker's patience: its tries are counted there.
+void RunOperator::observe_mode(Mode from, const Outputs& outputs) {
+  if (mode_ != from) {
+    told_(from, mode_, outputs.faults);
+    if (mode_ == Mode::kFallen && from != Mode::kGettingUp) ++falls_;
+    if (mode_ == Mode::kStanding && from == Mode::kGettingUp) ++got_up_;
+  }
   risen_ = risen_ || outputs.torque_enable != 0;
-  if (mode == Mode::kFallen) fail("the robot fell");
-  if (mode == Mode::kStopped && !limp_) fail("stopped");
-  if (mode == Mode::kRelaxed && risen_ && !sitting_ && !orders_) {
+  if (mode_ == Mode::kFallen && !gets_up_) fail("the robot fell");
+  if (mode_ == Mode::kStopped && !limp_) fail("stopped");
+  if (mode_ == Mode::kRelaxed && risen_ && !sitting_ && !orders_) {
     fail("the robot let go by itself: " + session::fault_names(outputs.faults));
   }
+}
+
+void RunOperator::observe(const State& state, const Outputs& outputs) {
+  const auto mode = static_cast<Mode>(outputs.mode);
+  observe_mode(std::exchange(mode_, mode), outputs);
   // What the robot does by itself takes none of the operator's patience.
   const bool by_itself = mode == Mode::kHolding || mode == Mode::kSitting ||
                          (mode == Mode::kRising && walker_.walked_s() > 0);

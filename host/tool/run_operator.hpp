@@ -21,7 +21,9 @@ class RunOperator {
   /// Called when the robot's mode has changed.
   using Told = std::function<void(safety::Mode from, safety::Mode to, std::uint32_t faults)>;
 
-  RunOperator(const Params& params, const Command& velocity, double walk_s, Told told);
+  /// `get_ups`: how often in a row it is asked to get up once it lies; 0: a fall ends the walk.
+  RunOperator(const Params& params, const Command& velocity, double walk_s, Told told,
+              int get_ups = 0);
 
   app::OperatorOrder order(std::uint32_t tick);
   /// What the controller put out in the tick just done.
@@ -42,6 +44,9 @@ class RunOperator {
   /// Torque is off, and was so for as long as it takes to tell every servo.
   bool over() const { return quiet_ticks_ >= kQuietTicks; }
   double walked_s() const { return orders_ ? walked_s_ : walker_.walked_s(); }
+  /// How often it came to lie, and got up.
+  int falls() const { return falls_; }
+  int get_ups() const { return got_up_; }
   /// Of the action, so far.
   double played_s() const { return player_ ? player_->played_s() : 0; }
   /// Why the walk is no good, in words; empty: it is.
@@ -51,6 +56,7 @@ class RunOperator {
   static constexpr int kQuietTicks = 10;  ///< over three times App's repeats of a change of torque
 
   void fail(const std::string& why);
+  void observe_mode(safety::Mode from, const Outputs& outputs);
   void observe_obeying(std::uint32_t faults);
   void observe_playing(const State& state, const Outputs& outputs);
 
@@ -59,6 +65,8 @@ class RunOperator {
   Told told_;
   Orders orders_;
   const double period_s_, most_s_;
+  const bool gets_up_;
+  int falls_ = 0, got_up_ = 0;
   double obeyed_s_ = 0, walked_s_ = 0;  ///< with orders_
   Command relax_;
   safety::Mode mode_ = safety::Mode::kRelaxed;

@@ -80,6 +80,8 @@ namespace {
 
 /// A served robot gets so much longer than its walk, to rise before and to sit down after.
 constexpr double kBeforeAndAfter_s = 10;
+/// And so much if it may get up: what all tries take together.
+constexpr double kGetUps_s = 60;
 
 void require_alone(const WalkOptions& options, const std::string& why) {
   if (options.board.empty()) return;
@@ -96,7 +98,9 @@ WalkPlan plan_of(const WalkOptions& options, const Seat& seat, std::size_t index
   WalkPlan plan = make_plan(own);
   plan.name = seat.name;
   plan.link = seat.link;
-  if (!seat.link.empty()) plan.walk_s += kBeforeAndAfter_s;
+  if (!seat.link.empty()) {
+    plan.walk_s += kBeforeAndAfter_s + (plan.get_ups > 0 ? kGetUps_s : 0);
+  }
   return plan;
 }
 

@@ -19,15 +19,17 @@ using nlohmann::json;
 class Team : public Program {
  protected:
   /// This program's controller for the robot at the other end of `link`, beside the walk.
-  process::Child controller(const std::string& link, const std::string& trace = "") const {
+  process::Child controller(const std::string& link,
+                            const std::vector<std::string>& more = {}) const {
     for (int i = 0; i < 1500 && !fs::exists(folder_ / link); ++i)
       std::this_thread::sleep_for(std::chrono::milliseconds(20));
-    return controller_now(link, trace);
+    return controller_now(link, more);
   }
-  process::Child controller_now(const std::string& link, const std::string& trace = "") const {
+  process::Child controller_now(const std::string& link,
+                                const std::vector<std::string>& more = {}) const {
     std::vector<std::string> words = {VERP_PROGRAM, "run",    "--lockstep", "--for",
                                       "3",          "--json", "--link",     "unix:" + link};
-    if (!trace.empty()) words.insert(words.end(), {"--record", trace});
+    words.insert(words.end(), more.begin(), more.end());
     return process::Child({.words = words,
                            .input = {},
                            .output = {.file = folder_ / (link + ".out")},
@@ -68,7 +70,10 @@ TEST_F(Team, EachWalksAsItDoesAloneAndLeavesATraceOfItsOwn) {
 
 TEST_F(Team, AControllerInAnotherProcessMakesTheSameBits) {
   const Outcome world = walk_beside(
-      [&] { EXPECT_EQ(controller("b.sock", "b.mcap").wait(), 0) << slurp(folder_ / "b.sock.out"); },
+      [&] {
+        EXPECT_EQ(controller("b.sock", {"--record", "b.mcap"}).wait(), 0)
+            << slurp(folder_ / "b.sock.out");
+      },
       "--robot a=generic21 --robot b=ext:unix-listen:b.sock");
   ASSERT_EQ(world.status, 0) << world.err;
   const json all = json::parse(world.out);
@@ -91,6 +96,27 @@ TEST_F(Team, AControllerMayBeStartedBeforeItsWorld) {
   const Outcome world = walk_beside([&] { EXPECT_EQ(early.wait(), 0) << said(); },
                                     "--robot a=ext:unix-listen:c.sock");
   EXPECT_EQ(world.status, 0) << world.err;
+}
+
+// What a person at a real robot does: it lies, and is given leave to get up.
+TEST_F(Team, ALyingRobotGetsUpForAControllerThatMayLetIt) {
+  const Outcome world = walk_beside(
+      [&] {
+        EXPECT_EQ(controller("c.sock", {"--get-up"}).wait(), 0) << slurp(folder_ / "c.sock.out");
+      },
+      "--robot a=ext:unix-listen:c.sock --start lying:back");
+  EXPECT_EQ(world.status, 0) << world.err;
+  const std::string said = slurp(folder_ / "c.sock.out");  // both of its streams
+  ASSERT_NE(said.find('{'), std::string::npos) << said;
+  const json run = json::parse(said.substr(said.find('{'), said.rfind('}') + 1 - said.find('{')));
+  EXPECT_EQ(run.at("get_ups"), 1);
+  EXPECT_EQ(run.at("falls"), 0);
+  EXPECT_GT(run.at("walked_s").get<double>(), 2);
+}
+
+TEST_F(Team, ALyingRobotStaysDownForAControllerThatMayNot) {
+  walk_beside([&] { EXPECT_EQ(controller("c.sock").wait(), 1) << slurp(folder_ / "c.sock.out"); },
+              "--robot a=ext:unix-listen:c.sock --start lying:back");
 }
 
 TEST_F(Team, OneThatLosesItsControllerStopsTheOthersOrGoesOnWithout) {
