@@ -96,6 +96,10 @@ void Recorder::keep(const std::vector<Picture>& pictures) {
     trace_.append(topic + kind, colour ? ros::kCompressedImage : ros::kImage, had_ns,
                   ros::picture({picture.encoding, picture.width, picture.height, picture.data},
                                frame, stamp_ns));
+    if (!picture.names.empty()) {
+      trace_.append(topic + "/label_info", ros::kLabelInfo, had_ns,
+                    ros::label_info(picture.names, frame, stamp_ns));
+    }
     ++pictures_;
     if (&camera == last) continue;
     last = &camera;

@@ -82,7 +82,7 @@ class Unpacker {
 };
 
 /// One more wherever what is sent becomes another: a program of another build is known as such.
-constexpr std::uint32_t kBuild = 0x63616d02;
+constexpr std::uint32_t kBuild = 0x63616d03;
 
 struct Head {
   std::uint32_t kind = 0, size = 0;
@@ -211,7 +211,9 @@ std::optional<std::pair<Moment, Outside>> unpack_outside(std::string_view data) 
 std::string pack(const Picture& picture) {
   Packer out;
   out.put(picture.camera).put(picture.time_us).put(picture.width).put(picture.height);
-  return out.text(picture.encoding).text(picture.data).take();
+  out.text(picture.encoding).text(picture.data).put(std::uint64_t{picture.names.size()});
+  for (const std::string& name : picture.names) out.text(name);
+  return out.take();
 }
 
 std::optional<Picture> unpack_picture(std::string_view data) {
@@ -223,6 +225,8 @@ std::optional<Picture> unpack_picture(std::string_view data) {
   picture.height = in.get<std::uint32_t>();
   picture.encoding = in.text();
   picture.data = in.text();
+  for (auto left = in.count(sizeof(std::uint64_t)); left > 0; --left)
+    picture.names.push_back(in.text());
   return if_whole(in, std::move(picture));
 }
 

@@ -47,6 +47,8 @@ struct Picture {
   std::uint64_t time_us = 0;
   std::uint32_t width = 0, height = 0;
   std::string encoding, data;
+  std::vector<std::string> names =
+      {};  ///< of labels, from 1 on; empty: nothing to see has that number
 };
 
 enum class Kind : std::uint32_t {

@@ -42,6 +42,18 @@ uint32 width
 bool do_rectify
 )"};
 
+const MessageType kLabelInfo = {
+    "vision_msgs/msg/LabelInfo",
+    R"(std_msgs/Header header
+vision_msgs/VisionClass[] class_map
+float32 threshold
+)" VERP_ROS_HEADER
+    R"(================================================================================
+MSG: vision_msgs/VisionClass
+uint16 class_id
+string class_name
+)"};
+
 std::string picture(const Picture& picture, std::string_view frame, std::uint64_t time_ns) {
   Cdr out;
   out.header(time_ns, frame);
@@ -104,6 +116,19 @@ std::string camera_info(const CameraInfo& info, std::string_view frame, std::uin
       std::array{i.fx_px, 0.0, i.cx_px, 0.0, 0.0, i.fy_px, i.cy_px, 0.0, 0.0, 0.0, 1.0, 0.0});
   for (int unused = 0; unused < 6; ++unused) out.put(std::uint32_t{0});  // binning, region
   out.put(std::uint8_t{0});
+  return out.take();
+}
+
+std::string label_info(const std::vector<std::string>& names, std::string_view frame,
+                       std::uint64_t time_ns) {
+  std::uint32_t named = 0;
+  for (const std::string& name : names) named += name.empty() ? 0 : 1;
+  Cdr out;
+  out.header(time_ns, frame).put(named);
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (!names[i].empty()) out.put(static_cast<std::uint16_t>(i + 1)).text(names[i]);
+  }
+  out.put(1.0F);  // the twin is sure of what it shows
   return out.take();
 }
 

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "host/record/ros_messages.hpp"
 
@@ -14,6 +15,7 @@ namespace verp::record::ros {
 extern const MessageType kCompressedImage;  ///< sensor_msgs/msg/CompressedImage
 extern const MessageType kImage;            ///< sensor_msgs/msg/Image
 extern const MessageType kCameraInfo;       ///< sensor_msgs/msg/CameraInfo
+extern const MessageType kLabelInfo;        ///< vision_msgs/msg/LabelInfo
 
 struct Picture {
   /// "png", "jpeg": `data` is such a file. Else pixels, rows from the top, as sensor_msgs/Image has
@@ -34,6 +36,10 @@ struct CameraInfo {
   double fx_px = 0, fy_px = 0, cx_px = 0, cy_px = 0;
   std::array<double, 5> distortion{};  ///< "plumb_bob": k1, k2, p1, p2, k3
 };
+/// What the numbers of a picture of labels stand for: names[0] is 1. Numbers without a name are
+/// left out.
+std::string label_info(const std::vector<std::string>& names, std::string_view frame,
+                       std::uint64_t time_ns);
 std::string camera_info(const CameraInfo& info, std::string_view frame, std::uint64_t time_ns);
 
 }  // namespace verp::record::ros

@@ -123,6 +123,18 @@ render::Renderer& Drawer::renderer_of(int robot) {
   return place->second;
 }
 
+std::vector<std::string> Drawer::label_names() const {
+  std::vector<std::string> names;
+  for (const scene::Item& item : scene_.items) {
+    const auto label = static_cast<std::size_t>(scene::label_of(scene_, item));
+    if (label == 0) continue;
+    names.resize(std::max(names.size(), label));
+    std::string& name = names[label - 1];
+    if (name.empty()) name = scene::label_name(scene_, static_cast<int>(label));
+  }
+  return names;
+}
+
 scene::Snapshot Drawer::shown(const Moment& moment) const {
   scene::Snapshot now;
   now.t_s = static_cast<double>(moment.time_us) * 1e-6;
@@ -214,6 +226,8 @@ Picture Drawer::measured(const scene::Snapshot& now, const scene::Camera& from,
   } else {
     picture.encoding = "mono16";
     picture.data = bytes_of(measured.label);
+    if (names_.empty()) names_ = label_names();
+    picture.names = names_;
   }
   return picture;
 }

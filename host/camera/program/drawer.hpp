@@ -30,6 +30,7 @@ class Drawer {
     std::vector<View> views;
   };
   void add_robot(const Stage::Robot& robot);
+  std::vector<std::string> label_names() const;
   scene::Snapshot shown(const Moment& moment) const;
   render::Renderer& renderer_of(int robot);
   Picture colour(const scene::Snapshot& now, const scene::Camera& from, const Moment& moment,
@@ -39,6 +40,7 @@ class Drawer {
 
   std::vector<Eyes> eyes_;  ///< of each robot
   scene::Scene scene_;
+  std::vector<std::string> names_;  ///< of its labels, once somebody looks for them
   render::OffscreenContext context_;
   std::map<int, render::Renderer> renderers_;  ///< of a robot that looks; of kWorld: from outside
 };

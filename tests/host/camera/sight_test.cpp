@@ -149,8 +149,15 @@ TEST(Sight, LabelsAreOfLinksAndThings) {
   const model::Vec3 ball =
       model::in_lens(sight.camera, sight.link().inverse() * model::Vec3(0.8, 0, 0.4));
   const Eigen::Vector2d at = model::pixel_of(sight.camera, ball.head<2>() / ball.z());
-  EXPECT_GT(sight.value(static_cast<int>(at.x()), static_cast<int>(at.y())), 0);
+  const int label = sight.value(static_cast<int>(at.x()), static_cast<int>(at.y()));
+  EXPECT_GT(label, 0);
   EXPECT_EQ(sight.value(5, 5), 0);
+  const std::vector<std::string>& names = sight.pictures[0].names;
+  ASSERT_LE(label, static_cast<int>(names.size()));
+  EXPECT_EQ(names[static_cast<std::size_t>(label - 1)], "ball");
+  const auto sent = unpack_picture(pack(sight.pictures[0]));
+  ASSERT_TRUE(sent);
+  EXPECT_EQ(sent->names, names);
 }
 
 TEST(Sight, ColourAndDepthComeTogether) {
