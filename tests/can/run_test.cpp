@@ -28,10 +28,11 @@ class RunOnCan : public Program {
   /// `command` while a twin of generic21 is on vcan0.
   Outcome beside_twin(const std::string& command) const {
     const std::string program = VERP_PROGRAM;
-    return shell(program +
+    // A twin of before said that it waits, too, and its words are there until this one begins.
+    return shell("rm -f twin.err; " + program +
                  " hil generic21 --bus can --realtime --link can:vcan0 --for 600 --json "
                  ">twin.out 2>twin.err & twin=$!; "
-                 "until grep -q 'twin waits' twin.err; do sleep 0.05; done; ( " +
+                 "until grep -qs 'twin waits' twin.err; do sleep 0.05; done; ( " +
                  command + " ); status=$?; kill -INT $twin; wait $twin; exit $status");
   }
   Outcome bus_beside_twin(const std::string& arguments) const {
