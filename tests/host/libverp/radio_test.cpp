@@ -67,18 +67,22 @@ int heard(verp_lib::Session& session, std::uint32_t robot) {
 TEST(LibverpRadio, AMessageComesAfterItsDelayFromWhoSaidIt) {
   verp_radio radio = quiet();
   radio.delay_s = 0.1;
-  verp_lib::Session session = pair_of(2, radio);
   const std::string said("\0 bytes, not text", 17);
-  ASSERT_TRUE(session.send(0, said, 1));
-  const double said_s = session.seen(1).time_s;
-  std::optional<verp_lib::Session::Message> message;
-  while (!message && session.tick()) message = session.take(1);
-  ASSERT_TRUE(message);
-  EXPECT_EQ(message->from, 0U);
-  EXPECT_EQ(message->data, said);
-  EXPECT_GT(session.seen(1).time_s - said_s, 0.099);
-  EXPECT_LT(session.seen(1).time_s - said_s, 0.125);
-  EXPECT_FALSE(session.take(0)) << "nobody hears himself";
+  for (const std::uint32_t from : {0U, 1U}) {
+    SCOPED_TRACE(from);
+    const std::uint32_t to = 1 - from;
+    verp_lib::Session session = pair_of(2, radio);
+    ASSERT_TRUE(session.send(from, said, static_cast<int>(to)));
+    const double said_s = session.seen(to).time_s;
+    std::optional<verp_lib::Session::Message> message;
+    while (!message && session.tick()) message = session.take(to);
+    ASSERT_TRUE(message);
+    EXPECT_EQ(message->from, from);
+    EXPECT_EQ(message->data, said);
+    EXPECT_GT(session.seen(to).time_s - said_s, 0.099);
+    EXPECT_LT(session.seen(to).time_s - said_s, 0.125);
+    EXPECT_FALSE(session.take(from)) << "nobody hears himself";
+  }
 }
 
 TEST(LibverpRadio, BeyondTheRangeNothingIsHeardAndLossIsAShare) {
