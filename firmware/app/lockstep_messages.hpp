@@ -21,6 +21,9 @@
 /// a twin does not let its time go on by these rules (it may serve a master in real time). The
 /// reply names the first thing on which both ends differ; the error field is then Data Range (4).
 ///
+/// A controller that is not made of this project's core leaves all but `version` 0. It is as
+/// welcome, unless somebody holds every tick of it against that core.
+///
 /// Advance, for each FrameBus::poll(): the frames sent since the last one, then a Write to address
 /// 96 of the clock; back come the bytes that the bus brought, then the clock's status packet. A
 /// tick of the control loop on the stream:

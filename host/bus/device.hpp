@@ -38,7 +38,7 @@ class Device {
 
   /// Stores a write or says why not; the plant stands at the moment of the write's arrival. Nothing
   /// is stored unless all of it can be.
-  dxl::Error write(std::uint16_t address, std::span<const std::uint8_t> data);
+  virtual dxl::Error write(std::uint16_t address, std::span<const std::uint8_t> data);
   /// Keeps a write until action(), or says why it can't be.
   dxl::Error reg_write(std::uint16_t address, std::span<const std::uint8_t> data);
   dxl::Error action();

@@ -54,10 +54,22 @@ std::string words_for(lockstep::Verdict verdict, const lockstep::Hello& theirs,
   return "";
 }
 
+namespace {
+
+bool is_stranger(const lockstep::Hello& hello) {
+  return hello.version == lockstep::kVersion && hello.core_version == 0 && hello.params_size == 0 &&
+         hello.params_crc == 0 && hello.record_size == 0 && hello.state_size == 0;
+}
+
+}  // namespace
+
 LockstepSession::Meeting LockstepSession::meet(const lockstep::Hello& hello,
                                                const SessionHooks& hooks) {
   Meeting meeting;
-  meeting.verdict = real_time_ ? lockstep::Verdict::kNoLockstep : verdict_on(hello, params_);
+  const bool welcome = strangers_ && is_stranger(hello);
+  meeting.verdict = real_time_ ? lockstep::Verdict::kNoLockstep
+                    : welcome  ? lockstep::Verdict::kAccepted
+                               : verdict_on(hello, params_);
   const bool repeated = greeted_ && !answered_;
   greeted_ = meeting.verdict == lockstep::Verdict::kAccepted;
   meeting.begins = greeted_ && !repeated;

@@ -36,6 +36,8 @@ class LockstepSession {
     std::uint32_t greetings = 0;
   };
 
+  /// A controller that has not our core is as welcome: nobody compares its bits.
+  void welcome_strangers() { strangers_ = true; }
   /// From now on every hello is refused: the twin runs in real time.
   void refuse_lockstep() { real_time_ = true; }
   /// True once a controller has announced lockstep.
@@ -67,6 +69,7 @@ class LockstepSession {
   bool answered_ = false;      ///< since the hello
   bool greeted_ = false;
   bool real_time_ = false;
+  bool strangers_ = false;
 };
 
 /// The first thing on which a controller that says `theirs` and this program differ.

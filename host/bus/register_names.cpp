@@ -5,6 +5,7 @@
 
 #include "common/protocol/control_table.hpp"
 #include "firmware/app/lockstep_messages.hpp"
+#include "host/bus/modem_device.hpp"
 
 namespace verp::bus {
 namespace {
@@ -110,18 +111,44 @@ constexpr auto kClock = std::to_array<NamedRegister>({
     used(lockstep::kSetUprightAddress, "set_upright", Type::kU8),
 });
 
+constexpr NamedRegister block(std::uint16_t address, const char* name, Access access) {
+  return {address, name, Type::kU8, access, modem::kMostData, 0, 0xFF, "", ""};
+}
+constexpr auto kModem = std::to_array<NamedRegister>({
+    seen(at::kModelNumber, "model_number", Type::kU16),
+    seen(at::kFirmwareVersion, "firmware_version", Type::kU8),
+    used(at::kId, "id", Type::kU8),
+    used(at::kReturnDelay, "return_delay_time", Type::kU8, "2 us"),
+    seen(modem::kNumber, "number", Type::kU8),
+    seen(modem::kMostBytes, "most_bytes", Type::kU8),
+    seen(modem::kSaid, "said", Type::kU16),
+    seen(modem::kRefused, "refused", Type::kU16),
+    seen(modem::kHeard, "heard", Type::kU16),
+    seen(modem::kMissed, "missed", Type::kU16),
+    used(modem::kTo, "to", Type::kU8),
+    used(modem::kSaySize, "say_size", Type::kU8),
+    block(modem::kSayData, "say_data", Access::kWrite),
+    seen(modem::kWaiting, "waiting", Type::kU8),
+    seen(modem::kHeardNumber, "heard_number", Type::kU8),
+    seen(modem::kHeardFrom, "heard_from", Type::kU8),
+    seen(modem::kHeardSize, "heard_size", Type::kU8),
+    block(modem::kHeardData, "heard_data", Access::kRead),
+    used(modem::kTake, "take", Type::kU8),
+});
+
 struct Model {
   std::uint16_t number;
   const char* name;
   std::span<const NamedRegister> registers;
 };
-constexpr std::array<Model, 7> kModels = {{
+constexpr std::array<Model, 8> kModels = {{
     {dxl::kModelXm430W210, "XM430-W210", kServo},
     {dxl::kModelXm430W350, "XM430-W350", kServo},
     {dxl::kModelMx28, "MX-28(2.0)", kServo},
     {dxl::kModelImu, "IMU device", kImu},
     {dxl::kModelFoot, "foot device", kFoot},
     {lockstep::kClockModel, "twin's clock", kClock},
+    {modem::kModel, "radio modem", kModem},
     {dxl::controller::kModel, "controller", dxl::controller::kTable},
 }};
 

@@ -4,6 +4,7 @@
 #include <deque>
 #include <memory>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "common/model/params.hpp"
@@ -30,6 +31,9 @@ class VirtualBus {
   /// Servos, IMU and feet as `params` names them. The plant must outlive the bus and stand at time
   /// 0.
   VirtualBus(const Params& params, sim::Plant& plant);
+
+  /// One more, that `params` do not name; before the first frame.
+  void add(std::unique_ptr<Device> device) { devices_.push_back(std::move(device)); }
 
   bool send(const std::uint8_t* data, std::size_t size);
   std::size_t poll(std::uint8_t* buffer, std::size_t capacity, std::uint32_t timeout_us);

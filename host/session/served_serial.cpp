@@ -24,6 +24,7 @@ class ServedOnSerial final : public Served {
     link_.set_rate(robot.plan().params.baud);
     if (options.pace == Pace::kRealTime) lockstep_.refuse_lockstep();
     if (options.pace == Pace::kAuto) robot.bus().hold_plant();
+    if (options.operator_link.empty()) lockstep_.welcome_strangers();
   }
 
   ServedResult result() const override {

@@ -3,7 +3,6 @@
 
 #include <filesystem>
 #include <memory>
-#include <sstream>
 
 #include "host/camera/drawing_program.hpp"
 #include "host/demos/draw.hpp"
@@ -16,6 +15,7 @@
 #include "host/tool/interrupt.hpp"
 #include "host/tool/json.hpp"
 #include "host/tool/progress.hpp"
+#include "host/tool/radio_words.hpp"
 #include "host/tool/suggest.hpp"
 
 namespace verp::tool {
@@ -62,39 +62,6 @@ const demos::Demo& demo_of(const std::string& name) {
   throw ToolError(kBadInput, fmt::format("verp demo {}: there is no such demo{}; verp demo lists "
                                          "them",
                                          name, did_you_mean(name, names)));
-}
-
-/// NAME=VALUE, with spaces between.
-radio::Conditions radio_of(const std::string& text) {
-  radio::Conditions radio;
-  const std::pair<const char*, double*> numbers[] = {
-      {"range_m", &radio.range_m}, {"loss", &radio.loss},       {"fade", &radio.fade},
-      {"fade_s", &radio.fade_s},   {"delay_s", &radio.delay_s}, {"jitter_s", &radio.jitter_s},
-      {"bytes_s", &radio.bytes_s}};
-  std::istringstream words(text);
-  for (std::string word; words >> word;) {
-    const std::size_t equals = word.find('=');
-    double* number = nullptr;
-    std::string names;
-    for (const auto& [name, value] : numbers) {
-      if (word.substr(0, equals) == name) number = value;
-      names += (names.empty() ? "" : ", ") + std::string(name);
-    }
-    if (number == nullptr || equals == std::string::npos) {
-      throw ToolError(kBadInput, fmt::format("verp demo --radio '{}': that is not NAME=VALUE with "
-                                             "a name out of: {}",
-                                             word, names));
-    }
-    try {
-      *number = parse_number(word.substr(equals + 1), 0, 1e9, "");
-      radio::check(radio);
-    } catch (const std::invalid_argument& error) {
-      throw ToolError(kBadInput, fmt::format("verp demo --radio '{}': {}", word, error.what()));
-    } catch (const CLI::Error& error) {
-      throw ToolError(kBadInput, fmt::format("verp demo --radio '{}': {}", word, error.what()));
-    }
-  }
-  return radio;
 }
 
 /// Its path; empty: there is none.
@@ -179,7 +146,7 @@ demos::Options options_of(const DemoWords& words) {
   options.for_s = words.for_s;
   options.seed = words.seed;
   options.physics_step_us = static_cast<std::uint32_t>(std::lround(1e3 * words.physics_step_ms));
-  options.radio = radio_of(words.radio);
+  options.radio = radio_of("verp demo", words.radio);
   options.record = words.record;
   options.metadata = {{"demo", words.name}, {"radio", words.radio}};
   options.interrupted = interrupted;
@@ -245,10 +212,7 @@ Subcommand add_demo(CLI::App& root) {
                   "of the first robot and the radio; other robots have the next ones")
       ->check(whole_number_between(0, std::numeric_limits<std::uint64_t>::max()))
       ->capture_default_str();
-  app->add_option(
-      "--radio", words->radio,
-      "numbers of the radio: 'range_m=5 loss=0.3' (also fade, fade_s, delay_s, jitter_s, "
-      "bytes_s)");
+  app->add_option("--radio", words->radio, kRadioWords);
   app->add_option("--physics-step", words->physics_step_ms, "of the twin, ms")
       ->check(number_between(0.5, 2, "ms"))
       ->capture_default_str();

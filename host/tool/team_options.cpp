@@ -7,6 +7,7 @@
 #include <cctype>
 
 #include "host/tool/command.hpp"
+#include "host/tool/radio_words.hpp"
 
 namespace verp::tool {
 namespace {
@@ -60,6 +61,16 @@ void declare_outside(CLI::App& app, TeamOptions& options) {
                  "how long such a controller may keep the world waiting, s by the wall's clock")
       ->check(number_between(0.1, kMostPatience_s, "s"))
       ->capture_default_str();
+}
+
+void declare_radio(CLI::App& app, std::optional<std::string>& radio) {
+  app.add_option_function<std::string>(
+         "--radio", [&radio](const std::string& words) { radio = words; },
+         std::string("the robots have radios, those driven from outside as a modem on "
+                     "their bus (host/radio); ") +
+             kRadioWords)
+      ->expected(0, 1)
+      ->type_name("TEXT");
 }
 
 bool sort_robot_words(const std::vector<std::string>& words, std::string& model,

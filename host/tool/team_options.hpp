@@ -1,4 +1,5 @@
 #pragma once
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,6 +25,8 @@ struct TeamOptions {
 void declare_robots(CLI::App& app, TeamOptions& options);
 /// What is said of controllers outside.
 void declare_outside(CLI::App& app, TeamOptions& options);
+/// --radio, with words or without.
+void declare_radio(CLI::App& app, std::optional<std::string>& radio);
 
 /// Of what was given to MODEL and --robot: robots with a name of their own (NAME=...) go to
 /// `seats`, the one that is left is the model. Returns whether there was one. Throws ToolError if

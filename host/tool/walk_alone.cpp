@@ -6,6 +6,7 @@
 #include "host/tool/walk_cameras.hpp"
 #include "host/tool/walk_map.hpp"
 #include "host/tool/walk_plan.hpp"
+#include "host/tool/walk_radio.hpp"
 #include "host/tool/walk_seeds.hpp"
 
 /// In the place of verp_walk_rest, in the program of a first walk. The launcher takes the program
@@ -72,6 +73,25 @@ void take_get_up_actions(session::WalkPlan&) {
 
 void check_board(const WalkOptions& options) {
   if (!options.board.empty()) refuse("a controller on an emulated board (--on)");
+}
+
+void check_radio(const WalkOptions& options, const session::WalkPlan&,
+                 const std::vector<session::WalkPlan>&) {
+  if (options.radio) refuse("--radio");
+}
+
+struct WalkRadio::Air {};
+WalkRadio::WalkRadio(const WalkOptions&, session::Session&, std::size_t) {
+  refuse("--radio");
+}
+WalkRadio::~WalkRadio() = default;
+void WalkRadio::watch(const session::WalkPlan&, session::Hooks&) {}
+void WalkRadio::join(const session::WalkPlan&, session::Robot&) {}
+std::string WalkRadio::text() const {
+  return {};
+}
+Json WalkRadio::json() const {
+  return {};
 }
 
 int walk_seeds(const WalkOptions&) {

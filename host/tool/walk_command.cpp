@@ -14,6 +14,7 @@
 #include "host/tool/walk_ending.hpp"
 #include "host/tool/walk_map.hpp"
 #include "host/tool/walk_plan.hpp"
+#include "host/tool/walk_radio.hpp"
 #include "host/tool/walk_seeds.hpp"
 #include "host/tool/walk_team.hpp"
 
@@ -81,6 +82,7 @@ int run_walk(WalkOptions options) {
   }
   sweep_of(options);  // before the long run: a mistake in it is found now
   refuse_of_outside(options, plan);
+  check_radio(options, plan, others);
   if (options.report_folder.empty() && !options.json && plan.link.empty())
     options.report_folder = "report";
   options.board = plan.board;

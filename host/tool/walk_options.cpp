@@ -147,6 +147,7 @@ void declare(CLI::App& app, WalkOptions& options) {
       ->allow_extra_args(false);
   declare_robots(app, options.team);
   declare_outside(app, options.team);
+  declare_radio(app, options.radio);
   declare_tuning(app, options);
   app.add_option("--sweep-step", options.sweep_text,
                  "FROM:TO:BY in m: also walk at each step length, with and without the multibody "

@@ -49,6 +49,7 @@ struct WalkOptions {
   PlaceOptions place;
   MapOptions map;
   TeamOptions team;
+  std::optional<std::string> radio;      ///< its numbers in words; none: nobody has one
   std::vector<std::string> robot_words;  ///< of `verp walk`: MODEL, --robot
   bool model_given = false;
   LiveOptions live;

@@ -10,6 +10,7 @@
 #include "host/tool/bit_rate.hpp"
 #include "host/tool/console.hpp"
 #include "host/tool/interrupt.hpp"
+#include "host/tool/walk_radio.hpp"
 
 namespace verp::tool {
 namespace {
@@ -27,13 +28,16 @@ std::string file_of(const std::filesystem::path& first, const std::string& robot
 /// Robots in one session, and who drives them.
 class Team {
  public:
-  Team(const WalkOptions& options, session::Session& session, Progress& progress)
-      : options_(options), session_(session), progress_(progress) {}
+  Team(const WalkOptions& options, session::Session& session, Progress& progress, WalkRadio* radio)
+      : options_(options), session_(session), progress_(progress), radio_(radio) {}
 
   session::Robot& add(const WalkPlan& plan, session::Hooks hooks) {
-    return session_.add(plan, std::move(hooks), [&](session::Robot& robot) {
+    if (radio_ != nullptr) radio_->watch(plan, hooks);
+    session::Robot& added = session_.add(plan, std::move(hooks), [&](session::Robot& robot) {
       return plan.link.empty() ? session::make_controller(robot) : served(plan, robot);
     });
+    if (radio_ != nullptr) radio_->join(plan, added);
+    return added;
   }
 
   /// Ends what is to end with a robot that lost its controller.
@@ -73,6 +77,7 @@ class Team {
   const WalkOptions& options_;
   session::Session& session_;
   Progress& progress_;
+  WalkRadio* radio_;  ///< null: nobody has one
   std::string lost_;  ///< the first that lost its controller
   bool ended_ = false;
 };
@@ -116,8 +121,10 @@ std::vector<std::string> OtherFiles::lost() const {
 Walks walk_together(const WalkPlan& plan, const std::vector<WalkPlan>& others,
                     const WalkOptions& options, const sim::WorldOptions& world, WalkFiles& files,
                     OtherFiles& other_files, Progress& progress, WalkCameras* cameras) {
+  std::unique_ptr<WalkRadio> radio;  // outlives the session, whose buses have its modems
   session::Session session({.world = world, .interrupted = interrupted});
-  Team team(options, session, progress);
+  if (options.radio) radio = std::make_unique<WalkRadio>(options, session, 1 + others.size());
+  Team team(options, session, progress, radio.get());
   session::Hooks hooks =
       shown(plan, files.trace(), progress, plan.params.name, files.wants_report());
   if (cameras != nullptr) cameras->watch(plan, hooks);
@@ -143,6 +150,7 @@ Walks walk_together(const WalkPlan& plan, const std::vector<WalkPlan>& others,
   for (std::size_t i = 0; i < others.size(); ++i)
     walks.others.emplace_back(others[i].name, session.result(i + 1));
   if (session.scenery() != nullptr) walks.objects = objects_of(*session.scenery());
+  if (radio) walks.radio = radio->json(), walks.radio_text = radio->text();
   return walks;
 }
 
@@ -168,7 +176,7 @@ std::string team_text(const Walks& walks, const std::vector<WalkPlan>& others,
                        others[i].board.empty() ? "" : " on " + others[i].board,
                        trace.empty() || result.digest == 0 ? "" : ", " + trace);
   }
-  return out;
+  return out + walks.radio_text;
 }
 
 Json team_json(const Walks& walks, const std::vector<WalkPlan>& others, const OtherFiles& files,
@@ -190,6 +198,7 @@ Json team_json(const Walks& walks, const std::vector<WalkPlan>& others, const Ot
     if (!files.name(i).empty()) row["trace"] = files.name(i);
     out["others"].push_back(row);
   }
+  if (!walks.radio.is_null()) out["radio"] = walks.radio;
   return out;
 }
 

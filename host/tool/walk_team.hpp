@@ -17,6 +17,8 @@ struct Walks {
   double took_s = 0;                                       ///< of the wall, waiting included
   std::vector<std::pair<std::string, WalkResult>> others;  ///< name
   Json objects = Json::array();  ///< of the world that can be pushed or move, and where they ended
+  Json radio;                    ///< what came of what was said; null: nobody had one
+  std::string radio_text;
 };
 
 /// What the others leave on the disk: a trace each beside the first's, if that has one.

@@ -248,6 +248,23 @@ TEST_F(Lockstep, RefusesOtherParamsByName) {
   EXPECT_EQ(bus.greet(params), lockstep::Verdict::kAccepted);
 }
 
+// Somebody else's controller, which has no core of ours to name.
+TEST_F(Lockstep, MeetsAStrangerWhereNobodyComparesBits) {
+  const lockstep::Hello stranger;
+  const auto verdict = [&] {
+    std::uint8_t frame[lockstep::kMaxClockPacket];
+    const std::size_t size =
+        dxl::encode_write(frame, sizeof frame, lockstep::kClockId, lockstep::kHelloAddress,
+                          reinterpret_cast<const std::uint8_t*>(&stranger), sizeof stranger);
+    std::vector<std::uint8_t> answer;
+    server.take({frame, size}, answer);
+    return static_cast<lockstep::Verdict>(answer.at(dxl::kHeaderBytes + 3));
+  };
+  EXPECT_EQ(verdict(), lockstep::Verdict::kOtherLayout);
+  server.welcome_strangers();
+  EXPECT_EQ(verdict(), lockstep::Verdict::kAccepted);
+}
+
 // Serial and CAN ask this of each Hello: a version is one digest (tests/golden/core_versions.txt).
 TEST_F(Lockstep, RefusesAnotherCoreByName) {
   lockstep::Hello theirs{.core_version = kCoreVersion,

@@ -9,13 +9,14 @@
 
 #include "common/protocol/control_table.hpp"
 #include "firmware/app/lockstep_messages.hpp"
+#include "host/bus/modem_device.hpp"
 
 namespace verp::bus {
 namespace {
 
-constexpr std::uint16_t kModels[] = {dxl::kModelXm430W210, dxl::kModelXm430W350,
-                                     dxl::kModelMx28,      dxl::kModelImu,
-                                     dxl::kModelFoot,      dxl::controller::kModel};
+constexpr std::uint16_t kModels[] = {dxl::kModelXm430W210,   dxl::kModelXm430W350, dxl::kModelMx28,
+                                     dxl::kModelImu,         dxl::kModelFoot,      modem::kModel,
+                                     dxl::controller::kModel};
 
 TEST(RegisterNames, EveryKnownModelHasANameAndOrderedRegisters) {
   for (const std::uint16_t model : kModels) {
