@@ -51,6 +51,7 @@ class Writer {
   /// Removes the part file: there was nothing worth keeping. Nothing may be added afterwards.
   void discard();
 
+  std::size_t open_bytes() const { return chunk_.size(); }  ///< of the open chunk
   const std::filesystem::path& path() const { return path_; }
   const std::filesystem::path& part_path() const { return part_; }
 

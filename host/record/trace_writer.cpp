@@ -101,7 +101,7 @@ void TraceWriter::put(const TickRecord& record, const State* kept, const Made& m
   if (kept != nullptr) writer_.add_message(state_, time_ns, image(*kept));
   if (options_.ros) append_ros(record.inputs, made, body, effort_n_m, time_ns);
   ++ticks_;
-  if (ticks_ % options_.chunk_ticks != 0) return;
+  if (ticks_ % options_.chunk_ticks != 0 && writer_.open_bytes() < options_.chunk_bytes) return;
   writer_.flush();
   safe_ticks_ = ticks_;
 }

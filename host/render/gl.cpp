@@ -109,6 +109,7 @@ GpuMesh::GpuMesh(const scene::Triangles& mesh)
       points_(new_buffer()),
       indices_(new_buffer()),
       count_(static_cast<GLsizei>(mesh.indices.size())) {
+  for (const Eigen::Vector3f& point : mesh.points) around_.extend(point);
   std::vector<float> data;
   data.reserve(mesh.points.size() * 8);
   for (std::size_t i = 0; i < mesh.points.size(); ++i) {

@@ -75,11 +75,13 @@ class GpuMesh {
   explicit GpuMesh(const scene::Triangles& mesh);
   void draw() const;
   bool empty() const { return count_ == 0; }
+  const Eigen::AlignedBox3f& around() const { return around_; }
 
  private:
   VertexArray vertices_;
   Buffer points_, indices_;
   GLsizei count_ = 0;
+  Eigen::AlignedBox3f around_;
 };
 
 /// What is drawn to and read back: colour, and depth.

@@ -49,7 +49,7 @@ std::vector<float> Meter::measure(const Stage& stage, const scene::Snapshot& now
     const auto edge_m = static_cast<float>(kFloor_m);
     one(at, {edge_m, edge_m, 1}, labels ? 0 : -1, floor_);
   }
-  for (const Placed& item : stage.place(now, effects)) {
+  for (const Placed& item : in_sight(stage.place(now, effects), camera, size)) {
     one(item.world, item.scale, labels ? scene::label_of(stage.scene(), *item.item) : item.index,
         *item.mesh);
   }

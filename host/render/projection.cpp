@@ -70,6 +70,34 @@ Mat4 clip_of(const scene::Camera& camera, Size size) {
   return perspective(camera, size) * look_at(camera.eye_m, camera.target_m, camera.up);
 }
 
+std::vector<Placed> in_sight(const std::vector<Placed>& placed, const scene::Camera& camera,
+                             Size size) {
+  const Mat4 clip = clip_of(camera, size);
+  // A point is in the picture where w + x, w - x, w + y, ... are positive: six planes.
+  Eigen::Matrix<float, 6, 4> planes;
+  for (int axis = 0; axis < 3; ++axis) {
+    planes.row(2 * axis) = clip.row(3) + clip.row(axis);
+    planes.row(2 * axis + 1) = clip.row(3) - clip.row(axis);
+  }
+  for (int i = 0; i < 6; ++i) planes.row(i) /= planes.row(i).head<3>().norm();
+  const auto focal_px =
+      static_cast<float>(size.height / (2 * std::tan(camera.vertical_fov_rad / 2)));
+  std::vector<Placed> out;
+  for (const Placed& item : placed) {
+    Eigen::AlignedBox3f box(item.mesh->around().min().cwiseProduct(item.scale));
+    box.extend(item.mesh->around().max().cwiseProduct(item.scale));
+    const Eigen::Vector4f centre = item.world * box.center().homogeneous();
+    if ((planes * centre).minCoeff() < -box.diagonal().norm() / 2) continue;
+    out.push_back(item);
+    const Eigen::Vector3f eye = item.world.block<3, 3>(0, 0).transpose() *
+                                (camera.eye_m.cast<float>() - item.world.block<3, 1>(0, 3));
+    const float round_px_m = static_cast<float>(item.item->round_m) * focal_px;
+    if (item.sharp != nullptr && round_px_m < box.exteriorDistance(eye))
+      out.back().mesh = item.sharp;
+  }
+  return out;
+}
+
 View view_of(const Stage& stage, const scene::Snapshot& now, const scene::Camera& camera, Size size,
              int shadow_light) {
   const Stage::Ball ball = stage.extent(now, camera);

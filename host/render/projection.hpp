@@ -24,4 +24,9 @@ struct View {
 View view_of(const Stage& stage, const scene::Snapshot& now, const scene::Camera& camera, Size size,
              int shadow_light);
 
+/// Those of `placed` of which something may be in the picture, and whose rounded edges only where
+/// they are wider than a pixel: most of a room is beside or behind a camera, and far away.
+std::vector<Placed> in_sight(const std::vector<Placed>& placed, const scene::Camera& camera,
+                             Size size);
+
 }  // namespace verp::render

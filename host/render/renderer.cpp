@@ -186,6 +186,7 @@ struct Renderer::Impl {
     begin_pass();
     glDisable(GL_BLEND);
     if (view.shadow_light >= 0) lighting.draw_shadows(placed, view.sun, effects);
+    const std::vector<Placed> seen = in_sight(placed, camera, size);
     glBindFramebuffer(GL_FRAMEBUFFER, target);
     glViewport(0, 0, size.width, size.height);
     const Colour& back = stage.scene().sky.horizon;
@@ -196,11 +197,11 @@ struct Renderer::Impl {
         effects.textures && std::any_of(placed.begin(), placed.end(),
                                         [](const Placed& item) { return item.texture != 0; });
     painted = any_texture ? &lighting.program(stage.scene(), view, effects, false, true) : plain;
-    draw_solid(placed, effects);
+    draw_solid(seen, effects);
     draw_floor(view, effects);
     if (effects.sky) draw_sky(view.clip, camera.eye_m);
     glEnable(GL_BLEND);
-    draw_clear(placed, effects, camera.eye_m, 1);
+    draw_clear(seen, effects, camera.eye_m, 1);
     if (effects.goals) {
       draw_clear(stage.place(at_goals(stage.scene(), now), effects), effects, camera.eye_m, 0.35F);
     }

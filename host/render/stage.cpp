@@ -8,18 +8,18 @@
 namespace verp::render {
 namespace {
 
-scene::Triangles triangles_of(const scene::Item& item) {
+scene::Triangles triangles_of(const scene::Item& item, double round_m) {
   using scene::Shape;
   const scene::Vec3& size_m = item.size_m;
   switch (item.shape) {
     case Shape::kBox:
-      return box(size_m, item.round_m);
+      return box(size_m, round_m);
     case Shape::kSphere:
       return sphere(size_m.x());
     case Shape::kCapsule:
       return capsule(size_m.x(), size_m.z());
     case Shape::kCylinder:
-      return cylinder(size_m.x(), size_m.z(), item.round_m);
+      return cylinder(size_m.x(), size_m.z(), round_m);
     case Shape::kPlane:
       return plane(size_m.x(), size_m.y());
     default:
@@ -36,6 +36,7 @@ void Stage::fill(const scene::Scene& scene) {
   pictures_.clear();
   const std::size_t count = scene_.items.size();
   own_ = std::vector<GpuMesh>(count);
+  sharp_ = std::vector<GpuMesh>(count);
   mesh_.assign(count, nullptr);
   texture_.assign(count, 0);
   for (std::size_t i = 0; i < count; ++i) upload(scene_.items[i], i);
@@ -45,10 +46,12 @@ void Stage::upload(const scene::Item& item, std::size_t index) {
   if (item.shape == scene::Shape::kMesh) {
     mesh_[index] = &mesh_of_file(item.mesh_file);
   } else {
-    scene::Triangles mesh = triangles_of(item);
+    scene::Triangles mesh = triangles_of(item, item.round_m);
     if (mesh.normals.size() != mesh.points.size()) add_flat_normals(mesh);
     own_[index] = GpuMesh(mesh);
     mesh_[index] = &own_[index];
+    const bool rounded = item.shape == scene::Shape::kBox && item.round_m > 0;
+    if (rounded) sharp_[index] = GpuMesh(triangles_of(item, 0));
   }
   if (!item.material.texture.empty()) texture_[index] = texture_of_file(item.material.texture);
 }
@@ -108,7 +111,8 @@ std::vector<Placed> Stage::place(const scene::Snapshot& now, const Effects& effe
     if (!world.allFinite()) continue;
     const bool scaled = item.shape == scene::Shape::kMesh;
     placed.push_back(
-        {&item, mesh_[i], texture_[i], static_cast<int>(i), world,
+        {&item, mesh_[i], sharp_[i].empty() ? nullptr : &sharp_[i], texture_[i],
+         static_cast<int>(i), world,
          scaled ? Eigen::Vector3f(item.size_m.cast<float>()) : Eigen::Vector3f(1, 1, 1)});
   }
   return placed;

@@ -10,6 +10,7 @@ namespace verp::render {
 struct Placed {
   const scene::Item* item;
   const GpuMesh* mesh;
+  const GpuMesh* sharp;  ///< the same without its rounded edges, or null
   GLuint texture = 0;
   int index = 0;  ///< in Scene::items
   Mat4 world = Mat4::Identity();
@@ -42,6 +43,7 @@ class Stage {
 
   scene::Scene scene_;
   std::vector<GpuMesh> own_;          ///< of each item; empty: of a file
+  std::vector<GpuMesh> sharp_;        ///< of each item with rounded edges, without them
   std::vector<const GpuMesh*> mesh_;  ///< of each item
   std::vector<GLuint> texture_;       ///< of each item; 0: none
   std::map<std::string, GpuMesh> files_;

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "host/camera/recorder.hpp"
 #include "host/tool/exit_status.hpp"
 
@@ -61,8 +63,12 @@ void WalkCameras::finish() {
 }
 
 std::string WalkCameras::text(double run_s) const {
-  std::string out = fmt::format("  {:<18}{} pictures, {:.2f} of a core while it walked", "cameras",
-                                seen_->recorder->pictures(), seen_->rig->processor_s() / run_s);
+  const auto pictures =
+      static_cast<double>(std::max<std::uint64_t>(1, seen_->recorder->pictures()));
+  std::string out =
+      fmt::format("  {:<18}{} pictures, {:.1f} ms of a core each: {:.2f} of it while it walked",
+                  "cameras", seen_->recorder->pictures(),
+                  1e3 * seen_->rig->processor_s() / pictures, seen_->rig->processor_s() / run_s);
   if (seen_->rig->dropped() > 0)
     out += fmt::format("; {} left out to keep real time", seen_->rig->dropped());
   return out + "\n";

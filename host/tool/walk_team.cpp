@@ -4,12 +4,14 @@
 
 #include <cctype>
 #include <memory>
+#include <utility>
 
 #include "host/link/system_clock.hpp"
 #include "host/session/served.hpp"
 #include "host/tool/bit_rate.hpp"
 #include "host/tool/console.hpp"
 #include "host/tool/interrupt.hpp"
+#include "host/tool/real_time.hpp"
 #include "host/tool/walk_radio.hpp"
 
 namespace verp::tool {
@@ -24,6 +26,37 @@ std::string file_of(const std::filesystem::path& first, const std::string& robot
   const std::string file = first.stem().string() + "." + name + first.extension().string();
   return (first.parent_path() / file).string();
 }
+
+/// Of a walk in real time: its ticks by the clock, and before all that is not urgent where the
+/// system allows it, as `verp run` has them. Who is a second behind gives that up, so that others
+/// run too.
+class Pace {
+ public:
+  Pace(bool real_time, std::uint32_t period_us) : urgent_(real_time) {
+    if (!real_time) return;
+    become_real_time();
+    pacer_.start(period_us);
+    real_time_ = true;
+  }
+
+  void next() {
+    if (!real_time_) return;
+    pacer_.next();
+    constexpr std::uint64_t kMost_us = 1'000'000;
+    if (urgent_ && deadlines().worst_late_us > kMost_us) end();
+  }
+
+  void end() {
+    if (std::exchange(urgent_, false)) leave_real_time();
+  }
+
+  const app::Deadlines& deadlines() const { return pacer_.deadlines(); }
+
+ private:
+  wire::SystemClock clock_;
+  app::Pacer<wire::SystemClock> pacer_{clock_};
+  bool real_time_ = false, urgent_ = false;
+};
 
 /// Robots in one session, and who drives them.
 class Team {
@@ -134,17 +167,17 @@ Walks walk_together(const WalkPlan& plan, const std::vector<WalkPlan>& others,
     own.trace = other_files.trace(i);
     team.add(others[i], std::move(own));
   }
-  wire::SystemClock clock;
-  app::Pacer pacer(clock);
+  const wire::SystemClock clock;
   const std::uint64_t begun_us = clock.now_us();
-  if (options.real_time) pacer.start(plan.params.period_us);
+  Pace pace(options.real_time, plan.params.period_us);
   while (const session::Robot* robot = session.tick()) {
-    if (options.real_time && robot == &first) pacer.next();
+    if (robot == &first) pace.next();
     team.look_after_losses();
   }
+  pace.end();
   if (cameras != nullptr) cameras->finish();
   Walks walks;
-  walks.deadlines = pacer.deadlines();
+  walks.deadlines = pace.deadlines();
   walks.took_s = 1e-6 * static_cast<double>(clock.now_us() - begun_us);
   walks.result = session.result(0);
   for (std::size_t i = 0; i < others.size(); ++i)
