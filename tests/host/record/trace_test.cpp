@@ -88,6 +88,23 @@ TEST_F(TraceFile, CrashLosesAtMostTheOpenChunk) {
   EXPECT_NE(trace.warning, "");
 }
 
+// In real time the end of a chunk is part of a tick: with pictures, no second of them is one.
+TEST_F(TraceFile, ChunksEndWhenTheyAreFull) {
+  fs::path part;
+  TraceWriter writer(folder_ / "run.mcap", sample_params(), {}, {.ros = true});
+  part = writer.part_path();
+  const std::string picture(40'000, 'x');
+  std::uintmax_t before = fs::file_size(part);
+  for (std::uint32_t tick = 0; tick < 100; ++tick) {
+    writer.append("/camera/image", {"sensor_msgs/msg/CompressedImage", ""}, tick, picture);
+    writer.append(record_of(sample_inputs(tick)), State{}, Outputs{});
+    const std::uintmax_t now = fs::file_size(part);
+    EXPECT_LT(now - before, 200'000u) << "written at once, at tick " << tick;
+    before = now;
+  }
+  EXPECT_GT(before, 3'800'000u) << "what a crash leaves";
+}
+
 TEST_F(TraceFile, TruncationAnywhereIsAnErrorAndRecoversWholeTicks) {
   const fs::path file = folder_ / "run.mcap";
   write_run(file, 12, {.ros = false, .chunk_ticks = 4});
