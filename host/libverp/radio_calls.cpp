@@ -10,6 +10,14 @@ namespace {
 
 constexpr std::uint64_t kMostBytes = 65'536;  // that any conditions let a message have
 
+/// A message is said or heard between ticks, or by a controller inside one.
+template <class Act>
+int with(verp_session session, Act&& act) {
+  if (Run* run = Ticking::find(session)) return act(*run);
+  const auto run = sessions().use(session);
+  return act(*run);
+}
+
 /// The radios of a session that has begun.
 Air& air_of(Run& run) {
   if (!run.air)
@@ -60,15 +68,16 @@ int verp_session_send(verp_session session, uint32_t robot, int32_t to, const vo
                       uint64_t size) {
   return call("verp_session_send", [&] {
     if (size > 0) need(data, "data");
-    const auto run = sessions().use(session);
-    run->seat(robot);
-    Air& air = air_of(*run);
-    // No radio takes more, and a size that is none is not to be copied.
-    if (size > kMostBytes) {
-      throw Failure(VERP_BAD_ARGUMENT,
-                    "data is of " + std::to_string(size) + " bytes: no message has so many");
-    }
-    return air.send(*run, robot, to, std::string(static_cast<const char*>(data), size));
+    return with(session, [&](Run& run) {
+      run.seat(robot);
+      Air& air = air_of(run);
+      // No radio takes more, and a size that is none is not to be copied.
+      if (size > kMostBytes) {
+        throw Failure(VERP_BAD_ARGUMENT,
+                      "data is of " + std::to_string(size) + " bytes: no message has so many");
+      }
+      return air.send(run, robot, to, std::string(static_cast<const char*>(data), size));
+    });
   });
 }
 
@@ -77,8 +86,9 @@ int verp_session_take(verp_session session, uint32_t robot, void* data, uint64_t
   return call("verp_session_take", [&] {
     need(data, "data");
     need(size, "size");
-    const auto run = sessions().use(session);
-    run->seat(robot);
-    return air_of(*run).take(robot, data, room, size, from);
+    return with(session, [&](Run& run) {
+      run.seat(robot);
+      return air_of(run).take(robot, data, room, size, from);
+    });
   });
 }

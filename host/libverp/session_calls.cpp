@@ -59,6 +59,18 @@ Handles<Run>& sessions() {
   return all;
 }
 
+Ticking*& Ticking::last() {
+  static thread_local Ticking* last = nullptr;
+  return last;
+}
+
+Run* Ticking::find(verp_session session) {
+  for (const Ticking* each = last(); each != nullptr; each = each->before_) {
+    if (each->session_ == session) return &each->run_;
+  }
+  return nullptr;
+}
+
 }  // namespace verp::abi
 
 using namespace verp::abi;
@@ -120,6 +132,7 @@ int verp_session_tick(verp_session session, uint32_t count, uint32_t* robot, uin
     if (run->ended) return VERP_OVER;
     if (!run->begun && run->air) run->air->begin(run->seats.size());
     run->begun = true;
+    const Ticking ticking(session, *run);
     for (std::uint32_t n = 0; n < count; ++n) {
       const verp::session::Robot* ticked = run->session.tick();
       if (ticked == nullptr) return VERP_OVER;

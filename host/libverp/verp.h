@@ -8,8 +8,9 @@
  * is for one thread at a time: a second one gets VERP_BUSY. Different handles may be used by
  * different threads at the same time, and equal calls give equal bits whatever the others do. A
  * callback runs inside verp_session_tick(), in its thread and on its stack: calls with the handle
- * of that session then give VERP_BUSY, all others work. To a process that was forked its parent's
- * handles are VERP_BAD_HANDLE, and its end harms none of them: it opens its own.
+ * of that session then give VERP_BUSY, but for verp_session_send() and verp_session_take(); all
+ * others work. To a process that was forked its parent's handles are VERP_BAD_HANDLE, and its end
+ * harms none of them: it opens its own.
  *
  * Structs begin with `size`, which the caller sets to sizeof: another one's is refused. Memory that
  * the caller gives is the caller's, and no pointer to the library's own is ever handed out, but
@@ -388,11 +389,13 @@ int verp_radio_defaults(verp_radio* radio);
 int verp_session_radio(verp_session session, const verp_radio* radio);
 /* A message of `size` bytes from a robot to another one, or VERP_EVERYBODY, after the first tick.
  * Nothing acknowledges it. It stands in the traces of who says and who hears it, at /radio.
- * VERP_NOT_SENT: most_waiting. */
+ * VERP_NOT_SENT: most_waiting. Between ticks, or inside a controller of this session: then it
+ * leaves in the tick that is being decided. */
 int verp_session_send(verp_session session, uint32_t robot, int32_t to, const void* data,
                       uint64_t size);
-/* The next message that the robot heard up to its last tick, of `size` bytes into `room`, and from
- * whom. VERP_NO_MESSAGE: no further one. Of 256 that nobody took, the oldest is lost. */
+/* The next message that the robot heard up to its last tick (a controller: the one before), of
+ * `size` bytes into `room`, and from whom. VERP_NO_MESSAGE: no further one. Of 256 that nobody
+ * took, the oldest is lost. */
 int verp_session_take(verp_session session, uint32_t robot, void* data, uint64_t room,
                       uint64_t* size, uint32_t* from);
 

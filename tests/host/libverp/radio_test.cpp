@@ -129,6 +129,55 @@ TEST(LibverpRadio, EqualRunsHearEqualAndTheirTraceReplays) {
   EXPECT_EQ(runs[0], runs[1]);
 }
 
+/// Two controllers that talk while they decide: each says how many messages it has heard.
+TEST(LibverpRadio, ControllersTalkInsideTheirTicks) {
+  struct Talker {
+    verp_session session;
+    std::string heard = {};
+    int count = 0, wrong = 0;
+    std::string why = {};
+  };
+  const auto controller = [](const verp_moment* moment, void* user) {
+    auto* const told = static_cast<Talker*>(user);
+    char data[96];
+    std::uint64_t size = 0;
+    std::uint32_t from = 9;
+    int status = VERP_OK;
+    while ((status = verp_session_take(told->session, moment->robot, data, sizeof data, &size,
+                                       &from)) == VERP_OK) {
+      told->heard += std::string(data, size) + ";";
+      told->wrong += from == moment->robot;
+      ++told->count;
+    }
+    if (status != VERP_NO_MESSAGE && told->wrong++ == 0) told->why = verp_last_error();
+    const std::string says = std::to_string(told->count);
+    if (moment->inputs->tick % 3 == 0)
+      told->wrong += verp_session_send(told->session, moment->robot, VERP_EVERYBODY, says.data(),
+                                       says.size()) != VERP_OK;
+    return verp_decide(moment->token);
+  };
+  constexpr std::uint32_t kTicks = 600;
+  std::vector<std::string> runs;
+  std::vector<std::uint64_t> digests;
+  for (const std::uint32_t at_once : {1U, 100U}) {
+    verp_lib::Session session = pair_of(2, verp_lib::Session::radio_defaults());
+    Talker talkers[2] = {{.session = session.handle()}, {.session = session.handle()}};
+    for (const std::uint32_t robot : {0U, 1U})
+      ASSERT_EQ(verp_session_control(session.handle(), robot, controller, &talkers[robot]),
+                VERP_OK);
+    for (std::uint32_t done = 0; done < kTicks; done += at_once) session.tick(at_once);
+    EXPECT_EQ(talkers[0].wrong + talkers[1].wrong, 0) << talkers[0].why;
+    runs.push_back(talkers[0].heard + "|" + talkers[1].heard);
+    digests.push_back(session.digest(0));
+    for (const Talker& each : talkers) EXPECT_GT(each.count, 50);
+  }
+  EXPECT_EQ(runs[0], runs[1]) << "however many ticks a call makes";
+  // A radio takes no bit away from a walk.
+  verp_lib::Session alone = pair_of(2, quiet());
+  alone.tick(kTicks);
+  EXPECT_EQ(digests, (std::vector<std::uint64_t>(2, alone.digest(0))));
+}
+
 TEST(LibverpRadio, TooManyAndTooLongAreTold) {
   verp_radio radio = quiet();
   radio.most_waiting = 3;
