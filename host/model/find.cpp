@@ -1,12 +1,15 @@
 #include "host/model/find.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
+#include <set>
 
 #include "host/files/places.hpp"
 #include "host/model/load_error.hpp"
-#include "host/model/not_found.hpp"
+#include "host/model/named_files.hpp"
 
 namespace verp::model {
 namespace {
@@ -34,53 +37,55 @@ std::vector<fs::path> robot_folders() {
   return folders;
 }
 
+NamedFiles robots() {
+  return {"robot", robot_folders()};
+}
+
+std::string why_not_found(const std::string& name_or_path, bool looks_like_path,
+                          const std::string& kind) {
+  std::error_code ignored;
+  if (fs::is_directory(name_or_path, ignored)) return "is a folder, not a " + kind + "'s file";
+  if (fs::exists(name_or_path, ignored)) return "is not a regular file";
+  return looks_like_path ? "there is no such file" : "there is no " + kind + " of this name";
+}
+
+}  // namespace
+
 bool is_file(const fs::path& path) {
   std::error_code ignored;
   return fs::is_regular_file(path, ignored);
 }
 
-std::string list_of_names() {
-  std::string list;
-  for (const std::string& name : model_names()) list += (list.empty() ? "" : ", ") + name;
-  return list;
-}
-
-}  // namespace
-
-std::string why_not_found(const std::string& name_or_path, const std::string& kind) {
-  std::error_code ignored;
-  if (fs::is_directory(name_or_path, ignored)) return "is a folder, not a " + kind + "'s file";
-  if (fs::exists(name_or_path, ignored)) return "is not a regular file";
-  const bool looks_like_path =
-      name_or_path.ends_with(".sdf") || name_or_path.find('/') != std::string::npos;
-  return looks_like_path ? "there is no such file" : "there is no " + kind + " of this name";
-}
-
-std::vector<std::string> model_names() {
-  std::vector<std::string> names;
-  for (const fs::path& folder : robot_folders()) {
+std::vector<std::string> NamedFiles::names() const {
+  std::set<std::string> names;
+  for (const fs::path& folder : folders) {
     std::error_code ignored;
     for (const auto& entry : fs::directory_iterator(folder, ignored)) {
-      if (is_file(entry.path() / "robot.sdf")) names.push_back(entry.path().filename().string());
+      if (is_file(entry.path() / (kind + ".sdf"))) names.insert(entry.path().filename().string());
     }
   }
-  std::sort(names.begin(), names.end());
-  names.erase(std::unique(names.begin(), names.end()), names.end());
-  return names;
+  return {names.begin(), names.end()};
 }
 
-std::string find_model(const std::string& name_or_path) {
+std::string NamedFiles::find(const std::string& name_or_path) const {
   if (is_file(name_or_path)) return name_or_path;
   const bool looks_like_path =
       name_or_path.ends_with(".sdf") || name_or_path.find('/') != std::string::npos;
-  if (!looks_like_path) {
-    for (const fs::path& folder : robot_folders()) {
-      const fs::path candidate = folder / name_or_path / "robot.sdf";
-      if (is_file(candidate)) return candidate.string();
-    }
+  for (const fs::path& folder : folders) {
+    const fs::path candidate = folder / name_or_path / (kind + ".sdf");
+    if (!looks_like_path && is_file(candidate)) return candidate.string();
   }
-  throw LoadError(name_or_path, 0, why_not_found(name_or_path, "robot"),
-                  "give the path of an .sdf file, or one of: " + list_of_names());
+  throw LoadError(
+      name_or_path, 0, why_not_found(name_or_path, looks_like_path, kind),
+      fmt::format("give the path of an .sdf file, or one of: {}", fmt::join(names(), ", ")));
+}
+
+std::vector<std::string> model_names() {
+  return robots().names();
+}
+
+std::string find_model(const std::string& name_or_path) {
+  return robots().find(name_or_path);
 }
 
 std::vector<std::string> model_path() {
@@ -92,9 +97,7 @@ std::vector<std::string> model_path() {
 }
 
 std::string model_path_text() {
-  std::string text;
-  for (const std::string& folder : model_path()) text += (text.empty() ? "" : ":") + folder;
-  return text;
+  return fmt::format("{}", fmt::join(model_path(), ":"));
 }
 
 std::string resolve_model_uri(const std::string& uri, const std::string& from_file) {

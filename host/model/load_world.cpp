@@ -19,10 +19,6 @@ Color to_color(const ignition::math::Color& c) {
           static_cast<double>(c.A())};
 }
 
-sdf::ElementPtr inner(const sdf::ElementPtr& parent, const char* name) {
-  return parent && parent->HasElement(name) ? parent->GetElement(name) : nullptr;
-}
-
 /// One world: from libsdformat's, and from the XML what that has no classes for.
 class WorldLoader {
  public:
@@ -181,18 +177,15 @@ class WorldLoader {
          "give its mass and inertia, or <static>true</static>");
   }
 
-  ContactSurface read_world_surface(const sdf::ElementPtr& collision) const {
+  static ContactSurface read_world_surface(const sdf::ElementPtr& collision) {
     ContactSurface out;
     const auto surface = inner(collision, "surface");
-    const auto read = [](const sdf::ElementPtr& parent, const char* name, double& value) {
-      if (const auto leaf = inner(parent, name)) value = leaf->Get<double>();
-    };
-    read(inner(inner(surface, "friction"), "ode"), "mu", out.friction);
-    read(inner(surface, "bounce"), "restitution_coefficient", out.restitution);
+    read_leaf(inner(inner(surface, "friction"), "ode"), "mu", out.friction);
+    read_leaf(inner(surface, "bounce"), "restitution_coefficient", out.restitution);
     const auto contact = inner(inner(surface, "contact"), "ode");
-    read(contact, "kp", out.stiffness_n_m);
+    read_leaf(contact, "kp", out.stiffness_n_m);
     if (out.stiffness_n_m > 0) out.damping_n_s_m = 100;
-    read(contact, "kd", out.damping_n_s_m);
+    read_leaf(contact, "kd", out.damping_n_s_m);
     return out;
   }
 
@@ -273,28 +266,11 @@ class WorldLoader {
       out.heightfield =
           in_file<Heightfield>(file, about, "heights are a .pgm of 2 to 2049 samples a side",
                                [&] { return read_pgm(file, to_vector(field->Size())); });
-    } else {
-      read_solid(geometry, about, out);
-    }
-    return out;
-  }
-
-  void read_solid(const sdf::Geometry& geometry, const std::string& about, Shape& out) const {
-    if (const auto* box = geometry.BoxShape()) {
-      out.size_m = to_vector(box->Size());
-    } else if (const auto* sphere = geometry.SphereShape()) {
-      out.kind = Shape::Kind::kSphere;
-      out.size_m = {sphere->Radius(), 0, 0};
-    } else if (const auto* cylinder = geometry.CylinderShape()) {
-      out.kind = Shape::Kind::kCylinder;
-      out.size_m = {cylinder->Radius(), 0, cylinder->Length()};
-    } else if (const auto* capsule = geometry.CapsuleShape()) {
-      out.kind = Shape::Kind::kCapsule;
-      out.size_m = {capsule->Radius(), 0, capsule->Length()};
-    } else {
+    } else if (!read_solid(geometry, out.kind, out.size_m)) {
       fail(about, "'" + about + "' has a shape that is not known here",
            "use plane, box, sphere, cylinder, capsule, heightmap or mesh");
     }
+    return out;
   }
 
   std::shared_ptr<const Mesh> mesh_at(const sdf::Mesh& mesh, const std::string& about) const {

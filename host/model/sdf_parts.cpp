@@ -2,12 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sdf/Box.hh>
-#include <sdf/Capsule.hh>
-#include <sdf/Cylinder.hh>
-#include <sdf/Element.hh>
-#include <sdf/Geometry.hh>
-#include <sdf/Sphere.hh>
 #include <stdexcept>
 
 #include "host/model/bounds.hpp"
@@ -44,43 +38,21 @@ Transform resolved(const sdf::SemanticPose& pose, const std::string& from) {
   return to_transform(out);
 }
 
-namespace {
-
-/// <surface><friction><ode><mu> and its like, which libsdformat 12 has no classes for.
-void read_surface(const sdf::ElementPtr& element, Collision& collision) {
-  const auto child = [](const sdf::ElementPtr& parent, const char* name) -> sdf::ElementPtr {
-    return parent && parent->HasElement(name) ? parent->GetElement(name) : nullptr;
-  };
-  const auto read = [&](const sdf::ElementPtr& parent, const char* name, double& value) {
-    if (const auto leaf = child(parent, name)) value = leaf->Get<double>();
-  };
-  const auto surface = child(element, "surface");
-  read(child(child(surface, "friction"), "ode"), "mu", collision.friction);
-  const auto contact = child(child(surface, "contact"), "ode");
-  read(contact, "kp", collision.stiffness_n_m);
-  read(contact, "kd", collision.damping_n_s_m);
+sdf::ElementPtr inner(const sdf::ElementPtr& parent, const char* name) {
+  return parent && parent->HasElement(name) ? parent->GetElement(name) : nullptr;
 }
 
-}  // namespace
+void read_leaf(const sdf::ElementPtr& parent, const char* name, double& value) {
+  if (const auto leaf = inner(parent, name)) value = leaf->Get<double>();
+}
 
 bool read_shape(const sdf::Collision& sdf, Collision& collision) {
-  const sdf::Geometry& geometry = *sdf.Geom();
-  if (const auto* box = geometry.BoxShape()) {
-    collision.shape = Collision::Shape::kBox;
-    collision.size_m = to_vector(box->Size());
-  } else if (const auto* sphere = geometry.SphereShape()) {
-    collision.shape = Collision::Shape::kSphere;
-    collision.size_m = {sphere->Radius(), 0, 0};
-  } else if (const auto* cylinder = geometry.CylinderShape()) {
-    collision.shape = Collision::Shape::kCylinder;
-    collision.size_m = {cylinder->Radius(), 0, cylinder->Length()};
-  } else if (const auto* capsule = geometry.CapsuleShape()) {
-    collision.shape = Collision::Shape::kCapsule;
-    collision.size_m = {capsule->Radius(), 0, capsule->Length()};
-  } else {
-    return false;
-  }
-  read_surface(sdf.Element(), collision);
+  if (!read_solid(*sdf.Geom(), collision.shape, collision.size_m)) return false;
+  const auto surface = inner(sdf.Element(), "surface");
+  read_leaf(inner(inner(surface, "friction"), "ode"), "mu", collision.friction);
+  const auto contact = inner(inner(surface, "contact"), "ode");
+  read_leaf(contact, "kp", collision.stiffness_n_m);
+  read_leaf(contact, "kd", collision.damping_n_s_m);
   return true;
 }
 

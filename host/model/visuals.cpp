@@ -1,14 +1,9 @@
 #include "host/model/visuals.hpp"
 
 #include <filesystem>
-#include <sdf/Box.hh>
-#include <sdf/Capsule.hh>
-#include <sdf/Cylinder.hh>
-#include <sdf/Geometry.hh>
 #include <sdf/Material.hh>
 #include <sdf/Mesh.hh>
 #include <sdf/Pbr.hh>
-#include <sdf/Sphere.hh>
 #include <sdf/Visual.hh>
 
 #include "host/model/find.hpp"
@@ -20,24 +15,12 @@ namespace {
 namespace fs = std::filesystem;
 
 bool read_geometry(const sdf::Geometry& geometry, const PictureFiles& files, Visual& visual) {
-  if (const auto* box = geometry.BoxShape()) {
-    visual.shape = Visual::Shape::kBox;
-    visual.size_m = to_vector(box->Size());
-  } else if (const auto* sphere = geometry.SphereShape()) {
-    visual.shape = Visual::Shape::kSphere;
-    visual.size_m = {sphere->Radius(), 0, 0};
-  } else if (const auto* cylinder = geometry.CylinderShape()) {
-    visual.shape = Visual::Shape::kCylinder;
-    visual.size_m = {cylinder->Radius(), 0, cylinder->Length()};
-  } else if (const auto* capsule = geometry.CapsuleShape()) {
-    visual.shape = Visual::Shape::kCapsule;
-    visual.size_m = {capsule->Radius(), 0, capsule->Length()};
-  } else if (const auto* mesh = geometry.MeshShape()) {
+  if (const auto* mesh = geometry.MeshShape()) {
     visual.shape = Visual::Shape::kMesh;
     visual.size_m = to_vector(mesh->Scale());
     visual.mesh_uri = mesh->Uri();
     visual.mesh = files.find(mesh->Uri());
-  } else {
+  } else if (!read_solid(geometry, visual.shape, visual.size_m)) {
     return false;
   }
   return visual.size_m.allFinite();
