@@ -19,12 +19,6 @@ constexpr int kSilent = 10;                        // readings without any answe
 constexpr std::uint16_t kBytes = 4;                // of Present Position, as every tick reads it
 constexpr int kShortest_ms = 4, kLongest_ms = 20;  // Params::period_us
 
-double quantile(const std::vector<double>& sorted, double share) {
-  if (sorted.empty()) return 0;
-  const auto rank = static_cast<std::size_t>(std::ceil(share * static_cast<double>(sorted.size())));
-  return sorted[std::max<std::size_t>(rank, 1) - 1];
-}
-
 /// None: was given up.
 std::optional<std::uint8_t> somebody(Client& client, const Params& params,
                                      const std::function<bool()>& give_up) {
@@ -49,6 +43,12 @@ std::optional<std::uint8_t> somebody(Client& client, const Params& params,
 }
 
 }  // namespace
+
+double quantile(const std::vector<double>& sorted, double share) {
+  if (sorted.empty()) return 0;
+  const auto rank = static_cast<std::size_t>(std::ceil(share * static_cast<double>(sorted.size())));
+  return sorted[std::max<std::size_t>(rank, 1) - 1];
+}
 
 LinkDelay measure_delay(const std::function<bool()>& read, double wire_us,
                         const std::function<bool()>& give_up) {

@@ -2,6 +2,7 @@
 #include <cstdint>
 #include <functional>
 #include <string>
+#include <vector>
 
 #include "common/model/params.hpp"
 #include "host/bus/client.hpp"
@@ -9,6 +10,9 @@
 /// Whether a robot's traffic fits its control period on a link that holds bytes back, as USB serial
 /// adapters do.
 namespace verp::bus {
+
+/// The smallest of `sorted` that is not below `share` of them; 0 of none.
+double quantile(const std::vector<double>& sorted, double share);
 
 /// How long the reads that were answered took beyond their bytes' time on the wire, there and back.
 struct LinkDelay {

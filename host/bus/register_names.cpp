@@ -6,6 +6,7 @@
 #include "common/protocol/control_table.hpp"
 #include "firmware/app/lockstep_messages.hpp"
 #include "host/bus/modem_device.hpp"
+#include "host/bus/servo_registers.hpp"
 
 namespace verp::bus {
 namespace {
@@ -18,71 +19,10 @@ constexpr NamedRegister seen(std::uint16_t address, const char* name, Type type,
                              const char* unit = "") {
   return {.address = address, .name = name, .type = type, .unit = unit};
 }
-constexpr NamedRegister kept(std::uint16_t address, const char* name, Type type,
-                             const char* unit = "") {
-  return {address, name, type, Access::kDisarmed, 1, 0, 0, unit, ""};
-}
 constexpr NamedRegister used(std::uint16_t address, const char* name, Type type,
                              const char* unit = "") {
   return {address, name, type, Access::kWrite, 1, 0, 0, unit, ""};
 }
-
-// What both series have, under the e-Manual's names; kept() is the EEPROM.
-constexpr auto kServo = std::to_array<NamedRegister>({
-    seen(at::kModelNumber, "model_number", Type::kU16),
-    seen(at::kModelInformation, "model_information", Type::kU32),
-    seen(at::kFirmwareVersion, "firmware_version", Type::kU8),
-    kept(at::kId, "id", Type::kU8),
-    kept(at::kBaudRate, "baud_rate", Type::kU8),
-    kept(at::kReturnDelay, "return_delay_time", Type::kU8, "2 us"),
-    kept(at::kDriveMode, "drive_mode", Type::kU8),
-    kept(at::kOperatingMode, "operating_mode", Type::kU8),
-    kept(at::kSecondaryId, "secondary_id", Type::kU8),
-    kept(at::kProtocolVersion, "protocol_type", Type::kU8),
-    kept(at::kHomingOffset, "homing_offset", Type::kI32, "counts"),
-    kept(at::kMovingThreshold, "moving_threshold", Type::kU32, "0.229 rev/min"),
-    kept(at::kTemperatureLimit, "temperature_limit", Type::kU8, "deg C"),
-    kept(at::kMaxVoltageLimit, "max_voltage_limit", Type::kU16, "0.1 V"),
-    kept(at::kMinVoltageLimit, "min_voltage_limit", Type::kU16, "0.1 V"),
-    kept(at::kPwmLimit, "pwm_limit", Type::kU16),
-    kept(at::kCurrentLimit, "current_limit", Type::kU16),
-    kept(at::kAccelerationLimit, "acceleration_limit", Type::kU32),
-    kept(at::kVelocityLimit, "velocity_limit", Type::kU32, "0.229 rev/min"),
-    kept(at::kMaxPositionLimit, "max_position_limit", Type::kU32, "counts"),
-    kept(at::kMinPositionLimit, "min_position_limit", Type::kU32, "counts"),
-    kept(at::kShutdown, "shutdown", Type::kU8, "bits"),
-    used(at::kTorqueEnable, "torque_enable", Type::kU8),
-    used(at::kLed, "led", Type::kU8),
-    used(at::kStatusReturnLevel, "status_return_level", Type::kU8),
-    seen(at::kRegisteredInstruction, "registered_instruction", Type::kU8),
-    seen(at::kHardwareError, "hardware_error_status", Type::kU8, "bits"),
-    used(at::kVelocityIGain, "velocity_i_gain", Type::kU16),
-    used(at::kVelocityPGain, "velocity_p_gain", Type::kU16),
-    used(at::kPositionDGain, "position_d_gain", Type::kU16),
-    used(at::kPositionIGain, "position_i_gain", Type::kU16),
-    used(at::kPositionPGain, "position_p_gain", Type::kU16),
-    used(at::kFeedforward2Gain, "feedforward_2nd_gain", Type::kU16),
-    used(at::kFeedforward1Gain, "feedforward_1st_gain", Type::kU16),
-    used(at::kBusWatchdog, "bus_watchdog", Type::kU8, "20 ms"),
-    used(at::kGoalPwm, "goal_pwm", Type::kI16),
-    used(at::kGoalCurrent, "goal_current", Type::kI16),
-    used(at::kGoalVelocity, "goal_velocity", Type::kI32, "0.229 rev/min"),
-    used(at::kProfileAcceleration, "profile_acceleration", Type::kU32),
-    used(at::kProfileVelocity, "profile_velocity", Type::kU32),
-    used(at::kGoalPosition, "goal_position", Type::kI32, "counts"),
-    seen(at::kRealtimeTick, "realtime_tick", Type::kU16, "ms"),
-    seen(at::kMoving, "moving", Type::kU8),
-    seen(at::kMovingStatus, "moving_status", Type::kU8, "bits"),
-    seen(at::kPresentPwm, "present_pwm", Type::kI16),
-    seen(at::kPresentCurrent, "present_current", Type::kI16),
-    seen(at::kPresentVelocity, "present_velocity", Type::kI32, "0.229 rev/min"),
-    seen(at::kPresentPosition, "present_position", Type::kI32, "counts"),
-    seen(at::kVelocityTrajectory, "velocity_trajectory", Type::kI32, "0.229 rev/min"),
-    seen(at::kPositionTrajectory, "position_trajectory", Type::kI32, "counts"),
-    seen(at::kPresentVoltage, "present_input_voltage", Type::kU16, "0.1 V"),
-    seen(at::kPresentTemperature, "present_temperature", Type::kU8, "deg C"),
-    seen(at::kBackupReady, "backup_ready", Type::kU8),
-});
 
 constexpr NamedRegister row(std::uint16_t address, const char* name, Type type, std::uint16_t count,
                             const char* unit) {
@@ -141,10 +81,10 @@ struct Model {
   const char* name;
   std::span<const NamedRegister> registers;
 };
-constexpr std::array<Model, 8> kModels = {{
-    {dxl::kModelXm430W210, "XM430-W210", kServo},
-    {dxl::kModelXm430W350, "XM430-W350", kServo},
-    {dxl::kModelMx28, "MX-28(2.0)", kServo},
+const std::array<Model, 8> kModels = {{
+    {dxl::kModelXm430W210, "XM430-W210", servo::named_registers()},
+    {dxl::kModelXm430W350, "XM430-W350", servo::named_registers()},
+    {dxl::kModelMx28, "MX-28(2.0)", servo::named_registers()},
     {dxl::kModelImu, "IMU device", kImu},
     {dxl::kModelFoot, "foot device", kFoot},
     {lockstep::kClockModel, "twin's clock", kClock},

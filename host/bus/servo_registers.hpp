@@ -1,9 +1,11 @@
 #pragma once
 #include <cstdint>
 #include <numbers>
+#include <span>
 #include <vector>
 
 #include "common/protocol/control_table.hpp"
+#include "host/bus/register_names.hpp"
 #include "host/bus/register_table.hpp"
 #include "host/bus/servo_device.hpp"
 
@@ -43,6 +45,8 @@ inline constexpr std::uint8_t kInPosition = 1 << 0, kOngoing = 1 << 1, kNotFollo
 inline constexpr double kInPositionCount = 10;
 inline constexpr double kFollowingCount = 57;  // 5 degrees
 
+/// Those of all servos, as people name them; addresses rise.
+std::span<const NamedRegister> named_registers();
 /// Initial values and ranges.
 std::vector<Register> registers_of(const ServoIdentity& identity);
 

@@ -12,15 +12,6 @@
 namespace verp::can {
 namespace {
 
-/// What the wire compares, bit by bit: a smaller number wins.
-std::uint64_t rank(const CanFrame& frame) {
-  const std::uint64_t remote = frame.remote ? 1 : 0;
-  if (!frame.extended) return std::uint64_t{frame.id} << 21 | remote << 20;
-  const std::uint64_t base = frame.id >> 18;
-  constexpr std::uint64_t kSrrAndIde = 3;  // recessive
-  return base << 21 | kSrrAndIde << 19 | std::uint64_t{frame.id & 0x3FFFF} << 1 | remote;
-}
-
 std::unique_ptr<Node> make_drive(const Params& params, int joint, sim::Plant& plant) {
   const JointParams& at = params.joint[joint];
   const ServoProfile& profile = params.servo[at.servo_profile % kServoProfiles];
@@ -211,7 +202,8 @@ VirtualCan::Place* VirtualCan::arbitrate(std::uint64_t begin_ns, Waiting& winner
     for (std::size_t i = 0; i < out.size(); ++i) {
       if (out[i].ready_ns > begin_ns) continue;
       if (i > 0 && who == nullptr && real_time_) break;
-      if (queue != nullptr && rank(out[i].frame) >= rank((*queue)[place_in_queue].frame)) continue;
+      if (queue != nullptr && can_rank(out[i].frame) >= can_rank((*queue)[place_in_queue].frame))
+        continue;
       queue = &out;
       sender = who;
       place_in_queue = i;

@@ -3,26 +3,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <vector>
 
+#include "host/bus/link_fit.hpp"
 #include "host/link/latency.hpp"
 #include "host/link/system_clock.hpp"
 #include "host/tool/console.hpp"
 #include "host/tool/interrupt.hpp"
 
 namespace verp::tool {
-namespace {
-
-/// The smallest of `sorted` that is not below `share` of them.
-double quantile(const std::vector<double>& sorted, double share) {
-  if (sorted.empty()) return 0;
-  const auto rank = static_cast<std::size_t>(std::ceil(share * static_cast<double>(sorted.size())));
-  return sorted[std::max<std::size_t>(rank, 1) - 1];
-}
-
-}  // namespace
-
 BusBench run_bus_bench(const std::function<bool()>& read, std::uint16_t size, double seconds) {
   BusBench result;
   std::vector<double> took_us;
@@ -43,9 +32,9 @@ BusBench run_bus_bench(const std::function<bool()>& read, std::uint16_t size, do
   result.good = took_us.size();
   result.duration_s = static_cast<double>(now_ns - start_ns) * 1e-9;
   result.payload_bytes = result.good * size;
-  result.median_us = quantile(took_us, 0.5);
-  result.p99_us = quantile(took_us, 0.99);
-  result.worst_us = quantile(took_us, 1);
+  result.median_us = bus::quantile(took_us, 0.5);
+  result.p99_us = bus::quantile(took_us, 0.99);
+  result.worst_us = bus::quantile(took_us, 1);
   return result;
 }
 
