@@ -35,15 +35,19 @@ bool Served::over() const {
          (nobody_to_tell && robot_.over());
 }
 
+void Served::introduce() {
+  if (!std::exchange(introduced_, true)) say("the twin waits for a controller on " + place_);
+}
+
 bool Served::tick() {
   try {
-    if (!std::exchange(introduced_, true)) {
+    if (!std::exchange(began_, true)) {
       if (!options_.operator_link.empty()) {
         orders_ = std::make_unique<bus::OperatorPort>(options_.operator_link,
                                                       [this] { return robot_.interrupted(); });
         begin_shadow();
       }
-      say("the twin waits for a controller on " + place_);
+      introduce();
     }
     if (!over()) turn();
   } catch (const bus::SinkError& error) {
@@ -206,6 +210,15 @@ void Served::begin_real_time() {
 
 void Served::waited(bool heard) {
   const std::uint64_t now = wire::monotonic_ns();
+  if (alone_ns_ == 0) alone_ns_ = now;
+  const bool long_alone = !greeted() && options_.patience_s > 0 &&
+                          1e-9 * static_cast<double>(now - alone_ns_) > options_.patience_s;
+  if (long_alone && !std::exchange(reminded_, true)) {
+    say(
+        fmt::format("no controller has announced lockstep on {} in {:g} s; the world stands until "
+                    "one does, and Ctrl-C ends it",
+                    place_, options_.patience_s));
+  }
   if (heard || !greeted() || options_.patience_s <= 0) {
     idle_ns_ = 0;
   } else if (idle_ns_ == 0) {
@@ -228,9 +241,12 @@ void Served::watch_link(bool connected, std::uint32_t losses) {
 }
 
 std::unique_ptr<Served> make_served(Robot& robot, const ServeOptions& options) {
-  return robot.plan().params.bus_protocol == BusProtocol::kCia402
-             ? make_served_on_can(robot, options)
-             : make_served_on_serial(robot, options);
+  auto served = robot.plan().params.bus_protocol == BusProtocol::kCia402
+                    ? make_served_on_can(robot, options)
+                    : make_served_on_serial(robot, options);
+  // Among several, whose controllers are met one after the other, each says so at once.
+  if (options.operator_link.empty()) served->introduce();
+  return served;
 }
 
 }  // namespace verp::session

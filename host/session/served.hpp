@@ -71,6 +71,8 @@ class Served : public Controller {
   bool tick() final;
   void finish() final;
   double wall_s(double session_s) const final;
+  /// Says for whom it waits, once.
+  void introduce();
   /// Somebody sets the robot on its feet. False: not now, a servo has torque.
   bool set_upright();
   /// Once, at the end.
@@ -135,11 +137,13 @@ class Served : public Controller {
   std::uint64_t start_ns_ = 0;  ///< when it began, by the monotonic clock; 0: not yet
   std::uint64_t drive_ns_ = 0;  ///< when a servo first had torque
   std::uint64_t heard_ns_ = 0;  ///< when something that is not for the clock came first
+  std::uint64_t alone_ns_ = 0;  ///< since when no controller has come; 0: not yet
   std::uint64_t idle_ns_ = 0;   ///< since when nothing came that lockstep waits for; 0: it does not
   std::uint64_t next_us_ = 0;   ///< tick to be watched
   std::uint32_t resets_ = 0;
   bool device_trouble_ = false, recorded_ = false, met_ = false, declined_ = false;
-  bool lay_down_ = false, introduced_ = false, connected_, ended_ = false;
+  bool lay_down_ = false, introduced_ = false, reminded_ = false, connected_, ended_ = false,
+       began_ = false;
 };
 
 /// That controller, on a byte link or a CAN interface as the robot's bus is. Throws what opening a

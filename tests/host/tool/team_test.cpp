@@ -139,6 +139,30 @@ TEST_F(Team, OneThatLosesItsControllerStopsTheOthersOrGoesOnWithout) {
   }
 }
 
+// Patience is with controllers that have come; for the first words of one the world waits as long
+// as it takes, and says for whom.
+TEST_F(Team, WhomItWaitsForIsSaidAtOnceAndOnceMore) {
+  process::Child world(
+      {.words = {VERP_PROGRAM, "walk", "--json", "--patience", "0.3", "--robot",
+                 "a=ext:unix-listen:a.sock", "--robot", "b=ext:unix-listen:b.sock"},
+       .input = {},
+       .output = {.file = folder_ / "world.err"},
+       .folder = folder_});
+  const auto said = [&] { return slurp(folder_ / "world.err"); };
+  const std::string reminder = "a: no controller has announced lockstep on unix:a.sock in 0.3 s";
+  while (said().find(reminder) == std::string::npos && !world.status())
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  for (const char* robot : {"a", "b"}) {
+    const std::string name = robot;
+    const std::string line = name + ": the twin waits for a controller on unix:" + name + ".sock";
+    EXPECT_NE(said().find(line), std::string::npos) << said();
+  }
+  EXPECT_FALSE(world.status()) << said();
+  world.tell(SIGINT);
+  EXPECT_EQ(world.wait(), 130) << said();
+  EXPECT_EQ(said().find(reminder), said().rfind(reminder)) << "once: " << said();
+}
+
 TEST_F(Team, WrongWordsAreRefused) {
   expect_refused("walk generic21 --robot op3", "two models, generic21 and op3");
   expect_refused("walk --robot a=", "is not NAME=MODEL");
