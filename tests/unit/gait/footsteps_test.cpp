@@ -3,26 +3,14 @@
 #include <gtest/gtest.h>
 
 #include "common/gait/swing.hpp"
-#include "tests/unit/support/test_robot.hpp"
+#include "tests/unit/gait/steps.hpp"
 
 namespace verp::gait {
 namespace {
 
 using test::kRobot;
-
-constexpr int kSteps = 24;
-
-/// Steps one after the other, as the gait engine asks for them.
-struct Walk {
-  GaitTuning tuning;
-  FootstepState state;
-  Step last = first_step(kRobot, tuning, state);
-
-  const Step& take(const VelocityIn& wanted) {
-    last = next_step(kRobot, tuning, wanted, last, state);
-    return last;
-  }
-};
+using test::kSteps;
+using test::Walk;
 
 float side_of(int foot) {
   return foot == kLeft ? 1.0F : -1.0F;
@@ -50,6 +38,21 @@ TEST(Footsteps, FeetTakeTurns) {
     EXPECT_EQ(int{step.swing}, i % 2 == 0 ? int{kLeft} : int{kRight});
     EXPECT_EQ(step.key_points, kKeyPointsPerStep);
     EXPECT_NEAR(step.duration_s(), 0.5F * walk.tuning.cycle_s, 1e-4F);
+  }
+}
+
+TEST(Footsteps, TheSwingFootLiftsAsHighAsIsTunedAndTheOtherStands) {
+  Walk walk;
+  for (int i = 0; i < 6; ++i) {
+    const Step& step = walk.take({.vx_m_s = 0.1F});
+    float highest_m = 0;
+    for (int k = 0; k <= 50; ++k) {
+      const float time_s = 0.02F * static_cast<float>(k) * step.duration_s();
+      highest_m = math::max(highest_m, foot_at(step, step.swing, time_s).height_m);
+      EXPECT_LE(foot_at(step, step.carrying(), time_s).height_m, walk.tuning.touchdown_m);
+    }
+    EXPECT_GT(highest_m, 0.95F * walk.tuning.lift_m);
+    EXPECT_LT(highest_m, 1.05F * walk.tuning.lift_m + walk.tuning.touchdown_m);
   }
 }
 
@@ -147,103 +150,6 @@ TEST(Footsteps, ReachIsTheSameInEveryDirection) {
     EXPECT_NEAR(length_m, longest_m, 1e-6F) << way.vx_m_s << ", " << way.vy_m_s;
     EXPECT_NE(walk.state.notes & kReachShortened, 0u);
     EXPECT_TRUE(walk.last.phase == Phase::kTransition) << "the longest stride is steady too";
-  }
-}
-
-struct Corners {
-  Xy at[4];
-};
-
-Corners corners_of(int side, const Foothold& foot) {
-  const LegParams& leg = kRobot.leg[side];
-  const Xy in_sole[4] = {{leg.sole_front_m, leg.sole_left_m},
-                         {-leg.sole_back_m, leg.sole_left_m},
-                         {-leg.sole_back_m, -leg.sole_right_m},
-                         {leg.sole_front_m, -leg.sole_right_m}};
-  Corners corners;
-  for (int i = 0; i < 4; ++i) corners.at[i] = foot.at_m + turned(in_sole[i], foot.yaw_rad);
-  return corners;
-}
-
-// Two convex shapes are apart if a side of one of them has the other wholly beyond it: by the most
-// that any side tells.
-float apart_m(const Corners& a, const Corners& b) {
-  float most_m = -1;
-  for (int shape = 0; shape < 2; ++shape) {
-    const Corners &own = shape == 0 ? a : b, &other = shape == 0 ? b : a;
-    for (int i = 0; i < 4; ++i) {
-      const Xy side = own.at[(i + 1) % 4] - own.at[i];
-      const Xy out = (1.0F / math::hypot(side.x, side.y)) * Xy{-side.y, side.x};
-      float least_m = 1;
-      for (const Xy& corner : other.at) least_m = math::min(least_m, dot(corner - own.at[i], out));
-      most_m = math::max(most_m, least_m);
-    }
-  }
-  return most_m;
-}
-
-// The swing foot's whole way, as seen from above: it is but a few millimetres up.
-float least_apart_m(const Step& step) {
-  float least_m = 1;
-  for (int i = 0; i <= 20; ++i) {
-    const float time_s = 0.05F * static_cast<float>(i) * step.duration_s();
-    least_m = math::min(least_m, apart_m(corners_of(kLeft, foot_at(step, kLeft, time_s).on),
-                                         corners_of(kRight, foot_at(step, kRight, time_s).on)));
-  }
-  return least_m;
-}
-
-constexpr float kLeastApart_m = 0.001F;
-
-// Whatever an operator asks, and whenever he changes his mind.
-TEST(Footsteps, SolesNeverOverlap) {
-  test::Random random(7);
-  for (const float half_stance_m : {0.0345F, 0.0356F, 0.0455F}) {
-    Walk walk;
-    walk.tuning.half_stance_m = half_stance_m;
-    for (int turn = 0; turn < 400; ++turn) {
-      VelocityIn wanted{.vx_m_s = random.between(-0.8F, 0.8F),
-                        .vy_m_s = random.between(-0.5F, 0.5F),
-                        .wz_rad_s = random.between(-4, 4),
-                        .heading_error_rad = random.between(-1, 1)};
-      if (turn % 3 == 0) wanted.vx_m_s = wanted.vy_m_s = 0;
-      for (int i = random.below(12); i >= 0; --i) {
-        ASSERT_GT(least_apart_m(walk.take(wanted)), kLeastApart_m) << "turn " << turn;
-      }
-    }
-  }
-}
-
-// Each of them held: what was 1.8 mm of overlap at 0.3 rad/s and 29 mm at 1.55.
-TEST(Footsteps, TurningFeetLandFurtherOutAndTurnLessWhereThatIsNotEnough) {
-  float turned_rad = 0;
-  for (const float wz : {0.05F, 0.1F, 0.3F, 0.6F, 1.0F, 1.55F, 3.0F}) {
-    for (const float sign : {1.0F, -1.0F}) {
-      Walk walk;
-      for (int i = 0; i < kSteps; ++i) {
-        ASSERT_GT(least_apart_m(walk.take({.wz_rad_s = sign * wz})), kLeastApart_m) << wz;
-      }
-      const float begin_rad = walk.state.body.yaw_rad;
-      walk.take({.wz_rad_s = sign * wz});
-      walk.take({.wz_rad_s = sign * wz});
-      const float cycle_rad = sign * (walk.state.body.yaw_rad - begin_rad);
-      EXPECT_GE(cycle_rad, 0.95F * turned_rad) << "who asks more gets no less, " << wz;
-      if (wz <= 0.6F) {
-        EXPECT_NEAR(cycle_rad, wz * walk.tuning.cycle_s, 1e-4F) << wz;
-      }
-      EXPECT_EQ((walk.state.notes & kStepWidened) != 0, wz > 0.05F) << wz;
-      EXPECT_EQ((walk.state.notes & kTurnShortened) != 0, wz > 1.2F) << wz;
-      if (sign < 0) turned_rad = cycle_rad;
-    }
-  }
-}
-
-TEST(Footsteps, StraightAndSidewaysWalksAreNotWidened) {
-  for (const VelocityIn& wanted : {VelocityIn{.vx_m_s = 0.3F}, VelocityIn{.vx_m_s = -0.2F},
-                                   VelocityIn{.vx_m_s = 0.1F, .vy_m_s = 0.08F}}) {
-    Walk walk;
-    for (int i = 0; i < kSteps; ++i) EXPECT_GT(least_apart_m(walk.take(wanted)), kLeastApart_m);
-    EXPECT_EQ(walk.state.notes & (kStepWidened | kTurnShortened), 0u);
   }
 }
 
