@@ -12,6 +12,7 @@
 #include "host/model/export.hpp"
 #include "host/model/load.hpp"
 #include "host/model/params.hpp"
+#include "host/model/servo_types.hpp"
 #include "tests/host/model/test_files.hpp"
 
 namespace verp::model {
@@ -194,6 +195,44 @@ TEST(Check, SaysWhatABuilderAsksFirst) {
   const std::string json = describe_json(generic21());
   EXPECT_NE(json.find("\"solver\": \"closed_form\""), std::string::npos);
   EXPECT_NE(json.find("\"dof\": 21"), std::string::npos);
+}
+
+/// The line about that type of servo.
+std::string servo_line(const std::string& text, const std::string& type) {
+  const std::size_t at = text.find("servo " + type + ":");
+  return at == std::string::npos ? "" : text.substr(at, text.find('\n', at) - at);
+}
+
+// Of a motor that nobody measured the numbers are others', scaled, and within a band.
+TEST(Check, SaysWhichServosAreIdentifiedAndWhichAreScaledWithinABand) {
+  std::string text = read_text(robot_file("generic21"));
+  const std::string was = "type=\"xm430_w210\"";
+  text.replace(text.find(was), was.size(), "type=\"mx64\"");
+  const TemporaryFile file("robot.sdf", text);
+  const std::string said = describe(load_robot(file.path()));
+  const std::string measured = servo_line(said, "mx64"), scaled = servo_line(said, "xm430_w210");
+  EXPECT_NE(measured.find("identified: "), std::string::npos) << said;
+  EXPECT_EQ(measured.find("+-"), std::string::npos) << measured;
+  EXPECT_NE(scaled.find("scaled by "), std::string::npos) << said;
+  EXPECT_NE(scaled.find("at the joint +-50 %"), std::string::npos) << scaled;
+}
+
+TEST(ServoTypes, EachFamilyHasARowThatSaysWhereItsNumbersAreFrom) {
+  for (const char* family :
+       {"mx28", "mx64", "mx106", "xl330", "xm430", "xh430", "xm540", "xh540"}) {
+    int rows = 0;
+    for (const ServoType& type : servo_types()) {
+      if (!type.name.starts_with(family)) continue;
+      ++rows;
+      const bool identified = type.source.starts_with("identified: ");
+      EXPECT_NE(identified, type.source.starts_with("scaled by ")) << type.name << type.source;
+      EXPECT_EQ(identified, type.armature_band == 0) << type.name;
+      EXPECT_EQ(identified, type.friction_band == 0) << type.name;
+      EXPECT_GT(type.gearbox.armature_kg_m2, 0) << type.name;
+      EXPECT_GT(type.gearbox.l_base + type.gearbox.l_strib, 0) << type.name;
+    }
+    EXPECT_GT(rows, 0) << family;
+  }
 }
 
 }  // namespace

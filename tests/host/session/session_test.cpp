@@ -47,6 +47,10 @@ TEST(Session, OrdersGoThroughTheOperatorsRegisters) {
     order.command.request = Request::kStand;
     order.command.head_pan_mrad = 123;
     order.flags = kCommandFresh;
+    if (tick % 4 == 1) {  // not given: what was written last is in the registers
+      order.command.head_pan_mrad = 321;
+      order.flags = 0;
+    }
     if (tick != refuse_at) return order;
     order.flags |= kParameterWrite;
     order.parameter_id = 0;  // cycle_s, at least 0.3
