@@ -166,6 +166,72 @@ test_boards() {
   expect 'every step done' '' "${gate[@]}"
 }
 
+# Of a project in which nothing is to be built: what tests/run would do, and of the folders their names.
+merge_case() { # what reason [file sed-expression]
+  local tree=$scratch/tree file
+  rm -rf "$tree"
+  for file in tests/run tests/host/*/CMakeLists.txt CMakePresets.json host/board/cost_promise.hpp; do
+    install -D -t "$tree/$(dirname "$file")" "$file"
+  done
+  [[ -z ${3:-} ]] || sed -i -E "$4" "$tree/$3"
+  expect "$1" "$2" "$here/merge.sh" "$tree"
+}
+
+test_merge() {
+  cd "$root"
+  merge_case 'as it is' ''
+  merge_case 'the board of the cost promises to --full' 'leaves out mps2_an386, the board of the cost' tests/run 's/mps2_an385\|mps3/mps2_an386|mps3/'
+  merge_case 'another board to --full' 'leaves out the board opencr' tests/run 's/mps2_an385\|mps3/opencr|mps3/'
+  merge_case 'promises of another board' 'leaves out mps2_an385, the board of the cost' host/board/cost_promise.hpp 's/mps2_an386/mps2_an385/'
+  merge_case 'a board that nobody runs' 'not even --full runs the board mps2_an385' tests/run 's/\[\[ \$full \|\| !/[[ !/'
+  merge_case 'a folder of host to --full' 'leave out host.model.a' tests/run 's/run\|tool\|flash/run|model|tool|flash/'
+  merge_case 'a folder named, not built' 'leave out replay.a' tests/run 's/unit,exhaustive,replay,contract,hil,nocompile\} "\$\{host/unit,exhaustive,contract,hil,nocompile} "${host/'
+  merge_case 'what people type to --full' 'leave out host.tool' tests/run '/names.*input_tests/d'
+  merge_case 'no test of what people type' 'no list of input_tests' tests/host/tool/CMakeLists.txt 's/input_tests/walk_tests/'
+  merge_case 'sanitizers, not even with --full' '--full has no sanitizers' tests/run 's/preset host-asan-ubsan 900/preset host-debug 900/'
+}
+
+tests_case() { # what reason path text
+  rm -rf "$scratch/tree"
+  mkdir -p "$scratch/tree/tests/a" "$scratch/tree/boards"
+  echo 'hang_s=900 give_up_s=5200' >"$scratch/tree/tests/run"
+  printf '%s\n' "$4" >"$scratch/tree/$3"
+  expect "$1" "$2" "$here/tests.sh" "$scratch/tree"
+}
+
+test_tests() {
+  tests_case 'a test' '' tests/a/a_test.cpp 'TEST(A, B) { EXPECT_EQ(outcome.status, failure.empty() ? 0 : 1); }'
+  tests_case 'a test that skips itself' 'tests/a/a_test.cpp:1: a test that skips' tests/a/a_test.cpp 'TEST(A, B) { if (none) GTEST_SKIP(); }'
+  tests_case 'a test that is switched off' 'skips itself' tests/a/a_test.cpp 'TEST(A, DISABLED_B) {}'
+  tests_case 'content with a fall' 'a status is 0 or 1' tests/a/a_test.cpp '  ASSERT_TRUE(outcome.status == 0 || outcome.status == 1);'
+  tests_case 'content with any' 'a status is 0 or 1' tests/a/a_test.cpp '  EXPECT_TRUE(walk.status <= 1);'
+  tests_case 'time for what hangs' '' tests/a/CMakeLists.txt 'set_tests_properties(a PROPERTIES LABELS unit TIMEOUT 1800)'
+  tests_case 'a limit for an idle PC' 'tests/a/CMakeLists.txt:1: its limit' tests/a/CMakeLists.txt 'set_tests_properties(a PROPERTIES TIMEOUT 300)'
+}
+
+findings_case() { # what reason sed-expression-for-the-table
+  rm -rf "$scratch/tree"
+  mkdir -p "$scratch/tree/tests/unit/a" "$scratch/tree/tests/host/b" "$scratch/tree/boards/c"
+  printf 'TEST(Suite, Name) {}\n' >"$scratch/tree/tests/unit/a/a_test.cpp"
+  printf 'TEST_P(Long,\n       OnTwoLines) {}\n' >"$scratch/tree/tests/host/b/b_test.cpp"
+  printf 'add_test(NAME gate.a COMMAND a)\n' >"$scratch/tree/tests/CMakeLists.txt"
+  printf 'add_test(NAME bench.${VERP_BOARD} COMMAND a)\n' >"$scratch/tree/boards/c/a.cmake"
+  for ((i = 1; i <= 23; ++i)); do
+    echo "| $i | what \`verp walk\` must | \`unit.Suite.Name\` \`host.b.Long.OnTwoLines\` \`gate.a\` \`bench.mps2\`; by eye |"
+  done | sed -E "$3" >"$scratch/tree/tests/findings.md"
+  expect "$1" "$2" "$here/findings.sh" "$scratch/tree"
+}
+
+test_findings() {
+  findings_case 'all there' '' ''
+  findings_case 'a number without a row' 'row 7 is missing' '/^\| 7 /d'
+  findings_case 'the last number without one' 'row 23 is missing' '/^\| 23 /d'
+  findings_case 'a test of another name' "findings.md:3: no test 'unit.Suite.Names'" '3s/Suite.Name/Suite.Names/'
+  findings_case 'a test of another folder' "no test 'host.c.Long.OnTwoLines'" 's/host.b/host.c/'
+  findings_case 'a gate that is gone' "no test 'gate.b'" 's/gate.a/gate.b/'
+  findings_case 'a test of no board' "no test 'cost.mps2'" 's/bench.mps2/cost.mps2/'
+}
+
 compiler=${3:-g++} nm=${4:-nm} objdump=${5:-objdump}
 case $gate in
 layers) test_layers ;;
@@ -173,6 +239,9 @@ symbols) test_symbols ;;
 format) test_format ;;
 golden) test_golden ;;
 boards) test_boards ;;
+merge) test_merge ;;
+tests) test_tests ;;
+findings) test_findings ;;
 seeds) test_seeds ;;
 *) echo "no gate '$gate'" && exit 2 ;;
 esac

@@ -25,6 +25,15 @@ inline std::string slurp(const fs::path& file) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
+/// Less the line in which the address sanitizer doubts, at the first change of stacks, that it
+/// understands them: no setting keeps it from that.
+inline std::string without_doubts(std::string err) {
+  const std::size_t doubt = err.find("WARNING: ASan doesn't fully support makecontext");
+  if (doubt == std::string::npos) return err;
+  const std::size_t begin = err.rfind('\n', doubt) + 1;
+  return err.erase(begin, err.find('\n', doubt) + 1 - begin);
+}
+
 class Program : public ::testing::Test {
  protected:
   Program() {
@@ -44,7 +53,7 @@ class Program : public ::testing::Test {
     const std::string line = "cd '" + folder_.string() + "' && ( " + command + " ) >'" +
                              out.string() + "' 2>'" + err.string() + "' </dev/null";
     const int status = std::system(line.c_str());
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, slurp(out), slurp(err)};
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, slurp(out), without_doubts(slurp(err))};
   }
 
   /// Bad input: exit 2, nothing on stdout, one line on stderr that holds `needle`.
