@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
-# recover.sh VERP ROBOT.SDF [SEED]: a generic21 whose servos differ from what its file says plays the motion of a minute in a stand; `verp
+# recover.sh VERP ROBOT.SDF [SEED] [SECONDS]: a generic21 whose servos differ from what its file says plays the motion of a minute in a stand; `verp
 # identify` finds each of their numbers within a tenth from the trace. Prints truth and finding: host/identify/README.md has them from here.
 set -euo pipefail
-verp=$1 robot=$2 seed=${3:-5}
+verp=$1 robot=$2 seed=${3:-5} length_s=${4:-60}
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 cd "$scratch"
@@ -10,7 +10,7 @@ sed -E 's/type="xm430_w210"/type="other"/; s/backlash_rad="0.0044"/backlash_rad=
   0,/<verp:bus /{/<verp:bus /i <verp:servo_type name="other" like="xm430_w210" stall_torque_n_m="3.5" no_load_rev_min="70" armature_kg_m2="0.0085" f_base_n_m="0.021" f_strib_n_m="0.0273" l_base="0.0062" l_strib="0.2838" goal_delay_us="5000" source="a test"/>
   }' \
   "$robot" >other.sdf
-"$verp" identify --motion m.action >said
+"$verp" identify --motion m.action --for "$length_s" >said
 "$verp" action play m.action --robot other.sdf --held --gains 25 --seed "$seed" --record a.mcap >said 2>&1 || { cat said; exit 1; }
 "$verp" identify a.mcap --robot "$robot" --json >found.json
 /usr/bin/python3 - <<'END'
