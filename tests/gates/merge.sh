@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # merge.sh ROOT: whoever merges runs every board but those named here, and under sanitizers every folder of tests but those
-# named here: what is left to --full is left to it here too, not by a word in tests/run alone. Prints what is missing; exit
-# status 1 if anything is.
+# named here: what is left to --full is left to it here too, not by a word in tests/run alone. The whole run may take
+# 40 minutes, 20 with a warm cache. Prints what is missing; exit status 1 if anything is.
 set -uo pipefail
 cd "$1" || exit 3
 failed=0
@@ -39,4 +39,9 @@ done
 sanitized "$input" tests/host/tool # where people's words and files go
 grep -q 'TEST_LIST input_tests' tests/host/tool/CMakeLists.txt || missing 'tests/host/tool: no list of input_tests'
 grep -q '^host-asan-ubsan tests: ' <<<"$full" || missing 'tests/run: --full has no sanitizers'
+
+for bound in cold_budget_s=2400 warm_budget_s=1200 give_up_s=5200; do
+  value=$(grep -oE "(^| )${bound%=*}=[0-9]+" tests/run | sed 's/.*=//')
+  ((${value:-99999} <= ${bound#*=})) || missing "tests/run: ${bound%=*} is ${value:-missing}, at most ${bound#*=}"
+done
 exit "$failed"

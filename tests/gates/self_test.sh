@@ -188,6 +188,8 @@ test_merge() {
   merge_case 'a folder named, not built' 'leave out replay.a' tests/run 's/unit,exhaustive,replay,contract,hil,nocompile\} "\$\{host/unit,exhaustive,contract,hil,nocompile} "${host/'
   merge_case 'what people type to --full' 'leave out host.tool' tests/run '/names.*input_tests/d'
   merge_case 'no test of what people type' 'no list of input_tests' tests/host/tool/CMakeLists.txt 's/input_tests/walk_tests/'
+  merge_case 'a longer run' 'cold_budget_s is 3000, at most 2400' tests/run 's/cold_budget_s=2400/cold_budget_s=3000/'
+  merge_case 'a run of any length' 'warm_budget_s is missing' tests/run 's/warm_budget_s=1200/warm_s=1200/'
   merge_case 'sanitizers, not even with --full' '--full has no sanitizers' tests/run 's/preset host-asan-ubsan 900/preset host-debug 900/'
 }
 

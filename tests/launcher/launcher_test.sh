@@ -192,4 +192,10 @@ stub ctest 'echo " 2/2 Test  #2: unit.b1 ........   Passed    0.10 sec"; sleep 1
 output=$(cd "$scratch" && PATH="$scratch/bin:/usr/bin:/bin" script -qec 'tests/run --filter x' /dev/null </dev/null)
 [[ $output == *'build, '*'[7/9]'* ]] || { echo "FAILED: no progress on a terminal: $output" && failed=1; }
 
+# A stage beyond its budget is called late, and fails nothing by that.
+stub ninja 'sleep 1.5'
+sed -i 's/^    preset "$each" 900 /    preset "$each" 0 /' "$scratch/tests/run"
+output=$(cd "$scratch" && PATH="$scratch/bin:/usr/bin:/bin" tests/run --filter x 2>&1)
+[[ $output == *$'\nlate: \'host-release build\'\n'* && $output =~ host-release\ build\ +late\ +0\ +0 ]] || { echo "FAILED: not called late: $output" && failed=1; }
+
 exit "$failed"
