@@ -3,7 +3,6 @@
 #include <cstring>
 #include <utility>
 
-#include "common/control/step.hpp"
 #include "common/model/image.hpp"
 #include "common/protocol/canopen/robot_plan.hpp"
 #include "firmware/app/controller_objects.hpp"
@@ -25,9 +24,7 @@ std::uint32_t number_of(const std::uint8_t (&bytes)[4]) {
 }  // namespace
 
 LiveCheck::LiveCheck(const Params& params)
-    : params_(params),
-      listener_(params),
-      client_(canopen::further_sdo(canopen::plan::kWatcherSdo)) {}
+    : Check(params), listener_(params), client_(canopen::further_sdo(canopen::plan::kWatcherSdo)) {}
 
 void LiveCheck::take(const CanFrame& frame, std::uint64_t now_us) {
   if (over()) return;
@@ -140,7 +137,9 @@ void LiveCheck::end_step(std::uint64_t now_us) {
       return ask(Step::kReleaseLast);
     case Step::kReleaseLast:
       ask(Step::kDone);
-      return asking ? start() : conclude();
+      if (asking) return start();
+      conclude(*suspicion_, "this PC heard another tick than the controller had");
+      return suspicion_.reset();
     case Step::kDone:
       return;
   }
@@ -174,8 +173,8 @@ void LiveCheck::follow() {
     heard_.pop_front();
     if (!follows(tick)) {
       lose("a tick was not heard");
-    } else if (compare(tick)) {
-      ++compared_;
+    } else {
+      compare(tick);
     }
   }
 }
@@ -189,62 +188,27 @@ bool LiveCheck::follows(const HeardTick& tick) const {
          (tick.flags & kOverrun) != 0;
 }
 
-bool LiveCheck::compare(const HeardTick& tick) {
+void LiveCheck::compare(const HeardTick& tick) {
   std::string lacking;
   const std::vector<Inputs> all = readings(tick, inputs_, params_, kMostReadings, lacking);
-  if (all.empty()) {
-    lose(lacking + " was not heard");
-    return false;
-  }
+  if (all.empty()) return lose(lacking + " was not heard");
   for (const Inputs& each : all) {
-    verp::State next = shadow_;
-    Outputs outputs;
-    step(params_, next, each, outputs);
-    if (next.digest.chain != tick.digest) continue;
-    shadow_ = next;
+    if (!step_on(each, tick.digest)) continue;
     inputs_ = each;
-    if (++clean_ == kClean) misheard_ = 0;
-    return true;
+    return;
   }
   suspicion_ = std::make_unique<Suspicion>(Suspicion{shadow_, all.front(), tick.digest});
   state_ = State::kReading;
   pause_until_us_ = 0;
   ask(Step::kHold);
-  return false;
 }
 
 void LiveCheck::lose(const std::string& why) {
-  ++gaps_;
-  clean_ = 0;
-  gap_ = why;
+  Check::lose(why);
   begun_ = false;
   client_.cancel();
-  state_ = State::kAsking;
   pause_until_us_ = 0;
   ask(Step::kName);
-}
-
-void LiveCheck::conclude() {
-  const Judgement judgement = judge(params_, *suspicion_, testimony_);
-  suspicion_.reset();
-  divergence_ = judgement.divergence;
-  if (judgement.verdict == Verdict::kDifference ||
-      (judgement.verdict == Verdict::kMisheard && ++misheard_ > kMostMisheard)) {
-    state_ = State::kDiffers;
-    return;
-  }
-  if (judgement.verdict == Verdict::kTooLate) {
-    ++unsettled_;
-    lose("a digest differed, and the controller's records of that tick came too late");
-  } else {
-    lose("this PC heard another tick than the controller had");
-  }
-}
-
-void LiveCheck::refuse(const std::string& why) {
-  refusal_ = why;
-  state_ = State::kRefused;
-  ask(Step::kDone);
 }
 
 }  // namespace verp::shadow

@@ -1,6 +1,5 @@
 #include "host/shadow/polled_check.hpp"
 
-#include "common/control/step.hpp"
 #include "firmware/app/register_image.hpp"
 #include "host/shadow/identity.hpp"
 
@@ -92,14 +91,8 @@ bool PolledCheck::follow() {
 }
 
 bool PolledCheck::compare(const TickRecord& record) {
-  verp::State next = shadow_;
-  Outputs outputs;
-  step(params_, next, record.inputs, outputs);
-  if (next.digest.chain != record.digest.chain) return settle(record);
-  shadow_ = next;
-  ++compared_;
+  if (!step_on(record.inputs, record.digest.chain)) return settle(record);
   ++next_;
-  if (++clean_ == kClean) misheard_ = 0;
   return true;
 }
 
@@ -110,31 +103,8 @@ bool PolledCheck::settle(const TickRecord& record) {
     lose("a digest differed, and the link was lost over it");
     return false;
   }
-  const Judgement judgement =
-      judge(params_, {shadow_, record.inputs, record.digest.chain}, testimony_);
-  divergence_ = judgement.divergence;
-  if (judgement.verdict == Verdict::kDifference ||
-      (judgement.verdict == Verdict::kMisheard && ++misheard_ > kMostMisheard)) {
-    state_ = State::kDiffers;
-  } else if (judgement.verdict == Verdict::kTooLate) {
-    ++unsettled_;
-    lose("a digest differed, and the controller's records of that tick came too late");
-  } else {
-    lose("a tick was not read whole");
-  }
+  conclude({shadow_, record.inputs, record.digest.chain}, "a tick was not read whole");
   return false;
-}
-
-void PolledCheck::lose(const std::string& why) {
-  ++gaps_;
-  gap_ = why;
-  clean_ = 0;
-  if (state_ != State::kRefused) state_ = State::kAsking;
-}
-
-void PolledCheck::refuse(const std::string& why) {
-  refusal_ = why;
-  state_ = State::kRefused;
 }
 
 }  // namespace verp::shadow

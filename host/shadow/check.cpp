@@ -1,0 +1,44 @@
+#include "host/shadow/check.hpp"
+
+#include "common/control/step.hpp"
+
+namespace verp::shadow {
+
+bool Check::step_on(const Inputs& inputs, std::uint64_t digest) {
+  verp::State next = shadow_;
+  Outputs outputs;
+  step(params_, next, inputs, outputs);
+  if (next.digest.chain != digest) return false;
+  shadow_ = next;
+  ++compared_;
+  if (++clean_ == kClean) misheard_ = 0;
+  return true;
+}
+
+void Check::conclude(const Suspicion& suspicion, const char* misheard) {
+  const Judgement judgement = judge(params_, suspicion, testimony_);
+  divergence_ = judgement.divergence;
+  if (judgement.verdict == Verdict::kDifference ||
+      (judgement.verdict == Verdict::kMisheard && ++misheard_ > kMostMisheard)) {
+    state_ = State::kDiffers;
+  } else if (judgement.verdict == Verdict::kTooLate) {
+    ++unsettled_;
+    lose("a digest differed, and the controller's records of that tick came too late");
+  } else {
+    lose(misheard);
+  }
+}
+
+void Check::lose(const std::string& why) {
+  ++gaps_;
+  gap_ = why;
+  clean_ = 0;
+  if (state_ != State::kRefused) state_ = State::kAsking;
+}
+
+void Check::refuse(const std::string& why) {
+  refusal_ = why;
+  state_ = State::kRefused;
+}
+
+}  // namespace verp::shadow
