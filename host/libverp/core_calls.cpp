@@ -67,22 +67,15 @@ int verp_core_open(const char* model, const char* bus, const char* tuning, verp_
     need(core, "core");
     *core = nullptr;
     *core = cores().add<verp_core>(std::make_shared<Core>(Core{load(model, bus, tuning).params}));
-    return VERP_OK;
   });
 }
 
 int verp_core_close(verp_core core) {
-  return call("verp_core_close", [&] {
-    cores().take(core);
-    return VERP_OK;
-  });
+  return call("verp_core_close", [&] { cores().take(core); });
 }
 
 int verp_core_reset(verp_core core) {
-  return call("verp_core_reset", [&] {
-    cores().use(core)->state = {};
-    return VERP_OK;
-  });
+  return call("verp_core_reset", [&] { cores().use(core)->state = {}; });
 }
 
 int verp_core_step(verp_core core, const verp_inputs* inputs, verp_outputs* outputs) {
@@ -94,7 +87,6 @@ int verp_core_step(verp_core core, const verp_inputs* inputs, verp_outputs* outp
     auto out = std::bit_cast<verp::Outputs>(*outputs);
     verp::step(used->params, used->state, in, out);
     *outputs = std::bit_cast<verp_outputs>(out);
-    return VERP_OK;
   });
 }
 
@@ -102,7 +94,6 @@ int verp_core_digest(verp_core core, uint64_t* digest) {
   return call("verp_core_digest", [&] {
     need(digest, "digest");
     *digest = cores().use(core)->state.digest.chain;
-    return VERP_OK;
   });
 }
 
@@ -111,7 +102,6 @@ int verp_core_state(verp_core core, void* state, uint64_t size) {
     need(state, "state");
     need_size(size, sizeof(verp::State), "state");
     std::memcpy(state, &cores().use(core)->state, sizeof(verp::State));
-    return VERP_OK;
   });
 }
 
@@ -120,7 +110,6 @@ int verp_core_params(verp_core core, void* params, uint64_t size) {
     need(params, "params");
     need_size(size, sizeof(verp::Params), "params");
     std::memcpy(params, &cores().use(core)->params, sizeof(verp::Params));
-    return VERP_OK;
   });
 }
 
@@ -128,7 +117,6 @@ int verp_core_joints(verp_core core, uint32_t* joints) {
   return call("verp_core_joints", [&] {
     need(joints, "joints");
     *joints = cores().use(core)->params.joint_count;
-    return VERP_OK;
   });
 }
 
@@ -136,7 +124,6 @@ int verp_core_period(verp_core core, double* period_s) {
   return call("verp_core_period", [&] {
     need(period_s, "period_s");
     *period_s = 1e-6 * cores().use(core)->params.period_us;
-    return VERP_OK;
   });
 }
 
@@ -150,7 +137,6 @@ int verp_core_joint_name(verp_core core, uint32_t joint, char* name, uint64_t si
       throw Failure(VERP_BAD_ARGUMENT, "name has no room for " + std::to_string(length + 1));
     std::memcpy(name, text, length);
     name[length] = '\0';
-    return VERP_OK;
   });
 }
 
@@ -160,7 +146,6 @@ int verp_core_count(verp_core core, uint32_t joint, float angle_rad, int32_t* co
     finite(angle_rad, "angle_rad");
     const auto used = cores().use(core);
     *count = verp::model::count_of(joint_of(*used, joint), angle_rad);
-    return VERP_OK;
   });
 }
 
@@ -169,7 +154,6 @@ int verp_core_angle(verp_core core, uint32_t joint, int32_t count, float* angle_
     need(angle_rad, "angle_rad");
     const auto used = cores().use(core);
     *angle_rad = verp::model::angle_of(joint_of(*used, joint), count);
-    return VERP_OK;
   });
 }
 
@@ -182,7 +166,6 @@ int verp_core_forward(verp_core core, const float* angle_rad, uint32_t joints, f
     verp::Pose node[verp::kMaxNodes];
     verp::kinematics::all_poses(used->params, verp::Pose(), angle_rad, node);
     for (std::uint32_t n = 0; n <= joints; ++n) put_pose(node[n], poses + VERP_POSE * n);
-    return VERP_OK;
   });
 }
 
@@ -194,7 +177,6 @@ int verp_core_com(verp_core core, const float* angle_rad, uint32_t joints, float
     need_all_joints(*used, angle_rad, joints);
     const verp::Vec3 com = verp::kinematics::center_of_mass(used->params, verp::Pose(), angle_rad);
     std::copy_n(com.data(), 3, com_m);
-    return VERP_OK;
   });
 }
 
@@ -216,7 +198,6 @@ int verp_core_leg_ik(verp_core core, uint32_t side, const float* sole, const flo
     const auto solved = verp::kinematics::solve_leg(used->params, leg, pose_from(sole), start_rad);
     std::copy_n(solved.angle_rad, verp::kLegJoints, angle_rad);
     *flags = solved.flags;
-    return VERP_OK;
   });
 }
 
@@ -225,7 +206,6 @@ int verp_core_leg_joints(verp_core core, uint32_t side, uint32_t* joint) {
     need(joint, "joint");
     const auto used = cores().use(core);
     std::copy_n(leg_of(*used, side).joint, verp::kLegJoints, joint);
-    return VERP_OK;
   });
 }
 
@@ -238,6 +218,5 @@ int verp_core_plan(verp_core core, double vx_m_s, double vy_m_s, double wz_rad_s
     const auto used = cores().use(core);
     leg_of(*used, 0);
     plan_walk(used->params, velocity, plan, count, stop);
-    return VERP_OK;
   });
 }

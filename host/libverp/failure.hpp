@@ -2,6 +2,7 @@
 #include <concepts>
 #include <stdexcept>
 #include <string>
+#include <type_traits>
 
 #include "host/libverp/verp.h"
 
@@ -20,11 +21,16 @@ class Failure : public std::runtime_error {
 /// Keeps the exception that is being handled as this thread's last error, and gives its status.
 int fail(const char* function) noexcept;
 
-/// A function of the ABI: no exception leaves it.
+/// A function of the ABI: no exception leaves it. A body that gives no status gives VERP_OK.
 template <std::invocable Body>
 int call(const char* function, Body body) noexcept {
   try {
-    return body();
+    if constexpr (std::is_void_v<std::invoke_result_t<Body>>) {
+      body();
+      return VERP_OK;
+    } else {
+      return body();
+    }
   } catch (...) {
     return fail(function);
   }

@@ -76,6 +76,5 @@ int verp_decide(std::uint64_t token) {
                     "no controller is deciding the moment of this token; call it from inside one");
     }
     moment->decide();
-    return VERP_OK;
   });
 }

@@ -47,7 +47,6 @@ int verp_session_command(verp_session session, uint32_t robot, uint32_t request,
     command.head_pan_mrad = milli(pan_rad, "pan_rad");
     command.head_tilt_mrad = milli(tilt_rad, "tilt_rad");
     sessions().use(session)->seat(robot).orders().take(command);
-    return VERP_OK;
   });
 }
 
@@ -58,14 +57,12 @@ int verp_session_give_back(verp_session session, uint32_t robot) {
     if (seat.own_orders())
       throw Failure(VERP_BAD_ARGUMENT, "nobody else gives this robot orders: its walk_s was 0");
     seat.orders().give_back();
-    return VERP_OK;
   });
 }
 
 int verp_session_emergency_stop(verp_session session, uint32_t robot, int32_t pressed) {
   return call("verp_session_emergency_stop", [&] {
     sessions().use(session)->seat(robot).orders().press_emergency_stop(pressed != 0);
-    return VERP_OK;
   });
 }
 
@@ -75,7 +72,6 @@ int verp_session_tune(verp_session session, uint32_t robot, const char* name, do
     const int id = tuning_id_of(name);
     const float number = tuning_value_for(id, name, value);
     sessions().use(session)->seat(robot).orders().write(id, number);
-    return VERP_OK;
   });
 }
 
@@ -86,7 +82,6 @@ int verp_session_tuning(verp_session session, uint32_t robot, const char* name, 
     const int id = tuning_id_of(name);
     const auto run = sessions().use(session);
     *value = static_cast<double>(tuning_value(run->seat(robot).tuning(), id));
-    return VERP_OK;
   });
 }
 
@@ -94,7 +89,6 @@ int verp_session_quantities(verp_session session, uint32_t* count) {
   return call("verp_session_quantities", [&] {
     need(count, "count");
     *count = static_cast<std::uint32_t>(quantities_of(*sessions().use(session)).all().size());
-    return VERP_OK;
   });
 }
 
@@ -112,7 +106,6 @@ int verp_session_quantity(verp_session session, uint32_t index, verp_quantity* q
     put_text(from.name, quantity->name);
     put_text(from.unit, quantity->unit);
     put_text(from.what, quantity->what);
-    return VERP_OK;
   });
 }
 
@@ -121,7 +114,6 @@ int verp_session_read(verp_session session, const char* quantity, double* value)
     need(quantity, "quantity");
     need(value, "value");
     *value = quantities_of(*sessions().use(session)).read(quantity);
-    return VERP_OK;
   });
 }
 

@@ -89,7 +89,6 @@ int verp_session_cameras(verp_session session, uint32_t robot, uint32_t* count) 
     need(count, "count");
     const auto run = sessions().use(session);
     *count = static_cast<std::uint32_t>(run->seat(robot).plan().entity.cameras.size());
-    return VERP_OK;
   });
 }
 
@@ -118,7 +117,6 @@ int verp_session_camera(verp_session session, uint32_t robot, uint32_t index, ve
     }
     camera->link = static_cast<std::uint32_t>(from.node);
     put_text(from.name, camera->name);
-    return VERP_OK;
   });
 }
 
@@ -152,6 +150,5 @@ int verp_session_render(verp_session session, const verp_view* view, void* pictu
     const verp::camera::Picture drawn = run->sight.render(run->session, view->robot, from);
     need_size(drawn.data.size(), size, "what was drawn");
     std::memcpy(picture, drawn.data.data(), size);
-    return VERP_OK;
   });
 }

@@ -48,7 +48,6 @@ int verp_radio_defaults(verp_radio* radio) {
               usual.delay_s,
               usual.jitter_s,
               usual.bytes_s};
-    return VERP_OK;
   });
 }
 
@@ -60,7 +59,6 @@ int verp_session_radio(verp_session session, const verp_radio* radio) {
       throw Failure(VERP_BAD_ARGUMENT, "robots get their radios before the first tick");
     if (run->air) throw Failure(VERP_BAD_ARGUMENT, "the robots have radios already");
     run->air.emplace(*radio);
-    return VERP_OK;
   });
 }
 

@@ -81,7 +81,6 @@ int verp_session_open(const verp_world* world, verp_session* session) {
     *session = nullptr;
     *session = sessions().add<verp_session>(
         std::make_shared<Run>(verp::session::Options{.world = world_of(world), .interrupted = {}}));
-    return VERP_OK;
   });
 }
 
@@ -89,7 +88,6 @@ int verp_session_close(verp_session session) {
   return call("verp_session_close", [&] {
     const std::shared_ptr<Run> run = sessions().take(session);
     run->finish();
-    return VERP_OK;
   });
 }
 
@@ -103,7 +101,6 @@ int verp_robot_defaults(verp_robot* robot) {
     robot->seed = 1;
     robot->walk_s = 20;
     robot->vx_m_s = 2 * kStep_m / kCycle_s;
-    return VERP_OK;
   });
 }
 
@@ -119,7 +116,6 @@ int verp_session_add(verp_session session, const verp_robot* what, uint32_t* rob
     run->sight.add(seat->plan());
     run->seats.push_back(std::move(seat));
     if (robot != nullptr) *robot = index;
-    return VERP_OK;
   });
 }
 
@@ -150,7 +146,6 @@ int verp_session_view(verp_session session, uint32_t robot, verp_tick* tick) {
   return call("verp_session_view", [&] {
     if (tick != nullptr) need_struct(tick, "tick");
     sessions().use(session)->seat(robot).view(tick);
-    return VERP_OK;
   });
 }
 
@@ -159,7 +154,6 @@ int verp_session_state(verp_session session, uint32_t robot, void* state, uint64
     need(state, "state");
     need_size(size, sizeof(verp::State), "state");
     std::memcpy(state, &sessions().use(session)->seat(robot).state(), sizeof(verp::State));
-    return VERP_OK;
   });
 }
 
@@ -167,7 +161,6 @@ int verp_session_digest(verp_session session, uint32_t robot, uint64_t* digest) 
   return call("verp_session_digest", [&] {
     need(digest, "digest");
     *digest = sessions().use(session)->seat(robot).digest();
-    return VERP_OK;
   });
 }
 
@@ -178,14 +171,11 @@ int verp_session_result(verp_session session, uint32_t robot, verp_result* resul
     run->seat(robot);
     run->finish();
     *result = told(run->seat(robot).finish(run->session));
-    return VERP_OK;
   });
 }
 
 int verp_session_control(verp_session session, uint32_t robot, verp_controller controller,
                          void* user) {
-  return call("verp_session_control", [&] {
-    sessions().use(session)->seat(robot).control(controller, user);
-    return VERP_OK;
-  });
+  return call("verp_session_control",
+              [&] { sessions().use(session)->seat(robot).control(controller, user); });
 }
