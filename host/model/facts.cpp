@@ -7,6 +7,7 @@
 #include "host/model/bounds.hpp"
 #include "host/model/bus_facts.hpp"
 #include "host/model/number.hpp"
+#include "host/model/principal.hpp"
 #include "host/model/servo_type_facts.hpp"
 
 namespace verp::model {
@@ -28,9 +29,7 @@ Transform read_pose(const XmlElement& element) {
   }
   Transform pose = Transform::Identity();
   pose.translation() = Vec3(v[0], v[1], v[2]);
-  pose.linear() = (Eigen::AngleAxisd(v[5], Vec3::UnitZ()) * Eigen::AngleAxisd(v[4], Vec3::UnitY()) *
-                   Eigen::AngleAxisd(v[3], Vec3::UnitX()))
-                      .toRotationMatrix();
+  pose.linear() = rotation_rpy(Vec3(v[3], v[4], v[5]));
   return pose;
 }
 

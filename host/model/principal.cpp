@@ -10,6 +10,13 @@ Vec3 principal_moments(const Mat3& inertia_kg_m2) {
   return Eigen::SelfAdjointEigenSolver<Mat3>(inertia_kg_m2, Eigen::EigenvaluesOnly).eigenvalues();
 }
 
+Mat3 rotation_rpy(const Vec3& rpy_rad) {
+  return (Eigen::AngleAxisd(rpy_rad.z(), Vec3::UnitZ()) *
+          Eigen::AngleAxisd(rpy_rad.y(), Vec3::UnitY()) *
+          Eigen::AngleAxisd(rpy_rad.x(), Vec3::UnitX()))
+      .toRotationMatrix();
+}
+
 Eigen::Quaterniond turn_of_z(const Vec3& axis) {
   const Vec3 z = Vec3::UnitZ(), to = axis.normalized(), turn = z.cross(to);
   const double along = to.dot(z);

@@ -8,6 +8,9 @@ namespace verp::model {
 /// Of an inertia, smallest first. Not positive: no body has it.
 Vec3 principal_moments(const Mat3& inertia_kg_m2);
 
+/// Turned by roll, then pitch, then yaw about the fixed axes, as SDF has it.
+Mat3 rotation_rpy(const Vec3& rpy_rad);
+
 /// The shortest turn that brings z along `axis`, which need not be a unit vector; about -x where
 /// that is -z. Eigen's own FromTwoVectors brings a decomposition that costs the compiler five
 /// seconds.

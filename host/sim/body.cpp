@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "host/model/principal.hpp"
+#include "host/sim/ode_parts.hpp"
 
 namespace verp::sim {
 namespace {
@@ -58,11 +59,8 @@ std::uint64_t passes(const model::Entity& entity, int node) {
 
 void set_pose(dBodyID body, const Transform& pose, const Vec3& com_m) {
   const Vec3 position = pose * com_m;
-  dMatrix3 rotation{};
-  for (int row = 0; row < 3; ++row) {
-    for (int column = 0; column < 3; ++column)
-      rotation[4 * row + column] = pose.linear()(row, column);
-  }
+  dMatrix3 rotation;
+  to_ode(pose.linear(), rotation);
   dBodySetPosition(body, position.x(), position.y(), position.z());
   dBodySetRotation(body, rotation);
 }
@@ -169,11 +167,8 @@ void Body::make_link(const model::Node& node, double mass_factor, int index, int
     dGeomSetBody(geom, link.body);
     const Vec3 offset = shape.pose.translation() - node.com_m;
     dGeomSetOffsetPosition(geom, offset.x(), offset.y(), offset.z());
-    dMatrix3 rotation{};
-    for (int row = 0; row < 3; ++row) {
-      for (int column = 0; column < 3; ++column)
-        rotation[4 * row + column] = shape.pose.linear()(row, column);
-    }
+    dMatrix3 rotation;
+    to_ode(shape.pose.linear(), rotation);
     dGeomSetOffsetRotation(geom, rotation);
     world_.tag(geom, {owner,
                       index,
@@ -355,44 +350,32 @@ std::vector<Transform> Body::links_world() const {
 
 Transform Body::link_pose(int node) const {
   const Link& link = links_[index_of(node)];
-  const dReal* rotation = dBodyGetRotation(link.body);
-  const dReal* position = dBodyGetPosition(link.body);
   Transform pose = Transform::Identity();
-  for (int row = 0; row < 3; ++row) {
-    for (int column = 0; column < 3; ++column)
-      pose.linear()(row, column) = rotation[4 * row + column];
-  }
-  pose.translation() = Vec3(position[0], position[1], position[2]) - pose.linear() * link.com_m;
+  pose.linear() = mat_of(dBodyGetRotation(link.body));
+  pose.translation() = vec_of(dBodyGetPosition(link.body)) - pose.linear() * link.com_m;
   return pose;
 }
 
 Vec3 Body::angular_velocity_world_rad_s(int node) const {
-  const dReal* v = dBodyGetAngularVel(links_[index_of(node)].body);
-  return {v[0], v[1], v[2]};
+  return vec_of(dBodyGetAngularVel(links_[index_of(node)].body));
 }
 
 Vec3 Body::point_velocity_world_m_s(int node, const Vec3& point_world_m) const {
   dVector3 v;
   dBodyGetPointVel(links_[index_of(node)].body, point_world_m.x(), point_world_m.y(),
                    point_world_m.z(), v);
-  return {v[0], v[1], v[2]};
+  return vec_of(v);
 }
 
 Vec3 Body::com_world_m() const {
   Vec3 sum = Vec3::Zero();
-  for (const Link& link : links_) {
-    const dReal* p = dBodyGetPosition(link.body);
-    sum += link.mass_kg * Vec3(p[0], p[1], p[2]);
-  }
+  for (const Link& link : links_) sum += link.mass_kg * vec_of(dBodyGetPosition(link.body));
   return sum / mass_kg_;
 }
 
 Vec3 Body::com_velocity_world_m_s() const {
   Vec3 sum = Vec3::Zero();
-  for (const Link& link : links_) {
-    const dReal* v = dBodyGetLinearVel(link.body);
-    sum += link.mass_kg * Vec3(v[0], v[1], v[2]);
-  }
+  for (const Link& link : links_) sum += link.mass_kg * vec_of(dBodyGetLinearVel(link.body));
   return sum / mass_kg_;
 }
 

@@ -1,6 +1,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "host/model/principal.hpp"
 #include "host/sim/ode_parts.hpp"
 #include "host/sim/quantities.hpp"
 
@@ -79,16 +80,19 @@ Vec3 angles_of(const Transform& pose) {
   return roll_pitch_yaw(pose.linear());
 }
 
+/// Nobody sets it.
+Quantity read_only(std::string name, const char* unit, const char* what,
+                   std::function<double()> read) {
+  return {std::move(name), unit, what, 0, 0, std::move(read), {}};
+}
+
 /// Turns it about its own origin until one of its angles is this.
 void turn_to(const Thing& thing, int axis, double value_rad) {
   const Transform now = thing.pose();
   Vec3 rpy = angles_of(now);
   rpy[axis] = value_rad;
   Transform goal = now;
-  goal.linear() =
-      (Eigen::AngleAxisd(rpy.z(), Vec3::UnitZ()) * Eigen::AngleAxisd(rpy.y(), Vec3::UnitY()) *
-       Eigen::AngleAxisd(rpy.x(), Vec3::UnitX()))
-          .toRotationMatrix();
+  goal.linear() = model::rotation_rpy(rpy);
   thing.move(goal * now.inverse());
 }
 
@@ -162,20 +166,11 @@ void add_matter(std::vector<Quantity>& out, Thing& t) {
             [&t] { return Vec3(mass_of(t.body) * vec_of(dBodyGetLinearVel(t.body))); }});
   add(out, {t.name + ".angular_momentum_kg_m2_s", "kg m^2/s", "about its centre of mass", 0,
             [&t] { return spin_of(t.body); }});
-  out.push_back({t.name + ".kinetic_energy_j",
-                 "J",
-                 "of motion and of turning",
-                 0,
-                 0,
-                 [&t] { return kinetic_j(t.body); },
-                 {}});
-  out.push_back({t.name + ".potential_energy_j",
-                 "J",
-                 "in gravity, from the world's origin",
-                 0,
-                 0,
-                 [&t] { return potential_j(t.body); },
-                 {}});
+  out.push_back(read_only(t.name + ".kinetic_energy_j", "J", "of motion and of turning",
+                          [&t] { return kinetic_j(t.body); }));
+  out.push_back(read_only(t.name + ".potential_energy_j", "J",
+                          "in gravity, from the world's origin",
+                          [&t] { return potential_j(t.body); }));
   out.push_back({t.name + ".mass_kg", "kg", "setting it keeps the shape of the inertia", 1e-3, 1e3,
                  [&t] { return mass_of(t.body); }, t.set_mass});
   for (int axis = 0; axis < 3; ++axis) {
@@ -241,33 +236,19 @@ std::vector<Quantity> quantities_of(Thing& thing, const World& world) {
 std::vector<Quantity> quantities_of(const std::string& name, TwinRobot& robot, int joint) {
   ServoModel& servo = robot.servo(joint);
   const Body& body = robot.body();
-  return {{name + ".angle_rad",
-           "rad",
-           "of the joint, as it is",
-           0,
-           0,
-           [&body, joint] { return body.angle_rad(joint); },
-           {}},
-          {name + ".speed_rad_s",
-           "rad/s",
-           "of the joint",
-           0,
-           0,
-           [&body, joint] { return body.rate_rad_s(joint); },
-           {}},
-          {name + ".torque_n_m",
-           "N m",
-           "of motor and gearbox on the joint, in the last step",
-           0,
-           0,
-           [&servo] { return servo.torque_n_m(); },
-           {}},
-          {name + ".damping_n_m_s", "N m s", "of the bearing, beside the servo's own", 0, 100,
-           [&servo] { return servo.joint_damping_n_m_s(); },
-           [&servo](double value) { servo.set_joint_damping(value); }},
-          {name + ".friction_n_m", "N m", "of the bearing, beside the servo's own", 0, 100,
-           [&servo] { return servo.joint_friction_n_m(); },
-           [&servo](double value) { servo.set_joint_friction(value); }}};
+  return {
+      read_only(name + ".angle_rad", "rad", "of the joint, as it is",
+                [&body, joint] { return body.angle_rad(joint); }),
+      read_only(name + ".speed_rad_s", "rad/s", "of the joint",
+                [&body, joint] { return body.rate_rad_s(joint); }),
+      read_only(name + ".torque_n_m", "N m", "of motor and gearbox on the joint, in the last step",
+                [&servo] { return servo.torque_n_m(); }),
+      {name + ".damping_n_m_s", "N m s", "of the bearing, beside the servo's own", 0, 100,
+       [&servo] { return servo.joint_damping_n_m_s(); },
+       [&servo](double value) { servo.set_joint_damping(value); }},
+      {name + ".friction_n_m", "N m", "of the bearing, beside the servo's own", 0, 100,
+       [&servo] { return servo.joint_friction_n_m(); },
+       [&servo](double value) { servo.set_joint_friction(value); }}};
 }
 
 std::vector<Quantity> quantities_of(const std::string& name, const TwinRobot& robot, const World&) {
@@ -278,15 +259,10 @@ std::vector<Quantity> quantities_of(const std::string& name, const TwinRobot& ro
     return total;
   };
   std::vector<Quantity> out = {
-      {name + ".mass_kg", "kg", "of all links", 0, 0, [&body] { return body.mass_kg(); }, {}},
-      {name + ".kinetic_energy_j", "J", "of all links", 0, 0, [sum] { return sum(kinetic_j); }, {}},
-      {name + ".potential_energy_j",
-       "J",
-       "of all links",
-       0,
-       0,
-       [sum] { return sum(potential_j); },
-       {}}};
+      read_only(name + ".mass_kg", "kg", "of all links", [&body] { return body.mass_kg(); }),
+      read_only(name + ".kinetic_energy_j", "J", "of all links", [sum] { return sum(kinetic_j); }),
+      read_only(name + ".potential_energy_j", "J", "of all links",
+                [sum] { return sum(potential_j); })};
   add(out, {name + ".com_m", "m", "centre of mass", 0, [&body] { return body.com_world_m(); }});
   add(out, {name + ".momentum_kg_m_s", "kg m/s", "of all links", 0,
             [&body] { return Vec3(body.mass_kg() * body.com_velocity_world_m_s()); }});
@@ -294,16 +270,12 @@ std::vector<Quantity> quantities_of(const std::string& name, const TwinRobot& ro
 }
 
 std::vector<Quantity> quantities_of(World& world) {
-  std::vector<Quantity> out = {{"world.time_s",
-                                "s",
-                                "simulated",
-                                0,
-                                0,
-                                [&world] { return static_cast<double>(world.now_us()) * 1e-6; },
-                                {}},
-                               {"world.gravity_m_s2", "m/s^2", "downwards", 0, 100,
-                                [&world] { return world.options().gravity_m_s2; },
-                                [&world](double value) { world.set_gravity(value); }}};
+  std::vector<Quantity> out = {
+      read_only("world.time_s", "s", "simulated",
+                [&world] { return static_cast<double>(world.now_us()) * 1e-6; }),
+      {"world.gravity_m_s2", "m/s^2", "downwards", 0, 100,
+       [&world] { return world.options().gravity_m_s2; },
+       [&world](double value) { world.set_gravity(value); }}};
   if (world.ground_tag() != nullptr) {
     for (Quantity& each : surface_quantities("ground", {world.ground_tag()}))
       out.push_back(std::move(each));

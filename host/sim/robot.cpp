@@ -5,6 +5,7 @@
 #include <numbers>
 #include <utility>
 
+#include "host/model/principal.hpp"
 #include "host/model/self_collision.hpp"
 #include "host/sim/coupling.hpp"
 #include "host/sim/scenery.hpp"
@@ -110,11 +111,7 @@ Start make_start(const model::Entity& entity, const TwinOptions& options) {
   const double yaw = kYawSpread * random.normal();
   for (double& angle : start.joint_rad) angle += kJointSpread * random.normal();
   lead(entity, start.joint_rad);
-  const Mat3 lean =
-      (Eigen::AngleAxisd(yaw, Vec3::UnitZ()) * Eigen::AngleAxisd(pitch, Vec3::UnitY()) *
-       Eigen::AngleAxisd(roll, Vec3::UnitX()))
-          .toRotationMatrix();
-  start.body_world.linear() = lean * start.body_world.linear();
+  start.body_world.linear() = model::rotation_rpy({roll, pitch, yaw}) * start.body_world.linear();
   start.body_world =
       resting(entity, start.joint_rad, start.body_world, kStartGap + options.start_m.z());
   return start;

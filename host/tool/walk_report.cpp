@@ -7,6 +7,7 @@
 #include <numbers>
 #include <optional>
 
+#include "host/model/principal.hpp"
 #include "host/record/trace.hpp"
 #include "host/report/maybe.hpp"
 #include "host/session/asked.hpp"
@@ -25,12 +26,6 @@ std::string name_of(const Params& params) {
   return {params.name, ::strnlen(params.name, kNameLength)};
 }
 
-Mat3 rotation_rpy(const Vec3& rpy) {
-  return (Eigen::AngleAxisd(rpy.z(), Vec3::UnitZ()) * Eigen::AngleAxisd(rpy.y(), Vec3::UnitY()) *
-          Eigen::AngleAxisd(rpy.x(), Vec3::UnitX()))
-      .toRotationMatrix();
-}
-
 /// The ankle centre in the sole frame: Params gives the sole as the foot sees it.
 Vec3 ankle_in_sole(const LegParams& leg) {
   Mat3 foot_sole;
@@ -47,7 +42,7 @@ report::Point3 point(const Vec3& p) {
 void add_foot(const LegParams& leg, const sim::SeriesRow& row, std::size_t side,
               report::Sample& sample) {
   constexpr double kContact_n = sim::kContactForceN;
-  const Mat3 rotation = rotation_rpy(row.sole_rpy_rad[side]);
+  const Mat3 rotation = model::rotation_rpy(row.sole_rpy_rad[side]);
   const Vec3& sole = row.sole_world_m[side];
   sample.ankle[side] = point(sole + rotation * ankle_in_sole(leg));
   const double front = static_cast<double>(leg.sole_front_m),

@@ -7,6 +7,7 @@
 
 #include "host/edit/change.hpp"
 #include "host/edit/meshes/triangles.hpp"
+#include "host/model/principal.hpp"
 
 namespace verp::edit {
 namespace {
@@ -45,11 +46,7 @@ std::string in_words(const Solid& solid) {
 
 /// About the link's axes.
 Mat3 turned_inertia(const Solid& solid, double mass_kg) {
-  const Vec3& a = solid.rpy_rad;
-  const Mat3 turn =
-      (Eigen::AngleAxisd(a.z(), Vec3::UnitZ()) * Eigen::AngleAxisd(a.y(), Vec3::UnitY()) *
-       Eigen::AngleAxisd(a.x(), Vec3::UnitX()))
-          .toRotationMatrix();
+  const Mat3 turn = model::rotation_rpy(solid.rpy_rad);
   return turn * inertia_kg_m2(solid, mass_kg) * turn.transpose();
 }
 
