@@ -1,9 +1,9 @@
-#include <fstream>
 #include <numbers>
 #include <sstream>
 
 #include "host/action/robotis.hpp"
 #include "host/action/words.hpp"
+#include "host/files/whole.hpp"
 
 namespace verp::action {
 namespace {
@@ -244,16 +244,14 @@ Document read_document(const std::filesystem::path& file) {
   constexpr std::uintmax_t kMostBytes = 1 << 20;
   std::error_code error;
   const std::uintmax_t size = std::filesystem::file_size(file, error);
-  std::ifstream stream(file, std::ios::binary);
-  if (error || !stream) {
+  const std::optional<std::string> text = error ? std::nullopt : files::read(file);
+  if (!text) {
     throw model::LoadError(file.string(), 0, "cannot be read", "give the path of an action file");
   }
   if (size > kMostBytes) {
     throw model::LoadError(file.string(), 0, "is larger than any action", "give an action file");
   }
-  std::ostringstream text;
-  text << stream.rdbuf();
-  return parse_document(file, text.str());
+  return parse_document(file, *text);
 }
 
 }  // namespace verp::action

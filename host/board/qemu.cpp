@@ -1,12 +1,11 @@
 #include "host/board/qemu.hpp"
 
 #include <cstdlib>
-#include <fstream>
-#include <sstream>
 #include <system_error>
 #include <thread>
 
 #include "host/board/board_error.hpp"
+#include "host/files/whole.hpp"
 
 namespace verp::board {
 namespace {
@@ -79,9 +78,7 @@ void QemuProcess::wait_for_success(std::chrono::seconds limit) {
 }
 
 std::string QemuProcess::output() const {
-  std::ostringstream text;
-  text << std::ifstream(directory_.path() / "output").rdbuf();
-  return text.str();
+  return files::read(directory_.path() / "output").value_or("");
 }
 
 std::string QemuProcess::described(const std::string& what) const {

@@ -4,12 +4,9 @@
 
 #include "host/compare/draw.hpp"
 #include "host/compare/words.hpp"
-#include "host/files/temporary_directory.hpp"
 #include "host/report/document.hpp"
 #include "host/report/files.hpp"
-#include "host/report/gnuplot.hpp"
 #include "host/report/maybe.hpp"
-#include "host/report/report.hpp"
 
 namespace verp::compare {
 namespace {
@@ -47,26 +44,6 @@ std::string table_of(const Comparison& c) {
   return out + "</table></div></section>\n";
 }
 
-/// Pictures as far as gnuplot makes them; says why not.
-std::string draw_into(const std::filesystem::path& folder, const Comparison& c, const Pair& pair,
-                      std::string& body) {
-  if (!report::gnuplot_available()) {
-    return "no pictures: gnuplot is not installed (apt-get install gnuplot-nox)";
-  }
-  std::string error;
-  try {
-    for (const report::Plot& plot : {angles_plot(c, pair), joints_plot(c)}) {
-      const auto svg = report::draw(plot, error);
-      if (svg) body += report::section({plot, *svg});
-    }
-    const auto png = report::draw_png(angles_plot(c, pair), error);
-    if (png) report::write_file(folder / "compare.png", *png);
-  } catch (const files::FileError& failed) {
-    error = failed.what();
-  }
-  return error.empty() ? "" : "pictures are missing: " + error;
-}
-
 std::string provenance_of(const char* which, const record::Trace& trace) {
   const auto revision = trace.metadata.find("source_revision");
   return report::rows(
@@ -82,30 +59,25 @@ std::string provenance_of(const char* which, const record::Trace& trace) {
 
 WrittenPage write_page(const std::filesystem::path& folder, const record::Trace& a,
                        const record::Trace& b, const Comparison& c) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (!std::filesystem::is_directory(folder)) {
-    throw report::ReportError(folder.string() +
-                              ": not a folder and cannot be made; choose another with -o");
-  }
+  report::make_folder(folder, "-o");
   const Pair pair = pair_of(Motion(a), Motion(b), c.shift_s, c.from_s, c.to_s);
   report::write_file(folder / "joints.csv", joints_csv(c));
   report::write_file(folder / "angles.csv", angles_csv(c, pair));
   std::string body = report::facts(facts_of(c));
-  WrittenPage written{folder / "index.html", {}};
-  std::string pictures;
-  written.note = draw_into(folder, c, pair, pictures);
+  const report::Sections pictures =
+      report::draw_sections({angles_plot(c, pair), joints_plot(c)}, folder / "compare.png");
+  const WrittenPage written{folder / "index.html", pictures.note};
   for (const std::string& note : c.notes)
     body += "<section><p>" + report::escape(note) + "</p></section>\n";
   if (!written.note.empty()) {
     body += "<section><p>" + report::escape(written.note) + "</p></section>\n";
   }
-  body += pictures + table_of(c);
-  body += "<section><h2>Numbers and traces</h2><div class=\"wide\"><table>\n" +
-          report::rows({{"joints.csv", "the table above, SI units"},
-                        {"angles.csv", "both angles of each joint, tick by tick"}},
-                       true) +
-          provenance_of("A", a) + provenance_of("B", b) + "</table></div></section>\n";
+  body += pictures.body + table_of(c);
+  body += report::table("Numbers and traces",
+                        report::rows({{"joints.csv", "the table above, SI units"},
+                                      {"angles.csv", "both angles of each joint, tick by tick"}},
+                                     true) +
+                            provenance_of("A", a) + provenance_of("B", b));
   report::write_file(
       written.page,
       report::document(

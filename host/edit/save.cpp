@@ -5,9 +5,9 @@
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
-#include <iterator>
 
 #include "host/edit/document.hpp"
+#include "host/files/whole.hpp"
 
 namespace verp::edit {
 namespace {
@@ -66,8 +66,7 @@ void Document::save() {
   const fs::path file = error ? file_ : link;
   const bool exists = fs::exists(file, error);
   if (exists) {
-    std::ifstream in(file, std::ios::binary);
-    const std::string now{std::istreambuf_iterator<char>(in), {}};
+    const std::string now = files::read(file).value_or("");
     if (!on_disk_ || now != *on_disk_) {
       refuse(file_, text_, "the file was changed by another program since it was opened");
     }

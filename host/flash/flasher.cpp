@@ -6,10 +6,9 @@
 #include <unistd.h>
 
 #include <cstdlib>
-#include <fstream>
-#include <iterator>
 
 #include "host/files/places.hpp"
+#include "host/files/whole.hpp"
 #include "host/flash/diagnosis.hpp"
 #include "host/flash/flash_error.hpp"
 #include "host/flash/images.hpp"
@@ -90,15 +89,14 @@ void run_step(const Job& job, const Step& step, const FlashHooks& hooks) {
 /// A write failed after the sector was read: what else was in it is not lost, unless it was empty.
 /// Returns what to tell.
 std::string keep(const Step& step) {
-  std::ifstream in(step.file, std::ios::binary);
-  const std::string sector{std::istreambuf_iterator<char>(in), {}};
+  const std::string sector = files::read(step.file).value_or("");
   std::string told;
   for (const Piece& piece : step.neighbours) {
     const std::size_t offset = piece.region.begin - step.sectors.begin;
     if (offset >= sector.size()) continue;
     const std::string bytes = sector.substr(offset, piece.region.bytes);
     if (bytes.find_first_not_of('\xFF') == bytes.npos) continue;
-    if (!std::filesystem::exists(piece.file)) std::ofstream(piece.file, std::ios::binary) << bytes;
+    if (!std::filesystem::exists(piece.file)) files::write(piece.file, bytes);
     told += fmt::format(", and with it --{} {}", piece.what, piece.file.string());
   }
   return told;

@@ -4,12 +4,10 @@
 
 #include <cstdlib>
 #include <cstring>
-#include <fstream>
-#include <iterator>
-#include <vector>
 
 #include "common/model/image.hpp"
 #include "host/files/places.hpp"
+#include "host/files/whole.hpp"
 #include "host/flash/flash_error.hpp"
 #include "host/model/export.hpp"
 #include "host/model/load_error.hpp"
@@ -17,28 +15,25 @@
 namespace verp::flash {
 namespace {
 
-using Bytes = std::vector<char>;
-
 [[noreturn]] void refuse(const std::filesystem::path& file, const std::string& why) {
   throw FlashError(FlashError::Kind::kBadFile, file.string() + ": " + why);
 }
 
-Bytes read(const std::filesystem::path& file, const char* what, const Span& region) {
+std::string read(const std::filesystem::path& file, const char* what, const Span& region) {
   if (region.bytes == 0) refuse(file, fmt::format("this board keeps no {} in its flash", what));
   if (std::filesystem::is_directory(file)) refuse(file, "is a folder; name a file");
-  std::ifstream in(file, std::ios::binary);
-  if (!in) refuse(file, "cannot be read; check the path and its permissions");
-  Bytes bytes{std::istreambuf_iterator<char>(in), {}};
-  if (bytes.empty()) refuse(file, "is empty; write it again");
-  if (bytes.size() > region.bytes) {
+  std::optional<std::string> bytes = files::read(file);
+  if (!bytes) refuse(file, "cannot be read; check the path and its permissions");
+  if (bytes->empty()) refuse(file, "is empty; write it again");
+  if (bytes->size() > region.bytes) {
     refuse(file, fmt::format("{} bytes are too many: {:#010x} has {} for the {}; is it the right "
                              "file?",
-                             bytes.size(), region.begin, region.bytes, what));
+                             bytes->size(), region.begin, region.bytes, what));
   }
-  return bytes;
+  return *bytes;
 }
 
-std::uint32_t word(const Bytes& bytes, std::size_t index) {
+std::uint32_t word(const std::string& bytes, std::size_t index) {
   std::uint32_t value = 0;
   std::memcpy(&value, bytes.data() + 4 * index, sizeof value);
   return value;
@@ -76,7 +71,7 @@ std::filesystem::path code_image(const Recipe& recipe, BusProtocol protocol) {
 
 void check_code(const std::filesystem::path& file, const MemoryMap& map) {
   constexpr std::size_t kFewestVectors = 16;  // those that every Cortex-M has
-  const Bytes bytes = read(file, "code", map.code);
+  const std::string bytes = read(file, "code", map.code);
   const char* again = "build the firmware again";
   if (bytes.size() < 4 * kFewestVectors) refuse(file, fmt::format("is cut off; {}", again));
   const std::uint32_t stack = word(bytes, 0), entry = word(bytes, 1);
@@ -101,7 +96,7 @@ Robot check_params(const std::filesystem::path& file, const MemoryMap& map) {
 }
 
 void check_actions(const std::filesystem::path& file, const MemoryMap& map) {
-  const Bytes bytes = read(file, "actions", map.actions);
+  const std::string bytes = read(file, "actions", map.actions);
   if (bytes.size() >= sizeof kImageMagic &&
       std::memcmp(bytes.data(), kImageMagic, sizeof kImageMagic) == 0) {
     refuse(file, "is a robot (a Params image), not actions; give it to --params");

@@ -3,11 +3,10 @@
 #include <fmt/format.h>
 
 #include <charconv>
-#include <fstream>
-#include <iterator>
 #include <regex>
 
 #include "host/files/places.hpp"
+#include "host/files/whole.hpp"
 #include "host/flash/flash_error.hpp"
 
 namespace verp::flash {
@@ -15,14 +14,14 @@ namespace {
 
 /// A linker script without its comments.
 std::string read_script(const std::filesystem::path& file) {
-  std::ifstream in(file);
-  if (!in) {
+  std::optional<std::string> script = files::read(file);
+  if (!script) {
     throw FlashError(FlashError::Kind::kUsage,
                      file.string() +
                          ": cannot be read; verp flash needs the source tree it was "
                          "built from");
   }
-  std::string text{std::istreambuf_iterator<char>(in), {}};
+  std::string& text = *script;
   for (std::size_t begin; (begin = text.find("/*")) != text.npos;) {
     const std::size_t end = text.find("*/", begin);
     text.erase(begin, end == text.npos ? end : end + 2 - begin);

@@ -5,12 +5,13 @@
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <iterator>
 #include <memory>
+#include <optional>
 
 #include "common/control/golden.hpp"
 #include "common/control/self_test.hpp"
+#include "host/files/whole.hpp"
 #include "host/model/bus_time.hpp"
 #include "host/model/find.hpp"
 #include "host/model/load.hpp"
@@ -48,11 +49,8 @@ std::string bad_number(const Params& params) {
   return bad.text;
 }
 
-void write_file(const std::filesystem::path& path, const char* data, std::size_t size) {
-  std::ofstream file(path, std::ios::binary);
-  file.write(data, static_cast<std::streamsize>(size));
-  file.close();
-  if (!file)
+void write_file(const std::filesystem::path& path, std::string_view bytes) {
+  if (!files::write(path, bytes))
     throw LoadError(path.string(), 0, "cannot write this file", "check the folder's permissions");
 }
 
@@ -79,22 +77,21 @@ ParamsImage make_image(const Entity& entity) {
 }
 
 ParamsImage read_image(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file)
+  const std::optional<std::string> bytes = files::read(path);
+  if (!bytes)
     throw LoadError(path, 0, "cannot read this file", "check the path and its permissions");
-  const std::string bytes{std::istreambuf_iterator<char>(file), {}};
-  const ImageFault fault = check_image(bytes.data(), bytes.size());
+  const ImageFault fault = check_image(bytes->data(), bytes->size());
   if (fault != ImageFault::kNone) {
     std::string what = std::string("this Params image is ") + meaning(fault);
     if (fault == ImageFault::kOutOfRange) {
       ParamsImage image;
-      std::memcpy(&image, bytes.data(), sizeof image);
+      std::memcpy(&image, bytes->data(), sizeof image);
       what += " (" + bad_number(image.params) + ")";
     }
     throw LoadError(path, 1, what, "write it again with `verp export`");
   }
   ParamsImage image;
-  std::memcpy(&image, bytes.data(), sizeof image);
+  std::memcpy(&image, bytes->data(), sizeof image);
   return image;
 }
 
@@ -119,9 +116,8 @@ int export_command(const std::string& name_or_path, const std::string& bus,
     throw LoadError(directory, 0, "not a folder and cannot be made", "choose another with -o");
   }
   const std::filesystem::path folder = directory;
-  write_file(folder / "params.bin", reinterpret_cast<const char*>(&image), sizeof image);
-  const std::string header = image_header(image);
-  write_file(folder / "params.hpp", header.data(), header.size());
+  write_file(folder / "params.bin", {reinterpret_cast<const char*>(&image), sizeof image});
+  write_file(folder / "params.hpp", image_header(image));
   fmt::print("{}: {} bytes, CRC-32 {:08x}, {} golden vectors, self-test {:08x}{:08x}\n",
              (folder / "params.bin").string(), sizeof image, image.header.crc32, kGoldenVectors,
              image.self_test_digest[1], image.self_test_digest[0]);

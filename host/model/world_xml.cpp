@@ -1,11 +1,11 @@
 #include "host/model/world_xml.hpp"
 
 #include <algorithm>
-#include <fstream>
-#include <iterator>
 #include <map>
 #include <string_view>
+#include <utility>
 
+#include "host/files/whole.hpp"
 #include "host/model/bounds.hpp"
 #include "host/model/find.hpp"
 #include "host/model/load_error.hpp"
@@ -90,9 +90,10 @@ void check_world_leaf(const XmlElement& at, const std::string& text) {
 }  // namespace
 
 WorldXml::WorldXml(const std::string& path) : path_(path) {
-  std::ifstream in(path, std::ios::binary);
-  if (!in) throw LoadError(path, 1, "cannot read this file", "check the path and its permissions");
-  text_.assign(std::istreambuf_iterator<char>(in), {});
+  auto text = files::read(path);
+  if (!text)
+    throw LoadError(path, 1, "cannot read this file", "check the path and its permissions");
+  text_ = std::move(*text);
   if (document_.Parse(text_.data(), text_.size()) != tinyxml2::XML_SUCCESS ||
       document_.RootElement() == nullptr) {
     refuse_malformed(path, text_, document_);

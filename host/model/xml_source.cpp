@@ -6,9 +6,9 @@
 #include <filesystem>
 #include <fstream>
 #include <set>
-#include <sstream>
 #include <string_view>
 
+#include "host/files/whole.hpp"
 #include "host/model/bounds.hpp"
 #include "host/model/find.hpp"
 #include "host/model/load_error.hpp"
@@ -191,9 +191,7 @@ void XmlSource::read(const std::string& path, const std::optional<std::string>& 
   const auto read =
       text ? file.document.Parse(text->data(), text->size()) : file.document.LoadFile(path.c_str());
   if (read != tinyxml2::XML_SUCCESS || !file.document.RootElement()) {
-    std::stringstream whole;
-    text ? whole << *text : whole << std::ifstream(path).rdbuf();
-    refuse_malformed(path, whole.str(), file.document);
+    refuse_malformed(path, text ? *text : files::read(path).value_or(""), file.document);
   }
   const std::string root = file.document.RootElement()->Name();
   if (root != "sdf" && root != "robot") {

@@ -2,6 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <optional>
+
+#include "host/files/temporary_directory.hpp"
+#include "host/report/files.hpp"
+#include "host/report/gnuplot.hpp"
 #include "host/report/palette.hpp"
 
 namespace verp::report {
@@ -91,6 +96,34 @@ std::string section(const Picture& picture) {
   return fmt::format("<section id=\"{}\"><h2>{}</h2><p class=\"quiet\">{}</p>\n{}</section>\n",
                      picture.plot.id, escape(picture.plot.title), escape(picture.plot.caption),
                      picture.svg);
+}
+
+Sections draw_sections(const std::vector<Plot>& plots, const std::filesystem::path& poster) {
+  Sections out;
+  if (!gnuplot_available()) {
+    out.note = "no pictures: gnuplot is not installed (apt-get install gnuplot-nox)";
+    return out;
+  }
+  std::string error;
+  try {
+    for (const Plot& plot : plots) {
+      const std::optional<std::string> svg = draw(plot, error);
+      if (svg) out.body += section({plot, *svg});
+    }
+    const auto png = plots.empty() ? std::nullopt : draw_png(plots.front(), error);
+    if (png) write_file(poster, *png);
+    out.poster = png.has_value();
+  } catch (const files::FileError& failed) {
+    error = failed.what();
+  }
+  if (!error.empty()) out.note = "pictures are missing: " + error;
+  return out;
+}
+
+std::string table(const char* title, const std::string& rows) {
+  if (rows.empty()) return "";
+  return fmt::format(
+      "<section><h2>{}</h2><div class=\"wide\"><table>\n{}</table></div></section>\n", title, rows);
 }
 
 std::string rows(const std::vector<std::pair<std::string, std::string>>& entries, bool link) {

@@ -1,4 +1,5 @@
 #pragma once
+#include <filesystem>
 #include <string>
 #include <utility>
 #include <vector>
@@ -21,6 +22,18 @@ std::string facts(const std::vector<Fact>& facts);
 
 /// A section with a picture.
 std::string section(const Picture& picture);
+
+/// Pictures of plots as sections, as far as gnuplot makes them.
+struct Sections {
+  std::string body;
+  bool poster = false;  ///< the file was written
+  std::string note;     ///< why pictures are missing; empty: none is
+};
+/// The first plot is also the file `poster`. Throws ReportError.
+Sections draw_sections(const std::vector<Plot>& plots, const std::filesystem::path& poster);
+
+/// A section with a table of such rows(); empty if there are none.
+std::string table(const char* title, const std::string& rows);
 
 /// Rows of a table with a name and a value each; `link`: the name is a file beside the page.
 std::string rows(const std::vector<std::pair<std::string, std::string>>& entries, bool link);

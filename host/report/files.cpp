@@ -1,23 +1,20 @@
 #include "host/report/files.hpp"
 
-#include <unistd.h>
-
-#include <fstream>
-
+#include "host/files/whole.hpp"
 #include "host/report/report.hpp"
 
 namespace verp::report {
 
-void write_file(const std::filesystem::path& file, std::string_view content) {
-  std::filesystem::path part = file;
-  part += "." + std::to_string(::getpid()) + ".part";
-  std::ofstream out(part, std::ios::binary);
-  out.write(content.data(), static_cast<std::streamsize>(content.size()));
-  out.close();
+void make_folder(const std::filesystem::path& folder, const char* option) {
   std::error_code error;
-  if (out) std::filesystem::rename(part, file, error);
-  if (out && !error) return;
-  std::filesystem::remove(part, error);
+  std::filesystem::create_directories(folder, error);
+  if (std::filesystem::is_directory(folder, error)) return;
+  throw ReportError(folder.string() + ": not a folder and cannot be made; choose another with " +
+                    option);
+}
+
+void write_file(const std::filesystem::path& file, std::string_view content) {
+  if (files::replace(file, content)) return;
   throw ReportError(file.string() +
                     ": cannot be written; choose a folder that exists and is yours, or free space");
 }

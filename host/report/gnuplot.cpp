@@ -5,12 +5,11 @@
 
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <system_error>
 #include <utility>
 
 #include "host/files/temporary_directory.hpp"
+#include "host/files/whole.hpp"
 #include "host/process/child.hpp"
 #include "host/report/palette.hpp"
 
@@ -20,11 +19,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::uintmax_t kLeastSpace_bytes = 4096;  // one block: less, and a file may be cut short
-
-std::string slurp(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
 
 /// Runs gnuplot with its output in files. Returns how it failed, or nothing.
 std::string run_gnuplot(const std::string& argument, const std::string& out,
@@ -75,10 +69,7 @@ std::string for_page(std::string svg) {
 std::optional<std::string> output_of(const std::string& script, std::string& error) {
   const files::TemporaryDirectory scratch;
   const fs::path file = scratch.path() / "plot.gp";
-  std::ofstream written(file, std::ios::binary);
-  written << script;
-  written.close();
-  if (!written) {
+  if (!files::write(file, script)) {
     throw files::FileError(file.string() +
                            ": cannot be written; free space there, or point TMPDIR elsewhere");
   }
@@ -90,8 +81,8 @@ std::optional<std::string> output_of(const std::string& script, std::string& err
     throw files::FileError(scratch.path().parent_path().string() +
                            ": the disk is full; free space there, or point TMPDIR elsewhere");
   }
-  if (failure.empty()) return slurp(out);
-  const std::string text = slurp(problems);
+  if (failure.empty()) return files::read(out).value_or("");
+  const std::string text = files::read(problems).value_or("");
   const std::size_t start = text.find_first_not_of(" \n");
   error = start == std::string::npos ? failure : text.substr(start, text.find('\n', start) - start);
   return std::nullopt;

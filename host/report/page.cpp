@@ -40,14 +40,9 @@ std::string page(const Run& run, const std::vector<Picture>& pictures, const std
   out += run.replay_html;
   out += sweep_table(run);
   for (const Picture& picture : pictures) out += section(picture);
-  out += "<section><h2>Numbers and trace</h2><div class=\"wide\"><table>\n" + rows(files, true) +
-         "</table></div></section>\n";
-  if (!run.changed.empty()) {
-    out += "<section><h2>What is not as by default</h2><div class=\"wide\"><table>\n" +
-           rows(run.changed, false) + "</table></div></section>\n";
-  }
-  out += "<section><h2>How it was made</h2><div class=\"wide\"><table>\n" +
-         rows(run.provenance, false) + "</table></div></section>\n";
+  out += table("Numbers and trace", rows(files, true)) +
+         table("What is not as by default", rows(run.changed, false)) +
+         table("How it was made", rows(run.provenance, false));
   return document(run.title, run.verdict, run.good, out);
 }
 

@@ -90,12 +90,7 @@ void remove_what_is_older(const std::filesystem::path& folder,
 }
 
 Written write_report(const std::filesystem::path& folder, const Run& run) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (!std::filesystem::is_directory(folder)) {
-    throw ReportError(folder.string() +
-                      ": not a folder and cannot be made; choose another with --report");
-  }
+  make_folder(folder, "--report");
   std::vector<std::pair<std::string, std::string>> files;
   const auto add = [&](const char* name, const std::string& content, const char* holds) {
     write_file(folder / name, content);

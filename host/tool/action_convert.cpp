@@ -2,12 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <fstream>
-#include <sstream>
-
 #include "host/action/csv.hpp"
 #include "host/action/folder.hpp"
 #include "host/action/robotis.hpp"
+#include "host/files/whole.hpp"
 #include "host/model/find.hpp"
 #include "host/model/load.hpp"
 #include "host/model/params.hpp"
@@ -21,23 +19,14 @@ namespace fs = std::filesystem;
 constexpr const char* kCommand = "verp action convert";
 
 void write_file(const fs::path& file, const std::string& bytes) {
-  const fs::path part = file.string() + ".part";
-  std::ofstream stream(part, std::ios::binary | std::ios::trunc);
-  stream.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  stream.close();
-  std::error_code error;
-  if (stream) fs::rename(part, file, error);
-  if (stream && !error) return;
-  fs::remove(part, error);
+  if (files::replace(file, bytes)) return;
   throw ToolError(kBadInput, fmt::format("{}: {} cannot be written; give another place", kCommand,
                                          file.string()));
 }
 
 std::string read_text(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  std::ostringstream text;
-  text << stream.rdbuf();
-  if (stream && !fs::is_directory(file)) return text.str();
+  const std::optional<std::string> text = files::read(file);
+  if (text && !fs::is_directory(file)) return *text;
   throw ToolError(kBadInput,
                   fmt::format("{}: {} cannot be read; give a file", kCommand, file.string()));
 }

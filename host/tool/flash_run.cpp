@@ -5,10 +5,10 @@
 
 #include <chrono>
 #include <filesystem>
-#include <fstream>
 #include <thread>
 
 #include "host/files/shell_line.hpp"
+#include "host/files/whole.hpp"
 #include "host/flash/emulation.hpp"
 #include "host/flash/flash_error.hpp"
 #include "host/flash/flasher.hpp"
@@ -40,10 +40,7 @@ fs::path params_file(const std::string& word, const std::string& bus, const fs::
   }
   const ParamsImage image = model::make_image(model::load_robot(model::find_model(word), bus));
   const fs::path file = folder / "params.bin";
-  std::ofstream out(file, std::ios::binary);
-  out.write(reinterpret_cast<const char*>(&image), sizeof image);
-  out.close();
-  if (out) return file;
+  if (files::write(file, {reinterpret_cast<const char*>(&image), sizeof image})) return file;
   throw flash::FlashError(flash::FlashError::Kind::kBadFile,
                           file.string() + ": cannot be written; free space, or set VERP_FLASH_DIR");
 }

@@ -4,12 +4,11 @@
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <memory>
 #include <sstream>
 
 #include "common/model/params.hpp"
+#include "host/files/whole.hpp"
 #include "host/model/find.hpp"
 #include "host/model/load_error.hpp"
 #include "host/model/robot_table.hpp"
@@ -26,16 +25,8 @@ struct NewRobotWords {
   std::string name, from, in;
 };
 
-std::string text_of(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-
 void write_text(const fs::path& file, const std::string& text) {
-  std::ofstream out(file, std::ios::binary);
-  out << text;
-  out.close();
-  if (!out) {
+  if (!files::write(file, text)) {
     throw ToolError(kBadInput,
                     file.string() + ": cannot be written; choose another place with --in");
   }
@@ -138,7 +129,7 @@ int new_robot(const NewRobotWords& options) {
   if (!again) {
     NewRobotWords named = options;
     if (named.from.empty()) named.from = "generic21";
-    const std::string text = table_for(text_of(table_of(named.from)), named);
+    const std::string text = table_for(files::read(table_of(named.from)).value_or(""), named);
     fs::create_directories(folder, error);
     write_text(table, text);
   }

@@ -6,12 +6,11 @@
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <memory>
 #include <regex>
 
 #include "host/files/places.hpp"
+#include "host/files/whole.hpp"
 #include "host/tool/console.hpp"
 
 namespace verp::tool {
@@ -49,8 +48,7 @@ std::string filled_in(const std::string& text, const std::string& name) {
 std::string template_of(const std::string& file) {
   if (file == ".gitignore") return "build/\nreport/\n";
   const fs::path source = files::source_dir() / "host" / "own" / "template" / file;
-  std::ifstream in(source, std::ios::binary);
-  if (in) return {std::istreambuf_iterator<char>(in), {}};
+  if (const std::optional<std::string> text = files::read(source)) return *text;
   throw ToolError(
       kBadInput,
       fmt::format("verp new controller: {} is not there: a controller is built on VERP's "
@@ -75,10 +73,7 @@ int new_controller(const NewControllerWords& words) {
                                 folder.lexically_normal().string(), error.message()));
   }
   for (const char* file : kFiles) {
-    std::ofstream out(folder / file, std::ios::binary);
-    out << filled_in(template_of(file), words.name);
-    out.close();
-    if (out) continue;
+    if (files::write(folder / file, filled_in(template_of(file), words.name))) continue;
     throw ToolError(kBadInput, fmt::format("{}: cannot be written; choose another place with --in",
                                            (folder / file).lexically_normal().string()));
   }

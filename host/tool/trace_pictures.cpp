@@ -4,10 +4,11 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <utility>
 
+#include "host/files/whole.hpp"
 #include "host/record/trace.hpp"
+#include "host/report/files.hpp"
 #include "host/tool/console.hpp"
 #include "host/tool/exit_status.hpp"
 #include "host/tool/png.hpp"
@@ -46,10 +47,7 @@ std::pair<std::string, std::string> as_file(const record::ros::Picture& picture)
 }
 
 void write_file(const fs::path& file, const std::string& bytes) {
-  std::ofstream out(file, std::ios::binary);
-  out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  out.close();
-  if (out) return;
+  if (files::write(file, bytes)) return;
   throw ToolError(
       kRunFailed,
       file.string() + ": cannot be written; free space, or name another folder with -o");
@@ -58,12 +56,7 @@ void write_file(const fs::path& file, const std::string& bytes) {
 }  // namespace
 
 int write_pictures(const std::string& trace, const std::string& folder) {
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (!fs::is_directory(folder, error)) {
-    throw ToolError(kBadInput,
-                    folder + ": not a folder and cannot be made; choose another with -o");
-  }
+  report::make_folder(folder, "-o");
   const std::size_t count =
       record::for_each_picture(trace, [&](const record::RecordedPicture& recorded) {
         const auto [kind, bytes] = as_file(recorded.picture);

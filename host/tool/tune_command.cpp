@@ -2,9 +2,9 @@
 #include <fmt/format.h>
 
 #include <filesystem>
-#include <fstream>
 #include <memory>
 
+#include "host/files/whole.hpp"
 #include "host/model/find.hpp"
 #include "host/model/load.hpp"
 #include "host/model/load_error.hpp"
@@ -86,10 +86,8 @@ void require_place(const std::string& file, const std::filesystem::path& robot_f
   std::error_code error;
   if (std::filesystem::exists(file, error))
     throw ToolError(kBadInput, file + ": is there already; choose another name");
-  std::ofstream copy(file, std::ios::binary);
-  copy << std::ifstream(robot_file, std::ios::binary).rdbuf();
-  copy.close();
-  if (!copy) throw ToolError(kBadInput, file + ": cannot be written; choose another folder");
+  if (!files::write(file, files::read(robot_file).value_or("")))
+    throw ToolError(kBadInput, file + ": cannot be written; choose another folder");
   try {
     model::load_robot_on_any_bus(file, "");
   } catch (const model::LoadError& refused) {

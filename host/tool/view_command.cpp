@@ -3,10 +3,9 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <unistd.h>
+#include "host/files/whole.hpp"
 
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <memory>
 #include <string>
 #include <vector>
@@ -18,8 +17,7 @@ namespace fs = std::filesystem;
 
 /// The words that this process was started with, from the second on.
 std::vector<std::string> own_words() {
-  std::ifstream file("/proc/self/cmdline", std::ios::binary);
-  const std::string all{std::istreambuf_iterator<char>(file), {}};
+  const std::string all = files::read("/proc/self/cmdline").value_or("");
   std::vector<std::string> words;
   for (std::size_t at = 0; at < all.size(); at += words.back().size() + 1) {
     words.emplace_back(all.c_str() + at);

@@ -11,6 +11,7 @@
 #include "host/files/folder_lock.hpp"
 #include "host/files/shell_line.hpp"
 #include "host/record/trace_error.hpp"
+#include "host/report/files.hpp"
 #include "host/report/report.hpp"
 #include "host/tool/console.hpp"
 #include "host/tool/exit_status.hpp"
@@ -45,13 +46,7 @@ record::mcap::StringMap metadata(const WalkPlan& plan, const WalkOptions& option
 }  // namespace
 
 void make_folder(const fs::path& folder) {
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (!fs::is_directory(folder, error)) {
-    throw ToolError(kBadInput,
-                    fmt::format("{}: not a folder and cannot be made; choose another with --report",
-                                folder.string()));
-  }
+  report::make_folder(folder, "--report");
   std::string probe = (folder / ".verp-XXXXXX").string();
   const int descriptor = ::mkstemp(probe.data());
   if (descriptor < 0) {

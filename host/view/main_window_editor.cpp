@@ -4,8 +4,8 @@
 #include <QUndoStack>
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 
+#include "host/files/whole.hpp"
 #include "host/view/editor_panel.hpp"
 #include "host/view/main_window.hpp"
 #include "host/view/pose_panel.hpp"
@@ -23,10 +23,7 @@ class Beside {
   Beside(const std::filesystem::path& file, const std::string& text)
       : path_(file.parent_path() /
               ("." + file.filename().string() + "." + std::to_string(::getpid()) + ".sdf")) {
-    std::ofstream out(path_, std::ios::binary);
-    out << text;
-    out.close();
-    if (!out)
+    if (!files::write(path_, text))
       throw std::runtime_error(
           file.string() + ": its folder cannot be written, and the run is made from a file there");
   }

@@ -2,10 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <fstream>
-#include <iterator>
 #include <vector>
 
+#include "host/files/whole.hpp"
 #include "host/scene/build.hpp"
 #include "host/scene/from_trace.hpp"
 #include "host/web/scene_json.hpp"
@@ -34,11 +33,8 @@ constexpr const char* kControls = R"(<div class="said"></div><canvas></canvas><d
 <label><input type="checkbox" class="follow" checked> follow</label></div>
 )";
 
-/// Debian's libjs-three; empty: it is not installed.
-std::string three_js() {
-  std::ifstream in("/usr/share/javascript/three/three.min.js", std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
+constexpr const char* kThreeJs =
+    "/usr/share/javascript/three/three.min.js";  // Debian's libjs-three
 
 std::vector<scene::Snapshot> frames_of(const scene::TracePlayer& player) {
   const double period_s = player.trace().period_s();
@@ -52,7 +48,7 @@ std::vector<scene::Snapshot> frames_of(const scene::TracePlayer& player) {
 }  // namespace
 
 Replay replay_of(const std::filesystem::path& trace) {
-  const std::string three = three_js();
+  const std::string three = files::read(kThreeJs).value_or("");
   if (three.empty()) {
     return {"",
             "no 3D replay in the page: three.js is not installed (apt-get install libjs-three)"};

@@ -1,0 +1,36 @@
+#include "host/files/whole.hpp"
+
+#include <unistd.h>
+
+#include <fstream>
+#include <iterator>
+
+namespace verp::files {
+
+namespace fs = std::filesystem;
+
+std::optional<std::string> read(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  if (!in) return std::nullopt;
+  return std::string(std::istreambuf_iterator<char>(in), {});
+}
+
+bool write(const fs::path& file, std::string_view bytes) {
+  std::ofstream out(file, std::ios::binary | std::ios::trunc);
+  out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  out.close();
+  return out.good();
+}
+
+bool replace(const fs::path& file, std::string_view bytes) {
+  fs::path part = file;
+  part += "." + std::to_string(::getpid()) + ".part";
+  std::error_code error;
+  const bool written = write(part, bytes);
+  if (written) fs::rename(part, file, error);
+  if (written && !error) return true;
+  fs::remove(part, error);
+  return false;
+}
+
+}  // namespace verp::files
