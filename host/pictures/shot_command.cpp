@@ -132,11 +132,7 @@ int run_shot(const ShotOptions& options) {
   } else {
     write_shot(options, *film, instant(options, *film, progress), studio, json);
   }
-  if (options.json) {
-    tool::print_json(json);
-  } else {
-    tool::answer(options.picture.file + "\n");
-  }
+  tool::print_answer(options.json, json, options.picture.file + "\n");
   return tool::kGood;
 }
 

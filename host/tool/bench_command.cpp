@@ -6,7 +6,6 @@
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <map>
 #include <memory>
 #include <optional>
@@ -17,6 +16,9 @@
 #include "host/board/emulated_board.hpp"
 #include "host/board/temporary_directory.hpp"
 #include "host/files/places.hpp"
+#include "host/files/shell_line.hpp"
+#include "host/files/whole.hpp"
+#include "host/flash/tool_run.hpp"
 #include "host/tool/bench_languages.hpp"
 #include "host/tool/bench_report.hpp"
 #include "host/tool/command.hpp"
@@ -41,21 +43,6 @@ struct BenchOptions {
   std::string only;  ///< "languages", or what pictures cost: "frames" or "window"
 };
 
-std::string quoted(const std::string& word) {
-  std::string text = "'";
-  for (const char c : word) text += c == '\'' ? "'\\''" : std::string(1, c);
-  return text + "'";
-}
-
-std::string last_line(const std::filesystem::path& file) {
-  std::ifstream in(file);
-  std::string last;
-  for (std::string line; std::getline(in, line);) {
-    if (!line.empty()) last = line;
-  }
-  return last;
-}
-
 /// Runs a program of this build tree, after `where`, and gives each line of its stdout to `take`.
 /// Throws ToolError with its last words if it fails.
 template <class Take>
@@ -69,7 +56,8 @@ void run_program(const std::string& program, const std::string& arguments, Take 
   }
   const board::TemporaryDirectory scratch;
   const auto errors = scratch.path() / "errors";
-  const std::string command = where + quoted(path) + arguments + " 2>" + quoted(errors.string());
+  const std::string command =
+      where + files::shell_word(path) + arguments + " 2>" + files::shell_word(errors.string());
   FILE* pipe = popen(command.c_str(), "r");
   if (pipe == nullptr) throw ToolError(kNoDevice, path + ": cannot be started");
   std::string line;
@@ -82,7 +70,7 @@ void run_program(const std::string& program, const std::string& arguments, Take 
   if (status == 0) return;
   const bool told = WIFEXITED(status) && WEXITSTATUS(status) <= kNoDevice;
   throw ToolError(told ? static_cast<ExitStatus>(WEXITSTATUS(status)) : kRunFailed,
-                  program + " failed: " + last_line(errors));
+                  program + " failed: " + flash::last_line(files::read(errors).value_or("")));
 }
 
 using Samples = std::map<std::string, std::vector<double>>;
@@ -90,7 +78,8 @@ using Samples = std::map<std::string, std::vector<double>>;
 /// One run of a Google Benchmark program: CPU times in ns and counters, added to the samples.
 void sample(const std::string& program, const std::string& folder, Samples& samples) {
   std::string text;
-  run_program(program, " " + quoted(folder) + kTiming, [&](const std::string& l) { text += l; });
+  run_program(program, " " + files::shell_word(folder) + kTiming,
+              [&](const std::string& l) { text += l; });
   const Json result = Json::parse(text);
   for (const Json& benchmark : result.at("benchmarks")) {
     const std::string name = benchmark.at("name");
@@ -223,11 +212,7 @@ void run_languages(int repetitions, std::vector<BenchRow>& rows, Json& headings)
 }
 
 int tell(const BenchOptions& options, const std::vector<BenchRow>& rows, const Json& headings) {
-  if (options.json) {
-    print_json({{"results", bench_json(rows)}});
-  } else {
-    fmt::print("{}", bench_table(rows, headings));
-  }
+  print_answer(options.json, {{"results", bench_json(rows)}}, bench_table(rows, headings));
   if (bench_held(rows)) return kGood;
   complain("verp bench: a measurement failed; see FAILED");
   return kRunFailed;
@@ -295,7 +280,7 @@ int run_bench(const BenchOptions& options) {
           add_board_rows(Json::parse(line), rows, headings);
           progress.show(++done / steps, "walking over emulated CAN");
         },
-        quoted((files::source_dir() / "tests/support/with-can").string()) + kWithCan);
+        files::shell_word((files::source_dir() / "tests/support/with-can").string()) + kWithCan);
   }
   progress.clear();
   const bool good = bench_held(rows);
@@ -305,18 +290,16 @@ int run_bench(const BenchOptions& options) {
                     {"iterations_mean", samples.at("kdl_leg_ik.iterations").front()},
                     {"apart_rad", samples.at("kdl_leg_ik.apart_rad").front()},
                     {"apart_m", samples.at("kdl_leg_ik.apart_m").front()}};
-  if (options.json) {
-    print_json({{"kept", good},
+  print_answer(options.json,
+               {{"kept", good},
                 {"repetitions", options.repetitions},
                 {"kdl_check", kdl},
-                {"results", bench_json(rows)}});
-  } else {
-    fmt::print(
-        "{}KDL's {} gave our angles within {:.1f} mrad on {} targets, in {:.1f} iterations each.\n",
-        bench_table(rows, headings), kdl["solver"].get<std::string>(),
-        1e3 * kdl["apart_rad"].get<double>(), kdl["targets"].get<double>(),
-        kdl["iterations_mean"].get<double>());
-  }
+                {"results", bench_json(rows)}},
+               fmt::format("{}KDL's {} gave our angles within {:.1f} mrad on {} targets, in {:.1f} "
+                           "iterations each.\n",
+                           bench_table(rows, headings), kdl["solver"].get<std::string>(),
+                           1e3 * kdl["apart_rad"].get<double>(), kdl["targets"].get<double>(),
+                           kdl["iterations_mean"].get<double>()));
   if (!good)
     complain(
         "verp bench: a promise on counts is not kept, or a measurement failed; see MISSED, FAILED");

@@ -121,11 +121,7 @@ int scan_can(const BusOptions& options) {
 int ping_can(const BusOptions& options) {
   can::Client client = open(options);
   const can::NodeIdentity identity = identify(client, options);
-  if (options.json) {
-    print_json(to_json(identity));
-  } else {
-    print({identity}, options);
-  }
+  print_answer(options.json, to_json(identity), to_text(identity));
   return kGood;
 }
 
@@ -195,11 +191,7 @@ int bench_can(const BusOptions& options) {
   const BusBench result =
       run_bus_bench([&] { return client.read_once(node_of(options), canopen::plan::kDeviceType); },
                     kBytes, options.seconds);
-  if (options.json) {
-    print_json(to_json(result));
-  } else {
-    answer(to_text(result));
-  }
+  print_answer(options.json, to_json(result), to_text(result));
   if (interrupted()) return kRunFailed;
   if (result.good == 0) throw ToolError(kNoDevice, options.link + ": no read was answered");
   return kGood;

@@ -2,10 +2,10 @@
 #include <fmt/format.h>
 
 #include <filesystem>
-#include <fstream>
 #include <memory>
 #include <numbers>
 
+#include "host/files/whole.hpp"
 #include "host/identify/identify.hpp"
 #include "host/identify/motion.hpp"
 #include "host/identify/words.hpp"
@@ -36,19 +36,13 @@ int make_motion(const IdentifyWords& words) {
       model::load_robot(model::find_model(words.robot.empty() ? kRobotOfMotion : words.robot));
   action::Document document = identify::motion_of(entity, {.length_s = words.motion_s, .seed = 1});
   document.name = std::filesystem::path(words.motion).stem().string();
-  std::ofstream out(words.motion, std::ios::binary | std::ios::trunc);
-  out << action::text_of(document);
-  out.close();
-  if (!out) throw ToolError(kBadInput, words.motion + ": cannot be written; choose another file");
-  if (words.json) {
-    print_json({{"motion", words.motion}, {"model", entity.name}});
-  } else {
-    answer(
-        fmt::format("{}: a motion of {:.0f} s for {} in a stand; in the twin:\n"
-                    "  verp action play {} --robot {} --held --gains 25 --record a.mcap\n",
-                    words.motion, words.motion_s, entity.name, words.motion,
-                    words.robot.empty() ? kRobotOfMotion : words.robot));
-  }
+  if (!files::write(words.motion, action::text_of(document)))
+    throw ToolError(kBadInput, words.motion + ": cannot be written; choose another file");
+  print_answer(words.json, {{"motion", words.motion}, {"model", entity.name}},
+               fmt::format("{}: a motion of {:.0f} s for {} in a stand; in the twin:\n"
+                           "  verp action play {} --robot {} --held --gains 25 --record a.mcap\n",
+                           words.motion, words.motion_s, entity.name, words.motion,
+                           words.robot.empty() ? kRobotOfMotion : words.robot));
   return kGood;
 }
 

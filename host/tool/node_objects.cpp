@@ -19,28 +19,15 @@ using canopen::Address;
 using dxl::controller::Access;
 using dxl::controller::Type;
 
+/// Nothing: bytes.
 std::optional<Type> type_of(eds::DataType type) {
-  switch (type) {
-    case eds::DataType::kUnsigned8:
-      return Type::kU8;
-    case eds::DataType::kUnsigned16:
-      return Type::kU16;
-    case eds::DataType::kUnsigned32:
-      return Type::kU32;
-    case eds::DataType::kUnsigned64:
-      return Type::kU64;
-    case eds::DataType::kInteger8:
-      return Type::kI8;
-    case eds::DataType::kInteger16:
-      return Type::kI16;
-    case eds::DataType::kInteger32:
-      return Type::kI32;
-    case eds::DataType::kReal32:
-      return Type::kF32;
-    case eds::DataType::kVisibleString:
-      return Type::kText;
-    case eds::DataType::kDomain:
-      return std::nullopt;
+  using enum eds::DataType;
+  constexpr std::pair<eds::DataType, Type> kTypes[] = {
+      {kUnsigned8, Type::kU8},   {kUnsigned16, Type::kU16}, {kUnsigned32, Type::kU32},
+      {kUnsigned64, Type::kU64}, {kInteger8, Type::kI8},    {kInteger16, Type::kI16},
+      {kInteger32, Type::kI32},  {kReal32, Type::kF32},     {kVisibleString, Type::kText}};
+  for (const auto& [theirs, ours] : kTypes) {
+    if (theirs == type) return ours;
   }
   return std::nullopt;
 }

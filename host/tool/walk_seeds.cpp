@@ -4,13 +4,13 @@
 
 #include <algorithm>
 #include <chrono>
-#include <fstream>
 #include <map>
 #include <memory>
-#include <sstream>
 #include <thread>
 
 #include "host/files/temporary_directory.hpp"
+#include "host/files/whole.hpp"
+#include "host/flash/tool_run.hpp"
 #include "host/process/child.hpp"
 #include "host/survey/interval.hpp"
 #include "host/tool/console.hpp"
@@ -23,34 +23,13 @@
 namespace verp::tool {
 namespace {
 
-/// The words of one of them.
-std::vector<std::string> words_of(const WalkOptions& o, std::uint64_t seed) {
-  std::vector<std::string> words = {"/proc/self/exe", "walk", o.model, "--json"};
-  const auto add = [&](const char* option, const std::string& value) {
-    words.push_back(fmt::format("{}={}", option, value));
-  };
-  add("--seed", std::to_string(seed));
-  if (o.cycle_s > 0) add("--cycle", fmt::format("{}", o.cycle_s));
-  add("--for", fmt::format("{}", o.walk_s));
-  add("--physics-step", fmt::format("{}", o.physics_step_ms));
-  o.velocity_text.empty() ? add("--step", fmt::format("{}", o.step_m))
-                          : add("--velocity", o.velocity_text);
-  add("--start", o.start);
-  if (!o.bus.empty()) add("--bus", o.bus);
-  if (!o.board.empty()) add("--on", o.board);
-  if (!o.controller.empty()) add("--controller", o.controller);
-  for (const std::string& setting : o.settings) add("--set", setting);
-  if (!o.place.world.empty()) add("--world", o.place.world);
-  for (const std::string& pose : o.place.poses) add("--at-pose", pose);
-  for (const std::string& push : o.touch.pushes) add("--push", push);
-  for (const std::string& setting : o.touch.settings) add("--at", setting);
-  for (const auto& [flag, given] : {std::pair{"--vary", o.vary},
-                                    {"--get-up", o.get_up},
-                                    {"--no-multibody", o.no_multibody},
-                                    {"--no-feedback", o.no_feedback},
-                                    {"--no-gravity", o.no_gravity},
-                                    {"--no-zeros", o.no_zeros}}) {
-    if (given) words.push_back(flag);
+/// The words of one of them: those of them all, and its seed.
+std::vector<std::string> words_of(const WalkOptions& options, std::uint64_t seed) {
+  std::vector<std::string> words = {"/proc/self/exe", "walk", "--json",
+                                    fmt::format("--seed={}", seed)};
+  if (options.model_given) words.push_back(options.model);
+  for (const auto& [option, value] : options.changed) {
+    if (option != "--seeds") words.push_back(value.empty() ? option : option + "=" + value);
   }
   return words;
 }
@@ -99,9 +78,7 @@ class Seeds {
   }
 
   void take(const Walking& walking, int status) {
-    std::stringstream text;
-    text << std::ifstream(walking.output).rdbuf();
-    const std::string said = text.str();
+    const std::string said = files::read(walking.output).value_or("");
     const std::size_t from = std::min(said.find('{'), said.size()), to = said.rfind('}');
     const Json json =
         Json::parse(said.substr(from, to == std::string::npos ? 0 : to + 1 - from), nullptr, false);
@@ -115,8 +92,9 @@ class Seeds {
     survived_ += good ? 1 : 0;
     Json row = {{"seed", walking.seed}, {"survived", good}};
     if (!json.is_object() || !json.contains("failure")) {
-      row["failure"] = fmt::format("its program ended with status {}: {}", status,
-                                   json.is_object() ? json.value("error", "") : last_line(said));
+      row["failure"] =
+          fmt::format("its program ended with status {}: {}", status,
+                      json.is_object() ? json.value("error", "") : flash::last_line(said));
     }
     for (const char* key :
          {"failure", "remark", "fallen", "distance_m", "asked_m", "asked_turn_deg",
@@ -166,11 +144,6 @@ class Seeds {
              range("ZMP bias, mm", bias_mm, 1) + range("steady speed, m/s", speed_m_s, 3) +
              estimates_text(estimates) + fell);
     }
-  }
-
-  static std::string last_line(std::string said) {
-    while (!said.empty() && said.back() == '\n') said.pop_back();
-    return said.substr(said.rfind('\n') + 1);
   }
 
   static void keep(const Json& row, const char* key, std::vector<double>& values) {
