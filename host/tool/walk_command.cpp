@@ -73,7 +73,10 @@ int run_walk(WalkOptions options) {
   if (options.touch.list) return list_quantities(plan, others, world, options.json);
   read_touch(options.touch, plan, others, world);
   require_one_robot(options, others);
-  if (!options.seeds_text.empty()) return walk_seeds(options);
+  if (!options.seeds_text.empty()) {
+    if (!options.model_given) options.model = plan.params.name;
+    return walk_seeds(options);
+  }
   if (!options.map.kind.empty()) return walk_map(options, plan, world);
   Drawn drawn = draw(options, plan, world);
   for (WalkPlan& other : others) {

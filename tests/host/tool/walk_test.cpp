@@ -234,6 +234,15 @@ TEST_F(Walk, SeedsTellTheWayOfTheWayAsked) {
             std::string::npos);
 }
 
+// They walked the usual robot instead.
+TEST_F(Walk, SeedsAreOfTheRobotThatHasAName) {
+  const std::string rest = " --for 3 --physics-step 2 --json";
+  const json alone = json::parse(verp("walk op3 --seed 1" + rest).out);
+  const json many = json::parse(verp("walk --robot a=op3 --seeds 1-1" + rest).out);
+  EXPECT_EQ(many.at("walks").at(0).at("digest"), alone.at("digest"));
+  EXPECT_EQ(many.at("model"), "op3");
+}
+
 // A walk that the gait cannot make so short says so.
 TEST_F(Walk, ShortestWalkThatIsLongerThanAskedSaysSo) {
   const std::string arguments = "walk --for 3 --set gait.start_s=2";
