@@ -3,7 +3,6 @@
 #include <filesystem>
 #include <fstream>
 
-#include "common/control/step.hpp"
 #include "firmware/app/replay_job.hpp"
 #include "host/board/board_error.hpp"
 #include "host/board/qemu.hpp"
@@ -64,20 +63,6 @@ TargetReplay replay_on(const std::string& board, const Params& params,
   firmware.wait_for_success(std::chrono::seconds(options.limit_s));
   const bool with_state = options.state_after && *options.state_after < inputs.size();
   return read_result(result, inputs.size(), with_state);
-}
-
-TargetReplay replay_here(const Params& params, std::span<const Inputs> inputs,
-                         const TargetReplayOptions& options) {
-  TargetReplay result;
-  result.digests.reserve(inputs.size());
-  State state;
-  Outputs outputs;
-  for (const Inputs& each : inputs) {
-    step(params, state, each, outputs);
-    result.digests.push_back(state.digest);
-    if (options.state_after == result.digests.size() - 1) result.state = state;
-  }
-  return result;
 }
 
 }  // namespace verp::board

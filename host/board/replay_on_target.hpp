@@ -36,8 +36,4 @@ void write_replay_job(const std::filesystem::path& path, const Params& params,
 TargetReplay replay_on(const std::string& board, const Params& params,
                        std::span<const Inputs> inputs, const TargetReplayOptions& options = {});
 
-/// The same in this process, to compare with.
-TargetReplay replay_here(const Params& params, std::span<const Inputs> inputs,
-                         const TargetReplayOptions& options = {});
-
 }  // namespace verp::board

@@ -1,9 +1,6 @@
 #include "host/bus/bus_server.hpp"
 
-#include <unistd.h>
-
 #include <algorithm>
-#include <cerrno>
 #include <cstring>
 #include <utility>
 
@@ -20,29 +17,6 @@ T payload_as(const std::uint8_t* payload) {
 }
 
 }  // namespace
-
-ByteStreams file_streams(int from_controller, int to_controller) {
-  ByteStreams streams;
-  streams.read_some = [from_controller](void* data, std::size_t capacity) -> std::size_t {
-    ssize_t count = 0;
-    do {
-      count = ::read(from_controller, data, capacity);
-    } while (count < 0 && errno == EINTR);
-    return count > 0 ? static_cast<std::size_t>(count) : 0;
-  };
-  streams.write = [to_controller](const void* data, std::size_t size) {
-    const auto* bytes = static_cast<const std::uint8_t*>(data);
-    while (size > 0) {
-      const ssize_t count = ::write(to_controller, bytes, size);
-      if (count < 0 && errno == EINTR) continue;
-      if (count <= 0) return false;
-      bytes += count;
-      size -= static_cast<std::size_t>(count);
-    }
-    return true;
-  };
-  return streams;
-}
 
 BusServer::BusServer(const Params& params, VirtualBus& bus, ByteStreams streams, ServerHooks hooks,
                      RunOptions options)

@@ -21,9 +21,6 @@ struct ByteStreams {
   std::function<bool(const void* data, std::size_t size)> write;
 };
 
-/// Streams over two file descriptors, such as a FIFO each way.
-ByteStreams file_streams(int from_controller, int to_controller);
-
 /// What a controller asks for and delivers, tick by tick. Empty members are allowed.
 struct ServerHooks {
   std::function<app::OperatorOrder(std::uint32_t tick)>

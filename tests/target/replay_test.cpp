@@ -1,8 +1,10 @@
 #include <gtest/gtest.h>
 
 #include <cstdlib>
+#include <span>
 #include <string>
 
+#include "common/control/step.hpp"
 #include "host/board/replay_on_target.hpp"
 #include "tests/support/random_inputs.hpp"
 
@@ -25,6 +27,20 @@ Params plain_robot() {
   params.imu.gyro_rad_s_per_count = 0.001f;
   params.imu.accel_m_s2_per_count = 0.01f;
   return params;
+}
+
+/// The same in this process, to compare with.
+TargetReplay replay_here(const Params& params, std::span<const Inputs> inputs,
+                         const TargetReplayOptions& options = {}) {
+  TargetReplay result;
+  State state;
+  Outputs outputs;
+  for (const Inputs& each : inputs) {
+    step(params, state, each, outputs);
+    result.digests.push_back(state.digest);
+    if (options.state_after == result.digests.size() - 1) result.state = state;
+  }
+  return result;
 }
 
 std::string image_of(const State& state) {

@@ -34,13 +34,8 @@ struct Virtual : SimulatedTime {
 /// The virtual bus again, through the link of an emulated microcontroller: over FIFOs.
 struct Remote : SimulatedTime {
   explicit Remote(int) {
-    server = std::thread([this] {
-      bus::BusServer(
-          params, virtual_bus,
-          bus::file_streams(pipes.from_controller.read_end(), pipes.to_controller.write_end()), {},
-          {})
-          .serve();
-    });
+    server = std::thread(
+        [this] { bus::BusServer(params, virtual_bus, server_streams(pipes), {}, {}).serve(); });
     EXPECT_TRUE(bus.hello(received));
   }
   ~Remote() {

@@ -21,10 +21,7 @@ class BusServer : public ::testing::Test {
  protected:
   void start(bus::ServerHooks hooks, bus::RunOptions options = {}) {
     server = std::thread([this, hooks = std::move(hooks), options] {
-      bus::BusServer service(
-          params, virtual_bus,
-          bus::file_streams(pipes.from_controller.read_end(), pipes.to_controller.write_end()),
-          hooks, options);
+      bus::BusServer service(params, virtual_bus, test::server_streams(pipes), hooks, options);
       result = service.serve();
     });
   }
@@ -212,11 +209,7 @@ TEST(RemoteLoop, RecordsWhatTheLoopInThisProcessRecords) {
   hooks.order = [&distant](std::uint32_t tick) { return distant.order(tick); };
   hooks.record = [&distant](const TickRecord& record) { distant.records.push_back(record); };
   const bus::ServerResult result =
-      bus::BusServer(
-          params, served,
-          bus::file_streams(pipes.from_controller.read_end(), pipes.to_controller.write_end()),
-          hooks, {.ticks = kTicks})
-          .serve();
+      bus::BusServer(params, served, test::server_streams(pipes), hooks, {.ticks = kTicks}).serve();
   controller.join();
   EXPECT_EQ(result.exit_code, 0u) << result.reason;
   ASSERT_EQ(distant.records.size(), local.records.size());

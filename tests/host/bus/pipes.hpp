@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <stdexcept>
 
+#include "host/bus/bus_server.hpp"
+
 namespace verp::test {
 
 /// One pipe; closed at the end of its life.
@@ -54,5 +56,15 @@ struct PipeEnd {
   }
   Pipe& pipe;
 };
+
+/// What a bus::BusServer at the other end takes.
+inline bus::ByteStreams server_streams(PipePair& pipes) {
+  return {
+      .read_some = [end = PipeEnd{pipes.from_controller}](
+                       void* data,
+                       std::size_t capacity) mutable { return end.read_some(data, capacity); },
+      .write = [end = PipeEnd{pipes.to_controller}](
+                   const void* data, std::size_t size) mutable { return end.write(data, size); }};
+}
 
 }  // namespace verp::test
