@@ -45,17 +45,18 @@ struct Sector {
   std::uint32_t bytes;
 };
 
-/// What a family can bear. Clocks at 2.7 to 3.6 V.
+/// What a family can bear. Clocks at 2.7 to 3.6 V. Numbers that stand here are the same of all
+/// three.
 struct Limits {
   std::uint32_t sysclk_max_hz;            ///< without overdrive
   std::uint32_t sysclk_overdrive_max_hz;  ///< equal to sysclk_max_hz where there is no overdrive
   std::uint32_t apb1_max_hz;
   std::uint32_t apb2_max_hz;
-  std::uint32_t hz_per_wait_state;  ///< flash wait states = ceil(HCLK / this) - 1
+  std::uint32_t hz_per_wait_state = 30'000'000;  ///< flash wait states = ceil(HCLK / this) - 1
   std::uint32_t wait_states_max;
-  std::uint32_t vco_in_min_hz, vco_in_max_hz;  ///< after M
-  std::uint32_t vco_min_hz, vco_max_hz;        ///< after N
-  std::uint32_t n_min, n_max;
+  std::uint32_t vco_in_min_hz = 1'000'000, vco_in_max_hz = 2'000'000;  ///< after M
+  std::uint32_t vco_min_hz = 100'000'000, vco_max_hz = 432'000'000;    ///< after N
+  std::uint32_t n_min = 50, n_max = 432;
   std::uint32_t flash_bytes;
   const Sector* sectors;
   std::uint32_t sector_count;
@@ -86,14 +87,7 @@ inline constexpr Limits kLimitsF405 = {.sysclk_max_hz = 168000000,
                                        .sysclk_overdrive_max_hz = 168000000,
                                        .apb1_max_hz = 42000000,
                                        .apb2_max_hz = 84000000,
-                                       .hz_per_wait_state = 30000000,
                                        .wait_states_max = 7,
-                                       .vco_in_min_hz = 1000000,
-                                       .vco_in_max_hz = 2000000,
-                                       .vco_min_hz = 100000000,
-                                       .vco_max_hz = 432000000,
-                                       .n_min = 50,
-                                       .n_max = 432,
                                        .flash_bytes = 0x100000,
                                        .sectors = kSectorsF405,
                                        .sector_count = 12,
@@ -105,14 +99,7 @@ inline constexpr Limits kLimitsF446 = {.sysclk_max_hz = 168000000,
                                        .sysclk_overdrive_max_hz = 180000000,
                                        .apb1_max_hz = 45000000,
                                        .apb2_max_hz = 90000000,
-                                       .hz_per_wait_state = 30000000,
                                        .wait_states_max = 15,
-                                       .vco_in_min_hz = 1000000,
-                                       .vco_in_max_hz = 2000000,
-                                       .vco_min_hz = 100000000,
-                                       .vco_max_hz = 432000000,
-                                       .n_min = 50,
-                                       .n_max = 432,
                                        .flash_bytes = 0x80000,
                                        .sectors = kSectorsF405,
                                        .sector_count = 8,
@@ -124,14 +111,7 @@ inline constexpr Limits kLimitsF746 = {.sysclk_max_hz = 180000000,
                                        .sysclk_overdrive_max_hz = 216000000,
                                        .apb1_max_hz = 54000000,
                                        .apb2_max_hz = 108000000,
-                                       .hz_per_wait_state = 30000000,
                                        .wait_states_max = 9,
-                                       .vco_in_min_hz = 1000000,
-                                       .vco_in_max_hz = 2000000,
-                                       .vco_min_hz = 100000000,
-                                       .vco_max_hz = 432000000,
-                                       .n_min = 50,
-                                       .n_max = 432,
                                        .flash_bytes = 0x100000,
                                        .sectors = kSectorsF746,
                                        .sector_count = 8,
