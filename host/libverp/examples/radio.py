@@ -19,10 +19,10 @@ with verp.Session() as session:
     session.radio(loss=0.3, range_m=20)
     said = heard = 0
     next_s, doing = 0.0, b""
-    while session.seen(leader)["time_s"] < 14:
+    while session.seen(leader)["time_s"] < 12:
         session.tick()
         now_s = session.seen(leader)["time_s"]
-        wanted = b"walk" if 6 < now_s < 11 else b"stand"
+        wanted = b"walk" if 6 < now_s < 10 else b"stand"
         if wanted != doing:
             doing = wanted
             obey(session, leader, doing)

@@ -35,8 +35,6 @@ fi
 same walk 3
 digest=$("$verp" walk --for 3 --json | sed -nE 's/^ *"digest": "(0x[0-9a-f]+)".*/\1/p')
 [[ $words == *" $digest" ]] || say "verp walk has digest $digest, the examples say $words"
-said=$(/usr/bin/python3 "$sources/radio.py" talk.mcap) || say "radio.py failed: $said"
-grep -aq verp_msgs/msg/Radio talk.mcap || say "the trace of radio.py has no /radio"
 bound=$(/usr/bin/python3 "$sources/bind.py" "$VERP_LIBRARY" 3) || say "bind.py failed: $bound"
 [[ $bound == "$words" ]] || say "a binding from abi.json says '$bound', the others '$words'"
 same record a.mcap 3
@@ -44,3 +42,5 @@ same record a.mcap 3
 same controller 2
 same tune 2
 [[ $words == "lift 0.0150 m, trunk 1.122 kg" ]] || say "tune says '$words'"
+same radio talk.mcap
+grep -aq verp_msgs/msg/Radio talk.mcap || say "the trace of radio has no /radio"
