@@ -1,10 +1,26 @@
+#include <utility>
+
 #include "host/pictures/commands.hpp"
+#include "host/render/renderer.hpp"
+#include "host/tool/exit_status.hpp"
 #include "host/tool/program.hpp"
 
 namespace {
 
+/// A size that the driver cannot draw, a picture that cannot be written: what was asked, not a bug.
+verp::tool::Subcommand told(verp::tool::Subcommand command) {
+  command.run = [run = std::move(command.run)] {
+    try {
+      return run();
+    } catch (const verp::render::RenderError& error) {
+      throw verp::tool::ToolError(verp::tool::kBadInput, error.what());
+    }
+  };
+  return command;
+}
+
 std::vector<verp::tool::Subcommand> commands(CLI::App& root) {
-  return {verp::pictures::add_shot(root), verp::pictures::add_video(root)};
+  return {told(verp::pictures::add_shot(root)), told(verp::pictures::add_video(root))};
 }
 
 }  // namespace

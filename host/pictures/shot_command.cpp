@@ -51,7 +51,8 @@ scene::Snapshot instant(const ShotOptions& options, Film& film, tool::Progress& 
   });
   progress.clear();
   if (tool::interrupted()) throw ToolError(kRunFailed, "verp shot: interrupted; no picture");
-  if (shown || (is_trace(options.walk) && !found.robots.empty())) return found;
+  const bool last = is_trace(options.walk) && at_s <= film.end_s() && !found.robots.empty();
+  if (shown || last) return found;
   throw ToolError(kBadInput, fmt::format("{}: --at {:g}: the run is over before; give less, or a "
                                          "longer walk with --for",
                                          kShot, at_s));

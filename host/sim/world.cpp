@@ -18,6 +18,8 @@ namespace {
 struct OdeGaveUp : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
+/// What ODE would print of what it goes on after: nobody can act on it.
+void say_nothing(int, const char*, va_list) {}
 [[noreturn]] void give_up(int, const char* text, va_list arguments) {
   char said[256];
   std::vsnprintf(said, sizeof said, text, arguments);
@@ -31,6 +33,7 @@ struct OdeRuntime {
     dInitODE2(0);
     dSetErrorHandler(give_up);
     dSetDebugHandler(give_up);
+    dSetMessageHandler(say_nothing);
   }
   ~OdeRuntime() { dCloseODE(); }
 };

@@ -89,8 +89,8 @@ class Diverged : public std::runtime_error {
       : std::runtime_error("physics diverged " + std::to_string(at_s).substr(0, 6) +
                            " s after its start, in steps of " +
                            std::to_string(1e3 * step_s).substr(0, 4) +
-                           " ms; smaller ones may hold, or gains, masses or inertias of the "
-                           "robot's file are beyond any (" +
+                           " ms; smaller ones may hold, or a push, or gains, masses or "
+                           "inertias of the robot's file are beyond any (" +
                            why + ")") {}
 };
 

@@ -170,9 +170,14 @@ Walks walk_together(const WalkPlan& plan, const std::vector<WalkPlan>& others,
   const wire::SystemClock clock;
   const std::uint64_t begun_us = clock.now_us();
   Pace pace(options.real_time, plan.params.period_us);
-  while (const session::Robot* robot = session.tick()) {
-    if (robot == &first) pace.next();
-    team.look_after_losses();
+  std::string diverged;  // what was recorded up to there is kept, as of every other end
+  try {
+    while (const session::Robot* robot = session.tick()) {
+      if (robot == &first) pace.next();
+      team.look_after_losses();
+    }
+  } catch (const sim::Diverged& error) {
+    diverged = error.what();
   }
   pace.end();
   if (cameras != nullptr) cameras->finish();
@@ -180,6 +185,7 @@ Walks walk_together(const WalkPlan& plan, const std::vector<WalkPlan>& others,
   walks.deadlines = pace.deadlines();
   walks.took_s = 1e-6 * static_cast<double>(clock.now_us() - begun_us);
   walks.result = session.result(0);
+  if (!diverged.empty()) walks.result.failure = diverged;
   for (std::size_t i = 0; i < others.size(); ++i)
     walks.others.emplace_back(others[i].name, session.result(i + 1));
   if (session.scenery() != nullptr) walks.objects = objects_of(*session.scenery());

@@ -92,9 +92,19 @@ int run_view(const tool::ViewOptions& asked) {
   return show(window);
 }
 
+/// What ends before the window is closed is told by whoever asked, not as the display's end.
+int run_view_and_leave(const tool::ViewOptions& asked) {
+  try {
+    return run_view(asked);
+  } catch (...) {
+    leave_the_display();
+    throw;
+  }
+}
+
 std::vector<tool::Subcommand> commands(CLI::App& root) {
   auto options = std::make_shared<tool::ViewOptions>();
-  return {{tool::declare_view(root, *options), [options] { return run_view(*options); }}};
+  return {{tool::declare_view(root, *options), [options] { return run_view_and_leave(*options); }}};
 }
 
 }  // namespace

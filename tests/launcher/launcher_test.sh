@@ -122,6 +122,11 @@ launch bench --pc --yes
 check 'bench --pc gets its libraries' 7 'bench --pc' 'missing: libbench'
 [[ ! -s $scratch/build/host-release/build.ninja ]] || { echo 'FAILED: new packages, but not configured anew' && failed=1; }
 ! grep -q gcc-arm "$scratch/installed" || { echo 'FAILED: bench --pc installed cross tools' && failed=1; }
+launch bench --only window --yes
+check 'the window is measured with what it needs' 7 'bench --only window' ''
+grep -q window_bench "$scratch/built" || { echo 'FAILED: bench --only window built no window' && failed=1; }
+! grep -q gcc-arm "$scratch/installed" || { echo 'FAILED: bench --only window installed cross tools' && failed=1; }
+[[ ! -e $scratch/build/fw-b1 ]] || { echo 'FAILED: bench --only window built firmware' && failed=1; }
 launch bench --yes
 check 'bench gets the cross tools too' 7 'bench' 'missing: gcc-arm'
 [[ -e $scratch/build/fw-b1 ]] || { echo 'FAILED: bench built no firmware' && failed=1; }

@@ -219,6 +219,9 @@ TEST_F(Pictures, OfAWalkAndOfItsTraceShowTheSameInstantAndTheWalkKeepsItsBits) {
   EXPECT_LT(render::apart(render::read_png((folder_ / "trace.png").string()),
                           render::read_png((folder_ / "twin.png").string())),
             1.0);
+  for (const char* marks : {"", " --marks"})
+    expect_refused(std::string("shot a.mcap --at 30 -o late.png") + marks,
+                   "--at 30: the run is over");
   ASSERT_EQ(verp("video a.mcap -o a.gif --from 3 --to 3.4 --fps 10 --size 64x64").status, 0);
   EXPECT_EQ(slurp(folder_ / "a.gif").substr(0, 6), "GIF89a");
 }
@@ -229,6 +232,7 @@ TEST_F(Pictures, WrongWordsAndMissingThingsCostOneLineEach) {
   expect_refused("shot generic21 -o a.jpg", ".png");
   expect_refused("shot generic21 -o none/a.png", "no folder");
   expect_refused("shot nobody -o a.png", "nobody");
+  expect_refused("shot generic21 -o /proc/a.png", "/proc/a.png: cannot be written");
   expect_refused("shot none.mcap -o a.png", "no such file");
   expect_refused("shot generic21", "-o");
   expect_refused("shot none.mcap -o a.png --world demo", "--world is of a walk");

@@ -88,6 +88,16 @@ TEST_F(Walk, SameSeedSameBitsOtherSeedOtherBits) {
   EXPECT_EQ(json::parse(other.out).at("divergence").at("stage"), "inputs");
 }
 
+// A solver that gives up is an end like others: its line is ours, and the trace is whole.
+TEST_F(Walk, WhatPhysicsCannotFollowKeepsItsTrace) {
+  const Outcome torn =
+      verp("walk --for 6 --json --record a.mcap --at '1: trunk.torque_n_m.x=100000'");
+  EXPECT_EQ(torn.status, 1);
+  EXPECT_NE(torn.err.find("physics diverged"), std::string::npos) << torn.err;
+  EXPECT_EQ(std::count(torn.err.begin(), torn.err.end(), '\n'), 1) << torn.err;
+  EXPECT_EQ(verp("replay a.mcap").status, 0);
+}
+
 TEST_F(Walk, DamagedTracesAreRefusedAndRecovered) {
   ASSERT_EQ(verp("walk --for 3 --json --record a.mcap").status, 0);
   cut(folder_ / "a.mcap", folder_ / "cut.mcap", fs::file_size(folder_ / "a.mcap") / 2);
