@@ -37,6 +37,7 @@ class WorldLoader {
     out_.name = world.Name();
     out_.gravity_m_s2 = to_vector(world.Gravity());
     if (world.Scene() != nullptr) read_scene(*world.Scene());
+    read_effects();
     const sdf::ElementPtr camera = inner(inner(world.Element(), "gui"), "camera");
     if (inner(camera, "pose"))
       out_.view = to_transform(camera->Get<ignition::math::Pose3d>("pose"));
@@ -79,6 +80,24 @@ class WorldLoader {
     read.end_m = fog->Get<double>("end", read.end_m).first;
     read.density_1_m = fog->Get<double>("density", read.density_1_m).first;
     out_.fog = read;
+  }
+
+  /// <scene> ... <verp:effects antialias="false" textures="true" transparency="true"/>
+  void read_effects() {
+    for (const XmlElement& scene : xml_.world().children("scene")) {
+      for (const XmlElement& effects : scene.children("verp:effects")) {
+        effects.allow({"antialias", "textures", "transparency"});
+        const auto read = [&](const char* name, bool& effect) {
+          const std::string text = effects.text(name, "true");
+          if (text != "true" && text != "false")
+            effects.fail(std::string(name) + "=\"" + text + "\"", "give true or false");
+          effect = text == "true";
+        };
+        read("antialias", out_.antialias);
+        read("textures", out_.textures);
+        read("transparency", out_.transparency);
+      }
+    }
   }
 
   void add_light(const sdf::Light& light) {

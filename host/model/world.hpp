@@ -125,6 +125,8 @@ struct World {
   Color ambient{0.4, 0.4, 0.4, 1}, background{0.7, 0.7, 0.7, 1};
   bool shadows = true;
   bool sky = false;  ///< the background is brighter toward the horizon
+  /// Pictures of it have that: <verp:effects> of <scene>.
+  bool antialias = true, textures = true, transparency = true;
   std::optional<Fog> fog;
   std::vector<Light> lights;
   std::optional<Transform> view;     ///< of <gui><camera>: x ahead, z up

@@ -209,9 +209,12 @@ struct Renderer::Impl {
     glBindVertexArray(0);
   }
 
-  /// Into the canvas, antialiased if asked for.
+  /// Into the canvas, antialiased if asked for; with what the scene's file leaves on.
   void draw_canvas(const scene::Snapshot& now, const scene::Camera& camera, Size size,
-                   const Effects& effects) {
+                   Effects effects) {
+    effects.antialias &= stage.scene().antialias;
+    effects.textures &= stage.scene().textures;
+    effects.transparency &= stage.scene().transparency;
     const int samples = effects.antialias ? kSamples : 0;
     if (!canvas.fits(size.width, size.height, samples)) {
       canvas = Canvas(size.width, size.height, GL_RGBA8, samples);

@@ -85,6 +85,9 @@ void Stage::set_looks(const scene::Scene& scene) {
   scene_.fog = scene.fog;
   scene_.sky = scene.sky;
   scene_.ground = scene.ground;
+  scene_.antialias = scene.antialias;
+  scene_.textures = scene.textures;
+  scene_.transparency = scene.transparency;
   for (std::size_t i = 0; i < std::min(scene.items.size(), scene_.items.size()); ++i) {
     const std::string texture = scene_.items[i].material.texture;
     scene_.items[i].material = scene.items[i].material;

@@ -127,6 +127,7 @@ struct Scene {
   Fog fog;
   Sky sky;
   Ground ground;
+  bool antialias = true, textures = true, transparency = true;  ///< what its file leaves on
   std::vector<Mount> cameras;
   std::vector<std::string> notes;  ///< what a robot's file names and is not there, a line a robot
 };

@@ -142,6 +142,9 @@ class WorldBuilder {
     scene_.sky = {background, background};
     if (world_.sky) scene_.sky.horizon = mixed(background, {1, 1, 1, 1}, 0.6F);
     if (world_.fog) scene_.fog = fog_of(*world_.fog);
+    scene_.antialias = world_.antialias;
+    scene_.textures = world_.textures;
+    scene_.transparency = world_.transparency;
   }
 
   Item& add(const model::WorldObject& object, const model::Shape& shape, const Transform& pose) {

@@ -135,6 +135,7 @@ class MainWindow final : public QMainWindow {
   QByteArray first_layout_;
   std::string failure_, said_;
   std::set<std::string> told_;              ///< of what is not drawn: once each
+  std::optional<scene::Vec3> grip_link_m_;  ///< where another link was taken, in its frame
   std::optional<scene::Vec3> foot_from_m_;  ///< of the foot that is dragged, when it was taken
   int frames_ = 0;
 };

@@ -54,13 +54,17 @@ void MainWindow::hold(const SceneView::Hold& at) {
                            .arg(push.for_s));
   }
   const int side = pose_->hand()->foot_of(at.node);
-  if (side < 0) return;
+  if (side < 0) {
+    if (!grip_link_m_) grip_link_m_ = pose_->in_link_m(at.node, at.at_world_m);
+    return pose_->drag_link(at.node, *grip_link_m_, at.to_world_m);
+  }
   if (!foot_from_m_) foot_from_m_ = pose_->sole_world_m(side);
   pose_->drag_foot(side, *foot_from_m_ + at.to_world_m - at.at_world_m);
 }
 
 void MainWindow::let_go(const SceneView::Hold& at) {
   foot_from_m_.reset();
+  grip_link_m_.reset();
   if (pose_->posing() || !player_ || player_->live() == nullptr) return;
   scene_->say("");
   player_->live()->intervene(push_of(at));

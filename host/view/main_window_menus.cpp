@@ -152,6 +152,7 @@ void MainWindow::make_view_menu() {
   connect(follow, &QAction::toggled, this, [this](bool on) { scene_->set_follow(on); });
   view->addSeparator();
   QMenu* marks = view->addMenu("&Show");
+  marks->setObjectName("show");
   const auto mark = [this, marks](const char* text, bool render::Effects::*effect) {
     QAction* action = marks->addAction(text);
     connect(marks, &QMenu::aboutToShow, action, [this, action, effect] {
@@ -172,6 +173,7 @@ void MainWindow::make_view_menu() {
   mark("Support polygon", &E::support);
   mark("Contact forces", &E::contacts);
   mark("Footsteps", &E::footsteps);
+  mark("Trails", &E::trails);
   mark("Goals, see-through", &E::goals);
   mark("Axes of links", &E::axes);
   mark("Collision shapes", &E::collisions);
@@ -180,6 +182,10 @@ void MainWindow::make_view_menu() {
   mark("Antialiasing", &E::antialias);
   mark("Coarse shadows, quicker", &E::quick);
   mark("Fog", &E::fog);
+  mark("Textures", &E::textures);
+  mark("Transparency", &E::transparency);
+  mark("Sky", &E::sky);
+  mark("Floor", &E::ground);
   mark("Floor's grid", &E::ground_grid);
   view->addAction("&Fit plots", Qt::Key_Home, this, [this] { plots_->fit(); });
   QAction* dark = view->addAction("&Dark");

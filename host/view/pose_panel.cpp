@@ -24,7 +24,8 @@ PosePanel::PosePanel(QWidget* parent)
   setObjectName("pose");
   posing_->setObjectName("posing");
   auto* stand = new QPushButton("Stand", this);
-  auto* hint = new QLabel("No physics here. Move joints below, or drag a foot with Shift.", this);
+  auto* hint = new QLabel(
+      "No physics here. Move joints below, or drag a foot, a hand or any link with Shift.", this);
   hint->setObjectName("hint");
   hint->setWordWrap(true);
   legs_->setObjectName("reach");
@@ -118,6 +119,8 @@ void PosePanel::show_hand() {
                  .arg(side == 0 ? "Left" : "Right", QString::fromStdString(hand_->reach(side)),
                       QString::fromStdString(hand_->solver(side)));
   }
+  if (!hand_->link_reach().empty())
+    lines << QString::fromStdString(link_ + ": " + hand_->link_reach());
   legs_->setText(lines.join("\n"));
   if (changed) changed();
 }
@@ -133,6 +136,19 @@ scene::Vec3 PosePanel::sole_world_m(int side) const {
 void PosePanel::drag_foot(int side, const scene::Vec3& sole_world_m) {
   const scene::Transform body = hand_->snapshot().robots.front().link_world.front();
   hand_->move_foot(side, body.inverse() * sole_world_m);
+  show_hand();
+}
+
+scene::Vec3 PosePanel::in_link_m(int node, const scene::Vec3& at_world_m) const {
+  const auto now = hand_->snapshot();
+  return now.robots.front().link_world.at(std::size_t(node)).inverse() * at_world_m;
+}
+
+void PosePanel::drag_link(int node, const scene::Vec3& point_link_m,
+                          const scene::Vec3& to_world_m) {
+  const scene::Transform body = hand_->snapshot().robots.front().link_world.front();
+  link_ = entity_->nodes.at(std::size_t(node)).name;
+  hand_->move_link(node, point_link_m, body.inverse() * to_world_m);
   show_hand();
 }
 

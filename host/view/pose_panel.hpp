@@ -25,9 +25,13 @@ class PosePanel final : public QWidget {
   bool posing() const;
   void set_posing(bool posing);
   PoseHand* hand() { return hand_.get(); }
+  /// A point of a link, in its frame, that is dragged to there.
+  void drag_link(int node, const scene::Vec3& point_link_m, const scene::Vec3& to_world_m);
   /// A foot that is dragged to there.
   void drag_foot(int side, const scene::Vec3& sole_world_m);
   scene::Vec3 sole_world_m(int side) const;
+  /// In the frame of that link.
+  scene::Vec3 in_link_m(int node, const scene::Vec3& at_world_m) const;
   Picture picture() const;
 
   std::function<void()> changed;  ///< pose, or whether there is one
@@ -40,6 +44,7 @@ class PosePanel final : public QWidget {
   std::unique_ptr<PoseHand> hand_;
   QCheckBox* posing_;
   QLabel* legs_;
+  std::string link_;  ///< that was dragged last; empty: none was
   QWidget* joints_ = nullptr;
   QGridLayout* grid_ = nullptr;
   std::vector<QSlider*> sliders_;

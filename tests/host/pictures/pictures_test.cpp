@@ -256,6 +256,47 @@ TEST_F(Pictures, WrongWordsAndMissingThingsCostOneLineEach) {
   EXPECT_FALSE(fs::exists(folder_ / "a.mp4.part"));
 }
 
+// ... what a word leaves out of a picture, the world's file can too.
+TEST_F(Pictures, AWorldsFileSwitchesEffectsOff) {
+  ASSERT_EQ(verp("shot generic21 -o paint.png --size 64x64").status, 0);
+  const auto world = [this](const std::string& in_scene) {
+    const auto box = [](const std::string& name, const std::string& pose, const std::string& look) {
+      return "<model name='" + name + "'><static>true</static><pose>" + pose +
+             " 0 0 0</pose><link name='l'><visual name='v'><geometry><box><size>0.1 0.4 0.4</size>"
+             "</box></geometry>" +
+             look + "</visual></link></model>";
+    };
+    std::ofstream(folder_ / "w.sdf")
+        << "<sdf version='1.9' xmlns:verp='verp'><world name='w'><scene>" << in_scene
+        << "</scene><model name='floor'><static>true</static><link name='l'><collision name='c'>"
+           "<geometry><plane><normal>0 0 1</normal></plane></geometry></collision></link></model>"
+        << box("painted", "1 0.3 0.3",
+               "<material><diffuse>1 1 1 "
+               "1</diffuse><pbr><metal><albedo_map>paint.png</albedo_map></metal></pbr></material>")
+        << box("glass", "1 -0.3 0.3", "<transparency>0.6</transparency>") << "</world></sdf>";
+  };
+  const auto picture = [&](const std::string& words) {
+    const Outcome shot = verp("shot --world w.sdf --camera head -o a.png --size 160x120" + words);
+    EXPECT_EQ(shot.status, 0) << shot.err;
+    return render::read_png((folder_ / "a.png").string());
+  };
+  world("");
+  const render::Image all = picture("");
+  for (const std::string effect : {"antialias", "textures", "transparency"}) {
+    world("");
+    const render::Image asked = picture(" --no-" + effect);
+    EXPECT_GT(render::apart(all, asked), 0.01) << effect;
+    world("<verp:effects " + effect + "='false'/>");
+    EXPECT_EQ(picture("").rgb, asked.rgb) << effect;
+    world("<verp:effects " + effect + "='true'/>");
+    EXPECT_EQ(picture("").rgb, all.rgb) << effect;
+  }
+  world("<sky/>");
+  EXPECT_GT(render::apart(all, picture("")), 0.01);
+  world("<verp:effects textures='maybe'/>");
+  expect_refused("shot --world w.sdf -o a.png", "textures=\"maybe\"");
+}
+
 TEST_F(Pictures, AMeshThatIsNotThereIsSaidInALineAndAWorldShowsThoseOfAnyFormat) {
   const std::string robot = slurp(model::find_model("generic21"));
   const std::size_t from = robot.find("<geometry>", robot.find("<visual")),

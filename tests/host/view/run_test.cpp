@@ -1,7 +1,10 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <filesystem>
+#include <random>
 #include <thread>
 
 #include "host/model/params.hpp"
@@ -181,6 +184,60 @@ TEST(PoseHand, AFootGoesWhereItIsDraggedAsFarAsTheLegReaches) {
   EXPECT_NE(hand.reach(0).find("out of reach"), std::string::npos);
   EXPECT_EQ(hand.foot_of(plan.params.leg[1].joint[5] + 1), 1);
   EXPECT_EQ(hand.foot_of(0), -1);
+}
+
+/// The last link of that arm, and a point at its end.
+int hand_of(const model::Entity& entity, const std::string& joint) {
+  const auto found = std::find_if(entity.joints.begin(), entity.joints.end(),
+                                  [&](const model::Joint& each) { return each.name == joint; });
+  return static_cast<int>(found - entity.joints.begin()) + 1;
+}
+
+TEST(PoseHand, AnArmGoesWhereItIsDragged) {
+  const session::WalkPlan plan = plan_of("dxl");
+  const int node = hand_of(plan.entity, "l_elbow");
+  const scene::Vec3 point(0.01, 0, -0.08);
+  std::mt19937 random(2001);
+  std::uniform_real_distribution<double> any(-0.5, 0.5);
+  for (int i = 0; i < 100; ++i) {
+    PoseHand there(plan.entity, plan.params), hand(plan.entity, plan.params);
+    for (int joint = node - 1; joint >= 0;
+         joint = plan.entity.joints[std::size_t(joint)].parent - 1)
+      there.set_joint(joint, there.joint_rad()[std::size_t(joint)] + any(random));
+    const scene::Vec3 to = there.point_body_m(node, point);
+    const std::vector<double> before = hand.joint_rad();
+    hand.move_link(node, point, to);
+    EXPECT_LT((hand.point_body_m(node, point) - to).norm(), 2e-4) << i << hand.link_reach();
+    EXPECT_EQ(hand.link_reach().find("within reach"), 0u);
+    // Nothing moves but the arm.
+    for (std::size_t j = 0; j < before.size(); ++j) {
+      const bool of_arm = plan.entity.joints[j].name.starts_with("l_shoulder") ||
+                          plan.entity.joints[j].name == "l_elbow";
+      if (!of_arm) {
+        EXPECT_EQ(hand.joint_rad()[j], before[j]);
+      }
+      EXPECT_GE(hand.joint_rad()[j], plan.entity.joints[j].lower_rad);
+      EXPECT_LE(hand.joint_rad()[j], plan.entity.joints[j].upper_rad);
+    }
+  }
+}
+
+TEST(PoseHand, AnArmThatCannotReachStretchesThereAndSaysByHowMuchItIsShort) {
+  const session::WalkPlan plan = plan_of("dxl");
+  const int node = hand_of(plan.entity, "l_elbow");
+  const scene::Vec3 point(0, 0, -0.08), to(1, 0.2, 0.1);
+  PoseHand hand(plan.entity, plan.params);
+  hand.move_link(node, point, to);
+  const double short_m = (hand.point_body_m(node, point) - to).norm();
+  EXPECT_GT(short_m, 0.5);
+  EXPECT_LT(short_m, (to - hand.point_body_m(node, scene::Vec3::Zero())).norm());
+  EXPECT_NE(hand.link_reach().find(std::to_string(std::lround(1e3 * short_m)) + " mm short"),
+            std::string::npos)
+      << hand.link_reach();
+  hand.move_link(0, point, to);
+  EXPECT_EQ(hand.link_reach(), "is held; take a limb");
+  hand.stand();
+  EXPECT_EQ(hand.link_reach(), "");
 }
 
 }  // namespace

@@ -3,10 +3,13 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <QAction>
 #include <QDockWidget>
 #include <QDoubleSpinBox>
+#include <QMenu>
 #include <QSlider>
 #include <memory>
+#include <set>
 
 #include "common/safety/machine.hpp"
 #include "host/view/state_panel.hpp"
@@ -17,6 +20,29 @@
 // Sessions with what comes from elsewhere: a link, a gamepad, a trace's State.
 namespace verp::view {
 namespace {
+
+TEST_F(Window, EachEffectIsSwitchedByItsMenuAndBack) {
+  watch_robot();
+  window_.player()->pause();
+  ASSERT_TRUE(wait_for([&] { return window_.scene().drawn() > 0; }));
+  QTest::qWait(100);
+  auto* menu = find<QMenu>("show");
+  std::set<QString> seen;
+  for (QAction* action : menu->actions()) {
+    if (!action->isCheckable()) continue;
+    emit menu->aboutToShow();
+    const QImage before = window_.scene().grabFramebuffer();
+    action->toggle();
+    if (window_.scene().grabFramebuffer() != before) seen.insert(action->text());
+    action->toggle();
+    EXPECT_EQ(window_.scene().grabFramebuffer(), before) << action->text().toStdString();
+  }
+  // Fog, textures and what is transparent are of worlds that have them.
+  for (const char* effect :
+       {"Shadows", "Antialiasing", "Sky", "Floor", "Floor's grid", "Axes of links",
+        "Collision shapes", "Centre of mass", "Support polygon"})
+    EXPECT_TRUE(seen.contains(effect)) << effect;
+}
 
 TEST_F(Window, AControllerAtALinkStandsBesideTheRobotAndIsSaidToBeLost) {
   const std::string path = folder_.filePath("link").toStdString();

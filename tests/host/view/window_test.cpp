@@ -181,6 +181,20 @@ TEST_F(Window, AJointAndAFootMoveInTheHand) {
   hold.to_world_m = scene::Vec3(0, 0, -1);
   window_.scene().held(hold);
   EXPECT_TRUE(find<QLabel>("reach")->text().contains("out of reach"));
+  // ... and any other link: the last one of an arm.
+  window_.scene().let_go(hold);
+  const auto elbow = std::find_if(joints.begin(), joints.end(),
+                                  [](const model::Joint& j) { return j.name == "l_elbow"; });
+  hold.node = int(elbow - joints.begin()) + 1;
+  const scene::Vec3 grip(0, 0, -0.05);
+  const auto at = [&] {
+    return window_.pose().picture()->robots[0].link_world[std::size_t(hold.node)] * grip;
+  };
+  hold.at_world_m = at();
+  hold.to_world_m = hold.at_world_m + scene::Vec3(0.03, 0, 0.02);
+  window_.scene().held(hold);
+  EXPECT_LT((at() - hold.to_world_m).norm(), 1e-3) << find<QLabel>("reach")->text().toStdString();
+  EXPECT_TRUE(find<QLabel>("reach")->text().contains("damped least squares"));
 }
 
 TEST_F(Window, WhatCannotBeOpenedIsToldAndTheRunGoesOn) {
