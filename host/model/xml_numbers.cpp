@@ -21,9 +21,11 @@ struct Numbers {
   const char* unit = "";
   bool is_pose = false;         // the first three are a position, the rest angles
   bool may_be_endless = false;  // inf and -inf are as good as none
+  bool is_whole = false;        // libsdformat would read 1e9 as 1
 };
 constexpr double kLargest = std::numeric_limits<float>::max();
 constexpr Numbers kFree = {1, -kLargest, kLargest};  // of sensors: the controller never sees it
+constexpr Numbers kCount = {1, 0, 1e9, "", false, false, true};
 constexpr Numbers kMass = {1, 0, kMostMass_kg, " kg"};
 constexpr Numbers kInertia = {1, -1e5, 1e5, " kg m2"};  // the most mass, the most length away
 constexpr Numbers kSize = {1, 0, kMostLength_m, " m"};
@@ -63,8 +65,8 @@ const std::map<std::string_view, Numbers> kSdfNumbers = {
     {"min", kFree},
     {"max", kFree},
     {"resolution", kFree},
-    {"width", kFree},
-    {"height", kFree},
+    {"width", kCount},
+    {"height", kCount},
     {"horizontal_fov", kFree},
     {"near", kFree},
     {"far", kFree},
@@ -81,7 +83,7 @@ const std::map<std::string_view, Numbers> kSdfNumbers = {
     {"mean", kFree},
     {"bias_mean", kFree},
     {"bias_stddev", kFree},
-    {"samples", kFree},
+    {"samples", kCount},
     {"min_angle", kFree},
     {"max_angle", kFree},
     {"mu1", {1, 0, kMostFriction}},
@@ -126,6 +128,9 @@ void check(const std::string& file, int line, const std::string& what, const std
             text + "'",
         "write digits with a decimal point, like 0.125");
   }
+  if (wanted.is_whole && text.find_first_not_of("0123456789 \t\r\n") != text.npos)
+    throw LoadError(file, line, what + " is not a whole number: '" + text + "'",
+                    "write digits only, like 320");
   for (std::size_t i = 0; i < values->size(); ++i) {
     const Numbers& bounds = wanted.is_pose && i < 3 ? kPosition : wanted;
     require_within(file, line, what, (*values)[i], bounds.low, bounds.high, bounds.unit);

@@ -371,6 +371,10 @@ TEST(BadInput, CamerasThatCannotBeAreRefused) {
     expect_refused(edited(was, is), line, why);
   };
   refused("<width>320</width>", "<width>4</width>", "<image>");
+  for (const char* width : {"3.2e2", "320.5"}) {
+    const std::string is = std::string("<width>") + width + "</width>";
+    expect_refused(edited("<width>320</width>", is), is, "not a whole number");
+  }
   refused("<near>0.02</near>", "<near>30</near>", "<clip>");
   refused("<horizontal_fov>1.0472</horizontal_fov>", "<horizontal_fov>3.1</horizontal_fov>",
           "<horizontal_fov>");
