@@ -130,6 +130,11 @@ TEST_F(Editor, ASmallBipedGrowsFromAnEmptyFileAndStands) {
         return now && now->robots.front().mode == int(safety::Mode::kStanding);
       },
       120000));
+  const std::uint64_t ticks = live.status().ticks;
+  ASSERT_TRUE(QTest::qWaitFor([&] { return live.status().ticks > ticks + 500; }, 120000));
+  const int mode = live.film()->last()->robots.front().mode;
+  EXPECT_TRUE(mode == int(safety::Mode::kStanding) || mode == int(safety::Mode::kWalking)) << mode;
+  EXPECT_EQ(live.film()->last()->robots.front().faults, 0U) << "and 5 s later it is still up";
   press("editor_save");
   EXPECT_EQ(text_of(file), window_.editor().document()->text());
 }

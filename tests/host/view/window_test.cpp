@@ -1,4 +1,5 @@
 #include <QAction>
+#include <QCheckBox>
 #include <QDockWidget>
 #include <QDoubleSpinBox>
 #include <QMenuBar>
@@ -85,10 +86,16 @@ TEST_F(Window, TheEmergencyStopTakesTheTorque) {
       wait_for([&] { return find<QLabel>("fault_emergency stop")->styleSheet().contains("600"); }));
 }
 
-TEST_F(Window, APushByTheMouseIsTheRecordedCommand) {
+TEST_F(Window, AWalkThatIsPushedByTheMouseStepsOnAndThePushIsRecorded) {
   watch_robot(100);
   SceneView& scene = window_.scene();
   ASSERT_TRUE(wait_for([&] { return scene.drawn() > 0; }));
+  key(Qt::Key_W);
+  ASSERT_TRUE(wait_for([&] { return mode() == int(safety::Mode::kWalking); }));
+  live().set_speed(1);
+  const auto carries = [&](int foot) {
+    return [&, foot] { return live().film()->last()->robots.front().stance == foot; };
+  };
   const auto drag = [&](QPoint to) {
     QMouseEvent event(QEvent::MouseMove, to, scene.mapToGlobal(to), Qt::NoButton, Qt::LeftButton,
                       Qt::ShiftModifier);
@@ -98,8 +105,11 @@ TEST_F(Window, APushByTheMouseIsTheRecordedCommand) {
   drag(middle() + QPoint(40, 0));
   drag(middle() + QPoint(90, 0));
   QTest::mouseRelease(&scene, Qt::LeftButton, Qt::ShiftModifier, middle() + QPoint(90, 0));
+  for (const int foot : {0, 1, 0}) EXPECT_TRUE(wait_for(carries(foot), 10)) << "it steps on";
+  live().set_speed(0);
   const std::uint64_t ticks = live().status().ticks;
-  ASSERT_TRUE(wait_for([&] { return live().status().ticks > ticks + 60; }));
+  ASSERT_TRUE(wait_for([&] { return live().status().ticks > ticks + 300; }));
+  EXPECT_EQ(mode(), int(safety::Mode::kWalking));
   EXPECT_EQ(live().status().complaint, "");
   const std::string file = folder_.filePath("pushed.mcap").toStdString();
   ASSERT_EQ(live().save(file), "");
@@ -125,8 +135,10 @@ TEST_F(Window, ASignalIsPlottedAndAClickShowsItsInstant) {
   EXPECT_FALSE(window_.player()->follows());
 }
 
-TEST_F(Window, ANumberChangesWhileItRunsAndIsUndone) {
+TEST_F(Window, ANumberChangesWhileItWalksAndIsUndone) {
   watch_robot(30);
+  key(Qt::Key_W);
+  ASSERT_TRUE(wait_for([&] { return mode() == int(safety::Mode::kWalking); }));
   auto* lift = find<QDoubleSpinBox>("gait.lift_m");
   const double own = lift->value();
   lift->setValue(0.02);
@@ -136,6 +148,7 @@ TEST_F(Window, ANumberChangesWhileItRunsAndIsUndone) {
   QTest::keyClick(&window_, Qt::Key_Z, Qt::ControlModifier);
   ASSERT_TRUE(wait_for([&] { return std::abs(in_force() - own) < 1e-4; }));
   EXPECT_NEAR(lift->value(), own, 1e-4);
+  EXPECT_EQ(mode(), int(safety::Mode::kWalking));
 }
 
 TEST_F(Window, ATraceIsScrubbedAndPlayed) {
@@ -195,6 +208,43 @@ TEST_F(Window, AJointAndAFootMoveInTheHand) {
   window_.scene().held(hold);
   EXPECT_LT((at() - hold.to_world_m).norm(), 1e-3) << find<QLabel>("reach")->text().toStdString();
   EXPECT_TRUE(find<QLabel>("reach")->text().contains("damped least squares"));
+}
+
+TEST_F(Window, AFootFollowsTheMouseThatDragsIt) {
+  watch_robot();
+  SceneView& scene = window_.scene();
+  find<QCheckBox>("posing")->click();
+  ASSERT_TRUE(window_.pose().posing());
+  find<QSlider>("joint_l_knee")->setValue(600);  // a bent knee reaches all ways
+  find<QSlider>("joint_r_knee")->setValue(600);
+  scene.grabFramebuffer();
+  int side = -1;
+  const auto held = scene.held;
+  scene.held = [&](const SceneView::Hold& hold) {
+    side = window_.pose().hand()->foot_of(hold.node);
+    if (side >= 0) held(hold);
+  };
+  const auto move = [&](QPoint to) {
+    QMouseEvent event(QEvent::MouseMove, to, scene.mapToGlobal(to), Qt::NoButton, Qt::LeftButton,
+                      Qt::ShiftModifier);
+    QApplication::sendEvent(&scene, &event);
+  };
+  for (int y = scene.height() - 8; side < 0 && y > 0; y -= 12) {
+    for (int x = 8; side < 0 && x < scene.width(); x += 12) {
+      QTest::mousePress(&scene, Qt::LeftButton, Qt::ShiftModifier, {x, y});
+      move({x, y});
+      if (side >= 0) {
+        const scene::Vec3 from = window_.pose().sole_world_m(side);
+        move({x + 8, y - 8});
+        const scene::Vec3 by = window_.pose().sole_world_m(side) - from;
+        EXPECT_GT(by.z(), 0.002) << "up";
+        EXPECT_GT(by.head<2>().norm(), 0.002) << "and aside";
+        EXPECT_LT(by.norm(), 0.1);
+      }
+      QTest::mouseRelease(&scene, Qt::LeftButton, Qt::ShiftModifier, {x, y});
+    }
+  }
+  EXPECT_GE(side, 0) << "no foot in the picture";
 }
 
 TEST_F(Window, WhatCannotBeOpenedIsToldAndTheRunGoesOn) {
