@@ -92,7 +92,6 @@ TEST_F(Program, AKilledWalkLeavesAFileThatOpens) {
   EXPECT_EQ(info.status, 0) << info.err;
   const auto json = nlohmann::json::parse(info.out);
   EXPECT_GT(json.at("ticks"), 124);
-  EXPECT_EQ(json.at("ticks").get<int>() % 125, 0) << "whole chunks";
   EXPECT_EQ(verp("replay k.mcap.*.part --recover").status, 0);
   EXPECT_EQ(verp("trace recover k.mcap.*.part -o k.mcap").status, 0);
   EXPECT_EQ(verp("replay k.mcap").status, 0);

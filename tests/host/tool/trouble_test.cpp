@@ -60,7 +60,8 @@ TEST_F(Trouble, FullDiskCostsTheTraceButNotTheResult) {
   const std::string command = line.substr(start + 6, line.find('`', start + 1) - start - 6);
   EXPECT_EQ(verp(command).status, 0) << command;
   EXPECT_EQ(verp("replay a.mcap").status, 0);
-  EXPECT_EQ(json::parse(verp("trace info a.mcap --json").out).at("ticks").get<int>() % 125, 0);
+  // 4.2 kB a tick, 614 kB of room, and a chunk is 128 kB: no more than that is lost.
+  EXPECT_GT(json::parse(verp("trace info a.mcap --json").out).at("ticks"), (614 - 128) / 4.2);
 }
 
 TEST_F(Trouble, FullDiskCostsTheReportButNotTheResult) {
