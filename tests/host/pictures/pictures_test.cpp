@@ -211,6 +211,15 @@ TEST_F(Pictures, AStandingRobotAndItsEyeAreAsSomebodyLookedAtThem) {
   })) << labels;
 }
 
+TEST_F(Pictures, TheEyeDistancesAndAFilmstripAreAsSomebodyLookedAtThem) {
+  ASSERT_EQ(verp("shot --world demo --camera head -o eye.png --size 320x240").status, 0);
+  EXPECT_LT(from_golden("eye.png"), kDriver);
+  ASSERT_EQ(verp("shot --world demo --camera head --depth -o depth.png --size 160x120").status, 0);
+  EXPECT_LT(from_golden("depth.png"), kDriver);
+  ASSERT_EQ(verp("shot generic21 --for 6 --states -o states.png --size 640x240").status, 0);
+  EXPECT_LT(from_golden("states.png"), kDriver);
+}
+
 TEST_F(Pictures, OfAWalkAndOfItsTraceShowTheSameInstantAndTheWalkKeepsItsBits) {
   const Outcome walk = verp("walk generic21 --for 3 --record a.mcap --json");
   ASSERT_EQ(walk.status, 0) << walk.err;
