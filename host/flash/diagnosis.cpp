@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "host/flash/tool_run.hpp"
+#include "host/process/child.hpp"
 
 namespace verp::flash {
 namespace {
@@ -184,7 +185,7 @@ void check_chip(const Job& job, const std::string& output) {
   if (number == output.npos) {
     throw FlashError(Kind::kOther,
                      fmt::format("{}: {} did not tell the chip's identifier; its last words: {}",
-                                 job.recipe.board, name_of(job.tool), last_line(output)));
+                                 job.recipe.board, name_of(job.tool), process::last_line(output)));
   }
   const unsigned long found = std::strtoul(output.c_str() + number, nullptr, 16);
   if (found == job.recipe.chip->device_id) return;
@@ -211,7 +212,7 @@ FlashError diagnose(const Job& job, const Step& step, const std::string& output)
   if (saying == nullptr || step.kind == Step::Kind::kCompose) {
     return {Kind::kOther, fmt::format("{}{} failed; {} says: {}{}", board, step.label,
                                       step.command.empty() ? "" : step.command[0],
-                                      last_line(output), aftermath(step))};
+                                      process::last_line(output), aftermath(step))};
   }
   std::string text = filled(saying->meaning, job);
   if (saying->kind == Kind::kPermission) text += "; " + udev_advice(job.tool);

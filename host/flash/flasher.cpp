@@ -15,6 +15,7 @@
 #include "host/flash/tool_run.hpp"
 #include "host/link/link_error.hpp"
 #include "host/link/serial_check.hpp"
+#include "host/process/child.hpp"
 
 namespace verp::flash {
 namespace {
@@ -79,10 +80,10 @@ void run_step(const Job& job, const Step& step, const FlashHooks& hooks) {
   if (step.kind == Step::Kind::kCheckChip) check_chip(job, run.output);
   std::error_code error;
   if (step.bytes > 0 && std::filesystem::file_size(step.file, error) != step.bytes) {
-    throw FlashError(
-        Kind::kOther,
-        fmt::format("{}: {}: {} did not read {} bytes; its last words: {}", job.recipe.board,
-                    step.file.string(), name_of(job.tool), step.bytes, last_line(run.output)));
+    throw FlashError(Kind::kOther,
+                     fmt::format("{}: {}: {} did not read {} bytes; its last words: {}",
+                                 job.recipe.board, step.file.string(), name_of(job.tool),
+                                 step.bytes, process::last_line(run.output)));
   }
 }
 

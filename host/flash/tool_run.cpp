@@ -98,13 +98,4 @@ ToolRun run_tool(const std::vector<std::string>& command, const std::string& pac
   return run;
 }
 
-std::string last_line(const std::string& output) {
-  std::size_t end = output.size();
-  while (end > 0 && (std::isspace(static_cast<unsigned char>(output[end - 1])) != 0)) --end;
-  if (end == 0) return "nothing";
-  const std::size_t before = output.find_last_of("\r\n", end - 1);
-  const std::size_t begin = before == output.npos ? 0 : before + 1;
-  return output.substr(begin, end - begin);
-}
-
 }  // namespace verp::flash

@@ -23,7 +23,4 @@ struct ToolHooks {
 ToolRun run_tool(const std::vector<std::string>& command, const std::string& package,
                  const ToolHooks& hooks);
 
-/// What it said last; "nothing" if it said nothing.
-std::string last_line(const std::string& output);
-
 }  // namespace verp::flash

@@ -99,11 +99,13 @@ session::Hooks Seat::hooks() {
 void Seat::decide(const Params& params, State& state, const Inputs& inputs, Outputs& outputs) {
   if (controller_ == nullptr) return step(params, state, inputs, outputs);
   Moment moment(params, state, inputs, outputs);
+  deciding_ = inputs.tick;
   const int answer = moment.run(controller_, user_, index_);
   if (answer != 0) {
     throw Failure(VERP_CALLBACK_FAILED, fmt::format("the controller of robot {} gave {} at tick {}",
                                                     index_, answer, inputs.tick));
   }
+  deciding_.reset();
   if (moment.decided()) return;
   // The core did not see this tick, so that its digest says nothing of it.
   record::Digest32 digest(0);
@@ -170,6 +172,10 @@ void Seat::write_view(const session::Tick& tick) {
 const session::WalkResult& Seat::finish(session::Session& session) {
   if (result_) return *result_;
   result_ = session.result(index_);
+  // Who did not look at what that tick gave finds it here.
+  if (deciding_)
+    result_->failure =
+        fmt::format("the controller of robot {} failed at tick {}", index_, *deciding_);
   if (!trace_) return *result_;
   const std::unique_ptr<record::TraceWriter> trace = std::move(trace_);
   if (!result_->trace_failure.empty()) throw Failure(VERP_BAD_FILE, result_->trace_failure);

@@ -61,7 +61,8 @@ class Seat {
   verp_tick* view_ = nullptr;
   State state_;
   std::uint32_t tick_ = 0;
-  std::string radio_failure_;  ///< why the trace takes no further messages
+  std::optional<std::uint32_t> deciding_;  ///< the tick in which its controller is, or failed
+  std::string radio_failure_;              ///< why the trace takes no further messages
   std::optional<session::WalkResult> result_;
 };
 

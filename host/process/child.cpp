@@ -6,6 +6,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <cctype>
 #include <cerrno>
 #include <cstdlib>
 #include <sstream>
@@ -158,6 +159,15 @@ std::optional<int> Child::reap(int flags) {
                                   : 128 + WTERMSIG(status);
   }
   return status_;
+}
+
+std::string last_line(const std::string& output) {
+  std::size_t end = output.size();
+  while (end > 0 && (std::isspace(static_cast<unsigned char>(output[end - 1])) != 0)) --end;
+  if (end == 0) return "nothing";
+  const std::size_t before = output.find_last_of("\r\n", end - 1);
+  const std::size_t begin = before == output.npos ? 0 : before + 1;
+  return output.substr(begin, end - begin);
 }
 
 }  // namespace verp::process

@@ -54,4 +54,7 @@ class Child {
   std::optional<int> status_;
 };
 
+/// What it said last; "nothing" if it said nothing.
+std::string last_line(const std::string& output);
+
 }  // namespace verp::process

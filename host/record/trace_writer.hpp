@@ -18,8 +18,8 @@ struct TraceOptions {
       false;        ///< keep State at every tick, so that any divergence names its field exactly
   bool ros = true;  ///< add channels for viewers: README.md
   std::uint64_t chunk_ticks = 125;  ///< a crash loses at most this many
-  /// Or as many as that hold so much: in real time a chunk's end is part of a tick, and takes it
-  /// 7 ms for 1 MB (November 2026).
+  /// Or as many as hold so much: in real time a chunk's end is part of a tick, and that of a second
+  /// with pictures took longer than one.
   std::size_t chunk_bytes = 1u << 17;
   std::vector<std::uint32_t> actions{};  ///< image of the library that the controller has
   bool compress = false;                 ///< by zstd: about a fifth of the bytes

@@ -115,8 +115,8 @@ vec3 finished(vec3 light) {
                                        : (fog_way - fog_range.x) / (fog_range.y - fog_range.x);
   light = mix(light, fog_colour, clamp(fog_part, 0.0, 1.0));
 #endif
-  // The power 1 / 2.2 as a sum of roots, within a quarter of one of 255 steps: a processor that
-  // draws takes a third of a plain picture's time for the power itself.
+  // The power 1 / 2.2 as a sum of roots, within a quarter of one of 255 steps: the power itself is
+  // dear where a processor draws.
   vec3 x = clamp(light, 0.0, 1.0), a = sqrt(x), b = sqrt(a);
   return -0.054262 * x + 0.945703 * a + 0.127781 * b - 0.020092 * sqrt(b);
 }

@@ -18,7 +18,7 @@
 #include "host/files/places.hpp"
 #include "host/files/shell_line.hpp"
 #include "host/files/whole.hpp"
-#include "host/flash/tool_run.hpp"
+#include "host/process/child.hpp"
 #include "host/tool/bench_languages.hpp"
 #include "host/tool/bench_report.hpp"
 #include "host/tool/command.hpp"
@@ -70,7 +70,7 @@ void run_program(const std::string& program, const std::string& arguments, Take 
   if (status == 0) return;
   const bool told = WIFEXITED(status) && WEXITSTATUS(status) <= kNoDevice;
   throw ToolError(told ? static_cast<ExitStatus>(WEXITSTATUS(status)) : kRunFailed,
-                  program + " failed: " + flash::last_line(files::read(errors).value_or("")));
+                  program + " failed: " + process::last_line(files::read(errors).value_or("")));
 }
 
 using Samples = std::map<std::string, std::vector<double>>;
@@ -194,6 +194,12 @@ void add_picture_rows(const Json& line, std::vector<BenchRow>& rows) {
   };
   if (line.at("what") == "frames") {
     add("cpu_ms", fmt::format("a picture of {}, {}, CPU time", of, kind), "ms");
+    return;
+  }
+  if (line.at("what") == "camera") {
+    const std::string which = line.at("kind");
+    add("cpu_ms", fmt::format("a camera's of 320x240, {}, CPU time", which), "ms");
+    add("apart", fmt::format("  its pixels from those of 64 samples, rms"), "of 255");
     return;
   }
   // On two idle cores that draw in software.

@@ -6,6 +6,7 @@
 
 #include "host/files/places.hpp"
 #include "host/flash/tool_run.hpp"
+#include "host/process/child.hpp"
 #include "host/tool/exit_status.hpp"
 #include "host/tool/interrupt.hpp"
 
@@ -24,7 +25,7 @@ void run_build(const std::vector<std::string>& command, const std::filesystem::p
   if (run.status == 0) return;
   std::ofstream(log) << run.output;
   const std::size_t error = run.output.find("rror: ");
-  std::string words = flash::last_line(run.output);
+  std::string words = process::last_line(run.output);
   if (error != std::string::npos) {
     const std::size_t begin = run.output.rfind('\n', error) + 1;
     words = run.output.substr(begin, run.output.find('\n', error) - begin);

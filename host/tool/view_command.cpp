@@ -3,12 +3,13 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <unistd.h>
-#include "host/files/whole.hpp"
 
 #include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
+
+#include "host/files/whole.hpp"
 
 namespace verp::tool {
 namespace {

@@ -66,7 +66,7 @@ std::string WalkCameras::text(double run_s) const {
   const auto pictures =
       static_cast<double>(std::max<std::uint64_t>(1, seen_->recorder->pictures()));
   std::string out =
-      fmt::format("  {:<18}{} pictures, {:.1f} ms of a core each: {:.2f} of it while it walked",
+      fmt::format("  {:<18}{} pictures, {:.1f} ms of a core each, {:.2f} of a core while it walked",
                   "cameras", seen_->recorder->pictures(),
                   1e3 * seen_->rig->processor_s() / pictures, seen_->rig->processor_s() / run_s);
   if (seen_->rig->dropped() > 0)

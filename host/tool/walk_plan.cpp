@@ -142,6 +142,16 @@ std::vector<WalkPlan> make_plans(const WalkOptions& options, const sim::WorldOpt
   }
   const std::vector<Seat> seats =
       of_world ? seats_of_world(options, *world.scenery) : seats_of(options.command, options.team);
+  const bool of_nobody =
+      !seats.empty() &&
+      std::none_of(seats.begin(), seats.end(), [](const Seat& seat) { return seat.model.empty(); });
+  if (options.model_given && of_nobody) {
+    throw ToolError(
+        kBadInput,
+        fmt::format("{0}: {1} has no name, and each robot that has one has a model of its own; add "
+                    "--robot NAME={1}, or leave it out (names have letters, digits, _ and -)",
+                    options.command, options.model));
+  }
   std::vector<WalkPlan> plans;
   if (seats.empty()) plans.push_back(make_plan(options));
   if (!seats.empty()) require_alone(options, "several robots");

@@ -10,7 +10,6 @@
 
 #include "host/files/temporary_directory.hpp"
 #include "host/files/whole.hpp"
-#include "host/flash/tool_run.hpp"
 #include "host/process/child.hpp"
 #include "host/survey/interval.hpp"
 #include "host/tool/console.hpp"
@@ -94,7 +93,7 @@ class Seeds {
     if (!json.is_object() || !json.contains("failure")) {
       row["failure"] =
           fmt::format("its program ended with status {}: {}", status,
-                      json.is_object() ? json.value("error", "") : flash::last_line(said));
+                      json.is_object() ? json.value("error", "") : process::last_line(said));
     }
     for (const char* key :
          {"failure", "remark", "fallen", "distance_m", "asked_m", "asked_turn_deg",

@@ -18,6 +18,7 @@
 #include "host/bus/lockstep_server.hpp"
 #include "host/bus/virtual_bus.hpp"
 #include "host/files/places.hpp"
+#include "host/files/whole.hpp"
 #include "host/libverp/verp.hpp"
 #include "host/link/link.hpp"
 #include "host/process/child.hpp"
@@ -48,13 +49,8 @@ bool succeeds(const std::string& command) {
   return std::system((command + " </dev/null >/dev/null 2>&1").c_str()) == 0;
 }
 
-std::string last_line(const std::filesystem::path& file) {
-  std::ifstream in(file);
-  std::string last;
-  for (std::string line; std::getline(in, line);) {
-    if (!line.empty()) last = line;
-  }
-  return last;
+std::string last_words(const std::filesystem::path& file) {
+  return verp::process::last_line(verp::files::read(file).value_or(""));
 }
 
 /// What a program of another language prints: a number a line.
@@ -66,7 +62,7 @@ Rates rates_of(const std::string& command) {
   std::string text;
   for (int c; (c = std::fgetc(pipe)) != EOF;) text += static_cast<char>(c);
   const int status = pclose(pipe);
-  if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) throw std::runtime_error(last_line(errors));
+  if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) throw std::runtime_error(last_words(errors));
   Rates rates;
   std::istringstream in(text);
   for (double rate; in >> rate;) rates.push_back(rate);
@@ -181,7 +177,7 @@ double external_rate() {
     if (pump.turn(10'000)) heard = Clock::now();
     if (Clock::now() - heard > kPatience) throw std::runtime_error("verp run fell silent");
   }
-  if (*controller.status() != 0) throw std::runtime_error(last_line(errors));
+  if (*controller.status() != 0) throw std::runtime_error(last_words(errors));
   if (ticks < 2) throw std::runtime_error("verp run had no tick");
   return (ticks - 1) / std::chrono::duration<double>(last - first).count();
 }

@@ -7,20 +7,24 @@
 #include <QSurfaceFormat>
 #include <QTemporaryDir>
 #include <QtTest/QTest>
+#include <cmath>
 #include <cstring>
+#include <vector>
 
 #include "host/model/find.hpp"
 #include "host/model/load.hpp"
+#include "host/model/load_world.hpp"
 #include "host/model/params.hpp"
+#include "host/render/edges.hpp"
 #include "host/render/offscreen_context.hpp"
 #include "host/scene/camera.hpp"
 #include "host/view/main_window.hpp"
 #include "host/view/theme.hpp"
 
-// What a picture costs. `frames`: the renderer alone, CPU time. `window`: frames a second of the
-// real window, and how fast the twin goes by beside it. One line of JSON each, for one robot and
-// for four; those also with steps of 2 ms, because one core has four robots' physics of 1 ms only
-// just.
+// What a picture costs. `frames`: the renderer alone, CPU time; of a robot's camera also how far
+// its pixels are from those of 64 samples. `window`: frames a second of the real window, and how
+// fast the twin goes by beside it. One line of JSON each, for one robot and for four; those also
+// with steps of 2 ms, because one core has four robots' physics of 1 ms only just.
 namespace verp::view {
 namespace {
 
@@ -74,6 +78,79 @@ void bench_frames(int robots, bool antialias, int frames) {
       robots, antialias, 1e3 * (cpu_s() - before_s) / frames, frames / wall_s);
 }
 
+/// As far from `truth` as a pixel's colour is on average, of 255.
+double rms_apart(const render::Image& image, const render::Image& truth) {
+  double sum = 0;
+  for (std::size_t i = 0; i < image.rgb.size(); ++i) {
+    const double apart = double(image.rgb[i]) - truth.rgb[i];
+    sum += apart * apart;
+  }
+  return std::sqrt(sum / double(image.rgb.size()));
+}
+
+/// Of a picture that is `times` as large each way.
+render::Image averaged(const render::Image& large, int times) {
+  render::Image out{{large.size.width / times, large.size.height / times}, {}};
+  for (int y = 0; y < out.size.height; ++y) {
+    for (int x = 0; x < 3 * out.size.width; ++x) {
+      int sum = 0;
+      for (int v = 0; v < times; ++v) {
+        for (int u = 0; u < times; ++u)
+          sum += large.rgb[std::size_t(
+              3 * ((times * y + v) * large.size.width + times * (x / 3) + u) + x % 3)];
+      }
+      out.rgb.push_back(std::uint8_t((sum + times * times / 2) / (times * times)));
+    }
+  }
+  return out;
+}
+
+/// A robot's camera in the furnished room: one sample a pixel, its edges smoothed, four samples.
+void bench_camera() {
+  constexpr int kPictures = 24, kTimes = 8;
+  constexpr render::Size kCamera{320, 240};
+  const session::WalkPlan plan = plan_at(0);
+  const model::World room = model::load_world(model::find_world("demo"));
+  scene::Scene scene = scene::surroundings(&room);
+  scene::add_robot(scene, plan.entity);
+  scene::Snapshot now;
+  now.robots.push_back(scene::standing(plan.entity, plan.twin.start_m));
+  render::OffscreenContext context;
+  render::Renderer renderer;
+  renderer.set_scene(scene);
+  const auto eye = scene::view("head", scene, now, 0, 4.0 / 3);
+  const auto turned = [&](int i) {
+    scene::Camera camera = *eye;  // the robot turns and leans
+    const auto turn = Eigen::AngleAxisd(2 * M_PI * i / kPictures, scene::Vec3::UnitZ());
+    camera.target_m = camera.eye_m + turn * (camera.target_m - camera.eye_m);
+    camera.up = turn * (camera.up + 0.05 * std::sin(double(i)) * scene::Vec3::UnitY());
+    return camera;
+  };
+  render::Effects effects;
+  effects.quick = true;
+  effects.shadows = effects.antialias = false;
+  std::vector<render::Image> truth;
+  for (int i = 0; i < kPictures; ++i)
+    truth.push_back(averaged(
+        renderer.image(now, turned(i), {kTimes * kCamera.width, kTimes * kCamera.height}, effects),
+        kTimes));
+  for (const char* kind : {"one sample", "edges smoothed", "four samples"}) {
+    effects.antialias = *kind == 'f';
+    renderer.image(now, turned(0), kCamera, effects);
+    double cost_s = 0, apart = 0;
+    for (int i = 0; i < kPictures; ++i) {
+      const double before_s = cpu_s();
+      render::Image image = renderer.image(now, turned(i), kCamera, effects);
+      if (*kind == 'e') render::smooth_edges(image);
+      cost_s += cpu_s() - before_s;
+      apart += rms_apart(image, truth[std::size_t(i)]);
+    }
+    fmt::print(
+        "{{\"what\":\"camera\",\"robots\":1,\"kind\":\"{}\",\"cpu_ms\":{:.1f},\"apart\":{:.2f}}}\n",
+        kind, 1e3 * cost_s / kPictures, apart / kPictures);
+  }
+}
+
 void bench_window(int robots, std::uint32_t step_us, int seconds) {
   QTemporaryDir folder;
   QSettings settings(folder.filePath("view.ini"), QSettings::IniFormat);
@@ -115,6 +192,7 @@ int run(int argc, char** argv) {
     for (const int robots : {1, 4}) {
       for (const bool antialias : {false, true}) bench_frames(robots, antialias, 20);
     }
+    bench_camera();
     return 0;
   }
   QSurfaceFormat format;

@@ -15,9 +15,9 @@
 namespace verp::camera {
 namespace {
 
-/// As a camera has it: no marks. No shadows and one sample a pixel: where the PC's processor draws,
-/// each of the two costs as much as all the rest of a picture, 30 times a second. Instead of
-/// samples, edges are smoothed afterwards.
+/// As a camera has it: no marks. No shadows and one sample a pixel, which cost most of a picture
+/// where the PC's processor draws, 30 times a second. Instead of samples, edges are smoothed
+/// afterwards.
 render::Effects effects() {
   render::Effects effects;
   effects.quick = true;

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "host/flash/tool_run.hpp"
+#include "host/process/child.hpp"
 
 /// What the tools of Debian 12 print when something is wrong, and what is made of it.
 namespace verp::flash::test {
@@ -134,11 +135,11 @@ TEST(ToolRun, TellsHowFarTheToolIsAndWhatItSaidLast) {
                                 "Done.\\n\\n'; echo bad >&2; exit 4"},
                                "sh", {.share = [&](double share) { shares.push_back(share); }});
   EXPECT_EQ(run.status, 4);
-  EXPECT_EQ(last_line(run.output), "bad");
+  EXPECT_EQ(process::last_line(run.output), "bad");
   ASSERT_GE(shares.size(), 2u);
   EXPECT_EQ(shares.front(), 0.125);
   EXPECT_EQ(shares.back(), 1.0);
-  EXPECT_EQ(last_line("\n \n"), "nothing");
+  EXPECT_EQ(process::last_line("\n \n"), "nothing");
 }
 
 TEST(ToolRun, ToolThatIsNotInstalledNamesItsPackage) {

@@ -208,6 +208,12 @@ TEST(LibverpMisuse, ControllersThatFail) {
     EXPECT_EQ(verp_session_control(opened.session, 0, controller, user), VERP_OK);
     const int status = verp_session_tick(opened.session, 1, nullptr, nullptr);
     EXPECT_EQ(verp_session_tick(opened.session, 1, nullptr, nullptr), VERP_OVER);
+    verp_result result = {};
+    result.size = sizeof result;
+    EXPECT_EQ(verp_session_result(opened.session, 0, &result), VERP_OK);
+    EXPECT_NE(std::string(result.failure).find("controller of robot 0 failed at tick"),
+              std::string::npos)
+        << "who did not look at the tick's error";
     return status;
   };
   expect_error(tick_with([](const verp_moment*, void*) { return 3; }, nullptr),

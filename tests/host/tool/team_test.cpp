@@ -165,6 +165,9 @@ TEST_F(Team, WhomItWaitsForIsSaidAtOnceAndOnceMore) {
 
 TEST_F(Team, WrongWordsAreRefused) {
   expect_refused("walk generic21 --robot op3", "two models, generic21 and op3");
+  expect_refused("walk --robot nosuch --robot c=generic21", "nosuch has no name");
+  expect_refused("walk op3 --robot c=generic21", "op3 has no name");
+  expect_refused("walk --robot 'a b=op3' --robot c=generic21", "letters, digits");
   expect_refused("walk --robot a=", "is not NAME=MODEL");
   expect_refused("walk --robot a=ext:", "is not NAME=MODEL");
   expect_refused("walk --robot a=generic21,over:x", "is not NAME=MODEL");
