@@ -53,7 +53,7 @@ const char* verp_layout(const char* name) {
 
 int verp_replay(const char* file, uint64_t* ticks, uint64_t* digest) {
   return call("verp_replay", [&]() -> int {
-    need(file, "file");
+    need_text(file, "file");
     const verp::record::Trace trace = verp::record::read_trace(file);
     const verp::record::ReplayResult result = verp::record::replay(trace);
     if (ticks != nullptr) *ticks = result.ticks;

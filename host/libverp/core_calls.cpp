@@ -1,3 +1,6 @@
+#include <fmt/format.h>
+
+#include <Eigen/LU>
 #include <algorithm>
 #include <bit>
 #include <cstring>
@@ -51,6 +54,20 @@ void need_finite(const float* values, std::size_t count, const char* name) {
 void need_all_joints(const Core& core, const float* angle_rad, std::uint32_t joints) {
   need_size(4ULL * joints, 4ULL * core.params.joint_count, "angle_rad");
   need_finite(angle_rad, joints, "angle_rad");
+}
+
+/// What only scales, shears or mirrors has no angles; the numbers of one that is told in a few
+/// digits are off by less.
+void need_rotation(const float* from, const char* name) {
+  constexpr double kTolerance = 1e-3;
+  Eigen::Matrix3d r;
+  for (int i = 0; i < 9; ++i) r(i / 3, i % 3) = static_cast<double>(from[i]);
+  const double off = (r * r.transpose() - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
+  if (off <= kTolerance && r.determinant() > 0) return;
+  throw Failure(VERP_BAD_ARGUMENT,
+                fmt::format("{}'s first nine numbers are no rotation: R R^T is off 1 by {:.3g} "
+                            "(at most {:g}), its determinant is {:.3g}",
+                            name, off, kTolerance, r.determinant()));
 }
 
 verp::Pose pose_from(const float* from) {
@@ -187,6 +204,7 @@ int verp_core_leg_ik(verp_core core, uint32_t side, const float* sole, const flo
     need(angle_rad, "angle_rad");
     need(flags, "flags");
     need_finite(sole, VERP_POSE, "sole");
+    need_rotation(sole, "sole");
     if (before_rad != nullptr) need_finite(before_rad, VERP_LEG_JOINTS, "before_rad");
     const auto used = cores().use(core);
     const verp::LegParams& leg = leg_of(*used, side);
@@ -212,7 +230,11 @@ int verp_core_leg_joints(verp_core core, uint32_t side, uint32_t* joint) {
 int verp_core_plan(verp_core core, double vx_m_s, double vy_m_s, double wz_rad_s, verp_plan* plan,
                    uint32_t count, uint32_t stop) {
   return call("verp_core_plan", [&] {
-    need(plan, "plan");
+    if (count > VERP_MOST_PLANNED) {
+      throw Failure(VERP_BAD_ARGUMENT, fmt::format("count is {}: at most {} ticks are planned",
+                                                   count, +VERP_MOST_PLANNED));
+    }
+    if (count > 0) need(plan, "plan");
     if (stop > count) throw Failure(VERP_BAD_ARGUMENT, "stop is more than count");
     const verp::Command velocity = velocity_of(vx_m_s, vy_m_s, wz_rad_s);
     const auto used = cores().use(core);

@@ -52,6 +52,15 @@ void need(const void* argument, const char* name) {
   if (argument == nullptr) throw Failure(VERP_BAD_ARGUMENT, std::string(name) + " is null");
 }
 
+void need_text(const char* text, const char* name) {
+  need(text, name);
+  if (*text == '\0') throw Failure(VERP_BAD_ARGUMENT, std::string(name) + " is empty");
+}
+
+void need_text_or_null(const char* text, const char* name) {
+  if (text != nullptr) need_text(text, name);
+}
+
 void need_size(std::uint64_t size, std::uint64_t wanted, const char* name) {
   if (size == wanted) return;
   throw Failure(VERP_BAD_ARGUMENT, std::string(name) + " is of " + std::to_string(size) +

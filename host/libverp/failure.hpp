@@ -36,8 +36,11 @@ int call(const char* function, Body body) noexcept {
   }
 }
 
-/// Throw Failure for an argument that is null, or a struct of another size.
+/// Throw Failure for an argument that is null, a text that is empty, or a struct of another size.
 void need(const void* argument, const char* name);
+void need_text(const char* text, const char* name);
+/// Null stands for none, and an empty text for a mistake.
+void need_text_or_null(const char* text, const char* name);
 template <class Struct>
 void need_struct(const Struct* argument, const char* name) {
   need(argument, name);

@@ -70,6 +70,12 @@ int verp_decide(std::uint64_t token) {
       const std::lock_guard lock(moments().mutex);
       const auto found = moments().running.find(token);
       if (found != moments().running.end()) moment = found->second;
+      // To another thread it may be gone before it has decided.
+      if (moment != nullptr && moment->thread() != std::this_thread::get_id()) {
+        throw Failure(VERP_BUSY,
+                      "that moment is in the hands of a controller in another thread; "
+                      "decide it there");
+      }
     }
     if (moment == nullptr) {
       throw Failure(VERP_BAD_ARGUMENT,

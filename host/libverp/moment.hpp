@@ -1,4 +1,6 @@
 #pragma once
+#include <thread>
+
 #include "common/control/state.hpp"
 #include "common/io/io.hpp"
 #include "common/model/params.hpp"
@@ -20,6 +22,8 @@ class Moment {
   /// The core's own decision, once.
   void decide();
   bool decided() const { return decided_; }
+  /// Where it runs, and lives no longer than that.
+  std::thread::id thread() const { return thread_; }
 
  private:
   const Params& params_;
@@ -27,6 +31,7 @@ class Moment {
   const Inputs& inputs_;
   Outputs& outputs_;
   const std::uint64_t token_;
+  const std::thread::id thread_ = std::this_thread::get_id();
   bool decided_ = false;
 };
 

@@ -68,7 +68,7 @@ int verp_session_emergency_stop(verp_session session, uint32_t robot, int32_t pr
 
 int verp_session_tune(verp_session session, uint32_t robot, const char* name, double value) {
   return call("verp_session_tune", [&] {
-    need(name, "name");
+    need_text(name, "name");
     const int id = tuning_id_of(name);
     const float number = tuning_value_for(id, name, value);
     sessions().use(session)->seat(robot).orders().write(id, number);
@@ -77,7 +77,7 @@ int verp_session_tune(verp_session session, uint32_t robot, const char* name, do
 
 int verp_session_tuning(verp_session session, uint32_t robot, const char* name, double* value) {
   return call("verp_session_tuning", [&] {
-    need(name, "name");
+    need_text(name, "name");
     need(value, "value");
     const int id = tuning_id_of(name);
     const auto run = sessions().use(session);
@@ -111,7 +111,7 @@ int verp_session_quantity(verp_session session, uint32_t index, verp_quantity* q
 
 int verp_session_read(verp_session session, const char* quantity, double* value) {
   return call("verp_session_read", [&] {
-    need(quantity, "quantity");
+    need_text(quantity, "quantity");
     need(value, "value");
     *value = quantities_of(*sessions().use(session)).read(quantity);
   });
@@ -119,7 +119,7 @@ int verp_session_read(verp_session session, const char* quantity, double* value)
 
 int verp_session_set(verp_session session, const char* quantity, double value) {
   return call("verp_session_set", [&] {
-    need(quantity, "quantity");
+    need_text(quantity, "quantity");
     verp::session::Intervention what;
     what.name = quantity;
     what.value = finite(value, "value");
@@ -130,7 +130,7 @@ int verp_session_set(verp_session session, const char* quantity, double value) {
 int verp_session_push(verp_session session, const char* thing, double fx_n, double fy_n,
                       double fz_n, double for_s) {
   return call("verp_session_push", [&] {
-    need(thing, "thing");
+    need_text(thing, "thing");
     constexpr double kLongest_s = 3600;
     if (!(for_s > 0 && for_s <= kLongest_s))
       throw Failure(VERP_BAD_ARGUMENT, "for_s may be above 0, to 3600");

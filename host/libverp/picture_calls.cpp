@@ -49,7 +49,7 @@ const What& what_of(const CameraSensor& camera, std::uint32_t bit) {
 }
 
 std::uint32_t pixels(std::uint32_t value, const char* name) {
-  constexpr std::uint32_t kLeast = 16, kMost = 8192;
+  constexpr std::uint32_t kLeast = 16, kMost = VERP_MOST_PIXELS;
   if (value >= kLeast && value <= kMost) return value;
   throw Failure(VERP_BAD_ARGUMENT,
                 fmt::format("view->{} may be {} to {}, not {}", name, kLeast, kMost, value));
@@ -68,7 +68,7 @@ verp::camera::Outside outside_of(const verp_view& view) {
     throw Failure(VERP_BAD_ARGUMENT, "view->flags has more than VERP_PLAIN");
   from.shadows = from.antialias = (view.flags & VERP_PLAIN) == 0;
   if (view.name != nullptr) {
-    if (*view.name == '\0') throw Failure(VERP_BAD_ARGUMENT, "view->name is empty");
+    need_text(view.name, "view->name");
     from.view = view.name;
     return from;
   }

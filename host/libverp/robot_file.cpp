@@ -53,7 +53,8 @@ float tuning_value_for(int id, const std::string& name, double value) {
 Loaded load(const char* model, const char* bus, const char* tuning) {
   static std::mutex one_at_a_time;  // libsdformat has global settings
   const std::lock_guard lock(one_at_a_time);
-  need(model, "model");
+  need_text(model, "model");
+  need_text_or_null(bus, "bus");
   Loaded loaded{model::load_robot(model::find_model(model), bus == nullptr ? "" : bus), {}};
   loaded.params = model::make_params(loaded.entity);
   if (tuning != nullptr) tune(tuning, loaded.params.tuning);

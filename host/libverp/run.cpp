@@ -49,6 +49,8 @@ Command velocity_of(double vx_m_s, double vy_m_s, double wz_rad_s) {
 }
 
 Seat::Seat(const verp_robot& what, std::uint32_t index) : index_(index) {
+  need_text_or_null(what.name, "name");
+  need_text_or_null(what.record, "record");
   Loaded loaded = load(what.model, what.bus, what.tuning);
   plan_.entity = std::move(loaded.entity);
   plan_.params = loaded.params;
@@ -63,6 +65,8 @@ Seat::Seat(const verp_robot& what, std::uint32_t index) : index_(index) {
   plan_.twin.start_yaw_rad = within(what.yaw_rad, kFar_m, "yaw_rad");
   if (what.walk_s < 0) throw Failure(VERP_BAD_ARGUMENT, "walk_s is negative");
   plan_.walk_s = within(what.walk_s, kMostWalk_s, "walk_s");
+  if ((what.flags & ~std::uint32_t{VERP_OPEN_END}) != 0)
+    throw Failure(VERP_BAD_ARGUMENT, "what->flags has more than VERP_OPEN_END");
   own_orders_ = what.walk_s == 0;
   open_end_ = own_orders_ || (what.flags & VERP_OPEN_END) != 0;
   if (own_orders_) orders_.take({});

@@ -21,6 +21,7 @@ sim::WorldOptions world_of(const verp_world* what) {
   if (options.step_us < kLeast_us || options.step_us > kMost_us)
     throw Failure(VERP_BAD_ARGUMENT, "world->physics_step_us may be 100 to 4000, or 0");
   if (what->file == nullptr) return options;
+  need_text(what->file, "world->file");
   return sim::furnished(options, model::load_world(model::find_world(what->file)));
 }
 

@@ -297,7 +297,7 @@ typedef int (*verp_controller)(const verp_moment* moment, void* user);
 int verp_session_control(verp_session session, uint32_t robot, verp_controller controller,
                          void* user);
 /* Has the robot's own controller decide this moment, once: the controller may then change what it
- * put out. */
+ * put out. From the thread of the controller: another one gets VERP_BUSY. */
 int verp_decide(uint64_t token);
 
 /* ---- what robots see, and pictures of the world ---- */
@@ -331,12 +331,13 @@ typedef struct verp_camera {
 } verp_camera;
 
 enum { VERP_PLAIN = 1 /* without shadows and smoothed edges, which take most of the time */ };
+enum { VERP_MOST_PIXELS = 8192 /* of a view's width, and of its height */ };
 
 /* From where the world is looked at. */
 typedef struct verp_view {
   uint32_t size;
   uint32_t flags; /* VERP_PLAIN */
-  uint32_t width; /* 16 to 8192 pixels */
+  uint32_t width; /* 16 to VERP_MOST_PIXELS */
   uint32_t height;
   const char* name; /* front, side, three-quarter, back, top, follow, head, or a camera that a file
                        declares; null: from eye_m to target_m */
@@ -436,8 +437,9 @@ int verp_core_forward(verp_core core, const float* angle_rad, uint32_t joints, f
 /* Centre of mass, body frame. */
 int verp_core_com(verp_core core, const float* angle_rad, uint32_t joints, float* com_m);
 /* Six angles, hip to ankle, that put the sole of a leg to a pose (12 numbers, body frame);
- * `before_rad` (six angles, or null) is where a solver that iterates starts. All of them finite.
- * `flags`: 1 out of reach, 2 a joint at its limit, 4 not converged. */
+ * `before_rad` (six angles, or null) is where a solver that iterates starts. All of them finite,
+ * and the pose's rotation R is one: no element of R R^T - 1 is beyond 0.001, and its determinant is
+ * not negative. `flags`: 1 out of reach, 2 a joint at its limit, 4 not converged. */
 int verp_core_leg_ik(verp_core core, uint32_t side, const float* sole, const float* before_rad,
                      float* angle_rad, uint32_t* flags);
 /* Which joints those are. */
@@ -456,8 +458,10 @@ typedef struct verp_plan {
   uint8_t swing; /* foot in the air; 2: none */
   uint8_t flags; /* of both legs' inverse kinematics */
 } verp_plan;
-/* The gait from standing, `count` ticks of a walk with that velocity, of which the last `stop` are
- * after it was asked to stop: planned by the gait alone, without physics. */
+enum { VERP_MOST_PLANNED = 1000000 /* ticks: over two hours of 8 ms */ };
+/* The gait from standing, `count` ticks (at most VERP_MOST_PLANNED) of a walk with that velocity,
+ * of which the last `stop` are after it was asked to stop: planned by the gait alone, without
+ * physics. */
 int verp_core_plan(verp_core core, double vx_m_s, double vy_m_s, double wz_rad_s, verp_plan* plan,
                    uint32_t count, uint32_t stop);
 

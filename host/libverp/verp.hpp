@@ -5,6 +5,7 @@
 #include <array>
 #include <exception>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <span>
@@ -21,11 +22,19 @@ namespace verp_lib {
 class Error : public std::runtime_error {
  public:
   explicit Error(int given) : std::runtime_error(verp_last_error()), status(given) {}
+  /// Of what the library was not asked.
+  Error(int given, const std::string& why) : std::runtime_error(why), status(given) {}
   int status;
 };
 
 inline int checked(int status) {
   return status < 0 ? throw Error(status) : status;
+}
+
+/// A text as C has it: it ends at a zero, which therefore is none of its characters.
+inline const char* c_text(const std::string& text, const char* what) {
+  if (text.find('\0') == std::string::npos) return text.c_str();
+  throw Error(VERP_BAD_ARGUMENT, std::string(what) + " has a zero character in it");
 }
 
 /// The controller of a robot, alone.
@@ -34,7 +43,7 @@ class Core {
   explicit Core(const std::string& model = "generic21", const char* bus = nullptr,
                 const char* tuning = nullptr) {
     verp_core core = nullptr;
-    checked(verp_core_open(model.c_str(), bus, tuning, &core));
+    checked(verp_core_open(c_text(model, "verp_core_open: model"), bus, tuning, &core));
     core_.reset(core);
   }
 
@@ -80,7 +89,7 @@ class Core {
   }
   std::vector<verp_plan> plan(double vx_m_s, double vy_m_s, double wz_rad_s, std::uint32_t ticks,
                               std::uint32_t stop = 0) const {
-    std::vector<verp_plan> plan(ticks);
+    std::vector<verp_plan> plan(ticks <= VERP_MOST_PLANNED ? ticks : 1);  // if not, it is refused
     checked(verp_core_plan(handle(), vx_m_s, vy_m_s, wz_rad_s, plan.data(), ticks, stop));
     return plan;
   }
@@ -154,12 +163,17 @@ class Session {
   /// False: the run is over.
   bool tick(std::uint32_t count = 1) {
     const int status = verp_session_tick(handle(), count, nullptr, nullptr);
-    if (const std::exception_ptr thrown = std::exchange(*thrown_, nullptr))
-      std::rethrow_exception(thrown);
+    // Of no other status: that may be a second thread's, whose exception it is not.
+    if (status == VERP_CALLBACK_FAILED && *thrown_)
+      std::rethrow_exception(std::exchange(*thrown_, nullptr));
     return checked(status) == VERP_OK;
   }
   /// The robot's last tick.
-  const verp_tick& seen(std::uint32_t robot = 0) const { return *ticks_.at(robot); }
+  const verp_tick& seen(std::uint32_t robot = 0) const {
+    if (robot < ticks_.size()) return *ticks_[robot];
+    throw Error(VERP_BAD_ARGUMENT, "Session::seen: there is no robot " + std::to_string(robot) +
+                                       ": the session has " + std::to_string(ticks_.size()));
+  }
   std::uint64_t digest(std::uint32_t robot = 0) const {
     std::uint64_t digest = 0;
     checked(verp_session_digest(handle(), robot, &digest));
@@ -177,23 +191,25 @@ class Session {
     checked(verp_session_command(handle(), robot, request, vx_m_s, vy_m_s, wz_rad_s, 0, 0));
   }
   void tune(const std::string& name, double value, std::uint32_t robot = 0) {
-    checked(verp_session_tune(handle(), robot, name.c_str(), value));
+    checked(verp_session_tune(handle(), robot, c_text(name, "verp_session_tune: name"), value));
   }
   double tuning(const std::string& name, std::uint32_t robot = 0) const {
     double value = 0;
-    checked(verp_session_tuning(handle(), robot, name.c_str(), &value));
+    checked(
+        verp_session_tuning(handle(), robot, c_text(name, "verp_session_tuning: name"), &value));
     return value;
   }
   double read(const std::string& quantity) const {
     double value = 0;
-    checked(verp_session_read(handle(), quantity.c_str(), &value));
+    checked(verp_session_read(handle(), c_text(quantity, "verp_session_read: quantity"), &value));
     return value;
   }
   void set(const std::string& quantity, double value) {
-    checked(verp_session_set(handle(), quantity.c_str(), value));
+    checked(verp_session_set(handle(), c_text(quantity, "verp_session_set: quantity"), value));
   }
   void push(const std::string& thing, const std::array<double, 3>& force_n, double for_s) {
-    checked(verp_session_push(handle(), thing.c_str(), force_n[0], force_n[1], force_n[2], for_s));
+    checked(verp_session_push(handle(), c_text(thing, "verp_session_push: thing"), force_n[0],
+                              force_n[1], force_n[2], for_s));
   }
   std::vector<verp_camera> cameras(std::uint32_t robot = 0) const {
     std::uint32_t count = 0;
@@ -222,7 +238,9 @@ class Session {
   Picture<std::uint8_t> render(verp_view view) const {
     view.size = sizeof view;
     Picture<std::uint8_t> out{view.width, view.height, 0, {}};
-    out.pixels.resize(std::size_t{3} * view.width * view.height);
+    if (std::max(view.width, view.height) <= VERP_MOST_PIXELS)
+      out.pixels.resize(std::size_t{3} * view.width * view.height);
+    if (out.pixels.empty()) out.pixels.resize(1);  // to be refused
     checked(verp_session_render(handle(), &view, out.pixels.data(), out.pixels.size()));
     return out;
   }
@@ -266,8 +284,9 @@ class Session {
       checked(verp_session_control(handle(), robot, nullptr, nullptr));
       return;
     }
-    controllers_.push_back(std::make_unique<Attached>(std::move(controller), thrown_.get()));
-    checked(verp_session_control(handle(), robot, &Attached::run, controllers_.back().get()));
+    auto next = std::make_unique<Attached>(std::move(controller), thrown_.get());
+    checked(verp_session_control(handle(), robot, &Attached::run, next.get()));
+    controllers_[robot] = std::move(next);
   }
 
  private:
@@ -305,7 +324,7 @@ class Session {
     void operator()(verp_session session) const { verp_session_close(session); }
   };
   std::unique_ptr<std::exception_ptr> thrown_ = std::make_unique<std::exception_ptr>();
-  std::vector<std::unique_ptr<Attached>> controllers_;
+  std::map<std::uint32_t, std::unique_ptr<Attached>> controllers_;
   std::vector<std::unique_ptr<verp_tick>> ticks_;
   std::unique_ptr<verp_session, Close> session_;  ///< goes before what it looks at
 };
@@ -316,7 +335,8 @@ struct Replayed {
 };
 inline Replayed replay(const std::string& trace) {
   Replayed replayed;
-  if (const int status = verp_replay(trace.c_str(), &replayed.ticks, &replayed.digest))
+  if (const int status =
+          verp_replay(c_text(trace, "verp_replay: file"), &replayed.ticks, &replayed.digest))
     throw Error(status);
   return replayed;
 }

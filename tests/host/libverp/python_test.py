@@ -192,7 +192,7 @@ class EnvTest(unittest.TestCase):
         env.reset(seed=1)
         with self.assertRaisesRegex(ValueError, "no option 'vx'; there are vx_m_s"):
             env.reset(options={"vx": 0.1})
-        with self.assertRaises(OverflowError):
+        with self.assertRaisesRegex(ValueError, "Env.reset: seed may be 0"):
             env.reset(seed=-1)
         with self.assertRaisesRegex(RuntimeError, "call reset"):
             env.step(env.no_action())

@@ -10,18 +10,19 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ._core import pointer
-from ._lib import Handle, check, ffi, lib, text
+from ._lib import Handle, calls, ffi, fill, lib, reals, whole
 
 _WHAT = {"colour": lib.VERP_COLOUR, "depth": lib.VERP_DEPTH, "labels": lib.VERP_LABELS}
 
 
-def _pixels(shape: tuple[int, int], what: str, out: NDArray[Any] | None) -> NDArray[Any]:
+def _pixels(shape: tuple[int, int], what: str, out: NDArray[Any] | None, call: str) -> NDArray[Any]:
     """Memory for a picture: the caller's, if it is as it has to be."""
     wanted, kind = ((*shape, 3), np.uint8) if what == "colour" else (shape, np.uint16)
     if out is None:
         return np.empty(wanted, kind)
-    if out.shape != wanted or out.dtype != kind or not out.flags.c_contiguous or not out.flags.writeable:
-        raise ValueError(f"out: a writeable array of {wanted}, {np.dtype(kind)}, in C order is needed")
+    flags = out.flags if isinstance(out, np.ndarray) and out.shape == wanted and out.dtype == kind else None
+    if not flags or not flags.c_contiguous or not flags.writeable:
+        raise ValueError(f"{call}: out: a writeable array of {wanted}, {np.dtype(kind)}, in C order is needed")
     return out
 
 
@@ -63,11 +64,11 @@ class Sight(Handle):
     def cameras(self, robot: int = 0) -> list[Camera]:
         """Those of the robot's file."""
         count, what = ffi.new("uint32_t *"), ffi.new("verp_camera *")
-        check(lib.verp_session_cameras(self._session, robot, count))
+        calls.session_cameras(self._session, robot, count)
         found = []
         for index in range(count[0]):
             what.size = ffi.sizeof(what[0])
-            check(lib.verp_session_camera(self._session, robot, index, what))
+            calls.session_camera(self._session, robot, index, what)
             pose = np.array(list(what.pose))
             found.append(
                 Camera(
@@ -92,23 +93,25 @@ class Sight(Handle):
     ) -> Picture | None:
         """What that camera (a number or a name) saw when it last looked, up to the robot's last tick; None: it has not
         looked yet. It is drawn now, into `out` if there is one, an array as Picture says. The run stays what it was."""
+        call = "verp_session_picture"
+        robot = whole(robot, f"{call}: robot", 0, 2**32 - 1)
         cameras = self._cameras.get(robot)
         if cameras is None:
             cameras = self._cameras[robot] = self.cameras(robot)
         names = [each.name for each in cameras]
-        index = names.index(camera) if camera in names else camera
-        if isinstance(index, str):
-            raise ValueError(f"picture: robot {robot} has no camera '{camera}': it has {', '.join(names) or 'none'}")
-        if what not in _WHAT:
-            raise ValueError(f"picture: there is no '{what}': a camera gives {', '.join(_WHAT)}")
-        by = cameras[index] if 0 <= index < len(cameras) else None  # if not, the library says so
+        if isinstance(camera, str) and camera not in names:
+            raise ValueError(f"{call}: robot {robot} has no camera '{camera}': it has {', '.join(names) or 'none'}")
+        index = names.index(camera) if isinstance(camera, str) else whole(camera, f"{call}: camera", 0, 2**32 - 1)
+        if not isinstance(what, str) or what not in _WHAT:
+            raise ValueError(f"{call}: there is no {what!r}: a camera gives {', '.join(_WHAT)}")
+        by = cameras[index] if index < len(cameras) else None  # if not, the library says so
         shape = (by.height, by.width) if by else (1, 1)
-        pixels = _pixels(shape, what, out)
+        pixels = _pixels(shape, what, out, call)
         time_s = ffi.new("double *")
-        status = lib.verp_session_picture(
+        status = calls.session_picture(
             self._session, robot, index, _WHAT[what], pointer(pixels, "void *"), pixels.nbytes, time_s
         )
-        return None if check(status) == lib.VERP_NO_PICTURE else Picture(pixels, time_s[0])
+        return None if status == lib.VERP_NO_PICTURE else Picture(pixels, time_s[0])
 
     def render(
         self,
@@ -125,13 +128,15 @@ class Sight(Handle):
     ) -> NDArray[np.uint8]:
         """The world as it is now, (height, width, 3): front, side, three-quarter, back, top, follow or head of a robot, a
         camera that a file declares, or from eye_m to target_m, world frame. `plain`: without shadows, and sooner."""
-        what = ffi.new("verp_view *", {"width": width, "height": height, "robot": robot, "fov_rad": fov_rad})
-        what.size = ffi.sizeof(what[0])
+        call, what = "verp_session_render", ffi.new("verp_view *", {"size": ffi.sizeof("verp_view")})
+        numbers = {"width": width, "height": height, "robot": robot, "fov_rad": fov_rad}
+        kept = fill(what, call, numbers | {"name": view if eye_m is None else None})
         what.flags = lib.VERP_PLAIN if plain else 0
-        name = text(view if eye_m is None else None)
-        what.name = name
         if eye_m is not None:
-            what.eye_m, what.target_m = list(eye_m), list(target_m)
-        pixels = _pixels((height, width), "colour", out)
-        check(lib.verp_session_render(self._session, what, pointer(pixels, "void *"), pixels.nbytes))
+            what.eye_m = reals(eye_m, f"{call}: eye_m", (3,)).tolist()
+            what.target_m = reals(target_m, f"{call}: target_m", (3,)).tolist()
+        drawn = max(what.width, what.height) <= lib.VERP_MOST_PIXELS  # if not, the library says so
+        pixels = _pixels((what.height, what.width) if drawn else (1, 1), "colour", out, call)
+        calls.session_render(self._session, what, pointer(pixels, "void *"), pixels.nbytes)
+        del kept  # not before
         return pixels

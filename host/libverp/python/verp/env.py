@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ._core import Core
+from ._lib import real, reals, whole
 from ._session import WALK, Moment, Session
 from ._sight import Picture
 
@@ -32,12 +33,15 @@ class Box:
 
     @property
     def shape(self) -> tuple[int, ...]:
+        """Of its arrays."""
         return self.low.shape
 
     def sample(self, generator: np.random.Generator) -> NDArray[np.float32]:
+        """One of them, drawn at random."""
         return generator.uniform(self.low, self.high).astype(np.float32)
 
     def contains(self, array: NDArray[np.float32]) -> bool:
+        """Whether that is one of them."""
         return np.shape(array) == self.shape and bool(np.all(array >= self.low) and np.all(array <= self.high))
 
 
@@ -64,7 +68,8 @@ class Env:
         episode_s: float = 20.0,
         effort: float = 0.01,
     ) -> None:
-        if not most_action_rad >= 0 or not episode_s > 0:
+        vx_m_s, wz_rad_s, effort = real(vx_m_s, "Env: vx_m_s"), real(wz_rad_s, "Env: wz_rad_s"), real(effort, "Env: effort")
+        if not real(most_action_rad, "Env: most_action_rad") >= 0 or not real(episode_s, "Env: episode_s") > 0:
             raise ValueError("Env: most_action_rad is not negative, and episode_s more than 0")
         self._model, self._world = model, world
         self._velocity = (vx_m_s, 0.0, wz_rad_s)
@@ -82,6 +87,7 @@ class Env:
         self._action = self.no_action()
         self._session: Session | None = None
         self._seed: int | None = None
+        self._closed = False
 
     def no_action(self) -> NDArray[np.float32]:
         """The robot's own controller alone."""
@@ -90,18 +96,22 @@ class Env:
     def reset(self, *, seed: int | None = None, options: Info | None = None) -> tuple[NDArray[np.float32], Info]:
         """A robot of that seed, which stands and begins to walk; `options` may hold vx_m_s, vy_m_s, wz_rad_s. Without a seed:
         1 at first, then one that follows from the last, so that a series of episodes repeats and no two are alike."""
-        self.close()
+        self._need_open("reset")
+        self._end()
         asked = dict(zip(_VELOCITY, self._velocity))
-        unknown = sorted(set(options or {}) - set(asked))
-        if unknown:
-            raise ValueError(f"Env.reset: there is no option '{unknown[0]}'; there are {', '.join(asked)}")
-        asked |= options or {}
+        if not isinstance(options, dict | None):
+            raise TypeError(f"Env.reset: options are a dict, or None, not {options!r}")
+        for name, value in (options or {}).items():
+            if name not in asked:
+                raise ValueError(f"Env.reset: there is no option '{name}'; there are {', '.join(asked)}")
+            asked[name] = real(value, f"Env.reset: {name}")
         if seed is None:
             seed = 1 if self._seed is None else self._seed + _NEXT_SEED
+        seed = whole(seed, "Env.reset: seed", 0, 2**64 - 1)
         try:
             self._begin(seed, asked)
         except BaseException:  # step() is not to find half a session
-            self.close()
+            self._end()
             raise
         self._seed = seed
         return self._observe(), {}
@@ -123,10 +133,10 @@ class Env:
     def step(self, action: NDArray[np.float32]) -> Step:
         """One control tick: observation, reward, terminated (it fell), truncated (time is over), info."""
         session = self._running("step")
-        action = np.asarray(action, np.float32)
-        if action.shape != self.action_space.shape or not np.all(np.isfinite(action)):
-            raise ValueError(f"Env.step: an action is {self._joints} finite numbers")
-        self._action = np.clip(action, self.action_space.low, self.action_space.high)
+        given = reals(action, "Env.step: action", self.action_space.shape)
+        if not np.all(np.isfinite(given)):
+            raise ValueError(f"Env.step: action is not {self._joints} finite numbers")
+        self._action = np.clip(given.astype(np.float32), self.action_space.low, self.action_space.high)
         session.tick()
         seen = session.seen()
         terminated = self._fallen()
@@ -143,11 +153,21 @@ class Env:
         return self._running("picture").picture(what, **options)
 
     def close(self) -> None:
-        if self._session is not None:
-            self._session.close()
-            self._session = None
+        """Later calls raise RuntimeError."""
+        self._closed = True
+        self._end()
+
+    def _end(self) -> None:
+        session, self._session = self._session, None
+        if session is not None:
+            session.close()
+
+    def _need_open(self, what: str) -> None:
+        if self._closed:
+            raise RuntimeError(f"Env.{what}: this environment was closed; make another")
 
     def _running(self, what: str) -> Session:
+        self._need_open(what)
         if self._session is None:
             raise RuntimeError(f"Env.{what}: call reset() before")
         return self._session
@@ -219,8 +239,7 @@ class VectorEnv:
     """
 
     def __init__(self, count: int, **options: Any) -> None:
-        if count < 1:
-            raise ValueError("VectorEnv: count is at least 1")
+        count = whole(count, "VectorEnv: count", 1, 2**16)
         example = Env(**options)
         self.observation_space, self.action_space = example.observation_space, example.action_space
         context = multiprocessing.get_context("spawn")
@@ -234,23 +253,27 @@ class VectorEnv:
             self._processes.append(process)
 
     def no_action(self) -> NDArray[np.float32]:
+        """The robots' own controllers alone."""
         return np.zeros((len(self._pipes), *self.action_space.shape), np.float32)
 
     def reset(self, *, seed: int | None = None) -> tuple[NDArray[np.float32], list[Info]]:
         """Environment n has seed + n. Without a seed: 1 at first, then each has one that follows from its last."""
         if seed is None and self._number == 0:
             seed = 1
+        if seed is not None:
+            seed = whole(seed, "VectorEnv.reset: seed", 0, 2**64 - len(self._pipes))
         answers = self._ask("reset", [None if seed is None else seed + n for n in range(len(self._pipes))])
         return np.stack([a[0] for a in answers]), [a[1] for a in answers]
 
     def step(self, actions: NDArray[np.float32]) -> tuple[Any, ...]:
         """What Env.step() gives, each as an array of all, infos as a list."""
-        if self._pipes and len(actions) != len(self._pipes):
-            raise ValueError(f"VectorEnv.step: {len(self._pipes)} rows of actions are needed, not {len(actions)}")
+        if self._pipes and np.shape(reals(actions, "VectorEnv.step: actions"))[:1] != (len(self._pipes),):
+            raise ValueError(f"VectorEnv.step: actions have {len(self._pipes)} rows, not the shape {np.shape(actions)}")
         columns = list(zip(*self._ask("step", list(actions))))
         return (np.stack(columns[0]), *(np.array(column) for column in columns[1:4]), list(columns[4]))
 
     def close(self) -> None:
+        """Ends the processes; later calls raise RuntimeError."""
         for pipe, process in zip(self._pipes, self._processes):
             try:
                 pipe.send(None)
