@@ -208,18 +208,12 @@ void Served::begin_real_time() {
   if (options_.real_time_begins) options_.real_time_begins();
 }
 
-void Served::waited(bool heard) {
+void Served::waited(const bus::LockstepSession& clock, std::size_t came, const char* unit) {
   const std::uint64_t now = wire::monotonic_ns();
-  if (alone_ns_ == 0) alone_ns_ = now;
-  const bool long_alone = !greeted() && options_.patience_s > 0 &&
-                          1e-9 * static_cast<double>(now - alone_ns_) > options_.patience_s;
-  if (long_alone && !std::exchange(reminded_, true)) {
-    say(
-        fmt::format("no controller has announced lockstep on {} in {:g} s; the world stands until "
-                    "one does, and Ctrl-C ends it",
-                    place_, options_.patience_s));
-  }
-  if (heard || !greeted() || options_.patience_s <= 0) {
+  if (!greeted()) return waited_for_first(now, came, unit);
+  const auto& asked = clock.counters();
+  const std::uint64_t sum = asked.polls + asked.repeats + asked.greetings;
+  if (std::exchange(asked_, sum) != sum || options_.patience_s <= 0) {
     idle_ns_ = 0;
   } else if (idle_ns_ == 0) {
     idle_ns_ = now;
@@ -227,6 +221,21 @@ void Served::waited(bool heard) {
     fail(fmt::format("the controller on {} kept the twin waiting for {:g} s{}", place_,
                      options_.patience_s, connected_ ? "" : ": its link is lost"));
   }
+}
+
+void Served::waited_for_first(std::uint64_t now_ns, std::size_t came, const char* unit) {
+  if (alone_ns_ == 0) alone_ns_ = now_ns;
+  strange_ += came;
+  if (options_.patience_s <= 0 || reminded_ ||
+      1e-9 * static_cast<double>(now_ns - alone_ns_) <= options_.patience_s)
+    return;
+  reminded_ = true;
+  const std::string strange =
+      strange_ == 0 ? "" : fmt::format(" ({} {} came, no greeting among them)", strange_, unit);
+  say(
+      fmt::format("no controller has announced lockstep on {} in {:g} s{}; the world stands until "
+                  "one does, and Ctrl-C ends it",
+                  place_, options_.patience_s, strange));
 }
 
 void Served::watch_link(bool connected, std::uint32_t losses) {

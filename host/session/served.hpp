@@ -104,8 +104,9 @@ class Served : public Controller {
   void begin_real_time();
   /// All ticks up to bus time `now_us` of a robot whose controller tells nothing, until it is over.
   void watch_until(std::uint64_t now_us);
-  /// One turn brought something from the controller, or nothing: judges its patience.
-  void waited(bool heard);
+  /// One turn is over, in which so many bytes or frames came: judges the controller's patience by
+  /// what it asked of the clock. Whatever else comes does not let the world go on.
+  void waited(const bus::LockstepSession& clock, std::size_t came, const char* unit);
   /// The link is there, or not: tells of each change. `losses`: of it so far.
   void watch_link(bool connected, std::uint32_t losses);
 
@@ -120,6 +121,7 @@ class Served : public Controller {
   std::string place_;  ///< of the link
 
  private:
+  void waited_for_first(std::uint64_t now_ns, std::size_t came, const char* unit);
   void begins();
   void refused(const std::string& why);
   bool tick_ends();
@@ -139,6 +141,8 @@ class Served : public Controller {
   std::uint64_t heard_ns_ = 0;  ///< when something that is not for the clock came first
   std::uint64_t alone_ns_ = 0;  ///< since when no controller has come; 0: not yet
   std::uint64_t idle_ns_ = 0;   ///< since when nothing came that lockstep waits for; 0: it does not
+  std::uint64_t asked_ = 0;     ///< of the clock, as last seen
+  std::uint64_t strange_ = 0;   ///< bytes or frames before the first greeting
   std::uint64_t next_us_ = 0;   ///< tick to be watched
   std::uint32_t resets_ = 0;
   bool device_trouble_ = false, recorded_ = false, met_ = false, declined_ = false;

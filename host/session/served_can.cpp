@@ -91,7 +91,7 @@ class ServedOnCan final : public Served {
     if (lost && !std::exchange(lost_, lost)) ++losses_;
     lost_ = lost;
     watch_link(port_.connected(), losses_);
-    waited(came);
+    waited(server_, came ? 1 : 0, "frames");
     answer_.clear();
     if (came) hear(frame);
     if (may_run_in_real_time()) let_time_go_on(came);

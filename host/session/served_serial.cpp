@@ -76,7 +76,7 @@ class ServedOnSerial final : public Served {
         link_.read(piece, room, realtime_.begun() ? kRealTimeTurn_us : kIdle_us);
     answer_.clear();
     lockstep_.take({piece, count}, answer_);
-    waited(count > 0);
+    waited(lockstep_, count, "bytes");
     if (may_run_in_real_time()) let_time_go_on({piece, count});
     for (std::size_t sent = 0; sent < answer_.size();) {
       const std::size_t more = link_.write(answer_.data() + sent, answer_.size() - sent, kWrite_us);

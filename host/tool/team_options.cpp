@@ -32,14 +32,25 @@ bool take_driver(const std::string& text, Seat& seat) {
   return !seat.link.empty() || !seat.board.empty();
 }
 
+void require_one_driver(const std::string& command, const std::string& word, const Seat& seat) {
+  if (seat.board.find(',') == std::string::npos) return;
+  throw ToolError(kBadInput, fmt::format("{}: --robot {}: a robot has one controller: on:BOARD or "
+                                         "ext:LINK, and a model stands before it",
+                                         command, word));
+}
+
 Seat parse_seat(const std::string& command, const std::string& word) {
   const std::size_t equals = word.find('=');
   Seat seat{.name = word.substr(0, equals), .model = {}, .link = {}, .board = {}};
   const std::string what = word.substr(equals + 1);
-  if (take_driver(what, seat)) return seat;
+  if (take_driver(what, seat)) {
+    require_one_driver(command, word, seat);
+    return seat;
+  }
   const std::size_t comma = what.find(',');
   seat.model = what.substr(0, comma);
   const bool whole = comma == std::string::npos || take_driver(what.substr(comma + 1), seat);
+  require_one_driver(command, word, seat);
   if (whole && !seat.model.empty() && seat.model != "ext:" && seat.model != "on:") return seat;
   throw ToolError(kBadInput, fmt::format("{}: --robot {}: that is not NAME=MODEL, NAME=ext:LINK, "
                                          "NAME=on:BOARD, or NAME=MODEL,ext:LINK",
@@ -55,11 +66,17 @@ void declare_robots(CLI::App& app, TeamOptions& options) {
 }
 
 void declare_outside(CLI::App& app, TeamOptions& options) {
-  app.add_flag("--if-lost-go-on", options.go_on,
-               "a robot that lost its controller (--robot NAME=ext:LINK) ends no others");
+  app.add_flag_callback(
+      "--if-lost-go-on",
+      [&options] {
+        options.go_on = true;
+        options.of_outside = "--if-lost-go-on";
+      },
+      "a robot that lost its controller (--robot NAME=ext:LINK) ends no others");
   app.add_option("--patience", options.patience_s,
                  "how long such a controller may keep the world waiting, s by the wall's clock")
       ->check(number_between(0.1, kMostPatience_s, "s"))
+      ->each([&options](const std::string&) { options.of_outside = "--patience"; })
       ->capture_default_str();
 }
 

@@ -19,6 +19,7 @@ struct TeamOptions {
   std::vector<std::string> seats;
   bool go_on = false;      ///< without the one that has lost its controller
   double patience_s = 10;  ///< with a controller outside, by the wall's clock
+  std::string of_outside;  ///< an option that was given and is of those alone; empty: none
 };
 
 /// --robots alone: for commands whose robots have their controllers in this process.

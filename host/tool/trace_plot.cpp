@@ -78,6 +78,8 @@ int plot_trace(const TraceWords& words) {
   });
   signals::Table table(trace, states);
   const record::TickRange ticks = record::ticks_between(trace, words.from_s, words.to_s);
+  if (ticks.first == ticks.last)
+    refuse_plot("one tick is in that time, and a line needs two; set --from and --to apart");
   const signals::Series series = signals::series_of(table, columns, ticks);
   if (const std::size_t panels = signals::panels_of(series.columns).size(); panels > kMostPanels) {
     refuse_plot(fmt::format("{} signals would be {} panels, of at most {}; name fewer",

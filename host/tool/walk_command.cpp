@@ -36,6 +36,17 @@ void add_deadlines(const app::Deadlines& deadlines, Drawn& drawn) {
                              {"worst_late_us", deadlines.worst_late_us}};
 }
 
+/// Said of controllers outside, where there is none: something is not as its user thinks.
+void require_outside(const WalkOptions& options, const std::vector<WalkPlan>& plans) {
+  const bool outside = std::any_of(plans.begin(), plans.end(),
+                                   [](const WalkPlan& plan) { return !plan.link.empty(); });
+  if (outside || options.team.of_outside.empty()) return;
+  throw ToolError(
+      kBadInput, fmt::format("verp walk: {} is of robots that others drive, and there is none; add "
+                             "--robot NAME=ext:LINK, or leave it out",
+                             options.team.of_outside));
+}
+
 /// What only the controller itself can tell is not to be had from the other end of a link.
 void refuse_of_outside(const WalkOptions& options, const WalkPlan& first) {
   const bool wanted =
@@ -67,6 +78,7 @@ int run_walk(WalkOptions options) {
   read_robot_words(options);
   sim::WorldOptions world = world_of(options);
   std::vector<WalkPlan> others = make_plans(options, world);
+  require_outside(options, others);
   if (!options.touch.list) take_controller(options.controller, others, !options.json);
   WalkPlan plan = others.front();
   others.erase(others.begin());

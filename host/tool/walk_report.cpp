@@ -15,6 +15,7 @@
 #include "host/tool/stick_figure.hpp"
 #include "host/tool/walk_estimate.hpp"
 #include "host/tool/walk_load.hpp"
+#include "host/tool/walk_outside.hpp"
 
 namespace verp::tool {
 namespace {
@@ -186,7 +187,7 @@ std::vector<std::pair<std::string, std::string>> provenance(const WalkPlan& plan
       {"robot", name_of(plan.params)},
       {"model file", plan.entity.file},
       {"seed", std::to_string(plan.twin.seed)},
-      {"controller", plan.board.empty() ? "this PC" : plan.board},
+      {"controller", driver_of(plan)},
       {"ticks", fmt::format("{} of {} us", result.ticks, plan.params.period_us)},
       {"digest", fmt::format("0x{:016x}", result.digest)},
   };
@@ -297,6 +298,7 @@ report::Run to_report(const WalkPlan& plan, const WalkOptions& options, const Wa
 std::string to_text(const WalkPlan& plan, const WalkOptions& options, const WalkResult& result,
                     const Sweep& sweep) {
   using report::or_dash;
+  if (!plan.link.empty()) return outside_text(plan, result);
   const sim::WalkMetrics& m = result.metrics;
   std::string out = fmt::format("{}: {}\n", name_of(plan.params), verdict(plan, result, sweep));
   const auto line = [&](const char* name, const std::string& value) {
@@ -343,13 +345,13 @@ Json to_json(const WalkPlan& plan, const WalkOptions& options, const WalkResult&
   Json json = {{"model", name_of(plan.params)},
                {"bus", plan.entity.bus},
                {"seed", plan.twin.seed},
-               {"controller", plan.board.empty() ? "this PC" : plan.board},
+               {"controller", driver_of(plan)},
                {"ticks", result.ticks},
                {"changed", changed_json(options)},
                {"asked_s", plan.walk_s},
                {"asked_m", session::asked_way(plan.velocity, m.walk_s).length_m},
                {"asked_turn_deg", asked_turn_deg(plan, m)},
-               {"duration_s", m.walk_s},
+               {"duration_s", plan.link.empty() ? m.walk_s : result.simulated_s},
                {"distance_m", m.distance_m},
                {"speed_mean_m_s", number_or_null(m.speed_mean_m_s)},
                {"speed_steady_m_s", number_or_null(m.speed_steady_m_s)},
@@ -370,7 +372,7 @@ Json to_json(const WalkPlan& plan, const WalkOptions& options, const WalkResult&
                {"self_contact_ticks", m.self_contact_ticks},
                {"self_contact_links", touched},
                {"estimator", estimate_json(result.estimate)},
-               {"digest", fmt::format("0x{:016x}", result.digest)},
+               {"digest", digest_json(plan, result)},
                {"notes", session::fault_names(result.faults)},
                {"real_time_factor", result.real_time_factor()}};
   json.update(load_json(plan, m));

@@ -6,12 +6,15 @@
 #include <memory>
 #include <utility>
 
+#include "host/link/endpoint.hpp"
+#include "host/link/link_error.hpp"
 #include "host/link/system_clock.hpp"
 #include "host/session/served.hpp"
 #include "host/tool/bit_rate.hpp"
 #include "host/tool/console.hpp"
 #include "host/tool/interrupt.hpp"
 #include "host/tool/real_time.hpp"
+#include "host/tool/walk_outside.hpp"
 #include "host/tool/walk_radio.hpp"
 
 namespace verp::tool {
@@ -86,6 +89,17 @@ class Team {
  private:
   std::unique_ptr<session::Controller> served(const WalkPlan& plan, session::Robot& robot) {
     const std::string name = robot.name();
+    try {
+      return serve(plan, robot, name);
+    } catch (const wire::LinkError& error) {
+      throw wire::LinkError(error.kind(), fmt::format("robot {}: {}", name, error.what()));
+    } catch (const wire::EndpointError& error) {
+      throw wire::EndpointError(fmt::format("robot {}: {}", name, error.what()));
+    }
+  }
+
+  std::unique_ptr<session::Controller> serve(const WalkPlan& plan, session::Robot& robot,
+                                             const std::string& name) {
     const auto say = [this, name](const std::string& line) {
       progress_.clear();
       complain(fmt::format("verp walk: {}: {}", name, line));
@@ -114,10 +128,6 @@ class Team {
   std::string lost_;  ///< the first that lost its controller
   bool ended_ = false;
 };
-
-std::string driver_of(const WalkPlan& plan) {
-  return !plan.link.empty() ? plan.link : plan.board.empty() ? "this PC" : plan.board;
-}
 
 }  // namespace
 
@@ -210,10 +220,10 @@ std::string team_text(const Walks& walks, const std::vector<WalkPlan>& others,
     const sim::Vec2 way_m = result.end_m - others[i].twin.start_m.head<2>();
     out += fmt::format("  {:<18}{}, {:.2f} m, {}{}{}\n", name,
                        result.failure.empty() ? "walked" : result.failure, way_m.norm(),
-                       result.digest == 0 ? "driven over " + driver_of(others[i])
-                                          : fmt::format("digest 0x{:016x}", result.digest),
+                       others[i].link.empty() ? fmt::format("digest 0x{:016x}", result.digest)
+                                              : "driven over " + driver_of(others[i]),
                        others[i].board.empty() ? "" : " on " + others[i].board,
-                       trace.empty() || result.digest == 0 ? "" : ", " + trace);
+                       trace.empty() || !others[i].link.empty() ? "" : ", " + trace);
   }
   return out + walks.radio_text;
 }
@@ -233,7 +243,7 @@ Json team_json(const Walks& walks, const std::vector<WalkPlan>& others, const Ot
                 {"fallen", result.metrics.fallen},
                 {"start_m", {others[i].twin.start_m.x(), others[i].twin.start_m.y()}},
                 {"end_m", {result.end_m.x(), result.end_m.y()}},
-                {"digest", fmt::format("0x{:016x}", result.digest)}};
+                {"digest", digest_json(others[i], result)}};
     if (!files.name(i).empty()) row["trace"] = files.name(i);
     out["others"].push_back(row);
   }

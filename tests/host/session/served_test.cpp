@@ -2,8 +2,13 @@
 
 #include <unistd.h>
 
+#include <atomic>
+#include <chrono>
+#include <cstring>
 #include <filesystem>
+#include <thread>
 
+#include "host/link/link.hpp"
 #include "tests/host/session/plans.hpp"
 #include "tests/host/tool/link_controller.hpp"
 
@@ -68,6 +73,42 @@ TEST(Served, SaysWhenTheLegsCannotDoWhatIsAsked) {
   EXPECT_EQ(session.result(0).failure, "");
   EXPECT_NE(told.find("the legs cannot do what is asked: "), std::string::npos) << told;
   fs::remove_all(folder);
+}
+
+// Only what the clock is asked lets the world go on: a stream of anything else is no sign of life.
+TEST(Served, WhoGreetsAndThenSendsRubbishLosesItsRobot) {
+  const fs::path place = fs::temp_directory_path() / ("rubbish" + std::to_string(::getpid()));
+  const WalkPlan plan = plan_of("dxl");
+  std::string told;
+  Session session;
+  session.add(plan, {}, [&](Robot& robot) {
+    return make_served(robot, {.link = "unix-listen:" + place.string(),
+                               .pace = Pace::kLockstep,
+                               .patience_s = 0.3,
+                               .told = [&](const std::string& line) { told += line + "\n"; }});
+  });
+  std::atomic<bool> over = false;
+  std::thread client([&] {
+    wire::Link link(wire::parse_endpoint("unix:" + place.string()));
+    std::uint8_t packet[lockstep::kMaxClockPacket];
+    const lockstep::Hello hello;
+    std::uint8_t hello_bytes[sizeof hello];
+    std::memcpy(hello_bytes, &hello, sizeof hello);
+    const std::size_t size = dxl::encode_write(packet, sizeof packet, lockstep::kClockId,
+                                               lockstep::kHelloAddress, hello_bytes, sizeof hello);
+    link.write(packet, size, 100'000);
+    while (!over) {
+      link.write(packet + 5, 7, 10'000);
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+  });
+  while (session.tick() != nullptr) {
+  }
+  over = true;
+  client.join();
+  EXPECT_NE(told.find("a controller has come"), std::string::npos) << told;
+  EXPECT_NE(session.result(0).failure.find("kept the twin waiting for 0.3 s"), std::string::npos)
+      << session.result(0).failure;
 }
 
 TEST(Served, LetsTheSessionsUserInWhileNobodyComes) {

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
+#include "host/link/link.hpp"
 #include "host/process/child.hpp"
 #include "tests/host/tool/program.hpp"
 
@@ -21,9 +22,12 @@ class Team : public Program {
   /// This program's controller for the robot at the other end of `link`, beside the walk.
   process::Child controller(const std::string& link,
                             const std::vector<std::string>& more = {}) const {
+    wait_for(link);
+    return controller_now(link, more);
+  }
+  void wait_for(const std::string& link) const {
     for (int i = 0; i < 1500 && !fs::exists(folder_ / link); ++i)
       std::this_thread::sleep_for(std::chrono::milliseconds(20));
-    return controller_now(link, more);
   }
   process::Child controller_now(const std::string& link,
                                 const std::vector<std::string>& more = {}) const {
@@ -69,23 +73,34 @@ TEST_F(Team, EachWalksAsItDoesAloneAndLeavesATraceOfItsOwn) {
 }
 
 TEST_F(Team, AControllerInAnotherProcessMakesTheSameBits) {
-  const Outcome world = walk_beside(
-      [&] {
-        EXPECT_EQ(controller("b.sock", {"--record", "b.mcap"}).wait(), 0)
-            << slurp(folder_ / "b.sock.out");
-      },
-      "--robot a=generic21 --robot b=ext:unix-listen:b.sock");
-  ASSERT_EQ(world.status, 0) << world.err;
-  const json all = json::parse(world.out);
-  EXPECT_EQ(all.at("others")[0].at("controller"), "unix-listen:b.sock");
-  EXPECT_GT(all.at("others")[0].at("end_m")[0].get<double>(), 0.1) << "it walked";
   const Outcome own =
       verp("walk --seed 2 --at-pose 0,-0.8,0 --for 3 --physics-step 2 --json --record own.mcap");
   ASSERT_EQ(own.status, 0) << own.err;
-  // Until the one that drives it from outside has it sit down, as who drives a real robot does.
-  const json first = first_difference("own.mcap", "b.mcap");
-  EXPECT_EQ(first.at("stage"), "inputs") << first;
-  EXPECT_GE(first.at("tick").get<int>() + 35, json::parse(own.out).at("ticks").get<int>()) << first;
+  const std::pair<std::string, std::string> ends[] = {{"unix-listen:", "unix:"},
+                                                      {"pty:", "serial:"}};
+  for (const auto& [here, there] : ends) {
+    fs::remove(folder_ / "b.end");
+    const std::string client =
+        there + (folder_ / "b.end").string() + (there == "serial:" ? "@2000000" : "");
+    const Outcome world = walk_beside(
+        [&] {
+          wait_for("b.end");
+          const Outcome run =
+              verp("run --lockstep --for 3 --record b.mcap --link " + client, "run");
+          EXPECT_EQ(run.status, 0) << run.err;
+        },
+        "--robot a=generic21 --robot b=ext:" + here + "b.end");
+    ASSERT_EQ(world.status, 0) << world.err;
+    const json other = json::parse(world.out).at("others")[0];
+    EXPECT_EQ(other.at("controller"), here + "b.end");
+    EXPECT_TRUE(other.at("digest").is_null()) << "its controller's, and not told here";
+    EXPECT_GT(other.at("end_m")[0].get<double>(), 0.1) << "it walked";
+    // Until the one that drives it from outside has it sit down, as who drives a real robot does.
+    const json first = first_difference("own.mcap", "b.mcap");
+    EXPECT_EQ(first.at("stage"), "inputs") << first;
+    EXPECT_GE(first.at("tick").get<int>() + 35, json::parse(own.out).at("ticks").get<int>())
+        << first;
+  }
 }
 
 TEST_F(Team, AControllerMayBeStartedBeforeItsWorld) {
@@ -163,6 +178,25 @@ TEST_F(Team, WhomItWaitsForIsSaidAtOnceAndOnceMore) {
   EXPECT_EQ(said().find(reminder), said().rfind(reminder)) << "once: " << said();
 }
 
+TEST_F(Team, WhoSaysAnythingButAGreetingIsTold) {
+  process::Child world(
+      {.words = {VERP_PROGRAM, "walk", "--patience", "0.3", "--robot", "a=ext:unix-listen:a.sock"},
+       .input = {},
+       .output = {.file = folder_ / "world.err"},
+       .folder = folder_});
+  wait_for("a.sock");
+  wire::Link client(wire::parse_endpoint("unix:" + (folder_ / "a.sock").string()));
+  const std::string words = "GET / HTTP/1.1\r\n\r\n";
+  client.write(reinterpret_cast<const std::uint8_t*>(words.data()), words.size(), 100'000);
+  const auto said = [&] { return slurp(folder_ / "world.err"); };
+  while (said().find("in 0.3 s") == std::string::npos && !world.status())
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  EXPECT_NE(said().find("in 0.3 s (18 bytes came, no greeting among them)"), std::string::npos)
+      << said();
+  world.tell(SIGINT);
+  EXPECT_EQ(world.wait(), 130) << said();
+}
+
 TEST_F(Team, WrongWordsAreRefused) {
   expect_refused("walk generic21 --robot op3", "two models, generic21 and op3");
   expect_refused("walk --robot nosuch --robot c=generic21", "nosuch has no name");
@@ -174,6 +208,10 @@ TEST_F(Team, WrongWordsAreRefused) {
   expect_refused("walk --robot a=generic21 --robot a=generic21", "there is a robot a already");
   expect_refused("walk --robot a=nope", "there is no robot of this name");
   expect_refused("walk --robot a=ext:bogus", "bogus");
+  expect_refused("walk --robot a=ext:bogus", "robot a: ");
+  expect_refused("walk --robot a=on:mps2_an386,ext:unix:x", "one controller");
+  expect_refused("walk --robots 2 --if-lost-go-on", "--if-lost-go-on is of robots that others");
+  expect_refused("walk --patience 3", "--patience is of robots that others");
   expect_refused("walk --robots 17", "1 to 16");
   expect_refused("walk --robots 2 --at-pose r2=0,0,0", "robot 0 stands there already");
   expect_refused("walk --robots 16 --robot extra=generic21", "a world has room for 16");

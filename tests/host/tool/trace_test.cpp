@@ -34,6 +34,7 @@ TEST_F(TraceCommand, PlotDrawsSignalsThatAreNamedAndHelpsWithThoseThatAreNot) {
   expect_refused("trace plot a.mcap --signal rad.l_kne -o a.png", "did you mean rad.l_knee?");
   expect_refused("trace plot a.mcap --signal 'x*' -o a.png", "--list prints them");
   expect_refused("trace plot a.mcap -o a.png", "name what to draw with --signal");
+  expect_refused("trace plot a.mcap --signal mode --from 1 --to 1 -o a.png", "a line needs two");
   expect_refused(knee, "name the picture with -o");
   expect_refused(knee + "-o a.jpg", "a.jpg: pictures end in .png or .svg");
   expect_refused(knee + "-o a.png --from 60", "it begins at 0 s and ends at");
