@@ -5,7 +5,7 @@ namespace Verp {
   public sealed unsafe class Core : Handle {
     public Core(string model = "generic21", string bus = null, string tuning = null) {
       IntPtr core;
-      fixed (byte* name = Texts.ToC(model), of = Texts.ToC(bus), tuned = Texts.ToC(tuning))
+      fixed (byte* name = Texts.ToC(model, "verp_core_open: model"), of = Texts.ToC(bus, "verp_core_open: bus"), tuned = Texts.ToC(tuning, "verp_core_open: tuning"))
         Checked(Native.verp_core_open(name, of, tuned, &core));
       SetHandle(core);
     }
@@ -55,7 +55,8 @@ namespace Verp {
 
     /// <summary>Poses of all links, the body's first: 12 numbers each, rotation then position, body frame.</summary>
     public float[] Forward(float[] angle_rad) {
-      var poses = new float[(Length(angle_rad) + 1) * Native.VERP_POSE];
+      uint links = Math.Min(Length(angle_rad), (uint)Native.VERP_MAX_JOINTS) + 1;  // more are refused
+      var poses = new float[links * Native.VERP_POSE];
       fixed (float* angles = angle_rad, to = poses)
         Checked(Native.verp_core_forward(handle, angles, Length(angle_rad), to));
       return poses;
@@ -70,7 +71,7 @@ namespace Verp {
     /// stands exactly so.</summary>
     public float[] LegIk(uint side, float[] sole, out uint flags) {
       if (sole == null || sole.Length != Native.VERP_POSE)
-        throw new ArgumentException("verp_core_leg_ik: a pose has 12 numbers");
+        throw VerpException.Wrong("verp_core_leg_ik: sole is no pose of 12 numbers");
       var angle_rad = new float[Native.VERP_LEG_JOINTS];
       fixed (float* pose = sole, to = angle_rad)
       fixed (uint* said = &flags) Checked(Native.verp_core_leg_ik(handle, side, pose, null, to, said));
@@ -78,7 +79,7 @@ namespace Verp {
     }
     /// <summary>What the gait plans, tick by tick; see verp_plan.</summary>
     public verp_plan[] Plan(double vx_m_s, double vy_m_s, double wz_rad_s, uint ticks, uint stop = 0) {
-      var plan = new verp_plan[ticks];
+      var plan = new verp_plan[ticks <= Native.VERP_MOST_PLANNED ? ticks : 1];  // if not, it is refused
       fixed (verp_plan* to = plan) Checked(Native.verp_core_plan(handle, vx_m_s, vy_m_s, wz_rad_s, to, ticks, stop));
       return plan;
     }

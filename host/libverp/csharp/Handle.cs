@@ -11,6 +11,9 @@ namespace Verp {
     }
     public verp_status Status { get; }
 
+    /// <summary>Of what the library was not asked; `why` names the call.</summary>
+    internal static VerpException Wrong(string why) { return new VerpException(verp_status.VERP_BAD_ARGUMENT, why); }
+
     /// <summary>To be called right after the call, in its thread.</summary>
     internal static unsafe int Checked(int status) {
       if (status < 0) throw new VerpException((verp_status)status, Texts.Of(Native.verp_last_error()));
@@ -20,9 +23,10 @@ namespace Verp {
 
   /// <summary>Texts as C has them: UTF-8 with a zero at the end.</summary>
   static class Texts {
-    public static byte[] ToC(string text) {
+    /// <summary>`what` names the call and its argument.</summary>
+    public static byte[] ToC(string text, string what) {
       if (text == null) return null;
-      if (text.IndexOf('\0') >= 0) throw new ArgumentException("a text of libverp's has no zero in it");
+      if (text.IndexOf('\0') >= 0) throw VerpException.Wrong(what + " has a zero character in it");
       return Encoding.UTF8.GetBytes(text + '\0');
     }
     public static unsafe string Of(byte* text, int most = int.MaxValue) {

@@ -37,7 +37,7 @@ namespace Verp {
     /// <summary>Throws where it does not.</summary>
     public static unsafe Replayed Of(string trace) {
       var replayed = new Replayed();
-      fixed (byte* file = Texts.ToC(trace)) {
+      fixed (byte* file = Texts.ToC(trace, "verp_replay: file")) {
         int status = Native.verp_replay(file, &replayed.Ticks, &replayed.Digest);
         if (status != (int)verp_status.VERP_OK)
           throw new VerpException((verp_status)status, Texts.Of(Native.verp_last_error()));

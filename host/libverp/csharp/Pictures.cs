@@ -34,7 +34,7 @@ namespace Verp {
     /// that a file declares.</summary>
     public Picture<byte> Render(string view = "follow", uint width = 640, uint height = 480, uint robot = 0,
                                 bool plain = false) {
-      fixed (byte* name = Texts.ToC(view)) {
+      fixed (byte* name = Texts.ToC(view, "verp_session_render: view")) {
         var what = new verp_view { name = name, robot = robot, flags = plain ? (uint)Native.VERP_PLAIN : 0 };
         return Render(what, width, height);
       }
@@ -43,7 +43,7 @@ namespace Verp {
     public Picture<byte> Render(double[] eye_m, double[] target_m, double fov_rad = 0.5, uint width = 640, uint height = 480,
                                 bool plain = false) {
       if (eye_m == null || target_m == null || eye_m.Length != 3 || target_m.Length != 3)
-        throw new ArgumentException("a place is three numbers");
+        throw VerpException.Wrong("verp_session_render: eye_m and target_m are three numbers each");
       var what = new verp_view { fov_rad = fov_rad, flags = plain ? (uint)Native.VERP_PLAIN : 0 };
       for (int i = 0; i < 3; ++i) {
         what.eye_m[i] = eye_m[i];
@@ -56,7 +56,8 @@ namespace Verp {
       what.size = (uint)sizeof(verp_view);
       what.width = width;
       what.height = height;
-      var drawn = new Picture<byte> { Width = width, Height = height, Pixels = new byte[3UL * width * height] };
+      bool fits = width > 0 && height > 0 && Math.Max(width, height) <= Native.VERP_MOST_PIXELS;  // if not, it is refused
+      var drawn = new Picture<byte> { Width = width, Height = height, Pixels = new byte[fits ? 3UL * width * height : 1] };
       fixed (byte* to = drawn.Pixels) Checked(Native.verp_session_render(handle, &what, to, (ulong)drawn.Pixels.LongLength));
       return drawn;
     }

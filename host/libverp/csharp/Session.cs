@@ -23,7 +23,7 @@ namespace Verp {
 
     /// <summary>`world`: one of common/worlds, or an SDF file; null: a level floor.</summary>
     public Session(string world = null, uint physicsStep_us = 0) {
-      fixed (byte* file = Texts.ToC(world)) {
+      fixed (byte* file = Texts.ToC(world, "verp_session_open: world")) {
         var what = new verp_world { size = (uint)sizeof(verp_world), physics_step_us = physicsStep_us, file = file };
         IntPtr session;
         Checked(Native.verp_session_open(&what, &session));
@@ -39,7 +39,7 @@ namespace Verp {
 
     /// <summary>One more robot, before the first tick: its number.</summary>
     public uint Add(Robot robot) {
-      if (robot == null) throw new ArgumentNullException("robot");
+      if (robot == null) throw VerpException.Wrong("verp_session_add: robot is null");
       verp_robot what;
       Checked(Native.verp_robot_defaults(&what));
       what.flags = robot.OpenEnd ? (uint)Native.VERP_OPEN_END : 0;
@@ -52,8 +52,8 @@ namespace Verp {
       what.y_m = robot.Y_m;
       what.yaw_rad = robot.Yaw_rad;
       uint index;
-      fixed (byte* model = Texts.ToC(robot.Model), bus = Texts.ToC(robot.Bus), name = Texts.ToC(robot.Name),
-             tuning = Texts.ToC(robot.Tuning), record = Texts.ToC(robot.Record)) {
+      fixed (byte* model = Texts.ToC(robot.Model, "verp_session_add: Model"), bus = Texts.ToC(robot.Bus, "verp_session_add: Bus"), name = Texts.ToC(robot.Name, "verp_session_add: Name"),
+             tuning = Texts.ToC(robot.Tuning, "verp_session_add: Tuning"), record = Texts.ToC(robot.Record, "verp_session_add: Record")) {
         what.model = model;
         what.bus = bus;
         what.name = name;
@@ -87,8 +87,14 @@ namespace Verp {
       return Checked(status) == (int)verp_status.VERP_OK;
     }
 
-    /// <summary>The robot's last tick, which the next one overwrites.</summary>
-    public ref verp_tick Seen(uint robot = 0) { return ref ticks[checked((int)robot)][0]; }
+    /// <summary>The robot's last tick, which the next one overwrites. What it gives outlives the session.</summary>
+    public ref verp_tick Seen(uint robot = 0) {
+      if (IsClosed)
+        throw new VerpException(verp_status.VERP_BAD_HANDLE, "Session.Seen: this session was closed; open one");
+      if (robot >= ticks.Count)
+        throw VerpException.Wrong("Session.Seen: there is no robot " + robot + ": the session has " + ticks.Count);
+      return ref ticks[(int)robot][0];
+    }
 
     public ulong Digest(uint robot = 0) {
       ulong digest;
@@ -123,7 +129,7 @@ namespace Verp {
     public void Radio(verp_radio radio) { Checked(Native.verp_session_radio(handle, &radio)); }
     /// <summary>False: too many wait for the air already. `to` -1: everybody.</summary>
     public bool Send(byte[] data, int to = -1, uint robot = 0) {
-      if (data == null) throw new ArgumentNullException("data");
+      if (data == null) throw VerpException.Wrong("verp_session_send: data is null");
       fixed (byte* from = data)
         return Checked(Native.verp_session_send(handle, robot, to, from, (ulong)data.Length)) == (int)verp_status.VERP_OK;
     }
@@ -149,12 +155,12 @@ namespace Verp {
 
     /// <summary>A number of the tuning, in force in one of the next ticks.</summary>
     public void Tune(string name, double value, uint robot = 0) {
-      fixed (byte* text = Texts.ToC(name)) Checked(Native.verp_session_tune(handle, robot, text, value));
+      fixed (byte* text = Texts.ToC(name, "verp_session_tune: name")) Checked(Native.verp_session_tune(handle, robot, text, value));
     }
     /// <summary>A number of the tuning as it is in force.</summary>
     public double Tuning(string name, uint robot = 0) {
       double value;
-      fixed (byte* text = Texts.ToC(name)) Checked(Native.verp_session_tuning(handle, robot, text, &value));
+      fixed (byte* text = Texts.ToC(name, "verp_session_tuning: name")) Checked(Native.verp_session_tuning(handle, robot, text, &value));
       return value;
     }
 
@@ -171,16 +177,16 @@ namespace Verp {
     }
     public double Read(string quantity) {
       double value;
-      fixed (byte* text = Texts.ToC(quantity)) Checked(Native.verp_session_read(handle, text, &value));
+      fixed (byte* text = Texts.ToC(quantity, "verp_session_read: quantity")) Checked(Native.verp_session_read(handle, text, &value));
       return value;
     }
     /// <summary>From the next physics step on.</summary>
     public void Set(string quantity, double value) {
-      fixed (byte* text = Texts.ToC(quantity)) Checked(Native.verp_session_set(handle, text, value));
+      fixed (byte* text = Texts.ToC(quantity, "verp_session_set: quantity")) Checked(Native.verp_session_set(handle, text, value));
     }
     /// <summary>Pushes a link or an object at its centre of mass, N in the world's axes.</summary>
     public void Push(string thing, double fx_n, double fy_n, double fz_n, double for_s) {
-      fixed (byte* text = Texts.ToC(thing)) Checked(Native.verp_session_push(handle, text, fx_n, fy_n, fz_n, for_s));
+      fixed (byte* text = Texts.ToC(thing, "verp_session_push: thing")) Checked(Native.verp_session_push(handle, text, fx_n, fy_n, fz_n, for_s));
     }
 
     /// <summary>In place of the robot's own controller, from the next tick on; null: its own again.</summary>

@@ -1,15 +1,31 @@
 #include "host/libverp/matlab/arguments.h"
 
 #include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "host/libverp/verp.h"
 
-void refuse(const char* what) {
-  mexErrMsgIdAndTxt("verp:argument", "verp: %s", what);
+static const char* call = "mex";
+
+const char* begin_call(const char* name) {
+  const char* before = call;
+  call = name;
+  return before;
+}
+
+void refuse(const char* words, ...) {
+  char said[512];
+  va_list values;
+  va_start(values, words);
+  vsnprintf(said, sizeof said, words, values);
+  va_end(values);
+  mexErrMsgIdAndTxt("verp:argument", "verp_%s: %s", call, said);
 }
 
 int checked(int status) {
+  if (status == VERP_BUSY) mexErrMsgIdAndTxt("verp:busy", "%s", verp_last_error());
   if (status < 0) mexErrMsgIdAndTxt("verp:call", "%s", verp_last_error());
   return status;
 }
@@ -18,7 +34,7 @@ double number(const arguments* a, int index, const char* what) {
   const mxArray* given = index < a->given ? a->in[index] : NULL;
   if (given == NULL || mxGetNumberOfElements(given) != 1 || mxIsComplex(given) ||
       !(mxIsNumeric(given) || mxIsLogical(given))) {
-    mexErrMsgIdAndTxt("verp:argument", "verp: %s: one number is needed", what);
+    refuse("%s: one number is needed", what);
   }
   return mxGetScalar(given);
 }
@@ -26,7 +42,7 @@ double number(const arguments* a, int index, const char* what) {
 uint32_t whole(const arguments* a, int index, const char* what) {
   const double value = number(a, index, what);
   if (!(value >= 0 && value <= UINT32_MAX && value == floor(value))) {
-    mexErrMsgIdAndTxt("verp:argument", "verp: %s: %g is no count", what, value);
+    refuse("%s: %g is no count", what, value);
   }
   return (uint32_t)value;
 }
@@ -34,20 +50,28 @@ uint32_t whole(const arguments* a, int index, const char* what) {
 int32_t signed_whole(const arguments* a, int index, const char* what) {
   const double value = number(a, index, what);
   if (!(value >= INT32_MIN && value <= INT32_MAX && value == floor(value))) {
-    mexErrMsgIdAndTxt("verp:argument", "verp: %s: %g is no whole number of 32 bits", what, value);
+    refuse("%s: %g is no whole number of 32 bits", what, value);
   }
   return (int32_t)value;
 }
 
-char* text(const arguments* a, int index) {
-  if (index >= a->given || mxIsEmpty(a->in[index])) return NULL;
-  if (!mxIsChar(a->in[index])) refuse("a text is needed");
-  return mxArrayToString(a->in[index]);
+char* text_of(const mxArray* given, const char* what) {
+  if (mxIsEmpty(given)) return NULL;
+  if (!mxIsChar(given) || mxGetM(given) != 1) refuse("%s: a text is needed", what);
+  char* made = mxArrayToString(given);
+  if (made == NULL || strlen(made) < mxGetNumberOfElements(given)) {
+    refuse("%s has a zero character in it", what); /* where C would end it */
+  }
+  return made;
 }
 
-float* floats(const arguments* a, int index, size_t* count) {
+char* text(const arguments* a, int index, const char* what) {
+  return index < a->given ? text_of(a->in[index], what) : NULL;
+}
+
+float* floats(const arguments* a, int index, size_t* count, const char* what) {
   if (index >= a->given || !mxIsDouble(a->in[index]) || mxIsComplex(a->in[index])) {
-    refuse("real doubles are needed");
+    refuse("%s: real doubles are needed", what);
   }
   const double* from = mxGetPr(a->in[index]);
   *count = mxGetNumberOfElements(a->in[index]);

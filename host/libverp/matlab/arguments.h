@@ -13,7 +13,10 @@ typedef struct arguments {
   mxArray** out;
 } arguments;
 
-void refuse(const char* what);
+/* The call that is under way, for its errors. Gives the one before. */
+const char* begin_call(const char* name);
+/* An error of its arguments: printf's words. */
+void refuse(const char* words, ...);
 /* A call's status, if it is no error. */
 int checked(int status);
 
@@ -21,9 +24,10 @@ double number(const arguments* a, int index, const char* what);
 uint32_t whole(const arguments* a, int index, const char* what);
 int32_t signed_whole(const arguments* a, int index, const char* what);
 /* Null where there is an empty array, or nothing. MATLAB frees it when the call is over. */
-char* text(const arguments* a, int index);
+char* text(const arguments* a, int index, const char* what);
+char* text_of(const mxArray* given, const char* what);
 /* As many floats as the array has. */
-float* floats(const arguments* a, int index, size_t* count);
+float* floats(const arguments* a, int index, size_t* count, const char* what);
 /* The first argument: handles are numbers to the library, and to MATLAB. */
 void* handle(const arguments* a);
 

@@ -13,7 +13,7 @@ void session_result(const arguments* a);
 void session_digest(const arguments* a);
 void session_command(const arguments* a);
 void session_give_back(const arguments* a);
-void session_stop(const arguments* a);
+void session_emergency_stop(const arguments* a);
 void session_tune(const arguments* a);
 void session_tuning(const arguments* a);
 void session_quantities(const arguments* a);

@@ -11,7 +11,7 @@ static verp_core core_of(const arguments* a) {
 
 void core_open(const arguments* a) {
   verp_core core;
-  checked(verp_core_open(text(a, 0), text(a, 1), text(a, 2), &core));
+  checked(verp_core_open(text(a, 0, "model"), text(a, 1, "bus"), text(a, 2, "tuning"), &core));
   a->out[0] = word((uint64_t)(uintptr_t)core);
 }
 
@@ -30,7 +30,7 @@ void core_step(const arguments* a) {
   memset(&outputs, 0, sizeof outputs);
   const char* wrong =
       a->given < 2 ? "a struct of inputs is needed" : from_matlab(&kInputs, a->in[1], &inputs);
-  if (wrong != NULL) refuse(wrong);
+  if (wrong != NULL) refuse("%s", wrong);
   checked(verp_core_step(core_of(a), &inputs, &outputs));
   a->out[0] = to_matlab(&kOutputs, &outputs, 1);
 }
@@ -73,7 +73,7 @@ void core_angle(const arguments* a) {
 
 void core_forward(const arguments* a) {
   size_t joints = 0;
-  const float* angle_rad = floats(a, 1, &joints);
+  const float* angle_rad = floats(a, 1, &joints, "angle_rad");
   float* poses = mxMalloc((joints + 1) * VERP_POSE * sizeof *poses);
   checked(verp_core_forward(core_of(a), angle_rad, (uint32_t)joints, poses));
   a->out[0] = doubles(poses, VERP_POSE, joints + 1);
@@ -81,7 +81,7 @@ void core_forward(const arguments* a) {
 
 void core_com(const arguments* a) {
   size_t joints = 0;
-  const float* angle_rad = floats(a, 1, &joints);
+  const float* angle_rad = floats(a, 1, &joints, "angle_rad");
   float com_m[3];
   checked(verp_core_com(core_of(a), angle_rad, (uint32_t)joints, com_m));
   a->out[0] = doubles(com_m, 1, 3);
@@ -90,7 +90,7 @@ void core_com(const arguments* a) {
 /* core_leg_ik(core, side, sole): angles and flags in one row. */
 void core_leg_ik(const arguments* a) {
   size_t count = 0;
-  const float* sole = floats(a, 2, &count);
+  const float* sole = floats(a, 2, &count, "sole");
   if (count != VERP_POSE) refuse("sole: 12 numbers are needed");
   float found[VERP_LEG_JOINTS + 1];
   uint32_t flags = 0;
@@ -101,8 +101,8 @@ void core_leg_ik(const arguments* a) {
 
 void core_plan(const arguments* a) {
   const uint32_t ticks = whole(a, 4, "ticks");
-  if (ticks > 1000000) refuse("ticks: at most a million");
-  verp_plan* plan = mxCalloc(ticks + 1, sizeof *plan);
+  const uint32_t room = ticks <= VERP_MOST_PLANNED ? ticks : 0; /* if not, it is refused */
+  verp_plan* plan = mxCalloc((size_t)room + 1, sizeof *plan);
   checked(verp_core_plan(core_of(a), number(a, 1, "vx_m_s"), number(a, 2, "vy_m_s"),
                          number(a, 3, "wz_rad_s"), plan, ticks, whole(a, 5, "stop")));
   a->out[0] = to_matlab(&kPlan, plan, ticks);

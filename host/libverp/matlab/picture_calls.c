@@ -115,7 +115,7 @@ void session_picture(const arguments* a) {
 static void place(const arguments* a, int index, const char* what, double* to) {
   if (index >= a->given || !mxIsDouble(a->in[index]) || mxIsComplex(a->in[index]) ||
       mxGetNumberOfElements(a->in[index]) != 3) {
-    mexErrMsgIdAndTxt("verp:argument", "verp: %s: three numbers are needed", what);
+    refuse("%s: three numbers are needed", what);
   }
   memcpy(to, mxGetPr(a->in[index]), 3 * sizeof *to);
 }
@@ -127,14 +127,15 @@ void session_render(const arguments* a) {
                     .flags = number(a, 5, "plain") != 0 ? VERP_PLAIN : 0,
                     .width = whole(a, 2, "width"),
                     .height = whole(a, 3, "height"),
-                    .name = text(a, 1),
+                    .name = text(a, 1, "view"),
                     .robot = whole(a, 4, "robot")};
   if (view.name == NULL) {
     place(a, 6, "eye", view.eye_m);
     place(a, 7, "target", view.target_m);
     view.fov_rad = number(a, 8, "fov");
   }
-  const size_t size = (size_t)3 * view.width * view.height;
+  const int drawn = view.width <= VERP_MOST_PIXELS && view.height <= VERP_MOST_PIXELS;
+  const size_t size = drawn ? (size_t)3 * view.width * view.height : 0; /* if not, it is refused */
   void* pixels = mxMalloc(size + 1);
   checked(verp_session_render(session_of(a), &view, pixels, size));
   a->out[0] = picture_of(pixels, view.height, view.width, 3, 1);

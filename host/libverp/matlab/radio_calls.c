@@ -32,7 +32,7 @@ void session_radio(const arguments* a) {
   verp_radio radio;
   checked(verp_radio_defaults(&radio));
   const char* wrong = a->given < 2 ? "a struct is needed" : from_matlab(&kRadio, a->in[1], &radio);
-  if (wrong != NULL) refuse(wrong);
+  if (wrong != NULL) refuse("%s", wrong);
   checked(verp_session_radio(session, &radio));
 }
 

@@ -1,6 +1,7 @@
 /* Worlds and the robots in them. */
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "host/libverp/matlab/calls.h"
 #include "host/libverp/matlab/fields.h"
@@ -24,7 +25,7 @@ static verp_tick* tick_of(verp_session session, uint32_t robot) {
   for (seen* each = all_seen; each != NULL; each = each->next) {
     if (each->session == session && each->robot == robot) return &each->tick;
   }
-  refuse("there is no such robot in that session");
+  refuse("there is no robot %u in that session", robot);
   return NULL;
 }
 
@@ -42,16 +43,17 @@ static void close_session(verp_session session) {
 
 void close_all(void) {
   while (all_seen != NULL) {
-    const verp_session session = all_seen->session;
-    verp_session_close(session);
-    close_session(session);
+    seen* one = all_seen;
+    all_seen = one->next;
+    /* A session that is at work writes there on. Of a second robot, it is closed already. */
+    if (verp_session_close(one->session) != VERP_BUSY) free(one);
   }
 }
 
 /* ---- sessions ---- */
 
 void session_open(const arguments* a) {
-  const verp_world world = {sizeof world, whole(a, 1, "physics step"), text(a, 0)};
+  const verp_world world = {sizeof world, whole(a, 1, "physics_step_us"), text(a, 0, "world")};
   verp_session session;
   checked(verp_session_open(&world, &session));
   a->out[0] = word((uint64_t)(uintptr_t)session);
@@ -59,7 +61,7 @@ void session_open(const arguments* a) {
 
 void session_close(const arguments* a) {
   const int status = verp_session_close(session_of(a));
-  close_session(session_of(a));
+  if (status != VERP_BUSY) close_session(session_of(a)); /* it writes there until it is closed */
   checked(status);
 }
 
@@ -77,9 +79,7 @@ static const shape kRobot = {"robot", kRobotNumbers, sizeof kRobotNumbers / size
 
 static void set_text(const mxArray* from, const char* name, const char** into) {
   const mxArray* given = mxGetField(from, 0, name);
-  if (given == NULL || mxIsEmpty(given)) return;
-  if (!mxIsChar(given)) mexErrMsgIdAndTxt("verp:argument", "verp: %s: a text is needed", name);
-  *into = mxArrayToString(given);
+  if (given != NULL && !mxIsEmpty(given)) *into = text_of(given, name);
 }
 
 void session_add(const arguments* a) {
@@ -87,7 +87,7 @@ void session_add(const arguments* a) {
   verp_robot robot;
   checked(verp_robot_defaults(&robot));
   const char* wrong = a->given < 2 ? "a struct is needed" : from_matlab(&kRobot, a->in[1], &robot);
-  if (wrong != NULL) refuse(wrong);
+  if (wrong != NULL) refuse("%s", wrong);
   set_text(a->in[1], "model", &robot.model);
   set_text(a->in[1], "bus", &robot.bus);
   set_text(a->in[1], "name", &robot.name);
@@ -112,8 +112,13 @@ static char thrown[512];
 
 static int controller(const verp_moment* moment, void* user) {
   (void)user;
-  const mxArray* function = mxGetField(controllers, moment->robot, "function");
-  const mxArray* first = mxGetField(controllers, moment->robot, "own_first");
+  const int known = controllers != NULL && moment->robot < mxGetNumberOfElements(controllers);
+  const mxArray* function = known ? mxGetField(controllers, moment->robot, "function") : NULL;
+  const mxArray* first = known ? mxGetField(controllers, moment->robot, "own_first") : NULL;
+  if (function == NULL) {
+    snprintf(thrown, sizeof thrown, "the controller of robot %u is missing", moment->robot);
+    return 1;
+  }
   if (first != NULL && mxGetScalar(first) != 0 && verp_decide(moment->token) < 0) {
     snprintf(thrown, sizeof thrown, "%s", verp_last_error());
     return 1;
@@ -137,13 +142,24 @@ static int controller(const verp_moment* moment, void* user) {
 
 /* session_tick(session, count, controllers): true while there is a further tick. */
 void session_tick(const arguments* a) {
+  const verp_session session = session_of(a); /* what may be refused comes before what is kept */
+  const uint32_t count = whole(a, 1, "count");
+  const mxArray* given = a->given > 2 ? a->in[2] : NULL;
+  if (given != NULL && !mxIsStruct(given)) refuse("controllers: a struct array is needed");
   const mxArray* before = controllers;
-  controllers = a->given > 2 ? a->in[2] : NULL;
+  controllers = given;
   thrown[0] = '\0';
   uint32_t done = 0;
-  const int status = verp_session_tick(session_of(a), whole(a, 1, "count"), NULL, &done);
+  mexLock(); /* a controller may have MATLAB forget all it can, and this is at work */
+  const int status = verp_session_tick(session, count, NULL, &done);
+  mexUnlock();
   controllers = before;
-  if (thrown[0] != '\0') mexErrMsgIdAndTxt("verp:controller", "%s", thrown);
+  if (status == VERP_CALLBACK_FAILED && thrown[0] != '\0') {
+    char said[sizeof thrown];
+    memcpy(said, thrown, sizeof said);
+    thrown[0] = '\0'; /* it is this tick's, not that of one around it */
+    mexErrMsgIdAndTxt("verp:controller", "verp_session_tick: %s", said);
+  }
   a->out[0] = mxCreateLogicalScalar(checked(status) == VERP_OK);
 }
 
@@ -190,19 +206,19 @@ void session_give_back(const arguments* a) {
   checked(verp_session_give_back(session_of(a), whole(a, 1, "robot")));
 }
 
-void session_stop(const arguments* a) {
+void session_emergency_stop(const arguments* a) {
   checked(verp_session_emergency_stop(session_of(a), whole(a, 1, "robot"),
                                       number(a, 2, "pressed") != 0));
 }
 
 void session_tune(const arguments* a) {
-  checked(
-      verp_session_tune(session_of(a), whole(a, 1, "robot"), text(a, 2), number(a, 3, "value")));
+  checked(verp_session_tune(session_of(a), whole(a, 1, "robot"), text(a, 2, "name"),
+                            number(a, 3, "value")));
 }
 
 void session_tuning(const arguments* a) {
   double value = 0;
-  checked(verp_session_tuning(session_of(a), whole(a, 1, "robot"), text(a, 2), &value));
+  checked(verp_session_tuning(session_of(a), whole(a, 1, "robot"), text(a, 2, "name"), &value));
   a->out[0] = mxCreateDoubleScalar(value);
 }
 
@@ -225,16 +241,16 @@ void session_quantities(const arguments* a) {
 
 void session_read(const arguments* a) {
   double value = 0;
-  checked(verp_session_read(session_of(a), text(a, 1), &value));
+  checked(verp_session_read(session_of(a), text(a, 1, "quantity"), &value));
   a->out[0] = mxCreateDoubleScalar(value);
 }
 
 void session_set(const arguments* a) {
-  checked(verp_session_set(session_of(a), text(a, 1), number(a, 2, "value")));
+  checked(verp_session_set(session_of(a), text(a, 1, "quantity"), number(a, 2, "value")));
 }
 
 void session_push(const arguments* a) {
-  checked(verp_session_push(session_of(a), text(a, 1), number(a, 2, "force x"),
+  checked(verp_session_push(session_of(a), text(a, 1, "thing"), number(a, 2, "force x"),
                             number(a, 3, "force y"), number(a, 4, "force z"),
                             number(a, 5, "time")));
 }

@@ -29,12 +29,32 @@ static class CsharpTest {
   static void ClosedAndNullHandlesAreKnown() {
     Session session = Walking();
     session.Tick(3);
-    double seen_m = session.Seen().truth.body_m[2];
+    ref verp_tick seen = ref session.Seen();
+    double seen_m = seen.truth.body_m[2];
     session.Dispose();
     session.Dispose();  // twice is as good as once
     Says("verp_session_tick: this session was closed", () => session.Tick());
     Says("verp_session_digest: this session was closed", () => session.Digest());
-    That(session.Seen().truth.body_m[2] == seen_m, "what was seen lives on");
+    That(seen.truth.body_m[2] == seen_m, "what was seen lives on");
+    var core = new Core();
+    core.Dispose();
+    uint flags;
+    var outputs = new verp_outputs();
+    var inputs = new verp_inputs();
+    foreach (Action call in new Action[] {
+               () => session.Add(new Robot()), () => session.Result(), () => session.Command(verp_request.VERP_WALK),
+               () => session.GiveBack(), () => session.EmergencyStop(), () => session.Tune("gait.lift_m", 0.01),
+               () => session.Tuning("gait.lift_m"), () => session.Quantities(), () => session.Read("trunk.mass_kg"),
+               () => session.Set("trunk.mass_kg", 1), () => session.Push("trunk", 1, 0, 0, 1), () => session.Control(null),
+               () => session.Radio(Session.RadioDefaults()), () => session.Send(new byte[1]), () => session.Take(out flags),
+               () => session.State(new byte[1]), () => session.Cameras(), () => session.Colour(), () => session.Render(),
+               () => session.Seen().ToString(), () => core.Reset(), () => core.Step(ref inputs, ref outputs), () => core.Digest(),
+               () => core.Period_s(), () => core.JointNames(), () => core.Count(0, 0), () => core.Angle(0, 0),
+               () => core.Forward(new float[21]), () => core.Com(new float[21]), () => core.LegIk(0, Standing(), out flags),
+               () => core.Plan(0, 0, 0, 5) }) {
+      string said = Throws<VerpException>(call).Message;
+      That(said.Contains("was closed") || said.Contains("state is of 1 bytes"), said);
+    }
     unsafe {
       That(Native.verp_session_tick(IntPtr.Zero, 1, null, null) == (int)verp_status.VERP_BAD_HANDLE, "a null handle");
       That(Native.verp_session_tick(new IntPtr(0x12345), 1, null, null) == (int)verp_status.VERP_BAD_HANDLE, "no handle");
@@ -49,11 +69,32 @@ static class CsharpTest {
       Says("verp_session_tick: nobody is in the world", () => session.Tick());
       Says("verp_session_add: ", () => session.Add(new Robot { Model = "nobody" }));
       Says("verp_session_add: walk_s", () => session.Add(new Robot { Walk_s = double.NaN }));
-      Throws<ArgumentNullException>(() => session.Add(null));
+      Says("verp_session_add: robot is null", () => session.Add(null));
+      Says("verp_session_add: Name has a zero", () => session.Add(new Robot { Name = "a\0b" }));
+      Says("verp_session_add: Model has a zero", () => session.Add(new Robot { Model = "generic21\0b" }));
+      Says("verp_session_add: model is empty", () => session.Add(new Robot { Model = "" }));
+      Says("verp_session_add: record is empty", () => session.Add(new Robot { Record = "" }));
+      Says("Session.Seen: there is no robot 0", () => session.Seen().ToString());
       session.Add(new Robot { Walk_s = 1 });
       Says("verp_session_read: ", () => session.Read("moon"));
       Says("verp_session_read: quantity is null", () => session.Read(null));
-      Throws<ArgumentException>(() => session.Read("trunk.mass_kg\0"));
+      Says("verp_session_read: quantity has a zero", () => session.Read("trunk.mass_kg\0"));
+      Says("verp_session_set: quantity has a zero", () => session.Set("trunk.mass_kg\0", 1));
+      Says("verp_session_tune: name has a zero", () => session.Tune("gait.lift_m\0", 0.01));
+      Says("verp_session_tuning: name has a zero", () => session.Tuning("gait.lift_m\0"));
+      Says("verp_session_push: thing has a zero", () => session.Push("trunk\0", 1, 0, 0, 1));
+      Says("verp_session_render: view has a zero", () => session.Render("front\0"));
+      Says("verp_session_render: view->width may be", () => session.Render("front", uint.MaxValue, uint.MaxValue));
+      Says("verp_session_render: view->width may be", () => session.Render("front", 0, 48));
+      Says("verp_session_render: eye_m and target_m", () => session.Render(new double[2], new double[3]));
+      Says("verp_session_send: data is null", () => session.Send(null));
+      Says("verp_session_push: fx_n is not a finite", () => session.Push("trunk", double.NaN, 0, 0, 1));
+      Says("verp_replay: file has a zero", () => Replayed.Of("a\0b"));
+      Says("verp_replay: file is null", () => Replayed.Of(null));
+      Says("verp_session_open: world has a zero", () => new Session("pitch\0"));
+      Says("verp_core_open: model has a zero", () => new Core("generic21\0"));
+      Says("Session.Seen: there is no robot 9", () => session.Seen(9).ToString());
+      Says("Session.Seen: there is no robot 4294967295", () => session.Seen(uint.MaxValue).ToString());
       Says("verp_session_tuning: there is no robot 3", () => session.Tuning("gait.lift_m", 3));
       Says("verp_session_command: request", () => session.Command((verp_request)9));
       Says("verp_session_state: state is of 10 bytes", () => session.State(new byte[10]));
@@ -69,7 +110,12 @@ static class CsharpTest {
       Says("verp_core_forward: ", () => core.Forward(new float[3]));
       Says("verp_core_com: ", () => core.Com(null));
       uint flags;
-      Throws<ArgumentException>(() => core.LegIk(0, new float[3], out flags));
+      Says("verp_core_leg_ik: sole is no pose of 12", () => core.LegIk(0, new float[3], out flags));
+      Says("verp_core_leg_ik: sole is no pose of 12", () => core.LegIk(0, null, out flags));
+      Says("verp_core_leg_ik: sole's first nine numbers are no rotation", () => core.LegIk(0, new float[12], out flags));
+      Says("verp_core_leg_ik: side", () => core.LegIk(2, Standing(), out flags));
+      Says("verp_core_plan: count is 4294967295: at most 1000000", () => core.Plan(0, 0, 0, uint.MaxValue));
+      That(core.Plan(0, 0, 0, 0).Length == 0, "a plan of nothing");
       var angles = new float[21];
       angles[20] = float.NaN;
       Says("verp_core_forward: angle_rad[20] is not a finite number", () => core.Forward(angles));
@@ -79,6 +125,8 @@ static class CsharpTest {
       Says("verp_core_leg_ik: sole[3]", () => core.LegIk(0, sole, out flags));
     }
   }
+
+  static float[] Standing() { return new float[] { 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0.04f, -0.3f }; }
 
   static void CoreStepsWhatASessionSaw() {
     using (Session session = Walking())
@@ -158,6 +206,9 @@ static class CsharpTest {
         Says("verp_session_read: another thread, or a callback's caller", () => session.Read("trunk.mass_kg"));
         Says("verp_session_close: another thread, or a callback's caller", session.Dispose);
         var other = new Thread(() => Says("verp_session_tick: another thread", () => session.Tick()));
+        other.Start();
+        other.Join();
+        other = new Thread(() => Says("verp_decide: that moment is in the hands of a controller in another thread", moment.Decide));
         other.Start();
         other.Join();
         moment.Decide();

@@ -55,7 +55,7 @@ function misuse_is_an_error_that_names_the_call()
   says(@() session.add('walk_s', NaN), 'walk_s: nan does not fit');
   session.add('walk_s', 1);
   says(@() session.read('moon'), 'moon');
-  says(@() session.seen(3), 'no such robot');
+  says(@() session.seen(3), 'verp_session_seen: there is no robot 3');
   says(@() session.tick(-1), 'is no count');
   says(@() session.push('trunk', 1, 1), 'three numbers');
   says(@() session.command('jump'), 'relax, stand, walk or get_up');

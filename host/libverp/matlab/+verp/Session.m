@@ -46,7 +46,10 @@ classdef Session < handle
         end
         value = varargin{i + 1};
         if strcmp(name, 'open_end')
-          what.flags = double(logical(value));
+          if ~is_flag(value)
+            error('verp:argument', 'verp: add(): open_end is true or false');
+          end
+          what.flags = double(value ~= 0);
         else
           what.(name) = value;
         end
@@ -85,7 +88,7 @@ classdef Session < handle
       if nargin < 3, velocity = [0 0 0]; end
       if nargin < 4, head_rad = [0 0]; end
       if nargin < 5, robot = 0; end
-      request = find(strcmp(request, {'relax', 'stand', 'walk', 'get_up'})) - 1;
+      request = find(strcmp(char_or_none(request), {'relax', 'stand', 'walk', 'get_up'})) - 1;
       if isempty(request) || numel(velocity) ~= 3 || numel(head_rad) ~= 2
         error('verp:argument', 'verp: command() takes relax, stand, walk or get_up, [vx vy wz], [pan tilt]');
       end
@@ -103,7 +106,7 @@ classdef Session < handle
     %EMERGENCY_STOP While it is pressed the robot is limp.
       if nargin < 2, pressed = true; end
       if nargin < 3, robot = 0; end
-      verp_mex('session_stop', obj.session, robot, pressed);
+      verp_mex('session_emergency_stop', obj.session, robot, pressed);
     end
 
     function control(obj, controller, own_first, robot)
@@ -117,9 +120,12 @@ classdef Session < handle
       if ~isempty(controller) && ~isa(controller, 'function_handle')
         error('verp:argument', 'verp: control() takes a function handle, or []');
       end
+      if ~is_flag(own_first)
+        error('verp:argument', 'verp: control(): own_first is true or false');
+      end
       verp_mex('session_control', obj.session, robot, ~isempty(controller));
       trapped = @(inputs, outputs) verp.tried(controller, inputs, outputs);
-      obj.controllers(robot + 1) = struct('function', {trapped}, 'own_first', logical(own_first));
+      obj.controllers(robot + 1) = struct('function', {trapped}, 'own_first', own_first ~= 0);
     end
 
     function tune(obj, name, value, robot)
@@ -174,7 +180,7 @@ classdef Session < handle
       if nargin < 2, what = 'colour'; end
       if nargin < 3, camera = 0; end
       if nargin < 4, robot = 0; end
-      bit = find(strcmp(what, {'colour', 'depth', 'labels'}));
+      bit = find(strcmp(char_or_none(what), {'colour', 'depth', 'labels'}));
       if isempty(bit)
         error('verp:argument', 'verp: picture() takes colour, depth or labels');
       end
@@ -237,15 +243,27 @@ classdef Session < handle
 
     function close(obj)
     %CLOSE Ends the run; a trace that is written becomes whole. Also what MATLAB's end does.
-      if ~isempty(obj.session)
-        open = obj.session;
-        obj.session = [];
-        verp_mex('session_close', open);
+      if isempty(obj.session), return; end
+      try
+        verp_mex('session_close', obj.session);
+      catch thrown
+        if ~strcmp(thrown.identifier, 'verp:busy'), obj.session = []; end  % a controller of it is at work
+        rethrow(thrown);
       end
+      obj.session = [];
     end
 
     function delete(obj)
       obj.close();
     end
   end
+end
+
+function yes = is_flag(value)
+  yes = (islogical(value) || isnumeric(value)) && isscalar(value) && isreal(value) && ~isnan(value);
+end
+
+function text = char_or_none(value)
+  text = '';
+  if ischar(value), text = value; end
 end

@@ -23,7 +23,7 @@ static class CsharpPicturesTest {
       Says("verp_session_camera: there is no camera 3", () => session.Colour(3));
       Says("verp_session_render: there is no view 'moon'", () => session.Render("moon", 64, 48));
       Says("verp_session_render: view->width may be", () => session.Render("front", 1, 48));
-      Throws<ArgumentException>(() => session.Render(new[] { 1.0 }, new[] { 0, 0, 0.25 }));
+      Says("verp_session_render: eye_m and target_m are three", () => session.Render(new[] { 1.0 }, new[] { 0, 0, 0.25 }));
       session.Control(moment => {
         Says("verp_session_camera: another thread", () => session.Colour());
         moment.Decide();
