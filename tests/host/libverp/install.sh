@@ -51,3 +51,16 @@ for each in share/man/man1/verp.1 share/bash-completion/completions/verp share/z
   share/fish/vendor_completions.d/verp.fish; do
   grep -q replay "$each" || say "$each does not know the commands"
 done
+# A page for each function, and in it the header's words.
+functions=$(grep -oE '\bverp_[a-z_]+\(' include/verp/verp.h | tr -d '(' | sort -u)
+[[ $(wc -l <<<"$functions") -gt 40 ]] || say "the header declares only $functions"
+for each in $functions; do
+  grep -q "^\.B .*[ *]$each(" share/man/man3/libverp.3 || say "libverp.3 does not know $each"
+  [[ $(cat "share/man/man3/$each.3") == ".so man3/libverp.3" ]] || say "there is no page $each.3"
+done
+grep -q 'no element of R R(haT' <(tr -d '\\' <share/man/man3/libverp.3) || say "libverp.3 has not the words of verp_core_leg_ik"
+grep -q 'typedef struct verp_core_handle\* verp_core;' share/man/man3/libverp.3 || say "libverp.3 has no types"
+if command -v groff >/dev/null; then
+  wrong=$(groff -man -Tutf8 -ww share/man/man3/libverp.3 2>&1 >libverp.txt)
+  [[ -z $wrong ]] || say "groff finds in libverp.3: $wrong"
+fi
