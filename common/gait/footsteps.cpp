@@ -1,5 +1,6 @@
 #include "common/gait/footsteps.hpp"
 
+#include "common/gait/passing.hpp"
 #include "common/kinematics/leg_ik.hpp"
 #include "common/math/convert.hpp"
 
@@ -265,6 +266,7 @@ Step next_step(const Params& params, const GaitTuning& tuning, const VelocityIn&
   step.foot[kLeft] = last.after(kLeft);
   step.foot[kRight] = last.after(kRight);
   land_beside(params, tuning, stride, state, step);
+  step.bend_m = bend_beside(params, clearance_m(params, tuning), step);
   state.stride = stride;
   const int carrying = step.carrying();
   step.zmp_begin_m = last.zmp_end_m;

@@ -15,7 +15,8 @@ struct FootPose {
 /// Foot `side` at `time_s` after the beginning of the step. The swing foot leaves when the double
 /// support ends, follows a quintic from lift-off to landing (at rest at both, so that nothing
 /// jerks) and, in height, the quartic through lift-off, apex and landing on top of the rise to
-/// touchdown_m.
+/// touchdown_m. Where it would meet the other foot it goes around it, further out by that quartic
+/// too: early, when it has not come far.
 inline FootPose foot_at(const Step& step, int side, float time_s) {
   if (side != step.swing) {
     const float settle_s = 2.0F * step.key_s();
@@ -29,11 +30,11 @@ inline FootPose foot_at(const Step& step, int side, float time_s) {
   const Foothold& from = step.foot[side];
   const Xy way_m = step.landing.at_m - from.at_m;
   FootPose pose;
-  pose.on.at_m = from.at_m + along.value * way_m;
+  pose.on.at_m = from.at_m + along.value * way_m + lift.value * step.bend_m;
   pose.on.yaw_rad = from.yaw_rad + along.value * (step.landing.yaw_rad - from.yaw_rad);
   pose.height_m = step.lift_m * lift.value + step.touchdown_m * along.value;
   const float per_s2 = 1.0F / math::square(swing_s);
-  const Xy accel = (per_s2 * along.second) * way_m;
+  const Xy accel = (per_s2 * along.second) * way_m + (per_s2 * lift.second) * step.bend_m;
   pose.accel_m_s2 = {accel.x, accel.y,
                      per_s2 * (lift.second * step.lift_m + along.second * step.touchdown_m)};
   return pose;

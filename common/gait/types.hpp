@@ -68,11 +68,12 @@ struct Step {
   float settle_m = 0;     ///< height at which `landed` begins; it comes down in two key times
   Foothold foot[kFeet];   ///< at the beginning of the step
   Foothold landing;       ///< of the swing foot
+  Xy bend_m;  ///< of its way, at mid-swing, away from the straight line: around the other foot
   Xy zmp_begin_m;
   Xy zmp_end_m;
   Xy dcm_end_m;  ///< divergent component of motion at the end of the step
   VERP_FIELDS(key_us, key_points, swing, phase, landed, double_support_s, lift_m, touchdown_m,
-              settle_m, foot, landing, zmp_begin_m, zmp_end_m, dcm_end_m)
+              settle_m, foot, landing, bend_m, zmp_begin_m, zmp_end_m, dcm_end_m)
 
   constexpr std::int32_t duration_us() const { return key_us * key_points; }
   constexpr float duration_s() const { return static_cast<float>(duration_us()) * 1e-6F; }

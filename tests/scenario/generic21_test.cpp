@@ -117,6 +117,19 @@ TEST(Generic21, WalksInCirclesAndTurnsOnTheSpot) {
   expect_between(0, number(turn, "distance_m"), 0.2, "way, m");
 }
 
+// Forward and about at once, at speed: its straight steps led over the other sole, and its feet met
+// in 25 and 32 ticks of ten seconds.
+TEST(Generic21, KeepsItsFeetApartInFastCurves) {
+  for (const char* arguments : {"1 --seed 2", "-1 --seed 3"}) {
+    const Walk curve =
+        walk(std::string("generic21 --for 10 --physics-step 2 --velocity=0.25,0,") + arguments);
+    expect_walked(curve);
+    EXPECT_EQ(number(curve, "self_contact_ticks"), 0) << arguments;
+    expect_between(0.22, number(curve, "speed_steady_m_s"), 0.26, "steady speed, m/s");
+    expect_between(400, std::abs(number(curve, "yaw_drift_deg")), 600, "turn, degrees");
+  }
+}
+
 // 8 cm in 400 ms, 0.40 m/s: legs swing as fast as their servos turn, and swing too far. It walked
 // 0.53 m/s, and fell, until landings were learnt (balance/landing.hpp). A minute of it: --full.
 TEST(Generic21, WalksFastAndNoFasterThanAsked) {

@@ -108,6 +108,22 @@ TEST(Swing, FootRestsLiftsAndLandsWhereItShould) {
   }
 }
 
+// Furthest out in the middle; it leaves and lands where it would.
+TEST(Swing, WayBendsAroundTheOtherFoot) {
+  Step step;
+  step.key_us = 15000;
+  step.key_points = 15;
+  step.swing = kLeft;
+  step.foot[kLeft] = {{-0.04F, 0.04F}, 0};
+  step.landing = {{0.04F, 0.04F}, 0};
+  step.bend_m = {0, 0.01F};
+  for (const float time_s : {0.0F, step.duration_s()}) {
+    EXPECT_EQ(foot_at(step, kLeft, time_s).on.at_m.y, 0.04F);
+  }
+  EXPECT_NEAR(foot_at(step, kLeft, 0.5F * step.duration_s()).on.at_m.y, 0.05F, 1e-6F);
+  EXPECT_GT(foot_at(step, kLeft, 0.25F * step.duration_s()).on.at_m.y, 0.045F);
+}
+
 // The body sags while one foot carries: the swing sole ends its step a little above the ground, and
 // comes down when it has begun to carry.
 TEST(Swing, SoleTouchesDownHighAndSettles) {
@@ -140,6 +156,7 @@ TEST(Swing, AccelerationIsTheSecondDerivative) {
   step.touchdown_m = 0.004F;
   step.foot[kLeft] = {{-0.04F, 0.04F}, 0};
   step.landing = {{0.04F, 0.05F}, 0};
+  step.bend_m = {-0.001F, 0.008F};
   constexpr float kStep_s = 0.004F;
   for (float time_s = 0.02F; time_s < 0.2F; time_s += 0.02F) {
     const FootPose before = foot_at(step, kLeft, time_s - kStep_s);
@@ -149,6 +166,7 @@ TEST(Swing, AccelerationIsTheSecondDerivative) {
       return ((a - b) + (c - b)) / (kStep_s * kStep_s);
     };
     EXPECT_NEAR(here.accel_m_s2.x, second(before.on.at_m.x, here.on.at_m.x, after.on.at_m.x), 0.1F);
+    EXPECT_NEAR(here.accel_m_s2.y, second(before.on.at_m.y, here.on.at_m.y, after.on.at_m.y), 0.1F);
     EXPECT_NEAR(here.accel_m_s2.z, second(before.height_m, here.height_m, after.height_m), 0.1F);
   }
 }

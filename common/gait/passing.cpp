@@ -1,0 +1,57 @@
+#include "common/gait/passing.hpp"
+
+#include "common/math/spline.hpp"
+
+namespace verp::gait {
+namespace {
+
+// The swing is looked at so many times less one, most often in its middle, where it is fastest:
+// between two looks a sole comes nearer by no more than half the room that is kept.
+constexpr int kLooks = 10;
+
+// Share of the swing's time at look `i`.
+constexpr float time_of(int i) {
+  const float w = 2.0F * static_cast<float>(i) / static_cast<float>(kLooks) - 1.0F;
+  return 0.5F + 0.25F * w * (1.0F + w * w);
+}
+
+// How far a sole reaches from its frame's origin, in a direction given in that frame.
+float reach_m(const LegParams& leg, Xy direction) {
+  return direction.x * (direction.x > 0.0F ? leg.sole_front_m : -leg.sole_back_m) +
+         direction.y * (direction.y > 0.0F ? leg.sole_left_m : -leg.sole_right_m);
+}
+
+}  // namespace
+
+Xy bend_beside(const Params& params, float wanted_m, const Step& step) {
+  const Foothold &from = step.foot[step.swing], &carrying = step.foot[step.carrying()];
+  const float turn_rad = step.landing.yaw_rad - from.yaw_rad;
+  const float begin_rad = from.yaw_rad - carrying.yaw_rad;
+  if (turn_rad == 0.0F && begin_rad == 0.0F) return {};
+  // All in the carrying foot's frame, whose y is turned to the swing foot's side by `out`.
+  const LegParams &swinging = params.leg[step.swing], &standing = params.leg[step.carrying()];
+  const math::SinCos heading = math::sincos(carrying.yaw_rad);
+  const math::SinCos back{-heading.sin, heading.cos};
+  const Xy begin_m = turned(from.at_m - carrying.at_m, back);
+  const Xy way_m = turned(step.landing.at_m - from.at_m, back);
+  const float out = step.swing == kLeft ? 1.0F : -1.0F;
+  const float standing_m = reach_m(standing, {0.0F, out});
+  const float swinging_m = reach_m(swinging, {0.0F, -out});
+  float bend_m = 0.0F;
+  for (int i = 1; i < kLooks; ++i) {
+    const float v = time_of(i);
+    const float along = math::minimum_jerk(v).value;
+    const Xy at_m = begin_m + along * way_m;
+    const math::SinCos turn = math::sincos(begin_rad + along * turn_rad);
+    // Across a line along the carrying sole, and across one along the swinging sole: one is enough.
+    const Xy beside{-out * turn.sin, out * turn.cos};
+    const float room_m =
+        out * at_m.y - standing_m - reach_m(swinging, {-out * turn.sin, -out * turn.cos});
+    const float other_m = dot(at_m, beside) - swinging_m - reach_m(standing, beside);
+    const float short_m = math::min(wanted_m - room_m, (wanted_m - other_m) / turn.cos);
+    bend_m = math::max(bend_m, short_m / math::swing_lift(v).value);
+  }
+  return turned({0.0F, out * bend_m}, heading);
+}
+
+}  // namespace verp::gait
