@@ -25,9 +25,9 @@ float reach_m(const LegParams& leg, Xy direction) {
 
 Xy bend_beside(const Params& params, float wanted_m, const Step& step) {
   const Foothold &from = step.foot[step.swing], &carrying = step.foot[step.carrying()];
-  const float turn_rad = step.landing.yaw_rad - from.yaw_rad;
   const float begin_rad = from.yaw_rad - carrying.yaw_rad;
-  if (turn_rad == 0.0F && begin_rad == 0.0F) return {};
+  const float turn_rad = step.landing.yaw_rad - from.yaw_rad;
+  if (from.yaw_rad == carrying.yaw_rad && step.landing.yaw_rad == carrying.yaw_rad) return {};
   // All in the carrying foot's frame, whose y is turned to the swing foot's side by `out`.
   const LegParams &swinging = params.leg[step.swing], &standing = params.leg[step.carrying()];
   const math::SinCos heading = math::sincos(carrying.yaw_rad);
@@ -48,7 +48,8 @@ Xy bend_beside(const Params& params, float wanted_m, const Step& step) {
     const float room_m =
         out * at_m.y - standing_m - reach_m(swinging, {-out * turn.sin, -out * turn.cos});
     const float other_m = dot(at_m, beside) - swinging_m - reach_m(standing, beside);
-    const float short_m = math::min(wanted_m - room_m, (wanted_m - other_m) / turn.cos);
+    const float short_m =
+        math::min(wanted_m - room_m, (wanted_m - other_m) / math::max(turn.cos, 0.1F));
     bend_m = math::max(bend_m, short_m / math::swing_lift(v).value);
   }
   return turned({0.0F, out * bend_m}, heading);
