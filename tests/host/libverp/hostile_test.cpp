@@ -2,10 +2,14 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
+#include <cstring>
 #include <functional>
+#include <random>
 #include <stdexcept>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "host/libverp/verp.hpp"
 #include "tests/host/libverp/expect_error.hpp"
@@ -88,6 +92,49 @@ TEST(LibverpHostile, TextsThatAreEmpty) {
   verp_session other = nullptr;
   expect_error(verp_session_open(&world, &other), VERP_BAD_ARGUMENT, "verp_session_open",
                "file is empty");
+}
+
+/// What no sensor gives and nobody orders: every byte is a number, and none an end of the host.
+TEST(LibverpHostile, CoreTakesAnyBytes) {
+  const verp_lib::Core core;
+  std::mt19937 chance(1);
+  verp_outputs outputs = {};
+  for (int n = 0; n < 2000; ++n) {
+    verp_inputs inputs = {};
+    auto* const bytes = reinterpret_cast<unsigned char*>(&inputs);
+    std::generate_n(bytes, sizeof inputs, [&] { return static_cast<unsigned char>(chance()); });
+    if (n % 3 == 0) inputs.tick = static_cast<std::uint32_t>(n);
+    if (n % 7 == 0) std::memset(&outputs, static_cast<int>(chance() & 0xff), sizeof outputs);
+    ASSERT_EQ(verp_core_step(core.handle(), &inputs, &outputs), VERP_OK) << verp_last_error();
+  }
+  EXPECT_NE(core.digest(), 0U);
+}
+
+/// Threads that use, and close, one handle: each call is done or told, and nothing breaks.
+TEST(LibverpHostile, ManyThreadsOnOneHandle) {
+  Opened opened;
+  opened.add();
+  opened.add([](verp_robot& robot) { robot.y_m = 1; });
+  const verp_session session = opened.session;
+  std::atomic<int> done = 0, told = 0;
+  const auto work = [&](int which) {
+    for (int n = 0; n < 100; ++n) {
+      double value = 0;
+      std::uint64_t digest = 0;
+      const int status = which == 0   ? verp_session_tick(session, 1, nullptr, nullptr)
+                         : which == 1 ? verp_session_digest(session, 1, &digest)
+                         : which == 2 ? verp_session_emergency_stop(session, 0, n % 2)
+                         : n < 60     ? verp_session_read(session, "world.time_s", &value)
+                                      : verp_session_close(session);
+      if (status >= 0) ++done;
+      if (status == VERP_BUSY || status == VERP_BAD_HANDLE) ++told;
+    }
+  };
+  std::vector<std::thread> threads;
+  for (int which = 0; which < 4; ++which) threads.emplace_back(work, which);
+  for (std::thread& each : threads) each.join();
+  EXPECT_EQ(done + told, 400);
+  EXPECT_GE(told, 39) << "closed, or busy, but for one";
 }
 
 /// What C++ says before C is asked, as C would.
