@@ -17,9 +17,9 @@ std::string outside_text(const session::WalkPlan& plan, const session::WalkResul
   const auto line = [](const char* name, const std::string& value) {
     return fmt::format("  {:<18}{}\n", name, value);
   };
-  const std::string end = result.interrupted         ? "interrupted"
+  const std::string end = result.interrupted        ? "interrupted"
                           : !result.failure.empty() ? "failed: " + result.failure
-                                                     : "without a fall";
+                                                    : "without a fall";
   const sim::Vec2 way_m = result.end_m - plan.twin.start_m.head<2>();
   return fmt::format("{}: driven for {:.1f} s over {}, {}\n",
                      plan.name.empty() ? plan.params.name : plan.name, result.simulated_s,
