@@ -232,8 +232,8 @@ Step rest_step(const GaitTuning& tuning, const Step& last) {
   return standing_step(tuning, last, Phase::kIdle);
 }
 
-Step next_step(const Params& params, const GaitTuning& tuning, const VelocityIn& wanted,
-               const Step& last, FootstepState& state) {
+Step next_footholds(const Params& params, const GaitTuning& tuning, const VelocityIn& wanted,
+                    const Step& last, FootstepState& state) {
   const bool walked = last.swing != kBoth;
   if (wanted.stop && walked && still(state.stride) && side_by_side(tuning, last)) {
     Step step = standing_step(tuning, last, Phase::kFinal);
@@ -266,11 +266,17 @@ Step next_step(const Params& params, const GaitTuning& tuning, const VelocityIn&
   step.foot[kLeft] = last.after(kLeft);
   step.foot[kRight] = last.after(kRight);
   land_beside(params, tuning, stride, state, step);
-  step.bend_m = bend_beside(params, clearance_m(params, tuning), step);
   state.stride = stride;
   const int carrying = step.carrying();
   step.zmp_begin_m = last.zmp_end_m;
   step.zmp_end_m = zmp_under(params, tuning, carrying, step.foot[carrying]);
+  return step;
+}
+
+Step next_step(const Params& params, const GaitTuning& tuning, const VelocityIn& wanted,
+               const Step& last, FootstepState& state) {
+  Step step = next_footholds(params, tuning, wanted, last, state);
+  if (step.swing != kBoth) step.bend_m = bend_beside(params, clearance_m(params, tuning), step);
   return step;
 }
 

@@ -71,4 +71,8 @@ Step rest_step(const GaitTuning& tuning, const Step& last);
 Step next_step(const Params& params, const GaitTuning& tuning, const VelocityIn& wanted,
                const Step& last, FootstepState& state);
 
+/// The same without a look at the swing's way: enough to see where the ZMP will go.
+Step next_footholds(const Params& params, const GaitTuning& tuning, const VelocityIn& wanted,
+                    const Step& last, FootstepState& state);
+
 }  // namespace verp::gait

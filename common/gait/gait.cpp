@@ -58,11 +58,11 @@ void set_dcm_ends(const Params& params, const Tuning& tuning, const VelocityIn& 
   if (!last.ends_walk()) {
     // Two more steps as now wanted, only to see where the ZMP goes.
     FootstepState ahead = state.footsteps;
-    const Step next = next_step(params, tuning.gait, wanted, last, ahead);
+    const Step next = next_footholds(params, tuning.gait, wanted, last, ahead);
     if (next.ends_walk()) {
       last.dcm_end_m = next.zmp_end_m;
     } else {
-      const Step second = next_step(params, tuning.gait, wanted, next, ahead);
+      const Step second = next_footholds(params, tuning.gait, wanted, next, ahead);
       last.dcm_end_m = periodic_dcm(last, next.zmp_end_m - last.zmp_end_m,
                                     second.zmp_end_m - next.zmp_end_m, state.preview.omega);
     }
