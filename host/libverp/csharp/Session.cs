@@ -59,9 +59,11 @@ namespace Verp {
         what.name = name;
         what.tuning = tuning;
         what.record = record;
-        Checked(Native.verp_session_add(handle, &what, &index));
+        lock (ticks) {  // as many, and in the library's order
+          Checked(Native.verp_session_add(handle, &what, &index));
+          View(index);
+        }
       }
-      View(index);
       return index;
     }
 
@@ -192,8 +194,10 @@ namespace Verp {
     /// <summary>In place of the robot's own controller, from the next tick on; null: its own again.</summary>
     public void Control(Controller controller, uint robot = 0) {
       verp_controller callback = controller == null ? (verp_controller)null : Callback(controller);
-      Checked(Native.verp_session_control(handle, robot, callback, null));
-      controllers[robot] = callback;  // is kept from the garbage collector, and the one before is not needed any more
+      lock (controllers) {  // the one that is kept is the one in force
+        Checked(Native.verp_session_control(handle, robot, callback, null));
+        controllers[robot] = callback;  // is kept from the garbage collector, and the one before is not needed any more
+      }
     }
 
     verp_controller Callback(Controller controller) {

@@ -1,9 +1,12 @@
 """What the Python package says to misuse: each is one error that names the call, and the argument where there is one."""
 
+import gc
 import inspect
 import threading
 import unittest
+import weakref
 from collections.abc import Callable
+from unittest import mock
 
 import numpy as np
 
@@ -190,6 +193,35 @@ class MisuseTest(unittest.TestCase):
             self.session.tick()
         for words, text in zip(("verp_session_tick: another thread", "verp_session_close: another thread", "verp_decide: .*another thread"), told, strict=True):
             self.assertRegex(text, words)
+
+    def test_controller_in_force_is_kept_though_two_threads_set_one(self) -> None:
+        class Own:
+            def __call__(self, moment: verp.Moment) -> None:
+                moment.decide()
+
+        entered, over = threading.Event(), threading.Event()
+        control = verp._lib.calls.session_control
+
+        def slow(*given: object) -> int:
+            status = control(*given)
+            if not entered.is_set():  # the first has it set, and goes on when the second has, or had to wait
+                entered.set()
+                over.wait(0.5)
+            return status
+
+        own = [Own(), Own()]
+        last = weakref.ref(own[1])
+        with mock.patch.object(verp._lib.calls, "session_control", slow):
+            first = threading.Thread(target=self.session.control, args=(own[0],))
+            first.start()
+            entered.wait()
+            self.session.control(own[1])
+            over.set()
+            first.join()
+        del own, first
+        gc.collect()
+        self.assertIsNotNone(last(), "what the library calls is gone")
+        self.assertTrue(self.session.tick())
 
     def test_environment_names_what_it_is_given(self) -> None:
         env = Env()

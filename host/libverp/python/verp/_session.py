@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import threading
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from typing import Any
@@ -93,8 +94,9 @@ class Session(Sight):
         calls.session_open(what, where)
         del kept  # not before
         super().__init__(where[0], lib.verp_session_close)
-        self._ticks: list[np.ndarray] = []
-        self._kept: dict[int, object] = {}
+        self._ticks: dict[int, np.ndarray] = {}
+        self._kept: dict[int, tuple[object, ...]] = {}  # what the library may call
+        self._setting = threading.RLock()  # what it calls, and what is kept of it, are the same
         self._thrown: BaseException | None = None
 
     def add(
@@ -123,8 +125,8 @@ class Session(Sight):
         del kept  # not before
         tick, seen = memory("verp_tick", TICK)
         tick.size = TICK.itemsize
+        self._ticks[robot[0]] = seen  # before the library writes there, whatever interrupts us
         calls.session_view(self._session, robot[0], tick)
-        self._ticks.append(seen)
         return robot[0]
 
     def tick(self, count: int = 1) -> bool:
@@ -145,7 +147,7 @@ class Session(Sight):
     def seen(self, robot: int = 0) -> np.void:
         """The robot's last tick: a record that the session writes into, without a copy (see verp_tick). It outlives the session."""
         self._need_open("Session.seen")
-        if robot.__class__ is not int or not 0 <= robot < len(self._ticks):
+        if robot.__class__ is not int or robot not in self._ticks:
             if not self._ticks:
                 raise ValueError("Session.seen: nobody is in the world; call add() before")
             robot = whole(robot, "Session.seen: robot", 0, len(self._ticks) - 1)
@@ -265,14 +267,17 @@ class Session(Sight):
     def control(self, controller: Controller | None, robot: int = 0) -> None:
         """In place of the robot's own controller, from the next tick on; None: its own again. It writes into `moment.outputs`
         and returns None: anything else ends the run, as an exception does, which tick() raises."""
+        robot = whole(robot, "verp_session_control: robot", 0, 2**32 - 1)
         if controller is None:
             callback = ffi.NULL
         elif not callable(controller):
             raise TypeError(f"verp_session_control: controller is a function of a Moment, or None, not {controller!r}")
         else:
             callback = ffi.callback("verp_controller", self._callback(controller), error=1)
-        calls.session_control(self._session, robot, callback, ffi.NULL)
-        self._kept[robot] = callback
+        with self._setting:
+            self._kept[robot] = (*self._kept.get(robot, ()), callback)
+            calls.session_control(self._session, robot, callback, ffi.NULL)
+            self._kept[robot] = (callback,)
 
     def _callback(self, controller: Controller) -> Callable[[object, object], int]:
         moment = Moment()
