@@ -1,6 +1,7 @@
 #include "board.hpp"
 #include "boards/mps2/arguments.hpp"
 #include "can.hpp"
+#include "firmware/app/action_room.hpp"
 #include "firmware/app/app.hpp"
 #include "firmware/app/can_loop_job.hpp"
 #include "firmware/app/lockstep_can.hpp"
@@ -53,13 +54,14 @@ struct Desk {
 
 verp::board::Can can = verp::board::make_can();
 verp::Params params;
+verp::app::ActionRoom actions;
 
 int fail(const char* why) {
   verp::hal::semihosting::print(why);
   return 3;
 }
 
-int run(Desk& desk, std::uint32_t ticks) {
+int run(Desk& desk, const verp::app::CanLoopJob& job) {
   static Log log(verp::app::no_images);
   static verp::app::OperatorRegisters<Log> registers(
       params, verp::app::OperatorSetup{.takes_orders = false}, log);
@@ -70,12 +72,12 @@ int run(Desk& desk, std::uint32_t ticks) {
   if (bus.greet(params) != verp::lockstep::Verdict::kAccepted) {
     return fail("loop: the twin refused\n");
   }
-  static verp::app::App<Bus, Desk, Desk, verp::app::NoImu, verp::app::Law> app(params, bus, desk,
-                                                                               desk);
+  static verp::app::App<Bus, Desk, Desk, verp::app::NoImu, verp::app::Law> app(
+      params, bus, desk, desk, nullptr, verp::app::law_with(actions.library(job.actions_size)));
   if (app.bring_up().status != verp::app::BringUpStatus::kReady) {
     return fail("loop: a device of the robot did not come up\n");
   }
-  for (std::uint32_t n = 0; n < ticks && !bus.stopped(); ++n) {
+  for (std::uint32_t n = 0; n < job.ticks && !bus.stopped(); ++n) {
     app.tick();
     node.report({.bus = app.counters(),
                  .bus_crc_errors = app.crc_errors(),
@@ -98,10 +100,11 @@ extern "C" int verp_main() {
   static File records(arguments[2], File::Mode::kWrite);
   verp::app::CanLoopJob head;
   if (!job.is_open() || !records.is_open() || !job.read(&head, sizeof head) || !head.fits() ||
-      !job.read(&params, sizeof params)) {
+      !job.read(&params, sizeof params) || head.actions_size > sizeof actions.bytes ||
+      !job.read(actions.bytes, head.actions_size)) {
     return fail("loop: no job, of another build, or no place for records\n");
   }
   if (!verp::board::open_can(can)) return fail("loop: no CAN controller here\n");
   static Desk desk{job, records};
-  return run(desk, head.ticks);
+  return run(desk, head);
 }

@@ -142,6 +142,14 @@ function(verp_add_can_loop_test ticks)
     ENVIRONMENT "VERP_TEST_BOARD=${VERP_BOARD};VERP_TEST_TICKS=${ticks};VERP_FIRMWARE_DIR=${CMAKE_BINARY_DIR}/images")
 endfunction()
 
+# Walk, turn, push, fall, get up, kick and wave over it.
+function(verp_add_can_tour_test)
+  add_test(NAME can_tour.${VERP_BOARD} COMMAND ${CMAKE_SOURCE_DIR}/tests/support/with-can --timeout 1700 --memory 1500M
+    ${VERP_HOST_DIR}/target/target_tests --gtest_filter=CanTour.*)
+  set_tests_properties(can_tour.${VERP_BOARD} PROPERTIES LABELS "loop;hil-can;target" RESOURCE_LOCK vm
+    ENVIRONMENT "VERP_TEST_BOARD=${VERP_BOARD};VERP_FIRMWARE_DIR=${CMAKE_BINARY_DIR}/images")
+endfunction()
+
 # What a fault leaves behind for the next start.
 function(verp_add_fault_tests machine)
   verp_add_emulated_image(fault fault ${machine})

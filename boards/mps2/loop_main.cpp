@@ -13,6 +13,7 @@ using verp::hal::semihosting::File;
 using Remote = verp::app::RemoteBus<File, File>;
 
 verp::Params params;
+verp::app::ActionRoom actions;
 
 const char* words_for(verp::app::BringUpStatus status) {
   using verp::app::BringUpStatus;
@@ -39,7 +40,8 @@ const char* words_for(verp::app::BringUpStatus status) {
 
 int run(Remote& remote) {
   using Loop = verp::app::App<Remote, Remote, Remote, verp::app::NoImu, verp::app::Law>;
-  static Loop app(params, remote, remote, remote);
+  static Loop app(params, remote, remote, remote, nullptr,
+                  verp::app::law_with(remote.actions(actions)));
   const auto report = app.bring_up();
   if (report.status != verp::app::BringUpStatus::kReady) {
     remote.quit(1, words_for(report.status));
@@ -60,7 +62,7 @@ extern "C" int verp_main() {
   File in(arguments[1], File::Mode::kRead);
   File out(arguments[2], File::Mode::kWrite);
   static Remote remote(in, out);
-  if (!in.is_open() || !out.is_open() || !remote.hello(params)) {
+  if (!in.is_open() || !out.is_open() || !remote.hello(params, &actions)) {
     verp::hal::semihosting::print(
         "loop: the PC's end of the link is missing or of another build\n");
     return 3;

@@ -8,8 +8,8 @@
 
 namespace verp::app {
 
-/// What an image without a desk of its own is given to do: this, then the Params, then one
-/// OperatorOrder a tick. Both ends are of one build, as the sizes say.
+/// What an image without a desk of its own is given to do: this, then the Params, the
+/// robot's actions, and one OperatorOrder a tick. Both ends are of one build, as the sizes say.
 struct CanLoopJob {
   static constexpr std::uint32_t kMagic = 0x4A4E4143;  // "CANJ"
 
@@ -17,7 +17,8 @@ struct CanLoopJob {
   std::uint32_t core_version = kCoreVersion;
   std::uint32_t params_size = sizeof(Params);
   std::uint32_t ticks = 0;
-  VERP_FIELDS(magic, core_version, params_size, ticks)
+  std::uint32_t actions_size = 0;
+  VERP_FIELDS(magic, core_version, params_size, ticks, actions_size)
 
   bool fits() const {
     return magic == kMagic && core_version == kCoreVersion && params_size == sizeof(Params);

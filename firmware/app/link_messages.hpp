@@ -25,7 +25,7 @@
 /// longer: read until complete.
 namespace verp::link {
 
-inline constexpr std::uint32_t kVersion = 1;
+inline constexpr std::uint32_t kVersion = 2;
 inline constexpr std::uint32_t kMaxPollBytes = 1024;  ///< most bytes one PollReply carries
 
 enum class Kind : std::uint8_t {
@@ -59,13 +59,15 @@ VERP_PACKED(Hello);
 
 enum class HelloStatus : std::uint32_t { kReady = 0, kWrongVersion = 1, kWrongSizes = 2 };
 
-/// Followed by params_size bytes of Params when status is kReady.
+/// Followed by params_size bytes of Params, then actions_size bytes of an action library, when
+/// status is kReady.
 struct HelloReply {
   HelloStatus status = HelloStatus::kReady;
   std::uint32_t params_size = 0;
   std::uint32_t ticks = 0;          ///< stop by yourself after so many ticks; 0: run until kStop
   std::uint32_t state_every = 125;  ///< send kState whenever tick % state_every == 0; 0: never
-  VERP_FIELDS(status, params_size, ticks, state_every)
+  std::uint32_t actions_size = 0;   ///< a multiple of 4; 0: the robot has none
+  VERP_FIELDS(status, params_size, ticks, state_every, actions_size)
 };
 VERP_PACKED(HelloReply);
 

@@ -6,6 +6,7 @@
 #include "common/control/state.hpp"
 #include "common/io/io.hpp"
 #include "common/model/params.hpp"
+#include "firmware/app/action_room.hpp"
 #include "firmware/app/contracts.hpp"
 #include "firmware/app/link_messages.hpp"
 #include "hal/contract/frame_bus.hpp"
@@ -32,15 +33,19 @@ class RemoteBus {
  public:
   RemoteBus(In& in, Out& out) : in_(in), out_(out) {}
 
-  /// Fetches the robot and what the run wants. False: refused, or the link is lost.
-  bool hello(Params& params) {
+  /// Fetches the robot, its actions and what the run wants. False: refused, the link is lost, or
+  /// there is no room for the actions.
+  bool hello(Params& params, ActionRoom* actions = nullptr) {
     append(link::Kind::kHello, link::Hello{.params_size = sizeof(Params),
                                            .record_size = sizeof(TickRecord),
                                            .state_size = sizeof(State)});
     return flush() && read(&run_, sizeof run_) && run_.status == link::HelloStatus::kReady &&
-           run_.params_size == sizeof(Params) && read(&params, sizeof params);
+           run_.params_size == sizeof(Params) && read(&params, sizeof params) &&
+           (run_.actions_size == 0 || (actions != nullptr && read_actions(*actions)));
   }
 
+  /// Those that hello() fetched, as they are in its room.
+  action::Library actions(const ActionRoom& room) const { return room.library(run_.actions_size); }
   /// Ticks after which the run is over; 0: until stopped().
   std::uint32_t ticks() const { return run_.ticks; }
   /// The PC wants no further tick, or is gone.
@@ -109,6 +114,10 @@ class RemoteBus {
     __builtin_memcpy(outbox_ + used_, &header, sizeof header);
     __builtin_memcpy(outbox_ + used_ + sizeof header, payload, size);
     used_ += sizeof header + size;
+  }
+
+  bool read_actions(ActionRoom& room) {
+    return run_.actions_size <= sizeof room.bytes && read(room.bytes, run_.actions_size);
   }
 
   bool flush() {

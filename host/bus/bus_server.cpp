@@ -97,6 +97,7 @@ bool BusServer::handle(const link::MessageHeader& header, const std::uint8_t* pa
 bool BusServer::hello(const link::Hello& message) {
   link::HelloReply reply;
   reply.params_size = sizeof(Params);
+  reply.actions_size = static_cast<std::uint32_t>(options_.actions.size_bytes());
   reply.ticks = options_.ticks;
   reply.state_every = options_.state_every;
   if (message.version != link::kVersion) {
@@ -106,9 +107,16 @@ bool BusServer::hello(const link::Hello& message) {
     reply.status = link::HelloStatus::kWrongSizes;
   }
   greeted_ = reply.status == link::HelloStatus::kReady;
-  std::vector<std::uint8_t> bytes(sizeof reply + (greeted_ ? sizeof(Params) : 0));
-  std::memcpy(bytes.data(), &reply, sizeof reply);
-  if (greeted_) std::memcpy(bytes.data() + sizeof reply, &params_, sizeof(Params));
+  std::vector<std::uint8_t> bytes;
+  const auto append = [&bytes](const void* data, std::size_t size) {
+    const auto* begin = static_cast<const std::uint8_t*>(data);
+    bytes.insert(bytes.end(), begin, begin + size);
+  };
+  append(&reply, sizeof reply);
+  if (greeted_) {
+    append(&params_, sizeof params_);
+    append(options_.actions.data(), options_.actions.size_bytes());
+  }
   if (!streams_.write(bytes.data(), bytes.size())) return end(3, "the controller hung up");
   if (!greeted_) {
     return end(3, "the controller was built from other sources: rebuild its firmware");

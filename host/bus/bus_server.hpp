@@ -1,6 +1,7 @@
 #pragma once
 #include <cstdint>
 #include <functional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -35,6 +36,7 @@ struct ServerHooks {
 struct RunOptions {
   std::uint32_t ticks = 0;  ///< 0: until `stop`
   std::uint32_t state_every = 125;
+  std::span<const std::uint32_t> actions = {};  ///< the library that the controller gets
 };
 
 /// How the controller ended. exit_code as the verp program's: 3 if the link broke or spoke

@@ -82,8 +82,8 @@ class BoardController final : public Controller {
     const std::string& board = robot_.plan().board;
     try {
       const bus::ServerResult ended =
-          board::run_loop_on(board, robot_.plan().params, robot_.bus(), hooks, bus::RunOptions{},
-                             robot_.plan().firmware_folder);
+          board::run_loop_on(board, robot_.plan().params, robot_.bus(), hooks,
+                             {.actions = robot_.plan().actions}, robot_.plan().firmware_folder);
       if (failure_.empty() && ended.exit_code != 0) failure_ = board + ": " + ended.reason;
     } catch (const board::BoardError&) {
       if (!robot_.interrupted()) throw;  // Ctrl-C in a terminal ends the emulator too

@@ -43,11 +43,6 @@ void prepare_falls(const WalkOptions& options, WalkPlan& plan) {
                     "verp walk --controller: one of your own is given no actions to get up by; "
                     "leave --get-up and --start out");
   }
-  if (!options.board.empty()) {
-    throw ToolError(kBadInput,
-                    "verp walk --on: the board's firmware has no actions to get up by; leave "
-                    "--get-up and --start out");
-  }
   take_get_up_actions(plan);
 }
 

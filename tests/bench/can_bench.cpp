@@ -28,7 +28,8 @@ int run(std::vector<std::string> boards, std::uint32_t ticks) {
   for (const std::string& board : boards) {
     verp::test::LevelPlant plant(robot.params);
     verp::can::VirtualCan bus(robot.params, plant);
-    const verp::test::CanRun run = verp::test::run_over_can(board, robot.params, bus, ticks);
+    const verp::test::CanRun run = verp::test::run_over_can(
+        board, robot.params, bus, verp::test::walk_script(robot.params, ticks));
     fmt::print(
         R"({{"board": "{}", "core": "{}", "ticks": {}, "can_ticks_per_s": {:.1f}, "can_frames_per_tick": {:.1f}, "can_answers_repeated": {}}})"
         "\n",

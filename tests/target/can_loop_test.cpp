@@ -26,13 +26,7 @@ std::string setting(const char* name) {
   return value != nullptr ? value : "";
 }
 
-/// generic21 with its CAN bus, on its feet in a world of its own.
-struct CanTwin {
-  test::Robot robot = test::load_robot("generic21", "can");
-  sim::World world;
-  sim::TwinRobot body{world, robot.entity};
-  can::VirtualCan bus{robot.params, body};
-};
+using test::CanTwin;
 
 constexpr double kStanding_s = 9;     ///< getting up and standing still at the end (twin_run.cpp)
 constexpr double kLeast_m_s = 0.089;  ///< half of what the operator asks for
@@ -40,7 +34,8 @@ constexpr double kLeast_m_s = 0.089;  ///< half of what the operator asks for
 std::vector<TickRecord> walk_here(std::uint32_t ticks) {
   CanTwin twin;
   const sim::Vec3 start_m = twin.body.truth().com_world_m;
-  std::vector<TickRecord> records = test::run_can_here(twin.robot.params, twin.bus, ticks);
+  std::vector<TickRecord> records =
+      test::run_can_here(twin, test::walk_script(twin.robot.params, ticks));
   const double walking_s = 1e-6 * ticks * twin.robot.params.period_us - kStanding_s;
   const double walked_m = (twin.body.truth().com_world_m - start_m).head<2>().norm();
   EXPECT_FALSE(twin.body.truth().fallen);
@@ -48,6 +43,17 @@ std::vector<TickRecord> walk_here(std::uint32_t ticks) {
   EXPECT_GT(walked_m, kLeast_m_s * walking_s);
   std::printf("walked %.2f m in %.1f s\n", walked_m, walking_s);
   return records;
+}
+
+void expect_same(const std::vector<TickRecord>& here, const std::vector<TickRecord>& there) {
+  ASSERT_EQ(there.size(), here.size());
+  for (std::size_t i = 0; i < here.size(); ++i) {
+    for (int stage = 0; stage < kStages; ++stage) {
+      ASSERT_EQ(there[i].digest.stage[stage], here[i].digest.stage[stage])
+          << "first divergence: tick " << i << ", stage " << kStageNames[stage];
+    }
+    ASSERT_EQ(std::memcmp(&there[i], &here[i], sizeof(TickRecord)), 0) << "tick " << i;
+  }
 }
 
 /// What `verp shadow` finds that listens meanwhile: it asks for a State first.
@@ -69,19 +75,28 @@ TEST(CanLoop, WalksInTheTwinWithTheBitsOfSoftwareInTheLoop) {
   ASSERT_EQ(here.size(), ticks);
   CanTwin twin;
   shadow::LiveCheck check(twin.robot.params);
-  const test::CanRun run = test::run_over_can(board, twin.robot.params, twin.bus, ticks, &check);
+  const test::CanRun run =
+      test::run_over_can(board, twin, test::walk_script(twin.robot.params, ticks), &check);
   std::printf("%-10s %u ticks at %.0f ticks/s with physics, %u answers asked for again\n",
               board.c_str(), ticks, run.ticks_per_s, run.counters.repeats);
-  const std::vector<TickRecord>& there = run.records;
-  ASSERT_EQ(there.size(), here.size());
-  for (std::size_t i = 0; i < here.size(); ++i) {
-    for (int stage = 0; stage < kStages; ++stage) {
-      ASSERT_EQ(there[i].digest.stage[stage], here[i].digest.stage[stage])
-          << "first divergence: tick " << i << ", stage " << kStageNames[stage];
-    }
-    ASSERT_EQ(std::memcmp(&there[i], &here[i], sizeof(TickRecord)), 0) << "tick " << i;
-  }
+  expect_same(here, run.records);
   expect_same_bits_live(check, ticks);
+}
+
+// Of one robot on a field: walk, turn, push, fall, get up, kick, wave.
+TEST(CanTour, HasTheBitsOfSoftwareInTheLoop) {
+  const std::string board = setting("VERP_TEST_BOARD");
+  ASSERT_FALSE(board.empty()) << "set VERP_TEST_BOARD";
+  CanTwin here, there;
+  const test::Script tour = test::tour_script(here.robot);
+  const std::vector<TickRecord> records = test::run_can_here(here, tour);
+  EXPECT_EQ(records.size(), tour.ticks);
+  EXPECT_TRUE(here.body.truth().fallen) << "it fell, and";
+  EXPECT_TRUE(here.body.forget_fall()) << "got up";
+  const test::CanRun run = test::run_over_can(board, there, tour);
+  std::printf("%-10s %u ticks at %.0f ticks/s with physics\n", board.c_str(), tour.ticks,
+              run.ticks_per_s);
+  expect_same(records, run.records);
 }
 
 /// Somebody's tool, which asks the board's node for its mode without a rest, and now and then to
@@ -127,9 +142,10 @@ TEST(CanLoop, IsNeitherEndedNorOrderedByWhoPollsItsNode) {
   ASSERT_FALSE(board.empty()) << "set VERP_TEST_BOARD";
   constexpr std::uint32_t kTicks = 100;
   CanTwin here, twin;
-  const auto expected = test::run_can_here(here.robot.params, here.bus, kTicks);
+  const auto expected = test::run_can_here(here, test::walk_script(here.robot.params, kTicks));
   Poller poller;
-  const test::CanRun run = test::run_over_can(board, twin.robot.params, twin.bus, kTicks);
+  const test::CanRun run =
+      test::run_over_can(board, twin, test::walk_script(twin.robot.params, kTicks));
   poller.end();
   ASSERT_EQ(run.records.size(), kTicks);
   EXPECT_EQ(run.records.back().digest.chain, expected.back().digest.chain);

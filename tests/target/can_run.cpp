@@ -28,19 +28,25 @@ struct Keeper {
   void record(const TickRecord& record, const State&, const Outputs&) { records.push_back(record); }
 };
 
+struct Orders {
+  const Script& script;
+  app::OperatorOrder order(std::uint32_t tick) const { return script.order(tick); }
+};
+
 template <class T>
 void put(std::ofstream& file, const T& value) {
   file.write(reinterpret_cast<const char*>(&value), sizeof value);
 }
 
-void write_job(const std::filesystem::path& path, const Params& params, std::uint32_t ticks) {
+void write_job(const std::filesystem::path& path, const Params& params, const Script& script) {
   std::ofstream file(path, std::ios::binary);
   app::CanLoopJob job;
-  job.ticks = ticks;
+  job.ticks = script.ticks;
+  job.actions_size = static_cast<std::uint32_t>(4 * script.actions.size());
   put(file, job);
   put(file, params);
-  const ScriptedOperator operator_link(params, ticks, false);
-  for (std::uint32_t n = 0; n < ticks + ticks / 8; ++n) put(file, operator_link.order(n));
+  for (const std::uint32_t word : script.actions) put(file, word);
+  for (std::uint32_t n = 0; n < script.ticks + script.ticks / 8; ++n) put(file, script.order(n));
 }
 
 std::vector<TickRecord> read_records(const std::filesystem::path& path) {
@@ -107,11 +113,17 @@ void serve(can::LockstepServer& server, can::LockstepPort& port, board::QemuProc
 
 }  // namespace
 
+CanRun run_over_can(const std::string& board, CanTwin& twin, const Script& script,
+                    shadow::LiveCheck* check) {
+  twin.hands.take(script);
+  return run_over_can(board, twin.robot.params, twin.bus, script, check);
+}
+
 CanRun run_over_can(const std::string& name, const Params& params, can::VirtualCan& bus,
-                    std::uint32_t ticks, shadow::LiveCheck* check) {
+                    const Script& script, shadow::LiveCheck* check) {
   const board::TemporaryDirectory folder;
   const auto job = folder.path() / "job", records = folder.path() / "records";
-  write_job(job, params, ticks);
+  write_job(job, params, script);
   can::LockstepPort port(kInterface);
   std::optional<Listener> listener;
   if (check != nullptr) listener.emplace(*check);
@@ -142,14 +154,15 @@ CanRun run_over_can(const std::string& name, const Params& params, can::VirtualC
   return run;
 }
 
-std::vector<TickRecord> run_can_here(const Params& params, can::VirtualCan& bus,
-                                     std::uint32_t ticks) {
+std::vector<TickRecord> run_can_here(CanTwin& twin, const Script& script) {
   std::vector<TickRecord> records;
-  ScriptedOperator operator_link(params, ticks, false);
+  Orders orders{script};
   Keeper keeper{records};
-  app::App app(params, bus, operator_link, keeper);
+  twin.hands.take(script);
+  app::App app(twin.robot.params, twin.bus, orders, keeper, static_cast<app::NoImu*>(nullptr),
+               app::Core{{script.actions.data(), 4 * script.actions.size()}});
   if (app.bring_up().status != app::BringUpStatus::kReady) return {};
-  for (std::uint32_t n = 0; n < ticks; ++n) app.tick();
+  for (std::uint32_t n = 0; n < script.ticks; ++n) app.tick();
   return records;
 }
 

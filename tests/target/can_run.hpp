@@ -21,13 +21,24 @@ struct CanRun {
   double frames_per_tick = 0;  ///< on vcan0, those of the clock included
 };
 
-/// The board walks as ScriptedOperator says. Throws BoardError when it does not end well, or when
-/// frames were lost here. `check` listens on vcan0, if there is one.
+/// A robot with its CAN bus, on its feet in a world of its own.
+struct CanTwin {
+  Robot robot = load_robot("generic21", "can");
+  sim::World world;
+  sim::TwinRobot body{world, robot.entity};
+  can::VirtualCan bus{robot.params, body};
+  Hands hands{world, body};
+};
+
+/// The board does as the script says. Throws BoardError when it does not end well, or when frames
+/// were lost here. `check` listens on vcan0, if there is one.
+CanRun run_over_can(const std::string& board, CanTwin& twin, const Script& script,
+                    shadow::LiveCheck* check = nullptr);
+/// With whatever moves behind the bus.
 CanRun run_over_can(const std::string& board, const Params& params, can::VirtualCan& bus,
-                    std::uint32_t ticks, shadow::LiveCheck* check = nullptr);
+                    const Script& script, shadow::LiveCheck* check = nullptr);
 
 /// Software in the loop, over the same CANopen binding. Empty: it did not come up.
-std::vector<TickRecord> run_can_here(const Params& params, can::VirtualCan& bus,
-                                     std::uint32_t ticks);
+std::vector<TickRecord> run_can_here(CanTwin& twin, const Script& script);
 
 }  // namespace verp::test

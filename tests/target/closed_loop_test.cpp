@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdlib>
 
 #include "tests/target/twin_run.hpp"
@@ -29,11 +30,23 @@ TEST(ClosedLoop, WalksTheSameBitsInTheBoardAndOnThePc) {
   const Robot robot = load_robot("generic21");
   const TwinRun here = run_here(robot, kTicks, false);
   ASSERT_EQ(here.records.size(), kTicks);
-  const TwinRun there = run_on_board(board, robot, kTicks, false);
+  const TwinRun there = run_on_board(board, robot, walk_script(robot.params, kTicks));
   expect_same(here, there);
   EXPECT_EQ(here.distance_m, there.distance_m);
   EXPECT_FALSE(there.fallen);
   EXPECT_GT(there.distance_m, 2.0) << "it should have walked";
+}
+
+// Of one robot on a field: walk, turn, push, fall, get up, kick, wave.
+TEST(ClosedLoop, MakesATourWithTheSameBitsInTheBoardAndOnThePc) {
+  const char* board = std::getenv("VERP_TEST_BOARD");
+  ASSERT_NE(board, nullptr) << "set VERP_TEST_BOARD";
+  const Robot robot = load_robot("generic21");
+  const Script tour = tour_script(robot);
+  const TwinRun here = run_here(robot, tour);
+  EXPECT_TRUE(std::ranges::equal(here.modes, kTourModes)) << modes_text(here.modes);
+  EXPECT_GT(here.distance_m, 0.3) << "it should have walked";
+  expect_same(here, run_on_board(board, robot, tour));
 }
 
 }  // namespace

@@ -3,6 +3,8 @@
 #include <cmath>
 
 #include "firmware/app/app.hpp"
+#include "host/action/compile.hpp"
+#include "host/action/folder.hpp"
 #include "host/board/loop_on_target.hpp"
 #include "host/bus/virtual_bus.hpp"
 #include "host/model/find.hpp"
@@ -38,15 +40,43 @@ struct Twin {
   sim::World world;
   sim::TwinRobot body;
   bus::VirtualBus bus;
+  Hands hands{world, body};
   sim::Vec3 start;
 };
 
 struct Keeper {
   TwinRun& run;
-  void record(const TickRecord& record, const State&, const Outputs&) {
+  void record(const TickRecord& record, const State&, const Outputs& outputs) {
     run.records.push_back(record);
+    const auto mode = static_cast<safety::Mode>(outputs.mode);
+    if (run.modes.empty() || run.modes.back() != mode) run.modes.push_back(mode);
   }
 };
+
+struct Orders {
+  const Script& script;
+  app::OperatorOrder order(std::uint32_t tick) const { return script.order(tick); }
+};
+
+/// From this second on it is ordered so.
+struct Order {
+  double from_s;
+  Request request;
+  Walk walk = {};
+  const char* action = "";
+};
+constexpr Order kTour[] = {
+    {0, Request::kStand},
+    {6, Request::kWalk, kStraight},
+    {9, Request::kWalk, {900, 0, 400}},
+    {11, Request::kWalk, kStraight},
+    {13, Request::kStand},
+    {18, Request::kGetUp},
+    {31.5, Request::kStand},
+    {32, Request::kStand, {}, "kick_right"},
+    {36.5, Request::kStand, {}, "wave"},
+};
+constexpr double kTourEnd_s = 42, kPush_s = 12, kOver_s = 16;
 
 }  // namespace
 
@@ -74,26 +104,73 @@ Robot load_robot(const std::string& name, const std::string& bus) {
   return robot;
 }
 
-TwinRun run_here(const Robot& robot, std::uint32_t ticks, bool wandering) {
+Script walk_script(const Params& params, std::uint32_t ticks, bool wandering) {
+  const ScriptedOperator orders(params, ticks, wandering);
+  return {.ticks = ticks, .order = [orders](std::uint32_t tick) { return orders.order(tick); }};
+}
+
+Script tour_script(const Robot& robot) {
+  const auto folder = action::folder_of(robot.entity.file);
+  const action::Made made = action::make_library(robot.params, action::read_folder(folder));
+  std::vector<app::OperatorOrder> orders;
+  for (const Order& each : kTour) {
+    app::OperatorOrder order;
+    order.flags = kCommandFresh;
+    order.command.request = each.request;
+    order.command.vx_tenth_mm_s = each.walk.vx_tenth_mm_s;
+    order.command.wz_mrad_s = each.walk.wz_mrad_s;
+    if (*each.action != 0)
+      order.action = static_cast<std::uint16_t>(made.require(each.action, folder.string()));
+    orders.push_back(order);
+  }
+  const double period_s = 1e-6 * robot.params.period_us;
+  const auto tick_of = [&](double at_s) { return static_cast<std::uint32_t>(at_s / period_s); };
+  return {.ticks = tick_of(kTourEnd_s),
+          .order =
+              [orders, period_s](std::uint32_t tick) {
+                std::size_t now = 0;
+                while (now + 1 < orders.size() && kTour[now + 1].from_s <= tick * period_s) ++now;
+                app::OperatorOrder order = orders[now];
+                order.command.sequence = static_cast<std::uint8_t>(tick);
+                return order;
+              },
+          .hands = {{kPush_s, {0, 10, 0}, 0.05}, {kOver_s, {-60, 0, 0}, 0.15}},
+          .actions = made.words};
+}
+
+std::string modes_text(const std::vector<safety::Mode>& modes) {
+  std::string text;
+  for (const safety::Mode mode : modes)
+    text += std::string(safety::kModeNames[static_cast<int>(mode)]) + "; ";
+  return text;
+}
+
+TwinRun run_here(const Robot& robot, const Script& script) {
   Twin twin(robot);
   TwinRun run;
-  ScriptedOperator operator_link(robot.params, ticks, wandering);
+  Orders orders{script};
   Keeper keeper{run};
-  app::App app(robot.params, twin.bus, operator_link, keeper);
+  twin.hands.take(script);
+  app::App app(robot.params, twin.bus, orders, keeper, static_cast<app::NoImu*>(nullptr),
+               app::Core{{script.actions.data(), 4 * script.actions.size()}});
   if (app.bring_up().status != app::BringUpStatus::kReady) return run;
-  for (std::uint32_t n = 0; n < ticks; ++n) app.tick();
+  for (std::uint32_t n = 0; n < script.ticks; ++n) app.tick();
   return twin.ended(std::move(run));
 }
 
-TwinRun run_on_board(const std::string& board, const Robot& robot, std::uint32_t ticks,
-                     bool wandering) {
+TwinRun run_here(const Robot& robot, std::uint32_t ticks, bool wandering) {
+  return run_here(robot, walk_script(robot.params, ticks, wandering));
+}
+
+TwinRun run_on_board(const std::string& board, const Robot& robot, const Script& script) {
   Twin twin(robot);
   TwinRun run;
-  const ScriptedOperator operator_link(robot.params, ticks, wandering);
   bus::ServerHooks hooks;
-  hooks.order = [&](std::uint32_t tick) { return operator_link.order(tick); };
+  hooks.order = script.order;
   hooks.record = [&](const TickRecord& record) { run.records.push_back(record); };
-  board::run_loop_on(board, robot.params, twin.bus, hooks, {.ticks = ticks, .state_every = 0});
+  twin.hands.take(script);
+  board::run_loop_on(board, robot.params, twin.bus, hooks,
+                     {.ticks = script.ticks, .state_every = 0, .actions = script.actions});
   return twin.ended(std::move(run));
 }
 

@@ -1,12 +1,18 @@
 #pragma once
 #include <cstdint>
+#include <deque>
+#include <functional>
 #include <string>
 #include <vector>
 
 #include "common/model/params.hpp"
 #include "common/record/tick_record.hpp"
+#include "common/safety/machine.hpp"
 #include "firmware/app/contracts.hpp"
 #include "host/model/entity.hpp"
+#include "host/sim/quantities.hpp"
+#include "host/sim/robot.hpp"
+#include "host/sim/world.hpp"
 
 /// A robot in the twin under an operator who goes by the tick alone: the same run, whoever is the
 /// controller.
@@ -14,7 +20,8 @@ namespace verp::test {
 
 struct TwinRun {
   std::vector<TickRecord> records;
-  double distance_m = 0;  ///< from start to end, over ground
+  std::vector<safety::Mode> modes;  ///< one after the other, of a run in this process
+  double distance_m = 0;            ///< from start to end, over ground
   bool fallen = false;
 };
 
@@ -32,6 +39,49 @@ class ScriptedOperator {
   bool wandering_;
 };
 
+/// A hand that pushes the trunk.
+struct Hand {
+  double at_s = 0;  ///< of the world: a controller's ticks begin some 0.7 s later
+  sim::Vec3 force_world_n = sim::Vec3::Zero();
+  double for_s = 0;
+};
+
+/// What happens in a run, by the tick alone.
+struct Script {
+  std::uint32_t ticks = 0;
+  std::function<app::OperatorOrder(std::uint32_t tick)> order;
+  std::vector<Hand> hands = {};             ///< in the order of their times
+  std::vector<std::uint32_t> actions = {};  ///< the library that the controller has
+};
+
+/// Those of a script, by the world's time: so they push at the same step, however often the world
+/// is looked at between two.
+class Hands : private sim::Actor {
+ public:
+  Hands(sim::World& world, sim::TwinRobot& body) : world_(world), quantities_(world) {
+    quantities_.add(body);
+    world_.add(*this);
+  }
+  ~Hands() override { world_.remove(*this); }
+  Hands(const Hands&) = delete;
+  Hands& operator=(const Hands&) = delete;
+  void take(const Script& script) { waiting_ = {script.hands.begin(), script.hands.end()}; }
+
+ private:
+  void before_step(double) override {
+    while (!waiting_.empty() &&
+           1e6 * waiting_.front().at_s <= static_cast<double>(world_.now_us())) {
+      quantities_.push("trunk", waiting_.front().force_world_n, waiting_.front().for_s);
+      waiting_.pop_front();
+    }
+  }
+  void after_step(double) override {}
+
+  sim::World& world_;
+  sim::Quantities quantities_;
+  std::deque<Hand> waiting_;
+};
+
 struct Robot {
   model::Entity entity;
   Params params;
@@ -39,10 +89,24 @@ struct Robot {
 /// With its bus of that name; empty: its first.
 Robot load_robot(const std::string& name, const std::string& bus = {});
 
+/// As ScriptedOperator orders.
+Script walk_script(const Params& params, std::uint32_t ticks, bool wandering = false);
+
+/// Walks, turns, is pushed and walks on, is pushed over, gets up, kicks and waves: all that a robot
+/// does on a field, in 42 s.
+Script tour_script(const Robot& robot);
+/// What a controller does meanwhile, from its first tick on.
+inline constexpr safety::Mode kTourModes[] = {
+    safety::Mode::kRising,    safety::Mode::kStanding, safety::Mode::kWalking,
+    safety::Mode::kStanding,  safety::Mode::kFalling,  safety::Mode::kFallen,
+    safety::Mode::kGettingUp, safety::Mode::kStanding, safety::Mode::kActing,
+    safety::Mode::kStanding,  safety::Mode::kActing,   safety::Mode::kStanding};
+std::string modes_text(const std::vector<safety::Mode>& modes);
+
 /// Software in the loop: controller, bus and physics in this process.
+TwinRun run_here(const Robot& robot, const Script& script);
 TwinRun run_here(const Robot& robot, std::uint32_t ticks, bool wandering);
 /// The controller in firmware on an emulated board.
-TwinRun run_on_board(const std::string& board, const Robot& robot, std::uint32_t ticks,
-                     bool wandering);
+TwinRun run_on_board(const std::string& board, const Robot& robot, const Script& script);
 
 }  // namespace verp::test

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstring>
+#include <memory>
 #include <thread>
 #include <vector>
 
@@ -93,6 +94,23 @@ TEST_F(BusServer, GivesTheControllerItsParams) {
   EXPECT_EQ(reply.ticks, 7u);
   EXPECT_EQ(reply.state_every, 3u);
   EXPECT_EQ(std::memcmp(&received, &params, sizeof params), 0);
+}
+
+TEST_F(BusServer, GivesTheControllerItsActions) {
+  const std::vector<std::uint32_t> actions(300, 0x12345678);
+  start({}, {.actions = actions});
+  app::RemoteBus<test::PipeEnd, test::PipeEnd> remote(in, out);
+  const auto room = std::make_unique<app::ActionRoom>();
+  ASSERT_TRUE(remote.hello(received, room.get()));
+  EXPECT_EQ(std::memcmp(room->bytes, actions.data(), 4 * actions.size()), 0);
+  EXPECT_EQ(remote.actions(*room).count(), 0) << "they are no library, and none is played";
+}
+
+TEST_F(BusServer, IsNotGreetedByAControllerWithoutRoomForTheActions) {
+  const std::vector<std::uint32_t> actions(3);
+  start({}, {.actions = actions});
+  app::RemoteBus<test::PipeEnd, test::PipeEnd> remote(in, out);
+  EXPECT_FALSE(remote.hello(received));
 }
 
 TEST_F(BusServer, RefusesAFirmwareOfOtherSources) {
