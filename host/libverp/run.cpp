@@ -173,9 +173,10 @@ void Seat::write_view(const session::Tick& tick) {
   truth.joints = plan_.params.joint_count;
 }
 
-const session::WalkResult& Seat::finish(session::Session& session) {
+const session::WalkResult& Seat::finish(session::Session& session, const std::string& diverged) {
   if (result_) return *result_;
   result_ = session.result(index_);
+  if (result_->failure.empty()) result_->failure = diverged;
   // Who did not look at what that tick gave finds it here.
   if (deciding_)
     result_->failure =
@@ -192,7 +193,7 @@ const session::WalkResult& Seat::finish(session::Session& session) {
 
 void Run::finish() {
   ended = true;
-  for (const auto& seat : seats) seat->finish(session);
+  for (const auto& seat : seats) seat->finish(session, diverged);
 }
 
 Seat& Run::seat(std::uint32_t index) {

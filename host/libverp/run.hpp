@@ -43,7 +43,7 @@ class Seat {
   void note_radio(record::ros::Radio radio);
 
   /// The end: what came of it, and a trace that is whole. Later calls give the same.
-  const session::WalkResult& finish(session::Session& session);
+  const session::WalkResult& finish(session::Session& session, const std::string& diverged);
 
  private:
   void open_trace(const char* file);
@@ -75,6 +75,7 @@ struct Run {
   Sight sight;
   std::optional<Air> air;  ///< none: nobody has a radio
   bool begun = false, ended = false;
+  std::string diverged;  ///< why its world is over: the physics gave up. Empty: it is not
 
   /// The end of all robots' runs.
   void finish();

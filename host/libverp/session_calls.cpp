@@ -31,6 +31,16 @@ std::uint32_t number_of(Run& run, const session::Robot& ticked) {
   return index;
 }
 
+/// Physics that give up are the end of all its robots' runs, and its results say so.
+const session::Robot* tick_of(Run& run) {
+  try {
+    return run.session.tick();
+  } catch (const sim::Diverged& error) {
+    run.diverged = error.what();
+    throw;
+  }
+}
+
 verp_result told(const session::WalkResult& from) {
   constexpr double kRadPerDegree = 3.14159265358979323846 / 180;
   const sim::WalkMetrics& m = from.metrics;
@@ -131,7 +141,7 @@ int verp_session_tick(verp_session session, uint32_t count, uint32_t* robot, uin
     run->begun = true;
     const Ticking ticking(session, *run);
     for (std::uint32_t n = 0; n < count; ++n) {
-      const verp::session::Robot* ticked = run->session.tick();
+      const verp::session::Robot* ticked = tick_of(*run);
       if (ticked == nullptr) return VERP_OVER;
       if (done != nullptr) *done = n + 1;
       const std::uint32_t number = number_of(*run, *ticked);
@@ -171,7 +181,7 @@ int verp_session_result(verp_session session, uint32_t robot, verp_result* resul
     const auto run = sessions().use(session);
     run->seat(robot);
     run->finish();
-    *result = told(run->seat(robot).finish(run->session));
+    *result = told(run->seat(robot).finish(run->session, run->diverged));
   });
 }
 

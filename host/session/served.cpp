@@ -213,13 +213,20 @@ void Served::waited(const bus::LockstepSession& clock, std::size_t came, const c
   if (!greeted()) return waited_for_first(now, came, unit);
   const auto& asked = clock.counters();
   const std::uint64_t sum = asked.polls + asked.repeats + asked.greetings;
+  strange_ += came;
   if (std::exchange(asked_, sum) != sum || options_.patience_s <= 0) {
-    idle_ns_ = 0;
+    idle_ns_ = strange_ = 0;
   } else if (idle_ns_ == 0) {
     idle_ns_ = now;
   } else if (1e-9 * static_cast<double>(now - idle_ns_) > options_.patience_s) {
+    const std::string why = !connected_    ? ": its link is lost"
+                            : strange_ > 0 ? fmt::format(
+                                                 ": {} {} came, and nothing that asks for "
+                                                 "the time",
+                                                 strange_, unit)
+                                           : "";
     fail(fmt::format("the controller on {} kept the twin waiting for {:g} s{}", place_,
-                     options_.patience_s, connected_ ? "" : ": its link is lost"));
+                     options_.patience_s, why));
   }
 }
 
@@ -243,7 +250,8 @@ void Served::watch_link(bool connected, std::uint32_t losses) {
   ended_ = !connected && options_.ends_with_controller && robot_.verdict().driven() &&
            !robot_.has_torque();
   if (ended_) return say("the controller has let go and hung up");
-  const bool is_local = place_.starts_with("pty:") || place_.starts_with("unix");
+  const std::string& link = options_.link;
+  const bool is_local = link.starts_with("pty:") || link.starts_with("unix");
   if (!connected && is_local) say("the link is lost: its client hung up; waiting for the next");
   if (!connected && !is_local) say("the link is lost; waiting for it to come back");
   if (connected && losses > 0) say("the link is back");

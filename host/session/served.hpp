@@ -142,8 +142,8 @@ class Served : public Controller {
   std::uint64_t alone_ns_ = 0;  ///< since when no controller has come; 0: not yet
   std::uint64_t idle_ns_ = 0;   ///< since when nothing came that lockstep waits for; 0: it does not
   std::uint64_t asked_ = 0;     ///< of the clock, as last seen
-  std::uint64_t strange_ = 0;   ///< bytes or frames before the first greeting
-  std::uint64_t next_us_ = 0;   ///< tick to be watched
+  std::uint64_t strange_ = 0;  ///< bytes or frames that came since something was asked of the clock
+  std::uint64_t next_us_ = 0;  ///< tick to be watched
   std::uint32_t resets_ = 0;
   bool device_trouble_ = false, recorded_ = false, met_ = false, declined_ = false;
   bool lay_down_ = false, introduced_ = false, reminded_ = false, connected_, ended_ = false,

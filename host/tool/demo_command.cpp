@@ -9,6 +9,7 @@
 #include "host/demos/run.hpp"
 #include "host/report/files.hpp"
 #include "host/report/gnuplot.hpp"
+#include "host/report/report.hpp"
 #include "host/tool/command.hpp"
 #include "host/tool/console.hpp"
 #include "host/tool/exit_status.hpp"
@@ -77,7 +78,12 @@ std::string draw(const DemoWords& words, const demos::Run& run) {
   const auto picture =
       file.ends_with(".svg") ? report::draw_svg(plot, error) : report::draw_png(plot, error);
   if (!picture) throw ToolError(kRunFailed, "verp demo: gnuplot: " + error);
-  report::write_file(file, *picture);
+  try {
+    report::write_file(file, *picture);
+  } catch (const report::ReportError& refused) {  // costs the picture, not what came of the run
+    complain(fmt::format("verp demo: {}", refused.what()));
+    return "";
+  }
   return file;
 }
 

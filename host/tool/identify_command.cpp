@@ -1,5 +1,6 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <memory>
@@ -31,7 +32,22 @@ struct IdentifyWords {
   bool json = false;
 };
 
+/// Before the fit, which takes minutes: a place that takes a file, and has none of that name.
+void require_place(const std::string& file) {
+  if (std::filesystem::exists(file))
+    throw ToolError(kBadInput, file + ": is there already; choose another name");
+  const std::filesystem::path folder = std::filesystem::absolute(file).parent_path();
+  if (!std::filesystem::is_directory(folder))
+    throw ToolError(kBadInput, fmt::format("{}: there is no folder {}", file, folder.string()));
+  if (::access(folder.c_str(), W_OK) != 0)
+    throw ToolError(kBadInput,
+                    fmt::format("{}: {} takes no files of yours", file, folder.string()));
+}
+
 int make_motion(const IdentifyWords& words) {
+  if (!words.motion.ends_with(".action"))
+    throw ToolError(kBadInput, words.motion + ": motions end in .action; name it so");
+  require_place(words.motion);
   const model::Entity entity =
       model::load_robot(model::find_model(words.robot.empty() ? kRobotOfMotion : words.robot));
   action::Document document = identify::motion_of(entity, {.length_s = words.motion_s, .seed = 1});
@@ -75,9 +91,7 @@ int run_identify(const IdentifyWords& words) {
     throw ToolError(kBadInput,
                     "verp identify: no trace; give one, or --motion FILE for what to record");
   }
-  if (!words.file.empty() && std::filesystem::exists(words.file)) {
-    throw ToolError(kBadInput, words.file + ": is there already; choose another name");
-  }
+  if (!words.file.empty()) require_place(words.file);
   const record::Trace trace = record::read_trace(words.trace);
   const std::filesystem::path file =
       model::find_model(words.robot.empty() ? std::string(trace.params.name) : words.robot);
@@ -116,7 +130,9 @@ Subcommand add_identify(CLI::App& root) {
                   "the robot by its name, or the path of its SDF file; default: by the trace");
   app->add_option("--type", words->type, "of the servos, where the robot has several");
   app->add_option("--write", words->file, "write the robot's file with the new numbers there");
-  app->add_option("--motion", words->motion, "write a motion to record there (NAME.action)");
+  app->add_option("--motion", words->motion, "write a motion to record there (NAME.action)")
+      ->excludes("TRACE")
+      ->excludes("--write");
   app->add_option("--for", words->motion_s, "length of that motion, s")
       ->check(number_between(5, 240, "s"))
       ->capture_default_str();

@@ -33,7 +33,10 @@ bool take_driver(const std::string& text, Seat& seat) {
 }
 
 void require_one_driver(const std::string& command, const std::string& word, const Seat& seat) {
-  if (seat.board.find(',') == std::string::npos) return;
+  const bool boards = seat.board.find(',') != std::string::npos;
+  const bool links =
+      seat.link.find(",on:") != std::string::npos || seat.link.find(",ext:") != std::string::npos;
+  if (!boards && !links) return;
   throw ToolError(kBadInput, fmt::format("{}: --robot {}: a robot has one controller: on:BOARD or "
                                          "ext:LINK, and a model stands before it",
                                          command, word));
@@ -73,8 +76,10 @@ void declare_outside(CLI::App& app, TeamOptions& options) {
         options.of_outside = "--if-lost-go-on";
       },
       "a robot that lost its controller (--robot NAME=ext:LINK) ends no others");
-  app.add_option("--patience", options.patience_s,
-                 "how long such a controller may keep the world waiting, s by the wall's clock")
+  app.add_option(
+         "--patience", options.patience_s,
+         "how long such a controller may keep the world waiting once it has come, s by the wall's "
+         "clock; for the first words of one it waits as long as it takes")
       ->check(number_between(0.1, kMostPatience_s, "s"))
       ->each([&options](const std::string&) { options.of_outside = "--patience"; })
       ->capture_default_str();

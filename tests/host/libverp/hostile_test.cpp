@@ -56,6 +56,20 @@ TEST(LibverpHostile, PlansThatAreTooLong) {
   EXPECT_TRUE(core.plan(0.1, 0, 0, 0).empty());
 }
 
+// The physics give up, and no result calls that a good run.
+TEST(LibverpHostile, APushBeyondAllNumbersIsInTheResult) {
+  Opened opened;
+  opened.add();
+  ASSERT_EQ(verp_session_push(opened.session, "trunk", 1e300, 0, 0, 1), VERP_OK);
+  std::uint32_t done = 0;
+  ASSERT_LT(verp_session_tick(opened.session, 200, nullptr, &done), 0);
+  verp_result result = {};
+  result.size = sizeof result;
+  ASSERT_EQ(verp_session_result(opened.session, 0, &result), VERP_OK) << verp_last_error();
+  EXPECT_NE(std::string(result.failure).find("physics diverged"), std::string::npos)
+      << result.failure;
+}
+
 TEST(LibverpHostile, TextsThatAreEmpty) {
   Opened opened;
   verp_robot robot;

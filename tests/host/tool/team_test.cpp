@@ -210,6 +210,7 @@ TEST_F(Team, WrongWordsAreRefused) {
   expect_refused("walk --robot a=ext:bogus", "bogus");
   expect_refused("walk --robot a=ext:bogus", "robot a: ");
   expect_refused("walk --robot a=on:mps2_an386,ext:unix:x", "one controller");
+  expect_refused("walk --robot a=generic21,ext:pty:x,on:mps2_an386", "one controller");
   expect_refused("walk --robots 2 --if-lost-go-on", "--if-lost-go-on is of robots that others");
   expect_refused("walk --patience 3", "--patience is of robots that others");
   expect_refused("walk --robots 17", "1 to 16");
