@@ -38,7 +38,7 @@ TEST(ClosedLoop, WalksTheSameBitsInTheBoardAndOnThePc) {
 }
 
 // Of one robot on a field: walk, turn, push, fall, get up, kick, wave.
-TEST(ClosedLoop, MakesATourWithTheSameBitsInTheBoardAndOnThePc) {
+TEST(Tour, HasTheSameBitsInTheBoardAndOnThePc) {
   const char* board = std::getenv("VERP_TEST_BOARD");
   ASSERT_NE(board, nullptr) << "set VERP_TEST_BOARD";
   const Robot robot = load_robot("generic21");
