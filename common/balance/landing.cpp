@@ -26,12 +26,13 @@ bool sole_in_body(const Params& params, const Inputs& inputs, int side, Vec3& so
 }  // namespace
 
 void learn_landing(const Params& params, const gait::GaitState& gait, const gait::GaitOut& plan,
-                   const Inputs& inputs, LandingState& state) {
+                   const Inputs& inputs, bool as_planned, LandingState& state) {
   const bool exchanged = plan.carrying != state.carrying;
   state.carrying = plan.carrying;
   // Goals run ahead of the robot by less than a step: the one that begins now is theirs.
   const gait::Step& step = gait.queue[0];
-  if (!exchanged || plan.carrying == gait::kBoth || step.landed != plan.carrying) return;
+  if (!exchanged || !as_planned || plan.carrying == gait::kBoth || step.landed != plan.carrying)
+    return;
   const int side = step.landed, other = 1 - side;
   const gait::Xy way_m = step.foot[side].at_m - gait.previous.foot[side].at_m;
   const float way2_m2 = gait::dot(way_m, way_m);

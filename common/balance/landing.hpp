@@ -17,9 +17,9 @@ struct LandingState {
 VERP_PACKED(LandingState);
 
 /// In the tick in which another foot begins to carry, learns from where it landed; not if a joint
-/// of the legs has not reported in this tick.
+/// of the legs has not reported in this tick, or the foot was sent elsewhere (stepping.hpp).
 void learn_landing(const Params& params, const gait::GaitState& gait, const gait::GaitOut& plan,
-                   const Inputs& inputs, LandingState& state);
+                   const Inputs& inputs, bool as_planned, LandingState& state);
 
 /// Where to aim foot `side`: a swinging one short of its plan. One that has landed there returns to
 /// its plan while its servos come to rest.

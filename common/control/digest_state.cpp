@@ -24,7 +24,7 @@ void digest_state(const Inputs& inputs, const Outputs& outputs, State& state) {
   const bool acts = state.action.number != 0 || state.action.asked != 0;
   set(Stage::kPlan, acts ? digest_of(Stage::kPlan, state.gait, state.action)
                          : digest_of(Stage::kPlan, state.gait));
-  set(Stage::kBalance, digest_of(Stage::kBalance, state.feedback));
+  set(Stage::kBalance, digest_of(Stage::kBalance, state.stepping, state.feedback));
   set(Stage::kKinematics, digest_of(Stage::kKinematics, state.zeros, state.landing));
   set(Stage::kLimit, digest_of(Stage::kLimit, state.limit));
   set(Stage::kGate, digest_of(Stage::kGate, state.machine, outputs));

@@ -201,6 +201,7 @@ gait::GaitOut plan_motion(const Params& params, State& state, const AdmitOut& ad
   // Of a walk that ended in a fall nothing goes on, and nothing is learnt.
   if (lies(state.machine.mode) && state.gait.queued > 0) {
     state.gait = gait::GaitState{};
+    state.stepping = balance::SteppingState{};
     gait::stand_legs(params, state.gait.preview.leg_rad);
   }
   gait::GaitIn in;
@@ -214,6 +215,12 @@ gait::GaitOut plan_motion(const Params& params, State& state, const AdmitOut& ad
   return gait::update(params, state.tuning, state.gait, in);
 }
 
+void step_aside(const Params& params, State& state, gait::GaitOut& plan) {
+  balance::step_aside(params, state.tuning,
+                      {&state.gait, &state.estimator, state.attitude.heading_rad, period_s(params)},
+                      state.stepping, plan);
+}
+
 Wanted solve_joints(const Params& params, State& state, const Inputs& inputs,
                     const AdmitOut& admitted, const balance::AttitudeOut& attitude,
                     const gait::GaitOut& plan) {
@@ -225,7 +232,8 @@ Wanted solve_joints(const Params& params, State& state, const Inputs& inputs,
   if (params.head_tilt < kMaxJoints) wanted.angle_rad[params.head_tilt] = admitted.head_tilt_rad;
   for (int j = 0; j < params.joint_count; ++j) wanted.plain_rad[j] = wanted.angle_rad[j];
   gait::Posture aimed = plan.posture;
-  balance::learn_landing(params, state.gait, plan, inputs, state.landing);
+  balance::learn_landing(params, state.gait, plan, inputs, balance::as_planned(state.stepping),
+                         state.landing);
   if (aims(tuning)) {
     for (int side = 0; side < kFeet; ++side) {
       aimed.foot[side] = balance::aim(state.gait, state.landing, side, aimed.foot[side]);

@@ -17,6 +17,9 @@ void locate(const Params& params, State& state, const Inputs& inputs, const Admi
 gait::GaitOut plan_motion(const Params& params, State& state, const AdmitOut& admitted,
                           const balance::AttitudeOut& attitude);
 
+/// Moves the plan's feet to where a push has sent the robot.
+void step_aside(const Params& params, State& state, gait::GaitOut& plan);
+
 struct Wanted {
   float angle_rad[kMaxJoints];
   float plain_rad[kMaxJoints];  ///< without sag, zeros and feedback

@@ -5,6 +5,7 @@
 #include "common/balance/feedback.hpp"
 #include "common/balance/gravity.hpp"
 #include "common/balance/landing.hpp"
+#include "common/balance/stepping.hpp"
 #include "common/balance/zeros.hpp"
 #include "common/base/fields.hpp"
 #include "common/control/admit.hpp"
@@ -36,6 +37,7 @@ struct State {
   balance::EstimatorState estimator;
   SteerState steer;
   gait::GaitState gait;
+  balance::SteppingState stepping;
   balance::FeedbackOut feedback;
   balance::ZeroState zeros;
   balance::LandingState landing;
@@ -43,8 +45,8 @@ struct State {
   safety::LimitState limit;
   safety::MachineState machine;
   action::PlayerState action;
-  VERP_FIELDS(digest, tuning, admit, attitude, estimator, steer, gait, feedback, zeros, landing,
-              drive, limit, machine, action)
+  VERP_FIELDS(digest, tuning, admit, attitude, estimator, steer, gait, stepping, feedback, zeros,
+              landing, drive, limit, machine, action)
 };
 VERP_PACKED(State);
 static_assert(sizeof(State) <= 3072, "hashed State is at most 3 KB");

@@ -17,7 +17,8 @@ void step(const Params& params, const action::Library& actions, State& state, co
   const balance::AttitudeOut attitude = estimate(params, state, admitted);
   locate(params, state, inputs, admitted);
   watch_fall(params, actions, state, inputs, attitude, admitted);
-  const gait::GaitOut plan = plan_motion(params, state, admitted, attitude);
+  gait::GaitOut plan = plan_motion(params, state, admitted, attitude);
+  step_aside(params, state, plan);
   state.feedback = balance::feedback(state.tuning.balance, attitude,
                                      state.tuning.gait.trunk_pitch_rad, plan.swing);
   Wanted wanted = solve_joints(params, state, inputs, admitted, attitude, plan);

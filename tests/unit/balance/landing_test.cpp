@@ -22,6 +22,7 @@ struct Walk {
   Inputs inputs;
   LandingState state;
   int landed = kRight;
+  bool as_planned = true;
 
   gait::Foothold foothold(int side, float ahead_m) const {
     return {{ahead_m, side == kLeft ? kHalfStance_m : -kHalfStance_m}, 0};
@@ -55,7 +56,7 @@ struct Walk {
     read(landed, kStride_m + beyond_m);
     read(other, 0);
     plan.carrying = static_cast<std::uint8_t>(landed);
-    learn_landing(kRobot, gait, plan, inputs, state);
+    learn_landing(kRobot, gait, plan, inputs, as_planned, state);
   }
   // Where a foot planned there is aimed.
   float aimed_ahead_m(int side, float ahead_m) const {
@@ -120,15 +121,19 @@ TEST(Landing, LearnsOnlyFromReadingsOfALandingThatMoved) {
   for (int step = 0; step < 4; ++step) walk.land(0.02F);
   EXPECT_EQ(walk.state.beyond, 0.0F) << "a knee is silent";
   walk.inputs.fresh = 0xFFFFFFFFU;
+  walk.as_planned = false;
+  walk.land(0.02F);
+  EXPECT_EQ(walk.state.beyond, 0.0F) << "it was sent elsewhere";
+  walk.as_planned = true;
   walk.land(0.02F);
   const float once = walk.state.beyond;
   EXPECT_GT(once, 0.01F);
-  learn_landing(kRobot, walk.gait, walk.plan, walk.inputs, walk.state);
+  learn_landing(kRobot, walk.gait, walk.plan, walk.inputs, true, walk.state);
   EXPECT_EQ(walk.state.beyond, once) << "the same landing, a tick later";
   walk.gait.previous.foot[kLeft] = walk.gait.queue[0].foot[kLeft];
   walk.gait.previous.foot[kRight] = walk.gait.queue[0].foot[kRight];
   walk.state.carrying = gait::kBoth;
-  learn_landing(kRobot, walk.gait, walk.plan, walk.inputs, walk.state);
+  learn_landing(kRobot, walk.gait, walk.plan, walk.inputs, true, walk.state);
   EXPECT_EQ(walk.state.beyond, once) << "a step on the spot";
 }
 

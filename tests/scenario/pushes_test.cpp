@@ -1,0 +1,49 @@
+#include <sstream>
+
+#include "tests/scenario/walk.hpp"
+
+// Pushed at the trunk for 50 ms as it walks, generic21 steps where the push sends it: 1.2 N s ahead
+// and backward and 0.8 N s sideways, at any phase of its gait (issue 18, must show 3). Here at four
+// of the 16 phases; `verp walk --map push` tries all of them, and how much more it would have been.
+namespace verp::scenario {
+namespace {
+
+constexpr double kPush_s = 0.05, kCycle_s = 0.45, kFirst_s = 2.5;
+
+void expect_walks_on(double ahead_n_s, double left_n_s) {
+  for (const int phase : {0, 5, 10, 15}) {
+    std::ostringstream push;
+    push << kFirst_s + kCycle_s * phase / 16 << ": trunk " << ahead_n_s / kPush_s << ','
+         << left_n_s / kPush_s << ",0 N for " << kPush_s;
+    const Walk pushed = walk("generic21 --for 6 --physics-step 2 --push '" + push.str() + "'");
+    SCOPED_TRACE(push.str());
+    expect_walked(pushed);
+  }
+}
+
+TEST(Pushed, AheadItWalksOn) {
+  expect_walks_on(1.2, 0);
+}
+
+// Without steps to where the push sends it this ends on its back, at all phases.
+TEST(Pushed, BackwardItWalksOn) {
+  expect_walks_on(-1.2, 0);
+}
+
+TEST(Pushed, ToTheLeftItWalksOn) {
+  expect_walks_on(0, 0.8);
+}
+
+TEST(Pushed, ToTheRightItWalksOn) {
+  expect_walks_on(0, -0.8);
+}
+
+// What saves it is no luck: with feedback and steps switched off it falls.
+TEST(Pushed, BackwardItFallsWithoutFeedback) {
+  const Walk pushed = walk(
+      "generic21 --for 6 --physics-step 2 --no-feedback --push '2.5: trunk -24,0,0 N for 0.05'");
+  EXPECT_EQ(pushed.result.value("fallen", false), true);
+}
+
+}  // namespace
+}  // namespace verp::scenario

@@ -1,0 +1,193 @@
+#include "common/balance/stepping.hpp"
+
+#include <gtest/gtest.h>
+
+#include "common/gait/dcm.hpp"
+#include "tests/unit/gait/walker.hpp"
+
+namespace verp::balance {
+namespace {
+
+using gait::kLeft;
+using gait::kRight;
+using gait::Xy;
+using test::kRobot;
+
+constexpr float kPeriod_s = 0.01F;
+
+// A walk whose DCM is off its plan by `error_m`, as its estimator says.
+struct Pushed {
+  gait::test::Walker walker{kRobot};
+  EstimatorState estimator;
+  SteppingState state;
+  Xy error_m;
+  gait::GaitOut planned;
+
+  explicit Pushed(const gait::VelocityIn& wanted) {
+    estimator.begun = 1;
+    estimator.blind = 0;
+    estimator.com_from_body_m.z = 0.2F;
+    walker.set_off(wanted);
+    ticks(300);
+  }
+  const gait::Step& step() const { return walker.state.queue[0]; }
+  void look() {
+    if (walker.state.queued == 0 || step().swing == gait::kBoth) return;
+    const int side = step().carrying();
+    const float now_s =
+        static_cast<float>(walker.state.clock_us) * 1e-6F - walker.tuning.gait.look_ahead_s;
+    const Xy dcm_m = gait::dcm_at(step(), walker.state.preview.omega, now_s) + error_m;
+    const Xy sole_m = gait::sole_center(kRobot, side, step().foot[side]);
+    estimator.com_from_body_m.x = dcm_m.x;
+    estimator.com_from_body_m.y = dcm_m.y;
+    estimator.sole_from_body_m[side] = {sole_m.x, sole_m.y, 0};
+  }
+  void tick() {
+    walker.tick();
+    look();
+    planned = walker.out;
+    step_aside(kRobot, walker.tuning, {&walker.state, &estimator, 0, kPeriod_s}, state, walker.out);
+  }
+  void ticks(int count) {
+    for (int i = 0; i < count; ++i) tick();
+  }
+  // To the first tick of the next step in which `side` swings.
+  void to_swing_of(int side) {
+    while (step().swing == side) tick();
+    while (step().swing != side) tick();
+  }
+  // To the last tick of this step.
+  void to_landing() {
+    while (step().duration_us() - walker.state.clock_us > walker.in.period_us) tick();
+  }
+  Xy moved_m(int side) const {
+    return walker.out.posture.foot[side].on.at_m - planned.posture.foot[side].on.at_m;
+  }
+};
+
+Pushed ahead() {
+  return Pushed({.vx_m_s = 0.1777F});
+}
+
+bool same(const gait::GaitOut& a, const gait::GaitOut& b) {
+  bool same = a.zmp_m.x == b.zmp_m.x && a.zmp_m.y == b.zmp_m.y;
+  for (int side = 0; side < kFeet; ++side) {
+    const Xy one = a.posture.foot[side].on.at_m, other = b.posture.foot[side].on.at_m;
+    same = same && one.x == other.x && one.y == other.y;
+  }
+  return same;
+}
+
+TEST(Stepping, WhatAnklesAnswerToMovesNoFoot) {
+  Pushed walk = ahead();
+  walk.error_m = {0.014F, -0.011F};
+  for (int i = 0; i < 100; ++i) {
+    walk.tick();
+    ASSERT_TRUE(same(walk.walker.out, walk.planned)) << i;
+  }
+  EXPECT_TRUE(as_planned(walk.state));
+}
+
+TEST(Stepping, DoesNothingWithoutFeedbackOrEyesOrWhereJointsLag) {
+  for (const int reason : {0, 1, 2}) {
+    Pushed walk = ahead();
+    walk.error_m = {0.05F, 0};
+    if (reason == 0) walk.walker.tuning.balance.feedback_enable = 0;
+    if (reason == 1) walk.estimator.blind = 1;
+    if (reason == 2) walk.walker.tuning.gait.joint_delay_s = 0.01F;
+    for (int i = 0; i < 100; ++i) {
+      walk.tick();
+      ASSERT_TRUE(same(walk.walker.out, walk.planned)) << reason << ", " << i;
+    }
+  }
+}
+
+// To all four sides, with either foot where it may go there.
+TEST(Stepping, TheSwingFootLandsWhereTheDcmWent) {
+  constexpr float kError_m = 0.04F, kAnkles_x_m = 0.29F * 0.052F, kAnkles_y_m = 0.36F * 0.033F;
+  for (const int side : {kLeft, kRight}) {
+    for (const Xy& way : {Xy{1, 0}, Xy{-1, 0}, Xy{0, side == kLeft ? 1.0F : -1.0F}}) {
+      Pushed walk = ahead();
+      walk.to_swing_of(side);
+      walk.error_m = kError_m * way;
+      walk.to_landing();
+      const Xy moved_m = walk.moved_m(side);
+      EXPECT_NEAR(moved_m.x, way.x * (kError_m - kAnkles_x_m), 0.002F) << side;
+      EXPECT_NEAR(moved_m.y, way.y * (kError_m - kAnkles_y_m), 0.002F) << side;
+      EXPECT_EQ(walk.moved_m(1 - side).x, 0.0F) << "the other one carries";
+    }
+  }
+}
+
+// Towards the foot that carries there is no room but a standing robot's.
+TEST(Stepping, SolesComeNoNearerThanThoseOfARobotThatStands) {
+  Pushed walk = ahead();
+  walk.to_swing_of(kLeft);
+  walk.error_m = {0.03F, -0.06F};
+  walk.to_landing();
+  EXPECT_GT(walk.moved_m(kLeft).x, 0.01F);
+  EXPECT_GT(walk.moved_m(kLeft).y, -0.001F);
+  Pushed wide({.vy_m_s = 0.15F});
+  wide.to_swing_of(kLeft);
+  wide.error_m = {0, -0.06F};
+  wide.to_landing();
+  EXPECT_LT(wide.moved_m(kLeft).y, -0.01F) << "beside a step to the left there is";
+  EXPECT_GT(gait::soles_apart_m(kRobot, wide.walker.out.posture.foot[kLeft].on,
+                                wide.walker.out.posture.foot[kRight].on),
+            0.005F);
+}
+
+// One push, then as planned over the foot that caught it: no goal jumps where the feet exchange,
+// and within a second the walk is the planned one again.
+TEST(Stepping, GoesOnFromTheFootThatCaughtItWithoutAJump) {
+  Pushed walk = ahead();
+  walk.to_swing_of(kRight);
+  walk.error_m = {0.06F, -0.03F};
+  walk.to_landing();
+  walk.error_m = {};
+  EXPECT_GT(walk.moved_m(kRight).x, 0.03F);
+  Xy before_m[] = {walk.moved_m(kLeft), walk.moved_m(kRight)};
+  for (int i = 0; i < 100; ++i) {
+    walk.tick();
+    for (int side = 0; side < kFeet; ++side) {
+      const Xy now_m = walk.moved_m(side);
+      ASSERT_LT(gait::test::apart(now_m, before_m[side]), 0.009F) << i << ", " << side;
+      before_m[side] = now_m;
+    }
+  }
+  EXPECT_LT(gait::test::apart(before_m[kLeft], Xy{}), 1e-3F);
+  EXPECT_LT(gait::test::apart(before_m[kRight], Xy{}), 1e-3F);
+}
+
+// What is behind catches up as a pendulum does: its DCM does not move.
+TEST(Stepping, TheBodyCatchesUpWithoutMovingTheDcm) {
+  Pushed walk = ahead();
+  walk.to_swing_of(kRight);
+  walk.error_m = {0.06F, 0};
+  walk.to_landing();
+  walk.error_m = {};
+  walk.ticks(2);
+  const float behind_m = walk.state.body_m.x;
+  walk.tick();
+  const float velocity_m_s = (walk.state.body_m.x - behind_m) / kPeriod_s;
+  EXPECT_LT(behind_m, -0.03F);
+  EXPECT_NEAR(velocity_m_s, -walk.walker.state.preview.omega * behind_m, 0.05F * velocity_m_s);
+  EXPECT_EQ(walk.walker.out.zmp_m.x, walk.planned.zmp_m.x - walk.state.body_m.x);
+}
+
+TEST(Stepping, TheLastStepBringsTheFeetSideBySideAgain) {
+  Pushed walk = ahead();
+  walk.error_m = {0.05F, 0};
+  walk.ticks(60);
+  EXPECT_FALSE(as_planned(walk.state));
+  walk.walker.in.walk = false;
+  for (int i = 0; i < 400 && walk.walker.state.queued > 0; ++i) walk.tick();
+  ASSERT_EQ(int{walk.walker.state.queued}, 0);
+  EXPECT_EQ(walk.state.foot_m.x, 0.0F);
+  walk.ticks(200);
+  EXPECT_TRUE(as_planned(walk.state));
+  EXPECT_TRUE(same(walk.walker.out, walk.planned));
+}
+
+}  // namespace
+}  // namespace verp::balance
