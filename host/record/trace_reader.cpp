@@ -248,8 +248,9 @@ Trace read_trace(const fs::path& path, Read mode) {
 }
 
 Trace trace_of(const fs::path& path, const mcap::File& file, Read mode) {
-  if (file.flaw && (mode == Read::kStrict || file.attachments.empty())) {
-    const bool salvage = !file.attachments.empty();
+  std::uint16_t id = 0;
+  const bool salvage = !file.attachments.empty() && file.find_channel(kTickTopic, id) != nullptr;
+  if (file.flaw && (mode == Read::kStrict || !salvage)) {
     throw TraceError(path, file.flaw->offset,
                      file.flaw->what + (salvage ? " (" + lost_text(file) + ")" : ""),
                      salvage ? "`verp trace recover` keeps those, or take an intact copy"

@@ -2,24 +2,39 @@
 
 #include <fmt/format.h>
 
+#include <utility>
+
 #include "firmware/app/lockstep_bus.hpp"
 #include "firmware/app/tick_report.hpp"
+#include "host/tool/console.hpp"
 #include "host/tool/robot_loop.hpp"
 
 namespace verp::tool {
 namespace {
 
 constexpr std::uint64_t kGone_ns = 5'000'000'000;  // a link that is lost so long stays lost
+constexpr std::uint64_t kSilent_ns =
+    2'000'000'000;  // a twin answers at once, one that is taken not
 
 /// What this program does while it waits for the twin: gives up when the person says so twice, or
 /// when the twin has been gone for long.
 struct Waiting {
   wire::Link* link;
+  bool* answered;             ///< somebody has, or it was told that nobody does
   std::uint64_t lost_ns = 0;  ///< since when; 0: it is there
+  std::uint64_t asked_ns = wire::monotonic_ns();
 
   bool operator()() {
     if (presses() > 1) return false;
-    if (link->connected()) return lost_ns = 0, true;
+    if (link->connected()) {
+      const bool silent = wire::monotonic_ns() > asked_ns + kSilent_ns;
+      if (silent && !std::exchange(*answered, true)) {
+        complain(
+            "verp run: " + link->place() +
+            ": nobody answers yet; a twin that another controller drives serves no second one");
+      }
+      return lost_ns = 0, true;
+    }
     if (lost_ns == 0) lost_ns = wire::monotonic_ns();
     return wire::monotonic_ns() < lost_ns + kGone_ns;
   }
@@ -30,7 +45,13 @@ class TwinInLockstep {
  public:
   using Bus = app::LockstepBus<wire::Link, Waiting>;
 
-  explicit TwinInLockstep(wire::Link& link) : link_(link), bus_(link, Waiting{&link}) {}
+  explicit TwinInLockstep(wire::Link& link) : link_(link), bus_(link, Waiting{&link, &answered_}) {}
+
+  lockstep::Verdict greet(const Params& params) {
+    const lockstep::Verdict verdict = bus_.greet(params);
+    answered_ = true;
+    return verdict;
+  }
 
   Bus& bus() { return bus_; }
   /// The twin wants no further tick, or is gone.
@@ -51,12 +72,13 @@ class TwinInLockstep {
 
  private:
   wire::Link& link_;
+  bool answered_ = false;
   Bus bus_;
   bool torque_ = false;
 };
 
 void greet(TwinInLockstep& twin, const RunPlan& plan) {
-  const lockstep::Verdict verdict = twin.bus().greet(plan.walk.params);
+  const lockstep::Verdict verdict = twin.greet(plan.walk.params);
   if (verdict == lockstep::Verdict::kAccepted) return;
   const std::string where = "verp run: " + wire::to_text(plan.link);
   if (interrupted()) throw ToolError(kRunFailed, where + ": interrupted before a twin answered");

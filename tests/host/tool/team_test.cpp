@@ -178,6 +178,21 @@ TEST_F(Team, WhomItWaitsForIsSaidAtOnceAndOnceMore) {
   EXPECT_EQ(said().find(reminder), said().rfind(reminder)) << "once: " << said();
 }
 
+TEST_F(Team, ASecondControllerOfOneRobotIsToldThatNobodyAnswersIt) {
+  walk_beside(
+      [&] {
+        process::Child first = controller("b.sock");
+        while (slurp(folder_ / "world.err").find("has torque") == std::string::npos)
+          std::this_thread::sleep_for(std::chrono::milliseconds(10));
+        first.tell(SIGSTOP);
+        const Outcome second = verp("run --lockstep --for 3 --link unix:b.sock", "second");
+        EXPECT_EQ(second.status, 3) << second.err;
+        EXPECT_NE(second.err.find("serves no second one"), std::string::npos) << second.err;
+        first.tell(SIGKILL);
+      },
+      "--patience 5 --robot b=ext:unix-listen:b.sock");
+}
+
 TEST_F(Team, WhoSaysAnythingButAGreetingIsTold) {
   process::Child world(
       {.words = {VERP_PROGRAM, "walk", "--patience", "0.3", "--robot", "a=ext:unix-listen:a.sock"},

@@ -1,3 +1,4 @@
+#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "tests/host/tool/program.hpp"
@@ -96,6 +97,21 @@ TEST_F(Program, AKilledWalkLeavesAFileThatOpens) {
   EXPECT_EQ(verp("replay k.mcap.*.part --recover").status, 0);
   EXPECT_EQ(verp("trace recover k.mcap.*.part -o k.mcap").status, 0);
   EXPECT_EQ(verp("replay k.mcap").status, 0);
+}
+
+// What is damaged before its first tick has nothing that could be recovered, and nobody is sent to
+// try.
+TEST_F(TraceCommand, NothingIsPromisedOfATraceThatIsDamagedAtItsBeginning) {
+  std::fstream file(folder_ / "a.mcap", std::ios::in | std::ios::out | std::ios::binary);
+  file.seekp(100'000);
+  file << "XXXX";
+  file.close();
+  for (const char* words : {"trace info a.mcap", "trace recover a.mcap -o b.mcap"}) {
+    const Outcome outcome = verp(words);
+    EXPECT_EQ(outcome.status, 2) << words;
+    EXPECT_NE(outcome.err.find("record the run again"), std::string::npos) << outcome.err;
+    EXPECT_EQ(outcome.err.find("keeps those"), std::string::npos) << outcome.err;
+  }
 }
 
 }  // namespace
