@@ -229,3 +229,16 @@ const char* from_matlab(const shape* of, const mxArray* from, void* into) {
   }
   return NULL;
 }
+
+const char* from_matlab_alone(const shape* of, const mxArray* from, void* into) {
+  const int names = mxIsStruct(from) ? mxGetNumberOfFields(from) : 0;
+  for (int k = 0; k < names; ++k) {
+    const char* name = mxGetFieldNameByNumber(from, k);
+    size_t i = 0;
+    while (i < of->count && strcmp(of->fields[i].name, name) != 0) ++i;
+    if (i < of->count) continue;
+    snprintf(words, sizeof words, "%s has no field '%s'", of->what, name);
+    return words;
+  }
+  return from_matlab(of, from, into);
+}

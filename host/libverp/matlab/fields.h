@@ -29,6 +29,9 @@ mxArray* to_matlab(const shape* of, const void* structs, size_t many);
 /* Writes those fields that `from` has. Null, or in words what is wrong with one, in memory of its
  * own until the next call. */
 const char* from_matlab(const shape* of, const mxArray* from, void* into);
+/* The same of a struct that has no other fields: a name that is none of them was meant as another.
+ */
+const char* from_matlab_alone(const shape* of, const mxArray* from, void* into);
 /* One number of a struct; the same words. */
 const char* set_number(const field* what, size_t index, double value, void* into);
 

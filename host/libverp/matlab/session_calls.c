@@ -132,7 +132,7 @@ static int controller(const verp_moment* moment, void* user) {
   char* said = out != NULL && mxIsChar(out) ? mxArrayToString(out) : NULL;
   const char* wrong = exception != NULL || out == NULL ? "it could not be called"
                       : said != NULL                   ? said
-                                     : from_matlab(&kOutputs, out, moment->outputs);
+                                     : from_matlab_alone(&kOutputs, out, moment->outputs);
   if (wrong != NULL) {
     snprintf(thrown, sizeof thrown, "the controller of robot %u: %s", moment->robot, wrong);
   }

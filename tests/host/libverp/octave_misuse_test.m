@@ -3,6 +3,7 @@ function octave_misuse_test()
   texts_with_a_zero_are_not_cut();
   what_is_no_number_text_or_size_is_named();
   calls_by_hand_are_known();
+  outputs_that_are_misspelt_are_named();
   controller_that_closes_leaves_it_open();
   controllers_inside_controllers_keep_their_errors();
   fprintf('octave: all is well\n');
@@ -69,6 +70,13 @@ function calls_by_hand_are_known()
   says(@() verp_mex('core_step', session.session, struct()), 'verp_core_step: this core was closed, or never was one');
   session.control(@(inputs, outputs) outputs, true);
   says(@() verp_mex('session_tick', session.session, 1), 'the controller of robot 0 is missing');
+  session.close();
+end
+
+function outputs_that_are_misspelt_are_named()
+  session = walking();
+  session.control(@(inputs, outputs) struct('goal_cuont', 1), true);
+  says(@() session.tick(), 'the controller of robot 0: outputs has no field ''goal_cuont''');
   session.close();
 end
 
