@@ -88,13 +88,14 @@ TEST(Stepping, WhatAnklesAnswerToMovesNoFoot) {
   EXPECT_TRUE(as_planned(walk.state));
 }
 
-TEST(Stepping, DoesNothingWithoutFeedbackOrEyesOrWhereJointsLag) {
-  for (const int reason : {0, 1, 2}) {
+TEST(Stepping, DoesNothingWithoutFeedbackOrEyesOrMassesOfLegsOrWhereJointsLag) {
+  for (const int reason : {0, 1, 2, 3}) {
     Pushed walk = ahead();
     walk.error_m = {0.05F, 0};
     if (reason == 0) walk.walker.tuning.balance.feedback_enable = 0;
     if (reason == 1) walk.estimator.blind = 1;
     if (reason == 2) walk.walker.tuning.gait.joint_delay_s = 0.01F;
+    if (reason == 3) walk.walker.tuning.balance.multibody_enable = 0;
     for (int i = 0; i < 100; ++i) {
       walk.tick();
       ASSERT_TRUE(same(walk.walker.out, walk.planned)) << reason << ", " << i;
