@@ -14,6 +14,7 @@
 #include "host/libverp/verp.hpp"
 #include "tests/host/libverp/expect_error.hpp"
 #include "tests/host/libverp/opened.hpp"
+#include "tests/support/leak.hpp"
 
 /// What somebody tries who looks for a way through: cut texts, sizes without end, other threads.
 namespace verp::abi::test {
@@ -61,8 +62,10 @@ TEST(LibverpHostile, APushBeyondAllNumbersIsInTheResult) {
   Opened opened;
   opened.add();
   ASSERT_EQ(verp_session_push(opened.session, "trunk", 1e300, 0, 0, 1), VERP_OK);
-  std::uint32_t done = 0;
-  ASSERT_LT(verp_session_tick(opened.session, 200, nullptr, &done), 0);
+  {
+    const verp::test::SomebodyElsesLeak ode_forgets_the_step_that_it_gave_up;
+    ASSERT_LT(verp_session_tick(opened.session, 200, nullptr, nullptr), 0);
+  }
   verp_result result = {};
   result.size = sizeof result;
   ASSERT_EQ(verp_session_result(opened.session, 0, &result), VERP_OK) << verp_last_error();

@@ -65,20 +65,20 @@ TEST(LiveCheck, RaisesNoFalseAlarmForLostAndLateFrames) {
 // What the controller alone loses, and what comes late, costs not one tick from the first State on.
 // That is of 2.5 KB, and is asked for once more where its answers are lost.
 TEST(LiveCheck, LateAndLostAnswersAloneLeaveNoTickOut) {
-  constexpr unsigned kTicks = 1000;
+  constexpr int kTicks = 1000;
   std::uint64_t compared = 0;
   for (unsigned seed = 1; seed <= kSeeds; ++seed) {
     WatchedRobot<> robot(can_robot());
     robot.twin.plug_in(std::make_unique<LateTwin>(std::uint8_t{3}, seed));
     robot.bus.seed(seed);
     robot.bus.lost_per_mille = 20;
-    unsigned before = 0;
+    int before = 0;
     while (robot.check().compared() == 0 && before < kTicks) robot.run(1), ++before;
     robot.run(kTicks - before);
     EXPECT_EQ(robot.check().state(), Check::kFollowing) << seed;
     EXPECT_EQ(robot.check().gaps(), 0u) << seed << ": " << robot.check().gap();
     EXPECT_EQ(robot.check().unsettled(), 0u) << seed;
-    EXPECT_GE(robot.check().compared() + before, kTicks) << seed;
+    EXPECT_GE(static_cast<int>(robot.check().compared()) + before, kTicks) << seed;
     compared += robot.check().compared();
   }
   EXPECT_GT(compared, 600u * kSeeds);
