@@ -100,7 +100,7 @@ extern "C" int verp_main() {
   static File records(arguments[2], File::Mode::kWrite);
   verp::app::CanLoopJob head;
   if (!job.is_open() || !records.is_open() || !job.read(&head, sizeof head) || !head.fits() ||
-      !job.read(&params, sizeof params) || head.actions_size > sizeof actions.bytes ||
+      !job.read(&params, sizeof params) || head.actions_size > verp::app::ActionRoom::kBytes ||
       !job.read(actions.bytes, head.actions_size)) {
     return fail("loop: no job, of another build, or no place for records\n");
   }

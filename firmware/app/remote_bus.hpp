@@ -117,7 +117,7 @@ class RemoteBus {
   }
 
   bool read_actions(ActionRoom& room) {
-    return run_.actions_size <= sizeof room.bytes && read(room.bytes, run_.actions_size);
+    return run_.actions_size <= ActionRoom::kBytes && read(room.bytes, run_.actions_size);
   }
 
   bool flush() {

@@ -2,6 +2,7 @@
 
 #include <chrono>
 
+#include "firmware/app/action_room.hpp"
 #include "host/board/board_error.hpp"
 #include "host/board/fifo_link.hpp"
 #include "host/board/qemu.hpp"
@@ -14,6 +15,11 @@ constexpr std::chrono::seconds kEnd{10};
 bus::ServerResult run_loop_on(const std::string& board, const Params& params, bus::VirtualBus& bus,
                               const bus::ServerHooks& hooks, const bus::RunOptions& options,
                               const std::string& images) {
+  if (options.actions.size_bytes() > app::ActionRoom::kBytes) {
+    throw BoardError("the robot's actions take " + std::to_string(options.actions.size_bytes()) +
+                     " bytes, and a board has room for " + std::to_string(app::ActionRoom::kBytes) +
+                     "; take some out of its folder");
+  }
   const EmulatedBoard& emulated = find_emulated_board(board);
   FifoLink link;
   QemuProcess firmware({.board = emulated,

@@ -65,8 +65,8 @@ const demos::Demo& demo_of(const std::string& name) {
                                          name, did_you_mean(name, names)));
 }
 
-/// Its path; empty: there is none.
-std::string draw(const DemoWords& words, const demos::Run& run) {
+/// Its path; empty: there is none. `lost`: what was to be written and could not be.
+std::string draw(const DemoWords& words, const demos::Run& run, std::string& lost) {
   if (words.no_picture) return "";
   const std::string file = words.picture.empty() ? words.name + ".png" : words.picture;
   if (!report::gnuplot_available()) {
@@ -81,7 +81,7 @@ std::string draw(const DemoWords& words, const demos::Run& run) {
   try {
     report::write_file(file, *picture);
   } catch (const report::ReportError& refused) {  // costs the picture, not what came of the run
-    complain(fmt::format("verp demo: {}", refused.what()));
+    lost = refused.what();
     return "";
   }
   return file;
@@ -191,8 +191,12 @@ int run_demo(const DemoWords& words) {
   options.went_on = [&](double share) { progress.show(share, demo.name); };
   const demos::Run run = run_it(demo, options);
   progress.clear();
-  const std::string picture = draw(words, run);
-  print_answer(words.json, json_of_run(run, words, picture), text_of(run, picture));
+  std::string lost;
+  const std::string picture = draw(words, run, lost);
+  Json json = json_of_run(run, words, picture);
+  if (!lost.empty()) json["lost"] = {lost};
+  print_answer(words.json, json, text_of(run, picture));
+  if (!lost.empty()) complain("verp demo: " + lost);
   bool good = run.verdict.failure.empty() && !run.interrupted;
   for (const demos::Track& track : run.robots) {
     if (track.trace_failure.empty()) continue;
@@ -200,7 +204,7 @@ int run_demo(const DemoWords& words) {
     good = false;
   }
   if (!good) complain(fmt::format("verp demo {}: {}", demo.name, verdict_of(run)));
-  return good ? kGood : status_if_interrupted(kRunFailed);
+  return good && lost.empty() ? kGood : status_if_interrupted(kRunFailed);
 }
 
 }  // namespace

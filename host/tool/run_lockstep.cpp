@@ -12,9 +12,8 @@
 namespace verp::tool {
 namespace {
 
-constexpr std::uint64_t kGone_ns = 5'000'000'000;  // a link that is lost so long stays lost
-constexpr std::uint64_t kSilent_ns =
-    2'000'000'000;  // a twin answers at once, one that is taken not
+constexpr std::uint64_t kGone_ns = 5'000'000'000;    // a link that is lost so long stays lost
+constexpr std::uint64_t kSilent_ns = 2'000'000'000;  // a twin that is free answers at once
 
 /// What this program does while it waits for the twin: gives up when the person says so twice, or
 /// when the twin has been gone for long.

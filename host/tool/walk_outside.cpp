@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Geometry>
+
 namespace verp::tool {
 
 std::string driver_of(const session::WalkPlan& plan) {
@@ -13,6 +15,10 @@ Json digest_json(const session::WalkPlan& plan, const session::WalkResult& resul
   return plan.link.empty() ? Json(fmt::format("0x{:016x}", result.digest)) : Json();
 }
 
+sim::Vec2 way_of(const session::WalkPlan& plan, const session::WalkResult& result) {
+  return result.end_m - plan.twin.start_m.head<2>();
+}
+
 std::string outside_text(const session::WalkPlan& plan, const session::WalkResult& result) {
   const auto line = [](const char* name, const std::string& value) {
     return fmt::format("  {:<18}{}\n", name, value);
@@ -20,9 +26,8 @@ std::string outside_text(const session::WalkPlan& plan, const session::WalkResul
   const std::string end = result.interrupted        ? "interrupted"
                           : !result.failure.empty() ? "failed: " + result.failure
                                                     : "without a fall";
-  const sim::Vec2 way_m = result.end_m - plan.twin.start_m.head<2>();
-  return fmt::format("{}: driven for {:.1f} s over {}, {}\n",
-                     plan.name.empty() ? plan.params.name : plan.name, result.simulated_s,
+  const sim::Vec2 way_m = Eigen::Rotation2Dd(-plan.twin.start_yaw_rad) * way_of(plan, result);
+  return fmt::format("{}: driven for {:.1f} s over {}, {}\n", plan.name, result.simulated_s,
                      plan.link, end) +
          line("ticks", fmt::format("{} of {} us", result.ticks, plan.params.period_us)) +
          line("went", fmt::format("{:+.2f} m ahead, {:+.2f} m to the left of where it stood",

@@ -352,7 +352,7 @@ Json to_json(const WalkPlan& plan, const WalkOptions& options, const WalkResult&
                {"asked_m", session::asked_way(plan.velocity, m.walk_s).length_m},
                {"asked_turn_deg", asked_turn_deg(plan, m)},
                {"duration_s", plan.link.empty() ? m.walk_s : result.simulated_s},
-               {"distance_m", m.distance_m},
+               {"distance_m", plan.link.empty() ? m.distance_m : way_of(plan, result).norm()},
                {"speed_mean_m_s", number_or_null(m.speed_mean_m_s)},
                {"speed_steady_m_s", number_or_null(m.speed_steady_m_s)},
                {"slip_steady_m_s", number_or_null(m.slip_steady_m_s)},

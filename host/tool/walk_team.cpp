@@ -217,9 +217,9 @@ std::string team_text(const Walks& walks, const std::vector<WalkPlan>& others,
   for (std::size_t i = 0; i < others.size(); ++i) {
     const auto& [name, result] = walks.others[i];
     const std::string trace = files.name(i);
-    const sim::Vec2 way_m = result.end_m - others[i].twin.start_m.head<2>();
     out += fmt::format("  {:<18}{}, {:.2f} m, {}{}{}\n", name,
-                       result.failure.empty() ? "walked" : result.failure, way_m.norm(),
+                       result.failure.empty() ? "walked" : result.failure,
+                       way_of(others[i], result).norm(),
                        others[i].link.empty() ? fmt::format("digest 0x{:016x}", result.digest)
                                               : "driven over " + driver_of(others[i]),
                        others[i].board.empty() ? "" : " on " + others[i].board,

@@ -28,11 +28,6 @@ struct Keeper {
   void record(const TickRecord& record, const State&, const Outputs&) { records.push_back(record); }
 };
 
-struct Orders {
-  const Script& script;
-  app::OperatorOrder order(std::uint32_t tick) const { return script.order(tick); }
-};
-
 template <class T>
 void put(std::ofstream& file, const T& value) {
   file.write(reinterpret_cast<const char*>(&value), sizeof value);

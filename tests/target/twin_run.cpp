@@ -53,11 +53,6 @@ struct Keeper {
   }
 };
 
-struct Orders {
-  const Script& script;
-  app::OperatorOrder order(std::uint32_t tick) const { return script.order(tick); }
-};
-
 /// From this second on it is ordered so.
 struct Order {
   double from_s;

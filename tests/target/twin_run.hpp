@@ -46,7 +46,7 @@ struct Hand {
   double for_s = 0;
 };
 
-/// What happens in a run, by the tick alone.
+/// What happens in a run: orders by the tick alone, hands by the world's time.
 struct Script {
   std::uint32_t ticks = 0;
   std::function<app::OperatorOrder(std::uint32_t tick)> order;
@@ -54,7 +54,13 @@ struct Script {
   std::vector<std::uint32_t> actions = {};  ///< the library that the controller has
 };
 
-/// Those of a script, by the world's time: so they push at the same step, however often the world
+/// Its operator.
+struct Orders {
+  const Script& script;
+  app::OperatorOrder order(std::uint32_t tick) const { return script.order(tick); }
+};
+
+/// Its hands, by the world's time: so they push at the same step, however often the world
 /// is looked at between two.
 class Hands : private sim::Actor {
  public:

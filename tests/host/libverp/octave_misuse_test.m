@@ -119,13 +119,3 @@ function add_to_new(varargin)
   session = verp.Session();
   session.add(varargin{:});
 end
-
-function says(call, words)
-  try
-    call();
-  catch thrown
-    assert(~isempty(strfind(thrown.message, words)), ['says: ' thrown.message]);  %#ok<STREMP>
-    return;
-  end
-  error('no error, but "%s" was to come', words);
-end

@@ -134,13 +134,3 @@ function robots_talk_by_radio()
   session.close();
   says(@() session.take(0), 'it was closed');
 end
-
-function says(call, words)
-  try
-    call();
-  catch thrown
-    assert(~isempty(strfind(thrown.message, words)), ['says: ' thrown.message]);  %#ok<STREMP>
-    return;
-  end
-  error('no error, but "%s" was to come', words);
-end

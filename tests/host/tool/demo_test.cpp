@@ -29,6 +29,14 @@ TEST_F(DemoCommand, WhatCannotBeIsOneLineAndBadInput) {
 
 // Two seconds are too few to do anything: the demo says that it failed, and how.
 TEST_F(DemoCommand, ThatFailsItsCriterionEndsWithOne) {
+  fs::create_directory(folder_ / "follow.png");  // no picture can be there
+  const Outcome lost = verp("demo follow --robots 2 --for 2 --json");
+  EXPECT_EQ(lost.status, 1);
+  EXPECT_NE(lost.err.find("follow.png"), std::string::npos) << lost.err;
+  const auto all_else = nlohmann::json::parse(lost.out);
+  EXPECT_TRUE(all_else["picture"].is_null());
+  EXPECT_EQ(all_else["lost"].size(), 1u);
+  EXPECT_EQ(all_else["robots"].size(), 2u);
   const Outcome outcome = verp("demo follow --robots 2 --for 2 --json --no-picture");
   EXPECT_EQ(outcome.status, 1);
   const auto json = nlohmann::json::parse(outcome.out, nullptr, false);

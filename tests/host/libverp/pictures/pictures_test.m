@@ -34,13 +34,3 @@ function pictures_test()
   says(@() session.picture(), 'no handle');
   fprintf('pictures: all is well\n');
 end
-
-function says(call, words)
-  try
-    call();
-  catch thrown
-    assert(~isempty(strfind(thrown.message, words)), ['says: ' thrown.message]);  %#ok<STREMP>
-    return;
-  end
-  error('no error, but "%s" was to come', words);
-end
