@@ -1,3 +1,6 @@
+#include <cstddef>
+#include <new>
+
 #include "boards/stm32/hardware.hpp"
 #include "boards/stm32/kept.hpp"
 #include "boards/stm32/no_time.hpp"
@@ -274,7 +277,9 @@ extern "C" int verp_main() {
   if (!start.good) board::refuse_without_time(start);
   const bool has_desk = board::open_operator_port(start);
   const auto size = reinterpret_cast<std::uintptr_t>(verp_params_bytes);
-  static Params scratch;
+  // Made here and not in front of main: as a variable its 4 KB of defaults would lie in flash.
+  alignas(Params) static std::byte room[sizeof(Params)];
+  Params& scratch = *new (room) Params;
   const control::BootReport boot_check = board::check_boot(size, scratch);
   scratch = {};  // the robot of a board that was given none
   const bool has_robot = check_image(verp_params_begin, size) == ImageFault::kNone;
