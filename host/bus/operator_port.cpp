@@ -62,6 +62,12 @@ ControllerReport OperatorPort::ask_report() {
           .digest = dxl::get_u32(data.data()) | std::uint64_t{dxl::get_u32(data.data() + 4)} << 32};
 }
 
+int OperatorPort::action_count() {
+  add_read(reg("action_count"), 2);
+  const std::vector<std::uint8_t> data = ask();
+  return data.size() == 2 ? dxl::get_u16(data.data()) : 0;
+}
+
 std::uint32_t OperatorPort::params_crc() {
   add_read(reg("model_information"), 4);
   const std::vector<std::uint8_t> data = ask();

@@ -19,6 +19,7 @@ class OperatorPort final : public OrderSink {
   OperatorPort(const std::string& endpoint, std::function<bool()> give_up);
 
   ControllerReport exchange(const app::OperatorOrder* order) override;
+  int action_count() override;
   /// CRC-32 of the Params that the controller has.
   std::uint32_t params_crc();
 

@@ -26,6 +26,8 @@ class OrderSink {
   /// Gives `order`, if it is not null, and asks for the report; returns when the controller has
   /// answered both. Between two ticks, so the order holds from the next one on. Throws SinkError.
   virtual ControllerReport exchange(const app::OperatorOrder* order) = 0;
+  /// How many actions the controller offers; 0: it has none to get up by. Throws SinkError.
+  virtual int action_count() = 0;
 };
 
 }  // namespace verp::bus

@@ -105,8 +105,9 @@ class Shadow {
 template <class Tape>
 class ShadowLoopOver final : public Shadow {
  public:
-  ShadowLoopOver(const Params& params, Record record)
-      : loop_(std::make_unique<Loop>(params, tape_, tape_, tape_)) {
+  /// `actions`: that the other controller has.
+  ShadowLoopOver(const Params& params, Record record, const action::Library& actions = {})
+      : loop_(std::make_unique<Loop>(params, tape_, tape_, tape_, nullptr, app::Core{actions})) {
     tape_.recorder = std::move(record);
   }
   ShadowLoopOver(const ShadowLoopOver&) = delete;

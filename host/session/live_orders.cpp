@@ -20,6 +20,23 @@ void LiveOrders::press_emergency_stop(bool pressed) {
   stopped_ = pressed;
 }
 
+void LiveOrders::get_up() {
+  get_up_ = GetUp(kGetUpTries, true);
+  asked_ = changed_ = true;
+}
+
+void LiveOrders::let_get_up(bool by_itself) {
+  by_itself_ = by_itself;
+}
+
+void LiveOrders::observe(safety::Mode mode, double period_s) {
+  const GetUp::Phase phase = get_up_.observe(mode, period_s);
+  if (phase == GetUp::Phase::kUp) changed_ = std::exchange(asked_, false) || changed_;
+  if (phase == GetUp::Phase::kFell) changed_ = true;
+  if (phase != GetUp::Phase::kGaveUp) return;
+  if (std::exchange(asked_, false) || by_itself_) take({});
+}
+
 bool LiveOrders::write(int id, float value) {
   if (!in_range(id, value)) return false;
   for (auto& [waiting, bits] : writes_) {
@@ -42,6 +59,7 @@ void LiveOrders::amend(std::uint32_t tick, app::OperatorOrder& order) {
     order.flags = fresh ? kCommandFresh : 0;
     changed_ = false;
   }
+  if (asked_ || (by_itself_ && get_up_.down())) order.command.request = Request::kGetUp;
   if (stopped_) order.flags |= kEmergencyStop;
   if (writes_.empty()) return;
   order.flags |= kParameterWrite;

@@ -5,6 +5,7 @@
 
 #include "common/io/io.hpp"
 #include "firmware/app/contracts.hpp"
+#include "host/session/get_up.hpp"
 
 namespace verp::session {
 
@@ -24,6 +25,15 @@ class LiveOrders {
   void press_emergency_stop(bool pressed);
   bool emergency_stop() const { return stopped_; }
 
+  /// A robot that lies is asked to get up, kGetUpTries times in a row; once it stands, what was
+  /// ordered holds again. One that did not get up is asked to relax.
+  void get_up();
+  /// The same of each fall from now on, without a word.
+  void let_get_up(bool by_itself);
+  bool gets_up_by_itself() const { return by_itself_; }
+  /// What the controller put out in the tick just done, which lasted `period_s`.
+  void observe(safety::Mode mode, double period_s);
+
   /// A number of the tuning (model/tuning_ranges.hpp), in one of the next ticks: each carries one.
   /// Of a number that still waits, the last value counts. False: no such number, or not in its
   /// range.
@@ -37,6 +47,8 @@ class LiveOrders {
   std::uint8_t sequence_ = 0;
   std::deque<std::pair<int, float>> writes_;
   bool driving_ = false, stopped_ = false, changed_ = false;
+  bool by_itself_ = false, asked_ = false;  ///< to get up: whenever it falls; now
+  GetUp get_up_{kGetUpTries};
 };
 
 }  // namespace verp::session

@@ -59,6 +59,12 @@ struct Tick {
   int owner = sim::kScenery;
 };
 
+/// Something that became of a robot, in words.
+struct Happened {
+  double at_s = 0;  ///< simulated time
+  std::string what;
+};
+
 /// What a user wants of one robot's run. Empty members are allowed. All are called during
 /// Session::tick(), by the thread that called it, and never at the same time; of one of several
 /// robots `order` and `amend` are called on a stack of its own (Flow).
@@ -70,6 +76,8 @@ struct Hooks {
   /// In place of the core's step(), and of the plan's own. It may throw, which ends the run.
   Decide decide;
   std::function<void(const Tick&)> ticked;
+  /// What becomes of a robot that falls, lies or gets up.
+  std::function<void(const Happened&)> told;
   /// When the robot's cameras looked (plan.twin.cameras), up to the tick that was just recorded;
   /// stamp_ns: as the trace counts time. Not called any more once a trace that was given breaks
   /// off.
@@ -93,9 +101,10 @@ struct WalkResult {
   std::vector<sim::SeriesRow> series;  ///< from the first tick on
   std::uint64_t ticks = 0;
   std::uint64_t digest = 0;
-  std::uint32_t faults = 0;    ///< safety::Fault bits at the end
-  int falls = 0, get_ups = 0;  ///< as the controller saw them
-  double longest_step_m = 0;   ///< that the gait made: the asked one, or what limits left of it
+  std::uint32_t faults = 0;          ///< safety::Fault bits at the end
+  int falls = 0, get_ups = 0;        ///< as the controller saw them
+  std::vector<Happened> fall_story;  ///< of each fall and of getting up; of what the plan lets it
+  double longest_step_m = 0;  ///< that the gait made: the asked one, or what limits left of it
   double simulated_s = 0, wall_s = 0;
   sim::Vec2 end_m{0, 0};              ///< where its body was then, in the world
   std::vector<double> set_upright_s;  ///< when somebody set it on its feet, simulated time

@@ -50,7 +50,8 @@ Robot::Robot(sim::World& world, const WalkPlan& plan, Hooks hooks, Interrupted i
       twin_(world, plan_.entity, plan_.twin),
       walker_(std::in_place, plan_.params, plan_.velocity, plan_.walk_s, plan_.get_ups),
       meter_(plan_.entity, hooks_.keep_series),
-      pending_(plan_.interventions.begin(), plan_.interventions.end()) {
+      pending_(plan_.interventions.begin(), plan_.interventions.end()),
+      story_(plan_.get_ups) {
   std::stable_sort(pending_.begin(), pending_.end(),
                    [](const Intervention& a, const Intervention& b) { return a.at_s < b.at_s; });
   if (plan_.params.bus_protocol == BusProtocol::kCia402) {
@@ -115,7 +116,7 @@ void Robot::take(const TickRecord& tick, const State& state, const Outputs& outp
 void Robot::see() {
   if (!std::exchange(taken_, false)) return;
   walker_->observe(state_, outputs_);
-  count_falls();
+  look_after_falls();
   const gait::Xy by_m = state_.gait.footsteps.stride.by_m;
   if (state_.gait.queued > 0) {
     result_.longest_step_m =
@@ -151,15 +152,19 @@ void Robot::see() {
 }
 
 /// One that got up walks on: what the twin holds against it is over.
-void Robot::count_falls() {
-  using safety::Mode;
-  const auto mode = static_cast<Mode>(outputs_.mode);
-  const Mode before = std::exchange(mode_, mode);
-  if (mode == before) return;
-  if (mode == Mode::kFallen && before != Mode::kGettingUp) ++result_.falls;
-  if (mode != Mode::kStanding) return;
-  if (before == Mode::kGettingUp) ++result_.get_ups;
-  if (plan_.get_ups > 0) twin_.forget_fall();
+void Robot::look_after_falls() {
+  tell(story_.observe(state_, outputs_));
+  result_.falls = story_.falls();
+  result_.get_ups = story_.get_ups();
+  const bool stands = outputs_.mode == static_cast<std::uint8_t>(safety::Mode::kStanding);
+  const bool gets_up = plan_.get_ups > 0 || story_.get_ups() > 0;
+  if (stands && gets_up && twin_.fallen()) twin_.forget_fall();
+}
+
+void Robot::tell(const std::string& news) {
+  if (news.empty()) return;
+  result_.fall_story.push_back({simulated_s(), news});
+  if (hooks_.told) hooks_.told(result_.fall_story.back());
 }
 
 void Robot::intervene_in_time() {
@@ -214,6 +219,11 @@ void Robot::watch() {
   verdict_.see(torque, std::acos(up), twin_.fallen());
   const bool may_get_up = plan_.get_ups > 0;  // only if it stays down it fell
   if (may_get_up && twin_.forget_fall()) verdict_.forget();
+  if (twin_.fallen() && !std::exchange(lies_, true) && may_get_up) {
+    const Eigen::Vector3d sky = seen.truth.body_world.linear().row(2);
+    tell("fell, and lies " + how_it_lies(sky.x(), sky.y()));
+  }
+  if (!twin_.fallen() && std::exchange(lies_, false)) tell("is on its feet again");
   intervene_in_time();
   after_s_ += verdict_.fell() && !may_get_up ? plan_.params.period_us * 1e-6 : 0;
   over_ = over_ || gone_s() >= plan_.walk_s || after_s_ > kAfterFall_s;

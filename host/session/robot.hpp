@@ -10,6 +10,7 @@
 #include "host/bus/virtual_bus.hpp"
 #include "host/can/virtual_can.hpp"
 #include "host/session/estimate_meter.hpp"
+#include "host/session/fall_story.hpp"
 #include "host/session/fall_verdict.hpp"
 #include "host/session/plan.hpp"
 #include "host/session/walk_operator.hpp"
@@ -98,7 +99,8 @@ class Robot {
   std::string failure_of_walk() const;
   void intervene_in_time();
   void note(const std::string& what);
-  void count_falls();
+  void look_after_falls();
+  void tell(const std::string& news);
   void count_traffic();
   double walked_s() const;
 
@@ -121,7 +123,7 @@ class Robot {
   TickRecord tick_;                   ///< the last one taken, and what came with it
   State state_;
   Outputs outputs_;
-  safety::Mode mode_ = safety::Mode::kRelaxed;            ///< of the tick before
+  FallStory story_;
   bool taken_ = false;                                    ///< and not seen yet
   std::uint64_t bits_before_ = 0, bare_bits_before_ = 0;  ///< the first tick
   FallVerdict verdict_;
@@ -129,6 +131,7 @@ class Robot {
   double after_s_ = 0;
   bool over_ = false;
   bool watched_ = false;
+  bool lies_ = false;  ///< of one that is watched: it was told
 };
 
 }  // namespace verp::session

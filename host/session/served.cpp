@@ -110,7 +110,8 @@ void Served::begin_shadow() {
 void Served::begins() {
   if (!std::exchange(met_, true)) {
     start_ns_ = wire::monotonic_ns();
-    return say("a controller has come, in lockstep");
+    say("a controller has come, in lockstep");
+    return look_for_actions();
   }
   if (!robot_.ticking()) return say("the controller greets again");
   ++resets_;
@@ -122,6 +123,28 @@ void Served::begins() {
   if (!shadow_) return;
   begin_shadow();
   robot_.begin_anew();
+}
+
+// It waits for the answer to its greeting, and serves its operator meanwhile. Without its actions
+// this PC would take its own way into a fall for a difference of bits.
+void Served::look_for_actions() {
+  if (!orders_) return;
+  const int here = robot_.actions().count(), there = orders_->action_count();
+  if (here == there) return;
+  if (here > 0 && there == 0) {
+    return fail(
+        "the controller has no actions, so it cannot get up (its register action_count is 0); put "
+        "the robot's actions onto it, or leave out --get-up: u and Enter sets it on its feet");
+  }
+  if (here == 0) {
+    return say(fmt::format(
+        "the controller has {} actions, of which this PC is told none: give --get-up, or a fall "
+        "will look like a difference of bits",
+        there));
+  }
+  fail(
+      fmt::format("the controller has {} actions and this PC's robot {}; put the same ones onto it",
+                  there, here));
 }
 
 // Our own boards ask for lockstep first, and keep time by themselves where there is none.

@@ -127,6 +127,7 @@ class Served : public Controller {
   bool tick_ends();
   void tick_begins(std::uint32_t tick);
   void begin_shadow();
+  void look_for_actions();
   void compare(const bus::ControllerReport& told);
   void watch();
 

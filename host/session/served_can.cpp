@@ -59,7 +59,8 @@ class ServedOnCan final : public Served {
   bool real_time_begun() const override { return realtime_.begun(); }
 
   std::unique_ptr<bus::Shadow> make_shadow(bus::Shadow::Record record) override {
-    auto shadow = std::make_unique<can::ShadowLoop>(robot_.plan().params, std::move(record));
+    auto shadow = std::make_unique<can::ShadowLoop>(robot_.plan().params, std::move(record),
+                                                    robot_.actions());
     shadow_ = shadow.get();
     return shadow;
   }

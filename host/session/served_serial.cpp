@@ -46,7 +46,8 @@ class ServedOnSerial final : public Served {
   bool met() const override { return greeted() || realtime_.begun(); }
 
   std::unique_ptr<bus::Shadow> make_shadow(bus::Shadow::Record record) override {
-    auto shadow = std::make_unique<bus::ShadowLoop>(robot_.plan().params, std::move(record));
+    auto shadow = std::make_unique<bus::ShadowLoop>(robot_.plan().params, std::move(record),
+                                                    robot_.actions());
     shadow_ = shadow.get();
     return shadow;
   }

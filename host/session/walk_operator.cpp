@@ -1,10 +1,8 @@
 #include "host/session/walk_operator.hpp"
 
 #include <algorithm>
-#include <utility>
 
 #include "common/gait/footsteps.hpp"
-#include "common/safety/machine.hpp"
 
 namespace verp::session {
 namespace {
@@ -12,7 +10,6 @@ namespace {
 constexpr double kSettle_s = 0.5;    // a person waits for the robot to stand quietly
 constexpr double kStandUp_s = 15.0;  // bring-up pose, rise and gyro calibration take a few seconds
 constexpr double kIdle_s = 1.0;      // a gait that pauses by itself this long has given up
-constexpr double kDown_s = 60;       // all tries together, each of less than 20 s
 constexpr double kOverrun_s = 5.0;   // a gait that has not ended by then never will
 constexpr std::uint32_t kFrameTicks = 10;  // the least often that the operator's frames come
 constexpr float kSomeError_rad = 1e-3F;    // a robot is never quite on its heading
@@ -26,34 +23,29 @@ WalkOperator::WalkOperator(const Params& params, const Command& velocity, double
       velocity_(velocity),
       walk_s_(walk_s),
       period_s_(params.period_us * 1e-6),
-      get_ups_(get_ups),
-      down_(get_ups > 0) {
+      get_up_(get_ups, get_ups > 0) {
   command_.request = get_ups > 0 ? Request::kGetUp : Request::kStand;
 }
 
 /// True while it is down: nothing else is asked then. It asks anew for each try.
 bool WalkOperator::look_after_fall(safety::Mode mode) {
-  using safety::Mode;
-  const Mode before = std::exchange(mode_, mode);
-  if (get_ups_ == 0) return false;
-  if (mode != before && (mode == Mode::kFalling || mode == Mode::kFallen)) {
-    if (!down_) tries_ = 0, down_s_ = 0;
-    down_ = changed_ = true;
-    command_.request = Request::kGetUp;
-    gait_seen_ = false;
-    waited_s_ = stood_s_ = idle_s_ = stopping_s_ = 0;
+  switch (get_up_.observe(mode, period_s_)) {
+    case GetUp::Phase::kUp:
+      return false;
+    case GetUp::Phase::kFell:
+      changed_ = true;
+      command_.request = Request::kGetUp;
+      gait_seen_ = false;
+      waited_s_ = stood_s_ = idle_s_ = stopping_s_ = 0;
+      return true;
+    case GetUp::Phase::kDown:
+      return true;
+    case GetUp::Phase::kGaveUp:
+      break;
   }
-  if (mode != before && mode == Mode::kGettingUp) ++tries_;
-  if (!down_) return false;
-  if (mode == Mode::kStanding) return down_ = false;
-  down_s_ += period_s_;
-  const bool lies = mode == Mode::kFallen && tries_ >= get_ups_;
-  if (lies || down_s_ > kDown_s) {
-    failed_ = "the robot did not get up", done_ = true;
-    command_.request = Request::kRelax;
-    changed_ = true;
-  }
-  return true;
+  failed_ = "the robot did not get up", done_ = true;
+  command_.request = Request::kRelax;
+  return changed_ = true;
 }
 
 /// How long the gait goes on if stop is said now, or after one more step: steps already queued,

@@ -6,6 +6,7 @@
 #include "common/model/params.hpp"
 #include "common/safety/machine.hpp"
 #include "firmware/app/contracts.hpp"
+#include "host/session/get_up.hpp"
 
 namespace verp::session {
 
@@ -41,11 +42,7 @@ class WalkOperator {
   double walk_s_;
   Command command_;
   double period_s_;
-  int get_ups_;
-  int tries_ = 0;      ///< to get up, since it stood last
-  bool down_;          ///< it may lie, or fell, and does not stand yet
-  double down_s_ = 0;  ///< since then
-  safety::Mode mode_ = safety::Mode::kRelaxed;
+  GetUp get_up_;
   double walked_s_ = 0;
   double waited_s_ = 0;    ///< before the gait
   double stood_s_ = 0;     ///< standing, before the gait

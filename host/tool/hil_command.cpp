@@ -16,6 +16,8 @@
 #include "host/tool/json.hpp"
 #include "host/tool/walk_ending.hpp"
 #include "host/tool/walk_plan.hpp"
+#include "host/tool/walk_report.hpp"
+#include "host/tool/walk_touch.hpp"
 
 namespace verp::tool {
 namespace {
@@ -26,13 +28,21 @@ struct HilWords {
   bool lockstep = false, real_time = false;
 };
 
-WalkPlan plan_of(const WalkOptions& options) {
+WalkPlan plan_of(const WalkOptions& options, bool tells) {
   WalkPlan plan;
   plan.entity = model::load_robot(model::find_model(options.model), options.bus);
   plan.params = model::make_params(plan.entity);
   ask_for_walk(options, plan);
   plan.twin.seed = options.seed;
   plan.board = options.board;
+  if (tells) {
+    prepare_falls(options, plan);
+  } else {  // the controller's actions are its own business
+    plan.twin.lies = lies_of(options);
+    const bool may = options.get_up || plan.twin.lies != sim::Lies::kNo;
+    plan.get_ups = may ? session::kGetUpTries : 0;
+  }
+  read_touch(options.touch, plan, {}, {});
   return plan;
 }
 
@@ -130,6 +140,7 @@ int answer_served(const WalkPlan& plan, const WalkOptions& options, const HilRes
                  {"simulated_s", walk.simulated_s},
                  {"fallen", walk.metrics.fallen},
                  {"let_go_and_lies", result.lay_down},
+                 {"fall_story", fall_story_json(walk)},
                  {"set_upright_s", walk.set_upright_s},
                  {"met", result.met},
                  {"interrupted", walk.interrupted},
@@ -169,9 +180,9 @@ void refuse_without_operator(const CLI::App& app) {
 int run_hil(const CLI::App& app, HilWords words) {
   WalkOptions& options = words.walk;
   options.board = words.hil.link;
-  const WalkPlan plan = plan_of(options);
-  check(words, plan.params);
   const bool tells = !words.hil.operator_link.empty();
+  const WalkPlan plan = plan_of(options, tells);
+  check(words, plan.params);
   if (!tells) refuse_without_operator(app);
   if (tells && options.report_folder.empty() && !options.json) options.report_folder = "report";
   LiveStream live("verp hil", options.live);
@@ -184,8 +195,9 @@ int run_hil(const CLI::App& app, HilWords words) {
   live.finish();
   Json more = to_json(result);
   live.add_to(more);
-  const int status =
-      finish_walk(plan, options, files, result.walk, {}, more, to_text(result) + live.text());
+  more["changes"] = touch_json(result.walk);
+  const int status = finish_walk(plan, options, files, result.walk, {}, more,
+                                 touch_text(result.walk) + to_text(result) + live.text());
   // Who ends it while a link is silent has still ended it.
   const bool device = result.device_trouble && !result.walk.interrupted;
   return status != kGood && device ? kNoDevice : status;
@@ -197,8 +209,15 @@ Subcommand add_hil(CLI::App& root) {
   CLI::App* app =
       root.add_subcommand("hil", "Hardware in the loop: the twin answers a controller on a link");
   auto words = std::make_shared<HilWords>();
-  words->walk.command = "verp hil";
+  words->walk.command = words->walk.touch.command = "verp hil";
   declare_basics(*app, words->walk);
+  declare_falls(*app, words->walk);
+  declare_push(*app, words->walk.touch);
+  app->get_option("--get-up")
+      ->description(
+          "a fall ends nothing: with --operator the robot gets up by the controller's own actions "
+          "and "
+          "walks on; without, whoever drives it may get it up");
   declare_live(*app, words->walk.live);
   app->get_option("--for")->description(
       "with --operator: length of the gait, all three phases, s; without: how long the robot is "

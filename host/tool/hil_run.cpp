@@ -28,12 +28,13 @@ HilResult serve_controller(const WalkPlan& plan, session::ServeOptions options,
   options.cannot_keep_up = leave_real_time;
   session::Session session({.interrupted = interrupted});
   session::Served* served = nullptr;
-  session.add(plan, shown(plan, trace, progress, plan.params.name, keep_series),
-              [&](session::Robot& robot) {
-                auto made = session::make_served(robot, options);
-                served = made.get();
-                return made;
-              });
+  session::Hooks hooks = shown(plan, trace, progress, plan.params.name, keep_series);
+  tell_falls(plan, progress, "verp hil", hooks);
+  session.add(plan, std::move(hooks), [&](session::Robot& robot) {
+    auto made = session::make_served(robot, options);
+    served = made.get();
+    return made;
+  });
   TypedLines typed;
   while (session.tick() != nullptr) {
     if (typed.next() == "u") served->set_upright();

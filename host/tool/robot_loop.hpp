@@ -79,7 +79,10 @@ class RobotRun {
         imu_(params_.imu),
         operator_(
             params_, plan.walk.velocity, plan.walk.walk_s,
-            [this](auto from, auto to, auto faults) { tell(from, to, faults); }, plan.walk.get_ups),
+            [this](auto from, auto to, auto faults, const std::string& story) {
+              tell(from, to, faults, story);
+            },
+            plan.walk.get_ups),
         keeper_{robot_, operator_, result_.walk, trace},
         app_(params_, robot_.bus(), operator_, keeper_, plan.has_imu ? nullptr : &imu_,
              app::Core{{plan.walk.actions.data(), 4 * plan.walk.actions.size()}}) {
@@ -184,11 +187,15 @@ class RobotRun {
     if (!news.empty()) say(news);
   }
 
-  void tell(safety::Mode from, safety::Mode to, std::uint32_t faults) {
+  void tell(safety::Mode from, safety::Mode to, std::uint32_t faults, const std::string& story) {
     const std::string why =
         session::fault_names(faults & 0xFFFF);  // the lower half stops the robot
-    say(fmt::format("{} to {}{}", safety::kModeNames[static_cast<int>(from)],
-                    safety::kModeNames[static_cast<int>(to)], why.empty() ? "" : " (" + why + ")"));
+    say(fmt::format("{} to {}{}{}", safety::kModeNames[static_cast<int>(from)],
+                    safety::kModeNames[static_cast<int>(to)], why.empty() ? "" : " (" + why + ")",
+                    story.empty() ? "" : ": " + story));
+    if (story.empty()) return;
+    const double at_s = 1e-6 * params_.period_us * static_cast<double>(result_.walk.ticks);
+    result_.walk.fall_story.push_back({at_s, story});
   }
 
   // What lets go is sent to all and answered by nobody: so each servo is asked, and those that are

@@ -28,6 +28,7 @@
 #include "host/tool/run_robot.hpp"
 #include "host/tool/walk_files.hpp"
 #include "host/tool/walk_plan.hpp"
+#include "host/tool/walk_report.hpp"
 
 namespace verp::tool {
 namespace {
@@ -132,6 +133,7 @@ Json to_json(const RunPlan& plan, const RunResult& result) {
           {"action_s", plan.action == 0 ? Json() : Json(result.played_s)},
           {"falls", walk.falls},
           {"get_ups", walk.get_ups},
+          {"fall_story", fall_story_json(walk)},
           {"wall_s", walk.wall_s},
           {"digest", fmt::format("0x{:016x}", walk.digest)},
           {"faults", session::fault_names(walk.faults)},

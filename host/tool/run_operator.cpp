@@ -14,7 +14,8 @@ RunOperator::RunOperator(const Params& params, const Command& velocity, double w
       told_(std::move(told)),
       period_s_(1e-6 * params.period_us),
       most_s_(walk_s),
-      gets_up_(get_ups > 0) {}
+      gets_up_(get_ups > 0),
+      story_(get_ups) {}
 
 app::OperatorOrder RunOperator::order(std::uint32_t tick) {
   if (!sitting_ && !limp_) {
@@ -51,12 +52,9 @@ void RunOperator::observe_playing(const State& state, const Outputs& outputs) {
 }
 
 // One that may get up has the walker's patience: its tries are counted there.
-void RunOperator::observe_mode(Mode from, const Outputs& outputs) {
-  if (mode_ != from) {
-    told_(from, mode_, outputs.faults);
-    if (mode_ == Mode::kFallen && from != Mode::kGettingUp) ++falls_;
-    if (mode_ == Mode::kStanding && from == Mode::kGettingUp) ++got_up_;
-  }
+void RunOperator::observe_mode(Mode from, const State& state, const Outputs& outputs) {
+  const std::string story = story_.observe(state, outputs);
+  if (mode_ != from) told_(from, mode_, outputs.faults, story);
   risen_ = risen_ || outputs.torque_enable != 0;
   if (mode_ == Mode::kFallen && !gets_up_) fail("the robot fell");
   if (mode_ == Mode::kStopped && !limp_) fail("stopped");
@@ -67,7 +65,7 @@ void RunOperator::observe_mode(Mode from, const Outputs& outputs) {
 
 void RunOperator::observe(const State& state, const Outputs& outputs) {
   const auto mode = static_cast<Mode>(outputs.mode);
-  observe_mode(std::exchange(mode_, mode), outputs);
+  observe_mode(std::exchange(mode_, mode), state, outputs);
   // What the robot does by itself takes none of the operator's patience.
   const bool by_itself = mode == Mode::kHolding || mode == Mode::kSitting ||
                          (mode == Mode::kRising && walker_.walked_s() > 0);

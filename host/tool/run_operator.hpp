@@ -9,6 +9,7 @@
 #include "common/safety/machine.hpp"
 #include "firmware/app/contracts.hpp"
 #include "host/action/play_operator.hpp"
+#include "host/session/fall_story.hpp"
 #include "host/session/walk_operator.hpp"
 
 namespace verp::tool {
@@ -18,8 +19,9 @@ namespace verp::tool {
 /// go by itself is not made to rise again.
 class RunOperator {
  public:
-  /// Called when the robot's mode has changed.
-  using Told = std::function<void(safety::Mode from, safety::Mode to, std::uint32_t faults)>;
+  /// Called when the robot's mode has changed. `story`: of one that fell, in words; or empty.
+  using Told = std::function<void(safety::Mode from, safety::Mode to, std::uint32_t faults,
+                                  const std::string& story)>;
 
   /// `get_ups`: how often in a row it is asked to get up once it lies; 0: a fall ends the walk.
   RunOperator(const Params& params, const Command& velocity, double walk_s, Told told,
@@ -45,8 +47,8 @@ class RunOperator {
   bool over() const { return quiet_ticks_ >= kQuietTicks; }
   double walked_s() const { return orders_ ? walked_s_ : walker_.walked_s(); }
   /// How often it came to lie, and got up.
-  int falls() const { return falls_; }
-  int get_ups() const { return got_up_; }
+  int falls() const { return story_.falls(); }
+  int get_ups() const { return story_.get_ups(); }
   /// Of the action, so far.
   double played_s() const { return player_ ? player_->played_s() : 0; }
   /// Why the walk is no good, in words; empty: it is.
@@ -56,7 +58,7 @@ class RunOperator {
   static constexpr int kQuietTicks = 10;  ///< over three times App's repeats of a change of torque
 
   void fail(const std::string& why);
-  void observe_mode(safety::Mode from, const Outputs& outputs);
+  void observe_mode(safety::Mode from, const State& state, const Outputs& outputs);
   void observe_obeying(std::uint32_t faults);
   void observe_playing(const State& state, const Outputs& outputs);
 
@@ -66,7 +68,7 @@ class RunOperator {
   Orders orders_;
   const double period_s_, most_s_;
   const bool gets_up_;
-  int falls_ = 0, got_up_ = 0;
+  session::FallStory story_;
   double obeyed_s_ = 0, walked_s_ = 0;  ///< with orders_
   Command relax_;
   safety::Mode mode_ = safety::Mode::kRelaxed;

@@ -3,6 +3,7 @@
 #include "host/action/compile.hpp"
 #include "host/action/folder.hpp"
 #include "host/flash/recipe.hpp"
+#include "host/model/load_error.hpp"
 #include "host/tool/exit_status.hpp"
 #include "host/tool/walk_plan.hpp"
 
@@ -23,7 +24,6 @@ void check_board(const WalkOptions& options) {
 }
 
 void take_get_up_actions(session::WalkPlan& plan) {
-  constexpr int kTries = 3;
   const auto folder = action::folder_of(plan.entity.file);
   const action::Made made = action::make_library(plan.params, action::read_folder(folder));
   // One that is put down on one side needs no way up from the other.
@@ -31,7 +31,20 @@ void take_get_up_actions(session::WalkPlan& plan) {
   if (lies != sim::Lies::kBack) made.require(action::kGetUpFront, folder.string());
   if (lies != sim::Lies::kFront) made.require(action::kGetUpBack, folder.string());
   plan.actions = made.words;
-  plan.get_ups = kTries;
+  plan.get_ups = session::kGetUpTries;
+}
+
+std::string offer_get_up_actions(session::WalkPlan& plan) {
+  if (!plan.actions.empty()) return "";
+  try {
+    const auto folder = action::folder_of(plan.entity.file);
+    action::Made made = action::make_library(plan.params, action::read_folder(folder));
+    const bool both = made.number(action::kGetUpFront) != 0 && made.number(action::kGetUpBack) != 0;
+    if (both) plan.actions = std::move(made.words);
+  } catch (const model::LoadError& error) {
+    return error.what();
+  }
+  return "";
 }
 
 }  // namespace verp::tool

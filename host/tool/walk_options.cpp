@@ -112,6 +112,19 @@ void declare_basics(CLI::App& app, WalkOptions& options) {
   add_json_flag(app, options.json);
 }
 
+void declare_falls(CLI::App& app, WalkOptions& options) {
+  app.add_flag(
+      "--get-up", options.get_up,
+      "falls end no walk: it falls softly, gets up by its actions fall_safe and get_up_..., "
+      "and walks on");
+  app.add_option("--start", options.start,
+                 "standing; or lying:SIDE on the floor: front, back, left, right is down; any: a "
+                 "pose drawn from the seed. It gets up first")
+      ->check(CLI::IsMember(
+          {"standing", "lying:front", "lying:back", "lying:left", "lying:right", "lying:any"}))
+      ->capture_default_str();
+}
+
 std::vector<std::pair<std::string, std::string>> changed_options(const CLI::App& app) {
   const std::set<std::string> kOfNoEffect = {
       "--json",    "--report",    "--record", "--record-state", "--compress",
@@ -157,16 +170,7 @@ void declare(CLI::App& app, WalkOptions& options) {
       "--vary", options.vary,
       "another robot of this kind, drawn from the seed: masses, friction, delay, backlash, "
       "strength, gears, gyro bias, floor, supply; the controller does not know");
-  app.add_flag(
-      "--get-up", options.get_up,
-      "falls end no walk: it falls softly, gets up by its actions fall_safe and get_up_..., "
-      "and walks on");
-  app.add_option("--start", options.start,
-                 "standing; or lying:SIDE on the floor: front, back, left, right is down; any: a "
-                 "pose drawn from the seed. It gets up first")
-      ->check(CLI::IsMember(
-          {"standing", "lying:front", "lying:back", "lying:left", "lying:right", "lying:any"}))
-      ->capture_default_str();
+  declare_falls(app, options);
   app.add_option("--seeds", options.seeds_text,
                  "A-B: one walk for each of these seeds, as many at a time as there are cores; "
                  "1-100 are for gates, 1001 and up for tuning, 2001 and up for reports")

@@ -74,6 +74,9 @@ void declare_tuning(CLI::App& app, WalkOptions& options);
 /// declare_gait(), and what is kept of the walk in the twin.
 void declare_basics(CLI::App& app, WalkOptions& options);
 
+/// Those of them that say what falls mean: --get-up, --start.
+void declare_falls(CLI::App& app, WalkOptions& options);
+
 /// For what speaks to Dynamixel servos only. Throws ToolError if the robot's bus has others.
 void require_serial(const std::string& command, const model::Entity& entity);
 /// Throws ToolError unless the robot's bus is CAN where `link` is a CAN interface, and only there.

@@ -26,17 +26,19 @@ void ask_for_walk(const WalkOptions& options, WalkPlan& plan) {
   plan.walk_s = options.walk_s;
 }
 
-namespace {
-
-/// The robot's actions, if it is to get up, and how it is put down.
-void prepare_falls(const WalkOptions& options, WalkPlan& plan) {
+sim::Lies lies_of(const WalkOptions& options) {
   constexpr std::pair<const char*, sim::Lies> kStarts[] = {
       {"standing", sim::Lies::kNo},       {"lying:front", sim::Lies::kFront},
       {"lying:back", sim::Lies::kBack},   {"lying:left", sim::Lies::kLeft},
       {"lying:right", sim::Lies::kRight}, {"lying:any", sim::Lies::kAny}};
   for (const auto& [name, lies] : kStarts) {
-    if (options.start == name) plan.twin.lies = lies;
+    if (options.start == name) return lies;
   }
+  return sim::Lies::kNo;
+}
+
+void prepare_falls(const WalkOptions& options, WalkPlan& plan) {
+  plan.twin.lies = lies_of(options);
   if (!options.get_up && plan.twin.lies == sim::Lies::kNo) return;
   if (!options.controller.empty()) {
     throw ToolError(kBadInput,
@@ -45,8 +47,6 @@ void prepare_falls(const WalkOptions& options, WalkPlan& plan) {
   }
   take_get_up_actions(plan);
 }
-
-}  // namespace
 
 WalkPlan make_plan(const WalkOptions& options) {
   check_board(options);

@@ -16,6 +16,16 @@ void ask_for_walk(const WalkOptions& options, session::WalkPlan& plan);
 /// Those of the robot's actions that it gets up by, for the way that it lies. Throws LoadError.
 void take_get_up_actions(session::WalkPlan& plan);
 
+/// The same if it has them, of a robot that nobody lets get up yet: who drives it may. Else none,
+/// and why, if it is not that there are none.
+std::string offer_get_up_actions(session::WalkPlan& plan);
+
+/// How it is put down: --start.
+sim::Lies lies_of(const WalkOptions& options);
+
+/// That, and with it or --get-up the actions that it gets up by. Throws ToolError and LoadError.
+void prepare_falls(const WalkOptions& options, session::WalkPlan& plan);
+
 /// Throws ToolError and LoadError.
 session::WalkPlan make_plan(const WalkOptions& options);
 

@@ -334,6 +334,13 @@ std::string to_text(const WalkPlan& plan, const WalkOptions& options, const Walk
   return out;
 }
 
+Json fall_story_json(const WalkResult& result) {
+  Json out = Json::array();
+  for (const session::Happened& each : result.fall_story)
+    out.push_back({{"at_s", each.at_s}, {"what", each.what}});
+  return out;
+}
+
 Json to_json(const WalkPlan& plan, const WalkOptions& options, const WalkResult& result,
              const Sweep& sweep) {
   const sim::WalkMetrics& m = result.metrics;
@@ -362,6 +369,7 @@ Json to_json(const WalkPlan& plan, const WalkOptions& options, const WalkResult&
                {"fallen", m.fallen},
                {"falls", result.falls},
                {"get_ups", result.get_ups},
+               {"fall_story", fall_story_json(result)},
                {"interrupted", result.interrupted || sweep.interrupted},
                {"failure", result.failure.empty() ? sweep.failure : result.failure},
                {"remark", result.remark},

@@ -16,6 +16,9 @@ report::Run to_report(const WalkPlan& plan, const WalkOptions& options, const Wa
 std::string to_text(const WalkPlan& plan, const WalkOptions& options, const WalkResult& result,
                     const Sweep& sweep);
 
+/// What became of it when it fell: when, and in words.
+Json fall_story_json(const WalkResult& result);
+
 Json to_json(const WalkPlan& plan, const WalkOptions& options, const WalkResult& result,
              const Sweep& sweep);
 

@@ -2,9 +2,20 @@
 
 #include <fmt/format.h>
 
+#include "host/tool/console.hpp"
 #include "host/tool/interrupt.hpp"
 
 namespace verp::tool {
+
+void tell_falls(const WalkPlan& plan, Progress& progress, const std::string& command,
+                session::Hooks& hooks) {
+  if (plan.get_ups == 0) return;
+  const std::string who = command + ": " + (plan.name.empty() ? "" : plan.name + ": ");
+  hooks.told = [&progress, who](const session::Happened& news) {
+    progress.clear();
+    complain(fmt::format("{}{:.2f} s: {}", who, news.at_s, news.what));
+  };
+}
 
 session::Hooks shown(const WalkPlan& plan, record::TraceWriter* trace, Progress& progress,
                      const std::string& label, bool keep_series) {

@@ -170,11 +170,13 @@ Walks walk_together(const WalkPlan& plan, const std::vector<WalkPlan>& others,
   Team team(options, session, progress, radio.get());
   session::Hooks hooks =
       shown(plan, files.trace(), progress, plan.params.name, files.wants_report());
+  tell_falls(plan, progress, options.command, hooks);
   if (cameras != nullptr) cameras->watch(plan, hooks);
   const session::Robot& first = team.add(plan, std::move(hooks));
   for (std::size_t i = 0; i < others.size(); ++i) {
     session::Hooks own;
     own.trace = other_files.trace(i);
+    tell_falls(others[i], progress, options.command, own);
     team.add(others[i], std::move(own));
   }
   const wire::SystemClock clock;

@@ -37,11 +37,11 @@ struct Probe {
 };
 
 Intervention read(const std::string& option, const std::string& text,
-                  Intervention (*reader)(const std::string&)) {
+                  Intervention (*reader)(const std::string&), const std::string& command) {
   try {
     return reader(text);
   } catch (const std::invalid_argument& error) {
-    throw ToolError(kBadInput, fmt::format("verp walk: {} '{}': {}", option, text, error.what()));
+    throw ToolError(kBadInput, fmt::format("{}: {} '{}': {}", command, option, text, error.what()));
   }
 }
 
@@ -54,29 +54,33 @@ std::string hint(const Intervention& each, const sim::Quantities& quantities) {
 }
 
 void check_all(const std::vector<std::pair<std::string, Intervention>>& read, const WalkPlan& plan,
-               const std::vector<WalkPlan>& others, const sim::WorldOptions& world) {
+               const std::vector<WalkPlan>& others, const sim::WorldOptions& world,
+               const std::string& command) {
   Probe probe(plan, others, world);
   for (const auto& [option, each] : read) {
     try {
       session::check(each, probe.quantities);
     } catch (const std::invalid_argument& error) {
-      throw ToolError(kBadInput, fmt::format("verp walk: {}: {}{}", option, error.what(),
+      throw ToolError(kBadInput, fmt::format("{}: {}: {}{}", command, option, error.what(),
                                              hint(each, probe.quantities)));
     }
     if (each.at_s <= plan.walk_s) continue;
-    throw ToolError(kBadInput,
-                    fmt::format("verp walk: {}: {:g} s is after the end, {:g} s; raise --for",
-                                option, each.at_s, plan.walk_s));
+    throw ToolError(kBadInput, fmt::format("{}: {}: {:g} s is after the end, {:g} s; raise --for",
+                                           command, option, each.at_s, plan.walk_s));
   }
 }
 
 }  // namespace
 
-void declare(CLI::App& app, TouchOptions& options) {
+void declare_push(CLI::App& app, TouchOptions& options) {
   app.add_option("--push", options.pushes,
                  "'T: LINK fx,fy,fz N for S': push it T s into the gait, in the world's axes; may "
                  "be repeated")
       ->allow_extra_args(false);
+}
+
+void declare(CLI::App& app, TouchOptions& options) {
+  declare_push(app, options);
   app.add_option(
          "--at", options.settings,
          "'T: NAME=VALUE': set a quantity of the physics T s into the gait; may be repeated")
@@ -89,11 +93,13 @@ void read_touch(const TouchOptions& options, WalkPlan& plan, const std::vector<W
                 const sim::WorldOptions& world) {
   std::vector<std::pair<std::string, Intervention>> all;
   for (const std::string& text : options.pushes)
-    all.emplace_back("--push '" + text + "'", read("--push", text, session::read_push));
+    all.emplace_back("--push '" + text + "'",
+                     read("--push", text, session::read_push, options.command));
   for (const std::string& text : options.settings)
-    all.emplace_back("--at '" + text + "'", read("--at", text, session::read_setting));
+    all.emplace_back("--at '" + text + "'",
+                     read("--at", text, session::read_setting, options.command));
   if (all.empty()) return;
-  check_all(all, plan, others, world);
+  check_all(all, plan, others, world, options.command);
   for (const auto& [option, each] : all) plan.interventions.push_back(each);
 }
 

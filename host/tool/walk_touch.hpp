@@ -16,9 +16,12 @@ namespace verp::tool {
 struct TouchOptions {
   std::vector<std::string> pushes, settings;
   bool list = false;
+  std::string command = "verp walk";  ///< for messages
 };
 
 void declare(CLI::App& app, TouchOptions& options);
+/// Of these, --push alone.
+void declare_push(CLI::App& app, TouchOptions& options);
 
 /// Reads them into the plan, and checks them against the robots and the world that the run will
 /// have. Throws ToolError.

@@ -264,6 +264,7 @@ void MainWindow::show_numbers(const scene::Snapshot& now) {
                                         phase_name(robot.phase)));
   const std::string faults = session::fault_names(robot.faults);
   faults_->setText(faults.empty() ? "no faults" : QString::fromStdString(faults));
+  show_get_up(robot);
   LiveRun* live = player_->live();
   if (live == nullptr) {
     speed_->setText(QString("tick %1").arg(now.tick));

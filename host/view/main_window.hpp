@@ -16,6 +16,7 @@
 #include "host/view/run/trace_film.hpp"
 #include "host/view/scene_view.hpp"
 
+class QAction;
 class QLabel;
 class QPushButton;
 class QSettings;
@@ -72,6 +73,7 @@ class MainWindow final : public QMainWindow {
   void make_docks();
   void make_menus();
   void make_run_menu();
+  void make_corner();
   void make_view_menu();
   void make_help_menu();
   void make_status();
@@ -88,6 +90,8 @@ class MainWindow final : public QMainWindow {
   void show_numbers(const scene::Snapshot& now);
   void drive(const std::function<void(Steering&)>& how);
   void stop(bool pressed);
+  void get_up();
+  void show_get_up(const scene::RobotView& robot);
   void pick_up();
   void hold(const SceneView::Hold& hold);
   void let_go(const SceneView::Hold& hold);
@@ -128,12 +132,13 @@ class MainWindow final : public QMainWindow {
   StatePanel* state_;
   Transport* transport_;
   QTimer* timer_;
-  QPushButton* stop_;
+  QPushButton *stop_, *up_;
+  QAction *get_up_ = nullptr, *by_itself_ = nullptr;
   QMenu* recent_ = nullptr;
   QMenu* docks_ = nullptr;
   QLabel *mode_, *speed_, *faults_, *link_told_, *digest_;
   QByteArray first_layout_;
-  std::string failure_, said_;
+  std::string failure_, said_, happened_;
   std::set<std::string> told_;              ///< of what is not drawn: once each
   std::optional<scene::Vec3> grip_link_m_;  ///< where another link was taken, in its frame
   std::optional<scene::Vec3> foot_from_m_;  ///< of the foot that is dragged, when it was taken

@@ -1,7 +1,9 @@
+#include <QAction>
 #include <QFileDialog>
 #include <QPushButton>
 #include <cmath>
 
+#include "common/safety/machine.hpp"
 #include "host/view/main_window.hpp"
 #include "host/view/pose_panel.hpp"
 
@@ -34,6 +36,36 @@ void MainWindow::stop(bool pressed) {
   player_->live()->touch(
       [pressed](LiveRun::Hands& hands) { hands.orders.press_emergency_stop(pressed); });
   stop_->setText(pressed ? "Release stop" : "Emergency stop");
+}
+
+/// A person's word: from then on the robot is that person's, and stands when it is up.
+void MainWindow::get_up() {
+  if (live() == nullptr || !steering_ || !get_up_->isEnabled()) return;
+  steering_->stop();
+  live()->touch([command = steering_->command()](LiveRun::Hands& hands) {
+    hands.orders.take(command);
+    hands.orders.get_up();
+  });
+  if (!player_->playing()) player_->play();
+}
+
+/// Offered to a robot that lies limp and knows how.
+void MainWindow::show_get_up(const scene::RobotView& robot) {
+  const bool can = live() != nullptr && !live()->setup().plan.actions.empty();
+  const bool limp = !safety::has_torque(static_cast<safety::Mode>(robot.mode));
+  const bool offered = can && limp && robot.fallen;
+  get_up_->setEnabled(offered);
+  up_->setEnabled(offered);
+  by_itself_->setEnabled(can);
+  const QString why =
+      can || live() == nullptr ? "" : "this robot has no actions get_up_front and get_up_back";
+  up_->setToolTip(why);
+  by_itself_->setToolTip(why);
+  const LiveRun::Status status = can ? live()->status() : LiveRun::Status{};
+  by_itself_->setChecked(status.gets_up_by_itself);
+  if (status.happened != happened_ && !status.happened.empty())
+    say(QString::fromStdString(status.happened));
+  happened_ = status.happened;
 }
 
 /// The scene shows the robot in the hand as long as there is one.

@@ -3,6 +3,7 @@
 #include <QDockWidget>
 #include <QFileDialog>
 #include <QFileInfo>
+#include <QHBoxLayout>
 #include <QMenuBar>
 #include <QMessageBox>
 #include <QPushButton>
@@ -27,6 +28,7 @@ const char* const kKeys = R"(<table cellpadding="3">
 <tr><td><b>W A S D</b>, arrows in the picture</td><td>walk: each press a quarter faster that way</td></tr>
 <tr><td><b>Q E</b></td><td>turn left, right</td></tr>
 <tr><td><b>Space</b></td><td>stop walking, stand</td></tr>
+<tr><td><b>G</b></td><td>get up, of a robot that lies and has actions for it</td></tr>
 <tr><td><b>Esc</b></td><td>emergency stop: no torque</td></tr>
 <tr><td><b>P</b></td><td>play, pause</td></tr>
 <tr><td><b>. ,</b></td><td>one tick on, back</td></tr>
@@ -127,14 +129,39 @@ void MainWindow::make_run_menu() {
       if (!hands.robot.set_upright()) throw std::runtime_error("not now: a servo has torque");
     });
   });
-  stop_ = new QPushButton("Emergency stop", this);
-  stop_->setObjectName("stop");
+  get_up_ = robot->addAction("&Get up", Qt::Key_G, this, [this] { get_up(); });
+  by_itself_ = robot->addAction("Get up by it&self");
+  by_itself_->setObjectName("gets_up_by_itself");
+  by_itself_->setCheckable(true);
+  connect(by_itself_, &QAction::triggered, this, [this](bool on) {
+    if (live() != nullptr) live()->let_get_up(on);
+  });
+  make_corner();
+}
+
+/// What is urgent: beside the menus, whatever is open.
+void MainWindow::make_corner() {
+  const auto button = [this](const char* text, const char* name) {
+    auto* made = new QPushButton(text);
+    made->setObjectName(name);
+    made->setFocusPolicy(Qt::NoFocus);
+    made->setEnabled(false);
+    return made;
+  };
+  up_ = button("Get up", "get_up");
+  get_up_->setEnabled(false);
+  by_itself_->setEnabled(false);
+  connect(up_, &QPushButton::clicked, this, [this] { get_up(); });
+  stop_ = button("Emergency stop", "stop");
   stop_->setCheckable(true);
-  stop_->setFocusPolicy(Qt::NoFocus);
   stop_->setShortcut(Qt::Key_Escape);
-  stop_->setEnabled(false);
-  menuBar()->setCornerWidget(stop_);
   connect(stop_, &QPushButton::toggled, this, [this](bool pressed) { stop(pressed); });
+  auto* corner = new QWidget(this);
+  auto* row = new QHBoxLayout(corner);
+  row->setContentsMargins(0, 0, 0, 0);
+  row->addWidget(up_);
+  row->addWidget(stop_);
+  menuBar()->setCornerWidget(corner);
 }
 
 void MainWindow::make_view_menu() {

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "host/tool/console.hpp"
 #include "host/tool/exit_status.hpp"
 #include "host/tool/walk_files.hpp"
 #include "host/tool/walk_plan.hpp"
@@ -23,6 +24,8 @@ RunSetup run_of(const tool::WalkOptions& options) {
   setup.plan = std::move(plans.front());
   plans.erase(plans.begin());
   setup.others = std::move(plans);
+  const std::string why = tool::offer_get_up_actions(setup.plan);
+  if (!why.empty()) tool::complain("verp view: the robot cannot get up: " + why);
   tool::read_touch(options.touch, setup.plan, setup.others, setup.world);
   tool::draw(options, setup.plan, setup.world);
   setup.record_file = options.record_file;

@@ -89,11 +89,19 @@ void LiveRun::intervene(session::Intervention what) {
   });
 }
 
+void LiveRun::let_get_up(bool by_itself) {
+  touch([this, by_itself](Hands& hands) {
+    hands.orders.let_get_up(by_itself);
+    const std::lock_guard lock(mutex_);
+    status_.gets_up_by_itself = by_itself;
+  });
+}
+
 std::string LiveRun::save(const std::filesystem::path& file) {
   std::promise<std::string> answer;
   touch([&](Hands&) {
     try {
-      going_->record.save(file, setup_.plan.params, setup_.metadata);
+      going_->record.save(file, setup_.plan.params, setup_.metadata, setup_.plan.actions);
       answer.set_value("");
     } catch (const std::exception& error) {
       answer.set_value(error.what());
@@ -136,8 +144,9 @@ void LiveRun::begin() {
   going_.reset();
   auto going = std::make_unique<Going>(setup_.world);
   if (!setup_.record_file.empty()) {
-    going->writer = std::make_unique<record::TraceWriter>(setup_.record_file, setup_.plan.params,
-                                                          setup_.metadata);
+    going->writer = std::make_unique<record::TraceWriter>(
+        setup_.record_file, setup_.plan.params, setup_.metadata,
+        record::TraceOptions{.actions = setup_.plan.actions});
   }
   session::Hooks hooks;
   hooks.trace = going->writer.get();
@@ -146,6 +155,10 @@ void LiveRun::begin() {
     orders->amend(tick, order);
   };
   hooks.ticked = [this](const session::Tick& tick) { ticked(tick); };
+  hooks.told = [this](const session::Happened& news) {
+    const std::lock_guard lock(mutex_);
+    status_.happened = fmt::format("{:.2f} s: {}", news.at_s, news.what);
+  };
   going->session.add(setup_.plan, std::move(hooks));
   going->others.resize(setup_.others.size());
   for (std::size_t i = 0; i < setup_.others.size(); ++i) {
@@ -153,9 +166,14 @@ void LiveRun::begin() {
   }
   going_ = std::move(going);
   const std::lock_guard lock(mutex_);
+  const bool by_itself = status_.runs == 0 ? setup_.plan.get_ups > 0 : status_.gets_up_by_itself;
+  going_->orders.let_get_up(by_itself);
   film_ = std::make_shared<LiveFilm>(entity_, setup_.plan.params.period_us * 1e-6,
                                      setup_.beside != nullptr);
-  status_ = {.playing = status_.playing, .speed = status_.speed, .runs = status_.runs + 1};
+  status_ = {.playing = status_.playing,
+             .gets_up_by_itself = by_itself,
+             .speed = status_.speed,
+             .runs = status_.runs + 1};
 }
 
 session::Hooks LiveRun::hooks_of_other(std::size_t index) {
@@ -236,6 +254,8 @@ void LiveRun::tick(std::unique_lock<std::mutex>& lock) {
 void LiveRun::ticked(const session::Tick& tick) {
   if (tick.record == nullptr) return;
   going_->record.add(tick);
+  going_->orders.observe(static_cast<safety::Mode>(tick.outputs->mode),
+                         1e-6 * setup_.plan.params.period_us);
   scene::Snapshot now = scene::snapshot(tick, *entity_, setup_.plan.params);
   if (setup_.beside) now.robots.push_back(setup_.beside(now.robots.front()));
   now.robots.insert(now.robots.end(), going_->others.begin(), going_->others.end());

@@ -60,6 +60,9 @@ class LiveRun {
   /// A push, or a quantity set to a value, as `verp walk` does them: recorded, with its tick.
   void intervene(session::Intervention what);
 
+  /// Whenever it falls, it gets up without a word, if it has actions to get up by.
+  void let_get_up(bool by_itself);
+
   /// Writes what has run so far as a trace. Empty, or why there is none.
   std::string save(const std::filesystem::path& file);
   /// The record's file is whole from here on, and the run over. Empty, or why it is not.
@@ -67,12 +70,14 @@ class LiveRun {
 
   struct Status {
     bool playing = false, over = false, driving = false, emergency_stop = false;
+    bool gets_up_by_itself = false;
     double speed = 1, real_time_factor = 0, simulated_s = 0;
     double late_s = 0;  ///< behind the clock
     std::uint64_t ticks = 0, digest = 0;
     std::optional<Tuning> tuning = {};  ///< in force
     std::string failure = {};           ///< of a run that is over
     std::string complaint = {};         ///< of the last touch that went wrong
+    std::string happened = {};          ///< to a robot that falls or lies: the last, in words
     int runs = 0;                       ///< it was begun so often
   };
   Status status() const;

@@ -21,12 +21,14 @@ void RunRecord::note(const std::string& what) {
 }
 
 void RunRecord::save(const std::filesystem::path& file, const Params& params,
-                     const record::mcap::StringMap& metadata) const {
-  record::TraceWriter writer(file, params, metadata);
+                     const record::mcap::StringMap& metadata,
+                     const std::vector<std::uint32_t>& actions) const {
+  record::TraceWriter writer(file, params, metadata, record::TraceOptions{.actions = actions});
+  const action::Library library(actions.data(), 4 * actions.size());
   State state;
   Outputs outputs;
   for (const Kept& kept : ticks_) {
-    step(params, state, kept.record.inputs, outputs);
+    step(params, library, state, kept.record.inputs, outputs);
     writer.append(kept.record, state, outputs, &kept.body, kept.effort_n_m);
     for (const std::string& what : kept.notes) writer.note(kept.record.inputs.tick, what);
   }

@@ -1,4 +1,5 @@
 #pragma once
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -20,9 +21,10 @@ class RunRecord {
   void note(const std::string& what);
   std::size_t ticks() const { return ticks_.size(); }
 
-  /// Throws record::TraceError.
+  /// `actions`: image of the library that the controller had. Throws record::TraceError.
   void save(const std::filesystem::path& file, const Params& params,
-            const record::mcap::StringMap& metadata) const;
+            const record::mcap::StringMap& metadata,
+            const std::vector<std::uint32_t>& actions = {}) const;
 
  private:
   struct Kept {

@@ -36,7 +36,7 @@ class Obeying : public ::testing::Test {
   }
 
   Params params;
-  RunOperator who{params, {}, kMost_s, [](auto, auto, auto) {}};
+  RunOperator who{params, {}, kMost_s, [](auto...) {}};
   Request ordered = Request::kStand;
   std::uint32_t ticks = 0;
 };

@@ -72,6 +72,46 @@ TEST(LiveOrders, WhatAPersonDidIsInTheInputsAndReplays) {
   EXPECT_EQ(outputs.mode, static_cast<std::uint8_t>(safety::Mode::kWalking)) << "and not quiet";
 }
 
+Request asked(LiveOrders& orders, std::uint32_t tick) {
+  app::OperatorOrder order;
+  order.command.request = Request::kWalk;  // of the run's own operator
+  orders.amend(tick, order);
+  return order.command.request;
+}
+
+TEST(LiveOrders, AskARobotThatLiesToGetUpByAWordAndThenHoldToWhatWasOrdered) {
+  LiveOrders orders;
+  orders.observe(safety::Mode::kFallen, 0.008);
+  EXPECT_EQ(asked(orders, 0), Request::kWalk) << "nobody said so";
+  Command stand;
+  stand.request = Request::kStand;
+  orders.take(stand);
+  orders.get_up();
+  EXPECT_EQ(asked(orders, 1), Request::kGetUp);
+  orders.observe(safety::Mode::kGettingUp, 0.008);
+  EXPECT_EQ(asked(orders, 2), Request::kGetUp);
+  orders.observe(safety::Mode::kStanding, 0.008);
+  EXPECT_EQ(asked(orders, 3), Request::kStand);
+  orders.observe(safety::Mode::kFallen, 0.008);
+  EXPECT_EQ(asked(orders, 4), Request::kStand) << "a word is for once";
+}
+
+TEST(LiveOrders, LetARobotGetUpByItselfThreeTimesThenAskItToRelax) {
+  LiveOrders orders;
+  orders.let_get_up(true);
+  orders.observe(safety::Mode::kWalking, 0.008);
+  EXPECT_EQ(asked(orders, 0), Request::kWalk);
+  for (int attempt = 0; attempt < 3; ++attempt) {
+    orders.observe(safety::Mode::kFallen, 0.008);
+    EXPECT_EQ(asked(orders, 1), Request::kGetUp) << attempt;
+    orders.observe(safety::Mode::kGettingUp, 0.008);
+  }
+  orders.observe(safety::Mode::kFallen, 0.008);
+  EXPECT_EQ(asked(orders, 2), Request::kRelax);
+  orders.observe(safety::Mode::kFallen, 0.008);
+  EXPECT_EQ(asked(orders, 3), Request::kRelax) << "until a person has another word";
+}
+
 TEST(LiveOrders, TheEmergencyStopHoldsWhileItIsPressed) {
   LiveOrders orders;
   orders.press_emergency_stop(true);

@@ -2,6 +2,8 @@
 #include <nlohmann/json.hpp>
 
 #include "firmware/app/link_bus.hpp"
+#include "host/action/compile.hpp"
+#include "host/action/folder.hpp"
 #include "host/link/system_clock.hpp"
 #include "host/model/find.hpp"
 #include "host/model/load.hpp"
@@ -20,6 +22,10 @@ class Hil : public Program {
  protected:
   Params params() const {
     return model::make_params(model::load_robot(model::find_model("generic21")));
+  }
+  action::Made actions() const {
+    const auto entity = model::load_robot(model::find_model("generic21"));
+    return action::make_library(params(), action::read_folder(action::folder_of(entity.file)));
   }
   std::string place(const std::string& name) const { return (folder_ / name).string(); }
   /// The twin makes two sockets, `bus` and `orders`.
@@ -188,6 +194,71 @@ TEST_F(Hil, MeetsALinkThatIsCutAtOnceSomeTensOfTimesASecond) {
   const int losses = json::parse(outcome.out).at("link").at("losses").get<int>();
   EXPECT_GT(losses, 3) << outcome.err;
   EXPECT_LT(losses, 3 * 30) << outcome.err;
+}
+
+/// What a walk tells of falls, in order.
+std::string story_of(const json& result) {
+  std::string all;
+  for (const json& each : result.at("fall_story")) all += each.at("what").get<std::string>() + "; ";
+  return all;
+}
+
+// Pushed over, it gets up by the actions that the controller has, and walks on with the bits of
+// `verp walk`; what becomes of it is told while it happens.
+TEST_F(Hil, ARobotThatIsPushedOverGetsUpByTheControllersActions) {
+  const std::string words = "--for 3 --json --get-up --push '1: trunk -60,0,0 N for 0.15'";
+  const json expected = here(words);
+  ASSERT_EQ(expected.at("get_ups"), 1);
+  const action::Made made = actions();
+  LinkController controller(params(), "unix:" + place("bus"), "unix:" + place("orders"), {}, 0,
+                            made.library());
+  const Outcome outcome = hil(words + " --record hil.mcap " + sockets());
+  controller.join();
+  expect_same(outcome, expected);
+  const json result = json::parse(outcome.out);
+  EXPECT_EQ(result.at("get_ups"), 1);
+  EXPECT_EQ(result.at("changes").size(), 1u);
+  EXPECT_EQ(result.at("fall_story"), expected.at("fall_story"));
+  EXPECT_EQ(story_of(result),
+            "falls, limbs in and soft; lies on its back; gets up, try 1 of 3; stands again; ");
+  EXPECT_NE(outcome.err.find("s: gets up, try 1 of 3\n"), std::string::npos) << outcome.err;
+  const Outcome replay = verp("replay hil.mcap --json", "replay");
+  EXPECT_EQ(replay.status, 0) << replay.err;
+}
+
+TEST_F(Hil, ARobotThatLiesGetsUpFirst) {
+  const action::Made made = actions();
+  LinkController controller(params(), "unix:" + place("bus"), "unix:" + place("orders"), {}, 0,
+                            made.library());
+  const Outcome outcome = hil("--for 3 --json --start lying:back " + sockets());
+  controller.join();
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const json result = json::parse(outcome.out);
+  EXPECT_EQ(story_of(result), "lies on its back; gets up, try 1 of 3; stands again; ");
+  EXPECT_EQ(result.at("falls"), 0);
+}
+
+// One that has none cannot: that is said before the robot moves, with what to do instead.
+TEST_F(Hil, AControllerWithoutActionsIsToldThatItCannotGetUp) {
+  LinkController controller(params(), "unix:" + place("bus"), "unix:" + place("orders"));
+  const Outcome outcome = hil("--for 3 --json --get-up " + sockets());
+  controller.join();
+  EXPECT_EQ(outcome.status, 3);
+  EXPECT_NE(outcome.err.find("has no actions, so it cannot get up"), std::string::npos)
+      << outcome.err;
+  EXPECT_NE(outcome.err.find("leave out --get-up"), std::string::npos) << outcome.err;
+  EXPECT_EQ(json::parse(outcome.out).at("ticks"), 0);
+}
+
+TEST_F(Hil, AControllerWithOtherActionsIsRefused) {
+  const action::Made made = action::make_library(params(), {actions().documents.front()});
+  LinkController controller(params(), "unix:" + place("bus"), "unix:" + place("orders"), {}, 0,
+                            made.library());
+  const Outcome outcome = hil("--for 3 --json --get-up " + sockets());
+  controller.join();
+  EXPECT_EQ(outcome.status, 3);
+  EXPECT_NE(outcome.err.find("has 1 actions and this PC's robot"), std::string::npos)
+      << outcome.err;
 }
 
 TEST_F(Hil, SaysWhenTheOperatorsPortIsSilent) {

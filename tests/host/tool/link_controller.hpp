@@ -60,13 +60,18 @@ class ControllerPort {
 };
 
 /// Ends when the twin says stop or refuses, or with this object. At tick `reset_at` it is reset,
-/// once. `Lockstep<Port, Idle>` is its servo bus over a `Port`.
+/// once. `Lockstep<Port, Idle>` is its servo bus over a `Port`; `actions` outlive it.
 template <class Port, template <class, class> class Lockstep>
 class ControllerOn {
  public:
   ControllerOn(const Params& params, const std::string& bus, const std::string& operators,
-               const std::function<void(Port&)>& prepare = {}, std::uint32_t reset_at = 0)
-      : params_(params), bus_port_(bus), operator_port_(operators), reset_at_(reset_at) {
+               const std::function<void(Port&)>& prepare = {}, std::uint32_t reset_at = 0,
+               const action::Library& actions = {})
+      : params_(params),
+        bus_port_(bus),
+        operator_port_(operators),
+        reset_at_(reset_at),
+        actions_(actions) {
     if (prepare) prepare(bus_port_);
     thread_ = std::thread([this] { run(); });
   }
@@ -91,7 +96,9 @@ class ControllerOn {
     Life(ControllerOn& owner)
         : device(owner.operator_port_, owner.params_, {}),
           bus(owner.bus_port_, Idle{&owner, &device}),
-          loop(owner.params_, bus, device, device) {}
+          loop(owner.params_, bus, device, device, nullptr, app::Core{owner.actions_}) {
+      device.offer_actions(owner.actions_.count());
+    }
 
     struct Idle {
       bool operator()() const {
@@ -130,6 +137,7 @@ class ControllerOn {
   Port bus_port_;
   ControllerPort operator_port_;
   const std::uint32_t reset_at_;
+  const action::Library actions_;
   std::atomic<bool> over_ = false, done_ = false;
   lockstep::Verdict verdict_ = lockstep::Verdict::kNoAnswer;
   std::uint32_t spoilt_ = 0, ticks_ = 0;

@@ -4,6 +4,7 @@
 #include <QDoubleSpinBox>
 #include <QMenuBar>
 #include <QSlider>
+#include <QStatusBar>
 #include <QTreeWidget>
 #include <QUndoStack>
 #include <algorithm>
@@ -118,6 +119,60 @@ TEST_F(Window, AWalkThatIsPushedByTheMouseStepsOnAndThePushIsRecorded) {
   EXPECT_EQ(trace.changes[0].what.rfind("push ", 0), 0U) << trace.changes[0].what;
   EXPECT_GE(trace.changes[0].tick, 99U);
   EXPECT_FALSE(record::replay(trace).divergence);
+}
+
+void push_over(LiveRun& run) {
+  session::Intervention push{.kind = session::Intervention::Kind::kPush, .name = "trunk"};
+  push.force_world_n = {0, 60, 0};
+  push.for_s = 0.15;
+  run.intervene(push);
+}
+
+TEST_F(Window, ARobotThatWasPushedOverGetsUpByAKeyAndWalksOn) {
+  watch_robot(400);
+  auto* button = find<QPushButton>("get_up");
+  EXPECT_FALSE(button->isEnabled()) << "it stands";
+  push_over(live());
+  ASSERT_TRUE(wait_for([&] { return mode() == int(safety::Mode::kFallen); }));
+  ASSERT_TRUE(wait_for([&] { return button->isEnabled(); }));
+  const std::uint64_t ticks = live().status().ticks;
+  ASSERT_TRUE(wait_for([&] { return live().status().ticks > ticks + 300; }));
+  EXPECT_EQ(mode(), int(safety::Mode::kFallen)) << "nobody asked it";
+  key(Qt::Key_G);
+  ASSERT_TRUE(wait_for([&] { return mode() == int(safety::Mode::kGettingUp); }));
+  ASSERT_TRUE(wait_for([&] { return !button->isEnabled(); }));
+  ASSERT_TRUE(wait_for([&] { return mode() == int(safety::Mode::kStanding); }));
+  EXPECT_TRUE(wait_for([&] {
+    return window_.statusBar()->currentMessage().contains("stands again");
+  })) << window_.statusBar()->currentMessage().toStdString();
+  key(Qt::Key_W);
+  ASSERT_TRUE(wait_for([&] { return mode() == int(safety::Mode::kWalking); }));
+  const std::string file = folder_.filePath("up.mcap").toStdString();
+  ASSERT_EQ(live().save(file), "");
+  EXPECT_FALSE(record::replay(record::read_trace(file)).divergence) << "by its actions, too";
+}
+
+TEST_F(Window, ARobotThatMayGetUpByItselfNeedsNoWord) {
+  watch_robot(20);
+  auto* by_itself = find<QAction>("gets_up_by_itself");
+  ASSERT_TRUE(wait_for([&] { return by_itself->isEnabled(); }));
+  EXPECT_FALSE(by_itself->isChecked());
+  by_itself->trigger();
+  key(Qt::Key_W);
+  ASSERT_TRUE(wait_for([&] { return mode() == int(safety::Mode::kWalking); }));
+  push_over(live());
+  ASSERT_TRUE(wait_for([&] { return mode() == int(safety::Mode::kFallen); }));
+  ASSERT_TRUE(wait_for([&] { return mode() == int(safety::Mode::kWalking); })) << "as ordered";
+  EXPECT_TRUE(by_itself->isChecked());
+}
+
+TEST_F(Window, ARobotWithoutActionsToGetUpByIsOfferedNone) {
+  window_.open("darwin_op");  // has one from the back only
+  ASSERT_NE(window_.player(), nullptr);
+  live().set_speed(0);
+  ASSERT_TRUE(wait_for([&] { return live().status().ticks >= 20; }));
+  ASSERT_TRUE(wait_for([&] { return !find<QPushButton>("get_up")->toolTip().isEmpty(); }));
+  EXPECT_FALSE(find<QAction>("gets_up_by_itself")->isEnabled());
 }
 
 TEST_F(Window, ASignalIsPlottedAndAClickShowsItsInstant) {
