@@ -67,13 +67,15 @@ int run(Desk& desk, const verp::app::CanLoopJob& job) {
       params, verp::app::OperatorSetup{.takes_orders = false}, log);
   static Node node(can, params, registers, log);
   desk.node = &node;
+  const verp::action::Library library = actions.library(job.actions_size);
+  registers.offer_actions(library.count());
   using Bus = verp::app::LockstepCan<Node, Patience>;
   static Bus bus(node, Patience{}, kSlice_us);
   if (bus.greet(params) != verp::lockstep::Verdict::kAccepted) {
     return fail("loop: the twin refused\n");
   }
   static verp::app::App<Bus, Desk, Desk, verp::app::NoImu, verp::app::Law> app(
-      params, bus, desk, desk, nullptr, verp::app::law_with(actions.library(job.actions_size)));
+      params, bus, desk, desk, nullptr, verp::app::law_with(library));
   if (app.bring_up().status != verp::app::BringUpStatus::kReady) {
     return fail("loop: a device of the robot did not come up\n");
   }

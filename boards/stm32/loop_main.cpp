@@ -8,6 +8,7 @@
 #include "boards/stm32/own_imu.hpp"
 #include "boards/stm32/panel_pins.hpp"
 #include "boards/stm32/servos.hpp"
+#include "common/action/kept.hpp"
 #include "common/control/boot_check.hpp"
 #include "common/model/image.hpp"
 #include "firmware/app/app.hpp"
@@ -29,6 +30,8 @@
 /// boot check found.
 extern "C" const std::uint8_t verp_params_begin[];
 extern "C" const std::uint8_t verp_params_bytes[];  ///< an address that is a size (memory.ld)
+extern "C" const std::uint8_t verp_actions_begin[];
+extern "C" const std::uint8_t verp_actions_bytes[];
 
 namespace verp::board {
 namespace {
@@ -60,7 +63,9 @@ struct Board {
         kept(dog, *reinterpret_cast<const ParamsImage*>(verp_params_begin)),
         imu(params, kept.log),
         operator_device(operator_port, params, setup(start, boot_check), ticks_kept),
-        node(robot_port, params, operator_device.registers(), ticks_kept) {
+        node(robot_port, params, operator_device.registers(), ticks_kept),
+        actions(verp_actions_begin, reinterpret_cast<std::uintptr_t>(verp_actions_bytes), params) {
+    operator_device.offer_actions(actions.library.count(), actions.fault);
     imu.open(start);
     pins.open();
     supply.open();
@@ -160,6 +165,7 @@ struct Board {
   Operator operator_device;
   Node node;
   app::WithPanel<Operator, PanelPins<Io>> panel{operator_device, pins, kEmergencyStop.exists()};
+  const action::KeptLibrary actions;  ///< of this robot, in flash
   app::Signals signals;
   app::LifeSign life;
   std::uint32_t ticks = 0;      ///< since the start, of all loops
@@ -204,7 +210,8 @@ lockstep::Verdict run_in_lockstep(Board& board, const Params& params) {
   if (verdict != lockstep::Verdict::kAccepted) return verdict;
   until_us = kForever_us;
   app::NoImu* const none = nullptr;
-  app::App loop(params, bus, board.operator_device, board, none, app::Law{});
+  app::App loop(params, bus, board.operator_device, board, none,
+                app::law_with(board.actions.library));
   if (!board.is_up(loop.bring_up())) return verdict;
   while (!bus.stopped()) {
     loop.tick();
@@ -222,7 +229,8 @@ void run_in_real_time(Board& board, Servos& servos, const Params& params, std::u
   bool ticking = false;
   RealTimeOn<Node::LoopPort, Timer, UntilTicks> way(board.node.port(), timer, {board, ticking},
                                                     held_us);
-  app::App loop(params, way.bus(), board.panel, board, board.imu.chip(), app::Law{});
+  app::App loop(params, way.bus(), board.panel, board, board.imu.chip(),
+                app::law_with(board.actions.library));
   if (!board.is_up(loop.bring_up())) return;
   board.idle();
   app::Pacer pacer(timer);

@@ -170,6 +170,7 @@ inline constexpr Register kTable[] = {
     r(64, "torque_enable", u8, "", "1 while any servo holds torque (\"armed\")"),
     r(65, "servo_power", u8, "", "0 this board does not switch it, 1 on, 2 off: emergency stop or start fault"),
     r(66, "joint_beyond", u8, "", "bus id of the joint for whose sake a robot was not let stand: it is beyond its limits, move it by hand; 255: none"),
+    r(67, "action_fault", u8, "", "why the actions in flash do not count: 1 truncated, 2 no library, 3 of another version, 4 damaged, 5 out of bounds, 6 for another robot; 0: they do, or there are none"),
     rw(68, "status_return_level", u8, 2, "", "replies: 0 to ping, 1 to ping and reads, 2 to all"),
     r(69, "registered_instruction", u8, "", "1: a Reg Write waits for its Action"),
     r(70, "hardware_error", u8, "bits", "the low byte of faults, but for a quiet operator's; not 0: alert bit"),
@@ -305,16 +306,23 @@ constexpr const Register* find(const char* name) {
 }
 
 /// What a device must know of a register at run time: the table without its words, which need not
-/// be in a microcontroller.
+/// be in a microcontroller, where flash is short.
 struct Rule {
   std::uint16_t address = 0;
-  std::uint16_t count = 0;
-  std::uint8_t size = 0;  ///< of an element
-  Access access = Access::kRead;
-  bool is_text = false;
-  std::int32_t minimum = 0;
-  std::uint32_t maximum = 0;
+  std::uint8_t count = 0;
+  std::uint8_t size : 4 = 0;  ///< of an element
+  Access access : 2 = Access::kRead;
+  bool is_text : 1 = false;
+  std::int16_t minimum = 0;
+  std::uint16_t most = 0;  ///< kAll: all that the element can hold
+
+  static constexpr std::uint16_t kAll = 0xFFFF;
+  constexpr std::int64_t maximum() const {
+    if (minimum < 0) return std::int16_t(most);
+    return size == 4 && most == kAll ? std::int64_t{0xFFFFFFFFu} : most;
+  }
 };
+static_assert(sizeof(Rule) == 8);
 
 struct Rules {
   Rule rule[kRegisters];
@@ -323,13 +331,31 @@ consteval Rules make_rules() {
   Rules rules{};
   for (std::size_t i = 0; i < kRegisters; ++i) {
     const Register& from = row::kTable[i];
-    rules.rule[i] = {
-        from.address, from.count,  type_bytes(from.type), from.access, from.type == Type::kText,
-        from.minimum, from.maximum};
+    Rule& rule = rules.rule[i];
+    rule.address = from.address;
+    rule.count = static_cast<std::uint8_t>(from.count);
+    rule.size = type_bytes(from.type) & 0xF;
+    rule.access = from.access;
+    rule.is_text = from.type == Type::kText;
+    rule.minimum = static_cast<std::int16_t>(from.minimum);
+    rule.most = static_cast<std::uint16_t>(from.maximum);
   }
   return rules;
 }
 inline constexpr Rules kRules = make_rules();
+consteval bool rules_hold_all() {
+  for (std::size_t i = 0; i < kRegisters; ++i) {
+    const Register& from = row::kTable[i];
+    const Rule& rule = kRules.rule[i];
+    const std::int64_t maximum = from.minimum < 0
+                                     ? std::int64_t{static_cast<std::int32_t>(from.maximum)}
+                                     : std::int64_t{from.maximum};
+    if (rule.count != from.count || rule.size != type_bytes(from.type)) return false;
+    if (rule.minimum != from.minimum || rule.maximum() != maximum) return false;
+  }
+  return true;
+}
+static_assert(rules_hold_all(), "a register is longer, or has other bounds, than Rule can say");
 
 /// The rule of the element that begins at `address`; nullptr: none does.
 constexpr const Rule* rule_at(std::uint16_t address) {

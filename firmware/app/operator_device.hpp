@@ -65,8 +65,10 @@ class OperatorDevice {
   /// Takes no order away: a twin that answers again finds the loop as it left it.
   void servos_gone() { registers_.report().servos_gone(); }
 
-  /// How many actions the loop's library has.
-  void offer_actions(int count) { registers_.offer_actions(count); }
+  /// How many actions the loop's library has, and why it has none of those that are kept.
+  void offer_actions(int count, action::KeptFault fault = action::KeptFault::kNone) {
+    registers_.offer_actions(count, fault);
+  }
 
   /// Bus counters and the like, as often as they should be readable.
   void report(const LoopHealth& health) { registers_.report().health(health); }

@@ -2,6 +2,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "common/action/kept.hpp"
 #include "common/control/state.hpp"
 #include "common/io/io.hpp"
 #include "common/model/image.hpp"
@@ -99,9 +100,10 @@ class OperatorRegisters {
   }
   /// The operator wrote `request` 0; told once.
   bool take_relax() { return standing_.take_relax(); }
-  /// Numbers that action_request takes; none before.
-  void offer_actions(int count) {
+  /// Numbers that action_request takes, none before; and why there are none, where some are kept.
+  void offer_actions(int count, action::KeptFault fault = action::KeptFault::kNone) {
     image_.set(reg("action_count"), static_cast<std::uint16_t>(count));
+    image_.set(reg("action_fault"), fault);
   }
   TickReport& report() { return report_; }
   /// Whether a write at `address` may ever have the effect that the table says (OperatorSetup).
@@ -204,10 +206,7 @@ class OperatorRegisters {
           const bool open =
               obeys(address) && (rule->access == table::Access::kWrite ||
                                  (rule->access == table::Access::kDisarmed && !armed()));
-          const std::int64_t maximum = rule->minimum < 0
-                                           ? std::int64_t{static_cast<std::int32_t>(rule->maximum)}
-                                           : std::int64_t{rule->maximum};
-          return dxl::WriteRule{rule->size, open, rule->minimum, maximum};
+          return dxl::WriteRule{rule->size, open, rule->minimum, rule->maximum()};
         });
     return error == dxl::Error::kNone ? check_values(write) : error;
   }

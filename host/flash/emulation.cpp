@@ -9,6 +9,7 @@
 #include <cstring>
 #include <thread>
 
+#include "common/action/kept.hpp"
 #include "common/protocol/controller_table.hpp"
 #include "host/board/board_error.hpp"
 #include "host/bus/client.hpp"
@@ -65,6 +66,14 @@ void plan_fifos(EmulationPlan& plan, const fs::path& folder) {
     plan.launch.arguments.push_back((folder / name).string());
     plan.links.push_back({name, (folder / name).string()});
   }
+}
+
+std::string actions_told(int count, int fault) {
+  if (fault == 0) return fmt::format("{} actions", count);
+  const bool known = fault < static_cast<int>(std::size(action::kKeptFaultNames));
+  return fmt::format(
+      "its actions do not count: {}",
+      known ? action::kKeptFaultNames[fault] : "action_fault is " + fmt::to_string(fault));
 }
 
 }  // namespace
@@ -135,7 +144,7 @@ std::string Emulation::told() const {
   }
   const std::uint8_t fault = number("start_fault");
   if (fault == static_cast<std::uint8_t>(dxl::controller::StartFault::kNone)) {
-    return "its boot check passed";
+    return "its boot check passed; " + actions_told(number("action_count"), number("action_fault"));
   }
   return fmt::format(
       "its boot check passed, but it refuses torque: start_fault is {} ({})", fault,

@@ -4,7 +4,9 @@
 
 #include <cstdlib>
 #include <cstring>
+#include <vector>
 
+#include "common/action/kept.hpp"
 #include "common/model/image.hpp"
 #include "host/files/places.hpp"
 #include "host/files/whole.hpp"
@@ -84,27 +86,37 @@ void check_code(const std::filesystem::path& file, const MemoryMap& map) {
                            map.code.begin, stack, entry, again));
 }
 
-Robot check_params(const std::filesystem::path& file, const MemoryMap& map) {
+Params check_params(const std::filesystem::path& file, const MemoryMap& map) {
   read(file, "robot", map.params);
   try {
-    const ParamsImage image = model::read_image(file.string());
-    return {{image.params.name, ::strnlen(image.params.name, kNameLength)},
-            image.params.bus_protocol};
+    return model::read_image(file.string()).params;
   } catch (const model::LoadError& error) {
     throw FlashError(FlashError::Kind::kBadFile, error.what());
   }
 }
 
-void check_actions(const std::filesystem::path& file, const MemoryMap& map) {
+int check_actions(const std::filesystem::path& file, const MemoryMap& map, const Params* robot) {
   const std::string bytes = read(file, "actions", map.actions);
   if (bytes.size() >= sizeof kImageMagic &&
       std::memcmp(bytes.data(), kImageMagic, sizeof kImageMagic) == 0) {
     refuse(file, "is a robot (a Params image), not actions; give it to --params");
   }
-  if (file.filename() == kKeptActions && bytes.size() == map.actions.bytes) return;
-  refuse(file, fmt::format("there is no format for actions yet, so nothing can be checked; only "
-                           "{}, which verp flash itself kept, can be given back",
-                           kKeptActions));
+  const bool kept = file.filename() == kKeptActions && bytes.size() == map.actions.bytes;
+  std::vector<std::uint32_t> words((bytes.size() + 3) / 4);
+  std::memcpy(words.data(), bytes.data(), bytes.size());
+  const action::KeptFault fault = action::check_any_kept(words.data(), bytes.size());
+  if (fault != action::KeptFault::kNone && !kept) {
+    refuse(file,
+           fmt::format("{}; make it again: verp action export MODEL -o {}",
+                       action::kKeptFaultNames[static_cast<int>(fault)], file.filename().string()));
+  }
+  if (robot != nullptr && !kept &&
+      action::check_kept(words.data(), bytes.size(), *robot) != action::KeptFault::kNone) {
+    refuse(file, fmt::format("these actions were made for another robot than {}, or before its "
+                             "joints were changed; verp action export makes its own",
+                             robot->name));
+  }
+  return action::Library(words.data(), bytes.size()).count();
 }
 
 }  // namespace verp::flash

@@ -20,18 +20,14 @@ std::filesystem::path code_image(const Recipe& recipe, BusProtocol protocol);
 /// fits.
 void check_code(const std::filesystem::path& file, const MemoryMap& map);
 
-struct Robot {
-  std::string name;
-  BusProtocol protocol;  ///< of the bus that the image was made for
-};
-
 /// A sound Params image of this program's core (common/model/image.hpp) that fits.
-Robot check_params(const std::filesystem::path& file, const MemoryMap& map);
+Params check_params(const std::filesystem::path& file, const MemoryMap& map);
 
 /// What a run that failed kept of a sector's actions is in a file of this name, and all of them.
 inline constexpr const char* kKeptActions = "kept_actions.bin";
 
-/// Such a file: until actions have a format nothing else can be told from noise.
-void check_actions(const std::filesystem::path& file, const MemoryMap& map);
+/// A robot's actions (common/action/kept.hpp), `robot`'s own if that goes with them; or a file of
+/// that name, whatever was kept. Returns how many there are.
+int check_actions(const std::filesystem::path& file, const MemoryMap& map, const Params* robot);
 
 }  // namespace verp::flash

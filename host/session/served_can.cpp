@@ -79,7 +79,7 @@ class ServedOnCan final : public Served {
   void watch_live() {
     try {
       watcher_.emplace(port_.interface().name, "watcher", wire::CanClaim::kWatcher);
-      live_.emplace(robot_.plan().params);
+      live_.emplace(robot_.plan().params, robot_.actions());
     } catch (const wire::LinkError& busy) {
       say(std::string(busy.what()) + ", or the walk goes without a check of its own");
     }

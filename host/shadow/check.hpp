@@ -2,6 +2,7 @@
 #include <cstdint>
 #include <string>
 
+#include "common/action/library.hpp"
 #include "common/control/state.hpp"
 #include "common/model/params.hpp"
 #include "host/shadow/comparison.hpp"
@@ -47,9 +48,13 @@ class Check {
   const std::string& gap() const { return gap_; }
 
  protected:
-  explicit Check(const Params& params) : params_(params) {}
+  /// `own`: this robot's actions, as this PC has them.
+  Check(const Params& params, const action::Library& own) : params_(params), own_(own) {}
   ~Check() = default;
 
+  /// The controller has so many actions. It plays one by itself when it falls, so they must be
+  /// these.
+  bool take_actions(int count);
   /// Goes on by a tick with these Inputs; false, and nothing happened: its digest is another one.
   bool step_on(const Inputs& inputs, std::uint64_t digest);
   /// On what the controller had by its testimony. `misheard`: why the State is asked for anew if
@@ -60,6 +65,8 @@ class Check {
   void refuse(const std::string& why);
 
   const Params& params_;
+  const action::Library own_;
+  action::Library actions_;  ///< that the controller has
   State state_ = State::kAsking;
   verp::State shadow_;
   Testimony testimony_;

@@ -9,17 +9,19 @@
 namespace verp::shadow {
 namespace {
 
-State stepped(const Params& params, State state, const Inputs& inputs) {
+State stepped(const Params& params, const action::Library& actions, State state,
+              const Inputs& inputs) {
   Outputs outputs;
-  step(params, state, inputs, outputs);
+  step(params, actions, state, inputs, outputs);
   return state;
 }
 
 /// Fields from the tick that is held: the one that differs, or one a little later.
-void name_fields(record::Divergence& divergence, const Params& params, State state,
-                 const Testimony& testimony, std::size_t from) {
+void name_fields(record::Divergence& divergence, const Params& params,
+                 const action::Library& actions, State state, const Testimony& testimony,
+                 std::size_t from) {
   for (std::size_t i = from; i < testimony.ticks.size(); ++i) {
-    state = stepped(params, state, testimony.ticks[i].inputs);
+    state = stepped(params, actions, state, testimony.ticks[i].inputs);
   }
   divergence.fields = record::diff_states(testimony.held.state, state);
   divergence.fields_tick = testimony.held.record.inputs.tick;
@@ -42,7 +44,8 @@ std::vector<TickRecord> ticks_of(const std::uint8_t* image, std::size_t size,
   return ticks;
 }
 
-Judgement judge(const Params& params, const Suspicion& suspicion, const Testimony& testimony) {
+Judgement judge(const Params& params, const action::Library& actions, const Suspicion& suspicion,
+                const Testimony& testimony) {
   const auto found = std::find_if(
       testimony.ticks.begin(), testimony.ticks.end(),
       [&](const TickRecord& each) { return each.inputs.tick == suspicion.inputs.tick; });
@@ -56,7 +59,7 @@ Judgement judge(const Params& params, const Suspicion& suspicion, const Testimon
   }
   // Up to there both were the same, or a tick between was not heard.
   if (std::prev(found)->digest.chain != suspicion.before.digest.chain) return judgement;
-  const State here = stepped(params, suspicion.before, found->inputs);
+  const State here = stepped(params, actions, suspicion.before, found->inputs);
   const auto differs = record::compare_digests(found->digest, here.digest);
   if (!differs) {
     divergence.fields = record::diff_fields(found->inputs, suspicion.inputs);
@@ -66,7 +69,7 @@ Judgement judge(const Params& params, const Suspicion& suspicion, const Testimon
   divergence.stage = differs->stage;
   divergence.left_digest = differs->left_digest;
   divergence.right_digest = differs->right_digest;
-  name_fields(divergence, params, here, testimony,
+  name_fields(divergence, params, actions, here, testimony,
               static_cast<std::size_t>(found - testimony.ticks.begin()) + 1);
   return judgement;
 }

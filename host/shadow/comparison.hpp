@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "common/action/library.hpp"
 #include "common/control/state.hpp"
 #include "common/model/params.hpp"
 #include "firmware/app/tick_log.hpp"
@@ -39,6 +40,7 @@ struct Judgement {
 };
 
 /// Compares on the controller's own word. Left is the controller, right this PC.
-Judgement judge(const Params& params, const Suspicion& suspicion, const Testimony& testimony);
+Judgement judge(const Params& params, const action::Library& actions, const Suspicion& suspicion,
+                const Testimony& testimony);
 
 }  // namespace verp::shadow

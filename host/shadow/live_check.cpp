@@ -23,8 +23,10 @@ std::uint32_t number_of(const std::uint8_t (&bytes)[4]) {
 
 }  // namespace
 
-LiveCheck::LiveCheck(const Params& params)
-    : Check(params), listener_(params), client_(canopen::further_sdo(canopen::plan::kWatcherSdo)) {}
+LiveCheck::LiveCheck(const Params& params, const action::Library& own)
+    : Check(params, own),
+      listener_(params),
+      client_(canopen::further_sdo(canopen::plan::kWatcherSdo)) {}
 
 void LiveCheck::take(const CanFrame& frame, std::uint64_t now_us) {
   if (over()) return;
@@ -91,6 +93,8 @@ void LiveCheck::begin_step(std::uint64_t now_us) {
       return read(app::object("model_information"), number_, 4, Client::Mode::kPlain);
     case Step::kCore:
       return read(app::object("core_version"), number_, 4, Client::Mode::kPlain);
+    case Step::kActions:
+      return read(app::object("action_count"), number_, 2, Client::Mode::kPlain);
     case Step::kRelease:
     case Step::kReleaseLast:
       return hold(app::TickLog<>::kNothing);
@@ -120,6 +124,9 @@ void LiveCheck::end_step(std::uint64_t now_us) {
       if (const std::string why = why_another(params_, crc_, number_of(number_)); !why.empty()) {
         return refuse(why);
       }
+      return ask(Step::kActions);
+    case Step::kActions:
+      if (!take_actions(number_[0] | number_[1] << 8)) return;
       return ask(Step::kRelease);
     case Step::kRelease:
       pause_until_us_ = now_us + kTurn_us;

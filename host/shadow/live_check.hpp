@@ -25,7 +25,7 @@ namespace verp::shadow {
 /// no clock. Times are microseconds that never go back.
 class LiveCheck final : public Check {
  public:
-  explicit LiveCheck(const Params& params);
+  explicit LiveCheck(const Params& params, const action::Library& own = {});
 
   void take(const CanFrame& frame, std::uint64_t now_us);
   /// The next frame to send; none while it only listens.
@@ -36,6 +36,7 @@ class LiveCheck final : public Check {
   enum class Step {
     kName,
     kCore,
+    kActions,
     kRelease,
     kHold,
     kState,

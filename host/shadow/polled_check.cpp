@@ -26,12 +26,16 @@ bool PolledCheck::good(Answer answer) {
 
 bool PolledCheck::begin() {
   std::uint32_t crc = 0, core = 0, tick = 0, later = 0;
+  std::uint16_t actions = 0;
   if (!good(port_.read(reg("model_information"), &crc, sizeof crc)) ||
       !good(port_.read(reg("core_version"), &core, sizeof core))) {
     return false;
   }
   if (const std::string why = why_another(params_, crc, core); !why.empty()) {
     refuse(why);
+    return false;
+  }
+  if (!good(port_.read(reg("action_count"), &actions, sizeof actions)) || !take_actions(actions)) {
     return false;
   }
   // What was held before is of long ago.

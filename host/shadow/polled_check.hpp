@@ -14,7 +14,8 @@ namespace verp::shadow {
 class PolledCheck final : public Check {
  public:
   /// `params` and `port` outlive it.
-  PolledCheck(const Params& params, TickPort& port) : Check(params), port_(port) {}
+  PolledCheck(const Params& params, TickPort& port, const action::Library& own = {})
+      : Check(params, own), port_(port) {}
 
   /// One request, or a few; false if there is nothing new, or nobody answers.
   bool turn(std::uint64_t now_us);

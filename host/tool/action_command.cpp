@@ -208,7 +208,8 @@ int play(const ActionWords& words) {
 
 Subcommand add_action(CLI::App& root) {
   CLI::App* app = root.add_subcommand(
-      "action", "Actions of a robot, such as wave or kick: list, check, play, convert, record");
+      "action",
+      "Actions of a robot, such as wave or kick: list, check, play, convert, export, record");
   app->require_subcommand(1);
   auto words = std::make_shared<ActionWords>();
   const auto add = [&](const char* name, const char* help, bool named) {
@@ -250,6 +251,11 @@ Subcommand add_action(CLI::App& root) {
       ->required();
   converts->add_option("--robot", words->model, "a robot by its name, or the path of its SDF file")
       ->capture_default_str();
+  CLI::App* exports = add(
+      "export", "All actions of a robot as a board keeps them, for verp flash --actions", false);
+  exports->remove_option(exports->get_option("--json"));
+  auto exported = std::make_shared<std::string>();
+  exports->add_option("-o,--output", *exported, "the file (FILE.bin)")->required();
   CLI::App* records = app->add_subcommand("record", "An action out of what a robot did in a trace");
   auto record = std::make_shared<RecordWords>();
   records->add_option("TRACE", record->trace, "a trace (.mcap)")->required();
@@ -269,6 +275,7 @@ Subcommand add_action(CLI::App& root) {
             if (shows->parsed()) return show(*words);
             if (checks->parsed()) return check(*words);
             if (converts->parsed()) return answer(convert_actions(*words, *convert)), kGood;
+            if (exports->parsed()) return answer(export_actions(*words, *exported)), kGood;
             if (records->parsed()) return answer(record_action(*record)), kGood;
             return play(*words);
           }};

@@ -4,6 +4,7 @@
 
 #include "host/action/csv.hpp"
 #include "host/action/folder.hpp"
+#include "host/action/kept.hpp"
 #include "host/action/robotis.hpp"
 #include "host/files/whole.hpp"
 #include "host/model/find.hpp"
@@ -93,6 +94,24 @@ std::string record_action(const RecordWords& words) {
                             : action::record_joints(trace, options);
   write_file(file, action::text_of(document));
   return fmt::format("{}: {} frames\n", words.file, document.frames.size());
+}
+
+std::string export_actions(const ActionWords& words, const std::string& file) {
+  const ActionRobot robot = load_action_robot(words);
+  if (robot.made.documents.empty()) {
+    throw ToolError(kBadInput,
+                    fmt::format("verp action export: {} has no actions in {}; write one: "
+                                "host/action/README.md has the words",
+                                robot.entity.name, action::folder_of(robot.entity.file).string()));
+  }
+  const std::vector<std::uint8_t> image = action::kept_image(robot.made, robot.params);
+  if (!files::replace(file, {reinterpret_cast<const char*>(image.data()), image.size()})) {
+    throw ToolError(kBadInput, fmt::format("verp action export: {} cannot be written; give another "
+                                           "place with -o",
+                                           file));
+  }
+  return fmt::format("{}: {} actions of {}, {} bytes\n", file, robot.made.documents.size(),
+                     robot.entity.name, image.size());
 }
 
 }  // namespace verp::tool

@@ -23,4 +23,8 @@ std::string convert_actions(const ActionWords& words, const ConvertWords& conver
 /// `verp action record`. Returns what was written, in a line.
 std::string record_action(const RecordWords& words);
 
+/// `verp action export`: all of the robot's actions as a board keeps them. Returns what was
+/// written, in a line.
+std::string export_actions(const ActionWords& words, const std::string& file);
+
 }  // namespace verp::tool

@@ -49,15 +49,15 @@ Subcommand add_flash(CLI::App& root) {
   declare_target(*app, words->flash);
   app->add_option("--params", words->flash.params,
                   "write this robot instead of the firmware: a Params image (FILE.bin, see verp "
-                  "export), a robot of common/robots, or an SDF file");
+                  "export), or, with its actions, a robot of common/robots or an SDF file");
   app->add_option("--bus", words->flash.bus,
                   "name of the robot's bus to use (default: its first), which decides which "
                   "firmware: for serial servos, or for drives on CAN; without --params it is a bus "
                   "of generic21");
-  app->add_option(
-      "--actions", words->flash.actions,
-      "give back the actions that a run which failed has kept (it names the file); other "
-      "actions have no format yet");
+  app->add_option("--actions", words->flash.actions,
+                  "write these: a FILE.bin of verp action export, or what a run that failed has "
+                  "kept (it names the file). A robot that --params makes brings its own; none "
+                  "leaves those on the board as they are");
   app->add_flag("--code", words->code, "with --params or --actions: the firmware as well");
   declare_controller(*app, words->controller);
   add_json_flag(*app, words->json);

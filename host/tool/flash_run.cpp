@@ -5,8 +5,10 @@
 
 #include <chrono>
 #include <filesystem>
+#include <optional>
 #include <thread>
 
+#include "host/action/kept.hpp"
 #include "host/files/shell_line.hpp"
 #include "host/files/whole.hpp"
 #include "host/flash/emulation.hpp"
@@ -16,6 +18,7 @@
 #include "host/model/export.hpp"
 #include "host/model/find.hpp"
 #include "host/model/load.hpp"
+#include "host/tool/action_words.hpp"
 #include "host/tool/interrupt.hpp"
 
 namespace verp::tool {
@@ -26,23 +29,52 @@ namespace fs = std::filesystem;
 /// Whose buses --bus names where no robot is given, as for every command that has a usual MODEL.
 constexpr const char* kUsualRobot = "generic21";
 
-/// The file that --params names, or the one made of the robot that it names.
-fs::path params_file(const std::string& word, const std::string& bus, const fs::path& folder) {
+void write_piece(const fs::path& file, const void* bytes, std::size_t size) {
+  if (files::write(file, {static_cast<const char*>(bytes), size})) return;
+  throw flash::FlashError(flash::FlashError::Kind::kBadFile,
+                          file.string() + ": cannot be written; free space, or set VERP_FLASH_DIR");
+}
+
+/// Leaves what is in the board's flash, as a robot's actions.
+constexpr const char* kNoActions = "none";
+
+/// The robot that --params names, and its actions.
+struct RobotFiles {
+  fs::path params;
+  fs::path actions;  ///< empty: none are written
+};
+
+/// As they were named, or made of the robot that --params names.
+RobotFiles robot_files(const FlashOptions& options, const flash::MemoryMap& map,
+                       const fs::path& folder) {
+  const std::string& word = options.params;
+  RobotFiles made;
+  if (options.actions != kNoActions) made.actions = options.actions;
+  if (word.empty()) return made;
   const fs::path path = word;
   const bool robot = path.extension() == ".sdf" || path.extension() == ".urdf";
   if (path.extension() == ".bin" || (!robot && fs::is_regular_file(path))) {
-    if (bus.empty()) return path;
-    throw flash::FlashError(
-        flash::FlashError::Kind::kUsage,
-        fmt::format("--bus {}: {} is made for one bus already; leave out --bus, "
-                    "or give --params the model",
-                    bus, word));
+    if (!options.bus.empty()) {
+      throw flash::FlashError(
+          flash::FlashError::Kind::kUsage,
+          fmt::format("--bus {}: {} is made for one bus already; leave out --bus, "
+                      "or give --params the model",
+                      options.bus, word));
+    }
+    made.params = path;
+    return made;
   }
-  const ParamsImage image = model::make_image(model::load_robot(model::find_model(word), bus));
-  const fs::path file = folder / "params.bin";
-  if (files::write(file, {reinterpret_cast<const char*>(&image), sizeof image})) return file;
-  throw flash::FlashError(flash::FlashError::Kind::kBadFile,
-                          file.string() + ": cannot be written; free space, or set VERP_FLASH_DIR");
+  const model::Entity entity = model::load_robot(model::find_model(word), options.bus);
+  const ParamsImage image = model::make_image(entity);
+  made.params = folder / "params.bin";
+  write_piece(made.params, &image, sizeof image);
+  if (!options.actions.empty() || map.actions.bytes == 0) return made;
+  const action::Made own = make_actions(entity, image.params, "");
+  if (own.documents.empty()) return made;
+  const std::vector<std::uint8_t> kept = action::kept_image(own, image.params);
+  made.actions = folder / "actions.bin";
+  write_piece(made.actions, kept.data(), kept.size());
+  return made;
 }
 
 /// What goes where, and which image drives that robot. Every file is sound.
@@ -56,11 +88,13 @@ struct Cargo {
 Cargo load(const FlashOptions& options, const flash::Recipe& recipe, const flash::MemoryMap& map,
            const fs::path& folder, bool code) {
   Cargo cargo;
-  if (!options.params.empty()) {
-    const fs::path file = params_file(options.params, options.bus, folder);
-    const flash::Robot robot = flash::check_params(file, map);
-    cargo.pieces.push_back({"robot " + robot.name, fs::absolute(file), map.params});
-    cargo.protocol = robot.protocol;
+  const RobotFiles files = robot_files(options, map, folder);
+  std::optional<Params> robot;
+  if (!files.params.empty()) {
+    robot = flash::check_params(files.params, map);
+    cargo.pieces.push_back(
+        {std::string("robot ") + robot->name, fs::absolute(files.params), map.params});
+    cargo.protocol = robot->bus_protocol;
   } else if (!options.bus.empty()) {
     cargo.protocol = model::load_robot(model::find_model(kUsualRobot), options.bus).protocol;
   }
@@ -71,9 +105,10 @@ Cargo load(const FlashOptions& options, const flash::Recipe& recipe, const flash
     cargo.pieces.insert(cargo.pieces.begin(),
                         {"code " + cargo.image, fs::absolute(file), map.code});
   }
-  if (!options.actions.empty()) {
-    flash::check_actions(options.actions, map);
-    cargo.pieces.push_back({"actions", fs::absolute(options.actions), map.actions});
+  if (!files.actions.empty()) {
+    const int count = flash::check_actions(files.actions, map, robot ? &*robot : nullptr);
+    cargo.pieces.push_back(
+        {fmt::format("{} actions", count), fs::absolute(files.actions), map.actions});
   }
   return cargo;
 }

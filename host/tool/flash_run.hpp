@@ -18,7 +18,7 @@ struct FlashOptions {
   std::string board, port, tool;
   std::string params;   ///< a Params image, or a robot of which one is made; empty: none
   std::string bus;      ///< of that robot, by name; empty: its first. It decides which image
-  std::string actions;  ///< a file; empty: none
+  std::string actions;  ///< a file; empty: those of a robot that is made; "none": no others
   bool code = true;     ///< the firmware itself
   bool emulate = false;
   bool dry_run = false;

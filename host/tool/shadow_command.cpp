@@ -16,6 +16,7 @@
 #include "host/model/params.hpp"
 #include "host/shadow/live_check.hpp"
 #include "host/shadow/polled_check.hpp"
+#include "host/tool/action_words.hpp"
 #include "host/tool/bit_rate.hpp"
 #include "host/tool/command.hpp"
 #include "host/tool/console.hpp"
@@ -58,10 +59,10 @@ class CanSide {
  public:
   static constexpr const char* kRemedy =
       "is it running, on this bus, with a node of its own that keeps ticks?";
-  CanSide(const std::string& link, const Params& params)
+  CanSide(const std::string& link, const Params& params, const action::Library& own)
       : port_(wire::parse_endpoint(link)),
         claim_(port_.interface().name, "watcher", wire::CanClaim::kWatcher),
-        check(params) {
+        check(params, own) {
     check_bit_rate("verp shadow", port_.interface(), params);
   }
   void turn() {
@@ -87,8 +88,8 @@ class SerialSide {
  public:
   static constexpr const char* kRemedy =
       "is it running, is this its operator's port, and is no other program using it?";
-  SerialSide(const std::string& link, const Params& params)
-      : port_(wire::parse_endpoint(link)), check(params, port_) {}
+  SerialSide(const std::string& link, const Params& params, const action::Library& own)
+      : port_(wire::parse_endpoint(link)), check(params, port_, own) {}
   void turn() {
     if (!check.turn(now_us())) std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
@@ -107,8 +108,8 @@ class SerialSide {
 template <class Side>
 class ShadowRun {
  public:
-  ShadowRun(const ShadowWords& words, const Params& params)
-      : words_(words), params_(params), progress_(!words.json), side_(words.link, params_) {}
+  ShadowRun(const ShadowWords& words, const Params& params, const action::Library& own)
+      : words_(words), params_(params), progress_(!words.json), side_(words.link, params_, own) {}
 
   int run() {
     say(fmt::format("looking for the controller of {} on {}", params_.name, words_.link));
@@ -224,8 +225,8 @@ class ShadowRun {
 };
 
 /// Those of the model, and of what `verp run` was told besides.
-Params params_of(const ShadowWords& words, bool can) {
-  Params params = model::make_params(robot_on(words, can));
+Params params_of(const ShadowWords& words, const model::Entity& entity) {
+  Params params = model::make_params(entity);
   apply_tuning(words.tuning, params.tuning);
   apply_run_params(words.params, params);
   return params;
@@ -233,8 +234,12 @@ Params params_of(const ShadowWords& words, bool can) {
 
 int run_shadow(const ShadowWords& words) {
   const bool can = wire::parse_endpoint(words.link).kind == wire::Endpoint::Kind::kCan;
-  const Params params = params_of(words, can);
-  return can ? ShadowRun<CanSide>(words, params).run() : ShadowRun<SerialSide>(words, params).run();
+  const model::Entity entity = robot_on(words, can);
+  const Params params = params_of(words, entity);
+  const action::Made made = make_actions(entity, params, "");
+  const action::Library own = made.library();
+  return can ? ShadowRun<CanSide>(words, params, own).run()
+             : ShadowRun<SerialSide>(words, params, own).run();
 }
 
 }  // namespace

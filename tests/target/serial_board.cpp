@@ -6,6 +6,8 @@
 #include <optional>
 #include <thread>
 
+#include "host/action/folder.hpp"
+#include "host/action/kept.hpp"
 #include "host/board/board_error.hpp"
 #include "host/bus/register_names.hpp"
 #include "host/bus/shadow_loop.hpp"
@@ -25,6 +27,8 @@ constexpr std::chrono::seconds kStart{20};
 constexpr std::uint32_t kSilence_us = 10'000'000;
 /// boards/olimex_h405/memory.ld, verp_params_begin.
 constexpr const char* kParamsAddress = "0x08020000";
+/// Likewise verp_actions_begin.
+constexpr const char* kActionsAddress = "0x08030000";
 
 const bus::NamedRegister& named(const char* name) {
   const bus::NamedRegister* found = bus::find_register(dxl::controller::kModel, name);
@@ -47,28 +51,37 @@ bus::Client connect(const wire::Endpoint& endpoint) {
 
 }  // namespace
 
-SerialBoard::SerialBoard(const std::string& board, const std::vector<std::uint8_t>& params_image)
-    : firmware_(start(board, params_image)), operator_port_(connect(endpoint("operator.sock"))) {}
+SerialBoard::SerialBoard(const std::string& board, const std::vector<std::uint8_t>& params_image,
+                         const std::vector<std::uint8_t>& actions_image)
+    : firmware_(start(board, params_image, actions_image)),
+      operator_port_(connect(endpoint("operator.sock"))) {}
 
 wire::Endpoint SerialBoard::endpoint(const char* name) const {
   return {.kind = wire::Endpoint::Kind::kUnix, .place = (directory_.path() / name).string()};
 }
 
+std::vector<std::string> SerialBoard::load(const char* name, const std::vector<std::uint8_t>& image,
+                                           const char* address) const {
+  if (image.empty()) return {};
+  const std::string file = (directory_.path() / name).string();
+  std::ofstream(file, std::ios::binary)
+      .write(reinterpret_cast<const char*>(image.data()),
+             static_cast<std::streamsize>(image.size()));
+  return {"-device", "loader,file=" + file + ",addr=" + address + ",force-raw=on"};
+}
+
 board::QemuProcess SerialBoard::start(const std::string& board,
-                                      const std::vector<std::uint8_t>& image) const {
+                                      const std::vector<std::uint8_t>& params,
+                                      const std::vector<std::uint8_t>& actions) const {
   const board::EmulatedBoard& emulated = board::find_emulated_board(board);
   board::QemuProcess::Launch launch{
       .board = emulated,
       .image = board::firmware_image(emulated, "loop"),
       .arguments = {},
       .serial_ports = {directory_.path() / "servo.sock", directory_.path() / "operator.sock"}};
-  if (!image.empty()) {
-    const std::string file = (directory_.path() / "params.bin").string();
-    std::ofstream(file, std::ios::binary)
-        .write(reinterpret_cast<const char*>(image.data()),
-               static_cast<std::streamsize>(image.size()));
-    launch.options = {"-device", "loader,file=" + file + ",addr=" + kParamsAddress +
-                                     std::string(",force-raw=on")};
+  launch.options = load("params.bin", params, kParamsAddress);
+  for (const std::string& each : load("actions.bin", actions, kActionsAddress)) {
+    launch.options.push_back(each);
   }
   return board::QemuProcess(launch);
 }
@@ -96,10 +109,18 @@ std::vector<std::uint8_t> params_image(const Robot& robot) {
   return bytes;
 }
 
+std::vector<std::uint8_t> actions_image(const Robot& robot) {
+  const auto folder = action::folder_of(robot.entity.file);
+  return action::kept_image(action::make_library(robot.params, action::read_folder(folder)),
+                            robot.params);
+}
+
 namespace {
 
-/// The order in registers request to walk_wz, in one write.
-void give(SerialBoard& board, const Command& command) {
+/// The order in registers request to walk_wz, in one write, and in action_request.
+void give(SerialBoard& board, const app::OperatorOrder& order, std::uint16_t& action) {
+  const Command& command = order.command;
+  if (action != order.action) board.write("action_request", action = order.action);
   std::vector<std::uint8_t> bytes(8);
   bytes[0] = static_cast<std::uint8_t>(command.request);
   bytes[1] = command.sequence;
@@ -158,15 +179,25 @@ class Cable {
 
 SerialRun run_over_serial(SerialBoard& board, const Robot& robot, std::uint32_t ticks,
                           const SerialTrouble& trouble) {
+  return run_over_serial(board, robot, walk_script(robot.params, ticks), trouble);
+}
+
+SerialRun run_over_serial(SerialBoard& board, const Robot& robot, const Script& script,
+                          const SerialTrouble& trouble) {
   sim::World world;
   sim::TwinRobot body(world, robot.entity);
   bus::VirtualBus bus(robot.params, body);
   const sim::Vec3 start = body.truth().com_world_m;
-  const ScriptedOperator orders(robot.params, ticks, false);
+  Hands hands(world, body);
+  hands.take(script);
+  const std::uint32_t ticks = script.ticks;
+  std::uint16_t action = 0;  // that the board was asked for last
   SerialRun run;
-  bus::ShadowLoop shadow(robot.params, [&](const TickRecord& record, const State&, const Outputs&) {
-    run.twin.records.push_back(record);
-  });
+  bus::ShadowLoop shadow(robot.params,
+                         [&](const TickRecord& record, const State&, const Outputs&) {
+                           run.twin.records.push_back(record);
+                         },
+                         {script.actions.data(), 4 * script.actions.size()});
   Clock::time_point begun;
   bus::LockstepHooks hooks;
   hooks.refused = [](const std::string& why) { throw board::BoardError(why); };
@@ -177,9 +208,9 @@ SerialRun run_over_serial(SerialBoard& board, const Robot& robot, std::uint32_t 
   };
   hooks.tick_begins = [&](std::uint32_t tick) {
     if (tick == trouble.pause_before && trouble.pause) trouble.pause();
-    const app::OperatorOrder order = orders.order(tick);
+    const app::OperatorOrder order = script.order(tick);
     if (run.twin.records.empty()) board.write("request", 0);  // nothing else is obeyed at first
-    give(board, order.command);
+    give(board, order, action);
     shadow.ordered(order);
   };
   hooks.tick_ends = [&] {

@@ -18,8 +18,9 @@ namespace verp::test {
 
 class SerialBoard {
  public:
-  /// Boots with `params_image` in flash where the board's memory.ld has it; empty: with none.
-  SerialBoard(const std::string& board, const std::vector<std::uint8_t>& params_image);
+  /// Boots with these in flash where the board's memory.ld has them; empty: with none.
+  SerialBoard(const std::string& board, const std::vector<std::uint8_t>& params_image,
+              const std::vector<std::uint8_t>& actions_image = {});
 
   wire::Endpoint servo_port() const { return endpoint("servo.sock"); }
   /// The operator's end; what a register of the controller holds, as an integer.
@@ -31,7 +32,11 @@ class SerialBoard {
 
  private:
   wire::Endpoint endpoint(const char* name) const;
-  board::QemuProcess start(const std::string& board, const std::vector<std::uint8_t>& image) const;
+  board::QemuProcess start(const std::string& board, const std::vector<std::uint8_t>& params,
+                           const std::vector<std::uint8_t>& actions) const;
+  /// QEMU's words that put these bytes there.
+  std::vector<std::string> load(const char* name, const std::vector<std::uint8_t>& image,
+                                const char* address) const;
 
   board::TemporaryDirectory directory_;
   board::QemuProcess firmware_;
@@ -40,6 +45,8 @@ class SerialBoard {
 
 /// The bytes that the flash of `robot`'s controller holds.
 std::vector<std::uint8_t> params_image(const Robot& robot);
+/// Likewise of its actions.
+std::vector<std::uint8_t> actions_image(const Robot& robot);
 
 /// What happens to the servo port's cable once the loop ticks.
 struct SerialTrouble {
@@ -64,8 +71,11 @@ struct SerialRun {
   bus::LockstepServer::Counters lockstep;
 };
 
-/// The controller on the board; the twin in lockstep at its servo port, ScriptedOperator at the
-/// other. Throws BoardError or DeviceError.
+/// The controller on the board; the twin in lockstep at its servo port, the script's operator at
+/// the other. Throws BoardError or DeviceError.
+SerialRun run_over_serial(SerialBoard& board, const Robot& robot, const Script& script,
+                          const SerialTrouble& trouble = {});
+/// As ScriptedOperator orders.
 SerialRun run_over_serial(SerialBoard& board, const Robot& robot, std::uint32_t ticks,
                           const SerialTrouble& trouble = {});
 

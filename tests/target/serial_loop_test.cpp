@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <thread>
 
+#include "common/action/kept.hpp"
 #include "tests/target/serial_board.hpp"
 
 // VERP_TEST_BOARD names the emulated board, VERP_TEST_TICKS the length of a walk; ctest of a
@@ -89,6 +90,48 @@ TEST(SerialLoop, WalksTheSameBitsThroughItsUsartsAndInThisProcess) {
   EXPECT_FALSE(there.twin.fallen);
   EXPECT_GT(there.twin.distance_m, 0.2) << "it should have walked";
   std::printf("%s: %u ticks at %.0f ticks/s\n", test_board().c_str(), ticks, there.ticks_per_s);
+}
+
+// It is pushed over, falls softly and gets up, by the actions in its flash, as the same loop in
+// this process does.
+TEST(SerialLoop, GetsUpByTheActionsInItsFlash) {
+  const Robot robot = load_robot("generic21");
+  const Script script = fall_script(robot);
+  const TwinRun here = run_here(robot, script);
+  ASSERT_EQ(modes_text(here.modes), modes_text({std::begin(kFallModes), std::end(kFallModes)}));
+  SerialBoard board(test_board(), params_image(robot), actions_image(robot));
+  ASSERT_TRUE(board.operator_port().ping(dxl::controller::kDefaultId).has_value());
+  EXPECT_GT(board.read("action_count"), 0u);
+  EXPECT_EQ(board.read("action_fault"), 0u);
+  const SerialRun there = run_over_serial(board, robot, script);
+  EXPECT_EQ(there.difference, "");
+  ASSERT_EQ(there.twin.records.size(), here.records.size());
+  for (std::size_t i = 0; i < here.records.size(); ++i) {
+    ASSERT_EQ(here.records[i].digest.chain, there.twin.records[i].digest.chain) << "tick " << i;
+  }
+  EXPECT_EQ(there.digest, here.records.back().digest.chain) << "as the controller itself tells it";
+  std::printf("%s: %zu ticks at %.0f ticks/s\n", test_board().c_str(), here.records.size(),
+              there.ticks_per_s);
+}
+
+// Actions that it must not play keep no robot from walking; it has none then, and says why.
+TEST(SerialLoop, TellsItsOperatorWhyItsActionsDoNotCount) {
+  const Robot robot = load_robot("generic21"), other = load_robot("op3");
+  const auto fault_of = [&](const std::vector<std::uint8_t>& actions) {
+    SerialBoard board(test_board(), params_image(robot), actions);
+    EXPECT_TRUE(board.operator_port().ping(dxl::controller::kDefaultId).has_value());
+    EXPECT_EQ(board.read("action_count"), 0u);
+    EXPECT_EQ(board.read("start_fault"), 0u);
+    board.write("request", static_cast<std::int64_t>(Request::kRelax));
+    EXPECT_THROW(board.write("action_request", 1), bus::DeviceError);
+    return static_cast<action::KeptFault>(board.read("action_fault"));
+  };
+  std::vector<std::uint8_t> image = actions_image(robot);
+  EXPECT_EQ(fault_of(std::vector<std::uint8_t>(64 * 1024, 0xFF)), action::KeptFault::kNone);
+  EXPECT_EQ(fault_of(actions_image(other)), action::KeptFault::kOtherRobot);
+  image[image.size() / 2] ^= 1;
+  EXPECT_EQ(fault_of(image), action::KeptFault::kDamaged);
+  EXPECT_EQ(fault_of(params_image(robot)), action::KeptFault::kNotALibrary);
 }
 
 /// Longer than a twin may be silent before it counts as gone.

@@ -1,6 +1,8 @@
 #include "tests/target/twin_run.hpp"
 
 #include <cmath>
+#include <span>
+#include <utility>
 
 #include "firmware/app/app.hpp"
 #include "host/action/compile.hpp"
@@ -104,11 +106,16 @@ Script walk_script(const Params& params, std::uint32_t ticks, bool wandering) {
   return {.ticks = ticks, .order = [orders](std::uint32_t tick) { return orders.order(tick); }};
 }
 
-Script tour_script(const Robot& robot) {
+namespace {
+
+/// These orders until `end_s`.
+Script script_of(const Robot& robot, std::span<const Order> from, double end_s,
+                 std::vector<Hand> hands) {
   const auto folder = action::folder_of(robot.entity.file);
   const action::Made made = action::make_library(robot.params, action::read_folder(folder));
   std::vector<app::OperatorOrder> orders;
-  for (const Order& each : kTour) {
+  std::vector<double> from_s;
+  for (const Order& each : from) {
     app::OperatorOrder order;
     order.flags = kCommandFresh;
     order.command.request = each.request;
@@ -117,20 +124,33 @@ Script tour_script(const Robot& robot) {
     if (*each.action != 0)
       order.action = static_cast<std::uint16_t>(made.require(each.action, folder.string()));
     orders.push_back(order);
+    from_s.push_back(each.from_s);
   }
   const double period_s = 1e-6 * robot.params.period_us;
-  const auto tick_of = [&](double at_s) { return static_cast<std::uint32_t>(at_s / period_s); };
-  return {.ticks = tick_of(kTourEnd_s),
+  return {.ticks = static_cast<std::uint32_t>(end_s / period_s),
           .order =
-              [orders, period_s](std::uint32_t tick) {
+              [orders, from_s, period_s](std::uint32_t tick) {
                 std::size_t now = 0;
-                while (now + 1 < orders.size() && kTour[now + 1].from_s <= tick * period_s) ++now;
+                while (now + 1 < orders.size() && from_s[now + 1] <= tick * period_s) ++now;
                 app::OperatorOrder order = orders[now];
                 order.command.sequence = static_cast<std::uint8_t>(tick);
                 return order;
               },
-          .hands = {{kPush_s, {0, 10, 0}, 0.05}, {kOver_s, {-60, 0, 0}, 0.15}},
+          .hands = std::move(hands),
           .actions = made.words};
+}
+
+}  // namespace
+
+Script tour_script(const Robot& robot) {
+  return script_of(robot, kTour, kTourEnd_s,
+                   {{kPush_s, {0, 10, 0}, 0.05}, {kOver_s, {-60, 0, 0}, 0.15}});
+}
+
+Script fall_script(const Robot& robot) {
+  constexpr Order kFall[] = {{0, Request::kStand}, {4.5, Request::kGetUp}};
+  constexpr double kEnd_s = 15;
+  return script_of(robot, kFall, kEnd_s, {{4, {-60, 0, 0}, 0.15}});
 }
 
 std::string modes_text(const std::vector<safety::Mode>& modes) {

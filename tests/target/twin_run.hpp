@@ -107,6 +107,11 @@ inline constexpr safety::Mode kTourModes[] = {
     safety::Mode::kStanding,  safety::Mode::kFalling,  safety::Mode::kFallen,
     safety::Mode::kGettingUp, safety::Mode::kStanding, safety::Mode::kActing,
     safety::Mode::kStanding,  safety::Mode::kActing,   safety::Mode::kStanding};
+/// Stands, is pushed over and gets up, in 15 s: what of that takes a robot's own actions.
+Script fall_script(const Robot& robot);
+inline constexpr safety::Mode kFallModes[] = {safety::Mode::kRising,    safety::Mode::kStanding,
+                                              safety::Mode::kFalling,   safety::Mode::kFallen,
+                                              safety::Mode::kGettingUp, safety::Mode::kStanding};
 std::string modes_text(const std::vector<safety::Mode>& modes);
 
 /// Software in the loop: controller, bus and physics in this process.

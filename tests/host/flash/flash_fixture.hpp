@@ -4,10 +4,13 @@
 #include <random>
 
 #include "common/model/image.hpp"
+#include "host/action/folder.hpp"
+#include "host/action/kept.hpp"
 #include "host/flash/memory_map.hpp"
 #include "host/model/export.hpp"
 #include "host/model/find.hpp"
 #include "host/model/load.hpp"
+#include "host/model/params.hpp"
 #include "tests/host/flash/boot_loader_port.hpp"
 #include "tests/host/tool/program.hpp"
 
@@ -73,6 +76,14 @@ class Flash : public tool::test::Program {
         model::make_image(model::load_robot(model::find_model("generic21"), bus));
     const auto* first = reinterpret_cast<const std::uint8_t*>(&image);
     return {first, first + sizeof image};
+  }
+
+  /// Its actions as a board keeps them.
+  static Bytes actions(const std::string& name = "generic21") {
+    const model::Entity entity = model::load_robot(model::find_model(name), "");
+    const Params params = model::make_params(entity);
+    return action::kept_image(
+        action::make_library(params, action::read_folder(action::folder_of(entity.file))), params);
   }
 
   /// A chip of this board whose flash is full of something else.

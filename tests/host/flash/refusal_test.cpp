@@ -35,9 +35,19 @@ TEST_F(Refusal, FilesThatAreNotWhatTheyShouldBe) {
   put(folder_ / "many", Bytes(map_.actions.bytes + 1));
   expect_refused_file("--actions many", "too many");
   put(folder_ / "acts", noise(map_.actions.bytes, 4));
-  expect_refused_file("--actions acts", "no format for actions yet");
+  expect_refused_file("--actions acts", "no action library; make it again: verp action export");
   put(folder_ / "kept_actions.bin", noise(map_.actions.bytes - 1, 4));
-  expect_refused_file("--actions kept_actions.bin", "no format for actions yet");
+  expect_refused_file("--actions kept_actions.bin", "no action library");
+  Bytes own = actions();
+  own.back() ^= 1;
+  put(folder_ / "acts", own);
+  expect_refused_file("--actions acts", "damaged");
+  own.resize(own.size() - 8);
+  put(folder_ / "acts", own);
+  expect_refused_file("--actions acts", "truncated");
+  put(folder_ / "acts", actions("op3"));
+  expect_refused_file("--params generic21 --actions acts", "for another robot than generic21");
+  expect_refused_file("--params good.bin --actions acts", "for another robot than generic21");
 }
 
 TEST_F(Refusal, CodeThatIsNotOfThisBoard) {

@@ -54,7 +54,7 @@ TEST_F(SerialFlash, RobotOrActionsAloneLeaveEverythingElse) {
   Bytes expected = chip.flash;
   Bytes piece = robot();
   std::copy(piece.begin(), piece.end(), expected.begin() + (map_.params.begin - kFlashBegin));
-  Outcome outcome = over_serial(chip, "--params generic21");
+  Outcome outcome = over_serial(chip, "--params generic21 --actions none");
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_EQ(chip.flash, expected);
 
@@ -64,6 +64,25 @@ TEST_F(SerialFlash, RobotOrActionsAloneLeaveEverythingElse) {
   outcome = over_serial(chip, "--actions kept_actions.bin");
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_EQ(chip.flash, expected);
+}
+
+// One command for a robot that gets up; what is made apart is the same bytes.
+TEST_F(SerialFlash, ARobotBringsItsActions) {
+  RomBootLoader chip = used(this->chip());
+  const Bytes own = actions();
+  const auto there = [&] {
+    return part(chip, {map_.actions.begin, static_cast<std::uint32_t>(own.size())});
+  };
+  const Outcome outcome = over_serial(chip, "--params generic21");
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_NE(outcome.out.find(" actions ("), std::string::npos) << outcome.out;
+  EXPECT_EQ(there(), own);
+  EXPECT_EQ(part(chip, {map_.params.begin, static_cast<std::uint32_t>(robot().size())}), robot());
+  ASSERT_EQ(verp("action export generic21 -o acts.bin").status, 0);
+  EXPECT_EQ(get(folder_ / "acts.bin"), own);
+  chip = used(this->chip());
+  ASSERT_EQ(over_serial(chip, "--actions acts.bin").status, 0);
+  EXPECT_EQ(there(), own);
 }
 
 TEST_F(SerialFlash, CodeAndRobotGoTogether) {
@@ -164,7 +183,8 @@ TEST_F(SerialFlash, CutWhileARobotIsWrittenLosesNoActions) {
   Bytes expected = chip.flash;
   const Bytes piece = robot();
   std::copy(piece.begin(), piece.end(), expected.begin() + (map_.params.begin - kFlashBegin));
-  const Outcome outcome = over_serial(chip, "--params generic21", {.cut_after_writes = 3});
+  const Outcome outcome =
+      over_serial(chip, "--params generic21 --actions none", {.cut_after_writes = 3});
   expect_trouble(outcome, "cable pulled?");
   ASSERT_NE(chip.flash, expected);
   const std::size_t remedy = outcome.err.find("--actions ");  // to the line's end
