@@ -134,8 +134,7 @@ void Served::look_for_actions() {
   if (here > 0 && there == 0) {
     return fail(
         "the controller has no actions, so it cannot get up (its register action_count is 0); put "
-        "the robot's actions onto it (verp flash --params MODEL), or leave out --get-up: u and "
-        "Enter sets "
+        "the robot's onto it (verp flash --params MODEL), or leave out --get-up: u and Enter sets "
         "it on its feet");
   }
   if (here == 0) {
