@@ -1,10 +1,12 @@
 #include "host/record/mcap_writer.hpp"
 
 #include <fcntl.h>
+#include <sys/file.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
+#include <charconv>
 #include <cstring>
 #include <fstream>
 
@@ -21,8 +23,11 @@ std::FILE* open_part(const std::filesystem::path& path, std::filesystem::path& p
     part = path;
     part += "." + std::to_string(::getpid()) + "-" + std::to_string(attempt) + ".part";
     const int descriptor = ::open(part.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-    if (descriptor >= 0) return ::fdopen(descriptor, "wb");
-    if (errno != EEXIST) return nullptr;
+    if (descriptor < 0 && errno != EEXIST) return nullptr;
+    if (descriptor < 0) continue;
+    ::flock(descriptor,
+            LOCK_EX | LOCK_NB);  // writer_of() asks; goes with the process, however it ends
+    return ::fdopen(descriptor, "wb");
   }
   return nullptr;
 }
@@ -35,7 +40,30 @@ bool holds_something_else(const std::filesystem::path& path) {
   start.resize(static_cast<std::size_t>(in.gcount()));
   return !start.empty() && start != kMagic;
 }
+/// Somebody has it open as open_part() does.
+bool is_written(const std::filesystem::path& part) {
+  const int descriptor = ::open(part.c_str(), O_RDONLY | O_CLOEXEC);
+  if (descriptor < 0) return false;
+  const bool taken = ::flock(descriptor, LOCK_SH | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+  ::close(descriptor);
+  return taken;
+}
 }  // namespace
+
+int writer_of(const std::filesystem::path& path) {
+  const std::string begins = path.filename().string() + ".";
+  const auto folder = path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
+  std::error_code error;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
+    const std::string name = entry.path().filename().string();
+    if (!name.starts_with(begins) || !name.ends_with(".part") || !is_written(entry.path()))
+      continue;
+    int process = 0;
+    std::from_chars(name.data() + begins.size(), name.data() + name.size(), process);
+    if (process > 0) return process;
+  }
+  return 0;
+}
 
 Writer::Writer(std::filesystem::path path, std::string_view profile, std::string_view library,
                Compression compression, Listener* listener)
@@ -253,6 +281,7 @@ void Writer::close() {
     throw TraceError(part_, position_, std::string("write failed: ") + std::strerror(errno),
                      "free space on the disk, or record elsewhere");
   }
+  whole_ = true;
   std::error_code error;
   std::filesystem::rename(part_, path_, error);
   if (error) {
@@ -262,11 +291,12 @@ void Writer::close() {
 }
 
 void Writer::discard() {
-  if (file_ == nullptr) return;
-  std::fclose(file_);
+  if (whole_ || part_.empty()) return;
+  if (file_ != nullptr) std::fclose(file_);
   file_ = nullptr;
   std::error_code ignored;
   std::filesystem::remove(part_, ignored);
+  part_.clear();
 }
 
 }  // namespace verp::record::mcap

@@ -23,6 +23,9 @@ class Listener {
   virtual void message(std::uint16_t channel, std::uint64_t time_ns, std::string_view data) = 0;
 };
 
+/// Who writes a file of that name now: a process, or 0.
+int writer_of(const std::filesystem::path& path);
+
 /// Writes one MCAP file, append-only: chunks with CRC and message indexes, summary and footer. What
 /// has been flushed stays readable whatever happens later; only the open chunk is lost in a crash.
 /// The file grows under a name of its own (`part_path()`) and takes its final name in close(), so
@@ -78,6 +81,7 @@ class Writer {
   const Compression compression_;
   Listener* listener_;
   std::FILE* file_ = nullptr;
+  bool whole_ = false;  ///< close() has written all of it
   std::uint64_t position_ = 0;
   std::uint32_t data_crc_ = 0;
   std::string chunk_;

@@ -94,7 +94,10 @@ enum class Read {
 /// Throws TraceError: missing, truncated, edited, foreign or of another layout.
 Trace read_trace(const std::filesystem::path& file, Read mode = Read::kStrict);
 
-/// Source revision, compiler and flags of this program, for metadata.
+/// Version of the core that decided these ticks; empty: not known.
+std::string core_of(const Trace& trace);
+
+/// Source revision, version of the core, compiler and flags of this program, for metadata.
 mcap::StringMap build_info();
 
 /// What a camera saw, as its trace has it.

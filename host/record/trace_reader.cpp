@@ -242,6 +242,15 @@ void refuse_flaw(const fs::path& path, const mcap::File& file) {
                    "take an intact copy or record the run again");
 }
 
+std::string core_of(const Trace& trace) {
+  // One that was recovered has two: whose digests are in it, and who wrote it anew.
+  for (const char* key : {"recorded_core_version", "core_version"}) {
+    const auto found = trace.metadata.find(key);
+    if (found != trace.metadata.end()) return found->second == "unknown" ? "" : found->second;
+  }
+  return "";
+}
+
 Trace read_trace(const fs::path& path, Read mode) {
   const std::string bytes = read_trace_bytes(path);
   return trace_of(path, mcap::parse(bytes), mode);

@@ -94,10 +94,13 @@ int run_replay(const ReplayOptions& options) {
   }
   if (equal) return kGood;
   const auto revision = trace.metadata.find("source_revision");
-  complain(fmt::format("{}: diverges at {}; it was recorded by revision {}, this is {}",
+  const std::string version = record::core_of(trace);
+  const auto build = record::build_info();
+  complain(fmt::format("{}: diverges at {}; it was recorded by revision {}{}, this is {}{}",
                        options.file, text(*result.divergence, trace.params, "recorded", "replayed"),
                        revision == trace.metadata.end() ? "unknown" : revision->second,
-                       record::build_info().at("source_revision")));
+                       version.empty() ? "" : " with core " + version, build.at("source_revision"),
+                       version.empty() ? "" : " with core " + build.at("core_version")));
   return kRunFailed;
 }
 
@@ -106,16 +109,25 @@ struct DiffOptions {
   bool json = false, recover = false;
 };
 
+/// Of two cores the bits differ by intention; empty: one recorded both, or nobody knows.
+std::string of_two_cores(const std::string& a, const std::string& b) {
+  if (a == b || a.empty() || b.empty()) return "";
+  return fmt::format("; A is of core {} and B of core {}, which decide otherwise", a, b);
+}
+
 int run_diff(const DiffOptions& options) {
   const record::Trace left = load(options.left, options.recover);
   const record::Trace right = load(options.right, options.recover);
   const auto divergence = record::diff(left, right);
+  const std::string core_a = record::core_of(left), core_b = record::core_of(right);
   if (options.json) {
     Json json = {{"a", options.left},
                  {"b", options.right},
                  {"equal", !divergence},
                  {"ticks_a", left.ticks.size()},
                  {"ticks_b", right.ticks.size()},
+                 {"core_a", core_a.empty() ? Json() : Json(core_a)},
+                 {"core_b", core_b.empty() ? Json() : Json(core_b)},
                  {"divergence", nullptr}};
     if (divergence) json["divergence"] = to_json(*divergence, left.params, "a", "b");
     print_json(json);
@@ -123,8 +135,8 @@ int run_diff(const DiffOptions& options) {
     answer(fmt::format("{} and {}: equal, {} ticks, digest 0x{:016x}\n", options.left,
                        options.right, left.ticks.size(), left.digest()));
   } else {
-    answer(fmt::format("{} and {} differ at {}\n", options.left, options.right,
-                       text(*divergence, left.params, "A", "B")));
+    answer(fmt::format("{} and {} differ at {}{}\n", options.left, options.right,
+                       text(*divergence, left.params, "A", "B"), of_two_cores(core_a, core_b)));
   }
   return divergence ? kRunFailed : kGood;
 }

@@ -68,17 +68,25 @@ int recover(const TraceWords& words) {
   // States are kept again where they stand; a damaged trace's fault bits are not known, so only
   // those.
   std::size_t next = 0, change = 0;
-  for (std::size_t i = 0; i < trace.ticks.size(); ++i) {
-    const bool kept = next < trace.keyframes.size() && trace.keyframes[next].index == i;
-    writer.append(trace.ticks[i], kept ? &trace.keyframes[next].state : nullptr);
-    next += kept ? 1 : 0;
-    for (;
-         change < trace.changes.size() && trace.changes[change].tick == trace.ticks[i].inputs.tick;
-         ++change) {
-      writer.note(trace.changes[change].tick, trace.changes[change].what);
+  const auto write = [&] {
+    for (std::size_t i = 0; i < trace.ticks.size(); ++i) {
+      const bool kept = next < trace.keyframes.size() && trace.keyframes[next].index == i;
+      writer.append(trace.ticks[i], kept ? &trace.keyframes[next].state : nullptr);
+      next += kept ? 1 : 0;
+      for (; change < trace.changes.size() &&
+             trace.changes[change].tick == trace.ticks[i].inputs.tick;
+           ++change) {
+        writer.note(trace.changes[change].tick, trace.changes[change].what);
+      }
     }
+    writer.close({{"recovered_from", words.file}});
+  };
+  try {
+    write();
+  } catch (const record::TraceError&) {  // all of it still stands where it was taken from
+    writer.discard();
+    throw;
   }
-  writer.close({{"recovered_from", words.file}});
   complain(trace.warning.empty() ? words.file + ": is whole" : trace.warning);
   answer(fmt::format("{}: {} ticks\n", words.output, trace.ticks.size()));
   return kGood;

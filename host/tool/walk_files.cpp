@@ -4,12 +4,14 @@
 #include <stdlib.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <optional>
 
 #include "host/files/folder_lock.hpp"
 #include "host/files/shell_line.hpp"
+#include "host/files/whole.hpp"
 #include "host/record/trace_error.hpp"
 #include "host/report/files.hpp"
 #include "host/report/report.hpp"
@@ -41,6 +43,26 @@ record::mcap::StringMap metadata(const WalkPlan& plan, const WalkOptions& option
           {"own_controller",
            options.controller.empty() ? "" : fs::weakly_canonical(options.controller).string()},
           {"controller", options.board.empty() ? "this PC" : options.board}};
+}
+
+/// The words that a process was started with, its program's without the folder.
+std::string words_of(int process) {
+  std::string words = files::read(fmt::format("/proc/{}/cmdline", process)).value_or("");
+  if (!words.empty()) words.pop_back();
+  std::replace(words.begin(), words.end(), '\0', ' ');
+  return words.substr(words.rfind('/', words.find(' ')) + 1);
+}
+
+/// Two runs that record to one file: who ends last would have it, and the other's would be lost.
+void refuse_second_recorder(const std::string& command, const fs::path& file) {
+  const int first = record::mcap::writer_of(file);
+  if (first == 0) return;
+  const std::string words = words_of(first);
+  throw ToolError(
+      kBadInput,
+      fmt::format("{}: {}: process {}{} is recording to it; wait for its end, "
+                  "or name another file with --record",
+                  command, file.string(), first, words.empty() ? "" : " (" + words + ")"));
 }
 
 }  // namespace
@@ -81,6 +103,11 @@ void WalkFiles::open_trace(const WalkOptions& options, const WalkPlan& plan,
     throw ToolError(kBadInput, fmt::format("{}: the report has a file of that name; choose another "
                                            "with --record, such as run.mcap",
                                            trace_path_.string()));
+  }
+  std::optional<files::FolderLock> lock;  // of two that begin at once, one looks first
+  if (!options.record_file.empty()) {
+    lock.emplace(trace_path_.has_parent_path() ? trace_path_.parent_path() : ".");
+    refuse_second_recorder(options.command, trace_path_);
   }
   record::mcap::StringMap run = metadata(plan, options);
   for (const auto& [key, value] : more) run[key] = value;

@@ -1,6 +1,9 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "common/model/image.hpp"
+#include "host/record/trace.hpp"
+#include "host/record/trace_writer.hpp"
 #include "tests/host/tool/program.hpp"
 
 // What is made of a trace, as a person meets it; the numbers are held to account in
@@ -49,6 +52,31 @@ TEST_F(TraceCommand, PlotDrawsSignalsThatAreNamedAndHelpsWithThoseThatAreNot) {
   EXPECT_EQ(verp("trace csv a.mcap --state").out, verp("trace export a.mcap --state").out);
   EXPECT_NE(verp("trace --help").out.find("export, csv "), std::string::npos);
   EXPECT_NE(verp("completion bash").out.find("'trace csv') words='"), std::string::npos);
+}
+
+// Bits of two cores differ by intention: whoever compares them is told, also of one that was
+// recovered by a third.
+TEST_F(TraceCommand, DiffSaysWhenTwoCoresRecorded) {
+  const record::Trace trace = record::read_trace(folder_ / "a.mcap");
+  const std::string own = record::core_of(trace);
+  EXPECT_EQ(own, std::to_string(kCoreVersion));
+  {
+    record::TraceWriter other(folder_ / "b.mcap", trace.params, {{"core_version", "7"}});
+    for (TickRecord tick : trace.ticks) {
+      tick.digest.chain ^= tick.inputs.tick > 300 ? 1 : 0;
+      other.append(tick, nullptr);
+    }
+    other.close();
+  }
+  const Outcome told = verp("diff a.mcap b.mcap");
+  EXPECT_EQ(told.status, 1);
+  EXPECT_NE(told.out.find("; A is of core " + own + " and B of core 7, which"), std::string::npos)
+      << told.out;
+  ASSERT_EQ(verp("trace recover b.mcap -o c.mcap").status, 0);
+  const nlohmann::json recovered = nlohmann::json::parse(verp("diff a.mcap c.mcap --json").out);
+  EXPECT_EQ(recovered.at("core_a"), own);
+  EXPECT_EQ(recovered.at("core_b"), "7");
+  EXPECT_NE(verp("replay b.mcap").err.find(" with core 7, this is "), std::string::npos);
 }
 
 TEST_F(TraceCommand, ACutReplaysAndEveryCommandTakesIt) {

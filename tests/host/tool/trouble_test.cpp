@@ -64,6 +64,35 @@ TEST_F(Trouble, FullDiskCostsTheTraceButNotTheResult) {
   EXPECT_GT(json::parse(verp("trace info a.mcap --json").out).at("ticks"), (614 - 128) / 4.2);
 }
 
+// All that it could save still stands in the trace that it was asked to mend.
+TEST_F(Trouble, ARecoveryThatTheDiskRefusesLeavesNothing) {
+  ASSERT_EQ(verp("walk --for 3 --json --record a.mcap").status, 0);
+  const Outcome recovery = verp_with_blocks(1200, "trace recover a.mcap -o b.mcap");
+  EXPECT_NE(recovery.status, 0);
+  EXPECT_NE(recovery.err.find("write failed"), std::string::npos) << recovery.err;
+  EXPECT_EQ(only_part(folder_), "");
+  EXPECT_FALSE(fs::exists(folder_ / "b.mcap"));
+}
+
+TEST_F(Trouble, TheSecondOfTwoWalksThatRecordToOneFileIsToldWhoIsTheFirst) {
+  std::ofstream(folder_ / "a.mcap.1234-0.part") << "of one that crashed";
+  Outcome first;
+  std::thread running([&] { first = verp("walk --for 600 --json --record a.mcap", "first"); });
+  EXPECT_TRUE(wait_for_walk(folder_));
+  const Outcome second = verp("walk --for 3 --json --record a.mcap", "second");
+  EXPECT_EQ(second.status, 2) << second.err;
+  EXPECT_NE(second.err.find("a.mcap: process "), std::string::npos) << second.err;
+  EXPECT_NE(second.err.find("(verp walk --for 600 --json --record a.mcap) is recording to it"),
+            std::string::npos)
+      << second.err;
+  EXPECT_EQ(verp("walk --for 3 --json --record b.mcap", "other").status, 0);
+  const std::size_t at = second.err.find("process ") + 8;
+  EXPECT_EQ(::kill(std::stoi(second.err.substr(at)), SIGINT), 0);
+  running.join();
+  EXPECT_EQ(first.status, 130);
+  EXPECT_EQ(verp("walk --for 3 --json --record a.mcap", "third").status, 0) << "it is over";
+}
+
 TEST_F(Trouble, FullDiskCostsTheReportButNotTheResult) {
   const Outcome walk = verp_with_blocks(250, "walk --for 4 --report out");
   EXPECT_EQ(walk.status, 1) << walk.err;
