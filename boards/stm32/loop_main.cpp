@@ -60,7 +60,8 @@ struct Board {
   Board(const Start& start, const Params& params, const control::BootReport& boot_check)
       : dog(start.cause),
         guard(dog, start.clocks.source != stm32::ClockSource::kAbsent),
-        kept(dog, *reinterpret_cast<const ParamsImage*>(verp_params_begin)),
+        kept(dog, *reinterpret_cast<const ParamsImage*>(verp_params_begin), verp_actions_begin,
+             reinterpret_cast<std::uintptr_t>(verp_actions_bytes)),
         imu(params, kept.log),
         operator_device(operator_port, params, setup(start, boot_check), ticks_kept),
         node(robot_port, params, operator_device.registers(), ticks_kept),

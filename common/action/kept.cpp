@@ -51,6 +51,11 @@ KeptFault check_any_kept(const void* bytes, std::size_t size) {
   return there.crc32 == crc_of(header, there.robot) ? KeptFault::kNone : KeptFault::kDamaged;
 }
 
+std::size_t kept_size(const void* bytes, std::size_t size) {
+  if (check_any_kept(bytes, size) != KeptFault::kNone) return 0;
+  return static_cast<const LibraryHeader*>(bytes)->size + sizeof(KeptMark);
+}
+
 KeptFault check_kept(const void* bytes, std::size_t size, const Params& params) {
   const auto& header = *static_cast<const LibraryHeader*>(bytes);
   if (size >= sizeof header && is_erased(header)) return KeptFault::kNone;

@@ -45,6 +45,9 @@ KeptFault check_kept(const void* bytes, std::size_t size, const Params& params);
 /// The same as the actions of whatever robot they name.
 KeptFault check_any_kept(const void* bytes, std::size_t size);
 
+/// Bytes of a sound library and its mark, whatever robot they name; 0: there are none.
+std::size_t kept_size(const void* bytes, std::size_t size);
+
 struct KeptLibrary {
   KeptLibrary() = default;
   KeptLibrary(const void* bytes, std::size_t size, const Params& params);

@@ -76,6 +76,8 @@ class FlashStore {
     return written_ > 0 || fits() ? append() : begin_move(may_erase);
   }
 
+  /// The page that holds no log. Whoever uses it resets the board before work() is called again.
+  std::size_t spare_page() const { return other(); }
   /// Records found damaged in mid-log by open(): the flash lost bits. Their keys have older values
   /// or none.
   std::uint32_t damaged() const { return damaged_; }

@@ -54,6 +54,76 @@ TEST(ProgramPage, NeverClaimsWhatTheMemoryDidNotTake) {
   EXPECT_TRUE(store::program_page(whole, 0, bytes.byte, kSize, Nothing{}));
 }
 
+constexpr store::Part kBehind = {256, 200};
+
+/// Page 0 with a robot and, behind it, actions; page 1 is the spare one.
+struct Shared {
+  explicit Shared(std::uint32_t seed = 1) : flash(seed) {
+    flash.erase(0);
+    for (std::size_t at = 0; at < 512; at += 8) {
+      std::uint8_t unit[8];
+      for (std::size_t i = 0; i < 8; ++i) unit[i] = static_cast<std::uint8_t>(3 * at + i + 1);
+      flash.program(0, at, unit);
+      flash.program(1, at, unit);
+    }
+    flash.read(0, kBehind.offset, behind, kBehind.size);
+  }
+  bool replace(const Bytes& fresh) {
+    return store::program_beside(flash, 0, fresh.byte, kSize, kBehind, flash, 1, Nothing{});
+  }
+  bool keeps_behind() const {
+    std::uint8_t there[kBehind.size];
+    flash.read(0, kBehind.offset, there, sizeof there);
+    return __builtin_memcmp(there, behind, sizeof there) == 0;
+  }
+  Flash flash;
+  std::uint8_t behind[kBehind.size];
+};
+
+TEST(ProgramPage, ReplacesTheBeginningAndKeepsWhatIsBehind) {
+  Shared shared;
+  const Bytes fresh(3);
+  EXPECT_TRUE(shared.replace(fresh));
+  EXPECT_TRUE(fresh.are_in(shared.flash, 0));
+  EXPECT_TRUE(shared.keeps_behind());
+  EXPECT_EQ(shared.flash.misuses(), 0u);
+  std::uint8_t header[16];
+  shared.flash.read(1, 0, header, sizeof header);
+  for (const std::uint8_t each : header) EXPECT_EQ(each, 0xFF) << "no log's page";
+}
+
+// Up to the erase of the page itself nothing in it is lost; whenever it is cut, nobody is told that
+// it went well.
+TEST(ProgramPage, ACutBesideWhatIsKeptIsNeverASuccess) {
+  const Bytes fresh(9);
+  constexpr std::uint32_t kSaved = 1 + 25, kAll = kSaved + 1 + 26 + 25;
+  for (std::uint32_t writes = 0; writes < kAll; ++writes) {
+    Shared shared(writes + 1);
+    shared.flash.cut_after(writes);
+    EXPECT_FALSE(shared.replace(fresh)) << writes;
+    shared.flash.power_up();
+    EXPECT_TRUE(writes >= kSaved || shared.keeps_behind()) << writes;
+    EXPECT_TRUE(writes <= kSaved + 26 || fresh.are_in(shared.flash, 0)) << writes;
+  }
+  Shared whole;
+  whole.flash.cut_after(kAll);
+  EXPECT_TRUE(whole.replace(fresh));
+}
+
+TEST(ProgramPage, WhatCannotBeKeptIsNotErased) {
+  Shared shared;
+  const Bytes fresh(9);
+  shared.flash.refuse(3);
+  EXPECT_FALSE(shared.replace(fresh));
+  EXPECT_TRUE(shared.keeps_behind());
+  EXPECT_FALSE(store::program_beside(shared.flash, 0, fresh.byte, kSize, {200, 100}, shared.flash,
+                                     1, Nothing{}))
+      << "it would be overwritten";
+  EXPECT_FALSE(store::program_beside(shared.flash, 0, fresh.byte, kSize, {256, 257}, shared.flash,
+                                     1, Nothing{}));
+  EXPECT_TRUE(shared.keeps_behind());
+}
+
 TEST(ProgramPage, RefusesMoreThanAPageHoldsAndErasesNothing) {
   Flash flash;
   const Bytes bytes(5);
