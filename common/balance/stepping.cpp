@@ -22,6 +22,12 @@ constexpr float kFarthest = 0.333F, kPace_per_s = 4.0F;
 // Parts of the swing in which it begins and ceases: next to the ground feet don't go sideways.
 constexpr float kBegins = 1.0F / 6.0F;
 constexpr float kOver_m = 1e-5F;
+// A robot that stands steps when the DCM is so far from the middle of its soles, parts of half of
+// them: ankles alone would hold it as far as the edge, but who waits for that steps too late. It
+// takes so many steps, and as many after each that had to go further off its plan than this.
+constexpr float kHeld = 0.8F;
+constexpr std::uint32_t kSteps = 4;
+constexpr float kStillOff_m = 0.01F;
 
 bool small(Xy by_m) {
   return math::abs(by_m.x) < kOver_m && math::abs(by_m.y) < kOver_m;
@@ -89,16 +95,31 @@ void move_foot(const Tuning& tuning, const gait::Step& step, float time_s, float
 void exchange(const gait::Step& step, SteppingState& state) {
   state.body_m = state.body_m - state.foot_m;
   state.foot_m = step.swing != gait::kBoth ? -1.0F * state.foot_m : Xy{};
+  if (state.steps > 0) --state.steps;
   state.swing = step.swing;
 }
 
-bool answers(const Tuning& tuning, const SteppingIn& in) {
-  // The last step of a walk brings the feet side by side; the one after it is always known. Joints
-  // that lag behind each other are planned at moments of their own, where nothing is moved.
-  const bool last = in.gait->queue[1].swing == gait::kBoth;
-  // Without the multibody correction the robot is not the pendulum that the plan is of.
+// Without the multibody correction the robot is not the pendulum that the plan is of. Joints that
+// lag behind each other are planned at moments of their own, where nothing is moved.
+bool may_step(const Tuning& tuning) {
   return tuning.balance.feedback_enable > 0.5F && tuning.balance.multibody_enable > 0.5F &&
-         tuning.gait.joint_delay_s == 0.0F && !last;
+         tuning.gait.joint_delay_s == 0.0F;
+}
+
+// The last step of a walk brings the feet side by side; the one after it is always known.
+bool answers(const Tuning& tuning, const SteppingIn& in) {
+  return may_step(tuning) && in.gait->queue[1].swing != gait::kBoth;
+}
+
+// Ahead or backward of a robot that stands. Sideways two soles reach as far as a push goes that
+// a foot could still be moved for.
+bool leaves_soles(const Params& params, const SteppingIn& in) {
+  if (in.estimator->blind != 0) return false;
+  const LegParams& leg = params.leg[gait::kLeft];
+  const Xy dcm = dcm_m(*in.estimator);
+  const Vec3 middle_m = 0.5F * (sole_m(*in.estimator, 0) + sole_m(*in.estimator, 1));
+  const Xy off_m = gait::turned({dcm.x - middle_m.x(), dcm.y - middle_m.y()}, -in.heading_rad);
+  return math::abs(off_m.x) > kHeld * 0.5F * (leg.sole_front_m + leg.sole_back_m);
 }
 
 void swing_aside(const Params& params, const Tuning& tuning, const SteppingIn& in, const Mat3& body,
@@ -135,6 +156,18 @@ void step_aside(const Params& params, const Tuning& tuning, const SteppingIn& in
     if (side == static_cast<int>(state.swing)) at_m = at_m + state.foot_m;
   }
   plan.zmp_m = plan.zmp_m - state.body_m;
+}
+
+bool pushed(const Params& params, const Tuning& tuning, const SteppingIn& in,
+            SteppingState& state) {
+  if (!may_step(tuning)) {
+    state.steps = 0;
+  } else if (in.gait->queued == 0) {
+    state.steps = leaves_soles(params, in) ? kSteps : 0U;
+  } else if (state.steps > 0 && math::hypot(state.foot_m.x, state.foot_m.y) > kStillOff_m) {
+    state.steps = kSteps - 1U;
+  }
+  return state.steps > 0;
 }
 
 bool as_planned(const SteppingState& state) {

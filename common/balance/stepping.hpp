@@ -14,8 +14,8 @@ struct SteppingState {
   gait::Xy body_m;  ///< by how much the body is off its plan, as the foot that carries is on it
   gait::Xy foot_m;  ///< likewise the swing foot; walk frame's axes, as all of the plan
   std::uint32_t swing = gait::kBoth;  ///< of the step that the goals are in
-  std::uint32_t reserved = 0;
-  VERP_FIELDS(body_m, foot_m, swing, reserved)
+  std::uint32_t steps = 0;            ///< that a robot pushed as it stood has still to take
+  VERP_FIELDS(body_m, foot_m, swing, steps)
 };
 VERP_PACKED(SteppingState);
 
@@ -29,6 +29,10 @@ struct SteppingIn {
 /// Moves feet (and with them the ZMP under them) of the plan to where they have to be.
 void step_aside(const Params& params, const Tuning& tuning, const SteppingIn& in,
                 SteppingState& state, gait::GaitOut& plan);
+
+/// A robot that stands was pushed so that its DCM is about to leave the soles: it has to step, now
+/// and a few times more. Not where it does not know itself to stand on its soles.
+bool pushed(const Params& params, const Tuning& tuning, const SteppingIn& in, SteppingState& state);
 
 /// Nothing is off its plan: who learns from where feet land may.
 bool as_planned(const SteppingState& state);

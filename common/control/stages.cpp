@@ -27,13 +27,18 @@ bool power_bad(const State& state, const AdmitOut& admitted) {
          (state.machine.faults & safety::kPowerFaults) != 0;
 }
 
+balance::SteppingIn stepping_in(const Params& params, const State& state) {
+  return {&state.gait, &state.estimator, state.attitude.heading_rad, period_s(params)};
+}
+
 bool lies(Mode mode) {
   return mode == Mode::kFalling || mode == Mode::kFallen;
 }
 
 bool walks(const State& state, const AdmitOut& admitted) {
   constexpr std::uint32_t kNoMore = safety::kOperatorQuiet | safety::kStale;
-  return state.machine.mode == Mode::kWalking && (admitted.conditions & safety::kAskWalk) != 0 &&
+  constexpr std::uint32_t kWhy = safety::kAskWalk | safety::kPushed;
+  return state.machine.mode == Mode::kWalking && (admitted.conditions & kWhy) != 0 &&
          (admitted.conditions & kNoMore) == 0 && !power_bad(state, admitted);
 }
 
@@ -196,6 +201,17 @@ void locate(const Params& params, State& state, const Inputs& inputs, const Admi
   balance::update(params, state.estimator, in);
 }
 
+void watch_push(const Params& params, State& state, AdmitOut& admitted) {
+  const Mode mode = state.machine.mode;
+  if (mode != Mode::kStanding && mode != Mode::kWalking) return;
+  if (!balance::pushed(params, state.tuning, stepping_in(params, state), state.stepping)) return;
+  admitted.conditions |= safety::kPushed;
+  // Nobody asked it to go anywhere: it steps on the spot.
+  if ((admitted.conditions & safety::kAskWalk) == 0) {
+    admitted.vx_m_s = admitted.vy_m_s = admitted.wz_rad_s = 0.0F;
+  }
+}
+
 gait::GaitOut plan_motion(const Params& params, State& state, const AdmitOut& admitted,
                           const balance::AttitudeOut& attitude) {
   // Of a walk that ended in a fall nothing goes on, and nothing is learnt.
@@ -206,6 +222,7 @@ gait::GaitOut plan_motion(const Params& params, State& state, const AdmitOut& ad
   }
   gait::GaitIn in;
   in.walk = walks(state, admitted);
+  in.at_once = (admitted.conditions & safety::kPushed) != 0;
   in.wanted.vx_m_s = admitted.vx_m_s;
   in.wanted.vy_m_s = admitted.vy_m_s;
   in.wanted.wz_rad_s = admitted.wz_rad_s;
@@ -216,9 +233,7 @@ gait::GaitOut plan_motion(const Params& params, State& state, const AdmitOut& ad
 }
 
 void step_aside(const Params& params, State& state, gait::GaitOut& plan) {
-  balance::step_aside(params, state.tuning,
-                      {&state.gait, &state.estimator, state.attitude.heading_rad, period_s(params)},
-                      state.stepping, plan);
+  balance::step_aside(params, state.tuning, stepping_in(params, state), state.stepping, plan);
 }
 
 Wanted solve_joints(const Params& params, State& state, const Inputs& inputs,

@@ -13,6 +13,9 @@ balance::AttitudeOut estimate(const Params& params, State& state, const AdmitOut
 /// Where body and centre of mass are, by what the legs tell. The plan is that of the tick before.
 void locate(const Params& params, State& state, const Inputs& inputs, const AdmitOut& admitted);
 
+/// Condition of a push that ankles don't answer.
+void watch_push(const Params& params, State& state, AdmitOut& admitted);
+
 /// Walks when the safety table says so, and turns back what the heading has drifted.
 gait::GaitOut plan_motion(const Params& params, State& state, const AdmitOut& admitted,
                           const balance::AttitudeOut& attitude);

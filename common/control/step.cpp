@@ -17,6 +17,7 @@ void step(const Params& params, const action::Library& actions, State& state, co
   const balance::AttitudeOut attitude = estimate(params, state, admitted);
   locate(params, state, inputs, admitted);
   watch_fall(params, actions, state, inputs, attitude, admitted);
+  watch_push(params, state, admitted);
   gait::GaitOut plan = plan_motion(params, state, admitted, attitude);
   step_aside(params, state, plan);
   state.feedback = balance::feedback(state.tuning.balance, attitude,

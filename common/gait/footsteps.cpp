@@ -228,6 +228,12 @@ Step first_step(const Params& params, const GaitTuning& tuning, FootstepState& s
   return step;
 }
 
+Step hurried_step(const Params& params, const GaitTuning& tuning, FootstepState& state) {
+  Step step = first_step(params, tuning, state);
+  step.double_support_s = 0.0F;
+  return step;
+}
+
 Step rest_step(const GaitTuning& tuning, const Step& last) {
   return standing_step(tuning, last, Phase::kIdle);
 }

@@ -72,6 +72,24 @@ void set_dcm_ends(const Params& params, const Tuning& tuning, const VelocityIn& 
   }
 }
 
+// Head's key points before a hurried walk begins: two lie ahead of the clock.
+constexpr int kHurry = 2;
+
+// In a hurried start the ZMP rests where the pendulum, that stands, is thrown from to the DCM at
+// the step's end: the less time, the further out, and no further than the soles reach.
+void throw_body(const Params& params, const GaitTuning& tuning, GaitState& state) {
+  constexpr std::uint8_t kShortest = 3;
+  Step& step = state.queue[0];
+  const LegParams& leg = params.leg[kLeft];
+  const float reach_m = tuning.half_stance_m + leg.sole_left_m - tuning.support_margin_m;
+  const Xy com_m = state.preview.com_m;
+  for (step.key_points = kShortest; step.key_points < kKeyPointsPerStep; ++step.key_points) {
+    const float grow = math::exp(state.preview.omega * step.duration_s());
+    step.zmp_end_m = com_m - (1.0F / (grow - 1.0F)) * (step.dcm_end_m - com_m);
+    if (math::abs(step.zmp_end_m.y) <= reach_m) return;
+  }
+}
+
 // Keeps one step known beyond the one in which the head is.
 void extend_queue(const Params& params, const Tuning& tuning, const GaitIn& in, GaitState& state) {
   VelocityIn wanted = in.wanted;
@@ -83,6 +101,7 @@ void extend_queue(const Params& params, const Tuning& tuning, const GaitIn& in, 
                                     : next_step(params, tuning.gait, wanted, last, state.footsteps);
     ++state.queued;
     set_dcm_ends(params, tuning, wanted, state);
+    if (state.preview.head == 0 && hurried(state.queue[0])) throw_body(params, tuning.gait, state);
   }
 }
 
@@ -216,7 +235,8 @@ void stand(const Params& params, const Tuning& tuning, const Step& feet, const G
   const bool may_walk = (state.footsteps.notes & kPlanRefused) == 0 &&
                         math::abs(off_m.x) < kSettledM && math::abs(off_m.y) < kSettledM;
   if (in.walk && may_walk) {
-    state.queue[0] = first_step(params, tuning.gait, state.footsteps);
+    state.queue[0] = in.at_once ? hurried_step(params, tuning.gait, state.footsteps)
+                                : first_step(params, tuning.gait, state.footsteps);
     state.queued = 1;
     state.previous = feet;
     state.clock_us = 0;
@@ -250,7 +270,7 @@ void walk(const Params& params, const Tuning& tuning, const GaitIn& in, GaitStat
     next_in_queue(state);
     if (state.queue[0].phase == Phase::kIdle) return end_walk(state);
   }
-  if (state.preview.head == kHorizon) state.moving = 1;
+  if (state.preview.head == (hurried(state.queue[0]) ? kHurry : kHorizon)) state.moving = 1;
   plan_ahead(params, tuning, in, state);
 }
 

@@ -34,7 +34,8 @@ struct GaitState {
 VERP_PACKED(GaitState);
 
 struct GaitIn {
-  bool walk = false;  ///< false: finish the walk, then stand
+  bool walk = false;     ///< false: finish the walk, then stand
+  bool at_once = false;  ///< a robot that stands begins without a look ahead
   VelocityIn wanted;
   const float* goal_rad = nullptr;  ///< last goals, joint_count of them: where arms and head are
   std::int32_t period_us = 10000;

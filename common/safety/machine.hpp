@@ -44,6 +44,7 @@ enum Condition : std::uint32_t {
   kAskAction = 1 << 15,      ///< one that has not been played for this asking
   kFallSeen = 1 << 16,       ///< it will meet the ground, and has a pose for that
   kAskGetUp = 1 << 17,       ///< it has lain still, and has an action for the side on which it lies
+  kPushed = 1 << 18,  ///< further than ankles answer to: it has to step, or is not over it yet
 };
 
 /// Latched until the operator relaxes the robot. The upper half reports what was limited; it stops

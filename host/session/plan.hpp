@@ -37,6 +37,7 @@ struct WalkPlan {
   /// How often in a row the operator has it try to get up once it lies; 0: it lies, and a fall ends
   /// the walk. `actions` hold how.
   int get_ups = 0;
+  bool stands = false;  ///< for walk_s, in place of a walk: it steps only where it has to
   std::string board;  ///< emulated board that runs the controller; empty: this process
   /// A controller of somebody's own in place of the core (host/own), made for one run; empty: none.
   std::function<Decide()> own;

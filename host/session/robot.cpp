@@ -48,7 +48,8 @@ Robot::Robot(sim::World& world, const WalkPlan& plan, Hooks hooks, Interrupted i
       trace_(hooks_.trace),
       world_(world),
       twin_(world, plan_.entity, plan_.twin),
-      walker_(std::in_place, plan_.params, plan_.velocity, plan_.walk_s, plan_.get_ups),
+      walker_(std::in_place, plan_.params, plan_.velocity, plan_.walk_s, plan_.get_ups,
+              plan_.stands),
       meter_(plan_.entity, hooks_.keep_series),
       pending_(plan_.interventions.begin(), plan_.interventions.end()),
       story_(plan_.get_ups) {
@@ -102,7 +103,7 @@ void Robot::let_pass(std::uint32_t time_us) {
 void Robot::begin_anew() {
   walked_s_ = walked_s();
   walker_.emplace(plan_.params, plan_.velocity, std::max(0.0, plan_.walk_s - walked_s_),
-                  plan_.get_ups);
+                  plan_.get_ups, plan_.stands);
   trace_ = nullptr;
 }
 
@@ -331,7 +332,8 @@ std::string Robot::failure_of_walk() const {
   }
   if (result_.metrics.fallen) {
     const std::string failed = hooks_.order ? "" : walker_->failed();
-    return failed.empty() ? fmt::format("fell after {:.2f} s of gait", walked_s()) : failed;
+    const char* const of = plan_.stands ? "" : " of gait";
+    return failed.empty() ? fmt::format("fell after {:.2f} s{}", walked_s(), of) : failed;
   }
   const std::string faults = fault_names(result_.faults & kStopping);
   if (!faults.empty()) return "stopped by fault: " + faults;

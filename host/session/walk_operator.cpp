@@ -18,12 +18,13 @@ constexpr int kMostSteps = 1000;           // any stride has shrunk to nothing b
 }  // namespace
 
 WalkOperator::WalkOperator(const Params& params, const Command& velocity, double walk_s,
-                           int get_ups)
+                           int get_ups, bool stands)
     : params_(params),
       velocity_(velocity),
       walk_s_(walk_s),
       period_s_(params.period_us * 1e-6),
-      get_up_(get_ups, get_ups > 0) {
+      get_up_(get_ups, get_ups > 0),
+      stands_(stands) {
   command_.request = get_ups > 0 ? Request::kGetUp : Request::kStand;
 }
 
@@ -101,22 +102,47 @@ app::OperatorOrder WalkOperator::order(std::uint32_t tick) {
 
 void WalkOperator::observe(const State& state, const Outputs& outputs) {
   if (done_ || look_after_fall(static_cast<safety::Mode>(outputs.mode))) return;
-  const bool gait = state.gait.queued > 0;
   const bool standing = outputs.mode == static_cast<std::uint8_t>(safety::Mode::kStanding);
+  // Steps of a robot that was pushed before it was asked to walk are no gait of its walk.
+  if (!gait_seen_ && command_.request != Request::kWalk && stood_s_ < kSettle_s) {
+    wait_for_stand(state, standing);
+  } else if (stands_) {
+    watch_stand(standing);
+  } else {
+    watch_walk(state, outputs, standing);
+  }
+}
+
+void WalkOperator::wait_for_stand(const State& state, bool standing) {
+  waited_s_ += period_s_;
+  // Who walks does so once the core knows its gyro; who stands must not be pushed before it does.
+  const bool knows_gyro = state.attitude.still_s >= balance::kCalibrated_s;
+  stood_s_ = standing && (knows_gyro || !stands_) ? stood_s_ + period_s_ : 0;
+  if (waited_s_ > kStandUp_s)
+    failed_ = stands_ ? "the robot did not stand" : "the robot did not start to walk", done_ = true;
+  if (stood_s_ < kSettle_s) return;
+  changed_ = true;
+  const std::uint8_t sequence = command_.sequence;
+  command_ = stands_ ? Command{} : velocity_;
+  command_.sequence = sequence;
+  command_.request = stands_ ? Request::kStand : Request::kWalk;
+}
+
+void WalkOperator::watch_stand(bool standing) {
+  walked_s_ += period_s_;
+  if (walked_s_ >= walk_s_ && standing) done_ = true;
+  if (walked_s_ > walk_s_ + kOverrun_s)
+    failed_ = "the robot did not come to stand again", done_ = true;
+}
+
+void WalkOperator::watch_walk(const State& state, const Outputs& outputs, bool standing) {
+  const bool gait = state.gait.queued > 0;
   if (outputs.gait_phase != static_cast<std::uint8_t>(gait::Phase::kIdle)) walked_s_ += period_s_;
   if (gait) {
     gait_seen_ = true;
     idle_s_ = 0;
   } else if (!gait_seen_) {
     waited_s_ += period_s_;
-    stood_s_ = standing ? stood_s_ + period_s_ : 0;
-  }
-  if (!gait_seen_ && stood_s_ >= kSettle_s && command_.request != Request::kWalk) {
-    changed_ = true;
-    const std::uint8_t sequence = command_.sequence;
-    command_ = velocity_;
-    command_.sequence = sequence;
-    command_.request = Request::kWalk;
   }
   if (!stopping_) stop_in_time(state);
   if (gait_seen_ && !stopping_ && !gait) idle_s_ += period_s_;

@@ -16,8 +16,10 @@ namespace verp::session {
 class WalkOperator {
  public:
   /// `velocity` holds vx, vy, wz of the walk; its other members are ignored. `get_ups`: how often
-  /// in a row it asks a robot that lies to get up; one that then stands walks on.
-  WalkOperator(const Params& params, const Command& velocity, double walk_s, int get_ups = 0);
+  /// in a row it asks a robot that lies to get up; one that then stands walks on. `stands`: it is
+  /// asked to stand for so long, and never to walk.
+  WalkOperator(const Params& params, const Command& velocity, double walk_s, int get_ups = 0,
+               bool stands = false);
 
   app::OperatorOrder order(std::uint32_t tick);
   /// What the controller put out in the tick just done, and what it plans.
@@ -27,7 +29,7 @@ class WalkOperator {
   bool done() const { return done_; }
   /// Empty unless the robot would not stand up or stop; faults and falls are in Outputs.
   const char* failed() const { return failed_; }
-  /// Seconds of gait so far.
+  /// Seconds of gait so far; of one who stands, since it stood quietly.
   double walked_s() const { return walked_s_; }
   /// Stop was said as soon as the gait began, and still it is longer than walk_s.
   bool longer_than_asked() const { return longer_than_asked_; }
@@ -36,6 +38,9 @@ class WalkOperator {
   double lead_s(const State& state, bool one_more) const;
   void stop_in_time(const State& state);
   bool look_after_fall(safety::Mode mode);
+  void wait_for_stand(const State& state, bool standing);
+  void watch_stand(bool standing);
+  void watch_walk(const State& state, const Outputs& outputs, bool standing);
 
   const Params& params_;
   Command velocity_;
@@ -43,6 +48,7 @@ class WalkOperator {
   Command command_;
   double period_s_;
   GetUp get_up_;
+  bool stands_;
   double walked_s_ = 0;
   double waited_s_ = 0;    ///< before the gait
   double stood_s_ = 0;     ///< standing, before the gait

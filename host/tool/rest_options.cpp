@@ -61,8 +61,9 @@ void declare(CLI::App& app, MapOptions& options) {
                  "how fine a map is: directions of pushes (8), or velocities on each axis (9)")
       ->check(whole_number_between(1, kMostOnMapAxis))
       ->needs(map);
-  for (const char* other : {"--seeds", "--sweep-step", "--record", "--record-state", "--on",
-                            "--push", "--get-up", "--start", "--cameras", "--real-time"}) {
+  for (const char* other :
+       {"--seeds", "--sweep-step", "--record", "--record-state", "--on", "--push", "--stand",
+        "--get-up", "--start", "--cameras", "--real-time"}) {
     map->excludes(other);
   }
 }

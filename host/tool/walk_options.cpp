@@ -85,6 +85,10 @@ void declare_gait(CLI::App& app, WalkOptions& options) {
       ->capture_default_str();
   app.add_option("--velocity", options.velocity_text,
                  "VX,VY,WZ in m/s and rad/s instead of --step");
+  app.add_flag("--stand", options.stand,
+               "stand instead, for as long; pushed further than ankles answer to, it steps")
+      ->excludes("--step")
+      ->excludes("--velocity");
   app.add_option(
          "--for", options.walk_s,
          "length of the gait, all three phases, s; it ends with the last whole step that fits")
@@ -165,7 +169,8 @@ void declare(CLI::App& app, WalkOptions& options) {
   app.add_option("--sweep-step", options.sweep_text,
                  "FROM:TO:BY in m: also walk at each step length, with and without the multibody "
                  "correction")
-      ->excludes("--velocity");
+      ->excludes("--velocity")
+      ->excludes("--stand");
   app.add_flag(
       "--vary", options.vary,
       "another robot of this kind, drawn from the seed: masses, friction, delay, backlash, "
@@ -223,6 +228,7 @@ void require_fit(const std::string& command, const std::string& link, const Para
 }
 
 Command velocity_of(const WalkOptions& options, const GaitTuning& gait, double step_m) {
+  if (options.stand) return {};
   double vx_m_s = 2 * step_m / decimal(gait.cycle_s), vy_m_s = 0, wz_rad_s = 0;
   if (!options.velocity_text.empty()) {
     const std::vector<std::string> parts = split(options.velocity_text, ',');

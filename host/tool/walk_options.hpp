@@ -38,6 +38,7 @@ struct WalkOptions {
   std::string command = "verp walk";  ///< that complains
   bool no_multibody = false, no_feedback = false, no_gravity = false, no_zeros = false;
   bool record_state = false, compress = false, json = false;
+  bool stand = false;              ///< in place of a walk
   bool get_up = false;             ///< a fall does not end the walk
   std::string start = "standing";  ///< or lying:SIDE
   bool vary = false;               ///< the twin is another robot of this kind (host/sim/vary.hpp)

@@ -24,6 +24,7 @@ void ask_for_walk(const WalkOptions& options, WalkPlan& plan) {
   plan.velocity = followed.velocity;
   plan.remark = followed.remark;
   plan.walk_s = options.walk_s;
+  plan.stands = options.stand;
 }
 
 sim::Lies lies_of(const WalkOptions& options) {

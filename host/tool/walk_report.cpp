@@ -167,10 +167,14 @@ std::string falls_text(const WalkResult& result) {
 
 std::string verdict(const WalkPlan& plan, const WalkResult& result, const Sweep& sweep) {
   constexpr double kAsAsked = 0.15;  // what is further off stands in the first line
-  if (result.interrupted)
-    return fmt::format("Interrupted after {:.1f} s of gait", result.metrics.walk_s);
+  const double gait_s = result.metrics.walk_s;
+  if (result.interrupted) return fmt::format("Interrupted after {:.1f} s of gait", gait_s);
   if (!result.failure.empty()) return "Failed: " + result.failure;
-  std::string text = fmt::format("Walked {:.1f} s {}", result.metrics.walk_s, falls_text(result));
+  if (plan.stands) {
+    return fmt::format("Stood {:.1f} s {}{}", plan.walk_s, falls_text(result),
+                       gait_s > 0 ? fmt::format(", and stepped for {:.1f} s of them", gait_s) : "");
+  }
+  std::string text = fmt::format("Walked {:.1f} s {}", gait_s, falls_text(result));
   const std::optional<double> share = share_of_asked(plan, result.metrics);
   if (share && std::abs(*share - 1) > kAsAsked)
     text += fmt::format(", at {:.0f} % of the speed that was asked", 100 * *share);
@@ -258,7 +262,8 @@ report::Run to_report(const WalkPlan& plan, const WalkOptions& options, const Wa
                       const Sweep& sweep) {
   report::Run run;
   run.model = name_of(plan.params);
-  run.title = options.velocity_text.empty()
+  run.title = options.stand ? run.model + " stands"
+              : options.velocity_text.empty()
                   ? fmt::format("{}: {:g} cm steps, {:g} s cycle", run.model, 100 * options.step_m,
                                 plan.params.tuning.gait.cycle_s)
                   : fmt::format("{}: velocity {}, {:g} s cycle", run.model, options.velocity_text,
@@ -356,6 +361,7 @@ Json to_json(const WalkPlan& plan, const WalkOptions& options, const WalkResult&
                {"ticks", result.ticks},
                {"changed", changed_json(options)},
                {"asked_s", plan.walk_s},
+               {"stands", plan.stands},
                {"asked_m", session::asked_way(plan.velocity, m.walk_s).length_m},
                {"asked_turn_deg", asked_turn_deg(plan, m)},
                {"duration_s", plan.link.empty() ? m.walk_s : result.simulated_s},

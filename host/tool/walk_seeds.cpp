@@ -133,10 +133,10 @@ class Seeds {
                   {"interrupted", interrupted()},
                   {"walks", all}});
     } else {
-      answer(fmt::format("{}: {} of {} walked {:g} s; 95 % interval {:.1f} to {:.1f} %{}\n",
-                         options_.model, survived_, rows_.size(), options_.walk_s,
-                         100 * interval.low, 100 * interval.high,
-                         interrupted() ? "; interrupted" : "") +
+      answer(fmt::format("{}: {} of {} {} {:g} s; 95 % interval {:.1f} to {:.1f} %{}\n",
+                         options_.model, survived_, rows_.size(),
+                         options_.stand ? "stood" : "walked", options_.walk_s, 100 * interval.low,
+                         100 * interval.high, interrupted() ? "; interrupted" : "") +
              of_asked(range("distance, m", went_m, 2), asked_m, 2) +
              (turns(asked_deg) ? of_asked(range("turned, degrees", turned_deg, 0), asked_deg, 0)
                                : "") +

@@ -68,6 +68,22 @@ void SafeTable::count_silence(const Inputs& inputs) {
   }
 }
 
+// A push turns a robot or leans it, and its IMU tells of that.
+void SafeTable::count_push(const Inputs& inputs) {
+  constexpr double kTurns_rad_s = 0.3, kLeans_m_s2 = 1.0;
+  const auto most = [](const std::int16_t* count, int axes, double per_count) {
+    double value = 0;
+    for (int i = 0; i < axes; ++i) value = std::max(value, std::abs(count[i] * per_count));
+    return value;
+  };
+  const bool moved =
+      (inputs.flags & kImuFresh) != 0 &&
+      (most(inputs.gyro_count, 3, double{params_.imu.gyro_rad_s_per_count}) > kTurns_rad_s ||
+       most(inputs.accel_count, 2, double{params_.imu.accel_m_s2_per_count}) > kLeans_m_s2);
+  const std::uint32_t periods = begun_ ? std::min(inputs.tick - tick_, kForEver) : kForEver;
+  unmoved_ = moved ? 0 : std::min(unmoved_ + periods, kForEver);
+}
+
 // Latched: it is over when it has ended and a relaxed robot was asked to relax.
 void SafeTable::count_trouble(const Inputs& inputs, int to) {
   const SafetyTuning& safety = params_.tuning.safety;
@@ -161,7 +177,10 @@ void SafeTable::check_transition(const Inputs& inputs, int to) {
   if ((to == kActing || to == kGettingUp) && nobody_watches()) {
     fault(std::string(kModeNames[to]) + " with nobody watching");
   }
-  if (to == kWalking && request != Request::kWalk) fault("walked unasked");
+  if (to == kWalking && request != Request::kWalk &&
+      (request == Request::kRelax || longer(unmoved_, kPushed_s))) {
+    fault("walked unasked, and nobody pushed it");
+  }
   if (to == kWalking && nobody_watches()) fault("walked with nobody watching");
   if (to == kStanding && mode_ == kRising &&
       !longer(static_cast<std::uint32_t>(in_mode_ticks_ + 1), safety.rise_s)) {
@@ -224,6 +243,7 @@ void SafeTable::tick(const Inputs& inputs, const Outputs& outputs) {
   const int to = outputs.mode;
   if (to > kGettingUp) return fault("no such mode");
   count_silence(inputs);
+  count_push(inputs);
   tick_ = inputs.tick;
   count_trouble(inputs, to);
   if (silent_ == 0) check_trouble(to);

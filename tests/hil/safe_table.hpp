@@ -25,6 +25,7 @@ class SafeTable {
 
  private:
   void count_silence(const Inputs& inputs);
+  void count_push(const Inputs& inputs);
   void count_trouble(const Inputs& inputs, int to);
   void check_trouble(int to);
   void check_way(const Outputs& outputs, int to);
@@ -44,14 +45,16 @@ class SafeTable {
   std::uint32_t servo_silent_[kMaxJoints] = {};         ///< periods
   std::uint32_t imu_silent_ = 0;
   std::uint32_t operator_silent_ = 0;
-  std::uint32_t silent_ = 0;  ///< the longest of servos, IMU, and a controller that had no tick
-  std::uint32_t alike_ = 0;   ///< fresh readings of the IMU since they changed
+  std::uint32_t unmoved_ = 0;  ///< since the IMU told of a push
+  std::uint32_t silent_ = 0;   ///< the longest of servos, IMU, and a controller that had no tick
+  std::uint32_t alike_ = 0;    ///< fresh readings of the IMU since they changed
   static constexpr int kAlarm = 3;    ///< readings of one servo in a row
   static constexpr int kSupply = 21;  ///< readings of any servos in a row
   static constexpr double kBeyond_rad = 0.05;
-  static constexpr double kLies_s = 1.0;   ///< limp, before it gets up
-  static constexpr double kFalls_s = 0.7;  ///< what a fall lasts
-  int servo_bad_[kMaxJoints] = {};         ///< readings in a row
+  static constexpr double kPushed_s = 0.3;  ///< so long after it a robot may step unasked
+  static constexpr double kLies_s = 1.0;    ///< limp, before it gets up
+  static constexpr double kFalls_s = 0.7;   ///< what a fall lasts
+  int servo_bad_[kMaxJoints] = {};          ///< readings in a row
   int supply_low_ = 0;
   bool trouble_ = false;   ///< of power, and nobody has asked a relaxed robot to relax since
   int trouble_ticks_ = 0;  ///< of a walk

@@ -1,3 +1,4 @@
+#include <map>
 #include <sstream>
 
 #include "tests/scenario/walk.hpp"
@@ -43,6 +44,33 @@ TEST(Pushed, BackwardItFallsWithoutFeedback) {
   const Walk pushed = walk(
       "generic21 --for 6 --physics-step 2 --no-feedback --push '2.5: trunk -24,0,0 N for 0.05'");
   EXPECT_EQ(pushed.result.value("fallen", false), true);
+}
+
+// As hard as while walking: it steps where the push sends it, and stands again.
+std::map<double, double> hardest_where_it_stands(const std::string& how) {
+  const Walk map = walk("generic21 --map stand --map-grid 4 --physics-step 2" + how);
+  EXPECT_EQ(map.status, 0);
+  std::map<double, double> hardest_n_s;
+  for (const json& side : map.result.value("sides", json::array())) {
+    hardest_n_s[side.at("direction_deg")] = side.at("weakest_n_s");
+  }
+  EXPECT_EQ(hardest_n_s.size(), 4u);
+  return hardest_n_s;
+}
+
+TEST(PushedWhereItStands, FromAllSidesItStandsAgain) {
+  std::map<double, double> hardest_n_s = hardest_where_it_stands("");
+  EXPECT_GE(hardest_n_s[0], 1.2) << "ahead";
+  EXPECT_GE(hardest_n_s[180], 1.2) << "backward";
+  EXPECT_GE(hardest_n_s[90], 0.8) << "to the left";
+  EXPECT_GE(hardest_n_s[-90], 0.8) << "to the right";
+}
+
+// It is the steps: without them its soles hold it as far as they reach.
+TEST(PushedWhereItStands, WithoutStepsItFallsEarlier) {
+  std::map<double, double> hardest_n_s = hardest_where_it_stands(" --no-feedback");
+  EXPECT_LT(hardest_n_s[0], 1.2) << "ahead";
+  EXPECT_LT(hardest_n_s[180], 1.2) << "backward";
 }
 
 }  // namespace

@@ -174,6 +174,12 @@ TEST_F(Usage, ListsAreChecked) {
   expect_refused("walk --sweep-step 0.02:0.04:0.02 --velocity 0.1,0,0", "excludes");
 }
 
+TEST_F(Usage, WhoStandsDoesNotWalk) {
+  expect_refused("walk --stand --velocity 0.1,0,0", "excludes");
+  expect_refused("walk --stand --step 0.04", "excludes");
+  expect_refused("walk --stand --sweep-step 0.02:0.04:0.02", "excludes");
+}
+
 TEST_F(Usage, MapsAreOfOneRobotAndOfWalksOfTheirOwn) {
   expect_refused("walk --map moon", "--map: moon not in {push,stand,stability}");
   for (const char* other :
@@ -184,6 +190,7 @@ TEST_F(Usage, MapsAreOfOneRobotAndOfWalksOfTheirOwn) {
   expect_refused("walk --map-grid 8", "requires --map");
   expect_refused("walk --map push --map-grid 37", "give 1 to 36 directions");
   expect_refused("walk --map push --for 5", "raise --for");
+  expect_refused("walk --map stand --stand", "excludes");
   expect_refused("walk --map stand --for 5", "does not walk");
   expect_refused("walk --map stand --map-grid 37", "give 1 to 36 directions");
   expect_refused("walk --map stability --map-grid 4", "give an odd number");

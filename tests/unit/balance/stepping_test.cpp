@@ -15,6 +15,20 @@ using test::kRobot;
 
 constexpr float kPeriod_s = 0.01F;
 
+// What the estimator tells of a robot whose DCM is `error_m` off its plan.
+void look(const gait::test::Walker& walker, Xy error_m, EstimatorState& estimator) {
+  const gait::Step& step = walker.state.queue[0];
+  if (walker.state.queued == 0 || step.swing == gait::kBoth) return;
+  const int side = step.carrying();
+  const float now_s =
+      static_cast<float>(walker.state.clock_us) * 1e-6F - walker.tuning.gait.look_ahead_s;
+  const Xy dcm_m = gait::dcm_at(step, walker.state.preview.omega, now_s) + error_m;
+  const Xy sole_m = gait::sole_center(kRobot, side, step.foot[side]);
+  estimator.com_from_body_m.x = dcm_m.x;
+  estimator.com_from_body_m.y = dcm_m.y;
+  estimator.sole_from_body_m[side] = {sole_m.x, sole_m.y, 0};
+}
+
 // A walk whose DCM is off its plan by `error_m`, as its estimator says.
 struct Pushed {
   gait::test::Walker walker{kRobot};
@@ -31,20 +45,9 @@ struct Pushed {
     ticks(300);
   }
   const gait::Step& step() const { return walker.state.queue[0]; }
-  void look() {
-    if (walker.state.queued == 0 || step().swing == gait::kBoth) return;
-    const int side = step().carrying();
-    const float now_s =
-        static_cast<float>(walker.state.clock_us) * 1e-6F - walker.tuning.gait.look_ahead_s;
-    const Xy dcm_m = gait::dcm_at(step(), walker.state.preview.omega, now_s) + error_m;
-    const Xy sole_m = gait::sole_center(kRobot, side, step().foot[side]);
-    estimator.com_from_body_m.x = dcm_m.x;
-    estimator.com_from_body_m.y = dcm_m.y;
-    estimator.sole_from_body_m[side] = {sole_m.x, sole_m.y, 0};
-  }
   void tick() {
     walker.tick();
-    look();
+    look(walker, error_m, estimator);
     planned = walker.out;
     step_aside(kRobot, walker.tuning, {&walker.state, &estimator, 0, kPeriod_s}, state, walker.out);
   }
@@ -188,6 +191,101 @@ TEST(Stepping, TheLastStepBringsTheFeetSideBySideAgain) {
   walk.ticks(200);
   EXPECT_TRUE(as_planned(walk.state));
   EXPECT_TRUE(same(walk.walker.out, walk.planned));
+}
+
+// A robot that stands, its DCM `off_m` from the middle of its soles.
+struct Stander {
+  gait::test::Walker walker{kRobot};
+  EstimatorState estimator;
+  SteppingState state;
+  bool steps = false;
+
+  Stander() {
+    estimator.begun = 1;
+    estimator.blind = 0;
+    estimator.com_from_body_m.z = 0.2F;
+    estimator.sole_from_body_m[kLeft] = {0, 0.036F, 0};
+    estimator.sole_from_body_m[kRight] = {0, -0.036F, 0};
+    walker.run(1.5F);
+  }
+  bool pushed_by(Xy off_m) {
+    estimator.com_from_body_m.x = off_m.x;
+    estimator.com_from_body_m.y = off_m.y;
+    return pushed(kRobot, walker.tuning, {&walker.state, &estimator, 0, kPeriod_s}, state);
+  }
+  // As the core does: pushed, it walks at once; over it, it stops.
+  void tick(Xy error_m) {
+    steps = pushed(kRobot, walker.tuning, {&walker.state, &estimator, 0, kPeriod_s}, state);
+    walker.in.walk = walker.in.at_once = steps;
+    walker.tick();
+    look(walker, error_m, estimator);
+    step_aside(kRobot, walker.tuning, {&walker.state, &estimator, 0, kPeriod_s}, state, walker.out);
+  }
+};
+constexpr float kHalfSole_m = 0.052F;
+
+TEST(SteppingWherePushed, AnklesHoldFourFifthsOfASoleAheadAndBackwardAndAllOfItSideways) {
+  Stander stander;
+  for (const float way : {1.0F, -1.0F}) {
+    EXPECT_FALSE(stander.pushed_by({way * 0.78F * kHalfSole_m, 0})) << way;
+    EXPECT_TRUE(stander.pushed_by({way * 0.82F * kHalfSole_m, 0})) << way;
+    EXPECT_FALSE(stander.pushed_by({0, way * 0.06F})) << way;
+    EXPECT_FALSE(stander.pushed_by({})) << "it was held: nothing is left of it";
+  }
+}
+
+// Turned, a robot falls ahead where it looks.
+TEST(SteppingWherePushed, AheadIsWhereTheRobotLooks) {
+  Stander stander;
+  EstimatorState& seen = stander.estimator;
+  seen.sole_from_body_m[kLeft] = {-0.036F, 0, 0};
+  seen.sole_from_body_m[kRight] = {0.036F, 0, 0};
+  seen.com_from_body_m = {0, 0.05F, 0.2F};
+  const float left_rad = 0.5F * math::kPi;
+  EXPECT_TRUE(pushed(kRobot, stander.walker.tuning,
+                     {&stander.walker.state, &seen, left_rad, kPeriod_s}, stander.state));
+  EXPECT_FALSE(pushed(kRobot, stander.walker.tuning, {&stander.walker.state, &seen, 0, kPeriod_s},
+                      stander.state));
+}
+
+TEST(SteppingWherePushed, NotWhereNothingWouldAnswerIt) {
+  for (const int reason : {0, 1, 2, 3}) {
+    Stander stander;
+    ASSERT_TRUE(stander.pushed_by({0.05F, 0}));
+    if (reason == 0) stander.walker.tuning.balance.feedback_enable = 0;
+    if (reason == 1) stander.estimator.blind = 1;
+    if (reason == 2) stander.walker.tuning.gait.joint_delay_s = 0.01F;
+    if (reason == 3) stander.walker.tuning.balance.multibody_enable = 0;
+    EXPECT_FALSE(stander.pushed_by({0.05F, 0})) << reason;
+  }
+}
+
+// Not for ever: an estimator that is wrong by a sole would have it trot where it stands.
+TEST(SteppingWherePushed, TakesAFewStepsAndStandsAgain) {
+  Stander stander;
+  ASSERT_TRUE(stander.pushed_by({0.05F, 0}));
+  int landings = 0, ticks = 0;
+  for (std::uint32_t swing = gait::kBoth; ticks < 400; ++ticks) {
+    stander.tick({});
+    const std::uint32_t now = stander.walker.state.queue[0].swing;
+    if (stander.walker.state.queued == 0) break;
+    if (swing != gait::kBoth && now != swing) ++landings;
+    swing = now;
+  }
+  EXPECT_GE(landings, 3);
+  EXPECT_LE(landings, 6);
+  EXPECT_LT(ticks, 250);
+  EXPECT_FALSE(stander.steps);
+  EXPECT_EQ(int{stander.walker.state.queued}, 0);
+}
+
+// Who is still thrown goes on stepping.
+TEST(SteppingWherePushed, AStepFarOffItsPlanIsFollowedByMore) {
+  Stander stander;
+  ASSERT_TRUE(stander.pushed_by({0.05F, 0}));
+  for (int i = 0; i < 400; ++i) stander.tick({0.05F, 0});
+  EXPECT_TRUE(stander.steps);
+  EXPECT_GT(int{stander.walker.state.queued}, 0);
 }
 
 }  // namespace

@@ -7,7 +7,7 @@
 namespace verp::safety {
 namespace {
 
-constexpr std::uint32_t kAllConditions = 1u << 18;
+constexpr std::uint32_t kAllConditions = 1u << 19;
 
 constexpr std::uint32_t bit(Mode mode) {
   return 1u << static_cast<unsigned>(mode);
@@ -94,54 +94,57 @@ TEST(SafetyTable, Row11RiseEndsInTheStand) {
 TEST(SafetyTable, Row12WalksOnlyCalibratedAndWatched) {
   expect_row(12, bit(Mode::kStanding), kAskWalk | kCalibrated, kOperatorQuiet, Mode::kWalking);
 }
-TEST(SafetyTable, Row13WalkEndsOnBothFeetWhenNoLongerAsked) {
-  expect_row(13, bit(Mode::kWalking), kGaitOver, kAskWalk, Mode::kStanding);
+TEST(SafetyTable, Row13StepsUnaskedOnlyWhenPushedCalibratedAndWatched) {
+  expect_row(13, bit(Mode::kStanding), kPushed | kCalibrated, kOperatorQuiet, Mode::kWalking);
 }
-TEST(SafetyTable, Row14WalkEndsOnBothFeetWhenTheOperatorIsQuiet) {
-  ASSERT_LT(14, kRows);
+TEST(SafetyTable, Row14WalkEndsOnBothFeetWhenNoLongerAskedNorPushed) {
+  expect_row(14, bit(Mode::kWalking), kGaitOver, kAskWalk | kPushed, Mode::kStanding);
+}
+TEST(SafetyTable, Row15WalkEndsOnBothFeetWhenTheOperatorIsQuiet) {
+  ASSERT_LT(15, kRows);
   EXPECT_TRUE(next_mode(Mode::kWalking, kGaitOver | kAskWalk | kOperatorQuiet) == Mode::kStanding);
   EXPECT_TRUE(next_mode(Mode::kWalking, kAskWalk | kOperatorQuiet) == Mode::kWalking);
-  EXPECT_EQ(kTable[14].all_of, kGaitOver | kOperatorQuiet);
+  EXPECT_EQ(kTable[15].all_of, kGaitOver | kOperatorQuiet);
 }
-TEST(SafetyTable, Row15WalkEndsOnBothFeetWhenPowerIsBad) {
-  ASSERT_LT(15, kRows);
+TEST(SafetyTable, Row16WalkEndsOnBothFeetWhenPowerIsBad) {
+  ASSERT_LT(16, kRows);
   EXPECT_TRUE(next_mode(Mode::kWalking, kGaitOver | kAskWalk | kPowerBad) == Mode::kStanding);
   EXPECT_TRUE(next_mode(Mode::kWalking, kAskWalk | kPowerBad) == Mode::kWalking);
-  EXPECT_EQ(kTable[15].all_of, kGaitOver | kPowerBad);
+  EXPECT_EQ(kTable[16].all_of, kGaitOver | kPowerBad);
 }
-TEST(SafetyTable, Row16SittingRobotRelaxesWhenDown) {
-  expect_row(16, bit(Mode::kSitting), kTimeUp, 0, Mode::kRelaxed);
+TEST(SafetyTable, Row17SittingRobotRelaxesWhenDown) {
+  expect_row(17, bit(Mode::kSitting), kTimeUp, 0, Mode::kRelaxed);
 }
-TEST(SafetyTable, Row17ActsOnlyWhenAllIsWell) {
-  expect_row(17, bit(Mode::kStanding), kAskAction | kCalibrated, kOperatorQuiet | kPowerBad,
+TEST(SafetyTable, Row18ActsOnlyWhenAllIsWell) {
+  expect_row(18, bit(Mode::kStanding), kAskAction | kCalibrated, kOperatorQuiet | kPowerBad,
              Mode::kActing);
 }
-TEST(SafetyTable, Row18ActionEndsInTheStand) {
-  expect_row(18, bit(Mode::kActing), kTimeUp, 0, Mode::kStanding);
+TEST(SafetyTable, Row19ActionEndsInTheStand) {
+  expect_row(19, bit(Mode::kActing), kTimeUp, 0, Mode::kStanding);
 }
-TEST(SafetyTable, Row19FallIsMetBeforeTheGroundIs) {
-  expect_row(19,
+TEST(SafetyTable, Row20FallIsMetBeforeTheGroundIs) {
+  expect_row(20,
              modes(Mode::kRising, Mode::kStanding, Mode::kWalking, Mode::kActing, Mode::kSitting),
              kFallSeen, kStale, Mode::kFalling);
 }
-TEST(SafetyTable, Row20FallEndsLimpOnTheFloor) {
-  expect_row(20, bit(Mode::kFalling), kTimeUp | kFell, 0, Mode::kFallen);
+TEST(SafetyTable, Row21FallEndsLimpOnTheFloor) {
+  expect_row(21, bit(Mode::kFalling), kTimeUp | kFell, 0, Mode::kFallen);
 }
-TEST(SafetyTable, Row21FallThatWasNoneHolds) {
-  expect_row(21, bit(Mode::kFalling), kTimeUp, 0, Mode::kHolding);
+TEST(SafetyTable, Row22FallThatWasNoneHolds) {
+  expect_row(22, bit(Mode::kFalling), kTimeUp, 0, Mode::kHolding);
 }
-TEST(SafetyTable, Row22GetsUpOnlyWhenAskedAndAllIsWell) {
-  expect_row(22, modes(Mode::kFallen, Mode::kRelaxed), kAskGetUp | kServosKnown,
+TEST(SafetyTable, Row23GetsUpOnlyWhenAskedAndAllIsWell) {
+  expect_row(23, modes(Mode::kFallen, Mode::kRelaxed), kAskGetUp | kServosKnown,
              kStale | kOperatorQuiet | kPowerBad | kJointBeyond, Mode::kGettingUp);
 }
-TEST(SafetyTable, Row23GettingUpThatEndsLyingIsAFall) {
-  expect_row(23, bit(Mode::kGettingUp), kTimeUp | kFell, 0, Mode::kFallen);
+TEST(SafetyTable, Row24GettingUpThatEndsLyingIsAFall) {
+  expect_row(24, bit(Mode::kGettingUp), kTimeUp | kFell, 0, Mode::kFallen);
 }
-TEST(SafetyTable, Row24GettingUpEndsInTheStand) {
-  expect_row(24, bit(Mode::kGettingUp), kTimeUp, 0, Mode::kStanding);
+TEST(SafetyTable, Row25GettingUpEndsInTheStand) {
+  expect_row(25, bit(Mode::kGettingUp), kTimeUp, 0, Mode::kStanding);
 }
 TEST(SafetyTable, HasNoOtherRows) {
-  EXPECT_EQ(kRows, 25);
+  EXPECT_EQ(kRows, 26);
 }
 
 // What follows holds for every combination of conditions.
@@ -216,6 +219,15 @@ TEST(SafetyMachine, PowerTroubleNeverBeginsARiseAWalkAnActionOrGettingUp) {
         to == Mode::kGettingUp) {
       ++wrong;
     }
+  });
+  EXPECT_EQ(wrong, 0);
+}
+
+TEST(SafetyMachine, NobodyWalksUnlessAskedOrPushed) {
+  int wrong = 0;
+  for_all([&](Mode from, std::uint32_t conditions, Mode to) {
+    if (from == Mode::kWalking || to != Mode::kWalking) return;
+    if ((conditions & (kAskWalk | kPushed)) == 0) ++wrong;
   });
   EXPECT_EQ(wrong, 0);
 }
