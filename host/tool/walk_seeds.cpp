@@ -96,9 +96,9 @@ class Seeds {
                       json.is_object() ? json.value("error", "") : process::last_line(said));
     }
     for (const char* key :
-         {"failure", "remark", "fallen", "distance_m", "asked_m", "asked_turn_deg",
-          "speed_steady_m_s", "yaw_drift_deg", "zmp_bias_mean_mm", "falls", "get_ups",
-          "self_contact_ticks", "estimator", "digest", "varied"}) {
+         {"failure", "remark", "fallen", "distance_m", "asked_m", "asked_turn_deg", "ahead_m",
+          "lateral_drift_m", "speed_steady_m_s", "yaw_drift_deg", "zmp_bias_mean_mm", "falls",
+          "get_ups", "self_contact_ticks", "estimator", "digest", "varied"}) {
       if (json.contains(key)) row[key] = json[key];
     }
     rows_[walking.seed] = row;

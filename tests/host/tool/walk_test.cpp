@@ -238,6 +238,8 @@ TEST_F(Walk, SeedsTellTheWayOfTheWayAsked) {
   for (const json& walk : json::parse(curve.out).at("walks")) {
     EXPECT_GT(walk.at("asked_turn_deg").get<double>(), 90);
     EXPECT_NEAR(walk.at("asked_m").get<double>(), 0.24, 0.02);
+    EXPECT_NEAR(walk.at("ahead_m").get<double>(), 0.11, 0.06);
+    EXPECT_NEAR(walk.at("lateral_drift_m").get<double>(), 0.16, 0.06) << "to the left";
   }
   EXPECT_NE(verp("walk --velocity 0.05,0,0.4 --seeds 1-2 --for 5 --physics-step 2")
                 .out.find("  turned, degrees"),
