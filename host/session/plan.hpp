@@ -38,7 +38,7 @@ struct WalkPlan {
   /// the walk. `actions` hold how.
   int get_ups = 0;
   bool stands = false;  ///< for walk_s, in place of a walk: it steps only where it has to
-  std::string board;  ///< emulated board that runs the controller; empty: this process
+  std::string board;    ///< emulated board that runs the controller; empty: this process
   /// A controller of somebody's own in place of the core (host/own), made for one run; empty: none.
   std::function<Decide()> own;
   /// Where that board's images are, with such a controller in them; empty: those of this project.

@@ -222,7 +222,7 @@ void Robot::watch() {
   if (may_get_up && twin_.forget_fall()) verdict_.forget();
   if (twin_.fallen() && !std::exchange(lies_, true) && may_get_up) {
     const Eigen::Vector3d sky = seen.truth.body_world.linear().row(2);
-    tell("fell, and lies " + how_it_lies(sky.x(), sky.y()));
+    tell("lies " + how_it_lies(sky.x(), sky.y()));
   }
   if (!twin_.fallen() && std::exchange(lies_, false)) tell("is on its feet again");
   intervene_in_time();

@@ -126,6 +126,10 @@ TEST_F(Team, ALyingRobotGetsUpForAControllerThatMayLetIt) {
   const json run = json::parse(said.substr(said.find('{'), said.rfind('}') + 1 - said.find('{')));
   EXPECT_EQ(run.at("get_ups"), 1);
   EXPECT_EQ(run.at("falls"), 0);
+  ASSERT_EQ(run.at("fall_story").size(), 2u) << said;
+  EXPECT_EQ(run.at("fall_story")[0].at("what"), "lies on its back; gets up, try 1 of 3");
+  EXPECT_EQ(run.at("fall_story")[1].at("what"), "stands again");
+  EXPECT_NE(world.err.find("s: lies on its back\n"), std::string::npos) << world.err;
   EXPECT_GT(run.at("walked_s").get<double>(), 2);
 }
 
