@@ -177,7 +177,8 @@ class ControllerObjects {
   canopen::Abort find_image(canopen::Address at, canopen::Entry& entry) const {
     if (at.subindex != 0) return canopen::Abort::kNoSubindex;
     const auto size = static_cast<std::uint32_t>(store_.size(kind_of(at.index)));
-    // Not kept on this board, or not now. No board takes actions in blocks yet, and they stand in no sheet.
+    // Not kept on this board, or not now. No board takes actions in blocks yet, and they stand in
+    // no sheet.
     const bool known = kind_of(at.index) != ImageKind::kActions;
     if (size == 0) return known ? canopen::Abort::kNoData : canopen::Abort::kNoObject;
     entry = {true, !is_log(at.index), size, size, size};
