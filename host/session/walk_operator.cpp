@@ -103,6 +103,11 @@ app::OperatorOrder WalkOperator::order(std::uint32_t tick) {
 void WalkOperator::observe(const State& state, const Outputs& outputs) {
   if (done_ || look_after_fall(static_cast<safety::Mode>(outputs.mode))) return;
   const bool standing = outputs.mode == static_cast<std::uint8_t>(safety::Mode::kStanding);
+  // It fell after stop was said: nothing is left to walk.
+  if (stopping_ && !gait_seen_ && standing) {
+    done_ = true;
+    return;
+  }
   // Steps of a robot that was pushed before it was asked to walk are no gait of its walk.
   if (!gait_seen_ && command_.request != Request::kWalk && stood_s_ < kSettle_s) {
     wait_for_stand(state, standing);
