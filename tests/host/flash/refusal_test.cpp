@@ -163,7 +163,8 @@ TEST_F(DfuFlash, WritesAndVerifiesByReadingBack) {
   const Outcome outcome = dfu("--code --params generic21");
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   for (const auto& [bytes, begin] :
-       {std::pair{get(image()), map_.code.begin}, std::pair{robot(), map_.params.begin}}) {
+       {std::pair{get(image()), map_.code.begin}, std::pair{robot(), map_.params.begin},
+        std::pair{actions(), map_.actions.begin}}) {
     std::copy(bytes.begin(), bytes.end(), expected.begin() + (begin - kFlashBegin));
   }
   EXPECT_EQ(get(folder_ / "chip"), expected);
