@@ -31,19 +31,17 @@ constexpr Walk kWanders[] = {kStraight,    {900, 300, 0},  {-700, 0, 200},
 
 /// What a run needs besides its controller.
 struct Twin {
-  explicit Twin(const Robot& robot)
-      : body(world, robot.entity), bus(robot.params, body), start(body.truth().com_world_m) {}
+  explicit Twin(const Robot& robot) : body(world, robot.entity), bus(robot.params, body) {}
   TwinRun ended(TwinRun run) {
-    const sim::Truth truth = body.truth();
-    run.distance_m = (truth.com_world_m - start).head<2>().norm();
-    run.fallen = truth.fallen;
+    run.distance_m = hands.distance_m();
+    run.pushed_m = hands.pushed_m();
+    run.fallen = body.truth().fallen;
     return run;
   }
   sim::World world;
   sim::TwinRobot body;
   bus::VirtualBus bus;
   Hands hands{world, body};
-  sim::Vec3 start;
 };
 
 struct Keeper {

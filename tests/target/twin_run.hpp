@@ -22,6 +22,7 @@ struct TwinRun {
   std::vector<TickRecord> records;
   std::vector<safety::Mode> modes;  ///< one after the other, of a run in this process
   double distance_m = 0;            ///< from start to end, over ground
+  std::vector<double> pushed_m;     ///< likewise to where hands pushed it
   bool fallen = false;
 };
 
@@ -64,7 +65,8 @@ struct Orders {
 /// is looked at between two.
 class Hands : private sim::Actor {
  public:
-  Hands(sim::World& world, sim::TwinRobot& body) : world_(world), quantities_(world) {
+  Hands(sim::World& world, sim::TwinRobot& body)
+      : world_(world), body_(body), start_(body.truth().com_world_m), quantities_(world) {
     quantities_.add(body);
     world_.add(*this);
   }
@@ -72,11 +74,15 @@ class Hands : private sim::Actor {
   Hands(const Hands&) = delete;
   Hands& operator=(const Hands&) = delete;
   void take(const Script& script) { waiting_ = {script.hands.begin(), script.hands.end()}; }
+  /// From its start, over ground, whenever one pushed.
+  const std::vector<double>& pushed_m() const { return pushed_m_; }
+  double distance_m() const { return (body_.truth().com_world_m - start_).head<2>().norm(); }
 
  private:
   void before_step(double) override {
     while (!waiting_.empty() &&
            1e6 * waiting_.front().at_s <= static_cast<double>(world_.now_us())) {
+      pushed_m_.push_back(distance_m());
       quantities_.push("trunk", waiting_.front().force_world_n, waiting_.front().for_s);
       waiting_.pop_front();
     }
@@ -84,8 +90,11 @@ class Hands : private sim::Actor {
   void after_step(double) override {}
 
   sim::World& world_;
+  const sim::TwinRobot& body_;
+  const sim::Vec3 start_;
   sim::Quantities quantities_;
   std::deque<Hand> waiting_;
+  std::vector<double> pushed_m_;
 };
 
 struct Robot {
@@ -98,15 +107,16 @@ Robot load_robot(const std::string& name, const std::string& bus = {});
 /// As ScriptedOperator orders.
 Script walk_script(const Params& params, std::uint32_t ticks, bool wandering = false);
 
-/// Walks, turns, is pushed and walks on, is pushed over, gets up, kicks and waves: all that a robot
-/// does on a field, in 42 s.
+/// Walks, turns, is pushed and walks on, stands, is pushed over though it steps, gets up, kicks and
+/// waves: all that a robot does on a field, in 42 s.
 Script tour_script(const Robot& robot);
 /// What a controller does meanwhile, from its first tick on.
 inline constexpr safety::Mode kTourModes[] = {
-    safety::Mode::kRising,    safety::Mode::kStanding, safety::Mode::kWalking,
-    safety::Mode::kStanding,  safety::Mode::kFalling,  safety::Mode::kFallen,
-    safety::Mode::kGettingUp, safety::Mode::kStanding, safety::Mode::kActing,
-    safety::Mode::kStanding,  safety::Mode::kActing,   safety::Mode::kStanding};
+    safety::Mode::kRising,   safety::Mode::kStanding,  safety::Mode::kWalking,
+    safety::Mode::kStanding, safety::Mode::kWalking,   safety::Mode::kFalling,
+    safety::Mode::kFallen,   safety::Mode::kGettingUp, safety::Mode::kStanding,
+    safety::Mode::kActing,   safety::Mode::kStanding,  safety::Mode::kActing,
+    safety::Mode::kStanding};
 /// Stands, is pushed over and gets up, in 15 s: what of that takes a robot's own actions.
 Script fall_script(const Robot& robot);
 inline constexpr safety::Mode kFallModes[] = {safety::Mode::kRising,    safety::Mode::kStanding,
