@@ -63,8 +63,8 @@ Step standing_feet(const Params& params, const GaitTuning& tuning);
 /// carrying foot.
 Step first_step(const Params& params, const GaitTuning& tuning, FootstepState& state);
 
-/// The first step of a robot that has to step at once: so short that the ZMP rests at one place,
-/// the one from which the body is thrown to where the steps after it want it.
+/// The first step of a robot that has to step at once: so short that the ZMP rests at one place.
+/// Which place and how short follow from the steps after it, once they are known (gait.cpp).
 Step hurried_step(const Params& params, const GaitTuning& tuning, FootstepState& state);
 constexpr bool hurried(const Step& step) {
   return step.phase == Phase::kStart && step.swing == kBoth && step.double_support_s == 0.0F;

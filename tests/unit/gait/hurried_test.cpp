@@ -28,9 +28,9 @@ int ticks_to_swing(test::Walker& walker) {
   return ticks;
 }
 
-TEST(HurriedStart, SwingsAFootWithinASeventhOfASecond) {
+TEST(HurriedStart, SwingsAFootWithinATenthOfASecond) {
   test::Walker hurried = hurrying(0.45F);
-  EXPECT_LE(ticks_to_swing(hurried), 14);
+  EXPECT_LE(ticks_to_swing(hurried), 10);
   test::Walker walk(test::kRobot);
   walk.set_off({});
   EXPECT_GE(ticks_to_swing(walk), 60) << "as a walk begins";
