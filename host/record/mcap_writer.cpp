@@ -25,8 +25,8 @@ std::FILE* open_part(const std::filesystem::path& path, std::filesystem::path& p
     const int descriptor = ::open(part.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     if (descriptor < 0 && errno != EEXIST) return nullptr;
     if (descriptor < 0) continue;
-    ::flock(descriptor,
-            LOCK_EX | LOCK_NB);  // writer_of() asks; goes with the process, however it ends
+    // For writer_of(); it goes with the process, however that ends.
+    ::flock(descriptor, LOCK_EX | LOCK_NB);
     return ::fdopen(descriptor, "wb");
   }
   return nullptr;
