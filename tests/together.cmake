@@ -2,9 +2,9 @@
 # of a test's time in the compiler most is the headers'. So names in one folder's tests differ, or the test stands here
 # and is compiled alone.
 set(VERP_COMPILED_ALONE
-  balance/gravity_test.cpp can_app/canopen_servos_test.cpp can_app/controller_objects_test.cpp canopen/nmt_test.cpp
+  balance/gravity_test.cpp can_app/canopen_servos_test.cpp can_app/controller_actions_test.cpp can_app/controller_objects_test.cpp canopen/nmt_test.cpp
   control/step_test.cpp gait/gait_test.cpp gait/preview_test.cpp math/elementary_test.cpp math/linear_test.cpp
-  math/scalar_test.cpp protocol/parser_test.cpp store/power_cut_test.cpp store/program_page_test.cpp)
+  math/scalar_test.cpp protocol/parser_test.cpp store/power_cut_test.cpp store/program_bytes_test.cpp store/shared_page_test.cpp)
 
 function(verp_compile_together target)
   set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)

@@ -1,15 +1,14 @@
 #pragma once
 #include "boards/stm32/hardware.hpp"
-#include "common/action/kept.hpp"
-#include "firmware/app/block_window.hpp"
+#include "firmware/app/robot_images.hpp"
 #include "firmware/app/settings.hpp"
 #include "firmware/store/flash_store.hpp"
-#include "firmware/store/program_page.hpp"
+#include "firmware/store/shared_page.hpp"
 #include "hal/chip/stm32/flash_pages.hpp"
 
 /// What the board keeps in its own flash, in the sectors that every memory.ld here leaves free: the
 /// robot at the beginning of one, whose second half is for its actions, and a log of settings in
-/// two others.
+/// two others, of which the one without a log is where a new robot or new actions wait.
 namespace verp::board {
 
 class Kept {
@@ -18,44 +17,62 @@ class Kept {
   using Dog = stm32::IndependentWatchdog<Io>;
   using Pages = stm32::SectorPages<Io, Timer, Dog>;
   using Log = store::FlashStore<Pages>;
+  using Room = store::WaitingRoom<Pages, Pages, Log>;
 
  public:
+  /// At the start, before robot and actions are looked at: ends what a loss of power interrupted.
+  static void finish(Dog& dog) {
+    Pages robot = robot_pages(dog), log = log_pages(dog);
+    store::finish_waiting(robot, log, [&dog] { dog.feed(); });
+  }
+
   /// `actions`: behind the robot in its sector, so many bytes.
   Kept(Dog& dog, const ParamsImage& robot, const std::uint8_t* actions, std::size_t actions_bytes)
-      : images(robot),
-        dog_(dog),
-        actions_(actions),
-        actions_bytes_(actions_bytes),
-        actions_offset_(
-            static_cast<std::size_t>(actions - reinterpret_cast<const std::uint8_t*>(&robot))),
-        log_pages_(kFamily, kLogSectors[0], kLogSectors[1], timer, dog),
-        robot_pages_(kFamily, kRobotSector, kRobotSector, timer, dog) {
+      : dog_(dog),
+        log_pages_(log_pages(dog)),
+        robot_pages_(robot_pages(dog)),
+        room_(robot_pages_,
+              static_cast<std::size_t>(actions - reinterpret_cast<const std::uint8_t*>(&robot)),
+              actions_bytes, log_pages_, log),
+        images(robot, actions, actions_bytes, room_) {
     log.open();
   }
 
-  bool new_robot() const { return images.accepted() != nullptr; }
-  /// Writes the robot that the operator sent over the one in force, which must not be used from
-  /// then on, beside the actions that are there: reset next. If it fails, or the power does, the
-  /// boot check finds out, and what is wrong with the actions.
-  void write_robot() {
-    store::program_beside(robot_pages_, 0, reinterpret_cast<const std::uint8_t*>(images.accepted()),
-                          sizeof(ParamsImage),
-                          {actions_offset_, action::kept_size(actions_, actions_bytes_)},
-                          log_pages_, log.spare_page(), [this] { dog_.feed(); });
+  bool has_news() const {
+    return images.accepted_robot() != nullptr || images.accepted_actions() > 0;
+  }
+  /// Writes what the operator sent over what is in force, which must not be used from then on:
+  /// reset next. Power that goes meanwhile leaves the old or the new. A flash that does not take it
+  /// is found out by the boot check, and by the check of the actions.
+  void write_news() {
+    room_.replace(reinterpret_cast<const std::uint8_t*>(images.accepted_robot()),
+                  sizeof(ParamsImage), images.accepted_actions(), images.actions_bytes(),
+                  [this] { dog_.feed(); });
+  }
+  /// Whenever there is time.
+  void keep(const app::Settings& now, bool may_erase) {
+    settings.keep(now, may_erase);
+    room_.work(may_erase);
   }
 
-  app::ParamsImages images;  ///< of the operator's window
-
  private:
+  static Pages log_pages(Dog& dog) { return {kFamily, kLogSectors[0], kLogSectors[1], timer, dog}; }
+  static Pages robot_pages(Dog& dog) { return {kFamily, kRobotSector, kRobotSector, timer, dog}; }
+
   Dog& dog_;
-  const std::uint8_t* actions_;
-  std::size_t actions_bytes_, actions_offset_;
   Pages log_pages_;
   Pages robot_pages_;
 
  public:
   Log log{log_pages_};
   app::SettingsKeeper<Log> settings{log};
+
+ private:
+  Room room_;
+
+ public:
+  using Images = app::RobotImages<Room>;
+  Images images;  ///< of the operator's window
 };
 
 }  // namespace verp::board

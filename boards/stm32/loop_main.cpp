@@ -52,7 +52,7 @@ constexpr std::uint64_t kServingEnds_us = 2'000;
 constexpr std::uint64_t kLastWords_us = 40'000;
 
 using app::table::StartFault;
-using Ticks = app::TickLog<app::ParamsImages>;
+using Ticks = app::TickLog<Kept::Images>;
 using Operator = app::OperatorDevice<OperatorPort, Ticks>;
 using Node = RobotNode<Port, Ticks>;
 
@@ -84,9 +84,9 @@ struct Board {
   void idle() {
     dog.feed();
     serve();
-    kept.settings.keep({operator_device.id(), operator_device.imu_source(),
-                        operator_device.torque_limit_percent()},
-                       !operator_device.armed());
+    kept.keep({operator_device.id(), operator_device.imu_source(),
+               operator_device.torque_limit_percent()},
+              !operator_device.armed());
     imu.serve(operator_device.take_calibration_order(), operator_device.armed());
     operator_device.show(imu.calibration());
     supply.permit(operator_device.take_relax());
@@ -105,7 +105,7 @@ struct Board {
   /// The operator's link. True if there was anything to do.
   bool serve() {
     if (fault == StartFault::kOperatorPort) return false;
-    const bool wanted = operator_device.reboot_asked() || kept.new_robot();
+    const bool wanted = operator_device.reboot_asked() || kept.has_news();
     if (wanted && !operator_device.armed()) start_anew();
     return operator_device.poll();
   }
@@ -114,7 +114,7 @@ struct Board {
   [[noreturn]] void start_anew() {
     const std::uint64_t end_us = timer.now_us() + kLastWords_us;
     while (timer.now_us() < end_us) operator_device.poll();
-    if (kept.new_robot()) kept.write_robot();
+    if (kept.has_news()) kept.write_news();
     verp_exit(0);
   }
   /// Serves the operator, and else sleeps: an interrupt or SysTick wakes.
@@ -259,6 +259,12 @@ void run_in_real_time(Board& board, Servos& servos, const Params& params, std::u
   }
 }
 
+/// Before the watchdog runs, and with a handle of its own to it: the board is not there yet.
+[[gnu::noinline]] void finish_kept(const Start& start) {
+  stm32::IndependentWatchdog<Io> dog(start.cause);
+  Kept::finish(dog);
+}
+
 StartFault judge(bool has_desk, control::BootVerdict verdict, const Params& params) {
   if (!has_desk) return StartFault::kOperatorPort;
   if (verdict != control::BootVerdict::kSound) return StartFault::kSelfTest;
@@ -285,6 +291,7 @@ extern "C" int verp_main() {
   gpio.output(board::kLed, false);
   if (!start.good) board::refuse_without_time(start);
   const bool has_desk = board::open_operator_port(start);
+  board::finish_kept(start);
   const auto size = reinterpret_cast<std::uintptr_t>(verp_params_bytes);
   // Made here and not in front of main: as a variable its 4 KB of defaults would lie in flash.
   alignas(Params) static std::byte room[sizeof(Params)];

@@ -257,11 +257,11 @@ inline constexpr Register kTable[] = {
     r(952, "device_errors", u32, "", "reports missed or stale; bus: CRC errors, timeouts, refused; link: CRC, overruns, framing, noise", kDevices),
     // Whole images, block by block.
     rw(1112, "window_kind", u8, 4, "", "what the window shows: 0 nothing, 1 the Params image, 2 actions; only to read: 3 the last tick, with tick_hold, 4 the last ticks; begins anew"),
-    r(1113, "window_state", u8, "", "0 idle, 1 receiving, 2 accepted: a board stores it and starts anew with it, 3 refused"),
-    r(1114, "window_fault", u8, "", "why refused: ImageFault; 255: the bytes do not have window_crc"),
-    r(1116, "window_size", u32, "bytes", "of a whole image of that kind"),
+    r(1113, "window_state", u8, "", "0 idle: while a block of actions is refused, their place is being made, so write it again; 1 receiving, 2 accepted: a board stores it and starts anew with it, 3 refused"),
+    r(1114, "window_fault", u8, "", "why refused: of Params ImageFault, of actions as action_fault; 254: the flash did not keep a block, 255: the bytes do not have window_crc"),
+    r(1116, "window_size", u32, "bytes", "of the image in force; 0: there are no actions"),
     rw(1120, "window_offset", u32, kAll32, "bytes", "where window_data[0] stands in the image"),
-    rw(1124, "window_data", u8, 255, "", "reads show the image in force; writes go to a new one", kWindowBytes),
+    rw(1124, "window_data", u8, 255, "", "reads show the image in force; writes go to a new one, of actions with torque off only", kWindowBytes),
     rw(1252, "window_crc", u32, kAll32, "", "CRC-32 (zip) of all bytes of the new image"),
     disarmed(1256, "window_commit", u8, 1, "", "1: check the new image and take it; reads as 0"),
     // For one who runs the same controller beside this one, and compares.

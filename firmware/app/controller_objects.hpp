@@ -64,7 +64,8 @@ void publish_ticks(Objects& objects, std::uint8_t node, bool on) {
 /// registers' business.
 ///
 /// Besides them 5001h is the Params image and 5002h the actions. A download of a whole image is in
-/// force from the next start, and refused while any servo holds torque. 5003h and 5004h are the
+/// force from the next start, and refused while any servo holds torque; of actions also while a
+/// place for them is being made: begin again a little later. 5003h and 5004h are the
 /// last tick and those before it (tick_log.hpp), to be read while register tick_hold is 1.
 /// TPDOs 2 to 4 tell of each tick (canopen/published_tick.hpp) once publish_ticks() has set them
 /// up.
@@ -120,16 +121,22 @@ class ControllerObjects {
     if (registers_.armed()) return canopen::Abort::kDeviceState;
     if (offset == 0) {
       store_.begin(kind_of(at.index));
+      registers_.show_window(table::WindowState::kIdle);
       crc_ = 0;
     }
-    store_.write(kind_of(at.index), offset, data, size);
+    const Taken taken = store_.write(kind_of(at.index), offset, data, size);
+    if (taken == Taken::kNotYet) return canopen::Abort::kDeviceState;
+    if (taken == Taken::kNo) {
+      registers_.show_window(table::WindowState::kRefused, kBlockNotKept);
+      return canopen::Abort::kHardware;
+    }
     crc_ = crc32(data, size, crc_);
     return canopen::Abort::kNone;
   }
   canopen::Abort write_done(canopen::Address at, std::uint32_t) {
     if (registers_.armed()) return canopen::Abort::kDeviceState;
-    return store_.commit(kind_of(at.index), crc_) == 0 ? canopen::Abort::kNone
-                                                       : canopen::Abort::kIncompatibleParameter;
+    return registers_.commit(kind_of(at.index), crc_) ? canopen::Abort::kNone
+                                                      : canopen::Abort::kIncompatibleParameter;
   }
 
   // In PDOs: numbers of up to 8 bytes, whole.
@@ -169,19 +176,17 @@ class ControllerObjects {
   static bool is_image(std::uint16_t index) {
     return index > kImageIndex && index <= kImageIndex + static_cast<int>(ImageKind::kTicks);
   }
-  static bool is_log(std::uint16_t index) { return kind_of(index) >= ImageKind::kState; }
   static ImageKind kind_of(std::uint16_t index) {
     return static_cast<ImageKind>(index - kImageIndex);
   }
 
   canopen::Abort find_image(canopen::Address at, canopen::Entry& entry) const {
     if (at.subindex != 0) return canopen::Abort::kNoSubindex;
-    const auto size = static_cast<std::uint32_t>(store_.size(kind_of(at.index)));
-    // Not kept on this board, or not now. No board takes actions in blocks yet, and they stand in
-    // no sheet.
-    const bool known = kind_of(at.index) != ImageKind::kActions;
-    if (size == 0) return known ? canopen::Abort::kNoData : canopen::Abort::kNoObject;
-    entry = {true, !is_log(at.index), size, size, size};
+    const ImageKind kind = kind_of(at.index);
+    const auto size = static_cast<std::uint32_t>(store_.size(kind));
+    const auto room = static_cast<std::uint32_t>(store_.room(kind));
+    if (size == 0 && room == 0) return canopen::Abort::kNoData;  // not kept here, or not now
+    entry = {size > 0, room > 0, size, kind == ImageKind::kActions ? 1 : room, room};
     return canopen::Abort::kNone;
   }
 

@@ -112,7 +112,7 @@ class OperatorRegisters {
   /// The bytes of a read; nullptr if any of them stands outside the table. Gaps read as zero.
   const std::uint8_t* read(std::uint16_t address, std::size_t size) {
     if (!RegisterImage::holds(address, size)) return nullptr;
-    if (address < reg_end("window_data") && address + size > reg("window_data")) show_window();
+    if (address < reg_end("window_data") && address + size > reg("window_data")) fill_window();
     return image_.at(address);
   }
 
@@ -149,6 +149,19 @@ class OperatorRegisters {
     return standing_.slept_until(tick, tuning_.safety.command_hold_s);
   }
   void withdraw_orders() { standing_.withdraw(armed()); }
+
+  /// Of an image that came whole, through the window or by another way: whether it is taken, which
+  /// the window shows.
+  bool commit(ImageKind kind, std::uint32_t crc) {
+    const std::uint8_t fault =
+        kind == ImageKind::kNone ? kWrongWindowCrc : store_.commit(kind, crc);
+    show_window(fault == 0 ? table::WindowState::kAccepted : table::WindowState::kRefused, fault);
+    return fault == 0;
+  }
+  void show_window(table::WindowState state, std::uint8_t fault = 0) {
+    image_.set(reg("window_state"), state);
+    image_.set(reg("window_fault"), fault);
+  }
 
   /// What the operator wants in the next tick.
   OperatorOrder order() {
@@ -236,7 +249,8 @@ class OperatorRegisters {
     }
     if (write.covers(reg("window_kind"))) {
       const auto kind = static_cast<ImageKind>(*write.from(reg("window_kind")));
-      if (kind != ImageKind::kNone && store_.size(kind) == 0) return dxl::Error::kDataRange;
+      const bool known = store_.size(kind) != 0 || store_.room(kind) != 0;
+      if (kind != ImageKind::kNone && !known) return dxl::Error::kDataRange;
     }
     if (write.covers(reg("parameter_value"))) {
       float value;
@@ -246,7 +260,8 @@ class OperatorRegisters {
     }
     if (write.touches(reg("window_data"), reg_end("window_data"))) {
       const std::uint64_t end = std::uint64_t{offset_in(write)} + data_end(write);
-      if (end > store_.size(window_kind())) return dxl::Error::kDataLimit;
+      if (end > store_.room(window_kind())) return dxl::Error::kDataLimit;
+      if (window_kind() == ImageKind::kActions && armed()) return dxl::Error::kAccess;
     }
     return dxl::Error::kNone;
   }
@@ -289,37 +304,37 @@ class OperatorRegisters {
       store_.begin(window_kind());
       const std::size_t size = store_.size(window_kind());
       image_.set(reg("window_size"), static_cast<std::uint32_t>(size));
-      set_window(table::WindowState::kIdle, 0);
+      show_window(table::WindowState::kIdle);
     }
     if (write.touches(reg("window_data"), reg_end("window_data"))) {
-      const std::uint32_t begin = data_begin(write);
-      store_.write(window_kind(), offset_in(write) + begin,
-                   write.from(static_cast<std::uint16_t>(reg("window_data") + begin)),
-                   data_end(write) - begin);
-      set_window(table::WindowState::kReceiving, 0);
+      const dxl::Error error = keep_block(write);
+      if (error != dxl::Error::kNone) return error;
     }
     return write.covers(reg("window_commit")) ? commit() : dxl::Error::kNone;
+  }
+
+  /// Where the place for it is not ready yet, the window stays idle: that is no refusal.
+  dxl::Error keep_block(const Write& write) {
+    const std::uint32_t begin = data_begin(write);
+    const Taken taken =
+        store_.write(window_kind(), offset_in(write) + begin,
+                     write.from(static_cast<std::uint16_t>(reg("window_data") + begin)),
+                     data_end(write) - begin);
+    if (taken == Taken::kYes) show_window(table::WindowState::kReceiving);
+    if (taken == Taken::kNo) show_window(table::WindowState::kRefused, kBlockNotKept);
+    return taken == Taken::kYes ? dxl::Error::kNone : dxl::Error::kResultFail;
   }
 
   dxl::Error commit() {
     const bool wanted = byte(reg("window_commit")) != 0;
     image_.set(reg("window_commit"), std::uint8_t{0});
     if (!wanted) return dxl::Error::kNone;
-    const std::uint8_t fault =
-        window_kind() == ImageKind::kNone
-            ? kWrongWindowCrc
-            : store_.commit(window_kind(), dxl::get_u32(image_.at(reg("window_crc"))));
-    set_window(fault == 0 ? table::WindowState::kAccepted : table::WindowState::kRefused, fault);
-    return fault == 0 ? dxl::Error::kNone : dxl::Error::kResultFail;
-  }
-
-  void set_window(table::WindowState state, std::uint8_t fault) {
-    image_.set(reg("window_state"), state);
-    image_.set(reg("window_fault"), fault);
+    const std::uint32_t crc = dxl::get_u32(image_.at(reg("window_crc")));
+    return commit(window_kind(), crc) ? dxl::Error::kNone : dxl::Error::kResultFail;
   }
 
   /// Behind the image's end the window shows zeros.
-  void show_window() {
+  void fill_window() {
     const std::size_t size = store_.size(window_kind());
     const std::size_t offset = dxl::get_u32(image_.at(reg("window_offset")));
     const std::size_t left = offset < size ? size - offset : 0;

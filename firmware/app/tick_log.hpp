@@ -50,6 +50,8 @@ class TickLog {
     if (kind == ImageKind::kTicks) return any_ ? sizeof ring_ : 0;
     return images_.size(kind);
   }
+  /// What was is not written anew.
+  std::size_t room(ImageKind kind) const { return is_log(kind) ? 0 : images_.room(kind); }
   void read(ImageKind kind, std::size_t offset, std::uint8_t* to, std::size_t count) const {
     if (kind == ImageKind::kState) {
       __builtin_memcpy(to, reinterpret_cast<const std::uint8_t*>(&last_) + offset, count);
@@ -62,10 +64,9 @@ class TickLog {
   void begin(ImageKind kind) {
     if (!is_log(kind)) images_.begin(kind);
   }
-  void write(ImageKind kind, std::size_t offset, const std::uint8_t* from, std::size_t count) {
-    if (!is_log(kind)) images_.write(kind, offset, from, count);
+  Taken write(ImageKind kind, std::size_t offset, const std::uint8_t* from, std::size_t count) {
+    return is_log(kind) ? Taken::kNo : images_.write(kind, offset, from, count);
   }
-  /// What was is not written anew.
   std::uint8_t commit(ImageKind kind, std::uint32_t crc) {
     return is_log(kind) ? kWrongWindowCrc : images_.commit(kind, crc);
   }

@@ -76,8 +76,15 @@ class FlashStore {
     return written_ > 0 || fits() ? append() : begin_move(may_erase);
   }
 
-  /// The page that holds no log. Whoever uses it resets the board before work() is called again.
-  std::size_t spare_page() const { return other(); }
+  /// The page that holds no log, for other use as long as lent() says so: work() takes it back when
+  /// the log needs it, and open() spoils a page's header and nothing else of it.
+  std::size_t lend_spare() {
+    while (moving_) move();
+    other_erased_ = false;
+    lent_ = true;
+    return other();
+  }
+  bool lent() const { return lent_; }
   /// Records found damaged in mid-log by open(): the flash lost bits. Their keys have older values
   /// or none.
   std::uint32_t damaged() const { return damaged_; }
@@ -231,6 +238,7 @@ class FlashStore {
   hal::WorkState begin_move(bool may_erase) {
     if (!other_erased_) {
       if (!may_erase) return hal::WorkState::kNeedsErase;
+      lent_ = false;
       other_erased_ = page_[other()].erase();
       return other_erased_ ? hal::WorkState::kWorking : failed();
     }
@@ -289,6 +297,7 @@ class FlashStore {
   bool other_erased_ = false;  ///< in this session, and seen to be
   bool pending_ = false;
   bool moving_ = false;
+  bool lent_ = false;          ///< the other page
   std::size_t written_ = 0;    ///< bytes of the pending record
   std::size_t moved_ = 0;      ///< entries
   std::size_t copied_ = 0;     ///< bytes of the next entry

@@ -53,6 +53,9 @@ class FakeFlash {
   // FlashPages
   std::size_t page_bytes(std::size_t) const { return kPageBytes; }
 
+  /// Where it is read as memory.
+  const std::uint8_t* memory(std::size_t page) const { return cell_ + page * kPageBytes; }
+
   void read(std::size_t page, std::size_t offset, std::uint8_t* to, std::size_t size) const {
     if (page > 1 || offset + size > kPageBytes) {
       ++misuses_;
@@ -116,7 +119,7 @@ class FakeFlash {
   mutable std::uint32_t misuses_ = 0;
   bool cut_planned_ = false;
   bool dark_ = false;
-  std::uint8_t cell_[2 * kPageBytes];
+  alignas(8) std::uint8_t cell_[2 * kPageBytes];
   std::uint8_t unsure_[2 * kPageBytes] = {};
 };
 

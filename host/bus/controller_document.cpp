@@ -71,12 +71,15 @@ std::string controller_document() {
                  "\nEach register is a CANopen object too, at index 2000h + address; elements "
                  "of an array have subindices from 1 on.\n\n## Numbers of the tuning\n\n");
   put_parameters(out);
-  fmt::format_to(out,
-                 "\n## A new Params image\n\n"
-                 "Write `window_kind` 1; then `window_offset` and `window_data` of each block "
-                 "together; then `window_crc`; with torque off `window_commit` 1. "
-                 "`window_state` says what became of it. It is in force from the next start "
-                 "(Reboot).\n");
+  fmt::format_to(
+      out,
+      "\n## A new Params image, new actions\n\n"
+      "Write `window_kind` 1, of actions 2; then `window_offset` and `window_data` of each block "
+      "together; then `window_crc`; with torque off `window_commit` 1. "
+      "`window_state` says what became of it. It is in force from the next start "
+      "(Reboot). Blocks may come in any order, and more than once. Actions are those of "
+      "`verp action export`, with the mark of the robot in force; `verp action send` "
+      "does all of it. What is not committed counts for nothing.\n");
   return text;
 }
 

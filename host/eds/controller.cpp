@@ -84,6 +84,7 @@ Description controller() {
     description.objects.push_back(object_of(each));
   }
   description.objects.push_back(image_object(app::ImageKind::kParams, "Params image", true));
+  description.objects.push_back(image_object(app::ImageKind::kActions, "Actions", true));
   description.objects.push_back(image_object(app::ImageKind::kState, "Tick held", false));
   description.objects.push_back(image_object(app::ImageKind::kTicks, "Ticks before", false));
   return description;

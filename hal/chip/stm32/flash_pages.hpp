@@ -24,6 +24,10 @@ class SectorPages {
       : io_(io), family_(family), sector_{first, second}, timer_(timer), dog_(dog) {}
 
   std::size_t page_bytes(std::size_t page) const { return place(page).bytes; }
+  /// Where the processor reads it as memory.
+  const std::uint8_t* memory(std::size_t page) const {
+    return reinterpret_cast<const std::uint8_t*>(std::uintptr_t{place(page).address});
+  }
 
   void read(std::size_t page, std::size_t offset, std::uint8_t* to, std::size_t size) const {
     const auto from = static_cast<std::uint32_t>(place(page).address + offset);

@@ -13,6 +13,7 @@
 #include "firmware/app/controller_objects.hpp"
 #include "host/can/device_node.hpp"
 #include "tests/host/bus/fake_plant.hpp"
+#include "tests/unit/app/actions_board.hpp"
 #include "tests/unit/support/test_robot.hpp"
 
 // What a sheet says of a node is what the node does: read as a tool of another maker would read it,
@@ -226,11 +227,9 @@ void expect_device(const Description& description, Node& node, std::uint8_t id, 
 TEST(Eds, TheControllersSheetIsWhatTheControllerAnswers) {
   const Sections sections = parse(to_text(controller()));
   expect_listed(sections);
-  auto image = std::make_unique<ParamsImage>();
-  image->params = test::kRobot;
-  auto images = std::make_unique<app::ParamsImages>(*image);
-  using Log = app::TickLog<app::ParamsImages>;
-  auto log = std::make_unique<Log>(*images);
+  auto board = std::make_unique<app::test::FakeBoard>();  // one that keeps all that there is
+  using Log = app::TickLog<app::test::FakeImages>;
+  auto log = std::make_unique<Log>(board->images);
   log->keep({}, {});
   log->hold(Log::kAll);  // its ticks are there to be read
   auto registers =
@@ -292,7 +291,7 @@ TEST(Eds, AControllerWithoutImagesAnswersForThem) {
     ++domains;
     EXPECT_EQ(abort, Abort::kNoData) << std::hex << each.index;
   }
-  EXPECT_EQ(domains, 3);
+  EXPECT_EQ(domains, 4);
 }
 
 TEST(Eds, HowManyEntriesAnObjectHasIsKnownByName) {

@@ -1,0 +1,99 @@
+#pragma once
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
+
+#include "common/action/kept.hpp"
+#include "firmware/app/block_window.hpp"
+
+namespace verp::app {
+
+/// Where new actions wait until they are whole: a piece of flash.
+///  - room(): bytes; bytes(): where they are in the processor's memory, aligned to 4.
+///  - begin(): what is there is of no use any more. ready(): it may be written.
+///  - write(offset, from, count): in any order, inside the room, and once more the same. False: the
+///    memory did not keep it.
+template <class Place>
+concept ActionPlace = requires(Place& place, const Place& seen, std::size_t offset,
+                               const std::uint8_t* from, std::size_t count) {
+  { seen.room() } -> std::same_as<std::size_t>;
+  { seen.bytes() } -> std::same_as<const std::uint8_t*>;
+  { seen.ready() } -> std::same_as<bool>;
+  { place.begin() } -> std::same_as<void>;
+  { place.write(offset, from, count) } -> std::same_as<bool>;
+};
+
+/// The robot's Params image and its actions. New actions must be those of the robot in force: its
+/// own Params come first. Both are for the board to store, and to start with.
+template <ActionPlace Place>
+class RobotImages {
+ public:
+  /// `actions`: those in force, in a memory of so many bytes; whatever is there may be none.
+  RobotImages(const ParamsImage& robot, const std::uint8_t* actions, std::size_t actions_bytes,
+              Place& place)
+      : robot_(robot),
+        robots_(robot),
+        actions_(actions),
+        actions_bytes_(action::kept_size(actions, actions_bytes)),
+        place_(place) {}
+
+  const ParamsImage* accepted_robot() const { return robots_.accepted(); }
+  /// Bytes of the new actions, once they were committed; 0 before.
+  std::size_t accepted_actions() const { return accepted_bytes_; }
+  /// Of those in force; 0: there are none, or damaged ones.
+  std::size_t actions_bytes() const { return actions_bytes_; }
+
+  // Images
+  std::size_t size(ImageKind kind) const {
+    return kind == ImageKind::kActions ? actions_bytes_ : robots_.size(kind);
+  }
+  std::size_t room(ImageKind kind) const {
+    return kind == ImageKind::kActions ? place_.room() : robots_.room(kind);
+  }
+  void read(ImageKind kind, std::size_t offset, std::uint8_t* to, std::size_t count) const {
+    if (kind != ImageKind::kActions) return robots_.read(kind, offset, to, count);
+    __builtin_memcpy(to, actions_ + offset, count);
+  }
+  void begin(ImageKind kind) {
+    if (kind != ImageKind::kActions) return robots_.begin(kind);
+    accepted_bytes_ = written_ = 0;
+    begun_ = false;
+  }
+  Taken write(ImageKind kind, std::size_t offset, const std::uint8_t* from, std::size_t count) {
+    if (kind != ImageKind::kActions) return robots_.write(kind, offset, from, count);
+    accepted_bytes_ = 0;
+    if (!begun_) place_.begin();  // not earlier: who only reads costs the flash no erase
+    begun_ = true;
+    if (!place_.ready()) return Taken::kNotYet;
+    if (!place_.write(offset, from, count)) return Taken::kNo;
+    if (offset + count > written_) written_ = offset + count;
+    return Taken::kYes;
+  }
+  std::uint8_t commit(ImageKind kind, std::uint32_t crc) {
+    if (kind != ImageKind::kActions) return robots_.commit(kind, crc);
+    if (written_ == 0 || crc32(place_.bytes(), written_) != crc) return kWrongWindowCrc;
+    const action::KeptFault fault = check();
+    accepted_bytes_ = fault == action::KeptFault::kNone ? written_ : 0;
+    return static_cast<std::uint8_t>(fault);
+  }
+
+ private:
+  action::KeptFault check() const {
+    const action::KeptFault fault = action::check_any_kept(place_.bytes(), written_);
+    if (fault != action::KeptFault::kNone) return fault;
+    const bool has_robot = check_image(&robot_, sizeof robot_) == ImageFault::kNone;
+    return has_robot ? action::check_kept(place_.bytes(), written_, robot_.params)
+                     : action::KeptFault::kOtherRobot;
+  }
+
+  const ParamsImage& robot_;
+  ParamsImages robots_;
+  const std::uint8_t* actions_;
+  std::size_t actions_bytes_;
+  Place& place_;
+  std::size_t written_ = 0;  ///< up to the end of the last of its bytes
+  std::size_t accepted_bytes_ = 0;
+  bool begun_ = false;
+};
+
+}  // namespace verp::app

@@ -1,0 +1,34 @@
+#pragma once
+#include <cstddef>
+#include <cstdint>
+
+#include "hal/contract/flash_pages.hpp"
+
+namespace verp::store {
+
+/// Programs `size` bytes from `offset` on and compares. Parts of a unit may come one by one: what
+/// is not among these bytes stays as it is. `idle()` is called after each unit: units may take
+/// longer together than a watchdog waits. False: the memory did not take them (it was not erased
+/// there, or is worn), or has no room.
+template <hal::FlashPages Flash, class Idle>
+bool program_bytes(Flash& flash, std::size_t page, std::size_t offset, const std::uint8_t* from,
+                   std::size_t size, Idle&& idle) {
+  if (offset > flash.page_bytes(page) || size > flash.page_bytes(page) - offset) return false;
+  for (std::size_t done = 0; done < size;) {
+    const std::size_t skipped = (offset + done) % Flash::kUnit;
+    const std::size_t room = Flash::kUnit - skipped;
+    const std::size_t count = size - done < room ? size - done : room;
+    std::uint8_t unit[Flash::kUnit];
+    __builtin_memset(unit, 0xFF, sizeof unit);
+    __builtin_memcpy(unit + skipped, from + done, count);
+    if (!flash.program(page, offset + done - skipped, unit)) return false;
+    std::uint8_t there[Flash::kUnit];
+    flash.read(page, offset + done, there, count);
+    if (__builtin_memcmp(there, unit + skipped, count) != 0) return false;
+    done += count;
+    idle();
+  }
+  return true;
+}
+
+}  // namespace verp::store
