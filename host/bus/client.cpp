@@ -158,9 +158,11 @@ void Client::expect_good(std::uint8_t id, std::uint16_t address, const char* wha
                          const std::optional<Answer>& answer) const {
   if (!answer) silent(id);
   if (answer->error == 0) return;
-  throw DeviceError(fmt::format(
-      "{}: device {} refused the {} at address {}: {}", text_, id, what, address,
-      answer->error < kErrors.size() ? kErrors[answer->error] : "an error it has no name for"));
+  const char* error =
+      answer->error < kErrors.size() ? kErrors[answer->error] : "an error it has no name for";
+  throw RefusedError(fmt::format("{}: device {} refused the {} at address {}: {}", text_, id, what,
+                                 address, error),
+                     static_cast<dxl::Error>(answer->error));
 }
 
 }  // namespace verp::bus

@@ -18,6 +18,16 @@ class DeviceError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// It answered, and that it does not do it.
+class RefusedError : public DeviceError {
+ public:
+  RefusedError(const std::string& line, dxl::Error error) : DeviceError(line), error_(error) {}
+  dxl::Error error() const { return error_; }
+
+ private:
+  dxl::Error error_;
+};
+
 /// What a device says of itself when it is pinged.
 struct Identity {
   std::uint8_t id = 0;

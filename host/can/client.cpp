@@ -122,9 +122,10 @@ void Client::fail(std::uint8_t node, Address at, const char* what, Abort why) {
                     "termination and bit rate, or see `verp bus scan --link {}`",
                     head, kAttempts, place_));
   }
-  throw bus::DeviceError(fmt::format("{}: the {} of {} at node {} was aborted: {} (0x{:08X})",
-                                     place_, what, to_text(at), node, canopen::abort_text(why),
-                                     static_cast<std::uint32_t>(why)));
+  throw AbortedError(
+      fmt::format("{}: the {} of {} at node {} was aborted: {} (0x{:08X})", place_, what,
+                  to_text(at), node, canopen::abort_text(why), static_cast<std::uint32_t>(why)),
+      why);
 }
 
 std::vector<std::uint8_t> Client::read(std::uint8_t node, Address at) {

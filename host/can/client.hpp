@@ -21,6 +21,16 @@ class SilentError : public bus::DeviceError {
   using bus::DeviceError::DeviceError;
 };
 
+/// It answered, and that it does not do it.
+class AbortedError : public bus::DeviceError {
+ public:
+  AbortedError(const std::string& line, canopen::Abort why) : DeviceError(line), why_(why) {}
+  canopen::Abort why() const { return why_; }
+
+ private:
+  canopen::Abort why_;
+};
+
 /// What a node says of itself.
 struct NodeIdentity {
   /// How far it was asked. Unless to the end, what is missing below is not known.

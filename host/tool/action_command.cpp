@@ -15,6 +15,7 @@
 #include "host/model/load.hpp"
 #include "host/model/params.hpp"
 #include "host/tool/action_convert.hpp"
+#include "host/tool/action_send.hpp"
 #include "host/tool/command.hpp"
 #include "host/tool/console.hpp"
 #include "host/tool/exit_status.hpp"
@@ -209,7 +210,7 @@ int play(const ActionWords& words) {
 Subcommand add_action(CLI::App& root) {
   CLI::App* app = root.add_subcommand(
       "action",
-      "Actions of a robot, such as wave or kick: list, check, play, convert, export, record");
+      "Actions of a robot, such as wave or kick: list, check, play, convert, export, send, record");
   app->require_subcommand(1);
   auto words = std::make_shared<ActionWords>();
   const auto add = [&](const char* name, const char* help, bool named) {
@@ -256,6 +257,16 @@ Subcommand add_action(CLI::App& root) {
   exports->remove_option(exports->get_option("--json"));
   auto exported = std::make_shared<std::string>();
   exports->add_option("-o,--output", *exported, "the file (FILE.bin)")->required();
+  CLI::App* sends = add("send", "All actions of a robot to its controller, which runs", false);
+  auto send = std::make_shared<SendWords>();
+  sends->add_option("--add", words->action, "an action file, one of them, too");
+  sends
+      ->add_option("--link", send->link,
+                   "its operator's port: serial:DEVICE@BAUD, pty:PATH, tcp:HOST:PORT, unix:PATH; "
+                   "or its robot's bus: can:can0")
+      ->required();
+  sends->add_option("--id", send->id, "of the controller (default: 200; on CAN node 127)")
+      ->check(whole_number_between(1, 252));
   CLI::App* records = app->add_subcommand("record", "An action out of what a robot did in a trace");
   auto record = std::make_shared<RecordWords>();
   records->add_option("TRACE", record->trace, "a trace (.mcap)")->required();
@@ -276,6 +287,7 @@ Subcommand add_action(CLI::App& root) {
             if (checks->parsed()) return check(*words);
             if (converts->parsed()) return answer(convert_actions(*words, *convert)), kGood;
             if (exports->parsed()) return answer(export_actions(*words, *exported)), kGood;
+            if (sends->parsed()) return send_actions(*words, *send);
             if (records->parsed()) return answer(record_action(*record)), kGood;
             return play(*words);
           }};

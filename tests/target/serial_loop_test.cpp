@@ -1,10 +1,12 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdlib>
 #include <thread>
 
 #include "common/action/kept.hpp"
+#include "host/action/send.hpp"
 #include "tests/target/serial_board.hpp"
 
 // VERP_TEST_BOARD names the emulated board, VERP_TEST_TICKS the length of a walk; ctest of a
@@ -132,6 +134,50 @@ TEST(SerialLoop, TellsItsOperatorWhyItsActionsDoNotCount) {
   image[image.size() / 2] ^= 1;
   EXPECT_EQ(fault_of(image), action::KeptFault::kDamaged);
   EXPECT_EQ(fault_of(params_image(robot)), action::KeptFault::kNotALibrary);
+}
+
+/// The image in force, through the window.
+std::vector<std::uint8_t> actions_in_force(SerialBoard& board) {
+  board.write("window_kind", 2);
+  std::vector<std::uint8_t> bytes;
+  for (const std::uint64_t size = board.read("window_size"); bytes.size() < size;) {
+    board.write("window_offset", static_cast<std::int64_t>(bytes.size()));
+    const auto block = board.operator_port().read(
+        dxl::controller::kDefaultId, dxl::controller::find("window_data")->address,
+        static_cast<std::uint16_t>(
+            std::min<std::uint64_t>(dxl::controller::kWindowBytes, size - bytes.size())));
+    bytes.insert(bytes.end(), block.begin(), block.end());
+  }
+  return bytes;
+}
+
+// The emulated chip's flash can't be written (on a model of it: unit/store/shared_page_test.cpp):
+// its operator is told so, and the board goes on with the actions that it has.
+TEST(SerialLoop, TakesBlocksOfActionsOrSaysWhyItKeepsWhatItHas) {
+  const Robot robot = load_robot("generic21");
+  const std::vector<std::uint8_t> image = actions_image(robot);
+  SerialBoard board(test_board(), params_image(robot), image);
+  const auto count = static_cast<int>(board.read("action_count"));
+  EXPECT_EQ(actions_in_force(board), image);
+  const auto port = action::serial_action_port(board.operator_port(), dxl::controller::kDefaultId);
+  const auto refusal = [&](const std::vector<std::uint8_t>& bytes, const char* name) {
+    try {
+      action::send_actions(*port, bytes, {.robot = name, .actions = count});
+      return std::string();
+    } catch (const bus::DeviceError& error) {
+      return std::string(error.what());
+    }
+  };
+  const auto has = [](const std::string& text, const char* words) {
+    return text.find(words) != std::string::npos;
+  };
+  EXPECT_PRED2(has, refusal(image, "op3"), "its robot is generic21");
+  EXPECT_PRED2(has, refusal(std::vector<std::uint8_t>(64 * 1024), "generic21"), "no room");
+  EXPECT_PRED2(has, refusal(image, "generic21"), "its flash did not keep a block");
+  EXPECT_EQ(board.read("window_state"), 3u);
+  EXPECT_EQ(actions_in_force(board), image);
+  EXPECT_EQ(static_cast<int>(board.read("action_count")), count);
+  EXPECT_EQ(board.read("start_fault"), 0u);
 }
 
 /// Longer than a twin may be silent before it counts as gone.
