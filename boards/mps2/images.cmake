@@ -164,7 +164,11 @@ function(verp_add_serial_tests machine)
   add_test(NAME hil.${VERP_BOARD}.operator COMMAND ${CMAKE_SOURCE_DIR}/tests/target/ask_operator
     ${machine} $<TARGET_FILE:loop_${VERP_BOARD}> $<TARGET_FILE:loop_can_${VERP_BOARD}> ${VERP_HOST_DIR}/host/tool/verp)
   set_tests_properties(hil.${VERP_BOARD}.operator PROPERTIES LABELS "hil;target")
-  # The same with a bad cable.
+  # Actions sent to it while it runs, a power cut among them.
+  add_test(NAME hil.${VERP_BOARD}.actions COMMAND ${CMAKE_SOURCE_DIR}/tests/target/write_flash
+    ${machine} $<TARGET_FILE:loop_${VERP_BOARD}> ${VERP_HOST_DIR}/host/tool/verp)
+  set_tests_properties(hil.${VERP_BOARD}.actions PROPERTIES LABELS "hil;target")
+  # Walks, over a bad cable.
   add_test(NAME hil.${VERP_BOARD}.faults COMMAND ${VERP_HOST_DIR}/target/target_tests --gtest_filter=SerialFaults.*)
   set_tests_properties(hil.${VERP_BOARD}.faults PROPERTIES LABELS "hil;target"
     ENVIRONMENT "VERP_TEST_BOARD=${VERP_BOARD};VERP_TEST_TICKS=1050;VERP_FIRMWARE_DIR=${CMAKE_BINARY_DIR}/images")

@@ -151,9 +151,9 @@ std::vector<std::uint8_t> actions_in_force(SerialBoard& board) {
   return bytes;
 }
 
-// The emulated chip's flash can't be written (on a model of it: unit/store/shared_page_test.cpp):
-// its operator is told so, and the board goes on with the actions that it has.
-TEST(SerialLoop, TakesBlocksOfActionsOrSaysWhyItKeepsWhatItHas) {
+// The emulated chip's flash can't be written, but with a debugger's help (write_flash): the
+// operator is told so, and the board goes on with the actions that it has.
+TEST(SerialLoop, SaysWhyItTakesNoActionsAndKeepsThoseThatItHas) {
   const Robot robot = load_robot("generic21");
   const std::vector<std::uint8_t> image = actions_image(robot);
   SerialBoard board(test_board(), params_image(robot), image);
