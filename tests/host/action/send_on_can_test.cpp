@@ -6,7 +6,7 @@
 #include "firmware/app/controller_objects.hpp"
 #include "host/action/send.hpp"
 #include "host/can/client.hpp"
-#include "tests/unit/app/actions_board.hpp"
+#include "tests/unit/images/actions_board.hpp"
 
 // verp action send over the robot's own bus, to the controller's node: object 5002h.
 

@@ -13,7 +13,7 @@
 #include "firmware/app/controller_objects.hpp"
 #include "host/can/device_node.hpp"
 #include "tests/host/bus/fake_plant.hpp"
-#include "tests/unit/app/actions_board.hpp"
+#include "tests/unit/images/actions_board.hpp"
 #include "tests/unit/support/test_robot.hpp"
 
 // What a sheet says of a node is what the node does: read as a tool of another maker would read it,

@@ -1,10 +1,10 @@
 #include <gtest/gtest.h>
 
-#include "tests/unit/app/actions_board.hpp"
 #include "tests/unit/can_app/objects_node.hpp"
+#include "tests/unit/images/actions_board.hpp"
 
 // Actions sent to a running board over its robot's own bus: object 5002h, as they come through the
-// operator's window (unit/app/operator_actions_test.cpp).
+// operator's window (unit/images/operator_actions_test.cpp).
 
 namespace verp::app::test {
 namespace {

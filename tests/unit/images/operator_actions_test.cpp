@@ -1,4 +1,4 @@
-#include "tests/unit/app/actions_board.hpp"
+#include "tests/unit/images/actions_board.hpp"
 
 #include <gtest/gtest.h>
 
