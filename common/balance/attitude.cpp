@@ -59,6 +59,18 @@ void learn_bias(AttitudeState& state, const AttitudeIn& in) {
   state.still_s = math::min(state.still_s + in.period_s, kWindow_s);
 }
 
+// The gyro turns "up", the accelerometer pulls it to the vertical. Linear in the acceleration, not
+// in its direction: over a step its motion part averages to zero, its direction does not.
+Vec3 follow(Xyz& up_body, const Vec3& rate_rad_s, const Vec3& accel_m_s2, float period_s,
+            float mean_s) {
+  Vec3 up = math::to_vec(up_body);
+  up -= period_s * math::cross(rate_rad_s, up);
+  up += (period_s / mean_s) * (accel_m_s2 / math::kGravityMS2 - up);
+  up = math::normalized_or(up, Vec3(0, 0, 1));
+  up_body = math::to_xyz(up);
+  return up;
+}
+
 }  // namespace
 
 AttitudeOut update(AttitudeState& state, const AttitudeIn& in) {
@@ -68,17 +80,15 @@ AttitudeOut update(AttitudeState& state, const AttitudeIn& in) {
     learn_bias(state, in);
     const Vec3 rate = in.gyro_body_rad_s - math::to_vec(state.gyro_bias_rad_s);
     if (in.anew) state.mean_s = 0;
-    state.mean_s = math::min(state.mean_s + in.period_s, kAccelTime_s);
-    up -= in.period_s * math::cross(rate, up);
-    // Linear in the acceleration, not in its direction: over a step its motion part averages to
-    // zero, its direction does not.
-    up += (in.period_s / state.mean_s) * (in.accel_body_m_s2 / math::kGravityMS2 - up);
-    up = math::normalized_or(up, Vec3(0, 0, 1));
-    state.up_body = math::to_xyz(up);
+    state.mean_s = math::min(state.mean_s + in.period_s, kHeadingTime_s);
+    up = follow(state.up_body, rate, in.accel_body_m_s2, in.period_s,
+                math::min(state.mean_s, kAccelTime_s));
+    const Vec3 slow =
+        follow(state.slow_up_body, rate, in.accel_body_m_s2, in.period_s, state.mean_s);
     // Turn of the body's x axis over the ground. The rate about the vertical is not the same: a
     // body that sways about two axes at once would seem to turn (coning).
-    const float level2 = math::max(up.y() * up.y() + up.z() * up.z(), kLeastLevel2);
-    const float turn_rad_s = (rate.y() * up.y() + rate.z() * up.z()) / level2;
+    const float level2 = math::max(slow.y() * slow.y() + slow.z() * slow.z(), kLeastLevel2);
+    const float turn_rad_s = (rate.y() * slow.y() + rate.z() * slow.z()) / level2;
     state.heading_rad = math::wrap_angle(state.heading_rad + in.period_s * turn_rad_s);
     out.roll_rate_rad_s = rate.x();
     out.pitch_rate_rad_s = rate.y();

@@ -10,19 +10,24 @@
 namespace verp::balance {
 
 struct AttitudeState {
-  Xyz up_body{0, 0, 1};   ///< direction of "up" in the body frame, unit
-  float heading_rad = 0;  ///< turned to the left since power-up, in (-pi, pi]
-  Xyz gyro_bias_rad_s;    ///< learnt while standing still
-  float still_s = 0;      ///< how long the robot has stood still, up to kCalibrated_s
-  float mean_s = 0;       ///< over how long up_body is the accelerometer's mean, up to kAccelTime_s
-  Xyz slow_rad_s;         ///< the gyro without trembling: what tells motion from standstill
+  Xyz up_body{0, 0, 1};       ///< direction of "up" in the body frame, unit
+  Xyz slow_up_body{0, 0, 1};  ///< the same, for the heading: the accelerometer moves it slower
+  float heading_rad = 0;      ///< turned to the left since power-up, in (-pi, pi]
+  Xyz gyro_bias_rad_s;        ///< learnt while standing still
+  float still_s = 0;          ///< how long the robot has stood still, up to kCalibrated_s
+  float mean_s = 0;         ///< of how long both are the accelerometer's mean, up to kHeadingTime_s
+  Xyz slow_rad_s;           ///< the gyro without trembling: what tells motion from standstill
   float shake_rad2_s2 = 0;  ///< mean square of the trembling
-  VERP_FIELDS(up_body, heading_rad, gyro_bias_rad_s, still_s, mean_s, slow_rad_s, shake_rad2_s2)
+  VERP_FIELDS(up_body, slow_up_body, heading_rad, gyro_bias_rad_s, still_s, mean_s, slow_rad_s,
+              shake_rad2_s2)
 };
 VERP_PACKED(AttitudeState);
 
 /// The accelerometer's share: slower than a step by far, so that its accelerations average out.
 inline constexpr float kAccelTime_s = 1.0F;
+/// What a step's accelerations leave in "up" sways with the body, and a rate seen along it would
+/// add up to a turn: degrees in a minute. For the heading the accelerometer is slower still.
+inline constexpr float kHeadingTime_s = 6.0F;
 /// This long still, and the mean of the gyro is taken for its bias.
 inline constexpr float kCalibrated_s = 3.0F;
 

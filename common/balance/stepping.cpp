@@ -12,10 +12,9 @@ using gait::Xy;
 // 4 cm in 450 ms, tuning seed 1001, pushed at 16 phases from four sides.
 constexpr float kAnkles_x = 0.29F, kAnkles_y = 0.36F;
 // Servos that are hurried lag, and who steps after them is hurried more: at 8 cm in 400 ms the DCM
-// is 2 cm off at the end of every step. For each m/s that a foot goes faster than so many heights
-// of the hip over the ankles a second (0.4 m/s of generic21), so many metres are left to ankles
-// too.
-constexpr float kHurry_s = 0.05F, kUnhurried_per_s = 2.7F;
+// is 2 cm off at the end of every step. For each unit of a step's haste, so many heights of the hip
+// over the ankles are left to ankles too.
+constexpr float kHurry = 0.135F;
 // How far a foot is moved at most, and how fast: parts of the hip's height over the ankles, 5 cm
 // and 0.6 m/s of generic21. The servos turn as far for them as for the longest steps.
 constexpr float kFarthest = 0.333F, kPace_per_s = 4.0F;
@@ -65,10 +64,7 @@ Xy landing_off(const Params& params, const Tuning& tuning, const SteppingIn& in,
   const float most_m = kFarthest * tuning.gait.hip_height_m;
   const float half_x_m = 0.5F * (leg.sole_front_m + leg.sole_back_m);
   const float half_y_m = 0.5F * (leg.sole_left_m + leg.sole_right_m);
-  const Xy way_m = step.landing.at_m - step.foot[step.swing].at_m;
-  const float hurry_m =
-      kHurry_s * math::max(0.0F, math::hypot(way_m.x, way_m.y) / step.duration_s() -
-                                     kUnhurried_per_s * tuning.gait.hip_height_m);
+  const float hurry_m = kHurry * tuning.gait.hip_height_m * step.haste;
   Xy off_m{math::clamp(beyond(error_m.x, kAnkles_x * half_x_m + hurry_m), -most_m, most_m),
            math::clamp(beyond(error_m.y, kAnkles_y * half_y_m), -most_m, most_m)};
   const float standing_m = 2.0F * tuning.gait.half_stance_m - params.leg[gait::kLeft].sole_right_m -

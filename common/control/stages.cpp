@@ -1,5 +1,6 @@
 #include "common/control/stages.hpp"
 
+#include "common/balance/arms.hpp"
 #include "common/balance/gravity.hpp"
 #include "common/balance/landing.hpp"
 #include "common/control/falling.hpp"
@@ -107,8 +108,11 @@ float heading_error(const Params& params, const State& state, const AdmitOut& ad
   steer.heading_rad = math::wrap_angle(steer.heading_rad + period_s(params) * admitted.wz_rad_s);
   const float error_rad = math::clamp(math::wrap_angle(steer.heading_rad - attitude.heading_rad),
                                       -kMaxHeadingError_rad, kMaxHeadingError_rad);
-  steer.slip_rad = math::clamp(steer.slip_rad + kSumming_per_s * period_s(params) * error_rad,
-                               -kMaxHeadingError_rad, kMaxHeadingError_rad);
+  // An order beyond what steps can turn is no slip.
+  if (math::abs(error_rad) < kMaxHeadingError_rad) {
+    steer.slip_rad = math::clamp(steer.slip_rad + kSumming_per_s * period_s(params) * error_rad,
+                                 -kMaxHeadingError_rad, kMaxHeadingError_rad);
+  }
   return error_rad + steer.slip_rad;
 }
 
@@ -245,6 +249,7 @@ Wanted solve_joints(const Params& params, State& state, const Inputs& inputs,
   for (int j = 0; j < params.joint_count; ++j) wanted.angle_rad[j] = params.joint[j].stand_rad;
   if (params.head_pan < kMaxJoints) wanted.angle_rad[params.head_pan] = admitted.head_pan_rad;
   if (params.head_tilt < kMaxJoints) wanted.angle_rad[params.head_tilt] = admitted.head_tilt_rad;
+  balance::swing_arms(params, tuning.balance, plan.posture, wanted.angle_rad);
   for (int j = 0; j < params.joint_count; ++j) wanted.plain_rad[j] = wanted.angle_rad[j];
   gait::Posture aimed = plan.posture;
   balance::learn_landing(params, state.gait, plan, inputs, balance::as_planned(state.stepping),

@@ -12,11 +12,23 @@ struct FootPose {
   Xyz accel_m_s2;  ///< of the sole
 };
 
+/// A swing foot's way from 0 to 1: a quintic, at rest at both ends, so that nothing jerks; of a
+/// hurried step in part a cubic, which asks less of the servos' speed.
+inline math::CurvePoint swing_along(float u, float haste) {
+  constexpr float kBrisk = 0.24F;  // share of the cubic for each unit of haste
+  const math::CurvePoint gentle = math::minimum_jerk(u);
+  if (haste == 0.0F) return gentle;
+  const math::CurvePoint brisk = math::smooth_step(u);
+  const float share = kBrisk * haste;
+  return {gentle.value + share * (brisk.value - gentle.value),
+          gentle.derivative + share * (brisk.derivative - gentle.derivative),
+          gentle.second + share * (brisk.second - gentle.second)};
+}
+
 /// Foot `side` at `time_s` after the beginning of the step. The swing foot leaves when the double
-/// support ends, follows a quintic from lift-off to landing (at rest at both, so that nothing
-/// jerks) and, in height, the quartic through lift-off, apex and landing on top of the rise to
-/// touchdown_m. Where it would meet the other foot it goes around it, further out by that quartic
-/// too: early, when it has not come far.
+/// support ends, goes its way until landing and, in height, follows the quartic through lift-off,
+/// apex and landing on top of the rise to touchdown_m. Where it would meet the other foot it goes
+/// around it, further out by that quartic too: early, when it has not come far.
 inline FootPose foot_at(const Step& step, int side, float time_s) {
   if (side != step.swing) {
     const float settle_s = 2.0F * step.key_s();
@@ -25,7 +37,7 @@ inline FootPose foot_at(const Step& step, int side, float time_s) {
   }
   const float swing_s = step.duration_s() - step.double_support_s;
   const float v = math::clamp((time_s - step.double_support_s) / swing_s, 0.0F, 1.0F);
-  const math::CurvePoint along = math::minimum_jerk(v);
+  const math::CurvePoint along = swing_along(v, step.haste);
   const math::CurvePoint lift = math::swing_lift(v);
   const Foothold& from = step.foot[side];
   const Xy way_m = step.landing.at_m - from.at_m;

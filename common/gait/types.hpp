@@ -65,6 +65,7 @@ struct Step {
   float double_support_s = 0;   ///< from the step's beginning
   float lift_m = 0;
   float touchdown_m = 0;  ///< height at which the swing sole ends its step
+  float haste = 0;        ///< of the swing: its mean speed over an unhurried one, less 1; 0 to 2
   float settle_m = 0;     ///< height at which `landed` begins; it comes down in two key times
   Foothold foot[kFeet];   ///< at the beginning of the step
   Foothold landing;       ///< of the swing foot
@@ -73,7 +74,7 @@ struct Step {
   Xy zmp_end_m;
   Xy dcm_end_m;  ///< divergent component of motion at the end of the step
   VERP_FIELDS(key_us, key_points, swing, phase, landed, double_support_s, lift_m, touchdown_m,
-              settle_m, foot, landing, bend_m, zmp_begin_m, zmp_end_m, dcm_end_m)
+              haste, settle_m, foot, landing, bend_m, zmp_begin_m, zmp_end_m, dcm_end_m)
 
   constexpr std::int32_t duration_us() const { return key_us * key_points; }
   constexpr float duration_s() const { return static_cast<float>(duration_us()) * 1e-6F; }

@@ -91,9 +91,9 @@ bool is_well_formed(const Params& params) {
       return false;
     }
   }
-  const std::uint8_t heads[] = {params.head_pan, params.head_tilt};
-  for (const std::uint8_t head : heads) {
-    if (head != 0xFF && head >= params.joint_count) return false;
+  for (const std::uint8_t joint :
+       {params.head_pan, params.head_tilt, params.arm[0], params.arm[1]}) {
+    if (joint != 0xFF && joint >= params.servo_count()) return false;
   }
   return well_formed_bus(params) && well_formed_leg(params, params.leg[0]) &&
          well_formed_leg(params, params.leg[1]);

@@ -21,6 +21,7 @@ constexpr Range kForce_n{0, 1000};
 constexpr Range kArmature_kg_m2{0, 1000};
 constexpr Range kTorque_n_m{0, 1e4F};
 constexpr Range kFrictionSpeed_rad_s{1e-3F, 1000};
+constexpr Range kAngle_rad_m{-100, 100};
 constexpr std::uint32_t kShortest_us = 4000, kLongest_us = 20000;  // as Params says
 
 /// Remembers the first number that does not fit.
@@ -128,6 +129,7 @@ bool numbers_fit(const Params& params, FieldName& bad) {
   search.check("baud", params.baud > 0);
   search.check("body_mass_kg", params.body_mass_kg, kMass_kg);
   search.check("body_com_m", params.body_com_m, kPlace_m);
+  search.check("arm_rad_per_m", params.arm_rad_per_m, kAngle_rad_m);
   for (int j = 0; j < params.joint_count; ++j) {
     search.in("joint", j);
     look_at_joint(params.joint[j], search);

@@ -142,7 +142,10 @@ struct Params {
   /// The last joints have no servo of their own (model/coupling.hpp): one motor turns them and the
   /// joint whose servo_id they bear.
   std::uint8_t followers = 0;
-  std::uint8_t reserved[2] = {};
+  std::uint8_t arm[kFeet] = {0xFF, 0xFF};  ///< joint that swings it fore and aft, 0xFF: none
+  /// Angle of `arm` for each metre that the left foot is ahead of the right one, at which the arms
+  /// turn about the vertical as fast as the legs, the other way. 0 where there is no arm.
+  float arm_rad_per_m[kFeet] = {};
   JointParams joint[kMaxJoints];
   LegParams leg[kFeet];
   ServoProfile servo[kServoProfiles];
@@ -150,8 +153,8 @@ struct Params {
   FootSensorParams feet;
   Tuning tuning;
   VERP_FIELDS(name, period_us, baud, joint_count, head_pan, head_tilt, rise_torque_percent,
-              body_mass_kg, body_com_m, bus_protocol, followers, reserved, joint, leg, servo, imu,
-              feet, tuning)
+              body_mass_kg, body_com_m, bus_protocol, followers, arm, arm_rad_per_m, joint, leg,
+              servo, imu, feet, tuning)
 
   /// The joints before this one have servos, and are all that a bus sees.
   constexpr std::uint8_t servo_count() const {

@@ -19,8 +19,8 @@ struct GaitTuning {
   float zmp_x_m = -0.000206f;     ///< ZMP reference in the sole frame, forward
   float zmp_y_m = 0.0022f;        ///< ZMP reference, outward from the body's midline
   float touchdown_m = 0.0053f;    ///< swing sole is aimed to end this high: the body sags
-  float max_step_m = 0.08f;      ///< longest admitted step (one foot past the other), any direction
-  float max_turn_rad = 0.35f;    ///< largest turn per step
+  float max_step_m = 0.095f;     ///< longest admitted step (one foot past the other), any direction
+  float max_turn_rad = 0.40f;    ///< largest turn per step
   float step_change_m = 0.010f;  ///< largest change of step length from one step to the next
   float start_s = 0.4f;  ///< start phase: ZMP moves from the middle to the first stance foot
   /// Goal of joint k of a limb lags by k times this (paper: 0.030), by 12 key points at most: with
@@ -30,9 +30,10 @@ struct GaitTuning {
   float look_ahead_s = 0.0213f;     ///< goals are computed for this much later: bus and servo delay
   float support_margin_m = 0.004f;  ///< planned ZMP keeps this distance from the sole's edge
   float heading_gain = 0.12f;       ///< share of the heading error that one step turns back
+  float haste_lift_m = 0.005f;      ///< lift grows by this times Step::haste: who hurries, sags
   VERP_FIELDS(cycle_s, double_support, lift_m, half_stance_m, hip_height_m, trunk_pitch_rad,
               zmp_x_m, zmp_y_m, touchdown_m, max_step_m, max_turn_rad, step_change_m, start_s,
-              joint_delay_s, look_ahead_s, support_margin_m, heading_gain)
+              joint_delay_s, look_ahead_s, support_margin_m, heading_gain, haste_lift_m)
 };
 VERP_PACKED(GaitTuning);
 
@@ -55,10 +56,11 @@ struct BalanceTuning {
   float hip_roll_rate_s = 0.0401f;
   float swing_level = 0.61f;         ///< swing ankle turned back by this share of the tilt
   float feedback_limit_rad = 0.25f;  ///< largest correction on any joint
+  float arm_swing = 0.6f;            ///< share of what legs turn about the vertical that arms take
   VERP_FIELDS(gravity_enable, inertia_share, friction_share, multibody_enable, feedback_enable,
               zeros_enable, ankle_pitch_tilt, ankle_pitch_rate_s, ankle_roll_tilt,
               ankle_roll_rate_s, hip_pitch_tilt, hip_pitch_rate_s, hip_roll_tilt, hip_roll_rate_s,
-              swing_level, feedback_limit_rad)
+              swing_level, feedback_limit_rad, arm_swing)
 };
 VERP_PACKED(BalanceTuning);
 

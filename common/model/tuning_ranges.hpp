@@ -30,6 +30,7 @@ inline constexpr Range kTuningRanges[] = {
     {0.0F, 0.060F},   // look_ahead_s
     {0.0F, 0.03F},    // support_margin_m
     {0.0F, 1.0F},     // heading_gain
+    {0.0F, 0.03F},    // haste_lift_m
     // balance
     {0.0F, 1.0F},   // gravity_enable
     {0.0F, 2.0F},   // inertia_share
@@ -47,6 +48,7 @@ inline constexpr Range kTuningRanges[] = {
     {-0.5F, 0.5F},  // hip_roll_rate_s
     {-2.0F, 2.0F},  // swing_level
     {0.0F, 0.6F},   // feedback_limit_rad
+    {0.0F, 2.0F},   // arm_swing
     // safety
     {0.2F, 1.5F},     // fall_tilt_rad
     {0.0F, 1.0F},     // fall_confirm_s

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "common/model/tuning_ranges.hpp"
+#include "host/model/arms.hpp"
 #include "host/model/leg.hpp"
 #include "host/model/load_error.hpp"
 
@@ -195,6 +196,7 @@ Params make_params(const Entity& entity) {
       params.leg[foot] = leg_params(entity, *leg);
   }
   find_head(entity, params);
+  find_arms(entity, params);
   if (entity.imu) params.imu = imu_params(*entity.imu);
   for (std::size_t foot = 0; foot < kFeet; ++foot) {
     params.feet.device_id[foot] = static_cast<std::uint8_t>(entity.feet.id[foot]);

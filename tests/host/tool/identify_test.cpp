@@ -10,7 +10,7 @@ using IdentifyCommand = Program;
 TEST_F(IdentifyCommand, RefusesATraceFromWhichNothingCanBeToldAndMakesOneThatTells) {
   expect_refused("identify", "no trace");
   expect_refused("identify none.mcap", "none.mcap");
-  ASSERT_EQ(verp("walk --for 3 --record floor.mcap").status, 0);
+  ASSERT_EQ(verp("walk --for 6 --record floor.mcap").status, 0);
   expect_refused("identify floor.mcap", "no robot in a stand");
   expect_refused("identify floor.mcap --robot op3", "of another robot");
   expect_refused("identify floor.mcap --type mx28", "no servo of type 'mx28'");

@@ -49,6 +49,25 @@ TEST(Attitude, BiasIsLearntWhileStanding) {
   EXPECT_NEAR(out.roll_rate_rad_s, 0.0F, 1e-3F);
 }
 
+// A body that sways is pushed about in time with it. With the accelerometer's second of the tilt
+// the heading would be off by 12 degrees after this minute.
+TEST(Attitude, AccelerationsOfStepsHardlyTurnTheHeading) {
+  constexpr float kStride_rad_s = 14.0F;
+  AttitudeState state;
+  run(state, still(), kCalibrated_ticks + 300);
+  AttitudeIn in = still();
+  in.standing = false;
+  AttitudeOut out;
+  for (int tick = 0; tick < 6000; ++tick) {
+    const math::SinCos phase =
+        math::sincos(math::wrap_angle(0.01F * kStride_rad_s * static_cast<float>(tick)));
+    in.gyro_body_rad_s = {0, 0.5F * phase.cos, 0};
+    in.accel_body_m_s2 = {0, 2.0F * phase.sin, kG};
+    out = update(state, in);
+  }
+  EXPECT_LT(math::abs(out.heading_rad), 0.05F);
+}
+
 // A body that has just risen settles by some tenths of a degree. The heading must not drift by it
 // for the rest of the walk.
 TEST(Attitude, BiasIsNotLearntFromABodyThatSettles) {

@@ -219,11 +219,12 @@ TEST(Gait, WeightIsSharedAndGoesToTheCarryingFoot) {
 }
 
 // Six seconds of walking with the steps asked for, however long.
-Walker walked(float step_m, float cycle_s, float multibody_enable) {
+Walker walked(float step_m, float cycle_s, float multibody_enable, float lift_m = 0.0119F) {
   Walker walker(test::kRobot);
   walker.tuning.balance.multibody_enable = multibody_enable;
   walker.tuning.gait.cycle_s = cycle_s;
   walker.tuning.gait.max_step_m = 0.3F;
+  walker.tuning.gait.lift_m = lift_m;
   walker.set_off({.vx_m_s = 2.0F * step_m / cycle_s});
   walker.run(6.0F);
   return walker;
@@ -243,7 +244,7 @@ TEST(Gait, PlanWhoseZmpWouldLeaveTheSoleIsShortenedOrRefused) {
     EXPECT_LT(longer.state.footsteps.stride.by_m.x, 0.11F);
     EXPECT_GT(longer.state.footsteps.stride.by_m.x, 0.01F);
 
-    const Walker absurd = walked(0.2F, 0.3F, multibody);
+    const Walker absurd = walked(0.2F, 0.3F, multibody, 0.05F);
     EXPECT_TRUE((absurd.state.footsteps.notes & kPlanRefused) != 0);
     EXPECT_TRUE(absurd.out.phase == Phase::kIdle) << "it stands";
   }

@@ -47,6 +47,16 @@ TEST(MathSpline, MinimumJerkRestsAtBothEnds) {
   expect_derivative([](float u) { return minimum_jerk(0.2F, -0.4F, u); });
 }
 
+TEST(MathSpline, SmoothStepRestsAtBothEndsAndIsNeverFast) {
+  EXPECT_EQ(smooth_step(0.0F).value, 0.0F);
+  EXPECT_EQ(smooth_step(1.0F).value, 1.0F);
+  EXPECT_EQ(smooth_step(0.0F).derivative, 0.0F);
+  EXPECT_EQ(smooth_step(1.0F).derivative, 0.0F);
+  EXPECT_EQ(smooth_step(0.5F).derivative, 1.5F);
+  EXPECT_NEAR(smooth_step(0.25F).second, 3.0F, 1e-6F);
+  expect_derivative([](float u) { return smooth_step(u); });
+}
+
 TEST(MathSpline, QuinticMeetsPositionsAndSlopes) {
   const auto curve = [](float u) { return quintic(0.1F, 0.3F, -0.7F, 0.2F, u); };
   EXPECT_EQ(curve(0.0F).value, 0.1F);
