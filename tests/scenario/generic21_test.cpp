@@ -156,11 +156,13 @@ TEST(Generic21, WalksFastAnyWay) {
         walk(std::string("generic21 --for 20 --physics-step 2 --velocity=") + way.velocity);
     expect_walked(fast);
     expect_between(way.least_m_s, number(fast, "speed_steady_m_s"), way.most_m_s, "speed, m/s");
-    expect_between(-5, number(fast, "yaw_drift_deg"), 5, "off its heading, degrees");
+    expect_between(-10, number(fast, "yaw_drift_deg"), 10, "off its heading, degrees");
   }
   const Walk turn = walk("generic21 --for 20 --physics-step 2 --velocity=0,0,1.5708");
   expect_walked(turn);
-  EXPECT_NEAR(number(turn, "yaw_drift_deg"), number(turn, "asked_turn_deg"), 15);
+  // Less what it turns more slowly until it turns as fast.
+  expect_between(0.96 * number(turn, "asked_turn_deg"), number(turn, "yaw_drift_deg"),
+                 1.005 * number(turn, "asked_turn_deg"), "turn, degrees");
 }
 
 // Short steps in the shortest cycle: two of four seeds fell in the start.
