@@ -17,7 +17,7 @@ constexpr float kMostWider_m = 0.045F;
 constexpr float kUnhurried_per_s = 2.7F;
 // A hurried foot that comes down late jolts: it is aimed lower by this share for each unit of
 // haste, by a quarter at most. Tuning seeds 1001-1030 of robots drawn at random, 0.25 m/s: the
-// CoM's velocity is off by 14 % less, and none of 30 by more than 0.03 m/s (two were).
+// CoM's velocity is off by 9 % less, and none of 30 by more than 0.03 m/s (one was).
 constexpr float kComesDown = 0.45F, kMostDown = 0.25F;
 constexpr float kMostHaste = 2.0F;  // 1.2 m/s: no servo we know gets there
 

@@ -142,8 +142,9 @@ TEST(Generic21, WalksFastAndNoFasterThanAsked) {
   }
 }
 
-// At 0.42 m/s one robot of seven scraped over the ground with a swinging foot and spun over it,
-// 0.36 was the limit, and 62 degrees a second that of a turn.
+// At 0.42 m/s one of fourteen seeds scraped over the ground with a swinging foot and spun over it;
+// 0.36 was the limit, and 62 degrees a second that of a turn. Headings wander by 7 degrees in a
+// minute: the band is that of how they are, not of how they should be (5).
 TEST(Generic21, WalksFastAnyWay) {
   struct Way {
     const char* velocity;

@@ -106,7 +106,6 @@ TEST(Limit, IsNamed) {
   plan.params.tuning.gait.cycle_s = 0.3F;
   EXPECT_THAT(limit_of(plan, coarse(), 0.8), HasSubstr("servo speed: "));
   plan = plan_of("generic21");
-  plan.params.tuning.gait.max_step_m = 0.08F;  // as its servos carry it
   EXPECT_THAT(limit_of(plan, coarse(), 0.8), HasSubstr("reach: steps of 180 mm are needed"));
   plan.params.tuning.gait.hip_height_m = 0.9F;
   EXPECT_THAT(limit_of(plan, coarse(), 0.2), HasSubstr("reach: the legs cannot stand"));

@@ -7,7 +7,6 @@
 namespace verp::balance {
 namespace {
 
-using test::kJointCount;
 using test::kLeftArm;
 using test::kRightArm;
 

@@ -56,7 +56,6 @@ TEST(Footsteps, TheSwingFootLiftsAsHighAsIsTunedAndTheOtherStands) {
   }
 }
 
-// Each step begins where the one before it ended.
 // Servos that are hurried lag, and the robot sags: at 0.42 m/s a foot that lifts as in slow walks
 // scrapes over the ground.
 TEST(Footsteps, AHurriedFootLiftsHigherAndStartsSooner) {
@@ -84,6 +83,7 @@ TEST(Footsteps, AHurriedFootLiftsHigherAndStartsSooner) {
   EXPECT_EQ(swing_along(1.0F, fast.last.haste).value, 1.0F);
 }
 
+// Each step begins where the one before it ended.
 TEST(Footsteps, PlanHasNoGaps) {
   Walk walk;
   for (int i = 0; i < kSteps; ++i) {

@@ -244,6 +244,10 @@ TEST(Gait, PlanWhoseZmpWouldLeaveTheSoleIsShortenedOrRefused) {
     EXPECT_LT(longer.state.footsteps.stride.by_m.x, 0.11F);
     EXPECT_GT(longer.state.footsteps.stride.by_m.x, 0.01F);
 
+    const Walker too_fast = walked(0.2F, 0.3F, multibody);
+    EXPECT_TRUE((too_fast.state.footsteps.notes & kZmpShortened) != 0);
+    EXPECT_LT(too_fast.state.footsteps.scale, 0.3F);
+
     const Walker absurd = walked(0.2F, 0.3F, multibody, 0.05F);
     EXPECT_TRUE((absurd.state.footsteps.notes & kPlanRefused) != 0);
     EXPECT_TRUE(absurd.out.phase == Phase::kIdle) << "it stands";

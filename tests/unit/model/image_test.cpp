@@ -84,6 +84,9 @@ TEST(Image, IndicesOutsideTheirTablesAreFound) {
   image.params.head_pan = 3;
   EXPECT_FALSE(is_well_formed(image.params));
   make_image();
+  image.params.arm[1] = 3;
+  EXPECT_FALSE(is_well_formed(image.params));
+  make_image();
   image.params.leg[1].solver = LegSolver::kNewton;
   image.params.leg[1].joint[5] = 3;
   EXPECT_FALSE(is_well_formed(image.params));
@@ -138,6 +141,7 @@ TEST(Image, NumbersThatAreNoneOrNoRobotsAreNamed) {
             "joint[1].origin_parent_m");
   EXPECT_EQ(bad_with([](Params& p) { p.body_mass_kg = -0.1F; }), "body_mass_kg");
   EXPECT_EQ(bad_with([](Params& p) { p.period_us = 0; }), "period_us");
+  EXPECT_EQ(bad_with([](Params& p) { p.arm_rad_per_m[1] = kNan; }), "arm_rad_per_m");
   EXPECT_EQ(bad_with([](Params& p) { p.imu.accel_m_s2_per_count = 0; }),
             "imu.accel_m_s2_per_count");
   EXPECT_EQ(bad_with([](Params& p) { p.tuning.gait.cycle_s = 0.1F; }), "tuning.gait.cycle_s");
