@@ -10,16 +10,7 @@ namespace {
 using test::kLeftArm;
 using test::kRightArm;
 
-constexpr float kRadPerM = 4;
-
-Params with_arms() {
-  Params params = test::make_robot();
-  params.arm[gait::kLeft] = kLeftArm;
-  params.arm[gait::kRight] = kRightArm;
-  params.arm_rad_per_m[gait::kLeft] = kRadPerM;
-  params.arm_rad_per_m[gait::kRight] = -kRadPerM;
-  return params;
-}
+const float kRadPerM = test::kRobot.arm_rad_per_m[gait::kLeft];
 
 // The left foot is so far ahead of the right one, on the way of a body that looks along `yaw_rad`.
 gait::Posture posture(float ahead_m, float yaw_rad) {
@@ -51,16 +42,18 @@ float largest_rad(const Swung& swung) {
 TEST(Arms, SwitchedOffRest) {
   BalanceTuning tuning;
   tuning.arm_swing = 0;
-  EXPECT_EQ(largest_rad(swung(with_arms(), tuning, posture(0.1F, 0))), 0.0F);
+  EXPECT_EQ(largest_rad(swung(test::kRobot, tuning, posture(0.1F, 0))), 0.0F);
 }
 
 TEST(Arms, OfARobotWithoutThemMoveNothing) {
-  EXPECT_EQ(largest_rad(swung(test::make_robot(), {}, posture(0.1F, 0))), 0.0F);
+  Params params = test::make_robot();
+  params.arm[gait::kLeft] = params.arm[gait::kRight] = 0xFF;
+  EXPECT_EQ(largest_rad(swung(params, {}, posture(0.1F, 0))), 0.0F);
 }
 
 TEST(Arms, RestWhileTheFeetStandSideBySide) {
   for (const float yaw_rad : {0.0F, 0.7F, -2.5F}) {
-    EXPECT_LT(largest_rad(swung(with_arms(), {}, posture(0, yaw_rad))), 1e-6F);
+    EXPECT_LT(largest_rad(swung(test::kRobot, {}, posture(0, yaw_rad))), 1e-6F);
   }
 }
 
@@ -68,7 +61,7 @@ TEST(Arms, RestWhileTheFeetStandSideBySide) {
 TEST(Arms, SwingBackWithTheFootThatIsAhead) {
   for (const float yaw_rad : {0.0F, 0.7F, -2.5F}) {
     for (const float ahead_m : {-0.1F, 0.02F, 0.05F}) {
-      const Swung out = swung(with_arms(), {}, posture(ahead_m, yaw_rad));
+      const Swung out = swung(test::kRobot, {}, posture(ahead_m, yaw_rad));
       EXPECT_NEAR(out.angle_rad[kLeftArm], BalanceTuning{}.arm_swing * kRadPerM * ahead_m, 1e-5F);
       EXPECT_NEAR(out.angle_rad[kRightArm], -BalanceTuning{}.arm_swing * kRadPerM * ahead_m, 1e-5F);
     }
@@ -76,7 +69,7 @@ TEST(Arms, SwingBackWithTheFootThatIsAhead) {
 }
 
 TEST(Arms, SwingNoFurtherThanAPersonWould) {
-  EXPECT_EQ(largest_rad(swung(with_arms(), {}, posture(0.3F, 0))), 0.6F);
+  EXPECT_EQ(largest_rad(swung(test::kRobot, {}, posture(0.3F, 0))), 0.6F);
 }
 
 }  // namespace

@@ -34,5 +34,30 @@ TEST(Heading, ASlipThatGoesOnIsSummed) {
   EXPECT_GT(loop.state.steer.slip_rad, 0.1F);
 }
 
+// What the legs turn, the arms take, one forward as the other goes back.
+TEST(Heading, ArmsSwingAsTheRobotWalksAndRestAsItStands) {
+  Loop& loop = walking();
+  std::int32_t most = 0, both = 0;
+  loop.walk(1500);
+  for (int tick = 0; tick < 400; ++tick) {
+    loop.tick();
+    const auto off = [&](int j) {
+      return loop.outputs.goal_count[j] -
+             model::count_of(test::kRobot.joint[j], test::kRobot.joint[j].stand_rad);
+    };
+    most = off(test::kLeftArm) > most ? off(test::kLeftArm) : most;
+    // Counted the other way round on the right, so goals of arms that go apart have the same sign.
+    both += off(test::kLeftArm) * off(test::kRightArm) < 0 ? 1 : 0;
+  }
+  EXPECT_GT(most, 30) << "counts of 1.5 mrad";
+  EXPECT_EQ(both, 0) << "ticks in which both went the same way";
+  loop.command.request = Request::kStand;
+  ASSERT_GE(loop.until(safety::Mode::kStanding, 1000), 0);
+  loop.ticks(10);
+  EXPECT_EQ(loop.outputs.goal_count[test::kLeftArm],
+            model::count_of(test::kRobot.joint[test::kLeftArm],
+                            test::kRobot.joint[test::kLeftArm].stand_rad));
+}
+
 }  // namespace
 }  // namespace verp::control

@@ -114,6 +114,10 @@ inline Params make_robot() {
   params.joint_count = kJointCount;
   params.head_pan = kHead;
   params.head_tilt = kHead + 1;
+  params.arm[0] = kLeftArm;
+  params.arm[1] = kRightArm;
+  params.arm_rad_per_m[0] = 4;
+  params.arm_rad_per_m[1] = -4;
   params.body_mass_kg = 1.1F;
   params.body_com_m = {0, 0, 0.003F};
   for (int j = 0; j < kJointCount; ++j) make_joint(kRows[j], params.joint[j]);
