@@ -83,8 +83,10 @@ AttitudeOut update(AttitudeState& state, const AttitudeIn& in) {
     state.mean_s = math::min(state.mean_s + in.period_s, kHeadingTime_s);
     up = follow(state.up_body, rate, in.accel_body_m_s2, in.period_s,
                 math::min(state.mean_s, kAccelTime_s));
-    const Vec3 slow =
+    const Vec3 before = math::to_vec(state.slow_up_body);
+    const Vec3 after =
         follow(state.slow_up_body, rate, in.accel_body_m_s2, in.period_s, state.mean_s);
+    const Vec3 slow = 0.5F * (before + after);  // as it is at the gyro's moment
     // Turn of the body's x axis over the ground. The rate about the vertical is not the same: a
     // body that sways about two axes at once would seem to turn (coning).
     const float level2 = math::max(slow.y() * slow.y() + slow.z() * slow.z(), kLeastLevel2);

@@ -16,6 +16,11 @@ struct LandingState {
 };
 VERP_PACKED(LandingState);
 
+/// A foot that was sent further off its plan has landed there, and says nothing of servos. Less
+/// than this is in every second of a hurried walk: who learnt from none of those walked 0.45 m/s
+/// for 0.40.
+inline constexpr float kOffPlan_m = 0.002F;
+
 /// In the tick in which another foot begins to carry, learns from where it landed; not if a joint
 /// of the legs has not reported in this tick, or the foot was sent elsewhere (stepping.hpp).
 void learn_landing(const Params& params, const gait::GaitState& gait, const gait::GaitOut& plan,

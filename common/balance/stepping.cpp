@@ -28,8 +28,8 @@ constexpr float kHeld = 0.8F;
 constexpr std::uint32_t kSteps = 4;
 constexpr float kStillOff_m = 0.01F;
 
-bool small(Xy by_m) {
-  return math::abs(by_m.x) < kOver_m && math::abs(by_m.y) < kOver_m;
+bool within(Xy by_m, float most_m) {
+  return math::abs(by_m.x) < most_m && math::abs(by_m.y) < most_m;
 }
 
 float beyond(float value, float free) {
@@ -140,7 +140,7 @@ void step_aside(const Params& params, const Tuning& tuning, const SteppingIn& in
   const gait::Step& step = in.gait->queued > 0 ? in.gait->queue[0] : stands;
   if (step.swing != state.swing) exchange(step, state);
   if (step.swing != gait::kBoth) swing_aside(params, tuning, in, plan.posture.body.rotation, state);
-  if (as_planned(state)) {
+  if (as_planned(state, kOver_m)) {
     state.body_m = Xy{};
     return;
   }
@@ -166,8 +166,8 @@ bool pushed(const Params& params, const Tuning& tuning, const SteppingIn& in,
   return state.steps > 0;
 }
 
-bool as_planned(const SteppingState& state) {
-  return small(state.body_m) && small(state.foot_m);
+bool as_planned(const SteppingState& state, float most_m) {
+  return within(state.body_m, most_m) && within(state.foot_m, most_m);
 }
 
 }  // namespace verp::balance

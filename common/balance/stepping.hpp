@@ -34,7 +34,7 @@ void step_aside(const Params& params, const Tuning& tuning, const SteppingIn& in
 /// and a few times more. Not where it does not know itself to stand on its soles.
 bool pushed(const Params& params, const Tuning& tuning, const SteppingIn& in, SteppingState& state);
 
-/// Nothing is off its plan: who learns from where feet land may.
-bool as_planned(const SteppingState& state);
+/// Nothing is further off its plan than this.
+bool as_planned(const SteppingState& state, float most_m);
 
 }  // namespace verp::balance

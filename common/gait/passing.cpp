@@ -1,5 +1,6 @@
 #include "common/gait/passing.hpp"
 
+#include "common/gait/swing.hpp"
 #include "common/math/spline.hpp"
 
 namespace verp::gait {
@@ -40,7 +41,7 @@ Xy bend_beside(const Params& params, float wanted_m, const Step& step) {
   float bend_m = 0.0F;
   for (int i = 1; i < kLooks; ++i) {
     const float v = time_of(i);
-    const float along = math::minimum_jerk(v).value;
+    const float along = swing_along(v, step.haste).value;
     const Xy at_m = begin_m + along * way_m;
     const math::SinCos turn = math::sincos(begin_rad + along * turn_rad);
     // Across a line along the carrying sole, and across one along the swinging sole: one is enough.

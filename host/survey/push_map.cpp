@@ -133,13 +133,16 @@ class Map {
         // From -180 to 180 degrees, as people tell left from right.
         const double turn_rad =
             std::remainder(kTurn_rad * direction / options_.directions, kTurn_rad);
-        map_.cells.push_back(
-            {phase, turn_rad, cycle.begins_s + cycle.cycle_s * phase / options_.phases, {}});
+        map_.cells.push_back({phase,
+                              turn_rad,
+                              cycle.begins_s + cycle.cycle_s * phase / options_.phases,
+                              cycle.heading_rad[static_cast<std::size_t>(phase)],
+                              {}});
       }
     }
     workers_.run(map_.cells.size(), [&](std::size_t i) {
       PushCell& cell = map_.cells[i];
-      cell.survives_n_s = largest(cell, cycle.heading_rad[static_cast<std::size_t>(cell.phase)]);
+      cell.survives_n_s = largest(cell);
     });
     map_.walks = walks_;
     map_.interrupted = workers_.stopped();
@@ -153,11 +156,11 @@ class Map {
   }
   int walks_per_cell() const { return static_cast<int>(std::ceil(std::log2(options_.steps + 1))); }
 
-  std::optional<double> largest(const PushCell& cell, double heading_rad) {
+  std::optional<double> largest(const PushCell& cell) {
     int survived = 0, too_much = options_.steps + 1, left = walks_per_cell();
     while (too_much - survived > 1) {
       const int half = (survived + too_much) / 2;
-      const bool good = survives(cell, heading_rad, half * options_.step_n_s);
+      const bool good = survives(cell, half * options_.step_n_s);
       if (workers_.stopped()) return std::nullopt;
       (good ? survived : too_much) = half;
       workers_.step_done(), --left;
@@ -166,9 +169,10 @@ class Map {
     return survived * options_.step_n_s;
   }
 
-  bool survives(const PushCell& cell, double heading_rad, double impulse_n_s) {
+  bool survives(const PushCell& cell, double impulse_n_s) {
     session::WalkPlan plan = plan_;
-    const double force_n = impulse_n_s / options_.push_s, to_rad = heading_rad + cell.direction_rad;
+    const double force_n = impulse_n_s / options_.push_s;
+    const double to_rad = cell.heading_rad + cell.direction_rad;
     plan.interventions.push_back(
         {.kind = session::Intervention::Kind::kPush,
          .at_s = cell.at_s,

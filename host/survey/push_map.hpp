@@ -37,6 +37,7 @@ struct PushCell {
   int phase = 0;             ///< 0..phases-1; of 16, the paper's state
   double direction_rad = 0;  ///< where it is pushed to: 0 ahead, to the left is positive
   double at_s = 0;           ///< of gait, when the push begins
+  double heading_rad = 0;    ///< of the body then
   /// The largest impulse that it walked on after; 0: none of them. PushOptions::most_n_s(): that,
   /// or more. None: it was not tried.
   std::optional<double> survives_n_s;

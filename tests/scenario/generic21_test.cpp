@@ -131,13 +131,14 @@ TEST(Generic21, KeepsItsFeetApartInFastCurves) {
 }
 
 // 8 cm in 400 ms, 0.40 m/s: legs swing as fast as their servos turn, and swing too far. It walked
-// 0.53 m/s, and fell, until landings were learnt (balance/landing.hpp). A minute of it: --full.
+// 0.53 m/s, and fell, until landings were learnt (balance/landing.hpp); 0.44, while those of feet
+// sent half a millimetre off their plan were not. A minute of it: --full.
 TEST(Generic21, WalksFastAndNoFasterThanAsked) {
   for (const char* seed : {"1", "2", "3"}) {
     const Walk fast = walk(
         std::string("generic21 --step 0.08 --cycle 0.4 --for 20 --physics-step 2 --seed ") + seed);
     expect_walked(fast);
-    expect_between(0.40, number(fast, "speed_steady_m_s"), 0.44, "steady speed, m/s");
+    expect_between(0.40, number(fast, "speed_steady_m_s"), 0.43, "steady speed, m/s");
     expect_between(10, number(fast, "zmp_bias_mean_mm"), 40, "mean ZMP bias, mm");
   }
 }

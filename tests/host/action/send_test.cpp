@@ -52,7 +52,7 @@ class SendActions : public ::testing::Test {
     board_.reset();
     std::filesystem::remove(place_);
     board_.emplace(robot(), old_, "unix-listen:" + place_, prepare);
-    while (!std::filesystem::exists(place_)) std::this_thread::yield();
+    while (!board_->port.opened) std::this_thread::yield();
     return *board_;
   }
   /// What it is refused for; empty: it is not.

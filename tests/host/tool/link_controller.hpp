@@ -42,12 +42,14 @@ class ControllerPort {
   unsigned flips_per_million = 0;  ///< of received bytes
   int cut_every = 0;               ///< reads that brought something
   int cuts = 0;
+  std::atomic<bool> opened = false;  ///< who connects is not refused
 
  private:
   bool open(std::uint32_t timeout_us) {
     if (link_) return true;
     try {
       link_.emplace(wire::parse_endpoint(endpoint_));
+      opened = true;
     } catch (const wire::LinkError&) {
       std::this_thread::sleep_for(std::chrono::microseconds(timeout_us + 1000));
     }

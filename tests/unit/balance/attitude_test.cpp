@@ -187,16 +187,18 @@ TEST(Attitude, ConstantRateIntegrates) {
 }
 
 // A walking body sways in roll and pitch at once; its x axis goes nowhere, and so must the heading.
-TEST(Attitude, SwayAboutTwoAxesDoesNotTurnTheHeading) {
+// rad after 20 s; `lead_rad`: by how much pitch is ahead of roll.
+float heading_after_sway(float lead_rad) {
   constexpr float kSway_rad = 0.03F;
   constexpr float kOmega = 14.0F;
   AttitudeState state;
   AttitudeOut out;
   for (int i = 0; i < 2000; ++i) {
-    const math::SinCos phase = math::sincos(kOmega * 0.01F * static_cast<float>(i));
-    const float roll_rad = kSway_rad * phase.sin, pitch_rad = kSway_rad * phase.cos;
+    const float at_rad = kOmega * 0.01F * static_cast<float>(i);
+    const math::SinCos phase = math::sincos(at_rad), ahead = math::sincos(at_rad + lead_rad);
+    const float roll_rad = kSway_rad * phase.sin, pitch_rad = kSway_rad * ahead.sin;
     const float roll_rate = kSway_rad * kOmega * phase.cos;
-    const float pitch_rate = -kSway_rad * kOmega * phase.sin;
+    const float pitch_rate = kSway_rad * kOmega * ahead.cos;
     const math::SinCos roll = math::sincos(roll_rad);
     AttitudeIn in;
     in.fresh = true;
@@ -205,7 +207,14 @@ TEST(Attitude, SwayAboutTwoAxesDoesNotTurnTheHeading) {
     in.accel_body_m_s2 = body.transpose() * Vec3(0, 0, kG);
     out = update(state, in);
   }
-  EXPECT_NEAR(out.heading_rad, 0.0F, 0.01F) << "0.126 if the rate about the vertical is summed";
+  return out.heading_rad;
+}
+
+TEST(Attitude, SwayAboutTwoAxesDoesNotTurnTheHeading) {
+  EXPECT_NEAR(heading_after_sway(0.5F * math::kPi), 0.0F, 0.01F)
+      << "0.126 if the rate about the vertical is summed";
+  EXPECT_NEAR(heading_after_sway(0.0F), 0.0F, 0.002F)
+      << "0.009 if a tick's rate meets the \"up\" of its end";
 }
 
 TEST(Attitude, AccelerometerPullsAWrongTiltToTheVertical) {

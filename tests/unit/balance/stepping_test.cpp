@@ -88,7 +88,7 @@ TEST(Stepping, WhatAnklesAnswerToMovesNoFoot) {
     walk.tick();
     ASSERT_TRUE(same(walk.walker.out, walk.planned)) << i;
   }
-  EXPECT_TRUE(as_planned(walk.state));
+  EXPECT_TRUE(as_planned(walk.state, 1e-5F));
 }
 
 TEST(Stepping, DoesNothingWithoutFeedbackOrEyesOrMassesOfLegsOrWhereJointsLag) {
@@ -183,13 +183,13 @@ TEST(Stepping, TheLastStepBringsTheFeetSideBySideAgain) {
   Pushed walk = ahead();
   walk.error_m = {0.05F, 0};
   walk.ticks(60);
-  EXPECT_FALSE(as_planned(walk.state));
+  EXPECT_FALSE(as_planned(walk.state, 1e-5F));
   walk.walker.in.walk = false;
   for (int i = 0; i < 400 && walk.walker.state.queued > 0; ++i) walk.tick();
   ASSERT_EQ(int{walk.walker.state.queued}, 0);
   EXPECT_EQ(walk.state.foot_m.x, 0.0F);
   walk.ticks(200);
-  EXPECT_TRUE(as_planned(walk.state));
+  EXPECT_TRUE(as_planned(walk.state, 1e-5F));
   EXPECT_TRUE(same(walk.walker.out, walk.planned));
 }
 

@@ -34,6 +34,31 @@ TEST(Heading, ASlipThatGoesOnIsSummed) {
   EXPECT_GT(loop.state.steer.slip_rad, 0.1F);
 }
 
+// Of a cycle in whole ticks the gyro would see every step at the same moments, and take what
+// hurried feet do between them for a turn: their steps begin everywhere in a tick, and yet as often
+// as is tuned.
+TEST(Heading, HurriedStepsBeginAtAllMomentsOfATick) {
+  Loop& loop = walking();
+  const auto tick_us = static_cast<std::int32_t>(test::kRobot.period_us);
+  loop.walk(4000);
+  loop.ticks(600);
+  ASSERT_GT(loop.state.gait.queue[0].haste, 0.5F);
+  bool tenths[10] = {};
+  std::int32_t walked_us = 0;
+  for (int tick = 0; tick < 512; ++tick) {
+    const std::int32_t before_us = loop.state.gait.clock_us;
+    const std::int32_t step_us = loop.state.gait.queue[0].duration_us();
+    loop.tick();
+    walked_us += loop.state.gait.clock_us - before_us;
+    if (loop.state.gait.clock_us > before_us) continue;
+    walked_us += step_us;
+    const int tenth = loop.state.gait.clock_us * 10 / tick_us;
+    tenths[tenth < 10 ? tenth : 9] = true;
+  }
+  EXPECT_EQ(walked_us, 512 * tick_us);
+  for (int i = 0; i < 10; ++i) EXPECT_TRUE(tenths[i]) << i << " tenths of a tick";
+}
+
 // What the legs turn, the arms take, one forward as the other goes back.
 TEST(Heading, ArmsSwingAsTheRobotWalksAndRestAsItStands) {
   Loop& loop = walking();
