@@ -44,6 +44,7 @@ TEST(PushMap, FindsTheLargestPushThatTheSameWalkSurvivesWhateverTheThreads) {
   const PushCell& cell = map.cells[1];
   EXPECT_EQ(cell.phase, 1);
   EXPECT_NEAR(cell.at_s - map.cells[0].at_s, 0.225, 1e-6);
+  EXPECT_NE(cell.heading_rad, map.cells[0].heading_rad) << "it sways as it walks";
   ASSERT_TRUE(cell.survives_n_s);
   ASSERT_LT(*cell.survives_n_s, options.most_n_s());
   EXPECT_TRUE(survives(plan, options, cell, *cell.survives_n_s));

@@ -186,8 +186,7 @@ TEST(Attitude, ConstantRateIntegrates) {
   }
 }
 
-// A walking body sways in roll and pitch at once; its x axis goes nowhere, and so must the heading.
-// rad after 20 s; `lead_rad`: by how much pitch is ahead of roll.
+// After 20 s of a body that sways in roll and pitch at once, pitch ahead of roll by `lead_rad`.
 float heading_after_sway(float lead_rad) {
   constexpr float kSway_rad = 0.03F;
   constexpr float kOmega = 14.0F;
@@ -210,6 +209,7 @@ float heading_after_sway(float lead_rad) {
   return out.heading_rad;
 }
 
+// A walking body's x axis goes nowhere as it sways, and so must the heading.
 TEST(Attitude, SwayAboutTwoAxesDoesNotTurnTheHeading) {
   EXPECT_NEAR(heading_after_sway(0.5F * math::kPi), 0.0F, 0.01F)
       << "0.126 if the rate about the vertical is summed";
