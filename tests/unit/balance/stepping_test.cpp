@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "common/balance/landing.hpp"
 #include "common/gait/dcm.hpp"
 #include "tests/unit/gait/walker.hpp"
 
@@ -89,6 +90,15 @@ TEST(Stepping, WhatAnklesAnswerToMovesNoFoot) {
     ASSERT_TRUE(same(walk.walker.out, walk.planned)) << i;
   }
   EXPECT_TRUE(as_planned(walk.state, 1e-5F));
+}
+
+// In a hurried walk hardly a step goes by without: who did not learn from those, learnt from none.
+TEST(Stepping, AFootMovedByLessThanServosMissStillTeachesLandings) {
+  Pushed walk = ahead();
+  walk.error_m = {0.0165F, 0};
+  walk.ticks(60);
+  EXPECT_FALSE(as_planned(walk.state, 1e-4F));
+  EXPECT_TRUE(as_planned(walk.state, kOffPlan_m));
 }
 
 TEST(Stepping, DoesNothingWithoutFeedbackOrEyesOrMassesOfLegsOrWhereJointsLag) {
