@@ -22,6 +22,7 @@ using std::chrono::milliseconds;
 
 constexpr std::size_t kMostViewers = 16;
 constexpr std::size_t kAhead = 64 * 1024;  // handed to a connection before its socket took it
+constexpr milliseconds kSettled{300};      // after which a viewer has subscribed to all it wants
 constexpr milliseconds kGreeting{10'000};  // in which a client has to say what it wants
 constexpr std::string_view kFull =
     "HTTP/1.1 503 Service Unavailable\r\nContent-Length: 0\r\nConnection: close\r\n\r\n";
@@ -78,6 +79,7 @@ std::uint32_t Server::add_channel(Channel channel) {
   channel.id = static_cast<std::uint32_t>(channels_.size() + 1);
   const std::string text = advertise({channel});
   channels_.push_back({std::move(channel), {}});
+  changed_ = Clock::now();
   for (const auto& viewer : viewers_) {
     if (viewer->greeted) viewer->subscriber.say(text);
   }
@@ -121,7 +123,8 @@ void Server::wait_for_viewer(const std::function<bool()>& given_up) {
     return std::any_of(viewers_.begin(), viewers_.end(),
                        [](const auto& v) { return v->subscriber.wants_something(); });
   };
-  while (!somebody() && !given_up()) subscribed_.wait_for(guard, milliseconds(50));
+  const auto settled = [this] { return Clock::now() - changed_ >= kSettled; };
+  while (!(somebody() && settled()) && !given_up()) subscribed_.wait_for(guard, milliseconds(50));
 }
 
 Counts Server::counts() const {
@@ -222,6 +225,7 @@ void Server::hear(Viewer& viewer, bool is_text, std::string_view message) {
   for (const std::uint32_t id : request.unsubscribe) {
     if (!subscriber.unsubscribe(id)) refuse(fmt::format("there is no subscription {}", id));
   }
+  changed_ = Clock::now();
   subscribed_.notify_all();
 }
 

@@ -139,6 +139,23 @@ TEST(Live, OnlyTheOldestOfASlowViewerAreLostAndItIsTold) {
   EXPECT_GT(told, 0u);
 }
 
+TEST(Live, WhoSubscribesToChannelAfterChannelMissesTheBeginningOfNone) {
+  Server server(0, patient());
+  const std::uint32_t a = server.add_channel(channel("/a")), b = server.add_channel(channel("/b"));
+  const Viewer viewer(server.port());
+  viewer.greet();
+  viewer.subscribe(1, a);
+  std::thread later([&] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(60));
+    viewer.subscribe(2, b);
+  });
+  server.wait_for_viewer([] { return false; });
+  server.send(b, 1, "first");
+  server.send(b, 2, "second");
+  EXPECT_EQ(read_up_to(viewer, "second").size(), 2u);
+  later.join();
+}
+
 TEST(Live, RubbishIsAnsweredOrEndsOneConnectionAndTakesNothingFromOthers) {
   Server server(0, patient());
   const std::uint32_t a = server.add_channel(channel("/a"));

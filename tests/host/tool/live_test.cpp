@@ -60,11 +60,13 @@ class Live : public Program {
       const json text = json::parse(got.bytes);
       EXPECT_NE(text.at("op"), "status") << got.bytes;
       if (text.at("op") != "advertise") continue;
+      json all = json::array();
       for (const json& channel : text.at("channels")) {
         const auto id = channel.at("id").get<std::uint32_t>();
         topics[1000 + id] = channel.at("topic");
-        viewer.subscribe(1000 + id, id);
+        all.push_back({{"id", 1000 + id}, {"channelId", id}});
       }
+      viewer.say(json{{"op", "subscribe"}, {"subscriptions", all}}.dump());
     }
     viewer.put(Viewer::frame(8, "\x03\xe9"));
     return seen;
