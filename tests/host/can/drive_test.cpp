@@ -1,9 +1,7 @@
 #include <gtest/gtest.h>
 
-#include "common/protocol/canopen/emcy.hpp"
-#include "common/protocol/control_table.hpp"
 #include "host/can/device_node.hpp"
-#include "tests/host/can/can_bench.hpp"
+#include "tests/host/can/virtual_drive.hpp"
 
 // What a virtual CiA 402 drive makes of its objects, as a master sees it.
 
@@ -13,44 +11,11 @@ namespace {
 using canopen::Abort;
 using canopen::cia402::State;
 using test::CanBench;
+using test::kNode;
+using test::VirtualDrive;
 namespace cia402 = canopen::cia402;
 namespace plan = canopen::plan;
 namespace object = canopen::cia402::object;
-
-constexpr std::uint8_t kNode = 1;
-
-class VirtualDrive : public ::testing::Test {
- protected:
-  VirtualDrive() { bench.let_pass(2000); }
-
-  void target(std::int32_t count) { bench.write(kNode, object::kTargetPosition, count, 4); }
-  std::uint16_t status() {
-    return static_cast<std::uint16_t>(bench.value(kNode, object::kStatusword));
-  }
-  sim::ServoMeasurement& measured() { return bench.plant.measured[0]; }
-  /// Emergencies that come within `time_us`.
-  std::vector<canopen::Emergency> emergencies(std::uint64_t time_us) {
-    std::vector<canopen::Emergency> all;
-    canopen::Emergency emergency;
-    for (const CanFrame& frame : bench.listen(time_us)) {
-      if (canopen::decode_emcy(frame, emergency)) all.push_back(emergency);
-    }
-    return all;
-  }
-  /// Watched by 1016h, with the master's heartbeat for `beats` times 20 ms.
-  void watch_master(std::int16_t option, std::int16_t quick_stop, int beats) {
-    bench.write(kNode, object::kAbortConnection, option, 2);
-    bench.write(kNode, object::kQuickStopOption, quick_stop, 2);
-    bench.write(kNode, object::kConsumerHeartbeat, 0x7F0000 | 100, 4);
-    for (int i = 0; i < beats; ++i) {
-      bench.bus.send(
-          canopen::heartbeat_frame(plan::kControllerNode, canopen::NmtState::kOperational));
-      bench.let_pass(20'000);
-    }
-  }
-
-  CanBench bench{1};
-};
 
 TEST_F(VirtualDrive, IsACia402ServoDriveWithItsProductCode) {
   EXPECT_EQ(bench.value(kNode, plan::kDeviceType), 0x00020192);
@@ -178,184 +143,6 @@ TEST_F(VirtualDrive, AQuickStopEndsTorqueOrHoldsAsItsOptionSays) {
   }
   bench.control(kNode, cia402::kWordEnableOperation);
   EXPECT_EQ(bench.state(kNode), State::kOperationEnabled) << "option 6 lets it go on";
-}
-
-// What replaces the serial servos' Bus Watchdog.
-TEST_F(VirtualDrive, HoldsByItselfWhenItsMasterIsSilent) {
-  bench.enable(kNode);
-  target(9000);
-  watch_master(3, plan::kQuickStopAndHold, 20);
-  EXPECT_EQ(bench.state(kNode), State::kOperationEnabled);
-  bench.plant.blocked[0] = true;
-  measured().position_count = 8700;
-  bench.let_pass(110'000);
-  EXPECT_EQ(bench.state(kNode), State::kQuickStopActive);
-  EXPECT_EQ(bench.setpoint(0).goal_count, 8700);
-  EXPECT_TRUE(bench.setpoint(0).torque_on);
-  target(9100);
-  EXPECT_EQ(bench.setpoint(0).goal_count, 8700) << "deaf to targets until it is enabled again";
-  bench.control(kNode, cia402::kWordEnableOperation);
-  EXPECT_EQ(bench.setpoint(0).goal_count, 9100);
-}
-
-TEST_F(VirtualDrive, ASilentMasterIsAFaultIfTheOptionSaysSo) {
-  bench.enable(kNode);
-  watch_master(1, 2, 3);
-  std::vector<canopen::Emergency> told = emergencies(110'000);
-  ASSERT_EQ(told.size(), 1u);
-  EXPECT_EQ(told[0].code, 0x8130);
-  EXPECT_EQ(bench.state(kNode), State::kFault);
-  EXPECT_FALSE(bench.setpoint(0).torque_on);
-  EXPECT_EQ(bench.value(kNode, object::kErrorCode), 0x8130 - 0x10000) << "an i16 to this bench";
-  bench.control(kNode, cia402::kWordFaultReset);
-  EXPECT_EQ(bench.state(kNode), State::kSwitchOnDisabled);
-}
-
-TEST_F(VirtualDrive, FallsBackToPreOperationalWithoutItsMasterAsItsErrorBehaviourSays) {
-  const std::pair<int, std::uint8_t> rows[] = {{0, 0x7F}, {1, 0x05}, {2, 0x04}};
-  for (const auto& [behaviour, state] : rows) {
-    bench.nmt(canopen::NmtCommand::kResetNode, kNode);
-    EXPECT_EQ(bench.write(kNode, {0x1029, 1}, behaviour, 1), Abort::kNone);
-    bench.write(kNode, object::kProducerHeartbeat, 10, 2);
-    bench.nmt(canopen::NmtCommand::kStart, kNode);
-    watch_master(1, 2, 3);
-    bench.let_pass(110'000);
-    std::uint8_t told = 0;
-    for (const CanFrame& frame : bench.listen(20'000)) {
-      if (frame.id == canopen::heartbeat_id(kNode)) told = frame.data[0];
-    }
-    EXPECT_EQ(told, state) << behaviour;
-  }
-  bench.nmt(canopen::NmtCommand::kResetNode, kNode);
-  EXPECT_EQ(bench.value(kNode, {0x1029, 1}), 0) << "CiA 301: pre-operational";
-  EXPECT_EQ(bench.write(kNode, {0x1029, 1}, 3, 1), Abort::kValueRange);
-}
-
-// 603Fh is of what 1001h tells, as long as it tells it.
-TEST_F(VirtualDrive, ItsErrorCodeAgreesWithItsErrorRegister) {
-  const auto expect = [this](int error_register, int code) {
-    EXPECT_EQ(bench.value(kNode, object::kErrorRegister), error_register);
-    EXPECT_EQ(bench.value(kNode, object::kErrorCode) & 0xFFFF, code);
-  };
-  bench.enable(kNode);
-  watch_master(1, 2, 3);
-  bench.let_pass(110'000);
-  expect(0x11, 0x8130);
-  watch_master(1, 2, 1);
-  expect(0x11, 0x8130);
-  bench.nmt(canopen::NmtCommand::kResetCommunication, kNode);
-  EXPECT_EQ(bench.state(kNode), State::kFault);
-  expect(0x11, 0x8130);
-  bench.control(kNode, cia402::kWordFaultReset);
-  expect(0, 0);
-  measured().voltage_v = 9;
-  bench.let_pass(2000);
-  expect(0x05, 0x3220);
-}
-
-TEST_F(VirtualDrive, AMasterThatIsSilentBeforeThereIsTorqueIsToldAndIsNoFault) {
-  watch_master(1, 2, 3);
-  const std::vector<canopen::Emergency> told = emergencies(110'000);
-  ASSERT_EQ(told.size(), 1u);
-  EXPECT_EQ(told[0].code, 0x8130);
-  EXPECT_EQ(bench.state(kNode), State::kSwitchOnDisabled);
-  EXPECT_EQ(bench.value(kNode, object::kErrorCode) & 0xFFFF, 0x8130);
-  watch_master(1, 2, 1);
-  EXPECT_EQ(bench.value(kNode, object::kErrorCode), 0);
-}
-
-// Anything may be written there, from a wrong tool, too.
-TEST_F(VirtualDrive, ItsCounterGoesOnAtTheOtherEndOf32Bits) {
-  measured().position_count = 10;
-  bench.write(kNode, object::kHomeOffset, -0x7FFFFFFF, 4);
-  bench.let_pass(2000);
-  EXPECT_EQ(bench.value(kNode, object::kActualPosition), -0x7FFFFFFF - 1 + 9);
-}
-
-TEST_F(VirtualDrive, OverheatingIsAFaultUntilItIsCool) {
-  bench.enable(kNode);
-  measured().temperature_c = 81;
-  const std::vector<canopen::Emergency> told = emergencies(10'000);
-  ASSERT_EQ(told.size(), 1u);
-  EXPECT_EQ(told[0].code, 0x4310);
-  EXPECT_EQ(bench.state(kNode), State::kFault);
-  EXPECT_FALSE(bench.setpoint(0).torque_on);
-  bench.control(kNode, cia402::kWordFaultReset);
-  EXPECT_EQ(bench.state(kNode), State::kFault);
-  measured().temperature_c = 60;
-  bench.let_pass(2000);
-  const auto before =
-      plan::Telemetry::from(static_cast<std::uint32_t>(bench.value(kNode, plan::kTelemetry)));
-  EXPECT_EQ(before, (plan::Telemetry{120, 60, dxl::kOverheatingError}));
-  bench.control(kNode, 0);
-  bench.control(kNode, cia402::kWordFaultReset);
-  EXPECT_EQ(bench.state(kNode), State::kSwitchOnDisabled);
-  EXPECT_EQ(bench.value(kNode, object::kErrorCode), 0);
-}
-
-TEST_F(VirtualDrive, ALowSupplyIsToldAndKeepsTorque) {
-  bench.enable(kNode);
-  measured().voltage_v = 9.2;
-  const std::vector<canopen::Emergency> told = emergencies(10'000);
-  ASSERT_EQ(told.size(), 1u);
-  EXPECT_EQ(told[0].code, 0x3220);
-  EXPECT_NE(status() & cia402::kWarning, 0);
-  EXPECT_TRUE(bench.setpoint(0).torque_on);
-  const auto telemetry =
-      plan::Telemetry::from(static_cast<std::uint32_t>(bench.value(kNode, plan::kTelemetry)));
-  EXPECT_EQ(telemetry.voltage_tenth_v, 92);
-  EXPECT_EQ(telemetry.errors, dxl::kInputVoltageError);
-  EXPECT_EQ(bench.value(kNode, object::kDcLinkVoltage), 9200);
-}
-
-TEST_F(VirtualDrive, AFollowingErrorIsAFaultIfItIsWatched) {
-  bench.plant.blocked[0] = true;
-  bench.enable(kNode);
-  target(9000);
-  EXPECT_TRUE(emergencies(60'000).empty()) << "not watched by default";
-  bench.write(kNode, object::kFollowingTime, 20, 2);
-  bench.write(kNode, object::kFollowingWindow, 100, 4);
-  EXPECT_TRUE(emergencies(15'000).empty());
-  const std::vector<canopen::Emergency> told = emergencies(10'000);
-  ASSERT_EQ(told.size(), 1u);
-  EXPECT_EQ(told[0].code, 0x8611);
-  EXPECT_EQ(bench.state(kNode), State::kFault);
-  EXPECT_NE(status() & cia402::kFollowingError, 0);
-  bench.control(kNode, cia402::kWordFaultReset);
-  EXPECT_EQ(bench.state(kNode), State::kSwitchOnDisabled);
-  EXPECT_EQ(status() & cia402::kFollowingError, 0);
-}
-
-TEST_F(VirtualDrive, NmtResetTakesTorqueAndSettings) {
-  bench.enable(kNode);
-  bench.write(kNode, object::kMaxTorque, 500, 2);
-  bench.nmt(canopen::NmtCommand::kResetNode, kNode);
-  EXPECT_FALSE(bench.setpoint(0).torque_on);
-  EXPECT_EQ(bench.value(kNode, object::kMaxTorque), 1000);
-}
-
-TEST_F(VirtualDrive, AStoppedNodeDoesAsWithoutItsMaster) {
-  bench.write(kNode, object::kAbortConnection, 2, 2);
-  bench.enable(kNode);
-  bench.nmt(canopen::NmtCommand::kStop, kNode);
-  EXPECT_FALSE(bench.setpoint(0).torque_on);
-}
-
-TEST_F(VirtualDrive, AStopIsAFaultWithTorqueOnlyAndIsToldWhenItMaySpeakAgain) {
-  using canopen::NmtCommand;
-  bench.nmt(NmtCommand::kStop, kNode);
-  bench.nmt(NmtCommand::kStart, kNode);
-  EXPECT_EQ(bench.state(kNode), State::kSwitchOnDisabled);
-  bench.enable(kNode);
-  bench.nmt(NmtCommand::kStop, kNode);
-  EXPECT_FALSE(bench.setpoint(0).torque_on);
-  bench.bus.send(canopen::nmt_frame(NmtCommand::kEnterPreOperational, kNode));
-  const std::vector<canopen::Emergency> told = emergencies(5000);
-  ASSERT_EQ(told.size(), 1u);
-  EXPECT_EQ(told[0].code, 0x8100);
-  EXPECT_EQ(told[0].error_register, 0x11);
-  EXPECT_EQ(bench.state(kNode), State::kFault);
-  EXPECT_EQ(bench.value(kNode, object::kErrorCode) & 0xFFFF, 0x8100);
 }
 
 // What a master of CiA 402 waits for when it has started a drive: its statusword.
