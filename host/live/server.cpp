@@ -11,8 +11,10 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <chrono>
 #include <csignal>
 #include <cstring>
+#include <utility>
 
 namespace verp::live {
 namespace {
@@ -218,14 +220,14 @@ void Server::hear(Viewer& viewer, bool is_text, std::string_view message) {
       refuse(fmt::format("subscription {}: there is no channel {}", id, channel));
     } else if (!subscriber.subscribe(id, channel)) {
       refuse(fmt::format("subscription {}, channel {}: subscribed already", id, channel));
-    } else if (const auto& last = channels_[channel - 1].last) {
-      subscriber.offer(channel, *last);
+    } else {
+      changed_ = Clock::now();
+      if (const auto& last = channels_[channel - 1].last) subscriber.offer(channel, *last);
     }
   }
   for (const std::uint32_t id : request.unsubscribe) {
     if (!subscriber.unsubscribe(id)) refuse(fmt::format("there is no subscription {}", id));
   }
-  changed_ = Clock::now();
   subscribed_.notify_all();
 }
 

@@ -56,9 +56,9 @@ class Server {
   /// that took the processor meanwhile. `priority`: below the sender's. False: the system lets
   /// nobody.
   bool run_before_others(int priority);
-  /// Returns when a viewer has subscribed to something and none asks for more (many subscribe to
-  /// channel after channel, and what is sent meanwhile would be lost to them), or when `given_up`
-  /// says so.
+  /// Returns when a viewer has subscribed to something and for 0.3 s none to more (many subscribe
+  /// to channel after channel, and what is sent meanwhile would be lost to them), or when
+  /// `given_up`, which calls nothing of the server, says so.
   void wait_for_viewer(const std::function<bool()>& given_up);
   /// Sends what waits, as long as a viewer takes it, and says goodbye. Nothing is sent afterwards.
   void finish();
@@ -102,7 +102,7 @@ class Server {
 
   mutable std::mutex lock_;
   std::condition_variable subscribed_;
-  Connection::Clock::time_point changed_{};  ///< a channel was added, or a viewer asked
+  Connection::Clock::time_point changed_{};  ///< a channel was added, or subscribed to
   std::vector<KnownChannel> channels_;
   std::vector<std::unique_ptr<Viewer>> viewers_;
   std::uint64_t now_ns_ = 0;

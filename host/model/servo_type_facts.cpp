@@ -1,5 +1,9 @@
 #include "host/model/servo_type_facts.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <initializer_list>
 #include <numbers>
 
 #include "host/model/bounds.hpp"
@@ -9,8 +13,9 @@ namespace {
 
 constexpr double kRevMin = 60 / (2 * std::numbers::pi);
 // Wide enough for a servo of a watch and of a horse: what lies outside is a slip of the pen.
-constexpr double kLeast = 1e-9;
 constexpr double kMostTorque_n_m = 1e4;
+constexpr double kMostArmature_kg_m2 = 100;
+constexpr double kMostLoad = 0.99;  // part of it that friction takes: at 1 the gears would lock
 constexpr double kMostSpeed_rev_min = 1e5;
 
 /// Numbers of one element: missing ones are those of the type that it is like, if it is.
@@ -54,28 +59,47 @@ void read_motor(const XmlElement& e, ServoType& type) {
       e.number_within("stall_current_a", 1e-6, 1e4, " A, like 2.3", type.stall_current_a);
 }
 
+// A number of one's own is as it is, and what is left out stays as doubtful as it was.
+void read_bands(const XmlElement& e, ServoType& type) {
+  const auto given = [&](std::initializer_list<const char*> names) {
+    return std::any_of(names.begin(), names.end(), [&](const char* name) { return e.has(name); });
+  };
+  const bool own_armature = given({"armature_kg_m2"});
+  const bool own_friction = given(
+      {"f_base_n_m", "f_strib_n_m", "f_visc_n_m_s", "l_base", "l_strib", "w_s_rad_s", "alpha"});
+  const auto band = [&](const char* name, bool own, double& value) {
+    value =
+        e.number_within(name, 0, 0.99, ": 0.5 is half to one and a half times", own ? 0.0 : value);
+  };
+  band("armature_band", own_armature, type.armature_band);
+  band("friction_band", own_friction, type.friction_band);
+  if (!own_armature && !own_friction && !e.has("source")) return;
+  const std::string before = type.source;
+  type.source = e.text("source");
+  if (own_armature == own_friction || before.empty()) return;
+  type.source += own_armature ? "; friction " + before : "; rotor " + before;
+}
+
 void read_gearbox(const XmlElement& e, const Reader& read, ServoType& type) {
   Gearbox& g = type.gearbox;
   const auto friction = [&](const char* name, double& value, const char* unit) {
     value = read.number(name, 0, kMostTorque_n_m, unit, value);
   };
-  friction("armature_kg_m2", g.armature_kg_m2, " kg m2 at the joint, like 0.011");
+  g.armature_kg_m2 = read.number("armature_kg_m2", 0, kMostArmature_kg_m2,
+                                 " kg m2 at the joint, like 0.011", g.armature_kg_m2);
   friction("f_base_n_m", g.f_base_n_m, " N m, like 0.06");
   friction("f_strib_n_m", g.f_strib_n_m, " N m, like 0.02");
   friction("f_visc_n_m_s", g.f_visc_n_m_s, " N m s/rad, like 0.015");
-  // At 1 the gears would lock under any load.
-  g.l_base = read.number("l_base", 0, 0.99, ", a part of the load", g.l_base);
-  g.l_strib =
-      read.number("l_strib", 0, 0.99 - g.l_base, " with l_base, a part of the load", g.l_strib);
+  g.l_base = read.number("l_base", 0, kMostLoad, ", a part of the load", g.l_base);
+  g.l_strib = read.number("l_strib", 0, kMostLoad, ", a part of the load", g.l_strib);
+  if (g.l_base + g.l_strib > kMostLoad) {
+    e.fail(fmt::format("l_base and l_strib take {:.3g} of a load between them, and lock the gears",
+                       g.l_base + g.l_strib),
+           fmt::format("choose them so that their sum is at most {}", kMostLoad));
+  }
   g.w_s_rad_s = read.number("w_s_rad_s", 1e-3, 1e3, " rad/s, like 1.5", g.w_s_rad_s);
   g.alpha = read.number("alpha", 0.1, 20, ", like 1.3", g.alpha);
-  const bool own = e.has("armature_kg_m2") || e.has("f_base_n_m");
-  for (auto [name, band] : {std::pair{"armature_band", &type.armature_band},
-                            std::pair{"friction_band", &type.friction_band}}) {
-    *band =
-        e.number_within(name, 0, 0.99, ": 0.5 is half to one and a half times", own ? 0.0 : *band);
-  }
-  if (own || e.has("source")) type.source = e.text("source");
+  read_bands(e, type);
 }
 
 ServoType read_type(const XmlElement& e, const std::vector<ServoType>& known) {
@@ -108,6 +132,10 @@ ServoType read_type(const XmlElement& e, const std::vector<ServoType>& known) {
            "armature_band",
            "friction_band",
            "source"});
+  for (const XmlElement& child : e.children()) {
+    child.fail("unknown element <" + child.name() + "> in <verp:servo_type>",
+               "give numbers as its attributes");
+  }
   const std::string name = e.text("name");
   if (find_servo_type(known, name)) {
     e.fail("there is a servo type '" + name + "' already", "choose another name");

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "host/sim/coupling.hpp"
-#include "host/sim/scenery.hpp"
 #include "host/sim/start.hpp"
 
 namespace verp::sim {

@@ -7,7 +7,6 @@
 #include "host/model/principal.hpp"
 #include "host/model/self_collision.hpp"
 #include "host/sim/coupling.hpp"
-#include "host/sim/scenery.hpp"
 
 namespace verp::sim {
 namespace {

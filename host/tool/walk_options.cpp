@@ -83,8 +83,8 @@ void declare_gait(CLI::App& app, WalkOptions& options) {
   app.add_option("--step", options.step_m, "step length, m")
       ->check(number_between(0, kMaxStep_m, "m"))
       ->capture_default_str();
-  app.add_option("--velocity", options.velocity_text,
-                 "VX,VY,WZ in m/s and rad/s instead of --step");
+  app.add_option("--velocity", options.velocity_text, "VX,VY,WZ in m/s and rad/s instead of --step")
+      ->excludes("--step");
   app.add_flag("--stand", options.stand,
                "stand instead, for as long; pushed further than ankles answer to, it steps")
       ->excludes("--step")

@@ -1,6 +1,7 @@
 #pragma once
 #include <gtest/gtest.h>
 
+#include <cstdint>
 #include <vector>
 
 #include "common/protocol/canopen/emcy.hpp"

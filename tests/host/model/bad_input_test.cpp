@@ -1,45 +1,13 @@
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <string>
 
 #include "host/model/load.hpp"
-#include "tests/host/model/test_files.hpp"
+#include "tests/host/model/bad_input.hpp"
 
 /// A robot builder's mistakes: each is refused with the file, the line and what to do.
 namespace verp::model {
 namespace {
-
-int line_of(const std::string& text, const std::string& part) {
-  const auto at = text.find(part);
-  EXPECT_NE(at, std::string::npos) << part;
-  return 1 + static_cast<int>(std::count(text.begin(), text.begin() + static_cast<long>(at), '\n'));
-}
-
-/// generic21 with the first `old_part` replaced.
-std::string edited(const std::string& old_part, const std::string& new_part) {
-  std::string text = read_text(robot_file("generic21"));
-  const auto at = text.find(old_part);
-  EXPECT_NE(at, std::string::npos) << old_part;
-  if (at != std::string::npos) text.replace(at, old_part.size(), new_part);
-  return text;
-}
-
-/// Loading must fail at the line that holds `line_part`, naming `message_part`, in one line.
-void expect_refused(const std::string& text, const std::string& line_part,
-                    const std::string& message_part) {
-  const TemporaryFile file("robot.sdf", text);
-  try {
-    load_robot(file.path());
-    FAIL() << "was accepted; should mention " << message_part;
-  } catch (const LoadError& error) {
-    EXPECT_EQ(error.file, file.path());
-    EXPECT_EQ(error.line, line_of(text, line_part)) << error.what();
-    EXPECT_NE(std::string(error.what()).find(message_part), std::string::npos) << error.what();
-    EXPECT_FALSE(error.fix.empty());
-    EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos);
-  }
-}
 
 TEST(BadInput, MissingFileIsRefused) {
   try {
@@ -316,53 +284,6 @@ TEST(BadInput, MissingThirdPartyFileNamesTheVariable) {
     EXPECT_EQ(error.line, 2);
     EXPECT_NE(error.fix.find("VERP_MODEL_PATH"), std::string::npos) << error.what();
   }
-}
-
-// A servo that is not shipped is described in the robot's file, and a slip of the pen found there.
-TEST(BadInput, ServoTypesOfTheFileAreReadAndTheirSlipsNamed) {
-  const auto with = [](const std::string& type) {
-    return edited("<verp:bus name=\"dxl\"", type + "\n    <verp:bus name=\"dxl\"");
-  };
-  const auto mine = [&](const std::string& attributes) {
-    return with("<verp:servo_type name=\"mine\" " + attributes + "/>");
-  };
-  const std::string motor =
-      "protocol=\"dynamixel2\" model_number=\"4711\" kt_n_m_a=\"1.5\" resistance_ohm=\"4\" ";
-  const std::string gears =
-      "armature_kg_m2=\"0.01\" f_base_n_m=\"0.05\" f_strib_n_m=\"0.02\" l_base=\"0.01\" "
-      "l_strib=\"0.2\" "
-      "w_s_rad_s=\"1.5\" alpha=\"1.3\" f_visc_n_m_s=\"0.01\" ";
-  const std::string source = "source=\"my bench\"";
-  const std::string at = "<verp:servo_type";
-
-  std::string good = mine(motor + gears + source);
-  const std::string old_type = "type=\"xm430_w210\"";
-  for (auto from = good.find(old_type); from != std::string::npos; from = good.find(old_type)) {
-    good.replace(from, old_type.size(), "type=\"mine\"");
-  }
-  const TemporaryFile file("robot.sdf", good);
-  const Servo servo = load_robot(file.path()).joints.front().servo;
-  EXPECT_DOUBLE_EQ(servo.stall_torque_n_m, 1.5 * 12 / 4);
-  EXPECT_DOUBLE_EQ(servo.no_load_speed_rad_s, 12 / 1.5);
-  EXPECT_DOUBLE_EQ(servo.gearbox.armature_kg_m2, 0.01);
-  EXPECT_DOUBLE_EQ(servo.gearbox.l_strib, 0.2);
-  EXPECT_EQ(servo.source, "my bench");
-  EXPECT_EQ(servo.armature_band, 0);
-
-  expect_refused(mine(motor + gears), at, "source");
-  expect_refused(mine(gears + source), at, "protocol");
-  expect_refused(mine(motor + source), at, "armature_kg_m2");
-  expect_refused(mine(motor + gears + "stall_torque_n_m=\"3\" " + source), at, "motor twice");
-  expect_refused(mine("like=\"xm430\" armature_kg_m2=\"0.01\" " + source), at,
-                 "no servo type 'xm430'");
-  expect_refused(mine("like=\"mx64\" armature_kg_m2=\"-0.01\" " + source), at, "armature_kg_m2");
-  expect_refused(mine("like=\"mx64\" l_strib=\"1.2\""), at, "l_strib");
-  expect_refused(mine("like=\"mx64\" alpha=\"0\""), at, "alpha");
-  expect_refused(mine("like=\"mx64\" friction_band=\"1\""), at, "friction_band");
-  expect_refused(mine("like=\"mx64\" nominal_v=\"24\""), at, "nominal_v");
-  expect_refused(mine("like=\"mx64\" loop_us=\"0\""), at, "loop_us");
-  expect_refused(mine("like=\"mx64\" gear=\"200\""), at, "gear");
-  expect_refused(with("<verp:servo_type name=\"mx64\" like=\"mx106\"/>"), at, "already");
 }
 
 TEST(BadInput, CamerasThatCannotBeAreRefused) {
