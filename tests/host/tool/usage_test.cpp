@@ -177,6 +177,7 @@ TEST_F(Usage, ListsAreChecked) {
 TEST_F(Usage, WhoStandsDoesNotWalk) {
   expect_refused("walk --stand --velocity 0.1,0,0", "excludes");
   expect_refused("walk --stand --step 0.04", "excludes");
+  expect_refused("walk --step 0.04 --velocity 0.1,0,0", "excludes");
   expect_refused("walk --stand --sweep-step 0.02:0.04:0.02", "excludes");
 }
 
