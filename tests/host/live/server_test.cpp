@@ -146,7 +146,7 @@ TEST(Live, WhoSubscribesToChannelAfterChannelMissesTheBeginningOfNone) {
   viewer.greet();
   viewer.subscribe(1, a);
   std::thread later([&] {
-    std::this_thread::sleep_for(std::chrono::milliseconds(60));
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
     viewer.subscribe(2, b);
   });
   server.wait_for_viewer([] { return false; });
