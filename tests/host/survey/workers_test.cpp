@@ -22,6 +22,17 @@ TEST(Workers, DoEachPieceOnceAndSayHowFarTheyAre) {
   EXPECT_FALSE(workers.stopped());
 }
 
+// Whoever waits is often woken after the last piece is done, and not once before.
+TEST(Workers, SayInTheEndThatAllIsDoneHoweverFastItWas) {
+  for (int survey = 0; survey < 500; ++survey) {
+    double share = -1;
+    const Watch watch{.interrupted = {}, .went_on = [&](double now) { share = now; }, .threads = 1};
+    Workers workers(watch, 1);
+    workers.run(1, [&](std::size_t) { workers.step_done(); });
+    ASSERT_EQ(share, 1) << survey;
+  }
+}
+
 TEST(Workers, OneThatThrowsEndsTheOthersAndIsHeardOf) {
   const Watch watch{.interrupted = {}, .went_on = {}, .threads = 3};
   Workers workers(watch, 3);
