@@ -41,7 +41,7 @@ double read_latency_s(const XmlElement& e) {
 }
 
 ImuFact read_imu(const XmlElement& e) {
-  e.allow({"sensor", "link", "id", "type", "latency_s"});
+  e.allow({"sensor", "link", "id", "type", "latency_s"}, {"pose"});
   const std::string type_name = e.text("type");
   const ImuType* type = find_imu_type(type_name);
   if (!type) e.fail("no IMU type '" + type_name + "'", "choose one of: " + names_of(imu_types()));
@@ -64,7 +64,8 @@ ImuFact read_imu(const XmlElement& e) {
 
 TruthFact read_truth(const XmlElement& e) {
   e.allow({"name", "link", "rate_hz", "latency_s", "position_noise_m", "angle_noise_rad",
-           "velocity_noise_m_s", "rate_noise_rad_s"});
+           "velocity_noise_m_s", "rate_noise_rad_s"},
+          {"pose"});
   TruthFact fact{e, e.text("link"), {}};
   TruthSensor& truth = fact.truth;
   truth.name = e.text("name");
@@ -137,7 +138,7 @@ class FactReader {
 
   void body(const XmlElement& e) {
     once(e, f_.body);
-    e.allow({"link"});
+    e.allow({"link"}, {"pose"});
     f_.body.emplace(BodyFact{e, e.text("link"), read_pose(e)});
   }
   void limb(const XmlElement& e) {
@@ -169,14 +170,10 @@ class FactReader {
                   e.number_within("newton_per_count", 1e-6, 10, " N, like 0.01")}});
   }
   void pose(const XmlElement& e) {
-    e.allow({"name"});
+    e.allow({"name"}, {"verp:joint"});
     const std::string name = e.text("name");
     if (name != "stand" && name != "sit") e.fail("no pose '" + name + "'", "write stand or sit");
     for (const XmlElement& joint : e.children()) {
-      if (joint.name() != "verp:joint") {
-        joint.fail("unknown element <" + joint.name() + "> in <verp:pose>",
-                   "it holds <verp:joint> only");
-      }
       joint.allow({"name", "rad"});
       f_.poses.push_back({joint, name, joint.text("name"), joint.number("rad")});
     }

@@ -154,7 +154,7 @@ class WorldLoader {
     for (const XmlElement& each : xml_.world().children("model")) {
       if (each.text("name", "") != model.Name()) continue;
       for (const XmlElement& motion : each.children("verp:motion")) {
-        motion.allow({"loop"});
+        motion.allow({"loop"}, {"verp:waypoint"});
         object.kind = WorldObject::Kind::kMoving;
         object.loops = motion.text("loop", "false") == "true";
         for (const XmlElement& point : motion.children("verp:waypoint"))

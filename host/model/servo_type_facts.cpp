@@ -132,10 +132,6 @@ ServoType read_type(const XmlElement& e, const std::vector<ServoType>& known) {
            "armature_band",
            "friction_band",
            "source"});
-  for (const XmlElement& child : e.children()) {
-    child.fail("unknown element <" + child.name() + "> in <verp:servo_type>",
-               "give numbers as its attributes");
-  }
   const std::string name = e.text("name");
   if (find_servo_type(known, name)) {
     e.fail("there is a servo type '" + name + "' already", "choose another name");

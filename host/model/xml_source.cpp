@@ -109,15 +109,29 @@ void XmlElement::fail(const std::string& message, const std::string& fix) const 
   throw LoadError(file(), line(), message, fix);
 }
 
-void XmlElement::allow(std::initializer_list<const char*> attributes) const {
+void XmlElement::allow(std::initializer_list<const char*> attributes,
+                       std::initializer_list<const char*> elements) const {
+  const auto among = [](std::initializer_list<const char*> names, const char* name) {
+    const auto same = [&](const char* each) { return std::strcmp(each, name) == 0; };
+    return std::any_of(names.begin(), names.end(), same);
+  };
   for (const auto* a = element_->FirstAttribute(); a; a = a->Next()) {
-    const bool known = std::any_of(attributes.begin(), attributes.end(), [&](const char* name) {
-      return std::strcmp(name, a->Name()) == 0;
-    });
-    if (known) continue;
+    if (among(attributes, a->Name())) continue;
     std::string list;
     for (const char* name : attributes) list += std::string(list.empty() ? "" : ", ") + name;
     fail("<" + name() + "> has no attribute '" + a->Name() + "'", "it may have: " + list);
+  }
+  for (const XmlElement& child : children()) {
+    if (among(elements, child.name().c_str())) continue;
+    std::string list;
+    for (const char* name : elements) list += std::string(list.empty() ? "<" : ", <") + name + ">";
+    child.fail("unknown element <" + child.name() + "> in <" + name() + ">",
+               list.empty() ? "it holds attributes only" : "it holds " + list + " only");
+  }
+  for (const auto* inside = element_->FirstChild(); inside; inside = inside->NextSibling()) {
+    if (inside->ToText() == nullptr) continue;
+    fail("<" + name() + "> has the text '" + inside->Value() + "' inside, which nobody reads",
+         "leave it out");
   }
 }
 

@@ -30,8 +30,9 @@ class XmlElement {
   /// Throws LoadError at this element.
   [[noreturn]] void fail(const std::string& message, const std::string& fix) const;
 
-  /// Throws LoadError when an attribute is not among these.
-  void allow(std::initializer_list<const char*> attributes) const;
+  /// Throws LoadError when an attribute or an element inside is not among these, or text is inside.
+  void allow(std::initializer_list<const char*> attributes,
+             std::initializer_list<const char*> elements = {}) const;
   bool has(const char* attribute) const { return element_->Attribute(attribute) != nullptr; }
   /// Each throws LoadError when the attribute is missing (and no fallback is given) or malformed.
   std::string text(const char* attribute) const;

@@ -32,6 +32,7 @@ std::vector<double> any_angles(const model::Entity& entity, Random& random) {
     angle_rad.clear();
     for (const model::Joint& joint : entity.joints)
       angle_rad.push_back(uniform(random, joint.lower_rad, joint.upper_rad));
+    lead(entity, angle_rad);
     const auto meet = model::overlaps(entity, angle_rad);
     const bool free = std::all_of(meet.begin(), meet.end(), [&](const model::Overlap& each) {
       return std::any_of(entity.no_collide.begin(), entity.no_collide.end(),
@@ -75,7 +76,11 @@ Start make_start(const model::Entity& entity, const TwinOptions& options) {
   if (start.joint_rad.empty()) {
     for (const model::Joint& joint : entity.joints) start.joint_rad.push_back(joint.stand_rad);
   }
-  start.joint_rad.resize(entity.joints.size(), 0.0);
+  if (start.joint_rad.size() != entity.joints.size()) {
+    throw std::invalid_argument("a start in " + std::to_string(start.joint_rad.size()) +
+                                " joint angles: " + entity.name + " has " +
+                                std::to_string(entity.joints.size()) + " joints");
+  }
   Random lying(options.seed, Draw::kLyingPose);
   if (options.lies == Lies::kAny) start.joint_rad = any_angles(entity, lying);
   lead(entity, start.joint_rad);

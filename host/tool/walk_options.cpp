@@ -272,7 +272,11 @@ std::pair<std::uint64_t, std::uint64_t> seeds_of(const WalkOptions& options) {
                                            options.seeds_text));
   }
   const double first = number(command, "--seeds A", parts[0], 0, kMost, "");
-  const double last = number(command, "--seeds B", parts[1], first, kMost, "");
+  const double last = number(command, "--seeds B", parts[1], 0, kMost, "");
+  if (last < first) {
+    throw ToolError(kBadInput, fmt::format("{}: --seeds '{}' goes down; the smaller one is first",
+                                           command, options.seeds_text));
+  }
   if (first != std::floor(first) || last != std::floor(last)) {
     throw ToolError(kBadInput, fmt::format("{}: --seeds '{}': seeds are whole numbers", command,
                                            options.seeds_text));

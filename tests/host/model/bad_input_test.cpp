@@ -221,6 +221,16 @@ TEST(BadInput, UnknownElementsAreRefused) {
                  "weight");
 }
 
+TEST(BadInput, WhatNobodyReadsInsideOfAnElementIsRefused) {
+  const std::string tuning = "<verp:tuning name=\"gait.lift_m\" value=\"0.01\">";
+  const auto with = [&](const std::string& inside) {
+    return edited("<verp:feet ", tuning + inside + "</verp:tuning><verp:feet ");
+  };
+  expect_refused(with("<why/>"), "<why/>", "unknown element <why> in <verp:tuning>");
+  expect_refused(with("0.02"), tuning, "has the text '0.02' inside");
+  expect_refused(with("<!-- measured --> 0.02"), tuning, "has the text");
+}
+
 TEST(BadInput, VerpElementInTheWrongPlaceIsRefused) {
   expect_refused(
       edited("<parent>trunk</parent>", "<parent>trunk</parent><verp:servo joint=\"x\"/>"),

@@ -167,6 +167,7 @@ TEST_F(Usage, ListsAreChecked) {
   expect_refused("walk --velocity 0.1", "VX,VY,WZ");
   expect_refused("walk --velocity 0.1,nan,0", "VY");
   expect_refused("walk --velocity 0.1,0,99", "rad/s");
+  expect_refused("walk --seeds 5-1", "goes down");
   expect_refused("walk --sweep-step 0.02:0.06", "FROM:TO:BY");
   expect_refused("walk --sweep-step 0.06:0.02:0.01", "TO");
   expect_refused("walk --sweep-step 0.02:0.06:0", "BY");
