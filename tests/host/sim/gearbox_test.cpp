@@ -99,6 +99,25 @@ TEST(Gearbox, FrictionStopsAJointAndLeavesItThere) {
   }
 }
 
+// What other joints do throws a leg back within one step. Friction that then stopped it at once took
+// 9 N m of its neighbours, which threw it on again: hip and knee stood still for 60 ms at nine
+// tenths of their torque, a foot did not lift, and a robot fell.
+TEST(Gearbox, OfAJointThatIsThrownBackFrictionTakesNoMoreThanItsBudget) {
+  constexpr double kFriction_n_m = 0.1, kArmature = 0.01, kLinks = 0.02;
+  for (const double step_s : {0.001, 0.002}) {
+    for (const double thrown_rad_s : {-1.1, -0.3, 1.1}) {
+      Bench bench(joint_with({.armature_kg_m2 = kArmature, .f_base_n_m = kFriction_n_m}), kLinks,
+                  step_s);
+      for (int step = 0; step < 20; ++step) bench.step(thrown_rad_s < 0 ? 1.1 : -1.1);
+      bench.rate_rad_s = thrown_rad_s;
+      bench.step(0);
+      const double taken = kFriction_n_m * step_s / (kArmature + kLinks);
+      EXPECT_NEAR(std::abs(bench.rate_rad_s), std::abs(thrown_rad_s) - taken, 0.2 * taken)
+          << thrown_rad_s << " in steps of " << step_s;
+    }
+  }
+}
+
 // load = |external - motor|: held up to where the motor beats load and friction, and down to where
 // both let go. (1 - l) m = (1 + l) e and the other way round.
 TEST(Gearbox, LoadMakesFrictionThatHelpsToHold) {
