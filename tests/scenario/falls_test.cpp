@@ -42,13 +42,30 @@ TEST(GettingUp, RandomOnesDoItToo) {
   }
 }
 
-// The strong arms of this one push it up, without a roll; from its back it goes over its feet onto
-// its front first.
-TEST(GettingUp, Op3DoesItFromBackAndFront) {
-  for (const std::string side : {"back", "front"}) {
+// The strong arms of this one push it up, without a roll; its sides tip it onto the back.
+TEST(GettingUp, Op3DoesItFromEverySide) {
+  for (const std::string side : {"back", "front", "left", "right"}) {
     const Walk lying = walk("op3 --for 3 --physics-step 2 --start lying:" + side);
     expect_walked(lying);
     EXPECT_GE(count(lying, "get_ups"), 1) << side;
+  }
+}
+
+// Its arms are too short to carry it over feet that are drawn in: from its front and back it squats
+// between hands and soles, and its sides tip it onto the back.
+TEST(GettingUp, DarwinOpDoesItFromEverySideAtTheFirstTry) {
+  for (const std::string side : {"back", "front", "left", "right"}) {
+    const Walk lying = walk("darwin_op --for 3 --physics-step 2 --start lying:" + side);
+    expect_walked(lying);
+    EXPECT_EQ(count(lying, "get_ups"), 1) << side;
+  }
+}
+
+TEST(GettingUp, RandomDarwinOpsDoItToo) {
+  for (const std::string side : {"back", "front", "left", "right"}) {
+    const Walk seeds =
+        walk("darwin_op --vary --for 3 --physics-step 2 --seeds 1-4 --start lying:" + side);
+    EXPECT_GE(number(seeds, "survived"), 3) << side;
   }
 }
 
