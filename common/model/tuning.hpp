@@ -8,7 +8,8 @@
 namespace verp {
 
 /// Gait, in the terms of the paper: a cycle is two steps, 16 states joined by 15 intervals.
-/// Numbers: generic21 with its servos' gears, tuning seeds 1001-1024, checked on 1031-1040.
+/// Numbers: generic21 with its servos' gears, tuning seeds 1001-1024, checked on 1031-1040; a
+/// robot's own, generic21's since then too, are in its file.
 struct GaitTuning {
   float cycle_s = 0.450f;         ///< two steps; the state interval is cycle_s / 15 (0.030 s)
   float double_support = 0.006f;  ///< share of a step during which both feet carry

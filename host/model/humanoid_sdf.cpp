@@ -311,6 +311,7 @@ class HumanoidWriter {
     line(R"(    <verp:tuning name="gait.hip_height_m" value="{:.6g}"/>)", height);
     line(R"(    <verp:tuning name="gait.half_stance_m" value="{:.6g}"/>)",
          number("hip_half_distance_m") - number("stance_inside_hip_m"));
+    out_ += tuning_lines(t_);
   }
 
   void pose(std::string_view name, double knee) {

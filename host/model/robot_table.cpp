@@ -1,5 +1,7 @@
 #include "host/model/robot_table.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <fstream>
 
@@ -97,6 +99,16 @@ std::vector<std::string> RobotTable::keys(const std::string& beginning) const {
 void RobotTable::fail(const std::string& key, const std::string& message,
                       const std::string& fix) const {
   throw LoadError(path_, entries_.at(key).line, message, fix);
+}
+
+std::string tuning_lines(RobotTable& table) {
+  const std::string beginning = "tuning.";
+  std::string out;
+  for (const std::string& key : table.keys(beginning)) {
+    out += fmt::format("    <verp:tuning name=\"{}\" value=\"{:.9g}\"/>\n",
+                       key.substr(beginning.size()), table.number(key));
+  }
+  return out;
 }
 
 std::string generate_sdf(RobotTable& table) {

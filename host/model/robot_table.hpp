@@ -40,6 +40,9 @@ class RobotTable {
   std::set<std::string> read_;
 };
 
+/// `tuning.NAME = VALUE` of a table as a robot's <verp:tuning>.
+std::string tuning_lines(RobotTable& table);
+
 /// The SDF text of a 21-DOF humanoid of these proportions. Throws LoadError.
 std::string generate_humanoid_sdf(RobotTable& table);
 /// The SDF text of a robot whose table lists links and joints one by one (README.md). Throws

@@ -179,9 +179,7 @@ class TreeWriter {
            ids[0], ids[1]);
     }
     for (const std::string pose : {"stand", "sit"}) poses(pose);
-    for (const std::string& key : t_.keys("tuning.")) {
-      line("    <verp:tuning name=\"{}\" value=\"{:.9g}\"/>", key.substr(7), t_.number(key));
-    }
+    out_ += tuning_lines(t_);
   }
 
   void poses(const std::string& name) {
