@@ -99,8 +99,8 @@ TEST(Gearbox, FrictionStopsAJointAndLeavesItThere) {
   }
 }
 
-// What other joints do throws a leg back within one step. Friction that then stopped it at once took
-// 9 N m of its neighbours, which threw it on again: hip and knee stood still for 60 ms at nine
+// What other joints do throws a leg back within one step. Friction that then stopped it at once
+// took 9 N m of its neighbours, which threw it on again: hip and knee stood still for 60 ms at nine
 // tenths of their torque, a foot did not lift, and a robot fell.
 TEST(Gearbox, OfAJointThatIsThrownBackFrictionTakesNoMoreThanItsBudget) {
   constexpr double kFriction_n_m = 0.1, kArmature = 0.01, kLinks = 0.02;
