@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <utility>
 
@@ -12,7 +13,7 @@ namespace verp::sim {
 namespace {
 
 constexpr double kRadPerDegree = std::numbers::pi / 180;
-/// Fallen: body lower than this part of its initial height, or tilted by more than this.
+/// Fallen: body lower above its feet than this part of what it was, or tilted by more than this.
 constexpr double kFallenHeight = 0.6;
 constexpr double kFallenTilt = 1.0;
 // Where nobody asks for them the oldest go.
@@ -246,8 +247,14 @@ int TwinRobot::foot_of(int node) const {
 bool TwinRobot::is_down() const {
   const Transform body = body_.link_pose(0);
   const double tilt = std::acos(std::clamp(body.linear()(2, 2), -1.0, 1.0));
-  return tilt > kFallenTilt ||
-         body.translation().z() - options_.start_m.z() < kFallenHeight * initial_height_m_;
+  // Downhill, or down from what it stood on, is no fall.
+  double floor_m = std::numeric_limits<double>::infinity();
+  for (const int foot : {0, 1}) {
+    const FootTruth truth = foot_truth(foot);
+    if (truth.present) floor_m = std::min(floor_m, truth.sole_world.translation().z());
+  }
+  if (!std::isfinite(floor_m)) floor_m = options_.start_m.z();
+  return tilt > kFallenTilt || body.translation().z() - floor_m < kFallenHeight * initial_height_m_;
 }
 
 bool TwinRobot::forget_fall() {

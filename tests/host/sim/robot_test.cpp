@@ -164,6 +164,21 @@ TEST(Robot, FallsWhenNobodyHoldsItAndTorqueIsOff) {
   EXPECT_TRUE(robot.fallen());
 }
 
+// Height counts above its feet, not above where it began.
+TEST(Robot, DownFromWhatItStoodOnIsNoFallUntilItLies) {
+  World world;
+  const model::Entity entity = test::biped();
+  TwinOptions options = crouched(entity);
+  options.cradle = Cradle::kNone;
+  options.start_m.z() = 1;
+  TwinRobot robot(world, entity, options);
+  robot.advance_to(300'000);
+  EXPECT_LT(robot.truth().body_world.translation().z(), 1) << "its feet stood there";
+  EXPECT_FALSE(robot.fallen());
+  robot.advance_to(3'000'000);
+  EXPECT_TRUE(robot.fallen());
+}
+
 TEST(Robot, CradleHoldsUntilTheLegsAreArmed) {
   World world;
   const model::Entity entity = test::biped();

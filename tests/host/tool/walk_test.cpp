@@ -91,7 +91,7 @@ TEST_F(Walk, SameSeedSameBitsOtherSeedOtherBits) {
 // A solver that gives up is an end like others: its line is ours, and the trace is whole.
 TEST_F(Walk, WhatPhysicsCannotFollowKeepsItsTrace) {
   const Outcome torn =
-      verp("walk --for 6 --json --record a.mcap --at '1: trunk.torque_n_m.x=100000'");
+      verp("walk --for 6 --json --record a.mcap --at '1: l_foot.torque_n_m.x=100000'");
   EXPECT_EQ(torn.status, 1);
   EXPECT_NE(torn.err.find("physics diverged"), std::string::npos) << torn.err;
   EXPECT_EQ(std::count(torn.err.begin(), torn.err.end(), '\n'), 1) << torn.err;

@@ -11,6 +11,7 @@
 #include <filesystem>
 
 #include "common/safety/machine.hpp"
+#include "host/model/find.hpp"
 #include "host/record/replay.hpp"
 #include "host/record/trace.hpp"
 #include "host/view/plot_panel.hpp"
@@ -167,7 +168,10 @@ TEST_F(Window, ARobotThatMayGetUpByItselfNeedsNoWord) {
 }
 
 TEST_F(Window, ARobotWithoutActionsToGetUpByIsOfferedNone) {
-  window_.open("darwin_op");  // has one from the back only
+  // No folder of actions is beside this one.
+  const QString file = folder_.filePath("robot.sdf");
+  std::filesystem::copy(model::find_model("darwin_op"), file.toStdString());
+  window_.open(file);
   ASSERT_NE(window_.player(), nullptr);
   live().set_speed(0);
   ASSERT_TRUE(wait_for([&] { return live().status().ticks >= 20; }));
