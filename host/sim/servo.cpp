@@ -217,14 +217,11 @@ void ServoModel::meet(double angle_rad, double rate_rad_s) {
 
 // Stuck: held where it stands, until that took more than the budget. Sliding: the budget against
 // the motion, until that ends; where it may end within this step, a line through standstill, which
-// cannot turn the motion round. A joint that others threw back faster than the budget could have
-// stopped its rotor alone did not stand between: it slides the other way.
+// cannot turn the motion round. A joint that others threw back within a step did not stand
+// between: it slides the other way.
 Drive ServoModel::friction_line(double angle_rad, double rate_rad_s, double rest_n_m,
                                 double budget_n_m, double step_s) {
-  const double stops_n_m_s = budget_n_m * step_s;
-  if (-rate_rad_s * sliding_ * joint_.servo.gearbox.armature_kg_m2 > stops_n_m_s) {
-    sliding_ = -sliding_;
-  }
+  if (rate_rad_s * sliding_ < -constants_.still_rad_s) sliding_ = -sliding_;
   const bool wins = rest_n_m * sliding_ >= budget_n_m;
   const double along = rate_rad_s * sliding_;
   if (sliding_ != 0 && along <= (wins ? 0.0 : constants_.still_rad_s)) {
