@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 #include <set>
+#include <sstream>
 #include <string_view>
 
 #include "host/files/whole.hpp"
@@ -130,7 +131,9 @@ void XmlElement::allow(std::initializer_list<const char*> attributes,
   }
   for (const auto* inside = element_->FirstChild(); inside; inside = inside->NextSibling()) {
     if (inside->ToText() == nullptr) continue;
-    fail("<" + name() + "> has the text '" + inside->Value() + "' inside, which nobody reads",
+    std::string word;  // of what may be many lines
+    std::istringstream(inside->Value()) >> word;
+    fail("<" + name() + "> has text inside, '" + word.substr(0, 40) + "', which nobody reads",
          "leave it out");
   }
 }

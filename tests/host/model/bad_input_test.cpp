@@ -227,8 +227,8 @@ TEST(BadInput, WhatNobodyReadsInsideOfAnElementIsRefused) {
     return edited("<verp:feet ", tuning + inside + "</verp:tuning><verp:feet ");
   };
   expect_refused(with("<why/>"), "<why/>", "unknown element <why> in <verp:tuning>");
-  expect_refused(with("0.02"), tuning, "has the text '0.02' inside");
-  expect_refused(with("<!-- measured --> 0.02"), tuning, "has the text");
+  expect_refused(with("0.02"), tuning, "has text inside, '0.02'");
+  expect_refused(with("<!-- measured -->\n 0.02\n or less\n"), tuning, "has text inside, '0.02'");
 }
 
 TEST(BadInput, VerpElementInTheWrongPlaceIsRefused) {

@@ -40,7 +40,8 @@ std::string refusal(const std::string& text) {
 
 TEST(Worlds, TheShippedOnesLoadByName) {
   const std::vector<std::string> names = world_names();
-  for (const char* name : {"flat", "demo", "stairs", "rubble", "pitch"}) {
+  for (const char* name :
+       {"flat", "demo", "stairs", "rubble", "pitch", "hill", "bank", "ledge", "rough"}) {
     ASSERT_NE(std::find(names.begin(), names.end(), name), names.end()) << name;
     EXPECT_TRUE(is_world(name));
     const World world = load_world(find_world(name));
