@@ -4,10 +4,10 @@ namespace verp::balance {
 namespace {
 
 constexpr float kLeastLevel2 = 0.01F;  // x axis all but vertical: no heading to speak of
-constexpr float kWindow_s = 4.0F;      // the mean forgets what is older
+constexpr float kWindow_s = 5.0F;      // the mean forgets what is older
 // For so long a body just risen still settles, joint by joint, into what the balance asks: 0.3
 // degrees, which over the mean would pass for a bias of 0.15 degrees a second.
-constexpr float kSettle_s = 0.35F;
+constexpr float kSettle_s = 1.2F;
 // About each axis: above the bias of a MEMS gyro (data sheet of the ICM-20648: 5 deg/s), below any
 // real motion.
 constexpr float kStillRate_rad_s = 0.12F;

@@ -199,6 +199,18 @@ void step_aside(const Params& params, State& state, gait::GaitOut& plan) {
   balance::step_aside(params, state.tuning, stepping_in(params, state), state.stepping, plan);
 }
 
+void lean(const Params& params, State& state, const AdmitOut& admitted,
+          const balance::AttitudeOut& attitude, gait::GaitOut& plan) {
+  const Mode mode = state.machine.mode;
+  const bool off = !(state.tuning.balance.feedback_enable > 0.5F);
+  if (off || lies(mode) || !safety::has_torque(mode)) state.lean = balance::LeanState{};
+  // Who stands still learns the gyro's bias, and must not turn meanwhile.
+  if (!off && mode == Mode::kWalking && admitted.imu_fresh) {
+    balance::learn_lean(attitude, period_s(params), state.lean);
+  }
+  balance::lean(state.lean, plan.posture);
+}
+
 safety::LimitOut limit_goals(const Params& params, State& state, const Inputs& inputs,
                              const Wanted& wanted) {
   safety::MachineState& machine = state.machine;

@@ -5,6 +5,7 @@
 #include "common/balance/feedback.hpp"
 #include "common/balance/gravity.hpp"
 #include "common/balance/landing.hpp"
+#include "common/balance/lean.hpp"
 #include "common/balance/stepping.hpp"
 #include "common/balance/zeros.hpp"
 #include "common/base/fields.hpp"
@@ -38,6 +39,7 @@ struct State {
   SteerState steer;
   gait::GaitState gait;
   balance::SteppingState stepping;
+  balance::LeanState lean;
   balance::FeedbackOut feedback;
   balance::ZeroState zeros;
   balance::LandingState landing;
@@ -45,8 +47,8 @@ struct State {
   safety::LimitState limit;
   safety::MachineState machine;
   action::PlayerState action;
-  VERP_FIELDS(digest, tuning, admit, attitude, estimator, steer, gait, stepping, feedback, zeros,
-              landing, drive, limit, machine, action)
+  VERP_FIELDS(digest, tuning, admit, attitude, estimator, steer, gait, stepping, lean, feedback,
+              zeros, landing, drive, limit, machine, action)
 };
 VERP_PACKED(State);
 static_assert(sizeof(State) <= 3072, "hashed State is at most 3 KB");

@@ -20,6 +20,7 @@ void step(const Params& params, const action::Library& actions, State& state, co
   watch_push(params, state, admitted);
   gait::GaitOut plan = plan_motion(params, state, admitted, attitude);
   step_aside(params, state, plan);
+  lean(params, state, admitted, attitude, plan);
   state.feedback = balance::feedback(state.tuning.balance, attitude,
                                      state.tuning.gait.trunk_pitch_rad, plan.swing);
   Wanted wanted = solve_joints(params, state, inputs, admitted, attitude, plan);

@@ -29,9 +29,10 @@ struct FootstepState {
   Stride stride;    ///< of the last step made
   Foothold body;    ///< midpoint and heading the steps are laid around, after the last step made
   float scale = 1;  ///< 0.1 to 1: how far strides are shortened to keep the ZMP in the sole
-  std::uint16_t calm = 0;  ///< key points on end at which strides, being shortened, could be longer
+  std::uint8_t calm = 0;  ///< key points on end at which strides, being shortened, could be longer
+  std::uint8_t made = 0;  ///< steps, modulo 8
   std::uint16_t notes = 0;  ///< PlanNote
-  VERP_FIELDS(stride, body, scale, calm, notes)
+  VERP_FIELDS(stride, body, scale, calm, made, notes)
 };
 VERP_PACKED(FootstepState);
 

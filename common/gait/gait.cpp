@@ -7,6 +7,12 @@
 namespace verp::gait {
 namespace {
 
+// A foot that has landed takes the weight over in no less than this, however short double support
+// is. With goals that jump from one leg to the other between two control periods, how early they do
+// depends on where in a period the step ends, and differs from foot to foot. Tuning seeds
+// 1001-1010, 4 cm in 450 ms: heading off by 1.3 degrees rms without, 0.8 with it.
+constexpr float kTaken_s = 0.008F;
+
 // A moment within the steps known: look back one step at most, and no further than the key points
 // behind are kept.
 struct Moment {
@@ -274,19 +280,25 @@ void walk(const Params& params, const Tuning& tuning, const GaitIn& in, GaitStat
   plan_ahead(params, tuning, in, state);
 }
 
-// Share of the weight on each foot, from where the ZMP lies between the soles.
-void share_weight(const Params& params, const Step& step, float time_s, GaitOut& out) {
-  out.zmp_m = zmp_at(step, time_s);
-  if (step.swing != kBoth && time_s >= step.double_support_s) {
-    out.carry[step.swing] = 0.0F;
-    out.carry[1 - step.swing] = 1.0F;
-    return;
-  }
+// Share of the weight on the left foot, from where the ZMP lies between the soles.
+float left_share(const Params& params, const Step& step, Xy zmp_m) {
   const Xy right_m = sole_center(params, kRight, step.foot[kRight]);
   const Xy across_m = sole_center(params, kLeft, step.foot[kLeft]) - right_m;
   const float span_m2 = math::max(dot(across_m, across_m), 1e-6F);
-  out.carry[kLeft] = math::clamp(dot(out.zmp_m - right_m, across_m) / span_m2, 0.0F, 1.0F);
-  out.carry[kRight] = 1.0F - out.carry[kLeft];
+  return math::clamp(dot(zmp_m - right_m, across_m) / span_m2, 0.0F, 1.0F);
+}
+
+void share_weight(const Params& params, const Step& step, float time_s, GaitOut& out) {
+  out.zmp_m = zmp_at(step, time_s);
+  const float left = left_share(params, step, out.zmp_m);
+  out.carry[kLeft] = left;
+  out.carry[kRight] = 1.0F - left;
+  if (step.swing == kBoth) return;
+  const int carrying = step.carrying();
+  float& share = out.carry[carrying];
+  if (time_s >= step.double_support_s) share = 1.0F;
+  if (step.landed == carrying) share = math::min(share, time_s / kTaken_s);
+  out.carry[step.swing] = 1.0F - share;
 }
 
 GaitOut at_rest(const Params& params, const Tuning& tuning, const Step& feet,

@@ -30,7 +30,8 @@ struct GaitTuning {
   float joint_delay_s = 0.0f;
   float look_ahead_s = 0.0213f;     ///< goals are computed for this much later: bus and servo delay
   float support_margin_m = 0.004f;  ///< planned ZMP keeps this distance from the sole's edge
-  float heading_gain = 0.12f;       ///< share of the heading error that one step turns back
+  float heading_gain = 0.12f;       ///< share of the heading error that one step turns back; 0: all
+                                    ///< steps last equally long, too (footsteps.cpp)
   float haste_lift_m = 0.005f;      ///< lift grows by this times Step::haste: who hurries, sags
   VERP_FIELDS(cycle_s, double_support, lift_m, half_stance_m, hip_height_m, trunk_pitch_rad,
               zmp_x_m, zmp_y_m, touchdown_m, max_step_m, max_turn_rad, step_change_m, start_s,

@@ -121,7 +121,7 @@ TEST(Acting, ALibraryThatNobodyAsksOfChangesNoBit) {
 }
 
 // Changes with kCoreVersion, as long as no action's numbers do.
-constexpr std::uint64_t kPlayed = 0x074b1f4730a67dfe;
+constexpr std::uint64_t kPlayed = 0xeb25c7a64e47a6d8;
 
 TEST(Acting, IsTheSameBitsOnEveryCore) {
   ActingLoop loop;

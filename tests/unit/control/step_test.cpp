@@ -382,13 +382,16 @@ TEST(Step, TurnsTheHeadWhereToldWithinLimits) {
 }
 
 // A steady walk repeats itself each cycle, and its right leg does what the left one did half a
-// cycle before, mirrored: no stage treats the sides differently. (A cycle of 440 ms is 44 ticks.)
+// cycle before, mirrored: no stage treats the sides differently. (A cycle of 440 ms is 44 ticks;
+// without a heading to keep all steps last equally long.)
 TEST(Step, WalkIsPeriodic) {
   constexpr int kCycle = 44;
   constexpr float kMirror[kLegJoints] = {-1, -1, 1, 1, 1, -1};  // yaw and roll turn about
   Loop& loop = test::fresh_loop();
   get_walking(loop);
   test::write_parameter(0, 0.44F, loop.inputs);
+  loop.tick();
+  test::write_parameter(16, 0.0F, loop.inputs);  // gait.heading_gain
   loop.tick();
   loop.inputs.flags = kImuFresh | kFeetFresh | kCommandFresh;
   loop.ticks(20 * kCycle);

@@ -129,6 +129,7 @@ TEST(Gait, SteadyWalkGoesAtTheVelocityWanted) {
 TEST(Gait, RightStepsMirrorLeftSteps) {
   constexpr int kTicksPerStep = 45;
   Walker walker(test::kRobot, 5000);
+  walker.tuning.gait.heading_gain = 0.0F;  // steps of equal length in time
   walker.set_off({.vx_m_s = kPaper_m_s});
   walker.run(6.0F);
   static Pose sole[kTicksPerStep][kFeet];
@@ -215,6 +216,26 @@ TEST(Gait, WeightIsSharedAndGoesToTheCarryingFoot) {
         EXPECT_EQ(walker.out.carry[side], 0.0F);
       }
     }
+  }
+}
+
+// However short double support is, and wherever in a control period a step ends: goals that take a
+// leg's load off or put it on don't jump.
+TEST(Gait, AFootThatLandedTakesTheWeightOverInNoLessThanEightMilliseconds) {
+  for (const float double_support : {0.0F, 0.006F, 0.2F}) {
+    Walker walker(test::kRobot);
+    walker.tuning.gait.double_support = double_support;
+    walker.in.period_us = 4000;
+    walker.set_off({.vx_m_s = 0.1F});
+    int between = 0;
+    for (int i = 0; i < 1000; ++i) {
+      const float before = walker.out.carry[kLeft];
+      walker.tick();
+      const float taken = walker.out.carry[kLeft] - before;
+      ASSERT_LT(math::abs(taken), 0.51F) << "tick " << i << ", double support " << double_support;
+      if (walker.out.carry[kLeft] > 0.0F && walker.out.carry[kLeft] < 1.0F) ++between;
+    }
+    EXPECT_GT(between, 10);
   }
 }
 
@@ -327,7 +348,13 @@ TEST(Gait, DelayedJointsSeeTheRecentPast) {
       walker.tick();
       sole_m[tick] = walker.sole(kLeft).position_m;
       if (walker.state.moving == 0 || tick < 60) continue;
-      const std::int32_t kept_us = (kFixed - 4) * walker.state.queue[0].key_us;
+      // Of this step and the one before, whose key points may lie closer together.
+      constexpr std::int32_t kKept = kFixed - 4;
+      const std::int32_t key_us = walker.state.queue[0].key_us, clock_us = walker.state.clock_us;
+      const std::int32_t passed = clock_us / key_us;
+      const std::int32_t both_us = clock_us + (kKept - passed) * walker.state.previous.key_us;
+      const std::int32_t kept_us =
+          passed >= kKept || both_us > kKept * key_us ? kKept * key_us : both_us;
       for (int back = 0; back <= 15; ++back) {
         const std::int32_t delay_us = back * walker.in.period_us;
         if (delay_us > kept_us) break;
