@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <sstream>
 
 #include "host/action/words.hpp"
@@ -56,6 +57,10 @@ Document from_csv(const std::filesystem::path& file, const std::string& text,
   };
   if (columns.size() < 3 || columns[0] != "time_s" || columns[1] != "hold_s") {
     fail(1, "is no table of key frames", "begin with: time_s,hold_s,JOINT,...");
+  }
+  for (auto column = columns.begin(); column != columns.end(); ++column) {
+    if (std::find(columns.begin(), column, *column) == column) continue;
+    fail(1, "a second column '" + *column + "'", "give each joint one");
   }
   for (int number = 2; std::getline(lines, line); ++number) {
     const std::vector<std::string> cells = cells_of(line);

@@ -1,3 +1,6 @@
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <numbers>
 #include <sstream>
 
@@ -137,7 +140,7 @@ class Reader {
     } else if (words.take("wait")) {
       wait(words, frame);
     } else {
-      while (!words.done()) frame.goals.push_back(goal(words));
+      while (!words.done()) add_goal(words, frame);
     }
   }
 
@@ -205,6 +208,15 @@ class Reader {
     frame.wait = wait;
   }
 
+  static void add_goal(Words& words, FrameText& frame) {
+    const JointGoal added = goal(words);
+    for (const JointGoal& other : frame.goals) {
+      if (other.joint != added.joint) continue;
+      words.fail("a second angle of joint '" + added.joint + "' in this frame", "give it one");
+    }
+    frame.goals.push_back(added);
+  }
+
   static JointGoal goal(Words& words) {
     JointGoal goal;
     goal.line = words.line();
@@ -235,6 +247,15 @@ Document parse_document(const std::filesystem::path& file, const std::string& te
   std::istringstream lines(text);
   std::string line;
   for (int number = 1; std::getline(lines, line); ++number) {
+    const auto control = std::find_if(line.begin(), line.end(), [](unsigned char letter) {
+      return (letter < ' ' && letter != '\t' && letter != '\r') || letter == 0x7F;
+    });
+    if (control != line.end()) {
+      throw model::LoadError(file.string(), number,
+                             fmt::format("holds byte 0x{:02x}, which is in no text",
+                                         static_cast<unsigned char>(*control)),
+                             "give an action file");
+    }
     reader.read(Words(file, number, line));
   }
   return reader.finish();

@@ -23,11 +23,14 @@ bool write(const fs::path& file, std::string_view bytes) {
 }
 
 bool replace(const fs::path& file, std::string_view bytes) {
-  fs::path part = file;
-  part += "." + std::to_string(::getpid()) + ".part";
   std::error_code error;
+  const bool link = fs::is_symlink(file, error);
+  const fs::path target = link ? fs::weakly_canonical(file, error) : file;
+  if (fs::exists(target, error) && !fs::is_regular_file(target, error)) return write(target, bytes);
+  fs::path part = target;
+  part += "." + std::to_string(::getpid()) + ".part";
   const bool written = write(part, bytes);
-  if (written) fs::rename(part, file, error);
+  if (written) fs::rename(part, target, error);
   if (written && !error) return true;
   fs::remove(part, error);
   return false;

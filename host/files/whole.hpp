@@ -15,7 +15,8 @@ std::optional<std::string> read(const std::filesystem::path& file);
 bool write(const std::filesystem::path& file, std::string_view bytes);
 
 /// The same under a name of its own, which is then the file's: a reader never sees half of it, two
-/// writers never mix, and of what could not be written nothing stays.
+/// writers never mix, and of what could not be written nothing stays. A link stays one, to the new
+/// bytes; a device or a pipe is written to.
 bool replace(const std::filesystem::path& file, std::string_view bytes);
 
 }  // namespace verp::files

@@ -41,6 +41,10 @@ TEST(ActionText, MistakesAreNamedWithFileAndLine) {
   expect_refused("a1.action:3:", "no joint 'tail'", {"action a\nframe 1\n tail 20\n"});
   expect_refused("a1.action:2:", "out of range", {"action a\nframe -1\n head_yaw 20\n"});
   expect_refused("a1.action:3:", "beyond its limits", {"action a\nframe 1\n head_yaw 170\n"});
+  expect_refused("a1.action:2:", "byte 0x00", {std::string("action a\nframe 1\0\n", 18)});
+  expect_refused("a1.action:1:", "byte 0x1b", {"\x1b[31maction a\n"});
+  expect_refused("a1.action:4:", "a second angle of joint 'head_yaw'",
+                 {"action a\nframe 1\n head_yaw 1\n head_yaw 2\n"});
   expect_refused("a1.action:3:", "no angle", {"action a\nframe 1\n head_yaw nan\n"});
   expect_refused("a1.action:1:", "before the action's name", {"frame 1\n"});
   expect_refused("a1.action:4:", "no frame 'x'",
