@@ -6,7 +6,8 @@ namespace {
 constexpr float kLeastLevel2 = 0.01F;  // x axis all but vertical: no heading to speak of
 constexpr float kWindow_s = 5.0F;      // the mean forgets what is older
 // For so long a body just risen still settles, joint by joint, into what the balance asks: 0.3
-// degrees, which over the mean would pass for a bias of 0.15 degrees a second.
+// degrees, which over the mean would pass for a bias of 0.15 degrees a second. Tuning seeds
+// 1001-1010, 60 s at 4 cm: with 0.35 s the heading was off by 0.9 degrees rms, with this by 0.6.
 constexpr float kSettle_s = 1.2F;
 // About each axis: above the bias of a MEMS gyro (data sheet of the ICM-20648: 5 deg/s), below any
 // real motion.

@@ -3,10 +3,9 @@
 namespace verp::balance {
 namespace {
 
-constexpr float kMeanTilt_s = 1.0F;  // some steps
-constexpr float kLeans_s = 1.5F;     // slower than the mean, lest they rock each other
-constexpr float kMostLean_rad =
-    0.1F;  // no servo of ours walks on more than 5 degrees and what is left
+constexpr float kMeanTilt_s = 1.0F;    // some steps
+constexpr float kLeans_s = 1.5F;       // slower than the mean, lest they rock each other
+constexpr float kMostLean_rad = 0.1F;  // 5 degrees of ground, and an accelerometer's offset
 
 }  // namespace
 

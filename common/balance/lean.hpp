@@ -10,7 +10,7 @@ namespace verp::balance {
 
 struct LeanState {
   float tilt_rad = 0;  ///< roll, without what a step sways
-  float lean_rad = 0;  ///< by how much the plan is turned against it, to the left
+  float lean_rad = 0;  ///< about x, on top of the plan: against the tilt
   VERP_FIELDS(tilt_rad, lean_rad)
 };
 VERP_PACKED(LeanState);

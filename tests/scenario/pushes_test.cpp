@@ -4,8 +4,8 @@
 #include "tests/scenario/walk.hpp"
 
 // Pushed at the trunk for 50 ms as it walks, generic21 steps where the push sends it: 1.2 N s ahead
-// and backward and 0.8 N s sideways, at any phase of its gait. Here at four
-// of the 16 phases; `verp walk --map push` tries all of them, and how much more it would have been.
+// and backward and 0.8 N s sideways, at any phase of its gait. Here at four of the 16 phases;
+// `verp walk --map push` tries all of them, and how much more it would have been.
 namespace verp::scenario {
 namespace {
 

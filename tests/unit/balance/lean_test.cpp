@@ -64,11 +64,12 @@ TEST(Lean, TurnsTheBodyAboutTheGroundUnderIt) {
     lean(state, posture);
     const Vec3 up_before = before.body.rotation.transpose() * Vec3(0, 0, 1);
     const Vec3 up = posture.body.rotation.transpose() * Vec3(0, 0, 1);
-    const float cosine = up.dot(up_before);
-    EXPECT_NEAR(cosine, math::cos(0.06F), 1e-5F);
+    EXPECT_NEAR(up.dot(up_before), math::cos(0.06F), 1e-5F);
+    EXPECT_NEAR(up.y() - up_before.y(), math::sin(0.06F), 1e-3F)
+        << "turned like roll, to the right";
     const Vec3 way = posture.body.position_m - before.body.position_m;
     const Vec3 left = before.body.rotation * Vec3(0, 1, 0);
-    EXPECT_NEAR(way.dot(left), -0.06F * 0.25F, 1e-6F) << "leans to the left, goes right";
+    EXPECT_NEAR(way.dot(left), -0.06F * 0.25F, 1e-6F) << "and goes there";
     EXPECT_NEAR(way.norm(), 0.06F * 0.25F, 1e-6F);
   }
 }
