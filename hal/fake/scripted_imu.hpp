@@ -9,12 +9,12 @@ namespace verp::hal {
 
 class ScriptedImu {
  public:
-  /// The chip has a new sample; one that nobody fetched is gone. False: not newer than the last.
+  /// The chip has a new sample, besides those that nobody fetched. False: not newer than the last.
   bool measure(const ImuSample& sample) {
-    if (measured_ && sample.time_us <= sample_.time_us) return false;
-    sample_ = sample;
+    if (measured_ && sample.time_us <= newest_us_) return false;
+    mean_.add(sample);
+    newest_us_ = sample.time_us;
     measured_ = true;
-    fetched_ = false;
     return true;
   }
   /// The chip is silent in the next `reads` reads.
@@ -26,19 +26,18 @@ class ScriptedImu {
       ++faults_;
       return ImuStatus::kFault;
     }
-    if (!measured_ || fetched_) return ImuStatus::kStale;
-    fetched_ = true;
-    sample = sample_;
+    if (!mean_.take(sample)) return ImuStatus::kStale;
+    sample.time_us = newest_us_;
     return ImuStatus::kFresh;
   }
   std::uint32_t faults() const { return faults_; }
 
  private:
-  ImuSample sample_;
+  ImuMean mean_;
+  std::uint64_t newest_us_ = 0;
   std::uint32_t failures_left_ = 0;
   std::uint32_t faults_ = 0;
   bool measured_ = false;
-  bool fetched_ = false;
 };
 
 static_assert(Imu<ScriptedImu>);

@@ -229,9 +229,10 @@ struct ChipImu {
   ChipImu() { settle(); }
   void measure(std::int16_t gyro_x) {
     board.device.motion({gyro_x, 0, 0}, {0, 0, 0});
-    board.device.frozen = false;
-    board.rig.machine.advance(hal::stm32::model::ms(8));
     look();
+    board.device.frozen = false;
+    const std::uint32_t taken = board.device.samples_taken();
+    while (board.device.samples_taken() == taken) look();
     board.device.frozen = true;
   }
   void break_chip(bool yes) { board.device.silent = yes; }
@@ -249,10 +250,9 @@ struct ChipImu {
       board.rig.machine.advance(hal::stm32::model::ms(8));
     }
   }
-  /// The model samples when it is spoken to.
   void look() {
-    board.device.select(true, board.rig.machine.now());
-    board.device.select(false, board.rig.machine.now());
+    board.rig.machine.advance(hal::stm32::model::us(100));
+    board.device.update(board.rig.machine.now());
   }
 
   hal::stm32::test::ImuRig board{Family::kF405, kKind};

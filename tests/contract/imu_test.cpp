@@ -23,11 +23,11 @@ TYPED_TEST(ImuContract, HasNothingBeforeTheFirstSample) {
   EXPECT_EQ(this->sample.time_us, 7u) << "only kFresh changes the sample";
 }
 
-TYPED_TEST(ImuContract, GivesEachSampleOnceAndTheNewestOnly) {
+TYPED_TEST(ImuContract, GivesTheMeanOfAllSamplesSinceTheLastReadAndEachOnce) {
   std::uint64_t last_us = 0;
   for (std::int16_t i = 1; i < 20; ++i) {
     this->chip.measure(static_cast<std::int16_t>(-i));
-    this->chip.measure(i);
+    this->chip.measure(static_cast<std::int16_t>(3 * i));
     ASSERT_EQ(this->chip.read(this->sample), hal::ImuStatus::kFresh);
     EXPECT_EQ(this->sample.gyro_count[0], i);
     EXPECT_GT(this->sample.time_us, last_us);
@@ -35,6 +35,22 @@ TYPED_TEST(ImuContract, GivesEachSampleOnceAndTheNewestOnly) {
     EXPECT_EQ(this->chip.read(this->sample), hal::ImuStatus::kStale);
   }
   EXPECT_EQ(this->chip.faults(), 0u);
+}
+
+TYPED_TEST(ImuContract, RoundsToTheNearestOnBothSidesAlikeAndKeepsToTheLimits) {
+  const struct {
+    std::int16_t samples[3], mean;
+  } cases[] = {{{0, 0, 1}, 0},
+               {{0, 1, 1}, 1},
+               {{0, 0, -1}, 0},
+               {{0, -1, -1}, -1},
+               {{32767, 32767, 32767}, 32767},
+               {{-32768, -32768, -32768}, -32768}};
+  for (const auto& each : cases) {
+    for (const std::int16_t gyro_x : each.samples) this->chip.measure(gyro_x);
+    ASSERT_EQ(this->chip.read(this->sample), hal::ImuStatus::kFresh);
+    EXPECT_EQ(this->sample.gyro_count[0], each.mean);
+  }
 }
 
 TYPED_TEST(ImuContract, CountsFaultsKeepsTheSampleAndComesBack) {

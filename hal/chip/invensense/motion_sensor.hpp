@@ -7,20 +7,23 @@
 #include "hal/contract/imu.hpp"
 
 /// An MPU-9250 or ICM-20648 behind SPI as an Imu; it finds out which. Each read() does one step of
-/// the way from a reset chip to samples, or fetches one, and never waits for the chip: after a
-/// fault it begins anew, and is kStale for the 150 ms that the chip takes to come up.
+/// the way from a reset chip to samples, or fetches what the FIFO holds, and never waits for the
+/// chip: after a fault it begins anew, and is kStale for the 150 ms that the chip takes to come up.
+///
+/// A foot that lands jolts the body for less than a tick: of one sample a tick the jolt's rise or
+/// its fall would be missing, and the turn that the rates add up to would be wrong. Hence the mean.
 namespace verp::hal::invensense {
 
 /// exchange(out, in, size, max_hz): bytes both ways in one selection, at most at that clock; false:
-/// it did not work. Ends within twice the bytes' time and 20 us.
+/// it did not work. `in` may be `out`. Ends within twice the bytes' time and 20 us.
 template <class Spi>
 concept SpiBus = requires(Spi& spi, const std::uint8_t* out, std::uint8_t* in, std::size_t size,
                           std::uint32_t max_hz) {
   { spi.exchange(out, in, size, max_hz) } -> std::same_as<bool>;
 };
 
-/// `Clock` has now_us(), the board's TickSource. A sample's time is that of its fetching: it is at
-/// most one sample period, 2 ms, older.
+/// `Clock` has now_us(), the board's TickSource. A sample's time is that of its fetching: the
+/// newest is at most one sample period, 2 ms, older.
 template <SpiBus Spi, class Clock>
 class MotionSensor {
  public:
@@ -51,7 +54,10 @@ class MotionSensor {
   /// Fifty sample periods without a sample: it has stopped.
   static constexpr std::uint64_t kSilence_us = 100'000;
   static constexpr std::uint8_t kRead = 0x80;
-  static constexpr std::size_t kMostData = 14;
+  static constexpr std::size_t kSampleSize = 12;
+  /// What the wait has room for at 6.5 MHz: kImuMostPause_us of either chip, and one for the
+  /// tolerance of its rate. Far below the FIFO's size, 512 bytes, so that no full one is believed.
+  static constexpr std::size_t kMostSize = 14 * kSampleSize;
 
   ImuStatus fault() {
     phase_ = Phase::kSearch;
@@ -79,13 +85,12 @@ class MotionSensor {
     if (now_us < ready_us_) return ImuStatus::kStale;
     if (!work()) return fault();
     phase_ = next;
-    ready_us_ = fresh_us_ = now_us + then_us;
+    ready_us_ = alive_us_ = now_us + then_us;
     return ImuStatus::kStale;
   }
   bool is_there() {
     std::uint8_t who = 0;
-    return select_bank(0) && fetch_bytes(kind_->who_am_i_at, &who, 1, registers_hz()) &&
-           who == kind_->who_am_i;
+    return select_bank(0) && fetch_register(kind_->who_am_i_at, who) && who == kind_->who_am_i;
   }
   bool wake() {
     return is_there() && write(0, kind_->user_control, kI2cOff) &&
@@ -96,47 +101,66 @@ class MotionSensor {
       const Setting& setting = kind_->settings[i];
       const std::uint8_t wanted = setting.with(ranges_);
       std::uint8_t got = 0;
-      if (!write(setting.bank, setting.address, wanted) ||
-          !fetch_bytes(setting.address, &got, 1, registers_hz()) || got != wanted) {
+      if (!write(setting.bank, setting.address, wanted) || !fetch_register(setting.address, got) ||
+          got != wanted) {
         return false;
       }
     }
-    return select_bank(0) && keeps_settings();
+    return empty_fifo() && keeps_settings();
   }
   bool keeps_settings() {
     std::uint8_t guard = 0;
-    return fetch_bytes(kind_->guard_at, &guard, 1, registers_hz()) && guard == kind_->guard;
+    return fetch_register(kind_->guard_at, guard) && guard == kind_->guard;
   }
-
-  // A sample that comes between the status and the data would be told again by the next status: if
-  // one has come, the data is fetched once more. The chip holds them still within each exchange.
-  ImuStatus fetch(ImuSample& sample) {
-    std::uint8_t data[kMostData];
-    bool ready = false, again = false;
-    if (!has_sample(ready)) return fault();
-    const std::uint64_t now_us = clock_.now_us();
-    if (ready && !(fetch_data(data) && has_sample(again) && (!again || fetch_data(data)))) {
-      return fault();
+  bool empty_fifo() {
+    for (const Setting& setting : kind_->empty_fifo) {
+      if (!write(setting.bank, setting.address, setting.value)) return false;
     }
-    if (!keeps_settings()) return fault();
-    if (!ready) return now_us - fresh_us_ > kSilence_us ? fault() : ImuStatus::kStale;
-    const std::size_t gyro = std::size_t{kind_->gyro_at} - kind_->accel_at;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      sample.accel_count[axis] = count(data + 2 * axis);
-      sample.gyro_count[axis] = count(data + gyro + 2 * axis);
-    }
-    sample.time_us = fresh_us_ = now_us;
-    return ImuStatus::kFresh;
-  }
-  bool has_sample(bool& ready) {
-    std::uint8_t status = 0;
-    if (!fetch_bytes(kind_->status, &status, 1, kind_->data_hz)) return false;
-    ready = (status & kDataReady) != 0;
     return true;
   }
-  bool fetch_data(std::uint8_t* data) {
-    const std::size_t size = std::size_t{kind_->gyro_at} - kind_->accel_at + 6;
-    return fetch_bytes(kind_->accel_at, data, size, kind_->data_hz);
+
+  // A FIFO with more than fits, after a pause, is emptied; so is one that is out of step, since its
+  // bytes would be taken for those of another axis. The guard comes last: it vouches for the data.
+  ImuStatus fetch(ImuSample& sample) {
+    std::uint8_t data[1 + kMostSize] = {};
+    std::size_t size = 0;
+    if (!fetch_size(size)) return fault();
+    const std::uint64_t now_us = clock_.now_us();
+    const bool fits = size <= kMostSize, in_step = size % kSampleSize == 0;
+    const bool done = fits && in_step ? fetch_fifo(data, size) : empty_fifo();
+    if (!done || !keeps_settings()) return fault();
+    if (fits ? in_step && size > 0 : !overfull_) alive_us_ = now_us;
+    overfull_ = !fits;  // once is a pause; ever again, a chip that does not empty it
+    if (now_us - alive_us_ > kSilence_us) return fault();
+    if (!fits || !in_step || size == 0) return ImuStatus::kStale;
+    take_mean(data + 1, size, sample);
+    sample.time_us = now_us;
+    return ImuStatus::kFresh;
+  }
+  /// A sample that is just being written is whole at the second look.
+  bool fetch_size(std::size_t& size) {
+    return look_at_size(size) && (size % kSampleSize == 0 || look_at_size(size));
+  }
+  bool look_at_size(std::size_t& size) {
+    std::uint8_t data[3] = {};
+    if (!fetch_bytes(kind_->fifo_size_at, data, 2, kind_->data_hz)) return false;
+    size = std::size_t{data[1]} << 8 | data[2];
+    return true;
+  }
+  bool fetch_fifo(std::uint8_t* data, std::size_t size) {
+    return size == 0 || fetch_bytes(kind_->fifo_at, data, size, kind_->data_hz);
+  }
+  static void take_mean(const std::uint8_t* data, std::size_t size, ImuSample& sample) {
+    ImuMean mean;
+    for (const std::uint8_t* const end = data + size; data != end; data += kSampleSize) {
+      ImuSample one;
+      for (int axis = 0; axis < 3; ++axis) {
+        one.accel_count[axis] = count(data + 2 * axis);
+        one.gyro_count[axis] = count(data + 6 + 2 * axis);
+      }
+      mean.add(one);
+    }
+    mean.take(sample);
   }
   static std::int16_t count(const std::uint8_t* data) {
     return static_cast<std::int16_t>(static_cast<std::uint16_t>(data[0] << 8 | data[1]));
@@ -159,12 +183,17 @@ class MotionSensor {
     std::uint8_t in[2];
     return spi_.exchange(out, in, 2, registers_hz());
   }
-  bool fetch_bytes(std::uint8_t address, std::uint8_t* to, std::size_t size, std::uint32_t max_hz) {
-    std::uint8_t out[1 + kMostData] = {static_cast<std::uint8_t>(address | kRead)};
-    std::uint8_t in[1 + kMostData];
-    if (!spi_.exchange(out, in, 1 + size, max_hz)) return false;
-    __builtin_memcpy(to, in + 1, size);
+  bool fetch_register(std::uint8_t address, std::uint8_t& value) {
+    std::uint8_t data[2] = {};
+    if (!fetch_bytes(address, data, 1, registers_hz())) return false;
+    value = data[1];
     return true;
+  }
+  /// `data` has one byte more than `size`: the address goes out at its head.
+  bool fetch_bytes(std::uint8_t address, std::uint8_t* data, std::size_t size,
+                   std::uint32_t max_hz) {
+    data[0] = static_cast<std::uint8_t>(address | kRead);
+    return spi_.exchange(data, data, 1 + size, max_hz);
   }
 
   static constexpr std::uint8_t kUnknownBank = 0xFF;
@@ -174,10 +203,11 @@ class MotionSensor {
   Ranges ranges_;
   const Kind* kind_ = &kMpu9250;
   std::uint64_t ready_us_ = 0;  ///< when the chip will have done what it was told
-  std::uint64_t fresh_us_ = 0;  ///< when the last sample was fetched
+  std::uint64_t alive_us_ = 0;  ///< when the FIFO last held samples
   std::uint32_t faults_ = 0;
   Phase phase_ = Phase::kSearch;
   std::uint8_t bank_ = kUnknownBank;  ///< that the chip shows
+  bool overfull_ = false;             ///< more was in the FIFO at the last read than fits
 };
 
 }  // namespace verp::hal::invensense

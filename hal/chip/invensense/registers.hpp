@@ -4,13 +4,15 @@
 
 /// What differs between the two motion sensors: MPU-9250 (register map RM-MPU-9250A-00) and
 /// ICM-20648 (DS-000179), and how each is set up. Both: +-2000 deg/s and +-4 g by default, a low
-/// pass of 40 to 50 Hz, about 500 samples a second.
+/// pass of 20 to 24 Hz, about 500 samples a second. Each sample goes into the FIFO as twelve bytes:
+/// acceleration x, y, z, then the rates x, y, z, high byte first; no temperature. The dividers of
+/// both sensors are equal, so that there is never one without the other.
 namespace verp::hal::invensense {
 
 inline constexpr std::uint8_t kReset = 0x80;   ///< PWR_MGMT_1
 inline constexpr std::uint8_t kAutoClock = 1;  ///< PWR_MGMT_1: awake, the best clock there is
 inline constexpr std::uint8_t kI2cOff = 0x10;  ///< USER_CTRL: else noise on SPI can look like I2C
-inline constexpr std::uint8_t kDataReady = 1;  ///< interrupt status: a new sample
+inline constexpr std::uint8_t kFifoOn = 0x40;  ///< USER_CTRL
 inline constexpr std::uint8_t kBankSelect = 0x7F;  ///< of the ICM-20648; banks count from bit 4
 
 /// Full scale: 0 the finest, each next one twice as much.
@@ -37,60 +39,66 @@ struct Setting {
 struct Kind {
   std::uint8_t who_am_i_at, who_am_i;
   std::uint8_t power, user_control;  ///< PWR_MGMT_1, USER_CTRL
-  std::uint8_t status;               ///< has kDataReady; reading clears it
-  std::uint8_t accel_at, gyro_at;    ///< x, y, z, high byte first
+  std::uint8_t fifo_size_at;         ///< bytes in the FIFO, the high byte first
+  std::uint8_t fifo_at;              ///< gives the FIFO's bytes, one after the other
+  Setting empty_fifo[2];             ///< one after the other; bank 0
   bool has_banks;
   std::uint32_t registers_hz;  ///< highest clock for any register
-  std::uint32_t data_hz;       ///< highest clock to read status and data
+  std::uint32_t data_hz;       ///< highest clock to read the FIFO and its size
   /// Tells a chip that has lost its settings: not what it is after power-up.
   std::uint8_t guard_at, guard;
   const Setting* settings;
   std::size_t setting_count;
 };
 
-/// SMPLRT_DIV, CONFIG, GYRO_CONFIG, ACCEL_CONFIG, ACCEL_CONFIG 2, INT_ENABLE (else no status).
-/// 1 kHz / 2; 41 Hz.
-inline constexpr Setting kMpu9250Settings[] = {{0, 0x19, 1},
-                                               {0, 0x1A, 3},
-                                               {0, 0x1B, 0, Setting::kGyro, 3},
-                                               {0, 0x1C, 0, Setting::kAccel, 3},
-                                               {0, 0x1D, 3},
-                                               {0, 0x38, kDataReady}};
-/// Speeds: PS-MPU-9250A-01 table 6. The status stands right before the data.
-inline constexpr Kind kMpu9250 = {.who_am_i_at = 0x75,
-                                  .who_am_i = 0x71,
-                                  .power = 0x6B,
-                                  .user_control = 0x6A,
-                                  .status = 0x3A,
-                                  .accel_at = 0x3B,
-                                  .gyro_at = 0x43,
-                                  .has_banks = false,
-                                  .registers_hz = 1'000'000,
-                                  .data_hz = 20'000'000,
-                                  .guard_at = 0x1D,
-                                  .guard = 3,
-                                  .settings = kMpu9250Settings,
-                                  .setting_count = 6};
+/// SMPLRT_DIV, CONFIG, GYRO_CONFIG, ACCEL_CONFIG, ACCEL_CONFIG 2, FIFO_EN.
+/// 1 kHz / 2; 20 and 21.2 Hz.
+inline constexpr Setting kMpu9250Settings[] = {
+    {0, 0x19, 1}, {0, 0x1A, 4},   {0, 0x1B, 0, Setting::kGyro, 3}, {0, 0x1C, 0, Setting::kAccel, 3},
+    {0, 0x1D, 4}, {0, 0x23, 0x78}};
+/// Speeds: PS-MPU-9250A-01 table 6; for the FIFO, which it does not name, what public drivers use.
+/// FIFO_RST clears itself; older chips of the family ask that FIFO_EN is off meanwhile.
+inline constexpr Kind kMpu9250 = {
+    .who_am_i_at = 0x75,
+    .who_am_i = 0x71,
+    .power = 0x6B,
+    .user_control = 0x6A,
+    .fifo_size_at = 0x72,
+    .fifo_at = 0x74,
+    .empty_fifo = {{0, 0x6A, kI2cOff | 0x04}, {0, 0x6A, kI2cOff | kFifoOn}},
+    .has_banks = false,
+    .registers_hz = 1'000'000,
+    .data_hz = 10'000'000,
+    .guard_at = 0x1D,
+    .guard = 4,
+    .settings = kMpu9250Settings,
+    .setting_count = 6};
 
 /// GYRO_SMPLRT_DIV, GYRO_CONFIG_1, ODR_ALIGN_EN, ACCEL_SMPLRT_DIV_1 and _2, ACCEL_CONFIG,
-/// INT_ENABLE_1 (else no status). 1125 Hz / 2; 51 and 50 Hz.
-inline constexpr Setting kIcm20648Settings[] = {
-    {2, 0x00, 1}, {2, 0x01, 3 << 3 | 1, Setting::kGyro, 1},  {2, 0x09, 1},         {2, 0x10, 0},
-    {2, 0x11, 1}, {2, 0x14, 3 << 3 | 1, Setting::kAccel, 1}, {0, 0x11, kDataReady}};
-/// Speed: DS-000179 table 4. After power-up it sleeps, which the guard sees.
+/// USER_CTRL, FIFO_EN_2. 1125 Hz / 2; 23.9 Hz.
+inline constexpr Setting kIcm20648Settings[] = {{2, 0x00, 1},
+                                                {2, 0x01, 4 << 3 | 1, Setting::kGyro, 1},
+                                                {2, 0x09, 1},
+                                                {2, 0x10, 0},
+                                                {2, 0x11, 1},
+                                                {2, 0x14, 4 << 3 | 1, Setting::kAccel, 1},
+                                                {0, 0x03, kI2cOff | kFifoOn},
+                                                {0, 0x67, 0x1E}};
+/// Speed: DS-000179 table 4. FIFO_RST holds the FIFO empty until it is taken back. After power-up
+/// the chip sleeps, which the guard sees.
 inline constexpr Kind kIcm20648 = {.who_am_i_at = 0x00,
                                    .who_am_i = 0xE0,
                                    .power = 0x06,
                                    .user_control = 0x03,
-                                   .status = 0x1A,
-                                   .accel_at = 0x2D,
-                                   .gyro_at = 0x33,
+                                   .fifo_size_at = 0x70,
+                                   .fifo_at = 0x72,
+                                   .empty_fifo = {{0, 0x68, 0x1F}, {0, 0x68, 0}},
                                    .has_banks = true,
                                    .registers_hz = 7'000'000,
                                    .data_hz = 7'000'000,
                                    .guard_at = 0x06,
                                    .guard = kAutoClock,
                                    .settings = kIcm20648Settings,
-                                   .setting_count = 7};
+                                   .setting_count = 8};
 
 }  // namespace verp::hal::invensense

@@ -1,11 +1,15 @@
 #pragma once
 #include <cstdint>
+#include <deque>
+#include <functional>
 
 #include "tests/support/stm32/spi_model.hpp"
 
 /// A 6-axis motion sensor behind SPI: an MPU-9250 (registers: RM-MPU-9250A-00) or an
 /// ICM-20648 (DS-000179). It samples at the rate its registers ask for; all counts of a sample are
-/// of one instant. Registers that the models don't know are remembered as written.
+/// of one instant. The FIFO holds 512 bytes of what FIFO_EN selects; when it is full, bytes are
+/// lost one by one, the oldest or the newest as its mode says, so that it is out of step
+/// afterwards. Registers that the models don't know are remembered as written.
 namespace verp::hal::stm32::model {
 
 enum class ImuKind : std::uint8_t { kMpu9250, kIcm20648 };
@@ -15,17 +19,24 @@ class ImuDevice : public SpiDevice {
   explicit ImuDevice(ImuKind kind);
 
   // Script.
-  bool silent = false;        ///< answers nothing: all ones
-  bool frozen = false;        ///< takes no further samples
+  bool silent = false;   ///< answers nothing: all ones
+  bool frozen = false;   ///< takes no further samples
+  std::size_t torn = 0;  ///< as many bytes of each sample reach the FIFO one exchange later
+  std::function<void()> before_sample = [] {};
   int who_am_i = -1;          ///< another identity than the kind's
   Time reset_time = ms(100);  ///< after DEVICE_RESET
   /// What the next samples show, in the sensor's axes.
   void motion(const std::int16_t (&gyro)[3], const std::int16_t (&accel)[3]);
   /// It loses its settings, as by a dip of its supply.
   void forget() { power_on(); }
+  /// As many bytes of the FIFO are gone: a clock edge too many.
+  void slip(std::size_t bytes);
+  /// Takes the samples that were due, as it also does when it is spoken to.
+  void update(Time now);
 
   std::uint8_t reg(unsigned bank, std::uint8_t address) const { return registers_[bank][address]; }
   std::uint32_t samples_taken() const { return samples_; }
+  std::size_t fifo_size() const { return fifo_.size(); }
   std::uint32_t violations() const {
     return violations_;
   }  ///< accesses that the data sheet forbids
@@ -36,9 +47,16 @@ class ImuDevice : public SpiDevice {
   std::uint32_t max_hz() const override;
 
  private:
+  static constexpr std::size_t kFifoSize = 512;
+  struct Map;
+  const Map& map() const;
   void power_on();
-  void update(Time now);
   void sample();
+  void put_in_fifo();
+  void push(std::uint8_t byte);
+  bool fifo_is_on() const;
+  std::uint8_t read_fifo(std::uint8_t address);
+  void reset_fifo_if_told(std::uint8_t address, std::uint8_t value);
   std::uint8_t read(std::uint8_t address, Time now);
   void write(std::uint8_t address, std::uint8_t value, Time now);
   unsigned bank() const;
@@ -49,7 +67,11 @@ class ImuDevice : public SpiDevice {
   ImuKind kind_;
   std::uint8_t registers_[4][128] = {};
   std::int16_t gyro_[3] = {}, accel_[3] = {};
-  bool addressed_ = false;  ///< the register address of this transfer has come
+  std::deque<std::uint8_t> fifo_;
+  std::deque<std::uint8_t> on_the_way_;  ///< bytes of the newest sample, not yet in the FIFO
+  std::uint8_t fifo_byte_ = 0;           ///< the last one that was read
+  std::uint8_t fifo_size_low_ = 0;       ///< as it was when the high byte was read
+  bool addressed_ = false;               ///< the register address of this transfer has come
   bool reading_ = false;
   std::uint8_t pointer_ = 0;
   Time ready_at_ = 0;
