@@ -1,3 +1,4 @@
+#include <cmath>
 #include <functional>
 
 #include "hal/chip/invensense/ranges.hpp"
@@ -5,8 +6,8 @@
 #include "tests/support/stm32/imu_rig.hpp"
 #include "tests/support/stm32/spi_model.hpp"
 
-// The motion sensor: whole samples, each once, at the robot's scales; and from every way in which a
-// chip can fail, back again by itself.
+// The motion sensor: the mean of whole samples, each once, at the robot's scales; and from every
+// way in which a chip can fail, back again by itself.
 namespace verp::hal::stm32::test {
 namespace {
 
@@ -20,6 +21,32 @@ struct Which {
 class MotionSensorDriver : public ::testing::TestWithParam<Which> {
  protected:
   MotionSensorDriver() { board.device.motion({1, -2, 32767}, {-32768, 5, 6}); }
+  /// From now on each sample shows its number, doubled: so a mean, which is then the first number
+  /// and the last, tells both.
+  void number_samples() {
+    board.device.before_sample = [this] {
+      const auto number = static_cast<std::int16_t>(2 * ++newest);
+      board.device.motion({number, 0, 0}, {0, 0, number});
+    };
+  }
+  /// No sample comes meanwhile.
+  ImuStatus read_alone() {
+    board.device.frozen = true;
+    const ImuStatus status = board.read();
+    board.device.frozen = false;
+    return status;
+  }
+  void pause(std::uint64_t time_us) {
+    board.rig.machine.advance(us(time_us));
+    board.device.update(board.rig.machine.now());
+  }
+  /// The sample holds all numbers that nobody has told, up to this one, and no other.
+  void expect_up_to(int last, const ImuSample& sample) {
+    EXPECT_EQ(sample.gyro_count[0], told + 1 + last);
+    EXPECT_EQ(sample.accel_count[2], told + 1 + last);
+    told = last;
+  }
+  int newest = 0, told = 0;  ///< numbers of samples
   ImuRig board{GetParam().family, GetParam().kind};
 };
 INSTANTIATE_TEST_SUITE_P(, MotionSensorDriver,
@@ -63,18 +90,156 @@ TEST_P(MotionSensorDriver, GivesEachSampleOnceAndNewOnesInTime) {
   EXPECT_EQ(board.imu.faults(), 0u);
 }
 
-// However the reads fall against the chip's clock: as many samples as it took, or fewer, never
-// more.
-TEST_P(MotionSensorDriver, NeverTellsASampleTwice) {
+// However the reads fall against the chip's clock: every sample is in one mean, and in no second.
+TEST_P(MotionSensorDriver, TellsEverySampleOnce) {
   ASSERT_TRUE(board.starts());
-  const std::uint32_t taken = board.device.samples_taken();
-  std::uint32_t fresh = 0;
+  read_alone();
+  number_samples();
   for (int i = 0; i < 3000; ++i) {
-    if (board.read() == ImuStatus::kFresh) ++fresh;
-    board.rig.machine.advance(us(static_cast<std::uint64_t>(7 * i % 331)));
+    const ImuSample before = board.sample;
+    if (board.read() == ImuStatus::kFresh) {
+      const int last = board.sample.gyro_count[0] - (told + 1);
+      EXPECT_LE(told + 1, last);
+      EXPECT_LE(last, newest);
+      expect_up_to(last, board.sample);
+    } else {
+      EXPECT_EQ(board.sample.gyro_count[0], before.gyro_count[0]);
+    }
+    pause(static_cast<std::uint64_t>(7 * i % 3331));
   }
-  EXPECT_GT(fresh, 100u);
-  EXPECT_LE(fresh, board.device.samples_taken() - taken);
+  EXPECT_GT(told, 2000);
+  pause(4'000);
+  const int last = newest;
+  read_alone();
+  expect_up_to(last, board.sample);
+  EXPECT_EQ(board.imu.faults(), 0u);
+}
+
+// A foot lands right after each read and right before the next the jolt is over: what the rates add
+// up to is the turn all the same.
+TEST_P(MotionSensorDriver, JoltsBetweenReadsAddUpToTheTurn) {
+  ASSERT_TRUE(board.starts());
+  const double period_us = GetParam().kind == ImuKind::kMpu9250 ? 2000 : 2e6 / 1125;
+  int since_read = 0;
+  double turn = 0, read_turn = 0;
+  board.device.before_sample = [&] {
+    const bool jolt = since_read == 1 || since_read == 2;
+    const auto rate = static_cast<std::int16_t>(jolt ? 1000 : -20);
+    board.device.motion({0, 0, rate}, {0, 0, 0});
+    ++since_read;
+    turn += period_us * rate;
+  };
+  pause(10'000);
+  board.read();
+  turn = since_read = 0;
+  for (int tick = 0; tick < 100; ++tick) {
+    const std::uint64_t last_us = board.sample.time_us;
+    pause(10'000);
+    since_read = 0;
+    ASSERT_EQ(board.read(), ImuStatus::kFresh);
+    const auto passed_us = static_cast<double>(board.sample.time_us - last_us);
+    read_turn += passed_us * board.sample.gyro_count[2];
+  }
+  EXPECT_NEAR(read_turn, turn, 0.03 * turn);
+  EXPECT_GT(turn, 100 * 3000 * period_us / 2);
+}
+
+TEST_P(MotionSensorDriver, RoundsToTheNearest) {
+  ASSERT_TRUE(board.starts());
+  int count = 0, ones = 0;
+  board.device.before_sample = [&] {
+    const std::int16_t x = count < ones ? 1 : 0;
+    const auto y = static_cast<std::int16_t>(-x);
+    board.device.motion({x, y, 32767}, {y, x, -32768});
+    ++count;
+  };
+  for (ones = 0; ones < 8; ++ones) {
+    read_alone();
+    count = 0;
+    pause(13'000);
+    const int taken = count;
+    ASSERT_EQ(read_alone(), ImuStatus::kFresh);
+    const long mean = std::lround(static_cast<double>(ones < taken ? ones : taken) / taken);
+    EXPECT_EQ(board.sample.gyro_count[0], mean) << ones << " of " << taken;
+    EXPECT_EQ(board.sample.gyro_count[1], -mean) << ones << " of " << taken;
+    EXPECT_EQ(board.sample.gyro_count[2], 32767);
+    EXPECT_EQ(board.sample.accel_count[0], -mean);
+    EXPECT_EQ(board.sample.accel_count[1], mean);
+    EXPECT_EQ(board.sample.accel_count[2], -32768);
+  }
+}
+
+// The longest period of a loop, and a tenth of it: nothing is missed, and the read ends in time.
+TEST_P(MotionSensorDriver, MissesNothingWithinTheLongestPeriod) {
+  ASSERT_TRUE(board.starts());
+  read_alone();
+  number_samples();
+  for (int tick = 0; tick < 50; ++tick) {
+    pause(kImuMostPause_us);
+    const int last = newest;
+    ASSERT_EQ(read_alone(), ImuStatus::kFresh);
+    expect_up_to(last, board.sample);
+  }
+}
+
+// A pause of the loop, whether the FIFO ran over or not: what it holds is old, and perhaps out of
+// step. No fault: the chip is well.
+TEST_P(MotionSensorDriver, WhatCameInALongPauseIsDropped) {
+  ASSERT_TRUE(board.starts());
+  read_alone();
+  number_samples();
+  for (const std::uint64_t pause_us : {30'000, 76'000, 85'000, 86'000, 87'000, 99'000, 2'000'000}) {
+    pause(pause_us);
+    told = newest;
+    ASSERT_EQ(read_alone(), ImuStatus::kStale) << pause_us;
+    pause(10'000);
+    const int last = newest;
+    ASSERT_EQ(read_alone(), ImuStatus::kFresh) << pause_us;
+    expect_up_to(last, board.sample);
+  }
+  EXPECT_EQ(board.imu.faults(), 0u);
+}
+
+// The size of the FIFO is read while the chip writes a sample into it: it is told whole, not torn.
+TEST_P(MotionSensorDriver, SampleThatIsBeingWrittenIsAwaited) {
+  ASSERT_TRUE(board.starts());
+  read_alone();
+  number_samples();
+  for (std::size_t torn = 1; torn < 12; ++torn) {
+    pause(8'000);
+    board.device.torn = torn;
+    while (board.device.fifo_size() % 12 == 0) pause(10);
+    const int last = newest;
+    ASSERT_EQ(read_alone(), ImuStatus::kFresh) << torn;
+    expect_up_to(last, board.sample);
+    board.device.torn = 0;
+  }
+  EXPECT_EQ(board.imu.faults(), 0u);
+}
+
+// Its bytes would be taken for those of another axis.
+TEST_P(MotionSensorDriver, FifoOutOfStepIsNotBelieved) {
+  ASSERT_TRUE(board.starts());
+  read_alone();
+  number_samples();
+  for (std::size_t lost = 1; lost < 12; ++lost) {
+    pause(8'000);
+    board.device.slip(lost);
+    told = newest;
+    EXPECT_EQ(read_alone(), ImuStatus::kStale) << lost;
+    pause(8'000);
+    const int last = newest;
+    ASSERT_EQ(read_alone(), ImuStatus::kFresh) << lost;
+    expect_up_to(last, board.sample);
+  }
+  EXPECT_EQ(board.imu.faults(), 0u);
+  for (int tick = 0; tick < 20 && board.imu.faults() == 0; ++tick) {
+    pause(8'000);
+    board.device.slip(1);
+    EXPECT_NE(read_alone(), ImuStatus::kFresh);
+  }
+  EXPECT_EQ(board.imu.faults(), 1u) << "always out of step";
+  EXPECT_TRUE(board.starts());
 }
 
 TEST_P(MotionSensorDriver, SilentForeignAndStuckChipsAreFaultsUntilTheyWorkAgain) {
@@ -140,28 +305,47 @@ struct Meddler {
   int lost_write = -1;
 };
 
-// A sample that comes while another is being fetched is told, and not again the next time.
+// Samples that come between the exchanges of a read are told by it or by the next, and once.
 TEST_P(MotionSensorDriver, SampleThatComesMeanwhileIsToldOnce) {
   Meddler bus{board.spi};
   invensense::MotionSensor<Meddler, Timer> imu(bus, board.rig.timer);
   ImuSample sample;
-  for (int tick = 0; tick < 40; ++tick, board.rig.machine.advance(ms(8))) imu.read(sample);
-  bus.then = [this] {
-    board.device.motion({222, 0, 0}, {0, 0, 0});
-    board.rig.machine.advance(us(2500));
-  };
+  for (int tick = 0; tick < 40; ++tick, pause(8'000)) imu.read(sample);
+  board.device.frozen = true;
+  imu.read(sample);
+  board.device.frozen = false;
+  number_samples();
+  bus.then = [this] { pause(2'500); };
   for (int place = 0; place < 3; ++place) {
-    board.device.motion({111, 0, 0}, {0, 0, 0});
-    board.rig.machine.advance(ms(8));
+    pause(8'000);
+    const int first_part = newest;
     bus.countdown = place;
     ASSERT_EQ(imu.read(sample), ImuStatus::kFresh);
-    const bool told = sample.gyro_count[0] == 222;
-    EXPECT_TRUE(told || place == 2) << place;
-    board.device.frozen = true;
-    EXPECT_EQ(imu.read(sample), told ? ImuStatus::kStale : ImuStatus::kFresh) << place;
-    EXPECT_EQ(sample.gyro_count[0], 222);
-    board.device.frozen = false;
+    expect_up_to(first_part, sample);
+    const int last = newest;
+    EXPECT_GT(last, first_part);
+    ASSERT_EQ(imu.read(sample), ImuStatus::kFresh);
+    expect_up_to(last, sample);
   }
+}
+
+// What a chip that does not empty its FIFO holds after a pause is never fetched: started anew it
+// works again.
+TEST_P(MotionSensorDriver, FifoThatStaysFullIsAFault) {
+  Meddler bus{board.spi};
+  invensense::MotionSensor<Meddler, Timer> imu(bus, board.rig.timer);
+  ImuSample sample;
+  for (int tick = 0; tick < 40; ++tick, pause(8'000)) imu.read(sample);
+  bus.lost_write = GetParam().kind == ImuKind::kMpu9250 ? 0x6A : 0x68;
+  pause(60'000);
+  for (int tick = 0; tick < 20 && imu.faults() == 0; ++tick, pause(8'000)) {
+    EXPECT_NE(imu.read(sample), ImuStatus::kFresh);
+  }
+  EXPECT_EQ(imu.faults(), 1u);
+  bus.lost_write = -1;
+  ImuStatus status = ImuStatus::kStale;
+  for (int tick = 0; tick < 40; ++tick, pause(8'000)) status = imu.read(sample);
+  EXPECT_EQ(status, ImuStatus::kFresh);
 }
 
 TEST_P(MotionSensorDriver, SettingThatDoesNotTakeIsAFault) {
@@ -173,6 +357,18 @@ TEST_P(MotionSensorDriver, SettingThatDoesNotTakeIsAFault) {
     EXPECT_NE(imu.read(sample), ImuStatus::kFresh);
   }
   EXPECT_GT(imu.faults(), 0u);
+}
+
+// Below half the rate of the reads, so that none of it is seen as something slower.
+TEST(MotionSensorLowPass, IsThatOfTheTwin) {
+  ImuRig mpu(Family::kF405, ImuKind::kMpu9250);
+  ASSERT_TRUE(mpu.starts());
+  EXPECT_EQ(mpu.device.reg(0, 0x1A) & 7, 4) << "20 Hz";
+  EXPECT_EQ(mpu.device.reg(0, 0x1D) & 15, 4) << "21.2 Hz";
+  ImuRig icm(Family::kF746, ImuKind::kIcm20648);
+  ASSERT_TRUE(icm.starts());
+  EXPECT_EQ(icm.device.reg(2, 0x01) & 0x39, 4 << 3 | 1) << "23.9 Hz";
+  EXPECT_EQ(icm.device.reg(2, 0x14) & 0x39, 4 << 3 | 1) << "23.9 Hz";
 }
 
 TEST(MotionSensorRanges, AreSetInTheChip) {

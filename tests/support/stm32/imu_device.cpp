@@ -128,7 +128,7 @@ bool ImuDevice::fifo_is_on() const {
 }
 
 void ImuDevice::put_in_fifo() {
-  for (; !on_the_way_.empty(); on_the_way_.pop_front()) push(on_the_way_.front());
+  let_in(0);
   if (!fifo_is_on()) return;
   const std::uint8_t selected = registers_[0][map().fifo_enable];
   for (int at = 0; at < 14; at += 2) {
@@ -140,7 +140,11 @@ void ImuDevice::put_in_fifo() {
     on_the_way_.push_back(registers_[0][map().data + at]);
     on_the_way_.push_back(registers_[0][map().data + at + 1]);
   }
-  for (; on_the_way_.size() > torn; on_the_way_.pop_front()) push(on_the_way_.front());
+  let_in(torn);
+}
+
+void ImuDevice::let_in(std::size_t but) {
+  for (; on_the_way_.size() > but; on_the_way_.pop_front()) push(on_the_way_.front());
 }
 
 void ImuDevice::push(std::uint8_t byte) {
@@ -158,12 +162,10 @@ void ImuDevice::slip(std::size_t bytes) {
 }
 
 void ImuDevice::update(Time now) {
+  let_in(0);
   if (asleep() || now < ready_at_) {
     sample_at_ = now + period();
     return;
-  }
-  if (now < sample_at_) {
-    for (; !on_the_way_.empty(); on_the_way_.pop_front()) push(on_the_way_.front());
   }
   for (; sample_at_ <= now; sample_at_ += period()) {
     if (!frozen) sample();

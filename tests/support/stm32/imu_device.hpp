@@ -53,6 +53,7 @@ class ImuDevice : public SpiDevice {
   void power_on();
   void sample();
   void put_in_fifo();
+  void let_in(std::size_t but);
   void push(std::uint8_t byte);
   bool fifo_is_on() const;
   std::uint8_t read_fifo(std::uint8_t address);
