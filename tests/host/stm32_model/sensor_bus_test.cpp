@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <vector>
+
 #include "hal/chip/stm32/registers/spi.hpp"
 #include "tests/host/stm32_model/chip.hpp"
 #include "tests/support/stm32/imu_device.hpp"
@@ -132,6 +134,80 @@ TEST(Imu, SleepsWakesSamplesAtItsRateAndGivesEachSampleWhole) {
   EXPECT_EQ(word(8), 100);
   EXPECT_EQ(word(10), -200);
   EXPECT_EQ(line.machine.violations_text(), "");
+}
+
+/// The FIFO's size and its way on: registers of either kind.
+struct Fifo {
+  std::size_t size() { return std::size_t{line.read(size_at)} << 8 | line.read(size_at + 1); }
+  std::vector<std::uint8_t> take(std::size_t count) {
+    std::vector<std::uint8_t> bytes;
+    line.select(true);
+    line.exchange(static_cast<std::uint8_t>((size_at + 2) | 0x80));
+    while (bytes.size() < count) bytes.push_back(line.exchange(0));
+    line.select(false);
+    return bytes;
+  }
+  SpiLine& line;
+  std::uint8_t size_at;
+};
+
+TEST(Imu, FifoTakesWhatIsSelectedStreamsItAndIsEmptiedOnlyWhileOff) {
+  SpiLine line(Family::kF405);
+  Fifo fifo{line, 0x72};
+  line.imu.motion({0x102, 0x304, 0x506}, {0x708, 0x90A, 0xB0C});
+  line.write(0x23, 0x48);  // acceleration, and the rate about x
+  line.machine.advance(ms(3));
+  EXPECT_EQ(fifo.size(), 0u);
+  line.write(0x6A, 0x40);
+  line.machine.advance(us(2500));
+  line.write(0x6A, 0x00);
+  ASSERT_EQ(fifo.size() % 8, 0u);
+  ASSERT_GE(fifo.size(), 16u);
+  const std::vector<std::uint8_t> one = {7, 8, 9, 10, 11, 12, 1, 2};
+  EXPECT_EQ(fifo.take(8), one);
+  EXPECT_EQ(fifo.take(8), one);
+  line.write(0x6A, 0x44);
+  EXPECT_NE(line.read(0x6A) & 0x40, 0) << "clears itself, and the rest stays";
+  line.machine.advance(ms(2));
+  EXPECT_GT(fifo.size(), 0u);
+  line.write(0x6A, 0x04);
+  EXPECT_EQ(fifo.size(), 0u);
+  EXPECT_EQ(line.machine.violations_text(), "");
+}
+
+TEST(Imu, FullFifoLosesBytesAndTellsIt) {
+  for (const std::uint8_t mode :
+       {std::uint8_t{0x00}, std::uint8_t{0x40}}) {  // the oldest; the newest
+    SpiLine line(Family::kF405);
+    Fifo fifo{line, 0x72};
+    line.write(0x1A, mode);
+    line.write(0x23, 0x78);
+    line.write(0x6A, 0x40);
+    line.imu.motion({1, 1, 1}, {1, 1, 1});
+    line.machine.advance(ms(40));
+    EXPECT_EQ(line.read(0x3A) & 0x10, 0);
+    line.imu.motion({2, 2, 2}, {2, 2, 2});
+    line.machine.advance(ms(60));
+    EXPECT_NE(line.read(0x3A) & 0x10, 0);
+    EXPECT_EQ(fifo.size(), 512u);
+    EXPECT_EQ(fifo.take(512).back(), mode == 0 ? 2 : 0) << "the last is cut in its midst";
+  }
+}
+
+TEST(Imu, IcmHoldsItsFifoEmptyUntilToldOtherwise) {
+  SpiLine line(Family::kF746, ImuKind::kIcm20648);
+  Fifo fifo{line, 0x70};
+  line.write(0x06, 0x01);
+  line.write(0x67, 0x1E);
+  line.write(0x03, 0x40);
+  line.machine.advance(ms(5));
+  EXPECT_GE(fifo.size(), 48u);
+  line.write(0x68, 0x1F);
+  line.machine.advance(ms(5));
+  EXPECT_EQ(fifo.size(), 0u);
+  line.write(0x68, 0x00);
+  line.machine.advance(ms(5));
+  EXPECT_GE(fifo.size(), 48u);
 }
 
 TEST(Imu, ResetTakesItsTimeAndClearsSettings) {
