@@ -55,12 +55,13 @@ class MotionSensor {
   static constexpr std::uint64_t kSilence_us = 100'000;
   static constexpr std::uint8_t kRead = 0x80;
   static constexpr std::size_t kSampleSize = 12;
-  /// What the wait has room for at 6.5 MHz: kImuMostPause_us of either chip, and one for the
-  /// tolerance of its rate. Far below the FIFO's size, 512 bytes, so that no full one is believed.
+  /// kImuMostPause_us of either chip, and one for the tolerance of its rate: the wait has room for
+  /// them from 6 MHz up. Far below the FIFO's size, 512 bytes, so that no full one is believed.
   static constexpr std::size_t kMostSize = 14 * kSampleSize;
 
   ImuStatus fault() {
     phase_ = Phase::kSearch;
+    overfull_ = false;
     ++faults_;
     return ImuStatus::kFault;
   }
