@@ -58,6 +58,7 @@ class Checker {
       before_ = out;
     }
     result_.length_s = time_s();
+    result_.whole = tick_ < kMostTicks;
     return std::move(result_);
   }
 

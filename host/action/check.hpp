@@ -25,6 +25,7 @@ struct FrameCheck {
 struct Checked {
   std::vector<FrameCheck> frames;  ///< in the order played
   double length_s = 0;
+  bool whole = true;  ///< false: it goes on after length_s, where the check ended
   /// The first frame with a problem; null: there is none.
   const FrameCheck* first_bad() const;
 };

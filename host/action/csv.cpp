@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <sstream>
 
+#include "host/action/frames.hpp"
 #include "host/action/words.hpp"
 
 namespace verp::action {
@@ -43,7 +44,7 @@ std::string to_csv(const Params& params, const Made& made, int number) {
   return text;
 }
 
-Document from_csv(const std::filesystem::path& file, const std::string& text,
+Document from_csv(const Params& params, const std::filesystem::path& file, const std::string& text,
                   const std::string& name) {
   Document document;
   document.file = file;
@@ -62,6 +63,7 @@ Document from_csv(const std::filesystem::path& file, const std::string& text,
     if (std::find(columns.begin(), column, *column) == column) continue;
     fail(1, "a second column '" + *column + "'", "give each joint one");
   }
+  for (std::size_t i = 2; i < columns.size(); ++i) joint_named(params, columns[i], file, 1);
   for (int number = 2; std::getline(lines, line); ++number) {
     const std::vector<std::string> cells = cells_of(line);
     if (cells.size() == 1 && cells[0].empty()) continue;

@@ -9,8 +9,9 @@ namespace verp::action {
 /// Of a made action, whatever its text says: body and feet are joints there.
 std::string to_csv(const Params& params, const Made& made, int number);
 
-/// An action of that name with the table's frames. An empty cell: no goal. Throws LoadError.
-Document from_csv(const std::filesystem::path& file, const std::string& text,
+/// An action of that name with the table's frames. An empty cell: no goal. Throws LoadError, also
+/// for a joint that the robot lacks.
+Document from_csv(const Params& params, const std::filesystem::path& file, const std::string& text,
                   const std::string& name);
 
 }  // namespace verp::action

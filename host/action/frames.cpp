@@ -14,15 +14,7 @@ namespace {
 constexpr std::size_t kJoints = kMaxJoints;
 
 int joint_of(const Params& params, const Document& document, int line, const std::string& name) {
-  const int joint = model::find_joint(params, name.c_str());
-  if (joint >= 0) return joint;
-  std::string names;
-  for (int j = 0; j < params.joint_count; ++j) {
-    names += (j > 0 ? ", " : "") + std::string(params.joint[j].name);
-  }
-  throw model::LoadError(document.file.string(), line,
-                         fmt::format("{} has no joint '{}'", params.name, name),
-                         "it has: " + names);
+  return joint_named(params, name, document.file, line);
 }
 
 /// What frames hand on to the next.
@@ -204,6 +196,19 @@ Condition other_side(Condition condition) {
 }
 
 }  // namespace
+
+int joint_named(const Params& params, const std::string& name, const std::filesystem::path& file,
+                int line) {
+  const int joint = model::find_joint(params, name.c_str());
+  if (joint >= 0) return joint;
+  std::string names;
+  for (int j = 0; j < params.joint_count; ++j) {
+    names += (j > 0 ? ", " : "") + std::string(params.joint[j].name);
+  }
+  throw model::LoadError(file.string(), line,
+                         fmt::format("{} has no joint '{}'", params.name, name),
+                         "it has: " + names);
+}
 
 Draft draft(const Params& params, const Poser& poser, const Document& document) {
   const std::uint32_t joints = joints_of(params, document);

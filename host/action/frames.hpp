@@ -12,6 +12,10 @@ struct Draft {
   std::vector<Angles> angle_rad;  ///< as exact as known
 };
 
+/// Throws LoadError with the joints that there are.
+int joint_named(const Params& params, const std::string& name, const std::filesystem::path& file,
+                int line);
+
 /// Poses of an action that is no mirror image. Throws LoadError.
 Draft draft(const Params& params, const Poser& poser, const Document& document);
 

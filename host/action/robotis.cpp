@@ -21,6 +21,7 @@ constexpr std::size_t kName = 0, kNameBytes = 14, kRepeat = 15, kSchedule = 16, 
 // Of a step.
 constexpr std::size_t kStepBytes = 64, kPause = 62, kTime = 63;
 constexpr std::uint16_t kInvalid = 0x4000, kTorqueOff = 0x2000, kCount = 0x0FFF;
+constexpr std::uint16_t kUnused = 0x9000;
 constexpr double kUnit_s = 0.0078;  // of times
 constexpr int kNormalSpeed = 32;
 
@@ -164,6 +165,23 @@ void put_document(const Params& params, const Document& document, Page& page) {
   }
 }
 
+/// Empty: the page may be read.
+std::string wrong_with(const Page& page) {
+  if (sum_of(page) != 0xFF) return fmt::format("a wrong checksum (byte {})", kChecksum);
+  if (page[kStepCount] > kSteps)
+    return fmt::format("{} steps, it has room for {} (byte {})", page[kStepCount], kSteps,
+                       kStepCount);
+  for (std::size_t step = 0; step < page[kStepCount]; ++step) {
+    for (std::size_t id = 1; id < kPageServos; ++id) {
+      const std::size_t at = step_at(step) + 2 * id;
+      if ((word(page, at) & kInvalid) != 0 || (word(page, at) & kUnused) == 0) continue;
+      return fmt::format("0x{:04x} for the position of servo {} in step {} (byte {})",
+                         word(page, at), id, step + 1, at);
+    }
+  }
+  return "";
+}
+
 }  // namespace
 
 Page blank_page() {
@@ -197,11 +215,10 @@ Motion read_motion(const std::filesystem::path& file) {
   Motion motion(kPages);
   for (std::size_t i = 0; i < kPages; ++i) {
     std::copy_n(bytes.data() + i * kPageBytes, kPageBytes, motion[i].begin());
-    if (sum_of(motion[i]) == 0xFF) continue;
-    throw model::LoadError(
-        file.string(), 0,
-        fmt::format("page {} has a wrong checksum (byte {})", i, i * kPageBytes + kChecksum),
-        "take an intact copy");
+    const std::string wrong = wrong_with(motion[i]);
+    if (wrong.empty()) continue;
+    throw model::LoadError(file.string(), 0, fmt::format("page {} has {}", i, wrong),
+                           "take an intact copy");
   }
   return motion;
 }

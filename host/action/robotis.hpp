@@ -21,7 +21,9 @@ Page blank_page();
 /// Bytes that make the page's sum 255, as its checksum must.
 void seal(Page& page);
 
-/// Throws LoadError for what is no such file: another size, or a page whose checksum is wrong.
+/// Throws LoadError for what is no such file: another size, a page whose checksum is wrong, with
+/// more steps than it has room for, or whose steps hold no positions. A link to a page without
+/// steps is none, as on the robot.
 Motion read_motion(const std::filesystem::path& file);
 
 /// The pages that have steps, or are not blank: an action each. Joints are those whose servo has

@@ -123,10 +123,9 @@ struct ImuSensor {
   Transform pose = Transform::Identity();
   int id = 0;
   double gyro_rad_s_per_count = 0, accel_m_s2_per_count = 0;
-  double gyro_noise_rad_s = 0,
-         gyro_bias_rad_s = 0;  ///< 1-sigma per sample; 1-sigma of the constant bias
-  double accel_noise_m_s2 = 0, accel_bias_m_s2 = 0;
-  double latency_s = 0;  ///< age of what it tells
+  double gyro_noise_rad_s_rthz = 0, accel_noise_m_s2_rthz = 0;  ///< densities, per sqrt(Hz)
+  double gyro_bias_rad_s = 0, accel_bias_m_s2 = 0;              ///< 1-sigma of the constant bias
+  double latency_s = 0;                                         ///< age of what it tells
 };
 
 struct FootSensor {

@@ -54,9 +54,9 @@ ImuFact read_imu(const XmlElement& e) {
   fact.imu.pose = read_pose(e);
   fact.imu.gyro_rad_s_per_count = type->gyro_rad_s_per_count;
   fact.imu.accel_m_s2_per_count = type->accel_m_s2_per_count;
-  fact.imu.gyro_noise_rad_s = type->gyro_noise_rad_s;
+  fact.imu.gyro_noise_rad_s_rthz = type->gyro_noise_rad_s_rthz;
   fact.imu.gyro_bias_rad_s = type->gyro_bias_rad_s;
-  fact.imu.accel_noise_m_s2 = type->accel_noise_m_s2;
+  fact.imu.accel_noise_m_s2_rthz = type->accel_noise_m_s2_rthz;
   fact.imu.accel_bias_m_s2 = type->accel_bias_m_s2;
   fact.imu.latency_s = read_latency_s(e);
   return fact;

@@ -12,7 +12,7 @@ class LoadError : public std::runtime_error {
   LoadError(std::string file_name, int line_number, std::string what_is_wrong, std::string remedy)
       : std::runtime_error(one_line(file_name +
                                     (line_number > 0 ? ":" + std::to_string(line_number) : "") +
-                                    ": " + what_is_wrong + "; " + remedy)),
+                                    ": " + shortened(what_is_wrong) + "; " + remedy)),
         file(std::move(file_name)),
         line(line_number),
         message(std::move(what_is_wrong)),
@@ -24,10 +24,17 @@ class LoadError : public std::runtime_error {
   std::string fix;
 
  private:
+  // It quotes what the file says, which may be anything: a terminal obeys control bytes.
   static std::string one_line(std::string text) {
     for (char& c : text) {
-      if (c == '\n' || c == '\r') c = ' ';
+      if (c == '\n' || c == '\r' || c == '\t') c = ' ';
+      if (static_cast<unsigned char>(c) < ' ' || c == '\x7F') c = '?';
     }
+    return text;
+  }
+  static std::string shortened(std::string text) {
+    constexpr std::size_t kMost = 400;
+    if (text.size() > kMost) text = text.substr(0, kMost) + "...";
     return text;
   }
 };

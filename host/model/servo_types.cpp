@@ -155,14 +155,12 @@ const std::vector<ImuType>& imu_types() {
   constexpr double kDegree = std::numbers::pi / 180;
   constexpr double kG = 9.80665;
   // TDK InvenSense ICM-20648 datasheet DS-000179: +-2000 dps at 16.4 LSB/dps, +-4 g at 8192 LSB/g;
-  // noise densities 0.015 dps/sqrt(Hz) and 190 ug/sqrt(Hz), over the noise bandwidth of the 24 Hz
-  // filters (DLPF 4: about 36 Hz; host/sim/sensors.hpp says why). Its zero-rate output (5 dps) and
+  // noise densities 0.015 dps/sqrt(Hz) and 190 ug/sqrt(Hz). Its zero-rate output (5 dps) and
   // zero-g offset (25 mg) are calibrated in the factory and at rest; what remains, 0.1 dps and 5
   // mg, is our assumption: a few times the noise of a one-second mean, and temperature drift.
-  static const double kBandwidth = std::sqrt(36.0);
   static const std::vector<ImuType> kTypes = {
-      {"icm20648", kDegree / 16.4, kG / 8192, 0.015 * kDegree * kBandwidth, 0.1 * kDegree,
-       190e-6 * kG * kBandwidth, 5e-3 * kG},
+      {"icm20648", kDegree / 16.4, kG / 8192, 0.015 * kDegree, 0.1 * kDegree, 190e-6 * kG,
+       5e-3 * kG},
   };
   return kTypes;
 }

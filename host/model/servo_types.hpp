@@ -48,9 +48,9 @@ struct ImuType {
   const char* name;
   double gyro_rad_s_per_count;
   double accel_m_s2_per_count;
-  double gyro_noise_rad_s;  ///< 1-sigma per sample
-  double gyro_bias_rad_s;   ///< 1-sigma, what remains after calibration
-  double accel_noise_m_s2;
+  double gyro_noise_rad_s_rthz;  ///< density, one-sided: rad/s/sqrt(Hz)
+  double gyro_bias_rad_s;        ///< 1-sigma, what remains after calibration
+  double accel_noise_m_s2_rthz;
   double accel_bias_m_s2;
 };
 

@@ -36,8 +36,8 @@ TwinRobot::TwinRobot(World& world, const model::Entity& entity, const TwinOption
       owner_(world.new_owner()),
       body_(world, entity_, mass_factors(entity, options), owner_),
       setpoint_(entity.joints.size()),
-      imu_(entity.imu.value_or(model::ImuSensor{}), options.imperfections.imu, options.seed,
-           options.gyro_bias_rad_s),
+      imu_(entity.imu.value_or(model::ImuSensor{}), 1e-6 * entity.period_us,
+           options.imperfections.imu, options.seed, options.gyro_bias_rad_s),
       shutters_(entity_, options.cameras),
       probes_(entity_, body_, owner_, options.imperfections.probes, options.seed),
       nominal_v_(options.supply_v.value_or(

@@ -38,9 +38,10 @@ double LowPass::operator()(double value, double step_s) {
   return value_;
 }
 
-ImuModel::ImuModel(const model::ImuSensor& sensor, bool noise, std::uint64_t seed,
+ImuModel::ImuModel(const model::ImuSensor& sensor, double mean_s, bool noise, std::uint64_t seed,
                    const Vec3& gyro_bias_rad_s)
     : sensor_(sensor),
+      mean_s_(mean_s),
       noise_(noise),
       random_(seed, Draw::kImuNoise),
       gyro_bias_rad_s_(gyro_bias_rad_s) {
@@ -55,26 +56,42 @@ void ImuModel::sample(const Mat3& world_imu, const Vec3& angular_velocity_world_
                       double step_s) {
   Vec3 gyro = world_imu.transpose() * angular_velocity_world_rad_s;
   Vec3 accel = world_imu.transpose() * (acceleration_world_m_s2 + up_world_m_s2);
-  for (int axis = 0; axis < 3; ++axis) {
-    const auto i = static_cast<std::size_t>(axis);
-    gyro[axis] = gyro_filter_[i](gyro[axis], step_s);
-    accel[axis] = accel_filter_[i](accel[axis], step_s);
-  }
   gyro += gyro_bias_rad_s_;
-  if (noise_) {
-    gyro += normal3(random_, sensor_.gyro_noise_rad_s);
-    accel += accel_bias_m_s2_ + normal3(random_, sensor_.accel_noise_m_s2);
+  accel += accel_bias_m_s2_;
+  if (noise_) {  // white, before the filter
+    const double band_rthz = std::sqrt(0.5 / step_s);
+    gyro += normal3(random_, sensor_.gyro_noise_rad_s_rthz * band_rthz);
+    accel += normal3(random_, sensor_.accel_noise_m_s2_rthz * band_rthz);
   }
   ImuMeasurement now;
   for (int axis = 0; axis < 3; ++axis) {
     const auto i = static_cast<std::size_t>(axis);
+    gyro[axis] = gyro_filter_[i](gyro[axis], step_s);
+    accel[axis] = accel_filter_[i](accel[axis], step_s);
     now.gyro_count[i] = to_count<std::int16_t>(gyro[axis], sensor_.gyro_rad_s_per_count);
     now.accel_count[i] = to_count<std::int16_t>(accel[axis], sensor_.accel_m_s2_per_count);
   }
-  on_the_way_.push_back(now);
+  samples_.push_back(now);
+  const auto together = static_cast<std::size_t>(std::lround(mean_s_ / step_s));
+  while (samples_.size() > std::max<std::size_t>(together, 1)) samples_.pop_front();
+  on_the_way_.push_back(mean());
   const auto late_by = static_cast<std::size_t>(std::lround(sensor_.latency_s / step_s));
   while (on_the_way_.size() > late_by + 1) on_the_way_.pop_front();
   measurement_ = on_the_way_.front();
+}
+
+ImuMeasurement ImuModel::mean() const {
+  ImuMeasurement mean;
+  const auto of = [this](auto count, std::size_t axis) {
+    double sum = 0;
+    for (const ImuMeasurement& sample : samples_) sum += (sample.*count)[axis];
+    return static_cast<std::int16_t>(std::lround(sum / static_cast<double>(samples_.size())));
+  };
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    mean.gyro_count[axis] = of(&ImuMeasurement::gyro_count, axis);
+    mean.accel_count[axis] = of(&ImuMeasurement::accel_count, axis);
+  }
+  return mean;
 }
 
 FootModel::FootModel(const model::Limb& leg, double newton_per_count, bool noise, Random random)

@@ -23,13 +23,15 @@ class LowPass {
   bool started_ = false;
 };
 
-/// Gyroscope and accelerometer. Bandwidth 23.9 Hz: InvenSense ICM-20648, DLPF 4. One filter wider
-/// (DLPF 3, 51 Hz), a controller that samples every 10 ms folds step impacts into false tilt and
-/// false turning.
+/// Gyroscope and accelerometer, as hal/chip/invensense reads them: bandwidth 23.9 Hz (InvenSense
+/// ICM-20648, DLPF 4), and what is told is the mean of the samples of one control period. The jolt
+/// of a landing is over in less than a period: of one sample in ten, each adds a turn that never
+/// was.
 class ImuModel {
  public:
+  /// mean_s: over which samples are taken together; 0: the newest alone.
   /// gyro_bias_rad_s: on top of what the seed makes of the sensor's own.
-  ImuModel(const model::ImuSensor& sensor, bool noise, std::uint64_t seed,
+  ImuModel(const model::ImuSensor& sensor, double mean_s, bool noise, std::uint64_t seed,
            const Vec3& gyro_bias_rad_s = Vec3::Zero());
 
   /// Angular velocity and acceleration of the sensor's own point, world axes; the specific force
@@ -40,13 +42,17 @@ class ImuModel {
   const ImuMeasurement& measurement() const { return measurement_; }
 
  private:
+  ImuMeasurement mean() const;
+
   model::ImuSensor sensor_;
+  double mean_s_;
   bool noise_;
   Random random_;
   Vec3 gyro_bias_rad_s_ = Vec3::Zero();
   Vec3 accel_bias_m_s2_ = Vec3::Zero();
   std::array<LowPass, 3> gyro_filter_;
   std::array<LowPass, 3> accel_filter_;
+  std::deque<ImuMeasurement> samples_;     ///< of the last mean_s
   std::deque<ImuMeasurement> on_the_way_;  ///< of the last steps, within its latency
   ImuMeasurement measurement_;
 };

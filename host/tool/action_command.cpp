@@ -107,7 +107,8 @@ int check(const ActionWords& words) {
     const action::Checked checked = action::check(robot.entity, robot.params, robot.made, number);
     const action::Document& document = robot.made.documents[static_cast<std::size_t>(number - 1)];
     Json frames = Json::array();
-    text += fmt::format("{} on {}: {:.2f} s\n", document.name, robot.entity.name, checked.length_s);
+    text += fmt::format("{} on {}: {:.2f} s{}\n", document.name, robot.entity.name,
+                        checked.length_s, checked.whole ? "" : ", and on: not checked further");
     text += fmt::format("  {:>6} {:>6} {:>6} {:>6} {:<18} {:>6} {:<18} {:>5}\n", "line", "from s",
                         "to s", "speed%", "of", "weight%", "on", "ZMPmm");
     std::set<std::pair<int, std::string>> told;  // a frame played again with nothing new is not
@@ -132,6 +133,7 @@ int check(const ActionWords& words) {
     rows.push_back({{"action", document.name},
                     {"good", first == nullptr},
                     {"length_s", checked.length_s},
+                    {"whole", checked.whole},
                     {"frames", frames}});
   }
   print_answer(words.json, {{"model", robot.entity.name}, {"actions", rows}}, text);

@@ -19,9 +19,9 @@ namespace fs = std::filesystem;
 
 constexpr const char* kCommand = "verp action convert";
 
-void write_file(const fs::path& file, const std::string& bytes) {
+void write_file(const char* command, const fs::path& file, const std::string& bytes) {
   if (files::replace(file, bytes)) return;
-  throw ToolError(kBadInput, fmt::format("{}: {} cannot be written; give another place", kCommand,
+  throw ToolError(kBadInput, fmt::format("{}: {} cannot be written; give another place", command,
                                          file.string()));
 }
 
@@ -37,7 +37,7 @@ std::string motion_to_folder(const Params& params, const ConvertWords& convert) 
   std::error_code error;
   fs::create_directories(convert.to, error);
   for (const action::Document& each : documents) {
-    write_file(fs::path(convert.to) / (each.name + ".action"), action::text_of(each));
+    write_file(kCommand, fs::path(convert.to) / (each.name + ".action"), action::text_of(each));
   }
   return fmt::format("{}: {} actions\n", convert.to, documents.size());
 }
@@ -51,7 +51,7 @@ std::string folder_to_motion(const Params& params, const ConvertWords& convert) 
   const action::Motion motion = action::to_motion(params, documents);
   std::string bytes;
   for (const action::Page& page : motion) bytes.append(page.begin(), page.end());
-  write_file(convert.to, bytes);
+  write_file(kCommand, convert.to, bytes);
   return fmt::format("{}: {} actions on {} pages\n", convert.to, documents.size(), motion.size());
 }
 
@@ -63,14 +63,16 @@ std::string convert_actions(const ActionWords& words, const ConvertWords& conver
     ActionWords named = words;
     named.action = convert.from;
     const ActionRobot robot = load_action_robot(named);
-    write_file(to, action::to_csv(robot.params, robot.made, require_action(robot, named)));
-    return convert.to + "\n";
-  }
-  if (from.extension() == ".csv" && to.extension() == ".action") {
-    write_file(to, action::text_of(action::from_csv(from, read_text(from), to.stem().string())));
+    write_file(kCommand, to,
+               action::to_csv(robot.params, robot.made, require_action(robot, named)));
     return convert.to + "\n";
   }
   const Params params = model::make_params(model::load_robot(model::find_model(words.model), ""));
+  if (from.extension() == ".csv" && to.extension() == ".action") {
+    const auto made = action::from_csv(params, from, read_text(from), to.stem().string());
+    write_file(kCommand, to, action::text_of(made));
+    return convert.to + "\n";
+  }
   if (from.extension() == ".bin" && !to.has_extension()) return motion_to_folder(params, convert);
   if (fs::is_directory(from) && to.extension() == ".bin") return folder_to_motion(params, convert);
   throw ToolError(kBadInput,
@@ -92,7 +94,7 @@ std::string record_action(const RecordWords& words) {
   const action::Document document =
       words.gait_cycles > 0 ? action::record_gait(trace, options.name, words.gait_cycles)
                             : action::record_joints(trace, options);
-  write_file(file, action::text_of(document));
+  write_file("verp action record", file, action::text_of(document));
   return fmt::format("{}: {} frames\n", words.file, document.frames.size());
 }
 

@@ -33,6 +33,10 @@ int require_action(const model::Entity& entity, const action::Made& made,
 
 ActionRobot load_action_robot(const ActionWords& words) {
   ActionRobot robot;
+  if (is_file(words.model)) {
+    throw model::LoadError(words.model, 0, "is an action, no robot",
+                           "give the action first, then a robot: generic21 or the path of an SDF");
+  }
   robot.entity = model::load_robot(model::find_model(words.model), "");
   robot.params = model::make_params(robot.entity);
   robot.made = make_actions(robot.entity, robot.params, words.action);

@@ -95,12 +95,42 @@ TEST(RobotisMotion, FilesOfAnotherSizeOrADamagedPageAreRefused) {
   std::filesystem::remove(file);
 }
 
+// Their sums are right, so it is no damage but rubbish.
+TEST(RobotisMotion, PagesOfMoreStepsThanTheyHoldOrOfNoPositionsAreRefusedByNumber) {
+  const std::filesystem::path file =
+      std::filesystem::temp_directory_path() / ("rubbish" + std::to_string(getpid()) + ".bin");
+  const auto why = [&](const auto& spoil) {
+    Motion motion = some_motion();
+    motion[9][kStepCount] = 7;
+    spoil(motion[9]);
+    seal(motion[9]);
+    std::ofstream(file, std::ios::binary | std::ios::trunc)
+        .write(reinterpret_cast<const char*>(motion.data()), kPages * kPageBytes);
+    try {
+      read_motion(file);
+    } catch (const model::LoadError& error) {
+      return error.message;
+    }
+    return std::string();
+  };
+  constexpr std::size_t kLastStep = kPageBytes - 64;
+  EXPECT_EQ(why([](Page&) {}), "");
+  EXPECT_EQ(why([](Page& page) { page[kStepCount] = 8; }),
+            "page 9 has 8 steps, it has room for 7 (byte 20)");
+  EXPECT_EQ(why([](Page& page) { page[kLastStep + 2 * 30 + 1] = 0x90; }).substr(0, 15),
+            "page 9 has 0x90")
+      << "of the last servo in the last step";
+  EXPECT_EQ(why([](Page& page) { page[kLastStep + 2 * 30 + 1] = 0xF0; }), "")
+      << "not to be used, whatever else it says";
+  std::filesystem::remove(file);
+}
+
 TEST(ActionCsv, TableAndBackIsTheSameLibrary) {
   const Made made =
       op3().make({"action a\nframe 0.5 hold 0.2\n head_pan 20\n body z -0.02\n"
                   "frame 0.4\n head_pan -20\n body stand\n"});
   const std::string table = to_csv(op3().params, made, 1);
-  const Made again = make_library(op3().params, {from_csv("a.csv", table, "a")});
+  const Made again = make_library(op3().params, {from_csv(op3().params, "a.csv", table, "a")});
   ASSERT_EQ(again.library().action(1).frames, 2);
   for (int i = 0; i < 2; ++i) {
     const Frame &one = made.library().frame(i), &other = again.library().frame(i);
@@ -116,7 +146,7 @@ TEST(ActionCsv, TableAndBackIsTheSameLibrary) {
 TEST(ActionCsv, BadTablesAreRefusedAtTheirLine) {
   const auto why = [](const std::string& table) {
     try {
-      from_csv("t.csv", table, "t");
+      from_csv(op3().params, "t.csv", table, "t");
     } catch (const model::LoadError& error) {
       return std::string(error.what());
     }
@@ -125,6 +155,8 @@ TEST(ActionCsv, BadTablesAreRefusedAtTheirLine) {
   EXPECT_EQ(why("a,b\n1,2\n").substr(0, 8), "t.csv:1:");
   EXPECT_EQ(why("time_s,hold_s,head_pan\n1,0,0.1\n1,0\n").substr(0, 8), "t.csv:3:");
   EXPECT_EQ(why("time_s,hold_s,head_pan\n1,0,many\n").substr(0, 8), "t.csv:2:");
+  EXPECT_EQ(why("time_s,hold_s,tail\n1,0,0.1\n").substr(0, 36),
+            "t.csv:1: op3 has no joint 'tail'; it");
 }
 
 }  // namespace

@@ -55,9 +55,9 @@ TEST(Latency, TheImuTellsWhatOneWithoutItToldSoManyStepsAgo) {
 TEST(Latency, OfARateThatRisesEvenlyTheGyroLagsByItsSlopeTimesTheLatency) {
   model::ImuSensor sensor = *biped().imu;
   sensor.latency_s = kLate_s;
-  ImuModel late(sensor, false, 1);
+  ImuModel late(sensor, 0, false, 1);
   sensor.latency_s = 0;
-  ImuModel prompt(sensor, false, 1);
+  ImuModel prompt(sensor, 0, false, 1);
   constexpr double kSlope_rad_s2 = 20, kStep_s = 0.001;
   for (int i = 0; i < 500; ++i) {
     const Vec3 rate(kSlope_rad_s2 * kStep_s * i, 0, 0);

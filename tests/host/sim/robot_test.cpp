@@ -127,13 +127,57 @@ TEST(Robot, ImuReadsOneGUpwardAtRest) {
 // The sensor turned by 90 degrees about z sees body x as its -y.
 TEST(Robot, ImuMeasuresInItsOwnAxes) {
   model::ImuSensor sensor = *test::biped().imu;
-  ImuModel imu(sensor, false, 1);
+  ImuModel imu(sensor, 0, false, 1);
   const Mat3 world_imu = Eigen::AngleAxisd(1.5707963267948966, Vec3::UnitZ()).toRotationMatrix();
   imu.sample(world_imu, Vec3(1.5, 0, 0), Vec3(2, 0, 0), Vec3(0, 0, test::kGravity_m_s2), 0.001);
   EXPECT_EQ(imu.measurement().gyro_count[1], -1500);
   EXPECT_EQ(imu.measurement().gyro_count[0], 0);
   EXPECT_EQ(imu.measurement().accel_count[1], -2000);
   EXPECT_EQ(imu.measurement().accel_count[2], 9807);
+}
+
+// A jolt of a landing, over in less than a control period, at any moment of it.
+TEST(Robot, WhatTheGyroTellsOncePerPeriodAddsUpToTheTurn) {
+  constexpr double kStep_s = 0.001, kMean_s = 0.01, kJolt_rad_s = 1;
+  model::ImuSensor sensor;
+  sensor.gyro_rad_s_per_count = 1e-4;
+  for (int jolt_at = 100; jolt_at < 110; ++jolt_at) {
+    ImuModel imu(sensor, kMean_s, false, 1);
+    double turned_rad = 0;
+    for (int i = 0; i < 200; ++i) {
+      const bool jolts = i >= jolt_at && i < jolt_at + 5;
+      imu.sample(Mat3::Identity(), Vec3(0, 0, jolts ? kJolt_rad_s : 0), Vec3::Zero(), Vec3::Zero(),
+                 kStep_s);
+      if (i % 10 == 9)
+        turned_rad += kMean_s * sensor.gyro_rad_s_per_count * imu.measurement().gyro_count[2];
+    }
+    EXPECT_NEAR(turned_rad, 5 * kStep_s * kJolt_rad_s, 1e-5) << jolt_at;
+  }
+}
+
+// Density over the root of twice the time, whatever the physics step: what a datasheet means by it.
+TEST(Robot, GyroNoiseOfAMeanIsThatOfItsDensity) {
+  constexpr double kDensity = 3e-4, kMean_s = 0.01;
+  model::ImuSensor sensor;
+  sensor.gyro_rad_s_per_count = 1e-5;
+  sensor.gyro_noise_rad_s_rthz = kDensity;
+  for (const int step_ms : {1, 2}) {
+    ImuModel imu(sensor, kMean_s, true, 7);
+    double squares = 0;
+    constexpr int kMeans = 200, kOfTicks = 100;
+    for (int mean = 0; mean < kMeans; ++mean) {
+      double sum_rad_s = 0;
+      for (int tick = 0; tick < kOfTicks; ++tick) {
+        for (int i = 0; i < 10 / step_ms; ++i)
+          imu.sample(Mat3::Identity(), Vec3::Zero(), Vec3::Zero(), Vec3::Zero(), 1e-3 * step_ms);
+        sum_rad_s += sensor.gyro_rad_s_per_count * imu.measurement().gyro_count[2];
+      }
+      squares += std::pow(sum_rad_s / kOfTicks, 2);
+    }
+    const double expected = kDensity / std::sqrt(2 * kMean_s * kOfTicks);
+    // Of 200 means the estimate is 5 % off, one sigma.
+    EXPECT_NEAR(std::sqrt(squares / kMeans), expected, 0.2 * expected) << step_ms << " ms";
+  }
 }
 
 TEST(Robot, ImuFeelsNothingInFreeFallAndSaturatesInsteadOfWrapping) {
@@ -147,7 +191,7 @@ TEST(Robot, ImuFeelsNothingInFreeFallAndSaturatesInsteadOfWrapping) {
   TwinRobot robot(world, floating, options);
   robot.advance_to(100'000);
   for (const std::int16_t count : robot.imu().accel_count) EXPECT_LE(std::abs(count), 20);
-  ImuModel imu(*entity.imu, false, 1);
+  ImuModel imu(*entity.imu, 0, false, 1);
   imu.sample(Mat3::Identity(), Vec3(1000, -1000, 0), Vec3::Zero(), Vec3(0, 0, test::kGravity_m_s2),
              0.001);
   EXPECT_EQ(imu.measurement().gyro_count[0], 32767);

@@ -101,9 +101,9 @@ inline model::Entity biped() {
   imu.pose.translation() = model::Vec3(0.01, 0.02, 0.03);
   imu.gyro_rad_s_per_count = 1e-3;
   imu.accel_m_s2_per_count = 1e-3;
-  imu.gyro_noise_rad_s = 0.002;
+  imu.gyro_noise_rad_s_rthz = 0.0003;
   imu.gyro_bias_rad_s = 0.005;
-  imu.accel_noise_m_s2 = 0.02;
+  imu.accel_noise_m_s2_rthz = 0.003;
   imu.accel_bias_m_s2 = 0.05;
   entity.imu = imu;
   entity.feet.id = {111, 112};
