@@ -35,7 +35,8 @@ ActionRobot load_action_robot(const ActionWords& words) {
   ActionRobot robot;
   if (is_file(words.model)) {
     throw model::LoadError(words.model, 0, "is an action, no robot",
-                           "give the action first, then a robot: generic21 or the path of an SDF");
+                           "give a robot, generic21 or the path of an SDF file; verp action show " +
+                               words.model + " shows the action");
   }
   robot.entity = model::load_robot(model::find_model(words.model), "");
   robot.params = model::make_params(robot.entity);

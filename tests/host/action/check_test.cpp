@@ -37,6 +37,15 @@ TEST(ActionCheck, NamesTheFrameInWhichTheWeightIsBesideTheSoles) {
              "ZMP");
 }
 
+TEST(ActionCheck, SaysThatItEndsBeforeAnActionOfHours) {
+  const std::string once = "action a\nframe 1\n head_yaw 10\n";
+  EXPECT_TRUE(checked(once).whole);
+  const Checked hours =
+      checked("action a\nframe start 50\n head_yaw 10\nframe 50\n repeat 255 from start\n");
+  EXPECT_FALSE(hours.whole);
+  EXPECT_EQ(hours.first_bad(), nullptr);
+}
+
 // The check is of use only if what is shipped passes it.
 TEST(ActionCheck, EveryShippedActionPasses) {
   for (const char* name : {"generic21", "op3", "darwin_op"}) {
