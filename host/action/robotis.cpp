@@ -217,7 +217,8 @@ Motion read_motion(const std::filesystem::path& file) {
     std::copy_n(bytes.data() + i * kPageBytes, kPageBytes, motion[i].begin());
     const std::string wrong = wrong_with(motion[i]);
     if (wrong.empty()) continue;
-    throw model::LoadError(file.string(), 0, fmt::format("page {} has {}", i, wrong),
+    throw model::LoadError(file.string(), 0,
+                           fmt::format("page {} (from byte {}) has {}", i, i * kPageBytes, wrong),
                            "take an intact copy");
   }
   return motion;

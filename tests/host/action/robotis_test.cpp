@@ -116,9 +116,9 @@ TEST(RobotisMotion, PagesOfMoreStepsThanTheyHoldOrOfNoPositionsAreRefusedByNumbe
   constexpr std::size_t kLastStep = kPageBytes - 64;
   EXPECT_EQ(why([](Page&) {}), "");
   EXPECT_EQ(why([](Page& page) { page[kStepCount] = 8; }),
-            "page 9 has 8 steps, it has room for 7 (byte 20)");
-  EXPECT_EQ(why([](Page& page) { page[kLastStep + 2 * 30 + 1] = 0x90; }).substr(0, 15),
-            "page 9 has 0x90")
+            "page 9 (from byte 4608) has 8 steps, it has room for 7 (byte 20)");
+  EXPECT_EQ(why([](Page& page) { page[kLastStep + 2 * 30 + 1] = 0x90; }).substr(0, 32),
+            "page 9 (from byte 4608) has 0x90")
       << "of the last servo in the last step";
   EXPECT_EQ(why([](Page& page) { page[kLastStep + 2 * 30 + 1] = 0xF0; }), "")
       << "not to be used, whatever else it says";

@@ -188,7 +188,9 @@ TEST_P(MotionSensorDriver, WhatCameInALongPauseIsDropped) {
   ASSERT_TRUE(board.starts());
   read_alone();
   number_samples();
-  for (const std::uint64_t pause_us : {30'000, 76'000, 85'000, 86'000, 87'000, 99'000, 2'000'000}) {
+  constexpr std::uint64_t kPauses_us[] = {30'000, 76'000, 85'000,   86'000,
+                                          87'000, 99'000, 2'000'000};
+  for (const std::uint64_t pause_us : kPauses_us) {
     pause(pause_us);
     told = newest;
     ASSERT_EQ(read_alone(), ImuStatus::kStale) << pause_us;
