@@ -4,6 +4,8 @@
 
 #include <cmath>
 #include <cstring>
+#include <memory>
+#include <numeric>
 #include <vector>
 
 #include "tests/host/sim/test_robots.hpp"
@@ -153,6 +155,29 @@ TEST(Robot, WhatTheGyroTellsOncePerPeriodAddsUpToTheTurn) {
     }
     EXPECT_NEAR(turned_rad, 5 * kStep_s * kJolt_rad_s, 1e-5) << jolt_at;
   }
+}
+
+TEST(Robot, TheImuOfARobotIsMeantOverItsControlPeriod) {
+  const auto falling = [](std::uint32_t period_us, World& world) {
+    model::Entity entity = test::biped();
+    entity.period_us = period_us;
+    TwinOptions options = crouched(entity);
+    options.imperfections = Imperfections::none();
+    options.cradle = Cradle::kNone;
+    return std::make_unique<TwinRobot>(world, entity, options);
+  };
+  World each_world, mean_world;
+  const auto each = falling(1'000, each_world), mean = falling(10'000, mean_world);
+  std::vector<double> counts;
+  for (std::uint64_t t_us = 1'000; t_us <= 600'000; t_us += 1'000) {
+    each->advance_to(t_us);
+    mean->advance_to(t_us);
+    counts.push_back(each->imu().gyro_count[1]);
+    if (t_us < 500'000) continue;
+    const double sum = std::accumulate(counts.end() - 10, counts.end(), 0.0);
+    EXPECT_NEAR(mean->imu().gyro_count[1], sum / 10, 0.5) << t_us;
+  }
+  EXPECT_GT(std::abs(counts.back() - counts[counts.size() - 10]), 5) << "so that a mean is another";
 }
 
 // Density over the root of twice the time, whatever the physics step: what a datasheet means by it.
