@@ -1,0 +1,165 @@
+#include <cmath>
+
+#include "tests/host/stm32_drivers/imu_driver.hpp"
+
+// What the motion sensor tells is the mean of all that its FIFO holds: every sample, whole, once.
+namespace verp::hal::stm32::test {
+namespace {
+
+// However the reads fall against the chip's clock: every sample is in one mean, and in no second.
+TEST_P(MotionSensorDriver, TellsEverySampleOnce) {
+  ASSERT_TRUE(board.starts());
+  read_alone();
+  number_samples();
+  for (int i = 0; i < 3000; ++i) {
+    const ImuSample before = board.sample;
+    if (board.read() == ImuStatus::kFresh) {
+      const int last = board.sample.gyro_count[0] - (told + 1);
+      EXPECT_LE(told + 1, last);
+      EXPECT_LE(last, newest);
+      expect_up_to(last, board.sample);
+    } else {
+      EXPECT_EQ(board.sample.gyro_count[0], before.gyro_count[0]);
+    }
+    pause(static_cast<std::uint64_t>(7 * i % 3331));
+  }
+  EXPECT_GT(told, 2000);
+  pause(4'000);
+  const int last = newest;
+  read_alone();
+  expect_up_to(last, board.sample);
+  EXPECT_EQ(board.imu.faults(), 0u);
+}
+
+// A foot lands right after each read and right before the next the jolt is over: what the rates add
+// up to is the turn all the same.
+TEST_P(MotionSensorDriver, JoltsBetweenReadsAddUpToTheTurn) {
+  ASSERT_TRUE(board.starts());
+  const double period_us = GetParam().kind == ImuKind::kMpu9250 ? 2000 : 2e6 / 1125;
+  int since_read = 0;
+  double turn = 0, read_turn = 0;
+  board.device.before_sample = [&] {
+    const bool jolt = since_read == 1 || since_read == 2;
+    const auto rate = static_cast<std::int16_t>(jolt ? 1000 : -20);
+    board.device.motion({0, 0, rate}, {0, 0, 0});
+    ++since_read;
+    turn += period_us * rate;
+  };
+  pause(10'000);
+  board.read();
+  turn = since_read = 0;
+  for (int tick = 0; tick < 100; ++tick) {
+    const std::uint64_t last_us = board.sample.time_us;
+    pause(10'000);
+    since_read = 0;
+    ASSERT_EQ(board.read(), ImuStatus::kFresh);
+    const auto passed_us = static_cast<double>(board.sample.time_us - last_us);
+    read_turn += passed_us * board.sample.gyro_count[2];
+  }
+  EXPECT_NEAR(read_turn, turn, 0.03 * turn);
+  EXPECT_GT(turn, 100 * 3000 * period_us / 2);
+}
+
+TEST_P(MotionSensorDriver, RoundsToTheNearest) {
+  ASSERT_TRUE(board.starts());
+  int count = 0, ones = 0;
+  board.device.before_sample = [&] {
+    const std::int16_t x = count < ones ? 1 : 0;
+    const auto y = static_cast<std::int16_t>(-x);
+    board.device.motion({x, y, 32767}, {y, x, -32768});
+    ++count;
+  };
+  for (ones = 0; ones < 8; ++ones) {
+    read_alone();
+    count = 0;
+    pause(13'000);
+    const int taken = count;
+    ASSERT_EQ(read_alone(), ImuStatus::kFresh);
+    const long mean = std::lround(static_cast<double>(ones < taken ? ones : taken) / taken);
+    EXPECT_EQ(board.sample.gyro_count[0], mean) << ones << " of " << taken;
+    EXPECT_EQ(board.sample.gyro_count[1], -mean) << ones << " of " << taken;
+    EXPECT_EQ(board.sample.gyro_count[2], 32767);
+    EXPECT_EQ(board.sample.accel_count[0], -mean);
+    EXPECT_EQ(board.sample.accel_count[1], mean);
+    EXPECT_EQ(board.sample.accel_count[2], -32768);
+  }
+}
+
+// The longest period of a loop, and a tenth of it: nothing is missed, and the read ends in time.
+TEST_P(MotionSensorDriver, MissesNothingWithinTheLongestPeriod) {
+  ASSERT_TRUE(board.starts());
+  read_alone();
+  number_samples();
+  for (int tick = 0; tick < 50; ++tick) {
+    pause(kImuMostPause_us);
+    const int last = newest;
+    ASSERT_EQ(read_alone(), ImuStatus::kFresh);
+    expect_up_to(last, board.sample);
+  }
+}
+
+// A pause of the loop, whether the FIFO ran over or not: what it holds is old, and perhaps out of
+// step. No fault: the chip is well.
+TEST_P(MotionSensorDriver, WhatCameInALongPauseIsDropped) {
+  ASSERT_TRUE(board.starts());
+  read_alone();
+  number_samples();
+  constexpr std::uint64_t kPauses_us[] = {30'000, 76'000, 85'000,   86'000,
+                                          87'000, 99'000, 2'000'000};
+  for (const std::uint64_t pause_us : kPauses_us) {
+    pause(pause_us);
+    told = newest;
+    ASSERT_EQ(read_alone(), ImuStatus::kStale) << pause_us;
+    pause(10'000);
+    const int last = newest;
+    ASSERT_EQ(read_alone(), ImuStatus::kFresh) << pause_us;
+    expect_up_to(last, board.sample);
+  }
+  EXPECT_EQ(board.imu.faults(), 0u);
+}
+
+// The size of the FIFO is read while the chip writes a sample into it: it is told whole, not torn.
+TEST_P(MotionSensorDriver, SampleThatIsBeingWrittenIsAwaited) {
+  ASSERT_TRUE(board.starts());
+  read_alone();
+  number_samples();
+  for (std::size_t torn = 1; torn < 12; ++torn) {
+    pause(8'000);
+    for (const int before = newest; newest == before;) pause(10);
+    board.device.torn = torn;
+    board.rig.machine.advance(us(2'000));  // one is due, and comes when the chip is spoken to
+    const int last = newest + 1;
+    ASSERT_EQ(board.read(), ImuStatus::kFresh) << torn;
+    expect_up_to(last, board.sample);
+    board.device.torn = 0;
+  }
+  EXPECT_EQ(board.imu.faults(), 0u);
+}
+
+// Its bytes would be taken for those of another axis.
+TEST_P(MotionSensorDriver, FifoOutOfStepIsNotBelieved) {
+  ASSERT_TRUE(board.starts());
+  read_alone();
+  number_samples();
+  for (std::size_t lost = 1; lost < 12; ++lost) {
+    pause(8'000);
+    board.device.slip(lost);
+    told = newest;
+    EXPECT_EQ(read_alone(), ImuStatus::kStale) << lost;
+    pause(8'000);
+    const int last = newest;
+    ASSERT_EQ(read_alone(), ImuStatus::kFresh) << lost;
+    expect_up_to(last, board.sample);
+  }
+  EXPECT_EQ(board.imu.faults(), 0u);
+  for (int tick = 0; tick < 20 && board.imu.faults() == 0; ++tick) {
+    pause(8'000);
+    board.device.slip(1);
+    EXPECT_NE(read_alone(), ImuStatus::kFresh);
+  }
+  EXPECT_EQ(board.imu.faults(), 1u) << "always out of step";
+  EXPECT_TRUE(board.starts());
+}
+
+}  // namespace
+}  // namespace verp::hal::stm32::test
