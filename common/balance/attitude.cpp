@@ -4,7 +4,6 @@ namespace verp::balance {
 namespace {
 
 constexpr float kLeastLevel2 = 0.01F;  // x axis all but vertical: no heading to speak of
-constexpr float kWindow_s = 5.0F;      // the mean forgets what is older
 // For so long a body just risen still settles, joint by joint, into what the balance asks: 0.3
 // degrees, which over the mean would pass for a bias of 0.15 degrees a second. Tuning seeds
 // 1001-1010, 60 s at 4 cm: with 0.35 s the heading was off by 0.9 degrees rms, with this by 0.6.
@@ -57,7 +56,7 @@ void learn_bias(AttitudeState& state, const AttitudeIn& in) {
   const float share = in.period_s / (meant_s + in.period_s);
   const Vec3 bias = math::to_vec(state.gyro_bias_rad_s);
   state.gyro_bias_rad_s = math::to_xyz(bias + share * (rate - bias));
-  state.still_s = math::min(state.still_s + in.period_s, kWindow_s);
+  state.still_s = math::min(state.still_s + in.period_s, kBestKnown_s);
 }
 
 // The gyro turns "up", the accelerometer pulls it to the vertical. Linear in the acceleration, not

@@ -14,7 +14,7 @@ struct AttitudeState {
   Xyz slow_up_body{0, 0, 1};  ///< the same, for the heading: the accelerometer moves it slower
   float heading_rad = 0;      ///< turned to the left since power-up, in (-pi, pi]
   Xyz gyro_bias_rad_s;        ///< learnt while standing still
-  float still_s = 0;          ///< how long the robot has stood still, up to kCalibrated_s
+  float still_s = 0;          ///< how long the robot has stood still, up to kBestKnown_s
   float mean_s = 0;         ///< of how long both are the accelerometer's mean, up to kHeadingTime_s
   Xyz slow_rad_s;           ///< the gyro without trembling: what tells motion from standstill
   float shake_rad2_s2 = 0;  ///< mean square of the trembling
@@ -30,6 +30,8 @@ inline constexpr float kAccelTime_s = 1.0F;
 inline constexpr float kHeadingTime_s = 6.0F;
 /// This long still, and the mean of the gyro is taken for its bias.
 inline constexpr float kCalibrated_s = 3.0F;
+/// This long still, and it is known as well as it will be: the mean forgets what is older.
+inline constexpr float kBestKnown_s = 5.0F;
 
 struct AttitudeIn {
   bool fresh = false;  ///< gyro and accelerometer are of this tick

@@ -7,10 +7,11 @@
 namespace verp::session {
 namespace {
 
-constexpr double kSettle_s = 0.5;    // a person waits for the robot to stand quietly
-constexpr double kStandUp_s = 15.0;  // bring-up pose, rise and gyro calibration take a few seconds
-constexpr double kIdle_s = 1.0;      // a gait that pauses by itself this long has given up
-constexpr double kOverrun_s = 5.0;   // a gait that has not ended by then never will
+constexpr double kSettle_s = 0.5;     // a person waits for the robot to stand quietly
+constexpr double kStandUp_s = 15.0;   // bring-up pose, rise and gyro calibration take a few seconds
+constexpr double kPatience_s = 10.0;  // for the best of the gyro's bias, of a robot that trembles
+constexpr double kIdle_s = 1.0;       // a gait that pauses by itself this long has given up
+constexpr double kOverrun_s = 5.0;    // a gait that has not ended by then never will
 constexpr std::uint32_t kFrameTicks = 10;  // the least often that the operator's frames come
 constexpr float kSomeError_rad = 1e-3F;    // a robot is never quite on its heading
 constexpr int kMostSteps = 1000;           // any stride has shrunk to nothing by then
@@ -120,9 +121,12 @@ void WalkOperator::observe(const State& state, const Outputs& outputs) {
 
 void WalkOperator::wait_for_stand(const State& state, bool standing) {
   waited_s_ += period_s_;
-  // Who walks does so once the core knows its gyro; who stands must not be pushed before it does.
-  const bool knows_gyro = state.attitude.still_s >= balance::kCalibrated_s;
-  stood_s_ = standing && (knows_gyro || !stands_) ? stood_s_ + period_s_ : 0;
+  // Who stands must not be pushed before the core knows its gyro. Who walks would be let go then
+  // too, and keep for the whole way what two more seconds halve: the error of its heading.
+  const float still_s = state.attitude.still_s;
+  const bool knows_gyro = stands_ ? still_s >= balance::kCalibrated_s
+                                  : still_s >= balance::kBestKnown_s || waited_s_ > kPatience_s;
+  stood_s_ = standing && knows_gyro ? stood_s_ + period_s_ : 0;
   if (waited_s_ > kStandUp_s)
     failed_ = stands_ ? "the robot did not stand" : "the robot did not start to walk", done_ = true;
   if (stood_s_ < kSettle_s) return;

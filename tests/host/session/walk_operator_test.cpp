@@ -12,7 +12,7 @@ using safety::Mode;
 // An operator before a controller that is in a mode, and steps or does not.
 struct Watched {
   explicit Watched(bool stands) : watcher(params(), {.vx_tenth_mm_s = 1000}, 2, 0, stands) {
-    state.attitude.still_s = balance::kCalibrated_s;
+    state.attitude.still_s = balance::kBestKnown_s;
   }
   static const Params& params() {
     static const Params robot = [] {
@@ -72,6 +72,22 @@ TEST(WalkOperator, WhoStandsBeginsWhenTheGyroIsKnown) {
   robot.state.attitude.still_s = balance::kCalibrated_s;
   robot.is(Mode::kStanding, 1);
   EXPECT_NEAR(robot.watcher.walked_s(), 0.5, 0.02);
+}
+
+// The core would let it walk sooner, with twice the error of its heading; one that trembles is not
+// kept for ever.
+TEST(WalkOperator, WhoWalksWaitsForTheBestOfItsGyroButNotForEver) {
+  for (const bool trembles : {false, true}) {
+    Watched robot(false);
+    robot.state.attitude.still_s = balance::kCalibrated_s;
+    robot.is(Mode::kStanding, 9);
+    EXPECT_EQ(robot.asks(), Request::kStand);
+    if (!trembles) robot.state.attitude.still_s = balance::kBestKnown_s;
+    robot.is(Mode::kStanding, 0.6);
+    EXPECT_EQ(robot.asks(), trembles ? Request::kStand : Request::kWalk);
+    robot.is(Mode::kStanding, 1.2);
+    EXPECT_EQ(robot.asks(), Request::kWalk);
+  }
 }
 
 TEST(WalkOperator, WhoNeverStandsOrStepsForEverFailsAndSaysWhy) {
