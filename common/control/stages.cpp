@@ -206,7 +206,8 @@ void lean(const Params& params, State& state, const AdmitOut& admitted,
   if (off || lies(mode) || !safety::has_torque(mode)) state.lean = balance::LeanState{};
   // Who stands still learns the gyro's bias, and must not turn meanwhile.
   if (!off && mode == Mode::kWalking && admitted.imu_fresh) {
-    balance::learn_lean(attitude, period_s(params), state.lean);
+    const float planned_rad = state.tuning.gait.trunk_pitch_rad;
+    balance::learn_lean(attitude, planned_rad, period_s(params), state.lean);
   }
   balance::lean(state.lean, plan.posture);
 }

@@ -23,7 +23,7 @@ gait::GaitOut plan_motion(const Params& params, State& state, const AdmitOut& ad
 /// Moves the plan's feet to where a push has sent the robot.
 void step_aside(const Params& params, State& state, gait::GaitOut& plan);
 
-/// Keeps the body upright on ground that slopes to a side.
+/// Keeps the body upright on ground that slopes.
 void lean(const Params& params, State& state, const AdmitOut& admitted,
           const balance::AttitudeOut& attitude, gait::GaitOut& plan);
 

@@ -15,7 +15,7 @@ namespace verp {
 /// Changes whenever the layout of ParamsImage, or of anything in it, does.
 inline constexpr std::uint32_t kImageVersion = 5;
 /// Changes whenever the same Params and Inputs give other Outputs: the golden answers depend on it.
-inline constexpr std::uint32_t kCoreVersion = 24;
+inline constexpr std::uint32_t kCoreVersion = 25;
 
 inline constexpr char kImageMagic[8] = {'V', 'E', 'R', 'P', 'P', 'A', 'R', '1'};
 
