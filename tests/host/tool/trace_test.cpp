@@ -80,7 +80,7 @@ TEST_F(TraceCommand, DiffSaysWhenTwoCoresRecorded) {
 }
 
 TEST_F(TraceCommand, ACutReplaysAndEveryCommandTakesIt) {
-  const Outcome made = verp("trace cut a.mcap --from 6 --to 7 -o part.mcap");
+  const Outcome made = verp("trace cut a.mcap --from 8 --to 9 -o part.mcap");
   EXPECT_EQ(made.status, 0) << made.err;
   EXPECT_NE(made.out.find("; begins 0."), std::string::npos) << made.out;
   EXPECT_NE(made.out.find(" at the last State that was kept"), std::string::npos) << made.out;
