@@ -7,11 +7,12 @@
 namespace verp::session {
 namespace {
 
-constexpr double kSettle_s = 0.5;     // a person waits for the robot to stand quietly
-constexpr double kStandUp_s = 15.0;   // bring-up pose, rise and gyro calibration take a few seconds
-constexpr double kPatience_s = 10.0;  // for the best of the gyro's bias, of a robot that trembles
-constexpr double kIdle_s = 1.0;       // a gait that pauses by itself this long has given up
-constexpr double kOverrun_s = 5.0;    // a gait that has not ended by then never will
+constexpr double kSettle_s = 0.5;    // a person waits for the robot to stand quietly
+constexpr double kStandUp_s = 15.0;  // bring-up pose, rise and gyro calibration take a few seconds
+constexpr double kLearns_s = 2.0;    // standing so long, a core has begun to learn its gyro's bias
+constexpr double kPatience_s = 8.0;  // standing so long, a robot trembles: no better bias will come
+constexpr double kIdle_s = 1.0;      // a gait that pauses by itself this long has given up
+constexpr double kOverrun_s = 5.0;   // a gait that has not ended by then never will
 constexpr std::uint32_t kFrameTicks = 10;  // the least often that the operator's frames come
 constexpr float kSomeError_rad = 1e-3F;    // a robot is never quite on its heading
 constexpr int kMostSteps = 1000;           // any stride has shrunk to nothing by then
@@ -38,7 +39,7 @@ bool WalkOperator::look_after_fall(safety::Mode mode) {
       changed_ = true;
       command_.request = Request::kGetUp;
       gait_seen_ = false;
-      waited_s_ = stood_s_ = idle_s_ = stopping_s_ = 0;
+      waited_s_ = standing_s_ = stood_s_ = idle_s_ = stopping_s_ = 0;
       return true;
     case GetUp::Phase::kDown:
       return true;
@@ -119,14 +120,19 @@ void WalkOperator::observe(const State& state, const Outputs& outputs) {
   }
 }
 
+/// Who stands must not be pushed before the core knows its gyro. Who walks would be let go then
+/// too, and keep for the whole way what two more seconds halve: the error of its heading.
+/// Controllers of one's own need not learn it at all.
+bool WalkOperator::knows_gyro(float still_s) const {
+  if (stands_) return still_s >= balance::kCalibrated_s;
+  const bool learns = still_s > 0 || standing_s_ < kLearns_s;
+  return !learns || still_s >= balance::kBestKnown_s || standing_s_ > kPatience_s;
+}
+
 void WalkOperator::wait_for_stand(const State& state, bool standing) {
   waited_s_ += period_s_;
-  // Who stands must not be pushed before the core knows its gyro. Who walks would be let go then
-  // too, and keep for the whole way what two more seconds halve: the error of its heading.
-  const float still_s = state.attitude.still_s;
-  const bool knows_gyro = stands_ ? still_s >= balance::kCalibrated_s
-                                  : still_s >= balance::kBestKnown_s || waited_s_ > kPatience_s;
-  stood_s_ = standing && knows_gyro ? stood_s_ + period_s_ : 0;
+  standing_s_ = standing ? standing_s_ + period_s_ : 0;
+  stood_s_ = standing && knows_gyro(state.attitude.still_s) ? stood_s_ + period_s_ : 0;
   if (waited_s_ > kStandUp_s)
     failed_ = stands_ ? "the robot did not stand" : "the robot did not start to walk", done_ = true;
   if (stood_s_ < kSettle_s) return;

@@ -38,6 +38,7 @@ class WalkOperator {
   double lead_s(const State& state, bool one_more) const;
   void stop_in_time(const State& state);
   bool look_after_fall(safety::Mode mode);
+  bool knows_gyro(float still_s) const;
   void wait_for_stand(const State& state, bool standing);
   void watch_stand(bool standing);
   void watch_walk(const State& state, const Outputs& outputs, bool standing);
@@ -51,7 +52,8 @@ class WalkOperator {
   bool stands_;
   double walked_s_ = 0;
   double waited_s_ = 0;    ///< before the gait
-  double stood_s_ = 0;     ///< standing, before the gait
+  double standing_s_ = 0;  ///< before the gait
+  double stood_s_ = 0;     ///< standing with its gyro known, before the gait
   double idle_s_ = 0;      ///< without gait, though nobody said stop
   double stopping_s_ = 0;  ///< since stop was said
   double lead_s_ = 0;      ///< length of the gait's rest when stop was said

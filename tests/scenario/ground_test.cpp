@@ -3,8 +3,8 @@
 #include "tests/scenario/walk.hpp"
 
 // Ground that nobody told the robot of, 20 s of it at 4 cm in 450 ms: it walks by what it feels
-// under its soles and where its body tilts. Robots of several seeds: across a slope, and over a
-// plate as high as its feet are lifted, some do not manage it (shares: common/worlds/README.md).
+// under its soles and where its body tilts. Robots of several seeds: over plates, and over one as
+// high as its feet are lifted, some do not manage it (shares: common/worlds/README.md).
 namespace verp::scenario {
 namespace {
 

@@ -80,7 +80,7 @@ TEST(WalkOperator, WhoWalksWaitsForTheBestOfItsGyroButNotForEver) {
   for (const bool trembles : {false, true}) {
     Watched robot(false);
     robot.state.attitude.still_s = balance::kCalibrated_s;
-    robot.is(Mode::kStanding, 9);
+    robot.is(Mode::kStanding, 7);
     EXPECT_EQ(robot.asks(), Request::kStand);
     if (!trembles) robot.state.attitude.still_s = balance::kBestKnown_s;
     robot.is(Mode::kStanding, 0.6);
@@ -88,6 +88,16 @@ TEST(WalkOperator, WhoWalksWaitsForTheBestOfItsGyroButNotForEver) {
     robot.is(Mode::kStanding, 1.2);
     EXPECT_EQ(robot.asks(), Request::kWalk);
   }
+}
+
+// A controller of one's own that leaves the core out: nothing of its State says how long to wait.
+TEST(WalkOperator, WhoseControllerLearnsNoGyroIsNotWaitedFor) {
+  Watched robot(false);
+  robot.state = {};
+  robot.is(Mode::kStanding, 1.9);
+  EXPECT_EQ(robot.asks(), Request::kStand);
+  robot.is(Mode::kStanding, 0.8);
+  EXPECT_EQ(robot.asks(), Request::kWalk);
 }
 
 TEST(WalkOperator, WhoNeverStandsOrStepsForEverFailsAndSaysWhy) {
