@@ -6,7 +6,11 @@
 #include "host/sim/solver_lanes.hpp"
 
 // ODE's names for them, template instances that its library exports.
+#if VERP_SOLVER_IN_PLACE
 #define VERP_IN_PLACE_OF(name) __asm__(name) __attribute__((visibility("default")))
+#else
+#define VERP_IN_PLACE_OF(name)
+#endif
 extern "C" {
 void verp_solve_lower(const double* l, double* b, unsigned n, unsigned skip)
     VERP_IN_PLACE_OF("_Z15solveL1StraightILj1EEvPKdPdjj");

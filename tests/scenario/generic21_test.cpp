@@ -11,7 +11,7 @@ namespace {
 class Seed : public ::testing::TestWithParam<int> {};
 
 // The paper's walk: 4 cm steps in 450 ms cycles, 0.173 m/s; for a minute, whatever the twin's noise
-// and joint zero errors are.
+// and joint zero errors are. (Of ten seeds: many_random_robots_test.cpp, with --full.)
 TEST_P(Seed, WalksAMinuteInsideThePapersBands) {
   const Walk minute =
       walk("generic21 --step 0.04 --cycle 0.45 --for 60 --seed " + std::to_string(GetParam()));
@@ -22,15 +22,15 @@ TEST_P(Seed, WalksAMinuteInsideThePapersBands) {
   EXPECT_LT(std::abs(number(minute, "lateral_drift_m")), 0.5);
   expect_between(0.0, number(minute, "servo_saturation"), 0.05, "torque share at the limit");
 }
-INSTANTIATE_TEST_SUITE_P(Generic21, Seed, ::testing::Range(1, 11));
+INSTANTIATE_TEST_SUITE_P(Generic21, Seed, ::testing::Range(1, 5));
 
-TEST(Generic21, TenSeedsGiveTenDigests) {
+TEST(Generic21, FiveSeedsGiveFiveDigests) {
   std::set<std::string> digests;
-  for (int seed = 1; seed <= 10; ++seed) {
-    digests.insert(walk("generic21 --for 3 --seed " + std::to_string(seed))
+  for (int seed = 1; seed <= 5; ++seed) {
+    digests.insert(walk("generic21 --for 1 --seed " + std::to_string(seed))
                        .result.value("digest", std::string()));
   }
-  EXPECT_EQ(digests.size(), 10u);
+  EXPECT_EQ(digests.size(), 5u);
 }
 
 // Its yaw hums at 12 Hz while it stands: that is no motion, and the gyro's bias can be learnt.

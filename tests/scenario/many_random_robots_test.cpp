@@ -1,7 +1,7 @@
 #include "tests/scenario/walk.hpp"
 
-// `verp test --full`: a hundred robots of each kind, drawn at random, and a minute of the fastest
-// walk, as the twin's reference steps them.
+// `verp test --full`: a hundred robots of each kind, drawn at random, and a minute of the paper's
+// walk and of the fastest, as the twin's reference steps them.
 namespace verp::scenario {
 namespace {
 
@@ -17,6 +17,15 @@ TEST(HundredRandomRobots, OfOp3Walk) {
 }
 TEST(HundredRandomRobots, OfDarwinOpWalk) {
   EXPECT_GE(survived_of_100("darwin_op"), 80);
+}
+
+TEST(PapersWalk, OfTenSeedsLastsAMinute) {
+  const Walk seeds = walk("generic21 --step 0.04 --cycle 0.45 --for 60 --seeds 1-10");
+  EXPECT_EQ(number(seeds, "survived"), 10);
+  for (const json& each : seeds.result.value("walks", json::array())) {
+    expect_between(0.170, each.value("speed_steady_m_s", 0.0), 0.190, "steady speed, m/s");
+    expect_between(2.0, each.value("zmp_bias_mean_mm", 0.0), 12.0, "mean ZMP bias, mm");
+  }
 }
 
 TEST(FastestWalk, OfTenSeedsLastsAMinute) {

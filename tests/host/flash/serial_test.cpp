@@ -93,10 +93,10 @@ TEST_F(SerialFlash, CodeAndRobotGoTogether) {
   expect_code(chip);
   const Bytes there = part(chip, {map_.params.begin, static_cast<std::uint32_t>(robot().size())});
   EXPECT_EQ(there, robot());
-  const auto json = nlohmann::json::parse(outcome.out);
-  EXPECT_EQ(json.at("written"), true);
-  EXPECT_EQ(json.at("pieces").size(), 2u);
-  EXPECT_EQ(json.at("commands").size(), 5u);
+  const auto said = nlohmann::json::parse(outcome.out);
+  EXPECT_EQ(said.at("written"), true);
+  EXPECT_EQ(said.at("pieces").size(), 2u);
+  EXPECT_EQ(said.at("commands").size(), 5u);
 }
 
 // Neither image drives the other's robot.

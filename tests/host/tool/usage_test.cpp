@@ -102,10 +102,10 @@ TEST_F(Usage, TheRobotIsNamedByTheSameWordsEverywhere) {
 }
 
 TEST_F(Usage, EveryNumberOfTheTuningIsListedWithUnitAndRange) {
-  const auto json = nlohmann::json::parse(verp("parameters --json").out).at("parameters");
-  ASSERT_EQ(json.size(), static_cast<std::size_t>(kTuningCount));
-  for (std::size_t i = 0; i < json.size(); ++i) {
-    const auto& row = json[i];
+  const auto rows = nlohmann::json::parse(verp("parameters --json").out).at("parameters");
+  ASSERT_EQ(rows.size(), static_cast<std::size_t>(kTuningCount));
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const auto& row = rows[i];
     const int id = model::tuning_id(row.at("name")).value_or(-1);
     ASSERT_EQ(id, static_cast<int>(i));
     EXPECT_TRUE(in_range(id, row.at("value").get<float>())) << row;
@@ -286,9 +286,9 @@ TEST_F(Usage, AnAnswerThatCannotBeWrittenIsAFailure) {
 TEST_F(Usage, JsonErrorsAreOneObject) {
   const Outcome outcome = verp("replay none.mcap --json");
   EXPECT_EQ(outcome.status, 2);
-  const auto json = nlohmann::json::parse(outcome.out);
-  EXPECT_EQ(json.at("exit"), 2);
-  EXPECT_NE(json.at("error").get<std::string>().find("none.mcap"), std::string::npos);
+  const auto said = nlohmann::json::parse(outcome.out);
+  EXPECT_EQ(said.at("exit"), 2);
+  EXPECT_NE(said.at("error").get<std::string>().find("none.mcap"), std::string::npos);
 }
 
 TEST_F(Usage, VersionIsJsonWhenJsonIsAsked) {
