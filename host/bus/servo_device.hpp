@@ -12,6 +12,7 @@ struct ServoIdentity {
   std::uint16_t model = dxl::kModelXm430W210;
   std::uint32_t baud = 2000000;
   bool fast_sync_read = true;
+  sim::ServoRating rating{};
 };
 
 /// One virtual servo: the control table of an X-series or MX(2.0) servo over one joint of a plant.

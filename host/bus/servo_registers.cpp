@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <utility>
 
 #include "common/protocol/controller_table.hpp"
@@ -118,6 +119,14 @@ std::vector<Register> registers_of(const ServoIdentity& identity) {
   find(at::kModelNumber)->initial = identity.model;
   find(at::kId)->initial = identity.id;
   find(at::kBaudRate)->initial = dxl::baud_rate_code(identity.baud);
+  const auto tenths = [](double volts) { return std::llround(10 * volts); };
+  for (const std::uint16_t limit : {at::kMaxVoltageLimit, at::kMinVoltageLimit}) {
+    find(limit)->minimum = tenths(identity.rating.least_v());
+    find(limit)->maximum = tenths(identity.rating.most_v());
+  }
+  find(at::kMaxVoltageLimit)->initial = find(at::kMaxVoltageLimit)->maximum;
+  find(at::kMinVoltageLimit)->initial = find(at::kMinVoltageLimit)->minimum;
+  find(at::kPresentVoltage)->initial = tenths(identity.rating.nominal_v);
   if (mx) {
     find(at::kDriveMode)->maximum = 5;
     find(at::kVelocityLimit)->initial = 380;

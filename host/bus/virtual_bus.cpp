@@ -21,7 +21,8 @@ VirtualBus::VirtualBus(const Params& params, sim::Plant& plant)
     const ServoIdentity identity{.id = joint.servo_id,
                                  .model = profile.model_number,
                                  .baud = params.baud,
-                                 .fast_sync_read = profile.fast_sync_read != 0};
+                                 .fast_sync_read = profile.fast_sync_read != 0,
+                                 .rating = plant.rating(j)};
     devices_.push_back(std::make_unique<ServoDevice>(identity, plant, j));
   }
   if (params.imu.device_id != 0) {

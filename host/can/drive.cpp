@@ -21,8 +21,6 @@ namespace object = canopen::cia402::object;
 
 // As a serial servo's control table has them out of the box (e-Manual, XM430-W210).
 constexpr double kHottest_c = 80;
-constexpr double kLeast_v = 9.5;
-constexpr double kMost_v = 16.0;
 constexpr double kStands_rad_s = 0.1;  ///< slower than this is stopped
 
 constexpr int kPerMille = 1000;
@@ -210,8 +208,8 @@ DriveNews DriveApplication::watch(std::uint64_t now_us) {
     following_error_ = true;
     return fault(ErrorCode::kFollowingError, canopen::kErrorProfile, 0);
   }
-  const bool low = measured.voltage_v < kLeast_v;
-  if (!low && measured.voltage_v <= kMost_v) {
+  const bool low = measured.voltage_v < rating_.least_v();
+  if (!low && measured.voltage_v <= rating_.most_v()) {
     warned_ = false;
     return {};
   }

@@ -19,6 +19,7 @@ constexpr double kGravity_m_s2 = 9.80665;
 // The robot that Tuning's defaults are tuned for, generic21: leg of 186 mm, hip at 0.81 of it, feet
 // 1.4 mm inside the hips. Lengths go with the leg, times with the root of it, as a pendulum's do.
 constexpr double kItsLeg_m = 0.186;
+constexpr double kUsual_v = 12;  // of its servos
 constexpr double kHipShare = 0.808;
 constexpr double kFeetInside = 0.0014 / kItsLeg_m;
 // Between the inner edges of soles that pass each other.
@@ -158,6 +159,11 @@ class Settler {
   void fill_gait() {
     const Tuning usual;
     const double longer = leg_m_ / kItsLeg_m, slower = std::sqrt(longer);
+    // The supply that is low for servos of 12 V, three lithium cells', is as low a part of another.
+    const double nominal_v = e_.joints.empty() ? kUsual_v : e_.joints[0].servo.nominal_v;
+    if (nominal_v != kUsual_v) {
+      put("safety.voltage_low_v", usual.safety.voltage_low_v / kUsual_v * nominal_v, "servos");
+    }
     put("gait.hip_height_m", hip_height(), poses_leg("stand") ? "standing pose" : "legs");
     put("gait.half_stance_m", half_stance(), "hips and soles");
     for (const auto& [name, value] : {std::pair{"gait.lift_m", usual.gait.lift_m},

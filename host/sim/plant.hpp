@@ -46,10 +46,16 @@ struct ServoMeasurement {
   bool profile_ongoing = false;
 };
 
-/// What a servo gives at full duty while it stands, by its maker's figures; 0: not known.
+/// What a servo gives at full duty while it stands, by its maker's figures; 0: not known. And the
+/// supply it is made for: it tells an input voltage error outside 9.5 to 16 V if that is 12 V
+/// (e-Manual, XM430-W210, as it comes out of the box), in proportion if it is another.
 struct ServoRating {
   double torque_n_m = 0;
   double current_a = 0;
+  double nominal_v = 12;
+
+  double least_v() const { return nominal_v * 9.5 / 12; }
+  double most_v() const { return nominal_v * 16 / 12; }
 };
 
 /// Raw counts as the IMU device reports them, IMU frame.

@@ -89,7 +89,7 @@ TwinRobot::~TwinRobot() {
 
 ServoRating TwinRobot::rating(int joint) const {
   const model::Servo& servo = entity_.joints[static_cast<std::size_t>(motor_of(joint))].servo;
-  return {servo.stall_torque_n_m, servo.stall_current_a};
+  return {servo.stall_torque_n_m, servo.stall_current_a, servo.nominal_v};
 }
 
 std::array<std::uint16_t, 4> TwinRobot::foot_counts(int foot) {

@@ -97,5 +97,29 @@ TEST(ThirdParty, WalksAndTurnsWithLeaningHipAxesOnOneMotor) {
     expect_walked(walk(robot + " --vary --for 3 --physics-step 2 --seed " + seed));
 }
 
+// All its servos told an input voltage error, of 24 V and of the 5 V that small ones are made for.
+TEST(ThirdParty, WalksOnTheSupplyThatItsServosAreMadeFor) {
+  std::stringstream text;
+  text << std::ifstream(VERP_SOURCE_DIR "/common/robots/generic21/robot.sdf").rdbuf();
+  for (const char* volts : {"24", "5"}) {
+    std::string robot = text.str();
+    const std::string usual = "type=\"xm430_w210\"", bus = "<verp:bus ";
+    for (auto at = robot.find(usual); at != std::string::npos; at = robot.find(usual)) {
+      robot.replace(at, usual.size(), "type=\"mine\"");
+    }
+    robot.insert(robot.find(bus),
+                 std::string("<verp:servo_type name=\"mine\" like=\"xm430_w210\" nominal_v=\"") +
+                     volts +
+                     "\" stall_torque_n_m=\"3\" no_load_rev_min=\"77\" stall_current_a=\"2.3\" "
+                     "source=\"the same strength\"/>");
+    const std::string file = testing::TempDir() + "supply_" + volts + ".sdf";
+    std::ofstream(file) << robot;
+    SCOPED_TRACE(file);
+    const Walk walked = walk(file + " --for 6 --physics-step 2");
+    expect_walked(walked);
+    expect_between(0.170, number(walked, "speed_steady_m_s"), 0.190, "steady speed, m/s");
+  }
+}
+
 }  // namespace
 }  // namespace verp::scenario

@@ -2,10 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
 #include "common/protocol/control_table.hpp"
+#include "host/bus/servo_device.hpp"
 #include "tests/host/bus/fake_plant.hpp"
 
 namespace verp {
@@ -243,6 +245,32 @@ TEST_F(VirtualBus, OverheatingRaisesTheAlertAndTakesTheTorque) {
   EXPECT_EQ(read(1, at::kHardwareError, 1).data, Bytes{dxl::kOverheatingError});
   write(1, at::kTorqueEnable, {1});
   EXPECT_FALSE(plant.setpoint(0).torque_on);
+}
+
+TEST(VirtualServo, TellsAVoltageOutsideWhatItIsMadeForAndNoOther) {
+  struct Case {
+    double nominal_v, least_v, most_v;
+  };
+  for (const Case& is : {Case{12, 9.5, 16}, Case{24, 19, 32}, Case{5, 4, 6.7}}) {
+    SCOPED_TRACE(is.nominal_v);
+    test::FakePlant plant;
+    bus::ServoDevice servo({.rating = {.nominal_v = is.nominal_v}}, plant, 0);
+    const auto error_at = [&](double volts) {
+      plant.measured[0].voltage_v = volts;
+      servo.refresh(at::kHardwareError, 1);
+      const auto error = servo.read(at::kHardwareError, 1);
+      return error.empty() ? 255 : int{error[0]};
+    };
+    EXPECT_EQ(dxl::get_u16(servo.read(at::kMaxVoltageLimit, 2).data()),
+              std::lround(10 * is.most_v));
+    EXPECT_EQ(dxl::get_u16(servo.read(at::kMinVoltageLimit, 2).data()),
+              std::lround(10 * is.least_v));
+    EXPECT_EQ(error_at(is.nominal_v), 0);
+    EXPECT_EQ(error_at(is.least_v), 0);
+    EXPECT_EQ(error_at(is.most_v), 0);
+    EXPECT_EQ(error_at(is.nominal_v < 12 ? is.least_v - 0.1 : is.most_v + 0.1),
+              int{dxl::kInputVoltageError});
+  }
 }
 
 TEST_F(VirtualBus, SensorsStandInOneBlockWithAServosHealth) {

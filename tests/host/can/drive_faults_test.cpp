@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include "host/can/device_node.hpp"
 #include "tests/host/can/virtual_drive.hpp"
 
 // When a virtual CiA 402 drive lets go of its joint: a silent master, an NMT state, a fault.
@@ -126,6 +127,22 @@ TEST_F(VirtualDrive, OverheatingIsAFaultUntilItIsCool) {
   bench.control(kNode, cia402::kWordFaultReset);
   EXPECT_EQ(bench.state(kNode), State::kSwitchOnDisabled);
   EXPECT_EQ(bench.value(kNode, object::kErrorCode), 0);
+}
+
+// Of 24 V, 18 are low: of 12 V they are high.
+TEST_F(VirtualDrive, WhatSupplyIsLowOrHighIsThatOfItsMotor) {
+  bench.plant.rated.nominal_v = 24;
+  bench.bus.plug_in(std::make_unique<can::DriveNode>(can::drive_identity(402, 50), 50, bench.plant,
+                                                     0, can::DriveSetup{.counts_per_rad = 1000}));
+  const auto code_at = [this](double volts) {
+    measured().voltage_v = volts;
+    bench.let_pass(2000);
+    return bench.value(50, object::kErrorCode) & 0xFFFF;
+  };
+  EXPECT_EQ(code_at(24), 0);
+  EXPECT_EQ(code_at(18), 0x3220);
+  code_at(24);
+  EXPECT_EQ(code_at(33), 0x3210);
 }
 
 TEST_F(VirtualDrive, ALowSupplyIsToldAndKeepsTorque) {

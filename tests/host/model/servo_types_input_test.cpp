@@ -1,10 +1,19 @@
 #include <gtest/gtest.h>
 
+#include <optional>
+
 #include "tests/host/model/bad_input.hpp"
 
 /// A servo that a robot builder describes in the robot's file.
 namespace verp::model {
 namespace {
+
+std::optional<double> tuned(const Entity& entity, const std::string& name) {
+  for (const auto& [of, value] : entity.tuning) {
+    if (of == name) return value;
+  }
+  return std::nullopt;
+}
 
 // A servo that is not shipped is described in the robot's file, and a slip of the pen found there.
 TEST(BadInput, ServoTypesOfTheFileAreReadAndTheirSlipsNamed) {
@@ -35,6 +44,12 @@ TEST(BadInput, ServoTypesOfTheFileAreReadAndTheirSlipsNamed) {
   EXPECT_DOUBLE_EQ(servo.gearbox.armature_kg_m2, 0.01);
   EXPECT_DOUBLE_EQ(servo.gearbox.l_strib, 0.2);
   EXPECT_EQ(servo.source, "my bench");
+  EXPECT_FALSE(tuned(load_robot(file.path()), "safety.voltage_low_v")) << "9.6 V, of 12";
+  std::string strong = good;
+  strong.replace(strong.find("kt_n_m_a"), 0, "nominal_v=\"24\" ");
+  const TemporaryFile strong_file("robot.sdf", strong);
+  EXPECT_NEAR(tuned(load_robot(strong_file.path()), "safety.voltage_low_v").value_or(0), 19.2,
+              1e-6);
   EXPECT_EQ(servo.armature_band, 0);
 
   expect_refused(mine(motor + gears), at, "source");
