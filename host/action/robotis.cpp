@@ -53,7 +53,7 @@ std::string name_of_page(const Page& page, std::size_t number, std::set<std::str
     name += plain ? static_cast<char>(std::tolower(page[i])) : '_';
   }
   if (name.empty() || name == "stand") name = fmt::format("page{}", number);
-  if (!taken.insert(name).second) taken.insert(name += fmt::format("_{}", number));
+  while (!taken.insert(name).second) name += fmt::format("_{}", number);
   return name;
 }
 
@@ -152,7 +152,61 @@ void put_frame(const Params& params, const Document& document, const FrameText& 
   }
 }
 
+void refuse_unknown_joints(const Params& params, const Document& document) {
+  const auto check = [&](const std::string& joint, int line) {
+    const auto* end = params.joint + params.joint_count;
+    if (std::any_of(params.joint, end, [&](const auto& each) { return joint == each.name; }))
+      return;
+    refuse(document, line, fmt::format("the robot has no joint '{}'", joint),
+           "verp check lists its joints");
+  };
+  for (const FrameText& frame : document.frames) {
+    for (const JointGoal& goal : frame.goals) check(goal.joint, goal.line);
+    for (const Stiffness& stiffness : frame.stiffness) {
+      for (const std::string& joint : stiffness.joints) check(joint, stiffness.line);
+    }
+  }
+}
+
+/// Where an action goes on, and with what force: pages have that, but it is not written to them.
+std::string way_of(const Document& document) {
+  const auto name = [](const std::optional<Target>& target) {
+    return target ? target->name : std::string();
+  };
+  std::string way = name(document.link);
+  for (const FrameText& frame : document.frames) {
+    way += "|" + name(frame.exit);
+    if (frame.repeat) way += fmt::format(" {} {}", frame.repeat->times, frame.repeat->from.name);
+    for (const Stiffness& each : frame.stiffness) {
+      way += fmt::format(" {}", each.percent);
+      for (const std::string& joint : each.joints) way += " " + joint;
+    }
+  }
+  return way;
+}
+
+/// What the page does not keep is refused: it would be lost without a word.
+void refuse_what_is_lost(const Document& document, const Document& kept) {
+  if (document.page && document.name != kept.name) {
+    refuse(document, document.line,
+           fmt::format("the page of '{}' is called '{}'", document.name, kept.name),
+           "keep its name, or leave its 'robotis' words out");
+  }
+  if (document.mirror) {
+    refuse(document, document.mirror->line, "a page cannot be the mirror of another",
+           "give its joints' angles");
+  }
+  if (way_of(document) != way_of(kept)) {
+    refuse(
+        document, document.line,
+        fmt::format("the link, exit, repeat or stiffness of '{}' is not what its page has",
+                    document.name),
+        "leave these as they came from the motion file: of a page's, angles and times are written");
+  }
+}
+
 void put_document(const Params& params, const Document& document, Page& page) {
+  refuse_unknown_joints(params, document);
   if (document.frames.size() > kSteps) {
     refuse(document, document.frames[kSteps].line, "a page has no more than 7 steps",
            "move the rest into an action of its own, and link it");
@@ -251,9 +305,13 @@ Motion to_motion(const Params& params, const std::vector<Document>& documents) {
   Motion motion(kPages, blank_page());
   std::set<int> taken;
   for (const Document& each : documents) {
-    if (each.page) taken.insert(each.page->number);
+    if (each.page && !taken.insert(each.page->number).second) {
+      refuse(each, each.line, fmt::format("page {} is another action's already", each.page->number),
+             "give each its own");
+    }
   }
   int free = 1;
+  std::vector<std::pair<int, const Document*>> placed;
   for (const Document& each : documents) {
     while (!each.page && taken.contains(free)) ++free;
     const int number = each.page ? each.page->number : free;
@@ -269,6 +327,14 @@ Motion to_motion(const Params& params, const std::vector<Document>& documents) {
     const Page before = page;
     put_document(params, each, page);
     if (page != before || !each.page) seal(page);
+    placed.emplace_back(number, &each);
+  }
+  const std::vector<Document> kept = from_motion(params, motion);
+  for (const auto& [number, document] : placed) {
+    const auto found = std::find_if(
+        kept.begin(), kept.end(),
+        [number = number](const Document& each) { return each.page->number == number; });
+    refuse_what_is_lost(*document, found == kept.end() ? Document{} : *found);
   }
   return motion;
 }

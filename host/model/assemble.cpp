@@ -82,6 +82,12 @@ class Assembler {
         fact.at.fail("joint '" + fact.joint + "' has two servos", "remove one of them");
       }
       joint->servo = fact.servo;
+      const ServoFact& first = facts_.bus().servos.front();
+      if (fact.servo.nominal_v != first.servo.nominal_v) {
+        fact.at.fail("the servo of joint '" + fact.joint +
+                         "' is made for another voltage than that of '" + first.joint + "'",
+                     "choose types of one nominal_v: a robot has one supply");
+      }
       if (joint->velocity_limit_rad_s > fact.servo.no_load_speed_rad_s) {
         joint->velocity_limit_rad_s = fact.servo.no_load_speed_rad_s;
       }

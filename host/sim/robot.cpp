@@ -19,6 +19,10 @@ constexpr double kFallenTilt = 1.0;
 // Where nobody asks for them the oldest go.
 constexpr std::size_t kMostScans = 1000;
 
+double made_for_v(const model::Entity& entity) {
+  return entity.joints.empty() ? 0.0 : entity.joints[0].servo.nominal_v;
+}
+
 std::vector<double> mass_factors(const model::Entity& entity, const TwinOptions& options) {
   Random random(options.seed, Draw::kMass);
   std::vector<double> factor(entity.nodes.size(), options.mass_scale);
@@ -40,9 +44,9 @@ TwinRobot::TwinRobot(World& world, const model::Entity& entity, const TwinOption
            options.imperfections.imu, options.seed, options.gyro_bias_rad_s),
       shutters_(entity_, options.cameras),
       probes_(entity_, body_, owner_, options.imperfections.probes, options.seed),
-      nominal_v_(options.supply_v.value_or(
-          entity.joints.empty() ? 0.0 : entity.joints[0].servo.nominal_v)),
+      nominal_v_(options.supply_v.value_or(made_for_v(entity_))),
       supply_v_(nominal_v_),
+      supply_ohm_(options.supply_ohm * std::pow(made_for_v(entity_) / 12, 2)),
       external_n_m_(entity.joints.size(), 0),
       saturated_steps_(entity.joints.size(), 0) {
   const Start start = make_start(entity_, options);
@@ -181,7 +185,7 @@ void TwinRobot::update_servos(double step_s) {
     joint_work_j_ += std::max(0.0, servo_[j].torque_n_m() * rate_rad_s) * step_s;
   }
   supply_energy_j_ += supply_v_ * current_a * step_s;
-  supply_v_ = nominal_v_ - options_.supply_ohm * current_a;
+  supply_v_ = nominal_v_ - supply_ohm_ * current_a;
 }
 
 Transform TwinRobot::imu_pose() const {

@@ -59,7 +59,8 @@ struct TwinOptions {
   double cradle_s = 1.2;
   std::optional<double> supply_v = {};  ///< unloaded; none: what the servos are made for
   /// Internal resistance of battery and harness. An estimate: 3 LiPo cells of about 10 mOhm (hobby
-  /// packs of 1 to 2 Ah), plug, fuse and the first metre of daisy chain.
+  /// packs of 1 to 2 Ah), plug, fuse and the first metre of daisy chain. So much for servos of
+  /// 12 V; for others it goes with the voltage's square: the same part of it is lost at one power.
   double supply_ohm = 0.1;
   bool cameras = false;  ///< somebody draws what they see: take_exposures()
 };
@@ -173,6 +174,7 @@ class TwinRobot final : public Plant, private Actor {
   std::array<double, 2> foot_force_n_{};
   const double nominal_v_;  ///< of the supply, unloaded
   double supply_v_;
+  const double supply_ohm_;
   double supply_energy_j_ = 0, joint_work_j_ = 0;
   std::vector<double> inertia_kg_m2_;  ///< of each joint's links, at the start of the step
   std::vector<double> external_n_m_;   ///< what turned each joint besides its servo, last step

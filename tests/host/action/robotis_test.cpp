@@ -77,6 +77,63 @@ TEST(RobotisMotion, AnEditOfAnAngleIsOneOfItsPage) {
   EXPECT_NEAR(documents[0].frames[0].goals[0].angle_rad, 0.5, 1e-3);
 }
 
+// Two pages of one name, and one that is called as the second would be.
+TEST(RobotisMotion, EachPageHasANameOfItsOwn) {
+  Motion motion(kPages, blank_page());
+  const auto call = [&](std::size_t page, const std::string& name) {
+    std::copy(name.begin(), name.end(), motion[page].begin());
+    seal(motion[page]);
+  };
+  call(1, "foo");
+  call(3, "foo_5");
+  call(5, "foo");
+  const std::vector<Document> documents = from_motion(op3().params, motion);
+  ASSERT_EQ(documents.size(), 3U);
+  EXPECT_NE(documents[2].name, documents[1].name);
+  EXPECT_NE(documents[2].name, documents[0].name);
+  EXPECT_TRUE(to_motion(op3().params, documents) == motion);
+}
+
+// What a page cannot hold, or what would be lost, is refused at its line.
+TEST(RobotisMotion, WhatNoPageWouldKeepIsRefused) {
+  Motion motion(kPages, blank_page());
+  for (const std::size_t page : {1U, 2U}) {
+    motion[page][0] = static_cast<std::uint8_t>('a' + page);
+    motion[page][kStepCount] = 1;
+    seal(motion[page]);
+  }
+  const std::vector<Document> good = from_motion(op3().params, motion);
+  ASSERT_EQ(good.size(), 2U);
+  ASSERT_TRUE(to_motion(op3().params, good) == motion);
+  const auto expect_refused = [&](const char* what, const auto& spoil) {
+    std::vector<Document> documents = good;
+    spoil(documents);
+    try {
+      to_motion(op3().params, documents);
+      ADD_FAILURE() << what << " is lost without a word";
+    } catch (const model::LoadError& error) {
+      EXPECT_NE(std::string(error.what()).find(what), std::string::npos) << error.what();
+    }
+  };
+  using Documents = std::vector<Document>;
+  expect_refused("no joint 'nose'", [](Documents& all) {
+    all[0].frames[0].goals.push_back({"nose", false, 0.1, 3});
+  });
+  expect_refused("another action's", [](Documents& all) { all[1].page->number = 1; });
+  expect_refused("is called", [](Documents& all) { all[0].name = "zoo"; });
+  expect_refused("link", [](Documents& all) { all[0].link = Target{"c", 2}; });
+  expect_refused("repeat", [](Documents& all) {
+    all[0].frames[0].repeat = Repeat{2, {"first", 2}};
+  });
+  expect_refused("stiffness", [](Documents& all) { all[0].frames[0].stiffness = {{{}, 30, 2}}; });
+  expect_refused("exit", [](Documents& all) { all[0].frames[0].exit = Target{"c", 2}; });
+  expect_refused("mirror", [](Documents& all) {
+    all.push_back({});
+    all.back().name = "m";
+    all.back().mirror = Target{"b", 2};
+  });
+}
+
 TEST(RobotisMotion, FilesOfAnotherSizeOrADamagedPageAreRefused) {
   const std::filesystem::path file =
       std::filesystem::temp_directory_path() / ("motion" + std::to_string(getpid()) + ".bin");

@@ -344,9 +344,13 @@ TEST(OthersFiles, WhatTheLegsCannotDoIsRefused) {
                            "name=\"left_leg\" base=\"trunk\" tip=\"r_sole\"/>", "left_leg hangs");
   expect_generic21_refused("name=\"l_ankle_pitch\" rad=\"-0.", "name=\"l_ankle_pitch\" rad=\"0.",
                            "tilts the sole");
-  expect_generic21_refused("joint=\"r_knee\" id=\"13\" direction=\"-1\" type=\"xm430_w210\"",
-                           "joint=\"r_knee\" id=\"13\" direction=\"-1\" type=\"xl330\"",
-                           "stands on one leg");
+  std::string text = read_text(robot_file("generic21"));
+  const std::string knee = "joint=\"r_knee\" id=\"13\" direction=\"-1\" type=\"";
+  text.replace(text.find(knee) + knee.size(), std::string("xm430_w210").size(), "weak");
+  text.insert(text.find("<verp:bus name=\"dxl\""),
+              "<verp:servo_type name=\"weak\" like=\"xm430_w210\" stall_torque_n_m=\"0.4\" "
+              "no_load_rev_min=\"77\" stall_current_a=\"1\" source=\"an XL330's\"/>");
+  expect_sdf_refused(text, knee, "stands on one leg");
 }
 
 TEST(OthersFiles, RobotWithoutLegsOrImuIsRefused) {

@@ -37,6 +37,11 @@ TEST(BadInput, ServoTypesOfTheFileAreReadAndTheirSlipsNamed) {
   for (auto from = good.find(old_type); from != std::string::npos; from = good.find(old_type)) {
     good.replace(from, old_type.size(), "type=\"mine\"");
   }
+  std::string mixed = mine(
+      "like=\"xm430_w210\" nominal_v=\"24\" stall_torque_n_m=\"3\" "
+      "no_load_rev_min=\"77\" stall_current_a=\"2\"");
+  mixed.replace(mixed.rfind(old_type), old_type.size(), "type=\"mine\"");
+  expect_refused(mixed, "type=\"mine\"", "voltage");
   const TemporaryFile file("robot.sdf", good);
   const Servo servo = load_robot(file.path()).joints.front().servo;
   EXPECT_DOUBLE_EQ(servo.stall_torque_n_m, 1.5 * 12 / 4);
