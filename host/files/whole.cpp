@@ -2,8 +2,8 @@
 
 #include <unistd.h>
 
+#include <cerrno>
 #include <fstream>
-#include <iterator>
 
 namespace verp::files {
 
@@ -12,7 +12,14 @@ namespace fs = std::filesystem;
 std::optional<std::string> read(const fs::path& file) {
   std::ifstream in(file, std::ios::binary);
   if (!in) return std::nullopt;
-  return std::string(std::istreambuf_iterator<char>(in), {});
+  std::string bytes;
+  for (char chunk[1 << 16]; in.read(chunk, sizeof chunk) || in.gcount() > 0;) {
+    bytes.append(chunk, static_cast<std::size_t>(in.gcount()));
+    if (bytes.size() <= kMostBytes) continue;
+    errno = EFBIG;
+    return std::nullopt;
+  }
+  return bytes;
 }
 
 bool write(const fs::path& file, std::string_view bytes) {

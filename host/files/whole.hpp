@@ -1,4 +1,5 @@
 #pragma once
+#include <cstddef>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -8,7 +9,10 @@
 /// caller's: he knows what the file is for.
 namespace verp::files {
 
-/// Nothing: it can't be opened; errno says why.
+/// What is read as a whole is smaller: a device may go on for ever.
+inline constexpr std::size_t kMostBytes = 128U << 20;
+
+/// Nothing: it can't be opened, or is larger than kMostBytes; errno says why.
 std::optional<std::string> read(const std::filesystem::path& file);
 
 /// False: not all of it could be written.

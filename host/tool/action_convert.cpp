@@ -91,6 +91,11 @@ std::string record_action(const RecordWords& words) {
   }
   action::RecordOptions options = words.options;
   options.name = file.stem().string();
+  if (options.name.find_first_of(" \t\n#") != std::string::npos) {
+    throw ToolError(kBadInput, fmt::format("verp action record: '{}' is no action's name: it has a "
+                                           "space or a # in it; give -o NAME.action",
+                                           options.name));
+  }
   const action::Document document =
       words.gait_cycles > 0 ? action::record_gait(trace, options.name, words.gait_cycles)
                             : action::record_joints(trace, options);

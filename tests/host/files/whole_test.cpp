@@ -5,12 +5,20 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <cerrno>
+
 #include "host/files/temporary_directory.hpp"
 
 namespace verp::files {
 namespace {
 
 namespace fs = std::filesystem;
+
+TEST(Read, ADeviceThatGoesOnForEverIsRefused) {
+  EXPECT_EQ(read("/dev/zero"), std::nullopt);
+  EXPECT_EQ(errno, EFBIG);
+  EXPECT_EQ(read("/dev/null"), "");
+}
 
 TEST(Replace, WritesAFileAndLeavesNothingBesideIt) {
   const TemporaryDirectory folder;
