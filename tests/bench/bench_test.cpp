@@ -21,6 +21,9 @@ TEST_F(Bench, JsonIsOneObjectWithEveryCostOfThePcAndKdlAgreesWithUs) {
     bars[row.at("name")] = row.value("at_least", row.value("at_most", 0.0));
     EXPECT_EQ(row.count("failed"), 0) << row;
     EXPECT_GT(row.at("value"), 0) << "all is installed for the tests: " << row;
+    EXPECT_EQ(row.at("where") == "languages",
+              row.at("name").get<std::string>().ends_with("_ticks_per_s"))
+        << row;
     EXPECT_EQ(row.value("judged", false), row.at("name") == "state_bytes")
         << "times are not: " << row;
   }
@@ -44,12 +47,24 @@ TEST_F(Bench, JsonIsOneObjectWithEveryCostOfThePcAndKdlAgreesWithUs) {
   EXPECT_LT(json.at("kdl_check").at("apart_m"), 1e-4);
 }
 
+TEST_F(Bench, TableHasTheBarBesideEachPromisedNumber) {
+  const Outcome outcome = verp("bench --pc --repetitions 1");
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_EQ(outcome.err, "");
+  for (const char* bar :
+       {"at most 3 µs", "at least 100 times", "at most 3072 bytes", "at least 2000 ticks/s"}) {
+    EXPECT_NE(outcome.out.find(bar), std::string::npos) << bar << '\n' << outcome.out;
+  }
+}
+
 // A PATH without them: the others are measured all the same, with the bar beside each promised
 // number, and the row says what to install.
 TEST_F(Bench, LanguageThatIsNotInstalledSaysSoAndFailsNobody) {
   const Outcome outcome = shell("mkdir few && ln -s /bin/sh few/sh && PATH=$PWD/few " VERP_PROGRAM
                                 " bench --only languages --repetitions 1");
   ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_EQ(outcome.out.find("CPU time here"), std::string::npos) << "only languages:\n"
+                                                                  << outcome.out;
   for (const char* words : {"not measured; install it: apt-get install octave octave-dev",
                             "not measured; install it: apt-get install mono-mcs mono-runtime",
                             "at least 5000 ticks/s"}) {

@@ -77,6 +77,26 @@ TEST(RobotisMotion, AnEditOfAnAngleIsOneOfItsPage) {
   EXPECT_NEAR(documents[0].frames[0].goals[0].angle_rad, 0.5, 1e-3);
 }
 
+// One more joint in a step of which another has no torque.
+TEST(RobotisMotion, AnAngleIsAddedBesideAServoWithoutTorque) {
+  Motion motion(kPages, blank_page());
+  const auto put = [&](std::size_t id, std::uint16_t word) {
+    motion[1][kFirstStep + 2 * id] = static_cast<std::uint8_t>(word);
+    motion[1][kFirstStep + 2 * id + 1] = static_cast<std::uint8_t>(word >> 8);
+  };
+  motion[1][kStepCount] = 1;
+  put(1, 0x2800);  // torque off
+  put(3, 0x0800);
+  seal(motion[1]);
+  std::vector<Document> documents = from_motion(op3().params, motion);
+  ASSERT_EQ(documents.size(), 1U);
+  const std::size_t goals = documents[0].frames[0].goals.size();
+  ASSERT_EQ(goals, 2U);
+  documents[0].frames[0].goals.push_back({"head_pan", false, 0.25, 0});
+  documents = from_motion(op3().params, to_motion(op3().params, documents));
+  EXPECT_EQ(documents[0].frames[0].goals.size(), goals + 1);
+}
+
 // Two pages of one name, and one that is called as the second would be.
 TEST(RobotisMotion, EachPageHasANameOfItsOwn) {
   Motion motion(kPages, blank_page());

@@ -285,5 +285,22 @@ TEST(ServoInOde, SupplySagsUnderLoad) {
   EXPECT_NEAR(robot.measure(0).voltage_v, 12 - 0.23, 0.01);
 }
 
+// A servo of another voltage draws the same power, and the same part of its supply is lost.
+TEST(ServoInOde, SupplySagsByTheSamePartAtAnyVoltage) {
+  for (const double nominal_v : {5.0, 24.0}) {
+    World world;
+    model::Entity entity = test::arm();
+    entity.joints[0].upper_rad = 0.1;
+    entity.joints[0].servo.stall_current_a *= 12 / nominal_v;
+    entity.joints[0].servo.nominal_v = nominal_v;
+    TwinRobot robot(world, entity, bench());
+    robot.setpoint(0).torque_on = true;
+    robot.setpoint(0).goal_count = 4000;
+    robot.setpoint(0).p_gain = 3500;
+    robot.advance_to(500'000);
+    EXPECT_NEAR(robot.measure(0).voltage_v / nominal_v, 1 - 0.23 / 12, 0.001) << nominal_v << " V";
+  }
+}
+
 }  // namespace
 }  // namespace verp::sim
