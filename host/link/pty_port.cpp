@@ -63,6 +63,7 @@ class PtyPort final : public Port {
       ::cfmakeraw(&settings);
       ::tcsetattr(slave.get(), TCSANOW, &settings);
     }
+    found_ = rate();
     if (!path_.empty()) make_symbolic_link();
   }
 
@@ -82,7 +83,9 @@ class PtyPort final : public Port {
     ::tcflush(slave.get(), TCIFLUSH);
   }
   std::uint32_t rate() const override { return line_rate(master_.get()); }
-  void set_rate(std::uint32_t baud) override { set_line_rate(master_.get(), baud); }
+  void set_rate(std::uint32_t baud) override {
+    if (rate() == found_) set_line_rate(master_.get(), baud);
+  }
   std::uint32_t retry_us() const override { return 1000; }
   std::string place() const override { return path_.empty() ? name_ : path_; }
 
@@ -142,6 +145,7 @@ class PtyPort final : public Port {
 
   std::string path_;
   std::string name_;
+  std::uint32_t found_ = 0;  ///< the rate as the kernel makes one
   Descriptor master_;
 };
 

@@ -49,7 +49,7 @@ TEST(Generic21, SameSeedIsTheSameWalkToTheLastBit) {
 // Without the correction for the legs' mass the bias grows with the step, as in the paper; with it
 // the bias is smaller at every step length.
 TEST(Generic21, MultibodyCorrectionTakesAwayTheBiasThatGrowsWithTheStep) {
-  const Walk sweep = walk("generic21 --for 20 --sweep-step 0.02:0.06:0.01");
+  const Walk sweep = walk("generic21 --for 20 --physics-step 2 --sweep-step 0.02:0.06:0.01");
   const json& rows = sweep.result.value("sweep", json::array());
   ASSERT_EQ(rows.size(), 5u);
   double before_mm = 0;

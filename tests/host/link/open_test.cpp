@@ -186,6 +186,17 @@ TEST(Open, SetsAnyRate) {
   }
 }
 
+// Who opens a twin's port as it appears may be there before the twin gives it the servos' rate.
+TEST(Open, ATerminalKeepsTheRateThatItsPeerHasSet) {
+  Link found(parse_endpoint("pty:"));
+  found.set_rate(2'000'000);
+  EXPECT_EQ(found.rate(), 2'000'000U);
+  Link taken(parse_endpoint("pty:"));
+  const Link early(parse_endpoint("serial:" + taken.place() + "@57600"));
+  taken.set_rate(2'000'000);
+  EXPECT_EQ(taken.rate(), 57600U);
+}
+
 // A USB serial port plugged in again often comes back under the same name, not the same device.
 TEST(Reconnect, FindsWhatStandsAtTheSamePath) {
   const test::Folder folder;
