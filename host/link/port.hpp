@@ -50,7 +50,8 @@ class Port {
   virtual std::string place() const = 0;
   /// The rate in baud that a peer has set; 0: there is none, or it is nothing to the peer.
   virtual std::uint32_t rate() const { return 0; }
-  /// The rate that a peer finds, and may change. One that came first, and has set its own, keeps it.
+  /// The rate that a peer finds, and may change. One that came first, and has set its own, keeps
+  /// it.
   virtual void set_rate(std::uint32_t) {}
   /// Since this Port was made, without losses.
   virtual hal::LinkErrors counted() { return {}; }
