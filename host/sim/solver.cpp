@@ -6,11 +6,7 @@
 #include "host/sim/solver_lanes.hpp"
 
 // ODE's names for them, template instances that its library exports.
-#if VERP_SOLVER_IN_PLACE
 #define VERP_IN_PLACE_OF(name) __asm__(name) __attribute__((visibility("default")))
-#else
-#define VERP_IN_PLACE_OF(name)
-#endif
 extern "C" {
 void verp_solve_lower(const double* l, double* b, unsigned n, unsigned skip)
     VERP_IN_PLACE_OF("_Z15solveL1StraightILj1EEvPKdPdjj");
@@ -27,8 +23,9 @@ namespace {
 VERP_WIDE void solve_lower_wide(const double* l, double* b, std::size_t n, std::size_t skip) {
   lanes::solve_lower(l, b, n, skip);
 }
-VERP_WIDE void solve_upper_wide(const double* l, double* b, std::size_t n, std::size_t skip) {
-  lanes::solve_upper(l, b, n, skip);
+VERP_WIDE void solve_upper_wide(const double* l, double* b, std::size_t n, std::size_t skip,
+                                double* room) {
+  lanes::solve_upper(l, b, n, skip, room);
 }
 VERP_WIDE void factor_wide(double* a, double* d, std::size_t n, std::size_t skip, double* room) {
   lanes::factor(a, d, n, skip, room);
@@ -37,8 +34,8 @@ VERP_WIDE void factor_wide(double* a, double* d, std::size_t n, std::size_t skip
 void solve_lower_narrow(const double* l, double* b, std::size_t n, std::size_t skip) {
   lanes::solve_lower(l, b, n, skip);
 }
-void solve_upper_narrow(const double* l, double* b, std::size_t n, std::size_t skip) {
-  lanes::solve_upper(l, b, n, skip);
+void solve_upper_narrow(const double* l, double* b, std::size_t n, std::size_t skip, double* room) {
+  lanes::solve_upper(l, b, n, skip, room);
 }
 void factor_narrow(double* a, double* d, std::size_t n, std::size_t skip, double* room) {
   lanes::factor(a, d, n, skip, room);
@@ -49,6 +46,22 @@ constexpr SolverLoops kLoops[] = {
     {"SSE2", solve_lower_narrow, solve_upper_narrow, factor_narrow},
 };
 const std::size_t kFirst = __builtin_cpu_supports("avx2") ? 0 : 1;
+
+/// Room for some numbers a row.
+template <std::size_t kEach>
+class Room {
+ public:
+  explicit Room(unsigned rows) {
+    if (rows > kUsual) more_.resize(kEach * std::size_t{rows});
+  }
+  double* begin() { return more_.empty() ? usual_ : more_.data(); }
+
+ private:
+  // A robot's hinges and servos are 150 rows at most; what is pinned by them all is more.
+  static constexpr std::size_t kUsual = 256;
+  double usual_[kEach * kUsual];
+  std::vector<double> more_;
+};
 
 }  // namespace
 
@@ -63,16 +76,13 @@ void verp_solve_lower(const double* l, double* b, unsigned n, unsigned skip) {
 }
 
 void verp_solve_upper(const double* l, double* b, unsigned n, unsigned skip) {
-  verp::sim::solver_loops()[0].solve_upper(l, b, n, skip);
+  verp::sim::Room<1> room(n);
+  verp::sim::solver_loops()[0].solve_upper(l, b, n, skip, room.begin());
 }
 
 void verp_factor(double* a, double* d, unsigned n, unsigned skip) {
-  // A robot's hinges and servos are 150 rows at most; what is pinned by them all is more.
-  constexpr std::size_t kUsual = 256;
-  double usual[8 * kUsual];
-  std::vector<double> more;
-  if (n > kUsual) more.resize(8 * std::size_t{n});
-  verp::sim::solver_loops()[0].factor(a, d, n, skip, more.empty() ? usual : more.data());
+  verp::sim::Room<8> room(n);
+  verp::sim::solver_loops()[0].factor(a, d, n, skip, room.begin());
 }
 
 #else

@@ -4,19 +4,11 @@
 #include <string_view>
 
 /// Three loops of ODE's solver take most of a world's time. Here they are once more, several
-/// numbers at a time: each number is the sum of the same terms in the same order, so no bit of it
-/// differs (tests/host/sim/solver_test.cpp). A program with this file in it has them in the place
-/// of ODE's, as the dynamic linker binds the library's own calls to the first definition that it
-/// finds. Where it finds none, on another processor or with an ODE that has other loops, ODE's own
-/// run. So they do under the address sanitizer, which watches each number that ours load and makes
-/// the twin four times slower, and cannot watch the library's: there ours run in their tests only.
-#if defined(__SANITIZE_ADDRESS__)
-#define VERP_SOLVER_IN_PLACE 0
-#elif defined(__has_feature)
-#define VERP_SOLVER_IN_PLACE !__has_feature(address_sanitizer)
-#else
-#define VERP_SOLVER_IN_PLACE 1
-#endif
+/// numbers at a time and without the zeros that a robot's rows begin with: each number is the sum
+/// of the same terms in the same order, so no bit of it differs (tests/host/sim/solver_test.cpp). A
+/// program with this file in it has them in the place of ODE's, as the dynamic linker binds the
+/// library's own calls to the first definition that it finds. Where it finds none, on another
+/// processor or with an ODE that has other loops, ODE's own run.
 
 namespace verp::sim {
 
@@ -24,8 +16,8 @@ struct SolverLoops {
   std::string_view instructions;
   /// L x = b, in the place of b. L: n rows, `skip` numbers apart, lower, with ones on its diagonal.
   void (*solve_lower)(const double* l, double* b, std::size_t n, std::size_t skip);
-  /// L^T x = b.
-  void (*solve_upper)(const double* l, double* b, std::size_t n, std::size_t skip);
+  /// L^T x = b. Room: n numbers.
+  void (*solve_upper)(const double* l, double* b, std::size_t n, std::size_t skip, double* room);
   /// A = L D L^T: L in the place of A's lower half, 1 / D in d. Room: 8 n numbers.
   void (*factor)(double* a, double* d, std::size_t n, std::size_t skip, double* room);
 };

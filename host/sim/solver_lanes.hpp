@@ -1,9 +1,12 @@
 #pragma once
 #include <cstddef>
+#include <cstdint>
 #include <cstring>
 
 /// The loops of solver.hpp, for one set of instructions or another: whoever includes this inlines
-/// them into a function of its own for each.
+/// them into a function of its own for each. Most of what a robot's joints make is zero: rows begin
+/// with zeros up to the first joint that they share a body with. What is left out is a product with
+/// +0 only, which adds no bit to a sum that began at +0 (numbers that are no longer finite aside).
 namespace verp::sim::lanes {
 
 using Index = std::size_t;
@@ -18,6 +21,7 @@ using Index = std::size_t;
 
 using Two = double __attribute__((vector_size(16)));
 using Four = double __attribute__((vector_size(32)));
+using FourBits = std::uint64_t __attribute__((vector_size(32)));
 
 // By reference: what a vector's return by value means depends on the instructions.
 VERP_INLINE void load(Two& out, const double* from) {
@@ -25,6 +29,24 @@ VERP_INLINE void load(Two& out, const double* from) {
 }
 VERP_INLINE void load(Four& out, const double* from) {
   std::memcpy(&out, from, sizeof out);
+}
+
+/// How many of so many numbers from `row` on, in each of some rows, are +0 by all their bits: a
+/// multiple of four.
+template <int kRows>
+VERP_INLINE Index leading_zeros(const double* row, Index count, Index skip) {
+  Index k = 0;
+  for (; k + 4 <= count; k += 4) {
+    FourBits any = {};
+    VERP_UNROLL
+    for (Index r = 0; r < kRows; ++r) {
+      FourBits bits;
+      std::memcpy(&bits, row + r * skip + k, sizeof bits);
+      any |= bits;
+    }
+    if ((any[0] | any[1] | any[2] | any[3]) != 0) break;
+  }
+  return k;
 }
 
 /// z[g] += rows 4 g to 4 g + 3 of l, times b: column after column, four of each.
@@ -67,6 +89,9 @@ VERP_INLINE void lower_rows(const double* l, double* b, Index from, Index skip) 
 }
 
 VERP_INLINE void solve_lower(const double* l, double* b, Index n, Index skip) {
+  // Where b begins with zeros, so does x.
+  const Index zeros = leading_zeros<1>(b, n, 0);
+  l += zeros * (skip + 1), b += zeros, n -= zeros;
   Index row = 0;
   for (; row + 16 <= n; row += 16) lower_rows<4>(l, b, row, skip);
   for (; row + 4 <= n; row += 4) lower_rows<1>(l, b, row, skip);
@@ -95,40 +120,37 @@ VERP_INLINE void finish_upper(const double* l, double* b, const Four& z, Index s
   b[0] = b[0] - z[0] - l3[0] * b[3] - l2[0] * b[2] - l1[0] * b[1];
 }
 
-/// z[g] += columns 4 g to 4 g + 3 of l's rows, from the one before `last` down to `first`.
-template <int kGroups>
-VERP_INLINE void add_rows(Four* z, const double* l, const double* b, Index last, Index first,
-                          Index skip) {
-  for (Index row = last; row-- > first;) {
+/// z += kRows rows of l, the last one first, each times its b: columns from the first that is not
+/// zero in all of them up to `columns`.
+template <int kRows>
+VERP_INLINE void add_rows(double* z, const double* l, const double* b, Index columns, Index skip) {
+  for (Index k = leading_zeros<kRows>(l, columns, skip); k < columns; k += 4) {
+    Four sum;
+    load(sum, z + k);
     VERP_UNROLL
-    for (int g = 0; g < kGroups; ++g) {
+    for (Index r = 0; r < kRows; ++r) {
       Four p;
-      load(p, l + row * skip + 4 * g);
-      z[g] += p * b[row];
+      load(p, l + (kRows - 1 - r) * skip + k);
+      sum += p * b[kRows - 1 - r];
     }
+    std::memcpy(z + k, &sum, sizeof sum);
   }
 }
 
-template <int kGroups>
-VERP_INLINE void upper_rows(const double* l, double* b, Index n, Index end, Index skip) {
-  Four z[kGroups] = {};
-  const Index start = end - 4 * kGroups;
-  add_rows<kGroups>(z, l + start, b, n, end, skip);
-  VERP_UNROLL
-  for (int g = kGroups - 1; g >= 0; --g) {
-    const Index row = start + 4 * static_cast<Index>(g);
-    add_rows<1>(z + g, l + row, b, end, row + 4, skip);
-    finish_upper(l + row * skip + row, b + row, z[g], skip);
-  }
-}
-
-VERP_INLINE void solve_upper(const double* l, double* b, Index n, Index skip) {
+VERP_INLINE void solve_upper(const double* l, double* b, Index n, Index skip, double* z) {
   Index end = n - n % 4;
+  std::memset(z, 0, end * sizeof *z);
   for (Index row = n; row-- > end;) {
     for (Index below = n; --below > row;) b[row] = b[row] - l[below * skip + row] * b[below];
+    add_rows<1>(z, l + row * skip, b + row, end, skip);
   }
-  for (; end >= 16; end -= 16) upper_rows<4>(l, b, n, end, skip);
-  for (; end >= 4; end -= 4) upper_rows<1>(l, b, n, end, skip);
+  for (; end > 0; end -= 4) {
+    const Index row = end - 4;
+    Four sums;
+    load(sums, z + row);
+    finish_upper(l + row * skip + row, b + row, sums, skip);
+    add_rows<4>(z, l + row * skip, b + row, row, skip);
+  }
 }
 
 /// Some rows of A on their way to L, columns first: column k of all of them is x[k], and becomes
@@ -152,11 +174,12 @@ struct Panel {
     }
   }
 
-  /// Columns j to j + kColumns - 1, an even number of them; those before are done.
+  /// Columns j to j + kColumns - 1, an even number of them; those before are done, and zero up to
+  /// `from`.
   template <int kColumns>
-  VERP_INLINE void solve(Index j) const {
+  VERP_INLINE void solve(Index j, Index from) const {
     Four z[kColumns][kGroups] = {};
-    for (Index k = 0; k < j; ++k) add<kColumns>(z, 0, j, k);
+    for (Index k = from; k < j; ++k) add<kColumns>(z, 0, j, k);
     VERP_UNROLL
     for (int c = 0; c < kColumns; c += 2) {
       // ODE sums up to the pair, and takes what is within it off by itself.
@@ -230,14 +253,17 @@ struct Panel {
 
   VERP_INLINE void factor() const {
     gather();
-    Index j = 0;
-    for (; j + 4 <= first; j += 4) solve<4>(j);
-    for (; j < first; j += 2) solve<2>(j);
+    Index zeros = first;
+    for (Index r = first; r < first + rows; ++r) zeros = leading_zeros<1>(row(r), zeros, skip);
+    Index j = zeros;
+    for (; j + 4 <= first; j += 4)
+      solve<4>(j, zeros + leading_zeros<4>(row(j) + zeros, j - zeros, skip));
+    for (; j < first; j += 2) solve<2>(j, zeros);
     Four own[kGroups] = {}, cross[kGroups] = {};
     for (Index k = 0; k < first; ++k) scale(k, own, cross);
     for (Index lane = 0; lane < rows; lane += 2) {
       const Index g = lane / 4, in = lane % 4;
-      if (lane > 0) solve<2>(first + lane - 2);
+      if (lane > 0) solve<2>(first + lane - 2, zeros);
       finish(first + lane, own[g][in], cross[g][in + 1], own[g][in + 1]);
     }
   }
