@@ -4,6 +4,7 @@
 #include "common/control/step.hpp"
 #include "common/model/image.hpp"
 #include "common/safety/machine.hpp"
+#include "tests/replay/divergence.hpp"
 #include "tests/replay/trace_file.hpp"
 
 /// replay_digest FILE: runs the core over the inputs of FILE and prints the last link of each
@@ -16,17 +17,6 @@ namespace {
 using namespace verp;
 
 constexpr std::size_t kSummaryTicks = 5;  ///< a segment
-
-bool same(const TickDigest& a, const TickDigest& b) {
-  return __builtin_memcmp(&a, &b, sizeof a) == 0;
-}
-
-void complain(const replay::Segment& segment, const TickRecord& recorded, const TickDigest& now) {
-  int stage = 0;
-  while (stage < kStages - 1 && recorded.digest.stage[stage] == now.stage[stage]) ++stage;
-  std::fprintf(stderr, "%s: first divergence: tick %" PRIu32 ", stage %s\n", segment.name.c_str(),
-               recorded.inputs.tick, kStageNames[stage]);
-}
 
 /// Mode and both legs' goal angles, mrad, hip to ankle.
 std::string legs(const Params& params, const Outputs& outputs) {
@@ -55,8 +45,8 @@ bool replay_here(replay::Segment& segment, std::string& summary) {
   std::size_t nth = 0;
   for (TickRecord& tick : segment.ticks) {
     step(segment.params, state, tick.inputs, outputs);
-    if (good && !same(tick.digest, state.digest)) {
-      complain(segment, tick, state.digest);
+    if (good && !replay::same(tick.digest, state.digest)) {
+      replay::complain(segment, tick, state.digest);
       good = false;
     }
     if (++nth % pace == 0) {

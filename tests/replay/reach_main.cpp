@@ -1,12 +1,14 @@
 #include <cstdio>
 
 #include "common/control/step.hpp"
+#include "tests/replay/divergence.hpp"
 #include "tests/replay/trace_file.hpp"
 #include "tests/unit/control/falling_loop.hpp"
 
 /// replay_reach FILE: runs the core, compiled to count lines and branches, over the inputs of FILE
 /// and prints how often each phase of the gait, mode, row of the safety table and fault was
-/// reached. Exit status 1 when one never was.
+/// reached. Exit status 1 when one never was, or when a digest is not the recorded one: this is the
+/// build without optimisation of those that must agree (`matrix` has the others).
 ///
 /// Linked with --wrap for safety::next_mode, which is how the rows are seen.
 namespace verp::replay {
@@ -31,13 +33,19 @@ void count(const Outputs& outputs) {
   for (int i = 0; i < 32; ++i) fault_count[i] += outputs.faults >> i & 1U;
 }
 
-void run(const Segment& segment) {
+bool run(const Segment& segment) {
   State state;
   Outputs outputs;
+  bool good = true;
   for (const TickRecord& tick : segment.ticks) {
     step(segment.params, state, tick.inputs, outputs);
     count(outputs);
+    if (good && !same(tick.digest, state.digest)) {
+      complain(segment, tick, state.digest);
+      good = false;
+    }
   }
+  return good;
 }
 
 // The trace has no actions; a robot that stands plays these: there and back with a repeat, a way
@@ -176,11 +184,11 @@ int main(int count, char** argument) {
     std::fprintf(stderr, "usage: replay_reach FILE, where FILE is made by replay_make\n");
     return 2;
   }
-  for (const replay::Segment& segment : trace) replay::run(segment);
+  bool good = true;
+  for (const replay::Segment& segment : trace) good = replay::run(segment) && good;
   replay::act();
   replay::fall();
   constexpr const char* kPhases[] = {"idle", "start", "transition", "finalisation"};
-  bool good = true;
   for (int i = 0; i < 4; ++i) {
     good = replay::print("gait phase", kPhases[i], replay::phase_count[i]) && good;
   }
