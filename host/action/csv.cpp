@@ -44,6 +44,30 @@ std::string to_csv(const Params& params, const Made& made, int number) {
   return text;
 }
 
+std::string not_in_csv(const Document& document) {
+  const auto any = [&](const auto& has) {
+    return std::any_of(document.frames.begin(), document.frames.end(), has);
+  };
+  const std::pair<const char*, bool> parts[] = {
+      {"note", !document.note.empty()},
+      {"link", document.link.has_value()},
+      {"page", document.page.has_value()},
+      {"labels", any([](const FrameText& each) { return !each.label.empty(); })},
+      {"interpolation", any([](const FrameText& each) { return each.smooth == false; })},
+      {"balance", any([](const FrameText& each) { return each.balance.has_value(); })},
+      {"stance", any([](const FrameText& each) { return each.stance.has_value(); })},
+      {"stiffness", any([](const FrameText& each) { return !each.stiffness.empty(); })},
+      {"exits", any([](const FrameText& each) { return each.exit.has_value(); })},
+      {"conditions", any([](const FrameText& each) { return each.wait.has_value(); })},
+      {"repeats", any([](const FrameText& each) { return each.repeat.has_value(); })},
+  };
+  std::string text;
+  for (const auto& [name, is_there] : parts) {
+    if (is_there) text += (text.empty() ? "" : ", ") + std::string(name);
+  }
+  return text;
+}
+
 Document from_csv(const Params& params, const std::filesystem::path& file, const std::string& text,
                   const std::string& name) {
   Document document;

@@ -266,6 +266,9 @@ Document read_document(const std::filesystem::path& file) {
   std::error_code error;
   const std::uintmax_t size = std::filesystem::file_size(file, error);
   const std::optional<std::string> text = error ? std::nullopt : files::read(file);
+  if (std::filesystem::is_directory(file, error)) {
+    throw model::LoadError(file.string(), 0, "is a folder", "give an action file in it");
+  }
   if (!text) {
     throw model::LoadError(file.string(), 0, "cannot be read", "give the path of an action file");
   }

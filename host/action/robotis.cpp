@@ -71,19 +71,21 @@ FrameText frame_of_page(const Params& params, const Page& page, std::size_t step
   frame.hold_s = page[at + kPause] * unit_s(page);
   if (step == 0) frame.balance = false;  // its goals are of servos, whatever bears on them
   Stiffness off{{}, 0, 0}, on{{}, 100, 0};
+  bool was_off = false;  // what has no torque stays so until a frame says otherwise
   for (int j = 0; j < params.joint_count; ++j) {
     const JointParams& joint = params.joint[j];
     if (joint.servo_id >= kPageServos) continue;
     const std::uint16_t position = word(page, at + 2U * joint.servo_id);
     if ((position & kInvalid) != 0) continue;
     ((position & kTorqueOff) != 0 ? off : on).joints.emplace_back(joint.name);
+    for (std::size_t i = 0; i < step; ++i)
+      was_off |=
+          (word(page, step_at(i) + 2U * joint.servo_id) & (kTorqueOff | kInvalid)) == kTorqueOff;
     frame.goals.push_back(
         {joint.name, false, static_cast<double>(model::angle_of(joint, position & kCount)), 0});
   }
-  if (!off.joints.empty()) {
-    frame.stiffness.push_back(off);
-    if (!on.joints.empty()) frame.stiffness.push_back(on);
-  }
+  if (!off.joints.empty()) frame.stiffness.push_back(off);
+  if (!on.joints.empty() && (was_off || !off.joints.empty())) frame.stiffness.push_back(on);
   return frame;
 }
 
@@ -108,6 +110,9 @@ void seal(Page& page) {
 
 Motion read_motion(const std::filesystem::path& file) {
   std::ifstream stream(file, std::ios::binary);
+  if (!stream) {
+    throw model::LoadError(file.string(), 0, "cannot be read", "give a motion_*.bin");
+  }
   std::vector<char> bytes(kPages * kPageBytes + 1);
   stream.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
   if (static_cast<std::size_t>(stream.gcount()) != kPages * kPageBytes) {

@@ -29,8 +29,8 @@ Motion read_motion(const std::filesystem::path& file);
 /// The pages that have steps, or are not blank: an action each. Joints are those whose servo has
 /// the id.
 std::vector<Document> from_motion(const Params& params, const Motion& motion);
-/// The other way: each action on its page; what was changed in its frames is changed there. Throws
-/// LoadError for an action that has no page and more than seven frames, or what pages cannot hold.
+/// The other way: each action on its page, one without on the first that is free; what was changed
+/// in it is changed there, and nothing else. Throws LoadError for what pages cannot hold.
 Motion to_motion(const Params& params, const std::vector<Document>& documents);
 
 }  // namespace verp::action

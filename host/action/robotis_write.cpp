@@ -33,9 +33,33 @@ const JointGoal* goal_in(const FrameText& frame, const char* joint) {
   return found == frame.goals.end() ? nullptr : &*found;
 }
 
+using Percents = std::map<std::string, int>;  // of joints that are not stiff
+
+/// What a frame's words make of what the frame before left.
+Percents stiffness_after(const Params& params, const FrameText& frame, Percents slack) {
+  for (const Stiffness& each : frame.stiffness) {
+    if (each.joints.empty()) {
+      for (int j = 0; j < params.joint_count; ++j) slack[params.joint[j].name] = each.percent;
+    }
+    for (const std::string& joint : each.joints) slack[joint] = each.percent;
+  }
+  std::erase_if(slack, [](const auto& each) { return each.second == 100; });
+  return slack;
+}
+
+int torque_bit(const Document& document, const FrameText& frame, const Percents& slack,
+               const char* joint) {
+  const auto found = slack.find(joint);
+  if (found == slack.end()) return 0;
+  if (found->second == 0) return kTorqueOff;
+  refuse(document, frame.line,
+         fmt::format("a page has no stiffness of {} % (joint '{}')", found->second, joint),
+         "give 0 or 100");
+}
+
 /// Writes what the frame has otherwise than the page.
 void put_frame(const Params& params, const Document& document, const FrameText& frame,
-               std::size_t step, Page& page) {
+               const Percents& slack, std::size_t step, Page& page) {
   constexpr double kSame_s = 1e-5, kSame_rad = 1e-5;
   const std::size_t at = step_at(step);
   const FrameText there = frame_of_page(params, page, step);
@@ -60,8 +84,10 @@ void put_frame(const Params& params, const Document& document, const FrameText& 
       put_word(page, place, kInvalid);
       continue;
     }
+    const int torque = torque_bit(document, frame, slack, joint.name);
     if (before != nullptr && !now->from_stand &&
         std::abs(now->angle_rad - before->angle_rad) < kSame_rad) {
+      put_word(page, place, (word(page, place) & ~kTorqueOff) | torque);
       continue;
     }
     const double from_rad = now->from_stand ? static_cast<double>(joint.stand_rad) : 0.0;
@@ -71,7 +97,7 @@ void put_frame(const Params& params, const Document& document, const FrameText& 
              fmt::format("joint '{}' is beyond what a page can say", joint.name),
              "give an angle of less than half a turn");
     }
-    put_word(page, place, count | (before == nullptr ? 0 : word(page, place) & kTorqueOff));
+    put_word(page, place, count | torque);
   }
 }
 
@@ -91,30 +117,63 @@ void refuse_unknown_joints(const Params& params, const Document& document) {
   }
 }
 
-/// Where an action goes on, and which joints are not stiff: pages have that, but it is not written
-/// to them.
-std::string way_of(const Document& document) {
-  const auto name = [](const std::optional<Target>& target) {
-    return target ? target->name : std::string();
-  };
-  std::string way = name(document.link);
+using Numbers = std::map<std::string, int>;  // of actions' pages, by their names
+
+/// The page that a target is on; 0: there is none.
+int page_of(const Document& document, const std::optional<Target>& target, const Numbers& numbers) {
+  if (!target) return 0;
+  const auto found = numbers.find(target->name);
+  if (found != numbers.end() && found->second != 0) return found->second;
+  refuse(document, target->line, fmt::format("no page can be reached as '{}'", target->name),
+         "a page's link and exit are actions that are written with it, on pages 1 to 255");
+}
+
+/// Where an action goes on, as its page has it.
+struct Way {
+  int next = 0, exit = 0, repeat = 1;
+  auto operator<=>(const Way&) const = default;
+};
+
+Way way_of(const Document& document, const Numbers& numbers) {
+  Way way;
+  way.next = page_of(document, document.link, numbers);
+  if (document.frames.empty()) return way;
+  way.exit = page_of(document, document.frames.front().exit, numbers);
   for (const FrameText& frame : document.frames) {
-    way += "|" + name(frame.exit);
-    if (frame.repeat) way += fmt::format(" {} {}", frame.repeat->times, frame.repeat->from.name);
-    std::map<std::string, int> slack;
-    for (const Stiffness& each : frame.stiffness) {
-      if (each.joints.empty()) slack = {{"all", each.percent}};
-      for (const std::string& joint : each.joints) slack[joint] = each.percent;
+    const bool first = &frame == &document.frames.front(), last = &frame == &document.frames.back();
+    if (frame.exit && !first) {
+      refuse(document, frame.exit->line, "a page has one exit", "give it in the first frame");
     }
-    for (const auto& [joint, percent] : slack) {
-      if (percent != 100) way += fmt::format(" {} {}", joint, percent);
+    if (!frame.repeat) continue;
+    if (!last || frame.repeat->from.name != document.frames.front().label) {
+      refuse(document, frame.repeat->from.line, "a page repeats as a whole",
+             "repeat in its last frame, from its first");
+    }
+    way.repeat = frame.repeat->times + 1;
+    if (way.repeat > 255) {
+      refuse(document, frame.repeat->from.line, "a page repeats 254 times at most", "give 254");
     }
   }
   return way;
 }
 
+void put_way(const Way& now, const Way& before, Page& page) {
+  if (now.next != before.next) page[kNext] = static_cast<std::uint8_t>(now.next);
+  if (now.exit != before.exit) page[kExit] = static_cast<std::uint8_t>(now.exit);
+  if (now.repeat != before.repeat) page[kRepeat] = static_cast<std::uint8_t>(now.repeat);
+}
+
+/// Of each frame, which joints are not stiff.
+std::vector<Percents> stiffness_of(const Params& params, const Document& document) {
+  std::vector<Percents> all;
+  for (const FrameText& frame : document.frames) {
+    all.push_back(stiffness_after(params, frame, all.empty() ? Percents{} : all.back()));
+  }
+  return all;
+}
+
 /// What the page does not keep is refused: it would be lost without a word.
-void refuse_what_is_lost(const Document& document, const Document& kept) {
+void refuse_what_is_lost(const Params& params, const Document& document, const Document& kept) {
   if (document.page && document.name != kept.name) {
     refuse(document, document.line,
            fmt::format("the page of '{}' is called '{}'", document.name, kept.name),
@@ -124,13 +183,13 @@ void refuse_what_is_lost(const Document& document, const Document& kept) {
     refuse(document, document.mirror->line, "a page cannot be the mirror of another",
            "give its joints' angles");
   }
-  if (way_of(document) != way_of(kept)) {
-    refuse(
-        document, document.line,
-        fmt::format("the link, exit, repeat or stiffness of '{}' is not what its page has",
-                    document.name),
-        "leave these as they came from the motion file: of a page's, angles and times are written");
-  }
+  const auto stiffness = stiffness_of(params, document);
+  const auto there =
+      std::mismatch(stiffness.begin(), stiffness.end(), stiffness_of(params, kept).begin()).first;
+  if (there == stiffness.end()) return;
+  const auto nth = static_cast<std::size_t>(there - stiffness.begin());
+  refuse(document, document.frames[nth].line,
+         "a page has the stiffness only of joints that it moves", "give these an angle, too");
 }
 
 void put_document(const Params& params, const Document& document, Page& page) {
@@ -139,11 +198,45 @@ void put_document(const Params& params, const Document& document, Page& page) {
     refuse(document, document.frames[kSteps].line, "a page has no more than 7 steps",
            "move the rest into an action of its own, and link it");
   }
+  Percents slack;
   for (std::size_t i = 0; i < document.frames.size(); ++i) {
-    put_frame(params, document, document.frames[i], i, page);
+    slack = stiffness_after(params, document.frames[i], slack);
+    put_frame(params, document, document.frames[i], slack, i, page);
   }
   if (document.frames.size() != std::min<std::size_t>(page[kStepCount], kSteps)) {
     page[kStepCount] = static_cast<std::uint8_t>(document.frames.size());
+  }
+}
+
+/// What is read back of a motion.
+class Kept {
+ public:
+  Kept(const Params& params, const Motion& motion) {
+    for (Document& each : from_motion(params, motion)) {
+      numbers_[each.name] = each.page->number;
+      documents_[each.page->number] = std::move(each);
+    }
+  }
+  const Document& at(int number) const {
+    static const Document kBlank;
+    const auto found = documents_.find(number);
+    return found == documents_.end() ? kBlank : found->second;
+  }
+  Way way(int number) const { return way_of(at(number), numbers_); }
+
+ private:
+  std::map<int, Document> documents_;
+  Numbers numbers_;
+};
+
+using Placed = std::vector<std::pair<int, const Document*>>;
+
+/// Links, exits and repeats that are not what the page has already.
+void put_ways(const Params& params, const Placed& placed, const Numbers& numbers, Motion& motion) {
+  const Kept before(params, motion);
+  for (const auto& [number, document] : placed) {
+    put_way(way_of(*document, numbers), before.way(number),
+            motion[static_cast<std::size_t>(number)]);
   }
 }
 
@@ -159,7 +252,9 @@ Motion to_motion(const Params& params, const std::vector<Document>& documents) {
     }
   }
   int free = 1;
-  std::vector<std::pair<int, const Document*>> placed;
+  Placed placed;
+  Motion untouched = motion;
+  Numbers numbers;
   for (const Document& each : documents) {
     while (!each.page && taken.contains(free)) ++free;
     const int number = each.page ? each.page->number : free;
@@ -169,21 +264,22 @@ Motion to_motion(const Params& params, const std::vector<Document>& documents) {
     Page& page = motion[static_cast<std::size_t>(number)];
     if (each.page) {
       std::copy(each.page->bytes.begin(), each.page->bytes.end(), page.begin());
+      untouched[static_cast<std::size_t>(number)] = page;
     } else {
       std::copy_n(each.name.begin(), std::min(each.name.size(), kNameBytes - 1), page.begin());
     }
-    const Page before = page;
     put_document(params, each, page);
-    if (page != before || !each.page) seal(page);
     placed.emplace_back(number, &each);
+    numbers[each.name] = number;
   }
-  const std::vector<Document> kept = from_motion(params, motion);
+  put_ways(params, placed, numbers, motion);
   for (const auto& [number, document] : placed) {
-    const auto found = std::find_if(
-        kept.begin(), kept.end(),
-        [number = number](const Document& each) { return each.page->number == number; });
-    refuse_what_is_lost(*document, found == kept.end() ? Document{} : *found);
+    const auto nth = static_cast<std::size_t>(number);
+    if (motion[nth] != untouched[nth]) seal(motion[nth]);
   }
+  const Kept kept(params, motion);
+  for (const auto& [number, document] : placed)
+    refuse_what_is_lost(params, *document, kept.at(number));
   return motion;
 }
 

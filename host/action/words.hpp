@@ -37,7 +37,7 @@ class Words {
     return true;
   }
   std::string word(const char* what) {
-    if (done()) fail(std::string("there is no ") + what, std::string("give ") + what);
+    if (done()) fail("something is missing at the end of the line", std::string("give ") + what);
     return words_[next_++];
   }
   double number(const char* what, double low, double high) {

@@ -131,7 +131,11 @@ class Tags {
 }  // namespace
 
 Malformed find_malformed(const std::string& text) {
-  return Tags(text).check();
+  Malformed found = Tags(text).check();
+  // A file that is no text at all has tags that no terminal should be shown.
+  std::replace_if(
+      found.why.begin(), found.why.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
+  return found;
 }
 
 void refuse_malformed(const std::string& path, const std::string& text,

@@ -1,6 +1,7 @@
 #include "host/tool/action_convert.hpp"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include "host/action/csv.hpp"
 #include "host/action/folder.hpp"
@@ -32,13 +33,55 @@ std::string read_text(const fs::path& file) {
                   fmt::format("{}: {} cannot be read; give a file", kCommand, file.string()));
 }
 
+/// A folder that is filled under a name of its own: of what could not be written whole, nothing
+/// stays.
+class NewFolder {
+ public:
+  explicit NewFolder(fs::path path)
+      : path_(std::move(path)), part_(path_.string() + fmt::format(".{}", getpid())) {
+    std::error_code error;
+    if (fs::exists(path_, error) && !fs::is_empty(path_, error)) {
+      throw ToolError(kBadInput,
+                      fmt::format("{}: {} is there already, and something is in it; give "
+                                  "another folder",
+                                  kCommand, path_.string()));
+    }
+    fs::create_directories(part_, error);
+  }
+  ~NewFolder() {
+    std::error_code error;
+    fs::remove_all(part_, error);
+  }
+  NewFolder(const NewFolder&) = delete;
+  NewFolder& operator=(const NewFolder&) = delete;
+
+  const fs::path& part() const { return part_; }
+  void keep() const {
+    std::error_code error;
+    fs::rename(part_, path_, error);
+    if (!error) return;
+    throw ToolError(kBadInput, fmt::format("{}: {} cannot be written; give another place", kCommand,
+                                           path_.string()));
+  }
+
+ private:
+  fs::path path_, part_;
+};
+
 std::string motion_to_folder(const Params& params, const ConvertWords& convert) {
   const auto documents = action::from_motion(params, action::read_motion(convert.from));
-  std::error_code error;
-  fs::create_directories(convert.to, error);
-  for (const action::Document& each : documents) {
-    write_file(kCommand, fs::path(convert.to) / (each.name + ".action"), action::text_of(each));
+  if (documents.empty()) {
+    throw ToolError(kBadInput,
+                    fmt::format("{}: all pages of {} are blank; there is nothing to make "
+                                "actions of",
+                                kCommand, convert.from));
   }
+  const NewFolder folder(convert.to.ends_with('/') ? convert.to.substr(0, convert.to.size() - 1)
+                                                   : convert.to);
+  for (const action::Document& each : documents) {
+    write_file(kCommand, folder.part() / (each.name + ".action"), action::text_of(each));
+  }
+  folder.keep();
   return fmt::format("{}: {} actions\n", convert.to, documents.size());
 }
 
@@ -63,9 +106,11 @@ std::string convert_actions(const ActionWords& words, const ConvertWords& conver
     ActionWords named = words;
     named.action = convert.from;
     const ActionRobot robot = load_action_robot(named);
-    write_file(kCommand, to,
-               action::to_csv(robot.params, robot.made, require_action(robot, named)));
-    return convert.to + "\n";
+    const int number = require_action(robot, named);
+    write_file(kCommand, to, action::to_csv(robot.params, robot.made, number));
+    const std::string without =
+        action::not_in_csv(robot.made.documents[static_cast<std::size_t>(number - 1)]);
+    return convert.to + (without.empty() ? "\n" : ": without its " + without + "\n");
   }
   const Params params = model::make_params(model::load_robot(model::find_model(words.model), ""));
   if (from.extension() == ".csv" && to.extension() == ".action") {

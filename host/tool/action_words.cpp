@@ -18,9 +18,10 @@ action::Made make_actions(const model::Entity& entity, const Params& params,
                           const std::string& named) {
   std::vector<action::Document> documents = action::read_folder(action::folder_of(entity.file));
   if (is_file(named)) {
-    const action::Document own = action::read_document(named);
-    std::erase_if(documents, [&](const action::Document& each) { return each.name == own.name; });
-    documents.push_back(own);
+    for (const action::Document& own : action::read_with_linked(named)) {
+      std::erase_if(documents, [&](const action::Document& each) { return each.name == own.name; });
+      documents.push_back(own);
+    }
   }
   return action::make_library(params, std::move(documents));
 }
@@ -28,6 +29,11 @@ action::Made make_actions(const model::Entity& entity, const Params& params,
 int require_action(const model::Entity& entity, const action::Made& made,
                    const std::string& named) {
   const std::string name = is_file(named) ? action::read_document(named).name : named;
+  if (made.number(name) == 0 && std::filesystem::exists(named)) {
+    throw model::LoadError(
+        named, 0, std::filesystem::is_directory(named) ? "is a folder" : "is no action file",
+        "give NAME.action, or the name of an action of the robot");
+  }
   return made.require(name, action::folder_of(entity.file).string());
 }
 

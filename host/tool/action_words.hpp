@@ -24,7 +24,7 @@ struct ActionRobot {
 };
 
 /// With the actions beside its file; a file that was named is one of them, in place of one of its
-/// name. Throws LoadError.
+/// name, and so are those that it leads to in its own folder. Throws LoadError.
 ActionRobot load_action_robot(const ActionWords& words);
 
 /// Number of the action that was named. Throws LoadError.

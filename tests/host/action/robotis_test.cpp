@@ -97,6 +97,57 @@ TEST(RobotisMotion, AnAngleIsAddedBesideAServoWithoutTorque) {
   EXPECT_EQ(documents[0].frames[0].goals.size(), goals + 1);
 }
 
+// Where a page goes on, how often, and which servos have no torque: each edit is in the bytes, and
+// comes back with them.
+TEST(RobotisMotion, EditsOfLinkExitRepeatAndTorqueAreOfItsPage) {
+  const Params& params = op3().params;
+  Motion motion(kPages, blank_page());
+  for (const std::size_t page : {1U, 2U}) {
+    motion[page][0] = static_cast<std::uint8_t>('a' + page);
+    motion[page][kStepCount] = 2;
+    for (const std::size_t step : {kFirstStep, kFirstStep + 64}) {
+      motion[page][step + 2 * 3 + 1] = 0x08;  // servo 3 at 2048
+      motion[page][step + 2 * 3] = 0x00;
+    }
+    seal(motion[page]);
+  }
+  std::vector<Document> documents = from_motion(params, motion);
+  ASSERT_EQ(documents.size(), 2U);
+  Document& b = documents[0];
+  ASSERT_EQ(b.frames.size(), 2U);
+  b.link = Target{"c", 1};
+  b.frames[0].exit = Target{"new", 1};
+  b.frames[0].label = "start";
+  b.frames[1].repeat = Repeat{4, {"start", 1}};
+  b.frames[0].stiffness = {{{b.frames[0].goals[0].joint}, 0, 1}};
+  b.frames[1].stiffness = {{{}, 100, 1}};
+  Document added = documents[1];
+  added.page.reset();
+  added.name = "new";
+  added.link = Target{"b", 1};
+  documents.push_back(added);
+
+  const Motion edited = to_motion(params, documents);
+  constexpr std::size_t kRepeatAt = 15, kNextAt = 25, kExitAt = 26;
+  EXPECT_EQ(edited[1][kNextAt], 2);
+  EXPECT_EQ(edited[1][kExitAt], 3) << "the first free page";
+  EXPECT_EQ(edited[1][kRepeatAt], 5) << "once, and four times more";
+  EXPECT_EQ(edited[3][kNextAt], 1);
+  EXPECT_EQ(edited[1][kFirstStep + 2 * 3 + 1] & 0x20, 0x20);
+  EXPECT_EQ(edited[1][kFirstStep + 64 + 2 * 3 + 1] & 0x20, 0);
+  EXPECT_TRUE(edited[2] == motion[2]);
+
+  documents = from_motion(params, edited);
+  ASSERT_EQ(documents.size(), 3U);
+  ASSERT_TRUE(documents[0].link && documents[0].frames[0].exit && documents[0].frames[1].repeat);
+  EXPECT_EQ(documents[0].link->name, "c");
+  EXPECT_EQ(documents[0].frames[0].exit->name, "new");
+  EXPECT_EQ(documents[0].frames[1].repeat->times, 4);
+  EXPECT_TRUE(to_motion(params, documents) == edited);
+  documents[0].link.reset();
+  EXPECT_EQ(to_motion(params, documents)[1][kNextAt], 0);
+}
+
 // Two pages of one name, and one that is called as the second would be.
 TEST(RobotisMotion, EachPageHasANameOfItsOwn) {
   Motion motion(kPages, blank_page());
@@ -141,12 +192,20 @@ TEST(RobotisMotion, WhatNoPageWouldKeepIsRefused) {
   });
   expect_refused("another action's", [](Documents& all) { all[1].page->number = 1; });
   expect_refused("is called", [](Documents& all) { all[0].name = "zoo"; });
-  expect_refused("link", [](Documents& all) { all[0].link = Target{"c", 2}; });
+  expect_refused("reached as 'd'", [](Documents& all) { all[0].link = Target{"d", 2}; });
   expect_refused("repeat", [](Documents& all) {
     all[0].frames[0].repeat = Repeat{2, {"first", 2}};
   });
   expect_refused("stiffness", [](Documents& all) { all[0].frames[0].stiffness = {{{}, 30, 2}}; });
-  expect_refused("exit", [](Documents& all) { all[0].frames[0].exit = Target{"c", 2}; });
+  expect_refused("reached as 'd'", [](Documents& all) { all[0].frames[0].exit = Target{"d", 2}; });
+  expect_refused("one exit", [](Documents& all) {
+    all[0].frames.push_back(all[0].frames[0]);
+    all[0].frames[1].exit = Target{"c", 2};
+  });
+  expect_refused("joints that it moves", [](Documents& all) {
+    all[0].frames[0].goals.clear();
+    all[0].frames[0].stiffness = {{{"head_pan"}, 0, 2}};
+  });
   expect_refused("mirror", [](Documents& all) {
     all.push_back({});
     all.back().name = "m";

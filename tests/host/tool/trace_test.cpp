@@ -120,8 +120,7 @@ TEST_F(Program, AKilledWalkLeavesAFileThatOpens) {
   expect_refused("trace info k.mcap.*.part", "ticks before it are whole");
   const Outcome info = verp("trace info k.mcap.*.part --recover --json");
   EXPECT_EQ(info.status, 0) << info.err;
-  const auto json = nlohmann::json::parse(info.out);
-  EXPECT_GT(json.at("ticks"), 124);
+  EXPECT_GT(nlohmann::json::parse(info.out).at("ticks"), 124);
   EXPECT_EQ(verp("replay k.mcap.*.part --recover").status, 0);
   EXPECT_EQ(verp("trace recover k.mcap.*.part -o k.mcap").status, 0);
   EXPECT_EQ(verp("replay k.mcap").status, 0);
