@@ -33,4 +33,7 @@ std::vector<Document> from_motion(const Params& params, const Motion& motion);
 /// in it is changed there, and nothing else. Throws LoadError for what pages cannot hold.
 Motion to_motion(const Params& params, const std::vector<Document>& documents);
 
+/// What of an action no page holds and none needs, in words: "note, stance"; empty: nothing.
+std::string not_on_page(const Document& document);
+
 }  // namespace verp::action

@@ -183,9 +183,9 @@ void refuse_what_is_lost(const Params& params, const Document& document, const D
     refuse(document, document.mirror->line, "a page cannot be the mirror of another",
            "give its joints' angles");
   }
-  const auto stiffness = stiffness_of(params, document);
+  const auto stiffness = stiffness_of(params, document), read = stiffness_of(params, kept);
   const auto there =
-      std::mismatch(stiffness.begin(), stiffness.end(), stiffness_of(params, kept).begin()).first;
+      std::mismatch(stiffness.begin(), stiffness.end(), read.begin(), read.end()).first;
   if (there == stiffness.end()) return;
   const auto nth = static_cast<std::size_t>(there - stiffness.begin());
   refuse(document, document.frames[nth].line,
@@ -241,6 +241,21 @@ void put_ways(const Params& params, const Placed& placed, const Numbers& numbers
 }
 
 }  // namespace
+
+std::string not_on_page(const Document& document) {
+  const auto any = [&](const auto& has) {
+    return std::any_of(document.frames.begin(), document.frames.end(), has);
+  };
+  std::string text;
+  const auto add = [&](const char* name, bool is_there) {
+    if (is_there) text += (text.empty() ? "" : ", ") + std::string(name);
+  };
+  add("note", !document.note.empty());
+  add("interpolation", any([](const FrameText& each) { return each.smooth.has_value(); }));
+  add("balance", any([](const FrameText& each) { return each.balance == true; }));
+  add("stance", any([](const FrameText& each) { return each.stance.has_value(); }));
+  return text;
+}
 
 Motion to_motion(const Params& params, const std::vector<Document>& documents) {
   Motion motion(kPages, blank_page());

@@ -95,7 +95,13 @@ std::string folder_to_motion(const Params& params, const ConvertWords& convert) 
   std::string bytes;
   for (const action::Page& page : motion) bytes.append(page.begin(), page.end());
   write_file(kCommand, convert.to, bytes);
-  return fmt::format("{}: {} actions on {} pages\n", convert.to, documents.size(), motion.size());
+  std::string text =
+      fmt::format("{}: {} actions on {} pages\n", convert.to, documents.size(), motion.size());
+  for (const action::Document& each : documents) {
+    const std::string without = action::not_on_page(each);
+    if (!without.empty()) text += fmt::format("  {} without its {}\n", each.name, without);
+  }
+  return text;
 }
 
 }  // namespace

@@ -49,11 +49,15 @@ TEST_F(ActionCommand, MakesAMotionOfAFolderAndTheSameOfWhatComesBack) {
   EXPECT_NE(slurp(folder_ / "back/a.action").find("link b"), std::string::npos);
 }
 
-TEST_F(ActionCommand, SaysWhatOfAnActionNoTableHolds) {
+TEST_F(ActionCommand, SaysWhatOfAnActionNoTableAndNoPageHolds) {
   write("a.action", "action a\nframe go 1\n head_yaw 20\n stance none\n repeat 2 from go\n");
   const Outcome outcome = verp("action convert a.action a.csv");
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_EQ(outcome.out, "a.csv: without its labels, stance, repeats\n");
+  write("mine/a.action", slurp(folder_ / "a.action"));
+  const Outcome paged = verp("action convert mine m.bin");
+  ASSERT_EQ(paged.status, 0) << paged.err;
+  EXPECT_EQ(paged.out, "m.bin: 1 actions on 256 pages\n  a without its stance\n");
 }
 
 }  // namespace
