@@ -7,8 +7,9 @@
 /// numbers at a time and without the zeros that a robot's rows begin with: each number is the sum
 /// of the same terms in the same order, so no bit of it differs (tests/host/sim/solver_test.cpp). A
 /// program with this file in it has them in the place of ODE's, as the dynamic linker binds the
-/// library's own calls to the first definition that it finds. Where it finds none, on another
-/// processor or with an ODE that has other loops, ODE's own run.
+/// library's own calls to the first definition that it finds; a shared library must export them
+/// for that (host/libverp/exported.map). Where it finds none, on another processor or with an ODE
+/// that has other loops, ODE's own run.
 
 namespace verp::sim {
 
