@@ -8,8 +8,8 @@ failed=0
 missing() { echo "$1" && failed=1; }
 
 boards_of_full='mps2_an385 mps3_an547' # qemu_rv32 has no floating-point unit either; no robot's board has an M55
-# Real robots, flashing, a window: minutes; searches by many walks. Of tool only what people type is here.
-folders_of_full='run flash view identify survey tune'
+# Real robots, flashing, a window and what it shows: minutes; searches by many walks, and play. Of tool only what people type is here.
+folders_of_full='run flash view scene identify survey tune demos'
 never='pictures camera'                # drivers of OpenGL are not ours
 input=host.tool.verp_tool_test.input_tests.0
 merge=$(tests/run --plan) full=$(tests/run --plan --full)
