@@ -9,7 +9,7 @@ namespace verp::action {
 /// Of a made action, whatever its text says: body and feet are joints there.
 std::string to_csv(const Params& params, const Made& made, int number);
 
-/// What of an action no table holds, in words: "repeat, exit, note"; empty: nothing.
+/// What of an action no table holds, in words: "note, stance, repeats"; empty: nothing.
 std::string not_in_csv(const Document& document);
 
 /// An action of that name with the table's frames. An empty cell: no goal. Throws LoadError, also

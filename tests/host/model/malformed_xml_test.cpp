@@ -63,6 +63,11 @@ TEST(MalformedXml, WhatIsMalformedIsToldInWords) {
   EXPECT_NE(said("<sdf version=\"1.9\">\n<model name=\"a\">\n")
                 .find(":3: malformed XML (the file ends, and <model> of line 2 is open)"),
             std::string::npos);
+  EXPECT_NE(said("<sdf version=\"1.9\">\n<m\x1B\xFF\n<b/>\n")
+                .find("(the tag <m?"
+                      "?> is not"),
+            std::string::npos)
+      << "no terminal is shown what is in no tag";
   EXPECT_NE(said("<sdf version=\"1.9\">\n<model name='<'><a b=\"1\" b=\"2\"/></sdf>\n").find(":2:"),
             std::string::npos);
 }
