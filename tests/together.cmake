@@ -1,6 +1,6 @@
-# verp_compile_together(TARGET SOURCES...): those of one folder are compiled as one file, for the PC and for the boards:
-# of a test's time in the compiler most is the headers'. So names in one folder's tests differ, or the test stands here
-# and is compiled alone.
+# verp_compile_together(TARGET SOURCES...): compiles one folder's sources as one file, for the PC and for the boards,
+# because headers take most of a test's compile time. So names in one folder's tests must differ, or the file is listed
+# here and compiled alone.
 set(VERP_COMPILED_ALONE
   balance/gravity_test.cpp can_app/canopen_servos_test.cpp can_app/controller_actions_test.cpp can_app/controller_objects_test.cpp canopen/nmt_test.cpp
   control/step_test.cpp gait/gait_test.cpp gait/preview_test.cpp math/elementary_test.cpp math/linear_test.cpp

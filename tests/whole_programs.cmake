@@ -1,7 +1,7 @@
-# Under sanitizers a program's start takes longer than most of its tests: there a program that is built runs its tests in one
-# go, as one test of ctest, `PREFIX` and its own name. One with minutes of tests says so, in its property VERP_SHARDS: it runs
-# in as many parts, before all others, so that no core waits for another at the end. Tests that only walk longer what others of
-# the program walk too are named in its property VERP_LONG_WALKS: they are ten times slower here, and see no more.
+# Under sanitizers a program's start takes longer than most of its tests. So ctest runs each whole program as one test,
+# named `PREFIX` and the program's name. A program that needs minutes sets the property VERP_SHARDS: it runs in that
+# many parts, before all others, so that no core idles at the end. The property VERP_LONG_WALKS names tests to leave
+# out: they only walk longer than other tests do. Such walks are ten times slower here and find nothing more.
 if(CMAKE_CXX_FLAGS MATCHES "-fsanitize")
   function(gtest_discover_tests target)
     cmake_parse_arguments(arg "NO_PRETTY_VALUES" "TEST_PREFIX;TEST_FILTER;TEST_LIST" "PROPERTIES" ${ARGN})
@@ -48,7 +48,7 @@ endif()
     set_property(DIRECTORY APPEND PROPERTY TEST_INCLUDE_FILES ${CMAKE_CURRENT_BINARY_DIR}/${name}.cmake)
   endfunction()
 else()
-  # The 5 s of CMake are too few for a busy PC.
+  # CMake's limit of 5 s is too short on a busy PC.
   function(gtest_discover_tests target)
     _gtest_discover_tests(${target} ${ARGN} DISCOVERY_TIMEOUT 300)
   endfunction()

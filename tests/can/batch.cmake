@@ -1,12 +1,12 @@
-# Tests that need CAN sockets share two starts of tests/support/with-can: the tests `can.start` and `can.slow` run them all in
-# there, one after another, and each test then shows what its own run said.
+# All tests that need CAN sockets share two runs of tests/support/with-can, `can.start` and `can.slow`. Each run
+# executes its tests one after another, and each test then reports its own result.
 #
 #   verp_can_test(START NAME PROGRAM ARGUMENT...)   PROGRAM may be a generator expression. START is
-#                                                     start: what waits for answers, however long they take
-#                                                     slow: robots in real time, whose clock in there goes at a third of the speed
-#   verp_can_tests_end()                            once, behind all of them
+#                                                     start: tests that wait for answers, however long they take
+#                                                     slow: robots in real time; the clock inside runs at 1/3 speed
+#   verp_can_tests_end()                            call once, after all tests
 #
-# VERP_CAN_ONLY='NAME NAME' ctest -R ...  starts only those.
+# VERP_CAN_ONLY='NAME NAME' ctest -R ...  runs only those tests.
 function(verp_can_test start name)
   list(TRANSFORM ARGN REPLACE "(.+)" "'\\1'" OUTPUT_VARIABLE words)
   list(JOIN words " " command)
@@ -24,7 +24,7 @@ function(verp_can_tests_begin start)
   file(GENERATE OUTPUT ${folder}/batch CONTENT "${batch}")
   add_test(NAME can.${start} COMMAND ${CMAKE_SOURCE_DIR}/tests/support/with-can --timeout 1700 ${ARGN}
     --writable ${folder} ${CMAKE_SOURCE_DIR}/tests/can/run_batch ${folder})
-  # RUN_SERIAL: some go by the clock on the wall. TIMEOUT: it is many tests, and a PC that is busy is slow in each.
+  # RUN_SERIAL: some tests use wall-clock time. TIMEOUT: each of the many tests is slow on a busy PC.
   set_tests_properties(can.${start} PROPERTIES LABELS "hil-can;vm" FIXTURES_SETUP can_${start} RUN_SERIAL TRUE TIMEOUT 1750)
 endfunction()
 

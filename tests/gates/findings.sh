@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# findings.sh ROOT: tests/findings.md has a row for each number from 1, and each test that it names is in the sources. Names of
-# a GoogleTest are looked for in the folder that their prefix says, any other as a test of CMake's. Prints
-# file:line and the name; exit status 1 if one is missing.
+# findings.sh ROOT: tests/findings.md numbers its rows from 1 without a gap, and each test it names exists. The prefix
+# of a GoogleTest name gives the folder to search; any other name is a CMake test. Prints file:line and the missing
+# name; exit status 1 if one is missing.
 set -uo pipefail
 cd "$1" || exit 3
 table=tests/findings.md failed=0
@@ -14,7 +14,7 @@ exists() { # name
   unit.* | hil.* | scenario.* | contract.*) folder=tests/${name%%.*} ;;
   host.*.*.*) folder=${name#host.} folder=tests/host/${folder%%.*} ;;
   Bench.*) folder=tests/bench ;;
-  *) # a board's tests are named after it
+  *) # a board's tests carry its name
     grep -rqE --include=CMakeLists.txt --include='*.cmake' "NAME (${name//./\\.}|${name%%.*}\.\\$\{VERP_BOARD\})( |\$)" tests boards
     return
     ;;

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# format.sh ROOT: every C++ file that git tracks at ROOT stands as .clang-format would have it.
+# format.sh ROOT: every C++ file tracked at ROOT is formatted as .clang-format says.
 # To repair: git ls-files '*.hpp' '*.cpp' | xargs clang-format -i
 set -euo pipefail
 

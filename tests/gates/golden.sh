@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# golden.sh ROOT: a digest of the long trace belongs to one kCoreVersion, for ever. The last line of
-# tests/golden/core_versions.txt is the core's version and digest as they stand, versions rise, no digest comes back, and
-# no line that was once committed has been changed. The trace is generic21's: new numbers in its file are a new version, too.
+# golden.sh ROOT: each kCoreVersion has one digest of the long trace, for ever. The last line of
+# tests/golden/core_versions.txt holds the core's current version and digest. Versions rise, no digest recurs, and
+# committed lines never change. The trace uses generic21, so new numbers in its file also need a new version.
 set -euo pipefail
 
 cd "$1"

@@ -1,16 +1,17 @@
 #!/usr/bin/env bash
-# merge.sh ROOT: whoever merges runs every board but those named here, and under sanitizers every folder of tests but those
-# named here: what is left to --full is left to it here too, not by a word in tests/run alone. The whole run may take
-# 40 minutes, 20 with a warm cache. Prints what is missing; exit status 1 if anything is.
+# merge.sh ROOT: the merge gate runs every board and, under sanitizers, every test folder, except those named below.
+# Work left to --full must be named here too, not only in tests/run. The whole run may take 40 minutes, 20 with a warm
+# cache. Prints what is missing; exit status 1 if anything is.
 set -uo pipefail
 cd "$1" || exit 3
 failed=0
 missing() { echo "$1" && failed=1; }
 
 boards_of_full='mps2_an385 mps3_an547' # qemu_rv32 has no floating-point unit either; no robot's board has an M55
-# Real robots, flashing, a window and what it shows: minutes; searches by many walks, and play. Of tool only what people type is here.
+# These take minutes: real robots, flashing, windows, searches by many walks, and play. Of tool, the merge gate runs
+# only the tests of user input.
 folders_of_full='run flash view scene identify survey tune demos'
-never='pictures camera'                # drivers of OpenGL are not ours
+never='pictures camera'                # OpenGL drivers are not ours
 input=host.tool.verp_tool_test.input_tests.0
 merge=$(tests/run --plan) full=$(tests/run --plan --full)
 
@@ -37,7 +38,7 @@ for each in tests/host/*/CMakeLists.txt; do
   folder=$(basename "$(dirname "$each")")
   [[ $folder == tool || " $folders_of_full $never " == *" $folder "* ]] || sanitized "host.$folder.a" "tests/host/$folder"
 done
-sanitized "$input" tests/host/tool # where people's words and files go
+sanitized "$input" tests/host/tool # the tests of what users type and which files they give
 grep -q 'TEST_LIST input_tests' tests/host/tool/CMakeLists.txt || missing 'tests/host/tool: no list of input_tests'
 grep -q '^host-asan-ubsan tests: ' <<<"$full" || missing 'tests/run: --full has no sanitizers'
 

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# new_board.sh ROOT BUILD: a newcomer's first board. Follows boards/README.md, "One more STM32 board", from a copy of olimex_h405,
-# whose chip has an emulator, in a copy of the sources: boards.sh must find nothing missing, the images must build within their
-# budget, and a unit test must run in one.
+# new_board.sh ROOT BUILD: adds a first board as boards/README.md, "One more STM32 board", says, in a copy of the
+# sources. The board is a copy of olimex_h405, whose chip has an emulator. boards.sh must find nothing missing, the
+# images must build within their budget, and a unit test must run in one.
 set -euo pipefail
 root=$1 tree=$2/new_board old=olimex_h405 new=my_board
 mkdir -p "$tree"
@@ -12,7 +12,7 @@ cd "$tree"
 rm -rf "boards/$new"
 cp -r "boards/$old" "boards/$new"
 sed -i "s/$old/$new/g" "boards/$new"/*
-# Step 4: presets, to configure, build and test.
+# Step 4: presets for configure, build and test.
 python3 - "$old" "$new" <<'END'
 import json, sys
 old, new = sys.argv[1:]
@@ -23,7 +23,7 @@ for kind in ("configurePresets", "buildPresets", "testPresets"):
     presets[kind].append(json.loads(mine[0]))
 json.dump(presets, open("CMakePresets.json", "w"), indent=1)
 END
-# Step 5: a row of recipes.
+# Step 5: a row in the table of recipes.
 sed -i "0,/^      {\"$old\",/s//      {\"$new\", \&kF405, {kOpenocd}, kStLink, \"PA9, PA10\", \"$old\", true},\n&/" host/flash/recipe.cpp
 # Steps 6 and 7.
 sed -i "s/foreach(board /&$new /" tests/host/stm32_boards/CMakeLists.txt

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# self_test.sh GATE ROOT [COMPILER NM OBJDUMP]: plants violations, one at a time, and checks that the gate names each.
-# A gate that cannot see a planted fault is worse than none.
+# self_test.sh GATE ROOT [COMPILER NM OBJDUMP]: plants violations one at a time and checks that the gate names each. A
+# gate that misses a planted fault is worse than no gate.
 set -euo pipefail
 
 gate=$1 root=$2 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
@@ -122,7 +122,7 @@ test_symbols() {
   symbols_case 'a general product' 'general products' '' 'void gebp() {}'
 }
 
-# Says what a disassembler would of code for another core than the compiler's.
+# A stub disassembler that prints one line of another core's code.
 disassembly_case() { # what reason line
   printf '#!/bin/sh\n[ "$1" != -d ] || echo "%s"\n' "$3" >"$scratch/objdump"
   chmod +x "$scratch/objdump"
@@ -139,7 +139,7 @@ test_format() {
   expect 'unformatted code' 'clang-format' "$here/format.sh" "$scratch"
 }
 
-# A new board, as boards/README.md has it: until its last step is done the gate names the next one.
+# Adds a board as boards/README.md says. Until the last step is done, the gate names the next one.
 test_boards() {
   local tree=$scratch/tree old=nucleo_f446re new=my_board gate=("$here/boards.sh" "$scratch/tree")
   mkdir -p "$tree/host/flash" "$tree/tests/host/stm32_boards"
@@ -166,7 +166,7 @@ test_boards() {
   expect 'every step done' '' "${gate[@]}"
 }
 
-# Of a project in which nothing is to be built: what tests/run would do, and of the folders their names.
+# A project that builds nothing: only the plan of tests/run and the names of the folders.
 merge_case() { # what reason [file sed-expression]
   local tree=$scratch/tree file
   rm -rf "$tree"

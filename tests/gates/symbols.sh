@@ -21,7 +21,7 @@ complain() { # reason, then the offending lines on stdin; nothing on stdin is no
 
 allowed='memcpy|memmove|memset|memcmp|_GLOBAL_OFFSET_TABLE_|__aeabi_mem(cpy|move|set|clr)[48]?'
 allowed+='|__aeabi_(u?idiv(mod)?|u?ldivmod|lmul|l(lsl|lsr|asr)|u?lcmp|u?l2f|f2u?lz)'
-allowed+='|__(u?divdi3|u?moddi3|muldi3|(ashl|ashr|lshr)di3|(clz|ctz|bswap|popcount)[sd]i2)' # RISC-V's names
+allowed+='|__(u?divdi3|u?moddi3|muldi3|(ashl|ashr|lshr)di3|(clz|ctz|bswap|popcount)[sd]i2)' # the same helpers on RISC-V
 [[ $float != soft ]] || allowed+='|__((add|sub|mul|div|neg)sf3|(eq|ne|lt|le|gt|ge|unord)sf2|float(un)?sisf|fix(uns)?sfsi)'
 [[ $float != soft ]] || allowed+='|sqrtf|__aeabi_(c?f(add|sub|rsub|mul|div|neg|cmp(eq|lt|le|ge|gt|un)|cmple|rcmple|cmpeq)|u?i2f|f2u?iz)'
 

@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
-# tests.sh ROOT: what would let a test pass that tests nothing. No test skips itself: one that did not run has shown nothing. None
-# is content with "status 0 or 1": a run says which it is, and why. None has a limit shorter than what tests/run
-# takes for hanging: that would be a test of how idle the PC is. Prints file:line and the reason; exit status 1 if there is any.
+# tests.sh ROOT: refuses tests that can pass without testing anything. No test skips itself: a test that did not run
+# shows nothing. No test accepts "status 0 or 1": a run has one expected status. No limit is shorter than the hang limit
+# of tests/run, or the test would measure how idle the PC is. Prints file:line and the reason; exit status 1 if there is
+# any.
 set -uo pipefail
 cd "$1" || exit 3
 failed=0

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# launcher_test.sh ROOT: what ./verp promises, checked on a scratch project in which every outside command is a stub.
+# launcher_test.sh ROOT: checks the promises of ./verp on a scratch project where every outside command is a stub.
 set -uo pipefail
 
 root=$1
@@ -12,7 +12,7 @@ stub() { # name script
   chmod +x "$scratch/bin/$1"
 }
 
-# A project whose build makes a program that echoes its arguments and exits 7; g++ is missing until apt-get installs it.
+# A project that builds a program that echoes its arguments and exits with 7. g++ is missing until apt-get installs it.
 fresh_project() {
   rm -rf "${scratch:?}"/*
   mkdir -p "$scratch/bin" "$scratch/toolchains" "$scratch/tests" "$scratch/boards/b1" "$scratch/boards/shared"
@@ -50,7 +50,7 @@ check() { # what status output-on-stdout part-of-stderr
   failed=1
 }
 
-# Before anything is installed, built or waited for.
+# Help answers before anything is installed, built or waited for.
 fresh_project
 mkdir -p "$scratch/build" && exec 7>"$scratch/build/.lock" && flock 7
 for word in --help -h; do
@@ -82,7 +82,7 @@ check 'the second time nothing is said' 7 'walk' ''
 grep -q 'host-release verp_walk$' "$scratch/built" || { echo "FAILED: a first walk built: $(<"$scratch/built")" && failed=1; }
 for more in '--seeds 1-3' '--map=push' --live --cameras '--controller c' --on=b9 --get-up '--start=lying:any' '--robot a=ext:x --robot b=on:b9'; do
   : >"$scratch/built"
-  launch walk $more # its words
+  launch walk $more # split into arguments
   grep -q 'host-release verp$' "$scratch/built" || { echo "FAILED: walk $more built: $(<"$scratch/built")" && failed=1; }
 done
 fresh_project
@@ -163,7 +163,7 @@ for each in 1 2 3; do (launch "$each" && check 'copies at the same time' 0 "$eac
 for each in 1 2 3; do wait -n || failed=1; done
 [[ ! -e $scratch/overlap ]] || { echo 'FAILED: two builds at once' && failed=1; }
 
-# What tests/run says, on a scratch project whose ctest and cmake are stubs.
+# Tests tests/run on a scratch project whose ctest and cmake are stubs.
 cd "$root" || exit 1
 for words in '--only nonesuch' '--only' '--on=' '--on nonesuch' '--filter (' '--nonesuch'; do
   # shellcheck disable=SC2086
@@ -191,13 +191,13 @@ output=$(cd "$scratch" && PATH="$scratch/bin:/usr/bin:/bin" tests/run --filter '
   { echo "FAILED: of a failed test its own lines are not shown: status $status, $output" && failed=1; }
 grep -q -- '-R ^unit' "$scratch/asked" || { echo "FAILED: --filter did not reach ctest: $(<"$scratch/asked")" && failed=1; }
 
-# On a terminal, which `script` stands in for, a line shows how far it is.
+# On a terminal, for which `script` stands in, tests/run shows a progress line.
 stub ninja 'echo "[7/9] Building b.o"; sleep 1.5'
 stub ctest 'echo " 2/2 Test  #2: unit.b1 ........   Passed    0.10 sec"; sleep 1.5'
 output=$(cd "$scratch" && PATH="$scratch/bin:/usr/bin:/bin" script -qec 'tests/run --filter x' /dev/null </dev/null)
 [[ $output == *'build, '*'[7/9]'* ]] || { echo "FAILED: no progress on a terminal: $output" && failed=1; }
 
-# A stage beyond its budget is called late, and fails nothing by that.
+# A stage over its budget is reported as late but does not fail.
 stub ninja 'sleep 1.5'
 sed -i 's/^    preset "$each" 900 /    preset "$each" 0 /' "$scratch/tests/run"
 output=$(cd "$scratch" && PATH="$scratch/bin:/usr/bin:/bin" tests/run --filter x 2>&1)

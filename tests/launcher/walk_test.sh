@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# walk_test.sh ROOT: `./verp walk --for 20 --json` ends well, does not fall, and stdout is one JSON object and no more.
+# walk_test.sh ROOT: `./verp walk --for 20 --json` succeeds, does not fall, and writes exactly one JSON object to
+# stdout.
 set -euo pipefail
 
 scratch=$(mktemp -d)

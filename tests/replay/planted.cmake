@@ -1,5 +1,5 @@
-# The core with one constant of the gait changed by one unit in its last place: the microsecond in which steps are timed.
-# All in a namespace of its own, so that one program holds both cores.
+# The core with one gait constant changed by one unit in the last place: the microsecond that times steps. Its own
+# namespace lets one program hold both cores.
 set(planted_header ${CMAKE_SOURCE_DIR}/common/gait/types.hpp)
 set(planted_from "static_cast<float>(duration_us()) * 1e-6F")
 set(planted_to "static_cast<float>(duration_us()) * 0x1.0c6f7cp-20F")
@@ -15,7 +15,7 @@ file(CONFIGURE OUTPUT ${CMAKE_CURRENT_BINARY_DIR}/planted_core/common/gait/types
 get_target_property(planted_sources verp_core SOURCES)
 list(FILTER planted_sources EXCLUDE REGEX "/common/protocol/")
 add_library(verp_planted_core STATIC ${planted_sources} planted_step.cpp)
-# Before the include path of the whole tree: the changed header comes first.
+# BEFORE puts the changed header ahead of the source tree's.
 target_include_directories(verp_planted_core BEFORE PRIVATE ${CMAKE_CURRENT_BINARY_DIR}/planted_core)
 target_include_directories(verp_planted_core SYSTEM PRIVATE ${VERP_EIGEN_DIR})
 target_compile_definitions(verp_planted_core PRIVATE verp=verp_planted)
