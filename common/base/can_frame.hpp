@@ -2,8 +2,8 @@
 #include <cstddef>
 #include <cstdint>
 
-/// One CAN frame as a value, classic or FD. Sources of the limits: ISO 11898-1 (identifiers, data
-/// length codes).
+/// One CAN frame, classic or FD. The limits are those of ISO 11898-1 (identifiers, data length
+/// codes).
 namespace verp {
 
 inline constexpr std::uint8_t kMaxCanData = 8;
@@ -11,8 +11,7 @@ inline constexpr std::uint8_t kMaxCanFdData = 64;
 
 inline constexpr std::uint8_t kCanFdSizes[] = {12, 16, 20, 24, 32, 48, 64};  ///< beyond 8 bytes
 
-/// The smallest data size of an FD frame that holds `size` bytes; 0 to 8 as they are. More than 64
-/// gives 64.
+/// Smallest FD data size that holds `size` bytes; at most 64.
 constexpr std::uint8_t can_fd_size(std::size_t size) {
   if (size <= kMaxCanData) return static_cast<std::uint8_t>(size);
   for (const std::uint8_t each : kCanFdSizes) {
@@ -21,7 +20,7 @@ constexpr std::uint8_t can_fd_size(std::size_t size) {
   return kMaxCanFdData;
 }
 
-/// The data length code of a frame with `size` bytes, one that can_fd_size() would return.
+/// Data length code for `size` bytes, a size that can_fd_size() returns.
 constexpr std::uint8_t can_length_code(std::uint8_t size) {
   if (size <= kMaxCanData) return size;
   std::uint8_t code = 9;
@@ -36,7 +35,7 @@ struct CanFrame {
   std::uint32_t id = 0;   ///< 11 bits, or 29 if `extended`
   std::uint8_t size = 0;  ///< bytes of data in use
   bool extended = false;
-  bool remote = false;           ///< a classic remote request: it has no data
+  bool remote = false;           ///< classic remote request, without data
   bool fd = false;               ///< CAN FD format
   bool bit_rate_switch = false;  ///< FD only: the data phase runs at the faster rate
   std::uint8_t data[kMaxCanFdData] = {};
@@ -52,16 +51,16 @@ struct CanFrame {
   }
 };
 
-/// Who wins the bus: of two frames that begin at one time, the one with the smaller rank. In the
-/// order of the wire: 11 bits of identifier, RTR (SRR), IDE, then what an extended frame has
-/// behind (ISO 11898-1: a dominant 0 overwrites a recessive 1).
+/// Arbitration rank: of two frames that start together, the smaller rank wins the bus. Bits in wire
+/// order: 11 identifier bits, RTR (SRR), IDE, then the rest of an extended identifier (ISO 11898-1:
+/// a dominant 0 overwrites a recessive 1).
 constexpr std::uint32_t can_rank(const CanFrame& frame) {
   const std::uint32_t remote = frame.remote ? 1 : 0;
   if (!frame.extended) return (frame.id & 0x7FFu) << 21 | remote << 20;
   return (frame.id >> 18 & 0x7FFu) << 21 | 3u << 19 | (frame.id & 0x3FFFFu) << 1 | remote;
 }
 
-/// Whether this can stand on a bus: identifier, size and flags as its format has them.
+/// True if the frame's format allows its identifier, size and flags.
 constexpr bool is_sound(const CanFrame& frame) {
   if (frame.id > (frame.extended ? 0x1FFFFFFFu : 0x7FFu)) return false;
   if (frame.fd) return !frame.remote && frame.size == can_fd_size(frame.size);

@@ -6,8 +6,8 @@
 
 namespace verp {
 
-/// CAN frames that wait for the wire. What leaves first is what would win the bus; frames of one
-/// identifier keep their order.
+/// CAN frames that wait for the wire. The frame that would win arbitration leaves first; frames of
+/// one identifier keep their order.
 template <std::size_t kCapacity>
 class CanOutbox {
  public:
@@ -15,24 +15,23 @@ class CanOutbox {
   bool full() const { return size_ == kCapacity; }
   std::size_t size() const { return size_; }
 
-  /// False: there is no room.
+  /// False if the outbox is full.
   bool push(const CanFrame& frame) {
     if (full()) return false;
     frames_[size_++] = frame;
     return true;
   }
 
-  /// The next to leave; none must not be asked for.
+  /// The next frame to leave. The outbox must not be empty.
   const CanFrame& best() const { return frames_[best_index()]; }
-  /// Takes best() out.
+  /// Removes best().
   void pop() {
     const std::size_t gone = best_index();
     --size_;
-    // Those behind move up, so that the first of equals is the oldest.
+    // Move the later frames up, so that the first of equal frames is the oldest.
     for (std::size_t i = gone; i < size_; ++i) frames_[i] = frames_[i + 1];
   }
-  /// Back to where it was taken from, before all others of its identifier: it could not be sent
-  /// yet. False: there is no room.
+  /// Returns a frame that could not be sent, ahead of all others of its identifier. False if full.
   bool put_back(const CanFrame& frame) {
     if (full()) return false;
     for (std::size_t i = size_; i > 0; --i) frames_[i] = frames_[i - 1];

@@ -3,14 +3,14 @@
 #include <cstdint>
 #include <type_traits>
 
-/// One field list, many uses. A plain struct names its fields once,
+/// One field list, many uses. A plain struct names its fields once:
 ///
 ///     struct Tilt { float roll_rad = 0; float pitch_rad = 0; VERP_FIELDS(roll_rad, pitch_rad) };
 ///     VERP_PACKED(Tilt);
 ///
-/// and digest, trace, print, diff and the Params image all follow that list. VERP_PACKED refuses to
-/// compile when a field is missing from the list or when the struct has padding: then its memory
-/// *is* its canonical little-endian byte image.
+/// Digest, trace, print, diff and the Params image all use that list. VERP_PACKED does not compile
+/// if a field is missing from the list or the struct has padding, so the struct's memory *is* its
+/// canonical little-endian byte image.
 #define VERP_FIELDS(...)                                    \
   template <class Self, class Visit>                        \
   static constexpr void fields(Self& self, Visit&& visit) { \
@@ -38,7 +38,7 @@ concept HasFields = requires(T& t) {
   T::fields(t, [](const char*, auto&) {});
 };
 
-/// Sum of the sizes of all leaves under T, by its field list.
+/// Sum of the sizes of all leaves of T, by its field list.
 template <class T>
 consteval std::size_t packed_size() {
   if constexpr (std::is_array_v<T>) {

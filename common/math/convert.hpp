@@ -5,9 +5,9 @@
 
 #include "common/math/scalar.hpp"
 
-/// Conversions between float and integers. x86, ARM and RISC-V disagree on every out-of-range cast,
-/// so the core has no bare cast of a float to an integer outside this file: these saturate, and NaN
-/// gives 0. Rounding is to the nearest integer, ties to even.
+/// Conversions between float and integers. x86, ARM and RISC-V disagree on out-of-range casts, so
+/// only this file of the core casts float to integer. These functions round to nearest, ties to
+/// even; they saturate, and NaN gives 0.
 namespace verp::math {
 
 /// Nearest integral float, ties to even. NaN gives 0; infinities stay. Keeps the sign of zero.
@@ -17,13 +17,13 @@ constexpr float round_even(float x) {
   return copysign((size + 8388608.0F) - 8388608.0F, x);
 }
 
-/// Any integer type of at most 64 bits: nearest, ties to even, saturating, NaN gives 0. Monotonic.
+/// Any integer type of at most 64 bits. Monotonic.
 template <class Integer>
 constexpr Integer round_to(float x) {
   using Limits = std::numeric_limits<Integer>;
   static_assert(Limits::is_integer && sizeof(Integer) <= 8);
-  // Below 2^22 adding 1.5 * 2^23 leaves the rounded integer in the last bits: the short way for
-  // nearly every servo count.
+  // Fast path for nearly every servo count: below 2^22, adding 1.5 * 2^23 leaves the rounded
+  // integer in the last bits.
   if (sizeof(Integer) == 4 && Limits::is_signed && abs(x) < 4194304.0F) {
     constexpr float kShift = 12582912.0F;
     return static_cast<Integer>(std::bit_cast<std::int32_t>(x + kShift) -
@@ -57,9 +57,8 @@ constexpr std::uint8_t to_uint8(float x) {
   return round_to<std::uint8_t>(x);
 }
 
-/// Seconds to whole microseconds, saturating. The product is one float rounding, so beyond 16.7 s
-/// the result is a multiple of 2 us and more: for durations, never for a clock. Clocks are integers
-/// all along.
+/// Seconds to whole microseconds, saturating. For durations only: the float product is a multiple
+/// of 2 us or more beyond 16.7 s. Clocks are integers throughout.
 constexpr std::int64_t to_microseconds(float duration_s) {
   return to_int64(duration_s * 1e6F);
 }
@@ -72,14 +71,14 @@ constexpr float to_float(std::uint32_t x) {
   return static_cast<float>(x);
 }
 
-/// The same for 64 bits by hand: one rounding on cores whose library converts in two.
+/// By hand, because some cores' libraries round twice for 64 bits; this rounds once.
 constexpr float to_float(std::int64_t x) {
   const bool negative = x < 0;
   std::uint64_t size = negative ? 0 - static_cast<std::uint64_t>(x) : static_cast<std::uint64_t>(x);
   const int excess = 40 - std::countl_zero(size | 1U);  // bits beyond float's 24
   std::int32_t exponent = 0;
   if (excess > 0) {
-    // Keep 30 bits, the last one sticky: the one rounding below then sees all there is to know.
+    // Keep 30 bits and a sticky last bit, so that the one rounding below is correct.
     const int shift = excess > 6 ? excess - 6 : 0;
     const bool sticky = (size & ((std::uint64_t{1} << shift) - 1U)) != 0;
     size = (size >> shift) | (sticky ? 1U : 0U);

@@ -24,16 +24,16 @@ constexpr float power_of_two(int exponent) {
   return std::bit_cast<float>(static_cast<std::uint32_t>(exponent + 127) << 23);
 }
 
-/// angle = quadrant * pi/2 + (high + low), |high| <= pi/4 and a little, |low| within an ulp or so
-/// of high.
+/// angle = quadrant * pi/2 + (high + low). |high| is at most slightly more than pi/4, and |low|
+/// about an ulp of high.
 struct Reduced {
   float high;
   float low;
   std::uint32_t quadrant;  // only its two lowest bits count
 };
 
-/// For |angle| < 64: Cody and Waite in three parts. The first two have 18 bits, so that their
-/// products with a count of at most 41 are exact.
+/// For |angle| < 64: Cody-Waite in three parts. The first two have 18 bits, so their products with
+/// a count of at most 41 are exact.
 inline Reduced reduce(float angle_rad) {
   constexpr float kHigh = 0x1.921f8p+0F;
   constexpr float kMiddle = 0x1.aa22p-19F;
@@ -46,14 +46,13 @@ inline Reduced reduce(float angle_rad) {
   return {high, ((exact - high) - middle) - count * kLow, bits_of(shifted)};
 }
 
-/// For any other finite angle: Payne and Hanek with integers.
+/// For any other finite angle: Payne-Hanek with integers.
 Reduced reduce_large(float angle_rad) {
-  // 2 / pi = 0.A2F9836E..., behind one word of zeros for angles below 2^25.
+  // 2 / pi = 0.A2F9836E..., after one word of zeros for angles below 2^25.
   constexpr std::uint32_t kTwoOverPi[] = {0x00000000U, 0xA2F9836EU, 0x4E441529U, 0xFC2757D1U,
                                           0xF534DDC0U, 0xDB629599U, 0x3C439041U, 0xFE5163ABU};
-  // |angle| = mantissa * 2^exponent. Of the product with 2 / pi, multiples of 4 quadrants don't
-  // matter: start at the bit that counts 2 quadrants and keep 96 bits, of which the mantissa
-  // costs 24.
+  // |angle| = mantissa * 2^exponent. Multiples of 4 quadrants in the product with 2 / pi do not
+  // matter: start at the bit that counts 2 quadrants. Keep 96 bits; the mantissa uses 24 of them.
   const std::uint32_t bits = magnitude_bits(angle_rad);
   const std::uint32_t mantissa = (bits & 0x007FFFFFU) | 0x00800000U;
   const std::uint32_t first_bit = (bits >> 23) - 150U - 2U + 32U;
@@ -105,7 +104,7 @@ inline float asin_tail(float z) {
           z * (0x1.330204p-4F + z * (0x1.747bbap-5F + z * (0x1.8c3e2ap-6F + z * 0x1.595c8cp-5F))));
 }
 
-/// sqrt(z) = high + low with high of 12 bits, so that its square is exact. z > 0.
+/// sqrt(z) = high + low. high has 12 bits, so its square is exact. z > 0.
 struct SplitRoot {
   float root;
   float high;
@@ -168,7 +167,8 @@ float atan2(float y, float x) {
   } else if (smaller == kInfinityBits) {
     ratio = 1.0F;
   }
-  // Minimax on [0, 1], 2^-27.9 relative, the last bits chosen so that atan2(1, 1) is kQuarterPi.
+  // Minimax on [0, 1], 2^-27.9 relative. The last bits are chosen so that atan2(1, 1) is
+  // kQuarterPi.
   const float z = ratio * ratio;
   float p = 0x1.66df3cp-7F + z * -0x1.d97be6p-10F;
   p = -0x1.ff675ep-6F + z * p;
@@ -231,7 +231,7 @@ float exp(float x) {
   p = 0x1.fffffcp-2F + high * p;
   const float fraction = 1.0F + (high + (low + (high * high) * p));
   const auto exponent = static_cast<std::int32_t>(bits_of(shifted) - bits_of(kRoundingShift));
-  // Two factors, because 2^128 and 2^-150 are no normal floats; only the second product can round.
+  // Two factors, because 2^128 and 2^-150 are not normal floats. Only the second product can round.
   const int half = exponent >> 1;
   const float result = (fraction * power_of_two(half)) * power_of_two(exponent - half);
   return result <= kMaxFloat ? result : kMaxFloat;

@@ -1,19 +1,18 @@
 #pragma once
 
-/// Elementary functions in float32, by IEEE basic operations and square root only: the same bits on
-/// every compiler, optimisation level and core (with toolchains/floating_point.cmake).
+/// Elementary functions in float32. They use only IEEE basic operations and square root, so every
+/// compiler, optimisation level and core gives the same bits (with
+/// toolchains/floating_point.cmake).
 ///
-/// Total: no input is an error, and no NaN or infinity leaves. Angles are radians.
+/// Total: no input is an error, and no result is NaN or infinite. Angles are radians.
 ///
-/// Worst errors, in units of the spacing of floats at the exact result. Measured by
-/// `verp_exhaustive` over every float (atan2: 10^9 stratified pairs); its `--function NAME` repeats
-/// any of them:
+/// Worst errors in ulp of the exact result, measured by `verp_exhaustive` over every float (atan2:
+/// 10^9 stratified pairs); `--function NAME` repeats one:
 ///
 ///     sin  0.917    cos  0.912    asin 0.871    acos 0.789    exp  0.906    atan2 1.646
 ///
-/// Bounds that the tests enforce: 1, atan2 2. atan2 costs one division, asin and acos beyond 1/2
-/// one and a square root; where both are wanted, sincos is cheaper than sin and cos; angles beyond
-/// 64 rad take the long way.
+/// The tests enforce 1 ulp, and 2 for atan2. Cost: atan2 one division; asin and acos beyond 1/2 one
+/// division and one square root; sincos less than sin and cos; angles beyond 64 rad are slow.
 namespace verp::math {
 
 struct SinCos {
@@ -21,22 +20,23 @@ struct SinCos {
   float cos;
 };
 
-/// Any finite angle, however large, in [-1, 1]. NaN and infinities: sin 0, cos 1. sin(-0) is -0.
-/// Odd and even bit for bit; sincos has the same bits as sin and cos.
+/// Results in [-1, 1] for any finite angle, however large. NaN and infinities: sin 0, cos 1.
+/// sin(-0) is -0. sin is odd and cos even bit for bit; sincos has the same bits as sin and cos.
 SinCos sincos(float angle_rad);
 float sin(float angle_rad);
 float cos(float angle_rad);
 
 /// Direction of (x, y) in [-kPi, kPi], with the quadrants, infinities and signed zeros of IEEE 754:
-/// atan2(0, 0) is 0, atan2(0, -0) is kPi. Neither scale nor overflow matter. NaN in either gives 0.
+/// atan2(0, 0) is 0, atan2(0, -0) is kPi. Independent of scale; no overflow. A NaN argument gives
+/// 0.
 float atan2(float y, float x);
 
-/// Arguments beyond [-1, 1] are limited to it. NaN gives 0 for both. asin(-0) is -0.
+/// Arguments are clamped to [-1, 1]. NaN gives 0. asin(-0) is -0.
 float acos(float x);
 float asin(float x);
 
-/// e^x. Above 88.72283 kMaxFloat, below -103.9721 zero, subnormal in between as the bound says. NaN
-/// gives 0.
+/// e^x. Gives kMaxFloat above 88.72283 and zero below -103.9721; subnormal results obey the bound.
+/// NaN gives 0.
 float exp(float x);
 
 }  // namespace verp::math

@@ -3,9 +3,9 @@
 #include <cstdint>
 #include <limits>
 
-/// Small scalar functions, all total: no input, NaN and infinities included, is undefined
-/// behaviour. Angles are radians. Everything is IEEE float32 by basic operations, so the bits are
-/// the same everywhere.
+/// Small scalar functions. All are total: no input, including NaN and infinities, is undefined
+/// behaviour. Angles are radians. They use IEEE float32 basic operations, so the bits are the same
+/// everywhere.
 namespace verp::math {
 
 inline constexpr float kPi = 0x1.921fb6p+1F;         ///< nearest float, 8.7e-8 above pi
@@ -18,22 +18,20 @@ inline constexpr float kMaxFloat = std::numeric_limits<float>::max();
 static_assert(std::numeric_limits<float>::is_iec559,
               "the bit-identity contract needs IEEE float32");
 
-/// False for NaN and infinities. An integer test: no compiler flag can reason it away.
+/// False for NaN and infinities. An integer test, so no compiler flag can remove it.
 constexpr bool is_finite(float x) {
   return (std::bit_cast<std::uint32_t>(x) & 0x7F800000U) != 0x7F800000U;
 }
 
-/// x, or `fallback` where x is NaN or infinite: how foreign values enter the core.
+/// x, or `fallback` if x is NaN or infinite. Every foreign value enters the core through this.
 constexpr float finite_or(float x, float fallback) {
   return is_finite(x) ? x : fallback;
 }
 
-/// Clears the sign bit.
 constexpr float abs(float x) {
   return __builtin_fabsf(x);
 }
 
-/// Magnitude of the first, sign bit of the second.
 constexpr float copysign(float magnitude, float sign) {
   return std::bit_cast<float>((std::bit_cast<std::uint32_t>(magnitude) & 0x7FFFFFFFU) |
                               (std::bit_cast<std::uint32_t>(sign) & 0x80000000U));
@@ -44,8 +42,8 @@ constexpr float sign(float x) {
   return x > 0.0F ? 1.0F : (x < 0.0F ? -1.0F : 0.0F);
 }
 
-/// The second argument when either is NaN or both are equal (min(0, -0) is -0): one defined choice
-/// on every core. So min(untrusted, limit) gives the limit for NaN.
+/// Returns the second argument if either is NaN or both are equal (min(0, -0) is -0): one defined
+/// choice on every core. So min(untrusted, limit) gives the limit for NaN.
 constexpr float min(float a, float b) {
   return a < b ? a : b;
 }
@@ -53,7 +51,7 @@ constexpr float max(float a, float b) {
   return a > b ? a : b;
 }
 
-/// x limited to [lo, hi]. NaN gives lo; when lo > hi the result is lo.
+/// x limited to [lo, hi]. NaN gives lo. If lo > hi, the result is lo.
 constexpr float clamp(float x, float lo, float hi) {
   if (!(x > lo)) return lo;
   return x < hi ? x : (hi > lo ? hi : lo);
@@ -67,18 +65,17 @@ constexpr float square(float x) {
   return x * x;
 }
 
-/// a + t (b - a): exactly a at t = 0; within one rounding of b at t = 1. t is not limited.
+/// a + t (b - a): exactly a at t = 0, within one rounding of b at t = 1. t is not limited.
 constexpr float lerp(float a, float b, float t) {
   return a + t * (b - a);
 }
 
-/// Correctly rounded. Negative, NaN and -0 give 0; +infinity gives +infinity (no finite input
-/// does).
+/// Correctly rounded. Negative, NaN and -0 give 0. +infinity gives +infinity; no finite input does.
 inline float sqrt(float x) {
   return x > 0.0F ? __builtin_sqrtf(x) : 0.0F;
 }
 
-/// sqrt(a^2 + b^2) for lengths of a robot's size: no guard against overflow beyond 1e19.
+/// sqrt(a^2 + b^2) for lengths of robot size: no guard against overflow beyond 1e19.
 inline float hypot(float a, float b) {
   return sqrt(a * a + b * b);
 }
@@ -86,7 +83,7 @@ inline float hypot(float a, float b, float c) {
   return sqrt(a * a + (b * b + c * c));
 }
 
-/// Largest integer not above x, saturating to the range of int32; NaN gives 0.
+/// Largest integer not above x. Saturates to int32; NaN gives 0.
 constexpr std::int32_t floor_to_int(float x) {
   if (x != x) return 0;
   if (x >= 2147483648.0F) return std::numeric_limits<std::int32_t>::max();
@@ -95,11 +92,11 @@ constexpr std::int32_t floor_to_int(float x) {
   return static_cast<float>(truncated) > x ? truncated - 1 : truncated;
 }
 
-/// The same angle in (-kPi, kPi]. Exact up to one rounding for |angle| <= 3 kPi, which is one
-/// addition or subtraction of two angles; beyond that the error is that of the argument itself, and
-/// from 1e7 rad on, as for NaN and infinities, the result is 0.
+/// The same angle in (-kPi, kPi]. Exact up to one rounding for |angle| <= 3 kPi, which covers one
+/// addition or subtraction of two angles; beyond that the error is the argument's own. From 1e7 rad
+/// on, and for NaN and infinities, the result is 0.
 constexpr float wrap_angle(float angle_rad) {
-  // 2 pi in three parts: the first two have 11 bits each, so their product with a 13-bit count is
+  // 2 pi in three parts. The first two have 11 bits each, so their products with a 13-bit count are
   // exact.
   constexpr float kHigh = 0x1.92p+2F;
   constexpr float kMiddle = 0x1.fb4p-10F;

@@ -3,8 +3,8 @@
 
 namespace verp::math {
 
-/// Three floats as they are stored, hashed and put into images: a vector with a field list.
-/// Arithmetic is Vec3's (common/math/linear.hpp); this header keeps Eigen out of plain data.
+/// A vector as it is stored, hashed and put into images. Arithmetic is in Vec3
+/// (common/math/linear.hpp); this header keeps Eigen out of plain data.
 struct Xyz {
   float x = 0;
   float y = 0;
