@@ -3,12 +3,12 @@
 
 #include "common/base/fields.hpp"
 
-/// What crosses the border of the controller, and nothing else does. Raw counts as they stand on
-/// the wire; Params holds every scale, sign and range. Plain integers, no padding: the memory of
-/// these structs is what a trace stores and what a digest covers.
+/// All data that crosses the controller's border. Values are raw counts as on the wire; Params
+/// holds scales, signs and ranges. Plain integers without padding: a trace stores and a digest
+/// covers the memory of these structs.
 namespace verp {
 
-inline constexpr int kMaxJoints = 32;  ///< a bit mask of joints is one uint32_t
+inline constexpr int kMaxJoints = 32;  ///< fits a uint32_t bit mask
 inline constexpr int kFeet = 2;        ///< index 0 is left, 1 is right, everywhere
 inline constexpr int kFootSensors =
     4;  ///< front-left, front-right, back-left, back-right of each sole
@@ -24,14 +24,14 @@ enum InputFlag : std::uint16_t {
   kParameterWrite = 1 << 6,  ///< parameter_id and parameter_bits are valid
 };
 
-/// What the operator asks for. kWalk and kGetUp include kStand. kGetUp is also the leave to have
-/// torque on the floor: without it no fallen robot moves.
+/// The operator's request. kWalk and kGetUp include kStand. kGetUp also permits torque on the
+/// floor: without it no fallen robot moves.
 enum class Request : std::uint8_t { kRelax = 0, kStand = 1, kWalk = 2, kGetUp = 3 };
 
-/// The operator's standing order; it holds until the next one.
+/// The operator's standing order. It holds until the next one.
 struct Command {
   Request request = Request::kRelax;
-  std::uint8_t sequence = 0;        ///< counts operator frames; a watchdog sees it stand still
+  std::uint8_t sequence = 0;  ///< counts operator frames; the watchdog detects a counter that stops
   std::int16_t vx_tenth_mm_s = 0;   ///< walk velocity forward, body frame, 0.1 mm/s
   std::int16_t vy_tenth_mm_s = 0;   ///< to the left, 0.1 mm/s
   std::int16_t wz_mrad_s = 0;       ///< turn to the left, mrad/s
@@ -48,15 +48,15 @@ struct Inputs {
   std::uint32_t fresh = 0;           ///< bit j: position_count[j] was read this tick
   std::uint16_t flags = 0;           ///< InputFlag bits
   std::uint16_t parameter_id = 0;    ///< index into Tuning (model/tuning.hpp)
-  std::uint32_t parameter_bits = 0;  ///< the new value's float32 bits
+  std::uint32_t parameter_bits = 0;  ///< float32 bits of the new value
   Command command;
   std::int16_t gyro_count[3] = {};   ///< IMU frame
   std::int16_t accel_count[3] = {};  ///< IMU frame, specific force
   std::uint16_t foot_count[kFeet][kFootSensors] = {};
-  std::uint8_t slow_joint = 0;          ///< whose telemetry the next three are
+  std::uint8_t slow_joint = 0;          ///< the joint of the next three values
   std::uint8_t slow_temperature_c = 0;  ///< degrees Celsius, as MX/X servos report it
   std::uint8_t slow_error = 0;          ///< hardware error status register
-  std::uint8_t action = 0;              ///< number of the action that the operator asks; 0: none
+  std::uint8_t action = 0;              ///< number of the requested action; 0: none
   std::uint16_t slow_voltage_tenth_v = 0;
   std::uint16_t mailbox = 0;  ///< free for boards: button bits
   std::int32_t position_count[kMaxJoints] = {};
@@ -66,14 +66,14 @@ struct Inputs {
 };
 VERP_PACKED(Inputs);
 
-/// What the controller wants done.
+/// What the controller commands.
 struct Outputs {
   std::uint32_t torque_enable = 0;       ///< bit j: servo j holds its goal
   std::uint32_t faults = 0;              ///< safety::Fault bits, latched
   std::uint8_t mode = 0;                 ///< safety::Mode
   std::uint8_t gait_phase = 0;           ///< gait::Phase
   std::uint8_t gait_state = 0;           ///< 0..15, the paper's state within the cycle
-  std::uint8_t stance = 0;               ///< foot that carries (0 left, 1 right); 2: both
+  std::uint8_t stance = 0;               ///< foot that carries the robot (0 left, 1 right); 2: both
   std::int16_t tilt_tenth_mrad[2] = {};  ///< estimated roll and pitch of the body
   std::int32_t goal_count[kMaxJoints] = {};
   VERP_FIELDS(torque_enable, faults, mode, gait_phase, gait_state, stance, tilt_tenth_mrad,

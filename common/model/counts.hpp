@@ -2,16 +2,16 @@
 #include "common/math/convert.hpp"
 #include "common/model/params.hpp"
 
-/// Between a servo's counts and the angle of its joint.
+/// Conversion between a servo's counts and its joint's angle.
 namespace verp::model {
 
-/// 0 for a joint without a scale.
+/// Returns 0 for a joint without a scale.
 inline float angle_of(const JointParams& joint, std::int32_t count) {
   if (joint.counts_per_rad == 0.0F) return 0.0F;
   return (math::to_float(count) - joint.zero_count) / joint.counts_per_rad;
 }
 
-/// Rounded; saturates, and is 0 for an angle that is not a number.
+/// Rounds and saturates; NaN gives 0.
 inline std::int32_t count_of(const JointParams& joint, float angle_rad) {
   return math::to_int32(joint.zero_count + joint.counts_per_rad * angle_rad);
 }

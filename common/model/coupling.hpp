@@ -5,13 +5,12 @@
 #include "common/model/counts.hpp"
 #include "common/model/params.hpp"
 
-/// One motor for two joints (URDF's mimic): a follower's angle is a ratio times its driver's, plus
-/// an offset. Both are read off the counts of the driver's servo, each with a scale and a zero of
-/// its own, and that is all that is known of the coupling. Without followers nothing here does
-/// anything.
+/// One motor for two joints (URDF's mimic): a follower's angle is its driver's times a ratio, plus
+/// an offset. Both angles come from the counts of the driver's servo, each by its own scale and
+/// zero. Without followers these functions do nothing.
 namespace verp::model {
 
-/// The joint whose servo moves `joint`: itself, but for a follower.
+/// The joint whose servo moves `joint`: `joint` itself unless it is a follower.
 inline int driver_of(const Params& params, int joint) {
   const std::uint8_t id = params.joint[joint].servo_id;
   for (int j = 0; joint >= params.servo_count() && j < params.servo_count(); ++j) {
@@ -20,13 +19,13 @@ inline int driver_of(const Params& params, int joint) {
   return joint;
 }
 
-/// Where a follower stands when its driver stands at `driver_rad`.
+/// Angle of a follower when its driver stands at `driver_rad`.
 inline float followed(const JointParams& driver, const JointParams& follower, float driver_rad) {
   return (driver.zero_count + driver.counts_per_rad * driver_rad - follower.zero_count) /
          follower.counts_per_rad;
 }
 
-/// What the servos told is told of their followers too.
+/// Copies each driver's count and freshness to its followers.
 inline void share_counts(const Params& params, Inputs& inputs) {
   for (int j = params.servo_count(); j < params.joint_count; ++j) {
     const int driver = driver_of(params, j);
@@ -35,7 +34,7 @@ inline void share_counts(const Params& params, Inputs& inputs) {
   }
 }
 
-/// Puts followers where their drivers take them.
+/// Sets each follower's angle from its driver's.
 inline void lead(const Params& params, float* angle_rad) {
   for (int j = params.servo_count(); j < params.joint_count; ++j) {
     const int driver = driver_of(params, j);
@@ -43,8 +42,8 @@ inline void lead(const Params& params, float* angle_rad) {
   }
 }
 
-/// One motor bears both loads: what was added to a follower's plain angle, its sag and what
-/// balances it, is added to its driver's.
+/// Adds a follower's corrections (sag and gravity compensation) to its driver's angle, because one
+/// motor bears both loads.
 inline void share_corrections(const Params& params, const float* plain_rad, float* angle_rad) {
   for (int j = params.servo_count(); j < params.joint_count; ++j) {
     const int driver = driver_of(params, j);

@@ -16,8 +16,8 @@ bool well_formed_leg(const Params& params, const LegParams& leg) {
   return true;
 }
 
-// Parents come first, but for followers, which come last: from there the way up must end. A
-// follower has somebody to follow.
+// Parents come before children, except for followers, which come last: the path from a follower
+// must end at the body. A follower must have a driver.
 bool well_formed_place(const Params& params, int joint) {
   const int servos = params.servo_count(), parent = params.joint[joint].parent;
   if (parent > params.joint_count) return false;
@@ -30,7 +30,7 @@ bool well_formed_place(const Params& params, int joint) {
   return node == 0;
 }
 
-// Node ids are 1 to 127 on CAN, and a drive's is its place in every table there.
+// CAN node ids are 1 to 127, and every table on CAN is indexed by node id.
 bool well_formed_bus(const Params& params) {
   if (params.bus_protocol == BusProtocol::kDynamixel2) return true;
   if (params.bus_protocol != BusProtocol::kCia402) return false;

@@ -7,14 +7,14 @@
 #include "common/model/numbers.hpp"
 #include "common/model/params.hpp"
 
-/// The Params image: a robot as bytes, in a flash section of its own, in a trace, in a file. It has
-/// exactly one byte form, so its CRC names it in every link handshake. It brings the answers that
-/// kinematics and control must give on whatever core reads it.
+/// The Params image: a robot as bytes, in a flash section, a trace or a file. It has exactly one
+/// byte form, so its CRC identifies it in every link handshake. It carries the results that
+/// kinematics and control must give on every core.
 namespace verp {
 
-/// Changes whenever the layout of ParamsImage, or of anything in it, does.
+/// Raise whenever the layout of ParamsImage or a member changes.
 inline constexpr std::uint32_t kImageVersion = 5;
-/// Changes whenever the same Params and Inputs give other Outputs: the golden answers depend on it.
+/// Raise whenever the same Params and Inputs give other Outputs: the golden results depend on it.
 inline constexpr std::uint32_t kCoreVersion = 25;
 
 inline constexpr char kImageMagic[8] = {'V', 'E', 'R', 'P', 'P', 'A', 'R', '1'};
@@ -29,9 +29,9 @@ struct ImageHeader {
 };
 VERP_PACKED(ImageHeader);
 
-/// What forward and inverse kinematics give for one whole-body posture (control/golden.hpp).
+/// Results of forward and inverse kinematics for one whole-body posture (control/golden.hpp).
 struct GoldenVector {
-  std::uint32_t seed = 0;          ///< draws the joint angles, within their limits
+  std::uint32_t seed = 0;          ///< draws the joint angles within their limits
   std::uint32_t poses_digest = 0;  ///< of the poses of all nodes
   std::uint32_t legs_digest = 0;   ///< of both legs' angles and flags, solved for the soles' poses
   Xyz com_m;                       ///< centre of mass, body frame
@@ -45,8 +45,8 @@ struct ParamsImage {
   ImageHeader header;
   Params params;
   GoldenVector golden[kGoldenVectors];
-  std::uint32_t self_test_ticks = 0;       ///< control/self_test.hpp; 0: the image carries none
-  std::uint32_t self_test_digest[2] = {};  ///< low and high word of the last link of the chain
+  std::uint32_t self_test_ticks = 0;       ///< control/self_test.hpp; 0: no self-test
+  std::uint32_t self_test_digest[2] = {};  ///< low and high word of the chain's last link
   VERP_FIELDS(header, params, golden, self_test_ticks, self_test_digest)
 };
 VERP_PACKED(ParamsImage);
@@ -57,22 +57,22 @@ enum class ImageFault : std::uint8_t {
   kNotAnImage = 2,
   kOtherLayout = 3,  ///< written for another kImageVersion
   kOtherCore = 4,    ///< golden answers of another kCoreVersion
-  kDamaged = 5,      ///< CRC
-  kOutOfBounds = 6,  ///< an index in it points outside its tables
-  kOutOfRange = 7,   ///< a number in it is none, or none of a robot: numbers_fit() names it
+  kDamaged = 5,      ///< CRC mismatch
+  kOutOfBounds = 6,  ///< an index points outside its table
+  kOutOfRange = 7,   ///< a number is not finite or implausible; numbers_fit() names it
 };
 
-/// Names the robot: equal only for equal bytes, up to 2^-32.
+/// Identifies the robot: equal for equal bytes only, up to 2^-32.
 std::uint32_t params_crc(const Params& params);
 
-/// Fills in the header, over everything else as it stands.
+/// Fills in the header from the rest of the image.
 void seal_image(ParamsImage& image);
 
-/// What is wrong with these bytes; `size` may exceed the image (a flash section).
+/// Checks an image. `size` may exceed it (a flash section).
 ImageFault check_image(const void* bytes, std::size_t size);
 
-/// True when every index is inside its table and parents stand before children, so that no loop
-/// over this Params leaves its arrays.
+/// True if every index is inside its table and parents come before children, so that no loop over
+/// this Params leaves its arrays.
 bool is_well_formed(const Params& params);
 
 }  // namespace verp

@@ -5,12 +5,12 @@
 namespace verp {
 namespace {
 
-// Bounds of what can stand or walk among people, each ten times wider than any robot we know.
+// Limits for machines that stand or walk among people, ten times wider than any known robot's.
 constexpr Range kPlace_m{-10, 10};
 constexpr Range kLength_m{0, 10};
 constexpr Range kMass_kg{0, 1000};
 constexpr Range kAngle_rad{-100, 100};
-constexpr Range kShare{-1.001F, 1.001F};  // of a unit vector or a rotation, rounded
+constexpr Range kShare{-1.001F, 1.001F};  // element of a unit vector or rotation, with rounding
 constexpr Range kSpeed_rad_s{0.01F, 1000};
 constexpr Range kScale_per_rad{1, 1e8F};
 constexpr Range kZero_count{-1e9F, 1e9F};
@@ -22,15 +22,15 @@ constexpr Range kArmature_kg_m2{0, 1000};
 constexpr Range kTorque_n_m{0, 1e4F};
 constexpr Range kFrictionSpeed_rad_s{1e-3F, 1000};
 constexpr Range kAngle_rad_m{-100, 100};
-constexpr std::uint32_t kShortest_us = 4000, kLongest_us = 20000;  // as Params says
+constexpr std::uint32_t kShortest_us = 4000, kLongest_us = 20000;  // as Params::period_us says
 
-/// Remembers the first number that does not fit.
+/// Stores the name of the first number out of range.
 class Search {
  public:
   explicit Search(FieldName& bad) : bad_(bad) {}
 
   bool found() const { return found_; }
-  /// What stands in front of the names that follow.
+  /// Sets the prefix of the following names.
   void in(const char* group, int index = -1) {
     group_ = group;
     index_ = index;
@@ -43,7 +43,7 @@ class Search {
     if (*group_ != '\0') append(".");
     append(name);
   }
-  // Not "not outside": NaN is neither.
+  // Written so that NaN fails.
   void check(const char* name, float value, const Range& range) {
     check(name, value >= range.low && value <= range.high);
   }

@@ -3,15 +3,15 @@
 
 namespace verp {
 
-/// A number of Params as a person would write it: "joint[3].lower_rad", "tuning.gait.cycle_s".
+/// Path of a number in Params, such as "joint[3].lower_rad" or "tuning.gait.cycle_s".
 inline constexpr int kFieldNameLength = 40;
 struct FieldName {
   char text[kFieldNameLength] = {};
 };
 
-/// True when every number of a well-formed Params is one that a robot can have: finite, and inside
-/// generous bounds (numbers.cpp) outside of which goals or thresholds would mean nothing. Else the
-/// first that is not is named in `bad`.
+/// True if every number of a well-formed Params is finite and inside the generous bounds of
+/// numbers.cpp; outside them goals and thresholds are meaningless. Otherwise `bad` names the first
+/// number that is not.
 bool numbers_fit(const Params& params, FieldName& bad);
 
 }  // namespace verp

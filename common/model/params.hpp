@@ -6,51 +6,49 @@
 #include "common/math/linear.hpp"
 #include "common/model/tuning.hpp"
 
-/// The whole robot as constants. The host derives it from the SDF entity; firmware embeds the same
-/// bytes as an image of its own (model/image.hpp). Capacity is fixed, so loading a robot never
-/// allocates.
+/// The whole robot as constants. The host derives it from the SDF entity; the firmware embeds the
+/// same bytes as an image (model/image.hpp). Capacity is fixed, so loading a robot never allocates.
 ///
-/// Frames. Body frame: origin at the trunk's centre (not the centre of mass), x forward, y left, z
-/// up. Every link frame is parallel to the body frame when all joints stand at zero; its origin is
-/// on the joint that moves it. A joint's pose is therefore one vector and one unit axis, whatever
-/// frames the model file used.
+/// Body frame: origin at the trunk's centre (not the centre of mass), x forward, y left, z up.
+/// Every link frame is parallel to it when all joints are at zero; its origin lies on the joint
+/// that moves the link. So a joint's pose is one vector and one unit axis, whatever frames the
+/// model file uses.
 namespace verp {
 
-inline constexpr int kMaxNodes =
-    kMaxJoints + 1;  ///< node 0 is the body, node j + 1 is moved by joint j
+inline constexpr int kMaxNodes = kMaxJoints + 1;  ///< node 0 is the body; joint j moves node j + 1
 inline constexpr int kLegJoints = 6;
 inline constexpr int kNameLength = 24;
 
-/// Names the common axes so that a rotation costs 12 operations, not 45.
+/// Common axes get a name: a rotation about them costs 12 operations instead of 45.
 enum class AxisKind : std::uint8_t { kX, kY, kZ, kMinusX, kMinusY, kMinusZ, kGeneral };
 
-/// Joints with a servo come first, and among them parents stand before children; then come those
-/// that follow another's servo (Params::followers), wherever in the tree they are.
+/// Joints with a servo come first, parents before children. Followers of another joint's servo come
+/// last (Params::followers), wherever they are in the tree.
 struct JointParams {
   char name[kNameLength] = {};
   std::uint8_t parent = 0;  ///< node whose link carries this joint
   AxisKind axis_kind = AxisKind::kGeneral;
-  std::uint8_t servo_id = 0;       ///< address on the bus; a follower's is its driver's
+  std::uint8_t servo_id = 0;       ///< bus address; a follower has its driver's
   std::uint8_t servo_profile = 0;  ///< index into Params::servo
   Xyz origin_parent_m;             ///< joint position in the parent link's frame
-  Xyz axis;                        ///< unit vector; positive rotation by the right hand
+  Xyz axis;                        ///< unit vector; positive rotation by the right-hand rule
   float mass_kg = 0;               ///< of the link this joint moves
   Xyz com_link_m;                  ///< centre of mass in the link frame
   float lower_rad = 0;
   float upper_rad = 0;
   float velocity_limit_rad_s =
-      0;                     ///< what the safety limiter allows; at most the servo's no-load speed
-  float counts_per_rad = 0;  ///< signed: the servo may be mounted backwards
-  float zero_count = 0;      ///< count at which the joint stands at zero
+      0;                        ///< limit of the safety limiter; at most the servo's no-load speed
+  float counts_per_rad = 0;     ///< negative if the servo is mounted backwards
+  float zero_count = 0;         ///< count at joint angle zero
   float compliance_rad_nm = 0;  ///< sag of the servo's position loop under load
-  /// Rotor and gears, seen from the joint; host/model/entity.hpp, Gearbox.
+  /// Inertia of rotor and gears at the joint; see Gearbox in host/model/entity.hpp.
   float armature_kg_m2 = 0;
-  float friction_n_m = 0;          ///< while it hardly turns
-  float load_friction = 0;         ///< part of the load that is added to it
-  float friction_speed_rad_s = 1;  ///< at which half of it is left
-  /// Where the joint rests while standing and walking. Legs are solved; Newton starts from here.
+  float friction_n_m = 0;          ///< friction torque near standstill
+  float load_friction = 0;         ///< share of the load torque that is added to it
+  float friction_speed_rad_s = 1;  ///< speed at which half of it is left
+  /// Angle while standing and walking. The leg solvers compute leg joints; Newton starts from here.
   float stand_rad = 0;
-  float sit_rad = 0;  ///< the crouch from which torque may be released
+  float sit_rad = 0;  ///< the crouch in which torque may be released
   VERP_FIELDS(name, parent, axis_kind, servo_id, servo_profile, origin_parent_m, axis, mass_kg,
               com_link_m, lower_rad, upper_rad, velocity_limit_rad_s, counts_per_rad, zero_count,
               compliance_rad_nm, armature_kg_m2, friction_n_m, load_friction, friction_speed_rad_s,
@@ -60,24 +58,24 @@ VERP_PACKED(JointParams);
 
 enum class LegSolver : std::uint8_t { kNone = 0, kClosedForm = 1, kNewton = 2 };
 
-/// One six-joint leg. Closed form works on canonical angles: yaw(z) roll(x) pitch(y) knee(y) ankle
+/// One six-joint leg. The closed form uses canonical angles: yaw(z) roll(x) pitch(y) knee(y) ankle
 /// pitch(y) ankle roll(x), all zero when the leg hangs straight down; joint angle = direction *
 /// (canonical - offset). The foot frame is the last link's frame, with its origin at the ankle
-/// centre; closed form is chosen only when that frame is also the canonical foot's, which it is for
-/// every robot whose feet stand flat at zero. Newton works on the tree itself and uses joint[],
-/// sole pose and limits only.
+/// centre. The closed form requires that frame to be the canonical foot frame, as it is for every
+/// robot whose feet stand flat at zero. Newton works on the tree and uses only joint[], the sole
+/// pose and limits.
 struct LegParams {
   LegSolver solver = LegSolver::kNone;
   std::uint8_t joint[kLegJoints] = {};  ///< joint indices from hip to ankle
   std::uint8_t reserved = 0;
   float direction[kLegJoints] = {};  ///< +1 or -1
   float offset_rad[kLegJoints] = {};
-  Xyz hip_body_m;     ///< where the hip axes meet
+  Xyz hip_body_m;     ///< intersection of the hip axes
   float thigh_m = 0;  ///< hip centre to knee axis, in the sagittal plane
   float shank_m = 0;  ///< knee axis to ankle centre
-  Xyz sole_foot_m;    ///< sole frame's origin seen from the ankle centre, foot frame
+  Xyz sole_foot_m;    ///< sole frame's origin from the ankle centre, foot frame
   float sole_foot[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};  ///< sole axes in the foot frame, row-major
-  float sole_front_m = 0;  ///< the sole's edges from its frame's origin, all positive
+  float sole_front_m = 0;  ///< distances of the sole's edges from its frame's origin, all positive
   float sole_back_m = 0;
   float sole_left_m = 0;
   float sole_right_m = 0;
@@ -86,15 +84,17 @@ struct LegParams {
 };
 VERP_PACKED(LegParams);
 
-/// What the firmware writes into a servo when it arms it, and what it may use on the wire.
+/// Registers that the firmware writes when it arms a servo, and what the servo's bus protocol
+/// supports.
 struct ServoProfile {
-  /// Control table 0; 1030 is XM430-W210, 30 is MX-28(2.0). On CAN the product code (1018h:2).
+  /// Control table address 0; 1030 is XM430-W210, 30 is MX-28(2.0). On CAN, the product code
+  /// (1018h:2).
   std::uint16_t model_number = 0;
   std::uint16_t position_p_gain = 0;  ///< control table units
   std::uint16_t position_i_gain = 0;
   std::uint16_t position_d_gain = 0;
   std::uint16_t profile_ms =
-      0;  ///< time-based profile: goals are reached after this long; 0: at once
+      0;  ///< time-based profile: the servo reaches its goal after this time; 0: at once
   std::uint16_t fast_sync_read = 0;  ///< 1 if the servo answers instruction 0x8A
   VERP_FIELDS(model_number, position_p_gain, position_i_gain, position_d_gain, profile_ms,
               fast_sync_read)
@@ -107,8 +107,7 @@ struct ImuParams {
                        0, 0, 0, 1};  ///< rotates IMU vectors into the body frame, row-major
   float gyro_rad_s_per_count = 0;
   float accel_m_s2_per_count = 0;
-  std::uint8_t device_id =
-      0;  ///< address of the IMU device on the servo bus; 0: a chip on the board
+  std::uint8_t device_id = 0;  ///< address on the servo bus; 0: a chip on the board
   std::uint8_t reserved[3] = {};
   VERP_FIELDS(body_imu, gyro_rad_s_per_count, accel_m_s2_per_count, device_id, reserved)
 };
@@ -122,7 +121,7 @@ struct FootSensorParams {
 };
 VERP_PACKED(FootSensorParams);
 
-/// What servos and bus sensors speak.
+/// Protocol of servos and bus sensors.
 enum class BusProtocol : std::uint8_t {
   kDynamixel2 = 0,  ///< serial, Dynamixel Protocol 2.0
   kCia402 = 1,      ///< CAN, CANopen with CiA 402 drives; ids are node ids, 1 to 127
@@ -131,20 +130,20 @@ enum class BusProtocol : std::uint8_t {
 struct Params {
   char name[kNameLength] = {};
   std::uint32_t period_us = 10000;  ///< control period, 4000 to 20000
-  std::uint32_t baud = 2000000;     ///< servo bus; on CAN its nominal bit rate
+  std::uint32_t baud = 2000000;     ///< servo bus; on CAN the nominal bit rate
   std::uint8_t joint_count = 0;
   std::uint8_t head_pan = 0xFF;  ///< joint index, 0xFF: none
   std::uint8_t head_tilt = 0xFF;
-  std::uint8_t rise_torque_percent = 100;  ///< of each servo's full duty, while it rises
+  std::uint8_t rise_torque_percent = 100;  ///< share of each servo's full duty during the rise
   float body_mass_kg = 0;
   Xyz body_com_m;
   BusProtocol bus_protocol = BusProtocol::kDynamixel2;
-  /// The last joints have no servo of their own (model/coupling.hpp): one motor turns them and the
-  /// joint whose servo_id they bear.
+  /// Number of joints at the end of the list without a servo of their own (model/coupling.hpp): the
+  /// motor with their servo_id also turns another joint.
   std::uint8_t followers = 0;
-  std::uint8_t arm[kFeet] = {0xFF, 0xFF};  ///< joint that swings it fore and aft, 0xFF: none
-  /// Angle of `arm` for each metre that the left foot is ahead of the right one, at which the arms
-  /// turn about the vertical as fast as the legs, the other way. 0 where there is no arm.
+  std::uint8_t arm[kFeet] = {0xFF, 0xFF};  ///< joint that swings the arm fore and aft, 0xFF: none
+  /// Angle of `arm` per metre by which the left foot leads the right one, at which the arms' spin
+  /// about the vertical cancels that of the legs. 0 without an arm.
   float arm_rad_per_m[kFeet] = {};
   JointParams joint[kMaxJoints];
   LegParams leg[kFeet];
@@ -156,7 +155,7 @@ struct Params {
               body_mass_kg, body_com_m, bus_protocol, followers, arm, arm_rad_per_m, joint, leg,
               servo, imu, feet, tuning)
 
-  /// The joints before this one have servos, and are all that a bus sees.
+  /// Number of joints with servos; the bus sees only these.
   constexpr std::uint8_t servo_count() const {
     return static_cast<std::uint8_t>(joint_count - followers);
   }

@@ -24,8 +24,7 @@ bool below(const Params& params, int node, int ancestor) {
   return node != 0 && below(params, parent(params, node), ancestor);
 }
 
-// Climbs from the deeper end until both ends meet; what was passed on the `to` side comes out
-// reversed.
+// Climbs from the deeper end until both ends meet. Recursion reverses the nodes on the `to` side.
 void connect(const Params& params, int from, int to, Path& path) {
   if (from == to) {
     path.node[path.length++] = static_cast<std::uint8_t>(from);

@@ -3,16 +3,15 @@
 
 #include "common/model/params.hpp"
 
-/// The robot as a tree: node 0 is the body, node j + 1 is the link that joint j moves. Searches are
-/// recursive over the parent links; their depth is at most kMaxJoints, their stack a few words a
-/// level.
+/// The robot as a tree: node 0 is the body, node j + 1 is the link that joint j moves. Searches
+/// recurse over parents: at most kMaxJoints levels, a few words of stack each.
 namespace verp::model {
 
 /// Joint whose name is `name`, or -1.
 int find_joint(const Params& params, const char* name);
 
-/// Bit j is set when joint j lies in the subtree below `node` (which joint node - 1 moves); node 0:
-/// all joints.
+/// Bit j is set if joint j is in the subtree of `node` (including joint node - 1, which moves it);
+/// node 0: all joints.
 std::uint32_t subtree(const Params& params, int node);
 
 struct Path {

@@ -1,53 +1,55 @@
 #pragma once
 #include "common/base/fields.hpp"
 
-/// The numbers a person turns while the robot runs. Params carries the robot's own values, State
-/// carries the ones in force; one parameter write a tick (Inputs::parameter_id = index in this
-/// list) moves a value of State, after a range check against tuning_ranges.hpp. All are float32 so
-/// that one id space serves them all.
+/// Numbers that a person can change while the robot runs. Params holds the robot's own values,
+/// State those in force. At most one parameter write a tick (Inputs::parameter_id = index in this
+/// list) changes State, after a check against tuning_ranges.hpp. All are float32, so one id space
+/// serves them all.
 namespace verp {
 
-/// Gait, in the terms of the paper: a cycle is two steps, 16 states joined by 15 intervals.
-/// Numbers: generic21 with its servos' gears, tuning seeds 1001-1024, checked on 1031-1040; a
-/// robot's own, generic21's since then too, are in its file.
+/// Gait, in the paper's terms: a cycle is two steps, 16 states joined by 15 intervals. The defaults
+/// were tuned for generic21 with its servos' gears (tuning seeds 1001-1024, checked on 1031-1040).
+/// Later values of generic21 and other robots' values are in their files.
 struct GaitTuning {
   float cycle_s = 0.450f;         ///< two steps; the state interval is cycle_s / 15 (0.030 s)
-  float double_support = 0.006f;  ///< share of a step during which both feet carry
+  float double_support = 0.006f;  ///< share of a step with both feet on the ground
   float lift_m = 0.0119f;         ///< height of the swing sole at mid-swing
-  float half_stance_m = 0.0356f;  ///< sideways from the body's midline to each foot's centre
-  float hip_height_m = 0.1503f;   ///< hip centre above the ankle axes while walking
-  float trunk_pitch_rad = 0.03f;  ///< nose down is positive
+  float half_stance_m =
+      0.0356f;                   ///< lateral distance from the body's midline to each foot's centre
+  float hip_height_m = 0.1503f;  ///< hip centre above the ankle axes while walking
+  float trunk_pitch_rad = 0.03f;  ///< positive is nose down
   float zmp_x_m = -0.000206f;     ///< ZMP reference in the sole frame, forward
   float zmp_y_m = 0.0022f;        ///< ZMP reference, outward from the body's midline
-  float touchdown_m = 0.0053f;    ///< swing sole is aimed to end this high: the body sags
-  float max_step_m = 0.095f;     ///< longest admitted step (one foot past the other), any direction
+  float touchdown_m =
+      0.0053f;                ///< target height of the swing sole at landing, because the body sags
+  float max_step_m = 0.095f;  ///< longest step allowed (one foot past the other), in any direction
   float max_turn_rad = 0.40f;    ///< largest turn per step
   float step_change_m = 0.010f;  ///< largest change of step length from one step to the next
   float start_s = 0.4f;  ///< start phase: ZMP moves from the middle to the first stance foot
-  /// Goal of joint k of a limb lags by k times this (paper: 0.030), by 12 key points at most: with
-  /// 0.030 in cycles under 0.375 s the last joints lag by less. The numbers here are tuned for 0
+  /// Joint k of a limb lags by k times this, by at most 12 key points: in cycles under 0.375 s,
+  /// 0.030 gives less lag for the last joints. The paper uses 0.030. The defaults are tuned for 0
   /// and walk with up to 0.020; with 0.030 the robot falls.
   float joint_delay_s = 0.0f;
-  float look_ahead_s = 0.0213f;     ///< goals are computed for this much later: bus and servo delay
-  float support_margin_m = 0.004f;  ///< planned ZMP keeps this distance from the sole's edge
-  float heading_gain = 0.12f;       ///< share of the heading error that one step turns back; 0: all
-                                    ///< steps last equally long, too (footsteps.cpp)
-  float haste_lift_m = 0.005f;      ///< lift grows by this times Step::haste: who hurries, sags
+  float look_ahead_s = 0.0213f;     ///< goals are computed this far ahead, for bus and servo delay
+  float support_margin_m = 0.004f;  ///< minimum distance of the planned ZMP from the sole's edge
+  float heading_gain = 0.12f;  ///< share of the heading error that one step corrects; 0 also makes
+                               ///< all steps equally long (footsteps.cpp)
+  float haste_lift_m =
+      0.005f;  ///< lift grows by this times Step::haste, because a hurried step sags
   VERP_FIELDS(cycle_s, double_support, lift_m, half_stance_m, hip_height_m, trunk_pitch_rad,
               zmp_x_m, zmp_y_m, touchdown_m, max_step_m, max_turn_rad, step_change_m, start_s,
               joint_delay_s, look_ahead_s, support_margin_m, heading_gain, haste_lift_m)
 };
 VERP_PACKED(GaitTuning);
 
-/// Balance; each `enable` is 1 or 0, to show what that part does.
+/// Balance. Each `enable` is 1 or 0, to show the effect of that part.
 struct BalanceTuning {
-  float gravity_enable = 1.0f;    ///< gravity feed-forward through the servos' compliance
-  float inertia_share = 0.244f;   ///< of the rotors' inertia, fed forward
-  float friction_share = 1.24f;   ///< of the gears' friction, fed forward
-  float multibody_enable = 1.0f;  ///< multibody ZMP correction
-  float feedback_enable = 1.0f;   ///< gyro and tilt feedback
-  float zeros_enable =
-      1.0f;  ///< what was learnt of the legs, zero errors and landings, in their goals
+  float gravity_enable = 1.0f;      ///< gravity feed-forward through the servos' compliance
+  float inertia_share = 0.244f;     ///< share of the rotors' inertia that is fed forward
+  float friction_share = 1.24f;     ///< share of the gears' friction that is fed forward
+  float multibody_enable = 1.0f;    ///< multibody ZMP correction
+  float feedback_enable = 1.0f;     ///< gyro and tilt feedback
+  float zeros_enable = 1.0f;        ///< applies learnt leg zero errors and landings to the goals
   float ankle_pitch_tilt = -0.27f;  ///< rad per rad
   float ankle_pitch_rate_s = 0.0239f;
   float ankle_roll_tilt = -0.0145f;
@@ -56,9 +58,9 @@ struct BalanceTuning {
   float hip_pitch_rate_s = 0.0169f;
   float hip_roll_tilt = -0.271f;
   float hip_roll_rate_s = 0.0401f;
-  float swing_level = 0.61f;         ///< swing ankle turned back by this share of the tilt
-  float feedback_limit_rad = 0.25f;  ///< largest correction on any joint
-  float arm_swing = 0.6f;            ///< share of what legs turn about the vertical that arms take
+  float swing_level = 0.61f;         ///< share of the tilt by which the swing ankle turns back
+  float feedback_limit_rad = 0.25f;  ///< largest correction of any joint
+  float arm_swing = 0.6f;  ///< share of the legs' spin about the vertical that the arms cancel
   VERP_FIELDS(gravity_enable, inertia_share, friction_share, multibody_enable, feedback_enable,
               zeros_enable, ankle_pitch_tilt, ankle_pitch_rate_s, ankle_roll_tilt,
               ankle_roll_rate_s, hip_pitch_tilt, hip_pitch_rate_s, hip_roll_tilt, hip_roll_rate_s,
@@ -68,15 +70,17 @@ VERP_PACKED(BalanceTuning);
 
 /// Thresholds of the safety table.
 struct SafetyTuning {
-  float fall_tilt_rad = 0.8f;       ///< beyond this the robot has fallen: limp
-  float fall_confirm_s = 0.05f;     ///< tilt must last this long
-  float stale_hold_s = 0.05f;       ///< a servo or the IMU silent this long: stop the gait and hold
-  float stale_release_s = 0.5f;     ///< silent this long: sit, then release
-  float command_hold_s = 0.5f;      ///< operator silent this long: walk becomes stand
-  float command_release_s = 30.0f;  ///< operator silent this long: sit, then release
-  float rise_s = 1.0f;              ///< from the pose found at power-up to the stand
-  float sit_s = 1.5f;               ///< from the pose held to the sitting pose
-  float voltage_low_v = 9.6f;       ///< three lithium cells at 3.2 V
+  float fall_tilt_rad = 0.8f;    ///< larger tilt counts as a fall: limp
+  float fall_confirm_s = 0.05f;  ///< for which the tilt must last
+  float stale_hold_s =
+      0.05f;  ///< silence of a servo or the IMU after which the gait stops and the robot holds
+  float stale_release_s = 0.5f;  ///< silence after which the robot sits, then releases torque
+  float command_hold_s = 0.5f;   ///< operator silence after which a walk becomes a stand
+  float command_release_s =
+      30.0f;            ///< operator silence after which the robot sits, then releases torque
+  float rise_s = 1.0f;  ///< from the pose at power-up to the stand
+  float sit_s = 1.5f;   ///< from the held pose to the sitting pose
+  float voltage_low_v = 9.6f;        ///< three lithium cells at 3.2 V
   float temperature_high_c = 72.0f;  ///< X-series default shutdown is 80 degrees
   VERP_FIELDS(fall_tilt_rad, fall_confirm_s, stale_hold_s, stale_release_s, command_hold_s,
               command_release_s, rise_s, sit_s, voltage_low_v, temperature_high_c)

@@ -2,8 +2,8 @@
 #include "common/math/scalar.hpp"
 #include "common/model/tuning.hpp"
 
-/// What each number of Tuning may be, in the order of its fields. Inside these ranges every plan is
-/// finite and bounded in time; they are not a promise that the robot walks.
+/// Ranges of the tuning values, in field order. Inside them every plan is finite and bounded in
+/// time; the robot may still fall.
 namespace verp {
 
 struct Range {
@@ -53,7 +53,7 @@ inline constexpr Range kTuningRanges[] = {
     {0.2F, 1.5F},     // fall_tilt_rad
     {0.0F, 1.0F},     // fall_confirm_s
     {0.01F, 1.0F},    // stale_hold_s
-    {0.05F, 1.0F},    // stale_release_s: ages are kept up to 255 ticks
+    {0.05F, 1.0F},    // stale_release_s: ages count up to 255 ticks
     {0.05F, 60.0F},   // command_hold_s
     {0.1F, 3600.0F},  // command_release_s
     {0.2F, 10.0F},    // rise_s
@@ -70,7 +70,7 @@ constexpr bool in_range(int id, float value) {
          value <= kTuningRanges[id].high;
 }
 
-/// The numbers of a Tuning as one array; id is the index, in field order.
+/// A Tuning as an array of floats, indexed by parameter id.
 inline float tuning_value(const Tuning& tuning, int id) {
   float value;
   __builtin_memcpy(&value, reinterpret_cast<const unsigned char*>(&tuning) + 4 * id, 4);

@@ -4,20 +4,20 @@
 
 #include "common/base/fields.hpp"
 
-/// Digests of plain structs. Not cryptographic: they answer "are these two runs the same bits?".
+/// Digests of plain structs. Not cryptographic: they answer whether two runs have the same bits.
 namespace verp::record {
 
 static_assert(std::endian::native == std::endian::little, "byte images are little-endian");
 
 /// 32-bit digest over words. Rotate, xor, multiply: every bit of a word reaches every bit of the
-/// result within a few words (a word-wise FNV would let two sign bits cancel), at four instructions
-/// a word on a Cortex-M.
+/// result within a few words, at four instructions a word on a Cortex-M. (In a word-wise FNV two
+/// sign bits could cancel.)
 class Digest32 {
  public:
   constexpr explicit Digest32(std::uint32_t seed) : value_(seed) {}
   constexpr void add(std::uint32_t word) { value_ = (std::rotl(value_, 5) ^ word) * 0x9E3779B1u; }
 
-  /// Covers the whole struct, in memory order, which VERP_PACKED makes its canonical image.
+  /// Adds the whole struct in memory order: VERP_PACKED makes memory its canonical image.
   template <class T>
   void add_struct(const T& data) {
     static_assert(packed_size<T>() == sizeof(T) && sizeof(T) % 4 == 0);
@@ -28,7 +28,8 @@ class Digest32 {
       return loaded;
     };
     std::size_t at = 0;
-    for (; at + 16 <= sizeof(T); at += 16) {  // four a turn: the loop itself would cost a third
+    for (; at + 16 <= sizeof(T);
+         at += 16) {  // unrolled four times: the loop overhead would be a third of the cost
       add(word(at));
       add(word(at + 4));
       add(word(at + 8));
@@ -42,7 +43,7 @@ class Digest32 {
   std::uint32_t value_;
 };
 
-/// One link of the 64-bit chain: a run's last value names all that came before it.
+/// One link of the 64-bit chain. A run's last value identifies all earlier words.
 constexpr std::uint64_t chain(std::uint64_t previous, std::uint32_t word) {
   std::uint64_t mixed = (previous ^ word) * 0x9E3779B97F4A7C15ull;
   return mixed ^ (mixed >> 29);

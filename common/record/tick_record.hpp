@@ -13,8 +13,8 @@ inline constexpr int kStages = 7;
 inline constexpr const char* kStageNames[kStages] = {"admit",      "estimate", "plan", "balance",
                                                      "kinematics", "limit",    "gate"};
 
-/// Digests of one tick: each stage covers its own state and output; chain covers this tick and all
-/// before it.
+/// Digests of one tick. Each stage's digest covers its state and output; `chain` covers this tick
+/// and all earlier ones.
 struct TickDigest {
   std::uint64_t chain = 0;
   std::uint32_t stage[kStages] = {};
