@@ -7,7 +7,7 @@ namespace {
 
 using math::SinCos;
 
-// Pose of the last link that carries the sole where it should be.
+// Pose of the last link for a given sole pose.
 Pose foot_of_sole(const LegParams& leg, const Pose& sole) {
   Mat3 sole_foot;
   sole_foot << leg.sole_foot[0], leg.sole_foot[1], leg.sole_foot[2], leg.sole_foot[3],
@@ -18,15 +18,15 @@ Pose foot_of_sole(const LegParams& leg, const Pose& sole) {
   return foot;
 }
 
-// The angle whose sine and cosine are these but for a common factor, `norm`; 0 where there is no
-// direction in them.
+// Normalises a sine and cosine that share the factor `norm`. Angle 0 if `norm` is too small for a
+// direction.
 SinCos unit(float sin, float cos, float norm) {
   constexpr float kLeast = 1e-12F;
   return norm > kLeast ? SinCos{sin / norm, cos / norm} : SinCos{0.0F, 1.0F};
 }
 
-// Writes canonical angles as joint angles, held within the limits. Their sines are those known, but
-// where that is another angle's, or the sole is nowhere: no NaN or infinity passes a flag.
+// Converts canonical to joint angles, clamped to the limits. Recomputes sines if an angle was
+// clamped or shifted or the sole is out of reach, so that no NaN or infinity passes a flag.
 void to_joints(const Params& params, const LegParams& leg, const SinCos* canonical,
                LegAngles& result) {
   for (int k = 0; k < kLegJoints; ++k) {
@@ -42,7 +42,7 @@ void to_joints(const Params& params, const LegParams& leg, const SinCos* canonic
   }
 }
 
-// The knee from the triangle thigh, shank, hip-ankle distance (law of cosines).
+// Knee angle by the law of cosines from thigh, shank and hip-ankle distance.
 SinCos knee_of(const LegParams& leg, float distance_m, LegAngles& result) {
   const float sides_m2 = 2.0F * leg.thigh_m * leg.shank_m;
   const float cos =
@@ -57,7 +57,7 @@ SinCos knee_of(const LegParams& leg, float distance_m, LegAngles& result) {
 LegAngles solve_leg_closed_form(const Params& params, const LegParams& leg, const Pose& sole) {
   LegAngles result;
   const Pose foot = foot_of_sole(leg, sole);
-  // The hip seen from the ankle: ankle roll brings it into the leg's plane, ankle pitch onto the
+  // The hip seen from the ankle. Ankle roll brings it into the leg's plane, ankle pitch onto the
   // shank's side.
   const Vec3 hip_m = foot.rotation.transpose() * (math::to_vec(leg.hip_body_m) - foot.position_m);
   const float height_m = math::hypot(hip_m.y(), hip_m.z());
@@ -67,16 +67,14 @@ LegAngles solve_leg_closed_form(const Params& params, const LegParams& leg, cons
   const float distance_m = math::hypot(hip_m.x(), height_m);
   const SinCos knee = knee_of(leg, distance_m, result);
 
-  // Hip seen from the ankle again, with the ankle pitch joint at zero: the pitch turns this onto
-  // (x, along).
+  // The hip seen from the ankle at zero ankle pitch. The pitch turns this vector onto (x, along).
   const float bent_x_m = -leg.thigh_m * knee.sin;
   const float bent_z_m = leg.shank_m + leg.thigh_m * knee.cos;
   const float pitch_sin = bent_x_m * along_m - bent_z_m * hip_m.x();
   const float pitch_cos = bent_z_m * along_m + bent_x_m * hip_m.x();
   const SinCos pitch = unit(pitch_sin, pitch_cos, math::hypot(pitch_sin, pitch_cos));
 
-  // What is left of the foot's rotation once ankle and knee are undone is the hip's: Rz(yaw)
-  // Rx(roll) Ry(pitch).
+  // The foot's rotation without ankle and knee is the hip's: Rz(yaw) Rx(roll) Ry(pitch).
   const SinCos back_pitch{-(pitch.sin * knee.cos + pitch.cos * knee.sin),
                           pitch.cos * knee.cos - pitch.sin * knee.sin};
   Mat3 level;

@@ -3,11 +3,11 @@
 namespace verp::kinematics {
 namespace {
 
-constexpr int kIterations = 4;  // warm-started, two were enough on every six-joint leg tried
+constexpr int kIterations = 4;  // warm-started; two were enough on every six-joint leg tried
 constexpr float kMetresPerRadian =
-    0.1F;                          // makes an angle error comparable to a length error at the sole
-constexpr float kDamping = 1e-6F;  // m^2: keeps a straight knee from asking for infinite speed
-constexpr float kMaxStepRad = 0.3F;  // a step beyond this has left the linear range
+    0.1F;                            // makes angle errors at the sole comparable to length errors
+constexpr float kDamping = 1e-6F;    // m^2; keeps the step finite at a straight knee
+constexpr float kMaxStepRad = 0.3F;  // a larger step leaves the linear range
 constexpr float kPositionTolerance_m = 1e-4F;
 constexpr float kAngleTolerance_rad = 1e-3F;
 
@@ -25,8 +25,8 @@ Residual residual_of(const Pose& wanted, const Pose& reached) {
           math::rotation_vector(wanted.rotation * reached.rotation.transpose())};
 }
 
-// J^T J + damping and J^T e, with the angular rows scaled; written out because Eigen's products of
-// this size may take a blocked path.
+// Normal equations J^T J + damping and J^T e with scaled angular rows. Written out, because Eigen
+// may use a blocked product at this size.
 bool newton_step(const Mat6& jacobian, const Residual& residual, Vec6& step_rad) {
   Mat6 scaled;
   Vec6 error;
@@ -46,7 +46,7 @@ bool newton_step(const Mat6& jacobian, const Residual& residual, Vec6& step_rad)
   return math::solve_spd(normal, right, step_rad);
 }
 
-// A norm of NaN is 0 here and would pass for solved.
+// math::norm() of NaN is 0 and would look solved.
 bool is_pose(const Pose& sole) {
   return math::is_finite(sole.rotation.sum() + sole.position_m.sum());
 }

@@ -6,8 +6,8 @@
 namespace verp::kinematics {
 namespace {
 
-/// Where a joint stands when all joints are at zero, from the body's origin or from the joint
-/// `base`, if that is among its ancestors.
+/// Position of a joint with all joints at zero, from the body's origin or from its ancestor joint
+/// `base`.
 Vec3 place(const Params& params, int joint, int base) {
   Vec3 sum_m{0, 0, 0};
   for (int j = joint; j != base; j = params.joint[j].parent - 1) {
