@@ -2,16 +2,16 @@
 #include "common/model/params.hpp"
 #include "common/safety/machine.hpp"
 
-/// The last word on every goal: joint limits, joint speeds, and what the mode allows.
+/// Final limits on every goal: joint limits, joint speeds and the mode.
 namespace verp::safety {
 
-/// What a joint may be beyond its limits and torque still come: the goal is never beyond, so this
-/// is how far the joint is thrown. Less than the fastest one moves in a tick of a walk (8 rad/s, 10
-/// ms); more than a sagging joint is pressed into its stop.
+/// Torque is refused if a joint is further than this beyond its limits. The goal stays inside, so
+/// this bounds the jump when torque comes. Less than the fastest joint moves in a tick of a walk (8
+/// rad/s, 10 ms); more than a sagging joint presses into its stop.
 inline constexpr float kBeyond_rad = 0.05F;
 
 struct LimitState {
-  float goal_rad[kMaxJoints] = {};  ///< sent last
+  float goal_rad[kMaxJoints] = {};  ///< last goals sent
   VERP_FIELDS(goal_rad)
 };
 VERP_PACKED(LimitState);
@@ -19,23 +19,23 @@ VERP_PACKED(LimitState);
 struct LimitIn {
   Mode mode = Mode::kRelaxed;
   std::int32_t in_mode_us = 0;
-  std::uint16_t way_ms = 0;           ///< as the tick before found, while rising and sitting down
-  const float* wanted_rad = nullptr;  ///< by the gait, joint_count of them
-  const std::int32_t* position_count = nullptr;  ///< where the joints are, as last reported
+  std::uint16_t way_ms = 0;  ///< from the previous tick's LimitOut, while rising and sitting down
+  const float* wanted_rad = nullptr;             ///< goals by the gait, joint_count of them
+  const std::int32_t* position_count = nullptr;  ///< last reported
   const SafetyTuning* tuning = nullptr;
 };
 
 struct LimitOut {
   bool slowed = false;       ///< a speed limit took effect while standing or walking
-  bool beyond = false;       ///< without torque, and joint_beyond() names one
-  std::uint16_t way_ms = 0;  ///< LimitIn's, or, in the first tick, how long the way takes
+  bool beyond = false;       ///< torque is off and joint_beyond() names a joint
+  std::uint16_t way_ms = 0;  ///< duration of the way: computed in the first tick, else LimitIn's
 };
 
-/// The first joint that is further beyond its limits than kBeyond_rad; kMaxJoints: none.
+/// First joint further beyond its limits than kBeyond_rad; kMaxJoints if none.
 int joint_beyond(const Params& params, const std::int32_t* position_count);
 
-/// Sets state.goal_rad for this tick. A rise or sitting down lasts rise_s or sit_s, or for as long
-/// as its longest way takes at the joint's speed limit.
+/// Sets state.goal_rad for this tick. Rising or sitting lasts rise_s or sit_s, or longer if a
+/// joint's speed limit requires it.
 LimitOut limit(const Params& params, LimitState& state, const LimitIn& in);
 
 }  // namespace verp::safety

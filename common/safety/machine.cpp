@@ -17,20 +17,20 @@ constexpr std::uint32_t kMayRest = bit(Mode::kRising) | bit(Mode::kStanding) | b
 }  // namespace
 
 constexpr Row kTable[] = {
-    // What can't wait.
+    // Emergencies.
     {kAny & ~bit(Mode::kStopped), kEmergency, 0, Mode::kStopped},
     {bit(Mode::kStopped), kAskRelax, kEmergency, Mode::kRelaxed},
     {kUpright, kFell, 0, Mode::kFallen},
     {bit(Mode::kFallen), kAskRelax, 0, Mode::kRelaxed},
-    // Silence: hold, then sit, then release; at once if the operator has seen enough, or if servos
-    // or supply are in trouble.
+    // Silence: hold, then sit, then release torque. Sit at once if the operator asks to relax, or
+    // servos or supply are in trouble.
     {kMoving | bit(Mode::kGettingUp), kStale, 0, Mode::kHolding},
     {bit(Mode::kHolding), kLost, 0, Mode::kSitting},
     {kMayRest, kAskRelax, 0, Mode::kSitting},
     {kMayRest, kPowerBad, kStale, Mode::kSitting},
     {bit(Mode::kHolding), 0, kStale, Mode::kRising},
     {bit(Mode::kStanding), kOperatorGone, 0, Mode::kSitting},
-    // What the operator asks for.
+    // The operator's requests.
     {bit(Mode::kRelaxed), kAskStand | kServosKnown,
      kFell | kStale | kOperatorQuiet | kPowerBad | kJointBeyond, Mode::kRising},
     {bit(Mode::kRising), kTimeUp, 0, Mode::kStanding},
@@ -40,11 +40,11 @@ constexpr Row kTable[] = {
     {bit(Mode::kWalking), kGaitOver | kOperatorQuiet, 0, Mode::kStanding},
     {bit(Mode::kWalking), kGaitOver | kPowerBad, 0, Mode::kStanding},
     {bit(Mode::kSitting), kTimeUp, 0, Mode::kRelaxed},
-    // Actions begin and end standing; one that is told to stop finds its way there first.
+    // Actions begin and end standing. A stopped action first returns to the stand.
     {bit(Mode::kStanding), kAskAction | kCalibrated, kOperatorQuiet | kPowerBad, Mode::kActing},
     {bit(Mode::kActing), kTimeUp, 0, Mode::kStanding},
-    // A fall, from before the ground is met. These rows may stand last: a fall that another row
-    // hides is seen again in the next tick.
+    // A fall, seen before impact. These rows may come last: a fall hidden by an earlier row is seen
+    // again next tick.
     {kMayFall, kFallSeen, kStale, Mode::kFalling},
     {bit(Mode::kFalling), kTimeUp | kFell, 0, Mode::kFallen},
     {bit(Mode::kFalling), kTimeUp, 0, Mode::kHolding},
