@@ -1,18 +1,19 @@
 #include "tests/host/bus/app_fixture.hpp"
 
-// Servos whose torque is not what they were told.
+// Servos whose torque may differ from the last command.
 namespace verp::test {
 namespace {
 
 using DoubtedServos = AppLoop;
 
-// A loose plug: the servo is back limp, with the factory's gains and no profile. Torque would throw
-// it at its goal: it counts as gone until the robot has let go, and only then gets what it lacks.
+// After a loose plug the servo is back limp, with factory gains and no profile, and torque would
+// throw it at its goal. It counts as gone until the robot has let go; only then does the loop
+// restore its registers.
 TEST_F(DoubtedServos, AServoThatLostItsPowerIsGoneUntilTheRobotHasLetGo) {
   ready();
   wanted.torque_enable = all();
   ticks(5);
-  const int lost[] = {1, 3, 5, 8, 11, 12};  // more than a tick has room for
+  const int lost[] = {1, 3, 5, 8, 11, 12};  // more than fit into one tick
   std::uint32_t lost_bits = 0;
   for (int joint : lost) {
     lost_bits |= 1u << joint;
@@ -42,8 +43,8 @@ TEST_F(DoubtedServos, AServoThatLostItsPowerIsGoneUntilTheRobotHasLetGo) {
   }
 }
 
-// Those that only could not be heard keep what they hold, and soon count again: a cable that was
-// out must not end a walk.
+// Servos that were only silent keep their torque and soon count again: a loose cable must not end a
+// walk.
 TEST_F(DoubtedServos, ServosThatWereOnlySilentKeepTheirTorqueAndCountAgain) {
   ready();
   wanted.torque_enable = all();
@@ -58,7 +59,7 @@ TEST_F(DoubtedServos, ServosThatWereOnlySilentKeepTheirTorqueAndCountAgain) {
   EXPECT_EQ(app.inputs().fresh, all());
 }
 
-// A robot that shall be limp is, however much is doubted.
+// A command to let go reaches every servo, doubted or not.
 TEST_F(DoubtedServos, ADoubtedServoIsLetGoAllTheSame) {
   ready();
   wanted.torque_enable = all();
@@ -71,7 +72,7 @@ TEST_F(DoubtedServos, ADoubtedServoIsLetGoAllTheSame) {
   for (int j = 0; j < kJoints; ++j) EXPECT_FALSE(plant.setpoint(j).torque_on) << j;
 }
 
-// One that shut off its torque would let the robot walk on without a knee.
+// Otherwise the robot would walk on with a limp knee.
 TEST_F(DoubtedServos, AServoThatShutItsTorqueOffIsGoneUntilItIsRebooted) {
   ready();
   wanted.torque_enable = all();
@@ -80,7 +81,7 @@ TEST_F(DoubtedServos, AServoThatShutItsTorqueOffIsGoneUntilItIsRebooted) {
   ticks(kJoints + 1);
   ASSERT_FALSE(plant.setpoint(3).torque_on);
   EXPECT_EQ(app.inputs().fresh, all() & ~(1u << 3));
-  plant.measured[3].temperature_c = 40;  // its error stays
+  plant.measured[3].temperature_c = 40;  // the error stays latched
   wanted.torque_enable = 0;
   ticks(20);
   EXPECT_EQ(app.inputs().fresh, all() & ~(1u << 3)) << "nothing may rise on it";

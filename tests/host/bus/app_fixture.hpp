@@ -10,15 +10,15 @@
 #include "host/bus/virtual_bus.hpp"
 #include "tests/host/bus/fake_plant.hpp"
 
-/// The control loop on a virtual bus, with a mind that wants what a test says. For one source file
-/// a program: it defines step().
+/// The control loop on a virtual bus, whose outputs the test sets. Each source file is its own
+/// program, because this header defines step().
 namespace verp {
 
 namespace test {
 inline Outputs wanted;  // what step() asks for
 }
 
-// Stands in for the core's step() at link time: the loop is tested without a robot's mind.
+// Replaces the core's step() at link time: the test alone decides the outputs.
 void step(const Params&, const action::Library&, State& state, const Inputs&,
           Outputs& outputs) noexcept {
   ++state.digest.chain;
@@ -41,7 +41,7 @@ struct Memory {
   std::vector<TickRecord> records;
 };
 
-/// Passes frames on and lets a test lose, hear or add some.
+/// Passes frames on; a test can lose, record or corrupt them.
 struct Tap {
   bool send(const std::uint8_t* data, std::size_t size) {
     frames.emplace_back(data, data + size);
@@ -64,9 +64,9 @@ struct Tap {
   bus::VirtualBus& bus;
   std::vector<std::vector<std::uint8_t>> frames;
   int lose_sends = 0;
-  std::set<std::size_t> lost{};  ///< frames that nobody hears, by their number in `frames`
+  std::set<std::size_t> lost{};  ///< indices in `frames` of lost frames
   int polls = 0;
-  unsigned faults_per_mille = 0;  ///< of received bytes: half are lost, half are changed
+  unsigned faults_per_mille = 0;  ///< share of received bytes: half lost, half changed
   std::minstd_rand noise{};
 };
 

@@ -6,7 +6,7 @@ namespace {
 
 using AppInTrouble = AppLoop;
 
-// A controller was reset in mid-walk, and one servo is gone: the others must not stay stiff for it.
+// The controller was reset in mid-walk and one servo is gone: bring-up must release the others.
 TEST_F(AppInTrouble, ABringUpThatFailsLeavesNobodyStiff) {
   ready();
   wanted.torque_enable = all();
@@ -46,7 +46,7 @@ TEST_F(AppInTrouble, ALostTorqueFrameIsMadeGood) {
   wanted.torque_enable = all();
   ticks(5);
   wanted.torque_enable = 0;
-  tap.lose_sends = 3;  // both reads and the frame that takes the torque away
+  tap.lose_sends = 3;  // both reads and the frame that turns torque off
   ticks(1);
   EXPECT_TRUE(plant.setpoint(0).torque_on);
   ticks(2);
@@ -115,7 +115,7 @@ TEST_F(AppInTrouble, AMissedPeriodIsSkippedAndReported) {
   ready();
   ticks(3);
   std::uint8_t byte = 0;
-  bus.poll(&byte, 1, 2 * params.period_us);  // something else held the bus
+  bus.poll(&byte, 1, 2 * params.period_us);  // another device held the bus
   ticks(1);
   EXPECT_EQ(app.inputs().tick, 5u) << "ticks 3 and 4 had no time";
   EXPECT_EQ(bus.tick(), 5u);
@@ -124,7 +124,7 @@ TEST_F(AppInTrouble, AMissedPeriodIsSkippedAndReported) {
   EXPECT_EQ(app.inputs().flags & kOverrun, 0);
 }
 
-// A loop that is paced by a clock stands on that clock's ticks, and says when it was late.
+// A loop paced by a clock takes its tick number from the clock and reports overruns.
 TEST_F(AppInTrouble, AClocksTicksAreTakenAsTheyAre) {
   ready();
   ticks(1);
@@ -142,8 +142,8 @@ TEST_F(AppInTrouble, AClocksTicksAreTakenAsTheyAre) {
   EXPECT_EQ(app.inputs().flags & kOverrun, 0);
 }
 
-// An IMU on the controller's board is read in place of one on the bus, and a sample it does not
-// give is not fresh.
+// The loop reads the IMU on the controller's board only if the bus has none. A missing sample is
+// not fresh.
 TEST_F(AppInTrouble, AnImuOnTheBoardIsReadIfTheBusHasNone) {
   hal::ScriptedImu chip;
   app::App<Tap, Script, Memory, hal::ScriptedImu> on_bus{params, tap, script, memory, &chip};
@@ -164,7 +164,7 @@ TEST_F(AppInTrouble, AnImuOnTheBoardIsReadIfTheBusHasNone) {
   EXPECT_EQ(without.inputs().flags & kImuFresh, 0);
 }
 
-// Chosen by the operator on a board that has both, but never under a robot that stands on it.
+// On a board with both IMUs the operator chooses, but never while the robot has torque.
 TEST_F(AppInTrouble, TheChipOrTheBusSteersAsChosenBeforeTorqueComesOn) {
   ready();
   hal::ScriptedImu chip;
@@ -194,8 +194,7 @@ TEST_F(AppInTrouble, TheChipOrTheBusSteersAsChosenBeforeTorqueComesOn) {
   EXPECT_EQ(gyro_x(), 1);
 }
 
-// Lost and changed bytes make values stale; none ever becomes a position, and none costs the loop
-// its time.
+// Lost and changed bytes make values stale. None becomes a position, and none delays the loop.
 TEST_F(AppInTrouble, NoiseMakesValuesStaleButNeverWrong) {
   ready();
   for (int j = 0; j < kJoints; ++j) {

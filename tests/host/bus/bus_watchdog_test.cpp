@@ -1,7 +1,7 @@
 #include "tests/host/bus/app_fixture.hpp"
 
-/// When the whole bus is lost the servos act alone: each stops where it is, and takes no goal until
-/// it is told that somebody watches again.
+/// When the whole bus is lost, each servo stops where it is and takes no goal until the controller
+/// rearms its watchdog.
 namespace verp::test {
 namespace {
 
@@ -52,14 +52,13 @@ TEST_F(BusWatchdog, StopsTheServoWhereItIsWhenNoPacketComes) {
   quiet(4 * kUnit);
   EXPECT_EQ(watchdog(1), 5);
   plant.measured[0].position_count = 1234;
-  plant.setpoint(0).goal_count = 1234;  // so far it has got
+  plant.setpoint(0).goal_count = 1234;  // the position it has reached so far
   quiet(6 * kUnit);
   EXPECT_EQ(watchdog(1), dxl::kBusWatchdogTripped);
   EXPECT_EQ(plant.setpoint(0).goal_count, 1234);
   EXPECT_TRUE(plant.setpoint(0).torque_on) << "it holds";
 }
 
-// Any instruction on the bus will do, whomever it is for.
 TEST_F(BusWatchdog, IsFedByAnyPacket) {
   EXPECT_EQ(write(1, at::kBusWatchdog, {5}), 0);
   EXPECT_EQ(write(1, at::kTorqueEnable, {1}), 0);
@@ -108,7 +107,7 @@ TEST_F(BusWatchdog, ARobotCutOffForSecondsArmsAgain) {
   ready();
   wanted.torque_enable = all();
   ticks(5);
-  quiet(2'000'000);  // the controller is gone, and comes back as from a crash
+  quiet(2'000'000);  // the controller crashes and restarts
   EXPECT_TRUE(tripped(0) && tripped(kJoints - 1));
   ready();
   wanted.torque_enable = 0;
@@ -120,7 +119,7 @@ TEST_F(BusWatchdog, ARobotCutOffForSecondsArmsAgain) {
   EXPECT_EQ(plant.setpoint(4).goal_count, 2500);
 }
 
-// Bus and torque come back in the same tick: no servo wakes up deaf to its goals.
+// Bus and torque come back in the same tick: every servo accepts its goal.
 TEST_F(BusWatchdog, ARobotThatArmsAsSoonAsTheBusIsBackMoves) {
   ready();
   wanted.torque_enable = all();
@@ -137,8 +136,8 @@ TEST_F(BusWatchdog, ARobotThatArmsAsSoonAsTheBusIsBackMoves) {
   for (int j = 0; j < kJoints; ++j) EXPECT_EQ(plant.setpoint(j).goal_count, 2500) << j;
 }
 
-// The bus comes back while the robot still has torque, as when it sits down after a loss: it must
-// not stay deaf until it lets go. One lost frame does not matter.
+// The bus comes back while the robot still has torque, for example while it sits down after a loss.
+// The servos must accept goals again before torque goes off. One lost frame does not matter.
 TEST_F(BusWatchdog, ARobotWhoseBusComesBackUnderTorqueMoves) {
   ready();
   wanted.torque_enable = all();
@@ -155,7 +154,7 @@ TEST_F(BusWatchdog, ARobotWhoseBusComesBackUnderTorqueMoves) {
     EXPECT_EQ(watchdog(params.joint[j].servo_id), app::bus_watchdog_units(params)) << j;
 }
 
-// One servo is plugged in again: it had no ears meanwhile.
+// One servo is plugged in again; it missed every frame meanwhile.
 TEST_F(BusWatchdog, AServoThatComesBackAloneMoves) {
   ready();
   wanted.torque_enable = all();
@@ -168,7 +167,7 @@ TEST_F(BusWatchdog, AServoThatComesBackAloneMoves) {
   EXPECT_EQ(plant.setpoint(4).goal_count, 2500);
 }
 
-// A host that was late for longer than the watchdogs wait: the servos hold, then follow again.
+// The host paused for longer than the watchdogs wait: the servos hold, then follow again.
 TEST_F(BusWatchdog, APauseOfTheControllerLeavesNoServoBehind) {
   ready();
   wanted.torque_enable = all();

@@ -8,7 +8,7 @@
 
 namespace verp::test {
 
-/// A plant whose joints jump to their goals and whose every value tells when it was sampled.
+/// A plant whose joints jump to their goals. Each measured value encodes its sampling time.
 class FakePlant final : public sim::Plant {
  public:
   std::uint64_t now_us() const override { return now_us_; }
@@ -40,7 +40,7 @@ class FakePlant final : public sim::Plant {
   std::array<std::uint64_t, kMaxJoints> sampled_us{};
   sim::ServoRating rated{};
   sim::ImuMeasurement motion{{1, -2, 3}, {-4, 5, 4096}};
-  std::array<bool, kMaxJoints> blocked{};  ///< stays where it is
+  std::array<bool, kMaxJoints> blocked{};  ///< the joint does not move
   bool went_back = false;
 
  private:

@@ -24,7 +24,7 @@ LinkDelay held(double time_us) {
       .asked = 80, .answered = 80, .median_us = time_us, .p90_us = time_us, .worst_us = time_us};
 }
 
-/// /sys with one USB adapter whose latency timer is set to `time_ms`.
+/// A /sys tree with one USB adapter whose latency timer is `time_ms`.
 struct Sys {
   explicit Sys(int time_ms) {
     const fs::path adapter = root / "bus/usb-serial/devices/ttyUSB7";
@@ -39,7 +39,7 @@ struct Sys {
 const wire::Endpoint kAdapter{wire::Endpoint::Kind::kSerial, "/dev/ttyUSB7", 2'000'000, 0};
 const wire::Endpoint kSocket{wire::Endpoint::Kind::kUnix, "/tmp/twin", 0, 0};
 
-// Whoever gives up, at once or in the middle of the search, was not told that no servo answers.
+// A user who cancels the search, at once or midway, gets no report of a silent servo.
 TEST(LinkFit, GivingUpTheSearchForAServoIsNoFaultOfTheRobot) {
   const std::string place =
       (fs::temp_directory_path() / ("verp-fit-bus-" + std::to_string(::getpid()))).string();
@@ -58,9 +58,8 @@ TEST(LinkFit, GivingUpTheSearchForAServoIsNoFaultOfTheRobot) {
   EXPECT_THROW(measure_delay(client, params, [] { return false; }), DeviceError);
 }
 
-// For robots of any size, rate and period: a tick on a link that fits, each of whose two reads is
-// held up as long as is waited for, with nobody answering, ends within the period; and one that
-// does not fit could not.
+// Robots of any size, rate and period. On a link that fits, a tick in which both reads time out
+// ends within the period. A link that does not fit could not keep it.
 TEST(LinkFit, WhatFitsEndsWithinThePeriod) {
   std::minstd_rand random(3);
   int fitting = 0;
@@ -84,7 +83,7 @@ TEST(LinkFit, WhatFitsEndsWithinThePeriod) {
   EXPECT_LT(fitting, 1800);
 }
 
-// What the reference robot's owner will plug in: an adapter with its latency timer at 1 ms.
+// The expected adapter of the reference robot: latency timer 1 ms.
 TEST(LinkFit, OneMillisecondEachWayFitsTwentyOneServosAt100Hz) {
   Params params = verp::test::bus_params(21, true);
   params.baud = 2'000'000;
@@ -93,7 +92,7 @@ TEST(LinkFit, OneMillisecondEachWayFitsTwentyOneServosAt100Hz) {
   EXPECT_FALSE(fit(params, held(5000)).fits()) << "nor could two reads of 5 ms";
 }
 
-// Nothing heard is not "no delay".
+// No answer does not mean no delay.
 TEST(LinkFit, WithoutAnAnswerNothingFits) {
   const LinkFit silent = fit(verp::test::bus_params(3), {.asked = 80});
   EXPECT_LT(silent.needed_us(), LinkFit::kUsable * silent.period_us) << "zeros would";
@@ -101,7 +100,7 @@ TEST(LinkFit, WithoutAnAnswerNothingFits) {
   EXPECT_FALSE(silent.fits_well());
 }
 
-// The period that is offered is the shortest in which the link fits, and one that a robot may have.
+// The offered period is the shortest that fits and that a robot may have.
 TEST(LinkFit, ThePeriodOfferedFitsAndAShorterOneDoesNot) {
   for (double delay_us = 0; delay_us < 12000; delay_us += 100) {
     Params params = verp::test::bus_params(21);
@@ -141,7 +140,7 @@ TEST(LinkFit, TheRemedyNamesTheAdaptersTimerThePeriodAndTheRate) {
   EXPECT_NE(remedy(hopeless, params, kSocket, sys.folder()).find("adapter"), std::string::npos);
 }
 
-// The twin in real time: only an adapter that is known to be too slow is turned away.
+// In real time, the twin rejects an adapter only if it is known to be too slow.
 TEST(LinkFit, ASlowAdapterIsTurnedAwayByTheTwin) {
   const Params params = verp::test::bus_params(21);
   {
@@ -156,7 +155,7 @@ TEST(LinkFit, ASlowAdapterIsTurnedAwayByTheTwin) {
   EXPECT_EQ(adapter_too_slow(params, kAdapter, "/nowhere"), "") << "no such adapter";
 }
 
-// However the missing IMU would be mounted: the controller learns of a body that stands upright.
+// Whatever the missing IMU's mounting, the controller sees an upright body.
 TEST(AssumedImu, SaysUprightInTheMountingOfTheModel) {
   std::minstd_rand random(5);
   std::uniform_real_distribution<float> angle(-3.0F, 3.0F);

@@ -14,7 +14,7 @@
 namespace verp {
 namespace {
 
-/// An operator's port: holds the order that the PC gave last.
+/// An operator's port: returns the PC's last order once.
 struct Port {
   app::OperatorOrder order(std::uint32_t) {
     const app::OperatorOrder order = next;
@@ -58,7 +58,7 @@ class Lockstep : public ::testing::Test {
     for (int i = 0; i < ticks; ++i) loop.tick();
     std::uint8_t none[1];
     ending = true;
-    // The end of the last tick is known by the beginning of another.
+    // Only the next tick's first frame tells the server that the last tick has ended.
     const std::uint8_t ids[] = {1, 2};
     std::uint8_t frame[32];
     const std::size_t size = dxl::encode_sync_read(frame, sizeof frame, dxl::Instruction::kSyncRead,
@@ -105,8 +105,8 @@ class Lockstep : public ::testing::Test {
   Loop loop{params, bus, port, port};
 };
 
-// The same robot, the same orders: whether the controller is in this process or at the end of a
-// link, each tick's inputs and digests are the same bits; and the PC knows them.
+// In this process or at the end of a link, the controller produces the same inputs and digests, bit
+// for bit. The PC's shadow reproduces them.
 TEST_F(Lockstep, RecordsWhatTheLoopInThisProcessRecords) {
   run();
   EXPECT_TRUE(same(port.records, records_here(params)));
@@ -115,7 +115,7 @@ TEST_F(Lockstep, RecordsWhatTheLoopInThisProcessRecords) {
   EXPECT_EQ(server.counters().repeats + bus.counters().repeats, 0u);
 }
 
-// A person's, not a controller's: before any hello, and while there is none at all.
+// A user writes this register, before any hello or without any controller.
 TEST(SetUpright, IsARegisterOfTheTwinsClock) {
   const Params params = test::bus_params(2);
   test::FakePlant plant;
@@ -144,7 +144,7 @@ TEST(SetUpright, IsARegisterOfTheTwinsClock) {
   EXPECT_EQ(error_of(1), dxl::Error::kResultFail);
 }
 
-// What is damaged on the way to the controller is asked for again, and no bit of the run changes.
+// The controller repeats its request for a damaged answer, so no bit of the run changes.
 TEST_F(Lockstep, MakesGoodWhatTheLinkSpoilsOnTheWayToTheController) {
   const std::vector<TickRecord> expected = records_here(params);
   link.inbound = {.lost = 0.002, .doubled = 0.002, .flipped = 0.002};
@@ -156,8 +156,8 @@ TEST_F(Lockstep, MakesGoodWhatTheLinkSpoilsOnTheWayToTheController) {
   EXPECT_LE(server.counters().repeats, bus.counters().repeats);
 }
 
-// A frame that is damaged on its way is damaged on the bus, no more: the loop goes on, and the PC
-// still knows every bit of the controller.
+// A frame damaged on the link is a damaged frame on the bus, no more. The loop goes on, and the
+// PC's shadow still matches the controller.
 TEST_F(Lockstep, LetsADamagedFrameBeLostOnTheBus) {
   link.outbound = {.lost = 0.001, .doubled = 0.001, .flipped = 0.001};
   run();
@@ -166,11 +166,10 @@ TEST_F(Lockstep, LetsADamagedFrameBeLostOnTheBus) {
   EXPECT_EQ(bus.counters().damaged, server.counters().damaged);
   EXPECT_GT(loop.counters().timeouts, 0u);
   EXPECT_EQ(shadow.difference(), "");
-  shadow_records.resize(port.records.size());  // the ending may have taken one more
+  shadow_records.resize(port.records.size());  // the loop above may have ended one more tick
   EXPECT_TRUE(same(shadow_records, port.records));
 }
 
-// Whatever the link does, the exchange goes on and both ends agree.
 TEST_F(Lockstep, NeverHangsOnAVeryBadLink) {
   link.outbound = link.inbound = {.lost = 0.01, .doubled = 0.01, .flipped = 0.01};
   ASSERT_EQ(bus.greet(params), lockstep::Verdict::kAccepted);
@@ -186,7 +185,7 @@ TEST_F(Lockstep, NeverHangsOnAVeryBadLink) {
   EXPECT_GT(link.faults, 500u);
 }
 
-// A link that is cut stops time; once restored, the run goes on as if nothing had been.
+// A cut link stops time; once restored, the run continues unchanged.
 TEST_F(Lockstep, WaitsOutACutLinkWithoutASingleTimeout) {
   const std::vector<TickRecord> expected = records_here(params);
   link.cut_every = 37;
@@ -196,7 +195,7 @@ TEST_F(Lockstep, WaitsOutACutLinkWithoutASingleTimeout) {
   EXPECT_GT(server.counters().repeats, 10u);
 }
 
-// A twin that ends in the middle of a tick may be gone before that tick's next poll.
+// A twin that stops in mid-tick may be gone before the tick's next poll.
 TEST_F(Lockstep, EndsTheTickWithATwinThatHungUpBehindItsStop) {
   run(5);
   ASSERT_TRUE(bus.stopped());
@@ -248,7 +247,7 @@ TEST_F(Lockstep, RefusesOtherParamsByName) {
   EXPECT_EQ(bus.greet(params), lockstep::Verdict::kAccepted);
 }
 
-// Somebody else's controller, which has no core of ours to name.
+// A third-party controller has no core version of ours to report.
 TEST_F(Lockstep, MeetsAStrangerWhereNobodyComparesBits) {
   const lockstep::Hello stranger;
   const auto verdict = [&] {
@@ -265,7 +264,8 @@ TEST_F(Lockstep, MeetsAStrangerWhereNobodyComparesBits) {
   EXPECT_EQ(verdict(), lockstep::Verdict::kAccepted);
 }
 
-// Serial and CAN ask this of each Hello: a version is one digest (tests/golden/core_versions.txt).
+// Serial and CAN check the core version in each Hello: one version stands for one digest
+// (tests/golden/core_versions.txt).
 TEST_F(Lockstep, RefusesAnotherCoreByName) {
   lockstep::Hello theirs{.core_version = kCoreVersion,
                          .params_size = sizeof(Params),

@@ -10,15 +10,14 @@
 #include "host/bus/virtual_bus.hpp"
 #include "tests/host/bus/fake_plant.hpp"
 
-// The modem on a robot's bus: what is said by a Write and heard by a Read, and what becomes of
-// rubbish.
+// The modem on a robot's bus: sending by Write, receiving by Read, and malformed input.
 
 namespace verp::bus {
 namespace {
 
 using Bytes = std::vector<std::uint8_t>;
 
-/// Takes everything for number 0 to 2, and brings what it is given.
+/// Accepts messages for numbers 0 to 2, and delivers queued ones.
 struct Air final : Aerial {
   std::uint8_t number() const override { return 2; }
   std::uint8_t most_bytes() const override { return 90; }
@@ -45,7 +44,7 @@ class Modem : public ::testing::Test {
     bus.add(std::move(device));
   }
 
-  /// Its answer: error, then data; empty: none.
+  /// The modem's answer: error, then data; empty if there is none.
   Bytes answer(const Bytes& frame) {
     bus.send(frame.data(), frame.size());
     Bytes bytes(512);
@@ -128,7 +127,7 @@ TEST_F(Modem, RubbishToItsAddressIsAnsweredAsAServoWould) {
   for (int i = 0; i < 3000; ++i) {
     Bytes data(random() % 120);
     for (std::uint8_t& each : data) each = static_cast<std::uint8_t>(random());
-    const auto address = static_cast<std::uint16_t>(64 + random() % 600);  // id and rate stay
+    const auto address = static_cast<std::uint16_t>(64 + random() % 600);  // keeps id and rate
     Bytes frame(512);
     frame.resize(random() % 2 == 0
                      ? dxl::encode_write(frame.data(), frame.size(), modem::kId, address,

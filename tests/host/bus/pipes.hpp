@@ -10,7 +10,7 @@
 
 namespace verp::test {
 
-/// One pipe; closed at the end of its life.
+/// One pipe; the destructor closes it.
 class Pipe {
  public:
   Pipe() {
@@ -38,7 +38,7 @@ struct PipePair {
   Pipe to_controller;
 };
 
-/// A stream as firmware/app/remote_bus.hpp wants it.
+/// A stream for firmware/app/remote_bus.hpp.
 struct PipeEnd {
   std::size_t read_some(void* data, std::size_t capacity) {
     const ssize_t count = ::read(pipe.read_end(), data, capacity);
@@ -57,7 +57,7 @@ struct PipeEnd {
   Pipe& pipe;
 };
 
-/// What a bus::BusServer at the other end takes.
+/// The streams of the bus::BusServer at the other end.
 inline bus::ByteStreams server_streams(PipePair& pipes) {
   return {
       .read_some = [end = PipeEnd{pipes.from_controller}](

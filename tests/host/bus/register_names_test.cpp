@@ -33,8 +33,8 @@ TEST(RegisterNames, EveryKnownModelHasANameAndOrderedRegisters) {
   }
 }
 
-// The sizes of one register after the other leave no room for a mistake: where the e-Manual has no
-// gap, neither have the names.
+// Consecutive registers check each other's sizes: where the e-Manual has no gap, our table has
+// none.
 TEST(RegisterNames, ServoRegistersHaveTheManualsSizes) {
   const auto size = [](const char* name) {
     return find_register(dxl::kModelXm430W350, name)->bytes();
@@ -47,7 +47,7 @@ TEST(RegisterNames, ServoRegistersHaveTheManualsSizes) {
   EXPECT_EQ(size("homing_offset"), 4u);
 }
 
-// Its messages are for controllers; one register is for people.
+// The clock's messages are for controllers; users need one register.
 TEST(RegisterNames, TheTwinsClockIsNamed) {
   EXPECT_EQ(model_name(lockstep::kClockModel), "twin's clock");
   const NamedRegister* upright = find_register(lockstep::kClockModel, "set_upright");
@@ -68,8 +68,8 @@ TEST(RegisterNames, TheControllersPageIsWhatTheTableSays) {
       << "out of date: ./verp bus registers > firmware/app/registers.md";
 }
 
-// Each bit that the e-Manual gives a meaning (Hardware Error Status, 70) has its own words, and no
-// bit goes unsaid.
+// Each bit that the e-Manual defines (Hardware Error Status, 70) has its own words. An unknown bit
+// is printed too.
 TEST(RegisterNames, HardwareErrorsAreToldInWords) {
   EXPECT_EQ(hardware_errors(0x01), "input voltage");
   EXPECT_EQ(hardware_errors(0x04 | 0x20), "overheating, overload");

@@ -192,7 +192,7 @@ TEST_F(VirtualBus, RefusesWritesAsTheProtocolSays) {
 }
 
 TEST_F(VirtualBus, ARefusedWriteChangesNothing) {
-  // Return delay and drive mode are good, the operating mode is not.
+  // Return delay and drive mode are valid; the operating mode is not.
   EXPECT_EQ(write(1, at::kReturnDelay, {0, 4, 99}), code(dxl::Error::kDataRange));
   EXPECT_EQ(read(1, at::kReturnDelay, 3).data, (Bytes{250, 0, 3}));
 }
@@ -293,7 +293,8 @@ TEST_F(VirtualBus, StatusLevelOneAnswersReadsButNotWrites) {
   EXPECT_EQ(read(1, at::kLed, 1).data, Bytes{1});
 }
 
-// A wait that began at power-up is long over by then: a master would wait for ever.
+// The timeout counts from the request. Counted from power-up, it would be over at once and a master
+// would wait forever.
 TEST_F(VirtualBus, AWaitForNobodysAnswerEndsItsTimeAfterTheRequest) {
   for (const bool real_time : {false, true}) {
     bus::VirtualBus line{params, plant};

@@ -11,7 +11,7 @@
 
 #include "common/protocol/canopen/sdo.hpp"
 
-// What a PC finds out about nodes by SDO, and what it says of one that no longer answers.
+// What a PC learns about nodes by SDO, and how it reports a node that stops answering.
 namespace verp::can {
 namespace {
 
@@ -31,7 +31,7 @@ struct Object {
   }
 };
 
-/// Nodes whose objects have four bytes each. Waiting takes none of the test's time.
+/// Nodes whose objects have four bytes each. Waiting takes no wall time.
 class FakeNodes final : public ClientBus {
  public:
   bool send(const CanFrame& frame) override {
@@ -43,7 +43,7 @@ class FakeNodes final : public ClientBus {
     by_further += further ? 1 : 0;
     const int times = ++asked[object];
     if (silent && silent(object, times)) return true;
-    if (!holds.contains({object.node, {0x1000, 0}})) return true;  // nobody has this id
+    if (!holds.contains({object.node, {0x1000, 0}})) return true;  // no node has this id
     answers_.push_back(answer(object));
     if (further) answers_.back().id = 0x6C2;
     if (after_answer) after_answer(object);
@@ -70,11 +70,11 @@ class FakeNodes final : public ClientBus {
   }
 
   void say(const CanFrame& frame) { answers_.push_back(frame); }
-  /// What somebody else on the bus asked for.
+  /// The answer to another client's request.
   void overhear(const Object& object) { answers_.push_back(answer(object)); }
 
-  bool has_further_channel = false;  ///< node 127, by 1202h
-  int by_further = 0;                ///< requests
+  bool has_further_channel = false;  ///< node 127 has the channel of 1202h
+  int by_further = 0;                ///< requests by that channel
   std::map<Object, std::uint32_t> holds;
   std::map<Object, int> asked;
   std::function<bool(const Object&, int times)> silent;  ///< whether that request gets no answer
@@ -111,7 +111,7 @@ TEST_F(CanClient, WhatANodeRefusesIsNotTold) {
   EXPECT_EQ((nodes.asked[{19, {0x1018, 2}}]), 1) << "a refusal is an answer";
 }
 
-// Under load an answer may be lost: that is no refusal.
+// Under load an answer may be lost; that is no refusal.
 TEST_F(CanClient, WhatGotNoAnswerIsAskedOnceMore) {
   nodes.add(19);
   nodes.silent = [](const Object&, int times) { return times == 1; };
@@ -123,8 +123,8 @@ TEST_F(CanClient, WhatGotNoAnswerIsAskedOnceMore) {
   EXPECT_EQ(found->revision, 1u);
 }
 
-// An answer that comes too late meets the next request: the two ends are not at the same place, and
-// what ends that transfer is no refusal either.
+// A late answer arrives during the next request. The abort that ends this confused transfer is no
+// refusal.
 TEST_F(CanClient, WhatALateAnswerSpoiltIsAskedOnceMore) {
   nodes.add(19);
   nodes.silent = [&](const Object& object, int times) {
@@ -141,8 +141,8 @@ TEST_F(CanClient, WhatALateAnswerSpoiltIsAskedOnceMore) {
   EXPECT_EQ((nodes.asked[{19, {0x1018, 1}}]), 2);
 }
 
-// A silence is never shown as a refusal, whichever object it begins at; and one that fell silent
-// is not asked for all the rest, each time until the patience is over.
+// Silence never appears as a refusal, whichever object it begins at. The client does not wait out
+// its timeout on every further object of a silent node.
 TEST_F(CanClient, ANodeThatFallsSilentIsToldApartFromOneThatRefuses) {
   for (const Address last :
        {Address{0x1000, 0}, Address{0x1008, 0}, Address{0x1018, 1}, Address{0x1018, 2}}) {
@@ -181,7 +181,7 @@ TEST_F(CanClient, AScanOfNobodyFindsNobody) {
   EXPECT_TRUE(client.scan().empty());
 }
 
-// Somebody else's transfers show that a node is there, not of which type it is.
+// Another client's transfer shows that a node is there, not its device type.
 TEST_F(CanClient, AnAnswerToAnothersRequestIsNotTakenForADeviceType) {
   nodes.add(19);
   nodes.add(3);
@@ -198,7 +198,7 @@ TEST_F(CanClient, AnAnswerToAnothersRequestIsNotTakenForADeviceType) {
   EXPECT_EQ(found[1].device_type, 0x20192u);
 }
 
-// Whoever else reads the same object of it by the default channel, and gets another value.
+// Another client reads the same object by the default channel and gets another value.
 TEST_F(CanClient, TheControllersNodeIsAskedByAChannelOfItsOwn) {
   nodes.add(127);
   nodes.has_further_channel = true;
@@ -224,7 +224,7 @@ TEST_F(CanClient, ANode127WithoutThatChannelIsAskedByTheDefaultOne) {
   EXPECT_EQ(found->product, 0x200u + 127);
 }
 
-// Ctrl-C in a scan: what was found until then is told, and that it is not all.
+// Ctrl-C in a scan: the report has the nodes found so far, marked as incomplete.
 TEST_F(CanClient, AScanThatIsStoppedHasWhatItFoundSoFar) {
   for (const int node : {3, 19, 100}) nodes.add(static_cast<std::uint8_t>(node));
   bool over = false;

@@ -3,7 +3,7 @@
 #include "host/can/device_node.hpp"
 #include "tests/host/can/virtual_drive.hpp"
 
-// What a virtual CiA 402 drive makes of its objects, as a master sees it.
+// The objects of a virtual CiA 402 drive, as a master sees them.
 
 namespace verp {
 namespace {
@@ -145,7 +145,7 @@ TEST_F(VirtualDrive, AQuickStopEndsTorqueOrHoldsAsItsOptionSays) {
   EXPECT_EQ(bench.state(kNode), State::kOperationEnabled) << "option 6 lets it go on";
 }
 
-// What a master of CiA 402 waits for when it has started a drive: its statusword.
+// A CiA 402 master waits for the statusword after it starts a drive.
 TEST_F(VirtualDrive, TellsItsStatuswordWheneverItBecomesOperational) {
   using canopen::NmtCommand;
   for (const NmtCommand first : {NmtCommand::kResetNode, NmtCommand::kResetCommunication,
@@ -171,7 +171,7 @@ TEST_F(VirtualDrive, MeasuresSpeedAndTorque) {
   EXPECT_EQ(bench.value(kNode, object::kActualTorque), -250);
 }
 
-// Increments of a turn, and what a thousand thousandths are.
+// Increments per turn, and the rated values behind 1000 thousandths.
 TEST_F(VirtualDrive, GivesPositionAndTorqueTheirScale) {
   EXPECT_EQ(bench.value(kNode, {0x608F, 0}), 2);
   EXPECT_EQ(bench.value(kNode, {0x608F, 1}), 16384);
@@ -229,7 +229,7 @@ TEST_F(VirtualDrive, KeepsWhatIsStoredThroughResetsAndPowerUntilDefaultsAreResto
   EXPECT_EQ(values(), defaults);
 }
 
-// The halves of one frame are two drives'.
+// Each drive takes its half of one frame.
 TEST(VirtualDrives, TakeTheirOwnPartOfASharedFrame) {
   CanBench bench(3);
   for (int j = 0; j < 3; ++j) {
@@ -258,7 +258,6 @@ TEST(VirtualDrives, TakeTheirOwnPartOfASharedFrame) {
   for (int j = 0; j < 3; ++j) EXPECT_EQ(bench.setpoint(j).goal_count, 8001 + j);
 }
 
-// The plan's SYNC groups, with the plan's start values.
 TEST(VirtualDrives, EachGroupAnswersItsOwnSync) {
   CanBench bench(7);
   const std::uint8_t groups = plan::sync_groups(bench.params);

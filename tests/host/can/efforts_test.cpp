@@ -16,7 +16,7 @@
 #include "host/model/params.hpp"
 #include "host/sim/robot.hpp"
 
-// How joints move and push, from the twin's physics to who asks a walking controller's node.
+// Joint velocity and torque, from the twin's physics to a client of a walking controller's node.
 namespace verp::can {
 namespace {
 
@@ -25,7 +25,7 @@ using Controller = app::OperatorNode<VirtualCan, Log>;
 
 enum Effort : unsigned { kVelocity, kTorque, kEfforts };
 
-/// What a joint did from when its drive was asked to when it had answered.
+/// A joint's range of values between the request to its drive and the answer.
 struct Truth {
   std::int32_t least = 0, most = 0;
   std::uint64_t at_us = 0;
@@ -38,8 +38,8 @@ struct Truth {
   bool holds(std::int32_t value) const { return least <= value && value <= most; }
 };
 
-/// A tool on the bus that reads joint_velocity and joint_torque of the controller's node, one after
-/// the other, and hears when the controller asks its drives for them.
+/// A tool that reads joint_velocity and joint_torque from the controller's node in turn. It also
+/// hears the controller's own requests to its drives.
 class Reader : public Node {
  public:
   Reader(const Params& params, sim::Plant& plant) : params_(params), plant_(plant) {}
@@ -61,12 +61,12 @@ class Reader : public Node {
     return client_.next(frame, now_us);
   }
 
-  bool judges = false;  ///< from now on
+  bool judges = false;  ///< set to begin judging
   std::array<unsigned, kEfforts> judged{};
   std::array<std::int32_t, kEfforts> largest{};
 
  private:
-  /// A drive that is asked for its telemetry when its turn comes is passed over until the next one.
+  /// The controller skips a drive's turn if it is then asking that drive for telemetry.
   static constexpr unsigned kTurns = 2;
 
   int joint() const { return next_ % params_.joint_count; }
@@ -109,8 +109,8 @@ class Reader : public Node {
     }
   }
 
-  // Of this turn; or still of the one before, if the drive was asked so lately that its answer came
-  // with the tick's end or the next one's.
+  // The value is of this turn. It may be of the turn before if the answer came only with the end of
+  // this tick or the next.
   void judge(std::uint64_t now_us) {
     const std::int32_t told = effort() == kVelocity
                                   ? static_cast<std::int32_t>(canopen::get_le(bytes_.data(), 4))
@@ -152,8 +152,8 @@ struct Desk {
   Controller& node;
 };
 
-// To the count what the physics had when each drive was asked, and no older than two turns of 21
-// drives' velocities and torques, a request in four ticks.
+// Each value equals the physics at its request, to the count. It is at most two turns old; a turn
+// has 21 drives' velocities and torques, one request in four ticks.
 TEST(Efforts, ReadFromAWalkingControllersNodeAreWhatEachJointDidInItsTurn) {
   const model::Entity entity = model::load_robot(model::find_model("generic21"), "can");
   const Params params = model::make_params(entity);

@@ -27,7 +27,6 @@ LoadRow row_of(const std::vector<LoadRow>& rows, std::uint32_t rate_hz, int buse
   return found == rows.end() ? LoadRow{} : *found;
 }
 
-// The bar.
 TEST(BusLoad, TwentyOneDrivesAt125HzStayUnder70PercentAtWorst) {
   const std::vector<LoadRow> rows = can::load_table(test::can_params(21), kDataBaud);
   EXPECT_EQ(rows.size(), 16u);
@@ -36,8 +35,8 @@ TEST(BusLoad, TwentyOneDrivesAt125HzStayUnder70PercentAtWorst) {
   EXPECT_FALSE(row.no_room);
 }
 
-// It is on by default where it fits: two frames of eight bytes a tick, and no more if the IMU is on
-// the bus.
+// The live check is on by default where it fits. It takes two frames of eight bytes a tick, and no
+// more if the IMU is on the bus.
 TEST(BusLoad, TheLiveCheckFitsBeside21DrivesAt125Hz) {
   Params params = test::can_params(21);
   const LoadRow row = row_of(can::load_table(params, kDataBaud), 125, 1, false);
@@ -51,8 +50,8 @@ TEST(BusLoad, TheLiveCheckFitsBeside21DrivesAt125Hz) {
   EXPECT_FALSE(plan::has_room_to_publish(params, false));
 }
 
-// Who owns the IMU tells its counts: twelve bytes more in each tick, two frames. Its own frames are
-// saved where no device has it.
+// A controller with its own IMU also publishes the counts: twelve bytes, two frames a tick. If no
+// device on the bus has the IMU, that device's frames are saved.
 TEST(BusLoad, AnOwnImuIsToldInTwoFramesMore) {
   Params params = test::can_params(21);
   const plan::TickLoad load(params, {});
@@ -69,7 +68,7 @@ TEST(BusLoad, AnOwnImuIsToldInTwoFramesMore) {
   EXPECT_FALSE(plan::has_room_to_publish(params, true)) << "the device on the bus answers as well";
 }
 
-// Not counted in each tick, but there has to be room for them.
+// Orders do not count in each tick, but need room.
 TEST(BusLoad, NewOrdersInEachTickFitBesideTheLiveCheck) {
   const Params params = test::can_params(21);
   const plan::TickLoad load(params, {});
@@ -91,7 +90,7 @@ TEST(BusLoad, AFasterTickNeedsTwoBusesOrFd) {
   EXPECT_FALSE(row_of(rows, 200, 1, true).no_room);
 }
 
-// Who is named is the first that has no room: without him and those after him it fits.
+// The named drive is the first without room: the drives before it fit.
 TEST(BusLoad, WhatDoesNotFitIsNamed) {
   Params params = test::can_params(21);
   const int first = row_of(can::load_table(params, kDataBaud), 200, 1, false).no_room.value_or(21);
@@ -121,8 +120,8 @@ TEST(BusLoad, GrowsWithTheRateAndShrinksWithBusesAndFd) {
   }
 }
 
-// Halves of the table's two buses carry all drives and sensors once: only what each bus has of its
-// own, SYNC and the heartbeat, the controlword in turn and the telemetry, is there twice.
+// Each of two buses carries half of the drives and sensors. Only SYNC, heartbeat, controlword and
+// telemetry are there twice.
 TEST(BusLoad, TwoBusesShareTheDrives) {
   const std::vector<LoadRow> rows = can::load_table(test::can_params(21), kDataBaud);
   const LoadRow one = row_of(rows, 100, 1, false);
@@ -131,13 +130,13 @@ TEST(BusLoad, TwoBusesShareTheDrives) {
   EXPECT_LE(two.bits_bare, one.bits_bare * 2 / 3);
 }
 
-/// Sets the robot up by the plan and runs ticks as its controller does; what that puts on the wire
-/// is what the plan says.
+/// Sets the robot up by the plan and runs ticks like its controller; the bits on the wire are the
+/// plan's.
 class PlannedTicks {
  public:
   explicit PlannedTicks(const Params& params) : bench(params) {}
 
-  /// The ticks' bits are those of `row`: without stuff bits and as a whole within 5 %.
+  /// The ticks match `row`: exactly without stuff bits, within 5 % with them.
   void expect(const LoadRow& row) {
     set_up_all();
     std::uint64_t bare = 0, exact = 0;
@@ -222,7 +221,7 @@ TEST(PlannedTicks, PutOnTheWireWhatTheTableSays) {
   PlannedTicks(params).expect(row_of(can::load_table(params, kDataBaud), 100, 1, false));
 }
 
-// The fuller one of two buses, as the twin counts it: the first half of the drives, and the IMU.
+// The fuller of two buses, as the twin counts it: the first half of the drives, and the IMU.
 TEST(PlannedTicks, OfAHalfRobotAreThoseOfTwoBuses) {
   const LoadRow row = row_of(can::load_table(test::can_params(21), kDataBaud), 200, 2, false);
   Params half = test::can_params(11);

@@ -13,7 +13,7 @@
 #include "tests/host/bus/walker.hpp"
 #include "tests/host/can/served_can.hpp"
 
-// The whole control loop over CAN, its twin in the same process or at the end of another bus.
+// The whole control loop over CAN; its twin is in the same process or at the end of another bus.
 namespace verp::can {
 namespace {
 
@@ -68,7 +68,7 @@ class CanLoop : public ::testing::Test {
     };
     return hooks;
   }
-  /// The PC knows all of the controller but its last tick, whose end nobody has told it.
+  /// The PC knows every tick but the last, whose end no frame reports.
   void expect_shadowed(std::vector<TickRecord> records) {
     EXPECT_EQ(shadow.difference(), "");
     records.pop_back();
@@ -84,7 +84,7 @@ class CanLoop : public ::testing::Test {
   Params params = can_robot();
   test::FakePlant plant;
   VirtualCan twin{params, plant};
-  /// Gives its orders when the twin hears that a tick begins, as `verp hil` does.
+  /// Gives its orders when the twin learns that a tick begins, as `verp hil` does.
   struct Linked : test::Walker {
     app::OperatorOrder order(std::uint32_t) {
       const app::OperatorOrder given = latest;
@@ -106,7 +106,7 @@ class CanLoop : public ::testing::Test {
   app::LockstepCan<ServedCan, Patient> bus{wire, {}};
 };
 
-// Same inputs, same digests, tick for tick: the promise of every other link of this project.
+// Same inputs and digests, tick for tick, as over every other link of this project.
 TEST_F(CanLoop, RecordsTheSameBitsWhereverItsTwinIs) {
   const std::vector<TickRecord> expected = records_here(params);
   const std::vector<TickRecord> records = records_at_the_end_of_a_bus();
@@ -127,7 +127,7 @@ TEST_F(CanLoop, RecordsTheSameBitsOverABusThatLosesAnswers) {
   EXPECT_GT(wire.faults, 100u);
 }
 
-// Whatever does not reach the twin: the run goes on, and the PC still knows each of its bits.
+// When frames do not reach the twin, the run goes on and the PC still knows every bit.
 TEST_F(CanLoop, IsKnownBitByBitThoughItsFramesAreLost) {
   ASSERT_EQ(bus.greet(params), lockstep::Verdict::kAccepted);
   auto loop = std::make_unique<app::App<decltype(bus), Linked, Linked>>(params, bus, operator_link,
@@ -139,7 +139,7 @@ TEST_F(CanLoop, IsKnownBitByBitThoughItsFramesAreLost) {
   expect_shadowed(operator_link.records);
 }
 
-// A tick of which the twin does not hear that it begins, as also two in a row.
+// The twin misses the beginning of one tick, or of two in a row.
 TEST_F(CanLoop, IsKnownBitByBitThoughBeginningsOfTicksAreLost) {
   ASSERT_EQ(bus.greet(params), lockstep::Verdict::kAccepted);
   auto loop = std::make_unique<app::App<decltype(bus), Linked, Linked>>(params, bus, operator_link,
@@ -153,7 +153,8 @@ TEST_F(CanLoop, IsKnownBitByBitThoughBeginningsOfTicksAreLost) {
   expect_shadowed(operator_link.records);
 }
 
-// A controller of other firmware: it is told which tick's frames are not those of this PC.
+// A controller with other firmware: the shadow names the first tick whose frames differ from this
+// PC's.
 TEST_F(CanLoop, FramesOfAnotherControllerAreNoticed) {
   ASSERT_EQ(bus.greet(params), lockstep::Verdict::kAccepted);
   test::Walker walker;

@@ -10,8 +10,8 @@
 #include "tests/host/bus/fake_plant.hpp"
 #include "tests/host/can/served_can.hpp"
 
-// A controller at the end of a CAN bus that may lose, double and reorder frames, and a twin whose
-// time stands still until it is asked for.
+// A controller at the end of a CAN bus that may lose, double and reorder frames. The twin's time
+// stands still until the controller asks for more.
 namespace verp::can {
 namespace {
 
@@ -23,7 +23,7 @@ CanFrame sync_frame(std::uint8_t counter) {
   return frame;
 }
 
-/// What arrived in one poll, and when.
+/// The result of one poll and its time.
 struct Heard {
   CanFrame frame;
   bool any = false;
@@ -35,7 +35,7 @@ struct Heard {
 
 constexpr int kTicks = 200;
 
-/// A small master: starts the nodes, then rounds of goals and SYNCs.
+/// A small master: starts the nodes, then sends rounds of goals and SYNCs.
 template <hal::CanBus Bus>
 std::vector<Heard> drive(const Params& params, Bus& bus) {
   constexpr std::uint32_t kTimeout_us = 700;
@@ -103,8 +103,8 @@ class CanLockstep : public ::testing::Test {
   Bus bus{wire, Patient{&patience}};
 };
 
-// Frame by frame and microsecond by microsecond: a controller cannot tell whether the twin is in
-// its process or at the end of a bus.
+// Every frame comes at the same microsecond: a controller cannot tell whether the twin is in its
+// process or at the end of a bus.
 TEST_F(CanLockstep, BringsWhatABusInThisProcessBrings) {
   ASSERT_EQ(bus.greet(params), lockstep::Verdict::kAccepted);
   const std::vector<Heard> heard = drive(params, bus);
@@ -125,7 +125,8 @@ TEST_F(CanLockstep, MakesGoodWhatIsLostOrDoubledOnTheWayToTheController) {
   EXPECT_EQ(bus.counters().damaged, 0u);
 }
 
-// Goals, requests and SYNC have other priorities: a controller's mailboxes let SYNC overtake.
+// Goals, requests and SYNC have different priorities, so a controller's mailboxes let SYNC
+// overtake.
 TEST_F(CanLockstep, TakesNoHarmFromAnotherOrderOnTheWay) {
   wire.outbound = {.swapped = 0.5};
   wire.inbound = {.swapped = 0};
@@ -135,7 +136,6 @@ TEST_F(CanLockstep, TakesNoHarmFromAnotherOrderOnTheWay) {
   EXPECT_EQ(bus.counters().damaged, 0u);
 }
 
-// The smallest receive FIFO there is holds a whole answer, so that a slow controller loses nothing.
 TEST(CanSetUpright, IsAMessageOfTheTwinsClock) {
   const Params params = test::bus_params(2);
   test::FakePlant plant;
@@ -156,6 +156,8 @@ TEST(CanSetUpright, IsAMessageOfTheTwinsClock) {
   EXPECT_TRUE(server.unannounced().empty()) << "no frame of the robot's bus";
 }
 
+// The SJA1000 has the smallest receive FIFO. It holds a whole answer, so a slow controller loses
+// nothing.
 TEST_F(CanLockstep, AnAnswerFitsAnSja1000) {
   ASSERT_EQ(bus.greet(params), lockstep::Verdict::kAccepted);
   wire.most_room = 0;
@@ -164,7 +166,7 @@ TEST_F(CanLockstep, AnAnswerFitsAnSja1000) {
   EXPECT_LE(wire.most_room, 64u);
 }
 
-// Such as what the live check asks of the controller that the twin serves.
+// The live check, for example, sends such requests to the controller that the twin serves.
 TEST_F(CanLockstep, AnAnswerFitsAnSja1000WithARequestToTheController) {
   ASSERT_EQ(bus.greet(params), lockstep::Verdict::kAccepted);
   wire.most_room = 0;
@@ -175,7 +177,7 @@ TEST_F(CanLockstep, AnAnswerFitsAnSja1000WithARequestToTheController) {
   EXPECT_LE(wire.most_room, 64u);
 }
 
-// Nobody takes the requests of an hour without a controller for those of the next one.
+// A controller that starts later gets no requests queued while there was none.
 TEST_F(CanLockstep, KeepsNoRequestsForAControllerThatIsGone) {
   const CanFrame asked = canopen::classic_frame(canopen::sdo_request_id(plan::kControllerNode), 8);
   ASSERT_EQ(bus.greet(params), lockstep::Verdict::kAccepted);
@@ -188,7 +190,8 @@ TEST_F(CanLockstep, KeepsNoRequestsForAControllerThatIsGone) {
   EXPECT_EQ(wire.requests_heard, 4u);
 }
 
-// What never reached the twin was never on its bus: the run goes on, and both ends know it.
+// A frame that never reached the twin was never on its bus. The run goes on, and both ends count
+// it.
 TEST_F(CanLockstep, LetsALostFrameBeLostOnTheBus) {
   wire.outbound = {.lost = 0.01, .doubled = 0.01};
   ASSERT_EQ(bus.greet(params), lockstep::Verdict::kAccepted);
@@ -198,8 +201,7 @@ TEST_F(CanLockstep, LetsALostFrameBeLostOnTheBus) {
   EXPECT_FALSE(bus.lost());
 }
 
-// On an interface that others use as well: what no controller sends is not this one's, at neither
-// end.
+// The interface is shared: both ends ignore frames that no controller of ours sends.
 TEST_F(CanLockstep, IgnoresWhatOthersSay) {
   wire.outbound = {.foreign = 0.1};
   wire.inbound = {.foreign = 0.1};
@@ -246,7 +248,7 @@ TEST_F(CanLockstep, StopsWhenTheTwinWantsNoFurtherTick) {
   EXPECT_EQ(begun.size(), 50u);
 }
 
-// A twin that is gone is waited for as long as the controller's own business allows, and no longer.
+// The controller waits for a vanished twin only as long as its idle hook allows.
 TEST_F(CanLockstep, ASilentTwinIsGivenUpWhenIdleSaysSo) {
   ASSERT_EQ(bus.greet(params), lockstep::Verdict::kAccepted);
   wire.cut = true;

@@ -9,7 +9,7 @@
 #include "common/protocol/canopen/robot_plan.hpp"
 #include "tests/host/can/can_bench.hpp"
 
-// Whether `verp hil` is alone in playing the robot's nodes.
+// Whether only `verp hil` plays the robot's nodes.
 namespace verp::can {
 namespace {
 
@@ -52,7 +52,7 @@ TEST_F(OtherNodesTest, WhatAMasterOrAnotherRobotSendsIsNone) {
   EXPECT_EQ(others.found(), 0);
 }
 
-// Of cangen's kind: half of them have all eight bytes, and so have most answers of nodes.
+// As cangen sends them: half have all eight bytes, like most answers of nodes.
 TEST_F(OtherNodesTest, AFewRandomFramesAreNone) {
   std::mt19937 random(1);
   for (int run = 0; run < 10'000; ++run) {

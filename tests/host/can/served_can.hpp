@@ -13,15 +13,14 @@
 #include "host/can/lockstep_server.hpp"
 
 /// A controller's bus to a server in the same thread: the server answers while the controller
-/// waits. Frames may be lost, doubled or overtaken on the way, by chance from a seed.
+/// waits. A seeded generator loses, doubles or swaps frames on the way.
 namespace verp::can {
 
 struct Odds {
   double lost = 0, doubled = 0, swapped = 0;  ///< shares of frames
-  double foreign = 0;  ///< of frames before which somebody else says something
+  double foreign = 0;  ///< share of frames that follow a frame of another sender
 };
 
-/// A CanBus whose other end is a server in the same thread.
 class ServedCan {
  public:
   explicit ServedCan(LockstepServer& server) : server_(server) {}
@@ -51,11 +50,11 @@ class ServedCan {
 
   Odds outbound, inbound;
   bool cut = false;
-  unsigned lost_beginnings = 0;  ///< so many of the next SYNCs 1 do not reach the server
+  unsigned lost_beginnings = 0;  ///< the next so many SYNCs 1 do not reach the server
   unsigned faults = 0, strangers = 0;
-  unsigned requests = 0;  ///< that the PC has for the controller's node, one with each answer
+  unsigned requests = 0;  ///< requests for the controller's node, one with each answer
   unsigned requests_heard = 0;
-  std::size_t most_room = 0;  ///< that one answer takes in a receive FIFO
+  std::size_t most_room = 0;  ///< the most that one answer takes of a receive FIFO
 
  private:
   void serve() {
@@ -77,7 +76,7 @@ class ServedCan {
   static CanFrame request() {
     return canopen::classic_frame(canopen::sdo_request_id(canopen::plan::kControllerNode), 8);
   }
-  // Frames with one identifier keep their order on CAN, and the clock's come last.
+  // CAN keeps the order of frames with one identifier, and the clock's frames come last.
   void spoil(const CanFrame& frame, const Odds& odds, std::deque<CanFrame>& to) {
     std::uniform_real_distribution<double> chance(0, 1);
     if (odds.foreign > 0 && chance(random_) < odds.foreign) to.push_back(stranger());
@@ -94,7 +93,7 @@ class ServedCan {
     ++faults;
   }
 
-  /// What no controller sends: 29 bits, remote, an unused identifier, or what a node would say.
+  /// A frame that no controller sends: 29 bits, remote, an unused identifier, or one of a node.
   CanFrame stranger() {
     CanFrame frame;
     frame.size = 8;

@@ -11,7 +11,7 @@ namespace verp::test {
 
 inline constexpr std::uint8_t kNode = 1;
 
-/// One drive of a bus, and its master.
+/// One drive and its master.
 class VirtualDrive : public ::testing::Test {
  protected:
   VirtualDrive() { bench.let_pass(2000); }
@@ -23,7 +23,7 @@ class VirtualDrive : public ::testing::Test {
     return static_cast<std::uint16_t>(bench.value(kNode, canopen::cia402::object::kStatusword));
   }
   sim::ServoMeasurement& measured() { return bench.plant.measured[0]; }
-  /// Emergencies that come within `time_us`.
+  /// Emergencies that arrive within `time_us`.
   std::vector<canopen::Emergency> emergencies(std::uint64_t time_us) {
     std::vector<canopen::Emergency> all;
     canopen::Emergency emergency;
@@ -32,7 +32,7 @@ class VirtualDrive : public ::testing::Test {
     }
     return all;
   }
-  /// Watched by 1016h, with the master's heartbeat for `beats` times 20 ms.
+  /// The drive watches the master by 1016h; the master sends `beats` heartbeats, 20 ms apart.
   void watch_master(std::int16_t option, std::int16_t quick_stop, int beats) {
     bench.write(kNode, canopen::cia402::object::kAbortConnection, option, 2);
     bench.write(kNode, canopen::cia402::object::kQuickStopOption, quick_stop, 2);
