@@ -8,7 +8,7 @@
 
 namespace verp::test {
 
-/// A plant whose joints jump to their goals. Each measured value encodes its sampling time.
+/// A plant whose joints jump to their goals. It records when each joint was sampled.
 class FakePlant final : public sim::Plant {
  public:
   std::uint64_t now_us() const override { return now_us_; }

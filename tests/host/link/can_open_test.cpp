@@ -15,8 +15,8 @@
 #include "host/link/can_port.hpp"
 #include "host/link/link.hpp"
 
-// What keeps a CAN interface from being opened on a PC of another kind than this one: a process
-// whose kernel refuses CAN sockets. What vcan shows is in tests/can.
+// Errors on opening a CAN interface where the kernel refuses CAN sockets, unlike this PC's.
+// tests/can covers vcan.
 
 namespace verp::wire {
 namespace {
@@ -36,7 +36,7 @@ bool refuse_can_sockets(int error) {
          ::prctl(PR_SET_SECCOMP, SECCOMP_MODE_FILTER, &program) == 0;
 }
 
-/// The kind and the words of what opening `link` says where CAN sockets fail so.
+/// Kind and text of the error on opening `link` when CAN sockets fail with `error`.
 std::string refusal(int error, const std::string& link) {
   int ends[2];
   EXPECT_EQ(::pipe(ends), 0);
@@ -91,7 +91,7 @@ TEST(OpenCan, IsNoStreamOfBytes) {
   }
 }
 
-// A bus at another rate than the robot's: only error frames would be there.
+// If the bus has another rate than the robot, only error frames would arrive.
 TEST(CanBitRate, OfAnotherRobotIsToldWithTheRemedy) {
   CanInterface interface;
   interface.name = "can3";
@@ -100,7 +100,7 @@ TEST(CanBitRate, OfAnotherRobotIsToldWithTheRemedy) {
             "can3 runs at 500000 bit/s, the bus of generic21 at 1000000; ip link set can3 down && "
             "ip link set can3 up type can bitrate 1000000, or change baud in <verp:bus>");
   EXPECT_EQ(bit_rate_trouble(interface, "generic21", 500'000), "");
-  interface.bitrate = 0;  // vcan, or an adapter that was told its rate elsewhere
+  interface.bitrate = 0;  // vcan, or an adapter whose rate is set elsewhere
   EXPECT_EQ(bit_rate_trouble(interface, "generic21", 1'000'000), "");
 }
 

@@ -11,14 +11,14 @@
 #include "host/link/link.hpp"
 #include "tests/contract/pc/link_pairs.hpp"
 
-// What keeps a port from being opened is named in one line, with a remedy.
+// Each error on opening a port is one line with a remedy.
 
 namespace verp::wire {
 namespace {
 
 using Kind = LinkError::Kind;
 
-/// How opening `text` fails.
+/// The error on opening `text`.
 LinkError failure(const std::string& text) {
   try {
     Link link(parse_endpoint(text));
@@ -63,7 +63,7 @@ TEST(Open, NamesASecondCopy) {
     EXPECT_EQ(error.kind(), Kind::kBusy);
     EXPECT_NE(std::string(error.what()).find("fuser"), std::string::npos);
   }
-  const Link next(parse_endpoint(serial));  // the first is gone
+  const Link next(parse_endpoint(serial));  // the first is closed
   EXPECT_TRUE(next.connected());
 }
 
@@ -75,7 +75,7 @@ TEST(Open, NamesASecondListener) {
   EXPECT_EQ(failure("tcp-listen" + tcp.place().substr(3)).kind(), Kind::kBusy);
 }
 
-// Root may open anything, so the test steps down where it is root.
+// Root may open anything, so the test drops root rights.
 TEST(Open, NamesAMissingPermission) {
   const Link terminal(parse_endpoint("pty:"));
   ASSERT_EQ(::chmod(terminal.place().c_str(), 0), 0);
@@ -112,7 +112,7 @@ std::string target(const std::string& link) {
   return ::readlink(link.c_str(), name, sizeof name - 1) > 0 ? name : "";
 }
 
-// A second copy takes nothing from the first: neither its link, nor its peer, nor at its end.
+// A second copy takes nothing from the first: neither its symlink nor its peer, nor when it ends.
 TEST(Open, NeverTakesATerminalThatIsServed) {
   const test::Folder folder;
   const Link first(parse_endpoint("pty:" + folder.link()));
@@ -127,7 +127,8 @@ TEST(Open, NeverTakesATerminalThatIsServed) {
   EXPECT_TRUE(peer.connected());
 }
 
-// The link of one that was killed is replaced, whether its number is free, or ours by chance.
+// After a kill the symlink remains; it is replaced whether its terminal number is free or, by
+// chance, ours.
 TEST(Open, TakesTheTerminalOfAProgramThatWasKilled) {
   const test::Folder folder;
   ASSERT_EQ(::symlink("/dev/pts/99999999", folder.link().c_str()), 0);
@@ -139,11 +140,11 @@ TEST(Open, TakesTheTerminalOfAProgramThatWasKilled) {
   }
   EXPECT_EQ(target(folder.link()), "") << "removed at its end";
   ASSERT_EQ(::symlink(name.c_str(), folder.link().c_str()), 0);
-  const Link again(parse_endpoint("pty:" + folder.link()));  // most often of the same number
+  const Link again(parse_endpoint("pty:" + folder.link()));  // usually gets the same number
   EXPECT_EQ(::access(target(folder.link()).c_str(), F_OK), 0);
 }
 
-// What somebody else put at the path meanwhile is theirs.
+// A symlink that another program put there meanwhile stays.
 TEST(Open, RemovesNoLinkButItsOwn) {
   const test::Folder folder;
   const Link other(parse_endpoint("pty:"));
@@ -186,7 +187,7 @@ TEST(Open, SetsAnyRate) {
   }
 }
 
-// Who opens a twin's port as it appears may be there before the twin gives it the servos' rate.
+// A program may open a twin's port as soon as it appears, before the twin sets the servos' rate.
 TEST(Open, ATerminalKeepsTheRateThatItsPeerHasSet) {
   Link found(parse_endpoint("pty:"));
   found.set_rate(2'000'000);
@@ -197,7 +198,7 @@ TEST(Open, ATerminalKeepsTheRateThatItsPeerHasSet) {
   EXPECT_EQ(taken.rate(), 57600U);
 }
 
-// A USB serial port plugged in again often comes back under the same name, not the same device.
+// A USB serial port plugged in again often returns with the same name as another device.
 TEST(Reconnect, FindsWhatStandsAtTheSamePath) {
   const test::Folder folder;
   auto terminal = std::make_unique<Link>(parse_endpoint("pty:" + folder.link()));

@@ -6,7 +6,7 @@
 #include "host/link/scip_range_finder.hpp"
 #include "tests/support/scip_sensor.hpp"
 
-// SCIP 2.0 as its specification has it, and a laser at the other end of a pseudo-terminal.
+// SCIP 2.0 by its specification, and a laser at the other end of a pseudo-terminal.
 
 namespace verp::wire {
 namespace {
@@ -43,7 +43,7 @@ TEST(Scip, FindsRepliesByteByByteAndLeavesDamagedOnesOut) {
   EXPECT_TRUE(replies.next());
 }
 
-/// A laser's link of two ends, and what is on them.
+/// Both ends of a laser's link, with a sensor and its reader.
 struct Bench {
   Link near{parse_endpoint("pty:")};
   Link far{parse_endpoint("serial:" + near.place() + "@115200")};
@@ -51,11 +51,11 @@ struct Bench {
   ScipRangeFinder<Link> finder;
   hal::RangeScan scan;
 
-  /// By default so patient that a busy PC is no silent sensor.
+  /// The long default keeps a busy PC from looking like a silent sensor.
   explicit Bench(std::uint32_t silent_ms = 60'000)
       : finder(near, {.first = 0, .last = 99, .least_mm = 20, .silent_ms = silent_ms}) {}
 
-  /// Reads until something comes that is not stale.
+  /// Reads until a result is not stale.
   hal::RangeStatus read() {
     for (int i = 0; i < 5000; ++i) {
       sensor.listen();
@@ -79,7 +79,7 @@ TEST(ScipRangeFinder, ReadsScansOverAPseudoTerminal) {
   bench.start();
   std::vector<std::uint32_t> ranges(100);
   for (std::uint32_t i = 0; i < 100; ++i) ranges[i] = 100 + 37 * i;
-  ranges[3] = 19;      // an error code of that step
+  ranges[3] = 19;      // an error code for that step
   ranges[4] = 100000;  // beyond 16 bits
   for (std::uint32_t turn = 1; turn <= 5; ++turn) {
     ranges[0] = 1000 + turn;

@@ -5,7 +5,7 @@
 #include "host/model/load.hpp"
 #include "tests/host/model/bad_input.hpp"
 
-/// A robot builder's mistakes: each is refused with the file, the line and what to do.
+/// A robot builder's mistakes: each error names the file, the line and the remedy.
 namespace verp::model {
 namespace {
 
@@ -32,7 +32,7 @@ TEST(BadInput, MalformedXmlIsRefusedAtItsLine) {
   expect_refused(edited("<mass>1.1</mass>", "<mass>1.1</mas>"), "<mass>1.1</mas>", "malformed XML");
 }
 
-// tinyxml2 and libsdformat would take them; xmllint, expat and Python would not.
+// tinyxml2 and libsdformat accept them; xmllint, expat and Python do not.
 TEST(BadInput, CommentThatIsNotWellFormedIsRefusedAtItsLine) {
   for (const char* comment : {"<!-- first line\n  for --bus can -->", "<!-- dash --->"}) {
     const std::string part = std::string(comment).find("--bus") != std::string::npos
@@ -139,7 +139,7 @@ TEST(BadInput, NegativeMassIsRefused) {
   expect_refused(edited("<mass>1.1</mass>", "<mass>-1.1</mass>"), "<mass>-1.1</mass>", "mass");
 }
 
-/// What float32 cannot compute with, or no robot has: refused where it stands.
+/// Values that float32 cannot handle or that no robot has are refused at their line.
 TEST(BadInput, AbsurdMagnitudesAreRefused) {
   const struct {
     const char *old_part, *new_part, *line_part, *message;

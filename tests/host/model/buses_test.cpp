@@ -9,12 +9,12 @@
 #include "host/model/params.hpp"
 #include "tests/host/model/test_files.hpp"
 
-// A robot may name several buses; one of them is used.
+// A robot may declare several buses; one is used.
 
 namespace verp::model {
 namespace {
 
-/// generic21 with one of its texts replaced, loaded with `bus`; what it is refused for.
+/// The error on loading generic21 by `bus` with one of its texts replaced.
 std::string refusal(const std::string& old_part, const std::string& new_part,
                     const std::string& bus = "") {
   std::string text = read_text(robot_file("generic21"));
@@ -46,7 +46,7 @@ TEST(Buses, TheFirstIsUsedUnlessAnotherIsNamed) {
   EXPECT_EQ(params.servo[0].profile_ms, 0) << "60C2h follows the control period";
 }
 
-// The same body, the same stiffness: only what counts mean differs.
+// Same body, same stiffness: only the meaning of a count differs.
 TEST(Buses, DrivesOfTheSameJointsAreAsStiffAsTheServos) {
   const Params serial = make_params(load_robot(robot_file("generic21")));
   const Params can = make_params(load_robot(robot_file("generic21"), "can"));
@@ -100,8 +100,8 @@ TEST(Buses, OneThatCannotCarryATickIsRefused) {
   EXPECT_NE(line.find("a tick's packets take"), std::string::npos) << line;
 }
 
-// 87 % of the period, and more than one when all drives change their state: the first drive that
-// does not fit is named, at the line of the bus.
+// The packets take 87 % of the period, and more than all of it when every drive changes its state.
+// The error names the first drive that does not fit, at the bus's line.
 TEST(Buses, OneWithoutRoomNamesTheFirstDriveThatDoesNotFit) {
   const std::string slow = kCan + " period_us=\"10000\"";
   const std::string fast = kCan + " period_us=\"6000\"";
@@ -129,7 +129,7 @@ TEST(Buses, TheDriveThatIsNamedIsTheFirstThatDoesNotFit) {
   EXPECT_THROW(require_bus(entity, params), LoadError);
 }
 
-// Under 80 %, but a tick in which all drives change their state would run into the next one.
+// The share is under 80 %, but a tick in which all drives change state would run into the next.
 TEST(Buses, AChangeOfAllStatesHasToFitThePeriod) {
   const Entity entity = load_robot(robot_file("generic21"), "can");
   Params params = make_params(entity);

@@ -8,7 +8,7 @@
 namespace verp::model {
 namespace {
 
-// Each with its own soles and numbers, whatever is asked of it, from one order to any other.
+// Each robot has its own soles and gait; the orders jump at random.
 TEST(SolesOfShippedRobots, PassBesideEachOtherHoweverOrdersJump) {
   for (const char* name : {"generic21", "op3", "darwin_op"}) {
     const Params params = make_params(load_robot(robot_file(name)));
@@ -19,7 +19,7 @@ TEST(SolesOfShippedRobots, PassBesideEachOtherHoweverOrdersJump) {
   }
 }
 
-// A walk in curves, as an operator asks for it.
+// Walks in curves that an operator might order.
 TEST(SolesOfShippedRobots, PassBesideEachOtherInCurves) {
   for (const char* name : {"generic21", "op3", "darwin_op"}) {
     const Params params = make_params(load_robot(robot_file(name)));

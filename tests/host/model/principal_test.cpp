@@ -8,7 +8,8 @@
 namespace verp::model {
 namespace {
 
-// Bit for bit what Eigen makes of it, whose own costs every unit that uses it seconds to compile.
+// Equals Eigen's result bit for bit. Eigen's own function adds seconds of compile time to every
+// unit that uses it.
 TEST(Principal, TheShortestTurnOfZIsEigens) {
   std::mt19937 random(1);
   std::normal_distribution<double> number;

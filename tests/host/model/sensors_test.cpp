@@ -7,7 +7,7 @@
 #include "host/model/load.hpp"
 #include "tests/host/model/test_files.hpp"
 
-// What a robot's file may say of its sensors, and what it may not.
+// What a robot's file may and may not declare about its sensors.
 namespace verp::model {
 namespace {
 

@@ -4,7 +4,7 @@
 
 #include "tests/host/model/bad_input.hpp"
 
-/// A servo that a robot builder describes in the robot's file.
+/// Servo types that a robot builder describes in the robot's file.
 namespace verp::model {
 namespace {
 
@@ -15,7 +15,6 @@ std::optional<double> tuned(const Entity& entity, const std::string& name) {
   return std::nullopt;
 }
 
-// A servo that is not shipped is described in the robot's file, and a slip of the pen found there.
 TEST(BadInput, ServoTypesOfTheFileAreReadAndTheirSlipsNamed) {
   const auto with = [](const std::string& type) {
     return edited("<verp:bus name=\"dxl\"", type + "\n    <verp:bus name=\"dxl\"");
@@ -78,7 +77,7 @@ TEST(BadInput, ServoTypesOfTheFileAreReadAndTheirSlipsNamed) {
                  "<gear/>", "unknown element <gear>");
 }
 
-// What nobody has measured stays doubtful, and robots drawn at random differ in it.
+// A number that nobody has measured stays uncertain, and random robots vary it.
 TEST(BadInput, AServoTypeThatIsLikeAnotherIsAsSureAsItsNumbers) {
   const std::string old_type = "type=\"xm430_w210\"";
   const auto mine = [&](const std::string& attributes) {

@@ -11,7 +11,7 @@
 #include "host/model/params.hpp"
 #include "tests/host/model/test_files.hpp"
 
-/// Robots nobody here wrote, through their wrappers.
+/// Third-party robots, loaded through their wrappers.
 namespace verp::model {
 namespace {
 
@@ -24,7 +24,7 @@ double mass_of(const Entity& entity) {
   return sum;
 }
 
-/// A level sole below the hip, at walking height, is reached by both legs without flags.
+/// Both legs reach a level sole below the hip at walking height, without flags.
 void expect_walkable(const Entity& entity) {
   const Params params = make_params(entity);
   for (int foot = 0; foot < kFeet; ++foot) {
@@ -41,7 +41,7 @@ void expect_walkable(const Entity& entity) {
         leg, kinematics::leg_chain(params, leg, verp::Pose{}, solved.angle_rad));
     EXPECT_LT((found.position_m - sole.position_m).norm(), 2e-4F);
     EXPECT_LT((found.rotation - sole.rotation).norm(), 1e-3F);
-    // The declared standing pose is that posture, within what the stance width changes.
+    // The declared standing pose is that posture, but for the stance width.
     for (int k = 0; k < kLegJoints; ++k) EXPECT_NEAR(solved.angle_rad[k], stand_rad[k], 0.02F) << k;
   }
 }
@@ -70,7 +70,7 @@ TEST(DarwinOp, LoadsWithItsKnownNumbers) {
   expect_walkable(e);
 }
 
-/// As the maker's own files have it, through a wrapper.
+/// The table gives the same robot as the maker's own files through a wrapper.
 void expect_same_robot(const std::string& name) {
   const Entity table = load_robot(robot_file(name));
   const Entity urdf = load_robot(robot_file(name + "_urdf"));
@@ -200,8 +200,8 @@ TEST(Urdf, ShapeWithoutMassIsRefusedUnlessDeclared) {
   EXPECT_EQ(load_part_of_robot(file.path()).joints.size(), 1u);
 }
 
-// Frames on frames, as other programs want them: what hangs on them is not lost, and all keep
-// their names.
+// Other programs need chains of frames. Links at their ends are kept, and all frames keep their
+// names.
 TEST(Urdf, ChainOfMasslessLinksCarriesWhatHangsOnIt) {
   const auto fixed = [](const std::string& name, const std::string& parent,
                         const std::string& child) {
@@ -236,7 +236,7 @@ TEST(Urdf, LinkAndJointMayHaveOneName) {
   EXPECT_EQ(e.nodes[2].name, "k");
 }
 
-// A finger that slides, one that is bent, and one that mimics: nothing to walk with.
+// A finger that slides, one that bends and one that mimics; none serves to walk.
 TEST(Urdf, FixedJointsAreNoJointsAndStandWhereTheyWereFixed) {
   const auto joint = [](const std::string& name, const std::string& type, const std::string& more) {
     return SmallUrdf::link(name + "_tip") + "<joint name=\"" + name + "\" type=\"" + type +
@@ -259,7 +259,7 @@ TEST(Urdf, FixedJointsAreNoJointsAndStandWhereTheyWereFixed) {
   const Entity e = load_part_of_robot(file.path());
   ASSERT_EQ(e.joints.size(), 1u);
   EXPECT_NEAR(mass_of(e), 6, 1e-12);
-  // About x by a right angle: what was above the joint is now on its right.
+  // The turn is about x by a right angle: the mass above the joint is now on its right.
   EXPECT_NEAR(e.nodes[1].com_m.y(), -1.0 / 5, 1e-6);
   const TemporaryFile wrong("wrong.sdf",
                             urdf.wrapper(fixes + "<verp:fix joint=\"thumb\" reason=\"?\"/>"));
@@ -272,7 +272,7 @@ TEST(Urdf, DecimalCommaIsRefused) {
   EXPECT_THROW(load_robot(file.path()), LoadError);
 }
 
-/// Slides and turns joints of a loaded robot, as other file conventions would place them.
+/// Other file conventions place joints shifted or turned.
 TEST(LegSolver, AxesApartBeyondHalfAMillimetreTakeNewton) {
   Entity e = load_robot(robot_file("generic21"));
   const Limb leg = *find_limb(e, "left_leg");
@@ -296,7 +296,7 @@ TEST(LegSolver, SkewedHipAxisTakesNewton) {
 TEST(LegSolver, BentZeroPoseBecomesOffsets) {
   Entity e = load_robot(robot_file("generic21"));
   const Limb leg = *find_limb(e, "left_leg");
-  // A file whose zero pose has the knee 40 mm ahead of hip and ankle.
+  // In the file's zero pose the knee is 40 mm ahead of hip and ankle.
   e.joints[static_cast<std::size_t>(leg.joints[3])].origin_m.x() += 0.04;
   e.joints[static_cast<std::size_t>(leg.joints[4])].origin_m.x() -= 0.04;
   const LegGeometry g = classify_leg(e, leg);

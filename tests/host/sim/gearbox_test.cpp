@@ -8,7 +8,7 @@
 #include "host/sim/robot.hpp"
 #include "tests/host/sim/test_robots.hpp"
 
-/// Rotor and gearbox friction, against closed forms and against an integration of its own of the
+/// Rotor and gearbox friction. References: closed forms, and a separate integration of the
 /// equations of Duclusaud and Passault, arXiv 2410.08650, with their identified numbers.
 namespace verp::sim {
 namespace {
@@ -31,7 +31,8 @@ model::Joint joint_with(const model::Gearbox& gearbox) {
   return joint;
 }
 
-/// A servo that turns an inertia against a torque; no engine, the same implicit step.
+/// A servo that turns an inertia against a torque, without an engine but with the same implicit
+/// step.
 struct Bench {
   explicit Bench(const model::Joint& joint, double inertia = 0.0, double step = 0.001)
       : inertia_kg_m2(inertia),
@@ -47,7 +48,7 @@ struct Bench {
     angle_rad += rate_rad_s * step_s;
     servo.finish(rate_rad_s, step_s);
   }
-  /// Full drive or none: a far goal and the PWM limit make any duty.
+  /// A far goal saturates the drive; the PWM limit then sets the duty.
   void drive_by(double duty) {
     setpoint.torque_on = duty != 0;
     setpoint.p_gain = 16000;
@@ -80,7 +81,7 @@ TEST(Gearbox, AStuckJointHoldsBelowItsBudgetForAMinuteAndBeyondItSlidesByTheRest
   EXPECT_LT(std::abs(stuck.angle_rad), 1e-5);
   Bench pushed(joint_with(gearbox));
   for (int step = 0; step < 200; ++step) pushed.step(0.2);
-  // Far above the Stribeck speed only f_base is left: 0.14 N m on 0.01 kg m2.
+  // Far above the Stribeck speed only f_base remains: 0.14 N m on 0.01 kg m2.
   const double before = pushed.rate_rad_s;
   for (int step = 0; step < 100; ++step) pushed.step(0.2);
   EXPECT_NEAR(pushed.rate_rad_s - before, 0.14 / 0.01 * 0.1, 0.01);
@@ -99,9 +100,9 @@ TEST(Gearbox, FrictionStopsAJointAndLeavesItThere) {
   }
 }
 
-// What other joints do throws a leg back within one step. Friction that then stopped it at once
-// took 9 N m of its neighbours, which threw it on again: hip and knee stood still for 60 ms at nine
-// tenths of their torque, a foot did not lift, and a robot fell.
+// Other joints throw a leg back within one step. Friction that stopped it at once took 9 N m from
+// its neighbours, which threw it again. Hip and knee stuck for 60 ms at nine tenths of their
+// torque, a foot did not lift, and a robot fell.
 TEST(Gearbox, OfAJointThatIsThrownBackFrictionTakesNoMoreThanItsBudget) {
   constexpr double kFriction_n_m = 0.1, kArmature = 0.01, kLinks = 0.02;
   for (const double step_s : {0.001, 0.002}) {
@@ -118,8 +119,8 @@ TEST(Gearbox, OfAJointThatIsThrownBackFrictionTakesNoMoreThanItsBudget) {
   }
 }
 
-// load = |external - motor|: held up to where the motor beats load and friction, and down to where
-// both let go. (1 - l) m = (1 + l) e and the other way round.
+// load = |external - motor|. The joint holds until the motor beats load and friction, and until
+// both give way: (1 - l) m = (1 + l) e, and the reverse.
 TEST(Gearbox, LoadMakesFrictionThatHelpsToHold) {
   const double l = 0.2;
   const auto moved = [&](double motor_n_m) {
@@ -140,7 +141,8 @@ TEST(Gearbox, InsideThePlayTheRotorHasOnlyItselfToTurn) {
   joint.servo.backlash_rad = 0.02;
   Bench bench(joint, 0.01);
   bench.drive_by(1.0 / 3);
-  // 10 mrad from the middle to the flank at 100 rad/s2: 14 ms; then both halves share the speed.
+  // From the middle to the flank, 10 mrad at 100 rad/s2 take 14 ms; then both halves share the
+  // speed.
   for (int step = 0; step < 13; ++step) bench.step(0);
   EXPECT_EQ(bench.rate_rad_s, 0);
   for (int step = 0; step < 3; ++step) bench.step(0);
@@ -183,8 +185,8 @@ struct RotorAndLink {
   }
 };
 
-// From goal to goal, overshooting, with gravity for and against it: where friction stops the rotor
-// at a flank for a moment the motor takes it on from there.
+// From goal to goal with overshoot, with gravity for and against. When friction stops the rotor
+// briefly at a flank, the motor moves it on from there.
 TEST(Gearbox, WithPlayAJointGoesAsItsRotorAndItsLinkWouldAsTwoBodies) {
   for (const double armature : {0.002, 0.012, 0.045}) {
     for (const double link : {0.005, 0.03}) {
@@ -211,8 +213,8 @@ TEST(Gearbox, WithPlayAJointGoesAsItsRotorAndItsLinkWouldAsTwoBodies) {
   }
 }
 
-// Published motor, published equations, integrated by themselves in steps of 10 us: the pendulum is
-// driven up, driven back, and let go.
+// The published motor and equations, integrated in steps of 10 us: the pendulum is driven up,
+// driven back, and released.
 struct PaperPendulum {
   model::Gearbox gears;
   double stall_n_m, slope_n_m_s;
@@ -275,7 +277,7 @@ TEST_P(IdentifiedMotor, SwingsAPendulumAsThePaperSays) {
   }
 }
 
-// The same in ODE, where gravity is what the engine's motion says it is.
+// The same in ODE, where gravity comes from the engine's motion.
 TEST_P(IdentifiedMotor, SwingsAPendulumAsThePaperSaysInOde) {
   const model::ServoType* type = model::find_servo_type(model::servo_types(), GetParam());
   ASSERT_NE(type, nullptr);
@@ -310,8 +312,8 @@ TEST_P(IdentifiedMotor, SwingsAPendulumAsThePaperSaysInOde) {
 
 INSTANTIATE_TEST_SUITE_P(Paper, IdentifiedMotor, testing::Values("mx64", "mx106", "xl330"));
 
-// The firmware's loop, not the physics, has the rate of 1 kHz: finer physics sees a duty that
-// stands for four steps, coarser physics two loops a step, and the joint goes the same way.
+// The servo's loop runs at 1 kHz whatever the physics step. Finer physics sees a duty for four
+// steps, coarser physics runs two loops a step, and the joint moves the same way.
 TEST(Gearbox, TheLoopRunsAtItsOwnRateWhateverThePhysicsStep) {
   Bench fine(joint_with({}), 0.01, 0.00025);
   fine.setpoint.torque_on = true;
@@ -346,8 +348,8 @@ TEST(Gearbox, GoesTheSameWayAtEveryPhysicsStep) {
   }
 }
 
-// Gains at the registers' ends and rotors from a quarter of the lightest to ten times the heaviest
-// known: the joint may tremble, but nothing grows beyond what the motor's line allows.
+// Gains go to the registers' limits, rotors from a quarter of the lightest to ten times the
+// heaviest known. The joint may tremble but never exceeds the motor's torque-speed line.
 TEST(Gearbox, StaysWithinTheMotorsLineAtAnyGainInertiaAndStep) {
   for (const double armature : {0.0005, 0.01, 0.25}) {
     for (const double step_s : {0.00025, 0.001, 0.002}) {
@@ -358,7 +360,8 @@ TEST(Gearbox, StaysWithinTheMotorsLineAtAnyGainInertiaAndStep) {
             .torque_on = true, .goal_count = 2048 + 500, .p_gain = 16383, .d_gain = d_gain};
         for (int step = 0; step < 2000; ++step) {
           bench.step(step % 100 < 50 ? 0.5 : -0.5);
-          // The current limit switches between steps: 1.4 stalls may act for one step too long.
+          // The current limit acts between steps, so 1.4 times the stall torque may act one step
+          // too long.
           const double late = step_s * (1.4 * 3.0 + 0.5) / (armature + 1e-5);
           ASSERT_LT(std::abs(bench.rate_rad_s), 8.0 * (1 + 0.5 / 3) + late)
               << armature << " " << step_s << " " << d_gain << " " << step;

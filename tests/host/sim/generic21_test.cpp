@@ -10,8 +10,7 @@
 namespace verp::sim {
 namespace {
 
-/// What the firmware does at arming: gains of the entity, torque on, hold the stand pose by nominal
-/// counts.
+/// Arms like the firmware: the entity's gains, torque on, hold the stand pose by nominal counts.
 void arm(Plant& plant, const TwinRobot& robot) {
   for (std::size_t j = 0; j < robot.entity().joints.size(); ++j) {
     const model::Joint& joint = robot.entity().joints[j];
@@ -25,8 +24,8 @@ void arm(Plant& plant, const TwinRobot& robot) {
   }
 }
 
-// The crouch of the entity's stand pose, hips 150 mm over the ankles, held by position loops alone:
-// no balance feedback, zero errors of half a degree, play, noise and a lean at the start.
+// The entity's stand pose is a crouch, hips 150 mm over the ankles. Only position loops hold it: no
+// balance feedback, zero errors of half a degree, play, noise and a lean at the start.
 TEST(Generic21, StandsThreeSecondsOnItsServos) {
   const model::Entity entity =
       model::load_robot(VERP_SOURCE_DIR "/common/robots/generic21/robot.sdf");

@@ -28,7 +28,7 @@ FootTruth sole_at(double x_m, double y_m, double z_m, double yaw_rad) {
   return foot;
 }
 
-/// The soles where the plan has them now.
+/// The soles where the plan now has them.
 Truth as_planned(const Walker& walker) {
   const auto look_ahead_us = math::to_int32(1e6F * walker.tuning.gait.look_ahead_s);
   const gait::Posture posture =
@@ -67,8 +67,7 @@ bool inside(const std::vector<Vec2>& hull, const Vec2& point) {
   return true;
 }
 
-// Wherever the foot that carries really stands: the planned ZMP is inside that sole, where
-// zmp_under() wants it.
+// Wherever the carrying foot really stands, the planned ZMP is inside its sole, at zmp_under().
 TEST(PlannedZmp, LiesUnderTheFootThatCarriesAlone) {
   Walker walker(verp::test::kRobot);
   walker.set_off({});
@@ -79,7 +78,7 @@ TEST(PlannedZmp, LiesUnderTheFootThatCarriesAlone) {
     if (walker.out.swing == kBoth) continue;
     const int side = 1 - walker.out.swing;
     ++seen[side];
-    constexpr double kX = 2.0, kY = -1.0, kYaw = 0.7;  // of the foot that carries
+    constexpr double kX = 2.0, kY = -1.0, kYaw = 0.7;  // of the carrying foot
     Truth truth;
     truth.foot = {sole_at(0, 0, 0.02, 0), sole_at(0, 0, 0.02, 0)};
     truth.foot[static_cast<std::size_t>(side)] = sole_at(kX, kY, 0, kYaw);
@@ -100,7 +99,7 @@ TEST(PlannedZmp, LiesUnderTheFootThatCarriesAlone) {
   EXPECT_GT(seen[1], 300);
 }
 
-// From the first tick of a walk to the last, in double support too.
+// From a walk's first tick to its last, in double support too.
 TEST(PlannedZmp, StaysInTheSupportPolygonOfARobotThatStandsAsPlanned) {
   Walker walker(verp::test::kRobot);
   walker.set_off({});

@@ -8,7 +8,7 @@
 #include "host/sim/robot.hpp"
 #include "tests/host/sim/test_robots.hpp"
 
-// Force-torque, contact and truth sensors against weights and poses that are known otherwise.
+// Force-torque, contact and truth sensors against weights and poses known by other means.
 namespace verp::sim::test {
 namespace {
 
@@ -56,7 +56,7 @@ struct Standing {
 };
 
 TEST(Probes, OnAStandingRobotsFeetTheForcesSumToItsWeight) {
-  // Of each step: contacts chatter from one to the next, and their mean is what is known.
+  // Contacts chatter from step to step, so the test reads each step and takes the mean.
   model::Entity entity = metered();
   for (model::ForceTorqueSensor& each : entity.force_torques) each.rate_hz = 1000;
   for (model::ContactSensor& each : entity.contacts) each.rate_hz = 1000;
@@ -84,13 +84,13 @@ TEST(Probes, OnAStandingRobotsFeetTheForcesSumToItsWeight) {
   double feet_n = 0;
   for (std::size_t foot = 0; foot < 2; ++foot)
     feet_n += kGravity_m_s2 * standing.robot.body().mass_kg(foot_node_of(entity, foot));
-  // Half a percent of the weight: what a robot that sways on its servos moves by.
+  // Half a percent of the weight: the robot sways this much on its servos.
   EXPECT_NEAR(soles_n.z(), weight_n, 0.005 * weight_n);
   EXPECT_NEAR(ankles_n.z() + feet_n, weight_n, 0.005 * weight_n) << "feet are beyond the ankles";
   EXPECT_NEAR(ankles_n.head<2>().norm(), 0, 0.005 * weight_n);
 }
 
-/// An arm held level by its servo from a body that is held: all is known.
+/// An arm that its servo holds level, on a held body: all forces are known.
 TEST(Probes, AJointThatHoldsAnArmOutBearsItsWeightAndItsLever) {
   model::Entity entity = arm();
   model::ForceTorqueSensor wrench;
@@ -99,7 +99,7 @@ TEST(Probes, AJointThatHoldsAnArmOutBearsItsWeightAndItsLever) {
   wrench.rate_hz = 1000;
   entity.force_torques = {wrench, wrench, wrench};
   entity.force_torques[1].on_child = true;
-  // Half way down the arm, its axes turned about z.
+  // Halfway down the arm, axes turned about z.
   entity.force_torques[2].pose.translation() = Vec3(0, 0, -kArmLength / 2);
   entity.force_torques[2].pose.linear() =
       Eigen::AngleAxisd(std::numbers::pi / 2, Vec3::UnitZ()).toRotationMatrix();
@@ -119,7 +119,7 @@ TEST(Probes, AJointThatHoldsAnArmOutBearsItsWeightAndItsLever) {
   };
   const Vec3 lever_m(0, 0, -kArmLength);
   ASSERT_GT(std::abs(pose.linear()(2, 0)), 0.9) << "it is held out";
-  // The mean: the servo swings by a count of its encoder.
+  // A mean: the servo swings by one encoder count.
   const auto of = [&](std::size_t sensor) {
     WrenchReading mean;
     for (const WrenchReading& each : readings.wrenches) {
@@ -129,7 +129,7 @@ TEST(Probes, AJointThatHoldsAnArmOutBearsItsWeightAndItsLever) {
     }
     return mean;
   };
-  constexpr double kTolerance = 0.002;  // N, N m: of 4.9 N at rest
+  constexpr double kTolerance = 0.002;  // N, N m; the load at rest is 4.9 N
   EXPECT_LT((of(0).force_n - in_arm(down_n)).norm(), kTolerance);
   EXPECT_LT((of(0).torque_n_m - lever_m.cross(in_arm(down_n))).norm(), kTolerance);
   EXPECT_LT((of(1).force_n + of(0).force_n).norm(), 1e-12) << "what it is given";

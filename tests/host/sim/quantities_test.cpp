@@ -8,8 +8,8 @@
 
 #include "tests/host/sim/test_robots.hpp"
 
-// Each quantity against a case that can be worked out by hand; each that can be set is set while
-// the world runs. g, h: gravity and the physics step.
+// Each quantity is checked against a hand-calculated case; settable ones are set while the world
+// runs. g, h: gravity and the physics step.
 
 namespace verp::sim::test {
 namespace {
@@ -176,7 +176,7 @@ TEST(Quantities, OfAPendulum) {
   Scene s(arm(), Cradle::kAlways);
   s.set("base.position_m.z", 1);
   const double turned = kArmInertia + kArmMass * kArmLength * kArmLength;
-  // A jerk at the arm's centre of mass, without gravity.
+  // An impulse at the arm's centre of mass, without gravity.
   s.set("world.gravity_m_s2", 0);
   s.set("arm.impulse_n_s.x", 0.05);
   s.run(h);

@@ -11,7 +11,7 @@
 #include "tests/host/sim/test_robots.hpp"
 #include "tests/support/leak.hpp"
 
-// Worlds made in code, and lasers in them against distances that can be worked out by hand.
+// Worlds made in code, and lasers in them against hand-calculated distances.
 
 namespace verp::sim::test {
 namespace {
@@ -48,8 +48,7 @@ struct Place {
   std::unique_ptr<World> world;
 };
 
-// ODE ends the program when a number of its own is none: a robot of somebody's must not do that to
-// a campaign.
+// ODE aborts the program on a NaN. A user's diverging robot must not end a whole campaign.
 TEST(World, PhysicsThatDivergesIsAnErrorOfItsRun) {
   Place place({floor_at(0),
                object("box", ShapeKind::kBox, {0.1, 0.1, 0.1}, {0, 0.01, 0.04}, Kind::kDynamic)});

@@ -6,20 +6,20 @@
 #include "host/sim/robot.hpp"
 #include "tests/host/sim/test_robots.hpp"
 
-/// A robot's own links collide with each other, unless they are neighbours or declared not to.
+/// A robot's own links collide, unless they are neighbours or declared not to.
 namespace verp::sim {
 namespace {
 
 constexpr double kSoleWidth = 0.066;
 
 struct Outcome {
-  double soles_between_m;  ///< least distance of the soles' middles, sideways
+  double soles_between_m;  ///< least lateral distance between the soles' middles
   std::uint64_t contact_steps;
   std::array<int, 2> nodes;
   bool foot_force_valid;
 };
 
-/// Held in the air, it presses its feet together with both hips.
+/// The robot hangs in the air and presses its feet together with both hips.
 Outcome press_feet_together(const model::Entity& entity) {
   World world({.ground = false});
   TwinOptions options;
@@ -70,7 +70,6 @@ TEST(SelfContact, DeclaredPairsPassThroughEachOther) {
   EXPECT_EQ(out.contact_steps, 0U);
 }
 
-// A shape on each of two neighbours, one within the other.
 TEST(SelfContact, NeighboursOverlapAtTheirJoint) {
   World world;
   model::Entity entity = test::arm();

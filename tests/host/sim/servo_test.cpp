@@ -26,7 +26,7 @@ TwinOptions bench() {
   return options;
 }
 
-/// One servo that no engine moves: its load is a test's own integration.
+/// One servo without an engine: the test integrates its load.
 struct BareServo {
   model::Joint joint = test::joint("j", 0, Vec3::Zero(), Vec3::UnitZ());
   ServoSetpoint setpoint{.torque_on = true, .goal_count = 2048, .p_gain = 3500};
@@ -101,7 +101,7 @@ TEST(Servo, ProfileIsAStraightLineOverItsTime) {
     servo.drive(bare.setpoint, 0, 0, 0, 12.0, kStepS);
     EXPECT_NEAR(count_of(bare.joint.servo, servo.profile_rad()), 2048 + 10.0 * ms, 1e-6) << ms;
   }
-  // A new goal in mid-move starts from where the profile stands, not from the old goal.
+  // A new goal in mid-move starts from the profile's position, not from the old goal.
   bare.setpoint.goal_count = 2048;
   for (int ms = 1; ms <= 5; ++ms) servo.drive(bare.setpoint, 0, 0, 0, 12.0, kStepS);
   EXPECT_NEAR(count_of(bare.joint.servo, servo.profile_rad()), 2048 + 50, 1e-6);
@@ -123,7 +123,7 @@ TEST(Servo, PushesNothingInsideItsPlay) {
   BareServo bare;
   bare.joint.servo.backlash_rad = 0.02;
   ServoModel servo = bare.model();
-  bare.setpoint.goal_count = 4000;  // rotor runs at 8 rad/s: 8 mrad a step
+  bare.setpoint.goal_count = 4000;  // the rotor runs at 8 rad/s: 8 mrad a step
   EXPECT_EQ(servo.drive(bare.setpoint, 0, 0, 0, 12.0, kStepS).torque_n_m(0), 0);
   EXPECT_NEAR(servo.drive(bare.setpoint, 0, 0, 0, 12.0, kStepS).torque_n_m(0), 3.0, 1e-9);
   bare.setpoint.goal_count = 0;  // the other flank is 20 mrad away
@@ -160,8 +160,7 @@ TEST(Servo, NamesTheJointWhoseFactsAreImpossible) {
   }
 }
 
-// With the arm level, gravity's torque is balanced by duty * stall torque at K = P/128 * counts/rad
-// / 885 * stall.
+// With the arm level, duty * stall torque balances gravity: K = P/128 * counts/rad / 885 * stall.
 TEST(ServoInOde, SagsByTorqueOverStiffness) {
   World world;
   TwinOptions options = bench();
@@ -207,8 +206,7 @@ TEST(ServoInOde, SpeedsUpAsTheTorqueSpeedLineSays) {
   }
 }
 
-// Small step: duty proportional to the error; J x'' = K (goal - x) - D x'. Compared with the closed
-// form.
+// A small step keeps duty proportional to the error: J x'' = K (goal - x) - D x', in closed form.
 TEST(ServoInOde, StepResponseIsThatOfASecondOrderSystem) {
   WorldOptions weightless;
   weightless.gravity_m_s2 = 0;
@@ -218,7 +216,7 @@ TEST(ServoInOde, StepResponseIsThatOfASecondOrderSystem) {
   options.supply_ohm = 0;
   model::Entity entity = test::arm();
   entity.joints[0].servo.counts_per_rev = 4096 * 64;  // so fine that quantisation does not show
-  entity.joints[0].servo.loop_s = 0.0001;             // and so fast that sampling does not
+  entity.joints[0].servo.loop_s = 0.0001;             // so fast that sampling does not show
   entity.joints[0].servo.offset_count = 0;
   TwinRobot robot(world, entity, options);
   const double goal = 0.02;
@@ -281,11 +279,11 @@ TEST(ServoInOde, SupplySagsUnderLoad) {
   robot.setpoint(0).torque_on = true;
   robot.setpoint(0).goal_count = 4000;
   robot.setpoint(0).p_gain = 3500;
-  robot.advance_to(500'000);  // stalled against the stop: 2.3 A through 0.1 ohm
+  robot.advance_to(500'000);  // stalled at the stop: 2.3 A through 0.1 ohm
   EXPECT_NEAR(robot.measure(0).voltage_v, 12 - 0.23, 0.01);
 }
 
-// A servo of another voltage draws the same power, and the same part of its supply is lost.
+// A servo of another voltage draws the same power, and its supply loses the same share.
 TEST(ServoInOde, SupplySagsByTheSamePartAtAnyVoltage) {
   for (const double nominal_v : {5.0, 24.0}) {
     World world;

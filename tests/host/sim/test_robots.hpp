@@ -4,12 +4,12 @@
 
 #include "host/model/entity.hpp"
 
-/// Robots made in code, so that these tests need no file and every number is in sight.
+/// Robots made in code: these tests need no file and show every number.
 namespace verp::sim::test {
 
 inline constexpr double kGravity_m_s2 = 9.80665;  // standard gravity, as in the twin's worlds
 
-/// XM430-W210 at 12 V, without play and friction.
+/// An XM430-W210 at 12 V, without play and friction.
 inline model::Servo plain_servo() {
   model::Servo servo;
   servo.type = "test";
@@ -111,7 +111,7 @@ inline model::Entity biped() {
   return entity;
 }
 
-/// Hips, knees and ankles bent so that the hips are hip_height_m over the ankles, soles level.
+/// Bends hips, knees and ankles to put the hips hip_height_m over the ankles, soles level.
 inline std::vector<double> crouch(const model::Entity& entity, double hip_height_m,
                                   double thigh_m = 0.093) {
   std::vector<double> angle(entity.joints.size(), 0.0);
