@@ -3,35 +3,35 @@
 #include <cstddef>
 #include <cstdint>
 
-/// Camera: pictures, one after the other, from something that makes them by itself.
+/// Camera: a source of pictures that runs by itself.
 ///
-/// Promises of a backend:
-///  - read(frame): the newest whole picture, or says why there is none. Never waits. Only kFresh
-///    changes the frame, and no picture is given twice: the second read of it is kStale.
-///  - The bytes stay the backend's. They stand still until the next read that is not kStale, or the
-///    backend's end: who wants them longer copies them.
-///  - Rows are from the top, pixels from the left, `stride_bytes` from row to row, of which the
-///    picture's may be fewer. A compressed picture has no rows: its stride is 0. size_bytes is all
-///    of it, and never less than the picture needs.
-///  - sequence counts what the sensor made, and lost how many of those nobody got since the frame
-///    before: sequence is the last one's plus lost plus one, modulo 2^32, but where the camera
-///    starts anew. A picture that came in part is lost.
-///  - time_us is when the sensor had it (not when it was read). Its clock never goes back: the PC's
-///    monotonic one, or the twin's simulated one. It rises from frame to frame.
-///  - After kFault (unplugged, or its driver failed) the backend tries again by itself in later
-///    reads. faults() counts the reads that said so, modulo 2^32.
+/// A backend promises:
+///  - read(frame): returns the newest whole picture, or why there is none. Never waits. Only kFresh
+///    changes the frame. A second read of the same picture is kStale.
+///  - The backend owns the bytes. They stay valid until the next read that is not kStale, or until
+///    the backend ends; the caller copies what it needs longer.
+///  - Rows run from the top, pixels from the left. `stride_bytes` is the distance between rows and
+///    may exceed the row's bytes. A compressed picture has stride 0. size_bytes covers the whole
+///    picture.
+///  - sequence counts the frames that the sensor made; lost counts those that the reader missed
+///    since its last frame: sequence = last sequence + lost + 1, modulo 2^32, unless the camera
+///    restarts. An incomplete picture counts as lost.
+///  - time_us is when the sensor captured the frame, by the PC's monotonic clock or the twin's
+///    simulated clock. It rises from frame to frame.
+///  - After kFault (unplugged, driver failed) later reads retry. faults() counts the reads that
+///    returned kFault, modulo 2^32.
 ///  - No call throws.
 /// Implementations: hal/fake/scripted_camera.hpp, host/link/v4l2_camera.hpp (Linux),
-/// host/camera/twin_camera.hpp (the twin's). User: host/tool/camera_command.cpp.
+/// host/camera/twin_camera.hpp (the twin). User: host/tool/camera_command.cpp.
 namespace verp::hal {
 
 enum class PixelFormat : std::uint8_t {
   kNone,
   kGrey,  ///< one byte a pixel
-  kRgb,   ///< three: red, green, blue
-  kYuyv,  ///< two pixels in four bytes: Y, Cb, Y, Cr of BT.601, 16 to 235 and 16 to 240
-  kJpeg,  ///< a file of that kind
-  kPng    ///< likewise
+  kRgb,   ///< three bytes: red, green, blue
+  kYuyv,  ///< two pixels in four bytes: Y, Cb, Y, Cr (BT.601: Y 16 to 235, C 16 to 240)
+  kJpeg,  ///< a JPEG file
+  kPng    ///< a PNG file
 };
 
 struct CameraFrame {
@@ -44,7 +44,7 @@ struct CameraFrame {
   std::size_t size_bytes = 0;
 };
 
-/// Of a row of pixels without what may stand behind it; 0: compressed, there are no rows.
+/// Bytes of pixels in a row, without padding; 0 for compressed formats.
 constexpr std::uint32_t row_bytes(PixelFormat format, std::uint32_t width_px) {
   switch (format) {
     case PixelFormat::kGrey:

@@ -3,22 +3,22 @@
 #include <cstddef>
 #include <cstdint>
 
-/// FlashPages: two pages of flash memory, numbered 0 and 1, that are erased apart from each other:
-/// sectors of 16 to 128 KB on an STM32F4, of 32 to 256 KB on an F7.
+/// FlashPages: two flash pages, 0 and 1, that are erased separately: sectors of 16 to 128 KB on an
+/// STM32F4, of 32 to 256 KB on an F7.
 ///
-/// Promises of a backend:
+/// A backend promises:
 ///  - kUnit: bytes programmed at once: 1, 2, 4 or 8. page_bytes(page): a multiple of 8.
 ///  - read(page, offset, to, size): any bytes within a page.
-///  - program(page, offset, from): kUnit bytes at a multiple of kUnit. Programming clears bits and
-///    never sets one: what is there becomes (there & from), also when it was programmed before.
-///    A bit programmed to 0 once more is firmly 0. False: the memory reported an error. Waits for
-///    its end (at most 100 us a unit: DS8626, flash memory programming).
-///  - erase(page): sets all bits of the page. False: the memory reported an error. May take seconds
-///    (2 s for 128 KB: the same table) in which the processor may stand still; the backend keeps
-///    the watchdog from biting meanwhile.
-///  - Power that goes during program() leaves in that unit any of the bits that were to change
-///    unsure, during erase() any bit of the page: an unsure bit may read differently at each start,
-///    until it is programmed to 0 or erased.
+///  - program(page, offset, from): writes kUnit bytes at a multiple of kUnit and waits for the end
+///    (at most 100 us a unit: DS8626, flash memory programming). Programming only clears bits: the
+///    result is (old & from), also on a unit programmed before. Programming a 0 bit again makes it
+///    firmly 0. False: the memory reported an error.
+///  - erase(page): sets all bits of the page. False: the memory reported an error. It may take
+///    seconds (2 s for 128 KB: the same table) during which the processor may stall; the backend
+///    keeps the watchdog from firing.
+///  - A power cut during program() leaves the changing bits of that unit unsure; during erase(),
+///    any bit of the page. An unsure bit may read differently at each start until it is programmed
+///    to 0 or erased.
 /// Implementations: hal/fake/fake_flash.hpp, the flash controllers of hal/chip. User:
 /// firmware/store/flash_store.hpp.
 namespace verp::hal {

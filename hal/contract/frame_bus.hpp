@@ -3,31 +3,24 @@
 #include <cstddef>
 #include <cstdint>
 
-/// FrameBus: how the controller, always the bus master, reaches servos and bus sensors with encoded
-/// bytes.
+/// FrameBus: how the controller, always the bus master, exchanges encoded frames with servos and
+/// bus sensors.
 ///
-/// Promises of a backend:
-///  - send(data, size): queues the whole frame or refuses it (false) without sending any of it.
-///  Returns without
-///    waiting for the wire. A later send never overtakes an earlier one. Frames of up to kMaxFrame
-///    bytes are accepted whenever nothing else is queued.
-///  - poll(buffer, capacity, timeout_us): waits until bytes have arrived or timeout_us of bus time
-///  have passed
-///    since the last accepted frame began on the wire (since the bus was opened, if there was
-///    none); returns how many bytes it stored, at most capacity. 0 means only that the timeout
-///    passed. Bytes keep their order; a backend may hand over a frame in several pieces. The
-///    timeout counts from the send, so that a master that collects a reply in several polls gives
-///    each of them the same number, and a remote backend needs no question of its own to learn when
-///    the frame left.
-///  - now_us(): bus time in microseconds since the backend was opened, never decreasing. Exact
-///  after a poll; may
-///    lag behind between a send and the poll that follows. In lockstep it is simulated time, so a
-///    timeout is decided there and a slow PC can't cause one.
+/// A backend promises:
+///  - send(data, size): queues the whole frame or refuses all of it (false); never waits for the
+///    wire. Frames leave in order. An empty queue accepts frames of up to kMaxFrame bytes.
+///  - poll(buffer, capacity, timeout_us): waits until bytes have arrived, or until timeout_us of
+///    bus time have passed since the last accepted frame began on the wire (since open if there was
+///    none). Returns the bytes stored, at most capacity; 0 means only that the time is over. Bytes
+///    keep their order; a frame may come in pieces. Counting from the send lets the master pass one
+///    timeout to every poll of a reply, and saves a remote backend a query for the send time.
+///  - now_us(): bus time in microseconds since open, never decreasing. Exact after a poll; may lag
+///    between a send and the next poll. In lockstep it is simulated time, so a slow PC cannot cause
+///    a timeout.
 ///  - No call allocates, throws or blocks past its timeout.
 namespace verp::hal {
 
-inline constexpr std::size_t kMaxFrame =
-    512;  ///< bytes; a Sync Write of 4 bytes to 32 servos takes 174
+inline constexpr std::size_t kMaxFrame = 512;  ///< bytes; Sync Write of 4 bytes to 32 servos: 174
 
 template <class Bus>
 concept FrameBus = requires(Bus& bus, const std::uint8_t* data, std::uint8_t* buffer,

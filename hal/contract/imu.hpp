@@ -4,26 +4,26 @@
 
 /// Imu: a gyroscope and accelerometer on the controller's own board.
 ///
-/// Promises of a backend:
-///  - read(sample): the mean of all complete samples that the chip took since the last read, or
-///    says why there is none; waits at most kImuMaxWait_us, whatever the chip does. Only kFresh
-///    changes the sample. So no turn falls between two reads: what is read, each times the time
-///    since the one before, adds up to it, within the chip's rate against the reads'.
+/// A backend promises:
+///  - read(sample): returns the mean of all complete samples since the last read, or why there is
+///    none. Waits at most kImuMaxWait_us whatever the chip does. Only kFresh changes the sample.
+///    The mean keeps rotation: each rate times its interval sums to the full turn, up to the ratio
+///    of chip rate and read rate.
 ///  - Reads at most kImuMostPause_us apart miss nothing. After a longer pause the backend may drop
-///    what came meanwhile, and is kStale once.
-///  - All six counts are of the same samples, in the chip's own axes and resolution, saturated at
-///    the int16 limits and rounded to the nearest; scale, range and mounting are the robot's
-///    Params. No sample is given twice: a read that finds no new one is kStale. time_us is when the
-///    newest was fetched, by the board's TickSource, and rises from read to read.
-///  - After kFault (a silent, stuck or foreign chip) the backend tries again by itself in later
-///    reads, none of which waits longer for it. faults() counts them, modulo 2^32.
-///  - Bias and calibration are not its business. No call allocates or throws.
+///    samples and return kStale once.
+///  - All six counts come from the same samples, in the chip's axes and resolution, saturated at
+///    the int16 limits and rounded to nearest. Scale, range and mounting are in the robot's Params.
+///    No sample is returned twice: a read without a new one is kStale. time_us is when the newest
+///    was fetched, by the board's TickSource; it rises from read to read.
+///  - After kFault (silent, stuck or unknown chip) later reads retry without waiting longer.
+///    faults() counts the faults, modulo 2^32.
+///  - The backend removes no bias and applies no calibration. No call allocates or throws.
 /// Implementations: hal/fake/scripted_imu.hpp, the SPI chips of hal/chip. User:
 /// firmware/app/app.hpp, for a robot whose Params name no IMU on the servo bus.
 namespace verp::hal {
 
 inline constexpr std::uint32_t kImuMaxWait_us = 500;
-inline constexpr std::uint32_t kImuMostPause_us = 22'000;  ///< the longest period, and 10 % of it
+inline constexpr std::uint32_t kImuMostPause_us = 22'000;  ///< the longest period plus 10 %
 
 struct ImuSample {
   std::int16_t gyro_count[3] = {};
@@ -31,7 +31,7 @@ struct ImuSample {
   std::uint64_t time_us = 0;
 };
 
-/// Sums samples up for a backend.
+/// Averages samples for a backend.
 class ImuMean {
  public:
   void add(const ImuSample& sample) {
@@ -41,7 +41,7 @@ class ImuMean {
     }
     ++count_;
   }
-  /// The six counts of `sample` become the mean since the last take(). False: of none.
+  /// Sets the counts of `sample` to the mean since the last take(). False: there were no samples.
   bool take(ImuSample& sample) {
     if (count_ == 0) return false;
     for (int axis = 0; axis < 3; ++axis) {
@@ -53,7 +53,7 @@ class ImuMean {
   }
 
  private:
-  /// Halves go away from zero: a bias to one side would add up to a turn.
+  /// Rounds halves away from zero: rounding one way would add up to a rotation.
   std::int16_t nearest(std::int32_t sum) const {
     const std::int32_t half = sum < 0 ? -(count_ / 2) : count_ / 2;
     return static_cast<std::int16_t>((sum + half) / count_);

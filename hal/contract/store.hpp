@@ -3,21 +3,20 @@
 #include <cstddef>
 #include <cstdint>
 
-/// Store: small values that outlive the power, by key: calibration, settings, the crash record.
+/// Store: small non-volatile values by key: calibration, settings, the crash record.
 ///
-/// Promises of a backend:
-///  - get(key, to, capacity): the size of the value of `key` as it would be found if the power went
-///    now; copies its first min(size, capacity) bytes. 0: there is none.
-///  - put(key, from, size): takes a copy of a new value; size 0 removes the key. kAccepted is not
-///    yet durable: that is when work() has said kIdle. One at a time: kBusy until then.
-///    kNoRoom: values, keys or this value would exceed what the store holds; nothing changed.
-///    kBadKey: 0 and 0xFFFF are no keys.
-///  - work(may_erase): one step, bounded: at most as many bytes as the backend says, so that a
-///    control period can afford it; an erase, which can stop the processor for seconds, only if
-///    may_erase (torque off). kNeedsErase: it cannot go on without. kFailed: the memory did not
-///    take the value; it keeps the old one, the new one is dropped, and put() works again.
-///  - Power that goes at any time, also within an erase or half-way through a word, leaves of each
-///    key the old or the new value, and from the next start on always the same of the two.
+/// A backend promises:
+///  - get(key, to, capacity): returns the size of the value that would survive a power cut now, and
+///    copies its first min(size, capacity) bytes. 0: no such key.
+///  - put(key, from, size): copies a new value; size 0 removes the key. kAccepted is not durable
+///    until work() returns kIdle; until then further puts return kBusy. kNoRoom: the store cannot
+///    hold it; nothing changed. kBadKey: 0 and 0xFFFF are not keys.
+///  - work(may_erase): one bounded step, short enough for a control period: the backend states its
+///    maximum of bytes. It erases, which can stop the processor for seconds, only if may_erase
+///    (torque off). kNeedsErase: it cannot continue without an erase. kFailed: the memory rejected
+///    the value; the old one stays, the new one is dropped, and put() works again.
+///  - A power cut at any time, even within an erase or a word, leaves the old or the new value of
+///    each key. From the next start on it is always the same one.
 ///  - No call allocates or throws.
 /// Implementations: hal/fake/memory_store.hpp, firmware/store/flash_store.hpp. User: a board's
 /// calibration and settings, by the operator link.

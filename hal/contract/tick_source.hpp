@@ -2,21 +2,21 @@
 #include <concepts>
 #include <cstdint>
 
-/// TickSource: the clock that paces the control loop where the bus doesn't do it.
+/// TickSource: the clock that paces the control loop where the bus does not.
 ///
-/// Promises of a backend:
+/// A backend promises:
 ///  - start(period_us): the first tick begins now, tick k at start + k * period_us, without drift.
-///    False, and nothing changes, if the clock cannot make that period exactly (0 always). Started
-///    again, it begins anew.
-///  - wait(): returns as soon as a tick has begun that no wait() has returned; at once if one has.
-///    Returns how many: 1 is in time, n > 1 says that the loop missed n - 1 beginnings. After
+///    False, with nothing changed, if the clock cannot make the period exactly (0 always). A second
+///    start begins anew.
+///  - wait(): returns when a tick has begun that no earlier wait() returned; at once if one has.
+///    Returns the number of such ticks: 1 is on time, n > 1 means the loop missed n - 1. After
 ///    start() the first wait() returns for tick 1. Before start() it returns 0 at once.
-///  - now_us(): microseconds since the source was made; never decreasing, also before start(),
-///    and the same clock that paces the ticks: when wait() returns for tick k, now_us() is at
-///    least start + k * period_us.
-///  - It never returns early; how late, is the backend's to say. No call allocates or throws.
+///  - now_us(): microseconds since construction, never decreasing, also before start(). It is the
+///    clock that paces the ticks: when wait() returns for tick k, now_us() >= start + k *
+///    period_us.
+///  - wait() is never early; each backend states how late it can be. No call allocates or throws.
 /// Implementations: hal/fake/manual_clock.hpp, host/link/system_clock.hpp. User: a real-time loop,
-/// which calls wait() and then App::tick(); firmware/app/pacer.hpp does it and keeps account.
+/// which calls wait() and then App::tick(); firmware/app/pacer.hpp does so and counts missed ticks.
 namespace verp::hal {
 
 template <class Source>

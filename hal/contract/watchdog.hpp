@@ -2,22 +2,22 @@
 #include <concepts>
 #include <cstdint>
 
-/// Watchdog: resets the controller unless its loop proves, by feeding it, that it lives.
+/// Watchdog: resets the controller unless its loop feeds it.
 ///
-/// Promises of a backend:
-///  - start(timeout_us): arms it; from now on nothing but a reset disarms it. False, and nothing
-///    changes, if the hardware cannot wait that long, if timeout_us is 0 or if it is armed already.
-///  - feed(): restarts the wait. Feed only after a completed tick, never from an interrupt: an
-///    interrupt lives on when the loop is dead. Before start() it does nothing.
-///  - Unfed, the reset comes no earlier than timeout_us and no later than kWatchdogSlack times
-///    that: it is clocked apart from the processor, by an oscillator that may be far off.
-///  - caused_reset(): whether the last reset was its own; the same answer until the next reset.
+/// A backend promises:
+///  - start(timeout_us): arms it; only a reset disarms it. False, with nothing changed, if the
+///    hardware cannot wait that long, timeout_us is 0, or it is armed already.
+///  - feed(): restarts the timeout; does nothing before start(). Feed only after a completed tick,
+///    never from an interrupt: interrupts still run when the loop is dead.
+///  - Without feeding, the reset comes between timeout_us and kWatchdogSlack * timeout_us: an
+///    independent, inaccurate oscillator clocks it.
+///  - caused_reset(): whether the watchdog caused the last reset; constant until the next one.
 ///  - No call blocks.
 /// Implementations: hal/fake/fake_watchdog.hpp, the independent watchdogs of hal/chip. User: a
 /// board's main loop.
 namespace verp::hal {
 
-/// An STM32F405's LSI runs at 17 to 47 kHz (DS8626, LSI oscillator characteristics): a factor
+/// The LSI of an STM32F405 runs at 17 to 47 kHz (DS8626, LSI oscillator characteristics): a factor
 /// of 2.8.
 inline constexpr std::uint32_t kWatchdogSlack = 3;
 

@@ -4,10 +4,9 @@
 
 #include "hal/contract/flash_pages.hpp"
 
-/// Flash in memory whose power can go in the middle of any write. Bits that were changing when it
-/// went are unsure: power_up() decides anew what each of them reads as, often all alike, as after a
-/// cut at the very beginning or end of the write. Plain data: a copy is a
-/// second flash in the same state.
+/// Flash in RAM with power cuts in the middle of any write. A cut leaves the changing bits unsure:
+/// each power_up() decides what they read as, often all alike, as after a cut at the very start or
+/// end of the write. Plain data: a copy is a second flash in the same state.
 namespace verp::hal {
 
 template <std::size_t kPageBytes, std::size_t kUnitBytes>
@@ -19,13 +18,13 @@ class FakeFlash {
     for (std::size_t i = 0; i < 2 * kPageBytes; ++i) cell_[i] = 0xFF;
   }
 
-  /// The power goes in the middle of the write after `writes` more, counting each program() and
-  /// erase() as one; after that nothing is written until power_up().
+  /// Cuts the power in the middle of the write that follows `writes` more program() or erase()
+  /// calls. Nothing is written after that until power_up().
   void cut_after(std::uint32_t writes) {
     writes_left_ = writes;
     cut_planned_ = true;
   }
-  /// Writes go on without a cut; unsure bits are read as they fall.
+  /// Ends the cut and draws new values for the unsure bits.
   void power_up() {
     dark_ = false;
     cut_planned_ = false;
@@ -40,20 +39,20 @@ class FakeFlash {
   bool dark() const { return dark_; }
   /// The next `writes` calls of program() report an error and clear only some of their bits.
   void refuse(std::uint32_t writes) { refusals_ = writes; }
-  /// Flips bits, as age does.
+  /// Flips bits, as ageing does.
   void damage(std::size_t page, std::size_t offset, std::uint8_t mask) {
     std::uint8_t& cell = cell_[page * kPageBytes + offset];
     cell = static_cast<std::uint8_t>(cell ^ mask);
   }
   std::uint32_t programs() const { return programs_; }
   std::uint32_t erases() const { return erases_; }
-  /// Calls outside the contract: across a page's end, or off the unit's grid.
+  /// Calls outside the contract: past a page's end, or not at a multiple of the unit.
   std::uint32_t misuses() const { return misuses_; }
 
   // FlashPages
   std::size_t page_bytes(std::size_t) const { return kPageBytes; }
 
-  /// Where it is read as memory.
+  /// The page's address as memory.
   const std::uint8_t* memory(std::size_t page) const { return cell_ + page * kPageBytes; }
 
   void read(std::size_t page, std::size_t offset, std::uint8_t* to, std::size_t size) const {

@@ -3,15 +3,14 @@
 
 #include "hal/contract/watchdog.hpp"
 
-/// A Watchdog whose time passes by advance() and whose oscillator runs as slow or fast as the test
-/// says.
+/// A Watchdog whose time passes by advance(); the test sets the oscillator's speed.
 namespace verp::hal {
 
 class FakeWatchdog {
  public:
   static constexpr std::uint32_t kMost_us = 30'000'000;
 
-  /// The wait really takes `percent` of the timeout: 100 to 100 * kWatchdogSlack.
+  /// The real timeout is `percent` of the requested one: 100 to 100 * kWatchdogSlack.
   explicit FakeWatchdog(std::uint32_t percent = 100) : percent_(percent) {}
 
   void advance(std::uint64_t time_us) {

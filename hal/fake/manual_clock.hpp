@@ -8,7 +8,7 @@ namespace verp::hal {
 
 class ManualClock {
  public:
-  /// What the loop, or a busy PC, takes.
+  /// Time that the loop or a busy PC takes.
   void advance(std::uint64_t time_us) { now_us_ += time_us; }
 
   bool start(std::uint32_t period_us) {

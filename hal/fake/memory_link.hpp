@@ -4,8 +4,8 @@
 
 #include "hal/contract/byte_link.hpp"
 
-/// Two ByteLinks, each the other's far end, in one thread: for tests on the PC and on target.
-/// Nobody else can act while a call waits, so a wait only moves the wire's clock on.
+/// Two ByteLinks in one thread, each the other's far end: for tests on the PC and on target.
+/// Nothing else runs while a call waits, so a wait only advances the wire's clock.
 namespace verp::hal {
 
 class MemoryWire;
@@ -20,7 +20,7 @@ class MemoryLink {
  private:
   friend class MemoryWire;
   MemoryLink(MemoryWire& wire, MemoryLink& far) : wire_(wire), far_(far) {}
-  /// What the wire has become, as far as this end can know now.
+  /// Updates connected_ as far as this end can know it now.
   void look();
 
   static constexpr std::size_t kBytes = 256;
@@ -28,7 +28,7 @@ class MemoryLink {
   MemoryLink& far_;
   LinkErrors errors_;
   bool connected_ = true;
-  std::size_t first_ = 0;  ///< of the bytes that wait for read()
+  std::size_t first_ = 0;  ///< first byte that waits for read()
   std::size_t count_ = 0;
   std::uint8_t waiting_[kBytes] = {};
 };
@@ -40,7 +40,7 @@ class MemoryWire {
   void cut() { whole_ = false; }
   void mend() { whole_ = true; }
   bool whole() const { return whole_; }
-  /// A byte with a bad stop bit, or with noise, arrives at `link`.
+  /// Counts a byte with a bad stop bit, or with noise, at `link`.
   static void spoil_framing(MemoryLink& link) { ++link.errors_.framing; }
   static void spoil_noise(MemoryLink& link) { ++link.errors_.noise; }
   std::uint64_t now_us() const { return now_us_; }

@@ -4,7 +4,7 @@
 
 #include "hal/contract/store.hpp"
 
-/// A Store that forgets at the end of its life: for boards without flash to spare and for tests.
+/// A volatile Store: for boards without spare flash and for tests.
 namespace verp::hal {
 
 class MemoryStore {
@@ -44,7 +44,7 @@ class MemoryStore {
 
  private:
   struct Value {
-    std::uint16_t key = 0;  ///< 0: the place is free
+    std::uint16_t key = 0;  ///< 0: free
     std::size_t size = 0;
     std::uint8_t bytes[kMaxValue] = {};
   };

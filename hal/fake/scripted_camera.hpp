@@ -4,19 +4,19 @@
 
 #include "hal/contract/camera.hpp"
 
-/// A Camera that plays a script: pictures, and reads in which it is unplugged. The bytes are the
-/// script's, and must stand as long as the contract says.
+/// A Camera that plays a script of pictures and faults. The script owns the bytes, for as long as
+/// the contract says.
 namespace verp::hal {
 
 class ScriptedCamera {
  public:
-  /// It made a picture; one that nobody fetched is lost. sequence and lost are counted here.
+  /// Makes a picture available; one that was not read is lost. Sets sequence and lost itself.
   void show(const CameraFrame& frame) {
     frame_ = frame;
     frame_.sequence = made_++;
     fetched_ = false;
   }
-  /// It is not there in the next `reads` reads.
+  /// The next `reads` reads return kFault.
   void fail(std::uint32_t reads) { failures_left_ = reads; }
 
   CameraStatus read(CameraFrame& frame) {

@@ -4,26 +4,26 @@
 
 #include "hal/contract/can_bus.hpp"
 
-/// A CanBus that plays a script: the frames that must come, and those that then arrive, and when.
-/// Fixed capacity, no heap, so that it runs on a microcontroller too. Frames take no time of their
-/// own: what is accepted has left, unless the bus is held.
+/// A CanBus that plays a script of expected frames and timed answers. Fixed capacity without heap,
+/// so it also runs on a microcontroller. Frames take no time: an accepted frame has left, unless
+/// the bus is held.
 namespace verp::hal {
 
 class ScriptedCan {
  public:
-  static constexpr std::size_t kFrames = 112;  ///< that may be on their way
-  static constexpr std::size_t kScript = 16;   ///< of a script
+  static constexpr std::size_t kFrames = 112;  ///< capacity for frames that have not arrived yet
+  static constexpr std::size_t kScript = 16;   ///< expected frames in a script
   static constexpr std::size_t kAnswers = 16;
-  static constexpr std::size_t kHeard = 64;         ///< that may have left and not been taken
+  static constexpr std::size_t kHeard = 64;  ///< capacity for sent frames that wait for take_sent()
   static constexpr std::uint32_t kBusOffUs = 1408;  ///< 128 times 11 bits at 1 Mbit/s
 
-  /// The next frame sent must be `frame`. False: script full.
+  /// Expects `frame` next. False: script full.
   bool expect(const CanFrame& frame) {
     if (expected_ == kScript) return false;
     script_[expected_++] = {frame, 0, expected_};
     return true;
   }
-  /// `frame` arrives `delay_us` after the frame that was expected last has been sent.
+  /// `frame` arrives `delay_us` after the most recently expected frame was sent.
   bool answer(const CanFrame& frame, std::uint32_t delay_us) {
     if (answers_ == kAnswers) return false;
     answer_[answers_++] = {frame, delay_us, expected_};
@@ -37,11 +37,11 @@ class ScriptedCan {
     arrival_[at] = {frame, time_us, 0};
     return true;
   }
-  /// After the test: every expected frame was sent, in order, and no other.
+  /// After the test: whether every expected frame was sent, in order, and no other.
   bool finished() const { return mismatches_ == 0 && played_ == expected_; }
   std::size_t mismatches() const { return mismatches_; }
 
-  /// The next frame that has left, in their order; false if there is none.
+  /// Fetches the next sent frame; false if there is none.
   bool take_sent(CanFrame& frame) {
     if (left_ == 0) return false;
     frame = sent_[0];
@@ -49,12 +49,12 @@ class ScriptedCan {
     --left_;
     return true;
   }
-  /// While held, what is accepted waits: somebody else has the bus.
+  /// While held, accepted frames wait, as if another node had the bus.
   void hold(bool yes) {
     held_ = yes;
     if (!yes) let_go();
   }
-  /// Too many errors: what waits is dropped, and nothing accepted for kBusOffUs.
+  /// Simulates bus-off: drops waiting frames and refuses new ones for kBusOffUs.
   void bus_off() {
     ++errors_.bus_offs;
     errors_.dropped += static_cast<std::uint32_t>(queued_ - left_);
@@ -93,7 +93,7 @@ class ScriptedCan {
   struct Line {
     CanFrame frame;
     std::uint64_t time_us;
-    std::size_t after;  ///< of an answer: so many frames were expected before it
+    std::size_t after;  ///< for an answer: the number of frames expected before it
   };
 
   void let_go() {
@@ -118,7 +118,7 @@ class ScriptedCan {
   Line script_[kScript] = {};
   Line answer_[kAnswers] = {};
   Line arrival_[kFrames] = {};
-  CanFrame sent_[kHeard] = {};  ///< those that left, then those that wait
+  CanFrame sent_[kHeard] = {};  ///< the sent frames, then the waiting ones
   std::size_t expected_ = 0;
   std::size_t answers_ = 0;
   std::size_t arrivals_ = 0;

@@ -4,17 +4,17 @@
 
 #include "hal/contract/range_finder.hpp"
 
-/// A RangeFinder that plays a script: scans, and reads in which the sensor is silent.
+/// A RangeFinder that plays a script of scans and faults.
 namespace verp::hal {
 
 class ScriptedRangeFinder {
  public:
-  /// It has a new scan; one that nobody fetched is gone.
+  /// Makes a scan available; it replaces one that was not read.
   void measure(const RangeScan& scan) {
     scan_ = scan;
     fetched_ = false;
   }
-  /// It is silent in the next `reads` reads.
+  /// The next `reads` reads return kFault.
   void fail(std::uint32_t reads) { failures_left_ = reads; }
 
   RangeStatus read(RangeScan& scan) {

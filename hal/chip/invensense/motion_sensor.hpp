@@ -6,24 +6,24 @@
 #include "hal/chip/invensense/registers.hpp"
 #include "hal/contract/imu.hpp"
 
-/// An MPU-9250 or ICM-20648 behind SPI as an Imu; it finds out which. Each read() does one step of
-/// the way from a reset chip to samples, or fetches what the FIFO holds, and never waits for the
-/// chip: after a fault it begins anew, and is kStale for the 150 ms that the chip takes to come up.
+/// An MPU-9250 or ICM-20648 behind SPI as an Imu; the driver detects which. Each read() takes one
+/// step of the start-up or fetches the FIFO, and never waits for the chip. After a fault it
+/// restarts the chip and returns kStale for the 150 ms of its start-up.
 ///
-/// A foot that lands jolts the body for less than a tick: of one sample a tick the jolt's rise or
-/// its fall would be missing, and the turn that the rates add up to would be wrong. Hence the mean.
+/// A landing foot jolts the body for less than a tick. One sample a tick would miss part of the
+/// jolt and falsify the integrated rotation; hence the mean.
 namespace verp::hal::invensense {
 
-/// exchange(out, in, size, max_hz): bytes both ways in one selection, at most at that clock; false:
-/// it did not work. `in` may be `out`. Ends within twice the bytes' time and 20 us.
+/// exchange(out, in, size, max_hz): transfers bytes both ways in one selection, at most at max_hz;
+/// false on failure. `in` may equal `out`. Takes at most twice the bytes' time plus 20 us.
 template <class Spi>
 concept SpiBus = requires(Spi& spi, const std::uint8_t* out, std::uint8_t* in, std::size_t size,
                           std::uint32_t max_hz) {
   { spi.exchange(out, in, size, max_hz) } -> std::same_as<bool>;
 };
 
-/// `Clock` has now_us(), the board's TickSource. A sample's time is that of its fetching: the
-/// newest is at most one sample period, 2 ms, older.
+/// `Clock` has now_us(), the board's TickSource. A sample's time is when it was fetched; it may be
+/// one sample period (2 ms) older.
 template <SpiBus Spi, class Clock>
 class MotionSensor {
  public:
@@ -47,16 +47,17 @@ class MotionSensor {
 
  private:
   enum class Phase : std::uint8_t { kSearch, kResetting, kStarting, kRunning };
-  /// After DEVICE_RESET: both data sheets, "start-up time for register read/write", 100 ms at most.
+  /// After DEVICE_RESET: at most 100 ms (both data sheets, "start-up time for register
+  /// read/write").
   static constexpr std::uint64_t kReset_us = 100'000;
-  /// From sleep to valid rates: 35 ms typically (both data sheets), and what the filter takes.
+  /// From sleep to valid rates: 35 ms typical (both data sheets), plus the filter.
   static constexpr std::uint64_t kStart_us = 50'000;
-  /// Fifty sample periods without a sample: it has stopped.
+  /// Fifty sample periods without a sample mean that the chip has stopped.
   static constexpr std::uint64_t kSilence_us = 100'000;
   static constexpr std::uint8_t kRead = 0x80;
   static constexpr std::size_t kSampleSize = 12;
-  /// kImuMostPause_us of either chip, and one for the tolerance of its rate: the wait has room for
-  /// them from 6 MHz up. Far below the FIFO's size, 512 bytes, so that no full one is believed.
+  /// kImuMostPause_us of samples, plus one for the rate's tolerance: the wait covers them from 6
+  /// MHz up. Far below the FIFO's 512 bytes, so the driver never trusts a full FIFO.
   static constexpr std::size_t kMostSize = 14 * kSampleSize;
 
   ImuStatus fault() {
@@ -120,8 +121,8 @@ class MotionSensor {
     return true;
   }
 
-  // A FIFO with more than fits, after a pause, is emptied; so is one that is out of step, since its
-  // bytes would be taken for those of another axis. The guard comes last: it vouches for the data.
+  // Empties a FIFO that holds too much (after a pause) or is out of step, since its bytes would
+  // belong to other axes. The guard register is read last: it vouches for the data.
   ImuStatus fetch(ImuSample& sample) {
     std::uint8_t data[1 + kMostSize] = {};
     std::size_t size = 0;
@@ -131,14 +132,14 @@ class MotionSensor {
     const bool done = fits && in_step ? fetch_fifo(data, size) : empty_fifo();
     if (!done || !keeps_settings()) return fault();
     if (fits ? in_step && size > 0 : !overfull_) alive_us_ = now_us;
-    overfull_ = !fits;  // once is a pause; ever again, a chip that does not empty it
+    overfull_ = !fits;  // once is a pause; twice is a FIFO that does not empty
     if (now_us - alive_us_ > kSilence_us) return fault();
     if (!fits || !in_step || size == 0) return ImuStatus::kStale;
     take_mean(data + 1, size, sample);
     sample.time_us = now_us;
     return ImuStatus::kFresh;
   }
-  /// A sample that is just being written is whole at the second look.
+  /// Reads the size twice if a sample is just being written.
   bool fetch_size(std::size_t& size) {
     return look_at_size(size) && (size % kSampleSize == 0 || look_at_size(size));
   }
@@ -167,7 +168,7 @@ class MotionSensor {
     return static_cast<std::int16_t>(static_cast<std::uint16_t>(data[0] << 8 | data[1]));
   }
 
-  // Who is not known yet must bear it, whoever it is.
+  // Until the chip is known, uses the clock that both kinds accept.
   std::uint32_t registers_hz() const {
     return phase_ == Phase::kSearch ? kMpu9250.registers_hz : kind_->registers_hz;
   }
@@ -190,7 +191,7 @@ class MotionSensor {
     value = data[1];
     return true;
   }
-  /// `data` has one byte more than `size`: the address goes out at its head.
+  /// `data` has `size` + 1 bytes: the address goes out first.
   bool fetch_bytes(std::uint8_t address, std::uint8_t* data, std::size_t size,
                    std::uint32_t max_hz) {
     data[0] = static_cast<std::uint8_t>(address | kRead);
@@ -203,12 +204,12 @@ class MotionSensor {
   const Clock& clock_;
   Ranges ranges_;
   const Kind* kind_ = &kMpu9250;
-  std::uint64_t ready_us_ = 0;  ///< when the chip will have done what it was told
+  std::uint64_t ready_us_ = 0;  ///< when the chip has executed the last command
   std::uint64_t alive_us_ = 0;  ///< when the FIFO last held samples
   std::uint32_t faults_ = 0;
   Phase phase_ = Phase::kSearch;
-  std::uint8_t bank_ = kUnknownBank;  ///< that the chip shows
-  bool overfull_ = false;             ///< more was in the FIFO at the last read than fits
+  std::uint8_t bank_ = kUnknownBank;  ///< currently selected
+  bool overfull_ = false;             ///< the FIFO held too much at the last read
 };
 
 }  // namespace verp::hal::invensense

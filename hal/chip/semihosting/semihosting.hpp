@@ -2,18 +2,18 @@
 #include <cstddef>
 #include <cstdint>
 
-/// Arm semihosting: an emulated (or debugged) core asks the PC to open, read and write files. Files
-/// may be FIFOs, which makes this the fastest link to QEMU. Calls after "Semihosting for AArch32
-/// and AArch64" (Arm IHI 0100). A call stops the core until the PC has answered; without a debugger
-/// it faults.
+/// Arm semihosting: an emulated or debugged core opens, reads and writes files on the PC
+/// ("Semihosting for AArch32 and AArch64", Arm IHI 0100). FIFOs work too, which makes this the
+/// fastest link to QEMU. A call stops the core until the PC has answered; without a debugger it
+/// faults.
 namespace verp::hal::semihosting {
 
-/// An open file. Only one owner; closes at the end of its life.
+/// An open file; the destructor closes it.
 class File {
  public:
   enum class Mode : std::uint32_t { kRead = 1, kWrite = 5 };  ///< "rb", "wb"
 
-  /// `path` is on the PC, relative to where the emulator runs. Opening a FIFO waits for the other
+  /// `path` is on the PC, relative to the emulator's directory. Opening a FIFO waits for the far
   /// end.
   File(const char* path, Mode mode);
   ~File();
@@ -21,25 +21,24 @@ class File {
   File& operator=(const File&) = delete;
 
   bool is_open() const { return handle_ >= 0; }
-  /// Waits for at least one byte; returns how many came, at most capacity; 0: the other end closed.
+  /// Waits for at least one byte; returns the count, at most capacity. 0: the far end closed.
   std::size_t read_some(void* data, std::size_t capacity);
-  /// Waits until all bytes have come. False: the other end closed, or the file ended, before that.
+  /// Waits for all bytes. False: the far end closed or the file ended first.
   bool read(void* data, std::size_t size);
-  /// Waits until all bytes have gone. False: the other end closed.
+  /// Waits until all bytes have gone. False: the far end closed.
   bool write(const void* data, std::size_t size);
 
  private:
   int handle_;
 };
 
-/// What the PC passed on the command line, at most capacity - 1 characters. False if it did not
-/// fit.
+/// The emulator's command line, at most capacity - 1 characters. False: it did not fit.
 bool command_line(char* text, std::size_t capacity);
 
-/// To the emulator's standard error.
+/// Prints to the emulator's standard error.
 void print(const char* text);
 
-/// Ends the emulator with this exit status.
+/// Ends the emulator.
 [[noreturn]] void exit(int status);
 
 }  // namespace verp::hal::semihosting

@@ -11,21 +11,19 @@
 
 /// The SJA1000 in PeliCAN mode as a CanBus.
 ///
-/// The chip holds one frame to send and 64 bytes of received ones; the rest waits here.
-/// on_interrupt() moves frames between chip and memory; a board that takes no interrupts needs not
-/// call it, as every call of the bus does the same, but must then poll more often than 64 bytes of
-/// frames arrive. A frame in the chip gives way to a more urgent one that was accepted later,
-/// unless it is being sent.
+/// The chip holds one frame to send and 64 bytes of received frames; the driver queues the rest.
+/// on_interrupt() moves frames between chip and memory. Every bus call does the same, so a board
+/// without interrupts must only call often enough: before 64 bytes of frames arrive. A more urgent
+/// frame replaces the frame in the chip unless that is already being sent.
 namespace verp::hal::sja1000 {
 
-/// How the driver reaches the chip and the core around it:
+/// How the driver reaches the chip and core:
 ///  - read8(offset), write8(offset, value): one register;
 ///  - now_us(): microseconds, never decreasing;
-///  - mask_interrupts(): holds interrupts back; true if they were not. unmask_interrupts() ends
-///  that;
-///  - doze_until(us): with interrupts held back; returns when one is pending, when the time has
-///  come,
-///    or earlier for no reason.
+///  - mask_interrupts(): masks interrupts; true if they were enabled. unmask_interrupts() undoes
+///    it;
+///  - doze_until(us): called with interrupts masked; returns when one is pending or the time has
+///    come, perhaps earlier.
 template <class Access>
 concept Io = std::copyable<Access> &&
     requires(Access& io, std::uint32_t offset, std::uint8_t value, std::uint64_t us) {
@@ -44,12 +42,12 @@ class Sja1000 {
 
   explicit Sja1000(Access io) : io_(io) {}
 
-  /// The timing of `crystal_hz`; check possible() at compile time.
+  /// The timing for `crystal_hz`; check possible() at compile time.
   static constexpr CanTiming timing(std::uint32_t crystal_hz, std::uint32_t bit_rate_hz) {
     return can_timing(crystal_hz / kClockDivider, bit_rate_hz, kMostPrescaler);
   }
 
-  /// Resets the chip and joins the bus. False: no SJA1000 there, or the timing is not possible.
+  /// Resets the chip and joins the bus. False: no SJA1000, or the timing is impossible.
   bool open(const CanTiming& timing) {
     if (!timing.possible()) return false;
     const Held held(io_);
@@ -59,16 +57,16 @@ class Sja1000 {
     io_.write8(kIer, 0);
     for (std::uint32_t i = 0; i < 4; ++i) {
       io_.write8(kAcceptance + i, 0);
-      io_.write8(kMask + i, 0xFF);  // everything is for us
+      io_.write8(kMask + i, 0xFF);  // accept all frames
     }
-    // The bit timing can't be asked back from QEMU's model.
+    // QEMU's model does not return the bit timing.
     if (io_.read8(kCdr) != kPeliCan || io_.read8(kMask) != 0xFF) return false;
     const auto btr0 = static_cast<std::uint8_t>((timing.jump - 1) << 6 | (timing.prescaler - 1));
     const auto btr1 = static_cast<std::uint8_t>((timing.after - 1) << 4 | (timing.before - 1));
     io_.write8(kBtr0, btr0);
     io_.write8(kBtr1, btr1);
     io_.write8(kOcr, kOcrPushPull);
-    static_cast<void>(io_.read8(kIr));  // forgets what was pending
+    static_cast<void>(io_.read8(kIr));  // clears pending interrupts
     io_.write8(kIer, kIrReceive | kIrTransmit | kIrWarning | kIrOverrun | kIrBusError);
     io_.write8(kMod, 0);
     origin_us_ = io_.now_us();
@@ -104,11 +102,11 @@ class Sja1000 {
   std::uint64_t now_us() const { return now_us_; }
   CanErrors errors() const { return errors_; }
 
-  /// From the board's interrupt handler.
+  /// Called by the board's interrupt handler.
   void on_interrupt() { serve(); }
 
  private:
-  /// Holds interrupts back as long as it lives.
+  /// Masks interrupts during its lifetime.
   class Held {
    public:
     explicit Held(Access& io) : io_(io), mine_(io.mask_interrupts()) {}
@@ -131,7 +129,7 @@ class Sja1000 {
 
   std::uint64_t time_us() { return io_.now_us() - origin_us_; }
 
-  /// All that the chip wants: frames out of it, frames into it, errors counted.
+  /// Receives, transmits and counts errors.
   void serve() {
     const std::uint8_t why = io_.read8(kIr);
     if ((why & kIrBusError) != 0) {
@@ -154,8 +152,8 @@ class Sja1000 {
     if (!off_) transmit(status);
   }
 
-  /// After 255 errors the chip resets itself; released again, it waits for the bus as the standard
-  /// asks.
+  /// After 255 errors the chip enters reset mode; once released, it waits for the bus as the
+  /// standard requires.
   void follow_bus(std::uint8_t status) {
     const bool off = (status & kSrBusOff) != 0;
     if (off && !off_) {
@@ -233,8 +231,8 @@ class Sja1000 {
   }
 
   [[no_unique_address]] Access io_;
-  CanOutbox<kCanQueue + 1> queue_;  ///< one more: a frame that comes back from the chip
-  CanFrame chip_;                   ///< what the chip is to send, if in_chip_
+  CanOutbox<kCanQueue + 1> queue_;  ///< one extra for a frame that the chip gives back
+  CanFrame chip_;                   ///< the frame in the chip, if in_chip_
   Received ring_[kReceived] = {};
   std::size_t first_ = 0;
   std::size_t received_ = 0;

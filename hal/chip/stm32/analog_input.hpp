@@ -7,15 +7,15 @@
 #include "hal/chip/stm32/registers/adc.hpp"
 #include "hal/chip/stm32/registers/rcc.hpp"
 
-/// One channel of an analog-to-digital converter as a slow voltage: poll() never waits.
+/// One ADC channel as a slow voltage; poll_mv() never waits.
 namespace verp::hal::stm32 {
 
 struct AnalogWiring {
-  std::uint32_t base = 0;  ///< ADC1 to ADC3; 0: there is no such input
-  std::uint32_t mask = 0;  ///< its bit of rcc::kApb2enr
+  std::uint32_t base = 0;  ///< ADC1 to ADC3; 0: no such input
+  std::uint32_t mask = 0;  ///< its bit in rcc::kApb2enr
   Pin pin;
-  std::uint8_t channel = 0;         ///< up to 15
-  std::uint32_t full_scale_mv = 0;  ///< at the wire, before the divider, for 4096 counts
+  std::uint8_t channel = 0;         ///< 0 to 15
+  std::uint32_t full_scale_mv = 0;  ///< voltage before the divider for 4096 counts
 
   constexpr bool exists() const { return base != 0; }
 };
@@ -27,12 +27,13 @@ class AnalogInput {
   AnalogInput(const AnalogWiring& wiring, Timer& timer, Access io = {})
       : io_(io), wiring_(wiring), timer_(timer) {}
 
-  /// `bus_hz` clocks APB2. Once, before poll(). The converters share their clock's divider.
+  /// Call once before poll_mv(). `bus_hz` is the APB2 clock. The converters share one clock
+  /// divider.
   void open(std::uint32_t bus_hz) {
     if (!wiring_.exists()) return;
     enable_clock(io_, rcc::kApb2enr, wiring_.mask);
     Gpio<Access>(io_).analog(wiring_.pin);
-    std::uint32_t divider = 0;  // the clock is APB2 / (2 * (divider + 1))
+    std::uint32_t divider = 0;  // ADC clock = APB2 / (2 * (divider + 1))
     while (divider < 3 && bus_hz / (2 * (divider + 1)) > kMost_hz) ++divider;
     modify32(io_, base::kAdcCommon + adc::kCommonCcr, adc::kCcrAdcpre,
              divider << adc::kCcrAdcpreShift);
@@ -45,8 +46,8 @@ class AnalogInput {
     asked_us_ = timer_.now_us();
   }
 
-  /// Fetches what has been converted and asks for the next one. The mean of the last results, about
-  /// kWeight of them; 0: there is none, or the converter has stopped.
+  /// Fetches a finished conversion and starts the next. Returns the running mean of about kWeight
+  /// results; 0: none yet, or the converter has stopped.
   std::uint32_t poll_mv() {
     if (!wiring_.exists()) return 0;
     const std::uint64_t now_us = timer_.now_us();
@@ -63,16 +64,16 @@ class AnalogInput {
     asked_ = true;
     return mean_mv();
   }
-  /// Conversions that never ended, modulo 2^32.
+  /// Conversions that timed out, modulo 2^32.
   std::uint32_t timeouts() const { return timeouts_; }
 
  private:
-  /// DS8626, ADC characteristics: 36 MHz and 3 us to power up; the F446 and F746 alike.
+  /// DS8626, ADC characteristics: 36 MHz, 3 us to power up; the same on F446 and F746.
   static constexpr std::uint32_t kMost_hz = 36'000'000;
   static constexpr std::uint64_t kPowerUp_us = 4;
-  /// A conversion takes 492 cycles of at least 2 MHz (16 MHz of APB2, divided by 8).
+  /// A conversion takes 492 cycles of at least 2 MHz (APB2 16 MHz / 8).
   static constexpr std::uint64_t kPatience_us = 1000;
-  static constexpr std::uint32_t kLongest = 7;  ///< of SMPR: 480 cycles, for a divider of 100 kohm
+  static constexpr std::uint32_t kLongest = 7;  ///< SMPR: 480 cycles, for a divider of 100 kohm
   static constexpr std::uint32_t kWeight = 16;
 
   std::uint32_t at(std::uint32_t offset) const { return wiring_.base + offset; }

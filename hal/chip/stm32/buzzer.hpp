@@ -8,8 +8,8 @@
 #include "hal/chip/stm32/registers/rcc.hpp"
 #include "hal/chip/stm32/registers/timer.hpp"
 
-/// A buzzer without a driver of its own on a pin that no timer drives: TIM3's interrupt turns the
-/// pin over. A tone ends by itself, and its interrupts with it, also if a flag would not clear.
+/// A passive buzzer on a pin without a timer channel: TIM3's interrupt toggles the pin. A tone
+/// stops itself and its interrupts, even if a flag does not clear.
 namespace verp::hal::stm32 {
 
 template <Io Access>
@@ -17,7 +17,7 @@ class Buzzer {
  public:
   explicit Buzzer(Pin pin, Access io = {}) : io_(io), gpio_(io), pin_(pin) {}
 
-  /// `timer_hz` clocks TIM3, whose vector calls on_interrupt(). Once.
+  /// Call once. `timer_hz` is TIM3's clock; TIM3's vector calls on_interrupt().
   void open(std::uint32_t timer_hz) {
     if (!pin_.exists()) return;
     gpio_.output(pin_, false);
@@ -25,7 +25,7 @@ class Buzzer {
     io_.write32(at(timer::kPsc), timer_hz / kCount_hz - 1);
   }
 
-  /// A tone of `hz`, 20 to 20000, from now on; it ends what sounds. 0 ms: silence.
+  /// Starts a tone of `hz`, 20 to 20000, in place of the current one. 0 ms: silence.
   void sound(std::uint32_t hz, std::uint32_t duration_ms) {
     if (!pin_.exists() || hz < kLeast_hz || hz > kMost_hz) return;
     const Masked<Access> masked(io_);
@@ -51,7 +51,7 @@ class Buzzer {
   static constexpr std::uint32_t kCount_hz = 1'000'000, kLeast_hz = 20, kMost_hz = 20'000;
 
   static std::uint32_t at(std::uint32_t offset) { return base::kTim3 + offset; }
-  // The pin rests low: a buzzer without tone draws no current.
+  // The pin rests low, so that a silent buzzer draws no current.
   void end() {
     io_.write32(at(timer::kDier), 0);
     io_.write32(at(timer::kCr1), 0);
@@ -63,7 +63,7 @@ class Buzzer {
   [[no_unique_address]] Access io_;
   Gpio<Access> gpio_;
   Pin pin_;
-  std::uint32_t left_ = 0;  ///< times that the pin is still to be turned over
+  std::uint32_t left_ = 0;  ///< pin toggles left
   bool high_ = false;
 };
 

@@ -8,25 +8,25 @@
 #include "hal/chip/stm32/interrupts.hpp"
 #include "hal/contract/can_bus.hpp"
 
-/// bxCAN as a CanBus. Its three mailboxes hold the best frames of those that wait: a better
-/// one takes the place of the worst. Of frames with one identifier only one is in
-/// a mailbox at a time, so that they keep their order. Interrupts fetch what arrives, stamped with
-/// the timer: late by the interrupt's latency.
+/// bxCAN as a CanBus. The three mailboxes hold the most urgent waiting frames: a more urgent frame
+/// replaces the least urgent one. Only one frame per identifier is in a mailbox at a time, which
+/// keeps their order. Interrupts fetch and time-stamp received frames, late by the interrupt's
+/// latency.
 ///
-/// The board calls on_interrupt() from all four of its vectors, all of one priority. It refuses a
-/// clock that is not a crystal's: the internal oscillator is too far off for a bit of 1 us.
+/// The board calls on_interrupt() from all four vectors, all of one priority. open() requires the
+/// crystal: the internal oscillator is too inaccurate for a bit of 1 us.
 namespace verp::hal::stm32 {
 
-/// Lets frames in whose identifier has `id`'s bits where `mask` has ones.
+/// Accepts frames whose identifier equals `id` in the bits that `mask` sets.
 struct CanFilterRule {
   std::uint32_t id = 0;
   std::uint32_t mask = 0;
   bool extended = false;
 };
 
-/// Where a bxCAN's filters are. CAN1 keeps those of CAN2 too, and must have its clock for that.
+/// Where a bxCAN's filters are. CAN1 also holds CAN2's filters, so CAN1's clock must be on.
 struct CanFilterBanks {
-  std::uint32_t base = 0;  ///< of the bxCAN that keeps them; 0: its own
+  std::uint32_t base = 0;  ///< bxCAN that holds them; 0: this one
   unsigned first = 0;
 };
 inline constexpr CanFilterBanks kCan2Filters = {.base = base::kCan1, .first = can::kCan2FirstBank};
@@ -35,15 +35,15 @@ template <Io Access, class Timer>
 class BxCan {
  public:
   static constexpr std::size_t kInbox = 64;
-  static constexpr std::size_t kRules = 14;  ///< filter banks of each
+  static constexpr std::size_t kRules = 14;  ///< filter banks of each bxCAN
 
   BxCan(std::uint32_t base, Timer& timer, Access io = {}, CanFilterBanks banks = {})
       : io_(io), base_(base), banks_(banks), timer_(timer) {
     if (banks_.base == 0) banks_.base = base;
   }
 
-  /// Clocks and pins are on. No rule lets all in. False: not this clock, too many rules, or the
-  /// peripheral does not answer.
+  /// Clocks and pins are on. Without rules it accepts all frames. False: the clock does not fit,
+  /// there are too many rules, or the peripheral does not answer.
   bool open(const Clocks& clocks, const BxCanTiming& timing, const CanFilterRule* rules = nullptr,
             std::size_t count = 0) {
     if (!clocks.good_enough_for_can() || timing.clock_hz != clocks.apb1_hz) return false;
@@ -55,9 +55,10 @@ class BxCan {
                          can::kIerLecie | can::kIerErrie);
     expect_next_error();
     opened_us_ = begun_us_ = timer_.now_us();
-    // ABOM: back from bus-off when the standard allows it. RFLM: a full FIFO keeps what it has.
+    // ABOM: rejoin after bus-off when the standard allows it. RFLM: a full FIFO keeps its frames.
     write(can::kMcr, can::kMcrDbf | can::kMcrAbom | can::kMcrRflm);
-    // It takes part when it has seen the bus idle; on a bus that never is, it refuses frames.
+    // bxCAN joins after it has seen the bus idle; on a bus that is never idle, send() refuses
+    // frames.
     const std::uint64_t deadline_us = opened_us_ + kIdle_us;
     while (!on_bus() && timer_.now_us() < deadline_us) {
     }
@@ -83,7 +84,7 @@ class BxCan {
         stands_ = false;
         return false;
       }
-      // A frame of ours that begins meanwhile moves the deadline: the look at it then is free.
+      // A frame of ours that starts meanwhile extends the deadline; the loop computes it anew.
       timer_.doze_until(deadline_us, [this] { return arrived_ != taken_; });
     }
   }
@@ -104,32 +105,31 @@ class BxCan {
     pump();
   }
 
-  /// Times that the peripheral did not do what it was told in time.
+  /// Times the peripheral did not react in time.
   std::uint32_t stuck() const { return stuck_; }
 
  private:
-  // A request is taken at the end of the frame that is on the wire: 160 bits at 10 kbit/s are 16
-  // ms.
+  // A request takes effect at the end of the frame on the wire: 160 bits at 10 kbit/s take 16 ms.
   static constexpr std::uint64_t kInitialise_us = 20'000;
   static constexpr std::uint64_t kIdle_us = 2000;
   static constexpr int kReleasePolls = 100;  // a few bus clocks
 
   struct Arrived {
-    CanReceived received;  ///< a quarter of a CanFrame, and no work for the interrupt
+    CanReceived received;  ///< a quarter of a CanFrame's size; the interrupt decodes nothing
     std::uint32_t stamp_us;
   };
 
   std::uint32_t read(std::uint32_t offset) const { return io_.read32(base_ + offset); }
   void write(std::uint32_t offset, std::uint32_t value) { io_.write32(base_ + offset, value); }
 
-  /// Whether it takes part: started, has seen the bus idle, and is not off it.
+  /// Whether it is started, has seen the bus idle, and is not bus-off.
   bool on_bus() const {
     return (read(can::kMsr) & (can::kMsrInak | can::kMsrSlak)) == 0 &&
            (read(can::kEsr) & can::kEsrBoff) == 0;
   }
 
   bool initialise() {
-    write(can::kMcr, can::kMcrDbf | can::kMcrInrq);  // awake
+    write(can::kMcr, can::kMcrDbf | can::kMcrInrq);  // wake up
     const std::uint64_t deadline_us = timer_.now_us() + kInitialise_us;
     while ((read(can::kMsr) & can::kMsrInak) == 0) {
       if (timer_.now_us() < deadline_us) continue;
@@ -146,9 +146,9 @@ class BxCan {
     constexpr CanFilterRule kAll[] = {{}};
     const std::size_t used = count == 0 ? 1 : count;
     const std::uint32_t banks = ((1u << used) - 1) << banks_.first;
-    modify32(io_, base + can::kFs1r, 0, banks);   // one filter of 32 bits a bank
-    modify32(io_, base + can::kFm1r, banks, 0);   // with a mask
-    modify32(io_, base + can::kFfa1r, banks, 0);  // all into FIFO 0
+    modify32(io_, base + can::kFs1r, 0, banks);   // one 32-bit filter a bank
+    modify32(io_, base + can::kFm1r, banks, 0);   // mask mode
+    modify32(io_, base + can::kFfa1r, banks, 0);  // all to FIFO 0
     for (std::size_t i = 0; i < used; ++i) {
       const CanFilterRule& rule = count == 0 ? kAll[0] : rules[i];
       const std::uint32_t at =
@@ -167,7 +167,7 @@ class BxCan {
     const Arrived& first = inbox_[taken_++ % kInbox];
     frame = first.received.frame();
     const std::uint32_t age_us = static_cast<std::uint32_t>(time_us) - first.stamp_us;
-    // An interrupt between the look at the clock and now makes it come from the future.
+    // An interrupt after the clock was read gives a stamp in the future.
     const std::uint64_t end_us = (age_us < 0x80000000u ? time_us - age_us : time_us) - opened_us_;
     if (end_us > last_us_) last_us_ = end_us;
     stands_ = true;
@@ -177,7 +177,7 @@ class BxCan {
     begun_ = stamp_us;
     begun_new_ = true;
   }
-  /// When the last accepted frame began, as far as is known; by the timer.
+  /// When the last accepted frame began, as far as is known, by the timer.
   std::uint64_t last_begin_us(std::uint64_t time_us) {
     const Masked<Access> masked(io_);
     if (begun_new_) {
@@ -188,7 +188,7 @@ class BxCan {
     return begun_us_;
   }
 
-  /// LEC as the hardware never writes it: its next error shows.
+  /// Sets LEC to the value that hardware never writes, so that the next error shows.
   void expect_next_error() {
     modify32(io_, base_ + can::kEsr, can::kEsrLec, can::kLecUnused << can::kEsrLecShift);
   }
@@ -202,7 +202,7 @@ class BxCan {
     if (off && !was_off_) leave_bus();
     was_off_ = off;
   }
-  /// What waits would leave when it is stale: nothing of it may.
+  /// Drops waiting frames: they would leave after bus-off, when they are stale.
   void leave_bus() {
     ++errors_.bus_offs;
     errors_.dropped += static_cast<std::uint32_t>(outbox_.size());
@@ -229,13 +229,13 @@ class BxCan {
       if ((flags & can::kTsrTxok) != 0) {
         begins(timer_.stamp_us() - can_frame_us(box.frame, bitrate_));
       } else if (box.busy && !box.dropped) {
-        outbox_.put_back(box.frame);  // it gave way to a better one
+        outbox_.put_back(box.frame);  // a more urgent frame replaced it
       }
       box.busy = box.aborted = box.dropped = false;
     }
   }
 
-  /// Puts the best of what waits into free mailboxes.
+  /// Moves the most urgent waiting frames into free mailboxes.
   void pump() {
     if (was_off_ && (read(can::kEsr) & can::kEsrBoff) == 0) was_off_ = false;
     while (!outbox_.empty()) {
@@ -273,7 +273,7 @@ class BxCan {
   void fetch() {
     for (unsigned i = 0; i <= can::kFifoDepth; ++i) {
       const std::uint32_t status = read(can::kRf0r);
-      // One flag for however many were lost meanwhile: with prompt interrupts it is one.
+      // One flag covers any number of lost frames; with prompt interrupts it is one.
       if ((status & can::kRfrFovr) != 0) {
         ++errors_.overruns;
         write(can::kRf0r, can::kRfrFovr);
@@ -296,7 +296,7 @@ class BxCan {
       if ((read(can::kRf0r) & can::kRfrRfom) == 0) return true;
     }
     ++stuck_;
-    // What never lets go would keep the processor here for ever.
+    // An interrupt that never clears would block the processor.
     modify32(io_, base_ + can::kIer, can::kIerFmpie0 | can::kIerFovie0, 0);
     return false;
   }
@@ -307,15 +307,15 @@ class BxCan {
   Timer& timer_;
   std::uint32_t bitrate_ = 1'000'000;
   std::uint64_t opened_us_ = 0;
-  std::uint64_t last_us_ = 0;  ///< what now_us() said last
-  bool stands_ = false;        ///< it stands there since a poll brought a frame
+  std::uint64_t last_us_ = 0;  ///< last result of now_us()
+  bool stands_ = false;        ///< now_us() stands still since a poll returned a frame
   bool was_off_ = false;
   bool begun_new_ = false;
-  std::uint32_t begun_ = 0;     ///< the timer's stamp when the last frame was accepted, or began
-  std::uint64_t begun_us_ = 0;  ///< the same, whole, once somebody has asked
+  std::uint32_t begun_ = 0;     ///< timer stamp when the last frame was accepted or began
+  std::uint64_t begun_us_ = 0;  ///< the same in 64 bits, once last_begin_us() was called
   std::uint32_t stuck_ = 0;
   CanErrors errors_;
-  std::uint32_t arrived_ = 0;  ///< frames since open(), as is the next
+  std::uint32_t arrived_ = 0;  ///< frames since open(), like taken_
   std::uint32_t taken_ = 0;
   CanMailbox mailbox_[can::kMailboxes];
   CanOutbox<kCanQueue + can::kMailboxes> outbox_;

@@ -4,15 +4,15 @@
 #include "common/base/can_frame.hpp"
 #include "hal/chip/stm32/registers/can.hpp"
 
-/// How a frame stands in bxCAN's mailboxes and FIFOs.
+/// Frame layout in bxCAN's mailboxes and FIFOs.
 namespace verp::hal::stm32 {
 
-/// What the driver knows of a transmit mailbox.
+/// The driver's record of a transmit mailbox.
 struct CanMailbox {
   CanFrame frame;
   bool busy = false;
-  bool aborted = false;  ///< told to give up; it may be too late for that
-  bool dropped = false;  ///< nobody wants it any more
+  bool aborted = false;  ///< abort requested; it may come too late
+  bool dropped = false;  ///< not needed any more
 };
 
 constexpr std::uint32_t can_identifier(std::uint32_t id, bool extended, bool remote) {
@@ -20,14 +20,14 @@ constexpr std::uint32_t can_identifier(std::uint32_t id, bool extended, bool rem
          (remote ? can::kIrRtr : 0);
 }
 
-/// Four bytes of data from byte `from` on.
+/// Four data bytes from byte `from` on.
 constexpr std::uint32_t can_data_word(const CanFrame& frame, unsigned from) {
   std::uint32_t word = 0;
   for (unsigned i = 0; i < 4; ++i) word |= std::uint32_t{frame.data[from + i]} << 8 * i;
   return word;
 }
 
-/// A frame as it stands in a FIFO: RIR, RDTR, RDLR, RDHR.
+/// A frame as RIR, RDTR, RDLR and RDHR of a FIFO hold it.
 struct CanReceived {
   std::uint32_t identifier, length, low, high;
 
@@ -45,7 +45,7 @@ struct CanReceived {
   }
 };
 
-/// Its time on the wire without stuff bits, from the start to the end of the frame.
+/// Time on the wire without stuff bits, from start to end of frame.
 constexpr std::uint32_t can_frame_us(const CanFrame& frame, std::uint32_t bitrate) {
   const std::uint32_t bits = (frame.extended ? 64u : 44u) + (frame.remote ? 0u : 8u * frame.size);
   return bits * 1000 / (bitrate / 1000);

@@ -5,12 +5,12 @@
 #include "hal/chip/stm32/clock.hpp"
 #include "hal/chip/stm32/registers/can.hpp"
 
-/// Bit timing of bxCAN, found and checked while compiling.
+/// Bit timing of bxCAN, computed and checked at compile time.
 namespace verp::hal::stm32 {
 
-/// Of `prescaler` 1 to 1024.
+/// CanTiming with a `prescaler` of 1 to 1024.
 struct BxCanTiming : CanTiming {
-  std::uint32_t clock_hz = 0;  ///< APB1, for which this was found; 0: there is none
+  std::uint32_t clock_hz = 0;  ///< APB1 clock that it applies to; 0: none found
   std::uint32_t bitrate = 0;
 
   constexpr std::uint32_t btr() const {
@@ -19,7 +19,7 @@ struct BxCanTiming : CanTiming {
   }
 };
 
-/// False: this clock makes none with a sample point that CiA 301 lets in, 85 to 90 % of a bit.
+/// False: this clock gives no sample point within 85 to 90 % of a bit, as CiA 301 requires.
 constexpr bool choose_bxcan_timing(std::uint32_t clock_hz, std::uint32_t bitrate,
                                    BxCanTiming& timing) {
   timing = {can_timing(clock_hz, bitrate, 1024, {.least = 850}), clock_hz, bitrate};
@@ -27,11 +27,11 @@ constexpr bool choose_bxcan_timing(std::uint32_t clock_hz, std::uint32_t bitrate
   return timing.possible();
 }
 
-/// Never defined: naming it while compiling is the error.
+/// Never defined: calling it in a constant expression is the compile error.
 void no_such_bxcan_timing();
 
-/// The timing of a board's clock plan. One that has none does not compile:
-/// `constexpr BxCanTiming kTiming = bxcan_timing(kClockPlan, 1'000'000);`
+/// The timing for a board's clock plan. A plan without one does not compile: `constexpr BxCanTiming
+/// kTiming = bxcan_timing(kClockPlan, 1'000'000);`
 consteval BxCanTiming bxcan_timing(const ClockPlan& plan, std::uint32_t bitrate) {
   BxCanTiming timing;
   if (plan.crystal_hz == 0 || !choose_bxcan_timing(plan.sysclk_hz / 4, bitrate, timing)) {

@@ -8,24 +8,24 @@
 #include "hal/chip/stm32/registers/pwr.hpp"
 #include "hal/chip/stm32/registers/rcc.hpp"
 
-/// The clock tree: crystal, PLL, overdrive, bus clocks, flash wait states. Every wait ends. A
-/// crystal that does not start, or a PLL that does not lock on it, leaves the processor at the same
-/// speed on the internal oscillator; if that fails too, or the overdrive that the speed needs, on
-/// the oscillator itself, slowly.
+/// The clock tree: crystal, PLL, overdrive, bus clocks, flash wait states. Every wait ends. If the
+/// crystal or the PLL on it fails, the PLL runs on the internal oscillator at the same speed. If
+/// that or the needed overdrive also fails, the processor runs on the slow internal oscillator
+/// itself.
 namespace verp::hal::stm32 {
 
 enum class ClockSource : std::uint8_t {
   kCrystal = 0,      ///< PLL on HSE
-  kInternalPll = 1,  ///< PLL on HSI: within 1 % (DS8626, HSI accuracy): USARTs yes, CAN no
-  kInternal = 2,     ///< HSI itself, 16 MHz
-  kAbsent = 3,       ///< no clock controller answers: an emulator without one
+  kInternalPll = 1,  ///< PLL on HSI, within 1 % (DS8626, HSI accuracy): for USART, not CAN
+  kInternal = 2,     ///< HSI, 16 MHz
+  kAbsent = 3,       ///< no clock controller answers: an emulator
 };
 
 struct ClockPlan {
   std::uint32_t crystal_hz = 0;
-  bool external = false;        ///< HSE is a clock, not a crystal
+  bool external = false;        ///< HSE is a clock signal, not a crystal
   std::uint32_t vco_hz = 0;     ///< twice SYSCLK: P divides by 2
-  std::uint32_t sysclk_hz = 0;  ///< APB1 gets a quarter of it, APB2 half
+  std::uint32_t sysclk_hz = 0;  ///< APB1 runs at a quarter, APB2 at half
 };
 
 struct Clocks {
@@ -35,7 +35,7 @@ struct Clocks {
   std::uint32_t apb2_hz = 0;
   std::uint32_t apb1_timer_hz = 0;  ///< twice the bus clock where that is divided
 
-  /// A CAN bit of 1 us leaves no room for an oscillator that is off by a percent.
+  /// A CAN bit of 1 us does not tolerate an oscillator error of 1 %.
   bool good_enough_for_can() const { return source == ClockSource::kCrystal; }
 };
 
@@ -45,7 +45,7 @@ class ClockTree {
   ClockTree(Family family, const ClockPlan& plan, Access io = {})
       : io_(io), family_(family), plan_(plan) {}
 
-  /// Once, right after a reset. The processor runs on whatever the result says.
+  /// Call once, right after a reset. Returns the clocks that the processor now runs on.
   Clocks start() {
     if (!is_set(rcc::kCr, rcc::kCrHsirdy)) return {};
     prepare_flash();
@@ -60,9 +60,9 @@ class ClockTree {
   }
 
  private:
-  // On the 16 MHz of HSI a read and a test take about 10 cycles. Crystal: 2 ms typical, some take
-  // ten times that; PLL: 300 us at most (DS8626); overdrive: 100 us at most (DS10916, over-drive
-  // switching characteristics). All with a margin of about ten.
+  // On HSI (16 MHz) a read and test take about 10 cycles. Crystal: 2 ms typical, some take ten
+  // times that. PLL: at most 300 us (DS8626). Overdrive: at most 100 us (DS10916, over-drive
+  // switching characteristics). All limits have a margin of about ten.
   static constexpr std::uint32_t kCrystalPolls = 200'000;
   static constexpr std::uint32_t kLockPolls = 5'000;
   static constexpr std::uint32_t kOverdrivePolls = 2'000;
@@ -81,7 +81,7 @@ class ClockTree {
   }
 
   bool start_crystal() {
-    // HSEBYP may only change while HSE is off.
+    // HSEBYP may change only while HSE is off.
     modify32(io_, at(rcc::kCr), rcc::kCrHseon, 0);
     modify32(io_, at(rcc::kCr), rcc::kCrHsebyp, plan_.external ? rcc::kCrHsebyp : 0);
     modify32(io_, at(rcc::kCr), 0, rcc::kCrHseon);
@@ -103,8 +103,8 @@ class ClockTree {
            set_wait_states() && switch_to(rcc::kClockPll);
   }
 
-  // In this order, while the PLL settles (RM0385 4.1.4, RM0390 5.1.4: entering overdrive). The
-  // regulator's scale is the highest one after a reset.
+  // Overdrive must be entered in this order while the PLL settles (RM0385 4.1.4, RM0390 5.1.4).
+  // After a reset the regulator has its highest scale.
   bool overdrive() {
     if (plan_.sysclk_hz <= limits(family_).sysclk_max_hz) return true;
     enable_clock(io_, rcc::kApb1enr, rcc::kApb1Pwr);
@@ -118,7 +118,7 @@ class ClockTree {
     return false;
   }
 
-  // Bus clocks are divided before SYSCLK rises, so that no bus ever runs too fast.
+  // Divides the bus clocks before SYSCLK rises, so that no bus ever runs too fast.
   bool switch_to(std::uint32_t clock) {
     const std::uint32_t dividers = clock == rcc::kClockPll ? rcc::kPpre4 << rcc::kCfgrPpre1Shift |
                                                                  rcc::kPpre2 << rcc::kCfgrPpre2Shift
@@ -136,10 +136,10 @@ class ClockTree {
     modify32(io_, at(rcc::kCr), rcc::kCrPllon | rcc::kCrHseon, 0);
   }
 
-  // A crystal that stops later raises the NMI, which ends in the fault handler and a reset.
+  // A crystal that fails later raises the NMI, which ends in the fault handler and a reset.
   void watch_crystal() { modify32(io_, at(rcc::kCr), 0, rcc::kCrCsson); }
 
-  // F4: the caches of the flash interface. F7: its prefetch and the ART serve the bus we don't use.
+  // F4: enables the flash caches. F7: its prefetch and ART serve a bus that we don't use.
   void prepare_flash() {
     if (family_ == Family::kF746) return;
     modify32(io_, base::kFlash + flash::kAcr, 0,
@@ -168,7 +168,7 @@ class ClockTree {
   ClockPlan plan_;
 };
 
-/// True if the plan keeps the family's limits, of overdrive where it has that, and divides evenly.
+/// Whether the plan keeps the family's limits, overdrive included, and divides evenly.
 constexpr bool is_possible(const ClockPlan& plan, Family family) {
   const Limits& limit = limits(family);
   const std::uint32_t n = plan.vco_hz / 1'000'000;

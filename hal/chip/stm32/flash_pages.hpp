@@ -8,9 +8,9 @@
 #include "hal/contract/flash_pages.hpp"
 
 /// Two sectors of the chip's own flash as FlashPages. The chip has one bank, so the processor
-/// stands still while a sector is erased: the watchdog is given its longest wait for that time, and
-/// bytes that arrive may be lost. Supply: 2.7 to 3.6 V, as words of 32 bits are programmed at once.
-/// `Timer` is a TickTimer, `Dog` an IndependentWatchdog.
+/// stalls during an erase: the watchdog gets its longest timeout, and received bytes may be lost.
+/// Programming 32-bit words needs a supply of 2.7 to 3.6 V. `Timer` is a TickTimer, `Dog` an
+/// IndependentWatchdog.
 namespace verp::hal::stm32 {
 
 template <Io Access, class Timer, class Dog>
@@ -18,13 +18,13 @@ class SectorPages {
  public:
   static constexpr std::size_t kUnit = 4;
 
-  /// Sector numbers of pages 0 and 1, from kSector... of memory_map.hpp.
+  /// `first` and `second`: sector numbers of pages 0 and 1, from kSector... of memory_map.hpp.
   SectorPages(Family family, std::uint8_t first, std::uint8_t second, Timer& timer, Dog& dog,
               Access io = {})
       : io_(io), family_(family), sector_{first, second}, timer_(timer), dog_(dog) {}
 
   std::size_t page_bytes(std::size_t page) const { return place(page).bytes; }
-  /// Where the processor reads it as memory.
+  /// The page's address as memory.
   const std::uint8_t* memory(std::size_t page) const {
     return reinterpret_cast<const std::uint8_t*>(std::uintptr_t{place(page).address});
   }
@@ -67,9 +67,9 @@ class SectorPages {
 
  private:
   static constexpr std::uint32_t kWords = flash::kPsize32 << flash::kCrPsizeShift;
-  /// 100 us at most (DS8626, flash memory programming); a poll takes at least 10 cycles of 216 MHz.
+  /// At most 100 us (DS8626, flash memory programming); a poll takes at least 10 cycles of 216 MHz.
   static constexpr std::uint32_t kProgramPolls = 20'000;
-  /// 2 s for 128 KB on an F4, 4 s for 256 KB on an F7 (DS10916), with half as much again.
+  /// 2 s for 128 KB on an F4, 4 s for 256 KB on an F7 (DS10916), plus half.
   static constexpr std::uint64_t kErase_us = 6'000'000;
 
   static std::uint32_t at(std::uint32_t offset) { return base::kFlash + offset; }
@@ -79,7 +79,7 @@ class SectorPages {
   bool busy() { return (io_.read32(at(flash::kSr)) & flash::kSrBsy) != 0; }
   bool no_errors() { return (io_.read32(at(flash::kSr)) & flash::kSrErrors) == 0; }
 
-  /// Idle, without old errors, and ready for a command.
+  /// Clears old errors and unlocks the flash. False: busy or still locked.
   bool open() {
     if (busy()) return false;
     io_.write32(at(flash::kSr), flash::kSrErrors | flash::kSrEop);
@@ -89,7 +89,7 @@ class SectorPages {
     }
     return (io_.read32(at(flash::kCr)) & flash::kCrLock) == 0;
   }
-  // A wild write can't reach a flash that is locked. One that never ends can't be locked either.
+  // A locked flash ignores stray writes. While it is busy it cannot be locked.
   void close(std::uint32_t command) {
     if (busy()) return;
     modify32(io_, at(flash::kCr), command, 0);
@@ -110,7 +110,7 @@ class SectorPages {
     }
     return true;
   }
-  // The F4's flash interface may hold what was erased (RM0090 3.5.2); it can be emptied while off.
+  // The F4's data cache may hold erased contents (RM0090 3.5.2); it can be flushed only while off.
   void cache_data(bool on) {
     if (family_ == Family::kF746) return;
     if (!on) {

@@ -7,11 +7,11 @@
 #include "hal/chip/stm32/registers/memory_map.hpp"
 #include "hal/chip/stm32/registers/rcc.hpp"
 
-/// Pins. Each function first switches its port's clock on.
+/// Pins. Each function first enables its port's clock.
 namespace verp::hal::stm32 {
 
 struct Pin {
-  char port = 0;  ///< 'A' to 'K'; 0: there is no such pin
+  char port = 0;  ///< 'A' to 'K'; 0: no pin
   std::uint8_t number = 0;
 
   constexpr bool exists() const { return port != 0; }
@@ -22,7 +22,7 @@ class Gpio {
  public:
   explicit Gpio(Access io = {}) : io_(io) {}
 
-  /// Hands the pin to a peripheral. With a pull-up an open receive line rests high: it is idle.
+  /// Hands the pin to a peripheral. A pull-up keeps an open receive line high, which is idle.
   void alternate(Pin pin, std::uint32_t function, std::uint32_t pull = gpio::kPullNone) {
     if (!pin.exists()) return;
     enable(pin);
@@ -33,7 +33,7 @@ class Gpio {
     set(pin, gpio::kPupdr, pull);
     set(pin, gpio::kModer, gpio::kModeAlternate);
   }
-  /// Drives the pin, from the start at `high`.
+  /// Drives the pin, at `high` from the start.
   void output(Pin pin, bool high) {
     if (!pin.exists()) return;
     enable(pin);

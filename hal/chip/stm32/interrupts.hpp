@@ -6,7 +6,7 @@
 
 namespace verp::hal::stm32 {
 
-/// Holds interrupts back for as long as it lives.
+/// Masks interrupts during its lifetime.
 template <Io Access>
 class Masked {
  public:
@@ -22,7 +22,7 @@ class Masked {
   bool were_on_;
 };
 
-/// Lets interrupt `number` come. 0 is the most urgent priority, 15 the least.
+/// Enables interrupt `number`. Priority 0 is the most urgent, 15 the least.
 template <Io Access>
 void enable_interrupt(Access io, unsigned number, std::uint8_t priority) {
   io.write8(cortex_m::kNvicIpr + number,

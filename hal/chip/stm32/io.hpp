@@ -3,19 +3,19 @@
 #include <cstddef>
 #include <cstdint>
 
-/// How drivers reach the outside of the core. A driver is a template over Io and holds one by value
-/// (`[[no_unique_address]] Io io_;`): on silicon it is the empty MemoryIo, in tests a handle to a
-/// model of the whole chip (tests/support/stm32), so that both run the same driver source.
+/// How drivers access hardware. A driver is a template over Io and holds one by value
+/// (`[[no_unique_address]] Io io_;`). On silicon Io is the empty MemoryIo; in tests it is a handle
+/// to a model of the chip (tests/support/stm32). Both run the same driver source.
 ///
-/// What an Io promises (addresses are those of the chip's memory map):
+/// An Io promises (addresses are those of the chip's memory map):
 ///  - read8/16/32(address), write8/16/32(address, value): one bus access of that width, in program
-///    order. Most registers want 32 bits; USART and SPI data and flash memory say otherwise.
-///  - bus_address(data, size): where a DMA controller finds this memory. The memory stays where it
-///    is until the next bus_address() of the same data, or for ever.
-///  - barrier(): memory accesses before it are done when accesses after it begin (DSB).
-///  - mask_interrupts(): holds interrupts back; true if they were not before. A matching
-///    unmask_interrupts() lets them come again.
-///  - wait_for_interrupt(): returns when an enabled interrupt is pending, or earlier for no reason.
+///    order. Most registers need 32 bits; USART and SPI data and flash memory do not.
+///  - bus_address(data, size): the DMA controller's address of this memory. The memory stays there
+///    until the next bus_address() of the same data, or for ever.
+///  - barrier(): completes earlier memory accesses before later ones begin (DSB).
+///  - mask_interrupts(): masks interrupts; true if they were enabled before. A matching
+///    unmask_interrupts() enables them again.
+///  - wait_for_interrupt(): returns when an enabled interrupt is pending; may return early.
 namespace verp::hal::stm32 {
 
 template <class Access>
@@ -35,8 +35,8 @@ concept Io = std::copyable<Access> &&
   { io.wait_for_interrupt() } -> std::same_as<void>;
 };
 
-/// Sets and clears bits of a 32-bit register by one read and one write. Not for registers with
-/// flags that a write of what was read would clear.
+/// Clears and sets bits of a 32-bit register with one read and one write. Not for registers whose
+/// flags are cleared by writing back what was read.
 template <Io Access>
 void modify32(Access& io, std::uint32_t address, std::uint32_t clear, std::uint32_t set) {
   io.write32(address, (io.read32(address) & ~clear) | set);

@@ -4,8 +4,8 @@
 
 #include "hal/chip/stm32/io.hpp"
 
-/// The real chip: volatile accesses to its address space, and the Armv7-M instructions that order
-/// them (Armv7-M Architecture Reference Manual, A7.7 DSB, WFI, CPS). For the chip's compiler only.
+/// The real chip: volatile accesses to its address space and Armv7-M instructions (Armv7-M
+/// Architecture Reference Manual, A7.7 DSB, WFI, CPS). Only for the target's compiler.
 namespace verp::hal::stm32 {
 
 class MemoryIo {

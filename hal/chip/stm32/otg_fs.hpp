@@ -7,16 +7,16 @@
 #include "hal/chip/stm32/otg_fs_core.hpp"
 #include "hal/contract/byte_link.hpp"
 
-/// USB full speed as a ByteLink: a serial port at a host's USB socket. `Function` says what the
-/// port answers at its control endpoint (hal/chip/usb/cdc_acm.hpp); here packets move between the
-/// bulk endpoints and two rings. Connected while a program on the host has the port open: the
-/// device is configured, DTR is set, the bus is awake.
+/// USB full speed as a ByteLink: a serial port of a USB host. `Function` answers requests at the
+/// control endpoint (hal/chip/usb/cdc_acm.hpp); this class moves packets between the bulk endpoints
+/// and two rings. Connected means that a host program has the port open: the device is configured,
+/// DTR is set, the bus is awake.
 ///
-/// The host hears NAK while the ring has no room for a packet: nothing is lost that was sent
-/// while connected. At a loss, what was queued is dropped; what had arrived is read first.
+/// The host gets NAK while the ring has no room for a packet, so no byte sent while connected is
+/// lost. A loss drops the queued bytes; received bytes are read first.
 ///
-/// The board calls on_interrupt() from OTG_FS's vector. It may take a fraction of a millisecond
-/// when a transfer must be given up. Waits end: what is stuck costs its bytes, and is counted.
+/// The board calls on_interrupt() from OTG_FS's vector. It may take a fraction of a millisecond to
+/// cancel a transfer. Every wait ends: a stuck transfer loses its bytes and is counted.
 namespace verp::hal::stm32 {
 
 /// `Timer` is a TickTimer.
@@ -26,8 +26,8 @@ class OtgFs {
   OtgFs(Family family, Function& function, Timer& timer, Access io = {})
       : io_(io), core_(family, io), control_(core_, function), function_(function), timer_(timer) {}
 
-  /// The core's clocks are on (48 MHz within 0.25 %, and the bus's, `hclk_hz`), and its pins. Takes
-  /// 25 ms, which the core needs to become a device. False: it does not.
+  /// The core's clocks (48 MHz within 0.25 %, and the bus clock `hclk_hz`) and pins are on. Takes
+  /// the 25 ms that the core needs to become a device. False: it did not.
   bool open(std::uint32_t hclk_hz, bool sense_vbus) {
     if (otg_fs::turnaround(hclk_hz) == 0 || !core_.reset()) return false;
     core_.force_device(hclk_hz);
@@ -45,7 +45,7 @@ class OtgFs {
     std::size_t queued = 0;
     for (bool lost = false;;) {
       lost = see_loss() || lost;
-      if (!lost) see_host();  // else that the host is back is for the next call to tell
+      if (!lost) see_host();  // the call that saw a loss must not see the reconnection
       queued += queue(data + queued, size - queued);
       if (queued == size || timer_.now_us() >= deadline_us) return queued;
       timer_.doze_until(deadline_us, [&] {
@@ -75,7 +75,7 @@ class OtgFs {
     const std::uint32_t before = moved_;
     core_.clear(status);
     if ((status & otg_fs::kGintRxflvl) != 0) fetch();
-    // A resume may follow at once; the next suspend takes 3 ms of silence.
+    // A resume may follow at once; the next suspend needs 3 ms of silence.
     if ((status & otg_fs::kGintUsbsusp) != 0) suspended_ = true;
     if ((status & otg_fs::kGintWkup) != 0) suspended_ = false;
     if ((status & otg_fs::kGintOtg) != 0 && (core_.take_otg() & otg_fs::kGotgintSedet) != 0) {
@@ -88,7 +88,7 @@ class OtgFs {
     watch_storm(moved_ == before ? core_.pending() & status : 0);
   }
 
-  /// Times that a bit did not come or go in time.
+  /// Times a bit did not change in time.
   std::uint32_t stuck() const { return core_.stuck(); }
 
  private:
@@ -97,12 +97,12 @@ class OtgFs {
       otg_fs::kGintRxflvl | otg_fs::kGintIep | otg_fs::kGintOep;
   static constexpr std::uint32_t kPacket = OtgFsCore<Access>::kPacket;
   static constexpr unsigned kData = 1;           ///< number of both bulk endpoints
-  static constexpr std::uint32_t kStorm = 1000;  ///< interrupts in a row that nothing ended
+  static constexpr std::uint32_t kStorm = 1000;  ///< interrupts in a row that no handler cleared
   static_assert((kRing & (kRing - 1)) == 0 && kRing >= 2 * kPacket, "the counters wrap at 2^32");
 
-  // By interrupt.
+  // Called by the interrupt.
 
-  /// Fetches what arrived: at most what the FIFO can hold, should its flag be stuck.
+  /// Fetches received packets; bounded by the FIFO's size in case its flag is stuck.
   void fetch() {
     for (std::uint32_t i = 0; i < otg_fs::kFifoWords; ++i) {
       const auto arrival = core_.arrival();
@@ -157,7 +157,7 @@ class OtgFs {
     listen();
   }
 
-  /// Begins and ends what the host began and ended.
+  /// Follows the host as it opens and closes the port.
   void follow_host() {
     const bool up = function_.opened() && !suspended_;
     if (up == up_) return;
@@ -169,18 +169,18 @@ class OtgFs {
     full_ = false;
     if (sending_) core_.cancel_send(kData);
     sending_ = false;
-    expecting_ = false;  // what may come already is not asked for twice
+    expecting_ = false;  // so that listen() does not request a packet twice
   }
 
-  // Also by read() and write(), with interrupts held back.
+  // Also called by read() and write() with interrupts masked.
 
-  /// Lets the next packet in if there is room for it.
+  /// Allows the next packet if there is room for it.
   void listen() {
     if (!up_ || expecting_ || kRing - (received_ - taken_) < kPacket) return;
     expecting_ = true;
     core_.expect(kData);
   }
-  /// Sends the next packet. An empty one tells the host that a full one was the last.
+  /// Sends the next packet. An empty packet marks the end after a full one.
   void pump() {
     const std::uint32_t waiting = queued_ - sent_;
     if (!up_ || sending_ || (waiting == 0 && !full_)) return;
@@ -196,13 +196,13 @@ class OtgFs {
   void watch_storm(std::uint32_t left) {
     storm_ = left != 0 ? storm_ + 1 : 0;
     if (storm_ < kStorm) return;
-    // A flag that nothing clears would keep the processor here for ever.
+    // A flag that never clears would block the processor.
     core_.ignore(left);
     core_.count_stuck();
     storm_ = 0;
   }
 
-  // By read() and write().
+  // Called by read() and write().
 
   std::size_t take(std::uint8_t* buffer, std::size_t capacity) {
     std::size_t count = arrived();
@@ -229,7 +229,7 @@ class OtgFs {
   }
   bool see_loss() {
     const Masked<Access> masked(io_);
-    const bool seen = lost_ && connected_;  // else nobody knew of the host that is gone
+    const bool seen = lost_ && connected_;  // otherwise the caller never saw that connection
     lost_ = false;
     if (!seen) return false;
     connected_ = false;
@@ -248,17 +248,17 @@ class OtgFs {
   Timer& timer_;
   bool suspended_ = false;
   bool up_ = false;         ///< the host has the port open
-  bool connected_ = false;  ///< the same, as read() and write() have seen it
+  bool connected_ = false;  ///< `up_` as read() and write() last saw it
   bool lost_ = false;       ///< a loss that they have not seen
   bool sending_ = false;    ///< a packet waits for the host
-  bool full_ = false;       ///< the last packet was full, and none has ended it
-  bool expecting_ = false;  ///< a packet may come
+  bool full_ = false;       ///< the last packet was full and the end is not marked
+  bool expecting_ = false;  ///< a packet may arrive
   std::uint32_t lost_at_ = 0;
   std::uint32_t losses_ = 0;
   std::uint32_t overruns_ = 0;
-  std::uint32_t moved_ = 0;  ///< packets and stages, to tell a storm of interrupts from work
+  std::uint32_t moved_ = 0;  ///< packets and stages; tells an interrupt storm from work
   std::uint32_t storm_ = 0;
-  std::uint32_t received_ = 0;  ///< bytes since open(), as are the next three
+  std::uint32_t received_ = 0;  ///< bytes since open(), like the next three
   std::uint32_t taken_ = 0;
   std::uint32_t queued_ = 0;
   std::uint32_t sent_ = 0;

@@ -6,8 +6,8 @@
 
 namespace verp::hal::stm32 {
 
-/// The control endpoint of OTG_FS: moves each request, its data and its status, and does to the
-/// other endpoints what `Function` decides. Called by interrupt.
+/// The control endpoint of OTG_FS: moves each request, its data and its status, and applies
+/// `Function`'s decisions to the other endpoints. Called by the interrupt.
 template <Io Access, class Function>
 class OtgFsControl {
   using Core = OtgFsCore<Access>;
@@ -15,13 +15,13 @@ class OtgFsControl {
  public:
   OtgFsControl(Core& core, Function& function) : core_(core), function_(function) {}
 
-  /// The bus was reset.
+  /// Call after a bus reset.
   void start_over() { stage_ = Stage::kIdle; }
 
   void fetch_setup(std::uint32_t size) { fetch(setup_, sizeof setup_, size); }
   void fetch_data(std::uint32_t size) { data_size_ = fetch(data_, sizeof data_, size); }
 
-  /// True if a packet has gone.
+  /// True if a packet has left.
   bool serve_in() {
     if (core_.take_in(0) == 0) return false;
     if (stage_ == Stage::kSending) {
@@ -31,7 +31,7 @@ class OtgFsControl {
     }
     return true;
   }
-  /// True if a request or a packet has come.
+  /// True if a request or a packet has arrived.
   bool serve_out() {
     const std::uint32_t flags = core_.take_out(0);
     if ((flags & otg_fs::kDoepXfrc) != 0) serve_data();
@@ -52,7 +52,7 @@ class OtgFsControl {
   }
 
   void serve_setup() {
-    core_.cancel_send(0);  // a host that gave up a request begins another
+    core_.cancel_send(0);  // a new request ends one that the host gave up
     const auto answer = function_.setup(setup_);
     using Wanted = decltype(answer.stage);
     act(answer.action, answer.value);
@@ -73,7 +73,7 @@ class OtgFsControl {
         return refuse();
     }
   }
-  /// The next packet of an answer, or the turn of the host's status.
+  /// Sends the next packet of an answer, or starts the host's status stage.
   void send_answer() {
     if (left_ == 0 && ended_) {
       stage_ = Stage::kStatusOut;
@@ -137,8 +137,8 @@ class OtgFsControl {
   std::uint8_t data_[kPacket] = {};
   std::size_t data_size_ = 0;
   const std::uint8_t* answer_ = nullptr;
-  std::uint32_t left_ = 0;  ///< bytes of it that are to be sent
-  bool ended_ = true;       ///< no empty packet must follow them
+  std::uint32_t left_ = 0;  ///< bytes of answer_ still to send
+  bool ended_ = true;       ///< no empty packet must follow
   Stage stage_ = Stage::kIdle;
 };
 

@@ -8,27 +8,27 @@
 #include "hal/chip/stm32/registers/rcc.hpp"
 #include "hal/chip/stm32/registers/spi.hpp"
 
-/// A SPI with one device on a chip-select pin: mode 3, 8 bits, most significant first. It polls: a
-/// byte is written only when the one before it has come back, so that an interrupt can delay a
-/// transfer, but not break it. Every wait ends; what failed leaves a peripheral that was reset.
+/// SPI with one device on a chip-select pin: mode 3, 8 bits, MSB first. It polls: it writes a byte
+/// only after the previous one came back, so an interrupt delays a transfer but does not break it.
+/// Every wait ends; an error resets the peripheral.
 namespace verp::hal::stm32 {
 
 struct SpiWiring {
   std::uint32_t base = 0;
-  std::uint32_t enable_register = 0;  ///< of the clock controller, like rcc::kApb2enr
-  std::uint32_t mask = 0;             ///< its bit; the reset register has the same one
+  std::uint32_t enable_register = 0;  ///< clock enable register, such as rcc::kApb2enr
+  std::uint32_t mask = 0;             ///< its bit, the same in the reset register
   Pin clock;
   Pin data_in;  ///< MISO
   Pin data_out;
-  Pin select;                  ///< low while the device is spoken to
-  std::uint32_t function = 0;  ///< alternate function of the first three
+  Pin select;                  ///< chip select, active low
+  std::uint32_t function = 0;  ///< alternate function of the first three pins
 };
 
-/// Modulo 2^32.
+/// Counts modulo 2^32.
 struct SpiErrors {
-  std::uint32_t timeouts = 0;     ///< a flag did not come, or BSY did not go
-  std::uint32_t overruns = 0;     ///< a byte had come that nobody fetched
-  std::uint32_t mode_faults = 0;  ///< the peripheral took another master for real
+  std::uint32_t timeouts = 0;     ///< a flag did not come, or BSY did not clear
+  std::uint32_t overruns = 0;     ///< a received byte was not fetched
+  std::uint32_t mode_faults = 0;  ///< another bus master detected (MODF)
 };
 
 /// `Timer` is a TickTimer.
@@ -38,7 +38,7 @@ class SpiMaster {
   SpiMaster(Family family, const SpiWiring& wiring, Timer& timer, Access io = {})
       : io_(io), gpio_(io), family_(family), wiring_(wiring), timer_(timer) {}
 
-  /// `bus_hz` clocks the peripheral. Once, before exchange().
+  /// Call once before exchange(). `bus_hz` clocks the peripheral.
   void open(std::uint32_t bus_hz) {
     bus_hz_ = bus_hz;
     gpio_.output(wiring_.select, true);
@@ -49,9 +49,9 @@ class SpiMaster {
     gpio_.alternate(wiring_.data_out, wiring_.function);
   }
 
-  /// Sends `size` bytes and fetches as many while the device is selected, at the highest clock not
-  /// above max_hz. False: it did not work, and `in` means nothing. Takes at most twice the time of
-  /// the bytes, and kSlack_us.
+  /// Selects the device, sends `size` bytes and receives as many, at the highest clock up to
+  /// max_hz. False: it failed and `in` is invalid. Takes at most twice the bytes' time plus
+  /// kSlack_us.
   bool exchange(const std::uint8_t* out, std::uint8_t* in, std::size_t size, std::uint32_t max_hz) {
     if (!clean()) restart();
     const std::uint32_t clock_hz = set_clock(max_hz);
@@ -62,7 +62,7 @@ class SpiMaster {
     good = good && wait_for(spi::kSrBsy, 0) && !has_errors();
     if (!good) {
       count_errors();
-      restart();  // before the device is let go: its clock must not go on
+      restart();  // stops the clock before the device is deselected
     }
     gpio_.write(wiring_.select, true);
     return good;
@@ -74,15 +74,15 @@ class SpiMaster {
 
  private:
   static constexpr std::uint32_t kErrors = spi::kSrOvr | spi::kSrModf;
-  /// SSI stands for the select input, which must be high for a master.
+  /// SSI replaces the select input, which must be high for a master.
   static constexpr std::uint32_t kControl =
       spi::kCr1Mstr | spi::kCr1Cpol | spi::kCr1Cpha | spi::kCr1Ssm | spi::kCr1Ssi;
-  static constexpr std::uint32_t kSlowest = 7;  ///< of BR: the bus clock by 256
+  static constexpr std::uint32_t kSlowest = 7;  ///< BR: bus clock / 256
 
   std::uint32_t status() { return io_.read32(wiring_.base + spi::kSr); }
   bool has_errors() { return (status() & kErrors) != 0; }
 
-  /// Nothing is left of what was before.
+  /// Whether the peripheral is idle and free of errors.
   bool clean() {
     const std::uint32_t flags = status();
     if ((flags & (kErrors | spi::kSrBsy | spi::kSrRxne)) == 0) return true;
@@ -132,7 +132,7 @@ class SpiMaster {
       if ((flags & kErrors) != 0) return false;
       if ((flags & mask) == value) return true;
       if (late) return false;
-      late = timer_.now_us() >= deadline_us_;  // looks once more: an interrupt may have held us up
+      late = timer_.now_us() >= deadline_us_;  // polls once more: an interrupt may have delayed us
     }
   }
 
@@ -144,7 +144,7 @@ class SpiMaster {
   SpiErrors errors_;
   std::uint64_t deadline_us_ = 0;
   std::uint32_t bus_hz_ = 0;
-  std::uint32_t control_ = 0;  ///< CR1 without SPE as it is set; 0: not
+  std::uint32_t control_ = 0;  ///< CR1 as set, without SPE; 0: not set
 };
 
 }  // namespace verp::hal::stm32

@@ -7,13 +7,13 @@
 #include "hal/chip/stm32/registers/timer.hpp"
 #include "hal/contract/tick_source.hpp"
 
-/// A 32-bit timer (TIM2 or TIM5) that counts microseconds: the board's clock and its TickSource.
-/// While it waits the processor sleeps: a compare interrupt ends the wait on time, and SysTick,
-/// every millisecond, ends it should that interrupt fail to come.
+/// A 32-bit timer (TIM2 or TIM5) that counts microseconds: the board's clock and TickSource. The
+/// processor sleeps while it waits. A compare interrupt ends the wait on time; SysTick ends it
+/// after a millisecond at most if that interrupt fails.
 ///
 /// wait() is late by the interrupt's latency, well under 10 us; without compare interrupts (QEMU)
-/// by up to a millisecond. The board's vectors call on_timer() and may leave SysTick's handler
-/// empty. One owner: now_us() must be called at least every 71 minutes, and not by interrupts.
+/// by up to a millisecond. The board's vectors call on_timer(); SysTick's handler may be empty.
+/// Single owner: it must call now_us() at least every 71 minutes, and never from an interrupt.
 namespace verp::hal::stm32 {
 
 template <Io Access>
@@ -21,8 +21,8 @@ class TickTimer {
  public:
   explicit TickTimer(std::uint32_t timer_base, Access io = {}) : io_(io), base_(timer_base) {}
 
-  /// `timer_hz` clocks the timer, `core_hz` SysTick. The timer's own clock and interrupt are on.
-  /// False if it cannot count microseconds exactly, or does not count at all.
+  /// `timer_hz` clocks the timer, `core_hz` SysTick. The timer's clock and interrupt are on. False:
+  /// it cannot count microseconds exactly, or does not count.
   bool open(std::uint32_t timer_hz, std::uint32_t core_hz) {
     if (timer_hz < 1'000'000 || timer_hz % 1'000'000 != 0 || timer_hz / 1'000'000 > 0x10000) {
       return false;
@@ -60,13 +60,13 @@ class TickTimer {
     last_ = count;
     return high_ + count - origin_us_;
   }
-  /// The low 32 bits of now_us(): what interrupts may ask for.
+  /// The low 32 bits of now_us(), for interrupts.
   std::uint32_t stamp_us() const {
     return io_.read32(base_ + timer::kCnt) - static_cast<std::uint32_t>(origin_us_);
   }
 
-  /// Sleeps until the next interrupt or until now_us() is deadline_us, but not if `ready()`, which
-  /// is asked with interrupts held back: what they bring cannot slip in before the sleep.
+  /// Sleeps until the next interrupt or until deadline_us, unless `ready()`. Interrupts are masked
+  /// while it asks, so an event cannot slip in before the sleep.
   template <class Ready>
   void doze_until(std::uint64_t deadline_us, Ready&& ready) {
     const Masked<Access> masked(io_);
@@ -75,7 +75,7 @@ class TickTimer {
     io_.write32(base_ + timer::kDier, timer::kDierCc1ie);
     if (!ready() && now_us() < deadline_us) io_.wait_for_interrupt();
   }
-  /// The compare interrupt: it has woken the processor, and is not wanted again.
+  /// Disables the compare interrupt after it has woken the processor.
   void on_timer() {
     io_.write32(base_ + timer::kDier, 0);
     io_.write32(base_ + timer::kSr, timer::kSrAll & ~timer::kSrCc1if);

@@ -9,13 +9,13 @@
 #include "hal/chip/stm32/usart_kind.hpp"
 #include "hal/contract/byte_link.hpp"
 
-/// A USART as a ByteLink. It receives by DMA into a ring, where an idle line ends a wait as soon as
-/// a message is there; where no DMA stream answers, byte by byte by interrupt. It sends by
-/// interrupt. With a direction pin it drives a half-duplex bus: the pin is high exactly while
-/// bytes leave, so that a servo finds the wire free when it answers.
+/// A USART as a ByteLink. It receives by DMA into a ring; an idle line wakes the reader at the end
+/// of a message. Without a working DMA stream it receives each byte by interrupt. It sends by
+/// interrupt. A direction pin makes the bus half-duplex: the pin is high exactly while bytes leave,
+/// so the line is free for a servo's answer.
 ///
-/// The board calls on_interrupt() from the USART's and the DMA stream's vector, both of one
-/// priority. Nothing here waits for a flag: what is stuck costs its bytes, and is counted.
+/// The board calls on_interrupt() from the USART's and the DMA stream's vectors, both of one
+/// priority. No call waits for a flag: a stuck transfer loses its bytes and is counted.
 namespace verp::hal::stm32 {
 
 struct UsartWiring {
@@ -26,7 +26,7 @@ struct UsartWiring {
   Pin direction;  ///< high while sending; none: full duplex
 };
 
-/// What a USART's clock does: `Timer` is a TickTimer.
+/// `Timer` is a TickTimer.
 template <Io Access, class Kind, class Timer, std::size_t kRing = 1024>
 class Usart {
  public:
@@ -43,7 +43,7 @@ class Usart {
     write(Kind::kBrr, setting.brr);
     baud_ = baud;
     by_dma_ = start_dma();
-    // Byte by byte, flaws come with their bytes, and an idle line wakes nobody who isn't awake.
+    // Without DMA, errors come with their bytes, and the idle interrupt is not needed.
     write(Kind::kCr3, by_dma_ ? usart_v1::kCr3Eie | usart_v1::kCr3Dmar : 0);
     write(Kind::kCr1, Kind::kEnable | usart_v1::kCr1Te | usart_v1::kCr1Re |
                           (setting.over8 ? usart_v1::kCr1Over8 : 0) |
@@ -83,7 +83,7 @@ class Usart {
     received_before_ = received_;
     storm_ = again ? storm_ + 1 : 0;
     if (storm_ < kStorm) return;
-    // A flag that nothing clears would keep the processor here for ever.
+    // A flag that never clears would block the processor.
     clear_bits(Kind::kCr1, usart_v1::kCr1Idleie);
     clear_bits(Kind::kCr3, usart_v1::kCr3Eie);
     ++stuck_;
@@ -91,14 +91,13 @@ class Usart {
   }
 
   bool receives_by_dma() const { return by_dma_; }
-  /// Times that a flag would not clear, or did not come when bytes had to be gone.
+  /// Times a flag did not clear, or bytes did not leave in time.
   std::uint32_t stuck() const { return stuck_; }
 
  private:
-  static constexpr std::uint32_t kStorm = 1000;  ///< interrupts in a row without a byte
-  static constexpr std::uint64_t kSendSlack_us =
-      2000;                                 ///< interrupts that come late, ticks of QEMU
-  static constexpr int kDmaPolls = 10'000;  ///< a stream stops after its running transfer
+  static constexpr std::uint32_t kStorm = 1000;         ///< interrupts in a row without a byte
+  static constexpr std::uint64_t kSendSlack_us = 2000;  ///< late interrupts, QEMU's ticks
+  static constexpr int kDmaPolls = 10'000;  ///< a stream stops after its current transfer
   static_assert((kRing & (kRing - 1)) == 0 && kRing <= 0x8000, "the counters wrap at 2^32");
 
   std::uint32_t read(std::uint32_t offset) { return io_.read32(wiring_.base + offset); }
@@ -139,7 +138,7 @@ class Usart {
                 dma::kFlagAll << dma::flag_shift(wiring_.dma_stream));
   }
 
-  /// All that an interrupt may be for. Returns the status as it was.
+  /// Serves every interrupt source. Returns the status before that.
   std::uint32_t service() {
     const std::uint32_t status = read(Kind::kStatus);
     if ((status & usart_flag::kOverrun) != 0) ++errors_.overruns;
@@ -154,15 +153,16 @@ class Usart {
     pump(status);
     return status;
   }
-  // A full ring leaves the next byte where it is: whoever can wait (an emulator) does, and real
-  // hardware says by its overrun flag what was lost. QEMU takes an interrupt back when a byte is
-  // read, not when it is no longer wanted: so the one that fills the ring must be the last.
+  // A full ring leaves the next byte in the USART: an emulator waits, real hardware sets its
+  // overrun flag. QEMU lowers the interrupt when a byte is read, not when RXNEIE is cleared. So the
+  // driver disables RXNEIE before it reads the byte that fills the ring.
   void receive_byte() {
     if (received_ - taken_ == kRing) return;
     if (received_ - taken_ + 1 == kRing) clear_bits(Kind::kCr1, usart_v1::kCr1Rxneie);
     ring_[received_++ % kRing] = static_cast<std::uint8_t>(read(Kind::kReceive));
   }
-  /// Counts what the DMA has stored. Called at least twice a turn of the ring: by its interrupts.
+  /// Counts the bytes that the DMA stored. The DMA's interrupts call it at least twice per ring
+  /// turn.
   void track() {
     if (!by_dma_) return;
     const std::uint32_t left = io_.read32(stream(dma::kNdtr)) & 0xFFFF;
@@ -178,7 +178,7 @@ class Usart {
     for (std::size_t i = 0; i < count; ++i) buffer[i] = ring_[(taken_ + i) % kRing];
     const Masked<Access> masked(io_);
     track();
-    if (received_ - taken_ > kRing) {  // the DMA has lapped us, perhaps while we copied
+    if (received_ - taken_ > kRing) {  // the DMA lapped the reader, perhaps during the copy
       ++errors_.overruns;
       taken_ = received_;
       return 0;
@@ -212,7 +212,8 @@ class Usart {
     pump(read(Kind::kStatus));
     return count;
   }
-  /// Sends what there is room for. Behind the last byte it asks to hear when that has left.
+  /// Sends bytes while there is room. After the last byte it enables the transmission-complete
+  /// interrupt.
   void pump(std::uint32_t status) {
     if (!sending_) return;
     while (sent_ != queued_ && (status & usart_flag::kRoom) != 0) {
@@ -252,13 +253,13 @@ class Usart {
   std::uint32_t baud_ = 1;
   std::uint32_t stuck_ = 0;
   std::uint32_t storm_ = 0;
-  std::uint32_t received_ = 0;  ///< bytes since open(), as are the next four
+  std::uint32_t received_ = 0;  ///< bytes since open(), like the next four
   std::uint32_t received_before_ = 0;
   std::uint32_t taken_ = 0;
   std::uint32_t queued_ = 0;
   std::uint32_t sent_ = 0;
   std::uint32_t position_ = 0;  ///< of the DMA in the ring
-  std::uint64_t gone_us_ = 0;   ///< when all that was queued should have left
+  std::uint64_t gone_us_ = 0;   ///< when all queued bytes should have left
   bool by_dma_ = false;
   bool sending_ = false;
   std::uint8_t ring_[kRing];

@@ -4,10 +4,10 @@
 #include "hal/chip/stm32/io.hpp"
 #include "hal/chip/stm32/registers/usart.hpp"
 
-/// What differs between the two kinds of USART, and how fast they can be.
+/// Differences between the two kinds of USART, and their baud rates.
 namespace verp::hal::stm32 {
 
-/// Flags that stand at the same place in SR and ISR.
+/// Flags at the same place in SR and ISR.
 namespace usart_flag {
 inline constexpr std::uint32_t kParity = bit(0), kFraming = bit(1), kNoise = bit(2),
                                kOverrun = bit(3), kIdle = bit(4), kReceived = bit(5),
@@ -15,7 +15,7 @@ inline constexpr std::uint32_t kParity = bit(0), kFraming = bit(1), kNoise = bit
 inline constexpr std::uint32_t kErrors = kParity | kFraming | kNoise | kOverrun;
 }  // namespace usart_flag
 
-/// F4: reading SR and then DR clears errors and IDLE, whoever reads DR.
+/// F4: reading SR and then DR clears errors and IDLE.
 struct UsartV1 {
   static constexpr std::uint32_t kStatus = usart_v1::kSr, kReceive = usart_v1::kDr,
                                  kTransmit = usart_v1::kDr, kBrr = usart_v1::kBrr,
@@ -23,15 +23,14 @@ struct UsartV1 {
                                  kCr3 = usart_v1::kCr3;
   static constexpr std::uint32_t kEnable = usart_v1::kCr1Ue;
 
-  /// `status` is what was just read. A byte that is still there belongs to its reader, whose
-  /// reading it clears the flags as well.
+  /// `status` was just read. If a byte is waiting, its reader will read DR and clear the flags.
   template <Io Access>
   static void clear(Access& io, std::uint32_t base, std::uint32_t status) {
     if ((status & usart_flag::kReceived) == 0) io.read32(base + kReceive);
   }
 };
 
-/// F7: ICR clears.
+/// F7: ICR clears the flags.
 struct UsartV2 {
   static constexpr std::uint32_t kStatus = usart_v2::kIsr, kReceive = usart_v2::kRdr,
                                  kTransmit = usart_v2::kTdr, kBrr = usart_v2::kBrr,
@@ -53,8 +52,8 @@ struct BaudSetting {
   bool over8 = false;
 };
 
-/// False if no divider comes within one percent: start, stop and eight data bits survive about 4 %
-/// between the two ends (RM0090 30.3.5), of which the internal oscillator may need one.
+/// False if no divider comes within 1 %. Start, stop and eight data bits tolerate about 4 % between
+/// the two ends (RM0090 30.3.5); the internal oscillator may use up one.
 constexpr bool choose_baud(std::uint32_t clock_hz, std::uint32_t baud, BaudSetting& setting) {
   if (baud == 0 || baud > clock_hz / 8) return false;
   const std::uint32_t divider = (clock_hz + baud / 2) / baud;  // clock cycles a bit

@@ -8,9 +8,9 @@
 #include "hal/chip/stm32/reset_cause.hpp"
 #include "hal/contract/watchdog.hpp"
 
-/// The independent watchdog as a Watchdog. Its oscillator, LSI, runs at 17 to 47 kHz: a timeout is
-/// chosen so that the fastest chip does not bite early, and the slowest bites within the contract's
-/// slack. Timeouts of 1.1 ms to 22 s can be had.
+/// The independent watchdog as a Watchdog. Its oscillator, LSI, runs at 17 to 47 kHz. The setting
+/// keeps the fastest chip from firing early and the slowest within the contract's slack. Possible
+/// timeouts: 1.1 ms to 22 s.
 namespace verp::hal::stm32 {
 
 template <Io Access>
@@ -33,8 +33,8 @@ class IndependentWatchdog {
   }
   bool caused_reset() const { return cause_ == ResetCause::kWatchdog; }
 
-  /// For what stops the processor for seconds, as an erase of flash does: the longest wait there
-  /// is, and then the one that start() was given. Nothing before start().
+  /// Sets the longest timeout for an operation that stops the processor for seconds, such as a
+  /// flash erase; relax() restores the one of start(). Does nothing before start().
   void stretch() {
     if (armed_ && set({iwdg::kPrMax, iwdg::kRlrMax})) feed();
   }
@@ -47,14 +47,14 @@ class IndependentWatchdog {
     std::uint32_t prescaler = 0;
     std::uint32_t reload = 0;
   };
-  // A new value is taken over within 5 cycles of the slowest LSI (RM0090 21.3.2), 300 us; LSI
-  // starts within 40 us (DS8626). At 168 MHz a poll takes at least 10 cycles.
+  // A new value takes effect within 5 cycles of the slowest LSI, 300 us (RM0090 21.3.2). LSI starts
+  // within 40 us (DS8626). At 168 MHz a poll takes at least 10 cycles.
   static constexpr std::uint32_t kPolls = 100'000;
 
   static std::uint32_t at(std::uint32_t offset) { return base::kIwdg + offset; }
 
-  /// The finest setting that waits at least timeout_us on the fastest oscillator. The reload counts
-  /// from anywhere within a count of the prescaler, so one count is no wait at all.
+  /// The finest setting that waits at least timeout_us on the fastest oscillator. The first count
+  /// may be short, so one count guarantees no wait.
   static bool choose(std::uint32_t timeout_us, Setting& setting) {
     if (timeout_us == 0) return false;
     for (std::uint32_t prescaler = 0; prescaler <= iwdg::kPrMax; ++prescaler) {
@@ -76,7 +76,7 @@ class IndependentWatchdog {
     }
     return false;
   }
-  // While one value is being taken over, another is ignored.
+  // The hardware ignores a new value while it still applies the last one.
   bool settled() {
     for (std::uint32_t poll = 0; poll < kPolls; ++poll) {
       if ((io_.read32(at(iwdg::kSr)) & (iwdg::kSrPvu | iwdg::kSrRvu)) == 0) return true;

@@ -4,37 +4,37 @@
 
 #include "hal/chip/usb/descriptors.hpp"
 
-/// The mind of a USB serial port: what it answers to requests at its control endpoint (USB 2.0
-/// chapter 9; PSTN 1.2, 6.3), and what follows from them. Any chip's driver moves the packets.
+/// The logic of a USB serial port: answers to requests at its control endpoint (USB 2.0 chapter 9;
+/// PSTN 1.2, 6.3) and their effects. A chip's driver moves the packets.
 namespace verp::hal::usb {
 
-/// What a device controller has to do about a request, at once: before the status stage.
+/// What the device controller must do at once, before the status stage.
 enum class Action : std::uint8_t {
   kNone,
   kAddress,    ///< answer at address `value` from the status stage on
-  kConfigure,  ///< value 0: endpoints off; else on, empty, with DATA0 next and not halted
-  kHalt,       ///< the endpoint of this address answers STALL
-  kRelease,    ///< it does not any longer, and starts with DATA0
+  kConfigure,  ///< 0: endpoints off; else on, empty, DATA0 next, not halted
+  kHalt,       ///< make endpoint `value` answer STALL
+  kRelease,    ///< end its STALL; DATA0 next
 };
 
 enum class Stage : std::uint8_t {
   kStall,    ///< refuse the request
-  kSend,     ///< send `size` bytes of `data`, in packets of kControlPacket
-  kReceive,  ///< take `size` bytes to received()
+  kSend,     ///< send `size` bytes of `data` in packets of kControlPacket
+  kReceive,  ///< pass `size` bytes to received()
   kDone,     ///< no data: go to the status stage
 };
 
 struct Answer {
   Stage stage = Stage::kStall;
   std::uint16_t size = 0;
-  /// kSend: the host asked for more, so a packet shorter than full must tell the end, empty or not.
+  /// kSend: the host asked for more, so a short or empty packet must mark the end.
   bool shorter = false;
   Action action = Action::kNone;
   std::uint8_t value = 0;
-  const std::uint8_t* data = nullptr;  ///< holds until the next setup()
+  const std::uint8_t* data = nullptr;  ///< valid until the next setup()
 };
 
-/// PSTN 1.2 table 17. There is no wire behind this port: it is kept and handed back, no more.
+/// PSTN 1.2 table 17. No wire is behind this port: the coding is only stored and returned.
 struct LineCoding {
   std::uint32_t baud = 1'000'000;
   std::uint8_t stop_bits = 0;  ///< 0: 1, 1: 1.5, 2: 2
@@ -45,7 +45,7 @@ struct LineCoding {
 class CdcAcm {
  public:
   static constexpr std::size_t kSetupBytes = 8;
-  /// Besides the control endpoint.
+  /// All except the control endpoint.
   struct Endpoint {
     std::uint8_t address;
     std::uint8_t type;  ///< USB 2.0 table 9-13: 2 bulk, 3 interrupt
@@ -55,12 +55,12 @@ class CdcAcm {
                                             {kDataIn, 2, kBulkPacket},
                                             {kNotification, 3, kNotificationPacket}};
 
-  /// `product` outlives it; kStringUnits characters of ASCII are shown.
+  /// `product` must outlive this; the first kStringUnits ASCII characters are shown.
   CdcAcm(const char* product, const std::uint8_t (&serial)[kSerialBytes]) : product_(product) {
     for (std::size_t i = 0; i < kSerialBytes; ++i) serial_[i] = serial[i];
   }
 
-  /// The bus was reset, or is gone: nobody has configured anything.
+  /// Call after a bus reset or disconnection.
   void reset() {
     configure(0);
     address_ = 0;
@@ -77,7 +77,7 @@ class CdcAcm {
     return in ? ask(request) : tell(request);
   }
 
-  /// The data of the last setup() that wanted some. False: refuse them by STALL.
+  /// Takes the data that the last setup() requested. False: refuse them with STALL.
   bool received(const std::uint8_t* data, std::size_t size) {
     if (size != kLineCodingBytes) return false;
     LineCoding coding;
@@ -94,12 +94,12 @@ class CdcAcm {
   }
 
   bool configured() const { return configuration_ != 0; }
-  /// A program on the host has the port open: it holds DTR.
+  /// A host program has the port open: it asserts DTR.
   bool opened() const { return configured() && (lines_ & kDtr) != 0; }
   std::uint8_t address() const { return address_; }
   bool halted(std::uint8_t endpoint) const { return (halted_ & bit_of(endpoint)) != 0; }
   const LineCoding& coding() const { return coding_; }
-  /// Times the host asked for a break, modulo 2^32.
+  /// Breaks that the host requested, modulo 2^32.
   std::uint32_t breaks() const { return breaks_; }
 
  private:
@@ -132,18 +132,18 @@ class CdcAcm {
     kSendBreak = 0x2123,
   };
 
-  /// Requests for data.
+  /// Device-to-host requests.
   Answer ask(const Request& request) {
     switch (request.code) {
       case kGetDescriptor:
         return describe(request);
       case kGetConfiguration:
         return send_word(request, configuration_, 1);
-      case kGetDeviceStatus:  // fed by the bus, no remote wake-up
+      case kGetDeviceStatus:  // bus-powered, no remote wake-up
         return request.index == 0 ? send_word(request, 0, 2) : Answer{};
       case kGetInterfaceStatus:
         return has_interface(request.index) ? send_word(request, 0, 2) : Answer{};
-      case kGetInterface:  // no alternatives: always 0
+      case kGetInterface:  // no alternate settings: always 0
         return has_interface(request.index) ? send_word(request, 0, 1) : Answer{};
       case kGetEndpointStatus:
         return endpoint_status(request);
@@ -154,7 +154,7 @@ class CdcAcm {
     }
   }
 
-  /// All others.
+  /// Host-to-device requests.
   Answer tell(const Request& request) {
     if (request.code == kSetLineCoding) {
       if (!is_for_port(request) || request.length != kLineCodingBytes) return {};
@@ -176,7 +176,7 @@ class CdcAcm {
         return {.stage = Stage::kDone};
       case kSendBreak:
         if (!is_for_port(request)) return {};
-        if (request.value != 0) ++breaks_;  // 0 ends one
+        if (request.value != 0) ++breaks_;  // 0 ends a break
         return {.stage = Stage::kDone};
       default:
         return {};
@@ -214,7 +214,7 @@ class CdcAcm {
         return send_only(request, kConfigurationDescriptor, sizeof kConfigurationDescriptor);
       case Descriptor::kString:
         return describe_string(request);
-      default:  // a device that knows full speed only has no qualifier either (USB 2.0, 9.6.2)
+      default:  // includes the qualifier, which a full-speed-only device lacks (USB 2.0, 9.6.2)
         return {};
     }
   }
@@ -274,7 +274,7 @@ class CdcAcm {
     configure(low(request.value));
     return {.stage = Stage::kDone, .action = Action::kConfigure, .value = configuration_};
   }
-  /// What was set before belongs to the configuration before.
+  /// A new configuration clears halts and line state.
   void configure(std::uint8_t configuration) {
     configuration_ = configuration;
     halted_ = 0;

@@ -2,12 +2,12 @@
 #include <cstddef>
 #include <cstdint>
 
-/// What a full-speed USB serial port says of itself: the descriptors of one CDC-ACM function. Field
-/// names and values: Universal Serial Bus 2.0 (chapter 9), CDC 1.2 and PSTN 1.2 (class documents of
-/// the USB-IF). Nothing here knows a chip.
+/// Descriptors of a full-speed USB serial port with one CDC-ACM function, independent of the chip.
+/// Fields and values: Universal Serial Bus 2.0 (chapter 9), CDC 1.2 and PSTN 1.2 (USB-IF class
+/// documents).
 namespace verp::hal::usb {
 
-/// The test ids of pid.codes: for private testing only. Whoever ships a product needs his own.
+/// The test ids of pid.codes, for private testing only. A product needs its own.
 inline constexpr std::uint16_t kVendorId = 0x1209, kProductId = 0x0001;
 inline constexpr std::uint16_t kDeviceRelease = 0x0100;  ///< bcdDevice: 1.0
 
@@ -25,7 +25,7 @@ enum class Descriptor : std::uint8_t {
   kEndpoint = 5,
   kClassInterface = 0x24,  ///< CDC 1.2 table 12
 };
-/// Indices that the device descriptor names.
+/// Indices in the device descriptor.
 enum class String : std::uint8_t { kLanguages = 0, kMaker = 1, kProduct = 2, kSerial = 3 };
 
 constexpr std::uint8_t low(std::uint16_t value) {
@@ -38,7 +38,7 @@ constexpr std::uint8_t type(Descriptor descriptor) {
   return static_cast<std::uint8_t>(descriptor);
 }
 
-/// USB 2.0 table 9-8. A device of the communications class: its interfaces need no association.
+/// USB 2.0 table 9-8. A communications-class device needs no interface association.
 inline constexpr std::uint8_t kDeviceDescriptor[] = {
     18,
     type(Descriptor::kDevice),
@@ -61,14 +61,15 @@ inline constexpr std::uint8_t kDeviceDescriptor[] = {
 };
 
 inline constexpr std::uint8_t kConfigurationBytes = 67;
-/// USB 2.0 tables 9-10, 9-12, 9-13; CDC 1.2 tables 15 and 16; PSTN 1.2 tables 3 and 4. Fed by the
-/// bus and 500 mA at most: a board without another supply runs on it. It cannot wake the host.
+/// USB 2.0 tables 9-10, 9-12, 9-13; CDC 1.2 tables 15 and 16; PSTN 1.2 tables 3 and 4. Bus-powered
+/// with 500 mA at most, for a board without another supply. No remote wake-up.
 inline constexpr std::uint8_t kConfigurationDescriptor[] = {
     // Configuration.
     9, type(Descriptor::kConfiguration), kConfigurationBytes, 0, kInterfaces, kOnlyConfiguration, 0,
-    0x80,  // bmAttributes: the bit that is always set
-    250,   // bMaxPower: in 2 mA
-    // The control interface: abstract control model. No protocol: it is no modem to be probed.
+    0x80,  // bmAttributes: bit 7 is always set
+    250,   // bMaxPower: unit 2 mA
+    // The control interface: abstract control model. No protocol, so the host does not probe a
+    // modem.
     9, type(Descriptor::kInterface), kControlInterface, 0, 1, 0x02, 0x02, 0x00, 0,
     // Header: CDC 1.10.
     5, type(Descriptor::kClassInterface), 0x00, 0x10, 0x01,
@@ -78,9 +79,9 @@ inline constexpr std::uint8_t kConfigurationDescriptor[] = {
     4, type(Descriptor::kClassInterface), 0x02, 0x06,
     // Union.
     5, type(Descriptor::kClassInterface), 0x06, kControlInterface, kDataInterface,
-    // Notifications: an interrupt endpoint that the class asks for. Nothing is ever notified.
+    // Notifications: the class requires this interrupt endpoint; nothing is ever sent.
     7, type(Descriptor::kEndpoint), kNotification, 0x03, kNotificationPacket, 0, 255,
-    // The data interface, and its bulk endpoints.
+    // The data interface and its bulk endpoints.
     9, type(Descriptor::kInterface), kDataInterface, 0, 2, 0x0A, 0x00, 0x00, 0,  //
     7, type(Descriptor::kEndpoint), kDataOut, 0x02, kBulkPacket, 0, 0,           //
     7, type(Descriptor::kEndpoint), kDataIn, 0x02, kBulkPacket, 0, 0};
@@ -88,11 +89,11 @@ static_assert(sizeof kDeviceDescriptor == kDeviceDescriptor[0]);
 static_assert(sizeof kConfigurationDescriptor == kConfigurationBytes);
 
 inline constexpr const char* kMaker = "VERP";
-inline constexpr std::uint16_t kEnglish = 0x0409;  ///< of the United States (USB-IF, LANGIDs)
+inline constexpr std::uint16_t kEnglish = 0x0409;  ///< United States (USB-IF, LANGIDs)
 
-/// The number of a chip, which becomes the serial string: 24 hexadecimal digits.
+/// The chip's unique number; the serial string shows it as 24 hexadecimal digits.
 inline constexpr std::size_t kSerialBytes = 12;
-/// A string descriptor here: two bytes, then UTF-16 units, of the serial number at most.
+/// A string descriptor: two bytes, then UTF-16 units; the serial number is the longest.
 inline constexpr std::size_t kStringUnits = 2 * kSerialBytes;
 inline constexpr std::size_t kStringBytes = 2 + 2 * kStringUnits;
 

@@ -1,21 +1,21 @@
 #pragma once
 #include <cstdint>
 
-/// Registers of the CAN controllers of Zynq UltraScale+, after AMD's UG1087 (module CAN) and UG1085
-/// (chapter 20): 32 bits each, at these offsets.
+/// 32-bit registers of the Zynq UltraScale+ CAN controllers (AMD UG1087, module CAN; UG1085,
+/// chapter 20).
 namespace verp::hal::zynqmp_can {
 
 inline constexpr std::uint32_t kSrr = 0x00;   ///< reset and enable
 inline constexpr std::uint32_t kMsr = 0x04;   ///< mode
-inline constexpr std::uint32_t kBrpr = 0x08;  ///< prescaler less 1
-inline constexpr std::uint32_t kBtr = 0x0C;   ///< segments less 1
+inline constexpr std::uint32_t kBrpr = 0x08;  ///< prescaler minus 1
+inline constexpr std::uint32_t kBtr = 0x0C;   ///< segments minus 1
 inline constexpr std::uint32_t kEcr = 0x10;   ///< error counters
-inline constexpr std::uint32_t kEsr = 0x14;   ///< kinds of errors seen; write 1 clears
+inline constexpr std::uint32_t kEsr = 0x14;   ///< error kinds seen; write 1 clears
 inline constexpr std::uint32_t kSr = 0x18;    ///< status
 inline constexpr std::uint32_t kIsr = 0x1C;   ///< interrupt status
 inline constexpr std::uint32_t kIer = 0x20;   ///< interrupt enable
 inline constexpr std::uint32_t kIcr = 0x24;   ///< clears bits of kIsr
-inline constexpr std::uint32_t kTxId = 0x30;  ///< transmit FIFO; the write of kTxData2 sends
+inline constexpr std::uint32_t kTxId = 0x30;  ///< transmit FIFO; writing kTxData2 sends
 inline constexpr std::uint32_t kTxDlc = 0x34;
 inline constexpr std::uint32_t kTxData1 = 0x38;
 inline constexpr std::uint32_t kTxData2 = 0x3C;
@@ -23,7 +23,7 @@ inline constexpr std::uint32_t kRxId = 0x50;  ///< receive FIFO, read in this or
 inline constexpr std::uint32_t kRxDlc = 0x54;
 inline constexpr std::uint32_t kRxData1 = 0x58;
 inline constexpr std::uint32_t kRxData2 = 0x5C;
-inline constexpr std::uint32_t kAfr = 0x60;  ///< acceptance filters in use; 0: everything is for us
+inline constexpr std::uint32_t kAfr = 0x60;  ///< acceptance filters; 0: accept all
 
 inline constexpr std::uint32_t kSrrReset = 1u << 0;
 inline constexpr std::uint32_t kSrrEnable = 1u << 1;
@@ -39,7 +39,7 @@ inline constexpr std::uint32_t kIsrBusOff = 1u << 9;
 
 inline constexpr unsigned kBtrAfterShift = 4;  ///< TS2
 inline constexpr unsigned kBtrJumpShift = 7;   ///< SJW
-// The identifier words: 11 bits at 21, then these, 18 more bits at 1.
+// Identifier words: 11 bits from bit 21, then these flags, 18 more bits from bit 1.
 inline constexpr std::uint32_t kIdRemote = 1u << 20;  ///< SRR in an extended frame
 inline constexpr std::uint32_t kIdExtended = 1u << 19;
 inline constexpr std::uint32_t kIdRemoteExtended = 1u << 0;

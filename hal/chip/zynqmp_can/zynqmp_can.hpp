@@ -9,16 +9,15 @@
 #include "hal/chip/zynqmp_can/registers.hpp"
 #include "hal/contract/can_bus.hpp"
 
-/// A CAN controller of Zynq UltraScale+ as a CanBus, polled: frames move when send() or poll() is
-/// called. 64 received frames wait in the chip. To send, the chip gets one frame at a time, so that
-/// the most urgent of those that wait here goes next; the one that it has can't be taken back.
+/// A Zynq UltraScale+ CAN controller as a polled CanBus: send() and poll() move the frames. The
+/// chip buffers 64 received frames. It gets one frame to send at a time, so that the most urgent
+/// waiting frame goes next; the frame in the chip cannot be taken back.
 namespace verp::hal::zynqmp_can {
 
 /// How the driver reaches the controller:
 ///  - read32(offset), write32(offset, value): one register;
 ///  - now_us(): microseconds, never decreasing;
-///  - doze_until(us): may sleep until an interrupt of the controller or that time; may return at
-///  once.
+///  - doze_until(us): may sleep until that time or a controller interrupt; may return at once.
 template <class Access>
 concept Io = std::copyable<Access> && requires(Access& io, std::uint32_t word, std::uint64_t us) {
   { io.read32(word) } -> std::same_as<std::uint32_t>;
@@ -27,10 +26,10 @@ concept Io = std::copyable<Access> && requires(Access& io, std::uint32_t word, s
   { io.doze_until(us) } -> std::same_as<void>;
 };
 
-/// How a frame stands in the FIFOs.
+/// Frame layout in the FIFOs.
 enum class Layout : std::uint8_t {
-  kSilicon,  ///< identifier in the bits that the wire arbitrates, first byte of data highest
-  /// QEMU 7.2: the identifier as SocketCAN's can_id, first byte of data lowest.
+  kSilicon,  ///< identifier as the wire arbitrates; first data byte highest
+  /// QEMU 7.2: identifier as in SocketCAN's can_id; first data byte lowest.
   kQemu,
 };
 
@@ -39,13 +38,13 @@ class ZynqmpCan {
  public:
   explicit ZynqmpCan(Access io) : io_(io) {}
 
-  /// The timing from the reference clock of the CAN controllers; check possible() at compile time.
+  /// The timing for the controllers' reference clock; check possible() at compile time.
   static constexpr CanTiming timing(std::uint32_t clock_hz, std::uint32_t bit_rate_hz) {
     return can_timing(clock_hz, bit_rate_hz, kMostPrescaler);
   }
 
-  /// Resets the controller and joins the bus. False: none there, or the timing is not possible.
-  /// `bit_rate_hz` says how long a bus-off lasts.
+  /// Resets the controller and joins the bus. False: no controller, or the timing is impossible.
+  /// `bit_rate_hz` determines how long a bus-off lasts.
   bool open(const CanTiming& timing, std::uint32_t bit_rate_hz) {
     if (!timing.possible() || bit_rate_hz == 0) return false;
     timing_ = timing;
@@ -112,8 +111,8 @@ class ZynqmpCan {
     return (io_.read32(kSrr) & kSrrEnable) != 0;
   }
 
-  /// Counts errors. A node that left the bus is reset, which empties its FIFOs, and joins again
-  /// when the bus may have been silent for as long as the standard asks.
+  /// Counts errors. After bus-off it resets the controller, which empties the FIFOs, and rejoins
+  /// when the bus may have been silent as long as the standard requires.
   void follow_bus() {
     const std::uint32_t why = io_.read32(kIsr) & (kIsrError | kIsrOverrun | kIsrBusOff);
     if (why != 0) io_.write32(kIcr, why);
@@ -165,7 +164,7 @@ class ZynqmpCan {
     for (unsigned i = 0; i < frame.size && !frame.remote; ++i) {
       frame.data[i] = static_cast<std::uint8_t>(words[i / 4] >> byte_shift(i));
     }
-    io_.write32(kIcr, kIsrNotEmpty | kIsrReceived);  // comes again while there is more
+    io_.write32(kIcr, kIsrNotEmpty | kIsrReceived);  // set again while more frames wait
     return true;
   }
 
@@ -173,7 +172,7 @@ class ZynqmpCan {
     const unsigned place = index % 4;
     return 8 * (kLayout == Layout::kSilicon ? 3 - place : place);
   }
-  /// Silicon's identifier word is arranged as the wire arbitrates.
+  /// The silicon's identifier word orders frames as the wire arbitrates.
   static constexpr std::uint32_t id_word(const CanFrame& frame) {
     if constexpr (kLayout == Layout::kSilicon) return can_rank(frame);
     return frame.id | (frame.extended ? kCanIdExtended : 0) | (frame.remote ? kCanIdRemote : 0);

@@ -1,13 +1,13 @@
 #pragma once
 #include "hal/chip/stm32/registers/bits.hpp"
 
-/// DMA1 and DMA2: 8 streams each, alike in all three families.
+/// DMA1 and DMA2: 8 streams each, the same in all three families.
 namespace verp::hal::stm32::dma {
 
 inline constexpr std::uint32_t kLisr = 0x00, kHisr = 0x04, kLifcr = 0x08, kHifcr = 0x0C;
 inline constexpr std::uint32_t kStreams = 8;
 
-/// Of stream 0; stream s is s * kStreamStep further.
+/// Stream 0; stream s is at s * kStreamStep.
 inline constexpr std::uint32_t kCr = 0x10, kNdtr = 0x14, kPar = 0x18, kM0ar = 0x1C, kM1ar = 0x20,
                                kFcr = 0x24, kStreamStep = 0x18;
 
@@ -21,8 +21,8 @@ inline constexpr unsigned kCrChselShift = 25;
 inline constexpr std::uint32_t kFcrFth = bits(0, 2), kFcrDmdis = bit(2), kFcrFs = bits(3, 3),
                                kFcrFeie = bit(7);
 
-/// Flags of a stream in LISR (0 to 3) or HISR (4 to 7), and what clears them in LIFCR or HIFCR,
-/// before they are shifted by flag_shift().
+/// A stream's flags in LISR (0 to 3) or HISR (4 to 7), cleared in LIFCR or HIFCR; shift by
+/// flag_shift().
 inline constexpr std::uint32_t kFlagFe = bit(0), kFlagDme = bit(2), kFlagTe = bit(3),
                                kFlagHt = bit(4), kFlagTc = bit(5),
                                kFlagAll = kFlagFe | kFlagDme | kFlagTe | kFlagHt | kFlagTc;

@@ -17,14 +17,14 @@ inline constexpr std::uint32_t kAcrIcenF4 = bit(9), kAcrDcenF4 = bit(10), kAcrIc
 inline constexpr std::uint32_t kAcrArtenF7 = bit(9), kAcrArtrstF7 = bit(11);
 inline constexpr std::uint32_t kSrEop = bit(0), kSrOperr = bit(1), kSrWrperr = bit(4),
                                kSrPgaerr = bit(5), kSrPgperr = bit(6), kSrBsy = bit(16);
-/// The F4 calls bit 7 PGSERR, the F7 ERSERR: a control register that does not fit the write.
+/// Bit 7 (F4: PGSERR, F7: ERSERR): the control register does not match the write.
 inline constexpr std::uint32_t kSrPgserr = bit(7), kSrRderrF446 = bit(8);
 inline constexpr std::uint32_t kSrErrors = kSrOperr | kSrWrperr | kSrPgaerr | kSrPgperr | kSrPgserr;
 inline constexpr std::uint32_t kCrPg = bit(0), kCrSer = bit(1), kCrMer = bit(2),
                                kCrSnb = bits(3, 4), kCrPsize = bits(8, 2), kCrStrt = bit(16),
                                kCrEopie = bit(24), kCrErrie = bit(25), kCrLock = bit(31);
 inline constexpr unsigned kCrSnbShift = 3, kCrPsizeShift = 8;
-/// PSIZE: the width of each write to the memory. 32 bits need 2.7 to 3.6 V.
+/// PSIZE: the width of each write. 32 bits need 2.7 to 3.6 V.
 inline constexpr std::uint32_t kPsize32 = 2;
 
 }  // namespace verp::hal::stm32::flash

@@ -1,9 +1,9 @@
 #pragma once
 #include "hal/chip/stm32/registers/bits.hpp"
 
-/// Where things are, which interrupt is whose, and the electrical limits that a clock setting must
-/// keep. Base addresses: RM0090 2.3, RM0390 2.2.2, RM0385 2.2.2, alike in all three unless said;
-/// interrupts: RM0090 12.2, RM0390 10.2, RM0385 10.1.
+/// Addresses, interrupt numbers and electrical limits. Base addresses: RM0090 2.3, RM0390 2.2.2,
+/// RM0385 2.2.2, the same in all three unless named otherwise. Interrupts: RM0090 12.2, RM0390
+/// 10.2, RM0385 10.1.
 namespace verp::hal::stm32 {
 
 namespace base {
@@ -39,20 +39,19 @@ constexpr unsigned dma2(unsigned stream) {
 }
 }  // namespace irq
 
-/// A sector of the main flash memory.
+/// A sector of main flash.
 struct Sector {
   std::uint32_t address;
   std::uint32_t bytes;
 };
 
-/// What a family can bear. Clocks at 2.7 to 3.6 V. Numbers that stand here are the same of all
-/// three.
+/// Limits of a family, clocks at 2.7 to 3.6 V. Defaults hold for all three.
 struct Limits {
   std::uint32_t sysclk_max_hz;            ///< without overdrive
-  std::uint32_t sysclk_overdrive_max_hz;  ///< equal to sysclk_max_hz where there is no overdrive
+  std::uint32_t sysclk_overdrive_max_hz;  ///< sysclk_max_hz if there is no overdrive
   std::uint32_t apb1_max_hz;
   std::uint32_t apb2_max_hz;
-  std::uint32_t hz_per_wait_state = 30'000'000;  ///< flash wait states = ceil(HCLK / this) - 1
+  std::uint32_t hz_per_wait_state = 30'000'000;  ///< wait states = ceil(HCLK / this) - 1
   std::uint32_t wait_states_max;
   std::uint32_t vco_in_min_hz = 1'000'000, vco_in_max_hz = 2'000'000;  ///< after M
   std::uint32_t vco_min_hz = 100'000'000, vco_max_hz = 432'000'000;    ///< after N
@@ -61,8 +60,8 @@ struct Limits {
   const Sector* sectors;
   std::uint32_t sector_count;
   std::uint32_t unique_id_address;  ///< 12 bytes
-  std::uint32_t dbgmcu_id;          ///< DEV_ID, the low 12 bits of DBGMCU_IDCODE (0xE0042000)
-  char last_port;                   ///< GPIO ports A to this one
+  std::uint32_t dbgmcu_id;          ///< DEV_ID, low 12 bits of DBGMCU_IDCODE (0xE0042000)
+  char last_port;                   ///< last GPIO port; the first is A
 };
 
 inline constexpr std::uint32_t kFlashBase = 0x08000000;

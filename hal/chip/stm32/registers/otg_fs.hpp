@@ -1,19 +1,18 @@
 #pragma once
 #include "hal/chip/stm32/registers/bits.hpp"
 
-/// USB on-the-go full-speed, as a device (the host's registers are not here): offsets and bits from
-/// kOtgFs. The tables are in otg_fs_tables.hpp. The F446's and F746's core is a newer one than the
-/// F405's: it has 6 endpoints each way, other bits in GCCFG, and is disconnected (SDIS) after
-/// reset.
+/// USB OTG full speed in device mode: offsets from kOtgFs and bits (tables: otg_fs_tables.hpp). The
+/// F446 and F746 have a newer core than the F405: 6 endpoints each way, other GCCFG bits, and
+/// disconnected (SDIS) after reset.
 namespace verp::hal::stm32::otg_fs {
 
-/// Endpoints each way, endpoint 0 included, and the words of FIFO memory that all share: one part
-/// for everything received, one for each IN endpoint (RM0090 34.1, RM0385 37.4).
+/// Endpoints each way including 0, and the FIFO words that they share: one part for all received
+/// data, one for each IN endpoint (RM0090 34.1, RM0385 37.4).
 constexpr unsigned endpoints(Family family) {
   return family == Family::kF405 ? 4 : 6;
 }
 inline constexpr std::uint32_t kFifoWords = 320;
-/// What the manual asks of GRXFSIZ and of each transmit FIFO at least, in words.
+/// The manual's minimum for GRXFSIZ and each transmit FIFO, in words.
 inline constexpr std::uint32_t kFifoWordsMin = 16;
 
 inline constexpr std::uint32_t kGotgctl = 0x00, kGotgint = 0x04, kGahbcfg = 0x08, kGusbcfg = 0x0C,
@@ -21,7 +20,7 @@ inline constexpr std::uint32_t kGotgctl = 0x00, kGotgint = 0x04, kGahbcfg = 0x08
                                kGrxstsp = 0x20, kGrxfsiz = 0x24, kDieptxf0 = 0x28, kHnptxsts = 0x2C,
                                kGccfg = 0x38, kCid = 0x3C;
 inline constexpr std::uint32_t kGlpmcfg = 0x54;  ///< not on the F405
-/// Of IN endpoints 1 and up; endpoint 0's is kDieptxf0.
+/// Endpoint 0's is kDieptxf0.
 constexpr std::uint32_t dieptxf(unsigned endpoint) {
   return endpoint == 0 ? kDieptxf0 : 0x100 + 4 * endpoint;
 }
@@ -29,7 +28,7 @@ inline constexpr std::uint32_t kDevice = 0x800, kDcfg = 0x800, kDctl = 0x804, kD
                                kDiepmsk = 0x810, kDoepmsk = 0x814, kDaint = 0x818,
                                kDaintmsk = 0x81C, kDvbusdis = 0x828, kDvbuspulse = 0x82C,
                                kDiepempmsk = 0x834;
-/// Of endpoint 0; endpoint e is e * kEndpointStep further.
+/// Endpoint 0; endpoint e is at e * kEndpointStep.
 inline constexpr std::uint32_t kDiepctl = 0x900, kDiepint = 0x908, kDieptsiz = 0x910,
                                kDtxfsts = 0x918, kDoepctl = 0xB00, kDoepint = 0xB08,
                                kDoeptsiz = 0xB10, kEndpointStep = 0x20;
@@ -55,8 +54,8 @@ constexpr std::uint32_t doeptsiz(unsigned endpoint) {
   return kDoeptsiz + kEndpointStep * endpoint;
 }
 inline constexpr std::uint32_t kPcgcctl = 0xE00;
-/// A window of 4 KB: a write anywhere in it pushes a word to that IN endpoint's FIFO; a read
-/// anywhere in any of them takes a word from the receive FIFO.
+/// A 4 KB window: any write in it pushes a word to that IN endpoint's FIFO; any read in any window
+/// pops a word of the receive FIFO.
 constexpr std::uint32_t fifo(unsigned endpoint) {
   return 0x1000 * (endpoint + 1);
 }
@@ -66,7 +65,7 @@ inline constexpr std::uint32_t kGotgctlSrqscs = bit(0), kGotgctlSrq = bit(1),
                                kGotgctlHshnpen = bit(10), kGotgctlDhnpen = bit(11),
                                kGotgctlCidsts = bit(16), kGotgctlDbct = bit(17),
                                kGotgctlAsvld = bit(18), kGotgctlBsvld = bit(19);
-/// Not on the F405: software's word for VBUS instead of the comparator's (there, NOVBUSSENS).
+/// Not on the F405 (which has NOVBUSSENS): software overrides the VBUS comparator.
 inline constexpr std::uint32_t kGotgctlBvaloen = bit(6), kGotgctlBvaloval = bit(7),
                                kGotgctlEhen = bit(12), kGotgctlOtgver = bit(20);
 inline constexpr std::uint32_t kGotgintSedet = bit(2), kGotgintSrsschg = bit(8),
@@ -75,14 +74,15 @@ inline constexpr std::uint32_t kGotgintSedet = bit(2), kGotgintSrsschg = bit(8),
 inline constexpr std::uint32_t kGotgintIdchng = bit(20);  ///< not on the F405
 inline constexpr std::uint32_t kGahbcfgGint = bit(0), kGahbcfgTxfelvl = bit(7),
                                kGahbcfgPtxfelvl = bit(8);
-/// TRDT by the AHB's clock: see turnaround(). After FDMOD, 25 ms until the core is a device.
+/// TRDT depends on the AHB clock: see turnaround(). After FDMOD the core needs 25 ms to become a
+/// device.
 inline constexpr std::uint32_t kGusbcfgTocal = bits(0, 3), kGusbcfgPhysel = bit(6),
                                kGusbcfgSrpcap = bit(8), kGusbcfgHnpcap = bit(9),
                                kGusbcfgTrdt = bits(10, 4), kGusbcfgFhmod = bit(29),
                                kGusbcfgFdmod = bit(30), kGusbcfgCtxpkt = bit(31);
 inline constexpr unsigned kGusbcfgTrdtShift = 10;
 inline constexpr std::uint32_t kForceModeTime_ms = 25;
-/// The least TRDT for an AHB clock (RM0090 table "TRDT values", RM0385 37.14.7), 0 below 14.2 MHz,
+/// The least TRDT for an AHB clock (RM0090 table "TRDT values", RM0385 37.14.7); 0 below 14.2 MHz,
 /// where the core cannot work.
 constexpr std::uint32_t turnaround(std::uint32_t hclk_hz) {
   constexpr std::uint32_t kFrom_hz[] = {32000000, 27500000, 24000000, 21800000, 20000000,
@@ -100,7 +100,7 @@ inline constexpr std::uint32_t kGrstctlCsrst = bit(0), kGrstctlHsrst = bit(1),
 inline constexpr unsigned kGrstctlTxfnumShift = 6;
 inline constexpr std::uint32_t kGrstctlAllTxFifos = 0x10u << kGrstctlTxfnumShift;
 
-/// GINTSTS; GINTMSK has the same places.
+/// GINTSTS and GINTMSK.
 inline constexpr std::uint32_t kGintCmod = bit(0), kGintMmis = bit(1), kGintOtg = bit(2),
                                kGintSof = bit(3), kGintRxflvl = bit(4), kGintNptxfe = bit(5),
                                kGintGinakeff = bit(6), kGintGonakeff = bit(7), kGintEsusp = bit(10),
@@ -111,7 +111,7 @@ inline constexpr std::uint32_t kGintCmod = bit(0), kGintMmis = bit(1), kGintOtg 
                                kGintPtxfe = bit(26), kGintCidschg = bit(28), kGintDisc = bit(29),
                                kGintSrq = bit(30), kGintWkup = bit(31);
 inline constexpr std::uint32_t kGintEpmismF405 = bit(17), kGintRstdet = bit(23),
-                               kGintLpm = bit(27);  ///< the latter two not on the F405
+                               kGintLpm = bit(27);  ///< RSTDET and LPM: not on the F405
 
 /// GRXSTSR and GRXSTSP.
 inline constexpr std::uint32_t kGrxstsEpnum = bits(0, 4), kGrxstsBcnt = bits(4, 11),
@@ -120,13 +120,13 @@ inline constexpr std::uint32_t kGrxstsEpnum = bits(0, 4), kGrxstsBcnt = bits(4, 
 inline constexpr std::uint32_t kGrxstsStsphst = bit(27);  ///< not on the F405
 inline constexpr unsigned kGrxstsBcntShift = 4, kGrxstsDpidShift = 15, kGrxstsPktstsShift = 17,
                           kGrxstsFrmnumShift = 21;
-/// PKTSTS. "Done" words have no data; popping one raises XFRC or STUP of its endpoint.
+/// PKTSTS. "Done" words carry no data; popping one raises the endpoint's XFRC or STUP.
 inline constexpr std::uint32_t kPacketGlobalOutNak = 1, kPacketOut = 2, kPacketOutDone = 3,
                                kPacketSetupDone = 4, kPacketSetup = 6;
 /// DPID.
 inline constexpr std::uint32_t kPidData0 = 0, kPidData1 = 2;
 
-/// DIEPTXF0 and DIEPTXFx: start and depth in words of FIFO memory.
+/// DIEPTXF0 and DIEPTXFx: start and depth in FIFO words.
 inline constexpr std::uint32_t kDieptxfStart = bits(0, 16), kDieptxfDepth = bits(16, 16);
 inline constexpr unsigned kDieptxfDepthShift = 16;
 
@@ -149,19 +149,20 @@ inline constexpr std::uint32_t kDstsSuspsts = bit(0), kDstsEnumspd = bits(1, 2),
 inline constexpr unsigned kDstsEnumspdShift = 1, kDstsFnsofShift = 8;
 inline constexpr std::uint32_t kEnumspdFullSpeed = 3;
 
-/// DIEPINTx; DIEPMSK masks the same places, but TXFE, which DIEPEMPMSK does by endpoint.
+/// DIEPINTx and DIEPMSK, except TXFE, which DIEPEMPMSK masks per endpoint.
 inline constexpr std::uint32_t kDiepXfrc = bit(0), kDiepEpdisd = bit(1), kDiepToc = bit(3),
                                kDiepIttxfe = bit(4), kDiepInepnm = bit(5), kDiepInepne = bit(6),
                                kDiepTxfe = bit(7), kDiepTxfifoudrn = bit(8), kDiepBna = bit(9),
                                kDiepPktdrpsts = bit(11), kDiepNak = bit(13);
-/// DOEPINTx; DOEPMSK masks the same places.
+/// DOEPINTx and DOEPMSK.
 inline constexpr std::uint32_t kDoepXfrc = bit(0), kDoepEpdisd = bit(1), kDoepStup = bit(3),
                                kDoepOtepdis = bit(4), kDoepStsphsrx = bit(5), kDoepB2bstup = bit(6),
                                kDoepOutpkterr = bit(8), kDoepBerr = bit(12), kDoepNak = bit(13);
 /// DAINT and DAINTMSK: IN endpoints from bit 0, OUT endpoints from here.
 inline constexpr unsigned kDaintOutShift = 16;
 
-/// DIEPCTLx and DOEPCTLx. MPSIZ is in bytes, but for endpoint 0: 0 is 64, 1 is 32, 2 is 16, 3 is 8.
+/// DIEPCTLx and DOEPCTLx. MPSIZ is in bytes; for endpoint 0 it is a code: 0 is 64, 1 is 32, 2 is
+/// 16, 3 is 8.
 inline constexpr std::uint32_t kEpctlMpsiz = bits(0, 11), kEpctlMpsiz0 = bits(0, 2),
                                kEpctlUsbaep = bit(15), kEpctlDpid = bit(16), kEpctlNaksts = bit(17),
                                kEpctlEptyp = bits(18, 2), kDoepctlSnpm = bit(20),
@@ -171,7 +172,7 @@ inline constexpr std::uint32_t kEpctlMpsiz = bits(0, 11), kEpctlMpsiz0 = bits(0,
 inline constexpr unsigned kEpctlEptypShift = 18, kDiepctlTxfnumShift = 22;
 inline constexpr std::uint32_t kTypeIsochronous = 1, kTypeBulk = 2;
 
-/// DIEPTSIZx and DOEPTSIZx: bytes and packets to go. Endpoint 0 has fewer bits.
+/// DIEPTSIZx and DOEPTSIZx: bytes and packets left. Endpoint 0 has fewer bits.
 inline constexpr std::uint32_t kTsizXfrsiz = bits(0, 19), kTsizPktcnt = bits(19, 10),
                                kTsizXfrsiz0 = bits(0, 7), kDieptsizPktcnt0 = bits(19, 2),
                                kDieptsizMcnt = bits(29, 2), kDoeptsizPktcnt0 = bit(19),

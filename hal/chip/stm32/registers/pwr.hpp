@@ -1,8 +1,7 @@
 #pragma once
 #include "hal/chip/stm32/registers/bits.hpp"
 
-/// Power control: the regulator's voltage scale and overdrive, which the highest clocks need, and
-/// the lock of the backup domain.
+/// Power control: regulator scale and overdrive for the highest clocks; backup domain lock.
 namespace verp::hal::stm32::pwr {
 
 inline constexpr std::uint32_t kCr = 0x00, kCsr = 0x04;
