@@ -46,7 +46,6 @@ TEST(ActionCheck, SaysThatItEndsBeforeAnActionOfHours) {
   EXPECT_EQ(hours.first_bad(), nullptr);
 }
 
-// The check is of use only if what is shipped passes it.
 TEST(ActionCheck, EveryShippedActionPasses) {
   for (const char* name : {"generic21", "op3", "darwin_op"}) {
     const Robot robot(name);

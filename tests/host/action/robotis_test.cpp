@@ -21,8 +21,8 @@ const Robot& op3() {
   return robot;
 }
 
-/// Pages as editors leave them: some blank, some with steps, links, gains, ids that nobody has,
-/// torque off, and bytes whose meaning is not known.
+/// Pages as editors leave them: blank ones, steps, links, gains, unused ids, torque off, and bytes
+/// of unknown meaning.
 Motion some_motion() {
   Motion motion(kPages, blank_page());
   std::uint32_t random = 7;
@@ -77,7 +77,7 @@ TEST(RobotisMotion, AnEditOfAnAngleIsOneOfItsPage) {
   EXPECT_NEAR(documents[0].frames[0].goals[0].angle_rad, 0.5, 1e-3);
 }
 
-// One more joint in a step of which another has no torque.
+// The step gains a joint while another servo in it has no torque.
 TEST(RobotisMotion, AnAngleIsAddedBesideAServoWithoutTorque) {
   Motion motion(kPages, blank_page());
   const auto put = [&](std::size_t id, std::uint16_t word) {
@@ -97,8 +97,7 @@ TEST(RobotisMotion, AnAngleIsAddedBesideAServoWithoutTorque) {
   EXPECT_EQ(documents[0].frames[0].goals.size(), goals + 1);
 }
 
-// Where a page goes on, how often, and which servos have no torque: each edit is in the bytes, and
-// comes back with them.
+// Each edit of link, exit, repeat or torque changes the page's bytes, and reads back.
 TEST(RobotisMotion, EditsOfLinkExitRepeatAndTorqueAreOfItsPage) {
   const Params& params = op3().params;
   Motion motion(kPages, blank_page());
@@ -148,7 +147,7 @@ TEST(RobotisMotion, EditsOfLinkExitRepeatAndTorqueAreOfItsPage) {
   EXPECT_EQ(to_motion(params, documents)[1][kNextAt], 0);
 }
 
-// Two pages of one name, and one that is called as the second would be.
+// Two pages share a name, and a third has the name that the second would get.
 TEST(RobotisMotion, EachPageHasANameOfItsOwn) {
   Motion motion(kPages, blank_page());
   const auto call = [&](std::size_t page, const std::string& name) {
@@ -165,7 +164,7 @@ TEST(RobotisMotion, EachPageHasANameOfItsOwn) {
   EXPECT_TRUE(to_motion(op3().params, documents) == motion);
 }
 
-// What a page cannot hold, or what would be lost, is refused at its line.
+// The writer refuses at its line what a page cannot hold or would lose.
 TEST(RobotisMotion, WhatNoPageWouldKeepIsRefused) {
   Motion motion(kPages, blank_page());
   for (const std::size_t page : {1U, 2U}) {
@@ -231,7 +230,7 @@ TEST(RobotisMotion, FilesOfAnotherSizeOrADamagedPageAreRefused) {
   std::filesystem::remove(file);
 }
 
-// Their sums are right, so it is no damage but rubbish.
+// The checksums are right, so the pages are not damaged but meaningless.
 TEST(RobotisMotion, PagesOfMoreStepsThanTheyHoldOrOfNoPositionsAreRefusedByNumber) {
   const std::filesystem::path file =
       std::filesystem::temp_directory_path() / ("rubbish" + std::to_string(getpid()) + ".bin");

@@ -29,7 +29,7 @@ inline const Robot& generic21() {
   return robot;
 }
 
-/// What an action is refused for; empty: it is not.
+/// The error on compiling the action, or "".
 inline std::string refusal(const std::vector<std::string>& texts) {
   try {
     generic21().make(texts);

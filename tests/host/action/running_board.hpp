@@ -15,8 +15,9 @@
 #include "hal/fake/fake_flash.hpp"
 #include "tests/host/tool/link_controller.hpp"
 
-/// A board as boards/stm32 makes one, less its servos: robot, actions and log in a flash, the
-/// operator's port on a link; it starts anew with what it is sent. In a thread of the test.
+/// A board like those of boards/stm32 without servos, in a thread of the test. Its flash holds
+/// robot, actions and log, its operator's port is on a link, and it restarts with the actions it
+/// receives.
 namespace verp::test {
 
 class RunningBoard {
@@ -44,7 +45,7 @@ class RunningBoard {
     });
   }
   ~RunningBoard() { stop(); }
-  /// Then its flash may be looked at.
+  /// Afterwards the caller may read the flash.
   void stop() {
     stop_ = true;
     if (thread_.joinable()) thread_.join();
@@ -59,7 +60,7 @@ class RunningBoard {
   std::atomic<int> starts = 0;
 
  private:
-  /// From one start to the next.
+  /// One start of the board, up to the next.
   void run() {
     store::finish_waiting(*home, *other, [] {});
     const auto& robot = *reinterpret_cast<const ParamsImage*>(home->memory(0));

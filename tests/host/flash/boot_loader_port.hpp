@@ -13,19 +13,19 @@
 
 #include "tests/support/rom_boot_loader.hpp"
 
-/// A boot loader at a pseudo-terminal, as a board with BOOT0 high is at a USB-serial adapter. A
-/// pseudo-terminal has no parity, so that the tool's 8E1 is not seen here.
+/// A boot loader on a pseudo-terminal, like a board with BOOT0 high on a USB-serial adapter. A
+/// pseudo-terminal has no parity, so the tool's 8E1 stays unchecked.
 namespace verp::test {
 
 class BootLoaderPort {
  public:
   struct Trouble {
-    std::uint32_t cut_after_writes = 0;  ///< the cable is pulled in the middle of the next one
-    std::uint32_t byte_us = 0;           ///< what the line takes for each byte
+    std::uint32_t cut_after_writes = 0;  ///< the next write is cut in its middle
+    std::uint32_t byte_us = 0;           ///< time that the line takes per byte
     bool mute = false;
   };
 
-  /// The chip must outlive this, and is not to be looked at before unplug().
+  /// The chip must outlive this object; the test must not read it before unplug().
   explicit BootLoaderPort(RomBootLoader& chip) : BootLoaderPort(chip, Trouble{}) {}
   BootLoaderPort(RomBootLoader& chip, const Trouble& trouble) : chip_(chip), trouble_(trouble) {
     char name[64];
@@ -45,7 +45,7 @@ class BootLoaderPort {
 
   const std::string& path() const { return path_; }
   std::uint32_t writes() const { return writes_; }
-  /// The port is gone afterwards.
+  /// Removes the port.
   void unplug() {
     over_ = true;
     if (thread_.joinable()) thread_.join();

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-/// The model of the boot loader answers with the bytes that AN3155 gives.
+/// The boot loader's model answers with the bytes that AN3155 gives.
 namespace verp::test {
 namespace {
 

@@ -5,7 +5,7 @@
 #include "host/flash/tool_run.hpp"
 #include "host/process/child.hpp"
 
-/// What the tools of Debian 12 print when something is wrong, and what is made of it.
+/// How `verp flash` explains the errors that Debian 12's tools print.
 namespace verp::flash::test {
 namespace {
 
@@ -13,7 +13,7 @@ using Kind = FlashError::Kind;
 
 Job job_for(Tool tool) {
   const Recipe& recipe = find_recipe("olimex_h405");
-  // A port that is there, whatever PC this is: what is not there is another failure.
+  // A port that exists on every PC: a missing one is another failure.
   return {recipe, read_memory_map(recipe.board),
           tool,   tool == Tool::kStm32flash ? "/dev/null" : "",
           {},     "/tmp"};
@@ -106,7 +106,7 @@ Kind kind_of_check(Tool tool, const std::string& output) {
   } catch (const FlashError& error) {
     return error.kind();
   }
-  return Kind::kUsage;  // what a check never throws: it was content
+  return Kind::kUsage;  // no check throws this, so it stands for a pass
 }
 
 TEST(Diagnosis, OnlyTheBoardsOwnChipPasses) {
@@ -152,7 +152,7 @@ TEST(ToolRun, ToolThatIsNotInstalledNamesItsPackage) {
   }
 }
 
-// Also one that will not end when it is asked to.
+// Also for a tool that ignores the interrupt.
 TEST(ToolRun, StopEndsTheTool) {
   const ToolRun run = run_tool({"sh", "-c", "trap '' INT; echo there; while :; do sleep 0.1; done"},
                                "sh", {.stop = [] { return true; }});

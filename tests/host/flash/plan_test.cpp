@@ -9,14 +9,14 @@
 #include "host/files/temporary_directory.hpp"
 #include "host/flash/flash_error.hpp"
 
-/// What the commands of a job do to the flash, for every board, tool and choice of pieces.
+/// What a job's commands do to the flash, for every board, tool and choice of pieces.
 namespace verp::flash::test {
 namespace {
 
-/// What a plan reads, composes and writes, in its order.
+/// Records what a plan reads, composes and writes, in order.
 class PlanRunner {
  public:
-  /// Looks at the words of one command, whichever tool it is for.
+  /// Works on the words of one command of any tool.
   void run(const Step& step) {
     const std::string words = files::shell_line(step.command);
     if (step.kind == Step::Kind::kRead) read_.push_back(step.file.string());
@@ -117,7 +117,7 @@ TEST_F(Plan, EveryWriteIsVerified) {
   });
 }
 
-// Code, robot, actions and Store each begin with a sector, or share one only as the map says.
+// Code, robot, actions and Store begin at sector boundaries or share a sector only as the map says.
 TEST(Recipe, MemoryMapsLieInTheirChipsSectors) {
   for (const Recipe& recipe : recipes()) {
     if (recipe.chip == nullptr) continue;
@@ -200,8 +200,8 @@ TEST(ShellLine, ShellTakesItApartIntoTheSameWords) {
   EXPECT_EQ(out, expected);
 }
 
-// OpenOCD's commands are a language. Whatever stands in a port or path stays one word of it, or is
-// refused: nothing in it is ever run.
+// OpenOCD's commands are a language. A port or path stays one word of it or is refused; OpenOCD
+// runs nothing inside.
 TEST_F(Plan, NoPortOrPathIsTakenForACommandOfOpenocd) {
   const Recipe& recipe = find_recipe("olimex_h405");
   const auto words_of = [](const Job& made) {

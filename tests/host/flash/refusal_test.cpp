@@ -1,12 +1,12 @@
 #include "tests/host/flash/flash_fixture.hpp"
 
-/// What `verp flash` refuses before any tool runs, and what it says when there is no tool.
+/// `verp flash` refuses these before any tool runs, and explains a missing tool.
 namespace verp::flash::test {
 namespace {
 
 class Refusal : public Flash {
  protected:
-  /// A port that is there and answers nobody: a file that is wrong must be found before it.
+  /// Errors in the files must be found before the board is contacted.
   void expect_refused_file(const std::string& arguments, const std::string& needle) const {
     expect_refused("flash --board " + board_ + " " + arguments, needle);
   }
@@ -95,7 +95,7 @@ TEST_F(Refusal, WordsThatMakeNoSense) {
   expect_refused("deploy nobody --board olimex_h405", "nobody");
 }
 
-// They are boards of boards/, so "no such board" would be a lie.
+// They are boards of boards/, so "no such board" would be false.
 TEST_F(Refusal, BoardsThatOnlyTheirTestsStartAreNamedAsSuch) {
   for (const std::string board : {"qemu_rv32", "zcu102_r5"}) {
     const std::string remedy = "exists only in an emulator, where ./verp test --on " + board;
@@ -128,8 +128,8 @@ TEST_F(Refusal, DryRunRunsNothing) {
   EXPECT_EQ(std::count(outcome.out.begin(), outcome.out.end(), '\n'), 2) << outcome.out;
 }
 
-/// A dfu-util that works on a file: `-l`, `-U` and `-D` at `-s ADDRESS[:LENGTH]`, in the words of
-/// 0.11. What goes through SPOIL comes out with other bytes.
+/// A fake dfu-util that works on a file: `-l`, `-U` and `-D` at `-s ADDRESS[:LENGTH]`, with the
+/// messages of 0.11. SPOIL changes the written bytes.
 constexpr const char* kDfuUtil = R"sh(#!/bin/bash
 while [ $# -gt 0 ]; do
   case $1 in
@@ -156,7 +156,7 @@ class DfuFlash : public Flash {
   }
 };
 
-// dfu-util does not verify: what it wrote is read back and compared here.
+// dfu-util does not verify, so `verp flash` reads back and compares.
 TEST_F(DfuFlash, WritesAndVerifiesByReadingBack) {
   Bytes expected = noise(RomBootLoader(chip()).flash.size(), 5);
   put(folder_ / "chip", expected);

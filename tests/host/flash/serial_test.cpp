@@ -10,7 +10,7 @@ namespace {
 
 class SerialFlash : public Flash {
  protected:
-  /// Flashes over a port of its own, and pulls it afterwards.
+  /// Flashes over a fresh port and then unplugs it.
   Outcome over_serial(RomBootLoader& chip, const std::string& arguments = "",
                       const BootLoaderPort::Trouble& trouble = {}) const {
     BootLoaderPort port(chip, trouble);
@@ -48,7 +48,7 @@ TEST_F(SerialFlash, CodeIsWrittenAndNothingElseIsTouched) {
   EXPECT_FALSE(chip.started) << "it is the person who starts the robot";
 }
 
-// A sector is erased as a whole: what shares it with the piece must be there afterwards.
+// The tool erases whole sectors, so other data in the sector must be restored.
 TEST_F(SerialFlash, RobotOrActionsAloneLeaveEverythingElse) {
   RomBootLoader chip = used(this->chip());
   Bytes expected = chip.flash;
@@ -66,7 +66,7 @@ TEST_F(SerialFlash, RobotOrActionsAloneLeaveEverythingElse) {
   EXPECT_EQ(chip.flash, expected);
 }
 
-// One command for a robot that gets up; what is made apart is the same bytes.
+// One command flashes robot and actions; flashing the actions separately gives the same bytes.
 TEST_F(SerialFlash, ARobotBringsItsActions) {
   RomBootLoader chip = used(this->chip());
   const Bytes own = actions();
@@ -99,7 +99,7 @@ TEST_F(SerialFlash, CodeAndRobotGoTogether) {
   EXPECT_EQ(said.at("commands").size(), 5u);
 }
 
-// Neither image drives the other's robot.
+// Neither bus's image drives the other's robot.
 TEST_F(SerialFlash, CodeIsThatOfTheRobotsBus) {
   put(folder_ / "can.bin", robot("can"));
   const auto expect_can = [&](const std::string& words, const std::string& told) {
@@ -176,8 +176,7 @@ TEST_F(SerialFlash, CableCutHalfwayIsToldAndTheNextFlashSucceeds) {
   expect_code(chip);
 }
 
-// The sector was erased with the actions in it: they are not lost, and one command brings both
-// back.
+// The sector was erased with the actions in it. They are kept, and one command restores both.
 TEST_F(SerialFlash, CutWhileARobotIsWrittenLosesNoActions) {
   RomBootLoader chip = used(this->chip());
   Bytes expected = chip.flash;
@@ -187,7 +186,7 @@ TEST_F(SerialFlash, CutWhileARobotIsWrittenLosesNoActions) {
       over_serial(chip, "--params generic21 --actions none", {.cut_after_writes = 3});
   expect_trouble(outcome, "cable pulled?");
   ASSERT_NE(chip.flash, expected);
-  const std::size_t remedy = outcome.err.find("--actions ");  // to the line's end
+  const std::size_t remedy = outcome.err.find("--actions ");  // to the end of the line
   ASSERT_NE(remedy, std::string::npos) << outcome.err;
   const Outcome again = over_serial(chip, "--params generic21 " + outcome.err.substr(remedy));
   ASSERT_EQ(again.status, 0) << again.err;
@@ -199,7 +198,7 @@ TEST_F(SerialFlash, CutWhileARobotIsWrittenLosesNoActions) {
   EXPECT_FALSE(fs::exists(folder_ / "work" / board_ / "kept_actions.bin"));
 }
 
-// Without a reset the boot loader still waits for the rest of what the cut swallowed.
+// Without a reset the boot loader still waits for the bytes that the cut lost.
 TEST_F(SerialFlash, WithoutAResetAfterACutTheRemedyIsTold) {
   RomBootLoader chip = used(this->chip());
   BootLoaderPort cut(chip, {.cut_after_writes = 50});

@@ -20,7 +20,7 @@ std::map<std::string, std::vector<std::string>> messages_of(const std::string& b
   return all;
 }
 
-// A viewer shows what was asked of the joints, in which part of the gait, and of which robot.
+// A viewer shows the joints' goals, the gait's phase and the robot's name.
 TEST_F(Channels, TellEachTicksGoalsAndGaitAndTheRobot) {
   write_run(folder_ / "run.mcap", 40);
   auto all = messages_of(slurp(folder_ / "run.mcap"));

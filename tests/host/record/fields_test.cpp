@@ -43,7 +43,7 @@ TEST(Fields, DifferenceNamesPathDecimalAndBits) {
   EXPECT_EQ(differences[1].right, "-12 (0xfff4)");
 }
 
-// The digest sees bits, so the diff must too.
+// The digest covers bits, so the diff must too.
 TEST(Fields, ComparesBitsNotValues) {
   Foot plus, minus;
   minus.x_m = -0.0f;
@@ -53,13 +53,12 @@ TEST(Fields, ComparesBitsNotValues) {
   EXPECT_TRUE(diff_fields(nan, nan).empty());
 }
 
-// One unit in the last place shows in the text, both ways.
 TEST(Fields, OneUlpIsVisible) {
   EXPECT_NE(scalar_text(0.1f), scalar_text(std::nextafter(0.1f, 1.0f)));
   EXPECT_NE(scalar_plain(0.1f), scalar_plain(std::nextafter(0.1f, 1.0f)));
 }
 
-// Every scalar of the real structs has a distinct path, and flipping any byte names exactly one.
+// Every scalar of State has its own path: flipping any byte names exactly one.
 TEST(Fields, EveryByteOfStateIsNamed) {
   const State state;
   for (std::size_t i = 0; i < sizeof(State); ++i) {

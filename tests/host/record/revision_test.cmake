@@ -1,4 +1,4 @@
-# cmake -DSCRIPT=revision.cmake -DFOLDER=SCRATCH -P revision_test.cmake: what a trace says about the sources it was recorded from.
+# cmake -DSCRIPT=revision.cmake -DFOLDER=SCRATCH -P revision_test.cmake: the source revision that a trace records.
 file(REMOVE_RECURSE ${FOLDER})
 file(MAKE_DIRECTORY ${FOLDER})
 
@@ -28,7 +28,7 @@ expect(${hash} "as tagged")
 file(WRITE ${FOLDER}/source.cpp "int b;\n")
 expect(${hash}-dirty "edited")
 
-# A write only when something changed, or every build would compile.
+# The script writes only on a change; otherwise every build would compile.
 execute_process(COMMAND ${CMAKE_COMMAND} -DSOURCE=${FOLDER} -DOUTPUT=${FOLDER}/out.cpp -P ${SCRIPT})
 file(TIMESTAMP ${FOLDER}/out.cpp before "%s%f")
 execute_process(COMMAND ${CMAKE_COMMAND} -E sleep 0.1)

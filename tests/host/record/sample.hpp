@@ -11,12 +11,12 @@
 #include "common/control/step.hpp"
 #include "host/record/trace_writer.hpp"
 
-/// A small robot and a small run, for the tests of host/record.
+/// A small robot and a short run for the tests of host/record.
 namespace verp::record::test {
 
 namespace fs = std::filesystem;
 
-/// A folder of this test's own, gone afterwards.
+/// A folder for one test; the destructor removes it.
 class TraceFolder : public ::testing::Test {
  protected:
   TraceFolder() {
@@ -64,7 +64,7 @@ inline TickRecord record_of(const Inputs& inputs, const TickDigest& digest = {})
   return record;
 }
 
-/// The run itself, without a file.
+/// The run without a file.
 inline Trace sample_run(std::uint32_t ticks, const Params& params = sample_params()) {
   Trace trace;
   trace.params = params;

@@ -16,8 +16,8 @@ class TraceCut : public TraceFolder {
   const fs::path whole_ = folder_ / "whole.mcap", part_ = folder_ / "part.mcap";
 };
 
-// The same ticks and digests as in the whole, from the State kept before; and the same once more
-// when it is cut again.
+// The cut starts at the last State before it and has the original's ticks and digests. A cut of the
+// cut has them too.
 TEST_F(TraceCut, IsATraceThatReplaysToTheSameBits) {
   const Trace whole = read_trace(whole_);
   struct Row {
@@ -47,7 +47,6 @@ TEST_F(TraceCut, IsATraceThatReplaysToTheSameBits) {
   EXPECT_EQ(read_trace(again).ticks.front().inputs.tick, 501u);
 }
 
-// A viewer finds in it what was there at that time: no less, no more.
 TEST_F(TraceCut, KeepsEveryMessageOfItsTime) {
   {
     TraceWriter writer(whole_, sample_params(), {});
@@ -56,7 +55,7 @@ TEST_F(TraceCut, KeepsEveryMessageOfItsTime) {
       if (tick % 10 == 0) writer.append("laser", tick, ros::LaserScan{});
       if (tick == 130) writer.note(tick, "pushed");
     }
-    writer.append("laser", 150, ros::LaserScan{});  // late, as a camera's picture is
+    writer.append("laser", 150, ros::LaserScan{});  // late, like a camera's picture
     writer.close({{"failure", "fell"}});
   }
   cut(1.3, 2.0);
@@ -84,7 +83,7 @@ TEST_F(TraceCut, RefusesWhatItCannotReplayAndLeavesNothing) {
   EXPECT_EQ(std::distance(fs::directory_iterator(folder_), {}), 1);
 }
 
-// It cannot begin with a State that this program does not understand.
+// The cut cannot begin with a State that this program does not understand.
 TEST_F(TraceCut, OfAnotherRevisionIsRefusedByName) {
   const Params params = sample_params();
   {

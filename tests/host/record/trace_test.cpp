@@ -79,7 +79,7 @@ TEST_F(TraceFile, CrashLosesAtMostTheOpenChunk) {
     for (std::uint32_t tick = 0; tick < 25; ++tick) {
       writer.append(record_of(sample_inputs(tick)), State{}, Outputs{});
     }
-    fs::copy_file(part, folder_ / "crashed.mcap");  // what the disk holds if the process dies here
+    fs::copy_file(part, folder_ / "crashed.mcap");  // the disk's content if the process dies here
   }
   EXPECT_NE(error_of(folder_ / "crashed.mcap").find("20 ticks before it are whole"),
             std::string::npos);
@@ -88,7 +88,8 @@ TEST_F(TraceFile, CrashLosesAtMostTheOpenChunk) {
   EXPECT_NE(trace.warning, "");
 }
 
-// In real time the end of a chunk is part of a tick: with pictures, no second of them is one.
+// In real time, writing a chunk takes part of a tick. With pictures, a chunk of one second would be
+// too large.
 TEST_F(TraceFile, ChunksEndWhenTheyAreFull) {
   fs::path part;
   TraceWriter writer(folder_ / "run.mcap", sample_params(), {}, {.ros = true});
@@ -111,7 +112,7 @@ TEST_F(TraceFile, TruncationAnywhereIsAnErrorAndRecoversWholeTicks) {
   const std::string bytes = slurp(file);
   const Trace whole = read_trace(file);
   const fs::path cut = folder_ / "cut.mcap";
-  const std::size_t stride = 397;  // every offset of a file is tried on the small one of mcap_test
+  const std::size_t stride = 397;  // mcap_test tries every offset on its small file
   for (std::size_t size = 0; size < bytes.size(); size += stride) {
     spit(cut, std::string_view(bytes).substr(0, size));
     EXPECT_NE(error_of(cut), "") << "cut to " << size;
@@ -119,7 +120,7 @@ TEST_F(TraceFile, TruncationAnywhereIsAnErrorAndRecoversWholeTicks) {
       const Trace trace = read_trace(cut, Read::kRecover);
       EXPECT_EQ(trace.ticks.size() % 4, 0u);
       EXPECT_FALSE(replay(trace).divergence) << "cut to " << size;
-    } catch (const TraceError&) {  // cut before the robot: nothing to recover
+    } catch (const TraceError&) {  // cut before the robot: no tick to recover
     }
   }
   spit(cut, std::string_view(bytes).substr(0, bytes.size() - 1));
@@ -142,7 +143,7 @@ TEST_F(TraceFile, MessageSaysHowMuchIsLost) {
   EXPECT_NE(error.find("lost"), std::string::npos) << error;
 }
 
-// ... and without knowing how much, when it is compressed.
+// A compressed trace recovers its ticks without the number that was lost.
 TEST_F(TraceFile, CompressedRecoversWholeChunksToo) {
   const fs::path file = folder_ / "run.mcap";
   write_run(file, 12, {.chunk_ticks = 4});
@@ -177,8 +178,7 @@ TEST_F(TraceFile, EditIsAnError) {
   }
 }
 
-// Whatever wrote it: a robot whose indices lead nowhere, or whose numbers are none, is not
-// replayed.
+// Replay refuses a robot with indices out of range or values that are not numbers.
 TEST_F(TraceFile, ParamsThatAreNoRobotAreRefused) {
   const auto refused = [&](auto spoil) {
     Params params = sample_params();

@@ -21,7 +21,7 @@ TEST(FallVerdict, AFallWithTorqueIsOneAndStaysOne) {
 
 TEST(FallVerdict, AControllerThatLetsGoOfATippingRobotDoesNotMakeItGood) {
   FallVerdict verdict;
-  verdict.see(true, 0.8, false);  // fall_tilt_rad: the controller's mode is fallen, and limp
+  verdict.see(true, 0.8, false);  // fall_tilt_rad: the controller goes to fallen, and limp
   for (int i = 0; i < 20; ++i) verdict.see(false, 0.8 + 0.01 * i, false);
   verdict.see(false, 1.01, true);
   EXPECT_TRUE(verdict.fell());
@@ -49,11 +49,11 @@ TEST(FallVerdict, ARobotThatIsLetGoUprightLiesDown) {
   verdict.see(false, kLying, true);
   EXPECT_TRUE(verdict.lay_down());
   EXPECT_FALSE(verdict.fell());
-  verdict.see(true, kLying, true);  // somebody tries again, with a robot that lies
+  verdict.see(true, kLying, true);  // a new order while the robot still lies
   EXPECT_FALSE(verdict.fell());
 }
 
-// Whatever happens: never both, neither is taken back, and without torque nobody is to blame.
+// The verdict is never both and never changes. A robot without torque never counts as fallen.
 TEST(FallVerdict, IsOneThingAndStaysThat) {
   std::minstd_rand random(3);
   std::uniform_real_distribution<double> tilt(0, 2);

@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <string>
 
-// A Flow is somebody else's loop in pieces: nothing of it runs outside resume().
+// A Flow runs another owner's loop in pieces, only inside resume().
 
 namespace verp::session {
 namespace {
@@ -44,7 +44,7 @@ TEST(Flow, ThrowsInResumeWhatItsBodyThrew) {
 TEST(Flow, UnwindsABodyThatNobodyRunsToItsEnd) {
   struct Leaves {
     ~Leaves() {
-      flow.pause();  // of no effect: nobody resumes
+      flow.pause();  // no effect: no caller resumes it
       left = true;
     }
     Flow& flow;

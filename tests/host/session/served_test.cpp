@@ -12,7 +12,7 @@
 #include "tests/host/session/plans.hpp"
 #include "tests/host/tool/link_controller.hpp"
 
-// A controller at the other end of a link is one more controller of a session's robots.
+// A controller at the other end of a link drives a session's robot like any other.
 
 namespace verp::session::test {
 namespace {
@@ -51,10 +51,10 @@ TEST(Served, WalksBesideARobotOfThisProcessAndBothHaveTheBitsTheyHaveAlone) {
   fs::remove_all(folder);
 }
 
-// An operator of a board sees neither its plan nor its notes.
+// A board's operator sees neither its plan nor its notes.
 TEST(Served, SaysWhenTheLegsCannotDoWhatIsAsked) {
   WalkPlan plan = plan_of("dxl");
-  plan.velocity.vx_tenth_mm_s = 5000;  // with cycles of 450 ms steps of 11 cm; 8 are admitted
+  plan.velocity.vx_tenth_mm_s = 5000;  // steps of 11 cm in cycles of 450 ms; the legs allow 8
   const fs::path folder = fs::temp_directory_path() / ("notes" + std::to_string(::getpid()));
   fs::create_directory(folder);
   const std::string bus = (folder / "bus").string(), orders = (folder / "orders").string();
@@ -75,7 +75,7 @@ TEST(Served, SaysWhenTheLegsCannotDoWhatIsAsked) {
   fs::remove_all(folder);
 }
 
-// Only what the clock is asked lets the world go on: a stream of anything else is no sign of life.
+// Only requests to the clock count as a sign of life; other bytes do not let the world go on.
 TEST(Served, WhoGreetsAndThenSendsRubbishLosesItsRobot) {
   const fs::path place = fs::temp_directory_path() / ("rubbish" + std::to_string(::getpid()));
   const WalkPlan plan = plan_of("dxl");

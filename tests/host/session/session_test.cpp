@@ -9,9 +9,8 @@
 #include "host/session/not_up.hpp"
 #include "tests/host/session/plans.hpp"
 
-// A session is one world with robots in it. What a robot does there is a function of the plans
-// alone: not of how its ticks are called for, nor of who else is in the world, as long as they do
-// not touch.
+// A session is one world with robots in it. A robot's run depends only on the plans. Neither the
+// order of the ticks' calls nor robots that it does not touch change it.
 
 namespace verp::session::test {
 namespace {
@@ -37,7 +36,7 @@ TEST(Session, RefusesARobotInsideAnother) {
   EXPECT_NO_THROW(session.add(plan_of("dxl", 1.2)));
 }
 
-// What a board refuses is refused here: no struct takes a short cut around the registers.
+// The session refuses what a board refuses: orders never bypass the registers.
 TEST(Session, OrdersGoThroughTheOperatorsRegisters) {
   WalkPlan plan = plan_of("dxl");
   Hooks hooks;
@@ -47,7 +46,7 @@ TEST(Session, OrdersGoThroughTheOperatorsRegisters) {
     order.command.request = Request::kStand;
     order.command.head_pan_mrad = 123;
     order.flags = kCommandFresh;
-    if (tick % 4 == 1) {  // not given: what was written last is in the registers
+    if (tick % 4 == 1) {  // not fresh: the registers keep the last written values
       order.command.head_pan_mrad = 321;
       order.flags = 0;
     }

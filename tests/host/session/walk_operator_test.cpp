@@ -9,7 +9,7 @@ namespace {
 
 using safety::Mode;
 
-// An operator before a controller that is in a mode, and steps or does not.
+// An operator whose controller is in a given mode and may be stepping.
 struct Watched {
   explicit Watched(bool stands) : watcher(params(), {.vx_tenth_mm_s = 1000}, 2, 0, stands) {
     state.attitude.still_s = balance::kBestKnown_s;
@@ -36,7 +36,7 @@ struct Watched {
   Outputs outputs;
 };
 
-// A robot that is pushed steps by itself: that is no walk, and the one asked for is still to come.
+// A pushed robot steps by itself. That is no walk; the ordered one is still to come.
 TEST(WalkOperator, StepsBeforeTheWalkAreNoGaitOfIt) {
   Watched robot(false);
   robot.is(Mode::kRising, 1);
@@ -63,7 +63,7 @@ TEST(WalkOperator, WhoStandsIsNeverAskedToWalkAndEndsInTheStand) {
   EXPECT_STREQ(robot.watcher.failed(), "");
 }
 
-// Pushed before its gyro is known it does not step: its time begins when it would.
+// Before the gyro is calibrated a pushed robot does not step, so its time starts only then.
 TEST(WalkOperator, WhoStandsBeginsWhenTheGyroIsKnown) {
   Watched robot(true);
   robot.state.attitude.still_s = 0;
@@ -74,8 +74,8 @@ TEST(WalkOperator, WhoStandsBeginsWhenTheGyroIsKnown) {
   EXPECT_NEAR(robot.watcher.walked_s(), 0.5, 0.02);
 }
 
-// The core would let it walk sooner, with twice the error of its heading; one that trembles is not
-// kept for ever.
+// The core allows a walk sooner, with twice the heading error. A trembling robot does not wait
+// forever.
 TEST(WalkOperator, WhoWalksWaitsForTheBestOfItsGyroButNotForEver) {
   for (const bool trembles : {false, true}) {
     Watched robot(false);
@@ -90,7 +90,7 @@ TEST(WalkOperator, WhoWalksWaitsForTheBestOfItsGyroButNotForEver) {
   }
 }
 
-// A controller of one's own that leaves the core out: nothing of its State says how long to wait.
+// A user's own controller may leave the core out, so its State does not say how long to wait.
 TEST(WalkOperator, WhoseControllerLearnsNoGyroIsNotWaitedFor) {
   Watched robot(false);
   robot.state = {};

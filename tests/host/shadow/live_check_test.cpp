@@ -7,7 +7,7 @@
 
 #include "tests/host/shadow/watched_robot.hpp"
 
-// A controller on CAN, and this PC's beside it.
+// A controller on CAN and this PC's copy of its core.
 namespace verp::shadow::test {
 namespace {
 
@@ -18,7 +18,7 @@ TEST(LiveCheck, FollowsARunningControllerTickByTick) {
   WatchedRobot<> robot(can_robot());
   robot.run(999);
   const std::uint64_t digest = robot.controller->loop.state().digest.chain;
-  robot.run(1);  // what is told of a tick is on the wire when the next one begins
+  robot.run(1);  // a tick's report is on the wire by the next tick's beginning
   EXPECT_EQ(robot.check().state(), Check::kFollowing) << robot.check().refusal();
   EXPECT_GT(robot.check().compared(), 900u);
   EXPECT_EQ(robot.check().gaps(), 0u) << robot.check().gap();
@@ -35,8 +35,8 @@ TEST(LiveCheck, SendsNothingWhileItFollows) {
   EXPECT_EQ(robot.ear->sent, sent);
 }
 
-// Frames that the controller loses, frames that come late and say something else, and frames that
-// the PC loses: none of them is a difference.
+// The controller loses frames, the PC loses frames, and late frames carry other values: none of
+// them counts as a difference.
 TEST(LiveCheck, RaisesNoFalseAlarmForLostAndLateFrames) {
   std::uint64_t compared = 0, gaps = 0;
   for (unsigned seed = 1; seed <= kSeeds; ++seed) {
@@ -62,8 +62,8 @@ TEST(LiveCheck, RaisesNoFalseAlarmForLostAndLateFrames) {
   EXPECT_GT(gaps, kSeeds) << "this PC missed some, and says so";
 }
 
-// What the controller alone loses, and what comes late, costs not one tick from the first State on.
-// That is of 2.5 KB, and is asked for once more where its answers are lost.
+// Lost and late frames at the controller alone cost no tick after the first State. That State has
+// 2.5 KB; the check asks once more for lost answers.
 TEST(LiveCheck, LateAndLostAnswersAloneLeaveNoTickOut) {
   constexpr int kTicks = 1000;
   std::uint64_t compared = 0;
@@ -84,7 +84,7 @@ TEST(LiveCheck, LateAndLostAnswersAloneLeaveNoTickOut) {
   EXPECT_GT(compared, 600u * kSeeds);
 }
 
-/// Flips one bit and returns the tick that is the first to be wrong.
+/// Flips one bit and returns the first wrong tick.
 template <class Field>
 std::uint32_t flip(WatchedRobot<>& robot, Field& field) {
   robot.run(200);
@@ -120,7 +120,6 @@ TEST(LiveCheck, FindsABitOfTheGait) {
   expect_found(robot, tick, "kinematics", "zeros.leg[1].pitch_rad");
 }
 
-// The controller's loop goes on while its State is read.
 TEST(LiveCheck, TheControllerTicksOnWhileItIsRead) {
   WatchedRobot<> robot(can_robot());
   const std::uint32_t tick = flip(robot, robot.state().zeros.leg[0].roll_rad);
@@ -164,7 +163,7 @@ TEST(LiveCheck, GoesOnAfterTheLinkWasGone) {
   EXPECT_GT(robot.check().compared(), before + 200);
 }
 
-/// Each reading another one, stale now and then.
+/// Every reading differs; some are stale.
 struct CountingChip {
   hal::ImuStatus read(hal::ImuSample& sample) {
     ++reads;
@@ -178,7 +177,7 @@ struct CountingChip {
   int reads = 0;
 };
 
-// What no other node says, the controller does.
+// The controller publishes the counts, because no node on the bus has them.
 TEST(LiveCheck, KnowsTheCountsOfTheControllersOwnImu) {
   Params params = can_robot();
   params.imu.device_id = 0;

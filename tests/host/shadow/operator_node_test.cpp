@@ -47,7 +47,7 @@ struct Desk {
   Outputs outputs;
 };
 
-// The loop sees the frames of its robot, and no others; the node answers behind a tick only.
+// A client's request to the controller's node.
 CanFrame question() {
   canopen::SdoClient client(Node::kNode);
   std::uint8_t crc[4];
@@ -57,7 +57,7 @@ CanFrame question() {
   return frame;
 }
 
-// A bring-up takes seconds, or fails: who asks why is not to wait for a tick.
+// Bring-up takes seconds or fails, and a client that asks why must not wait for a tick.
 TEST(OperatorNode, AnswersAtOnceBeforeTheFirstTick) {
   auto& desk = renewed<Desk>();
   desk.bus.inject(question(), 10);
@@ -87,8 +87,8 @@ TEST(OperatorNode, TakesWhatIsItsOwnAndSendsBehindATickOnly) {
   EXPECT_TRUE(answered);
 }
 
-// `verp shadow`, `verp bus` and somebody's poller: all ask in one tick, and none takes another's
-// answer for its own.
+// `verp shadow`, `verp bus` and a third-party poller ask in one tick; each gets only its own
+// answer.
 TEST(OperatorNode, AnswersThreeClientsAtOnceEachByItsOwnChannel) {
   namespace plan = canopen::plan;
   auto& desk = renewed<Desk>();
@@ -96,7 +96,7 @@ TEST(OperatorNode, AnswersThreeClientsAtOnceEachByItsOwnChannel) {
   canopen::SdoClient clients[] = {canopen::SdoClient(Node::kNode),
                                   canopen::SdoClient(canopen::further_sdo(plan::kWatcherSdo)),
                                   canopen::SdoClient(canopen::further_sdo(plan::kToolSdo))};
-  // Each reads another object, in pieces, again and again.
+  // Each reads its own object in segments, again and again.
   constexpr canopen::Address kAsked[] = {{0x1008, 0}, {0x1201, 1}, {0x1202, 2}};
   const std::string expected[] = {"VERP controller", "\xD1\x06", "\xC2\x06"};
   std::uint8_t got[3][32];
@@ -147,7 +147,7 @@ TEST(OperatorNode, TellsOfEachTickInItsOrder) {
   EXPECT_FALSE(desk.bus.take_sent(frame));
 }
 
-// It is the master. A tool that resets or stops all nodes must not make it fall silent for good.
+// The controller is the master. A tool that resets or stops all nodes must not silence it.
 TEST(OperatorNode, ObeysNoOtherMaster) {
   using canopen::NmtCommand;
   auto& desk = renewed<Desk>();
@@ -166,7 +166,7 @@ TEST(OperatorNode, ObeysNoOtherMaster) {
   }
 }
 
-// One set of registers: an order at the port is seen at the bus, and a tick is told of at both.
+// One set of registers: the bus shows an order from the port, and both report each tick.
 TEST(OperatorNode, StandsBesideAnOperatorsPort) {
   verp::test::OperatorDesk port;
   hal::ScriptedCan bus;

@@ -14,7 +14,7 @@
 #include "tests/host/bus/fake_plant.hpp"
 #include "tests/host/shadow/polled_controller.hpp"
 
-// A controller at the end of a serial link, and this PC's beside it.
+// A controller at the end of a serial link and this PC's copy of its core.
 namespace verp::shadow::test {
 namespace {
 
@@ -38,7 +38,7 @@ class Polled : public ::testing::Test {
     port = std::make_unique<TickPort>(wire::parse_endpoint("unix:" + path_));
     check = std::make_unique<PolledCheck>(listens_for_, *port);
   }
-  /// Until so many ticks were compared, or it is over, or for 20 s.
+  /// Runs until `compared` ticks were compared, the check is over, or 20 s have passed.
   void run(std::uint64_t compared) {
     const std::uint64_t end_ns = wire::monotonic_ns() + 20'000'000'000;
     while (check->compared() < compared && !check->over() && wire::monotonic_ns() < end_ns) {
@@ -66,7 +66,7 @@ TEST_F(Polled, FindsABitThatFlipped) {
   start(verp::test::bus_params(7), std::chrono::milliseconds(5));
   run(50);
   ASSERT_EQ(check->state(), PolledCheck::State::kFollowing) << check->refusal();
-  const std::uint32_t tick = (controller->tick / 51 + 1) * 51 + 20;  // none that is skipped
+  const std::uint32_t tick = (controller->tick / 51 + 1) * 51 + 20;  // not a skipped tick
   controller->spoil_at = tick;
   run(2000);
   ASSERT_TRUE(check->differs());
@@ -76,7 +76,7 @@ TEST_F(Polled, FindsABitThatFlipped) {
   EXPECT_EQ(check->divergence().fields[0].path, "zeros.leg[1].pitch_rad");
 }
 
-// The controller does not wait: what it dropped is said to be lost, and is no difference.
+// The controller does not wait. Ticks that it dropped are reported as lost, not as different.
 TEST_F(Polled, SaysWhichTicksItLostAndGoesOn) {
   start(verp::test::bus_params(7), std::chrono::milliseconds(5));
   run(50);

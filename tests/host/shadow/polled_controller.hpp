@@ -17,7 +17,7 @@ namespace verp::shadow::test {
 using Log = app::TickLog<>;
 using Device = app::OperatorDevice<wire::Link, Log>;
 
-/// A controller with inputs out of a hat and no servos: only what it tells of them matters here.
+/// A controller with random plausible inputs and no servos: only its reports matter.
 class Controller {
  public:
   Controller(const Params& params, const std::string& endpoint, std::chrono::microseconds period)
@@ -34,9 +34,9 @@ class Controller {
   std::atomic<bool> over = false;
   std::atomic<bool> restart = false;
   std::atomic<std::uint32_t> spoil_at = 0;
-  /// Some ticks after somebody has read its State.
+  /// Flips a bit some ticks after a client has read the State.
   std::atomic<bool> spoil_when_read = false;
-  std::atomic<std::uint32_t> spoilt = 0;  ///< the first tick that is wrong
+  std::atomic<std::uint32_t> spoilt = 0;  ///< the first wrong tick
   std::atomic<std::uint32_t> tick = 0;
 
  private:
@@ -52,11 +52,11 @@ class Controller {
     for (std::size_t i = 0; !over && !restart; ++i) {
       const auto end = std::chrono::steady_clock::now() + period_;
       Inputs inputs = inputs_[i % inputs_.size()];
-      inputs.tick = static_cast<std::uint32_t>(i + i / 50);  // a period is skipped now and then
+      inputs.tick = static_cast<std::uint32_t>(i + i / 50);  // skips some periods
       if (i % 50 == 0) inputs.flags |= kOverrun;
       Outputs outputs;
       if (spoil_when_read && read_seen) {
-        spoil_at = (inputs.tick / 51 + 1) * 51 + 20;  // none that is skipped
+        spoil_at = (inputs.tick / 51 + 1) * 51 + 20;  // not a skipped tick
         spoil_when_read = false;
       }
       if (spoil_at == inputs.tick && i > 0) {

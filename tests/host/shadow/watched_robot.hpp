@@ -16,7 +16,7 @@
 /// A controller on a virtual CAN bus, and a live check that listens there.
 namespace verp::shadow::test {
 
-/// The controller's bus: some of what arrives it does not get.
+/// The controller's bus; it loses some received frames.
 class DeafBus {
  public:
   explicit DeafBus(can::VirtualCan& bus) : bus_(bus) {}
@@ -40,7 +40,7 @@ class DeafBus {
   std::minstd_rand random_{11};
 };
 
-/// The live check as one more node, which may miss frames.
+/// The live check as another node, which may miss frames.
 class Ear : public can::Node {
  public:
   explicit Ear(const Params& params) : check(params) {}
@@ -68,8 +68,8 @@ class Ear : public can::Node {
   std::minstd_rand random_{5};
 };
 
-/// A drive that says some of its positions once more, later, and another: in time, in the next
-/// window, behind the tick or in the next one.
+/// A drive that repeats some positions later with another value: in time, in the next window, after
+/// the tick or in the next one.
 class LateTwin : public can::Node {
  public:
   explicit LateTwin(std::uint8_t drive, unsigned seed = 3) : drive_(drive), random_(seed) {}
@@ -101,7 +101,7 @@ class LateTwin : public can::Node {
   std::minstd_rand random_;
 };
 
-/// Orders of all kinds: walks, parameter writes, buttons, an emergency stop for a while.
+/// All kinds of orders: walks, parameter writes, buttons, and temporary emergency stops.
 struct Orders {
   app::OperatorOrder order(std::uint32_t tick) const {
     app::OperatorOrder order;
@@ -122,7 +122,7 @@ struct Orders {
   }
 };
 
-/// The whole of it. `Chip`: the controller's own IMU.
+/// The whole setup. `Chip`: the controller's own IMU.
 template <class Chip = app::NoImu>
 class WatchedRobot {
  public:
@@ -157,7 +157,7 @@ class WatchedRobot {
   explicit WatchedRobot(const Params& robot, Chip* chip = nullptr)
       : WatchedRobot(robot, robot, chip) {}
 
-  /// The controller starts, or starts anew.
+  /// Starts or restarts the controller.
   void power_on() {
     controller = std::make_unique<Controller>(params, bus, chip_);
     const app::BringUpReport report = controller->loop.bring_up();
@@ -173,12 +173,12 @@ class WatchedRobot {
     plant.motion.gyro_count[0] = static_cast<std::int16_t>(ticks_++ % 50);
     controller->loop.tick();
   }
-  /// The controller's own State, to spoil it.
+  /// The controller's own State, for the test to corrupt.
   State& state() { return const_cast<State&>(controller->loop.state()); }
   LiveCheck& check() { return ear->check; }
 
   const Params params;
-  const Params listened;  ///< what the live check takes it for
+  const Params listened;  ///< the robot that the live check expects
   verp::test::FakePlant plant;
   can::VirtualCan twin{params, plant};
   DeafBus bus{twin};
