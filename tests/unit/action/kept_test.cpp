@@ -15,7 +15,7 @@ Params robot_named(const char* name) {
   return params;
 }
 
-/// A flash section with a library and its mark in it, and erased bytes behind.
+/// A flash section: a library, its mark, then erased bytes.
 struct Section {
   explicit Section(const Params& params) {
     __builtin_memset(bytes, 0xFF, sizeof bytes);
@@ -46,7 +46,7 @@ TEST(KeptActions, AnErasedSectionIsNoneAndNoFault) {
   EXPECT_EQ(check_kept(bytes, sizeof bytes, robot_named("r")), KeptFault::kNotALibrary);
 }
 
-// Gains, friction and the tuning are found later; a name, a joint or a limit is another robot.
+// Changed gains, friction or tuning still fit; another name, joint or limit means another robot.
 TEST(KeptActions, OfAnotherRobotDoNotCount) {
   const Params params = robot_named("r");
   const Section section(params);
@@ -83,7 +83,7 @@ TEST(KeptActions, AnyFlippedBitIsAFault) {
   }
 }
 
-// As an erase or a write that the power cut leaves it.
+// As a power cut leaves an erase or a write.
 TEST(KeptActions, WhatIsCutAnywhereDoesNotCount) {
   const Params params = robot_named("r");
   for (std::size_t whole = 4; whole < Section::kUsed; whole += 4) {

@@ -53,7 +53,7 @@ TEST(Library, WhatPointsOutsideIsRefusedThoughItsCrcFits) {
   shelf.seal();
   EXPECT_EQ(fault_of(shelf), LibraryFault::kOutOfBounds);
   shelf = Shelf{};
-  shelf.frame[2].time_ms = 0;  // a player of such frames would never leave its tick
+  shelf.frame[2].time_ms = 0;  // a player would loop on such frames for ever
   shelf.seal();
   EXPECT_EQ(fault_of(shelf), LibraryFault::kOutOfBounds);
   shelf = Shelf{};

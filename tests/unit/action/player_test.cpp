@@ -17,7 +17,7 @@ using test::Shelf;
 constexpr int kJoint = kRightArm;
 constexpr float kThere_rad = 0.8F;
 
-/// A player that is asked for an action until the test says otherwise.
+/// A player whose action stays requested until the test withdraws it.
 struct Stage {
   explicit Stage(const Shelf& with) : shelf(with) {
     for (int j = 0; j < kJointCount; ++j) stand_rad[j] = kRobot.joint[j].stand_rad;
@@ -61,7 +61,7 @@ TEST(Player, NeverLeapsFromTickToTick) {
   for (int i = 0; i < 200; ++i) {
     const float now = stage.tick();
     if (stage.state.number == 0) break;
-    // Minimum jerk is at most 15/8 as fast as on average.
+    // A minimum-jerk curve peaks at 15/8 of its mean speed.
     EXPECT_LT(math::abs(now - before), 1.9F * kThere_rad / 20);
     before = now;
   }
@@ -163,7 +163,7 @@ TEST(Player, WaitsForItsConditionAndElseGoesTheOtherWay) {
 TEST(Player, AJointThatNoFrameNamesStands) {
   Stage stage(up_and_down());
   stage.ticks(15);
-  stage.stand_rad[kHead] = 0.3F;  // an operator turns the head meanwhile
+  stage.stand_rad[kHead] = 0.3F;  // the operator turns the head meanwhile
   stage.tick();
   EXPECT_FLOAT_EQ(stage.out.angle_rad[kHead], 0.3F);
 }

@@ -11,10 +11,10 @@ namespace verp::app {
 namespace {
 
 constexpr std::uint8_t kId = 5;
-constexpr std::uint32_t kLateUs = 1000;  // when the first, late reply comes
+constexpr std::uint32_t kLateUs = 1000;  // when the late first reply arrives
 constexpr std::uint32_t kSoonUs = 100;
 
-/// Two equal reads of servo 5: the reply to the first is late, the one to the second is not.
+/// Two equal reads of servo 5: the first reply is late, the second on time.
 struct Exchange {
   Exchange() {
     const std::uint8_t old_value[] = {1, 1, 1, 1};
@@ -49,13 +49,13 @@ TEST(BusMaster, GivesUpWhenTheTimeIsOverAndCountsIt) {
   EXPECT_EQ(exchange.value, 0);
 }
 
-// A late reply has the right id and length, but it answers a request of the past.
+// A late reply has the right id and length but answers an earlier request.
 TEST(BusMaster, ARequestIsNotAnsweredByItsPredecessorsReply) {
   static Exchange exchange;
   static BusMaster<hal::ScriptedBus> master(exchange.bus);
   EXPECT_FALSE(exchange.ask(master, kLateUs - 1));
   std::uint8_t seen = 0;
-  EXPECT_EQ(exchange.bus.poll(&seen, 1, kLateUs), 1u);  // time passes: the reply is there now
+  EXPECT_EQ(exchange.bus.poll(&seen, 1, kLateUs), 1u);  // by now the reply has arrived
   EXPECT_TRUE(exchange.ask(master, kSoonUs));
   EXPECT_EQ(exchange.value, 2);
   EXPECT_TRUE(exchange.bus.finished());
@@ -92,7 +92,7 @@ TEST(ReadChain, KeepsItsOrderWhenAllAnswer) {
   for (int i = 0; i < 4; ++i) EXPECT_EQ(chain.ids()[i], i + 1);
 }
 
-// Numbers from the protocol's packet sizes: 21 servos, 2 Mbaud.
+// Packet sizes of the protocol for 21 servos at 2 Mbaud.
 TEST(Schedule, CountsTheBytesOfATick) {
   EXPECT_EQ(sync_read_bytes(21, 4), 35u + 21 * 15);
   EXPECT_EQ(fast_sync_read_bytes(21, 4), 35u + 8 + 21 * 8);

@@ -9,7 +9,7 @@ using lockstep::ClockSieve;
 
 constexpr std::size_t kRoom = 4096;
 
-/// A stream, what the sieve passed on of it, and the sequence numbers it found.
+/// A byte stream, the bytes the sieve passed on, and the sequence numbers it found.
 struct Stream {
   void put(std::uint8_t byte) { bytes[size++] = byte; }
   void put_packet(std::uint8_t id, std::uint32_t mark) {
@@ -40,7 +40,7 @@ struct Dice {
   std::uint32_t state;
 };
 
-// Packets of the clock are taken out, whatever stands between them; the rest goes on in order.
+// The sieve removes clock packets wherever they stand and passes on the rest in order.
 TEST(ClockSieve, TakesThePacketsOfTheClockAndPassesTheRest) {
   for (std::uint32_t seed = 1; seed <= 20; ++seed) {
     Dice dice{seed};
@@ -48,7 +48,7 @@ TEST(ClockSieve, TakesThePacketsOfTheClockAndPassesTheRest) {
     mixed.size = mixed.count = plain.size = 0;
     mixed.packets = 0;
     for (std::uint32_t i = 0; i < 40; ++i) {
-      const std::uint32_t mark = dice() << 8 | 0xFD;  // often in need of stuffing
+      const std::uint32_t mark = dice() << 8 | 0xFD;  // often needs stuffing
       mixed.put_packet(lockstep::kClockId, i % 3 == 0 ? 0xFFFDFFFFu : mark);
       mixed.put_packet(static_cast<std::uint8_t>(dice() % 200), mark);
     }
@@ -65,7 +65,7 @@ TEST(ClockSieve, TakesThePacketsOfTheClockAndPassesTheRest) {
   }
 }
 
-// A packet that comes whole is found, whatever was cut or spoilt just before it.
+// The sieve finds a whole packet after any cut or corrupted bytes.
 TEST(ClockSieve, FindsAWholePacketBehindAnyDamage) {
   for (std::uint32_t seed = 1; seed <= 2000; ++seed) {
     Dice dice{seed};

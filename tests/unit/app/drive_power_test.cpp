@@ -4,7 +4,7 @@
 
 #include "tests/unit/support/test_robot.hpp"
 
-// An emergency stop takes the servos' power, after torque off was said and whatever the core says.
+// An emergency stop cuts the servos' power after it sends torque off, whatever the core says.
 namespace verp::app {
 namespace {
 
@@ -26,7 +26,7 @@ TEST(DrivePower, GoesInTheThirdTickOfAStopInWhateverMode) {
   }
 }
 
-// Releasing the stop alone must not bring power back, nor a relaxed robot alone; both begin anew.
+// Neither releasing the stop nor relaxing the robot restores power alone; only both together do.
 TEST(DrivePower, ComesBackOnlyReleasedAndRelaxedAndThenWithANewBringUp) {
   for (std::uint32_t seed = 1; seed <= 50; ++seed) {
     test::Random random(seed);

@@ -7,7 +7,7 @@
 #include "hal/fake/scripted_imu.hpp"
 #include "tests/unit/support/test_robot.hpp"
 
-// One chip's bias and mounting: measured at rest only, taken out of the counts, kept over a start.
+// Bias and mounting of one chip: measured at rest, removed from the counts, kept across restarts.
 namespace verp::app {
 namespace {
 
@@ -24,7 +24,7 @@ ImuParams upright() {
   imu.accel_m_s2_per_count = kAccelScale;
   return imu;
 }
-/// Its x axis points up.
+/// The x axis points up.
 ImuParams on_its_side() {
   ImuParams imu = upright();
   const float body_imu[9] = {0, 0, -1, 0, 1, 0, 1, 0, 0};
@@ -36,8 +36,8 @@ std::int16_t counts(float value, float scale) {
   return math::to_int16(value / scale);
 }
 
-/// What a chip at rest tells, mounted as `imu` says and then turned by `tilt_rad` about its axis
-/// `about`, with a bias; `noise` counts to either side.
+/// A chip at rest, mounted as `imu` says, then turned by `tilt_rad` about its axis `about`. The
+/// sample has a bias and noise of up to `noise` counts either way.
 hal::ImuSample at_rest(const ImuParams& imu, float tilt_rad, int about, const std::int16_t* bias,
                        test::Random& random, int noise = 8) {
   Vec3 up{imu.body_imu[6], imu.body_imu[7], imu.body_imu[8]};
@@ -98,7 +98,7 @@ TEST(ImuCalibration, TakesBiasAndTiltOutHoweverTheChipIsMounted) {
   }
 }
 
-// What turns the accelerometer turns the gyroscope too, and lengthens neither.
+// A turn acts on accelerometer and gyroscope alike and changes the length of neither vector.
 TEST(ImuCalibration, TurnsBothAlike) {
   const std::int16_t bias[3] = {0, 0, 0};
   const ImuParams imu = upright();
@@ -141,7 +141,7 @@ TEST(ImuCalibration, IsRefusedFromARobotThatMoves) {
   EXPECT_TRUE(measured(calibrator, imu, 0, 0, none, 40) == Outcome::kMoved) << "it trembles";
   const std::int16_t turning[3] = {0, 0, 200};
   EXPECT_TRUE(measured(calibrator, imu, 0, 0, turning) == Outcome::kMoved) << "12 deg/s: it turns";
-  // One push is enough, whenever it comes.
+  // One push ends the measurement, whenever it comes.
   for (const int when : {0, 100, ImuCalibrator::kSamples - 1}) {
     test::Random random(1);
     calibrator.begin();
@@ -165,7 +165,7 @@ TEST(ImuCalibration, IsRefusedFromARobotThatLeansOrASensorOfAnotherScale) {
   EXPECT_TRUE(measured(calibrator, imu, 0, 1, none) == Outcome::kNotUpright) << "half of gravity";
 }
 
-/// A chip at rest on a board, through one start of it.
+/// One run of a board whose chip is at rest.
 struct Life {
   explicit Life(hal::MemoryStore& memory, const ImuParams& params) : imu(chip, memory, params) {
     imu.load();
@@ -180,7 +180,7 @@ struct Life {
     memory.work(true);
     return sample;
   }
-  /// Measures with as many samples as it takes.
+  /// Feeds as many samples as a measurement needs.
   Outcome calibrated(hal::MemoryStore& memory, const ImuParams& params) {
     imu.measure(0);
     for (int i = 0; i < ImuCalibrator::kSamples; ++i) next(memory, params);
@@ -258,9 +258,8 @@ TEST(CalibratedImu, OfAnotherVersionOrSizeIsNotTaken) {
   EXPECT_TRUE(Life(memory, params).imu.state() == Outcome::kDropped);
 }
 
-// A bias is in counts of a scale, a turn belongs to a mounting: for a robot that has another of
-// either, what was measured is worse than nothing. It is not used, the operator is told, and the
-// robot it was measured in finds it again.
+// A bias belongs to a scale, a turn to a mounting. A robot that differs in either drops the
+// measurement and tells the operator. The robot that measured it finds it again.
 TEST(CalibratedImu, MeasuredInAnotherScaleOrMountingIsDroppedAndSaid) {
   hal::MemoryStore memory;
   const ImuParams params = upright();
@@ -283,7 +282,7 @@ TEST(CalibratedImu, MeasuredInAnotherScaleOrMountingIsDroppedAndSaid) {
   EXPECT_TRUE(Life(memory, params).imu.state() == Outcome::kDone);
 }
 
-// Samples come from read() alone; a chip that goes silent half-way, or a loop that asks no more.
+// Only read() gives samples: the chip may fall silent, or the loop may stop reading.
 TEST(CalibratedImu, AMeasurementWithoutSamplesEndsWithAVerdict) {
   constexpr std::uint64_t kBegin_us = 5'000'000;
   for (const int samples : {0, 1, ImuCalibrator::kSamples - 1}) {
@@ -306,8 +305,8 @@ TEST(CalibratedImu, AMeasurementWithoutSamplesEndsWithAVerdict) {
   }
 }
 
-// One that gets its samples is never cut short, even in the slowest loop; and no verdict comes
-// where nothing was asked.
+// Samples that come slowly do not cut a measurement short, and without an order there is no
+// verdict.
 TEST(CalibratedImu, TheSlowestLoopHasTimeToMeasure) {
   hal::MemoryStore memory;
   const ImuParams params = upright();

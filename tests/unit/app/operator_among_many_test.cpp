@@ -5,7 +5,7 @@
 #include "firmware/app/operator_device.hpp"
 #include "tests/unit/app/operator_bench.hpp"
 
-// Instructions that address several devices at once, of which the controller is one.
+// Instructions to several devices, one of which is the controller.
 
 namespace verp::app::test {
 namespace {
@@ -33,7 +33,8 @@ TEST(OperatorAmongMany, TakesItsPartOfWritesToMany) {
   EXPECT_EQ(bench.device.order(2).command.vy_tenth_mm_s, 2);
 }
 
-// Of a read of many it answers when the one before it on the list has, and not if that is silent.
+// In a read of many the controller answers after the device before it, and stays silent if that one
+// does.
 TEST(OperatorAmongMany, WaitsForItsTurnInAReadOfMany) {
   Bench<>& bench = renewed<Bench<>>(no_images, OperatorSetup{});
   const std::uint8_t first[] = {bench.id, 3};

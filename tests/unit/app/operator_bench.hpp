@@ -10,19 +10,19 @@
 #include "hal/fake/memory_link.hpp"
 #include "tests/unit/support/test_robot.hpp"
 
-/// An operator device at one end of a wire, a test at the other.
+/// An operator device at one end of a wire and a test at the other.
 namespace verp::app::test {
 
 using verp::test::kRobot;
 
-/// A new one in the place of the last one of its type: too large for a microcontroller's stack.
+/// Replaces the last object of its type: it is too large for a microcontroller's stack.
 template <class Thing, class... Arguments>
 Thing& renewed(Arguments&&... arguments) {
   alignas(Thing) static unsigned char place[sizeof(Thing)];
   return *new (static_cast<void*>(place)) Thing(static_cast<Arguments&&>(arguments)...);
 }
 
-/// A status packet, or that there was none.
+/// A status packet; `packets` is 0 if none came.
 struct Reply {
   int packets = 0;
   std::uint8_t id = 0;
@@ -81,9 +81,9 @@ class Bench {
   Reply plain(dxl::Instruction instruction) {
     return send(dxl::encode_plain(frame, sizeof frame, id, instruction));
   }
-  /// What a controller wants to hear before it takes any other request.
+  /// The controller wants this before any other request.
   void relax() { EXPECT_TRUE(write(reg("request"), std::uint8_t{0}) == dxl::Error::kNone); }
-  /// One tick's outcome.
+  /// Records one tick's outcome.
   void record() { device.record({state.digest, inputs}, state, outputs); }
   void arm(bool on) {
     outputs.torque_enable = on ? 1 : 0;
@@ -121,7 +121,7 @@ class Bench {
 inline Bench<>& fresh_bench(const OperatorSetup& setup = {}) {
   return renewed<Bench<>>(no_images, setup);
 }
-/// One that was asked to relax, and takes any other request.
+/// A bench that was asked to relax, so it accepts any other request.
 inline Bench<>& relaxed_bench() {
   Bench<>& bench = fresh_bench();
   bench.relax();

@@ -7,7 +7,7 @@
 
 #include "tests/unit/app/operator_bench.hpp"
 
-// The controller on the wire. Sequences marked "documented" are the examples of ROBOTIS e-Manual,
+// The controller on the wire. "Documented" sequences are the examples of ROBOTIS e-Manual,
 // "DYNAMIXEL Protocol 2.0", which address device 1.
 
 namespace verp::app::test {
@@ -21,7 +21,7 @@ Reply send(Bench<>& bench, const std::uint8_t (&bytes)[kSize]) {
   return bench.send(bytes, kSize);
 }
 
-/// The whole reply, byte for byte.
+/// Compares the whole reply byte for byte.
 template <std::size_t kSize>
 bool answered(const Bench<>& bench, const std::uint8_t (&bytes)[kSize]) {
   if (bench.raw_size != kSize) return false;
@@ -31,12 +31,12 @@ bool answered(const Bench<>& bench, const std::uint8_t (&bytes)[kSize]) {
   return true;
 }
 
-// An operator who unplugs in mid-reply leaves nothing behind for the next.
+// An operator who unplugs in mid-reply leaves nothing for the next one.
 TEST(OperatorDevice, NeverGivesTheRestOfAReplyToTheNextOperator) {
   Bench<>& bench = fresh_bench();
   const std::size_t size = dxl::encode_read(bench.frame, sizeof bench.frame, bench.id, 256, 300);
   bench.wire.right().write(bench.frame, size, 0);
-  while (bench.device.poll()) {  // until the wire takes no more
+  while (bench.device.poll()) {  // until the wire is full
     if (bench.device.reply_waits()) break;
   }
   ASSERT_TRUE(bench.device.reply_waits());
@@ -54,7 +54,7 @@ TEST(OperatorDevice, NeverGivesTheRestOfAReplyToTheNextOperator) {
   EXPECT_EQ(bench.raw_size, 14u);
 }
 
-// A robot that does not come up must say which of its twenty servos to look at.
+// The operator must learn which of twenty servos stopped the bring-up.
 TEST(OperatorDevice, TellsAtWhichDeviceTheBringUpEnded) {
   Bench<>& bench = fresh_bench();
   EXPECT_EQ(bench.value<std::uint8_t>(reg("bring_up")), 0);
@@ -75,14 +75,14 @@ TEST(OperatorDevice, AnswersTheDocumentedPing) {
   ASSERT_EQ(reply.size, 3u);
   EXPECT_EQ(dxl::get_u16(reply.data), table::kModel);
   EXPECT_EQ(reply.data[2], table::kTableVersion);
-  // To all: documented too, and the same answer.
+  // The documented ping to all devices gives the same answer.
   const std::uint8_t all[] = {0xFF, 0xFF, 0xFD, 0x00, 0xFE, 0x03, 0x00, 0x01, 0x31, 0x42};
   EXPECT_EQ(send(bench, all).packets, 1);
 }
 
 TEST(OperatorDevice, AnswersTheDocumentedRead) {
   Bench<>& bench = fresh_bench({.id = 1});
-  // The example's register shows 166; ours at that place is part of the digest.
+  // The example's register shows 166; at that address the controller has part of the digest.
   bench.state.digest.chain = std::uint64_t{0xA6} << 32;
   bench.record();
   const std::uint8_t read[] = {0xFF, 0xFF, 0xFD, 0x00, 0x01, 0x07, 0x00,
@@ -109,14 +109,14 @@ TEST(OperatorDevice, RefusesWithTheDocumentedErrors) {
   const std::uint8_t write[] = {0xFF, 0xFF, 0xFD, 0x00, 0x01, 0x09, 0x00, 0x03,
                                 0x74, 0x00, 0x00, 0x02, 0x00, 0x00, 0xCA, 0x89};
   EXPECT_TRUE(send(bench, write).error == Error::kAccess);
-  // Documented Reg Write of 104, where no register is.
+  // Documented Reg Write of 104, where there is no register.
   const std::uint8_t reg_write[] = {0xFF, 0xFF, 0xFD, 0x00, 0x01, 0x09, 0x00, 0x04,
                                     0x68, 0x00, 0xC8, 0x00, 0x00, 0x00, 0xAE, 0x8E};
   EXPECT_TRUE(send(bench, reg_write).error == Error::kAccess);
-  // Documented Action; no Reg Write came before it.
+  // Documented Action, without a Reg Write before it.
   const std::uint8_t action[] = {0xFF, 0xFF, 0xFD, 0x00, 0x01, 0x03, 0x00, 0x05, 0x02, 0xCE};
   EXPECT_TRUE(send(bench, action).error == Error::kInstruction);
-  // Documented Factory Reset and Clear, which a controller does not have.
+  // Documented Factory Reset and Clear, which the controller does not support.
   const std::uint8_t reset[] = {0xFF, 0xFF, 0xFD, 0x00, 0x01, 0x04, 0x00, 0x06, 0x01, 0xA1, 0xE6};
   EXPECT_TRUE(send(bench, reset).error == Error::kInstruction);
   const std::uint8_t clear[] = {0xFF, 0xFF, 0xFD, 0x00, 0x01, 0x08, 0x00, 0x10,
@@ -130,7 +130,7 @@ TEST(OperatorDevice, RefusesWithTheDocumentedErrors) {
       << "there are no actions yet";
 }
 
-// Every register, not a few: what the table calls read-only is refused, the rest taken.
+// Tests every register: a read-only one refuses a write, the others accept it.
 TEST(OperatorDevice, EveryRegisterKeepsItsAccess) {
   Bench<>& bench = fresh_bench();
   for (const bool armed : {false, true}) {
@@ -167,8 +167,8 @@ TEST(OperatorDevice, ArmedItKeepsIdAndSourceAndDoesNotRestart) {
   EXPECT_EQ(bench.read(0, 2).packets, 1);
 }
 
-// A twin that falls silent in mid-walk must not lock the desk; one that goes on locks it again, and
-// finds the order that stood.
+// A twin that falls silent in mid-walk must not lock out the operator. The next tick locks again,
+// and the earlier order still stands.
 TEST(OperatorDevice, WithoutServosItOpensWhatTorqueKeptUntilTheNextTick) {
   Bench<>& bench = fresh_bench();
   bench.relax();
@@ -236,8 +236,7 @@ TEST(OperatorDevice, RegisteredWritesWaitForTheirAction) {
   EXPECT_EQ(bench.value<std::uint8_t>(reg("registered_instruction")), 0);
 }
 
-// The link takes 256 bytes at a time; the longest array needs two of that, and calls that never
-// wait.
+// The link takes 256 bytes at a time, so the longest array needs two pieces; no call waits.
 TEST(OperatorDevice, LongRepliesGoOutInPiecesWithoutWaiting) {
   Bench<>& bench = fresh_bench();
   constexpr std::uint16_t kLength = 400;
@@ -258,7 +257,8 @@ TEST(OperatorDevice, ForeignAndBadPacketsGetNoAnswer) {
   EXPECT_EQ(bench.value<std::uint32_t>(reg("link_crc_errors")), 1u);
 }
 
-// Requests that a false header hid until its CRC failed come out together; each gets its answer.
+// A false header hides requests until its CRC fails; then all come out at once and each is
+// answered.
 TEST(OperatorDevice, AnswersAllRequestsThatComeOutTogether) {
   Bench<>& bench = fresh_bench();
   std::uint8_t bytes[64] = {0xFF, 0xFF, 0xFD, 0x00, bench.id, 20, 0x00};
@@ -269,7 +269,7 @@ TEST(OperatorDevice, AnswersAllRequestsThatComeOutTogether) {
   EXPECT_EQ(bench.send(bytes, size).packets, 2);
 }
 
-/// True if every writable register holds what the table allows.
+/// True if every writable register holds an allowed value.
 bool in_bounds(Bench<>& bench) {
   for (const table::Register& each : table::kTable) {
     if (!each.writable()) continue;
@@ -286,7 +286,7 @@ bool in_bounds(Bench<>& bench) {
   return in_range(bench.value<std::uint16_t>(reg("parameter_id")), parameter);
 }
 
-// Good packets with any instruction and parameters, cut and spoilt ones, and noise between them.
+// Good packets with any instruction and parameters, corrupted ones, and noise between them.
 TEST(OperatorDevice, NoBytesLeaveItsRegistersOutOfRange) {
   verp::test::Random random(3);
   const Instruction all[] = {
@@ -318,7 +318,7 @@ TEST(OperatorDevice, NoBytesLeaveItsRegistersOutOfRange) {
       ASSERT_TRUE(in_range(order.parameter_id, value));
     }
   }
-  // What noise may have left in the parser, and settings that make it silent.
+  // Clears noise from the parser and settings that silence the device.
   for (int i = 0; i < 2; ++i) {
     const std::uint8_t zeros[dxl::kMaxPacket] = {};
     bench.send(zeros, sizeof zeros);

@@ -4,13 +4,13 @@
 
 #include "tests/unit/app/operator_bench.hpp"
 
-// Orders: when one counts, for how long, and what an order is not.
+// Orders: when one takes effect, for how long, and what is no order.
 namespace verp::app::test {
 namespace {
 
 using dxl::Error;
 
-// What gives power back after a stop is that somebody writes 0, not that 0 stands there.
+// After a stop, only a new write of 0 restores power; a 0 that already stands there does not.
 TEST(OperatorOrders, ToRelaxIsToldOnceForEachTimeItIsWritten) {
   Bench<>& bench = fresh_bench();
   EXPECT_FALSE(bench.device.take_relax()) << "0 stands there from the start";
@@ -24,8 +24,8 @@ TEST(OperatorOrders, ToRelaxIsToldOnceForEachTimeItIsWritten) {
   EXPECT_FALSE(bench.device.take_relax());
 }
 
-// The core rises on a level. A program that repeats its order to stand raises no robot that was
-// reset, by its watchdog or by a supply that sagged: somebody asks it to relax first.
+// The core rises on a level. If a watchdog or a sagging supply resets the robot, a program that
+// repeats its order to stand must not raise it. The operator first has to ask it to relax.
 TEST(OperatorOrders, ToStandOrWalkAreRefusedAfterEachStartUntilOneToRelaxWasGiven) {
   using Cause = table::ResetCause;
   for (const Cause cause : {Cause::kUnknown, Cause::kPower, Cause::kPin, Cause::kSoftware,
@@ -51,7 +51,7 @@ TEST(OperatorOrders, ToStandOrWalkAreRefusedAfterEachStartUntilOneToRelaxWasGive
   }
 }
 
-// A Reg Write is an order when its Action comes, not before.
+// A Reg Write becomes an order at its Action, not before.
 TEST(OperatorOrders, AKeptRequestToRelaxCountsFromItsActionOn) {
   Bench<>& bench = fresh_bench();
   const std::uint8_t relax = 0;
@@ -88,8 +88,8 @@ TEST(OperatorOrders, TheSameOrderAgainIsFreshAgain) {
   }
 }
 
-// An erase of flash holds the processor for up to two seconds: who ordered before it, or into it,
-// may be gone when it is over.
+// Erasing flash stops the processor for up to two seconds. An operator whose order came before or
+// during that may be gone afterwards.
 TEST(OperatorOrders, DoNotOutliveALoopThatStoodStill) {
   const auto hold_ticks = static_cast<std::uint32_t>(1e6F * kRobot.tuning.safety.command_hold_s /
                                                      static_cast<float>(kRobot.period_us));
@@ -108,7 +108,7 @@ TEST(OperatorOrders, DoNotOutliveALoopThatStoodStill) {
       }
       const bool slept = gap > hold_ticks;
       const OperatorOrder order = bench.device.order(100 + gap);
-      if (in_the_link && !slept) continue;  // it comes with the next poll
+      if (in_the_link && !slept) continue;  // the next poll delivers it
       EXPECT_EQ(order.flags, slept ? 0 : kCommandFresh) << gap;
       EXPECT_TRUE(order.command.request == (slept ? Request::kRelax : Request::kStand)) << gap;
       EXPECT_EQ(bench.value<std::uint8_t>(reg("request")), slept ? 0 : 1) << gap;
@@ -119,7 +119,7 @@ TEST(OperatorOrders, DoNotOutliveALoopThatStoodStill) {
   }
 }
 
-// Nor does an order wait for servos to be found: a robot must not rise minutes after it was asked.
+// An order does not wait for the bring-up: a robot must not rise minutes after it was asked.
 TEST(OperatorOrders, DoNotWaitForABringUp) {
   Bench<>& bench = relaxed_bench();
   bench.write(reg("request"), std::uint8_t{1});
@@ -129,8 +129,7 @@ TEST(OperatorOrders, DoNotWaitForABringUp) {
   EXPECT_TRUE(order.command.request == Request::kRelax);
 }
 
-// With torque on a robot must not be told to sit down because its loop was late; an emergency stop
-// outlives everything.
+// A late loop must not make a robot with torque sit down; an emergency stop outlives everything.
 TEST(OperatorOrders, OfARobotWithTorqueAndTheStopStandWhateverHappens) {
   Bench<>& bench = relaxed_bench();
   bench.device.order(0);

@@ -15,7 +15,7 @@ namespace {
 
 using dxl::Error;
 
-// What the board found at its start, for an operator who comes later.
+// An operator who connects later can still read what the board found at its start.
 TEST(OperatorStart, IsToldInRegisters) {
   const OperatorSetup setup = {
       .self_test = table::SelfTest::kKinematics,
@@ -262,7 +262,7 @@ TEST(OperatorDevices, ASkippedTickAgesThemTwice) {
   EXPECT_EQ(bench.value<std::uint16_t>(reg("device_age")), 2);
 }
 
-/// A good image of a robot with another name, and what happens to it on the way.
+/// A good image of a robot with another name, and its upload.
 class Upload {
  public:
   Upload() : bench(store) {

@@ -9,7 +9,7 @@
 namespace verp::app {
 namespace {
 
-/// Sends what the test gives it, to one joint.
+/// Sends the test's goal to one joint.
 struct Given {
   static inline float goal_rad = 0;
   static inline bool torque = false;
@@ -55,7 +55,7 @@ TEST(OwnLaw, KeepsTheGoalBeforeOneThatIsNoneOrOutOfRange) {
   }
 }
 
-// Its goal before is whatever it was when nobody held it: it would snap there.
+// The joint's last goal dates from when it was limp; torque would make it snap there.
 TEST(OwnLaw, LeavesALimpJointLimpWhoseFirstGoalIsNone) {
   Rig rig;
   rig.tick(0, false);
@@ -67,7 +67,7 @@ TEST(OwnLaw, LeavesALimpJointLimpWhoseFirstGoalIsNone) {
   EXPECT_NEAR(rig.goal_rad(), 0.2F, 2e-3F);
 }
 
-// Two controllers that send otherwise are told apart by their digests.
+// Digests distinguish two controllers that send different outputs.
 TEST(OwnLaw, DigestsWhatIsSent) {
   Rig one, other;
   one.tick(0.2F, true);

@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::uint32_t kPeriod_us = 10'000;
 
-// A loop that is always done in time has nothing to report, however long it runs.
+// A loop that is always in time has nothing to report, however long it runs.
 TEST(Pacer, ALoopInTimeMissesNothing) {
   hal::ManualClock clock;
   app::Pacer pacer(clock);
@@ -20,7 +20,8 @@ TEST(Pacer, ALoopInTimeMissesNothing) {
     const app::Beat beat = pacer.next();
     EXPECT_EQ(beat.periods, 1u);
     EXPECT_FALSE(beat.overran);
-    clock.advance(static_cast<std::uint64_t>(random.below(kPeriod_us + 1)));  // up to its deadline
+    clock.advance(static_cast<std::uint64_t>(random.below(kPeriod_us + 1)));  // at most up to the
+                                                                              // deadline
   }
   EXPECT_EQ(pacer.deadlines().ticks, 1000u);
   EXPECT_EQ(pacer.deadlines().missed, 0u);
@@ -28,8 +29,8 @@ TEST(Pacer, ALoopInTimeMissesNothing) {
   EXPECT_EQ(pacer.deadlines().worst_late_us, 0u);
 }
 
-// Ticks of any length, up to seven periods: the account is that of somebody who knows when each
-// tick began and ended, and every tick stands on the period in which it began.
+// For ticks of up to seven periods, the counts match those from the known begin and end of each
+// tick. Every tick counts for the period in which it began.
 TEST(Pacer, TheAccountIsTrueForTicksOfAnyLength) {
   for (std::uint32_t seed = 1; seed <= 20; ++seed) {
     hal::ManualClock clock;
@@ -39,7 +40,7 @@ TEST(Pacer, TheAccountIsTrueForTicksOfAnyLength) {
     ASSERT_TRUE(pacer.start(kPeriod_us));
     test::Random random(seed);
     std::uint64_t missed = 0, skipped = 0, worst_us = 0;
-    std::uint64_t period = 1, end_us = 0;  // of the tick before
+    std::uint64_t period = 1, end_us = 0;  // end of the previous tick
     std::uint64_t counted = 0;
     for (int i = 0; i < 300; ++i) {
       const app::Beat beat = pacer.next();
@@ -67,7 +68,7 @@ TEST(Pacer, TheAccountIsTrueForTicksOfAnyLength) {
   }
 }
 
-// What passes between start() and the first tick is nobody's deadline.
+// Time between start() and the first tick counts against no deadline.
 TEST(Pacer, TheFirstTickIsNeverLate) {
   hal::ManualClock clock;
   app::Pacer pacer(clock);

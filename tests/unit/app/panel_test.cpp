@@ -4,7 +4,7 @@
 
 #include "tests/unit/support/test_robot.hpp"
 
-// The emergency stop and the buttons in a tick's Inputs.
+// The emergency stop and the buttons as a tick's Inputs.
 namespace verp::app {
 namespace {
 
@@ -55,8 +55,8 @@ TEST(Panel, StopsWithinThreeTicksOfAnOpenCircuitAndStays) {
   for (int tick = 0; tick < 1000; ++tick) EXPECT_TRUE(bench.stopped());
 }
 
-// What takes the servos' power must not take it at each start, when the stop only counts as pressed
-// because nobody knows yet; but if it is pressed then, it is.
+// At a start the stop counts as pressed until it is known. That alone must not cut the servos'
+// power, but a stop that is really pressed must.
 TEST(Panel, TellsAStopThatIsPressedFromOneThatIsNotYetKnown) {
   Bench closed;
   for (int tick = 0; tick < 1000; ++tick) {
@@ -100,7 +100,7 @@ TEST(Panel, TheStopOfTheOperatorsLinkIsAPressedOneToo) {
   EXPECT_FALSE(panel.pressed());
 }
 
-// A contact that rattles while it opens never reads as closed; one spark of a closed one is none.
+// An opening contact that bounces never reads as closed; one spark of a closed contact is no stop.
 TEST(Panel, BouncingNeverReleasesAndASparkNeverStops) {
   Bench bench;
   verp::test::Random random(1);

@@ -20,7 +20,7 @@ OperatorSetup with_both_sources() {
   return setup;
 }
 
-/// One life of a board: from the start on the flash as it is.
+/// One run of a board, starting with the flash as it is.
 struct Life {
   explicit Life(Flash& flash, const OperatorSetup& defaults = with_both_sources())
       : memory(flash), keeper(memory), setup(defaults) {
@@ -60,7 +60,7 @@ TEST(Settings, OutliveTheNextStarts) {
   EXPECT_TRUE(last.setup.imu_source == ImuSource::kBus);
 }
 
-// A reset in the middle of a robot's first steps must not set its full strength free.
+// A reset during a robot's first steps must not release its full strength.
 TEST(Settings, HoldTheTorqueLimitOverAnyStartUntilTheOperatorLiftsIt) {
   Flash flash;
   Life(flash).keep({17, ImuSource::kBus, 30});
@@ -69,7 +69,7 @@ TEST(Settings, HoldTheTorqueLimitOverAnyStartUntilTheOperatorLiftsIt) {
   EXPECT_EQ(Life(flash).setup.torque_limit_percent, 100);
 }
 
-// What a board kept before it was updated: id and source hold, and nothing is limited.
+// Settings kept by firmware before the torque limit: id and source hold, and nothing is limited.
 TEST(Settings, OfTheVersionWithoutATorqueLimitStillHold) {
   Flash flash;
   Memory memory(flash);
@@ -86,7 +86,7 @@ TEST(Settings, OfTheVersionWithoutATorqueLimitStillHold) {
   EXPECT_EQ(Life(flash).setup.torque_limit_percent, 40);
 }
 
-// Flash wears: what has not changed is not written again.
+// Flash wears, so an unchanged value is not written again.
 TEST(Settings, AreWrittenOnceForEachChange) {
   Flash flash;
   Life life(flash);
@@ -104,7 +104,7 @@ TEST(Settings, OfAnotherBoardAreNotObeyed) {
   EXPECT_TRUE(without_chip.setup.imu_source == ImuSource::kBus);
 }
 
-// An emulator has no flash to write: the loop must not try for ever.
+// An emulator has no flash to write; the loop must not retry for ever.
 TEST(Settings, GiveUpOnAMemoryThatRefuses) {
   Flash flash;
   flash.refuse(1000000);

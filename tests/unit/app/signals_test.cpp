@@ -2,7 +2,8 @@
 
 #include <gtest/gtest.h>
 
-// The buzzer's words: each fault once, a low supply until it is better, notes never.
+// The buzzer announces each fault once and a low supply until it recovers; it never announces
+// notes.
 namespace verp::app {
 namespace {
 

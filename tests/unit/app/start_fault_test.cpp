@@ -5,7 +5,7 @@
 #include "hal/fake/fake_watchdog.hpp"
 #include "hal/fake/manual_clock.hpp"
 
-// What is wrong at a start: no torque, no silent retry, and a sign that a person can read.
+// A fault at the start gives no torque, no silent retry, and a sign that a person can read.
 namespace verp::app {
 namespace {
 
@@ -15,7 +15,7 @@ constexpr StartFault kAll[] = {
     StartFault::kSelfTest, StartFault::kTimer,    StartFault::kOperatorPort, StartFault::kServoPort,
     StartFault::kPeriod,   StartFault::kWatchdog, StartFault::kProtocol};
 
-/// Servos with a port that may not open; a switch that may not be closed before it did.
+/// Servos whose port may fail to open; power may come only after the port is open.
 struct Servos {
   bool open() {
     EXPECT_FALSE(powered);
@@ -31,7 +31,7 @@ struct Servos {
   }
   bool opens = true;
   bool opened = false;
-  bool powered = true;  ///< whatever was before
+  bool powered = true;  ///< whatever was set before
   int releases = 0;
 };
 
@@ -75,7 +75,7 @@ TEST(LoopGuard, StartsClockAndWatchdogForAsManyLoopsAsThereAre) {
   EXPECT_TRUE(dog.caused_reset()) << "it is armed";
 }
 
-// A fault is told for as long as it takes somebody to look: nothing may bite meanwhile.
+// Reporting a fault takes as long as a person needs to look; the watchdog must not bite meanwhile.
 TEST(LoopGuard, AClockThatRefusesIsAFaultAndArmsNothing) {
   hal::ManualClock clock;
   hal::FakeWatchdog dog;
@@ -94,7 +94,7 @@ TEST(LoopGuard, AWatchdogThatRefusesIsAFaultWhereThereIsOne) {
   EXPECT_TRUE(LoopGuard(dog, false).begin(pacer, kPeriod_us, 0) == StartFault::kNone);
 }
 
-/// Flashes, beeps and the longest dark of so many milliseconds.
+/// Flashes, beeps and the longest dark time within a span of milliseconds.
 struct Seen {
   int flashes = 0, beeps = 0, changes = 0;
   std::uint64_t longest_dark_ms = 0;
@@ -123,7 +123,7 @@ TEST(LifeSign, BlinksOnceASecondAndIsSilentWhileAllIsWell) {
   EXPECT_EQ(seen.longest_dark_ms, 500u);
 }
 
-// The number between two pauses is the fault's, whenever somebody begins to look.
+// Between two pauses an observer counts the fault's number, whenever he begins to look.
 TEST(LifeSign, CountsTheFaultOutByLightAndSound) {
   for (const StartFault fault : kAll) {
     const auto number = static_cast<int>(fault);

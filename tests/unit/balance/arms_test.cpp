@@ -12,7 +12,7 @@ using test::kRightArm;
 
 const float kRadPerM = test::kRobot.arm_rad_per_m[gait::kLeft];
 
-// The left foot is so far ahead of the right one, on the way of a body that looks along `yaw_rad`.
+// The left foot stands `ahead_m` ahead of the right one for a body that looks along `yaw_rad`.
 gait::Posture posture(float ahead_m, float yaw_rad) {
   gait::Posture out;
   out.body.rotation = math::rot_z(yaw_rad);
@@ -57,7 +57,7 @@ TEST(Arms, RestWhileTheFeetStandSideBySide) {
   }
 }
 
-// Whichever way the robot walks: about y, more is further back.
+// True in any walking direction; about y, a larger angle is further back.
 TEST(Arms, SwingBackWithTheFootThatIsAhead) {
   for (const float yaw_rad : {0.0F, 0.7F, -2.5F}) {
     for (const float ahead_m : {-0.1F, 0.02F, 0.05F}) {

@@ -33,8 +33,8 @@ TEST(Attitude, StillRobotIsUpright) {
   EXPECT_NEAR(out.up, 1.0F, 1e-6F);
 }
 
-// A MEMS gyro's bias, up to 5 degrees a second, is learnt before the robot may walk, and no tilt
-// comes from it.
+// The estimator learns a MEMS gyro's bias of up to 5 deg/s before the robot may walk, and derives
+// no tilt from it.
 TEST(Attitude, BiasIsLearntWhileStanding) {
   AttitudeState state;
   AttitudeIn in = still();
@@ -49,8 +49,8 @@ TEST(Attitude, BiasIsLearntWhileStanding) {
   EXPECT_NEAR(out.roll_rate_rad_s, 0.0F, 1e-3F);
 }
 
-// A body that sways is pushed about in time with it. With the accelerometer's second of the tilt
-// the heading would be off by 12 degrees after this minute.
+// Steps accelerate a swaying body in time with its sway. If the heading used the accelerometer's
+// tilt it would be off by 12 degrees after this minute.
 TEST(Attitude, AccelerationsOfStepsHardlyTurnTheHeading) {
   constexpr float kStride_rad_s = 14.0F;
   AttitudeState state;
@@ -68,8 +68,8 @@ TEST(Attitude, AccelerationsOfStepsHardlyTurnTheHeading) {
   EXPECT_LT(math::abs(out.heading_rad), 0.05F);
 }
 
-// A body that has just risen settles by some tenths of a degree. The heading must not drift by it
-// for the rest of the walk.
+// A body that has just risen settles by some tenths of a degree, which must not make the heading
+// drift for the whole walk.
 TEST(Attitude, BiasIsNotLearntFromABodyThatSettles) {
   for (int when = 0; when < 30; when += 5) {
     AttitudeState state;
@@ -82,8 +82,8 @@ TEST(Attitude, BiasIsNotLearntFromABodyThatSettles) {
   }
 }
 
-// Servos that creep into their goals take longer: 0.02 rad in all, most of them in the first
-// second, which the mean leaves out.
+// Creeping servos take longer: 0.02 rad in all, most of it in the first second, which the mean
+// leaves out.
 TEST(Attitude, BiasIsNotLearntFromServosThatCreep) {
   AttitudeState state;
   AttitudeIn in = still();
@@ -107,9 +107,8 @@ TEST(Attitude, BiasIsNotLearntFromMotionNorWhileWalking) {
   EXPECT_EQ(state.gyro_bias_rad_s.x, 0.0F);
 }
 
-// Servos hunt for their goals: the body trembles about the real bias, at rates that are motion for
-// a single reading. It goes nowhere, and the bias is learnt as soon as from one that stands
-// quietly.
+// Servos that hunt for their goals make the body tremble about the real bias. Single readings look
+// like motion, but the body stays put. The bias is learnt as soon as on a still body.
 TEST(Attitude, TremblingDoesNotKeepTheBiasFromBeingLearnt) {
   for (const float frequency_hz : {5.0F, 8.0F, 13.0F, 37.0F}) {
     AttitudeState state;
@@ -126,7 +125,7 @@ TEST(Attitude, TremblingDoesNotKeepTheBiasFromBeingLearnt) {
   }
 }
 
-// One reading that is all wrong, of each way and at any moment, costs neither time nor the bias.
+// One wrong reading in either direction, at any moment, costs neither time nor the bias.
 TEST(Attitude, OneWrongReadingEndsNoCalibration) {
   for (int when = 0; when < kCalibrated_ticks; when += 7) {
     for (const float wrong : {0.15F, -2.0F, 35.0F}) {
@@ -143,8 +142,8 @@ TEST(Attitude, OneWrongReadingEndsNoCalibration) {
   }
 }
 
-// Whoever rocks, carries or slowly turns the robot moves it, though it is never far from standing
-// still for long.
+// A person who rocks, carries or slowly turns the robot moves it, although it almost stands still
+// most of the time.
 TEST(Attitude, BiasIsNotLearntFromARobotInSomebodysHands) {
   struct Motion {
     float rate_rad_s, frequency_hz;
@@ -174,8 +173,8 @@ TEST(Attitude, CalibrationSurvivesMotion) {
   EXPECT_TRUE(run(state, in, 20).calibrated);
 }
 
-// Half a second at a constant rate, with an accelerometer that agrees: positive about x is to the
-// right, about y nose down, about z to the left.
+// Half a second at a constant rate, with a matching accelerometer. Positive is to the right about
+// x, nose down about y, to the left about z.
 TEST(Attitude, ConstantRateIntegrates) {
   constexpr float kRate = 0.4F;
   for (int axis = 0; axis < 3; ++axis) {
@@ -200,7 +199,7 @@ TEST(Attitude, ConstantRateIntegrates) {
   }
 }
 
-// After 20 s of a body that sways in roll and pitch at once, pitch ahead of roll by `lead_rad`.
+// Heading after 20 s in which the body sways in roll and pitch, pitch ahead of roll by `lead_rad`.
 float heading_after_sway(float lead_rad) {
   constexpr float kSway_rad = 0.03F;
   constexpr float kOmega = 14.0F;
@@ -223,7 +222,7 @@ float heading_after_sway(float lead_rad) {
   return out.heading_rad;
 }
 
-// A walking body's x axis goes nowhere as it sways, and so must the heading.
+// A walking body's x axis only sways, so the heading must not drift.
 TEST(Attitude, SwayAboutTwoAxesDoesNotTurnTheHeading) {
   EXPECT_NEAR(heading_after_sway(0.5F * math::kPi), 0.0F, 0.01F)
       << "0.126 if the rate about the vertical is summed";
@@ -242,7 +241,7 @@ TEST(Attitude, AccelerometerPullsAWrongTiltToTheVertical) {
   EXPECT_NEAR(out.pitch_rad, 0.0F, 1e-3F);
 }
 
-// Nothing is waited for: whichever way the body lies, it is known with the first reading.
+// The first reading gives the tilt in any pose; nothing waits.
 TEST(Attitude, FirstReadingIsTheTilt) {
   for (const Vec3& up : {Vec3(1, 0, 0), Vec3(-1, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, -1)}) {
     AttitudeState state;
@@ -254,8 +253,8 @@ TEST(Attitude, FirstReadingIsTheTilt) {
   }
 }
 
-// A robot that was let go a moment ago still moves when its controller begins: what its first
-// readings say of the vertical is soon outvoted, and not believed for seconds.
+// A robot that was just let go still moves when its controller begins. Later readings soon outvote
+// its first, wrong ones.
 TEST(Attitude, FirstReadingsOfABodyInMotionFade) {
   for (const Vec3& wrong : {Vec3(6, 0, 3), Vec3(0, -6, 3), Vec3(3, 3, -2), Vec3(0, 0, 0)}) {
     AttitudeState state;
@@ -270,7 +269,7 @@ TEST(Attitude, FirstReadingsOfABodyInMotionFade) {
   }
 }
 
-// A step's accelerations, to and fro, average out.
+// The back-and-forth accelerations of a step average out.
 TEST(Attitude, SwayOfAStepDoesNotTilt) {
   AttitudeState state;
   state.mean_s = kAccelTime_s;
@@ -297,7 +296,8 @@ TEST(Attitude, StaleSensorsHoldTheEstimate) {
   EXPECT_EQ(out.heading_rad, 0.0F);
 }
 
-// Lying, upside down, in free fall, with saturated sensors: finite, and up is a unit vector.
+// Lying, upside down, in free fall, with saturated sensors: the result is finite and up is a unit
+// vector.
 TEST(Attitude, IsTotal) {
   test::Random random(1);
   AttitudeState state;

@@ -7,7 +7,7 @@ namespace {
 
 using namespace verp::test;
 
-// Closed form: the masses of the robot, summed by the tree of all its links.
+// The reference sums the masses over the tree of all links.
 TEST(Estimator, CentreOfMassOfAStillRobotIsThatOfItsLinks) {
   Led& led = led_robot();
   led.turned = math::rot_y(0.1F) * math::rot_x(-0.05F);
@@ -25,7 +25,7 @@ TEST(Estimator, CentreOfMassOfAStillRobotIsThatOfItsLinks) {
   EXPECT_NEAR(dcm.y, com.y(), 1e-3F);
 }
 
-// A body that sways over its soles: position and velocity follow without lag, whatever the way.
+// For a body that sways over its soles in any direction, position and velocity follow without lag.
 TEST(Estimator, FollowsASwayWithoutLag) {
   constexpr float kMost_m_s = 0.15F, kPulse_per_s = 2.0F * math::kPi * 2.0F;
   for (const Vec3& way : {Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, 0.3F)}) {
@@ -44,8 +44,8 @@ TEST(Estimator, FollowsASwayWithoutLag) {
   }
 }
 
-// A constant offset of the accelerometer is a velocity, twice it over the rate at which the legs
-// are believed, and no drift: of 5 mg 5.6 mm/s at 18 per second.
+// A constant accelerometer offset gives a velocity error of 2 * offset / rate, where `rate` is that
+// at which the legs are believed. 5 mg at 18 per second give 5.6 mm/s. It gives no drift.
 TEST(Estimator, OffsetOfTheAccelerometerIsNoDrift) {
   Led& led = led_robot();
   led.rest();
@@ -56,7 +56,7 @@ TEST(Estimator, OffsetOfTheAccelerometerIsNoDrift) {
   EXPECT_LT(distance(led.believed_m(), led.body_m), 1e-3F);
 }
 
-// Walking at a constant speed, foot before foot: no jump at a touchdown, and no creep.
+// Walking step by step at a constant speed: no jump at a touchdown and no creep.
 TEST(Estimator, TouchdownsNeitherJumpNorCreep) {
   Led& led = led_robot();
   led.rest();
@@ -66,7 +66,7 @@ TEST(Estimator, TouchdownsNeitherJumpNorCreep) {
   constexpr int kStep_ticks = 25;
   for (int i = 0; i < 12 * kStep_ticks; ++i) {
     const int step = i / kStep_ticks, swing = step % 2;
-    // The swing sole is wherever it is, and lands half a step ahead of the body.
+    // The swing sole moves freely and lands half a step ahead of the body.
     const float part = static_cast<float>(i % kStep_ticks + 1) / kStep_ticks;
     led.sole_m[swing].x() = led.body_m.x() - 0.02F + 0.035F * part;
     led.sole_m[swing].z() = 0.02F * math::sin(math::kPi * part);
@@ -84,7 +84,7 @@ TEST(Estimator, TouchdownsNeitherJumpNorCreep) {
   EXPECT_NEAR(led.state.body_m.y, 0.0F, 5e-3F);
 }
 
-// Soles whose cells fall silent: after a moment the plan says who stands, and nothing jumps.
+// When the sole cells fall silent, the plan soon says which foot stands, and nothing jumps.
 TEST(Estimator, SilentSolesAreReplacedByThePlan) {
   Led& led = led_robot();
   led.rest();
@@ -103,7 +103,7 @@ TEST(Estimator, SilentSolesAreReplacedByThePlan) {
   EXPECT_GT(led.state.blind, 0) << "the plan does not stand";
 }
 
-// A robot that is lifted off the ground has not flown away, and knows of no velocity.
+// The estimator must not believe that a lifted robot flies away, and reports no velocity for it.
 TEST(Estimator, LiftedRobotComesToRest) {
   Led& led = led_robot();
   led.rest();
@@ -111,15 +111,15 @@ TEST(Estimator, LiftedRobotComesToRest) {
   led.load_n[0] = led.load_n[1] = 0;
   const Vec3 at_m = led.believed_m();
   for (int i = 0; i < 300; ++i) {
-    led.sole_m[i % 2].x() += 1e-3F;  // its legs dangle
+    led.sole_m[i % 2].x() += 1e-3F;  // the legs dangle
     led.tick(Vec3(0, 0, 0));
   }
   EXPECT_LT(math::norm(led.believed_m_s()), 1e-3F);
   EXPECT_LT(distance(led.believed_m(), at_m), 0.05F);
 }
 
-// One leg's joints are not heard for some ticks: the other leg tells, and when they are heard again
-// the body is where it is.
+// When one leg's joints are silent for some ticks, the other leg serves. Once heard again, they
+// agree with the estimated position.
 TEST(Estimator, SilentJointsNeitherStopNorThrowIt) {
   Led& led = led_robot();
   const Vec3 speed(0.05F, 0, 0);
@@ -134,13 +134,13 @@ TEST(Estimator, SilentJointsNeitherStopNorThrowIt) {
   }
   EXPECT_LT(worst_m_s, 0.03F);
   EXPECT_NEAR(led.state.body_m.x, led.body_m.x(), 4e-3F);
-  led.inputs.fresh = 0;  // none at all
+  led.inputs.fresh = 0;  // no joint is heard
   led.ticks(200, Vec3(0, 0, 0));
   EXPECT_LT(math::norm(led.believed_m_s()), 1e-3F) << "nobody knows of any motion";
   EXPECT_TRUE(struct_is_finite(led.state));
 }
 
-// Whatever the counts are, what it believes is finite and no faster than a robot can be.
+// For any counts the estimate is finite and no faster than a robot can be.
 TEST(Estimator, AnyInputsLeaveItFinite) {
   Led& led = led_robot();
   Random random(7);
@@ -170,8 +170,7 @@ TEST(Estimator, AnyInputsLeaveItFinite) {
   }
 }
 
-// Left and right are the same: the mirror image of a motion gives the mirror image of what is
-// believed.
+// The mirror image of a motion gives the mirror image of the estimate.
 TEST(Estimator, IsTheSameToBothSides) {
   Vec3 one_sided[2];
   for (int mirror = 0; mirror < 2; ++mirror) {

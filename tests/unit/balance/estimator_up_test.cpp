@@ -2,7 +2,7 @@
 
 #include "tests/unit/support/led_robot.hpp"
 
-/// Which way is up: what the estimator knows beyond the attitude.
+/// Which way is up: what the estimator adds to the attitude.
 namespace verp::balance {
 namespace {
 
@@ -15,8 +15,8 @@ float lean_rad(const Led& led) {
   return math::norm(math::cross(math::to_vec(led.state.up_body), up));
 }
 
-// The accelerometer's mean leans with a body that speeds up: by half a degree at 0.1 m/s. The legs
-// know how it goes, and up stays up.
+// At 0.1 m/s, a body's accelerations tilt the accelerometer's mean by half a degree. The legs show
+// the motion, so up stays up.
 TEST(Estimator, UpDoesNotLeanWithASwayingBody) {
   Led& led = led_robot();
   led.rest();
@@ -32,9 +32,9 @@ TEST(Estimator, UpDoesNotLeanWithASwayingBody) {
   EXPECT_LT(worst_rad, 0.25F * worst_plain_rad);
 }
 
-// The floor says which way is up, too: of an accelerometer's offset a part is found out, whatever
-// its direction, and stays known when the robot walks on. A quarter, less what encoders are too
-// coarse for.
+// The floor shows which way is up, too. Standing on it reveals a quarter of an accelerometer's
+// offset, in any direction, less what the encoders are too coarse for. The estimator keeps this
+// while the robot walks on.
 TEST(EstimatorUp, AFloorStoodOnTakesAwayPartOfTheAccelerometersOffset) {
   for (const Vec3& way : {Vec3(1, 0, 0), Vec3(0, -1, 0), Vec3(-0.6F, 0.8F, 0)}) {
     Led& led = led_robot();
@@ -52,7 +52,7 @@ TEST(EstimatorUp, AFloorStoodOnTakesAwayPartOfTheAccelerometersOffset) {
   }
 }
 
-// A ramp is no offset of the accelerometer: the attitude's up is kept to a tenth of a degree.
+// A ramp is no accelerometer offset: up stays within a tenth of a degree of the attitude's.
 TEST(EstimatorUp, ARampIsNotTakenForLevel) {
   for (const float slope_rad : {0.045F, 0.087F, -0.2F}) {
     Led& led = led_robot();
@@ -63,8 +63,7 @@ TEST(EstimatorUp, ARampIsNotTakenForLevel) {
   }
 }
 
-// Between the two nothing leaps: a floor that tilts by a thousandth more moves up by less than
-// that.
+// Between floor and ramp nothing leaps: a thousandth more of slope turns the up direction by about as little.
 TEST(EstimatorUp, GoesOverFromFloorsToRampsSmoothly) {
   float before_rad = 0;
   for (int i = 0; i <= 50; ++i) {
@@ -79,8 +78,7 @@ TEST(EstimatorUp, GoesOverFromFloorsToRampsSmoothly) {
   }
 }
 
-// One leg's joints that are not heard leave the other's sole to say nothing alone: a shoe that
-// stands on a pebble would be half of the truth.
+// When one leg's joints are silent, the other sole must not decide alone: it may stand on a pebble.
 TEST(EstimatorUp, OneSilentLegIsNoFloor) {
   Led& led = led_robot();
   led.up_offset_m_s2 = Vec3(kOffset_m_s2, 0, 0);

@@ -11,7 +11,7 @@ using test::kRobot;
 
 constexpr float kG = math::kGravityMS2;
 
-// A leg in the pose it has while walking, body at the origin.
+// A leg in its walking pose, body at the origin.
 constexpr float kBent_rad[kLegJoints] = {0, 0.02F, -0.63F, 1.26F, -0.63F, -0.02F};
 
 LegLoad carrying(const LegParams& leg, const kinematics::LegChain& chain, float push_n) {
@@ -20,7 +20,7 @@ LegLoad carrying(const LegParams& leg, const kinematics::LegChain& chain, float 
 }
 
 struct Sag {
-  float leg_rad[kLegJoints];  ///< pose plus what was added
+  float leg_rad[kLegJoints];  ///< the pose plus the correction
   float added_rad[kLegJoints];
   kinematics::LegChain before, after;
 };
@@ -35,8 +35,8 @@ Sag sag_of(const Params& params, const LegParams& leg, const float* pose_rad, fl
   return sag;
 }
 
-// Servos yield under the robot's weight, so their goals push the ground further away than planned:
-// the body is lifted by what it will sag.
+// Servos yield under the robot's weight. Their goals push the ground further away than planned, so
+// that the body starts higher by what it will sag.
 TEST(Gravity, GoalsOfACarryingLegLiftTheBody) {
   for (const LegParams& leg : kRobot.leg) {
     const Sag sag = sag_of(kRobot, leg, kBent_rad, 30);
@@ -46,7 +46,7 @@ TEST(Gravity, GoalsOfACarryingLegLiftTheBody) {
   }
 }
 
-// Whatever the pose: the work of the push over the way that the correction makes is negative.
+// In any pose the push does negative work over the correction's displacement.
 TEST(Gravity, CorrectionAlwaysWorksAgainstTheLoad) {
   static const Params massless = test::make_massless_legs_robot();
   test::Random random(1);
@@ -60,7 +60,7 @@ TEST(Gravity, CorrectionAlwaysWorksAgainstTheLoad) {
   }
 }
 
-// A hanging leg pulls its joints the other way: the foot is held up.
+// A hanging leg loads its joints the other way, so its foot is held up.
 TEST(Gravity, GoalsOfAHangingLegLiftTheFoot) {
   const LegParams& leg = kRobot.leg[0];
   const Sag sag = sag_of(kRobot, leg, kBent_rad, 0);
@@ -89,7 +89,7 @@ TEST(Gravity, StiffServosNeedNoCorrection) {
   for (int k = 0; k < kLegJoints; ++k) EXPECT_EQ(sag.added_rad[k], 0.0F) << "joint " << k;
 }
 
-// Torque by statics: a force of 10 N 50 mm beside a knee's axis, nothing else weighing.
+// Statics: a force of 10 N, 50 mm beside a knee's axis, and nothing else with weight.
 TEST(Gravity, SagIsTorqueTimesCompliance) {
   static const Params massless = test::make_massless_legs_robot();
   const float straight_rad[kLegJoints] = {};
@@ -103,8 +103,9 @@ TEST(Gravity, SagIsTorqueTimesCompliance) {
   EXPECT_NEAR(leg_rad[3], 0.5F * 0.0263F, 1e-5F);
 }
 
-// What rotor and gears take of a motor's torque is added the way the joint turns: friction with the
-// speed's sign and more under load, inertia with the acceleration's; neither when switched off.
+// The part of a motor's torque that rotor and gears take is added in the joint's direction.
+// Friction follows the sign of the speed and grows with load, inertia follows the acceleration.
+// Switched off, neither is added.
 TEST(Gravity, FrictionAndInertiaAreFedForward) {
   static const Params massless = test::make_massless_legs_robot();
   Params geared = massless;
@@ -128,14 +129,15 @@ TEST(Gravity, FrictionAndInertiaAreFedForward) {
     add_sag(geared, tuning, leg, chain, load, motion, leg_rad);
     return leg_rad[3] / knee.compliance_rad_nm;
   };
-  // At the speed where half is left: (0.04 + 2 * 0.2 * 0.5) / 2, less what is not sure of its sign.
+  // At the speed where half is left: (0.04 + 2 * 0.2 * 0.5) / 2, less the part whose sign is
+  // unsure.
   EXPECT_NEAR(knee_nm(1.5F, 0, 1) - 0.5F, 0.12F * 1.5F / 1.6F, 1e-3F);
   EXPECT_NEAR(knee_nm(-1.5F, 0, 1) - 0.5F, -0.12F * 1.5F / 1.6F, 1e-3F);
   EXPECT_NEAR(knee_nm(0, 20, 1) - 0.5F, 0.2F, 1e-3F);
   EXPECT_NEAR(knee_nm(1.5F, 20, 0), 0.5F, 1e-3F);
 }
 
-// Rates and accelerations are those of the plan; where a plan begins there are none.
+// Rates and accelerations come from the plan; at its beginning they are zero.
 TEST(Gravity, FollowsThePlanButNotItsLeaps) {
   DriveState state;
   const float period_s = static_cast<float>(kRobot.period_us) * 1e-6F;

@@ -8,13 +8,13 @@ namespace {
 constexpr float kTick_s = 0.01F;
 constexpr float kTicks_per_s = 1.0F / kTick_s;
 
-constexpr float kTrunk_rad = 0.03F;  // of the plan, nose down
+constexpr float kTrunk_rad = 0.03F;  // planned, nose down
 
 struct Ground {
   float roll_rad = 0, pitch_rad = 0;
 };
 
-// What is left of a slope's tilt when the body leans against it.
+// The tilt that remains of a slope when the body leans against it.
 AttitudeOut on(const Ground& ground, const LeanState& state, float sway_rad = 0.0F) {
   AttitudeOut attitude;
   attitude.roll_rad = ground.roll_rad + state.lean_rad.x + sway_rad;
@@ -32,8 +32,8 @@ LeanState walked(const Ground& ground, float time_s, float sway_rad = 0.0F) {
   return state;
 }
 
-// Offsets of sensors and what a step sways are no slope, and of a gentle one ahead soles are long
-// enough: not a bit of the plan changes.
+// Sensor offsets and the sway of steps are no slope, and soles are long enough for a gentle slope
+// ahead. The plan keeps every bit.
 TEST(Lean, OnLevelGroundThePlanStaysAsItIs) {
   for (const float share : {-0.8F, 0.0F, 0.8F}) {
     const LeanState state =
@@ -60,8 +60,8 @@ TEST(Lean, AcrossFiveDegreesTheBodyIsUprightButForWhatIsLeft) {
   }
 }
 
-// Toes on an edge, heels beside it: a robot that leans back takes itself for falling back, and
-// would stay there.
+// With its toes on an edge and its heels beside it, a robot that leans back takes that for falling
+// and would stay there.
 TEST(Lean, OnTheEdgeOfACentimetreTheBodyIsUprightButForWhatIsLeft) {
   for (const float slope_rad : {-0.12F, 0.12F}) {
     const LeanState state = walked({.pitch_rad = slope_rad}, 15.0F, 0.02F);
@@ -72,7 +72,7 @@ TEST(Lean, OnTheEdgeOfACentimetreTheBodyIsUprightButForWhatIsLeft) {
   }
 }
 
-// A robot that went on leaning would run off.
+// A robot that kept leaning would run off.
 TEST(Lean, OffTheSlopeItIsUprightAgain) {
   LeanState state = walked({0.12F, -0.16F}, 15.0F);
   EXPECT_LT(state.lean_rad.x, -0.07F);
@@ -83,7 +83,7 @@ TEST(Lean, OffTheSlopeItIsUprightAgain) {
   EXPECT_NEAR(state.lean_rad.y, 0.0F, 1e-4F);
 }
 
-// And stands on it no further than a tenth of a radian turned, whatever an IMU may say.
+// The lean never exceeds a tenth of a radian, whatever the IMU says.
 TEST(Lean, IsBounded) {
   for (const float sign : {-1.0F, 1.0F}) {
     const LeanState state = walked({sign * 3.0F, sign * 3.0F}, 60.0F);
@@ -92,7 +92,7 @@ TEST(Lean, IsBounded) {
   }
 }
 
-// The point of the ground under the body stays where it is; `yaw_rad`: wherever the robot looks.
+// The ground point under the body stays in place, in whatever direction `yaw_rad` the robot looks.
 TEST(Lean, TurnsTheBodyAboutTheGroundUnderIt) {
   for (const float yaw_rad : {0.0F, 1.2F, -2.5F}) {
     for (const bool ahead : {false, true}) {

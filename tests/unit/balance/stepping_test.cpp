@@ -16,7 +16,7 @@ using test::kRobot;
 
 constexpr float kPeriod_s = 0.01F;
 
-// What the estimator tells of a robot whose DCM is `error_m` off its plan.
+// The estimate for a robot whose DCM is `error_m` off its plan.
 void look(const gait::test::Walker& walker, Xy error_m, EstimatorState& estimator) {
   const gait::Step& step = walker.state.queue[0];
   if (walker.state.queued == 0 || step.swing == gait::kBoth) return;
@@ -30,7 +30,7 @@ void look(const gait::test::Walker& walker, Xy error_m, EstimatorState& estimato
   estimator.sole_from_body_m[side] = {sole_m.x, sole_m.y, 0};
 }
 
-// A walk whose DCM is off its plan by `error_m`, as its estimator says.
+// A walk whose estimated DCM is `error_m` off its plan.
 struct Pushed {
   gait::test::Walker walker{kRobot};
   EstimatorState estimator;
@@ -55,12 +55,12 @@ struct Pushed {
   void ticks(int count) {
     for (int i = 0; i < count; ++i) tick();
   }
-  // To the first tick of the next step in which `side` swings.
+  // Runs to the first tick of the next step in which `side` swings.
   void to_swing_of(int side) {
     while (step().swing == side) tick();
     while (step().swing != side) tick();
   }
-  // To the last tick of this step.
+  // Runs to the last tick of this step.
   void to_landing() {
     while (step().duration_us() - walker.state.clock_us > walker.in.period_us) tick();
   }
@@ -92,7 +92,7 @@ TEST(Stepping, WhatAnklesAnswerToMovesNoFoot) {
   EXPECT_TRUE(as_planned(walk.state, 1e-5F));
 }
 
-// In a hurried walk hardly a step goes by without: who did not learn from those, learnt from none.
+// Hurried walks correct almost every step, so learning must use corrected steps as well.
 TEST(Stepping, AFootMovedByLessThanServosMissStillTeachesLandings) {
   Pushed walk = ahead();
   walk.error_m = {0.0165F, 0};
@@ -116,7 +116,7 @@ TEST(Stepping, DoesNothingWithoutFeedbackOrEyesOrMassesOfLegsOrWhereJointsLag) {
   }
 }
 
-// To all four sides, with either foot where it may go there.
+// Pushes to all four sides, with either foot where it may go there.
 TEST(Stepping, TheSwingFootLandsWhereTheDcmWent) {
   constexpr float kError_m = 0.04F, kAnkles_x_m = 0.29F * 0.052F, kAnkles_y_m = 0.36F * 0.033F;
   for (const int side : {kLeft, kRight}) {
@@ -133,7 +133,7 @@ TEST(Stepping, TheSwingFootLandsWhereTheDcmWent) {
   }
 }
 
-// Towards the foot that carries there is no room but a standing robot's.
+// Towards the carrying foot there is only as much room as a standing robot has.
 TEST(Stepping, SolesComeNoNearerThanThoseOfARobotThatStands) {
   Pushed walk = ahead();
   walk.to_swing_of(kLeft);
@@ -151,8 +151,8 @@ TEST(Stepping, SolesComeNoNearerThanThoseOfARobotThatStands) {
             0.005F);
 }
 
-// One push, then as planned over the foot that caught it: no goal jumps where the feet exchange,
-// and within a second the walk is the planned one again.
+// After one push the walk continues as planned from the foot that caught it. No goal jumps when the
+// feet change, and within a second the planned walk is back.
 TEST(Stepping, GoesOnFromTheFootThatCaughtItWithoutAJump) {
   Pushed walk = ahead();
   walk.to_swing_of(kRight);
@@ -173,7 +173,7 @@ TEST(Stepping, GoesOnFromTheFootThatCaughtItWithoutAJump) {
   EXPECT_LT(gait::test::apart(before_m[kRight], Xy{}), 1e-3F);
 }
 
-// What is behind catches up as a pendulum does: its DCM does not move.
+// The body catches up as a pendulum does: its DCM does not move.
 TEST(Stepping, TheBodyCatchesUpWithoutMovingTheDcm) {
   Pushed walk = ahead();
   walk.to_swing_of(kRight);
@@ -203,7 +203,7 @@ TEST(Stepping, TheLastStepBringsTheFeetSideBySideAgain) {
   EXPECT_TRUE(same(walk.walker.out, walk.planned));
 }
 
-// A robot that stands, its DCM `off_m` from the middle of its soles.
+// A standing robot with its DCM `off_m` from the middle of its soles.
 struct Stander {
   gait::test::Walker walker{kRobot};
   EstimatorState estimator;
@@ -223,7 +223,7 @@ struct Stander {
     estimator.com_from_body_m.y = off_m.y;
     return pushed(kRobot, walker.tuning, {&walker.state, &estimator, 0, kPeriod_s}, state);
   }
-  // As the core does: pushed, it walks at once; over it, it stops.
+  // Like the core: a push starts steps at once, and the steps end after it.
   void tick(Xy error_m) {
     steps = pushed(kRobot, walker.tuning, {&walker.state, &estimator, 0, kPeriod_s}, state);
     walker.in.walk = walker.in.at_once = steps;
@@ -244,7 +244,7 @@ TEST(SteppingWherePushed, AnklesHoldFourFifthsOfASoleAheadAndBackwardAndAllOfItS
   }
 }
 
-// Turned, a robot falls ahead where it looks.
+// A robot that has turned falls ahead in the direction it looks.
 TEST(SteppingWherePushed, AheadIsWhereTheRobotLooks) {
   Stander stander;
   EstimatorState& seen = stander.estimator;
@@ -270,7 +270,8 @@ TEST(SteppingWherePushed, NotWhereNothingWouldAnswerIt) {
   }
 }
 
-// Not for ever: an estimator that is wrong by a sole would have it trot where it stands.
+// The steps must end: if the estimate were wrong by a sole, the robot would trot on the spot for
+// ever.
 TEST(SteppingWherePushed, TakesAFewStepsAndStandsAgain) {
   Stander stander;
   ASSERT_TRUE(stander.pushed_by({0.05F, 0}));
@@ -289,7 +290,7 @@ TEST(SteppingWherePushed, TakesAFewStepsAndStandsAgain) {
   EXPECT_EQ(int{stander.walker.state.queued}, 0);
 }
 
-// Who is still thrown goes on stepping.
+// A robot that is still thrown keeps stepping.
 TEST(SteppingWherePushed, AStepFarOffItsPlanIsFollowedByMore) {
   Stander stander;
   ASSERT_TRUE(stander.pushed_by({0.05F, 0}));

@@ -13,8 +13,8 @@ using test::kRobot;
 constexpr float kBent_rad[kLegJoints] = {0, 0.02F, -0.63F, 1.26F, -0.63F, -0.02F};
 constexpr float kHalfDegree_rad = 0.0087F;
 
-// A leg whose sole stands flat under a body tilted against the plan, read through encoders that are
-// off.
+// A leg whose sole stands flat under a body tilted off the plan, read through encoders with
+// offsets.
 struct Stand {
   explicit Stand(int foot_side, test::Random& random) : side(foot_side) {
     body.roll_rad = random.between(-0.03F, 0.03F);
@@ -25,7 +25,7 @@ struct Stand {
     planned_rad[5] = -planned_rad[1];
     chain = kinematics::leg_chain(kRobot, leg(), Pose{}, planned_rad);
     inputs.fresh = 0xFFFFFFFFU;
-    // The ankle stands where a level sole needs it: off the plan by the body's tilt.
+    // For a level sole the ankle is off its plan by the body's tilt.
     for (int k = 0; k < kLegJoints; ++k) true_rad[k] = planned_rad[k];
     true_rad[4] -= body.pitch_rad;
     true_rad[5] -= body.roll_rad;
@@ -53,7 +53,7 @@ struct Stand {
   LegZero zero;
 };
 
-// An encoder's step is 1.5 mrad; a roll axis is tilted against the sole's by the ankle's pitch.
+// An encoder step is 1.5 mrad; the ankle's pitch tilts a roll axis against the sole's.
 constexpr float kNear_rad = 3e-3F;
 
 TEST(Zeros, SumsOfALegsZeroErrorsAreFound) {
@@ -66,7 +66,7 @@ TEST(Zeros, SumsOfALegsZeroErrorsAreFound) {
   }
 }
 
-// Whatever the encoders claim: with what was learnt added to the goals, the sole is level.
+// Whatever the encoders claim, goals plus the learnt offsets set the sole down level.
 TEST(Zeros, GoalsWithWhatWasLearntSetTheSoleDownLevel) {
   test::Random random(2);
   for (int round = 0; round < 40; ++round) {
@@ -75,7 +75,9 @@ TEST(Zeros, GoalsWithWhatWasLearntSetTheSoleDownLevel) {
     float goal_rad[kLegJoints];
     for (int k = 0; k < kLegJoints; ++k) goal_rad[k] = stand.planned_rad[k];
     add_zero(stand.leg(), stand.zero, goal_rad);
-    for (int k = 0; k < kLegJoints; ++k) goal_rad[k] -= stand.error_rad[k];  // where the joint goes
+    for (int k = 0; k < kLegJoints; ++k)
+      goal_rad[k] -= stand.error_rad[k];  // where the joint
+                                          // really goes
     const kinematics::LegChain reached =
         kinematics::leg_chain(kRobot, stand.leg(), Pose{}, goal_rad);
     const Vec3 up = kinematics::sole_pose(stand.leg(), reached).rotation.col(2);
@@ -93,7 +95,7 @@ TEST(Zeros, AJointThatHasNotReportedTeachesNothing) {
   EXPECT_EQ(stand.zero.pitch_rad, 0.0F);
 }
 
-// A servo horn mounted a tooth off is not a zero error: nothing here bends an ankle that far.
+// A servo horn mounted one tooth off is no zero error: learning must not bend an ankle that far.
 TEST(Zeros, WhatIsLearntStaysSmall) {
   test::Random random(4);
   Stand stand(0, random);

@@ -10,7 +10,7 @@ namespace {
 constexpr std::uint32_t kRates_hz[] = {1'000'000, 500'000, 250'000, 125'000};
 constexpr std::uint32_t kMostPrescaler = 64;
 
-// Every whole number of megahertz that a controller may get.
+// Every whole number of megahertz that a controller's clock may have.
 TEST(CanTiming, IsExactOrSaysNo) {
   for (std::uint32_t mhz = 1; mhz <= 120; ++mhz) {
     for (const std::uint32_t rate_hz : kRates_hz) {
@@ -45,7 +45,7 @@ TEST(CanTiming, FindsWhatCommonClocksCanGive) {
         << mhz << " MHz";
   }
   for (const std::uint32_t mhz :
-       {7u, 23u, 29u}) {  // too slow; sampled too early at best; none of 8 to 25
+       {7u, 23u, 29u}) {  // too slow; sampled too early at best; no division into 8 to 25
     EXPECT_FALSE(can_timing(mhz * 1'000'000u, 1'000'000, kMostPrescaler).possible())
         << mhz << " MHz";
   }

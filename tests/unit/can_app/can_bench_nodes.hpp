@@ -20,7 +20,7 @@ class WireNode {
   virtual bool next(CanFrame& frame, std::uint64_t now_us) = 0;
 };
 
-/// Numbers at addresses of its own, for sensors.
+/// Numbers at a sensor's own addresses.
 struct SensorObjects {
   struct Number {
     Address at;
@@ -57,7 +57,7 @@ struct DriveApplication {
   canopen::cia402::Drive drive;
   std::uint32_t telemetry = 0;
   bool has_telemetry = true;
-  bool forgetful = false;  ///< confirms a write of its following window, and keeps none
+  bool forgetful = false;  ///< confirms a write of its following window but does not keep it
 
   void refresh() {
     const bool enabled = drive.state() == canopen::cia402::State::kOperationEnabled;
@@ -131,7 +131,7 @@ class PoweredNode : public WireNode {
     if (device.heartbeat_lost(now_us)) on_abandoned();
     return device.next(frame, now_us);
   }
-  /// It has lost its power and got it back.
+  /// Loses and regains its power.
   void reboot() {
     forget();
     on_reset();
@@ -143,7 +143,7 @@ class PoweredNode : public WireNode {
   canopen::Device<Application, kSize> device;
   bool off = false;
   int resets = 0;
-  int missed_resets = 0;  ///< so many it does not hear
+  int missed_resets = 0;  ///< resets it will not receive
 
  protected:
   virtual void on_reset() {}
@@ -155,7 +155,7 @@ class PoweredNode : public WireNode {
                           frame.data[0] == static_cast<int>(canopen::NmtCommand::kResetNode);
     return is_reset && missed_resets > 0 && missed_resets-- > 0;
   }
-  // What a device knows before anybody has told it anything.
+  // A device's state before any configuration.
   void forget() {
     auto& objects = device.objects();
     for (unsigned i = 0; i < 3; ++i) {
@@ -179,7 +179,7 @@ class PoweredNode : public WireNode {
 class DriveNode : public PoweredNode<DriveApplication> {
  public:
   static constexpr std::uint32_t kProduct = 1234;
-  bool stuck = false;  ///< a fault whose cause outlives a reset
+  bool stuck = false;  ///< a fault whose cause survives a reset
   explicit DriveNode(std::uint8_t node, std::uint32_t vendor = canopen::plan::kOurVendor)
       : PoweredNode({0x00020192, "test drive", vendor, kProduct, 1, 1}, node) {
     DriveNode::on_reset();

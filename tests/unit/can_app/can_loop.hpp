@@ -10,7 +10,7 @@ namespace verp::test {
 
 inline constexpr std::uint32_t kAll = (1u << kBenchJoints) - 1;
 
-/// A controller over the bench, without a core: the test says what is wanted.
+/// A controller on the bench, without a core: the test sets the outputs.
 struct CanLoop {
   CanBench bench;
   app::CanopenServos<CanBench> servos{bench.params, bench};
@@ -43,7 +43,7 @@ struct CanLoop {
   }
 };
 
-/// A new one in the place of the one before: a chip's stack is too small for it.
+/// Replaces the previous one: a chip's stack is too small for it.
 inline CanLoop& new_can_loop() {
   alignas(CanLoop) static unsigned char room[sizeof(CanLoop)];
   return *new (room) CanLoop();

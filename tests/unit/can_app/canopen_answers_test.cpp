@@ -4,7 +4,7 @@
 #include "firmware/app/sensed_counts.hpp"
 #include "tests/unit/can_app/can_loop.hpp"
 
-// Which answers count as fresh, and what becomes of nodes that answer another SYNC than planned.
+// Which answers count as fresh, and how nodes that answer the wrong SYNC are handled.
 
 namespace verp::app {
 namespace {
@@ -21,7 +21,7 @@ AnswerWatch watch_of_group(std::uint8_t group) {
   return watch;
 }
 
-// It was due in the tick before, in which nothing came.
+// It was due in the previous tick, in which nothing came.
 TEST(AnswerWatch, ALateAnswerOfTheTickBeforeDoesNotCountWhereverItComes) {
   for (const std::uint8_t comes_in : {std::uint8_t{1}, std::uint8_t{3}, std::uint8_t{4}}) {
     AnswerWatch watch = watch_of_group(2);
@@ -34,7 +34,7 @@ TEST(AnswerWatch, ALateAnswerOfTheTickBeforeDoesNotCountWhereverItComes) {
   }
 }
 
-// Where nobody waits, an answer is read a window later, and seems to move again.
+// Without waiting, the answer would be read a window later and seem to move again.
 TEST(AnswerWatch, IsAlsoWaitedForWhereItCameInThePlaceOfItsOwn) {
   AnswerWatch watch = watch_of_group(5);
   watch.begin();
@@ -63,7 +63,7 @@ TEST(AnswerWatch, OfTwoAnswersInATickNobodyKnowsWhichIsOld) {
   EXPECT_TRUE(watch.take(kNode, 2) == Answer::kFresh) << "for one tick";
 }
 
-// A gateway that holds everything back brings the last tick's answers where this one's are due.
+// A gateway that delays everything delivers the previous tick's answers where this tick's are due.
 TEST(AnswerWatch, AfterSilenceNothingCountsUntilTheBusIsPrompt) {
   AnswerWatch watch = watch_of_group(2);
   for (int tick = 0; tick < 20; ++tick) {
@@ -81,8 +81,8 @@ TEST(AnswerWatch, AfterSilenceNothingCountsUntilTheBusIsPrompt) {
   EXPECT_TRUE(watch.take(kNode, 2) == Answer::kFresh);
 }
 
-// A drive that cannot get onto the bus for a tick has its answers come a tick late for as long as
-// the bus is full: in their own place, and old.
+// If a drive misses the bus for one tick, its answers come a tick late while the bus is full: in
+// their own place, but old.
 TEST(AnswerWatch, WhoOwesAnAnswerDoesNotCountUntilTheBusIsPrompt) {
   constexpr int kOther = 3;
   AnswerWatch watch = watch_of_group(2);
@@ -135,7 +135,7 @@ std::uint8_t times_on(Loop& loop, int joint) {
   return loop.bench.drives[joint].device.objects().tpdos[0].times_on();
 }
 
-// Too many that answer one SYNC are more than a small controller's FIFO holds.
+// Too many answers to one SYNC overflow a small controller's FIFO.
 TEST(SyncRepair, ADriveThatMissedASyncIsBroughtBackToItsOwnWhileItHoldsTorque) {
   Loop& loop = test::new_can_loop();
   loop.enable();
@@ -157,8 +157,8 @@ TEST(SyncRepair, ADriveThatMissedASyncIsBroughtBackToItsOwnWhileItHoldsTorque) {
   EXPECT_EQ(times_on(loop, kNode), before + 1) << "once was enough: it is where it should be";
 }
 
-// Nodes that are set up again take turns as telemetry does: who waited for one of them would ask
-// nobody as long as they do, and nobody would know that the bus is prompt.
+// Nodes being set up again take turns, as telemetry does. If telemetry waited for one of them it
+// would ask nobody meanwhile, and nothing would show that the bus is prompt.
 TEST(DriveTelemetry, PassesOverWhoIsBusy) {
   Params params;
   params.joint_count = 5;
@@ -179,7 +179,7 @@ TEST(DriveTelemetry, PassesOverWhoIsBusy) {
   EXPECT_FALSE(telemetry.next(request, node_bit(5) - 1, missed)) << "all are";
 }
 
-// Whoever aborts for another reason has the object, and its temperature is worth having.
+// A drive that aborts for another reason has the object, and its temperature is useful.
 TEST(DriveTelemetry, OnlyADriveWithoutTheObjectIsAskedForAnother) {
   using canopen::Abort;
   Params params;

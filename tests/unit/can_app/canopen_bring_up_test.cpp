@@ -42,7 +42,8 @@ TEST(CanopenBringUp, AsksForThePeriodToTheNearestTenthOfAMillisecond) {
             4'500u);
 }
 
-// A controller that was reset finds the robot stiff: nobody may stay so for the sake of one drive.
+// After its reset a controller finds the robot stiff; one failing drive must not keep the others
+// stiff.
 TEST(CanopenBringUp, NamesASilentNodeAndLeavesNobodyStiff) {
   Loop& loop = test::new_can_loop();
   loop.enable();
@@ -59,7 +60,7 @@ TEST(CanopenBringUp, NamesASilentNodeAndLeavesNobodyStiff) {
   }
 }
 
-// Its reset would drop another controller's robot.
+// A reset would drop the robot of another controller.
 TEST(CanopenBringUp, SendsNothingWhileSomebodyElseCommandsNodes) {
   for (const std::uint32_t id : {0x000u, 0x080u, 0x77Fu, 0x1FFu, 0x20Bu, 0x60Bu}) {
     Loop& loop = test::new_can_loop();
@@ -69,7 +70,7 @@ TEST(CanopenBringUp, SendsNothingWhileSomebodyElseCommandsNodes) {
     EXPECT_TRUE(report.status == BringUpStatus::kOccupied) << id;
     EXPECT_EQ(report.address, id);
     EXPECT_EQ(loop.bench.sent, 0u) << id;
-    loop.up();  // when the other has gone
+    loop.up();  // once the other master has gone
   }
 }
 TEST(CanopenBringUp, IsNotKeptFromItByWhatNodesAndDesksSay) {
@@ -81,7 +82,7 @@ TEST(CanopenBringUp, IsNotKeptFromItByWhatNodesAndDesksSay) {
   }
 }
 
-// What a controller before it wrote must not stay, its weaker torque above all.
+// Nothing that an earlier controller wrote may stay, least of all its lower torque.
 TEST(CanopenBringUp, ResetsOneAgainThatDidNotHearIt) {
   Loop& loop = test::new_can_loop();
   loop.bench.drives[2].missed_resets = 1;

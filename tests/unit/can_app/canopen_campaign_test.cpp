@@ -4,7 +4,7 @@
 
 #include "tests/unit/can_app/can_loop.hpp"
 
-// Trouble of all kinds at once, in an order that a seed makes.
+// All kinds of trouble at once, in an order drawn from a seed.
 
 namespace verp::app {
 namespace {
@@ -16,7 +16,7 @@ using Loop = test::CanLoop;
 
 struct Campaign {
   Loop& loop = test::new_can_loop();
-  std::uint32_t lost_power = 0;  ///< drives that did since the robot was let go last
+  std::uint32_t lost_power = 0;  ///< drives that lost power since the robot last relaxed
 
   explicit Campaign(std::uint32_t seed) {
     loop.bench.seed = seed;
@@ -65,8 +65,8 @@ struct Campaign {
   }
 };
 
-// Whatever happens while the robot stands, a drive that lost its torque gets none back, and no tick
-// takes longer than a period; afterwards all is well again.
+// While the robot stands, a drive that lost its torque never regains it and no tick takes longer
+// than a period. Afterwards all is well again.
 TEST(CanopenCampaign, NoSeedThrowsADriveAtItsGoalOrLeavesOneOut) {
   for (std::uint32_t seed = 1; seed <= 40; ++seed) {
     Campaign campaign(seed);
@@ -76,8 +76,9 @@ TEST(CanopenCampaign, NoSeedThrowsADriveAtItsGoalOrLeavesOneOut) {
     for (unsigned i = 0; i < 300; ++i) {
       const std::uint64_t before_us = loop.bench.now_us();
       loop.tick();
-      // One that waits for nobody ends before its SYNC goes out, and the next one has both waits:
-      // so from its SYNC on (while the bus is down none goes out), and all together.
+      // A tick without waiting ends before its SYNC goes out, so the next tick contains both waits.
+      // Therefore the time counts from the SYNC (a bus that is down sends none), and over all
+      // ticks.
       const std::uint64_t period_us = loop.bench.params.period_us;
       EXPECT_LE(loop.bench.now_us() - std::max(before_us, loop.bench.tick_us), period_us) << seed;
       EXPECT_LE(loop.bench.now_us() - begun_us, (i + 2) * period_us) << seed;

@@ -44,7 +44,7 @@ TEST(CanopenServos, ReadsEveryNodeInEachTickAndSetsItsFlags) {
   EXPECT_EQ(loop.servos.counters().strays, 0u);
 }
 
-// The bus itself makes ticks: each begins one period after the one before.
+// The bus paces ticks: each begins one period after the one before.
 TEST(CanopenServos, TakesExactlyOnePeriodForATick) {
   Loop& loop = test::new_can_loop();
   loop.up();
@@ -56,7 +56,8 @@ TEST(CanopenServos, TakesExactlyOnePeriodForATick) {
   }
 }
 
-// Serial's rule: strength and goals go first, torque follows in the third tick, for all together.
+// The serial bus has the same rule: strength and goals go first, and in the third tick all drives
+// get torque together.
 TEST(CanopenServos, GivesTorqueInTheThirdTickAndOnlyWithGoalsKnown) {
   Loop& loop = test::new_can_loop();
   loop.up();
@@ -66,7 +67,7 @@ TEST(CanopenServos, GivesTorqueInTheThirdTickAndOnlyWithGoalsKnown) {
   int ticks = 0;
   for (; ticks < 20; ++ticks) {
     loop.tick();
-    loop.servos.read_positions(loop.inputs);  // lets what was sent arrive
+    loop.servos.read_positions(loop.inputs);  // so that the sent frames arrive
     if (!loop.all_in(State::kOperationEnabled)) {
       EXPECT_FALSE(loop.bench.drives[0].state() == State::kOperationEnabled ||
                    loop.bench.drives[6].state() == State::kOperationEnabled)
@@ -108,7 +109,7 @@ TEST(CanopenServos, TakesTorqueAtOnceAndOnlyFromWhomItIsTold) {
   EXPECT_TRUE(loop.all_in(State::kSwitchOnDisabled));
 }
 
-// A frame that changes is sent in three ticks, and all are sent again in turn.
+// A changed frame is sent in three ticks, and all frames are repeated in turn.
 TEST(CanopenServos, ALostControlwordNeitherLeavesADriveStiffNorLimp) {
   Loop& loop = test::new_can_loop();
   loop.enable();
@@ -162,7 +163,7 @@ TEST(CanopenServos, TellsTheTelemetryOfOneDriveATickInTurn) {
   EXPECT_EQ(seen, kAll);
 }
 
-// What stands at 2001h of another maker's drive may be anything.
+// In another maker's drive, 2001h may hold anything.
 TEST(CanopenServos, ADriveOfAnotherMakerIsNotAskedForOurTelemetry) {
   Loop& loop = test::new_can_loop();
   test::DriveNode& drive = loop.bench.drives[3];
@@ -190,7 +191,7 @@ TEST(CanopenServos, TellsEachDrivesVelocityAndTorqueInTurnWithItsTelemetry) {
     objects.actual_velocity = j % 2 == 0 ? -100'000 * j : 100'000 * j;
     objects.actual_torque = static_cast<std::int16_t>(-7 * j);
   }
-  // Never both of them and a heartbeat: that costs a question a few ticks.
+  // A question never shares a tick with a heartbeat, so it can slip a few ticks.
   int told = 0, ticks = 2 * kBenchJoints * (canopen::plan::kEffortTicks + 1);
   for (int i = 0; i < ticks; ++i) {
     loop.tick();
@@ -232,7 +233,7 @@ TEST(CanopenServos, AsksADriveWithAnEmergencyFirstInAnyRound) {
   }
 }
 
-// A vendor's drive has its voltage and its error code where CiA 402 has them.
+// A vendor's drive has voltage and error code where CiA 402 puts them.
 TEST(CanopenServos, TakesVoltageAndErrorOfADriveWithoutOurObject) {
   Loop& loop = test::new_can_loop();
   loop.bench.drives[3].application.has_telemetry = false;
@@ -249,7 +250,7 @@ TEST(CanopenServos, TakesVoltageAndErrorOfADriveWithoutOurObject) {
   EXPECT_TRUE(told);
 }
 
-// Drives watch the controller: the heartbeat comes often enough, and its end stops them.
+// Drives watch the controller: its heartbeat is frequent enough, and they stop when it ends.
 TEST(CanopenServos, HoldsByItselfWhenTheControllerIsGone) {
   Loop& loop = test::new_can_loop();
   loop.enable();
@@ -260,7 +261,7 @@ TEST(CanopenServos, HoldsByItselfWhenTheControllerIsGone) {
   loop.bench.send(canopen::classic_frame(0x7FF, 0));
   while (loop.bench.now_us() < end_us && loop.bench.poll(frame, 2'000'000)) {
   }
-  loop.bench.send(canopen::classic_frame(0x7FF, 0));  // asks each node once more what it has to say
+  loop.bench.send(canopen::classic_frame(0x7FF, 0));  // asks each node for its pending frames
   while (loop.bench.poll(frame, 1000)) {
   }
   EXPECT_TRUE(loop.all_in(State::kQuickStopActive));
@@ -268,7 +269,7 @@ TEST(CanopenServos, HoldsByItselfWhenTheControllerIsGone) {
   EXPECT_TRUE(loop.all_in(State::kOperationEnabled)) << "and goes on when it is back";
 }
 
-// What the loop counts on and export promises: no tick of a healthy bus takes more.
+// No tick of a healthy bus takes longer than the loop assumes and export promises.
 TEST(CanSchedule, CoversTheBitsOfEveryTick) {
   Loop& loop = test::new_can_loop();
   loop.enable();
@@ -277,14 +278,14 @@ TEST(CanSchedule, CoversTheBitsOfEveryTick) {
     const std::uint64_t before = loop.bench.bits;
     for (int j = 0; j < kBenchJoints; ++j) loop.outputs.goal_count[j] = -i * 77 * j;
     loop.tick();
-    const std::uint64_t bits = loop.bench.bits - before;  // at 1 Mbit/s, a bit is a microsecond
+    const std::uint64_t bits = loop.bench.bits - before;  // 1 Mbit/s: a bit is a microsecond
     EXPECT_LE(bits, canopen::plan::tick_us(loop.bench.params));
     EXPECT_GE(bits, canopen::plan::tick_us(loop.bench.params) * 7 / 10)
         << "or it promises too little";
   }
 }
 
-// A humanoid of 21 drives with an IMU and two feet, at 125 Hz with the worst stuffing.
+// A humanoid with 21 drives, an IMU and two feet at 125 Hz with worst-case stuffing.
 TEST(CanSchedule, TwentyOneDrivesTakeAtMostSeventyPercentOfEightMilliseconds) {
   Params params;
   params.baud = 1'000'000;
@@ -300,7 +301,7 @@ TEST(CanSchedule, TwentyOneDrivesTakeAtMostSeventyPercentOfEightMilliseconds) {
   EXPECT_LE(windows_us, 8'000u) << "nor do timeouts of all groups take more than a tick";
 }
 
-// The whole loop on a CanBus: what the nodes say stands in the tick's record.
+// The whole loop on a CanBus: the tick's record shows what the nodes report.
 struct Desk {
   OperatorOrder order(std::uint32_t) { return {}; }
   void record(const TickRecord& record, const verp::State&, const Outputs&) {

@@ -2,7 +2,7 @@
 
 #include "tests/unit/can_app/can_loop.hpp"
 
-// What the controller's end of CAN does when something fails: as on the serial bus.
+// How the controller handles CAN failures: as on the serial bus.
 
 namespace verp::app {
 namespace {
@@ -30,7 +30,7 @@ TEST(CanopenTrouble, DrivesWaitForEachOtherBeforeTheyGetTorqueButNotForEver) {
   }
 }
 
-// Its strength is gone with its power, and the rest of the robot has the right one all along.
+// The drive's torque limit is lost with its power, while the rest of the robot keeps the right one.
 TEST(CanopenTrouble, ADriveThatWasSetUpAgainRisesNoStrongerThanAllowed) {
   Loop& loop = test::new_can_loop();
   loop.bench.params.rise_torque_percent = 40;
@@ -50,7 +50,7 @@ TEST(CanopenTrouble, ADriveThatWasSetUpAgainRisesNoStrongerThanAllowed) {
   EXPECT_TRUE(loop.all_in(State::kOperationEnabled));
 }
 
-// Enabled, and yet its target moves nothing: somebody gave it another mode of operation.
+// The drive is enabled but ignores its target: another master changed its mode of operation.
 TEST(CanopenTrouble, ADriveThatDoesNotFollowItsTargetDoesNotCount) {
   Loop& loop = test::new_can_loop();
   loop.enable();
@@ -68,7 +68,7 @@ TEST(CanopenTrouble, ADriveThatDoesNotFollowItsTargetDoesNotCount) {
   EXPECT_EQ(loop.inputs.fresh, kAll);
 }
 
-// What was written before it rebooted again is gone as well.
+// The second reboot also erases the settings written after the first.
 TEST(CanopenTrouble, ADriveThatRebootsWhileItIsSetUpIsSetUpFromTheBeginning) {
   Loop& loop = test::new_can_loop();
   loop.up();
@@ -103,7 +103,7 @@ TEST(DoubtedDrives, OneThatRebootedCountsOnlyWhenItIsSetUpOrStillHolds) {
   EXPECT_EQ(doubts.all(), 0u);
 }
 
-// Ticks are counted by it: a timeout must not look like an overrun.
+// Ticks are counted by this time, so a timeout must not look like an overrun.
 TEST(CanopenTrouble, TheTimeOfATickIsThatOfItsBeginning) {
   Loop& loop = test::new_can_loop();
   loop.enable();
@@ -115,7 +115,7 @@ TEST(CanopenTrouble, TheTimeOfATickIsThatOfItsBeginning) {
   }
 }
 
-// One SYNC heard twice: it answers the last one of the tick now, which is as good at once.
+// The node received one SYNC twice and now answers the tick's last one, which is just as good.
 TEST(CanopenTrouble, AnAnswerLaterInTheTickThanPlannedCountsAtOnce) {
   AnswerWatch watch;
   watch.plan(2, 1);
@@ -127,7 +127,7 @@ TEST(CanopenTrouble, AnAnswerLaterInTheTickThanPlannedCountsAtOnce) {
   EXPECT_TRUE(watch.take(2, 1) == Answer::kOld) << "early: it may be late from the tick before";
 }
 
-// One silent drive costs no other its place, and its own position is not called fresh.
+// One silent drive delays no other, and its own position does not count as fresh.
 TEST(CanopenTrouble, ASilentDriveIsMissedAloneAndSoonNotWaitedFor) {
   Loop& loop = test::new_can_loop();
   loop.enable();
@@ -141,7 +141,7 @@ TEST(CanopenTrouble, ASilentDriveIsMissedAloneAndSoonNotWaitedFor) {
   EXPECT_LT(loop.servos.counters().timeouts, 15u) << "six in the first 60 ms, then every 8th tick";
 }
 
-// Unreachable for a while, but with its power: it kept its torque, and counts again at once.
+// A drive that was unreachable but kept power and torque counts again at once.
 TEST(CanopenTrouble, ADriveThatKeptItsTorqueCountsAgain) {
   Loop& loop = test::new_can_loop();
   loop.enable();
@@ -156,7 +156,8 @@ TEST(CanopenTrouble, ADriveThatKeptItsTorqueCountsAgain) {
   EXPECT_EQ(loop.bench.drives[2].resets, 1);
 }
 
-// It comes back limp and knows nothing: no torque until the robot was let go, then set up again.
+// It returns limp and unconfigured: first the robot relaxes, then the drive is set up, then it gets
+// torque.
 TEST(CanopenTrouble, ADriveThatRebootsGetsNoTorqueBeforeTheRobotWasLetGo) {
   Loop& loop = test::new_can_loop();
   loop.enable();
@@ -177,7 +178,7 @@ TEST(CanopenTrouble, ADriveThatRebootsGetsNoTorqueBeforeTheRobotWasLetGo) {
   EXPECT_TRUE(loop.all_in(State::kOperationEnabled));
 }
 
-// A tick has no time for a drive's way through 50 objects.
+// Setting up a drive's 50 objects takes longer than a tick.
 TEST(CanopenTrouble, SettingUpAgainNeverHoldsATick) {
   Loop& loop = test::new_can_loop();
   loop.up();
@@ -209,7 +210,7 @@ TEST(CanopenTrouble, ASensorThatRebootsIsSetUpAgainWhileTheRobotStands) {
   EXPECT_TRUE(loop.all_in(State::kOperationEnabled));
 }
 
-// Its start was lost: nobody acknowledges it, and the node just does not answer.
+// The start command was lost. Nothing acknowledges it; the node just stays silent.
 TEST(CanopenTrouble, ANodeThatIsNotOperationalIsStartedAgain) {
   Loop& loop = test::new_can_loop();
   loop.up();
@@ -245,7 +246,7 @@ TEST(CanopenTrouble, AFaultTakesADriveOutUntilTheRobotWasLetGo) {
   EXPECT_TRUE(loop.bench.drives[2].state() == State::kSwitchOnDisabled);
 }
 
-// A node that missed a SYNC answers another one from then on (CiA 301).
+// CiA 301: a node that missed a SYNC answers another one from then on.
 TEST(CanopenTrouble, ADriveThatMissedASyncIsFoundWhereItAnswersNow) {
   Loop& loop = test::new_can_loop();
   loop.enable();
@@ -267,7 +268,7 @@ TEST(CanopenTrouble, ADriveThatMissedASyncIsFoundWhereItAnswersNow) {
   EXPECT_EQ(loop.servos.counters().timeouts, after) << "it is waited for where it answers";
 }
 
-// Nothing passes: no tick waits longer than its SYNCs' time, and none is lost.
+// While nothing passes, no tick waits longer than its SYNCs take and no tick is lost.
 TEST(CanopenTrouble, WithoutABusTicksGoOnAndAllIsBackAfterwards) {
   Loop& loop = test::new_can_loop();
   loop.enable();

@@ -3,8 +3,8 @@
 #include "tests/unit/can_app/objects_node.hpp"
 #include "tests/unit/images/actions_board.hpp"
 
-// Actions sent to a running board over its robot's own bus: object 5002h, as they come through the
-// operator's window (unit/images/operator_actions_test.cpp).
+// Actions sent to a running board over its robot's bus as object 5002h, as through the operator's
+// window (unit/images/operator_actions_test.cpp).
 
 namespace verp::app::test {
 namespace {
@@ -74,7 +74,7 @@ TEST(ControllerActions, SaysWhyItTakesNone) {
   });
 }
 
-// The cable is pulled anywhere, and plugged in again.
+// The cable is pulled at any point and plugged in again.
 TEST(ControllerActions, ATransferThatWasCutComesToNothingAndTheNextOneIsWhole) {
   in_each_mode([](Sender& sender) {
     for (int frames = 1; frames < 200; frames += 17) {
@@ -84,7 +84,9 @@ TEST(ControllerActions, ATransferThatWasCutComesToNothingAndTheNextOneIsWhole) {
       for (int sent = 0; sent < frames; ++sent) {
         if (sender.node.client.next(frame, 0)) sender.node.device.receive(frame, 0);
         while (sender.node.device.next(frame, 0)) sender.node.client.receive(frame, 0);
-        if (sender.node.client.state() != SdoClient::State::kBusy) return;  // it was whole
+        if (sender.node.client.state() != SdoClient::State::kBusy)
+          return;  // the transfer was
+                   // whole
       }
       EXPECT_FALSE(sender.took_them()) << frames;
       EXPECT_TRUE(sender.send() == Abort::kNone) << frames;

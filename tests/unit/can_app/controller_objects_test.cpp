@@ -17,7 +17,7 @@ using table::Register;
 static_assert(canopen::Application<ControllerObjects<NoImages>>);
 static_assert(canopen::StreamingDictionary<ControllerObjects<ParamsImages>>);
 
-// One table, two protocols: nothing of it is missing here, and nothing is here besides it.
+// One table serves both protocols: the object dictionary has all of it and nothing else.
 TEST(ControllerObjects, EveryRegisterIsTheObjectThatTheTableNames) {
   auto& node = renewed<Node<NoImages>>(no_images);
   node.arm(false);
@@ -61,7 +61,7 @@ TEST(ControllerObjects, WhatIsNoRegisterIsNoObject) {
   EXPECT_EQ(found, table::kRegisters) << "there are no images here";
 }
 
-// The same bytes to both: the objects refuse what the registers refuse, and nothing else.
+// The same bytes go to both: the objects refuse exactly what the registers refuse.
 TEST(ControllerObjects, WriteDoesWhatItDoesToTheRegister) {
   auto& node = renewed<Node<NoImages>>(no_images);
   alignas(
@@ -103,7 +103,7 @@ TEST(ControllerObjects, RefusalsSayWhy) {
   EXPECT_TRUE(node.write({index("id"), 0}, &one, 1) == Abort::kDeviceState) << "armed";
 }
 
-// A walk can be steered by PDO: what a mapped object gets is an order like any other.
+// A walk can be steered by PDO: a mapped object's value is an order like any other.
 TEST(ControllerObjects, CommandCanStandInARpdo) {
   auto& node = renewed<Node<NoImages>>(no_images);
   constexpr std::uint16_t kVx = table::find("walk_vx")->object_index();
@@ -126,7 +126,7 @@ TEST(ControllerObjects, CommandCanStandInARpdo) {
   EXPECT_TRUE((order.flags & kCommandFresh) != 0);
 }
 
-// Whoever writes is told that it has no effect; a reader may still say what is to be shown.
+// The writer learns that orders have no effect; a reader may still choose what to show.
 TEST(ControllerObjects, ALoopThatObeysSomebodyElseRefusesEveryOrder) {
   auto& node = renewed<Node<NoImages>>(no_images, OperatorSetup{.takes_orders = false});
   const std::uint8_t zeros[8] = {}, one = 1;
@@ -151,7 +151,7 @@ TEST(ControllerObjects, ALoopThatObeysSomebodyElseRefusesEveryOrder) {
   }
 }
 
-/// 4 KB each, and the staged one: too much for a microcontroller's stack.
+/// 4 KB each, plus the staged one: too much for a microcontroller's stack.
 struct Exchange {
   explicit Exchange(std::uint32_t new_period_us) {
     now.params = next.params = kRobot;

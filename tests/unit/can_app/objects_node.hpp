@@ -6,7 +6,7 @@
 #include "firmware/app/controller_objects.hpp"
 #include "tests/unit/app/operator_bench.hpp"
 
-/// The controller as a node, and who asks it by SDO.
+/// The controller as a node, and an SDO client that queries it.
 namespace verp::app::test {
 
 inline constexpr std::uint8_t kNode = 100;
@@ -25,7 +25,7 @@ struct Node {
     outputs.torque_enable = on ? 1 : 0;
     registers.record({state.digest, inputs}, state, outputs);
   }
-  /// What becomes of the transfer that `client` has begun.
+  /// Runs the client's transfer to its end and returns the result.
   canopen::Abort run() {
     canopen::Frame frame;
     for (std::uint64_t now_us = 0; client.state() == canopen::SdoClient::State::kBusy;

@@ -3,7 +3,7 @@
 #include "firmware/app/sync_round.hpp"
 #include "tests/unit/can_app/can_loop.hpp"
 
-// Nodes count SYNCs. What the controller does where one came twice, or not at all.
+// Nodes count SYNCs. Tests what the controller does after a doubled or lost SYNC.
 
 namespace verp::app {
 namespace {
@@ -14,7 +14,7 @@ using Loop = test::CanLoop;
 constexpr std::uint8_t kGroups = 3;
 constexpr int kInGroup = 4;
 
-/// Three groups of four nodes each, of which all answered in the tick before.
+/// Three groups of four nodes; all answered in the previous tick.
 struct Round {
   AnswerWatch answers;
   SyncRound round{kGroups};
@@ -67,7 +67,7 @@ TEST(SyncRound, SendsOneMoreWhereNobodyAnswers) {
   EXPECT_EQ(round.after(2), 3) << "who was silent before is silent";
 }
 
-// Each group comes a SYNC late from then on: one more is right wherever it is seen.
+// From then on each group answers one SYNC late, so one more SYNC is right at any point.
 TEST(SyncRound, SendsOneMoreWhereAGroupComesAfterItsTurn) {
   Round round;
   EXPECT_EQ(round.after(1), 2) << "SYNC 1 begins a tick: never twice";
@@ -109,7 +109,7 @@ TEST(SyncRound, GroupsAreWaitedForInTheirPlacesAgain) {
   EXPECT_EQ(round.answers.astray(), 0u);
 }
 
-/// How often any node's TPDO was switched on: SyncRepair does.
+/// How often SyncRepair switched on a node's TPDO.
 int times_on(Loop& loop) {
   int times = 0;
   for (test::DriveNode& each : loop.bench.drives) {
@@ -118,7 +118,7 @@ int times_on(Loop& loop) {
   return times;
 }
 
-// As after an error in the last bit but one of the frame, or from somebody else.
+// As after an error in the last bit but one of the frame, or from a foreign node.
 TEST(SyncRound, AfterASyncTooManyAllNodesAreBackInTwoTicks) {
   for (const int extra : {1, 2}) {
     Loop& loop = test::new_can_loop();
@@ -137,7 +137,7 @@ TEST(SyncRound, AfterASyncTooManyAllNodesAreBackInTwoTicks) {
   }
 }
 
-// A tick whose SYNCs nobody heard is like a silent one: all count again in the one after it.
+// A tick with lost SYNCs is like a silent one: in the next tick all nodes count again.
 TEST(SyncRound, AfterLostSyncsAllNodesAreBack) {
   Loop& loop = test::new_can_loop();
   loop.enable();

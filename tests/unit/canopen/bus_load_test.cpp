@@ -8,8 +8,8 @@
 namespace verp::canopen {
 namespace {
 
-// The figures that the literature has for 11-bit identifiers: 47 + 8 n bits, and at worst
-// (34 + 8 n - 1) / 4 more; 67 and 54 for 29 bits.
+// From the literature: 47 + 8 n bits for 11-bit identifiers, at worst (34 + 8 n - 1) / 4 more; 67
+// and 54 for 29 bits.
 TEST(BusLoad, ClassicFramesHaveTheKnownLengths) {
   for (std::uint8_t size = 0; size <= 8; ++size) {
     EXPECT_EQ(classic_bits(size, Stuffing::kNone).all(), 47u + 8 * size);
@@ -22,8 +22,8 @@ TEST(BusLoad, ClassicFramesHaveTheKnownLengths) {
   static_assert(classic_bits(8, Stuffing::kWorst, true).all() == 160);
 }
 
-// Linux' include/linux/can/length.h: header 22, CRC field 28 or 33 with its delimiter, footer 9,
-// intermission 3.
+// From Linux's include/linux/can/length.h: header 22, CRC field 28 or 33 with its delimiter, footer
+// 9, intermission 3.
 TEST(BusLoad, FdFramesHaveTheKnownLengths) {
   EXPECT_EQ(fd_bits(8, Stuffing::kNone, false).all(), 22u + 64 + 28 + 9 + 3);
   EXPECT_EQ(fd_bits(16, Stuffing::kNone, false).all(), 22u + 128 + 28 + 9 + 3);
@@ -42,7 +42,7 @@ TEST(BusLoad, FdFramesHaveTheKnownLengths) {
   }
 }
 
-// A classic frame's bits from its start to its CRC, one by one, as ISO 11898-1 draws them.
+// A classic frame's bits from its start to its CRC, one by one, as in ISO 11898-1.
 unsigned draw(const Frame& frame, unsigned* bits) {
   unsigned count = 0;
   const auto put = [&](std::uint32_t value, unsigned width) {
@@ -69,8 +69,8 @@ unsigned stuff_bits(const unsigned* bits, unsigned count) {
   return stuffed;
 }
 
-// A receiver that divides a frame and its CRC by the polynomial is left with nothing; and the exact
-// length is that of the frame's bits with a stuff bit behind each five equal ones.
+// Dividing a frame and its CRC by the polynomial leaves nothing. The exact length counts the bits
+// and one stuff bit after each five equal ones.
 TEST(BusLoad, ClassicFramesAreCountedBitByBit) {
   test::Dice dice(1);
   for (int run = 0; run < 400; ++run) {
@@ -84,7 +84,7 @@ TEST(BusLoad, ClassicFramesAreCountedBitByBit) {
     unsigned bits[39 + 64 + 15];
     const unsigned count = draw(frame, bits);
     ASSERT_EQ(exact_bits(frame).all(), count + stuff_bits(bits, count) + 13);
-    // Division by x^15 + x^14 + x^10 + x^8 + x^7 + x^4 + x^3 + 1, on paper.
+    // Long division by x^15 + x^14 + x^10 + x^8 + x^7 + x^4 + x^3 + 1.
     for (unsigned i = 0; i + 15 < count; ++i) {
       if (bits[i] == 0) continue;
       for (const unsigned power : {15u, 14u, 10u, 8u, 7u, 4u, 3u, 0u}) bits[i + 15 - power] ^= 1u;
@@ -117,7 +117,7 @@ TEST(BusLoad, AnExactFrameLiesBetweenNoneAndWorst) {
   }
 }
 
-// Random bits are what "expected" is about; of the largest frames, where it is the least rounded.
+// "Expected" is about random bits; the largest frames round it least.
 TEST(BusLoad, RandomFramesTakeTheExpectedStuffBits) {
   test::Dice dice(3);
   constexpr std::uint32_t kRuns = 4000;
@@ -141,15 +141,15 @@ TEST(BusLoad, RandomFramesTakeTheExpectedStuffBits) {
   }
 }
 
-// All data bits equal: a stuff bit each five bits, and in an FD frame none behind the last.
+// All data bits equal: a stuff bit after each five bits, but none after the last of an FD frame.
 TEST(BusLoad, EqualDataBitsAreStuffedEachFive) {
   Frame frame = classic_frame(0x555, 8);
   frame.fd = true;
-  // 0 10101010101 0 0 1 0 0 0 | 1000 | zeros: the header has no run of five but for the data's.
+  // 0 10101010101 0 0 1 0 0 0 | 1000 | zeros: only the data add runs of five to the header.
   const std::uint32_t none = fd_bits(8, Stuffing::kNone, false).all();
-  // Behind the length code's 1: three zeros and 64 more are 67: stuff bits after 5, 10, ... 65.
+  // After the length code's 1 come 3 + 64 = 67 zeros: stuff bits after 5, 10, ... 65.
   EXPECT_EQ(exact_bits(frame).all(), none + 13);
-  // Five bytes: behind the length code 0101 come 40 zeros, and the last run of five ends the data.
+  // Five bytes: 40 zeros follow the length code 0101, and the last run of five ends the data.
   frame.size = 5;
   EXPECT_EQ(exact_bits(frame).all(), fd_bits(5, Stuffing::kNone, false).all() + 7);
 }
@@ -163,8 +163,8 @@ TEST(BusLoad, TimesAndSharesAreRoundedUp) {
   EXPECT_EQ(load_permille({501, 0}, {1'000'000, 1}, 8000), 63u);
 }
 
-// What is promised, in arithmetic: 21 drives at 125 Hz, six bytes each way and a SYNC with its
-// counter, stay under 70 % of 1 Mbit/s even with the worst stuffing; at 200 Hz they do not.
+// The promise in numbers: 21 drives at 125 Hz, six bytes each way and a SYNC with its counter. With
+// worst-case stuffing they stay under 70 % of 1 Mbit/s; at 200 Hz they do not.
 TEST(BusLoad, TwentyOneDrivesFitAt125HzAndNotAt200) {
   FrameBits tick = classic_bits(6, Stuffing::kWorst) * 42;
   tick += classic_bits(1, Stuffing::kWorst);

@@ -12,7 +12,7 @@ namespace {
 using cia402::DriveObjects;
 namespace object = cia402::object;
 
-// A drive's objects as an application: what the twin and a test of a master need.
+// A drive's objects as an application, for the twin and for tests of a master.
 struct Application402 {
   DriveObjects objects;
   Abort find(Address at, Entry& entry) { return cia402::find_object(at, entry); }
@@ -63,7 +63,7 @@ struct Node {
                         two(object::kActualVelocity, 32, object::kActualTorque, 16)};
     device.start();
   }
-  // The only frame that the device has to send now.
+  // Takes the only frame that the device has to send now.
   bool only(Frame& frame, std::uint64_t now_us = 0) {
     Frame more;
     return device.next(frame, now_us) && !device.next(more, now_us);
@@ -128,7 +128,7 @@ TEST(Device, SpeaksSdoUnlessStopped) {
   EXPECT_TRUE(node.client.state() == SdoClient::State::kBusy) << "nobody answers";
 }
 
-// The standard's order, through SDO as any configuration tool does it.
+// The standard's order, through SDO, as any configuration tool does it.
 TEST(Device, IsRemappedThroughSdo) {
   Node node;
   node.operate();
@@ -149,7 +149,7 @@ TEST(Device, IsRemappedThroughSdo) {
   EXPECT_EQ(get_le(frame.data, 2), 0xFFFDu);
 }
 
-// CiA 301: so a node that missed a SYNC is brought back to those that it was told to answer.
+// CiA 301: switching the PDO off and on returns a node that missed a SYNC to its planned SYNCs.
 TEST(Device, WaitsForItsSyncStartValueAgainWhenItsPdoIsSwitchedOffAndOn) {
   Node node;
   constexpr std::uint8_t kGroups = 3, kStart = 2;
@@ -257,7 +257,7 @@ TEST(Device, ReportsWhatIsWrongOnTheBus) {
   EXPECT_EQ(newest, 0x8210u);
 }
 
-// A SYNC that does not fit comes with each tick, to each node: EMCY after EMCY would fill the bus.
+// A wrong SYNC reaches every node in each tick: one EMCY each time would fill the bus.
 TEST(Device, SaysOnceThatTheCommunicationIsWrongAndOnceThatItIsWell) {
   Node node;
   node.operate();
@@ -274,7 +274,7 @@ TEST(Device, SaysOnceThatTheCommunicationIsWrongAndOnceThatItIsWell) {
     }
   }
   EXPECT_EQ(said, 2);
-  // What is wrong with the drive itself is another matter.
+  // A fault of the drive itself is independent of that.
   node.device.receive(classic_frame(kSyncId, 1), 0);
   node.device.report(ErrorCode::kOverTemperature, kErrorTemperature);
   node.device.receive(classic_frame(kSyncId, 0), 0);

@@ -25,7 +25,7 @@ TEST(DriveObjects, EveryRowIsFoundReadAndRefusedIfReadOnly) {
   }
 }
 
-// Each row's bytes are those of its own member: what is written to one is read from it alone.
+// Each row uses the bytes of its own member: a written value is read from that row alone.
 TEST(DriveObjects, NoTwoRowsShareBytes) {
   for (std::size_t i = 0; i < kDriveRowCount; ++i) {
     for (std::size_t k = i + 1; k < kDriveRowCount; ++k) {
@@ -97,7 +97,7 @@ TEST(FollowingMonitor, TellsADistanceThatLastsLongerThanAllowed) {
   EXPECT_FALSE(monitor.update(objects, 3'012'000)) << "its time begins anew";
 }
 
-// A drive's dictionary is these three lines: the server of the controller serves it, too.
+// A drive's dictionary is these three functions; the controller's SDO server serves it, too.
 struct DriveDictionary {
   DriveObjects objects;
   Abort find(Address at, Entry& entry) { return find_object(at, entry); }

@@ -37,7 +37,7 @@ TEST(Frame, FdSizesAreThoseWithACode) {
   EXPECT_EQ(can_fd_size(49), 64);
 }
 
-// CiA 301's pre-defined connection set, by its first and last identifiers.
+// First and last identifiers of CiA 301's predefined connection set.
 TEST(CobId, IsThatOfThePredefinedConnectionSet) {
   EXPECT_EQ(emcy_id(1), 0x081);
   EXPECT_EQ(emcy_id(127), 0x0FF);
@@ -77,7 +77,7 @@ TEST(CobId, EveryIdentifierLeadsBackToItsService) {
   EXPECT_TRUE(connection_of(0x7E5).service == Service::kOther);
 }
 
-// No PDO can be moved to where NMT, SDO or heartbeat are; the PDOs' own places are free.
+// No PDO may use the identifiers of NMT, SDO or heartbeat; those of PDOs are free.
 TEST(CobId, RestrictedIdentifiersAreThoseOfTheFixedServices) {
   for (unsigned i = 1; i <= kMaxNode; ++i) {
     const auto node = static_cast<std::uint8_t>(i);

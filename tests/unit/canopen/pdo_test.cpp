@@ -11,7 +11,7 @@ namespace {
 
 using test::Dice;
 
-// Objects are told apart by their index: 2000h and on, in the mapping's order.
+// Index 2000h and up, in the mapping's order, distinguishes the objects.
 template <std::size_t kEntries>
 PdoMapping<kEntries> random_mapping(Dice& dice, unsigned max_bits) {
   PdoMapping<kEntries> mapping;
@@ -37,7 +37,7 @@ void expect_round_trips(bool fd, std::uint32_t seed) {
     }
     Frame frame;
     frame.fd = fd;
-    for (std::uint8_t& each : frame.data) each = 0xFF;  // what a frame held before does not matter
+    for (std::uint8_t& each : frame.data) each = 0xFF;  // earlier content does not matter
     pack_pdo(mapping, frame, [&](Address at, unsigned) { return values[at.index - 0x2000]; });
     ASSERT_EQ(frame.size, fd ? can_fd_size(mapping.bytes()) : mapping.bytes());
     unsigned seen = 0;
@@ -61,7 +61,7 @@ TEST(Pdo, UnpackingIsTheInverseOfPackingForAnyMapping) {
   expect_round_trips<64>(true, 2);
 }
 
-// Controlword and target position, as each CiA 402 drive has them in its first RPDO.
+// Controlword and target position, as in the first RPDO of each CiA 402 drive.
 TEST(Pdo, BytesAreLittleEndianInTheOrderOfTheMapping) {
   PdoMapping<> mapping;
   EXPECT_TRUE(mapping.add(Mapped::from(0x60400010)));
@@ -186,8 +186,8 @@ TEST(SyncSchedule, AnswersEveryNthSync) {
   EXPECT_FALSE(schedule.on_sync(kEventProfile, 0, 0, true)) << "not synchronous";
 }
 
-// 21 drives, every fifth SYNC, start values 1 to 5: no SYNC is answered by more than five, and each
-// drive by every fifth, whenever it began to listen.
+// 21 drives answer every fifth SYNC, with start values 1 to 5. At most five drives answer each
+// SYNC, and each drive answers every fifth, whenever it joined.
 TEST(SyncSchedule, StartValuesShareTheSyncs) {
   constexpr int kDrives = 21;
   SyncSchedule drives[kDrives];

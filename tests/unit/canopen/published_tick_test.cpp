@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-// What a controller tells of a tick is all that a listener cannot hear of it otherwise.
+// A controller publishes exactly what a listener cannot hear otherwise of a tick.
 namespace verp::canopen::published {
 namespace {
 
@@ -28,7 +28,8 @@ Inputs random_inputs(std::uint32_t tick) {
   return inputs;
 }
 
-/// Of a tick after `before`: what is fresh by its flags is new; a few words besides.
+/// Inputs of a tick after `before`: values whose flags say fresh are new, and so are a few words
+/// besides.
 Inputs next_inputs(const Inputs& before, bool bus_imu, int words) {
   Inputs now = before;
   copy_heard(now, random_inputs(before.tick + 1), bus_imu);
@@ -72,7 +73,7 @@ TEST(PublishedTick, NothingIsToldTwice) {
   EXPECT_EQ(parts.count(), 0);
 }
 
-// A listener must not take a few of many changes for all.
+// A listener must not mistake a few of many changes for all.
 TEST(PublishedTick, MoreThanTheBusCarriesIsSaidToBeTooMany) {
   Inputs before, now;
   for (int j = 0; j < kMaxJoints; ++j) now.position_count[j] = -1;

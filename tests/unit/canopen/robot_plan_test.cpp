@@ -16,7 +16,7 @@ Params robot(int joints, bool sensors) {
   return params;
 }
 
-// What a receiver with room for five frames can take, whatever the robot.
+// A receiver with room for five frames can take them, for any robot.
 TEST(RobotPlan, AtMostFiveFramesAnswerOneSync) {
   for (int joints = 0; joints <= kMaxJoints; ++joints) {
     for (const bool sensors : {false, true}) {
@@ -35,7 +35,7 @@ TEST(RobotPlan, TwentyOneDrivesWithSensorsTakeFiveSyncs) {
   EXPECT_EQ(sync_groups(robot(21, true)), 5);
 }
 
-// A frame has one place for each of its drives, and each drive sees its own place only.
+// A frame has one place for each of its drives, and a drive maps only its own.
 TEST(RobotPlan, DrivesOfASharedFrameMapDisjointPlaces) {
   const Params params = robot(21, true);
   for (const Shared& kind : {kGoals, kWords, kStrengths}) {
@@ -68,7 +68,7 @@ TEST(RobotPlan, DrivesOfASharedFrameMapDisjointPlaces) {
   }
 }
 
-// Identifiers that two frames of the robot shared would lose one of them on the wire.
+// If two frames shared an identifier, one would be lost on the wire.
 TEST(RobotPlan, NoTwoSharedFramesHaveOneIdentifier) {
   const Params params = robot(kMaxJoints, true);
   std::uint16_t seen[64] = {};

@@ -2,7 +2,7 @@
 
 #include "tests/unit/canopen/sdo_bench.hpp"
 
-// What both ends of SDO refuse, ignore or give up, and with which of the documented codes.
+// What both ends of SDO refuse, ignore or abort, with the documented codes.
 namespace verp::canopen {
 namespace {
 
@@ -12,7 +12,7 @@ using test::Line;
 using Mode = SdoClient::Mode;
 using State = SdoClient::State;
 
-// What the server answers to one request, as an abort code.
+// The server's abort code for one request.
 Abort refusal(Bench& bench, const Line& line) {
   bench.server.receive(frame_of(line), 0);
   Frame reply;
@@ -118,7 +118,7 @@ TEST(SdoClient, IgnoresTheRemainsOfAnEarlierTransfer) {
   EXPECT_EQ(byte, 7);
 }
 
-// The client's reason for an upload into four bytes that a server answers with these lines.
+// The client's reason when these lines answer an upload into four bytes.
 template <std::size_t kLines>
 Abort upload_refusal(const Line (&lines)[kLines], int& requests) {
   SdoClient client(2);
@@ -187,7 +187,7 @@ TEST(SdoServer, IgnoresWhatIsNotForIt) {
   EXPECT_FALSE(bench.server.next(reply, 0));
 }
 
-// A client may prefer a plain upload for little data.
+// For little data a client may prefer a plain upload.
 TEST(SdoServer, SwitchesToAPlainUploadBelowTheClientsThreshold) {
   Bench& bench = test::fresh_bench();
   bench.dictionary.small[1].size = 4;

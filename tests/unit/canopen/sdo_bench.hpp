@@ -4,10 +4,10 @@
 #include "common/protocol/canopen/sdo_client.hpp"
 #include "common/protocol/canopen/sdo_server.hpp"
 
-/// What the tests of SDO share: a dictionary, and a channel that a test can spoil.
+/// Shared by the SDO tests: a dictionary, and a channel that a test can disturb.
 namespace verp::canopen::test {
 
-/// A frame between client and server as a document writes it.
+/// A frame between client and server as documents write it.
 struct Line {
   bool request;
   std::uint8_t bytes[8];
@@ -19,7 +19,7 @@ inline Frame frame_of(const Line& line) {
   return frame;
 }
 
-/// Deterministic everywhere.
+/// Deterministic on every machine.
 class Dice {
  public:
   explicit Dice(std::uint32_t seed) : state_(seed) {}
@@ -103,13 +103,13 @@ struct BenchDictionary {
 };
 static_assert(StreamingDictionary<BenchDictionary>);
 
-/// One direction of a bus. Frames of one identifier never overtake each other on CAN, but through
-/// gateways and careless drivers they do: `swap` says whether they may.
+/// One direction of a bus. On CAN, frames of one identifier never overtake each other, but gateways
+/// and careless drivers reorder them; `swap` allows it.
 class Channel {
  public:
-  std::uint32_t lose = 0;       ///< one frame in so many; 0: none
-  std::uint32_t duplicate = 0;  ///< comes twice
-  std::uint32_t swap = 0;       ///< overtakes one that is under way
+  std::uint32_t lose = 0;       ///< one frame in `lose` is lost; 0: none
+  std::uint32_t duplicate = 0;  ///< one in so many arrives twice
+  std::uint32_t swap = 0;       ///< one in so many overtakes the one before
 
   void push(const Frame& frame, Dice& dice) {
     if (dice.one_in(lose)) return;
@@ -136,7 +136,7 @@ class Channel {
   std::uint32_t size_ = 0;
 };
 
-/// Client, server, and the bus between them in bus time.
+/// Client, server, and the bus between them, in bus time.
 struct Bench {
   static constexpr std::uint8_t kNode = 2;
   static constexpr int kMaxSteps = 20'000;
@@ -156,11 +156,11 @@ struct Bench {
     now_us = 0;
     frames = 0;
   }
-  /// One frame at most from each end, and one to each.
+  /// Each end sends at most one frame and receives one.
   bool step(Dice& dice) {
     Frame frame;
     bool moved = false;
-    // A sender is faster than the wire now and then, so that frames can overtake.
+    // Now and then a sender is faster than the wire, so that frames can overtake.
     const std::uint32_t burst = 1 + dice.below(3);
     for (std::uint32_t i = 0; i < burst && up.has_room() && client.next(frame, now_us);
          ++i, moved = true, ++frames) {
@@ -175,7 +175,7 @@ struct Bench {
     now_us += moved ? 200 : 20'000;
     return moved;
   }
-  /// Until the client's transfer has ended and the bus is quiet; false if it does not end.
+  /// Runs until the client's transfer has ended and the bus is quiet; false if it does not end.
   bool run(Dice& dice) {
     int steps = 0;
     while (client.state() == SdoClient::State::kBusy) {
@@ -189,7 +189,7 @@ struct Bench {
   }
 };
 
-/// The one bench there is memory for, as if new.
+/// The one bench that memory has room for, reset.
 inline Bench& fresh_bench() {
   static Bench bench;
   bench.reset();

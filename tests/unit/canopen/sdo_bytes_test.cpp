@@ -2,8 +2,8 @@
 
 #include "tests/unit/canopen/sdo_bench.hpp"
 
-// SDO byte for byte: exchanges that vendors' documents and other projects' tests of CiA 301 agree
-// on, with our client and our server each put in its place.
+// SDO byte for byte. Vendors' documents and other projects' tests of CiA 301 agree on these
+// exchanges; our client and our server each play their part.
 namespace verp::canopen {
 namespace {
 
@@ -35,7 +35,7 @@ struct OneObject {
 };
 static_assert(Dictionary<OneObject> && !StreamingDictionary<OneObject>);
 
-// The machine says the lines that are its own, and is told the others. All are said.
+// The machine must send its own lines and receives the others. All must be sent.
 template <class Machine>
 void play(Machine& machine, bool requests, const Line* lines, std::size_t count) {
   for (std::size_t i = 0; i < count; ++i) {
@@ -167,7 +167,7 @@ TEST(SdoBytes, BlockUpload) {
   expect_upload(lines, kName, "Tiny Node - Mega Domains !", 26, Mode::kBlock);
 }
 
-// Some devices do not say how many of the four bytes count.
+// Some devices do not say how many of the four bytes are valid.
 TEST(SdoBytes, ExpeditedUploadWithoutASizeFillsWhatWasAskedFor) {
   std::uint8_t buffer[8] = {};
   SdoClient client(2);

@@ -2,8 +2,8 @@
 
 #include "tests/unit/canopen/sdo_bench.hpp"
 
-// Client against server over good and bad channels: data are right or there are none, and every
-// transfer ends.
+// Client against server over good and bad channels: data are right or missing, and every transfer
+// ends.
 namespace verp::canopen {
 namespace {
 
@@ -31,7 +31,7 @@ bool equal(const std::uint8_t* a, const std::uint8_t* b, std::uint32_t size) {
   return true;
 }
 
-// One transfer of `size` random bytes; what it must leave is checked here.
+// Makes one transfer of `size` random bytes and checks its result.
 void transfer(Bench& bench, Dice& dice, bool write, std::uint32_t size, Mode mode, Tally& tally) {
   static std::uint8_t mine[BenchDictionary::kLarge + 8];
   const Address at = size > BenchDictionary::kSmall ? kLarge : kSmall;
@@ -54,7 +54,7 @@ void transfer(Bench& bench, Dice& dice, bool write, std::uint32_t size, Mode mod
   const bool done = bench.client.state() == State::kDone;
   done ? ++tally.done : ++tally.aborted;
   if (write) {
-    // A lost confirmation leaves the client in doubt, but never half or other data in the server.
+    // A lost confirmation leaves the client in doubt but never partial or wrong data in the server.
     const bool written = bench.dictionary.writes != writes;
     ASSERT_TRUE(written || !done) << "done, but never written";
     ASSERT_EQ(theirs.size, written ? size : before_size);
@@ -71,7 +71,7 @@ TEST(SdoTransfer, OfAnySizeArrivesOverAGoodChannel) {
   Dice dice(1);
   Tally tally;
   int transfers = 0;
-  // Around each edge: expedited, one segment, the server's buffer, one block, two blocks.
+  // Sizes around each limit: expedited, one segment, the server's buffer, one block, two blocks.
   for (const std::uint32_t size :
        {0u,   1u,   3u,   4u,   5u,   6u,   7u,   8u,    14u,   15u,   99u,
         100u, 127u, 128u, 129u, 888u, 889u, 890u, 1777u, 1778u, 1779u, 2000u}) {
@@ -110,8 +110,8 @@ void spoil(Bench& bench, std::uint32_t lose, std::uint32_t duplicate, std::uint3
   }
 }
 
-// Plain transfers have one bit against confusion, so this is for what CAN itself does: frames are
-// lost or come twice in a row, but those of one identifier keep their order.
+// Plain transfers have only one toggle bit, so this channel does what CAN itself does: it loses or
+// doubles frames, but those of one identifier keep their order.
 TEST(SdoTransfer, PlainOverALossyDuplicatingChannelIsRightOrAborted) {
   Bench& bench = test::fresh_bench();
   Tally tally;
@@ -124,7 +124,7 @@ TEST(SdoTransfer, PlainOverALossyDuplicatingChannelIsRightOrAborted) {
   EXPECT_GT(tally.aborted, 50) << "the channel is not bad enough to show anything";
 }
 
-// Blocks have sequence numbers and a CRC: frames may come in any order.
+// Blocks have sequence numbers and a CRC, so frames may come in any order.
 TEST(SdoTransfer, BlocksOverALossyReorderingDuplicatingChannelAreRightOrAborted) {
   Bench& bench = test::fresh_bench();
   Tally tally;
@@ -138,7 +138,7 @@ TEST(SdoTransfer, BlocksOverALossyReorderingDuplicatingChannelAreRightOrAborted)
   EXPECT_GT(tally.aborted, 20) << "the channel is not bad enough to show anything";
 }
 
-// Segments that only get lost are sent again, even a block's last one.
+// Lost segments are sent again, even a block's last one.
 TEST(SdoTransfer, ABlockSurvivesLostSegments) {
   Bench& bench = test::fresh_bench();
   int done = 0;
@@ -242,8 +242,8 @@ TEST(SdoClient, TakesNoMoreThanItsBufferHolds) {
   }
 }
 
-// Whatever comes, in whatever order, with whatever gaps: the dictionary's contract is kept, and the
-// server is idle when the bus has been silent for long enough.
+// For any frames, orders and gaps, the server keeps the dictionary's contract and is idle after a
+// long enough silence.
 TEST(SdoServer, SurvivesAnyFrames) {
   Bench& bench = test::fresh_bench();
   Dice dice(4);

@@ -3,14 +3,14 @@
 #include "tests/unit/action/shelf.hpp"
 #include "tests/unit/control/loop.hpp"
 
-/// Actions in the tick: when they begin, what ends them, what they leave. The same bits on every
-/// core, as the last test says by a number.
+/// Actions in the tick: how they begin and end, and what remains. The last test's number holds on
+/// every core.
 namespace verp::control {
 namespace {
 
 using namespace test;
 
-/// Both arms and a knee there and back, in 0.4 s; and an action of the head.
+/// An action that moves both arms and a knee there and back in 0.4 s, and one of the head.
 action::test::Shelf shelf() {
   action::test::Shelf shelf;
   for (const int joint : {kLeftArm, kRightArm, kLeftLeg + 3}) {
@@ -30,7 +30,7 @@ struct ActingLoop : Loop {
   }
   void stand() {
     until(Mode::kStanding, 1000);
-    ticks(400);  // the gyro's bias is known by then
+    ticks(400);  // by then the gyro's bias is learnt
   }
 };
 
@@ -112,7 +112,7 @@ TEST(Acting, ALibraryThatNobodyAsksOfChangesNoBit) {
   without.command.request = Request::kStand;
   for (int i = 0; i < 600; ++i) {
     if (i == 400) with.walk(500), without.walk(500);
-    // A number that is not there.
+    // An action number that does not exist.
     with.inputs.action = without.inputs.action = static_cast<std::uint8_t>(i >= 500 ? 7 : 0);
     with.tick();
     without.tick();
@@ -120,7 +120,7 @@ TEST(Acting, ALibraryThatNobodyAsksOfChangesNoBit) {
   }
 }
 
-// Changes with kCoreVersion, as long as no action's numbers do.
+// Changes with kCoreVersion, unless no action's numbers change.
 constexpr std::uint64_t kPlayed = 0xeb25c7a64e47a6d8;
 
 TEST(Acting, IsTheSameBitsOnEveryCore) {

@@ -27,7 +27,7 @@ struct Telemetry {
     ++inputs.tick;
     return last = admit(kRobot, state, tuning, inputs);
   }
-  /// A round of all servos, of which those in `bad` are too hot or have an error.
+  /// A round of all servos; those in `bad` are too hot or report an error.
   AdmitOut round(std::uint32_t bad, bool error = false) {
     for (int j = 0; j < kJointCount; ++j) {
       const bool is_bad = (bad >> j & 1U) != 0;
@@ -43,7 +43,7 @@ struct Telemetry {
   AdmitOut last;
 };
 
-// Whatever the others tell in between, and whichever it is.
+// Holds for any servo, whatever the others report in between.
 TEST(Admit, OneServoThatStaysBadIsFound) {
   for (int j = 0; j < kJointCount; ++j) {
     for (const bool error : {false, true}) {
@@ -67,7 +67,7 @@ TEST(Admit, AllServosButOneThatStayBadAreFound) {
   EXPECT_TRUE(telemetry.power_bad());
 }
 
-// One bad reading is noise: of every servo one, one after the other, or of one now and then.
+// One bad reading is noise: one from each servo in turn, or one now and then.
 TEST(Admit, BadReadingsThatAreNotOneServosInARowAreNoise) {
   Telemetry telemetry;
   for (int n = 1; n < kAlarmReadings; ++n) telemetry.round(~0U);
@@ -89,7 +89,7 @@ TEST(Admit, ServoThatIsWellAgainClearsItselfAndNoOther) {
   EXPECT_FALSE(telemetry.power_bad());
 }
 
-// The supply is one for all: readings of any servos count together.
+// All servos share the supply, so readings of any servo count together.
 TEST(Admit, LowSupplyIsFoundWhicheverServosTellOfIt) {
   Telemetry telemetry;
   for (int n = 1; n < kSupplyReadings; ++n) {
@@ -103,7 +103,7 @@ TEST(Admit, LowSupplyIsFoundWhicheverServosTellOfIt) {
   EXPECT_FALSE(telemetry.power_bad()) << "a peak of the current is over";
 }
 
-// Telemetry of a joint that is none is no reading, however its byte came about.
+// Telemetry for a joint that does not exist is no reading.
 TEST(Admit, TelemetryOfNoServoIsIgnored) {
   Telemetry telemetry;
   for (int n = 0; n < 3 * kSupplyReadings; ++n) {
@@ -112,7 +112,7 @@ TEST(Admit, TelemetryOfNoServoIsIgnored) {
   }
 }
 
-// Through the whole tick: one hot knee ends the walk on both feet, and sits the robot down.
+// Through the whole tick: one hot knee ends the walk on both feet and sits the robot down.
 TEST(Admit, OneHotServoEndsTheWalk) {
   Loop& loop = test::fresh_loop();
   loop.walk(1000);
@@ -133,10 +133,10 @@ TEST(Admit, OneHotServoEndsTheWalk) {
   EXPECT_TRUE(loop.is_in(safety::Mode::kRelaxed)) << "though a walk is asked";
 }
 
-// A controller that was away, and came back.
+// A controller that stood still and resumed.
 constexpr int kHold_ticks = 5;  // stale_hold_s at 10 ms
 
-/// Inputs of a robot of which all devices report, and its ages.
+/// Inputs of a robot whose devices all report, and their ages.
 struct Senses {
   AdmitOut tick(std::uint32_t periods = 1) {
     inputs.tick += periods;
@@ -155,7 +155,7 @@ struct Senses {
   Tuning tuning = kRobot.tuning;
   Inputs inputs;
   AdmitOut last;
-  bool noise = true;  ///< of the IMU
+  bool noise = true;  ///< the IMU's noise
 };
 
 TEST(Admit, FirstTickMayHaveAnyNumberAndTheCountMayWrap) {
@@ -170,7 +170,7 @@ TEST(Admit, FirstTickMayHaveAnyNumberAndTheCountMayWrap) {
   }
 }
 
-// Whoever reports afterwards: meanwhile nobody was heard, and nobody steered.
+// Even if all report afterwards: meanwhile the controller heard and steered nothing.
 TEST(Admit, ControllerThatStoodStillIsStale) {
   for (const std::uint32_t skipped : {0U, 1U, 4U, 5U, 6U, 49U, 50U, 300U, 100'000U, 0xFFFFFFF0U}) {
     Senses senses;
@@ -183,7 +183,7 @@ TEST(Admit, ControllerThatStoodStillIsStale) {
   }
 }
 
-// Silence is as long in a loop that skips every other period as in one that skips none.
+// A loop that skips every other period measures the same silence.
 TEST(Admit, AgesAreTimesNotTicks) {
   for (const std::uint32_t periods : {1U, 2U, 4U}) {
     Senses servo, imu, person;
@@ -203,7 +203,7 @@ TEST(Admit, AgesAreTimesNotTicks) {
   }
 }
 
-// A clock that has stopped does not stop the ages; one that goes back is no clock.
+// A stopped clock does not stop the ages; a clock that runs backwards is invalid.
 TEST(Admit, TickThatDoesNotComeIsNoReasonToBeYoung) {
   Senses stopped;
   stopped.tick();
@@ -226,7 +226,7 @@ TEST(Admit, AgesOfAnOperatorWhoIsGoneForEverDoNotWrap) {
   }
 }
 
-// Noise moves at least one count of a live IMU now and then; each of the six will do.
+// Noise moves a live IMU by at least one count now and then; any of the six axes will do.
 TEST(Admit, ImuThatRepeatsItselfIsSilentAndOneThatStirsIsNot) {
   for (int axis = 0; axis < 6; ++axis) {
     Senses senses;
@@ -267,7 +267,7 @@ TEST(Admit, FrozenImuStopsTheWalk) {
   EXPECT_GE(loop.until(safety::Mode::kSitting, 100), 0);
 }
 
-// Through the whole tick: the walk is not taken up where it was; the robot holds, then rises anew.
+// Through the whole tick: the robot does not resume the walk; it holds, then rises anew.
 TEST(Admit, WalkEndsWhereTheControllerStoodStill) {
   Loop& loop = test::fresh_loop();
   loop.walk(1000);

@@ -13,7 +13,7 @@ namespace {
 Params robot;
 State state;
 
-// Statics: a microcontroller's stack would not hold them.
+// Static, because a microcontroller's stack could not hold them.
 ParamsImage& sealed_image() {
   static ParamsImage image;
   image = ParamsImage{};
@@ -33,7 +33,7 @@ BootVerdict verdict_on(const ParamsImage& image, std::size_t size = sizeof(Param
   return check_boot(&image, size, robot, state).verdict;
 }
 
-// A change of the core's arithmetic is a change of kCoreVersion and of this number.
+// A change of the core's arithmetic changes kCoreVersion and this number.
 TEST(BootCheck, BuiltInRobotWalksTheSameBitsInEveryBuild) {
   const std::uint64_t digest = built_in_digest(robot, state);
   EXPECT_EQ(static_cast<std::uint32_t>(digest >> 32),
@@ -74,7 +74,7 @@ TEST(BootCheck, DamagedTruncatedOrMissingImageIsRefused) {
   EXPECT_TRUE(verdict_on(image) == BootVerdict::kSound);
 }
 
-// An image whose answers another core gave: its seal is whole, and only the answers tell.
+// The seal is whole; only the answers show that another core gave them.
 TEST(BootCheck, AnswersOfAnotherCoreAreRefused) {
   ParamsImage& image = sealed_image();
   image.golden[3].legs_digest ^= 1;
@@ -91,7 +91,7 @@ TEST(BootCheck, AnswersOfAnotherCoreAreRefused) {
   EXPECT_TRUE(verdict_on(image) == BootVerdict::kControl);
 }
 
-// Its answers come out, as a NaN gives the same everywhere, and still it must never have torque.
+// The answers match, because a NaN gives the same everywhere, but the robot must never have torque.
 TEST(BootCheck, ImageWithANumberThatIsNoneIsRefusedByName) {
   ParamsImage& image = sealed_image();
   image.params.joint[14].velocity_limit_rad_s = test::quiet_nan();

@@ -37,7 +37,7 @@ TEST(StepDigest, EqualInputsGiveEqualStatesAndDigests) {
   }
 }
 
-// All there is to know about the past is in State: a copy goes on as the original does.
+// State holds all of the past: a copy continues as the original does.
 TEST(StepDigest, CopyOfAStateContinuesTheSame) {
   Loop& loop = test::fresh_loop();
   static State copy;
@@ -54,7 +54,7 @@ TEST(StepDigest, CopyOfAStateContinuesTheSame) {
   }
 }
 
-// One bit in any byte of the inputs, used or not, is another digest.
+// One bit in any byte of the inputs, used or not, changes the digest.
 TEST(StepDigest, AnyBitOfTheInputsChangesTheDigest) {
   Loop& loop = test::fresh_loop();
   static State before, after;
@@ -77,7 +77,7 @@ TEST(StepDigest, AnyBitOfTheInputsChangesTheDigest) {
   }
 }
 
-// A past that differed stays visible in every digest after it.
+// A past difference stays visible in all later digests.
 TEST(StepDigest, ChainRemembersADifference) {
   static Loop a, b;
   a = b = Loop{};
@@ -93,7 +93,7 @@ TEST(StepDigest, ChainRemembersADifference) {
   }
 }
 
-// Another robot: a micrometre in a thigh is seen by the digest of the plan.
+// The plan's digest shows a micrometre in a thigh.
 TEST(StepDigest, AnotherRobotIsSeen) {
   static Params other = kRobot;
   other.leg[0].thigh_m += 1e-6F;

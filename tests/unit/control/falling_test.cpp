@@ -4,7 +4,7 @@
 
 #include "tests/unit/control/falling_loop.hpp"
 
-/// Falls in the tick: seen before the ground is met, torque on the floor only for who asks.
+/// Falls in the tick: detected before the ground is met; torque on the floor only on request.
 namespace verp::control {
 namespace {
 
@@ -54,7 +54,7 @@ TEST(Falling, OneThatIsCaughtRisesAgain) {
   EXPECT_EQ(loop.outputs.faults & safety::kFaultFall, 0u);
 }
 
-/// Fallen on its front.
+/// A robot fallen on its front.
 FallingLoop fallen() {
   FallingLoop loop;
   loop.until(Mode::kStanding, 200);
@@ -105,7 +105,7 @@ TEST(GettingUp, FromPowerUpOnTheFloor) {
   EXPECT_GE(loop.until(Mode::kGettingUp, 200), 0);
 }
 
-// The shelf has no way up from the back.
+// The shelf has no action to get up from the back.
 TEST(GettingUp, OnASideWithoutAnActionItStaysDown) {
   FallingLoop loop;
   loop.hold_up(8172, 0);

@@ -2,7 +2,7 @@
 
 #include "tests/unit/control/loop.hpp"
 
-/// What a walk does about its heading, through step().
+/// How a walk keeps its heading, through step().
 namespace verp::control {
 namespace {
 
@@ -17,8 +17,8 @@ Loop& walking() {
   return loop;
 }
 
-// A robot held by hand while it is told to turn: once it is let go it turns back what it is short
-// of, not what it was held for.
+// A robot held by hand is told to turn. Once released it turns back only the slip, not the turn it
+// was kept from.
 TEST(Heading, AnOrderThatStepsCannotFollowIsNoSlip) {
   Loop& loop = walking();
   loop.command.wz_mrad_s = 1500;
@@ -26,7 +26,7 @@ TEST(Heading, AnOrderThatStepsCannotFollowIsNoSlip) {
   EXPECT_LT(math::abs(loop.state.steer.slip_rad), 0.05F);
 }
 
-// A slip repeated in every step is summed: 0.02 rad/s to the right for ten seconds.
+// A slip repeated in every step adds up: 0.02 rad/s to the right for ten seconds.
 TEST(Heading, ASlipThatGoesOnIsSummed) {
   Loop& loop = walking();
   loop.inputs.gyro_count[2] = -19;
@@ -34,9 +34,9 @@ TEST(Heading, ASlipThatGoesOnIsSummed) {
   EXPECT_GT(loop.state.steer.slip_rad, 0.1F);
 }
 
-// Of a cycle in whole ticks the gyro would see every step at the same moments, and take what
-// hurried feet do between them for a turn: their steps begin everywhere in a tick, and yet as often
-// as is tuned.
+// If a cycle had whole ticks, the gyro would see every step at the same moments and take motion
+// between them for a turn. So hurried steps begin at any moment of a tick, and on average at the
+// tuned rate.
 TEST(Heading, HurriedStepsBeginAtAllMomentsOfATick) {
   Loop& loop = walking();
   const auto tick_us = static_cast<std::int32_t>(test::kRobot.period_us);
@@ -59,7 +59,7 @@ TEST(Heading, HurriedStepsBeginAtAllMomentsOfATick) {
   for (int i = 0; i < 10; ++i) EXPECT_TRUE(tenths[i]) << i << " tenths of a tick";
 }
 
-// What the legs turn, the arms take, one forward as the other goes back.
+// The arms counter the legs' turn, one forward as the other goes back.
 TEST(Heading, ArmsSwingAsTheRobotWalksAndRestAsItStands) {
   Loop& loop = walking();
   std::int32_t most = 0, both = 0;
@@ -71,7 +71,7 @@ TEST(Heading, ArmsSwingAsTheRobotWalksAndRestAsItStands) {
              model::count_of(test::kRobot.joint[j], test::kRobot.joint[j].stand_rad);
     };
     most = off(test::kLeftArm) > most ? off(test::kLeftArm) : most;
-    // Counted the other way round on the right, so goals of arms that go apart have the same sign.
+    // The right arm counts the other way, so goals of arms that move apart have the same sign.
     both += off(test::kLeftArm) * off(test::kRightArm) < 0 ? 1 : 0;
   }
   EXPECT_GT(most, 30) << "counts of 1.5 mrad";

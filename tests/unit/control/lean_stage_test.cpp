@@ -6,7 +6,7 @@
 namespace verp::control {
 namespace {
 
-/// About y, after 10 s with a trunk that is pitched by so much, as planned or not.
+/// Lean about y after 10 s with this trunk pitch, planned or not.
 float leans_rad(float pitch_rad, float planned_rad, safety::Mode mode, bool imu_fresh) {
   State& walker = test::fresh_loop().state;
   walker.machine.mode = mode;
@@ -20,7 +20,7 @@ float leans_rad(float pitch_rad, float planned_rad, safety::Mode mode, bool imu_
   return walker.lean.lean_rad.y;
 }
 
-// A trunk that is tuned to be pitched is no ground that slopes.
+// A planned trunk pitch is no slope.
 TEST(LeanStage, ItIsTheTiltOffThePlanThatIsLeanedAgainst) {
   constexpr float kPitch_rad = 1.5F * balance::kLeftPitched_rad;
   const auto walks = safety::Mode::kWalking;
@@ -29,7 +29,7 @@ TEST(LeanStage, ItIsTheTiltOffThePlanThatIsLeanedAgainst) {
   EXPECT_GT(leans_rad(0.0F, kPitch_rad, walks, true), 0.02F);
 }
 
-// Who stands learns the gyro's bias, and what an IMU said before it fell silent is no news.
+// A standing robot learns the gyro's bias instead, and a silent IMU's last reading is no news.
 TEST(LeanStage, WhoStandsOrHasNoImuLearnsNothing) {
   EXPECT_EQ(leans_rad(0.2F, 0.0F, safety::Mode::kStanding, true), 0.0F);
   EXPECT_EQ(leans_rad(0.2F, 0.0F, safety::Mode::kWalking, false), 0.0F);

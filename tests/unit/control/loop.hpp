@@ -8,8 +8,8 @@ namespace verp::control::test {
 using namespace verp::test;
 using safety::Mode;
 
-/// step() with servos that are always where their goals were, an IMU at rest and an operator. The
-/// accelerometer has the least noise there is, and none that tilts.
+/// step() with servos that always reach their goals, an IMU at rest and an operator. The
+/// accelerometer has minimal noise without tilt.
 struct Loop {
   Loop() {
     command.request = Request::kRelax;
@@ -32,7 +32,7 @@ struct Loop {
   void ticks(int count) {
     for (int i = 0; i < count; ++i) tick();
   }
-  /// Ticks until `mode`, at most `most`; returns how many it took, -1 if it never came.
+  /// Runs until `mode`, at most `most` ticks; returns how many it took, or -1 if it never came.
   int until(Mode mode, int most) {
     for (int i = 0; i < most; ++i) {
       tick();
@@ -51,10 +51,10 @@ struct Loop {
   Outputs outputs;
   Command command;
   action::Library actions;
-  bool noise = true;  ///< of the IMU
+  bool noise = true;  ///< the IMU's noise
 };
 
-/// One for all tests, as it begins: a small board's RAM has no room for one each.
+/// One for all tests, reset: a small board's RAM has no room for one each.
 inline Loop& fresh_loop() {
   static Loop loop;
   return loop = Loop{};
@@ -66,7 +66,7 @@ inline void write_parameter(int id, float value, Inputs& inputs) {
   inputs.parameter_bits = std::bit_cast<std::uint32_t>(value);
 }
 
-/// Any bits anywhere but in the tick; most of the time plausible enough to get the robot up.
+/// Random bits everywhere but in the tick, mostly plausible enough to get the robot up.
 inline void wild(Random& random, bool fully, Inputs& inputs) {
   std::uint32_t words[sizeof(Inputs) / 4];
   for (std::uint32_t& word : words) word = random.bits();

@@ -13,9 +13,9 @@ using test::kRobot;
 using test::Loop;
 using test::Random;
 
-constexpr int kWildTicks = 2000;  // what soft float on an emulated core does in seconds
+constexpr int kWildTicks = 2000;  // soft float on an emulated core does these in seconds
 
-/// One for all: a small board's RAM has no room for one each.
+/// One for all tests: a small board's RAM has no room for one each.
 State& fresh_state() {
   static State state;
   state = State{};
@@ -36,7 +36,7 @@ void expect_safe(const State& state, const Outputs& outputs, int tick) {
   }
 }
 
-// Any bits in, safe outputs out: nothing outside limits, nothing that is not a number.
+// For any input bits the outputs are safe: inside limits, and never NaN.
 void expect_total(bool fully, std::uint32_t seed) {
   State& state = fresh_state();
   Random random(seed);
@@ -64,7 +64,7 @@ TEST(Step, IsTotalForWildSensorsAndParametersOfAWalkingRobot) {
   expect_total(false, 2);
 }
 
-// Goals of joints with torque move by no more than their speed allows.
+// Goals of joints with torque move no faster than the joint may.
 TEST(Step, GoalsKeepTheJointsSpeed) {
   Random random(3);
   Inputs inputs;
@@ -82,7 +82,7 @@ TEST(Step, GoalsKeepTheJointsSpeed) {
   }
 }
 
-// Whatever pose a robot without torque is found in, where it shall stand is known.
+// Whatever pose a limp robot is found in, its stand is known.
 TEST(Step, NewtonLegsReachTheirStandFromTheFirstTickOn) {
   static const Params robot = test::make_hyperextended_robot();
   State& state = fresh_state();
@@ -99,7 +99,7 @@ TEST(Step, NewtonLegsReachTheirStandFromTheFirstTickOn) {
   }
 }
 
-// A robot of no joints, no legs, no masses and no scales.
+// A robot without joints, legs, masses or scales.
 TEST(Step, IsTotalForAnEmptyRobot) {
   static const Params nothing;
   State& state = fresh_state();
@@ -137,7 +137,7 @@ TEST(Step, RisesWalksStopsAndSitsDown) {
   }
 }
 
-// A walking robot, for the tests that follow.
+// Gets a robot walking, for the tests that follow.
 void get_walking(Loop& loop) {
   loop = Loop{};
   loop.walk(1000);
@@ -145,8 +145,7 @@ void get_walking(Loop& loop) {
   loop.ticks(200);
 }
 
-// What was learnt of the legs' zeros moves the ankles' goals, and nothing does once that is
-// switched off.
+// The learnt zero errors of the legs move the ankles' goals; switched off, they do not.
 TEST(Step, ZeroErrorsReachTheGoalsUnlessSwitchedOff) {
   Loop& loop = test::fresh_loop();
   get_walking(loop);
@@ -222,14 +221,15 @@ TEST(Step, FallMakesItLimpAndIsLatchedUntilAcknowledged) {
   EXPECT_EQ(loop.outputs.faults & safety::kFaultFall, 0u) << "acknowledged";
 }
 
-/// The IMU of a robot that lies: on its belly, back, sides, or head.
+/// The IMU of a robot that lies on its belly, back, sides or head.
 void lie(int way, Loop& loop) {
   constexpr std::int16_t kWays[5][3] = {
       {8172, 0, 0}, {-8172, 0, 0}, {0, 8172, 0}, {0, -8172, 0}, {0, 300, -8166}};
   for (int axis = 0; axis < 3; ++axis) loop.inputs.accel_count[axis] = kWays[way][axis];
 }
 
-// Stand is asked from the first tick on, and the estimate begins upright: not one tick of torque.
+// A stand is requested from the first tick, and the estimate begins upright: no tick may give
+// torque.
 TEST(Step, RobotThatLiesDoesNotBeginToRise) {
   Loop& loop = test::fresh_loop();
   for (int way = 0; way < 5; ++way) {
@@ -246,7 +246,7 @@ TEST(Step, RobotThatLiesDoesNotBeginToRise) {
   }
 }
 
-// What it knew of its tilt before the silence says nothing: it fell over meanwhile, and relaxed.
+// The tilt from before the silence says nothing: the robot fell meanwhile and relaxed.
 TEST(Step, RobotThatFellWhileItsImuWasSilentDoesNotRise) {
   Loop& loop = test::fresh_loop();
   loop.command.request = Request::kStand;
@@ -261,8 +261,8 @@ TEST(Step, RobotThatFellWhileItsImuWasSilentDoesNotRise) {
   }
 }
 
-// No torque for as long as it is beyond. A hand that puts the joint back is enough: the fault only
-// tells why.
+// No torque while the joint is beyond its limit. Putting it back by hand is enough: the fault only
+// reports the reason.
 TEST(Step, JointBeyondItsLimitsIsNotThrownBack) {
   Loop& loop = test::fresh_loop();
   for (int j = 0; j < test::kJointCount; ++j) {
@@ -281,7 +281,7 @@ TEST(Step, JointBeyondItsLimitsIsNotThrownBack) {
   }
 }
 
-/// Telemetry of all servos in turn, of a supply that is low whenever the robot has torque.
+/// Telemetry of all servos in turn; the supply is low whenever the robot has torque.
 void tick_with_sagging_supply(Loop& loop) {
   loop.inputs.flags |= kSlowFresh;
   loop.inputs.slow_joint =
@@ -291,7 +291,7 @@ void tick_with_sagging_supply(Loop& loop) {
   loop.tick();
 }
 
-// Low while it walks and good while it doesn't: it would walk and stop for ever.
+// The supply is low while it walks and good while it stands: it would walk and stop for ever.
 TEST(Step, SupplyThatSagsUnderLoadSitsTheRobotDownOnce) {
   Loop& loop = test::fresh_loop();
   loop.walk(1000);
@@ -316,7 +316,7 @@ TEST(Step, SupplyThatSagsUnderLoadSitsTheRobotDownOnce) {
   EXPECT_GE(loop.until(Mode::kWalking, 600), 0) << "left by asking to relax";
 }
 
-// As long as it lasts there is no way up, and asking again and again is none.
+// While the trouble lasts the robot does not rise, however often it is asked.
 TEST(Step, RobotWhosePowerIsBadDoesNotRise) {
   Loop& loop = test::fresh_loop();
   loop.inputs.flags |= kSlowFresh;
@@ -330,7 +330,7 @@ TEST(Step, RobotWhosePowerIsBadDoesNotRise) {
   }
 }
 
-// A servo that was never read is at no known place: goals must not begin at count 0.
+// A servo that was never read has no known position: goals must not begin at count 0.
 TEST(Step, RobotWaitsForEveryServosFirstReport) {
   Loop& loop = test::fresh_loop();
   for (int j = 0; j < test::kJointCount; ++j) {
@@ -381,12 +381,12 @@ TEST(Step, TurnsTheHeadWhereToldWithinLimits) {
   EXPECT_EQ(loop.state.limit.goal_rad[test::kHead + 1], kRobot.joint[test::kHead + 1].lower_rad);
 }
 
-// A steady walk repeats itself each cycle, and its right leg does what the left one did half a
-// cycle before, mirrored: no stage treats the sides differently. (A cycle of 440 ms is 44 ticks;
-// without a heading to keep all steps last equally long.)
+// A steady walk repeats each cycle, and its right leg mirrors the left one half a cycle later, so
+// no stage treats the sides differently. A cycle of 440 ms is 44 ticks; without heading control all
+// steps last equally long.
 TEST(Step, WalkIsPeriodic) {
   constexpr int kCycle = 44;
-  constexpr float kMirror[kLegJoints] = {-1, -1, 1, 1, 1, -1};  // yaw and roll turn about
+  constexpr float kMirror[kLegJoints] = {-1, -1, 1, 1, 1, -1};  // yaw and roll change their sign
   Loop& loop = test::fresh_loop();
   get_walking(loop);
   test::write_parameter(0, 0.44F, loop.inputs);

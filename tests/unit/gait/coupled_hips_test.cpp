@@ -11,9 +11,10 @@ namespace {
 
 using namespace verp::test;
 
-// Both hips' yaws as the legs want them, in every tick of a walk, and where one motor takes both.
+// Both hips' yaws as the legs want them in every tick of a walk, and how well one motor serves
+// both.
 struct Yaws {
-  float most_rad = 0;  ///< of the driver
+  float most_rad = 0;  ///< of the driving joint
   float most_off_rad = 0;
   float most_body_turn_rad = 0;
 };
@@ -51,9 +52,8 @@ Yaws walk(const Params& params, const VelocityIn& wanted, bool turned_to_hips) {
   return yaws;
 }
 
-// Solved in closed form and by Newton; ahead and in a curve: the soles stay where they are, and one
-// motor for both yaws is right to a fifth of a milliradian. The trunk gives way by less than a
-// degree.
+// Closed-form and Newton legs, straight and in a curve: the soles keep their places, and one motor
+// serves both yaws to within 0.2 mrad. The trunk turns by less than a degree.
 TEST(CoupledHips, BodyTurnsUntilOneMotorFitsBothLegs) {
   for (const Params& robot : {kRobot, make_offset_robot()}) {
     const Params params = with_coupled_hips(robot, -1.0F);
@@ -71,7 +71,7 @@ TEST(CoupledHips, BodyTurnsUntilOneMotorFitsBothLegs) {
   }
 }
 
-// Hips that one motor turns by different ways: the trunk's heading is nearer to one foot's.
+// One motor turns the hips by different amounts: the trunk's heading is nearer to one foot's.
 TEST(CoupledHips, AnyRatioThatTurnsTheFeetOppositeWaysWalks) {
   for (const float ratio : {-0.5F, -2.0F}) {
     const Params params = with_coupled_hips(kRobot, ratio);

@@ -16,7 +16,7 @@ float side_of(int foot) {
   return foot == kLeft ? 1.0F : -1.0F;
 }
 
-// Landing foot seen from the carrying one.
+// Landing foot in the frame of the carrying one.
 Xy landing_from_carrying(const Step& step) {
   const Foothold& carrying = step.foot[step.carrying()];
   return turned(step.landing.at_m - carrying.at_m, -carrying.yaw_rad);
@@ -42,9 +42,8 @@ TEST(Footsteps, FeetTakeTurns) {
   }
 }
 
-// What a landing does in less than a period, a gyro that is read once a period must not always see
-// in the same moment. Landings as angles of a turn for each period: in the mean of each foot's,
-// nothing is left.
+// The gyro is read once per period and must not always see the same moment of a landing. Each
+// landing is an angle within the period; per foot, the mean of these angles' vectors must vanish.
 TEST(Footsteps, EachFootLandsInBothHalvesOfAControlPeriod) {
   Walk walk;
   walk.tuning.cycle_s = 0.45F;
@@ -87,8 +86,8 @@ TEST(Footsteps, TheSwingFootLiftsAsHighAsIsTunedAndTheOtherStands) {
   }
 }
 
-// Servos that are hurried lag, and the robot sags: at 0.42 m/s a foot that lifts as in slow walks
-// scrapes over the ground.
+// Hurried servos lag and the robot sags: at 0.42 m/s a foot lifted as in slow walks scrapes the
+// ground.
 TEST(Footsteps, AHurriedFootLiftsHigherAndStartsSooner) {
   Walk slow, fast;
   slow.tuning.max_step_m = fast.tuning.max_step_m = 0.1F;
@@ -114,7 +113,7 @@ TEST(Footsteps, AHurriedFootLiftsHigherAndStartsSooner) {
   EXPECT_EQ(swing_along(1.0F, fast.last.haste).value, 1.0F);
 }
 
-// Each step begins where the one before it ended.
+// Each step begins where the last one ended.
 TEST(Footsteps, PlanHasNoGaps) {
   Walk walk;
   for (int i = 0; i < kSteps; ++i) {
@@ -164,7 +163,7 @@ TEST(Footsteps, TooFastIsLimitedAndNoted) {
   EXPECT_LE(math::abs(stride.turn_rad), walk.tuning.max_turn_rad + 1e-6F);
 }
 
-// While x shrinks and y grows, too.
+// Also while x shrinks and y grows.
 TEST(Footsteps, NoStepIsLongerThanTheLongestAdmittedOnTheWayToAnother) {
   test::Random random(5);
   Walk walk;
@@ -211,8 +210,7 @@ TEST(Footsteps, ReachIsTheSameInEveryDirection) {
   }
 }
 
-// Sideways, the leading foot takes the whole way of two steps and the other one closes.
-// Turning likewise.
+// Sideways, the leading foot takes the way of two steps and the other closes; likewise in turns.
 TEST(Footsteps, LeadingFootOpensTheOtherCloses) {
   for (const float sign : {1.0F, -1.0F}) {
     Walk walk;
@@ -285,7 +283,7 @@ TEST(Footsteps, ZmpStaysInsideTheSoleWhateverIsTuned) {
   }
 }
 
-// The ZMP reference is outward from the midline, the same for both feet.
+// The ZMP reference lies outward from the midline, equally for both feet.
 TEST(Footsteps, ZmpUnderBothFeetIsMirrored) {
   GaitTuning tuning;
   const Xy left = zmp_under(kRobot, tuning, kLeft, {{0, 0.036F}, 0});

@@ -13,19 +13,19 @@ using test::Walker;
 
 constexpr float kPaper_m_s = 0.1777F;  // 4 cm steps, 450 ms cycles
 
-// Largest way of a sole against the body in one tick, over both feet.
+// Largest move of a sole relative to the body in one tick, over both feet.
 float largest_move(const Pose* before, const Walker& walker) {
   return math::max(test::distance(before[kLeft].position_m, walker.sole(kLeft).position_m),
                    test::distance(before[kRight].position_m, walker.sole(kRight).position_m));
 }
 
-// Fastest a sole moves against the body: a quintic's peak is 15/8 of its mean, and a swing foot
-// travels at most twice its step, against a body going the other way.
+// Top speed of a sole relative to the body. A quintic peaks at 15/8 of its mean, and a swing foot
+// travels at most twice its step while the body moves the other way.
 float fastest_m_s(float velocity_m_s) {
   return 0.25F + 4.5F * math::abs(velocity_m_s);
 }
 
-// 20 s: the paper's phases, each once, in their order, with every posture next to the one before.
+// In 20 s the paper's phases come once each, in order, and every posture is near the one before.
 TEST(Gait, WholeWalkIsContinuousAndItsPhasesFollowEachOther) {
   Walker walker(test::kRobot);
   walker.set_off({.vx_m_s = kPaper_m_s});
@@ -47,8 +47,8 @@ TEST(Gait, WholeWalkIsContinuousAndItsPhasesFollowEachOther) {
   EXPECT_EQ(int{walker.state.queued}, 0);
 }
 
-// Weighing is most of a standing tick: done until the body is where it should be, and again only
-// when arms, head or tuning have moved. A lump of no mass shows whether it was.
+// Weighing takes most of a standing tick. It runs until the body is in place, and again only after
+// arms, head or tuning have moved. A lump without mass shows whether it ran.
 TEST(Gait, StandsUnweighedUntilSomethingMoves) {
   Walker walker(test::kRobot);
   walker.run(1.5F);
@@ -76,7 +76,7 @@ TEST(Gait, StandsUnweighedUntilSomethingMoves) {
   EXPECT_TRUE(weighs());
 }
 
-// Where it stays is where weighing in every tick would have it.
+// It stays where weighing in every tick would put it.
 TEST(Gait, StandsWhereWeighingInEveryTickWouldHaveIt) {
   Walker one(test::kRobot), other(test::kRobot);
   for (int i = 0; i < 300; ++i) {
@@ -117,7 +117,7 @@ TEST(Gait, SteadyWalkGoesAtTheVelocityWanted) {
     const Pose before = walker.sole(kLeft);
     const bool carried = walker.state.queue[0].swing == kRight;
     walker.tick();
-    // Against the foot that stands: half of the time, half of the way.
+    // Relative to the standing foot: half of the time, half of the way.
     if (carried && walker.state.queue[0].swing == kRight) {
       way_m += before.position_m.x() - walker.sole(kLeft).position_m.x();
     }
@@ -125,7 +125,7 @@ TEST(Gait, SteadyWalkGoesAtTheVelocityWanted) {
   EXPECT_NEAR(way_m, 0.5F * kPaper_m_s * 0.01F * kTicks, 0.06F);
 }
 
-// A step with the right foot is the mirror image of the one with the left before it.
+// A right step mirrors the left step before it.
 TEST(Gait, RightStepsMirrorLeftSteps) {
   constexpr int kTicksPerStep = 45;
   Walker walker(test::kRobot, 5000);
@@ -147,8 +147,8 @@ TEST(Gait, RightStepsMirrorLeftSteps) {
   }
 }
 
-// Gait time is continuous: at common moments the posture is the same whatever the period. What is
-// left is how far the head was ahead when a key point was fixed.
+// Gait time is continuous: at equal times the posture is the same for any period. The remaining
+// error is how far the head was ahead when a key point was fixed.
 TEST(Gait, AnyPeriodGivesTheSameWalk) {
   constexpr int kSamples = 100;  // every 40 ms
   static Pose wanted[kSamples][kFeet];
@@ -177,8 +177,8 @@ float outside_of(const LegParams& leg, const Foothold& foot, Xy point_m) {
   return math::hypot(math::max(x, 0.0F), math::max(y, 0.0F));
 }
 
-// While one foot carries, the plan's ZMP is inside its sole by the margin. While both do, it is
-// between the points it has under each.
+// While one foot carries, the planned ZMP is inside its sole by the margin. In double support it
+// lies between its points under both feet.
 TEST(Gait, PlannedZmpStaysInsideTheSupportPolygon) {
   constexpr VelocityIn kOrders[] = {
       {.vx_m_s = kPaper_m_s}, {.vx_m_s = -0.1F, .vy_m_s = 0.05F}, {.wz_rad_s = 0.6F}};
@@ -219,8 +219,8 @@ TEST(Gait, WeightIsSharedAndGoesToTheCarryingFoot) {
   }
 }
 
-// However short double support is, and wherever in a control period a step ends: goals that take a
-// leg's load off or put it on don't jump.
+// For any double support and any phase of a step's end in a period, goals that load or unload a leg
+// do not jump.
 TEST(Gait, AFootThatLandedTakesTheWeightOverInNoLessThanEightMilliseconds) {
   for (const float double_support : {0.0F, 0.006F, 0.2F}) {
     Walker walker(test::kRobot);
@@ -239,7 +239,7 @@ TEST(Gait, AFootThatLandedTakesTheWeightOverInNoLessThanEightMilliseconds) {
   }
 }
 
-// Six seconds of walking with the steps asked for, however long.
+// Walks for six seconds with the given steps, however long.
 Walker walked(float step_m, float cycle_s, float multibody_enable, float lift_m = 0.0119F) {
   Walker walker(test::kRobot);
   walker.tuning.balance.multibody_enable = multibody_enable;
@@ -251,8 +251,8 @@ Walker walked(float step_m, float cycle_s, float multibody_enable, float lift_m 
   return walker;
 }
 
-// A plan whose ZMP would leave the support polygon is shortened, and refused if that is not enough;
-// a plan as the paper's is not touched.
+// The gait shortens a plan whose ZMP would leave the support polygon, and refuses it if that is not
+// enough. It keeps a plan like the paper's.
 TEST(Gait, PlanWhoseZmpWouldLeaveTheSoleIsShortenedOrRefused) {
   for (const float multibody : {0.0F, 1.0F}) {
     const Walker paper = walked(0.04F, 0.45F, multibody);
@@ -275,7 +275,7 @@ TEST(Gait, PlanWhoseZmpWouldLeaveTheSoleIsShortenedOrRefused) {
   }
 }
 
-// What shortened it may be over: a slower walk, or longer soles' worth of margin given back.
+// The reason for shortening may end: a slower walk, or more margin.
 TEST(Gait, ShortenedPlanGrowsAgainWhenThereIsRoomAndOnlyThen) {
   Walker walker = walked(0.12F, 0.45F, 1.0F);
   walker.run(20.0F);
@@ -324,7 +324,7 @@ TEST(Gait, WalksAgainAfterStopping) {
   }
 }
 
-// An operator who changes his mind between the request and the first step.
+// The operator withdraws the request before the first step.
 TEST(Gait, StopBeforeTheFirstStepIsHonoured) {
   for (int ticks = 1; ticks < 80; ticks += 7) {
     Walker walker(test::kRobot);
@@ -336,7 +336,7 @@ TEST(Gait, StopBeforeTheFirstStepIsHonoured) {
   }
 }
 
-// However short the cycle: key points kept are never read after they have been written anew.
+// However short the cycle, kept key points are never read after they are overwritten.
 TEST(Gait, DelayedJointsSeeTheRecentPast) {
   constexpr int kTicks = 400;
   static Vec3 sole_m[kTicks];
@@ -348,7 +348,7 @@ TEST(Gait, DelayedJointsSeeTheRecentPast) {
       walker.tick();
       sole_m[tick] = walker.sole(kLeft).position_m;
       if (walker.state.moving == 0 || tick < 60) continue;
-      // Of this step and the one before, whose key points may lie closer together.
+      // Of this step and the previous one, whose key points may lie closer together.
       constexpr std::int32_t kKept = kFixed - 4;
       const std::int32_t key_us = walker.state.queue[0].key_us, clock_us = walker.state.clock_us;
       const std::int32_t passed = clock_us / key_us;
@@ -404,7 +404,7 @@ void expect_total(const Tuning& tuning, const VelocityIn& wanted, int what) {
   }
 }
 
-// A hip that is higher than the leg is long.
+// The hip is higher than the leg is long.
 TEST(Gait, WalkIsRefusedWhereTheLegsDontReachTheFloor) {
   Walker walker(test::kRobot);
   walker.tuning.gait.hip_height_m = 0.21F;
@@ -414,7 +414,7 @@ TEST(Gait, WalkIsRefusedWhereTheLegsDontReachTheFloor) {
   EXPECT_NE(walker.state.footsteps.notes & kPlanRefused, 0);
 }
 
-// Every number of the gait at the ends of its range, one at a time, under a bold operator.
+// Sets every gait number to the ends of its range, one at a time, under bold orders.
 TEST(Gait, EndsOfEveryTuningRangeGiveFinitePlans) {
   for (int id = 0; id < kTuningCount && id < static_cast<int>(sizeof(GaitTuning) / 4); ++id) {
     for (const float value : {kTuningRanges[id].low, kTuningRanges[id].high}) {

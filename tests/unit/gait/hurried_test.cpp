@@ -3,7 +3,7 @@
 #include "common/gait/dcm.hpp"
 #include "tests/unit/gait/walker.hpp"
 
-// A robot that has to step at once (GaitIn::at_once) cannot wait for the look ahead of a walk.
+// A robot that must step at once (GaitIn::at_once) cannot wait for a walk's preview.
 namespace verp::gait {
 namespace {
 
@@ -36,8 +36,8 @@ TEST(HurriedStart, SwingsAFootWithinATenthOfASecond) {
   EXPECT_GE(ticks_to_swing(walk), 60) << "as a walk begins";
 }
 
-// Where it is thrown from lies within its soles, and as near their edge as whole key points allow:
-// one fewer, and the ZMP would be outside.
+// The ZMP that starts the motion lies within the soles, as near their edge as whole key points
+// allow: with one fewer it would be outside.
 TEST(HurriedStart, TheZmpStaysInsideTheSolesAndTheStartIsAsShortAsTheyAllow) {
   for (const float cycle_s : kCycles_s) {
     test::Walker walker = hurrying(cycle_s);
@@ -55,8 +55,8 @@ TEST(HurriedStart, TheZmpStaysInsideTheSolesAndTheStartIsAsShortAsTheyAllow) {
   }
 }
 
-// The plan is a pendulum's that stood: its DCM begins over the middle of the soles, where the next
-// step's ends where this one's begins.
+// The plan starts from a pendulum at rest: its DCM begins over the middle of the soles, and the
+// next step's DCM ends where this one's begins.
 TEST(HurriedStart, ThrowsThePendulumFromRestToWhereTheFirstStepWantsIt) {
   for (const float cycle_s : kCycles_s) {
     test::Walker walker = hurrying(cycle_s);
@@ -71,7 +71,7 @@ TEST(HurriedStart, ThrowsThePendulumFromRestToWhereTheFirstStepWantsIt) {
   }
 }
 
-// No sole jumps against the body, from the first tick to the stand after it, at any period.
+// At any period, no sole jumps relative to the body from the first tick to the final stand.
 TEST(HurriedStart, IsContinuousAndEndsOnBothFeet) {
   for (const std::int32_t period_us : {4000, 8000, 10000}) {
     test::Walker walker(test::kRobot, period_us);

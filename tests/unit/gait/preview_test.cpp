@@ -14,15 +14,15 @@ Xy last_miss(const PreviewState& preview) {
   return preview.ring[static_cast<std::uint8_t>(preview.head - 1) % kRing].zmp_miss_m;
 }
 
-// Without mass in the legs the robot is the pendulum it is planned as: its ZMP is the planned one.
-// A long double support, as the ZMP's corners are what key points 15 ms apart see worst.
+// Without leg mass the robot is the planned pendulum, so its ZMP is the planned one. Double support
+// is long, because key points 15 ms apart resolve the ZMP's corners worst.
 TEST(Preview, MasslessLegsLeaveNothingToCorrect) {
   static const Params robot = test::make_massless_legs_robot();
   Walker walker(robot);
   walker.tuning.gait.double_support = 0.5F;
-  walker.tuning.gait.heading_gain = 0.0F;  // all of them 15 ms apart
+  walker.tuning.gait.heading_gain = 0.0F;  // all 15 ms apart
   walker.set_off({.vx_m_s = 0.1F});
-  walker.run(1.5F);  // from rest, the plan's CoM starts with a jerk that no key point resolves
+  walker.run(1.5F);  // the CoM starts from rest with a jerk that no key point resolves
   float worst_m = 0;
   for (int i = 0; i < 400; ++i) {
     walker.tick();
@@ -33,7 +33,7 @@ TEST(Preview, MasslessLegsLeaveNothingToCorrect) {
   EXPECT_LT(apart(walker.state.preview.correction_m, {}), 5e-4F);
 }
 
-// With the legs' mass the pendulum alone misses by more, and the correction says so.
+// With leg mass the pendulum alone misses by more, and the correction shows it.
 TEST(Preview, SwingingLegsAreCorrectedFor) {
   Walker walker(test::kRobot);
   walker.set_off({.vx_m_s = 0.1777F});
@@ -57,7 +57,7 @@ TEST(Preview, CorrectionCanBeSwitchedOff) {
   }
 }
 
-// The walk frame's origin is nobody's business: moving it moves the plan with it and nothing else.
+// Moving the origin of the walk frame moves the plan with it and changes nothing else.
 TEST(Preview, RebaseChangesNothingButTheOrigin) {
   Walker walker(test::kRobot);
   walker.set_off({.vx_m_s = 0.15F, .vy_m_s = 0.02F, .wz_rad_s = 0.2F});
@@ -90,7 +90,7 @@ TEST(Preview, RebaseChangesNothingButTheOrigin) {
   }
 }
 
-// A cubic through the key points: it meets them, and its slope does not jump.
+// A cubic through the key points: it meets them, and its slope is continuous.
 TEST(Preview, BodyCurveMeetsItsKeyPointsSmoothly) {
   PreviewState state;
   test::Random random(1);

@@ -3,7 +3,7 @@
 #include "common/model/params.hpp"
 #include "tests/unit/gait/steps.hpp"
 
-/// Soles as seen from above, and how near one comes to the other.
+/// Soles seen from above, and the distance between them.
 namespace verp::gait::test {
 
 struct Corners {
@@ -20,15 +20,15 @@ inline Corners corners_of(const LegParams& leg, const Foothold& foot) {
   return corners;
 }
 
-// Two convex shapes are apart if a side of one of them has the other wholly beyond it: by the most
-// that any side tells.
+// Two convex shapes are apart if one side of either has the other shape wholly beyond it. The
+// distance is the largest that any side gives.
 inline float apart_m(const Corners& a, const Corners& b) {
   float most_m = -1;
   for (int shape = 0; shape < 2; ++shape) {
     const Corners &own = shape == 0 ? a : b, &other = shape == 0 ? b : a;
     for (int i = 0; i < 4; ++i) {
       const Xy side = own.at[(i + 1) % 4] - own.at[i];
-      // Corners go round to the left.
+      // Corners run counterclockwise.
       const Xy out = (1.0F / math::hypot(side.x, side.y)) * Xy{side.y, -side.x};
       float least_m = 1;
       for (const Xy& corner : other.at) least_m = math::min(least_m, dot(corner - own.at[i], out));
@@ -38,7 +38,7 @@ inline float apart_m(const Corners& a, const Corners& b) {
   return most_m;
 }
 
-// The swing foot's whole way, at each tick of 4 ms: it is but a few millimetres up.
+// Samples the swing foot's whole way every 4 ms, because it rises only a few millimetres.
 inline float least_apart_m(const Params& params, const Step& step) {
   constexpr std::int32_t kTick_us = 4000;
   float least_m = 1;
@@ -51,7 +51,7 @@ inline float least_apart_m(const Params& params, const Step& step) {
   return least_m;
 }
 
-/// More than any robot can: what is beyond its range the plan limits.
+/// More than any robot can do; the plan limits it.
 inline VelocityIn any_order(Random& random) {
   return {.vx_m_s = random.between(-0.8F, 0.8F),
           .vy_m_s = random.between(-0.5F, 0.5F),
@@ -59,7 +59,7 @@ inline VelocityIn any_order(Random& random) {
           .heading_error_rad = random.between(-1, 1)};
 }
 
-/// Orders that jump from any to any other, each for a step to a dozen. How near the soles come.
+/// The smallest distance over random orders, each lasting one to a dozen steps.
 inline float least_apart_of_jumps_m(const Params& params, const GaitTuning& tuning,
                                     std::uint32_t seed, int orders) {
   Random random(seed);

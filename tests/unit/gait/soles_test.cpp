@@ -2,7 +2,7 @@
 
 #include "tests/unit/gait/soles.hpp"
 
-/// Where a robot sets its feet, and on the way there: soles keep apart, as seen from above.
+/// Seen from above, soles keep apart where feet land and on their way there.
 namespace verp::gait {
 namespace {
 
@@ -16,7 +16,7 @@ using test::Walk;
 
 constexpr float kLeastApart_m = 0.001F;
 
-// Whatever an operator asks, and whenever he changes his mind.
+// For any orders, changed at any time.
 TEST(Soles, NeverOverlapWhereTheyLand) {
   test::Random random(7);
   for (const float half_stance_m : {0.0345F, 0.0356F, 0.0455F}) {
@@ -36,7 +36,7 @@ TEST(Soles, NeverOverlapWhereTheyLand) {
   }
 }
 
-// Whoever goes any way, or turns on the spot, however his orders jump.
+// Walking in any direction, or turning on the spot, however the orders jump.
 TEST(Soles, PassBesideEachOtherWhereABodyGoesOrTurns) {
   test::Random random(7);
   for (const float half_stance_m : {0.0345F, 0.0356F, 0.0455F}) {
@@ -55,8 +55,8 @@ TEST(Soles, PassBesideEachOtherWhereABodyGoesOrTurns) {
   }
 }
 
-// Who does both at once, however fast: the straight way to a landing leads over the other sole, by
-// 0.6 mm of 0.25 m/s with 1 rad/s and 5 mm of 0.4 m/s.
+// Walking and turning at once, at any speed. The straight way to a landing would cross the other
+// sole, by 0.6 mm at 0.25 m/s with 1 rad/s and by 5 mm at 0.4 m/s.
 TEST(Soles, PassBesideEachOtherInCurves) {
   for (const float vx : {-0.3F, -0.05F, 0.05F, 0.1F, 0.17F, 0.25F, 0.4F}) {
     for (const float vy : {0.0F, -0.1F, 0.15F}) {
@@ -72,7 +72,7 @@ TEST(Soles, PassBesideEachOtherInCurves) {
   }
 }
 
-// 26 mm of overlap, without a look at the way.
+// 26 mm of overlap if the plan ignores the way.
 TEST(Soles, PassBesideEachOtherHoweverOrdersJump) {
   for (std::uint32_t seed = 1; seed <= 12; ++seed) {
     GaitTuning tuning;
@@ -82,14 +82,14 @@ TEST(Soles, PassBesideEachOtherHoweverOrdersJump) {
   }
 }
 
-// Each of them held: what was 1.8 mm of overlap at 0.3 rad/s and 29 mm at 1.55.
+// Fixed overlaps: 1.8 mm at 0.3 rad/s and 29 mm at 1.55.
 TEST(Soles, TurningFeetLandFurtherOutAndTurnLessWhereThatIsNotEnough) {
   float turned_rad = 0;
   for (const float wz : {0.05F, 0.1F, 0.3F, 0.6F, 1.0F, 1.55F, 3.0F}) {
     for (const float sign : {1.0F, -1.0F}) {
       Walk walk;
       walk.tuning.max_turn_rad = 0.6F;
-      walk.tuning.half_stance_m += 0.001F;  // it stands 2.2 mm further apart than soles have to be
+      walk.tuning.half_stance_m += 0.001F;  // 2.2 mm further apart than soles have to be
       for (int i = 0; i < kSteps; ++i) {
         ASSERT_GT(least_apart_m(kRobot, walk.take({.wz_rad_s = sign * wz})), kLeastApart_m) << wz;
       }
@@ -108,7 +108,7 @@ TEST(Soles, TurningFeetLandFurtherOutAndTurnLessWhereThatIsNotEnough) {
   }
 }
 
-// No landing helps a robot whose soles overlap as it stands.
+// No landing helps a robot whose soles overlap while it stands.
 TEST(Soles, AStanceInWhichTheSolesOverlapIsRefused) {
   for (const float half_stance_m : {0.02F, 0.0329F, 0.0335F, 0.05F}) {
     Walk walk;

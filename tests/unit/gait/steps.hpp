@@ -8,7 +8,7 @@ using namespace verp::test;
 
 inline constexpr int kSteps = 24;
 
-/// Steps one after the other, as the gait engine asks for them.
+/// Consecutive steps, as the gait engine requests them.
 struct Walk {
   GaitTuning tuning;
   FootstepState state;

@@ -6,7 +6,7 @@ namespace verp::gait::test {
 
 using namespace verp::test;
 
-/// The gait engine with an operator, without a robot under it.
+/// The gait engine with an operator but without a robot.
 struct Walker {
   explicit Walker(const Params& robot, std::int32_t period_us = 10000) : params(&robot) {
     for (int j = 0; j < robot.joint_count; ++j) goal_rad[j] = robot.joint[j].stand_rad;
@@ -20,7 +20,7 @@ struct Walker {
       tick();
     }
   }
-  /// Stands until the body has glided over the middle of the soles, then asks to walk.
+  /// Stands until the body is over the middle of the soles, then asks to walk.
   void set_off(const VelocityIn& wanted) {
     in.walk = false;
     run(1.5F);

@@ -17,7 +17,8 @@ Posture standing(const GaitTuning& tuning) {
   return posture_of(kRobot, tuning, {}, left, right);
 }
 
-// The planner's lump and leg links are the whole robot: same mass, same centre as kinematics.
+// The planner's lump and leg links make up the whole robot, with the mass and centre that
+// kinematics gives.
 TEST(WholeBody, WeighsWhatKinematicsWeighs) {
   test::Random random(1);
   float angle_rad[kMaxJoints];
@@ -48,7 +49,7 @@ TEST(WholeBody, HipsStandAtTheTunedHeightAtAnyPitch) {
   }
 }
 
-// Moving the body by a little moves the CoM by com_share times that.
+// A small move of the body moves the CoM by com_share times as much.
 TEST(WholeBody, ComShareIsHowFarTheComFollowsTheBody) {
   const GaitTuning tuning;
   const float arms_rad[kMaxJoints] = {};
@@ -66,7 +67,7 @@ TEST(WholeBody, ComShareIsHowFarTheComFollowsTheBody) {
   }
 }
 
-// Newton from zero ends in a knee that is pressed against its stop.
+// From zero, Newton ends with the knee pressed against its stop.
 TEST(WholeBody, HyperextendedZeroIsNoPlaceToStartFrom) {
   static const Params robot = test::make_hyperextended_robot();
   const Lump lump{2, {}};
@@ -108,7 +109,7 @@ TEST(Swing, FootRestsLiftsAndLandsWhereItShould) {
   }
 }
 
-// Furthest out in the middle; it leaves and lands where it would.
+// The detour is widest in the middle; the foot leaves and lands in the same places.
 TEST(Swing, WayBendsAroundTheOtherFoot) {
   Step step;
   step.key_us = 15000;
@@ -124,8 +125,8 @@ TEST(Swing, WayBendsAroundTheOtherFoot) {
   EXPECT_GT(foot_at(step, kLeft, 0.25F * step.duration_s()).on.at_m.y, 0.045F);
 }
 
-// The body sags while one foot carries: the swing sole ends its step a little above the ground, and
-// comes down when it has begun to carry.
+// The body sags while one foot carries. So the swing sole ends its step a little above the ground
+// and comes down once it carries.
 TEST(Swing, SoleTouchesDownHighAndSettles) {
   Step step;
   step.key_us = 15000;

@@ -6,10 +6,10 @@
 #include "tests/unit/action/shelf.hpp"
 #include "tests/unit/support/test_robot.hpp"
 
-/// What a test of blocks of actions needs: a library with its robot's mark, and a place for them.
+/// For tests of action blocks: a library with its robot's mark, and a place for it.
 namespace verp::app::test {
 
-/// A library as it is sent.
+/// A library as sent.
 struct SentActions {
   explicit SentActions(const Params& robot) : mark(action::make_mark(shelf.header, robot)) {}
   const std::uint8_t* bytes() const { return reinterpret_cast<const std::uint8_t*>(this); }
@@ -20,7 +20,7 @@ struct SentActions {
 };
 static_assert(sizeof(SentActions) == sizeof(action::test::Shelf) + sizeof(action::KeptMark));
 
-/// ActionPlace in memory, which takes as long and as much as a test wants.
+/// An ActionPlace in memory, as slow and as small as a test wants.
 struct FakePlace {
   static constexpr std::size_t kBytes = sizeof(SentActions) + 100;
   std::size_t room() const { return kBytes; }
@@ -45,7 +45,7 @@ struct FakePlace {
 static_assert(ActionPlace<FakePlace>);
 using FakeImages = RobotImages<FakePlace>;
 
-/// A robot with a flash: itself, the actions it has, and room for others.
+/// A robot with flash: itself, its actions, and room for new ones.
 struct FakeBoard {
   FakeBoard() {
     robot.params = verp::test::kRobot;

@@ -4,8 +4,8 @@
 
 #include "tests/unit/app/operator_bench.hpp"
 
-// Actions sent to a running board over its operator's port, block by block: whole ones of its own
-// robot are taken, all others are refused with a reason, and then it keeps those that it had.
+// Actions sent block by block to a running board over its operator port. The board takes whole ones
+// of its own robot. It refuses all others with a reason and keeps its old ones.
 
 namespace verp::app::test {
 namespace {
@@ -27,7 +27,7 @@ struct Session {
     __builtin_memcpy(bytes + 4, fresh.bytes() + at, count);
     return bench.write_bytes(reg("window_offset"), bytes, 4 + count).error;
   }
-  /// All but those from `missing` on.
+  /// Sends all bytes before `missing`.
   void send(std::size_t missing = sizeof(SentActions), std::size_t size = table::kWindowBytes) {
     for (std::size_t at = 0; at < missing; at += size) {
       EXPECT_TRUE(block(at, size) == Error::kNone) << at;
@@ -86,7 +86,7 @@ TEST(OperatorActions, ReadsThoseInForceAndThatCostsNoErase) {
   EXPECT_EQ(session.board.place.begun, 0);
 }
 
-// The cable is pulled after any block, and the operator has done with it: nothing came of it.
+// The cable is pulled after any block: nothing changes.
 TEST(OperatorActions, RefusesWhatIsNotWhole) {
   for (std::size_t missing = 0; missing < sizeof(SentActions); missing += table::kWindowBytes) {
     Session& session = fresh_session();
@@ -129,7 +129,7 @@ TEST(OperatorActions, RefusesThoseOfAnotherRobot) {
   EXPECT_FALSE(session.took_them());
 }
 
-// Who has no sound robot can't say whose actions they are.
+// Without a sound robot the board cannot tell whose actions they are.
 TEST(OperatorActions, RefusesAllWhereNoRobotIs) {
   Session& session = fresh_session();
   session.board.robot.params.joint_count = 200;
@@ -147,7 +147,7 @@ TEST(OperatorActions, TakesNoBlockBeyondItsRoom) {
   EXPECT_TRUE(session.bench.write_bytes(reg("window_offset"), block, 7).error == Error::kNone);
 }
 
-// A flash is written, and it may be erased: neither with a robot that stands.
+// A block writes and may erase flash, which no standing robot allows.
 TEST(OperatorActions, TakesNoBlockWhileAnyServoHoldsTorque) {
   Session& session = fresh_session();
   session.bench.arm(true);
@@ -187,7 +187,7 @@ TEST(OperatorActions, SaysThatTheFlashDidNotKeepABlock) {
   }
 }
 
-// A second attempt begins anew, whatever the first one left.
+// A second attempt starts anew, whatever the first one left.
 TEST(OperatorActions, ASecondAttemptIsNotSpoiltByTheFirst) {
   Session& session = fresh_session();
   session.send(2 * table::kWindowBytes);

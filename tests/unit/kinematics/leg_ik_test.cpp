@@ -32,7 +32,8 @@ void expect_within_limits(const Params& params, const LegParams& leg, const LegA
   }
 }
 
-// A sole under its hip: `down` is the distance from hip to ankle centre, tilted by roll and pitch.
+// A sole under its hip: the line from hip to ankle has length `down_m` and is tilted by roll and
+// pitch.
 Pose sole_under_hip(const LegParams& leg, float down_m, float roll_rad, float pitch_rad,
                     const Mat3& sole) {
   const Vec3 hip_ankle = math::rot_x(roll_rad) * (math::rot_y(pitch_rad) * Vec3(0, 0, -down_m));
@@ -44,7 +45,7 @@ Vec3 ankle_from_hip(const LegParams& leg, const Pose& sole) {
          math::to_vec(leg.hip_body_m);
 }
 
-// Every pose that joint angles can make is found again, and so are the angles themselves.
+// The solver recovers every pose that joint angles can make, and the angles themselves.
 TEST(LegIk, ClosedFormUndoesForwardKinematics) {
   Random random(1);
   for (int round = 0; round < 400; ++round) {
@@ -60,8 +61,8 @@ TEST(LegIk, ClosedFormUndoesForwardKinematics) {
   }
 }
 
-// The sines that come with the angles are theirs, and put the sole as near as float32 can: chains
-// by them need no sine of their own.
+// The returned sines belong to the angles and place the sole to float32 accuracy, so chains need
+// not compute them again.
 void expect_sines(const Params& params, const LegParams& leg, const LegAngles& solved) {
   for (int k = 0; k < kLegJoints; ++k) {
     const math::SinCos turn = math::sincos(solved.angle_rad[k]);
@@ -95,7 +96,7 @@ TEST(LegIk, SinesAreThoseOfTheAngles) {
   }
 }
 
-// The hip straight before the ankle, on its roll axis: any roll will do, but it must be one.
+// The hip lies on the ankle's roll axis: any roll solves it, but the solver must return one.
 TEST(LegIk, HipOnTheAnklesRollAxisIsReached) {
   constexpr float kAsked_rad[][kLegJoints] = {
       {-0.211472511F, 0.356358171F, -1.83568692F, 1.61554754F, 0.763026237F, 0.447418749F},
@@ -110,7 +111,7 @@ TEST(LegIk, HipOnTheAnklesRollAxisIsReached) {
   }
 }
 
-// What a walk asks for: the same soles, over a grid, without any flag.
+// The soles of a walk, over a grid: all reached without a flag.
 TEST(LegIk, WalkingPosesAreReachedWithoutFlags) {
   for (float x = -0.06F; x < 0.07F; x += 0.03F) {
     for (float y = -0.02F; y < 0.03F; y += 0.02F) {
@@ -163,7 +164,7 @@ TEST(LegIk, NewtonAgreesWithTheClosedForm) {
   }
 }
 
-// Hip and ankle axes that do not meet: a swing foot's way, each solution the next one's start.
+// Hip and ankle axes do not meet: along a swing foot's way, each solution starts the next.
 TEST(LegIk, NewtonFollowsAPathWhereAxesDoNotMeet) {
   const Params params = test::make_offset_robot();
   for (const LegParams& leg : params.leg) {
@@ -185,7 +186,8 @@ TEST(LegIk, NewtonFollowsAPathWhereAxesDoNotMeet) {
   }
 }
 
-// Too far: nearest reachable pose. Leg straight, same direction from the hip, same orientation.
+// Beyond reach, the result is the nearest pose: leg straight, same direction from the hip, same
+// orientation.
 TEST(LegIk, BeyondReachTheLegIsStraightTowardsTheTarget) {
   for (const LegParams& leg : kRobot.leg) {
     for (const float roll : {-0.2F, 0.0F, 0.2F}) {
@@ -206,7 +208,7 @@ TEST(LegIk, BeyondReachTheLegIsStraightTowardsTheTarget) {
   }
 }
 
-// Nearer than shank minus thigh: as flagged, and the knee as bent as it may be.
+// Nearer than shank minus thigh: flagged, with the knee bent as far as allowed.
 TEST(LegIk, TooNearIsFlagged) {
   Params params = kRobot;
   params.leg[0].shank_m = 0.06F;
@@ -218,7 +220,7 @@ TEST(LegIk, TooNearIsFlagged) {
   EXPECT_EQ(solved.angle_rad[3], params.joint[test::kLeftLeg + 3].upper_rad);
 }
 
-// From just inside the reach to just beyond it nothing jumps, although the knee's speed is infinite
+// Nothing jumps between just inside and just beyond reach, although the knee's speed is infinite
 // there.
 TEST(LegIk, StraightKneeIsNoSingularity) {
   const LegParams& leg = kRobot.leg[0];
@@ -260,7 +262,7 @@ TEST(LegIk, JointLimitsAreKeptAndFlagged) {
   expect_within_limits(params, leg, newton);
 }
 
-// Flags tell the truth: without one, the sole stands where it was asked to.
+// Without a flag, the sole is where it was asked to be.
 TEST(LegIk, AnyPoseIsReachedOrFlagged) {
   Random random(4);
   for (int round = 0; round < 300; ++round) {

@@ -9,7 +9,7 @@
 namespace verp::kinematics {
 namespace {
 
-// Wherever the point is: with the angles given, it lies on the head's x axis, in front of it.
+// The returned angles put any point on the head's x axis, in front of it.
 TEST(LookAt, TurnsTheHeadsXAxisToThePoint) {
   const Params& params = test::kRobot;
   test::Random random(7);

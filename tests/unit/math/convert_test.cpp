@@ -14,7 +14,7 @@ TEST(MathConvert, RoundsToNearestTiesToEven) {
   EXPECT_EQ(to_int32(-2.5F), -2);
   EXPECT_EQ(to_int32(0.49999997F), 0);
   EXPECT_EQ(to_int32(-0.50000006F), -1);
-  EXPECT_EQ(to_int32(4194303.5F), 4194304);  // where the short way ends
+  EXPECT_EQ(to_int32(4194303.5F), 4194304);  // where the fast path ends
   EXPECT_EQ(to_int32(-4194302.5F), -4194302);
   EXPECT_EQ(to_int32(4194304.5F), 4194304);
   EXPECT_EQ(to_int32(8388607.5F), 8388608);
@@ -33,7 +33,7 @@ void expect_saturation() {
   const float beyond = 2.0F * static_cast<float>(Limits::max() / 2 + 1);
   EXPECT_EQ(round_to<Integer>(beyond), Limits::max());
   EXPECT_EQ(round_to<Integer>(Limits::is_signed ? -beyond : -0.4F), Limits::min());
-  // The largest float below the end is inside, when it is a whole number.
+  // The largest float below the limit converts exactly if it is a whole number.
   const float inside = std::bit_cast<float>(std::bit_cast<std::uint32_t>(beyond) - 1U);
   if (sizeof(Integer) >= 4) {
     EXPECT_EQ(static_cast<float>(round_to<Integer>(inside)), inside);
@@ -67,7 +67,7 @@ TEST(MathConvert, ConversionsAreMonotonic) {
   std::int32_t last32 = std::numeric_limits<std::int32_t>::min();
   std::int64_t last64 = std::numeric_limits<std::int64_t>::min();
   for (int i = -5000; i <= 5000; ++i) {
-    // Positive and negative floats in the order of their values, through all exponents.
+    // Positive and negative floats in ascending order, through all exponents.
     const auto size = static_cast<std::uint32_t>(i < 0 ? -i : i) * 427819U;
     const float x = std::bit_cast<float>(i < 0 ? size | 0x80000000U : size);
     ASSERT_TRUE(to_int16(x) >= last16 && to_int32(x) >= last32 && to_int64(x) >= last64) << i;
@@ -94,7 +94,7 @@ TEST(MathConvert, Int64ToFloatRoundsOnceToNearestEven) {
   EXPECT_EQ(to_float(std::int64_t{16777219}), 16777220.0F);
   EXPECT_EQ(to_float(std::numeric_limits<std::int64_t>::max()), 0x1p+63F);
   EXPECT_EQ(to_float(std::numeric_limits<std::int64_t>::min()), -0x1p+63F);
-  // Just above a tie: a second rounding on the way would end on the other side.
+  // Just above a tie, where double rounding would go to the other side.
   EXPECT_EQ(to_float((std::int64_t{1} << 60) + (std::int64_t{1} << 36) + 1), 0x1.000002p+60F);
   EXPECT_EQ(to_float((std::int64_t{1} << 60) + (std::int64_t{1} << 36)), 0x1p+60F);
 }

@@ -5,7 +5,7 @@
 namespace verp::math {
 namespace {
 
-/// The derivative, by central differences: good to 1e-3 in float.
+/// Central differences: good to 1e-3 in float.
 template <class Curve>
 void expect_derivative(Curve curve) {
   constexpr float kStep = 1.0F / 256.0F;

@@ -11,7 +11,7 @@ namespace {
 
 using namespace verp::test;
 
-// One count says where both joints stand, and a servo that was silent was silent for both.
+// One count gives both joints' positions, and a silent servo is silent for both.
 TEST(Coupling, WhatTheServoTellsIsTheFollowersToo) {
   for (const float ratio : {-1.0F, 2.0F, 0.5F}) {
     Params params = with_coupled_hips(kRobot, ratio);
@@ -35,7 +35,7 @@ TEST(Coupling, DriversTakeTheirFollowersAlongAndBearTheirCorrections) {
   float plain_rad[kMaxJoints] = {}, angle_rad[kMaxJoints] = {};
   plain_rad[kLeftLeg] = angle_rad[kLeftLeg] = 0.2F;
   plain_rad[kFollower] = 0.4F;
-  angle_rad[kFollower] = 0.41F;  // sags by 0.01 rad: half as much of the driver's
+  angle_rad[kFollower] = 0.41F;  // sags by 0.01 rad: half of that at the driver
   share_corrections(params, plain_rad, angle_rad);
   lead(params, angle_rad);
   EXPECT_NEAR(angle_rad[kLeftLeg], 0.205F, 1e-6F);
@@ -47,8 +47,8 @@ TEST(Coupling, DriversTakeTheirFollowersAlongAndBearTheirCorrections) {
   }
 }
 
-// The leg that hangs on a follower stands before it in the list: its poses are those of the robot
-// whose joints are in order.
+// The leg behind a follower precedes it in the list, yet its poses equal those of the robot with
+// joints in order.
 TEST(Coupling, ListOrderDoesNotMoveTheRobot) {
   const Params params = with_coupled_hips(kRobot, -1.0F);
   Random random(1);
@@ -73,7 +73,7 @@ TEST(Coupling, ImagesWhoseFollowersFollowNobodyOrHangInACircleAreRefused) {
   lost.joint[kFollower].servo_id = 99;
   EXPECT_FALSE(is_well_formed(lost));
   Params circle = params;
-  circle.joint[kFollower].parent = kRightLeg + 1;  // the hip roll that hangs on it
+  circle.joint[kFollower].parent = kRightLeg + 1;  // the hip roll, which is the follower's child
   EXPECT_FALSE(is_well_formed(circle));
   Params many = params;
   many.followers = kJointCount + 1;

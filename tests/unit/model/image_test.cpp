@@ -40,7 +40,7 @@ ImageFault check() {
   return check_image(&image, sizeof image);
 }
 
-// The catalogue's check value: the same CRC as zip's, on every core.
+// The catalogue's check value: zip's CRC, on every core.
 TEST(Image, CrcIsTheOneOfZip) {
   EXPECT_EQ(crc32("123456789", 9), 0xCBF43926u);
   EXPECT_EQ(crc32("6789", 4, crc32("12345", 5)), 0xCBF43926u);
@@ -69,7 +69,7 @@ TEST(Image, DamageIsFound) {
   EXPECT_TRUE(check() == ImageFault::kNotAnImage);
 }
 
-// A sound CRC does not make an index sound: the image may come from another program.
+// A sound CRC does not make an index valid: another program may have made the image.
 TEST(Image, IndicesOutsideTheirTablesAreFound) {
   make_image();
   image.params.joint[1].parent = 2;
@@ -115,7 +115,7 @@ TEST(Image, ABusThatCannotBeIsFound) {
 
 constexpr float kNan = __builtin_nanf("");
 
-/// Of the image's robot with one number changed; empty: all fit.
+/// Names the first bad number after one change; empty if all fit.
 template <class Change>
 std::string bad_with(Change change) {
   make_image();
@@ -128,7 +128,7 @@ std::string bad_with(Change change) {
   return bad.text;
 }
 
-// A sound CRC does not make a number one: it is named, so that a person finds it.
+// A sound CRC does not make a number valid. The check names it, so that a person finds it.
 TEST(Image, NumbersThatAreNoneOrNoRobotsAreNamed) {
   EXPECT_EQ(bad_with([](Params&) {}), "");
   EXPECT_EQ(bad_with([](Params& p) { p.joint[2].lower_rad = kNan; }), "joint[2].lower_rad");
@@ -157,7 +157,7 @@ TEST(Image, NumbersThatAreNoneOrNoRobotsAreNamed) {
             "leg[1].thigh_m");
 }
 
-// Each float of a joint, whichever: none is forgotten.
+// Checks every float of a joint.
 TEST(Image, EveryNumberOfAJointIsLookedAt) {
   make_image();
   constexpr std::size_t kFloats = 22;
@@ -178,7 +178,7 @@ TEST(Image, EveryNumberOfAJointIsLookedAt) {
   }
 }
 
-// A difference of a micrometre changes what kinematics gives.
+// A micrometre changes the result of kinematics.
 TEST(Image, GoldenVectorsNoticeAnotherRobot) {
   make_image();
   image.params.joint[0].origin_parent_m.z = 0.100001F;

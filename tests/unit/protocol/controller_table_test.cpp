@@ -33,7 +33,7 @@ TEST(ControllerTable, NamesAreUniqueAndSayEverythingInOneCase) {
   EXPECT_TRUE(find("") == nullptr);
 }
 
-// A word on a multiple of its size is never torn between two reads of aligned blocks.
+// Two reads of aligned blocks never tear a word that is aligned to its size.
 TEST(ControllerTable, ElementsStandOnMultiplesOfTheirSize) {
   for (const Register& each : kTable) {
     if (each.address == address::kModelInformation) continue;
@@ -53,14 +53,15 @@ TEST(ControllerTable, WhatEveryDynamixelHasStandsWhereItIsExpected) {
 }
 
 TEST(ControllerTable, EachRegisterCanBeReadAndWrittenInOnePacket) {
-  constexpr std::size_t kOverhead = kStatusBytes + 2;  // a write's address is longer than an error
+  constexpr std::size_t kOverhead = kStatusBytes + 2;  // a write's address field is longer than an
+                                                       // error field
   for (const Register& each : kTable) {
     EXPECT_LE(each.bytes() + each.bytes() / 3 + kOverhead, kMaxPacket) << each.name;
   }
   EXPECT_LE(longest_write() + longest_write() / 3 + kOverhead, kMaxPacket);
 }
 
-// The device finds at every address what the table says of it, and nothing between.
+// At every address the device's rule agrees with the table, and gaps have no rule.
 TEST(ControllerTable, RulesAreTheTableWithoutItsWords) {
   for (unsigned address = 0; address < 0x10000; ++address) {
     const Register* expected = nullptr;
@@ -92,7 +93,7 @@ TEST(ControllerTable, WritableRangesFitTheirTypes) {
   }
 }
 
-// CiA 301: the manufacturer's objects are 2000h to 5FFFh, an array has at most 254 elements.
+// CiA 301: manufacturer objects are 2000h to 5FFFh; an array has at most 254 elements.
 TEST(ControllerTable, MakesAnObjectDictionary) {
   for (const Register& each : kTable) {
     EXPECT_GE(each.object_index(), 0x2000) << each.name;

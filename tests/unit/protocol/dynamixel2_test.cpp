@@ -22,7 +22,7 @@ bool equal(const std::uint8_t* bytes, std::size_t size, const std::uint8_t (&exp
   return true;
 }
 
-// Feeds bytes; returns how many packets came out, the last one in `last`.
+// Feeds bytes; returns the number of packets found, the last one in `last`.
 int feed(Parser& parser, const std::uint8_t* bytes, std::size_t size, Packet& last) {
   int packets = 0;
   for (std::size_t i = 0; i < size; ++i) {
@@ -34,7 +34,7 @@ int feed(Parser& parser, const std::uint8_t* bytes, std::size_t size, Packet& la
   return packets;
 }
 
-// xorshift32: any generator would do, but it must be the same on every core.
+// xorshift32: any generator would do that is the same on every core.
 struct Random {
   std::uint32_t state = 2463534242u;
   std::uint32_t next() {
@@ -192,7 +192,7 @@ TEST(Stuffing, InsertsOneByteAfterEachHeaderPattern) {
   EXPECT_TRUE(equal(bytes + 9, sizeof stuffed, stuffed));
 }
 
-// Any parameters come back as they went, and no header can be seen inside a packet.
+// Any parameters survive the round trip, and no packet contains a header inside.
 TEST(Stuffing, RoundTripsAnyBytes) {
   Random random;
   const std::uint8_t alphabet[] = {0xFF, 0xFF, 0xFD, 0x00, 0x55};
@@ -233,7 +233,7 @@ TEST(Parser, ReadsInstructionsToo) {
   EXPECT_EQ(get_u16(packet.parameters), address::kPresentPosition);
 }
 
-// A good packet is found whatever stands before it: noise, a cut packet, false headers.
+// The parser finds a good packet after noise, a cut packet or false headers.
 TEST(Parser, FindsAGoodPacketAfterNoise) {
   Random random;
   for (int round = 0; round < 2000; ++round) {
@@ -248,7 +248,7 @@ TEST(Parser, FindsAGoodPacketAfterNoise) {
     std::uint8_t good[32];
     const std::uint8_t data[] = {1, 2, 3, 4};
     const std::size_t length = encode_status(good, sizeof good, 9, 0, data, sizeof data);
-    // A false header may claim bytes of the good packet: it costs a failed check, not the packet.
+    // A false header may claim bytes of the good packet. Its check fails, but the packet survives.
     int packets = feed(parser, good, length, packet);
     for (int filler = 0; packets == 0 && filler < static_cast<int>(kMaxPacket); ++filler) {
       const std::uint8_t zero = 0;
@@ -271,7 +271,7 @@ TEST(Parser, FindsTheReplyBehindACutOne) {
   EXPECT_EQ(parser.crc_errors(), 1u);
 }
 
-// No flipped bit passes the check, and each is counted.
+// Every flipped bit fails the check and is counted.
 TEST(Parser, RejectsEveryFlippedBit) {
   std::uint8_t good[32];
   const std::uint8_t data[] = {0xA6, 0x00, 0x12, 0x34};
@@ -303,8 +303,8 @@ TEST(Parser, IgnoresLengthsThatCannotBe) {
   EXPECT_EQ(parser.noise_bytes(), 14u);
 }
 
-// Fast replies are one packet with a block a device; each block's CRC covers all bytes before it,
-// and no stuffing.
+// Fast replies form one packet with a block per device. Each block's CRC covers all bytes before
+// it, and there is no stuffing.
 TEST(FastSyncRead, BlocksOfAllDevicesMakeOnePacket) {
   std::uint8_t bytes[64];
   const std::uint8_t first[] = {0xFF, 0xFF, 0xFD, 0x00};

@@ -5,8 +5,8 @@
 
 #include "common/protocol/dynamixel2.hpp"
 
-// The parser against one that looks at a whole stream at once and tries every byte as a beginning:
-// what is found, when it is known, and what it costs.
+// Compares the parser with a reference that sees the whole stream and tries every byte as a
+// beginning: what it finds, when it knows, and what it costs.
 
 namespace verp::dxl {
 namespace {
@@ -44,7 +44,7 @@ void add_packet(Stream& stream, Random& random, bool spoilt) {
   std::uint8_t data[64];
   const std::size_t count = random.below(sizeof data);
   for (std::size_t i = 0; i < count; ++i) {
-    // Much that must be stuffed, and the header itself.
+    // Many bytes that need stuffing, and the header itself.
     data[i] = static_cast<std::uint8_t>(random.below(3) == 0 ? random.next() : 0xFD + i % 3);
   }
   const std::size_t size = encode_status(packet, sizeof packet, 1, 0, data, count);
@@ -52,7 +52,7 @@ void add_packet(Stream& stream, Random& random, bool spoilt) {
   for (std::size_t i = 0; i < size; ++i) stream.add(packet[i]);
 }
 
-/// Packets, spoilt ones, false headers and pieces of headers in noise.
+/// Packets, corrupted ones, false headers and pieces of headers in noise.
 void fill(Stream& stream, Random& random) {
   stream.size = 0;
   while (stream.size < kStream) {
@@ -76,13 +76,13 @@ void fill(Stream& stream, Random& random) {
   }
 }
 
-/// What there is to find in a stream, by trying each byte in turn.
+/// Finds all packets of a stream by trying each byte in turn.
 struct Reference {
-  std::size_t at = 0;     ///< where the search stands
-  std::size_t known = 0;  ///< bytes that must have come for it to get there
+  std::size_t at = 0;     ///< search position
+  std::size_t known = 0;  ///< bytes the parser needs to get there
   std::uint32_t crc_errors = 0, noise = 0;
 
-  /// Finds the next packet; false: only its beginning, or nothing, is there.
+  /// Finds the next packet; false if at most its beginning is there.
   bool next(const Stream& stream, std::size_t& start, std::size_t& end) {
     for (;; ++at, ++noise) {
       const std::uint8_t* from = stream.bytes + at;
@@ -141,7 +141,7 @@ std::uint32_t steps_of(Parser& parser, const std::uint8_t* bytes, std::size_t si
   return parser.steps() - before;
 }
 
-// A false header that announces a long packet, then noise: the line at its worst in a real robot.
+// A false header that announces a long packet, then noise: the worst line of a real robot.
 TEST(Parser, PaysAFewStepsForEachByteOfNoise) {
   static Stream stream;
   Random random;
@@ -155,8 +155,8 @@ TEST(Parser, PaysAFewStepsForEachByteOfNoise) {
   }
 }
 
-// Nobody can make it cost more than so many steps a byte, whatever he sends: headers stand at least
-// seven bytes apart, and each is good for one sum over, and one move of, what follows.
+// Bounds the steps per byte for any stream. Headers stand at least seven bytes apart, and each
+// costs at most one sum over, and one move of, what follows.
 TEST(Parser, HasABoundForTheWorstOfStreams) {
   static Stream stream;
   constexpr std::uint32_t kMost = 2 + 2 * (kMaxPacket / kHeaderBytes + 1);
@@ -164,7 +164,7 @@ TEST(Parser, HasABoundForTheWorstOfStreams) {
   for (std::uint32_t step = 0; step < 3; ++step) {
     stream.size = 0;
     for (std::uint32_t k = 0; stream.size < kStream; ++k) {
-      // All end in the same byte, or one by one, or as far away as they can.
+      // All end at the same byte, or one by one, or as far away as possible.
       const std::uint32_t length = step == 2 ? 505 : 498 - (step == 0 ? 7 * (k % 71) : k % 71);
       stream.add_header(length);
     }

@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-/// The table, row by row: each test is named after what its row promises, and states the row
-/// itself. A row that is added, removed or moved fails here first.
+/// The table, row by row. Each test is named after its row's promise and states the row, so any
+/// added, removed or moved row fails here first.
 namespace verp::safety {
 namespace {
 
@@ -20,8 +20,8 @@ constexpr std::uint32_t modes(Modes... each) {
   return (bit(each) | ...);
 }
 
-// The row stands in the table at `index`; with exactly its conditions it leads where it says, and
-// with one of them missing, or one that it excludes present, it does not fit.
+// The table has this row at `index`. Exactly its conditions lead to `to`; if one is missing, or one
+// that it excludes is present, the row does not match.
 void expect_row(int index, std::uint32_t from, std::uint32_t all_of, std::uint32_t none_of,
                 Mode to) {
   ASSERT_LT(index, kRows);
@@ -147,7 +147,7 @@ TEST(SafetyTable, HasNoOtherRows) {
   EXPECT_EQ(kRows, 26);
 }
 
-// What follows holds for every combination of conditions.
+// The following holds for every combination of conditions.
 template <class Check>
 void for_all(Check check) {
   for (std::uint32_t conditions = 0; conditions < kAllConditions; ++conditions) {
@@ -165,7 +165,7 @@ TEST(SafetyMachine, EmergencyAlwaysWins) {
   EXPECT_EQ(wrong, 0);
 }
 
-// But for the way down, which is short, and the way up, which somebody asked for.
+// Except on the way down, which is short, and on the requested way up.
 TEST(SafetyMachine, FallenRobotNeverKeepsTorque) {
   constexpr std::uint32_t kOnTheFloor = modes(Mode::kFalling, Mode::kGettingUp);
   int wrong = 0;
@@ -190,7 +190,7 @@ TEST(SafetyMachine, TorqueComesOnlyByRisingAndByGettingUpAndWhenAsked) {
   EXPECT_EQ(wrong, 0);
 }
 
-// No torque is let go of while standing: only a fall, the e-stop, or the end of sitting down.
+// A standing robot loses torque only in a fall, by the e-stop, or at the end of sitting down.
 TEST(SafetyMachine, StandingRobotIsNeverDropped) {
   int wrong = 0;
   for_all([&](Mode from, std::uint32_t conditions, Mode to) {
@@ -210,7 +210,7 @@ TEST(SafetyMachine, WalkingStopsOnlyOnBothFeetUnlessItMust) {
   EXPECT_EQ(wrong, 0);
 }
 
-// Whatever else holds, trouble that stays leads down, and from there nowhere until it is over.
+// Lasting trouble always leads down and leads nowhere else until it is over.
 TEST(SafetyMachine, PowerTroubleNeverBeginsARiseAWalkAnActionOrGettingUp) {
   int wrong = 0;
   for_all([&](Mode from, std::uint32_t conditions, Mode to) {
@@ -239,7 +239,7 @@ TEST(SafetyMachine, TorqueIsOnInTheModesThatNeedIt) {
   }
 }
 
-// One transition's worth of modes from those in `from`, under any conditions.
+// All modes within one transition of those in `from`, under any conditions.
 std::uint32_t reach(std::uint32_t from) {
   std::uint32_t result = from;
   for_all([&](Mode mode, std::uint32_t, Mode to) {
@@ -264,7 +264,7 @@ TEST(SafetyMachine, NoModeIsWithoutAWayOutBackToRelaxed) {
 
 TEST(SafetyMachine, NoConditionsNoChange) {
   for (int m = 0; m < kModes; ++m) {
-    if (mode_of(m) == Mode::kHolding) continue;  // nothing silent any more: rises
+    if (mode_of(m) == Mode::kHolding) continue;  // silence is over: it rises
     EXPECT_TRUE(next_mode(mode_of(m), 0) == mode_of(m)) << kModeNames[m];
   }
 }

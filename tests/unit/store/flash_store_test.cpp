@@ -15,7 +15,7 @@ using hal::WorkState;
 
 constexpr std::uint8_t kValue[64] = {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12};
 
-/// Works until the store rests or asks for something; the torque is off.
+/// Works, torque off, until the store is idle or wants something.
 WorkState settle(Store& store, bool may_erase = true) {
   WorkState state = WorkState::kWorking;
   for (int i = 0; i < 100 && state == WorkState::kWorking; ++i) state = store.work(may_erase);
@@ -68,7 +68,8 @@ TEST(FlashStore, NeverErasesWhileTheTorqueIsOn) {
   EXPECT_EQ(old[0], value[0]);
 }
 
-// With the torque off and nothing to do it makes room, so that updates while walking find a place.
+// With torque off and nothing to do, the store makes room, so that updates while walking find a
+// place.
 TEST(FlashStore, MakesRoomBeforeItIsNeeded) {
   Flash flash;
   Store store(flash);
@@ -114,8 +115,8 @@ TEST(FlashStore, AFullStoreKeepsWhatItHasAndCanBeEmptied) {
   EXPECT_EQ(store.put(5, kValue, 1), PutResult::kAccepted);
 }
 
-// A word that the flash refuses costs its place, not a value; one that it refuses for good is
-// reported, and the old value stays.
+// A refused word costs its place, not a value. A permanent refusal is reported, and the old value
+// stays.
 TEST(FlashStore, SurvivesFlashThatRefuses) {
   for (std::uint32_t refusals = 1; refusals < 6; ++refusals) {
     Flash flash(refusals);
@@ -138,7 +139,7 @@ TEST(FlashStore, SurvivesFlashThatRefuses) {
   }
 }
 
-// One flipped bit loses at most the record it is in, and is counted; it never becomes a value.
+// One flipped bit loses at most its record and is counted; it never becomes a value.
 TEST(FlashStore, AFlippedBitCostsOneRecordAtMost) {
   for (std::size_t offset = sizeof(store::PageHeader); offset < 112; ++offset) {
     Flash flash;

@@ -5,8 +5,8 @@
 #include "firmware/store/flash_store.hpp"
 #include "hal/fake/fake_flash.hpp"
 
-// What a robot keeps survives a power cut at any write, half-way through a word or an erase too:
-// every value is the old or the new one, and stays the one it was found to be.
+// Stored values survive a power cut at any write, even half-way through a word or an erase. Every
+// value is the old or the new one, and later starts find the same.
 
 namespace verp {
 namespace {
@@ -26,7 +26,7 @@ struct Random {
   }
 };
 
-/// A value, and the whole store as it should be.
+/// A value, and the expected content of the whole store.
 struct Value {
   std::size_t size = 0;
   std::uint8_t bytes[kMaxValue] = {};
@@ -65,7 +65,7 @@ Value value_of(const Store& store, std::uint16_t key) {
 template <class Flash>
 using StoreOf = store::FlashStore<Flash, kKeys, kMaxValue>;
 
-/// True when the update became durable, false when the power went or the flash gave up.
+/// True if the update became durable, false if the power failed or the flash gave up.
 template <class Store>
 bool apply(Store& store, const Update& update, bool may_erase = true) {
   if (store.put(update.key, update.value.bytes, update.value.size) != hal::PutResult::kAccepted) {
@@ -79,8 +79,8 @@ bool apply(Store& store, const Update& update, bool may_erase = true) {
   return false;
 }
 
-/// Every key but the updated one has its old value, and that one the old or the new; at the next
-/// start all are what they were. Sets what the updated one became.
+/// Every other key has its old value, the updated one its old or new value, and the next start
+/// finds the same. Sets `became` to the updated value.
 template <class Flash>
 bool is_sound_after_cut(Flash& flash, const Value (&expected)[kKeys + 1], const Update& update,
                         Value& became) {
@@ -99,8 +99,7 @@ bool is_sound_after_cut(Flash& flash, const Value (&expected)[kKeys + 1], const 
   return sound;
 }
 
-/// Each of the updates again and again from the same state, cut one write later each time, until it
-/// gets through.
+/// Repeats each update from the same state, cut one write later each time, until it completes.
 template <std::size_t kUnit>
 void cut_at_every_write(int updates) {
   using Flash = hal::FakeFlash<kPage, kUnit>;
@@ -143,8 +142,8 @@ TEST(PowerCut, AtEveryWriteOfBytesHalfWordsAndDoubleWords) {
   cut_at_every_write<8>(kUpdates / 10);
 }
 
-// The power goes again and again, also while the store recovers from the last cut: what such cuts
-// leave unsure must never add up.
+// The power fails repeatedly, also while the store recovers. The doubts that cuts leave must not
+// add up.
 template <std::size_t kUnit>
 void cut_after_cut() {
   using Flash = hal::FakeFlash<kPage, kUnit>;
@@ -180,8 +179,8 @@ TEST(PowerCut, AfterPowerCutLosesNothing) {
   cut_after_cut<8>();
 }
 
-// A page that was begun and cut must not come back when a later start happens to read it as whole:
-// what was stored since then would be gone.
+// A half-made page must not return when a later start happens to read it as whole: it would undo
+// later updates.
 TEST(PowerCut, NoHalfMadePageComesBack) {
   using Flash = hal::FakeFlash<kPage, 4>;
   using Store = StoreOf<Flash>;
@@ -202,7 +201,7 @@ TEST(PowerCut, NoHalfMadePageComesBack) {
       }
       flash.cut_after(i % 30);
       for (int step = 0; step < 30; ++step)
-        store.work(true);  // moves the values, with time to do so
+        store.work(true);  // moves the values while there is time
     }
     for (int boot = 0; boot < 3; ++boot) {
       flash.power_up();

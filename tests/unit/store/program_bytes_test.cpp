@@ -12,7 +12,7 @@ namespace {
 using Flash = hal::FakeFlash<512, 8>;
 constexpr std::size_t kSize = 203;  ///< begins and ends within a unit
 constexpr std::size_t kAt = 13;
-constexpr std::uint32_t kUnits = 26;  ///< that these bytes touch
+constexpr std::uint32_t kUnits = 26;  ///< touched by these bytes
 
 struct Nothing {
   void operator()() const {}
@@ -41,7 +41,7 @@ TEST(ProgramBytes, ArePutWhereTheyBelongAndNothingElseIsTouched) {
   EXPECT_EQ(flash.misuses(), 0u);
 }
 
-// As they come over CAN: seven at a time, whatever a unit of the flash is, and some of them twice.
+// As CAN delivers them: seven bytes at a time, whatever the flash's unit, and some twice.
 TEST(ProgramBytes, MayComeInPiecesOfAnySizeAndOrderAndAgain) {
   for (const std::size_t piece : {1u, 7u, 13u, 100u}) {
     Flash flash;

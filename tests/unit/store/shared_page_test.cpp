@@ -7,8 +7,8 @@
 #include "firmware/store/flash_store.hpp"
 #include "hal/fake/fake_flash.hpp"
 
-// A robot and its actions, which share a page of flash, are replaced together or not at all,
-// whenever the power goes; and what waits to replace them never costs the log a value.
+// A robot and its actions share a flash page and are replaced together or not at all, whenever the
+// power fails. A pending replacement never costs the log a value.
 
 namespace verp {
 namespace {
@@ -16,7 +16,7 @@ namespace {
 constexpr std::size_t kFirst = 99, kSecond = 128, kSecondBytes = 117, kRoom = 120;
 constexpr std::uint16_t kKey = 7;
 
-/// Two memories on one supply: when the power goes from one, the other writes nothing either.
+/// Two memories on one supply: when one loses power, the other stops writing, too.
 template <class Own, class Peer>
 struct Wired {
   static constexpr std::size_t kUnit = Own::kUnit;
@@ -37,7 +37,7 @@ struct Nothing {
   void operator()() const {}
 };
 
-/// What a first or second image of a generation holds.
+/// Content of a generation's first or second image.
 template <std::size_t kSize>
 struct Bytes {
   explicit Bytes(int generation) {
@@ -82,7 +82,7 @@ struct Board {
     log.get(kKey, &value, 1);
     return value;
   }
-  /// As an operator sends it; false: it was not taken.
+  /// As an operator sends it; false if it was refused.
   bool send(int generation) {
     const Second second(generation);
     room->begin();
@@ -126,7 +126,7 @@ TEST(SharedPage, TheFirstIsReplacedAndTheSecondStays) {
   const First first(1);
   EXPECT_TRUE(board.room->replace(first.byte, kFirst, 0, kSecondBytes, Nothing{}));
   EXPECT_TRUE(board.holds(1, 0));
-  // Also behind a half-sent second one, which never counted.
+  // Also after a half-sent second image, which never counted.
   ASSERT_TRUE(board.send(2));
   EXPECT_TRUE(board.room->replace(First(3).byte, kFirst, 0, kSecondBytes, Nothing{}));
   EXPECT_TRUE(board.holds(3, 0));
@@ -140,7 +140,7 @@ TEST(SharedPage, BothAreReplaced) {
   EXPECT_TRUE(board.holds(1, 1));
 }
 
-// At any write of either memory, and at the start after it once more.
+// Cuts at any write of either memory, and once more at the next start.
 TEST(SharedPage, APowerCutLeavesTheOldOrTheNew) {
   int old_ones = 0, new_ones = 0;
   for (const bool at_home : {false, true}) {
@@ -204,10 +204,10 @@ TEST(SharedPage, ErasesOnceForEachNewOneAndOnlyWhenItMay) {
   }
 }
 
-// Who waits for a page that can't be erased would wait for ever.
+// A caller that waits for a page that cannot be erased would wait for ever.
 TEST(SharedPage, ThatCannotBeErasedIsTold) {
   Board board;
-  board.other_flash.cut_after(0);  // and what has no power is not erased
+  board.other_flash.cut_after(0);  // unpowered flash cannot be erased
   EXPECT_FALSE(board.send(1));
   EXPECT_TRUE(board.room->ready());
   board.room->begin();
@@ -216,7 +216,7 @@ TEST(SharedPage, ThatCannotBeErasedIsTold) {
   EXPECT_TRUE(board.send(1)) << "the next one tries again";
 }
 
-// The log fills up while something waits: it takes its page back, and loses nothing.
+// The log fills up while a replacement waits: it takes back its page and loses nothing.
 TEST(SharedPage, TheLogComesFirst) {
   Board board;
   ASSERT_TRUE(board.send(1));
@@ -235,7 +235,7 @@ TEST(SharedPage, TheLogComesFirst) {
   EXPECT_EQ(board.misuses(), 0u);
 }
 
-// Whatever step of moving to its other page the log is at when somebody wants that page.
+// A replacement wants the log's other page at every step of the log's move.
 TEST(SharedPage, IsFoundBesideALogThatMoves) {
   for (int steps = 0; steps < 8; ++steps) {
     Board board;

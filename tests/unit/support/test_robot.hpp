@@ -4,11 +4,11 @@
 #include "common/math/linear.hpp"
 #include "common/model/params.hpp"
 
-/// A 21-joint humanoid made by hand, with the numbers of generic21: the core's tests run on
-/// microcontrollers too, where no SDF is read. Left and right are mirror images about y = 0.
+/// A handmade humanoid of 21 joints with the numbers of generic21, because the core's tests also
+/// run on microcontrollers, which read no SDF. Left and right are mirror images about y = 0.
 namespace verp::test {
 
-/// Numerical Recipes' linear congruence: the same numbers on every machine.
+/// Numerical Recipes' linear congruential generator: the same numbers on every machine.
 class Random {
  public:
   explicit Random(std::uint32_t seed) : state_(seed) {}
@@ -148,8 +148,8 @@ inline Params make_offset_robot() {
   return params;
 }
 
-/// The same, drawn with its knees bent 15 degrees the wrong way: there joint and other angles are
-/// zero, the feet flat.
+/// The same, drawn with knees bent 15 degrees the wrong way: in that pose all joint angles are zero
+/// and the feet flat.
 inline Params make_hyperextended_robot() {
   Params params = make_robot();
   constexpr float kBack_rad = 0.2617994F, kSin = 0.2588190F, kCos = 0.9659258F;
@@ -201,7 +201,7 @@ inline Mat3 mirrored(const Mat3& m) {
 inline Pose mirrored(const Pose& pose) {
   return {mirrored(pose.rotation), mirrored(pose.position_m)};
 }
-/// Joint angles of the mirror image: left and right change places, turns about x and z their sign.
+/// Joint angles of the mirror image: left and right swap, turns about x and z change sign.
 inline void mirror_angles(const float* angle_rad, float* result_rad) {
   for (int j = 0; j < kJointCount; ++j) {
     int from = j;
@@ -214,7 +214,7 @@ inline void mirror_angles(const float* angle_rad, float* result_rad) {
 inline float distance(const Vec3& a, const Vec3& b) {
   return math::norm(a - b);
 }
-/// Angle of the turn between two rotations.
+/// Angle between two rotations.
 inline float turn_between(const Mat3& a, const Mat3& b) {
   return math::norm(math::rotation_vector(a * b.transpose()));
 }
@@ -224,7 +224,7 @@ inline bool all_finite(const float* values, int count) {
   }
   return true;
 }
-/// True when no float anywhere in a struct with a field list is NaN or infinite.
+/// True if no float in a struct with a field list is NaN or infinite.
 template <class T>
 bool struct_is_finite(const T& data) {
   bool finite = true;

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-// What a USB serial port answers to a host: the promises of hal/chip/usb/cdc_acm.hpp.
+// A USB serial port's answers to a host: the promises of hal/chip/usb/cdc_acm.hpp.
 
 namespace verp::hal::usb {
 namespace {
@@ -34,15 +34,15 @@ CdcAcm make_configured() {
   EXPECT_TRUE(done(ask(port, 0x0009, 1, 0, 0), Action::kConfigure, 1));
   return port;
 }
-/// The one word of a GET_STATUS; -1: refused.
+/// The word of a GET_STATUS; -1 if refused.
 int status(CdcAcm& port, unsigned code, unsigned index) {
   const Answer answer = ask(port, code, 0, index, 2);
   if (answer.stage != Stage::kSend || answer.size != 2) return -1;
   return answer.data[0] | answer.data[1] << 8;
 }
 
-// Hosts walk the configuration by the lengths in it: they must meet its end, and find as many
-// interfaces and endpoints as announced.
+// Hosts walk the configuration by its lengths. They must arrive at its end and count the announced
+// interfaces and endpoints.
 TEST(UsbDescriptors, ConfigurationIsAWholeTree) {
   CdcAcm port = make();
   const Answer answer = ask(port, 0x8006, 0x0200, 0, 255);
@@ -71,8 +71,8 @@ TEST(UsbDescriptors, ConfigurationIsAWholeTree) {
   EXPECT_EQ(interfaces, bytes[4]);
 }
 
-// A host asks for 8, 9, 64, 255 or more bytes of what it doesn't know: it gets the beginning, never
-// more than it asked for, and is told if that was less.
+// A host asks for 8, 9, 64, 255 or more bytes of an unknown descriptor. It gets the beginning,
+// never more than asked, and learns if that was less.
 TEST(UsbDescriptors, AnyLengthGetsThatMuchOfTheBeginning) {
   CdcAcm port = make();
   for (const unsigned value : {0x0100u, 0x0200u, 0x0300u, 0x0301u, 0x0302u, 0x0303u}) {
@@ -112,7 +112,7 @@ TEST(UsbDescriptors, ALongNameIsCutAndNotOverrun) {
   EXPECT_EQ(ask(port, 0x8006, 0x0302, kEnglish, 255).size, kStringBytes);
 }
 
-// The device qualifier above all: STALL says that there is no high speed.
+// Above all the device qualifier: STALL means that there is no high speed.
 TEST(UsbDescriptors, OthersAreRefused) {
   CdcAcm port = make();
   for (unsigned value = 0; value < 0x1'0000; ++value) {
@@ -121,7 +121,7 @@ TEST(UsbDescriptors, OthersAreRefused) {
   }
 }
 
-// Whatever is not known is refused and leaves everything as it was, in either state.
+// In either state, unknown requests are refused and change nothing.
 TEST(UsbRequests, UnknownOnesAreRefusedAndChangeNothing) {
   constexpr unsigned kKnown[] = {0x8000, 0x8100, 0x8200, 0x0201, 0x0203, 0x0005, 0x8006,
                                  0x8008, 0x0009, 0x810A, 0x2120, 0xA121, 0x2122, 0x2123};
@@ -142,7 +142,7 @@ TEST(UsbRequests, UnknownOnesAreRefusedAndChangeNothing) {
   }
 }
 
-// The same for known ones with fields that make no sense.
+// The same for known ones with invalid fields.
 TEST(UsbRequests, KnownOnesWithWrongFieldsAreRefused) {
   CdcAcm port = make_configured();
   constexpr struct {
@@ -215,7 +215,7 @@ TEST(UsbRequests, HaltsAndReleasesEachEndpointAlone) {
   }
 }
 
-// What belongs to a session ends with it.
+// A session's state ends with it.
 TEST(UsbRequests, ANewConfigurationAndAResetForget) {
   for (const bool by_reset : {false, true}) {
     CdcAcm port = make_configured();
@@ -243,7 +243,7 @@ TEST(UsbSerial, IsOpenWhileTheHostHoldsDtr) {
   }
 }
 
-// Every coding of the standard is kept and handed back; any other is refused and leaves the last.
+// The port keeps and returns every coding of the standard; it refuses any other and keeps the last.
 TEST(UsbSerial, KeepsALineCodingOrRefusesIt) {
   CdcAcm port = make_configured();
   for (unsigned i = 0; i < 4 * 6 * 20; ++i) {
