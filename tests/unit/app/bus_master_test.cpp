@@ -49,7 +49,6 @@ TEST(BusMaster, GivesUpWhenTheTimeIsOverAndCountsIt) {
   EXPECT_EQ(exchange.value, 0);
 }
 
-// A late reply has the right id and length but answers an earlier request.
 TEST(BusMaster, ARequestIsNotAnsweredByItsPredecessorsReply) {
   static Exchange exchange;
   static BusMaster<hal::ScriptedBus> master(exchange.bus);

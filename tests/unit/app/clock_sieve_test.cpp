@@ -9,7 +9,7 @@ using lockstep::ClockSieve;
 
 constexpr std::size_t kRoom = 4096;
 
-/// A byte stream, the bytes the sieve passed on, and the sequence numbers it found.
+/// The stream, what the sieve passed on, and the sequence numbers it found.
 struct Stream {
   void put(std::uint8_t byte) { bytes[size++] = byte; }
   void put_packet(std::uint8_t id, std::uint32_t mark) {
@@ -40,7 +40,6 @@ struct Dice {
   std::uint32_t state;
 };
 
-// The sieve removes clock packets wherever they stand and passes on the rest in order.
 TEST(ClockSieve, TakesThePacketsOfTheClockAndPassesTheRest) {
   for (std::uint32_t seed = 1; seed <= 20; ++seed) {
     Dice dice{seed};
@@ -65,7 +64,6 @@ TEST(ClockSieve, TakesThePacketsOfTheClockAndPassesTheRest) {
   }
 }
 
-// The sieve finds a whole packet after any cut or corrupted bytes.
 TEST(ClockSieve, FindsAWholePacketBehindAnyDamage) {
   for (std::uint32_t seed = 1; seed <= 2000; ++seed) {
     Dice dice{seed};

@@ -26,7 +26,6 @@ TEST(DrivePower, GoesInTheThirdTickOfAStopInWhateverMode) {
   }
 }
 
-// Neither releasing the stop nor relaxing the robot restores power alone; only both together do.
 TEST(DrivePower, ComesBackOnlyReleasedAndRelaxedAndThenWithANewBringUp) {
   for (std::uint32_t seed = 1; seed <= 50; ++seed) {
     test::Random random(seed);

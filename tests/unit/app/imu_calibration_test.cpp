@@ -7,7 +7,7 @@
 #include "hal/fake/scripted_imu.hpp"
 #include "tests/unit/support/test_robot.hpp"
 
-// Bias and mounting of one chip: measured at rest, removed from the counts, kept across restarts.
+// One chip's bias and mounting, measured at rest and kept across restarts.
 namespace verp::app {
 namespace {
 
@@ -36,8 +36,8 @@ std::int16_t counts(float value, float scale) {
   return math::to_int16(value / scale);
 }
 
-/// A chip at rest, mounted as `imu` says, then turned by `tilt_rad` about its axis `about`. The
-/// sample has a bias and noise of up to `noise` counts either way.
+/// A chip at rest, mounted as `imu` says, then turned by `tilt_rad` about its axis `about`, with a
+/// bias and up to `noise` counts of noise.
 hal::ImuSample at_rest(const ImuParams& imu, float tilt_rad, int about, const std::int16_t* bias,
                        test::Random& random, int noise = 8) {
   Vec3 up{imu.body_imu[6], imu.body_imu[7], imu.body_imu[8]};
@@ -98,7 +98,6 @@ TEST(ImuCalibration, TakesBiasAndTiltOutHoweverTheChipIsMounted) {
   }
 }
 
-// A turn acts on accelerometer and gyroscope alike and changes the length of neither vector.
 TEST(ImuCalibration, TurnsBothAlike) {
   const std::int16_t bias[3] = {0, 0, 0};
   const ImuParams imu = upright();
@@ -180,7 +179,6 @@ struct Life {
     memory.work(true);
     return sample;
   }
-  /// Feeds as many samples as a measurement needs.
   Outcome calibrated(hal::MemoryStore& memory, const ImuParams& params) {
     imu.measure(0);
     for (int i = 0; i < ImuCalibrator::kSamples; ++i) next(memory, params);
@@ -305,8 +303,7 @@ TEST(CalibratedImu, AMeasurementWithoutSamplesEndsWithAVerdict) {
   }
 }
 
-// Samples that come slowly do not cut a measurement short, and without an order there is no
-// verdict.
+// Slow samples do not cut a measurement short; without an order there is no verdict.
 TEST(CalibratedImu, TheSlowestLoopHasTimeToMeasure) {
   hal::MemoryStore memory;
   const ImuParams params = upright();

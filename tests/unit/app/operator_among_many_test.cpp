@@ -5,8 +5,6 @@
 #include "firmware/app/operator_device.hpp"
 #include "tests/unit/app/operator_bench.hpp"
 
-// Instructions to several devices, one of which is the controller.
-
 namespace verp::app::test {
 namespace {
 
@@ -33,8 +31,7 @@ TEST(OperatorAmongMany, TakesItsPartOfWritesToMany) {
   EXPECT_EQ(bench.device.order(2).command.vy_tenth_mm_s, 2);
 }
 
-// In a read of many the controller answers after the device before it, and stays silent if that one
-// does.
+// The controller answers after the device before it, and stays silent if that one does.
 TEST(OperatorAmongMany, WaitsForItsTurnInAReadOfMany) {
   Bench<>& bench = renewed<Bench<>>(no_images, OperatorSetup{});
   const std::uint8_t first[] = {bench.id, 3};

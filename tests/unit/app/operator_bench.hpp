@@ -10,7 +10,6 @@
 #include "hal/fake/memory_link.hpp"
 #include "tests/unit/support/test_robot.hpp"
 
-/// An operator device at one end of a wire and a test at the other.
 namespace verp::app::test {
 
 using verp::test::kRobot;
@@ -22,7 +21,6 @@ Thing& renewed(Arguments&&... arguments) {
   return *new (static_cast<void*>(place)) Thing(static_cast<Arguments&&>(arguments)...);
 }
 
-/// A status packet; `packets` is 0 if none came.
 struct Reply {
   int packets = 0;
   std::uint8_t id = 0;
@@ -83,7 +81,6 @@ class Bench {
   }
   /// The controller wants this before any other request.
   void relax() { EXPECT_TRUE(write(reg("request"), std::uint8_t{0}) == dxl::Error::kNone); }
-  /// Records one tick's outcome.
   void record() { device.record({state.digest, inputs}, state, outputs); }
   void arm(bool on) {
     outputs.torque_enable = on ? 1 : 0;
@@ -121,7 +118,7 @@ class Bench {
 inline Bench<>& fresh_bench(const OperatorSetup& setup = {}) {
   return renewed<Bench<>>(no_images, setup);
 }
-/// A bench that was asked to relax, so it accepts any other request.
+/// Already asked to relax, so it accepts any request.
 inline Bench<>& relaxed_bench() {
   Bench<>& bench = fresh_bench();
   bench.relax();

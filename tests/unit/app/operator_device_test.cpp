@@ -21,7 +21,6 @@ Reply send(Bench<>& bench, const std::uint8_t (&bytes)[kSize]) {
   return bench.send(bytes, kSize);
 }
 
-/// Compares the whole reply byte for byte.
 template <std::size_t kSize>
 bool answered(const Bench<>& bench, const std::uint8_t (&bytes)[kSize]) {
   if (bench.raw_size != kSize) return false;
@@ -31,7 +30,6 @@ bool answered(const Bench<>& bench, const std::uint8_t (&bytes)[kSize]) {
   return true;
 }
 
-// An operator who unplugs in mid-reply leaves nothing for the next one.
 TEST(OperatorDevice, NeverGivesTheRestOfAReplyToTheNextOperator) {
   Bench<>& bench = fresh_bench();
   const std::size_t size = dxl::encode_read(bench.frame, sizeof bench.frame, bench.id, 256, 300);
@@ -130,7 +128,6 @@ TEST(OperatorDevice, RefusesWithTheDocumentedErrors) {
       << "there are no actions yet";
 }
 
-// Tests every register: a read-only one refuses a write, the others accept it.
 TEST(OperatorDevice, EveryRegisterKeepsItsAccess) {
   Bench<>& bench = fresh_bench();
   for (const bool armed : {false, true}) {
@@ -236,7 +233,7 @@ TEST(OperatorDevice, RegisteredWritesWaitForTheirAction) {
   EXPECT_EQ(bench.value<std::uint8_t>(reg("registered_instruction")), 0);
 }
 
-// The link takes 256 bytes at a time, so the longest array needs two pieces; no call waits.
+// The link takes 256 bytes at a time; the longest array needs two pieces.
 TEST(OperatorDevice, LongRepliesGoOutInPiecesWithoutWaiting) {
   Bench<>& bench = fresh_bench();
   constexpr std::uint16_t kLength = 400;
@@ -257,8 +254,7 @@ TEST(OperatorDevice, ForeignAndBadPacketsGetNoAnswer) {
   EXPECT_EQ(bench.value<std::uint32_t>(reg("link_crc_errors")), 1u);
 }
 
-// A false header hides requests until its CRC fails; then all come out at once and each is
-// answered.
+// A false header hides requests until its CRC fails.
 TEST(OperatorDevice, AnswersAllRequestsThatComeOutTogether) {
   Bench<>& bench = fresh_bench();
   std::uint8_t bytes[64] = {0xFF, 0xFF, 0xFD, 0x00, bench.id, 20, 0x00};
@@ -269,7 +265,6 @@ TEST(OperatorDevice, AnswersAllRequestsThatComeOutTogether) {
   EXPECT_EQ(bench.send(bytes, size).packets, 2);
 }
 
-/// True if every writable register holds an allowed value.
 bool in_bounds(Bench<>& bench) {
   for (const table::Register& each : table::kTable) {
     if (!each.writable()) continue;
@@ -286,7 +281,7 @@ bool in_bounds(Bench<>& bench) {
   return in_range(bench.value<std::uint16_t>(reg("parameter_id")), parameter);
 }
 
-// Good packets with any instruction and parameters, corrupted ones, and noise between them.
+// Good and corrupted packets of any instruction, and noise between them.
 TEST(OperatorDevice, NoBytesLeaveItsRegistersOutOfRange) {
   verp::test::Random random(3);
   const Instruction all[] = {

@@ -4,13 +4,12 @@
 
 #include "tests/unit/app/operator_bench.hpp"
 
-// Orders: when one takes effect, for how long, and what is no order.
 namespace verp::app::test {
 namespace {
 
 using dxl::Error;
 
-// After a stop, only a new write of 0 restores power; a 0 that already stands there does not.
+// After a stop, only a new write of 0 restores power.
 TEST(OperatorOrders, ToRelaxIsToldOnceForEachTimeItIsWritten) {
   Bench<>& bench = fresh_bench();
   EXPECT_FALSE(bench.device.take_relax()) << "0 stands there from the start";
@@ -51,7 +50,6 @@ TEST(OperatorOrders, ToStandOrWalkAreRefusedAfterEachStartUntilOneToRelaxWasGive
   }
 }
 
-// A Reg Write becomes an order at its Action, not before.
 TEST(OperatorOrders, AKeptRequestToRelaxCountsFromItsActionOn) {
   Bench<>& bench = fresh_bench();
   const std::uint8_t relax = 0;
@@ -119,7 +117,7 @@ TEST(OperatorOrders, DoNotOutliveALoopThatStoodStill) {
   }
 }
 
-// An order does not wait for the bring-up: a robot must not rise minutes after it was asked.
+// A robot must not rise minutes after it was asked.
 TEST(OperatorOrders, DoNotWaitForABringUp) {
   Bench<>& bench = relaxed_bench();
   bench.write(reg("request"), std::uint8_t{1});

@@ -8,14 +8,12 @@
 #include "common/safety/machine.hpp"
 #include "tests/unit/app/operator_bench.hpp"
 
-// What the registers mean: tuning, the tick's report, devices, images.
-
 namespace verp::app::test {
 namespace {
 
 using dxl::Error;
 
-// An operator who connects later can still read what the board found at its start.
+// For an operator who connects later.
 TEST(OperatorStart, IsToldInRegisters) {
   const OperatorSetup setup = {
       .self_test = table::SelfTest::kKinematics,

@@ -9,7 +9,6 @@
 namespace verp::app {
 namespace {
 
-/// Sends the test's goal to one joint.
 struct Given {
   static inline float goal_rad = 0;
   static inline bool torque = false;
@@ -67,7 +66,6 @@ TEST(OwnLaw, LeavesALimpJointLimpWhoseFirstGoalIsNone) {
   EXPECT_NEAR(rig.goal_rad(), 0.2F, 2e-3F);
 }
 
-// Digests distinguish two controllers that send different outputs.
 TEST(OwnLaw, DigestsWhatIsSent) {
   Rig one, other;
   one.tick(0.2F, true);

@@ -10,7 +10,6 @@ namespace {
 
 constexpr std::uint32_t kPeriod_us = 10'000;
 
-// A loop that is always in time has nothing to report, however long it runs.
 TEST(Pacer, ALoopInTimeMissesNothing) {
   hal::ManualClock clock;
   app::Pacer pacer(clock);
@@ -29,8 +28,7 @@ TEST(Pacer, ALoopInTimeMissesNothing) {
   EXPECT_EQ(pacer.deadlines().worst_late_us, 0u);
 }
 
-// For ticks of up to seven periods, the counts match those from the known begin and end of each
-// tick. Every tick counts for the period in which it began.
+// Ticks of up to seven periods. Every tick counts for the period in which it began.
 TEST(Pacer, TheAccountIsTrueForTicksOfAnyLength) {
   for (std::uint32_t seed = 1; seed <= 20; ++seed) {
     hal::ManualClock clock;
@@ -68,7 +66,6 @@ TEST(Pacer, TheAccountIsTrueForTicksOfAnyLength) {
   }
 }
 
-// Time between start() and the first tick counts against no deadline.
 TEST(Pacer, TheFirstTickIsNeverLate) {
   hal::ManualClock clock;
   app::Pacer pacer(clock);

@@ -4,7 +4,6 @@
 
 #include "tests/unit/support/test_robot.hpp"
 
-// The emergency stop and the buttons as a tick's Inputs.
 namespace verp::app {
 namespace {
 
@@ -56,7 +55,7 @@ TEST(Panel, StopsWithinThreeTicksOfAnOpenCircuitAndStays) {
 }
 
 // At a start the stop counts as pressed until it is known. That alone must not cut the servos'
-// power, but a stop that is really pressed must.
+// power.
 TEST(Panel, TellsAStopThatIsPressedFromOneThatIsNotYetKnown) {
   Bench closed;
   for (int tick = 0; tick < 1000; ++tick) {
@@ -100,7 +99,6 @@ TEST(Panel, TheStopOfTheOperatorsLinkIsAPressedOneToo) {
   EXPECT_FALSE(panel.pressed());
 }
 
-// An opening contact that bounces never reads as closed; one spark of a closed contact is no stop.
 TEST(Panel, BouncingNeverReleasesAndASparkNeverStops) {
   Bench bench;
   verp::test::Random random(1);

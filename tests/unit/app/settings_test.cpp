@@ -86,7 +86,7 @@ TEST(Settings, OfTheVersionWithoutATorqueLimitStillHold) {
   EXPECT_EQ(Life(flash).setup.torque_limit_percent, 40);
 }
 
-// Flash wears, so an unchanged value is not written again.
+// Flash wears.
 TEST(Settings, AreWrittenOnceForEachChange) {
   Flash flash;
   Life life(flash);

@@ -2,8 +2,7 @@
 
 #include <gtest/gtest.h>
 
-// The buzzer announces each fault once and a low supply until it recovers; it never announces
-// notes.
+// The buzzer announces each fault once, a low supply until it recovers, and notes never.
 namespace verp::app {
 namespace {
 

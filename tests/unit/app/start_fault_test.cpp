@@ -5,7 +5,7 @@
 #include "hal/fake/fake_watchdog.hpp"
 #include "hal/fake/manual_clock.hpp"
 
-// A fault at the start gives no torque, no silent retry, and a sign that a person can read.
+// A fault at the start: no torque, no silent retry, and a sign that a person can read.
 namespace verp::app {
 namespace {
 
@@ -15,7 +15,7 @@ constexpr StartFault kAll[] = {
     StartFault::kSelfTest, StartFault::kTimer,    StartFault::kOperatorPort, StartFault::kServoPort,
     StartFault::kPeriod,   StartFault::kWatchdog, StartFault::kProtocol};
 
-/// Servos whose port may fail to open; power may come only after the port is open.
+/// Servos whose port may fail to open. Power comes only after that.
 struct Servos {
   bool open() {
     EXPECT_FALSE(powered);
@@ -123,7 +123,7 @@ TEST(LifeSign, BlinksOnceASecondAndIsSilentWhileAllIsWell) {
   EXPECT_EQ(seen.longest_dark_ms, 500u);
 }
 
-// Between two pauses an observer counts the fault's number, whenever he begins to look.
+// Wherever the observer begins, he counts the fault's number between two pauses.
 TEST(LifeSign, CountsTheFaultOutByLightAndSound) {
   for (const StartFault fault : kAll) {
     const auto number = static_cast<int>(fault);

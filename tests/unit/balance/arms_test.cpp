@@ -57,7 +57,7 @@ TEST(Arms, RestWhileTheFeetStandSideBySide) {
   }
 }
 
-// True in any walking direction; about y, a larger angle is further back.
+// About y, a larger angle is further back.
 TEST(Arms, SwingBackWithTheFootThatIsAhead) {
   for (const float yaw_rad : {0.0F, 0.7F, -2.5F}) {
     for (const float ahead_m : {-0.1F, 0.02F, 0.05F}) {

@@ -33,8 +33,7 @@ TEST(Attitude, StillRobotIsUpright) {
   EXPECT_NEAR(out.up, 1.0F, 1e-6F);
 }
 
-// The estimator learns a MEMS gyro's bias of up to 5 deg/s before the robot may walk, and derives
-// no tilt from it.
+// A MEMS gyro's bias is up to 5 deg/s; no tilt must come from it.
 TEST(Attitude, BiasIsLearntWhileStanding) {
   AttitudeState state;
   AttitudeIn in = still();
@@ -68,8 +67,7 @@ TEST(Attitude, AccelerationsOfStepsHardlyTurnTheHeading) {
   EXPECT_LT(math::abs(out.heading_rad), 0.05F);
 }
 
-// A body that has just risen settles by some tenths of a degree, which must not make the heading
-// drift for the whole walk.
+// A body that has just risen settles by some tenths of a degree.
 TEST(Attitude, BiasIsNotLearntFromABodyThatSettles) {
   for (int when = 0; when < 30; when += 5) {
     AttitudeState state;
@@ -107,8 +105,8 @@ TEST(Attitude, BiasIsNotLearntFromMotionNorWhileWalking) {
   EXPECT_EQ(state.gyro_bias_rad_s.x, 0.0F);
 }
 
-// Servos that hunt for their goals make the body tremble about the real bias. Single readings look
-// like motion, but the body stays put. The bias is learnt as soon as on a still body.
+// Servos that hunt for their goals shake the body, but it stays put. The bias is learnt as soon as
+// on a still body.
 TEST(Attitude, TremblingDoesNotKeepTheBiasFromBeingLearnt) {
   for (const float frequency_hz : {5.0F, 8.0F, 13.0F, 37.0F}) {
     AttitudeState state;
@@ -125,7 +123,6 @@ TEST(Attitude, TremblingDoesNotKeepTheBiasFromBeingLearnt) {
   }
 }
 
-// One wrong reading in either direction, at any moment, costs neither time nor the bias.
 TEST(Attitude, OneWrongReadingEndsNoCalibration) {
   for (int when = 0; when < kCalibrated_ticks; when += 7) {
     for (const float wrong : {0.15F, -2.0F, 35.0F}) {
@@ -142,8 +139,7 @@ TEST(Attitude, OneWrongReadingEndsNoCalibration) {
   }
 }
 
-// A person who rocks, carries or slowly turns the robot moves it, although it almost stands still
-// most of the time.
+// A person rocks, carries or slowly turns the robot, which almost stands still most of the time.
 TEST(Attitude, BiasIsNotLearntFromARobotInSomebodysHands) {
   struct Motion {
     float rate_rad_s, frequency_hz;
@@ -222,7 +218,6 @@ float heading_after_sway(float lead_rad) {
   return out.heading_rad;
 }
 
-// A walking body's x axis only sways, so the heading must not drift.
 TEST(Attitude, SwayAboutTwoAxesDoesNotTurnTheHeading) {
   EXPECT_NEAR(heading_after_sway(0.5F * math::kPi), 0.0F, 0.01F)
       << "0.126 if the rate about the vertical is summed";
@@ -241,7 +236,6 @@ TEST(Attitude, AccelerometerPullsAWrongTiltToTheVertical) {
   EXPECT_NEAR(out.pitch_rad, 0.0F, 1e-3F);
 }
 
-// The first reading gives the tilt in any pose; nothing waits.
 TEST(Attitude, FirstReadingIsTheTilt) {
   for (const Vec3& up : {Vec3(1, 0, 0), Vec3(-1, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, -1)}) {
     AttitudeState state;
@@ -269,7 +263,6 @@ TEST(Attitude, FirstReadingsOfABodyInMotionFade) {
   }
 }
 
-// The back-and-forth accelerations of a step average out.
 TEST(Attitude, SwayOfAStepDoesNotTilt) {
   AttitudeState state;
   state.mean_s = kAccelTime_s;
@@ -296,8 +289,6 @@ TEST(Attitude, StaleSensorsHoldTheEstimate) {
   EXPECT_EQ(out.heading_rad, 0.0F);
 }
 
-// Lying, upside down, in free fall, with saturated sensors: the result is finite and up is a unit
-// vector.
 TEST(Attitude, IsTotal) {
   test::Random random(1);
   AttitudeState state;

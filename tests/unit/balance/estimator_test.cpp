@@ -25,7 +25,6 @@ TEST(Estimator, CentreOfMassOfAStillRobotIsThatOfItsLinks) {
   EXPECT_NEAR(dcm.y, com.y(), 1e-3F);
 }
 
-// For a body that sways over its soles in any direction, position and velocity follow without lag.
 TEST(Estimator, FollowsASwayWithoutLag) {
   constexpr float kMost_m_s = 0.15F, kPulse_per_s = 2.0F * math::kPi * 2.0F;
   for (const Vec3& way : {Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, 0.3F)}) {
@@ -56,7 +55,6 @@ TEST(Estimator, OffsetOfTheAccelerometerIsNoDrift) {
   EXPECT_LT(distance(led.believed_m(), led.body_m), 1e-3F);
 }
 
-// Walking step by step at a constant speed: no jump at a touchdown and no creep.
 TEST(Estimator, TouchdownsNeitherJumpNorCreep) {
   Led& led = led_robot();
   led.rest();
@@ -66,7 +64,6 @@ TEST(Estimator, TouchdownsNeitherJumpNorCreep) {
   constexpr int kStep_ticks = 25;
   for (int i = 0; i < 12 * kStep_ticks; ++i) {
     const int step = i / kStep_ticks, swing = step % 2;
-    // The swing sole moves freely and lands half a step ahead of the body.
     const float part = static_cast<float>(i % kStep_ticks + 1) / kStep_ticks;
     led.sole_m[swing].x() = led.body_m.x() - 0.02F + 0.035F * part;
     led.sole_m[swing].z() = 0.02F * math::sin(math::kPi * part);
@@ -84,7 +81,6 @@ TEST(Estimator, TouchdownsNeitherJumpNorCreep) {
   EXPECT_NEAR(led.state.body_m.y, 0.0F, 5e-3F);
 }
 
-// When the sole cells fall silent, the plan soon says which foot stands, and nothing jumps.
 TEST(Estimator, SilentSolesAreReplacedByThePlan) {
   Led& led = led_robot();
   led.rest();
@@ -103,7 +99,6 @@ TEST(Estimator, SilentSolesAreReplacedByThePlan) {
   EXPECT_GT(led.state.blind, 0) << "the plan does not stand";
 }
 
-// The estimator must not believe that a lifted robot flies away, and reports no velocity for it.
 TEST(Estimator, LiftedRobotComesToRest) {
   Led& led = led_robot();
   led.rest();
@@ -118,8 +113,7 @@ TEST(Estimator, LiftedRobotComesToRest) {
   EXPECT_LT(distance(led.believed_m(), at_m), 0.05F);
 }
 
-// When one leg's joints are silent for some ticks, the other leg serves. Once heard again, they
-// agree with the estimated position.
+// The other leg serves meanwhile; afterwards both agree.
 TEST(Estimator, SilentJointsNeitherStopNorThrowIt) {
   Led& led = led_robot();
   const Vec3 speed(0.05F, 0, 0);
@@ -140,7 +134,7 @@ TEST(Estimator, SilentJointsNeitherStopNorThrowIt) {
   EXPECT_TRUE(struct_is_finite(led.state));
 }
 
-// For any counts the estimate is finite and no faster than a robot can be.
+// Finite, and no faster than a robot can be.
 TEST(Estimator, AnyInputsLeaveItFinite) {
   Led& led = led_robot();
   Random random(7);
@@ -170,7 +164,6 @@ TEST(Estimator, AnyInputsLeaveItFinite) {
   }
 }
 
-// The mirror image of a motion gives the mirror image of the estimate.
 TEST(Estimator, IsTheSameToBothSides) {
   Vec3 one_sided[2];
   for (int mirror = 0; mirror < 2; ++mirror) {

@@ -2,7 +2,6 @@
 
 #include "tests/unit/support/led_robot.hpp"
 
-/// Which way is up: what the estimator adds to the attitude.
 namespace verp::balance {
 namespace {
 
@@ -32,9 +31,8 @@ TEST(Estimator, UpDoesNotLeanWithASwayingBody) {
   EXPECT_LT(worst_rad, 0.25F * worst_plain_rad);
 }
 
-// The floor shows which way is up, too. Standing on it reveals a quarter of an accelerometer's
-// offset, in any direction, less what the encoders are too coarse for. The estimator keeps this
-// while the robot walks on.
+// Standing on a floor reveals a quarter of an accelerometer's offset in any direction, less what
+// the encoders are too coarse for. The estimator keeps this while the robot walks on.
 TEST(EstimatorUp, AFloorStoodOnTakesAwayPartOfTheAccelerometersOffset) {
   for (const Vec3& way : {Vec3(1, 0, 0), Vec3(0, -1, 0), Vec3(-0.6F, 0.8F, 0)}) {
     Led& led = led_robot();
@@ -63,7 +61,7 @@ TEST(EstimatorUp, ARampIsNotTakenForLevel) {
   }
 }
 
-// Between floor and ramp nothing leaps: a thousandth more of slope turns the up direction by about as little.
+// A thousandth more of slope turns the up direction by about as little.
 TEST(EstimatorUp, GoesOverFromFloorsToRampsSmoothly) {
   float before_rad = 0;
   for (int i = 0; i <= 50; ++i) {
@@ -78,7 +76,7 @@ TEST(EstimatorUp, GoesOverFromFloorsToRampsSmoothly) {
   }
 }
 
-// When one leg's joints are silent, the other sole must not decide alone: it may stand on a pebble.
+// The other sole may stand on a pebble and must not decide alone.
 TEST(EstimatorUp, OneSilentLegIsNoFloor) {
   Led& led = led_robot();
   led.up_offset_m_s2 = Vec3(kOffset_m_s2, 0, 0);

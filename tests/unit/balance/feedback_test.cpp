@@ -42,7 +42,6 @@ TEST(Feedback, OppositeTiltsGiveOppositeCorrections) {
   }
 }
 
-// Feedback levels the swing foot and leaves its hip alone; in double support both legs act alike.
 TEST(Feedback, SwingLegOnlyLevelsItsFoot) {
   const FeedbackOut swing = feedback({}, tilted(0.1F, 0.1F), 0, gait::kRight);
   EXPECT_EQ(swing.leg[1].hip_roll_rad, 0.0F);

@@ -35,8 +35,7 @@ Sag sag_of(const Params& params, const LegParams& leg, const float* pose_rad, fl
   return sag;
 }
 
-// Servos yield under the robot's weight. Their goals push the ground further away than planned, so
-// that the body starts higher by what it will sag.
+// Servos yield under the robot's weight, so their goals lift the body by what it will sag.
 TEST(Gravity, GoalsOfACarryingLegLiftTheBody) {
   for (const LegParams& leg : kRobot.leg) {
     const Sag sag = sag_of(kRobot, leg, kBent_rad, 30);
@@ -60,7 +59,6 @@ TEST(Gravity, CorrectionAlwaysWorksAgainstTheLoad) {
   }
 }
 
-// A hanging leg loads its joints the other way, so its foot is held up.
 TEST(Gravity, GoalsOfAHangingLegLiftTheFoot) {
   const LegParams& leg = kRobot.leg[0];
   const Sag sag = sag_of(kRobot, leg, kBent_rad, 0);
@@ -103,9 +101,7 @@ TEST(Gravity, SagIsTorqueTimesCompliance) {
   EXPECT_NEAR(leg_rad[3], 0.5F * 0.0263F, 1e-5F);
 }
 
-// The part of a motor's torque that rotor and gears take is added in the joint's direction.
-// Friction follows the sign of the speed and grows with load, inertia follows the acceleration.
-// Switched off, neither is added.
+// Friction follows the speed's sign and grows with load; inertia follows the acceleration.
 TEST(Gravity, FrictionAndInertiaAreFedForward) {
   static const Params massless = test::make_massless_legs_robot();
   Params geared = massless;
@@ -137,7 +133,6 @@ TEST(Gravity, FrictionAndInertiaAreFedForward) {
   EXPECT_NEAR(knee_nm(1.5F, 20, 0), 0.5F, 1e-3F);
 }
 
-// Rates and accelerations come from the plan; at its beginning they are zero.
 TEST(Gravity, FollowsThePlanButNotItsLeaps) {
   DriveState state;
   const float period_s = static_cast<float>(kRobot.period_us) * 1e-6F;

@@ -32,8 +32,8 @@ LeanState walked(const Ground& ground, float time_s, float sway_rad = 0.0F) {
   return state;
 }
 
-// Sensor offsets and the sway of steps are no slope, and soles are long enough for a gentle slope
-// ahead. The plan keeps every bit.
+// Sensor offsets and the sway of steps are no slope; soles are long enough for a gentle slope
+// ahead.
 TEST(Lean, OnLevelGroundThePlanStaysAsItIs) {
   for (const float share : {-0.8F, 0.0F, 0.8F}) {
     const LeanState state =
@@ -60,8 +60,7 @@ TEST(Lean, AcrossFiveDegreesTheBodyIsUprightButForWhatIsLeft) {
   }
 }
 
-// With its toes on an edge and its heels beside it, a robot that leans back takes that for falling
-// and would stay there.
+// With its toes on the edge, a robot that leans back takes that for falling and would stay there.
 TEST(Lean, OnTheEdgeOfACentimetreTheBodyIsUprightButForWhatIsLeft) {
   for (const float slope_rad : {-0.12F, 0.12F}) {
     const LeanState state = walked({.pitch_rad = slope_rad}, 15.0F, 0.02F);
@@ -83,7 +82,6 @@ TEST(Lean, OffTheSlopeItIsUprightAgain) {
   EXPECT_NEAR(state.lean_rad.y, 0.0F, 1e-4F);
 }
 
-// The lean never exceeds a tenth of a radian, whatever the IMU says.
 TEST(Lean, IsBounded) {
   for (const float sign : {-1.0F, 1.0F}) {
     const LeanState state = walked({sign * 3.0F, sign * 3.0F}, 60.0F);
@@ -92,7 +90,7 @@ TEST(Lean, IsBounded) {
   }
 }
 
-// The ground point under the body stays in place, in whatever direction `yaw_rad` the robot looks.
+// For any heading `yaw_rad`.
 TEST(Lean, TurnsTheBodyAboutTheGroundUnderIt) {
   for (const float yaw_rad : {0.0F, 1.2F, -2.5F}) {
     for (const bool ahead : {false, true}) {

@@ -151,8 +151,7 @@ TEST(Stepping, SolesComeNoNearerThanThoseOfARobotThatStands) {
             0.005F);
 }
 
-// After one push the walk continues as planned from the foot that caught it. No goal jumps when the
-// feet change, and within a second the planned walk is back.
+// No goal jumps when the feet change, and within a second the planned walk is back.
 TEST(Stepping, GoesOnFromTheFootThatCaughtItWithoutAJump) {
   Pushed walk = ahead();
   walk.to_swing_of(kRight);
@@ -173,7 +172,7 @@ TEST(Stepping, GoesOnFromTheFootThatCaughtItWithoutAJump) {
   EXPECT_LT(gait::test::apart(before_m[kRight], Xy{}), 1e-3F);
 }
 
-// The body catches up as a pendulum does: its DCM does not move.
+// As a pendulum does.
 TEST(Stepping, TheBodyCatchesUpWithoutMovingTheDcm) {
   Pushed walk = ahead();
   walk.to_swing_of(kRight);
@@ -223,7 +222,7 @@ struct Stander {
     estimator.com_from_body_m.y = off_m.y;
     return pushed(kRobot, walker.tuning, {&walker.state, &estimator, 0, kPeriod_s}, state);
   }
-  // Like the core: a push starts steps at once, and the steps end after it.
+  // Like the core: a push starts steps at once.
   void tick(Xy error_m) {
     steps = pushed(kRobot, walker.tuning, {&walker.state, &estimator, 0, kPeriod_s}, state);
     walker.in.walk = walker.in.at_once = steps;
@@ -244,7 +243,6 @@ TEST(SteppingWherePushed, AnklesHoldFourFifthsOfASoleAheadAndBackwardAndAllOfItS
   }
 }
 
-// A robot that has turned falls ahead in the direction it looks.
 TEST(SteppingWherePushed, AheadIsWhereTheRobotLooks) {
   Stander stander;
   EstimatorState& seen = stander.estimator;
@@ -270,8 +268,7 @@ TEST(SteppingWherePushed, NotWhereNothingWouldAnswerIt) {
   }
 }
 
-// The steps must end: if the estimate were wrong by a sole, the robot would trot on the spot for
-// ever.
+// If the estimate were wrong by a sole, the robot would trot on the spot for ever.
 TEST(SteppingWherePushed, TakesAFewStepsAndStandsAgain) {
   Stander stander;
   ASSERT_TRUE(stander.pushed_by({0.05F, 0}));
@@ -290,7 +287,6 @@ TEST(SteppingWherePushed, TakesAFewStepsAndStandsAgain) {
   EXPECT_EQ(int{stander.walker.state.queued}, 0);
 }
 
-// A robot that is still thrown keeps stepping.
 TEST(SteppingWherePushed, AStepFarOffItsPlanIsFollowedByMore) {
   Stander stander;
   ASSERT_TRUE(stander.pushed_by({0.05F, 0}));

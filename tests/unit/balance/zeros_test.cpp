@@ -66,7 +66,6 @@ TEST(Zeros, SumsOfALegsZeroErrorsAreFound) {
   }
 }
 
-// Whatever the encoders claim, goals plus the learnt offsets set the sole down level.
 TEST(Zeros, GoalsWithWhatWasLearntSetTheSoleDownLevel) {
   test::Random random(2);
   for (int round = 0; round < 40; ++round) {

@@ -73,8 +73,6 @@ TEST(CanFrame, SaysWhatThereCannotBe) {
   EXPECT_FALSE(is_sound(fast)) << "only FD changes its rate";
 }
 
-// Frames are pushed and popped in any order. None is lost or doubled, each popped one is the best,
-// and frames of one identifier keep their order.
 TEST(CanOutbox, GivesTheBestAndKeepsTheOrderOfEquals) {
   std::uint32_t seed = 7;
   CanOutbox<16> box;

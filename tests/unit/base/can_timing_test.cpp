@@ -10,7 +10,6 @@ namespace {
 constexpr std::uint32_t kRates_hz[] = {1'000'000, 500'000, 250'000, 125'000};
 constexpr std::uint32_t kMostPrescaler = 64;
 
-// Every whole number of megahertz that a controller's clock may have.
 TEST(CanTiming, IsExactOrSaysNo) {
   for (std::uint32_t mhz = 1; mhz <= 120; ++mhz) {
     for (const std::uint32_t rate_hz : kRates_hz) {

@@ -7,8 +7,8 @@
 #include "hal/contract/can_bus.hpp"
 #include "tests/unit/can_app/can_bench_nodes.hpp"
 
-/// A small robot on a CAN bus in simulated time: seven drives, an IMU and two feet, each a complete
-/// CANopen device, and the wire to the controller.
+/// A small robot on a simulated CAN bus: seven drives, an IMU and two feet, each a complete CANopen
+/// device.
 namespace verp::test {
 
 inline constexpr int kBenchJoints = 7;
@@ -45,7 +45,6 @@ class CanBench {
     }
   }
 
-  // CanBus contract.
   bool send(const CanFrame& frame) {
     if (down || waiting_ == hal::kCanQueue) return false;
     if (free_us_ < now_us_) free_us_ = now_us_;
@@ -162,7 +161,6 @@ class CanBench {
     }
     return best != 0xFFFFFFFF;
   }
-  /// True if the controller received the frame.
   bool carry(std::uint64_t start_us, int from, CanFrame& heard) {
     const CanFrame frame = from == kController ? queue_[chosen_] : ready_[from];
     const std::uint32_t frame_bits = canopen::exact_bits(frame).all();

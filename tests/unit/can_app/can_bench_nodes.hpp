@@ -5,7 +5,6 @@
 #include "common/protocol/canopen/device.hpp"
 #include "common/protocol/canopen/robot_plan.hpp"
 
-/// The nodes of can_bench.hpp.
 namespace verp::test {
 
 using canopen::Abort;

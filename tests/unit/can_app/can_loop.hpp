@@ -10,7 +10,7 @@ namespace verp::test {
 
 inline constexpr std::uint32_t kAll = (1u << kBenchJoints) - 1;
 
-/// A controller on the bench, without a core: the test sets the outputs.
+/// A controller on the bench without a core: the test sets the outputs.
 struct CanLoop {
   CanBench bench;
   app::CanopenServos<CanBench> servos{bench.params, bench};

@@ -4,8 +4,6 @@
 #include "firmware/app/sensed_counts.hpp"
 #include "tests/unit/can_app/can_loop.hpp"
 
-// Which answers count as fresh, and how nodes that answer the wrong SYNC are handled.
-
 namespace verp::app {
 namespace {
 
@@ -157,8 +155,8 @@ TEST(SyncRepair, ADriveThatMissedASyncIsBroughtBackToItsOwnWhileItHoldsTorque) {
   EXPECT_EQ(times_on(loop, kNode), before + 1) << "once was enough: it is where it should be";
 }
 
-// Nodes being set up again take turns, as telemetry does. If telemetry waited for one of them it
-// would ask nobody meanwhile, and nothing would show that the bus is prompt.
+// Nodes being set up take turns, as telemetry does. Waiting for one of them would ask nobody, and
+// nothing would show that the bus is prompt.
 TEST(DriveTelemetry, PassesOverWhoIsBusy) {
   Params params;
   params.joint_count = 5;
@@ -179,7 +177,7 @@ TEST(DriveTelemetry, PassesOverWhoIsBusy) {
   EXPECT_FALSE(telemetry.next(request, node_bit(5) - 1, missed)) << "all are";
 }
 
-// A drive that aborts for another reason has the object, and its temperature is useful.
+// It has the object, and its temperature is useful.
 TEST(DriveTelemetry, OnlyADriveWithoutTheObjectIsAskedForAnother) {
   using canopen::Abort;
   Params params;

@@ -42,8 +42,7 @@ TEST(CanopenBringUp, AsksForThePeriodToTheNearestTenthOfAMillisecond) {
             4'500u);
 }
 
-// After its reset a controller finds the robot stiff; one failing drive must not keep the others
-// stiff.
+// After a reset the controller finds the robot stiff.
 TEST(CanopenBringUp, NamesASilentNodeAndLeavesNobodyStiff) {
   Loop& loop = test::new_can_loop();
   loop.enable();

@@ -65,8 +65,6 @@ struct Campaign {
   }
 };
 
-// While the robot stands, a drive that lost its torque never regains it and no tick takes longer
-// than a period. Afterwards all is well again.
 TEST(CanopenCampaign, NoSeedThrowsADriveAtItsGoalOrLeavesOneOut) {
   for (std::uint32_t seed = 1; seed <= 40; ++seed) {
     Campaign campaign(seed);

@@ -44,7 +44,6 @@ TEST(CanopenServos, ReadsEveryNodeInEachTickAndSetsItsFlags) {
   EXPECT_EQ(loop.servos.counters().strays, 0u);
 }
 
-// The bus paces ticks: each begins one period after the one before.
 TEST(CanopenServos, TakesExactlyOnePeriodForATick) {
   Loop& loop = test::new_can_loop();
   loop.up();
@@ -56,8 +55,7 @@ TEST(CanopenServos, TakesExactlyOnePeriodForATick) {
   }
 }
 
-// The serial bus has the same rule: strength and goals go first, and in the third tick all drives
-// get torque together.
+// As on the serial bus: strength and goals go first, then all drives get torque together.
 TEST(CanopenServos, GivesTorqueInTheThirdTickAndOnlyWithGoalsKnown) {
   Loop& loop = test::new_can_loop();
   loop.up();
@@ -269,7 +267,7 @@ TEST(CanopenServos, HoldsByItselfWhenTheControllerIsGone) {
   EXPECT_TRUE(loop.all_in(State::kOperationEnabled)) << "and goes on when it is back";
 }
 
-// No tick of a healthy bus takes longer than the loop assumes and export promises.
+// The loop and export count on it.
 TEST(CanSchedule, CoversTheBitsOfEveryTick) {
   Loop& loop = test::new_can_loop();
   loop.enable();
@@ -285,7 +283,7 @@ TEST(CanSchedule, CoversTheBitsOfEveryTick) {
   }
 }
 
-// A humanoid with 21 drives, an IMU and two feet at 125 Hz with worst-case stuffing.
+// With an IMU and two feet at 125 Hz, and worst-case stuffing.
 TEST(CanSchedule, TwentyOneDrivesTakeAtMostSeventyPercentOfEightMilliseconds) {
   Params params;
   params.baud = 1'000'000;
@@ -301,7 +299,7 @@ TEST(CanSchedule, TwentyOneDrivesTakeAtMostSeventyPercentOfEightMilliseconds) {
   EXPECT_LE(windows_us, 8'000u) << "nor do timeouts of all groups take more than a tick";
 }
 
-// The whole loop on a CanBus: the tick's record shows what the nodes report.
+// The whole loop on a CanBus.
 struct Desk {
   OperatorOrder order(std::uint32_t) { return {}; }
   void record(const TickRecord& record, const verp::State&, const Outputs&) {

@@ -2,8 +2,6 @@
 
 #include "tests/unit/can_app/can_loop.hpp"
 
-// How the controller handles CAN failures: as on the serial bus.
-
 namespace verp::app {
 namespace {
 
@@ -30,7 +28,7 @@ TEST(CanopenTrouble, DrivesWaitForEachOtherBeforeTheyGetTorqueButNotForEver) {
   }
 }
 
-// The drive's torque limit is lost with its power, while the rest of the robot keeps the right one.
+// The drive's torque limit is lost with its power.
 TEST(CanopenTrouble, ADriveThatWasSetUpAgainRisesNoStrongerThanAllowed) {
   Loop& loop = test::new_can_loop();
   loop.bench.params.rise_torque_percent = 40;
@@ -50,7 +48,7 @@ TEST(CanopenTrouble, ADriveThatWasSetUpAgainRisesNoStrongerThanAllowed) {
   EXPECT_TRUE(loop.all_in(State::kOperationEnabled));
 }
 
-// The drive is enabled but ignores its target: another master changed its mode of operation.
+// Another master changed its mode of operation.
 TEST(CanopenTrouble, ADriveThatDoesNotFollowItsTargetDoesNotCount) {
   Loop& loop = test::new_can_loop();
   loop.enable();
@@ -68,7 +66,6 @@ TEST(CanopenTrouble, ADriveThatDoesNotFollowItsTargetDoesNotCount) {
   EXPECT_EQ(loop.inputs.fresh, kAll);
 }
 
-// The second reboot also erases the settings written after the first.
 TEST(CanopenTrouble, ADriveThatRebootsWhileItIsSetUpIsSetUpFromTheBeginning) {
   Loop& loop = test::new_can_loop();
   loop.up();
@@ -103,7 +100,7 @@ TEST(DoubtedDrives, OneThatRebootedCountsOnlyWhenItIsSetUpOrStillHolds) {
   EXPECT_EQ(doubts.all(), 0u);
 }
 
-// Ticks are counted by this time, so a timeout must not look like an overrun.
+// Ticks are counted by this time: a timeout must not look like an overrun.
 TEST(CanopenTrouble, TheTimeOfATickIsThatOfItsBeginning) {
   Loop& loop = test::new_can_loop();
   loop.enable();
@@ -115,7 +112,7 @@ TEST(CanopenTrouble, TheTimeOfATickIsThatOfItsBeginning) {
   }
 }
 
-// The node received one SYNC twice and now answers the tick's last one, which is just as good.
+// The node received one SYNC twice and now answers the tick's last one.
 TEST(CanopenTrouble, AnAnswerLaterInTheTickThanPlannedCountsAtOnce) {
   AnswerWatch watch;
   watch.plan(2, 1);
@@ -127,7 +124,6 @@ TEST(CanopenTrouble, AnAnswerLaterInTheTickThanPlannedCountsAtOnce) {
   EXPECT_TRUE(watch.take(2, 1) == Answer::kOld) << "early: it may be late from the tick before";
 }
 
-// One silent drive delays no other, and its own position does not count as fresh.
 TEST(CanopenTrouble, ASilentDriveIsMissedAloneAndSoonNotWaitedFor) {
   Loop& loop = test::new_can_loop();
   loop.enable();
@@ -141,7 +137,7 @@ TEST(CanopenTrouble, ASilentDriveIsMissedAloneAndSoonNotWaitedFor) {
   EXPECT_LT(loop.servos.counters().timeouts, 15u) << "six in the first 60 ms, then every 8th tick";
 }
 
-// A drive that was unreachable but kept power and torque counts again at once.
+// It was unreachable but kept its power.
 TEST(CanopenTrouble, ADriveThatKeptItsTorqueCountsAgain) {
   Loop& loop = test::new_can_loop();
   loop.enable();
@@ -156,8 +152,7 @@ TEST(CanopenTrouble, ADriveThatKeptItsTorqueCountsAgain) {
   EXPECT_EQ(loop.bench.drives[2].resets, 1);
 }
 
-// It returns limp and unconfigured: first the robot relaxes, then the drive is set up, then it gets
-// torque.
+// It returns limp and unconfigured.
 TEST(CanopenTrouble, ADriveThatRebootsGetsNoTorqueBeforeTheRobotWasLetGo) {
   Loop& loop = test::new_can_loop();
   loop.enable();
@@ -210,7 +205,7 @@ TEST(CanopenTrouble, ASensorThatRebootsIsSetUpAgainWhileTheRobotStands) {
   EXPECT_TRUE(loop.all_in(State::kOperationEnabled));
 }
 
-// The start command was lost. Nothing acknowledges it; the node just stays silent.
+// Nothing acknowledges a start command, so a lost one shows only as silence.
 TEST(CanopenTrouble, ANodeThatIsNotOperationalIsStartedAgain) {
   Loop& loop = test::new_can_loop();
   loop.up();
@@ -268,7 +263,6 @@ TEST(CanopenTrouble, ADriveThatMissedASyncIsFoundWhereItAnswersNow) {
   EXPECT_EQ(loop.servos.counters().timeouts, after) << "it is waited for where it answers";
 }
 
-// While nothing passes, no tick waits longer than its SYNCs take and no tick is lost.
 TEST(CanopenTrouble, WithoutABusTicksGoOnAndAllIsBackAfterwards) {
   Loop& loop = test::new_can_loop();
   loop.enable();

@@ -3,8 +3,7 @@
 #include "tests/unit/can_app/objects_node.hpp"
 #include "tests/unit/images/actions_board.hpp"
 
-// Actions sent to a running board over its robot's bus as object 5002h, as through the operator's
-// window (unit/images/operator_actions_test.cpp).
+// Object 5002h, as through the operator's window (unit/images/operator_actions_test.cpp).
 
 namespace verp::app::test {
 namespace {
@@ -74,7 +73,6 @@ TEST(ControllerActions, SaysWhyItTakesNone) {
   });
 }
 
-// The cable is pulled at any point and plugged in again.
 TEST(ControllerActions, ATransferThatWasCutComesToNothingAndTheNextOneIsWhole) {
   in_each_mode([](Sender& sender) {
     for (int frames = 1; frames < 200; frames += 17) {

@@ -17,7 +17,6 @@ using table::Register;
 static_assert(canopen::Application<ControllerObjects<NoImages>>);
 static_assert(canopen::StreamingDictionary<ControllerObjects<ParamsImages>>);
 
-// One table serves both protocols: the object dictionary has all of it and nothing else.
 TEST(ControllerObjects, EveryRegisterIsTheObjectThatTheTableNames) {
   auto& node = renewed<Node<NoImages>>(no_images);
   node.arm(false);
@@ -61,7 +60,6 @@ TEST(ControllerObjects, WhatIsNoRegisterIsNoObject) {
   EXPECT_EQ(found, table::kRegisters) << "there are no images here";
 }
 
-// The same bytes go to both: the objects refuse exactly what the registers refuse.
 TEST(ControllerObjects, WriteDoesWhatItDoesToTheRegister) {
   auto& node = renewed<Node<NoImages>>(no_images);
   alignas(
@@ -103,7 +101,7 @@ TEST(ControllerObjects, RefusalsSayWhy) {
   EXPECT_TRUE(node.write({index("id"), 0}, &one, 1) == Abort::kDeviceState) << "armed";
 }
 
-// A walk can be steered by PDO: a mapped object's value is an order like any other.
+// So PDOs can steer a walk.
 TEST(ControllerObjects, CommandCanStandInARpdo) {
   auto& node = renewed<Node<NoImages>>(no_images);
   constexpr std::uint16_t kVx = table::find("walk_vx")->object_index();
@@ -126,7 +124,7 @@ TEST(ControllerObjects, CommandCanStandInARpdo) {
   EXPECT_TRUE((order.flags & kCommandFresh) != 0);
 }
 
-// The writer learns that orders have no effect; a reader may still choose what to show.
+// A reader may still choose what to show.
 TEST(ControllerObjects, ALoopThatObeysSomebodyElseRefusesEveryOrder) {
   auto& node = renewed<Node<NoImages>>(no_images, OperatorSetup{.takes_orders = false});
   const std::uint8_t zeros[8] = {}, one = 1;

@@ -6,7 +6,6 @@
 #include "firmware/app/controller_objects.hpp"
 #include "tests/unit/app/operator_bench.hpp"
 
-/// The controller as a node, and an SDO client that queries it.
 namespace verp::app::test {
 
 inline constexpr std::uint8_t kNode = 100;
@@ -25,7 +24,7 @@ struct Node {
     outputs.torque_enable = on ? 1 : 0;
     registers.record({state.digest, inputs}, state, outputs);
   }
-  /// Runs the client's transfer to its end and returns the result.
+  /// Runs the client's transfer to its end.
   canopen::Abort run() {
     canopen::Frame frame;
     for (std::uint64_t now_us = 0; client.state() == canopen::SdoClient::State::kBusy;

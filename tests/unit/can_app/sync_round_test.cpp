@@ -3,7 +3,7 @@
 #include "firmware/app/sync_round.hpp"
 #include "tests/unit/can_app/can_loop.hpp"
 
-// Nodes count SYNCs. Tests what the controller does after a doubled or lost SYNC.
+// Nodes count SYNCs: a doubled or lost one shifts their answers.
 
 namespace verp::app {
 namespace {
@@ -67,7 +67,7 @@ TEST(SyncRound, SendsOneMoreWhereNobodyAnswers) {
   EXPECT_EQ(round.after(2), 3) << "who was silent before is silent";
 }
 
-// From then on each group answers one SYNC late, so one more SYNC is right at any point.
+// All groups answer one SYNC late from then on.
 TEST(SyncRound, SendsOneMoreWhereAGroupComesAfterItsTurn) {
   Round round;
   EXPECT_EQ(round.after(1), 2) << "SYNC 1 begins a tick: never twice";
@@ -137,7 +137,6 @@ TEST(SyncRound, AfterASyncTooManyAllNodesAreBackInTwoTicks) {
   }
 }
 
-// A tick with lost SYNCs is like a silent one: in the next tick all nodes count again.
 TEST(SyncRound, AfterLostSyncsAllNodesAreBack) {
   Loop& loop = test::new_can_loop();
   loop.enable();

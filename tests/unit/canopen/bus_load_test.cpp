@@ -42,7 +42,7 @@ TEST(BusLoad, FdFramesHaveTheKnownLengths) {
   }
 }
 
-// A classic frame's bits from its start to its CRC, one by one, as in ISO 11898-1.
+// A classic frame's bits from start to CRC, as in ISO 11898-1.
 unsigned draw(const Frame& frame, unsigned* bits) {
   unsigned count = 0;
   const auto put = [&](std::uint32_t value, unsigned width) {
@@ -69,8 +69,8 @@ unsigned stuff_bits(const unsigned* bits, unsigned count) {
   return stuffed;
 }
 
-// Dividing a frame and its CRC by the polynomial leaves nothing. The exact length counts the bits
-// and one stuff bit after each five equal ones.
+// Frame and CRC divide by the polynomial without a remainder. The exact length adds one stuff bit
+// after each five equal bits.
 TEST(BusLoad, ClassicFramesAreCountedBitByBit) {
   test::Dice dice(1);
   for (int run = 0; run < 400; ++run) {
@@ -163,8 +163,8 @@ TEST(BusLoad, TimesAndSharesAreRoundedUp) {
   EXPECT_EQ(load_permille({501, 0}, {1'000'000, 1}, 8000), 63u);
 }
 
-// The promise in numbers: 21 drives at 125 Hz, six bytes each way and a SYNC with its counter. With
-// worst-case stuffing they stay under 70 % of 1 Mbit/s; at 200 Hz they do not.
+// Six bytes each way and a SYNC with its counter stay under 70 % of 1 Mbit/s, even with worst-case
+// stuffing.
 TEST(BusLoad, TwentyOneDrivesFitAt125HzAndNotAt200) {
   FrameBits tick = classic_bits(6, Stuffing::kWorst) * 42;
   tick += classic_bits(1, Stuffing::kWorst);

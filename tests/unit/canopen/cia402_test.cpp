@@ -72,7 +72,7 @@ constexpr Arrow kArrows[17] = {{},
                                {State::kFault, State::kSwitchOnDisabled},
                                {State::kQuickStopActive, State::kOperationEnabled}};
 
-// The standard's transition for a controlword after a controlword of 0.
+// For a controlword after a controlword of 0.
 std::uint8_t expected(State state, unsigned word, bool stays) {
   if ((word & 0x80) != 0) return state == State::kFault ? 15 : 0;
   for (const Command& command : kCommands) {
@@ -238,7 +238,6 @@ TEST(EnableSequence, ResetsAFaultAFewTimesAndThenSaysSo) {
   EXPECT_TRUE(enable(drive, now_us) == Result::kEnabled) << "asked again, with the cause gone";
 }
 
-// The words reach the drive unchanged, so none of them may skip a state.
 TEST(EnableSequence, NeverCommandsOperationBeforeTheDriveIsSwitchedOn) {
   for (unsigned status = 0; status < 0x10000; status += 1) {
     EnableSequence master;

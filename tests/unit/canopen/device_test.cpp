@@ -12,7 +12,6 @@ namespace {
 using cia402::DriveObjects;
 namespace object = cia402::object;
 
-// A drive's objects as an application, for the twin and for tests of a master.
 struct Application402 {
   DriveObjects objects;
   Abort find(Address at, Entry& entry) { return cia402::find_object(at, entry); }
@@ -63,7 +62,6 @@ struct Node {
                         two(object::kActualVelocity, 32, object::kActualTorque, 16)};
     device.start();
   }
-  // Takes the only frame that the device has to send now.
   bool only(Frame& frame, std::uint64_t now_us = 0) {
     Frame more;
     return device.next(frame, now_us) && !device.next(more, now_us);
@@ -128,7 +126,7 @@ TEST(Device, SpeaksSdoUnlessStopped) {
   EXPECT_TRUE(node.client.state() == SdoClient::State::kBusy) << "nobody answers";
 }
 
-// The standard's order, through SDO, as any configuration tool does it.
+// In the standard's order, as any configuration tool does it.
 TEST(Device, IsRemappedThroughSdo) {
   Node node;
   node.operate();
@@ -149,7 +147,7 @@ TEST(Device, IsRemappedThroughSdo) {
   EXPECT_EQ(get_le(frame.data, 2), 0xFFFDu);
 }
 
-// CiA 301: switching the PDO off and on returns a node that missed a SYNC to its planned SYNCs.
+// CiA 301; so a node that missed a SYNC returns to its planned ones.
 TEST(Device, WaitsForItsSyncStartValueAgainWhenItsPdoIsSwitchedOffAndOn) {
   Node node;
   constexpr std::uint8_t kGroups = 3, kStart = 2;

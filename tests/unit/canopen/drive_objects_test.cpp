@@ -25,7 +25,6 @@ TEST(DriveObjects, EveryRowIsFoundReadAndRefusedIfReadOnly) {
   }
 }
 
-// Each row uses the bytes of its own member: a written value is read from that row alone.
 TEST(DriveObjects, NoTwoRowsShareBytes) {
   for (std::size_t i = 0; i < kDriveRowCount; ++i) {
     for (std::size_t k = i + 1; k < kDriveRowCount; ++k) {
@@ -97,7 +96,7 @@ TEST(FollowingMonitor, TellsADistanceThatLastsLongerThanAllowed) {
   EXPECT_FALSE(monitor.update(objects, 3'012'000)) << "its time begins anew";
 }
 
-// A drive's dictionary is these three functions; the controller's SDO server serves it, too.
+// The controller's SDO server serves it, too.
 struct DriveDictionary {
   DriveObjects objects;
   Abort find(Address at, Entry& entry) { return find_object(at, entry); }

@@ -13,7 +13,7 @@ NmtSlave started() {
   return slave;
 }
 
-// CiA 301's state diagram: each command leads to its state from all three states.
+// From CiA 301's state diagram.
 TEST(NmtSlave, ObeysEachCommandFromEachState) {
   const NmtCommand ways[] = {NmtCommand::kStart, NmtCommand::kStop,
                              NmtCommand::kEnterPreOperational};

@@ -82,7 +82,6 @@ struct Device {
   std::uint64_t wanted;
 };
 
-// One RPDO for two drives: each skips the other's part.
 TEST(Pdo, DummiesLetDevicesShareAnRpdo) {
   PdoMapping<> first;
   PdoMapping<> second;
@@ -186,8 +185,7 @@ TEST(SyncSchedule, AnswersEveryNthSync) {
   EXPECT_FALSE(schedule.on_sync(kEventProfile, 0, 0, true)) << "not synchronous";
 }
 
-// 21 drives answer every fifth SYNC, with start values 1 to 5. At most five drives answer each
-// SYNC, and each drive answers every fifth, whenever it joined.
+// 21 drives answer every fifth SYNC, at most five drives per SYNC, whenever they joined.
 TEST(SyncSchedule, StartValuesShareTheSyncs) {
   constexpr int kDrives = 21;
   SyncSchedule drives[kDrives];

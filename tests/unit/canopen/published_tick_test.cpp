@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-// A controller publishes exactly what a listener cannot hear otherwise of a tick.
+// A controller publishes what a listener cannot hear otherwise.
 namespace verp::canopen::published {
 namespace {
 
@@ -28,8 +28,7 @@ Inputs random_inputs(std::uint32_t tick) {
   return inputs;
 }
 
-/// Inputs of a tick after `before`: values whose flags say fresh are new, and so are a few words
-/// besides.
+/// The next tick's inputs: what the flags call fresh is new, and so are a few words.
 Inputs next_inputs(const Inputs& before, bool bus_imu, int words) {
   Inputs now = before;
   copy_heard(now, random_inputs(before.tick + 1), bus_imu);
@@ -73,7 +72,6 @@ TEST(PublishedTick, NothingIsToldTwice) {
   EXPECT_EQ(parts.count(), 0);
 }
 
-// A listener must not mistake a few of many changes for all.
 TEST(PublishedTick, MoreThanTheBusCarriesIsSaidToBeTooMany) {
   Inputs before, now;
   for (int j = 0; j < kMaxJoints; ++j) now.position_count[j] = -1;

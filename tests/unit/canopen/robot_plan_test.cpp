@@ -16,7 +16,7 @@ Params robot(int joints, bool sensors) {
   return params;
 }
 
-// A receiver with room for five frames can take them, for any robot.
+// A receiver may have room for only five.
 TEST(RobotPlan, AtMostFiveFramesAnswerOneSync) {
   for (int joints = 0; joints <= kMaxJoints; ++joints) {
     for (const bool sensors : {false, true}) {
@@ -35,7 +35,6 @@ TEST(RobotPlan, TwentyOneDrivesWithSensorsTakeFiveSyncs) {
   EXPECT_EQ(sync_groups(robot(21, true)), 5);
 }
 
-// A frame has one place for each of its drives, and a drive maps only its own.
 TEST(RobotPlan, DrivesOfASharedFrameMapDisjointPlaces) {
   const Params params = robot(21, true);
   for (const Shared& kind : {kGoals, kWords, kStrengths}) {

@@ -2,7 +2,6 @@
 
 #include "tests/unit/canopen/sdo_bench.hpp"
 
-// What both ends of SDO refuse, ignore or abort, with the documented codes.
 namespace verp::canopen {
 namespace {
 
@@ -12,7 +11,6 @@ using test::Line;
 using Mode = SdoClient::Mode;
 using State = SdoClient::State;
 
-// The server's abort code for one request.
 Abort refusal(Bench& bench, const Line& line) {
   bench.server.receive(frame_of(line), 0);
   Frame reply;
@@ -187,7 +185,6 @@ TEST(SdoServer, IgnoresWhatIsNotForIt) {
   EXPECT_FALSE(bench.server.next(reply, 0));
 }
 
-// For little data a client may prefer a plain upload.
 TEST(SdoServer, SwitchesToAPlainUploadBelowTheClientsThreshold) {
   Bench& bench = test::fresh_bench();
   bench.dictionary.small[1].size = 4;

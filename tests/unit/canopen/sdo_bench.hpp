@@ -4,7 +4,6 @@
 #include "common/protocol/canopen/sdo_client.hpp"
 #include "common/protocol/canopen/sdo_server.hpp"
 
-/// Shared by the SDO tests: a dictionary, and a channel that a test can disturb.
 namespace verp::canopen::test {
 
 /// A frame between client and server as documents write it.
@@ -156,7 +155,6 @@ struct Bench {
     now_us = 0;
     frames = 0;
   }
-  /// Each end sends at most one frame and receives one.
   bool step(Dice& dice) {
     Frame frame;
     bool moved = false;
@@ -189,7 +187,7 @@ struct Bench {
   }
 };
 
-/// The one bench that memory has room for, reset.
+/// The only one: memory has no room for more.
 inline Bench& fresh_bench() {
   static Bench bench;
   bench.reset();

@@ -2,8 +2,8 @@
 
 #include "tests/unit/canopen/sdo_bench.hpp"
 
-// SDO byte for byte. Vendors' documents and other projects' tests of CiA 301 agree on these
-// exchanges; our client and our server each play their part.
+// Exchanges on which vendors' documents and other projects' tests of CiA 301 agree; our client and
+// our server each play their part.
 namespace verp::canopen {
 namespace {
 
@@ -35,7 +35,7 @@ struct OneObject {
 };
 static_assert(Dictionary<OneObject> && !StreamingDictionary<OneObject>);
 
-// The machine must send its own lines and receives the others. All must be sent.
+// The machine must send its own lines; it receives the others.
 template <class Machine>
 void play(Machine& machine, bool requests, const Line* lines, std::size_t count) {
   for (std::size_t i = 0; i < count; ++i) {

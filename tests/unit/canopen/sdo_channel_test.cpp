@@ -2,8 +2,6 @@
 
 #include "tests/unit/canopen/sdo_bench.hpp"
 
-// Client against server over good and bad channels: data are right or missing, and every transfer
-// ends.
 namespace verp::canopen {
 namespace {
 
@@ -31,7 +29,6 @@ bool equal(const std::uint8_t* a, const std::uint8_t* b, std::uint32_t size) {
   return true;
 }
 
-// Makes one transfer of `size` random bytes and checks its result.
 void transfer(Bench& bench, Dice& dice, bool write, std::uint32_t size, Mode mode, Tally& tally) {
   static std::uint8_t mine[BenchDictionary::kLarge + 8];
   const Address at = size > BenchDictionary::kSmall ? kLarge : kSmall;
@@ -54,7 +51,7 @@ void transfer(Bench& bench, Dice& dice, bool write, std::uint32_t size, Mode mod
   const bool done = bench.client.state() == State::kDone;
   done ? ++tally.done : ++tally.aborted;
   if (write) {
-    // A lost confirmation leaves the client in doubt but never partial or wrong data in the server.
+    // A lost confirmation leaves the client in doubt, never wrong data in the server.
     const bool written = bench.dictionary.writes != writes;
     ASSERT_TRUE(written || !done) << "done, but never written";
     ASSERT_EQ(theirs.size, written ? size : before_size);
@@ -110,8 +107,8 @@ void spoil(Bench& bench, std::uint32_t lose, std::uint32_t duplicate, std::uint3
   }
 }
 
-// Plain transfers have only one toggle bit, so this channel does what CAN itself does: it loses or
-// doubles frames, but those of one identifier keep their order.
+// Plain transfers have only one toggle bit. So this channel loses and doubles frames as CAN does,
+// but keeps the order of each identifier.
 TEST(SdoTransfer, PlainOverALossyDuplicatingChannelIsRightOrAborted) {
   Bench& bench = test::fresh_bench();
   Tally tally;
@@ -124,7 +121,7 @@ TEST(SdoTransfer, PlainOverALossyDuplicatingChannelIsRightOrAborted) {
   EXPECT_GT(tally.aborted, 50) << "the channel is not bad enough to show anything";
 }
 
-// Blocks have sequence numbers and a CRC, so frames may come in any order.
+// Sequence numbers and a CRC allow any order.
 TEST(SdoTransfer, BlocksOverALossyReorderingDuplicatingChannelAreRightOrAborted) {
   Bench& bench = test::fresh_bench();
   Tally tally;
@@ -138,7 +135,6 @@ TEST(SdoTransfer, BlocksOverALossyReorderingDuplicatingChannelAreRightOrAborted)
   EXPECT_GT(tally.aborted, 20) << "the channel is not bad enough to show anything";
 }
 
-// Lost segments are sent again, even a block's last one.
 TEST(SdoTransfer, ABlockSurvivesLostSegments) {
   Bench& bench = test::fresh_bench();
   int done = 0;
@@ -242,8 +238,7 @@ TEST(SdoClient, TakesNoMoreThanItsBufferHolds) {
   }
 }
 
-// For any frames, orders and gaps, the server keeps the dictionary's contract and is idle after a
-// long enough silence.
+// The server keeps the dictionary's contract and is idle after a long enough silence.
 TEST(SdoServer, SurvivesAnyFrames) {
   Bench& bench = test::fresh_bench();
   Dice dice(4);

@@ -3,14 +3,12 @@
 #include "tests/unit/action/shelf.hpp"
 #include "tests/unit/control/loop.hpp"
 
-/// Actions in the tick: how they begin and end, and what remains. The last test's number holds on
-/// every core.
 namespace verp::control {
 namespace {
 
 using namespace test;
 
-/// An action that moves both arms and a knee there and back in 0.4 s, and one of the head.
+/// Both arms and a knee there and back in 0.4 s; and one of the head.
 action::test::Shelf shelf() {
   action::test::Shelf shelf;
   for (const int joint : {kLeftArm, kRightArm, kLeftLeg + 3}) {

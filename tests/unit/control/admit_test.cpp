@@ -15,7 +15,6 @@ using test::Loop;
 constexpr std::uint8_t kGood_c = 40, kHot_c = 99;
 constexpr std::uint16_t kGood_tenth_v = 120, kLow_tenth_v = 90;
 
-/// The first stage alone, fed with telemetry.
 struct Telemetry {
   AdmitOut read(int joint, std::uint8_t temperature_c, std::uint8_t error = 0,
                 std::uint16_t tenth_v = kGood_tenth_v) {
@@ -43,7 +42,6 @@ struct Telemetry {
   AdmitOut last;
 };
 
-// Holds for any servo, whatever the others report in between.
 TEST(Admit, OneServoThatStaysBadIsFound) {
   for (int j = 0; j < kJointCount; ++j) {
     for (const bool error : {false, true}) {
@@ -67,7 +65,7 @@ TEST(Admit, AllServosButOneThatStayBadAreFound) {
   EXPECT_TRUE(telemetry.power_bad());
 }
 
-// One bad reading is noise: one from each servo in turn, or one now and then.
+// One from each servo in turn, or one now and then.
 TEST(Admit, BadReadingsThatAreNotOneServosInARowAreNoise) {
   Telemetry telemetry;
   for (int n = 1; n < kAlarmReadings; ++n) telemetry.round(~0U);
@@ -89,7 +87,7 @@ TEST(Admit, ServoThatIsWellAgainClearsItselfAndNoOther) {
   EXPECT_FALSE(telemetry.power_bad());
 }
 
-// All servos share the supply, so readings of any servo count together.
+// All servos share the supply.
 TEST(Admit, LowSupplyIsFoundWhicheverServosTellOfIt) {
   Telemetry telemetry;
   for (int n = 1; n < kSupplyReadings; ++n) {
@@ -103,7 +101,6 @@ TEST(Admit, LowSupplyIsFoundWhicheverServosTellOfIt) {
   EXPECT_FALSE(telemetry.power_bad()) << "a peak of the current is over";
 }
 
-// Telemetry for a joint that does not exist is no reading.
 TEST(Admit, TelemetryOfNoServoIsIgnored) {
   Telemetry telemetry;
   for (int n = 0; n < 3 * kSupplyReadings; ++n) {
@@ -112,7 +109,7 @@ TEST(Admit, TelemetryOfNoServoIsIgnored) {
   }
 }
 
-// Through the whole tick: one hot knee ends the walk on both feet and sits the robot down.
+// Through the whole tick.
 TEST(Admit, OneHotServoEndsTheWalk) {
   Loop& loop = test::fresh_loop();
   loop.walk(1000);
@@ -133,10 +130,8 @@ TEST(Admit, OneHotServoEndsTheWalk) {
   EXPECT_TRUE(loop.is_in(safety::Mode::kRelaxed)) << "though a walk is asked";
 }
 
-// A controller that stood still and resumed.
 constexpr int kHold_ticks = 5;  // stale_hold_s at 10 ms
 
-/// Inputs of a robot whose devices all report, and their ages.
 struct Senses {
   AdmitOut tick(std::uint32_t periods = 1) {
     inputs.tick += periods;
@@ -170,7 +165,7 @@ TEST(Admit, FirstTickMayHaveAnyNumberAndTheCountMayWrap) {
   }
 }
 
-// Even if all report afterwards: meanwhile the controller heard and steered nothing.
+// Even if all report afterwards.
 TEST(Admit, ControllerThatStoodStillIsStale) {
   for (const std::uint32_t skipped : {0U, 1U, 4U, 5U, 6U, 49U, 50U, 300U, 100'000U, 0xFFFFFFF0U}) {
     Senses senses;
@@ -183,7 +178,6 @@ TEST(Admit, ControllerThatStoodStillIsStale) {
   }
 }
 
-// A loop that skips every other period measures the same silence.
 TEST(Admit, AgesAreTimesNotTicks) {
   for (const std::uint32_t periods : {1U, 2U, 4U}) {
     Senses servo, imu, person;
@@ -267,7 +261,7 @@ TEST(Admit, FrozenImuStopsTheWalk) {
   EXPECT_GE(loop.until(safety::Mode::kSitting, 100), 0);
 }
 
-// Through the whole tick: the robot does not resume the walk; it holds, then rises anew.
+// Through the whole tick: it holds, then rises anew.
 TEST(Admit, WalkEndsWhereTheControllerStoodStill) {
   Loop& loop = test::fresh_loop();
   loop.walk(1000);

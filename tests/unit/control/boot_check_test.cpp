@@ -74,7 +74,7 @@ TEST(BootCheck, DamagedTruncatedOrMissingImageIsRefused) {
   EXPECT_TRUE(verdict_on(image) == BootVerdict::kSound);
 }
 
-// The seal is whole; only the answers show that another core gave them.
+// The seal is whole; only the answers tell.
 TEST(BootCheck, AnswersOfAnotherCoreAreRefused) {
   ParamsImage& image = sealed_image();
   image.golden[3].legs_digest ^= 1;
@@ -91,7 +91,7 @@ TEST(BootCheck, AnswersOfAnotherCoreAreRefused) {
   EXPECT_TRUE(verdict_on(image) == BootVerdict::kControl);
 }
 
-// The answers match, because a NaN gives the same everywhere, but the robot must never have torque.
+// NaN gives the same answers everywhere.
 TEST(BootCheck, ImageWithANumberThatIsNoneIsRefusedByName) {
   ParamsImage& image = sealed_image();
   image.params.joint[14].velocity_limit_rad_s = test::quiet_nan();

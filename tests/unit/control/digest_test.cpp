@@ -37,7 +37,6 @@ TEST(StepDigest, EqualInputsGiveEqualStatesAndDigests) {
   }
 }
 
-// State holds all of the past: a copy continues as the original does.
 TEST(StepDigest, CopyOfAStateContinuesTheSame) {
   Loop& loop = test::fresh_loop();
   static State copy;
@@ -54,7 +53,6 @@ TEST(StepDigest, CopyOfAStateContinuesTheSame) {
   }
 }
 
-// One bit in any byte of the inputs, used or not, changes the digest.
 TEST(StepDigest, AnyBitOfTheInputsChangesTheDigest) {
   Loop& loop = test::fresh_loop();
   static State before, after;
@@ -77,7 +75,6 @@ TEST(StepDigest, AnyBitOfTheInputsChangesTheDigest) {
   }
 }
 
-// A past difference stays visible in all later digests.
 TEST(StepDigest, ChainRemembersADifference) {
   static Loop a, b;
   a = b = Loop{};
@@ -93,7 +90,7 @@ TEST(StepDigest, ChainRemembersADifference) {
   }
 }
 
-// The plan's digest shows a micrometre in a thigh.
+// A micrometre in a thigh changes the plan's digest.
 TEST(StepDigest, AnotherRobotIsSeen) {
   static Params other = kRobot;
   other.leg[0].thigh_m += 1e-6F;

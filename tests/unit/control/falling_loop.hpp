@@ -5,11 +5,9 @@
 #include "tests/unit/action/shelf.hpp"
 #include "tests/unit/control/loop.hpp"
 
-/// A robot that can be toppled, with its actions for falling and getting up.
 namespace verp::control::test {
 
-/// A falling pose with the left arm at 1 rad, and a rise from the front in 0.9 s with both arms at
-/// 0.5 rad.
+/// A fall with the left arm at 1 rad; a rise from the front in 0.9 s with both arms at 0.5 rad.
 inline action::test::Shelf falling_shelf() {
   action::test::Shelf shelf;
   __builtin_memcpy(shelf.action[0].name, action::kGetUpFront, kNameLength);
@@ -31,13 +29,12 @@ struct FallingLoop : Loop {
     if (with_actions) actions = kFallingShelf.library();
     command.request = Request::kStand;
   }
-  /// Up, seen from the body.
   void hold_up(std::int16_t x, std::int16_t z) {
     inputs.accel_count[0] = x;
     inputs.accel_count[2] = z;
   }
-  /// Topples nose down at 3 rad/s and stays down. Returns the tilt in rad at which `mode` was
-  /// entered, or -1 if it never was.
+  /// Topples nose down at 3 rad/s and stays down. Returns the tilt, rad, at which `mode` began; -1
+  /// if never.
   double topple(Mode mode) {
     constexpr double kRate_rad_s = 3, kGyro_rad_s = 0.00106, kOne = 8172;
     double tilt_rad = 0, entered_rad = -1;

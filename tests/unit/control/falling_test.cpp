@@ -4,7 +4,6 @@
 
 #include "tests/unit/control/falling_loop.hpp"
 
-/// Falls in the tick: detected before the ground is met; torque on the floor only on request.
 namespace verp::control {
 namespace {
 
@@ -54,7 +53,6 @@ TEST(Falling, OneThatIsCaughtRisesAgain) {
   EXPECT_EQ(loop.outputs.faults & safety::kFaultFall, 0u);
 }
 
-/// A robot fallen on its front.
 FallingLoop fallen() {
   FallingLoop loop;
   loop.until(Mode::kStanding, 200);

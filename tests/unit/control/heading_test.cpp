@@ -2,7 +2,6 @@
 
 #include "tests/unit/control/loop.hpp"
 
-/// How a walk keeps its heading, through step().
 namespace verp::control {
 namespace {
 
@@ -17,8 +16,7 @@ Loop& walking() {
   return loop;
 }
 
-// A robot held by hand is told to turn. Once released it turns back only the slip, not the turn it
-// was kept from.
+// Held by hand and told to turn, the robot later turns back only the slip.
 TEST(Heading, AnOrderThatStepsCannotFollowIsNoSlip) {
   Loop& loop = walking();
   loop.command.wz_mrad_s = 1500;
@@ -26,7 +24,7 @@ TEST(Heading, AnOrderThatStepsCannotFollowIsNoSlip) {
   EXPECT_LT(math::abs(loop.state.steer.slip_rad), 0.05F);
 }
 
-// A slip repeated in every step adds up: 0.02 rad/s to the right for ten seconds.
+// 0.02 rad/s to the right for ten seconds.
 TEST(Heading, ASlipThatGoesOnIsSummed) {
   Loop& loop = walking();
   loop.inputs.gyro_count[2] = -19;
@@ -35,8 +33,7 @@ TEST(Heading, ASlipThatGoesOnIsSummed) {
 }
 
 // If a cycle had whole ticks, the gyro would see every step at the same moments and take motion
-// between them for a turn. So hurried steps begin at any moment of a tick, and on average at the
-// tuned rate.
+// between them for a turn.
 TEST(Heading, HurriedStepsBeginAtAllMomentsOfATick) {
   Loop& loop = walking();
   const auto tick_us = static_cast<std::int32_t>(test::kRobot.period_us);

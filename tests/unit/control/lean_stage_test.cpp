@@ -20,7 +20,6 @@ float leans_rad(float pitch_rad, float planned_rad, safety::Mode mode, bool imu_
   return walker.lean.lean_rad.y;
 }
 
-// A planned trunk pitch is no slope.
 TEST(LeanStage, ItIsTheTiltOffThePlanThatIsLeanedAgainst) {
   constexpr float kPitch_rad = 1.5F * balance::kLeftPitched_rad;
   const auto walks = safety::Mode::kWalking;
@@ -29,7 +28,7 @@ TEST(LeanStage, ItIsTheTiltOffThePlanThatIsLeanedAgainst) {
   EXPECT_GT(leans_rad(0.0F, kPitch_rad, walks, true), 0.02F);
 }
 
-// A standing robot learns the gyro's bias instead, and a silent IMU's last reading is no news.
+// A standing robot learns the gyro's bias instead.
 TEST(LeanStage, WhoStandsOrHasNoImuLearnsNothing) {
   EXPECT_EQ(leans_rad(0.2F, 0.0F, safety::Mode::kStanding, true), 0.0F);
   EXPECT_EQ(leans_rad(0.2F, 0.0F, safety::Mode::kWalking, false), 0.0F);

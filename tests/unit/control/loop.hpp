@@ -9,7 +9,7 @@ using namespace verp::test;
 using safety::Mode;
 
 /// step() with servos that always reach their goals, an IMU at rest and an operator. The
-/// accelerometer has minimal noise without tilt.
+/// accelerometer has minimal noise, which does not tilt.
 struct Loop {
   Loop() {
     command.request = Request::kRelax;
@@ -32,7 +32,7 @@ struct Loop {
   void ticks(int count) {
     for (int i = 0; i < count; ++i) tick();
   }
-  /// Runs until `mode`, at most `most` ticks; returns how many it took, or -1 if it never came.
+  /// Returns the number of ticks until `mode`, at most `most`; -1 if it never came.
   int until(Mode mode, int most) {
     for (int i = 0; i < most; ++i) {
       tick();

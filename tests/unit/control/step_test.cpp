@@ -64,7 +64,6 @@ TEST(Step, IsTotalForWildSensorsAndParametersOfAWalkingRobot) {
   expect_total(false, 2);
 }
 
-// Goals of joints with torque move no faster than the joint may.
 TEST(Step, GoalsKeepTheJointsSpeed) {
   Random random(3);
   Inputs inputs;
@@ -82,7 +81,6 @@ TEST(Step, GoalsKeepTheJointsSpeed) {
   }
 }
 
-// Whatever pose a limp robot is found in, its stand is known.
 TEST(Step, NewtonLegsReachTheirStandFromTheFirstTickOn) {
   static const Params robot = test::make_hyperextended_robot();
   State& state = fresh_state();
@@ -99,7 +97,6 @@ TEST(Step, NewtonLegsReachTheirStandFromTheFirstTickOn) {
   }
 }
 
-// A robot without joints, legs, masses or scales.
 TEST(Step, IsTotalForAnEmptyRobot) {
   static const Params nothing;
   State& state = fresh_state();
@@ -137,7 +134,6 @@ TEST(Step, RisesWalksStopsAndSitsDown) {
   }
 }
 
-// Gets a robot walking, for the tests that follow.
 void get_walking(Loop& loop) {
   loop = Loop{};
   loop.walk(1000);
@@ -145,7 +141,6 @@ void get_walking(Loop& loop) {
   loop.ticks(200);
 }
 
-// The learnt zero errors of the legs move the ankles' goals; switched off, they do not.
 TEST(Step, ZeroErrorsReachTheGoalsUnlessSwitchedOff) {
   Loop& loop = test::fresh_loop();
   get_walking(loop);
@@ -228,8 +223,7 @@ void lie(int way, Loop& loop) {
   for (int axis = 0; axis < 3; ++axis) loop.inputs.accel_count[axis] = kWays[way][axis];
 }
 
-// A stand is requested from the first tick, and the estimate begins upright: no tick may give
-// torque.
+// The stand is requested from the first tick, and the estimate begins upright.
 TEST(Step, RobotThatLiesDoesNotBeginToRise) {
   Loop& loop = test::fresh_loop();
   for (int way = 0; way < 5; ++way) {
@@ -246,7 +240,7 @@ TEST(Step, RobotThatLiesDoesNotBeginToRise) {
   }
 }
 
-// The tilt from before the silence says nothing: the robot fell meanwhile and relaxed.
+// The robot fell meanwhile and relaxed; its tilt is from before the silence.
 TEST(Step, RobotThatFellWhileItsImuWasSilentDoesNotRise) {
   Loop& loop = test::fresh_loop();
   loop.command.request = Request::kStand;
@@ -261,8 +255,7 @@ TEST(Step, RobotThatFellWhileItsImuWasSilentDoesNotRise) {
   }
 }
 
-// No torque while the joint is beyond its limit. Putting it back by hand is enough: the fault only
-// reports the reason.
+// Putting the joint back by hand is enough: the fault only reports the reason.
 TEST(Step, JointBeyondItsLimitsIsNotThrownBack) {
   Loop& loop = test::fresh_loop();
   for (int j = 0; j < test::kJointCount; ++j) {
@@ -281,7 +274,7 @@ TEST(Step, JointBeyondItsLimitsIsNotThrownBack) {
   }
 }
 
-/// Telemetry of all servos in turn; the supply is low whenever the robot has torque.
+/// Supply low whenever the robot has torque.
 void tick_with_sagging_supply(Loop& loop) {
   loop.inputs.flags |= kSlowFresh;
   loop.inputs.slow_joint =
@@ -291,7 +284,7 @@ void tick_with_sagging_supply(Loop& loop) {
   loop.tick();
 }
 
-// The supply is low while it walks and good while it stands: it would walk and stop for ever.
+// Else it would walk and stop for ever.
 TEST(Step, SupplyThatSagsUnderLoadSitsTheRobotDownOnce) {
   Loop& loop = test::fresh_loop();
   loop.walk(1000);
@@ -316,7 +309,6 @@ TEST(Step, SupplyThatSagsUnderLoadSitsTheRobotDownOnce) {
   EXPECT_GE(loop.until(Mode::kWalking, 600), 0) << "left by asking to relax";
 }
 
-// While the trouble lasts the robot does not rise, however often it is asked.
 TEST(Step, RobotWhosePowerIsBadDoesNotRise) {
   Loop& loop = test::fresh_loop();
   loop.inputs.flags |= kSlowFresh;
@@ -330,7 +322,7 @@ TEST(Step, RobotWhosePowerIsBadDoesNotRise) {
   }
 }
 
-// A servo that was never read has no known position: goals must not begin at count 0.
+// Goals must not begin at count 0.
 TEST(Step, RobotWaitsForEveryServosFirstReport) {
   Loop& loop = test::fresh_loop();
   for (int j = 0; j < test::kJointCount; ++j) {
@@ -381,9 +373,8 @@ TEST(Step, TurnsTheHeadWhereToldWithinLimits) {
   EXPECT_EQ(loop.state.limit.goal_rad[test::kHead + 1], kRobot.joint[test::kHead + 1].lower_rad);
 }
 
-// A steady walk repeats each cycle, and its right leg mirrors the left one half a cycle later, so
-// no stage treats the sides differently. A cycle of 440 ms is 44 ticks; without heading control all
-// steps last equally long.
+// The right leg mirrors the left one half a cycle later: no stage treats the sides differently. A
+// cycle of 440 ms is 44 ticks; without heading control all steps last equally long.
 TEST(Step, WalkIsPeriodic) {
   constexpr int kCycle = 44;
   constexpr float kMirror[kLegJoints] = {-1, -1, 1, 1, 1, -1};  // yaw and roll change their sign

@@ -26,8 +26,7 @@ Step step_to(Xy zmp_begin_m, Xy zmp_end_m, float double_support_s) {
   return step;
 }
 
-// `count` steps of 4 cm, the ZMP alternately left and right; the last step's DCM as if walking
-// continued.
+// `count` steps of 4 cm, the ZMP alternately left and right; the last DCM as if walking continued.
 void lay_walk(Step* steps, int count, float double_support_s) {
   Xy from_m{0, 0};
   for (int i = 0; i < count; ++i) {
@@ -58,8 +57,7 @@ TEST(Dcm, EndsAStepWhereThePlanSays) {
   }
 }
 
-// Forward integration alone diverges exponentially. With the backward plan the CoM stays near the
-// ZMP over 40 steps.
+// Forward integration alone would diverge exponentially.
 TEST(Dcm, ComStaysBoundedOverALongWalk) {
   Step steps[40];
   for (const float support_s : {0.0F, 0.011F, 0.1F}) {
@@ -117,7 +115,7 @@ TEST(Dcm, TwoStretchesMakeTheWhole) {
   }
 }
 
-// Two steps on, the values repeat: an endless walk converges to periodic_dcm.
+// An endless walk converges to periodic_dcm.
 TEST(Dcm, PeriodicEndIsAFixedPointOfTwoSteps) {
   for (const float support_s : {0.0F, 0.011F, 0.1F, 0.2F}) {
     const Xy one_m{0.04F, 0.08F}, other_m{0.03F, -0.07F};

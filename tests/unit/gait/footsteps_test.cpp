@@ -16,7 +16,6 @@ float side_of(int foot) {
   return foot == kLeft ? 1.0F : -1.0F;
 }
 
-// Landing foot in the frame of the carrying one.
 Xy landing_from_carrying(const Step& step) {
   const Foothold& carrying = step.foot[step.carrying()];
   return turned(step.landing.at_m - carrying.at_m, -carrying.yaw_rad);
@@ -42,8 +41,8 @@ TEST(Footsteps, FeetTakeTurns) {
   }
 }
 
-// The gyro is read once per period and must not always see the same moment of a landing. Each
-// landing is an angle within the period; per foot, the mean of these angles' vectors must vanish.
+// The gyro is read once per period and must not always see the same moment of a landing. With each
+// landing as an angle within the period, the mean per foot vanishes.
 TEST(Footsteps, EachFootLandsInBothHalvesOfAControlPeriod) {
   Walk walk;
   walk.tuning.cycle_s = 0.45F;
@@ -86,8 +85,7 @@ TEST(Footsteps, TheSwingFootLiftsAsHighAsIsTunedAndTheOtherStands) {
   }
 }
 
-// Hurried servos lag and the robot sags: at 0.42 m/s a foot lifted as in slow walks scrapes the
-// ground.
+// Hurried servos lag and the robot sags: at 0.42 m/s a foot would scrape the ground.
 TEST(Footsteps, AHurriedFootLiftsHigherAndStartsSooner) {
   Walk slow, fast;
   slow.tuning.max_step_m = fast.tuning.max_step_m = 0.1F;
@@ -113,7 +111,6 @@ TEST(Footsteps, AHurriedFootLiftsHigherAndStartsSooner) {
   EXPECT_EQ(swing_along(1.0F, fast.last.haste).value, 1.0F);
 }
 
-// Each step begins where the last one ended.
 TEST(Footsteps, PlanHasNoGaps) {
   Walk walk;
   for (int i = 0; i < kSteps; ++i) {
@@ -210,7 +207,6 @@ TEST(Footsteps, ReachIsTheSameInEveryDirection) {
   }
 }
 
-// Sideways, the leading foot takes the way of two steps and the other closes; likewise in turns.
 TEST(Footsteps, LeadingFootOpensTheOtherCloses) {
   for (const float sign : {1.0F, -1.0F}) {
     Walk walk;
@@ -238,7 +234,7 @@ TEST(Footsteps, HeadingErrorTurnsTheNextSteps) {
   EXPECT_LT(walk.state.body.yaw_rad, 0.4F);
 }
 
-// Finalisation: strides shrink, the feet come level, then the ZMP returns to the middle.
+// Strides shrink, the feet come level, then the ZMP returns to the middle.
 TEST(Footsteps, StopBringsTheFeetLevelThenTheWeightBack) {
   for (const VelocityIn& wanted :
        {VelocityIn{.vx_m_s = 0.3F}, VelocityIn{.vx_m_s = -0.1F, .vy_m_s = 0.05F},
@@ -283,7 +279,7 @@ TEST(Footsteps, ZmpStaysInsideTheSoleWhateverIsTuned) {
   }
 }
 
-// The ZMP reference lies outward from the midline, equally for both feet.
+// Outward from the midline, equally for both feet.
 TEST(Footsteps, ZmpUnderBothFeetIsMirrored) {
   GaitTuning tuning;
   const Xy left = zmp_under(kRobot, tuning, kLeft, {{0, 0.036F}, 0});

@@ -13,19 +13,19 @@ using test::Walker;
 
 constexpr float kPaper_m_s = 0.1777F;  // 4 cm steps, 450 ms cycles
 
-// Largest move of a sole relative to the body in one tick, over both feet.
+// Over both feet, relative to the body, in one tick.
 float largest_move(const Pose* before, const Walker& walker) {
   return math::max(test::distance(before[kLeft].position_m, walker.sole(kLeft).position_m),
                    test::distance(before[kRight].position_m, walker.sole(kRight).position_m));
 }
 
-// Top speed of a sole relative to the body. A quintic peaks at 15/8 of its mean, and a swing foot
-// travels at most twice its step while the body moves the other way.
+// Relative to the body. A quintic peaks at 15/8 of its mean, and a swing foot travels at most twice
+// its step against the body's motion.
 float fastest_m_s(float velocity_m_s) {
   return 0.25F + 4.5F * math::abs(velocity_m_s);
 }
 
-// In 20 s the paper's phases come once each, in order, and every posture is near the one before.
+// The paper's phases within 20 s.
 TEST(Gait, WholeWalkIsContinuousAndItsPhasesFollowEachOther) {
   Walker walker(test::kRobot);
   walker.set_off({.vx_m_s = kPaper_m_s});
@@ -47,8 +47,8 @@ TEST(Gait, WholeWalkIsContinuousAndItsPhasesFollowEachOther) {
   EXPECT_EQ(int{walker.state.queued}, 0);
 }
 
-// Weighing takes most of a standing tick. It runs until the body is in place, and again only after
-// arms, head or tuning have moved. A lump without mass shows whether it ran.
+// Weighing takes most of a standing tick. It runs again only after arms, head or tuning have moved;
+// a lump without mass shows whether it ran.
 TEST(Gait, StandsUnweighedUntilSomethingMoves) {
   Walker walker(test::kRobot);
   walker.run(1.5F);
@@ -76,7 +76,6 @@ TEST(Gait, StandsUnweighedUntilSomethingMoves) {
   EXPECT_TRUE(weighs());
 }
 
-// It stays where weighing in every tick would put it.
 TEST(Gait, StandsWhereWeighingInEveryTickWouldHaveIt) {
   Walker one(test::kRobot), other(test::kRobot);
   for (int i = 0; i < 300; ++i) {
@@ -125,7 +124,6 @@ TEST(Gait, SteadyWalkGoesAtTheVelocityWanted) {
   EXPECT_NEAR(way_m, 0.5F * kPaper_m_s * 0.01F * kTicks, 0.06F);
 }
 
-// A right step mirrors the left step before it.
 TEST(Gait, RightStepsMirrorLeftSteps) {
   constexpr int kTicksPerStep = 45;
   Walker walker(test::kRobot, 5000);
@@ -147,8 +145,8 @@ TEST(Gait, RightStepsMirrorLeftSteps) {
   }
 }
 
-// Gait time is continuous: at equal times the posture is the same for any period. The remaining
-// error is how far the head was ahead when a key point was fixed.
+// Gait time is continuous. The remaining error is how far the head was ahead when a key point was
+// fixed.
 TEST(Gait, AnyPeriodGivesTheSameWalk) {
   constexpr int kSamples = 100;  // every 40 ms
   static Pose wanted[kSamples][kFeet];
@@ -177,8 +175,8 @@ float outside_of(const LegParams& leg, const Foothold& foot, Xy point_m) {
   return math::hypot(math::max(x, 0.0F), math::max(y, 0.0F));
 }
 
-// While one foot carries, the planned ZMP is inside its sole by the margin. In double support it
-// lies between its points under both feet.
+// In single support inside the sole by the margin, in double support between the points under both
+// feet.
 TEST(Gait, PlannedZmpStaysInsideTheSupportPolygon) {
   constexpr VelocityIn kOrders[] = {
       {.vx_m_s = kPaper_m_s}, {.vx_m_s = -0.1F, .vy_m_s = 0.05F}, {.wz_rad_s = 0.6F}};
@@ -219,8 +217,7 @@ TEST(Gait, WeightIsSharedAndGoesToTheCarryingFoot) {
   }
 }
 
-// For any double support and any phase of a step's end in a period, goals that load or unload a leg
-// do not jump.
+// For any double support and any end of a step within a period.
 TEST(Gait, AFootThatLandedTakesTheWeightOverInNoLessThanEightMilliseconds) {
   for (const float double_support : {0.0F, 0.006F, 0.2F}) {
     Walker walker(test::kRobot);
@@ -239,7 +236,6 @@ TEST(Gait, AFootThatLandedTakesTheWeightOverInNoLessThanEightMilliseconds) {
   }
 }
 
-// Walks for six seconds with the given steps, however long.
 Walker walked(float step_m, float cycle_s, float multibody_enable, float lift_m = 0.0119F) {
   Walker walker(test::kRobot);
   walker.tuning.balance.multibody_enable = multibody_enable;
@@ -251,8 +247,7 @@ Walker walked(float step_m, float cycle_s, float multibody_enable, float lift_m 
   return walker;
 }
 
-// The gait shortens a plan whose ZMP would leave the support polygon, and refuses it if that is not
-// enough. It keeps a plan like the paper's.
+// A plan like the paper's stays unchanged.
 TEST(Gait, PlanWhoseZmpWouldLeaveTheSoleIsShortenedOrRefused) {
   for (const float multibody : {0.0F, 1.0F}) {
     const Walker paper = walked(0.04F, 0.45F, multibody);
@@ -294,7 +289,7 @@ TEST(Gait, ShortenedPlanGrowsAgainWhenThereIsRoomAndOnlyThen) {
   EXPECT_NEAR(walker.state.footsteps.stride.by_m.x, 0.1F * 0.5F * 0.45F, 1e-6F);
 }
 
-// The paper's 16 states follow each other within each cycle.
+// The paper's 16 states.
 TEST(Gait, CycleStatesCountFromZeroToFifteen) {
   Walker walker(test::kRobot, 5000);
   walker.set_off({.vx_m_s = 0.1F});
@@ -336,7 +331,7 @@ TEST(Gait, StopBeforeTheFirstStepIsHonoured) {
   }
 }
 
-// However short the cycle, kept key points are never read after they are overwritten.
+// Kept key points are never read after they are overwritten, however short the cycle.
 TEST(Gait, DelayedJointsSeeTheRecentPast) {
   constexpr int kTicks = 400;
   static Vec3 sole_m[kTicks];
@@ -414,7 +409,7 @@ TEST(Gait, WalkIsRefusedWhereTheLegsDontReachTheFloor) {
   EXPECT_NE(walker.state.footsteps.notes & kPlanRefused, 0);
 }
 
-// Sets every gait number to the ends of its range, one at a time, under bold orders.
+// One number at a time, under bold orders.
 TEST(Gait, EndsOfEveryTuningRangeGiveFinitePlans) {
   for (int id = 0; id < kTuningCount && id < static_cast<int>(sizeof(GaitTuning) / 4); ++id) {
     for (const float value : {kTuningRanges[id].low, kTuningRanges[id].high}) {

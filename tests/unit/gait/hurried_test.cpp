@@ -9,7 +9,6 @@ namespace {
 
 constexpr float kCycles_s[] = {0.30F, 0.45F, 0.70F};
 
-// Stands, then has to step.
 test::Walker hurrying(float cycle_s) {
   test::Walker walker(test::kRobot);
   walker.tuning.gait.cycle_s = cycle_s;
@@ -36,8 +35,7 @@ TEST(HurriedStart, SwingsAFootWithinATenthOfASecond) {
   EXPECT_GE(ticks_to_swing(walk), 60) << "as a walk begins";
 }
 
-// The ZMP that starts the motion lies within the soles, as near their edge as whole key points
-// allow: with one fewer it would be outside.
+// With one key point fewer, the ZMP would be outside.
 TEST(HurriedStart, TheZmpStaysInsideTheSolesAndTheStartIsAsShortAsTheyAllow) {
   for (const float cycle_s : kCycles_s) {
     test::Walker walker = hurrying(cycle_s);
@@ -55,8 +53,7 @@ TEST(HurriedStart, TheZmpStaysInsideTheSolesAndTheStartIsAsShortAsTheyAllow) {
   }
 }
 
-// The plan starts from a pendulum at rest: its DCM begins over the middle of the soles, and the
-// next step's DCM ends where this one's begins.
+// The DCM begins over the middle of the soles, and the next step's ends where this one's begins.
 TEST(HurriedStart, ThrowsThePendulumFromRestToWhereTheFirstStepWantsIt) {
   for (const float cycle_s : kCycles_s) {
     test::Walker walker = hurrying(cycle_s);
@@ -71,7 +68,6 @@ TEST(HurriedStart, ThrowsThePendulumFromRestToWhereTheFirstStepWantsIt) {
   }
 }
 
-// At any period, no sole jumps relative to the body from the first tick to the final stand.
 TEST(HurriedStart, IsContinuousAndEndsOnBothFeet) {
   for (const std::int32_t period_us : {4000, 8000, 10000}) {
     test::Walker walker(test::kRobot, period_us);

@@ -14,8 +14,8 @@ Xy last_miss(const PreviewState& preview) {
   return preview.ring[static_cast<std::uint8_t>(preview.head - 1) % kRing].zmp_miss_m;
 }
 
-// Without leg mass the robot is the planned pendulum, so its ZMP is the planned one. Double support
-// is long, because key points 15 ms apart resolve the ZMP's corners worst.
+// The robot is then the planned pendulum. Double support is long, because key points 15 ms apart
+// resolve the ZMP's corners worst.
 TEST(Preview, MasslessLegsLeaveNothingToCorrect) {
   static const Params robot = test::make_massless_legs_robot();
   Walker walker(robot);
@@ -33,7 +33,6 @@ TEST(Preview, MasslessLegsLeaveNothingToCorrect) {
   EXPECT_LT(apart(walker.state.preview.correction_m, {}), 5e-4F);
 }
 
-// With leg mass the pendulum alone misses by more, and the correction shows it.
 TEST(Preview, SwingingLegsAreCorrectedFor) {
   Walker walker(test::kRobot);
   walker.set_off({.vx_m_s = 0.1777F});
@@ -57,7 +56,6 @@ TEST(Preview, CorrectionCanBeSwitchedOff) {
   }
 }
 
-// Moving the origin of the walk frame moves the plan with it and changes nothing else.
 TEST(Preview, RebaseChangesNothingButTheOrigin) {
   Walker walker(test::kRobot);
   walker.set_off({.vx_m_s = 0.15F, .vy_m_s = 0.02F, .wz_rad_s = 0.2F});
@@ -90,7 +88,6 @@ TEST(Preview, RebaseChangesNothingButTheOrigin) {
   }
 }
 
-// A cubic through the key points: it meets them, and its slope is continuous.
 TEST(Preview, BodyCurveMeetsItsKeyPointsSmoothly) {
   PreviewState state;
   test::Random random(1);

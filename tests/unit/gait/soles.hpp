@@ -3,7 +3,6 @@
 #include "common/model/params.hpp"
 #include "tests/unit/gait/steps.hpp"
 
-/// Soles seen from above, and the distance between them.
 namespace verp::gait::test {
 
 struct Corners {
@@ -59,7 +58,7 @@ inline VelocityIn any_order(Random& random) {
           .heading_error_rad = random.between(-1, 1)};
 }
 
-/// The smallest distance over random orders, each lasting one to a dozen steps.
+/// Over random orders, each lasting one to a dozen steps.
 inline float least_apart_of_jumps_m(const Params& params, const GaitTuning& tuning,
                                     std::uint32_t seed, int orders) {
   Random random(seed);

@@ -2,7 +2,7 @@
 
 #include "tests/unit/gait/soles.hpp"
 
-/// Seen from above, soles keep apart where feet land and on their way there.
+/// Seen from above.
 namespace verp::gait {
 namespace {
 
@@ -16,7 +16,6 @@ using test::Walk;
 
 constexpr float kLeastApart_m = 0.001F;
 
-// For any orders, changed at any time.
 TEST(Soles, NeverOverlapWhereTheyLand) {
   test::Random random(7);
   for (const float half_stance_m : {0.0345F, 0.0356F, 0.0455F}) {
@@ -36,7 +35,6 @@ TEST(Soles, NeverOverlapWhereTheyLand) {
   }
 }
 
-// Walking in any direction, or turning on the spot, however the orders jump.
 TEST(Soles, PassBesideEachOtherWhereABodyGoesOrTurns) {
   test::Random random(7);
   for (const float half_stance_m : {0.0345F, 0.0356F, 0.0455F}) {
@@ -55,8 +53,8 @@ TEST(Soles, PassBesideEachOtherWhereABodyGoesOrTurns) {
   }
 }
 
-// Walking and turning at once, at any speed. The straight way to a landing would cross the other
-// sole, by 0.6 mm at 0.25 m/s with 1 rad/s and by 5 mm at 0.4 m/s.
+// The straight way to a landing would cross the other sole, by 0.6 mm at 0.25 m/s with 1 rad/s and
+// by 5 mm at 0.4 m/s.
 TEST(Soles, PassBesideEachOtherInCurves) {
   for (const float vx : {-0.3F, -0.05F, 0.05F, 0.1F, 0.17F, 0.25F, 0.4F}) {
     for (const float vy : {0.0F, -0.1F, 0.15F}) {
@@ -108,7 +106,6 @@ TEST(Soles, TurningFeetLandFurtherOutAndTurnLessWhereThatIsNotEnough) {
   }
 }
 
-// No landing helps a robot whose soles overlap while it stands.
 TEST(Soles, AStanceInWhichTheSolesOverlapIsRefused) {
   for (const float half_stance_m : {0.02F, 0.0329F, 0.0335F, 0.05F}) {
     Walk walk;

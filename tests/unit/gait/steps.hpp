@@ -8,7 +8,6 @@ using namespace verp::test;
 
 inline constexpr int kSteps = 24;
 
-/// Consecutive steps, as the gait engine requests them.
 struct Walk {
   GaitTuning tuning;
   FootstepState state;

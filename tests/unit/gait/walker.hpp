@@ -6,7 +6,6 @@ namespace verp::gait::test {
 
 using namespace verp::test;
 
-/// The gait engine with an operator but without a robot.
 struct Walker {
   explicit Walker(const Params& robot, std::int32_t period_us = 10000) : params(&robot) {
     for (int j = 0; j < robot.joint_count; ++j) goal_rad[j] = robot.joint[j].stand_rad;

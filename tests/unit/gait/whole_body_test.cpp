@@ -17,8 +17,6 @@ Posture standing(const GaitTuning& tuning) {
   return posture_of(kRobot, tuning, {}, left, right);
 }
 
-// The planner's lump and leg links make up the whole robot, with the mass and centre that
-// kinematics gives.
 TEST(WholeBody, WeighsWhatKinematicsWeighs) {
   test::Random random(1);
   float angle_rad[kMaxJoints];
@@ -49,7 +47,6 @@ TEST(WholeBody, HipsStandAtTheTunedHeightAtAnyPitch) {
   }
 }
 
-// A small move of the body moves the CoM by com_share times as much.
 TEST(WholeBody, ComShareIsHowFarTheComFollowsTheBody) {
   const GaitTuning tuning;
   const float arms_rad[kMaxJoints] = {};
@@ -109,7 +106,6 @@ TEST(Swing, FootRestsLiftsAndLandsWhereItShould) {
   }
 }
 
-// The detour is widest in the middle; the foot leaves and lands in the same places.
 TEST(Swing, WayBendsAroundTheOtherFoot) {
   Step step;
   step.key_us = 15000;
@@ -125,8 +121,7 @@ TEST(Swing, WayBendsAroundTheOtherFoot) {
   EXPECT_GT(foot_at(step, kLeft, 0.25F * step.duration_s()).on.at_m.y, 0.045F);
 }
 
-// The body sags while one foot carries. So the swing sole ends its step a little above the ground
-// and comes down once it carries.
+// The body sags while one foot carries, so the swing sole comes down only once it carries.
 TEST(Swing, SoleTouchesDownHighAndSettles) {
   Step step;
   step.key_us = 15000;

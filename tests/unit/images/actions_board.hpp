@@ -6,10 +6,8 @@
 #include "tests/unit/action/shelf.hpp"
 #include "tests/unit/support/test_robot.hpp"
 
-/// For tests of action blocks: a library with its robot's mark, and a place for it.
 namespace verp::app::test {
 
-/// A library as sent.
 struct SentActions {
   explicit SentActions(const Params& robot) : mark(action::make_mark(shelf.header, robot)) {}
   const std::uint8_t* bytes() const { return reinterpret_cast<const std::uint8_t*>(this); }
@@ -45,7 +43,6 @@ struct FakePlace {
 static_assert(ActionPlace<FakePlace>);
 using FakeImages = RobotImages<FakePlace>;
 
-/// A robot with flash: itself, its actions, and room for new ones.
 struct FakeBoard {
   FakeBoard() {
     robot.params = verp::test::kRobot;

@@ -4,8 +4,8 @@
 
 #include "tests/unit/app/operator_bench.hpp"
 
-// Actions sent block by block to a running board over its operator port. The board takes whole ones
-// of its own robot. It refuses all others with a reason and keeps its old ones.
+// Blocks of actions over the operator port: the board takes whole ones of its own robot, refuses
+// others with a reason, and then keeps its old ones.
 
 namespace verp::app::test {
 namespace {
@@ -27,7 +27,6 @@ struct Session {
     __builtin_memcpy(bytes + 4, fresh.bytes() + at, count);
     return bench.write_bytes(reg("window_offset"), bytes, 4 + count).error;
   }
-  /// Sends all bytes before `missing`.
   void send(std::size_t missing = sizeof(SentActions), std::size_t size = table::kWindowBytes) {
     for (std::size_t at = 0; at < missing; at += size) {
       EXPECT_TRUE(block(at, size) == Error::kNone) << at;
@@ -86,7 +85,7 @@ TEST(OperatorActions, ReadsThoseInForceAndThatCostsNoErase) {
   EXPECT_EQ(session.board.place.begun, 0);
 }
 
-// The cable is pulled after any block: nothing changes.
+// The cable is pulled after any block.
 TEST(OperatorActions, RefusesWhatIsNotWhole) {
   for (std::size_t missing = 0; missing < sizeof(SentActions); missing += table::kWindowBytes) {
     Session& session = fresh_session();
@@ -147,7 +146,7 @@ TEST(OperatorActions, TakesNoBlockBeyondItsRoom) {
   EXPECT_TRUE(session.bench.write_bytes(reg("window_offset"), block, 7).error == Error::kNone);
 }
 
-// A block writes and may erase flash, which no standing robot allows.
+// A block writes and may erase flash.
 TEST(OperatorActions, TakesNoBlockWhileAnyServoHoldsTorque) {
   Session& session = fresh_session();
   session.bench.arm(true);
@@ -187,7 +186,6 @@ TEST(OperatorActions, SaysThatTheFlashDidNotKeepABlock) {
   }
 }
 
-// A second attempt starts anew, whatever the first one left.
 TEST(OperatorActions, ASecondAttemptIsNotSpoiltByTheFirst) {
   Session& session = fresh_session();
   session.send(2 * table::kWindowBytes);

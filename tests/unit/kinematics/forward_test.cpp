@@ -10,12 +10,11 @@ namespace {
 using test::kRobot;
 using test::Random;
 
-// Somewhere and turned: no result may depend on the body standing at the origin.
+// No result may depend on the body standing at the origin.
 Pose some_body() {
   return {math::rotation_rpy(0.1F, -0.2F, 0.7F), Vec3(0.3F, -0.2F, 0.25F)};
 }
 
-// Every kind of axis on the joints of one limb.
 Params all_axes_robot() {
   Params params = kRobot;
   constexpr AxisKind kKinds[] = {AxisKind::kMinusX,  AxisKind::kMinusY, AxisKind::kMinusZ,
@@ -30,7 +29,7 @@ Params all_axes_robot() {
   return params;
 }
 
-// The paper's chain rule, p = p0 + R0 p1 and R = R0 R1, by Rodrigues' formula alone.
+// p = p0 + R0 p1 and R = R0 R1 (the paper), by Rodrigues' formula alone.
 Pose by_chain_rule(const Params& params, const Pose& body, const float* angle_rad, int node) {
   if (node == 0) return body;
   const JointParams& joint = params.joint[node - 1];
@@ -73,7 +72,6 @@ TEST(Forward, JointTransformIsTheLinkSeenFromItsParent) {
   }
 }
 
-// At the zero pose the robot stands straight, with every link parallel to the body.
 TEST(Forward, ZeroPoseHasLinksParallelToTheBody) {
   const float zero[kMaxJoints] = {};
   Pose node[kMaxNodes];

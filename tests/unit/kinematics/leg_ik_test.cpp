@@ -32,8 +32,7 @@ void expect_within_limits(const Params& params, const LegParams& leg, const LegA
   }
 }
 
-// A sole under its hip: the line from hip to ankle has length `down_m` and is tilted by roll and
-// pitch.
+// The line from hip to ankle has length `down_m` and is tilted by roll and pitch.
 Pose sole_under_hip(const LegParams& leg, float down_m, float roll_rad, float pitch_rad,
                     const Mat3& sole) {
   const Vec3 hip_ankle = math::rot_x(roll_rad) * (math::rot_y(pitch_rad) * Vec3(0, 0, -down_m));
@@ -45,7 +44,6 @@ Vec3 ankle_from_hip(const LegParams& leg, const Pose& sole) {
          math::to_vec(leg.hip_body_m);
 }
 
-// The solver recovers every pose that joint angles can make, and the angles themselves.
 TEST(LegIk, ClosedFormUndoesForwardKinematics) {
   Random random(1);
   for (int round = 0; round < 400; ++round) {
@@ -61,8 +59,7 @@ TEST(LegIk, ClosedFormUndoesForwardKinematics) {
   }
 }
 
-// The returned sines belong to the angles and place the sole to float32 accuracy, so chains need
-// not compute them again.
+// The returned sines place the sole to float32 accuracy, so chains need not compute them again.
 void expect_sines(const Params& params, const LegParams& leg, const LegAngles& solved) {
   for (int k = 0; k < kLegJoints; ++k) {
     const math::SinCos turn = math::sincos(solved.angle_rad[k]);
@@ -96,7 +93,7 @@ TEST(LegIk, SinesAreThoseOfTheAngles) {
   }
 }
 
-// The hip lies on the ankle's roll axis: any roll solves it, but the solver must return one.
+// Any roll solves it, but the solver must return one.
 TEST(LegIk, HipOnTheAnklesRollAxisIsReached) {
   constexpr float kAsked_rad[][kLegJoints] = {
       {-0.211472511F, 0.356358171F, -1.83568692F, 1.61554754F, 0.763026237F, 0.447418749F},
@@ -111,7 +108,6 @@ TEST(LegIk, HipOnTheAnklesRollAxisIsReached) {
   }
 }
 
-// The soles of a walk, over a grid: all reached without a flag.
 TEST(LegIk, WalkingPosesAreReachedWithoutFlags) {
   for (float x = -0.06F; x < 0.07F; x += 0.03F) {
     for (float y = -0.02F; y < 0.03F; y += 0.02F) {
@@ -164,7 +160,7 @@ TEST(LegIk, NewtonAgreesWithTheClosedForm) {
   }
 }
 
-// Hip and ankle axes do not meet: along a swing foot's way, each solution starts the next.
+// Along a swing foot's way, each solution starts the next.
 TEST(LegIk, NewtonFollowsAPathWhereAxesDoNotMeet) {
   const Params params = test::make_offset_robot();
   for (const LegParams& leg : params.leg) {
@@ -186,8 +182,7 @@ TEST(LegIk, NewtonFollowsAPathWhereAxesDoNotMeet) {
   }
 }
 
-// Beyond reach, the result is the nearest pose: leg straight, same direction from the hip, same
-// orientation.
+// The nearest pose: same direction from the hip, same orientation.
 TEST(LegIk, BeyondReachTheLegIsStraightTowardsTheTarget) {
   for (const LegParams& leg : kRobot.leg) {
     for (const float roll : {-0.2F, 0.0F, 0.2F}) {
@@ -208,7 +203,7 @@ TEST(LegIk, BeyondReachTheLegIsStraightTowardsTheTarget) {
   }
 }
 
-// Nearer than shank minus thigh: flagged, with the knee bent as far as allowed.
+// Nearer than shank minus thigh.
 TEST(LegIk, TooNearIsFlagged) {
   Params params = kRobot;
   params.leg[0].shank_m = 0.06F;
@@ -220,8 +215,7 @@ TEST(LegIk, TooNearIsFlagged) {
   EXPECT_EQ(solved.angle_rad[3], params.joint[test::kLeftLeg + 3].upper_rad);
 }
 
-// Nothing jumps between just inside and just beyond reach, although the knee's speed is infinite
-// there.
+// The knee's speed is infinite at full reach.
 TEST(LegIk, StraightKneeIsNoSingularity) {
   const LegParams& leg = kRobot.leg[0];
   const float reach_m = leg.thigh_m + leg.shank_m;
@@ -262,7 +256,6 @@ TEST(LegIk, JointLimitsAreKeptAndFlagged) {
   expect_within_limits(params, leg, newton);
 }
 
-// Without a flag, the sole is where it was asked to be.
 TEST(LegIk, AnyPoseIsReachedOrFlagged) {
   Random random(4);
   for (int round = 0; round < 300; ++round) {

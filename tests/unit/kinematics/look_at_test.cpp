@@ -9,7 +9,6 @@
 namespace verp::kinematics {
 namespace {
 
-// The returned angles put any point on the head's x axis, in front of it.
 TEST(LookAt, TurnsTheHeadsXAxisToThePoint) {
   const Params& params = test::kRobot;
   test::Random random(7);

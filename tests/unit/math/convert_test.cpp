@@ -67,7 +67,6 @@ TEST(MathConvert, ConversionsAreMonotonic) {
   std::int32_t last32 = std::numeric_limits<std::int32_t>::min();
   std::int64_t last64 = std::numeric_limits<std::int64_t>::min();
   for (int i = -5000; i <= 5000; ++i) {
-    // Positive and negative floats in ascending order, through all exponents.
     const auto size = static_cast<std::uint32_t>(i < 0 ? -i : i) * 427819U;
     const float x = std::bit_cast<float>(i < 0 ? size | 0x80000000U : size);
     ASSERT_TRUE(to_int16(x) >= last16 && to_int32(x) >= last32 && to_int64(x) >= last64) << i;

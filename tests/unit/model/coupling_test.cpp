@@ -11,7 +11,6 @@ namespace {
 
 using namespace verp::test;
 
-// One count gives both joints' positions, and a silent servo is silent for both.
 TEST(Coupling, WhatTheServoTellsIsTheFollowersToo) {
   for (const float ratio : {-1.0F, 2.0F, 0.5F}) {
     Params params = with_coupled_hips(kRobot, ratio);
@@ -47,8 +46,6 @@ TEST(Coupling, DriversTakeTheirFollowersAlongAndBearTheirCorrections) {
   }
 }
 
-// The leg behind a follower precedes it in the list, yet its poses equal those of the robot with
-// joints in order.
 TEST(Coupling, ListOrderDoesNotMoveTheRobot) {
   const Params params = with_coupled_hips(kRobot, -1.0F);
   Random random(1);

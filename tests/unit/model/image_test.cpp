@@ -12,7 +12,6 @@ namespace {
 
 ParamsImage image;  // 4 KB: too much for a microcontroller's stack
 
-/// Three joints in a row.
 void make_image() {
   image = ParamsImage{};
   image.params.joint_count = 3;
@@ -40,7 +39,7 @@ ImageFault check() {
   return check_image(&image, sizeof image);
 }
 
-// The catalogue's check value: zip's CRC, on every core.
+// The catalogue's check value.
 TEST(Image, CrcIsTheOneOfZip) {
   EXPECT_EQ(crc32("123456789", 9), 0xCBF43926u);
   EXPECT_EQ(crc32("6789", 4, crc32("12345", 5)), 0xCBF43926u);
@@ -115,7 +114,7 @@ TEST(Image, ABusThatCannotBeIsFound) {
 
 constexpr float kNan = __builtin_nanf("");
 
-/// Names the first bad number after one change; empty if all fit.
+/// The first bad number after one change; empty if all fit.
 template <class Change>
 std::string bad_with(Change change) {
   make_image();
@@ -128,7 +127,7 @@ std::string bad_with(Change change) {
   return bad.text;
 }
 
-// A sound CRC does not make a number valid. The check names it, so that a person finds it.
+// A sound CRC does not make a number valid.
 TEST(Image, NumbersThatAreNoneOrNoRobotsAreNamed) {
   EXPECT_EQ(bad_with([](Params&) {}), "");
   EXPECT_EQ(bad_with([](Params& p) { p.joint[2].lower_rad = kNan; }), "joint[2].lower_rad");
@@ -157,7 +156,6 @@ TEST(Image, NumbersThatAreNoneOrNoRobotsAreNamed) {
             "leg[1].thigh_m");
 }
 
-// Checks every float of a joint.
 TEST(Image, EveryNumberOfAJointIsLookedAt) {
   make_image();
   constexpr std::size_t kFloats = 22;

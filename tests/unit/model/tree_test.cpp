@@ -71,7 +71,7 @@ TEST(Tree, EveryPathGoesFromLinkToNeighbouringLink) {
   }
 }
 
-// The deepest tree Params can hold: 32 joints in a row.
+// 32 joints in a row.
 TEST(Tree, DeepestChainIsSearched) {
   static Params chain;
   chain.joint_count = kMaxJoints;

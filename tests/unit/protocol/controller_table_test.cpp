@@ -33,7 +33,7 @@ TEST(ControllerTable, NamesAreUniqueAndSayEverythingInOneCase) {
   EXPECT_TRUE(find("") == nullptr);
 }
 
-// Two reads of aligned blocks never tear a word that is aligned to its size.
+// Then two reads of aligned blocks never tear a word.
 TEST(ControllerTable, ElementsStandOnMultiplesOfTheirSize) {
   for (const Register& each : kTable) {
     if (each.address == address::kModelInformation) continue;
@@ -61,7 +61,6 @@ TEST(ControllerTable, EachRegisterCanBeReadAndWrittenInOnePacket) {
   EXPECT_LE(longest_write() + longest_write() / 3 + kOverhead, kMaxPacket);
 }
 
-// At every address the device's rule agrees with the table, and gaps have no rule.
 TEST(ControllerTable, RulesAreTheTableWithoutItsWords) {
   for (unsigned address = 0; address < 0x10000; ++address) {
     const Register* expected = nullptr;

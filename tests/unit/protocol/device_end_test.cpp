@@ -90,7 +90,6 @@ TEST(DeviceEnd, FindsItsPartOfTheDocumentedBulkWrite) {
   EXPECT_FALSE(write_entry(received.packet(), offset, entry));
 }
 
-// No entry reaches past the end of a short or wrong packet.
 TEST(DeviceEnd, NoEntryReachesPastThePacket) {
   std::uint8_t parameters[24];
   std::uint32_t random = 1;
@@ -122,7 +121,7 @@ TEST(DeviceEnd, NoEntryReachesPastThePacket) {
   }
 }
 
-// Two registers: a signed byte pair at 10 within [-5, 300] and a read-only byte at 12.
+// A signed byte pair at 10 within [-5, 300] and a read-only byte at 12.
 WriteRule two_registers(std::uint16_t address) {
   if (address == 10) return {2, true, -5, 300};
   if (address == 12) return {1, false, 0, 255};

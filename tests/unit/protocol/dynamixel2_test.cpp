@@ -22,7 +22,7 @@ bool equal(const std::uint8_t* bytes, std::size_t size, const std::uint8_t (&exp
   return true;
 }
 
-// Feeds bytes; returns the number of packets found, the last one in `last`.
+// Returns the number of packets found, the last one in `last`.
 int feed(Parser& parser, const std::uint8_t* bytes, std::size_t size, Packet& last) {
   int packets = 0;
   for (std::size_t i = 0; i < size; ++i) {
@@ -192,7 +192,7 @@ TEST(Stuffing, InsertsOneByteAfterEachHeaderPattern) {
   EXPECT_TRUE(equal(bytes + 9, sizeof stuffed, stuffed));
 }
 
-// Any parameters survive the round trip, and no packet contains a header inside.
+// No packet contains a header inside.
 TEST(Stuffing, RoundTripsAnyBytes) {
   Random random;
   const std::uint8_t alphabet[] = {0xFF, 0xFF, 0xFD, 0x00, 0x55};
@@ -233,7 +233,6 @@ TEST(Parser, ReadsInstructionsToo) {
   EXPECT_EQ(get_u16(packet.parameters), address::kPresentPosition);
 }
 
-// The parser finds a good packet after noise, a cut packet or false headers.
 TEST(Parser, FindsAGoodPacketAfterNoise) {
   Random random;
   for (int round = 0; round < 2000; ++round) {
@@ -271,7 +270,6 @@ TEST(Parser, FindsTheReplyBehindACutOne) {
   EXPECT_EQ(parser.crc_errors(), 1u);
 }
 
-// Every flipped bit fails the check and is counted.
 TEST(Parser, RejectsEveryFlippedBit) {
   std::uint8_t good[32];
   const std::uint8_t data[] = {0xA6, 0x00, 0x12, 0x34};
@@ -303,8 +301,7 @@ TEST(Parser, IgnoresLengthsThatCannotBe) {
   EXPECT_EQ(parser.noise_bytes(), 14u);
 }
 
-// Fast replies form one packet with a block per device. Each block's CRC covers all bytes before
-// it, and there is no stuffing.
+// One block per device. Each block's CRC covers all bytes before it, and there is no stuffing.
 TEST(FastSyncRead, BlocksOfAllDevicesMakeOnePacket) {
   std::uint8_t bytes[64];
   const std::uint8_t first[] = {0xFF, 0xFF, 0xFD, 0x00};

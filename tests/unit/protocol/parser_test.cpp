@@ -5,8 +5,8 @@
 
 #include "common/protocol/dynamixel2.hpp"
 
-// Compares the parser with a reference that sees the whole stream and tries every byte as a
-// beginning: what it finds, when it knows, and what it costs.
+// Compares the parser with a reference that sees the whole stream: what it finds, when, and at what
+// cost.
 
 namespace verp::dxl {
 namespace {
@@ -30,7 +30,6 @@ struct Stream {
   void add(std::uint32_t byte) {
     if (size < kStream) bytes[size++] = static_cast<std::uint8_t>(byte);
   }
-  /// A header to device 1 that announces `length` bytes.
   void add_header(std::uint32_t length) {
     constexpr std::uint8_t kMark[] = {0xFF, 0xFF, 0xFD, 0x00, 0x01};
     for (const std::uint8_t byte : kMark) add(byte);
@@ -76,7 +75,7 @@ void fill(Stream& stream, Random& random) {
   }
 }
 
-/// Finds all packets of a stream by trying each byte in turn.
+/// Tries each byte in turn.
 struct Reference {
   std::size_t at = 0;     ///< search position
   std::size_t known = 0;  ///< bytes the parser needs to get there
@@ -155,8 +154,8 @@ TEST(Parser, PaysAFewStepsForEachByteOfNoise) {
   }
 }
 
-// Bounds the steps per byte for any stream. Headers stand at least seven bytes apart, and each
-// costs at most one sum over, and one move of, what follows.
+// Headers stand at least seven bytes apart, and each costs at most one sum over, and one move of,
+// what follows.
 TEST(Parser, HasABoundForTheWorstOfStreams) {
   static Stream stream;
   constexpr std::uint32_t kMost = 2 + 2 * (kMaxPacket / kHeaderBytes + 1);

@@ -30,7 +30,6 @@ struct Joints {
   }
 };
 
-// For any wishes and modes, no goal leaves a joint's limits or needs more than its speed.
 TEST(Limit, GoalsStayInsideLimitsAndSpeeds) {
   test::Random random(1);
   Joints joints;
@@ -85,7 +84,7 @@ TEST(Limit, WithinSpeedTheGoalIsTheWish) {
   EXPECT_TRUE(joints.run(Mode::kWalking, 0).slowed) << "slowed down, and said so";
 }
 
-// Rise and sit: from the pose found, on a minimum-jerk curve, exactly to the target pose.
+// From the pose found, on a minimum-jerk curve, exactly to the target.
 void expect_arrives(Mode mode, float duration_s) {
   test::Random random(2);
   Joints joints;
@@ -119,8 +118,7 @@ TEST(Limit, SittingDownEndsInTheCrouch) {
   expect_arrives(Mode::kSitting, SafetyTuning{}.sit_s);
 }
 
-// The slowest joint has the longest way. The rise waits for it, and no joint is too fast or slowed
-// down on its way.
+// No joint is too fast or slowed down on its way.
 TEST(Limit, RiseTakesAsLongAsItsLongestWayNeeds) {
   for (const Mode mode : {Mode::kRising, Mode::kSitting}) {
     static Params slow;
@@ -156,7 +154,7 @@ TEST(Limit, ShortWaysTakeTheTimeThatTheTuningGivesThem) {
   EXPECT_EQ(joints.way_ms, 1500) << "sit_s";
 }
 
-// Torque would throw the joint at its limit. A joint slightly beyond lies against its stop.
+// A joint slightly beyond lies against its stop.
 TEST(Limit, JointBeyondItsLimitsIsNamed) {
   for (int j = 0; j < kRobot.joint_count; ++j) {
     const JointParams& joint = kRobot.joint[j];
@@ -178,7 +176,6 @@ TEST(Limit, JointBeyondItsLimitsIsNamed) {
   }
 }
 
-// The robot arrives although the stand moves while it rises.
 TEST(Limit, RiseFollowsAMovingStand) {
   Joints joints;
   for (std::int32_t us = 0; us <= 1000000; us += kPeriod_us) {

@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-/// The table, row by row. Each test is named after its row's promise and states the row, so any
-/// added, removed or moved row fails here first.
+/// Each test is named after its row's promise and states the row, so any added, removed or moved
+/// row fails here first.
 namespace verp::safety {
 namespace {
 
@@ -20,8 +20,8 @@ constexpr std::uint32_t modes(Modes... each) {
   return (bit(each) | ...);
 }
 
-// The table has this row at `index`. Exactly its conditions lead to `to`; if one is missing, or one
-// that it excludes is present, the row does not match.
+// The row at `index`: exactly its conditions lead to `to`. With one missing, or an excluded one
+// present, it does not match.
 void expect_row(int index, std::uint32_t from, std::uint32_t all_of, std::uint32_t none_of,
                 Mode to) {
   ASSERT_LT(index, kRows);
@@ -190,7 +190,7 @@ TEST(SafetyMachine, TorqueComesOnlyByRisingAndByGettingUpAndWhenAsked) {
   EXPECT_EQ(wrong, 0);
 }
 
-// A standing robot loses torque only in a fall, by the e-stop, or at the end of sitting down.
+// Only in a fall, by the e-stop, or at the end of sitting down.
 TEST(SafetyMachine, StandingRobotIsNeverDropped) {
   int wrong = 0;
   for_all([&](Mode from, std::uint32_t conditions, Mode to) {
@@ -210,7 +210,7 @@ TEST(SafetyMachine, WalkingStopsOnlyOnBothFeetUnlessItMust) {
   EXPECT_EQ(wrong, 0);
 }
 
-// Lasting trouble always leads down and leads nowhere else until it is over.
+// Lasting trouble leads down and nowhere else.
 TEST(SafetyMachine, PowerTroubleNeverBeginsARiseAWalkAnActionOrGettingUp) {
   int wrong = 0;
   for_all([&](Mode from, std::uint32_t conditions, Mode to) {

@@ -68,8 +68,7 @@ TEST(FlashStore, NeverErasesWhileTheTorqueIsOn) {
   EXPECT_EQ(old[0], value[0]);
 }
 
-// With torque off and nothing to do, the store makes room, so that updates while walking find a
-// place.
+// So that updates while walking find a place.
 TEST(FlashStore, MakesRoomBeforeItIsNeeded) {
   Flash flash;
   Store store(flash);
@@ -115,8 +114,7 @@ TEST(FlashStore, AFullStoreKeepsWhatItHasAndCanBeEmptied) {
   EXPECT_EQ(store.put(5, kValue, 1), PutResult::kAccepted);
 }
 
-// A refused word costs its place, not a value. A permanent refusal is reported, and the old value
-// stays.
+// A refused word costs its place, not a value. A permanent refusal is reported.
 TEST(FlashStore, SurvivesFlashThatRefuses) {
   for (std::uint32_t refusals = 1; refusals < 6; ++refusals) {
     Flash flash(refusals);
@@ -139,7 +137,6 @@ TEST(FlashStore, SurvivesFlashThatRefuses) {
   }
 }
 
-// One flipped bit loses at most its record and is counted; it never becomes a value.
 TEST(FlashStore, AFlippedBitCostsOneRecordAtMost) {
   for (std::size_t offset = sizeof(store::PageHeader); offset < 112; ++offset) {
     Flash flash;

@@ -5,8 +5,8 @@
 #include "firmware/store/flash_store.hpp"
 #include "hal/fake/fake_flash.hpp"
 
-// Stored values survive a power cut at any write, even half-way through a word or an erase. Every
-// value is the old or the new one, and later starts find the same.
+// A power cut may come at any write, even half-way through a word or an erase. Every value is then
+// the old or the new one, and later starts find the same.
 
 namespace verp {
 namespace {
@@ -79,8 +79,8 @@ bool apply(Store& store, const Update& update, bool may_erase = true) {
   return false;
 }
 
-/// Every other key has its old value, the updated one its old or new value, and the next start
-/// finds the same. Sets `became` to the updated value.
+/// Every other key has its old value, and the next start finds the same. Sets `became` to the
+/// updated value.
 template <class Flash>
 bool is_sound_after_cut(Flash& flash, const Value (&expected)[kKeys + 1], const Update& update,
                         Value& became) {
@@ -99,7 +99,7 @@ bool is_sound_after_cut(Flash& flash, const Value (&expected)[kKeys + 1], const 
   return sound;
 }
 
-/// Repeats each update from the same state, cut one write later each time, until it completes.
+/// Repeats each update from the same state, cut one write later each time.
 template <std::size_t kUnit>
 void cut_at_every_write(int updates) {
   using Flash = hal::FakeFlash<kPage, kUnit>;
@@ -142,8 +142,7 @@ TEST(PowerCut, AtEveryWriteOfBytesHalfWordsAndDoubleWords) {
   cut_at_every_write<8>(kUpdates / 10);
 }
 
-// The power fails repeatedly, also while the store recovers. The doubts that cuts leave must not
-// add up.
+// Also while the store recovers: the doubts that cuts leave must not add up.
 template <std::size_t kUnit>
 void cut_after_cut() {
   using Flash = hal::FakeFlash<kPage, kUnit>;
@@ -179,8 +178,7 @@ TEST(PowerCut, AfterPowerCutLosesNothing) {
   cut_after_cut<8>();
 }
 
-// A half-made page must not return when a later start happens to read it as whole: it would undo
-// later updates.
+// If a later start happened to read it as whole, later updates would be lost.
 TEST(PowerCut, NoHalfMadePageComesBack) {
   using Flash = hal::FakeFlash<kPage, 4>;
   using Store = StoreOf<Flash>;

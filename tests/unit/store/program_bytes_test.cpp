@@ -41,7 +41,7 @@ TEST(ProgramBytes, ArePutWhereTheyBelongAndNothingElseIsTouched) {
   EXPECT_EQ(flash.misuses(), 0u);
 }
 
-// As CAN delivers them: seven bytes at a time, whatever the flash's unit, and some twice.
+// CAN delivers seven bytes at a time, some twice.
 TEST(ProgramBytes, MayComeInPiecesOfAnySizeAndOrderAndAgain) {
   for (const std::size_t piece : {1u, 7u, 13u, 100u}) {
     Flash flash;

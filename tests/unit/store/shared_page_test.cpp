@@ -7,8 +7,8 @@
 #include "firmware/store/flash_store.hpp"
 #include "hal/fake/fake_flash.hpp"
 
-// A robot and its actions share a flash page and are replaced together or not at all, whenever the
-// power fails. A pending replacement never costs the log a value.
+// A robot and its actions share a flash page and are replaced together or not at all. A pending
+// replacement never costs the log a value.
 
 namespace verp {
 namespace {
@@ -82,7 +82,6 @@ struct Board {
     log.get(kKey, &value, 1);
     return value;
   }
-  /// As an operator sends it; false if it was refused.
   bool send(int generation) {
     const Second second(generation);
     room->begin();
@@ -204,7 +203,7 @@ TEST(SharedPage, ErasesOnceForEachNewOneAndOnlyWhenItMay) {
   }
 }
 
-// A caller that waits for a page that cannot be erased would wait for ever.
+// Else the caller would wait for ever.
 TEST(SharedPage, ThatCannotBeErasedIsTold) {
   Board board;
   board.other_flash.cut_after(0);  // unpowered flash cannot be erased
@@ -216,7 +215,6 @@ TEST(SharedPage, ThatCannotBeErasedIsTold) {
   EXPECT_TRUE(board.send(1)) << "the next one tries again";
 }
 
-// The log fills up while a replacement waits: it takes back its page and loses nothing.
 TEST(SharedPage, TheLogComesFirst) {
   Board board;
   ASSERT_TRUE(board.send(1));
@@ -235,7 +233,7 @@ TEST(SharedPage, TheLogComesFirst) {
   EXPECT_EQ(board.misuses(), 0u);
 }
 
-// A replacement wants the log's other page at every step of the log's move.
+// At every step of the log's move.
 TEST(SharedPage, IsFoundBesideALogThatMoves) {
   for (int steps = 0; steps < 8; ++steps) {
     Board board;

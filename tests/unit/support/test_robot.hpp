@@ -29,7 +29,6 @@ class Random {
   std::uint32_t state_;
 };
 
-// Joint indices.
 inline constexpr int kHead = 0, kLeftArm = 3, kRightArm = 6, kLeftLeg = 9, kRightLeg = 15;
 inline constexpr int kJointCount = 21;
 
@@ -133,7 +132,6 @@ inline Params make_robot() {
   return params;
 }
 
-/// The robot of most tests.
 inline const Params kRobot = make_robot();
 
 /// The same with hip and ankle axes that do not meet: only Newton solves its legs.
@@ -186,7 +184,6 @@ inline void random_angles(const Params& params, float least_knee_rad, Random& ra
   }
 }
 
-/// Mirror images about the plane y = 0.
 inline Vec3 mirrored(const Vec3& v) {
   return {v.x(), -v.y(), v.z()};
 }
@@ -214,7 +211,6 @@ inline void mirror_angles(const float* angle_rad, float* result_rad) {
 inline float distance(const Vec3& a, const Vec3& b) {
   return math::norm(a - b);
 }
-/// Angle between two rotations.
 inline float turn_between(const Mat3& a, const Mat3& b) {
   return math::norm(math::rotation_vector(a * b.transpose()));
 }
@@ -224,7 +220,7 @@ inline bool all_finite(const float* values, int count) {
   }
   return true;
 }
-/// True if no float in a struct with a field list is NaN or infinite.
+/// True if the struct contains no NaN or infinity.
 template <class T>
 bool struct_is_finite(const T& data) {
   bool finite = true;

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-// A USB serial port's answers to a host: the promises of hal/chip/usb/cdc_acm.hpp.
+// The promises of hal/chip/usb/cdc_acm.hpp.
 
 namespace verp::hal::usb {
 namespace {
@@ -41,8 +41,7 @@ int status(CdcAcm& port, unsigned code, unsigned index) {
   return answer.data[0] | answer.data[1] << 8;
 }
 
-// Hosts walk the configuration by its lengths. They must arrive at its end and count the announced
-// interfaces and endpoints.
+// Hosts walk the configuration by its lengths.
 TEST(UsbDescriptors, ConfigurationIsAWholeTree) {
   CdcAcm port = make();
   const Answer answer = ask(port, 0x8006, 0x0200, 0, 255);
@@ -71,8 +70,8 @@ TEST(UsbDescriptors, ConfigurationIsAWholeTree) {
   EXPECT_EQ(interfaces, bytes[4]);
 }
 
-// A host asks for 8, 9, 64, 255 or more bytes of an unknown descriptor. It gets the beginning,
-// never more than asked, and learns if that was less.
+// A host asks for 8, 9, 64, 255 or more bytes of an unknown descriptor, and learns if it is
+// shorter.
 TEST(UsbDescriptors, AnyLengthGetsThatMuchOfTheBeginning) {
   CdcAcm port = make();
   for (const unsigned value : {0x0100u, 0x0200u, 0x0300u, 0x0301u, 0x0302u, 0x0303u}) {
@@ -121,7 +120,7 @@ TEST(UsbDescriptors, OthersAreRefused) {
   }
 }
 
-// In either state, unknown requests are refused and change nothing.
+// In either state.
 TEST(UsbRequests, UnknownOnesAreRefusedAndChangeNothing) {
   constexpr unsigned kKnown[] = {0x8000, 0x8100, 0x8200, 0x0201, 0x0203, 0x0005, 0x8006,
                                  0x8008, 0x0009, 0x810A, 0x2120, 0xA121, 0x2122, 0x2123};
@@ -215,7 +214,6 @@ TEST(UsbRequests, HaltsAndReleasesEachEndpointAlone) {
   }
 }
 
-// A session's state ends with it.
 TEST(UsbRequests, ANewConfigurationAndAResetForget) {
   for (const bool by_reset : {false, true}) {
     CdcAcm port = make_configured();
@@ -243,7 +241,7 @@ TEST(UsbSerial, IsOpenWhileTheHostHoldsDtr) {
   }
 }
 
-// The port keeps and returns every coding of the standard; it refuses any other and keeps the last.
+// Every coding of the standard.
 TEST(UsbSerial, KeepsALineCodingOrRefusesIt) {
   CdcAcm port = make_configured();
   for (unsigned i = 0; i < 4 * 6 * 20; ++i) {
