@@ -9,13 +9,13 @@
 #include "host/render/renderer.hpp"
 #include "host/scene/build.hpp"
 
-// What saves a camera time costs no more of its picture than is said.
+// The camera's shortcuts cost no more picture quality than stated.
 
 namespace verp::render {
 namespace {
 
-/// Dark left of a line that is tilted by `angle_rad`, bright right of it; of each pixel the middle
-/// of n x n samples.
+/// A line tilted by `angle_rad`, dark on its left, bright on its right; each pixel is the mean of n
+/// x n samples.
 Image line(double angle_rad, double shift_px, int n) {
   constexpr int kWidth = 64, kHeight = 48, kDark = 40, kBright = 200;
   Image image{{kWidth, kHeight}, {}};
@@ -70,7 +70,8 @@ TEST(SmoothedEdges, LeaveWhatIsEvenAndWhatIsLevelAlone) {
   }
 }
 
-/// Things of every size all around the eye, one at a time: whatever a pixel's ray meets is there.
+/// Objects of every size all around the eye, one at a time: the picture shows whatever a pixel's
+/// ray meets.
 TEST(LeftOutOfAPicture, IsNothingOfWhichAPixelIsToBeSeen) {
   OffscreenContext context;
   Renderer renderer;
@@ -100,7 +101,7 @@ TEST(LeftOutOfAPicture, IsNothingOfWhichAPixelIsToBeSeen) {
     const scene::Vec3 at = scene::Vec3(any(random), any(random), any(random));
     if (at.norm() < ball.size_m.x() + 0.1) continue;
     ball.pose.translation() = camera.eye_m + at;
-    // The driver's ball has flat faces: it holds one of 0.97 of its radius.
+    // The driver's ball has flat faces; a ball of 0.97 of its radius fits inside.
     const double cosine = std::cos(std::asin(0.97 * ball.size_m.x() / at.norm()));
     int met = 0;
     for (int y = 0; y < size.height; ++y) {

@@ -11,7 +11,7 @@
 #include "host/scene/build.hpp"
 #include "tests/host/camera/files.hpp"
 
-// What a camera sees is where its lens says, as far away as it is, and noisy as its file says.
+// A camera sees objects where its lens puts them, at their distance, with its file's noise.
 
 namespace verp::camera::test {
 namespace {
@@ -56,7 +56,7 @@ struct Sight {
   }
 };
 
-/// The middle of all pixels that are redder than anything else here.
+/// The centre of all reddest pixels.
 Eigen::Vector2d red_middle(const render::Image& image) {
   Eigen::Vector2d sum(0, 0);
   int count = 0;
@@ -75,8 +75,8 @@ Eigen::Vector2d red_middle(const render::Image& image) {
   return sum / count;
 }
 
-/// Of the ball's outline, pixel by pixel of its solid angle: a ball off the axis is seen as an
-/// oval, whose middle isn't that of the ball.
+/// The centre of the ball's outline, from its solid angle pixel by pixel. Off the axis a ball looks
+/// oval, and the oval's centre is not the ball's.
 Eigen::Vector2d outline_middle(const model::CameraSensor& camera, const model::Vec3& ball_lens_m) {
   constexpr double kRadius_m = 0.05;
   const double distance_m = ball_lens_m.norm();
@@ -110,7 +110,7 @@ TEST(Sight, ABallIsInThePictureWhereTheLensHasIt) {
     const model::Vec3 in_lens =
         model::in_lens(sight.camera, sight.link().inverse() * model::Vec3(x, y, z));
     const Eigen::Vector2d expected = outline_middle(sight.camera, in_lens);
-    // The middle itself is within pixels of its projection, by the lens' own formula.
+    // The ball's centre itself projects within two pixels by the lens' own formula.
     EXPECT_LT((expected - model::pixel_of(sight.camera, in_lens.head<2>() / in_lens.z())).norm(), 2)
         << lens << ball;
     EXPECT_LT((red_middle(image) - expected).norm(), 1) << lens << ball;
@@ -130,7 +130,7 @@ TEST(Sight, DepthIsThatOfTheFloorToItsMillimetre) {
         const model::Vec3 ray = eye.linear() * model::Vec3(1, -direction->x(), -direction->y());
         const double depth_m = -eye.translation().z() / ray.z();
         if (depth_m > 3) continue;
-        // A pixel lower is so much nearer: with a lens the nearest drawn pixel is taken.
+        // One pixel lower is this much nearer; with a lens the nearest drawn pixel counts.
         const double slope_m = depth_m * depth_m / (sight.camera.fy_px * eye.translation().z());
         EXPECT_NEAR(sight.value(x, y), 1000 * depth_m, 1 + (*lens == 0 ? 0 : 600 * slope_m))
             << x << ' ' << y << lens;
@@ -181,7 +181,8 @@ TEST(Sight, NoiseIsAsTheFileSaysAndOfTheSeedAndTheTimeAlone) {
   };
   const render::Image clean = image(Sight("camera", "", "0.8 0 0.4"));
   const render::Image noisy = image(Sight("camera", noise, "0.8 0 0.4"));
-  // A bell's mean deviation is 0.8 of its standard one; white and black cut some of it off.
+  // A normal distribution's mean deviation is 0.8 of its standard deviation; white and black clip
+  // some of it.
   EXPECT_NEAR(apart(clean, noisy), 0.798 * 255 * 0.02, 0.5);
   EXPECT_EQ(noisy.rgb, image(Sight("camera", noise, "0.8 0 0.4")).rgb);
   EXPECT_GT(apart(noisy, image(Sight("camera", noise, "0.8 0 0.4", 2000))), 1);

@@ -56,7 +56,7 @@ TEST(ZynqmpCanDriver, RefusesARateThatItsClockCannotGive) {
   EXPECT_FALSE(driver.send(numbered(1, 1)));
 }
 
-/// An address behind which nothing is.
+/// No controller at this address.
 struct NoChip {
   std::uint32_t read32(std::uint32_t) { return 0; }
   void write32(std::uint32_t, std::uint32_t) {}
@@ -71,7 +71,7 @@ TEST(ZynqmpCanDriver, KnowsThatThereIsNoController) {
 TEST(ZynqmpCanDriver, SendsTheMostUrgentOfThoseThatWait) {
   Rig rig;
   ASSERT_TRUE(rig.driver.send(numbered(0x600, 1)));
-  rig.settle();  // that one was sent must not be taken for the next
+  rig.settle();  // the first frame's completion must not count for the next
   rig.model.wire.hold(true);
   for (const std::uint32_t id : {0x500u, 0x400u, 0x100u, 0x300u}) {
     ASSERT_TRUE(rig.driver.send(numbered(id, id)));

@@ -6,9 +6,8 @@
 
 #include "tests/host/compare/traces.hpp"
 
-// What one of two runs has that the other has not is told by its number: delays within 1 ms and
-// offsets within 0.1 degrees, per joint, under the noise of encoders. What cannot be known is not
-// invented.
+// The comparison finds the difference of two runs per joint under encoder noise: delays within 1
+// ms, offsets within 0.1 degrees. It gives no number that it cannot know.
 
 namespace verp::compare::test {
 namespace {
@@ -20,7 +19,8 @@ const record::Trace& walk() {
 
 void expect_injected(double delay_s, double offset_rad) {
   const Comparison c = compare(walk(), later(walk(), delay_s, offset_rad));
-  EXPECT_EQ(c.alignment, Alignment::kOrdered);  // such readings would not have been decided on so
+  EXPECT_EQ(c.alignment,
+            Alignment::kOrdered);  // the controller could not have decided this from such readings
   ASSERT_TRUE(c.delay_s);
   EXPECT_NEAR(*c.delay_s, delay_s, 1e-3);
   int with_delay = 0;
@@ -79,8 +79,7 @@ TEST(Compare, RunsThatBeganAtDifferentTimesAreLaidTogetherByWhatTheControllerBeg
   EXPECT_NEAR(*ordered.delay_s, 0, 1e-3);
 }
 
-// Not a copy that was pushed about, but another twin, with noise of its own, whose servos act
-// later.
+// A separate twin with its own noise and later servos, not an edited copy.
 TEST(Compare, ATwinWhoseServosActLaterIsLateByThat) {
   session::WalkPlan plan = plan_of(5, 2);
   plan.twin.goal_delay_s = 0.010;

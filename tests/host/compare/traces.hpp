@@ -11,7 +11,7 @@
 #include "host/record/trace.hpp"
 #include "host/session/session.hpp"
 
-/// Traces to compare: walks of the twin, and what a robot that is late and askew would have left.
+/// Traces to compare: the twin's walks, and edited ones of a late, misaligned robot.
 namespace verp::compare::test {
 
 inline constexpr double kDegree = std::numbers::pi / 180;
@@ -26,7 +26,7 @@ inline session::WalkPlan plan_of(double walk_s, std::uint64_t seed = 1) {
   return plan;
 }
 
-/// What a walk leaves, as reading its file would give it.
+/// The trace of a walk, as if read from its file.
 inline record::Trace trace_of(const session::WalkPlan& plan, const std::string& name = "a.mcap") {
   record::Trace trace;
   trace.file = name;
@@ -37,8 +37,8 @@ inline record::Trace trace_of(const session::WalkPlan& plan, const std::string& 
   return trace;
 }
 
-/// The same run as a robot would have read it whose joints come `delay_s` later and read
-/// `offset_rad` more, with two counts of noise on every reading.
+/// The same run with joints `delay_s` later, readings `offset_rad` higher, and noise of two counts
+/// on each.
 inline record::Trace later(const record::Trace& a, double delay_s, double offset_rad) {
   record::Trace b = a;
   b.file = "b.mcap";
@@ -61,7 +61,7 @@ inline record::Trace later(const record::Trace& a, double delay_s, double offset
   return b;
 }
 
-/// The same run, read by somebody who switched on that many ticks later and counts from there.
+/// The same run, recorded from `ticks` ticks later and numbered from there.
 inline record::Trace begun_later(const record::Trace& a, std::uint32_t ticks) {
   record::Trace b = a;
   b.file = "b.mcap";

@@ -5,7 +5,7 @@
 #include "tests/host/stm32_drivers/rig.hpp"
 #include "tests/support/stm32/gpio_model.hpp"
 
-// The buzzer: the tone that was asked for, for as long, and then silence with the pin at rest.
+// The buzzer plays the given tone for the given time; then its pin rests.
 namespace verp::hal::stm32::test {
 namespace {
 

@@ -6,8 +6,8 @@
 #include "tests/host/stm32_drivers/rig.hpp"
 #include "tests/support/stm32/can_rig.hpp"
 
-// bxCAN: what it adds to the promises of hal/contract/can_bus.hpp, and what it does about hardware
-// that sticks. The suite of the contract runs against it too.
+// bxCAN's own promises beyond hal/contract/can_bus.hpp, and stuck hardware. The contract's suite
+// runs against it too.
 
 namespace verp::hal::stm32::test {
 namespace {
@@ -20,9 +20,9 @@ CanFrame frame_of(std::uint32_t id, unsigned number = 0) {
   return frame;
 }
 
-/// APB1 clocks of the boards: 168, 180 and 216 MHz, by four.
+/// APB1 clocks of the boards: 168, 180 and 216 MHz, divided by four.
 constexpr std::uint32_t kApb1_hz[] = {42'000'000, 45'000'000, 54'000'000};
-/// CiA 301's rates that bxCAN is asked for here.
+/// CiA 301's bit rates that these tests use.
 constexpr std::uint32_t kRates[] = {1'000'000, 500'000, 250'000, 125'000};
 
 TEST(BxCanTiming, IsExactAndSamplesWhereCanopenWantsItOnEverySupportedClock) {
@@ -79,9 +79,9 @@ TEST_P(BxCanDriver, MakesTheRateAndSamplePointThatItWasAskedFor) {
   EXPECT_LE(can.sample_point(), 0.90);
 }
 
-// The identifiers decide, not the order of sending: also when the mailboxes are full of worse ones.
+// The identifiers decide the order, even when lower priorities fill the mailboxes.
 TEST_P(BxCanDriver, SendsTheBestFirstWhateverWaits) {
-  can.send(frame_of(0x001));  // holds the bus while ours are queued
+  can.send(frame_of(0x001));  // holds the bus while the driver's frames queue
   advance(5);
   for (std::uint32_t i = 0; i < 10; ++i) ASSERT_TRUE(driver.send(frame_of(0x600 - i)));
   ASSERT_TRUE(driver.send(frame_of(0x080)));
@@ -93,7 +93,7 @@ TEST_P(BxCanDriver, SendsTheBestFirstWhateverWaits) {
   EXPECT_EQ(ids(), want);
 }
 
-// As seeds go: what is sent leaves once, and what has one identifier in its order.
+// Random frames: each leaves once, and those with one identifier keep their order.
 TEST_P(BxCanDriver, KeepsTheOrderOfEachIdentifierAndSendsNothingTwice) {
   std::uint32_t seed = 3;
   const auto next = [&] { return (seed = seed * 1664525u + 1013904223u) >> 8; };
@@ -127,7 +127,8 @@ TEST_P(BxCanDriver, UsesAllMailboxes) {
   EXPECT_EQ(used.size(), 3u);
 }
 
-// Interrupts held back while frames arrive: the FIFO's three are the oldest, the loss is counted.
+// Masked interrupts while frames arrive: the FIFO keeps the three oldest, and the driver counts the
+// loss.
 TEST_P(BxCanDriver, CountsAFifoOverrunAndKeepsTheOldest) {
   {
     const Masked<Io> masked(board.rig.machine.io());
@@ -156,7 +157,8 @@ TEST_P(BxCanDriver, CountsWhatNobodyFetchedInTime) {
   EXPECT_FALSE(driver.poll(heard, 0));
 }
 
-// Bus-off by the book: 32 failures, then 128 times 11 bits of silence, and all by itself.
+// Bus-off by the standard: 32 failures, then 128 times 11 bits of silence, then recovery without
+// help.
 TEST_P(BxCanDriver, ComesBackFromBusOffAfterTheTimeOfTheStandard) {
   can.break_next = 32;
   ASSERT_TRUE(driver.send(frame_of(0x123)));
@@ -201,7 +203,7 @@ TEST_P(BxCanDriver, SaysWhenAFrameEndedNotWhenItWasFetched) {
   EXPECT_NEAR(static_cast<double>(driver.now_us()), static_cast<double>(before_us + 111), 8);
 }
 
-// However much waits: the time of a poll begins with the last of it.
+// A poll's timeout begins with the last queued frame, however many wait.
 TEST_P(BxCanDriver, CountsTheTimeoutFromWhenTheLastFrameBegan) {
   for (std::uint32_t i = 0; i < 20; ++i) ASSERT_TRUE(driver.send(frame_of(0x100 + i)));
   CanFrame heard;
@@ -222,14 +224,14 @@ TEST_P(BxCanDriver, LetsInWhatItsRulesSayAndNothingElse) {
   CanFrame extended = frame_of(0x1ABCD);
   extended.extended = true;
   CanFrame other = extended;
-  other.id = 0x185 << 18;  // begins as 0x185 does
+  other.id = 0x185 << 18;  // begins like 0x185
   for (const CanFrame& each : {frame_of(0x17F), frame_of(0x180), frame_of(0x1FF), frame_of(0x200),
                                extended, other, frame_of(0x5CD)}) {
     can.send(each);
   }
   advance(2000);
   CanFrame heard;
-  // In the order of the wire: all wanted it at one time.
+  // All were ready at once, so they arrive in order of priority.
   for (const CanFrame& each : {extended, frame_of(0x180), frame_of(0x1FF)}) {
     ASSERT_TRUE(filtered.poll(heard, 0));
     EXPECT_TRUE(heard == each) << each.id;

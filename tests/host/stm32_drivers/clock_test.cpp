@@ -3,7 +3,7 @@
 #include "tests/host/stm32_drivers/rig.hpp"
 #include "tests/support/stm32/core_model.hpp"
 
-// The clock tree: full speed where there is a crystal, the next best where not, and always an end.
+// The clock tree reaches full speed with a crystal and the next best without. It always finishes.
 namespace verp::hal::stm32::test {
 namespace {
 
@@ -60,7 +60,7 @@ TEST_P(Clock, SwitchThatSticksLeavesSixteenMegahertz) {
   expect_real(clocks);
 }
 
-// The cause is that of this start only: the flags of the one before are gone.
+// The cause is of this start only: reading it clears the flags.
 TEST_P(Clock, TellsWhyTheChipStarted) {
   machine.reset(model::ResetCause::kIwdg);
   EXPECT_EQ(take_reset_cause(machine.io()), ResetCause::kWatchdog);
@@ -118,7 +118,7 @@ TEST_P(Overdrive, ThatNeverComesLeavesSixteenMegahertzInTime) {
   EXPECT_LT(machine.now(), ms(500));
 }
 
-// Stale instructions would be executed.
+// Otherwise the processor would run stale instructions.
 TEST(InstructionCache, IsEmptiedBeforeItIsSwitchedOn) {
   Machine machine(Family::kF746);
   machine.io().write32(cortex_m::kIciallu, 1);

@@ -2,11 +2,11 @@
 
 #include "tests/host/stm32_drivers/imu_driver.hpp"
 
-// What the motion sensor tells is the mean of all that its FIFO holds: every sample, whole, once.
+// The IMU driver reports the mean of all samples in the FIFO: each complete and exactly once.
 namespace verp::hal::stm32::test {
 namespace {
 
-// However the reads fall against the chip's clock: every sample is in one mean, and in no second.
+// Reads fall anywhere against the chip's clock; every sample counts in exactly one mean.
 TEST_P(MotionSensorDriver, TellsEverySampleOnce) {
   ASSERT_TRUE(board.starts());
   read_alone();
@@ -31,8 +31,7 @@ TEST_P(MotionSensorDriver, TellsEverySampleOnce) {
   EXPECT_EQ(board.imu.faults(), 0u);
 }
 
-// A foot lands right after each read and right before the next the jolt is over: what the rates add
-// up to is the turn all the same.
+// A jolt lasts for the two samples after each read. The reported rates still add up to the turn.
 TEST_P(MotionSensorDriver, JoltsBetweenReadsAddUpToTheTurn) {
   ASSERT_TRUE(board.starts());
   const double period_us = GetParam().kind == ImuKind::kMpu9250 ? 2000 : 2e6 / 1125;
@@ -85,7 +84,6 @@ TEST_P(MotionSensorDriver, RoundsToTheNearest) {
   }
 }
 
-// The longest period of a loop, and a tenth of it: nothing is missed, and the read ends in time.
 TEST_P(MotionSensorDriver, MissesNothingWithinTheLongestPeriod) {
   ASSERT_TRUE(board.starts());
   read_alone();
@@ -98,8 +96,8 @@ TEST_P(MotionSensorDriver, MissesNothingWithinTheLongestPeriod) {
   }
 }
 
-// A pause of the loop, whether the FIFO ran over or not: what it holds is old, and perhaps out of
-// step. No fault: the chip is well.
+// A pause of the loop leaves old data in the FIFO, perhaps out of step. The driver drops it without
+// a fault, because the chip works.
 TEST_P(MotionSensorDriver, WhatCameInALongPauseIsDropped) {
   ASSERT_TRUE(board.starts());
   read_alone();
@@ -118,7 +116,7 @@ TEST_P(MotionSensorDriver, WhatCameInALongPauseIsDropped) {
   EXPECT_EQ(board.imu.faults(), 0u);
 }
 
-// The size of the FIFO is read while the chip writes a sample into it: it is told whole, not torn.
+// The driver reads the FIFO's size while the chip writes a sample. It reports the whole sample.
 TEST_P(MotionSensorDriver, SampleThatIsBeingWrittenIsAwaited) {
   ASSERT_TRUE(board.starts());
   read_alone();
@@ -127,7 +125,8 @@ TEST_P(MotionSensorDriver, SampleThatIsBeingWrittenIsAwaited) {
     pause(8'000);
     for (const int before = newest; newest == before;) pause(10);
     board.device.torn = torn;
-    board.rig.machine.advance(us(2'000));  // one is due, and comes when the chip is spoken to
+    board.rig.machine.advance(
+        us(2'000));  // one is due; the chip writes it during the next transfer
     const int last = newest + 1;
     ASSERT_EQ(board.read(), ImuStatus::kFresh) << torn;
     expect_up_to(last, board.sample);
@@ -136,7 +135,7 @@ TEST_P(MotionSensorDriver, SampleThatIsBeingWrittenIsAwaited) {
   EXPECT_EQ(board.imu.faults(), 0u);
 }
 
-// Its bytes would be taken for those of another axis.
+// An out-of-step FIFO shows bytes of the wrong axis.
 TEST_P(MotionSensorDriver, FifoOutOfStepIsNotBelieved) {
   ASSERT_TRUE(board.starts());
   read_alone();

@@ -3,8 +3,7 @@
 #include "hal/chip/invensense/ranges.hpp"
 #include "tests/host/stm32_drivers/imu_driver.hpp"
 
-// The motion sensor at the robot's scales; and from every way in which a chip can fail, back again
-// by itself.
+// The IMU at the robot's scales. The driver recovers from every failure of the chip by itself.
 namespace verp::hal::stm32::test {
 namespace {
 
@@ -30,7 +29,7 @@ TEST_P(MotionSensorDriver, FindsTheChipByItselfAndGivesItsCounts) {
   EXPECT_EQ(board.sample.accel_count[2], 6);
 }
 
-// Fetched every 8 ms each sample is new; from a chip that takes no more there is none.
+// Read every 8 ms, each sample is new; a frozen chip gives none.
 TEST_P(MotionSensorDriver, GivesEachSampleOnceAndNewOnesInTime) {
   ASSERT_TRUE(board.starts());
   for (std::int16_t i = 0; i < 200; ++i) {
@@ -42,7 +41,7 @@ TEST_P(MotionSensorDriver, GivesEachSampleOnceAndNewOnesInTime) {
     EXPECT_EQ(board.sample.accel_count[1], i);
     EXPECT_GT(board.sample.time_us, last_us);
     board.device.frozen = true;
-    board.read();  // perhaps it took one more meanwhile
+    board.read();  // may include one more sample
     EXPECT_EQ(board.read(), ImuStatus::kStale);
     board.device.frozen = false;
   }
@@ -89,7 +88,7 @@ TEST_P(MotionSensorDriver, ChipThatStopsSamplingIsAFaultAndIsStartedAnew) {
   EXPECT_TRUE(board.starts());
 }
 
-// After a dip of its supply the chip goes on at other scales: worse than none.
+// After a dip of its supply the chip uses other scales, which is worse than no data.
 TEST_P(MotionSensorDriver, ChipThatLostItsSettingsIsNotBelieved) {
   ASSERT_TRUE(board.starts());
   board.device.forget();
@@ -98,7 +97,7 @@ TEST_P(MotionSensorDriver, ChipThatLostItsSettingsIsNotBelieved) {
   EXPECT_TRUE(board.starts());
 }
 
-/// Between the driver and the SPI: something happens after its nth exchange, or a write is lost.
+/// Sits between driver and SPI; acts after the nth exchange or drops a write.
 struct Meddler {
   bool exchange(const std::uint8_t* out, std::uint8_t* in, std::size_t size, std::uint32_t max_hz) {
     if (out[0] == lost_write) return true;
@@ -112,7 +111,7 @@ struct Meddler {
   int lost_write = -1;
 };
 
-// Samples that come between the exchanges of a read are told by it or by the next, and once.
+// A sample that arrives between a read's exchanges counts in this read or the next, once.
 TEST_P(MotionSensorDriver, SampleThatComesMeanwhileIsToldOnce) {
   Meddler bus{board.spi};
   invensense::MotionSensor<Meddler, Timer> imu(bus, board.rig.timer);
@@ -136,8 +135,7 @@ TEST_P(MotionSensorDriver, SampleThatComesMeanwhileIsToldOnce) {
   }
 }
 
-// What a chip that does not empty its FIFO holds after a pause is never fetched: started anew it
-// works again.
+// The chip ignores the command to empty its FIFO, so old data stays. A restart cures it.
 TEST_P(MotionSensorDriver, FifoThatStaysFullIsAFault) {
   Meddler bus{board.spi};
   invensense::MotionSensor<Meddler, Timer> imu(bus, board.rig.timer);
@@ -166,7 +164,7 @@ TEST_P(MotionSensorDriver, SettingThatDoesNotTakeIsAFault) {
   EXPECT_GT(imu.faults(), 0u);
 }
 
-// Below half the rate of the reads, so that none of it is seen as something slower.
+// Below half the rate of the reads, so that nothing aliases.
 TEST(MotionSensorLowPass, IsThatOfTheTwin) {
   ImuRig mpu(Family::kF405, ImuKind::kMpu9250);
   ASSERT_TRUE(mpu.starts());

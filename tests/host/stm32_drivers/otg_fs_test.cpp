@@ -8,9 +8,9 @@
 #include "tests/host/stm32_drivers/rig.hpp"
 #include "tests/support/stm32/usb_rig.hpp"
 
-// USB as a serial port, on the older core and the newer one, with a PC at the other end: the
-// promises of hal/contract/byte_link.hpp that the suite of tests/contract can't ask for, requests,
-// and what it does about hosts that change their mind and hardware that sticks.
+// USB as a serial port, on the older and the newer core, with a PC at the other end. Tests what the
+// suite of tests/contract for hal/contract/byte_link.hpp cannot: requests, hosts that change their
+// mind, and stuck hardware.
 namespace verp::hal::stm32::test {
 namespace {
 
@@ -25,7 +25,7 @@ Bytes noise(std::size_t size, unsigned seed) {
 
 class UsbPort : public EachFamily {
  protected:
-  /// On the bus, with the port opened by a program.
+  /// Puts the device on the bus and opens the port.
   void meet() {
     ASSERT_TRUE(rig.open());
     ASSERT_TRUE(rig.host.plug());
@@ -80,7 +80,7 @@ TEST_P(UsbPort, IsFoundAndOpenedByAHost) {
   EXPECT_EQ(rig.port.stuck(), 0u);
 }
 
-// As long as the host wants: longer than a packet, and with a length that is a whole packet.
+// The host asks for any length, also longer than a packet or a whole number of packets.
 TEST_P(UsbPort, TellsTheHostAllOfItsDescriptors) {
   ASSERT_TRUE(rig.open());
   ASSERT_TRUE(rig.host.plug());
@@ -120,7 +120,7 @@ TEST_P(UsbPort, RefusesWhatItDoesNotKnowAndGoesOn) {
   expect_alive();
 }
 
-// A host that gives up a request between any two stages, or repeats it, can make the next one.
+// The host may abort a request between any two stages or repeat it; the next one still works.
 TEST_P(UsbPort, OutlivesRequestsThatAreGivenUp) {
   meet();
   auto& wire = rig.machine.otg_fs();
@@ -143,8 +143,8 @@ TEST_P(UsbPort, OutlivesRequestsThatAreGivenUp) {
   expect_alive();
 }
 
-// Both ways at once, with packets of any size, hosts that do not hear an ACK, a program that is
-// slow on either side: every byte once, in order.
+// Both directions at once, packets of any size, lost ACKs and slow programs at both ends: every
+// byte arrives once, in order.
 TEST_P(UsbPort, CarriesAnyBytesInOrderBothWays) {
   meet();
   rig.host.deaf_every = 5;
@@ -180,7 +180,6 @@ TEST_P(UsbPort, CarriesAnyBytesInOrderBothWays) {
   EXPECT_EQ(rig.port.stuck(), 0u);
 }
 
-// What nobody reads waits at the host.
 TEST_P(UsbPort, HoldsTheHostBackWhileTheRingIsFull) {
   meet();
   const Bytes much = noise(3 * UsbRig::kRing, 6);
@@ -191,7 +190,7 @@ TEST_P(UsbPort, HoldsTheHostBackWhileTheRingIsFull) {
   EXPECT_EQ(read_all(), much);
 }
 
-// A host's driver hands a program what it has when a packet is shorter than full.
+// The host's driver gives its data to a program when a packet is shorter than full.
 TEST_P(UsbPort, EndsAFullPacketWithAnEmptyOne) {
   meet();
   for (const std::size_t size : {1u, 63u, 64u, 65u, 128u, 130u}) {
@@ -218,7 +217,7 @@ TEST_P(UsbPort, AProgramThatDoesNotReadCostsAWriteItsTimeout) {
   EXPECT_EQ(rig.host.take(), much);
 }
 
-/// Ways for a program's connection to end, and to come back.
+/// How a program's connection ends and returns.
 struct Ending {
   const char* name;
   void (*end)(UsbRig&);
@@ -249,8 +248,9 @@ const Ending kEndings[] = {
      }},
 };
 
-// At any moment, with packets on their way in both directions: what arrived before is read, then
-// the loss is seen once, what was queued is dropped, and the next connection begins clean.
+// The connection ends at any moment, with packets under way in both directions. The reader gets
+// earlier bytes and sees the loss once; queued bytes are dropped and the next connection starts
+// clean.
 TEST_P(UsbPort, OutlivesTheEndOfAConnectionAtAnyMoment) {
   meet();
   std::uint32_t losses = 0;
@@ -282,7 +282,7 @@ TEST_P(UsbPort, OutlivesTheEndOfAConnectionAtAnyMoment) {
   EXPECT_EQ(rig.port.stuck(), 0u);
 }
 
-// Between two calls the port was closed and opened: the reader learns of it, once.
+// The port was closed and opened between two calls; the reader learns of it once.
 TEST_P(UsbPort, TellsALossThatIsOverBeforeAnybodyLooked) {
   meet();
   const Bytes sent = noise(30, 11);
@@ -318,7 +318,7 @@ TEST_P(UsbPort, WithVbusSensedAPulledCableIsSeenAtOnce) {
   EXPECT_FALSE(rig.port.connected());
 }
 
-// A halted endpoint refuses; released, it goes on without a byte lost.
+// A halted endpoint refuses; once released, it goes on without losing a byte.
 TEST_P(UsbPort, HaltsAndReleasesEndpoints) {
   meet();
   const Bytes bytes = noise(200, 12);
@@ -355,8 +355,8 @@ TEST_P(UsbPort, TooSlowAClockIsRefused) {
   EXPECT_FALSE(rig.port.open(14'000'000, false));
 }
 
-// A packet that can't be taken back costs the way to the host, which no reset of the bus gives
-// back either, but no more time than some polls; what the host sends arrives as before.
+// A stuck packet blocks the way to the host, which not even a bus reset restores. It costs no more
+// time than a few polls, and bytes from the host still arrive.
 TEST_P(UsbPort, OutlivesAPacketThatIsStuck) {
   meet();
   rig.host.reading = false;
@@ -384,7 +384,7 @@ TEST_P(UsbPort, OutlivesAPacketThatIsStuck) {
   }
 }
 
-// A FIFO that never says that it is flushed is counted, and used.
+// The driver counts a flush that never ends, and uses the FIFO anyway.
 TEST_P(UsbPort, OutlivesAFlushThatDoesNotEnd) {
   meet();
   rig.machine.otg_fs().flush_stuck = true;
@@ -392,7 +392,7 @@ TEST_P(UsbPort, OutlivesAFlushThatDoesNotEnd) {
   look();
   EXPECT_GE(rig.port.stuck(), 1u);
   rig.machine.otg_fs().flush_stuck = false;
-  rig.machine.forget_violations();  // a flush begun while another is under way
+  rig.machine.forget_violations();  // a second flush during the first
 }
 
 }  // namespace

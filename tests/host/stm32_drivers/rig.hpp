@@ -5,7 +5,7 @@
 
 #include "tests/support/stm32/rig.hpp"
 
-/// Tests of drivers run on a chip of each family.
+/// Runs driver tests on a chip of each family.
 namespace verp::hal::stm32::test {
 
 class EachFamily : public ::testing::TestWithParam<Family> {};

@@ -10,8 +10,8 @@
 #include "tests/host/stm32_drivers/rig.hpp"
 #include "tests/support/stm32/gpio_model.hpp"
 
-// OpenCR's emergency stop and the switch of its servos' power, on a model of its chip: what
-// boards/stm32/loop_main.cpp does with them, tick by tick.
+// OpenCR's emergency stop and servo power switch on a model of its chip, used tick by tick like in
+// boards/stm32/loop_main.cpp.
 namespace verp::hal::stm32::test {
 namespace {
 
@@ -37,7 +37,7 @@ class ServoPowerSwitch : public ::testing::Test {
         .drive(kEmergencyStop.number, closed ? Outside::kLow : Outside::kOpen);
   }
   bool powered() { return rig.machine.gpio(kServoPower.port).level(kServoPower.number); }
-  /// A tick of the loop: the robot is asked for what desk.next says.
+  /// One tick of the loop with the orders in desk.next.
   app::DrivePower::Step tick() {
     const app::OperatorOrder order = panel.order(0);
     const bool emergency = (order.flags & kEmergencyStopFlag) != 0;
@@ -50,7 +50,7 @@ class ServoPowerSwitch : public ::testing::Test {
     return step;
   }
   void idle() { supply.permit(std::exchange(relax_asked, false)); }
-  /// Nothing ticks, and the board's loop tries again and again to bring servos up.
+  /// Without ticks, the board's loop tries to bring up the servos again and again.
   void try_in_vain() {
     for (int i = 0; i < 10; ++i) {
       supply.set(true);
@@ -80,7 +80,7 @@ class ServoPowerSwitch : public ::testing::Test {
   app::DrivePower drive;
   safety::Mode mode = safety::Mode::kRelaxed;
   int torque_off_ticks = 0;
-  bool relax_asked = false;  ///< and not told to the switch yet
+  bool relax_asked = false;  ///< not yet passed to the switch
 };
 
 TEST_F(ServoPowerSwitch, IsOffUntilTheLoopSwitchesItOn) {
@@ -108,7 +108,7 @@ TEST_F(ServoPowerSwitch, IsNeverSwitchedOnWhileTheCircuitIsOpen) {
   EXPECT_TRUE(powered());
 }
 
-// Bring-up fails without power, and the board's loop then wants it back at once.
+// Bring-up fails without power, and the board's loop asks for it again at once.
 TEST_F(ServoPowerSwitch, ComesBackAfterAStopDuringBringUpByReleaseAndRequestInThisOrder) {
   supply.set(true);
   circuit(false);
@@ -130,7 +130,7 @@ TEST_F(ServoPowerSwitch, ComesBackAfterAStopDuringBringUpByReleaseAndRequestInTh
   EXPECT_EQ(supply.state(), State::kOn);
 }
 
-// A bring-up that was over in the moment of the stop: the loop ticks, and must not do so for ever.
+// Bring-up had just finished at the stop: the loop ticks without power, and must not do so forever.
 TEST_F(ServoPowerSwitch, IsGivenBackByALoopThatBeganWithoutIt) {
   supply.set(true);
   circuit(false);
@@ -143,7 +143,7 @@ TEST_F(ServoPowerSwitch, IsGivenBackByALoopThatBeganWithoutIt) {
   EXPECT_EQ(tick(), app::DrivePower::Step::kAnew);
 }
 
-// A robot that lies relaxed has its request to relax standing there since long.
+// A relaxed robot still has an old request to relax, which must not count.
 TEST_F(ServoPowerSwitch, WantsARequestThatIsWrittenAfterTheRelease) {
   supply.set(true);
   for (int i = 0; i < 50; ++i) tick();
@@ -166,7 +166,7 @@ TEST_F(ServoPowerSwitch, GoesAtOnceIfTheCircuitOpensWhileNothingTicks) {
   EXPECT_FALSE(powered());
 }
 
-// 40 ms in a loop of 8 ms: two readings, and torque off in three ticks before the power goes.
+// 40 ms in a loop of 8 ms: two readings, and torque off for three ticks before the power goes.
 TEST_F(ServoPowerSwitch, GoesWithinFiveTicksOfAnOpenCircuitAfterTorqueOffWasSaid) {
   stand_up();
   circuit(false);
@@ -200,7 +200,7 @@ TEST_F(ServoPowerSwitch, GoesByTheOperatorsStopToo) {
   EXPECT_FALSE(powered());
 }
 
-// A start with the circuit closed: the stop counts as pressed for a while, and takes no power.
+// At a start with a closed circuit, the stop briefly counts as pressed but cuts no power.
 TEST_F(ServoPowerSwitch, StaysOnThroughAStart) {
   supply.set(true);
   for (int i = 0; i < 200; ++i) {

@@ -6,12 +6,12 @@
 #include "tests/support/stm32/imu_rig.hpp"
 #include "tests/support/stm32/spi_model.hpp"
 
-// The SPI master: bytes in order at a clock that the device bears, a device that is selected for
-// exactly that long, and an end to every wait.
+// The SPI master sends bytes in order at a clock that the device bears, selects it only for that
+// time, and never waits forever.
 namespace verp::hal::stm32::test {
 namespace {
 
-/// Answers each byte by its complement, one later.
+/// Answers each byte with its complement, one byte later.
 class Echo : public model::SpiDevice {
  public:
   std::uint32_t most_hz = 10'000'000;
@@ -46,7 +46,7 @@ class SpiDriver : public EachFamily {
                                               9, 10, 11, 12, 13, 14, 15, 16};
     return spi.exchange(kOut, in, size, max_hz);
   }
-  /// Until the peripheral was in order again, and it works.
+  /// The peripheral has recovered and works.
   void expect_works() {
     EXPECT_TRUE(exchange(4));
     EXPECT_EQ(in[1], 0xFE);
@@ -69,7 +69,7 @@ TEST_P(SpiDriver, CarriesBytesBothWaysInOrder) {
   EXPECT_TRUE(rig.machine.gpio('A').level(4)) << "the device is let go";
 }
 
-// Rig also looks for violations: the model knows how fast the device may be spoken to.
+// Rig also reports violations: the model knows the device's highest clock.
 TEST_P(SpiDriver, IsAsFastAsTheDeviceBearsAndTheDividersAllow) {
   for (const std::uint32_t most_hz : {330'000u, 1'000'000u, 7'000'000u, 20'000'000u, 60'000'000u}) {
     echo.most_hz = most_hz;
@@ -110,7 +110,7 @@ TEST_P(SpiDriver, OverrunWithinAnExchangeFailsIt) {
   expect_works();
 }
 
-// Another master, says the hardware, and stops being one itself.
+// The hardware reports another master and leaves master mode.
 TEST_P(SpiDriver, ModeFaultFailsTheExchangeAndIsUndone) {
   const auto fault = [this] {
     const std::uint32_t cr1 = rig.machine.io().read32(base::kSpi1 + spi::kCr1);
@@ -122,7 +122,7 @@ TEST_P(SpiDriver, ModeFaultFailsTheExchangeAndIsUndone) {
   EXPECT_EQ(spi.errors().mode_faults, 1u);
   rig.machine.at(rig.machine.now() + us(30), fault);
   EXPECT_FALSE(exchange(16));
-  rig.machine.forget_violations();  // of this test: it stopped the peripheral while it was busy
+  rig.machine.forget_violations();  // the test itself stopped the busy peripheral
   EXPECT_EQ(spi.errors().mode_faults, 2u);
   expect_works();
 }

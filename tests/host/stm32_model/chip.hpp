@@ -6,18 +6,18 @@
 #include "tests/support/stm32/machine.hpp"
 #include "tests/support/stm32/rcc_model.hpp"
 
-/// Short hands for tests that poke registers as a driver would.
+/// Shorthand for tests that write registers like a driver.
 namespace verp::hal::stm32::model {
 
 inline constexpr Family kFamilies[] = {Family::kF405, Family::kF446, Family::kF746};
 
-/// Switches a peripheral's clock on as the manual wants it: set the bit, read it back.
+/// Enables a peripheral's clock as the manual asks: set the bit, read it back.
 inline void enable(ModelIo& io, std::uint32_t offset, std::uint32_t mask) {
   modify32(io, base::kRcc + offset, 0, mask);
   io.read32(base::kRcc + offset);
 }
 
-/// Polls until a bit is set, for at most `limit`; true if it came.
+/// Polls until the bits are set, for at most `limit`; true if they were.
 inline bool wait_set(Machine& machine, std::uint32_t address, std::uint32_t mask, Time limit) {
   ModelIo io = machine.io();
   const Time end = machine.now() + limit;
@@ -35,7 +35,7 @@ inline bool wait_clear(Machine& machine, std::uint32_t address, std::uint32_t ma
   return false;
 }
 
-/// Whether exactly one thing went against the manual since the last call, and what it says.
+/// True if exactly one violation of the manual, with this text, was recorded since the last call.
 inline bool one_violation(Machine& machine, const std::string& part) {
   const bool one =
       machine.violations().size() == 1 && machine.violations()[0].find(part) != std::string::npos;

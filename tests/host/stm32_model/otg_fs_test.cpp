@@ -66,7 +66,7 @@ TEST(OtgFs, EndpointInterruptsPassDaintAndItsMasks) {
   EXPECT_NE(device.get(kGintsts) & kGintIep, 0u);
   device.put(diepint(1), kDiepXfrc);
   EXPECT_EQ(device.get(kGintsts) & kGintIep, 0u);
-  device.put(kDiepempmsk, bit(1));  // its FIFO is empty: that goes by a mask of its own
+  device.put(kDiepempmsk, bit(1));  // the FIFO is empty, which has its own mask
   EXPECT_NE(device.get(kGintsts) & kGintIep, 0u);
 }
 
@@ -82,7 +82,7 @@ TEST(OtgFs, SpaceInATransmitFifoIsTold) {
   device.host.in(1, 64);
   EXPECT_EQ(device.get(dtxfsts(1)), 47u);
   EXPECT_NE(device.get(diepint(1)) & kDiepTxfe, 0u);
-  device.change(kGahbcfg, 0, kGahbcfgTxfelvl);  // wholly empty only
+  device.change(kGahbcfg, 0, kGahbcfgTxfelvl);  // only when wholly empty
   EXPECT_EQ(device.get(diepint(1)) & kDiepTxfe, 0u);
 }
 

@@ -3,7 +3,7 @@
 #include "tests/host/stm32_model/usb_device.hpp"
 #include "tests/support/stm32/registers/otg_fs_table.hpp"
 
-// OTG_FS: what passes between a host and a device, and what stops it.
+// OTG_FS: transfers between a host and a device, and what stops them.
 namespace verp::hal::stm32::model {
 namespace {
 
@@ -54,7 +54,8 @@ TEST(OtgFs, BulkDataOfAnyLengthArrivesBothWaysWhenAcknowledgementsGetLost) {
       const UsbReply reply = device.host.in(1, length);
       EXPECT_EQ(reply.result, UsbResult::kDone);
       EXPECT_EQ(reply.bytes, ramp(length));
-      // The core keeps a last packet whose ACK got lost: the host had it, and doesn't ask again.
+      // If the last ACK was lost, the core keeps the packet; the host has it and does not ask
+      // again.
       EXPECT_TRUE(lost != 0 || (device.get(diepint(1)) & kDiepXfrc) != 0);
       EXPECT_EQ(device.machine.violations_text(), "");
     }
@@ -75,8 +76,8 @@ TEST(OtgFs, NothingToSendAndNoRoomAreNaks) {
   ASSERT_TRUE(device.ready());
   EXPECT_EQ(device.host.in(1, 64).result, UsbResult::kNaked);
   EXPECT_NE(device.get(diepint(1)) & kDiepIttxfe, 0u);
-  EXPECT_NE(device.get(diepint(1)) & kDiepNak, 0u);  // told by the newer core only
-  device.polling = false;  // nobody empties the FIFO: one packet is taken, the next is not
+  EXPECT_NE(device.get(diepint(1)) & kDiepNak, 0u);  // set by the newer core only
+  device.polling = false;  // no one empties the FIFO: it takes one packet, not the next
   EXPECT_EQ(device.host.out(1, ramp(64)), UsbResult::kDone);
   EXPECT_EQ(device.host.out(1, ramp(64)), UsbResult::kNaked);
   device.polling = true;
@@ -89,7 +90,7 @@ TEST(OtgFs, TheReceiveFifoTakesWhatItsWordsHold) {
   device.window = 640;
   ASSERT_TRUE(device.ready());
   device.polling = false;
-  // 128 words; a packet has 16 and its status word, and room is kept for the word of the end.
+  // 128 words; a packet takes 16 and a status word, and one word stays free for the end.
   for (int packet = 0; packet < 7; ++packet) {
     EXPECT_EQ(device.host.out(1, ramp(64)), UsbResult::kDone);
   }

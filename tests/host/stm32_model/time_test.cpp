@@ -64,12 +64,12 @@ TEST(Timer, AStoppedCounterKeepsItsCountAndAReloadWithPreloadWaits) {
   machine.advance(us(1500));
   io.write32(base::kTim2 + timer::kCr1, timer::kCr1Arpe);
   const std::uint32_t held = io.read32(base::kTim2 + timer::kCnt);
-  EXPECT_NEAR(held, 8000, 100);  // the first period still had the old end
+  EXPECT_NEAR(held, 8000, 100);  // the first period kept the old end
   machine.advance(ms(5));
   EXPECT_EQ(io.read32(base::kTim2 + timer::kCnt), held);
 }
 
-/// The longest time to wait: started, at PR and RLR, fed never.
+/// The time to a reset: the watchdog is started with PR and RLR and never fed again.
 Time bite_time(Machine& machine, std::uint32_t pr, std::uint32_t rlr) {
   ModelIo io = machine.io();
   Time bitten = 0;

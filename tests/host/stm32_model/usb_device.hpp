@@ -10,12 +10,12 @@
 #include "tests/support/stm32/otg_fs_model.hpp"
 #include "tests/support/stm32/usb_host.hpp"
 
-/// The least firmware of a USB device, by the programming model of the manual, polled: any IN
-/// request of endpoint 0 gets `answer`, SET_ADDRESS and SET_CONFIGURATION are taken, data of
-/// control writes is kept, and what endpoint 1 receives is kept until the test sends something.
+/// Minimal polled USB device firmware by the manual's programming model. Any IN request on endpoint
+/// 0 gets `answer`. It takes SET_ADDRESS and SET_CONFIGURATION, keeps the data of control writes,
+/// and keeps endpoint 1's data until the test sends something.
 namespace verp::hal::stm32::model {
 
-/// So many bytes that differ from their neighbours.
+/// `count` bytes that differ from their neighbours.
 inline std::vector<std::uint8_t> ramp(std::size_t count) {
   std::vector<std::uint8_t> bytes(count);
   for (std::size_t i = 0; i < count; ++i) bytes[i] = static_cast<std::uint8_t>(3 * i + 1);
@@ -169,7 +169,7 @@ struct UsbDevice {
     }
   }
 
-  /// Plugged in, addressed and configured.
+  /// Plugs in, addresses and configures the device.
   bool ready() {
     start();
     return host.plug() && host.set_address(7) == UsbResult::kDone &&
@@ -181,7 +181,7 @@ struct UsbDevice {
   OtgFsModel& core;
   UsbHost host;
   bool polling = true, refuse = false, receives = false;
-  std::uint32_t window = 64;  ///< bytes that endpoint 1 is ready for at a time
+  std::uint32_t window = 64;  ///< bytes that endpoint 1 accepts at a time
   std::vector<std::uint8_t> answer = {18, 1, 0, 2}, setup, written, received;
 };
 
