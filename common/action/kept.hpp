@@ -6,25 +6,25 @@
 #include "common/base/fields.hpp"
 #include "common/model/params.hpp"
 
-/// A robot's actions as a board keeps them in its flash: a library image (library.hpp), and behind
-/// it a mark that names the robot. A library's joints are numbers: played by another robot it moves
-/// what nobody meant.
+/// A robot's actions in a board's flash: a library image (library.hpp), followed by a mark that
+/// names the robot. A library refers to joints by number, so another robot would move the wrong
+/// joints.
 namespace verp::action {
 
 struct KeptMark {
-  std::uint32_t robot = 0;  ///< robot_mark() of the robot that the actions were made for
+  std::uint32_t robot = 0;  ///< robot_mark() of the robot that the actions are for
   std::uint32_t crc32 = 0;  ///< of the library's header and `robot`
   VERP_FIELDS(robot, crc32)
 };
 VERP_PACKED(KeptMark);
 
-/// LibraryFault and one more.
+/// LibraryFault, and kOtherRobot.
 enum class KeptFault : std::uint8_t {
-  kNone = 0,  ///< all is well, or nothing is there: erased
+  kNone = 0,  ///< sound, or erased flash
   kTruncated = 1,
   kNotALibrary = 2,
   kOtherLayout = 3,
-  kDamaged = 4,  ///< the image, or its mark
+  kDamaged = 4,  ///< the image or its mark
   kOutOfBounds = 5,
   kOtherRobot = 6,
 };
@@ -32,27 +32,27 @@ inline constexpr const char* kKeptFaultNames[] = {
     "none",    "truncated",     "no action library", "of another version",
     "damaged", "out of bounds", "for another robot"};
 
-/// What actions depend on: the robot's name, and of each joint its name, place, axis and limits. It
-/// stays the same when gains, friction, zeros or the tuning change, and whatever the bus.
+/// CRC of what actions depend on: the robot's name and each joint's name, place, axis and limits.
+/// Gains, friction, zeros, tuning and the bus do not change it.
 std::uint32_t robot_mark(const Params& params);
 
 KeptMark make_mark(const LibraryHeader& library, const Params& params);
 
-/// What is wrong with these bytes, aligned to 4, as the actions of this robot; `size` may exceed
-/// what is there (a flash section).
+/// Checks bytes, aligned to 4, as this robot's actions. `size` may exceed the content (a flash
+/// section).
 KeptFault check_kept(const void* bytes, std::size_t size, const Params& params);
 
-/// The same as the actions of whatever robot they name.
+/// The same check for whichever robot the mark names.
 KeptFault check_any_kept(const void* bytes, std::size_t size);
 
-/// Bytes of a sound library and its mark, whatever robot they name; 0: there are none.
+/// Size of a sound library and its mark, for any robot; 0 if there is none.
 std::size_t kept_size(const void* bytes, std::size_t size);
 
 struct KeptLibrary {
   KeptLibrary() = default;
   KeptLibrary(const void* bytes, std::size_t size, const Params& params);
 
-  Library library;  ///< no actions if there is a fault
+  Library library;  ///< empty if there is a fault
   KeptFault fault = KeptFault::kNone;
 };
 

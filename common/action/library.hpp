@@ -5,14 +5,14 @@
 #include "common/base/fields.hpp"
 #include "common/model/params.hpp"
 
-/// A robot's actions as a constant image beside its Params: header, actions, key frames, one after
-/// the other. Made by the host (host/action) from text; a controller only reads it.
+/// A robot's actions as a constant image beside its Params: header, actions, key frames in a row.
+/// The host makes it from text (host/action); a controller only reads it.
 namespace verp::action {
 
-/// Changes whenever the layout of the image, or what it means, does.
+/// Raise whenever the image's layout or meaning changes.
 inline constexpr std::uint32_t kLibraryVersion = 1;
 inline constexpr char kLibraryMagic[8] = {'V', 'E', 'R', 'P', 'A', 'C', 'T', '1'};
-inline constexpr int kMaxActions = 255;  ///< numbers are a byte; 0 is none
+inline constexpr int kMaxActions = 255;  ///< numbers fit a byte; 0 is none
 inline constexpr int kMaxFrames = 4096;
 
 struct LibraryHeader {
@@ -34,18 +34,18 @@ struct Action {
 };
 VERP_PACKED(Action);
 
-/// Actions that a controller plays by itself, known by their names: into the pose that bears the
-/// ground, and from the floor to the stand, by the side on which it lies.
+/// Actions that the controller starts itself, by name: the pose that bears a fall, and getting up
+/// for each side the robot may lie on.
 inline constexpr char kFallSafe[kNameLength] = "fall_safe";
 inline constexpr char kGetUpFront[kNameLength] = "get_up_front";
 inline constexpr char kGetUpBack[kNameLength] = "get_up_back";
 inline constexpr char kGetUpLeft[kNameLength] = "get_up_left";
 inline constexpr char kGetUpRight[kNameLength] = "get_up_right";
 
-/// A frame's `next`, `otherwise` or `exit` that is no frame: back to the stand.
+/// Value of a frame's `next`, `otherwise` or `exit` that returns to the stand.
 inline constexpr std::uint16_t kToStand = 0xFFFF;
 
-/// What must hold before a player leaves a frame.
+/// Condition for leaving a frame.
 enum class Condition : std::uint8_t {
   kNone,
   kUpright,
@@ -53,7 +53,7 @@ enum class Condition : std::uint8_t {
   kLiesBack,
   kLiesLeft,
   kLiesRight,
-  kLeftFoot,  ///< pressed to the ground, as its sensors feel
+  kLeftFoot,  ///< its sensors feel the ground
   kRightFoot,
   kBothFeet,
   kNoFoot,
@@ -62,30 +62,30 @@ inline constexpr int kConditions = 10;
 
 enum class Stance : std::uint8_t { kLeft = 0, kRight = 1, kBoth = 2, kNone = 3 };
 
-/// A pose and the way to it.
+/// A pose and the motion to it.
 struct Frame {
-  std::uint16_t time_ms = 0;   ///< the way there takes, at least kLeastFrame_ms
-  std::uint16_t pause_ms = 0;  ///< then it rests
-  std::uint16_t wait_ms = 0;   ///< then it waits at most so long for `condition`
+  std::uint16_t time_ms = 0;   ///< duration of the motion, at least kLeastFrame_ms
+  std::uint16_t pause_ms = 0;  ///< then the pose is held
+  std::uint16_t wait_ms = 0;   ///< then the player waits at most this long for `condition`
   std::uint16_t next = kToStand;
-  std::uint16_t otherwise = kToStand;  ///< next, when the condition did not come
-  std::uint16_t exit = kToStand;       ///< next, when the player is told to stop
-  std::uint16_t loop_to = kToStand;    ///< next, for the first `loops` times
+  std::uint16_t otherwise = kToStand;  ///< next frame if `condition` did not come
+  std::uint16_t exit = kToStand;       ///< next frame if the player has to stop
+  std::uint16_t loop_to = kToStand;    ///< next frame for the first `loops` times
   std::uint8_t loops = 0;
   Condition condition = Condition::kNone;
-  Stance stance = Stance::kBoth;  ///< feet that carry
-  std::uint8_t balance = 1;       ///< feedback and gravity feed-forward of the legs
+  Stance stance = Stance::kBoth;  ///< feet that carry the robot
+  std::uint8_t balance = 1;       ///< 1: feedback and gravity feed-forward of the legs
   std::uint16_t reserved = 0;
-  std::uint32_t joints = 0;  ///< bit j: joint j has a goal; others stand
-  std::uint32_t smooth = 0;  ///< bit j: jerk-limited (quintic) way; else cubic
+  std::uint32_t joints = 0;  ///< bit j: joint j has a goal; the others stand
+  std::uint32_t smooth = 0;  ///< bit j: jerk-limited (quintic) motion; else cubic
   std::int16_t goal_tenth_mrad[kMaxJoints] = {};
-  std::int16_t speed_mrad_s[kMaxJoints] = {};  ///< with which it passes there
+  std::int16_t speed_mrad_s[kMaxJoints] = {};  ///< speed in passing the goal
   std::uint8_t stiffness_percent[kMaxJoints] = {};
   VERP_FIELDS(time_ms, pause_ms, wait_ms, next, otherwise, exit, loop_to, loops, condition, stance,
               balance, reserved, joints, smooth, goal_tenth_mrad, speed_mrad_s, stiffness_percent)
 };
 VERP_PACKED(Frame);
-/// Shorter than any servo follows; and a player of however few frames ends its tick.
+/// No servo follows shorter frames. It also bounds the player's work in a tick.
 inline constexpr int kLeastFrame_ms = 20;
 
 enum class LibraryFault : std::uint8_t {
@@ -93,13 +93,13 @@ enum class LibraryFault : std::uint8_t {
   kTruncated = 1,
   kNotALibrary = 2,
   kOtherLayout = 3,  ///< written for another kLibraryVersion
-  kDamaged = 4,      ///< CRC
-  kOutOfBounds = 5,  ///< something in it points outside its tables, or is of no known kind
+  kDamaged = 4,      ///< CRC mismatch
+  kOutOfBounds = 5,  ///< a reference points outside its table, or a kind is unknown
 };
 inline constexpr const char* kLibraryFaultNames[] = {
     "none", "truncated", "no action library", "of another version", "damaged", "out of bounds"};
 
-/// A checked image; it must outlive its views. Without one: no actions.
+/// View of a checked image, which must outlive it. Without an image: no actions.
 class Library {
  public:
   constexpr Library() = default;
@@ -107,10 +107,10 @@ class Library {
   Library(const void* bytes, std::size_t size);
 
   int count() const { return header_ == nullptr ? 0 : header_->actions; }
-  /// Of 1 to count().
+  /// `number` is 1 to count().
   const Action& action(int number) const { return actions_[number - 1]; }
   const Frame& frame(int index) const { return frames_[index]; }
-  /// Of the action of that name; 0: there is none.
+  /// Number of the action with that name; 0 if there is none.
   std::uint8_t number_of(const char (&name)[kNameLength]) const;
 
  private:
@@ -119,7 +119,7 @@ class Library {
   const Frame* frames_ = nullptr;
 };
 
-/// What is wrong with these bytes; `size` may exceed the image (a flash section).
+/// Checks an image. `size` may exceed it (a flash section).
 LibraryFault check_library(const void* bytes, std::size_t size);
 
 }  // namespace verp::action
