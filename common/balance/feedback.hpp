@@ -3,8 +3,7 @@
 #include "common/gait/gait.hpp"
 #include "common/model/params.hpp"
 
-/// What ankles and hips add to the plan: gyro and tilt feedback on carrying legs, and a swing foot
-/// kept level.
+/// Corrections of ankles and hips: gyro and tilt feedback on stance legs, and a level swing foot.
 namespace verp::balance {
 
 /// Corrections of one leg's canonical angles, rad.
@@ -26,7 +25,7 @@ VERP_PACKED(FeedbackOut);
 FeedbackOut feedback(const BalanceTuning& tuning, const AttitudeOut& attitude,
                      float planned_pitch_rad, std::uint8_t swing);
 
-/// Adds corrections to joint angles of one leg (hip to ankle), through the leg's directions.
+/// Adds the corrections to a leg's joint angles (hip to ankle), through its directions.
 void add(const LegParams& leg, const LegCorrection& correction, float* leg_rad);
 
 }  // namespace verp::balance

@@ -3,13 +3,13 @@
 namespace verp::balance {
 namespace {
 
-constexpr float kMeanTilt_s = 1.0F;    // some steps
-constexpr float kLeans_s = 1.5F;       // slower than the mean, lest they rock each other
-constexpr float kMostLean_rad = 0.1F;  // 5 degrees of ground, and an accelerometer's offset
+constexpr float kMeanTilt_s = 1.0F;    // a few steps
+constexpr float kLeans_s = 1.5F;       // slower than the mean, so that the two do not oscillate
+constexpr float kMostLean_rad = 0.1F;  // 5 degrees of ground plus an accelerometer's offset
 
 void learn_about(float now_rad, float left_rad, float period_s, float& tilt_rad, float& lean_rad) {
   tilt_rad += period_s / kMeanTilt_s * (now_rad - tilt_rad);
-  const float slope_rad = tilt_rad - lean_rad;  // what it would be tilted without
+  const float slope_rad = tilt_rad - lean_rad;  // the tilt without the lean
   const float wanted_rad = math::clamp(slope_rad, -left_rad, left_rad) - slope_rad;
   lean_rad += period_s / kLeans_s * (wanted_rad - lean_rad);
   lean_rad = math::clamp(lean_rad, -kMostLean_rad, kMostLean_rad);

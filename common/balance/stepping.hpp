@@ -2,19 +2,18 @@
 #include "common/balance/estimator.hpp"
 #include "common/gait/gait.hpp"
 
-/// Stepping where a push sends the robot. The plan is a pendulum over the foot that carries; a push
-/// throws the DCM off it, and all that a foot can do is to hold what its sole reaches. So the swing
-/// foot lands off its plan by as much as the DCM is: over that foot the DCM is where it was planned
-/// to be, and the walk goes on from there. The plan stays as it is and is not worked anew: seen
-/// from the new foot the body is behind it by the same way, and makes up for that as a pendulum
-/// would, without moving the DCM.
+/// Steps where a push sends the robot. The plan is a pendulum over the stance foot. A push moves
+/// the DCM off the plan by more than the sole can hold. So the swing foot lands off its plan by the
+/// same amount: over that foot the DCM is where it was planned, and the walk goes on. The plan
+/// itself does not change. Seen from the new foot the body is behind its plan; it catches up as a
+/// pendulum does, which leaves the DCM unchanged.
 namespace verp::balance {
 
 struct SteppingState {
-  gait::Xy body_m;  ///< by how much the body is off its plan, as the foot that carries is on it
-  gait::Xy foot_m;  ///< likewise the swing foot; walk frame's axes, as all of the plan
+  gait::Xy body_m;  ///< body's offset from its plan; the stance foot is on its plan
+  gait::Xy foot_m;  ///< the swing foot's; both in the plan's walk frame
   std::uint32_t swing = gait::kBoth;  ///< of the step that the goals are in
-  std::uint32_t steps = 0;            ///< that a robot pushed as it stood has still to take
+  std::uint32_t steps = 0;  ///< steps that a robot pushed while standing still has to take
   VERP_FIELDS(body_m, foot_m, swing, steps)
 };
 VERP_PACKED(SteppingState);
@@ -22,19 +21,19 @@ VERP_PACKED(SteppingState);
 struct SteppingIn {
   const gait::GaitState* gait = nullptr;
   const EstimatorState* estimator = nullptr;
-  float heading_rad = 0;  ///< that the estimator's axes are turned from the body's by
+  float heading_rad = 0;  ///< heading of the body in the estimator's axes
   float period_s = 0.01F;
 };
 
-/// Moves feet (and with them the ZMP under them) of the plan to where they have to be.
+/// Moves the plan's feet, and the ZMP under them, to where they have to be.
 void step_aside(const Params& params, const Tuning& tuning, const SteppingIn& in,
                 SteppingState& state, gait::GaitOut& plan);
 
-/// A robot that stands was pushed so that its DCM is about to leave the soles: it has to step, now
-/// and a few times more. Not where it does not know itself to stand on its soles.
+/// True if a push on a standing robot is about to move its DCM out of the soles: it has to step now
+/// and a few times more. False if the estimator does not know that the robot stands on its soles.
 bool pushed(const Params& params, const Tuning& tuning, const SteppingIn& in, SteppingState& state);
 
-/// Nothing is further off its plan than this.
+/// True if body and swing foot are within `most_m` of their plan.
 bool as_planned(const SteppingState& state, float most_m);
 
 }  // namespace verp::balance
