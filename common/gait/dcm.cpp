@@ -3,14 +3,14 @@
 namespace verp::gait {
 namespace {
 
-// Velocity of the ZMP while it moves; a step without double support jumps, and has none.
+// Velocity of the ZMP while it moves; zero for a step without double support, where it jumps.
 Xy zmp_velocity(const Step& step) {
   return step.double_support_s > 0.0F
              ? (1.0F / step.double_support_s) * (step.zmp_end_m - step.zmp_begin_m)
              : Xy{};
 }
 
-// Advances the CoM over a stretch with zmp = p + v t, from x at t = 0 and DCM xi at t = 0:
+// CoM after a time with zmp = p + v t, from CoM x and DCM xi at t = 0:
 // x = p + v t + a e^(wt) + b e^(-wt), xi = p + v t + v/w + 2 a e^(wt).
 Xy advance(Xy x, Xy xi, Xy p, Xy v, float omega, float time_s) {
   const float grow = math::exp(omega * time_s);
@@ -51,8 +51,8 @@ Xy com_after(const Step& step, float omega, Xy com_m, float from_s, float to_s) 
 }
 
 Xy periodic_dcm(const Step& last, Xy next_m, Xy second_m, float omega) {
-  // s, the DCM's lead over the ZMP at the end of a step, repeats after two: s = g d1 + a (g d2 + a
-  // s), where g is what a double support takes off the displacement.
+  // s, the DCM's lead over the ZMP at a step's end, repeats after two steps: s = g d1 + a (g d2 + a
+  // s). g is the factor by which double support reduces the displacement.
   const float a = math::exp(-omega * last.duration_s());
   const float ramp = omega * last.double_support_s;
   const float g = ramp > 1e-3F ? (1.0F - math::exp(-ramp)) / ramp : 1.0F;

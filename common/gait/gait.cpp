@@ -7,14 +7,13 @@
 namespace verp::gait {
 namespace {
 
-// A foot that has landed takes the weight over in no less than this, however short double support
-// is. With goals that jump from one leg to the other between two control periods, how early they do
-// depends on where in a period the step ends, and differs from foot to foot. Tuning seeds
-// 1001-1010, 4 cm in 450 ms: heading off by 1.3 degrees rms without, 0.9 with it.
+// Shortest time in which a landed foot takes the weight, even with shorter double support. If the
+// goals jump from one leg to the other between two ticks, their lead depends on where in a period
+// the step ends, and differs between the feet. Tuning seeds 1001-1010, 4 cm in 450 ms: heading
+// error 1.3 degrees rms without, 0.9 with it.
 constexpr float kTaken_s = 0.008F;
 
-// A moment within the steps known: look back one step at most, and no further than the key points
-// behind are kept.
+// A moment in the known steps: at most one step back, and within the stored key points.
 struct Moment {
   const Step* step;
   std::int32_t time_us;    // since the step's beginning
@@ -55,14 +54,14 @@ Posture posture_at(const Params& params, const Tuning& tuning, const GaitState& 
                     foot_at(*moment.step, kLeft, time_s), foot_at(*moment.step, kRight, time_s));
 }
 
-// Ends the plan where walking on, or standing, would take it, and carries that back to the head's
+// Sets the plan's end to the DCM of walking on or standing, and propagates it back to the head's
 // step.
 void set_dcm_ends(const Params& params, const Tuning& tuning, const VelocityIn& wanted,
                   GaitState& state) {
   Step& last = state.queue[state.queued - 1];
   last.dcm_end_m = last.zmp_end_m;
   if (!last.ends_walk()) {
-    // Two more steps as now wanted, only to see where the ZMP goes.
+    // Two more steps with the present order, only to compute the ZMP.
     FootstepState ahead = state.footsteps;
     const Step next = next_footholds(params, tuning.gait, wanted, last, ahead);
     if (next.ends_walk()) {
@@ -78,11 +77,11 @@ void set_dcm_ends(const Params& params, const Tuning& tuning, const VelocityIn& 
   }
 }
 
-// Head's key points before a hurried walk begins: two lie ahead of the clock.
+// Key points that the head lays before a hurried walk begins: two must lie ahead of the clock.
 constexpr int kHurry = 2;
 
-// In a hurried start the ZMP rests where the pendulum, that stands, is thrown from to the DCM at
-// the step's end: the less time, the further out, and no further than the soles reach.
+// In a hurried start the pendulum starts from rest. The ZMP rests where it throws the pendulum to
+// the DCM at the step's end: further out for shorter steps, but within the soles.
 void throw_body(const Params& params, const GaitTuning& tuning, GaitState& state) {
   constexpr std::uint8_t kShortest = 3;
   Step& step = state.queue[0];
@@ -96,7 +95,7 @@ void throw_body(const Params& params, const GaitTuning& tuning, GaitState& state
   }
 }
 
-// Keeps one step known beyond the one in which the head is.
+// Keeps one step known beyond the head's step.
 void extend_queue(const Params& params, const Tuning& tuning, const GaitIn& in, GaitState& state) {
   VelocityIn wanted = in.wanted;
   wanted.stop = wanted.stop || !in.walk || (state.footsteps.notes & kPlanRefused) != 0;
@@ -111,7 +110,7 @@ void extend_queue(const Params& params, const Tuning& tuning, const GaitIn& in, 
   }
 }
 
-// A joint held at its limit still stands nearly where it should; the others don't.
+// A joint at its limit still leaves the sole near its target; the other flags do not.
 bool reaches(std::uint8_t leg_flags) {
   return (leg_flags & (kinematics::kOutOfReach | kinematics::kNotConverged)) == 0;
 }
@@ -124,9 +123,9 @@ void shorten(std::uint16_t note, FootstepState& footsteps) {
   footsteps.notes |= note;
 }
 
-// The walk's plan is shortened step by step while its ZMP would leave the sole, and grows again
-// after a cycle that left more room than the next longer one can need. The correction takes misses
-// back, but it is linear in them: it is trusted with half a sole, and no more.
+// Shortens the plan step by step while its ZMP would leave the sole. Lengthens it again after a
+// cycle with more room than the next longer step can need. The multibody correction removes misses,
+// but it is linear in them, so it is trusted with half a sole only.
 void watch_zmp(const Params& params, const Tuning& tuning, const Step& step, Xy miss_m,
                GaitState& state) {
   if (step.swing == kBoth) return;
@@ -155,7 +154,7 @@ void watch_zmp(const Params& params, const Tuning& tuning, const Step& step, Xy 
 void lay_key_points(const Params& params, const Tuning& tuning, const GaitIn& in,
                     GaitState& state) {
   PreviewState& preview = state.preview;
-  // One a tick; two where a control period may be longer than the time between key points.
+  // One a tick; two if a control period may exceed the time between key points.
   const int most = in.period_us > state.queue[0].key_us ? 2 : 1;
   for (int i = 0; i < most; ++i) {
     if (static_cast<std::uint8_t>(preview.head - preview.fixed) >= kHorizon) return;
@@ -169,7 +168,7 @@ void lay_key_points(const Params& params, const Tuning& tuning, const GaitIn& in
   }
 }
 
-// Moves the walk frame's origin; once a step, so that its roundings do not add up.
+// Moves the walk frame's origin, once a step so that rounding errors do not accumulate.
 void rebase_walk(Xy origin_m, GaitState& state) {
   const auto move_step = [&](Step& step) {
     for (Foothold& foot : step.foot) foot.at_m = foot.at_m - origin_m;
@@ -196,7 +195,7 @@ void next_in_queue(GaitState& state) {
   if (step.swing != kBoth) rebase_walk(step.foot[step.carrying()].at_m, state);
 }
 
-// Fixes key points until two lie ahead of the clock, then lets the head run on.
+// Fixes key points until two lie ahead of the clock, then advances the head.
 void plan_ahead(const Params& params, const Tuning& tuning, const GaitIn& in, GaitState& state) {
   const Step& step = state.queue[0];
   const auto wanted = static_cast<std::uint8_t>(state.first_key + state.clock_us / step.key_us + 2);
@@ -220,13 +219,13 @@ Settled digest_stand(const Params& params, const Tuning& tuning, const GaitIn& i
   return {digest_load(params, in.goal_rad), stand.value()};
 }
 
-// Standing: the body glides until the CoM is over the middle of the soles, and stays there
-// unweighed until arms, head or tuning move. From there a walk may begin.
+// Standing. The body moves until the CoM is over the middle of the soles. It is weighed again only
+// when arms, head or tuning change. A walk may begin from there.
 void stand(const Params& params, const Tuning& tuning, const Step& feet, const GaitIn& in,
            GaitState& state) {
   constexpr float kGlideMS = 0.02F;
   constexpr float kSettledM = 2e-4F;
-  constexpr float kCentredM = 1e-6F;  // ten times what the sum of all links is rounded by
+  constexpr float kCentredM = 1e-6F;  // ten times the rounding error of the sum over all links
   if (!in.walk) state.footsteps.notes = 0;
   const Settled asked = digest_stand(params, tuning, in, state);
   if (!in.walk && asked == state.settled) return;
@@ -261,7 +260,7 @@ void stand(const Params& params, const Tuning& tuning, const Step& feet, const G
   state.stand_body_m.y += math::clamp(off_m.y, -most_m, most_m);
 }
 
-// Where the last step leaves the robot becomes the new standing frame.
+// The pose after the last step becomes the new standing frame.
 void end_walk(GaitState& state) {
   const Step& rest = state.queue[0];
   const float yaw_rad = 0.5F * (rest.foot[kLeft].yaw_rad + rest.foot[kRight].yaw_rad);
@@ -280,7 +279,7 @@ void walk(const Params& params, const Tuning& tuning, const GaitIn& in, GaitStat
   plan_ahead(params, tuning, in, state);
 }
 
-// Share of the weight on the left foot, from where the ZMP lies between the soles.
+// Left foot's share of the weight, from the ZMP's place between the soles.
 float left_share(const Params& params, const Step& step, Xy zmp_m) {
   const Xy right_m = sole_center(params, kRight, step.foot[kRight]);
   const Xy across_m = sole_center(params, kLeft, step.foot[kLeft]) - right_m;

@@ -2,21 +2,21 @@
 #include "common/gait/footsteps.hpp"
 #include "common/gait/whole_body.hpp"
 
-/// The body's key points. A *head* runs ahead of the robot, one key point at a time: pendulum CoM,
-/// legs solved, every link weighed. What it finds goes into a ring: where the body stands, and by
-/// how much the ZMP of all moving links misses the planned one. Before the robot gets there, the
-/// misses still ahead are turned into a correction of the CoM by the same pendulum (the second
-/// stage of preview control), and the key point is fixed.
+/// The body's key points. A *head* runs ahead of the robot, one key point at a time: it advances
+/// the pendulum's CoM, solves the legs and weighs every link. The ring stores the body's place and
+/// the difference between the planned ZMP and that of all moving links. Before the robot gets
+/// there, the same pendulum turns the misses still ahead into a CoM correction (the second stage of
+/// preview control), and the key point is fixed.
 namespace verp::gait {
 
-inline constexpr int kRing = 32;  ///< key points between head and robot, and some spare
+inline constexpr int kRing = 32;  ///< key points between head and robot, with spare
 inline constexpr int kHorizon =
     24;  ///< how far the head runs ahead, key points (0.36 s at a 0.45 s cycle)
 inline constexpr int kFixed =
-    16;  ///< fixed key points kept: two ahead, the rest behind for delayed joints
+    16;  ///< stored fixed key points: two ahead, the rest behind for delayed joints
 
 struct KeyPoint {
-  Xy body_m;      ///< for the pendulum's CoM
+  Xy body_m;      ///< without correction
   Xy zmp_miss_m;  ///< planned minus multibody ZMP
   VERP_FIELDS(body_m, zmp_miss_m)
 };
@@ -27,48 +27,48 @@ struct PreviewState {
   Xy fixed_m[kFixed];    ///< body positions, correction included
   Xyz point_m[kPoints];  ///< link masses at the head
   Xy com_m;              ///< pendulum CoM at the head
-  Xy offset_m[2];        ///< CoM minus body at the head, and one key point before
+  Xy offset_m[2];        ///< CoM minus body at the head and one key point before
   Xy zmp_m;              ///< planned ZMP at the head
   Xy com_real_m;         ///< CoM of all links at the head
-  Xyz momentum_kg_m_s;   ///< between the last two key points of the head
-  Xy angular_kg_m2_s;    ///< about x and y through the walk frame's origin, likewise
+  Xyz momentum_kg_m_s;   ///< between the head's last two key points
+  Xy angular_kg_m2_s;    ///< the same, about x and y through the walk frame's origin
   Xy correction_m;       ///< of the CoM, at the last fixed key point
   Lump lump;
   float omega = 0;                         ///< 1/s, sqrt(g / CoM height)
-  float body_per_com = 1;                  ///< body displacement that moves the CoM by one
-  float leg_rad[kFeet * kLegJoints] = {};  ///< at the head: warm start for Newton
+  float body_per_com = 1;                  ///< body displacement that moves the CoM by one unit
+  float leg_rad[kFeet * kLegJoints] = {};  ///< at the head; Newton's warm start
   std::uint8_t head_step = 0;              ///< index into the queue
-  std::uint8_t head_key = 0;               ///< key point within that step, 1..key_points
-  std::uint8_t head = 0;   ///< key points the head has laid since the walk began, mod 256
-  std::uint8_t fixed = 0;  ///< key points fixed since the walk began, mod 256
+  std::uint8_t head_key = 0;               ///< key point in that step, 1..key_points
+  std::uint8_t head = 0;                   ///< key points laid since the walk began, mod 256
+  std::uint8_t fixed = 0;                  ///< key points fixed since the walk began, mod 256
   VERP_FIELDS(ring, fixed_m, point_m, com_m, offset_m, zmp_m, com_real_m, momentum_kg_m_s,
               angular_kg_m2_s, correction_m, lump, omega, body_per_com, leg_rad, head_step,
               head_key, head, fixed)
 };
 VERP_PACKED(PreviewState);
 
-/// Starts from rest in `stand` (already solved: angles and masses), with the CoM over `com_m`.
+/// Starts from rest in `stand` (angles and masses already computed), with the CoM over `com_m`.
 void begin(const Params& params, const Posture& stand, const Masses& masses, Xy com_m,
            PreviewState& state);
 
-/// What laying a key point found.
+/// Result of laying a key point.
 struct Laid {
-  Xy zmp_miss_m;               ///< of the key point before
-  std::uint8_t leg_flags = 0;  ///< kinematics::LegFlag, of both legs at the one laid
+  Xy zmp_miss_m;               ///< of the previous key point
+  std::uint8_t leg_flags = 0;  ///< kinematics::LegFlag of both legs at the new key point
 };
 
-/// Lays the head's next key point; queue[head_step] holds it.
+/// Lays the head's next key point, in queue[head_step].
 Laid lay_key_point(const Params& params, const Tuning& tuning, const Step* queue,
                    PreviewState& state);
 
-/// Fixes the next key point from what the ring holds beyond it.
+/// Fixes the next key point from the ring's misses beyond it.
 void fix_key_point(const Step& step, PreviewState& state);
 
 /// Body position `fraction` (0..1) after fixed key point `index` (mod 256), by a cubic through
 /// four.
 Xy body_at(const PreviewState& state, std::uint8_t index, float fraction);
 
-/// Acceleration of the body there, m/s^2, from second differences of the same key points.
+/// Body acceleration there, m/s^2, from second differences of the same key points.
 Xy body_acceleration(const PreviewState& state, std::uint8_t index, float fraction, float key_s);
 
 /// Moves the walk frame's origin to `origin_m`.

@@ -12,10 +12,10 @@ struct FootPose {
   Xyz accel_m_s2;  ///< of the sole
 };
 
-/// A swing foot's way from 0 to 1: a quintic, at rest at both ends, so that nothing jerks; of a
-/// hurried step in part a cubic, which asks less of the servos' speed.
+/// Progress of a swing foot from 0 to 1. A quintic at rest at both ends avoids jerks; hurried steps
+/// mix in a cubic, which needs less servo speed.
 inline math::CurvePoint swing_along(float u, float haste) {
-  constexpr float kBrisk = 0.24F;  // share of the cubic for each unit of haste
+  constexpr float kBrisk = 0.24F;  // share of the cubic per unit of haste
   const math::CurvePoint gentle = math::minimum_jerk(u);
   if (haste == 0.0F) return gentle;
   const math::CurvePoint brisk = math::smooth_step(u);
@@ -25,10 +25,10 @@ inline math::CurvePoint swing_along(float u, float haste) {
           gentle.second + share * (brisk.second - gentle.second)};
 }
 
-/// Foot `side` at `time_s` after the beginning of the step. The swing foot leaves when the double
-/// support ends, goes its way until landing and, in height, follows the quartic through lift-off,
-/// apex and landing on top of the rise to touchdown_m. Where it would meet the other foot it goes
-/// around it, further out by that quartic too: early, when it has not come far.
+/// Foot `side` at `time_s` after the step's beginning. The swing foot moves from the end of double
+/// support until landing. Its height is a quartic through lift-off, apex and landing, plus the rise
+/// to touchdown_m. If it would meet the other foot it bends outward by the same quartic: early,
+/// when it has not come far.
 inline FootPose foot_at(const Step& step, int side, float time_s) {
   if (side != step.swing) {
     const float settle_s = 2.0F * step.key_s();
