@@ -11,13 +11,13 @@ namespace {
 
 using safety::Mode;
 
-constexpr float kPressed_n = 2.0F;  // above what an unloaded cell tells
+constexpr float kPressed_n = 2.0F;  // more than an unloaded cell reports
 
 bool plays(Mode mode) {
   return mode == Mode::kActing || mode == Mode::kFalling || mode == Mode::kGettingUp;
 }
 
-// Told to stop, an action goes by its exit. What a fall asks for, nobody stops.
+// A stopped action leaves by its exit. Nothing stops the action of a fall.
 bool shall_stop(const State& state, const Inputs& inputs, const AdmitOut& admitted) {
   constexpr std::uint32_t kNoMore = safety::kAskRelax | safety::kOperatorQuiet | safety::kPowerBad;
   if (state.machine.mode == Mode::kFalling) return false;
@@ -26,7 +26,7 @@ bool shall_stop(const State& state, const Inputs& inputs, const AdmitOut& admitt
          (state.machine.faults & safety::kPowerFaults) != 0;
 }
 
-// A foot that cannot feel is taken to be where the action wants it.
+// A foot without sensors is assumed to be where the action wants it.
 bool is_pressed(const Params& params, const Inputs& inputs, int side) {
   if (params.feet.device_id[side] == 0) return true;
   std::int32_t sum = 0;
@@ -53,11 +53,11 @@ action::PlayerOut play(const Params& params, const action::Library& actions, Sta
   return action::update(params, actions, state.action, in);
 }
 
-// Both legs as the action has them, in the body frame.
+// Both legs of the action's pose, in the body frame.
 struct Legs {
   kinematics::LegChain chain[kFeet];
   Vec3 up[kFeet];      ///< of each sole
-  Vec3 sole_m[kFeet];  ///< middle of each
+  Vec3 sole_m[kFeet];  ///< middle of each sole
 };
 
 Legs legs_of(const Params& params, const float* angle_rad) {
@@ -76,7 +76,7 @@ Legs legs_of(const Params& params, const float* angle_rad) {
   return legs;
 }
 
-// The body leans against the soles that carry as the action wants it to: only the rest is an error.
+// The action itself leans the body against its stance soles; only the rest of the lean is an error.
 balance::FeedbackOut keep_up(const BalanceTuning& tuning, const Vec3& up,
                              const action::PlayerOut& played,
                              const balance::AttitudeOut& attitude) {
@@ -89,8 +89,8 @@ balance::FeedbackOut keep_up(const BalanceTuning& tuning, const Vec3& up,
   return balance::feedback(tuning, rest, pitch_rad, swing);
 }
 
-// The legs with what they bear, how the body leans and what the servos' zeros are. A room of its
-// own: the centre of mass takes 1.6 KB of stack, and is done before these chains are there.
+// Adds to the legs the load's sag, the balance feedback and the zeros. A function of its own to
+// save stack: the centre of mass takes 1.6 KB and is done before these chains exist.
 [[gnu::noinline]] void balance_legs(const Params& params, const action::PlayerOut& played,
                                     const balance::AttitudeOut& attitude, const Vec3& com_m,
                                     State& state, float* goal_rad) {
@@ -102,7 +102,7 @@ balance::FeedbackOut keep_up(const BalanceTuning& tuning, const Vec3& up,
   const Vec3 lift = math::kGravityMS2 * up;
   for (int side = 0; side < kFeet; ++side) {
     const LegParams& leg = params.leg[side];
-    // Under the centre of mass, as far as this sole reaches there.
+    // The point under the centre of mass, as far as this sole reaches it.
     const Vec3 below_m = com_m - (com_m - legs.sole_m[side]).dot(up) * up;
     const Vec3 off_m = below_m - legs.sole_m[side];
     const float most_m = 0.5F * (leg.sole_left_m + leg.sole_right_m);
@@ -141,7 +141,7 @@ void ask_action(const action::Library& actions, const State& state, const Inputs
 void act(const Params& params, const action::Library& actions, State& state, const Inputs& inputs,
          const AdmitOut& admitted, const balance::AttitudeOut& attitude, Wanted& wanted) {
   if (!plays(state.machine.mode)) {
-    // What was cut off is over; one that is still asked was played.
+    // An action that was cut off is over. A request that still stands has been played.
     const std::uint8_t asked = inputs.action == state.action.asked ? state.action.asked : 0;
     state.action = action::PlayerState{};
     state.action.asked = asked;
@@ -161,7 +161,8 @@ void act(const Params& params, const action::Library& actions, State& state, con
   model::share_corrections(params, played.angle_rad, goal_rad);
   for (int j = 0; j < params.joint_count; ++j) {
     const float at_rad = model::angle_of(params.joint[j], inputs.position_count[j]);
-    // A servo half as stiff gives way as one does whose goal stands half as far from where it is.
+    // Moves the goal towards the joint: a servo of half the stiffness yields like one whose goal is
+    // half as far away.
     const float stiffness = played.stiffness[j];
     wanted.angle_rad[j] =
         stiffness < 1.0F ? at_rad + stiffness * (goal_rad[j] - at_rad) : goal_rad[j];

@@ -2,15 +2,16 @@
 #include "common/action/library.hpp"
 #include "common/control/stages.hpp"
 
-/// Actions within the tick: asked, played, held up.
+/// Actions in the tick: requested, played, balanced.
 namespace verp::control {
 
-/// Conditions of an action that is asked. While one waits, no walk is asked: it ends first.
+/// Adds the condition of a requested action and drops a walk request while it waits: the walk ends
+/// first.
 void ask_action(const action::Library& actions, const State& state, const Inputs& inputs,
                 AdmitOut& admitted);
 
-/// While the safety table says so, `wanted` becomes what the action wants: its angles, and on the
-/// legs what balance and gravity add to them. What the soles stand on is taken for level.
+/// If the safety table lets an action play, replaces `wanted` by the action's angles, with balance
+/// and gravity corrections on the legs. The ground is assumed level.
 void act(const Params& params, const action::Library& actions, State& state, const Inputs& inputs,
          const AdmitOut& admitted, const balance::AttitudeOut& attitude, Wanted& wanted);
 

@@ -7,7 +7,7 @@
 
 namespace verp::control {
 
-// Changes with kCoreVersion; the test of the boot check prints the new one.
+// Update with kCoreVersion; the boot check's test prints the new value.
 const std::uint64_t kBuiltInDigest = 0xc348a9815aa71df2;
 
 namespace {

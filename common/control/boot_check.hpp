@@ -7,17 +7,18 @@
 
 namespace verp::control {
 
-/// What a boot may find, worst first: a later one is only looked for when no earlier one holds.
+/// Results of the boot check, worst first. Later checks run only if the earlier ones pass.
 enum class BootVerdict : std::uint8_t {
   kSound = 0,
-  kContracted = 1,  ///< the core was built with fused multiply-add: other bits than the twin's
-  kCode = 2,        ///< the built-in robot does not walk as it should: damaged code, memory or core
-  kImage = 3,  ///< the Params image is none, damaged, of another version or of no robot: `image`
-  kKinematics = 4,  ///< the image's golden vectors do not come out
-  kControl = 5,     ///< its 256 ticks do not come out
+  kContracted = 1,  ///< the core was built with fused multiply-add: its bits differ from the twin's
+  kCode = 2,        ///< the built-in robot's walk differs: damaged code, memory or core
+  kImage =
+      3,  ///< the Params image is missing, damaged, of another version or implausible: see `image`
+  kKinematics = 4,  ///< the image's golden vectors are not reproduced
+  kControl = 5,     ///< the image's 256 ticks are not reproduced
 };
 inline constexpr int kBootVerdicts = 6;
-/// What went wrong, in words for an operator. Index: BootVerdict.
+/// Messages for an operator. Index: BootVerdict.
 inline constexpr const char* kBootWords[kBootVerdicts] = {
     "sound",
     "built with fused multiply-add: build with toolchains/floating_point.cmake",
@@ -30,17 +31,17 @@ struct BootReport {
   BootVerdict verdict = BootVerdict::kSound;
   ImageFault image = ImageFault::kNone;
   std::uint8_t golden_matches = 0;  ///< of kGoldenVectors
-  FieldName bad_field;              ///< with ImageFault::kOutOfRange: which number
-  std::uint64_t digest = 0;         ///< of the walk that was looked at last
+  FieldName bad_field;              ///< for ImageFault::kOutOfRange: the number
+  std::uint64_t digest = 0;         ///< of the last walk checked
 };
 
-/// Everything a boot checks before torque may ever be on: the arithmetic contract, the code on a
-/// robot that is part of it, the image's CRC and version, then code and image together. What the
-/// walks sense comes from an integer generator and from what the core itself made of it. `image`
-/// holds at most `size` bytes and is aligned as ParamsImage; both scratches are overwritten.
+/// All checks before torque may ever be on: the arithmetic contract, the code on its built-in
+/// robot, the image's CRC and version, then code and image together. The walks' sensor data come
+/// from an integer generator and from the core's own outputs. `image` holds at most `size` bytes
+/// and is aligned as ParamsImage. Both scratches are overwritten.
 BootReport check_boot(const void* image, std::size_t size, Params& robot, State& state);
 
-/// The built-in robot's last link of the chain, as this core computes it now; what it must be.
+/// Last chain link of the built-in robot's walk as this core computes it, and its expected value.
 std::uint64_t built_in_digest(Params& robot, State& state);
 extern const std::uint64_t kBuiltInDigest;
 

@@ -3,8 +3,8 @@
 
 namespace verp::control {
 
-/// A made-up pair of legs, the same in every build: what the boot check walks when it must not
-/// trust the robot's own Params. Overwrites all of `params`.
+/// An invented pair of legs, the same in every build. The boot check walks it before it trusts the
+/// robot's Params. Overwrites all of `params`.
 void make_built_in_robot(Params& params);
 
 }  // namespace verp::control

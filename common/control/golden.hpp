@@ -7,11 +7,10 @@ namespace verp::control {
 /// kMaxJoints.
 void golden_posture(const Params& params, std::uint32_t seed, float* angle_rad);
 
-/// Forward and inverse kinematics of that posture. The same bits on every core.
+/// Forward and inverse kinematics of that posture: the same bits on every core.
 GoldenVector golden_vector(const Params& params, std::uint32_t seed);
 
-/// Number of golden vectors of the image that this core reproduces: kGoldenVectors when all is
-/// well.
+/// Number of the image's golden vectors that this core reproduces: kGoldenVectors if all is well.
 int count_golden_matches(const ParamsImage& image);
 
 }  // namespace verp::control

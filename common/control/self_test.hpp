@@ -6,12 +6,12 @@
 
 namespace verp::control {
 
-/// Length of the self-test; what an image's self_test_ticks says.
+/// Ticks of the self-test; an image's self_test_ticks must be equal.
 inline constexpr std::uint32_t kSelfTestTicks = 256;
 
-/// The last link of the digest chain after kSelfTestTicks ticks of step() on made-up inputs: the
-/// servos follow their goals, the operator asks to stand, to walk a few steps and to stop, and the
-/// IMU and the feet report noise around rest. Boots compare it with the image's: same core, same
+/// The digest chain's last link after kSelfTestTicks ticks of step() on generated inputs. The
+/// servos follow their goals; the operator asks to stand, to walk a few steps and to stop; IMU and
+/// feet report noise around rest. The boot check compares it with the image's: same core, same
 /// compiler contract, working memory.
 std::uint64_t self_test_digest(const Params& params, State& scratch);
 

@@ -7,13 +7,13 @@
 #include "common/model/coupling.hpp"
 #include "common/model/tree.hpp"
 
-// From the plan's posture to each joint's angle.
+// From the plan's posture to joint angles.
 
 namespace verp::control {
 namespace {
 
-// Angles of one leg: where the plan puts the sole, each joint at its own delay if the tuning asks
-// for one.
+// Joint angles of one leg for the planned sole, each joint with its own delay if the tuning has
+// one.
 kinematics::LegAngles leg_angles(const Params& params, const State& state,
                                  const gait::Posture& posture, int side, const float* previous) {
   const LegParams& leg = params.leg[side];
@@ -31,15 +31,16 @@ kinematics::LegAngles leg_angles(const Params& params, const State& state,
   return angles;
 }
 
-// The third to the sixth state after an exchange of feet: landing is over, the next not yet begun.
+// The third to the sixth state after an exchange of feet: after landing and before the next
+// exchange.
 bool in_mid_step(const gait::GaitOut& plan) {
   const int state = plan.cycle_state & 7;
   return state >= 3 && state <= 6;
 }
 
-// One foot in the air, and the pressure under the other well inside a sole that is planned level:
-// by a leg that is short or whose joints lag behind each other it is not. A foot that cannot feel
-// is taken to stand flat in the middle of its step.
+// True if one foot is in the air and the pressure under the other is well inside a sole planned
+// level, with exact and undelayed angles. A foot without sensors is assumed flat in the middle of
+// its step.
 bool carries_flat(const Params& params, const State& state, const gait::GaitOut& plan,
                   const Inputs& inputs, int side, const kinematics::LegAngles& angles) {
   if (plan.swing == gait::kBoth || plan.swing == side || angles.flags != 0 ||
@@ -49,8 +50,7 @@ bool carries_flat(const Params& params, const State& state, const gait::GaitOut&
   return (inputs.flags & kFeetFresh) != 0 && balance::stands_flat(inputs.foot_count[side]);
 }
 
-// Joints that lag behind each other are planned at moments of their own: none of them is that of
-// the aim.
+// Delayed joints are planned at different moments, so aiming does not apply to them.
 bool aims(const Tuning& tuning) {
   return tuning.balance.zeros_enable > 0.5F && tuning.gait.joint_delay_s == 0.0F;
 }
@@ -64,8 +64,8 @@ balance::LegLoad load_of(const Params& params, const gait::GaitOut& plan, int si
           gravity + math::to_vec(foot.accel_m_s2)};
 }
 
-// Angles of each leg to begin the search from. A robot that doesn't walk may be found in any pose;
-// the one wanted was solved when weighed.
+// Start angles for each leg's solver. A robot that does not walk may be in any pose, so take the
+// angles solved when it was last weighed.
 struct Before {
   float leg_rad[kFeet][kLegJoints];
 };
@@ -82,7 +82,7 @@ Before angles_before(const Params& params, const State& state) {
   return before;
 }
 
-// All joints but the legs': arms as they swing with the plan, the head as it is told.
+// All joints except the legs': arms swing with the plan, the head follows the operator.
 void rest_joints(const Params& params, const State& state, const AdmitOut& admitted,
                  const gait::GaitOut& plan, Wanted& wanted) {
   for (int j = 0; j < params.joint_count; ++j) wanted.angle_rad[j] = params.joint[j].stand_rad;
@@ -92,7 +92,7 @@ void rest_joints(const Params& params, const State& state, const AdmitOut& admit
   for (int j = 0; j < params.joint_count; ++j) wanted.plain_rad[j] = wanted.angle_rad[j];
 }
 
-// The plan's posture, its feet aimed where what was learnt of landings says that they get there.
+// The plan's posture with feet aimed by the learnt landings.
 gait::Posture aim_feet(const Params& params, State& state, const Inputs& inputs,
                        const gait::GaitOut& plan) {
   gait::Posture aimed = plan.posture;
@@ -108,7 +108,7 @@ gait::Posture aim_feet(const Params& params, State& state, const Inputs& inputs,
   return aimed;
 }
 
-// What is added to a leg's angles: sag under its load, zeros and balance.
+// Adds sag under load, zeros and balance to a leg's angles.
 void correct_leg(const Params& params, State& state, const Inputs& inputs,
                  const balance::AttitudeOut& attitude, const gait::GaitOut& plan, float mass_kg,
                  int side, kinematics::LegAngles& angles) {

@@ -2,28 +2,28 @@
 #include "common/control/state.hpp"
 #include "common/model/params.hpp"
 
-/// The stages of step(), each one thought. They join the modules; the arithmetic is in the modules.
+/// The stages of step(). They connect the modules, which hold the arithmetic.
 namespace verp::control {
 
-/// First tick: tuning from Params, ages from its inputs.
+/// First tick: copies the tuning from Params and starts the ages.
 void start(const Params& params, const Inputs& inputs, State& state);
 
 balance::AttitudeOut estimate(const Params& params, State& state, const AdmitOut& admitted);
 
-/// Where body and centre of mass are, by what the legs tell. The plan is that of the tick before.
+/// Locates body and centre of mass from the legs, with the previous tick's plan.
 void locate(const Params& params, State& state, const Inputs& inputs, const AdmitOut& admitted);
 
-/// Condition of a push that ankles don't answer.
+/// Sets the condition of a push that ankles cannot balance.
 void watch_push(const Params& params, State& state, AdmitOut& admitted);
 
-/// Walks when the safety table says so, and turns back what the heading has drifted.
+/// Walks if the safety table allows it, and corrects the heading's drift.
 gait::GaitOut plan_motion(const Params& params, State& state, const AdmitOut& admitted,
                           const balance::AttitudeOut& attitude);
 
-/// Moves the plan's feet to where a push has sent the robot.
+/// Moves the plan's feet to where a push sends the robot.
 void step_aside(const Params& params, State& state, gait::GaitOut& plan);
 
-/// Keeps the body upright on ground that slopes.
+/// Keeps the body upright on sloping ground.
 void lean(const Params& params, State& state, const AdmitOut& admitted,
           const balance::AttitudeOut& attitude, gait::GaitOut& plan);
 
@@ -33,8 +33,8 @@ struct Wanted {
   bool leg_limited;
 };
 
-/// Legs by inverse kinematics, with gravity sag, balance corrections and learnt zero errors and
-/// landings; arms rest; the head looks where told.
+/// Legs by inverse kinematics with sag, balance corrections, learnt zero errors and landings. Arms
+/// and head as planned and ordered.
 Wanted solve_joints(const Params& params, State& state, const Inputs& inputs,
                     const AdmitOut& admitted, const balance::AttitudeOut& attitude,
                     const gait::GaitOut& plan);
@@ -46,7 +46,7 @@ safety::LimitOut limit_goals(const Params& params, State& state, const Inputs& i
 std::uint32_t raise_faults(const State& state, const AdmitOut& admitted, const Wanted& wanted,
                            const safety::LimitOut& limited);
 
-/// The safety table has the last word: mode, torque and goals.
+/// Applies the safety table, which decides mode, torque and goals.
 void gate(const Params& params, State& state, const AdmitOut& admitted,
           const balance::AttitudeOut& attitude, const gait::GaitOut& plan,
           const safety::LimitOut& limited, std::uint32_t faults, Outputs& outputs);

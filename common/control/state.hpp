@@ -19,20 +19,20 @@
 
 namespace verp {
 
-/// Heading the operator steered to, against which the walk is corrected.
+/// The heading ordered by the operator, to which the walk is corrected.
 struct SteerState {
   float heading_rad = 0;
-  float slip_rad = 0;  ///< heading error summed over time: what the soles slip in every step
-  std::int32_t fallen_us = 0;  ///< how long the tilt has been beyond its limit
+  float slip_rad = 0;          ///< integral of the heading error: what the soles slip in every step
+  std::int32_t fallen_us = 0;  ///< how long the tilt has exceeded its limit
   VERP_FIELDS(heading_rad, slip_rad, fallen_us)
 };
 VERP_PACKED(SteerState);
 
-/// All that one tick leaves for the next: copy it, and the run goes on the same. Hashed whole every
-/// tick.
+/// Everything that one tick leaves for the next: a run continues from a copy with the same bits.
+/// Digested whole every tick.
 struct State {
   TickDigest digest{.chain = record::kChainSeed};
-  Tuning tuning;  ///< in force: Params::tuning, moved by parameter writes
+  Tuning tuning;  ///< in force: Params::tuning, changed by parameter writes
   AdmitState admit;
   balance::AttitudeState attitude;
   balance::EstimatorState estimator;
