@@ -7,17 +7,17 @@
 #include "common/model/params.hpp"
 #include "common/model/tuning_ranges.hpp"
 
-/// The register table of the controller itself, which is a Dynamixel device on the operator's
-/// port: the one list from which the device (firmware/app/operator_device.hpp), its documentation
-/// (firmware/app/registers.md), the names that `verp bus` knows and an object dictionary follow.
-/// What every Dynamixel has stands where its users expect it (0 to 7, 64, 68 to 70). Registers are
-/// little-endian and stand in order of their addresses, each on a multiple of its size, but for
-/// Model Information, whose place the vendor chose.
+/// The register table of the controller, which is a Dynamixel device on the operator's port. It is
+/// the one source of the device (firmware/app/operator_device.hpp), its documentation
+/// (firmware/app/registers.md), the names in `verp bus` and an object dictionary. Registers common
+/// to all Dynamixels keep their addresses (0 to 7, 64, 68 to 70). Registers are little-endian, in
+/// order of address, each at a multiple of its size except Model Information, whose place the
+/// vendor chose.
 namespace verp::dxl::controller {
 
 inline constexpr std::uint8_t kDefaultId = 200;
-inline constexpr std::uint16_t kModel = 0x7600;  ///< ours, as the sensors' in control_table.hpp
-/// Firmware Version (6). Changes whenever a register moves or changes its meaning.
+inline constexpr std::uint16_t kModel = 0x7600;  ///< ours, like the sensors' in control_table.hpp
+/// Firmware Version (6). Raise it whenever a register moves or changes its meaning.
 inline constexpr std::uint8_t kTableVersion = 1;
 
 enum class Type : std::uint8_t { kU8, kU16, kU32, kU64, kI8, kI16, kI32, kF32, kText };
@@ -28,13 +28,13 @@ constexpr std::uint8_t type_bytes(Type type) {
   constexpr std::uint8_t kBytes[] = {1, 2, 4, 8, 1, 2, 4, 4, 1};
   return kBytes[static_cast<std::size_t>(type)];
 }
-/// A whole number that may be below zero.
+/// True for integer types that hold negative values.
 constexpr bool is_signed(Type type) {
   return type == Type::kI8 || type == Type::kI16 || type == Type::kI32;
 }
 
 enum class Access : std::uint8_t {
-  kRead,      ///< written by the controller only
+  kRead,      ///< written only by the controller
   kWrite,     ///< written at any time
   kDisarmed,  ///< written only while no servo holds torque
 };
@@ -45,22 +45,22 @@ struct Register {
   const char* name = "";
   Type type = Type::kU8;
   Access access = Access::kRead;
-  std::uint16_t count = 1;    ///< elements: from `address` on, side by side
+  std::uint16_t count = 1;    ///< elements, contiguous from `address`
   std::int32_t minimum = 0;   ///< of written values
-  std::uint32_t maximum = 0;  ///< as an int32 where `minimum` is negative
+  std::uint32_t maximum = 0;  ///< read as an int32 if `minimum` is negative
   const char* unit = "";
   const char* meaning = "";
 
   constexpr unsigned bytes() const { return unsigned{count} * type_bytes(type); }
   constexpr bool writable() const { return access != Access::kRead; }
-  /// CANopen: each register is an object of the manufacturer's area, 2000h to 5FFFh; several
-  /// elements are an ARRAY with subindices from 1 on, a text is one VISIBLE_STRING.
+  /// CANopen: each register is an object of the manufacturer's area, 2000h to 5FFFh. Several
+  /// elements are an ARRAY with subindices from 1, a text is one VISIBLE_STRING.
   constexpr std::uint16_t object_index() const {
     return static_cast<std::uint16_t>(0x2000 + address);
   }
 };
 
-/// Rows of device_kind and its fellows: servos in the order of Params, then these.
+/// Rows of the device arrays: servos in the order of Params, then these.
 inline constexpr int kDeviceImu = kMaxJoints;
 inline constexpr int kDeviceFoot = kDeviceImu + 1;  ///< left, then right
 inline constexpr int kDeviceBus = kDeviceFoot + kFeet;
@@ -82,7 +82,7 @@ enum class ImuCalibrationState : std::uint8_t {
   kSilent,
   kDropped
 };
-/// control::BootVerdict and one more.
+/// control::BootVerdict, and kNotRun.
 enum class SelfTest : std::uint8_t {
   kNotRun,
   kPassed,
@@ -92,7 +92,7 @@ enum class SelfTest : std::uint8_t {
   kKinematics,
   kControl
 };
-/// As hal/chip/stm32/reset_cause.hpp; kFault: a crash record was found.
+/// The causes of hal/chip/stm32/reset_cause.hpp. kFault: a crash record was found.
 enum class ResetCause : std::uint8_t {
   kUnknown,
   kPower,
@@ -102,10 +102,10 @@ enum class ResetCause : std::uint8_t {
   kLowPower,
   kFault
 };
-/// As hal/chip/stm32/clock.hpp; kUnknown: the board does not say.
+/// The sources of hal/chip/stm32/clock.hpp. kUnknown: the board does not report it.
 enum class ClockSource : std::uint8_t { kUnknown, kCrystal, kInternalPll, kInternal, kAbsent };
-/// What keeps a board from ever giving torque; its number is that of the LED's flashes, hence from
-/// 2 on: one flash is the sign of life.
+/// Reasons for a board never to give torque. The LED flashes this often; it starts at 2, because
+/// one flash is the sign of life.
 enum class StartFault : std::uint8_t {
   kNone,
   kSelfTest = 2,
@@ -114,7 +114,7 @@ enum class StartFault : std::uint8_t {
   kServoPort,
   kPeriod,
   kWatchdog,
-  kProtocol  ///< the robot's bus is not the one that this image speaks
+  kProtocol  ///< the robot's bus protocol is not this image's
 };
 enum class ServoPower : std::uint8_t { kNotSwitched, kOn, kOff };
 enum class WindowState : std::uint8_t { kIdle, kReceiving, kAccepted, kRefused };
@@ -130,7 +130,7 @@ constexpr Register rw(std::uint16_t address, const char* name, Type type, std::u
                       const char* unit, const char* meaning, std::uint16_t count = 1) {
   return {address, name, type, Access::kWrite, count, 0, maximum, unit, meaning};
 }
-/// All 16 bits.
+/// Takes all 16 bits.
 constexpr Register rw_i16(std::uint16_t address, const char* name, const char* unit,
                           const char* meaning) {
   return {address, name, Type::kI16, Access::kWrite, 1, -32768, 32767, unit, meaning};
@@ -146,7 +146,7 @@ inline constexpr std::uint32_t kAll32 = 0xFFFFFFFFu;
 
 // clang-format off
 inline constexpr Register kTable[] = {
-    // What it is.
+    // Identity.
     r(0, "model_number", u16, "", "30208 (7600h): a controller of this project"),
     r(2, "model_information", u32, "", "CRC-32 of the Params in force: names the robot"),
     r(6, "firmware_version", u8, "", "version of this table"),
@@ -166,7 +166,7 @@ inline constexpr Register kTable[] = {
     r(60, "parameter_count", u16, "", "numbers that parameter_id names"),
     r(62, "clock_source", u8, "", "0 unknown, 1 crystal, 2 internal oscillator with PLL, 3 without, 4 none (emulator); 2, 3: no CAN"),
     disarmed(63, "torque_limit", u8, 100, "%", "of every servo's full strength, in every mode: for first steps; kept without power; 100 when new", 1),
-    // Where every Dynamixel has it.
+    // Addresses common to all Dynamixels.
     r(64, "torque_enable", u8, "", "1 while any servo holds torque (\"armed\")"),
     r(65, "servo_power", u8, "", "0 this board does not switch it, 1 on, 2 off: emergency stop or start fault"),
     r(66, "joint_beyond", u8, "", "bus id of the joint for whose sake a robot was not let stand: it is beyond its limits, move it by hand; 255: none"),
@@ -177,10 +177,11 @@ inline constexpr Register kTable[] = {
     r(71, "start_fault", u8, "", "no torque until a reset; so many flashes: 2 self_test failed, 3 timer, 4 this port, 5 servo port, 6 period_us, 7 watchdog, 8 bus protocol; 0: none"),
     r(72, "crash_pc", u32, "", "the crash before this start: its instruction; 0 with crash_count 1 or more: stack overflow"),
     r(76, "crash_cause", u32, "bits", "CFSR of the core at that crash"),
-    // The operator's order: every write to 80..101 makes it fresh and feeds the operator watchdog.
-    // With torque off, request is set back to 0 when a loop begins, and when one has stood still for
-    // longer than an order lasts. After each start, a watchdog's too, it takes 1 and 2 (Result Fail)
-    // only once 0 was written: what a program repeats must not raise a robot that was reset.
+    // The operator's order. Every write to 80..101 makes it fresh and feeds the operator watchdog.
+    // With torque off, request returns to 0 when a loop begins, and when the loop stood still for
+    // longer than an order lasts. After each start, even by a watchdog, 1 and 2 are refused (Result
+    // Fail) until 0 was written, so that a program's repeated order cannot raise a robot that was
+    // reset.
     rw(80, "request", u8, 3, "", "0 relax, 1 stand, 2 walk, 3 stand, from the floor too: leave to get up by the robot's own action; after each start 1 to 3 are refused until 0 was written; with torque off back to 0 when a loop begins or stood still"),
     rw(81, "command_sequence", u8, 255, "", "count the orders here; it is recorded with each tick"),
     rw_i16(82, "walk_vx", "0.1 mm/s", "forward velocity, body frame"),
@@ -198,8 +199,8 @@ inline constexpr Register kTable[] = {
     r(103, "imu_calibration", u8, "", "0 none, 1 measuring, 2 kept; refused, the old one counts: 3 moved, 4 not upright, 5 too few samples in 20 s (chip silent, or a twin in lockstep); 6 none counts: the kept one is of another scale or mounting"),
     r(104, "bring_up", u8, "", "0 not yet, 1 every device is ready; the last failure: 2 silent, 3 another model, 4 refused a write, 5 does not keep it, 6 has a hardware error, 7 somebody else commands nodes on its bus, 8 did not boot when it was reset"),
     r(105, "bring_up_device", u8, "", "bus id of the device at which it failed"),
-    // One number of the tuning. A write of parameter_value reaches exactly one tick; before that
-    // tick a second one is refused (Result Fail).
+    // One number of the tuning. A write of parameter_value reaches exactly one tick; until then a
+    // second one is refused (Result Fail).
     rw(106, "parameter_id", u16, kTuningCount - 1, "", "which number; see the list below"),
     rw(108, "parameter_value", f32, kAll32, "", "its value in force; writing is refused out of its range"),
     r(112, "parameter_low", f32, "", "lowest value allowed"),
@@ -226,7 +227,7 @@ inline constexpr Register kTable[] = {
     r(188, "joints_torque", u32, "bits", "bit j: joint j holds its goal"),
     r(192, "command_age", u32, "ticks", "since the last order"),
     r(196, "bring_up_register", u16, "", "and its register or object; for 7 the identifier that was heard"),
-    // What went wrong since power-up; all wrap.
+    // Errors since power-up; all wrap.
     r(200, "bus_crc_errors", u32, "", "servo bus: packets with a wrong CRC"),
     r(204, "bus_timeouts", u32, "", "servo bus: requests that some device did not answer in time"),
     r(208, "bus_strays", u32, "", "servo bus: good packets nobody had asked for"),
@@ -264,17 +265,18 @@ inline constexpr Register kTable[] = {
     rw(1124, "window_data", u8, 255, "", "reads show the image in force; writes go to a new one, of actions with torque off only", kWindowBytes),
     rw(1252, "window_crc", u32, kAll32, "", "CRC-32 (zip) of all bytes of the new image"),
     disarmed(1256, "window_commit", u8, 1, "", "1: check the new image and take it; reads as 0"),
-    // For one who runs the same controller beside this one, and compares.
+    // For a program that runs the same controller beside this one and compares.
     rw(1257, "tick_hold", u8, 2, "", "1: the State of the last tick stands still, to be read as an image, 2: the last ticks too; the loop goes on; refused where none are kept"),
     r(1258, "inputs_flags", u16, "bits", "of the last tick: InputFlag; on CAN also 256 IMU counts in parts, and from 4096 on the number of parts"),
     r(1260, "tick_low", u16, "ticks", "low half of tick"),
     r(1264, "inputs_part", u64, "", "on CAN: one part of the last tick's Inputs: half its offset, its size, up to 6 bytes"),
-    // The joints once more.
+    // More joint values.
     r(1272, "joint_velocity", i32, "counts/s", "as each drive told last (606Ch); CiA 402 only", kMaxJoints),
     r(1400, "joint_torque", i16, "0.1 %", "of the rated torque, as each drive told last (6077h); CiA 402 only", kMaxJoints),
     r(1464, "image_field", text, "", "with self_test 4: the number in the Params image that is none, or none of a robot; empty: it is not that", kFieldNameLength),
-    // Where the robot has itself (common/balance/estimator.hpp): z up from the ground under the soles that carry, x and y
-    // from under the body and ahead of it at power-up; they drift, as odometry does.
+    // The robot's estimate of itself (common/balance/estimator.hpp): z up from the ground under the
+    // stance soles, x and y relative to the body's place and heading at power-up. They drift, as
+    // odometry does.
     r(1504, "body_position", f32, "m", "estimated: origin of the body frame, x y z from where it was at power-up", 3),
     r(1516, "body_attitude", f32, "rad", "estimated: roll, pitch (nose down positive) and yaw (turned to the left since power-up)", 3),
     r(1528, "com_position", f32, "m", "estimated: centre of mass, x y z, as body_position", 3),
@@ -286,7 +288,7 @@ inline constexpr Register kTable[] = {
 
 inline constexpr const auto& kTable = row::kTable;
 inline constexpr std::size_t kRegisters = sizeof(row::kTable) / sizeof(Register);
-/// The table ends here.
+/// Size of the table.
 inline constexpr std::uint16_t kTableBytes =
     static_cast<std::uint16_t>(kTable[kRegisters - 1].address + kTable[kRegisters - 1].bytes());
 
@@ -297,7 +299,7 @@ constexpr bool same_name(const char* a, const char* b) {
   return false;
 }
 
-/// nullptr: no such name.
+/// Returns nullptr if no register has this name.
 constexpr const Register* find(const char* name) {
   for (const Register& each : row::kTable) {
     if (same_name(each.name, name)) return &each;
@@ -305,16 +307,16 @@ constexpr const Register* find(const char* name) {
   return nullptr;
 }
 
-/// What a device must know of a register at run time: the table without its words, which need not
-/// be in a microcontroller, where flash is short.
+/// What a device needs of a register at run time. The table's texts stay out of the
+/// microcontroller, where flash is short.
 struct Rule {
   std::uint16_t address = 0;
   std::uint8_t count = 0;
-  std::uint8_t size : 4 = 0;  ///< of an element
+  std::uint8_t size : 4 = 0;  ///< of one element
   Access access : 2 = Access::kRead;
   bool is_text : 1 = false;
   std::int16_t minimum = 0;
-  std::uint16_t most = 0;  ///< kAll: all that the element can hold
+  std::uint16_t most = 0;  ///< kAll: any value of the element
 
   static constexpr std::uint16_t kAll = 0xFFFF;
   constexpr std::int64_t maximum() const {
@@ -357,7 +359,7 @@ consteval bool rules_hold_all() {
 }
 static_assert(rules_hold_all(), "a register is longer, or has other bounds, than Rule can say");
 
-/// The rule of the element that begins at `address`; nullptr: none does.
+/// The rule of the element that begins at `address`; nullptr if none does.
 constexpr const Rule* rule_at(std::uint16_t address) {
   std::size_t low = 0, high = kRegisters;  // the last one at or before `address` is in [low, high)
   while (high - low > 1) {
@@ -369,7 +371,7 @@ constexpr const Rule* rule_at(std::uint16_t address) {
   return offset < unsigned{rule.count} * rule.size && offset % rule.size == 0 ? &rule : nullptr;
 }
 
-/// Longest run of bytes that one write can cover.
+/// Most bytes that one write can cover.
 consteval std::size_t longest_write() {
   std::size_t longest = 0, run = 0, end = 0;
   for (const Register& each : row::kTable) {

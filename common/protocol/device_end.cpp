@@ -3,7 +3,7 @@
 namespace verp::dxl {
 namespace {
 
-constexpr std::size_t kSyncHead = 4;  // address and length, the same for all
+constexpr std::size_t kSyncHead = 4;  // address and length, common to all devices
 
 }  // namespace
 

@@ -4,29 +4,29 @@
 
 #include "common/protocol/dynamixel2.hpp"
 
-/// The device's end of Protocol 2.0, as far as it is the same for every device: which part of a
-/// packet is meant for it, and whether a write may be done. Rules as the e-Manual has them.
+/// The device side of Protocol 2.0 that all devices share: which part of a packet is for the
+/// device, and whether a write is allowed. Rules from the e-Manual.
 namespace verp::dxl {
 
-/// What a Sync or Bulk Read, fast or not, wants of one device.
+/// The request of a Sync or Bulk Read, fast or not, to one device.
 struct ReadEntry {
   std::uint8_t id = 0;
   std::uint16_t address = 0;
   std::uint16_t length = 0;
 };
-/// Entry `index` of such a read, in the order in which the devices answer; false if there is none,
-/// or if the packet is malformed or another.
+/// Entry `index` of such a read, in the order of the devices' answers. False if there is none, or
+/// if the packet is malformed or of another kind.
 bool read_entry(const Packet& packet, std::size_t index, ReadEntry& entry);
 
-/// What a Sync or Bulk Write brings one device.
+/// The data of a Sync or Bulk Write for one device.
 struct WriteEntry {
   std::uint8_t id = 0;
   std::uint16_t address = 0;
   const std::uint8_t* data = nullptr;
   std::size_t size = 0;
 };
-/// The entry at `offset` of such a write; moves `offset`, which begins as 0, behind it. False if
-/// there is no more, or if the packet is another.
+/// The entry at `offset` of such a write. Advances `offset`, which starts at 0. False if there are
+/// no more, or the packet is of another kind.
 bool write_entry(const Packet& packet, std::size_t& offset, WriteEntry& entry);
 
 constexpr bool is_fast_read(Instruction instruction) {
@@ -37,7 +37,7 @@ constexpr std::uint8_t error_field(Error error, bool alert) {
   return static_cast<std::uint8_t>(static_cast<unsigned>(error) | (alert ? kAlert : 0u));
 }
 
-/// A register's bytes, 1 to 4 of them, as a number.
+/// A register of 1 to 4 bytes as a number.
 constexpr std::int64_t register_value(const std::uint8_t* bytes, unsigned size, bool is_signed) {
   std::uint32_t raw = 0;
   for (unsigned i = 0; i < size; ++i) raw |= static_cast<std::uint32_t>(bytes[i]) << (8 * i);
@@ -48,14 +48,14 @@ constexpr std::int64_t register_value(const std::uint8_t* bytes, unsigned size, 
 
 /// What may be written at an address now.
 struct WriteRule {
-  std::uint8_t size = 0;  ///< bytes of the register that begins there; 0: none does
+  std::uint8_t size = 0;  ///< bytes of the register that begins there; 0: none
   bool writable = false;
   std::int64_t minimum = 0;  ///< a negative minimum makes the register signed
   std::int64_t maximum = 0;
 };
 
-/// kNone if every register that the `size` bytes at `address` cover is covered whole, writable and
-/// in range. `rule_at(address)` returns a WriteRule.
+/// Returns kNone if the `size` bytes at `address` cover whole registers that are writable, with
+/// values in range. `rule_at(address)` returns a WriteRule.
 template <class RuleAt>
 constexpr Error check_write(std::uint16_t address, const std::uint8_t* data, std::size_t size,
                             RuleAt&& rule_at) {

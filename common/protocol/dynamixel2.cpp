@@ -46,7 +46,7 @@ void Encoder::begin(std::uint8_t id, Instruction instruction) {
   fits_ = true;
   for (std::uint8_t value : kHeader) raw(value);
   raw(id);
-  raw(0);  // length, known in finish()
+  raw(0);  // length, set by finish()
   raw(0);
   u8(static_cast<std::uint8_t>(instruction));
 }

@@ -2,15 +2,15 @@
 #include <cstddef>
 #include <cstdint>
 
-/// Dynamixel Protocol 2.0, both ends, pure bytes: no clock, no port, no heap. Source for every
-/// number and layout: ROBOTIS e-Manual, "DYNAMIXEL Protocol 2.0"
-/// (emanual.robotis.com/docs/en/dxl/protocol2); for Fast Sync Read also the vendor's SDK, which
+/// Dynamixel Protocol 2.0, both ends, bytes only: no clock, port or heap. Source of every number
+/// and layout: ROBOTIS e-Manual, "DYNAMIXEL Protocol 2.0"
+/// (emanual.robotis.com/docs/en/dxl/protocol2). For Fast Sync Read also the vendor's SDK, which
 /// reads such replies without removing stuffing.
 ///
 ///     FF FF FD 00 | id | length (2) | instruction | parameters ... | CRC (2)
 ///
-/// `length` counts from the instruction to the CRC's end, after stuffing. A status packet is an
-/// instruction packet with instruction 0x55 whose first parameter is the error field.
+/// `length` counts from the instruction to the end of the CRC, after stuffing. A status packet has
+/// instruction 0x55, and its first parameter is the error field.
 namespace verp::dxl {
 
 enum class Instruction : std::uint8_t {
@@ -45,11 +45,10 @@ enum class Error : std::uint8_t {
 inline constexpr std::uint8_t kAlert =
     0x80;  ///< error field: Hardware Error Status (70) is not zero
 
-/// What a Factory Reset leaves as it is. Sent to all devices at once, kAll is ignored (firmware
-/// 42).
+/// What a Factory Reset keeps. A broadcast kAll is ignored (firmware 42).
 enum class Reset : std::uint8_t { kAll = 0xFF, kAllButId = 0x01, kAllButIdAndBaud = 0x02 };
 
-/// Parameters of Clear that take the turns off a multi-turn position; refused while moving.
+/// Parameters of Clear that remove the turns from a multi-turn position; refused while moving.
 inline constexpr std::uint8_t kClearTurns[] = {0x01, 0x44, 0x58, 0x4C, 0x22};
 
 inline constexpr std::uint8_t kBroadcast = 0xFE;
@@ -60,8 +59,7 @@ inline constexpr std::size_t kHeaderBytes = 7;  ///< up to and including `length
 inline constexpr std::size_t kCrcBytes = 2;
 inline constexpr std::size_t kInstructionBytes = 10;  ///< a packet without parameters
 inline constexpr std::size_t kStatusBytes = 11;       ///< a status packet without data
-inline constexpr std::size_t kMaxPacket =
-    512;  ///< longest packet this implementation sends or accepts
+inline constexpr std::size_t kMaxPacket = 512;        ///< longest packet this code sends or accepts
 inline constexpr std::size_t kFastHeaderBytes = 8;  ///< a fast reply before its first device block
 inline constexpr std::size_t kFastBlockBytes = 4;   ///< error, id and CRC around each device's data
 
@@ -81,11 +79,11 @@ constexpr void put_u32(std::uint8_t* bytes, std::uint32_t value) {
   put_u16(bytes + 2, value >> 16);
 }
 
-/// CRC-16 with polynomial 0x8005, not reflected, initial value 0; `crc` continues an earlier part.
+/// CRC-16 with polynomial 0x8005, not reflected, initial value 0. `crc` continues an earlier part.
 std::uint16_t crc16(const std::uint8_t* data, std::size_t size, std::uint16_t crc = 0);
 
-/// Writes one packet into a caller's buffer: begin, parameters, finish. Stuffs as it goes, so the
-/// buffer may need a third more than the parameters. A packet that doesn't fit ends as size 0;
+/// Writes one packet into the caller's buffer: begin, parameters, finish. Adds stuffing, so the
+/// buffer may need a third more than the parameters. If a packet does not fit, its size is 0 and
 /// nothing is written past the capacity.
 class Encoder {
  public:
@@ -96,7 +94,7 @@ class Encoder {
   void u16(std::uint32_t value);
   void u32(std::uint32_t value);
   void bytes(const std::uint8_t* data, std::size_t size);
-  /// Size of the finished packet, 0 if it did not fit.
+  /// Size of the finished packet; 0 if it did not fit.
   std::size_t finish();
 
  private:
@@ -108,7 +106,7 @@ class Encoder {
   bool fits_ = true;
 };
 
-// Whole instruction packets. Each returns the packet's size, 0 if it did not fit.
+// Whole instruction packets. Each returns the packet's size; 0 if it did not fit.
 std::size_t encode_ping(std::uint8_t* buffer, std::size_t capacity, std::uint8_t id);
 std::size_t encode_read(std::uint8_t* buffer, std::size_t capacity, std::uint8_t id,
                         std::uint16_t address, std::uint16_t length);
@@ -127,30 +125,29 @@ std::size_t encode_clear_turns(std::uint8_t* buffer, std::size_t capacity, std::
 std::size_t encode_sync_read(std::uint8_t* buffer, std::size_t capacity, Instruction instruction,
                              std::uint16_t address, std::uint16_t length, const std::uint8_t* ids,
                              std::size_t count);
-/// Sync Write is built entry by entry: begin_sync_write, then id and data of each device, then
-/// finish.
+/// Sync Write, built in steps: begin_sync_write, then id and data of each device, then finish.
 void begin_sync_write(Encoder& encoder, std::uint16_t address, std::uint16_t length);
-/// Bulk instructions (kBulkRead, kFastBulkRead, kBulkWrite) are built entry by entry, too: one
-/// entry for each device, behind each entry of a Bulk Write its data, then finish.
+/// Bulk instructions (kBulkRead, kFastBulkRead, kBulkWrite), built in steps: one entry for each
+/// device (in a Bulk Write followed by its data), then finish.
 void begin_bulk(Encoder& encoder, Instruction instruction);
 void bulk_entry(Encoder& encoder, std::uint8_t id, std::uint16_t address, std::uint16_t length);
 inline constexpr std::size_t kBulkEntryBytes = 5;
 std::size_t encode_status(std::uint8_t* buffer, std::size_t capacity, std::uint8_t id,
                           std::uint8_t error, const std::uint8_t* data, std::size_t size);
 
-/// A device's part of the reply to a Fast Sync or Bulk Read: the first one writes the header too,
-/// which announces the `all_bytes` of all devices' blocks (kFastBlockBytes + length each). `crc`
-/// runs through all parts. Fast replies are not stuffed. Returns the part's size; `buffer` holds 12
-/// + length bytes.
+/// One device's part of the reply to a Fast Sync or Bulk Read. The first device also writes the
+/// header, which announces the `all_bytes` of all blocks (kFastBlockBytes + length each). `crc`
+/// runs through all parts. Fast replies are not stuffed. Returns the part's size; `buffer` must
+/// hold 12 + length bytes.
 std::size_t encode_fast_block(std::uint8_t* buffer, bool first, std::size_t all_bytes,
                               std::uint8_t id, std::uint8_t error, const std::uint8_t* data,
                               std::size_t length, std::uint16_t& crc);
 
-/// One received packet. `parameters` points into the parser: valid until its next call.
+/// One received packet. `parameters` points into the parser and is valid until its next call.
 struct Packet {
   std::uint8_t id = 0;
   Instruction instruction = Instruction::kPing;
-  std::uint8_t error = 0;  ///< status packets only, with the alert bit; taken off the parameters
+  std::uint8_t error = 0;  ///< status packets only, with the alert bit; not in `parameters`
   const std::uint8_t* parameters = nullptr;
   std::size_t size = 0;
 
@@ -165,31 +162,31 @@ struct FastBlock {
   std::uint8_t id = 0;
   const std::uint8_t* data = nullptr;
 };
-/// The block that begins `offset` bytes into a fast reply and carries `length` data bytes; false if
-/// the reply ends before. The next one begins kFastBlockBytes + length further on.
+/// The block at byte `offset` of a fast reply, with `length` data bytes. False if the reply is too
+/// short. The next block begins kFastBlockBytes + length later.
 bool fast_block_at(const Packet& reply, std::size_t offset, std::size_t length, FastBlock& block);
-/// Block `index` of a fast reply whose blocks carry `length` data bytes; false if there is none.
+/// Block `index` of a fast reply whose blocks carry `length` data bytes. False if there is none.
 bool fast_block(const Packet& reply, std::size_t index, std::size_t length, FastBlock& block);
 
-/// Finds packets in a stream of bytes. Noise, cut packets and bad CRCs cost only themselves: after
-/// a failed check the search goes on from the byte after the false header, so a good packet that
-/// follows is found. Each byte is searched once, and summed and moved at most once for each false
-/// header within the 512 bytes before it: noise costs a few steps a byte.
+/// Finds packets in a byte stream. Noise, cut packets and bad CRCs cost no other packet: after a
+/// failed check the search continues one byte after the false header. Each byte is searched once,
+/// and summed and moved at most once for each false header in the 512 bytes before it: noise costs
+/// a few steps a byte.
 class Parser {
  public:
-  /// Takes a byte; true when a packet is complete. Then call next() until it says false, before the
-  /// next push().
+  /// Takes a byte. If it returns true, a packet is complete: call next() until it returns false
+  /// before the next push().
   bool push(std::uint8_t byte);
-  /// True if bytes taken earlier hold one more packet.
+  /// True if earlier bytes hold another packet.
   bool next();
   const Packet& packet() const { return packet_; }
-  /// Forgets bytes taken so far; the counts stay.
+  /// Discards all bytes; the counters stay.
   void reset() { begin_ = size_ = done_ = need_ = 0; }
 
   std::uint32_t crc_errors() const { return crc_errors_; }
   /// Bytes that belonged to no packet.
   std::uint32_t noise_bytes() const { return noise_bytes_; }
-  /// Bytes stored, searched, summed and moved so far: what the stream has cost; wraps.
+  /// Total cost so far: bytes stored, searched, summed and moved. Wraps.
   std::uint32_t steps() const { return steps_; }
 
  private:
@@ -202,10 +199,10 @@ class Parser {
   void decode(std::size_t end);
 
   std::uint8_t buffer_[kMaxPacket];
-  std::size_t begin_ = 0;  ///< of the bytes in use, where a packet may begin
+  std::size_t begin_ = 0;  ///< first byte in use, where a packet may begin
   std::size_t size_ = 0;   ///< bytes in use
-  std::size_t done_ = 0;   ///< bytes of the packet last reported; dropped by the next call
-  std::size_t need_ = 0;   ///< no use looking before so many bytes are there; at most kMaxPacket
+  std::size_t done_ = 0;   ///< size of the last packet reported; the next call drops it
+  std::size_t need_ = 0;   ///< bytes needed before looking again; at most kMaxPacket
   std::uint32_t crc_errors_ = 0;
   std::uint32_t noise_bytes_ = 0;
   std::uint32_t steps_ = 0;

@@ -31,7 +31,7 @@ bool Parser::next() {
   }
 }
 
-/// As far as the bytes go, a header stands at begin_ + offset.
+/// True if the available bytes at begin_ + offset match a header.
 bool Parser::may_begin_at(std::size_t offset) const {
   const std::uint8_t* from = buffer_ + begin_ + offset;
   for (std::size_t i = 0; i < sizeof kHeader && offset + i < size_; ++i) {
@@ -59,7 +59,7 @@ Parser::Look Parser::look() {
   return Look::kPacket;
 }
 
-/// What stands at begin_ is no packet: goes on to where the next one may begin.
+/// There is no packet at begin_: moves to the next possible start.
 void Parser::search_on() {
   std::size_t offset = 1;
   while (offset < size_ && !may_begin_at(offset)) ++offset;
@@ -75,8 +75,8 @@ void Parser::drop(std::size_t count) {
   begin_ = size_ == 0 ? 0 : begin_ + count;
 }
 
-/// Called with begin_ above 0: a packet that began at the buffer's front is complete when it is
-/// full.
+/// begin_ is above 0 here: a packet that starts at the buffer's front is complete when the buffer
+/// is full.
 void Parser::make_room() {
   for (std::size_t i = 0; i < size_; ++i) buffer_[i] = buffer_[begin_ + i];
   begin_ = 0;
