@@ -12,8 +12,7 @@ enum class BootVerdict : std::uint8_t {
   kSound = 0,
   kContracted = 1,  ///< the core was built with fused multiply-add: its bits differ from the twin's
   kCode = 2,        ///< the built-in robot's walk differs: damaged code, memory or core
-  kImage =
-      3,  ///< the Params image is missing, damaged, of another version or implausible: see `image`
+  kImage = 3,       ///< Params image missing, damaged, of another version or implausible: `image`
   kKinematics = 4,  ///< the image's golden vectors are not reproduced
   kControl = 5,     ///< the image's 256 ticks are not reproduced
 };

@@ -16,8 +16,8 @@ constexpr float kMaxHeadingError_rad = 0.5F;  // a robot turned by hand corrects
 // In a cycle of whole ticks the gyro is read at the same moments of every step. Motion of the body
 // between the readings under hurried feet then adds up to a false turn: 4 degrees a minute
 // (generic21, 0.42 m/s; 2 with the sway). So the gait's clock gains a tick in this many and then
-// loses one. Calmer steps do not need it: 4 cm in 450 ms are off by 1.7, and the sway would add 0.5
-// mm of ZMP bias.
+// loses one in as many. Calmer steps do not need it: 4 cm in 450 ms are off by 1.7, and the sway
+// would add 0.5 mm of ZMP bias.
 constexpr std::uint32_t kSway_ticks = 256;
 constexpr float kHurried = 0.5F;  // Step::haste above which the clock sways: 0.31 m/s for generic21
 

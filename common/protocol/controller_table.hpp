@@ -179,7 +179,7 @@ inline constexpr Register kTable[] = {
     r(76, "crash_cause", u32, "bits", "CFSR of the core at that crash"),
     // The operator's order. Every write to 80..101 makes it fresh and feeds the operator watchdog.
     // With torque off, request returns to 0 when a loop begins, and when the loop stood still for
-    // longer than an order lasts. After each start, even by a watchdog, 1 and 2 are refused (Result
+    // longer than an order lasts. After each start, even by a watchdog, 1 to 3 are refused (Result
     // Fail) until 0 was written, so that a program's repeated order cannot raise a robot that was
     // reset.
     rw(80, "request", u8, 3, "", "0 relax, 1 stand, 2 walk, 3 stand, from the floor too: leave to get up by the robot's own action; after each start 1 to 3 are refused until 0 was written; with torque off back to 0 when a loop begins or stood still"),

@@ -3,7 +3,7 @@
 namespace verp::canopen {
 namespace {
 
-/// Counts bits as they would go over the wire, and their stuff bits.
+/// Counts the bits of a frame on the wire and their stuff bits.
 class Wire {
  public:
   constexpr void bit(unsigned value) {
@@ -23,7 +23,7 @@ class Wire {
   }
   constexpr std::uint16_t crc() const { return static_cast<std::uint16_t>(crc_); }
   constexpr std::uint32_t all() const { return bits_ + stuff_; }
-  /// The last bit was followed by a stuff bit.
+  /// True if a stuff bit followed the last bit.
   constexpr bool just_stuffed() const { return just_stuffed_; }
 
  private:
@@ -31,11 +31,11 @@ class Wire {
   std::uint32_t stuff_ = 0;
   std::uint32_t crc_ = 0;
   std::uint32_t run_ = 0;
-  std::uint32_t last_ = 2;  // neither
+  std::uint32_t last_ = 2;  // neither 0 nor 1
   bool just_stuffed_ = false;
 };
 
-// Start of frame to the bits that follow IDE; `rtr` is the bit in RTR's or RRS's place.
+// From start of frame to the bits after IDE. `rtr` is the bit in the place of RTR or RRS.
 void arbitration(Wire& wire, const Frame& frame, unsigned rtr) {
   wire.bit(0);
   if (frame.extended) {
@@ -51,7 +51,9 @@ void arbitration(Wire& wire, const Frame& frame, unsigned rtr) {
 }
 void classic_to_data(Wire& wire, const Frame& frame) {
   arbitration(wire, frame, frame.remote ? 1 : 0);
-  wire.number(0, frame.extended ? 2 : 1);  // FDF and r0, both dominant; IDE was the first of them
+  wire.number(0, frame.extended
+                     ? 2
+                     : 1);  // FDF and r0, both dominant; for 11-bit ids IDE was the first of them
   wire.number(frame.size, 4);
   for (unsigned i = 0; !frame.remote && i < frame.size; ++i) wire.number(frame.data[i], 8);
 }
@@ -80,7 +82,7 @@ FrameBits exact_bits(const Frame& frame) {
   const std::uint8_t size = can_fd_size(frame.size);
   wire.number(can_length_code(size), 4);
   for (unsigned i = 0; i < size; ++i) wire.number(i < frame.size ? frame.data[i] : 0u, 8);
-  // A stuff bit behind the last data bit is the CRC field's fixed one.
+  // A stuff bit after the last data bit is the CRC field's fixed one.
   const std::uint32_t data = wire.all() - slow - (wire.just_stuffed() ? 1 : 0);
   const std::uint32_t fast = data + (size > 16 ? 4u + 21u + 7u : 4u + 17u + 6u);
   return frame.bit_rate_switch ? FrameBits{slow + end, fast} : FrameBits{slow + fast + end, 0};

@@ -10,8 +10,8 @@ struct Row {
   State next;
 };
 
-// CiA 402's table of transitions but for number 13, which leads from every state, and 12 and 16,
-// which depend on the quick stop option code.
+// CiA 402's transition table without 13, which starts from every state, and 12 and 16, which depend
+// on the quick stop option code.
 constexpr Row kRows[] = {
     {1, State::kNotReady, Trigger::kInitialised, State::kSwitchOnDisabled},
     {2, State::kSwitchOnDisabled, Trigger::kShutdown, State::kReadyToSwitchOn},
@@ -80,7 +80,8 @@ std::uint8_t Drive::event(Trigger trigger, std::int16_t quick_stop_option) {
 std::uint8_t Drive::connection_lost(AbortConnection option, std::int16_t quick_stop_option) {
   switch (option) {
     case AbortConnection::kFault:
-      return apply(Trigger::kFault, quick_stop_option);  // gone with the next reset: no cause stays
+      return apply(Trigger::kFault,
+                   quick_stop_option);  // no cause remains, so the next reset clears it
     case AbortConnection::kDisableVoltage:
       return apply(Trigger::kDisableVoltage, quick_stop_option);
     case AbortConnection::kQuickStop:
@@ -96,7 +97,7 @@ void EnableSequence::begin(std::uint64_t now_us) {
   since_us_ = now_us;
 }
 
-// A reset is an edge: before the next one goes a word without it. False if there were too many.
+// A reset is an edge, so a word without the bit separates two resets. False after too many resets.
 bool EnableSequence::reset_fault(std::uint64_t now_us) {
   if (word_ == kWordFaultReset) {
     if (now_us >= reset_us_ + kResetUs) word_ = kWordDisableVoltage;
@@ -130,7 +131,7 @@ EnableSequence::Result EnableSequence::update(std::uint16_t statusword, std::uin
       break;
     case State::kNotReady:
     case State::kFaultReactionActive:
-    case State::kQuickStopActive:  // leaves it in every option code
+    case State::kQuickStopActive:  // leaves this state with every option code
       word_ = kWordDisableVoltage;
       break;
   }

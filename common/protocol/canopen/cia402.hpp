@@ -1,8 +1,8 @@
 #pragma once
 #include <cstdint>
 
-/// The state machine of drives, CiA 402 (IEC 61800-7-201): what controlword (6040h) and statusword
-/// (6041h) mean, and both ends of them. Transitions have the standard's numbers.
+/// The drive state machine of CiA 402 (IEC 61800-7-201): controlword (6040h) and statusword
+/// (6041h), for drive and master. Transitions have the standard's numbers.
 namespace verp::canopen::cia402 {
 
 enum class State : std::uint8_t {
@@ -23,9 +23,9 @@ inline constexpr std::uint16_t kBitSwitchOn = 1 << 0;
 inline constexpr std::uint16_t kBitEnableVoltage = 1 << 1;
 inline constexpr std::uint16_t kBitQuickStop = 1 << 2;  ///< 0 stops
 inline constexpr std::uint16_t kBitEnableOperation = 1 << 3;
-inline constexpr std::uint16_t kBitFaultReset = 1 << 7;  ///< its rising edge counts
+inline constexpr std::uint16_t kBitFaultReset = 1 << 7;  ///< effective on its rising edge
 
-// The words that a master sends.
+// Controlwords that a master sends.
 inline constexpr std::uint16_t kWordDisableVoltage = 0x0000;
 inline constexpr std::uint16_t kWordQuickStop = 0x0002;
 inline constexpr std::uint16_t kWordShutdown = 0x0006;
@@ -33,10 +33,10 @@ inline constexpr std::uint16_t kWordSwitchOn = 0x0007;  ///< and "disable operat
 inline constexpr std::uint16_t kWordEnableOperation = 0x000F;
 inline constexpr std::uint16_t kWordFaultReset = 0x0080;
 
-// Bits of the statusword beside the state's.
+// Bits of the statusword other than the state's.
 inline constexpr std::uint16_t kVoltageEnabled = 1 << 4;
 inline constexpr std::uint16_t kWarning = 1 << 7;
-inline constexpr std::uint16_t kRemote = 1 << 9;  ///< the controlword is obeyed
+inline constexpr std::uint16_t kRemote = 1 << 9;  ///< the drive obeys the controlword
 inline constexpr std::uint16_t kInternalLimit = 1 << 11;
 inline constexpr std::uint16_t kFollowsCommand = 1 << 12;  ///< cyclic modes: the target is used
 inline constexpr std::uint16_t kFollowingError = 1 << 13;  ///< cyclic synchronous position
@@ -46,8 +46,8 @@ constexpr std::uint16_t state_bits(State state) {
   constexpr std::uint16_t kBits[kStates] = {0x00, 0x40, 0x21, 0x23, 0x27, 0x07, 0x0F, 0x08};
   return kBits[static_cast<unsigned>(state)];
 }
-/// The state that a statusword tells. Bits that are none of a state's give kNotReady, which a
-/// master waits for to end. Bit 5 (quick stop) counts only where the standard says so.
+/// The state in a statusword. Unknown bits give kNotReady, in which a master waits. Bit 5 (quick
+/// stop) counts only where the standard says so.
 constexpr State state_of(std::uint16_t statusword) {
   const unsigned low = statusword & 0x4Fu;
   if (low == 0x40) return State::kSwitchOnDisabled;
@@ -67,26 +67,27 @@ constexpr State state_of(std::uint16_t statusword) {
   }
 }
 
-/// What makes a drive change its state: a controlword's command, or an event inside it.
+/// Causes of a state change: a controlword's command or an internal event.
 enum class Trigger : std::uint8_t {
   kShutdown,
-  kSwitchOn,         ///< with operation already enabled: "disable operation"
-  kEnableOperation,  ///< without being switched on: switch on first
+  kSwitchOn,         ///< if operation is enabled: "disable operation"
+  kEnableOperation,  ///< if not switched on: switch on first
   kDisableVoltage,
   kQuickStop,
   kFaultReset,
-  kNone,         ///< a controlword that commands nothing
-  kInitialised,  ///< from here on, events
+  kNone,         ///< a controlword without a command
+  kInitialised,  ///< this and the following are events
   kQuickStopDone,
   kFault,
   kFaultReactionDone,
 };
 
-/// The command of a controlword; `previous` is the one before it. A fault reset is an edge, and
-/// goes before all else.
+/// The command of a controlword; `previous` is the one before it. A fault reset is an edge and has
+/// priority.
 constexpr Trigger command_of(std::uint16_t controlword, std::uint16_t previous) {
   if ((controlword & ~previous & kBitFaultReset) != 0) return Trigger::kFaultReset;
-  if ((controlword & kBitFaultReset) != 0) return Trigger::kNone;  // all commands have a 0 there
+  if ((controlword & kBitFaultReset) != 0)
+    return Trigger::kNone;  // every other command has a 0 there
   if ((controlword & kBitEnableVoltage) == 0) return Trigger::kDisableVoltage;
   if ((controlword & kBitQuickStop) == 0) return Trigger::kQuickStop;
   if ((controlword & kBitSwitchOn) == 0) return Trigger::kShutdown;
@@ -94,20 +95,20 @@ constexpr Trigger command_of(std::uint16_t controlword, std::uint16_t previous) 
 }
 
 struct Transition {
-  std::uint8_t number = 0;  ///< the standard's; 0: no transition
+  std::uint8_t number = 0;  ///< the standard's number; 0: no transition
   State next = State::kNotReady;
 };
-/// What a trigger does in a state. `stays_in_quick_stop`: quick stop option code 5 to 8, where the
-/// drive waits in kQuickStopActive, and may be enabled from there.
+/// Effect of a trigger in a state. `stays_in_quick_stop`: quick stop option code 5 to 8, with which
+/// the drive waits in kQuickStopActive and may be enabled again.
 Transition transition(State state, Trigger trigger, bool stays_in_quick_stop);
 
-/// Quick stop option code, object 605Ah, as far as it concerns the state.
+/// Quick stop option code, object 605Ah, as far as the state depends on it.
 constexpr bool stays_in_quick_stop(std::int16_t option) {
   return option >= 5 && option <= 8;
 }
 
-/// Abort connection option code, object 6007h: what a drive does when its master's heartbeat
-/// (1016h) is lost, or the bus.
+/// Abort connection option code, object 6007h: a drive's reaction when it loses its master's
+/// heartbeat (1016h) or the bus.
 enum class AbortConnection : std::int16_t {
   kNothing = 0,
   kFault = 1,
@@ -115,29 +116,29 @@ enum class AbortConnection : std::int16_t {
   kQuickStop = 3
 };
 
-/// The drive's end.
+/// The drive side.
 class Drive {
  public:
   State state() const { return state_; }
-  /// Torque is on.
+  /// True if torque is on.
   bool powered() const {
     return state_ == State::kOperationEnabled || state_ == State::kQuickStopActive ||
            state_ == State::kFaultReactionActive;
   }
-  /// `bits` are those beside the state's.
+  /// `bits` are the bits other than the state's.
   std::uint16_t statusword(std::uint16_t bits) const {
     return static_cast<std::uint16_t>((bits & ~0x6F) | state_bits(state_));
   }
 
-  /// A controlword that arrived; call for each, changed or not: 000Fh in kReadyToSwitchOn switches
-  /// on first and enables with the next one. Returns the transition's number, 0 for none.
+  /// Takes a controlword. Call it for each one, changed or not: 000Fh in kReadyToSwitchOn first
+  /// switches on and the next one enables. Returns the transition's number, 0 for none.
   std::uint8_t control(std::uint16_t controlword, std::int16_t quick_stop_option);
-  /// Something happened inside: kInitialised, kQuickStopDone, kFault or kFaultReactionDone. A fault
+  /// Takes an internal event: kInitialised, kQuickStopDone, kFault or kFaultReactionDone. A fault
   /// cannot be reset before clear_fault().
   std::uint8_t event(Trigger trigger, std::int16_t quick_stop_option);
-  /// The cause of the fault is gone.
+  /// Call when the fault's cause is gone.
   void clear_fault() { fault_present_ = false; }
-  /// The connection to the master is lost.
+  /// Call when the connection to the master is lost.
   std::uint8_t connection_lost(AbortConnection option, std::int16_t quick_stop_option);
 
  private:
@@ -147,7 +148,7 @@ class Drive {
   bool fault_present_ = false;
 };
 
-/// The master's end: brings one drive to operation enabled, from any state, and tells if it can't.
+/// The master side: brings one drive to operation enabled from any state, or reports failure.
 class EnableSequence {
  public:
   enum class Result : std::uint8_t {
@@ -161,11 +162,11 @@ class EnableSequence {
   static constexpr std::uint8_t kMaxResets = 3;
 
   void begin(std::uint64_t now_us);
-  /// Takes the drive's statusword; word() is the controlword to send then. A drive that leaves
-  /// operation after kEnabled is not brought back unasked: begin() again.
+  /// Takes the drive's statusword; word() is then the controlword to send. A drive that leaves
+  /// operation after kEnabled stays there until begin().
   Result update(std::uint16_t statusword, std::uint64_t now_us);
   std::uint16_t word() const { return word_; }
-  /// As the last statusword had it.
+  /// From the last statusword.
   State state() const { return state_; }
   Result result() const { return result_; }
 

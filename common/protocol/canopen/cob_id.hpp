@@ -1,8 +1,8 @@
 #pragma once
 #include <cstdint>
 
-/// Which identifier carries what: the generic pre-defined connection set of CiA 301. An identifier
-/// is a function code (four bits) and a node id (seven bits).
+/// Identifiers of services: the generic pre-defined connection set of CiA 301. An identifier is a
+/// function code (four bits) and a node id (seven bits).
 namespace verp::canopen {
 
 inline constexpr std::uint8_t kMaxNode = 127;
@@ -19,15 +19,15 @@ inline constexpr std::uint16_t kTimeId = 0x100;
 constexpr std::uint16_t emcy_id(std::uint8_t node) {
   return static_cast<std::uint16_t>(0x080 + node);
 }
-/// TPDO `number` 1 to 4 of a device: what it sends.
+/// TPDO `number` 1 to 4, which the device sends.
 constexpr std::uint16_t tpdo_id(unsigned number, std::uint8_t node) {
   return static_cast<std::uint16_t>(0x080 + 0x100 * number + node);
 }
-/// RPDO `number` 1 to 4 of a device: what it receives.
+/// RPDO `number` 1 to 4, which the device receives.
 constexpr std::uint16_t rpdo_id(unsigned number, std::uint8_t node) {
   return static_cast<std::uint16_t>(0x100 + 0x100 * number + node);
 }
-/// From the server, which is the device.
+/// From the server (the device).
 constexpr std::uint16_t sdo_response_id(std::uint8_t node) {
   return static_cast<std::uint16_t>(0x580 + node);
 }
@@ -35,19 +35,19 @@ constexpr std::uint16_t sdo_response_id(std::uint8_t node) {
 constexpr std::uint16_t sdo_request_id(std::uint8_t node) {
   return static_cast<std::uint16_t>(0x600 + node);
 }
-/// The two identifiers of an SDO channel: to the server, and from it.
+/// The two identifiers of an SDO channel: to and from the server.
 struct SdoChannel {
   std::uint16_t request = 0;
   std::uint16_t response = 0;
   constexpr bool operator==(const SdoChannel&) const = default;
 };
-/// A node's own, which 1200h tells of.
+/// A node's default channel, described by 1200h.
 constexpr SdoChannel default_sdo(std::uint8_t node) {
   return {sdo_request_id(node), sdo_response_id(node)};
 }
-/// Channel `number`, from 1, that 1201h and the following tell of, of the one node on a bus that
-/// has any: two clients of one channel would take each other's answers. In the predefined set
-/// nobody has these identifiers.
+/// Further channel `number`, from 1, described by 1201h and on. Two clients of one channel would
+/// take each other's answers. Only one node on a bus may have further channels; the predefined set
+/// does not use these identifiers.
 constexpr SdoChannel further_sdo(unsigned number) {
   return {static_cast<std::uint16_t>(0x6D0 + number), static_cast<std::uint16_t>(0x6C0 + number)};
 }
@@ -56,7 +56,7 @@ constexpr std::uint16_t heartbeat_id(std::uint8_t node) {
 }
 
 enum class Service : std::uint8_t {
-  kOther,  ///< no identifier of the set
+  kOther,  ///< not an identifier of the set
   kNmt,
   kSync,
   kTime,
@@ -71,11 +71,11 @@ enum class Service : std::uint8_t {
 struct Connection {
   Service service = Service::kOther;
   std::uint8_t node = 0;    ///< 0 for services without one
-  std::uint8_t number = 0;  ///< of a PDO: 1 to 4
+  std::uint8_t number = 0;  ///< of a PDO, 1 to 4
   constexpr bool operator==(const Connection&) const = default;
 };
 
-/// What an 11-bit identifier carries while no device has been configured otherwise.
+/// The service of an 11-bit identifier under the default configuration.
 constexpr Connection connection_of(std::uint32_t id) {
   if (id == kNmtId) return {Service::kNmt};
   if (id == kSyncId) return {Service::kSync};
@@ -94,7 +94,7 @@ constexpr Connection connection_of(std::uint32_t id) {
   return {};
 }
 
-/// Identifiers that no configurable service (SYNC, EMCY, PDO ...) may be given: CiA 301's list.
+/// Identifiers that configurable services (SYNC, EMCY, PDO ...) must not use: CiA 301's list.
 constexpr bool is_restricted(std::uint32_t id) {
   return id <= 0x07F || (id >= 0x101 && id <= 0x180) || (id >= 0x581 && id <= 0x5FF) ||
          (id >= 0x601 && id <= 0x67F) || (id >= 0x6E0 && id <= 0x6FF) || id >= 0x701;

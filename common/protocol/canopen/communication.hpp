@@ -7,11 +7,11 @@
 #include "common/protocol/canopen/pdo_record.hpp"
 #include "common/protocol/canopen/sync.hpp"
 
-/// The communication objects of a device, 1000h to 1FFFh (CiA 301), in front of its application's
-/// own.
+/// A device's communication objects, 1000h to 1FFFh (CiA 301), in front of its application's
+/// objects.
 namespace verp::canopen {
 
-/// What a device tells of itself. The text outlives it.
+/// Identity of a device. The text must outlive it.
 struct Identity {
   std::uint32_t device_type = 0;  ///< 1000h: 00020192h is a CiA 402 servo drive
   const char* name = "";          ///< 1008h
@@ -21,8 +21,8 @@ struct Identity {
   std::uint32_t serial = 0;
 };
 
-/// What a device's application adds to a Dictionary: its objects in PDOs.
-///  - mappable(at, bits, receive): kNone if the object may stand in an RPDO (TPDO).
+/// What an application adds to Dictionary so that PDOs can map its objects.
+///  - mappable(at, bits, receive): kNone if an RPDO (TPDO) may map the object.
 ///  - get(at, bits), put(at, bits, value): a mapped object's value, low bits.
 template <class A>
 concept Application = Dictionary<A> &&
@@ -32,20 +32,20 @@ concept Application = Dictionary<A> &&
   { application.put(at, bits, value) } -> std::same_as<void>;
 };
 
-/// How many of each a device has.
+/// Numbers of each kind in a device.
 struct DeviceSize {
   std::size_t rpdos = 1;
   std::size_t tpdos = 1;
-  std::size_t entries = 8;  ///< of a mapping: 8 are a classic frame's bytes
-  std::size_t watched = 1;  ///< nodes that 1016h can watch
-  bool beats = true;        ///< false: somebody else sends its heartbeat, and 1017h is read-only
-  bool falls_back = true;   ///< 1029h; false: no error takes it out of operational
-  bool stores = false;      ///< 1010h and 1011h
-  std::size_t further_sdos = 0;  ///< channels beside the default one: 1201h and on
+  std::size_t entries = 8;  ///< of a mapping: a classic frame has 8 bytes
+  std::size_t watched = 1;  ///< nodes in 1016h
+  bool beats = true;       ///< false: another sender produces its heartbeat, and 1017h is read-only
+  bool falls_back = true;  ///< 1029h; false: the node stays operational after errors
+  bool stores = false;     ///< 1010h and 1011h
+  std::size_t further_sdos = 0;  ///< channels besides the default one: 1201h and on
 };
 inline constexpr std::size_t kErrorHistory = 4;
 
-/// What 1010h:1 and 1011h:1 order. Defaults are in force from the next reset on.
+/// Orders by 1010h:1 and 1011h:1. Defaults take effect at the next reset.
 enum class StoreOrder : std::uint8_t { kNone, kStore, kRestore };
 inline constexpr std::uint32_t kSaveSignature = 0x65766173;  ///< "save"
 inline constexpr std::uint32_t kLoadSignature = 0x64616F6C;  ///< "load"
@@ -128,13 +128,13 @@ class CommunicationObjects {
     return application_.write_done(at, size);
   }
 
-  /// What was ordered since the last call, once.
+  /// Returns and clears the last order.
   StoreOrder take_store_order() {
     const StoreOrder order = order_;
     order_ = StoreOrder::kNone;
     return order;
   }
-  /// What 1010h stores of them, out of those that were stored.
+  /// Restores from `stored` what 1010h stores.
   void restore(const CommunicationObjects& stored) {
     for (std::size_t i = 0; i < kSize.rpdos; ++i) rpdos[i] = stored.rpdos[i];
     for (std::size_t i = 0; i < kSize.tpdos; ++i) tpdos[i] = stored.tpdos[i];
@@ -144,7 +144,7 @@ class CommunicationObjects {
     error_behaviour = stored.error_behaviour;
   }
 
-  // Set freely before a device starts: its defaults. Then they are the bus's to change.
+  // The application sets defaults here before the device starts; then the bus changes them.
   Record rpdos[kSize.rpdos];
   Record tpdos[kSize.tpdos];
   HeartbeatProducer producer;
@@ -155,7 +155,7 @@ class CommunicationObjects {
   ErrorBehaviour error_behaviour = ErrorBehaviour::kPreOperational;
 
  private:
-  /// The first four have their identifiers from the predefined set; all wait to be configured.
+  /// The first four have the predefined identifiers. All are off until configured.
   static Record off(Direction direction, std::size_t number, std::uint16_t id) {
     return {direction, number < kPdosOfSet ? id | kPdoInvalid : kPdoInvalid, kEventProfile, {}};
   }
@@ -247,8 +247,8 @@ class CommunicationObjects {
     number = {static_cast<std::uint8_t>(at.subindex == 0 ? 1 : 4), false, values[at.subindex]};
     return Abort::kNone;
   }
-  /// The record that an index belongs to; null if there is none. 200h indices each: RPDOs'
-  /// communication and mapping, TPDOs' communication and mapping.
+  /// The record of an index; null if there is none. 200h indices each: communication and mapping of
+  /// RPDOs, then of TPDOs.
   const Record* record(std::uint16_t index) const {
     if (index < 0x1400 || index >= 0x1C00) return nullptr;
     const std::size_t number = index & 0x1FFu;

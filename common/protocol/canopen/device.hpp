@@ -7,17 +7,18 @@
 
 /// A whole CANopen device: the services of CiA 301 around an application's objects.
 ///
-///  - receive() takes each frame of the bus, next() gives a frame to send until there is none;
-///    neither waits. Call next() after each receive() and now and then: heartbeats are due by time.
-///  - What the application must know comes back as DeviceEvents.
-///  - PDOs pass in NMT state operational only; SDO, SYNC and EMCY in pre-operational, too.
+///  - receive() takes each frame of the bus, next() returns frames to send until there are none;
+///    neither waits. Call next() after each receive() and regularly, because heartbeats are due by
+///    time.
+///  - DeviceEvents report what the application must know.
+///  - PDOs pass only in NMT state operational; SDO, SYNC and EMCY also in pre-operational.
 namespace verp::canopen {
 
 struct DeviceEvents {
   NmtEvent nmt = NmtEvent::kNone;
-  bool sync = false;         ///< a SYNC; synchronous RPDOs have taken effect, TPDOs are made
+  bool sync = false;         ///< a SYNC: synchronous RPDOs have taken effect and TPDOs are made
   std::uint8_t counter = 0;  ///< of that SYNC
-  bool put = false;          ///< an RPDO has written objects
+  bool put = false;          ///< an RPDO wrote objects
 };
 
 template <Application A, DeviceSize kSize = DeviceSize{}>
@@ -32,12 +33,12 @@ class Device {
         nmt_(node),
         servers_(objects_, node) {}
 
-  /// Its communication objects, for the defaults.
+  /// The communication objects, for setting defaults.
   Objects& objects() { return objects_; }
   NmtState state() const { return nmt_.state(); }
 
-  /// Starts, and again after a reset: the boot-up message is due, then it is pre-operational. Who
-  /// resets it has set the objects to their defaults before.
+  /// Starts the device, also after a reset: sends the boot-up message and becomes pre-operational.
+  /// Before a restart the caller sets the objects to their defaults.
   void start() {
     servers_.reset();
     leave_operational();
@@ -70,7 +71,7 @@ class Device {
     return events;
   }
 
-  /// The next frame to send, if there is one.
+  /// Returns the next frame to send; false if there is none.
   bool next(Frame& frame, std::uint64_t now_us) {
     if (kSize.beats && objects_.producer.next(now_us, nmt_.state(), frame)) return true;
     if (!may_sdo(nmt_.state())) return false;
@@ -83,13 +84,13 @@ class Device {
     return next_tpdo(frame, now_us) || servers_.next(frame, now_us);
   }
 
-  /// TPDO `which` (from 0) has something new: an event-driven one goes out when its inhibit time
-  /// allows, an acyclic one with the next SYNC.
+  /// Reports new data in TPDO `which` (from 0). An event-driven one is sent after its inhibit time,
+  /// an acyclic one with the next SYNC.
   void trigger(std::size_t which) {
     if (which < kSize.tpdos) sending_[which].event = true;
   }
-  /// TPDO `which` (from 0) alone, if it is due: for one whose objects change more than once before
-  /// next() would come to it.
+  /// Returns TPDO `which` (from 0) if it is due. For a TPDO whose objects change more than once
+  /// before next() would reach it.
   bool next_pdo(std::size_t which, Frame& frame, std::uint64_t now_us) {
     if (which >= kSize.tpdos || !may_pdo(nmt_.state()) || !objects_.tpdos[which].on()) return false;
     const auto& record = objects_.tpdos[which];
@@ -106,31 +107,29 @@ class Device {
     make(which, frame);
     return true;
   }
-  /// An error: its EMCY goes out, and 1001h and 1003h have it. Of more than kErrorHistory that
-  /// wait, the later ones are in 1003h only. Code 0 (errors are gone) leaves no trace there.
-  /// `error_register` is the application's part of 1001h; what is wrong with the communication is
-  /// added.
+  /// Reports an error by EMCY, 1001h and 1003h. If more than kErrorHistory wait, the later ones are
+  /// only in 1003h. Code 0 (no error) leaves no entry there. `error_register` is the application's
+  /// part of 1001h; communication errors are added.
   void report(ErrorCode code, std::uint8_t error_register) {
     hold_error(code, error_register);
     tell(code);
   }
-  /// The application has an error of which an EMCY tells already.
+  /// Sets the application's error without sending an EMCY, if one has been sent already.
   void hold_error(ErrorCode code, std::uint8_t error_register) {
     application_code_ = code;
     application_errors_ =
         code == ErrorCode::kNoError ? error_register : error_register | kErrorGeneric;
     show_errors();
   }
-  /// What is wrong now, as long as 1001h says that something is: the application's trouble before
-  /// the communication's.
+  /// The present error while 1001h is set. The application's comes before the communication's.
   ErrorCode standing_error() const {
     if (application_errors_ != 0) return application_code_;
     if ((standing_ & kMasterSilent) != 0) return ErrorCode::kHeartbeatLost;
     if ((standing_ & kSyncOdd) != 0) return ErrorCode::kSyncLength;
     return (standing_ & kPdoOdd) != 0 ? pdo_code_ : ErrorCode::kNoError;
   }
-  /// Finds a watched node (1016h) that has fallen silent, reports it and does what 1029h says;
-  /// false if there is none.
+  /// Finds a watched node (1016h) that fell silent, reports it and acts by 1029h. False if there is
+  /// none.
   bool heartbeat_lost(std::uint64_t now_us) {
     std::uint8_t subindex = 0;
     if (!objects_.consumer.next_lost(now_us, subindex)) return false;
@@ -145,7 +144,7 @@ class Device {
  private:
   struct Sending {
     SyncSchedule schedule;
-    std::uint8_t times_on = 0;  ///< of its record, when the schedule began
+    std::uint8_t times_on = 0;  ///< PdoRecord::times_on() when the schedule began
     bool event = false;
     bool due = false;  ///< a SYNC has made `frame`
     Frame frame;
@@ -153,7 +152,7 @@ class Device {
     bool sent = false;
   };
 
-  /// What may be wrong with the communication.
+  /// Communication errors.
   enum Cause : std::uint8_t { kSyncOdd = 1, kPdoOdd = 2, kMasterSilent = 4 };
   void show_errors() {
     std::uint8_t all = application_errors_;
@@ -168,8 +167,8 @@ class Device {
       queue_[emergencies_++] = {node_, number, objects_.error_register, {}};
     }
   }
-  // One EMCY when it begins and one when it is over (CiA 301): a wrong SYNC comes a hundred times a
-  // second.
+  // One EMCY at the start and one at the end of an error (CiA 301): a wrong SYNC may come a hundred
+  // times a second.
   void complain(Cause cause, ErrorCode code) {
     if ((standing_ & cause) != 0) return;
     standing_ |= cause;
@@ -202,7 +201,7 @@ class Device {
       }
       each.event = false;
       each.due = true;
-      make(i, each.frame);  // what was true at the SYNC, whenever it goes out
+      make(i, each.frame);  // values at the SYNC, whenever it is sent
     }
     Frame applied;
     for (std::size_t i = 0; i < kSize.rpdos; ++i) {
@@ -243,8 +242,8 @@ class Device {
     }
     return false;
   }
-  /// An event-driven TPDO goes out after an event or when its timer is over, but never before its
-  /// inhibit time is.
+  /// An event-driven TPDO is due after an event or its event timer, but never within its inhibit
+  /// time.
   static bool event_due(const PdoRecord<kSize.entries>& record, const Sending& each,
                         std::uint64_t now_us) {
     const std::uint64_t timer_us = std::uint64_t{record.event_timer_ms()} * 1000;
@@ -263,10 +262,10 @@ class Device {
   RpdoLatch latches_[kSize.rpdos];
   Emergency queue_[kErrorHistory + 1];
   std::size_t emergencies_ = 0;
-  std::uint8_t standing_ = 0;            ///< Causes
-  std::uint8_t application_errors_ = 0;  ///< its part of 1001h
+  std::uint8_t standing_ = 0;            ///< Cause bits
+  std::uint8_t application_errors_ = 0;  ///< the application's part of 1001h
   ErrorCode application_code_ = ErrorCode::kNoError;
-  ErrorCode pdo_code_ = ErrorCode::kNoError;  ///< of the PDO that had the wrong length
+  ErrorCode pdo_code_ = ErrorCode::kNoError;  ///< of the last PDO with a wrong length
 };
 
 }  // namespace verp::canopen

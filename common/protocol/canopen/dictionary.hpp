@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 
-/// The object dictionary as SDO and PDO see it, and why an access to it may be refused.
+/// The object dictionary that SDO and PDO access, and the reasons for refusing an access.
 namespace verp::canopen {
 
 /// SDO abort codes, CiA 301's table.
@@ -42,7 +42,7 @@ enum class Abort : std::uint32_t {
   kNoData = 0x08000024,
 };
 
-/// The abort's short name for a person, "unknown abort code" for one not in the table.
+/// Short English name of the abort; "unknown abort code" if it is not in the table.
 const char* abort_text(Abort abort);
 
 struct Address {
@@ -51,22 +51,22 @@ struct Address {
   constexpr bool operator==(const Address&) const = default;
 };
 
-/// What stands at an address.
+/// Properties of an object.
 struct Entry {
   bool readable = false;
   bool writable = false;
-  std::uint32_t size = 0;      ///< bytes that a read gives now
-  std::uint32_t min_size = 0;  ///< bytes that a write may bring
+  std::uint32_t size = 0;      ///< bytes that a read returns now
+  std::uint32_t min_size = 0;  ///< bytes that a write may have
   std::uint32_t max_size = 0;
 };
 
 /// Promises of a dictionary:
 ///  - find(at, entry): kNone and the entry, or kNoObject, kNoSubindex.
-///  - read(at, offset, buffer, size): copies bytes [offset, offset + size) of the object, little-
-///    endian, or says why not. Objects up to the server's buffer are read in one call, so they may
-///    change at any time; larger ones are read in pieces, and must not change meanwhile.
-///  - write(at, data, size): the whole new value, within the entry's sizes; done or refused, never
-///    half done.
+///  - read(at, offset, buffer, size): copies bytes [offset, offset + size) of the object,
+///    little-endian, or returns an error. One call reads objects up to the server's buffer, so
+///    those may change at any time. Larger ones are read in pieces and must not change meanwhile.
+///  - write(at, data, size): the whole new value, within the entry's sizes; applied or refused,
+///    never partly applied.
 /// None of them waits or allocates.
 template <class D>
 concept Dictionary = requires(D& dictionary, Address at, Entry& entry, std::uint32_t offset,
@@ -76,11 +76,11 @@ concept Dictionary = requires(D& dictionary, Address at, Entry& entry, std::uint
   { dictionary.write(at, data, size) } -> std::same_as<Abort>;
 };
 
-/// A dictionary with writable objects that exceed the server's buffer (an image, an action):
-///  - write_part(at, offset, data, size): the next bytes; an offset of 0 begins anew and forgets
-///    what an abandoned transfer left. They take no effect yet.
-///  - write_done(at, size): all bytes are there, and checked if the transfer had a check: take
-///    effect or refuse.
+/// A dictionary with writable objects larger than the server's buffer (an image, an action):
+///  - write_part(at, offset, data, size): the next bytes, not yet in effect. Offset 0 starts over
+///    and discards an abandoned transfer.
+///  - write_done(at, size): all bytes have arrived, and passed the transfer's check if it had one.
+///    Apply or refuse.
 template <class D>
 concept StreamingDictionary = Dictionary<D> &&
     requires(D& dictionary, Address at, std::uint32_t offset, const std::uint8_t* data,

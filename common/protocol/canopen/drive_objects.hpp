@@ -4,13 +4,13 @@
 
 #include "common/protocol/canopen/dictionary.hpp"
 
-/// The objects of a CiA 402 drive in cyclic synchronous position mode: the one list from which a
-/// virtual drive's dictionary, a master's mapping and a description for tools follow. Positions are
-/// increments of the encoder (608Fh of them are a turn), speeds increments per second, torques
-/// thousandths of the rated one (6076h).
+/// Objects of a CiA 402 drive in cyclic synchronous position mode: the one source of a virtual
+/// drive's dictionary, a master's mapping and a description for tools. Positions are encoder
+/// increments (608Fh gives increments per turn), speeds increments per second, torques thousandths
+/// of the rated torque (6076h).
 namespace verp::canopen::cia402 {
 
-/// Modes of operation (6060h) that are used here.
+/// The modes of operation (6060h) in use.
 inline constexpr std::int8_t kModeNone = 0;
 inline constexpr std::int8_t kModeCyclicPosition = 8;
 /// Supported drive modes (6502h): bit n - 1 for mode n.
@@ -47,20 +47,20 @@ inline constexpr Address kPeriodExponent{0x60C2, 2};
 inline constexpr Address kSupportedModes{0x6502, 0};
 }  // namespace object
 
-/// A drive's values. Defaults are CiA 402's where it has them.
+/// A drive's values. Defaults are CiA 402's, if it has any.
 struct DriveObjects {
   std::int32_t target_position = 0;
   std::int32_t actual_position = 0;
   std::int32_t actual_velocity = 0;
-  std::int32_t home_offset = 0;  ///< the encoder's position at which the application's zero is
+  std::int32_t home_offset = 0;  ///< encoder position of the application's zero
   std::int32_t min_position = INT32_MIN;
   std::int32_t max_position = INT32_MAX;
-  std::uint32_t following_window = UINT32_MAX;  ///< UINT32_MAX: not watched
+  std::uint32_t following_window = UINT32_MAX;  ///< UINT32_MAX: no check
   std::uint32_t supported_modes = kSupportedCyclicPosition;
   std::uint32_t dc_link_mv = 0;
   std::uint32_t rated_current_ma = 0;
   std::uint32_t rated_torque_mn_m = 0;
-  std::uint32_t encoder_increments = 0;  ///< in so many turns of the joint:
+  std::uint32_t encoder_increments = 0;  ///< per encoder_turns turns of the joint
   std::uint32_t encoder_turns = 1;
   std::uint16_t controlword = 0;
   std::uint16_t statusword = 0;
@@ -86,35 +86,36 @@ struct ObjectRow {
   bool is_signed;
   ObjectAccess access;
   ObjectMapping mapping;
-  std::uint16_t place;  ///< of the value in DriveObjects
+  std::uint16_t place;  ///< offset of the value in DriveObjects
 };
 
 extern const ObjectRow kDriveRows[];
 extern const std::size_t kDriveRowCount;
 
-/// The row at an address; null if there is none. Subindex 0 of an object with several is not a row.
+/// The row of an address; null if there is none. Subindex 0 of an object with several subindices
+/// has no row.
 const ObjectRow* find_row(Address at);
-/// How many subindices an object with several has, 0 for any other: what its subindex 0 gives.
+/// Number of subindices of an object with several, 0 for others: the value of its subindex 0.
 std::uint8_t highest_subindex(std::uint16_t index);
 
-/// For a Dictionary: what stands at an address of a drive, and its value.
+/// For a Dictionary: entry and value of a drive's object.
 Abort find_object(Address at, Entry& entry);
 Abort read_object(const DriveObjects& objects, Address at, std::uint8_t* buffer);
-/// Checks the value as far as it depends on no state: a mode that is not supported, a period of 0
-/// or an unknown option code is refused.
+/// Checks what does not depend on the state: refuses an unsupported mode, a period of 0 and unknown
+/// option codes.
 Abort write_object(DriveObjects& objects, Address at, const std::uint8_t* data);
-/// kNone if the object may stand in a PDO of the device with that length.
+/// Returns kNone if a PDO of the device may map the object with that length.
 Abort check_mappable(Address at, std::uint8_t bits, bool receive);
 
-/// Interpolation time period (60C2h): value times ten to the exponent seconds, in microseconds; 0
-/// if it is none or takes over a minute.
+/// Interpolation time period (60C2h) in microseconds: value times ten to the exponent seconds. 0 if
+/// invalid or over a minute.
 std::uint32_t interpolation_period_us(std::uint8_t value, std::int8_t exponent);
 
-/// Watches the distance of target and actual position (6065h and 6066h).
+/// Monitors the distance between target and actual position (6065h and 6066h).
 class FollowingMonitor {
  public:
-  /// Call each cycle while the drive follows its target; true when the distance has exceeded the
-  /// window for the time allowed.
+  /// Call each cycle while the drive follows its target. True if the distance has exceeded the
+  /// window for longer than allowed.
   bool update(const DriveObjects& objects, std::uint64_t now_us);
   void reset() { outside_ = false; }
 

@@ -11,19 +11,19 @@ namespace verp::canopen {
 
 /// Error codes that this project sends or knows.
 enum class ErrorCode : std::uint16_t {
-  kNoError = 0x0000,  ///< "error reset": one or all are gone, as the error register says
+  kNoError = 0x0000,  ///< "error reset": one or all errors are gone, see the error register
   kGeneric = 0x1000,
   kOverCurrent = 0x2310,
   kUnderVoltage = 0x3220,
   kOverVoltage = 0x3210,
   kOverTemperature = 0x4310,
-  kCommunication = 0x8100,  ///< any other trouble with it: NMT has stopped the node
+  kCommunication = 0x8100,  ///< another communication error; NMT has stopped the node
   kCanOverrun = 0x8110,
   kErrorPassive = 0x8120,
   kHeartbeatLost = 0x8130,
   kBusOffRecovered = 0x8140,
-  kPdoTooShort = 0x8210,  ///< not processed
-  kPdoTooLong = 0x8220,   ///< processed
+  kPdoTooShort = 0x8210,  ///< PDO not processed
+  kPdoTooLong = 0x8220,   ///< PDO processed
   kSyncLength = 0x8240,
   kFollowingError = 0x8611,
 };
@@ -50,7 +50,7 @@ constexpr Frame encode_emcy(const Emergency& emergency) {
   for (unsigned i = 0; i < 5; ++i) frame.data[3 + i] = emergency.manufacturer[i];
   return frame;
 }
-/// False if the frame is no EMCY.
+/// False if the frame is not an EMCY.
 constexpr bool decode_emcy(const Frame& frame, Emergency& emergency) {
   if (!is_canopen(frame) || frame.size != 8) return false;
   const Connection connection = connection_of(frame.id);
@@ -79,7 +79,7 @@ class ErrorHistory {
     value = subindex == 0 ? count_ : errors_[subindex - 1];
     return Abort::kNone;
   }
-  /// Only subindex 0 can be written, and only with 0: it forgets all errors.
+  /// Only subindex 0 is writable, and only with 0: clears all errors.
   constexpr Abort write(std::uint8_t subindex, std::uint32_t value) {
     if (subindex > kEntries) return Abort::kNoSubindex;
     if (subindex != 0) return Abort::kReadOnly;

@@ -3,7 +3,7 @@
 
 #include "common/base/can_frame.hpp"
 
-/// What CANopen makes of a CAN frame: little-endian numbers, classic data frames.
+/// CANopen's use of CAN frames: little-endian numbers in classic data frames.
 namespace verp::canopen {
 
 using Frame = CanFrame;
@@ -27,8 +27,8 @@ constexpr Frame classic_frame(std::uint32_t id, std::uint8_t size) {
   return frame;
 }
 
-/// CANopen services are classic data frames with 11-bit identifiers; all else is another
-/// protocol's.
+/// CANopen services are classic data frames with 11-bit identifiers; other frames belong to other
+/// protocols.
 constexpr bool is_canopen(const Frame& frame) {
   return !frame.extended && !frame.remote && !frame.fd;
 }

@@ -6,12 +6,12 @@
 #include "common/protocol/canopen/dictionary.hpp"
 #include "common/protocol/canopen/frame.hpp"
 
-/// Network management and heartbeat, both ends (CiA 301). Times are bus time in microseconds.
+/// Network management and heartbeat, both sides (CiA 301). Times are bus time in microseconds.
 namespace verp::canopen {
 
-/// As a heartbeat carries them.
+/// Values as in a heartbeat.
 enum class NmtState : std::uint8_t {
-  kInitialising = 0,  ///< in a heartbeat's place: the boot-up message
+  kInitialising = 0,  ///< in a heartbeat: the boot-up message
   kStopped = 4,
   kOperational = 5,
   kPreOperational = 127,
@@ -25,7 +25,7 @@ enum class NmtCommand : std::uint8_t {
   kResetCommunication = 130,
 };
 
-/// Node 0 is all nodes.
+/// Node 0 addresses all nodes.
 constexpr Frame nmt_frame(NmtCommand command, std::uint8_t node) {
   Frame frame = classic_frame(kNmtId, 2);
   frame.data[0] = static_cast<std::uint8_t>(command);
@@ -36,28 +36,28 @@ constexpr Frame nmt_frame(NmtCommand command, std::uint8_t node) {
 constexpr bool may_pdo(NmtState state) {
   return state == NmtState::kOperational;
 }
-/// SDO, SYNC and EMCY.
+/// For SDO, SYNC and EMCY.
 constexpr bool may_sdo(NmtState state) {
   return state == NmtState::kOperational || state == NmtState::kPreOperational;
 }
 
-/// Object 1029h:1: what an operational node does when its communication fails.
+/// Object 1029h:1: reaction of an operational node to a communication error.
 enum class ErrorBehaviour : std::uint8_t { kPreOperational = 0, kStay = 1, kStop = 2 };
 
 enum class NmtEvent : std::uint8_t { kNone, kState, kResetNode, kResetCommunication };
 
-/// The device's end: its NMT state.
+/// NMT state of a device.
 class NmtSlave {
  public:
   constexpr explicit NmtSlave(std::uint8_t node) : node_(node) {}
 
   constexpr NmtState state() const { return state_; }
-  /// Initialisation is over: from now on the node is pre-operational. Its boot-up message is the
-  /// HeartbeatProducer's first.
+  /// Ends initialisation: the node is pre-operational. HeartbeatProducer sends the boot-up message
+  /// first.
   constexpr void initialised() {
     if (state_ == NmtState::kInitialising) state_ = NmtState::kPreOperational;
   }
-  /// Something is wrong with the communication: an operational node leaves that state (1029h).
+  /// Communication error: an operational node leaves that state (1029h).
   constexpr NmtEvent fall_back(ErrorBehaviour behaviour) {
     if (state_ != NmtState::kOperational || behaviour == ErrorBehaviour::kStay) {
       return NmtEvent::kNone;
@@ -65,8 +65,8 @@ class NmtSlave {
     return enter(behaviour == ErrorBehaviour::kStop ? NmtState::kStopped
                                                     : NmtState::kPreOperational);
   }
-  /// What a frame means for this node. After a reset the node is initialising again, and calls
-  /// initialised() when it is through.
+  /// Applies a frame to this node. After a reset the node initialises again and then calls
+  /// initialised().
   constexpr NmtEvent receive(const Frame& frame) {
     if (!is_canopen(frame) || frame.id != kNmtId || frame.size != 2) return NmtEvent::kNone;
     if (frame.data[1] != 0 && frame.data[1] != node_) return NmtEvent::kNone;
@@ -103,7 +103,7 @@ constexpr Frame heartbeat_frame(std::uint8_t node, NmtState state) {
   frame.data[0] = static_cast<std::uint8_t>(state);
   return frame;
 }
-/// False if the frame is no heartbeat.
+/// False if the frame is not a heartbeat.
 constexpr bool decode_heartbeat(const Frame& frame, std::uint8_t& node, NmtState& state) {
   if (!is_canopen(frame) || frame.size != 1) return false;
   const Connection connection = connection_of(frame.id);
@@ -114,22 +114,21 @@ constexpr bool decode_heartbeat(const Frame& frame, std::uint8_t& node, NmtState
 }
 
 /// Sends the boot-up message once after each initialisation, then a heartbeat every 1017h
-/// milliseconds (0: none). A late caller skips the periods it missed: heartbeats never come in
-/// bursts.
+/// milliseconds (0: none). A late caller skips missed periods, so heartbeats never come in bursts.
 class HeartbeatProducer {
  public:
   constexpr explicit HeartbeatProducer(std::uint8_t node) : node_(node) {}
 
-  /// Object 1017h. A new period begins at once.
+  /// Object 1017h. Starts a new period at once.
   constexpr void set_period_ms(std::uint16_t period_ms) {
     period_ms_ = period_ms;
     due_us_ = 0;
   }
   constexpr std::uint16_t period_ms() const { return period_ms_; }
-  /// The node has been initialised again: the boot-up message is due.
+  /// Makes the boot-up message due again, after a new initialisation.
   constexpr void restart() { booted_ = false; }
 
-  /// The frame that is due, if one is.
+  /// Returns a due frame; false if none is.
   constexpr bool next(std::uint64_t now_us, NmtState state, Frame& frame) {
     if (state == NmtState::kInitialising) {
       booted_ = false;
@@ -156,24 +155,24 @@ class HeartbeatProducer {
 };
 
 enum class Life : std::uint8_t {
-  kUnused,   ///< nobody is watched here
-  kUnknown,  ///< no heartbeat yet, or a boot-up message since: not watched so far
+  kUnused,   ///< entry not used
+  kUnknown,  ///< no heartbeat yet, or none since a boot-up message: not watched so far
   kAlive,
   kLost,
 };
 enum class LifeEvent : std::uint8_t {
   kNone,
-  kBooted,  ///< a boot-up message: the node has just started, or has rebooted
-  kAlive,   ///< its first heartbeat, or the first one after it was lost
-  kState,   ///< its NMT state has changed
+  kBooted,  ///< a boot-up message: the node has just started or restarted
+  kAlive,   ///< first heartbeat, or first after a loss
+  kState,   ///< the NMT state changed
 };
 
-/// Object 1016h with kNodes entries: who is watched, and for how long each may be silent.
+/// Object 1016h with kNodes entries: watched nodes and the silence allowed to each.
 template <std::size_t kNodes>
 class HeartbeatConsumer {
  public:
   /// Writes entry `subindex` (1 to kNodes): node id in bits 16 to 23, milliseconds below. A time or
-  /// node of 0 makes it unused. A node cannot be watched twice.
+  /// node of 0 disables the entry. A node cannot be watched twice.
   constexpr Abort write(std::uint8_t subindex, std::uint32_t value) {
     if (subindex < 1 || subindex > kNodes) return Abort::kNoSubindex;
     const auto node = static_cast<std::uint8_t>(value >> 16);
@@ -191,10 +190,10 @@ class HeartbeatConsumer {
     return entries_[subindex - 1].value;
   }
   constexpr Life life(std::uint8_t subindex) const { return entries_[subindex - 1].life; }
-  /// As the node's last heartbeat had it.
+  /// From the node's last heartbeat.
   constexpr NmtState state(std::uint8_t subindex) const { return entries_[subindex - 1].state; }
 
-  /// Takes a frame; `subindex` is the entry that an event is about.
+  /// Takes a frame. `subindex` is the entry of an event.
   constexpr LifeEvent receive(const Frame& frame, std::uint64_t now_us, std::uint8_t& subindex) {
     std::uint8_t node = 0;
     NmtState state = NmtState::kInitialising;
@@ -208,8 +207,8 @@ class HeartbeatConsumer {
     return LifeEvent::kNone;
   }
 
-  /// Finds one node that has been silent for too long and was not told of yet; false if there is
-  /// none. Call until it says so.
+  /// Finds one node that has just been silent for too long and reports it once. Call until it
+  /// returns false.
   constexpr bool next_lost(std::uint64_t now_us, std::uint8_t& subindex) {
     for (std::size_t i = 0; i < kNodes; ++i) {
       Watched& each = entries_[i];

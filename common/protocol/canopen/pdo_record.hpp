@@ -19,24 +19,23 @@ constexpr bool is_synchronous(std::uint8_t type) {
   return type <= kMaxCyclicSync;
 }
 
-inline constexpr std::uint32_t kPdoInvalid = 0x80000000;  ///< bit 31 of a PDO's COB-ID: it is off
+inline constexpr std::uint32_t kPdoInvalid = 0x80000000;  ///< bit 31 of a PDO's COB-ID: PDO off
 inline constexpr std::uint32_t kPdoNoRemote = 0x40000000;
 inline constexpr std::uint32_t kPdoExtended = 0x20000000;
 
-/// Both records of one PDO. A mapping can be changed only in CiA 301's order: PDO off, subindex 0
-/// to 0, the entries, subindex 0 to their number, PDO on. So a PDO is never sent or read by a half
-/// written mapping.
+/// Both records of one PDO. The mapping can change only in CiA 301's order: PDO off, subindex 0 to
+/// 0, the entries, subindex 0 to their number, PDO on. So no PDO uses a half-written mapping.
 template <std::size_t kEntries = 8>
 class PdoRecord {
  public:
   constexpr PdoRecord() = default;
-  /// On, with this identifier, mapping and transmission type.
+  /// On, with this identifier, type and mapping.
   constexpr PdoRecord(Direction direction, std::uint32_t id, std::uint8_t type,
                       const PdoMapping<kEntries>& mapping)
       : direction_(direction), cob_id_(id | kPdoNoRemote), type_(type), mapping_(mapping) {}
 
   constexpr bool on() const { return (cob_id_ & kPdoInvalid) == 0; }
-  /// How often it was switched on, modulo 256: each time, what counts SYNCs for it begins anew.
+  /// How often the PDO was switched on, modulo 256: each time its SYNC count restarts.
   constexpr std::uint8_t times_on() const { return times_on_; }
   constexpr std::uint16_t id() const { return static_cast<std::uint16_t>(cob_id_ & 0x7FF); }
   constexpr std::uint8_t type() const { return type_; }
@@ -45,7 +44,7 @@ class PdoRecord {
   constexpr std::uint16_t event_timer_ms() const { return event_timer_; }
   constexpr const PdoMapping<kEntries>& mapping() const { return mapping_; }
 
-  /// Subindex 0 is 5 for an RPDO, 6 for a TPDO; 4 does not exist.
+  /// Subindex 0 is 5 for an RPDO and 6 for a TPDO; 4 does not exist.
   constexpr Abort read_communication(std::uint8_t subindex, std::uint32_t& value) const {
     switch (subindex) {
       case 0:
@@ -104,8 +103,8 @@ class PdoRecord {
     value = subindex == 0 ? mapping_.count : mapping_.entries[subindex - 1].value();
     return Abort::kNone;
   }
-  /// `mappable(at, bits)` says kNone if the object may stand in this PDO with that length, or why
-  /// not. Dummies are known here, and are for RPDOs only.
+  /// `mappable(at, bits)` returns kNone if this PDO may map the object with that length, else the
+  /// reason. Dummies are handled here and allowed in RPDOs only.
   template <class Mappable>
   constexpr Abort write_mapping(std::uint8_t subindex, std::uint32_t value, Mappable&& mappable) {
     if (subindex > kEntries) return Abort::kNoSubindex;
@@ -129,7 +128,7 @@ class PdoRecord {
     if ((value & kPdoExtended) != 0 || (value & 0x1FFFF800) != 0) return Abort::kValueRange;
     const bool turned_on = (value & kPdoInvalid) == 0;
     if (turned_on && is_restricted(value & 0x7FF)) return Abort::kValueRange;
-    // Its identifier may change only while it is off.
+    // The identifier may change only while the PDO is off.
     if (turned_on && on() && (value & 0x7FF) != id()) return Abort::kValueRange;
     if (turned_on && !on()) times_on_ = static_cast<std::uint8_t>(times_on_ + 1);
     cob_id_ = value;
@@ -168,18 +167,18 @@ class PdoRecord {
   PdoMapping<kEntries> mapping_;
 };
 
-/// When a synchronous TPDO is sent: feed it with each SYNC. With a start value (and a counter in
-/// the SYNC), the SYNC that carries it is the first one to be answered; then every n-th follows. So
-/// groups of drives with different start values share the SYNCs among them.
+/// Schedule of a synchronous TPDO, fed with each SYNC. With a start value (and a counter in the
+/// SYNC), the TPDO first answers the SYNC with that counter, then every n-th. So groups of drives
+/// with different start values share the SYNCs.
 class SyncSchedule {
  public:
-  /// Begins anew: the node became operational, or the record was written.
+  /// Starts over: the node became operational or the record was written.
   constexpr void restart() {
     left_ = 0;
     started_ = false;
   }
-  /// True if a TPDO of `type` goes out after this SYNC. `counter` is 0 if it carries none, `event`
-  /// that an acyclic TPDO has something new.
+  /// True if a TPDO of `type` goes out after this SYNC. `counter` is 0 for a SYNC without one.
+  /// `event`: an acyclic TPDO has new data.
   constexpr bool on_sync(std::uint8_t type, std::uint8_t start, std::uint8_t counter, bool event) {
     if (type == kAcyclicSync) return event;
     if (type > kMaxCyclicSync) return false;
@@ -203,8 +202,8 @@ class SyncSchedule {
   bool started_ = false;
 };
 
-/// When a received PDO takes effect: at once, or with the next SYNC if its type is synchronous. A
-/// later frame replaces an earlier one that still waits.
+/// When a received PDO takes effect: at once, or with the next SYNC for a synchronous type. A later
+/// frame replaces one that waits.
 class RpdoLatch {
  public:
   /// True if the frame takes effect now.
@@ -214,7 +213,7 @@ class RpdoLatch {
     frame_ = frame;
     return false;
   }
-  /// With each SYNC: true if `frame` takes effect now.
+  /// Call with each SYNC. True if `frame` takes effect now.
   constexpr bool on_sync(Frame& frame) {
     if (!waiting_) return false;
     waiting_ = false;

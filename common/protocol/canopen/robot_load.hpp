@@ -6,22 +6,21 @@
 #include "common/protocol/canopen/robot_plan.hpp"
 #include "common/protocol/canopen/sdo.hpp"
 
-/// What a robot's CAN bus has to carry in one tick, frame by frame, from the same plan that its
-/// nodes are set up by (robot_plan.hpp). `verp bus load`, the refusal of a bus that is too slow and
-/// the test against the twin's own count of bits all come from here. What is counted is what comes
-/// with each tick; not what somebody asks a node for beside it.
+/// Load of a robot's CAN bus in one tick, frame by frame, from the plan that configures its nodes
+/// (robot_plan.hpp). `verp bus load`, the refusal of a bus that is too slow, and the test against
+/// the twin's bit count use it. It counts the frames of every tick, not other requests to a node.
 namespace verp::canopen::plan {
 
-/// Which frames the nodes use.
+/// Frame format of the nodes.
 struct LoadFormat {
   Stuffing stuffing = Stuffing::kWorst;
-  bool fd = false;  ///< FD frames that switch their rate; goals and words of more drives in each
+  bool fd = false;  ///< FD frames that switch the rate; each holds goals and words of more drives
 };
 
-/// A tick like most, or one in which all drives get new controlwords and strengths.
+/// A usual tick, or one in which all drives get new controlwords and strengths.
 enum class TickKind : std::uint8_t { kSteady, kChange };
 
-/// As `kind`, with so many drives to a frame as an FD frame's 64 bytes have room for.
+/// `kind` with as many drives per frame as fit an FD frame's 64 bytes.
 constexpr Shared widened(Shared kind) {
   kind.width = static_cast<std::uint8_t>(kMaxCanFdData / kind.bytes_each());
   return kind;
@@ -42,17 +41,17 @@ class TickLoad {
     const bool change = kind == TickKind::kChange;
     sum += change ? all(kWords) : one(kWords);
     if (change) sum += all(kStrengths);
-    sum += of(sdo::kFrameBytes) * 2;                 // one drive's telemetry, asked for and given
+    sum += of(sdo::kFrameBytes) * 2;                 // one drive's telemetry, request and response
     sum += of(sdo::kFrameBytes) * 2 / kEffortTicks;  // one drive's velocity or torque
     sum += of(1);                                    // the controller's heartbeat
     return sum;
   }
-  /// What the controller tells of each tick (published_tick.hpp) comes on top. `own_imu`: the IMU's
-  /// counts stand in no other frame.
+  /// Additional bits of the published tick (published_tick.hpp). `own_imu`: no other frame holds
+  /// the IMU's counts.
   constexpr FrameBits published(bool own_imu) const {
     return of(published::kFrameBytes) * (published::kFrames + (own_imu ? published::kImuParts : 0));
   }
-  /// And more of a tick with new orders.
+  /// Further bits of a tick with new orders.
   constexpr FrameBits published_order() const {
     return of(published::kFrameBytes) * published::kOrderParts;
   }
@@ -80,22 +79,21 @@ class TickLoad {
   LoadFormat format_;
 };
 
-/// Over this share of the period there is no room for a repetition of anything: such a robot is
-/// refused, as on the serial bus.
+/// Most load of a steady tick. Above it nothing can be repeated, so the robot is refused, as on the
+/// serial bus.
 inline constexpr std::uint32_t kMostLoadPermille = 800;
-/// A tick in which all drives change their state has to end before the next one.
+/// A tick in which all drives change their state must end before the next one.
 inline constexpr std::uint32_t kMostChangePermille = 1000;
 
-/// Whether a bus carries the ticks of all drives in `params`, whose own baud and period do not
-/// count.
+/// True if a bus carries the ticks of all drives in `params`. Ignores its baud and period.
 constexpr bool has_room(const Params& params, bool fd, const BitRates& rates,
                         std::uint32_t period_us) {
   const TickLoad load(params, {.stuffing = Stuffing::kWorst, .fd = fd});
   return load_permille(load.bits(TickKind::kSteady), rates, period_us) <= kMostLoadPermille &&
          load_permille(load.bits(TickKind::kChange), rates, period_us) <= kMostChangePermille;
 }
-/// How many drives do, in the order of joints: the one behind them is the first that does not fit.
-/// `fits` is asked with fewer and fewer of them.
+/// Number of drives that fit, in joint order; the next joint is the first that does not. Calls
+/// `fits` with fewer and fewer drives.
 template <class Fits>
 int drives_that_fit(Params part, const Fits& fits) {
   part.joint_count = part.servo_count();
@@ -104,10 +102,9 @@ int drives_that_fit(Params part, const Fits& fits) {
   return part.joint_count;
 }
 
-/// Over this share a controller does not tell of its ticks unless it is told to. Orders come when
-/// somebody gives them, and are no part of it; but new ones with each tick must find room under
-/// kMostLoadPermille, and those that come in a tick in which all drives change their state, too.
-/// `own_imu`: see TickLoad::published().
+/// Most load at which a controller publishes its ticks by default. Orders are occasional and not
+/// included. But ticks with orders must stay under kMostLoadPermille, and with a change of all
+/// drives' states under kMostChangePermille. `own_imu`: see TickLoad::published().
 inline constexpr std::uint32_t kMostToPublishPermille = 700;
 constexpr bool has_room_to_publish(const Params& params, bool own_imu) {
   if (params.baud == 0 || params.period_us == 0) return false;
@@ -123,7 +120,7 @@ constexpr bool has_room_to_publish(const Params& params, bool own_imu) {
          share(TickKind::kChange, true) <= kMostChangePermille;
 }
 
-/// Time that a steady tick takes on a classic bus with worst stuffing.
+/// Duration of a steady tick on a classic bus with worst stuffing.
 constexpr std::uint32_t tick_us(const Params& params) {
   const FrameBits bits = TickLoad(params, {}).bits(TickKind::kSteady);
   return static_cast<std::uint32_t>((wire_time_ns(bits, {params.baud, params.baud}) + 999) / 1000);

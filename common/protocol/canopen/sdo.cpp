@@ -7,7 +7,7 @@ struct NibbleTable {
   std::uint16_t of[16];
 };
 
-// What four bits leading a CRC of polynomial 1021h leave behind.
+// Remainder of four leading bits under the CRC polynomial 1021h.
 constexpr NibbleTable nibble_table() {
   NibbleTable table{};
   for (unsigned nibble = 0; nibble < 16; ++nibble) {

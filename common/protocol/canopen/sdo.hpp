@@ -5,18 +5,18 @@
 #include "common/protocol/canopen/dictionary.hpp"
 #include "common/protocol/canopen/frame.hpp"
 
-/// The bytes of SDO (CiA 301) that its two ends share. Byte 0 of every frame but a block's segment
-/// begins with a command of three bits; initiating frames and aborts carry the object's address in
-/// bytes 1 to 3.
+/// SDO frames (CiA 301), shared by client and server. Byte 0 begins with a command of three bits,
+/// except in segments of a block. Initiating frames and aborts have the object's address in bytes 1
+/// to 3.
 namespace verp::canopen::sdo {
 
 inline constexpr std::uint8_t kFrameBytes = 8;
 inline constexpr std::uint8_t kSegmentBytes = 7;
-inline constexpr std::uint8_t kMaxBlock = 127;        ///< segments of a block
-inline constexpr std::uint8_t kMaxIdleBlocks = 8;     ///< in a row without progress
-inline constexpr std::uint32_t kTimeoutUs = 500'000;  ///< of bus time; common masters wait 0.3-1 s
+inline constexpr std::uint8_t kMaxBlock = 127;        ///< segments in a block
+inline constexpr std::uint8_t kMaxIdleBlocks = 8;     ///< consecutive blocks without progress
+inline constexpr std::uint32_t kTimeoutUs = 500'000;  ///< bus time; common masters wait 0.3-1 s
 
-/// Client command specifiers; the server's have other numbers.
+/// Client command specifiers; the server's differ.
 namespace request {
 inline constexpr std::uint8_t kDownloadSegment = 0;
 inline constexpr std::uint8_t kDownload = 1;
@@ -34,7 +34,7 @@ inline constexpr std::uint8_t kBlockDownload = 5;
 inline constexpr std::uint8_t kBlockUpload = 6;
 }  // namespace response
 
-inline constexpr std::uint8_t kAbort = 0x80;  ///< byte 0 of an abort; no segment of a block has it
+inline constexpr std::uint8_t kAbort = 0x80;  ///< byte 0 of an abort; no block segment has it
 
 // Bits of byte 0.
 inline constexpr std::uint8_t kToggleBit = 0x10;
@@ -44,7 +44,7 @@ inline constexpr std::uint8_t kSizeGiven = 0x01;
 inline constexpr std::uint8_t kLastOfBlocks = 0x80;
 inline constexpr std::uint8_t kBlockCrc = 0x04;
 inline constexpr std::uint8_t kBlockSizeGiven = 0x02;
-/// Sub-commands of a block transfer; the mask leaves room for the bits above them.
+/// Sub-commands of a block transfer. The mask excludes the bits above.
 inline constexpr std::uint8_t kSubMask = 0x03;
 inline constexpr std::uint8_t kBlockInitiate = 0;
 inline constexpr std::uint8_t kBlockEnd = 1;
@@ -60,7 +60,8 @@ constexpr std::uint8_t specifier_of(const Frame& frame) {
 constexpr Address address_of(const Frame& frame) {
   return {static_cast<std::uint16_t>(get_le(frame.data + 1, 2)), frame.data[3]};
 }
-/// Where the bits of byte 0 count unused bytes: of an expedited transfer of four, of a segment.
+/// Number of unused bytes from byte 0: of an expedited transfer's four, of a segment's seven, of a
+/// block's last segment.
 constexpr unsigned unused_of_four(const Frame& frame) {
   return frame.data[0] >> 2 & 3u;
 }
@@ -77,7 +78,7 @@ constexpr Frame bare(std::uint32_t id, std::uint8_t byte0) {
   frame.data[0] = byte0;
   return frame;
 }
-/// With the address, and a number in bytes 4 to 7.
+/// With the address, and `number` in bytes 4 to 7.
 constexpr Frame addressed(std::uint32_t id, std::uint8_t byte0, Address at,
                           std::uint32_t number = 0) {
   Frame frame = bare(id, byte0);
@@ -89,7 +90,7 @@ constexpr Frame addressed(std::uint32_t id, std::uint8_t byte0, Address at,
 constexpr Frame abort_frame(std::uint32_t id, Address at, Abort reason) {
   return addressed(id, kAbort, at, static_cast<std::uint32_t>(reason));
 }
-/// A segment of a segmented transfer: `size` of `data`'s bytes (at most 7).
+/// A segment of a segmented transfer with `size` bytes (at most 7) of `data`.
 constexpr Frame segment(std::uint32_t id, std::uint8_t specifier, bool toggle,
                         const std::uint8_t* data, unsigned size, bool last) {
   const unsigned unused = kSegmentBytes - size;
@@ -105,7 +106,7 @@ constexpr Frame block_end(std::uint32_t id, std::uint8_t specifier, unsigned unu
   put_le(frame.data + 1, crc, 2);
   return frame;
 }
-/// The response to a block: the last segment that came in order, and the next block's size.
+/// The response to a block: number of the last segment in order, and the next block's size.
 constexpr Frame block_response(std::uint32_t id, std::uint8_t specifier, std::uint8_t sequence,
                                std::uint8_t block) {
   Frame frame = bare(id, command(specifier, kBlockResponse));
@@ -114,7 +115,7 @@ constexpr Frame block_response(std::uint32_t id, std::uint8_t specifier, std::ui
   return frame;
 }
 
-/// CRC-16 with polynomial 1021h, initial value 0, not reflected; `crc` continues an earlier part.
+/// CRC-16 with polynomial 1021h, initial value 0, not reflected. `crc` continues an earlier part.
 std::uint16_t crc16(const std::uint8_t* data, std::size_t size, std::uint16_t crc = 0);
 
 }  // namespace verp::canopen::sdo

@@ -3,20 +3,20 @@
 
 #include "common/protocol/canopen/sdo.hpp"
 
-/// The two ends of a block transfer's data phase: the sender is the client of a download or the
-/// server of an upload, the receiver the other one.
+/// Data phase of a block transfer. The sender is the client of a download or the server of an
+/// upload; the receiver is the other side.
 namespace verp::canopen::sdo {
 
-/// Cuts an object into blocks of numbered segments and sends again what was not confirmed.
+/// Splits an object into blocks of numbered segments and repeats unconfirmed ones.
 class BlockSender {
  public:
   constexpr BlockSender() = default;
   BlockSender(std::uint32_t size, std::uint8_t block) : size_(size), block_(block) {}
 
-  /// True while segments of this block are to be sent; after it a response is due.
+  /// True while segments of this block remain; then a response is due.
   bool sending() const { return sequence_ < block_ && !all_sent(); }
 
-  /// The next segment; `read(offset, buffer, size)` gives its bytes and returns an Abort.
+  /// The next segment. `read(offset, buffer, size)` supplies its bytes and returns an Abort.
   template <class Read>
   Abort next(std::uint32_t id, Frame& frame, Read&& read) {
     const std::uint32_t offset = base_ + std::uint32_t{sequence_} * kSegmentBytes;
@@ -26,14 +26,14 @@ class BlockSender {
     frame = bare(
         id, static_cast<std::uint8_t>(sequence_ | (left <= kSegmentBytes ? kLastOfBlocks : 0)));
     const Abort refused = read(offset, frame.data + 1, bytes);
-    if (refused == Abort::kNone && offset == summed_) {  // a repeated segment is summed already
+    if (refused == Abort::kNone && offset == summed_) {  // a repeated segment is already in the CRC
       crc_ = crc16(frame.data + 1, bytes, crc_);
       summed_ += bytes;
     }
     return refused;
   }
 
-  /// A response: `sequence` segments have come, the next block is to have `block` of them.
+  /// Takes a response: `sequence` segments have arrived, and the next block has `block` segments.
   Abort confirm(std::uint8_t sequence, std::uint8_t block) {
     if (sequence > sequence_) return Abort::kSequence;
     if (block < 1 || block > kMaxBlock) return Abort::kBlockSize;
@@ -45,9 +45,9 @@ class BlockSender {
     sequence_ = 0;
     return Abort::kNone;
   }
-  /// True when everything has been confirmed.
+  /// True if everything is confirmed.
   bool done() const { return done_; }
-  /// Bytes of the last segment that carry nothing.
+  /// Unused bytes of the last segment.
   unsigned unused() const {
     if (size_ == 0) return kSegmentBytes;
     return (kSegmentBytes - size_ % kSegmentBytes) % kSegmentBytes;
@@ -55,27 +55,27 @@ class BlockSender {
   std::uint16_t crc() const { return crc_; }
 
  private:
-  /// An empty object has one segment, too.
+  /// An empty object also has one segment.
   bool all_sent() const {
     return sequence_ > 0 && base_ + std::uint32_t{sequence_} * kSegmentBytes >= size_;
   }
   std::uint32_t size_ = 0;
-  std::uint32_t base_ = 0;    ///< of this block's first byte
-  std::uint32_t summed_ = 0;  ///< bytes that the CRC covers
+  std::uint32_t base_ = 0;    ///< offset of this block's first byte
+  std::uint32_t summed_ = 0;  ///< bytes in the CRC
   std::uint16_t crc_ = 0;
   std::uint8_t block_ = 0;
-  std::uint8_t sequence_ = 0;  ///< of the segment sent last
+  std::uint8_t sequence_ = 0;  ///< of the last segment sent
   std::uint8_t idle_ = 0;
   bool done_ = false;
 };
 
-/// Takes segments in order and drops all others. The last segment is kept back: how many of its
-/// bytes count is told at the end.
+/// Takes segments in order and drops others. Holds back the last segment, because only the end of
+/// the transfer says how many of its bytes count.
 class BlockReceiver {
  public:
   enum class Take : std::uint8_t {
     kStray,    ///< not the next segment: no progress
-    kMore,     ///< the block goes on
+    kMore,     ///< the block continues
     kRespond,  ///< the sender waits for respond()
     kFailed,   ///< the store refused the bytes, see failure()
   };
@@ -83,13 +83,13 @@ class BlockReceiver {
   constexpr BlockReceiver() = default;
   explicit BlockReceiver(std::uint8_t block) : block_(block) {}
 
-  /// Takes a segment; `store(data, size)` gets bytes in order and returns an Abort.
+  /// Takes a segment. `store(data, size)` receives bytes in order and returns an Abort.
   template <class Store>
   Take take(const Frame& frame, Store&& store) {
     const auto sequence = static_cast<std::uint8_t>(frame.data[0] & 0x7F);
     const bool last = (frame.data[0] & kLastOfBlocks) != 0;
     const bool ends_block = last || sequence >= block_;
-    // The sender waits after the block's end, even if segments before it were lost.
+    // The sender waits after the block's end, even if earlier segments were lost.
     if (complete_ || sequence != sequence_ + 1) return ends_block ? Take::kRespond : Take::kStray;
     if (!flush(kSegmentBytes, store)) return Take::kFailed;
     sequence_ = sequence;
@@ -100,19 +100,19 @@ class BlockReceiver {
     return ends_block ? Take::kRespond : Take::kMore;
   }
 
-  /// The response's sequence number; the next block begins.
+  /// Returns the response's sequence number and starts the next block.
   std::uint8_t respond() {
     const std::uint8_t sequence = sequence_;
     if (!complete_) sequence_ = 0;
     return sequence;
   }
-  /// True when the last segment has come.
+  /// True if the last segment has arrived.
   bool complete() const { return complete_; }
   std::uint8_t block() const { return block_; }
-  /// Segments taken in all: it grows with progress only.
+  /// Segments taken in total: grows only with progress.
   std::uint32_t taken() const { return taken_; }
 
-  /// The transfer's end: `unused` bytes of the last segment carry nothing.
+  /// Ends the transfer. The last `unused` bytes of the last segment do not count.
   template <class Store>
   Abort finish(unsigned unused, Store&& store) {
     return flush(kSegmentBytes - unused, store) ? Abort::kNone : failure_;
@@ -139,8 +139,8 @@ class BlockReceiver {
   Abort failure_ = Abort::kNone;
 };
 
-/// How long an end waits, in bus time: kTimeoutUs since the last progress. A receiver of blocks
-/// reminds the sender halfway, because what was lost may be a block's last segment.
+/// Timeout of either side, in bus time: kTimeoutUs since the last progress. A block receiver
+/// reminds the sender halfway, because the block's last segment may be lost.
 class Patience {
  public:
   void progress(std::uint64_t now_us) {
@@ -148,7 +148,7 @@ class Patience {
     reminded_ = false;
   }
   bool over(std::uint64_t now_us) const { return now_us >= since_us_ + kTimeoutUs; }
-  /// True once for each silence.
+  /// True once per silence.
   bool remind(std::uint64_t now_us) {
     if (reminded_ || now_us < since_us_ + kTimeoutUs / 2) return false;
     reminded_ = true;

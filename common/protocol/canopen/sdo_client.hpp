@@ -5,51 +5,49 @@
 #include "common/protocol/canopen/cob_id.hpp"
 #include "common/protocol/canopen/sdo_block.hpp"
 
-/// SDO's client: reads and writes objects of one node, one at a time, as a machine that is fed with
+/// SDO client: reads and writes objects of one node, one at a time. A state machine, fed with
 /// frames and bus time.
 ///
-///  - download() or upload() begins; receive() takes frames, next() gives those to send, one a
-///  call;
-///    neither waits. state() tells the end: each transfer ends, at the latest when kTimeoutUs pass
-///    without progress.
-///  - kDone means that the server has confirmed a download, or that an upload's bytes are all
-///    there, their number and the block's CRC as the server announced them.
-///  - Frames that cannot belong to the transfer while it is being initiated are remains of an
-///    earlier one, and ignored; later they abort it.
-///  - The caller's memory is in use until the end.
+///  - download() or upload() begins; receive() takes frames; next() returns one frame to send a
+///    call. None of them waits. state() reports the end: each transfer ends at the latest after
+///    kTimeoutUs without progress.
+///  - kDone: the server confirmed a download, or an upload's bytes arrived with the announced size
+///    and CRC.
+///  - While the transfer is being initiated, frames that cannot belong to it are remains of an
+///    earlier one and are ignored. Later they abort it.
+///  - The client uses the caller's memory until the end.
 namespace verp::canopen {
 
 class SdoClient {
  public:
   enum class Mode : std::uint8_t {
     kPlain,  ///< expedited up to 4 bytes, else segmented
-    kBlock,  ///< with CRC; a server without blocks aborts with kCommand
+    kBlock,  ///< with CRC; a server without block transfer aborts with kCommand
   };
   enum class State : std::uint8_t { kIdle, kBusy, kDone, kAborted };
 
   explicit SdoClient(std::uint8_t node) : SdoClient(default_sdo(node)) {}
   explicit SdoClient(SdoChannel channel) : channel_(channel) {}
 
-  /// Begins to write; false, and nothing done, while another transfer runs.
+  /// Begins a write. Returns false without effect while another transfer runs.
   bool download(Address at, const std::uint8_t* data, std::uint32_t size, Mode mode,
                 std::uint64_t now_us);
-  /// Begins to read into `buffer`; an object of more than `capacity` bytes aborts with
-  /// kOutOfMemory.
+  /// Begins a read into `buffer`. An object larger than `capacity` aborts with kOutOfMemory.
   bool upload(Address at, std::uint8_t* buffer, std::uint32_t capacity, Mode mode,
               std::uint64_t now_us);
-  /// Ends a running transfer with an abort.
+  /// Aborts a running transfer.
   void cancel(Abort reason = Abort::kGeneral) {
     if (state_ == State::kBusy) abort(reason);
   }
 
   void receive(const Frame& frame, std::uint64_t now_us);
-  /// The next frame to send, if there is one.
+  /// Returns the next frame to send; false if there is none.
   bool next(Frame& frame, std::uint64_t now_us);
 
   State state() const { return state_; }
-  /// Why the last transfer was aborted, by either end.
+  /// Reason of the last abort, by either side.
   Abort reason() const { return reason_; }
-  /// Bytes that a finished upload has brought.
+  /// Bytes of a finished upload.
   std::uint32_t size() const { return size_; }
 
  private:
@@ -91,15 +89,15 @@ class SdoClient {
   Phase phase_ = Phase::kBeginUpload;
   Abort reason_ = Abort::kNone;
   bool toggle_ = false;
-  bool last_ = false;       ///< the segment under way is the last one
-  bool crc_ = false;        ///< both ends can do the block's CRC
-  bool announced_ = false;  ///< the server has told the size
-  bool sending_ = false;    ///< frame_ is to be sent
+  bool last_ = false;       ///< the present segment is the last one
+  bool crc_ = false;        ///< both sides support the block CRC
+  bool announced_ = false;  ///< the server announced the size
+  bool sending_ = false;    ///< frame_ has to be sent
   Address at_;
   const std::uint8_t* data_ = nullptr;
   std::uint8_t* buffer_ = nullptr;
   std::uint32_t capacity_ = 0;
-  std::uint32_t size_ = 0;  ///< of a download, or of what an upload has brought
+  std::uint32_t size_ = 0;  ///< of a download, or bytes uploaded so far
   std::uint32_t announced_size_ = 0;
   std::uint32_t offset_ = 0;
   sdo::Patience patience_;

@@ -6,8 +6,8 @@
 
 namespace verp::canopen::sdo {
 
-/// The object that a server's transfer is about: small ones pass through a buffer, so that the
-/// dictionary is read and written whole; large ones go in pieces.
+/// The object of a server's transfer. Small objects pass through a buffer, so the dictionary reads
+/// and writes them whole; large ones go in pieces.
 template <Dictionary D, std::size_t kBuffer>
 class OpenObject {
   static_assert(kBuffer >= 8, "numbers go whole");
@@ -17,12 +17,12 @@ class OpenObject {
 
   Address at() const { return at_; }
   void close() { at_ = {}; }
-  /// Bytes that an upload gives, or that a download has brought.
+  /// Size of an upload, or bytes downloaded so far.
   std::uint32_t size() const { return size_; }
-  /// Bytes of an expedited download that does not say how many it has.
+  /// Size of an expedited download that does not give one.
   std::uint32_t implied_size() const { return entry_.max_size < 4 ? entry_.max_size : 4; }
 
-  /// For an upload: a small object is read at once.
+  /// Opens an upload. Reads a small object at once.
   Abort open_read(Address at) {
     if (const Abort refused = find(at); refused != Abort::kNone) return refused;
     if (!entry_.readable) return Abort::kWriteOnly;
@@ -30,14 +30,14 @@ class OpenObject {
     pieces_ = size_ > kBuffer;
     return pieces_ ? Abort::kNone : dictionary_.read(at_, 0, buffer_, size_);
   }
-  /// Bytes of an upload, within its size.
+  /// Copies bytes of an upload, within its size.
   Abort load(std::uint32_t offset, std::uint8_t* to, std::uint32_t size) {
     if (pieces_) return dictionary_.read(at_, offset, to, size);
     for (std::uint32_t i = 0; i < size; ++i) to[i] = buffer_[offset + i];
     return Abort::kNone;
   }
 
-  /// For a download; `given` if the client has announced its `size`.
+  /// Opens a download. `given`: the client announced its `size`.
   Abort open_write(Address at, bool given, std::uint32_t size) {
     if (const Abort refused = find(at); refused != Abort::kNone) return refused;
     if (!entry_.writable) return Abort::kReadOnly;
@@ -48,7 +48,7 @@ class OpenObject {
     announced_size_ = size;
     return given ? check_size(size) : Abort::kNone;
   }
-  /// The next bytes of a download.
+  /// Takes the next bytes of a download.
   Abort store(const std::uint8_t* data, std::uint32_t size) {
     if (size > entry_.max_size - size_) return Abort::kTooLong;
     Abort refused = Abort::kNone;
@@ -61,7 +61,7 @@ class OpenObject {
     size_ += size;
     return refused;
   }
-  /// All bytes of a download are there.
+  /// Applies a download whose bytes are complete.
   Abort commit() {
     if (announced_ && size_ != announced_size_) return Abort::kLength;
     if (const Abort refused = check_size(size_); refused != Abort::kNone) return refused;

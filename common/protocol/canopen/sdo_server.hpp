@@ -6,18 +6,17 @@
 #include "common/protocol/canopen/sdo_block.hpp"
 #include "common/protocol/canopen/sdo_object.hpp"
 
-/// SDO's server: one client's access to an object dictionary, as a machine that is fed with frames
-/// and bus time. It serves expedited, segmented and block transfers, both ways.
+/// SDO server: one client's access to an object dictionary. A state machine, fed with frames and
+/// bus time. It serves expedited, segmented and block transfers in both directions.
 ///
-///  - receive() takes a frame, next() gives a frame to send; neither waits. Call next() after each
-///    receive() and whenever there is room to send: a block upload has many frames in a row.
-///  - Any frames in any order end in data, an abort, or silence. A frame that does not belong to
-///    the transfer aborts it, a new request of the client replaces it, and it is abandoned when
-///    kTimeoutUs pass without progress.
-///  - Objects up to kBuffer bytes are read and written whole: the dictionary never sees half of
-///    one. Larger ones go in pieces, if the dictionary can do that.
-///  - A download that is one byte too long or short, or whose CRC is wrong, is never written.
-///  - Work for a frame is bounded by kBuffer bytes.
+///  - receive() takes a frame, next() returns a frame to send; neither waits. Call next() after
+///    each receive() and whenever there is room to send: a block upload sends many frames in a row.
+///  - Any sequence of frames ends in data, an abort or silence. A frame outside the transfer aborts
+///    it. A new request replaces it. It is abandoned after kTimeoutUs without progress.
+///  - Objects up to kBuffer bytes are read and written whole: the dictionary never sees part of
+///    one. Larger ones go in pieces, if the dictionary supports that.
+///  - A download one byte too long or short, or with a wrong CRC, is never written.
+///  - The work for a frame is bounded by kBuffer bytes.
 namespace verp::canopen {
 
 template <Dictionary D, std::size_t kBuffer = 128>
@@ -40,7 +39,7 @@ class SdoServer {
     }
   }
 
-  /// The next frame to send, if there is one.
+  /// Returns the next frame to send; false if there is none.
   bool next(Frame& frame, std::uint64_t now_us) {
     expire(now_us);
     if (phase_ == Phase::kBlockSegments && !replying_ && patience_.remind(now_us)) {
@@ -62,7 +61,7 @@ class SdoServer {
   }
 
   bool idle() const { return phase_ == Phase::kIdle; }
-  /// The node has been reset, or has stopped.
+  /// Call when the node was reset or stopped.
   void reset() {
     forget();
     replying_ = false;
@@ -72,7 +71,7 @@ class SdoServer {
   enum class Phase : std::uint8_t {
     kIdle,
     kDownload,       ///< waits for a segment
-    kUpload,         ///< waits for a request of a segment
+    kUpload,         ///< waits for a segment request
     kBlockSegments,  ///< block download: waits for a block's segments
     kBlockEnd,       ///< block download: waits for its end
     kStartUpload,    ///< block upload: waits for the start
@@ -118,11 +117,11 @@ class SdoServer {
     }
   }
   void unexpected() {
-    if (phase_ == Phase::kIdle) object_.close();  // a segment of no transfer has no address
+    if (phase_ == Phase::kIdle) object_.close();  // a segment without a transfer has no address
     abort(Abort::kCommand);
   }
 
-  /// Goes on if nothing was refused; else aborts.
+  /// Aborts if `refused` is an error. Returns true if not.
   bool granted(Abort refused) {
     if (refused != Abort::kNone) abort(refused);
     return refused == Abort::kNone;
@@ -190,8 +189,8 @@ class SdoServer {
     if (receiver_.taken() != taken) patience_.progress(now_us);
     if (take == Take::kRespond) respond_to_block();
   }
-  // A client sends a whole block before it listens. Had it been refused earlier, the rest of its
-  // segments would look like commands.
+  // A client sends a whole block before it listens. After an earlier abort the rest of its segments
+  // would look like commands.
   void respond_to_block() {
     if (refused_ != Abort::kNone) return abort(refused_);
     if (receiver_.complete()) phase_ = Phase::kBlockEnd;
@@ -249,7 +248,7 @@ class SdoServer {
     if (!open_read(frame)) return;
     const std::uint8_t block = frame.data[4];
     if (block < 1 || block > sdo::kMaxBlock) return abort(Abort::kBlockSize);
-    // The client's protocol switch threshold: below it, it prefers a plain upload.
+    // The client's protocol switch threshold: it prefers a plain upload of objects up to this size.
     if (frame.data[5] != 0 && object_.size() <= frame.data[5]) return send_upload();
     crc_ = (frame.data[0] & sdo::kBlockCrc) != 0;
     sender_ = sdo::BlockSender(object_.size(), block);
@@ -279,12 +278,12 @@ class SdoServer {
   SdoChannel channel_;
   Phase phase_ = Phase::kIdle;
   bool toggle_ = false;
-  bool crc_ = false;  ///< the client wants the block's CRC
+  bool crc_ = false;  ///< the client wants the block CRC
   bool replying_ = false;
-  std::uint32_t offset_ = 0;  ///< of an upload's next segment
+  std::uint32_t offset_ = 0;  ///< of the next segment to upload
   sdo::Patience patience_;
   Frame reply_;
-  Abort refused_ = Abort::kNone;  ///< to be told at the block's end
+  Abort refused_ = Abort::kNone;  ///< to be reported at the block's end
   sdo::BlockSender sender_;
   sdo::BlockReceiver receiver_;
 };

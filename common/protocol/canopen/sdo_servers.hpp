@@ -6,8 +6,8 @@
 
 namespace verp::canopen {
 
-/// The servers of a node's SDO channels: its own, and `kFurther` more (1201h and on). Each has one
-/// client at a time; those that have something to say take turns.
+/// Servers of a node's SDO channels: the default one and `kFurther` more (1201h and on). Each
+/// serves one client at a time; they take turns in sending.
 template <Dictionary D, std::size_t kFurther>
 class SdoServers {
  public:
