@@ -37,7 +37,6 @@ TYPED_TEST(TickSourceContract, NeverReturnsEarlyAndNeverDrifts) {
   }
 }
 
-// A loop that was late hears how many beginnings it missed, and is in step again.
 TYPED_TEST(TickSourceContract, CountsWhatTheLoopMissed) {
   auto& source = this->backend.source;
   ASSERT_TRUE(source.start(5000));

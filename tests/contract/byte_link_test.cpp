@@ -8,14 +8,14 @@
 #include "hal/contract/byte_link.hpp"
 #include "tests/contract/backends.hpp"
 
-// The promises of hal/contract/byte_link.hpp, held against each end of each link there is.
+// The promises of hal/contract/byte_link.hpp, for each end of each link.
 
 namespace verp {
 namespace {
 
 using Bytes = std::vector<std::uint8_t>;
 constexpr std::uint32_t kAWhile_us = 5'000'000;
-constexpr std::uint64_t kAtOnce_us = 1'000'000;  // a busy PC may take its time, but no timeout
+constexpr std::uint64_t kAtOnce_us = 1'000'000;  // a busy PC may be slow; a timeout would be longer
 
 Bytes random_bytes(std::size_t size, std::mt19937& random) {
   Bytes bytes(size);
@@ -23,7 +23,7 @@ Bytes random_bytes(std::size_t size, std::mt19937& random) {
   return bytes;
 }
 
-/// The byte at a place of an endless stream of noise: a test that runs on target can't keep it.
+/// A byte of an endless noise stream: a test on target cannot store the stream.
 std::uint8_t noise(std::size_t place, std::uint32_t stream) {
   auto bits = static_cast<std::uint32_t>(place) * 2654435761u + stream;
   bits ^= bits >> 15;
@@ -34,7 +34,7 @@ std::uint8_t noise(std::size_t place, std::uint32_t stream) {
 template <class Pair>
 class ByteLinkContract : public ::testing::Test {
  protected:
-  /// Reads until `size` bytes are there or a while has passed without one.
+  /// Stops early when no byte has come for a while.
   template <class Link>
   static Bytes collect(Link& link, std::size_t size) {
     Bytes all(size);
@@ -47,7 +47,6 @@ class ByteLinkContract : public ::testing::Test {
     all.resize(have);
     return all;
   }
-  /// Writes until the link takes no more.
   template <class Link>
   static Bytes fill(Link& link, std::mt19937& random) {
     Bytes all;
@@ -58,7 +57,7 @@ class ByteLinkContract : public ::testing::Test {
       if (count < part.size()) return all;
     }
   }
-  /// Both ends until they know of each other.
+  /// Runs both ends until they know of each other.
   bool meet() {
     std::uint8_t byte = 0;
     for (int i = 0; i < 500; ++i) {
@@ -69,7 +68,7 @@ class ByteLinkContract : public ::testing::Test {
     }
     return false;
   }
-  /// Reads until the loss has been seen; what came before it.
+  /// Returns the bytes that came before the loss.
   Bytes drain_until_lost() {
     Bytes all;
     std::uint8_t piece[64];
@@ -80,7 +79,7 @@ class ByteLinkContract : public ::testing::Test {
     return all;
   }
 
-  /// What a link that lost its far end `times` must say.
+  /// Checks the report of a link that lost its far end `times` times.
   void expect_lost(std::uint32_t times) {
     EXPECT_EQ(pair.near().connected(), !Pair::kDetectsLoss);
     EXPECT_EQ(pair.near().errors().losses, Pair::kDetectsLoss ? times : 0u);
@@ -99,7 +98,6 @@ TYPED_TEST(ByteLinkContract, BeginsConnectedAndWithoutErrors) {
   EXPECT_EQ(errors.overruns + errors.framing + errors.noise + errors.losses, 0u);
 }
 
-// Any bytes, in any pieces, both ways at once: all arrive, in order, none changed.
 TYPED_TEST(ByteLinkContract, CarriesAnyBytesInOrderBothWays) {
   constexpr std::size_t kBytes = 20'000;
   struct Way {
@@ -157,7 +155,6 @@ TYPED_TEST(ByteLinkContract, ReturnsAsSoonAsThereIsAByte) {
   EXPECT_LE(this->pair.now_us(), before_us + kAtOnce_us);
 }
 
-// A full link takes what fits, says how much, and takes more once the other end has read.
 TYPED_TEST(ByteLinkContract, TakesWhatFitsAndNoByteTwice) {
   const Bytes sent = this->fill(this->pair.near(), this->random);
   EXPECT_GT(sent.size(), 0u);
@@ -184,7 +181,7 @@ TYPED_TEST(ByteLinkContract, TellsALossAfterWhatCameBefore) {
   this->expect_lost(1);
 }
 
-// The loop goes on without an operator: calls wait their time, no signal, no exception.
+// Without an operator, calls wait their time, without a signal or an exception.
 TYPED_TEST(ByteLinkContract, OutlivesALoss) {
   this->pair.cut();
   const Bytes bytes(100);
@@ -196,7 +193,7 @@ TYPED_TEST(ByteLinkContract, OutlivesALoss) {
   this->expect_lost(1);
   const std::uint64_t before_us = this->pair.now_us();
   EXPECT_EQ(this->pair.near().read(&byte, 1, 2000), 0u);
-  const bool takes_it = !TypeParam::kDetectsLoss;  // a wire takes what nobody hears
+  const bool takes_it = !TypeParam::kDetectsLoss;  // a wire takes bytes that nobody hears
   EXPECT_EQ(this->pair.near().write(&byte, 1, 2000), takes_it ? 1u : 0u);
   EXPECT_GE(this->pair.now_us(), before_us + (takes_it ? 2000 : 4000));
 }

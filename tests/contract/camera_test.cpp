@@ -72,7 +72,7 @@ TYPED_TEST(CameraContract, TheBytesStandStillUntilTheNextPictureIsFetched) {
   for (int i = 0; i < 12; ++i) this->camera.show();
   EXPECT_TRUE(this->camera.is(this->frame, 0));
   ASSERT_EQ(this->camera.read(this->frame), hal::CameraStatus::kFresh);
-  // Which one it is hangs on how many a backend can keep.
+  // Which frame it is depends on how many a backend keeps.
   EXPECT_EQ(this->frame.sequence, this->frame.lost + 1);
   EXPECT_TRUE(this->camera.is(this->frame, this->frame.sequence));
 }
@@ -92,14 +92,14 @@ TYPED_TEST(CameraContract, CountsFaultsKeepsTheFrameAndComesBack) {
     EXPECT_EQ(this->frame.time_us, before_us);
     this->camera.break_it(false);
     this->camera.wait();
-    this->camera.read(this->frame);  // which opens it anew
+    this->camera.read(this->frame);  // reopens it
     const std::uint32_t faults = this->camera.faults();
     this->camera.show();
     ASSERT_EQ(this->camera.read(this->frame), hal::CameraStatus::kFresh);
     EXPECT_GT(this->frame.time_us, before_us);
     EXPECT_EQ(this->camera.faults(), faults);
   } else {
-    EXPECT_EQ(this->camera.faults(), 0u);  // a twin's is never unplugged
+    EXPECT_EQ(this->camera.faults(), 0u);  // a twin's camera never fails
   }
 }
 

@@ -5,7 +5,7 @@
 #include "hal/contract/can_bus.hpp"
 #include "tests/contract/backends.hpp"
 
-// The promises of hal/contract/can_bus.hpp, held against each backend.
+// The promises of hal/contract/can_bus.hpp, for each backend.
 
 namespace verp {
 namespace {
@@ -15,7 +15,7 @@ class CanBusContract : public ::testing::Test {
  protected:
   static constexpr std::uint32_t kLong_us = 4 * Backend::kPlenty_us;
 
-  /// A frame that shows its number: eight bytes long, and different from its neighbours.
+  /// A frame that carries its number: up to eight bytes, different from its neighbours.
   static CanFrame numbered(std::uint32_t id, unsigned number) {
     CanFrame frame;
     frame.id = id;
@@ -23,7 +23,7 @@ class CanBusContract : public ::testing::Test {
     for (unsigned i = 0; i < frame.size; ++i) frame.data[i] = static_cast<std::uint8_t>(number + i);
     return frame;
   }
-  /// Lets all that waits pass over the wire; nobody else may have anything to say.
+  /// Lets all waiting frames pass; no other node may send.
   static void settle(Backend& backend) {
     CanFrame frame;
     EXPECT_FALSE(backend.bus.poll(frame, Backend::kPlenty_us));
@@ -48,7 +48,7 @@ TYPED_TEST(CanBusContract, SendsEachFrameOnceWholeAndInOrder) {
   EXPECT_FALSE(backend.far_take(frame)) << "sent once";
 }
 
-// A tick's frames are sent in one go, without a poll between them.
+// As the loop sends them.
 TYPED_TEST(CanBusContract, TakesAWholeTickAtOnce) {
   TypeParam backend;
   for (int round = 0; round < 2; ++round) {
@@ -78,10 +78,10 @@ TYPED_TEST(CanBusContract, CarriesExtendedAndRemoteFramesAsSuch) {
     ASSERT_TRUE(backend.far_take(frame));
     EXPECT_TRUE(frame == each);
     backend.far_send(each);
-    ASSERT_TRUE(backend.bus.send(this->numbered(1, 1)));  // the time of a poll begins here
+    ASSERT_TRUE(backend.bus.send(this->numbered(1, 1)));  // the poll's time starts here
     ASSERT_TRUE(backend.bus.poll(frame, TypeParam::kPlenty_us));
     EXPECT_TRUE(frame == each);
-    this->settle(backend);  // ours may have had to wait for that one
+    this->settle(backend);  // our frame may have waited for that one
     ASSERT_TRUE(backend.far_take(frame));
   }
 }
@@ -117,7 +117,7 @@ TYPED_TEST(CanBusContract, BringsEachFrameOnceWholeAndInOrder) {
   this->settle(backend);
 }
 
-// More than any backend need keep: but none is lost without being counted.
+// More frames than any backend keeps.
 TYPED_TEST(CanBusContract, CountsWhatFindsNoRoom) {
   TypeParam backend;
   constexpr unsigned kFlood = 100;
@@ -186,7 +186,7 @@ TYPED_TEST(CanBusContract, CountsNoErrorsWhereThereAreNone) {
   EXPECT_EQ(errors.dropped, 0u);
 }
 
-// Where a backend can be brought to bus-off: it drops what waits, says so, refuses, and is back.
+// At bus-off a backend drops waiting frames, reports it, refuses new ones, and recovers.
 TYPED_TEST(CanBusContract, ComesBackFromBusOffByItself) {
   TypeParam backend;
   if constexpr (TypeParam::kBusOff) {

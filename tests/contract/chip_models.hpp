@@ -18,8 +18,8 @@
 #include "tests/support/stm32/rig.hpp"
 #include "tests/support/stm32/usart_model.hpp"
 
-/// The drivers of hal/chip/stm32 against the register models, as backends of the suites: on the PC,
-/// and on target for what the emulators lack.
+/// The drivers of hal/chip/stm32 on the register models, as backends: on the PC, and on target for
+/// what emulators lack.
 namespace verp::test {
 
 using hal::stm32::Family;
@@ -29,7 +29,7 @@ using ChipIo = hal::stm32::test::Io;
 using ChipTimer = hal::stm32::test::Timer;
 using ChipDog = hal::stm32::IndependentWatchdog<ChipIo>;
 
-/// A USART with a wire that has no detect line: nobody knows that the far end is gone.
+/// A USART whose wire has no detect line, so nothing shows that the far end is gone.
 class UsartPair {
   static constexpr std::uint32_t kBaud = 2'000'000;
   static constexpr std::uint32_t kStep_us = 50;
@@ -39,7 +39,7 @@ class UsartPair {
   static constexpr bool kDetectsLoss = false;
   static constexpr bool kKeepsBytesOnLoss = true;
 
-  /// The wire's other end: the model's script.
+  /// The far end: the model's script.
   class Far {
    public:
     explicit Far(UsartPair& pair) : pair_(pair) {}
@@ -117,10 +117,10 @@ class UsartPair {
   Far far_{*this};
 };
 
-/// A servo at the far end of that wire, heard by the loop's own FrameBus.
+/// A servo at the far end of that wire, behind the loop's own FrameBus.
 struct UsartBus {
   static constexpr std::uint32_t kPlenty_us = 20'000;
-  static constexpr std::uint64_t kSlack_us = 200;  // each access of the driver takes time
+  static constexpr std::uint64_t kSlack_us = 200;  // each register access takes time
 
   explicit UsartBus(int pings) : left(pings) { wait_for_ping(); }
   void wait_for_ping() {
@@ -146,11 +146,11 @@ struct UsartBus {
                                                                               pair.clock()};
 };
 
-/// A chip's bxCAN on a bus with another node.
+/// A chip's bxCAN and another node on one bus.
 template <Family kFamily>
 struct ChipCan {
   static constexpr std::uint32_t kPlenty_us = 20'000;
-  static constexpr std::uint64_t kSlack_us = 200;  // each access of the driver takes time
+  static constexpr std::uint64_t kSlack_us = 200;  // each register access takes time
   static constexpr bool kBusOff = true;
 
   void far_send(const CanFrame& frame) { board.can.send(frame); }
@@ -179,7 +179,7 @@ struct ChipTicks {
   ChipTimer& source = rig.timer;
 };
 
-/// The independent watchdog of a chip whose oscillator runs at kLsi_hz, through its resets.
+/// A chip's independent watchdog, its oscillator at kLsi_hz, across resets.
 template <std::uint32_t kLsi_hz>
 struct ChipWatchdog {
   class Dog {

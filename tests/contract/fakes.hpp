@@ -15,12 +15,12 @@
 #include "hal/fake/scripted_imu.hpp"
 #include "hal/fake/scripted_range_finder.hpp"
 
-/// The fakes of hal/fake as backends of the suites: on the PC and on target.
+/// The fakes of hal/fake as backends, on the PC and on target.
 namespace verp::test {
 
-/// A FrameBus backend is prepared for `pings` pings of servo 1. Each answers with the e-Manual's
-/// status packet, but for the firmware version. kPlenty_us is enough for an answer; kSlack_us is
-/// how much its clock may move when it should stand: 0 if time is simulated.
+/// A FrameBus backend prepared for `pings` pings of servo 1. Each ping returns the e-Manual's
+/// status packet, except for the firmware version. kPlenty_us suffices for an answer. kSlack_us is
+/// how far its clock may move when it should stand: 0 in simulated time.
 inline const std::vector<std::uint8_t> kPing = {0xFF, 0xFF, 0xFD, 0x00, 0x01,
                                                 0x03, 0x00, 0x01, 0x19, 0x4E};
 
@@ -50,10 +50,10 @@ struct ScriptedInPieces : Scripted {
   explicit ScriptedInPieces(int pings) : Scripted(pings) { bus.set_piece(3); }
 };
 
-/// A CanBus backend: `bus` is one node, of which the other one is the test's: far_send() puts a
-/// frame onto the wire as soon as it is free, far_take() is the next one that node has heard.
-/// kPlenty_us is enough for hal::kCanQueue frames. kBusOff: fill_and_bus_off() makes so many frames
-/// wait and the node then leave the bus for too many errors.
+/// A CanBus backend: `bus` is one node, the test is the other. far_send() puts a frame on the wire
+/// once it is free; far_take() returns the next frame the test's node received. kPlenty_us suffices
+/// for hal::kCanQueue frames. If kBusOff, fill_and_bus_off() queues frames and then takes the node
+/// off the bus for too many errors.
 struct ScriptedWire : SimulatedTime {
   static constexpr bool kBusOff = true;
   void far_send(const CanFrame& frame) { bus.inject(frame, bus.now_us() + 100); }
@@ -67,8 +67,7 @@ struct ScriptedWire : SimulatedTime {
   hal::ScriptedCan bus;
 };
 
-/// A ByteLink backend: `near()` is the end under test; cut() takes the far end away, mend() brings
-/// it back.
+/// A ByteLink backend: near() is the end under test; cut() removes the far end, mend() restores it.
 struct MemoryPair {
   static constexpr bool kDetectsLoss = true;
   static constexpr bool kKeepsBytesOnLoss = true;
@@ -97,15 +96,14 @@ struct Manual {
   hal::ManualClock source;
 };
 
-/// kPercent of its timeout is what the watchdog really waits.
+/// The watchdog really waits kPercent of its timeout.
 template <std::uint32_t kPercent>
 struct FakeDog {
   hal::FakeWatchdog dog{kPercent};
 };
 
-/// An Imu backend: measure(gyro_x): the chip takes a sample that shows this, and no other for now.
-/// break_chip(yes): it does not answer, or does again. settle(): time to come up again, without
-/// samples.
+/// An Imu backend. measure(gyro_x) makes the chip take one sample with this value. break_chip(yes)
+/// stops or restores its answers. settle() gives it time to come up, without samples.
 struct ScriptedChip {
   void measure(std::int16_t gyro_x) { imu.measure({{gyro_x, 0, 0}, {0, 0, 0}, time_us += 8000}); }
   void break_chip(bool yes) { broken = yes; }
@@ -145,9 +143,9 @@ struct ScriptedLaser {
   bool broken = false;
 };
 
-/// A Camera backend: show() makes the next picture, kWidth by kHeight pixels; is(frame, n): those
-/// bytes are picture n, counted from 0. break_it(yes): it is unplugged, or back again; wait(): so
-/// long that the next read looks for it.
+/// A Camera backend. show() makes the next picture of kWidth by kHeight pixels. is(frame, n) checks
+/// that the bytes are picture n, counted from 0. break_it(yes) unplugs or replugs it. After wait()
+/// the next read looks for it.
 struct ScriptedEye {
   static constexpr std::uint32_t kWidth = 4, kHeight = 2;
   static constexpr bool kBreaks = true;

@@ -7,7 +7,7 @@
 #include "hal/contract/frame_bus.hpp"
 #include "tests/contract/backends.hpp"
 
-// The promises of hal/contract/frame_bus.hpp, held against each backend.
+// The promises of hal/contract/frame_bus.hpp, for each backend.
 
 namespace verp {
 namespace {
@@ -15,8 +15,7 @@ namespace {
 using test::kPing;
 using test::ping_reply;
 
-constexpr std::uint32_t kTooShort_us =
-    60;  // less than a ping's own time, or than the script's delay
+constexpr std::uint32_t kTooShort_us = 60;  // shorter than a ping's own time, or the script's delay
 
 template <class Backend>
 class FrameBusContract : public ::testing::Test {
@@ -83,7 +82,7 @@ TYPED_TEST(FrameBusContract, DeliversALateReplyToALaterPoll) {
   TypeParam backend(1);
   ASSERT_TRUE(this->ping(backend));
   std::vector<std::uint8_t> all = this->collect(backend, 256, kTooShort_us);
-  EXPECT_TRUE(all.empty() || TypeParam::kSlack_us > 0);  // in real time the PC itself may be late
+  EXPECT_TRUE(all.empty() || TypeParam::kSlack_us > 0);  // in real time the PC may be late
   const std::vector<std::uint8_t> late = this->collect(backend, 256, TypeParam::kPlenty_us);
   all.insert(all.end(), late.begin(), late.end());
   EXPECT_EQ(all, ping_reply());

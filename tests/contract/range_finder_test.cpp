@@ -33,7 +33,7 @@ TYPED_TEST(RangeFinderContract, GivesEachScanOnceAndTheNewestOnly) {
     EXPECT_EQ(this->scan.steps, TypeParam::kSteps);
     // 1 m ahead in the middle, nothing on the left.
     EXPECT_NEAR(this->scan.range_mm[TypeParam::kSteps / 2], 1000,
-                80);  // a twin stands a little off
+                80);  // a twin stands slightly off
     EXPECT_EQ(this->scan.range_mm[TypeParam::kSteps - 1], 0);
     EXPECT_GT(this->scan.time_us, last_us);
     last_us = this->scan.time_us;
@@ -57,13 +57,13 @@ TYPED_TEST(RangeFinderContract, CountsFaultsKeepsTheScanAndComesBack) {
     EXPECT_EQ(this->scan.time_us, before_us);
     this->laser.break_it(false);
     this->laser.wait();
-    this->laser.read(this->scan);  // which asks it anew
+    this->laser.read(this->scan);  // asks it again
     const std::uint32_t faults = this->laser.faults();
     this->laser.turn();
     ASSERT_EQ(this->laser.read(this->scan), hal::RangeStatus::kFresh);
     EXPECT_EQ(this->laser.faults(), faults);
   } else {
-    EXPECT_EQ(this->laser.faults(), 0u);  // a twin's is never silent
+    EXPECT_EQ(this->laser.faults(), 0u);  // a twin's laser never fails
   }
 }
 

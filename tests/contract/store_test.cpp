@@ -8,8 +8,7 @@
 #include "hal/contract/store.hpp"
 #include "tests/contract/backends.hpp"
 
-// The promises of hal/contract/store.hpp, held against each backend; what a power cut leaves is in
-// tests/unit/store.
+// The promises of hal/contract/store.hpp, for each backend. tests/unit/store tests power cuts.
 
 namespace verp {
 namespace {
@@ -51,7 +50,6 @@ TYPED_TEST(StoreContract, HasNothingAtFirst) {
   EXPECT_EQ(this->store.work(false), WorkState::kIdle);
 }
 
-// Any sequence of updates and removals: the store is a map from keys to their last values.
 TYPED_TEST(StoreContract, IsAMap) {
   std::mt19937 random(3);
   std::map<std::uint16_t, Bytes> expected;

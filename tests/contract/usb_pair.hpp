@@ -6,8 +6,8 @@
 
 #include "tests/support/stm32/usb_rig.hpp"
 
-/// A chip's USB port with a program on a PC at the other end, as a backend of the ByteLink suite.
-/// The far end goes away by closing the port or, if `kPulled`, with the cable.
+/// A chip's USB port and a program on a PC, as a backend of the ByteLink suite. The far end closes
+/// the port or, if `kPulled`, pulls the cable.
 namespace verp::test {
 
 template <hal::stm32::Family kFamily, bool kPulled>
@@ -16,12 +16,12 @@ class UsbPair {
 
  public:
   static constexpr bool kDetectsLoss = true;
-  static constexpr bool kKeepsBytesOnLoss = !kPulled;  // some may still be in the PC
+  static constexpr bool kKeepsBytesOnLoss = !kPulled;  // some bytes may still be in the PC
 
   class Far {
    public:
     explicit Far(UsbPair& pair) : pair_(pair) {}
-    /// Waits, if it may, until the device has them.
+    /// Waits, within its timeout, until the device has them.
     std::size_t write(const std::uint8_t* data, std::size_t size, std::uint32_t timeout_us) {
       constexpr std::size_t kRoom = 256;
       auto& host = pair_.rig_.host;
@@ -58,7 +58,7 @@ class UsbPair {
   UsbPair() {
     EXPECT_TRUE(rig_.open());
     EXPECT_TRUE(rig_.host.plug() && rig_.host.open());
-    rig_.port.write(nullptr, 0, 0);  // looks
+    rig_.port.write(nullptr, 0, 0);  // notices the host
   }
   auto& near() { return rig_.port; }
   Far& far() { return far_; }

@@ -8,13 +8,13 @@
 #include "tests/hil/fault_run.hpp"
 #include "tests/hil/promises.hpp"
 
-// 200 runs of a robot that walks while its servo bus goes wrong, in bus time: whatever happens, the
-// controller stays in the safe table, never waits longer than its requests may take, and tells its
-// operator. One kind of fault a test, many seeds within; a failure names its seed, and
+// 200 runs of a robot that walks while its servo bus fails, in bus time. The controller always
+// follows the safe table, never waits longer than its requests may take, and informs its operator.
+// Each test covers one kind of fault with many seeds. To run one seed alone:
 //
 //     VERP_SEED=7 build/host-release/tests/hil/hil_campaign --gtest_filter='*lost_0_1_percent*'
 //
-// runs that one alone. VERP_RUNS=n takes the first n seeds of each kind.
+// VERP_RUNS=n takes the first n seeds of each kind.
 namespace verp::test {
 namespace {
 
@@ -27,10 +27,9 @@ const Robot& robot() {
   return loaded;
 }
 
-// What each kind promises besides what all do, as the operator sees it.
+// What each kind promises beyond the promises of all, as the operator sees it.
 
-/// A read of which a byte was lost or changed shows: in a timeout, or with the device whose report
-/// it was.
+/// Each read that lost a byte or had one changed shows as a timeout or as a device's missed report.
 void shows_each_spoilt_read(const FaultResult& result) {
   EXPECT_GT(result.damage.spoilt_reads, 0u);
   EXPECT_GE(result.after.timeouts + result.after.missed_reports(), result.damage.spoilt_reads);
@@ -54,7 +53,7 @@ void flipped(const FaultResult& result) {
   keeps_walking(result);
 }
 
-// A doubled first byte of a header harms nobody.
+// A doubled first byte of a header does no harm.
 void doubled(const FaultResult& result) {
   EXPECT_GT(result.after.crc_errors, 0u);
   EXPECT_GT(result.after.noise, 0u);
@@ -69,7 +68,7 @@ void delayed(const FaultResult& result) {
   if (!result.stale) keeps_walking(result);
 }
 
-// An adapter that gives everything a period late: nothing that it brings may pass for fresh.
+// The adapter delivers everything a period late, so nothing may count as fresh.
 void held_back(const FaultResult& result) {
   EXPECT_EQ(result.during.fresh, 0u);
   EXPECT_NE(result.during.state[kBus], DeviceState::kGood);
@@ -110,8 +109,8 @@ constexpr LineFaults kAll{.lost = kPerMille / 2,
                           .delay_us = 12'000,
                           .bursts = 0.02};
 
-// On its stand the robot cannot fall, so every run must end as the table has it; with physics it
-// may fall, where nothing else is promised, and then must be limp.
+// On its stand the robot cannot fall, so every run must end as the table says. With physics it may
+// fall where nothing else is promised, and must then be limp.
 const std::vector<Kind>& kinds() {
   static const std::vector<Kind> all = {
       {{"lost_0_1_percent_physics", 8, true, {.lost = kPerMille}}, {lost_few}, true},
@@ -201,7 +200,7 @@ TEST(CampaignSize, Is200Runs) {
   EXPECT_EQ(runs, 200);
 }
 
-// Two seeds of every kind on the stand: quick enough for sanitizers and the second compiler.
+// Two seeds of each kind on the stand are quick enough for sanitizers and the second compiler.
 TEST(CampaignSample, StaysSafeAndTells) {
   for (Kind kind : kinds()) {
     if (kind.plan.physics) continue;

@@ -7,14 +7,13 @@
 #include "tests/hil/campaign_table.hpp"
 #include "tests/hil/can_promises.hpp"
 
-// 200 runs and more of a robot that walks while its CAN bus goes wrong, in bus time, as
-// campaign_test.cpp has them of a serial bus: whatever happens, the controller stays in the safe
-// table, no tick takes longer than a period, the operator is told, and the same seed gives the same
-// bits. One kind of fault a test, many seeds within; a failure names its seed, and
+// Over 200 runs like those of campaign_test.cpp, on a failing CAN bus in bus time. The controller
+// always follows the safe table, no tick exceeds a period, the operator is informed, and equal
+// seeds give equal bits. To run one seed alone:
 //
 //     VERP_SEED=7 build/host-release/tests/hil/hil_can_campaign --gtest_filter='*lost_1_percent*'
 //
-// runs that one alone. VERP_RUNS=n takes the first n seeds of each kind.
+// VERP_RUNS=n takes the first n seeds of each kind.
 namespace verp::test {
 namespace {
 
@@ -27,7 +26,7 @@ struct Kind {
   CanPlan plan;
   std::vector<std::function<void(const CanFaultResult&)>> promises;
   bool as_far = false;  ///< as the same robot without the fault
-  bool floods = false;  ///< the bus carries more than it can: own SYNCs wait
+  bool floods = false;  ///< overloads the bus: the controller's own SYNCs wait
 };
 
 constexpr double kPercent = 1e-2;
@@ -131,7 +130,7 @@ void keeps_what_all_promise(const Kind& kind, const CanFaultResult& result) {
   EXPECT_EQ(result.before.counted() + result.before.refused + result.before.missed_reports(), 0u)
       << "all was well before";
   EXPECT_GT(result.ticks_recorded, 0u) << "nothing was replayed";
-  // Behind a flood our own SYNCs of ticks before go first.
+  // In a flood, SYNCs of earlier ticks go first.
   const std::uint32_t period_us = robot().params.period_us;
   EXPECT_LT(result.worst_tick_us, kind.floods ? period_us * 3 / 2 : period_us)
       << "it waited for longer than a tick";
@@ -185,7 +184,7 @@ TEST(CanCampaignSize, Is200RunsOrMore) {
   EXPECT_GE(runs, 200);
 }
 
-// One seed of every kind on the stand: quick enough for sanitizers and the second compiler.
+// One seed of each kind on the stand is quick enough for sanitizers and the second compiler.
 TEST(CanCampaignSample, StaysSafeAndTells) {
   for (const Kind& kind : kinds()) {
     if (!kind.plan.physics) run_kind(kind, 1);

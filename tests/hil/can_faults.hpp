@@ -8,30 +8,30 @@
 
 namespace verp::test {
 
-/// What a bad CAN bus does, in shares of frames.
+/// Faults of a bad CAN bus, as shares of frames.
 struct CanFaults {
-  double lost = 0;         ///< nobody hears it
-  double missed = 0;       ///< likewise, but each of those who hear by itself
-  double doubled = 0;      ///< everybody hears it twice, as after an error in its last but one bit
-  double heard_twice = 0;  ///< likewise, each by itself
-  double overtaken = 0;    ///< comes behind the frame after it, or the one after that
-  double late = 0;         ///< comes to the controller later,
-  std::uint32_t late_us = 0;  ///< by up to so much
-  std::uint32_t held_us = 0;  ///< all come to the controller so much later, as from a slow gateway
-  double broken = 0;          ///< an error frame ends it, and it is sent again: a chip's wire only
-  bool down = false;          ///< the controller's interface: it neither sends nor hears
+  double lost = 0;            ///< no node receives it
+  double missed = 0;          ///< lost to each receiver independently
+  double doubled = 0;         ///< all receive it twice, as after an error in its last but one bit
+  double heard_twice = 0;     ///< doubled at each receiver independently
+  double overtaken = 0;       ///< arrives after the next frame or the one after that
+  double late = 0;            ///< reaches the controller late,
+  std::uint32_t late_us = 0;  ///< by up to this
+  std::uint32_t held_us = 0;  ///< delays all frames to the controller, as a slow gateway does
+  double broken = 0;          ///< an error frame ends it and it is sent again; chip's wire only
+  bool down = false;          ///< the controller's interface neither sends nor receives
 };
 
-/// What was done so far, and to what.
+/// What has been done so far, and to what.
 struct CanDamage {
   std::uint32_t lost = 0, missed = 0, doubled = 0, overtaken = 0, late = 0, down = 0, broken = 0;
-  std::uint32_t lost_answers = 0;  ///< PDOs of the nodes that the controller does not hear
+  std::uint32_t lost_answers = 0;  ///< PDOs that the controller did not receive
   std::uint32_t faults() const {
     return lost + missed + doubled + overtaken + late + down + broken;
   }
 };
 
-/// Does it to a VirtualCan. All chance comes from one seed.
+/// Applies the faults to a VirtualCan, with all randomness from one seed.
 class CanTrouble final : public can::Interference {
  public:
   CanTrouble(can::VirtualCan& bus, std::uint32_t seed) : bus_(bus), random_(seed) {
@@ -45,7 +45,7 @@ class CanTrouble final : public can::Interference {
   bool chance(double share) {
     return share > 0 && std::uniform_real_distribution<double>(0, 1)(random_) < share;
   }
-  /// When a node heard an order or the heartbeat of the controller last; 0: never.
+  /// When a node last received an order or heartbeat from the controller; 0: never.
   std::uint64_t ordered_us(std::uint8_t node) const {
     const auto found = ordered_us_.find(node);
     return found == ordered_us_.end() ? 0 : found->second;
@@ -55,13 +55,13 @@ class CanTrouble final : public can::Interference {
   void passed(std::uint64_t now_us) override;
 
  private:
-  /// What becomes of one frame for all who hear it.
+  /// One frame's fate at all receivers.
   enum class Fate : std::uint8_t { kFine, kLost, kDoubled, kOvertaken };
   struct Held {
     CanFrame frame;
     std::uint8_t receiver;
     std::uint64_t due_us;
-    std::uint32_t behind;  ///< it comes earlier when so many frames have overtaken it; 0: not
+    std::uint32_t behind;  ///< delivered early once this many frames have overtaken it; 0: no
   };
   void decide();
   bool inbound(const CanFrame& frame);
@@ -82,21 +82,21 @@ class CanTrouble final : public can::Interference {
   bool decided_ = false;
 };
 
-/// The controller's end: a CanBus in bus time on a VirtualCan, which runs by a timer's clock here.
+/// The controller's end: a CanBus in bus time on a VirtualCan driven by a timer's clock.
 class CanLine {
  public:
   CanLine(can::VirtualCan& bus, std::uint32_t seed) : trouble(bus, seed), bus_(bus) {
     bus.set_real_time(true);
   }
 
-  // CanBus
+  // CanBus contract.
   bool send(const CanFrame& frame);
   bool poll(CanFrame& frame, std::uint32_t timeout_us);
   std::uint64_t now_us() const { return bus_.now_us(); }
   hal::CanErrors errors() const { return bus_.errors(); }
 
   std::uint64_t time_us() const { return now_us(); }
-  /// Lets bus time go on while the controller does something else.
+  /// Lets bus time pass while the controller is busy.
   void wait_until(std::uint64_t time_us) { bus_.go_on_until(time_us); }
 
   CanTrouble trouble;

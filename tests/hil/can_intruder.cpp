@@ -12,7 +12,7 @@ namespace {
 namespace plan = canopen::plan;
 namespace sdo = canopen::sdo;
 
-constexpr std::uint32_t kUrgentIds = 0x7F;  // before SYNC, and not NMT's
+constexpr std::uint32_t kUrgentIds = 0x7F;  // before SYNC, but not NMT
 
 }  // namespace
 
@@ -35,7 +35,7 @@ void Intruder::babble(int frames) {
   for (int i = 0; i < frames; ++i) add(1 + random(kUrgentIds), 8);
 }
 
-// Too short, of the wrong number, extended, remote, or of no weight.
+// Wrong size, wrong number, extended, remote, or insignificant.
 void Intruder::pretend() {
   const std::uint8_t node = random_node();
   switch (random(7)) {
@@ -63,7 +63,7 @@ void Intruder::pretend() {
   }
 }
 
-// Of drives that were not asked, or of another object than that of which they were asked.
+// From drives that were not asked, or about another object than asked for.
 void Intruder::respond() {
   const std::uint8_t node = params_.joint[random(params_.joint_count)].servo_id;
   const bool other = node == asked_ || random(2) == 0;
@@ -82,7 +82,7 @@ void Intruder::hear(const CanFrame& frame, std::uint64_t) {
   if (!canopen::is_canopen(frame)) return;
   const canopen::Connection to = canopen::connection_of(frame.id);
   if (to.service == canopen::Service::kSdoRequest) asked_ = to.node;
-  // A twin does as it is told by SYNC, beside the one whose id it has.
+  // A twin obeys SYNC just like the drive whose id it shares.
   const bool its_turn = frame.id == canopen::kSyncId && frame.size == 1 &&
                         frame.data[0] == plan::group_of_joint(joint);
   if (kind != Kind::kTwin || !its_turn) return;

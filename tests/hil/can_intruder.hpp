@@ -8,17 +8,17 @@
 
 namespace verp::test {
 
-/// A node that is none of the robot's, and says what none of its nodes would.
+/// A foreign node that sends what none of the robot's nodes would.
 class Intruder final : public can::Node {
  public:
   enum class Kind : std::uint8_t {
     kSilent,
-    kUrgent,   ///< a third of the bus, before everybody else
-    kCrowd,    ///< nearly all of the bus, before everybody else
-    kFlood,    ///< more than the bus can carry, before everybody else
-    kForeign,  ///< with the identifiers of the robot's nodes: what they don't send
-    kTwin,     ///< as one drive does: another one has its id
-    kSdo,      ///< SDO responses of drives that nobody had asked
+    kUrgent,   ///< a third of the bus, at top priority
+    kCrowd,    ///< nearly all of the bus, at top priority
+    kFlood,    ///< more than the bus can carry, at top priority
+    kForeign,  ///< the robot's identifiers, with content they never send
+    kTwin,     ///< acts as a drive whose id it shares
+    kSdo,      ///< unrequested SDO responses of drives
     kSync,     ///< SYNCs, now and then
   };
   static constexpr std::uint8_t kId = 126;
@@ -26,7 +26,7 @@ class Intruder final : public can::Node {
   Intruder(const Params& params, std::uint32_t seed) : params_(params), random_(seed) {}
 
   Kind kind = Kind::kSilent;
-  int joint = 0;  ///< whose twin it is
+  int joint = 0;  ///< the joint whose drive it imitates
   std::uint32_t frames() const { return frames_; }
 
   std::uint8_t id() const override { return kId; }
@@ -47,7 +47,7 @@ class Intruder final : public can::Node {
   const Params& params_;
   std::minstd_rand random_;
   std::deque<CanFrame> out_;
-  std::uint8_t asked_ = 0;  ///< who was asked by SDO last
+  std::uint8_t asked_ = 0;  ///< node last asked by SDO
   std::uint32_t frames_ = 0;
 };
 

@@ -12,7 +12,7 @@ using dxl::controller::DeviceState;
 constexpr int kBus = dxl::controller::kDeviceBus;
 constexpr int kImu = dxl::controller::kDeviceImu;
 
-/// An answer that did not come shows: in a timeout, or with the device whose report it was.
+/// Each missing answer shows as a timeout or as a device's missed report.
 void shows_each_lost_answer(const CanFaultResult& result) {
   EXPECT_GT(result.damage.lost_answers, 0u);
   EXPECT_GE(result.after.timeouts + result.after.missed_reports(), result.damage.lost_answers);
@@ -47,7 +47,7 @@ void delayed(const CanFaultResult& result) {
   EXPECT_GT(result.after.strays, 0u) << "what comes too late belongs to nobody";
   keeps_walking(result);
 }
-// A gateway that gives everything a period late: nothing that it brings may pass for fresh.
+// The gateway delivers everything a period late, so nothing may count as fresh.
 void held_back(const CanFaultResult& result) {
   EXPECT_GT(result.damage.late, 0u);
   EXPECT_EQ(result.during.fresh, 0u);
@@ -91,14 +91,14 @@ void many_reboot(const CanFaultResult& result) {
   let_go(result);
   EXPECT_GT(result.after.missed_reports(), 0u);
 }
-// The switch of the servos' supply, which is an emergency stop, off and on: all are set up again.
+// Switching the servos' supply off, which is an emergency stop, and on sets all up again.
 void all_reboot(const CanFaultResult& result) {
   EXPECT_TRUE(was(result, kHolding));
   let_go(result);
   EXPECT_NE(result.before.fresh, 0u);
   EXPECT_EQ(result.after.fresh, result.before.fresh);
 }
-// Set up again while the robot stands: sensors hold nothing.
+// Set up while the robot stands: sensors hold no torque.
 void imu_reboots(const CanFaultResult& result) {
   EXPECT_NE(result.after.faults & safety::kFaultImuSilent, 0u);
   EXPECT_GT(result.after.errors[kImu], 0u);
@@ -134,7 +134,8 @@ void unasked(const CanFaultResult& result) {
   EXPECT_GE(result.after.strays, result.intruder * 9 / 10);
   keeps_walking(result);
 }
-// Nobody knows which of two is the drive: its position does not count, and the robot is let down.
+// No one knows which of the two is the drive. Its position does not count, and the robot is let
+// down.
 void twin(const CanFaultResult& result) {
   EXPECT_GE(result.intruder, 100u);
   EXPECT_EQ(result.during.fresh >> row(result) & 1u, 0u);

@@ -2,7 +2,7 @@
 #include "tests/hil/can_fault_run.hpp"
 #include "tests/hil/promises.hpp"
 
-/// What each kind of fault of a CAN bus promises besides what all do, as the operator sees it.
+/// What each kind of CAN fault promises beyond the promises of all, as the operator sees it.
 namespace verp::test {
 
 void lost_few(const CanFaultResult& result);

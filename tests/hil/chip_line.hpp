@@ -7,9 +7,9 @@
 
 namespace verp::test {
 
-/// The controller's end on a chip: a CanBus that is the driver of bxCAN over the model of its
-/// registers. The wire is the model's, with its errors and its bus-off; the nodes on it are those
-/// of a VirtualCan, whose time is the chip's. Seeds take the chips in turn.
+/// The controller's end on a chip: the bxCAN driver on its register model is the CanBus. The
+/// model's wire has errors and bus-off. The other nodes are on a VirtualCan, which follows the
+/// chip's time. Seeds alternate between the chips.
 class ChipLine {
  public:
   ChipLine(can::VirtualCan& bus, std::uint32_t seed)
@@ -28,7 +28,7 @@ class ChipLine {
     work();
   }
 
-  // CanBus
+  // CanBus contract.
   bool send(const CanFrame& frame) { return board_.driver.send(frame); }
   bool poll(CanFrame& frame, std::uint32_t timeout_us) {
     return board_.driver.poll(frame, timeout_us);
@@ -41,9 +41,9 @@ class ChipLine {
     const std::uint64_t now = time_us();
     if (now < until_us) board_.rig.machine.advance(hal::stm32::model::us(until_us - now));
   }
-  /// So many of the controller's frames meet an error, each time that it tries.
+  /// The controller's next `frames` frames meet an error at each attempt.
   void break_own(unsigned frames) { board_.can.break_next = frames; }
-  /// The wires touch each other: nothing can be sent.
+  /// The wires are shorted, so nothing can be sent.
   void short_circuit(bool yes) {
     board_.can.line_dominant = yes;
     board_.rig.machine.touch();

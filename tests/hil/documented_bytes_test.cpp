@@ -3,17 +3,16 @@
 #include "common/protocol/control_table.hpp"
 #include "tests/hil/pty_devices.hpp"
 
-// The twin's 21 servos on one pseudo-terminal and the controller on another, opened as serial ports
-// like any, and asked with the examples of ROBOTIS e-Manual, "DYNAMIXEL Protocol 2.0": every byte
-// below, sent and expected, stands there. Where one had to differ, it is said.
+// The twin's 21 servos and the controller on pseudo-terminals, opened as ordinary serial ports. All
+// bytes sent and expected are the examples of ROBOTIS e-Manual, "DYNAMIXEL Protocol 2.0"; comments
+// name the exceptions.
 namespace verp::test {
 namespace {
 
 using Bytes = std::vector<std::uint8_t>;
 namespace at = dxl::address;
 
-/// Status of ID 1 to what brings no data: the same for Write, Reg Write, Action, Factory Reset,
-/// Reboot and Clear.
+/// Status of ID 1 without data, as for Write, Reg Write, Action, Factory Reset, Reboot and Clear.
 const Bytes kGood = {0xFF, 0xFF, 0xFD, 0x00, 0x01, 0x04, 0x00, 0x55, 0x00, 0xA1, 0x0C};
 const Bytes kPing = {0xFF, 0xFF, 0xFD, 0x00, 0x01, 0x03, 0x00, 0x01, 0x19, 0x4E};
 const Bytes kReboot = {0xFF, 0xFF, 0xFD, 0x00, 0x01, 0x03, 0x00, 0x08, 0x2F, 0x4E};
@@ -38,7 +37,7 @@ Bytes write_of(std::uint8_t id, std::uint16_t address, const Bytes& data) {
       dxl::encode_write(frame.data(), frame.size(), id, address, data.data(), data.size()));
   return frame;
 }
-/// The data of a status packet without stuffing.
+/// Data of a status packet without stuffing.
 Bytes data_of(const Bytes& status) {
   return status.size() < dxl::kStatusBytes ? Bytes{} : Bytes(status.begin() + 9, status.end() - 2);
 }
@@ -66,7 +65,7 @@ class DocumentedServos : public ::testing::Test {
   std::unique_ptr<SerialMaster> master;
 };
 
-// Firmware 38 there is 45 here, the first that knows fast reads: that byte and the CRC differ.
+// Firmware 38 there is 45 here, the first with fast reads: that byte and the CRC differ.
 TEST_F(DocumentedServos, Ping) {
   const Bytes status = {0xFF, 0xFF, 0xFD, 0x00, 0x01, 0x07, 0x00, 0x55, 0x00, 0x06, 0x04};
   Bytes expected = status + Bytes{45};
@@ -126,7 +125,7 @@ TEST_F(DocumentedServos, BulkReadAndBulkWrite) {
   const Bytes temperature_of_2 = {0xFF, 0xFF, 0xFD, 0x00, 0x02, 0x05,
                                   0x00, 0x55, 0x00, 0x24, 0x8B, 0xA9};
   EXPECT_EQ(ask(bulk_read, 25), voltage_of_1 + temperature_of_2);
-  // Both limits stand there from the factory: written differently before.
+  // The factory sets both limits, so other values are written first.
   EXPECT_EQ(ask(write_of(1, at::kMaxVoltageLimit, {150, 0}), 11).size(), 11u);
   EXPECT_EQ(ask(write_of(2, at::kTemperatureLimit, {70}), 11).size(), 11u);
   const Bytes bulk_write = {0xFF, 0xFF, 0xFD, 0x00, 0xFE, 0x10, 0x00, 0x93, 0x01, 0x20, 0x00, 0x02,
@@ -136,8 +135,8 @@ TEST_F(DocumentedServos, BulkReadAndBulkWrite) {
   EXPECT_EQ(read(2, at::kTemperatureLimit, 1), Bytes{80});
 }
 
-// The e-Manual prints 20 F2 as CRC of this request, which is that of the example of Fast Sync Read;
-// these bytes have DA 2D. Those of the replies are as printed.
+// The e-Manual prints CRC 20 F2, which belongs to its Fast Sync Read example; these bytes have DA
+// 2D. The replies' CRCs are as printed.
 TEST_F(DocumentedServos, FastBulkRead) {
   const Bytes request = {0xFF, 0xFF, 0xFD, 0x00, 0xFE, 0x12, 0x00, 0x9A, 0x03,
                          0x84, 0x00, 0x04, 0x00, 0x07, 0x7C, 0x00, 0x02, 0x00,
@@ -173,7 +172,7 @@ TEST_F(DocumentedServos, RebootAndClear) {
   EXPECT_EQ(ask(clear, kGood.size()), kGood);
 }
 
-// Option 1 keeps the id and not the baud rate: at 57600 it does not understand this bus any more.
+// Option 1 keeps the id but not the baud rate: at 57600 the servo no longer understands this bus.
 TEST_F(DocumentedServos, FactoryReset) {
   EXPECT_EQ(ask(kFactoryReset, kGood.size()), kGood);
   EXPECT_TRUE(master->expect_silence(kPing).empty());
@@ -186,17 +185,17 @@ TEST_F(DocumentedServos, All21Answer) {
   }
 }
 
-// The controller is device 200; the examples are for ID 1, which an operator can make it.
+// The controller is device 200; the operator can make it ID 1 for the examples.
 class DocumentedController : public ::testing::Test {
  protected:
   DocumentedController() {
-    // Where the examples read a position of 166 stands the upper half of the digest.
+    // At the address of the examples' position 166 the controller has the upper half of the digest.
     state.digest.chain = std::uint64_t{0xA6} << 32;
     controller = std::make_unique<PtyController>(params, state, path);
     master = std::make_unique<SerialMaster>(path);
   }
   Bytes ask(const Bytes& bytes, std::size_t wanted) { return master->exchange(bytes, wanted); }
-  /// Answered under the old id.
+  /// The answer still has the old id.
   void become_1() { EXPECT_EQ(ask(write_of(200, at::kId, {1}), 11).size(), 11u); }
 
   const std::string path = pty_path("controller");
@@ -224,13 +223,14 @@ TEST_F(DocumentedController, PingAndRead) {
   EXPECT_EQ(ask(kReadPosition, kPositionOf1.size()), kPositionOf1);
 }
 
-// Of a Sync or Bulk Read's devices it is the first, and the other one is not there.
+// The controller is the first device of a Sync or Bulk Read; the second is missing.
 TEST_F(DocumentedController, SyncFastSyncAndBulkRead) {
   become_1();
   const Bytes sync_read = {0xFF, 0xFF, 0xFD, 0x00, 0xFE, 0x09, 0x00, 0x82,
                            0x84, 0x00, 0x04, 0x00, 0x01, 0x02, 0xCE, 0xFA};
   EXPECT_EQ(ask(sync_read, kPositionOf1.size()), kPositionOf1);
-  // The e-Manual's example asks 3, 7 and 4; as 3 it says its part, which tells of all three.
+  // The e-Manual's example asks 3, 7 and 4. As device 3 the controller sends its part, which
+  // announces all three.
   EXPECT_EQ(ask(write_of(1, at::kId, {3}), 11).size(), 11u);
   const Bytes fast = {0xFF, 0xFF, 0xFD, 0x00, 0xFE, 0x0A, 0x00, 0x8A, 0x84,
                       0x00, 0x04, 0x00, 0x03, 0x07, 0x04, 0x20, 0xF2};
@@ -245,7 +245,7 @@ TEST_F(DocumentedController, SyncFastSyncAndBulkRead) {
             (Bytes{0xFF, 0xFF, 0xFD, 0x00, 0x01, 0x06, 0x00, 0x55, 0x00}));
 }
 
-// Reboot as documented; Factory Reset is not for a controller: Instruction Error (2).
+// Reboot works as documented; a controller refuses Factory Reset with Instruction Error (2).
 TEST_F(DocumentedController, RebootAndFactoryReset) {
   become_1();
   const Bytes refused = ask(kFactoryReset, 11);

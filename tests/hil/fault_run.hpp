@@ -7,38 +7,38 @@
 
 namespace verp::test {
 
-/// What goes wrong besides the line.
+/// Events besides faults of the line.
 enum class Event {
   kNone,
-  kServoGone,       ///< unplugged from the bus, not from its power
-  kServoUnpowered,  ///< unplugged: back again, it starts anew
-  kRepeats,         ///< tells the same position again and again
-  kLateLoop,        ///< the controller is busy elsewhere for longer than a period, now and then
-  kReset,           ///< the controller starts anew
-  kHot,             ///< a servo is hotter than it should, and goes on
-  kOverheated,      ///< so hot that it shuts its torque off
-  kLowVoltage,      ///< the supply is low
-  kSags,            ///< likewise, but only while the robot walks
-  kJointBeyond,     ///< a relaxed robot's joint is turned beyond its limits
-  kImuGone,         ///< unplugged from the bus
-  kImuRepeats,      ///< tells the same reading again and again
+  kServoGone,       ///< unplugged from the bus but powered
+  kServoUnpowered,  ///< unplugged; restarts when it is back
+  kRepeats,         ///< repeats the same position
+  kLateLoop,        ///< now and then the controller is busy for more than a period
+  kReset,
+  kHot,         ///< a servo is too hot but goes on
+  kOverheated,  ///< so hot that it shuts off its torque
+  kLowVoltage,
+  kSags,         ///< low only while the robot walks
+  kJointBeyond,  ///< a relaxed robot's joint is turned beyond its limits
+  kImuGone,      ///< unplugged from the bus
+  kImuRepeats,
 };
 
 struct FaultPlan {
   const char* name;
   int runs;
-  bool physics;  ///< ODE, where falling matters; else LevelPlant
+  bool physics;  ///< ODE, where falls matter; else LevelPlant
   LineFaults line{};
   Event event = Event::kNone;
-  double lasts_s = 0;  ///< 0: to the end
-  double walks_s = 3;  ///< from the fault's beginning to the end of the run
+  double lasts_s = 0;  ///< 0: until the end
+  double walks_s = 3;  ///< from the fault's beginning to the run's end
 };
 
 struct FaultResult : RunResult {
-  LineDamage damage;  ///< of the line
+  LineDamage damage;  ///< done to the line
 };
 
-/// One robot that stands up, walks, and meets a fault. Everything in it comes from `seed`.
+/// A robot stands up, walks and meets a fault. Everything derives from `seed`.
 FaultResult run_fault(const Robot& robot, const FaultPlan& plan, std::uint32_t seed);
 
 }  // namespace verp::test

@@ -13,8 +13,8 @@
 
 namespace verp::test {
 
-/// A robot that stands up, walks, and meets a fault, whatever its bus: what all such runs do. A
-/// kind of bus adds its line, its own faults, and what it watches in each tick.
+/// The common part of all runs in which a robot stands up, walks and meets a fault. Each kind of
+/// bus adds its line, its own faults, and its checks in each tick.
 template <class Line, class Plan, class Result>
 class FaultScene {
  public:
@@ -47,7 +47,7 @@ class FaultScene {
   using Event = decltype(Plan::event);
   using ResetCause = dxl::controller::ResetCause;
 
-  /// `first_steps_s` of walking, and up to half a second more, go before the fault.
+  /// The fault comes after `first_steps_s` of walking and up to half a second more.
   FaultScene(const Robot& robot, const Plan& plan, std::uint32_t seed, double first_steps_s)
       : params_(robot.params),
         plan_(plan),
@@ -60,12 +60,12 @@ class FaultScene {
 
   virtual Line& line() = 0;
   virtual void begin() = 0;  ///< the fault
-  virtual void end() = 0;    ///< of what ails the bus
+  virtual void end() = 0;    ///< ends the bus's faults
   virtual void watched_tick() = 0;
   virtual void finish() = 0;
-  /// What happens between two ticks of this bus.
+  /// Called between two ticks.
   virtual void disturb() {}
-  /// Where a controller that is switched on records its ticks; may be null.
+  /// Where a restarted controller records its ticks; may be null.
   virtual std::vector<TickRecord>* trace() { return nullptr; }
 
   double seconds(std::uint64_t ticks) const {
@@ -74,11 +74,11 @@ class FaultScene {
   void fault(const std::string& what) { watch_.fault(what); }
   bool ended() const { return plan_.lasts_s > 0 && seconds(result_.ticks) >= plan_.lasts_s; }
 
-  /// Faults of servos, supply and IMU, as far as they are in the plant.
+  /// Starts faults of servos, supply and IMU that the plant can show.
   void begin_in_plant() {
     switch (plan_.event) {
       case Event::kRepeats:
-        // A knee or a hip: what walks must move.
+        // A knee or a hip, because a walk moves those.
         result_.joint = params_.leg[random_() % kFeet].joint[2 + random_() % 3];
         return body_.plant().freeze(result_.joint);
       case Event::kHot:
@@ -99,7 +99,7 @@ class FaultScene {
     }
   }
 
-  // The chip's start and its boot check take their time; nobody hears anything meanwhile.
+  // During the chip's start and boot check nothing is served.
   void restart() {
     keep();
     line().wait_until(line().time_us() + 150'000 + random_() % 850'000);
@@ -119,11 +119,11 @@ class FaultScene {
 
  private:
   static constexpr std::uint32_t kOrderTicks = 10;
-  static constexpr double kUpright_s = 8;  // standing up and learning the gyro's bias take less
+  static constexpr double kUpright_s = 8;  // longer than standing up and learning the gyro's bias
   static constexpr double kHot_c = 76;     // beyond temperature_high_c, below a shutdown
-  static constexpr double kTooHot_c = 90;  // beyond the servo's own limit, 80
-  static constexpr double kDown_s = 4;     // ending a walk and sitting down take less
-  static constexpr double kLow_v = 9.5;    // below voltage_low_v, not below the servo's own
+  static constexpr double kTooHot_c = 90;  // beyond the servo's own limit of 80
+  static constexpr double kDown_s = 4;     // longer than ending a walk and sitting down
+  static constexpr double kLow_v = 9.5;    // below voltage_low_v but not below the servo's limit
 
   bool walks() const { return board_->safe.mode() == kWalking; }
   void keep() {
@@ -157,8 +157,8 @@ class FaultScene {
     result_.before = read_registers(desk_);
     return true;
   }
-  /// A program that repeats its order does not raise a robot whose controller was reset: it takes
-  /// somebody who asks it to relax.
+  /// After a reset, repeated orders must not raise the robot; first the operator has to ask it to
+  /// relax.
   void expect_held() {
     for (int ticks = 0; ticks < 50; ++ticks) {
       if (desk_.order_walk(ticks_)) fault("an order from before the reset was taken");
@@ -167,19 +167,19 @@ class FaultScene {
     }
   }
 
-  /// What is latched until somebody asks a relaxed robot to relax.
+  /// Faults that stay latched until a relaxed robot is asked to relax.
   bool is_trouble() const {
     return plan_.event == Event::kHot || plan_.event == Event::kLowVoltage ||
            plan_.event == Event::kSags;
   }
-  /// Nobody asks for more than to relax.
+  /// The operator only asks to relax.
   void relax(double duration_s) {
     asks_ = false;
     desk_.write(app::reg("request"), {0});
     for (std::uint64_t ticks = 0; seconds(ticks) < duration_s; ++ticks) tick();
     asks_ = true;
   }
-  /// A limp robot's joint is turned by hand, further than it should ever go.
+  /// A hand turns a limp robot's joint beyond its limits.
   void bend() {
     relax(kDown_s);
     const JointParams& joint = params_.joint[result_.joint];
@@ -214,11 +214,11 @@ class FaultScene {
 
   const double first_steps_s_;
   Eigen::Vector2d start_m_ = Eigen::Vector2d::Zero();
-  std::uint64_t late_us_ = 0;  ///< when the loop came back from being busy elsewhere
+  std::uint64_t late_us_ = 0;  ///< when the busy loop resumed
   std::uint32_t ticks_ = 0;
-  std::uint32_t changes_ = 0;  ///< of mode, since the fault began
+  std::uint32_t changes_ = 0;  ///< of mode since the fault began
   bool asks_ = true;           ///< the operator repeats its order to walk
-  bool sags_ = false;          ///< the supply, while the robot walks
+  bool sags_ = false;          ///< the supply sags while the robot walks
 };
 
 }  // namespace verp::test

@@ -13,13 +13,13 @@
 #include "host/sim/random.hpp"
 #include "tests/hil/safe_table.hpp"
 
-// A robot put on the floor in any pose and turned any way, asked to get up and walk, and whatever
-// goes wrong meanwhile: goals stay inside their limits, modes in the safe table, and no servo has
-// torque where the table has none. VERP_SEED=7 runs that seed alone.
+// A robot lies on the floor in any pose and is asked to get up and walk, while something fails.
+// Goals stay inside limits, modes inside the safe table, and no servo has torque where the table
+// has none. VERP_SEED=7 runs that seed alone.
 namespace verp::test {
 namespace {
 
-constexpr int kLongest_s = 10, kLimpTicks = 5;  // a goal of torque off may be lost or late
+constexpr int kLongest_s = 10, kLimpTicks = 5;  // the torque-off goal may be lost or late
 
 struct Lying {
   Lying() : entity(model::load_robot(model::find_model("generic21"), "")) {
@@ -46,7 +46,7 @@ enum class Trouble {
   kCount
 };
 
-/// One kind of trouble, from a moment on, for a while.
+/// One kind of trouble from a random moment on, for a while.
 class Troubled {
  public:
   explicit Troubled(std::uint64_t seed)
@@ -134,7 +134,7 @@ Ended run(const Lying& robot, std::uint64_t seed) {
   return ended;
 }
 
-/// Modes seen in any of the runs.
+/// Returns all modes seen in the runs.
 std::uint32_t run_seeds(std::uint64_t first, std::uint64_t last) {
   const Lying robot;
   const char* const only = std::getenv("VERP_SEED");
@@ -152,7 +152,7 @@ constexpr std::uint32_t bit(safety::Mode mode) {
   return 1U << static_cast<unsigned>(mode);
 }
 
-// One of each kind of trouble.
+// One seed per kind of trouble.
 TEST(Floor, AnyPoseAndTroubleKeepsTheSafeTable) {
   const std::uint32_t seen = run_seeds(1, 11);
   EXPECT_NE(seen & bit(safety::Mode::kGettingUp), 0U) << "none was ever asked to get up";

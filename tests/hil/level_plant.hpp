@@ -12,9 +12,8 @@
 
 namespace verp::test {
 
-/// A robot on a stand: joints follow their goals at their top speed, the body stays level and the
-/// soles share its weight. Costs next to nothing, and never falls. Its IMU's noise is one count of
-/// the gyro.
+/// A robot on a stand, cheap to simulate: joints follow their goals at top speed, the body stays
+/// level, the soles share its weight. The gyro has one count of noise.
 class LevelPlant final : public sim::Plant {
  public:
   explicit LevelPlant(const Params& params) : params_(params) {
@@ -69,8 +68,8 @@ class LevelPlant final : public sim::Plant {
   std::uint16_t foot_count_ = 0;
 };
 
-/// Passes everything on, but lets one servo's encoder or the IMU repeat what it told last, one
-/// servo be hot, one joint be bent, and the supply sag.
+/// Passes everything on but can make an encoder or the IMU repeat itself, heat a servo, bend a
+/// joint, and sag the supply.
 class SickPlant final : public sim::Plant {
  public:
   explicit SickPlant(sim::Plant& plant) : plant_(plant) {}
@@ -87,7 +86,7 @@ class SickPlant final : public sim::Plant {
     temperature_c_ = temperature_c;
   }
   void sag_to(double voltage_v) { voltage_v_ = voltage_v; }
-  /// The joint stands so many counts from where its servo would have it.
+  /// Puts the joint `count` counts from where its servo would have it.
   void bend(int joint, std::int32_t count) {
     bent_joint_ = joint;
     bent_count_ = count;
@@ -121,7 +120,7 @@ class SickPlant final : public sim::Plant {
   int bent_joint_ = -1;
   std::int32_t bent_count_ = 0;
   double temperature_c_ = 25;
-  double voltage_v_ = 0;  ///< of all servos; 0: what the plant says
+  double voltage_v_ = 0;  ///< for all servos; 0: the plant's own value
   bool imu_frozen_ = false;
 };
 

@@ -7,7 +7,7 @@
 namespace verp::test {
 namespace {
 
-constexpr std::uint32_t kLongestBurst = 24;  // bytes: a motor's brush on the line for 0.1 ms
+constexpr std::uint32_t kLongestBurst = 24;  // bytes: a motor brush disturbs the line for 0.1 ms
 
 bool wants_answer(const std::uint8_t* frame, std::size_t size) {
   constexpr std::size_t kInstructionAt = 7;
@@ -68,7 +68,7 @@ bool FaultyLine::send(const std::uint8_t* data, std::size_t size) {
     return true;
   }
   std::vector<std::uint8_t> left = spoilt({data, data + size}, false);
-  // Longer than a frame may be: the rest follows as another, as on a wire.
+  // Bytes beyond the longest frame follow as another frame, as on a wire.
   for (std::size_t at = 0; at < left.size(); at += hal::kMaxFrame) {
     const std::size_t count = std::min(hal::kMaxFrame, left.size() - at);
     bus_.send(left.data() + at, count);

@@ -9,28 +9,29 @@
 
 namespace verp::test {
 
-/// What a bad cable does, in both directions: shares of bytes, and of frames.
+/// Faults of a bad cable in both directions, as shares of bytes and of frames.
 struct LineFaults {
   double lost = 0, doubled = 0, flipped = 0;  ///< of bytes
-  double delayed = 0;                         ///< of replies: from some byte on they come later,
-  std::uint32_t delay_us = 0;                 ///< by up to so much
-  std::uint32_t held_us = 0;  ///< all replies come so much later, as from a slow adapter
-  double bursts = 0;          ///< of frames and replies: noise within, before or behind
-  bool cut = false;           ///< nothing gets through
+  double delayed = 0;                         ///< of replies: from some byte on they come late,
+  std::uint32_t delay_us = 0;                 ///< by up to this
+  std::uint32_t held_us = 0;                  ///< delays all replies, as a slow adapter does
+  double bursts = 0;  ///< of frames and replies: noise inside, before or after
+  bool cut = false;   ///< nothing gets through
 };
 
-/// What was done to the line so far, and to what.
+/// What has been done to the line so far, and to what.
 struct LineDamage {
   std::uint32_t lost = 0, doubled = 0, flipped = 0, delayed = 0, bursts = 0;
   std::uint32_t cut_frames = 0;
-  /// Requests that can't have been answered whole: a byte of them or of the reply lost or changed.
+  /// Requests that lost or changed a byte, in themselves or in the reply, and so had no whole
+  /// answer.
   std::uint32_t spoilt_reads = 0;
-  std::uint32_t noise_heard = 0;  ///< bytes of noise that came to the controller
+  std::uint32_t noise_heard = 0;  ///< noise bytes that reached the controller
   std::uint32_t faults() const { return lost + doubled + flipped + delayed + bursts + cut_frames; }
 };
 
-/// The cable between a controller and its servos: a FrameBus in bus time around a VirtualBus, which
-/// runs by a timer's clock here. All chance comes from one seed.
+/// The cable between controller and servos: a FrameBus in bus time around a VirtualBus driven by a
+/// timer's clock. All randomness comes from one seed.
 class FaultyLine {
  public:
   FaultyLine(bus::VirtualBus& bus, std::uint32_t seed) : bus_(bus), random_(seed) {
@@ -40,13 +41,13 @@ class FaultyLine {
   LineFaults faults;
   const LineDamage& damage() const { return damage_; }
 
-  // FrameBus
+  // FrameBus contract.
   bool send(const std::uint8_t* data, std::size_t size);
   std::size_t poll(std::uint8_t* buffer, std::size_t capacity, std::uint32_t timeout_us);
   std::uint64_t now_us() const { return bus_.now_us(); }
 
   std::uint64_t time_us() const { return now_us(); }
-  /// Lets bus time go on while the controller does something else.
+  /// Lets bus time pass while the controller is busy.
   void wait_until(std::uint64_t time_us);
 
  private:
@@ -57,10 +58,9 @@ class FaultyLine {
   bool chance(double share) {
     return share > 0 && std::uniform_real_distribution<double>(0, 1)(random_) < share;
   }
-  /// What is left of `bytes` at the other end.
+  /// What arrives of `bytes` at the other end.
   std::vector<std::uint8_t> spoilt(const std::vector<std::uint8_t>& bytes, bool inbound);
   void arrive(const std::uint8_t* data, std::size_t size);
-  /// Bytes that have come by now.
   std::size_t fetch(std::uint8_t* buffer, std::size_t capacity);
   void note_spoilt();
 
@@ -68,9 +68,9 @@ class FaultyLine {
   std::minstd_rand random_;
   LineDamage damage_;
   std::deque<Arrived> inbox_;
-  std::uint64_t sent_us_ = 0;      ///< when the last frame began, whether it got through or not
-  std::uint64_t bus_sent_us_ = 0;  ///< when the last one that reached the bus did
-  bool reading_ = false;           ///< the last frame wants an answer
+  std::uint64_t sent_us_ = 0;      ///< when the last frame began, delivered or not
+  std::uint64_t bus_sent_us_ = 0;  ///< when the last delivered frame began
+  bool reading_ = false;           ///< the last frame expects an answer
   bool spoilt_ = false;            ///< and cannot get all of it
 };
 static_assert(hal::FrameBus<FaultyLine>);

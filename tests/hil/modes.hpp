@@ -1,7 +1,7 @@
 #pragma once
 
-/// The modes of the safety table as its page numbers them: not the core's own list, which is what
-/// referees hold to account.
+/// The safety table's modes as its README numbers them. The core's own list is not used, because
+/// referees judge it.
 namespace verp::test {
 
 enum Mode {

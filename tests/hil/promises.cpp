@@ -11,8 +11,8 @@ using dxl::controller::DeviceState;
 
 constexpr int kBus = dxl::controller::kDeviceBus;
 
-/// The walk ends on both feet, and the robot sits down and stays there: walking, standing, sitting,
-/// relaxed, and no mode after that, whatever is asked.
+/// The walk ends on both feet, then the robot sits down and stays relaxed, whatever is asked:
+/// walking, standing, sitting, relaxed.
 void stops_walking(const RunResult& result, std::uint32_t fault) {
   EXPECT_EQ(result.before.faults & fault, 0u);
   EXPECT_EQ(result.during.faults & fault, fault);
@@ -86,7 +86,6 @@ void reset(const RunResult& result) {
   EXPECT_LT(result.after.tick, result.before.tick + result.ticks) << "it counts anew";
 }
 
-// One servo of all, whichever; the others are well.
 void hot(const RunResult& result) {
   stops_walking(result, safety::kFaultTemperature);
 }
@@ -106,7 +105,7 @@ void joint_beyond(const RunResult& result) {
   EXPECT_EQ(result.after.refused_joint, 0xFF) << "nobody is";
 }
 
-// A servo that has shut itself off is no servo any more: the robot is let down.
+// A servo that shut itself off no longer counts, so the robot is let down.
 void overheated(const RunResult& result) {
   constexpr std::uint32_t kBoth = safety::kFaultServoError | safety::kFaultTemperature;
   EXPECT_EQ(result.after.faults & kBoth, kBoth);
@@ -121,7 +120,7 @@ void imu_gone(const RunResult& result) {
   no_imu(result);
 }
 
-// It answers, and still it is not well: the operator sees that too.
+// The IMU answers but is not well, and the operator sees it.
 void imu_repeats(const RunResult& result) {
   constexpr int kImu = dxl::controller::kDeviceImu;
   EXPECT_EQ(result.during.state[kImu], DeviceState::kStale);

@@ -16,8 +16,8 @@
 #include "host/link/system_clock.hpp"
 #include "tests/host/bus/fake_plant.hpp"
 
-/// Dynamixel devices at a pseudo-terminal, each in a thread of the test, as another program or a
-/// board would be; and whoever opens the other end as a serial port.
+/// Dynamixel devices on pseudo-terminals, each in its own thread as if another program or a board,
+/// and a master that opens the other end as a serial port.
 namespace verp::test {
 
 inline std::string pty_path(const char* name) {
@@ -26,7 +26,7 @@ inline std::string pty_path(const char* name) {
       .string();
 }
 
-/// Calls `turn(link)` again and again until the end of its life.
+/// Calls `turn(link)` repeatedly until destroyed.
 class PtyThread {
  public:
   template <class Turn>
@@ -45,7 +45,7 @@ class PtyThread {
   std::thread thread_;
 };
 
-/// The twin's servos, by the wall's clock.
+/// The twin's servos in real time.
 class PtyServos {
  public:
   PtyServos(const Params& params, FakePlant& plant, const std::string& path)
@@ -69,7 +69,7 @@ class PtyServos {
   PtyThread thread_;
 };
 
-/// A controller's operator port. `state` is what its registers show.
+/// A controller's operator port; its registers show `state`.
 class PtyController {
  public:
   PtyController(const Params& params, const State& state, const std::string& path)
@@ -95,8 +95,8 @@ class SerialMaster {
   explicit SerialMaster(const std::string& path)
       : link_(wire::parse_endpoint("serial:" + path + "@2000000")) {}
 
-  /// Sends `bytes`; returns what comes, up to `wanted` bytes: all of them long before the time is
-  /// over, or what came until then.
+  /// Sends `bytes` and returns up to `wanted` bytes of the reply: at once when it has them all,
+  /// else what came in time.
   std::vector<std::uint8_t> exchange(const std::vector<std::uint8_t>& bytes, std::size_t wanted,
                                      std::uint32_t timeout_us = 5'000'000) {
     link_.write(bytes.data(), bytes.size(), 1'000'000);
@@ -110,7 +110,7 @@ class SerialMaster {
     }
     return reply;
   }
-  /// What comes although nothing should.
+  /// Returns what came although nothing should.
   std::vector<std::uint8_t> expect_silence(const std::vector<std::uint8_t>& bytes) {
     return exchange(bytes, 1, 150'000);
   }

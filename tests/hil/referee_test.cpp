@@ -5,12 +5,11 @@
 #include "tests/hil/safe_table.hpp"
 #include "tests/unit/support/test_robot.hpp"
 
-// The referee of the campaigns sees what it is there to see: a controller that takes a robot for a
-// walk must have been asked to, or pushed.
+// Tests the campaigns' referee: a controller may walk only if it was asked to or pushed.
 namespace verp::test {
 namespace {
 
-// A controller made up, whose robot stands in its middle and was asked to stand.
+// A made-up controller whose robot stands in mid-range and was asked to stand.
 struct Controller {
   Controller() {
     inputs.flags = kImuFresh | kFeetFresh | kCommandFresh;
@@ -30,7 +29,7 @@ struct Controller {
     outputs.mode = mode;
     outputs.torque_enable = mode == kRelaxed ? 0 : (1U << kRobot.joint_count) - 1;
     for (int i = 0; i < for_s / 0.01; ++i) {
-      inputs.accel_count[2] ^= 1;  // a live chip trembles
+      inputs.accel_count[2] ^= 1;  // a live chip has noise
       referee.tick(inputs, outputs);
       ++inputs.tick;
     }

@@ -10,8 +10,8 @@
 
 namespace verp::test {
 
-/// The robot of a run: in ODE where falling matters, else on a stand; in both its servos and its
-/// IMU can be made sick.
+/// A run's robot: in ODE where falls matter, else on a stand. Faults can be put into its servos and
+/// IMU in both.
 class RunBody {
  public:
   RunBody(const Robot& robot, bool physics, std::uint32_t seed) {
@@ -28,9 +28,8 @@ class RunBody {
   }
 
   SickPlant& plant() { return *plant_; }
-  /// On a stand servos reach their goals on time, so what they tell is known.
+  /// On a stand servos reach their goals on time, so their reports are known.
   bool on_stand() const { return level_.has_value(); }
-  /// Over ground; on a stand it goes nowhere.
   Eigen::Vector2d position_m() const {
     if (!twin_) return Eigen::Vector2d::Zero();
     return twin_->truth().com_world_m.head<2>();
@@ -39,7 +38,7 @@ class RunBody {
   bool fallen() const { return twin_ && twin_->truth().fallen; }
 
  private:
-  static constexpr double kLyingUp = 0.5;  // 60 degrees; the table says fallen at 46
+  static constexpr double kLyingUp = 0.5;  // tilt of 60 degrees; the table says fallen at 46
 
   std::optional<sim::World> world_;
   std::optional<sim::TwinRobot> twin_;

@@ -5,8 +5,8 @@
 namespace verp::test {
 namespace {
 
-constexpr std::uint64_t kLimp_us = 1'500'000;  // torque off reaches every servo by then
-constexpr std::uint64_t kFall_us = 1'000'000;  // for tilt to be seen and confirmed
+constexpr std::uint64_t kLimp_us = 1'500'000;  // within this, torque off reaches every servo
+constexpr std::uint64_t kFall_us = 1'000'000;  // to detect and confirm a tilt
 
 }  // namespace
 
@@ -37,7 +37,7 @@ void RunWatch::watch_silence(const Inputs& inputs) {
     silent_[j] = (inputs.fresh >> j & 1) != 0 ? 0 : silent_[j] + 1;
     longest = std::max(longest, silent_[j]);
   }
-  const double half_s = seconds(1) / 2;  // how it rounds is the core's affair
+  const double half_s = seconds(1) / 2;  // the core may round either way
   stale_ = stale_ || seconds(longest) > params_.tuning.safety.stale_hold_s - half_s;
 }
 

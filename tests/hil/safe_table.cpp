@@ -14,7 +14,7 @@ constexpr std::uint32_t bit(int mode) {
 
 constexpr std::uint32_t kDown = bit(kFalling) | bit(kFallen) | bit(kStopped);
 
-/// Where each mode may lead, whatever the reason: the arrows of the table.
+/// The table's arrows: where each mode may lead, for any reason.
 constexpr std::uint32_t kMayLeadTo[] = {
     /* relaxed  */ bit(kRising) | bit(kGettingUp) | bit(kStopped),
     /* rising   */ bit(kStanding) | bit(kHolding) | bit(kSitting) | kDown,
@@ -44,8 +44,7 @@ void SafeTable::fault(const std::string& what) {
   if (violation_.empty()) violation_ = "tick " + std::to_string(tick_) + ": " + what;
 }
 
-// In periods, with or without a tick: in one without, nobody is heard. Before the first tick nobody
-// was.
+// Counts periods with or without a tick; without one, and before the first, nothing was heard.
 void SafeTable::count_silence(const Inputs& inputs) {
   const std::uint32_t periods = begun_ ? std::min(inputs.tick - tick_, kForEver) : kForEver;
   const auto count = [periods](std::uint32_t& silent, bool heard) {
@@ -68,7 +67,7 @@ void SafeTable::count_silence(const Inputs& inputs) {
   }
 }
 
-// A push turns a robot or leans it, and its IMU tells of that.
+// A push turns or leans a robot, and the IMU shows it.
 void SafeTable::count_push(const Inputs& inputs) {
   constexpr double kTurns_rad_s = 0.3, kLeans_m_s2 = 1.0;
   const auto most = [](const std::int16_t* count, int axes, double per_count) {
@@ -84,7 +83,7 @@ void SafeTable::count_push(const Inputs& inputs) {
   unmoved_ = moved ? 0 : std::min(unmoved_ + periods, kForEver);
 }
 
-// Latched: it is over when it has ended and a relaxed robot was asked to relax.
+// Trouble is latched: it is over when it has ended and a relaxed robot was asked to relax.
 void SafeTable::count_trouble(const Inputs& inputs, int to) {
   const SafetyTuning& safety = params_.tuning.safety;
   if ((inputs.flags & kSlowFresh) != 0 && inputs.slow_joint < params_.joint_count) {
@@ -103,7 +102,7 @@ void SafeTable::count_trouble(const Inputs& inputs, int to) {
 }
 
 void SafeTable::check_trouble(int to) {
-  constexpr double kLongestEnd_s = 4;  // a walk may have four steps planned
+  constexpr double kLongestEnd_s = 4;  // a walk may have four planned steps left
   trouble_ticks_ = trouble_ && to == kWalking ? trouble_ticks_ + 1 : 0;
   if (1e-6 * params_.period_us * trouble_ticks_ > kLongestEnd_s) fault("walks on with bad power");
   if (!trouble_) return;
@@ -115,8 +114,8 @@ void SafeTable::check_trouble(int to) {
   }
 }
 
-// A rise and a sitting down bring every joint to its goal, none faster in the middle of its
-// minimum-jerk way (15/8 of the average) than the joint may be.
+// A rise or sitting down brings every joint to its goal. At mid-way a minimum-jerk curve is 15/8
+// times its average speed, which the joint must allow.
 void SafeTable::check_way(const Outputs& outputs, int to) {
   const bool begins = to != mode_ && (to == kRising || to == kSitting);
   const bool ends = (mode_ == kRising && to == kStanding) || (mode_ == kSitting && to == kRelaxed);
@@ -138,7 +137,7 @@ void SafeTable::check_transition(const Inputs& inputs, int to) {
   const auto longer = [&](std::uint32_t ticks, double duration_s) {
     return 1e-6 * params_.period_us * ticks >= duration_s - 1e-6;
   };
-  // Where the period is no whole part of it, the core may be early by half a period.
+  // If the period does not divide the time, the core may be early by half a period.
   const auto nearly = [&](std::uint32_t ticks, double duration_s) {
     return longer(ticks, duration_s - 0.5e-6 * params_.period_us);
   };
@@ -195,8 +194,8 @@ void SafeTable::check_transition(const Inputs& inputs, int to) {
   }
 }
 
-// A tick decides its mode last: its goals are still those of the mode it began in, and the first
-// under a new one come a tick later. Torque goes at once.
+// A tick decides its mode last. Its goals still belong to the mode before; the new mode's goals
+// follow a tick later. Torque goes off at once.
 void SafeTable::check_goals(const Inputs& inputs, const Outputs& outputs) {
   for (int j = 0; j < params_.joint_count; ++j) {
     const JointParams& joint = params_.joint[j];

@@ -9,10 +9,10 @@
 #include "tests/hil/operator_desk.hpp"
 #include "tests/hil/safe_table.hpp"
 
-/// The control loop and its operator's port, as a board puts them together.
+/// The control loop and its operator port, assembled as on a board.
 namespace verp::test {
 
-/// A board's timer, which here goes by the bus.
+/// A board's timer that follows bus time.
 template <class Line>
 class BusClock {
  public:
@@ -40,8 +40,8 @@ class BusClock {
 
 using Device = app::OperatorDevice<hal::MemoryLink>;
 
-/// One life of a controller, from power-up to reset. `Line` is its servo bus, of any kind, with
-/// time_us(), which a board's timer tells, and wait_until() such a time.
+/// A controller from power-up to reset. `Line` is its servo bus of any kind; time_us() gives the
+/// board's time and wait_until() waits for one.
 template <class Line>
 struct ControllerOnBoard {
   static_assert(hal::TickSource<BusClock<Line>>);

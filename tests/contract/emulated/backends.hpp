@@ -3,7 +3,7 @@
 #include "tests/contract/chip_models.hpp"
 #include "tests/contract/fakes.hpp"
 
-/// What each suite runs against on an emulated board. The models' own PC is slow there: one chip.
+/// Backends on an emulated board. It runs register models slowly, so only one chip.
 namespace verp::test {
 
 using FrameBuses = ::testing::Types<Scripted, ScriptedInPieces, UsartBus>;

@@ -13,7 +13,7 @@
 #include "tests/contract/pc/virtual_wire.hpp"
 #include "tests/contract/usb_pair.hpp"
 
-/// What each suite runs against on the PC.
+/// The backends on the PC.
 namespace verp::test {
 
 struct System {

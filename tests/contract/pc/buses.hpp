@@ -21,7 +21,7 @@
 #include "tests/support/link_pump.hpp"
 #include "tests/support/link_stream.hpp"
 
-/// Every FrameBus that only the PC has, as fakes.hpp prepares its own.
+/// FrameBus backends that only the PC has, prepared as in fakes.hpp.
 namespace verp::test {
 
 struct Virtual : SimulatedTime {
@@ -31,7 +31,7 @@ struct Virtual : SimulatedTime {
   bus::VirtualBus bus{params, plant};
 };
 
-/// The virtual bus again, through the link of an emulated microcontroller: over FIFOs.
+/// The virtual bus over FIFOs, as an emulated microcontroller reaches it.
 struct Remote : SimulatedTime {
   explicit Remote(int) {
     server = std::thread(
@@ -110,7 +110,7 @@ struct LockstepOver : SimulatedTime {
   app::LockstepBus<wire::Link, Idle> bus{pair.near(), Idle{}};
 };
 
-/// A servo in real time at the other end of a ByteLink.
+/// A servo in real time at the far end of a ByteLink.
 template <class Pair>
 struct LinkBusOver {
   static constexpr std::uint32_t kPlenty_us = 300'000;

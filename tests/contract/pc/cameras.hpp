@@ -12,10 +12,10 @@
 #include "host/sim/world.hpp"
 #include "tests/support/video_device.hpp"
 
-/// Cameras of the PC as backends of the suite.
+/// The PC's cameras as backends of the suite.
 namespace verp::test {
 
-/// The driver of V4L2 on a device that the test is.
+/// The V4L2 driver, with the test as its device.
 template <std::uint32_t kCode>
 struct KernelEyeOf {
   static constexpr std::uint32_t kWidth = 16, kHeight = 8;
@@ -51,7 +51,7 @@ struct KernelEyeOf {
 using KernelEye = KernelEyeOf<V4L2_PIX_FMT_YUYV>;
 using KernelEyeOfFiles = KernelEyeOf<V4L2_PIX_FMT_MJPEG>;
 
-/// In the place of the program that draws: says which moment it was.
+/// Replaces the renderer: draws the number of the moment.
 class NumberDrawer {
  public:
   void expose(const camera::Moment& moment) { waiting_.push_back(moment); }
@@ -72,7 +72,7 @@ class NumberDrawer {
   std::uint32_t made_ = 0;
 };
 
-/// generic21's; what draws it is tested in tests/host/camera.
+/// generic21's camera; tests/host/camera tests its renderer.
 struct TwinEye {
   static constexpr std::uint32_t kWidth = 320, kHeight = 240;
   static constexpr bool kBreaks = false;

@@ -11,11 +11,11 @@
 #include "host/link/link.hpp"
 #include "host/link/system_clock.hpp"
 
-/// Two ends of one ByteLink, of every kind that the PC has for real. `near()` is the end under
-/// test; cut() takes the far end away, mend() brings it back.
+/// Both ends of every real ByteLink of the PC. near() is the end under test; cut() removes the far
+/// end, mend() restores it.
 namespace verp::test {
 
-/// A folder that is gone at the end of the test.
+/// A folder that the test's end deletes.
 class Folder {
  public:
   Folder() {
@@ -33,7 +33,7 @@ class Folder {
   char path_[32] = "/tmp/verp-link-XXXXXX";
 };
 
-/// `Server` is the end that is there first; kNearServes says whether it is the one under test.
+/// `Server` is the end that is there first; kNearServes says whether it is under test.
 template <bool kNearServes>
 class HostPair {
  public:
@@ -42,7 +42,7 @@ class HostPair {
       : server_text_(server), client_text_(client) {
     server_.emplace(wire::parse_endpoint(server));
     if (client_text_.empty()) client_text_ = server_->place();
-    if (server_->place().starts_with("tcp:")) {  // come back to the same port
+    if (server_->place().starts_with("tcp:")) {  // return to the same port
       server_text_ = "tcp-listen" + server_->place().substr(3);
     }
     client_.emplace(wire::parse_endpoint(client_text_));
@@ -72,7 +72,7 @@ class HostPair {
 /// libserial on one end of a pseudo-terminal.
 template <bool kNearServes>
 struct SerialPair : Folder, HostPair<kNearServes> {
-  static constexpr bool kKeepsBytesOnLoss = kNearServes;  // an unplugged device takes them along
+  static constexpr bool kKeepsBytesOnLoss = kNearServes;  // unplugging a device discards them
   SerialPair() : HostPair<kNearServes>("pty:" + link(), "serial:" + link() + "@2000000") {}
 };
 template <bool kNearServes>
