@@ -6,27 +6,27 @@
 
 namespace verp::app {
 
-/// What an answer is worth.
+/// How an answer counts.
 enum class Answer : std::uint8_t {
-  kFresh,  ///< of this tick
-  kOld,    ///< maybe of the tick before: it counts for nothing
-  kAgain,  ///< its source has a fresh one in this tick: if they differ, one of the two is old
+  kFresh,  ///< belongs to this tick
+  kOld,    ///< may belong to the previous tick; ignored
+  kAgain,  ///< the source already has a fresh one in this tick; if the two differ, one is old
 };
 
-/// Which answers to a tick's SYNCs are still to come, and which of those that come are new. A
+/// Decides which answers to a tick's SYNCs are still due, and which received answers are fresh. A
 /// source is a node, or the IMU's second frame.
 ///
-/// A node that missed a SYNC, or heard one twice, counts on from there (CiA 301), and answers
-/// another one than it was told to for ever after. An answer later in the round than planned was
-/// taken in this tick if its source's last one came in the tick before; else it may be that one.
-/// One that is earlier may be late from the tick before. What comes so in some ticks in a row
-/// counts, and is then waited for where it comes.
+/// A node that missed a SYNC or received one twice continues its SYNC counter from there (CiA 301)
+/// and answers another SYNC ever after. An answer later in the round than planned is fresh if the
+/// source's last answer came in the previous tick; otherwise it may be that old one. An answer
+/// earlier than planned may be late from the previous tick. A shift that repeats for some ticks is
+/// accepted as the source's new place.
 ///
-/// An answer that did not come may still be on its way, in a drive that could not get onto the bus
-/// or in a slow gateway, and come when the next one is due, which then comes a tick late as well.
-/// So what a source says counts no more, once it owes an answer, until the bus has shown that
-/// nothing waits for it: prompt(). That is in the next tick, as a rule; one tick more where answers
-/// have come late by themselves, as from a gateway, of which other frames show nothing.
+/// A missing answer may still arrive: a drive could not get onto the bus, or a gateway is slow. It
+/// then arrives when the next one is due, and every later one is a tick late. So answers of a
+/// source that owes one do not count until prompt() shows that nothing waits for the bus. That
+/// usually happens in the next tick. After answers that were late by themselves, as from a gateway,
+/// it takes one tick more, because other frames reveal nothing about them.
 class AnswerWatch {
  public:
   static constexpr int kImuSecond = kCanNodes;
@@ -37,7 +37,7 @@ class AnswerWatch {
     planned_ |= node_bit(source);
     source_[source] = {group, group, 0, 0, 0};
   }
-  /// Those who answer another SYNC than planned. In the long run too many answer the same one.
+  /// Sources that answer another SYNC than planned. Over time too many would answer the same one.
   NodeMask astray() const {
     NodeMask mask = 0;
     for (int i = 0; i < kSources; ++i) {
@@ -45,10 +45,10 @@ class AnswerWatch {
     }
     return mask;
   }
-  /// From now on it answers the one that was planned.
+  /// The source answers its planned SYNC again.
   void restore(int source) { source_[source].group = source_[source].planned; }
 
-  /// A tick begins.
+  /// Begins a tick.
   void begin() {
     const NodeMask missed = prompt_times_ == kKnown ? planned_ & ~answered_ : 0;
     const bool tardy = tardy_ticks_ > 0;
@@ -62,16 +62,16 @@ class AnswerWatch {
     before_ = fresh_;
     answered_ = fresh_ = spoilt_ = 0;
   }
-  /// A drive's SDO answer that was asked for at the end of the last tick was there when this one
-  /// began: on the wire, each PDO that was ready would have gone before it.
+  /// Call when a drive's SDO answer, requested at the end of the last tick, was there when this
+  /// tick began. Every PDO that was ready would have preceded it on the wire.
   void prompt() {
     owing_ = 0;
     if (prompt_times_ < kKnown) ++prompt_times_;
   }
-  /// Nobody counts: the whole bus may be late.
+  /// True if no source counts: the whole bus may be late.
   bool all_owe() const { return planned_ != 0 && (owing_ | owing_since_) == planned_; }
 
-  /// An answer came after SYNC `window`.
+  /// Rates an answer that came after SYNC `window`.
   Answer take(int source, std::uint8_t window) {
     Source& each = source_[source];
     const NodeMask bit = node_bit(source);
@@ -87,21 +87,21 @@ class AnswerWatch {
     fresh_ |= bit;
     return Answer::kFresh;
   }
-  /// Two different answers of this source came in this tick: none counts any more.
+  /// Two answers of this source in this tick differ: neither counts.
   void spoil(int source) {
     tardy_ticks_ = kTardyTicks;
     fresh_ &= ~node_bit(source);
     spoilt_ |= node_bit(source);
   }
-  /// An answer came when the tick was over, and counts for none; it may show that a node answers
-  /// the last SYNC now, where nobody waited for it.
+  /// Notes an answer that came after the tick: it does not count, but may show that the node
+  /// answers the last SYNC now.
   void take_late(int source, std::uint8_t last_window) {
     Source& each = source_[source];
     if (each.group != last_window) move(each, last_window);
   }
 
-  /// Who is to answer this SYNC and has not, or answered it in the last tick in place of another;
-  /// those in `given_up` are not waited for.
+  /// Sources that should answer this SYNC and have not, or that answered it instead of their own in
+  /// the last tick. Excludes `given_up`.
   NodeMask due(std::uint8_t window, NodeMask given_up) const {
     NodeMask mask = 0;
     for (int i = 0; i < kSources; ++i) {
@@ -111,8 +111,8 @@ class AnswerWatch {
     }
     return mask & planned_ & ~answered_ & ~given_up;
   }
-  /// The group most of whose nodes answered SYNC `window` first in this tick, where most of those
-  /// it is meant for did not; 0: none. A single node shows nothing.
+  /// The group most of whose nodes answered SYNC `window` first in this tick, while most nodes
+  /// planned for it did not; 0: none. A single node proves nothing.
   std::uint8_t group_in(std::uint8_t window) const {
     int meant = 0, came = 0;
     for (const Source& each : source_) {
@@ -123,14 +123,14 @@ class AnswerWatch {
     if (came * 2 > meant) return 0;
     return most(2, [&](int i) { return source_[i].came == window; });
   }
-  /// Most of the nodes that SYNC `window` is meant for have been silent in this tick, and were
-  /// well in the one before. Two answers may be lost each by itself.
+  /// Whether most nodes planned for SYNC `window` were silent in this tick after answering in the
+  /// previous one. Two lost answers may be coincidence.
   bool fell_silent(std::uint8_t window) const {
     return most(3, [&](int i) {
              return ((before_ & ~answered_) >> i & 1) != 0 && source_[i].planned == window;
            }) == window;
   }
-  /// All nodes answer the SYNCs that were planned from now on.
+  /// All nodes answer their planned SYNCs from now on.
   void realign() {
     for (Source& each : source_) {
       each.group = each.planned;
@@ -141,21 +141,22 @@ class AnswerWatch {
   NodeMask answered() const { return answered_; }
 
  private:
-  /// Twice, as its own place was empty between; once more where the bus as a whole may be late.
+  /// Two, since the source's own place was empty meanwhile; one more while the whole bus may be
+  /// late.
   static constexpr std::uint8_t kTicks = 2;
   static constexpr std::uint8_t kTicksUnknown = 3;
-  /// A bus that was prompt so often is expected to be so again. Some drives never are.
+  /// After this many prompt ticks the bus is expected to stay prompt. Some drives never are.
   static constexpr std::uint8_t kKnown = 16;
-  /// For so many ticks an answer that came late by itself is remembered.
+  /// Ticks for which a late answer is remembered.
   static constexpr std::uint16_t kTardyTicks = 1000;
   struct Source {
     std::uint8_t planned = 0;
-    std::uint8_t group = 0;  ///< where it is waited for
-    std::uint8_t heard = 0;  ///< the window in which it came last when it was another
-    std::uint8_t times = 0;  ///< so many times in a row
-    std::uint8_t came = 0;   ///< the window of this tick's first answer that nobody doubts; 0: none
+    std::uint8_t group = 0;  ///< where its answer is expected
+    std::uint8_t heard = 0;  ///< the last window that was not `group`
+    std::uint8_t times = 0;  ///< ticks in a row in `heard`
+    std::uint8_t came = 0;   ///< window of this tick's first undoubted answer; 0: none
   };
-  /// The group of most of whose nodes, `least` or more, `holds` is true; 0: none.
+  /// The group in which `holds` is true for most nodes, at least `least`; 0: none.
   template <class Holds>
   std::uint8_t most(int least, Holds holds) const {
     std::uint8_t all[kMostGroups + 1] = {}, those[kMostGroups + 1] = {};
@@ -170,7 +171,7 @@ class AnswerWatch {
     }
     return found;
   }
-  /// True if it comes there from now on.
+  /// True if the source's answer is expected in `window` from now on.
   bool move(Source& each, std::uint8_t window) const {
     each.times = each.heard == window ? static_cast<std::uint8_t>(each.times + 1) : std::uint8_t{1};
     each.heard = window;
@@ -183,10 +184,10 @@ class AnswerWatch {
   NodeMask planned_ = 0;
   NodeMask answered_ = ~NodeMask{0};
   NodeMask fresh_ = ~NodeMask{0};
-  NodeMask before_ = 0;  ///< whose answers were fresh in the tick before
+  NodeMask before_ = 0;  ///< fresh in the previous tick
   NodeMask spoilt_ = 0;
-  NodeMask owing_ = 0;        ///< an answer that may still come
-  NodeMask owing_since_ = 0;  ///< likewise, since the last tick, whatever other frames show
+  NodeMask owing_ = 0;        ///< owe an answer that may still come
+  NodeMask owing_since_ = 0;  ///< the same since the last tick, whatever other frames show
   std::uint16_t tardy_ticks_ = 0;
   std::uint8_t prompt_times_ = 0;
 };

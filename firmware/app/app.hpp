@@ -7,22 +7,21 @@
 #include "firmware/app/servos_on.hpp"
 #include "hal/contract/imu.hpp"
 
-/// The one control loop: the same template drives real servos, virtual ones and an emulated
-/// microcontroller's, over every bus that servos_on.hpp knows. bring_up() once, then tick() once a
-/// control period. Nothing here knows what goes where or waits for a clock: in lockstep the bus
-/// itself moves to the next period when the tick's first frame reaches it; a board with a timer
-/// waits before it calls tick().
+/// The control loop. The same template drives real servos, virtual servos and those of an emulated
+/// microcontroller, over every bus in servos_on.hpp. Call bring_up() once, then tick() once a
+/// control period. The loop waits for no clock: in lockstep the tick's first frame advances the bus
+/// to the next period; a board with a timer waits before it calls tick().
 namespace verp::app {
 
-/// Of a robot whose IMU is on the servo bus.
+/// For a robot whose IMU is on the servo bus.
 struct NoImu {
   hal::ImuStatus read(hal::ImuSample&) { return hal::ImuStatus::kStale; }
   std::uint32_t faults() const { return 0; }
 };
 
-/// What decides a tick: the core. A PC's user may put something else there (host/session).
+/// The core as the controller of a tick. A PC user may substitute another (host/session).
 struct Core {
-  action::Library actions;  ///< that may be asked for
+  action::Library actions;  ///< available actions
   void operator()(const Params& params, State& state, const Inputs& inputs, Outputs& outputs) {
     step(params, actions, state, inputs, outputs);
   }
@@ -34,8 +33,8 @@ class App {
   using Servos = typename ServosOn<Bus>::Type;
   static_assert(ServoBinding<Servos>);
 
-  /// `chip` is the board's own IMU, read in every tick if Params names none on the bus or
-  /// use_chip() says so; null: there is none.
+  /// `chip` is the board's own IMU, or null. Each tick reads it if Params names no IMU on the bus
+  /// or use_chip() selected it.
   App(const Params& params, Bus& bus, Operator& operator_link, Sink& sink, Chip* chip = nullptr,
       Law law = {})
       : params_(params),
@@ -45,10 +44,10 @@ class App {
         chip_(chip),
         law_(law) {}
 
-  /// Call before the first tick; torque is off afterwards. Never ticks a robot that did not come
-  /// up.
+  /// Call before the first tick; torque is off afterwards. Do not tick a robot whose bring-up
+  /// failed.
   BringUpReport bring_up() { return servos_.bring_up(); }
-  /// Of every servo's strength, from the next tick on: for a robot's first steps. 1 to 100.
+  /// Limits every servo's strength from the next tick on, for a robot's first steps: 1 to 100 %.
   void limit_torque(std::uint8_t percent) { servos_.limit_torque(percent); }
 
   void tick(const Beat& beat = {}) {
@@ -65,8 +64,8 @@ class App {
     sink_.record(TickRecord{state_.digest, inputs_}, state_, outputs_);
   }
 
-  /// Whose counts become Inputs from the next tick on: the chip's, or the bus device's (which is
-  /// asked all the same). Not while any servo holds torque; not what the robot does not have.
+  /// Selects whose counts become Inputs from the next tick on: the chip's or the bus device's
+  /// (which is still read). Ignored while any servo holds torque or if the robot lacks one of them.
   void use_chip(bool yes) {
     if (chip_ != nullptr && params_.imu.device_id != 0 && outputs_.torque_enable == 0)
       from_chip_ = yes;
@@ -81,8 +80,8 @@ class App {
   const JointEffort* efforts() const { return servos_.efforts(); }
 
  private:
-  // Ticks are counted on the clock that paces them, or else on bus time, at the end of the first
-  // read: a period that was missed is skipped, not squeezed.
+  // Counts ticks on the pacing clock, else on bus time, at the end of the first read. Missed
+  // periods are skipped, not made up.
   void count_tick(const Beat& beat) {
     const std::uint64_t now_us = servos_.now_us();
     if (ticking_) {

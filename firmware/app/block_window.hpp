@@ -6,8 +6,7 @@
 #include "common/model/image.hpp"
 #include "common/protocol/controller_table.hpp"
 
-/// What stands behind the registers window_...: whole images that the operator reads and replaces
-/// block by block.
+/// Images behind the registers window_...: the operator reads and replaces them block by block.
 namespace verp::app {
 
 enum class ImageKind : std::uint8_t {
@@ -18,26 +17,27 @@ enum class ImageKind : std::uint8_t {
   kTicks = 4,  ///< read only
 };
 
-/// Why an image was refused, above the values of ImageFault and KeptFault.
+/// Why an image was refused; numbered above ImageFault and KeptFault.
 inline constexpr std::uint8_t kWrongWindowCrc = 255;
 inline constexpr std::uint8_t kBlockNotKept = 254;
 
-/// What became of a block.
+/// Result of writing a block.
 enum class Taken : std::uint8_t {
   kYes = 0,
-  kNotYet = 1,  ///< a place for the image is being made: write it again
-  kNo = 2,      ///< the memory did not keep it: begin the image again
+  kNotYet = 1,  ///< the memory is being prepared: write the block again
+  kNo = 2,      ///< the memory failed: start the image again
 };
 
-/// Images: what can be read and replaced. Called between ticks; no call waits.
-///  - size(kind): bytes of the image in force; 0: there is none of that kind here.
-///  - room(kind): how many bytes a new one may have; 0: none is taken here.
-///  - read(kind, offset, to, count): the image in force; `offset` + `count` is at most its size.
-///  - begin(kind): forgets what was written of a new one.
-///  - write(kind, offset, from, count): a block of the new one, any order; inside its room. Actions
-///    with torque off only: flash is where they wait.
-///  - commit(kind, crc): asked with torque off only. 0: the bytes have that CRC-32 and are a good
-///    image, with which the controller starts next; else why not, and nothing changed.
+/// Images: what can be read and replaced. Call between ticks; no call waits.
+///  - size(kind): bytes of the active image; 0: none of that kind.
+///  - room(kind): largest size of a new image; 0: none accepted.
+///  - read(kind, offset, to, count): copies from the active image; `offset` + `count` is at most
+///    its size.
+///  - begin(kind): discards what was written of a new image.
+///  - write(kind, offset, from, count): stores a block of the new image, in any order, within its
+///    room. Actions need torque off, because they are written to flash.
+///  - commit(kind, crc): call only with torque off. 0: the CRC-32 fits and the image is valid; the
+///    controller starts with it next time. Otherwise the fault, and nothing changed.
 template <class Store>
 concept Images = requires(Store& store, const Store& seen, ImageKind kind, std::size_t offset,
                           std::uint8_t* to, const std::uint8_t* from, std::size_t count,
@@ -50,7 +50,7 @@ concept Images = requires(Store& store, const Store& seen, ImageKind kind, std::
   { store.commit(kind, crc) } -> std::same_as<std::uint8_t>;
 };
 
-/// Nothing to replace: the window stays shut.
+/// No images: the window refuses every access.
 struct NoImages {
   static std::size_t size(ImageKind) { return 0; }
   static std::size_t room(ImageKind) { return 0; }
@@ -63,12 +63,12 @@ struct NoImages {
 };
 inline constinit NoImages no_images;
 
-/// The robot's Params image; a new one is kept in RAM for the board to start with, and to store.
+/// The robot's Params image. Keeps a new one in RAM; the board starts with it and stores it.
 class ParamsImages {
  public:
   explicit ParamsImages(const ParamsImage& in_force) : in_force_(in_force) {}
 
-  /// The new image, once it was committed; nullptr before.
+  /// The committed new image, or nullptr.
   const ParamsImage* accepted() const { return accepted_ ? &staged_ : nullptr; }
 
   // Images

@@ -7,8 +7,8 @@
 #include "firmware/app/bus_master.hpp"
 #include "firmware/app/servo_ram.hpp"
 
-/// Finds every device of the robot on the bus and writes what Params wants into it, torque off.
-/// EEPROM is written only where it differs (it wears out) and all that was written is read back.
+/// Finds every device of the robot on the bus and writes its settings from Params, torque off.
+/// Writes EEPROM only where it differs, because EEPROM wears out, and reads everything back.
 namespace verp::app {
 
 template <hal::FrameBus Bus>
@@ -31,9 +31,9 @@ class BringUp {
   static constexpr int kAttempts = 3;
   static constexpr std::size_t kMostBytes = 36;
 
-  // Before anybody is asked anything, and again if somebody does not answer: what a controller that
-  // was reset left stiff must not stay so for the sake of one servo. Nobody replies, so three
-  // times.
+  // Releases torque before any request, and again if a device does not answer: servos that a reset
+  // controller left stiff must not stay so because one servo is missing. Repeated three times,
+  // since the write has no reply.
   void release_all() {
     for (int times = 0; times < 3; ++times) {
       dxl::Encoder encoder(master_.frame(), master_.capacity());
@@ -55,7 +55,7 @@ class BringUp {
     return false;
   }
 
-  /// One request to one device; copies exactly `size` reply bytes. Repeats a request that got no
+  /// One request to one device; copies exactly `size` reply bytes. Repeats requests without an
   /// answer.
   bool transact(std::size_t frame, std::uint8_t id, std::uint16_t address, std::uint8_t* data,
                 std::size_t size) {
@@ -99,7 +99,7 @@ class BringUp {
     return transact(frame, id, address, nullptr, 0);
   }
 
-  /// Makes `size` registers hold `data`, writing only if they don't.
+  /// Makes `size` registers hold `data`; writes only if they differ.
   bool establish(std::uint8_t id, std::uint16_t address, const std::uint8_t* data,
                  std::size_t size) {
     std::uint8_t found[kMostBytes];
@@ -121,7 +121,7 @@ class BringUp {
     const std::uint8_t id = joint.servo_id;
     const std::uint8_t off = 0;
     const std::uint8_t answer_all = 2;
-    // Return Delay Time, Drive Mode, Operating Mode stand side by side.
+    // Return Delay Time, Drive Mode and Operating Mode are adjacent.
     const std::uint8_t mode[3] = {0, dxl::kTimeBasedProfile, dxl::kPositionMode};
     return ping(id, profile.model_number) &&
            write(id, dxl::address::kTorqueEnable, &off, sizeof off) &&
@@ -134,7 +134,7 @@ class BringUp {
            learn_strength(j, id) && is_well(id);
   }
 
-  // The alert bit of its last reply says that Hardware Error Status is not zero.
+  // The last reply's alert bit means that Hardware Error Status is not zero.
   bool is_well(std::uint8_t id) {
     if (!alert_) return true;
     std::uint8_t errors = 0;
@@ -158,7 +158,7 @@ class BringUp {
   const Params& params_;
   BusMaster<Bus>& master_;
   BringUpReport report_;
-  bool alert_ = false;  ///< in the last reply
+  bool alert_ = false;  ///< of the last reply
 };
 
 }  // namespace verp::app

@@ -11,23 +11,22 @@ enum class BringUpStatus : std::uint8_t {
   kWrongModel,
   kRefused,
   kNotVerified,
-  kHardwareError,  ///< it may have shut its torque off, and stays limp until it is rebooted
-  kOccupied,       ///< somebody else commands nodes on this bus; nothing was sent
-  kNotReset,       ///< it answers, and sent no boot-up message when it was reset
+  kHardwareError,  ///< its torque may be off; it stays limp until rebooted
+  kOccupied,       ///< another controller commands nodes on this bus; nothing was sent
+  kNotReset,       ///< it answers but sent no boot-up message after the reset
 };
 
 /// The first device that stopped the bring-up, and where; and what was found.
 struct BringUpReport {
   BringUpStatus status = BringUpStatus::kReady;
   std::uint8_t device_id = 0;
-  std::uint16_t address = 0;   ///< register, or index of the object, at which it failed;
-                               ///< the identifier that was heard, for kOccupied
-  std::uint16_t expected = 0;  ///< model numbers, for kWrongModel
-  std::uint16_t found = 0;     ///< and bits of dxl::HardwareError, for kHardwareError
-  /// What is all of each joint's strength: PWM Limit of a servo, max torque (6072h) of a drive. Its
-  /// owner may have set less than it can.
+  std::uint16_t address = 0;   ///< failed register or object index; kOccupied: identifier heard
+  std::uint16_t expected = 0;  ///< model number, for kWrongModel
+  std::uint16_t found = 0;     ///< model number, or dxl::HardwareError bits for kHardwareError
+  /// Full strength of each joint: a servo's PWM Limit or a drive's max torque (6072h). The owner
+  /// may have set less than the hardware maximum.
   std::uint16_t full_strength[kMaxJoints] = {};
-  /// Bit j: joint j's drive has a vendor id (1018h:1) that is not ours.
+  /// Bit j: joint j's drive has another maker's vendor id (1018h:1).
   std::uint32_t foreign_drives = 0;
 };
 

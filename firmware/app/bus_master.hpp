@@ -7,12 +7,12 @@
 #include "firmware/app/schedule.hpp"
 #include "hal/contract/frame_bus.hpp"
 
-/// Requests and replies over a FrameBus. A lost reply costs its timeout, never more. What came too
-/// late for its own request and before the next is dropped; what comes later still is known by its
-/// length, if requests that are alike ask for spare_bytes() too.
+/// Requests and replies over a FrameBus. A lost reply costs at most its timeout. Replies that
+/// arrive between their timeout and the next request are dropped. Even later ones have a different
+/// length if similar requests also read spare_bytes().
 namespace verp::app {
 
-/// What a reply handler says about a packet.
+/// A reply handler's verdict on a packet.
 enum class Take { kStray, kMore, kDone };
 
 template <hal::FrameBus Bus>
@@ -25,28 +25,27 @@ class BusMaster {
   std::uint64_t now_us() { return bus_.now_us(); }
   const BusCounters& counters() const { return counters_; }
   std::uint32_t crc_errors() const { return parser_.crc_errors(); }
-  /// Bytes that belonged to no packet, those of damaged packets included.
+  /// Bytes outside packets, those of damaged packets included.
   std::uint32_t noise_bytes() const { return parser_.noise_bytes(); }
 
-  /// A reply does not say which request it answers. To be asked for in front of what is wanted, in
-  /// a read that is alike in every tick: none after an answered request, as bytes come in the order
-  /// they were sent in; after an unanswered one another number than in the last two reads, so that
-  /// their late replies have other lengths. To be called for two reads a tick at most: then it
-  /// takes three ticks for a number to come again.
+  /// Bytes to read in front of the wanted ones in a read that repeats every tick. A reply does not
+  /// name its request, so its length must: 0 after an answered request, since bytes keep their
+  /// order. After an unanswered one it differs from the last two reads, whose replies may still
+  /// arrive. Call for at most two reads a tick, so that a number repeats only after three ticks.
   std::uint8_t spare_bytes() {
     if (missed_) spare_ = spare_ < kMostSpare ? static_cast<std::uint8_t>(spare_ + 1) : 0;
     missed_ = false;
     return spare_;
   }
 
-  /// Sends `size` bytes of frame(); for frames nobody answers.
+  /// Sends `size` bytes of frame(), for frames without a reply.
   bool send(std::size_t size) {
     if (size != 0 && bus_.send(tx_, size)) return true;
     ++counters_.refused;
     return false;
   }
 
-  /// Sends a request and hands each status packet to `take` until it says kDone or the time is
+  /// Sends a request and passes each status packet to `take` until it returns kDone or time is
   /// over.
   template <class Handler>
   bool request(std::size_t size, std::uint32_t timeout, Handler&& take) {
@@ -70,9 +69,9 @@ class BusMaster {
   }
 
  private:
-  /// Drops what an unanswered request may still have brought; whole packets count as strays.
+  /// Drops late bytes of an unanswered request; whole packets count as strays.
   void settle() {
-    constexpr int kMostPieces = 8;  // a bus that babbles must not hold the loop
+    constexpr int kMostPieces = 8;  // a flooded bus must not block the loop
     const auto stray = [](const dxl::Packet&) { return Take::kStray; };
     for (int i = 0; i < kMostPieces; ++i) {
       const std::size_t count = bus_.poll(rx_, sizeof rx_, 0);
@@ -88,7 +87,7 @@ class BusMaster {
     for (std::size_t i = 0; i < count; ++i) {
       for (bool found = parser_.push(rx_[i]); found; found = parser_.next()) {
         const dxl::Packet& packet = parser_.packet();
-        if (!packet.is_status()) continue;  // our own request, heard on a one-wire bus
+        if (!packet.is_status()) continue;  // our own request, echoed on a one-wire bus
         const Take verdict = done ? Take::kStray : take(packet);
         if (verdict == Take::kStray) ++counters_.strays;
         if (!packet.is_fast_reply() && (packet.error & ~dxl::kAlert) != 0) ++counters_.errors;
@@ -103,14 +102,13 @@ class BusMaster {
   BusCounters counters_;
   bool unsettled_ = true;
   std::uint8_t spare_ = 0;
-  bool missed_ = false;  ///< the last request went unanswered
+  bool missed_ = false;  ///< the last request had no answer
   std::uint8_t tx_[hal::kMaxFrame];
   std::uint8_t rx_[hal::kMaxFrame];
 };
 
-/// The devices of one Sync Read, in the order in which they answer. Replies follow each other: when
-/// a device is silent, those behind it may be silent too, so the first that was missed goes to the
-/// end of the queue.
+/// The devices of one Sync Read in reply order. A silent device may silence those behind it, so the
+/// first device missed moves to the end.
 template <int kCapacity>
 class ReadChain {
  public:
@@ -126,7 +124,7 @@ class ReadChain {
   }
 
   void begin() { next_ = 0, missed_ = -1; }
-  /// The slot whose reply this is; -1 if it is not that of a device still to come.
+  /// The slot of this reply; -1 if no device still due has this id.
   int match(std::uint8_t id) {
     for (int i = next_; i < count_; ++i) {
       if (id_[i] != id) continue;
@@ -136,9 +134,9 @@ class ReadChain {
     }
     return -1;
   }
-  /// True when nobody is left to answer.
+  /// True when no more replies are due.
   bool ended() const { return next_ == count_; }
-  /// After the read: true if all answered; else the first that was missed goes last.
+  /// Call after the read. True if all answered; otherwise moves the first device missed to the end.
   bool complete() {
     if (next_ < count_) note_missed();
     if (missed_ < 0) return true;

@@ -8,18 +8,18 @@
 
 namespace verp::app {
 
-inline constexpr std::uint16_t kImuCalibrationKey = 2;  ///< in the board's Store
+inline constexpr std::uint16_t kImuCalibrationKey = 2;  ///< key in the board's Store
 
-/// An Imu whose samples are corrected by the calibration kept in the board's Store; it can measure
-/// a new one from the samples that pass through.
+/// An Imu that corrects samples with the calibration in the board's Store, and can measure a new
+/// one from the samples that pass.
 template <hal::Imu Chip, hal::Store Memory>
 class CalibratedImu {
  public:
   CalibratedImu(Chip& chip, Memory& memory, const ImuParams& imu)
       : chip_(chip), memory_(memory), basis_(basis_of(imu)), calibrator_(imu) {}
 
-  /// At the start: takes what was kept. What was measured for Params with another scale or mounting
-  /// does not count; it stays in memory until there is a new one, as that robot may come back.
+  /// Loads the stored calibration at start. One measured for another scale or mounting is not used,
+  /// but stays stored until replaced, as that robot may return.
   void load() {
     std::uint8_t bytes[ImuCalibration::kBytes];
     const std::size_t size = memory_.get(kImuCalibrationKey, bytes, sizeof bytes);
@@ -38,24 +38,25 @@ class CalibratedImu {
   }
   std::uint32_t faults() const { return chip_.faults(); }
 
-  /// The samples of the longest period, 20 ms, twice over. Only read() brings any: a chip that went
-  /// silent, or a loop that does not ask it, as in lockstep with a twin, must not measure for ever.
+  /// Twice the time of all samples at the longest period, 20 ms. Samples come only with read(), so
+  /// a silent chip or a loop that does not read it (lockstep with a twin) must not measure for
+  /// ever.
   static constexpr std::uint64_t kMost_us = 2 * ImuCalibrator::kSamples * std::uint64_t{20'000};
 
-  /// The robot stands upright and still, torque off. The old calibration counts until there is
-  /// a new one.
+  /// Starts a measurement; the robot must stand upright and still, torque off. The old calibration
+  /// applies until it ends.
   void measure(std::uint64_t now_us) {
     calibrator_.begin();
     state_ = State::kMeasuring;
     end_us_ = now_us + kMost_us;
   }
-  /// Whenever there is time: ends a measurement that lacks samples.
+  /// Call regularly: ends a measurement that lacks samples.
   void watch(std::uint64_t now_us) {
     if (calibrator_.state() != State::kMeasuring || now_us < end_us_) return;
     calibrator_.stop();
     state_ = State::kSilent;
   }
-  /// Torque is coming on: what steers must not change under a robot that stands on it.
+  /// Call before torque comes on: the calibration must not change under a standing robot.
   void abandon() {
     if (calibrator_.state() != State::kMeasuring) return;
     calibrator_.stop();
@@ -67,7 +68,7 @@ class CalibratedImu {
     state_ = State::kNone;
     unkept_ = Unkept::kRemoval;
   }
-  /// Whenever there is time: hands a change to the memory, whose work() somebody else calls.
+  /// Call regularly: passes a change to the Store, whose work() another caller runs.
   void keep() {
     if (unkept_ == Unkept::kNothing) return;
     std::uint8_t bytes[ImuCalibration::kBytes];
@@ -92,7 +93,7 @@ class CalibratedImu {
   Chip& chip_;
   Memory& memory_;
   const std::uint32_t basis_;
-  std::uint64_t end_us_ = 0;  ///< of the measurement, at the latest
+  std::uint64_t end_us_ = 0;  ///< latest end of the measurement
   ImuCalibrator calibrator_;
   ImuCalibration calibration_;
   State state_ = State::kNone;

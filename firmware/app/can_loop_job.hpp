@@ -8,8 +8,8 @@
 
 namespace verp::app {
 
-/// What an image without a desk of its own is given to do: this, then the Params, the
-/// robot's actions, and one OperatorOrder a tick. Both ends are of one build, as the sizes say.
+/// The job of an image without its own operator: this header, then Params, the robot's actions, and
+/// one OperatorOrder a tick. Both ends must be of one build; the sizes check that.
 struct CanLoopJob {
   static constexpr std::uint32_t kMagic = 0x4A4E4143;  // "CANJ"
 

@@ -6,8 +6,7 @@
 
 namespace verp::app {
 
-/// A CanBus as the binding uses it: counts what is refused, and lets time pass also while the bus
-/// takes nothing.
+/// A CanBus for the binding: counts refused frames, and lets time pass while the bus refuses them.
 template <hal::CanBus Bus>
 class CanMaster {
  public:
@@ -21,19 +20,19 @@ class CanMaster {
     if (!accepted_) ++counters.refused;
     return accepted_;
   }
-  /// The next frame of another node; false when `timeout_us` are over since the last frame began on
-  /// the wire, or since it was refused.
+  /// The next frame of another node; false once `timeout_us` have passed since the last frame began
+  /// on the wire or was refused.
   bool receive(CanFrame& frame, std::uint32_t timeout_us) {
     if (accepted_) return bus_.poll(frame, timeout_us);
     return receive_until(frame, refused_us_ + timeout_us,
                          accepted_before_ ? timeout_us : refused_us_ + timeout_us - begin_us_);
   }
-  /// Likewise until `end_us` of bus time, whenever a frame was sent last.
+  /// The same until `end_us` of bus time, whenever a frame was sent last.
   bool receive_until(CanFrame& frame, std::uint64_t end_us) {
     const std::uint64_t now_us = bus_.now_us();
     return now_us < end_us ? receive_until(frame, end_us, end_us - now_us) : take_waiting(frame);
   }
-  /// One that is there already.
+  /// Takes a frame that is already there.
   bool take_waiting(CanFrame& frame) { return bus_.poll(frame, 0); }
 
   std::uint64_t now_us() { return bus_.now_us(); }
@@ -42,15 +41,15 @@ class CanMaster {
   BusCounters counters;
 
  private:
-  static constexpr int kMostPolls = 1000;  ///< that may find no time to wait: then nobody waits
+  static constexpr int kMostPolls = 1000;  ///< polls that may pass no time before it gives up
 
-  // The bus counts from the beginning of the last frame that it took, which may be long ago: a
-  // poll that ends early shows that it is.
+  // The bus counts timeouts from the start of its last accepted frame, possibly long ago. A poll
+  // that ends early reveals that.
   bool receive_until(CanFrame& frame, std::uint64_t end_us, std::uint64_t wait_us) {
     for (int polls = 0; polls < kMostPolls; ++polls) {
       if (bus_.poll(frame, static_cast<std::uint32_t>(wait_us))) return true;
       const std::uint64_t now_us = bus_.now_us();
-      begin_us_ = now_us - wait_us;  // or before
+      begin_us_ = now_us - wait_us;  // or earlier
       accepted_before_ = false;
       if (now_us >= end_us) return false;
       wait_us += end_us - now_us;
@@ -60,8 +59,8 @@ class CanMaster {
 
   Bus& bus_;
   bool accepted_ = true;
-  bool accepted_before_ = true;  ///< a frame since begin_us_ was learned
-  std::uint64_t begin_us_ = 0;   ///< when the last one that was accepted began on the wire
+  bool accepted_before_ = true;  ///< a frame was accepted since begin_us_ was determined
+  std::uint64_t begin_us_ = 0;   ///< when the last accepted frame began on the wire
   std::uint64_t refused_us_ = 0;
 };
 

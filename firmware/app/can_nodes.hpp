@@ -6,7 +6,7 @@
 
 namespace verp::app {
 
-/// A robot's nodes have slots: joints their index, then come IMU and feet. A set of them is a mask.
+/// Slots of a robot's nodes: joints by index, then IMU and feet. A set of slots is a mask.
 inline constexpr int kImuNode = kMaxJoints;
 inline constexpr int kFootNode = kImuNode + 1;
 inline constexpr int kCanNodes = kFootNode + kFeet;
@@ -24,7 +24,7 @@ constexpr std::uint8_t node_id(const Params& params, int slot) {
   return slot == kImuNode ? params.imu.device_id : params.feet.device_id[slot - kFootNode];
 }
 
-/// Finds the slot of a node.
+/// Maps node ids to slots.
 class CanNodes {
  public:
   explicit CanNodes(const Params& params) {
@@ -34,7 +34,7 @@ class CanNodes {
       if (canopen::is_node(id)) slot_[id] = static_cast<std::uint8_t>(slot);
     }
   }
-  /// -1: no node of the robot.
+  /// -1: not a node of the robot.
   int slot_of(std::uint8_t node) const {
     const std::uint8_t slot = canopen::is_node(node) ? slot_[node] : kNone;
     return slot == kNone ? -1 : slot;

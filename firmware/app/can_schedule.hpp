@@ -5,17 +5,16 @@
 #include "common/protocol/canopen/bus_load.hpp"
 #include "common/protocol/canopen/robot_plan.hpp"
 
-/// Time of one tick on a CAN bus, at worst stuffing. The loop takes its timeouts from here.
+/// Time of one tick on a CAN bus at worst stuffing; the source of the loop's timeouts.
 namespace verp::app {
 
-/// From a SYNC to a drive's answer being ready: an allowance, not a measurement; a drive that is
-/// slower is counted as silent.
+/// From SYNC until a drive's answer is ready: an allowance, not a measurement. A slower drive
+/// counts as silent.
 inline constexpr std::uint32_t kReactionUs = 300;
-/// Frames of others that may go before the last answer to a SYNC: one that had begun, an SDO
-/// answer, an EMCY.
+/// Other frames that may precede the last answer to a SYNC: one under way, an SDO answer, an EMCY.
 inline constexpr std::uint32_t kForeignFrames = 3;
 
-/// Classic frames of `bytes` bytes. Without a baud rate: no end.
+/// Time of classic frames of `bytes` bytes. Without a baud rate: the maximum.
 constexpr std::uint32_t can_frames_us(std::uint8_t bytes, std::uint32_t frames,
                                       std::uint32_t baud) {
   if (baud == 0) return 0xFFFFFFFFu;
@@ -23,7 +22,7 @@ constexpr std::uint32_t can_frames_us(std::uint8_t bytes, std::uint32_t frames,
   return static_cast<std::uint32_t>((std::uint64_t{bits.all()} * 1'000'000u + baud - 1) / baud);
 }
 
-/// From a SYNC until its group has answered. Drives' answers may grow to eight bytes.
+/// From a SYNC until its group has answered. Drives may extend their answers to eight bytes.
 constexpr std::uint32_t window_us(const Params& params, std::uint8_t group) {
   std::uint32_t answers = group == canopen::plan::sync_groups(params)
                               ? static_cast<std::uint32_t>(canopen::plan::sensor_answers(params))
@@ -35,7 +34,7 @@ constexpr std::uint32_t window_us(const Params& params, std::uint8_t group) {
          can_frames_us(kMaxCanData, answers + kForeignFrames, params.baud);
 }
 
-/// Frames that the controller sends at the end of a tick, at most: all goals, controlwords and
+/// Most frames that the controller sends at the end of a tick: all goals, controlwords and
 /// strengths, two SDO requests, a heartbeat or a third one, and an NMT command.
 constexpr std::uint32_t most_sent(int joints) {
   Params params;

@@ -15,7 +15,7 @@
 
 namespace verp::app {
 
-/// The nearest of dxl::HardwareError, by which the core knows a servo's trouble.
+/// The dxl::HardwareError nearest to a CiA 402 error code; the core uses these.
 constexpr std::uint8_t hardware_error_of(std::uint16_t code) {
   if (code == 0) return 0;
   if (code >> 8 == 0x31 || code >> 8 == 0x32) return dxl::kInputVoltageError;
@@ -25,10 +25,9 @@ constexpr std::uint8_t hardware_error_of(std::uint16_t code) {
   return dxl::kOverloadError;
 }
 
-/// Finds every node of the robot, sets it up and makes it operational, torque off. All nodes are
-/// reset first: what a controller that was reset itself left stiff must not stay so, and what is
-/// not written here has its stored value. Before, it listens: a reset would drop another
-/// controller's robot.
+/// Finds every node of the robot, sets it up and starts it, torque off. It listens first: resetting
+/// nodes would drop a robot that another controller runs. It then resets all nodes, so that none
+/// stays stiff from an earlier run and settings not written here have their stored values.
 template <hal::CanBus Bus>
 class CanopenBringUp {
  public:
@@ -52,10 +51,10 @@ class CanopenBringUp {
 
  private:
   static constexpr int kAttempts = 3;
-  /// How long a drive may take to boot, and to leave a fault: an allowance, not a measurement.
+  /// Time for a drive to boot and to leave a fault: an allowance, not a measurement.
   static constexpr std::uint32_t kBootUs = 2'000'000;
-  static constexpr int kResets = 2;   ///< of who sends no boot-up message
-  static constexpr int kRepeats = 3;  ///< of commands that nobody acknowledges
+  static constexpr int kResets = 2;   ///< for nodes that send no boot-up message
+  static constexpr int kRepeats = 3;  ///< of unacknowledged commands
 
   bool ready() const { return report_.status == BringUpStatus::kReady; }
   bool fail(BringUpStatus status, std::uint8_t id, canopen::Address at) {
@@ -65,7 +64,7 @@ class CanopenBringUp {
     return false;
   }
 
-  // Each node needs an id of its own, and one that CANopen has.
+  // Each node needs a unique id that CANopen allows.
   bool sound_ids() {
     for (int slot = 0; slot < kCanNodes; ++slot) {
       const std::uint8_t id = node_id(params_, slot);
@@ -106,13 +105,13 @@ class CanopenBringUp {
       command_all(canopen::NmtCommand::kStart, present());
       const std::uint32_t pass_us = can_frames_us(2, 2 * kCanNodes, params_.baud);
       const std::uint64_t end_us = master_.now_us() + pass_us;
-      CanFrame frame;  // lets them pass: more would not find room
+      CanFrame frame;  // lets them pass; more would find no room
       while (master_.now_us() < end_us && master_.receive(frame, pass_us)) {
       }
     }
   }
 
-  /// Those of `missing` that did not boot in time.
+  /// The nodes of `missing` that did not boot in time.
   NodeMask await_boot(NodeMask missing) {
     CanFrame frame;
     const std::uint64_t end_us = master_.now_us() + kBootUs;
@@ -126,7 +125,7 @@ class CanopenBringUp {
     return missing;
   }
 
-  /// Why the last attempt failed.
+  /// Returns why the last attempt failed.
   canopen::Abort attempt(std::uint8_t id, const Setting& setting, std::uint32_t* found) {
     canopen::Abort why = canopen::Abort::kNone;
     for (int times = 0; times < kAttempts; ++times) {
@@ -161,7 +160,7 @@ class CanopenBringUp {
 
   bool set_up(int slot, bool booted) {
     if (!identify(slot)) return false;
-    // It may have kept what a controller before us left in it.
+    // Without a reset it may keep settings of an earlier controller.
     if (!booted) return fail(BringUpStatus::kNotReset, node_id(params_, slot), {});
     return write_all(slot) && read_back(slot) &&
            (!is_joint(slot) || (learn_strength(slot) && is_well(slot)));
@@ -224,7 +223,7 @@ class CanopenBringUp {
     report_.full_strength[joint] = static_cast<std::uint16_t>(full);
     return true;
   }
-  // The settings end with a fault's reset; what stays is a fault whose cause is there.
+  // The settings end with a fault reset; a remaining fault still has its cause.
   bool is_well(int joint) {
     using canopen::cia402::State;
     namespace object = canopen::cia402::object;

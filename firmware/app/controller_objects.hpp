@@ -12,9 +12,8 @@
 
 namespace verp::app {
 
-/// The controller as a node: how many PDOs and watched nodes it has, and who it is. It follows no
-/// device profile and has no vendor id of CiA's. Its heartbeat is the binding's, which drives
-/// watch.
+/// The controller as a CANopen node: its PDOs, watched nodes and identity. It has no device profile
+/// and no CiA vendor id. The binding sends its heartbeat, which the drives watch.
 inline constexpr canopen::DeviceSize kControllerSize{
     .rpdos = 2,
     .tpdos = 4,
@@ -26,14 +25,14 @@ constexpr canopen::Identity controller_identity() {
   return {.name = "VERP controller", .product = table::kModel, .revision = table::kTableVersion};
 }
 
-/// Objects of whole images: DOMAINs, one for each ImageKind.
+/// Objects of whole images: one DOMAIN for each ImageKind.
 inline constexpr std::uint16_t kImageIndex = 0x5000;
 
-/// The object of a register of one element.
+/// The object of a one-element register.
 consteval canopen::Address object(const char* name) {
   return {table::find(name)->object_index(), 0};
 }
-/// What the controller's TPDO `number` maps out of the box.
+/// Default mapping of the controller's TPDO `number`.
 constexpr canopen::PdoMapping<> controller_tpdo(unsigned number) {
   namespace published = canopen::published;
   canopen::PdoMapping<> mapping;
@@ -46,7 +45,7 @@ constexpr canopen::PdoMapping<> controller_tpdo(unsigned number) {
   if (number == published::kPartPdo) mapping.add({object("inputs_part"), 64});
   return mapping;
 }
-/// Gives a controller's communication objects these TPDOs, switched on or off.
+/// Sets these TPDOs up in the controller's communication objects, on or off.
 template <class Objects>
 void publish_ticks(Objects& objects, std::uint8_t node, bool on) {
   for (unsigned number = canopen::published::kDigestPdo; number <= canopen::published::kPartPdo;
@@ -58,17 +57,15 @@ void publish_ticks(Objects& objects, std::uint8_t node, bool on) {
   }
 }
 
-/// The controller's registers as the objects of a CANopen node (canopen::Application), next to a
-/// Dynamixel device on the same registers: index 2000h + address; an array's elements have
-/// subindices from 1 on, a text is one object. What a write does and when it is refused is the
-/// registers' business.
+/// The controller's registers as objects of a CANopen node (canopen::Application), beside a
+/// Dynamixel device on the same registers. Index 2000h + address; array elements have subindices
+/// from 1; a text is one object. The registers decide what a write does and when to refuse it.
 ///
-/// Besides them 5001h is the Params image and 5002h the actions. A download of a whole image is in
-/// force from the next start, and refused while any servo holds torque; of actions also while a
-/// place for them is being made: begin again a little later. 5003h and 5004h are the
-/// last tick and those before it (tick_log.hpp), to be read while register tick_hold is 1.
-/// TPDOs 2 to 4 tell of each tick (canopen/published_tick.hpp) once publish_ticks() has set them
-/// up.
+/// 5001h is the Params image, 5002h the actions. A downloaded image takes effect at the next start.
+/// It is refused while any servo holds torque; an action image also while its memory is being
+/// prepared: retry a little later. 5003h and 5004h are the last tick and earlier ones
+/// (tick_log.hpp), readable while register tick_hold is 1. TPDOs 2 to 4 report each tick
+/// (canopen/published_tick.hpp) after publish_ticks().
 template <Images Store>
 class ControllerObjects {
  public:
@@ -115,7 +112,7 @@ class ControllerObjects {
     return abort_for(registers_.write(place.address, data, size), place);
   }
 
-  // Whole images, piece by piece.
+  // Whole images in parts.
   canopen::Abort write_part(canopen::Address at, std::uint32_t offset, const std::uint8_t* data,
                             std::uint32_t size) {
     if (registers_.armed()) return canopen::Abort::kDeviceState;
@@ -139,7 +136,7 @@ class ControllerObjects {
                                                       : canopen::Abort::kIncompatibleParameter;
   }
 
-  // In PDOs: numbers of up to 8 bytes, whole.
+  // PDOs carry whole numbers of up to 8 bytes.
   canopen::Abort mappable(canopen::Address at, std::uint8_t bits, bool receive) {
     Place place;
     const canopen::Abort refused = look(at, place);
@@ -156,7 +153,7 @@ class ControllerObjects {
     read(at, 0, bytes, bits / 8u);
     return canopen::get_le(bytes, bits / 8u);
   }
-  /// A value that the registers refuse changes nothing: a PDO has no answer.
+  /// A refused value changes nothing: a PDO has no answer.
   void put(canopen::Address at, std::uint8_t bits, std::uint64_t value) {
     std::uint8_t bytes[8];
     canopen::put_le(bytes, value, bits / 8u);
@@ -190,7 +187,7 @@ class ControllerObjects {
     return canopen::Abort::kNone;
   }
 
-  /// Where the object stands among the registers.
+  /// Finds the object's register.
   static canopen::Abort look(canopen::Address at, Place& place) {
     if (at.index < kFirst || at.index - kFirst >= table::kTableBytes) {
       return canopen::Abort::kNoObject;
@@ -242,7 +239,7 @@ class ControllerObjects {
 
   OperatorRegisters<Store>& registers_;
   Store& store_;
-  std::uint32_t crc_ = 0;  ///< of the image under way
+  std::uint32_t crc_ = 0;  ///< of the image being downloaded
 };
 
 }  // namespace verp::app

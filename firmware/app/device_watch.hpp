@@ -10,8 +10,8 @@
 
 namespace verp::app {
 
-/// Keeps the device arrays of the register table: of each servo, sensor and bus its state, rate,
-/// age and errors, from what the loop saw in each tick.
+/// Maintains the device arrays of the register table: state, rate, age and errors of each servo,
+/// sensor and bus, from what the loop saw in each tick.
 class DeviceWatch {
  public:
   DeviceWatch(const Params& params, RegisterImage& image) : params_(params), image_(image) {
@@ -29,13 +29,13 @@ class DeviceWatch {
     name(table::kDeviceLink, DeviceKind::kOperatorLink, 0);
   }
 
-  /// A packet for this device came over the operator's link.
+  /// Counts a packet for this device on the operator's link.
   void heard() { ++packets_; }
-  /// Sums of what went wrong on the servo bus and on the operator's link.
+  /// Error totals of the servo bus and of the operator's link.
   void bus_errors(std::uint32_t sum) { errors(table::kDeviceBus, sum); }
   void link_errors(std::uint32_t sum) { errors(table::kDeviceLink, sum); }
 
-  /// Once a tick.
+  /// Call once a tick.
   void tick(const Inputs& inputs, const State& state, const Outputs& outputs) {
     const std::uint32_t ticks = ticking_ ? inputs.tick - tick_ : 1;
     elapsed_ = static_cast<std::uint16_t>(ticks < kOldest ? ticks : kOldest);
@@ -91,14 +91,13 @@ class DeviceWatch {
     watch(row, fresh ? 1 : 0, faulty, limits);
   }
 
-  /// A servo that tells one and the same position, though its goal has been away for a while from
-  /// where it was when that began: its encoder, or whatever answers for it, repeats an old value,
-  /// or the joint is stuck.
+  /// Whether a servo repeats one position although its goal has left it: the encoder or a gateway
+  /// repeats an old value, or the joint is stuck.
   bool stands_still(int j, const Inputs& inputs, const Outputs& outputs) {
-    // Ticks for which the goal is away: a servo's lag, and its start from rest. A knee that stood
-    // by chance was told to step 3.7 degrees in 3 ticks, and moved one later.
+    // Ticks that the goal must be away: servo lag and start from rest. Measured: a knee at rest was
+    // told to step 3.7 degrees in 3 ticks and moved one tick later.
     constexpr std::uint8_t kPatience = 4;
-    constexpr float kAway_rad = 0.0614F;  // 3.5 degrees: beyond any sag or backlash
+    constexpr float kAway_rad = 0.0614F;  // 3.5 degrees: more than any sag or backlash
     Still& still = still_[j];
     const bool holds = (outputs.torque_enable >> j & 1u) != 0;
     if (!holds || inputs.position_count[j] != still.position_count) {
@@ -152,11 +151,11 @@ class DeviceWatch {
     window_us_ = 0;
   }
 
-  /// Since when a servo has told the same position.
+  /// How long a servo has repeated one position.
   struct Still {
     std::int32_t position_count = 0;
-    std::int32_t goal_count = 0;  ///< at that time
-    std::uint8_t ticks = 0;       ///< for which the goal was away from there, up to a few
+    std::int32_t goal_count = 0;  ///< when that began
+    std::uint8_t ticks = 0;       ///< ticks that the goal was away, up to kPatience
   };
 
   const Params& params_;
@@ -165,7 +164,7 @@ class DeviceWatch {
   std::uint16_t reports_[table::kDevices] = {};  ///< since the window began
   std::uint32_t window_us_ = 0;
   std::uint32_t tick_ = 0;
-  std::uint16_t elapsed_ = 1;  ///< ticks since the one before
+  std::uint16_t elapsed_ = 1;  ///< ticks since the previous call
   std::uint16_t packets_ = 0;
   bool ticking_ = false;
 };

@@ -7,25 +7,25 @@
 
 namespace verp::app {
 
-/// Drives whose torque is not what they were told to have, and nodes that may have lost what they
-/// were set up with: doubted_servos.hpp on CAN.
+/// Drives whose torque differs from the command, and nodes that may have lost their set-up:
+/// doubted_servos.hpp for CAN.
 ///
-/// A drive that was silent for long, or has sent a boot-up message, is told of no more torque than
-/// it has, and its position does not count, by which the core holds and lets the robot down as for
-/// one that is gone. Its statusword tells what it is: one that holds torque as it was told to, and
-/// follows its target, has kept all, and counts again. One that does not, for a fault, because it
-/// has rebooted or because somebody gave it another mode of operation, is set up again once the
-/// robot has been let go, and counts from then on. Sensors are set up at once.
+/// A drive that was silent for long or sent a boot-up message is doubted. It gets no more torque
+/// than it has, and its position does not count. So the core holds and lowers the robot as if the
+/// drive were gone. If its statusword shows that it holds torque as commanded and follows its
+/// target, it has lost nothing and counts again. Otherwise (fault, reboot, or another mode of
+/// operation) it is set up again once the robot was released, and then counts. Sensors are set up
+/// again at once.
 class DoubtedDrives {
  public:
   explicit DoubtedDrives(const Params& params) : patience_us_(doubt_us(params)) {}
 
-  /// Bit j: joint j's.
+  /// Bit j: joint j's drive is doubted.
   std::uint32_t all() const { return doubted_; }
-  /// Of these, those known to have no torque.
+  /// Doubted drives known to have no torque.
   std::uint32_t limp() const { return limp_; }
 
-  /// It did not answer for so long.
+  /// The node did not answer for this long.
   void silent_for(int slot, std::uint32_t time_us) {
     if (time_us < patience_us_) {
       silent_ &= ~node_bit(slot);
@@ -34,23 +34,23 @@ class DoubtedDrives {
     silent_ |= node_bit(slot);
     if (is_joint(slot)) doubted_ |= 1u << slot;
   }
-  /// Those that are not waited for.
+  /// Nodes that the round does not wait for.
   NodeMask silent() const { return silent_; }
 
-  /// Its boot-up message came, or half of it is set up.
+  /// The node sent a boot-up message, or is only partly set up.
   void rebooted(int slot) {
     lost_ |= node_bit(slot);
     if (is_joint(slot)) doubted_ |= 1u << slot;
   }
-  /// It is set up and has been started.
+  /// The node is set up and started.
   void renewed(int slot) {
     lost_ &= ~node_bit(slot);
     silent_ &= ~node_bit(slot);
     if (is_joint(slot)) limp_ &= ~(1u << slot);
   }
 
-  /// A drive answered with this statusword. `torque`: it was told to have torque, and had the time
-  /// to obey. True if its position counts.
+  /// Evaluates a drive's statusword. `torque`: it was commanded to have torque and had time to
+  /// obey. True if its position counts.
   bool counts(int joint, std::uint16_t statusword, bool torque) {
     using canopen::cia402::State;
     const State state = canopen::cia402::state_of(statusword);
@@ -70,8 +70,8 @@ class DoubtedDrives {
     return (doubted_ & bit) == 0;
   }
 
-  /// Nodes to be set up again, in a tick in which the robot is to have `torque`, or not. One that
-  /// is silent may only have missed its start.
+  /// Nodes to set up again in a tick with or without `torque` wanted. A silent node may only have
+  /// missed its start.
   NodeMask to_renew(bool torque, NodeMask present) const {
     const NodeMask joints = node_bit(kMaxJoints) - 1;
     return (lost_ | silent_) & present & (torque ? ~joints : ~NodeMask{0});
@@ -81,7 +81,7 @@ class DoubtedDrives {
   const std::uint32_t patience_us_;
   std::uint32_t doubted_ = 0;
   std::uint32_t limp_ = 0;
-  NodeMask lost_ = 0;  ///< to be set up again
+  NodeMask lost_ = 0;  ///< must be set up again
   NodeMask silent_ = 0;
 };
 

@@ -11,44 +11,44 @@
 
 namespace verp::app {
 
-/// Servos whose torque is not what it was told to be.
+/// Servos whose torque may differ from the command.
 ///
-/// One that was silent for long may have lost its power. Then it comes back limp, with the
-/// factory's gains and no profile, and torque would throw it at its goal. So until it is known what
-/// it holds, it is told of no torque but its end, and its position does not count, by which the
-/// core holds and lets the robot down as for one that is gone. One that kept its torque kept all
-/// else, and counts again; any other gets gains and profile, and counts, once the robot has been
-/// let go: from there it rises from the pose it is found in. One that shut its torque off for a
-/// hardware error is treated likewise, until it is rebooted.
+/// A servo that was silent for long may have lost power. It then returns limp, with factory gains
+/// and no profile; torque would throw it at its goal. Until its state is known it is sent only
+/// torque off, and its position does not count. So the core holds and lowers the robot as if the
+/// servo were gone. A servo that kept its torque kept everything and counts again. Any other gets
+/// gains and profile once the robot was released, then counts, and rises from the pose it is found
+/// in. A servo that shut its torque off for a hardware error is treated alike until it is rebooted.
 template <hal::FrameBus Bus>
 class DoubtedServos {
  public:
   explicit DoubtedServos(const Params& params) : params_(params) {}
 
-  /// Bit j: joint j's.
+  /// Bit j: joint j's servo is doubted.
   std::uint32_t all() const { return doubted_; }
 
-  /// It did not answer for so long.
+  /// The servo did not answer for this long.
   void silent_for(int joint, std::uint32_t time_us) {
     if (time_us < patience_us_) return;
     doubted_ |= 1u << joint;
     here_ &= ~(1u << joint);
   }
-  /// It answered, with the alert bit of a hardware error or without: true if what it says counts.
+  /// The servo answered, with or without the alert bit of a hardware error. True if its answer
+  /// counts.
   bool counts(int joint, bool alert) {
     if (!alert) broken_ &= ~(1u << joint);
     here_ |= doubted_ & ~broken_ & 1u << joint;
     return (doubted_ >> joint & 1) == 0;
   }
-  /// It has a hardware error, and not the torque that it was told to have.
+  /// The servo has a hardware error and lacks the commanded torque.
   void shut_down(int joint) {
     doubted_ |= 1u << joint;
     broken_ |= 1u << joint;
     here_ &= ~(1u << joint);
   }
 
-  /// For ticks with room on the bus: a few servos are asked, or set up again. `torque`: the robot
-  /// is to have some.
+  /// Call in ticks with room on the bus: queries a few servos, or sets them up again. `torque`:
+  /// torque is wanted.
   void resolve(BusMaster<Bus>& master, bool torque) {
     if (!torque) limp_ = 0;
     if (torque) renewals_ = 0;
@@ -62,9 +62,9 @@ class DoubtedServos {
   }
 
  private:
-  static constexpr std::uint8_t kRepeats = 3;  ///< of writes, which nobody acknowledges
+  static constexpr std::uint8_t kRepeats = 3;  ///< of writes without acknowledgement
 
-  /// The first few of them.
+  /// The first few of `joints`.
   std::uint32_t some(std::uint32_t joints) const {
     std::uint32_t chosen = 0;
     std::size_t count = 0;
@@ -133,11 +133,11 @@ class DoubtedServos {
 
   const Params& params_;
   std::uint32_t doubted_ = 0;
-  std::uint32_t here_ = 0;  ///< of these, those that have answered since
+  std::uint32_t here_ = 0;  ///< doubted servos that have answered since
   std::uint32_t broken_ = 0;
-  std::uint32_t limp_ = 0;  ///< of these, those known to have no torque
+  std::uint32_t limp_ = 0;  ///< doubted servos known to have no torque
   std::uint32_t batch_ = 0;
-  std::uint8_t renewals_ = 0;  ///< still to send to batch_
+  std::uint8_t renewals_ = 0;  ///< left to send to batch_
   const std::uint32_t patience_us_ = doubt_us(params_);
 };
 

@@ -9,15 +9,15 @@
 
 namespace verp::app {
 
-/// Velocity (606Ch) and torque (6077h) of each drive, for who looks on: one SDO upload in
-/// kEffortTicks ticks, all drives' velocities, then all their torques. Not in the spare bytes of
-/// each drive's TPDO, which would take 21 drives at 125 Hz beyond 70 % of the bus, and not in the
-/// turn of telemetry, by which the core learns of heat.
+/// Velocity (606Ch) and torque (6077h) of each drive, for observers: one SDO upload every
+/// kEffortTicks ticks, first all velocities, then all torques. Spare TPDO bytes would load the bus
+/// beyond 70 % (21 drives at 125 Hz); telemetry's turns are for the temperatures that the core
+/// needs.
 class DriveEfforts {
  public:
   explicit DriveEfforts(const Params& params) : params_(params) {}
 
-  /// The request that is due in this tick; false: none. Drives in `busy` are passed over.
+  /// The request due in this tick; false: none. Skips drives in `busy`.
   bool next(CanFrame& frame, NodeMask busy) {
     if (++ticks_ < canopen::plan::kEffortTicks) return false;
     ticks_ = 0;
@@ -29,7 +29,7 @@ class DriveEfforts {
     return true;
   }
 
-  /// An SDO response of a drive; false: not to the last request.
+  /// Takes a drive's SDO response; false: not to the last request.
   bool receive(int joint, const CanFrame& frame) {
     namespace sdo = canopen::sdo;
     if (!asked_ || joint != joint_ || frame.size != sdo::kFrameBytes ||
@@ -44,7 +44,7 @@ class DriveEfforts {
     return true;
   }
 
-  /// Of kMaxJoints joints.
+  /// kMaxJoints elements.
   const JointEffort* efforts() const { return efforts_; }
 
  private:
@@ -68,10 +68,10 @@ class DriveEfforts {
 
   const Params& params_;
   JointEffort efforts_[kMaxJoints];
-  int joint_ = -1;  ///< asked last
+  int joint_ = -1;  ///< last drive asked
   std::uint8_t ticks_ = 0;
   bool torques_ = true;
-  bool asked_ = false;  ///< and has not answered yet
+  bool asked_ = false;  ///< and still unanswered
 };
 
 }  // namespace verp::app

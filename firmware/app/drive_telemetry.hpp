@@ -8,25 +8,24 @@
 
 namespace verp::app {
 
-/// Slow telemetry: an expedited SDO upload of one drive at the end of each tick, whose answer the
-/// next tick finds. A drive without kTelemetry (it aborts, or another maker has something else
-/// there) is asked for its voltage and its error code instead; it has no temperature to tell, and
-/// one without either tells nothing.
+/// Slow telemetry: at the end of each tick an expedited SDO upload from one drive, whose answer the
+/// next tick takes. A drive without kTelemetry (it aborts, or is another maker's) is asked for
+/// voltage and error code instead and reports no temperature. A drive without those reports
+/// nothing.
 class DriveTelemetry {
  public:
   explicit DriveTelemetry(const Params& params) : params_(params) {}
 
-  /// Those of another maker.
+  /// Drives of other makers.
   void set_foreign(std::uint32_t drives) { plain_ = drives; }
-  /// This drive has something to tell: it is asked next.
+  /// Asks this drive next: it has something to report.
   void hurry(int joint) { urgent_ = joint; }
 
-  /// Who has not answered yet.
+  /// The drive whose answer is due.
   NodeMask asked() const { return asked_ < 0 ? 0 : node_bit(asked_); }
 
-  /// The next request; false if there is none. Drives in `busy` are passed over: by an answer the
-  /// binding knows in each tick that the bus is not late. `missed`: the request before was not
-  /// answered.
+  /// The next request; false if there is none. Skips drives in `busy`: each answer also proves that
+  /// the bus is prompt. `missed`: the last request had no answer.
   bool next(CanFrame& frame, NodeMask busy, bool& missed) {
     missed = asked_ >= 0;
     if (missed || !more_ || is_in(busy, joint_)) choose(busy);
@@ -41,7 +40,7 @@ class DriveTelemetry {
     return true;
   }
 
-  /// An SDO response of a drive; false: not to the last request.
+  /// Takes a drive's SDO response; false: not to the last request.
   bool receive(int joint, const CanFrame& frame) {
     namespace sdo = canopen::sdo;
     if (joint != asked_ || frame.size != sdo::kFrameBytes || !(sdo::address_of(frame) == at_)) {
@@ -59,7 +58,7 @@ class DriveTelemetry {
     return true;
   }
 
-  /// What has come since the last tick.
+  /// Stores what has come since the last tick.
   void put(Inputs& inputs) {
     if (!fresh_) return;
     fresh_ = false;
@@ -91,7 +90,7 @@ class DriveTelemetry {
     if (part_ == Part::kAll) return canopen::plan::kTelemetry;
     return part_ == Part::kVoltage ? object::kDcLinkVoltage : object::kErrorCode;
   }
-  // One that has the object, and only cannot tell it now, is asked for it again in its next turn.
+  // A drive that has the object but cannot answer now is asked again in its next turn.
   void take_abort(int joint, canopen::Abort why) {
     asked_ = -1;
     const bool absent = why == canopen::Abort::kNoObject || why == canopen::Abort::kNoSubindex;
@@ -116,11 +115,11 @@ class DriveTelemetry {
 
   const Params& params_;
   int joint_ = 0;
-  int asked_ = -1;  ///< who has not answered yet
+  int asked_ = -1;  ///< drive whose answer is due
   int urgent_ = -1;
   std::uint32_t plain_ = 0;  ///< drives without kTelemetry
   Part part_ = Part::kAll;
-  bool more_ = false;  ///< the same drive is asked again
+  bool more_ = false;  ///< ask the same drive again
   bool fresh_ = false;
   canopen::Address at_;
   canopen::plan::Telemetry value_;

@@ -10,10 +10,10 @@
 
 namespace verp::app {
 
-/// The tick's second half on CAN: goals, controlwords and strengths in shared RPDOs. These have no
-/// reply: a frame that changes goes out in kRepeats ticks, and one of the others in each tick in
-/// its turn. Controlwords follow from what each drive's statusword says, so a lost one costs a
-/// tick. Strength is Max torque, in thousandths of the rated one.
+/// The tick's second half on CAN: goals, controlwords and strengths in shared RPDOs. RPDOs have no
+/// reply, so a changed frame is sent in kRepeats ticks, and one other frame in turn each tick.
+/// Controlwords follow each drive's statusword, so a lost one costs a tick. Strength is Max torque,
+/// in thousandths of the rated torque.
 template <hal::CanBus Bus>
 class DriveWriter : public JointStrength {
  public:
@@ -21,20 +21,20 @@ class DriveWriter : public JointStrength {
 
   using JointStrength::JointStrength;
 
-  /// A drive has said what state it is in.
+  /// Notes the state that a drive reported.
   void note(int joint, State state) {
     state_[joint] = state;
     if (state == State::kOperationEnabled) enabled_ |= told_ & 1u << joint;
   }
   State state(int joint) const { return state_[joint]; }
-  /// It was told to have torque, and has had the time to obey.
+  /// Whether the drive was commanded to have torque and had time to obey.
   bool has_torque(int joint) const {
     return ((told_ & (enabled_ | (patience_ == 0 ? ~0u : 0u))) >> joint & 1) != 0;
   }
 
-  /// Goals go out in the first ticks in which torque is wanted; torque follows in the third at the
-  /// earliest, for all together when all are switched on. `doubted` hear of no more torque than
-  /// they have; `limp` are those of them that are known to have none.
+  /// Sends goals from the first tick that wants torque; torque follows in the third at the
+  /// earliest, for all drives together once all are switched on. `doubted` drives get no more
+  /// torque than they have; `limp` ones are known to have none.
   void send(CanMaster<Bus>& master, const Outputs& outputs, std::uint32_t doubted,
             std::uint32_t limp) {
     const std::uint32_t wanted = outputs.torque_enable & all_joints(params_);
@@ -49,9 +49,9 @@ class DriveWriter : public JointStrength {
 
  private:
   static constexpr std::uint8_t kRepeats = 3;
-  /// Drives wait for each other for so many ticks, then those that are there go ahead.
+  /// Ticks that drives wait for each other; then those that are ready go ahead.
   static constexpr std::uint8_t kTogether = 20;
-  /// Time to enable, with the release of a brake: an allowance, not a measurement.
+  /// Time to enable, brake release included: an allowance, not a measurement.
   static constexpr std::uint32_t kEnableUs = 300'000;
   static constexpr int kMostFrames = (kMaxJoints + 3) / 4;
 
@@ -60,7 +60,7 @@ class DriveWriter : public JointStrength {
     return state_[joint] == State::kOperationEnabled || state_[joint] == State::kQuickStopActive;
   }
 
-  // Decides who is told to have torque.
+  // Chooses the drives that are commanded to have torque.
   void begin(std::uint32_t wanted, std::uint32_t doubted, std::uint32_t limp) {
     if ((wanted & ~wanted_) != 0) {
       early_ = kRepeats - 1;
@@ -86,7 +86,7 @@ class DriveWriter : public JointStrength {
   std::uint16_t word_for(int joint, bool wanted, bool doubted) const {
     using namespace canopen::cia402;
     if (!wanted) return kWordDisableVoltage;
-    // A drive that lost its power does not obey this word without those before it.
+    // A drive that lost its power ignores this word without the preceding ones.
     if ((told_ >> joint & 1) != 0) return kWordEnableOperation;
     if (doubted) return kWordDisableVoltage;
     switch (state_[joint]) {
@@ -166,15 +166,15 @@ class DriveWriter : public JointStrength {
 
   State state_[kMaxJoints] = {};
   std::uint16_t word_[kMaxJoints] = {};      ///< as sent last
-  std::uint16_t strength_[kMaxJoints] = {};  ///< likewise
+  std::uint16_t strength_[kMaxJoints] = {};  ///< as sent last
   std::uint8_t words_due_[kMostFrames] = {};
   std::uint8_t strengths_due_[kMostFrames] = {};
   std::uint32_t wanted_ = 0;
-  std::uint32_t told_ = 0;      ///< to have torque
-  std::uint32_t enabled_ = 0;   ///< of these, those that have obeyed
-  std::uint32_t patience_ = 0;  ///< ticks in which those that have not may still
-  std::uint8_t early_ = 0;      ///< ticks still to go before anybody is told of torque
-  std::uint8_t together_ = 0;   ///< ticks in which drives still wait for each other
+  std::uint32_t told_ = 0;      ///< commanded to have torque
+  std::uint32_t enabled_ = 0;   ///< those that have obeyed
+  std::uint32_t patience_ = 0;  ///< ticks left for the others to obey
+  std::uint8_t early_ = 0;      ///< ticks before any torque is commanded
+  std::uint8_t together_ = 0;   ///< ticks that drives still wait for each other
   int turn_ = 0;
 };
 

@@ -10,7 +10,7 @@
 #include "firmware/app/schedule.hpp"
 #include "firmware/app/servo_writer.hpp"
 
-/// The ServoBinding (contracts.hpp) of Dynamixel Protocol 2.0: a robot's servos, IMU and feet on
+/// The ServoBinding (contracts.hpp) for Dynamixel Protocol 2.0: a robot's servos, IMU and feet on
 /// one FrameBus.
 namespace verp::app {
 
@@ -38,8 +38,8 @@ class DynamixelServos {
   }
   void limit_torque(std::uint8_t percent) { servos_.limit_torque(percent); }
 
-  // Fast Sync Read is one packet for all, so one missing servo spoils it: after an incomplete read
-  // the next one is plain, where each servo's reply stands for itself, until all answer again.
+  // Fast Sync Read returns one packet for all servos, so one missing servo spoils it. After an
+  // incomplete read it uses plain Sync Read, with one reply per servo, until all answer again.
   void read_positions(Inputs& inputs) {
     const auto count = static_cast<std::size_t>(joints_.count());
     const bool fast = all_fast_ && positions_complete_;
@@ -99,13 +99,13 @@ class DynamixelServos {
   const BusCounters& counters() const { return master_.counters(); }
   std::uint32_t damaged() const { return master_.crc_errors(); }
   std::uint32_t noise() const { return master_.noise_bytes(); }
-  /// Not asked for: a tick's bytes are for positions.
+  /// Not read: a tick's bytes go to positions.
   const JointEffort* efforts() const { return nullptr; }
 
  private:
   enum Slot : std::uint8_t { kImuSlot = 0, kFootSlot = 1, kServoSlot = kFootSlot + kFeet };
   static constexpr std::uint16_t kPositionBytes = 4;
-  static constexpr std::uint16_t kLongSilence = 5000;  ///< ticks; counted no further
+  static constexpr std::uint16_t kLongSilence = 5000;  ///< ticks; the count stops here
 
   Take take_position(const dxl::Packet& packet, Inputs& inputs) {
     if (packet.size != std::size_t{kPositionBytes} + spare_) return Take::kStray;
@@ -129,7 +129,7 @@ class DynamixelServos {
 
   void set_position(int joint, std::uint8_t error, const std::uint8_t* data, Inputs& inputs) {
     if ((error & ~dxl::kAlert) != 0) return;
-    // One that was silent for so long may have heard nothing either.
+    // A servo silent for this long may have received nothing either.
     if (silent_ticks_[joint] * params_.period_us >= servos_.patience_us()) {
       servos_.expect_tripped();
     }
@@ -176,8 +176,8 @@ class DynamixelServos {
     }
   }
 
-  // The alert bit says that Hardware Error Status is not zero; only then is it worth a read of its
-  // own, and so is whether the servo has shut off its torque, which stands a few bytes before.
+  // The alert bit means that Hardware Error Status is not zero. Only then does it read that
+  // register, together with Torque Enable a few bytes before it: has the servo shut its torque off?
   void read_hardware_error(Inputs& inputs) {
     constexpr std::uint16_t kAddress = dxl::address::kTorqueEnable;
     constexpr std::uint16_t kBytes = kAlertBytes;
@@ -206,7 +206,7 @@ class DynamixelServos {
   std::uint16_t silent_ticks_[kMaxJoints] = {};  ///< since each servo answered
   std::uint32_t feet_expected_ = 0;
   std::uint32_t feet_seen_ = 0;
-  std::uint8_t spare_ = 0;  ///< of the read under way
+  std::uint8_t spare_ = 0;  ///< of the current read
   std::uint8_t slow_joint_ = 0;
   bool slow_alert_ = false;
   bool positions_complete_ = true;

@@ -11,16 +11,16 @@
 #include "common/protocol/dynamixel2.hpp"
 #include "hal/contract/imu.hpp"
 
-/// What one IMU on one board has that no other has: the gyroscope's bias and how it is mounted,
-/// measured at rest and taken out of its counts before they become Inputs. So a trace holds what
-/// the controller saw, and a robot's Params fit every board.
+/// The individual errors of one IMU on one board: gyroscope bias and mounting, measured at rest and
+/// removed from the counts before they become Inputs. So a trace holds what the controller saw, and
+/// one robot's Params fit every board.
 namespace verp::app {
 
 struct ImuCalibration {
   static constexpr std::int32_t kOne = 1 << 14;
 
   std::int16_t gyro_bias_count[3] = {};
-  /// Turns the chip's vectors into those of one mounted as Params says; row-major, in 1/kOne.
+  /// Rotates the chip's vectors to the mounting in Params; row-major, in 1/kOne.
   std::int16_t turn[9] = {kOne, 0, 0, 0, kOne, 0, 0, 0, kOne};
 
   hal::ImuSample corrected(const hal::ImuSample& raw) const {
@@ -38,7 +38,7 @@ struct ImuCalibration {
   }
 
   static constexpr std::size_t kBytes = 1 + 2 * (3 + 9) + 4;
-  static constexpr std::uint8_t kVersion = 2;  ///< 1 did not say what it was measured in
+  static constexpr std::uint8_t kVersion = 2;  ///< 1 did not store its basis
   /// `basis`: see basis_of().
   void encode(std::uint8_t (&to)[kBytes], std::uint32_t basis) const {
     to[0] = kVersion;
@@ -48,7 +48,7 @@ struct ImuCalibration {
       dxl::put_u16(to + 1 + 2 * i, static_cast<std::uint16_t>(value));
     }
   }
-  /// False, and nothing changes: another version wrote it, or on another basis.
+  /// False, with nothing changed: another version or basis wrote it.
   bool decode(const std::uint8_t (&from)[kBytes], std::uint32_t basis) {
     if (from[0] != kVersion || dxl::get_u32(from + kBytes - 4) != basis) return false;
     for (std::size_t i = 0; i < 12; ++i) {
@@ -68,14 +68,14 @@ struct ImuCalibration {
   }
 };
 
-/// What a calibration is measured in: counts of a scale, turned to a mounting. In another scale its
-/// bias is wrong, in another mounting its turn is; CRC-32 of both.
+/// CRC-32 of scale and mounting, the basis of a calibration: its bias is in counts of that scale,
+/// its rotation refers to that mounting.
 inline std::uint32_t basis_of(const ImuParams& imu) {
   const float scales[2] = {imu.gyro_rad_s_per_count, imu.accel_m_s2_per_count};
   return crc32(imu.body_imu, sizeof imu.body_imu, crc32(scales, sizeof scales));
 }
 
-/// Measures a calibration: the robot stands upright and still for kSamples samples.
+/// Measures a calibration while the robot stands upright and still for kSamples samples.
 class ImuCalibrator {
  public:
   using State = dxl::controller::ImuCalibrationState;
@@ -88,7 +88,7 @@ class ImuCalibrator {
     state_ = State::kMeasuring;
   }
   void stop() { state_ = State::kNone; }
-  /// A raw sample. True: that was the last one, and state() and result() say what came of it.
+  /// Takes a raw sample. True: it was the last one; state() and result() give the outcome.
   bool take(const hal::ImuSample& raw) {
     if (state_ != State::kMeasuring) return false;
     for (int axis = 0; axis < 3; ++axis) {
@@ -108,13 +108,13 @@ class ImuCalibrator {
     std::int32_t sum = 0;
     std::int32_t least = 32767, most = -32768;
   };
-  /// A chip at rest spreads by its noise, under 0.01 rad/s and 0.1 m/s^2 within its low pass; a
-  /// hand at the robot moves it by more than this.
+  /// At rest a chip's noise is under 0.01 rad/s and 0.1 m/s^2 within its low pass. A hand on the
+  /// robot moves it by more than these limits.
   static constexpr float kGyroSpread_rad_s = 0.05F, kAccelSpread_m_s2 = 0.8F;
-  /// Data sheets of the MPU-9250 and ICM-20648: 5 deg/s of bias at 25 C; twice that is a turn.
+  /// Data sheets of the MPU-9250 and ICM-20648: bias of 5 deg/s at 25 C; twice that is a rotation.
   static constexpr float kMostBias_rad_s = 0.17F;
   static constexpr float kGravity_m_s2 = 9.80665F, kMostOff_m_s2 = 1.0F;
-  /// Beyond 20 degrees it is not a tolerance, but another mounting, or a robot that leans.
+  /// More than 20 degrees is another mounting or a leaning robot, not a tolerance.
   static constexpr float kLeastUpright = 0.93969262F;
 
   static void note(Channel& channel, std::int16_t count) {
@@ -144,9 +144,8 @@ class ImuCalibrator {
     return find_turn(force_m_s2) ? State::kDone : State::kNotUpright;
   }
 
-  // The smallest turn that brings the measured upward axis to where Params has it, row 2 of
-  // body_imu; what is turned about that axis, gravity cannot tell. Rodrigues' formula for two unit
-  // vectors.
+  // The smallest rotation from the measured upward axis to that of Params, row 2 of body_imu.
+  // Gravity shows no rotation about that axis. Rodrigues' formula for two unit vectors.
   bool find_turn(const Vec3& force_m_s2) {
     const float length = math::norm(force_m_s2);
     const float off_m_s2 = length - kGravity_m_s2;

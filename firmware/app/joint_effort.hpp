@@ -3,8 +3,8 @@
 
 namespace verp::app {
 
-/// How a joint moves and pushes, as its drive told last (CiA 402); zeros until it has. Nothing of
-/// it enters the core.
+/// A joint's motion and torque as its drive last reported them (CiA 402); zero until then. The core
+/// does not use them.
 struct JointEffort {
   std::int32_t velocity = 0;  ///< 606Ch, counts per second
   std::int16_t torque = 0;    ///< 6077h, thousandths of the rated torque

@@ -5,16 +5,16 @@
 #include "common/model/params.hpp"
 #include "common/safety/machine.hpp"
 
-/// What holds for a robot's joints on every servo bus.
+/// Joint rules common to all servo buses.
 namespace verp::app {
 
-/// Bit j: joint j's.
+/// One bit per joint of the robot.
 constexpr std::uint32_t all_joints(const Params& params) {
   return params.servo_count() >= kMaxJoints ? ~0u : (1u << params.servo_count()) - 1;
 }
 
-/// Who was silent for so long may have lost its power: the core holds by then anyway. A servo's
-/// processor takes longer than the longest to start.
+/// A servo silent for this long may have lost its power; by then the core holds anyway. A servo's
+/// processor takes longer than kLongest_us to start.
 inline std::uint32_t doubt_us(const Params& params) {
   constexpr std::uint32_t kLongest_us = 50'000;
   const auto hold_us =
@@ -22,21 +22,21 @@ inline std::uint32_t doubt_us(const Params& params) {
   return hold_us < kLongest_us ? hold_us : kLongest_us;
 }
 
-/// How hard each joint may push.
+/// The strength of each joint.
 class JointStrength {
  public:
   explicit JointStrength(const Params& params) : params_(params) {}
 
-  /// What is 100 % of each joint, in the units of its servo.
+  /// 100 % of each joint, in its servo's units.
   void set_full(const std::uint16_t (&full)[kMaxJoints]) {
     for (int j = 0; j < kMaxJoints; ++j) full_[j] = full[j];
   }
-  /// Of that, in every mode; 1 to 100.
+  /// Limits that in every mode; 1 to 100.
   void limit_torque(std::uint8_t percent) { most_percent_ = percent; }
 
  protected:
-  // On its way up a robot may lie against anything, a hand too, and one that falls strikes it: its
-  // servos push as hard as its entity allows, and no harder. Getting up takes all that they have.
+  // A rising robot may touch anything, a hand too, and a falling one may strike it. In these modes
+  // servos push no harder than the entity's rise_torque_percent.
   std::uint8_t percent_in(std::uint8_t mode) const {
     const auto is = [mode](safety::Mode each) { return mode == static_cast<std::uint8_t>(each); };
     const bool gives_way = is(safety::Mode::kRising) || is(safety::Mode::kFalling);

@@ -8,23 +8,23 @@
 
 namespace verp::app {
 
-/// The part of a TickSource that a LinkBus needs.
+/// The part of a TickSource that LinkBus needs.
 template <class Source>
 concept Clock = requires(const Source& clock) {
   { clock.now_us() } -> std::same_as<std::uint64_t>;
 };
 
-/// A FrameBus on a plain stream of bytes to real devices: a serial port, or whatever carries one.
-/// Bus time is the clock's, from the construction on. A link that is lost is a bus on which nobody
-/// answers: polls wait their time for it to come back.
+/// A FrameBus over a byte stream to real devices, such as a serial port. Bus time is the clock's
+/// time since construction. While the link is lost nobody answers: polls wait out their timeout for
+/// it to return.
 template <hal::ByteLink Link, Clock Source>
 class LinkBus {
  public:
-  /// `held_us`: how long the link may hold bytes back, there and back together; 0 for a wire.
+  /// `held_us`: how long the link may delay bytes, both directions together; 0 for a wire.
   LinkBus(Link& link, const Source& clock, std::uint32_t held_us = 0)
       : link_(link), clock_(clock), opened_us_(clock.now_us()), held_us_(held_us) {}
 
-  /// From the next poll on.
+  /// Takes effect at the next poll.
   void set_held(std::uint32_t held_us) { held_us_ = held_us; }
 
   bool send(const std::uint8_t* data, std::size_t size) {
@@ -45,7 +45,7 @@ class LinkBus {
       push();
       const std::uint64_t time_us = now_us();
       const std::uint64_t wait_us = time_us < deadline_us ? deadline_us - time_us : 0;
-      // While part of a frame has found no room yet, it is tried again every millisecond.
+      // Retries every millisecond while part of a frame has no room yet.
       const std::uint64_t most_us = left_ > 0 ? kPush_us : wait_us;
       const std::size_t count = link_.read(
           buffer, capacity, static_cast<std::uint32_t>(wait_us < most_us ? wait_us : most_us));
@@ -58,7 +58,7 @@ class LinkBus {
  private:
   static constexpr std::uint64_t kPush_us = 1000;
 
-  // Of a frame that a loss cut in two, the rest would be noise.
+  // Drops the rest of a frame that a loss cut in two: it would be noise.
   void push() {
     if (left_ == 0) return;
     const std::size_t count = link_.write(outbox_ + sent_, left_, 0);
@@ -72,7 +72,7 @@ class LinkBus {
   std::uint32_t held_us_;
   std::uint64_t sent_us_ = 0;
   std::size_t sent_ = 0;
-  std::size_t left_ = 0;  ///< bytes of outbox_ that the link has not taken yet
+  std::size_t left_ = 0;  ///< bytes of outbox_ that the link has not taken
   std::uint8_t outbox_[hal::kMaxFrame];
 };
 

@@ -4,14 +4,13 @@
 #include "common/base/fields.hpp"
 #include "firmware/app/contracts.hpp"
 
-/// The FrameBus of an emulated microcontroller: remote calls over a pair of byte streams (two FIFOs
-/// that firmware opens by semihosting). The PC's end is host/bus/bus_server.hpp. All integers
+/// The FrameBus of an emulated microcontroller: remote calls over two byte streams (FIFOs that the
+/// firmware opens by semihosting). The PC's end is host/bus/bus_server.hpp. All integers are
 /// little-endian, structs as laid out.
 ///
-/// Controller to PC: any number of messages, each a MessageHeader and `size` payload bytes. Only
-/// kHello and kPoll are answered, so a client appends everything else to one buffer and writes it
-/// together with the next kPoll: each write or read is a semihosting call and costs an exit of the
-/// emulator.
+/// Controller to PC: messages of a MessageHeader and `size` payload bytes. Only kHello and kPoll
+/// get a reply. A client buffers everything else and writes it with the next kPoll, because each
+/// semihosting write or read costs an exit of the emulator.
 ///
 ///     one tick:  write [kOutputs][kRecord of the last tick][kSend Fast Sync Read][kPoll]
 ///                read PollReply
@@ -19,35 +18,34 @@
 ///                read PollReply
 ///                [kSend Sync Write][kSend Sync Write]
 ///
-/// PC to controller: exactly one reply to each kHello and kPoll, always in one write. A PollReply
-/// with its bytes stays under 4096 bytes, so a FIFO carries it whole and one read of kMaxReply
-/// bytes returns all of it; a client still loops until `size` bytes are there. A HelloReply is
-/// longer: read until complete.
+/// PC to controller: one reply to each kHello and kPoll, in one write. A PollReply with its bytes
+/// stays under 4096 bytes, so a FIFO carries it whole and one read of kMaxReply bytes returns it; a
+/// client still loops until `size` bytes are there. A HelloReply is longer: read until complete.
 namespace verp::link {
 
 inline constexpr std::uint32_t kVersion = 2;
-inline constexpr std::uint32_t kMaxPollBytes = 1024;  ///< most bytes one PollReply carries
+inline constexpr std::uint32_t kMaxPollBytes = 1024;  ///< most bytes in one PollReply
 
 enum class Kind : std::uint8_t {
-  kHello = 'H',    ///< payload Hello; answered by HelloReply. First message, once
-  kSend = 'S',     ///< payload: the bytes of one frame, as FrameBus::send
-  kPoll = 'P',     ///< payload Poll; answered by PollReply, as FrameBus::poll
-  kOutputs = 'O',  ///< payload: Outputs of the tick that the next kRecord ends
-  kRecord = 'R',   ///< payload: TickRecord of the tick just finished
-  kState = 'X',    ///< payload: State as the tick that the next kRecord ends left it (every
-                   ///< HelloReply::state_every ticks, and when the fault bits change)
-  kQuit = 'Q',     ///< payload: Quit, then text; the controller ends
+  kHello = 'H',    ///< Hello; first message, once; reply: HelloReply
+  kSend = 'S',     ///< the bytes of one frame, as FrameBus::send
+  kPoll = 'P',     ///< Poll; reply: PollReply, as FrameBus::poll
+  kOutputs = 'O',  ///< Outputs of the tick that the next kRecord ends
+  kRecord = 'R',   ///< TickRecord of the tick just finished
+  kState = 'X',  ///< State after the tick that the next kRecord ends (every HelloReply::state_every
+                 ///< ticks, and when the fault bits change)
+  kQuit = 'Q',   ///< Quit, then text; the controller ends
 };
 
 struct MessageHeader {
   Kind kind = Kind::kPoll;
   std::uint8_t reserved = 0;
-  std::uint16_t size = 0;  ///< payload bytes that follow
+  std::uint16_t size = 0;  ///< payload bytes
   VERP_FIELDS(kind, reserved, size)
 };
 VERP_PACKED(MessageHeader);
 
-/// Sizes let the PC refuse a firmware whose structs are not its own, before a single tick.
+/// The PC compares the sizes before the first tick and refuses a firmware with other structs.
 struct Hello {
   std::uint32_t version = kVersion;
   std::uint32_t params_size = 0;
@@ -59,14 +57,14 @@ VERP_PACKED(Hello);
 
 enum class HelloStatus : std::uint32_t { kReady = 0, kWrongVersion = 1, kWrongSizes = 2 };
 
-/// Followed by params_size bytes of Params, then actions_size bytes of an action library, when
-/// status is kReady.
+/// If status is kReady, params_size bytes of Params follow, then actions_size bytes of an action
+/// library.
 struct HelloReply {
   HelloStatus status = HelloStatus::kReady;
   std::uint32_t params_size = 0;
-  std::uint32_t ticks = 0;          ///< stop by yourself after so many ticks; 0: run until kStop
-  std::uint32_t state_every = 125;  ///< send kState whenever tick % state_every == 0; 0: never
-  std::uint32_t actions_size = 0;   ///< a multiple of 4; 0: the robot has none
+  std::uint32_t ticks = 0;          ///< stop after this many ticks; 0: run until kStop
+  std::uint32_t state_every = 125;  ///< send kState when tick % state_every == 0; 0: never
+  std::uint32_t actions_size = 0;   ///< a multiple of 4; 0: no actions
   VERP_FIELDS(status, params_size, ticks, state_every, actions_size)
 };
 VERP_PACKED(HelloReply);
@@ -81,11 +79,11 @@ VERP_PACKED(Poll);
 
 enum PollFlag : std::uint16_t {
   kStop = 1,        ///< the run is over: finish this tick, send kQuit
-  kSendFailed = 2,  ///< a frame sent before this poll was refused by the bus
+  kSendFailed = 2,  ///< the bus refused a frame sent before this poll
 };
 
-/// Followed by `size` bytes from the bus. The order is that of the current tick and repeated in
-/// every reply: a client's OperatorLink returns the order of the latest reply.
+/// `size` bytes from the bus follow. Every reply repeats the current tick's order; the client's
+/// OperatorLink returns that of the latest reply.
 struct PollReply {
   std::uint64_t now_us = 0;
   std::uint16_t size = 0;
@@ -95,10 +93,10 @@ struct PollReply {
   VERP_FIELDS(now_us, size, flags, reserved, order)
 };
 
-/// Followed by size - 4 bytes of text: one line that says why.
+/// size - 4 bytes of text follow: one line with the reason.
 struct Quit {
   std::uint32_t exit_code =
-      0;  ///< as the verp program's: 0 good, 1 the run failed, 2 bad input, 3 link
+      0;  ///< as the verp program's: 0 good, 1 run failed, 2 bad input, 3 link
   VERP_FIELDS(exit_code)
 };
 VERP_PACKED(Quit);

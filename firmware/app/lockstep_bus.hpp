@@ -13,14 +13,14 @@
 
 namespace verp::app {
 
-/// Trouble on the way to the twin since a bus was made; all of it was made good, but for `damaged`.
+/// Link errors since the bus was made; all were corrected except `damaged`.
 struct LockstepCounters {
   std::uint32_t repeats = 0;  ///< requests sent again
-  std::uint32_t spoilt = 0;   ///< answers that were not whole
-  std::uint32_t damaged = 0;  ///< polls before which frames did not arrive as they were sent
+  std::uint32_t spoilt = 0;   ///< incomplete answers
+  std::uint32_t damaged = 0;  ///< polls whose preceding frames arrived damaged
 };
 
-/// What a controller with this core and robot says of itself.
+/// The Hello of a controller with this core and robot.
 inline lockstep::Hello hello_of(const Params& params) {
   return {.core_version = kCoreVersion,
           .params_size = sizeof(Params),
@@ -29,29 +29,29 @@ inline lockstep::Hello hello_of(const Params& params) {
           .state_size = sizeof(State)};
 }
 
-/// What a controller does while it waits for the twin: feeds its watchdog, serves its operator.
+/// What the controller does while it waits for the twin: feeds its watchdog, serves its operator.
 /// Called at least every LockstepBus::kLongSlice_us while nothing arrives. False: stop waiting; the
-/// bus is lost then.
+/// bus is then lost.
 template <class Idle>
 concept IdleHook = requires(Idle& idle) {
   { idle() } -> std::same_as<bool>;
 };
 
-/// The controller's end of lockstep_messages.hpp: a FrameBus in the twin's time over any stream of
-/// bytes. greet() first. A slow, paused or unplugged PC makes it wait, for as long as `idle` says,
-/// and never makes a timeout.
+/// The controller's end of lockstep_messages.hpp: a FrameBus in the twin's time over any byte
+/// stream. Call greet() first. A slow, paused or unplugged PC makes it wait as long as `idle`
+/// allows, but never causes a timeout.
 template <hal::ByteLink Link, IdleHook Idle>
 class LockstepBus {
  public:
-  /// Longest wait of one read of the link: at first, and once nothing has come for kEager_us. A
-  /// clock that wakes every millisecond makes of a short wait a long one, which adds up.
+  /// Longest wait of one link read: at first, and after kEager_us without data. A clock that wakes
+  /// every millisecond stretches short waits, which add up.
   static constexpr std::uint32_t kSlice_us = 100;
   static constexpr std::uint32_t kLongSlice_us = 1000;
 
   LockstepBus(Link& link, Idle idle) : link_(link), idle_(idle) {}
 
-  /// Announces lockstep and this robot to the twin; waits for its answer. Begins anew after a loss:
-  /// bus time is then that of the twin again, and the controller must come up again.
+  /// Announces lockstep and this robot to the twin and waits for its answer. After a loss it starts
+  /// a new session: bus time restarts with the twin, and the controller needs a new bring-up.
   lockstep::Verdict greet(const Params& params) {
     lost_ = true;
     answer_ = {};
@@ -66,7 +66,8 @@ class LockstepBus {
 
   /// The twin wants no further tick, or is gone.
   bool stopped() const { return lost_ || over(); }
-  /// Not greeted, refused, given up by `idle`, or met by a twin that began anew: greet() again.
+  /// True before greet(), after a refusal, after `idle` gave up, or when the twin restarted: call
+  /// greet() again.
   bool lost() const { return lost_; }
   const LockstepCounters& counters() const { return counters_; }
 
@@ -96,17 +97,17 @@ class LockstepBus {
   std::uint64_t now_us() const { return answer_.now_us; }
 
  private:
-  /// The twin said stop. It may have hung up since, in the middle of a tick: nobody is waited for.
+  /// The twin sent kStop. It may have closed in the middle of a tick, so nothing waits for it.
   bool over() const { return (answer_.flags & lockstep::kStop) != 0; }
 
   static constexpr std::size_t kOutbox = 2 * hal::kMaxFrame;
   static constexpr std::uint32_t kEager_us = 2000;
   static constexpr std::uint32_t kFirstPatience_us = 50'000;
   static constexpr std::uint32_t kLastPatience_us = 1'000'000;
-  /// A link that brings so many bytes without the answer brings something else.
+  /// A link that brings more bytes without the answer carries something else.
   static constexpr std::uint32_t kMostBytes = 4 * lockstep::kMaxPollBytes;
 
-  // The request stands behind the frames, so that all leave in one write.
+  // Places the request behind the frames, so that all leave in one write.
   template <class Payload>
   std::size_t encode(std::uint16_t address, const Payload& payload) {
     return dxl::encode_write(outbox_ + used_, lockstep::kMaxClockPacket, lockstep::kClockId,
@@ -131,7 +132,7 @@ class LockstepBus {
     return true;
   }
 
-  /// Waits for the answer to request_ and asks again as often as it must; false: given up.
+  /// Waits for the answer to request_ and repeats it as needed. False: given up.
   template <class Reply>
   bool ask(Reply& reply, std::uint8_t* buffer, std::size_t capacity) {
     std::uint32_t patience_us = kFirstPatience_us;
@@ -178,13 +179,13 @@ class LockstepBus {
         if (!sieve_.push(chunk_[i], pass)) continue;
         const Outcome outcome = take(sieve_.packet(), reply, {buffer, count, capacity});
         if (outcome != Outcome::kMore) return outcome;
-        count = 0;  // those were another answer's
+        count = 0;  // those belonged to another answer
       }
     }
     return Outcome::kNothing;
   }
 
-  /// What came in front of a packet of the clock.
+  /// The bytes that preceded a packet of the clock.
   struct Brought {
     const std::uint8_t* bytes;  ///< the first `room` of them
     std::size_t count, room;

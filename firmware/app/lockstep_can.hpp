@@ -9,18 +9,18 @@
 
 namespace verp::app {
 
-/// The controller's end of lockstep_can_messages.hpp: a CanBus in the twin's time over any other.
-/// greet() first. A slow, paused or unplugged PC makes it wait, for as long as `idle` says, and
-/// never makes a timeout. Its own time is asked of `Bus` only to know when to ask again.
+/// The controller's end of lockstep_can_messages.hpp: a CanBus in the twin's time over another
+/// CanBus. Call greet() first. A slow, paused or unplugged PC makes it wait as long as `idle`
+/// allows, but never causes a timeout. The time of `Bus` only decides when to ask again.
 template <hal::CanBus Bus, IdleHook Idle>
 class LockstepCan {
  public:
-  /// `slice_us`: how long it may wait between two calls of `idle`.
+  /// `slice_us`: longest wait between two calls of `idle`.
   LockstepCan(Bus& bus, Idle idle, std::uint32_t slice_us = kSlice_us)
       : bus_(bus), idle_(idle), slice_us_(slice_us) {}
 
-  /// Announces lockstep and this robot to the twin; waits for its answer. Begins anew after a loss:
-  /// bus time is then that of the twin again, and the controller must come up again.
+  /// Announces lockstep and this robot to the twin and waits for its answer. After a loss it starts
+  /// a new session: bus time restarts with the twin, and the controller needs a new bring-up.
   lockstep::Verdict greet(const Params& params) {
     const lockstep::Hello hello = hello_of(params);
     forget();
@@ -38,7 +38,8 @@ class LockstepCan {
 
   /// The twin wants no further tick, or is gone.
   bool stopped() const { return lost_ || over_; }
-  /// Not greeted, refused, given up by `idle`, or met by a twin that began anew: greet() again.
+  /// True before greet(), after a refusal, after `idle` gave up, or when the twin restarted: call
+  /// greet() again.
   bool lost() const { return lost_; }
   const LockstepCounters& counters() const { return counters_; }
 
@@ -65,7 +66,7 @@ class LockstepCan {
   enum class Outcome : std::uint8_t { kMore, kWhole, kSpoilt, kGone };
   static constexpr std::uint32_t kSlice_us = 1000;
   static constexpr std::uint32_t kFirstPatience_us =
-      500'000;  ///< a PC under load is not a lost frame
+      500'000;  ///< a loaded PC is slow; its frame is not lost
   static constexpr std::uint32_t kLastPatience_us = 2'000'000;
 
   void forget() {
@@ -87,7 +88,7 @@ class LockstepCan {
     return true;
   }
 
-  /// Queues a frame, and waits for room as long as `idle` says.
+  /// Queues a frame; waits for room as long as `idle` allows.
   bool push(const CanFrame& frame) {
     CanFrame stray;
     while (!bus_.send(frame)) {
@@ -98,12 +99,12 @@ class LockstepCan {
     return true;
   }
 
-  /// Waits for a frame for slice_us_.
+  /// Waits slice_us_ for a frame.
   bool hear(CanFrame& frame) {
     return bus_.poll(frame, static_cast<std::uint32_t>(bus_.now_us() - pushed_us_) + slice_us_);
   }
 
-  /// One new answer of the twin: burst_ and now_us_.
+  /// Gets one new answer of the twin into burst_ and now_us_.
   bool advance(std::uint32_t timeout_us) {
     const lockstep::CanAdvance request{
         .sequence = ++sequence_, .sent = sent_, .sent_sum = sent_sum_, .timeout_us = timeout_us};
@@ -124,7 +125,7 @@ class LockstepCan {
     }
     if (!lockstep::take_message(frame, lockstep::kCanAdvancedId, answer)) return Outcome::kMore;
     if (answer.sequence != sequence_) {
-      count_ = 0;  // what came before it was another answer's
+      count_ = 0;  // the frames before it belonged to another answer
       return Outcome::kMore;
     }
     const std::uint8_t flags = answer.flags_count & ((1u << lockstep::kCanCountShift) - 1);
@@ -148,8 +149,8 @@ class LockstepCan {
     return sum;
   }
 
-  /// Says `request` and hands what comes to `take` until that has the answer; asks again as often
-  /// as it must. False: given up.
+  /// Sends `request` and passes frames to `take` until it has the answer; repeats as needed. False:
+  /// given up.
   template <class Request, class Handler>
   bool ask(Request&& request, Handler&& take) {
     std::uint32_t patience_us = kFirstPatience_us;
@@ -168,7 +169,7 @@ class LockstepCan {
     }
   }
 
-  /// kMore: nothing came of it.
+  /// kMore: no answer came.
   template <class Handler>
   Outcome wait(std::uint32_t patience_us, Handler& take) {
     const std::uint64_t since_us = bus_.now_us();
@@ -188,10 +189,10 @@ class LockstepCan {
   Idle idle_;
   const std::uint32_t slice_us_;
   LockstepCounters counters_;
-  std::uint64_t now_us_ = 0;     ///< the twin's
+  std::uint64_t now_us_ = 0;     ///< the twin's time
   std::uint64_t pushed_us_ = 0;  ///< when bus_ took its last frame
-  std::size_t count_ = 0;        ///< frames that an answer brought; only kMaxBurst of them are kept
-  std::size_t taken_ = 0;        ///< of these, those handed over
+  std::size_t count_ = 0;        ///< frames in the answer; at most kMaxBurst are kept
+  std::size_t taken_ = 0;        ///< frames handed over
   std::uint16_t sent_sum_ = 0;
   std::uint8_t sent_ = 0;
   std::uint8_t sequence_ = 0;

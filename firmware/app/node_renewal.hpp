@@ -9,24 +9,24 @@
 
 namespace verp::app {
 
-/// Sets nodes up again while the loop runs: one node at a time, one SDO request a tick or, while no
-/// torque is at stake, a few as answers come; nothing waits for them.
+/// Sets nodes up again while the loop runs, one at a time, without waiting: one SDO request a tick,
+/// or several as answers come while no torque is on.
 class NodeRenewal {
  public:
   explicit NodeRenewal(const Params& params) : params_(params) {}
 
-  /// The node that is being set up; -1: none.
+  /// The node being set up; -1: none.
   int slot() const { return slot_; }
-  /// An SDO response of that node.
+  /// Takes that node's SDO response.
   void receive(const CanFrame& frame, std::uint64_t now_us) { client_.receive(frame, now_us); }
-  /// It has rebooted: what was written is gone. It knows nothing of our SYNCs, and may complain of
-  /// each of them (EMCY 8240h) before everybody's answers; stopped (CiA 301), it says nothing until
-  /// its turn has come.
+  /// Restarts the set-up of a node that has rebooted, and queues it for stop_one(). Such a node
+  /// does not know our SYNC counter and may send EMCY 8240h on each SYNC ahead of other answers.
+  /// Stopped (CiA 301) it is silent until its turn.
   void rebooted(int slot) {
     if (slot == slot_) slot_ = -1;
     to_stop_ |= node_bit(slot);
   }
-  /// Stops one node that has rebooted; false: there was none.
+  /// Stops one node that has rebooted; false: there is none.
   template <hal::CanBus Bus>
   bool stop_one(CanMaster<Bus>& master) {
     for (int slot = 0; slot < kCanNodes; ++slot) {
@@ -38,14 +38,14 @@ class NodeRenewal {
     return false;
   }
 
-  /// Once a tick. Chooses among `candidates`, in turn. Returns the node that is set up and was
-  /// started in this tick, or -1.
+  /// Call once a tick. Serves `candidates` in turn. Returns the node that is set up and was started
+  /// in this tick, or -1.
   template <hal::CanBus Bus>
   int run(CanMaster<Bus>& master, NodeMask candidates) {
     if (slot_ >= 0 && (candidates & node_bit(slot_)) == 0) slot_ = -1;
     if (slot_ < 0) {
       if (!choose(candidates, master.now_us())) return -1;
-      // It may have been stopped, and would hear of no setting.
+      // A stopped node would ignore the settings.
       master.send(
           canopen::nmt_frame(canopen::NmtCommand::kEnterPreOperational, node_id(params_, slot_)));
     }
@@ -56,7 +56,7 @@ class NodeRenewal {
     master.send(canopen::nmt_frame(canopen::NmtCommand::kStart, node_id(params_, done)));
     return done;
   }
-  /// Sends what is due next. False if the node has refused, or was silent.
+  /// Sends the next request. False if the node refused or was silent.
   template <hal::CanBus Bus>
   bool proceed(CanMaster<Bus>& master) {
     if (slot_ < 0 || !advance(master.now_us())) {
@@ -88,7 +88,7 @@ class NodeRenewal {
     canopen::put_le(data_, setting_.value, 4);
     client_.download(setting_.at, data_, setting_.bytes, canopen::SdoClient::Mode::kPlain, now_us);
   }
-  /// To the next setting when one is written; false if the node refuses it or is silent.
+  /// Moves on when a setting is written; false if the node refused it or was silent.
   bool advance(std::uint64_t now_us) {
     using State = canopen::SdoClient::State;
     if (client_.state() == State::kBusy || finished_) return true;
@@ -109,7 +109,7 @@ class NodeRenewal {
   canopen::SdoClient client_{1};
   Setting setting_;
   std::uint8_t data_[4] = {};
-  NodeMask to_stop_ = 0;  ///< have rebooted
+  NodeMask to_stop_ = 0;  ///< nodes that have rebooted
   int slot_ = -1;
   int last_ = kCanNodes - 1;
   int step_ = 0;

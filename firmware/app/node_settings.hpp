@@ -9,19 +9,19 @@
 #include "common/protocol/canopen/robot_plan.hpp"
 #include "firmware/app/can_nodes.hpp"
 
-/// What the controller writes into a node before it may become operational, in this order. A node
-/// that lost its power has lost it all.
+/// The settings that the controller writes into a node, in this order, before starting it. A node
+/// that lost its power has lost them.
 namespace verp::app {
 
 struct Setting {
   canopen::Address at;
   std::uint32_t value = 0;
   std::uint8_t bytes = 0;
-  bool stays = true;      ///< and is worth being read back
-  bool optional = false;  ///< a node without the object is as good
+  bool stays = true;      ///< persists, so it is read back
+  bool optional = false;  ///< a node without the object is fine
 };
 
-/// Picks one setting out of a list that is told in order.
+/// Picks one setting out of a list that is generated in order.
 class SettingList {
  public:
   SettingList(const Params& params, int slot, int wanted)
@@ -47,17 +47,18 @@ class SettingList {
     const std::uint32_t period_us = params_.period_us;
     common();
     add({object::kMode, canopen::cia402::kModeCyclicPosition, 1});
-    // The nearest that its units allow: whole milliseconds, or tenths of them.
+    // The nearest value in the object's units: whole or tenth milliseconds.
     const bool whole = period_us % 1000 == 0;
     add({object::kPeriodExponent, static_cast<std::uint8_t>(whole ? -3 : -4), 1});
     add({object::kPeriodValue, whole ? period_us / 1000 : (period_us + 50) / 100, 1});
     limits();
-    // The core watches how joints follow; a drive that went limp on its own would topple the robot.
+    // Off: the core watches the following error; a drive that goes limp by itself would topple the
+    // robot.
     add({object::kFollowingWindow, UINT32_MAX, 4});
     add({object::kQuickStopOption, canopen::plan::kQuickStopAndHold, 2});
     add({object::kAbortConnection,
          static_cast<std::uint32_t>(canopen::cia402::AbortConnection::kQuickStop), 2});
-    // A drive that holds by itself goes on to answer: with the next heartbeat it is enabled again.
+    // A drive that stopped by itself keeps answering, and the next heartbeat enables it again.
     add({canopen::plan::kErrorBehaviour, static_cast<std::uint8_t>(canopen::ErrorBehaviour::kStay),
          1, true, true});
     const std::uint32_t watched = std::uint32_t{canopen::plan::kControllerNode} << 16;
@@ -68,7 +69,7 @@ class SettingList {
     receive(canopen::plan::kGoals);
     receive(canopen::plan::kWords);
     receive(canopen::plan::kStrengths);
-    // Of a fault that was, and whose cause is gone.
+    // Clears a fault whose cause is gone.
     add({object::kControlword, canopen::cia402::kWordDisableVoltage, 2, false});
     add({object::kControlword, canopen::cia402::kWordFaultReset, 2, false});
     add({object::kControlword, canopen::cia402::kWordDisableVoltage, 2, false});
@@ -83,14 +84,14 @@ class SettingList {
       answer(1, canopen::plan::foot_answer(), group);
     }
   }
-  /// First that our SYNCs are counted ones: it may complain of each until it knows.
+  /// Announces counted SYNCs first: until then a node may complain of each.
   void common() {
     add({canopen::plan::kSyncOverflow, canopen::plan::sync_groups(params_), 1});
-    // Its answers are its signs of life.
+    // PDOs replace the node's heartbeat.
     add({canopen::cia402::object::kProducerHeartbeat, 0, 2, true, true});
   }
 
-  // One count beyond the joint's own, so that rounding refuses no goal of the core.
+  // One count beyond the joint's limits, so that rounding refuses no goal of the core.
   void limits() {
     const JointParams& joint = params_.joint[slot_];
     const std::int32_t a = model::count_of(joint, joint.lower_rad);
@@ -105,7 +106,7 @@ class SettingList {
   static Object sub(unsigned index, unsigned subindex) {
     return {static_cast<std::uint16_t>(index), static_cast<std::uint8_t>(subindex)};
   }
-  // CiA 301's order: off, no entries, the entries, their number, and on again at the very end.
+  // CiA 301's order: PDO off, no entries, the entries, their number, and on again last.
   void map(unsigned communication, std::uint32_t cob_id, const canopen::PdoMapping<>& mapping,
            std::uint8_t type, std::uint8_t group) {
     const unsigned entries = communication + 0x200;
@@ -140,7 +141,7 @@ class SettingList {
   Setting found_;
 };
 
-/// The setting `number`, from 0, of a node; false: it has fewer.
+/// Setting `number`, from 0, of a node; false: it has fewer.
 inline bool node_setting(const Params& params, int slot, int number, Setting& setting) {
   return SettingList(params, slot, number).pick(setting);
 }

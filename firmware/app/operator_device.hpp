@@ -12,12 +12,12 @@
 namespace verp::app {
 
 /// The controller as a Dynamixel device on the operator's own port; OperatorLink and Recorder of
-/// the loop. Nothing here waits: poll() serves the link in the loop's idle time, order() and
-/// record() belong to the tick. All from one context; `params`, `link` and `images` outlive it.
+/// the loop. Nothing waits: poll() serves the link in the loop's idle time; order() and record()
+/// belong to the tick. Single context; `params`, `link` and `images` must outlive it.
 ///
 /// Answers Ping, Read, Write, Reg Write, Action, Sync, Bulk and fast reads, Sync and Bulk Write and
-/// Reboot; other instructions give the Instruction Error. Orders go stale by themselves: the core
-/// watches how long ago the last one was fresh.
+/// Reboot; other instructions give the Instruction Error. Orders expire by themselves: the core
+/// checks the age of the last fresh one.
 template <hal::ByteLink Link, Images Store = NoImages>
 class OperatorDevice {
  public:
@@ -27,9 +27,8 @@ class OperatorDevice {
                  const OperatorSetup& setup) requires std::same_as<Store, NoImages>
       : OperatorDevice(link, params, setup, no_images) {}
 
-  /// Takes at most kSlice bytes from the link and answers what is complete. A reply for which the
-  /// link has no room yet goes out in later calls, and nothing is taken before. True if there was
-  /// anything to do.
+  /// Takes at most kSlice bytes from the link and answers complete packets. While part of a reply
+  /// waits for room on the link, it takes nothing. True if there was anything to do.
   bool poll() {
     bool busy = push();
     if (more_) serve(parser_.next());
@@ -46,34 +45,34 @@ class OperatorDevice {
     return busy;
   }
 
-  /// How the loop's bring-up ended: the operator wants to know which servo to look at. What was
-  /// ordered while there was nobody to obey is not obeyed when there is.
+  /// Shows the result of the bring-up, so that the operator knows which servo to check, and drops
+  /// orders given before it.
   void brought_up(const BringUpReport& report) {
     registers_.report().bring_up(report);
     withdraw_orders();
   }
 
-  /// Why there will be no torque until the next start (start_fault.hpp).
+  /// Shows why torque is refused until the next start (start_fault.hpp).
   void show(table::StartFault fault) { registers_.report().start_fault(fault); }
 
   void show(table::ServoPower power) { registers_.report().servo_power(power); }
-  /// What came of the order to calibrate, or of what was kept; also before there is a loop.
+  /// Shows the calibration state; also before there is a loop.
   void show(table::ImuCalibrationState state) { registers_.report().imu_calibration(state); }
 
-  /// No servo can hold torque, as the twin that played them is silent or gone: the operator gets
-  /// back what torque keeps from him, a new start among it, until the next tick says otherwise.
-  /// Takes no order away: a twin that answers again finds the loop as it left it.
+  /// Call when the twin that played the servos is silent or gone: no servo can hold torque. The
+  /// operator regains what torque blocks, such as a restart, until the next tick. Orders stay: a
+  /// twin that answers again finds the loop unchanged.
   void servos_gone() { registers_.report().servos_gone(); }
 
-  /// How many actions the loop's library has, and why it has none of those that are kept.
+  /// The number of actions in the loop's library, and why stored ones are not available.
   void offer_actions(int count, action::KeptFault fault = action::KeptFault::kNone) {
     registers_.offer_actions(count, fault);
   }
 
-  /// Bus counters and the like, as often as they should be readable.
+  /// Bus counters and others; call as often as they should refresh.
   void report(const LoopHealth& health) { registers_.report().health(health); }
 
-  /// For an OperatorNode beside it: one set of registers, whoever asks.
+  /// For an OperatorNode that shares these registers.
   OperatorRegisters<Store>& registers() { return registers_; }
 
   std::uint8_t id() const { return registers_.id(); }
@@ -84,9 +83,9 @@ class OperatorDevice {
     return registers_.take_calibration_order();
   }
   bool take_relax() { return registers_.take_relax(); }
-  /// Part of a reply has found no room on the link yet.
+  /// Part of a reply waits for room on the link.
   bool reply_waits() const { return sent_ < reply_size_; }
-  /// The operator wants a new start; asked with torque off only.
+  /// The operator wants a restart; asked only with torque off.
   bool reboot_asked() const { return reboot_asked_ && sent_ == reply_size_; }
 
   // OperatorLink
@@ -105,7 +104,7 @@ class OperatorDevice {
   static constexpr int kMostSlices = 64;  ///< more than a board's port can hold
   enum StatusLevel : std::uint8_t { kPingOnly = 0, kReads = 1, kAll = 2 };
 
-  // What the link still holds was sent before now too.
+  // Bytes still in the link were sent earlier too, so take them first.
   void withdraw_orders() {
     for (int slice = 0; slice < kMostSlices && poll(); ++slice) {
     }
@@ -115,11 +114,11 @@ class OperatorDevice {
   bool push() {
     if (sent_ == reply_size_) return false;
     sent_ += link_.write(reply_ + sent_, reply_size_ - sent_, 0);
-    if (!link_.connected()) sent_ = reply_size_;  // who asked is gone; the next one did not ask
+    if (!link_.connected()) sent_ = reply_size_;  // the peer that asked is gone
     return true;
   }
 
-  // One byte can complete several packets, if a false header hid them until then.
+  // One byte can complete several packets if a false header hid them.
   void serve(bool found) {
     for (; found; found = parser_.next()) {
       const dxl::Packet& packet = parser_.packet();
@@ -197,11 +196,11 @@ class OperatorDevice {
     const std::uint8_t* data = registers_.read(address, size);
     if (data == nullptr) return reply(id, dxl::Error::kAccess, nullptr, 0);
     reply(id, dxl::Error::kNone, data, size);
-    // Stuffing can make a long reply longer than a packet may be.
+    // Stuffing can make a long reply exceed the packet limit.
     if (reply_size_ == 0) reply(id, dxl::Error::kDataLimit, nullptr, 0);
   }
 
-  // Devices answer such a read in the order of its list, each when the one before it has.
+  // Devices answer such a read in list order, each after the one before it.
   void read_in_turn(const dxl::Packet& packet, std::uint8_t id) {
     if (registers_.status_level() < kReads) return;
     std::uint8_t before = dxl::kBroadcast;
@@ -218,7 +217,7 @@ class OperatorDevice {
     }
     if (!asked) return;
     if (dxl::is_fast_read(packet.instruction)) {
-      // One packet of all devices; behind others its CRC would go on from theirs.
+      // A fast read is one packet of all devices; behind others our CRC would continue theirs.
       if (before == dxl::kBroadcast) show_fast(own, all_bytes);
     } else if (before == dxl::kBroadcast) {
       show(id, own.address, own.length);
@@ -266,11 +265,11 @@ class OperatorDevice {
   Link& link_;
   OperatorRegisters<Store> registers_;
   dxl::Parser parser_;
-  dxl::ReadEntry waiting_;  ///< what to show once `before_us_` has answered
+  dxl::ReadEntry waiting_;  ///< what to send once `before_us_` has answered
   std::uint8_t before_us_ = dxl::kBroadcast;
   bool reboot_asked_ = false;
-  bool more_ = false;        ///< the parser may hold another packet, for which there was no room
-  std::size_t arrived_ = 0;  ///< bytes of inbox_
+  bool more_ = false;        ///< the parser may hold another packet
+  std::size_t arrived_ = 0;  ///< bytes in inbox_
   std::size_t taken_ = 0;
   std::size_t reply_size_ = 0;
   std::size_t sent_ = 0;

@@ -13,16 +13,16 @@
 namespace verp::app {
 
 /// The controller as a node on the bus of its own drives: OperatorLink and Recorder of the loop,
-/// and the CanBus between the loop and `Bus`, where what is addressed to the node is taken out. It
-/// tells of each tick in TPDOs (canopen/published_tick.hpp), if the robot's bus has room for them
-/// with the IMU that it starts with; an operator may switch them off and on as any PDO (1801h:1 and
-/// the following).
+/// and the CanBus between loop and `Bus`, which takes out frames addressed to the node. It
+/// publishes each tick in TPDOs (canopen/published_tick.hpp) if the bus has room for them with the
+/// IMU chosen at start. An operator may switch them like any PDO (1801h:1 and following).
 ///
-/// Nothing here waits, and it sends at the end of a tick only, behind the goals: an SDO answer
-/// takes a tick, and never the loop its time. Before the first one it answers when it is asked. In
-/// lockstep it stands below the twin's clock: what it sends and gets is no matter of simulated
-/// time. `bus`, `params`, `registers` and `images` outlive it; the registers may be those of an
-/// OperatorDevice, which then is the loop's OperatorLink and Recorder, and has tell() called behind
+/// Nothing waits. The node sends only at the end of a tick, behind the goals: an SDO answer takes a
+/// tick and costs the loop no time. Before the first tick it answers at once. In lockstep it sits
+/// below the twin's clock, so its frames take no simulated time.
+///
+/// `bus`, `params`, `registers` and `images` must outlive it. The registers may be those of an
+/// OperatorDevice, which then is the loop's OperatorLink and Recorder; its user calls tell() after
 /// each tick.
 template <hal::CanBus Bus, Images Store = NoImages>
 class OperatorNode {
@@ -39,8 +39,8 @@ class OperatorNode {
                   canopen::plan::has_room_to_publish(params, !imu_on_bus()));
     device_.objects().producer.set_period_ms(canopen::plan::heartbeat_ms(params));
     device_.start();
-    constexpr std::uint64_t kBegin_us = 0;  // a bus that is not open yet must not be asked
-    // It is the master that starts nodes, and has nobody to start it.
+    constexpr std::uint64_t kBegin_us = 0;  // the bus may not be open yet, so its time is unknown
+    // As NMT master it must start itself.
     device_.receive(canopen::nmt_frame(canopen::NmtCommand::kStart, kNode), kBegin_us);
   }
 
@@ -52,7 +52,7 @@ class OperatorNode {
       if (frame.id != kWatchers) ++asked_;
       device_.receive(frame, bus_.now_us());
       if (!ticks_) answer();
-      if (taken == kMostTaken) return false;  // no babbler holds the tick
+      if (taken == kMostTaken) return false;  // a flooded bus must not block the tick
     }
     return false;
   }
@@ -71,15 +71,14 @@ class OperatorNode {
     tell(record.inputs);
   }
 
-  /// The tick is over, and the registers show it.
+  /// Call after the tick, when the registers show it.
   void tell(const Inputs& inputs) {
     ticks_ = true;
     publish(inputs);
     answer();
   }
 
-  /// Sends what else the node has to say, a little of it: a loop that does not tick yet, or does no
-  /// more, calls it now and then.
+  /// Sends a few pending answers. A loop that does not tick calls it now and then.
   void answer() {
     CanFrame frame;
     for (int sent = 0; sent < kMostAnswers && device_.next(frame, bus_.now_us()); ++sent) {
@@ -93,7 +92,7 @@ class OperatorNode {
     registers_.withdraw_orders();
   }
   void report(const LoopHealth& health) { registers_.report().health(health); }
-  /// Frames that were addressed to it by others than who follows its ticks, and keeps no pace.
+  /// Frames addressed to the node, except those of tick followers, which keep no pace.
   std::uint32_t asked() const { return asked_; }
 
  private:
@@ -101,14 +100,13 @@ class OperatorNode {
   static constexpr std::uint32_t kWatchers =
       canopen::further_sdo(canopen::plan::kWatcherSdo).request;
   static constexpr int kMostTaken = 64;
-  /// Of a block that is read, so much of the bus at the end of each tick.
+  /// Bus share for reading a block, in frames at the end of each tick.
   static constexpr int kMostAnswers = 4;
   static_assert(most_sent(kMaxJoints) + canopen::published::kFrames +
                     canopen::published::kMostParts + kMostAnswers <=
                 hal::kCanQueue);
 
-  // Not NMT: who starts and resets the others obeys nobody, and to its loop such a frame is a
-  // stray.
+  // NMT frames are not for the node: it is the master. To its loop they are strays.
   static bool is_for_node(const CanFrame& frame) {
     if (!canopen::is_canopen(frame)) return false;
     if (canopen::plan::is_to_controllers_sdo(frame.id)) return true;
@@ -131,7 +129,7 @@ class OperatorNode {
       send_pdo(published::kPartPdo);
     }
   }
-  // One TPDO at once, whatever else waits behind it.
+  // Sends one TPDO at once, ahead of other pending frames.
   void send_pdo(unsigned number) {
     CanFrame frame;
     device_.trigger(number - 1);
@@ -145,7 +143,7 @@ class OperatorNode {
   canopen::Device<Objects, kControllerSize> device_;
   canopen::published::Parts parts_;
   Inputs before_;
-  bool ticks_ = false;  ///< there has been one
+  bool ticks_ = false;  ///< the first tick has passed
   std::uint32_t asked_ = 0;
 };
 

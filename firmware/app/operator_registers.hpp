@@ -18,7 +18,7 @@
 
 namespace verp::app {
 
-/// The crash that ended the run before (firmware/boot/crash.hpp). count 0: there was none.
+/// The crash that ended the previous run (firmware/boot/crash.hpp). count 0: none.
 struct CrashNote {
   std::uint32_t pc = 0;
   std::uint32_t cause = 0;  ///< CFSR
@@ -35,14 +35,14 @@ struct OperatorSetup {
   table::SelfTest self_test = table::SelfTest::kNotRun;
   table::ResetCause reset_cause = table::ResetCause::kUnknown;
   table::ClockSource clock_source = table::ClockSource::kUnknown;
-  FieldName bad_field{};  ///< of the Params image, where self_test failed for it
+  FieldName bad_field{};  ///< of the Params image, if self_test failed for it
   CrashNote crash{};
-  /// false: the loop gets them from elsewhere; only what chooses what is shown can be written.
+  /// false: orders come from elsewhere; only registers that select what is shown can be written.
   bool takes_orders = true;
 };
 
-/// The controller's registers and what a read or write of them does; knows no packets. Errors are
-/// the e-Manual's.
+/// The controller's registers and the effects of reads and writes, independent of packets. Errors
+/// are those of the e-Manual.
 template <Images Store>
 class OperatorRegisters {
  public:
@@ -89,34 +89,34 @@ class OperatorRegisters {
   table::ImuSource imu_source() const {
     return image_.template get<table::ImuSource>(reg("imu_source"));
   }
-  /// What App::limit_torque() is to be told before each tick. Changes with torque off only: a robot
-  /// that stands must neither sag nor push harder all at once.
+  /// Pass to App::limit_torque() before each tick. Changes only with torque off: a standing robot
+  /// must neither sag nor push harder at once.
   std::uint8_t torque_limit_percent() const { return byte(reg("torque_limit")); }
-  /// What the operator wants done with the chip's calibration; told once.
+  /// The operator's order for the chip's calibration; returned once.
   table::ImuCalibrationOrder take_calibration_order() {
     const table::ImuCalibrationOrder order = calibration_order_;
     calibration_order_ = table::ImuCalibrationOrder::kNone;
     return order;
   }
-  /// The operator wrote `request` 0; told once.
+  /// The operator wrote `request` 0; returned once.
   bool take_relax() { return standing_.take_relax(); }
-  /// Numbers that action_request takes, none before; and why there are none, where some are kept.
+  /// How many actions action_request accepts, and why stored ones are not available.
   void offer_actions(int count, action::KeptFault fault = action::KeptFault::kNone) {
     image_.set(reg("action_count"), static_cast<std::uint16_t>(count));
     image_.set(reg("action_fault"), fault);
   }
   TickReport& report() { return report_; }
-  /// Whether a write at `address` may ever have the effect that the table says (OperatorSetup).
+  /// Whether a write at `address` may have the effect that the table states (OperatorSetup).
   bool obeys(std::uint16_t address) const { return takes_orders_ || only_shows(address); }
 
-  /// The bytes of a read; nullptr if any of them stands outside the table. Gaps read as zero.
+  /// The bytes of a read; nullptr if any lies outside the table. Gaps read as zero.
   const std::uint8_t* read(std::uint16_t address, std::size_t size) {
     if (!RegisterImage::holds(address, size)) return nullptr;
     if (address < reg_end("window_data") && address + size > reg("window_data")) fill_window();
     return image_.at(address);
   }
 
-  /// Writes all of it or says why not.
+  /// Writes all of it or returns the error.
   dxl::Error write(std::uint16_t address, const std::uint8_t* data, std::size_t size) {
     const Write write{address, data, size};
     const dxl::Error error = check(write);
@@ -125,11 +125,11 @@ class OperatorRegisters {
     return take_effect(write);
   }
 
-  /// Keeps a write until action(), or says why it can't be.
+  /// Keeps a write until action(), or returns the error.
   dxl::Error reg_write(std::uint16_t address, const std::uint8_t* data, std::size_t size) {
     const dxl::Error error = check({address, data, size});
     if (error != dxl::Error::kNone) return error;
-    __builtin_memcpy(registered_, data, size);  // what passed is one run of writable registers
+    __builtin_memcpy(registered_, data, size);  // a checked write is one run of writable registers
     registered_address_ = address;
     registered_size_ = size;
     image_.set(reg("registered_instruction"), std::uint8_t{1});
@@ -141,7 +141,8 @@ class OperatorRegisters {
     if (size == 0) return dxl::Error::kInstruction;
     registered_size_ = 0;
     image_.set(reg("registered_instruction"), std::uint8_t{0});
-    return write(registered_address_, registered_, size);  // what was allowed may not be now
+    return write(registered_address_, registered_,
+                 size);  // conditions may have changed
   }
 
   /// See StandingOrder.
@@ -150,8 +151,7 @@ class OperatorRegisters {
   }
   void withdraw_orders() { standing_.withdraw(armed()); }
 
-  /// Of an image that came whole, through the window or by another way: whether it is taken, which
-  /// the window shows.
+  /// Commits a complete image, from the window or elsewhere; the window shows the result.
   bool commit(ImageKind kind, std::uint32_t crc) {
     const std::uint8_t fault =
         kind == ImageKind::kNone ? kWrongWindowCrc : store_.commit(kind, crc);
@@ -177,7 +177,7 @@ class OperatorRegisters {
     return order;
   }
 
-  /// The tick is over: everything that can be read of it.
+  /// Call after the tick: updates all registers.
   void record(const TickRecord& record, const State& state, const Outputs& outputs) {
     report_.tick(record, state, outputs);
     tuning_ = state.tuning;
@@ -197,7 +197,7 @@ class OperatorRegisters {
     const std::uint8_t* from(std::uint16_t at) const { return data + (at - address); }
   };
 
-  /// Registers that say what is to be read, and how long it stands still.
+  /// Registers that only select what is read and how long it is held.
   static constexpr bool only_shows(std::uint16_t address) {
     return address == reg("parameter_id") || address == reg("window_kind") ||
            address == reg("window_offset") || address == reg("tick_hold");
@@ -224,7 +224,7 @@ class OperatorRegisters {
     return error == dxl::Error::kNone ? check_values(write) : error;
   }
 
-  /// Bounds that are no constants of the table.
+  /// Bounds that are not constants of the table.
   dxl::Error check_values(const Write& write) const {
     if (write.covers(reg("action_request")) &&
         dxl::get_u16(write.from(reg("action_request"))) > word(reg("action_count"))) {
@@ -238,7 +238,7 @@ class OperatorRegisters {
         (byte(reg("imu_sources")) >> *write.from(reg("imu_source")) & 1) == 0) {
       return dxl::Error::kDataRange;
     }
-    // The samples that are measured are those that steer.
+    // Calibration measures the samples that steer, so the chip must be the source.
     if (write.covers(reg("imu_calibrate")) && *write.from(reg("imu_calibrate")) != 0 &&
         imu_source() != table::ImuSource::kChip) {
       return dxl::Error::kResultFail;
@@ -274,7 +274,7 @@ class OperatorRegisters {
     return dxl::get_u32(write.covers(reg("window_offset")) ? write.from(reg("window_offset"))
                                                            : image_.at(reg("window_offset")));
   }
-  /// Indices into window_data.
+  /// Index range within window_data.
   static std::uint32_t data_begin(const Write& write) {
     return write.address > reg("window_data") ? write.address - reg("window_data") : 0u;
   }
@@ -313,7 +313,7 @@ class OperatorRegisters {
     return write.covers(reg("window_commit")) ? commit() : dxl::Error::kNone;
   }
 
-  /// Where the place for it is not ready yet, the window stays idle: that is no refusal.
+  /// While the memory is being prepared the window stays idle: that is no refusal.
   dxl::Error keep_block(const Write& write) {
     const std::uint32_t begin = data_begin(write);
     const Taken taken =
@@ -333,7 +333,7 @@ class OperatorRegisters {
     return commit(window_kind(), crc) ? dxl::Error::kNone : dxl::Error::kResultFail;
   }
 
-  /// Behind the image's end the window shows zeros.
+  /// Fills the window; beyond the image's end it shows zeros.
   void fill_window() {
     const std::size_t size = store_.size(window_kind());
     const std::size_t offset = dxl::get_u32(image_.at(reg("window_offset")));
@@ -354,7 +354,7 @@ class OperatorRegisters {
   RegisterImage image_;
   TickReport report_;
   StandingOrder standing_;
-  Tuning tuning_;  ///< in force
+  Tuning tuning_;  ///< currently active
   const bool takes_orders_;
   std::uint8_t registered_[table::longest_write()] = {};
   std::size_t registered_size_ = 0;

@@ -6,20 +6,20 @@
 
 namespace verp::app {
 
-/// How a loop kept its deadlines. The deadline of a tick is the beginning of the next period.
+/// Deadline statistics of a loop. A tick's deadline is the start of the next period.
 struct Deadlines {
   std::uint64_t ticks = 0;
-  std::uint64_t missed = 0;   ///< ticks that ended late, or after which periods passed without one
-  std::uint64_t skipped = 0;  ///< those periods
-  std::uint64_t worst_late_us = 0;  ///< a tick began so long after it was due
+  std::uint64_t missed = 0;         ///< ticks that ended late or were followed by skipped periods
+  std::uint64_t skipped = 0;        ///< periods without a tick
+  std::uint64_t worst_late_us = 0;  ///< longest delay of a tick's start
 };
 
-/// Paces a loop by a clock and keeps the account of it, in the words that App::tick() takes:
+/// Paces a loop by a clock and counts missed deadlines:
 ///
 ///     pacer.start(period_us);
 ///     for (;;) app.tick(pacer.next());
 ///
-/// What the account calls missed is what the ticks' records carry as kOverrun.
+/// Ticks counted as missed carry kOverrun in their records.
 template <hal::TickSource Source>
 class Pacer {
  public:
@@ -33,7 +33,7 @@ class Pacer {
     return started;
   }
 
-  /// Call when a tick has ended: waits for the next one to begin.
+  /// Call after a tick: waits for the next one.
   Beat next() {
     const bool late = clock_.now_us() > due_us_;
     const std::uint32_t begun = clock_.wait();

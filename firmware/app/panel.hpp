@@ -3,14 +3,14 @@
 
 #include "firmware/app/contracts.hpp"
 
-/// What a person can touch on the robot itself: the emergency stop and buttons, debounced, one
-/// reading a tick, put into that tick's Inputs beside the operator's order.
+/// The controls on the robot itself: emergency stop and buttons, debounced with one reading a tick,
+/// merged into the operator's order.
 namespace verp::app {
 
-/// A contact that bounces: it is open or closed once so many readings in a row have said so.
+/// A debounced contact: it changes after this many equal readings in a row.
 class Contact {
  public:
-  /// `on` is what it counts as before that.
+  /// `on`: the initial state.
   constexpr Contact(bool on, std::uint8_t to_on, std::uint8_t to_off)
       : on_(on), to_on_(to_on), to_off_(to_off) {}
   bool update(bool reads_on) {
@@ -26,20 +26,20 @@ class Contact {
  private:
   bool on_;
   std::uint8_t to_on_, to_off_;
-  std::uint8_t run_ = 0;  ///< readings in a row that say otherwise
+  std::uint8_t run_ = 0;  ///< readings in a row that differ
 };
 
 inline constexpr int kPanelButtons = 2;
 
-/// As the pins stand now. A stop circuit is closed when all is well: a cut wire reads as pressed.
+/// The pins now. The stop circuit is closed in normal operation, so a cut wire reads as pressed.
 struct PanelReading {
   bool stop_pressed = false;
   bool button_pressed[kPanelButtons] = {};
 };
 
-/// An OperatorLink that adds the panel to another's orders. read() gives the pins' PanelReading.
-/// A stop counts as pressed until it was read released; where there is none it never is; buttons
-/// are bits of the mailbox, button 0 the lowest.
+/// An OperatorLink that adds the panel to another link's orders. read() returns the pins'
+/// PanelReading. A stop counts as pressed until it was read released; without a stop it never is.
+/// Buttons are mailbox bits, button 0 the lowest.
 template <OperatorLink Link, class Pins>
 class WithPanel {
  public:
@@ -60,19 +60,19 @@ class WithPanel {
     }
     return order;
   }
-  /// In the last order somebody held a stop pressed, here or at the link. False while a stop that
-  /// reads released only counts as pressed because nobody knows yet.
+  /// Whether the panel or the link held a stop pressed in the last order. False while a stop that
+  /// reads released counts as pressed only because its state is not settled.
   bool pressed() const { return pressed_; }
 
  private:
-  /// A stop is taken on the second reading, as one may be a spark; it is over after a quarter of
-  /// a second of 8 ms ticks.
+  /// A stop counts at the second reading, because one may be a spark; it ends after a quarter of a
+  /// second of 8 ms ticks.
   static constexpr std::uint8_t kPressed = 2, kReleased = 32, kButton = 4;
 
   Link& link_;
   Pins& pins_;
   Contact stop_;
-  bool released_ = false;  ///< once since the start
+  bool released_ = false;  ///< at least once since the start
   bool pressed_ = false;
   Contact button_[kPanelButtons] = {{false, kButton, kButton}, {false, kButton, kButton}};
 };

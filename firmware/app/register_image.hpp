@@ -8,20 +8,19 @@ namespace verp::app {
 
 namespace table = dxl::controller;
 
-/// Address of a register, and the first byte behind it; a wrong name does not compile.
+/// Address of a register and of its end; a wrong name does not compile.
 consteval std::uint16_t reg(const char* name) {
   return table::find(name)->address;
 }
 consteval std::uint16_t reg_end(const char* name) {
   return static_cast<std::uint16_t>(table::find(name)->address + table::find(name)->bytes());
 }
-/// Address of element `index` of an array of elements of `size` bytes.
+/// Address of array element `index`; elements have `size` bytes.
 constexpr std::uint16_t element(std::uint16_t array, int index, int size) {
   return static_cast<std::uint16_t>(array + index * size);
 }
 
-/// The controller's registers as bytes, as they stand on the wire: little-endian, as every core is
-/// that this runs on.
+/// The controller's registers as bytes in wire order: little-endian, as every supported core is.
 class RegisterImage {
  public:
   template <class Value>

@@ -5,23 +5,22 @@
 #include "common/control/step.hpp"
 #include "common/record/tick_record.hpp"
 
-/// Replays recorded inputs through the core of another machine and hands back what it made of them.
+/// Replays recorded inputs on another machine's core and returns its digests.
 ///
-/// Over any byte stream: in comes one ReplayJob, the Params image, then `ticks` Inputs; out goes
-/// one TickDigest for each, then one ReplayReport and, if the job asked for it, the State after one
-/// tick, to name a field that differs.
+/// Over any byte stream. In: one ReplayJob, the Params image, then `ticks` Inputs. Out: one
+/// TickDigest per tick, then one ReplayReport and, on request, the State after one tick, to name a
+/// field that differs.
 namespace verp {
 
 struct ReplayJob {
   static constexpr std::uint32_t kMagic = 0x31'4c'50'52;  ///< "RPL1"
   static constexpr std::uint32_t kNoState = 0xFFFFFFFF;
   std::uint32_t magic = kMagic;
-  std::uint32_t params_size =
-      sizeof(Params);  ///< sizes guard against two builds of different structs
+  std::uint32_t params_size = sizeof(Params);  ///< sizes detect builds with different structs
   std::uint32_t inputs_size = sizeof(Inputs);
   std::uint32_t state_size = sizeof(State);
   std::uint32_t ticks = 0;
-  std::uint32_t state_after = kNoState;  ///< index into the Inputs sent
+  std::uint32_t state_after = kNoState;  ///< index into the Inputs
   VERP_FIELDS(magic, params_size, inputs_size, state_size, ticks, state_after)
 };
 VERP_PACKED(ReplayJob);
@@ -29,14 +28,13 @@ VERP_PACKED(ReplayJob);
 struct ReplayReport {
   std::uint32_t magic = ReplayJob::kMagic;
   std::uint32_t ticks = 0;
-  std::uint32_t stack_bytes =
-      0;  ///< deepest stack below the caller of step(); 0 where it isn't measured
+  std::uint32_t stack_bytes = 0;  ///< deepest stack below step()'s caller; 0: not measured
   std::uint32_t reserved = 0;
   VERP_FIELDS(magic, ticks, stack_bytes, reserved)
 };
 VERP_PACKED(ReplayReport);
 
-/// Blocks until all bytes were moved; false when the other side is gone.
+/// Blocks until all bytes were moved; false once the far end is gone.
 template <class Stream>
 concept ByteStream = requires(Stream& stream, void* to, const void* from, std::size_t size) {
   { stream.read(to, size) } -> std::same_as<bool>;
@@ -45,13 +43,12 @@ concept ByteStream = requires(Stream& stream, void* to, const void* from, std::s
 
 enum class ReplayResult : std::uint8_t { kDone, kBadJob, kLinkLost };
 
-/// Everything a replay keeps in memory; too big for the stack of a microcontroller. A bigger Block
-/// means fewer and longer transfers.
+/// A replay's memory, too big for a microcontroller's stack. A bigger Block gives fewer, longer
+/// transfers.
 template <int Block>
 class Replay {
  public:
-  /// `measure` is told when a tick is about to run and when the last one has: begin(),
-  /// used_bytes().
+  /// Calls gauge.begin() before the first tick and gauge.used_bytes() after the last.
   template <ByteStream In, ByteStream Out, class StackGauge>
   ReplayResult run(In& in, Out& out, StackGauge&& gauge) {
     ReplayJob job;

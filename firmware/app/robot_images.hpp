@@ -8,11 +8,11 @@
 
 namespace verp::app {
 
-/// Where new actions wait until they are whole: a piece of flash.
-///  - room(): bytes; bytes(): where they are in the processor's memory, aligned to 4.
-///  - begin(): what is there is of no use any more. ready(): it may be written.
-///  - write(offset, from, count): in any order, inside the room, and once more the same. False: the
-///    memory did not keep it.
+/// A piece of flash where new actions wait until they are complete.
+///  - room(): its bytes; bytes(): its memory address, aligned to 4.
+///  - begin(): discards the contents. ready(): it may be written.
+///  - write(offset, from, count): in any order, within the room; repeating the same write is
+///    allowed. False: the memory failed.
 template <class Place>
 concept ActionPlace = requires(Place& place, const Place& seen, std::size_t offset,
                                const std::uint8_t* from, std::size_t count) {
@@ -23,12 +23,12 @@ concept ActionPlace = requires(Place& place, const Place& seen, std::size_t offs
   { place.write(offset, from, count) } -> std::same_as<bool>;
 };
 
-/// The robot's Params image and its actions. New actions must be those of the robot in force: its
-/// own Params come first. Both are for the board to store, and to start with.
+/// The robot's Params image and its actions. New actions must carry the active robot's own Params
+/// in front. The board stores both and starts with them.
 template <ActionPlace Place>
 class RobotImages {
  public:
-  /// `actions`: those in force, in a memory of so many bytes; whatever is there may be none.
+  /// `actions`: the active ones, in a memory of `actions_bytes`; it may hold none.
   RobotImages(const ParamsImage& robot, const std::uint8_t* actions, std::size_t actions_bytes,
               Place& place)
       : robot_(robot),
@@ -38,9 +38,9 @@ class RobotImages {
         place_(place) {}
 
   const ParamsImage* accepted_robot() const { return robots_.accepted(); }
-  /// Bytes of the new actions, once they were committed; 0 before.
+  /// Bytes of the committed new actions, or 0.
   std::size_t accepted_actions() const { return accepted_bytes_; }
-  /// Of those in force; 0: there are none, or damaged ones.
+  /// Bytes of the active actions; 0: none, or damaged.
   std::size_t actions_bytes() const { return actions_bytes_; }
 
   // Images
@@ -62,7 +62,7 @@ class RobotImages {
   Taken write(ImageKind kind, std::size_t offset, const std::uint8_t* from, std::size_t count) {
     if (kind != ImageKind::kActions) return robots_.write(kind, offset, from, count);
     accepted_bytes_ = 0;
-    if (!begun_) place_.begin();  // not earlier: who only reads costs the flash no erase
+    if (!begun_) place_.begin();  // not earlier, so that reading causes no erase
     begun_ = true;
     if (!place_.ready()) return Taken::kNotYet;
     if (!place_.write(offset, from, count)) return Taken::kNo;
@@ -91,7 +91,7 @@ class RobotImages {
   const std::uint8_t* actions_;
   std::size_t actions_bytes_;
   Place& place_;
-  std::size_t written_ = 0;  ///< up to the end of the last of its bytes
+  std::size_t written_ = 0;  ///< end of the last byte written
   std::size_t accepted_bytes_ = 0;
   bool begun_ = false;
 };

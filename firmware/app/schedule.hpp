@@ -7,13 +7,13 @@
 #include "common/protocol/control_table.hpp"
 #include "common/protocol/dynamixel2.hpp"
 
-/// Bytes and time of one tick on the servo bus. The loop takes its timeouts from here, export its
-/// refusal.
+/// Bytes and time of one tick on the servo bus. The loop derives its timeouts from them, and export
+/// its refusal.
 namespace verp::app {
 
 inline constexpr std::uint32_t kBitsPerByte = 10;  ///< start, eight data, stop
-/// A device's own time between the last byte of a request and its reply, above its Return Delay
-/// Time of 0: an allowance, not a measurement; a servo that is slower is counted as silent.
+/// A device's time from a request's last byte to its reply, above its Return Delay Time of 0: an
+/// allowance, not a measurement. A slower servo counts as silent.
 inline constexpr std::uint32_t kReplySlackUs = 25;
 inline constexpr std::uint32_t kTransactionSlackUs =
     150;  ///< interrupt and driver latency of the master
@@ -42,7 +42,7 @@ constexpr std::size_t sync_write_bytes(std::size_t devices, std::size_t length) 
   return dxl::kInstructionBytes + 4 + devices * (1 + length);
 }
 
-/// True if every servo answers Fast Sync Read; one that does not would break the chain of replies.
+/// Whether every servo answers Fast Sync Read; one that does not would break the reply chain.
 constexpr bool all_fast(const Params& params) {
   for (int j = 0; j < params.servo_count(); ++j) {
     if (params.servo[params.joint[j].servo_profile % kServoProfiles].fast_sync_read == 0) {
@@ -52,8 +52,8 @@ constexpr bool all_fast(const Params& params) {
   return params.servo_count() > 0;
 }
 
-/// What the servos' Bus Watchdog is set to while torque is on: they hold by themselves somewhat
-/// later than the controller would have begun to let them down.
+/// Bus Watchdog setting while torque is on: servos hold by themselves a little after the controller
+/// would have begun to lower the robot.
 inline std::uint8_t bus_watchdog_units(const Params& params) {
   constexpr float kLater_s = 0.1F;
   constexpr float kUnit_s = 1e-6F * static_cast<float>(dxl::kBusWatchdogUnit_us);
@@ -72,17 +72,16 @@ constexpr std::size_t sensor_devices(const Params& params) {
   return devices;
 }
 
-/// Bytes that a read after an unanswered one asks for beyond what is wanted, of each device and at
-/// most (BusMaster).
+/// Most extra bytes per device in a read after an unanswered one (BusMaster).
 inline constexpr std::uint8_t kMostSpare = 2;
-/// Of a servo with an alert: from Torque Enable to Hardware Error Status.
+/// From Torque Enable to Hardware Error Status of a servo with an alert.
 inline constexpr std::uint16_t kAlertBytes = 7;
-/// Servos that are asked or set up again in one tick, at most (DoubtedServos).
+/// Most servos queried or set up again in one tick (DoubtedServos).
 inline constexpr int kResolvedAtOnce = 4;
 
-/// Bytes of the longest tick in which every device answers: reads, one alert looked up, goals; and
-/// either torque and strength of all servos, their Bus Watchdog cleared and set, or those of one
-/// servo, and a few that are asked for their torque, or set up again.
+/// Bytes of the longest tick in which every device answers: reads, one alert read, goals. Also
+/// either torque, strength and a Bus Watchdog clear and set for all servos, or these for one servo
+/// plus a few servos queried or set up again.
 constexpr std::size_t schedule_bytes(const Params& params) {
   const std::size_t joints = params.servo_count();
   const std::size_t positions =
@@ -98,8 +97,8 @@ constexpr std::size_t schedule_bytes(const Params& params) {
          sync_write_bytes(joints, 4) + (told_to_all > told_to_some ? told_to_all : told_to_some);
 }
 
-/// Time that tick takes on the wire, replies' slack included. Over 80 % of the period leaves no
-/// room for a retry of anything: such a robot is refused (host/model/bus_time.hpp).
+/// Time of that tick on the wire, reply slack included. Above 80 % of the period no retry fits:
+/// such a robot is refused (host/model/bus_time.hpp).
 constexpr std::uint32_t schedule_us(const Params& params) {
   const std::size_t replies =
       (all_fast(params) ? 1u : params.servo_count()) + sensor_devices(params) + 1;

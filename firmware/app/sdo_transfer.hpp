@@ -4,8 +4,8 @@
 
 namespace verp::app {
 
-/// Pumps the client's transfer, which has begun, to its end; true if it was good. What else comes
-/// meanwhile is dropped. An answer may take `timeout_us`, or SDO's own patience if that is shorter.
+/// Runs the client's started transfer to its end; true on success. Drops other frames meanwhile. An
+/// answer may take `timeout_us`, at most SDO's own timeout.
 template <hal::CanBus Bus>
 bool run_transfer(canopen::SdoClient& client, CanMaster<Bus>& master,
                   std::uint32_t timeout_us = canopen::sdo::kTimeoutUs) {
@@ -19,7 +19,7 @@ bool run_transfer(canopen::SdoClient& client, CanMaster<Bus>& master,
       client.cancel(canopen::Abort::kTimeout);
     }
   }
-  while (client.next(frame, master.now_us())) master.send(frame);  // an abort of ours
+  while (client.next(frame, master.now_us())) master.send(frame);  // sends our abort
   return client.state() == canopen::SdoClient::State::kDone;
 }
 

@@ -7,13 +7,13 @@
 
 namespace verp::app {
 
-/// What IMU and feet answered in a tick, until it is put into its Inputs.
+/// Answers of IMU and feet in a tick, until they are put into its Inputs.
 class SensedCounts {
  public:
   void begin() { sensed_ = 0; }
 
-  /// An answer of the IMU (either source) or of a foot. False: it is not the one of this tick that
-  /// was taken before, and neither counts.
+  /// Takes an answer of the IMU (either source) or of a foot. False: it differs from this tick's
+  /// earlier one, and neither counts.
   bool take(const CanFrame& frame, int source, Answer worth) {
     if (worth == Answer::kOld) return true;
     const bool imu = source == kImuNode || source == AnswerWatch::kImuSecond;
@@ -30,7 +30,7 @@ class SensedCounts {
     return false;
   }
 
-  /// `imu`: its counts are wanted. `present`: the robot's nodes.
+  /// `imu`: IMU counts are wanted. `present`: the robot's nodes.
   void put(Inputs& inputs, bool imu, NodeMask present) const {
     constexpr NodeMask kImu = node_bit(kImuNode) | node_bit(AnswerWatch::kImuSecond);
     if (imu && (sensed_ & kImu) == kImu) {
@@ -54,7 +54,7 @@ class SensedCounts {
  private:
   static constexpr int kAxes = 3;
   NodeMask sensed_ = 0;
-  std::uint16_t gyro_[kAxes] = {};  ///< as they came
+  std::uint16_t gyro_[kAxes] = {};  ///< as received
   std::uint16_t accel_[kAxes] = {};
   std::uint16_t feet_[kFeet][kFootSensors] = {};
 };

@@ -7,8 +7,8 @@
 
 namespace verp::app {
 
-/// What a servo's RAM must hold besides goals, byte for byte as it stands there. A servo that lost
-/// its power has lost it too.
+/// Settings in a servo's RAM besides goals, in its byte layout. A servo that lost power has lost
+/// them.
 struct ServoRam {
   explicit ServoRam(const ServoProfile& profile) {
     dxl::put_u16(gains, profile.position_d_gain);
@@ -20,9 +20,9 @@ struct ServoRam {
   std::uint8_t motion[8] = {};  ///< Profile Acceleration (108) 0, Profile Velocity in ms
 };
 
-/// Max and Min Position Limit (48, 52), EEPROM: the servo's own last word, where a controller's is
-/// not heard. One count beyond the joint's own, so that rounding refuses no goal of the core;
-/// inside the turn that position control has.
+/// Max and Min Position Limit (48, 52), EEPROM: the servo enforces them even if the controller
+/// fails. One count beyond the joint's limits, so that rounding refuses no goal of the core; within
+/// the single turn of position control.
 struct ServoLimits {
   explicit ServoLimits(const JointParams& joint) {
     const std::int32_t a = model::count_of(joint, joint.lower_rad);

@@ -10,20 +10,20 @@
 
 namespace verp::app {
 
-/// The tick's second half: what the core wants of the servos, as Sync Writes. These have no reply,
-/// so a change of anything but goals is sent in kRepeats ticks, and every servo's state again in
-/// its turn: one lost frame neither leaves a limp robot stiff nor a walking one with a slack joint.
-/// Copied with its loop, so it holds no reference into it. Strength is Goal PWM: a servo refuses
-/// more than what set_full() was told.
+/// The tick's second half: the core's outputs as Sync Writes. These have no reply, so every change
+/// except goals is sent in kRepeats ticks, and each servo's state again in turn. One lost frame
+/// thus leaves neither a limp robot stiff nor a walking one with a slack joint. It is copied with
+/// its loop, so it holds no reference into it. Strength is Goal PWM; a servo refuses more than
+/// set_full()'s value.
 template <hal::FrameBus Bus>
 class ServoWriter : public JointStrength {
  public:
   using JointStrength::JointStrength;
 
-  /// Strength and goals go out in kRepeats ticks, the last of which is the first to tell of torque:
-  /// whichever frame is lost, no servo wakes up with old goals, with a strength that was not meant,
-  /// or deaf to both behind a Bus Watchdog that has tripped. `turn` is the joint whose turn it is;
-  /// those in `doubted` hear of no torque but its end.
+  /// Sends strength and goals in kRepeats ticks; the last of these sends torque for the first time.
+  /// So whichever frame is lost, no servo gets torque with old goals, a wrong strength or a tripped
+  /// Bus Watchdog. `turn` is the joint whose state is repeated; `doubted` servos are sent only
+  /// torque off.
   void send(BusMaster<Bus>& master, const Outputs& outputs, int turn, std::uint32_t doubted) {
     if (params_.servo_count() == 0) return;
     const std::uint32_t wanted = outputs.torque_enable & all_joints(params_);
@@ -53,19 +53,19 @@ class ServoWriter : public JointStrength {
     send_to(master, dxl::address::kBusWatchdog, bus_watchdog_);
   }
 
-  /// A servo's Bus Watchdog trips when it hears nothing for so long.
+  /// Silence after which a servo's Bus Watchdog trips.
   std::uint32_t patience_us() const { return bus_watchdog_ * dxl::kBusWatchdogUnit_us; }
-  /// All servos were told to have torque, often enough for each to have heard it.
+  /// Every servo was sent its torque often enough to have received it.
   bool has_torque() const { return torque_ != 0 && !told_all_; }
-  /// Whether the last tick had to tell all servos; one that does not leaves room on the bus.
+  /// Whether the last tick wrote to all servos; otherwise the bus has room.
   bool told_all() const { return told_all_; }
-  /// Some servo has, or may have, heard nothing for longer.
+  /// A servo may have received nothing for longer than patience_us().
   void expect_tripped() { watchdog_clears_ = kRepeats; }
 
  private:
   static constexpr std::uint8_t kRepeats = 3;
 
-  // A servo whose watchdog has tripped takes no goals: cleared before them, and set again after.
+  // A servo with a tripped watchdog ignores goals: clear it before them, set it again after.
   void clear_watchdogs(BusMaster<Bus>& master) {
     first_ = 0;
     last_ = params_.servo_count() - 1;
@@ -97,8 +97,8 @@ class ServoWriter : public JointStrength {
     master.send(encoder.finish());
   }
 
-  // One register of the joints from first_ to last_ that are not left out: `value` where torque is
-  // on, 0 elsewhere.
+  // Writes one register of joints first_ to last_, except `left_out`: `value` where torque is on,
+  // else 0.
   void send_to(BusMaster<Bus>& master, std::uint16_t address, std::uint8_t value,
                std::uint32_t left_out = 0) {
     dxl::Encoder encoder(master.frame(), master.capacity());
@@ -114,13 +114,13 @@ class ServoWriter : public JointStrength {
   }
 
   std::uint32_t torque_ = 0;   ///< as sent last
-  std::uint32_t wanted_ = 0;   ///< who gets goals; torque_ follows
+  std::uint32_t wanted_ = 0;   ///< joints that get goals; torque_ follows
   std::uint8_t strength_ = 0;  ///< as sent last, percent
-  std::uint8_t early_ = 0;     ///< ticks still to go before who is wanted gets torque
+  std::uint8_t early_ = 0;     ///< ticks before wanted joints get torque
   std::uint8_t repeats_ = kRepeats;
-  std::uint8_t watchdog_clears_ = 0;  ///< still to send
+  std::uint8_t watchdog_clears_ = 0;  ///< left to send
   bool told_all_ = false;
-  int first_ = 0;  ///< who is told
+  int first_ = 0;  ///< joints to write to
   int last_ = 0;
   const std::uint8_t bus_watchdog_ = bus_watchdog_units(params_);
 };

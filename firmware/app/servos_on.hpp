@@ -4,8 +4,8 @@
 
 namespace verp::app {
 
-/// The ServoBinding for a bus, by what the bus carries: ServosOn<Bus>::Type. One more kind of bus
-/// is one more specialisation.
+/// ServosOn<Bus>::Type: the ServoBinding for a kind of bus. Another kind needs another
+/// specialisation.
 template <class Bus>
 struct ServosOn;
 

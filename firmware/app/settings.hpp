@@ -6,16 +6,16 @@
 #include "firmware/app/operator_registers.hpp"
 #include "hal/contract/store.hpp"
 
-/// What the operator set and a loss of power must not undo. Where nothing was kept, or by another
-/// version, or what this board can't do, the defaults of OperatorSetup hold.
+/// Operator settings that survive a power loss. The defaults of OperatorSetup apply if nothing was
+/// kept, another version wrote it, or this board lacks the feature.
 namespace verp::app {
 
-inline constexpr std::uint16_t kSettingsKey = 1;  ///< in the board's Store
+inline constexpr std::uint16_t kSettingsKey = 1;  ///< key in the board's Store
 
 struct Settings {
   std::uint8_t id = table::kDefaultId;
   table::ImuSource imu_source = table::ImuSource::kBus;
-  /// Kept, as a reset in the middle of a robot's first steps must not set its full strength free.
+  /// Kept, because a reset during a robot's first steps must not restore full strength.
   std::uint8_t torque_limit_percent = 100;
 
   friend bool operator==(const Settings&, const Settings&) = default;
@@ -26,7 +26,7 @@ class SettingsKeeper {
  public:
   explicit SettingsKeeper(Memory& memory) : memory_(memory) {}
 
-  /// At the start: what was kept, into the setup of the operator's link.
+  /// Call at start: loads the settings into the operator link's setup.
   void load(OperatorSetup& setup) {
     kept_ = {setup.id, setup.imu_source, setup.torque_limit_percent};
     std::uint8_t bytes[kBytes];
@@ -42,9 +42,9 @@ class SettingsKeeper {
     kept_ = {setup.id, setup.imu_source, setup.torque_limit_percent};
   }
 
-  /// Whenever there is time: keeps what has changed, a step of the memory at a time. True while
-  /// something is not durable yet. A memory that refuses is asked once for each change: the
-  /// settings then hold until the next start.
+  /// Call regularly: stores changes, one step of the memory per call. True while something is not
+  /// durable yet. If the memory refuses a change, it is not retried; the settings then hold until
+  /// the next start.
   bool keep(const Settings& now, bool may_erase) {
     const hal::WorkState state = memory_.work(may_erase);
     if (now == kept_) return state == hal::WorkState::kWorking;
@@ -58,7 +58,7 @@ class SettingsKeeper {
  private:
   static constexpr std::uint8_t kVersion = 1;
   static constexpr std::size_t kBytes = 4;
-  static constexpr std::size_t kBytesOnce = 3;  ///< before there was a torque limit
+  static constexpr std::size_t kBytesOnce = 3;  ///< without the torque limit, an older layout
   static constexpr table::Register kLimit = *table::find("torque_limit");
   Memory& memory_;
   Settings kept_;

@@ -9,31 +9,31 @@
 
 namespace verp::app {
 
-/// The order that stands in registers request to emergency_stop, and whether it still counts. The
-/// core rises on a level, not on an edge; here is where an order that a program repeats, or that
-/// lay around, is kept from raising a robot that nobody looks at.
+/// The order in registers request to emergency_stop, and whether it still counts. The core gets up
+/// on a level, not on an edge. So this class keeps a repeated or stale order from raising a robot
+/// that nobody watches.
 class StandingOrder {
  public:
   StandingOrder(const Params& params, RegisterImage& image) : params_(params), image_(image) {}
 
-  /// After each start, a watchdog's too, only a request to relax is taken at first.
+  /// After each start, also by the watchdog, the first request must be to relax.
   bool takes(Request request) const { return relaxed_once_ || request == Request::kRelax; }
-  /// One that takes() was written to register request.
+  /// A request that takes() accepted was written.
   void requested() {
     relaxed_once_ = true;
     relax_asked_ = relax_asked_ || image_.get<Request>(reg("request")) == Request::kRelax;
   }
-  /// A request to relax was written, whether or not one stood there; told once.
+  /// A request to relax was written, even if it was one before; returned once.
   bool take_relax() {
     const bool asked = relax_asked_;
     relax_asked_ = false;
     return asked;
   }
-  /// Any of the registers was written: the operator is there.
+  /// One of the registers was written: the operator is present.
   void given() { fresh_ = true; }
 
-  /// Whether the loop stood still before this tick for longer than an order lasts: an erase of
-  /// flash holds the processor for seconds. Call once a tick; a loop that begins counts from there.
+  /// Whether the loop stopped before this tick for longer than an order lasts, as in a flash erase
+  /// of seconds. Call once a tick; counting starts with the loop.
   bool slept_until(std::uint32_t tick, float order_lasts_s) {
     const std::uint32_t ticks = ticking_ && tick > tick_ ? tick - tick_ : 0;
     tick_ = tick;
@@ -41,14 +41,14 @@ class StandingOrder {
     const float gap_s = 1e-6F * static_cast<float>(params_.period_us) * static_cast<float>(ticks);
     return gap_s > order_lasts_s;
   }
-  /// What was ordered until now is none any more: whoever ordered may be gone. A robot with torque
-  /// keeps what it does, and waits for the next order as the core says.
+  /// Cancels the standing order; the operator may have disconnected. A robot with torque keeps its
+  /// order and waits for the next as the core decides.
   void withdraw(bool armed) {
     fresh_ = false;
     if (!armed) image_.set(reg("request"), Request::kRelax);
   }
 
-  /// For the next tick; it is fresh in one tick only.
+  /// The order for the next tick; fresh in one tick only.
   Command take(std::uint16_t& flags) {
     Command command;
     command.request = image_.get<Request>(reg("request"));
@@ -80,7 +80,7 @@ class StandingOrder {
 
   const Params& params_;
   RegisterImage& image_;
-  std::uint32_t tick_ = 0;  ///< the last one that asked
+  std::uint32_t tick_ = 0;  ///< last tick passed to slept_until()
   bool ticking_ = false;
   bool relaxed_once_ = false;  ///< since the start
   bool relax_asked_ = false;

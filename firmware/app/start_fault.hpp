@@ -6,15 +6,14 @@
 #include "firmware/app/signals.hpp"
 #include "hal/contract/watchdog.hpp"
 
-/// What keeps a board from ever giving torque is found before the first tick, and told: by the
-/// operator's register start_fault, by the LED, by the buzzer. Nothing is tried again and again: it
-/// takes a person, and a reset.
+/// Faults found before the first tick that forbid torque until the next start. The operator's
+/// register start_fault, the LED and the buzzer report them. Nothing is retried: it takes a person
+/// and a reset.
 namespace verp::app {
 
-/// Opens the servos' port and gives the servos power, unless something is wrong by now: then they
-/// stay without, and those that have their own, and that a run before this one left stiff, are told
-/// to let go, if they can be told. `Servos`: open() false if the port can't, power(bool),
-/// release().
+/// Opens the servo port and powers the servos, unless there is a fault already. On a fault power
+/// stays off; servos with a supply of their own, perhaps left stiff by an earlier run, are told to
+/// release if the port works. `Servos`: open() (false: the port failed), power(bool), release().
 template <class Servos>
 table::StartFault open_servos(Servos& servos, table::StartFault so_far) {
   using table::StartFault;
@@ -28,15 +27,15 @@ table::StartFault open_servos(Servos& servos, table::StartFault so_far) {
   return fault;
 }
 
-/// What guards a loop once it ticks. A watchdog is armed once, for all loops of a start.
+/// Guards a ticking loop. The watchdog is armed once for all loops of a start.
 template <hal::Watchdog Dog>
 class LoopGuard {
  public:
-  /// `exists`: else an emulator, which has none.
+  /// `exists`: false on an emulator without a watchdog.
   LoopGuard(Dog& dog, bool exists) : dog_(dog), exists_(exists) {}
 
-  /// The last thing before the first tick: starts the clock that paces it, then the watchdog. A
-  /// loop that the one or the other refuses must not tick.
+  /// Call last before the first tick: starts the pacing clock, then the watchdog. Do not tick if it
+  /// returns a fault.
   template <hal::TickSource Source>
   table::StartFault begin(Pacer<Source>& pacer, std::uint32_t period_us, std::uint32_t timeout_us) {
     using table::StartFault;
@@ -51,9 +50,8 @@ class LoopGuard {
   bool armed_ = false;
 };
 
-/// What a board's LED and buzzer do while it lives: the LED blinks, half a second on and half a
-/// second off; or it counts a start fault out, as many flashes as its number, and so does the
-/// buzzer.
+/// LED and buzzer patterns. Without a fault the LED blinks, half a second on, half a second off.
+/// Otherwise LED and buzzer repeat the start fault's number in flashes and beeps.
 class LifeSign {
  public:
   struct Now {
@@ -62,11 +60,11 @@ class LifeSign {
     Tone tone;
   };
   static constexpr std::uint64_t kBlink_us = 500'000;
-  static constexpr std::uint64_t kFlash_us = 200'000;  ///< and so long dark behind it
+  static constexpr std::uint64_t kFlash_us = 200'000;  ///< on, then off for as long
   static constexpr std::uint64_t kPause_us = 2'000'000;
   static constexpr Tone kBeep = {400, 150};
 
-  /// As often as there is time.
+  /// Call as often as possible.
   Now at(std::uint64_t now_us, table::StartFault fault) {
     const bool lit =
         fault == table::StartFault::kNone ? now_us / kBlink_us % 2 == 0 : counts(now_us, fault);

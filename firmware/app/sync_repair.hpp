@@ -8,21 +8,21 @@
 
 namespace verp::app {
 
-/// Brings nodes that answer another SYNC than planned back to it, one at a time, while the loop
-/// runs and torque stays: their TPDO is switched off and on, by which they wait for its SYNC start
-/// value again (CiA 301). Costs the node an answer or two, and nobody else anything.
+/// Returns nodes that answer the wrong SYNC to the planned one, one at a time, while the loop runs
+/// with torque. It switches their TPDO off and on, so that they wait for its SYNC start value again
+/// (CiA 301). The node loses an answer or two; others lose nothing.
 class SyncRepair {
  public:
   explicit SyncRepair(const Params& params) : params_(params) {}
 
-  /// Who is being brought back; -1: nobody.
+  /// The node being repaired; -1: none.
   int slot() const { return slot_; }
-  /// It begins anew anyway.
+  /// The node starts anew, so its repair ends.
   void cancel(int slot) {
     if (slot == slot_) slot_ = -1;
   }
 
-  /// Once a tick, with those who are astray. The first request, or one that was not answered.
+  /// Call once a tick with the nodes astray. Sends the first request, or one that was not answered.
   template <hal::CanBus Bus>
   void run(CanMaster<Bus>& master, NodeMask astray) {
     if (slot_ < 0 && !choose(astray & ~stubborn_)) return;
@@ -33,7 +33,7 @@ class SyncRepair {
     }
     send(master);
   }
-  /// An SDO response of that node. True if it answers the planned SYNC from now on.
+  /// Takes that node's SDO response. True if the node answers the planned SYNC from now on.
   template <hal::CanBus Bus>
   bool receive(CanMaster<Bus>& master, const CanFrame& frame) {
     namespace sdo = canopen::sdo;
@@ -57,8 +57,8 @@ class SyncRepair {
   }
 
  private:
-  static constexpr std::uint8_t kPatience = 2;     ///< ticks that an answer may take
-  static constexpr std::uint8_t kMostMissed = 50;  ///< then it is silent, and set up anew some day
+  static constexpr std::uint8_t kPatience = 2;     ///< ticks to wait for an answer
+  static constexpr std::uint8_t kMostMissed = 50;  ///< then the node is silent and will be renewed
 
   bool choose(NodeMask astray) {
     for (int i = 0; i < kCanNodes && astray != 0; ++i) {
@@ -71,7 +71,7 @@ class SyncRepair {
     }
     return false;
   }
-  /// Off and on, of each TPDO.
+  /// Off and on for each TPDO.
   int steps() const { return slot_ == kImuNode ? 4 : 2; }
   unsigned number() const { return 1u + step_ / 2u; }
   canopen::Address at() const { return {static_cast<std::uint16_t>(0x17FF + number()), 1}; }
@@ -89,7 +89,7 @@ class SyncRepair {
   }
 
   const Params& params_;
-  NodeMask stubborn_ = 0;  ///< those who refuse
+  NodeMask stubborn_ = 0;  ///< nodes that refuse
   int slot_ = -1;
   int last_ = kCanNodes - 1;
   std::uint8_t step_ = 0;

@@ -5,25 +5,25 @@
 
 namespace verp::app {
 
-/// Which SYNC of a tick is sent next: 1 to n in turn, as a rule.
+/// Chooses the next SYNC of a tick, normally 1 to n.
 ///
-/// Nodes count SYNCs (CiA 301). One that comes twice, or from somebody else, takes all of them one
-/// further, and each group answers the SYNC before its own from then on; one that nobody heard
-/// leaves them behind. So where most of a group show it, the controller sends one SYNC fewer, or
-/// one more with the same counter, and all are back at once. Single nodes are SyncRepair's.
+/// Nodes count SYNCs (CiA 301). A SYNC that arrives twice, or from another node, advances all
+/// counters, and each group then answers the SYNC before its own. A SYNC that nobody received
+/// leaves all behind. When most of a group shows this, the controller sends one SYNC fewer, or one
+/// more with the same counter, which realigns all nodes. Single nodes are left to SyncRepair.
 ///
-/// One more comes once in a tick, which has time for no more, and is never SYNC 1: a tick begins
-/// with that.
+/// A tick has time for one extra SYNC, never SYNC 1, with which a tick begins.
 ///
-/// On a bus that is crowded answers come late, which looks the same. So this asks for a window that
-/// was over by its time, and in which the bus was free for as long as a drive takes to answer.
+/// Late answers on a crowded bus look the same. So a correction requires a window that ended on
+/// time, with the bus free for a drive's reaction time.
 class SyncRound {
  public:
   explicit SyncRound(std::uint8_t groups) : groups_(groups) {}
 
-  /// A tick begins, with SYNC 1.
+  /// Begins a tick with SYNC 1.
   void begin() { again_ = false; }
-  /// The one after SYNC `window`; more than `groups`: the tick's are over. `quiet` as said above.
+  /// The SYNC after `window`; more than `groups`: the tick's are done. `quiet`: the window ended on
+  /// time with the bus free.
   std::uint8_t after(std::uint8_t window, AnswerWatch& answers, bool quiet) {
     const auto next = static_cast<std::uint8_t>(window + 1);
     if (!quiet) return next;

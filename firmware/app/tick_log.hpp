@@ -9,21 +9,20 @@
 
 namespace verp::app {
 
-/// One tick as the controller has it.
+/// One tick of the controller.
 struct HeldTick {
-  TickRecord record;  ///< what it saw
-  State state;        ///< what it left
+  TickRecord record;  ///< its inputs
+  State state;        ///< the State after it
   VERP_FIELDS(record, state)
 };
 VERP_PACKED(HeldTick);
 
-/// The last tick's State and the records of a few before it, as images beside those of `Store`
-/// (Images). They can be held: the loop goes on, and what was kept stands still. So the bits of a
-/// robot that walks can be looked at, and it does not fall.
+/// Keeps the last tick's State and some earlier records as images beside those of `Store` (Images).
+/// Holding freezes them while the loop goes on, so that a client can read a walking robot's bits.
 ///
-/// ImageKind::kState is a HeldTick, there while it is held. kTicks are kTicks TickRecords, that of
-/// tick n in place n modulo kTicks, the chain of one never written 0; one may be written while it
-/// is read, unless they are held too.
+/// ImageKind::kState is a HeldTick, available while held. kTicks are kTicks TickRecords; tick n is
+/// at n modulo kTicks; an unwritten one has chain 0. A record may change while it is read, unless
+/// kTicks are held too.
 template <Images Store = NoImages>
 class TickLog {
  public:
@@ -31,7 +30,7 @@ class TickLog {
 
   explicit TickLog(Store& images) : images_(images) {}
 
-  /// With the end of each tick.
+  /// Call at the end of each tick.
   void keep(const TickRecord& record, const State& state) {
     if (hold_ == kAll) return;
     ring_[record.inputs.tick % kTicks] = record;
@@ -40,7 +39,7 @@ class TickLog {
     last_.record = record;
     last_.state = state;
   }
-  /// What stands still from now on: register tick_hold.
+  /// What is frozen from now on: register tick_hold.
   enum Hold : std::uint8_t { kNothing = 0, kStateOnly = 1, kAll = 2 };
   void hold(std::uint8_t what) { hold_ = what; }
 
@@ -50,7 +49,7 @@ class TickLog {
     if (kind == ImageKind::kTicks) return any_ ? sizeof ring_ : 0;
     return images_.size(kind);
   }
-  /// What was is not written anew.
+  /// The log is read only.
   std::size_t room(ImageKind kind) const { return is_log(kind) ? 0 : images_.room(kind); }
   void read(ImageKind kind, std::size_t offset, std::uint8_t* to, std::size_t count) const {
     if (kind == ImageKind::kState) {
@@ -85,7 +84,7 @@ class TickLog {
 
 static_assert(Images<TickLog<>>);
 
-/// An Images that keeps ticks.
+/// An Images that logs ticks.
 template <class Store>
 concept KeepsTicks = requires(Store& store, const TickRecord& record, const State& state) {
   store.keep(record, state);

@@ -16,18 +16,18 @@
 
 namespace verp::app {
 
-/// What the loop counts and a tick's record does not hold.
+/// Counters of the loop that a tick's record lacks.
 struct LoopHealth {
   BusCounters bus{};
   std::uint32_t bus_crc_errors = 0;
   std::uint32_t bus_noise_bytes = 0;
-  std::uint32_t skipped_periods = 0;  ///< without a tick: Deadlines::skipped
+  std::uint32_t skipped_periods = 0;  ///< periods without a tick: Deadlines::skipped
   std::uint32_t imu_faults = 0;
-  std::uint16_t battery_tenth_v = 0;     ///< as the board measures it; 0: it doesn't
-  const JointEffort* efforts = nullptr;  ///< of each joint; null: its bus does not tell
+  std::uint16_t battery_tenth_v = 0;     ///< the board's measurement; 0: none
+  const JointEffort* efforts = nullptr;  ///< of each joint; null: not on this bus
 };
 
-/// Writes what can be read of a tick into the register image.
+/// Writes a tick's readable values into the register image.
 class TickReport {
  public:
   TickReport(const Params& params, RegisterImage& image)
@@ -38,7 +38,7 @@ class TickReport {
   void tick(const TickRecord& record, const State& state, const Outputs& outputs) {
     const Inputs& inputs = record.inputs;
     image_.set(reg("torque_enable"), static_cast<std::uint8_t>(outputs.torque_enable != 0));
-    // A robot whose operator is quiet stands, and nothing is wrong with it: no alert.
+    // A quiet operator is no hardware error: the robot stands and is well.
     image_.set(
         reg("hardware_error"),
         static_cast<std::uint8_t>(outputs.faults & ~std::uint32_t{safety::kFaultOperatorQuiet}));
@@ -71,11 +71,11 @@ class TickReport {
     devices_.tick(inputs, state, outputs);
   }
 
-  /// What stands in TPDOs of the last tick (canopen/published_tick.hpp).
+  /// What the last tick's TPDOs hold (canopen/published_tick.hpp).
   void publish_flags(std::uint16_t flags) { image_.set(reg("inputs_flags"), flags); }
   void publish_part(std::uint64_t part) { image_.set(reg("inputs_part"), part); }
 
-  /// What the tick's orders to servos came to, once there is none that could obey.
+  /// Clears the torque registers when no servo can obey.
   void servos_gone() {
     image_.set(reg("torque_enable"), std::uint8_t{0});
     image_.set(reg("joints_torque"), std::uint32_t{0});
@@ -123,7 +123,7 @@ class TickReport {
     devices_.link_errors(crc_errors + errors.overruns + errors.framing + errors.noise);
   }
 
-  /// A packet for this device came.
+  /// Counts a packet for this device.
   void heard() { devices_.heard(); }
 
  private:

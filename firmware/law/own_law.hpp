@@ -10,13 +10,12 @@
 
 namespace verp::app {
 
-/// A controller of somebody's own in the core's place, on a board as on the PC. `Controller` is
-/// called with Params, the core's State, Inputs and Outputs, which hold those of the tick before;
-/// what it remembers besides is its own.
+/// A user's controller in the core's place, on a board as on the PC. Each tick calls `Controller`
+/// with Params, the core's State, Inputs and the previous tick's Outputs; its other memory is its
+/// own.
 ///
-/// A goal outside its joint's range, as one that is not a number becomes, is not sent: the joint
-/// keeps the goal it had, or stays limp if it was. The digest covers what is sent, besides what the
-/// core adds to it.
+/// A goal outside its joint's range (also from a NaN) is not sent: the joint keeps its previous
+/// goal, or stays limp. The digest covers what is sent, in addition to the core's part.
 template <class Controller>
 class OwnLaw {
  public:
@@ -29,7 +28,7 @@ class OwnLaw {
       refused_ = joint;
       refused_count_ = outputs.goal_count[joint];
       outputs.goal_count[joint] = before.goal_count[joint];
-      // One that was limp had none: it stays limp.
+      // A limp joint has no previous goal and stays limp.
       const std::uint32_t bit = 1U << joint;
       if ((before.torque_enable & bit) == 0) outputs.torque_enable &= ~bit;
     }
@@ -39,12 +38,12 @@ class OwnLaw {
   }
 
   static constexpr int kNone = -1;
-  /// The first joint whose goal was not sent in the last tick, and that goal.
+  /// The first joint whose goal was refused in the last tick, and that goal.
   int refused() const { return refused_; }
   std::int32_t refused_count() const { return refused_count_; }
 
  private:
-  /// Beyond the range: as far as the core's own goals go against gravity's sag.
+  /// Margin beyond the range: as much as the core's own goals use against gravity's sag.
   static constexpr float kSlack_rad = 0.1F;
 
   static bool is_sound(const JointParams& joint, int index, const Outputs& outputs) {
@@ -58,7 +57,7 @@ class OwnLaw {
   std::int32_t refused_count_ = 0;
 };
 
-/// A joint's goal in counts. One that is not a number is none: OwnLaw refuses it.
+/// A joint's goal in counts. NaN becomes a value that OwnLaw refuses.
 inline std::int32_t goal_of(const JointParams& joint, float rad) {
   return rad == rad ? model::count_of(joint, rad) : std::numeric_limits<std::int32_t>::min();
 }

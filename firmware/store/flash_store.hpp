@@ -6,27 +6,26 @@
 #include "hal/contract/flash_pages.hpp"
 #include "hal/contract/store.hpp"
 
-/// The Store of a board: a log in one of two flash pages. A new value is appended; when the page is
-/// full the live values move to the other page, whose header, written last, makes the change.
+/// A board's Store: a log in one of two flash pages. Values are appended. When the page is full,
+/// the live values move to the other page; its header, written last, completes the change.
 ///
-/// Why no cut can hurt: only one unit of the flash is ever unsure, and it is the last one that was
-/// written. open() settles it before anything is read: a last record that is whole is programmed
-/// once more, so that it stays whole; one that is not is turned to zeros, from its end to its
-/// beginning; the slot behind the log, which may look erased and not be, is given up before the
-/// first append. A page that is not valid is spoilt until it has been erased in the same session.
+/// Power cuts are safe because only the last unit written can be unsure. open() settles it before
+/// any read. A complete last record is programmed again, which makes it firm; an incomplete one is
+/// zeroed from its end. The slot behind the log may only look erased, so the first append skips it.
+/// The header of an invalid page is spoilt until the page is erased in the same session.
 namespace verp::store {
 
-/// At most kSlotsPerWork * kSlot bytes are programmed by one work(), plus four slots when the page
-/// changes, or one record's when a write failed and is undone. Holds kMaxKeys values of at most
-/// kMaxValue bytes each, together what the smaller page holds less two records.
+/// One work() programs at most kSlotsPerWork * kSlot bytes, plus four slots at a page change, or
+/// one record when it undoes a failed write. Capacity: kMaxKeys values of up to kMaxValue bytes;
+/// together, the smaller page less two records.
 template <hal::FlashPages Flash, std::size_t kMaxKeys = 32, std::size_t kMaxValue = 256,
           std::size_t kSlotsPerWork = 4>
 class FlashStore {
  public:
   explicit FlashStore(Flash& flash) : page_{Page<Flash>(flash, 0), Page<Flash>(flash, 1)} {}
 
-  /// Once, before anything else. Settles what a cut left, which may program up to a record; erases
-  /// nothing. Pages that hold no log are an empty store.
+  /// Call once, first. Settles the effects of a power cut, which may program up to a record; erases
+  /// nothing. Pages without a log are an empty store.
   void open() {
     const PageHeader header[2] = {page_[0].header(), page_[1].header()};
     const bool valid[2] = {is_valid(header[0]), is_valid(header[1])};
@@ -38,7 +37,7 @@ class FlashStore {
     page_[1 - active_].spoil_header();
     scan();
     tail_unsure_ = true;
-    // Where one unit can be a whole record, one that looks erased now may be a value next time.
+    // If a unit can hold a whole record, a slot that reads erased now may read as a value later.
     if (Flash::kUnit == kSlot && tail_ < page_[active_].bytes()) give_tail_slot_up();
   }
 
@@ -76,8 +75,8 @@ class FlashStore {
     return written_ > 0 || fits() ? append() : begin_move(may_erase);
   }
 
-  /// The page that holds no log, for other use as long as lent() says so: work() takes it back when
-  /// the log needs it, and open() spoils a page's header and nothing else of it.
+  /// Lends the page without the log while lent() is true. work() takes it back when the log needs
+  /// it; open() spoils only a page's header.
   std::size_t lend_spare() {
     while (moving_) move();
     other_erased_ = false;
@@ -85,15 +84,15 @@ class FlashStore {
     return other();
   }
   bool lent() const { return lent_; }
-  /// Records found damaged in mid-log by open(): the flash lost bits. Their keys have older values
-  /// or none.
+  /// Damaged records that open() found within the log: the flash lost bits. Their keys have older
+  /// values or none.
   std::uint32_t damaged() const { return damaged_; }
-  /// Bytes that can be appended before the next erase.
+  /// Bytes left before the next erase.
   std::size_t free_bytes() const { return active_ == kNone ? 0 : page_[active_].bytes() - tail_; }
 
  private:
   static constexpr std::size_t kNone = 2;
-  static constexpr std::size_t kFirst = sizeof(PageHeader);  ///< offset of a page's first record
+  static constexpr std::size_t kFirst = sizeof(PageHeader);  ///< offset of the first record
   static constexpr int kMostFailures = 3;
   struct Entry {
     std::uint16_t key;
@@ -112,7 +111,7 @@ class FlashStore {
     for (std::size_t i = 0; i < count_; ++i) bytes += record_size(entry_[i]);
     return bytes;
   }
-  /// Old and new value stand beside each other in one page, and removing a key always fits.
+  /// Old and new value must fit one page together; removing a key always fits.
   bool has_room(std::uint16_t key, std::size_t size) const {
     if (size == 0) return true;
     if (find(key) == kMaxKeys) return false;
@@ -130,7 +129,7 @@ class FlashStore {
     }
     return true;
   }
-  /// The record at `offset` is now the value of its key.
+  /// Makes the record at `offset` the value of its key.
   void note(const RecordHeader& header, std::size_t offset) {
     const std::size_t i = find(header.key);
     if (header.size == 0) {
@@ -148,7 +147,7 @@ class FlashStore {
     tail_ = page.bytes();
     while (tail_ > kFirst && page.slot_is(tail_ - kSlot, 0xFF)) tail_ -= kSlot;
     std::size_t at = kFirst;
-    std::size_t garbage = 0;  // where what is no record began; 0: all is well
+    std::size_t garbage = 0;  // where invalid data began; 0: none
     std::size_t last = kFirst;
     std::size_t last_end = kFirst;
     while (at < tail_) {
@@ -172,7 +171,7 @@ class FlashStore {
       return;
     }
     tail_ = at;
-    if (last_end < tail_) last = tail_ - kSlot;  // a void slot ends the log
+    if (last_end < tail_) last = tail_ - kSlot;  // the log ends with a void slot
     for (; last < tail_; last += kSlot) page.make_firm(last);
   }
   void give_tail_slot_up() {
@@ -218,15 +217,15 @@ class FlashStore {
     return failed();
   }
 
-  /// Counts a refusal of the flash; after some it gives the new value up.
+  /// Counts a flash failure; after kMostFailures it drops the new value.
   hal::WorkState failed() {
     if (++failures_ < kMostFailures) return hal::WorkState::kWorking;
     pending_ = false;
     return hal::WorkState::kFailed;
   }
 
-  // With nothing else to do and the torque off, a page that is mostly used up makes room, if enough
-  // of it is old values: then an update while walking finds its place.
+  // When idle with torque off, moves a nearly full page with enough old values, so that an update
+  // while walking finds room.
   bool worth_moving() const {
     if (active_ == kNone || failures_ >= kMostFailures) return false;
     const std::size_t quarter = page_[active_].bytes() / 4;
@@ -292,12 +291,12 @@ class FlashStore {
   std::size_t tail_ = 0;  ///< where the next record goes
   std::size_t count_ = 0;
   std::uint32_t damaged_ = 0;
-  int failures_ = 0;           ///< of the flash, in a row
-  bool tail_unsure_ = false;   ///< the slot at tail_ may have been hit by a cut
-  bool other_erased_ = false;  ///< in this session, and seen to be
+  int failures_ = 0;           ///< flash failures in a row
+  bool tail_unsure_ = false;   ///< a power cut may have hit the slot at tail_
+  bool other_erased_ = false;  ///< in this session, verified
   bool pending_ = false;
   bool moving_ = false;
-  bool lent_ = false;          ///< the other page
+  bool lent_ = false;          ///< the other page is lent
   std::size_t written_ = 0;    ///< bytes of the pending record
   std::size_t moved_ = 0;      ///< entries
   std::size_t copied_ = 0;     ///< bytes of the next entry

@@ -6,10 +6,9 @@
 
 namespace verp::store {
 
-/// Programs `size` bytes from `offset` on and compares. Parts of a unit may come one by one: what
-/// is not among these bytes stays as it is. `idle()` is called after each unit: units may take
-/// longer together than a watchdog waits. False: the memory did not take them (it was not erased
-/// there, or is worn), or has no room.
+/// Programs `size` bytes from `offset` and verifies them. A unit may be programmed in parts: bytes
+/// outside the range stay. Calls `idle()` after each unit, because all units may take longer than
+/// the watchdog's timeout. False: no room, or the memory did not take them (not erased, or worn).
 template <hal::FlashPages Flash, class Idle>
 bool program_bytes(Flash& flash, std::size_t page, std::size_t offset, const std::uint8_t* from,
                    std::size_t size, Idle&& idle) {

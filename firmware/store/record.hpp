@@ -6,17 +6,17 @@
 #include "common/base/fields.hpp"
 #include "hal/contract/flash_pages.hpp"
 
-/// How a page of the flash store is laid out: slots of kSlot bytes. Two slots of PageHeader, then
-/// records: a slot of RecordHeader and the value, filled up with 0xFF to whole slots. A slot of
-/// zeros is void: no header is ever 0. All integers little-endian.
+/// Page layout of the flash store, in slots of kSlot bytes: two slots of PageHeader, then records.
+/// A record is a slot of RecordHeader and the value, padded with 0xFF. A zero slot is void: no
+/// header is 0. All integers are little-endian.
 namespace verp::store {
 
 inline constexpr std::size_t kSlot = 8;  ///< bytes; the largest programming unit
 
-/// A page whose header is right is valid; of two, the one with the higher sequence.
+/// A page with a correct header is valid; of two, the higher sequence wins.
 struct PageHeader {
   std::uint32_t magic = kMagic;
-  std::uint32_t sequence = 0;  ///< rises by one with each page that is begun
+  std::uint32_t sequence = 0;  ///< increases by one with each new page
   std::uint32_t crc32 = 0;     ///< of magic and sequence
   std::uint32_t crc32_inverse = 0;
   VERP_FIELDS(magic, sequence, crc32, crc32_inverse)
@@ -49,7 +49,7 @@ static_assert(sizeof(RecordHeader) == kSlot && sizeof(PageHeader) == 2 * kSlot);
 constexpr std::size_t slots_bytes(std::size_t bytes) {
   return (bytes + kSlot - 1) / kSlot * kSlot;
 }
-/// Bytes of a page that a value of `size` bytes takes.
+/// Page bytes that a value of `size` bytes takes.
 constexpr std::size_t record_bytes(std::size_t size) {
   return sizeof(RecordHeader) + slots_bytes(size);
 }
@@ -57,7 +57,7 @@ inline std::uint32_t begin_crc(const RecordHeader& header) {
   return crc32(&header, offsetof(RecordHeader, crc32));
 }
 
-/// All bytes of the slot are `byte`.
+/// Whether all bytes of the slot are `byte`.
 inline bool is_all(const std::uint8_t* slot, std::uint8_t byte) {
   for (std::size_t i = 0; i < kSlot; ++i) {
     if (slot[i] != byte) return false;
@@ -65,7 +65,7 @@ inline bool is_all(const std::uint8_t* slot, std::uint8_t byte) {
   return true;
 }
 
-/// One page, slot by slot.
+/// A page, accessed by slots.
 template <hal::FlashPages Flash>
 class Page {
  public:
@@ -81,7 +81,7 @@ class Page {
     read(offset, slot, kSlot);
     return is_all(slot, byte);
   }
-  /// Units that stay erased are left alone. False: the flash refused.
+  /// Skips units that stay erased. False: the flash failed.
   bool program(std::size_t offset, const std::uint8_t* slot) const {
     for (std::size_t i = 0; i < kSlot; i += Flash::kUnit) {
       bool blank = true;
@@ -94,17 +94,17 @@ class Page {
     constexpr std::uint8_t kZeros[kSlot] = {};
     return program(offset, kZeros);
   }
-  /// From the end, so that a cut leaves no header of what is half gone.
+  /// Goes backwards, so that a cut leaves no header of a half-erased record.
   void make_void(std::size_t from, std::size_t to) const {
     while (to > from) make_void(to -= kSlot);
   }
-  /// What is there, once more: its zeros become firm. A slot that was cut stays what it seems now.
+  /// Programs the contents again, which makes its zeros firm: a cut slot keeps what it reads now.
   bool make_firm(std::size_t offset) const {
     std::uint8_t slot[kSlot] = {};
     read(offset, slot, kSlot);
     return program(offset, slot);
   }
-  /// Erased, and seen to be.
+  /// Erases and verifies.
   bool erase() const {
     if (!flash_->erase(number_)) return false;
     for (std::size_t at = 0; at < bytes(); at += kSlot) {
@@ -124,13 +124,13 @@ class Page {
     __builtin_memcpy(slots, &header, sizeof header);
     return program(0, slots) && program(kSlot, slots + kSlot);
   }
-  /// Whatever its header seems to be, from now on it is none.
+  /// Invalidates the header, whatever it reads.
   void spoil_header() const {
     make_void(kSlot);
     make_void(0);
   }
 
-  /// Whether a whole, undamaged record of at most `max_value` bytes begins at `offset`.
+  /// Whether a complete record of at most `max_value` bytes begins at `offset`.
   bool record_at(std::size_t offset, std::size_t max_value, RecordHeader& header) const {
     read(offset, &header, sizeof header);
     if (header.key == 0 || header.size > max_value ||

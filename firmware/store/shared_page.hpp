@@ -9,22 +9,22 @@
 #include "firmware/store/record.hpp"
 #include "hal/contract/flash_pages.hpp"
 
-/// Two images in one page of flash, a robot and its actions, which can only be erased together.
-/// What is to stand there is laid out in another page first, as it will stand at home but so much
-/// later, and a note in front of it says so. From then on it is finished, whenever the power goes:
-/// now, or at the next start. Before, nothing at home was touched.
+/// Two images in one flash page, robot and actions, that can only be erased together. The new
+/// contents are first written to another page at an offset, then a note in front of them completes
+/// the request. From then on the copy home finishes despite power cuts: now, or at the next start.
+/// Before that, home is untouched.
 namespace verp::store {
 
-/// FlashPages that the processor reads as memory: memory(page) is where a page begins.
+/// FlashPages that the processor can read as memory: memory(page) is a page's address.
 template <class Flash>
 concept MappedPages = hal::FlashPages<Flash> && requires(const Flash& flash, std::size_t page) {
   { flash.memory(page) } -> std::same_as<const std::uint8_t*>;
 };
 
-/// Which bytes of a page count.
+/// The bytes of a page that count.
 struct Layout {
-  std::uint32_t first_bytes = 0;  ///< from the page's begin on
-  std::uint32_t second = 0;       ///< where the second image begins
+  std::uint32_t first_bytes = 0;  ///< from the page's start
+  std::uint32_t second = 0;       ///< offset of the second image
   std::uint32_t second_bytes = 0;
   VERP_FIELDS(first_bytes, second, second_bytes)
 
@@ -33,7 +33,7 @@ struct Layout {
   }
 };
 
-/// In front of what waits, behind what could be a log's header (record.hpp).
+/// Note in front of the waiting contents, behind a possible log header (record.hpp).
 struct WaitingNote {
   std::uint32_t magic = kMagic;
   Layout layout;
@@ -61,7 +61,7 @@ bool write_note(Flash& flash, std::size_t page, const WaitingNote& note, Idle&& 
                        sizeof note, idle);
 }
 
-/// Whether something waits in that page, whole.
+/// Whether complete contents wait in that page.
 template <hal::FlashPages Flash>
 bool read_note(const Flash& flash, std::size_t page, WaitingNote& note) {
   flash.read(page, kNoteAt, reinterpret_cast<std::uint8_t*>(&note), sizeof note);
@@ -70,15 +70,15 @@ bool read_note(const Flash& flash, std::size_t page, WaitingNote& note) {
          note.layout.fits(flash.page_bytes(page) - kBehindNote);
 }
 
-/// Brings what waits in one of the two pages of `other` to page 0 of `home`. Takes seconds, in
-/// which the processor may stand still. True if anything waited: home is another one then. A memory
-/// that does not take it is for the reader's own check (CRC) to find out.
+/// Copies waiting contents from one of the pages of `other` to page 0 of `home`. Takes seconds, in
+/// which the processor may stall. True if anything waited: home has changed. The reader's own check
+/// (CRC) detects a memory failure.
 template <hal::FlashPages Home, MappedPages Other, class Idle>
 bool finish_waiting(Home& home, Other& other, Idle&& idle) {
   for (std::size_t page = 0; page < 2; ++page) {
     WaitingNote note;
     if (!read_note(other, page, note)) continue;
-    write_note(other, page, note, idle);  // once more: a note that was cut stays what it seems now
+    write_note(other, page, note, idle);  // makes firm a note that a cut left unsure
     const Layout& layout = note.layout;
     const std::uint8_t* from = other.memory(page) + kBehindNote;
     if (home.erase(0) && program_bytes(home, 0, 0, from, layout.first_bytes, idle)) {
@@ -91,23 +91,22 @@ bool finish_waiting(Home& home, Other& other, Idle&& idle) {
   return false;
 }
 
-/// Where new images wait: the page that the log has no use for (FlashStore). The log comes first:
-/// if it needs the page meanwhile, what waited there is lost.
+/// Where new images wait: the page that FlashStore does not use. The log has priority: if it needs
+/// the page, the waiting contents are lost.
 template <MappedPages Home, MappedPages Other, class Log>
 class WaitingRoom {
  public:
-  /// The second image of page 0 of `home` begins at `second`, and has `second_room` bytes there.
+  /// The second image is at `second` in page 0 of `home`, with `second_room` bytes.
   WaitingRoom(Home& home, std::size_t second, std::size_t second_room, Other& other, Log& log)
       : home_(home), other_(other), log_(log), second_(second), second_room_(second_room) {}
 
-  // Place of the second image, for who is sent one (app::ActionPlace).
+  // The place of a new second image (app::ActionPlace).
   std::size_t room() const {
     const std::size_t most = other_.page_bytes(page_) - kBehindNote - second_;
     return second_room_ < most ? second_room_ : most;
   }
   const std::uint8_t* bytes() const { return other_.memory(page_) + kBehindNote + second_; }
-  /// Makes room for a new one. What was erased before this start is not trusted: the power may have
-  /// gone meanwhile.
+  /// Makes room for a new image. Does not trust an erase before this start: power may have failed.
   void begin() {
     if (!log_.lent()) {
       page_ = log_.lend_spare();
@@ -116,24 +115,24 @@ class WaitingRoom {
     wanted_ = page_state_ == PageState::kUsed;
   }
   bool ready() const { return !wanted_; }
-  /// A block of it, inside the room, in any order; the same once more is no harm. False: the memory
-  /// did not take it, or the log has the page now.
+  /// Writes a block within the room, in any order; repeating a write is allowed. False: the memory
+  /// failed, or the log took the page.
   bool write(std::size_t offset, const std::uint8_t* from, std::size_t count) {
     const bool erased = page_state_ != PageState::kBad;
     page_state_ = PageState::kUsed;
     return erased && log_.lent() &&
            program_bytes(other_, page_, kBehindNote + second_ + offset, from, count, [] {});
   }
-  /// With the torque off, whenever there is time: erases what must be, which stops the processor.
+  /// Call regularly: performs a wanted erase when torque is off. An erase stops the processor.
   void work(bool may_erase) {
     if (!wanted_ || !may_erase) return;
     wanted_ = false;
     if (log_.lent()) erase();
   }
 
-  /// Replaces the first image by that, where it is not nullptr, and the second by `taken` bytes of
-  /// the one that was written here, where that is not 0; what is not replaced stays, of the second
-  /// `kept` bytes. Nothing else may run from then on: reset next. False: home is what it was.
+  /// Replaces the first image by `first`, unless nullptr, and the second by `taken` bytes of the
+  /// one written here, unless 0. What is not replaced stays; of the second image, `kept` bytes.
+  /// Nothing else may run afterwards: reset next. False: home is unchanged.
   template <class Idle>
   bool replace(const std::uint8_t* first, std::size_t first_bytes, std::size_t taken,
                std::size_t kept, Idle&& idle) {
@@ -156,8 +155,8 @@ class WaitingRoom {
  private:
   enum class PageState : std::uint8_t {
     kUsed,
-    kBlank,  ///< erased since the start, seen to be, and not written
-    kBad,    ///< did not let itself be erased
+    kBlank,  ///< erased since the start, verified, not written
+    kBad,    ///< erase failed
   };
   bool erase() {
     const bool good = Page<Other>(other_, page_).erase();
@@ -171,7 +170,7 @@ class WaitingRoom {
   std::size_t second_, second_room_;
   std::size_t page_ = 0;
   PageState page_state_ = PageState::kUsed;
-  bool wanted_ = false;  ///< somebody waits until it is erased
+  bool wanted_ = false;  ///< a writer waits for the erase
 };
 
 }  // namespace verp::store

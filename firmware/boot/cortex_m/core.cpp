@@ -18,7 +18,7 @@ namespace {
 constexpr std::uintptr_t kMpuType = 0xE000ED90, kMpuCtrl = 0xE000ED94, kMpuRnr = 0xE000ED98,
                          kMpuRbar = 0xE000ED9C, kMpuRasr = 0xE000EDA0;
 constexpr std::uint32_t kMpuRegions = 0xFFu << 8;
-constexpr std::uint32_t kHighestRegion = 7;  ///< counts above the others where regions overlap
+constexpr std::uint32_t kHighestRegion = 7;               ///< wins where regions overlap
 constexpr std::uint32_t kNoAccess32Bytes = 4u << 1 | 1u;  ///< AP 0, 2 << 4 bytes, on
 constexpr std::uint32_t kOnForAllElse = 1u << 2 | 1u;     ///< PRIVDEFENA, ENABLE
 
@@ -36,8 +36,8 @@ union Vector {
 namespace verp::boot {
 
 #ifdef __ARM_FP
-// Coprocessor Access Control Register (ARMv7-M ARM, B3.2.20): full access to CP10 and CP11. Any
-// float instruction before this faults.
+// Coprocessor Access Control Register (ARMv7-M ARM, B3.2.20): full access to CP10 and CP11. Float
+// instructions before this fault.
 void enable_core() {
   reg(0xE000ED88u) |= 0xFu << 20;
   __asm__ volatile("dsb\n isb" ::: "memory");
@@ -47,7 +47,7 @@ void enable_core() {}
 #endif
 
 #if __ARM_ARCH >= 8
-// The core has a register for it (ARMv8-M ARM: MSPLIM); its MPU can't forbid everything.
+// ARMv8-M has a stack limit register (MSPLIM); its MPU cannot forbid every access.
 bool guard_stack() {
   __asm__ volatile("msr msplim, %0" ::"r"(verp::boot::stack_limit()));
   return true;
@@ -66,8 +66,8 @@ bool guard_stack() {
 
 }  // namespace verp::boot
 
-// The table of ARMv7-M ARM, B1.5.3. A board that uses interrupts adds its own table behind this
-// one, in section .vectors.interrupts.
+// The table of ARMv7-M ARM, B1.5.3. A board with interrupts appends its own table in section
+// .vectors.interrupts.
 extern const Vector verp_vectors[16];
 __attribute__((section(".vectors"), used)) const Vector verp_vectors[16] = {
     {.stack = verp_stack_top},      // initial stack

@@ -6,16 +6,16 @@
 #include "firmware/boot/fault_capture.hpp"
 #include "firmware/boot/stack.hpp"
 
-/// Cortex-R5, from the ARMv7-A and ARMv7-R Architecture Reference Manual: exceptions (B1.8), system
-/// control registers of a PMSA (B6.1), its memory protection (B5).
+/// Cortex-R5; ARMv7-A and ARMv7-R Architecture Reference Manual: exceptions (B1.8), system control
+/// registers of a PMSA (B6.1), memory protection (B5).
 extern "C" {
 extern std::uint32_t verp_stack_guard[];
 extern std::uint32_t verp_code_begin[];
-extern std::uint32_t verp_code_bytes[];  ///< its address is the number
+extern std::uint32_t verp_code_bytes[];  ///< the address is the value
 }
 
-/// The exception vectors and behind them where they lead: eight loads and eight words, that work
-/// wherever they lie. The first is also where the core begins.
+/// The exception vectors and their targets: eight loads, then eight words, position-independent.
+/// The first one is also the core's entry.
 extern "C" __attribute__((naked, section(".vectors"), used)) void verp_entry() {
   __asm__ volatile(
       ".rept 8\n ldr pc, [pc, #24]\n .endr\n"
@@ -25,12 +25,12 @@ extern "C" __attribute__((naked, section(".vectors"), used)) void verp_entry() {
       ".word verp_prefetch_entry\n"
       ".word verp_data_entry\n"
       ".word verp_undefined_entry\n"  // not used
-      ".word verp_undefined_entry\n"  // IRQ: never let through
+      ".word verp_undefined_entry\n"  // IRQ: never enabled
       ".word verp_undefined_entry\n"  // FIQ
   );
 }
 
-/// System mode, interrupts off: the one mode that everything but a fault runs in.
+/// System mode, interrupts off; everything except fault handlers runs in it.
 extern "C" __attribute__((naked, used)) void verp_start() {
   __asm__ volatile(
       "cpsid if, #0x1F\n"
@@ -39,8 +39,8 @@ extern "C" __attribute__((naked, used)) void verp_start() {
       ".ltorg\n");
 }
 
-/// Every fault ends here, in a mode of its own whose stack starts at the top: the program's may be
-/// the very thing that broke. lr is past the instruction by 8 after a data abort, else by 4.
+/// All faults enter here, in their own mode with the stack at the top, because the program's stack
+/// may be broken. lr is 8 past the instruction after a data abort, otherwise 4.
 extern "C" __attribute__((naked, used)) void verp_undefined_entry() {
   __asm__ volatile(
       "mov r2, #0\n"
@@ -66,17 +66,17 @@ extern "C" __attribute__((naked, used)) void verp_fault_entry() {
   __asm__ volatile(
       "ldr sp, =verp_stack_top\n"
       "sub sp, sp, #16\n"
-      "stmia sp, {sp, lr}^\n"  // those of the program
+      "stmia sp, {sp, lr}^\n"  // the program's sp and lr
       "nop\n"
       "ldr r1, [sp, #4]\n"
-      "b verp_fault_capture\n"  // the program's sp is on top of the stack: the fifth argument
+      "b verp_fault_capture\n"  // the program's sp is on the stack as the fifth argument
       ".ltorg\n");
 }
 
 namespace verp::boot {
 namespace {
 
-/// Copies the vectors to address 0, where this core looks for them: the tightly coupled memory.
+/// Copies the vectors to address 0 (tightly coupled memory), where this core expects them.
 void place_vectors() {
   __asm__ volatile(
       "ldr r0, =verp_entry\n"
@@ -102,7 +102,7 @@ constexpr std::uint32_t kNoAccess = 0;
 constexpr std::uint32_t kReadOnly = 5u << 8 | 1u << 3 | 3u;
 constexpr std::uint32_t kGuardBytes = 32;
 
-/// One region of the protection unit (B6.1.86, .27, .28, .26): a power of two of at least 32 bytes.
+/// Sets one MPU region (B6.1.86, .27, .28, .26): a power of two of at least 32 bytes.
 void set_region(std::uint32_t number, std::uint32_t begin, std::uint32_t bytes,
                 std::uint32_t access) {
   const auto size = static_cast<std::uint32_t>(__builtin_ctz(bytes)) - 1;
@@ -122,8 +122,8 @@ void enable_core() {
   enable_fpu();
 }
 
-/// Of regions that overlap the highest counts; outside all of them the default map does. Nobody
-/// writes code: a stack that jumped over its guard ends there.
+/// The highest overlapping region wins; the default map covers the rest. Code is read-only, so a
+/// stack that jumped over its guard faults there.
 bool guard_stack() {
   set_region(0, reinterpret_cast<std::uintptr_t>(verp_code_begin),
              reinterpret_cast<std::uintptr_t>(verp_code_bytes), kReadOnly);

@@ -6,16 +6,15 @@
 #include "firmware/boot/fault_capture.hpp"
 #include "firmware/boot/stack.hpp"
 
-/// RISC-V in machine mode, from "The RISC-V Instruction Set Manual, Volume II: Privileged
-/// Architecture": traps (3.1), physical memory protection (3.7).
+/// RISC-V in machine mode; "The RISC-V Instruction Set Manual, Volume II: Privileged Architecture":
+/// traps (3.1), physical memory protection (3.7).
 extern "C" {
 extern std::uint32_t verp_stack_guard[];
 extern std::uint32_t verp_code_begin[];
-extern std::uint32_t verp_code_bytes[];  ///< its address is the number
+extern std::uint32_t verp_code_bytes[];  ///< the address is the value
 }
 
-/// Where the core begins, which is the lowest address of the code. `tp` is for the C library's
-/// errno.
+/// The core's entry, at the lowest code address. The C library's errno needs `tp`.
 extern "C" __attribute__((naked, section(".vectors"), used)) void verp_entry() {
   __asm__ volatile(
       ".option push\n .option arch, +zicsr\n"
@@ -27,8 +26,8 @@ extern "C" __attribute__((naked, section(".vectors"), used)) void verp_entry() {
       "tail verp_reset\n");
 }
 
-/// Every trap ends here, in the stack's top: the stack may be the very thing that broke. Interrupts
-/// are never taken: a board that waits for one looks at what is pending.
+/// All traps enter here, with the stack at the top because it may be broken. Interrupts are never
+/// taken: a board that waits for one polls the pending bits.
 extern "C" __attribute__((naked, aligned(4), used)) void verp_fault_entry() {
   __asm__ volatile(
       ".option push\n .option arch, +zicsr\n"
@@ -58,8 +57,8 @@ constexpr std::uint32_t kGuardBytes = 32;
 
 void enable_core() {}
 
-/// A locked entry binds machine mode too; what no entry names stays free. Nobody writes code: a
-/// stack that jumped over its guard ends there.
+/// A locked entry binds machine mode too; memory without an entry stays accessible. Code is
+/// read-only, so a stack that jumped over its guard faults there.
 bool guard_stack() {
   const std::uint32_t guard =
       region(reinterpret_cast<std::uintptr_t>(verp_stack_guard), kGuardBytes);

@@ -4,7 +4,7 @@
 namespace verp::app {
 using Law = Core;
 
-/// What decides a tick of a robot that has these actions.
+/// The controller for a robot with these actions.
 inline Law law_with(const action::Library& actions) {
   return {actions};
 }

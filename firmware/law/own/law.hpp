@@ -5,7 +5,7 @@
 namespace verp::app {
 using Law = OwnLaw<::Controller>;
 
-/// It plays what it likes: the robot's actions are the core's.
+/// A user's controller does not use the core's actions.
 inline Law law_with(const action::Library&) {
   return {};
 }
