@@ -6,8 +6,8 @@
 
 #include "tests/host/compare/traces.hpp"
 
-// The comparison finds the difference of two runs per joint under encoder noise: delays within 1
-// ms, offsets within 0.1 degrees. It gives no number that it cannot know.
+// The comparison finds the difference of two runs per joint under encoder noise: delays within
+// 1 ms, offsets within 0.1 degrees. It gives no number that it cannot know.
 
 namespace verp::compare::test {
 namespace {
@@ -19,8 +19,7 @@ const record::Trace& walk() {
 
 void expect_injected(double delay_s, double offset_rad) {
   const Comparison c = compare(walk(), later(walk(), delay_s, offset_rad));
-  EXPECT_EQ(c.alignment,
-            Alignment::kOrdered);  // the controller could not have decided this from such readings
+  EXPECT_EQ(c.alignment, Alignment::kOrdered);  // these readings do not fit the decisions
   ASSERT_TRUE(c.delay_s);
   EXPECT_NEAR(*c.delay_s, delay_s, 1e-3);
   int with_delay = 0;

@@ -31,7 +31,8 @@ TEST_P(MotionSensorDriver, TellsEverySampleOnce) {
   EXPECT_EQ(board.imu.faults(), 0u);
 }
 
-// A jolt lasts for the two samples after each read. The reported rates still add up to the turn.
+// Each jolt starts right after a read and ends before the next. The reported rates still add up to
+// the turn.
 TEST_P(MotionSensorDriver, JoltsBetweenReadsAddUpToTheTurn) {
   ASSERT_TRUE(board.starts());
   const double period_us = GetParam().kind == ImuKind::kMpu9250 ? 2000 : 2e6 / 1125;
@@ -125,8 +126,7 @@ TEST_P(MotionSensorDriver, SampleThatIsBeingWrittenIsAwaited) {
     pause(8'000);
     for (const int before = newest; newest == before;) pause(10);
     board.device.torn = torn;
-    board.rig.machine.advance(
-        us(2'000));  // one is due; the chip writes it during the next transfer
+    board.rig.machine.advance(us(2'000));  // one is due; the next transfer brings it
     const int last = newest + 1;
     ASSERT_EQ(board.read(), ImuStatus::kFresh) << torn;
     expect_up_to(last, board.sample);
