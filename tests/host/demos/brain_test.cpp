@@ -23,7 +23,7 @@ About half_around() {
   return about;
 }
 
-/// What a level laser measures there among straight walls.
+/// A level laser's scan among straight walls.
 struct Wall {
   Point from, to;
 };
@@ -69,7 +69,7 @@ TEST(Packet, NumbersComeBackAndWhatIsShortIsNotGood) {
   EXPECT_EQ(in.kind(), 'X');
   EXPECT_NEAR(in.get(1e-3), -1.234, 1e-9);
   EXPECT_NEAR(in.pose().at_m.y, -0.25, 1e-9);
-  EXPECT_NEAR(in.get(1e-3), 32.767, 1e-9);  // beyond: the most there is
+  EXPECT_NEAR(in.get(1e-3), 32.767, 1e-9);  // out of range: the largest value
   EXPECT_TRUE(in.good());
   const std::string part = data.substr(0, 5);
   Unpacked more(part);
@@ -93,7 +93,7 @@ TEST(Scan, AThingAheadIsFoundAndAWallIsNone) {
   EXPECT_NEAR(middle_of(about, found[0]).x, 1.0 + kBehindSurface_m, 0.01);
 }
 
-// A robot that leans ahead would take the floor for a wall.
+// A robot that leans forward would mistake the floor for a wall.
 TEST(Scan, RaysThatMayHaveMetTheFloorAreLeftOut) {
   const About about = half_around();
   Scan scan = scan_of(about, {}, {{{2, -3}, {2, 3}}});
@@ -118,7 +118,7 @@ TEST(Estimate, SightsMendWhatOdometryLost) {
   const Pose real{{1.1, 0.15}, 0.1};
   Estimate estimate({{0, 0}, 0}, 0.02, 0.02);
   estimate.move({});
-  for (int i = 1; i <= 100; ++i) estimate.move({{0.01 * i, 0}, 0});  // it slips and turns unnoticed
+  for (int i = 1; i <= 100; ++i) estimate.move({{0.01 * i, 0}, 0});  // unnoticed slips and turns
   EXPECT_GT(distance(estimate.pose().at_m, real.at_m), 0.15);
   const double before_m = estimate.within_m();
   const Point posts[] = {{2, 1}, {2, -1}};
@@ -128,7 +128,7 @@ TEST(Estimate, SightsMendWhatOdometryLost) {
   EXPECT_LT(distance(estimate.pose().at_m, real.at_m), 0.04);
   EXPECT_NEAR(estimate.pose().yaw_rad, real.yaw_rad, 0.04);
   EXPECT_LT(estimate.within_m(), before_m);
-  EXPECT_FALSE(estimate.see({0.5, 0.5}, {2, 1}, 0.05));  // that is something else
+  EXPECT_FALSE(estimate.see({0.5, 0.5}, {2, 1}, 0.05));  // another object
 }
 
 TEST(Grid, AMapIsMadeAndTheRobotFoundInIt) {
@@ -157,12 +157,12 @@ TEST(Way, GoesRoundAWallAndKeepsClearOfIt) {
     long_m += distance(found[i - 1], found[i]);
     highest_m = std::fmax(highest_m, found[i].y);
   }
-  EXPECT_GT(highest_m, 0.75);  // half a robot from the wall's end
+  EXPECT_GT(highest_m, 0.75);  // half a robot's width from the wall's end
   EXPECT_LT(long_m, 3.2);
   EXPECT_TRUE(way(grid, {0, 0}, {100, 0}).empty());
 }
 
-// All around is shut: there is no way, and that is said.
+// The robot is enclosed: the planner reports that there is no way.
 TEST(Way, IsNoneOutOfAClosedRoom) {
   const About about = half_around();
   const std::vector<Wall> walls = box({-0.8, -0.8}, {0.8, 0.8});

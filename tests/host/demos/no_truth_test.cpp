@@ -9,8 +9,7 @@
 namespace verp::demos {
 namespace {
 
-/// A floor with a post, so far from where robots stand, and something round that rolls further
-/// away.
+/// A floor with a post at the given distance from the robots, and a ball that rolls away from them.
 class World {
  public:
   World(const std::string& name, double post_x_m, double ball_x_m)
@@ -52,8 +51,8 @@ Seen what_they_are_told(const World& world) {
   return {told.all(), told.scans(), told.messages()};
 }
 
-// Where things are that a robot's sensors do not reach is no part of what its brain is told, to the
-// last bit; where they do, it is, or this test would hold nothing.
+// Objects beyond a robot's sensors change no bit of its brain's input. An object in sight does,
+// which proves that the test can see a change.
 TEST(NoTruth, WhatABrainCannotSenseChangesNothingThatItIsTold) {
   const Seen here = what_they_are_told(World("here", 60, 40));
   const Seen elsewhere = what_they_are_told(World("elsewhere", 70, 55));

@@ -9,7 +9,7 @@
 
 namespace verp::demos::test {
 
-/// All that brains were told, to the bit, each telling as one number.
+/// All inputs of the brains to the bit, one hash each.
 class Told {
  public:
   explicit Told(Options& options) {

@@ -17,7 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 using record::ros::Radio;
 
-/// A folder that goes with the test.
+/// A folder that the destructor removes.
 struct Folder {
   Folder() : path(fs::path(testing::TempDir()) / ("demos" + std::to_string(::getpid()))) {
     fs::create_directories(path);
@@ -51,8 +51,8 @@ std::vector<Radio> radio_of(const fs::path& file) {
   return out;
 }
 
-// What a robot was told and did replays bit for bit; what was said is in the speaker's trace and in
-// that of whoever heard it, and a run with equal seeds is equal.
+// Each robot's run replays bit for bit, and equal seeds give equal runs. A message is in the
+// speaker's trace and in the trace of each robot that heard it.
 TEST(Trace, OfADemoReplaysAndHasWhatWasSaid) {
   const Folder folder;
   Options options;
@@ -95,7 +95,7 @@ TEST(Trace, OfADemoReplaysAndHasWhatWasSaid) {
       EXPECT_GT(radio.tick, said[radio.number].tick);
     }
   }
-  // What came after a robot's last tick, nobody took.
+  // No robot takes messages that arrive after its last tick.
   const auto count = recorded.radio.fates[static_cast<std::size_t>(radio::Fate::kHeard)];
   EXPECT_GT(heard, 20u);
   EXPECT_LE(heard, count);

@@ -8,7 +8,7 @@
 namespace verp::edit {
 namespace {
 
-/// From an empty file, as a person builds it: one leg, then its mirror image.
+/// A user starts from an empty file, builds one leg and then mirrors it.
 TEST(Biped, GrowsFromAnEmptyFileAndIsSound) {
   const files::TemporaryDirectory folder;
   const std::string file = (folder.path() / "biped.sdf").string();

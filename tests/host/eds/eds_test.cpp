@@ -16,8 +16,7 @@
 #include "tests/unit/images/actions_board.hpp"
 #include "tests/unit/support/test_robot.hpp"
 
-// What a sheet says of a node is what the node does: read as a tool of another maker would read it,
-// from the text.
+// A node behaves as its EDS says. The test parses the text like another maker's tool.
 namespace verp::eds {
 namespace {
 
@@ -49,7 +48,7 @@ std::uint32_t number(const Section& section, const char* key) {
   return static_cast<std::uint32_t>(std::stoul(section.at(key), nullptr, 0));
 }
 
-/// Bytes of a type; 0: of any size.
+/// The size of a type in bytes; 0 if it varies.
 std::uint32_t bytes_of(std::uint32_t type) {
   switch (static_cast<DataType>(type)) {
     case DataType::kInteger8:
@@ -72,7 +71,7 @@ std::uint32_t bytes_of(std::uint32_t type) {
   return 0;
 }
 
-/// The section that describes a value; null: none does.
+/// The section that describes a value, or null.
 const Section* section_of(const Sections& sections, unsigned index, unsigned subindex) {
   char name[16];
   std::snprintf(name, sizeof name, "%X", index);
@@ -84,8 +83,8 @@ const Section* section_of(const Sections& sections, unsigned index, unsigned sub
   return member == sections.end() ? nullptr : &member->second;
 }
 
-/// Both ways, over every address that a node may have: what the sheet has the node has, as the
-/// sheet says, and nothing else.
+/// Over every address that a node may have: the node has exactly the sheet's objects, as the sheet
+/// describes them.
 template <class Objects>
 void expect_same(const Sections& sections, Objects& node, unsigned least = 101) {
   unsigned found = 0;
@@ -110,13 +109,13 @@ void expect_same(const Sections& sections, Objects& node, unsigned least = 101) 
   EXPECT_GE(found, least);
 }
 
-/// Empty: the sheet gives none.
+/// "" if the sheet gives no default.
 std::string initial_of(const Section& section) {
   const auto found = section.find("DefaultValue");
   return found == section.end() ? "" : found->second;
 }
 
-/// What EDS says of a value for a node; of a negative one, its low bits.
+/// An EDS value for a node; for a negative one its low bits.
 std::uint64_t evaluate(const std::string& text, std::uint8_t node) {
   constexpr const char* kNode = "$NODEID+";
   if (text.rfind(kNode, 0) == 0) return node + std::stoull(text.substr(8), nullptr, 0);
@@ -124,8 +123,7 @@ std::uint64_t evaluate(const std::string& text, std::uint8_t node) {
                              : std::stoull(text, nullptr, 0);
 }
 
-/// A fresh device has in its objects what the sheet gives as their default values, and lets those
-/// be mapped that the sheet lets.
+/// A fresh device's objects hold the sheet's default values and map as the sheet allows.
 template <class Node>
 void expect_fresh(const Sections& sections, Node& node, std::uint8_t id) {
   int compared = 0;
@@ -163,7 +161,7 @@ void expect_fresh(const Sections& sections, Node& node, std::uint8_t id) {
   EXPECT_GT(compared, 20);
 }
 
-/// What TPDOs are out of the box.
+/// The default TPDOs.
 template <class Objects>
 void expect_same_tpdos(const Sections& sections, Objects& node, std::uint8_t id) {
   for (unsigned index = 0x1801; index <= 0x1803; ++index) {
@@ -188,7 +186,7 @@ void expect_same_tpdos(const Sections& sections, Objects& node, std::uint8_t id)
   }
 }
 
-/// Every object stands in exactly one of the three lists, and the lists count what they have.
+/// Every object is in exactly one of the three lists, and each list's count is right.
 void expect_listed(const Sections& sections) {
   std::map<unsigned, int> listed;
   for (const char* list : {"MandatoryObjects", "OptionalObjects", "ManufacturerObjects"}) {
@@ -227,11 +225,11 @@ void expect_device(const Description& description, Node& node, std::uint8_t id, 
 TEST(Eds, TheControllersSheetIsWhatTheControllerAnswers) {
   const Sections sections = parse(to_text(controller()));
   expect_listed(sections);
-  auto board = std::make_unique<app::test::FakeBoard>();  // one that keeps all that there is
+  auto board = std::make_unique<app::test::FakeBoard>();  // a board with all images
   using Log = app::TickLog<app::test::FakeImages>;
   auto log = std::make_unique<Log>(board->images);
   log->keep({}, {});
-  log->hold(Log::kAll);  // its ticks are there to be read
+  log->hold(Log::kAll);  // makes its ticks readable
   auto registers =
       std::make_unique<app::OperatorRegisters<Log>>(test::kRobot, app::OperatorSetup{}, *log);
   app::ControllerObjects<Log> objects(*registers, *log);
@@ -243,12 +241,12 @@ TEST(Eds, TheControllersSheetIsWhatTheControllerAnswers) {
   expect_same_tpdos(sections, node->objects(), kNode);
 }
 
-// As the twin has them on its bus, with a robot's numbers in them.
+// The twin's devices, with a robot's numbers in them.
 TEST(Eds, TheDevicesSheetsAreWhatTheyAnswer) {
   constexpr std::uint8_t kNode = 37;
   verp::test::FakePlant plant;
-  // Its gains are what its commissioning left there: a sheet that gave 0 would have a tool that
-  // writes a sheet's defaults take them away.
+  // The gains come from commissioning. If the sheet gave 0, a tool that writes the sheet's defaults
+  // would erase them.
   const can::DriveSetup commissioned{
       .counts_per_rad = 2608, .p_gain = 778, .i_gain = 3, .d_gain = 91};
   can::DriveNode of_drive(can::drive_identity(402, kNode), kNode, plant, 0, commissioned);
@@ -259,7 +257,7 @@ TEST(Eds, TheDevicesSheetsAreWhatTheyAnswer) {
   expect_device(foot(), of_foot, kNode, 40);
 }
 
-// A tool sets a node up by these, and takes what is empty for 0 or for an error.
+// A tool configures nodes by these defaults and takes an empty one for 0 or for an error.
 TEST(Eds, AllThatIsSetUpOnTheBusHasADefaultAndNoneIsEmpty) {
   for (const Sheet& sheet : sheets()) {
     const Sections sections = parse(to_text(sheet.describe()));
@@ -278,7 +276,7 @@ TEST(Eds, AllThatIsSetUpOnTheBusHasADefaultAndNoneIsEmpty) {
   }
 }
 
-// What a board does not keep is there all the same, and says that it has no data.
+// A controller without images still has the objects, and answers that they hold no data.
 TEST(Eds, AControllerWithoutImagesAnswersForThem) {
   app::OperatorRegisters<app::NoImages> registers(test::kRobot, app::OperatorSetup{},
                                                   app::no_images);
@@ -313,11 +311,11 @@ std::size_t count_of(const std::vector<Entry>& entries, std::uint16_t first, std
       [&](const Entry& each) { return each.at.index >= first && each.at.index <= last; }));
 }
 
-// What 2002h is of another maker's drive, that maker says.
+// Another maker defines the meaning of its drive's 2002h.
 TEST(Eds, AnotherMakersDriveHasOnlyTheProfilesNames) {
   const canopen::Identity ours = drive().identity;
   const auto known = known_entries(ours);
-  EXPECT_EQ(count_of(known, 0x2000, 0x5FFF), 5u);  // telemetry, three gains and how many
+  EXPECT_EQ(count_of(known, 0x2000, 0x5FFF), 5u);  // telemetry, three gains and their count
   canopen::Identity others[] = {ours, ours};
   others[0].vendor = 0x22;
   others[1].product += 1;

@@ -9,8 +9,8 @@
 #include "host/sim/robot.hpp"
 #include "tests/host/sim/test_robots.hpp"
 
-// A twin that was given other numbers moves as those say, under its encoder's noise: the fit finds
-// them from that motion alone, and says of a number that the motion does not tell that it does not.
+// A twin with other numbers moves accordingly under encoder noise. The fit finds the numbers from
+// that motion alone, and reports any number that the motion does not determine.
 
 namespace verp::identify {
 namespace {
@@ -34,7 +34,7 @@ model::Entity arm() {
   return entity;
 }
 
-/// Fast to and fro for so long, then slowly.
+/// Moves fast to and fro for `fast_s`, then slowly.
 Recording told(const model::Entity& entity, double fast_s, double length_s) {
   Recording recording;
   recording.params.joint_count = 1;
@@ -69,7 +69,7 @@ Recording told(const model::Entity& entity, double fast_s, double length_s) {
   return recording;
 }
 
-/// As the robot's file has it, which is wrong.
+/// As in the robot's file, which is wrong.
 model::Entity believed() {
   model::Entity entity = arm();
   double factor = 1.25;
@@ -90,7 +90,7 @@ TEST(Fit, FindsTheNumbersOfATwinThatWasGivenOthers) {
   Estimate estimate = fit.start();
   fit.improve(estimate, recording.ticks.size(), 7);
   for (std::size_t i = 0; i < numbers().size(); ++i) {
-    if (std::string(numbers()[i].name) == "backlash_rad") continue;  // it has none
+    if (std::string(numbers()[i].name) == "backlash_rad") continue;  // this servo has no play
     const double truth = numbers()[i].get(robot.joints[0].servo);
     EXPECT_NEAR(estimate.value[i], truth, 0.1 * truth) << numbers()[i].name;
   }
@@ -101,7 +101,7 @@ TEST(Fit, FindsTheNumbersOfATwinThatWasGivenOthers) {
             0.3 * fit.rms_rad(before, 0, recording.ticks.size()));
 }
 
-// So slow that nobody can see whether it comes a few ms later.
+// The motion is too slow to show a delay of a few ms.
 TEST(Fit, LeavesANumberThatTheMotionDoesNotTell) {
   const Recording recording = told(arm(), 0, 12);
   model::Entity entity = believed();

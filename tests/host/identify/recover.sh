@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# recover.sh VERP ROBOT.SDF [SEED] [SECONDS]: a generic21 whose servos differ from what its file says plays the motion of a minute in a stand; `verp
-# identify` finds each of their numbers within a tenth from the trace. Prints truth and finding: host/identify/README.md has them from here.
+# recover.sh VERP ROBOT.SDF [SEED] [SECONDS]: a generic21 whose servos differ from its file plays the motion of one
+# minute in a stand. From the trace, `verp identify` finds each servo number within a tenth. Prints true and found
+# numbers, which host/identify/README.md quotes.
 set -euo pipefail
 verp=$1 robot=$2 seed=${3:-5} length_s=${4:-60}
 scratch=$(mktemp -d)

@@ -5,8 +5,7 @@
 #include "tests/host/live/viewer.hpp"
 #include "tests/host/record/sample.hpp"
 
-// What viewers of a stream see is what its trace holds, and of several robots what their traces
-// hold once they are merged.
+// A viewer of the stream gets the trace's content; for several robots, the merged traces' content.
 
 namespace verp::live {
 namespace {
@@ -14,7 +13,7 @@ namespace {
 using record::TraceWriter;
 using test::Viewer;
 
-/// A run of nothing but its beginning and three ticks, without a file.
+/// A run of only its beginning and three ticks, without a file.
 void run(record::mcap::Listener* listener) {
   const Params params = record::test::sample_params();
   TraceWriter writer("", params, {}, {.listener = listener});

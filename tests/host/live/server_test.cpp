@@ -9,8 +9,8 @@
 
 #include "tests/host/live/viewer.hpp"
 
-// The stream's promises: viewers get what was sent, in order, from the last message before they
-// came; none of them, however slow or rude, holds up the sender or takes anything from another.
+// The stream's promises: viewers get messages in order, from the last one before they joined. No
+// viewer, however slow or malformed, delays the sender or takes anything from another.
 
 namespace verp::live {
 namespace {
@@ -39,15 +39,15 @@ std::vector<Data> read_up_to(const Viewer& viewer, const std::string& last) {
   return all;
 }
 
-/// An hour: who is to be cut off by patience has less of it in its test.
+/// One hour; tests of the timeout set a shorter one.
 ServerOptions patient() {
   ServerOptions options;
   options.patience = options.patience_all = std::chrono::hours(1);
   return options;
 }
 
-// A robot's loop is urgent, and sends: it must not wait for a thread that others took the processor
-// from.
+// A robot's loop is urgent and sends: it must not wait for a server thread that has lost the
+// processor.
 TEST(Live, RunsBeforeOthersWhereTheSystemLetsAThread) {
   const auto urgent_threads = [] {
     int count = 0;
@@ -90,7 +90,7 @@ TEST(Live, AViewerGetsTheLastMessageAndThenAllInOrder) {
       << "a channel that comes later is offered, too";
   viewer.subscribe(71, c);
   viewer.say(R"({"op":"unsubscribe","subscriptionIds":[72]})");
-  viewer.next_text("no subscription 72");  // now 71 is known
+  viewer.next_text("no subscription 72");  // now the server knows 71
   for (std::uint64_t i = 0; i < 100; ++i)
     server.send(i % 2 == 0 ? a : c, 100 + i, std::to_string(i));
   const std::vector<Data> got = read_up_to(viewer, "99");
@@ -112,7 +112,7 @@ TEST(Live, OnlyTheOldestOfASlowViewerAreLostAndItIsTold) {
     each->greet();
     each->subscribe(1, a);
     each->say("{}");
-    each->next_text("not understood");  // it is subscribed
+    each->next_text("not understood");  // the subscription is active
   }
   constexpr std::uint64_t kMessages = 3000;
   const std::string rest(10'000, 'x');
@@ -173,7 +173,7 @@ TEST(Live, RubbishIsAnsweredOrEndsOneConnectionAndTakesNothingFromOthers) {
       {std::string("\0\0\0\r\n\r\n", 7), "HTTP/1.1 400"}};
   for (const auto& [words, answer] : greetings)
     EXPECT_TRUE(Viewer(server.port()).greet(words).starts_with(answer)) << words.substr(0, 40);
-  Viewer(server.port()).put("GET / HT");  // and is gone
+  Viewer(server.port()).put("GET / HT");  // and closes
   const std::string newer =
       std::string(head).replace(head.find("foxglove.websocket.v1"), 21, "foxglove.sdk.v1");
   EXPECT_NE(Viewer(server.port()).greet(newer).find("Protocol: foxglove.sdk.v1\r\n"),
@@ -204,11 +204,11 @@ TEST(Live, RubbishIsAnsweredOrEndsOneConnectionAndTakesNothingFromOthers) {
   EXPECT_NE(spoken(Viewer::frame(2, "\x01")).find("not understood"), std::string::npos);
 
   const std::string no_frames[] = {
-      std::string("\x81\x02hi"),           // not masked
-      std::string("\xf1\x80\0\0\0\0", 6),  // bits that nobody agreed on
+      std::string("\x81\x02hi"),                                               // not masked
+      std::string("\xf1\x80\0\0\0\0", 6),                                      // reserved bits
       std::string("\x81\xff\x7f\xff\xff\xff\xff\xff\xff\xff\0\0\0\0...", 17),  // endless
-      std::string("\x83\x80\0\0\0\0", 6),  // an opcode that is none
-      Viewer::frame(1, "\xff\xfe")};       // a text that is none
+      std::string("\x83\x80\0\0\0\0", 6),                                      // an unknown opcode
+      Viewer::frame(1, "\xff\xfe")};                                           // not UTF-8
   for (const std::string& bytes : no_frames) EXPECT_EQ(spoken(bytes), "") << "ends it";
 
   server.send(a, 1, "all the same");
@@ -216,7 +216,7 @@ TEST(Live, RubbishIsAnsweredOrEndsOneConnectionAndTakesNothingFromOthers) {
   EXPECT_EQ(server.counts().dropped, 0u);
 }
 
-// Whatever page somebody has open may ask this port, and a browser says whose it is.
+// Any page in a user's browser may contact this port; the browser reports the page's origin.
 TEST(Live, APageOfAStrangerMayNotWatch) {
   ServerOptions options = patient();
   options.origins = {"https://viewer.example"};
@@ -247,7 +247,7 @@ TEST(Live, WhoNeverReadsMayNotSayWithoutEnd) {
   std::string words;
   for (int i = 0; i < 10'000; ++i) words += Viewer::frame(i % 2 == 0 ? 9 : 1, "");
   bool taken = true;
-  for (int i = 0; taken && i < 1000; ++i) taken = flood.put(words);  // 60 MB, of which TCP holds 10
+  for (int i = 0; taken && i < 1000; ++i) taken = flood.put(words);  // 60 MB; TCP holds 10
   EXPECT_FALSE(taken) << "its answers would fill the memory";
 }
 

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# own_controller.sh VERP [BOARD]: `verp new controller` lays out what is built, walked, recorded and replayed on this PC, and what is
-# wrong in it is named. With a board: the same on it, in QEMU, by the same digest, and its image as flash would take it.
+# own_controller.sh VERP [BOARD]: the project that `verp new controller` creates builds, walks, records and replays on
+# this PC, and its mistakes are reported. With a board, it also walks there in QEMU with the same digest, and flash
+# would take its image.
 set -euo pipefail
 verp=$1 board=${2:-}
 scratch=$(mktemp -d)
@@ -32,7 +33,7 @@ grep -q -- "--controller $scratch/a place/my_controller" said || say "replay doe
 ctest --test-dir "$own/build/pc" >said || say "its test fails: $(cat said)"
 
 # One mistake at a time: exit status 1, one line, with the file or the joint.
-wrong() { # in place of the line of the wave, what is to be said
+wrong() { # arguments: the line that replaces the wave's, and the expected message
   local status=0
   cp "$own/controller.cpp" good.cpp
   sed -i "s|^  waved_rad += .*|  $1|" "$own/controller.cpp"

@@ -14,7 +14,7 @@
 #include "host/scene/build.hpp"
 #include "tests/host/tool/program.hpp"
 
-// Pictures show what there is, each effect changes what it should, and bad input costs one line.
+// Pictures show the scene, each effect changes its part, and bad input gives one line of error.
 
 namespace verp::render {
 namespace {
@@ -120,10 +120,10 @@ TEST(Renderer, EachEffectChangesThePictureAsMeant) {
   bench.scene.items[0].material.colour.a = 0.4F;
   bench.renderer.set_looks(bench.scene);
   const std::size_t green = 3 * bench.middle() + 1;
-  EXPECT_GT(bench.image().rgb[green], opaque.rgb[green] + 20);  // of the wall behind it
+  EXPECT_GT(bench.image().rgb[green], opaque.rgb[green] + 20);  // from the wall behind it
   Effects solid;
   solid.transparency = false;
-  EXPECT_LT(apart(opaque, bench.image(solid)), 0.5);  // but it casts no shadow
+  EXPECT_LT(apart(opaque, bench.image(solid)), 0.5);  // but the ball casts no shadow
 }
 
 TEST(Renderer, NumbersThatAreNotFiniteAndFilesThatAreNoMeshesAreLeftOut) {
@@ -146,7 +146,7 @@ TEST(Renderer, NumbersThatAreNotFiniteAndFilesThatAreNoMeshesAreLeftOut) {
   EXPECT_THROW(bench.renderer.image(bench.now, bench.camera, {100000, 10}), RenderError);
 }
 
-/// A binary .stl of these corners, three a triangle.
+/// A binary .stl with three corners per triangle.
 std::string stl_of(const std::vector<Eigen::Vector3f>& corners) {
   std::string bytes(84, '\0');
   const auto count = static_cast<std::uint32_t>(corners.size() / 3);
@@ -182,7 +182,7 @@ namespace {
 
 class Pictures : public Program {
  protected:
-  /// Mean difference from a picture that somebody has looked at.
+  /// Mean difference from a picture that a person has inspected.
   double from_golden(const std::string& name) const {
     const render::Image now = render::read_png((folder_ / name).string());
     const render::Image then = render::read_png(std::string(VERP_GOLDEN) + "/" + name);
@@ -191,7 +191,7 @@ class Pictures : public Program {
   }
 };
 
-// Drivers differ in the edges of shapes and shadows; a missing leg is 3 and more.
+// Drivers differ at the edges of shapes and shadows; a missing leg differs by 3 or more.
 constexpr double kDriver = 1.5;
 
 TEST_F(Pictures, AStandingRobotAndItsEyeAreAsSomebodyLookedAtThem) {
@@ -255,7 +255,7 @@ TEST_F(Pictures, WrongWordsAndMissingThingsCostOneLineEach) {
   EXPECT_EQ(std::count(no_driver.err.begin(), no_driver.err.end(), '\n'), 1) << no_driver.err;
   EXPECT_NE(no_driver.err.find("GL driver"), std::string::npos) << no_driver.err;
   const Outcome no_swrast = shell("LIBGL_DRIVERS_PATH=/nowhere " + std::string(VERP_PROGRAM) +
-                                  " shot generic21 -o a.png");  // of which Mesa has lines to say
+                                  " shot generic21 -o a.png");  // Mesa prints more lines
   EXPECT_EQ(no_swrast.status, 3) << no_swrast.err;
   EXPECT_EQ(std::count(no_swrast.err.begin(), no_swrast.err.end(), '\n'), 1) << no_swrast.err;
   const Outcome no_ffmpeg =
@@ -265,7 +265,7 @@ TEST_F(Pictures, WrongWordsAndMissingThingsCostOneLineEach) {
   EXPECT_FALSE(fs::exists(folder_ / "a.mp4.part"));
 }
 
-// ... what a word leaves out of a picture, the world's file can too.
+// The world's file can switch off the same effects as the options.
 TEST_F(Pictures, AWorldsFileSwitchesEffectsOff) {
   ASSERT_EQ(verp("shot generic21 -o paint.png --size 64x64").status, 0);
   const auto world = [this](const std::string& in_scene) {

@@ -20,14 +20,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kPatience_ms = 20'000;  // for what takes a moment, on a machine under load
+constexpr int kPatience_ms = 20'000;  // for short operations on a loaded machine
 
 std::string slurp(const fs::path& file) {
   std::ifstream in(file);
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
-/// A pipe that tells when nobody can write to it any more: all who had its end are gone.
+/// A pipe that reports when every holder of its write end is gone.
 class LifeLine {
  public:
   LifeLine() { EXPECT_EQ(::pipe2(ends_, O_CLOEXEC), 0); }
@@ -43,7 +43,7 @@ class LifeLine {
     if (ends_[1] >= 0) ::close(ends_[1]);
     ends_[1] = -1;
   }
-  /// What was written before the last of them was gone; "still there" if one stays.
+  /// All output until the last holder was gone; "still there" if one remains.
   std::string last_words() {
     let_go();
     std::string words;
@@ -133,7 +133,7 @@ TEST(Child, ACtrlCOfOursDoesNotReachIt) {
   EXPECT_NE(::getpgid(child.id()), ::getpgrp());
 }
 
-// Killed, not ended: no destructor runs, no handler.
+// SIGKILL runs neither destructors nor handlers.
 TEST(Child, DoesNotOutliveAParentThatIsKilled) {
   LifeLine line;
   const pid_t parent = ::fork();
@@ -147,7 +147,7 @@ TEST(Child, DoesNotOutliveAParentThatIsKilled) {
   EXPECT_EQ(line.last_words(), "up\n");
 }
 
-// The pipe on which a program's start is told of may then be one of the streams.
+// The pipe that reports start errors may then get a standard stream's number.
 TEST(Child, WhatCannotStartSaysWhyWhereOurStreamsAreClosed) {
   const pid_t parent = ::fork();
   if (parent == 0) {
@@ -164,7 +164,7 @@ TEST(Child, WhatCannotStartSaysWhyWhereOurStreamsAreClosed) {
   EXPECT_EQ(WIFEXITED(status) ? WEXITSTATUS(status) : -1, ENOENT);
 }
 
-// A program that was started with closed streams gets descriptors 0 to 2 for its own use.
+// A program started with closed streams gets descriptors 0 to 2 for its own files.
 TEST(Child, ClosedStreamsOfOursAreNotMixedUpWithItsOwn) {
   const files::TemporaryDirectory folder;
   const fs::path out = folder.path() / "out", err = folder.path() / "err";

@@ -8,14 +8,14 @@
 namespace verp::radio {
 namespace {
 
-/// No luck in it: what is left is range, time and bytes.
+/// Without chance: only range, time and bytes remain.
 Conditions sure() {
   Conditions c;
   c.loss = c.fade = c.jitter_s = 0;
   return c;
 }
 
-/// Stations in a row, so far apart.
+/// Stations in a row, `apart_m` apart.
 struct Row {
   Row(const Conditions& conditions, int stations, double apart_m, std::uint64_t seed = 1)
       : radio(conditions, seed) {
@@ -110,11 +110,11 @@ TEST(Radio, JitterSpreadsDelaysOverAllOfIt) {
     sum_s += took_s;
   }
   EXPECT_NEAR(least_s, 0.010, 0.001);
-  EXPECT_NEAR(most_s, 0.042, 0.001);  // with the wait before it talks
+  EXPECT_NEAR(most_s, 0.042, 0.001);  // includes the wait before sending
   EXPECT_NEAR(sum_s / kMessages, 0.026, 0.002);
 }
 
-// All talk as much as they may: together they get what the air carries, and no more.
+// All stations send as much as they may: together they get no more than the channel carries.
 TEST(Radio, StationsShareTheAir) {
   Conditions c = sure();
   c.bytes_s = 10'000;
@@ -136,11 +136,11 @@ TEST(Radio, StationsShareTheAir) {
   }
   EXPECT_LT(bytes / kLong_s, 10'000);
   EXPECT_GT(bytes / kLong_s, 4'000);  // waiting and collisions take the rest
-  EXPECT_GT(collided, 0u);            // two may begin within kBlind_us
+  EXPECT_GT(collided, 0u);            // two may start within kBlind_us
   EXPECT_GT(row.radio.refused(), 0u);
 }
 
-// The first and the last do not hear each other: in the middle they do.
+// The outer stations do not hear each other; the middle one hears both.
 TEST(Radio, HiddenStationsCollideWhereBothAreHeard) {
   Conditions c = sure();
   c.range_m = 5;
@@ -163,7 +163,7 @@ TEST(Radio, OneListensBeforeItTalks) {
   EXPECT_EQ(row.heard(2), 2u);
 }
 
-/// Of many broadcasts, each alone on the air, what share the other station does not hear.
+/// The share of broadcasts, each alone on the air, that the other station misses.
 double lost_share(const Conditions& c, double apart_m, int messages, std::uint64_t seed = 1) {
   Row row(c, 2, apart_m, seed);
   for (int i = 0; i < messages; ++i) {
@@ -194,7 +194,7 @@ TEST(Radio, FadesForAStretchAndThatShareOfTheTime) {
   c.fade = 0.1;
   c.fade_s = 0.4;
   EXPECT_NEAR(lost_share(c, 1, kMany), 0.1, 4 * std::sqrt(0.1 * 0.9 / 5000));
-  // What is lost is lost in a row: a message after a lost one is, too, most times.
+  // Losses come in runs: the message after a lost one is usually lost too.
   Row row(c, 2, 1);
   int pairs = 0, lost = 0;
   bool before = false;
@@ -210,7 +210,7 @@ TEST(Radio, FadesForAStretchAndThatShareOfTheTime) {
   EXPECT_GT(static_cast<double>(pairs) / lost, 0.8);
 }
 
-/// All that became of the same talk.
+/// All outcomes of the same messages.
 std::vector<Outcome> outcomes_of(std::uint64_t seed, int stations) {
   Conditions c;
   c.loss = 0.3;

@@ -81,7 +81,7 @@ TEST(ReportNumbers, PlannedZmpStandsBesideTheMeasuredOneAndIsEmptyWhereThereIsNo
   EXPECT_NE(csv.find(",0.04,0.03,0.04,0.04,3,"), std::string::npos) << "at 0.2 s";
 }
 
-/// Fields of the first line of a CSV text, read as RFC 4180 says.
+/// Fields of the first line of CSV text, by RFC 4180.
 std::vector<std::string> header_of(const std::string& csv) {
   std::vector<std::string> fields(1);
   bool quoted = false;
@@ -120,7 +120,7 @@ TEST(ReportNumbers, GoalsStandBesideWhatBecameOfThem) {
   EXPECT_NE(samples_csv(sample_run()).find(",0.1,0.2,0.3,0.4,0.25,"), std::string::npos);
 }
 
-// A zero would be taken for a measurement.
+// A zero would look like a measurement.
 TEST(ReportNumbers, WhatWasNotMeasuredIsEmpty) {
   report::Run run = sample_run();
   run.bias_by_state_mm = {};
@@ -170,7 +170,7 @@ TEST_F(ReportFolder, HasAPictureToShowToOthers) {
   EXPECT_EQ(slurp(folder_ / "walk.png").substr(0, 8), "\x89PNG\r\n\x1a\n");
 }
 
-// Without a steady cycle, or of a robot that cannot be drawn, the rest of the report stands.
+// Without a steady cycle, or for a robot that cannot be drawn, the rest of the report remains.
 TEST_F(ReportFolder, LeavesOutWhatARunHasNoDataFor) {
   report::Run run = sample_run();
   run.limbs.clear();
@@ -187,7 +187,7 @@ TEST_F(ReportFolder, LeavesOutWhatARunHasNoDataFor) {
   EXPECT_FALSE(fs::exists(folder_ / "walk.png"));
 }
 
-// The walk before had a picture and a sweep; this one has neither.
+// The previous walk had a picture and a sweep; this one has neither.
 TEST_F(ReportFolder, HoldsNothingOfTheRunBefore) {
   report::Run run = sample_run();
   run.sweep.push_back({});
@@ -212,7 +212,7 @@ TEST_F(ReportFolder, CallsNoCycleSteadyWhereNoneWas) {
   EXPECT_NE(page.find("too short to become steady"), std::string::npos);
 }
 
-/// A gnuplot of the test's own, the first in PATH.
+/// A fake gnuplot, first in PATH.
 class BrokenGnuplot : public ReportFolder {
  protected:
   BrokenGnuplot() : path_(std::getenv("PATH")) {

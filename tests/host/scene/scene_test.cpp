@@ -6,7 +6,7 @@
 #include "host/scene/camera.hpp"
 #include "tests/host/session/plans.hpp"
 
-// A scene has what a robot's file shows of it, and cameras find it in the picture.
+// A scene shows what the robot's file describes, and cameras label it in the picture.
 
 namespace verp::scene {
 namespace {
@@ -32,7 +32,7 @@ TEST(Scene, EachLinkOfARobotIsDrawnAndHasALabelOfItsOwn) {
     EXPECT_GE(drawn_on(scene, static_cast<int>(n)), 2u) << entity.nodes[n].name;
   }
   for (const Item& item : scene.items) names.insert(label_name(scene, label_of(scene, item)));
-  EXPECT_EQ(names.size(), entity.nodes.size());  // two robots of one name share theirs
+  EXPECT_EQ(names.size(), entity.nodes.size());  // two robots with one name share labels
   EXPECT_EQ(label_of(scene, scene.items.back()), static_cast<int>(2 * entity.nodes.size()) -
                                                      static_cast<int>(entity.nodes.size()) + 1 +
                                                      scene.items.back().node);
@@ -44,7 +44,7 @@ TEST(Scene, ALinkWithoutLooksShowsItsCollisionShapesOrItsInertia) {
   entity.nodes[4].visuals.clear();
   entity.nodes[4].collisions.clear();
   model::Visual gone;
-  gone.shape = model::Visual::Shape::kMesh;  // its file is not there
+  gone.shape = model::Visual::Shape::kMesh;  // its file is missing
   entity.nodes[5].visuals = {gone};
   Scene scene = studio();
   add_robot(scene, entity);

@@ -22,7 +22,7 @@ std::vector<std::string> names_of(const std::vector<Column>& columns,
 
 using Names = std::vector<std::string>;
 
-// Brackets are part of a field's name, never a pattern; a name means itself alone.
+// Brackets belong to a field's name and are no pattern; a full name matches only itself.
 TEST(Columns, AreFoundByNameOrByPattern) {
   const std::vector<Column> all = columns_of(sample_params(), true);
   const auto found = [&](const char* pattern) { return names_of(all, matching(all, pattern)); };
@@ -59,7 +59,8 @@ TEST(Table, HasTheSameNumbersAsItsCsv) {
   EXPECT_FALSE(table.other_from());
 }
 
-// As a trace of another revision has it: what was measured stays, what is not known is no number.
+// In another revision's trace, measured columns remain; columns that this program cannot recompute
+// are NaN.
 TEST(Table, LeavesOutWhatThisProgramDecidesOtherwise) {
   record::Trace trace = sample_run(20);
   trace.ticks[7].digest.chain ^= 1;
@@ -90,7 +91,7 @@ TEST(Panels, KeepMeasuredAndGoalTogetherAndUnitsApart) {
   EXPECT_EQ(panels_of(columns), (Panels{{0, 4, 1, 6, 7, 8}, {9, 10, 11, 12}, {2}, {3}, {5}}));
 }
 
-// A fault of one tick in an hour is seen in the picture of that hour.
+// A picture of one hour still shows a fault of one tick.
 TEST(Thinned, KeepsWhatStandsOut) {
   std::vector<double> time_s, numbers;
   for (int i = 0; i < 360000; ++i) {
@@ -106,7 +107,7 @@ TEST(Thinned, KeepsWhatStandsOut) {
   EXPECT_EQ(thinned(time_s, numbers, 400000).numbers.size(), 360000u);
 }
 
-// Names of joints come from files, and gnuplot has commands.
+// Joint names come from files, and gnuplot has commands.
 TEST(Draw, TakesNoCommandFromAName) {
   Series series{{{"rad.x' ; system 'touch pwned", "rad", "x"}}, {0, 1}, {{0, 1}}};
   const std::string script = plot_of(series, "it's a\nrun").script;

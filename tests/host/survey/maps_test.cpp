@@ -19,7 +19,7 @@ session::WalkPlan plan_of(double walk_s) {
   return plan;
 }
 
-/// What a person would try by hand: verp walk --push.
+/// The same push by hand: verp walk --push.
 bool survives(session::WalkPlan plan, const PushOptions& options, const PushCell& cell,
               double impulse_n_s) {
   const double force_n = impulse_n_s / options.push_s;
@@ -51,8 +51,7 @@ TEST(PushMap, FindsTheLargestPushThatTheSameWalkSurvivesWhateverTheThreads) {
   EXPECT_FALSE(survives(plan, options, cell, *cell.survives_n_s + options.step_n_s));
 }
 
-// Of two directions the map is as even as the robot: its feet are further apart than they are long
-// ahead of its ankles.
+// The stance is wider than the feet are long ahead of the ankles, so the two directions differ.
 TEST(PushMap, OfARobotThatStandsEndsWithIt) {
   PushOptions options = standing_pushes();
   options.directions = 2;
@@ -89,7 +88,7 @@ TEST(PushMap, InterruptedKeepsWhatIsDoneAndSaysSo) {
   EXPECT_TRUE(sides_of(map).empty());
 }
 
-// Over so few cycles a turn is still catching up.
+// Over so few cycles a turn still lags.
 TEST(StabilityMap, SaysWhatWasAskedAndWhatWasWalkedAndKeepsItWhenInterrupted) {
   const StabilityOptions options{.on_axis = 3, .most = {0.12, 0.04, 0.5}, .begin_s = 1.5};
   double share = 0;

@@ -22,7 +22,7 @@ TEST(Workers, DoEachPieceOnceAndSayHowFarTheyAre) {
   EXPECT_FALSE(workers.stopped());
 }
 
-// Whoever waits is often woken after the last piece is done, and not once before.
+// The waiting thread often wakes only after the last piece is done.
 TEST(Workers, SayInTheEndThatAllIsDoneHoweverFastItWas) {
   for (int survey = 0; survey < 500; ++survey) {
     double share = -1;

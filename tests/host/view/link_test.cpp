@@ -38,7 +38,7 @@ bool wait_for(Met met) {
   return met();
 }
 
-/// A robot, and the end of a link where its controller is, or was, or will be.
+/// A robot and a link whose controller may be present, gone or still to come.
 class Link : public testing::Test {
  protected:
   Link() : plan_(plan_of("dxl")), entity_(std::make_shared<model::Entity>(plan_.entity)) {}
@@ -128,7 +128,7 @@ TEST(StepOn, HasTheRecordedBitsUntilANumberIsChanged) {
   std::filesystem::remove(file);
 }
 
-/// A FIFO in the place of the kernel's joystick.
+/// A FIFO in place of the kernel's joystick.
 class Stick : public testing::Test {
  protected:
   Stick() {
