@@ -31,13 +31,13 @@ using Script = std::vector<Episode>;
 constexpr Request kRelax = Request::kRelax, kStand = Request::kStand, kWalk = Request::kWalk;
 constexpr std::uint8_t kItsTime = Episode::kItsTime;
 
-/// Writes a value in one tick of whatever was asked for before.
+/// Writes a value in one tick and keeps the request.
 Episode write(int id, float value, Request request = kStand) {
   return {1, kItsTime, request, 0, 0, 0, kWrite, id, value};
 }
 
-/// From wherever, to standing still and ready to walk. Short rises and sittings leave more ticks
-/// for the rest.
+/// From any mode to standing, ready to walk. Short rises and sittings leave more ticks for the
+/// rest.
 void get_up(Script& script) {
   script.insert(script.end(), {{150, kUntilRelaxed, kRelax},
                                write(safety_id(offsetof(SafetyTuning, rise_s)), 0.3F, kRelax),
@@ -56,7 +56,7 @@ void stop_walking(Script& script) {
 
 void wander(Script& script) {
   start_walking(script);
-  script.push_back({10, kItsTime, kWalk, 1778, 0, 0});  // changes its mind in the first step
+  script.push_back({10, kItsTime, kWalk, 1778, 0, 0});  // withdraws the order in the first step
   stop_walking(script);
   start_walking(script);
   script.insert(script.end(), {{1800, kItsTime, kWalk, 1778, 0, 0},
@@ -66,12 +66,12 @@ void wander(Script& script) {
                                {2500, kItsTime, kWalk, 400, 0, 32000, kFeetGone},
                                {300, kItsTime, kWalk, 1000, 0, -3000}});
   stop_walking(script);
-  script.push_back({1500, kUntilWalking, kWalk, 0, 600, 0});  // sideways, to the end
+  script.push_back({1500, kUntilWalking, kWalk, 0, 600, 0});  // sideways until the end
   script.push_back({1200, kItsTime, kWalk, 0, 600, 0});
   stop_walking(script);
 }
 
-/// Other gaits: each value is in force while walking begins or goes on.
+/// Other gaits: each value applies while walking begins or continues.
 void other_gaits(Script& script, const Params& params) {
   const float leg_m = params.leg[0].thigh_m + params.leg[0].shank_m;
   const Episode changes[] = {
@@ -104,7 +104,7 @@ void other_gaits(Script& script, const Params& params) {
                                write(gait_id(offsetof(GaitTuning, joint_delay_s)), 0.0F, kStand)});
 }
 
-/// Soles that would stand on each other: before a walk, and in one.
+/// Soles that would overlap, before a walk and during one.
 void cross_feet(Script& script) {
   const Episode narrow = write(gait_id(offsetof(GaitTuning, half_stance_m)), 0.015F, kWalk);
   start_walking(script);
@@ -116,8 +116,8 @@ void cross_feet(Script& script) {
                                {400, kItsTime, kStand, 0, 0, 0, kRestore}});
 }
 
-/// A margin wider than the sole: strides shrink until the plan is refused, and stays so until the
-/// operator no longer asks to walk.
+/// A margin wider than the sole: strides shrink until the plan is refused, and stay refused until
+/// the operator withdraws the walk.
 void refuse(Script& script) {
   start_walking(script);
   script.push_back(write(gait_id(offsetof(GaitTuning, support_margin_m)), 0.030F, kWalk));
@@ -133,7 +133,7 @@ void silences(Script& script) {
                                {500, kUntilStanding, kStand},
                                {300, kItsTime, kStand}});
   start_walking(script);
-  // Silent operator: the walk ends by itself.
+  // The operator falls silent, and the walk ends by itself.
   script.push_back({3000, kUntilStanding, kWalk, 800, 0, 0, kQuietOperator});
   script.push_back(write(safety_id(offsetof(SafetyTuning, command_release_s)), 0.6F));
   script.push_back({1200, kUntilRelaxed, kStand, 0, 0, 0, kQuietOperator});
@@ -152,7 +152,7 @@ void alarms(Script& script) {
   for (const std::uint32_t each : {kHot | 0U, kLowVoltage | 0U, kServoAlarm | 0U}) {
     start_walking(script);
     script.push_back({2500, kUntilRelaxed, kWalk, 800, 0, 0, each});
-    script.push_back({100, kItsTime, kStand, 0, 0, 0, kLate});  // stays down, though it is over
+    script.push_back({100, kItsTime, kStand, 0, 0, 0, kLate});  // stays down after the fault
     get_up(script);
   }
   script.push_back({400, kUntilRelaxed, kRelax});

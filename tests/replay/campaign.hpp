@@ -6,51 +6,51 @@
 #include "common/model/params.hpp"
 #include "tests/support/random_inputs.hpp"
 
-/// What the operator does and what goes wrong, episode by episode.
+/// The operator's orders and the faults, episode by episode.
 namespace verp::replay {
 
-/// What happens throughout an episode.
+/// Active throughout an episode.
 enum Event : std::uint32_t {
   kSilentServo = 1 << 0,
   kSilentImu = 1 << 1,
   kQuietOperator = 1 << 2,
   kPressStop = 1 << 3,
-  kTip = 1 << 4,    ///< turns towards lying on its nose
-  kRight = 1 << 5,  ///< turns back
+  kTip = 1 << 4,    ///< tilts towards lying on its nose
+  kRight = 1 << 5,  ///< tilts back
   kTremble = 1 << 6,
   kHot = 1 << 7,
   kLowVoltage = 1 << 8,
   kServoAlarm = 1 << 9,
   kLate = 1 << 10,       ///< the tick before overran
-  kFeetInAir = 1 << 11,  ///< the foot sensors carry nothing
-  kFeetGone = 1 << 12,   ///< and here they do not answer
-  kYawDrift = 1 << 13,   ///< the gyro sees a turn that nobody asked for
+  kFeetInAir = 1 << 11,  ///< the foot sensors bear no weight
+  kFeetGone = 1 << 12,   ///< the foot sensors do not answer
+  kYawDrift = 1 << 13,   ///< the gyro shows an unrequested turn
   kWrite = 1 << 14,      ///< the first tick writes Episode::value
-  kRestore = 1 << 15,    ///< one tuning value a tick is written back to the robot's own
-  kScan = 1 << 16,       ///< one value a tick, out of range above, below, and not a number
+  kRestore = 1 << 15,    ///< restores one tuning value per tick
+  kScan = 1 << 16,       ///< writes one value per tick: too high, too low, NaN
   kFrozenImu = 1 << 17,  ///< repeats its last reading
   kBent = 1 << 18,       ///< a joint stands beyond its limits
 };
 
 struct Episode {
   static constexpr std::uint8_t kItsTime = 0xFF;
-  std::uint32_t ms;               ///< lasts this long,
+  std::uint32_t ms;               ///< at most this long,
   std::uint8_t until = kItsTime;  ///< or until the controller is in this mode
   Request request = Request::kStand;
   std::int16_t vx_tenth_mm_s = 0;
   std::int16_t vy_tenth_mm_s = 0;
   std::int16_t wz_mrad_s = 0;
   std::uint32_t events = 0;
-  int id = 0;  ///< of the value written
+  int id = 0;  ///< of the written value
   float value = 0;
 };
 
-/// Begins again when it is over, each time with other velocities.
+/// Starts over when it ends, each time with other velocities.
 class Campaign {
  public:
   Campaign(const Params& params, std::uint32_t seed);
 
-  /// Fills in what the operator sends this tick; returns the Event bits in force.
+  /// Fills in the operator's part of the tick; returns the active Event bits.
   std::uint32_t advance(const Outputs& last, Inputs& in);
 
  private:

@@ -7,16 +7,16 @@
 #include "tests/replay/divergence.hpp"
 #include "tests/replay/trace_file.hpp"
 
-/// replay_digest FILE: runs the core over the inputs of FILE and prints the last link of each
+/// replay_digest FILE: runs the core over the inputs of FILE. Prints the last link of each
 /// segment's digest chain, one for all, the core's version, and the legs' goals at some ticks,
-/// which show a reader what has changed behind a digest. Exit status 1 when a digest is not the
-/// recorded one; the first such tick and its stage go to stderr. Nothing but the core and this
-/// file: built by every compiler and optimisation level that must agree.
+/// which show what changed behind a digest. Exit status 1 if a digest differs from the recorded
+/// one; stderr names the first such tick and stage. Uses only the core and this file, so every
+/// compiler and optimisation level can build it.
 namespace {
 
 using namespace verp;
 
-constexpr std::size_t kSummaryTicks = 5;  ///< a segment
+constexpr std::size_t kSummaryTicks = 5;  ///< per segment
 
 /// Mode and both legs' goal angles, mrad, hip to ankle.
 std::string legs(const Params& params, const Outputs& outputs) {
@@ -36,7 +36,7 @@ std::string legs(const Params& params, const Outputs& outputs) {
   return text;
 }
 
-/// Replaces the recorded digests' last link by this core's; appends the summary's lines.
+/// Replaces the recorded digests' last link by this core's and appends the summary.
 bool replay_here(replay::Segment& segment, std::string& summary) {
   const std::size_t pace = segment.ticks.size() / kSummaryTicks;
   State state;

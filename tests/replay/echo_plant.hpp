@@ -5,13 +5,13 @@
 
 namespace verp::replay {
 
-/// A robot without physics: joints stand where they were told a tick ago, and the sensors follow
+/// A robot without physics: joints stand at their goals of the previous tick, and sensors follow
 /// waveforms of small integers.
 class EchoPlant {
  public:
   EchoPlant(const Params& params, std::uint32_t seed);
 
-  /// Fills in all readings of the tick `in.tick`; `events` are bits of Event.
+  /// Fills in all readings of tick `in.tick`; `events` are bits of Event.
   void sense(const Outputs& last, std::uint32_t events, Inputs& in);
 
  private:
@@ -27,9 +27,9 @@ class EchoPlant {
   std::int32_t gyro_count_per_rad_s_;
   std::int32_t rest_count_[3];  ///< accelerometer, standing
   std::int32_t nose_count_[3];  ///< accelerometer, lying on the nose
-  std::int32_t bent_count_;     ///< takes a joint beyond its limits from wherever
-  std::int32_t foot_count_;     ///< one corner's share of the weight, on one foot
-  std::int16_t gyro_count_[3] = {}, accel_count_[3] = {};  ///< told last
+  std::int32_t bent_count_;     ///< moves a joint beyond its limits from anywhere
+  std::int32_t foot_count_;     ///< one corner's share of the weight on one foot
+  std::int16_t gyro_count_[3] = {}, accel_count_[3] = {};  ///< last readings
 };
 
 }  // namespace verp::replay

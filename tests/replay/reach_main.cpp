@@ -5,12 +5,12 @@
 #include "tests/replay/trace_file.hpp"
 #include "tests/unit/control/falling_loop.hpp"
 
-/// replay_reach FILE: runs the core, compiled to count lines and branches, over the inputs of FILE
-/// and prints how often each phase of the gait, mode, row of the safety table and fault was
-/// reached. Exit status 1 when one never was, or when a digest is not the recorded one: this is the
-/// build without optimisation of those that must agree (`matrix` has the others).
+/// replay_reach FILE: runs the core, compiled to count lines and branches, over the inputs of FILE.
+/// Prints how often each gait phase, mode, safety row and fault was reached. Exit status 1 if one
+/// never was, or if a digest differs from the recorded one: this is the unoptimised build (`matrix`
+/// has the others).
 ///
-/// Linked with --wrap for safety::next_mode, which is how the rows are seen.
+/// Linked with --wrap for safety::next_mode, which makes the rows visible.
 namespace verp::replay {
 namespace {
 
@@ -48,7 +48,7 @@ bool run(const Segment& segment) {
   return good;
 }
 
-// The trace has no actions; a robot that stands plays these: there and back with a repeat, a way
+// The trace has no actions, so a standing robot plays these: there and back with a repeat, a way
 // out, each condition, and a half-stiff joint.
 void act() {
   action::test::Shelf shelf;
@@ -86,8 +86,8 @@ void follow(control::test::Loop& loop, int ticks) {
   }
 }
 
-// Toppled, it falls; asked, it gets up, in vain and then not; knocked, it holds and rises. Then
-// each side that is down, of robots with an action for it and without.
+// It is toppled and falls; it gets up on request, first in vain; it is knocked, holds and rises.
+// Then robots lie on each side, with and without an action for it.
 void fall() {
   using control::test::FallingLoop;
   constexpr std::int16_t kOne = 8172, kKnock = 2830;
@@ -167,7 +167,7 @@ bool print_faults() {
 }  // namespace verp::replay
 
 extern "C" {
-// The real safety::next_mode, and what the linker puts in its place.
+// The real safety::next_mode, and the linker's replacement.
 verp::safety::Mode __real__ZN4verp6safety9next_modeENS0_4ModeEj(verp::safety::Mode, std::uint32_t);
 verp::safety::Mode __wrap__ZN4verp6safety9next_modeENS0_4ModeEj(verp::safety::Mode mode,
                                                                 std::uint32_t conditions) {

@@ -10,8 +10,8 @@ Params newton(Params params) {
   return params;
 }
 
-/// The same robot, described with every joint's axis the other way round, every third one as a
-/// general axis, and the right leg solved by Newton.
+/// The same robot with every joint's axis reversed, every third one as a general axis, and the
+/// right leg solved by Newton.
 Params mirrored(Params params) {
   constexpr AxisKind kReverse[] = {AxisKind::kMinusX, AxisKind::kMinusY, AxisKind::kMinusZ,
                                    AxisKind::kX,      AxisKind::kY,      AxisKind::kZ,
@@ -35,7 +35,7 @@ Params mirrored(Params params) {
 }
 
 /// Joints `first` and `second` have no servos: those of `of_first` and `of_second` turn them the
-/// other way. They stand last, wherever they are in the tree.
+/// other way. They are last in the list, wherever they are in the tree.
 Params coupled(const Params& robot, int first, int of_first, int second, int of_second) {
   Params params = robot;
   const int count = robot.joint_count;
@@ -68,17 +68,17 @@ Params coupled(const Params& robot, int first, int of_first, int second, int of_
   return params;
 }
 
-/// One motor for both hips' yaws, and one for an arm's joint and its neighbour.
+/// One motor for both hip yaws, and one for an arm's joint and its neighbour.
 Params coupled_hips(const Params& robot) {
   const int left = robot.leg[0].joint[0], right = robot.leg[1].joint[0];
-  int arm = 0;  // not of the head, the legs or the trunk, and carries something
+  int arm = 0;  // not of head, legs or trunk, and carries something
   while (robot.joint[arm].parent != 0 || arm == left || arm == right || arm == robot.head_pan)
     ++arm;
   return coupled(robot, right, left, arm, arm + 1);
 }
 
 /// Control periods longer than the time between two key points; feet so heavy that their swing
-/// nearly lifts the robot; thighs that its shanks cannot fold against; no head, no force cells.
+/// nearly lifts the robot; thighs longer than the shanks can fold against; no head, no force cells.
 Params slow_and_heavy(Params params) {
   params.period_us = 20'000;
   params.head_pan = params.head_tilt = 0xFF;
@@ -90,8 +90,8 @@ Params slow_and_heavy(Params params) {
   return params;
 }
 
-/// Joints off their parents' axes, and soles whose frame stands half a turn from where the legs can
-/// bring it: Newton never arrives.
+/// Joints off their parents' axes, and sole frames half a turn from what the legs can reach: Newton
+/// never converges.
 Params fast_and_twisted(Params params) {
   params = newton(params);
   params.period_us = 4'000;
@@ -105,8 +105,8 @@ Params fast_and_twisted(Params params) {
   return params;
 }
 
-/// Five joints, no legs, no mass, a servo that reports nothing, limits the wrong way round, arms
-/// that turn without bound, and steps that would.
+/// Five joints, no legs, no mass, a servo that reports nothing, swapped limits, arms that turn
+/// without bound, and steps that would.
 Params limbless(Params params) {
   params.joint_count = 5;
   params.body_mass_kg = 0;

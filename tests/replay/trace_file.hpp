@@ -4,8 +4,8 @@
 
 #include "tests/replay/long_trace.hpp"
 
-/// The long trace as a file: made once by one build, replayed by every other. Plain memory of plain
-/// structs, because writer and readers are of the same source.
+/// The long trace as a file: one build writes it, every other replays it. It holds plain structs,
+/// because writer and readers share their source.
 namespace verp::replay {
 
 inline constexpr std::uint32_t kTraceFileMagic = 0x3147'4E4C;  // "LNG1"
@@ -17,7 +17,7 @@ struct TraceFileHead {
   std::uint32_t segments = 0;
 };
 
-/// False when the file can't be written.
+/// False if the file cannot be written.
 inline bool write_trace_file(const std::string& path, const std::vector<Segment>& trace) {
   std::ofstream file(path, std::ios::binary);
   const auto put = [&](const auto& value) {
@@ -36,7 +36,7 @@ inline bool write_trace_file(const std::string& path, const std::vector<Segment>
   return file.good();
 }
 
-/// Empty when the file is missing, cut, or of another build.
+/// Empty if the file is missing, cut, or from another build.
 inline std::vector<Segment> read_trace_file(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   const auto get = [&](auto& value) {

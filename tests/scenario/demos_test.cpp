@@ -3,8 +3,8 @@
 namespace verp::scenario {
 namespace {
 
-// Besides the demo's own criterion, bands set by hand around what a few runs gave: well inside
-// that criterion, and not too good either.
+// Besides the demo's own criterion, bands set by hand around a few runs: well inside that
+// criterion, but with a ceiling too.
 TEST(Demos, AColumnKeepsItsFormation) {
   const demos::Run run = good("column", 1);
   expect_fact(run, "guide's way", 3.4, 4.2);
@@ -27,7 +27,7 @@ TEST(Demos, FollowersKeepToTheLeadersWay) {
 TEST(Demos, OneFindsItsGoalThroughRooms) {
   const demos::Run run = good("goal", 1);
   expect_fact(run, "from the goal at the end", 0.005, 0.2);
-  expect_fact(run, "way", 5.5, 9);  // straight on, through two walls, it would be 3.1 m
+  expect_fact(run, "way", 5.5, 9);  // straight through two walls it would be 3.1 m
 }
 
 #ifdef VERP_HAS_CAMERA
@@ -38,7 +38,8 @@ TEST(Demos, TwoBringABallToAGoal) {
 }
 #endif
 
-// Without radio nobody goes, and the demo says that it failed: so what holds above is the radio's.
+// Without radio the robots do not walk and the demo reports failure: the radio is what makes it
+// work.
 TEST(Demos, FailWithoutRadio) {
   demos::Options options;
   options.robots = 2;

@@ -1,6 +1,6 @@
 #include "tests/scenario/walk.hpp"
 
-// Falls are no end: what lies on its back or a side gets up, what falls so gets up, and walks on.
+// A robot that lies on its back or a side, or falls, gets up and walks on.
 namespace verp::scenario {
 namespace {
 
@@ -15,8 +15,8 @@ TEST(GettingUp, FromItsBackItStandsAndWalks) {
   expect_between(0.1, number(lying, "distance_m"), 0.4, "distance, m");
 }
 
-// It pushes itself over its left side onto its back, and goes on from there: 23 s are enough for
-// one try and the walk, not for two.
+// It rolls over its left side onto its back and continues from there. 23 s suffice for one try and
+// the walk, not for two.
 TEST(GettingUp, FromItsFrontItRollsOntoItsBackAndGetsUp) {
   const Walk lying = walk("generic21 --for 3 --physics-step 2 --start lying:front");
   expect_walked(lying);
@@ -33,7 +33,7 @@ TEST(GettingUp, FromEitherSideItTipsOntoItsBackAndGetsUp) {
   }
 }
 
-// Of a hundred random ones at least 97 are promised; of a few, all but one.
+// The promise: 97 of a hundred random robots; of a few, all but one.
 TEST(GettingUp, RandomOnesDoItToo) {
   for (const std::string side : {"back", "front"}) {
     const Walk seeds =
@@ -42,7 +42,7 @@ TEST(GettingUp, RandomOnesDoItToo) {
   }
 }
 
-// The strong arms of this one push it up, without a roll; its sides tip it onto the back.
+// Its strong arms push it up without a roll; its sides tip it onto the back.
 TEST(GettingUp, Op3DoesItFromEverySide) {
   for (const std::string side : {"back", "front", "left", "right"}) {
     const Walk lying = walk("op3 --for 3 --physics-step 2 --start lying:" + side);
@@ -51,8 +51,8 @@ TEST(GettingUp, Op3DoesItFromEverySide) {
   }
 }
 
-// Its arms are too short to carry it over feet that are drawn in: from its front and back it squats
-// between hands and soles, and its sides tip it onto the back.
+// Its arms are too short to lift it over drawn-in feet. From its front and back it squats between
+// hands and soles; its sides tip it onto the back.
 TEST(GettingUp, DarwinOpDoesItFromEverySideAtTheFirstTry) {
   for (const std::string side : {"back", "front", "left", "right"}) {
     const Walk lying = walk("darwin_op --for 3 --physics-step 2 --start lying:" + side);
@@ -78,7 +78,6 @@ TEST(GettingUp, PushedOverItFallsGetsUpAndWalksOn) {
   EXPECT_EQ(pushed.result.value("notes", "?").find("fall"), std::string::npos) << "it is over";
 }
 
-// What nobody allows does not happen.
 TEST(GettingUp, UnaskedItStaysDown) {
   const Walk pushed =
       walk("generic21 --for 5 --physics-step 2 --push '2: trunk 60,0,0 N for 0.15'");
@@ -87,7 +86,7 @@ TEST(GettingUp, UnaskedItStaysDown) {
   EXPECT_EQ(count(pushed, "get_ups"), 0);
 }
 
-// One tour: lies, gets up, walks, is pushed over, gets up, walks on; twice the same bits.
+// One tour, twice: lies, gets up, walks, is pushed over, gets up, walks on.
 TEST(GettingUp, IsRepeatableToTheBit) {
   const std::string tour =
       "generic21 --for 4 --physics-step 2 --start lying:back --push '1: trunk -60,0,0 N for 0.15'";

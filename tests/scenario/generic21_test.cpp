@@ -10,8 +10,8 @@ namespace {
 
 class Seed : public ::testing::TestWithParam<int> {};
 
-// The paper's walk: 4 cm steps in 450 ms cycles, 0.173 m/s; for a minute, whatever the twin's noise
-// and joint zero errors are. (Of ten seeds: many_random_robots_test.cpp, with --full.)
+// The paper's walk: 4 cm steps in 450 ms cycles, 0.173 m/s, for a minute, with any noise and joint
+// zero errors of the twin. many_random_robots_test.cpp runs ten seeds with --full.
 TEST_P(Seed, WalksAMinuteInsideThePapersBands) {
   const Walk minute =
       walk("generic21 --step 0.04 --cycle 0.45 --for 60 --seed " + std::to_string(GetParam()));
@@ -33,7 +33,7 @@ TEST(Generic21, FiveSeedsGiveFiveDigests) {
   EXPECT_EQ(digests.size(), 5u);
 }
 
-// Its yaw hums at 12 Hz while it stands: that is no motion, and the gyro's bias can be learnt.
+// Standing, it trembles in yaw at 12 Hz. That is no motion, so the gyro's bias can be learnt.
 TEST(Generic21, ATremblingRobotStartsToWalk) {
   expect_walked(walk("generic21 --for 5 --seed 17"));
   expect_walked(walk("generic21 --for 5 --seed 1 --physics-step 0.25"));
@@ -73,7 +73,7 @@ double mean_bias_mm(const std::string& arguments) {
   return sum_mm / 3;
 }
 
-// What each part of balance is for, as the ZMP bias says it: switched off, the walk is worse.
+// Measured by the ZMP bias: without any one part of balance the walk is worse.
 TEST(Generic21, EachPartOfBalanceLowersTheZmpBias) {
   const double all_mm = mean_bias_mm("");
   EXPECT_GT(mean_bias_mm(" --no-multibody"), all_mm);
@@ -82,8 +82,8 @@ TEST(Generic21, EachPartOfBalanceLowersTheZmpBias) {
   EXPECT_GT(mean_bias_mm(" --no-zeros"), all_mm);
 }
 
-// 12 s, of which it stands for one. Bands are a quarter of the ordered way to both sides; in a
-// circle, and turning on the spot, also how far it comes.
+// 12 s, one of them standing. The bands are a quarter of the ordered way to both sides; in a
+// circle, and turning on the spot, they also bound the distance.
 TEST(Generic21, WalksSideways) {
   const Walk left = walk("generic21 --for 12 --velocity=0,0.05,0");
   expect_walked(left);
@@ -108,7 +108,7 @@ TEST(Generic21, WalksInCirclesAndTurnsOnTheSpot) {
   EXPECT_EQ(number(circle, "self_contact_ticks"), 0);
   expect_between(0.09, number(circle, "speed_steady_m_s"), 0.12, "steady speed, m/s");
   expect_between(140, number(circle, "yaw_drift_deg"), 230, "turn, degrees");
-  // 2 v / w across the circle, and half of it done.
+  // 2 v / w across the circle, of which it walks half.
   expect_between(0.4, number(circle, "lateral_drift_m"), 0.9, "way to the left, m");
   const Walk turn = walk("generic21 --for 12 --velocity=0,0,-0.4");
   expect_walked(turn);
@@ -117,8 +117,8 @@ TEST(Generic21, WalksInCirclesAndTurnsOnTheSpot) {
   expect_between(0, number(turn, "distance_m"), 0.2, "way, m");
 }
 
-// Forward and about at once, at speed: its straight steps led over the other sole, and its feet met
-// in 25 and 32 ticks of ten seconds.
+// Forward and turning at speed. Straight swings once crossed the other sole, and the feet met in 25
+// and 32 ticks of ten seconds.
 TEST(Generic21, KeepsItsFeetApartInFastCurves) {
   for (const char* arguments : {"1 --seed 2", "-1 --seed 3"}) {
     const Walk curve =
@@ -130,9 +130,9 @@ TEST(Generic21, KeepsItsFeetApartInFastCurves) {
   }
 }
 
-// 8 cm in 400 ms, 0.40 m/s: legs swing as fast as their servos turn, and swing too far. It walked
-// 0.53 m/s, and fell, until landings were learnt (balance/landing.hpp); 0.44, while those of feet
-// sent half a millimetre off their plan were not. A minute of it: --full.
+// 8 cm in 400 ms, 0.40 m/s: legs swing as fast as their servos turn, and too far. Until landings
+// were learnt (balance/landing.hpp) it walked 0.53 m/s and fell. It walked 0.44 while feet moved
+// half a millimetre off their plan taught nothing. --full walks a minute of it.
 TEST(Generic21, WalksFastAndNoFasterThanAsked) {
   for (const char* seed : {"1", "2", "3"}) {
     const Walk fast = walk(
@@ -143,9 +143,9 @@ TEST(Generic21, WalksFastAndNoFasterThanAsked) {
   }
 }
 
-// At 0.42 m/s one of fourteen seeds scraped over the ground with a swinging foot and spun over it;
-// 0.36 was the limit, and 62 degrees a second that of a turn. Headings wander by 7 degrees in a
-// minute: the band is that of how they are, not of how they should be (5).
+// At 0.42 m/s, one of fourteen seeds once scraped a swinging foot over the ground and spun on it.
+// 0.36 was then the limit, and 62 degrees a second that of a turn. Headings wander by 7 degrees in
+// a minute: the band is what they do, not what they should (5).
 TEST(Generic21, WalksFastAnyWay) {
   struct Way {
     const char* velocity;
@@ -162,20 +162,20 @@ TEST(Generic21, WalksFastAnyWay) {
   }
   const Walk turn = walk("generic21 --for 20 --physics-step 2 --velocity=0,0,1.5708");
   expect_walked(turn);
-  // Less what it turns more slowly until it turns as fast.
+  // Less what it loses until it turns at full speed.
   expect_between(0.96 * number(turn, "asked_turn_deg"), number(turn, "yaw_drift_deg"),
                  1.005 * number(turn, "asked_turn_deg"), "turn, degrees");
 }
 
-// Short steps in the shortest cycle: two of four seeds fell in the start.
+// Short steps in the shortest cycle: two of four seeds once fell at the start.
 TEST(Generic21, WalksInTheShortestCycle) {
   const Walk quick = walk("generic21 --step 0.06 --cycle 0.3 --for 10 --physics-step 2 --seed 1");
   expect_walked(quick);
   expect_between(0.28, number(quick, "speed_steady_m_s"), 0.36, "steady speed, m/s");
 }
 
-// Fifteen centimetres in a cycle of 0.34 s: the robot fell after three seconds. It says what it
-// does.
+// Fifteen centimetres in a cycle of 0.34 s once made the robot fall after three seconds. Now the
+// walk reports that it shortens.
 TEST(Generic21, StepsThatItsServosCannotFollowAreShortened) {
   const Walk result =
       walk("generic21 --step 0.15 --cycle 0.34 --set gait.max_step_m=0.3 --for 8 --physics-step 2");
@@ -196,7 +196,8 @@ TEST(Generic21, WalksSlowlyAndWithShortSteps) {
   expect_between(0, number(on_the_spot, "distance_m"), 0.1, "way, m");
 }
 
-// The robot is one table: thighs a tenth longer, everything else as it is, and it walks.
+// Only one table describes the robot: with thighs a tenth longer there and nothing else changed, it
+// walks.
 TEST(Generic21, WalksWithThighsATenthLonger) {
   namespace fs = std::filesystem;
   const fs::path folder =

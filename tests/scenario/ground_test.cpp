@@ -2,9 +2,9 @@
 
 #include "tests/scenario/walk.hpp"
 
-// Ground that nobody told the robot of, 20 s of it at 4 cm in 450 ms: it walks by what it feels
-// under its soles and where its body tilts. Robots of several seeds: over plates, and over one as
-// high as its feet are lifted, some do not manage it (shares: common/worlds/README.md).
+// 20 s on ground unknown to the robot, at 4 cm in 450 ms. It relies on its soles and its body's
+// tilt. Seeds give several robots; some fail over plates, and over one as high as feet are lifted
+// (shares: common/worlds/README.md).
 namespace verp::scenario {
 namespace {
 
@@ -22,7 +22,7 @@ TEST(Ground, FiveDegreesUpAndDownItWalks) {
   expect_walk_there("--world hill", 4, 2.7);
 }
 
-// Upright, and the turn into it is not taken for the gyro's bias: that was 1.7 degrees.
+// It stays upright. The turn into the slope once passed for the gyro's bias: 1.7 degrees.
 TEST(Ground, AcrossFiveDegreesItWalksAndKnowsItsTilt) {
   const Walk seeds = expect_walk_there("--world bank", 4, 2.7);
   for (const json& each : seeds.result.at("walks")) {
@@ -40,8 +40,8 @@ TEST(Ground, UpAndDownACentimetreItWalks) {
   expect_walk_there("--world ledge", 3, 1.6);
 }
 
-// Both feet with their toes on the edge tilt it back, and it took itself for falling: these stayed
-// there, and went 0.7 and 1.0 m.
+// With both feet's toes on the edge it tilts back, and once took that for falling: these seeds
+// stayed there, after 0.7 and 1.0 m.
 TEST(Ground, WithItsToesOnAnEdgeItGoesOn) {
   for (const char* seed : {"17", "21"}) {
     const Walk over =
@@ -51,7 +51,7 @@ TEST(Ground, WithItsToesOnAnEdgeItGoesOn) {
   }
 }
 
-// A mat that gives way by a centimetre under its weight.
+// A mat that yields by a centimetre under its weight.
 TEST(Ground, OnASoftFloorItWalks) {
   expect_walk_there("--at '0: ground.contact_stiffness_n_m=5000'", 4, 2.9);
 }

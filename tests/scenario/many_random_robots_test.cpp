@@ -1,7 +1,7 @@
 #include "tests/scenario/walk.hpp"
 
-// `verp test --full`: a hundred robots of each kind, drawn at random, and a minute of the paper's
-// walk and of the fastest, as the twin's reference steps them.
+// `verp test --full`: a hundred random robots of each kind walk a minute of the paper's walk and of
+// the fastest, at the twin's reference step.
 namespace verp::scenario {
 namespace {
 

@@ -4,8 +4,8 @@
 
 #include "tests/scenario/walk.hpp"
 
-// The paper's gait is a file of 16 states: taken from a walk of ours, it is played as any action
-// is, with balance, and walks as fast as the gait that it was taken from.
+// The paper's gait is a file of 16 states. Recorded from a walk, it is played with balance as any
+// action, and walks as fast as the original.
 namespace verp::scenario {
 namespace {
 
@@ -20,7 +20,7 @@ class PaperGait : public ::testing::Test {
   struct Way {
     double m = 0, s = 0;
   };
-  /// `cycles` of the gait in the trace: recorded as an action, read again, played.
+  /// Records `cycles` of the trace's gait as an action, reads it back and plays it.
   Way play(const std::string& trace, int cycles, unsigned seed) const {
     const std::string action = file("gait" + std::to_string(cycles) + ".action");
     const std::string program = VERP_PROGRAM;
@@ -49,7 +49,7 @@ TEST_F(PaperGait, OfSixteenStatesWalksForTenSecondsAsFastAsTheGaitItWasTakenFrom
     const Walk walked = walk("generic21 --step 0.04 --cycle 0.45 --for 8 --seed " +
                              std::to_string(seed) + " --record " + trace);
     expect_walked(walked);
-    // Less what it takes to begin and to end, which three cycles have too.
+    // Subtracts the start and the end, which three cycles have too.
     const Way little = play(trace, 3, seed), much = play(trace, 26, seed);
     EXPECT_GT(much.s - little.s, 10);
     const double speed_m_s = (much.m - little.m) / (much.s - little.s);

@@ -3,12 +3,12 @@
 namespace verp::scenario {
 namespace {
 
-// The physics step of many runs: half the price, and the same walk. Evidence had 0.4 % of speed
-// between steps of 0.5, 1 and 2 ms; 1 % and 1 mm are what it may cost. Of three seeds: one walk's
-// bias is a millimetre up or down by chance.
+// Many runs use this physics step at half the price. Measured earlier: 0.4 % of speed between steps
+// of 0.5, 1 and 2 ms; it may cost 1 % and 1 mm. Three seeds, because chance moves one walk's bias
+// by a millimetre.
 TEST(PhysicsStep, TwoMillisecondsWalkLikeOne) {
   constexpr int kSeeds = 3;
-  double speed_m_s[3] = {}, bias_mm[3] = {};  // by the step in ms
+  double speed_m_s[3] = {}, bias_mm[3] = {};  // by step in ms
   for (int step_ms = 1; step_ms <= 2; ++step_ms) {
     for (int seed = 1; seed <= kSeeds; ++seed) {
       const Walk one = walk("generic21 --for 20 --seed " + std::to_string(seed) +
@@ -23,7 +23,7 @@ TEST(PhysicsStep, TwoMillisecondsWalkLikeOne) {
   EXPECT_NEAR(bias_mm[2], bias_mm[1], 1.0);
 }
 
-// Robots drawn at random (host/sim/vary.hpp) are walked by a controller that knows nothing of it.
+// The controller does not know of the random variation (host/sim/vary.hpp).
 TEST(RandomRobots, NineteenOfTwentyWalk) {
   const Walk seeds = walk("generic21 --vary --for 20 --physics-step 2 --seeds 1-20");
   EXPECT_GE(number(seeds, "survived"), 19);
@@ -43,7 +43,6 @@ TEST(RandomRobots, WalksSayWhatWasDrawnAndWhoSurvived) {
   EXPECT_EQ(seeds.status, survived == 6 ? 0 : 1) << "who asks for walks wants to know of falls";
 }
 
-// One of the many is the one that --seed walks.
 TEST(RandomRobots, ASeedIsTheSameRobotAloneAndAmongMany) {
   const std::string options = "generic21 --vary --for 3 --physics-step 2 ";
   const Walk alone = walk(options + "--seed 4"), many = walk(options + "--seeds 3-4");

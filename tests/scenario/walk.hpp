@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-/// Runs `verp walk` as a user would, and hands back what it says.
+/// Runs `verp walk` as a user does and returns its output.
 namespace verp::scenario {
 
 using nlohmann::json;
@@ -18,7 +18,7 @@ struct Walk {
   json result;      ///< empty when there was no JSON
 };
 
-/// seeds.txt: those of gates.
+/// The last one for gates in seeds.txt.
 inline constexpr unsigned long kLastGateSeed = 100;
 
 inline Walk walk(const std::string& arguments) {
@@ -57,7 +57,7 @@ inline void expect_walked(const Walk& walk) {
   EXPECT_EQ(walk.result.value("fallen", true), false) << walk.result.value("failure", "");
 }
 
-/// Inside a band. Too good is as suspicious as too bad: then the test has lost its grip.
+/// Too good is as suspicious as too bad: the test has lost its grip.
 inline void expect_between(double low, double value, double high, const char* what) {
   EXPECT_GE(value, low) << what;
   EXPECT_LE(value, high) << what;

@@ -6,8 +6,8 @@
 namespace verp::scenario {
 namespace {
 
-// The operator changes his mind every three seconds: ahead, sideways, backwards, turning, while the
-// robot walks. It ends standing where it stopped.
+// Every three seconds the operator orders another velocity: ahead, sideways, backwards, turning.
+// The walk ends standing in place.
 TEST(Generic21, FollowsChangingVelocitiesInMidWalk) {
   const test::Robot robot = test::load_robot("generic21");
   const test::TwinRun run = test::run_here(robot, 2700, true);
