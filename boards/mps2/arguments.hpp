@@ -3,7 +3,7 @@
 
 namespace verp::board {
 
-/// The words of the emulator's command line: [0] is the image, the rest is for it. Missing words
+/// The words of the emulator's command line: [0] is the image, its arguments follow. Missing words
 /// are "".
 class Arguments {
  public:

@@ -11,19 +11,18 @@
 #include "hal/chip/semihosting/semihosting.hpp"
 #include "law.hpp"
 
-/// loop_<board> JOB RECORDS: the robot's control loop over the board's own CAN bus, at whose other
-/// end is a twin in lockstep. The robot and its operator's orders come from file JOB
-/// (can_loop_job.hpp), each tick goes to file RECORDS; what the controller knows and does of the
-/// robot passes over CAN alone. It is a node there, too, and tells of each tick; it
-/// takes no orders there, as they are in the file.
+/// loop_<board> JOB RECORDS: the robot's control loop over the board's own CAN bus, with a twin in
+/// lockstep at the far end. File JOB holds the robot and the operator's orders (can_loop_job.hpp);
+/// each tick goes to file RECORDS. The controller reaches the robot over CAN alone. It is also a
+/// node there that publishes each tick, but takes no orders, since they are in the file.
 namespace {
 
 using verp::hal::semihosting::File;
 
-/// Nothing is to be done meanwhile, and each look at the clock costs an emulator more than a frame.
+/// Nothing else needs serving, and each clock read costs an emulator more than a frame.
 constexpr std::uint32_t kSlice_us = 100'000;
 
-/// A twin that is gone is the PC's affair: it ends the emulator.
+/// Waits for ever: if the twin is gone, the PC ends the emulator.
 struct Patience {
   bool operator()() const { return true; }
 };
@@ -32,7 +31,7 @@ using Log = verp::app::TickLog<>;
 using Node = verp::app::OperatorNode<verp::board::Can, Log>;
 
 struct Desk {
-  // OperatorLink. Orders of ticks that were skipped are skipped.
+  // OperatorLink. Orders of skipped ticks are skipped.
   verp::app::OperatorOrder order(std::uint32_t tick) {
     while (next <= tick && job.read(&latest, sizeof latest)) ++next;
     return latest;
@@ -87,7 +86,7 @@ int run(Desk& desk, const verp::app::CanLoopJob& job) {
                  .efforts = app.efforts()});
   }
   const verp::hal::CanErrors errors = can.errors();
-  // The twin alone never sends more than fits, and sends again what was lost beside others' frames.
+  // The twin alone never sends more than fits, and repeats what other nodes' frames displaced.
   if (errors.overruns != 0 && node.asked() == 0) {
     return fail("loop: the CAN controller lost frames\n");
   }

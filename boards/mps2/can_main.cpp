@@ -3,10 +3,9 @@
 #include "firmware/boot/boot.hpp"
 #include "hal/chip/semihosting/semihosting.hpp"
 
-/// can_<board>: the board's CAN bus without a robot. Says "ready" (identifier 0x700), then answers
-/// every frame of another node with the same data, format and an identifier one higher, until a
-/// frame with identifier 0x7FF comes: that one is answered with the bus's error counters, and ends
-/// the image, with 1 if any is not 0.
+/// can_<board>: the board's CAN bus without a robot. Sends "ready" (identifier 0x700), then answers
+/// every frame with the same data and format at the next higher identifier. Frame 0x7FF is answered
+/// with the bus's error counters and ends the image, with status 1 if any counter is not 0.
 namespace {
 
 constexpr std::uint32_t kEnd = 0x7FF;

@@ -2,10 +2,10 @@
 #include "firmware/boot/boot.hpp"
 #include "hal/chip/semihosting/semihosting.hpp"
 
-/// How an image on an emulated board ends: it tells the emulator, whose exit status it becomes.
+/// Ends an image on an emulated board; the emulator exits with its status.
 namespace {
 
-constexpr int kFaultStatus = 70;  // EX_SOFTWARE of BSD's sysexits.h: told apart from a failed run
+constexpr int kFaultStatus = 70;  // EX_SOFTWARE of BSD's sysexits.h; differs from a failed run
 
 struct Hex {
   char text[12];

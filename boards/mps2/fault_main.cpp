@@ -4,8 +4,8 @@
 #include "firmware/boot/crash.hpp"
 #include "hal/chip/semihosting/semihosting.hpp"
 
-/// fault_<board> overflow|jump|read: breaks in that way, keeps the crash and resets; the second
-/// start finds the record and judges it. Prints what it found.
+/// fault_<board> overflow|jump|read: causes that fault, keeps the crash record and resets. The
+/// second start checks the record and prints it.
 namespace {
 
 using verp::hal::semihosting::print;
@@ -18,7 +18,7 @@ bool same(const char* a, const char* b) {
   return *a == *b;
 }
 
-constexpr std::uint32_t kDeep = 1'000'000;  // frames of 256 bytes: more than any memory here
+constexpr std::uint32_t kDeep = 1'000'000;  // 256-byte frames: more than any memory here
 
 __attribute__((noinline)) std::uint32_t overflow(std::uint32_t depth) {
   volatile std::uint32_t frame[64] = {depth};

@@ -1,10 +1,10 @@
-# Images of emulated boards that speak with the PC by semihosting, as executables <what>_<board>.elf. Called in the
-# board's own folder.
+# Images <what>_<board>.elf for emulated boards that talk to the PC by semihosting. Called in the
+# board's folder.
 set(VERP_MPS2_DIR ${CMAKE_CURRENT_LIST_DIR})
-set(VERP_GTEST_TARGET_DIR ${CMAKE_SOURCE_DIR}/tests/support/gtest_target)  # what tests need on a board
+set(VERP_GTEST_TARGET_DIR ${CMAKE_SOURCE_DIR}/tests/support/gtest_target)  # test support on boards
 include(${CMAKE_SOURCE_DIR}/tests/together.cmake)
 
-# <name>_<board>.elf from <what>_main.cpp and further sources; `machine` is QEMU's name of the board.
+# <name>_<board>.elf from <what>_main.cpp and further sources; `machine` is QEMU's machine name.
 function(verp_add_emulated_image name what machine)
   set(image ${name}_${VERP_BOARD})
   set(folder ${VERP_MPS2_DIR})
@@ -12,7 +12,7 @@ function(verp_add_emulated_image name what machine)
     set(folder ${VERP_GTEST_TARGET_DIR})
   endif()
   add_executable(${image} ${folder}/${what}_main.cpp ${ARGN})
-  if(NOT what STREQUAL fault)  # which ends in its own way
+  if(NOT what STREQUAL fault)  # it defines its own exit
     target_sources(${image} PRIVATE ${VERP_MPS2_DIR}/emulator.cpp)
   endif()
   target_include_directories(${image} PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
@@ -25,7 +25,7 @@ function(verp_add_emulated_image name what machine)
     LINK_DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/memory.ld;${CMAKE_SOURCE_DIR}/firmware/boot/sections.ld")
 endfunction()
 
-# <name>_<board>.elf runs the unit tests of the given sources, with `VERP_WITH`; ctest has it as `test`.
+# <name>_<board>.elf runs the unit tests in the given sources with `VERP_WITH`; ctest name: `test`.
 function(verp_add_unit_image name test machine)
   set(library newlib.cpp)
   if(CMAKE_SYSTEM_PROCESSOR STREQUAL riscv32)
@@ -39,13 +39,13 @@ function(verp_add_unit_image name test machine)
   set_tests_properties(${test} PROPERTIES LABELS "unit;target")
 endfunction()
 
-# All unit tests in one image, where memory is plenty.
+# All unit tests in one image, for boards with much memory.
 function(verp_add_unit_tests machine)
   file(GLOB_RECURSE tests CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/tests/unit/*_test.cpp)
   verp_add_unit_image(unit unit.${VERP_BOARD} ${machine} ${tests})
 endfunction()
 
-# One image for each folder of tests/unit, where it is not: a chip's own RAM holds the variables of one.
+# One image per folder of tests/unit, for boards whose RAM holds one folder's variables only.
 function(verp_add_unit_tests_by_folder machine)
   file(GLOB folders CONFIGURE_DEPENDS LIST_DIRECTORIES true ${CMAKE_SOURCE_DIR}/tests/unit/*)
   foreach(folder ${folders})
@@ -57,8 +57,8 @@ function(verp_add_unit_tests_by_folder machine)
   endforeach()
 endfunction()
 
-# The suites of tests/contract, against the fakes and, for what the emulators lack, the drivers against their models. That
-# of CAN has an image of its own: one chip's RAM does not hold the models of both.
+# The suites of tests/contract, against the fakes and, where emulators lack the hardware, drivers
+# against chip models. CAN has its own image, because one chip's RAM does not hold both models.
 function(verp_add_contract_tests machine)
   file(GLOB tests CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/tests/contract/*_test.cpp)
   file(GLOB models CONFIGURE_DEPENDS
@@ -71,7 +71,7 @@ function(verp_add_contract_tests machine)
   set_tests_properties(contract.${VERP_BOARD} contract_can.${VERP_BOARD} PROPERTIES LABELS "contract;target")
 endfunction()
 
-# Tests with a half on the PC: that half comes from a PC build, which must be there.
+# Tests with a PC half take it from a PC build, which must exist.
 set(VERP_HOST_DIR ${CMAKE_SOURCE_DIR}/build/host-release CACHE PATH "PC build whose programs test this board")
 function(verp_add_target_test name suite)
   add_test(NAME ${name}.${VERP_BOARD} COMMAND ${VERP_HOST_DIR}/target/target_tests --gtest_filter=${suite}.*)
@@ -86,7 +86,7 @@ function(verp_add_dry_run_test)
   set_tests_properties(flash.${VERP_BOARD}.dry_run PROPERTIES LABELS "flash;target")
 endfunction()
 
-# From a model to the board, which is its own stand-in; and, if `can` is asked for, from that robot on CAN.
+# From a model to the emulated board; with `can`, also for the robot on CAN.
 function(verp_add_deploy_test)
   foreach(bus "" ${ARGN})
     set(name deploy.${VERP_BOARD})
@@ -99,24 +99,24 @@ function(verp_add_deploy_test)
   endforeach()
 endfunction()
 
-# A controller of somebody's own in the board's loop, from its folder to the same digest as on the PC.
+# A user's controller in the board's loop, from its folder to the same digest as on the PC.
 function(verp_add_own_controller_test)
   add_test(NAME own.${VERP_BOARD} COMMAND ${CMAKE_SOURCE_DIR}/tests/host/own/own_controller.sh ${VERP_HOST_DIR}/host/tool/verp ${VERP_BOARD})
   set_tests_properties(own.${VERP_BOARD} PROPERTIES LABELS "loop;target")
 endfunction()
 
-# gdb on these images; with `loop`, on the board's own loop, too.
+# gdb on these images; with `loop`, also on the board's own loop.
 function(verp_add_debug_test)
   add_test(NAME debug.${VERP_BOARD} COMMAND ${CMAKE_SOURCE_DIR}/tests/target/debug ${VERP_BOARD} ${VERP_HOST_DIR}/host/tool/verp ${ARGN})
   set_tests_properties(debug.${VERP_BOARD} PROPERTIES LABELS "replay;target"
     ENVIRONMENT "VERP_FIRMWARE_DIR=${CMAKE_BINARY_DIR}/images")
 endfunction()
 
-# Recorded inputs run through the core in the board: short ones, and the long trace of tests/replay.
+# Runs recorded inputs through the core on the board: short ones and the long trace of tests/replay.
 function(verp_add_replay_tests machine)
   verp_add_emulated_image(replay replay ${machine})
   verp_add_target_test(replay TargetReplay)
-  # The long trace of tests/replay, whole.
+  # The long trace, whole.
   add_test(NAME trace.${VERP_BOARD} COMMAND ${VERP_HOST_DIR}/target/target_tests --gtest_filter=LongTrace.*)
   set_tests_properties(trace.${VERP_BOARD} PROPERTIES LABELS "replay;target"
     ENVIRONMENT "VERP_TEST_BOARD=${VERP_BOARD};VERP_TEST_TICKS=100000;VERP_FIRMWARE_DIR=${CMAKE_BINARY_DIR}/images")
@@ -129,12 +129,13 @@ function(verp_add_can_tests machine)
   add_custom_target(benchmarks DEPENDS loop_${VERP_BOARD})  # what `verp bench` runs
   add_test(NAME can.${VERP_BOARD} COMMAND ${CMAKE_SOURCE_DIR}/tests/support/with-can --timeout 1700 --slow 3 --memory 1500M
     ${VERP_HOST_DIR}/target/target_tests --gtest_filter=CanBoard.*)
-  # RESOURCE_LOCK: two virtual machines at a time may share a processor.
+  # RESOURCE_LOCK: two virtual machines would share a processor.
   set_tests_properties(can.${VERP_BOARD} PROPERTIES LABELS "hil-can;target" RESOURCE_LOCK vm
     ENVIRONMENT "VERP_TEST_BOARD=${VERP_BOARD};VERP_FIRMWARE_DIR=${CMAKE_BINARY_DIR}/images")
 endfunction()
 
-# The loop over it for so many ticks, of which nine seconds are for standing up and standing still (tests/target/twin_run.cpp).
+# The loop over CAN for `ticks`; getting up and standing take nine seconds
+# (tests/target/twin_run.cpp).
 function(verp_add_can_loop_test ticks)
   add_test(NAME can_loop.${VERP_BOARD} COMMAND ${CMAKE_SOURCE_DIR}/tests/support/with-can --timeout 1700 --memory 1500M
     ${VERP_HOST_DIR}/target/target_tests --gtest_filter=CanLoop.*)
@@ -142,7 +143,7 @@ function(verp_add_can_loop_test ticks)
     ENVIRONMENT "VERP_TEST_BOARD=${VERP_BOARD};VERP_TEST_TICKS=${ticks};VERP_FIRMWARE_DIR=${CMAKE_BINARY_DIR}/images")
 endfunction()
 
-# Walk, turn, push, fall, get up, kick and wave over it.
+# Walk, turn, push, fall, get up, kick and wave over CAN.
 function(verp_add_can_tour_test)
   add_test(NAME can_tour.${VERP_BOARD} COMMAND ${CMAKE_SOURCE_DIR}/tests/support/with-can --timeout 1700 --memory 1500M
     ${VERP_HOST_DIR}/target/target_tests --gtest_filter=CanTour.*)
@@ -150,7 +151,7 @@ function(verp_add_can_tour_test)
     ENVIRONMENT "VERP_TEST_BOARD=${VERP_BOARD};VERP_FIRMWARE_DIR=${CMAKE_BINARY_DIR}/images")
 endfunction()
 
-# What a fault leaves behind for the next start.
+# The crash record that a fault leaves for the next start.
 function(verp_add_fault_tests machine)
   verp_add_emulated_image(fault fault ${machine})
   foreach(how overflow jump read)
@@ -164,15 +165,15 @@ function(verp_add_serial_tests machine)
   add_test(NAME hil.${VERP_BOARD}.operator COMMAND ${CMAKE_SOURCE_DIR}/tests/target/ask_operator
     ${machine} $<TARGET_FILE:loop_${VERP_BOARD}> $<TARGET_FILE:loop_can_${VERP_BOARD}> ${VERP_HOST_DIR}/host/tool/verp)
   set_tests_properties(hil.${VERP_BOARD}.operator PROPERTIES LABELS "hil;target")
-  # Actions sent to it while it runs, a power cut among them.
+  # Sends actions while it runs, with a power cut.
   add_test(NAME hil.${VERP_BOARD}.actions COMMAND ${CMAKE_SOURCE_DIR}/tests/target/write_flash
     ${machine} $<TARGET_FILE:loop_${VERP_BOARD}> ${VERP_HOST_DIR}/host/tool/verp)
   set_tests_properties(hil.${VERP_BOARD}.actions PROPERTIES LABELS "hil;target")
-  # Walks, over a bad cable.
+  # Walks over a bad cable.
   add_test(NAME hil.${VERP_BOARD}.faults COMMAND ${VERP_HOST_DIR}/target/target_tests --gtest_filter=SerialFaults.*)
   set_tests_properties(hil.${VERP_BOARD}.faults PROPERTIES LABELS "hil;target"
     ENVIRONMENT "VERP_TEST_BOARD=${VERP_BOARD};VERP_TEST_TICKS=1050;VERP_FIRMWARE_DIR=${CMAKE_BINARY_DIR}/images")
-  # Nine seconds of these walks are for standing up and standing still (tests/target/twin_run.cpp).
+  # Getting up and standing take nine seconds of these walks (tests/target/twin_run.cpp).
   foreach(ticks 1200 1900)
     set(name hil.${VERP_BOARD}.walk)
     set(labels "hil;target")
@@ -198,7 +199,7 @@ function(verp_add_mps2_images machine)
   verp_add_emulated_image(link link ${machine})
   add_custom_target(benchmarks DEPENDS replay_${VERP_BOARD} link_${VERP_BOARD})  # what `verp bench` runs
   add_test(NAME bench.${VERP_BOARD} COMMAND ${VERP_HOST_DIR}/target/target_bench --check ${VERP_BOARD})
-  # Times the link, so it runs alone.
+  # Measures the link, so it runs alone.
   set_tests_properties(bench.${VERP_BOARD} PROPERTIES LABELS "bench;target" RUN_SERIAL ON
     ENVIRONMENT "VERP_TEST_BOARD=${VERP_BOARD};VERP_FIRMWARE_DIR=${CMAKE_BINARY_DIR}/images")
 endfunction()

@@ -4,15 +4,15 @@
 #include "firmware/boot/boot.hpp"
 #include "hal/chip/semihosting/semihosting.hpp"
 
-/// link_<board> TO_BOARD FROM_BOARD [step]: the traffic of a control tick (two frames out that are
-/// answered, two that aren't, one record) without a robot, to measure what the link alone can do;
-/// with `step`, the controller runs too.
+/// link_<board> TO_BOARD FROM_BOARD [step]: the traffic of a control tick (two frames with reply,
+/// two without, one record) without a robot, to measure the link alone; with `step` the controller
+/// runs too.
 namespace {
 
 using verp::hal::semihosting::File;
 using Remote = verp::app::RemoteBus<File, File>;
 
-constexpr std::size_t kFrameBytes = 200;  // about what 21 servos take
+constexpr std::size_t kFrameBytes = 200;  // about the traffic of 21 servos
 constexpr std::uint32_t kTimeoutUs = 1000;
 
 verp::Params params;

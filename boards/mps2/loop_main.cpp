@@ -5,7 +5,7 @@
 #include "hal/chip/semihosting/semihosting.hpp"
 #include "law.hpp"
 
-/// loop_<board> TO_BOARD FROM_BOARD: the robot's control loop, whose servo bus is on the PC behind
+/// loop_<board> TO_BOARD FROM_BOARD: the robot's control loop; its servo bus is on the PC, behind
 /// two FIFOs.
 namespace {
 

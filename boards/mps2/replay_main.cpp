@@ -6,7 +6,7 @@
 #include "hal/chip/semihosting/semihosting.hpp"
 
 /// replay_<board> JOB RESULT: runs the recorded inputs of file JOB (see replay_job.hpp) and writes
-/// RESULT. Under the instruction counter it is also what measures a tick.
+/// RESULT. The instruction counter measures a tick with it.
 namespace {
 
 using verp::hal::semihosting::File;

@@ -5,8 +5,8 @@
 namespace verp::board {
 inline constexpr const char* kName = "mps2_an386";
 inline constexpr const char* kCore = "Cortex-M4F";
-/// Ticks that a replay moves at once.
+/// Ticks per replay block.
 inline constexpr int kReplayBlock = 256;
-/// No memory is here, for tests of faults: no external memory.
+/// An address without memory, for fault tests: no external memory.
 inline constexpr std::uintptr_t kNowhere = 0x6FFFFFF0;
 }  // namespace verp::board

@@ -5,8 +5,8 @@
 namespace verp::board {
 inline constexpr const char* kName = "mps3_an547";
 inline constexpr const char* kCore = "Cortex-M55";
-/// Ticks that a replay moves at once.
+/// Ticks per replay block.
 inline constexpr int kReplayBlock = 256;
-/// No memory is here, for tests of faults: the end of the code region.
+/// An address without memory, for fault tests: the end of the code region.
 inline constexpr std::uintptr_t kNowhere = 0x1FFFFFF0;
 }  // namespace verp::board

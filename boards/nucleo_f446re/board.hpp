@@ -10,7 +10,7 @@ namespace stm32 = hal::stm32;
 
 inline constexpr const char* kName = "nucleo_f446re";
 inline constexpr const char* kCore = "Cortex-M4F";
-/// Ticks that a replay moves at once.
+/// Ticks per replay block.
 inline constexpr int kReplayBlock = 64;
 
 inline constexpr stm32::Family kFamily = stm32::Family::kF446;
@@ -19,7 +19,7 @@ using UsartKind = stm32::UsartV1;
 inline constexpr stm32::ClockPlan kClockPlan = {
     .crystal_hz = 8'000'000, .external = true, .vco_hz = 336'000'000, .sysclk_hz = 168'000'000};
 static_assert(stm32::is_possible(kClockPlan, kFamily));
-/// A chip without a clock controller is no F446: the timer is refused, and nothing runs.
+/// A chip without a clock controller is no F446: the timer refuses to open, and nothing runs.
 inline constexpr stm32::Clocks kWithoutClockController = {};
 
 /// Arduino pins D8, D2 and D4.
@@ -29,7 +29,7 @@ inline constexpr CanPort kCanPort = kF4CanPort;
 inline constexpr SerialPort kOperatorPort = kF4OperatorPort;
 
 inline constexpr Pin kLed = {'A', 5};
-inline constexpr Pin kServoPower = {};  ///< the board switches none
+inline constexpr Pin kServoPower = {};  ///< not switched on this board
 inline constexpr ImuPort kImu = {};
 inline constexpr stm32::AnalogWiring kBattery = {};
 inline constexpr Pin kEmergencyStop = {};

@@ -12,9 +12,9 @@ namespace stm32 = hal::stm32;
 
 inline constexpr const char* kName = "olimex_h405";
 inline constexpr const char* kCore = "Cortex-M4F";
-/// Ticks that a replay moves at once.
+/// Ticks per replay block.
 inline constexpr int kReplayBlock = 64;
-/// No memory is here, for tests of faults: no external memory.
+/// An address without memory, for fault tests: no external memory.
 inline constexpr std::uintptr_t kNowhere = 0x6FFFFFF0;
 
 inline constexpr stm32::Family kFamily = stm32::Family::kF405;
@@ -30,13 +30,13 @@ inline constexpr stm32::Clocks kWithoutClockController = {.source = stm32::Clock
                                                           .apb2_hz = 84'000'000,
                                                           .apb1_timer_hz = 1'000'000'000};
 
-/// USART1 on port B: PA9 and PA10 are also the USB connector's.
+/// USART1 on port B, because the USB connector also uses PA9 and PA10.
 inline constexpr SerialPort kServoPort = f4_servo_port({'B', 6}, {'B', 7});
 inline constexpr CanPort kCanPort = kF4CanPort;
 inline constexpr SerialPort kOperatorPort = kF4OperatorPort;
 
 inline constexpr Pin kLed = {'C', 12};
-inline constexpr Pin kServoPower = {};  ///< the board switches none
+inline constexpr Pin kServoPower = {};  ///< not switched on this board
 inline constexpr ImuPort kImu = {};
 inline constexpr stm32::AnalogWiring kBattery = {};
 inline constexpr Pin kEmergencyStop = {};

@@ -3,15 +3,15 @@
 
 /// ROBOTIS OpenCR 1.0: STM32F746ZGT6 (Cortex-M7, single precision).
 /// Pins: ROBOTIS-GIT/OpenCR, arduino/opencr_arduino/opencr/variants/OpenCR (variant.cpp,
-/// drv_uart.c, drv_dxl.c, drv_can.c, hw/usb_cdc); alternate functions and DMA streams are those
-/// that its drv_uart.c sets. README.md has the wiring and names the source of each pin.
+/// drv_uart.c, drv_dxl.c, drv_can.c, hw/usb_cdc); alternate functions and DMA streams: its
+/// drv_uart.c. README.md has the wiring and the source of each pin.
 namespace verp::board {
 
 namespace stm32 = hal::stm32;
 
 inline constexpr const char* kName = "opencr";
 inline constexpr const char* kCore = "Cortex-M7";
-/// Ticks that a replay moves at once.
+/// Ticks per replay block.
 inline constexpr int kReplayBlock = 64;
 
 inline constexpr stm32::Family kFamily = stm32::Family::kF746;
@@ -20,10 +20,10 @@ using UsartKind = stm32::UsartV2;
 inline constexpr stm32::ClockPlan kClockPlan = {
     .crystal_hz = 25'000'000, .external = false, .vco_hz = 432'000'000, .sysclk_hz = 216'000'000};
 static_assert(stm32::is_possible(kClockPlan, kFamily));
-/// A chip without a clock controller is no F746: the timer is refused, and nothing runs.
+/// A chip without a clock controller is no F746: the timer refuses to open, and nothing runs.
 inline constexpr stm32::Clocks kWithoutClockController = {};
 
-/// The DYNAMIXEL connectors, TTL and RS-485 alike: one USART, one direction pin.
+/// The DYNAMIXEL connectors, both TTL and RS-485: one USART, one direction pin.
 inline constexpr SerialPort kServoPort = {.wiring = {.base = stm32::base::kUsart3,
                                                      .dma_base = stm32::base::kDma1,
                                                      .dma_stream = 1,
@@ -53,7 +53,7 @@ inline constexpr UsbPort kOperatorPort = {.minus = {'A', 11},
                                           .product = "VERP on OpenCR"};
 
 inline constexpr Pin kLed = {'G', 9};          ///< STATUS
-inline constexpr Pin kServoPower = {'F', 15};  ///< high: the DYNAMIXEL connectors have power
+inline constexpr Pin kServoPower = {'F', 15};  ///< high: powers the DYNAMIXEL connectors
 
 /// MPU-9250, or ICM-20648 on boards from 2020 on.
 inline constexpr ImuPort kImu = {.wiring = {.base = stm32::base::kSpi1,
@@ -65,7 +65,7 @@ inline constexpr ImuPort kImu = {.wiring = {.base = stm32::base::kSpi1,
                                             .select = {'A', 4},
                                             .function = 5},
                                  .on_apb2 = true};
-/// 3.3 V at the converter are 18.81 V at the battery: variant.cpp, getPowerInVoltage().
+/// 3.3 V at the converter mean 18.81 V at the battery: variant.cpp, getPowerInVoltage().
 inline constexpr stm32::AnalogWiring kBattery = {.base = stm32::base::kAdc3,
                                                  .mask = stm32::rcc::kApb2Adc3,
                                                  .pin = {'C', 0},
@@ -75,6 +75,6 @@ inline constexpr stm32::AnalogWiring kBattery = {.base = stm32::base::kAdc3,
 inline constexpr Pin kEmergencyStop = {'B', 10};
 inline constexpr Button kButtons[2] = {{.pin = {'G', 3}, .pressed_high = true},
                                        {.pin = {'C', 12}, .pressed_high = true}};
-inline constexpr Pin kBuzzer = {'F', 14};  ///< no timer reaches it
+inline constexpr Pin kBuzzer = {'F', 14};  ///< no timer channel on it
 
 }  // namespace verp::board

@@ -3,9 +3,9 @@
 
 #include "hal/chip/sja1000/sja1000.hpp"
 
-/// The CAN bus of this board: the SJA1000 of a kvaser_pci card in QEMU's `virt`. Addresses after
-/// QEMU's hw/riscv/virt.c (memory map), hw/net/can/can_kvaser_pci.c (card) and the RISC-V PLIC and
-/// CLINT specifications.
+/// This board's CAN bus: the SJA1000 of a kvaser_pci card in QEMU's `virt`. Addresses: QEMU's
+/// hw/riscv/virt.c (memory map), hw/net/can/can_kvaser_pci.c (card), and the RISC-V PLIC and CLINT
+/// specifications.
 namespace verp::board {
 
 class KvaserIo {
@@ -15,8 +15,8 @@ class KvaserIo {
     at<std::uint8_t>(kChip + offset) = value;
   }
 
-  /// The core's own view of the timer, whose registers would stop QEMU's other threads at each
-  /// look; asked at least every seven minutes.
+  /// Reads the core's view of the timer; reading the timer's registers would stop QEMU's other
+  /// threads. Call at least every seven minutes.
   std::uint64_t now_us() {
     std::uint32_t low;
     __asm__ volatile(".option push\n .option arch, +zicsr\n csrr %0, time\n .option pop"
@@ -26,19 +26,19 @@ class KvaserIo {
     return time_ / kTicksPerUs;
   }
 
-  // Interrupts only ever end a sleep: machine mode never takes one.
+  // Interrupts only end a sleep: machine mode never takes one.
   bool mask_interrupts() { return false; }
   void unmask_interrupts() {}
   void doze_until(std::uint64_t us) {
     set_alarm(us * kTicksPerUs);
     __asm__ volatile("wfi" ::: "memory");
-    // The chip is asked next, so its line falls and may rise again for the next frame.
+    // The caller serves the chip next, so its line falls and can rise for the next frame.
     if (const std::uint32_t source = at<std::uint32_t>(kPlicClaim); source != 0) {
       at<std::uint32_t>(kPlicClaim) = source;
     }
   }
 
-  /// Finds the card and lets its interrupt through. False: there is none (-device kvaser_pci).
+  /// Finds the card and enables its interrupt. False: no card (-device kvaser_pci).
   static bool plug_in() {
     for (std::uint32_t slot = 0; slot < 32; ++slot) {
       const std::uint32_t config = kConfigSpace + (slot << 15);
@@ -46,21 +46,21 @@ class KvaserIo {
       at<std::uint32_t>(config + 0x10) = kBridgePort;
       at<std::uint32_t>(config + 0x14) = kChipPort;
       at<std::uint32_t>(config + 0x18) = kChipPort + 0x100;
-      at<std::uint16_t>(config + 0x04) = 1;  // answers to I/O addresses
+      at<std::uint16_t>(config + 0x04) = 1;  // enables I/O addresses
       at<std::uint32_t>(kPorts + kBridgePort + kBridgeInterrupts) = kBridgeLetsThrough;
-      let_through(kFirstPciInterrupt + slot % 4);  // pin A, swizzled by the slot
+      let_through(kFirstPciInterrupt + slot % 4);  // pin A, swizzled by slot
       return true;
     }
     return false;
   }
 
  private:
-  /// An alarm that is early stays: the sleeper looks at the clock and sleeps on. Most sleeps end
-  /// with a frame, and setting it each time would cost QEMU more than they last.
+  /// An early alarm stays: the sleeper checks the clock and sleeps on. Most sleeps end with a
+  /// frame; setting the alarm each time would cost QEMU more than the sleep.
   void set_alarm(std::uint64_t when) {
     if (time_ < alarm_ && alarm_ <= when) return;
     alarm_ = when;
-    at<std::uint32_t>(kTimeCompare + 4) = 0xFFFFFFFFu;  // so that no half of it can be in the past
+    at<std::uint32_t>(kTimeCompare + 4) = 0xFFFFFFFFu;  // keeps half-written values in the future
     at<std::uint32_t>(kTimeCompare) = static_cast<std::uint32_t>(when);
     at<std::uint32_t>(kTimeCompare + 4) = static_cast<std::uint32_t>(when >> 32);
   }
@@ -75,7 +75,7 @@ class KvaserIo {
   static constexpr std::uint32_t kTicksPerUs = 10;
   static constexpr std::uint32_t kPlic = 0x0C000000, kPlicClaim = kPlic + 0x200004;
   static constexpr std::uint32_t kFirstPciInterrupt = 32;
-  static constexpr std::uint32_t kTimerAndExternal = 1u << 7 | 1u << 11;  ///< of mie
+  static constexpr std::uint32_t kTimerAndExternal = 1u << 7 | 1u << 11;  ///< bits of mie
 
   template <class Word>
   static volatile Word& at(std::uint32_t address) {
@@ -89,7 +89,7 @@ class KvaserIo {
         kTimerAndExternal));
   }
 
-  std::uint64_t time_ = 0;   ///< as last seen
+  std::uint64_t time_ = 0;   ///< last value read
   std::uint64_t alarm_ = 0;  ///< the timer's compare value
 };
 

@@ -2,8 +2,8 @@
 #include "firmware/boot/boot.hpp"
 #include "firmware/boot/crash.hpp"
 
-/// How an image on silicon ends: by a reset. After a fault the record of it is kept; the next start
-/// begins with torque off, as every start does.
+/// Ends an image on silicon by a reset. A fault keeps its crash record. The next start begins with
+/// torque off, as always.
 namespace {
 
 [[noreturn]] void reset() {

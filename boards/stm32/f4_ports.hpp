@@ -1,10 +1,10 @@
 #pragma once
 #include "boards/stm32/wiring.hpp"
 
-/// What boards with an F405 or F446 in a package of 64 pins have in common.
+/// Ports common to boards with an F405 or F446 in a 64-pin package.
 namespace verp::board {
 
-/// USART1, to the servos; the direction pin is PB5.
+/// USART1 to the servos; the direction pin is PB5.
 constexpr SerialPort f4_servo_port(Pin transmit, Pin receive) {
   return {.wiring = {.base = hal::stm32::base::kUsart1,
                      .dma_base = hal::stm32::base::kDma2,
@@ -20,7 +20,7 @@ constexpr SerialPort f4_servo_port(Pin transmit, Pin receive) {
           .interrupt = hal::stm32::irq::kUsart1,
           .dma_interrupt = hal::stm32::irq::dma2(2)};
 }
-/// CAN1 on PB8 and PB9, which go to a CAN transceiver.
+/// CAN1 on PB8 and PB9, to a CAN transceiver.
 inline constexpr CanPort kF4CanPort = {.base = hal::stm32::base::kCan1,
                                        .filters = {},
                                        .clocks = hal::stm32::rcc::kApb1Can1,

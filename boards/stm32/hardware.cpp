@@ -13,8 +13,8 @@ stm32::Buzzer<Io> buzzer(kBuzzer);
 
 namespace {
 
-// Servos' replies may not wait for the operator. Handlers of one port share a priority: they must
-// not interrupt each other.
+// Servo replies must not wait for the operator. Handlers of one port share a priority, so that they
+// cannot interrupt each other.
 constexpr std::uint8_t kRobotPriority = 4;
 constexpr std::uint8_t kOperatorPriority = 8;
 constexpr std::uint8_t kTimerPriority = 12;

@@ -9,8 +9,7 @@
 #include "hal/chip/stm32/watchdog.hpp"
 #include "robot_port.hpp"
 
-/// The chip of the board that is being built: its drivers, and how they come up. Static, because
-/// interrupts find them here.
+/// The board's chip: its drivers and their start-up. Static, so that interrupts find them.
 namespace verp::board {
 
 using Io = stm32::MemoryIo;
@@ -33,14 +32,15 @@ extern stm32::Buzzer<Io> buzzer;
 struct Start {
   stm32::Clocks clocks;
   stm32::ResetCause cause = stm32::ResetCause::kUnknown;
-  bool good = false;  ///< false: the timer does not count; nothing can be done in time
+  bool good = false;  ///< false: the timer does not count, so nothing can be timed
 };
 
-/// Clocks, pins, timer and interrupts; the ports are opened at their baud rates later. Once.
+/// Call once: starts clocks, pins, timer and interrupts. Ports are opened later at their baud
+/// rates.
 Start start_hardware();
-/// False if this rate can't be had. Waits for milliseconds at most.
+/// False if the rate is not possible. Waits milliseconds at most.
 bool open_robot_port(const Start& start, std::uint32_t baud);
-/// False if it can't be clocked, or does not answer. USB takes 25 ms.
+/// False if it cannot be clocked or does not answer. USB takes 25 ms.
 bool open_operator_port(const Start& start);
 
 }  // namespace verp::board

@@ -6,9 +6,9 @@
 #include "firmware/store/shared_page.hpp"
 #include "hal/chip/stm32/flash_pages.hpp"
 
-/// What the board keeps in its own flash, in the sectors that every memory.ld here leaves free: the
-/// robot at the beginning of one, whose second half is for its actions, and a log of settings in
-/// two others, of which the one without a log is where a new robot or new actions wait.
+/// What the board keeps in its own flash, in the sectors that every memory.ld leaves free. One
+/// holds the robot, with its actions in the second half. Two hold a log of settings; a new robot or
+/// new actions wait in the one without a log.
 namespace verp::board {
 
 class Kept {
@@ -20,13 +20,13 @@ class Kept {
   using Room = store::WaitingRoom<Pages, Pages, Log>;
 
  public:
-  /// At the start, before robot and actions are looked at: ends what a loss of power interrupted.
+  /// Call at start, before using robot or actions: finishes what a power loss interrupted.
   static void finish(Dog& dog) {
     Pages robot = robot_pages(dog), log = log_pages(dog);
     store::finish_waiting(robot, log, [&dog] { dog.feed(); });
   }
 
-  /// `actions`: behind the robot in its sector, so many bytes.
+  /// `actions` follow the robot in its sector and have `actions_bytes`.
   Kept(Dog& dog, const ParamsImage& robot, const std::uint8_t* actions, std::size_t actions_bytes)
       : dog_(dog),
         log_pages_(log_pages(dog)),
@@ -41,15 +41,15 @@ class Kept {
   bool has_news() const {
     return images.accepted_robot() != nullptr || images.accepted_actions() > 0;
   }
-  /// Writes what the operator sent over what is in force, which must not be used from then on:
-  /// reset next. Power that goes meanwhile leaves the old or the new. A flash that does not take it
-  /// is found out by the boot check, and by the check of the actions.
+  /// Writes the operator's new images over the active ones, which must not be used afterwards:
+  /// reset next. A power loss leaves the old or the new ones. The boot check and the check of the
+  /// actions detect a flash failure.
   void write_news() {
     room_.replace(reinterpret_cast<const std::uint8_t*>(images.accepted_robot()),
                   sizeof(ParamsImage), images.accepted_actions(), images.actions_bytes(),
                   [this] { dog_.feed(); });
   }
-  /// Whenever there is time.
+  /// Call regularly.
   void keep(const app::Settings& now, bool may_erase) {
     settings.keep(now, may_erase);
     room_.work(may_erase);
@@ -72,7 +72,7 @@ class Kept {
 
  public:
   using Images = app::RobotImages<Room>;
-  Images images;  ///< of the operator's window
+  Images images;  ///< for the operator's window
 };
 
 }  // namespace verp::board

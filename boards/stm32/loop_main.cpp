@@ -22,14 +22,13 @@
 #include "firmware/boot/crash.hpp"
 #include "law.hpp"
 
-/// loop_<board>: the robot's control loop over the board's ports; loop_can_<board>: the same for a
-/// robot on CAN (robot_port.hpp of serial/ and can/). At the robot's port may be servos, or a twin
-/// that says so when it is greeted (firmware/app/lockstep_messages.hpp and its like): the image
-/// asks for the one and for the other in turn until somebody is there. Torque is off until then. At
-/// the operator's port the controller is a Dynamixel device, from the start on and whatever the
-/// boot check found.
+/// loop_<board>: the robot's control loop over the board's ports; loop_can_<board>: the same on CAN
+/// (robot_port.hpp of serial/ and can/). The far end of the robot's port may be servos, or a twin
+/// that answers the greeting (firmware/app/lockstep_messages.hpp and its CAN counterpart); the
+/// image tries both in turn. Torque is off until one answers. At the operator's port the controller
+/// is a Dynamixel device from the start, whatever the boot check found.
 extern "C" const std::uint8_t verp_params_begin[];
-extern "C" const std::uint8_t verp_params_bytes[];  ///< an address that is a size (memory.ld)
+extern "C" const std::uint8_t verp_params_bytes[];  ///< its address is the size (memory.ld)
 extern "C" const std::uint8_t verp_actions_begin[];
 extern "C" const std::uint8_t verp_actions_bytes[];
 
@@ -38,17 +37,17 @@ namespace {
 
 constexpr std::uint64_t kGreeting_us = 300'000;
 constexpr std::uint64_t kForever_us = ~std::uint64_t{0};
-/// A twin that has begun no new tick for so long holds no torque against the operator any more.
+/// After this long without a new tick the twin's torque no longer blocks the operator.
 constexpr std::uint64_t kTwinSilent_us = 5'000'000;
-/// Of a loop that ticks every 5 to 20 ms. Shorter would bite a loop that a lost reply held up.
+/// For ticks of 5 to 20 ms. A shorter timeout would fire when a lost reply delays the loop.
 constexpr std::uint32_t kWatchdog_us = 100'000;
 
-/// A run of so many ticks has shown that it does not crash at once again.
+/// After this many ticks a run counts as healthy.
 constexpr std::uint32_t kSettledTicks = 1000;
-/// What is left of a period when a real-time loop stops serving the operator: SysTick's
-/// millisecond, should the compare interrupt be late, and a slice of the operator's bytes.
+/// A real-time loop stops serving the operator this long before the period ends: one SysTick
+/// millisecond, if the compare interrupt is late, and a slice of the operator's bytes.
 constexpr std::uint64_t kServingEnds_us = 2'000;
-/// The longest reply and the one to Reboot at 1 Mbaud take half of it.
+/// The longest reply plus the one to Reboot take half of it at 1 Mbaud.
 constexpr std::uint64_t kLastWords_us = 40'000;
 
 using app::table::StartFault;
@@ -79,8 +78,8 @@ struct Board {
     return setup;
   }
 
-  /// What can be done whenever nothing arrives. Waiting for a twin is life; a dead loop does not
-  /// wait.
+  /// What runs whenever nothing arrives. It feeds the watchdog while waiting for a twin; a dead
+  /// loop never gets here.
   void idle() {
     dog.feed();
     serve();
@@ -95,29 +94,29 @@ struct Board {
     if (sign.changed) gpio.write(kLed, sign.lit);
     say(sign.tone);
   }
-  /// From now on nothing ticks: no loop, so no torque. All that is left is to tell a person why.
+  /// Stops all ticks and torque for good and keeps reporting the reason.
   [[noreturn]] void refuse(StartFault why) {
     fault = why;
     operator_device.show(why);
     for (;;) idle();
   }
 
-  /// The operator's link. True if there was anything to do.
+  /// Serves the operator's link. True if there was anything to do.
   bool serve() {
     if (fault == StartFault::kOperatorPort) return false;
     const bool wanted = operator_device.reboot_asked() || kept.has_news();
     if (wanted && !operator_device.armed()) start_anew();
     return operator_device.poll();
   }
-  /// Both are asked for with torque off only; should it be on by now, they wait until it is off
-  /// again. Nothing ticks from here on.
+  /// Restarts for a reboot or new images. The caller has checked that torque is off. Nothing ticks
+  /// afterwards.
   [[noreturn]] void start_anew() {
     const std::uint64_t end_us = timer.now_us() + kLastWords_us;
     while (timer.now_us() < end_us) operator_device.poll();
     if (kept.has_news()) kept.write_news();
     verp_exit(0);
   }
-  /// Serves the operator, and else sleeps: an interrupt or SysTick wakes.
+  /// Serves the operator, otherwise sleeps until an interrupt or SysTick.
   void serve_until(std::uint64_t end_us) {
     while (timer.now_us() < end_us) {
       if (!serve()) timer.doze_until(end_us, [] { return false; });
@@ -162,21 +161,20 @@ struct Board {
   OwnImu<kImu.exists(), decltype(Kept::log)> imu;
   PanelPins<Io> pins{kEmergencyStop, kButtons};
   ServoPower<Io> supply{kServoPower, kEmergencyStop};
-  Ticks ticks_kept{kept.images};  ///< beside what is kept in flash
+  Ticks ticks_kept{kept.images};  ///< beside the images in flash
   Operator operator_device;
   Node node;
   app::WithPanel<Operator, PanelPins<Io>> panel{operator_device, pins, kEmergencyStop.exists()};
-  const action::KeptLibrary actions;  ///< of this robot, in flash
+  const action::KeptLibrary actions;  ///< the robot's actions in flash
   app::Signals signals;
   app::LifeSign life;
   std::uint32_t ticks = 0;      ///< since the start, of all loops
-  std::uint64_t ticked_us = 0;  ///< when the last one was over
+  std::uint64_t ticked_us = 0;  ///< when the last tick ended
   std::uint32_t skipped_periods = 0;
   StartFault fault = StartFault::kNone;
 };
 
-/// What is done while the robot's port is waited for during bring-up, when no tick can feed the
-/// watchdog.
+/// Runs while bring-up waits for the robot's port, when no tick feeds the watchdog.
 struct UntilTicks {
   void operator()() const {
     if (ticking) return;
@@ -200,10 +198,10 @@ struct Patience {
   const std::uint64_t& until_us;
 };
 
-/// Serves a twin for as long as it is there, or says why there is none. The board's own IMU and
-/// stop know nothing of the twin's world, so they do not count; nor does the torque limit, as the
-/// twin compares each frame with its own. One that falls silent is waited for without end, as it
-/// may be paused, and goes on with the same bits; all that while its operator can start it anew.
+/// Serves a twin while it is there, or returns why there is none. The board's own IMU and stop do
+/// not know the twin's world and are ignored. So is the torque limit, because the twin compares
+/// each frame with its own. A silent twin may be paused: the loop waits for ever, then goes on with
+/// the same bits. Meanwhile the operator can restart the board.
 lockstep::Verdict run_in_lockstep(Board& board, const Params& params) {
   std::uint64_t until_us = timer.now_us() + kGreeting_us;
   LockstepOn<Node::LoopPort, Patience> bus(board.node.port(), {board, until_us});
@@ -223,9 +221,8 @@ lockstep::Verdict run_in_lockstep(Board& board, const Params& params) {
   return verdict;
 }
 
-/// Drives servos until the power goes. Returns if they are not all there, or after an emergency
-/// stop that took their power. `held_us`: how long what is between them and this port may hold
-/// bytes back.
+/// Drives servos until power-off. Returns if some are missing, or after an emergency stop cut their
+/// power. `held_us`: how long devices between port and servos may delay bytes.
 void run_in_real_time(Board& board, Servos& servos, const Params& params, std::uint32_t held_us) {
   bool ticking = false;
   RealTimeOn<Node::LoopPort, Timer, UntilTicks> way(board.node.port(), timer, {board, ticking},
@@ -259,7 +256,8 @@ void run_in_real_time(Board& board, Servos& servos, const Params& params, std::u
   }
 }
 
-/// Before the watchdog runs, and with a handle of its own to it: the board is not there yet.
+/// Runs before the watchdog starts, with its own handle to it, because the board does not exist
+/// yet.
 [[gnu::noinline]] void finish_kept(const Start& start) {
   stm32::IndependentWatchdog<Io> dog(start.cause);
   Kept::finish(dog);
@@ -271,8 +269,8 @@ StartFault judge(bool has_desk, control::BootVerdict verdict, const Params& para
   return params.bus_protocol == kProtocol ? StartFault::kNone : StartFault::kProtocol;
 }
 
-/// Its State is on the stack, which is free as long as no loop runs: as a variable it would take
-/// RAM for ever.
+/// Keeps its State on the stack, which is free before a loop runs; a variable would take RAM
+/// permanently.
 [[gnu::noinline]] control::BootReport check_boot(std::size_t size, Params& scratch) {
   State state;
   return control::check_boot(verp_params_begin, size, scratch, state);
@@ -287,17 +285,17 @@ extern "C" int verp_main() {
   hal::stm32::Gpio<board::Io> gpio;
   gpio.output(board::kServoPower, false);
   gpio.input(board::kEmergencyStop,
-             hal::stm32::gpio::kPullUp);  // by the time it counts, it is charged
+             hal::stm32::gpio::kPullUp);  // charged before its first use
   gpio.output(board::kLed, false);
   if (!start.good) board::refuse_without_time(start);
   const bool has_desk = board::open_operator_port(start);
   board::finish_kept(start);
   const auto size = reinterpret_cast<std::uintptr_t>(verp_params_bytes);
-  // Made here and not in front of main: as a variable its 4 KB of defaults would lie in flash.
+  // Constructed here: an initialised variable would put its 4 KB of defaults into flash.
   alignas(Params) static std::byte room[sizeof(Params)];
   Params& scratch = *new (room) Params;
   const control::BootReport boot_check = board::check_boot(size, scratch);
-  scratch = {};  // the robot of a board that was given none
+  scratch = {};  // the default robot of a board without one
   const bool has_robot = check_image(verp_params_begin, size) == ImageFault::kNone;
   const Params& params =
       has_robot ? reinterpret_cast<const ParamsImage*>(verp_params_begin)->params : scratch;
@@ -307,10 +305,10 @@ extern "C" int verp_main() {
   here.say(app::Signals::at_start(fault == board::StartFault::kNone));
   if (fault != board::StartFault::kNone) here.refuse(fault);
   for (;;) {
-    here.supply.set(true);  // unless a stop took it
+    here.supply.set(true);  // unless a stop cut the power
     const lockstep::Verdict twin = board::run_in_lockstep(here, params);
     if (twin == lockstep::Verdict::kAccepted) continue;
-    // A twin that keeps its own time answers through a PC, and perhaps a USB adapter.
+    // A twin in real time answers through a PC and perhaps a USB adapter.
     const bool through_pc = twin == lockstep::Verdict::kNoLockstep;
     board::run_in_real_time(here, servos, params, through_pc ? params.period_us / 4 : 0);
   }

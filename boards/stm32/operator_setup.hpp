@@ -4,7 +4,7 @@
 #include "firmware/app/operator_registers.hpp"
 #include "firmware/boot/crash.hpp"
 
-/// How this start went, in the words of the operator's registers.
+/// The result of this start for the operator's registers.
 namespace verp::board {
 
 /// Takes the crash record; call once.
@@ -13,7 +13,7 @@ inline app::OperatorSetup operator_setup(const Start& start,
   using dxl::controller::ClockSource;
   using dxl::controller::ResetCause;
   using dxl::controller::SelfTest;
-  // Registers count as the boot check and the chip do; the check and the clock from 1 on.
+  // Register values equal those of boot check and chip; self-test and clock are one higher.
   static_assert(static_cast<int>(SelfTest::kControl) ==
                 static_cast<int>(control::BootVerdict::kControl) + 1);
   static_assert(static_cast<int>(ClockSource::kAbsent) ==

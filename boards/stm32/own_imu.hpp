@@ -7,13 +7,13 @@
 #include "hal/chip/invensense/ranges.hpp"
 #include "hal/chip/stm32/spi_master.hpp"
 
-/// The IMU on the board itself, if board.hpp names one and it has the scales of the robot's Params.
+/// The board's own IMU, if board.hpp names one whose scales match the robot's Params.
 namespace verp::board {
 
 using app::table::ImuCalibrationOrder;
 using app::table::ImuCalibrationState;
 
-/// Of a board without one. `Log` is the board's Store.
+/// For a board without one. `Log` is the board's Store.
 template <bool kOnBoard, class Log>
 class OwnImu {
  public:
@@ -48,7 +48,7 @@ class OwnImu<true, Log> {
     spi_.open(kImu.on_apb2 ? start.clocks.apb2_hz : start.clocks.apb1_hz);
     chip_.load();
   }
-  /// Before the kept settings are loaded: what the operator may choose from.
+  /// Call before loading the settings: sets which IMU sources the operator may choose.
   void offer(app::OperatorSetup& setup) const {
     using app::table::ImuSource;
     if (!fits_) return;
@@ -57,7 +57,7 @@ class OwnImu<true, Log> {
     setup.imu_sources = 1 << static_cast<int>(ImuSource::kChip);
     setup.imu_source = ImuSource::kChip;
   }
-  /// What the operator ordered; and, whenever there is time, keeps what was measured.
+  /// Call regularly: executes the operator's calibration order and stores the result.
   void serve(ImuCalibrationOrder order, bool armed) {
     if (armed) chip_.abandon();
     if (order == ImuCalibrationOrder::kMeasure) chip_.measure(timer.now_us());

@@ -8,10 +8,10 @@
 #include "hal/chip/stm32/usart.hpp"
 #include "hal/chip/usb/cdc_acm.hpp"
 
-/// The two kinds of port that a board.hpp may name, each brought up by the same three words.
+/// The two kinds of port that a board.hpp may name, with one interface: make, connect, open.
 namespace verp::board {
 
-/// What belongs to a kind of port, which is that of its wiring.
+/// The driver of a kind of port, chosen by its wiring type.
 template <class Wiring, class Io, class UsartKind, class Timer>
 struct PortKind;
 
@@ -44,7 +44,7 @@ template <class Io, class UsartKind, class Timer>
 struct PortKind<UsbPort, Io, UsartKind, Timer> {
   using Port = hal::stm32::OtgFs<Io, hal::usb::CdcAcm, Timer>;
 
-  /// Once. The chip's own number tells two boards at one PC apart.
+  /// Call once. The chip's unique number distinguishes two boards on one PC.
   static Port make(const UsbPort& port, hal::stm32::Family family, Timer& timer) {
     std::uint8_t number[hal::usb::kSerialBytes];
     Io io;

@@ -6,16 +6,15 @@
 
 namespace verp::board {
 
-/// The switch of the servos' power, high is on, and the emergency stop beside it, which joins its
-/// pin to ground while all is well: while that circuit is open, nothing switches the power on, and
-/// what a stop took or kept away comes back only by permit(), whether or not a loop ticks. Either
-/// pin may not exist.
+/// The servo power switch (high is on) and the emergency stop, which normally connects its pin to
+/// ground. While that circuit is open, power stays off. Power that a stop cut or prevented returns
+/// only after permit(), whether or not a loop ticks. Either pin may be missing.
 template <hal::stm32::Io Access>
 class ServoPower {
  public:
   ServoPower(Pin power, Pin stop, Access io = {}) : gpio_(io), power_(power), stop_(stop) {}
 
-  /// Off, as after every reset.
+  /// Starts with power off, as after every reset.
   void open() {
     gpio_.input(stop_, hal::stm32::gpio::kPullUp);
     gpio_.output(power_, false);
@@ -26,23 +25,23 @@ class ServoPower {
     on_ = on && !taken_;
     gpio_.output(power_, on_);
   }
-  /// While no tick reads the stop: an open circuit takes the power at once.
+  /// Call while no tick reads the stop: an open circuit cuts the power at once.
   void watch() {
     if (on_ && gpio_.read(stop_)) take();
   }
-  /// After each tick of a loop that drives servos: kAnew asks for a new bring-up.
+  /// Call after each tick of a loop that drives servos: kAnew asks for a new bring-up.
   app::DrivePower::Step after_tick(app::DrivePower& drive, bool pressed, safety::Mode mode) {
     const auto step = drive.after_tick(pressed || taken(), mode);
     if (step == app::DrivePower::Step::kOff && on_) take();
     return exists() ? step : app::DrivePower::Step::kOn;
   }
-  /// As often as there is time. `relax_asked`: since the last call the operator wrote `request` 0.
-  /// What he wrote while the circuit was open permits nothing.
+  /// Call regularly. `relax_asked`: the operator wrote `request` 0 since the last call. A request
+  /// while the circuit is open is ignored.
   void permit(bool relax_asked) {
     if (relax_asked && !gpio_.read(stop_)) taken_ = false;
     if (!on_ && gpio_.read(stop_)) taken_ = true;
   }
-  /// By a stop, and permit() has not given it back.
+  /// A stop cut the power, and permit() has not allowed it again.
   bool taken() const { return exists() && taken_; }
   dxl::controller::ServoPower state() const {
     using State = dxl::controller::ServoPower;

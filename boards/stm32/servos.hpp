@@ -6,9 +6,9 @@
 
 namespace verp::board {
 
-/// The robot's port before there is a loop, and the switch of the servos' power.
+/// The robot's port before there is a loop, and the servo power switch.
 struct Servos {
-  /// Without a robot nobody knows their baud rate.
+  /// Without a robot the baud rate is unknown.
   bool open() { return has_robot && open_robot_port(start, baud); }
   void power(bool on) { supply.set(on); }
   void release() { RobotSide::release(robot_port); }

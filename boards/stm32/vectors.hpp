@@ -5,8 +5,8 @@ extern "C" void verp_fault_entry();
 
 namespace verp::board {
 
-/// What stands behind the core's 16 vectors. An interrupt nobody asked for is a fault.
-inline constexpr unsigned kInterrupts = 98;  ///< of the F746 (RM0385 10.1.2); the F4 have fewer
+/// The vectors behind the core's 16. An unused interrupt is a fault.
+inline constexpr unsigned kInterrupts = 98;  ///< F746 (RM0385 10.1.2); F4 chips have fewer
 using Handler = void (*)();
 struct InterruptTable {
   Handler handler[kInterrupts];

@@ -8,18 +8,18 @@
 #include "hal/chip/stm32/spi_master.hpp"
 #include "hal/chip/stm32/usart.hpp"
 
-/// The words in which a board.hpp says how its STM32 is connected.
+/// The types in which a board.hpp describes its STM32's wiring.
 namespace verp::board {
 
 using hal::stm32::Pin;
 
-/// A peripheral's clock: the register of the clock controller that has its bit.
+/// A peripheral's clock: its RCC register and bit.
 struct ClockGate {
   std::uint32_t enable_register = 0;
   std::uint32_t mask = 0;
 };
 
-/// A serial port: pins, and which interrupts and DMA stream the chip has for it.
+/// A serial port: pins, interrupts and DMA stream.
 struct SerialPort {
   hal::stm32::UsartWiring wiring;
   Pin transmit;
@@ -27,35 +27,35 @@ struct SerialPort {
   std::uint32_t function = 0;  ///< alternate function of both pins
   ClockGate gate;
   ClockGate dma_gate;
-  bool on_apb2 = false;  ///< else on APB1
+  bool on_apb2 = false;  ///< otherwise on APB1
   unsigned interrupt = 0;
   unsigned dma_interrupt = 0;
-  std::uint32_t baud = 0;  ///< of the operator's port; the servos' is the robot's
+  std::uint32_t baud = 0;  ///< operator's port only; the robot sets the servos'
 };
 
-/// A bxCAN, on APB1. Its pins go to a CAN transceiver.
+/// A bxCAN on APB1. Its pins go to a CAN transceiver.
 struct CanPort {
   std::uint32_t base = 0;
   hal::stm32::CanFilterBanks filters;
-  std::uint32_t clocks = 0;  ///< mask in APB1ENR, with that of who keeps its filters
+  std::uint32_t clocks = 0;  ///< mask in APB1ENR, with that of the filters\' bxCAN
   Pin transmit;
   Pin receive;
   std::uint32_t function = 0;    ///< alternate function of both pins
-  unsigned first_interrupt = 0;  ///< transmission; reception of either FIFO and errors follow
+  unsigned first_interrupt = 0;  ///< transmission; both FIFOs and errors follow
 };
 
-/// USB full speed, a serial port to the PC it is plugged into.
+/// USB full speed: a serial port for the PC.
 struct UsbPort {
   Pin minus;
   Pin plus;
   std::uint32_t function = 0;  ///< alternate function of both pins
-  bool senses_vbus = false;    ///< PA9 is wired to the connector's VBUS
-  const char* product = "";    ///< what the PC shows; ASCII, 24 characters at most
+  bool senses_vbus = false;    ///< PA9 is wired to VBUS
+  const char* product = "";    ///< name on the PC; ASCII, at most 24 characters
   static constexpr unsigned interrupt = hal::stm32::irq::kOtgFs;
-  static constexpr unsigned dma_interrupt = interrupt;  ///< it has no other
+  static constexpr unsigned dma_interrupt = interrupt;  ///< no other
 };
 
-/// A motion sensor of hal/chip/invensense on the board; {}: there is none.
+/// A motion sensor of hal/chip/invensense on the board; {}: none.
 struct ImuPort {
   hal::stm32::SpiWiring wiring;
   bool on_apb2 = false;

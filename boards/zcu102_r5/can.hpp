@@ -3,8 +3,8 @@
 
 #include "hal/chip/zynqmp_can/zynqmp_can.hpp"
 
-/// The CAN bus of this board: CAN 0 of the Zynq UltraScale+ as QEMU's xlnx-zcu102 emulates it,
-/// polled, as QEMU has no interrupt controller for its R5s. Addresses: UG1085, table 10-3.
+/// This board's CAN bus: CAN 0 of the Zynq UltraScale+ in QEMU's xlnx-zcu102. Polled, because QEMU
+/// has no interrupt controller for its R5s. Addresses: UG1085, table 10-3.
 namespace verp::board {
 
 class Can0Io {
@@ -19,8 +19,8 @@ class Can0Io {
   std::uint32_t read32(std::uint32_t offset) { return at(offset); }
   void write32(std::uint32_t offset, std::uint32_t value) { at(offset) = value; }
 
-  /// The core's cycle counter; asked at least every four minutes. Each look at it costs QEMU
-  /// several system calls, so an answer stands for some questions: a few frames' time.
+  /// The core's cycle counter; call at least every four minutes. A read costs QEMU several system
+  /// calls, so one value serves kStands calls, a few frames' time.
   std::uint64_t now_us() {
     if (asked_++ % kStands != 0) return (high_ + last_) * 64 / kCyclesPerUs;
     std::uint32_t count;
@@ -29,8 +29,8 @@ class Can0Io {
     last_ = count;
     return (high_ + count) * 64 / kCyclesPerUs;
   }
-  /// Nothing wakes this core. It counts for some microseconds instead of asking the controller and
-  /// the clock again at once, which would stop QEMU's other threads.
+  /// Nothing wakes this core. It counts for some microseconds, because polling controller and clock
+  /// at once would stop QEMU's other threads.
   void doze_until(std::uint64_t) {
     for (int i = 0; i < kPause; ++i) __asm__ volatile("");
     asked_ = 0;
@@ -40,7 +40,7 @@ class Can0Io {
   static constexpr std::uint32_t kCan0 = 0xFF060000;
   static constexpr int kPause = 1500;
   static constexpr unsigned kStands = 16;
-  static constexpr std::uint32_t kCyclesPerUs = 1000;  ///< QEMU's, whose cores all count at 1 GHz
+  static constexpr std::uint32_t kCyclesPerUs = 1000;  ///< QEMU counts at 1 GHz for every core
   static volatile std::uint32_t& at(std::uint32_t offset) {
     return *reinterpret_cast<volatile std::uint32_t*>(kCan0 + offset);
   }
@@ -52,7 +52,7 @@ class Can0Io {
 using Can = hal::zynqmp_can::ZynqmpCan<Can0Io, hal::zynqmp_can::Layout::kQemu>;
 
 inline constexpr std::uint32_t kCanBitRate_hz = 1'000'000;
-/// QEMU's reference clock (hw/arm/xlnx-zynqmp.c); it has no bit timing.
+/// QEMU's reference clock (hw/arm/xlnx-zynqmp.c); it models no bit timing.
 inline constexpr CanTiming kCanTiming = Can::timing(24'000'000, kCanBitRate_hz);
 static_assert(kCanTiming.possible());
 

@@ -10,7 +10,8 @@
 #include "firmware/app/lockstep_bus.hpp"
 #include "firmware/app/operator_registers.hpp"
 
-/// The way to a robot on a serial bus: the board's servo port. boards/stm32/can has the other way.
+/// The port to a robot on a serial bus: the board's servo port. boards/stm32/can has the
+/// alternative.
 namespace verp::board {
 
 inline constexpr BusProtocol kProtocol = BusProtocol::kDynamixel2;
@@ -27,7 +28,7 @@ struct RobotWiring {
   static bool open(Port& port, const hal::stm32::Clocks& clocks, std::uint32_t baud) {
     return Side::open(port, kServoPort, clocks, baud);
   }
-  /// All of them, whoever they are: nobody replies, so three times.
+  /// Sends torque off to all servos, three times, since there is no reply.
   static void release(Port& port) {
     constexpr std::uint8_t kOff = 0;
     std::uint8_t frame[32];
@@ -37,7 +38,7 @@ struct RobotWiring {
   }
 };
 
-/// Here nobody is told of ticks but at the operator's port.
+/// On a serial bus ticks are published only at the operator's port.
 template <class Port, class Store>
 class RobotNode {
  public:
@@ -50,12 +51,11 @@ class RobotNode {
   Port& port_;
 };
 
-/// At the other end is a twin that says so.
+/// The far end is a twin in lockstep.
 template <class Port, class Idle>
 using LockstepOn = app::LockstepBus<Port, Idle>;
 
-/// At the other end are servos. `Watch`: called whenever the port is asked and no tick is to come
-/// soon.
+/// The far end is real servos. `Watch` is called whenever the port is read and no tick is due soon.
 template <class Port, class Timer, class Watch>
 class RealTimeOn {
   struct Patient {
