@@ -1,4 +1,5 @@
-// The C# interface: its bits, and what it says to misuse. The host never crashes, and nothing is lost of a controller's exception.
+// The C# interface: its bits and its errors on misuse. The host never crashes, and a controller's
+// exception arrives complete.
 using System;
 using System.IO;
 using System.Threading;
@@ -32,7 +33,7 @@ static class CsharpTest {
     ref verp_tick seen = ref session.Seen();
     double seen_m = seen.truth.body_m[2];
     session.Dispose();
-    session.Dispose();  // twice is as good as once
+    session.Dispose();  // a second call does no harm
     Says("verp_session_tick: this session was closed", () => session.Tick());
     Says("verp_session_digest: this session was closed", () => session.Digest());
     That(seen.truth.body_m[2] == seen_m, "what was seen lives on");
@@ -61,7 +62,7 @@ static class CsharpTest {
     }
     new WeakReference(Walking());
     GC.Collect();
-    GC.WaitForPendingFinalizers();  // close one that nobody has
+    GC.WaitForPendingFinalizers();  // close one that has no owner
   }
 
   static void WrongArgumentsAreErrorsThatNameTheCall() {
@@ -181,7 +182,7 @@ static class CsharpTest {
   }
   static void Attach(Session session) { session.Control(moment => moment.Outputs.torque_enable = 0); }
 
-  // Collected from inside a callback: the runtime looks through the stack that it runs on.
+  // The collection runs inside a callback: the runtime scans the stack that it runs on.
   static void RobotsOfOneWorldMayCollectGarbage() {
     using (Session session = Walking(1, 2)) {
       int ticks = 0;

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# examples.sh VERP PROGRAMS SOURCES OCTAVE CSHARP [pictures]: the same example gives the same words in C, C++, Python, Octave and
-# C#, and a walk has the digest that `verp walk` gives; `pictures`: likewise that which needs OpenGL, and its files are equal.
+# examples.sh VERP PROGRAMS SOURCES OCTAVE CSHARP [pictures]: each example prints the same in C, C++, Python, Octave and
+# C#, and a walk has the digest of `verp walk`. With `pictures`: the example that needs OpenGL, whose files are equal
+# too.
 set -euo pipefail
 verp=$1 programs=$2 sources=$3 octave=$4 csharp=$5
 scratch=$(mktemp -d)
@@ -8,7 +9,7 @@ trap 'rm -rf "$scratch"' EXIT
 cd "$scratch"
 say() { echo "examples: $*" && exit 1; }
 
-made() { # the bytes of the picture that the program before has left, if it does
+made() { # the bytes of the picture that the last program left, if any
   [[ ! -e seen.ppm ]] || { head -c 15 seen.ppm | tr '\n' ' ' && cksum <seen.ppm && rm seen.ppm; }
 }
 
@@ -19,7 +20,7 @@ same() { # name argument...: runs it in all languages
   cpp=$("$programs/example_${name}_cpp" "$@" && made) || say "$name.cpp failed: $cpp"
   py=$(/usr/bin/python3 "$sources/$name.py" "$@" && made) || say "$name.py failed: $py"
   printf -v arguments "'%s'," "$@"
-  arguments=$(sed -E "s/'([0-9]+)'/\1/g" <<<"${arguments%,}") # numbers are no texts
+  arguments=$(sed -E "s/'([0-9]+)'/\1/g" <<<"${arguments%,}") # numbers are no strings
   m=$("$octave" --eval "addpath('$sources'); verp_$name($arguments)" && made) || say "verp_$name.m failed: $m"
   cs=$("$csharp" "$name" "$@" && made) || say "$name.cs failed: $cs"
   [[ $c == "$cpp" && $c == "$py" && $c == "$m" && $c == "$cs" ]] ||
@@ -37,7 +38,8 @@ digest=$("$verp" walk --for 3 --json | sed -nE 's/^ *"digest": "(0x[0-9a-f]+)".*
 [[ $words == *" $digest" ]] || say "verp walk has digest $digest, the examples say $words"
 bound=$(/usr/bin/python3 "$sources/bind.py" "$VERP_LIBRARY" 3) || say "bind.py failed: $bound"
 [[ $bound == "$words" ]] || say "a binding from abi.json says '$bound', the others '$words'"
-# Linked or loaded later: ODE calls the loops of the library, not its own (host/sim/solver.hpp), or walks take several times as long.
+# Whether linked or loaded later, ODE must call the library's solver loops, not its own (host/sim/solver.hpp). Otherwise
+# walks take several times as long.
 for language in "$programs/example_walk_c" "/usr/bin/python3 $sources/walk.py"; do
   LD_DEBUG=bindings LD_DEBUG_OUTPUT=bound $language 1 >walked
   grep -qE 'file .*libode\S* .*to \S*libverp\S* .*solveL1Transposed' bound.* || say "$language has ODE's own loops"

@@ -16,7 +16,7 @@
 #include "tests/host/libverp/opened.hpp"
 #include "tests/support/leak.hpp"
 
-/// What somebody tries who looks for a way through: cut texts, sizes without end, other threads.
+/// Attacks on the library: cut texts, endless sizes, other threads.
 namespace verp::abi::test {
 namespace {
 
@@ -57,7 +57,7 @@ TEST(LibverpHostile, PlansThatAreTooLong) {
   EXPECT_TRUE(core.plan(0.1, 0, 0, 0).empty());
 }
 
-// The physics give up, and no result calls that a good run.
+// The physics diverge, and the result must not call that a good run.
 TEST(LibverpHostile, APushBeyondAllNumbersIsInTheResult) {
   Opened opened;
   opened.add();
@@ -111,7 +111,7 @@ TEST(LibverpHostile, TextsThatAreEmpty) {
                "file is empty");
 }
 
-/// What no sensor gives and nobody orders: every byte is a number, and none an end of the host.
+/// Random bytes that no sensor or operator would send: the core always answers and never crashes.
 TEST(LibverpHostile, CoreTakesAnyBytes) {
   const verp_lib::Core core;
   std::mt19937 chance(1);
@@ -127,7 +127,8 @@ TEST(LibverpHostile, CoreTakesAnyBytes) {
   EXPECT_NE(core.digest(), 0U);
 }
 
-/// Threads that use, and close, one handle: each call is done or told, and nothing breaks.
+/// Several threads use and close one handle: each call succeeds or returns an error, and nothing
+/// breaks.
 TEST(LibverpHostile, ManyThreadsOnOneHandle) {
   Opened opened;
   opened.add();
@@ -154,7 +155,7 @@ TEST(LibverpHostile, ManyThreadsOnOneHandle) {
   EXPECT_GE(told, 39) << "closed, or busy, but for one";
 }
 
-/// What C++ says before C is asked, as C would.
+/// The C++ interface checks its arguments before it calls C, with the same messages.
 TEST(LibverpHostile, CppNamesTheCall) {
   const auto says = [](const std::string& words, const std::function<void()>& call) {
     try {
@@ -183,8 +184,7 @@ TEST(LibverpHostile, CppNamesTheCall) {
   says("verp_core_plan: count is 4294967295: at most", [&] { core.plan(0.1, 0, 0, ~0U); });
 }
 
-/// The exception of a controller is of the thread that ticks, and a moment of that of its
-/// controller.
+/// A controller's exception belongs to the ticking thread, and a moment to its controller's thread.
 TEST(LibverpHostile, SecondThreadTakesNothingFromTheFirst) {
   verp_lib::Session session;
   session.add(verp_lib::Session::defaults());

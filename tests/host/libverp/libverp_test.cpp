@@ -13,7 +13,7 @@
 namespace verp::abi::test {
 namespace {
 
-/// The library is a copy of the code that `verp` runs, and gives its bits.
+/// The library contains the code that `verp` runs, and gives the same bits.
 TEST(Libverp, WalksAsASessionDoes) {
   const session::WalkPlan plan = session::test::plan_of("");
   const session::WalkResult wanted = session::walk(plan);
@@ -27,7 +27,7 @@ TEST(Libverp, WalksAsASessionDoes) {
   EXPECT_STREQ(result.failure, "");
 }
 
-/// What a session tells of each tick is enough to decide it again by the controller alone.
+/// A session's view of each tick is enough for a Core to decide it again.
 TEST(Libverp, CoreDecidesWhatTheSessionDid) {
   Opened opened;
   opened.add();
@@ -83,7 +83,7 @@ int freeze(const verp_moment* moment, void*) {
   return 0;
 }
 
-/// A controller that never asks the robot's own is another run, with a digest of its own.
+/// A controller that never calls the robot's own makes another run with its own digest.
 TEST(Libverp, ReplacedControllerHasTheRobot) {
   Opened opened;
   opened.add();
@@ -113,7 +113,7 @@ TEST(Libverp, OwnControllerThatDecidesLikeTheRobotsIsTheSameRun) {
   EXPECT_EQ(digest_with([](const verp_lib::Moment& moment) { moment.decide(); }), digest_with({}));
 }
 
-/// Orders alone drive a robot of walk_s 0, a number is tuned, a mass is set, and it is pushed.
+/// With walk_s 0, orders alone drive the robot; a parameter, a mass and a push act on it.
 TEST(Libverp, DrivesARobotByOrders) {
   Opened opened;
   opened.add([](verp_robot& robot) { robot.walk_s = 0; });

@@ -83,7 +83,7 @@ TEST(LibverpMisuse, NamesAndRanges) {
   EXPECT_EQ(verp_session_tick(session, 1, nullptr, nullptr), VERP_OK) << "and it still runs";
 }
 
-/// The program that draws is not needed to say so.
+/// These errors do not need the drawing program.
 TEST(LibverpMisuse, PicturesThatAreNone) {
   Opened opened;
   opened.add();
@@ -156,7 +156,7 @@ TEST(LibverpMisuse, ViewsThatAreNone) {
                "verp_session_render", "view is null");
 }
 
-/// Where there is none: what is missing, where it was looked for, and who has it.
+/// The error says what is missing, where it was looked for, and which package has it.
 TEST(LibverpMisuse, ProgramThatDrawsIsMissing) {
   Opened opened;
   opened.add();
@@ -228,7 +228,8 @@ TEST(LibverpMisuse, ControllersThatFail) {
   EXPECT_THROW(session.tick(), std::out_of_range) << "C++ gets its own exception back";
 }
 
-/// Any byte is sent and measured as it is: feet that there are not, phases, modes and goals.
+/// Any output bytes are sent and measured as they are: missing feet, unknown phases and modes, any
+/// goals.
 TEST(LibverpMisuse, ControllersThatPutOutAnything) {
   for (const int byte : {0x00, 0x03, 0x7f, 0x80, 0xff}) {
     Opened opened;
@@ -257,7 +258,7 @@ TEST(LibverpMisuse, RobotsInEachOther) {
   EXPECT_EQ(verp_session_add(opened.session, &robot, nullptr), VERP_OK) << verp_last_error();
 }
 
-/// A second thread, or a callback, is told; it waits for nothing and breaks nothing.
+/// A second thread or a callback gets an error at once; it neither waits nor breaks anything.
 TEST(LibverpMisuse, TwoThreadsAndACallback) {
   Opened opened;
   opened.add();
@@ -309,7 +310,7 @@ TEST(LibverpMisuse, NumbersThatAreNoneAreNamed) {
   EXPECT_EQ(verp_core_close(core), VERP_OK);
 }
 
-// A child that ends as programs do, with all its destructors, in the middle of a recorded walk.
+// A forked child exits normally, with all destructors, in the middle of a recorded walk.
 TEST(LibverpMisuse, ForkedProcessHarmsNoTraceOfItsParent) {
   const std::string trace = testing::TempDir() + "forked-" + std::to_string(getpid()) + ".mcap";
   std::uint64_t digest = 0;
@@ -325,7 +326,7 @@ TEST(LibverpMisuse, ForkedProcessHarmsNoTraceOfItsParent) {
             verp_session_tick(opened.session, 50, nullptr, nullptr) == VERP_BAD_HANDLE &&
             std::string(verp_last_error()).find("forked") != std::string::npos &&
             verp_session_close(opened.session) == VERP_BAD_HANDLE;
-        std::uint64_t ticks = 0;  // what it opens is its own
+        std::uint64_t ticks = 0;  // the child may open its own handles
         verp_core own = nullptr;
         const bool works = verp_core_open("generic21", nullptr, nullptr, &own) == VERP_OK &&
                            verp_core_digest(own, &ticks) == VERP_OK;

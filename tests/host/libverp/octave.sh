@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# octave.sh MATLAB MODULES [argument of octave-cli...]: Octave with the interface in its path. Its complaints about what it lacks
-# (a display, a history) are its own; an error ends it with status 1.
+# octave.sh MATLAB MODULES [argument of octave-cli...]: Octave with the interface in its path. Hides Octave's complaints
+# about a missing display or history; an error exits with status 1.
 matlab=$1 modules=$2
 shift 2
 errors=$(mktemp)

@@ -8,7 +8,7 @@
 
 namespace verp::abi::test {
 
-/// A session with robots that walk as those of plans.hpp do.
+/// A session whose robots walk like those of plans.hpp.
 struct Opened {
   explicit Opened(const char* world = nullptr) {
     const verp_world what = {sizeof what, 0, world};

@@ -139,7 +139,7 @@ class MisuseTest(unittest.TestCase):
         kept = session.seen()
         for each in (core, session, env):
             each.close()
-        env.close()  # as Gymnasium's: twice is as good as once
+        env.close()  # as in Gymnasium, a second call does no harm
         self.assertEqual(kept["time_s"], 0)
         takes_more = {"tune": ("gait.lift_m", 0.01), "tuning": ("gait.lift_m",), "read": ("trunk.mass_kg",), "set": ("trunk.mass_kg", 1),
                       "push": ("trunk", (1, 0, 0), 1), "command": (verp.WALK,), "send": (b"",), "control": (None,), "count": (0, 0),
@@ -189,7 +189,7 @@ class MisuseTest(unittest.TestCase):
             raise RuntimeError("mine")
 
         self.session.control(control)
-        with self.assertRaisesRegex(RuntimeError, "mine"):  # not the other thread's to have
+        with self.assertRaisesRegex(RuntimeError, "mine"):  # not the other thread's exception
             self.session.tick()
         for words, text in zip(("verp_session_tick: another thread", "verp_session_close: another thread", "verp_decide: .*another thread"), told, strict=True):
             self.assertRegex(text, words)

@@ -15,12 +15,12 @@
 #include "tests/host/libverp/expect_error.hpp"
 #include "tests/host/libverp/opened.hpp"
 
-// Robots of one session talk by a simulated radio, as its conditions say; what was said and heard
-// stands in their traces, which replay.
+// Robots of one session talk by a simulated radio under its conditions. Their traces have all
+// messages sent and received, and replay.
 namespace verp::abi::test {
 namespace {
 
-/// Two robots, this far apart.
+/// Two robots at this distance.
 verp_lib::Session pair_of(double apart_m, const verp_radio& radio, const char* trace = nullptr) {
   verp_lib::Session session;
   verp_robot robot = verp_lib::Session::defaults();
@@ -40,7 +40,7 @@ verp_radio quiet() {
   return radio;
 }
 
-/// Of a trace, what it has at /radio: how often what happened.
+/// The counts of a trace's /radio messages by event.
 std::map<std::string, int> kept(const std::string& file) {
   std::ostringstream bytes;
   bytes << std::ifstream(file, std::ios::binary).rdbuf();
@@ -121,7 +121,7 @@ TEST(LibverpRadio, EqualRunsHearEqualAndTheirTraceReplays) {
         said += session.send(1, "and " + std::to_string(i), 0);
         take_all();
       }
-      take_all();  // what came in the last ticks, of which there may be fewer than five
+      take_all();  // the last ticks, which may be fewer than five
       runs.push_back(all);
       digest = session.result(1).digest;
     }
@@ -133,7 +133,7 @@ TEST(LibverpRadio, EqualRunsHearEqualAndTheirTraceReplays) {
   EXPECT_EQ(runs[0], runs[1]);
 }
 
-/// Two controllers that talk while they decide: each says how many messages it has heard.
+/// Two controllers that talk while they decide; each sends the number of messages it has heard.
 TEST(LibverpRadio, ControllersTalkInsideTheirTicks) {
   struct Talker {
     verp_session session;
@@ -176,7 +176,7 @@ TEST(LibverpRadio, ControllersTalkInsideTheirTicks) {
     for (const Talker& each : talkers) EXPECT_GT(each.count, 50);
   }
   EXPECT_EQ(runs[0], runs[1]) << "however many ticks a call makes";
-  // A radio takes no bit away from a walk.
+  // The radio changes no bit of a walk.
   verp_lib::Session alone = pair_of(2, quiet());
   alone.tick(kTicks);
   EXPECT_EQ(digests, (std::vector<std::uint64_t>(2, alone.digest(0))));

@@ -15,8 +15,8 @@
 
 namespace verp::test {
 
-/// Servos as they come out of their boxes, on a serial port: each hears and answers at its own baud
-/// rate only. A hand of the test's turns their horns.
+/// Factory-new servos on a serial port; each hears and answers at its own baud rate only. The test
+/// turns their horns.
 class LoneServo {
  public:
   explicit LoneServo(const std::string& path)
@@ -31,7 +31,7 @@ class LoneServo {
   LoneServo(const LoneServo&) = delete;
   LoneServo& operator=(const LoneServo&) = delete;
 
-  /// Puts one on the bus; before it nobody is there.
+  /// Connects one; before the first call no servo answers.
   void connect(const bus::ServoIdentity& identity) {
     const std::scoped_lock lock(mutex_);
     const int joint = static_cast<int>(servos_.size());
@@ -41,12 +41,12 @@ class LoneServo {
     const std::scoped_lock lock(mutex_);
     servos_.clear();
   }
-  /// Turns the first one's horn to where its encoder reads `count`.
+  /// Turns the first servo's horn to where its encoder reads `count`.
   void turn_to(std::int32_t count) {
     const std::scoped_lock lock(mutex_);
     plant_.measured[0].position_count = count;
   }
-  /// A register of the first one.
+  /// A register of the first servo.
   std::int64_t value(std::uint16_t address, std::uint16_t size) {
     const std::scoped_lock lock(mutex_);
     const auto bytes = servos_[0]->read(address, size);
@@ -56,7 +56,7 @@ class LoneServo {
     }
     return size == 4 ? static_cast<std::int32_t>(value) : static_cast<std::int64_t>(value);
   }
-  /// Writes that reached any of them.
+  /// Number of writes that reached any servo.
   int writes() const { return writes_; }
 
  private:
@@ -104,7 +104,7 @@ class LoneServo {
   }
 
   wire::Link link_;
-  wire::Descriptor line_;  ///< keeps the port, and tells its rate
+  wire::Descriptor line_;  ///< keeps the port open and shows its rate
   FakePlant plant_;
   dxl::Parser parser_;
   std::mutex mutex_;

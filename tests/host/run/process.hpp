@@ -18,14 +18,14 @@
 
 namespace verp::tool::test {
 
-/// The verp program, beside the test; ends with this object at the latest.
+/// The verp program beside the test; ends with this object at the latest.
 class Process {
  public:
-  /// Its outputs go to files `name`.out and .err of the folder; it reads what is typed.
+  /// Its output goes to `name`.out and .err in the folder; its input comes from type().
   Process(const fs::path& folder, const std::string& name, std::vector<std::string> arguments)
       : out_(folder / (name + ".out")), err_(folder / (name + ".err")) {
-    ::signal(SIGPIPE, SIG_IGN);  // of one that no longer reads
-    fs::remove(out_);            // of one of that name before
+    ::signal(SIGPIPE, SIG_IGN);  // from a program that stopped reading
+    fs::remove(out_);            // from an earlier one with that name
     fs::remove(err_);
     int keyboard[2] = {-1, -1};
     if (::pipe2(keyboard, O_CLOEXEC) != 0) throw std::runtime_error("no pipe");
@@ -45,13 +45,13 @@ class Process {
   void type(const std::string& text) const {
     if (::write(keyboard_, text.data(), text.size()) < 0) ADD_FAILURE() << "nobody reads";
   }
-  /// Nothing more will be typed.
+  /// Closes its input.
   void hang_up() {
     if (keyboard_ >= 0) ::close(keyboard_);
     keyboard_ = -1;
   }
   void signal(int number) const { child_->tell(number); }
-  /// Stops it for a while; returns for how long it surely stood still.
+  /// Stops it for a while; returns how long it certainly stood still.
   std::uint64_t stand_still_us(std::uint64_t time_us) {
     child_->tell(SIGSTOP);
     siginfo_t stopped{};
@@ -66,8 +66,8 @@ class Process {
     return static_cast<std::uint64_t>(
         std::chrono::duration_cast<std::chrono::microseconds>(stood).count());
   }
-  /// Waits until standard error says `needle`, after what it was seen to say before; false: it
-  /// ended. However slow this PC is: what hangs, ctest ends.
+  /// Waits until standard error says `needle` after the last match; returns false if the program
+  /// ended. There is no timeout but ctest's, because this PC may be slow.
   bool says(const std::string& needle) {
     for (;;) {
       const bool last = over();
@@ -82,7 +82,7 @@ class Process {
   }
   /// All of its standard error so far.
   std::string said() const { return slurp(err_); }
-  /// From now on no file it writes grows beyond that: to it, the disk is full.
+  /// From now on no file that it writes grows beyond this, as on a full disk.
   void fill_disk(rlim_t most_bytes) const {
     const rlimit limit{most_bytes, most_bytes};
     ASSERT_EQ(::prlimit(child_->id(), RLIMIT_FSIZE, &limit, nullptr), 0);
@@ -90,7 +90,7 @@ class Process {
   bool over() { return child_->status().has_value(); }
   Outcome wait() {
     const int status = child_->wait();
-    return {status, slurp(out_), slurp(err_)};  // 128 and more: what a signal ended
+    return {status, slurp(out_), slurp(err_)};  // 128 and more: ended by a signal
   }
 
  private:

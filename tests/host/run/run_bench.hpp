@@ -14,8 +14,8 @@ namespace verp::tool::test {
 
 using Json = nlohmann::json;
 
-/// `verp run` on a serial port whose other end is the twin, served in real time by `verp hil`, with
-/// a cable between them that can be made to suffer.
+/// `verp run` on a serial port. `verp hil` serves the twin at its other end in real time, behind a
+/// cable that a test can disturb.
 class RunBench : public Program {
  protected:
   void serve(const std::string& model = "generic21") {
@@ -48,7 +48,7 @@ class RunBench : public Program {
   std::unique_ptr<verp::test::DelayingLink> cable_;
 };
 
-/// Everything the report says of deadlines stands in the trace too.
+/// The trace has the same missed deadlines as the report.
 inline void expect_same_account(const Json& result, const record::Trace& trace) {
   std::uint64_t overruns = 0, skipped = 0;
   for (std::size_t i = 0; i < trace.ticks.size(); ++i) {
@@ -60,10 +60,9 @@ inline void expect_same_account(const Json& result, const record::Trace& trace) 
   EXPECT_EQ(result.at("deadlines").at("skipped_periods"), skipped);
 }
 
-/// The controller's outputs, had once more from what it was given (the digests say that they are
-/// the same), before a referee who knows the table by its words and counts time, not ticks: which
-/// mode followed which, why, and with what torque and goals. Torque is off at the end. `seen` gets
-/// bit m for each mode m that the controller was in.
+/// Steps the core again with the recorded inputs; equal digests prove equal outputs. A referee
+/// checks them against the written table, in time rather than ticks: each change of mode, its
+/// cause, torque and goals. Torque is off at the end. `seen` gets bit m for each mode m of the run.
 inline void expect_table(const record::Trace& trace, std::uint32_t* seen = nullptr) {
   auto state = std::make_unique<State>();
   Outputs outputs;

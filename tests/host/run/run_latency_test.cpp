@@ -1,14 +1,14 @@
 #include "tests/host/run/run_bench.hpp"
 
-// Must show 8 of the links: adapters that hold bytes back. What is asserted of time is either a
-// least that the injected delay enforces, or an equality of two counts; a loaded machine may be
-// late as often as it likes.
+// Must show 8 of the links: adapters that delay bytes. Each check of time is either a minimum that
+// the injected delay enforces, or an equality of two counts. A loaded machine may be late at any
+// time.
 namespace verp::tool::test {
 namespace {
 
 using verp::test::Latency;
 
-/// The number behind `words` in what was said; -1: it was not said.
+/// The number after `words` in `said`, or -1.
 double number_after(const std::string& words, const std::string& said) {
   const std::size_t at = said.find(words);
   return at == std::string::npos ? -1 : std::stod(said.substr(at + words.size()));
@@ -16,8 +16,8 @@ double number_after(const std::string& words, const std::string& said) {
 
 class RunLatency : public RunBench {
  protected:
-  /// A latency that a tick has room for, on a machine that now and then has no room itself: refused
-  /// with numbers that say so, it is asked again, and in the end with the period that is offered.
+  /// A tick has room for this latency, but a loaded machine may not. After a refusal with such
+  /// numbers the test tries again, in the end with the offered period.
   Outcome run_when_it_fits(std::vector<std::string> words, double least_us) {
     words.insert(words.end(), {"--yes", "--record", "run.mcap"});
     Outcome outcome;
@@ -41,10 +41,9 @@ class RunLatency : public RunBench {
     words.insert(words.end(), {"--period", std::to_string(period_ms)});
   }
 
-  /// It ran, tells the truth about it, did nothing the table does not know, and walked. What
-  /// excuses a walk that was not is a machine that let a whole period go by: then the robot may
-  /// have held for too long, or fallen, and that is told by status 1. A tick that was only late
-  /// moves nothing.
+  /// The run happened, reported the truth, kept to the table and walked. Only a machine that skips
+  /// a whole period excuses a missing walk: the robot may then have held too long or fallen, with
+  /// status 1. A late tick changes nothing.
   void expect_ran(const Outcome& outcome) {
     const Json result = Json::parse(outcome.out);
     EXPECT_EQ(result.at("ticks"), cable_->ticks()) << "as they came over the cable";
@@ -68,16 +67,15 @@ class RunLatency : public RunBench {
   }
 };
 
-// At the model's period; or, where the machine itself takes more than that leaves (a sanitizer, a
-// busy core), at the one that the refusal offers. That 1 ms leaves room in 10 ms is arithmetic, and
-// LinkFit's.
+// Uses the model's period. If the machine needs more (a sanitizer, a busy core), it uses the period
+// that the refusal offers. LinkFit proves by arithmetic that 1 ms fits into 10 ms.
 TEST_F(RunLatency, OneMillisecondFitsTheModelsPeriod) {
   serve();
   plug({1000, 1000});
   expect_ran(run_when_it_fits({}, 2000));
 }
 
-// The remedy of the refusal is one, and taken, it helps.
+// The refusal's remedy works.
 TEST_F(RunLatency, FourMillisecondsNeedALongerPeriod) {
   serve();
   plug({1000, 4000});
@@ -107,8 +105,8 @@ TEST_F(RunLatency, SixteenMillisecondsFitNoPeriod) {
   EXPECT_EQ(cable_->ticks(), 0u);
 }
 
-// A PC that stops for a while, five times: each time at least the periods that began meanwhile are
-// missed, and no more than those that went by without a tick are counted.
+// The PC stops five times. The count is at least the periods that began meanwhile, and at most
+// those that passed without a tick.
 TEST_F(RunLatency, StallsOfThePcAreCountedAsTheyWere) {
   constexpr std::uint64_t kPeriod_us = 20'000;
   serve();

@@ -3,9 +3,8 @@
 
 #include "tests/host/run/run_bench.hpp"
 
-// `verp run` as people meet it: what it refuses, how it ends, what it leaves. A TimelyRobot gets
-// its orders and answers within a period of 20 ms; a RealRobot's tests hold on a machine that is
-// late.
+// A user's `verp run`: what it refuses, how it ends, what it leaves. A TimelyRobot must get orders
+// and answers within a period of 20 ms; RealRobot's tests hold on a late machine too.
 namespace verp::tool::test {
 namespace {
 
@@ -43,7 +42,7 @@ TEST_F(RealRobot, RefusesWhatCannotBe) {
   EXPECT_NE(nothing.err.find("no such device"), std::string::npos);
 }
 
-// Torque waits for the checklist, and for the very word.
+// Torque waits until the user types yes to the checklist.
 TEST_F(RealRobot, NoTorqueBeforeTheChecklistIsConfirmed) {
   serve();
   plug({1000, 1000});
@@ -65,7 +64,7 @@ TEST_F(RealRobot, NoTorqueBeforeTheChecklistIsConfirmed) {
   EXPECT_TRUE(program->says("relaxed to rising"));
 }
 
-// What is behind a socket or a pseudo-terminal may be servos as well: a port that is forwarded.
+// A socket or pseudo-terminal may also lead to real servos, through a forwarded port.
 TEST_F(RealRobot, TheChecklistIsAskedOnEveryLink) {
   serve();
   const auto refuses = [this](const std::string& link, const std::string& other_end) {
@@ -88,11 +87,11 @@ TEST_F(RealRobot, TheChecklistIsAskedOnEveryLink) {
   refuses("unix-listen:" + port(), "unix:" + port());
 }
 
-// One press: down, then limp, in the order of the table. A terminal that closes and a system that
-// shuts down are presses too.
+// After one press the robot sits down and goes limp, in the table's order. A closing terminal and a
+// system shutdown count as presses.
 TEST_F(TimelyRobot, AnInterruptSitsTheRobotDown) {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
-    serve();  // anew: the robot that was let go lies
+    serve();  // a new twin: the old robot lies on the floor
     plug({1000, 1000});
     auto program = run({"--yes", "--period", "20", "--for", "60", "--record", "run.mcap"});
     ASSERT_TRUE(program->says("relaxed to rising"));
@@ -109,8 +108,7 @@ TEST_F(TimelyRobot, AnInterruptSitsTheRobotDown) {
   }
 }
 
-// Any robot's servos play what its action files say, softly if that is asked; the trace holds all
-// that a replay needs.
+// A real robot's servos play the action files, softly on request; the trace suffices for a replay.
 TEST_F(TimelyRobot, PlaysAnActionThenSitsDownAndLetsGo) {
   serve();
   plug({1000, 1000});
@@ -125,7 +123,7 @@ TEST_F(TimelyRobot, PlaysAnActionThenSitsDownAndLetsGo) {
   EXPECT_EQ(verp("replay run.mcap").status, 0);
 }
 
-/// What `verp hil` says of the robot once it is told to end.
+/// The verdict of `verp hil` on the robot after its end.
 Json verdict_of(Process& twin, int status) {
   twin.signal(SIGINT);
   const Outcome outcome = twin.wait();
@@ -133,8 +131,8 @@ Json verdict_of(Process& twin, int status) {
   return result_of(outcome);
 }
 
-// A robot that did all it was asked to and was then let go lies down; to the twin that is no fall,
-// and it goes on serving whoever looks at the servos.
+// A robot that did everything and was then released lies down. The twin does not count that as a
+// fall and goes on serving.
 TEST_F(TimelyRobot, LyingDownLimpAfterAGoodWalkIsNoFall) {
   serve();
   plug({1000, 1000});
@@ -149,7 +147,7 @@ TEST_F(TimelyRobot, LyingDownLimpAfterAGoodWalkIsNoFall) {
   EXPECT_EQ(result.value("let_go_and_lies", false), true);
 }
 
-// With servos too weak for the robot's weight it goes down under torque.
+// The servos are too weak for the robot's weight, so it goes down under torque.
 TEST_F(RealRobot, GoingDownUnderTorqueIsAFall) {
   serve();
   plug({1000, 1000});
@@ -160,7 +158,7 @@ TEST_F(RealRobot, GoingDownUnderTorqueIsAFall) {
   EXPECT_NE(program->wait().status, 0);
 }
 
-// Two presses: limp at once, and every servo asked.
+// After two presses the robot goes limp at once, and the program asks every servo.
 TEST_F(RealRobot, ASecondInterruptLetsGoAtOnce) {
   serve();
   plug({1000, 1000});
@@ -168,7 +166,7 @@ TEST_F(RealRobot, ASecondInterruptLetsGoAtOnce) {
   ASSERT_TRUE(program->says("relaxed to rising"));
   program->signal(SIGINT);
   ASSERT_TRUE(program->says("sits down"));
-  std::this_thread::sleep_for(std::chrono::milliseconds(400));  // else it is the same press
+  std::this_thread::sleep_for(std::chrono::milliseconds(400));  // otherwise it counts as one press
   program->signal(SIGINT);
   const Outcome outcome = program->wait();
   EXPECT_EQ(outcome.status, 128 + SIGINT);
@@ -177,8 +175,8 @@ TEST_F(RealRobot, ASecondInterruptLetsGoAtOnce) {
   expect_table(trace());
 }
 
-// A cable that is pulled and stays out: the robot holds, sits and lets go by itself, the program
-// says what it does not know, and ends.
+// The cable is pulled for good. The robot holds, sits and lets go by itself; the program says what
+// it cannot know, and ends.
 TEST_F(TimelyRobot, ALostCableIsNamedAndEndsByTheTable) {
   serve();
   plug({1000, 1000});
@@ -199,7 +197,7 @@ TEST_F(TimelyRobot, ALostCableIsNamedAndEndsByTheTable) {
   expect_table(trace());
 }
 
-// A cable that is out for ten ticks: the robot holds, rises again and goes on.
+// The cable is out for ten ticks: the robot holds, rises again and goes on.
 TEST_F(TimelyRobot, ACableThatComesBackGoesOn) {
   serve();
   plug({1000, 1000});
@@ -214,7 +212,7 @@ TEST_F(TimelyRobot, ACableThatComesBackGoesOn) {
   expect_table(trace());
 }
 
-// Killed in the middle, it leaves a trace that is whole up to its last chunk.
+// A killed run leaves a trace that is complete up to its last chunk.
 TEST_F(TimelyRobot, ACrashLeavesTheTrace) {
   serve();
   plug({1000, 1000});
@@ -236,7 +234,7 @@ TEST_F(TimelyRobot, ACrashLeavesTheTrace) {
   EXPECT_EQ(verp("replay whole.mcap").status, 0);
 }
 
-/// A robot like generic21 whose IMU has another id: nobody answers at its own.
+/// A robot like generic21 whose IMU has another id, so none answers at the model's.
 std::string with_its_imu_elsewhere(const fs::path& folder) {
   std::ifstream in(std::string(VERP_SOURCE_DIR) + "/common/robots/generic21/robot.sdf");
   std::stringstream text;
@@ -249,8 +247,8 @@ std::string with_its_imu_elsewhere(const fs::path& folder) {
   return file.string();
 }
 
-// Without the IMU of the model no torque; with --imu none it goes without balance, says so, and the
-// trace has it in writing.
+// Without the model's IMU there is no torque. With --imu none the robot runs without balance; the
+// program says so, and the trace records it.
 TEST_F(TimelyRobot, ASilentImuIsNeverPassedOver) {
   serve(with_its_imu_elsewhere(folder_));
   plug({1000, 1000});
@@ -275,7 +273,7 @@ TEST_F(TimelyRobot, ASilentImuIsNeverPassedOver) {
   expect_table(taken);
 }
 
-// The limit stands in every servo before torque is on.
+// Every servo has the limit before torque is on.
 TEST_F(TimelyRobot, TorqueIsLimitedInEveryServo) {
   serve();
   plug({1000, 1000});
@@ -284,7 +282,7 @@ TEST_F(TimelyRobot, TorqueIsLimitedInEveryServo) {
   program->signal(SIGINT);
   EXPECT_EQ(result_of(program->wait()).value("torque_percent", 0), 30);
   for (const char* id : {"1", "14", "21"}) {
-    Outcome read;  // again, if this PC was late
+    Outcome read;  // retries if this PC was late
     for (int i = 0; i < 20 && read.out.find("registers") == std::string::npos; ++i) {
       read = verp("bus read --register goal_pwm --json --id " + std::string(id) +
                   " --link serial:" + port() + "@2000000");

@@ -2,8 +2,8 @@
 
 #include "tests/host/tool/program.hpp"
 
-// `verp bus setup` and `verp bus checklist` of a robot that has several buses: drives on CAN are
-// commissioned with their maker's tool, not by us.
+// `verp bus setup` and `verp bus checklist` for a robot with several buses. CAN drives are
+// commissioned with their maker's tool.
 namespace verp::tool::test {
 namespace {
 
@@ -15,14 +15,14 @@ TEST_F(SetupBus, DrivesOnCanAreLeftToTheirMakersTool) {
   expect_refused("bus setup --bus can --link can:vcan0", "verp bus checklist generic21 --bus can");
 }
 
-// The same joints have other servos there.
+// The same joints have other servos on the other bus.
 TEST_F(SetupBus, AnotherBusHasAReportOfItsOwn) {
   std::string robot = slurp(VERP_SOURCE_DIR "/common/robots/generic21/robot.sdf");
   const std::size_t begin = robot.find("<verp:bus name=\"dxl\""), end = robot.find("</verp:bus>");
   ASSERT_LT(begin, end);
   std::string second = robot.substr(begin, end - begin) + "</verp:bus>\n";
   second.replace(second.find("dxl"), 3, "two");
-  robot.insert(begin, second);  // now the first of all
+  robot.insert(begin, second);  // now the first bus
   std::ofstream(folder_ / "robot.sdf") << robot;
   std::ofstream(folder_ / "generic21-setup.json") << "nothing";
   expect_refused("bus setup robot.sdf --link pty:", "generic21-setup.json: is no report");

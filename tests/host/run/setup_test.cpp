@@ -4,7 +4,7 @@
 #include "tests/host/run/lone_servo.hpp"
 #include "tests/host/run/process.hpp"
 
-// `verp bus setup` against servos out of their boxes, with a scripted hand.
+// `verp bus setup` with factory-new servos and a scripted user.
 namespace verp::tool::test {
 namespace {
 
@@ -26,8 +26,8 @@ class Setup : public Program {
     return Json::parse(slurp(folder_ / "generic21-setup.json"), nullptr, false);
   }
 
-  /// One joint as a person does it: connects, holds it at zero where the encoder reads `zero`, then
-  /// turns it by `turn` counts.
+  /// One joint by hand: connect it, hold it at zero where the encoder reads `zero`, then turn it by
+  /// `turn` counts.
   void do_joint(Process& program, std::int32_t zero, std::int32_t turn) {
     ASSERT_TRUE(program.says("Connect its servo alone"));
     servos_.turn_to(zero);
@@ -65,7 +65,7 @@ TEST_F(Setup, AServoOutOfItsBoxBecomesOneOfTheRobot) {
   EXPECT_EQ(Json::parse(outcome.out).at("joints").at("l_knee"), joint);
 }
 
-// A servo that answers neither writes nor reads, as it may be set, is made to.
+// The servo is set to answer neither writes nor reads; setup changes that.
 TEST_F(Setup, AServoThatIsSetToSilenceIsHeard) {
   servos_.connect({.id = 77, .model = dxl::kModelXm430W210, .baud = 1'000'000});
   LoneServo& servos = servos_;
@@ -82,7 +82,7 @@ TEST_F(Setup, AServoThatIsSetToSilenceIsHeard) {
   EXPECT_EQ(servos.value(at::kHomingOffset, 4), 0);
 }
 
-// To `verp run` a servo that answers pings only is one of which no delay is known, not one without.
+// For `verp run`, a servo that answers only pings has an unknown delay, not none.
 TEST_F(Setup, ARunIsRefusedWhereNoReadIsAnswered) {
   servos_.connect({.id = 14, .model = dxl::kModelXm430W210, .baud = 2'000'000});
   const std::string link = " --link serial:" + port() + "@2000000";
@@ -95,7 +95,7 @@ TEST_F(Setup, ARunIsRefusedWhereNoReadIsAnswered) {
   EXPECT_EQ(servos_.value(at::kTorqueEnable, 1), 0);
 }
 
-// What cannot be set right in the servo is named, with what to write into the model.
+// The report names what the servo's registers cannot correct, and what to write into the model.
 TEST_F(Setup, AReversedJointAndAFarZeroAreLeftToThePerson) {
   servos_.connect(kFromTheBox);
   auto program = setup({"--joint", "l_knee"});
@@ -114,7 +114,7 @@ TEST_F(Setup, AReversedJointAndAFarZeroAreLeftToThePerson) {
   EXPECT_NE(outcome.out.find("to do: "), std::string::npos) << outcome.out;
 }
 
-// The end of the input is an end, not a failure to be looked into; the next run goes on.
+// The end of input ends the session without an error; the next run goes on.
 TEST_F(Setup, GoesOnWhereItEnded) {
   servos_.connect(kFromTheBox);
   auto first = setup({});
@@ -138,8 +138,8 @@ TEST_F(Setup, GoesOnWhereItEnded) {
   EXPECT_EQ(report().at("joints").at("head_pitch").at("outcome"), "skipped");
 }
 
-// However a person leaves at the question for the zero, what the servo was told before is kept, and
-// the next run adds to it.
+// However the user leaves at the zero question, the report keeps what was written before, and the
+// next run adds to it.
 TEST_F(Setup, WhatWasWrittenIsKeptAtOnce) {
   struct End {
     void (*leave)(Process&);
@@ -184,7 +184,7 @@ TEST_F(Setup, WhatWasWrittenIsKeptAtOnce) {
   EXPECT_EQ(report()["joints"]["l_knee"]["outcome"], "done");
 }
 
-// A disk that fills up costs the end of the session, not what a person held a joint for.
+// A full disk ends the session but loses no result of a joint that the user held.
 TEST_F(Setup, WhatAFullDiskDoesNotTakeIsPrinted) {
   const Json before = {{"robot", "generic21"},
                        {"joints", {{"head_yaw", {{"note", std::string(20000, '.')}}}}}};
@@ -209,7 +209,7 @@ TEST_F(Setup, WhatAFullDiskDoesNotTakeIsPrinted) {
   EXPECT_FALSE(fs::exists(folder_ / "generic21-setup.json.part"));
 }
 
-// Where no report can be kept no servo is asked for.
+// If the report cannot be saved, setup asks for no servo.
 TEST_F(Setup, PlacesThatHoldNoReportAreRefusedFirst) {
   fs::create_directories(folder_ / "here.part");
   for (const char* place : {"/proc/x.json", "/tmp", "/proc/self/mem", "/dev/full", "here"}) {
@@ -231,7 +231,7 @@ TEST_F(Setup, PlacesThatHoldNoReportAreRefusedFirst) {
   expect_refused("bus setup --link unix:none --report y.json", "y.json: is no report");
 }
 
-// Nor on a link that is not there.
+// The same holds if the link does not exist.
 TEST_F(Setup, OpensTheLinkBeforeItAsks) {
   for (const char* link : {"unix:none", "tcp:127.0.0.1:1", "serial:/dev/nothing", "pty:nobody"}) {
     const Outcome outcome = verp(std::string("bus setup --link ") + link);
@@ -255,7 +255,7 @@ TEST_F(Setup, ADryRunWritesNothing) {
   EXPECT_FALSE(fs::exists(folder_ / "generic21-setup.json"));
 }
 
-// Not one servo, or not the right one: said, and tried again.
+// No servo, several or a wrong one: setup names the problem and tries again.
 TEST_F(Setup, TheWrongServosAreNamedAndTriedAgain) {
   auto program = setup({"--joint", "l_knee"});
   ASSERT_TRUE(program->says("Connect its servo alone"));
@@ -274,7 +274,7 @@ TEST_F(Setup, TheWrongServosAreNamedAndTriedAgain) {
   servos_.turn_to(2048);
   program->type("\n");
   EXPECT_TRUE(program->says("found: id 1 at 57600 baud, XM430-W210"));
-  program->type("quit\n");  // what is not understood is asked again: Enter writes EEPROM
+  program->type("quit\n");  // asks again for unknown input, because Enter writes EEPROM
   ASSERT_TRUE(program->says("Enter alone goes on")) << program->wait().err;
   program->type("q\n");
   EXPECT_EQ(program->wait().status, 1);
@@ -287,7 +287,8 @@ TEST_F(Setup, WrongWordsAndReportsAreRefused) {
   expect_refused("bus setup generic21 --report other.json --link pty:", "is the report of");
   std::ofstream(folder_ / "none.json") << "none";
   expect_refused("bus setup generic21 --report none.json --link pty:", "is no report");
-  // A servo that is written to and not entered would be done twice: the place is looked at first.
+  // The report's place is checked first: a servo that is written but not recorded would be set up
+  // twice.
   expect_refused("bus setup generic21 --report gone/r.json --link pty:", "cannot be written");
   expect_refused("bus setup generic21 --report . --link pty:", "is a folder");
   for (const char* entry :

@@ -2,7 +2,7 @@
 
 #include "tests/host/tool/program.hpp"
 
-// `verp compare` as a person meets it; what it measures is held to account in tests/host/compare.
+// A user's view of `verp compare`; tests/host/compare checks the measured numbers.
 
 namespace verp::tool::test {
 namespace {
@@ -16,7 +16,7 @@ TEST_F(CompareCommand, TellsDrawsAndRefuses) {
   const auto json = nlohmann::json::parse(told.out);
   EXPECT_EQ(json.at("error_rms_deg"), 0);
   EXPECT_EQ(json.at("joints").size(), 21u);
-  EXPECT_TRUE(json.at("joints")[0].at("delay_ms").is_null());  // a head that stands still
+  EXPECT_TRUE(json.at("joints")[0].at("delay_ms").is_null());  // the head stands still
   EXPECT_NE(slurp(folder_ / "page/index.html").find("<svg"), std::string::npos);
   EXPECT_TRUE(slurp(folder_ / "page/compare.png").starts_with("\x89PNG"));
   EXPECT_NE(slurp(folder_ / "page/joints.csv").find("\nl_knee,"), std::string::npos);

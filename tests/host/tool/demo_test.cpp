@@ -27,9 +27,9 @@ TEST_F(DemoCommand, WhatCannotBeIsOneLineAndBadInput) {
   expect_refused("demo follow --for 0", "--for");
 }
 
-// Two seconds are too few to do anything: the demo says that it failed, and how.
+// Two seconds are too short: the demo fails and says why.
 TEST_F(DemoCommand, ThatFailsItsCriterionEndsWithOne) {
-  fs::create_directory(folder_ / "follow.png");  // no picture can be there
+  fs::create_directory(folder_ / "follow.png");  // blocks the picture's file
   const Outcome lost = verp("demo follow --robots 2 --for 2 --json");
   EXPECT_EQ(lost.status, 1);
   EXPECT_NE(lost.err.find("follow.png"), std::string::npos) << lost.err;

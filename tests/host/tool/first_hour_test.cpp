@@ -26,7 +26,7 @@ TEST_F(NewRobot, IsATableAndTheRobotMadeFromIt) {
   EXPECT_EQ(verp("check my_bot").status, 0);
 }
 
-// Every number of a robot's file is heard, its pace too; what is typed goes before it.
+// The robot's file sets every number, its pace too; an option overrides the file.
 TEST_F(NewRobot, WalksAtThePaceThatItsFileSays) {
   ASSERT_EQ(verp("new robot slow_bot --from generic21").status, 0);
   const std::string walk = "walk slow_bot --for 3 --physics-step 2 --json";
@@ -78,7 +78,7 @@ TEST_F(NewRobot, RefusesWhatItCannotMake) {
 
 using NewController = Program;
 
-// What it lays out is built and walked by tests/host/own.
+// tests/host/own builds and walks the created project.
 TEST_F(NewController, RefusesWhatItCannotLayOut) {
   for (const std::string name : {"3x", "'a b'", "a-b", "\xC3\xA4"})
     expect_refused("new controller " + name, "letters, digits and _");
@@ -107,7 +107,7 @@ std::vector<std::string> cells(const std::string& line) {
   return out;
 }
 
-// What a control engineer looks for: what was asked of each joint, and in which part of the gait.
+// An engineer looks for each joint's goal and the gait's phase.
 TEST_F(Program, ExportTellsWhatTheControllerMadeOfEachTick) {
   ASSERT_EQ(verp("walk --for 3 --json --record a.mcap").status, 0);
   std::istringstream csv(verp("trace export a.mcap").out);

@@ -28,13 +28,13 @@ class Hil : public Program {
     return action::make_library(params(), action::read_folder(action::folder_of(entity.file)));
   }
   std::string place(const std::string& name) const { return (folder_ / name).string(); }
-  /// The twin makes two sockets, `bus` and `orders`.
+  /// The twin creates two sockets, `bus` and `orders`.
   std::string sockets() const {
     return "--link unix-listen:" + place("bus") + " --operator unix-listen:" + place("orders");
   }
   Outcome hil(const std::string& arguments) const { return verp("hil " + arguments, "hil"); }
 
-  /// What software in the loop gives.
+  /// The result of software in the loop.
   json here(const std::string& arguments) const {
     const Outcome walk = verp("walk --json " + arguments, "walk");
     EXPECT_EQ(walk.status, 0) << walk.err;
@@ -42,7 +42,7 @@ class Hil : public Program {
   }
 };
 
-/// The same bits as in software: digest, ticks, and with them every number of the summary.
+/// The same bits as in software: digest, ticks and every number of the summary.
 void expect_same(const Outcome& outcome, const json& expected) {
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   const json result = json::parse(outcome.out);
@@ -53,7 +53,8 @@ void expect_same(const Outcome& outcome, const json& expected) {
   EXPECT_GT(result.at("ticks_per_s").get<double>(), 0);
 }
 
-// A controller on any kind of port walks as the one in this process does, and says so every tick.
+// Over any kind of port the controller walks like the one in this process, and the run compares
+// every tick.
 TEST_F(Hil, WalksWithTheBitsOfSoftwareInTheLoopOnEveryKindOfLink) {
   const json expected = here("--for 3");
   const std::string port = std::to_string(20000 + ::getpid() % 20000);
@@ -75,8 +76,7 @@ TEST_F(Hil, WalksWithTheBitsOfSoftwareInTheLoopOnEveryKindOfLink) {
   }
 }
 
-// Bytes that are spoilt on the way to the controller, and a cable that is pulled and put back, cost
-// time and no bit.
+// Corrupted bytes to the controller and a cable that is pulled and put back cost time but no bit.
 TEST_F(Hil, LosesNoBitOnABadCable) {
   const json expected = here("--for 3");
   LinkController controller(params(), "unix:" + place("bus"), "unix:" + place("orders"),
@@ -94,10 +94,10 @@ TEST_F(Hil, LosesNoBitOnABadCable) {
   EXPECT_NE(outcome.err.find("the link is back"), std::string::npos) << outcome.err;
 }
 
-// A controller that is reset finds the same twin again, its servos as they were left, and goes on
-// from there; the run tells of it, and its trace ends where the first start did.
+// After a reset the controller finds the same twin with its servos as they were, and goes on. The
+// run reports the reset, and its trace ends with the first start.
 TEST_F(Hil, GoesOnServingAControllerThatWasReset) {
-  constexpr std::uint32_t kReset = 250;  // it stands
+  constexpr std::uint32_t kReset = 250;  // the robot stands
   LinkController controller(params(), "unix:" + place("bus"), "unix:" + place("orders"), {},
                             kReset);
   const Outcome outcome = hil("--for 3 --json --record hil.mcap " + sockets());
@@ -114,8 +114,8 @@ TEST_F(Hil, GoesOnServingAControllerThatWasReset) {
   EXPECT_NEAR(json::parse(replay.out).at("ticks").get<int>(), static_cast<int>(kReset), 2);
 }
 
-// In mid-walk the robot stands on one foot, with servos that hold, then limp: whether it falls is
-// the twin's to say, and no failure of the link.
+// The robot stands on one foot while its servos hold and then go limp. Whether it falls is the
+// twin's result, not a failure of the link.
 TEST_F(Hil, TellsWhatBecameOfARobotWhoseControllerWasResetInMidWalk) {
   LinkController controller(params(), "unix:" + place("bus"), "unix:" + place("orders"), {}, 600);
   const Outcome outcome = hil("--for 3 --json " + sockets());
@@ -139,7 +139,7 @@ TEST_F(Hil, RefusesAControllerOfAnotherRobotByName) {
       << outcome.err;
 }
 
-// Ctrl-C ends the run, not the program: the trace is whole and the summary printed.
+// Ctrl-C ends the run, not the program: the trace is complete and the summary printed.
 TEST_F(Hil, KeepsTheTraceWhenInterrupted) {
   LinkController controller(params(), "unix:" + place("bus"), "unix:" + place("orders"));
   const Outcome outcome = shell("timeout --preserve-status -s INT 6 " + std::string(VERP_PROGRAM) +
@@ -153,8 +153,8 @@ TEST_F(Hil, KeepsTheTraceWhenInterrupted) {
   EXPECT_EQ(json::parse(info.out).at("ticks"), result.at("ticks"));
 }
 
-// Ctrl-C is how one that serves a master ends, and no failure; of a twin that nobody asked for
-// anything, or whose walk it cuts short, it is one.
+// Ctrl-C is the normal end after serving a master. It is a failure if no client came, or if it cuts
+// a walk short.
 TEST_F(Hil, CtrlCEndsWhatServedSomebodyInOrder) {
   const std::string twin = std::string(VERP_PROGRAM) + " hil --json --link unix-listen:bus";
   const std::string ready = "until grep -q 'waits for a controller' err; do sleep 0.05; done; ";
@@ -171,8 +171,8 @@ TEST_F(Hil, CtrlCEndsWhatServedSomebodyInOrder) {
   EXPECT_NE(slurp(folder_ / "err").find("before anybody came"), std::string::npos);
 }
 
-// Somebody takes the call and hangs up, for ever: the twin goes on trying, and lets the computer
-// be.
+// The peer accepts and hangs up again and again. The twin goes on trying without loading the
+// computer.
 TEST_F(Hil, MeetsALinkThatIsCutAtOnceSomeTensOfTimesASecond) {
   std::atomic<bool> over = false;
   std::thread other([&] {
@@ -184,7 +184,7 @@ TEST_F(Hil, MeetsALinkThatIsCutAtOnceSomeTensOfTimesASecond) {
       std::ofstream(folder_ / "taken") << '\n';
     }
   });
-  // Three seconds of it, however long the start takes.
+  // Serves for three seconds, however long the start takes.
   const Outcome outcome = shell("sleep 0.3; " + std::string(VERP_PROGRAM) +
                                 " hil --lockstep --json --link unix:" + place("bus") +
                                 " & twin=$!; until [ -e taken ]; do sleep 0.05; done; sleep 3; "
@@ -196,15 +196,15 @@ TEST_F(Hil, MeetsALinkThatIsCutAtOnceSomeTensOfTimesASecond) {
   EXPECT_LT(losses, 3 * 30) << outcome.err;
 }
 
-/// What a walk tells of falls, in order.
+/// The walk's report of falls, in order.
 std::string story_of(const json& result) {
   std::string all;
   for (const json& each : result.at("fall_story")) all += each.at("what").get<std::string>() + "; ";
   return all;
 }
 
-// Pushed over, it gets up by the actions that the controller has, and walks on with the bits of
-// `verp walk`; what becomes of it is told while it happens.
+// Pushed over, the robot gets up by the controller's actions and walks on with the bits of `verp
+// walk`. The run reports this while it happens.
 TEST_F(Hil, ARobotThatIsPushedOverGetsUpByTheControllersActions) {
   const std::string words = "--for 3 --json --get-up --push '1: trunk -60,0,0 N for 0.15'";
   const json expected = here(words);
@@ -238,7 +238,8 @@ TEST_F(Hil, ARobotThatLiesGetsUpFirst) {
   EXPECT_EQ(result.at("falls"), 0);
 }
 
-// One that has none cannot: that is said before the robot moves, with what to do instead.
+// A controller without actions cannot get up. The error says so and gives a remedy before the robot
+// moves.
 TEST_F(Hil, AControllerWithoutActionsIsToldThatItCannotGetUp) {
   LinkController controller(params(), "unix:" + place("bus"), "unix:" + place("orders"));
   const Outcome outcome = hil("--for 3 --json --get-up " + sockets());
@@ -268,8 +269,8 @@ TEST_F(Hil, SaysWhenTheOperatorsPortIsSilent) {
   EXPECT_NE(outcome.err.find("device 200"), std::string::npos) << outcome.err;
 }
 
-// A master that never heard of lockstep gets its answers by the clock on the wall. Looking for
-// servos and reading them takes nothing of the time the twin serves: that begins with torque.
+// A master that does not know lockstep gets its answers in wall-clock time. Finding and reading
+// servos does not count; the served time begins with torque.
 TEST_F(Hil, ServesAStockMasterInRealTime) {
   Outcome outcome;
   std::thread twin([&] { outcome = hil("--for 3 --json --link unix-listen:" + place("bus")); });

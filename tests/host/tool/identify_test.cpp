@@ -1,6 +1,6 @@
 #include "tests/host/tool/program.hpp"
 
-// `verp identify` as a person meets it; what it finds is held to account in tests/host/identify.
+// A user's view of `verp identify`; tests/host/identify checks its findings.
 
 namespace verp::tool::test {
 namespace {

@@ -15,7 +15,7 @@ namespace {
 
 class SensorsRun : public Program {
  protected:
-  /// generic21 with these in its left ankle's joint, in the left foot, and below the model.
+  /// generic21 with these added to the left ankle's joint, the left foot and the model.
   void write_robot(const std::string& name, const std::string& joint, const std::string& foot,
                    const std::string& elements) const {
     std::string text = slurp(model::find_model("generic21"));
@@ -45,7 +45,7 @@ std::map<std::string, std::vector<Message>> messages_in(const fs::path& trace) {
     all[std::string(channel.topic)].push_back({each.time_ns,
                                                std::uint64_t{stamp[0]} * 1'000'000'000 + stamp[1],
                                                std::string(each.data), std::string(schema.name)});
-    // Each message is what its definition says, to the last byte.
+    // Each message matches its definition to the last byte.
     const record::TeamChannel named("a", channel.topic, schema);
     EXPECT_TRUE(named.message(each.data)) << channel.topic;
   }
@@ -82,7 +82,8 @@ TEST_F(SensorsRun, AreRecordedEachOnItsChannelAndChangeNoBitOfTheRun) {
   EXPECT_NEAR(static_cast<double>(seen["/sole"].size()), 20 * run_s, 2);
   EXPECT_NEAR(static_cast<double>(seen["/truth"].size()), 25 * run_s, 2);
 
-  // A message stands where it could be had; its header has when it was measured. Ticks are 10 ms.
+  // The trace logs a message when it became available; the header has the time of measurement. A
+  // tick is 10 ms.
   const auto expect_late = [&](const char* topic, double from_s, double to_s) {
     for (const Message& each : seen[topic]) {
       EXPECT_GE(1e-9 * static_cast<double>(each.time_ns - each.stamp_ns), from_s) << topic;
@@ -93,11 +94,11 @@ TEST_F(SensorsRun, AreRecordedEachOnItsChannelAndChangeNoBitOfTheRun) {
   expect_late("/laser", 0.05, 0.0601);
   expect_late("/truth", 0, 0.0101);
 
-  // Truth is where /tf has the body.
+  // The truth sensor agrees with the body in /tf.
   ASSERT_FALSE(trace.bodies.empty());
   const record::ros::BodyPose last = trace.bodies.back().pose;
   const std::string& told = seen["/truth"].back().data;
-  constexpr std::size_t kPosition = 36;  // behind the stamp, "world" and "truth"
+  constexpr std::size_t kPosition = 36;  // after the stamp, "world" and "truth"
   std::array<double, 3> position{};
   ASSERT_GE(told.size(), kPosition + sizeof position);
   std::memcpy(position.data(), told.data() + kPosition, sizeof position);

@@ -10,7 +10,7 @@
 #include "tests/host/shadow/polled_controller.hpp"
 #include "tests/host/tool/program.hpp"
 
-// `verp shadow` at a controller's operator port. On CAN: tests/can/shadow_test.cpp.
+// `verp shadow` on a controller's operator port. tests/can/shadow_test.cpp covers CAN.
 namespace verp::shadow::test {
 namespace {
 
@@ -61,7 +61,7 @@ TEST_F(ShadowOnSerial, RefusesAnotherRobotAndAControllerThatIsNotThere) {
   EXPECT_NE(outcome.err.find("no controller was heard"), std::string::npos) << outcome.err;
 }
 
-/// A robot has several buses: a CAN interface is met by the first that is CAN, without --bus.
+/// Without --bus, a CAN link selects the robot's first CAN bus.
 TEST_F(ShadowOnSerial, TakesTheBusThatTheLinkIsOn) {
   const auto outcome = verp("shadow generic21 --link can:verp_none0");
   EXPECT_EQ(outcome.status, 3);

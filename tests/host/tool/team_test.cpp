@@ -9,8 +9,8 @@
 #include "host/process/child.hpp"
 #include "tests/host/tool/program.hpp"
 
-// Several robots in one world: each walks as it does alone, whoever drives it, and one that loses
-// its controller takes nobody's result away.
+// Several robots in one world: each walks as it does alone, whatever drives it. One that loses its
+// controller costs no other robot its result.
 
 namespace verp::tool::test {
 namespace {
@@ -19,7 +19,8 @@ using nlohmann::json;
 
 class Team : public Program {
  protected:
-  /// This program's controller for the robot at the other end of `link`, beside the walk.
+  /// Starts this program as the controller of the robot at the other end of `link`, beside the
+  /// walk.
   process::Child controller(const std::string& link,
                             const std::vector<std::string>& more = {}) const {
     wait_for(link);
@@ -95,7 +96,7 @@ TEST_F(Team, AControllerInAnotherProcessMakesTheSameBits) {
     EXPECT_EQ(other.at("controller"), here + "b.end");
     EXPECT_TRUE(other.at("digest").is_null()) << "its controller's, and not told here";
     EXPECT_GT(other.at("end_m")[0].get<double>(), 0.1) << "it walked";
-    // Until the one that drives it from outside has it sit down, as who drives a real robot does.
+    // The runs agree until the outside controller sits the robot down, as for a real robot.
     const json first = first_difference("own.mcap", "b.mcap");
     EXPECT_EQ(first.at("stage"), "inputs") << first;
     EXPECT_GE(first.at("tick").get<int>() + 35, json::parse(own.out).at("ticks").get<int>())
@@ -113,7 +114,7 @@ TEST_F(Team, AControllerMayBeStartedBeforeItsWorld) {
   EXPECT_EQ(world.status, 0) << world.err;
 }
 
-// What a person at a real robot does: it lies, and is given leave to get up.
+// Like a user at a real robot: it lies, and gets leave to get up.
 TEST_F(Team, ALyingRobotGetsUpForAControllerThatMayLetIt) {
   const Outcome world = walk_beside(
       [&] {
@@ -158,8 +159,8 @@ TEST_F(Team, OneThatLosesItsControllerStopsTheOthersOrGoesOnWithout) {
   }
 }
 
-// Patience is with controllers that have come; for the first words of one the world waits as long
-// as it takes, and says for whom.
+// The timeout applies to controllers that have connected. The world waits for a first contact
+// without limit, and says for which robot.
 TEST_F(Team, WhomItWaitsForIsSaidAtOnceAndOnceMore) {
   process::Child world(
       {.words = {VERP_PROGRAM, "walk", "--json", "--patience", "0.3", "--robot",

@@ -6,8 +6,7 @@
 #include "host/record/trace_writer.hpp"
 #include "tests/host/tool/program.hpp"
 
-// What is made of a trace, as a person meets it; the numbers are held to account in
-// tests/host/signals and tests/host/record.
+// A user's view of the trace commands; tests/host/signals and tests/host/record check the numbers.
 
 namespace verp::tool::test {
 namespace {
@@ -48,14 +47,13 @@ TEST_F(TraceCommand, PlotDrawsSignalsThatAreNamedAndHelpsWithThoseThatAreNot) {
   expect_refused("trace plot none.mcap --list", "none.mcap: no such file");
   EXPECT_EQ(shell("PATH=/nowhere " VERP_PROGRAM " " + knee + "-o b.png").status, 3);
 
-  // CSV is export by another name.
+  // CSV is an alias of export.
   EXPECT_EQ(verp("trace csv a.mcap --state").out, verp("trace export a.mcap --state").out);
   EXPECT_NE(verp("trace --help").out.find("export, csv "), std::string::npos);
   EXPECT_NE(verp("completion bash").out.find("'trace csv') words='"), std::string::npos);
 }
 
-// Bits of two cores differ by intention: whoever compares them is told, also of one that was
-// recovered by a third.
+// Two cores differ by design: diff says so, even for a trace that a third core recovered.
 TEST_F(TraceCommand, DiffSaysWhenTwoCoresRecorded) {
   const record::Trace trace = record::read_trace(folder_ / "a.mcap");
   const std::string own = record::core_of(trace);
@@ -108,7 +106,7 @@ TEST_F(TraceCommand, ACutReplaysAndEveryCommandTakesIt) {
   expect_refused("debug --board mps2_an386 part.mcap", "begins in the midst of a run");
 }
 
-// kill -9 while it writes: what stands in the file is a run up to its last whole chunk.
+// kill -9 during writing leaves a file with every complete chunk.
 TEST_F(Program, AKilledWalkLeavesAFileThatOpens) {
   const Outcome killed = shell(
       VERP_PROGRAM
@@ -126,8 +124,7 @@ TEST_F(Program, AKilledWalkLeavesAFileThatOpens) {
   EXPECT_EQ(verp("replay k.mcap").status, 0);
 }
 
-// What is damaged before its first tick has nothing that could be recovered, and nobody is sent to
-// try.
+// A trace damaged before its first tick holds nothing to recover, so no message suggests trying.
 TEST_F(TraceCommand, NothingIsPromisedOfATraceThatIsDamagedAtItsBeginning) {
   std::fstream file(folder_ / "a.mcap", std::ios::in | std::ios::out | std::ios::binary);
   file.seekp(100'000);

@@ -8,7 +8,7 @@
 
 #include "tests/host/tool/program.hpp"
 
-/// What goes wrong around a run costs what it must and nothing else, and is told.
+/// Trouble around a run costs only what it must, and is reported.
 namespace verp::tool::test {
 namespace {
 
@@ -17,7 +17,7 @@ using namespace std::chrono_literals;
 
 class Trouble : public Program {
  protected:
-  /// A limit on the size of files stands in for a disk that is full; dash counts 512 bytes.
+  /// A limit on file sizes simulates a full disk; dash counts 512 bytes.
   Outcome verp_with_blocks(int blocks, const std::string& arguments) const {
     return shell("ulimit -f " + std::to_string(blocks) + "; " VERP_PROGRAM " " + arguments);
   }
@@ -53,18 +53,18 @@ TEST_F(Trouble, FullDiskCostsTheTraceButNotTheResult) {
   EXPECT_FALSE(fs::exists(folder_ / "a.mcap"));
   EXPECT_EQ(std::count(walk.err.begin(), walk.err.end(), '\n'), 1) << walk.err;
 
-  // The command that the message gives does what it says.
+  // The command in the message works.
   const std::string line = result.at("lost")[0];
   const std::size_t start = line.find("`verp trace recover ");
   ASSERT_NE(start, std::string::npos) << line;
   const std::string command = line.substr(start + 6, line.find('`', start + 1) - start - 6);
   EXPECT_EQ(verp(command).status, 0) << command;
   EXPECT_EQ(verp("replay a.mcap").status, 0);
-  // 4.2 kB a tick, 614 kB of room, and a chunk is 128 kB: no more than that is lost.
+  // 4.2 kB a tick, 614 kB of room, and a chunk is 128 kB: at most one chunk is lost.
   EXPECT_GT(json::parse(verp("trace info a.mcap --json").out).at("ticks"), (614 - 128) / 4.2);
 }
 
-// All that it could save still stands in the trace that it was asked to mend.
+// The original trace still has everything, so a failed recovery leaves no file.
 TEST_F(Trouble, ARecoveryThatTheDiskRefusesLeavesNothing) {
   ASSERT_EQ(verp("walk --for 3 --json --record a.mcap").status, 0);
   const Outcome recovery = verp_with_blocks(1200, "trace recover a.mcap -o b.mcap");
@@ -126,14 +126,15 @@ TEST_F(Trouble, ReaderThatLeavesAtOnceCostsNothing) {
   EXPECT_TRUE(fs::exists(folder_ / "out/index.html"));
 }
 
-// The trace must not become standard output by chance, nor a full stderr end the walk.
+// A closed stdout must not turn the trace into standard output, and a full stderr must not end the
+// walk.
 TEST_F(Trouble, StreamsThatAreClosedOrFullCostNothingElse) {
   const struct {
     const char* streams;
     int status;
   } kRows[] = {{">&-", 1}, {"2>&-", 0}, {">&- 2>&- <&-", 1}, {">/dev/full", 1}, {"2>/dev/full", 0}};
   for (const auto& [streams, status] : kRows) {
-    // Without gnuplot there is something to tell on standard error.
+    // Without gnuplot the program writes to standard error.
     const Outcome walk =
         shell("PATH=/nowhere " VERP_PROGRAM " walk --for 3 --json --record a.mcap --report out " +
               std::string(streams));
@@ -148,7 +149,7 @@ TEST_F(Trouble, TerminalThatIsClosedEndsTheRunInOrder) {
   const pid_t child = ::forkpty(&terminal, nullptr, nullptr, nullptr);
   ASSERT_GE(child, 0);
   if (child == 0) {
-    ::unsetenv("CI");  // it would switch the progress bar off
+    ::unsetenv("CI");  // it would disable the progress bar
     if (::chdir(folder_.c_str()) == 0) {
       ::execl(VERP_PROGRAM, "verp", "walk", "--for", "600", "--report", "out", nullptr);
     }
@@ -171,8 +172,8 @@ TEST_F(Trouble, NohupIsRespected) {
   EXPECT_EQ(walk.status, 0) << walk.err;
 }
 
-// The first asks, once there is something to plot; the report then hangs in a plot; the second ends
-// the program.
+// The first signal comes once there is data to plot; the report then hangs in a plot. The second
+// ends the program.
 TEST_F(Trouble, SecondSignalEndsARunThatHangs) {
   fs::create_directories(folder_ / "bin");
   std::ofstream(folder_ / "bin/gnuplot")
@@ -211,7 +212,7 @@ TEST_F(Trouble, ATraceIsNotReplacedByWhatIsMadeOfIt) {
   EXPECT_EQ(slurp(folder_ / "a.mcap"), before);
 }
 
-// The message's command is for a shell.
+// The message's command is quoted for a shell.
 TEST_F(Trouble, RecoveryOfATraceInAnOddPlaceIsACommandThatWorks) {
   fs::create_directories(folder_ / "my 'runs'");
   const Outcome walk =
@@ -224,7 +225,7 @@ TEST_F(Trouble, RecoveryOfATraceInAnOddPlaceIsACommandThatWorks) {
   EXPECT_TRUE(fs::exists(folder_ / "my 'runs'/a $b.mcap"));
 }
 
-// A CSV is whole or absent; an existing one is not lost to a disk that is full.
+// A CSV is complete or absent; a full disk does not destroy an existing one.
 TEST_F(Trouble, ExportedNumbersAreWholeOrAbsent) {
   ASSERT_EQ(verp("walk --for 3 --json --record a.mcap").status, 0);
   std::ofstream(folder_ / "a.csv") << "before";
@@ -238,7 +239,7 @@ TEST_F(Trouble, ExportedNumbersAreWholeOrAbsent) {
   EXPECT_EQ(slurp(folder_ / "a.csv").rfind("tick,", 0), 0u);
 }
 
-// Only what keeps a run on Ctrl-C may take more than one: `timeout` gives 137 after its second.
+// Only a command that keeps its run on Ctrl-C may need a second signal; `timeout` then gives 137.
 TEST_F(Trouble, CommandsWithNothingToKeepEndAtTheFirstSignal) {
   ASSERT_EQ(verp("walk --for 3 --json --record a.mcap").status, 0);
   const Outcome outcome = shell("( timeout -k 1 -s INT 1 " VERP_PROGRAM
@@ -246,7 +247,7 @@ TEST_F(Trouble, CommandsWithNothingToKeepEndAtTheFirstSignal) {
   EXPECT_EQ(outcome.err, "status 124\n");
 }
 
-// The page, its numbers and the trace are of one run, whichever came last.
+// The page, its numbers and the trace belong to one run, whichever ended last.
 TEST_F(Trouble, TwoRunsIntoOneFolderDoNotMixTheirFiles) {
   std::thread other([&] { verp("walk --for 3 --seed 2 --report out", "other"); });
   verp("walk --for 3 --seed 1 --report out", "one");

@@ -23,14 +23,14 @@ TEST_F(Usage, HelpGoesToStdoutAndIsGood) {
   }
 }
 
-// ./verp --help prints that file: it needs neither packages nor a build.
+// ./verp --help prints this file, so it needs neither packages nor a build.
 TEST_F(Usage, TheLaunchersHelpIsThePrograms) {
   EXPECT_EQ(verp("--help").out, slurp(files::source_dir() / "host/tool/help.txt"))
       << "mend it: build/host-release/host/tool/verp --help > host/tool/help.txt";
 }
 
-// The program that a newcomer's first walk waits for: of the same words it leaves out what has a
-// program of its own to be built for, and never silently.
+// A newcomer's first walk builds this smaller program. It understands the same options, and says
+// which ones need another program.
 TEST_F(Usage, TheFirstWalksProgramHasTheSameHelpAndSaysWhatItLeavesOut) {
   const std::string first = VERP_FIRST_PROGRAM " ";
   for (const char* word : {"walk", "replay", "diff", "check", "export", "parameters"}) {
@@ -59,7 +59,7 @@ TEST_F(Usage, TheFirstWalksProgramWalksTheSame) {
   EXPECT_EQ(digest(shell(VERP_FIRST_PROGRAM + words)), digest(shell(VERP_PROGRAM + words)));
 }
 
-// Told before the trace is read, and nothing is written.
+// The check comes before the trace is read, and no file is written.
 TEST_F(Usage, APageIsNamedAsBrowsersWantIt) {
   expect_refused("replay none.mcap --page p.txt", "--page p.txt: a browser");
   expect_refused("replay none.mcap --page p", ".html");
@@ -74,7 +74,7 @@ TEST_F(Usage, LinesOfHelpAreWholeCommandsAndAsWideAsTheTerminal) {
     const bool one_word = line.find(' ', line.find_first_not_of(' ')) == std::string::npos;
     EXPECT_TRUE(line.size() <= 48 || one_word) << line;
   }
-  // Nothing but spaces and line ends was changed.
+  // Only spaces and line ends differ.
   const auto words = [](std::string text) {
     std::erase_if(text, [](char c) { return c == ' ' || c == '\n'; });
     return text;
@@ -82,7 +82,7 @@ TEST_F(Usage, LinesOfHelpAreWholeCommandsAndAsWideAsTheTerminal) {
   EXPECT_EQ(words(outcome.out), words(shell("COLUMNS=400 " VERP_PROGRAM " bus read --help").out));
 }
 
-// One word of many choices is longer than such a line.
+// One option's list of choices is longer than such a line.
 TEST_F(Usage, HelpFitsATerminalOfFortyColumns) {
   for (const char* word : {"walk", "run", "hil", "tune", "bus bench", "identify"}) {
     std::istringstream help(
@@ -147,7 +147,7 @@ TEST_F(Usage, ValuesThatAreMissingOrTooManyAreToldInWords) {
   expect_refused("check generic21 --json=no", "--json takes no value");
 }
 
-// An unset variable in a script must not mean "as usual".
+// An unset variable in a script must not mean the default.
 TEST_F(Usage, EmptyWordsAreRefused) {
   for (const char* option :
        {"--velocity", "--sweep-step", "--record", "--report", "--on", "--set"}) {
@@ -218,9 +218,9 @@ TEST_F(Usage, ParametersAreCheckedByNameAndRange) {
   expect_refused("walk --set gait.cycle_s=0.5", "--cycle");
 }
 
-// The paper's own setting is the end of its range; a float's 0.03 is not a double's.
+// The paper's own setting is the end of its range; 0.03 as a float is not 0.03 as a double.
 TEST_F(Usage, BothEndsOfARangeAreInsideIt) {
-  // Admitted, and 0.03 is more than the tuned gait stands (tuning.hpp).
+  // 0.03 is allowed, although the tuned gait does not survive it (tuning.hpp).
   EXPECT_NE(verp("walk --set gait.joint_delay_s=0.03 --for 3 --json").status, 2);
   EXPECT_EQ(verp("walk --set gait.joint_delay_s=0.02 --for 3 --json").status, 0);
   EXPECT_EQ(verp("walk --set safety.fall_tilt_rad=0.2 --for 3 --json").status, 0);
@@ -238,7 +238,7 @@ TEST_F(Usage, MissingAndMalformedFilesAreNamed) {
   expect_refused("replay bad.sdf", "wrong magic");
 }
 
-// Of what is no file of the kind, no line and no byte is to blame.
+// The error for a wrong kind of file names no line or byte.
 TEST_F(Usage, FoldersAndNamesAreCalledWhatTheyAre) {
   for (const char* command : {"check", "walk", "export -o out"}) {
     expect_refused(std::string(command) + " /tmp", "/tmp: is a folder, not a robot's file; give");
@@ -259,7 +259,7 @@ TEST_F(Usage, UnwritablePlacesAreNamedBeforeTheRun) {
   expect_refused("walk --report file", "file");
 }
 
-// libsdformat would log to ~/.sdformat and complain where it cannot.
+// libsdformat would log to ~/.sdformat, and complain where it cannot.
 TEST_F(Usage, LibrariesPrintNothingAndLeaveNothingAtHome) {
   for (const char* home : {"env -u HOME ", "HOME=/proc ", "HOME=/nowhere ", "HOME=$PWD "}) {
     const Outcome outcome = shell(home + std::string(VERP_PROGRAM " check generic21"));
@@ -269,7 +269,7 @@ TEST_F(Usage, LibrariesPrintNothingAndLeaveNothingAtHome) {
   EXPECT_FALSE(fs::exists(folder_ / ".sdformat"));
 }
 
-// A finished trace takes the name it was given: a device of that name would be gone.
+// A finished trace replaces the file of its name, so a device of that name would be lost.
 TEST_F(Usage, DevicesAndPipesAreNotReplacedByTraces) {
   ASSERT_EQ(::mkfifo((folder_ / "pipe").c_str(), 0600), 0);
   expect_refused("walk --record pipe", "not a regular file");
@@ -307,7 +307,7 @@ TEST_F(Usage, UnknownBoardIsBadUsageAndTheBoardsAreListed) {
   }
 }
 
-// Whatever wanted it: an image that is not built is bad input, and no device's fault.
+// For every command, a missing image is bad input, not a device's fault.
 TEST_F(Usage, ABoardWithoutItsImageIsBadInputEverywhere) {
   ::setenv("VERP_FIRMWARE_DIR", folder_.c_str(), 1);
   for (const char* command :

@@ -24,7 +24,7 @@ void cut(const fs::path& from, const fs::path& to, std::size_t size) {
   std::ofstream(to, std::ios::binary).write(bytes.data(), static_cast<std::streamsize>(size));
 }
 
-// One object on stdout with everything design promises; the trace replays to the same digest.
+// stdout has one JSON object with all documented fields; the trace replays to the same digest.
 TEST_F(Walk, JsonTraceReplayAndDiffAgree) {
   const Outcome walk = verp("walk --for 4 --json --record a.mcap");
   ASSERT_EQ(walk.status, 0) << walk.err;
@@ -52,7 +52,7 @@ TEST_F(Walk, JsonTraceReplayAndDiffAgree) {
             result.at("ticks").get<std::size_t>() + 1);
 }
 
-// A walk that was set otherwise must not be taken for the robot's own.
+// A changed walk must not pass for the robot's own.
 TEST_F(Walk, WhatWasChangedStandsInSummaryReportJsonAndTrace) {
   const std::string options = "walk --for 3 --set gait.lift_m=0.02 --step 0.04 --report out";
   const Outcome walk = verp(options);
@@ -65,7 +65,7 @@ TEST_F(Walk, WhatWasChangedStandsInSummaryReportJsonAndTrace) {
   EXPECT_EQ(changed.at("changed"), json::parse(R"([["--for","3"],["--set","gait.lift_m=0.02"]])"));
 }
 
-// ... nor a curve that was asked for drift.
+// The report does not count an ordered curve as drift.
 TEST_F(Walk, ACommandedCurveIsToldAndDrawnBesideTheWayWalked) {
   const Outcome walk = verp("walk --for 6 --velocity 0.1,0,0.4 --report out");
   EXPECT_EQ(walk.status, 0) << walk.err;
@@ -88,7 +88,7 @@ TEST_F(Walk, SameSeedSameBitsOtherSeedOtherBits) {
   EXPECT_EQ(json::parse(other.out).at("divergence").at("stage"), "inputs");
 }
 
-// A solver that gives up is an end like others: its line is ours, and the trace is whole.
+// Diverged physics ends the run normally: one line of error and a complete trace.
 TEST_F(Walk, WhatPhysicsCannotFollowKeepsItsTrace) {
   const Outcome torn =
       verp("walk --for 6 --json --record a.mcap --at '1: l_foot.torque_n_m.x=100000'");
@@ -146,8 +146,7 @@ TEST_F(Walk, TwoCopiesDoNotClobberEachOther) {
   EXPECT_FALSE(has_leftovers(folder_));
 }
 
-// Ctrl-C: exit 130, SIGTERM: 143, as shells have it; and what was walked so far is a whole trace
-// and a report.
+// Ctrl-C gives exit 130 and SIGTERM 143, as in shells; trace and report cover the walk so far.
 TEST_F(Walk, InterruptKeepsTraceAndReport) {
   for (const auto& [signal, status] : {std::pair("INT", "130\n"), std::pair("TERM", "143\n")}) {
     const std::string command = std::string("timeout --preserve-status -s ") + signal +
@@ -169,7 +168,7 @@ TEST_F(Walk, ReaderThatGoesAwayIsNoCrash) {
   EXPECT_EQ(outcome.err, "");
 }
 
-// No step keeps the ZMP where this margin wants it: the robot stands, and the run ends and says so.
+// No step meets this ZMP margin: the robot stands, and the run ends and says so.
 TEST_F(Walk, PlanThatIsRefusedEndsTheRun) {
   const Outcome outcome =
       verp("walk --for 6 --no-multibody --set gait.support_margin_m=0.0299 --json");
@@ -178,14 +177,14 @@ TEST_F(Walk, PlanThatIsRefusedEndsTheRun) {
   EXPECT_LT(json::parse(outcome.out).at("ticks"), 2000);
 }
 
-// --for is the gait's length: the last whole step that fits, whatever stride, turn or cycle. While
-// strides still grow one more step means two: one more to shrink them again.
+// --for limits the gait's length: the last whole step that fits, for any stride, turn or cycle.
+// While strides still grow, one more step means two, because it must shrink again.
 TEST_F(Walk, LengthIsWhatWasAskedToWithinAStep) {
   struct Asked {
     const char* options;
     double walk_s, step_s;
-    int status = 0;     // 2 m/s: as fast as the limits let it, which is less than half of that
-    bool slow = false;  // its strides grow until it ends: that is said
+    int status = 0;     // 2 m/s: the limits allow less than half of it
+    bool slow = false;  // its strides grow until the end, and the remark says so
   };
   for (const Asked& asked :
        {Asked{"", 12, 0.225}, Asked{"--velocity 2,0,0", 8, 0.225, 1},
@@ -207,8 +206,8 @@ TEST_F(Walk, LengthIsWhatWasAskedToWithinAStep) {
   }
 }
 
-// Three seconds of 0.6 m/s are 17 cm of 1.55 m: all that such a gait goes. A robot that does not go
-// even that far had "walked" as well.
+// At 0.6 m/s this gait goes 17 cm of 1.55 m in three seconds, and no more. Earlier, a robot that
+// went even less had "walked" too.
 TEST_F(Walk, AShortWalkIsHeldByWhatItsGaitGoesInThatTime) {
   const json result =
       json::parse(verp("walk --velocity 0.6,0,0 --for 3 --physics-step 2 --json").out);
@@ -217,14 +216,14 @@ TEST_F(Walk, AShortWalkIsHeldByWhatItsGaitGoesInThatTime) {
   EXPECT_NE(result.at("remark").get<std::string>().find("m of the 1.55 m asked: this gait"),
             std::string::npos)
       << result.at("remark");
-  const Outcome slides =  // on ice it steps as planned and hardly comes forward
+  const Outcome slides =  // on ice it steps as planned and hardly advances
       verp("walk --velocity 0.6,0,0 --for 3 --no-multibody --at '0: ground.friction=0.001' --json");
   EXPECT_EQ(slides.status, 1) << slides.out;
   EXPECT_NE(slides.err.find("less than half of what its gait goes"), std::string::npos)
       << slides.err;
 }
 
-// Who counts walks wants to see how far they went, too.
+// A user who counts walks also wants their distances.
 TEST_F(Walk, SeedsTellTheWayOfTheWayAsked) {
   const Outcome straight = verp("walk --seeds 1-2 --for 5 --physics-step 2");
   EXPECT_EQ(straight.status, 0) << straight.out << straight.err;
@@ -246,7 +245,7 @@ TEST_F(Walk, SeedsTellTheWayOfTheWayAsked) {
             std::string::npos);
 }
 
-// They walked the usual robot instead.
+// Earlier, they walked the default robot.
 TEST_F(Walk, SeedsAreOfTheRobotThatHasAName) {
   const std::string rest = " --for 3 --physics-step 2 --json";
   const json alone = json::parse(verp("walk op3 --seed 1" + rest).out);
@@ -255,7 +254,6 @@ TEST_F(Walk, SeedsAreOfTheRobotThatHasAName) {
   EXPECT_EQ(many.at("model"), "op3");
 }
 
-// A walk that the gait cannot make so short says so.
 TEST_F(Walk, ShortestWalkThatIsLongerThanAskedSaysSo) {
   const std::string arguments = "walk --for 3 --set gait.start_s=2";
   const json result = json::parse(verp(arguments + " --json").out);
@@ -267,13 +265,13 @@ TEST_F(Walk, ShortestWalkThatIsLongerThanAskedSaysSo) {
   EXPECT_NE(verp(arguments).out.find("3 s were asked; the shortest walk"), std::string::npos);
 }
 
-// A zero would be taken for a measurement.
+// A zero would look like a measurement.
 TEST_F(Walk, WhatWasNotMeasuredIsNullOrADash) {
   const Outcome text = verp("walk --for 3 --report out");
   EXPECT_NE(text.out.find("- steady"), std::string::npos) << text.out;
   EXPECT_EQ(text.out.find("0.000 m/s"), std::string::npos) << text.out;
   EXPECT_NE(slurp(folder_ / "out/index.html").find("no cycle was steady"), std::string::npos);
-  const Outcome ended =  // while it still rises, and not before it has begun
+  const Outcome ended =  // after the run has begun, while the robot still rises
       shell(VERP_PROGRAM
             " walk --set safety.rise_s=10 --json --record t.mcap & "
             "until ls | grep -q t.mcap; do sleep 0.02; done; sleep 0.1; kill -INT $!; wait $!");
@@ -286,8 +284,7 @@ TEST_F(Walk, WhatWasNotMeasuredIsNullOrADash) {
   EXPECT_TRUE(none.at("zmp_bias_by_state_mm").at(3).is_null());
 }
 
-// A walk whose program ends before it has said how it went is one of those that did not survive:
-// not one less.
+// A walk whose program ends without a result counts as not survived.
 TEST_F(Walk, AProgramThatIsKilledCountsAmongItsSeeds) {
   std::ofstream(folder_ / "kill.sh") << R"sh(
 "$1" walk --seeds 1-2 --for 8 --physics-step 2 &
@@ -305,7 +302,7 @@ done)sh";
       << outcome.out;
 }
 
-// A good walk all the same; but nobody has to look for that in a table.
+// The walk is good, but its first line must show the low speed.
 TEST_F(Walk, ASpeedThatIsFarFromWhatWasAskedStandsInTheFirstLine) {
   const auto first_line = [&](const std::string& step) {
     const Outcome walk = verp("walk --for 6 --step " + step);
@@ -316,7 +313,7 @@ TEST_F(Walk, ASpeedThatIsFarFromWhatWasAskedStandsInTheFirstLine) {
   EXPECT_EQ(first_line("0.04").find("asked"), std::string::npos);
 }
 
-// What the servos cannot follow is taken off before the walk; whoever asked for it did not get it.
+// The planner cuts what the servos cannot follow, so the user does not get the order.
 TEST_F(Walk, AnOrderCutToLessThanHalfIsNoGoodWalk) {
   const Outcome outcome =
       verp("walk --step 0.15 --cycle 0.3 --set gait.max_step_m=0.3 --for 15 --physics-step 2");
@@ -335,7 +332,7 @@ TEST_F(Walk, SweepGivesATable) {
   EXPECT_NE(slurp(folder_ / "out/index.html").find("Step length sweep"), std::string::npos);
 }
 
-// Steps that a limit shortens are told with what was walked.
+// If a limit shortens the steps, the table also shows the walked steps.
 TEST_F(Walk, SweepTellsAskedAndWalkedSteps) {
   const Outcome outcome =
       verp("walk --for 4 --set gait.max_step_m=0.03 --sweep-step 0.02:0.04:0.02 --report out");
@@ -348,7 +345,7 @@ TEST_F(Walk, SweepTellsAskedAndWalkedSteps) {
   EXPECT_NE(slurp(folder_ / "out/index.html").find("gait.max_step_m"), std::string::npos);
 }
 
-// Of a walk that fell there is no speed or bias to compare, and the trace is of another walk.
+// A fallen walk has no speed or bias to compare, and the trace is of another walk.
 TEST_F(Walk, FallInASweepIsMarkedAndPointsAtNoTrace) {
   const std::string arguments =
       "walk --for 5 --set gait.max_step_m=0.3 --set gait.step_change_m=0.1 "

@@ -2,7 +2,7 @@
 
 #include "tests/host/tool/program.hpp"
 
-// What a person does to a walk, and where it takes place, as words of the command line.
+// Options for disturbances during a walk, and for the world where it takes place.
 
 namespace verp::tool::test {
 namespace {

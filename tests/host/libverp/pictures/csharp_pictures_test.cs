@@ -1,4 +1,4 @@
-// Pictures in C#: what comes, and what is said to misuse.
+// Pictures in C# and the errors on misuse.
 using System;
 using Verp;
 

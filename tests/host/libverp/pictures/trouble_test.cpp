@@ -14,12 +14,12 @@
 #include "tests/host/libverp/expect_error.hpp"
 #include "tests/host/libverp/pictures/pictures.hpp"
 
-// The program that draws ends, hangs or says nonsense; threads come and go.
+// The drawing program ends, hangs or writes nonsense; threads come and go.
 
 namespace verp::abi::test {
 namespace {
 
-/// The programs that draw for this process.
+/// Process ids of this process's drawing programs.
 std::vector<pid_t> drawing() {
   std::vector<pid_t> found;
   DIR* const all = ::opendir("/proc");
@@ -122,7 +122,7 @@ TEST(LibverpSightTrouble, ControllerAndSecondThreadAreTold) {
   EXPECT_EQ(seen.why.rfind("verp_session_picture: another thread", 0), 0U) << seen.why;
 }
 
-/// Never an endless wait: neither for one that is silent from the start, nor for one that stops.
+/// The wait always ends, for a program that is silent from the start or stops later.
 TEST(Painter, WaitsForNobodyForEver) {
   using camera::Painter;
   const camera::Stage stage{.robots = {{model::find_model("generic21"), 1}}, .world_file = ""};
@@ -141,7 +141,7 @@ TEST(Painter, WaitsForNobodyForEver) {
   EXPECT_NE(why([&] { Painter(silent, stage, Painter::Seconds(1)); }).find("not answered for 1 s"),
             std::string::npos);
   std::filesystem::remove(silent);
-  // It has no less patience for the start, and a busy PC takes longer than two seconds for that.
+  // The same timeout covers the start, which takes a busy PC more than two seconds.
   std::optional<Painter> painter;
   int patience_s = 1;
   std::string late;
