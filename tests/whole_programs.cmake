@@ -2,6 +2,29 @@
 # named `PREFIX` and the program's name. A program that needs minutes sets the property VERP_SHARDS: it runs in that
 # many parts, before all others, so that no core idles at the end. The property VERP_LONG_WALKS names tests to leave
 # out: they only walk longer than other tests do. Such walks are ten times slower here and find nothing more.
+#
+# Which program has which tests is in test_programs.txt of the build tree, for tests/wanted: program, what its tests' names begin
+# with, their label and the sources that they stand in; under sanitizers the whole name and no sources.
+function(verp_note_test_program target name)
+  cmake_parse_arguments(PARSE_ARGV 2 arg "" "" "PROPERTIES;SOURCES")
+  list(FIND arg_PROPERTIES LABELS at)
+  set(label "")
+  if(at GREATER_EQUAL 0)
+    math(EXPR at "${at} + 1")
+    list(GET arg_PROPERTIES ${at} label)
+  endif()
+  set(line "$<TARGET_FILE:${target}>|${name}|${label}")
+  foreach(source ${arg_SOURCES})
+    cmake_path(ABSOLUTE_PATH source NORMALIZE)
+    string(APPEND line "|${source}")
+  endforeach()
+  set_property(GLOBAL APPEND_STRING PROPERTY VERP_TEST_PROGRAMS "${line}\n")
+endfunction()
+function(verp_test_programs_end)
+  get_property(lines GLOBAL PROPERTY VERP_TEST_PROGRAMS)
+  file(GENERATE OUTPUT ${CMAKE_BINARY_DIR}/test_programs.txt CONTENT "${lines}")
+endfunction()
+
 if(CMAKE_CXX_FLAGS MATCHES "-fsanitize")
   function(gtest_discover_tests target)
     cmake_parse_arguments(arg "NO_PRETTY_VALUES" "TEST_PREFIX;TEST_FILTER;TEST_LIST" "PROPERTIES" ${ARGN})
@@ -27,23 +50,23 @@ if(CMAKE_CXX_FLAGS MATCHES "-fsanitize")
       math(EXPR last "${shards} - 1")
       foreach(shard RANGE ${last})
         string(APPEND script
-"  add_test([=[${name}.${shard}]=] env GTEST_TOTAL_SHARDS=${shards} GTEST_SHARD_INDEX=${shard}
+"add_test([=[${name}.${shard}]=] env GTEST_TOTAL_SHARDS=${shards} GTEST_SHARD_INDEX=${shard}
     [=[$<TARGET_FILE:${target}>]=] [=[--gtest_filter=${arg_TEST_FILTER}]=])
-  set_tests_properties([=[${name}.${shard}]=] PROPERTIES TIMEOUT 1800 COST 1000 ${properties})
+set_tests_properties([=[${name}.${shard}]=] PROPERTIES TIMEOUT 1800 COST 1000 ${properties})
 ")
         string(APPEND tests " [=[${name}.${shard}]=]")
+        verp_note_test_program(${target} ${name}.${shard} PROPERTIES ${arg_PROPERTIES})
       endforeach()
     else()
       set(script
-"  add_test([=[${name}]=] [=[$<TARGET_FILE:${target}>]=] [=[--gtest_filter=${arg_TEST_FILTER}]=])
-  set_tests_properties([=[${name}]=] PROPERTIES TIMEOUT 1800 ${properties})
+"add_test([=[${name}]=] [=[$<TARGET_FILE:${target}>]=] [=[--gtest_filter=${arg_TEST_FILTER}]=])
+set_tests_properties([=[${name}]=] PROPERTIES TIMEOUT 1800 ${properties})
 ")
       set(tests " [=[${name}]=]")
+      verp_note_test_program(${target} ${name} PROPERTIES ${arg_PROPERTIES})
     endif()
     file(GENERATE OUTPUT ${CMAKE_CURRENT_BINARY_DIR}/${name}.cmake CONTENT
-"if(EXISTS [=[$<TARGET_FILE:${target}>]=])
-${script}  set(${arg_TEST_LIST}${tests})
-endif()
+"${script}set(${arg_TEST_LIST}${tests})
 ")
     set_property(DIRECTORY APPEND PROPERTY TEST_INCLUDE_FILES ${CMAKE_CURRENT_BINARY_DIR}/${name}.cmake)
   endfunction()
@@ -51,5 +74,9 @@ else()
   # CMake's limit of 5 s is too short on a busy PC.
   function(gtest_discover_tests target)
     _gtest_discover_tests(${target} ${ARGN} DISCOVERY_TIMEOUT 300)
+    cmake_parse_arguments(arg "NO_PRETTY_VALUES" "TEST_PREFIX;TEST_FILTER;TEST_LIST" "PROPERTIES" ${ARGN})
+    get_target_property(sources ${target} SOURCES)
+    list(FILTER sources INCLUDE REGEX "\\.cpp$")
+    verp_note_test_program(${target} "${arg_TEST_PREFIX}" PROPERTIES ${arg_PROPERTIES} SOURCES ${sources})
   endfunction()
 endif()

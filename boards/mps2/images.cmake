@@ -74,8 +74,12 @@ endfunction()
 # Tests with a PC half take it from a PC build, which must exist.
 set(VERP_HOST_DIR ${CMAKE_SOURCE_DIR}/build/host-release CACHE PATH "PC build whose programs test this board")
 function(verp_add_target_test name suite)
+  set(image loop_${VERP_BOARD})
+  if(TARGET ${name}_${VERP_BOARD})
+    set(image ${name}_${VERP_BOARD})
+  endif()
   add_test(NAME ${name}.${VERP_BOARD} COMMAND ${VERP_HOST_DIR}/target/target_tests --gtest_filter=${suite}.*)
-  set_tests_properties(${name}.${VERP_BOARD} PROPERTIES LABELS "${name};target"
+  set_tests_properties(${name}.${VERP_BOARD} PROPERTIES LABELS "${name};target" REQUIRED_FILES $<TARGET_FILE:${image}>
     ENVIRONMENT "VERP_TEST_BOARD=${VERP_BOARD};VERP_FIRMWARE_DIR=${CMAKE_BINARY_DIR}/images")
 endfunction()
 
@@ -108,7 +112,7 @@ endfunction()
 # gdb on these images; with `loop`, also on the board's own loop.
 function(verp_add_debug_test)
   add_test(NAME debug.${VERP_BOARD} COMMAND ${CMAKE_SOURCE_DIR}/tests/target/debug ${VERP_BOARD} ${VERP_HOST_DIR}/host/tool/verp ${ARGN})
-  set_tests_properties(debug.${VERP_BOARD} PROPERTIES LABELS "replay;target"
+  set_tests_properties(debug.${VERP_BOARD} PROPERTIES LABELS "replay;target" REQUIRED_FILES $<TARGET_FILE:replay_${VERP_BOARD}>
     ENVIRONMENT "VERP_FIRMWARE_DIR=${CMAKE_BINARY_DIR}/images")
 endfunction()
 
@@ -118,7 +122,7 @@ function(verp_add_replay_tests machine)
   verp_add_target_test(replay TargetReplay)
   # The long trace, whole.
   add_test(NAME trace.${VERP_BOARD} COMMAND ${VERP_HOST_DIR}/target/target_tests --gtest_filter=LongTrace.*)
-  set_tests_properties(trace.${VERP_BOARD} PROPERTIES LABELS "replay;target"
+  set_tests_properties(trace.${VERP_BOARD} PROPERTIES LABELS "replay;target" REQUIRED_FILES $<TARGET_FILE:replay_${VERP_BOARD}>
     ENVIRONMENT "VERP_TEST_BOARD=${VERP_BOARD};VERP_TEST_TICKS=100000;VERP_FIRMWARE_DIR=${CMAKE_BINARY_DIR}/images")
 endfunction()
 
@@ -131,6 +135,7 @@ function(verp_add_can_tests machine)
     ${VERP_HOST_DIR}/target/target_tests --gtest_filter=CanBoard.*)
   # RESOURCE_LOCK: two virtual machines would share a processor.
   set_tests_properties(can.${VERP_BOARD} PROPERTIES LABELS "hil-can;target" RESOURCE_LOCK vm
+    REQUIRED_FILES $<TARGET_FILE:can_${VERP_BOARD}>
     ENVIRONMENT "VERP_TEST_BOARD=${VERP_BOARD};VERP_FIRMWARE_DIR=${CMAKE_BINARY_DIR}/images")
 endfunction()
 
@@ -201,5 +206,6 @@ function(verp_add_mps2_images machine)
   add_test(NAME bench.${VERP_BOARD} COMMAND ${VERP_HOST_DIR}/target/target_bench --check ${VERP_BOARD})
   # Measures the link, so it runs alone.
   set_tests_properties(bench.${VERP_BOARD} PROPERTIES LABELS "bench;target" RUN_SERIAL ON
+    REQUIRED_FILES "$<TARGET_FILE:replay_${VERP_BOARD}>;$<TARGET_FILE:link_${VERP_BOARD}>"
     ENVIRONMENT "VERP_TEST_BOARD=${VERP_BOARD};VERP_FIRMWARE_DIR=${CMAKE_BINARY_DIR}/images")
 endfunction()

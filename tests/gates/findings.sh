@@ -11,7 +11,8 @@ exists() { # name
   local name=$1 folder suite
   suite=${name%.*} suite=${suite##*.}
   case $name in
-  unit.* | hil.* | scenario.* | contract.*) folder=tests/${name%%.*} ;;
+  unit.*.*.*) folder=${name#unit.} folder=tests/unit/${folder%%.*} ;;
+  hil.* | scenario.* | contract.*) folder=tests/${name%%.*} ;;
   host.*.*.*) folder=${name#host.} folder=tests/host/${folder%%.*} ;;
   Bench.*) folder=tests/bench ;;
   *) # a board's tests carry its name

@@ -1,48 +1,70 @@
 #!/usr/bin/env bash
-# merge.sh ROOT: the merge gate runs every board and, under sanitizers, every test folder, except those named below.
-# Work left to --full must be named here too, not only in tests/run. The whole run may take 40 minutes, 20 with a warm
-# cache. Prints what is missing; exit status 1 if anything is.
-set -uo pipefail
+# merge.sh ROOT: the merge gate leaves to --full what tests/full.md names, and no more. The lists below say which boards, which
+# folders under sanitizers and which tests it must run, whatever tests/run and that table say. Each row of the table names tests
+# that exist, and one that stays. The whole run may take 45 minutes, 25 with a warm cache. Prints what is missing; exit status 1
+# if anything is.
+set -uf -o pipefail
 cd "$1" || exit 3
 failed=0
 missing() { echo "$1" && failed=1; }
 
-boards_of_full='mps2_an385 mps3_an547' # qemu_rv32 has no floating-point unit either; no robot's board has an M55
-# These take minutes: real robots, flashing, windows, searches by many walks, and play. Of tool, the merge gate runs
-# only the tests of user input.
-folders_of_full='run flash view scene identify survey tune demos'
-never='pictures camera'                # OpenGL drivers are not ours
-input=host.tool.verp_tool_test.input_tests.0
+boards_of_full='mps2_an385 mps2_an500 mps3_an547 nucleo_f446re'
+# The core, and what reads bytes of others.
+sanitized='unit math replay contract hil host.action host.bus host.can host.edit host.eds host.files host.libverp host.link host.live
+  host.model host.radio host.record host.shadow host.tool.verp_tool_test.input_tests'
+# Bits of every instruction set, loops over every bus, walks, faults, and gates.
+kept='replay.golden replay.matrix trace.mps2_an386 loop.mps2_an386 tour.mps2_an386 bench.mps2_an386 unit.mps2_an386 hil.olimex_h405.walk
+  budget.olimex_h405 budget.opencr trace.qemu_rv32 can.qemu_rv32 trace.zcu102_r5 can.zcu102_r5 can_loop.zcu102_r5
+  hil.Serial/Campaign.StaysSafeAndTells/noise hil.Can/CanCampaign.StaysSafeAndTells/doubled scenario.Generic21.WalksSideways
+  gate.symbols gate.layers gate.format gate.merge launcher.promises contract.mps2_an386'
 merge=$(tests/run --plan) full=$(tests/run --plan --full)
 
 runs_board() { grep -q "^fw-$2 tests: ctest " <<<"$1"; } # plan board
-while read -r board; do
+boards=$(sed -nE 's/.*"name": "fw-([a-z0-9_]+)".*/\1/p' CMakePresets.json | sort -u)
+for board in $boards; do
   runs_board "$full" "$board" || missing "tests/run: not even --full runs the board $board"
   [[ " $boards_of_full " == *" $board "* ]] || runs_board "$merge" "$board" ||
     missing "tests/run: the merge gate leaves out the board $board"
-done < <(sed -nE 's/.*"name": "fw-([a-z0-9_]+)".*/\1/p' CMakePresets.json | sort -u)
+done
 promised=$(sed -nE 's/.*kPromisedBoard = "([a-z0-9_]+)".*/\1/p' host/board/cost_promise.hpp)
 [[ $promised ]] && runs_board "$merge" "$promised" ||
   missing "tests/run: the merge gate leaves out ${promised:-?}, the board of the cost promises (host/board/cost_promise.hpp)"
 
-names=$(sed -nE 's/^host-asan-ubsan tests: .* -R ([^ ]+).*/\1/p' <<<"$merge")
-built=$(sed -nE 's/^host-asan-ubsan build: //p' <<<"$merge")
-sanitized() { # name-of-a-test folder
-  [[ $names && $1 =~ $names && " $built " == *" $2/all "* ]] ||
-    missing "tests/run: the sanitizers of the merge gate leave out $1 of $2"
-}
-for each in unit:unit math:exhaustive replay:replay contract:contract hil:hil nocompile:nocompile; do
-  sanitized "${each%:*}.a" "tests/${each#*:}"
+option() { sed -nE "s/^$1 tests: .* -$2 ([^ ]+).*/\1/p" <<<"$merge"; } # stage letter
+left_out=$(option fw-mps2_an386 E)
+for each in $kept; do
+  [[ $left_out && ! $each =~ $left_out ]] || missing "tests/full.md: the merge gate leaves out $each"
 done
-for each in tests/host/*/CMakeLists.txt; do
-  folder=$(basename "$(dirname "$each")")
-  [[ $folder == tool || " $folders_of_full $never " == *" $folder "* ]] || sanitized "host.$folder.a" "tests/host/$folder"
+names=$(option host-asan-ubsan R)
+for each in $sanitized; do
+  [[ $names && $each.0 =~ $names ]] || missing "tests/run: the sanitizers of the merge gate leave out $each"
 done
-sanitized "$input" tests/host/tool # the tests of what users type and which files they give
 grep -q 'TEST_LIST input_tests' tests/host/tool/CMakeLists.txt || missing 'tests/host/tool: no list of input_tests'
 grep -q '^host-asan-ubsan tests: ' <<<"$full" || missing 'tests/run: --full has no sanitizers'
+[[ ! $(sed -nE 's/^host-release tests: .* -E ([^ ]+).*/\1/p' <<<"$full") ]] || missing 'tests/run: --full leaves tests out'
 
-for bound in cold_budget_s=2400 warm_budget_s=1200 give_up_s=5200; do
+# Suite.Name of each test of GoogleTest, and the name of each of CMake's.
+tests=$(grep -rhozE --include='*_test.cpp' 'TEST(_F|_P)?\(\w+,\s*\w+\)' tests | tr -d '\n ' | tr '\0' '\n' | sed -E 's/.*\((.*),(.*)\)/\1.\2/'
+  grep -rhoE --include=CMakeLists.txt --include='*.cmake' 'NAME [a-z0-9_.]+' tests | sed 's/.* //')
+of_boards=$(grep -rhoE --include=CMakeLists.txt --include='*.cmake' '\w+\.\$\{VERP_BOARD|_test\(\w+ ' boards | sed -E 's/.*\(//; s/[. ].*//')
+is_there() { # name; `*` is any part of it
+  local board kind=${1%%.*}
+  for board in $boards; do
+    [[ $1 != *."$board" && $1 != *."$board"[.*]* ]] && continue
+    [[ $kind == '*' ]] || grep -qxF "$kind" <<<"$of_boards"
+    return
+  done
+  grep -qxF -e "$1" -e "$(awk -F. '{ print $(NF-1) "." $NF }' <<<"$1")" <<<"$tests"
+}
+while IFS='|' read -r _ left kept _; do
+  for each in $(tr -d '\140' <<<"$left $kept"); do
+    is_there "$each" || missing "tests/full.md: no test '$each'"
+  done
+  each=$(tr -d '\140 ' <<<"$kept")
+  [[ ! $each =~ $left_out ]] || missing "tests/full.md: '$each' is left out, too"
+done < <(grep '^| `' tests/full.md)
+
+for bound in cold_budget_s=2700 warm_budget_s=1500 give_up_s=5200; do
   value=$(grep -oE "(^| )${bound%=*}=[0-9]+" tests/run | sed 's/.*=//')
   ((${value:-99999} <= ${bound#*=})) || missing "tests/run: ${bound%=*} is ${value:-missing}, at most ${bound#*=}"
 done

@@ -166,31 +166,35 @@ test_boards() {
   expect 'every step done' '' "${gate[@]}"
 }
 
-# A project that builds nothing: only the plan of tests/run and the names of the folders.
+# A project in which nothing is built: what tests/run would do, and the sources that name tests.
 merge_case() { # what reason [file sed-expression]
-  local tree=$scratch/tree file
-  rm -rf "$tree"
-  for file in tests/run tests/host/*/CMakeLists.txt CMakePresets.json host/board/cost_promise.hpp; do
-    install -D -t "$tree/$(dirname "$file")" "$file"
-  done
-  [[ -z ${3:-} ]] || sed -i -E "$4" "$tree/$3"
+  local tree=$scratch/tree
+  [[ -e $tree ]] || { mkdir -p "$tree" && tar -cf - tests boards CMakePresets.json host/board/cost_promise.hpp | tar -C "$tree" -xf -; }
+  [[ -z ${3:-} ]] || { cp "$3" "$scratch/kept" && sed -i -E "$4" "$tree/$3"; }
   expect "$1" "$2" "$here/merge.sh" "$tree"
+  [[ -z ${3:-} ]] || cp "$scratch/kept" "$tree/$3"
 }
 
 test_merge() {
   cd "$root"
   merge_case 'as it is' ''
-  merge_case 'the board of the cost promises to --full' 'leaves out mps2_an386, the board of the cost' tests/run 's/mps2_an385\|mps3/mps2_an386|mps3/'
-  merge_case 'another board to --full' 'leaves out the board opencr' tests/run 's/mps2_an385\|mps3/opencr|mps3/'
+  merge_case 'the board of the cost promises to --full' 'leaves out mps2_an386, the board of the cost' tests/run "s/^boards_of_full='/&mps2_an386 /"
+  merge_case 'another board to --full' 'leaves out the board opencr' tests/run "s/^boards_of_full='/&opencr /"
   merge_case 'promises of another board' 'leaves out mps2_an385, the board of the cost' host/board/cost_promise.hpp 's/mps2_an386/mps2_an385/'
-  merge_case 'a board that nobody runs' 'not even --full runs the board mps2_an385' tests/run 's/\[\[ \$full \|\| !/[[ !/'
-  merge_case 'a folder of host to --full' 'leave out host.model.a' tests/run 's/run\|tool\|flash/run|model|tool|flash/'
-  merge_case 'a folder named, not built' 'leave out replay.a' tests/run 's/unit,exhaustive,replay,contract,hil,nocompile\} "\$\{host/unit,exhaustive,contract,hil,nocompile} "${host/'
-  merge_case 'what people type to --full' 'leave out host.tool' tests/run '/names.*input_tests/d'
+  merge_case 'a board that nobody runs' 'not even --full runs the board mps2_an385' tests/run 's/\[\[ \$full \|\| " \$boards/[[ " $boards/'
+  merge_case 'a folder of host without sanitizers' 'leave out host.model' tests/run 's/\|model\|/|/'
+  merge_case 'the core without sanitizers' 'leave out replay' tests/run 's/\|replay\|/|/'
+  merge_case 'what people type to --full' 'leave out host.tool' tests/run '/^sanitized=.*input_tests/d'
   merge_case 'no test of what people type' 'no list of input_tests' tests/host/tool/CMakeLists.txt 's/input_tests/walk_tests/'
-  merge_case 'a longer run' 'cold_budget_s is 3000, at most 2400' tests/run 's/cold_budget_s=2400/cold_budget_s=3000/'
-  merge_case 'a run of any length' 'warm_budget_s is missing' tests/run 's/warm_budget_s=1200/warm_s=1200/'
+  merge_case 'a longer run' 'cold_budget_s is 3000, at most 2700' tests/run 's/cold_budget_s=2700/cold_budget_s=3000/'
+  merge_case 'a run of any length' 'warm_budget_s is missing' tests/run 's/warm_budget_s=1500/warm_s=1500/'
   merge_case 'sanitizers, not even with --full' '--full has no sanitizers' tests/run 's/preset host-asan-ubsan 900/preset host-debug 900/'
+  merge_case 'bits of an instruction set to --full' 'leaves out trace.qemu_rv32' tests/full.md 's/^. `unit.zcu102_r5`/| `trace.qemu_rv32`/'
+  merge_case 'everything of a folder to --full' 'leaves out scenario.Generic21' tests/full.md 's/^. `gate.new_board`/| `scenario.*`/'
+  merge_case 'a test that is gone' "no test 'gate.old_board'" tests/full.md 's/`gate.new_board`/`gate.old_board`/'
+  merge_case 'a board that is gone' "no test 'unit.mps2_an999'" tests/full.md 's/`unit.mps2_an386`/`unit.mps2_an999`/'
+  merge_case 'nothing kept' "no test 'host.model.None.Such'" tests/full.md 's/`gate.boards`/`host.model.None.Such`/'
+  merge_case '--full that leaves out' '--full leaves tests out' tests/run 's/\[\[ ! \$full && ! \$filter/[[ ! $filter/'
 }
 
 tests_case() { # what reason path text
@@ -219,7 +223,7 @@ findings_case() { # what reason sed-expression-for-the-table
   printf 'add_test(NAME gate.a COMMAND a)\n' >"$scratch/tree/tests/CMakeLists.txt"
   printf 'add_test(NAME bench.${VERP_BOARD} COMMAND a)\n' >"$scratch/tree/boards/c/a.cmake"
   for ((i = 1; i <= 23; ++i)); do
-    echo "| $i | what \`verp walk\` must | \`unit.Suite.Name\` \`host.b.Long.OnTwoLines\` \`gate.a\` \`bench.mps2\`; by eye |"
+    echo "| $i | what \`verp walk\` must | \`unit.a.Suite.Name\` \`host.b.Long.OnTwoLines\` \`gate.a\` \`bench.mps2\`; by eye |"
   done | sed -E "$3" >"$scratch/tree/tests/findings.md"
   expect "$1" "$2" "$here/findings.sh" "$scratch/tree"
 }
@@ -228,7 +232,7 @@ test_findings() {
   findings_case 'all there' '' ''
   findings_case 'a number without a row' 'row 7 is missing' '/^\| 7 /d'
   findings_case 'the last number without one' 'row 23 is missing' '/^\| 23 /d'
-  findings_case 'a test of another name' "findings.md:3: no test 'unit.Suite.Names'" '3s/Suite.Name/Suite.Names/'
+  findings_case 'a test of another name' "findings.md:3: no test 'unit.a.Suite.Names'" '3s/Suite.Name/Suite.Names/'
   findings_case 'a test of another folder' "no test 'host.c.Long.OnTwoLines'" 's/host.b/host.c/'
   findings_case 'a gate that is gone' "no test 'gate.b'" 's/gate.a/gate.b/'
   findings_case 'a test of no board' "no test 'cost.mps2'" 's/bench.mps2/cost.mps2/'

@@ -176,7 +176,8 @@ for words in '--only unit' '--only=hil-can' '--only replay --full' '--filter ^ho
 done
 
 fresh_project
-cp "$root/tests/run" "$scratch/tests/" && stub nproc 'echo 2' && stub ccache true
+cp "$root/tests/run" "$root/tests/full.md" "$scratch/tests/" && stub nproc 'echo 2' && stub ccache true
+printf '#!/bin/sh\necho unit_b\n' >"$scratch/tests/wanted" && chmod +x "$scratch/tests/wanted"
 stub ctest "cat '$scratch/ctest.txt'; echo \"\$*\" >>'$scratch/asked'; exit 8"
 { for name in One Two Three Four Five Six Seven Eight Nine Ten Eleven Twelve; do
     printf '[ RUN      ] Good.%s\nnoise of %s\n[       OK ] Good.%s (1 ms)\n' $name $name $name
