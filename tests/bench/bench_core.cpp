@@ -14,30 +14,29 @@
 #include "tests/bench/leg_problem.hpp"
 #include "tests/target/twin_run.hpp"
 
-/// bench_core FOLDER [--benchmark_...]: times of the core on this PC. FOLDER/leg gets the leg and
-/// targets that bench_peers times other solvers on. Everything is from one walk of generic21 in the
-/// twin, the one that target_bench counts instructions on; its inputs are kept in FOLDER/inputs.
+/// bench_core FOLDER [--benchmark_...]: times of the core on this PC, from the generic21 walk in
+/// the twin that target_bench counts instructions on. FOLDER/leg receives the leg and targets on
+/// which bench_peers times other solvers; FOLDER/inputs keeps the walk's inputs.
 namespace verp::bench {
 namespace {
 
 constexpr std::uint32_t kTicks = 3600;      // 36 s at 10 ms
-constexpr std::uint32_t kFirstTick = 650;   // it stands up before
-constexpr std::uint32_t kLastTick = 3250;   // and stops after
-constexpr std::uint32_t kLegTargets = 512;  // from kFirstTick on: five seconds, two ways to walk
+constexpr std::uint32_t kFirstTick = 650;   // the robot is up by then
+constexpr std::uint32_t kLastTick = 3250;   // and stops later
+constexpr std::uint32_t kLegTargets = 512;  // from kFirstTick on: five seconds, two kinds of walk
 
 struct LegPose {
   Pose sole;
   float before_rad[kLegJoints];
 };
 
-/// The walk, as the benchmarks need it.
 struct Recording {
   Params params;
   std::vector<Inputs> walking;  // kFirstTick to kLastTick
   State start;                  // before the first of them
   Outputs start_outputs;
-  std::vector<LegPose> left_leg;     // where step() put it, tick after tick
-  float angle_rad[kMaxJoints] = {};  // all joints, in mid-walk
+  std::vector<LegPose> left_leg;     // step()'s poses, tick by tick
+  float angle_rad[kMaxJoints] = {};  // all joints in mid-walk
 };
 
 void read_goals(const Params& params, const Outputs& outputs, float* angle_rad) {
@@ -60,8 +59,7 @@ LegPose leg_pose(const Params& params, const float* before_rad, const float* now
   return pose;
 }
 
-/// The walk's inputs: from `file`, or else from the twin. Empty if the robot did not get to the
-/// end.
+/// The walk's inputs from `file`, or else from the twin. Empty if the robot did not finish.
 std::vector<Inputs> walk(const test::Robot& robot, const std::string& file) {
   std::vector<Inputs> inputs(kTicks);
   const auto size = static_cast<std::streamsize>(kTicks * sizeof(Inputs));

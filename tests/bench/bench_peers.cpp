@@ -18,25 +18,24 @@
 
 /// bench_peers FOLDER [--benchmark_...]: KDL's inverse kinematics on the leg and targets that
 /// bench_core left there, by the faster of two solvers on this PC: Levenberg-Marquardt, and
-/// Newton-Raphson with weighted damped least squares. Exit 1 if an answer of either is not ours.
+/// Newton-Raphson with weighted damped least squares. Exit 1 if either differs from our answer.
 ///
-/// KDL gets every help it can take: it is set up once, tolerances are no finer than the answer
-/// needs (Levenberg-Marquardt's default is a residual of 1e-5, in metres, a radian weighing 0.01 m;
-/// Newton-Raphson ends at 1e-5 m and rad), single-axis joints where the axis is x, y or z, the
-/// compiler's vectors in Eigen, and as a start the true answer of the tick before, 10 ms earlier,
-/// which a closed form does without. Joint limits, which ours keeps as well, these solvers do not
-/// know.
+/// KDL gets every advantage. It is set up once and uses single-axis joints for x, y or z axes,
+/// Eigen with the compiler's vectors, and the true answer of 10 ms earlier as start; our closed
+/// form needs none. Tolerances are no finer than needed: Levenberg-Marquardt's default residual is
+/// 1e-5 in metres, with a radian weighing 0.01 m; Newton-Raphson ends at 1e-5 m and rad. These
+/// solvers know no joint limits, which ours keeps.
 namespace verp::bench {
 namespace {
 
-// Solutions are the same within what KDL's tolerance leaves: 1e-5 m is 1e-3 rad of a 0.01 m weight.
+// Solutions agree within KDL's tolerance: 1e-5 m is 1e-3 rad at a weight of 0.01 m.
 constexpr double kMostApart_rad = 5e-3;
 constexpr double kMostApart_m = 1e-4;
 
 constexpr double kNewtonEnds = 1e-5;
 constexpr unsigned kMostIterations = 100;
 
-/// Counts the iterations of who uses it.
+/// Counts the solver's iterations.
 struct CountingWdls : KDL::ChainIkSolverVel_wdls {
   using ChainIkSolverVel_wdls::CartToJnt;
   using ChainIkSolverVel_wdls::ChainIkSolverVel_wdls;
@@ -91,13 +90,13 @@ std::vector<Question> make_questions(const LegProblem& leg) {
   return questions;
 }
 
-/// How far apart KDL's answers and ours are, over all targets, and how long they took.
+/// Difference between KDL's answers and ours over all targets, and the time they took.
 struct Agreement {
   double apart_rad = 0, apart_m = 0, iterations = 0, seconds = 0;
   int unsolved = 0;
 };
 
-/// One of KDL's solvers; `iterations` counts those of all calls so far, if it can.
+/// One of KDL's solvers; `iterations` counts those of all calls so far, if known.
 struct Peer {
   const char* name;
   KDL::ChainIkSolverPos& solver;

@@ -4,7 +4,7 @@
 
 #include "tests/host/tool/program.hpp"
 
-/// `verp bench` says what it promises to say. Speed itself is no test: it depends on the machine.
+/// Tests what `verp bench` reports. Speed depends on the machine and is not tested.
 namespace verp::tool::test {
 namespace {
 
@@ -16,7 +16,7 @@ TEST_F(Bench, JsonIsOneObjectWithEveryCostOfThePcAndKdlAgreesWithUs) {
   EXPECT_EQ(outcome.err, "");
   const auto json = nlohmann::json::parse(outcome.out);
   EXPECT_TRUE(json.at("kept"));
-  std::map<std::string, double> bars;  // 0: nothing is promised
+  std::map<std::string, double> bars;  // 0: no promise
   for (const auto& row : json.at("results")) {
     bars[row.at("name")] = row.value("at_least", row.value("at_most", 0.0));
     EXPECT_EQ(row.count("failed"), 0) << row;
@@ -57,8 +57,8 @@ TEST_F(Bench, TableHasTheBarBesideEachPromisedNumber) {
   }
 }
 
-// A PATH without them: the others are measured all the same, with the bar beside each promised
-// number, and the row says what to install.
+// With a PATH without languages, the others are still measured, with the promise beside its number,
+// and the row names what to install.
 TEST_F(Bench, LanguageThatIsNotInstalledSaysSoAndFailsNobody) {
   const Outcome outcome = shell("mkdir few && ln -s /bin/sh few/sh && PATH=$PWD/few " VERP_PROGRAM
                                 " bench --only languages --repetitions 1");
@@ -76,7 +76,7 @@ TEST_F(Bench, AnswerThatKdlDoesNotGiveIsFound) {
   const std::string peers = VERP_BENCH_PEERS " . --benchmark_min_time=0.01";
   ASSERT_EQ(shell(VERP_BENCH_CORE " . --benchmark_filter=none").status, 0);
   EXPECT_EQ(shell(peers).status, 0);
-  // Line 9 is our answer to the first target.
+  // Line 9 holds our answer to the first target.
   const Outcome wrong = shell("sed -i '9s/^[^ ]*/0.5/' leg && " + peers);
   EXPECT_EQ(wrong.status, 1);
   EXPECT_NE(wrong.err.find("disagree"), std::string::npos) << wrong.err;

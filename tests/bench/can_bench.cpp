@@ -11,9 +11,9 @@
 #include "tests/hil/level_plant.hpp"
 #include "tests/target/can_run.hpp"
 
-/// can_bench [--ticks N] [BOARD...]: how fast the loop goes between an emulated board and a robot
-/// on vcan0, without physics; without a name, on each board that has CAN. One line of JSON each on
-/// standard output. Time: it depends on the machine. Run it inside of tests/support/with-can.
+/// can_bench [--ticks N] [BOARD...]: speed of the loop between an emulated board and a robot on
+/// vcan0, without physics; by default on each board with CAN. Prints one JSON line each. Times
+/// depend on the machine. Run it inside tests/support/with-can.
 namespace {
 
 constexpr std::uint32_t kTicks = 1900;  // as the walk of ten seconds: stands up, walks, stops

@@ -1,17 +1,17 @@
-/* A QEMU TCG plugin: exactly how many guest instructions each call of a function executes, callees
+/* A QEMU TCG plugin that counts the guest instructions of each call of a function, callees
  * included.
  *
  *   -plugin libinstruction_count.so,out=FILE,call=NAME:ADDRESS[,call=NAME:ADDRESS...]
  *
- * Addresses are hexadecimal. FILE becomes one line a function: name, calls, sum, least, most, the
- * call (from 0) that took most, and the most that this function took inside one call of the first
- * function.
+ * Addresses are hexadecimal. FILE gets one line per function: name, calls, sum, least, most, the
+ * call (from 0) that took most, and the most that all calls inside one call of the first function
+ * took.
  *
- * QEMU has no DWT cycle counter, and instructions repeat exactly while time does not. A call begins
- * when the block at the function's address runs; it ends when the block behind the calling bl or
- * blx runs. A tail call has no such block: it ends with the call that encloses it. Interrupts would
- * be counted to whom they interrupt; images under test have none. A predicated instruction counts
- * whether or not its condition holds, as it takes its cycle.
+ * QEMU has no DWT cycle counter, and instruction counts repeat exactly while times do not. A call
+ * begins when the block at the function's address runs, and ends when the block after the calling
+ * bl or blx runs. A tail call has no such block and ends with its caller. Interrupts would count
+ * for the function they interrupt; images under test have none. A predicated instruction counts
+ * even if its condition fails, because it takes its cycle.
  *
  * Debian's QEMU 7.2 ships no qemu-plugin.h: the few declarations used are below (API version 1,
  * QEMU's documentation "TCG Plugins"). */

@@ -26,9 +26,9 @@
 #include "tests/support/link_pump.hpp"
 #include "tests/target/twin_run.hpp"
 
-/// language_bench TIMES: how many control ticks a second each language steps the controller,
-/// without physics. One line of JSON each on standard output; what is not installed is told there,
-/// and is no failure. Time: it depends on the machine.
+/// language_bench TIMES: control ticks per second with which each language steps the controller,
+/// without physics. Prints one JSON line each. A missing language is reported there and is no
+/// failure. Times depend on the machine.
 namespace {
 
 using Json = nlohmann::json;
@@ -53,7 +53,7 @@ std::string last_words(const std::filesystem::path& file) {
   return verp::process::last_line(verp::files::read(file).value_or(""));
 }
 
-/// What a program of another language prints: a number a line.
+/// The program's output: one number per line.
 Rates rates_of(const std::string& command) {
   const verp::board::TemporaryDirectory scratch;
   const std::string errors = (scratch.path() / "errors").string();
@@ -110,7 +110,7 @@ Rates in_cpp(int times) {
 
 Rates in_python(int times) {
   need_library();
-  // Debian's: another one of this PC has not Debian's packages.
+  // Debian's Python: another one lacks Debian's packages.
   if (!succeeds("/usr/bin/python3 -c 'import cffi, numpy'")) {
     throw Missing("apt-get install python3-cffi python3-numpy");
   }
@@ -145,8 +145,8 @@ Rates in_csharp(int times) {
                               times));
 }
 
-/// `verp run` in lockstep at the other end of a Unix socket; here is the bus and a robot on a
-/// stand. Of the clock on the wall, as two processes take turns.
+/// `verp run` in lockstep over a Unix socket; this process has the bus and a robot on a stand.
+/// Wall-clock time, because two processes take turns.
 double external_rate() {
   using Clock = std::chrono::steady_clock;
   constexpr auto kPatience = std::chrono::seconds(30);

@@ -5,30 +5,30 @@
 #include <string>
 #include <vector>
 
-/// One leg and what it is asked for, as plain numbers: how bench_core hands the very same problem
-/// to bench_peers. They are two programs because ours is compiled with EIGEN_DONT_VECTORIZE and the
-/// peers are not: in one program Eigen's functions would exist in two versions under one name.
+/// One leg and its targets as plain numbers, so that bench_core and bench_peers solve the same
+/// problem. Ours is compiled with EIGEN_DONT_VECTORIZE, the peers are not: in one program Eigen's
+/// functions would exist in two versions under one name.
 namespace verp::bench {
 
 inline constexpr int kJoints = 6;  ///< hip to ankle
 
-/// Frames are parallel to the body's when all joints stand at zero. Rotations are row-major.
+/// Frames are parallel to the body's when all joints are at zero. Rotations are row-major.
 struct LegTarget {
   std::array<double, 9> sole_rotation{};  ///< body frame
   std::array<double, 3> sole_m{};
-  std::array<double, kJoints> before_rad{};  ///< the leg one tick earlier: a warm start
-  std::array<double, kJoints> answer_rad{};  ///< what our solver says
+  std::array<double, kJoints> before_rad{};  ///< one tick earlier, as a warm start
+  std::array<double, kJoints> answer_rad{};  ///< our solver's answer
 };
 
 struct LegProblem {
-  std::array<double, 3 * kJoints> origin_m{};  ///< of each joint, in the frame of the one before
+  std::array<double, 3 * kJoints> origin_m{};  ///< of each joint, in the previous joint's frame
   std::array<double, 3 * kJoints> axis{};      ///< unit vectors
-  std::array<double, 9> foot_sole{};           ///< the sole in the frame of the last joint
+  std::array<double, 9> foot_sole{};           ///< the sole in the last joint's frame
   std::array<double, 3> foot_sole_m{};
   std::vector<LegTarget> targets;
 };
 
-/// Calls `visit` with every array of a problem, in the order of the file.
+/// Calls `visit` with every array of a problem, in file order.
 template <class Problem, class Visit>
 void for_each_array(Problem& problem, Visit visit) {
   visit(problem.origin_m);
@@ -43,7 +43,7 @@ void for_each_array(Problem& problem, Visit visit) {
   }
 }
 
-/// False if the file can't be written.
+/// False if the file cannot be written.
 inline bool write_problem(const std::string& path, const LegProblem& problem) {
   std::ofstream file(path);
   file.precision(std::numeric_limits<double>::max_digits10);
@@ -55,7 +55,7 @@ inline bool write_problem(const std::string& path, const LegProblem& problem) {
   return file.flush().good();
 }
 
-/// False if there is no such file or it is not whole.
+/// False if the file is missing or incomplete.
 inline bool read_problem(const std::string& path, LegProblem& problem) {
   std::ifstream file(path);
   std::size_t targets = 0;

@@ -12,15 +12,14 @@
 #include "tests/bench/target_cost.hpp"
 #include "tests/target/twin_run.hpp"
 
-/// target_bench [--check|--profile] [BOARD...]: what a tick of a walking generic21 costs on each
-/// emulated board, exactly, and how fast the link to it is. One line of JSON each on standard
-/// output.
-/// --check: exit 1 if a promise is broken. --profile: instead, where the instructions go.
+/// target_bench [--check|--profile] [BOARD...]: the exact cost of a tick of a walking generic21 on
+/// each emulated board, and the speed of its link. Prints one JSON line each. --check: exit 1 if a
+/// promise is broken. --profile: prints where the instructions go instead.
 namespace {
 
 constexpr std::uint32_t kTicks = 3600;  // 36 s at 10 ms: stands up, six different walks, stops
 constexpr std::uint32_t kLinkTicks = 20000;
-constexpr int kLinkAttempts = 3;  // the best counts: other programs only ever slow it down
+constexpr int kLinkAttempts = 3;  // the best counts, because other programs only slow it down
 
 bool keeps(const char* what, double value, double least, double most) {
   const bool good = value >= least && value <= most;
@@ -86,7 +85,7 @@ int run(std::vector<std::string> boards, Task task) {
   std::vector<verp::Inputs> inputs;
   for (const verp::TickRecord& record : walk.records) inputs.push_back(record.inputs);
   bool good = inputs.size() == kTicks;
-  std::setvbuf(stdout, nullptr, _IOLBF, 0);  // line by line, for whoever follows
+  std::setvbuf(stdout, nullptr, _IOLBF, 0);  // line by line, for readers who follow
   for (const std::string& board : boards) {
     if (task == Task::kProfile) {
       show_profile(board, robot.params, inputs);

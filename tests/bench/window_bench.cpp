@@ -21,10 +21,10 @@
 #include "host/view/main_window.hpp"
 #include "host/view/theme.hpp"
 
-// What a picture costs. `frames`: the renderer alone, CPU time; of a robot's camera also how far
-// its pixels are from those of 64 samples. `window`: frames a second of the real window, and how
-// fast the twin goes by beside it. One line of JSON each, for one robot and for four; those also
-// with steps of 2 ms, because one core has four robots' physics of 1 ms only just.
+// The cost of a picture. `frames` measures the renderer alone, in CPU time, and the distance of a
+// robot camera's pixels from those of 64 samples. `window` measures the frame rate of the real
+// window and the twin's speed beside it. Prints one JSON line each, for one robot and for four.
+// Four also run with 2 ms steps: one core barely manages their physics at 1 ms.
 namespace verp::view {
 namespace {
 
@@ -78,7 +78,7 @@ void bench_frames(int robots, bool antialias, int frames) {
       robots, antialias, 1e3 * (cpu_s() - before_s) / frames, frames / wall_s);
 }
 
-/// As far from `truth` as a pixel's colour is on average, of 255.
+/// Mean distance of a pixel's colour from `truth`, of 255.
 double rms_apart(const render::Image& image, const render::Image& truth) {
   double sum = 0;
   for (std::size_t i = 0; i < image.rgb.size(); ++i) {
@@ -88,7 +88,7 @@ double rms_apart(const render::Image& image, const render::Image& truth) {
   return std::sqrt(sum / double(image.rgb.size()));
 }
 
-/// Of a picture that is `times` as large each way.
+/// Averages a picture that is `times` as large each way.
 render::Image averaged(const render::Image& large, int times) {
   render::Image out{{large.size.width / times, large.size.height / times}, {}};
   for (int y = 0; y < out.size.height; ++y) {
@@ -105,7 +105,7 @@ render::Image averaged(const render::Image& large, int times) {
   return out;
 }
 
-/// A robot's camera in the furnished room: one sample a pixel, its edges smoothed, four samples.
+/// A robot's camera in the furnished room: one sample per pixel, edges smoothed, and four samples.
 void bench_camera() {
   constexpr int kPictures = 24, kTimes = 8;
   constexpr render::Size kCamera{320, 240};

@@ -10,7 +10,8 @@
 
 #include "tests/can/can_world.hpp"
 
-// What a CanPort adds to the contract: FD, filters, errors by kind, interfaces that go and come.
+// What a CanPort adds to the contract: FD, filters, errors by kind, interfaces that vanish and
+// return.
 
 namespace verp::wire {
 namespace {
@@ -73,7 +74,7 @@ TEST(CanPort, CarriesFdFramesWhereTheInterfaceDoes) {
   }
 }
 
-// Not in the order of their identifiers: they follow each other as on a bus elsewhere.
+// Frames keep the given order, not that of their identifiers, as on a real bus.
 TEST(CanPort, SendsManyAtOnceInTheOrderGivenUpToTheFirstThatItRefuses) {
   const OwnVcan vcan;
   RawNode far(vcan.name);
@@ -135,7 +136,7 @@ TEST(CanPort, LetsInWhatItsFiltersSayAndNothingElse) {
   CanFrame extended = frame_of(0x1234);
   extended.extended = true;
   far.send(extended);
-  extended.id = 0x185;  // in range by number only
+  extended.id = 0x185;  // only the number is in range
   far.send(extended);
   far.send(frame_of(0x234));
   CanFrame heard;
@@ -148,7 +149,7 @@ TEST(CanPort, LetsInWhatItsFiltersSayAndNothingElse) {
   settle(port);
 }
 
-// Each kind on its own: its counter moves, the others stand, and nobody is handed an error frame.
+// Each kind moves its own counter only, and the caller never receives an error frame.
 TEST(CanPort, CountsErrorFramesByKind) {
   const OwnVcan vcan;
   RawNode far(vcan.name);
@@ -213,7 +214,7 @@ TEST(CanPort, RefusesFromBusOffUntilTheControllerIsBack) {
   EXPECT_TRUE(heard == frame_of(2)) << "what was refused stays so";
 }
 
-/// Sends until the bus takes it, as a master does; false: not within two seconds.
+/// Sends until the bus accepts it, as a master does; false after two seconds.
 bool sends_again(CanPort& port, const CanFrame& frame) {
   for (int i = 0; i < 200; ++i) {
     if (port.send(frame)) return true;
@@ -282,7 +283,7 @@ TEST(CanPort, SaysWhenAFrameCameNotWhenItWasFetched) {
   EXPECT_GE(port.now_us(), after_us + 50'000) << "time goes on";
 }
 
-// More than socket and inbox hold: each frame is handed over or counted.
+// More frames than socket and inbox hold: each one is delivered or counted.
 TEST(CanPort, LosesNoFrameUncounted) {
   const OwnVcan vcan;
   RawNode far(vcan.name);
@@ -303,7 +304,7 @@ TEST(CanPort, LosesNoFrameUncounted) {
   EXPECT_GT(brought, 0u);
   EXPECT_LT(brought, kFlood) << "the flood was no flood";
   for (int i = 0; i < 3; ++i) {
-    far.send(frame_of(0x182));  // what was lost is told with the next one, and each one after that
+    far.send(frame_of(0x182));  // the next frame reports a loss, and so does each later one
     ASSERT_TRUE(poll_for(port, heard, kSoon_us));
     EXPECT_EQ(brought + port.errors().overruns, kFlood);
   }

@@ -8,15 +8,15 @@
 #include "host/link/can_port.hpp"
 #include "tests/contract/pc/can_sockets.hpp"
 
-/// Interfaces of a test's own. Runs inside tests/support/with-can, as root of that.
+/// A test's own interfaces. Runs as root inside tests/support/with-can.
 namespace verp::test {
 
-/// `ip ARGUMENTS`, which must succeed.
+/// Runs `ip ARGUMENTS`, which must succeed.
 inline void ip(const std::string& arguments) {
   ASSERT_EQ(std::system(("ip " + arguments).c_str()), 0) << arguments;
 }
 
-/// A vcan interface that lives as long as this.
+/// A vcan interface with this object's lifetime.
 class OwnVcan {
  public:
   explicit OwnVcan(std::string interface = "vcan7") : name(std::move(interface)) { make(); }
@@ -53,12 +53,12 @@ inline CanFrame frame_of(std::uint32_t id, unsigned number = 0) {
   return frame;
 }
 
-/// A poll of so long from now on, not from the last frame sent.
+/// Polls for so long from now, not from the last frame sent.
 inline bool poll_for(wire::CanPort& port, CanFrame& frame, std::uint32_t time_us) {
   return port.poll(frame, static_cast<std::uint32_t>(port.now_us()) + time_us);
 }
 
-/// Takes in what is on its way; it must be nothing for us.
+/// Receives what is on its way; nothing may be for us.
 inline void settle(wire::CanPort& port) {
   CanFrame frame;
   EXPECT_FALSE(poll_for(port, frame, 30'000));

@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What tshark is asked for; Decoded's members in the order of decode().
+/// tshark's fields; Decoded's members in the order of decode().
 constexpr const char* kFields[] = {"can.id",
                                    "_ws.col.Info",
                                    "canopen.node_id",

@@ -9,8 +9,8 @@
 
 #include "host/link/system_clock.hpp"
 
-// Where with-can makes looks at the clock cheap (tests/support/quick_clock.cpp), they still say
-// what the kernel says. Elsewhere this holds by itself.
+// with-can makes reading the clock cheap (tests/support/quick_clock.cpp); it must still agree with
+// the kernel. Elsewhere this holds anyway.
 namespace verp::test {
 namespace {
 
@@ -61,7 +61,7 @@ TEST(ClockOfCanTests, NeverGoesBackWhicheverThreadLooks) {
   EXPECT_EQ(went_back, 0);
 }
 
-// A period that is over before its time is none, and the pacing of `verp run` counts them.
+// A sleep must not end early: the pacing of `verp run` counts periods.
 TEST(ClockOfCanTests, SleepsUntilItsOwnTime) {
   const std::uint64_t end_ns = wire::monotonic_ns() + kLong_ns;
   for (std::uint64_t most_ns = 0; wire::monotonic_ns() < end_ns;

@@ -14,8 +14,8 @@
 #include "tests/can/capture.hpp"
 #include "tests/host/tool/program.hpp"
 
-// Masters that are not ours, on a twin that runs by the clock on the wall: a script with
-// python3-can and documented bytes, frames typed by hand, random traffic.
+// Foreign masters on a twin in real time: a python3-can script with documented bytes, frames typed
+// by hand, random traffic.
 namespace verp::tool::test {
 namespace {
 
@@ -24,13 +24,13 @@ using verp::test::Capture;
 using verp::test::Decoded;
 using Frames = std::vector<Decoded>;
 
-constexpr unsigned kJoint = 19;  ///< node of the head's yaw: no joint carries the robot less
+constexpr unsigned kJoint = 19;  ///< the head's yaw: no joint carries less of the robot
 
 void rest(int time_ms) {
   std::this_thread::sleep_for(std::chrono::milliseconds(time_ms));
 }
 
-/// `verp hil` in real time, until stop().
+/// `verp hil` in real time until stop().
 class Twin {
  public:
   explicit Twin(const fs::path& folder)
@@ -47,7 +47,7 @@ class Twin {
     for (int i = 0; i < 1000 && !waits(); ++i) rest(20);
     EXPECT_TRUE(waits()) << errors();
   }
-  /// Ctrl-C; the exit status.
+  /// Sends Ctrl-C; returns the exit status.
   int stop() {
     child_.tell(SIGINT);
     return child_.wait();
@@ -74,7 +74,7 @@ class ForeignMaster : public Program {
   void cansend(const std::string& frame) const {
     ASSERT_EQ(shell("cansend vcan0 " + frame, "cansend").status, 0) << frame;
   }
-  /// The same, and its answer, or the beginning of it.
+  /// Sends a frame and waits for its answer, or the beginning of it.
   void ask(const Capture& capture, const std::string& frame, const std::string& answer) const {
     cansend(frame);
     capture.await(answer);
@@ -138,7 +138,7 @@ TEST_F(ForeignMaster, StartsTheDrivesMovesAJointAndReadsItBack) {
   for (const Decoded& each : of(frames, "NMT Error Control", kJoint)) {
     if (states.empty() || states.back() != each.state) states.push_back(*each.state);
   }
-  // It boots when time begins, and again when it is told to.
+  // It boots when time begins, and again on command.
   EXPECT_EQ(states, (std::vector<unsigned>{0x00, 0x7F, 0x05}));
 }
 
@@ -170,9 +170,9 @@ TEST_F(ForeignMaster, FramesTypedByHandAreAnswered) {
   Twin twin(folder_);
   Capture capture(folder_);
   ask(capture, "000#8113", "713#00");                    // NMT: reset node 19
-  ask(capture, "613#4000100000000000", "593#43001000");  // SDO: what are you? 1000h
-  ask(capture, "613#40FF5F0000000000", "593#80");        // SDO: an object that is not there
-  ask(capture, "613#2B17100014000000", "593#60");        // SDO: a heartbeat each 20 ms, 1017h
+  ask(capture, "613#4000100000000000", "593#43001000");  // SDO: read device type 1000h
+  ask(capture, "613#40FF5F0000000000", "593#80");        // SDO: a missing object
+  ask(capture, "613#2B17100014000000", "593#60");        // SDO: set heartbeat to 20 ms, 1017h
   ask(capture, "000#0113", "713#05");                    // NMT: start
   ask(capture, "613#4041600000000000", "593#4B4160");    // SDO: statusword
   EXPECT_EQ(twin.stop(), 0) << twin.errors();
@@ -191,7 +191,7 @@ TEST_F(ForeignMaster, FramesTypedByHandAreAnswered) {
   EXPECT_EQ(signs.back().state, 0x05u);
 }
 
-// Whatever random frames have done to the nodes, they can be reset, and the twin ends in order.
+// After any random frames the nodes can be reset and the twin ends in order.
 TEST_F(ForeignMaster, RandomTrafficEndsNothing) {
   Twin twin(folder_);
   for (const char* kind : {"", "-e", "-R", "-I 000 -L 2", "-I 613 -L 8", "-I 080"}) {

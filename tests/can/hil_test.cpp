@@ -14,7 +14,7 @@
 #include "tests/host/tool/link_controller.hpp"
 #include "tests/host/tool/program.hpp"
 
-// `verp hil` on a CAN interface, and a controller at its other end.
+// `verp hil` on a CAN interface, with a controller at the other end.
 namespace verp::tool::test {
 namespace {
 
@@ -37,8 +37,8 @@ class HilOnCan : public Program {
   }
 };
 
-// Each bit of the controller. The twin is measured at the end of each tick, which the PC knows when
-// the next one begins, a few frames later: so the walk's numbers are nearly the same.
+// Each bit of the controller. The PC measures the twin at a tick's end, which it knows a few frames
+// later, when the next tick begins: the walk's numbers are nearly the same.
 TEST_F(HilOnCan, WalksWithTheBitsOfSoftwareInTheLoop) {
   const Outcome walk = verp("walk --bus can --json --for 3", "walk");
   ASSERT_EQ(walk.status, 0) << walk.err;
@@ -69,7 +69,7 @@ TEST_F(HilOnCan, RefusesAnotherRobot) {
       << outcome.err;
 }
 
-// A robot whose cable is in as well: its drives would answer the controller, beside the twin's.
+// A robot is connected as well; its drives would answer beside the twin's.
 TEST_F(HilOnCan, RefusesNodesThatAreThereAlready) {
   const std::uint8_t id = params().joint[3].servo_id;
   std::atomic<bool> over = false;

@@ -16,21 +16,21 @@
 #include "tests/hil/promises.hpp"
 #include "tests/hil/software_board.hpp"
 
-// The fault campaign's part that needs a real interface, in wall time: a robot walks over vcan when
-// somebody takes it down and up again.
+// The part of the fault campaign that needs a real interface, in wall time: a robot walks over vcan
+// while the interface goes down and up again.
 namespace verp::test {
 namespace {
 
 using std::chrono::milliseconds;
 
-/// With a longer period than its own: one core may have to be the robot, its bus and this PC.
+/// A longer period than its own: one core may have to run the robot, its bus and this PC.
 Params can_robot() {
   Params params = model::make_params(model::load_robot(model::find_model("generic21"), "can"));
   params.period_us = 20'000;
   return params;
 }
 
-/// The robot's nodes at an interface, by the wall's clock.
+/// The robot's nodes on an interface, in real time.
 class LiveNodes {
  public:
   LiveNodes(const Params& params, const wire::Endpoint& endpoint)
@@ -60,7 +60,7 @@ class LiveNodes {
   std::thread thread_;
 };
 
-/// The controller's end, paced by the wall's clock.
+/// The controller's end, paced by real time.
 class PortLine {
  public:
   explicit PortLine(const wire::Endpoint& endpoint) : port_(endpoint) {}
@@ -80,7 +80,7 @@ class PortLine {
   }
 
  private:
-  /// What this PC may hold an answer back; five times that fit into the period.
+  /// How long this PC may delay an answer; five times that fit into the period.
   static constexpr std::uint32_t kHeld_us = 2000;
 
   wire::CanPort port_;
@@ -97,10 +97,10 @@ class InterfaceRun {
     board_->pacer.start(params_.period_us);
     return ready && desk_.write(app::reg("request"), {0});
   }
-  /// Ticks until it is in `mode`, has been so for `then_ms`; a failure if it takes too long.
+  /// Ticks until it has been in `mode` for `then_ms`; fails if that takes too long.
   ::testing::AssertionResult reaches(Mode mode, std::uint32_t then_ms) {
-    // Rising takes 7 s, and begins anew after a hold. Where this PC skips periods the robot may
-    // hold, and sit down: that is the PC's doing, and the time begins anew.
+    // Rising takes 7 s and restarts after a hold. If this PC skips periods, the robot may hold and
+    // sit down; then the time starts again.
     constexpr std::uint32_t kPatience_ms = 8000;
     const auto passed = [this](std::uint32_t ticks, std::uint32_t ms) {
       return ticks * params_.period_us >= 1000 * ms;
@@ -120,8 +120,8 @@ class InterfaceRun {
            << now.fresh << ", timeouts " << now.timeouts << ", strays " << now.strays
            << ", skipped periods " << now.misses;
   }
-  /// Down for as long as the seed says, up again; the robot goes on meanwhile. Commands take time,
-  /// which must not be the loop's.
+  /// Takes the interface down for the seed's time and up again while the robot goes on. A thread
+  /// runs the commands, because they take time.
   void take_down_and_up() {
     const milliseconds gone(150 + random_() % 350);
     std::atomic<int> stage = 0;
@@ -157,7 +157,7 @@ class InterfaceRun {
     board_->tick();
   }
 
-  /// For all that it does, somewhat less than the test's time in CMakeLists.txt.
+  /// The time for everything, somewhat less than the test's limit in CMakeLists.txt.
   static constexpr std::chrono::seconds kTime{100};
 
   const std::chrono::steady_clock::time_point end_ = std::chrono::steady_clock::now() + kTime;

@@ -16,7 +16,7 @@ namespace {
 
 using test::OwnVcan;
 
-/// A controller in lockstep that says and hears frames one by one.
+/// A lockstep controller that sends and receives single frames.
 class CanLockstepPort : public ::testing::Test {
  protected:
   void greet() {
@@ -49,7 +49,7 @@ class CanLockstepPort : public ::testing::Test {
     }
   }
 
-  /// Sequences of the answers that came.
+  /// Sequence numbers of the received answers.
   std::vector<int> answers() {
     std::vector<int> heard;
     CanFrame frame;
@@ -82,8 +82,8 @@ TEST_F(CanLockstepPort, AnswersEachQuestion) {
   EXPECT_EQ(server.counters().polls, 3u);
 }
 
-// After a while without an answer a controller asks again. A PC that was stopped for so long finds
-// both, and two answers at once are more than the FIFO of a small controller holds.
+// A controller without an answer asks again after a while. A PC that was stopped so long finds both
+// questions, and two answers at once overflow a small controller's FIFO.
 TEST_F(CanLockstepPort, AnswersOnceWhenItWasLate) {
   greet();
   ask(1);

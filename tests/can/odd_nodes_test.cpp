@@ -11,8 +11,7 @@
 #include "tests/can/scripted_node.hpp"
 #include "tests/host/tool/program.hpp"
 
-// `verp bus` on CAN before nodes that the twin has none of: one that falls silent, one that lacks
-// objects.
+// `verp bus` on CAN with nodes unlike the twin's: one falls silent, one lacks objects.
 namespace verp::tool::test {
 namespace {
 
@@ -21,9 +20,9 @@ using nlohmann::json;
 using verp::test::ScriptedNode;
 
 constexpr std::uint8_t kNode = 5;
-/// 1000h, 1008h and 1018h:1 to 3, with which each command begins.
+/// Each command begins by reading 1000h, 1008h and 1018h:1 to 3.
 constexpr unsigned kIdentity = 5;
-/// Seldom as long as a busy PC may take; three of them have to be waited for.
+/// A busy PC rarely takes as long; the tests wait for three of them.
 const std::string kPatience = " --timeout 400";
 
 ScriptedNode::Tells tells(const canopen::Identity& identity) {
@@ -40,7 +39,7 @@ class OddNodes : public Program {
   Outcome bus_command(const std::string& words) const {
     return verp("bus " + words + " --link can:" + bus.name + kPatience, "bus");
   }
-  /// One line of error, and an end at the first silence.
+  /// One error line, and an end at the first silence.
   static void expect_silence(const Outcome& outcome, int id, const ScriptedNode& node) {
     EXPECT_EQ(outcome.status, 3);
     EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
@@ -52,8 +51,8 @@ class OddNodes : public Program {
   verp::test::OwnVcan bus;
 };
 
-// Of all objects one that can't be read is left out; of a node that is gone none can, and each
-// would have to be waited for.
+// One unreadable object is left out. If the node is gone none can be read, and each would have to
+// time out.
 TEST_F(OddNodes, ReadingAllObjectsEndsWhenTheNodeFallsSilentHalfWayThrough) {
   constexpr unsigned kTold = 4;
   const ScriptedNode node(bus.endpoint(), kNode, tells(can::drive_identity(402, kNode)),
@@ -75,7 +74,7 @@ TEST_F(OddNodes, ReadingAnArrayEndsWhenTheNodeFallsSilentHalfWayThrough) {
   EXPECT_FALSE(said.contains("objects")) << "half an array is none: " << said;
 }
 
-// 0 is a number that a node may tell, as this one does of its maker.
+// 0 is a valid value: this node reports it as its vendor.
 TEST_F(OddNodes, ScanSaysNotToldOfObjectsThatANodeDoesNotHave) {
   const ScriptedNode node(bus.endpoint(), kNode, [](Address at) -> std::optional<std::uint32_t> {
     if (at == Address{0x1000, 0}) return 0x00020192;

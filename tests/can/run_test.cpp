@@ -16,8 +16,8 @@
 #include "tests/can/can_world.hpp"
 #include "tests/host/tool/program.hpp"
 
-// What this PC does with a robot on a CAN interface: `verp run`, and `verp bus` beside it. The
-// robot is the twin, in real time.
+// Commands of a PC with a robot on a CAN interface: `verp run`, and `verp bus` beside it. The robot
+// is the twin in real time.
 namespace verp::tool::test {
 namespace {
 
@@ -25,10 +25,10 @@ using nlohmann::json;
 
 class RunOnCan : public Program {
  protected:
-  /// `command` while a twin of generic21 is on vcan0.
+  /// Runs `command` while a twin of generic21 is on vcan0.
   Outcome beside_twin(const std::string& command) const {
     const std::string program = VERP_PROGRAM;
-    // A twin of before said that it waits, too, and its words are there until this one begins.
+    // Delete the output of an earlier twin, which also said that it waits.
     return shell("rm -f twin.err; " + program +
                  " hil generic21 --bus can --realtime --link can:vcan0 --for 600 --json "
                  ">twin.out 2>twin.err & twin=$!; "
@@ -43,9 +43,9 @@ class RunOnCan : public Program {
   }
 };
 
-// One core may have to be the robot, its bus and this PC. While that is too busy for the period,
-// `verp run` refuses with status 3; later a period may be missed, and the robot then hold or fall,
-// which is told by status 1 and a reason, but not without it. So it is asked until it walked.
+// One core may have to run the robot, its bus and this PC. If it is too busy for the period, `verp
+// run` refuses with status 3. Later missed periods may make the robot hold or fall, which gives
+// status 1 and a reason. So the test repeats until the robot walked.
 TEST_F(RunOnCan, DrivesTheRobotAndLetsItGo) {
   const std::string run = std::string(VERP_PROGRAM) +
                           " run generic21 --bus can --link can:vcan0 --yes --json "
@@ -60,7 +60,7 @@ TEST_F(RunOnCan, DrivesTheRobotAndLetsItGo) {
   EXPECT_TRUE(result.at("let_go")) << outcome.err;
   EXPECT_GT(result.at("ticks"), 100);
   EXPECT_NE(outcome.err.find("relaxed to rising"), std::string::npos) << outcome.err;
-  // However late this PC was: a minute's worth of them is a clock that is wrong.
+  // However late this PC was, a minute's worth of skipped periods means a wrong clock.
   EXPECT_LT(result.at("deadlines").at("skipped_periods"), 3000);
   const bool undisturbed =
       result.at("deadlines").at("skipped_periods") == 0 && result.at("bus").at("timeouts") == 0;
@@ -74,13 +74,14 @@ TEST_F(RunOnCan, DrivesTheRobotAndLetsItGo) {
   EXPECT_EQ(replay.status, 0) << replay.err;
 }
 
-// At the end each drive is asked whether it let go, which takes its time where all are silent. Who
-// has no patience with that presses Ctrl-C, and is told what is not known.
+// At the end each drive is asked whether it let go, which takes long if all are silent. Ctrl-C ends
+// the questions, and the report says what is unknown.
 TEST_F(RunOnCan, AnInterruptEndsTheQuestionsToSilentDrives) {
   const std::string run = std::string(VERP_PROGRAM) +
                           " run generic21 --bus can --link can:vcan0 --yes --json --period 20 "
                           "--for 60 >run.out 2>run.err";
-  // Status 3 is also that of a PC too busy for the period: again, then, without a drive asked.
+  // Status 3 also means that the PC is too busy for the period, without a question to a drive; then
+  // try again.
   const Outcome outcome = beside_twin(
       "for attempt in 1 2 3 4 5; do " + run +
       " & run=$!; while kill -0 $run && ! grep -q 'relaxed to rising' run.err; do sleep 0.1; done; "
@@ -109,7 +110,7 @@ TEST_F(RunOnCan, SaysThatNobodyAnswers) {
   EXPECT_EQ(verp("bus ping --id 3 --link can:vcan0").status, 3);
 }
 
-// Of the first one's robot, which may walk, a second one's bring-up would reset all nodes.
+// The second run's bring-up would reset all nodes of the first one's robot, which may walk.
 TEST_F(RunOnCan, RefusesToBeTheSecondOfThisPcBeforeItSendsAnything) {
   verp::test::OwnVcan bus;
   wire::CanPort listener(bus.endpoint());
@@ -146,7 +147,7 @@ TEST_F(RunOnCan, RefusesToBeTheSecondOnABusBeforeItSendsAnything) {
   }
 }
 
-// Both would answer; and the name is free again when the first has ended, however that was.
+// Both would answer. The name is free again when the first has ended, in whatever way.
 TEST_F(RunOnCan, ServesNodesOnceOnABus) {
   verp::test::OwnVcan bus;
   const std::string hil = "hil generic21 --bus can --realtime --link can:vcan7 --for 600";
@@ -158,7 +159,7 @@ TEST_F(RunOnCan, ServesNodesOnceOnABus) {
         << outcome.err;
   }
   for (const std::string& signal : {std::string("KILL"), std::string("INT")}) {
-    const std::string said = signal + ".err";  // not one of before, which speaks of its twin
+    const std::string said = signal + ".err";  // a file of its own: earlier ones name a twin, too
     const Outcome outcome =
         shell(std::string(VERP_PROGRAM) + " " + hil + " 2>" + said +
               " & twin=$!; until grep -q 'twin waits' " + said +
@@ -167,12 +168,12 @@ TEST_F(RunOnCan, ServesNodesOnceOnABus) {
   }
 }
 
-// How long it ran undisturbed decides whether there was a failure: CanRealTime's to test. The
-// status says which it was: with one, what Ctrl-C ended it with.
+// CanRealTime tests whether it fails: that depends on how long it ran undisturbed. Here the status
+// must say which it was; after a failure it is not Ctrl-C's.
 TEST_F(RunOnCan, ATwinThatIsHeldUpSkipsAndSaysSoAtOnce) {
   verp::test::OwnVcan bus;
   std::atomic<bool> over = false;
-  // Seldom: where many frames wait, the twin goes on from one to the next, and may catch up.
+  // Rarely, because a twin with many waiting frames goes from one to the next and may catch up.
   std::thread master([&] {
     wire::CanPort port(bus.endpoint());
     while (!over) {

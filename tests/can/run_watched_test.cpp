@@ -5,7 +5,7 @@
 
 #include "tests/host/tool/program.hpp"
 
-// `verp run` on a CAN interface as others there see it: a node that tells of its ticks.
+// `verp run` on a CAN interface, as other nodes see it: a node that reports its ticks.
 namespace verp::tool::test {
 namespace {
 
@@ -13,9 +13,9 @@ using nlohmann::json;
 
 class WatchedRun : public Program {
  protected:
-  /// `watch` beside `verp run` on vcan0, with the twin as its robot in real time; then the run is
-  /// interrupted. As in RunOnCan one core is all of them, and a run may refuse it or end early: so
-  /// there is another one until `watch` is done. The period is one that a core can keep.
+  /// Runs `watch` beside `verp run` on vcan0 with the twin as its robot in real time, then
+  /// interrupts the run. As in RunOnCan one core runs it all, and a run may refuse or end early, so
+  /// runs repeat until `watch` is done. One core can keep this period.
   Outcome run_beside(const std::string& watch) const {
     const std::string on_bus = " generic21 --bus can --json --link can:vcan0 ";
     return shell("verp=" VERP_PROGRAM "; watch() { " + watch +
@@ -30,8 +30,7 @@ class WatchedRun : public Program {
   }
 };
 
-// Whoever is on the bus sees what the PC's controller decides, and has no say in it: an order that
-// nobody would obey is refused by name.
+// Other nodes see what the PC's controller decides but cannot order: each order is refused by name.
 TEST_F(WatchedRun, TellsOfEachTickShowsItsRegistersAndRefusesOrders) {
   const Outcome outcome = run_beside(
       "$verp shadow generic21 --period 20 --json --link can:vcan0 --for 1 --patience 60 "
@@ -56,8 +55,7 @@ TEST_F(WatchedRun, TellsOfEachTickShowsItsRegistersAndRefusesOrders) {
   EXPECT_NE(slurp(folder_ / "write.err").find("under local control"), std::string::npos)
       << slurp(folder_ / "write.err");
   const json run = json::parse(slurp(folder_ / "last.out"));
-  // Where one core was too busy to be all of them, drives may be silent to the very end: which is
-  // told.
+  // If one core was too busy, drives may be silent until the end, which is reported.
   if (run.at("bus").at("timeouts") == 0 || run.at("failure") != "not every servo let go") {
     EXPECT_TRUE(run.at("let_go")) << run << outcome.err;
   }

@@ -13,8 +13,8 @@
 
 namespace verp::test {
 
-/// A node on an interface as no twin is one: it tells objects as it is bid, each of four bytes,
-/// says of all others that it has none, and after so many answers it is silent for good.
+/// A node unlike the twin's: it answers reads of given four-byte objects, reports all others as
+/// missing, and falls silent for good after `answers` answers.
 class ScriptedNode {
  public:
   using Tells = std::function<std::optional<std::uint32_t>(canopen::Address)>;
@@ -32,7 +32,7 @@ class ScriptedNode {
   ScriptedNode(const ScriptedNode&) = delete;
   ScriptedNode& operator=(const ScriptedNode&) = delete;
 
-  /// Reads that it was asked for, and did not answer.
+  /// Number of reads that it did not answer.
   unsigned unanswered() const { return unanswered_; }
 
  private:
@@ -63,7 +63,7 @@ class ScriptedNode {
 
   const std::uint8_t id_;
   const Tells tells_;
-  unsigned answers_;  ///< that are left
+  unsigned answers_;  ///< answers left
   wire::CanPort port_;
   std::atomic<unsigned> unanswered_ = 0;
   std::atomic<bool> over_ = false;

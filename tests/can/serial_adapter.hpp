@@ -11,8 +11,8 @@
 
 namespace verp::test {
 
-/// A serial adapter (slcan) on a pseudo-terminal: an interface of the kernel's CAN drivers, with a
-/// bit rate and a queue, neither of which a vcan has. It is down at first.
+/// A serial adapter (slcan) on a pseudo-terminal. The kernel's CAN driver gives it a bit rate and a
+/// queue, which vcan lacks. It starts down.
 class SerialAdapter {
  public:
   SerialAdapter() : end(::posix_openpt(O_RDWR | O_NOCTTY | O_NONBLOCK)) {
@@ -29,14 +29,14 @@ class SerialAdapter {
     name = static_cast<const char*>(request.ifr_name);
   }
   ~SerialAdapter() {
-    ::close(end);  // a hangup: the interface goes
+    ::close(end);  // a hangup removes the interface
     ::close(slave_);
   }
   SerialAdapter(const SerialAdapter&) = delete;
   SerialAdapter& operator=(const SerialAdapter&) = delete;
 
-  std::string name;  ///< the interface's
-  const int end;     ///< what the adapter's firmware reads and writes; it never waits
+  std::string name;  ///< the interface's name
+  const int end;     ///< the adapter firmware's end; it never waits
 
  private:
   int slave_ = -1;

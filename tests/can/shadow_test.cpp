@@ -22,7 +22,7 @@
 #include "tests/host/tool/link_controller.hpp"
 #include "tests/host/tool/program.hpp"
 
-// `verp shadow` on a CAN interface, beside a controller that runs there.
+// `verp shadow` on a CAN interface, beside a running controller.
 namespace verp::tool::test {
 namespace {
 
@@ -39,7 +39,7 @@ struct CanSocket : wire::CanPort {
          frame.id == canopen::further_sdo(2).response);
     return (secretive && answers) || CanPort::send(frame);
   }
-  bool secretive = false;  ///< tells of its ticks, and answers no question
+  bool secretive = false;  ///< reports its ticks but answers no question
 };
 using Log = app::TickLog<>;
 using Node = app::OperatorNode<CanSocket, Log>;
@@ -48,7 +48,7 @@ Params generic21() {
   return model::make_params(model::load_robot(model::find_model("generic21"), "can"));
 }
 
-/// Sees when somebody has read a controller's State, and some ticks later flips one bit of it.
+/// Some ticks after a State was read, flips one bit of the controller's State.
 class Spoiler {
  public:
   explicit Spoiler(bool flips = true) : flips_(flips) {}
@@ -74,7 +74,7 @@ void Spoiler::spoil(State& state) {
   std::memcpy(&state.zeros.leg[1].pitch_rad, &bits, sizeof bits);
 }
 
-/// A controller whose drives have no power: it ticks, and tells of it.
+/// A controller whose drives have no power: it ticks and reports that.
 class LoneController {
  public:
   LoneController(const Params& params, const std::string& endpoint, Spoiler* spoiler = nullptr)
@@ -119,7 +119,7 @@ class LoneController {
   std::thread thread_;
 };
 
-/// One in lockstep with `verp hil` that obeys its operator's port, or else stands.
+/// A controller in lockstep with `verp hil` that obeys its operator port, or else stands.
 class WalkingController {
  public:
   WalkingController(const Params& params, const std::string& orders, Spoiler* spoiler = nullptr,
@@ -182,7 +182,7 @@ class WalkingController {
   }
 
   const Params params_;
-  const std::string orders_;  ///< empty: nobody gives any
+  const std::string orders_;  ///< empty: no orders
   Spoiler* const spoiler_;
   const bool secretive_;
   std::atomic<bool> over_ = false;
@@ -216,7 +216,7 @@ TEST_F(ShadowOnCan, HasTheBitsOfAControllerThatWalks) {
   EXPECT_EQ(result.at("differs"), false);
 }
 
-// With no operator's port, `verp hil` has the frames of the bus alone.
+// Without an operator port, `verp hil` has only the bus frames.
 TEST_F(ShadowOnCan, VerpHilNamesABitThatFlipped) {
   Spoiler spoiler;
   WalkingController controller(generic21(), "", &spoiler);
@@ -229,7 +229,7 @@ TEST_F(ShadowOnCan, VerpHilNamesABitThatFlipped) {
   EXPECT_NE(hil.err.find("zeros.leg[1].pitch_rad"), std::string::npos) << hil.err;
 }
 
-// A check that checked nothing is no success.
+// A check that compared nothing must fail.
 TEST_F(ShadowOnCan, VerpHilFailsWhereItComparedNothing) {
   WalkingController controller(generic21(), "", nullptr, true);
   const Outcome hil = verp("hil generic21 --bus can --link can:vcan0 --json --for 3", "hil");
@@ -287,7 +287,7 @@ TEST_F(ShadowOnCan, EndsWellWhenItIsInterruptedAndSaysWhatItKnowsAndThatTheBusIs
   EXPECT_GE(json::parse(outcome.out).at("compared_ticks"), 20);
 }
 
-// They would take each other's answers for their own: one controller has one SDO server.
+// A controller has one SDO server, so two would mistake each other's answers for their own.
 TEST_F(ShadowOnCan, OneAloneAsksAController) {
   const wire::CanClaim first("vcan0", "watcher", wire::CanClaim::kWatcher);
   const Outcome second = shadow("--link can:vcan0 --for 1");

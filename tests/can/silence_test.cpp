@@ -13,15 +13,14 @@
 #include "tests/can/serial_adapter.hpp"
 #include "tests/host/tool/program.hpp"
 
-// What `verp bus` says of nodes that answer and then no more, and what commands say that meet a bus
-// which can't be the robot's.
+// `verp bus` with nodes that stop answering, and commands on a bus that cannot be the robot's.
 namespace verp::tool::test {
 namespace {
 
 using canopen::Address;
 using nlohmann::json;
 
-/// Nodes 5, 19 and 30 on an interface: drives with numbers for names.
+/// Nodes 5, 19 and 30 on an interface: drives named by numbers.
 class Nodes {
  public:
   /// Whether a request gets an answer.
@@ -66,7 +65,7 @@ class SilenceOnCan : public Program {
  protected:
   const verp::test::OwnVcan bus;
   const std::string link = " --link can:" + bus.name;
-  /// 19 says of which type it is, and nothing else.
+  /// 19 reports its device type and nothing else.
   static bool all_but_19(unsigned node, Address at) { return node != 19 || at.index == 0x1000; }
 };
 
@@ -107,7 +106,7 @@ TEST_F(SilenceOnCan, APingOfANodeThatFellSilentSaysSo) {
   EXPECT_TRUE(says(outcome.err, "raise --timeout")) << outcome.err;
 }
 
-// From 4.5 s after its start on, for nine seconds, the scan waits for 30; somebody has seen enough.
+// From 4.5 s after its start the scan waits nine seconds for 30; the user interrupts it.
 TEST_F(SilenceOnCan, AnInterruptedScanPrintsWhatItFoundSoFar) {
   const Nodes nodes("can:" + bus.name,
                     [](unsigned node, Address at) { return node != 30 || at.index == 0x1000; });
@@ -120,7 +119,7 @@ TEST_F(SilenceOnCan, AnInterruptedScanPrintsWhatItFoundSoFar) {
   EXPECT_TRUE(says(outcome.err, "interrupted")) << outcome.err;
 }
 
-/// A serial adapter of half the robot's bit rate, with somebody at its other end.
+/// A serial adapter with half the robot's bit rate, and a thread at its other end.
 class SlowAdapter : public verp::test::SerialAdapter {
  public:
   SlowAdapter() {
@@ -134,7 +133,7 @@ class SlowAdapter : public verp::test::SerialAdapter {
   }
 
  private:
-  /// The interface is up when the adapter has read that it is to be.
+  /// The interface comes up when the adapter has read the command.
   void read_on() const {
     char piece[64];
     while (!over_) {
@@ -147,7 +146,7 @@ class SlowAdapter : public verp::test::SerialAdapter {
   std::thread reader_;
 };
 
-// Each command that knows the robot, in the same words and before it does anything.
+// Each command that knows the robot says the same, before it does anything.
 TEST_F(SilenceOnCan, AnInterfaceWithAnotherBitRateThanTheRobotIsRefused) {
   const SlowAdapter adapter;
   for (const std::string command : {"run generic21 --yes", "hil generic21", "shadow generic21"}) {

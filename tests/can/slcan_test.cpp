@@ -8,7 +8,7 @@
 #include "tests/can/can_world.hpp"
 #include "tests/can/serial_adapter.hpp"
 
-// A serial adapter's queue fills up while nobody reads its other end.
+// A serial adapter's queue fills while its other end is not read.
 
 namespace verp::wire {
 namespace {
@@ -23,7 +23,7 @@ class Adapter : public test::SerialAdapter {
   void say(const std::string& line) const {
     EXPECT_EQ(::write(end, line.data(), line.size()), static_cast<ssize_t>(line.size()));
   }
-  /// The lines that the interface has sent, as far as the adapter has read.
+  /// All lines sent by the interface that the adapter can read now.
   std::vector<std::string> read_lines() {
     char piece[4096];
     for (ssize_t count = 0; (count = ::read(end, piece, sizeof piece)) > 0;) {
@@ -55,7 +55,7 @@ std::string lower(std::string text) {
   return text;
 }
 
-/// Fills the interface's queue while the adapter does not read; how many frames that took.
+/// Fills the interface's queue while the adapter does not read; returns the number of frames.
 unsigned jam(CanPort& port) {
   unsigned sent = 0;
   for (unsigned refused = 0; refused < 50;) {
@@ -91,8 +91,8 @@ TEST(Slcan, CarriesFramesBothWays) {
   EXPECT_EQ(heard.data[0] << 8 | heard.data[1], 0x1122);
 }
 
-// A queue that is full is waited out: what was accepted leaves, once, in order, and at once when
-// there is room.
+// The port waits for a full queue. Accepted frames leave once, in order, and as soon as there is
+// room.
 TEST(Slcan, WaitsOutAFullQueue) {
   Adapter adapter;
   CanPort port(adapter.endpoint());
@@ -113,7 +113,7 @@ TEST(Slcan, WaitsOutAFullQueue) {
   EXPECT_EQ(port.errors().dropped, 0u);
 }
 
-// What waits here leaves best first once the kernel's queue moves again.
+// Waiting frames leave by priority once the kernel's queue moves again.
 TEST(Slcan, SendsTheBestOfWhatWaitsFirst) {
   Adapter adapter;
   CanPort port(adapter.endpoint());

@@ -17,8 +17,8 @@
 #include "tests/host/tool/link_controller.hpp"
 #include "tests/host/tool/program.hpp"
 
-// Other people's tools on our bus: what tshark's CANopen dissector reads in candump's log is what
-// the controller and the twin say they sent.
+// What tshark's CANopen dissector reads in candump's log must equal what the controller and the
+// twin say they sent.
 namespace verp::tool::test {
 namespace {
 
@@ -33,11 +33,11 @@ struct CanSocket : wire::CanPort {
 using CanController = verp::test::ControllerOn<CanSocket, app::LockstepCan>;
 using Frames = std::vector<Decoded>;
 
-/// A twin whose answer was waited for longer than its controller's patience gives it once more:
-/// what came between two answers of one number is the first one again.
+/// If the twin's answer exceeds the controller's patience, the twin repeats it. What lies between
+/// two answers of one number is a repeat of the first.
 Frames without_repeats(const Frames& all) {
   Frames kept;
-  std::vector<std::size_t> answer;  ///< the twin's frames in `kept`, since its last answer
+  std::vector<std::size_t> answer;  ///< the twin's frames in `kept` since its last answer
   int last = -1;
   for (const Decoded& each : all) {
     const canopen::Connection on =
@@ -62,7 +62,7 @@ Frames without_repeats(const Frames& all) {
 /// A write of four bytes or fewer: node, index, subindex, value.
 using Write = std::tuple<std::uint32_t, std::uint32_t, std::uint32_t, std::uint32_t>;
 
-/// One walk on vcan0, captured, and its trace.
+/// One captured walk on vcan0, and its trace.
 class CanTools : public Program {
  protected:
   const Params params =
@@ -90,7 +90,7 @@ class CanTools : public Program {
     }
     return all;
   }
-  /// Where the SYNC with counter 1 of each tick stands.
+  /// Positions of each tick's SYNC with counter 1.
   std::vector<std::size_t> ticks() const {
     std::vector<std::size_t> at;
     for (std::size_t i = 0; i < frames.size(); ++i) {
@@ -111,7 +111,7 @@ class CanTools : public Program {
   void expect_answers(const Inputs& inputs, std::size_t from, std::size_t to) const;
   void expect_goals(const Outputs& outputs, std::size_t from, std::size_t to) const;
   void expect_heartbeats(std::size_t from, std::size_t to) const;
-  /// Whether a drive's telemetry is what the tick's inputs have of it.
+  /// Whether a drive's telemetry equals the tick's inputs.
   bool says(const Decoded& answer, const Inputs& inputs) const {
     return answer.node == params.joint[inputs.slow_joint].servo_id &&
            plan::Telemetry::from(answer.value(0, 4)) == plan::Telemetry{inputs.slow_voltage_tenth_v,
@@ -120,7 +120,7 @@ class CanTools : public Program {
   }
 };
 
-// The bring-up: all nodes are reset, and say so; then, set up, they are started.
+// The bring-up resets all nodes, which report it; then it sets them up and starts them.
 void CanTools::expect_commands(std::size_t end) const {
   std::vector<std::pair<std::uint32_t, std::uint32_t>> told, wanted;
   for (const Decoded& each : some(0, end, "NMT: "))
@@ -139,8 +139,8 @@ void CanTools::expect_commands(std::size_t end) const {
   EXPECT_EQ(booted.size(), nodes().size());
 }
 
-// Every object of every node that the controller says it sets, in its order, and its answer; then
-// what it reads back.
+// Every object that the controller sets at each node, in order, with its answer; then what it reads
+// back.
 void CanTools::expect_settings(std::size_t end) const {
   std::vector<Write> wanted, told;
   std::map<std::tuple<std::uint32_t, std::uint32_t, std::uint32_t>, std::uint32_t> kept;
@@ -172,7 +172,7 @@ void CanTools::expect_settings(std::size_t end) const {
     ++read_back;
   }
   EXPECT_EQ(told, wanted);
-  // A third and a fourth PDO, which a drive need not have, are aborted; nothing else is.
+  // Only third and fourth PDOs, which are optional, are aborted.
   const Frames aborted = some(0, end, "Default-SDO (tx): Abort");
   for (const Decoded& each : aborted) {
     EXPECT_EQ(*each.index & 0xFF00, 0x1800u);
@@ -182,7 +182,7 @@ void CanTools::expect_settings(std::size_t end) const {
   EXPECT_GT(read_back, 500);
 }
 
-// What drives, IMU and feet answered in a tick is what the trace has of it.
+// The tick's answers of drives, IMU and feet equal the trace.
 void CanTools::expect_answers(const Inputs& inputs, std::size_t from, std::size_t to) const {
   std::map<std::uint32_t, Decoded> first, second;
   for (const Decoded& each : some(from, to, "PDO1 (tx)")) first[*each.node] = each;
@@ -217,7 +217,7 @@ void CanTools::expect_goals(const Outputs& outputs, std::size_t from, std::size_
   }
 }
 
-// The controller's, which the drives watch: so many in the time for which they do without.
+// The controller's heartbeats, which drives watch: so many within their patience.
 void CanTools::expect_heartbeats(std::size_t from, std::size_t to) const {
   const std::uint32_t ticks_each = std::uint32_t{plan::patience_ms(params)} * 1000 /
                                    plan::kHeartbeatsInPatience / params.period_us;
@@ -263,7 +263,7 @@ TEST_F(CanTools, TsharkReadsAWalkAsWeSayItIs) {
       velocities += each.index == 0x606C ? 1 : 0;
       torques += each.index == 0x6077 ? 1 : 0;
     }
-    // The answer to the last request: the one to the next may have come, too.
+    // The answer to the last request; that to the next may have come, too.
     if ((inputs.flags & kSlowFresh) != 0) {
       ASSERT_FALSE(telemetry.empty());
       const bool told = says(telemetry.back(), inputs) ||
@@ -279,7 +279,7 @@ TEST_F(CanTools, TsharkReadsAWalkAsWeSayItIs) {
   EXPECT_GT(torques, trace.ticks.size() / (3 * plan::kEffortTicks));
 }
 
-// Others' frames are no controller's: not a bit of the walk is another.
+// Foreign frames do not change a bit of the walk.
 TEST_F(CanTools, RandomTrafficBesideAWalkChangesNothing) {
   const Outcome walk = verp("walk --bus can --json --for 3", "walk");
   ASSERT_EQ(walk.status, 0) << walk.err;

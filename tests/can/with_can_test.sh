@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# with_can_test.sh FOLDER: what tests/support/with-can promises.
+# with_can_test.sh FOLDER: the promises of tests/support/with-can.
 set -uo pipefail
 
 with_can=$1/tests/support/with-can
@@ -30,7 +30,7 @@ launch() { # arguments; sets status, output and errors
   output=$("$with_can" "$@" 2>"$scratch/errors") || status=$?
   errors=$(<"$scratch/errors")
 }
-# Starts as a terminal does (a group of its own, SIGINT not ignored) and waits until the command is under way.
+# Starts as a terminal does (own process group, SIGINT not ignored) and waits until the command runs.
 launch_and_interrupt() { # signal wanted-status
   local process
   rm -f "$scratch/kept/started"
@@ -48,7 +48,7 @@ launch_and_interrupt() { # signal wanted-status
   is "status after $1" "$status" "$2"
 }
 
-# One start for all that a command can ask for.
+# One start tests all that a command can ask for.
 cat >"$scratch/command" <<'END'
 printf '%s|' "$@" "$GIVEN" "$PWD"
 ip link show up dev vcan0 >/dev/null && echo 'vcan0 is up'
@@ -97,10 +97,10 @@ nothing_left 'an interrupt'
 launch_and_interrupt TERM 143
 nothing_left 'a termination'
 launch_and_interrupt KILL 137
-rm -rf "${TMPDIR:?}"/* # nobody could
+rm -rf "${TMPDIR:?}"/* # a killed with-can cannot clean up
 nothing_left 'a kill'
 
-# Neither: a PC whose kernel refuses and that has no User-Mode Linux.
+# Neither way works: the kernel refuses, and the PC has no User-Mode Linux.
 for each in bash env dirname readlink mktemp rm id sleep; do ln -s "$(command -v "$each")" "$scratch/bin/"; done
 PATH=$scratch/bin launch true
 is 'without a place to run it is a failure' "$status" 125

@@ -11,7 +11,7 @@
 #include "host/board/qemu.hpp"
 #include "host/link/can_port.hpp"
 
-// A board's own CAN driver in the emulator, against frames of this PC's vcan0: run it inside of
+// A board's own CAN driver in the emulator, with frames of this PC's vcan0. Run it inside
 // tests/support/with-can. VERP_TEST_BOARD names the board; its image is boards/mps2/can_main.cpp.
 namespace verp::board {
 namespace {
@@ -36,7 +36,7 @@ class Echo {
 
   bool send(const CanFrame& frame) { return port_.send(frame); }
   bool take(CanFrame& frame) { return port_.poll(frame, kPatience_us); }
-  /// What the board counted; its image ends.
+  /// Ends the image and returns its counts.
   CanFrame end() {
     CanFrame frame;
     frame.id = kEnd;
@@ -57,7 +57,7 @@ class Echo {
   QemuProcess firmware_;
 };
 
-/// Any identifier but the two with a meaning, and room for one more; any data.
+/// Random frame; not the two special identifiers, and room for one more.
 CanFrame any_frame(std::mt19937& random) {
   CanFrame frame;
   frame.extended = random() % 4 == 0;
@@ -87,7 +87,7 @@ TEST(CanBoard, AnswersFramesOfEveryKindWholeAndOnce) {
   expect_no_errors(board.end());
 }
 
-// As the drives of one group answer a SYNC: five frames at a time.
+// Like a group of drives that answers a SYNC: five frames at a time.
 TEST(CanBoard, LosesNoneOfAGroupsAnswers) {
   Echo board;
   std::mt19937 random(5);

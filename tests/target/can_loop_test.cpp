@@ -16,8 +16,8 @@
 #include "host/sim/world.hpp"
 #include "tests/target/can_run.hpp"
 
-// The control loop in the board, its drives in the twin, and between them CAN frames on vcan0: run
-// it inside of tests/support/with-can. VERP_TEST_BOARD names the board, VERP_TEST_TICKS the length.
+// The board has the control loop, the twin the drives, and CAN frames pass over vcan0. Run it
+// inside tests/support/with-can. VERP_TEST_BOARD names the board, VERP_TEST_TICKS the length.
 namespace verp::board {
 namespace {
 
@@ -28,8 +28,8 @@ std::string setting(const char* name) {
 
 using test::CanTwin;
 
-constexpr double kStanding_s = 9;     ///< getting up and standing still at the end (twin_run.cpp)
-constexpr double kLeast_m_s = 0.089;  ///< half of what the operator asks for
+constexpr double kStanding_s = 9;     ///< time to get up and stand still at the end (twin_run.cpp)
+constexpr double kLeast_m_s = 0.089;  ///< half of the operator's order
 
 std::vector<TickRecord> walk_here(std::uint32_t ticks) {
   CanTwin twin;
@@ -56,7 +56,7 @@ void expect_same(const std::vector<TickRecord>& here, const std::vector<TickReco
   }
 }
 
-/// What `verp shadow` finds that listens meanwhile: it asks for a State first.
+/// The result of a `verp shadow` that listens meanwhile; it first asks for a State.
 void expect_same_bits_live(const shadow::LiveCheck& check, std::uint32_t ticks) {
   constexpr std::uint32_t kFirstState = 200;
   EXPECT_FALSE(check.over()) << (check.differs() ? "not the same bits" : check.refusal());
@@ -65,8 +65,8 @@ void expect_same_bits_live(const shadow::LiveCheck& check, std::uint32_t ticks) 
   EXPECT_GE(check.compared() + kFirstState, ticks) << "what the board tells of its ticks";
 }
 
-// Digests of every stage in every tick, and the inputs they come from; and those that the board
-// tells on the bus while it walks.
+// Digests of every stage in every tick, their inputs, and those that the board publishes on the bus
+// while it walks.
 TEST(CanLoop, WalksInTheTwinWithTheBitsOfSoftwareInTheLoop) {
   const std::string board = setting("VERP_TEST_BOARD"), length = setting("VERP_TEST_TICKS");
   ASSERT_FALSE(board.empty() || length.empty()) << "set VERP_TEST_BOARD and VERP_TEST_TICKS";
@@ -83,7 +83,7 @@ TEST(CanLoop, WalksInTheTwinWithTheBitsOfSoftwareInTheLoop) {
   expect_same_bits_live(check, ticks);
 }
 
-// Of one robot on a field: walk, turn, push, fall, get up, kick, wave.
+// One robot on a field walks, turns, is pushed, falls, gets up, kicks and waves.
 TEST(CanTour, HasTheBitsOfSoftwareInTheLoop) {
   const std::string board = setting("VERP_TEST_BOARD");
   ASSERT_FALSE(board.empty()) << "set VERP_TEST_BOARD";
@@ -99,8 +99,7 @@ TEST(CanTour, HasTheBitsOfSoftwareInTheLoop) {
   expect_same(records, run.records);
 }
 
-/// Somebody's tool, which asks the board's node for its mode without a rest, and now and then to
-/// relax.
+/// A foreign tool that asks the board's node for its mode without pause, and sometimes to relax.
 class Poller {
  public:
   ~Poller() { end(); }
@@ -135,8 +134,8 @@ class Poller {
   std::thread thread_{[this] { run(); }};
 };
 
-// It would lose frames of its small FIFO to somebody else's, and an order that it took would be
-// none that it obeys.
+// Foreign frames would overflow the board's small FIFO, and it would not obey an order that it
+// accepted.
 TEST(CanLoop, IsNeitherEndedNorOrderedByWhoPollsItsNode) {
   const std::string board = setting("VERP_TEST_BOARD");
   ASSERT_FALSE(board.empty()) << "set VERP_TEST_BOARD";

@@ -20,7 +20,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr std::chrono::seconds kSilence{60};
-constexpr std::uint32_t kLook_us = 100'000;  ///< how often the emulator is looked at in silence
+constexpr std::uint32_t kLook_us = 100'000;  ///< how often a silent emulator is checked
 constexpr std::chrono::seconds kEnd{10};
 
 struct Keeper {
@@ -52,7 +52,7 @@ std::vector<TickRecord> read_records(const std::filesystem::path& path) {
   return records;
 }
 
-/// What the clock's end tells of a run as it goes.
+/// What the clock's end observes during a run.
 struct Watch {
   Clock::time_point first, last;
   std::uint64_t frames = 0, frames_before = 0;
@@ -74,7 +74,7 @@ struct Watch {
 
 const wire::Endpoint kInterface{.kind = wire::Endpoint::Kind::kCan, .place = "vcan0"};
 
-/// What passes on vcan0, to the live check, which may ask the controller: as `verp hil` does.
+/// Passes the frames on vcan0 to the live check, which may ask the controller, as in `verp hil`.
 class Listener {
  public:
   explicit Listener(shadow::LiveCheck& check) : check_(check) {}

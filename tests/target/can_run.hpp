@@ -10,18 +10,18 @@
 #include "host/shadow/live_check.hpp"
 #include "tests/target/twin_run.hpp"
 
-/// The control loop in an emulated board, its drives and sensors on a virtual bus, CAN frames on
-/// vcan0 between them. Needs a place with CAN sockets: tests/support/with-can.
+/// The control loop on an emulated board, its drives and sensors on a virtual bus, and CAN frames
+/// on vcan0 between them. Needs CAN sockets: tests/support/with-can.
 namespace verp::test {
 
 struct CanRun {
   std::vector<TickRecord> records;
   can::LockstepServer::Counters counters;
-  double ticks_per_s = 0;      ///< of wall time, from the first tick to the last; without bring-up
-  double frames_per_tick = 0;  ///< on vcan0, those of the clock included
+  double ticks_per_s = 0;      ///< wall time from the first tick to the last, without bring-up
+  double frames_per_tick = 0;  ///< on vcan0, with the clock's frames
 };
 
-/// A robot with its CAN bus, on its feet in a world of its own.
+/// A CAN robot on its feet in its own world.
 struct CanTwin {
   Robot robot = load_robot("generic21", "can");
   sim::World world;
@@ -30,15 +30,15 @@ struct CanTwin {
   Hands hands{world, body};
 };
 
-/// The board does as the script says. Throws BoardError when it does not end well, or when frames
-/// were lost here. `check` listens on vcan0, if there is one.
+/// Runs the script on the board. Throws BoardError if it does not end well or frames were lost
+/// here. `check`, if given, listens on vcan0.
 CanRun run_over_can(const std::string& board, CanTwin& twin, const Script& script,
                     shadow::LiveCheck* check = nullptr);
-/// With whatever moves behind the bus.
+/// With any plant behind the bus.
 CanRun run_over_can(const std::string& board, const Params& params, can::VirtualCan& bus,
                     const Script& script, shadow::LiveCheck* check = nullptr);
 
-/// Software in the loop, over the same CANopen binding. Empty: it did not come up.
+/// Software in the loop over the same CANopen binding. Empty if it did not come up.
 std::vector<TickRecord> run_can_here(CanTwin& twin, const Script& script);
 
 }  // namespace verp::test

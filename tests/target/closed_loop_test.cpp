@@ -5,7 +5,7 @@
 
 #include "tests/target/twin_run.hpp"
 
-// VERP_TEST_BOARD names the emulated board; ctest of a firmware build sets it.
+// A firmware build's ctest sets VERP_TEST_BOARD to the emulated board.
 namespace verp::test {
 namespace {
 
@@ -37,7 +37,7 @@ TEST(ClosedLoop, WalksTheSameBitsInTheBoardAndOnThePc) {
   EXPECT_GT(there.distance_m, 2.0) << "it should have walked";
 }
 
-// Of one robot on a field: walk, turn, push, fall, get up, kick, wave.
+// One robot on a field walks, turns, is pushed, falls, gets up, kicks and waves.
 TEST(Tour, HasTheSameBitsInTheBoardAndOnThePc) {
   const char* board = std::getenv("VERP_TEST_BOARD");
   ASSERT_NE(board, nullptr) << "set VERP_TEST_BOARD";

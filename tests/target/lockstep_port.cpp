@@ -3,10 +3,10 @@
 namespace verp::can {
 namespace {
 
-// With filters, and so without what this socket sent itself.
+// Filters, so that this socket does not receive its own frames.
 const std::vector<wire::CanFilter> kAll = {{.id = 0, .mask = 0, .extended = false},
                                            {.id = 0, .mask = 0, .extended = true}};
-/// The controller's messages, not those of this end, which frames_ sends and bell_ would hear.
+/// Only the controller's messages: bell_ would receive those that frames_ sends.
 constexpr std::uint32_t kKind = 0x1FFFFFF8;
 const std::vector<wire::CanFilter> kClock = {
     {.id = lockstep::kCanHelloId, .mask = kKind, .extended = true},
@@ -16,7 +16,7 @@ static_assert(((lockstep::kCanHelloId + lockstep::kCanHelloParts - 1) & kKind) =
 static_assert((lockstep::kCanHelloReplyId & kKind) == lockstep::kCanHelloReplyId);
 static_assert((lockstep::kCanAdvancedId & kKind) == lockstep::kCanAdvancedId);
 
-/// Both sockets get a frame at nearly the same time.
+/// Both sockets receive a frame at nearly the same time.
 constexpr std::uint32_t kMoment_us = 1000;
 
 }  // namespace
@@ -39,12 +39,11 @@ bool LockstepPort::serve(LockstepServer& server, std::uint32_t wait_us) {
     if (!lockstep::is_clock_frame(frame)) continue;
     ++taken_;
     while (bell_.await(frame, 0)) ++rung_;
-    if (rung_ <= taken_) break;  // what comes behind it belongs to the next
-    // This PC was late, and is asked for the same again. Two answers at once are more than a small
-    // FIFO holds.
+    if (rung_ <= taken_) break;  // later frames belong to the next one
+    // This PC was late and is asked for the same again. Two answers at once overflow a small FIFO.
     answer_.clear();
   }
-  // What doesn't leave, because nobody is there, is asked for again.
+  // The controller asks again for frames that cannot leave.
   if (!answer_.empty()) frames_.send_all(answer_.data(), answer_.size());
   return asked;
 }

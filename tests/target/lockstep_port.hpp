@@ -9,27 +9,27 @@
 
 namespace verp::can {
 
-/// A controller in lockstep at the other end of a SocketCAN interface. Nothing is to be done before
-/// it asks for time, so this PC sleeps until then: a second socket, which hears the controller's
-/// messages of the clock alone, says when. Answers leave in one call.
+/// A lockstep controller at the other end of a SocketCAN interface. There is nothing to do until it
+/// asks for time, so this PC sleeps until then. A second socket, which receives only the
+/// controller's clock messages, wakes it. Answers leave in one call.
 class LockstepPort {
  public:
   /// Throws LinkError.
   explicit LockstepPort(const wire::Endpoint& endpoint);
 
-  /// Waits for a message of the clock; hands the server all up to it, in order, and sends its
-  /// answer. False: none came in time.
+  /// Waits for a clock message, passes all frames up to it to the server in order, and sends the
+  /// answer. False if none came in time.
   bool serve(LockstepServer& server, std::uint32_t wait_us);
 
-  /// The interface is up. Up to date after serve().
+  /// The interface is up. Current after serve().
   bool connected() const { return frames_.connected(); }
   hal::CanErrors errors() const;
 
  private:
   wire::CanPort frames_;
   wire::CanPort bell_;
-  std::uint32_t rung_ = 0;   ///< messages of the clock that bell_ heard
-  std::uint32_t taken_ = 0;  ///< and that frames_ brought
+  std::uint32_t rung_ = 0;   ///< clock messages received by bell_
+  std::uint32_t taken_ = 0;  ///< clock messages received by frames_
   std::vector<CanFrame> answer_;
 };
 

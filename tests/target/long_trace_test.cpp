@@ -7,8 +7,8 @@
 #include "tests/replay/long_trace.hpp"
 #include "tests/target/twin_run.hpp"
 
-// VERP_TEST_BOARD names the emulated board and VERP_TEST_TICKS the trace's length; ctest of a
-// firmware build sets both.
+// A firmware build's ctest sets VERP_TEST_BOARD to the emulated board and VERP_TEST_TICKS to the
+// trace's length.
 namespace verp::board {
 namespace {
 
@@ -29,7 +29,7 @@ void expect_same(const replay::Segment& segment, const TargetReplay& there) {
   }
 }
 
-// Every phase, safety row and branch that tests/replay reaches on the PC, reached in the board.
+// The board reaches every phase, safety row and branch that tests/replay reaches on the PC.
 TEST(LongTrace, GivesTheSameDigestsInTheBoard) {
   const std::string board = setting("VERP_TEST_BOARD");
   const std::string ticks = setting("VERP_TEST_TICKS");

@@ -8,7 +8,7 @@
 #include "host/board/replay_on_target.hpp"
 #include "tests/support/random_inputs.hpp"
 
-// VERP_TEST_BOARD names the emulated board; ctest of a firmware build sets it.
+// A firmware build's ctest sets VERP_TEST_BOARD to the emulated board.
 namespace verp::board {
 namespace {
 
@@ -29,7 +29,7 @@ Params plain_robot() {
   return params;
 }
 
-/// The same in this process, to compare with.
+/// Replays in this process, for comparison.
 TargetReplay replay_here(const Params& params, std::span<const Inputs> inputs,
                          const TargetReplayOptions& options = {}) {
   TargetReplay result;
@@ -58,7 +58,7 @@ void expect_same(const TargetReplay& here, const TargetReplay& there) {
   }
 }
 
-// The same inputs give the same bits on the PC and on the board: the project's first promise.
+// The project's first promise.
 TEST(TargetReplay, PlausibleInputsGiveTheSameDigests) {
   const Params params = plain_robot();
   const auto inputs = test::plausible_inputs(5000, 1, 981, params);

@@ -20,10 +20,10 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// Longer than the boot check takes on a machine under load.
+/// Longer than a boot check on a busy machine.
 constexpr std::uint32_t kPatience_us = 3'000'000;
 constexpr std::chrono::seconds kStart{20};
-/// A controller asks again after a second at most, by a clock that stutters in an emulator.
+/// A controller asks again within a second of its own clock, which stutters in an emulator.
 constexpr std::uint32_t kSilence_us = 10'000'000;
 /// boards/olimex_h405/memory.ld, verp_params_begin.
 constexpr const char* kParamsAddress = "0x08020000";
@@ -38,7 +38,7 @@ const bus::NamedRegister& named(const char* name) {
 
 bus::Client connect(const wire::Endpoint& endpoint) {
   const auto deadline = Clock::now() + kStart;
-  // The socket's file is there a moment before somebody listens at it.
+  // The socket's file exists a moment before the socket listens.
   for (;;) {
     try {
       return bus::Client(endpoint, kPatience_us);
@@ -117,7 +117,7 @@ std::vector<std::uint8_t> actions_image(const Robot& robot) {
 
 namespace {
 
-/// The order in registers request to walk_wz, in one write, and in action_request.
+/// Writes the order to registers request to walk_wz at once, and to action_request.
 void give(SerialBoard& board, const app::OperatorOrder& order, std::uint16_t& action) {
   const Command& command = order.command;
   if (action != order.action) board.write("action_request", action = order.action);
@@ -129,13 +129,13 @@ void give(SerialBoard& board, const app::OperatorOrder& order, std::uint16_t& ac
   board.operator_port().write(dxl::controller::kDefaultId, named("request").address, bytes);
 }
 
-/// The cable between the twin and the board's servo port, and what becomes of it.
+/// The cable between the twin and the board's servo port, with its faults.
 class Cable {
  public:
   Cable(SerialBoard& board, const SerialTrouble& trouble)
       : board_(board), trouble_(trouble), spoiler_(trouble.seed), link_(board.servo_port()) {}
 
-  /// Trouble begins with the loop's first tick: before, it may end a start for good.
+  /// Trouble begins with the loop's first tick: earlier it could end the start for good.
   void serve(bus::LockstepServer& server, const SerialRun& run) {
     std::vector<std::uint8_t> chunk(4096), heard, answer;
     while (!server.stopped()) {
@@ -191,7 +191,7 @@ SerialRun run_over_serial(SerialBoard& board, const Robot& robot, const Script& 
   Hands hands(world, body);
   hands.take(script);
   const std::uint32_t ticks = script.ticks;
-  std::uint16_t action = 0;  // that the board was asked for last
+  std::uint16_t action = 0;  // last requested action
   SerialRun run;
   bus::ShadowLoop shadow(robot.params,
                          [&](const TickRecord& record, const State&, const Outputs&) {
@@ -209,7 +209,7 @@ SerialRun run_over_serial(SerialBoard& board, const Robot& robot, const Script& 
   hooks.tick_begins = [&](std::uint32_t tick) {
     if (tick == trouble.pause_before && trouble.pause) trouble.pause();
     const app::OperatorOrder order = script.order(tick);
-    if (run.twin.records.empty()) board.write("request", 0);  // nothing else is obeyed at first
+    if (run.twin.records.empty()) board.write("request", 0);  // required before any other order
     give(board, order, action);
     shadow.ordered(order);
   };

@@ -13,17 +13,17 @@
 #include "tests/support/link_faults.hpp"
 #include "tests/target/twin_run.hpp"
 
-/// The image loop_<board> in QEMU, with a socket at each of its serial ports.
+/// The image loop_<board> in QEMU, with a socket at each serial port.
 namespace verp::test {
 
 class SerialBoard {
  public:
-  /// Boots with these in flash where the board's memory.ld has them; empty: with none.
+  /// Boots with these images in flash, where the board's memory.ld puts them; empty: without.
   SerialBoard(const std::string& board, const std::vector<std::uint8_t>& params_image,
               const std::vector<std::uint8_t>& actions_image = {});
 
   wire::Endpoint servo_port() const { return endpoint("servo.sock"); }
-  /// The operator's end; what a register of the controller holds, as an integer.
+  /// The operator's end: registers of the controller as integers.
   bus::Client& operator_port() { return operator_port_; }
   std::uint64_t read(const char* name);
   void write(const char* name, std::int64_t value);
@@ -34,7 +34,7 @@ class SerialBoard {
   wire::Endpoint endpoint(const char* name) const;
   board::QemuProcess start(const std::string& board, const std::vector<std::uint8_t>& params,
                            const std::vector<std::uint8_t>& actions) const;
-  /// QEMU's words that put these bytes there.
+  /// QEMU's options that load these bytes.
   std::vector<std::string> load(const char* name, const std::vector<std::uint8_t>& image,
                                 const char* address) const;
 
@@ -43,39 +43,39 @@ class SerialBoard {
   bus::Client operator_port_;
 };
 
-/// The bytes that the flash of `robot`'s controller holds.
+/// The flash content of `robot`'s controller.
 std::vector<std::uint8_t> params_image(const Robot& robot);
-/// Likewise of its actions.
+/// The flash content of its actions.
 std::vector<std::uint8_t> actions_image(const Robot& robot);
 
-/// What happens to the servo port's cable once the loop ticks.
+/// Faults of the servo port's cable once the loop ticks.
 struct SerialTrouble {
   LinkFaults to_board, from_board;
-  int cut_every = 0;  ///< answers of the twin: then the cable is pulled, and that answer lost
+  int cut_every = 0;  ///< pulls the cable after so many answers of the twin; that answer is lost
   std::uint32_t seed = 1;
-  /// The twin stands still before it begins this tick, until `pause` is over. 0: never.
+  /// The twin waits before this tick until `pause` returns. 0: never.
   std::uint32_t pause_before = 0;
   std::function<void()> pause{};
 };
 
 struct SerialRun {
   TwinRun twin;
-  std::uint64_t digest = 0;  ///< as the controller itself told it after the last tick
-  std::uint32_t tick = 0;    ///< likewise
+  std::uint64_t digest = 0;  ///< reported by the controller after the last tick
+  std::uint32_t tick = 0;    ///< reported likewise
   std::string difference;    ///< see bus::ShadowLoop
-  double ticks_per_s = 0;    ///< of the wall's clock
-  std::uint64_t faults = 0;  ///< done to bytes on the cable
+  double ticks_per_s = 0;    ///< in wall time
+  std::uint64_t faults = 0;  ///< damaged bytes on the cable
   int cuts = 0;
-  std::uint32_t bus_timeouts = 0;  ///< as the controller told its operator
-  std::uint32_t bus_noise = 0;     ///< likewise
+  std::uint32_t bus_timeouts = 0;  ///< reported to the operator
+  std::uint32_t bus_noise = 0;     ///< reported to the operator
   bus::LockstepServer::Counters lockstep;
 };
 
-/// The controller on the board; the twin in lockstep at its servo port, the script's operator at
-/// the other. Throws BoardError or DeviceError.
+/// Runs the controller on the board, with the twin in lockstep at its servo port and the script's
+/// operator at the other. Throws BoardError or DeviceError.
 SerialRun run_over_serial(SerialBoard& board, const Robot& robot, const Script& script,
                           const SerialTrouble& trouble = {});
-/// As ScriptedOperator orders.
+/// With the orders of ScriptedOperator.
 SerialRun run_over_serial(SerialBoard& board, const Robot& robot, std::uint32_t ticks,
                           const SerialTrouble& trouble = {});
 

@@ -9,8 +9,8 @@
 #include "host/action/send.hpp"
 #include "tests/target/serial_board.hpp"
 
-// VERP_TEST_BOARD names the emulated board, VERP_TEST_TICKS the length of a walk; ctest of a
-// firmware build sets both.
+// A firmware build's ctest sets VERP_TEST_BOARD to the emulated board and VERP_TEST_TICKS to a
+// walk's length.
 namespace verp::test {
 namespace {
 
@@ -27,8 +27,8 @@ std::uint32_t test_ticks() {
   return ticks == nullptr ? 0 : static_cast<std::uint32_t>(std::strtoul(ticks, nullptr, 10));
 }
 
-// The operator's port speaks Dynamixel as soon as the boot check is over, twin or no twin, and
-// tells how the start went.
+// After the boot check, with or without a twin, the operator port speaks Dynamixel and reports how
+// the start went.
 TEST(SerialLoop, AnswersItsOperatorAsDevice200) {
   SerialBoard board(test_board(), params_image(load_robot("generic21")));
   const auto identity = board.operator_port().ping(dxl::controller::kDefaultId);
@@ -43,7 +43,7 @@ TEST(SerialLoop, AnswersItsOperatorAsDevice200) {
   EXPECT_EQ(board.read("torque_enable"), 0u);
 }
 
-// A board without a robot in its flash drives nothing, whatever it is told, and says why.
+// Without a robot in its flash a board never drives, and says why.
 TEST(SerialLoop, TellsItsOperatorWhyItRefusesTorque) {
   SerialBoard board(test_board(), {});
   ASSERT_TRUE(board.operator_port().ping(dxl::controller::kDefaultId).has_value());
@@ -56,10 +56,10 @@ TEST(SerialLoop, TellsItsOperatorWhyItRefusesTorque) {
   EXPECT_EQ(board.read("torque_enable"), 0u);
 }
 
-// A servo port that cannot be opened is told, not tried again from reset to reset.
+// The fault is reported; the board does not retry by endless resets.
 TEST(SerialLoop, TellsItsOperatorThatTheServoPortDoesNotOpen) {
   Robot robot = load_robot("generic21");
-  robot.entity.baud = 50'000'000;  // no divider of the chip makes it
+  robot.entity.baud = 50'000'000;  // no divider of the chip gives this
   SerialBoard board(test_board(), params_image(robot));
   ASSERT_TRUE(board.operator_port().ping(dxl::controller::kDefaultId).has_value());
   EXPECT_EQ(board.read("self_test"), static_cast<std::uint64_t>(SelfTest::kPassed));
@@ -70,8 +70,8 @@ TEST(SerialLoop, TellsItsOperatorThatTheServoPortDoesNotOpen) {
   EXPECT_EQ(board.read("torque_enable"), 0u);
 }
 
-// The firmware image on its emulated chip, its bus through one USART and its orders through
-// another, decides what the same loop decides in this process: every stage of every tick.
+// The emulated chip has its bus on one USART and its orders on another. It decides the same as the
+// loop in this process: every stage of every tick.
 TEST(SerialLoop, WalksTheSameBitsThroughItsUsartsAndInThisProcess) {
   const std::uint32_t ticks = test_ticks();
   ASSERT_GT(ticks, 0u) << "set VERP_TEST_TICKS";
@@ -94,8 +94,8 @@ TEST(SerialLoop, WalksTheSameBitsThroughItsUsartsAndInThisProcess) {
   std::printf("%s: %u ticks at %.0f ticks/s\n", test_board().c_str(), ticks, there.ticks_per_s);
 }
 
-// It is pushed over, falls softly and gets up, by the actions in its flash, as the same loop in
-// this process does.
+// It is pushed over, falls softly and gets up by the actions in its flash, as the loop in this
+// process does.
 TEST(SerialLoop, GetsUpByTheActionsInItsFlash) {
   const Robot robot = load_robot("generic21");
   const Script script = fall_script(robot);
@@ -116,7 +116,7 @@ TEST(SerialLoop, GetsUpByTheActionsInItsFlash) {
               there.ticks_per_s);
 }
 
-// Actions that it must not play keep no robot from walking; it has none then, and says why.
+// A robot without valid actions still walks, and says why it has none.
 TEST(SerialLoop, TellsItsOperatorWhyItsActionsDoNotCount) {
   const Robot robot = load_robot("generic21"), other = load_robot("op3");
   const auto fault_of = [&](const std::vector<std::uint8_t>& actions) {
@@ -136,7 +136,7 @@ TEST(SerialLoop, TellsItsOperatorWhyItsActionsDoNotCount) {
   EXPECT_EQ(fault_of(params_image(robot)), action::KeptFault::kNotALibrary);
 }
 
-/// The image in force, through the window.
+/// Reads the current image through the window.
 std::vector<std::uint8_t> actions_in_force(SerialBoard& board) {
   board.write("window_kind", 2);
   std::vector<std::uint8_t> bytes;
@@ -151,8 +151,8 @@ std::vector<std::uint8_t> actions_in_force(SerialBoard& board) {
   return bytes;
 }
 
-// The emulated chip's flash can't be written, but with a debugger's help (write_flash): the
-// operator is told so, and the board goes on with the actions that it has.
+// Without a debugger (write_flash) the emulated chip's flash cannot be written. The board tells the
+// operator and keeps its actions.
 TEST(SerialLoop, SaysWhyItTakesNoActionsAndKeepsThoseThatItHas) {
   const Robot robot = load_robot("generic21");
   const std::vector<std::uint8_t> image = actions_image(robot);
@@ -180,7 +180,7 @@ TEST(SerialLoop, SaysWhyItTakesNoActionsAndKeepsThoseThatItHas) {
   EXPECT_EQ(board.read("start_fault"), 0u);
 }
 
-/// Longer than a twin may be silent before it counts as gone.
+/// Waits longer than a twin may be silent.
 void wait_for_no_torque(SerialBoard& board) {
   const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(20);
   while (board.read("torque_enable") != 0 && std::chrono::steady_clock::now() < end) {
@@ -188,8 +188,8 @@ void wait_for_no_torque(SerialBoard& board) {
   }
 }
 
-// A twin that stands still, in a debugger or for good, does not lock the operator's desk; it goes
-// on where it was with the bits of one that never paused. So does one whose session is over.
+// A twin that stops, in a debugger or for good, does not lock the operator out. It continues with
+// the bits of one that never paused; so does one whose session ended.
 TEST(SerialLoop, UnlocksItsOperatorsDeskWhileTheTwinIsSilentAndGoesOnWithTheSameBits) {
   constexpr std::uint32_t kTicks = 400, kPause = 300;  // it stands up
   const Robot robot = load_robot("generic21");

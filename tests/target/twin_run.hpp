@@ -14,20 +14,20 @@
 #include "host/sim/robot.hpp"
 #include "host/sim/world.hpp"
 
-/// A robot in the twin under an operator who goes by the tick alone: the same run, whoever is the
+/// A robot in the twin whose operator follows the tick alone: the run is the same with any
 /// controller.
 namespace verp::test {
 
 struct TwinRun {
   std::vector<TickRecord> records;
-  std::vector<safety::Mode> modes;  ///< one after the other, of a run in this process
+  std::vector<safety::Mode> modes;  ///< in order; only of a run in this process
   double distance_m = 0;            ///< from start to end, over ground
-  std::vector<double> pushed_m;     ///< likewise to where hands pushed it
+  std::vector<double> pushed_m;     ///< from the start to where hands pushed it
   bool fallen = false;
 };
 
-/// Stands up in six seconds, walks until three seconds before the end, stands still. Walks 4 cm
-/// steps ahead, or, with `wandering`, another way every three seconds.
+/// Stands up in six seconds, walks until three seconds before the end, then stands still. Walks
+/// ahead in 4 cm steps, or, if `wandering`, another way every three seconds.
 class ScriptedOperator {
  public:
   ScriptedOperator(const Params& params, std::uint32_t ticks, bool wandering)
@@ -42,27 +42,27 @@ class ScriptedOperator {
 
 /// A hand that pushes the trunk.
 struct Hand {
-  double at_s = 0;  ///< of the world: a controller's ticks begin some 0.7 s later
+  double at_s = 0;  ///< world time: the controller's ticks begin about 0.7 s later
   sim::Vec3 force_world_n = sim::Vec3::Zero();
   double for_s = 0;
 };
 
-/// What happens in a run: orders by the tick alone, hands by the world's time.
+/// A run's events: orders by the tick alone, hands by the world's time.
 struct Script {
   std::uint32_t ticks = 0;
   std::function<app::OperatorOrder(std::uint32_t tick)> order;
-  std::vector<Hand> hands = {};             ///< in the order of their times
-  std::vector<std::uint32_t> actions = {};  ///< the library that the controller has
+  std::vector<Hand> hands = {};             ///< in order of time
+  std::vector<std::uint32_t> actions = {};  ///< the controller's library
 };
 
-/// Its operator.
+/// The script's operator.
 struct Orders {
   const Script& script;
   app::OperatorOrder order(std::uint32_t tick) const { return script.order(tick); }
 };
 
-/// Its hands, by the world's time: so they push at the same step, however often the world
-/// is looked at between two.
+/// The script's hands, by the world's time: they push at the same step, however often the world is
+/// read in between.
 class Hands : private sim::Actor {
  public:
   Hands(sim::World& world, sim::TwinRobot& body)
@@ -74,7 +74,7 @@ class Hands : private sim::Actor {
   Hands(const Hands&) = delete;
   Hands& operator=(const Hands&) = delete;
   void take(const Script& script) { waiting_ = {script.hands.begin(), script.hands.end()}; }
-  /// From its start, over ground, whenever one pushed.
+  /// Distance from the start over ground, at each push.
   const std::vector<double>& pushed_m() const { return pushed_m_; }
   double distance_m() const { return (body_.truth().com_world_m - start_).head<2>().norm(); }
 
@@ -101,23 +101,23 @@ struct Robot {
   model::Entity entity;
   Params params;
 };
-/// With its bus of that name; empty: its first.
+/// With the bus of that name; empty: its first.
 Robot load_robot(const std::string& name, const std::string& bus = {});
 
-/// As ScriptedOperator orders.
+/// With the orders of ScriptedOperator.
 Script walk_script(const Params& params, std::uint32_t ticks, bool wandering = false);
 
-/// Walks, turns, is pushed and walks on, stands, is pushed over though it steps, gets up, kicks and
-/// waves: all that a robot does on a field, in 42 s.
+/// Walks, turns, is pushed and walks on, stands, is pushed over although it steps, gets up, kicks
+/// and waves: everything on a field, in 42 s.
 Script tour_script(const Robot& robot);
-/// What a controller does meanwhile, from its first tick on.
+/// The controller's modes from its first tick on.
 inline constexpr safety::Mode kTourModes[] = {
     safety::Mode::kRising,   safety::Mode::kStanding,  safety::Mode::kWalking,
     safety::Mode::kStanding, safety::Mode::kWalking,   safety::Mode::kFalling,
     safety::Mode::kFallen,   safety::Mode::kGettingUp, safety::Mode::kStanding,
     safety::Mode::kActing,   safety::Mode::kStanding,  safety::Mode::kActing,
     safety::Mode::kStanding};
-/// Stands, is pushed over and gets up, in 15 s: what of that takes a robot's own actions.
+/// Stands, is pushed over and gets up with the robot's own actions, in 15 s.
 Script fall_script(const Robot& robot);
 inline constexpr safety::Mode kFallModes[] = {safety::Mode::kRising,    safety::Mode::kStanding,
                                               safety::Mode::kFalling,   safety::Mode::kFallen,

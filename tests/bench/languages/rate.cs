@@ -1,12 +1,12 @@
-// rate.exe TIMES: control ticks a second of CPU time from C#, one call a tick, without physics, over what the controller
-// saw in a walk: a line each time.
+// rate.exe TIMES: control ticks per second of CPU time from C#, one call per tick, without physics,
+// on the inputs of a walk. Prints one line each time.
 using System;
 using System.Collections.Generic;
 using System.Diagnostics;
 using Verp;
 
 static class Rate {
-  const int kPasses = 100;  // a process' CPU time is counted in hundredths of a second
+  const int kPasses = 100;  // the CPU clock counts hundredths of a second
 
   static int Main(string[] args) {
     var saw = new List<verp_inputs>();
