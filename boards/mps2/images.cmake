@@ -83,7 +83,7 @@ function(verp_add_target_test name suite)
     ENVIRONMENT "VERP_TEST_BOARD=${VERP_BOARD};VERP_FIRMWARE_DIR=${CMAKE_BINARY_DIR}/images")
 endfunction()
 
-# What `verp flash` would do with the board's image.
+# Dry run of `verp flash` with the board's image.
 function(verp_add_dry_run_test)
   add_test(NAME flash.${VERP_BOARD}.dry_run COMMAND ${CMAKE_SOURCE_DIR}/tests/target/dry_run
     ${VERP_BOARD} $<TARGET_FILE:loop_${VERP_BOARD}> ${VERP_HOST_DIR}/host/tool/verp)

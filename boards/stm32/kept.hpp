@@ -6,7 +6,7 @@
 #include "firmware/store/shared_page.hpp"
 #include "hal/chip/stm32/flash_pages.hpp"
 
-/// What the board keeps in its own flash, in the sectors that every memory.ld leaves free. One
+/// Data that the board keeps in its own flash, in the sectors that every memory.ld leaves free. One
 /// holds the robot, with its actions in the second half. Two hold a log of settings; a new robot or
 /// new actions wait in the one without a log.
 namespace verp::board {

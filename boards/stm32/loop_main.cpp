@@ -78,7 +78,7 @@ struct Board {
     return setup;
   }
 
-  /// What runs whenever nothing arrives. It feeds the watchdog while waiting for a twin; a dead
+  /// Runs whenever nothing arrives. It feeds the watchdog while waiting for a twin; a dead
   /// loop never gets here.
   void idle() {
     dog.feed();

@@ -17,16 +17,16 @@ enum class Answer : std::uint8_t {
 /// source is a node, or the IMU's second frame.
 ///
 /// A node that missed a SYNC or received one twice continues its SYNC counter from there (CiA 301)
-/// and answers another SYNC ever after. An answer later in the round than planned is fresh if the
-/// source's last answer came in the previous tick; otherwise it may be that old one. An answer
-/// earlier than planned may be late from the previous tick. A shift that repeats for some ticks is
-/// accepted as the source's new place.
+/// and answers another SYNC ever after. An answer later than planned is fresh if the source also
+/// answered in the previous tick; otherwise it may be that old answer. An answer earlier than
+/// planned may be late from the previous tick. A shift that repeats for some ticks becomes the
+/// source's new place.
 ///
-/// A missing answer may still arrive: a drive could not get onto the bus, or a gateway is slow. It
-/// then arrives when the next one is due, and every later one is a tick late. So answers of a
-/// source that owes one do not count until prompt() shows that nothing waits for the bus. That
-/// usually happens in the next tick. After answers that were late by themselves, as from a gateway,
-/// it takes one tick more, because other frames reveal nothing about them.
+/// A missing answer may still come when the next one is due: a drive could not get onto the bus, or
+/// a gateway is slow. Every later answer is then a tick late. So a source that owes an answer does
+/// not count until prompt() shows that nothing waits for the bus, usually in the next tick. After
+/// late answers, as from a gateway, it takes one tick more, because other frames reveal nothing
+/// about them.
 class AnswerWatch {
  public:
   static constexpr int kImuSecond = kCanNodes;
@@ -48,7 +48,6 @@ class AnswerWatch {
   /// The source answers its planned SYNC again.
   void restore(int source) { source_[source].group = source_[source].planned; }
 
-  /// Begins a tick.
   void begin() {
     const NodeMask missed = prompt_times_ == kKnown ? planned_ & ~answered_ : 0;
     const bool tardy = tardy_ticks_ > 0;
@@ -141,8 +140,7 @@ class AnswerWatch {
   NodeMask answered() const { return answered_; }
 
  private:
-  /// Two, since the source's own place was empty meanwhile; one more while the whole bus may be
-  /// late.
+  /// Two, since the source's own place was empty meanwhile; three while the whole bus may be late.
   static constexpr std::uint8_t kTicks = 2;
   static constexpr std::uint8_t kTicksUnknown = 3;
   /// After this many prompt ticks the bus is expected to stay prompt. Some drives never are.

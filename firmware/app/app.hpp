@@ -7,10 +7,10 @@
 #include "firmware/app/servos_on.hpp"
 #include "hal/contract/imu.hpp"
 
-/// The control loop. The same template drives real servos, virtual servos and those of an emulated
+/// The control loop. One template drives real servos, virtual servos and those of an emulated
 /// microcontroller, over every bus in servos_on.hpp. Call bring_up() once, then tick() once a
-/// control period. The loop waits for no clock: in lockstep the tick's first frame advances the bus
-/// to the next period; a board with a timer waits before it calls tick().
+/// period. The loop waits for no clock: in lockstep the tick's first frame advances the bus to the
+/// next period; a board with a timer waits before it calls tick().
 namespace verp::app {
 
 /// For a robot whose IMU is on the servo bus.
@@ -130,7 +130,7 @@ class App {
   Inputs inputs_;
   Outputs outputs_;
   std::uint64_t last_read_us_ = 0;
-  bool ticking_ = false;  ///< a tick was counted before
+  bool ticking_ = false;
 };
 
 }  // namespace verp::app

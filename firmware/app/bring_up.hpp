@@ -31,9 +31,9 @@ class BringUp {
   static constexpr int kAttempts = 3;
   static constexpr std::size_t kMostBytes = 36;
 
-  // Releases torque before any request, and again if a device does not answer: servos that a reset
-  // controller left stiff must not stay so because one servo is missing. Repeated three times,
-  // since the write has no reply.
+  // Releases torque before any request, and again if a device does not answer: one missing servo
+  // must not leave the others stiff after a controller reset. Sent three times, since the write has
+  // no reply.
   void release_all() {
     for (int times = 0; times < 3; ++times) {
       dxl::Encoder encoder(master_.frame(), master_.capacity());
@@ -55,8 +55,7 @@ class BringUp {
     return false;
   }
 
-  /// One request to one device; copies exactly `size` reply bytes. Repeats requests without an
-  /// answer.
+  /// One request to one device, repeated without an answer; copies exactly `size` reply bytes.
   bool transact(std::size_t frame, std::uint8_t id, std::uint16_t address, std::uint8_t* data,
                 std::size_t size) {
     const std::uint32_t timeout =

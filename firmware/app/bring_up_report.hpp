@@ -16,7 +16,7 @@ enum class BringUpStatus : std::uint8_t {
   kNotReset,       ///< it answers but sent no boot-up message after the reset
 };
 
-/// The first device that stopped the bring-up, and where; and what was found.
+/// The first device that stopped the bring-up, and why.
 struct BringUpReport {
   BringUpStatus status = BringUpStatus::kReady;
   std::uint8_t device_id = 0;

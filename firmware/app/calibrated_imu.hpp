@@ -38,8 +38,8 @@ class CalibratedImu {
   }
   std::uint32_t faults() const { return chip_.faults(); }
 
-  /// Twice the time of all samples at the longest period, 20 ms. Samples come only with read(), so
-  /// a silent chip or a loop that does not read it (lockstep with a twin) must not measure for
+  /// Twice the time of all samples at the longest period, 20 ms. Samples come only with read(): a
+  /// silent chip, or a loop that does not read it (lockstep with a twin), must not measure for
   /// ever.
   static constexpr std::uint64_t kMost_us = 2 * ImuCalibrator::kSamples * std::uint64_t{20'000};
 

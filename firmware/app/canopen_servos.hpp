@@ -250,7 +250,7 @@ class CanopenServos {
     given_up_ = 0;
   }
 
-  // The IMU counts as silent as the worse of its two frames.
+  // The IMU is as silent as the worse of its two frames.
   void count_silence() {
     const NodeMask answered = answers_.answered();
     for (int source = 0; source < AnswerWatch::kSources; ++source) {

@@ -10,8 +10,8 @@
 #include "firmware/app/bus_counters.hpp"
 #include "firmware/app/joint_effort.hpp"
 
-/// What the control loop needs: servos in some protocol, an operator, a recorder, and perhaps a
-/// clock.
+/// The interfaces of the control loop: servos in some protocol, an operator, a recorder, and
+/// perhaps a clock.
 namespace verp::app {
 
 /// ServoBinding: a robot's servos and the sensors on their bus, in one protocol. Promises:
@@ -48,7 +48,7 @@ concept ServoBinding = requires(Servos& servos, const Servos& seen, Inputs& inpu
   { seen.efforts() } -> std::same_as<const JointEffort*>;
 };
 
-/// What an operator may put into one tick's Inputs.
+/// An operator's part of one tick's Inputs.
 struct OperatorOrder {
   Command command;          ///< the standing order
   std::uint16_t flags = 0;  ///< kEmergencyStop, kCommandFresh, kParameterWrite; others ignored
@@ -67,7 +67,7 @@ concept OperatorLink = requires(Link& link, std::uint32_t tick) {
   { link.order(tick) } -> std::same_as<OperatorOrder>;
 };
 
-/// What the pacing clock reports about the tick that begins.
+/// The pacing clock's report on the tick that begins.
 struct Beat {
   std::uint32_t periods = 0;  ///< since the previous tick; 0: no clock, use bus time
   bool overran = false;       ///< the previous tick ended after its deadline

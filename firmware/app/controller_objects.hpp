@@ -187,7 +187,6 @@ class ControllerObjects {
     return canopen::Abort::kNone;
   }
 
-  /// Finds the object's register.
   static canopen::Abort look(canopen::Address at, Place& place) {
     if (at.index < kFirst || at.index - kFirst >= table::kTableBytes) {
       return canopen::Abort::kNoObject;

@@ -35,7 +35,6 @@ class DeviceWatch {
   void bus_errors(std::uint32_t sum) { errors(table::kDeviceBus, sum); }
   void link_errors(std::uint32_t sum) { errors(table::kDeviceLink, sum); }
 
-  /// Call once a tick.
   void tick(const Inputs& inputs, const State& state, const Outputs& outputs) {
     const std::uint32_t ticks = ticking_ ? inputs.tick - tick_ : 1;
     elapsed_ = static_cast<std::uint16_t>(ticks < kOldest ? ticks : kOldest);
@@ -84,7 +83,7 @@ class DeviceWatch {
     return {math::to_int32(stale_s * per_s), math::to_int32(lost_s * per_s)};
   }
 
-  /// A device that should report in every tick.
+  /// For a device that should report in every tick.
   void sense(int row, bool fresh, bool faulty, const Limits& limits) {
     const std::uint16_t address = element(reg("device_errors"), row, 4);
     if (!fresh) image_.set(address, image_.get<std::uint32_t>(address) + 1);
@@ -151,7 +150,6 @@ class DeviceWatch {
     window_us_ = 0;
   }
 
-  /// How long a servo has repeated one position.
   struct Still {
     std::int32_t position_count = 0;
     std::int32_t goal_count = 0;  ///< when that began

@@ -5,7 +5,7 @@
 
 namespace verp::app {
 
-/// What an emergency stop does to servo power, on a board that switches it. The core releases
+/// Effect of an emergency stop on servo power, on a board that switches it. The core releases
 /// torque in the tick that sees the stop, and the loop sends that for three ticks. Then the power
 /// goes off, for servos that missed it and whatever the core decides. This is a category 0 stop of
 /// IEC 60204-1: a standing robot falls.

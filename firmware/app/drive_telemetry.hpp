@@ -115,7 +115,7 @@ class DriveTelemetry {
 
   const Params& params_;
   int joint_ = 0;
-  int asked_ = -1;  ///< drive whose answer is due
+  int asked_ = -1;  ///< see asked()
   int urgent_ = -1;
   std::uint32_t plain_ = 0;  ///< drives without kTelemetry
   Part part_ = Part::kAll;

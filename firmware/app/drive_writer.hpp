@@ -21,7 +21,6 @@ class DriveWriter : public JointStrength {
 
   using JointStrength::JointStrength;
 
-  /// Notes the state that a drive reported.
   void note(int joint, State state) {
     state_[joint] = state;
     if (state == State::kOperationEnabled) enabled_ |= told_ & 1u << joint;

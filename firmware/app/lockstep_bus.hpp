@@ -20,7 +20,6 @@ struct LockstepCounters {
   std::uint32_t damaged = 0;  ///< polls whose preceding frames arrived damaged
 };
 
-/// The Hello of a controller with this core and robot.
 inline lockstep::Hello hello_of(const Params& params) {
   return {.core_version = kCoreVersion,
           .params_size = sizeof(Params),
@@ -29,7 +28,7 @@ inline lockstep::Hello hello_of(const Params& params) {
           .state_size = sizeof(State)};
 }
 
-/// What the controller does while it waits for the twin: feeds its watchdog, serves its operator.
+/// The work of a controller that waits for the twin: feeds its watchdog, serves its operator.
 /// Called at least every LockstepBus::kLongSlice_us while nothing arrives. False: stop waiting; the
 /// bus is then lost.
 template <class Idle>
@@ -50,8 +49,8 @@ class LockstepBus {
 
   LockstepBus(Link& link, Idle idle) : link_(link), idle_(idle) {}
 
-  /// Announces lockstep and this robot to the twin and waits for its answer. After a loss it starts
-  /// a new session: bus time restarts with the twin, and the controller needs a new bring-up.
+  /// Announces lockstep and this robot; waits for the twin's answer. After a loss it starts a new
+  /// session: bus time restarts with the twin, and the controller needs a new bring-up.
   lockstep::Verdict greet(const Params& params) {
     lost_ = true;
     answer_ = {};

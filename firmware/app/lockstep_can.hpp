@@ -10,8 +10,8 @@
 namespace verp::app {
 
 /// The controller's end of lockstep_can_messages.hpp: a CanBus in the twin's time over another
-/// CanBus. Call greet() first. A slow, paused or unplugged PC makes it wait as long as `idle`
-/// allows, but never causes a timeout. The time of `Bus` only decides when to ask again.
+/// CanBus. Like LockstepBus it waits for a slow PC as long as `idle` allows, without a timeout. The
+/// time of `Bus` only decides when to ask again.
 template <hal::CanBus Bus, IdleHook Idle>
 class LockstepCan {
  public:
@@ -19,8 +19,7 @@ class LockstepCan {
   LockstepCan(Bus& bus, Idle idle, std::uint32_t slice_us = kSlice_us)
       : bus_(bus), idle_(idle), slice_us_(slice_us) {}
 
-  /// Announces lockstep and this robot to the twin and waits for its answer. After a loss it starts
-  /// a new session: bus time restarts with the twin, and the controller needs a new bring-up.
+  /// greet(), stopped() and lost(): as LockstepBus's.
   lockstep::Verdict greet(const Params& params) {
     const lockstep::Hello hello = hello_of(params);
     forget();
@@ -36,10 +35,7 @@ class LockstepCan {
     return reply.verdict;
   }
 
-  /// The twin wants no further tick, or is gone.
   bool stopped() const { return lost_ || over_; }
-  /// True before greet(), after a refusal, after `idle` gave up, or when the twin restarted: call
-  /// greet() again.
   bool lost() const { return lost_; }
   const LockstepCounters& counters() const { return counters_; }
 

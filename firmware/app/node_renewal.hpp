@@ -17,7 +17,6 @@ class NodeRenewal {
 
   /// The node being set up; -1: none.
   int slot() const { return slot_; }
-  /// Takes that node's SDO response.
   void receive(const CanFrame& frame, std::uint64_t now_us) { client_.receive(frame, now_us); }
   /// Restarts the set-up of a node that has rebooted, and queues it for stop_one(). Such a node
   /// does not know our SYNC counter and may send EMCY 8240h on each SYNC ahead of other answers.

@@ -23,10 +23,10 @@ struct CrashNote {
   std::uint32_t pc = 0;
   std::uint32_t cause = 0;  ///< CFSR
   std::uint32_t tick = 0;
-  std::uint32_t count = 0;  ///< crashes in a row
+  std::uint32_t count = 0;  ///< in a row
 };
 
-/// What the board knows before the first tick.
+/// The board's state before the first tick.
 struct OperatorSetup {
   std::uint8_t id = table::kDefaultId;
   table::ImuSource imu_source = table::ImuSource::kBus;
@@ -163,7 +163,6 @@ class OperatorRegisters {
     image_.set(reg("window_fault"), fault);
   }
 
-  /// What the operator wants in the next tick.
   OperatorOrder order() {
     OperatorOrder order;
     order.command = standing_.take(order.flags);

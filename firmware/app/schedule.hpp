@@ -7,8 +7,8 @@
 #include "common/protocol/control_table.hpp"
 #include "common/protocol/dynamixel2.hpp"
 
-/// Bytes and time of one tick on the servo bus. The loop derives its timeouts from them, and export
-/// its refusal.
+/// Bytes and time of one tick on the servo bus: the basis of the loop's timeouts and of export's
+/// limit.
 namespace verp::app {
 
 inline constexpr std::uint32_t kBitsPerByte = 10;  ///< start, eight data, stop

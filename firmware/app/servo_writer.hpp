@@ -11,10 +11,9 @@
 namespace verp::app {
 
 /// The tick's second half: the core's outputs as Sync Writes. These have no reply, so every change
-/// except goals is sent in kRepeats ticks, and each servo's state again in turn. One lost frame
-/// thus leaves neither a limp robot stiff nor a walking one with a slack joint. It is copied with
-/// its loop, so it holds no reference into it. Strength is Goal PWM; a servo refuses more than
-/// set_full()'s value.
+/// except goals is sent in kRepeats ticks, and each servo's state again in turn. So one lost frame
+/// leaves no limp robot stiff and no walking one with a slack joint. Strength is Goal PWM; a servo
+/// refuses more than set_full()'s value. It is copied with its loop and holds no reference into it.
 template <hal::FrameBus Bus>
 class ServoWriter : public JointStrength {
  public:

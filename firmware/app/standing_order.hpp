@@ -48,7 +48,7 @@ class StandingOrder {
     if (!armed) image_.set(reg("request"), Request::kRelax);
   }
 
-  /// The order for the next tick; fresh in one tick only.
+  /// The order for the next tick. It is fresh only once.
   Command take(std::uint16_t& flags) {
     Command command;
     command.request = image_.get<Request>(reg("request"));

@@ -9,7 +9,6 @@
 
 namespace verp::app {
 
-/// One tick of the controller.
 struct HeldTick {
   TickRecord record;  ///< its inputs
   State state;        ///< the State after it
@@ -39,7 +38,7 @@ class TickLog {
     last_.record = record;
     last_.state = state;
   }
-  /// What is frozen from now on: register tick_hold.
+  /// Values of register tick_hold: the frozen images.
   enum Hold : std::uint8_t { kNothing = 0, kStateOnly = 1, kAll = 2 };
   void hold(std::uint8_t what) { hold_ = what; }
 

@@ -71,11 +71,11 @@ class TickReport {
     devices_.tick(inputs, state, outputs);
   }
 
-  /// What the last tick's TPDOs hold (canopen/published_tick.hpp).
+  /// Values in the last tick's TPDOs (canopen/published_tick.hpp).
   void publish_flags(std::uint16_t flags) { image_.set(reg("inputs_flags"), flags); }
   void publish_part(std::uint64_t part) { image_.set(reg("inputs_part"), part); }
 
-  /// Clears the torque registers when no servo can obey.
+  /// Clears the torque registers: no servo can obey.
   void servos_gone() {
     image_.set(reg("torque_enable"), std::uint8_t{0});
     image_.set(reg("joints_torque"), std::uint32_t{0});
@@ -123,7 +123,6 @@ class TickReport {
     devices_.link_errors(crc_errors + errors.overruns + errors.framing + errors.noise);
   }
 
-  /// Counts a packet for this device.
   void heard() { devices_.heard(); }
 
  private:

@@ -1,7 +1,7 @@
 #pragma once
 
-/// What each core family implements in firmware/boot/<family>. Its entry sets the stack pointer and
-/// calls verp_reset().
+/// Functions that each core family implements in firmware/boot/<family>. Its entry sets the stack
+/// pointer and calls verp_reset().
 namespace verp::boot {
 
 /// Called first: enables float instructions and routes faults to verp_fault(). Code before it may

@@ -8,7 +8,7 @@
 /// PSTN 1.2, 6.3) and their effects. A chip's driver moves the packets.
 namespace verp::hal::usb {
 
-/// What the device controller must do at once, before the status stage.
+/// The device controller's task before the status stage.
 enum class Action : std::uint8_t {
   kNone,
   kAddress,    ///< answer at address `value` from the status stage on
