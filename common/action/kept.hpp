@@ -6,13 +6,12 @@
 #include "common/base/fields.hpp"
 #include "common/model/params.hpp"
 
-/// A robot's actions in a board's flash: a library image (library.hpp), followed by a mark that
-/// names the robot. A library refers to joints by number, so another robot would move the wrong
-/// joints.
+/// A robot's actions in a board's flash: a library image (library.hpp) and a mark that names the
+/// robot. Joints in it are numbers, so another robot would move the wrong ones.
 namespace verp::action {
 
 struct KeptMark {
-  std::uint32_t robot = 0;  ///< robot_mark() of the robot that the actions are for
+  std::uint32_t robot = 0;  ///< robot_mark() of their robot
   std::uint32_t crc32 = 0;  ///< of the library's header and `robot`
   VERP_FIELDS(robot, crc32)
 };
@@ -32,20 +31,19 @@ inline constexpr const char* kKeptFaultNames[] = {
     "none",    "truncated",     "no action library", "of another version",
     "damaged", "out of bounds", "for another robot"};
 
-/// CRC of what actions depend on: the robot's name and each joint's name, place, axis and limits.
-/// Gains, friction, zeros, tuning and the bus do not change it.
+/// Covers what actions depend on: the robot's name, each joint's name, place, axis and limits. Not
+/// gains, friction, zeros, tuning or bus.
 std::uint32_t robot_mark(const Params& params);
 
 KeptMark make_mark(const LibraryHeader& library, const Params& params);
 
-/// Checks bytes, aligned to 4, as this robot's actions. `size` may exceed the content (a flash
-/// section).
+/// Checks bytes, aligned to 4, as this robot's actions. `size` may exceed them (a flash section).
 KeptFault check_kept(const void* bytes, std::size_t size, const Params& params);
 
-/// The same check for whichever robot the mark names.
+/// The same for whichever robot the mark names.
 KeptFault check_any_kept(const void* bytes, std::size_t size);
 
-/// Size of a sound library and its mark, for any robot; 0 if there is none.
+/// Size of a sound library and its mark, for any robot; 0: none.
 std::size_t kept_size(const void* bytes, std::size_t size);
 
 struct KeptLibrary {

@@ -46,7 +46,6 @@ float carry_left_of(Stance stance) {
   return stance == Stance::kLeft ? 1.0F : stance == Stance::kRight ? 0.0F : 0.5F;
 }
 
-// A joint's target and its speed there.
 struct Goal {
   float at_rad, rate_rad_s;
 };
@@ -57,7 +56,7 @@ Goal goal_of(const Frame& frame, int joint, const PlayerIn& in) {
           1e-3F * static_cast<float>(frame.speed_mrad_s[joint])};
 }
 
-// Share of the present motion that is done.
+// Done share of the motion.
 float share_of(const PlayerState& state, std::int32_t whole_us) {
   if (whole_us <= 0) return 1.0F;
   return math::clamp(static_cast<float>(state.time_us) / static_cast<float>(whole_us), 0.0F, 1.0F);
@@ -74,7 +73,7 @@ Now now_of(const PlayerState& state, int joint, const Goal& goal, float share, f
   const float m1 = whole_s * goal.rate_rad_s;
   const math::CurvePoint point = smooth ? math::quintic(from, m0, goal.at_rad, m1, share)
                                         : math::hermite(from, m0, goal.at_rad, m1, share);
-  // A joint that has arrived holds its goal, whatever speed it had there.
+  // After arrival a joint holds its goal, whatever its speed there.
   return {point.value, share < 1.0F ? point.derivative / whole_s : goal.rate_rad_s};
 }
 
@@ -127,7 +126,7 @@ void go_back(const Params& params, const Library& library, const PlayerIn& in, P
     const float way_rad = math::abs(in.stand_rad[j] - state.from_rad[j]);
     if ((state.moved >> j & 1U) == 0 || way_rad < kAtStand_rad) continue;
     const float limit_rad_s = math::max(params.joint[j].velocity_limit_rad_s, 0.1F);
-    // The peak speed is twice the mean, and the return uses half the limit: it need not be fast.
+    // Peak speed is twice the mean, and half the limit is enough for a return.
     longest_s = math::max(longest_s, math::max(4.0F * way_rad / limit_rad_s, kLeastReturn_s));
   }
   state.part = Part::kReturn;
@@ -135,8 +134,8 @@ void go_back(const Params& params, const Library& library, const PlayerIn& in, P
   state.return_us = static_cast<std::int32_t>(1e6F * math::min(longest_s, kMostReturn_s));
 }
 
-// `late_us`: time since the previous motion ended. Without it, a joint that passes a key frame
-// would rest there for a tick.
+// `late_us`: time since the previous motion ended. Without it a joint would rest for a tick at a
+// key frame that it passes.
 void go_to(const Params& params, const Library& library, const PlayerIn& in, std::uint16_t frame,
            std::int32_t late_us, PlayerState& state) {
   if (frame == kToStand) return go_back(params, library, in, state);
@@ -154,7 +153,7 @@ void begin(const Params& params, const Library& library, const PlayerIn& in, Pla
   for (int j = 0; j < params.joint_count; ++j) state.from_rad[j] = in.stand_rad[j];
 }
 
-// Chooses the frame after the present one, once its time is over.
+// Goes to the next frame once this one is over.
 void leave_frame(const Params& params, const Library& library, const PlayerIn& in,
                  PlayerState& state) {
   const Frame& frame = library.frame(state.frame);
@@ -169,7 +168,7 @@ void leave_frame(const Params& params, const Library& library, const PlayerIn& i
     if (!patient) go_to(params, library, in, frame.otherwise, 0, state);
     return;
   }
-  // A frame that waited for its condition is not late.
+  // A frame that waited is not late.
   const std::int32_t late_us = frame.condition == Condition::kNone ? state.time_us - rested_us : 0;
   if (state.loops < frame.loops) {
     ++state.loops;
@@ -183,7 +182,7 @@ bool is_there(const Library& library, std::uint8_t number) {
   return number > 0 && number <= library.count();
 }
 
-// Starts from any pose. Joints that no frame names go to their stand meanwhile.
+// From any pose. Joints that no frame names go to their stand.
 void begin_anywhere(const Params& params, const Library& library, const PlayerIn& in,
                     PlayerState& state) {
   state = PlayerState{};

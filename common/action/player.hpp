@@ -2,13 +2,12 @@
 #include "common/action/library.hpp"
 #include "common/base/fields.hpp"
 
-/// Plays one action of a library: computes each joint's angle tick by tick, from the stand and back
-/// to it.
+/// Plays one action: each joint's angle tick by tick, from the stand and back to it.
 namespace verp::action {
 
 enum class Part : std::uint8_t { kFrame = 0, kReturn = 1 };
 
-/// All zero while nothing plays and no action is requested.
+/// All zero while nothing plays or is requested.
 struct PlayerState {
   std::int32_t time_us = 0;    ///< in the present frame or the return
   std::int32_t return_us = 0;  ///< duration of the return
@@ -19,8 +18,8 @@ struct PlayerState {
   std::uint8_t asked = 0;   ///< request of the previous tick: each request plays once
   std::uint8_t loops = 0;   ///< done so far
   Part part = Part::kFrame;
-  float carry_left = 0;  ///< left foot's share of the weight at the start of the motion
-  float balance = 0;     ///< PlayerOut::balance at the start of the motion
+  float carry_left = 0;  ///< left foot's share of the weight at the motion's start
+  float balance = 0;     ///< PlayerOut::balance at the motion's start
   float from_rad[kMaxJoints] = {};
   float from_rad_s[kMaxJoints] = {};
   VERP_FIELDS(time_us, return_us, moved, frame, reserved, number, asked, loops, part, carry_left,
@@ -29,11 +28,11 @@ struct PlayerState {
 VERP_PACKED(PlayerState);
 
 struct PlayerIn {
-  std::uint8_t asked = 0;  ///< number of the requested action; 0: none, and ends one that plays
+  std::uint8_t asked = 0;  ///< requested action; 0: none, ends one that plays
   bool may_begin = false;
   std::uint8_t begin = 0;           ///< action to begin now, unconditionally; 0: none
   const float* from_rad = nullptr;  ///< joint angles where `begin` starts
-  bool stop = false;                ///< stop by the frame's exit, or straight back to the stand
+  bool stop = false;                ///< by the frame's exit, or straight to the stand
   std::int32_t period_us = 10000;
   const float* stand_rad = nullptr;  ///< joint angles of the stand
   float roll_rad = 0, pitch_rad = 0, up = 1;
@@ -48,10 +47,10 @@ struct PlayerOut {
   Stance stance = Stance::kBoth;
 };
 
-/// True if action `asked` exists and the previous tick did not request it.
+/// True if action `asked` exists and is a new request.
 bool is_new(const Library& library, const PlayerState& state, std::uint8_t asked);
 
-/// If state.number is not 0 afterwards, the result holds the joints' angles.
+/// The result is valid if state.number is not 0 afterwards.
 PlayerOut update(const Params& params, const Library& library, PlayerState& state,
                  const PlayerIn& in);
 

@@ -2,8 +2,7 @@
 #include <cstddef>
 #include <cstdint>
 
-/// One CAN frame, classic or FD. The limits are those of ISO 11898-1 (identifiers, data length
-/// codes).
+/// One CAN frame, classic or FD. Limits from ISO 11898-1 (identifiers, data length codes).
 namespace verp {
 
 inline constexpr std::uint8_t kMaxCanData = 8;
@@ -20,7 +19,7 @@ constexpr std::uint8_t can_fd_size(std::size_t size) {
   return kMaxCanFdData;
 }
 
-/// Data length code for `size` bytes, a size that can_fd_size() returns.
+/// `size` must be one that can_fd_size() returns.
 constexpr std::uint8_t can_length_code(std::uint8_t size) {
   if (size <= kMaxCanData) return size;
   std::uint8_t code = 9;
@@ -37,7 +36,7 @@ struct CanFrame {
   bool extended = false;
   bool remote = false;           ///< classic remote request, without data
   bool fd = false;               ///< CAN FD format
-  bool bit_rate_switch = false;  ///< FD only: the data phase runs at the faster rate
+  bool bit_rate_switch = false;  ///< FD only: faster data phase
   std::uint8_t data[kMaxCanFdData] = {};
 
   constexpr bool operator==(const CanFrame& other) const {
@@ -51,16 +50,16 @@ struct CanFrame {
   }
 };
 
-/// Arbitration rank: of two frames that start together, the smaller rank wins the bus. Bits in wire
-/// order: 11 identifier bits, RTR (SRR), IDE, then the rest of an extended identifier (ISO 11898-1:
-/// a dominant 0 overwrites a recessive 1).
+/// Arbitration rank: the smaller one wins the bus. Bits in wire order: 11 identifier bits, RTR
+/// (SRR), IDE, the rest of an extended identifier (ISO 11898-1: a dominant 0 overwrites a recessive
+/// 1).
 constexpr std::uint32_t can_rank(const CanFrame& frame) {
   const std::uint32_t remote = frame.remote ? 1 : 0;
   if (!frame.extended) return (frame.id & 0x7FFu) << 21 | remote << 20;
   return (frame.id >> 18 & 0x7FFu) << 21 | 3u << 19 | (frame.id & 0x3FFFFu) << 1 | remote;
 }
 
-/// True if the frame's format allows its identifier, size and flags.
+/// True if the format allows identifier, size and flags.
 constexpr bool is_sound(const CanFrame& frame) {
   if (frame.id > (frame.extended ? 0x1FFFFFFFu : 0x7FFu)) return false;
   if (frame.fd) return !frame.remote && frame.size == can_fd_size(frame.size);

@@ -6,8 +6,8 @@
 
 namespace verp {
 
-/// CAN frames that wait for the wire. The frame that would win arbitration leaves first; frames of
-/// one identifier keep their order.
+/// CAN frames waiting for the wire, in order of arbitration; frames of one identifier keep their
+/// order.
 template <std::size_t kCapacity>
 class CanOutbox {
  public:
@@ -22,16 +22,15 @@ class CanOutbox {
     return true;
   }
 
-  /// The next frame to leave. The outbox must not be empty.
+  /// The outbox must not be empty.
   const CanFrame& best() const { return frames_[best_index()]; }
-  /// Removes best().
   void pop() {
     const std::size_t gone = best_index();
     --size_;
-    // Move the later frames up, so that the first of equal frames is the oldest.
+    // Keeps the oldest of equal frames first.
     for (std::size_t i = gone; i < size_; ++i) frames_[i] = frames_[i + 1];
   }
-  /// Returns a frame that could not be sent, ahead of all others of its identifier. False if full.
+  /// Returns a frame that could not be sent, ahead of others of its identifier. False if full.
   bool put_back(const CanFrame& frame) {
     if (full()) return false;
     for (std::size_t i = size_; i > 0; --i) frames_[i] = frames_[i - 1];

@@ -1,30 +1,29 @@
 #pragma once
 #include <cstdint>
 
-/// Bit timing of a classic CAN controller. A bit is 1 + before + after time quanta and is sampled
-/// before `after` (ISO 11898-1, 11.3). Evaluated at compile time: a rate that the clock cannot give
-/// fails the build.
+/// Bit timing of a classic CAN controller: 1 + before + after time quanta, sampled before `after`
+/// (ISO 11898-1, 11.3). Evaluated at compile time, so an impossible rate fails the build.
 namespace verp {
 
 struct CanTiming {
-  std::uint32_t prescaler = 0;  ///< of the controller's clock; 0: this clock cannot give this rate
+  std::uint32_t prescaler = 0;  ///< of the controller's clock; 0: rate impossible
   std::uint32_t before = 0;     ///< quanta of propagation and phase segment 1
   std::uint32_t after = 0;      ///< quanta of phase segment 2
-  std::uint32_t jump = 0;       ///< quanta by which a resynchronisation may move the sample
+  std::uint32_t jump = 0;       ///< quanta that a resynchronisation may move
 
   constexpr bool possible() const { return prescaler != 0; }
   constexpr std::uint32_t quanta() const { return 1 + before + after; }
 };
 
-/// Sample point in a bit, per mille: the range of CiA 102, and the best point of CiA 301.
+/// Sample point, per mille of a bit: range of CiA 102, best point of CiA 301.
 struct CanSampling {
   std::uint32_t least = 750, most = 900, best = 875;
 };
 
-/// The exact rate from `clock_hz`, sampled as close to `sampling.best` as possible, then with as
-/// many of 8 to 25 quanta as fit. Limits from the register fields of SJA1000, bxCAN and ZynqMP: at
-/// most 16 quanta before and 8 after. At least 2 after, because an SJA1000 needs that long to read
-/// a bit.
+/// The exact rate, sampled close to `sampling.best`, then with the most quanta of 8 to
+/// 25. Limits from
+/// the registers of SJA1000, bxCAN and ZynqMP: at most 16 quanta before, 8 after; at least 2 after,
+/// which an SJA1000 needs to read a bit.
 constexpr CanTiming can_timing(std::uint32_t clock_hz, std::uint32_t bit_rate_hz,
                                std::uint32_t most_prescaler, CanSampling sampling = {}) {
   CanTiming timing;

@@ -8,9 +8,8 @@
 ///     struct Tilt { float roll_rad = 0; float pitch_rad = 0; VERP_FIELDS(roll_rad, pitch_rad) };
 ///     VERP_PACKED(Tilt);
 ///
-/// Digest, trace, print, diff and the Params image all use that list. VERP_PACKED does not compile
-/// if a field is missing from the list or the struct has padding, so the struct's memory *is* its
-/// canonical little-endian byte image.
+/// Digest, trace, print, diff and the Params image use that list. VERP_PACKED rejects a missing
+/// field or padding, so the struct's memory *is* its canonical little-endian byte image.
 #define VERP_FIELDS(...)                                    \
   template <class Self, class Visit>                        \
   static constexpr void fields(Self& self, Visit&& visit) { \
@@ -38,7 +37,7 @@ concept HasFields = requires(T& t) {
   T::fields(t, [](const char*, auto&) {});
 };
 
-/// Sum of the sizes of all leaves of T, by its field list.
+/// Sum of the sizes of T's leaves.
 template <class T>
 consteval std::size_t packed_size() {
   if constexpr (std::is_array_v<T>) {
@@ -54,7 +53,7 @@ consteval std::size_t packed_size() {
   }
 }
 
-/// Calls leaf(value) for every scalar under `value`, in field order.
+/// Calls leaf(value) for every scalar in `value`, in field order.
 template <class T, class Leaf>
 constexpr void for_each_leaf(T& value, Leaf&& leaf) {
   using Plain = std::remove_const_t<T>;

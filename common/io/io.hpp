@@ -3,9 +3,9 @@
 
 #include "common/base/fields.hpp"
 
-/// All data that crosses the controller's border. Values are raw counts as on the wire; Params
-/// holds scales, signs and ranges. Plain integers without padding: a trace stores and a digest
-/// covers the memory of these structs.
+/// All data that crosses the controller's border: raw counts as on the wire (Params holds scales,
+/// signs and ranges), plain integers without padding. A trace stores and a digest covers their
+/// memory.
 namespace verp {
 
 inline constexpr int kMaxJoints = 32;  ///< fits a uint32_t bit mask
@@ -15,24 +15,24 @@ inline constexpr int kFootSensors =
 
 /// Bits of Inputs::flags.
 enum InputFlag : std::uint16_t {
-  kImuFresh = 1 << 0,        ///< gyro and accel were read this tick
-  kFeetFresh = 1 << 1,       ///< all foot sensors were read this tick
-  kSlowFresh = 1 << 2,       ///< the slow telemetry of one servo was read this tick
+  kImuFresh = 1 << 0,        ///< gyro and accel read this tick
+  kFeetFresh = 1 << 1,       ///< all foot sensors read this tick
+  kSlowFresh = 1 << 2,       ///< slow telemetry of one servo read this tick
   kOverrun = 1 << 3,         ///< the previous tick ended after its deadline
   kEmergencyStop = 1 << 4,   ///< the e-stop input is pressed
   kCommandFresh = 1 << 5,    ///< an operator frame arrived this tick
   kParameterWrite = 1 << 6,  ///< parameter_id and parameter_bits are valid
 };
 
-/// The operator's request. kWalk and kGetUp include kStand. kGetUp also permits torque on the
-/// floor: without it no fallen robot moves.
+/// kWalk and kGetUp include kStand. Only kGetUp permits torque on the floor: without it no fallen
+/// robot moves.
 enum class Request : std::uint8_t { kRelax = 0, kStand = 1, kWalk = 2, kGetUp = 3 };
 
-/// The operator's standing order. It holds until the next one.
+/// The operator's standing order, until the next one.
 struct Command {
   Request request = Request::kRelax;
-  std::uint8_t sequence = 0;  ///< counts operator frames; the watchdog detects a counter that stops
-  std::int16_t vx_tenth_mm_s = 0;   ///< walk velocity forward, body frame, 0.1 mm/s
+  std::uint8_t sequence = 0;        ///< counts operator frames for the watchdog
+  std::int16_t vx_tenth_mm_s = 0;   ///< forward, body frame, 0.1 mm/s
   std::int16_t vy_tenth_mm_s = 0;   ///< to the left, 0.1 mm/s
   std::int16_t wz_mrad_s = 0;       ///< turn to the left, mrad/s
   std::int16_t head_pan_mrad = 0;   ///< to the left
@@ -42,10 +42,10 @@ struct Command {
 };
 VERP_PACKED(Command);
 
-/// Everything that can differ between two runs, frozen for one tick.
+/// Everything that can differ between two runs, for one tick.
 struct Inputs {
-  std::uint32_t tick = 0;            ///< the only clock: counts control periods since power-up
-  std::uint32_t fresh = 0;           ///< bit j: position_count[j] was read this tick
+  std::uint32_t tick = 0;            ///< the only clock: control periods since power-up
+  std::uint32_t fresh = 0;           ///< bit j: position_count[j] read this tick
   std::uint16_t flags = 0;           ///< InputFlag bits
   std::uint16_t parameter_id = 0;    ///< index into Tuning (model/tuning.hpp)
   std::uint32_t parameter_bits = 0;  ///< float32 bits of the new value
@@ -53,10 +53,10 @@ struct Inputs {
   std::int16_t gyro_count[3] = {};   ///< IMU frame
   std::int16_t accel_count[3] = {};  ///< IMU frame, specific force
   std::uint16_t foot_count[kFeet][kFootSensors] = {};
-  std::uint8_t slow_joint = 0;          ///< the joint of the next three values
-  std::uint8_t slow_temperature_c = 0;  ///< degrees Celsius, as MX/X servos report it
+  std::uint8_t slow_joint = 0;          ///< joint of the next three values
+  std::uint8_t slow_temperature_c = 0;  ///< as MX/X servos report it
   std::uint8_t slow_error = 0;          ///< hardware error status register
-  std::uint8_t action = 0;              ///< number of the requested action; 0: none
+  std::uint8_t action = 0;              ///< requested action; 0: none
   std::uint16_t slow_voltage_tenth_v = 0;
   std::uint16_t mailbox = 0;  ///< free for boards: button bits
   std::int32_t position_count[kMaxJoints] = {};
@@ -66,14 +66,13 @@ struct Inputs {
 };
 VERP_PACKED(Inputs);
 
-/// What the controller commands.
 struct Outputs {
   std::uint32_t torque_enable = 0;       ///< bit j: servo j holds its goal
   std::uint32_t faults = 0;              ///< safety::Fault bits, latched
   std::uint8_t mode = 0;                 ///< safety::Mode
   std::uint8_t gait_phase = 0;           ///< gait::Phase
-  std::uint8_t gait_state = 0;           ///< 0..15, the paper's state within the cycle
-  std::uint8_t stance = 0;               ///< foot that carries the robot (0 left, 1 right); 2: both
+  std::uint8_t gait_state = 0;           ///< 0..15, the paper's state in the cycle
+  std::uint8_t stance = 0;               ///< stance foot (0 left, 1 right); 2: both
   std::int16_t tilt_tenth_mrad[2] = {};  ///< estimated roll and pitch of the body
   std::int32_t goal_count[kMaxJoints] = {};
   VERP_FIELDS(torque_enable, faults, mode, gait_phase, gait_state, stance, tilt_tenth_mrad,

@@ -2,16 +2,15 @@
 #include "common/math/linear.hpp"
 #include "common/model/params.hpp"
 
-/// Forward kinematics by the paper's chain rule, from the body outwards: p = p0 + R0 p1, R = R0 R1.
-/// All functions take joint angles in rad, indexed as Params::joint, and work in the frame of
-/// `body`.
+/// Forward kinematics by the paper's chain rule, outwards: p = p0 + R0 p1, R = R0 R1. Joint angles
+/// are in rad, indexed as Params::joint; results are in the frame of `body`.
 namespace verp::kinematics {
 
-/// Pose of the link that `joint` moves, seen from its parent link.
+/// Pose of the joint's link in its parent link.
 Pose joint_transform(const JointParams& joint, float angle_rad);
 
-/// Rotates two columns of `from` in the plane of their axes and keeps the third: the product with
-/// rot_x (1, 2, 0), rot_y (2, 0, 1) or rot_z (0, 1, 2).
+/// The product with rot_x (1, 2, 0), rot_y (2, 0, 1) or rot_z (0, 1, 2): rotates two columns, keeps
+/// the third.
 inline void turn_columns(const Mat3& from, int first, int second, int kept, float sin, float cos,
                          Mat3& to) {
   for (int row = 0; row < 3; ++row) {
@@ -23,27 +22,25 @@ inline void turn_columns(const Mat3& from, int first, int second, int kept, floa
   }
 }
 
-/// link = parent * joint_transform, without multiplications by zero and one for axes along x, y or
-/// z.
+/// link = parent * joint_transform, without multiplying by zero and one for axes along x, y or z.
 void chain(const Pose& parent, const JointParams& joint, const math::SinCos& turn, Pose& link);
 inline void chain(const Pose& parent, const JointParams& joint, float angle_rad, Pose& link) {
   chain(parent, joint, math::sincos(angle_rad), link);
 }
 
-/// Pose of one node. Recurses up to the body.
+/// Recurses up to the body.
 Pose node_pose(const Params& params, const Pose& body, const float* angle_rad, int node);
 
-/// Poses of nodes 0..joint_count in one pass; `node` must hold that many.
+/// Poses of nodes 0..joint_count, in one pass.
 void all_poses(const Params& params, const Pose& body, const float* angle_rad, Pose* node);
 
-/// Centre of mass of the whole robot.
 Vec3 center_of_mass(const Params& params, const Pose& body, const float* angle_rad);
 
-/// Joint axis in the frame of `link_rotation`, the rotation of the link that the joint moves.
+/// Joint axis from the rotation of the link that the joint moves.
 Vec3 joint_axis(const JointParams& joint, const Mat3& link_rotation);
 
-/// Poses of a leg's six links, hip to ankle, in the frame of `body`. Uses the joints' sines if they
-/// are known (LegAngles::turn), else their angles; both are indexed by position in the leg.
+/// Poses of a leg's six links, hip to ankle, in the frame of `body`. From the joints' sines if
+/// known (LegAngles::turn), else their angles, indexed by position in the leg.
 struct LegChain {
   Pose link[kLegJoints] = {Pose(math::Unset{}), Pose(math::Unset{}), Pose(math::Unset{}),
                            Pose(math::Unset{}), Pose(math::Unset{}), Pose(math::Unset{})};
@@ -53,11 +50,9 @@ LegChain leg_chain(const Params& params, const LegParams& leg, const Pose& body,
 LegChain leg_chain(const Params& params, const LegParams& leg, const Pose& body,
                    const float* leg_angle_rad);
 
-/// The sole frame at the end of a leg.
 Pose sole_pose(const LegParams& leg, const LegChain& chain);
 
-/// 6 x 6 Jacobian of the sole. Rows 0-2 linear (m/rad), rows 3-5 angular (rad/rad); columns hip to
-/// ankle.
+/// 6 x 6: rows 0-2 linear (m/rad), rows 3-5 angular (rad/rad); columns hip to ankle.
 Mat6 leg_jacobian(const Params& params, const LegParams& leg, const LegChain& chain,
                   const Vec3& sole_m);
 

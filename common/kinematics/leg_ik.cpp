@@ -18,15 +18,14 @@ Pose foot_of_sole(const LegParams& leg, const Pose& sole) {
   return foot;
 }
 
-// Normalises a sine and cosine that share the factor `norm`. Angle 0 if `norm` is too small for a
-// direction.
+// Removes the common factor `norm` from sine and cosine. Angle 0 if it is too small.
 SinCos unit(float sin, float cos, float norm) {
   constexpr float kLeast = 1e-12F;
   return norm > kLeast ? SinCos{sin / norm, cos / norm} : SinCos{0.0F, 1.0F};
 }
 
-// Converts canonical to joint angles, clamped to the limits. Recomputes sines if an angle was
-// clamped or shifted or the sole is out of reach, so that no NaN or infinity passes a flag.
+// Canonical to joint angles, clamped to the limits. Recomputes sines after clamping, an offset or a
+// failed solution, so that no NaN or infinity passes a flag.
 void to_joints(const Params& params, const LegParams& leg, const SinCos* canonical,
                LegAngles& result) {
   for (int k = 0; k < kLegJoints; ++k) {
@@ -42,7 +41,7 @@ void to_joints(const Params& params, const LegParams& leg, const SinCos* canonic
   }
 }
 
-// Knee angle by the law of cosines from thigh, shank and hip-ankle distance.
+// Law of cosines with thigh, shank and hip-ankle distance.
 SinCos knee_of(const LegParams& leg, float distance_m, LegAngles& result) {
   const float sides_m2 = 2.0F * leg.thigh_m * leg.shank_m;
   const float cos =
@@ -57,8 +56,8 @@ SinCos knee_of(const LegParams& leg, float distance_m, LegAngles& result) {
 LegAngles solve_leg_closed_form(const Params& params, const LegParams& leg, const Pose& sole) {
   LegAngles result;
   const Pose foot = foot_of_sole(leg, sole);
-  // The hip seen from the ankle. Ankle roll brings it into the leg's plane, ankle pitch onto the
-  // shank's side.
+  // The hip from the ankle. Ankle roll brings it into the leg's plane, ankle pitch onto the shank's
+  // side.
   const Vec3 hip_m = foot.rotation.transpose() * (math::to_vec(leg.hip_body_m) - foot.position_m);
   const float height_m = math::hypot(hip_m.y(), hip_m.z());
   const float side = hip_m.z() < 0.0F ? -1.0F : 1.0F;
@@ -67,7 +66,7 @@ LegAngles solve_leg_closed_form(const Params& params, const LegParams& leg, cons
   const float distance_m = math::hypot(hip_m.x(), height_m);
   const SinCos knee = knee_of(leg, distance_m, result);
 
-  // The hip seen from the ankle at zero ankle pitch. The pitch turns this vector onto (x, along).
+  // The same at zero ankle pitch. The pitch turns it onto (x, along).
   const float bent_x_m = -leg.thigh_m * knee.sin;
   const float bent_z_m = leg.shank_m + leg.thigh_m * knee.cos;
   const float pitch_sin = bent_x_m * along_m - bent_z_m * hip_m.x();

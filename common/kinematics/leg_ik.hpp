@@ -7,24 +7,23 @@
 /// Inverse kinematics of a six-joint leg.
 namespace verp::kinematics {
 
-/// Compromises of a solution. 0: the sole is exactly at its target.
+/// Compromises of a solution. 0: the sole is exactly in place.
 enum LegFlag : std::uint8_t {
   kOutOfReach =
       1
       << 0,  ///< nearest reachable pose: same orientation and direction from the hip, leg straight
-  kJointLimited = 1 << 1,  ///< at least one joint is at its limit
-  kNotConverged =
-      1 << 2,  ///< Newton only: residual above 0.1 mm or 1 mrad after the last iteration
+  kJointLimited = 1 << 1,  ///< at least one joint at its limit
+  kNotConverged = 1 << 2,  ///< Newton only: residual above 0.1 mm or 1 mrad at the end
 };
 
 struct LegAngles {
-  float angle_rad[kLegJoints] = {};  ///< hip to ankle, within the joints' limits
-  math::SinCos turn[kLegJoints];     ///< sines and cosines of these angles, to 1e-6, for leg_chain
+  float angle_rad[kLegJoints] = {};  ///< hip to ankle, within the limits
+  math::SinCos turn[kLegJoints];     ///< of these angles, to 1e-6, for leg_chain
   std::uint8_t flags = 0;            ///< LegFlag
 };
 
-/// Angles that put the sole at `sole` (body frame). `previous_rad` (six angles) warm-starts Newton
-/// and is ignored by the closed form. Total: any pose gives finite angles within the limits.
+/// Angles for the sole pose `sole` (body frame). `previous_rad` (six angles) starts Newton; the
+/// closed form ignores it. Total: any pose gives finite angles within the limits.
 LegAngles solve_leg(const Params& params, const LegParams& leg, const Pose& sole,
                     const float* previous_rad);
 
@@ -32,7 +31,7 @@ LegAngles solve_leg_closed_form(const Params& params, const LegParams& leg, cons
 LegAngles solve_leg_newton(const Params& params, const LegParams& leg, const Pose& sole,
                            const float* previous_rad);
 
-/// Longest hip-ankle distance at which the knee is bent enough to steer: 99.8 % of a straight leg.
+/// Longest hip-ankle distance with the knee bent enough to steer: 99.8 %.
 inline float usable_reach_m(const LegParams& leg) {
   return 0.998F * (leg.thigh_m + leg.shank_m);
 }

@@ -3,11 +3,10 @@
 namespace verp::kinematics {
 namespace {
 
-constexpr int kIterations = 4;  // warm-started; two were enough on every six-joint leg tried
-constexpr float kMetresPerRadian =
-    0.1F;                            // makes angle errors at the sole comparable to length errors
-constexpr float kDamping = 1e-6F;    // m^2; keeps the step finite at a straight knee
-constexpr float kMaxStepRad = 0.3F;  // a larger step leaves the linear range
+constexpr int kIterations = 4;            // two were enough on every six-joint leg tried
+constexpr float kMetresPerRadian = 0.1F;  // weighs angle against length errors
+constexpr float kDamping = 1e-6F;         // m^2; bounds the step at a straight knee
+constexpr float kMaxStepRad = 0.3F;       // a larger step leaves the linear range
 constexpr float kPositionTolerance_m = 1e-4F;
 constexpr float kAngleTolerance_rad = 1e-3F;
 
@@ -25,8 +24,8 @@ Residual residual_of(const Pose& wanted, const Pose& reached) {
           math::rotation_vector(wanted.rotation * reached.rotation.transpose())};
 }
 
-// Normal equations J^T J + damping and J^T e with scaled angular rows. Written out, because Eigen
-// may use a blocked product at this size.
+// J^T J + damping and J^T e with scaled angular rows. Written out, because Eigen may use a blocked
+// product.
 bool newton_step(const Mat6& jacobian, const Residual& residual, Vec6& step_rad) {
   Mat6 scaled;
   Vec6 error;

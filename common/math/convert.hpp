@@ -5,31 +5,30 @@
 
 #include "common/math/scalar.hpp"
 
-/// Conversions between float and integers. x86, ARM and RISC-V disagree on out-of-range casts, so
-/// only this file of the core casts float to integer. These functions round to nearest, ties to
-/// even; they saturate, and NaN gives 0.
+/// Conversions between float and integers: nearest, ties to even, saturating, NaN gives 0. x86, ARM
+/// and RISC-V disagree on out-of-range casts, so only this file casts float to integer.
 namespace verp::math {
 
-/// Nearest integral float, ties to even. NaN gives 0; infinities stay. Keeps the sign of zero.
+/// Nearest integral float. NaN gives 0; infinities and the sign of zero stay.
 constexpr float round_even(float x) {
   const float size = abs(x);
   if (!(size < 8388608.0F)) return x == x ? x : 0.0F;  // 2^23: no fraction left
   return copysign((size + 8388608.0F) - 8388608.0F, x);
 }
 
-/// Any integer type of at most 64 bits. Monotonic.
+/// For integers of at most 64 bits. Monotonic.
 template <class Integer>
 constexpr Integer round_to(float x) {
   using Limits = std::numeric_limits<Integer>;
   static_assert(Limits::is_integer && sizeof(Integer) <= 8);
-  // Fast path for nearly every servo count: below 2^22, adding 1.5 * 2^23 leaves the rounded
-  // integer in the last bits.
+  // Fast path for most servo counts: below 2^22, adding 1.5 * 2^23 leaves the integer in the last
+  // bits.
   if (sizeof(Integer) == 4 && Limits::is_signed && abs(x) < 4194304.0F) {
     constexpr float kShift = 12582912.0F;
     return static_cast<Integer>(std::bit_cast<std::int32_t>(x + kShift) -
                                 std::bit_cast<std::int32_t>(kShift));
   }
-  // First float beyond the range: max() + 1 is a power of two, hence exact.
+  // max() + 1, a power of two, hence exact.
   constexpr float kBeyond = 2.0F * static_cast<float>(std::uint64_t{1} << (Limits::digits - 1));
   const float rounded = round_even(x);
   if (rounded >= kBeyond) return Limits::max();
@@ -57,13 +56,13 @@ constexpr std::uint8_t to_uint8(float x) {
   return round_to<std::uint8_t>(x);
 }
 
-/// Seconds to whole microseconds, saturating. For durations only: the float product is a multiple
-/// of 2 us or more beyond 16.7 s. Clocks are integers throughout.
+/// Saturating. For durations only: beyond 16.7 s the product is a multiple of 2 us or more. Clocks
+/// are integers.
 constexpr std::int64_t to_microseconds(float duration_s) {
   return to_int64(duration_s * 1e6F);
 }
 
-/// Integer to the nearest float, ties to even (exact up to 2^24).
+/// Ties to even; exact up to 2^24.
 constexpr float to_float(std::int32_t x) {
   return static_cast<float>(x);
 }
@@ -71,14 +70,14 @@ constexpr float to_float(std::uint32_t x) {
   return static_cast<float>(x);
 }
 
-/// By hand, because some cores' libraries round twice for 64 bits; this rounds once.
+/// One rounding; some cores' libraries round 64 bits twice.
 constexpr float to_float(std::int64_t x) {
   const bool negative = x < 0;
   std::uint64_t size = negative ? 0 - static_cast<std::uint64_t>(x) : static_cast<std::uint64_t>(x);
   const int excess = 40 - std::countl_zero(size | 1U);  // bits beyond float's 24
   std::int32_t exponent = 0;
   if (excess > 0) {
-    // Keep 30 bits and a sticky last bit, so that the one rounding below is correct.
+    // 30 bits and a sticky one, so that the rounding below is correct.
     const int shift = excess > 6 ? excess - 6 : 0;
     const bool sticky = (size & ((std::uint64_t{1} << shift) - 1U)) != 0;
     size = (size >> shift) | (sticky ? 1U : 0U);

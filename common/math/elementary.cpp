@@ -19,21 +19,19 @@ constexpr std::uint32_t magnitude_bits(float x) {
   return bits_of(x) & 0x7FFFFFFFU;
 }
 
-/// 2^exponent for exponents of normal floats.
 constexpr float power_of_two(int exponent) {
   return std::bit_cast<float>(static_cast<std::uint32_t>(exponent + 127) << 23);
 }
 
-/// angle = quadrant * pi/2 + (high + low). |high| is at most slightly more than pi/4, and |low|
-/// about an ulp of high.
+/// angle = quadrant * pi/2 + (high + low). |high| is hardly above pi/4, |low| about an ulp of high.
 struct Reduced {
   float high;
   float low;
-  std::uint32_t quadrant;  // only its two lowest bits count
+  std::uint32_t quadrant;  // only the two lowest bits count
 };
 
-/// For |angle| < 64: Cody-Waite in three parts. The first two have 18 bits, so their products with
-/// a count of at most 41 are exact.
+/// For |angle| < 64: Cody-Waite in three parts. The first two have 18 bits, so products with a
+/// count of at most 41 are exact.
 inline Reduced reduce(float angle_rad) {
   constexpr float kHigh = 0x1.921f8p+0F;
   constexpr float kMiddle = 0x1.aa22p-19F;
@@ -46,13 +44,13 @@ inline Reduced reduce(float angle_rad) {
   return {high, ((exact - high) - middle) - count * kLow, bits_of(shifted)};
 }
 
-/// For any other finite angle: Payne-Hanek with integers.
+/// For other finite angles: Payne-Hanek with integers.
 Reduced reduce_large(float angle_rad) {
   // 2 / pi = 0.A2F9836E..., after one word of zeros for angles below 2^25.
   constexpr std::uint32_t kTwoOverPi[] = {0x00000000U, 0xA2F9836EU, 0x4E441529U, 0xFC2757D1U,
                                           0xF534DDC0U, 0xDB629599U, 0x3C439041U, 0xFE5163ABU};
-  // |angle| = mantissa * 2^exponent. Multiples of 4 quadrants in the product with 2 / pi do not
-  // matter: start at the bit that counts 2 quadrants. Keep 96 bits; the mantissa uses 24 of them.
+  // |angle| = mantissa * 2^exponent. Multiples of 4 quadrants drop out, so start at the bit of 2
+  // quadrants. Keep 96 bits; the mantissa uses 24.
   const std::uint32_t bits = magnitude_bits(angle_rad);
   const std::uint32_t mantissa = (bits & 0x007FFFFFU) | 0x00800000U;
   const std::uint32_t first_bit = (bits >> 23) - 150U - 2U + 32U;
@@ -104,7 +102,7 @@ inline float asin_tail(float z) {
           z * (0x1.330204p-4F + z * (0x1.747bbap-5F + z * (0x1.8c3e2ap-6F + z * 0x1.595c8cp-5F))));
 }
 
-/// sqrt(z) = high + low. high has 12 bits, so its square is exact. z > 0.
+/// sqrt(z) = high + low, z > 0. high has 12 bits: its square is exact.
 struct SplitRoot {
   float root;
   float high;
@@ -167,8 +165,7 @@ float atan2(float y, float x) {
   } else if (smaller == kInfinityBits) {
     ratio = 1.0F;
   }
-  // Minimax on [0, 1], 2^-27.9 relative. The last bits are chosen so that atan2(1, 1) is
-  // kQuarterPi.
+  // Minimax on [0, 1], 2^-27.9 relative; the last bits make atan2(1, 1) kQuarterPi.
   const float z = ratio * ratio;
   float p = 0x1.66df3cp-7F + z * -0x1.d97be6p-10F;
   p = -0x1.ff675ep-6F + z * p;
@@ -195,7 +192,7 @@ float asin(float x) {
   }
   if (x != x) return 0.0F;
   if (size >= 1.0F) return copysign(kHalfPi, x);
-  // asin(x) = pi/2 - 2 asin(sqrt((1 - x) / 2)), with the root and pi/2 in two parts.
+  // asin(x) = pi/2 - 2 asin(sqrt((1 - x) / 2)), root and pi/2 in two parts.
   const float z = 0.5F * (1.0F - size);
   const SplitRoot s = split_sqrt(z);
   const float tail = 2.0F * (s.root * asin_tail(z) + s.low) - kHalfPiLow;
@@ -231,7 +228,7 @@ float exp(float x) {
   p = 0x1.fffffcp-2F + high * p;
   const float fraction = 1.0F + (high + (low + (high * high) * p));
   const auto exponent = static_cast<std::int32_t>(bits_of(shifted) - bits_of(kRoundingShift));
-  // Two factors, because 2^128 and 2^-150 are not normal floats. Only the second product can round.
+  // Two factors: 2^128 and 2^-150 are not normal floats. Only the second product can round.
   const int half = exponent >> 1;
   const float result = (fraction * power_of_two(half)) * power_of_two(exponent - half);
   return result <= kMaxFloat ? result : kMaxFloat;

@@ -1,18 +1,16 @@
 #pragma once
 
-/// Elementary functions in float32. They use only IEEE basic operations and square root, so every
-/// compiler, optimisation level and core gives the same bits (with
-/// toolchains/floating_point.cmake).
+/// Elementary functions in float32 from IEEE basic operations and square root only: the same bits
+/// on every compiler, optimisation level and core (with toolchains/floating_point.cmake). Total: no
+/// result is NaN or infinite. Angles are radians.
 ///
-/// Total: no input is an error, and no result is NaN or infinite. Angles are radians.
-///
-/// Worst errors in ulp of the exact result, measured by `verp_exhaustive` over every float (atan2:
-/// 10^9 stratified pairs); `--function NAME` repeats one:
+/// Worst errors in ulp, measured by `verp_exhaustive` over every float (atan2: 10^9 stratified
+/// pairs); `--function NAME` repeats one. The tests enforce 1, and 2 for atan2.
 ///
 ///     sin  0.917    cos  0.912    asin 0.871    acos 0.789    exp  0.906    atan2 1.646
 ///
-/// The tests enforce 1 ulp, and 2 for atan2. Cost: atan2 one division; asin and acos beyond 1/2 one
-/// division and one square root; sincos less than sin and cos; angles beyond 64 rad are slow.
+/// Cost: atan2 one division; asin and acos beyond 1/2 one division and one square root; sincos less
+/// than sin and cos; angles beyond 64 rad are slow.
 namespace verp::math {
 
 struct SinCos {
@@ -20,23 +18,21 @@ struct SinCos {
   float cos;
 };
 
-/// Results in [-1, 1] for any finite angle, however large. NaN and infinities: sin 0, cos 1.
-/// sin(-0) is -0. sin is odd and cos even bit for bit; sincos has the same bits as sin and cos.
+/// In [-1, 1] for any finite angle. NaN and infinities: sin 0, cos 1. sin(-0) is -0. sin is odd,
+/// cos even, bit for bit; sincos has the same bits.
 SinCos sincos(float angle_rad);
 float sin(float angle_rad);
 float cos(float angle_rad);
 
-/// Direction of (x, y) in [-kPi, kPi], with the quadrants, infinities and signed zeros of IEEE 754:
-/// atan2(0, 0) is 0, atan2(0, -0) is kPi. Independent of scale; no overflow. A NaN argument gives
-/// 0.
+/// Direction of (x, y) in [-kPi, kPi], with IEEE 754's quadrants, infinities and signed zeros:
+/// atan2(0, 0) is 0, atan2(0, -0) is kPi. Scale does not matter. NaN gives 0.
 float atan2(float y, float x);
 
-/// Arguments are clamped to [-1, 1]. NaN gives 0. asin(-0) is -0.
+/// Arguments are clamped to [-1, 1]; NaN gives 0; asin(-0) is -0.
 float acos(float x);
 float asin(float x);
 
-/// e^x. Gives kMaxFloat above 88.72283 and zero below -103.9721; subnormal results obey the bound.
-/// NaN gives 0.
+/// kMaxFloat above 88.72283, zero below -103.9721; the bound holds for subnormals. NaN gives 0.
 float exp(float x);
 
 }  // namespace verp::math

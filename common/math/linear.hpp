@@ -7,10 +7,10 @@
 
 /// Fixed-size vectors and matrices: the only file of common/ that includes Eigen.
 ///
-/// Eigen's sums have one documented order only without vectorisation, in every translation unit of
-/// the program (toolchains/floating_point.cmake). Eigen's norm() is fine. The core must not use
-/// AngleAxis, eulerAngles, slerp, 6x6 inverse() or products of 8 or more dimensions: they reach
-/// libm, malloc or a blocked product.
+/// Eigen sums in a documented order only without vectorisation, in every translation unit
+/// (toolchains/floating_point.cmake). Its norm() is fine. Not allowed in the core: AngleAxis,
+/// eulerAngles, slerp, 6x6 inverse() and products of 8 or more dimensions, which reach libm, malloc
+/// or a blocked product.
 #ifndef EIGEN_DONT_VECTORIZE
 #error \
     "build with EIGEN_DONT_VECTORIZE (toolchains/floating_point.cmake): vectorised sums have other bits"
@@ -22,8 +22,7 @@
 #define EIGEN_NO_IO
 #endif
 #ifndef EIGEN_NO_DEBUG
-#define EIGEN_NO_DEBUG  // keeps assert, abort and message strings out of the firmware; sizes are
-                        // checked at compile time
+#define EIGEN_NO_DEBUG  // no assert, abort and message strings in the firmware
 #endif
 #include <Eigen/Core>
 
@@ -51,12 +50,12 @@ inline Vec3 cross(const Vec3& a, const Vec3& b) {
           a.x() * b.y() - a.y() * b.x()};
 }
 
-/// Length. Not guarded against overflow beyond 1e19.
+/// Not guarded against overflow beyond 1e19.
 inline float norm(const Vec3& v) {
   return hypot(v.x(), v.y(), v.z());
 }
 
-/// v / |v|, or `fallback` when |v| is zero, tiny (below 1e-12) or not finite.
+/// v / |v|, or `fallback` if |v| is below 1e-12 or not finite.
 inline Vec3 normalized_or(const Vec3& v, const Vec3& fallback) {
   const float length = norm(v);
   if (!(length > 1e-12F) || !is_finite(length)) return fallback;
@@ -70,7 +69,7 @@ inline Mat3 skew(const Vec3& v) {
   return m;
 }
 
-/// Right-handed rotations about the axes of the frame.
+/// Right-handed rotations about the frame's axes.
 inline Mat3 rot_x(const SinCos& angle) {
   Mat3 m;
   m << 1.0F, 0.0F, 0.0F, 0.0F, angle.cos, -angle.sin, 0.0F, angle.sin, angle.cos;
@@ -96,33 +95,33 @@ inline Mat3 rot_z(float angle_rad) {
   return rot_z(sincos(angle_rad));
 }
 
-/// Rotation by `angle` about a unit axis (Rodrigues). The axis must be normalised.
+/// Rotation about a unit axis (Rodrigues). The caller normalises it.
 Mat3 rotation(const Vec3& unit_axis, const SinCos& angle);
 inline Mat3 rotation(const Vec3& unit_axis, float angle_rad) {
   return rotation(unit_axis, sincos(angle_rad));
 }
 
-/// Rz(yaw) Ry(pitch) Rx(roll): fixed-axis roll, then pitch, then yaw, as in URDF and SDF.
+/// Rz(yaw) Ry(pitch) Rx(roll): fixed-axis roll, pitch, yaw, as in URDF and SDF.
 Mat3 rotation_rpy(float roll_rad, float pitch_rad, float yaw_rad);
 
-/// The inverse of rotation_rpy: (roll, pitch, yaw), pitch in [-kHalfPi, kHalfPi]. Total. At pitch =
-/// +-kHalfPi roll and yaw turn about one axis: roll is 0 and yaw is the whole turn.
+/// Inverse of rotation_rpy: (roll, pitch, yaw), pitch in [-kHalfPi, kHalfPi]. Total. At pitch =
+/// +-kHalfPi, roll is 0 and yaw the whole turn.
 Vec3 roll_pitch_yaw(const Mat3& rotation);
 
-/// The rotation vector (unit axis times angle in [0, kPi]) of a rotation matrix. Total.
+/// Unit axis times angle in [0, kPi]. Total.
 Vec3 rotation_vector(const Mat3& rotation);
 
 /// Tag: leave uninitialised.
 struct Unset {};
 
-/// Frame B seen from frame A: rotates, then translates B coordinates into A coordinates.
+/// Frame B seen from A: rotates, then translates B coordinates into A.
 struct Pose {
   Mat3 rotation;
   Vec3 position_m;
 
   Pose() : rotation(Mat3::Identity()), position_m(Vec3::Zero()) {}
   Pose(const Mat3& turned, const Vec3& moved_m) : rotation(turned), position_m(moved_m) {}
-  /// Leaves both members undefined, for arrays that are about to be written.
+  /// Leaves both undefined, for arrays about to be written.
   explicit Pose(Unset) {}
 };
 
@@ -134,7 +133,7 @@ inline Pose operator*(const Pose& a_b, const Pose& b_c) {
   return compose(a_b, b_c);
 }
 
-/// b_T_a of a_T_b. The rotation must be orthonormal.
+/// b_T_a. The rotation must be orthonormal.
 inline Pose inverse(const Pose& a_b) {
   const Mat3 transposed = a_b.rotation.transpose();
   return {transposed, -(transposed * a_b.position_m)};
@@ -145,9 +144,8 @@ inline Vec3 apply(const Pose& a_b, const Vec3& point_b_m) {
   return a_b.position_m + a_b.rotation * point_b_m;
 }
 
-/// Solves A x = b by Cholesky for a symmetric positive definite A, of which only the lower triangle
-/// is read. Returns false with x = 0 if A is not numerically positive definite or the solution is
-/// not finite.
+/// Solves A x = b by Cholesky; reads only A's lower triangle. False with x = 0 if A is not
+/// numerically positive definite or x not finite.
 bool solve_spd(const Mat6& a, const Vec6& b, Vec6& x);
 
 }  // namespace verp::math

@@ -3,9 +3,8 @@
 #include <cstdint>
 #include <limits>
 
-/// Small scalar functions. All are total: no input, including NaN and infinities, is undefined
-/// behaviour. Angles are radians. They use IEEE float32 basic operations, so the bits are the same
-/// everywhere.
+/// Small total scalar functions: no input, not even NaN, is undefined behaviour. Angles are
+/// radians. IEEE float32 basic operations only, so the bits are the same everywhere.
 namespace verp::math {
 
 inline constexpr float kPi = 0x1.921fb6p+1F;         ///< nearest float, 8.7e-8 above pi
@@ -18,12 +17,12 @@ inline constexpr float kMaxFloat = std::numeric_limits<float>::max();
 static_assert(std::numeric_limits<float>::is_iec559,
               "the bit-identity contract needs IEEE float32");
 
-/// False for NaN and infinities. An integer test, so no compiler flag can remove it.
+/// An integer test: no compiler flag can remove it.
 constexpr bool is_finite(float x) {
   return (std::bit_cast<std::uint32_t>(x) & 0x7F800000U) != 0x7F800000U;
 }
 
-/// x, or `fallback` if x is NaN or infinite. Every foreign value enters the core through this.
+/// Every foreign value enters the core through this.
 constexpr float finite_or(float x, float fallback) {
   return is_finite(x) ? x : fallback;
 }
@@ -42,8 +41,8 @@ constexpr float sign(float x) {
   return x > 0.0F ? 1.0F : (x < 0.0F ? -1.0F : 0.0F);
 }
 
-/// Returns the second argument if either is NaN or both are equal (min(0, -0) is -0): one defined
-/// choice on every core. So min(untrusted, limit) gives the limit for NaN.
+/// The second argument if either is NaN or both are equal (min(0, -0) is -0), on every core. So
+/// min(untrusted, limit) gives the limit for NaN.
 constexpr float min(float a, float b) {
   return a < b ? a : b;
 }
@@ -51,7 +50,7 @@ constexpr float max(float a, float b) {
   return a > b ? a : b;
 }
 
-/// x limited to [lo, hi]. NaN gives lo. If lo > hi, the result is lo.
+/// NaN gives lo; so does lo > hi.
 constexpr float clamp(float x, float lo, float hi) {
   if (!(x > lo)) return lo;
   return x < hi ? x : (hi > lo ? hi : lo);
@@ -65,17 +64,17 @@ constexpr float square(float x) {
   return x * x;
 }
 
-/// a + t (b - a): exactly a at t = 0, within one rounding of b at t = 1. t is not limited.
+/// Exactly a at t = 0, within one rounding of b at t = 1. t is not limited.
 constexpr float lerp(float a, float b, float t) {
   return a + t * (b - a);
 }
 
-/// Correctly rounded. Negative, NaN and -0 give 0. +infinity gives +infinity; no finite input does.
+/// Correctly rounded. Negative, NaN and -0 give 0; only +infinity gives +infinity.
 inline float sqrt(float x) {
   return x > 0.0F ? __builtin_sqrtf(x) : 0.0F;
 }
 
-/// sqrt(a^2 + b^2) for lengths of robot size: no guard against overflow beyond 1e19.
+/// For lengths of robot size: not guarded against overflow beyond 1e19.
 inline float hypot(float a, float b) {
   return sqrt(a * a + b * b);
 }
@@ -83,7 +82,7 @@ inline float hypot(float a, float b, float c) {
   return sqrt(a * a + (b * b + c * c));
 }
 
-/// Largest integer not above x. Saturates to int32; NaN gives 0.
+/// Saturates to int32; NaN gives 0.
 constexpr std::int32_t floor_to_int(float x) {
   if (x != x) return 0;
   if (x >= 2147483648.0F) return std::numeric_limits<std::int32_t>::max();
@@ -92,12 +91,10 @@ constexpr std::int32_t floor_to_int(float x) {
   return static_cast<float>(truncated) > x ? truncated - 1 : truncated;
 }
 
-/// The same angle in (-kPi, kPi]. Exact up to one rounding for |angle| <= 3 kPi, which covers one
-/// addition or subtraction of two angles; beyond that the error is the argument's own. From 1e7 rad
-/// on, and for NaN and infinities, the result is 0.
+/// The same angle in (-kPi, kPi]. Within one rounding for |angle| <= 3 kPi, a sum of two angles;
+/// beyond that the argument's own error. 0 from 1e7 rad on, for NaN and infinities.
 constexpr float wrap_angle(float angle_rad) {
-  // 2 pi in three parts. The first two have 11 bits each, so their products with a 13-bit count are
-  // exact.
+  // 2 pi in three parts. The first two have 11 bits: products with a 13-bit count are exact.
   constexpr float kHigh = 0x1.92p+2F;
   constexpr float kMiddle = 0x1.fb4p-10F;
   constexpr float kLow = 0x1.44442ep-22F;

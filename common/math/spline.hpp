@@ -1,21 +1,19 @@
 #pragma once
 
-/// Curves through key points. Each returns a value and its derivative by the curve parameter u in
-/// [0, 1]. For a segment of duration T, u = t / T and the speed is derivative / T. The curves do
-/// not limit u: the caller does.
+/// Curves through key points: value and derivative by the parameter u in [0, 1]. In a segment of
+/// duration T, u = t / T and the speed is derivative / T. The caller limits u.
 namespace verp::math {
 
 struct CurvePoint {
   float value;
   float derivative;  ///< d value / d u
-  float second = 0;  ///< d^2 value / d u^2, if the curve computes it
+  float second = 0;  ///< d^2 value / d u^2, if computed
 };
 
-/// Cubic Hermite through (0, p0) and (1, p1) with slopes d p / d u of m0 and m1. Both ends are
-/// exact.
+/// Cubic Hermite through (0, p0) and (1, p1) with slopes m0 and m1. Both ends are exact.
 constexpr CurvePoint hermite(float p0, float m0, float p1, float m1, float u) {
   const float rise = p1 - p0;
-  const float a = m0 - rise;  // bend: u (1-u) [a (1-u) - b u] is added to the chord
+  const float a = m0 - rise;  // u (1-u) [a (1-u) - b u] is added to the chord
   const float b = m1 - rise;
   const float v = 1.0F - u;
   const float bump = a * v - b * u;
@@ -23,7 +21,7 @@ constexpr CurvePoint hermite(float p0, float m0, float p1, float m1, float u) {
   return {chord + (u * v) * bump, rise + ((v - u) * bump - (u * v) * (a + b))};
 }
 
-/// Quintic from 0 to 1 with zero velocity and acceleration at both ends: 10 u^3 - 15 u^4 + 6 u^5.
+/// Quintic from 0 to 1, velocity and acceleration zero at both ends: 10 u^3 - 15 u^4 + 6 u^5.
 constexpr CurvePoint minimum_jerk(float u) {
   const float uu = u * u;
   const float v = 1.0F - u;
@@ -31,24 +29,24 @@ constexpr CurvePoint minimum_jerk(float u) {
           (60.0F * u) * (v * (v - u))};
 }
 
-/// Cubic from 0 to 1 with zero velocity at both ends: 3 u^2 - 2 u^3. Its peak speed is 1.5 times
-/// the mean, that of minimum jerk 1.875 times.
+/// Cubic from 0 to 1, velocity zero at both ends: 3 u^2 - 2 u^3. Peak speed 1.5 times the mean;
+/// minimum jerk has 1.875.
 constexpr CurvePoint smooth_step(float u) {
   const float v = 1.0F - u;
   return {(u * u) * (3.0F - 2.0F * u), 6.0F * (u * v), 6.0F * (v - u)};
 }
 
-/// Minimum jerk from p0 to p1; the end is p1 to one rounding.
+/// Minimum jerk from p0 to p1, the end within one rounding.
 constexpr CurvePoint minimum_jerk(float p0, float p1, float u) {
   const CurvePoint unit = minimum_jerk(u);
   return {p0 + (p1 - p0) * unit.value, (p1 - p0) * unit.derivative};
 }
 
-/// Quintic from p0 to p1 with slopes m0, m1 and zero second derivative at both ends. Both ends are
+/// Quintic from p0 to p1 with slopes m0, m1 and zero second derivatives at the ends, which are
 /// exact.
 constexpr CurvePoint quintic(float p0, float m0, float p1, float m1, float u) {
   const float rise = p1 - p0;
-  const float a = m0 - rise;  // slopes relative to the chord, each with its own quintic
+  const float a = m0 - rise;  // slopes relative to the chord
   const float b = m1 - rise;
   const float uu = u * u;
   const float fa = u + (uu * u) * (-6.0F + u * (8.0F - 3.0F * u));
@@ -59,8 +57,8 @@ constexpr CurvePoint quintic(float p0, float m0, float p1, float m1, float u) {
   return {chord + (a * fa + b * fb), rise + (a * ga + b * gb)};
 }
 
-/// Height of a swing foot: a quartic through 0 at lift-off (u = 0), 1 at the apex (u = 1/2) and 0
-/// at landing (u = 1), with zero velocity at both ends: 16 u^2 (1 - u)^2.
+/// Height of a swing foot: 16 u^2 (1 - u)^2, 0 with zero velocity at lift-off and landing, 1 at the
+/// apex (u = 1/2).
 constexpr CurvePoint swing_lift(float u) {
   const float v = 1.0F - u;
   const float uv = 4.0F * (u * v);

@@ -3,8 +3,8 @@
 
 namespace verp::math {
 
-/// A vector as it is stored, hashed and put into images. Arithmetic is in Vec3
-/// (common/math/linear.hpp); this header keeps Eigen out of plain data.
+/// A vector as stored, hashed and put into images. Keeps Eigen out of plain data; arithmetic is
+/// Vec3's (common/math/linear.hpp).
 struct Xyz {
   float x = 0;
   float y = 0;

@@ -2,10 +2,9 @@
 #include "common/math/convert.hpp"
 #include "common/model/params.hpp"
 
-/// Conversion between a servo's counts and its joint's angle.
 namespace verp::model {
 
-/// Returns 0 for a joint without a scale.
+/// 0 for a joint without a scale.
 inline float angle_of(const JointParams& joint, std::int32_t count) {
   if (joint.counts_per_rad == 0.0F) return 0.0F;
   return (math::to_float(count) - joint.zero_count) / joint.counts_per_rad;

@@ -6,11 +6,10 @@
 #include "common/model/params.hpp"
 
 /// One motor for two joints (URDF's mimic): a follower's angle is its driver's times a ratio, plus
-/// an offset. Both angles come from the counts of the driver's servo, each by its own scale and
-/// zero. Without followers these functions do nothing.
+/// an offset. Both come from the driver's counts, by their own scales and zeros.
 namespace verp::model {
 
-/// The joint whose servo moves `joint`: `joint` itself unless it is a follower.
+/// The joint whose servo moves `joint`: itself unless a follower.
 inline int driver_of(const Params& params, int joint) {
   const std::uint8_t id = params.joint[joint].servo_id;
   for (int j = 0; joint >= params.servo_count() && j < params.servo_count(); ++j) {
@@ -19,13 +18,12 @@ inline int driver_of(const Params& params, int joint) {
   return joint;
 }
 
-/// Angle of a follower when its driver stands at `driver_rad`.
 inline float followed(const JointParams& driver, const JointParams& follower, float driver_rad) {
   return (driver.zero_count + driver.counts_per_rad * driver_rad - follower.zero_count) /
          follower.counts_per_rad;
 }
 
-/// Copies each driver's count and freshness to its followers.
+/// Gives followers their drivers' counts and freshness.
 inline void share_counts(const Params& params, Inputs& inputs) {
   for (int j = params.servo_count(); j < params.joint_count; ++j) {
     const int driver = driver_of(params, j);
@@ -34,7 +32,7 @@ inline void share_counts(const Params& params, Inputs& inputs) {
   }
 }
 
-/// Sets each follower's angle from its driver's.
+/// Sets followers' angles from their drivers'.
 inline void lead(const Params& params, float* angle_rad) {
   for (int j = params.servo_count(); j < params.joint_count; ++j) {
     const int driver = driver_of(params, j);
@@ -42,8 +40,7 @@ inline void lead(const Params& params, float* angle_rad) {
   }
 }
 
-/// Adds a follower's corrections (sag and gravity compensation) to its driver's angle, because one
-/// motor bears both loads.
+/// Adds followers' corrections (sag, gravity) to their drivers' angles: one motor bears both loads.
 inline void share_corrections(const Params& params, const float* plain_rad, float* angle_rad) {
   for (int j = params.servo_count(); j < params.joint_count; ++j) {
     const int driver = driver_of(params, j);

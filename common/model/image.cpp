@@ -16,8 +16,7 @@ bool well_formed_leg(const Params& params, const LegParams& leg) {
   return true;
 }
 
-// Parents come before children, except for followers, which come last: the path from a follower
-// must end at the body. A follower must have a driver.
+// Parents precede children. Followers come last: each needs a driver and a path to the body.
 bool well_formed_place(const Params& params, int joint) {
   const int servos = params.servo_count(), parent = params.joint[joint].parent;
   if (parent > params.joint_count) return false;
@@ -30,7 +29,7 @@ bool well_formed_place(const Params& params, int joint) {
   return node == 0;
 }
 
-// CAN node ids are 1 to 127, and every table on CAN is indexed by node id.
+// CAN node ids are 1 to 127 and index every table there.
 bool well_formed_bus(const Params& params) {
   if (params.bus_protocol == BusProtocol::kDynamixel2) return true;
   if (params.bus_protocol != BusProtocol::kCia402) return false;

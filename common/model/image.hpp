@@ -7,14 +7,13 @@
 #include "common/model/numbers.hpp"
 #include "common/model/params.hpp"
 
-/// The Params image: a robot as bytes, in a flash section, a trace or a file. It has exactly one
-/// byte form, so its CRC identifies it in every link handshake. It carries the results that
-/// kinematics and control must give on every core.
+/// The Params image: a robot as bytes, in flash, trace or file. It has exactly one byte form, so
+/// its CRC names it in every link handshake. It carries the results that every core must reproduce.
 namespace verp {
 
-/// Raise whenever the layout of ParamsImage or a member changes.
+/// Raise when the layout of ParamsImage or a member changes.
 inline constexpr std::uint32_t kImageVersion = 5;
-/// Raise whenever the same Params and Inputs give other Outputs: the golden results depend on it.
+/// Raise when the same Params and Inputs give other Outputs: the golden results depend on it.
 inline constexpr std::uint32_t kCoreVersion = 25;
 
 inline constexpr char kImageMagic[8] = {'V', 'E', 'R', 'P', 'P', 'A', 'R', '1'};
@@ -29,11 +28,11 @@ struct ImageHeader {
 };
 VERP_PACKED(ImageHeader);
 
-/// Results of forward and inverse kinematics for one whole-body posture (control/golden.hpp).
+/// Forward and inverse kinematics of one whole-body posture (control/golden.hpp).
 struct GoldenVector {
   std::uint32_t seed = 0;          ///< draws the joint angles within their limits
   std::uint32_t poses_digest = 0;  ///< of the poses of all nodes
-  std::uint32_t legs_digest = 0;   ///< of both legs' angles and flags, solved for the soles' poses
+  std::uint32_t legs_digest = 0;   ///< of both legs' angles and flags for the soles' poses
   Xyz com_m;                       ///< centre of mass, body frame
   Xyz sole_m[kFeet];               ///< positions of the soles, body frame
   VERP_FIELDS(seed, poses_digest, legs_digest, com_m, sole_m)
@@ -58,21 +57,21 @@ enum class ImageFault : std::uint8_t {
   kOtherLayout = 3,  ///< written for another kImageVersion
   kOtherCore = 4,    ///< golden answers of another kCoreVersion
   kDamaged = 5,      ///< CRC mismatch
-  kOutOfBounds = 6,  ///< an index points outside its table
-  kOutOfRange = 7,   ///< a number is not finite or implausible; numbers_fit() names it
+  kOutOfBounds = 6,  ///< an index outside its table
+  kOutOfRange = 7,   ///< a number not finite or implausible; numbers_fit() names it
 };
 
-/// Identifies the robot: equal for equal bytes only, up to 2^-32.
+/// Names the robot: equal only for equal bytes, up to 2^-32.
 std::uint32_t params_crc(const Params& params);
 
-/// Fills in the header from the rest of the image.
+/// Fills in the header.
 void seal_image(ParamsImage& image);
 
-/// Checks an image. `size` may exceed it (a flash section).
+/// `size` may exceed the image (a flash section).
 ImageFault check_image(const void* bytes, std::size_t size);
 
-/// True if every index is inside its table and parents come before children, so that no loop over
-/// this Params leaves its arrays.
+/// True if indices are inside their tables and parents precede children, so that no loop leaves its
+/// arrays.
 bool is_well_formed(const Params& params);
 
 }  // namespace verp

@@ -5,12 +5,12 @@
 namespace verp {
 namespace {
 
-// Limits for machines that stand or walk among people, ten times wider than any known robot's.
+// Limits of machines among people, ten times wider than any known robot's.
 constexpr Range kPlace_m{-10, 10};
 constexpr Range kLength_m{0, 10};
 constexpr Range kMass_kg{0, 1000};
 constexpr Range kAngle_rad{-100, 100};
-constexpr Range kShare{-1.001F, 1.001F};  // element of a unit vector or rotation, with rounding
+constexpr Range kShare{-1.001F, 1.001F};  // of a unit vector or rotation, rounded
 constexpr Range kSpeed_rad_s{0.01F, 1000};
 constexpr Range kScale_per_rad{1, 1e8F};
 constexpr Range kZero_count{-1e9F, 1e9F};
@@ -24,13 +24,12 @@ constexpr Range kFrictionSpeed_rad_s{1e-3F, 1000};
 constexpr Range kAngle_rad_m{-100, 100};
 constexpr std::uint32_t kShortest_us = 4000, kLongest_us = 20000;  // as Params::period_us says
 
-/// Stores the name of the first number out of range.
 class Search {
  public:
   explicit Search(FieldName& bad) : bad_(bad) {}
 
   bool found() const { return found_; }
-  /// Sets the prefix of the following names.
+  /// Prefix of the following names.
   void in(const char* group, int index = -1) {
     group_ = group;
     index_ = index;

@@ -6,24 +6,23 @@
 #include "common/math/linear.hpp"
 #include "common/model/tuning.hpp"
 
-/// The whole robot as constants. The host derives it from the SDF entity; the firmware embeds the
-/// same bytes as an image (model/image.hpp). Capacity is fixed, so loading a robot never allocates.
+/// The whole robot as constants. The host derives it from the SDF entity; firmware embeds the same
+/// bytes (model/image.hpp). Fixed capacity: loading never allocates.
 ///
-/// Body frame: origin at the trunk's centre (not the centre of mass), x forward, y left, z up.
-/// Every link frame is parallel to it when all joints are at zero; its origin lies on the joint
-/// that moves the link. So a joint's pose is one vector and one unit axis, whatever frames the
-/// model file uses.
+/// Body frame: origin at the trunk's centre (not the CoM), x forward, y left, z up. At zero angles
+/// every link frame is parallel to it; its origin lies on the joint that moves the link. So a
+/// joint's pose is one vector and one unit axis, whatever frames the model file uses.
 namespace verp {
 
 inline constexpr int kMaxNodes = kMaxJoints + 1;  ///< node 0 is the body; joint j moves node j + 1
 inline constexpr int kLegJoints = 6;
 inline constexpr int kNameLength = 24;
 
-/// Common axes get a name: a rotation about them costs 12 operations instead of 45.
+/// A rotation about a named axis costs 12 operations, others 45.
 enum class AxisKind : std::uint8_t { kX, kY, kZ, kMinusX, kMinusY, kMinusZ, kGeneral };
 
-/// Joints with a servo come first, parents before children. Followers of another joint's servo come
-/// last (Params::followers), wherever they are in the tree.
+/// Joints with a servo come first, parents before children; then followers of another joint's servo
+/// (Params::followers), anywhere in the tree.
 struct JointParams {
   char name[kNameLength] = {};
   std::uint8_t parent = 0;  ///< node whose link carries this joint
@@ -31,24 +30,23 @@ struct JointParams {
   std::uint8_t servo_id = 0;       ///< bus address; a follower has its driver's
   std::uint8_t servo_profile = 0;  ///< index into Params::servo
   Xyz origin_parent_m;             ///< joint position in the parent link's frame
-  Xyz axis;                        ///< unit vector; positive rotation by the right-hand rule
+  Xyz axis;                        ///< unit vector, right-hand rule
   float mass_kg = 0;               ///< of the link this joint moves
   Xyz com_link_m;                  ///< centre of mass in the link frame
   float lower_rad = 0;
   float upper_rad = 0;
-  float velocity_limit_rad_s =
-      0;                        ///< limit of the safety limiter; at most the servo's no-load speed
-  float counts_per_rad = 0;     ///< negative if the servo is mounted backwards
-  float zero_count = 0;         ///< count at joint angle zero
-  float compliance_rad_nm = 0;  ///< sag of the servo's position loop under load
-  /// Inertia of rotor and gears at the joint; see Gearbox in host/model/entity.hpp.
+  float velocity_limit_rad_s = 0;  ///< of the safety limiter; at most the servo's no-load speed
+  float counts_per_rad = 0;        ///< negative if the servo is mounted backwards
+  float zero_count = 0;            ///< count at joint angle zero
+  float compliance_rad_nm = 0;     ///< sag of the servo's position loop under load
+  /// Inertia of rotor and gears at the joint (Gearbox, host/model/entity.hpp).
   float armature_kg_m2 = 0;
   float friction_n_m = 0;          ///< friction torque near standstill
-  float load_friction = 0;         ///< share of the load torque that is added to it
-  float friction_speed_rad_s = 1;  ///< speed at which half of it is left
-  /// Angle while standing and walking. The leg solvers compute leg joints; Newton starts from here.
+  float load_friction = 0;         ///< share of the load torque added to it
+  float friction_speed_rad_s = 1;  ///< where half of it is left
+  /// Standing and walking. Legs are solved; Newton starts here.
   float stand_rad = 0;
-  float sit_rad = 0;  ///< the crouch in which torque may be released
+  float sit_rad = 0;  ///< crouch in which torque may be released
   VERP_FIELDS(name, parent, axis_kind, servo_id, servo_profile, origin_parent_m, axis, mass_kg,
               com_link_m, lower_rad, upper_rad, velocity_limit_rad_s, counts_per_rad, zero_count,
               compliance_rad_nm, armature_kg_m2, friction_n_m, load_friction, friction_speed_rad_s,
@@ -58,24 +56,23 @@ VERP_PACKED(JointParams);
 
 enum class LegSolver : std::uint8_t { kNone = 0, kClosedForm = 1, kNewton = 2 };
 
-/// One six-joint leg. The closed form uses canonical angles: yaw(z) roll(x) pitch(y) knee(y) ankle
-/// pitch(y) ankle roll(x), all zero when the leg hangs straight down; joint angle = direction *
-/// (canonical - offset). The foot frame is the last link's frame, with its origin at the ankle
-/// centre. The closed form requires that frame to be the canonical foot frame, as it is for every
-/// robot whose feet stand flat at zero. Newton works on the tree and uses only joint[], the sole
-/// pose and limits.
+/// One six-joint leg. Closed form: canonical angles yaw(z) roll(x) pitch(y) knee(y) ankle pitch(y)
+/// ankle roll(x), all zero when the leg hangs straight down; joint angle = direction * (canonical -
+/// offset). The foot frame is the last link's, with its origin at the ankle centre. The closed form
+/// needs it to be the canonical foot frame, as for every robot whose feet stand flat at zero.
+/// Newton uses only joint[], sole pose and limits.
 struct LegParams {
   LegSolver solver = LegSolver::kNone;
-  std::uint8_t joint[kLegJoints] = {};  ///< joint indices from hip to ankle
+  std::uint8_t joint[kLegJoints] = {};  ///< from hip to ankle
   std::uint8_t reserved = 0;
   float direction[kLegJoints] = {};  ///< +1 or -1
   float offset_rad[kLegJoints] = {};
   Xyz hip_body_m;     ///< intersection of the hip axes
   float thigh_m = 0;  ///< hip centre to knee axis, in the sagittal plane
   float shank_m = 0;  ///< knee axis to ankle centre
-  Xyz sole_foot_m;    ///< sole frame's origin from the ankle centre, foot frame
+  Xyz sole_foot_m;    ///< sole frame's origin from the ankle centre
   float sole_foot[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};  ///< sole axes in the foot frame, row-major
-  float sole_front_m = 0;  ///< distances of the sole's edges from its frame's origin, all positive
+  float sole_front_m = 0;  ///< sole's edges from its frame's origin, all positive
   float sole_back_m = 0;
   float sole_left_m = 0;
   float sole_right_m = 0;
@@ -84,17 +81,14 @@ struct LegParams {
 };
 VERP_PACKED(LegParams);
 
-/// Registers that the firmware writes when it arms a servo, and what the servo's bus protocol
-/// supports.
+/// What the firmware writes when it arms a servo, and what its bus supports.
 struct ServoProfile {
-  /// Control table address 0; 1030 is XM430-W210, 30 is MX-28(2.0). On CAN, the product code
-  /// (1018h:2).
+  /// Control table 0: 1030 is XM430-W210, 30 is MX-28(2.0). On CAN, product code (1018h:2).
   std::uint16_t model_number = 0;
   std::uint16_t position_p_gain = 0;  ///< control table units
   std::uint16_t position_i_gain = 0;
   std::uint16_t position_d_gain = 0;
-  std::uint16_t profile_ms =
-      0;  ///< time-based profile: the servo reaches its goal after this time; 0: at once
+  std::uint16_t profile_ms = 0;      ///< time-based profile: time to the goal; 0: at once
   std::uint16_t fast_sync_read = 0;  ///< 1 if the servo answers instruction 0x8A
   VERP_FIELDS(model_number, position_p_gain, position_i_gain, position_d_gain, profile_ms,
               fast_sync_read)
@@ -103,8 +97,7 @@ VERP_PACKED(ServoProfile);
 inline constexpr int kServoProfiles = 4;
 
 struct ImuParams {
-  float body_imu[9] = {1, 0, 0, 0, 1,
-                       0, 0, 0, 1};  ///< rotates IMU vectors into the body frame, row-major
+  float body_imu[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};  ///< IMU to body frame, row-major
   float gyro_rad_s_per_count = 0;
   float accel_m_s2_per_count = 0;
   std::uint8_t device_id = 0;  ///< address on the servo bus; 0: a chip on the board
@@ -121,10 +114,9 @@ struct FootSensorParams {
 };
 VERP_PACKED(FootSensorParams);
 
-/// Protocol of servos and bus sensors.
 enum class BusProtocol : std::uint8_t {
   kDynamixel2 = 0,  ///< serial, Dynamixel Protocol 2.0
-  kCia402 = 1,      ///< CAN, CANopen with CiA 402 drives; ids are node ids, 1 to 127
+  kCia402 = 1,      ///< CANopen with CiA 402 drives; ids are node ids, 1 to 127
 };
 
 struct Params {
@@ -134,16 +126,16 @@ struct Params {
   std::uint8_t joint_count = 0;
   std::uint8_t head_pan = 0xFF;  ///< joint index, 0xFF: none
   std::uint8_t head_tilt = 0xFF;
-  std::uint8_t rise_torque_percent = 100;  ///< share of each servo's full duty during the rise
+  std::uint8_t rise_torque_percent = 100;  ///< of each servo's full duty, during the rise
   float body_mass_kg = 0;
   Xyz body_com_m;
   BusProtocol bus_protocol = BusProtocol::kDynamixel2;
-  /// Number of joints at the end of the list without a servo of their own (model/coupling.hpp): the
-  /// motor with their servo_id also turns another joint.
+  /// Joints at the end without an own servo (model/coupling.hpp): they share the motor of their
+  /// servo_id.
   std::uint8_t followers = 0;
-  std::uint8_t arm[kFeet] = {0xFF, 0xFF};  ///< joint that swings the arm fore and aft, 0xFF: none
-  /// Angle of `arm` per metre by which the left foot leads the right one, at which the arms' spin
-  /// about the vertical cancels that of the legs. 0 without an arm.
+  std::uint8_t arm[kFeet] = {0xFF, 0xFF};  ///< swings fore and aft; 0xFF: none
+  /// Angle of `arm` per metre of the left foot's lead at which the arms cancel the legs' spin about
+  /// the vertical. 0 without an arm.
   float arm_rad_per_m[kFeet] = {};
   JointParams joint[kMaxJoints];
   LegParams leg[kFeet];
@@ -155,7 +147,7 @@ struct Params {
               body_mass_kg, body_com_m, bus_protocol, followers, arm, arm_rad_per_m, joint, leg,
               servo, imu, feet, tuning)
 
-  /// Number of joints with servos; the bus sees only these.
+  /// The bus sees only joints with servos.
   constexpr std::uint8_t servo_count() const {
     return static_cast<std::uint8_t>(joint_count - followers);
   }

@@ -2,8 +2,8 @@
 #include "common/math/scalar.hpp"
 #include "common/model/tuning.hpp"
 
-/// Ranges of the tuning values, in field order. Inside them every plan is finite and bounded in
-/// time; the robot may still fall.
+/// Ranges of Tuning, in field order. Inside them plans are finite and bounded in time; the robot
+/// may still fall.
 namespace verp {
 
 struct Range {
@@ -70,7 +70,7 @@ constexpr bool in_range(int id, float value) {
          value <= kTuningRanges[id].high;
 }
 
-/// A Tuning as an array of floats, indexed by parameter id.
+/// A Tuning as an array, indexed by parameter id.
 inline float tuning_value(const Tuning& tuning, int id) {
   float value;
   __builtin_memcpy(&value, reinterpret_cast<const unsigned char*>(&tuning) + 4 * id, 4);

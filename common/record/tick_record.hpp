@@ -4,7 +4,7 @@
 #include "common/base/fields.hpp"
 #include "common/io/io.hpp"
 
-/// What a trace keeps of every tick: enough to replay it and to name the first stage that differs.
+/// What a trace keeps of every tick, to replay it and to name the first stage that differs.
 namespace verp {
 
 /// The stages of step(), in order.
@@ -13,8 +13,7 @@ inline constexpr int kStages = 7;
 inline constexpr const char* kStageNames[kStages] = {"admit",      "estimate", "plan", "balance",
                                                      "kinematics", "limit",    "gate"};
 
-/// Digests of one tick. Each stage's digest covers its state and output; `chain` covers this tick
-/// and all earlier ones.
+/// Each stage's digest covers its state and output; `chain` covers this and all earlier ticks.
 struct TickDigest {
   std::uint64_t chain = 0;
   std::uint32_t stage[kStages] = {};

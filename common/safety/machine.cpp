@@ -22,8 +22,8 @@ constexpr Row kTable[] = {
     {bit(Mode::kStopped), kAskRelax, kEmergency, Mode::kRelaxed},
     {kUpright, kFell, 0, Mode::kFallen},
     {bit(Mode::kFallen), kAskRelax, 0, Mode::kRelaxed},
-    // Silence: hold, then sit, then release torque. Sit at once if the operator asks to relax, or
-    // servos or supply are in trouble.
+    // Silence: hold, then sit, then release torque. Sit at once on a relax request or power
+    // trouble.
     {kMoving | bit(Mode::kGettingUp), kStale, 0, Mode::kHolding},
     {bit(Mode::kHolding), kLost, 0, Mode::kSitting},
     {kMayRest, kAskRelax, 0, Mode::kSitting},
@@ -43,8 +43,7 @@ constexpr Row kTable[] = {
     // Actions begin and end standing. A stopped action first returns to the stand.
     {bit(Mode::kStanding), kAskAction | kCalibrated, kOperatorQuiet | kPowerBad, Mode::kActing},
     {bit(Mode::kActing), kTimeUp, 0, Mode::kStanding},
-    // A fall, seen before impact. These rows may come last: a fall hidden by an earlier row is seen
-    // again next tick.
+    // A fall, seen before impact. May come last: an earlier row hides it for one tick only.
     {kMayFall, kFallSeen, kStale, Mode::kFalling},
     {bit(Mode::kFalling), kTimeUp | kFell, 0, Mode::kFallen},
     {bit(Mode::kFalling), kTimeUp, 0, Mode::kHolding},

@@ -3,8 +3,8 @@
 
 #include "common/base/fields.hpp"
 
-/// What the robot may do, as a table: (mode, conditions) -> mode. Pure. README.md of this folder
-/// shows the same table, and a test walks it row by row.
+/// What the robot may do: (mode, conditions) -> mode. Pure. README.md shows the same table, and a
+/// test walks it row by row.
 namespace verp::safety {
 
 enum class Mode : std::uint8_t {
@@ -12,12 +12,12 @@ enum class Mode : std::uint8_t {
   kRising,   ///< from the pose found to the stand
   kStanding,
   kWalking,
-  kHolding,    ///< goals frozen, because a device went silent
-  kSitting,    ///< down to the crouch in which torque may be released
+  kHolding,    ///< a device went silent: goals frozen
+  kSitting,    ///< into the crouch that needs no torque
   kFallen,     ///< limp until the operator asks to relax
-  kStopped,    ///< e-stop: limp until released and the operator asks to relax
+  kStopped,    ///< e-stop: limp until released and asked to relax
   kActing,     ///< plays an action
-  kFalling,    ///< a fall is certain: into the pose that bears it, with little strength
+  kFalling,    ///< certain to fall: into the pose that bears it, with little strength
   kGettingUp,  ///< from the floor to the stand, by an action
 };
 inline constexpr int kModes = 11;
@@ -27,29 +27,27 @@ inline constexpr const char* kModeNames[kModes] = {"relaxed", "rising",  "standi
 
 enum Condition : std::uint32_t {
   kAskRelax = 1 << 0,
-  kAskStand = 1 << 1,  ///< also if the operator asks to walk
+  kAskStand = 1 << 1,  ///< or walk
   kAskWalk = 1 << 2,
   kServosKnown = 1 << 3,  ///< every servo has reported recently
-  kTimeUp = 1 << 4,       ///< rise, sitting down or fall has lasted its time, or the action is over
+  kTimeUp = 1 << 4,       ///< rise, sitting or fall has lasted its time, or the action is over
   kGaitOver = 1 << 5,     ///< the gait stands on both feet
   kCalibrated = 1 << 6,   ///< gyro bias known
   kFell = 1 << 7,
   kEmergency = 1 << 8,
-  kStale = 1 << 9,           ///< a servo or the IMU was silent for stale_hold_s
+  kStale = 1 << 9,           ///< servo or IMU silent for stale_hold_s
   kLost = 1 << 10,           ///< the same for stale_release_s
   kOperatorQuiet = 1 << 11,  ///< no operator frame for command_hold_s
   kOperatorGone = 1 << 12,   ///< no operator frame for command_release_s
   kPowerBad = 1 << 13,       ///< kPowerFaults, now or still latched
-  kJointBeyond = 1 << 14,    ///< limp, and a joint is further beyond its limits than kBeyond_rad
-  kAskAction = 1 << 15,      ///< a request whose action has not been played yet
-  kFallSeen = 1 << 16,       ///< a fall is certain, and the robot has a pose for it
-  kAskGetUp = 1 << 17,       ///< it lies still, and has an action for the side it lies on
-  kPushed =
-      1 << 18,  ///< pushed further than ankles can balance: it has to step, or is still recovering
+  kJointBeyond = 1 << 14,    ///< limp, and a joint is beyond its limits by kBeyond_rad
+  kAskAction = 1 << 15,      ///< not played yet for this request
+  kFallSeen = 1 << 16,       ///< certain to fall, with a pose for it
+  kAskGetUp = 1 << 17,       ///< lies still, with an action for this side
+  kPushed = 1 << 18,         ///< pushed beyond what ankles balance: has to step, or recovers
 };
 
-/// Latched until the operator relaxes the robot. The upper half only reports limits that took
-/// effect.
+/// Latched until the operator relaxes the robot. The upper half only reports.
 enum Fault : std::uint32_t {
   kFaultFall = 1 << 0,
   kFaultEmergency = 1 << 1,
@@ -59,25 +57,25 @@ enum Fault : std::uint32_t {
   kFaultTemperature = 1 << 5,
   kFaultVoltage = 1 << 6,
   kFaultServoError = 1 << 7,
-  kFaultJointBeyond = 1 << 8,    ///< stand request refused: a joint is beyond its limits
+  kFaultJointBeyond = 1 << 8,    ///< stand refused: a joint is beyond its limits
   kNoteOverrun = 1 << 16,        ///< a tick ended after its deadline
-  kNoteParameter = 1 << 17,      ///< a parameter write was out of range and ignored
-  kNoteStrideLimited = 1 << 18,  ///< the requested velocity needs longer steps than allowed
+  kNoteParameter = 1 << 17,      ///< a parameter write was out of range
+  kNoteStrideLimited = 1 << 18,  ///< the velocity needs longer steps than allowed
   kNotePlanShortened =
-      1 << 19,  ///< steps shortened: leg reach, ZMP near the sole's edge, or colliding soles
+      1 << 19,  ///< steps shortened: reach, ZMP near the sole's edge, or colliding soles
   kNotePlanRefused = 1 << 20,   ///< no step keeps the ZMP in the sole
   kNoteLegLimited = 1 << 21,    ///< a leg could not reach its target
-  kNoteSpeedLimited = 1 << 22,  ///< a joint's goal was held to its velocity limit
+  kNoteSpeedLimited = 1 << 22,  ///< a joint hit its velocity limit
 };
 
-/// Faults that load causes and rest hides: the robot's reaction must not end when the load does.
+/// Rest hides these faults of load, so the reaction must outlast the load.
 inline constexpr std::uint32_t kPowerFaults = kFaultTemperature | kFaultVoltage | kFaultServoError;
 
 struct MachineState {
   std::uint32_t faults = 0;     ///< Fault bits
   std::int32_t in_mode_us = 0;  ///< time in this mode, saturating
   Mode mode = Mode::kRelaxed;
-  std::uint8_t falling_ms = 0;  ///< how long the body has been beyond recovery, up to 255
+  std::uint8_t falling_ms = 0;  ///< time beyond recovery, up to 255
   std::uint16_t way_ms = 0;     ///< duration of the last rise or sitting down
   VERP_FIELDS(faults, in_mode_us, mode, falling_ms, way_ms)
 };
@@ -90,7 +88,7 @@ struct Row {
   Mode to;
 };
 
-/// The first matching row decides. Without one the mode stays.
+/// The first matching row decides; otherwise the mode stays.
 extern const Row kTable[];
 extern const int kRows;
 
