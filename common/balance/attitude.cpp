@@ -4,21 +4,18 @@ namespace verp::balance {
 namespace {
 
 constexpr float kLeastLevel2 = 0.01F;  // x axis nearly vertical: no heading
-// After a rise the body still settles by 0.3 degrees while the balance corrects joint by joint; in
-// the mean that would look like a bias of 0.15 degrees a second. Tuning seeds 1001-1010, 60 s at 4
-// cm: heading error 0.6 degrees rms with this, 0.9 with 0.35 s.
+// After a rise the body still settles, joint by joint, by 0.3 degrees, which would look like a bias
+// of 0.15 degrees a second. Tuning seeds 1001-1010, 60 s at 4 cm: heading error 0.6 degrees rms,
+// 0.9 with 0.35 s.
 constexpr float kSettle_s = 1.2F;
-// Per axis: above the bias of a MEMS gyro (data sheet of the ICM-20648: 5 deg/s), below any real
-// motion.
+// Per axis: above a MEMS gyro's bias (ICM-20648 data sheet: 5 deg/s), below real motion.
 constexpr float kStillRate_rad_s = 0.12F;
-// Readings are clamped to this, so that one wrong reading cannot end the calibration.
+// Clamps readings, so that a wrong one cannot end the calibration.
 constexpr float kMostOfOne_rad_s = 2.0F * kStillRate_rad_s;
-// Servos that hunt for their goal tremble at 5 Hz and above, around a fixed pose. A person who
-// moves the robot turns it for longer than this.
+// Servos hunting for their goal tremble at 5 Hz and above; a person turns the robot for longer.
 constexpr float kTremble_s = 0.25F;
 
-// More is shaking, not trembling. Mean square over all axes of readings clamped to
-// kMostOfOne_rad_s.
+// Above it is shaking: mean square over all axes of clamped readings.
 constexpr float kMostShake_rad2_s2 = 0.045F;
 
 Vec3 clamped(const Vec3& rate_rad_s) {
@@ -41,17 +38,17 @@ void learn_bias(AttitudeState& state, const AttitudeIn& in) {
   const Vec3 slow = before + fade * (rate - before);
   state.slow_rad_s = math::to_xyz(slow);
   state.shake_rad2_s2 += fade * ((rate - slow).squaredNorm() - state.shake_rad2_s2);
-  // Test the raw rate, not the corrected one: a wrong bias must not hide stillness.
+  // Tests the raw rate: a wrong bias must not hide stillness.
   const bool calibrated = state.still_s >= kCalibrated_s;
   if (!in.standing || !within(slow, kStillRate_rad_s) || state.shake_rad2_s2 > kMostShake_rad2_s2) {
     if (calibrated) return;
-    state.still_s = 0;  // moved or still rising: start over
+    state.still_s = 0;  // moved or rising: start over
     state.gyro_bias_rad_s = {};
     return;
   }
-  // The first readings of a motion come before the filter detects it.
+  // A motion's first readings come before it is detected.
   if (calibrated && !within(rate, kStillRate_rad_s)) return;
-  // The mean over the time of standing still, then slow tracking of warm-up drift.
+  // Mean while still, then slow tracking of warm-up drift.
   const float meant_s = math::max(state.still_s - kSettle_s, 0.0F);
   const float share = in.period_s / (meant_s + in.period_s);
   const Vec3 bias = math::to_vec(state.gyro_bias_rad_s);
@@ -59,9 +56,8 @@ void learn_bias(AttitudeState& state, const AttitudeIn& in) {
   state.still_s = math::min(state.still_s + in.period_s, kBestKnown_s);
 }
 
-// The gyro turns "up" and the accelerometer pulls it to the vertical. The pull is linear in the
-// acceleration: over a step the acceleration's motion part averages to zero, which its direction
-// does not.
+// The gyro turns "up", the accelerometer pulls it to the vertical. The pull is linear in the
+// acceleration, because over a step its motion part averages to zero and its direction does not.
 Vec3 follow(Xyz& up_body, const Vec3& rate_rad_s, const Vec3& accel_m_s2, float period_s,
             float mean_s) {
   Vec3 up = math::to_vec(up_body);
@@ -88,8 +84,8 @@ AttitudeOut update(AttitudeState& state, const AttitudeIn& in) {
     const Vec3 after =
         follow(state.slow_up_body, rate, in.accel_body_m_s2, in.period_s, state.mean_s);
     const Vec3 slow = 0.5F * (before + after);  // at the time of the gyro reading
-    // Turn of the body's x axis on the ground. The rate about the vertical would show a turn for a
-    // body that sways about two axes at once (coning).
+    // Turn of the body's x axis on the ground. The rate about the vertical would add a false turn
+    // when the body sways about two axes (coning).
     const float level2 = math::max(slow.y() * slow.y() + slow.z() * slow.z(), kLeastLevel2);
     const float turn_rad_s = (rate.y() * slow.y() + rate.z() * slow.z()) / level2;
     state.heading_rad = math::wrap_angle(state.heading_rad + in.period_s * turn_rad_s);

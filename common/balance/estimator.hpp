@@ -2,31 +2,30 @@
 #include "common/balance/attitude.hpp"
 #include "common/gait/whole_body.hpp"
 
-/// Position and velocity of the body and the centre of mass, from the robot's sensors. The legs
-/// measure the body's motion over the stance soles, weighted by the load on each, so that nothing
-/// jumps when the feet exchange load. The accelerometer adds what the encoders are too coarse for.
-/// It only observes; nothing here controls.
+/// Position and velocity of body and centre of mass. The legs measure the body's motion over the
+/// stance soles, weighted by load so that nothing jumps at an exchange; the accelerometer adds what
+/// encoders are too coarse for. It observes and controls nothing.
 ///
-/// *Odometry frame*: z is up, 0 at the ground under the stance soles. x and y start under the body
-/// with its heading at power-up. They drift with the gyro and the soles, about a millimetre a step.
+/// *Odometry frame*: z up from the ground under the stance soles; x and y from under the body,
+/// along its heading, at power-up. They drift with gyro and soles, a millimetre a step.
 namespace verp::balance {
 
 struct EstimatorState {
-  /// AttitudeState's, corrected for the body's acceleration and the accelerometer's offset.
+  /// AttitudeState's, without the lean by the body's motion and the accelerometer's offset.
   Xyz up_body{0, 0, 1};
   Xyz body_m;  ///< origin of the body frame
   Xyz body_velocity_m_s;
-  Xyz ahead_m;                  ///< body by the legs minus body_m
-  Xyz sole_from_body_m[kFeet];  ///< middle of each sole, odometry axes
-  Xyz com_from_body_m;          ///< odometry axes
-  Xyz com_velocity_m_s;         ///< over the ground
-  gait::Xy slow_m_s;  ///< slow mean of the body's velocity; the attitude does not lean by it
-  Xyz uneven;         ///< mean of the soles' up minus the attitude's, while standing
-  float stood_s = 0;  ///< averaging time of `uneven`, up to kUnevenTime_s
-  float left = 0.5F;  ///< share of the weight on the left foot
-  std::uint8_t feet_silent = 255;  ///< ticks since the sole cells reported, up to 255
-  std::uint8_t blind = 255;        ///< ticks since a leg measured the body's motion, up to 255
-  std::uint8_t grounded = 0;       ///< 1: the sole cells bear weight
+  Xyz ahead_m;                     ///< by the legs, relative to body_m
+  Xyz sole_from_body_m[kFeet];     ///< middle of each sole, odometry axes
+  Xyz com_from_body_m;             ///< odometry axes
+  Xyz com_velocity_m_s;            ///< over the ground
+  gait::Xy slow_m_s;               ///< slow mean of the body's velocity
+  Xyz uneven;                      ///< mean of the soles' up minus the attitude's
+  float stood_s = 0;               ///< its averaging time, up to kUnevenTime_s
+  float left = 0.5F;               ///< share of the weight on the left foot
+  std::uint8_t feet_silent = 255;  ///< ticks since the soles' cells reported, up to 255
+  std::uint8_t blind = 255;        ///< ticks since a leg reported motion, up to 255
+  std::uint8_t grounded = 0;       ///< 1: the cells bear weight
   std::uint8_t begun = 0;          ///< 0 until the first tick with masses
   VERP_FIELDS(up_body, body_m, body_velocity_m_s, ahead_m, sole_from_body_m, com_from_body_m,
               com_velocity_m_s, slow_m_s, uneven, stood_s, left, feet_silent, blind, grounded,
@@ -34,24 +33,23 @@ struct EstimatorState {
 };
 VERP_PACKED(EstimatorState);
 
-/// Averaging time of the soles' up: standing in many places improves it.
+/// Long, because standing in many places improves the mean.
 inline constexpr float kUnevenTime_s = 8.0F;
 
 struct EstimatorIn {
   const gait::Lump* lump = nullptr;  ///< everything that the legs carry
   const AttitudeState* attitude = nullptr;
   const Inputs* inputs = nullptr;
-  bool imu_fresh = false;  ///< the next two were read this tick
+  bool imu_fresh = false;  ///< the next two are of this tick
   Vec3 gyro_body_rad_s{0, 0, 0};
   Vec3 accel_body_m_s2{0, 0, 0};
-  bool standing = false;  ///< on both soles and not about to step: the ground may correct "up"
-  /// Used if the soles have no force cells or the cells are silent: whether the robot stands, and
-  /// on which foot.
+  bool standing = false;  ///< on both soles, not about to step: the ground may correct "up"
+  /// For soles without cells, or silent ones: does the robot stand, and on which foot.
   bool on_feet = false;
   std::uint32_t carrying = gait::kBoth;
 };
 
-/// Does nothing without two legs or before their masses are known.
+/// Does nothing without two legs or before masses are known.
 void update(const Params& params, EstimatorState& state, const EstimatorIn& in);
 
 inline Vec3 com_m(const EstimatorState& state) {
@@ -60,15 +58,15 @@ inline Vec3 com_m(const EstimatorState& state) {
 inline Vec3 sole_m(const EstimatorState& state, int side) {
   return math::to_vec(state.body_m) + math::to_vec(state.sole_from_body_m[side]);
 }
-/// The divergent component of motion (DCM): the point where the centre of mass would come to rest
-/// if the ground pushed there from now on. Uses a pendulum of the CoM's height.
+/// The divergent component of motion (DCM): where the CoM would come to rest if the ground pushed
+/// there from now on, by a pendulum of its height.
 gait::Xy dcm_m(const EstimatorState& state);
 
-/// Fixed-axis roll and pitch of the body, as in AttitudeOut.
+/// Fixed-axis, as in AttitudeOut.
 float roll_rad(const EstimatorState& state);
 float pitch_rad(const EstimatorState& state);
 
-/// The whole estimate, in the order of the controller's registers from body_position on.
+/// In the order of the controller's registers from body_position on.
 struct Whereabouts {
   Xyz body_m;
   Xyz roll_pitch_yaw_rad;

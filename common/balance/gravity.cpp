@@ -31,13 +31,13 @@ LegMotion follow(const Params& params, int side, const float* leg_rad, DriveStat
 
 namespace {
 
-// Torque that rotor and gears take beside the load. Friction changes sign smoothly, because a
-// nearly still joint may turn either way.
+// Torque for rotor and gears. Friction changes sign smoothly: a joint near rest may turn either
+// way.
 float taken_nm(const BalanceTuning& tuning, const JointParams& joint, float load_nm, float rate,
                float accel) {
   constexpr float kSure_rad_s = 0.1F;
   const float slow = 1.0F / (1.0F + math::square(rate / joint.friction_speed_rad_s));
-  // Load and motor press on opposite sides of the gears: both cause friction.
+  // Load and motor press on opposite sides of the gears.
   const float budget =
       slow * (joint.friction_n_m + 2.0F * joint.load_friction * math::abs(load_nm));
   return tuning.inertia_share * joint.armature_kg_m2 * accel +
@@ -49,7 +49,7 @@ float taken_nm(const BalanceTuning& tuning, const JointParams& joint, float load
 void add_sag(const Params& params, const BalanceTuning& tuning, const LegParams& leg,
              const kinematics::LegChain& chain, const LegLoad& load, const LegMotion& motion,
              float* leg_rad) {
-  // Force beyond the joint and its moment about the origin, summed from the sole upwards.
+  // Force beyond the joint and its moment about the origin, summed upwards.
   Vec3 force_n = load.push_n;
   Vec3 moment_nm = math::cross(load.ground_m, load.push_n);
   const float hip_m = chain.link[0].position_m.z();

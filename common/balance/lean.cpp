@@ -4,8 +4,8 @@ namespace verp::balance {
 namespace {
 
 constexpr float kMeanTilt_s = 1.0F;    // a few steps
-constexpr float kLeans_s = 1.5F;       // slower than the mean, so that the two do not oscillate
-constexpr float kMostLean_rad = 0.1F;  // 5 degrees of ground plus an accelerometer's offset
+constexpr float kLeans_s = 1.5F;       // slower than the mean, to avoid oscillation
+constexpr float kMostLean_rad = 0.1F;  // 5 degrees of ground plus accelerometer offset
 
 void learn_about(float now_rad, float left_rad, float period_s, float& tilt_rad, float& lean_rad) {
   tilt_rad += period_s / kMeanTilt_s * (now_rad - tilt_rad);

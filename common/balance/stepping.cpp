@@ -7,24 +7,23 @@ namespace {
 
 using gait::Xy;
 
-// DCM errors that the ankles correct without a step, as shares of half a sole. In every step the
-// DCM is off its plan by millimetres, and by a centimetre if the robot differs from its Params.
-// Tuned for generic21 at 4 cm in 450 ms, tuning seed 1001, pushed at 16 phases from four sides.
+// DCM errors left to the ankles, in half soles. Each step is off by millimetres, by a centimetre if
+// the robot differs from its Params. generic21 at 4 cm in 450 ms, tuning seed 1001, pushed at 16
+// phases from four sides.
 constexpr float kAnkles_x = 0.29F, kAnkles_y = 0.36F;
-// Hurried servos lag, and stepping after that lag hurries them more: at 8 cm in 400 ms the DCM is 2
-// cm off at the end of every step. Per unit of a step's haste, this share of the hip height over
-// the ankles is also left to the ankles.
+// Hurried servos lag, and stepping after the lag hurries them more: at 8 cm in 400 ms the DCM ends
+// each step 2 cm off. This many hip heights over the ankles, per unit of haste, are left to the
+// ankles too.
 constexpr float kHurry = 0.135F;
-// Limits on how far and how fast a foot moves off its plan, as shares of the hip height over the
-// ankles: 5 cm and 0.6 m/s for generic21. Servos turn as far for these as for the longest steps.
+// Limits on a foot's offset and its speed, in hip heights over the ankles: 5 cm and 0.6 m/s for
+// generic21, the same servo travel as the longest steps.
 constexpr float kFarthest = 0.333F, kPace_per_s = 4.0F;
-// Share of the swing at its start and end in which the foot moves less: near the ground feet do not
-// move sideways.
+// Share of the swing at each end with less offset speed: near the ground feet do not move sideways.
 constexpr float kBegins = 1.0F / 6.0F;
 constexpr float kOver_m = 1e-5F;
-// A standing robot steps if the DCM is this share of half a sole from the soles' middle. Ankles
-// alone could hold it up to the edge, but a step from there comes too late. It takes kSteps steps,
-// and as many after each step that had to move further off its plan than kStillOff_m.
+// A standing robot steps when the DCM is this far from the soles' middle, in half soles. Ankles
+// would hold up to the edge, but a step from there is too late. It takes kSteps steps, and as many
+// after each that moved off its plan by more than kStillOff_m.
 constexpr float kHeld = 0.8F;
 constexpr std::uint32_t kSteps = 4;
 constexpr float kStillOff_m = 0.01F;
@@ -37,14 +36,14 @@ float beyond(float value, float free) {
   return value - math::clamp(value, -free, free);
 }
 
-// Distance between the soles if the swing foot lands `by_m` off its plan.
+// Distance of the soles if the swing foot lands `by_m` off.
 float apart_m(const Params& params, const gait::Step& step, Xy by_m) {
   gait::Foothold foot[kFeet] = {step.after(gait::kLeft), step.after(gait::kRight)};
   foot[step.swing].at_m = foot[step.swing].at_m + by_m;
   return gait::soles_apart_m(params, foot[gait::kLeft], foot[gait::kRight]);
 }
 
-// DCM error relative to the plan over the stance foot, in the body's axes.
+// DCM error over the stance foot, in the body's axes.
 Xy error_of(const Params& params, const SteppingIn& in, const gait::Step& step, float now_s,
             float yaw_rad) {
   const int side = step.carrying();
@@ -56,7 +55,7 @@ Xy error_of(const Params& params, const SteppingIn& in, const gait::Step& step, 
          gait::turned(planned_m, -yaw_rad);
 }
 
-// Landing offset of the swing foot. The soles stay at least as far apart as while standing.
+// The swing foot's landing offset. The soles stay as far apart as in standing.
 Xy landing_off(const Params& params, const Tuning& tuning, const SteppingIn& in,
                const gait::Step& step, float now_s, float yaw_rad) {
   const LegParams& leg = params.leg[step.swing];
@@ -75,7 +74,7 @@ Xy landing_off(const Params& params, const Tuning& tuning, const SteppingIn& in,
   return gait::turned(off_m, yaw_rad);
 }
 
-// Moves the swing foot towards its offset as fast as this phase of the swing allows.
+// Moves the swing foot's offset as fast as this phase allows.
 void move_foot(const Tuning& tuning, const gait::Step& step, float time_s, float period_s,
                Xy wanted_m, SteppingState& state) {
   const float swing_s = step.duration_s() - step.double_support_s;
@@ -87,8 +86,8 @@ void move_foot(const Tuning& tuning, const gait::Step& step, float time_s, float
   state.foot_m = length_m > most_m ? state.foot_m + (most_m / length_m) * way_m : wanted_m;
 }
 
-// The foot that landed off its plan is now the stance foot and counts as on its plan, so everything
-// else is off by the opposite.
+// The landed foot becomes the stance foot, on its plan by definition; the rest is off by the
+// opposite.
 void exchange(const gait::Step& step, SteppingState& state) {
   state.body_m = state.body_m - state.foot_m;
   state.foot_m = step.swing != gait::kBoth ? -1.0F * state.foot_m : Xy{};
@@ -96,20 +95,20 @@ void exchange(const gait::Step& step, SteppingState& state) {
   state.swing = step.swing;
 }
 
-// Without the multibody correction the robot is not the pendulum of the plan. With joint delays the
-// joints are planned at different moments, which this does not shift.
+// The plan's pendulum needs the multibody correction. Delayed joints are planned at other moments,
+// which are not shifted.
 bool may_step(const Tuning& tuning) {
   return tuning.balance.feedback_enable > 0.5F && tuning.balance.multibody_enable > 0.5F &&
          tuning.gait.joint_delay_s == 0.0F;
 }
 
-// The last step of a walk brings the feet side by side. queue[1] is always known.
+// The last step brings the feet together. queue[1] is always known.
 bool answers(const Tuning& tuning, const SteppingIn& in) {
   return may_step(tuning) && in.gait->queue[1].swing != gait::kBoth;
 }
 
-// True if the DCM leaves the soles of a standing robot ahead or behind. Sideways, two soles reach
-// as far as any push that a step could still answer.
+// True if a standing robot's DCM leaves the soles ahead or behind. Sideways two soles reach as far
+// as a step could help.
 bool leaves_soles(const Params& params, const SteppingIn& in) {
   if (in.estimator->blind != 0) return false;
   const LegParams& leg = params.leg[gait::kLeft];
@@ -126,7 +125,7 @@ void swing_aside(const Params& params, const Tuning& tuning, const SteppingIn& i
   const float now_s = time_s - tuning.gait.look_ahead_s;
   Xy wanted_m{};
   if (answers(tuning, in)) {
-    // The robot is still in the previous step, or its position is unknown: keep the offset.
+    // Still in the previous step, or position unknown: keep the offset.
     if (now_s < 0.0F || in.estimator->blind != 0) return;
     wanted_m = landing_off(params, tuning, in, step, now_s, math::atan2(body(1, 0), body(0, 0)));
   }

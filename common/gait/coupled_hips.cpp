@@ -27,8 +27,7 @@ void turn_to_hips(const Params& params, const float (&previous_rad)[kFeet][kLegJ
   const JointParams& follower = params.joint[params.leg[side].joint[0]];
   const JointParams& driver = params.joint[params.leg[1 - side].joint[0]];
   const float off_rad = yaw_rad[side] - model::followed(driver, follower, yaw_rad[1 - side]);
-  // With the sole fixed, a hip with a tilted axis turns by the body's turn divided by the axis'
-  // vertical part.
+  // With the sole fixed, a tilted hip axis turns by the body's turn over its vertical part.
   const float ratio = driver.counts_per_rad / follower.counts_per_rad;
   const float apart = driver.axis.z - ratio * follower.axis.z;
   if (!(math::abs(apart) > 0.1F)) return;

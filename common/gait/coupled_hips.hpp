@@ -1,17 +1,16 @@
 #pragma once
 #include "common/gait/whole_body.hpp"
 
-/// Robots whose two hip yaws share one motor, in opposite directions. Eleven motors cannot control
-/// all twelve freedoms of both soles, so the trunk's heading between the feet is given up.
+/// Hips whose yaws share one motor, in opposite directions. Eleven motors cannot give both soles
+/// twelve freedoms, so the trunk gives up its heading between the feet.
 namespace verp::gait {
 
-/// The foot whose hip yaw follows the other's motor; kBoth if none.
+/// Foot whose hip yaw follows the other's motor; kBoth: none.
 int coupled_hip(const Params& params);
 
-/// Turns the body about the vertical so that one motor gives both hip yaws, with the soles fixed.
-/// Walking straight this takes milliradians (both hips yaw alike as a leaning trunk sways); in a
-/// turn each hip takes its half. One correction leaves second-order errors. `previous_rad`: six
-/// angles of each leg, for Newton's warm start.
+/// Turns the body about the vertical so that one motor gives both yaws, with the soles fixed: by
+/// milliradians straight ahead (a leaning, swaying trunk yaws both hips alike), by half the turn in
+/// turns. Errors of second order remain. `previous_rad`: six angles per leg, for Newton.
 void turn_to_hips(const Params& params, const float (&previous_rad)[kFeet][kLegJoints],
                   Posture& posture);
 

@@ -3,7 +3,7 @@
 namespace verp::gait {
 namespace {
 
-// Velocity of the ZMP while it moves; zero for a step without double support, where it jumps.
+// Velocity of the moving ZMP; 0 without double support, where it jumps.
 Xy zmp_velocity(const Step& step) {
   return step.double_support_s > 0.0F
              ? (1.0F / step.double_support_s) * (step.zmp_end_m - step.zmp_begin_m)
@@ -52,7 +52,7 @@ Xy com_after(const Step& step, float omega, Xy com_m, float from_s, float to_s) 
 
 Xy periodic_dcm(const Step& last, Xy next_m, Xy second_m, float omega) {
   // s, the DCM's lead over the ZMP at a step's end, repeats after two steps: s = g d1 + a (g d2 + a
-  // s). g is the factor by which double support reduces the displacement.
+  // s). Double support scales the displacement by g.
   const float a = math::exp(-omega * last.duration_s());
   const float ramp = omega * last.double_support_s;
   const float g = ramp > 1e-3F ? (1.0F - math::exp(-ramp)) / ramp : 1.0F;

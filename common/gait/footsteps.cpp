@@ -7,20 +7,19 @@
 namespace verp::gait {
 namespace {
 
-// Least distance between passing soles: 5 mm. Joints are off by half a degree each, turned feet
-// slip, and the swing bends slightly inwards. At 3 mm one of ten fast curves touched (tuning seeds
-// 1001-1026).
+// Least room between passing soles. Joints are off by half a degree each, turned feet slip, a swing
+// bends inwards: 5 mm. At 3 mm one of ten fast curves touched (tuning seeds 1001-1026).
 constexpr float kSoleClearance_m = 0.005F;
-// Most that a turning foot lands further out: generic21 needs it for 0.4 rad a step.
+// Most outward shift of a turning foot: generic21 needs it for 0.4 rad a step.
 constexpr float kMostWider_m = 0.045F;
-// Up to this mean speed, in hip heights over the ankles per second, servos carry a swing foot as
-// planned (generic21: 0.4 m/s). Above it they lag.
+// Mean swing speed, in hip heights over the ankles per second, above which servos lag (generic21:
+// 0.4 m/s).
 constexpr float kUnhurried_per_s = 2.7F;
-// A hurried foot that lands late jolts the robot. Per unit of haste it is aimed lower by kComesDown
-// of touchdown_m, by kMostDown at most. Tuning seeds 1001-1030 of random robots, 0.25 m/s: the
-// CoM's velocity error falls by 9 %, and none of 30 exceeds 0.03 m/s (one did).
+// A hurried foot that lands late jolts the robot, so haste lowers its target: by a share kComesDown
+// per unit, kMostDown at most. Tuning seeds 1001-1030 of random robots, 0.25 m/s: CoM velocity
+// error 9 % less, and none of 30 above 0.03 m/s (one was).
 constexpr float kComesDown = 0.45F, kMostDown = 0.25F;
-constexpr float kMostHaste = 2.0F;  // 1.2 m/s: more than any known servo reaches
+constexpr float kMostHaste = 2.0F;  // 1.2 m/s: beyond any known servo
 
 float outward(int side) {
   return side == kLeft ? 1.0F : -1.0F;
@@ -35,22 +34,21 @@ Xy middle(const Params& params, const Step& step) {
                  sole_center(params, kRight, step.after(kRight)));
 }
 
-// Sets a step's duration to about `duration_s`, in whole key points.
+// Duration in whole key points, about `duration_s`.
 void set_times(const GaitTuning& tuning, float duration_s, Step& step) {
   step.key_us = math::to_int32(tuning.cycle_s * 1e6F) / (2 * kKeyPointsPerStep);
   step.key_us = step.key_us < 1 ? 1 : step.key_us;
   const float points = duration_s * 1e6F / static_cast<float>(step.key_us);
-  // Not shorter than a walking step: the queue just covers the head's horizon with such steps.
+  // At least a walking step: the queue covers the head's horizon only with those.
   step.key_points =
       math::to_uint8(math::clamp(points, static_cast<float>(kKeyPointsPerStep), 250.0F));
 }
 
-// An IMU on the bus may be read once a control period. If all soles land at the same moment of a
-// period, the gyro sees the same instant of each landing's jolt, and that adds up to a false turn:
-// 3 degrees a minute in a cycle of 45 periods. So every fourth step is alternately half a period
-// longer or shorter, and the next four steps show the other instant, of opposite sign. With any
-// gyro the ZMP is also 0.2 mm nearer its plan at 4 cm. Robots that do not steer by heading take
-// equal steps.
+// A gyro read once a control period, as on a bus, sees the same instant of every landing's jolt if
+// all soles land at the same moment of a period. That adds up to a false turn: 3 degrees a minute
+// in a cycle of 45 periods. So every fourth step is half a period longer, then shorter, and the
+// next four steps show the other instant, of opposite sign. The ZMP is also 0.2 mm nearer its plan
+// at 4 cm, with any gyro. Without steering by heading all steps are equal.
 void shift_in_period(const Params& params, const GaitTuning& tuning, FootstepState& state,
                      Step& step) {
   if (!(tuning.heading_gain > 0.0F)) return;
@@ -73,12 +71,12 @@ float toward(float from, float to, float most) {
   return from + math::clamp(to - from, -most, most);
 }
 
-// In a sideways or turning cycle the leading foot takes the whole way and the other closes up.
+// In sideways or turning cycles the leading foot takes the whole way, the other closes up.
 bool leads(int swing, float value) {
   return (swing == kLeft) == (value > 0.0F);
 }
 
-// Longer step of a cycle: sideways, the leading foot takes both.
+// Of a cycle's longer step: sideways the leading foot takes both.
 float length_of(const Stride& stride) {
   return math::hypot(stride.by_m.x, 2.0F * stride.by_m.y);
 }
@@ -107,7 +105,7 @@ Stride wanted_stride(const GaitTuning& tuning, const VelocityIn& wanted, float r
   return shortened(stride, reach_m);
 }
 
-// Longest step at which the leg still reaches the ground beside or behind the body (Pythagoras).
+// Longest step that the leg still reaches beside or behind the body (Pythagoras).
 float reach_limit_m(const Params& params, const GaitTuning& tuning) {
   const LegParams& leg = params.leg[kLeft];
   const float usable_m = kinematics::usable_reach_m(leg);
@@ -124,14 +122,14 @@ Foothold landing_of(const GaitTuning& tuning, int swing, const Stride& stride,
   return {state.body.at_m + turned(side_m, state.body.yaw_rad), state.body.yaw_rad};
 }
 
-// Distance from the sole frame's origin to the sole's edge in a direction.
+// From the sole frame's origin to the edge in a direction.
 float extent_m(const LegParams& leg, float yaw_rad, Xy direction) {
   const Xy in_sole = turned(direction, -yaw_rad);
   return in_sole.x * (in_sole.x > 0.0F ? leg.sole_front_m : -leg.sole_back_m) +
          in_sole.y * (in_sole.y > 0.0F ? leg.sole_left_m : -leg.sole_right_m);
 }
 
-// Distance between the soles across a line whose left is `leftward`.
+// Room between the soles across a line whose left is `leftward`.
 float room_m(const Params& params, const Foothold& left, const Foothold& right, Xy leftward) {
   return dot(left.at_m - right.at_m, leftward) -
          extent_m(params.leg[kLeft], left.yaw_rad, -1.0F * leftward) -
@@ -142,14 +140,14 @@ Xy leftward_of(const Foothold& foot) {
   return turned({0.0F, 1.0F}, foot.yaw_rad);
 }
 
-// Least distance between the soles while walking: at most that of standing.
+// Least room between the soles: not more than in standing.
 float clearance_m(const Params& params, const GaitTuning& tuning) {
   const float standing_m =
       2.0F * tuning.half_stance_m - params.leg[kLeft].sole_right_m - params.leg[kRight].sole_left_m;
   return math::min(kSoleClearance_m, standing_m);
 }
 
-// How much further out the swing foot must land to keep its sole clear of the stance sole.
+// How much further out the swing foot must land to clear the stance sole.
 float short_of_m(const Params& params, const GaitTuning& tuning, const Step& step, float yaw_rad) {
   const Foothold left = step.after(kLeft), right = step.after(kRight);
   const float wanted_m = clearance_m(params, tuning);
@@ -164,7 +162,7 @@ float short_of_m(const Params& params, const GaitTuning& tuning, const Step& ste
   return short_m;
 }
 
-// Lands the swing foot, further out if the soles would come too near. False if that is too far out.
+// Lands the swing foot, further out where soles come too near; false if too far out.
 bool land(const Params& params, const GaitTuning& tuning, const Stride& stride,
           FootstepState& state, Step& step) {
   step.landing = landing_of(tuning, step.swing, stride, state);
@@ -176,7 +174,7 @@ bool land(const Params& params, const GaitTuning& tuning, const Stride& stride,
   return short_m <= kMostWider_m;
 }
 
-// Reduces the turn if wider steps are not enough. Without a turn there is always room.
+// Turns less where wider steps do not suffice. Without a turn there is room.
 void land_beside(const Params& params, const GaitTuning& tuning, Stride& stride,
                  FootstepState& state, Step& step) {
   constexpr int kHalvings = 5;
@@ -194,7 +192,7 @@ void land_beside(const Params& params, const GaitTuning& tuning, Stride& stride,
   state.notes |= kTurnShortened;
 }
 
-// True if the feet stand as before a walk: neither is further out after a turn.
+// True if the feet are as before a walk, neither further out.
 bool side_by_side(const GaitTuning& tuning, const Step& last) {
   const Foothold left = last.after(kLeft), right = last.after(kRight);
   const float apart_m = dot(left.at_m - right.at_m, leftward_of(left));
@@ -205,7 +203,7 @@ bool still(const Stride& stride) {
   return stride.by_m.x == 0.0F && stride.by_m.y == 0.0F && stride.turn_rad == 0.0F;
 }
 
-// Both feet carry throughout, where `last` leaves them.
+// Both feet carry throughout, as `last` leaves them.
 Step standing_step(const GaitTuning& tuning, const Step& last, Phase phase) {
   Step step;
   set_times(tuning, tuning.start_s, step);
@@ -286,7 +284,7 @@ Step next_footholds(const Params& params, const GaitTuning& tuning, const Veloci
                  toward(state.stride.by_m.y, goal.by_m.y, most_m)},
                 toward(state.stride.turn_rad, goal.turn_rad, 0.25F * tuning.max_turn_rad)};
   const bool reached = stride.by_m.x == goal.by_m.x && stride.by_m.y == goal.by_m.y;
-  // Between two directions a stride may be longer than both.
+  // Between two directions a stride may exceed both.
   if (!reached) stride = shortened(stride, math::min(tuning.max_step_m, reach_m));
 
   Step step;

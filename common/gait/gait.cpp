@@ -7,17 +7,16 @@
 namespace verp::gait {
 namespace {
 
-// Shortest time in which a landed foot takes the weight, even with shorter double support. If the
-// goals jump from one leg to the other between two ticks, their lead depends on where in a period
-// the step ends, and differs between the feet. Tuning seeds 1001-1010, 4 cm in 450 ms: heading
-// error 1.3 degrees rms without, 0.9 with it.
+// Least time in which a landed foot takes the weight. Goals that jump between two ticks lead by
+// what depends on the step's end within a period, and differ from foot to foot. Tuning seeds
+// 1001-1010, 4 cm in 450 ms: heading error 1.3 degrees rms without, 0.9 with it.
 constexpr float kTaken_s = 0.008F;
 
-// A moment in the known steps: at most one step back, and within the stored key points.
+// A moment in the known steps, at most one step back and within stored key points.
 struct Moment {
   const Step* step;
   std::int32_t time_us;    // since the step's beginning
-  std::uint8_t first_key;  // fixed key point at the step's beginning
+  std::uint8_t first_key;  // fixed key point at the step's start
 };
 
 Moment moment_before(const GaitState& state, std::int32_t delay_us) {
@@ -54,14 +53,13 @@ Posture posture_at(const Params& params, const Tuning& tuning, const GaitState& 
                     foot_at(*moment.step, kLeft, time_s), foot_at(*moment.step, kRight, time_s));
 }
 
-// Sets the plan's end to the DCM of walking on or standing, and propagates it back to the head's
-// step.
+// Ends the plan at the DCM of walking on or standing, and carries it back to the head's step.
 void set_dcm_ends(const Params& params, const Tuning& tuning, const VelocityIn& wanted,
                   GaitState& state) {
   Step& last = state.queue[state.queued - 1];
   last.dcm_end_m = last.zmp_end_m;
   if (!last.ends_walk()) {
-    // Two more steps with the present order, only to compute the ZMP.
+    // Two more steps, only for the ZMP.
     FootstepState ahead = state.footsteps;
     const Step next = next_footholds(params, tuning.gait, wanted, last, ahead);
     if (next.ends_walk()) {
@@ -77,11 +75,11 @@ void set_dcm_ends(const Params& params, const Tuning& tuning, const VelocityIn& 
   }
 }
 
-// Key points that the head lays before a hurried walk begins: two must lie ahead of the clock.
+// Key points laid before a hurried walk begins; two lie ahead of the clock.
 constexpr int kHurry = 2;
 
-// In a hurried start the pendulum starts from rest. The ZMP rests where it throws the pendulum to
-// the DCM at the step's end: further out for shorter steps, but within the soles.
+// A hurried start throws the resting pendulum to the DCM at the step's end: the less time, the
+// further out the ZMP, but within the soles.
 void throw_body(const Params& params, const GaitTuning& tuning, GaitState& state) {
   constexpr std::uint8_t kShortest = 3;
   Step& step = state.queue[0];
@@ -95,7 +93,7 @@ void throw_body(const Params& params, const GaitTuning& tuning, GaitState& state
   }
 }
 
-// Keeps one step known beyond the head's step.
+// Keeps a step known beyond the head's.
 void extend_queue(const Params& params, const Tuning& tuning, const GaitIn& in, GaitState& state) {
   VelocityIn wanted = in.wanted;
   wanted.stop = wanted.stop || !in.walk || (state.footsteps.notes & kPlanRefused) != 0;
@@ -110,7 +108,7 @@ void extend_queue(const Params& params, const Tuning& tuning, const GaitIn& in, 
   }
 }
 
-// A joint at its limit still leaves the sole near its target; the other flags do not.
+// A joint at its limit leaves the sole near its target; other flags do not.
 bool reaches(std::uint8_t leg_flags) {
   return (leg_flags & (kinematics::kOutOfReach | kinematics::kNotConverged)) == 0;
 }
@@ -123,9 +121,9 @@ void shorten(std::uint16_t note, FootstepState& footsteps) {
   footsteps.notes |= note;
 }
 
-// Shortens the plan step by step while its ZMP would leave the sole. Lengthens it again after a
-// cycle with more room than the next longer step can need. The multibody correction removes misses,
-// but it is linear in them, so it is trusted with half a sole only.
+// Shortens strides while the ZMP would leave the sole, and lengthens them after a cycle with more
+// room than the next longer step needs. The multibody correction is linear in misses, so it is
+// trusted with half a sole.
 void watch_zmp(const Params& params, const Tuning& tuning, const Step& step, Xy miss_m,
                GaitState& state) {
   if (step.swing == kBoth) return;
@@ -154,7 +152,7 @@ void watch_zmp(const Params& params, const Tuning& tuning, const Step& step, Xy 
 void lay_key_points(const Params& params, const Tuning& tuning, const GaitIn& in,
                     GaitState& state) {
   PreviewState& preview = state.preview;
-  // One a tick; two if a control period may exceed the time between key points.
+  // Two if a control period may exceed a key point's.
   const int most = in.period_us > state.queue[0].key_us ? 2 : 1;
   for (int i = 0; i < most; ++i) {
     if (static_cast<std::uint8_t>(preview.head - preview.fixed) >= kHorizon) return;
@@ -168,7 +166,7 @@ void lay_key_points(const Params& params, const Tuning& tuning, const GaitIn& in
   }
 }
 
-// Moves the walk frame's origin, once a step so that rounding errors do not accumulate.
+// Moves the walk frame's origin once a step, so that roundings do not add up.
 void rebase_walk(Xy origin_m, GaitState& state) {
   const auto move_step = [&](Step& step) {
     for (Foothold& foot : step.foot) foot.at_m = foot.at_m - origin_m;
@@ -195,7 +193,7 @@ void next_in_queue(GaitState& state) {
   if (step.swing != kBoth) rebase_walk(step.foot[step.carrying()].at_m, state);
 }
 
-// Fixes key points until two lie ahead of the clock, then advances the head.
+// Fixes key points until two lie ahead of the clock, then moves the head.
 void plan_ahead(const Params& params, const Tuning& tuning, const GaitIn& in, GaitState& state) {
   const Step& step = state.queue[0];
   const auto wanted = static_cast<std::uint8_t>(state.first_key + state.clock_us / step.key_us + 2);
@@ -219,13 +217,13 @@ Settled digest_stand(const Params& params, const Tuning& tuning, const GaitIn& i
   return {digest_load(params, in.goal_rad), stand.value()};
 }
 
-// Standing. The body moves until the CoM is over the middle of the soles. It is weighed again only
-// when arms, head or tuning change. A walk may begin from there.
+// Standing: moves the body until the CoM is over the soles' middle. Weighs it again only when arms,
+// head or tuning change. A walk may begin from there.
 void stand(const Params& params, const Tuning& tuning, const Step& feet, const GaitIn& in,
            GaitState& state) {
   constexpr float kGlideMS = 0.02F;
   constexpr float kSettledM = 2e-4F;
-  constexpr float kCentredM = 1e-6F;  // ten times the rounding error of the sum over all links
+  constexpr float kCentredM = 1e-6F;  // ten times the sum's rounding
   if (!in.walk) state.footsteps.notes = 0;
   const Settled asked = digest_stand(params, tuning, in, state);
   if (!in.walk && asked == state.settled) return;
@@ -260,7 +258,7 @@ void stand(const Params& params, const Tuning& tuning, const Step& feet, const G
   state.stand_body_m.y += math::clamp(off_m.y, -most_m, most_m);
 }
 
-// The pose after the last step becomes the new standing frame.
+// The last step's end is the new standing frame.
 void end_walk(GaitState& state) {
   const Step& rest = state.queue[0];
   const float yaw_rad = 0.5F * (rest.foot[kLeft].yaw_rad + rest.foot[kRight].yaw_rad);
@@ -279,7 +277,7 @@ void walk(const Params& params, const Tuning& tuning, const GaitIn& in, GaitStat
   plan_ahead(params, tuning, in, state);
 }
 
-// Left foot's share of the weight, from the ZMP's place between the soles.
+// Left foot's share of the weight from the ZMP.
 float left_share(const Params& params, const Step& step, Xy zmp_m) {
   const Xy right_m = sole_center(params, kRight, step.foot[kRight]);
   const Xy across_m = sole_center(params, kLeft, step.foot[kLeft]) - right_m;

@@ -1,12 +1,11 @@
 #pragma once
 #include "common/gait/preview.hpp"
 
-/// The gait engine: time, phases and the queue of steps. It plans while walking. At most three
-/// future steps are known, and a tick computes at most two key points of the multibody correction.
+/// The gait engine: time, phases and the queue of steps, planned while walking. At most three
+/// future steps are known; a tick computes at most two key points of the multibody correction.
 namespace verp::gait {
 
-/// Digests of everything that decides a standing body's place. When one changes, the robot weighs
-/// itself again.
+/// Digests of what decides a standing body's place: on a change the robot weighs itself again.
 struct Settled {
   std::uint32_t load = 0;   ///< angles of arms and head
   std::uint32_t stand = 0;  ///< tuning and the place itself
@@ -21,12 +20,12 @@ struct GaitState {
   PreviewState preview;
   FootstepState footsteps;
   Settled settled;                ///< digests for which stand_body_m holds
-  Xy stand_body_m;                ///< body position while standing, walk frame
-  std::int32_t clock_us = 0;      ///< since the start of queue[0]; the goals are for this moment
+  Xy stand_body_m;                ///< while standing, walk frame
+  std::int32_t clock_us = 0;      ///< since queue[0]'s start; the goals' moment
   std::uint8_t queued = 0;        ///< steps in the queue; 0: standing
-  std::uint8_t first_key = 0;     ///< fixed key point at the start of queue[0], mod 256
+  std::uint8_t first_key = 0;     ///< fixed key point at queue[0]'s start, mod 256
   std::uint8_t previous_key = 0;  ///< the same of `previous`
-  std::uint8_t moving = 0;        ///< 0 while the head runs ahead before the first step
+  std::uint8_t moving = 0;        ///< 0 while the head runs ahead before a walk
   VERP_FIELDS(previous, queue, preview, footsteps, settled, stand_body_m, clock_us, queued,
               first_key, previous_key, moving)
 };
@@ -34,28 +33,26 @@ VERP_PACKED(GaitState);
 
 struct GaitIn {
   bool walk = false;     ///< false: finish the walk, then stand
-  bool at_once = false;  ///< a standing robot begins without looking ahead
+  bool at_once = false;  ///< begin without looking ahead
   VelocityIn wanted;
-  const float* goal_rad = nullptr;  ///< last goals, joint_count of them; gives arms and head
+  const float* goal_rad = nullptr;  ///< last goals of all joints; gives arms and head
   std::int32_t period_us = 10000;
 };
 
 struct GaitOut {
   Posture posture;                    ///< at the goals' moment
-  float carry[kFeet] = {0.5F, 0.5F};  ///< share of the weight on each foot at the goals' moment
+  float carry[kFeet] = {0.5F, 0.5F};  ///< share of the weight at the goals' moment
   Xy zmp_m;                           ///< planned, at the goals' moment
-  Xy accel_m_s2;                      ///< planned acceleration of the body, at the goals' moment
-  Phase phase = Phase::kIdle;         ///< now, which is look_ahead_s before the goals' moment
+  Xy accel_m_s2;                      ///< planned, of the body, at the goals' moment
+  Phase phase = Phase::kIdle;         ///< now: look_ahead_s before the goals' moment
   std::uint8_t swing = kBoth;         ///< foot in the air now; kBoth: none
-  std::uint8_t carrying =
-      kBoth;  ///< stance foot now, in double support the next one; kBoth: standing
-  std::uint8_t cycle_state = 0;  ///< 0..15, now
+  std::uint8_t carrying = kBoth;  ///< stance foot now, in double support the next; kBoth: standing
+  std::uint8_t cycle_state = 0;   ///< 0..15, now
 };
 
 GaitOut update(const Params& params, const Tuning& tuning, GaitState& state, const GaitIn& in);
 
-/// Posture `delay_us` before the goals' moment, for joints whose goals lag
-/// (GaitTuning::joint_delay_s).
+/// Posture `delay_us` before the goals' moment, for delayed joints (GaitTuning::joint_delay_s).
 Posture posture_before(const Params& params, const Tuning& tuning, const GaitState& state,
                        std::int32_t delay_us);
 

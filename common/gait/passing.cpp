@@ -6,17 +6,17 @@
 namespace verp::gait {
 namespace {
 
-// The swing is sampled kLooks - 1 times, densest in its middle, where it is fastest. Between two
-// samples a sole approaches by at most half the clearance.
+// The swing has kLooks - 1 samples, densest in its fast middle; between two a sole approaches by at
+// most half the clearance.
 constexpr int kLooks = 10;
 
-// Share of the swing's time at sample `i`.
+// Share of the swing at sample `i`.
 constexpr float time_of(int i) {
   const float w = 2.0F * static_cast<float>(i) / static_cast<float>(kLooks) - 1.0F;
   return 0.5F + 0.25F * w * (1.0F + w * w);
 }
 
-// Distance from the sole frame's origin to its edge in a direction of that frame.
+// From the sole frame's origin to the edge in a direction of that frame.
 float reach_m(const LegParams& leg, Xy direction) {
   return direction.x * (direction.x > 0.0F ? leg.sole_front_m : -leg.sole_back_m) +
          direction.y * (direction.y > 0.0F ? leg.sole_left_m : -leg.sole_right_m);
@@ -29,7 +29,7 @@ Xy bend_beside(const Params& params, float wanted_m, const Step& step) {
   const float begin_rad = from.yaw_rad - carrying.yaw_rad;
   const float turn_rad = step.landing.yaw_rad - from.yaw_rad;
   if (from.yaw_rad == carrying.yaw_rad && step.landing.yaw_rad == carrying.yaw_rad) return {};
-  // All in the stance foot's frame. `out` is the sign of y towards the swing foot.
+  // In the stance foot's frame. `out`: sign of y towards the swing foot.
   const LegParams &swinging = params.leg[step.swing], &standing = params.leg[step.carrying()];
   const math::SinCos heading = math::sincos(carrying.yaw_rad);
   const math::SinCos back{-heading.sin, heading.cos};
@@ -44,8 +44,7 @@ Xy bend_beside(const Params& params, float wanted_m, const Step& step) {
     const float along = swing_along(v, step.haste).value;
     const Xy at_m = begin_m + along * way_m;
     const math::SinCos turn = math::sincos(begin_rad + along * turn_rad);
-    // Clearance across a line along the stance sole and across one along the swing sole: one of
-    // them is enough.
+    // Room across a line along either sole; one is enough.
     const Xy beside{-out * turn.sin, out * turn.cos};
     const float room_m =
         out * at_m.y - standing_m - reach_m(swinging, {-out * turn.sin, -out * turn.cos});

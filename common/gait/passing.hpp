@@ -5,9 +5,9 @@
 /// The swing foot's path past the stance foot.
 namespace verp::gait {
 
-/// How far the swing foot's path must bend outward at mid-swing (Step::bend_m) to keep its sole
-/// `wanted_m` from the stance sole, seen from above: at a few millimetres of height it would touch.
-/// Zero if the straight path is clear, as it always is when no foot turns.
+/// Outward bend of the swing foot's path at mid-swing (Step::bend_m) that keeps its sole `wanted_m`
+/// from the stance sole, seen from above: a few millimetres up it would touch. Zero if the straight
+/// path is clear, as always without a turn.
 Xy bend_beside(const Params& params, float wanted_m, const Step& step);
 
 }  // namespace verp::gait

@@ -12,7 +12,7 @@ struct Momentum {
   Xy angular;  // about x and y through the origin
 };
 
-// Momentum between two key points: p x dp summed over the masses. (a + b) / 2 x (b - a) is a x b.
+// p x dp summed over the masses between two key points: (a + b) / 2 x (b - a) is a x b.
 Momentum momentum_between(const Params& params, const PreviewState& state, const Masses& now,
                           float key_s) {
   Momentum sum{Vec3::Zero(), {}};
@@ -28,14 +28,13 @@ Momentum momentum_between(const Params& params, const PreviewState& state, const
   return {per_s * sum.linear, per_s * sum.angular};
 }
 
-// The point where the ground's reaction balances gravity and inertia of all links.
+// Where the ground's reaction balances gravity and inertia of all links.
 Xy multibody_zmp(const PreviewState& state, const Momentum& next, float mass_kg, float key_s) {
   const float weight_n = mass_kg * math::kGravityMS2;
   const float force_n = weight_n + (next.linear.z() - state.momentum_kg_m_s.z) / key_s;
   const float moment_x = (next.angular.x - state.angular_kg_m2_s.x) / key_s;
   const float moment_y = (next.angular.y - state.angular_kg_m2_s.y) / key_s;
-  if (!(force_n > 0.1F * weight_n))
-    return state.com_real_m;  // nearly in flight: the ZMP is undefined
+  if (!(force_n > 0.1F * weight_n)) return state.com_real_m;  // nearly in flight: no ZMP
   return {(weight_n * state.com_real_m.x - moment_y) / force_n,
           (weight_n * state.com_real_m.y + moment_x) / force_n};
 }
@@ -77,8 +76,8 @@ Laid lay_key_point(const Params& params, const Tuning& tuning, const Step* queue
   const float key_s = step.key_s();
   const float time_s = key_s * static_cast<float>(state.head_key + 1);
   state.com_m = com_after(step, state.omega, state.com_m, time_s - key_s, time_s);
-  // The offset changes slowly, so extrapolate it through the last two. The error appears in the
-  // links' positions and so in the multibody ZMP, and is corrected there.
+  // The offset changes slowly: extrapolate. The error shows in the links' positions, hence in the
+  // multibody ZMP, and is corrected.
   const Xy offset_m = 2.0F * state.offset_m[0] - state.offset_m[1];
   const Xy body_m = state.com_m - offset_m;
   const Posture posture = posture_of(params, tuning.gait, body_m, foot_at(step, kLeft, time_s),

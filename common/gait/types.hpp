@@ -6,13 +6,11 @@
 #include "common/math/elementary.hpp"
 #include "common/math/scalar.hpp"
 
-/// Plain data of the gait. Lengths are in the *walk frame*: z up, ground at 0, x and y as the
-/// body's at the start of the walk. Its origin moves with the robot once a step, so coordinates
-/// stay small however far it walks: float32 resolves 1e-8 m at arm's length, and the multibody
-/// correction takes second differences.
+/// The gait's data. Lengths are in the *walk frame*: z up, ground at 0, x and y the body's at the
+/// walk's start. Its origin moves with the robot once a step, to keep coordinates small: float32
+/// resolves 1e-8 m at arm's length, and the multibody correction takes second differences.
 namespace verp::gait {
 
-/// A point or vector on the ground.
 struct Xy {
   float x = 0;
   float y = 0;
@@ -33,7 +31,7 @@ inline Xy turned(Xy v, float yaw_rad) {
   return turned(v, math::sincos(yaw_rad));
 }
 
-/// Ground position of a sole frame's origin, and its heading.
+/// A sole frame's origin on the ground, and heading.
 struct Foothold {
   Xy at_m;
   float yaw_rad = 0;
@@ -50,26 +48,26 @@ inline constexpr std::uint8_t kBoth = 2;
 
 inline constexpr int kIntervalsPerCycle =
     15;  ///< 16 states joined by 15 intervals (paper, section 4.1)
-/// Key points lie at half intervals, so both steps of a cycle hold the same 15 and left mirrors
-/// right. Whole intervals (7.5 to a step) would not give that.
+/// At half intervals, both steps of a cycle have the same 15 key points and left mirrors right;
+/// whole intervals are 7.5 to a step.
 inline constexpr int kKeyPointsPerStep = 15;
 
-/// One planned step: stance foot, swing foot's path and the ZMP. The ZMP moves in a straight line
-/// from zmp_begin to zmp_end during double support, then rests.
+/// A planned step: stance foot, swing path and ZMP, which moves straight from zmp_begin to zmp_end
+/// in double support, then rests.
 struct Step {
   std::int32_t key_us = 0;      ///< time between key points
   std::uint8_t key_points = 0;  ///< duration is key_points * key_us
-  std::uint8_t swing = kBoth;   ///< kLeft, kRight, or kBoth: no foot leaves the ground
+  std::uint8_t swing = kBoth;   ///< or kBoth: no foot leaves the ground
   Phase phase = Phase::kIdle;
-  std::uint8_t landed = kBoth;  ///< swing foot of the previous step; kBoth: none
+  std::uint8_t landed = kBoth;  ///< the previous step's swing foot; kBoth: none
   float double_support_s = 0;   ///< from the step's beginning
   float lift_m = 0;
-  float touchdown_m = 0;  ///< height of the swing sole at the step's end
-  float haste = 0;        ///< mean speed of the swing over an unhurried one, minus 1; 0 to 2
-  float settle_m = 0;     ///< height of `landed` at the start; it comes down in two key times
+  float touchdown_m = 0;  ///< swing sole's height at the end
+  float haste = 0;        ///< mean swing speed over an unhurried one, minus 1; 0 to 2
+  float settle_m = 0;     ///< height of `landed` at the start, down in two key times
   Foothold foot[kFeet];   ///< at the step's start
   Foothold landing;       ///< of the swing foot
-  Xy bend_m;  ///< of its path at mid-swing, off the straight line, around the other foot
+  Xy bend_m;              ///< off the straight way at mid-swing, around the other foot
   Xy zmp_begin_m;
   Xy zmp_end_m;
   Xy dcm_end_m;  ///< divergent component of motion at the step's end
@@ -80,13 +78,13 @@ struct Step {
   constexpr float duration_s() const { return static_cast<float>(duration_us()) * 1e-6F; }
   constexpr float key_s() const { return static_cast<float>(key_us) * 1e-6F; }
   constexpr int carrying() const { return swing == kBoth ? kBoth : 1 - swing; }
-  /// The final step and all later ones: both feet carry and the ZMP comes to rest.
+  /// Final and later steps: both feet carry, the ZMP comes to rest.
   constexpr bool ends_walk() const { return swing == kBoth && phase != Phase::kStart; }
-  /// Foothold at the end of the step.
+  /// Foothold at the step's end.
   constexpr Foothold after(int side) const { return side == swing ? landing : foot[side]; }
 };
 VERP_PACKED(Step);
 
-inline constexpr int kQueue = 4;  ///< the present step and at most three future ones
+inline constexpr int kQueue = 4;  ///< present and at most three future steps
 
 }  // namespace verp::gait
