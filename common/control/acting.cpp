@@ -17,7 +17,7 @@ bool plays(Mode mode) {
   return mode == Mode::kActing || mode == Mode::kFalling || mode == Mode::kGettingUp;
 }
 
-// A stopped action leaves by its exit. Nothing stops the action of a fall.
+// A stop leaves by the exit. A fall's action cannot be stopped.
 bool shall_stop(const State& state, const Inputs& inputs, const AdmitOut& admitted) {
   constexpr std::uint32_t kNoMore = safety::kAskRelax | safety::kOperatorQuiet | safety::kPowerBad;
   if (state.machine.mode == Mode::kFalling) return false;
@@ -26,7 +26,7 @@ bool shall_stop(const State& state, const Inputs& inputs, const AdmitOut& admitt
          (state.machine.faults & safety::kPowerFaults) != 0;
 }
 
-// A foot without sensors is assumed to be where the action wants it.
+// Without sensors a foot is assumed where the action wants it.
 bool is_pressed(const Params& params, const Inputs& inputs, int side) {
   if (params.feet.device_id[side] == 0) return true;
   std::int32_t sum = 0;
@@ -53,7 +53,7 @@ action::PlayerOut play(const Params& params, const action::Library& actions, Sta
   return action::update(params, actions, state.action, in);
 }
 
-// Both legs of the action's pose, in the body frame.
+// Both legs of the action's pose, body frame.
 struct Legs {
   kinematics::LegChain chain[kFeet];
   Vec3 up[kFeet];      ///< of each sole
@@ -76,7 +76,7 @@ Legs legs_of(const Params& params, const float* angle_rad) {
   return legs;
 }
 
-// The action itself leans the body against its stance soles; only the rest of the lean is an error.
+// The action leans the body against its stance soles; only the rest is an error.
 balance::FeedbackOut keep_up(const BalanceTuning& tuning, const Vec3& up,
                              const action::PlayerOut& played,
                              const balance::AttitudeOut& attitude) {
@@ -89,8 +89,8 @@ balance::FeedbackOut keep_up(const BalanceTuning& tuning, const Vec3& up,
   return balance::feedback(tuning, rest, pitch_rad, swing);
 }
 
-// Adds to the legs the load's sag, the balance feedback and the zeros. A function of its own to
-// save stack: the centre of mass takes 1.6 KB and is done before these chains exist.
+// Adds sag, balance feedback and zeros to the legs. Separate to save stack: the centre of mass
+// takes 1.6 KB, before these chains exist.
 [[gnu::noinline]] void balance_legs(const Params& params, const action::PlayerOut& played,
                                     const balance::AttitudeOut& attitude, const Vec3& com_m,
                                     State& state, float* goal_rad) {
@@ -102,7 +102,7 @@ balance::FeedbackOut keep_up(const BalanceTuning& tuning, const Vec3& up,
   const Vec3 lift = math::kGravityMS2 * up;
   for (int side = 0; side < kFeet; ++side) {
     const LegParams& leg = params.leg[side];
-    // The point under the centre of mass, as far as this sole reaches it.
+    // Under the centre of mass, as far as this sole reaches.
     const Vec3 below_m = com_m - (com_m - legs.sole_m[side]).dot(up) * up;
     const Vec3 off_m = below_m - legs.sole_m[side];
     const float most_m = 0.5F * (leg.sole_left_m + leg.sole_right_m);
@@ -141,7 +141,7 @@ void ask_action(const action::Library& actions, const State& state, const Inputs
 void act(const Params& params, const action::Library& actions, State& state, const Inputs& inputs,
          const AdmitOut& admitted, const balance::AttitudeOut& attitude, Wanted& wanted) {
   if (!plays(state.machine.mode)) {
-    // An action that was cut off is over. A request that still stands has been played.
+    // A cut-off action is over; a standing request was played.
     const std::uint8_t asked = inputs.action == state.action.asked ? state.action.asked : 0;
     state.action = action::PlayerState{};
     state.action.asked = asked;
@@ -161,8 +161,7 @@ void act(const Params& params, const action::Library& actions, State& state, con
   model::share_corrections(params, played.angle_rad, goal_rad);
   for (int j = 0; j < params.joint_count; ++j) {
     const float at_rad = model::angle_of(params.joint[j], inputs.position_count[j]);
-    // Moves the goal towards the joint: a servo of half the stiffness yields like one whose goal is
-    // half as far away.
+    // Half the stiffness yields like a goal at half the distance.
     const float stiffness = played.stiffness[j];
     wanted.angle_rad[j] =
         stiffness < 1.0F ? at_rad + stiffness * (goal_rad[j] - at_rad) : goal_rad[j];

@@ -28,16 +28,15 @@ Vec3 in_body(const ImuParams& imu, const std::int16_t* count, float scale) {
   return scale * (body_imu * raw);
 }
 
-// At least one, so that ages grow even if the tick stands still. A tick that runs backwards wraps
-// to a long silence.
+// At least one, so that ages grow even if the tick stands still. A tick that runs backwards counts
+// as a long silence.
 std::uint32_t count_periods(const Inputs& inputs, AdmitState& state) {
   const std::uint32_t periods = inputs.tick - state.tick;
   state.tick = inputs.tick;
   return periods > 0 ? periods : 1;
 }
 
-// Periods after which a silence is stale. At least one, so that a servo read every tick is never
-// stale, however short the setting.
+// Periods until a silence is stale. At least one: a servo read every tick is never stale.
 int ticks(const Params& params, float duration_s) {
   const float period_s = static_cast<float>(params.period_us) * 1e-6F;
   const std::int32_t whole = math::to_int32(duration_s / period_s);
@@ -77,7 +76,7 @@ void read_imu(const Params& params, const Inputs& inputs, int lost, std::uint32_
 std::uint8_t count_ages(const Params& params, std::uint32_t fresh, std::uint32_t periods,
                         AdmitState& state) {
   const auto all = static_cast<std::uint32_t>((std::uint64_t{1} << params.joint_count) - 1U);
-  // Fast path for nearly every tick; the loop below would be most of this stage's cost.
+  // Usual case; the loop would be most of this stage's cost.
   if ((fresh & all) == all) {
     for (std::uint8_t& age : state.servo_age) age = 0;
     return 0;
@@ -91,8 +90,8 @@ std::uint8_t count_ages(const Params& params, std::uint32_t fresh, std::uint32_t
   return oldest;
 }
 
-// The oldest servo decides: one silent knee is enough to fall. Skipped periods count as silence of
-// all devices, even if they report afterwards.
+// The oldest servo decides: one silent knee is enough to fall. Skipped periods were silent for all,
+// whoever reports afterwards.
 void watch_silence(const Params& params, const Tuning& tuning, const Inputs& inputs, int lost,
                    std::uint32_t periods, AdmitState& state, AdmitOut& out) {
   const std::uint8_t oldest = count_ages(params, inputs.fresh, periods, state);
@@ -107,7 +106,7 @@ void watch_silence(const Params& params, const Tuning& tuning, const Inputs& inp
   if (oldest < hold) out.conditions |= kServosKnown;
 }
 
-// Counts a good or bad reading of servo `bit`.
+// Counts a reading of servo `bit`.
 void count_alarm(std::uint32_t bit, bool bad, AdmitState& state) {
   static_assert(kAlarmReadings == 3, "two bits count to three");
   const std::uint32_t before = state.alarm_low;

@@ -7,7 +7,7 @@
 
 namespace verp::control {
 
-// Update with kCoreVersion; the boot check's test prints the new value.
+// Changes with kCoreVersion; the boot check's test prints it.
 const std::uint64_t kBuiltInDigest = 0xc348a9815aa71df2;
 
 namespace {

@@ -7,17 +7,17 @@
 
 namespace verp::control {
 
-/// Results of the boot check, worst first. Later checks run only if the earlier ones pass.
+/// Worst first; later checks run only if earlier ones pass.
 enum class BootVerdict : std::uint8_t {
   kSound = 0,
-  kContracted = 1,  ///< the core was built with fused multiply-add: its bits differ from the twin's
-  kCode = 2,        ///< the built-in robot's walk differs: damaged code, memory or core
+  kContracted = 1,  ///< built with fused multiply-add: other bits than the twin
+  kCode = 2,        ///< the built-in robot's walk differs: bad code, memory or core
   kImage = 3,       ///< Params image missing, damaged, of another version or implausible: `image`
-  kKinematics = 4,  ///< the image's golden vectors are not reproduced
-  kControl = 5,     ///< the image's 256 ticks are not reproduced
+  kKinematics = 4,  ///< the image's golden vectors differ
+  kControl = 5,     ///< the image's 256 ticks differ
 };
 inline constexpr int kBootVerdicts = 6;
-/// Messages for an operator. Index: BootVerdict.
+/// For an operator. Index: BootVerdict.
 inline constexpr const char* kBootWords[kBootVerdicts] = {
     "sound",
     "built with fused multiply-add: build with toolchains/floating_point.cmake",
@@ -34,13 +34,12 @@ struct BootReport {
   std::uint64_t digest = 0;         ///< of the last walk checked
 };
 
-/// All checks before torque may ever be on: the arithmetic contract, the code on its built-in
-/// robot, the image's CRC and version, then code and image together. The walks' sensor data come
-/// from an integer generator and from the core's own outputs. `image` holds at most `size` bytes
-/// and is aligned as ParamsImage. Both scratches are overwritten.
+/// All checks before any torque: arithmetic contract, code on its built-in robot, image CRC and
+/// version, code and image together. Sensor data come from an integer generator and the core's
+/// outputs. `image`: at most `size` bytes, aligned as ParamsImage. Overwrites both scratches.
 BootReport check_boot(const void* image, std::size_t size, Params& robot, State& state);
 
-/// Last chain link of the built-in robot's walk as this core computes it, and its expected value.
+/// Last chain link of the built-in robot's walk: on this core, and expected.
 std::uint64_t built_in_digest(Params& robot, State& state);
 extern const std::uint64_t kBuiltInDigest;
 

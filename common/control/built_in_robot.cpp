@@ -3,7 +3,7 @@
 namespace verp::control {
 namespace {
 
-// Hip yaw, roll and pitch, knee, ankle pitch and roll. Thigh and shank in metres.
+// Hip yaw, roll, pitch; knee; ankle pitch, roll.
 constexpr float kLink_m = 0.093F, kHipSide_m = 0.037F, kHipDown_m = 0.085F, kSole_m = 0.0335F;
 constexpr AxisKind kAxis[kLegJoints] = {AxisKind::kZ, AxisKind::kX, AxisKind::kY,
                                         AxisKind::kY, AxisKind::kY, AxisKind::kX};

@@ -3,8 +3,7 @@
 
 namespace verp::control {
 
-/// An invented pair of legs, the same in every build. The boot check walks it before it trusts the
-/// robot's Params. Overwrites all of `params`.
+/// An invented pair of legs, for the boot check before it trusts Params. Overwrites `params`.
 void make_built_in_robot(Params& params);
 
 }  // namespace verp::control

@@ -3,8 +3,8 @@
 
 namespace verp {
 
-/// Digests all stages of a finished tick, each over its own state and output, and extends the
-/// chain. Never inlined, so that its cost can be measured.
+/// Digests a finished tick's stages, each its state and output, and extends the chain. Not inlined,
+/// to measure its cost.
 [[gnu::noinline]] void digest_state(const Inputs& inputs, const Outputs& outputs, State& state);
 
 }  // namespace verp

@@ -40,7 +40,7 @@ void sense(const Params& params, std::uint32_t tick, std::uint32_t& random, cons
   const float up_count = scale > 0.0F && scale < 1.0F ? kGravity / scale : 0.0F;
   for (int i = 0; i < 3; ++i) {
     in.gyro_count[i] = noise(random);
-    // Row 2 of the mounting: the body's up axis in the IMU frame.
+    // Row 2 of the mounting: the body's up in the IMU frame.
     const float rest = params.imu.body_imu[6 + i] * up_count;
     const auto count = static_cast<std::int32_t>(rest > -30000.0F && rest < 30000.0F ? rest : 0.0F);
     in.accel_count[i] = static_cast<std::int16_t>(count + noise(random));
@@ -51,7 +51,7 @@ void sense(const Params& params, std::uint32_t tick, std::uint32_t& random, cons
 
 std::uint64_t self_test_digest(const Params& params, State& scratch) {
   scratch = State{};
-  // Marks the gyro's bias as known, so that the walk begins within these few ticks.
+  // A known gyro bias, so that the walk begins in these ticks.
   scratch.attitude.still_s = balance::kCalibrated_s;
   Inputs inputs;
   Outputs outputs;

@@ -6,13 +6,12 @@
 
 namespace verp::control {
 
-/// Ticks of the self-test; an image's self_test_ticks must be equal.
+/// Also an image's self_test_ticks.
 inline constexpr std::uint32_t kSelfTestTicks = 256;
 
-/// The digest chain's last link after kSelfTestTicks ticks of step() on generated inputs. The
-/// servos follow their goals; the operator asks to stand, to walk a few steps and to stop; IMU and
-/// feet report noise around rest. The boot check compares it with the image's: same core, same
-/// compiler contract, working memory.
+/// Last chain link after kSelfTestTicks of step() on generated inputs: servos follow their goals,
+/// the operator asks to stand, walk a few steps and stop, IMU and feet report noise around rest.
+/// The boot check compares it with the image's: same core, same compiler contract, working memory.
 std::uint64_t self_test_digest(const Params& params, State& scratch);
 
 }  // namespace verp::control

@@ -2,28 +2,27 @@
 #include "common/control/state.hpp"
 #include "common/model/params.hpp"
 
-/// The stages of step(). They connect the modules, which hold the arithmetic.
+/// The stages of step(): they connect the modules, which do the arithmetic.
 namespace verp::control {
 
-/// First tick: copies the tuning from Params and starts the ages.
+/// First tick: tuning from Params, ages.
 void start(const Params& params, const Inputs& inputs, State& state);
 
 balance::AttitudeOut estimate(const Params& params, State& state, const AdmitOut& admitted);
 
-/// Locates body and centre of mass from the legs, with the previous tick's plan.
+/// Body and centre of mass from the legs, by the last tick's plan.
 void locate(const Params& params, State& state, const Inputs& inputs, const AdmitOut& admitted);
 
-/// Sets the condition of a push that ankles cannot balance.
+/// Sets the condition of a push beyond what ankles balance.
 void watch_push(const Params& params, State& state, AdmitOut& admitted);
 
-/// Walks if the safety table allows it, and corrects the heading's drift.
+/// Walks if the safety table says so, and corrects heading drift.
 gait::GaitOut plan_motion(const Params& params, State& state, const AdmitOut& admitted,
                           const balance::AttitudeOut& attitude);
 
-/// Moves the plan's feet to where a push sends the robot.
 void step_aside(const Params& params, State& state, gait::GaitOut& plan);
 
-/// Keeps the body upright on sloping ground.
+/// Upright on slopes.
 void lean(const Params& params, State& state, const AdmitOut& admitted,
           const balance::AttitudeOut& attitude, gait::GaitOut& plan);
 
@@ -33,8 +32,7 @@ struct Wanted {
   bool leg_limited;
 };
 
-/// Legs by inverse kinematics with sag, balance corrections, learnt zero errors and landings. Arms
-/// and head as planned and ordered.
+/// Legs by inverse kinematics with sag, balance, learnt zeros and landings; arms and head.
 Wanted solve_joints(const Params& params, State& state, const Inputs& inputs,
                     const AdmitOut& admitted, const balance::AttitudeOut& attitude,
                     const gait::GaitOut& plan);
@@ -46,7 +44,7 @@ safety::LimitOut limit_goals(const Params& params, State& state, const Inputs& i
 std::uint32_t raise_faults(const State& state, const AdmitOut& admitted, const Wanted& wanted,
                            const safety::LimitOut& limited);
 
-/// Applies the safety table, which decides mode, torque and goals.
+/// The safety table decides mode, torque and goals.
 void gate(const Params& params, State& state, const AdmitOut& admitted,
           const balance::AttitudeOut& attitude, const gait::GaitOut& plan,
           const safety::LimitOut& limited, std::uint32_t faults, Outputs& outputs);
