@@ -1,11 +1,10 @@
 #pragma once
 #include <cstdint>
 
-/// Addresses of the registers this project uses, of servos and of its own sensor devices on the
-/// same bus. Source for servos: ROBOTIS e-Manual, control tables of XM430-W210
-/// (docs/en/dxl/x/xm430-w210) and MX-28(2.0) (docs/en/dxl/mx/mx-28-2), which agree on each address
-/// and size. The number after each address is its size in bytes. EEPROM registers can be written
-/// only while Torque Enable is 0.
+/// Register addresses of servos and of our sensor devices on the same bus. Source for servos:
+/// ROBOTIS e-Manual, control tables of XM430-W210 (docs/en/dxl/x/xm430-w210) and MX-28(2.0)
+/// (docs/en/dxl/mx/mx-28-2), which agree. Size in bytes after each address. EEPROM is writable only
+/// while Torque Enable is 0.
 namespace verp::dxl {
 
 inline constexpr std::uint16_t kModelXm430W210 = 1030;  ///< e-Manual XM430-W210, Model Number (0)
@@ -70,8 +69,8 @@ inline constexpr std::uint16_t kPositionTrajectory = 140;    // 4, read only
 inline constexpr std::uint16_t kPresentVoltage = 144;        // 2, read only, 0.1 V
 inline constexpr std::uint16_t kPresentTemperature = 146;    // 1, read only, degrees Celsius
 inline constexpr std::uint16_t kBackupReady = 147;           // 1, read only
-// Two blocks of 28 pairs: Indirect Data n (1) stands for the register byte (64 to 661) that
-// Indirect Address n (2) names.
+// Two blocks of 28 pairs: Indirect Data n (1) stands for the byte (64 to 661) at Indirect Address n
+// (2).
 inline constexpr std::uint16_t kIndirectAddress1 = 168;
 inline constexpr std::uint16_t kIndirectData1 = 224;
 inline constexpr std::uint16_t kIndirectAddress29 = 578;
@@ -79,7 +78,7 @@ inline constexpr std::uint16_t kIndirectData29 = 634;
 }  // namespace address
 
 inline constexpr std::uint16_t kIndirectBlock = 28;  ///< pairs in each block
-inline constexpr std::uint16_t kIndirectFirst = 64;  ///< range that an Indirect Address may name
+inline constexpr std::uint16_t kIndirectFirst = 64;  ///< range of Indirect Addresses
 inline constexpr std::uint16_t kIndirectLast = 661;
 inline constexpr std::uint8_t kFactoryId = 1;
 inline constexpr std::uint32_t kFactoryBaud = 57600;
@@ -88,9 +87,8 @@ inline constexpr std::uint8_t kTimeBasedProfile = 1 << 2;  ///< bit 2 of Drive M
 inline constexpr std::uint8_t kPositionMode = 3;  ///< Operating Mode: position control, one turn
 inline constexpr std::uint16_t kFullPwm = 885;    ///< PWM Limit of 100 %
 
-/// Bus Watchdog: after this many units with torque on and no instruction packet on the bus, the
-/// servo stops in place. The register then reads kBusWatchdogTripped, and goals are refused until 0
-/// is written. 0: off.
+/// After this many units with torque and no instruction packet on the bus the servo stops in place.
+/// Bus Watchdog then reads kBusWatchdogTripped, and goals are refused until 0 is written. 0: off.
 inline constexpr std::uint32_t kBusWatchdogUnit_us = 20000;
 inline constexpr std::uint8_t kBusWatchdogMost = 127;
 inline constexpr std::uint8_t kBusWatchdogTripped = 0xFF;  ///< -1
@@ -104,7 +102,7 @@ enum HardwareError : std::uint8_t {
   kOverloadError = 1 << 5,
 };
 
-/// Value of Baud Rate (8); 0xFF for a rate that the servos lack.
+/// Baud Rate (8); 0xFF for a rate that the servos lack.
 constexpr std::uint8_t baud_rate_code(std::uint32_t baud) {
   constexpr std::uint32_t kRates[] = {9600,    57600,   115200,  1000000,
                                       2000000, 3000000, 4000000, 4500000};
@@ -114,14 +112,14 @@ constexpr std::uint8_t baud_rate_code(std::uint32_t baud) {
   return 0xFF;
 }
 
-/// The sensor block: one Sync Read fetches it every tick from the IMU, both feet and one servo,
-/// because a Sync Read has one address and one length for all devices. Twelve bytes from 136 are
+/// The sensor block: a Sync Read, with one address and length for all devices, fetches it every
+/// tick from the IMU, both feet and one servo. Twelve bytes from 136 are
 ///   IMU device:  gyro x y z, accel x y z; int16 each, IMU frame;
 ///   foot device: front-left, front-right, back-left, back-right; uint16 each; then 4 zero bytes;
 ///   servo:       Velocity Trajectory, Position Trajectory, Present Input Voltage, Present
 ///                Temperature, Backup Ready.
-/// Unlike Present Position, they do not begin a tick. A read may begin a few bytes earlier
-/// (BusMaster::spare_bytes); the reader ignores those bytes.
+/// Unlike Present Position, they do not begin a tick. A read may begin some bytes earlier
+/// (BusMaster::spare_bytes), which are ignored.
 namespace sensor_block {
 inline constexpr std::uint16_t kAddress = 136;
 inline constexpr std::uint16_t kBytes = 12;

@@ -7,17 +7,16 @@
 #include "common/model/params.hpp"
 #include "common/model/tuning_ranges.hpp"
 
-/// The register table of the controller, which is a Dynamixel device on the operator's port. It is
-/// the one source of the device (firmware/app/operator_device.hpp), its documentation
-/// (firmware/app/registers.md), the names in `verp bus` and an object dictionary. Registers common
-/// to all Dynamixels keep their addresses (0 to 7, 64, 68 to 70). Registers are little-endian, in
-/// order of address, each at a multiple of its size except Model Information, whose place the
-/// vendor chose.
+/// Registers of the controller as a Dynamixel device on the operator's port: the one source of the
+/// device (firmware/app/operator_device.hpp), its documentation (firmware/app/registers.md), the
+/// names in `verp bus` and an object dictionary. Those that every Dynamixel has keep their
+/// addresses (0 to 7, 64, 68 to 70). Little-endian, in order of address, each at a multiple of its
+/// size except the vendor's Model Information.
 namespace verp::dxl::controller {
 
 inline constexpr std::uint8_t kDefaultId = 200;
 inline constexpr std::uint16_t kModel = 0x7600;  ///< ours, like the sensors' in control_table.hpp
-/// Firmware Version (6). Raise it whenever a register moves or changes its meaning.
+/// Firmware Version (6). Raise when a register moves or changes its meaning.
 inline constexpr std::uint8_t kTableVersion = 1;
 
 enum class Type : std::uint8_t { kU8, kU16, kU32, kU64, kI8, kI16, kI32, kF32, kText };
@@ -28,7 +27,6 @@ constexpr std::uint8_t type_bytes(Type type) {
   constexpr std::uint8_t kBytes[] = {1, 2, 4, 8, 1, 2, 4, 4, 1};
   return kBytes[static_cast<std::size_t>(type)];
 }
-/// True for integer types that hold negative values.
 constexpr bool is_signed(Type type) {
   return type == Type::kI8 || type == Type::kI16 || type == Type::kI32;
 }
@@ -53,14 +51,14 @@ struct Register {
 
   constexpr unsigned bytes() const { return unsigned{count} * type_bytes(type); }
   constexpr bool writable() const { return access != Access::kRead; }
-  /// CANopen: each register is an object of the manufacturer's area, 2000h to 5FFFh. Several
-  /// elements are an ARRAY with subindices from 1, a text is one VISIBLE_STRING.
+  /// CANopen: each register is a manufacturer object (2000h to 5FFFh). Several elements are an
+  /// ARRAY, subindices from 1; a text is one VISIBLE_STRING.
   constexpr std::uint16_t object_index() const {
     return static_cast<std::uint16_t>(0x2000 + address);
   }
 };
 
-/// Rows of the device arrays: servos in the order of Params, then these.
+/// Rows of device arrays: servos in the order of Params, then these.
 inline constexpr int kDeviceImu = kMaxJoints;
 inline constexpr int kDeviceFoot = kDeviceImu + 1;  ///< left, then right
 inline constexpr int kDeviceBus = kDeviceFoot + kFeet;
@@ -92,7 +90,7 @@ enum class SelfTest : std::uint8_t {
   kKinematics,
   kControl
 };
-/// The causes of hal/chip/stm32/reset_cause.hpp. kFault: a crash record was found.
+/// As hal/chip/stm32/reset_cause.hpp. kFault: a crash record was found.
 enum class ResetCause : std::uint8_t {
   kUnknown,
   kPower,
@@ -102,10 +100,10 @@ enum class ResetCause : std::uint8_t {
   kLowPower,
   kFault
 };
-/// The sources of hal/chip/stm32/clock.hpp. kUnknown: the board does not report it.
+/// As hal/chip/stm32/clock.hpp. kUnknown: not reported.
 enum class ClockSource : std::uint8_t { kUnknown, kCrystal, kInternalPll, kInternal, kAbsent };
-/// Reasons for a board never to give torque. The LED flashes this often; it starts at 2, because
-/// one flash is the sign of life.
+/// Why a board never gives torque, and how often its LED flashes; from 2, because one flash is the
+/// sign of life.
 enum class StartFault : std::uint8_t {
   kNone,
   kSelfTest = 2,
@@ -114,7 +112,7 @@ enum class StartFault : std::uint8_t {
   kServoPort,
   kPeriod,
   kWatchdog,
-  kProtocol  ///< the robot's bus protocol is not this image's
+  kProtocol  ///< the robot's protocol is not this image's
 };
 enum class ServoPower : std::uint8_t { kNotSwitched, kOn, kOff };
 enum class WindowState : std::uint8_t { kIdle, kReceiving, kAccepted, kRefused };
@@ -130,7 +128,6 @@ constexpr Register rw(std::uint16_t address, const char* name, Type type, std::u
                       const char* unit, const char* meaning, std::uint16_t count = 1) {
   return {address, name, type, Access::kWrite, count, 0, maximum, unit, meaning};
 }
-/// Takes all 16 bits.
 constexpr Register rw_i16(std::uint16_t address, const char* name, const char* unit,
                           const char* meaning) {
   return {address, name, Type::kI16, Access::kWrite, 1, -32768, 32767, unit, meaning};
@@ -177,11 +174,10 @@ inline constexpr Register kTable[] = {
     r(71, "start_fault", u8, "", "no torque until a reset; so many flashes: 2 self_test failed, 3 timer, 4 this port, 5 servo port, 6 period_us, 7 watchdog, 8 bus protocol; 0: none"),
     r(72, "crash_pc", u32, "", "the crash before this start: its instruction; 0 with crash_count 1 or more: stack overflow"),
     r(76, "crash_cause", u32, "bits", "CFSR of the core at that crash"),
-    // The operator's order. Every write to 80..101 makes it fresh and feeds the operator watchdog.
-    // With torque off, request returns to 0 when a loop begins, and when the loop stood still for
-    // longer than an order lasts. After each start, even by a watchdog, 1 to 3 are refused (Result
-    // Fail) until 0 was written, so that a program's repeated order cannot raise a robot that was
-    // reset.
+    // The operator's order. A write to 80..101 makes it fresh and feeds the operator watchdog. With
+    // torque off, request returns to 0 when a loop begins or stood still for longer than an order
+    // lasts. After each start, even by a watchdog, 1 to 3 are refused (Result Fail) until 0 was
+    // written: a repeated order must not raise a robot that was reset.
     rw(80, "request", u8, 3, "", "0 relax, 1 stand, 2 walk, 3 stand, from the floor too: leave to get up by the robot's own action; after each start 1 to 3 are refused until 0 was written; with torque off back to 0 when a loop begins or stood still"),
     rw(81, "command_sequence", u8, 255, "", "count the orders here; it is recorded with each tick"),
     rw_i16(82, "walk_vx", "0.1 mm/s", "forward velocity, body frame"),
@@ -199,8 +195,8 @@ inline constexpr Register kTable[] = {
     r(103, "imu_calibration", u8, "", "0 none, 1 measuring, 2 kept; refused, the old one counts: 3 moved, 4 not upright, 5 too few samples in 20 s (chip silent, or a twin in lockstep); 6 none counts: the kept one is of another scale or mounting"),
     r(104, "bring_up", u8, "", "0 not yet, 1 every device is ready; the last failure: 2 silent, 3 another model, 4 refused a write, 5 does not keep it, 6 has a hardware error, 7 somebody else commands nodes on its bus, 8 did not boot when it was reset"),
     r(105, "bring_up_device", u8, "", "bus id of the device at which it failed"),
-    // One number of the tuning. A write of parameter_value reaches exactly one tick; until then a
-    // second one is refused (Result Fail).
+    // One number of the tuning. A write of parameter_value reaches exactly one tick; until then
+    // another is refused (Result Fail).
     rw(106, "parameter_id", u16, kTuningCount - 1, "", "which number; see the list below"),
     rw(108, "parameter_value", f32, kAll32, "", "its value in force; writing is refused out of its range"),
     r(112, "parameter_low", f32, "", "lowest value allowed"),
@@ -249,7 +245,7 @@ inline constexpr Register kTable[] = {
     r(544, "joint_temperature", u8, "deg C", "as each servo told last", kMaxJoints),
     r(576, "joint_error", u8, "bits", "Hardware Error Status as each servo told last", kMaxJoints),
     r(608, "joint_voltage", u16, "0.1 V", "as each servo told last", kMaxJoints),
-    // Every device: rows 0..31 servos, 32 IMU, 33 and 34 feet, 35 servo bus, 36 this link.
+    // Rows: 0..31 servos, 32 IMU, 33 and 34 feet, 35 servo bus, 36 this link.
     r(672, "device_kind", u8, "", "0 none, 1 servo, 2 IMU, 3 foot, 4 servo bus, 5 operator link", kDevices),
     r(712, "device_id", u8, "", "bus id; 0: has none", kDevices),
     r(752, "device_state", u8, "", "0 never seen, 1 good, 2 stale: silent, or a servo that tells the same position while its goal moves away, or an IMU that repeats itself, 3 lost, 4 reports a hardware error", kDevices),
@@ -265,7 +261,7 @@ inline constexpr Register kTable[] = {
     rw(1124, "window_data", u8, 255, "", "reads show the image in force; writes go to a new one, of actions with torque off only", kWindowBytes),
     rw(1252, "window_crc", u32, kAll32, "", "CRC-32 (zip) of all bytes of the new image"),
     disarmed(1256, "window_commit", u8, 1, "", "1: check the new image and take it; reads as 0"),
-    // For a program that runs the same controller beside this one and compares.
+    // For a program that runs the same controller in parallel and compares.
     rw(1257, "tick_hold", u8, 2, "", "1: the State of the last tick stands still, to be read as an image, 2: the last ticks too; the loop goes on; refused where none are kept"),
     r(1258, "inputs_flags", u16, "bits", "of the last tick: InputFlag; on CAN also 256 IMU counts in parts, and from 4096 on the number of parts"),
     r(1260, "tick_low", u16, "ticks", "low half of tick"),
@@ -274,9 +270,8 @@ inline constexpr Register kTable[] = {
     r(1272, "joint_velocity", i32, "counts/s", "as each drive told last (606Ch); CiA 402 only", kMaxJoints),
     r(1400, "joint_torque", i16, "0.1 %", "of the rated torque, as each drive told last (6077h); CiA 402 only", kMaxJoints),
     r(1464, "image_field", text, "", "with self_test 4: the number in the Params image that is none, or none of a robot; empty: it is not that", kFieldNameLength),
-    // The robot's estimate of itself (common/balance/estimator.hpp): z up from the ground under the
-    // stance soles, x and y relative to the body's place and heading at power-up. They drift, as
-    // odometry does.
+    // The robot's own estimate (common/balance/estimator.hpp): z up from the ground under the
+    // stance soles, x and y from the place and heading at power-up, with odometry's drift.
     r(1504, "body_position", f32, "m", "estimated: origin of the body frame, x y z from where it was at power-up", 3),
     r(1516, "body_attitude", f32, "rad", "estimated: roll, pitch (nose down positive) and yaw (turned to the left since power-up)", 3),
     r(1528, "com_position", f32, "m", "estimated: centre of mass, x y z, as body_position", 3),
@@ -299,7 +294,7 @@ constexpr bool same_name(const char* a, const char* b) {
   return false;
 }
 
-/// Returns nullptr if no register has this name.
+/// nullptr if there is none.
 constexpr const Register* find(const char* name) {
   for (const Register& each : row::kTable) {
     if (same_name(each.name, name)) return &each;
@@ -307,8 +302,7 @@ constexpr const Register* find(const char* name) {
   return nullptr;
 }
 
-/// What a device needs of a register at run time. The table's texts stay out of the
-/// microcontroller, where flash is short.
+/// What a device needs at run time: without the texts, because flash is short.
 struct Rule {
   std::uint16_t address = 0;
   std::uint8_t count = 0;
@@ -359,9 +353,9 @@ consteval bool rules_hold_all() {
 }
 static_assert(rules_hold_all(), "a register is longer, or has other bounds, than Rule can say");
 
-/// The rule of the element that begins at `address`; nullptr if none does.
+/// The rule of an element's first byte, else nullptr.
 constexpr const Rule* rule_at(std::uint16_t address) {
-  std::size_t low = 0, high = kRegisters;  // the last one at or before `address` is in [low, high)
+  std::size_t low = 0, high = kRegisters;  // the last at or before `address` is in [low, high)
   while (high - low > 1) {
     const std::size_t middle = (low + high) / 2;
     (kRules.rule[middle].address <= address ? low : high) = middle;
@@ -371,7 +365,6 @@ constexpr const Rule* rule_at(std::uint16_t address) {
   return offset < unsigned{rule.count} * rule.size && offset % rule.size == 0 ? &rule : nullptr;
 }
 
-/// Most bytes that one write can cover.
 consteval std::size_t longest_write() {
   std::size_t longest = 0, run = 0, end = 0;
   for (const Register& each : row::kTable) {

@@ -4,29 +4,29 @@
 
 #include "common/protocol/dynamixel2.hpp"
 
-/// The device side of Protocol 2.0 that all devices share: which part of a packet is for the
-/// device, and whether a write is allowed. Rules from the e-Manual.
+/// The device side of Protocol 2.0 common to all devices: its part of a packet, and whether a write
+/// is allowed. Rules from the e-Manual.
 namespace verp::dxl {
 
-/// The request of a Sync or Bulk Read, fast or not, to one device.
+/// A Sync or Bulk Read, fast or not, for one device.
 struct ReadEntry {
   std::uint8_t id = 0;
   std::uint16_t address = 0;
   std::uint16_t length = 0;
 };
-/// Entry `index` of such a read, in the order of the devices' answers. False if there is none, or
-/// if the packet is malformed or of another kind.
+/// Entry `index`, in order of the answers. False if there is none or the packet is malformed or
+/// another.
 bool read_entry(const Packet& packet, std::size_t index, ReadEntry& entry);
 
-/// The data of a Sync or Bulk Write for one device.
+/// A Sync or Bulk Write for one device.
 struct WriteEntry {
   std::uint8_t id = 0;
   std::uint16_t address = 0;
   const std::uint8_t* data = nullptr;
   std::size_t size = 0;
 };
-/// The entry at `offset` of such a write. Advances `offset`, which starts at 0. False if there are
-/// no more, or the packet is of another kind.
+/// The entry at `offset`, which starts at 0 and is advanced. False if there are no more or the
+/// packet is another.
 bool write_entry(const Packet& packet, std::size_t& offset, WriteEntry& entry);
 
 constexpr bool is_fast_read(Instruction instruction) {
@@ -37,7 +37,6 @@ constexpr std::uint8_t error_field(Error error, bool alert) {
   return static_cast<std::uint8_t>(static_cast<unsigned>(error) | (alert ? kAlert : 0u));
 }
 
-/// A register of 1 to 4 bytes as a number.
 constexpr std::int64_t register_value(const std::uint8_t* bytes, unsigned size, bool is_signed) {
   std::uint32_t raw = 0;
   for (unsigned i = 0; i < size; ++i) raw |= static_cast<std::uint32_t>(bytes[i]) << (8 * i);
@@ -46,7 +45,6 @@ constexpr std::int64_t register_value(const std::uint8_t* bytes, unsigned size, 
   return static_cast<std::int32_t>(raw << unused_bits) >> unused_bits;
 }
 
-/// What may be written at an address now.
 struct WriteRule {
   std::uint8_t size = 0;  ///< bytes of the register that begins there; 0: none
   bool writable = false;
@@ -54,8 +52,8 @@ struct WriteRule {
   std::int64_t maximum = 0;
 };
 
-/// Returns kNone if the `size` bytes at `address` cover whole registers that are writable, with
-/// values in range. `rule_at(address)` returns a WriteRule.
+/// kNone if the `size` bytes at `address` cover whole, writable registers with values in range.
+/// `rule_at(address)` returns the present WriteRule.
 template <class RuleAt>
 constexpr Error check_write(std::uint16_t address, const std::uint8_t* data, std::size_t size,
                             RuleAt&& rule_at) {

@@ -2,15 +2,14 @@
 #include <cstddef>
 #include <cstdint>
 
-/// Dynamixel Protocol 2.0, both ends, bytes only: no clock, port or heap. Source of every number
-/// and layout: ROBOTIS e-Manual, "DYNAMIXEL Protocol 2.0"
-/// (emanual.robotis.com/docs/en/dxl/protocol2). For Fast Sync Read also the vendor's SDK, which
-/// reads such replies without removing stuffing.
+/// Dynamixel Protocol 2.0, both ends, bytes only: no clock, port or heap. Source of numbers and
+/// layouts: ROBOTIS e-Manual, "DYNAMIXEL Protocol 2.0" (emanual.robotis.com/docs/en/dxl/protocol2);
+/// for Fast Sync Read also the vendor's SDK, which does not unstuff such replies.
 ///
 ///     FF FF FD 00 | id | length (2) | instruction | parameters ... | CRC (2)
 ///
-/// `length` counts from the instruction to the end of the CRC, after stuffing. A status packet has
-/// instruction 0x55, and its first parameter is the error field.
+/// `length` counts from the instruction to the CRC's end, after stuffing. A status packet has
+/// instruction 0x55; its first parameter is the error field.
 namespace verp::dxl {
 
 enum class Instruction : std::uint8_t {
@@ -45,10 +44,10 @@ enum class Error : std::uint8_t {
 inline constexpr std::uint8_t kAlert =
     0x80;  ///< error field: Hardware Error Status (70) is not zero
 
-/// What a Factory Reset keeps. A broadcast kAll is ignored (firmware 42).
+/// What a Factory Reset keeps. kAll is ignored as a broadcast (firmware 42).
 enum class Reset : std::uint8_t { kAll = 0xFF, kAllButId = 0x01, kAllButIdAndBaud = 0x02 };
 
-/// Parameters of Clear that remove the turns from a multi-turn position; refused while moving.
+/// Clear: removes turns from a multi-turn position; refused while moving.
 inline constexpr std::uint8_t kClearTurns[] = {0x01, 0x44, 0x58, 0x4C, 0x22};
 
 inline constexpr std::uint8_t kBroadcast = 0xFE;
@@ -59,9 +58,9 @@ inline constexpr std::size_t kHeaderBytes = 7;  ///< up to and including `length
 inline constexpr std::size_t kCrcBytes = 2;
 inline constexpr std::size_t kInstructionBytes = 10;  ///< a packet without parameters
 inline constexpr std::size_t kStatusBytes = 11;       ///< a status packet without data
-inline constexpr std::size_t kMaxPacket = 512;        ///< longest packet this code sends or accepts
-inline constexpr std::size_t kFastHeaderBytes = 8;  ///< a fast reply before its first device block
-inline constexpr std::size_t kFastBlockBytes = 4;   ///< error, id and CRC around each device's data
+inline constexpr std::size_t kMaxPacket = 512;        ///< longest packet sent or accepted
+inline constexpr std::size_t kFastHeaderBytes = 8;    ///< before the first device block
+inline constexpr std::size_t kFastBlockBytes = 4;  ///< error, id and CRC around each device's data
 
 constexpr std::uint16_t get_u16(const std::uint8_t* bytes) {
   return static_cast<std::uint16_t>(bytes[0] | bytes[1] << 8);
@@ -79,12 +78,11 @@ constexpr void put_u32(std::uint8_t* bytes, std::uint32_t value) {
   put_u16(bytes + 2, value >> 16);
 }
 
-/// CRC-16 with polynomial 0x8005, not reflected, initial value 0. `crc` continues an earlier part.
+/// CRC-16: polynomial 0x8005, not reflected, initial value 0 or an earlier part's `crc`.
 std::uint16_t crc16(const std::uint8_t* data, std::size_t size, std::uint16_t crc = 0);
 
-/// Writes one packet into the caller's buffer: begin, parameters, finish. Adds stuffing, so the
-/// buffer may need a third more than the parameters. If a packet does not fit, its size is 0 and
-/// nothing is written past the capacity.
+/// Writes one packet into the caller's buffer: begin, parameters, finish. Stuffing may need a third
+/// more room. A packet that does not fit has size 0; nothing is written past the capacity.
 class Encoder {
  public:
   constexpr Encoder(std::uint8_t* buffer, std::size_t capacity)
@@ -94,7 +92,6 @@ class Encoder {
   void u16(std::uint32_t value);
   void u32(std::uint32_t value);
   void bytes(const std::uint8_t* data, std::size_t size);
-  /// Size of the finished packet; 0 if it did not fit.
   std::size_t finish();
 
  private:
@@ -106,7 +103,7 @@ class Encoder {
   bool fits_ = true;
 };
 
-// Whole instruction packets. Each returns the packet's size; 0 if it did not fit.
+// Whole instruction packets. Each returns its size; 0 if it did not fit.
 std::size_t encode_ping(std::uint8_t* buffer, std::size_t capacity, std::uint8_t id);
 std::size_t encode_read(std::uint8_t* buffer, std::size_t capacity, std::uint8_t id,
                         std::uint16_t address, std::uint16_t length);
@@ -115,7 +112,7 @@ std::size_t encode_write(std::uint8_t* buffer, std::size_t capacity, std::uint8_
 /// A write that waits for kAction.
 std::size_t encode_reg_write(std::uint8_t* buffer, std::size_t capacity, std::uint8_t id,
                              std::uint16_t address, const std::uint8_t* data, std::size_t size);
-/// An instruction without parameters: kPing, kAction or kReboot.
+/// kPing, kAction or kReboot.
 std::size_t encode_plain(std::uint8_t* buffer, std::size_t capacity, std::uint8_t id,
                          Instruction instruction);
 std::size_t encode_factory_reset(std::uint8_t* buffer, std::size_t capacity, std::uint8_t id,
@@ -125,34 +122,33 @@ std::size_t encode_clear_turns(std::uint8_t* buffer, std::size_t capacity, std::
 std::size_t encode_sync_read(std::uint8_t* buffer, std::size_t capacity, Instruction instruction,
                              std::uint16_t address, std::uint16_t length, const std::uint8_t* ids,
                              std::size_t count);
-/// Sync Write, built in steps: begin_sync_write, then id and data of each device, then finish.
+/// Sync Write: begin_sync_write, id and data of each device, finish.
 void begin_sync_write(Encoder& encoder, std::uint16_t address, std::uint16_t length);
-/// Bulk instructions (kBulkRead, kFastBulkRead, kBulkWrite), built in steps: one entry for each
-/// device (in a Bulk Write followed by its data), then finish.
+/// kBulkRead, kFastBulkRead, kBulkWrite: begin_bulk, an entry for each device (in a Bulk Write
+/// followed by its data), finish.
 void begin_bulk(Encoder& encoder, Instruction instruction);
 void bulk_entry(Encoder& encoder, std::uint8_t id, std::uint16_t address, std::uint16_t length);
 inline constexpr std::size_t kBulkEntryBytes = 5;
 std::size_t encode_status(std::uint8_t* buffer, std::size_t capacity, std::uint8_t id,
                           std::uint8_t error, const std::uint8_t* data, std::size_t size);
 
-/// One device's part of the reply to a Fast Sync or Bulk Read. The first device also writes the
-/// header, which announces the `all_bytes` of all blocks (kFastBlockBytes + length each). `crc`
-/// runs through all parts. Fast replies are not stuffed. Returns the part's size; `buffer` must
-/// hold 12 + length bytes.
+/// One device's part of a Fast Sync or Bulk Read's reply, without stuffing. The first also writes
+/// the header with the `all_bytes` of all blocks (kFastBlockBytes + length each). `crc` runs
+/// through all parts. Returns the part's size; `buffer` holds 12 + length bytes.
 std::size_t encode_fast_block(std::uint8_t* buffer, bool first, std::size_t all_bytes,
                               std::uint8_t id, std::uint8_t error, const std::uint8_t* data,
                               std::size_t length, std::uint16_t& crc);
 
-/// One received packet. `parameters` points into the parser and is valid until its next call.
+/// A received packet. `parameters` is valid until the parser's next call.
 struct Packet {
   std::uint8_t id = 0;
   Instruction instruction = Instruction::kPing;
-  std::uint8_t error = 0;  ///< status packets only, with the alert bit; not in `parameters`
+  std::uint8_t error = 0;  ///< status packets only, with alert bit; not in `parameters`
   const std::uint8_t* parameters = nullptr;
   std::size_t size = 0;
 
   bool is_status() const { return instruction == Instruction::kStatus; }
-  /// The reply to a Fast Sync or Bulk Read: blocks of error, id, data, CRC.
+  /// Blocks of error, id, data, CRC.
   bool is_fast_reply() const { return is_status() && id == kBroadcast; }
 };
 
@@ -162,31 +158,28 @@ struct FastBlock {
   std::uint8_t id = 0;
   const std::uint8_t* data = nullptr;
 };
-/// The block at byte `offset` of a fast reply, with `length` data bytes. False if the reply is too
-/// short. The next block begins kFastBlockBytes + length later.
+/// The block at byte `offset` with `length` data bytes; false if the reply is too short. The next
+/// one is kFastBlockBytes + length further.
 bool fast_block_at(const Packet& reply, std::size_t offset, std::size_t length, FastBlock& block);
-/// Block `index` of a fast reply whose blocks carry `length` data bytes. False if there is none.
+/// Block `index` of `length` data bytes each; false if there is none.
 bool fast_block(const Packet& reply, std::size_t index, std::size_t length, FastBlock& block);
 
-/// Finds packets in a byte stream. Noise, cut packets and bad CRCs cost no other packet: after a
-/// failed check the search continues one byte after the false header. Each byte is searched once,
-/// and summed and moved at most once for each false header in the 512 bytes before it: noise costs
-/// a few steps a byte.
+/// Finds packets in a byte stream. Noise, cut packets and bad CRCs cost no other packet: the search
+/// resumes one byte after a false header. Each byte is searched once, and summed and moved at most
+/// once per false header in the 512 bytes before it: a few steps a byte.
 class Parser {
  public:
-  /// Takes a byte. If it returns true, a packet is complete: call next() until it returns false
-  /// before the next push().
+  /// Takes a byte. True: a packet is complete; call next() until false before the next push().
   bool push(std::uint8_t byte);
   /// True if earlier bytes hold another packet.
   bool next();
   const Packet& packet() const { return packet_; }
-  /// Discards all bytes; the counters stay.
+  /// The counters stay.
   void reset() { begin_ = size_ = done_ = need_ = 0; }
 
   std::uint32_t crc_errors() const { return crc_errors_; }
-  /// Bytes that belonged to no packet.
   std::uint32_t noise_bytes() const { return noise_bytes_; }
-  /// Total cost so far: bytes stored, searched, summed and moved. Wraps.
+  /// Cost so far in bytes stored, searched, summed and moved; wraps.
   std::uint32_t steps() const { return steps_; }
 
  private:
@@ -199,10 +192,10 @@ class Parser {
   void decode(std::size_t end);
 
   std::uint8_t buffer_[kMaxPacket];
-  std::size_t begin_ = 0;  ///< first byte in use, where a packet may begin
+  std::size_t begin_ = 0;  ///< where a packet may begin
   std::size_t size_ = 0;   ///< bytes in use
-  std::size_t done_ = 0;   ///< size of the last packet reported; the next call drops it
-  std::size_t need_ = 0;   ///< bytes needed before looking again; at most kMaxPacket
+  std::size_t done_ = 0;   ///< size of the packet last reported, dropped next
+  std::size_t need_ = 0;   ///< bytes to wait for; at most kMaxPacket
   std::uint32_t crc_errors_ = 0;
   std::uint32_t noise_bytes_ = 0;
   std::uint32_t steps_ = 0;

@@ -3,7 +3,7 @@
 namespace verp::canopen {
 namespace {
 
-/// Counts the bits of a frame on the wire and their stuff bits.
+/// Counts a frame's bits and stuff bits.
 class Wire {
  public:
   constexpr void bit(unsigned value) {
@@ -23,7 +23,6 @@ class Wire {
   }
   constexpr std::uint16_t crc() const { return static_cast<std::uint16_t>(crc_); }
   constexpr std::uint32_t all() const { return bits_ + stuff_; }
-  /// True if a stuff bit followed the last bit.
   constexpr bool just_stuffed() const { return just_stuffed_; }
 
  private:
@@ -35,7 +34,7 @@ class Wire {
   bool just_stuffed_ = false;
 };
 
-// From start of frame to the bits after IDE. `rtr` is the bit in the place of RTR or RRS.
+// Start of frame to the bits after IDE. `rtr`: the bit of RTR or RRS.
 void arbitration(Wire& wire, const Frame& frame, unsigned rtr) {
   wire.bit(0);
   if (frame.extended) {
@@ -51,9 +50,7 @@ void arbitration(Wire& wire, const Frame& frame, unsigned rtr) {
 }
 void classic_to_data(Wire& wire, const Frame& frame) {
   arbitration(wire, frame, frame.remote ? 1 : 0);
-  wire.number(0, frame.extended
-                     ? 2
-                     : 1);  // FDF and r0, both dominant; for 11-bit ids IDE was the first of them
+  wire.number(0, frame.extended ? 2 : 1);  // FDF and r0, dominant; for 11-bit ids IDE came first
   wire.number(frame.size, 4);
   for (unsigned i = 0; !frame.remote && i < frame.size; ++i) wire.number(frame.data[i], 8);
 }
@@ -82,7 +79,7 @@ FrameBits exact_bits(const Frame& frame) {
   const std::uint8_t size = can_fd_size(frame.size);
   wire.number(can_length_code(size), 4);
   for (unsigned i = 0; i < size; ++i) wire.number(i < frame.size ? frame.data[i] : 0u, 8);
-  // A stuff bit after the last data bit is the CRC field's fixed one.
+  // After the last data bit it is the CRC field's fixed one.
   const std::uint32_t data = wire.all() - slow - (wire.just_stuffed() ? 1 : 0);
   const std::uint32_t fast = data + (size > 16 ? 4u + 21u + 7u : 4u + 17u + 6u);
   return frame.bit_rate_switch ? FrameBits{slow + end, fast} : FrameBits{slow + fast + end, 0};

@@ -3,22 +3,22 @@
 
 #include "common/protocol/canopen/frame.hpp"
 
-/// Bits of a frame on the wire, and the load of a bus. Source: ISO 11898-1. A stuff bit follows
-/// five equal bits and may be the first of the next five. So at worst one follows the first five
-/// bits, and one each further four.
+/// Bits of a frame on the wire, and a bus's load (ISO 11898-1). A stuff bit follows five equal bits
+/// and may be the first of the next five: at worst one after the first five bits, then one each
+/// four.
 ///
 ///     classic   header 19 (39) | data | CRC 15 || delimiters, ACK, end 10 | intermission 3
 ///     FD        header 22 (41) | data || stuff count 4, CRC 17 (21), fixed stuff bits 6 (7) |
 ///               delimiters, ACK, end 10 | intermission 3
 ///
-/// In brackets: 29-bit identifiers; FD with more than 16 bytes. Stuffing covers the part before the
-/// double line; after it an FD frame has fixed stuff bits.
+/// In brackets: 29-bit identifiers; FD with more than 16 bytes. Stuffing ends at the double line;
+/// FD has fixed stuff bits behind it.
 namespace verp::canopen {
 
-/// Stuff bits to count: none, the mean for random bits, or the maximum.
+/// Stuff bits: none, mean for random bits, maximum.
 enum class Stuffing : std::uint8_t { kNone, kExpected, kWorst };
 
-/// Bits at the nominal and at the data rate: the two phases of an FD frame that switches.
+/// The two phases of an FD frame that switches its rate.
 struct FrameBits {
   std::uint32_t nominal = 0;
   std::uint32_t data = 0;
@@ -41,13 +41,12 @@ struct FrameBits {
 inline constexpr std::uint32_t kIntermissionBits = 3;
 inline constexpr std::uint32_t kFrameEndBits = 10;  ///< CRC delimiter, ACK and its delimiter, end
 
-/// Maximum of stuff bits among `bits` bits.
 constexpr std::uint32_t worst_stuff_bits(std::uint32_t bits) {
   return bits < 5 ? 0 : (bits - 1) / 4;
 }
 
-/// Stuff bits among `bits` bits. A random bit continues its run or starts a new one, and so does a
-/// stuff bit. From there to five equal bits takes 2 + 4 + 8 + 16 bits on average.
+/// A random bit, like a stuff bit, starts a new run or continues one; from there to five equal bits
+/// takes 2 + 4 + 8 + 16 bits on average.
 constexpr std::uint32_t stuff_bits(std::uint32_t bits, Stuffing stuffing) {
   constexpr std::uint32_t kBetweenTwo = 30;
   switch (stuffing) {
@@ -61,15 +60,14 @@ constexpr std::uint32_t stuff_bits(std::uint32_t bits, Stuffing stuffing) {
   return 0;
 }
 
-/// A classic data frame with `size` bytes, including the intermission.
+/// Data frame with `size` bytes and the intermission.
 constexpr FrameBits classic_bits(std::uint8_t size, Stuffing stuffing, bool extended = false) {
   const std::uint32_t stuffed = (extended ? 39u : 19u) + 8u * size + 15u;
   return {stuffed + stuff_bits(stuffed, stuffing) + kFrameEndBits + kIntermissionBits, 0};
 }
 
-/// An FD frame with room for `size` bytes, including the intermission. `switched`: the bits after
-/// BRS up to the CRC delimiter run at the data rate. BRS and the delimiter, where the rate changes,
-/// count as nominal.
+/// Frame with room for `size` bytes and the intermission. `switched`: from after BRS to the CRC
+/// delimiter at the data rate; these two, where the rate changes, count as nominal.
 constexpr FrameBits fd_bits(std::size_t size, Stuffing stuffing, bool switched,
                             bool extended = false) {
   const std::uint32_t bytes = can_fd_size(size);
@@ -77,7 +75,7 @@ constexpr FrameBits fd_bits(std::size_t size, Stuffing stuffing, bool switched,
   const std::uint32_t stuffed_data = 5 + 8 * bytes;      // ESI, data length code, data
   const std::uint32_t crc = bytes > 16 ? 4 + 21 + 7 : 4 + 17 + 6;
   const std::uint32_t arbitration_stuff = stuff_bits(arbitration, stuffing);
-  // A stuff bit at the very end would be the CRC field's first fixed one.
+  // At the very end it would be the CRC field's first fixed one.
   const std::uint32_t data_stuff =
       stuff_bits(arbitration + stuffed_data - 1, stuffing) - arbitration_stuff;
   const std::uint32_t slow = arbitration + arbitration_stuff + kFrameEndBits + kIntermissionBits;
@@ -85,31 +83,29 @@ constexpr FrameBits fd_bits(std::size_t size, Stuffing stuffing, bool switched,
   return switched ? FrameBits{slow, fast} : FrameBits{slow + fast, 0};
 }
 
-/// By the frame's own format.
 constexpr FrameBits frame_bits(const Frame& frame, Stuffing stuffing) {
   if (frame.fd) return fd_bits(frame.size, stuffing, frame.bit_rate_switch, frame.extended);
   return classic_bits(frame.remote ? std::uint8_t{0} : frame.size, stuffing, frame.extended);
 }
 
-/// Exact bits of this frame, including the stuff bits it causes. FD frames count as sent by an
-/// error-active node.
+/// With the stuff bits that this frame causes. FD as sent by an error-active node.
 FrameBits exact_bits(const Frame& frame);
 
-/// CRC of a classic frame: polynomial 4599h over all bits from the start of frame to the data.
+/// Polynomial 4599h over all bits from start of frame to data.
 std::uint16_t classic_crc(const Frame& frame);
 
-/// Bit rates of a bus, 1/s. FD frames that switch use `data`.
+/// Bit/s. FD frames that switch use `data`.
 struct BitRates {
   std::uint32_t nominal = 1'000'000;
   std::uint32_t data = 1'000'000;
 };
-/// Duration of these bits, rounded up.
+/// Rounded up.
 constexpr std::uint64_t wire_time_ns(const FrameBits& bits, const BitRates& rates) {
   constexpr std::uint64_t kSecond = 1'000'000'000;
   return (bits.nominal * kSecond + rates.nominal - 1) / rates.nominal +
          (bits.data * kSecond + rates.data - 1) / rates.data;
 }
-/// Share of time for which a bus with `bits` each `period_us` is busy, in thousandths, rounded up.
+/// Busy share of a bus with `bits` each `period_us`, in thousandths, rounded up.
 constexpr std::uint32_t load_permille(const FrameBits& bits, const BitRates& rates,
                                       std::uint32_t period_us) {
   return static_cast<std::uint32_t>((wire_time_ns(bits, rates) + period_us - 1) / period_us);

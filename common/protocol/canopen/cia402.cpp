@@ -10,8 +10,8 @@ struct Row {
   State next;
 };
 
-// CiA 402's transition table without 13, which starts from every state, and 12 and 16, which depend
-// on the quick stop option code.
+// CiA 402's transitions without 13, from every state, and 12 and 16, which depend on the quick stop
+// option code.
 constexpr Row kRows[] = {
     {1, State::kNotReady, Trigger::kInitialised, State::kSwitchOnDisabled},
     {2, State::kSwitchOnDisabled, Trigger::kShutdown, State::kReadyToSwitchOn},
@@ -81,7 +81,7 @@ std::uint8_t Drive::connection_lost(AbortConnection option, std::int16_t quick_s
   switch (option) {
     case AbortConnection::kFault:
       return apply(Trigger::kFault,
-                   quick_stop_option);  // no cause remains, so the next reset clears it
+                   quick_stop_option);  // leaves no cause: the next reset clears it
     case AbortConnection::kDisableVoltage:
       return apply(Trigger::kDisableVoltage, quick_stop_option);
     case AbortConnection::kQuickStop:
@@ -97,7 +97,7 @@ void EnableSequence::begin(std::uint64_t now_us) {
   since_us_ = now_us;
 }
 
-// A reset is an edge, so a word without the bit separates two resets. False after too many resets.
+// A reset is an edge: a word without the bit comes between two. False after too many.
 bool EnableSequence::reset_fault(std::uint64_t now_us) {
   if (word_ == kWordFaultReset) {
     if (now_us >= reset_us_ + kResetUs) word_ = kWordDisableVoltage;

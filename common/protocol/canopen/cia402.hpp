@@ -1,8 +1,8 @@
 #pragma once
 #include <cstdint>
 
-/// The drive state machine of CiA 402 (IEC 61800-7-201): controlword (6040h) and statusword
-/// (6041h), for drive and master. Transitions have the standard's numbers.
+/// State machine of drives, CiA 402 (IEC 61800-7-201): controlword (6040h) and statusword (6041h),
+/// both sides. Transitions have the standard's numbers.
 namespace verp::canopen::cia402 {
 
 enum class State : std::uint8_t {
@@ -33,7 +33,7 @@ inline constexpr std::uint16_t kWordSwitchOn = 0x0007;  ///< and "disable operat
 inline constexpr std::uint16_t kWordEnableOperation = 0x000F;
 inline constexpr std::uint16_t kWordFaultReset = 0x0080;
 
-// Bits of the statusword other than the state's.
+// Other bits of the statusword.
 inline constexpr std::uint16_t kVoltageEnabled = 1 << 4;
 inline constexpr std::uint16_t kWarning = 1 << 7;
 inline constexpr std::uint16_t kRemote = 1 << 9;  ///< the drive obeys the controlword
@@ -41,13 +41,13 @@ inline constexpr std::uint16_t kInternalLimit = 1 << 11;
 inline constexpr std::uint16_t kFollowsCommand = 1 << 12;  ///< cyclic modes: the target is used
 inline constexpr std::uint16_t kFollowingError = 1 << 13;  ///< cyclic synchronous position
 
-/// The statusword's state bits (0 to 3, 5, 6).
+/// Bits 0 to 3, 5, 6.
 constexpr std::uint16_t state_bits(State state) {
   constexpr std::uint16_t kBits[kStates] = {0x00, 0x40, 0x21, 0x23, 0x27, 0x07, 0x0F, 0x08};
   return kBits[static_cast<unsigned>(state)];
 }
-/// The state in a statusword. Unknown bits give kNotReady, in which a master waits. Bit 5 (quick
-/// stop) counts only where the standard says so.
+/// Unknown bits give kNotReady, in which a master waits. Bit 5 (quick stop) counts only where the
+/// standard says so.
 constexpr State state_of(std::uint16_t statusword) {
   const unsigned low = statusword & 0x4Fu;
   if (low == 0x40) return State::kSwitchOnDisabled;
@@ -67,7 +67,7 @@ constexpr State state_of(std::uint16_t statusword) {
   }
 }
 
-/// Causes of a state change: a controlword's command or an internal event.
+/// A controlword's command or an internal event.
 enum class Trigger : std::uint8_t {
   kShutdown,
   kSwitchOn,         ///< if operation is enabled: "disable operation"
@@ -76,18 +76,16 @@ enum class Trigger : std::uint8_t {
   kQuickStop,
   kFaultReset,
   kNone,         ///< a controlword without a command
-  kInitialised,  ///< this and the following are events
+  kInitialised,  ///< from here on, events
   kQuickStopDone,
   kFault,
   kFaultReactionDone,
 };
 
-/// The command of a controlword; `previous` is the one before it. A fault reset is an edge and has
-/// priority.
+/// A fault reset is an edge, has priority, and needs the `previous` controlword.
 constexpr Trigger command_of(std::uint16_t controlword, std::uint16_t previous) {
   if ((controlword & ~previous & kBitFaultReset) != 0) return Trigger::kFaultReset;
-  if ((controlword & kBitFaultReset) != 0)
-    return Trigger::kNone;  // every other command has a 0 there
+  if ((controlword & kBitFaultReset) != 0) return Trigger::kNone;  // other commands have a 0 there
   if ((controlword & kBitEnableVoltage) == 0) return Trigger::kDisableVoltage;
   if ((controlword & kBitQuickStop) == 0) return Trigger::kQuickStop;
   if ((controlword & kBitSwitchOn) == 0) return Trigger::kShutdown;
@@ -98,17 +96,16 @@ struct Transition {
   std::uint8_t number = 0;  ///< the standard's number; 0: no transition
   State next = State::kNotReady;
 };
-/// Effect of a trigger in a state. `stays_in_quick_stop`: quick stop option code 5 to 8, with which
-/// the drive waits in kQuickStopActive and may be enabled again.
+/// `stays_in_quick_stop`: quick stop option code 5 to 8, which waits in kQuickStopActive and may be
+/// enabled from there.
 Transition transition(State state, Trigger trigger, bool stays_in_quick_stop);
 
-/// Quick stop option code, object 605Ah, as far as the state depends on it.
+/// Quick stop option code, object 605Ah.
 constexpr bool stays_in_quick_stop(std::int16_t option) {
   return option >= 5 && option <= 8;
 }
 
-/// Abort connection option code, object 6007h: a drive's reaction when it loses its master's
-/// heartbeat (1016h) or the bus.
+/// Abort connection option code, object 6007h: reaction to a lost master heartbeat (1016h) or bus.
 enum class AbortConnection : std::int16_t {
   kNothing = 0,
   kFault = 1,
@@ -125,20 +122,19 @@ class Drive {
     return state_ == State::kOperationEnabled || state_ == State::kQuickStopActive ||
            state_ == State::kFaultReactionActive;
   }
-  /// `bits` are the bits other than the state's.
+  /// `bits`: those other than the state's.
   std::uint16_t statusword(std::uint16_t bits) const {
     return static_cast<std::uint16_t>((bits & ~0x6F) | state_bits(state_));
   }
 
-  /// Takes a controlword. Call it for each one, changed or not: 000Fh in kReadyToSwitchOn first
-  /// switches on and the next one enables. Returns the transition's number, 0 for none.
+  /// Call for each controlword, changed or not: 000Fh in kReadyToSwitchOn first switches on, the
+  /// next enables. Returns the transition's number, 0 for none.
   std::uint8_t control(std::uint16_t controlword, std::int16_t quick_stop_option);
-  /// Takes an internal event: kInitialised, kQuickStopDone, kFault or kFaultReactionDone. A fault
-  /// cannot be reset before clear_fault().
+  /// kInitialised, kQuickStopDone, kFault or kFaultReactionDone. A fault cannot be reset before
+  /// clear_fault().
   std::uint8_t event(Trigger trigger, std::int16_t quick_stop_option);
-  /// Call when the fault's cause is gone.
+  /// The fault's cause is gone.
   void clear_fault() { fault_present_ = false; }
-  /// Call when the connection to the master is lost.
   std::uint8_t connection_lost(AbortConnection option, std::int16_t quick_stop_option);
 
  private:
@@ -148,22 +144,22 @@ class Drive {
   bool fault_present_ = false;
 };
 
-/// The master side: brings one drive to operation enabled from any state, or reports failure.
+/// The master side: brings a drive to operation enabled from any state, or reports why not.
 class EnableSequence {
  public:
   enum class Result : std::uint8_t {
     kBusy,
     kEnabled,
-    kStuck,   ///< a state did not change in time, see state()
-    kFaulty,  ///< the fault stayed or came back after kMaxResets resets
+    kStuck,   ///< a state did not change in time
+    kFaulty,  ///< the fault outlasted kMaxResets resets
   };
   static constexpr std::uint64_t kStateTimeoutUs = 1'000'000;
   static constexpr std::uint64_t kResetUs = 200'000;  ///< between two resets
   static constexpr std::uint8_t kMaxResets = 3;
 
   void begin(std::uint64_t now_us);
-  /// Takes the drive's statusword; word() is then the controlword to send. A drive that leaves
-  /// operation after kEnabled stays there until begin().
+  /// Takes the statusword; word() is then the controlword to send. A drive that leaves operation is
+  /// not brought back before begin().
   Result update(std::uint16_t statusword, std::uint64_t now_us);
   std::uint16_t word() const { return word_; }
   /// From the last statusword.

@@ -1,12 +1,12 @@
 #pragma once
 #include <cstdint>
 
-/// Identifiers of services: the generic pre-defined connection set of CiA 301. An identifier is a
-/// function code (four bits) and a node id (seven bits).
+/// Identifiers by CiA 301's generic pre-defined connection set: function code (four bits) and node
+/// id (seven bits).
 namespace verp::canopen {
 
 inline constexpr std::uint8_t kMaxNode = 127;
-inline constexpr std::uint8_t kPdosOfSet = 4;  ///< PDOs of each direction that have an identifier
+inline constexpr std::uint8_t kPdosOfSet = 4;  ///< per direction, with an identifier
 
 constexpr bool is_node(unsigned node) {
   return node >= 1 && node <= kMaxNode;
@@ -19,11 +19,11 @@ inline constexpr std::uint16_t kTimeId = 0x100;
 constexpr std::uint16_t emcy_id(std::uint8_t node) {
   return static_cast<std::uint16_t>(0x080 + node);
 }
-/// TPDO `number` 1 to 4, which the device sends.
+/// `number` 1 to 4; the device sends it.
 constexpr std::uint16_t tpdo_id(unsigned number, std::uint8_t node) {
   return static_cast<std::uint16_t>(0x080 + 0x100 * number + node);
 }
-/// RPDO `number` 1 to 4, which the device receives.
+/// `number` 1 to 4; the device receives it.
 constexpr std::uint16_t rpdo_id(unsigned number, std::uint8_t node) {
   return static_cast<std::uint16_t>(0x100 + 0x100 * number + node);
 }
@@ -35,19 +35,19 @@ constexpr std::uint16_t sdo_response_id(std::uint8_t node) {
 constexpr std::uint16_t sdo_request_id(std::uint8_t node) {
   return static_cast<std::uint16_t>(0x600 + node);
 }
-/// The two identifiers of an SDO channel: to and from the server.
+/// To and from the server.
 struct SdoChannel {
   std::uint16_t request = 0;
   std::uint16_t response = 0;
   constexpr bool operator==(const SdoChannel&) const = default;
 };
-/// A node's default channel, described by 1200h.
+/// The one in 1200h.
 constexpr SdoChannel default_sdo(std::uint8_t node) {
   return {sdo_request_id(node), sdo_response_id(node)};
 }
-/// Further channel `number`, from 1, described by 1201h and on. Two clients of one channel would
-/// take each other's answers. Only one node on a bus may have further channels; the predefined set
-/// does not use these identifiers.
+/// Channel `number`, from 1, in 1201h and on. Only one node of a bus may have any, since two
+/// clients of a channel take each other's answers. The predefined set leaves these identifiers
+/// free.
 constexpr SdoChannel further_sdo(unsigned number) {
   return {static_cast<std::uint16_t>(0x6D0 + number), static_cast<std::uint16_t>(0x6C0 + number)};
 }
@@ -75,7 +75,7 @@ struct Connection {
   constexpr bool operator==(const Connection&) const = default;
 };
 
-/// The service of an 11-bit identifier under the default configuration.
+/// By the default configuration.
 constexpr Connection connection_of(std::uint32_t id) {
   if (id == kNmtId) return {Service::kNmt};
   if (id == kSyncId) return {Service::kSync};
@@ -94,7 +94,7 @@ constexpr Connection connection_of(std::uint32_t id) {
   return {};
 }
 
-/// Identifiers that configurable services (SYNC, EMCY, PDO ...) must not use: CiA 301's list.
+/// Identifiers closed to configurable services (SYNC, EMCY, PDO ...): CiA 301's list.
 constexpr bool is_restricted(std::uint32_t id) {
   return id <= 0x07F || (id >= 0x101 && id <= 0x180) || (id >= 0x581 && id <= 0x5FF) ||
          (id >= 0x601 && id <= 0x67F) || (id >= 0x6E0 && id <= 0x6FF) || id >= 0x701;

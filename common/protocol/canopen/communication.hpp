@@ -7,11 +7,10 @@
 #include "common/protocol/canopen/pdo_record.hpp"
 #include "common/protocol/canopen/sync.hpp"
 
-/// A device's communication objects, 1000h to 1FFFh (CiA 301), in front of its application's
-/// objects.
+/// A device's communication objects, 1000h to 1FFFh (CiA 301), before its application's.
 namespace verp::canopen {
 
-/// Identity of a device. The text must outlive it.
+/// The text must outlive it.
 struct Identity {
   std::uint32_t device_type = 0;  ///< 1000h: 00020192h is a CiA 402 servo drive
   const char* name = "";          ///< 1008h
@@ -21,9 +20,9 @@ struct Identity {
   std::uint32_t serial = 0;
 };
 
-/// What an application adds to Dictionary so that PDOs can map its objects.
+/// What an application adds to a Dictionary for PDOs.
 ///  - mappable(at, bits, receive): kNone if an RPDO (TPDO) may map the object.
-///  - get(at, bits), put(at, bits, value): a mapped object's value, low bits.
+///  - get(at, bits), put(at, bits, value): a mapped object's low bits.
 template <class A>
 concept Application = Dictionary<A> &&
     requires(A& application, Address at, std::uint8_t bits, std::uint64_t value) {
@@ -32,20 +31,19 @@ concept Application = Dictionary<A> &&
   { application.put(at, bits, value) } -> std::same_as<void>;
 };
 
-/// Numbers of each kind in a device.
 struct DeviceSize {
   std::size_t rpdos = 1;
   std::size_t tpdos = 1;
-  std::size_t entries = 8;  ///< of a mapping: a classic frame has 8 bytes
-  std::size_t watched = 1;  ///< nodes in 1016h
-  bool beats = true;       ///< false: another sender produces its heartbeat, and 1017h is read-only
-  bool falls_back = true;  ///< 1029h; false: the node stays operational after errors
-  bool stores = false;     ///< 1010h and 1011h
-  std::size_t further_sdos = 0;  ///< channels besides the default one: 1201h and on
+  std::size_t entries = 8;       ///< of a mapping: 8 bytes of a classic frame
+  std::size_t watched = 1;       ///< nodes in 1016h
+  bool beats = true;             ///< false: another sender beats for it; 1017h is read-only
+  bool falls_back = true;        ///< 1029h; false: stays operational after errors
+  bool stores = false;           ///< 1010h and 1011h
+  std::size_t further_sdos = 0;  ///< besides the default one: 1201h and on
 };
 inline constexpr std::size_t kErrorHistory = 4;
 
-/// Orders by 1010h:1 and 1011h:1. Defaults take effect at the next reset.
+/// By 1010h:1 and 1011h:1. Defaults take effect at the next reset.
 enum class StoreOrder : std::uint8_t { kNone, kStore, kRestore };
 inline constexpr std::uint32_t kSaveSignature = 0x65766173;  ///< "save"
 inline constexpr std::uint32_t kLoadSignature = 0x64616F6C;  ///< "load"
@@ -134,7 +132,7 @@ class CommunicationObjects {
     order_ = StoreOrder::kNone;
     return order;
   }
-  /// Restores from `stored` what 1010h stores.
+  /// What 1010h stores.
   void restore(const CommunicationObjects& stored) {
     for (std::size_t i = 0; i < kSize.rpdos; ++i) rpdos[i] = stored.rpdos[i];
     for (std::size_t i = 0; i < kSize.tpdos; ++i) tpdos[i] = stored.tpdos[i];
@@ -144,7 +142,7 @@ class CommunicationObjects {
     error_behaviour = stored.error_behaviour;
   }
 
-  // The application sets defaults here before the device starts; then the bus changes them.
+  // The application's defaults before a start; the bus changes them afterwards.
   Record rpdos[kSize.rpdos];
   Record tpdos[kSize.tpdos];
   HeartbeatProducer producer;
@@ -155,7 +153,7 @@ class CommunicationObjects {
   ErrorBehaviour error_behaviour = ErrorBehaviour::kPreOperational;
 
  private:
-  /// The first four have the predefined identifiers. All are off until configured.
+  /// All are off until configured; the first four have predefined identifiers.
   static Record off(Direction direction, std::size_t number, std::uint16_t id) {
     return {direction, number < kPdosOfSet ? id | kPdoInvalid : kPdoInvalid, kEventProfile, {}};
   }
@@ -247,8 +245,8 @@ class CommunicationObjects {
     number = {static_cast<std::uint8_t>(at.subindex == 0 ? 1 : 4), false, values[at.subindex]};
     return Abort::kNone;
   }
-  /// The record of an index; null if there is none. 200h indices each: communication and mapping of
-  /// RPDOs, then of TPDOs.
+  /// Null if there is none. 200h indices each: RPDO communication, mapping, TPDO communication,
+  /// mapping.
   const Record* record(std::uint16_t index) const {
     if (index < 0x1400 || index >= 0x1C00) return nullptr;
     const std::size_t number = index & 0x1FFu;

@@ -5,18 +5,17 @@
 #include "common/protocol/canopen/communication.hpp"
 #include "common/protocol/canopen/sdo_servers.hpp"
 
-/// A whole CANopen device: the services of CiA 301 around an application's objects.
+/// A whole CANopen device: CiA 301's services around an application's objects.
 ///
 ///  - receive() takes each frame of the bus, next() returns frames to send until there are none;
-///    neither waits. Call next() after each receive() and regularly, because heartbeats are due by
-///    time.
-///  - DeviceEvents report what the application must know.
+///    neither waits. Call next() after each receive() and regularly: heartbeats are due by time.
+///  - DeviceEvents tell the application what happened.
 ///  - PDOs pass only in NMT state operational; SDO, SYNC and EMCY also in pre-operational.
 namespace verp::canopen {
 
 struct DeviceEvents {
   NmtEvent nmt = NmtEvent::kNone;
-  bool sync = false;         ///< a SYNC: synchronous RPDOs have taken effect and TPDOs are made
+  bool sync = false;         ///< a SYNC: RPDOs took effect, TPDOs are made
   std::uint8_t counter = 0;  ///< of that SYNC
   bool put = false;          ///< an RPDO wrote objects
 };
@@ -33,12 +32,12 @@ class Device {
         nmt_(node),
         servers_(objects_, node) {}
 
-  /// The communication objects, for setting defaults.
+  /// For setting defaults.
   Objects& objects() { return objects_; }
   NmtState state() const { return nmt_.state(); }
 
-  /// Starts the device, also after a reset: sends the boot-up message and becomes pre-operational.
-  /// Before a restart the caller sets the objects to their defaults.
+  /// Starts, also after a reset: boot-up message, then pre-operational. The caller sets defaults
+  /// before a restart.
   void start() {
     servers_.reset();
     leave_operational();
@@ -71,7 +70,7 @@ class Device {
     return events;
   }
 
-  /// Returns the next frame to send; false if there is none.
+  /// False if there is no frame to send.
   bool next(Frame& frame, std::uint64_t now_us) {
     if (kSize.beats && objects_.producer.next(now_us, nmt_.state(), frame)) return true;
     if (!may_sdo(nmt_.state())) return false;
@@ -84,13 +83,12 @@ class Device {
     return next_tpdo(frame, now_us) || servers_.next(frame, now_us);
   }
 
-  /// Reports new data in TPDO `which` (from 0). An event-driven one is sent after its inhibit time,
-  /// an acyclic one with the next SYNC.
+  /// New data for TPDO `which` (from 0): an event-driven one goes out after its inhibit time, an
+  /// acyclic one with the next SYNC.
   void trigger(std::size_t which) {
     if (which < kSize.tpdos) sending_[which].event = true;
   }
-  /// Returns TPDO `which` (from 0) if it is due. For a TPDO whose objects change more than once
-  /// before next() would reach it.
+  /// TPDO `which` (from 0), if due. For objects that change again before next() would reach it.
   bool next_pdo(std::size_t which, Frame& frame, std::uint64_t now_us) {
     if (which >= kSize.tpdos || !may_pdo(nmt_.state()) || !objects_.tpdos[which].on()) return false;
     const auto& record = objects_.tpdos[which];
@@ -107,29 +105,28 @@ class Device {
     make(which, frame);
     return true;
   }
-  /// Reports an error by EMCY, 1001h and 1003h. If more than kErrorHistory wait, the later ones are
-  /// only in 1003h. Code 0 (no error) leaves no entry there. `error_register` is the application's
-  /// part of 1001h; communication errors are added.
+  /// Reports an error by EMCY, 1001h and 1003h; with over kErrorHistory waiting, by 1003h only.
+  /// Code 0 (no error) leaves no entry there. `error_register`: the application's part of 1001h,
+  /// without communication errors.
   void report(ErrorCode code, std::uint8_t error_register) {
     hold_error(code, error_register);
     tell(code);
   }
-  /// Sets the application's error without sending an EMCY, if one has been sent already.
+  /// The application's error, if an EMCY has told it already.
   void hold_error(ErrorCode code, std::uint8_t error_register) {
     application_code_ = code;
     application_errors_ =
         code == ErrorCode::kNoError ? error_register : error_register | kErrorGeneric;
     show_errors();
   }
-  /// The present error while 1001h is set. The application's comes before the communication's.
+  /// While 1001h is set: the application's error first, then the communication's.
   ErrorCode standing_error() const {
     if (application_errors_ != 0) return application_code_;
     if ((standing_ & kMasterSilent) != 0) return ErrorCode::kHeartbeatLost;
     if ((standing_ & kSyncOdd) != 0) return ErrorCode::kSyncLength;
     return (standing_ & kPdoOdd) != 0 ? pdo_code_ : ErrorCode::kNoError;
   }
-  /// Finds a watched node (1016h) that fell silent, reports it and acts by 1029h. False if there is
-  /// none.
+  /// A watched node (1016h) fell silent: reports it and obeys 1029h. False if none did.
   bool heartbeat_lost(std::uint64_t now_us) {
     std::uint8_t subindex = 0;
     if (!objects_.consumer.next_lost(now_us, subindex)) return false;
@@ -167,8 +164,8 @@ class Device {
       queue_[emergencies_++] = {node_, number, objects_.error_register, {}};
     }
   }
-  // One EMCY at the start and one at the end of an error (CiA 301): a wrong SYNC may come a hundred
-  // times a second.
+  // One EMCY at an error's start and one at its end (CiA 301): a wrong SYNC comes a hundred times a
+  // second.
   void complain(Cause cause, ErrorCode code) {
     if ((standing_ & cause) != 0) return;
     standing_ |= cause;
@@ -201,7 +198,7 @@ class Device {
       }
       each.event = false;
       each.due = true;
-      make(i, each.frame);  // values at the SYNC, whenever it is sent
+      make(i, each.frame);  // values as at the SYNC
     }
     Frame applied;
     for (std::size_t i = 0; i < kSize.rpdos; ++i) {
@@ -242,8 +239,7 @@ class Device {
     }
     return false;
   }
-  /// An event-driven TPDO is due after an event or its event timer, but never within its inhibit
-  /// time.
+  /// After an event or the event timer, never within the inhibit time.
   static bool event_due(const PdoRecord<kSize.entries>& record, const Sending& each,
                         std::uint64_t now_us) {
     const std::uint64_t timer_us = std::uint64_t{record.event_timer_ms()} * 1000;

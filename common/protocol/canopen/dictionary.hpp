@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 
-/// The object dictionary that SDO and PDO access, and the reasons for refusing an access.
+/// The object dictionary for SDO and PDO, and why access is refused.
 namespace verp::canopen {
 
 /// SDO abort codes, CiA 301's table.
@@ -42,7 +42,7 @@ enum class Abort : std::uint32_t {
   kNoData = 0x08000024,
 };
 
-/// Short English name of the abort; "unknown abort code" if it is not in the table.
+/// In English; "unknown abort code" outside the table.
 const char* abort_text(Abort abort);
 
 struct Address {
@@ -51,7 +51,6 @@ struct Address {
   constexpr bool operator==(const Address&) const = default;
 };
 
-/// Properties of an object.
 struct Entry {
   bool readable = false;
   bool writable = false;
@@ -60,14 +59,13 @@ struct Entry {
   std::uint32_t max_size = 0;
 };
 
-/// Promises of a dictionary:
+/// Promises, without waiting or allocating:
 ///  - find(at, entry): kNone and the entry, or kNoObject, kNoSubindex.
-///  - read(at, offset, buffer, size): copies bytes [offset, offset + size) of the object,
-///    little-endian, or returns an error. One call reads objects up to the server's buffer, so
-///    those may change at any time. Larger ones are read in pieces and must not change meanwhile.
-///  - write(at, data, size): the whole new value, within the entry's sizes; applied or refused,
-///    never partly applied.
-/// None of them waits or allocates.
+///  - read(at, offset, buffer, size): copies bytes [offset, offset + size), little-endian, or
+///    returns an error. Objects up to the server's buffer are read in one call and may change at
+///    any time; larger ones are read in pieces and must not change meanwhile.
+///  - write(at, data, size): the whole new value, within the entry's sizes; done or refused, never
+///    half.
 template <class D>
 concept Dictionary = requires(D& dictionary, Address at, Entry& entry, std::uint32_t offset,
                               std::uint8_t* buffer, const std::uint8_t* data, std::uint32_t size) {
@@ -76,11 +74,11 @@ concept Dictionary = requires(D& dictionary, Address at, Entry& entry, std::uint
   { dictionary.write(at, data, size) } -> std::same_as<Abort>;
 };
 
-/// A dictionary with writable objects larger than the server's buffer (an image, an action):
-///  - write_part(at, offset, data, size): the next bytes, not yet in effect. Offset 0 starts over
-///    and discards an abandoned transfer.
-///  - write_done(at, size): all bytes have arrived, and passed the transfer's check if it had one.
-///    Apply or refuse.
+/// Has writable objects larger than the server's buffer (an image, an action):
+///  - write_part(at, offset, data, size): the next bytes, without effect yet. Offset 0 discards an
+///    abandoned transfer.
+///  - write_done(at, size): all bytes are there and passed the transfer's check, if any: take
+///    effect or refuse.
 template <class D>
 concept StreamingDictionary = Dictionary<D> &&
     requires(D& dictionary, Address at, std::uint32_t offset, const std::uint8_t* data,

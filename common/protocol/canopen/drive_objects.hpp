@@ -6,11 +6,11 @@
 
 /// Objects of a CiA 402 drive in cyclic synchronous position mode: the one source of a virtual
 /// drive's dictionary, a master's mapping and a description for tools. Positions are encoder
-/// increments (608Fh gives increments per turn), speeds increments per second, torques thousandths
-/// of the rated torque (6076h).
+/// increments (608Fh a turn), speeds increments per second, torques thousandths of the rated one
+/// (6076h).
 namespace verp::canopen::cia402 {
 
-/// The modes of operation (6060h) in use.
+/// Modes of operation (6060h) in use.
 inline constexpr std::int8_t kModeNone = 0;
 inline constexpr std::int8_t kModeCyclicPosition = 8;
 /// Supported drive modes (6502h): bit n - 1 for mode n.
@@ -47,7 +47,7 @@ inline constexpr Address kPeriodExponent{0x60C2, 2};
 inline constexpr Address kSupportedModes{0x6502, 0};
 }  // namespace object
 
-/// A drive's values. Defaults are CiA 402's, if it has any.
+/// Defaults are CiA 402's, if it has any.
 struct DriveObjects {
   std::int32_t target_position = 0;
   std::int32_t actual_position = 0;
@@ -92,30 +92,26 @@ struct ObjectRow {
 extern const ObjectRow kDriveRows[];
 extern const std::size_t kDriveRowCount;
 
-/// The row of an address; null if there is none. Subindex 0 of an object with several subindices
-/// has no row.
+/// Null if there is none; subindex 0 of an object with several is no row.
 const ObjectRow* find_row(Address at);
-/// Number of subindices of an object with several, 0 for others: the value of its subindex 0.
+/// Subindex 0 of an object with several; 0 for others.
 std::uint8_t highest_subindex(std::uint16_t index);
 
-/// For a Dictionary: entry and value of a drive's object.
+/// For a Dictionary.
 Abort find_object(Address at, Entry& entry);
 Abort read_object(const DriveObjects& objects, Address at, std::uint8_t* buffer);
-/// Checks what does not depend on the state: refuses an unsupported mode, a period of 0 and unknown
-/// option codes.
+/// Refuses what no state allows: an unsupported mode, a period of 0, unknown option codes.
 Abort write_object(DriveObjects& objects, Address at, const std::uint8_t* data);
-/// Returns kNone if a PDO of the device may map the object with that length.
+/// kNone if a PDO may map the object with that length.
 Abort check_mappable(Address at, std::uint8_t bits, bool receive);
 
-/// Interpolation time period (60C2h) in microseconds: value times ten to the exponent seconds. 0 if
-/// invalid or over a minute.
+/// 60C2h: value times ten to the exponent seconds, in microseconds. 0 if invalid or over a minute.
 std::uint32_t interpolation_period_us(std::uint8_t value, std::int8_t exponent);
 
-/// Monitors the distance between target and actual position (6065h and 6066h).
+/// Distance of target and actual position (6065h, 6066h).
 class FollowingMonitor {
  public:
-  /// Call each cycle while the drive follows its target. True if the distance has exceeded the
-  /// window for longer than allowed.
+  /// Call each cycle while following. True after too long outside the window.
   bool update(const DriveObjects& objects, std::uint64_t now_us);
   void reset() { outside_ = false; }
 

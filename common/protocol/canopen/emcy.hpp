@@ -9,15 +9,15 @@
 /// Emergency messages (CiA 301; the drives' codes are CiA 402's).
 namespace verp::canopen {
 
-/// Error codes that this project sends or knows.
+/// Codes that we send or know.
 enum class ErrorCode : std::uint16_t {
-  kNoError = 0x0000,  ///< "error reset": one or all errors are gone, see the error register
+  kNoError = 0x0000,  ///< "error reset": see the error register for what is left
   kGeneric = 0x1000,
   kOverCurrent = 0x2310,
   kUnderVoltage = 0x3220,
   kOverVoltage = 0x3210,
   kOverTemperature = 0x4310,
-  kCommunication = 0x8100,  ///< another communication error; NMT has stopped the node
+  kCommunication = 0x8100,  ///< another one; NMT has stopped the node
   kCanOverrun = 0x8110,
   kErrorPassive = 0x8120,
   kHeartbeatLost = 0x8130,
@@ -50,7 +50,6 @@ constexpr Frame encode_emcy(const Emergency& emergency) {
   for (unsigned i = 0; i < 5; ++i) frame.data[3 + i] = emergency.manufacturer[i];
   return frame;
 }
-/// False if the frame is not an EMCY.
 constexpr bool decode_emcy(const Frame& frame, Emergency& emergency) {
   if (!is_canopen(frame) || frame.size != 8) return false;
   const Connection connection = connection_of(frame.id);
@@ -62,11 +61,11 @@ constexpr bool decode_emcy(const Frame& frame, Emergency& emergency) {
   return true;
 }
 
-/// Object 1003h, the pre-defined error field: the last kEntries errors, the newest at subindex 1.
+/// Object 1003h: the last kEntries errors, newest at subindex 1.
 template <std::size_t kEntries>
 class ErrorHistory {
  public:
-  /// Error code in the low half, the manufacturer's information in the high one.
+  /// Error code low, manufacturer's information high.
   constexpr void push(std::uint32_t error) {
     for (std::size_t i = kEntries - 1; i > 0; --i) errors_[i] = errors_[i - 1];
     errors_[0] = error;
@@ -79,7 +78,7 @@ class ErrorHistory {
     value = subindex == 0 ? count_ : errors_[subindex - 1];
     return Abort::kNone;
   }
-  /// Only subindex 0 is writable, and only with 0: clears all errors.
+  /// Only subindex 0 is writable, with 0: clears all.
   constexpr Abort write(std::uint8_t subindex, std::uint32_t value) {
     if (subindex > kEntries) return Abort::kNoSubindex;
     if (subindex != 0) return Abort::kReadOnly;

@@ -3,18 +3,16 @@
 
 #include "common/base/can_frame.hpp"
 
-/// CANopen's use of CAN frames: little-endian numbers in classic data frames.
+/// CAN frames in CANopen: little-endian numbers, classic data frames.
 namespace verp::canopen {
 
 using Frame = CanFrame;
 
-/// Reads `bytes` (1 to 8) little-endian bytes.
 constexpr std::uint64_t get_le(const std::uint8_t* from, unsigned bytes) {
   std::uint64_t value = 0;
   for (unsigned i = 0; i < bytes; ++i) value |= std::uint64_t{from[i]} << (8 * i);
   return value;
 }
-/// Writes the low `bytes` (1 to 8) bytes of `value`, little-endian.
 constexpr void put_le(std::uint8_t* to, std::uint64_t value, unsigned bytes) {
   for (unsigned i = 0; i < bytes; ++i) to[i] = static_cast<std::uint8_t>(value >> (8 * i));
 }
@@ -27,8 +25,7 @@ constexpr Frame classic_frame(std::uint32_t id, std::uint8_t size) {
   return frame;
 }
 
-/// CANopen services are classic data frames with 11-bit identifiers; other frames belong to other
-/// protocols.
+/// Other frames belong to other protocols.
 constexpr bool is_canopen(const Frame& frame) {
   return !frame.extended && !frame.remote && !frame.fd;
 }

@@ -6,7 +6,7 @@
 #include "common/protocol/canopen/dictionary.hpp"
 #include "common/protocol/canopen/frame.hpp"
 
-/// Network management and heartbeat, both sides (CiA 301). Times are bus time in microseconds.
+/// Network management and heartbeat, both sides (CiA 301). Times: bus time, microseconds.
 namespace verp::canopen {
 
 /// Values as in a heartbeat.
@@ -41,7 +41,7 @@ constexpr bool may_sdo(NmtState state) {
   return state == NmtState::kOperational || state == NmtState::kPreOperational;
 }
 
-/// Object 1029h:1: reaction of an operational node to a communication error.
+/// Object 1029h:1: an operational node's reaction to a communication error.
 enum class ErrorBehaviour : std::uint8_t { kPreOperational = 0, kStay = 1, kStop = 2 };
 
 enum class NmtEvent : std::uint8_t { kNone, kState, kResetNode, kResetCommunication };
@@ -52,12 +52,11 @@ class NmtSlave {
   constexpr explicit NmtSlave(std::uint8_t node) : node_(node) {}
 
   constexpr NmtState state() const { return state_; }
-  /// Ends initialisation: the node is pre-operational. HeartbeatProducer sends the boot-up message
-  /// first.
+  /// The node is now pre-operational. HeartbeatProducer sends the boot-up message.
   constexpr void initialised() {
     if (state_ == NmtState::kInitialising) state_ = NmtState::kPreOperational;
   }
-  /// Communication error: an operational node leaves that state (1029h).
+  /// Communication error: leaves operational (1029h).
   constexpr NmtEvent fall_back(ErrorBehaviour behaviour) {
     if (state_ != NmtState::kOperational || behaviour == ErrorBehaviour::kStay) {
       return NmtEvent::kNone;
@@ -65,8 +64,7 @@ class NmtSlave {
     return enter(behaviour == ErrorBehaviour::kStop ? NmtState::kStopped
                                                     : NmtState::kPreOperational);
   }
-  /// Applies a frame to this node. After a reset the node initialises again and then calls
-  /// initialised().
+  /// After a reset the node initialises and then calls initialised().
   constexpr NmtEvent receive(const Frame& frame) {
     if (!is_canopen(frame) || frame.id != kNmtId || frame.size != 2) return NmtEvent::kNone;
     if (frame.data[1] != 0 && frame.data[1] != node_) return NmtEvent::kNone;
@@ -103,7 +101,6 @@ constexpr Frame heartbeat_frame(std::uint8_t node, NmtState state) {
   frame.data[0] = static_cast<std::uint8_t>(state);
   return frame;
 }
-/// False if the frame is not a heartbeat.
 constexpr bool decode_heartbeat(const Frame& frame, std::uint8_t& node, NmtState& state) {
   if (!is_canopen(frame) || frame.size != 1) return false;
   const Connection connection = connection_of(frame.id);
@@ -113,22 +110,22 @@ constexpr bool decode_heartbeat(const Frame& frame, std::uint8_t& node, NmtState
   return true;
 }
 
-/// Sends the boot-up message once after each initialisation, then a heartbeat every 1017h
-/// milliseconds (0: none). A late caller skips missed periods, so heartbeats never come in bursts.
+/// Sends the boot-up message after each initialisation, then a heartbeat every 1017h milliseconds
+/// (0: none). A late caller skips periods, so heartbeats never burst.
 class HeartbeatProducer {
  public:
   constexpr explicit HeartbeatProducer(std::uint8_t node) : node_(node) {}
 
-  /// Object 1017h. Starts a new period at once.
+  /// Object 1017h. A new period starts at once.
   constexpr void set_period_ms(std::uint16_t period_ms) {
     period_ms_ = period_ms;
     due_us_ = 0;
   }
   constexpr std::uint16_t period_ms() const { return period_ms_; }
-  /// Makes the boot-up message due again, after a new initialisation.
+  /// Boot-up is due again.
   constexpr void restart() { booted_ = false; }
 
-  /// Returns a due frame; false if none is.
+  /// False if no frame is due.
   constexpr bool next(std::uint64_t now_us, NmtState state, Frame& frame) {
     if (state == NmtState::kInitialising) {
       booted_ = false;
@@ -156,23 +153,23 @@ class HeartbeatProducer {
 
 enum class Life : std::uint8_t {
   kUnused,   ///< entry not used
-  kUnknown,  ///< no heartbeat yet, or none since a boot-up message: not watched so far
+  kUnknown,  ///< no heartbeat yet, or since boot-up: not watched
   kAlive,
   kLost,
 };
 enum class LifeEvent : std::uint8_t {
   kNone,
-  kBooted,  ///< a boot-up message: the node has just started or restarted
+  kBooted,  ///< boot-up message: just started or restarted
   kAlive,   ///< first heartbeat, or first after a loss
   kState,   ///< the NMT state changed
 };
 
-/// Object 1016h with kNodes entries: watched nodes and the silence allowed to each.
+/// Object 1016h with kNodes entries: watched nodes, and how long each may be silent.
 template <std::size_t kNodes>
 class HeartbeatConsumer {
  public:
-  /// Writes entry `subindex` (1 to kNodes): node id in bits 16 to 23, milliseconds below. A time or
-  /// node of 0 disables the entry. A node cannot be watched twice.
+  /// Entry `subindex` (1 to kNodes): node id in bits 16 to 23, milliseconds below; a 0 in either
+  /// disables it. No node may be watched twice.
   constexpr Abort write(std::uint8_t subindex, std::uint32_t value) {
     if (subindex < 1 || subindex > kNodes) return Abort::kNoSubindex;
     const auto node = static_cast<std::uint8_t>(value >> 16);
@@ -185,7 +182,7 @@ class HeartbeatConsumer {
     entries_[subindex - 1] = {value, node, used ? Life::kUnknown : Life::kUnused};
     return Abort::kNone;
   }
-  /// Entry `subindex` (1 to kNodes) as it was written.
+  /// As written.
   constexpr std::uint32_t value(std::uint8_t subindex) const {
     return entries_[subindex - 1].value;
   }
@@ -193,7 +190,7 @@ class HeartbeatConsumer {
   /// From the node's last heartbeat.
   constexpr NmtState state(std::uint8_t subindex) const { return entries_[subindex - 1].state; }
 
-  /// Takes a frame. `subindex` is the entry of an event.
+  /// `subindex`: the event's entry.
   constexpr LifeEvent receive(const Frame& frame, std::uint64_t now_us, std::uint8_t& subindex) {
     std::uint8_t node = 0;
     NmtState state = NmtState::kInitialising;
@@ -207,8 +204,7 @@ class HeartbeatConsumer {
     return LifeEvent::kNone;
   }
 
-  /// Finds one node that has just been silent for too long and reports it once. Call until it
-  /// returns false.
+  /// Reports each loss once. Call until false.
   constexpr bool next_lost(std::uint64_t now_us, std::uint8_t& subindex) {
     for (std::size_t i = 0; i < kNodes; ++i) {
       Watched& each = entries_[i];

@@ -6,11 +6,11 @@
 #include "common/protocol/canopen/dictionary.hpp"
 #include "common/protocol/canopen/frame.hpp"
 
-/// PDOs (CiA 301): their mappings, packing and unpacking. Objects follow in mapping order, without
-/// gaps, least significant bit first.
+/// PDOs (CiA 301): mappings, packing, unpacking. Objects follow in mapping order without gaps,
+/// least significant bit first.
 namespace verp::canopen {
 
-/// One entry of 1600h or 1A00h: index in the high half, subindex, length in bits.
+/// Entry of 1600h or 1A00h: index high, subindex, length in bits.
 struct Mapped {
   Address at;
   std::uint8_t bits = 0;
@@ -25,8 +25,8 @@ struct Mapped {
   constexpr bool operator==(const Mapped&) const = default;
 };
 
-/// Size of a data type's object (0001h to 0007h: BOOLEAN, INTEGER8 to 32, UNSIGNED8 to 32), which
-/// in an RPDO skips that many bits. 0 for any other object.
+/// Bits that a data type's object (0001h to 0007h: BOOLEAN, INTEGER8 to 32, UNSIGNED8 to 32) skips
+/// in an RPDO; 0 for other objects.
 constexpr std::uint8_t dummy_bits(Address at) {
   constexpr std::uint8_t kBits[] = {0, 1, 8, 16, 32, 8, 16, 32};
   return at.subindex == 0 && at.index < 8 ? kBits[at.index] : std::uint8_t{0};
@@ -35,7 +35,7 @@ inline constexpr Mapped kDummyU8{{0x0005, 0}, 8};
 inline constexpr Mapped kDummyU16{{0x0006, 0}, 16};
 inline constexpr Mapped kDummyU32{{0x0007, 0}, 32};
 
-/// A mapping of at most kEntries objects: 8 for a classic frame's bytes, 64 for an FD frame's.
+/// 8 entries for a classic frame's bytes, 64 for an FD frame's.
 template <std::size_t kEntries = 8>
 struct PdoMapping {
   std::uint8_t count = 0;
@@ -47,7 +47,7 @@ struct PdoMapping {
     return sum;
   }
   constexpr unsigned bytes() const { return (bits() + 7) / 8; }
-  /// Appends an entry; false if full.
+  /// False if full.
   constexpr bool add(Mapped entry) {
     if (count >= kEntries) return false;
     entries[count++] = entry;
@@ -58,7 +58,7 @@ struct PdoMapping {
 constexpr std::uint64_t low_bits(std::uint64_t value, unsigned bits) {
   return bits >= 64 ? value : value & ((std::uint64_t{1} << bits) - 1);
 }
-/// Writes `bits` (at most 64) bits of `value` at bit `at` of `bytes`, which must be zero there.
+/// At most 64 bits; `bytes` must be zero there.
 constexpr void put_bits(std::uint8_t* bytes, unsigned at, unsigned bits, std::uint64_t value) {
   for (unsigned done = 0; done < bits;) {
     const unsigned shift = (at + done) % 8;
@@ -80,9 +80,8 @@ constexpr std::uint64_t get_bits(const std::uint8_t* bytes, unsigned at, unsigne
   return value;
 }
 
-/// Fills the frame's data and size. `get(at, bits)` returns an object's value; dummy bits are zero.
-/// An FD frame is padded to the next valid size. The mapping has at most 64 bits, 512 in an FD
-/// frame.
+/// Fills data and size, an FD frame up to the next valid size. `get(at, bits)` returns an object's
+/// value; dummies are zero. At most 64 bits, 512 in an FD frame.
 template <std::size_t kEntries, class Get>
 constexpr void pack_pdo(const PdoMapping<kEntries>& mapping, Frame& frame, Get&& get) {
   const unsigned bytes = mapping.bytes();
@@ -104,7 +103,7 @@ enum class PdoLength : std::uint8_t {
   kTooLong,   ///< processed without the rest: EMCY 8220h is due
 };
 
-/// Passes each object of a received PDO to `put(at, bits, value)`; skips dummies.
+/// Passes received objects to `put(at, bits, value)`, without dummies.
 template <std::size_t kEntries, class Put>
 constexpr PdoLength unpack_pdo(const PdoMapping<kEntries>& mapping, const Frame& frame, Put&& put) {
   const unsigned bytes = mapping.bytes();

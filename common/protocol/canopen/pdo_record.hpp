@@ -4,8 +4,8 @@
 
 #include "common/protocol/canopen/pdo.hpp"
 
-/// A PDO's communication and mapping records as objects (1400h, 1600h, 1800h, 1A00h and on), and
-/// when it is sent or takes effect (CiA 301).
+/// A PDO's communication and mapping records (1400h, 1600h, 1800h, 1A00h and on), and when it is
+/// sent or takes effect (CiA 301).
 namespace verp::canopen {
 
 enum class Direction : std::uint8_t { kReceive, kTransmit };
@@ -23,19 +23,19 @@ inline constexpr std::uint32_t kPdoInvalid = 0x80000000;  ///< bit 31 of a PDO's
 inline constexpr std::uint32_t kPdoNoRemote = 0x40000000;
 inline constexpr std::uint32_t kPdoExtended = 0x20000000;
 
-/// Both records of one PDO. The mapping can change only in CiA 301's order: PDO off, subindex 0 to
-/// 0, the entries, subindex 0 to their number, PDO on. So no PDO uses a half-written mapping.
+/// Both records of one PDO. Mapping changes only in CiA 301's order: PDO off, subindex 0 to 0,
+/// entries, subindex 0 to their number, PDO on. So no PDO uses a half-written mapping.
 template <std::size_t kEntries = 8>
 class PdoRecord {
  public:
   constexpr PdoRecord() = default;
-  /// On, with this identifier, type and mapping.
+  /// Switched on.
   constexpr PdoRecord(Direction direction, std::uint32_t id, std::uint8_t type,
                       const PdoMapping<kEntries>& mapping)
       : direction_(direction), cob_id_(id | kPdoNoRemote), type_(type), mapping_(mapping) {}
 
   constexpr bool on() const { return (cob_id_ & kPdoInvalid) == 0; }
-  /// How often the PDO was switched on, modulo 256: each time its SYNC count restarts.
+  /// Times switched on, modulo 256: each restarts the SYNC count.
   constexpr std::uint8_t times_on() const { return times_on_; }
   constexpr std::uint16_t id() const { return static_cast<std::uint16_t>(cob_id_ & 0x7FF); }
   constexpr std::uint8_t type() const { return type_; }
@@ -44,7 +44,7 @@ class PdoRecord {
   constexpr std::uint16_t event_timer_ms() const { return event_timer_; }
   constexpr const PdoMapping<kEntries>& mapping() const { return mapping_; }
 
-  /// Subindex 0 is 5 for an RPDO and 6 for a TPDO; 4 does not exist.
+  /// Subindex 0 is 5 (RPDO) or 6 (TPDO); 4 does not exist.
   constexpr Abort read_communication(std::uint8_t subindex, std::uint32_t& value) const {
     switch (subindex) {
       case 0:
@@ -103,8 +103,8 @@ class PdoRecord {
     value = subindex == 0 ? mapping_.count : mapping_.entries[subindex - 1].value();
     return Abort::kNone;
   }
-  /// `mappable(at, bits)` returns kNone if this PDO may map the object with that length, else the
-  /// reason. Dummies are handled here and allowed in RPDOs only.
+  /// `mappable(at, bits)` returns kNone if this PDO may map the object, else the reason. Dummies
+  /// are for RPDOs only.
   template <class Mappable>
   constexpr Abort write_mapping(std::uint8_t subindex, std::uint32_t value, Mappable&& mappable) {
     if (subindex > kEntries) return Abort::kNoSubindex;
@@ -128,7 +128,7 @@ class PdoRecord {
     if ((value & kPdoExtended) != 0 || (value & 0x1FFFF800) != 0) return Abort::kValueRange;
     const bool turned_on = (value & kPdoInvalid) == 0;
     if (turned_on && is_restricted(value & 0x7FF)) return Abort::kValueRange;
-    // The identifier may change only while the PDO is off.
+    // The identifier changes only while off.
     if (turned_on && on() && (value & 0x7FF) != id()) return Abort::kValueRange;
     if (turned_on && !on()) times_on_ = static_cast<std::uint8_t>(times_on_ + 1);
     cob_id_ = value;
@@ -167,18 +167,17 @@ class PdoRecord {
   PdoMapping<kEntries> mapping_;
 };
 
-/// Schedule of a synchronous TPDO, fed with each SYNC. With a start value (and a counter in the
-/// SYNC), the TPDO first answers the SYNC with that counter, then every n-th. So groups of drives
-/// with different start values share the SYNCs.
+/// When a synchronous TPDO is sent. With a start value, and a counter in the SYNC, it first answers
+/// that SYNC, then every n-th: groups of drives with different start values share the SYNCs.
 class SyncSchedule {
  public:
-  /// Starts over: the node became operational or the record was written.
+  /// The node became operational, or the record was written.
   constexpr void restart() {
     left_ = 0;
     started_ = false;
   }
-  /// True if a TPDO of `type` goes out after this SYNC. `counter` is 0 for a SYNC without one.
-  /// `event`: an acyclic TPDO has new data.
+  /// True if the TPDO follows this SYNC. `counter`: 0 without one. `event`: an acyclic TPDO has new
+  /// data.
   constexpr bool on_sync(std::uint8_t type, std::uint8_t start, std::uint8_t counter, bool event) {
     if (type == kAcyclicSync) return event;
     if (type > kMaxCyclicSync) return false;
@@ -202,18 +201,17 @@ class SyncSchedule {
   bool started_ = false;
 };
 
-/// When a received PDO takes effect: at once, or with the next SYNC for a synchronous type. A later
-/// frame replaces one that waits.
+/// A synchronous RPDO waits for the next SYNC, others take effect at once. A later frame replaces a
+/// waiting one.
 class RpdoLatch {
  public:
-  /// True if the frame takes effect now.
   constexpr bool receive(std::uint8_t type, const Frame& frame) {
     if (!is_synchronous(type)) return true;
     waiting_ = true;
     frame_ = frame;
     return false;
   }
-  /// Call with each SYNC. True if `frame` takes effect now.
+  /// True if `frame` takes effect now.
   constexpr bool on_sync(Frame& frame) {
     if (!waiting_) return false;
     waiting_ = false;

@@ -4,17 +4,15 @@
 
 #include "common/io/io.hpp"
 
-/// What a controller publishes of each tick on its CAN bus, in event-driven TPDOs of its own node.
-/// With the frames of drives and sensors, a listener then knows the tick's Inputs and the
-/// controller's digest:
+/// A controller's report of each tick, in event-driven TPDOs of its node. With the frames of drives
+/// and sensors a listener knows the tick's Inputs and their digest:
 ///
 ///     TPDO 2   chained digest of all ticks so far                                     each tick
 ///     TPDO 3   tick (low 16 bits), fresh mask, flags                                  each tick
 ///     TPDO 4   a part of Inputs that stands in no other frame of the bus, up to 6     when it
 ///              bytes of it: operator's orders, parameter writes, a chip's IMU         changes
 ///
-/// They follow the tick's goals, which have lower identifiers, in this order. All integers are
-/// little-endian.
+/// In this order, after the tick's goals, which have lower identifiers. Little-endian.
 namespace verp::canopen::published {
 
 inline constexpr unsigned kDigestPdo = 2;
@@ -24,24 +22,24 @@ inline constexpr unsigned kPartPdo = 4;
 inline constexpr int kFrames = 2;
 inline constexpr std::uint8_t kFrameBytes = 8;
 
-// Flags: the low byte of Inputs::flags, and
+// Flags: Inputs::flags' low byte, and
 inline constexpr std::uint16_t kInputsMask = 0x00FF;
 inline constexpr std::uint16_t kImuInParts = 1 << 8;  ///< IMU counts are not from the bus
-inline constexpr int kPartsShift = 12;                ///< number of parts, from this bit on
-/// Most parts of one tick. With more, none are sent and the listener has to ask for them.
+inline constexpr int kPartsShift = 12;                ///< number of parts, from here up
+/// With more, none are sent, and the listener must ask for them.
 inline constexpr int kMostParts = 6;
 inline constexpr unsigned kTooManyParts = 15;
 
 inline constexpr std::size_t kPartBytes = 6;
-/// Parts of each tick that hold the IMU's counts: gyro and accelerometer, contiguous.
+/// Gyro and accelerometer, contiguous, if parts carry them.
 inline constexpr int kImuParts = 2;
 static_assert(sizeof(Inputs::gyro_count) + sizeof(Inputs::accel_count) == kImuParts * kPartBytes);
-/// Most parts of a tick with new orders: a Command, a parameter write, the mailbox.
+/// New orders: a Command, a parameter write, the mailbox.
 inline constexpr int kOrderParts = 4;
 static_assert(sizeof(Command) == 2 * kPartBytes && kImuParts + kOrderParts == kMostParts);
 static_assert(sizeof(Inputs) % 2 == 0 && sizeof(Inputs) / 2 <= 256);
 
-/// A part: half the offset into Inputs, size, bytes.
+/// Half the offset into Inputs, size, bytes.
 struct Part {
   std::uint8_t place = 0;
   std::uint8_t size = 0;
@@ -57,7 +55,7 @@ struct Part {
     __builtin_memcpy(&value, this, sizeof value);
     return value;
   }
-  /// False if it lies outside Inputs; then `inputs` is unchanged.
+  /// False, and nothing changes, if outside Inputs.
   bool put(Inputs& inputs) const {
     const std::size_t offset = 2u * place;
     if (size > kPartBytes || offset + size > sizeof(Inputs)) return false;
@@ -67,8 +65,7 @@ struct Part {
 };
 static_assert(sizeof(Part) == kFrameBytes);
 
-/// Copies what a listener finds in the frames of the record, drives and sensors. `imu`: the IMU is
-/// on the bus.
+/// Copies what the frames of record, drives and sensors hold. `imu`: it is on the bus.
 inline void copy_heard(Inputs& to, const Inputs& from, bool imu) {
   to.tick = from.tick;
   to.fresh = from.fresh;
@@ -94,7 +91,7 @@ inline void copy_heard(Inputs& to, const Inputs& from, bool imu) {
 /// The parts of one tick.
 class Parts {
  public:
-  /// Finds what a listener that knows tick `before` and hears the bus still lacks of `now`.
+  /// What a listener that knows `before` and hears the bus lacks of `now`.
   void find(const Inputs& before, const Inputs& now, bool bus_imu) {
     Inputs heard = before;
     copy_heard(heard, now, bus_imu);
@@ -120,7 +117,6 @@ class Parts {
 
   int count() const { return count_; }
   const Part& part(int i) const { return part_[i]; }
-  /// Flags for TPDO 3.
   std::uint16_t flags() const { return flags_; }
 
  private:

@@ -8,32 +8,31 @@
 #include "common/protocol/canopen/frame.hpp"
 #include "common/protocol/canopen/pdo.hpp"
 
-/// How the nodes of one robot share a CAN bus: what the controller configures and then relies on.
-/// Node ids are the ids in Params; services have CiA 301's predefined identifiers.
+/// How one robot's nodes share a CAN bus: what the controller configures and relies on. Node ids
+/// are those in Params, identifiers CiA 301's predefined ones.
 ///
-/// A tick is a round of SYNCs, counted from 1 to sync_groups() (1019h). Drives answer in groups of
-/// five, in joint order, the first group SYNC 1. IMU and feet answer the last SYNC. Goals,
-/// controlwords and strengths of several drives share a frame: each drive maps its own part and
-/// dummies for the others.
+/// A tick is a round of SYNCs, 1 to sync_groups() (1019h). Drives answer in groups of five, in
+/// joint order, the first group SYNC 1; IMU and feet answer the last. Goals, controlwords and
+/// strengths of several drives share a frame: each drive maps its part, and dummies for the others.
 namespace verp::canopen::plan {
 
-/// The controller's node: it sends the heartbeat that drives watch.
+/// Sender of the heartbeat that drives watch.
 inline constexpr std::uint8_t kControllerNode = 127;
 
-/// The low half of a drive's 1000h is its profile number; a sensor's is 0 (no profile).
+/// Low half of a drive's 1000h; a sensor's is 0 (no profile).
 inline constexpr std::uint16_t kDriveProfile = 402;
-/// 1018h:2, the product code: a drive's is its ServoProfile::model_number (0 there: any), a
-/// sensor's is dxl::kModelImu or dxl::kModelFoot.
+/// 1018h:2, product code: a drive's ServoProfile::model_number (0 there: any), a sensor's
+/// dxl::kModelImu or dxl::kModelFoot.
 inline constexpr Address kDeviceType{0x1000, 0};
-/// CiA assigns vendor ids; we have none. Manufacturer objects (2000h to 5FFFh) have the meaning
-/// below only on nodes with vendor id 0.
+/// CiA assigns vendor ids; we have none. Manufacturer objects (2000h to 5FFFh) mean the following
+/// only on nodes with vendor 0.
 inline constexpr Address kVendor{0x1018, 1};
 inline constexpr std::uint32_t kOurVendor = 0;
 inline constexpr Address kProductCode{0x1018, 2};
 inline constexpr Address kSyncOverflow{0x1019, 0};
 inline constexpr Address kErrorBehaviour{0x1029, 1};
 
-/// Objects of our own devices, besides CiA 301's and 402's.
+/// Our devices' own objects.
 inline constexpr Address kTelemetry{0x2001, 0};                                ///< drives: u32
 inline constexpr Address kGyro[3] = {{0x2010, 1}, {0x2010, 2}, {0x2010, 3}};   ///< IMU: i16
 inline constexpr Address kAccel[3] = {{0x2011, 1}, {0x2011, 2}, {0x2011, 3}};  ///< IMU: i16
@@ -56,20 +55,20 @@ struct Telemetry {
   constexpr bool operator==(const Telemetry&) const = default;
 };
 
-/// Every this many ticks, one drive is asked for its velocity or torque.
+/// Ticks between asking one drive for velocity or torque.
 inline constexpr std::uint8_t kEffortTicks = 4;
 
-/// Most frames that answer one SYNC. An SJA1000 has 64 bytes for received frames, and a classic
-/// frame of eight bytes takes eleven.
+/// Frames that answer one SYNC: an SJA1000 stores 64 bytes, a classic frame of eight bytes takes
+/// eleven.
 inline constexpr int kAnswersToOneSync = 5;
 
-/// Frames of IMU (gyro in TPDO 1, accelerometer in TPDO 2) and feet.
+/// IMU (gyro TPDO 1, accelerometer TPDO 2) and feet.
 constexpr int sensor_answers(const Params& params) {
   int frames = params.imu.device_id != 0 ? 2 : 0;
   for (const std::uint8_t id : params.feet.device_id) frames += id != 0 ? 1 : 0;
   return frames;
 }
-/// SYNCs of a tick, at least 2 (1019h does not allow 1). Transmission type of all TPDOs.
+/// SYNCs of a tick, at least 2 (1019h has no 1), and all TPDOs' transmission type.
 constexpr std::uint8_t sync_groups(const Params& params) {
   const int joints = params.servo_count();
   const int in_last = joints == 0 ? 0 : (joints - 1) % kAnswersToOneSync + 1;
@@ -77,8 +76,7 @@ constexpr std::uint8_t sync_groups(const Params& params) {
   if (in_last + sensor_answers(params) > kAnswersToOneSync) ++groups;
   return static_cast<std::uint8_t>(groups < 2 ? 2 : groups);
 }
-/// The SYNC that a joint's drive answers: its TPDO's SYNC start value. The sensors answer SYNC
-/// sync_groups().
+/// SYNC start value of a drive's TPDO; a sensor's is sync_groups().
 constexpr std::uint8_t group_of_joint(int joint) {
   return static_cast<std::uint8_t>(joint / kAnswersToOneSync + 1);
 }
@@ -86,9 +84,8 @@ constexpr std::uint8_t group_of_joint(int joint) {
 constexpr Mapped mapped(Address at, std::uint8_t bits) {
   return {at, bits};
 }
-/// TPDO 1 of a drive. Two bytes are left free: velocity or torque there would load the bus of 21
-/// drives to 73 % at 125 Hz, and a mapping cannot alternate. The controller asks for them in turn
-/// by SDO.
+/// TPDO 1 of a drive. Velocity or torque in the two free bytes would load the bus of 21 drives to
+/// 73 % at 125 Hz, and mappings cannot alternate: the controller asks for them by SDO, in turn.
 constexpr PdoMapping<> drive_answer() {
   PdoMapping<> mapping;
   mapping.add(mapped(cia402::object::kStatusword, 16));
@@ -112,9 +109,9 @@ constexpr PdoMapping<> foot_answer() {
 }
 inline constexpr std::uint8_t kFootAnswerBytes = 8;
 
-/// Data sent to several drives in one frame. Event-driven (type 255): effective on arrival.
+/// Data for several drives in one frame, event-driven (type 255): effective on arrival.
 struct Shared {
-  std::uint8_t rpdo = 1;   ///< number of the PDO, 1 to 3
+  std::uint8_t rpdo = 1;   ///< PDO 1 to 3
   std::uint8_t width = 2;  ///< drives in one frame
   Mapped own;
   Mapped dummy;
@@ -125,8 +122,7 @@ inline constexpr Shared kGoals{1, 2, {cia402::object::kTargetPosition, 32}, kDum
 inline constexpr Shared kWords{2, 4, {cia402::object::kControlword, 16}, kDummyU16};
 inline constexpr Shared kStrengths{3, 4, {cia402::object::kMaxTorque, 16}, kDummyU16};
 
-/// Number of frames of one kind for the whole robot. Frame f has joints first_of() to first_of() +
-/// members - 1.
+/// Frames of one kind. Frame f has joints first_of() to first_of() + members - 1.
 constexpr int shared_frames(const Shared& kind, const Params& params) {
   return (params.servo_count() + kind.width - 1) / kind.width;
 }
@@ -137,11 +133,11 @@ constexpr int members_of(const Shared& kind, const Params& params, int frame) {
   const int left = params.servo_count() - first_of(kind, frame);
   return left < kind.width ? left : kind.width;
 }
-/// The RPDO identifier of the frame's first drive.
+/// RPDO identifier of the frame's first drive.
 constexpr std::uint16_t shared_id(const Shared& kind, const Params& params, int frame) {
   return rpdo_id(kind.rpdo, params.joint[first_of(kind, frame)].servo_id);
 }
-/// The RPDO of `joint`'s drive; its frame is joint / width.
+/// Of `joint`'s drive, in frame joint / width.
 constexpr PdoMapping<> shared_mapping(const Shared& kind, const Params& params, int joint) {
   const int frame = joint / kind.width;
   PdoMapping<> mapping;
@@ -152,8 +148,8 @@ constexpr PdoMapping<> shared_mapping(const Shared& kind, const Params& params, 
 }
 
 /// Silence of the controller's heartbeat (1016h) after which a drive with torque stops and holds:
-/// abort connection option (6007h) 3, quick stop option (605Ah) 6. Slightly longer than the
-/// controller waits before it lets the robot down.
+/// abort connection option (6007h) 3, quick stop option (605Ah) 6. Slightly more than the
+/// controller waits before letting the robot down.
 inline std::uint16_t patience_ms(const Params& params) {
   constexpr float kLater_s = 0.1F;
   constexpr std::int32_t kMost_ms = 60'000;
@@ -162,14 +158,14 @@ inline std::uint16_t patience_ms(const Params& params) {
   return static_cast<std::uint16_t>(time_ms < 1 ? 1 : time_ms > kMost_ms ? kMost_ms : time_ms);
 }
 inline constexpr std::int16_t kQuickStopAndHold = 6;
-/// Heartbeats of the controller in that time: all but one may be lost.
+/// All but one of these heartbeats may be lost.
 inline constexpr std::uint16_t kHeartbeatsInPatience = 5;
 inline std::uint16_t heartbeat_ms(const Params& params) {
   return static_cast<std::uint16_t>(patience_ms(params) / kHeartbeatsInPatience);
 }
 
-/// SDO channels of the controller's node besides its default one, which anyone may use.
-inline constexpr unsigned kWatcherSdo = 1;  ///< 1201h: a listener that follows its ticks
+/// SDO channels of the controller besides the default one, which is for anyone.
+inline constexpr unsigned kWatcherSdo = 1;  ///< 1201h: follows its ticks
 inline constexpr unsigned kToolSdo = 2;     ///< 1202h: `verp bus`
 inline constexpr unsigned kControllerSdos = 2;
 constexpr bool is_to_controllers_sdo(std::uint32_t id) {
@@ -185,7 +181,7 @@ constexpr bool is_of_controllers_sdo(std::uint32_t id) {
   return false;
 }
 
-/// True for frames that only a master sends: a controller, or a tool that asks nodes.
+/// True for a master's frames: a controller, or a tool that asks nodes.
 constexpr bool is_of_master(const Frame& frame) {
   if (!is_canopen(frame)) return false;
   const Connection from = connection_of(frame.id);
@@ -204,7 +200,7 @@ constexpr bool is_of_master(const Frame& frame) {
       return false;
   }
 }
-/// Silence after which a bus has no controller: slightly longer than its heartbeat's period.
+/// Silence that means no controller: slightly more than its heartbeat's period.
 inline std::uint32_t quiet_us(const Params& params) {
   return 1000u * heartbeat_ms(params) + 50'000;
 }

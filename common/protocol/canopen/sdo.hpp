@@ -5,9 +5,8 @@
 #include "common/protocol/canopen/dictionary.hpp"
 #include "common/protocol/canopen/frame.hpp"
 
-/// SDO frames (CiA 301), shared by client and server. Byte 0 begins with a command of three bits,
-/// except in segments of a block. Initiating frames and aborts have the object's address in bytes 1
-/// to 3.
+/// SDO frames (CiA 301). Byte 0 begins with a three-bit command, except in a block's segments.
+/// Initiating frames and aborts have the object's address in bytes 1 to 3.
 namespace verp::canopen::sdo {
 
 inline constexpr std::uint8_t kFrameBytes = 8;
@@ -34,7 +33,7 @@ inline constexpr std::uint8_t kBlockDownload = 5;
 inline constexpr std::uint8_t kBlockUpload = 6;
 }  // namespace response
 
-inline constexpr std::uint8_t kAbort = 0x80;  ///< byte 0 of an abort; no block segment has it
+inline constexpr std::uint8_t kAbort = 0x80;  ///< byte 0; no block segment has it
 
 // Bits of byte 0.
 inline constexpr std::uint8_t kToggleBit = 0x10;
@@ -44,7 +43,7 @@ inline constexpr std::uint8_t kSizeGiven = 0x01;
 inline constexpr std::uint8_t kLastOfBlocks = 0x80;
 inline constexpr std::uint8_t kBlockCrc = 0x04;
 inline constexpr std::uint8_t kBlockSizeGiven = 0x02;
-/// Sub-commands of a block transfer. The mask excludes the bits above.
+/// Sub-commands of a block transfer; the mask leaves out the bits above.
 inline constexpr std::uint8_t kSubMask = 0x03;
 inline constexpr std::uint8_t kBlockInitiate = 0;
 inline constexpr std::uint8_t kBlockEnd = 1;
@@ -60,8 +59,8 @@ constexpr std::uint8_t specifier_of(const Frame& frame) {
 constexpr Address address_of(const Frame& frame) {
   return {static_cast<std::uint16_t>(get_le(frame.data + 1, 2)), frame.data[3]};
 }
-/// Number of unused bytes from byte 0: of an expedited transfer's four, of a segment's seven, of a
-/// block's last segment.
+/// Unused bytes, by byte 0: of an expedited transfer's four, a segment's seven, a block's last
+/// segment.
 constexpr unsigned unused_of_four(const Frame& frame) {
   return frame.data[0] >> 2 & 3u;
 }
@@ -72,13 +71,12 @@ constexpr unsigned unused_of_block(const Frame& frame) {
   return frame.data[0] >> 2 & 7u;
 }
 
-/// A frame with only byte 0 set.
 constexpr Frame bare(std::uint32_t id, std::uint8_t byte0) {
   Frame frame = classic_frame(id, kFrameBytes);
   frame.data[0] = byte0;
   return frame;
 }
-/// With the address, and `number` in bytes 4 to 7.
+/// `number` goes into bytes 4 to 7.
 constexpr Frame addressed(std::uint32_t id, std::uint8_t byte0, Address at,
                           std::uint32_t number = 0) {
   Frame frame = bare(id, byte0);
@@ -90,7 +88,7 @@ constexpr Frame addressed(std::uint32_t id, std::uint8_t byte0, Address at,
 constexpr Frame abort_frame(std::uint32_t id, Address at, Abort reason) {
   return addressed(id, kAbort, at, static_cast<std::uint32_t>(reason));
 }
-/// A segment of a segmented transfer with `size` bytes (at most 7) of `data`.
+/// At most 7 bytes.
 constexpr Frame segment(std::uint32_t id, std::uint8_t specifier, bool toggle,
                         const std::uint8_t* data, unsigned size, bool last) {
   const unsigned unused = kSegmentBytes - size;
@@ -99,14 +97,13 @@ constexpr Frame segment(std::uint32_t id, std::uint8_t specifier, bool toggle,
   for (unsigned i = 0; i < size; ++i) frame.data[1 + i] = data[i];
   return frame;
 }
-/// The end of a block transfer.
 constexpr Frame block_end(std::uint32_t id, std::uint8_t specifier, unsigned unused,
                           std::uint16_t crc) {
   Frame frame = bare(id, command(specifier, unused << 2 | kBlockEnd));
   put_le(frame.data + 1, crc, 2);
   return frame;
 }
-/// The response to a block: number of the last segment in order, and the next block's size.
+/// Last segment in order, and the next block's size.
 constexpr Frame block_response(std::uint32_t id, std::uint8_t specifier, std::uint8_t sequence,
                                std::uint8_t block) {
   Frame frame = bare(id, command(specifier, kBlockResponse));
@@ -115,7 +112,7 @@ constexpr Frame block_response(std::uint32_t id, std::uint8_t specifier, std::ui
   return frame;
 }
 
-/// CRC-16 with polynomial 1021h, initial value 0, not reflected. `crc` continues an earlier part.
+/// CRC-16: polynomial 1021h, not reflected, initial value 0 or an earlier part's `crc`.
 std::uint16_t crc16(const std::uint8_t* data, std::size_t size, std::uint16_t crc = 0);
 
 }  // namespace verp::canopen::sdo

@@ -3,20 +3,20 @@
 
 #include "common/protocol/canopen/sdo.hpp"
 
-/// Data phase of a block transfer. The sender is the client of a download or the server of an
-/// upload; the receiver is the other side.
+/// A block transfer's data phase. Sender: client of a download or server of an upload; receiver:
+/// the other side.
 namespace verp::canopen::sdo {
 
-/// Splits an object into blocks of numbered segments and repeats unconfirmed ones.
+/// Sends blocks of numbered segments and repeats what was not confirmed.
 class BlockSender {
  public:
   constexpr BlockSender() = default;
   BlockSender(std::uint32_t size, std::uint8_t block) : size_(size), block_(block) {}
 
-  /// True while segments of this block remain; then a response is due.
+  /// False when a response is due.
   bool sending() const { return sequence_ < block_ && !all_sent(); }
 
-  /// The next segment. `read(offset, buffer, size)` supplies its bytes and returns an Abort.
+  /// `read(offset, buffer, size)` supplies the segment's bytes and returns an Abort.
   template <class Read>
   Abort next(std::uint32_t id, Frame& frame, Read&& read) {
     const std::uint32_t offset = base_ + std::uint32_t{sequence_} * kSegmentBytes;
@@ -26,14 +26,14 @@ class BlockSender {
     frame = bare(
         id, static_cast<std::uint8_t>(sequence_ | (left <= kSegmentBytes ? kLastOfBlocks : 0)));
     const Abort refused = read(offset, frame.data + 1, bytes);
-    if (refused == Abort::kNone && offset == summed_) {  // a repeated segment is already in the CRC
+    if (refused == Abort::kNone && offset == summed_) {  // repeated ones are in the CRC
       crc_ = crc16(frame.data + 1, bytes, crc_);
       summed_ += bytes;
     }
     return refused;
   }
 
-  /// Takes a response: `sequence` segments have arrived, and the next block has `block` segments.
+  /// A response: `sequence` segments arrived, `block` for the next block.
   Abort confirm(std::uint8_t sequence, std::uint8_t block) {
     if (sequence > sequence_) return Abort::kSequence;
     if (block < 1 || block > kMaxBlock) return Abort::kBlockSize;
@@ -47,7 +47,7 @@ class BlockSender {
   }
   /// True if everything is confirmed.
   bool done() const { return done_; }
-  /// Unused bytes of the last segment.
+  /// In the last segment.
   unsigned unused() const {
     if (size_ == 0) return kSegmentBytes;
     return (kSegmentBytes - size_ % kSegmentBytes) % kSegmentBytes;
@@ -55,7 +55,7 @@ class BlockSender {
   std::uint16_t crc() const { return crc_; }
 
  private:
-  /// An empty object also has one segment.
+  /// An empty object has one segment, too.
   bool all_sent() const {
     return sequence_ > 0 && base_ + std::uint32_t{sequence_} * kSegmentBytes >= size_;
   }
@@ -69,27 +69,27 @@ class BlockSender {
   bool done_ = false;
 };
 
-/// Takes segments in order and drops others. Holds back the last segment, because only the end of
-/// the transfer says how many of its bytes count.
+/// Takes segments in order, drops others. Keeps the last one until the end says how many of its
+/// bytes count.
 class BlockReceiver {
  public:
   enum class Take : std::uint8_t {
-    kStray,    ///< not the next segment: no progress
+    kStray,    ///< out of order: no progress
     kMore,     ///< the block continues
     kRespond,  ///< the sender waits for respond()
-    kFailed,   ///< the store refused the bytes, see failure()
+    kFailed,   ///< the store refused, see failure()
   };
 
   constexpr BlockReceiver() = default;
   explicit BlockReceiver(std::uint8_t block) : block_(block) {}
 
-  /// Takes a segment. `store(data, size)` receives bytes in order and returns an Abort.
+  /// `store(data, size)` takes bytes in order and returns an Abort.
   template <class Store>
   Take take(const Frame& frame, Store&& store) {
     const auto sequence = static_cast<std::uint8_t>(frame.data[0] & 0x7F);
     const bool last = (frame.data[0] & kLastOfBlocks) != 0;
     const bool ends_block = last || sequence >= block_;
-    // The sender waits after the block's end, even if earlier segments were lost.
+    // After a block's end the sender waits, even if segments were lost.
     if (complete_ || sequence != sequence_ + 1) return ends_block ? Take::kRespond : Take::kStray;
     if (!flush(kSegmentBytes, store)) return Take::kFailed;
     sequence_ = sequence;
@@ -100,19 +100,18 @@ class BlockReceiver {
     return ends_block ? Take::kRespond : Take::kMore;
   }
 
-  /// Returns the response's sequence number and starts the next block.
+  /// The response's sequence number; starts the next block.
   std::uint8_t respond() {
     const std::uint8_t sequence = sequence_;
     if (!complete_) sequence_ = 0;
     return sequence;
   }
-  /// True if the last segment has arrived.
   bool complete() const { return complete_; }
   std::uint8_t block() const { return block_; }
-  /// Segments taken in total: grows only with progress.
+  /// Grows only with progress.
   std::uint32_t taken() const { return taken_; }
 
-  /// Ends the transfer. The last `unused` bytes of the last segment do not count.
+  /// `unused` bytes of the last segment do not count.
   template <class Store>
   Abort finish(unsigned unused, Store&& store) {
     return flush(kSegmentBytes - unused, store) ? Abort::kNone : failure_;
@@ -139,8 +138,8 @@ class BlockReceiver {
   Abort failure_ = Abort::kNone;
 };
 
-/// Timeout of either side, in bus time: kTimeoutUs since the last progress. A block receiver
-/// reminds the sender halfway, because the block's last segment may be lost.
+/// Either side's timeout: kTimeoutUs of bus time without progress. A block receiver reminds the
+/// sender halfway, in case a block's last segment was lost.
 class Patience {
  public:
   void progress(std::uint64_t now_us) {

@@ -110,7 +110,7 @@ void SdoClient::receive(const Frame& frame, std::uint64_t now_us) {
 bool SdoClient::take_abort(const Frame& frame) {
   if (frame.data[0] != sdo::kAbort) return false;
   const Address at = sdo::address_of(frame);
-  // A server without a transfer sends no address. Another address belongs to an earlier transfer.
+  // Without a transfer a server sends no address; another address is an earlier transfer's.
   if (!(at == at_) && !(at == Address{})) return true;
   reason_ = static_cast<Abort>(get_le(frame.data + 4, 4));
   if (reason_ == Abort::kNone) reason_ = Abort::kGeneral;
@@ -212,7 +212,7 @@ void SdoClient::take_upload(const Frame& frame) {
   const bool given = (frame.data[0] & sdo::kSizeGiven) != 0;
   if ((frame.data[0] & sdo::kExpedited) != 0) {
     std::uint32_t size = 4 - sdo::unused_of_four(frame);
-    if (!given) size = capacity_ < 4 ? capacity_ : 4;  // the reader knows the size it asked for
+    if (!given) size = capacity_ < 4 ? capacity_ : 4;  // the reader knows the size
     const Abort refused = store(frame.data + 4, size);
     return refused == Abort::kNone ? finish() : abort(refused);
   }

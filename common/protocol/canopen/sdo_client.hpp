@@ -5,49 +5,47 @@
 #include "common/protocol/canopen/cob_id.hpp"
 #include "common/protocol/canopen/sdo_block.hpp"
 
-/// SDO client: reads and writes objects of one node, one at a time. A state machine, fed with
-/// frames and bus time.
+/// SDO client: reads and writes one node's objects, one at a time; a machine fed with frames and
+/// bus time.
 ///
-///  - download() or upload() begins; receive() takes frames; next() returns one frame to send a
-///    call. None of them waits. state() reports the end: each transfer ends at the latest after
-///    kTimeoutUs without progress.
-///  - kDone: the server confirmed a download, or an upload's bytes arrived with the announced size
-///    and CRC.
-///  - While the transfer is being initiated, frames that cannot belong to it are remains of an
-///    earlier one and are ignored. Later they abort it.
-///  - The client uses the caller's memory until the end.
+///  - download() or upload() begins; receive() takes frames; next() returns one to send a call.
+///    None waits. state() shows the end, at the latest kTimeoutUs after the last progress.
+///  - kDone: the server confirmed a download, or an upload is complete with the announced size and
+///    CRC.
+///  - Frames of an earlier transfer are ignored while one is initiated; later, foreign frames abort
+///    it.
+///  - The caller's memory is in use until the end.
 namespace verp::canopen {
 
 class SdoClient {
  public:
   enum class Mode : std::uint8_t {
     kPlain,  ///< expedited up to 4 bytes, else segmented
-    kBlock,  ///< with CRC; a server without block transfer aborts with kCommand
+    kBlock,  ///< with CRC; a server without it aborts with kCommand
   };
   enum class State : std::uint8_t { kIdle, kBusy, kDone, kAborted };
 
   explicit SdoClient(std::uint8_t node) : SdoClient(default_sdo(node)) {}
   explicit SdoClient(SdoChannel channel) : channel_(channel) {}
 
-  /// Begins a write. Returns false without effect while another transfer runs.
+  /// False, without effect, while another transfer runs.
   bool download(Address at, const std::uint8_t* data, std::uint32_t size, Mode mode,
                 std::uint64_t now_us);
-  /// Begins a read into `buffer`. An object larger than `capacity` aborts with kOutOfMemory.
+  /// An object larger than `capacity` aborts with kOutOfMemory.
   bool upload(Address at, std::uint8_t* buffer, std::uint32_t capacity, Mode mode,
               std::uint64_t now_us);
-  /// Aborts a running transfer.
   void cancel(Abort reason = Abort::kGeneral) {
     if (state_ == State::kBusy) abort(reason);
   }
 
   void receive(const Frame& frame, std::uint64_t now_us);
-  /// Returns the next frame to send; false if there is none.
+  /// False if there is no frame to send.
   bool next(Frame& frame, std::uint64_t now_us);
 
   State state() const { return state_; }
-  /// Reason of the last abort, by either side.
+  /// Of the last abort, by either side.
   Abort reason() const { return reason_; }
-  /// Bytes of a finished upload.
+  /// Of a finished upload.
   std::uint32_t size() const { return size_; }
 
  private:
@@ -89,7 +87,7 @@ class SdoClient {
   Phase phase_ = Phase::kBeginUpload;
   Abort reason_ = Abort::kNone;
   bool toggle_ = false;
-  bool last_ = false;       ///< the present segment is the last one
+  bool last_ = false;       ///< the present segment is the last
   bool crc_ = false;        ///< both sides support the block CRC
   bool announced_ = false;  ///< the server announced the size
   bool sending_ = false;    ///< frame_ has to be sent
@@ -97,7 +95,7 @@ class SdoClient {
   const std::uint8_t* data_ = nullptr;
   std::uint8_t* buffer_ = nullptr;
   std::uint32_t capacity_ = 0;
-  std::uint32_t size_ = 0;  ///< of a download, or bytes uploaded so far
+  std::uint32_t size_ = 0;  ///< of a download; uploaded so far
   std::uint32_t announced_size_ = 0;
   std::uint32_t offset_ = 0;
   sdo::Patience patience_;

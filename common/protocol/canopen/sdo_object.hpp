@@ -6,8 +6,8 @@
 
 namespace verp::canopen::sdo {
 
-/// The object of a server's transfer. Small objects pass through a buffer, so the dictionary reads
-/// and writes them whole; large ones go in pieces.
+/// The object of a server's transfer. Small ones pass through a buffer, so the dictionary reads and
+/// writes them whole; large ones go in pieces.
 template <Dictionary D, std::size_t kBuffer>
 class OpenObject {
   static_assert(kBuffer >= 8, "numbers go whole");
@@ -17,12 +17,12 @@ class OpenObject {
 
   Address at() const { return at_; }
   void close() { at_ = {}; }
-  /// Size of an upload, or bytes downloaded so far.
+  /// Of an upload; downloaded so far.
   std::uint32_t size() const { return size_; }
-  /// Size of an expedited download that does not give one.
+  /// Of an expedited download without a size.
   std::uint32_t implied_size() const { return entry_.max_size < 4 ? entry_.max_size : 4; }
 
-  /// Opens an upload. Reads a small object at once.
+  /// Reads a small object at once.
   Abort open_read(Address at) {
     if (const Abort refused = find(at); refused != Abort::kNone) return refused;
     if (!entry_.readable) return Abort::kWriteOnly;
@@ -30,14 +30,13 @@ class OpenObject {
     pieces_ = size_ > kBuffer;
     return pieces_ ? Abort::kNone : dictionary_.read(at_, 0, buffer_, size_);
   }
-  /// Copies bytes of an upload, within its size.
   Abort load(std::uint32_t offset, std::uint8_t* to, std::uint32_t size) {
     if (pieces_) return dictionary_.read(at_, offset, to, size);
     for (std::uint32_t i = 0; i < size; ++i) to[i] = buffer_[offset + i];
     return Abort::kNone;
   }
 
-  /// Opens a download. `given`: the client announced its `size`.
+  /// `given`: the client announced `size`.
   Abort open_write(Address at, bool given, std::uint32_t size) {
     if (const Abort refused = find(at); refused != Abort::kNone) return refused;
     if (!entry_.writable) return Abort::kReadOnly;
@@ -48,7 +47,6 @@ class OpenObject {
     announced_size_ = size;
     return given ? check_size(size) : Abort::kNone;
   }
-  /// Takes the next bytes of a download.
   Abort store(const std::uint8_t* data, std::uint32_t size) {
     if (size > entry_.max_size - size_) return Abort::kTooLong;
     Abort refused = Abort::kNone;
@@ -61,7 +59,7 @@ class OpenObject {
     size_ += size;
     return refused;
   }
-  /// Applies a download whose bytes are complete.
+  /// All bytes have arrived.
   Abort commit() {
     if (announced_ && size_ != announced_size_) return Abort::kLength;
     if (const Abort refused = check_size(size_); refused != Abort::kNone) return refused;

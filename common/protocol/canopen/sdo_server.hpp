@@ -6,17 +6,17 @@
 #include "common/protocol/canopen/sdo_block.hpp"
 #include "common/protocol/canopen/sdo_object.hpp"
 
-/// SDO server: one client's access to an object dictionary. A state machine, fed with frames and
-/// bus time. It serves expedited, segmented and block transfers in both directions.
+/// SDO server: one client's access to an object dictionary; a machine fed with frames and bus time.
+/// Expedited, segmented and block transfers, both ways.
 ///
-///  - receive() takes a frame, next() returns a frame to send; neither waits. Call next() after
-///    each receive() and whenever there is room to send: a block upload sends many frames in a row.
-///  - Any sequence of frames ends in data, an abort or silence. A frame outside the transfer aborts
-///    it. A new request replaces it. It is abandoned after kTimeoutUs without progress.
-///  - Objects up to kBuffer bytes are read and written whole: the dictionary never sees part of
-///    one. Larger ones go in pieces, if the dictionary supports that.
-///  - A download one byte too long or short, or with a wrong CRC, is never written.
-///  - The work for a frame is bounded by kBuffer bytes.
+///  - receive() takes a frame, next() returns one to send; neither waits. Call next() after each
+///    receive() and while there is room: a block upload sends many frames in a row.
+///  - Any frames end in data, an abort or silence. A foreign frame aborts the transfer, a new
+///    request replaces it, and kTimeoutUs without progress abandon it.
+///  - Objects up to kBuffer bytes are read and written whole, larger ones in pieces if the
+///    dictionary can.
+///  - A download of a wrong size or CRC is never written.
+///  - Work for a frame is bounded by kBuffer bytes.
 namespace verp::canopen {
 
 template <Dictionary D, std::size_t kBuffer = 128>
@@ -39,7 +39,7 @@ class SdoServer {
     }
   }
 
-  /// Returns the next frame to send; false if there is none.
+  /// False if there is no frame to send.
   bool next(Frame& frame, std::uint64_t now_us) {
     expire(now_us);
     if (phase_ == Phase::kBlockSegments && !replying_ && patience_.remind(now_us)) {
@@ -61,7 +61,7 @@ class SdoServer {
   }
 
   bool idle() const { return phase_ == Phase::kIdle; }
-  /// Call when the node was reset or stopped.
+  /// The node was reset or stopped.
   void reset() {
     forget();
     replying_ = false;
@@ -72,11 +72,11 @@ class SdoServer {
     kIdle,
     kDownload,       ///< waits for a segment
     kUpload,         ///< waits for a segment request
-    kBlockSegments,  ///< block download: waits for a block's segments
+    kBlockSegments,  ///< block download: waits for segments
     kBlockEnd,       ///< block download: waits for its end
     kStartUpload,    ///< block upload: waits for the start
-    kSendBlock,      ///< block upload: sends a block, or waits for its response
-    kEndUpload,      ///< block upload: waits for the answer to its end
+    kSendBlock,      ///< block upload: sends, or waits for a response
+    kEndUpload,      ///< block upload: waits for the last answer
   };
 
   std::uint32_t id() const { return channel_.response; }
@@ -117,11 +117,11 @@ class SdoServer {
     }
   }
   void unexpected() {
-    if (phase_ == Phase::kIdle) object_.close();  // a segment without a transfer has no address
+    if (phase_ == Phase::kIdle) object_.close();  // a stray segment has no address
     abort(Abort::kCommand);
   }
 
-  /// Aborts if `refused` is an error. Returns true if not.
+  /// Aborts unless kNone, which gives true.
   bool granted(Abort refused) {
     if (refused != Abort::kNone) abort(refused);
     return refused == Abort::kNone;
@@ -129,14 +129,12 @@ class SdoServer {
 
   // Download: the client writes.
 
-  /// Opens the object of an initiating frame.
   bool open_write(const Frame& frame, bool size_given, std::uint32_t size) {
     forget();
     toggle_ = false;
     return granted(object_.open_write(sdo::address_of(frame), size_given, size));
   }
   Abort store(const std::uint8_t* data, std::uint32_t size) { return object_.store(data, size); }
-  /// Ends a download with its last reply or an abort.
   void end_download(Abort refused, const Frame& good) {
     if (refused == Abort::kNone) refused = object_.commit();
     if (!granted(refused)) return;
@@ -189,8 +187,8 @@ class SdoServer {
     if (receiver_.taken() != taken) patience_.progress(now_us);
     if (take == Take::kRespond) respond_to_block();
   }
-  // A client sends a whole block before it listens. After an earlier abort the rest of its segments
-  // would look like commands.
+  // A client sends a whole block before it listens: after an earlier abort the rest would look like
+  // commands.
   void respond_to_block() {
     if (refused_ != Abort::kNone) return abort(refused_);
     if (receiver_.complete()) phase_ = Phase::kBlockEnd;
@@ -248,7 +246,7 @@ class SdoServer {
     if (!open_read(frame)) return;
     const std::uint8_t block = frame.data[4];
     if (block < 1 || block > sdo::kMaxBlock) return abort(Abort::kBlockSize);
-    // The client's protocol switch threshold: it prefers a plain upload of objects up to this size.
+    // Protocol switch threshold: the client prefers a plain upload up to this size.
     if (frame.data[5] != 0 && object_.size() <= frame.data[5]) return send_upload();
     crc_ = (frame.data[0] & sdo::kBlockCrc) != 0;
     sender_ = sdo::BlockSender(object_.size(), block);

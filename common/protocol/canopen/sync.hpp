@@ -15,7 +15,7 @@ constexpr Abort check_sync_overflow(std::uint8_t overflow) {
   return overflow == 1 || overflow > kMaxSyncCounter ? Abort::kValueRange : Abort::kNone;
 }
 
-/// A SYNC with `counter`. 0: without one, for 1019h of 0.
+/// 0: without a counter, for 1019h of 0.
 constexpr Frame sync_frame(std::uint8_t counter) {
   Frame frame = classic_frame(kSyncId, counter == 0 ? 0 : 1);
   frame.data[0] = counter;
@@ -24,11 +24,11 @@ constexpr Frame sync_frame(std::uint8_t counter) {
 
 enum class SyncSeen : std::uint8_t {
   kNo,           ///< another frame
-  kSync,         ///< a SYNC of the length that 1019h implies
-  kWrongLength,  ///< a SYNC of another length: valid, and EMCY 8240h is due
+  kSync,         ///< of the length in 1019h
+  kWrongLength,  ///< of another length: valid, EMCY 8240h is due
 };
 
-/// Reads a SYNC. `counter` is 0 if it carries none.
+/// `counter`: 0 without one.
 constexpr SyncSeen read_sync(const Frame& frame, std::uint8_t overflow, std::uint8_t& counter) {
   if (!is_canopen(frame) || frame.id != kSyncId) return SyncSeen::kNo;
   counter = overflow != 0 && frame.size == 1 ? frame.data[0] : std::uint8_t{0};
