@@ -1,15 +1,14 @@
-# GCC for bare-metal Arm. Included by cortex-*.cmake, which set VERP_CPU_FLAGS to the core and its FPU.
+# GCC for bare-metal Arm. cortex-*.cmake set VERP_CPU_FLAGS to the core and its FPU and include this file.
 set(CMAKE_SYSTEM_NAME Generic)
 set(CMAKE_SYSTEM_PROCESSOR arm)
 set(CMAKE_C_COMPILER arm-none-eabi-gcc)
 set(CMAKE_CXX_COMPILER arm-none-eabi-g++)
 set(CMAKE_ASM_COMPILER arm-none-eabi-gcc)
-# A test program can't be linked before a board gives it a memory map.
+# A test program cannot be linked without a board's memory map.
 set(CMAKE_TRY_COMPILE_TARGET_TYPE STATIC_LIBRARY)
 set(CMAKE_FIND_ROOT_PATH_MODE_PROGRAM NEVER)
 
-# Own sections, so that the linker drops what an image does not use. No threads, so no guards around statics; no
-# exit, so no destructors to register.
+# Sections let the linker drop unused code. Without threads statics need no guards; without exit they need no destructors.
 set(verp_arm_flags "${VERP_CPU_FLAGS} -ffunction-sections -fdata-sections")
 set(CMAKE_C_FLAGS_INIT "${verp_arm_flags}")
 set(CMAKE_CXX_FLAGS_INIT

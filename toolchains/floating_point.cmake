@@ -1,11 +1,11 @@
-# The floating-point contract: what every translation unit must be compiled with so that the same source gives
-# the same bits on every compiler, optimisation level and core. Included by the root CMakeLists.txt only.
+# The floating-point contract: flags of every translation unit, so that the same source gives the same bits on every
+# compiler, optimisation level and core.
 #
-#   -ffp-contract=off     a*b+c is two roundings everywhere; GCC and clang fuse by default on M4F, M7, -march=native
+#   -ffp-contract=off     a*b+c rounds twice everywhere; by default GCC and clang fuse it on M4F, M7, -march=native
 #   -fno-math-errno       __builtin_sqrtf becomes the instruction, not a call that sets errno
-#   -fno-fast-math        against anything inherited from the environment's CXXFLAGS; it comes first, because it
-#                         also restores -fmath-errno, and with it a call of sqrtf
-#   EIGEN_DONT_VECTORIZE  SSE/AVX sum in another order; in *every* unit, or object layouts differ (ODR)
+#   -fno-fast-math        overrides the environment's CXXFLAGS; comes first, because it also restores -fmath-errno,
+#                         and with it a call of sqrtf
+#   EIGEN_DONT_VECTORIZE  SSE/AVX sums in another order; in *every* unit, or object layouts differ (ODR)
 #   EIGEN_NO_MALLOC       a heap allocation inside Eigen becomes an assertion
 add_library(verp_floating_point INTERFACE)
 target_compile_options(verp_floating_point INTERFACE

@@ -1,4 +1,4 @@
-# For the CMakeLists.txt of a controller of one's own (verp new controller). VERP_ROOT has the sources, VERP_BUILD what ./verp made.
+# For the CMakeLists.txt of a user's controller (verp new controller). VERP_ROOT: VERP's sources; VERP_BUILD: its build folder.
 set(CMAKE_CXX_STANDARD 20)
 set(CMAKE_CXX_STANDARD_REQUIRED ON)
 set(CMAKE_CXX_EXTENSIONS OFF)
@@ -20,18 +20,18 @@ function(verp_own_flags target)
   target_link_libraries(${target} PRIVATE verp_floating_point ${verp_core})
 endfunction()
 
-# controller.so of these sources, for `verp walk --controller`.
+# Builds controller.so from these sources, for `verp walk --controller`.
 function(verp_own_controller)
   add_library(controller MODULE ${ARGN} ${VERP_ROOT}/host/own/module.cpp)
   verp_own_flags(controller)
-  # As on a board; and its copy of the core is its own.
+  # Compiled as on a board, with a private copy of the core.
   target_compile_options(controller PRIVATE -ffreestanding -fno-threadsafe-statics -Wdouble-promotion)
   target_link_options(controller PRIVATE -Wl,--exclude-libs,ALL -Wl,--no-undefined)
   set_target_properties(controller PROPERTIES PREFIX "" CXX_VISIBILITY_PRESET hidden)
   set(VERP_OWN_SOURCES ${ARGN} PARENT_SCOPE)
 endfunction()
 
-# A program with these sources and those of the controller; ctest runs it.
+# Builds a test program from these sources and the controller's; ctest runs it.
 function(verp_own_test source)
   cmake_path(GET source STEM name)
   add_executable(${name} ${source} ${ARGN} ${VERP_OWN_SOURCES})

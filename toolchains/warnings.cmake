@@ -1,6 +1,5 @@
-# Warnings are errors, with GCC and clang alike. Two exceptions: GCC 12's -Wrestrict sees overlaps in std::string's
-# operator+ that are not there (GCC bug 105651, mended in GCC 13); and where files are compiled many at a time it takes the
-# types in their unnamed namespaces for a header's.
+# Warnings are errors, with GCC and clang. Two exceptions: GCC 12's -Wrestrict reports false overlaps in std::string's
+# operator+ (GCC bug 105651, fixed in GCC 13). In unity builds it takes types in unnamed namespaces for a header's.
 add_library(verp_warnings INTERFACE)
 target_compile_options(verp_warnings INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wnon-virtual-dtor -Werror

@@ -3,9 +3,10 @@
 #include "common/math/linear.hpp"
 
 /// Tilt and heading from the IMU by a complementary filter: the gyro turns the estimate, the
-/// accelerometer pulls it slowly to the vertical. Heading uses only the gyro. After power-up or a
-/// silence the estimate is the mean of all accelerometer readings since, until its time constant is
-/// reached: a lying robot must not seem to stand, and a robot just let go reads more than gravity.
+/// accelerometer pulls it slowly to the vertical. Heading uses only the gyro.
+/// After power-up or a silence the estimate starts as the mean of the accelerometer readings since,
+/// until its time constant is reached. A lying robot must not seem to stand, and a robot just let
+/// go reads more than gravity.
 namespace verp::balance {
 
 struct AttitudeState {

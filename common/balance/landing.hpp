@@ -2,7 +2,7 @@
 #include "common/gait/gait.hpp"
 
 /// Learns where feet land. The swing leg is a pendulum on its servos' springs, and a servo at its
-/// torque limit brakes late: the foot overshoots (a tenth of its way at 8 cm in 400 ms) and the
+/// torque limit brakes late. So the foot overshoots (a tenth of its way at 8 cm in 400 ms), and the
 /// robot walks too fast. At a landing the encoders give the soles' distance. The excess share of
 /// the way is learnt, and the next feet are aimed shorter, to land on the unchanged plan.
 namespace verp::balance {

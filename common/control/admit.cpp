@@ -90,8 +90,8 @@ std::uint8_t count_ages(const Params& params, std::uint32_t fresh, std::uint32_t
   return oldest;
 }
 
-// The oldest servo decides: one silent knee is enough to fall. Skipped periods were silent for all,
-// whoever reports afterwards.
+// The oldest servo decides: one silent knee is enough to fall. Skipped periods were silent for all
+// devices, even if they report afterwards.
 void watch_silence(const Params& params, const Tuning& tuning, const Inputs& inputs, int lost,
                    std::uint32_t periods, AdmitState& state, AdmitOut& out) {
   const std::uint8_t oldest = count_ages(params, inputs.fresh, periods, state);

@@ -5,8 +5,8 @@ namespace {
 
 using safety::Mode;
 
-// Capture point of an inverted pendulum, as an angle: tilt plus rate times sqrt(height / g). 0.16 s
-// is for a CoM 0.25 m high, usual for this size; taller robots' falls are seen slightly late.
+// Capture point of an inverted pendulum, as an angle: tilt plus rate times sqrt(height / g). A CoM
+// 0.25 m high, usual for this size, gives 0.16 s; a taller robot's fall is seen slightly late.
 constexpr float kLookAhead_s = 0.16F;
 // No step catches the body beyond it.
 constexpr float kNoReturn_rad = 0.7F;

@@ -9,7 +9,7 @@ void golden_posture(const Params& params, std::uint32_t seed, float* angle_rad);
 /// Its forward and inverse kinematics: the same bits on every core.
 GoldenVector golden_vector(const Params& params, std::uint32_t seed);
 
-/// The image's golden vectors that this core reproduces; all: kGoldenVectors.
+/// Number of the image's golden vectors that this core reproduces; kGoldenVectors if all is well.
 int count_golden_matches(const ParamsImage& image);
 
 }  // namespace verp::control

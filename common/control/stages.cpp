@@ -13,10 +13,10 @@ using safety::Mode;
 constexpr std::int32_t kLongest_us = 1'000'000'000;  // durations saturate here
 constexpr float kMaxHeadingError_rad = 0.5F;  // so that a robot turned by hand corrects gently
 
-// In a cycle of whole ticks the gyro is read at the same moments of every step, and hurried feet's
-// motion between them adds up to a false turn: 4 degrees a minute (generic21, 0.42 m/s; 2 with the
-// sway). So the gait's clock gains a tick in this many, then loses one. Calm steps need none: 4 cm
-// in 450 ms are off by 1.7, and the sway adds 0.5 mm of ZMP bias.
+// In a cycle of whole ticks the gyro is read at the same moments of every step. The motion of
+// hurried feet between them adds up to a false turn: 4 degrees a minute (generic21, 0.42 m/s; 2
+// with the sway). So the gait's clock gains a tick in this many, then loses one. Calm steps need
+// none: 4 cm in 450 ms are off by 1.7, and the sway adds 0.5 mm of ZMP bias.
 constexpr std::uint32_t kSway_ticks = 256;
 constexpr float kHurried = 0.5F;  // Step::haste from which the clock sways: 0.31 m/s for generic21
 

@@ -76,7 +76,7 @@ bool leads(int swing, float value) {
   return (swing == kLeft) == (value > 0.0F);
 }
 
-// Of a cycle's longer step: sideways the leading foot takes both.
+// The longer step of a cycle: sideways, the leading foot takes both.
 float length_of(const Stride& stride) {
   return math::hypot(stride.by_m.x, 2.0F * stride.by_m.y);
 }

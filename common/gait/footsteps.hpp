@@ -14,7 +14,7 @@ struct Stride {
 };
 VERP_PACKED(Stride);
 
-/// What the plan gave up (FootstepState::notes). Not fatal.
+/// Compromises of the plan (FootstepState::notes). Not fatal.
 enum PlanNote : std::uint16_t {
   kStrideLimited = 1 << 0,   ///< velocity needs more than max_step_m or max_turn_rad
   kReachShortened = 1 << 1,  ///< step shortened: leg too short at touch-down

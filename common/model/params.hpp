@@ -81,7 +81,7 @@ struct LegParams {
 };
 VERP_PACKED(LegParams);
 
-/// What the firmware writes when it arms a servo, and what its bus supports.
+/// Registers that the firmware writes when it arms a servo, and bus features it supports.
 struct ServoProfile {
   /// Control table 0: 1030 is XM430-W210, 30 is MX-28(2.0). On CAN, product code (1018h:2).
   std::uint16_t model_number = 0;

@@ -21,6 +21,7 @@ struct Path {
 /// Nodes from `from` to `to`, inclusive, through their nearest common ancestor.
 Path path(const Params& params, int from, int to);
 
+/// Mass of all links, kg.
 float total_mass(const Params& params);
 
 }  // namespace verp::model

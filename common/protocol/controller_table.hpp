@@ -302,7 +302,7 @@ constexpr const Register* find(const char* name) {
   return nullptr;
 }
 
-/// What a device needs at run time: without the texts, because flash is short.
+/// A register's rule at run time, without texts, because flash is short.
 struct Rule {
   std::uint16_t address = 0;
   std::uint8_t count = 0;

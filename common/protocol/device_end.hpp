@@ -37,6 +37,7 @@ constexpr std::uint8_t error_field(Error error, bool alert) {
   return static_cast<std::uint8_t>(static_cast<unsigned>(error) | (alert ? kAlert : 0u));
 }
 
+/// `size` is 1 to 4.
 constexpr std::int64_t register_value(const std::uint8_t* bytes, unsigned size, bool is_signed) {
   std::uint32_t raw = 0;
   for (unsigned i = 0; i < size; ++i) raw |= static_cast<std::uint32_t>(bytes[i]) << (8 * i);

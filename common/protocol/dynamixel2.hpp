@@ -44,7 +44,7 @@ enum class Error : std::uint8_t {
 inline constexpr std::uint8_t kAlert =
     0x80;  ///< error field: Hardware Error Status (70) is not zero
 
-/// What a Factory Reset keeps. kAll is ignored as a broadcast (firmware 42).
+/// Scope of a Factory Reset. kAll is ignored as a broadcast (firmware 42).
 enum class Reset : std::uint8_t { kAll = 0xFF, kAllButId = 0x01, kAllButIdAndBaud = 0x02 };
 
 /// Clear: removes turns from a multi-turn position; refused while moving.

@@ -4,7 +4,7 @@
 #include "common/base/fields.hpp"
 #include "common/io/io.hpp"
 
-/// What a trace keeps of every tick, to replay it and to name the first stage that differs.
+/// A trace keeps this of every tick, to replay it and to name the first stage that differs.
 namespace verp {
 
 /// The stages of step(), in order.

@@ -3,8 +3,8 @@
 
 #include "common/base/fields.hpp"
 
-/// What the robot may do: (mode, conditions) -> mode. Pure. README.md shows the same table, and a
-/// test walks it row by row.
+/// The robot's modes as a table: (mode, conditions) -> mode. Pure. README.md shows the same table,
+/// and a test walks it row by row.
 namespace verp::safety {
 
 enum class Mode : std::uint8_t {

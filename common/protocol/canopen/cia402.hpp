@@ -76,7 +76,7 @@ enum class Trigger : std::uint8_t {
   kQuickStop,
   kFaultReset,
   kNone,         ///< a controlword without a command
-  kInitialised,  ///< from here on, events
+  kInitialised,  ///< this and the following are events
   kQuickStopDone,
   kFault,
   kFaultReactionDone,

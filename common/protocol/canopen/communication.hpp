@@ -20,7 +20,7 @@ struct Identity {
   std::uint32_t serial = 0;
 };
 
-/// What an application adds to a Dictionary for PDOs.
+/// An application adds this to a Dictionary so that PDOs can map its objects.
 ///  - mappable(at, bits, receive): kNone if an RPDO (TPDO) may map the object.
 ///  - get(at, bits), put(at, bits, value): a mapped object's low bits.
 template <class A>
@@ -34,9 +34,9 @@ concept Application = Dictionary<A> &&
 struct DeviceSize {
   std::size_t rpdos = 1;
   std::size_t tpdos = 1;
-  std::size_t entries = 8;       ///< of a mapping: 8 bytes of a classic frame
+  std::size_t entries = 8;       ///< of a mapping; 8: a classic frame's bytes
   std::size_t watched = 1;       ///< nodes in 1016h
-  bool beats = true;             ///< false: another sender beats for it; 1017h is read-only
+  bool beats = true;             ///< false: another sender beats for it, and 1017h is read-only
   bool falls_back = true;        ///< 1029h; false: stays operational after errors
   bool stores = false;           ///< 1010h and 1011h
   std::size_t further_sdos = 0;  ///< besides the default one: 1201h and on
@@ -132,7 +132,7 @@ class CommunicationObjects {
     order_ = StoreOrder::kNone;
     return order;
   }
-  /// What 1010h stores.
+  /// Restores from `stored` what 1010h stores.
   void restore(const CommunicationObjects& stored) {
     for (std::size_t i = 0; i < kSize.rpdos; ++i) rpdos[i] = stored.rpdos[i];
     for (std::size_t i = 0; i < kSize.tpdos; ++i) tpdos[i] = stored.tpdos[i];

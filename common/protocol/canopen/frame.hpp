@@ -8,11 +8,13 @@ namespace verp::canopen {
 
 using Frame = CanFrame;
 
+/// `bytes` is 1 to 8.
 constexpr std::uint64_t get_le(const std::uint8_t* from, unsigned bytes) {
   std::uint64_t value = 0;
   for (unsigned i = 0; i < bytes; ++i) value |= std::uint64_t{from[i]} << (8 * i);
   return value;
 }
+/// Writes the low `bytes` bytes of `value`, 1 to 8.
 constexpr void put_le(std::uint8_t* to, std::uint64_t value, unsigned bytes) {
   for (unsigned i = 0; i < bytes; ++i) to[i] = static_cast<std::uint8_t>(value >> (8 * i));
 }

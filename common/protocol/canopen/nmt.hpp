@@ -6,7 +6,7 @@
 #include "common/protocol/canopen/dictionary.hpp"
 #include "common/protocol/canopen/frame.hpp"
 
-/// Network management and heartbeat, both sides (CiA 301). Times: bus time, microseconds.
+/// Network management and heartbeat, both sides (CiA 301). Times are bus time in microseconds.
 namespace verp::canopen {
 
 /// Values as in a heartbeat.

@@ -29,7 +29,7 @@ template <std::size_t kEntries = 8>
 class PdoRecord {
  public:
   constexpr PdoRecord() = default;
-  /// Switched on.
+  /// The PDO is on.
   constexpr PdoRecord(Direction direction, std::uint32_t id, std::uint8_t type,
                       const PdoMapping<kEntries>& mapping)
       : direction_(direction), cob_id_(id | kPdoNoRemote), type_(type), mapping_(mapping) {}
@@ -176,8 +176,8 @@ class SyncSchedule {
     left_ = 0;
     started_ = false;
   }
-  /// True if the TPDO follows this SYNC. `counter`: 0 without one. `event`: an acyclic TPDO has new
-  /// data.
+  /// True if the TPDO is sent after this SYNC. `counter`: 0 if it has none. `event`: an acyclic
+  /// TPDO has new data.
   constexpr bool on_sync(std::uint8_t type, std::uint8_t start, std::uint8_t counter, bool event) {
     if (type == kAcyclicSync) return event;
     if (type > kMaxCyclicSync) return false;

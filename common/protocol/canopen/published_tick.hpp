@@ -65,7 +65,8 @@ struct Part {
 };
 static_assert(sizeof(Part) == kFrameBytes);
 
-/// Copies what the frames of record, drives and sensors hold. `imu`: it is on the bus.
+/// Copies the part of Inputs that frames of record, drives and sensors carry. `imu`: it is on the
+/// bus.
 inline void copy_heard(Inputs& to, const Inputs& from, bool imu) {
   to.tick = from.tick;
   to.fresh = from.fresh;
@@ -91,7 +92,7 @@ inline void copy_heard(Inputs& to, const Inputs& from, bool imu) {
 /// The parts of one tick.
 class Parts {
  public:
-  /// What a listener that knows `before` and hears the bus lacks of `now`.
+  /// Finds what a listener that knows `before` and hears the bus still lacks of `now`.
   void find(const Inputs& before, const Inputs& now, bool bus_imu) {
     Inputs heard = before;
     copy_heard(heard, now, bus_imu);

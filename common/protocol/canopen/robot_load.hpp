@@ -46,12 +46,12 @@ class TickLoad {
     sum += of(1);                                    // the controller's heartbeat
     return sum;
   }
-  /// More bits of a published tick (published_tick.hpp). `own_imu`: its counts are in no other
-  /// frame.
+  /// Additional bits of a published tick (published_tick.hpp). `own_imu`: no other frame holds the
+  /// IMU's counts.
   constexpr FrameBits published(bool own_imu) const {
     return of(published::kFrameBytes) * (published::kFrames + (own_imu ? published::kImuParts : 0));
   }
-  /// And with new orders.
+  /// Additional bits of a tick with new orders.
   constexpr FrameBits published_order() const {
     return of(published::kFrameBytes) * published::kOrderParts;
   }

@@ -137,7 +137,7 @@ constexpr int members_of(const Shared& kind, const Params& params, int frame) {
 constexpr std::uint16_t shared_id(const Shared& kind, const Params& params, int frame) {
   return rpdo_id(kind.rpdo, params.joint[first_of(kind, frame)].servo_id);
 }
-/// Of `joint`'s drive, in frame joint / width.
+/// The RPDO of `joint`'s drive; its frame is joint / width.
 constexpr PdoMapping<> shared_mapping(const Shared& kind, const Params& params, int joint) {
   const int frame = joint / kind.width;
   PdoMapping<> mapping;
@@ -165,7 +165,7 @@ inline std::uint16_t heartbeat_ms(const Params& params) {
 }
 
 /// SDO channels of the controller besides the default one, which is for anyone.
-inline constexpr unsigned kWatcherSdo = 1;  ///< 1201h: follows its ticks
+inline constexpr unsigned kWatcherSdo = 1;  ///< 1201h: a listener that follows the ticks
 inline constexpr unsigned kToolSdo = 2;     ///< 1202h: `verp bus`
 inline constexpr unsigned kControllerSdos = 2;
 constexpr bool is_to_controllers_sdo(std::uint32_t id) {

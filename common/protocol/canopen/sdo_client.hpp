@@ -43,9 +43,9 @@ class SdoClient {
   bool next(Frame& frame, std::uint64_t now_us);
 
   State state() const { return state_; }
-  /// Of the last abort, by either side.
+  /// Reason of the last abort, by either side.
   Abort reason() const { return reason_; }
-  /// Of a finished upload.
+  /// Size of a finished upload.
   std::uint32_t size() const { return size_; }
 
  private:

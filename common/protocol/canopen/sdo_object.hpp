@@ -17,9 +17,9 @@ class OpenObject {
 
   Address at() const { return at_; }
   void close() { at_ = {}; }
-  /// Of an upload; downloaded so far.
+  /// Size of an upload, or bytes downloaded so far.
   std::uint32_t size() const { return size_; }
-  /// Of an expedited download without a size.
+  /// Size of an expedited download that gives none.
   std::uint32_t implied_size() const { return entry_.max_size < 4 ? entry_.max_size : 4; }
 
   /// Reads a small object at once.

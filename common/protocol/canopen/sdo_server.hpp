@@ -121,7 +121,7 @@ class SdoServer {
     abort(Abort::kCommand);
   }
 
-  /// Aborts unless kNone, which gives true.
+  /// True for kNone; otherwise aborts.
   bool granted(Abort refused) {
     if (refused != Abort::kNone) abort(refused);
     return refused == Abort::kNone;

@@ -15,7 +15,7 @@ constexpr Abort check_sync_overflow(std::uint8_t overflow) {
   return overflow == 1 || overflow > kMaxSyncCounter ? Abort::kValueRange : Abort::kNone;
 }
 
-/// 0: without a counter, for 1019h of 0.
+/// `counter` 0: none, for 1019h of 0.
 constexpr Frame sync_frame(std::uint8_t counter) {
   Frame frame = classic_frame(kSyncId, counter == 0 ? 0 : 1);
   frame.data[0] = counter;
@@ -28,7 +28,7 @@ enum class SyncSeen : std::uint8_t {
   kWrongLength,  ///< of another length: valid, EMCY 8240h is due
 };
 
-/// `counter`: 0 without one.
+/// Sets `counter`, 0 if the SYNC has none.
 constexpr SyncSeen read_sync(const Frame& frame, std::uint8_t overflow, std::uint8_t& counter) {
   if (!is_canopen(frame) || frame.id != kSyncId) return SyncSeen::kNo;
   counter = overflow != 0 && frame.size == 1 ? frame.data[0] : std::uint8_t{0};
