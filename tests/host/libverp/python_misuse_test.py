@@ -204,7 +204,7 @@ class MisuseTest(unittest.TestCase):
 
         def slow(*given: object) -> int:
             status = control(*given)
-            if not entered.is_set():  # the first has it set, and goes on when the second has, or had to wait
+            if not entered.is_set():  # the first set it, and waits until the second did or is blocked
                 entered.set()
                 over.wait(0.5)
             return status

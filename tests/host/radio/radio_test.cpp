@@ -82,7 +82,7 @@ TEST(Radio, AMessageTakesItsDelayAndItsBytesTime) {
   c.bytes_s = 1000;
   c.overhead = 10;
   Row row(c, 2, 1);
-  row.radio.send(0, kEverybody, std::string(30, 'x'), 1'000);  // 20 ms, the wait, and 40 ms
+  row.radio.send(0, kEverybody, std::string(30, 'x'), 1'000);  // 20 ms, its wait, 40 bytes: 40 ms
   row.radio.advance(60'999, row.places);
   EXPECT_EQ(row.heard(1), 0u);
   row.radio.advance(61'000 + Radio::kLongestWait_us, row.places);

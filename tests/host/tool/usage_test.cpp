@@ -120,7 +120,7 @@ TEST_F(Usage, UnknownWordsGetAHint) {
   expect_refused("wlak", "did you mean walk?");
   expect_refused("walk --stpe 0.04", "did you mean --step?");
   expect_refused("walk --stpe=0.04", "did you mean --step?");
-  expect_refused("walk --vel 0.1,0,0", "did you mean --velocity?");  // no letter off, as --help is
+  expect_refused("walk --vel 0.1,0,0", "did you mean --velocity?");  // --help is further off
   expect_refused("replay --jsn x", "did you mean --json?");
 }
 
