@@ -1,14 +1,12 @@
 #include "tests/host/bus/app_fixture.hpp"
 
-// Servos whose torque may differ from the last command.
 namespace verp::test {
 namespace {
 
 using DoubtedServos = AppLoop;
 
-// After a loose plug the servo is back limp, with factory gains and no profile, and torque would
-// throw it at its goal. It counts as gone until the robot has let go; only then does the loop
-// restore its registers.
+// After a loose plug the servo is limp, with factory gains and no profile: torque would throw it at
+// its goal. The loop restores its registers only after the robot has let go.
 TEST_F(DoubtedServos, AServoThatLostItsPowerIsGoneUntilTheRobotHasLetGo) {
   ready();
   wanted.torque_enable = all();
@@ -43,8 +41,7 @@ TEST_F(DoubtedServos, AServoThatLostItsPowerIsGoneUntilTheRobotHasLetGo) {
   }
 }
 
-// Servos that were only silent keep their torque and soon count again: a loose cable must not end a
-// walk.
+// A loose cable must not end a walk.
 TEST_F(DoubtedServos, ServosThatWereOnlySilentKeepTheirTorqueAndCountAgain) {
   ready();
   wanted.torque_enable = all();
@@ -59,7 +56,6 @@ TEST_F(DoubtedServos, ServosThatWereOnlySilentKeepTheirTorqueAndCountAgain) {
   EXPECT_EQ(app.inputs().fresh, all());
 }
 
-// A command to let go reaches every servo, doubted or not.
 TEST_F(DoubtedServos, ADoubtedServoIsLetGoAllTheSame) {
   ready();
   wanted.torque_enable = all();

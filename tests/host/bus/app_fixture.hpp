@@ -10,15 +10,15 @@
 #include "host/bus/virtual_bus.hpp"
 #include "tests/host/bus/fake_plant.hpp"
 
-/// The control loop on a virtual bus, whose outputs the test sets. Each source file is its own
-/// program, because this header defines step().
+/// The control loop on a virtual bus. The header defines step(), so each source file is its own
+/// program.
 namespace verp {
 
 namespace test {
-inline Outputs wanted;  // what step() asks for
+inline Outputs wanted;
 }
 
-// Replaces the core's step() at link time: the test alone decides the outputs.
+// Replaces the core's step() at link time; the test sets its outputs.
 void step(const Params&, const action::Library&, State& state, const Inputs&,
           Outputs& outputs) noexcept {
   ++state.digest.chain;
@@ -64,9 +64,9 @@ struct Tap {
   bus::VirtualBus& bus;
   std::vector<std::vector<std::uint8_t>> frames;
   int lose_sends = 0;
-  std::set<std::size_t> lost{};  ///< indices in `frames` of lost frames
+  std::set<std::size_t> lost{};  ///< indices in `frames`
   int polls = 0;
-  unsigned faults_per_mille = 0;  ///< share of received bytes: half lost, half changed
+  unsigned faults_per_mille = 0;  ///< of received bytes: half lost, half changed
   std::minstd_rand noise{};
 };
 

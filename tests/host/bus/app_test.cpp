@@ -27,7 +27,7 @@ std::int64_t read_i32(bus::VirtualBus& bus, int joint, std::uint16_t address) {
   return INT64_MIN;
 }
 
-// The servo's own limits are the last defence: they hold even if the controller is silent or wrong.
+// The servo's limits hold even if the controller is silent or wrong.
 TEST_F(AppLoop, BringUpWritesEachJointsLimitsIntoItsServo) {
   for (int j = 0; j < kJoints; ++j) {
     JointParams& joint = params.joint[j];
@@ -83,7 +83,7 @@ TEST_F(AppLoop, ATickBringsEveryValueFresh) {
 
 TEST_F(AppLoop, OneTickIsOnePeriodOfBusTime) {
   ready();
-  ticks(4);  // the first three ticks end later: they switch every servo's torque off
+  ticks(4);  // the first three end later: they switch torque off
   const std::uint64_t first_us = bus.now_us();
   ticks(97);
   EXPECT_EQ(bus.now_us() - first_us, 97u * params.period_us);
@@ -145,8 +145,7 @@ TEST_F(AppLoop, GoalsArriveBeforeTorqueAndOnlyWhereTorqueIsWanted) {
   EXPECT_EQ(app.inputs().position_count[2], 1002);
 }
 
-// A limp robot was moved to another pose and rises again. Whichever two frames are lost, no servo
-// wakes with its old goal or at full strength.
+// A limp robot was moved and rises again; any two frames are lost.
 TEST_F(AppLoop, LostFramesWakeNoServoWithOldOrders) {
   params.rise_torque_percent = 30;
   constexpr int kOld = 1000, kNew = 3000, kTicks = 8;
@@ -186,8 +185,7 @@ TEST_F(AppLoop, LostFramesWakeNoServoWithOldOrders) {
   }
 }
 
-// A servo refuses a Goal PWM above its own PWM limit, so the loop keeps a limit that the user has
-// set.
+// A servo refuses a Goal PWM above its own PWM limit.
 TEST_F(AppLoop, AServosOwnLimitIsItsFullStrength) {
   std::uint8_t frame[32];
   const std::uint8_t own[2] = {200, 0};
@@ -206,7 +204,7 @@ TEST_F(AppLoop, AServosOwnLimitIsItsFullStrength) {
   EXPECT_EQ(plant.setpoint(1).pwm_limit, 200);
 }
 
-// For a first walk in a harness: no mode may exceed the limit that the operator gives `verp run`.
+// For a first walk in a harness (`verp run`).
 TEST_F(AppLoop, TorqueIsLimitedInEveryModeIfSomebodySaysSo) {
   ready();
   app.limit_torque(30);
@@ -220,8 +218,7 @@ TEST_F(AppLoop, TorqueIsLimitedInEveryModeIfSomebodySaysSo) {
   }
 }
 
-// An obstacle in the way of a rising robot never meets full strength, not even for one tick. The
-// limit ends with the rise.
+// An obstacle in the way never meets full strength, not even for one tick.
 TEST_F(AppLoop, ARiseIsTorqueLimitedFromBeforeTorqueUntilItsEnd) {
   params.rise_torque_percent = 40;
   ready();
@@ -245,7 +242,7 @@ TEST_F(AppLoop, ARiseIsTorqueLimitedFromBeforeTorqueUntilItsEnd) {
   for (int j = 0; j < 3; ++j) EXPECT_EQ(plant.setpoint(j).pwm_limit, dxl::kFullPwm);
 }
 
-// The loop repeats each joint's limit in turn, so a lost frame leaves no joint weak.
+// The loop repeats each joint's limit in turn.
 TEST_F(AppLoop, AServoThatMissedItsStrengthHearsItAgain) {
   ready();
   wanted.torque_enable = 0b111;

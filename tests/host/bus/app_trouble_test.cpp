@@ -6,7 +6,7 @@ namespace {
 
 using AppInTrouble = AppLoop;
 
-// The controller was reset in mid-walk and one servo is gone: bring-up must release the others.
+// The controller was reset in mid-walk, and one servo is gone.
 TEST_F(AppInTrouble, ABringUpThatFailsLeavesNobodyStiff) {
   ready();
   wanted.torque_enable = all();
@@ -46,7 +46,7 @@ TEST_F(AppInTrouble, ALostTorqueFrameIsMadeGood) {
   wanted.torque_enable = all();
   ticks(5);
   wanted.torque_enable = 0;
-  tap.lose_sends = 3;  // both reads and the frame that turns torque off
+  tap.lose_sends = 3;  // both reads, and the frame that turns torque off
   ticks(1);
   EXPECT_TRUE(plant.setpoint(0).torque_on);
   ticks(2);
@@ -124,7 +124,6 @@ TEST_F(AppInTrouble, AMissedPeriodIsSkippedAndReported) {
   EXPECT_EQ(app.inputs().flags & kOverrun, 0);
 }
 
-// A loop paced by a clock takes its tick number from the clock and reports overruns.
 TEST_F(AppInTrouble, AClocksTicksAreTakenAsTheyAre) {
   ready();
   ticks(1);
@@ -142,8 +141,7 @@ TEST_F(AppInTrouble, AClocksTicksAreTakenAsTheyAre) {
   EXPECT_EQ(app.inputs().flags & kOverrun, 0);
 }
 
-// The loop reads the IMU on the controller's board only if the bus has none. A missing sample is
-// not fresh.
+// A missing sample is not fresh.
 TEST_F(AppInTrouble, AnImuOnTheBoardIsReadIfTheBusHasNone) {
   hal::ScriptedImu chip;
   app::App<Tap, Script, Memory, hal::ScriptedImu> on_bus{params, tap, script, memory, &chip};
@@ -164,7 +162,7 @@ TEST_F(AppInTrouble, AnImuOnTheBoardIsReadIfTheBusHasNone) {
   EXPECT_EQ(without.inputs().flags & kImuFresh, 0);
 }
 
-// On a board with both IMUs the operator chooses, but never while the robot has torque.
+// The operator chooses, but never while the robot has torque.
 TEST_F(AppInTrouble, TheChipOrTheBusSteersAsChosenBeforeTorqueComesOn) {
   ready();
   hal::ScriptedImu chip;
@@ -194,7 +192,7 @@ TEST_F(AppInTrouble, TheChipOrTheBusSteersAsChosenBeforeTorqueComesOn) {
   EXPECT_EQ(gyro_x(), 1);
 }
 
-// Lost and changed bytes make values stale. None becomes a position, and none delays the loop.
+// No damaged byte becomes a position or delays the loop.
 TEST_F(AppInTrouble, NoiseMakesValuesStaleButNeverWrong) {
   ready();
   for (int j = 0; j < kJoints; ++j) {

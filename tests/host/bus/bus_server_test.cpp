@@ -17,7 +17,7 @@
 namespace verp {
 namespace {
 
-/// The controller's end of the link, hand-coded over two pipes.
+/// The controller's end, hand-coded over two pipes.
 class BusServer : public ::testing::Test {
  protected:
   void start(bus::ServerHooks hooks, bus::RunOptions options = {}) {
@@ -192,8 +192,6 @@ TEST_F(BusServer, EndsWhenTheLinkBreaksOrSpeaksNonsense) {
   EXPECT_EQ(result.exit_code, 3u);
 }
 
-// In this process or at the end of a link, the controller produces the same inputs and digests, bit
-// for bit.
 TEST(RemoteLoop, RecordsWhatTheLoopInThisProcessRecords) {
   constexpr std::uint32_t kTicks = 300;
   const Params params = test::bus_params(2);

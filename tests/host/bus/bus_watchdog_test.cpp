@@ -1,7 +1,7 @@
 #include "tests/host/bus/app_fixture.hpp"
 
-/// When the whole bus is lost, each servo stops where it is and takes no goal until the controller
-/// rearms its watchdog.
+/// When the bus is lost, each servo stops and takes no goal until the controller rearms its
+/// watchdog.
 namespace verp::test {
 namespace {
 
@@ -52,7 +52,7 @@ TEST_F(BusWatchdog, StopsTheServoWhereItIsWhenNoPacketComes) {
   quiet(4 * kUnit);
   EXPECT_EQ(watchdog(1), 5);
   plant.measured[0].position_count = 1234;
-  plant.setpoint(0).goal_count = 1234;  // the position it has reached so far
+  plant.setpoint(0).goal_count = 1234;  // the position so far
   quiet(6 * kUnit);
   EXPECT_EQ(watchdog(1), dxl::kBusWatchdogTripped);
   EXPECT_EQ(plant.setpoint(0).goal_count, 1234);
@@ -119,7 +119,7 @@ TEST_F(BusWatchdog, ARobotCutOffForSecondsArmsAgain) {
   EXPECT_EQ(plant.setpoint(4).goal_count, 2500);
 }
 
-// Bus and torque come back in the same tick: every servo accepts its goal.
+// Bus and torque return in the same tick.
 TEST_F(BusWatchdog, ARobotThatArmsAsSoonAsTheBusIsBackMoves) {
   ready();
   wanted.torque_enable = all();
@@ -136,8 +136,8 @@ TEST_F(BusWatchdog, ARobotThatArmsAsSoonAsTheBusIsBackMoves) {
   for (int j = 0; j < kJoints; ++j) EXPECT_EQ(plant.setpoint(j).goal_count, 2500) << j;
 }
 
-// The bus comes back while the robot still has torque, for example while it sits down after a loss.
-// The servos must accept goals again before torque goes off. One lost frame does not matter.
+// The bus returns while the robot has torque, as when it sits down after a loss. The servos must
+// accept goals before torque goes off. One lost frame does not matter.
 TEST_F(BusWatchdog, ARobotWhoseBusComesBackUnderTorqueMoves) {
   ready();
   wanted.torque_enable = all();
@@ -154,7 +154,7 @@ TEST_F(BusWatchdog, ARobotWhoseBusComesBackUnderTorqueMoves) {
     EXPECT_EQ(watchdog(params.joint[j].servo_id), app::bus_watchdog_units(params)) << j;
 }
 
-// One servo is plugged in again; it missed every frame meanwhile.
+// It missed every frame meanwhile.
 TEST_F(BusWatchdog, AServoThatComesBackAloneMoves) {
   ready();
   wanted.torque_enable = all();
@@ -167,7 +167,7 @@ TEST_F(BusWatchdog, AServoThatComesBackAloneMoves) {
   EXPECT_EQ(plant.setpoint(4).goal_count, 2500);
 }
 
-// The host paused for longer than the watchdogs wait: the servos hold, then follow again.
+// The pause is longer than the watchdogs wait.
 TEST_F(BusWatchdog, APauseOfTheControllerLeavesNoServoBehind) {
   ready();
   wanted.torque_enable = all();

@@ -8,7 +8,7 @@
 
 namespace verp::test {
 
-/// A plant whose joints jump to their goals. It records when each joint was sampled.
+/// Joints jump to their goals; the plant records when each was sampled.
 class FakePlant final : public sim::Plant {
  public:
   std::uint64_t now_us() const override { return now_us_; }
@@ -40,7 +40,7 @@ class FakePlant final : public sim::Plant {
   std::array<std::uint64_t, kMaxJoints> sampled_us{};
   sim::ServoRating rated{};
   sim::ImuMeasurement motion{{1, -2, 3}, {-4, 5, 4096}};
-  std::array<bool, kMaxJoints> blocked{};  ///< the joint does not move
+  std::array<bool, kMaxJoints> blocked{};
   bool went_back = false;
 
  private:

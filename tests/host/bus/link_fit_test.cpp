@@ -39,7 +39,7 @@ struct Sys {
 const wire::Endpoint kAdapter{wire::Endpoint::Kind::kSerial, "/dev/ttyUSB7", 2'000'000, 0};
 const wire::Endpoint kSocket{wire::Endpoint::Kind::kUnix, "/tmp/twin", 0, 0};
 
-// A user who cancels the search, at once or midway, gets no report of a silent servo.
+// The user cancels at once or midway.
 TEST(LinkFit, GivingUpTheSearchForAServoIsNoFaultOfTheRobot) {
   const std::string place =
       (fs::temp_directory_path() / ("verp-fit-bus-" + std::to_string(::getpid()))).string();
@@ -58,8 +58,7 @@ TEST(LinkFit, GivingUpTheSearchForAServoIsNoFaultOfTheRobot) {
   EXPECT_THROW(measure_delay(client, params, [] { return false; }), DeviceError);
 }
 
-// Robots of any size, rate and period. On a link that fits, a tick in which both reads time out
-// ends within the period. A link that does not fit could not keep it.
+// Any size, rate and period; both reads of a tick time out.
 TEST(LinkFit, WhatFitsEndsWithinThePeriod) {
   std::minstd_rand random(3);
   int fitting = 0;
@@ -83,7 +82,7 @@ TEST(LinkFit, WhatFitsEndsWithinThePeriod) {
   EXPECT_LT(fitting, 1800);
 }
 
-// The expected adapter of the reference robot: latency timer 1 ms.
+// The reference robot's expected adapter: latency timer 1 ms.
 TEST(LinkFit, OneMillisecondEachWayFitsTwentyOneServosAt100Hz) {
   Params params = verp::test::bus_params(21, true);
   params.baud = 2'000'000;
@@ -92,7 +91,6 @@ TEST(LinkFit, OneMillisecondEachWayFitsTwentyOneServosAt100Hz) {
   EXPECT_FALSE(fit(params, held(5000)).fits()) << "nor could two reads of 5 ms";
 }
 
-// No answer does not mean no delay.
 TEST(LinkFit, WithoutAnAnswerNothingFits) {
   const LinkFit silent = fit(verp::test::bus_params(3), {.asked = 80});
   EXPECT_LT(silent.needed_us(), LinkFit::kUsable * silent.period_us) << "zeros would";
@@ -100,7 +98,6 @@ TEST(LinkFit, WithoutAnAnswerNothingFits) {
   EXPECT_FALSE(silent.fits_well());
 }
 
-// The offered period is the shortest that fits and that a robot may have.
 TEST(LinkFit, ThePeriodOfferedFitsAndAShorterOneDoesNot) {
   for (double delay_us = 0; delay_us < 12000; delay_us += 100) {
     Params params = verp::test::bus_params(21);
@@ -140,7 +137,7 @@ TEST(LinkFit, TheRemedyNamesTheAdaptersTimerThePeriodAndTheRate) {
   EXPECT_NE(remedy(hopeless, params, kSocket, sys.folder()).find("adapter"), std::string::npos);
 }
 
-// In real time, the twin rejects an adapter only if it is known to be too slow.
+// In real time, the twin rejects only adapters known to be too slow.
 TEST(LinkFit, ASlowAdapterIsTurnedAwayByTheTwin) {
   const Params params = verp::test::bus_params(21);
   {
@@ -155,7 +152,6 @@ TEST(LinkFit, ASlowAdapterIsTurnedAwayByTheTwin) {
   EXPECT_EQ(adapter_too_slow(params, kAdapter, "/nowhere"), "") << "no such adapter";
 }
 
-// Whatever the missing IMU's mounting, the controller sees an upright body.
 TEST(AssumedImu, SaysUprightInTheMountingOfTheModel) {
   std::minstd_rand random(5);
   std::uniform_real_distribution<float> angle(-3.0F, 3.0F);

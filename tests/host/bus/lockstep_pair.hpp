@@ -10,8 +10,8 @@
 #include "host/bus/lockstep_server.hpp"
 #include "tests/support/link_faults.hpp"
 
-/// A controller's link to a server in the same thread: the server answers while the controller
-/// waits. A seeded generator loses, doubles or flips bytes on the way.
+/// A controller's link to a server in the same thread, which answers while the controller waits. A
+/// seeded generator loses, doubles or flips bytes.
 namespace verp::test {
 
 class ServedLink {
@@ -33,14 +33,13 @@ class ServedLink {
   }
   bool connected() const { return true; }
   hal::LinkErrors errors() const { return {}; }
-  /// Injects bytes into the controller's input.
   void whisper(std::span<const std::uint8_t> bytes) {
     to_client_.insert(to_client_.end(), bytes.begin(), bytes.end());
   }
 
   LinkFaults outbound, inbound;
-  bool cut = false;   ///< no byte gets through
-  int cut_every = 0;  ///< every so many answers, the link is cut and that answer lost
+  bool cut = false;
+  int cut_every = 0;  ///< after so many answers the link is cut and the answer lost
   std::uint64_t quiet_reads = 0;
   std::uint64_t faults = 0;
 
@@ -66,7 +65,7 @@ class ServedLink {
 };
 static_assert(hal::ByteLink<ServedLink>);
 
-/// Counts its calls, restores the link on each hundredth, and may give up.
+/// Restores the link on each hundredth call, and may give up.
 struct Waiting {
   bool operator()() {
     ++calls;

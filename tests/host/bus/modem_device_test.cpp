@@ -10,14 +10,14 @@
 #include "host/bus/virtual_bus.hpp"
 #include "tests/host/bus/fake_plant.hpp"
 
-// The modem on a robot's bus: sending by Write, receiving by Read, and malformed input.
+// The modem on a robot's bus: Write sends, Read receives.
 
 namespace verp::bus {
 namespace {
 
 using Bytes = std::vector<std::uint8_t>;
 
-/// Accepts messages for numbers 0 to 2, and delivers queued ones.
+/// Accepts numbers 0 to 2.
 struct Air final : Aerial {
   std::uint8_t number() const override { return 2; }
   std::uint8_t most_bytes() const override { return 90; }
@@ -44,7 +44,7 @@ class Modem : public ::testing::Test {
     bus.add(std::move(device));
   }
 
-  /// The modem's answer: error, then data; empty if there is none.
+  /// Error, then data; empty if there is no answer.
   Bytes answer(const Bytes& frame) {
     bus.send(frame.data(), frame.size());
     Bytes bytes(512);

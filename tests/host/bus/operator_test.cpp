@@ -9,8 +9,7 @@
 #include "host/bus/virtual_bus.hpp"
 #include "tests/host/bus/fake_plant.hpp"
 
-// The operator's port on the whole loop: the real core, virtual servos, and an operator who sends
-// raw bytes.
+// The operator's port on the whole loop: real core, virtual servos, raw bytes.
 namespace verp {
 namespace {
 
@@ -121,12 +120,12 @@ TEST_F(OperatorOnTheLoop, ATuningWriteIsInTheInputsOfExactlyOneTickAndThenInForc
 TEST_F(OperatorOnTheLoop, AnUnpluggedServoIsSeenInTheTableOfDevices) {
   const auto ticks = [&](int count) {
     for (int i = 0; i < count; ++i) {
-      plant.motion.gyro_count[0] ^= 1;  // an IMU that repeats its values counts as stale
+      plant.motion.gyro_count[0] ^= 1;  // an IMU that repeats itself counts as stale
       loop.tick();
     }
   };
   ticks(10);
-  constexpr int kJoint = 20;  // answers last, so its silence stops no other servo's answer
+  constexpr int kJoint = 20;  // answers last, so its silence stops no other
   bus.set_connected(params.joint[kJoint].servo_id, false);
   ticks(60);
   device.report({.bus = loop.counters(), .bus_crc_errors = loop.crc_errors()});

@@ -10,7 +10,6 @@
 
 namespace verp::test {
 
-/// One pipe; the destructor closes it.
 class Pipe {
  public:
   Pipe() {

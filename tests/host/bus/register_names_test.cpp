@@ -33,8 +33,7 @@ TEST(RegisterNames, EveryKnownModelHasANameAndOrderedRegisters) {
   }
 }
 
-// Consecutive registers check each other's sizes: where the e-Manual has no gap, our table has
-// none.
+// Neighbouring registers check each other's sizes: the table has gaps only where the e-Manual has.
 TEST(RegisterNames, ServoRegistersHaveTheManualsSizes) {
   const auto size = [](const char* name) {
     return find_register(dxl::kModelXm430W350, name)->bytes();
@@ -47,7 +46,7 @@ TEST(RegisterNames, ServoRegistersHaveTheManualsSizes) {
   EXPECT_EQ(size("homing_offset"), 4u);
 }
 
-// The clock's messages are for controllers; users need one register.
+// Users need one register; the rest is for controllers.
 TEST(RegisterNames, TheTwinsClockIsNamed) {
   EXPECT_EQ(model_name(lockstep::kClockModel), "twin's clock");
   const NamedRegister* upright = find_register(lockstep::kClockModel, "set_upright");
@@ -68,8 +67,7 @@ TEST(RegisterNames, TheControllersPageIsWhatTheTableSays) {
       << "out of date: ./verp bus registers > firmware/app/registers.md";
 }
 
-// Each bit that the e-Manual defines (Hardware Error Status, 70) has its own words. An unknown bit
-// is printed too.
+// The e-Manual's bits (Hardware Error Status, 70), and an unknown one.
 TEST(RegisterNames, HardwareErrorsAreToldInWords) {
   EXPECT_EQ(hardware_errors(0x01), "input voltage");
   EXPECT_EQ(hardware_errors(0x04 | 0x20), "overheating, overload");

@@ -192,7 +192,7 @@ TEST_F(VirtualBus, RefusesWritesAsTheProtocolSays) {
 }
 
 TEST_F(VirtualBus, ARefusedWriteChangesNothing) {
-  // Return delay and drive mode are valid; the operating mode is not.
+  // Only the operating mode is invalid.
   EXPECT_EQ(write(1, at::kReturnDelay, {0, 4, 99}), code(dxl::Error::kDataRange));
   EXPECT_EQ(read(1, at::kReturnDelay, 3).data, (Bytes{250, 0, 3}));
 }
@@ -293,8 +293,7 @@ TEST_F(VirtualBus, StatusLevelOneAnswersReadsButNotWrites) {
   EXPECT_EQ(read(1, at::kLed, 1).data, Bytes{1});
 }
 
-// The timeout counts from the request. Counted from power-up, it would be over at once and a master
-// would wait forever.
+// Counted from power-up, the wait would already be over and a master would wait forever.
 TEST_F(VirtualBus, AWaitForNobodysAnswerEndsItsTimeAfterTheRequest) {
   for (const bool real_time : {false, true}) {
     bus::VirtualBus line{params, plant};

@@ -23,7 +23,7 @@ inline Params can_params(int joints) {
   return params;
 }
 
-/// A master independent of the firmware's: objects by SDO, frames one by one.
+/// A master independent of the firmware's.
 class CanBench {
  public:
   explicit CanBench(int joints) : CanBench(can_params(joints)) {}
@@ -33,7 +33,6 @@ class CanBench {
     }
   }
 
-  /// All frames that arrive within `time_us` from now.
   std::vector<CanFrame> listen(std::uint64_t time_us) {
     const std::uint64_t end_us = bus.now_us() + time_us;
     std::vector<CanFrame> all;
@@ -83,7 +82,6 @@ class CanBench {
     return canopen::cia402::state_of(
         static_cast<std::uint16_t>(value(node, canopen::cia402::object::kStatusword)));
   }
-  /// Selects mode 8 and goes to operation enabled.
   void enable(std::uint8_t node) {
     namespace cia402 = canopen::cia402;
     write(node, cia402::object::kMode, cia402::kModeCyclicPosition, 1);

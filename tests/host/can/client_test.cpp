@@ -11,7 +11,7 @@
 
 #include "common/protocol/canopen/sdo.hpp"
 
-// What a PC learns about nodes by SDO, and how it reports a node that stops answering.
+// What a PC learns about nodes by SDO, and how it reports a silent one.
 namespace verp::can {
 namespace {
 
@@ -31,7 +31,7 @@ struct Object {
   }
 };
 
-/// Nodes whose objects have four bytes each. Waiting takes no wall time.
+/// Nodes whose objects have four bytes; waiting takes no wall time.
 class FakeNodes final : public ClientBus {
  public:
   bool send(const CanFrame& frame) override {
@@ -70,14 +70,14 @@ class FakeNodes final : public ClientBus {
   }
 
   void say(const CanFrame& frame) { answers_.push_back(frame); }
-  /// The answer to another client's request.
+  /// Another client's answer.
   void overhear(const Object& object) { answers_.push_back(answer(object)); }
 
   bool has_further_channel = false;  ///< node 127 has the channel of 1202h
-  int by_further = 0;                ///< requests by that channel
+  int by_further = 0;                ///< requests by it
   std::map<Object, std::uint32_t> holds;
   std::map<Object, int> asked;
-  std::function<bool(const Object&, int times)> silent;  ///< whether that request gets no answer
+  std::function<bool(const Object&, int times)> silent;  ///< true: no answer
   std::function<void(const Object&)> after_answer;
 
  private:
@@ -111,7 +111,7 @@ TEST_F(CanClient, WhatANodeRefusesIsNotTold) {
   EXPECT_EQ((nodes.asked[{19, {0x1018, 2}}]), 1) << "a refusal is an answer";
 }
 
-// Under load an answer may be lost; that is no refusal.
+// Under load an answer may be lost.
 TEST_F(CanClient, WhatGotNoAnswerIsAskedOnceMore) {
   nodes.add(19);
   nodes.silent = [](const Object&, int times) { return times == 1; };
@@ -123,8 +123,7 @@ TEST_F(CanClient, WhatGotNoAnswerIsAskedOnceMore) {
   EXPECT_EQ(found->revision, 1u);
 }
 
-// A late answer arrives during the next request. The abort that ends this confused transfer is no
-// refusal.
+// The late answer meets the next request. The resulting abort is no refusal.
 TEST_F(CanClient, WhatALateAnswerSpoiltIsAskedOnceMore) {
   nodes.add(19);
   nodes.silent = [&](const Object& object, int times) {
@@ -141,8 +140,7 @@ TEST_F(CanClient, WhatALateAnswerSpoiltIsAskedOnceMore) {
   EXPECT_EQ((nodes.asked[{19, {0x1018, 1}}]), 2);
 }
 
-// Silence never appears as a refusal, whichever object it begins at. The client does not wait out
-// its timeout on every further object of a silent node.
+// From whichever object on; the client does not wait for each remaining object.
 TEST_F(CanClient, ANodeThatFallsSilentIsToldApartFromOneThatRefuses) {
   for (const Address last :
        {Address{0x1000, 0}, Address{0x1008, 0}, Address{0x1018, 1}, Address{0x1018, 2}}) {
@@ -181,7 +179,7 @@ TEST_F(CanClient, AScanOfNobodyFindsNobody) {
   EXPECT_TRUE(client.scan().empty());
 }
 
-// Another client's transfer shows that a node is there, not its device type.
+// It only shows that the node is there.
 TEST_F(CanClient, AnAnswerToAnothersRequestIsNotTakenForADeviceType) {
   nodes.add(19);
   nodes.add(3);
@@ -198,7 +196,7 @@ TEST_F(CanClient, AnAnswerToAnothersRequestIsNotTakenForADeviceType) {
   EXPECT_EQ(found[1].device_type, 0x20192u);
 }
 
-// Another client reads the same object by the default channel and gets another value.
+// Another client reads the same object by the default channel, with another value.
 TEST_F(CanClient, TheControllersNodeIsAskedByAChannelOfItsOwn) {
   nodes.add(127);
   nodes.has_further_channel = true;
@@ -224,7 +222,7 @@ TEST_F(CanClient, ANode127WithoutThatChannelIsAskedByTheDefaultOne) {
   EXPECT_EQ(found->product, 0x200u + 127);
 }
 
-// Ctrl-C in a scan: the report has the nodes found so far, marked as incomplete.
+// Ctrl-C in a scan; the result is marked as incomplete.
 TEST_F(CanClient, AScanThatIsStoppedHasWhatItFoundSoFar) {
   for (const int node : {3, 19, 100}) nodes.add(static_cast<std::uint8_t>(node));
   bool over = false;

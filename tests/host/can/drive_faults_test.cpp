@@ -3,7 +3,7 @@
 #include "host/can/device_node.hpp"
 #include "tests/host/can/virtual_drive.hpp"
 
-// When a virtual CiA 402 drive releases its joint: a silent master, an NMT state, a fault.
+// When a virtual CiA 402 drive releases its joint.
 
 namespace verp {
 namespace {
@@ -16,7 +16,7 @@ namespace cia402 = canopen::cia402;
 namespace plan = canopen::plan;
 namespace object = canopen::cia402::object;
 
-// The CAN counterpart of the serial servos' Bus Watchdog.
+// CAN's counterpart of the serial servos' Bus Watchdog.
 TEST_F(VirtualDrive, HoldsByItselfWhenItsMasterIsSilent) {
   bench.enable(kNode);
   target(9000);
@@ -67,7 +67,6 @@ TEST_F(VirtualDrive, FallsBackToPreOperationalWithoutItsMasterAsItsErrorBehaviou
   EXPECT_EQ(bench.write(kNode, {0x1029, 1}, 3, 1), Abort::kValueRange);
 }
 
-// 603Fh explains the error in 1001h for as long as 1001h shows it.
 TEST_F(VirtualDrive, ItsErrorCodeAgreesWithItsErrorRegister) {
   const auto expect = [this](int error_register, int code) {
     EXPECT_EQ(bench.value(kNode, object::kErrorRegister), error_register);
@@ -100,7 +99,7 @@ TEST_F(VirtualDrive, AMasterThatIsSilentBeforeThereIsTorqueIsToldAndIsNoFault) {
   EXPECT_EQ(bench.value(kNode, object::kErrorCode), 0);
 }
 
-// A faulty tool may write any value there.
+// A faulty tool may write any value.
 TEST_F(VirtualDrive, ItsCounterGoesOnAtTheOtherEndOf32Bits) {
   measured().position_count = 10;
   bench.write(kNode, object::kHomeOffset, -0x7FFFFFFF, 4);
@@ -129,7 +128,7 @@ TEST_F(VirtualDrive, OverheatingIsAFaultUntilItIsCool) {
   EXPECT_EQ(bench.value(kNode, object::kErrorCode), 0);
 }
 
-// 18 V is low for a motor of 24 V and high for one of 12 V.
+// 18 V is low of 24 V and high of 12 V.
 TEST_F(VirtualDrive, WhatSupplyIsLowOrHighIsThatOfItsMotor) {
   bench.plant.rated.nominal_v = 24;
   bench.bus.plug_in(std::make_unique<can::DriveNode>(can::drive_identity(402, 50), 50, bench.plant,

@@ -3,7 +3,7 @@
 #include "host/can/device_node.hpp"
 #include "tests/host/can/virtual_drive.hpp"
 
-// The objects of a virtual CiA 402 drive, as a master sees them.
+// A virtual CiA 402 drive's objects, seen by a master.
 
 namespace verp {
 namespace {
@@ -145,7 +145,7 @@ TEST_F(VirtualDrive, AQuickStopEndsTorqueOrHoldsAsItsOptionSays) {
   EXPECT_EQ(bench.state(kNode), State::kOperationEnabled) << "option 6 lets it go on";
 }
 
-// A CiA 402 master waits for the statusword after it starts a drive.
+// A CiA 402 master waits for it after starting a drive.
 TEST_F(VirtualDrive, TellsItsStatuswordWheneverItBecomesOperational) {
   using canopen::NmtCommand;
   for (const NmtCommand first : {NmtCommand::kResetNode, NmtCommand::kResetCommunication,
@@ -171,7 +171,7 @@ TEST_F(VirtualDrive, MeasuresSpeedAndTorque) {
   EXPECT_EQ(bench.value(kNode, object::kActualTorque), -250);
 }
 
-// Increments per turn, and the rated values behind 1000 thousandths.
+// Increments per turn, and the rated values of 1000 thousandths.
 TEST_F(VirtualDrive, GivesPositionAndTorqueTheirScale) {
   EXPECT_EQ(bench.value(kNode, {0x608F, 0}), 2);
   EXPECT_EQ(bench.value(kNode, {0x608F, 1}), 16384);
@@ -229,7 +229,6 @@ TEST_F(VirtualDrive, KeepsWhatIsStoredThroughResetsAndPowerUntilDefaultsAreResto
   EXPECT_EQ(values(), defaults);
 }
 
-// Each drive takes its half of one frame.
 TEST(VirtualDrives, TakeTheirOwnPartOfASharedFrame) {
   CanBench bench(3);
   for (int j = 0; j < 3; ++j) {

@@ -16,7 +16,7 @@
 #include "host/model/params.hpp"
 #include "host/sim/robot.hpp"
 
-// Joint velocity and torque, from the twin's physics to a client of a walking controller's node.
+// Joint velocity and torque, from the physics to a client of the controller's node.
 namespace verp::can {
 namespace {
 
@@ -25,7 +25,7 @@ using Controller = app::OperatorNode<VirtualCan, Log>;
 
 enum Effort : unsigned { kVelocity, kTorque, kEfforts };
 
-/// A joint's range of values between the request to its drive and the answer.
+/// A joint's range between a drive's request and answer.
 struct Truth {
   std::int32_t least = 0, most = 0;
   std::uint64_t at_us = 0;
@@ -38,8 +38,8 @@ struct Truth {
   bool holds(std::int32_t value) const { return least <= value && value <= most; }
 };
 
-/// A tool that reads joint_velocity and joint_torque from the controller's node in turn. It also
-/// hears the controller's own requests to its drives.
+/// Reads joint_velocity and joint_torque from the controller's node in turn, and hears the
+/// controller's requests to its drives.
 class Reader : public Node {
  public:
   Reader(const Params& params, sim::Plant& plant) : params_(params), plant_(plant) {}
@@ -61,12 +61,12 @@ class Reader : public Node {
     return client_.next(frame, now_us);
   }
 
-  bool judges = false;  ///< set to begin judging
+  bool judges = false;
   std::array<unsigned, kEfforts> judged{};
   std::array<std::int32_t, kEfforts> largest{};
 
  private:
-  /// The controller skips a drive's turn if it is then asking that drive for telemetry.
+  /// A drive whose telemetry is then due loses a turn.
   static constexpr unsigned kTurns = 2;
 
   int joint() const { return next_ % params_.joint_count; }
@@ -109,8 +109,8 @@ class Reader : public Node {
     }
   }
 
-  // The value is of this turn. It may be of the turn before if the answer came only with the end of
-  // this tick or the next.
+  // The value may be of the turn before if the answer came only with the end of this tick or the
+  // next.
   void judge(std::uint64_t now_us) {
     const std::int32_t told = effort() == kVelocity
                                   ? static_cast<std::int32_t>(canopen::get_le(bytes_.data(), 4))
@@ -132,7 +132,7 @@ class Reader : public Node {
   canopen::SdoClient client_{Controller::kNode};
   std::array<std::uint8_t, 4> bytes_{};
   int next_ = 0;
-  unsigned requests_ = 0;  ///< of the controller to its drives, for efforts
+  unsigned requests_ = 0;  ///< by the controller, for efforts
   std::array<std::array<Truth, kMaxJoints>, kEfforts> last_{}, before_{};
 };
 
@@ -152,8 +152,8 @@ struct Desk {
   Controller& node;
 };
 
-// Each value equals the physics at its request, to the count. It is at most two turns old; a turn
-// has 21 drives' velocities and torques, one request in four ticks.
+// Exact to the count, and at most two turns old. A turn is 21 drives' velocities and torques, one
+// request in four ticks.
 TEST(Efforts, ReadFromAWalkingControllersNodeAreWhatEachJointDidInItsTurn) {
   const model::Entity entity = model::load_robot(model::find_model("generic21"), "can");
   const Params params = model::make_params(entity);

@@ -13,7 +13,7 @@
 #include "tests/host/bus/walker.hpp"
 #include "tests/host/can/served_can.hpp"
 
-// The whole control loop over CAN; its twin is in the same process or at the end of another bus.
+// The whole control loop over CAN, with its twin in this process or behind a bus.
 namespace verp::can {
 namespace {
 
@@ -68,7 +68,7 @@ class CanLoop : public ::testing::Test {
     };
     return hooks;
   }
-  /// The PC knows every tick but the last, whose end no frame reports.
+  /// No frame reports the last tick's end, so the PC lacks that tick.
   void expect_shadowed(std::vector<TickRecord> records) {
     EXPECT_EQ(shadow.difference(), "");
     records.pop_back();
@@ -84,7 +84,7 @@ class CanLoop : public ::testing::Test {
   Params params = can_robot();
   test::FakePlant plant;
   VirtualCan twin{params, plant};
-  /// Gives its orders when the twin learns that a tick begins, as `verp hil` does.
+  /// Gives orders when the twin learns of a tick's beginning, like `verp hil`.
   struct Linked : test::Walker {
     app::OperatorOrder order(std::uint32_t) {
       const app::OperatorOrder given = latest;
@@ -106,7 +106,6 @@ class CanLoop : public ::testing::Test {
   app::LockstepCan<ServedCan, Patient> bus{wire, {}};
 };
 
-// Same inputs and digests, tick for tick, as over every other link of this project.
 TEST_F(CanLoop, RecordsTheSameBitsWhereverItsTwinIs) {
   const std::vector<TickRecord> expected = records_here(params);
   const std::vector<TickRecord> records = records_at_the_end_of_a_bus();
@@ -127,7 +126,7 @@ TEST_F(CanLoop, RecordsTheSameBitsOverABusThatLosesAnswers) {
   EXPECT_GT(wire.faults, 100u);
 }
 
-// When frames do not reach the twin, the run goes on and the PC still knows every bit.
+// Frames to the twin are lost.
 TEST_F(CanLoop, IsKnownBitByBitThoughItsFramesAreLost) {
   ASSERT_EQ(bus.greet(params), lockstep::Verdict::kAccepted);
   auto loop = std::make_unique<app::App<decltype(bus), Linked, Linked>>(params, bus, operator_link,
@@ -139,7 +138,7 @@ TEST_F(CanLoop, IsKnownBitByBitThoughItsFramesAreLost) {
   expect_shadowed(operator_link.records);
 }
 
-// The twin misses the beginning of one tick, or of two in a row.
+// One tick's beginning, or two in a row.
 TEST_F(CanLoop, IsKnownBitByBitThoughBeginningsOfTicksAreLost) {
   ASSERT_EQ(bus.greet(params), lockstep::Verdict::kAccepted);
   auto loop = std::make_unique<app::App<decltype(bus), Linked, Linked>>(params, bus, operator_link,
@@ -153,8 +152,7 @@ TEST_F(CanLoop, IsKnownBitByBitThoughBeginningsOfTicksAreLost) {
   expect_shadowed(operator_link.records);
 }
 
-// A controller with other firmware: the shadow names the first tick whose frames differ from this
-// PC's.
+// The shadow names the first tick whose frames differ from this PC's.
 TEST_F(CanLoop, FramesOfAnotherControllerAreNoticed) {
   ASSERT_EQ(bus.greet(params), lockstep::Verdict::kAccepted);
   test::Walker walker;

@@ -10,8 +10,8 @@
 #include "tests/host/bus/fake_plant.hpp"
 #include "tests/host/can/served_can.hpp"
 
-// A controller at the end of a CAN bus that may lose, double and reorder frames. The twin's time
-// stands still until the controller asks for more.
+// A controller behind a CAN bus that may lose, double and reorder frames. The twin's time waits for
+// the controller.
 namespace verp::can {
 namespace {
 
@@ -23,7 +23,6 @@ CanFrame sync_frame(std::uint8_t counter) {
   return frame;
 }
 
-/// The result of one poll and its time.
 struct Heard {
   CanFrame frame;
   bool any = false;
@@ -35,7 +34,7 @@ struct Heard {
 
 constexpr int kTicks = 200;
 
-/// A small master: starts the nodes, then sends rounds of goals and SYNCs.
+/// Starts the nodes, then sends rounds of goals and SYNCs.
 template <hal::CanBus Bus>
 std::vector<Heard> drive(const Params& params, Bus& bus) {
   constexpr std::uint32_t kTimeout_us = 700;
@@ -103,8 +102,7 @@ class CanLockstep : public ::testing::Test {
   Bus bus{wire, Patient{&patience}};
 };
 
-// Every frame comes at the same microsecond: a controller cannot tell whether the twin is in its
-// process or at the end of a bus.
+// To the microsecond.
 TEST_F(CanLockstep, BringsWhatABusInThisProcessBrings) {
   ASSERT_EQ(bus.greet(params), lockstep::Verdict::kAccepted);
   const std::vector<Heard> heard = drive(params, bus);
@@ -125,8 +123,7 @@ TEST_F(CanLockstep, MakesGoodWhatIsLostOrDoubledOnTheWayToTheController) {
   EXPECT_EQ(bus.counters().damaged, 0u);
 }
 
-// Goals, requests and SYNC have different priorities, so a controller's mailboxes let SYNC
-// overtake.
+// A controller's mailboxes let SYNC overtake, because priorities differ.
 TEST_F(CanLockstep, TakesNoHarmFromAnotherOrderOnTheWay) {
   wire.outbound = {.swapped = 0.5};
   wire.inbound = {.swapped = 0};
@@ -156,8 +153,7 @@ TEST(CanSetUpright, IsAMessageOfTheTwinsClock) {
   EXPECT_TRUE(server.unannounced().empty()) << "no frame of the robot's bus";
 }
 
-// The SJA1000 has the smallest receive FIFO. It holds a whole answer, so a slow controller loses
-// nothing.
+// The smallest receive FIFO. It holds a whole answer, so a slow controller loses nothing.
 TEST_F(CanLockstep, AnAnswerFitsAnSja1000) {
   ASSERT_EQ(bus.greet(params), lockstep::Verdict::kAccepted);
   wire.most_room = 0;
@@ -166,7 +162,7 @@ TEST_F(CanLockstep, AnAnswerFitsAnSja1000) {
   EXPECT_LE(wire.most_room, 64u);
 }
 
-// The live check, for example, sends such requests to the controller that the twin serves.
+// For example the live check's requests.
 TEST_F(CanLockstep, AnAnswerFitsAnSja1000WithARequestToTheController) {
   ASSERT_EQ(bus.greet(params), lockstep::Verdict::kAccepted);
   wire.most_room = 0;
@@ -177,7 +173,6 @@ TEST_F(CanLockstep, AnAnswerFitsAnSja1000WithARequestToTheController) {
   EXPECT_LE(wire.most_room, 64u);
 }
 
-// A controller that starts later gets no requests queued while there was none.
 TEST_F(CanLockstep, KeepsNoRequestsForAControllerThatIsGone) {
   const CanFrame asked = canopen::classic_frame(canopen::sdo_request_id(plan::kControllerNode), 8);
   ASSERT_EQ(bus.greet(params), lockstep::Verdict::kAccepted);
@@ -190,8 +185,7 @@ TEST_F(CanLockstep, KeepsNoRequestsForAControllerThatIsGone) {
   EXPECT_EQ(wire.requests_heard, 4u);
 }
 
-// A frame that never reached the twin was never on its bus. The run goes on, and both ends count
-// it.
+// Both ends count it, and the run goes on.
 TEST_F(CanLockstep, LetsALostFrameBeLostOnTheBus) {
   wire.outbound = {.lost = 0.01, .doubled = 0.01};
   ASSERT_EQ(bus.greet(params), lockstep::Verdict::kAccepted);
@@ -201,7 +195,7 @@ TEST_F(CanLockstep, LetsALostFrameBeLostOnTheBus) {
   EXPECT_FALSE(bus.lost());
 }
 
-// The interface is shared: both ends ignore frames that no controller of ours sends.
+// The interface is shared.
 TEST_F(CanLockstep, IgnoresWhatOthersSay) {
   wire.outbound = {.foreign = 0.1};
   wire.inbound = {.foreign = 0.1};
@@ -248,7 +242,6 @@ TEST_F(CanLockstep, StopsWhenTheTwinWantsNoFurtherTick) {
   EXPECT_EQ(begun.size(), 50u);
 }
 
-// The controller waits for a vanished twin only as long as its idle hook allows.
 TEST_F(CanLockstep, ASilentTwinIsGivenUpWhenIdleSaysSo) {
   ASSERT_EQ(bus.greet(params), lockstep::Verdict::kAccepted);
   wire.cut = true;

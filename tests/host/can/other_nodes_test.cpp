@@ -9,7 +9,6 @@
 #include "common/protocol/canopen/robot_plan.hpp"
 #include "tests/host/can/can_bench.hpp"
 
-// Whether only `verp hil` plays the robot's nodes.
 namespace verp::can {
 namespace {
 
@@ -52,7 +51,7 @@ TEST_F(OtherNodesTest, WhatAMasterOrAnotherRobotSendsIsNone) {
   EXPECT_EQ(others.found(), 0);
 }
 
-// As cangen sends them: half have all eight bytes, like most answers of nodes.
+// As from cangen: half have all eight bytes, like most nodes' answers.
 TEST_F(OtherNodesTest, AFewRandomFramesAreNone) {
   std::mt19937 random(1);
   for (int run = 0; run < 10'000; ++run) {

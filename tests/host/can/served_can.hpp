@@ -12,13 +12,13 @@
 #include "hal/contract/can_bus.hpp"
 #include "host/can/lockstep_server.hpp"
 
-/// A controller's bus to a server in the same thread: the server answers while the controller
-/// waits. A seeded generator loses, doubles or swaps frames on the way.
+/// A controller's bus to a server in the same thread, which answers while the controller waits. A
+/// seeded generator loses, doubles or swaps frames.
 namespace verp::can {
 
 struct Odds {
   double lost = 0, doubled = 0, swapped = 0;  ///< shares of frames
-  double foreign = 0;  ///< share of frames that follow a frame of another sender
+  double foreign = 0;                         ///< share of frames after another sender's frame
 };
 
 class ServedCan {
@@ -50,11 +50,11 @@ class ServedCan {
 
   Odds outbound, inbound;
   bool cut = false;
-  unsigned lost_beginnings = 0;  ///< the next so many SYNCs 1 do not reach the server
+  unsigned lost_beginnings = 0;  ///< so many SYNCs 1 do not reach the server
   unsigned faults = 0, strangers = 0;
-  unsigned requests = 0;  ///< requests for the controller's node, one with each answer
+  unsigned requests = 0;  ///< for the controller's node, one with each answer
   unsigned requests_heard = 0;
-  std::size_t most_room = 0;  ///< the most that one answer takes of a receive FIFO
+  std::size_t most_room = 0;  ///< of one answer, in a receive FIFO
 
  private:
   void serve() {
@@ -65,7 +65,7 @@ class ServedCan {
     for (const CanFrame& each : answer) {
       room += lockstep::room_of(each);
       if (!each.extended && each.id == request().id) {
-        ++requests_heard;  // the controller's node keeps it
+        ++requests_heard;
         continue;
       }
       spoil(each, inbound, to_client_);
@@ -76,7 +76,7 @@ class ServedCan {
   static CanFrame request() {
     return canopen::classic_frame(canopen::sdo_request_id(canopen::plan::kControllerNode), 8);
   }
-  // CAN keeps the order of frames with one identifier, and the clock's frames come last.
+  // CAN keeps the order within one identifier; the clock's frames come last.
   void spoil(const CanFrame& frame, const Odds& odds, std::deque<CanFrame>& to) {
     std::uniform_real_distribution<double> chance(0, 1);
     if (odds.foreign > 0 && chance(random_) < odds.foreign) to.push_back(stranger());

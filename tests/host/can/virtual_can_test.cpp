@@ -118,7 +118,6 @@ TEST(VirtualCan, WhatWasSentBeforeATickIsOnTheWireBeforeIt) {
   EXPECT_GE(ends_us[47], 20'000u) << "they took longer than the first period left";
 }
 
-// Registers are sampled at the end of the SYNC, not when the answer goes out.
 TEST(VirtualCan, SamplesWhenTheSyncEnds) {
   CanBench bench(2);
   bench.let_pass(5000);
@@ -184,7 +183,7 @@ TEST(VirtualCan, CountsFramesThatFindNoRoom) {
   request.data[2] = 0x10;
   for (unsigned round = 0; round < 4; ++round) {
     for (unsigned i = 2; i < hal::kCanQueue; ++i) ASSERT_TRUE(bench.bus.send(request));
-    bench.sync(1);  // sends all that waits; the test reads nothing
+    bench.sync(1);  // sends all that waits, unread
   }
   unsigned read = 0;
   for (CanFrame frame; bench.bus.poll(frame, 1000);) ++read;

@@ -11,7 +11,6 @@ namespace verp::test {
 
 inline constexpr std::uint8_t kNode = 1;
 
-/// One drive and its master.
 class VirtualDrive : public ::testing::Test {
  protected:
   VirtualDrive() { bench.let_pass(2000); }
@@ -23,7 +22,6 @@ class VirtualDrive : public ::testing::Test {
     return static_cast<std::uint16_t>(bench.value(kNode, canopen::cia402::object::kStatusword));
   }
   sim::ServoMeasurement& measured() { return bench.plant.measured[0]; }
-  /// Emergencies that arrive within `time_us`.
   std::vector<canopen::Emergency> emergencies(std::uint64_t time_us) {
     std::vector<canopen::Emergency> all;
     canopen::Emergency emergency;
@@ -32,7 +30,7 @@ class VirtualDrive : public ::testing::Test {
     }
     return all;
   }
-  /// The drive watches the master by 1016h; the master sends `beats` heartbeats, 20 ms apart.
+  /// Watches the master by 1016h, for `beats` heartbeats 20 ms apart.
   void watch_master(std::int16_t option, std::int16_t quick_stop, int beats) {
     bench.write(kNode, canopen::cia402::object::kAbortConnection, option, 2);
     bench.write(kNode, canopen::cia402::object::kQuickStopOption, quick_stop, 2);

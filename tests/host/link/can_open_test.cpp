@@ -15,13 +15,12 @@
 #include "host/link/can_port.hpp"
 #include "host/link/link.hpp"
 
-// Errors on opening a CAN interface where the kernel refuses CAN sockets, unlike this PC's.
-// tests/can covers vcan.
+// A kernel that refuses CAN sockets, unlike this PC's. tests/can covers vcan.
 
 namespace verp::wire {
 namespace {
 
-/// From now on socket(AF_CAN, ...) fails with `error` in this process.
+/// From now on socket(AF_CAN, ...) fails with `error`.
 bool refuse_can_sockets(int error) {
   sock_filter rules[] = {
       BPF_STMT(BPF_LD | BPF_W | BPF_ABS, offsetof(seccomp_data, nr)),
@@ -36,7 +35,7 @@ bool refuse_can_sockets(int error) {
          ::prctl(PR_SET_SECCOMP, SECCOMP_MODE_FILTER, &program) == 0;
 }
 
-/// Kind and text of the error on opening `link` when CAN sockets fail with `error`.
+/// The error on opening `link` when CAN sockets fail with `error`.
 std::string refusal(int error, const std::string& link) {
   int ends[2];
   EXPECT_EQ(::pipe(ends), 0);
@@ -91,7 +90,7 @@ TEST(OpenCan, IsNoStreamOfBytes) {
   }
 }
 
-// If the bus has another rate than the robot, only error frames would arrive.
+// At the wrong rate only error frames would arrive.
 TEST(CanBitRate, OfAnotherRobotIsToldWithTheRemedy) {
   CanInterface interface;
   interface.name = "can3";

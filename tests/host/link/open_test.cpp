@@ -11,14 +11,13 @@
 #include "host/link/link.hpp"
 #include "tests/contract/pc/link_pairs.hpp"
 
-// Each error on opening a port is one line with a remedy.
+// Each error is one line with a remedy.
 
 namespace verp::wire {
 namespace {
 
 using Kind = LinkError::Kind;
 
-/// The error on opening `text`.
 LinkError failure(const std::string& text) {
   try {
     Link link(parse_endpoint(text));
@@ -75,7 +74,7 @@ TEST(Open, NamesASecondListener) {
   EXPECT_EQ(failure("tcp-listen" + tcp.place().substr(3)).kind(), Kind::kBusy);
 }
 
-// Root may open anything, so the test drops root rights.
+// Root may open anything, so the test drops its rights.
 TEST(Open, NamesAMissingPermission) {
   const Link terminal(parse_endpoint("pty:"));
   ASSERT_EQ(::chmod(terminal.place().c_str(), 0), 0);
@@ -112,7 +111,7 @@ std::string target(const std::string& link) {
   return ::readlink(link.c_str(), name, sizeof name - 1) > 0 ? name : "";
 }
 
-// A second copy takes nothing from the first: neither its symlink nor its peer, nor when it ends.
+// The first keeps its symlink and its peer, even when the second ends.
 TEST(Open, NeverTakesATerminalThatIsServed) {
   const test::Folder folder;
   const Link first(parse_endpoint("pty:" + folder.link()));
@@ -127,8 +126,7 @@ TEST(Open, NeverTakesATerminalThatIsServed) {
   EXPECT_TRUE(peer.connected());
 }
 
-// After a kill the symlink remains; it is replaced whether its terminal number is free or, by
-// chance, ours.
+// The left symlink is replaced whether its terminal number is free or, by chance, ours.
 TEST(Open, TakesTheTerminalOfAProgramThatWasKilled) {
   const test::Folder folder;
   ASSERT_EQ(::symlink("/dev/pts/99999999", folder.link().c_str()), 0);
@@ -144,7 +142,6 @@ TEST(Open, TakesTheTerminalOfAProgramThatWasKilled) {
   EXPECT_EQ(::access(target(folder.link()).c_str(), F_OK), 0);
 }
 
-// A symlink that another program put there meanwhile stays.
 TEST(Open, RemovesNoLinkButItsOwn) {
   const test::Folder folder;
   const Link other(parse_endpoint("pty:"));
@@ -187,7 +184,7 @@ TEST(Open, SetsAnyRate) {
   }
 }
 
-// A program may open a twin's port as soon as it appears, before the twin sets the servos' rate.
+// A program may open the port before the twin sets the servos' rate.
 TEST(Open, ATerminalKeepsTheRateThatItsPeerHasSet) {
   Link found(parse_endpoint("pty:"));
   found.set_rate(2'000'000);
@@ -198,7 +195,7 @@ TEST(Open, ATerminalKeepsTheRateThatItsPeerHasSet) {
   EXPECT_EQ(taken.rate(), 57600U);
 }
 
-// A USB serial port plugged in again often returns with the same name as another device.
+// A USB serial port often returns with the same name as another device.
 TEST(Reconnect, FindsWhatStandsAtTheSamePath) {
   const test::Folder folder;
   auto terminal = std::make_unique<Link>(parse_endpoint("pty:" + folder.link()));

@@ -6,7 +6,7 @@
 #include "host/link/scip_range_finder.hpp"
 #include "tests/support/scip_sensor.hpp"
 
-// SCIP 2.0 by its specification, and a laser at the other end of a pseudo-terminal.
+// SCIP 2.0 by its specification, and a laser on a pseudo-terminal.
 
 namespace verp::wire {
 namespace {
@@ -43,7 +43,7 @@ TEST(Scip, FindsRepliesByteByByteAndLeavesDamagedOnesOut) {
   EXPECT_TRUE(replies.next());
 }
 
-/// Both ends of a laser's link, with a sensor and its reader.
+/// A laser's link with a sensor and its reader.
 struct Bench {
   Link near{parse_endpoint("pty:")};
   Link far{parse_endpoint("serial:" + near.place() + "@115200")};
@@ -51,11 +51,10 @@ struct Bench {
   ScipRangeFinder<Link> finder;
   hal::RangeScan scan;
 
-  /// The long default keeps a busy PC from looking like a silent sensor.
+  /// Long, so that a busy PC does not look like a silent sensor.
   explicit Bench(std::uint32_t silent_ms = 60'000)
       : finder(near, {.first = 0, .last = 99, .least_mm = 20, .silent_ms = silent_ms}) {}
 
-  /// Reads until a result is not stale.
   hal::RangeStatus read() {
     for (int i = 0; i < 5000; ++i) {
       sensor.listen();

@@ -24,8 +24,7 @@ inline std::string edited(const std::string& old_part, const std::string& new_pa
   return text;
 }
 
-/// Loading must fail at the line of `line_part` with a message of one line that contains
-/// `message_part`.
+/// Loading must fail at `line_part`'s line with one line that contains `message_part`.
 inline void expect_refused(const std::string& text, const std::string& line_part,
                            const std::string& message_part) {
   const TemporaryFile file("robot.sdf", text);

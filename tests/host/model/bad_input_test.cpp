@@ -5,7 +5,7 @@
 #include "host/model/load.hpp"
 #include "tests/host/model/bad_input.hpp"
 
-/// A robot builder's mistakes: each error names the file, the line and the remedy.
+/// Each error names file, line and remedy.
 namespace verp::model {
 namespace {
 
@@ -139,7 +139,7 @@ TEST(BadInput, NegativeMassIsRefused) {
   expect_refused(edited("<mass>1.1</mass>", "<mass>-1.1</mass>"), "<mass>-1.1</mass>", "mass");
 }
 
-/// Values that float32 cannot handle or that no robot has are refused at their line.
+/// Beyond float32 or beyond any robot.
 TEST(BadInput, AbsurdMagnitudesAreRefused) {
   const struct {
     const char *old_part, *new_part, *line_part, *message;

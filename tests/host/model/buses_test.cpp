@@ -9,12 +9,10 @@
 #include "host/model/params.hpp"
 #include "tests/host/model/test_files.hpp"
 
-// A robot may declare several buses; one is used.
-
 namespace verp::model {
 namespace {
 
-/// The error on loading generic21 by `bus` with one of its texts replaced.
+/// The error on loading an edited generic21 by `bus`.
 std::string refusal(const std::string& old_part, const std::string& new_part,
                     const std::string& bus = "") {
   std::string text = read_text(robot_file("generic21"));
@@ -46,7 +44,7 @@ TEST(Buses, TheFirstIsUsedUnlessAnotherIsNamed) {
   EXPECT_EQ(params.servo[0].profile_ms, 0) << "60C2h follows the control period";
 }
 
-// Same body, same stiffness: only the meaning of a count differs.
+// Only the meaning of a count differs.
 TEST(Buses, DrivesOfTheSameJointsAreAsStiffAsTheServos) {
   const Params serial = make_params(load_robot(robot_file("generic21")));
   const Params can = make_params(load_robot(robot_file("generic21"), "can"));
@@ -100,8 +98,8 @@ TEST(Buses, OneThatCannotCarryATickIsRefused) {
   EXPECT_NE(line.find("a tick's packets take"), std::string::npos) << line;
 }
 
-// The packets take 87 % of the period, and more than all of it when every drive changes its state.
-// The error names the first drive that does not fit, at the bus's line.
+// 87 % of the period, and more than all of it when every drive changes its state. The error is at
+// the bus's line.
 TEST(Buses, OneWithoutRoomNamesTheFirstDriveThatDoesNotFit) {
   const std::string slow = kCan + " period_us=\"10000\"";
   const std::string fast = kCan + " period_us=\"6000\"";
@@ -129,7 +127,7 @@ TEST(Buses, TheDriveThatIsNamedIsTheFirstThatDoesNotFit) {
   EXPECT_THROW(require_bus(entity, params), LoadError);
 }
 
-// The share is under 80 %, but a tick in which all drives change state would run into the next.
+// Under 80 %, but such a tick would run into the next.
 TEST(Buses, AChangeOfAllStatesHasToFitThePeriod) {
   const Entity entity = load_robot(robot_file("generic21"), "can");
   Params params = make_params(entity);

@@ -5,11 +5,10 @@
 
 #include "tests/host/model/test_files.hpp"
 
-/// For files that are not XML, the error names the mistake's line, not where the parser gave up.
+/// The error names the mistake's line, not where the parser gave up.
 namespace verp::model {
 namespace {
 
-/// `text` without its line `line`, or with it twice.
 std::string with_line(const std::string& text, int line, bool twice) {
   std::istringstream in(text);
   std::string out, each;
@@ -20,7 +19,7 @@ std::string with_line(const std::string& text, int line, bool twice) {
   return out;
 }
 
-// tinyxml2 names the element with the missing tag; for a whole robot that is its first line.
+// tinyxml2 names the element's first line; for a whole robot that is the file's.
 TEST(MalformedXml, ATagLeftOutOrGivenTwiceIsToldWhereItIs) {
   const std::string folder = VERP_SOURCE_DIR "/tests/host/model/odd_robot/";
   int faults = 0;

@@ -7,8 +7,8 @@
 #include "host/model/load.hpp"
 #include "tests/host/model/test_files.hpp"
 
-/// Third-party files, each with one fault that once crashed or passed the loader. The error names
-/// the file and a line within five of the fault.
+/// Third-party files with one fault each, which crashed or passed the loader. The error must be
+/// within five lines of it.
 namespace verp::model {
 namespace {
 
@@ -63,7 +63,7 @@ void expect_sdf_refused(const std::string& text, const std::string& fault,
 void expect_urdf_refused(const std::string& inside, const std::string& fault,
                          const std::string& said) {
   std::string text = "<robot name=\"small\">\n" + urdf_link("a") + urdf_link("b");
-  // The fault is far from the first line, so naming that line does not pass.
+  // Far from the first line, so naming that line does not pass.
   for (int i = 0; i < 20; ++i) text += "<!-- servos and gears -->\n";
   text += inside + "</robot>\n";
   const TemporaryFile urdf("small.urdf", text);
@@ -101,8 +101,7 @@ TEST(OthersFiles, TwoThatIncludeEachOtherAreRefused) {
   EXPECT_TRUE(error.file.ends_with("pong.sdf")) << error.what();
 }
 
-// libsdformat asks for a file by the text of its <uri> without saying which file includes it. The
-// second would get the first one's file.
+// libsdformat requests files by their <uri> alone: the second part would get the first one's file.
 TEST(OthersFiles, OneTextForTwoFilesIsRefused) {
   const std::string folder = ::testing::TempDir() + "/two_of_a_name";
   for (const char* each : {"/a", "/b"}) {
@@ -119,7 +118,7 @@ TEST(OthersFiles, OneTextForTwoFilesIsRefused) {
   EXPECT_TRUE(error.file.ends_with("b/part.sdf")) << error.what();
 }
 
-// Each file includes the next one twice: the last is read 2^20 times.
+// The last would be read 2^20 times.
 TEST(OthersFiles, FilesThatMultiplyAreRefusedAtOnce) {
   const std::string folder = ::testing::TempDir();
   for (int i = 0; i < 20; ++i) {
@@ -199,11 +198,10 @@ TEST(OthersFiles, UrdfJointOfAnUnknownTypeIsRefused) {
                       "[hinge]");
 }
 
-/// One fault, placed at ten joints of one file.
 struct Fault {
-  const char* what;   ///< shown if the test fails
-  const char* from;   ///< in the joint's text, or in that of the link after it
-  const char* until;  ///< end of the replaced text; "": the end of `from`
+  const char* what;
+  const char* from;   ///< in the joint's text, or in the next link's
+  const char* until;  ///< end of the replaced text; "": of `from`
   const char* to;     ///< replacement; NAME is the joint's name
   const char* said;   ///< part of the message
   bool in_link = false;
@@ -287,8 +285,7 @@ TEST(OthersFiles, TenOfEachFaultOfAUrdfAreRefusedWhereTheyStand) {
   std::filesystem::remove(urdf_path);
 }
 
-// The pose refers to itself in a loop. libsdformat names the link, which our loader once took for
-// the model.
+// libsdformat names the link, which our loader once took for the model.
 TEST(OthersFiles, APoseThatHangsOnItselfIsRefusedAtItsLink) {
   std::string text = read_text(robot_file("generic21"));
   const std::string pose = "<pose relative_to=\"r_hip_cross\">";
@@ -301,8 +298,8 @@ TEST(OthersFiles, APoseThatHangsOnItselfIsRefusedAtItsLink) {
   EXPECT_NEAR(error.line, line, 5) << error.what();
 }
 
-// libsdformat looks into the working directory first. From the robot's folder it found the URDF
-// unprepared, in which a link and a joint with one name are two faults.
+// libsdformat looks into the working directory first. There it found the unprepared URDF, in which
+// a link and joint share a name: two faults.
 TEST(OthersFiles, OddRobotIsTheSameForWhoeverStandsInItsFolder) {
   const std::string folder = VERP_SOURCE_DIR "/tests/host/model/odd_robot";
   const auto before = std::filesystem::current_path();
@@ -312,7 +309,7 @@ TEST(OthersFiles, OddRobotIsTheSameForWhoeverStandsInItsFolder) {
   std::filesystem::current_path(before);
 }
 
-// The smallest wrapper, for beginners: its file gives no pose, gain or gait.
+// The smallest wrapper: its file gives no pose, gain or gait.
 TEST(OthersFiles, OddRobotStandsOnWhatIsFoundForIt) {
   const Entity e = load_robot(VERP_SOURCE_DIR "/tests/host/model/odd_robot/robot.sdf");
   EXPECT_EQ(e.joints.size(), 15u) << "with the right hip's yaw, which has no servo";
@@ -365,7 +362,7 @@ TEST(OthersFiles, RobotWithoutLegsOrImuIsRefused) {
   }
 }
 
-// Names are lines in tables and take 23 characters in a controller's memory.
+// Names are lines in tables and 23 characters in a controller.
 TEST(OthersFiles, NamesThatNothingHasRoomForAreRefused) {
   for (const std::string name : {"head&#10;yaw", "head_yaw_as_the_maker_calls_it"}) {
     std::string text = read_text(robot_file("generic21"));
@@ -377,7 +374,7 @@ TEST(OthersFiles, NamesThatNothingHasRoomForAreRefused) {
   }
 }
 
-// Our loader's libraries expect a handful of links; this took them minutes.
+// The libraries expect a handful of links; this took minutes.
 TEST(OthersFiles, TwentyThousandLinksAreRefusedAtOnce) {
   std::string links;
   for (int i = 0; i < 20000; ++i) links += sdf_link("a" + std::to_string(i));

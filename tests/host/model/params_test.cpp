@@ -110,7 +110,7 @@ TEST(Image, IsReadBackAsWritten) {
   EXPECT_EQ(check_image(&image, sizeof image), ImageFault::kNone);
 }
 
-// For `verp flash --params FILE`: the error names the bad number.
+// For `verp flash --params FILE`.
 TEST(Image, NumberThatIsNoneIsToldByItsName) {
   ParamsImage image = make_image(generic21());
   image.params.joint[3].upper_rad = std::numeric_limits<float>::quiet_NaN();
@@ -197,13 +197,12 @@ TEST(Check, SaysWhatABuilderAsksFirst) {
   EXPECT_NE(json.find("\"dof\": 21"), std::string::npos);
 }
 
-/// The line about that type of servo.
 std::string servo_line(const std::string& text, const std::string& type) {
   const std::size_t at = text.find("servo " + type + ":");
   return at == std::string::npos ? "" : text.substr(at, text.find('\n', at) - at);
 }
 
-// The numbers of a motor that nobody measured are scaled from others and hold within a band.
+// An unmeasured motor's numbers are scaled from others, within a band.
 TEST(Check, SaysWhichServosAreIdentifiedAndWhichAreScaledWithinABand) {
   std::string text = read_text(robot_file("generic21"));
   const std::string was = "type=\"xm430_w210\"";

@@ -8,7 +8,7 @@
 namespace verp::model {
 namespace {
 
-// Each robot has its own soles and gait; the orders jump at random.
+// With each robot's own soles and gait.
 TEST(SolesOfShippedRobots, PassBesideEachOtherHoweverOrdersJump) {
   for (const char* name : {"generic21", "op3", "darwin_op"}) {
     const Params params = make_params(load_robot(robot_file(name)));
@@ -19,7 +19,6 @@ TEST(SolesOfShippedRobots, PassBesideEachOtherHoweverOrdersJump) {
   }
 }
 
-// Walks in curves that an operator might order.
 TEST(SolesOfShippedRobots, PassBesideEachOtherInCurves) {
   for (const char* name : {"generic21", "op3", "darwin_op"}) {
     const Params params = make_params(load_robot(robot_file(name)));

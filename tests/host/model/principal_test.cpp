@@ -8,8 +8,7 @@
 namespace verp::model {
 namespace {
 
-// Equals Eigen's result bit for bit. Eigen's own function adds seconds of compile time to every
-// unit that uses it.
+// Bit for bit. Eigen's own function adds seconds of compile time to each unit.
 TEST(Principal, TheShortestTurnOfZIsEigens) {
   std::mt19937 random(1);
   std::normal_distribution<double> number;

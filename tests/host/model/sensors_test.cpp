@@ -7,11 +7,10 @@
 #include "host/model/load.hpp"
 #include "tests/host/model/test_files.hpp"
 
-// What a robot's file may and may not declare about its sensors.
 namespace verp::model {
 namespace {
 
-/// generic21 with more sensors: in the ankle's joint, on the foot, and among the verp: elements.
+/// Sensors for generic21: in the ankle's joint, on the foot, among the verp: elements.
 struct Additions {
   std::string joint, foot, elements;
 };

@@ -4,7 +4,7 @@
 
 #include "tests/host/model/bad_input.hpp"
 
-/// Servo types that a robot builder describes in the robot's file.
+/// Servo types described in the robot's file.
 namespace verp::model {
 namespace {
 
@@ -77,7 +77,7 @@ TEST(BadInput, ServoTypesOfTheFileAreReadAndTheirSlipsNamed) {
                  "<gear/>", "unknown element <gear>");
 }
 
-// A number that nobody has measured stays uncertain, and random robots vary it.
+// Random robots vary what nobody has measured.
 TEST(BadInput, AServoTypeThatIsLikeAnotherIsAsSureAsItsNumbers) {
   const std::string old_type = "type=\"xm430_w210\"";
   const auto mine = [&](const std::string& attributes) {

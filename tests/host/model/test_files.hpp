@@ -39,7 +39,7 @@ inline std::string robot_file(const std::string& name) {
   return std::string(VERP_SOURCE_DIR) + "/common/robots/" + name + "/robot.sdf";
 }
 
-/// The error of loading `path`. ctest's time limit catches a load that never ends.
+/// The error of loading `path`. ctest ends a load that never ends.
 inline LoadError refusal_of(const std::string& path) {
   try {
     load_robot(path);
@@ -51,7 +51,7 @@ inline LoadError refusal_of(const std::string& path) {
   return {path, 0, "", ""};
 }
 
-/// True if the third-party model files are found; they are not part of this repository.
+/// True if the third-party models are found; the repository lacks them.
 inline bool has_third_party(const std::string& uri) {
   return !resolve_model_uri(uri, ".").empty();
 }

@@ -11,7 +11,6 @@
 #include "host/model/params.hpp"
 #include "tests/host/model/test_files.hpp"
 
-/// Third-party robots, loaded through their wrappers.
 namespace verp::model {
 namespace {
 
@@ -24,7 +23,7 @@ double mass_of(const Entity& entity) {
   return sum;
 }
 
-/// Both legs reach a level sole below the hip at walking height, without flags.
+/// Both legs reach a level sole at walking height without flags.
 void expect_walkable(const Entity& entity) {
   const Params params = make_params(entity);
   for (int foot = 0; foot < kFeet; ++foot) {
@@ -41,7 +40,7 @@ void expect_walkable(const Entity& entity) {
         leg, kinematics::leg_chain(params, leg, verp::Pose{}, solved.angle_rad));
     EXPECT_LT((found.position_m - sole.position_m).norm(), 2e-4F);
     EXPECT_LT((found.rotation - sole.rotation).norm(), 1e-3F);
-    // The declared standing pose is that posture, but for the stance width.
+    // The declared stand pose is that posture, but for the stance width.
     for (int k = 0; k < kLegJoints; ++k) EXPECT_NEAR(solved.angle_rad[k], stand_rad[k], 0.02F) << k;
   }
 }
@@ -70,7 +69,7 @@ TEST(DarwinOp, LoadsWithItsKnownNumbers) {
   expect_walkable(e);
 }
 
-/// The table gives the same robot as the maker's own files through a wrapper.
+/// The table's robot equals the maker's files through a wrapper.
 void expect_same_robot(const std::string& name) {
   const Entity table = load_robot(robot_file(name));
   const Entity urdf = load_robot(robot_file(name + "_urdf"));
@@ -142,7 +141,7 @@ TEST(ThirdParty, MeshCollisionIsRefusedUnlessDropped) {
   }
 }
 
-/// A wrapper around a URDF of two links, `extra` among the joint's children, `more` beside them.
+/// A wrapper around a URDF of two links; `extra` is in the joint, `more` beside it.
 class SmallUrdf {
  public:
   SmallUrdf(const std::string& extra, const std::string& more)
@@ -200,8 +199,7 @@ TEST(Urdf, ShapeWithoutMassIsRefusedUnlessDeclared) {
   EXPECT_EQ(load_part_of_robot(file.path()).joints.size(), 1u);
 }
 
-// Other programs need chains of frames. Links at their ends are kept, and all frames keep their
-// names.
+// Other programs need such frames; all keep their names.
 TEST(Urdf, ChainOfMasslessLinksCarriesWhatHangsOnIt) {
   const auto fixed = [](const std::string& name, const std::string& parent,
                         const std::string& child) {
@@ -236,7 +234,7 @@ TEST(Urdf, LinkAndJointMayHaveOneName) {
   EXPECT_EQ(e.nodes[2].name, "k");
 }
 
-// A finger that slides, one that bends and one that mimics; none serves to walk.
+// Fingers: one slides, one bends, one mimics.
 TEST(Urdf, FixedJointsAreNoJointsAndStandWhereTheyWereFixed) {
   const auto joint = [](const std::string& name, const std::string& type, const std::string& more) {
     return SmallUrdf::link(name + "_tip") + "<joint name=\"" + name + "\" type=\"" + type +
@@ -259,7 +257,7 @@ TEST(Urdf, FixedJointsAreNoJointsAndStandWhereTheyWereFixed) {
   const Entity e = load_part_of_robot(file.path());
   ASSERT_EQ(e.joints.size(), 1u);
   EXPECT_NEAR(mass_of(e), 6, 1e-12);
-  // The turn is about x by a right angle: the mass above the joint is now on its right.
+  // A right angle about x: the mass above the joint is now on its right.
   EXPECT_NEAR(e.nodes[1].com_m.y(), -1.0 / 5, 1e-6);
   const TemporaryFile wrong("wrong.sdf",
                             urdf.wrapper(fixes + "<verp:fix joint=\"thumb\" reason=\"?\"/>"));
@@ -272,7 +270,7 @@ TEST(Urdf, DecimalCommaIsRefused) {
   EXPECT_THROW(load_robot(file.path()), LoadError);
 }
 
-/// Other file conventions place joints shifted or turned.
+/// As other file conventions place joints.
 TEST(LegSolver, AxesApartBeyondHalfAMillimetreTakeNewton) {
   Entity e = load_robot(robot_file("generic21"));
   const Limb leg = *find_limb(e, "left_leg");
@@ -296,7 +294,7 @@ TEST(LegSolver, SkewedHipAxisTakesNewton) {
 TEST(LegSolver, BentZeroPoseBecomesOffsets) {
   Entity e = load_robot(robot_file("generic21"));
   const Limb leg = *find_limb(e, "left_leg");
-  // In the file's zero pose the knee is 40 mm ahead of hip and ankle.
+  // In the zero pose the knee is 40 mm ahead of hip and ankle.
   e.joints[static_cast<std::size_t>(leg.joints[3])].origin_m.x() += 0.04;
   e.joints[static_cast<std::size_t>(leg.joints[4])].origin_m.x() -= 0.04;
   const LegGeometry g = classify_leg(e, leg);

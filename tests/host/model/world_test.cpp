@@ -7,7 +7,7 @@
 #include "host/model/load_world.hpp"
 #include "tests/host/model/test_files.hpp"
 
-/// The shipped worlds load; a builder's mistakes are refused with file, line and remedy.
+/// Shipped worlds load; mistakes are refused with file, line and remedy.
 namespace verp::model {
 namespace {
 
@@ -162,7 +162,7 @@ TEST(Worlds, AMeshIsReadOrRefusedByWhatIsInIt) {
   const TemporaryFile wild("d.obj", "v 0 0 0\nv 1 0 0\nf 1 2 3\n");
   EXPECT_NE(refusal(with(wild.path(), fixed)).find("names the corner '3'"), std::string::npos);
   const std::string inertial =
-      "<pose>0 0 0 0 0 0</pose>";  // it moves, so it is refused before the check for its mass
+      "<pose>0 0 0 0 0 0</pose>";  // moves: refused before its missing mass
   EXPECT_NE(refusal(with(text.path(), inertial)), "none");
 }
 

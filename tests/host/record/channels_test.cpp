@@ -9,7 +9,6 @@ namespace {
 
 using Channels = TraceFolder;
 
-/// Messages by topic.
 std::map<std::string, std::vector<std::string>> messages_of(const std::string& bytes) {
   const mcap::File file = mcap::parse(bytes);
   EXPECT_FALSE(file.flaw);
@@ -20,7 +19,6 @@ std::map<std::string, std::vector<std::string>> messages_of(const std::string& b
   return all;
 }
 
-// A viewer shows the joints' goals, the gait's phase and the robot's name.
 TEST_F(Channels, TellEachTicksGoalsAndGaitAndTheRobot) {
   write_run(folder_ / "run.mcap", 40);
   auto all = messages_of(slurp(folder_ / "run.mcap"));

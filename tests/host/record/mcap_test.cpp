@@ -23,7 +23,6 @@ std::string small_file(const fs::path& path,
   return slurp(path);
 }
 
-// The check value of the CRC catalogue.
 TEST(Crc32, AgreesWithItsCatalogueEntry) {
   EXPECT_EQ(mcap::crc32("123456789"), 0xCBF43926u);
   EXPECT_EQ(mcap::crc32("6789", mcap::crc32("12345")), 0xCBF43926u);
@@ -56,7 +55,7 @@ TEST_F(Mcap, CompressedHoldsTheSameInLess) {
     EXPECT_EQ(file.messages[i].data, same.messages[i].data);
     EXPECT_EQ(file.messages[i].time_ns, same.messages[i].time_ns);
   }
-  // The writer does not compress data that would not shrink.
+  // Data that would not shrink stays uncompressed.
   std::string noise(4000, '\0');
   std::uint32_t drawn = 1;
   for (char& c : noise) c = static_cast<char>((drawn = 1664525 * drawn + 1013904223) >> 24);

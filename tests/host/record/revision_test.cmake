@@ -28,7 +28,7 @@ expect(${hash} "as tagged")
 file(WRITE ${FOLDER}/source.cpp "int b;\n")
 expect(${hash}-dirty "edited")
 
-# The script writes only on a change; otherwise every build would compile.
+# Written only on a change; otherwise every build would compile.
 execute_process(COMMAND ${CMAKE_COMMAND} -DSOURCE=${FOLDER} -DOUTPUT=${FOLDER}/out.cpp -P ${SCRIPT})
 file(TIMESTAMP ${FOLDER}/out.cpp before "%s%f")
 execute_process(COMMAND ${CMAKE_COMMAND} -E sleep 0.1)

@@ -11,12 +11,11 @@
 #include "common/control/step.hpp"
 #include "host/record/trace_writer.hpp"
 
-/// A small robot and a short run for the tests of host/record.
 namespace verp::record::test {
 
 namespace fs = std::filesystem;
 
-/// A folder for one test; the destructor removes it.
+/// The destructor removes the test's folder.
 class TraceFolder : public ::testing::Test {
  protected:
   TraceFolder() {

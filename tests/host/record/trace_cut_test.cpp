@@ -16,8 +16,7 @@ class TraceCut : public TraceFolder {
   const fs::path whole_ = folder_ / "whole.mcap", part_ = folder_ / "part.mcap";
 };
 
-// The cut starts at the last State before it and has the original's ticks and digests. A cut of the
-// cut has them too.
+// The original's ticks and digests, from the last State before the cut; also in a cut of a cut.
 TEST_F(TraceCut, IsATraceThatReplaysToTheSameBits) {
   const Trace whole = read_trace(whole_);
   struct Row {
@@ -83,7 +82,7 @@ TEST_F(TraceCut, RefusesWhatItCannotReplayAndLeavesNothing) {
   EXPECT_EQ(std::distance(fs::directory_iterator(folder_), {}), 1);
 }
 
-// The cut cannot begin with a State that this program does not understand.
+// This program does not understand its State.
 TEST_F(TraceCut, OfAnotherRevisionIsRefusedByName) {
   const Params params = sample_params();
   {

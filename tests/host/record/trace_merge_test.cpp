@@ -9,7 +9,7 @@ namespace {
 
 class TraceMerge : public TraceFolder {
  protected:
-  /// Writes every kind of message that a trace may hold.
+  /// Writes every kind of message.
   void write(const char* name, std::uint32_t ticks) const {
     TraceWriter writer(folder_ / name, sample_params(), {{"seed", name}});
     const ros::BodyPose body{{1, 2, 3}, {0, 0, 0, 1}};
@@ -31,7 +31,7 @@ class TraceMerge : public TraceFolder {
   }
 };
 
-// Each message is read by its definition and written again as the same bytes.
+// Read by its definition and written again, it is the same bytes.
 TEST_F(TraceMerge, KnowsEveryTypeOfMessageByItsDefinition) {
   write("a.mcap", 40);
   const std::string bytes = slurp(folder_ / "a.mcap");

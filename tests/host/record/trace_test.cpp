@@ -79,7 +79,7 @@ TEST_F(TraceFile, CrashLosesAtMostTheOpenChunk) {
     for (std::uint32_t tick = 0; tick < 25; ++tick) {
       writer.append(record_of(sample_inputs(tick)), State{}, Outputs{});
     }
-    fs::copy_file(part, folder_ / "crashed.mcap");  // the disk's content if the process dies here
+    fs::copy_file(part, folder_ / "crashed.mcap");  // the disk if the process dies here
   }
   EXPECT_NE(error_of(folder_ / "crashed.mcap").find("20 ticks before it are whole"),
             std::string::npos);
@@ -88,8 +88,7 @@ TEST_F(TraceFile, CrashLosesAtMostTheOpenChunk) {
   EXPECT_NE(trace.warning, "");
 }
 
-// In real time, writing a chunk takes part of a tick. With pictures, a chunk of one second would be
-// too large.
+// In real time a chunk's end is part of a tick; a second of pictures would be too much.
 TEST_F(TraceFile, ChunksEndWhenTheyAreFull) {
   fs::path part;
   TraceWriter writer(folder_ / "run.mcap", sample_params(), {}, {.ros = true});
@@ -143,7 +142,7 @@ TEST_F(TraceFile, MessageSaysHowMuchIsLost) {
   EXPECT_NE(error.find("lost"), std::string::npos) << error;
 }
 
-// A compressed trace recovers its ticks without the number that was lost.
+// It cannot say how many were lost.
 TEST_F(TraceFile, CompressedRecoversWholeChunksToo) {
   const fs::path file = folder_ / "run.mcap";
   write_run(file, 12, {.chunk_ticks = 4});
@@ -178,7 +177,7 @@ TEST_F(TraceFile, EditIsAnError) {
   }
 }
 
-// Replay refuses a robot with indices out of range or values that are not numbers.
+// Its indices are out of range, or its values are no numbers.
 TEST_F(TraceFile, ParamsThatAreNoRobotAreRefused) {
   const auto refused = [&](auto spoil) {
     Params params = sample_params();

@@ -45,7 +45,7 @@ TEST(AskedWay, StraightIsALine) {
   EXPECT_EQ(way.turn_rad, 0);
 }
 
-// Earlier, a robot that shuffled on the spot for 20 s counted as "walked without a fall".
+// A robot that shuffled on the spot for 20 s once "walked without a fall".
 TEST(Shortfall, OneCentimetreIsNoWalk) {
   EXPECT_NE(shortfall(velocity(0.18, 0, 0), walked(0.01, 0.01, 0, 0)), "");
   EXPECT_NE(shortfall(velocity(0.18, 0, 0), walked(1.5, 1.5, 0, 0)), "");
@@ -64,7 +64,7 @@ TEST(Shortfall, ATurnIsAskedToo) {
   EXPECT_EQ(shortfall(velocity(0.1, 0, 0.2), walked(1.9, 0.1, 0.1, 210)), "");
 }
 
-// Eight steps of one second each; the first four and the last four are shorter than ordered.
+// Eight steps of one second; the first and last four are short.
 TEST(Shortfall, SlowGaitsStartAndStopSlowly) {
   GaitTuning slow;
   slow.cycle_s = 2;
@@ -75,9 +75,8 @@ TEST(Shortfall, SlowGaitsStartAndStopSlowly) {
   EXPECT_NE(shortfall(velocity(0.04, 0, 0), eight, slow), "");
 }
 
-// generic21's gait fills 2.58 s with strides of 1, 2, 3, 4, 3, 2, 1 cm and one that closes the
-// feet. A robot that went 17 cm of 1.55 m had "walked", without a word that this was the most
-// possible.
+// generic21's strides of 1, 2, 3, 4, 3, 2, 1 cm and one that closes the feet fill 2.58 s. A robot
+// that went 17 cm of 1.55 m once "walked", and no message said that more was impossible.
 TEST(Shortfall, AShortWalkIsHeldByWhatItsGaitGoesInThatTime) {
   const Command fast = velocity(0.6, 0, 0);
   EXPECT_NEAR(within_reach(fast, 2.58, {}).length_m, 0.16, 1e-6);

@@ -21,7 +21,7 @@ TEST(FallVerdict, AFallWithTorqueIsOneAndStaysOne) {
 
 TEST(FallVerdict, AControllerThatLetsGoOfATippingRobotDoesNotMakeItGood) {
   FallVerdict verdict;
-  verdict.see(true, 0.8, false);  // fall_tilt_rad: the controller goes to fallen, and limp
+  verdict.see(true, 0.8, false);  // fall_tilt_rad: the controller goes limp
   for (int i = 0; i < 20; ++i) verdict.see(false, 0.8 + 0.01 * i, false);
   verdict.see(false, 1.01, true);
   EXPECT_TRUE(verdict.fell());
@@ -53,7 +53,7 @@ TEST(FallVerdict, ARobotThatIsLetGoUprightLiesDown) {
   EXPECT_FALSE(verdict.fell());
 }
 
-// The verdict is never both and never changes. A robot without torque never counts as fallen.
+// Never both; without torque, never a fall.
 TEST(FallVerdict, IsOneThingAndStaysThat) {
   std::minstd_rand random(3);
   std::uniform_real_distribution<double> tilt(0, 2);

@@ -12,8 +12,6 @@
 #include "tests/host/session/plans.hpp"
 #include "tests/host/tool/link_controller.hpp"
 
-// A controller at the other end of a link drives a session's robot like any other.
-
 namespace verp::session::test {
 namespace {
 
@@ -51,7 +49,7 @@ TEST(Served, WalksBesideARobotOfThisProcessAndBothHaveTheBitsTheyHaveAlone) {
   fs::remove_all(folder);
 }
 
-// A board's operator sees neither its plan nor its notes.
+// A board's operator does not see the plan's notes.
 TEST(Served, SaysWhenTheLegsCannotDoWhatIsAsked) {
   WalkPlan plan = plan_of("dxl");
   plan.velocity.vx_tenth_mm_s = 5000;  // steps of 11 cm in cycles of 450 ms; the legs allow 8
@@ -75,7 +73,7 @@ TEST(Served, SaysWhenTheLegsCannotDoWhatIsAsked) {
   fs::remove_all(folder);
 }
 
-// Only requests to the clock count as a sign of life; other bytes do not let the world go on.
+// Only requests to the clock count as a sign of life.
 TEST(Served, WhoGreetsAndThenSendsRubbishLosesItsRobot) {
   const fs::path place = fs::temp_directory_path() / ("rubbish" + std::to_string(::getpid()));
   const WalkPlan plan = plan_of("dxl");

@@ -9,8 +9,8 @@
 #include "host/session/not_up.hpp"
 #include "tests/host/session/plans.hpp"
 
-// A session is one world with robots in it. A robot's run depends only on the plans. Neither the
-// order of the ticks' calls nor robots that it does not touch change it.
+// A robot's run in a shared world depends only on the plans: not on how its ticks are called, nor
+// on robots that it does not touch.
 
 namespace verp::session::test {
 namespace {
@@ -36,7 +36,7 @@ TEST(Session, RefusesARobotInsideAnother) {
   EXPECT_NO_THROW(session.add(plan_of("dxl", 1.2)));
 }
 
-// The session refuses what a board refuses: orders never bypass the registers.
+// The session refuses what a board refuses.
 TEST(Session, OrdersGoThroughTheOperatorsRegisters) {
   WalkPlan plan = plan_of("dxl");
   Hooks hooks;
@@ -46,7 +46,7 @@ TEST(Session, OrdersGoThroughTheOperatorsRegisters) {
     order.command.request = Request::kStand;
     order.command.head_pan_mrad = 123;
     order.flags = kCommandFresh;
-    if (tick % 4 == 1) {  // not fresh: the registers keep the last written values
+    if (tick % 4 == 1) {  // not fresh: the last written values hold
       order.command.head_pan_mrad = 321;
       order.flags = 0;
     }

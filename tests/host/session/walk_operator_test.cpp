@@ -9,7 +9,7 @@ namespace {
 
 using safety::Mode;
 
-// An operator whose controller is in a given mode and may be stepping.
+// An operator's view of a controller in a mode, stepping or not.
 struct Watched {
   explicit Watched(bool stands) : watcher(params(), {.vx_tenth_mm_s = 1000}, 2, 0, stands) {
     state.attitude.still_s = balance::kBestKnown_s;
@@ -36,7 +36,7 @@ struct Watched {
   Outputs outputs;
 };
 
-// A pushed robot steps by itself. That is no walk; the ordered one is still to come.
+// A pushed robot steps by itself; the ordered walk is still to come.
 TEST(WalkOperator, StepsBeforeTheWalkAreNoGaitOfIt) {
   Watched robot(false);
   robot.is(Mode::kRising, 1);
@@ -63,7 +63,7 @@ TEST(WalkOperator, WhoStandsIsNeverAskedToWalkAndEndsInTheStand) {
   EXPECT_STREQ(robot.watcher.failed(), "");
 }
 
-// Before the gyro is calibrated a pushed robot does not step, so its time starts only then.
+// Before the gyro is calibrated a pushed robot does not step.
 TEST(WalkOperator, WhoStandsBeginsWhenTheGyroIsKnown) {
   Watched robot(true);
   robot.state.attitude.still_s = 0;
@@ -90,7 +90,7 @@ TEST(WalkOperator, WhoWalksWaitsForTheBestOfItsGyroButNotForEver) {
   }
 }
 
-// A user's own controller may leave the core out, so its State does not say how long to wait.
+// Without the core, State does not say how long to wait.
 TEST(WalkOperator, WhoseControllerLearnsNoGyroIsNotWaitedFor) {
   Watched robot(false);
   robot.state = {};

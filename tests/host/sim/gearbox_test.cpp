@@ -8,8 +8,8 @@
 #include "host/sim/robot.hpp"
 #include "tests/host/sim/test_robots.hpp"
 
-/// Rotor and gearbox friction. References: closed forms, and a separate integration of the
-/// equations of Duclusaud and Passault, arXiv 2410.08650, with their identified numbers.
+/// Rotor and gearbox friction against closed forms, and against a separate integration of Duclusaud
+/// and Passault, arXiv 2410.08650, with their identified numbers.
 namespace verp::sim {
 namespace {
 
@@ -31,8 +31,7 @@ model::Joint joint_with(const model::Gearbox& gearbox) {
   return joint;
 }
 
-/// A servo that turns an inertia against a torque, without an engine but with the same implicit
-/// step.
+/// A servo, an inertia and a torque without an engine, by the same implicit step.
 struct Bench {
   explicit Bench(const model::Joint& joint, double inertia = 0.0, double step = 0.001)
       : inertia_kg_m2(inertia),
@@ -100,9 +99,9 @@ TEST(Gearbox, FrictionStopsAJointAndLeavesItThere) {
   }
 }
 
-// Other joints throw a leg back within one step. Friction that stopped it at once took 9 N m from
-// its neighbours, which threw it again. Hip and knee stuck for 60 ms at nine tenths of their
-// torque, a foot did not lift, and a robot fell.
+// Friction once stopped a thrown leg at once and took 9 N m from its neighbours, which threw it
+// again. Hip and knee stuck for 60 ms at nine tenths of their torque, a foot did not lift, and a
+// robot fell.
 TEST(Gearbox, OfAJointThatIsThrownBackFrictionTakesNoMoreThanItsBudget) {
   constexpr double kFriction_n_m = 0.1, kArmature = 0.01, kLinks = 0.02;
   for (const double step_s : {0.001, 0.002}) {
@@ -119,8 +118,7 @@ TEST(Gearbox, OfAJointThatIsThrownBackFrictionTakesNoMoreThanItsBudget) {
   }
 }
 
-// load = |external - motor|. The joint holds until the motor beats load and friction, and until
-// both give way: (1 - l) m = (1 + l) e, and the reverse.
+// load = |external - motor|. The joint holds up to (1 - l) m = (1 + l) e, and down to the reverse.
 TEST(Gearbox, LoadMakesFrictionThatHelpsToHold) {
   const double l = 0.2;
   const auto moved = [&](double motor_n_m) {
@@ -141,15 +139,14 @@ TEST(Gearbox, InsideThePlayTheRotorHasOnlyItselfToTurn) {
   joint.servo.backlash_rad = 0.02;
   Bench bench(joint, 0.01);
   bench.drive_by(1.0 / 3);
-  // From the middle to the flank, 10 mrad at 100 rad/s2 take 14 ms; then both halves share the
-  // speed.
+  // 10 mrad to the flank at 100 rad/s2: 14 ms; then both halves share the speed.
   for (int step = 0; step < 13; ++step) bench.step(0);
   EXPECT_EQ(bench.rate_rad_s, 0);
   for (int step = 0; step < 3; ++step) bench.step(0);
   EXPECT_NEAR(bench.rate_rad_s, 0.7, 0.1);
 }
 
-/// Rotor with friction and link as two bodies that meet at the flanks, in steps of 10 us.
+/// Rotor with friction and link as two bodies, in steps of 10 us.
 struct RotorAndLink {
   const model::Servo& servo;
   double link_kg_m2;
@@ -185,8 +182,8 @@ struct RotorAndLink {
   }
 };
 
-// From goal to goal with overshoot, with gravity for and against. When friction stops the rotor
-// briefly at a flank, the motor moves it on from there.
+// Goal to goal with overshoot, with gravity for and against. If friction stops the rotor briefly at
+// a flank, the motor moves it on.
 TEST(Gearbox, WithPlayAJointGoesAsItsRotorAndItsLinkWouldAsTwoBodies) {
   for (const double armature : {0.002, 0.012, 0.045}) {
     for (const double link : {0.005, 0.03}) {
@@ -213,8 +210,7 @@ TEST(Gearbox, WithPlayAJointGoesAsItsRotorAndItsLinkWouldAsTwoBodies) {
   }
 }
 
-// The published motor and equations, integrated in steps of 10 us: the pendulum is driven up,
-// driven back, and released.
+// The published equations in steps of 10 us: the pendulum is driven up, driven back, and released.
 struct PaperPendulum {
   model::Gearbox gears;
   double stall_n_m, slope_n_m_s;
@@ -277,7 +273,7 @@ TEST_P(IdentifiedMotor, SwingsAPendulumAsThePaperSays) {
   }
 }
 
-// The same in ODE, where gravity comes from the engine's motion.
+// In ODE, gravity comes from the engine's motion.
 TEST_P(IdentifiedMotor, SwingsAPendulumAsThePaperSaysInOde) {
   const model::ServoType* type = model::find_servo_type(model::servo_types(), GetParam());
   ASSERT_NE(type, nullptr);
@@ -312,8 +308,7 @@ TEST_P(IdentifiedMotor, SwingsAPendulumAsThePaperSaysInOde) {
 
 INSTANTIATE_TEST_SUITE_P(Paper, IdentifiedMotor, testing::Values("mx64", "mx106", "xl330"));
 
-// The servo's loop runs at 1 kHz whatever the physics step. Finer physics sees a duty for four
-// steps, coarser physics runs two loops a step, and the joint moves the same way.
+// 1 kHz. Finer physics sees a duty for four steps, coarser physics runs two loops a step.
 TEST(Gearbox, TheLoopRunsAtItsOwnRateWhateverThePhysicsStep) {
   Bench fine(joint_with({}), 0.01, 0.00025);
   fine.setpoint.torque_on = true;
@@ -348,8 +343,8 @@ TEST(Gearbox, GoesTheSameWayAtEveryPhysicsStep) {
   }
 }
 
-// Gains go to the registers' limits, rotors from a quarter of the lightest to ten times the
-// heaviest known. The joint may tremble but never exceeds the motor's torque-speed line.
+// Gains at the registers' limits; rotors from a quarter of the lightest to ten times the heaviest
+// known. The joint may tremble.
 TEST(Gearbox, StaysWithinTheMotorsLineAtAnyGainInertiaAndStep) {
   for (const double armature : {0.0005, 0.01, 0.25}) {
     for (const double step_s : {0.00025, 0.001, 0.002}) {
@@ -360,8 +355,7 @@ TEST(Gearbox, StaysWithinTheMotorsLineAtAnyGainInertiaAndStep) {
             .torque_on = true, .goal_count = 2048 + 500, .p_gain = 16383, .d_gain = d_gain};
         for (int step = 0; step < 2000; ++step) {
           bench.step(step % 100 < 50 ? 0.5 : -0.5);
-          // The current limit acts between steps, so 1.4 times the stall torque may act one step
-          // too long.
+          // The current limit acts between steps: 1.4 stall torques may act one step too long.
           const double late = step_s * (1.4 * 3.0 + 0.5) / (armature + 1e-5);
           ASSERT_LT(std::abs(bench.rate_rad_s), 8.0 * (1 + 0.5 / 3) + late)
               << armature << " " << step_s << " " << d_gain << " " << step;

@@ -10,7 +10,7 @@
 namespace verp::sim {
 namespace {
 
-/// Arms like the firmware: the entity's gains, torque on, hold the stand pose by nominal counts.
+/// Like the firmware: the entity's gains, torque on, the stand pose in nominal counts.
 void arm(Plant& plant, const TwinRobot& robot) {
   for (std::size_t j = 0; j < robot.entity().joints.size(); ++j) {
     const model::Joint& joint = robot.entity().joints[j];
@@ -24,8 +24,8 @@ void arm(Plant& plant, const TwinRobot& robot) {
   }
 }
 
-// The entity's stand pose is a crouch, hips 150 mm over the ankles. Only position loops hold it: no
-// balance feedback, zero errors of half a degree, play, noise and a lean at the start.
+// A crouch, hips 150 mm over the ankles, held by position loops alone: no balance feedback, zero
+// errors of half a degree, play, noise and a lean.
 TEST(Generic21, StandsThreeSecondsOnItsServos) {
   const model::Entity entity =
       model::load_robot(VERP_SOURCE_DIR "/common/robots/generic21/robot.sdf");

@@ -8,14 +8,14 @@
 #include "host/sim/scenery.hpp"
 #include "tests/host/sim/test_robots.hpp"
 
-// A sensor's reading at t shows the world at t - latency.
+// A reading at t shows the world at t - latency.
 namespace verp::sim::test {
 namespace {
 
 constexpr double kLate_s = 0.03;
 constexpr std::uint64_t kLate_us = 30'000;
 
-/// A biped in free fall: no cradle, no ground.
+/// In free fall: no cradle, no ground.
 model::Entity falling_biped(double latency_s) {
   model::Entity entity = biped();
   for (model::Node& node : entity.nodes) node.collisions.clear();
@@ -39,7 +39,7 @@ TEST(Latency, TheImuTellsWhatOneWithoutItToldSoManyStepsAgo) {
   Fall prompt(falling_biped(0)), late(falling_biped(kLate_s));
   std::vector<ImuMeasurement> told;
   for (std::size_t i = 0; i < 200; ++i) {
-    // Spin up the whole robot, so that the readings change.
+    // Spin the robot, so that the readings change.
     for (Fall* each : {&prompt, &late}) {
       each->robot.body().add_velocity(Vec3::Zero(), Vec3(0.02, -0.01, 0.005));
       each->step();

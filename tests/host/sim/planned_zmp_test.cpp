@@ -28,7 +28,6 @@ FootTruth sole_at(double x_m, double y_m, double z_m, double yaw_rad) {
   return foot;
 }
 
-/// The soles where the plan now has them.
 Truth as_planned(const Walker& walker) {
   const auto look_ahead_us = math::to_int32(1e6F * walker.tuning.gait.look_ahead_s);
   const gait::Posture posture =
@@ -67,7 +66,7 @@ bool inside(const std::vector<Vec2>& hull, const Vec2& point) {
   return true;
 }
 
-// Wherever the carrying foot really stands, the planned ZMP is inside its sole, at zmp_under().
+// Wherever the carrying foot really stands: at zmp_under().
 TEST(PlannedZmp, LiesUnderTheFootThatCarriesAlone) {
   Walker walker(verp::test::kRobot);
   walker.set_off({});
@@ -99,7 +98,7 @@ TEST(PlannedZmp, LiesUnderTheFootThatCarriesAlone) {
   EXPECT_GT(seen[1], 300);
 }
 
-// From a walk's first tick to its last, in double support too.
+// In double support too.
 TEST(PlannedZmp, StaysInTheSupportPolygonOfARobotThatStandsAsPlanned) {
   Walker walker(verp::test::kRobot);
   walker.set_off({});

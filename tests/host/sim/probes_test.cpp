@@ -8,7 +8,7 @@
 #include "host/sim/robot.hpp"
 #include "tests/host/sim/test_robots.hpp"
 
-// Force-torque, contact and truth sensors against weights and poses known by other means.
+// Force-torque, contact and truth sensors against known weights and poses.
 namespace verp::sim::test {
 namespace {
 
@@ -16,7 +16,6 @@ int foot_node_of(const model::Entity& entity, std::size_t foot) {
   return entity.limbs[foot].joints.back() + 1;
 }
 
-/// The biped with all three kinds at its feet and body.
 model::Entity metered() {
   model::Entity entity = biped();
   for (std::size_t foot = 0; foot < 2; ++foot) {
@@ -56,7 +55,7 @@ struct Standing {
 };
 
 TEST(Probes, OnAStandingRobotsFeetTheForcesSumToItsWeight) {
-  // Contacts chatter from step to step, so the test reads each step and takes the mean.
+  // Contacts chatter, so the test takes the mean of all steps.
   model::Entity entity = metered();
   for (model::ForceTorqueSensor& each : entity.force_torques) each.rate_hz = 1000;
   for (model::ContactSensor& each : entity.contacts) each.rate_hz = 1000;
@@ -84,13 +83,13 @@ TEST(Probes, OnAStandingRobotsFeetTheForcesSumToItsWeight) {
   double feet_n = 0;
   for (std::size_t foot = 0; foot < 2; ++foot)
     feet_n += kGravity_m_s2 * standing.robot.body().mass_kg(foot_node_of(entity, foot));
-  // Half a percent of the weight: the robot sways this much on its servos.
+  // Half a percent: the robot sways this much on its servos.
   EXPECT_NEAR(soles_n.z(), weight_n, 0.005 * weight_n);
   EXPECT_NEAR(ankles_n.z() + feet_n, weight_n, 0.005 * weight_n) << "feet are beyond the ankles";
   EXPECT_NEAR(ankles_n.head<2>().norm(), 0, 0.005 * weight_n);
 }
 
-/// An arm that its servo holds level, on a held body: all forces are known.
+/// The body is held, so all forces are known.
 TEST(Probes, AJointThatHoldsAnArmOutBearsItsWeightAndItsLever) {
   model::Entity entity = arm();
   model::ForceTorqueSensor wrench;
@@ -119,7 +118,7 @@ TEST(Probes, AJointThatHoldsAnArmOutBearsItsWeightAndItsLever) {
   };
   const Vec3 lever_m(0, 0, -kArmLength);
   ASSERT_GT(std::abs(pose.linear()(2, 0)), 0.9) << "it is held out";
-  // A mean: the servo swings by one encoder count.
+  // Mean: the servo swings by one encoder count.
   const auto of = [&](std::size_t sensor) {
     WrenchReading mean;
     for (const WrenchReading& each : readings.wrenches) {
@@ -129,7 +128,7 @@ TEST(Probes, AJointThatHoldsAnArmOutBearsItsWeightAndItsLever) {
     }
     return mean;
   };
-  constexpr double kTolerance = 0.002;  // N, N m; the load at rest is 4.9 N
+  constexpr double kTolerance = 0.002;  // N, N m; 4.9 N at rest
   EXPECT_LT((of(0).force_n - in_arm(down_n)).norm(), kTolerance);
   EXPECT_LT((of(0).torque_n_m - lever_m.cross(in_arm(down_n))).norm(), kTolerance);
   EXPECT_LT((of(1).force_n + of(0).force_n).norm(), 1e-12) << "what it is given";

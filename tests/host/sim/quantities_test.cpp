@@ -8,8 +8,8 @@
 
 #include "tests/host/sim/test_robots.hpp"
 
-// Each quantity is checked against a hand-calculated case; settable ones are set while the world
-// runs. g, h: gravity and the physics step.
+// Hand-calculated cases; settable quantities are set while the world runs. g, h: gravity and the
+// physics step.
 
 namespace verp::sim::test {
 namespace {

@@ -11,7 +11,7 @@
 #include "tests/host/sim/test_robots.hpp"
 #include "tests/support/leak.hpp"
 
-// Worlds made in code, and lasers in them against hand-calculated distances.
+// Lasers against hand-calculated distances in worlds made in code.
 
 namespace verp::sim::test {
 namespace {
@@ -48,7 +48,7 @@ struct Place {
   std::unique_ptr<World> world;
 };
 
-// ODE aborts the program on a NaN. A user's diverging robot must not end a whole campaign.
+// ODE aborts on a NaN; one user's robot must not end a campaign.
 TEST(World, PhysicsThatDivergesIsAnErrorOfItsRun) {
   Place place({floor_at(0),
                object("box", ShapeKind::kBox, {0.1, 0.1, 0.1}, {0, 0.01, 0.04}, Kind::kDynamic)});

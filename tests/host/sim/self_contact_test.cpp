@@ -6,20 +6,19 @@
 #include "host/sim/robot.hpp"
 #include "tests/host/sim/test_robots.hpp"
 
-/// A robot's own links collide, unless they are neighbours or declared not to.
 namespace verp::sim {
 namespace {
 
 constexpr double kSoleWidth = 0.066;
 
 struct Outcome {
-  double soles_between_m;  ///< least lateral distance between the soles' middles
+  double soles_between_m;  ///< least lateral distance of the soles' middles
   std::uint64_t contact_steps;
   std::array<int, 2> nodes;
   bool foot_force_valid;
 };
 
-/// The robot hangs in the air and presses its feet together with both hips.
+/// In the air, both hips press the feet together.
 Outcome press_feet_together(const model::Entity& entity) {
   World world({.ground = false});
   TwinOptions options;

@@ -26,7 +26,7 @@ TwinOptions bench() {
   return options;
 }
 
-/// One servo without an engine: the test integrates its load.
+/// A servo without an engine; the test integrates its load.
 struct BareServo {
   model::Joint joint = test::joint("j", 0, Vec3::Zero(), Vec3::UnitZ());
   ServoSetpoint setpoint{.torque_on = true, .goal_count = 2048, .p_gain = 3500};
@@ -101,7 +101,7 @@ TEST(Servo, ProfileIsAStraightLineOverItsTime) {
     servo.drive(bare.setpoint, 0, 0, 0, 12.0, kStepS);
     EXPECT_NEAR(count_of(bare.joint.servo, servo.profile_rad()), 2048 + 10.0 * ms, 1e-6) << ms;
   }
-  // A new goal in mid-move starts from the profile's position, not from the old goal.
+  // A new goal in mid-move starts from the profile's position.
   bare.setpoint.goal_count = 2048;
   for (int ms = 1; ms <= 5; ++ms) servo.drive(bare.setpoint, 0, 0, 0, 12.0, kStepS);
   EXPECT_NEAR(count_of(bare.joint.servo, servo.profile_rad()), 2048 + 50, 1e-6);
@@ -160,7 +160,7 @@ TEST(Servo, NamesTheJointWhoseFactsAreImpossible) {
   }
 }
 
-// With the arm level, duty * stall torque balances gravity: K = P/128 * counts/rad / 885 * stall.
+// duty * stall torque balances gravity: K = P/128 * counts/rad / 885 * stall.
 TEST(ServoInOde, SagsByTorqueOverStiffness) {
   World world;
   TwinOptions options = bench();
@@ -179,8 +179,7 @@ TEST(ServoInOde, SagsByTorqueOverStiffness) {
   EXPECT_GT(robot.truth().torque_use[0], 0.9 * load / 3.0);
 }
 
-// At full duty the arm obeys J dw/dt = stall * (1 - w / w0): an exponential with time constant J w0
-// / stall.
+// J dw/dt = stall * (1 - w / w0): an exponential with time constant J w0 / stall.
 TEST(ServoInOde, SpeedsUpAsTheTorqueSpeedLineSays) {
   WorldOptions weightless;
   weightless.gravity_m_s2 = 0;
@@ -206,7 +205,7 @@ TEST(ServoInOde, SpeedsUpAsTheTorqueSpeedLineSays) {
   }
 }
 
-// A small step keeps duty proportional to the error: J x'' = K (goal - x) - D x', in closed form.
+// A small step keeps duty proportional to the error: J x'' = K (goal - x) - D x'.
 TEST(ServoInOde, StepResponseIsThatOfASecondOrderSystem) {
   WorldOptions weightless;
   weightless.gravity_m_s2 = 0;
@@ -283,7 +282,7 @@ TEST(ServoInOde, SupplySagsUnderLoad) {
   EXPECT_NEAR(robot.measure(0).voltage_v, 12 - 0.23, 0.01);
 }
 
-// A servo of another voltage draws the same power, and its supply loses the same share.
+// It draws the same power and loses the same share.
 TEST(ServoInOde, SupplySagsByTheSamePartAtAnyVoltage) {
   for (const double nominal_v : {5.0, 24.0}) {
     World world;

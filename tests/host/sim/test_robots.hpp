@@ -4,10 +4,10 @@
 
 #include "host/model/entity.hpp"
 
-/// Robots made in code: these tests need no file and show every number.
+/// Robots made in code, so that every number is visible.
 namespace verp::sim::test {
 
-inline constexpr double kGravity_m_s2 = 9.80665;  // standard gravity, as in the twin's worlds
+inline constexpr double kGravity_m_s2 = 9.80665;  // standard gravity, as in the twin
 
 /// An XM430-W210 at 12 V, without play and friction.
 inline model::Servo plain_servo() {
@@ -55,7 +55,7 @@ inline constexpr double kArmMass = 0.5;
 inline constexpr double kArmLength = 0.1;  ///< joint to centre of mass
 inline constexpr double kArmInertia = 1e-4;
 
-/// A heavy body with one arm that hangs along -z at zero; the joint turns about y.
+/// A heavy body; its arm hangs along -z at zero and turns about y.
 inline model::Entity arm() {
   model::Entity entity;
   entity.nodes.push_back(box("base", 10, {0.2, 0.2, 0.2}, {0, 0, 0}));
@@ -65,8 +65,8 @@ inline model::Entity arm() {
   return entity;
 }
 
-/// Two straight six-joint legs under a box: yaw, roll, pitch, knee, ankle pitch, ankle roll. IMU in
-/// the body, force sensors under the feet.
+/// Two six-joint legs under a box: yaw, roll, pitch, knee, ankle pitch, ankle roll. IMU in the
+/// body, force sensors under the feet.
 inline model::Entity biped() {
   model::Entity entity;
   entity.nodes.push_back(box("body", 1.6, {0.08, 0.12, 0.15}, {0.005, 0, 0.02}));
@@ -111,7 +111,7 @@ inline model::Entity biped() {
   return entity;
 }
 
-/// Bends hips, knees and ankles to put the hips hip_height_m over the ankles, soles level.
+/// Puts the hips hip_height_m over the ankles, soles level.
 inline std::vector<double> crouch(const model::Entity& entity, double hip_height_m,
                                   double thigh_m = 0.093) {
   std::vector<double> angle(entity.joints.size(), 0.0);
