@@ -33,7 +33,7 @@ bool special_exp(float x, float& expected) {
   return !std::isfinite(x) || x > kLargest;
 }
 
-/// The sine and cosine of sincos() are the same bits as those of sin() and cos().
+/// sincos() must give the same bits as sin() and cos().
 float sin_of_both(float x) {
   return math::sincos(x).sin;
 }

@@ -2,7 +2,7 @@
 #include <cstdint>
 #include <string_view>
 
-/// What is compared with what, and how far apart the two may be.
+/// Each function, its reference, and the allowed difference.
 namespace verp::exhaustive {
 
 struct UnaryFunction {
@@ -10,9 +10,8 @@ struct UnaryFunction {
   double bound_ulp;  ///< documented in common/math/elementary.hpp
   float (*tested)(float);
   double (*reference)(double);                 ///< double libm: exact to 2^-28 of a float's ulp
-  long double (*fine_reference)(long double);  ///< decides what the double can't
-  /// True where the contract gives a value instead of the mathematical function (NaN, out of the
-  /// domain).
+  long double (*fine_reference)(long double);  ///< decides where double cannot
+  /// True where the contract defines a value itself (NaN, outside the domain).
   bool (*special)(float x, float& expected);
 };
 
@@ -25,13 +24,12 @@ struct Pair {
   float y;
   float x;
 };
-/// The i-th of the stratified atan2 arguments: a quarter each of any two finite floats, exponents
-/// within 2 of each other, within 30, and a robot's lengths (1e-6 to 16). A pure function of i, so
-/// any finding repeats.
+/// The i-th stratified pair of atan2 arguments. A quarter each: any two finite floats, exponents
+/// within 2, exponents within 30, a robot's lengths (1e-6 to 16). A pure function of i, so any
+/// finding repeats.
 Pair stratified_pair(std::uint64_t i);
 
-/// |result - exact| in units of the spacing of floats at `exact`. Infinite for a result that is not
-/// finite.
+/// |result - exact| in units of the float spacing at `exact`. Infinite if the result is not finite.
 double error_ulp(float result, double exact);
 double fine_error_ulp(float result, long double exact);
 

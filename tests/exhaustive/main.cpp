@@ -39,7 +39,7 @@ struct Options {
   bool json = false;
 };
 
-/// The worst error seen, and where: one argument, or two for atan2.
+/// The worst error so far and its arguments: one, or two for atan2.
 struct Worst {
   double error_ulp = 0;
   float x = 0;
@@ -56,7 +56,7 @@ struct Report {
   bool good() const { return worst.error_ulp <= bound_ulp; }
 };
 
-/// A bar on stderr, on a terminal only.
+/// A progress bar on stderr, only on a terminal.
 class Progress {
  public:
   Progress(std::string_view name, std::uint64_t total) : name_(name), total_(total) {}
@@ -79,8 +79,7 @@ class Progress {
   bool shown_ = isatty(STDERR_FILENO) == 1;
 };
 
-/// Calls test(i, worst) for all i below `count`, in blocks shared by the threads; gives the worst
-/// of all.
+/// Calls test(i, worst) for all i below `count`, in blocks over the threads; returns the worst.
 template <class Test>
 Report sweep(std::string_view name, double bound_ulp, std::uint64_t count, unsigned threads,
              Test test) {
@@ -104,7 +103,7 @@ Report sweep(std::string_view name, double bound_ulp, std::uint64_t count, unsig
   }
   for (std::thread& worker : workers) worker.join();
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
-  // By argument on equal errors, so that the report does not depend on the threads.
+  // Equal errors rank by argument, so that the report does not depend on the threads.
   const auto less = [](const Worst& a, const Worst& b) {
     if (a.error_ulp != b.error_ulp) return a.error_ulp < b.error_ulp;
     return std::bit_cast<std::uint32_t>(a.x) > std::bit_cast<std::uint32_t>(b.x);
@@ -197,7 +196,7 @@ bool known(std::string_view function) {
                      [&](const UnaryFunction& f) { return f.name == function; });
 }
 
-/// Empty on success, else what is wrong.
+/// Empty on success, else the mistake.
 std::string parse(int argc, char** argv, Options& options) {
   for (int i = 1; i < argc; ++i) {
     const std::string_view option = argv[i];

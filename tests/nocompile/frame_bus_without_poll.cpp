@@ -3,7 +3,7 @@
 
 namespace {
 
-/// A backend that forgot one member of its contract: the compiler must name the missing one.
+/// If a backend lacks a member of its contract, the compiler must name it.
 struct Bus {
   bool send(const std::uint8_t*, std::size_t) { return true; }
 #ifndef BROKEN

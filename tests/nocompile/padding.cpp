@@ -3,7 +3,7 @@
 
 namespace {
 
-/// The compiler's invisible bytes differ from run to run; they must be fields.
+/// Padding bytes differ from run to run; they must be fields.
 struct Sample {
   std::uint8_t flags = 0;
 #ifndef BROKEN

@@ -15,8 +15,8 @@
 #include "host/link/link.hpp"
 #include "host/link/system_clock.hpp"
 
-/// A cable with an adapter that keeps bytes back, as those for USB do: what comes first starts a
-/// timer, and all that has come goes on when it expires. Both ends are links; a thread carries.
+/// A cable whose adapter delays bytes, as USB adapters do: the first byte starts a timer, and all
+/// received bytes go on when it expires. Both ends are links; a thread carries the bytes.
 namespace verp::test {
 
 struct Latency {
@@ -26,7 +26,7 @@ struct Latency {
 
 class DelayingLink {
  public:
-  /// Makes `pc`, and opens `device` as soon as it is there.
+  /// Makes `pc`, and opens `device` as soon as it exists.
   DelayingLink(const std::string& pc, std::string device, const Latency& latency)
       : pc_(wire::parse_endpoint(pc)), device_place_(std::move(device)), latency_(latency) {
     thread_ = std::thread([this] { carry(); });
@@ -38,17 +38,15 @@ class DelayingLink {
   DelayingLink(const DelayingLink&) = delete;
   DelayingLink& operator=(const DelayingLink&) = delete;
 
-  /// Nothing gets through for so many ticks of the loop on the PC's side; what was on its way is
-  /// lost.
+  /// Blocks the cable for so many ticks of the PC's loop; bytes under way are lost.
   void cut_for(std::uint32_t ticks) { mended_at_ = ticks_ + ticks; }
-  /// All that comes in the next `time_us` waits until they are over; more by the same with each
-  /// further call.
+  /// Delays all that comes in the next `time_us` to their end; further calls add to it.
   void stall(std::uint64_t time_us) { stall_until_us_ = now_us() + time_us; }
 
-  /// The next so many replies of devices are lost.
+  /// Loses the devices' next `count` replies.
   void lose_replies(int count) { to_lose_ = count; }
 
-  /// Ticks of a control loop on the PC's side: its reads of Present Position from all servos.
+  /// Ticks of the PC's control loop: its reads of Present Position from all servos.
   std::uint32_t ticks() const { return ticks_; }
 
  private:
@@ -64,7 +62,7 @@ class DelayingLink {
 
   void carry() {
     const sched_param urgent{.sched_priority = 30};
-    ::sched_setscheduler(0, SCHED_FIFO, &urgent);  // if it may
+    ::sched_setscheduler(0, SCHED_FIFO, &urgent);  // if permitted
     while (!over_) {
       wire::sleep_until_ns(wire::monotonic_ns() + kTurn_us * 1000);
       if (!open_device()) continue;
@@ -79,7 +77,7 @@ class DelayingLink {
     if (device_) return true;
     try {
       device_.emplace(wire::parse_endpoint(device_place_));
-    } catch (const wire::LinkError&) {  // not there yet
+    } catch (const wire::LinkError&) {  // does not exist yet
     }
     return device_.has_value();
   }
@@ -96,7 +94,7 @@ class DelayingLink {
     if (!cut()) way.held.insert(way.held.end(), piece, piece + count);
   }
 
-  /// A reply comes in one piece, but where pieces are torn: then all of it is lost as well.
+  /// A reply comes in one piece; if it is torn, all pieces are lost.
   bool lost(const std::uint8_t* piece, std::size_t count) {
     if (to_lose_ <= 0) return false;
     for (std::size_t i = 0; i < count; ++i) {

@@ -12,8 +12,8 @@
 
 namespace verp::test {
 
-/// What is allocated while it lives may be lost: a library of somebody else loses it. Its name says
-/// which one, and why.
+/// During this object's lifetime, allocations may leak: a third-party library loses them. The name
+/// says which library and why.
 struct SomebodyElsesLeak {
 #ifdef VERP_FINDS_LEAKS
   SomebodyElsesLeak() {

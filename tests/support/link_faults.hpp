@@ -5,12 +5,12 @@
 
 namespace verp::test {
 
-/// What a bad cable does to bytes in one direction.
+/// Faults of a bad cable in one direction.
 struct LinkFaults {
   double lost = 0, doubled = 0, flipped = 0;  ///< shares of bytes
 };
 
-/// Does it, by chance from a seed.
+/// Applies them at random, from a seed.
 class LinkSpoiler {
  public:
   explicit LinkSpoiler(std::uint32_t seed) : random_(seed) {}

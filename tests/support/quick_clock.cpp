@@ -7,19 +7,19 @@
 #include <cstdint>
 #include <ctime>
 
-/// Loaded into the commands that with-can runs in User-Mode Linux. There, each look at the clock is
-/// a system call of some ten microseconds, where any other Linux answers without one; an emulator
-/// looks so often that it was half of its time. So CLOCK_MONOTONIC is read off the processor's time
-/// stamp counter, along a line through what the kernel said, which is asked again all the time.
+/// with-can loads this into the commands that it runs in User-Mode Linux. There, reading the clock
+/// is a system call of about ten microseconds; other Linux systems need no system call. An emulator
+/// reads it so often that this took half of its time. So CLOCK_MONOTONIC comes from the processor's
+/// time stamp counter, along a line through the kernel's answers, which are renewed all the time.
 ///
-/// In one process it never goes back, and it is as near to the kernel's as that is quick to answer:
-/// a sleep until a time may end some microseconds before this clock says so.
-/// with-can sees to it that the counter is one that neither stops nor changes its speed.
+/// Within a process the clock never runs backwards. It is as accurate as the kernel answers
+/// quickly: a sleep until a time may end some microseconds before this clock reaches it. with-can
+/// checks that the counter neither stops nor changes its speed.
 namespace {
 
-constexpr std::uint64_t kFirstLine = 200'000'000;  // cycles that a speed is measured over, at least
+constexpr std::uint64_t kFirstLine = 200'000'000;  // minimum cycles to measure a speed
 constexpr std::uint64_t kLineLasts = 100'000'000;  // tens of milliseconds
-constexpr std::uint64_t kPrompt = 500'000;         // an answer that took longer says too little
+constexpr std::uint64_t kPrompt = 500'000;         // a slower answer is too inaccurate
 
 /// time_ns = from_ns + (counter - from) * ns_per_cycle
 struct Line {
@@ -33,11 +33,11 @@ struct Line {
 };
 
 Line line;
-std::atomic<std::uint32_t> edition{0};  // of the line; odd while it is being written
+std::atomic<std::uint32_t> edition{0};  // of the line; odd during a write
 std::atomic_flag writing = ATOMIC_FLAG_INIT;
-std::uint64_t first = 0, first_ns = 0;  // counter and time when the kernel was asked first
+std::uint64_t first = 0, first_ns = 0;  // counter and time of the first answer
 
-/// False: the line is too old, or just being written.
+/// False if the line is too old or being written.
 bool read_line(std::uint64_t& time_ns) {
   const std::uint32_t before = edition.load(std::memory_order_acquire);
   const Line now = line;
@@ -57,14 +57,14 @@ void write_line(const Line& next) {
 
 std::uint64_t ask_kernel(std::uint64_t& counter, bool& prompt) {
   timespec now{};
-  counter = __rdtsc();  // before it: the line is rather ahead of the kernel's time than behind
+  counter = __rdtsc();  // read first: the line is rather ahead of the kernel than behind
   ::syscall(SYS_clock_gettime, CLOCK_MONOTONIC, &now);
   prompt = __rdtsc() - counter < kPrompt;
   return static_cast<std::uint64_t>(now.tv_sec) * 1'000'000'000 +
          static_cast<std::uint64_t>(now.tv_nsec);
 }
 
-/// The kernel's time; and a new line from there on, unless another thread is about to.
+/// Returns the kernel's time and starts a new line there, unless another thread does.
 std::uint64_t renew_line() {
   std::uint64_t counter = 0;
   bool prompt = false;
@@ -81,7 +81,7 @@ std::uint64_t renew_line() {
   return time_ns;
 }
 
-/// A new line may begin a little behind the end of the last.
+/// A new line may begin slightly behind the old line's end.
 std::uint64_t never_back(std::uint64_t time_ns) {
   static std::atomic<std::uint64_t> told{0};
   std::uint64_t before = told.load(std::memory_order_relaxed);

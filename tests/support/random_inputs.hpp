@@ -5,10 +5,10 @@
 #include "common/io/io.hpp"
 #include "common/model/params.hpp"
 
-/// Inputs without a robot: integers only, so that every machine makes the same ones.
+/// Inputs without a robot, from integers only, so that every machine makes the same.
 namespace verp::test {
 
-/// Numerical Recipes' 32-bit linear congruence; its high bits are good enough here.
+/// Numerical Recipes' 32-bit linear congruential generator; its high bits suffice here.
 class SmallRandom {
  public:
   explicit SmallRandom(std::uint32_t seed) : state_(seed) {}
@@ -27,12 +27,11 @@ class SmallRandom {
   std::uint32_t state_;
 };
 
-/// A robot that stands in place with noisy sensors, while its operator asks for one walk after
-/// another. Fresh readings are missing now and then. `one_g_count` is what the accelerometer shows
-/// at rest, IMU z up.
+/// A robot stands in place with noisy sensors while its operator orders one walk after another;
+/// sometimes fresh readings are missing. `one_g_count` is the accelerometer at rest, IMU z up.
 inline std::vector<Inputs> plausible_inputs(std::uint32_t ticks, std::uint32_t seed,
                                             std::int16_t one_g_count, const Params& params) {
-  constexpr std::uint32_t kOrderTicks = 400;  // each order stands this long
+  constexpr std::uint32_t kOrderTicks = 400;  // each order lasts this long
   SmallRandom random(seed);
   std::vector<Inputs> trace(ticks);
   Command order;
@@ -66,7 +65,7 @@ inline std::vector<Inputs> plausible_inputs(std::uint32_t ticks, std::uint32_t s
   return trace;
 }
 
-/// Any bits anywhere, in every field but the tick.
+/// Random bits in every field but the tick.
 inline std::vector<Inputs> wild_inputs(std::uint32_t ticks, std::uint32_t seed) {
   SmallRandom random(seed);
   std::vector<Inputs> trace(ticks);

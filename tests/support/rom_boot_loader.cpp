@@ -170,7 +170,7 @@ void RomBootLoader::erase_all() {
 void RomBootLoader::erase(Reply& reply) {
   if (got_.size() < 3) return;
   const std::uint32_t count = std::uint32_t{got_[0]} << 8 | got_[1];
-  if (count >= 0xFFF0) {  // 0xFFFF: all; a chip of one bank knows no other
+  if (count >= 0xFFF0) {  // 0xFFFF: all; a chip with one bank knows only this
     if (!checksum_is_good(0) || count != 0xFFFF) return refuse(reply);
     erase_all();
     return expect(State::kCommand, reply);

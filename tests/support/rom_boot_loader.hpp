@@ -3,8 +3,8 @@
 #include <set>
 #include <vector>
 
-/// The USART boot loader in an STM32's ROM, as AN3155 describes it, with the flash behind it:
-/// bytes in, bytes out. Written from the application note, not from any flash tool.
+/// The USART boot loader in an STM32's ROM with the flash behind it, as bytes in and bytes out.
+/// Written from the application note AN3155, not from any flash tool.
 namespace verp::test {
 
 class RomBootLoader {
@@ -16,20 +16,20 @@ class RomBootLoader {
     std::uint16_t device_id = 0x413;               ///< STM32F405 (AN2606)
     std::vector<std::uint32_t> sector_bytes = {};  ///< empty: those of an STM32F405RG
     bool readout_protected = false;                ///< level 1
-    std::set<std::uint32_t> refused = {};          ///< writes that cover these addresses: NACK
-    std::set<std::uint32_t> stuck = {};            ///< bytes that are 0 whatever is written
+    std::set<std::uint32_t> refused = {};          ///< writes that cover these addresses get NACK
+    std::set<std::uint32_t> stuck = {};            ///< bytes that stay 0 whatever is written
   };
 
   explicit RomBootLoader(Chip chip);
 
-  /// One byte arrives; what goes back is appended.
+  /// Receives one byte and appends the answer.
   void take(std::uint8_t byte, std::vector<std::uint8_t>& reply);
-  /// The reset button, with BOOT0 high: the flash keeps what it holds.
+  /// The reset button with BOOT0 high; the flash keeps its content.
   void reset() { state_ = State::kAsleep; }
 
   std::vector<std::uint8_t> flash;  ///< from kFlashBegin on
   std::uint32_t writes = 0, erased_sectors = 0;
-  bool started = false;  ///< by Go; the boot loader answers no more
+  bool started = false;  ///< by Go; the boot loader no longer answers
 
  private:
   enum class State : std::uint8_t {
@@ -61,7 +61,7 @@ class RomBootLoader {
   State state_ = State::kAsleep;
   std::uint8_t command_ = 0;
   std::uint32_t address_ = 0;
-  std::vector<std::uint8_t> got_;  ///< of the part that is arriving
+  std::vector<std::uint8_t> got_;  ///< of the part being received
 };
 
 }  // namespace verp::test

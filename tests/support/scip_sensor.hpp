@@ -5,9 +5,8 @@
 
 #include "hal/contract/byte_link.hpp"
 
-/// A SCIP 2.0 laser at the other end of a link, written from the protocol's specification
-/// (C-42-03320B) apart from host/link/scip.cpp: it answers BM, QT, MD and SCIP2.0, and scans when
-/// it is told to.
+/// A SCIP 2.0 laser at the other end of a link, written from the specification (C-42-03320B)
+/// independently of host/link/scip.cpp. It answers BM, QT, MD and SCIP2.0, and scans on request.
 namespace verp::test {
 
 template <hal::ByteLink Link>
@@ -15,7 +14,7 @@ class ScipSensor {
  public:
   explicit ScipSensor(Link& link) : link_(link) {}
 
-  /// Hears requests and answers them.
+  /// Receives requests and answers them.
   void listen() {
     std::uint8_t bytes[256];
     for (std::size_t size = 0; (size = link_.read(bytes, sizeof bytes, 0)) > 0;)
@@ -24,7 +23,7 @@ class ScipSensor {
       if (!silent_) answer(heard_.substr(0, end));
     }
   }
-  /// One turn of the mirror, if it was asked for.
+  /// One turn of the mirror, if requested.
   void scan(std::uint32_t time_ms, const std::vector<std::uint32_t>& range_mm) {
     listen();
     if (silent_ || request_.empty()) return;
@@ -34,7 +33,7 @@ class ScipSensor {
   }
   void be_silent(bool silent) {
     silent_ = silent;
-    if (silent) request_.clear();  // as one that was unplugged
+    if (silent) request_.clear();  // as after unplugging
   }
   bool scanning() const { return !request_.empty(); }
   void say(const std::string& text) {

@@ -4,13 +4,13 @@
 #include <cstdlib>
 #include <ctime>
 
-/// Loaded into User-Mode Linux by with-can: the virtual machine's clock goes at a part of the speed
-/// of this PC's, 1 / VERP_SLOW_CLOCK. All that is in there shares its one clock, so a robot and the
-/// PC that drives it only see a faster machine: what this PC takes from the virtual machine, for
-/// other tests or another guest, is that much less of their period.
+/// with-can loads this into User-Mode Linux: the virtual machine's clock runs at 1 /
+/// VERP_SLOW_CLOCK of this PC's speed. Everything inside shares this clock, so a robot and the PC
+/// that drives it only see a faster machine. The time this PC gives to other tests or guests costs
+/// them that much less of their period.
 ///
-/// Of its PC, User-Mode Linux asks the time, and has itself waked by one timer that runs once
-/// (arch/um/os-Linux/time.c of Linux 6.1); it writes no time into what others read.
+/// User-Mode Linux asks its PC for the time and wakes by one single-shot timer
+/// (arch/um/os-Linux/time.c of Linux 6.1). It writes no time into what others read.
 namespace {
 
 constexpr std::int64_t kSecond = 1'000'000'000;

@@ -15,8 +15,8 @@
 
 #include "host/link/video_calls.hpp"
 
-/// A V4L2 capture device behind the calls of a kernel, written from the kernel's documentation of
-/// its interface: one camera that shows a bar moving to the right, a column a picture.
+/// A V4L2 capture device behind the kernel's calls, written from the kernel's interface
+/// documentation. Its camera shows a bar that moves right by one column per picture.
 namespace verp::test {
 
 class VideoDevice final : public wire::VideoCalls {
@@ -27,18 +27,18 @@ class VideoDevice final : public wire::VideoCalls {
   };
   static constexpr std::uint8_t kDark = 16, kBright = 235, kNoColour = 128;
 
-  // What a test makes of it.
+  // Script.
   std::string path = "/dev/video7";
   std::vector<Format> formats = {{V4L2_PIX_FMT_YUYV, {{16, 8}, {32, 24}}}};
   std::uint32_t capabilities = V4L2_CAP_VIDEO_CAPTURE | V4L2_CAP_STREAMING;
-  std::uint32_t padding = 0;  ///< bytes behind each row
+  std::uint32_t padding = 0;  ///< bytes after each row
   std::uint32_t buffers_at_most = 8;
-  bool stamps = true;  ///< its driver tells times of the monotonic clock
-  bool counts = true;  ///< and numbers its pictures
+  bool stamps = true;  ///< its driver stamps pictures with the monotonic clock
+  bool counts = true;  ///< its driver numbers its pictures
   bool takes_any_rate = true;
   int open_error = 0;
-  std::map<unsigned long, int> refused;  ///< by request: the errno
-  std::function<void()> on_wait;         ///< what happens while somebody waits for a picture
+  std::map<unsigned long, int> refused;  ///< request -> errno
+  std::function<void()> on_wait;         ///< runs while a caller waits for a picture
 
   void unplug() {
     plugged_ = false;
@@ -47,7 +47,8 @@ class VideoDevice final : public wire::VideoCalls {
     done_.clear();
   }
   void plug() { plugged_ = true; }
-  /// Makes the next picture into a queued buffer; there is none: it is lost. `part`: of its bytes.
+  /// Puts the next picture into a queued buffer; without one it is lost. `part` of its bytes
+  /// arrive.
   void make_picture(double part = 1, bool damaged = false) {
     time_us_ += 33'000;
     const std::uint32_t number = sequence_++;
@@ -65,11 +66,11 @@ class VideoDevice final : public wire::VideoCalls {
                           static_cast<long>(time_us_ % 1'000'000)};
     done_.push_back(buffer);
   }
-  /// The column in which picture `number` has its bar.
+  /// Column of the bar in picture `number`.
   std::uint32_t bar_of(std::uint32_t number) const { return number % width_; }
   std::uint32_t made() const { return sequence_; }
   std::uint64_t time_us() const { return time_us_; }
-  /// What is open and mapped now: nothing, once the camera is gone.
+  /// Open descriptors and mappings; none once the camera is gone.
   int open_descriptors() const { return descriptors_; }
   int mapped() const { return mapped_; }
   double rate_hz() const { return 1.0 * period_.denominator / period_.numerator; }
@@ -199,7 +200,7 @@ class VideoDevice final : public wire::VideoCalls {
     pixels.sizeimage = row() == 0 ? 4096 : pixels.bytesperline * height_;
     return 0;
   }
-  /// As drivers do: what it cannot give becomes what it can.
+  /// As in drivers, an impossible format becomes a possible one.
   int set_format(v4l2_format& format) {
     const v4l2_pix_format wanted = format.fmt.pix;
     const Format* chosen = &formats.at(0);
@@ -249,7 +250,7 @@ class VideoDevice final : public wire::VideoCalls {
     done_.pop_front();
     return 0;
   }
-  /// Bytes of the picture.
+  /// Draws a picture; returns its bytes.
   std::uint32_t draw(std::uint32_t number, std::vector<std::uint8_t>& bytes) const {
     if (row() == 0) {
       const std::uint8_t file[] = {0xFF, 0xD8, static_cast<std::uint8_t>(number), 0xFF, 0xD9};

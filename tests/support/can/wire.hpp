@@ -5,19 +5,19 @@
 
 #include "common/base/can_frame.hpp"
 
-/// A CAN bus at 1 Mbit/s between one controller's model and a far node that the test speaks for.
-/// Frames take the time of their bits without stuffing.
+/// A CAN bus at 1 Mbit/s between one controller's model and a far node played by the test. Frames
+/// take the time of their bits without stuffing.
 namespace verp::test {
 
 /// The controller on the wire.
 class CanNode {
  public:
   virtual ~CanNode() = default;
-  /// What it would send now; null: nothing.
+  /// The frame it would send now, or null.
   virtual const CanFrame* pending() const = 0;
-  /// Its frame begins; it can't be taken back any more.
+  /// Its frame has begun and cannot be withdrawn.
   virtual void begun() = 0;
-  virtual void sent() = 0;    ///< and was acknowledged
+  virtual void sent() = 0;    ///< sent and acknowledged
   virtual void failed() = 0;  ///< an error frame ended it
   virtual void heard(const CanFrame& frame) = 0;
 };
@@ -36,7 +36,7 @@ class CanWire {
     heard_.pop_front();
     return true;
   }
-  /// Somebody else has the bus until it is let go.
+  /// Another node occupies the bus until it is released.
   void hold(bool yes) { held_ = yes; }
   /// The controller's next `frames` frames end in an error frame.
   void spoil(unsigned frames) { spoiled_ = frames; }
@@ -90,13 +90,13 @@ class CanWire {
   std::uint64_t end_us_ = 0;
 };
 
-/// What every controller has: an error counter that leads to bus-off, and the way back.
+/// Every controller's error counter, which leads to bus-off, and the way back.
 class ErrorCounter {
  public:
   static constexpr unsigned kBusOff = 256, kPerError = 8;
   static constexpr std::uint64_t kRecovery_us = 128 * 11;
 
-  /// True: too many.
+  /// True if there are too many errors.
   bool error() { return (count_ += kPerError) >= kBusOff; }
   void good() { count_ -= count_ > 0 ? 1 : 0; }
   void clear() { count_ = 0; }

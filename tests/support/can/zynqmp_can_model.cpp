@@ -132,7 +132,7 @@ std::uint32_t ZynqmpCanRegisters::received_word(std::uint32_t offset) const {
     if (!as_qemu_) return can_rank(frame);
     return frame.id | (frame.extended ? kExtendedFlag : 0) | (frame.remote ? kRemoteFlag : 0);
   }
-  if (offset == kRxDlc) {  // and a time stamp, which nobody uses
+  if (offset == kRxDlc) {  // and an unused time stamp
     return static_cast<std::uint32_t>(frame.size) << kDlcShift |
            static_cast<std::uint32_t>(wire.now_us() & 0xFFFF);
   }

@@ -6,8 +6,8 @@
 #include "firmware/boot/boot.hpp"
 #include "hal/chip/semihosting/semihosting.hpp"
 
-/// What newlib and the C++ library ask of a system, for test images only: number formatting and
-/// containers want a heap. Files are refused; whatever is written is printed.
+/// The system calls of newlib and the C++ library, only for test images: number formatting and
+/// containers need a heap. File access fails; all output is printed.
 extern "C" {
 extern char verp_heap_begin[];
 extern char verp_heap_end[];
@@ -53,7 +53,7 @@ int _kill(int, int) {
 int _getpid() {
   return 1;
 }
-/// The library's own would bring in its exceptions.
+/// The library's version would bring in its exceptions.
 [[noreturn]] void __cxa_pure_virtual() {
   std::abort();
 }

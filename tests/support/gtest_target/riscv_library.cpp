@@ -4,11 +4,11 @@
 
 #include "hal/chip/semihosting/semihosting.hpp"
 
-/// What RISC-V test images lack besides newlib.cpp: Debian has the C++ library's headers for it,
-/// and no library. The trees of std::map and std::set are in order but never balanced: fine for
-/// tests.
+/// What RISC-V test images need besides newlib.cpp: for RISC-V, Debian has only the headers of the
+/// C++ library. The trees of std::map and std::set are ordered but never balanced, which suffices
+/// for tests.
 extern "C" void* _sbrk(std::ptrdiff_t bytes);
-/// picolibc's name of it.
+/// picolibc's name for it.
 extern "C" void* sbrk(std::ptrdiff_t bytes) {
   return _sbrk(bytes);
 }
@@ -34,7 +34,7 @@ namespace {
 
 using Node = _Rb_tree_node_base;
 
-/// The neighbour in order, `first` and `second` being left and right or the reverse.
+/// The next node in order; toward/away are left/right or the reverse.
 Node* neighbour(Node* node, Node* Node::*toward, Node* Node::*away) {
   if (node->*toward != nullptr) {
     for (node = node->*toward; node->*away != nullptr;) node = node->*away;
@@ -46,7 +46,7 @@ Node* neighbour(Node* node, Node* Node::*toward, Node* Node::*away) {
   return node->*toward != parent ? parent : node;
 }
 
-/// Puts `heir`, which may be null, where `node` hangs.
+/// Replaces `node` by `heir`, which may be null.
 void replace(Node* node, Node* heir, Node& header) {
   Node* const parent = node->_M_parent;
   if (parent == &header) {
@@ -102,7 +102,7 @@ Node* _Rb_tree_rebalance_for_erase(Node* const node, Node& header) throw() {
     replace(node, node->_M_right, header);
   } else if (node->_M_right == nullptr) {
     replace(node, node->_M_left, header);
-  } else {  // the next in order takes its place; that one has no left child
+  } else {  // the next node in order, which has no left child, replaces it
     if (after->_M_parent != node) {
       replace(after, after->_M_right, header);
       after->_M_right = node->_M_right;

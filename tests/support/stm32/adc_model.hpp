@@ -12,7 +12,7 @@ class AdcModel : public Bank {
   AdcModel(Machine& machine, unsigned number, std::uint32_t base, Gate gate);
 
   // Script.
-  std::uint16_t input[19] = {};   ///< 12-bit result of each channel
+  std::uint16_t input[19] = {};   ///< 12-bit result per channel
   bool conversion_stuck = false;  ///< EOC never comes
 
   void reset() override;
@@ -31,7 +31,7 @@ class AdcModel : public Bank {
   Time stable_at_ = 0;
 };
 
-/// The registers that the converters share.
+/// The registers shared by all converters.
 class AdcCommonModel : public Bank {
  public:
   explicit AdcCommonModel(Machine& machine);

@@ -6,20 +6,20 @@
 #include "tests/support/stm32/registers/table.hpp"
 #include "tests/support/stm32/time.hpp"
 
-/// What every peripheral model has: registers that behave as their table says, and a record of each
-/// access that the table forbids.
+/// Base of all peripheral models: registers that behave as their table says, and a record of each
+/// forbidden access.
 namespace verp::hal::stm32::model {
 
 class Machine;
 
-/// A test or a model that can't be: says why and ends the program.
+/// Ends the program with the reason: the test or model is impossible.
 [[noreturn]] void broken(const std::string& why);
 
-/// Which bit of which RCC enable register lets a peripheral run.
+/// Which bit of which RCC enable register clocks a peripheral.
 struct Gate {
   std::uint32_t enable_offset = 0;  ///< 0: always on
   std::uint32_t enable_bit = 0;
-  std::uint32_t reset_bit = 0;  ///< in the reset register, which lies 0x20 below
+  std::uint32_t reset_bit = 0;  ///< in the reset register, 0x20 below
 };
 
 class Bank {
@@ -34,36 +34,36 @@ class Bank {
   const Gate& gate() const { return gate_; }
   bool holds(std::uint32_t address) const { return address - base_ < window_; }
 
-  /// Accesses as they come from the bus; width in bytes. They check, then call on_read or on_write.
+  /// Bus accesses; width in bytes. They check, then call on_read or on_write.
   std::uint32_t bus_read(std::uint32_t address, unsigned width);
   void bus_write(std::uint32_t address, std::uint32_t value, unsigned width);
 
-  /// What a register holds now, without the effects of a read.
+  /// A register's value without the effects of a read.
   std::uint32_t peek(std::uint32_t offset) const { return slot(offset).value; }
 
   virtual void reset();
-  /// Does what is due at machine.now(); never called with anything due earlier left undone.
+  /// Does what is due at machine.now(); everything due earlier has been done.
   virtual void run() {}
-  /// The bus clocks are about to change: counts up to now with the old ones.
+  /// The bus clocks are about to change: counts up to now at the old ones.
   virtual void rebase() {}
-  /// When something is due next.
+  /// When something is next due.
   virtual Time next() const { return kNever; }
-  /// Whether it wants a DMA stream to fetch (or bring) something now.
+  /// Whether it wants a DMA transfer now.
   virtual bool dma_request(bool /*transmit*/) const { return false; }
   /// Level of an interrupt line.
   virtual bool interrupt(unsigned) const { return false; }
 
  protected:
-  /// Before a read: brings the value up to date. After it: the effects.
+  /// Before a read: updates the value. After it: applies its effects.
   virtual void before_read(std::uint32_t /*offset*/) {}
   virtual void after_read(std::uint32_t /*offset*/) {}
-  /// Whether the write may happen at all; says why not by violate().
+  /// Whether the write is allowed; if not, reports why by violate().
   virtual bool may_write(std::uint32_t /*offset*/, std::uint32_t /*raw*/) { return true; }
-  /// After a write: `raw` is what software wrote, `old` what the register held before.
+  /// After a write: `raw` is the written value, `old` the register's previous one.
   virtual void on_write(std::uint32_t /*offset*/, std::uint32_t /*raw*/, std::uint32_t /*old*/) {}
-  /// The register behind an offset, where a register answers at several.
+  /// The register behind an offset, for registers with several addresses.
   virtual std::uint32_t fold(std::uint32_t offset) const { return offset; }
-  /// Registers that may be accessed with less than 32 bits.
+  /// Whether accesses of less than 32 bits are allowed.
   virtual bool narrow_ok(std::uint32_t /*offset*/, unsigned /*width*/) const { return false; }
 
   void add_registers(const Table& table, std::uint32_t shift);
@@ -86,7 +86,7 @@ class Bank {
   Slot* find(std::uint32_t offset);
   Slot& slot(std::uint32_t offset);
   const Slot& slot(std::uint32_t offset) const;
-  /// False if the write can have no effect at all.
+  /// False if the write can have no effect.
   bool check_write(const Slot& slot, std::uint32_t raw) const;
 
   Machine& machine_;
@@ -95,7 +95,7 @@ class Bank {
   std::uint32_t window_ = 0;
   Gate gate_;
   std::vector<Slot> slots_;
-  std::vector<int> index_;  ///< word offset -> slot, -1 where there is none
+  std::vector<int> index_;  ///< word offset -> slot, or -1
   unsigned width_ = 4;
 };
 

@@ -7,9 +7,9 @@
 #include "hal/chip/stm32/registers/can.hpp"
 #include "tests/support/stm32/bank.hpp"
 
-/// bxCAN with the bus at its pins and the other nodes on it: what they send is the test's script.
-/// Frames take their bits without stuffing; who begins is decided by arbitration. Modelled: normal
-/// mode, classic frames, filters of 32 bits, both FIFOs, error counters of the transmitter.
+/// bxCAN with the bus at its pins; the test scripts the other nodes. Frames take the time of their
+/// bits without stuffing, and arbitration decides who begins. Modelled: normal mode, classic
+/// frames, 32-bit filters, both FIFOs, the transmitter's error counters.
 namespace verp::hal::stm32::model {
 
 class CanModel : public Bank {
@@ -20,28 +20,28 @@ class CanModel : public Bank {
     Time start, end;
   };
 
-  /// `keeper`: of its filters, from that bank on; null: itself.
+  /// `keeper` holds its filters, from that bank on; null: itself.
   CanModel(Machine& machine, std::uint32_t base, Gate gate, unsigned first_irq,
            const CanModel* keeper = nullptr);
 
   // Script.
   bool init_stuck = false;     ///< INAK never sets
-  bool line_dominant = false;  ///< nothing can be heard or sent
-  bool acknowledged = true;    ///< another node hears us
+  bool line_dominant = false;  ///< nothing can be received or sent
+  bool acknowledged = true;    ///< another node receives us
   unsigned break_next = 0;     ///< so many of our frames meet a bit error
-  /// Asked at the end of each frame on the wire: true, and an error frame destroys it. Whoever sent
-  /// it sends it again.
+  /// Called at the end of each frame on the wire: if true, an error frame destroys it and its
+  /// sender repeats it.
   std::function<bool(const CanFrame&)> breaks = [](const CanFrame&) { return false; };
-  bool abort_stuck = false;  ///< a mailbox never hears that it shall give up
+  bool abort_stuck = false;  ///< a mailbox ignores abort requests
   std::uint32_t bus_bitrate = 1'000'000;
-  /// Another node sends this as soon as it may, not before `when`.
+  /// Another node sends this as soon as possible, but not before `when`.
   void send(const CanFrame& frame, Time when = 0);
   void on_sent(std::function<void(const Sent&)> watcher) { watcher_ = std::move(watcher); }
 
   const std::deque<Sent>& sent() const { return sent_; }
   void forget_sent() { sent_.clear(); }
   bool idle() const { return !talking_ && others_.empty(); }
-  /// What the registers make, 0 if nothing.
+  /// The registers' rate, 0 if none.
   double bitrate() const;
   double sample_point() const;
 
@@ -91,13 +91,13 @@ class CanModel : public Bank {
   std::uint32_t order_[can::kMailboxes] = {};  ///< of the requests
   std::uint32_t requests_ = 0;
   bool talking_ = false;
-  int mailbox_ = -1;  ///< of the frame on the wire, -1: another node's
+  int mailbox_ = -1;  ///< of the frame on the wire; -1: another node's
   CanFrame on_wire_;
   Time start_ = 0, end_ = 0, idle_at_ = 0;
   unsigned tec_ = 0;
   std::deque<Waiting> others_;
   std::deque<CanFrame> fifo_[can::kFifos];
-  std::deque<Sent> sent_;  ///< a vector that grows needs twice the memory
+  std::deque<Sent> sent_;  ///< a growing vector needs twice the memory
   std::function<void(const Sent&)> watcher_;
 };
 

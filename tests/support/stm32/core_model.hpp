@@ -5,9 +5,9 @@
 #include "hal/chip/stm32/registers/cortex_m.hpp"
 #include "tests/support/stm32/time.hpp"
 
-/// The core's own registers, as far as drivers use them: SysTick (by polling), the cycle counter,
-/// NVIC enables and software-pended interrupts, AIRCR's reset. The rest (MPU, caches, fault
-/// handling) is remembered as written, without effect.
+/// The core's registers that drivers use: SysTick (by polling), the cycle counter, NVIC enables and
+/// software-pended interrupts, AIRCR's reset. The rest (MPU, caches, fault handling) is stored
+/// without effect.
 namespace verp::hal::stm32::model {
 
 class Machine;

@@ -54,7 +54,7 @@ void DmaModel::run() {
   for (unsigned stream = 0; stream < kStreams; ++stream) {
     if (streams_[stream].off_at > machine().now()) continue;
     stop(stream);
-    // RM0090 10.3.14: the end of a suspended transfer shows as TCIF.
+    // RM0090 10.3.14: TCIF shows the end of a suspended transfer.
     flag(stream, kFlagTc);
   }
 }

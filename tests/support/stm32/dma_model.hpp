@@ -4,7 +4,7 @@
 #include "hal/chip/stm32/registers/dma.hpp"
 #include "tests/support/stm32/bank.hpp"
 
-/// One DMA controller. A transfer happens at the moment its peripheral asks, if the stream's
+/// One DMA controller. A transfer happens as soon as its peripheral requests it, if the stream's
 /// channel is wired to it (dma_requests.hpp). FIFO, bursts and double buffers are not modelled.
 namespace verp::hal::stm32::model {
 
@@ -12,16 +12,16 @@ class DmaModel : public Bank {
  public:
   DmaModel(Machine& machine, unsigned number, std::uint32_t base, Gate gate);
 
-  // Script, by stream.
+  // Script, per stream.
   struct Script {
-    bool enable_stuck = false;       ///< EN reads 1 for ever once it was set
+    bool enable_stuck = false;       ///< EN reads 1 for ever once set
     Time disable_time = us(1);       ///< from EN written 0 to EN read 0
-    std::uint32_t fail_after = ~0u;  ///< TEIF instead of the transfer after so many more
+    std::uint32_t fail_after = ~0u;  ///< TEIF instead of a transfer after so many more
   };
   Script script[dma::kStreams];
 
   std::uint32_t transfers(unsigned stream) const { return streams_[stream].transfers; }
-  /// Moves what is asked for; false if there was nothing.
+  /// Makes requested transfers; false if there were none.
   bool serve();
 
   void reset() override;
@@ -37,7 +37,7 @@ class DmaModel : public Bank {
   struct Stream {
     std::uint32_t loaded = 0;  ///< NDTR when it was enabled
     Time off_at = kNever;
-    bool ending = false;  ///< EN was written 0, the hardware hasn't followed yet
+    bool ending = false;  ///< EN was written 0, and the hardware has not followed yet
     std::uint32_t transfers = 0;
   };
   static std::uint32_t at(std::uint32_t offset, unsigned stream) {

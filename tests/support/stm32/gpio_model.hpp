@@ -5,23 +5,23 @@
 #include "hal/chip/stm32/registers/gpio.hpp"
 #include "tests/support/stm32/bank.hpp"
 
-/// One GPIO port: what its pins are used as, the levels they drive and the levels put on them.
+/// One GPIO port: its pins' functions, the levels they drive and the levels put on them.
 namespace verp::hal::stm32::model {
 
 class GpioModel : public Bank {
  public:
   GpioModel(Machine& machine, char port);
 
-  /// The outside drives a pin; open: it doesn't, and the pull resistor decides (none: low).
+  /// Drives a pin from outside; open: the pull resistor decides (none: low).
   enum class Outside : std::uint8_t { kLow, kHigh, kOpen };
   void drive(unsigned pin, Outside level);
-  /// What is on the pin's wire. Open-drain outputs at 1 leave it to the outside or the pull.
+  /// The level on the pin's wire. Open-drain outputs at 1 leave it to the outside or the pull.
   bool level(unsigned pin) const;
   std::uint32_t mode(unsigned pin) const;
-  /// The alternate function, or 16 if the pin isn't in alternate mode.
+  /// The alternate function, or 16 if the pin is in another mode.
   unsigned function(unsigned pin) const;
   bool open_drain(unsigned pin) const;
-  /// Called after each change of a pin's level with (pin, level).
+  /// Called with (pin, level) after each change of a pin's level.
   void on_change(std::function<void(unsigned, bool)> watcher) {
     watchers_.push_back(std::move(watcher));
   }

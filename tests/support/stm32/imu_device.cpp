@@ -7,7 +7,7 @@ namespace {
 constexpr std::uint8_t kMpuDivider = 0x19, kMpuConfig = 0x1A, kMpuFifoEnable = 0x23,
                        kMpuIntStatus = 0x3A, kMpuData = 0x3B, kMpuDataEnd = 0x48, kMpuUser = 0x6A,
                        kMpuPower = 0x6B, kMpuFifoSize = 0x72, kMpuFifo = 0x74, kMpuWho = 0x75;
-// ICM-20648: bank 0, but the dividers are in bank 2.
+// ICM-20648: bank 0, except the dividers in bank 2.
 constexpr std::uint8_t kIcmWho = 0x00, kIcmUser = 0x03, kIcmPower = 0x06, kIcmIntStatus1 = 0x1A,
                        kIcmIntStatus2 = 0x1B, kIcmData = 0x2D, kIcmDataEnd = 0x3A,
                        kIcmFifoEnable2 = 0x67, kIcmFifoReset = 0x68, kIcmFifoMode = 0x69,
@@ -17,7 +17,7 @@ constexpr std::uint8_t kFifoOn = 0x40, kMpuFifoReset = 0x04, kMpuFifoStops = 0x4
 
 }  // namespace
 
-/// Where the two differ. The FIFO's order is that of the data registers.
+/// How the two differ. The FIFO has the order of the data registers.
 struct ImuDevice::Map {
   std::uint8_t who, power, user, status, overflow_status, overflow, data, fifo_size, fifo;
   std::uint8_t fifo_enable, selects_accel, selects_gyro[3], selects_temperature;
@@ -96,8 +96,8 @@ Time ImuDevice::period() const {
 }
 std::uint32_t ImuDevice::max_hz() const {
   // MPU-9250: 1 MHz for all registers, 20 MHz to read sensor and interrupt registers (PS-MPU-9250A
-  // table 6), which does not say which is the FIFO: 10 MHz, as others read it.
-  // ICM-20648: 7 MHz (DS-000179 table 4).
+  // table 6). The table does not mention the FIFO: 10 MHz, as others read it. ICM-20648: 7 MHz
+  // (DS-000179 table 4).
   if (!mpu()) return 7000000;
   if (!addressed_) return 20000000;
   if (reading_ && pointer_ >= kMpuFifoSize && pointer_ <= kMpuFifo) return 10000000;
@@ -172,7 +172,7 @@ void ImuDevice::update(Time now) {
   }
 }
 
-/// An empty FIFO gives its last byte again. Its size stands still from the high byte to the low.
+/// An empty FIFO repeats its last byte. Reading the size's high byte freezes it until the low byte.
 std::uint8_t ImuDevice::read_fifo(std::uint8_t address) {
   if (address == map().fifo_size) {
     fifo_size_low_ = static_cast<std::uint8_t>(fifo_.size() & 0xFF);
@@ -186,8 +186,8 @@ std::uint8_t ImuDevice::read_fifo(std::uint8_t address) {
   return fifo_byte_;
 }
 
-/// MPU-9250: clears itself, and counts only while the FIFO is off, as older maps of the family say.
-/// ICM-20648: holds the FIFO empty until it is taken back.
+/// MPU-9250: the bit clears itself and acts only while the FIFO is off, as older maps of the family
+/// say. ICM-20648: keeps the FIFO empty until it is cleared.
 void ImuDevice::reset_fifo_if_told(std::uint8_t address, std::uint8_t value) {
   const bool told = mpu() ? address == kMpuUser && (value & kMpuFifoReset) != 0
                           : address == kIcmFifoReset && value != 0;
@@ -236,7 +236,7 @@ void ImuDevice::write(std::uint8_t address, std::uint8_t value, Time now) {
 
 void ImuDevice::select(bool selected, Time now) {
   addressed_ = false;
-  if (selected) update(now);  // what is read in one go is of one sample
+  if (selected) update(now);  // one transfer reads one sample
 }
 
 std::uint8_t ImuDevice::exchange(std::uint8_t out, Time now) {

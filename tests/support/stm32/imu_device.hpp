@@ -5,11 +5,10 @@
 
 #include "tests/support/stm32/spi_model.hpp"
 
-/// A 6-axis motion sensor behind SPI: an MPU-9250 (registers: RM-MPU-9250A-00) or an
-/// ICM-20648 (DS-000179). It samples at the rate its registers ask for; all counts of a sample are
-/// of one instant. The FIFO holds 512 bytes of what FIFO_EN selects; when it is full, bytes are
-/// lost one by one, the oldest or the newest as its mode says, so that it is out of step
-/// afterwards. Registers that the models don't know are remembered as written.
+/// A 6-axis motion sensor behind SPI: an MPU-9250 (registers: RM-MPU-9250A-00) or an ICM-20648
+/// (DS-000179). It samples at its registers' rate; all counts of a sample are of one instant. The
+/// FIFO holds 512 bytes of what FIFO_EN selects. When full it loses single bytes, the oldest or
+/// newest by its mode, and is out of step afterwards. Unknown registers are stored as written.
 namespace verp::hal::stm32::model {
 
 enum class ImuKind : std::uint8_t { kMpu9250, kIcm20648 };
@@ -19,19 +18,19 @@ class ImuDevice : public SpiDevice {
   explicit ImuDevice(ImuKind kind);
 
   // Script.
-  bool silent = false;   ///< answers nothing: all ones
-  bool frozen = false;   ///< takes no further samples
-  std::size_t torn = 0;  ///< as many bytes of each sample reach the FIFO one exchange later
+  bool silent = false;   ///< answers all ones
+  bool frozen = false;   ///< takes no more samples
+  std::size_t torn = 0;  ///< so many bytes of each sample reach the FIFO one exchange later
   std::function<void()> before_sample = [] {};
-  int who_am_i = -1;          ///< another identity than the kind's
+  int who_am_i = -1;          ///< replaces the kind's identity
   Time reset_time = ms(100);  ///< after DEVICE_RESET
-  /// What the next samples show, in the sensor's axes.
+  /// The next samples, in the sensor's axes.
   void motion(const std::int16_t (&gyro)[3], const std::int16_t (&accel)[3]);
-  /// It loses its settings, as by a dip of its supply.
+  /// Loses its settings, as after a dip of its supply.
   void forget() { power_on(); }
-  /// As many bytes of the FIFO are gone: a clock edge too many.
+  /// Loses so many FIFO bytes, as after a clock edge too many.
   void slip(std::size_t bytes);
-  /// Takes the samples that were due, as it also does when it is spoken to.
+  /// Takes due samples, as each access does.
   void update(Time now);
 
   std::uint8_t reg(unsigned bank, std::uint8_t address) const { return registers_[bank][address]; }
@@ -39,7 +38,7 @@ class ImuDevice : public SpiDevice {
   std::size_t fifo_size() const { return fifo_.size(); }
   std::uint32_t violations() const {
     return violations_;
-  }  ///< accesses that the data sheet forbids
+  }  ///< accesses forbidden by the data sheet
 
   void select(bool selected, Time now) override;
   std::uint8_t exchange(std::uint8_t out, Time now) override;
@@ -70,9 +69,9 @@ class ImuDevice : public SpiDevice {
   std::int16_t gyro_[3] = {}, accel_[3] = {};
   std::deque<std::uint8_t> fifo_;
   std::deque<std::uint8_t> on_the_way_;  ///< bytes of the newest sample, not yet in the FIFO
-  std::uint8_t fifo_byte_ = 0;           ///< the last one that was read
-  std::uint8_t fifo_size_low_ = 0;       ///< as it was when the high byte was read
-  bool addressed_ = false;               ///< the register address of this transfer has come
+  std::uint8_t fifo_byte_ = 0;           ///< the last byte read
+  std::uint8_t fifo_size_low_ = 0;       ///< frozen when the high byte was read
+  bool addressed_ = false;               ///< this transfer's register address has arrived
   bool reading_ = false;
   std::uint8_t pointer_ = 0;
   Time ready_at_ = 0;

@@ -3,8 +3,7 @@
 #include "hal/chip/stm32/registers/memory_map.hpp"
 #include "tests/support/stm32/bank.hpp"
 
-/// Independent watchdog: resets the machine when it was not reloaded in time. Nothing but a reset
-/// stops it.
+/// Independent watchdog: resets the machine unless reloaded in time. Only a reset stops it.
 namespace verp::hal::stm32::model {
 
 class IwdgModel : public Bank {
@@ -16,7 +15,7 @@ class IwdgModel : public Bank {
   bool busy_stuck = false;         ///< PVU and RVU never fall
 
   bool started() const { return started_; }
-  /// When it will bite, as things are.
+  /// When it will bite unless reloaded.
   Time bites_at() const { return started_ ? bites_at_ : kNever; }
 
   void reset() override;

@@ -12,10 +12,10 @@
 #include "tests/support/stm32/bank.hpp"
 #include "tests/support/stm32/time.hpp"
 
-/// A whole STM32 on the PC, as its reference manual describes it: what drivers meet in tests
-/// instead of silicon. Time passes with each access (Options::access_cycles) or by advance(); what
-/// happens outside (bytes on a line, a crystal that never starts, a bit that sticks) is the test's
-/// script. What a driver does against the manual is recorded, not forgiven: see violations().
+/// A whole STM32 on the PC, built from its reference manual, which drivers meet in tests instead of
+/// silicon. Time passes with each access (Options::access_cycles) or by advance(). The test scripts
+/// outside events: bytes on a line, a crystal that never starts, a stuck bit. Accesses against the
+/// manual are recorded: see violations().
 namespace verp::hal::stm32::model {
 
 class Machine;
@@ -33,7 +33,7 @@ class SpiModel;
 class TimerModel;
 class UsartModel;
 
-/// Drivers' way into the model.
+/// The drivers' access to the model.
 class ModelIo {
  public:
   explicit ModelIo(Machine& machine) : machine_(&machine) {}
@@ -55,12 +55,12 @@ class ModelIo {
 
 static_assert(Io<ModelIo>);
 
-/// Why the chip was reset, as RCC_CSR tells it.
+/// Reset causes as in RCC_CSR.
 enum class ResetCause { kPowerOn, kPin, kSoftware, kIwdg, kWwdg, kLowPower, kBrownOut };
 
 struct Options {
   std::uint32_t hse_hz = 8000000;
-  std::uint32_t access_cycles = 10;  ///< of the core, for each access and the code around it
+  std::uint32_t access_cycles = 10;  ///< core cycles per access and the code around it
 };
 
 class Machine {
@@ -75,32 +75,32 @@ class Machine {
   ModelIo io() { return ModelIo(*this); }
 
   Time now() const { return now_; }
-  /// Lets time pass, as if the core slept; interrupts come meanwhile.
+  /// Lets time pass as if the core slept; interrupts run meanwhile.
   void advance(Time time) { advance_to(now_ + time); }
-  /// Something from outside happens at that time.
+  /// Schedules an outside event.
   void at(Time when, std::function<void()> what);
   std::uint64_t core_cycles() const;
 
-  /// What was done against the manual, in order: "USART2: write of 0x... to BRR while UE is set".
+  /// Accesses against the manual, in order: "USART2: write of 0x... to BRR while UE is set".
   const std::vector<std::string>& violations() const { return violations_; }
   std::string violations_text() const;
   void forget_violations() { violations_.clear(); }
 
-  /// The handler runs when the line is up, the NVIC lets it and no other handler runs.
+  /// The handler runs while the line is up, the NVIC enables it and no other handler runs.
   void attach(unsigned irq, std::function<void()> handler);
 
   void reset(ResetCause cause);
   std::uint32_t resets() const { return resets_; }
-  /// Called after each reset but the first; a test's handler may throw to end what ran.
+  /// Called after each reset but the first; a test's handler may throw to end the running code.
   void on_reset(std::function<void(ResetCause)> handler) { reset_handler_ = std::move(handler); }
-  /// No power: accesses do nothing and read 0, nothing advances but time.
+  /// Without power, accesses do nothing and read 0, and only time advances.
   bool dark() const { return dark_; }
   void power_off();
   void power_on();
 
   AdcModel& adc(unsigned number);
-  /// There from the first call on, which comes before the firmware looks for it: its registers take
-  /// more memory than a chip that runs these models has to spare.
+  /// Created by the first call, which must precede the firmware's use: a chip that runs these
+  /// models has no memory to spare for its registers.
   CanModel& can1();
   CanModel& can2();
   CoreModel& core() { return *core_; }
@@ -123,7 +123,7 @@ class Machine {
   void touch() { dirty_ = true; }
   void violate(const std::string& what);
   bool clocked(const Bank& bank, const std::string& what);
-  /// The clocks change from now on: everybody counts up to here with the old ones.
+  /// The clocks change now: all banks count up to here at the old ones.
   void clocks_change();
   std::uint32_t map(const void* data, std::size_t size);
   /// Memory behind a bus address, or null.
@@ -132,7 +132,7 @@ class Machine {
   void unmask_interrupts();
   void wait_for_interrupt();
   void barrier();
-  /// Peripherals under this RCC reset bit go to their reset state.
+  /// Resets the peripherals under this RCC reset bit.
   void reset_banks(std::uint32_t reset_offset, std::uint32_t bits);
   const std::vector<std::unique_ptr<Bank>>& banks() const { return banks_; }
 

@@ -94,7 +94,7 @@ void OtgFsModel::disable(unsigned endpoint, bool in, std::uint32_t old) {
   });
 }
 
-/// The FIFO that an IN endpoint is about to use lies in the memory, apart from the others'.
+/// The FIFO of an IN endpoint must lie inside the memory, apart from the others.
 void OtgFsModel::check_fifo(unsigned endpoint) {
   const std::uint32_t start = reg(dieptxf(endpoint)) & kDieptxfStart;
   const std::uint32_t end = start + depth(endpoint);
@@ -141,7 +141,7 @@ void OtgFsModel::start_out(unsigned endpoint) {
     clear(control, kEpctlEpena);
     return;
   }
-  set(control, kEpctlEpena);  // endpoint 0's can only be written, but is there
+  set(control, kEpctlEpena);  // endpoint 0's bit is write-only
   const std::uint32_t size = reg(doeptsiz(endpoint)) & kTsizXfrsiz;
   const std::uint32_t packets = (reg(doeptsiz(endpoint)) & kTsizPktcnt) >> kTsizPktcntShift;
   const std::uint32_t most = std::max<std::uint32_t>(1u, max_packet(endpoint, false));

@@ -13,7 +13,7 @@ using namespace otg_fs;
 
 namespace {
 
-/// Where the Bank keeps the FIFOs' windows, which are 4 KB each on the bus.
+/// Where the Bank keeps the FIFO windows, which take 4 KB each on the bus.
 constexpr std::uint32_t kFolded = 0xE40;
 constexpr std::uint32_t kGated = kPcgcctlStppclk | kPcgcctlGatehclk;
 constexpr Register kWindowRegisters[] = {
@@ -62,7 +62,7 @@ void OtgFsModel::reset() {
   refresh();
 }
 
-/// Keeps what the manual names, and GCCFG: software in wide use powers the transceiver up before.
+/// Keeps what the manual names, and GCCFG: widely used software powers up the transceiver first.
 void OtgFsModel::reset_core() {
   const std::uint32_t gccfg = reg(kGccfg), speed = reg(kDcfg) & kDcfgDspd, power = reg(kPcgcctl);
   Bank::reset();
@@ -111,7 +111,7 @@ bool OtgFsModel::session_valid() const {
   return vbus_ && has(kGccfg, kGccfgVbden);
 }
 
-/// Brings every bit up to date that follows from others.
+/// Updates every bit that follows from others.
 void OtgFsModel::refresh() {
   const bool session = session_valid();
   if (session != session_ && machine().rcc().enabled(gate())) {
@@ -148,7 +148,7 @@ void OtgFsModel::refresh_endpoints() {
   reg(kHnptxsts) = (reg(kHnptxsts) & ~0xFFFFu) | reg(dtxfsts(0));
 }
 
-/// While the core resets nothing may be touched, while its clock is stopped hardly anything.
+/// No access during a core reset, and hardly any while its clock is stopped.
 bool OtgFsModel::awake(std::uint32_t offset, const char* what) const {
   if (has(kGrstctl, kGrstctlCsrst) && offset != kGrstctl) {
     violate(std::string(what) + " while CSRST is set");

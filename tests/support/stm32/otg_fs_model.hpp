@@ -8,18 +8,18 @@
 #include "hal/chip/stm32/registers/otg_fs.hpp"
 #include "tests/support/stm32/bank.hpp"
 
-/// USB full speed as a device, and the wire to its host: the registers on one side, the host's
-/// tokens on the other. UsbHost (usb_host.hpp) makes transfers of tokens.
+/// USB full speed as a device: its registers on one side, the host's tokens on the other. UsbHost
+/// (usb_host.hpp) builds transfers from tokens.
 ///
 /// Modelled: control, bulk and interrupt endpoints by FIFO and status words, NAK, STALL, toggles,
 /// global NAKs, flushes, disabling, core reset, VBUS, bus reset, suspend, resume, remote wakeup.
-/// Not: the host's side of the core, isochronous transfers, LPM, battery charging, test modes, the
-/// wakeup's EXTI line, STSPHSRX of the newer core; TXFNUM must be the endpoint's own number.
+/// Not modelled: the core's host side, isochronous transfers, LPM, battery charging, test modes,
+/// the wakeup's EXTI line, STSPHSRX of the newer core. TXFNUM must be the endpoint's own number.
 namespace verp::hal::stm32::model {
 
 enum class UsbAnswer : std::uint8_t { kAck, kNak, kStall, kNone };
 
-/// What an IN token gets: kAck stands for data.
+/// The answer to an IN token; kAck stands for data.
 struct UsbPacket {
   UsbAnswer answer = UsbAnswer::kNone;
   bool data1 = false;
@@ -39,19 +39,19 @@ class OtgFsModel : public Bank {
   bool flush_stuck = false;       ///< RXFFLSH and TXFFLSH stay set
   bool disable_stuck = false;     ///< EPDISD never comes
 
-  // The wire, at the machine's time.
+  // The wire, in the machine's time.
   void set_vbus(bool on);
   bool vbus() const { return vbus_; }
-  /// The host sees the pull-up of a full-speed device.
+  /// The host sees a full-speed device's pull-up.
   bool pulled_up() const;
   void begin_reset();  ///< the host drives SE0
-  void end_reset();    ///< and ends: the device is found to be full speed; frames start
+  void end_reset();    ///< ends SE0: a full-speed device is found, frames start
   UsbAnswer setup(unsigned address, const std::uint8_t (&request)[8]);
   UsbAnswer out(unsigned address, unsigned endpoint, bool data1, const std::uint8_t* bytes,
                 std::size_t count);
   /// `acknowledged`: the host's ACK arrives.
   UsbPacket in(unsigned address, unsigned endpoint, bool acknowledged);
-  void idle();    ///< no more frames: suspend follows
+  void idle();    ///< no more frames, so suspend follows
   void resume();  ///< from suspend; frames start again
   bool wakes_host() const;
 
@@ -113,7 +113,7 @@ class OtgFsModel : public Bank {
   std::uint32_t max_packet(unsigned endpoint, bool in) const;
   std::string named(bool in, unsigned endpoint) const;
 
-  // otg_fs_wire.cpp: what the host does.
+  // otg_fs_wire.cpp: the host's side.
   void run_wire();
   void changed();
   bool listens(unsigned address) const;
@@ -143,10 +143,10 @@ class OtgFsModel : public Bank {
     return hz >= 47'880'000 && hz <= 48'120'000;
   }
 
-  /// What it answers to: a DAD that is written during a control transfer counts from its end on.
+  /// The answering address: a DAD written during a control transfer takes effect at its end.
   unsigned address_ = 0;
   bool control_open_ = false;
-  Time device_from_ = 0;  ///< a forced mode takes its time
+  Time device_from_ = 0;  ///< a forced mode takes time
   Time wakeup_from_ = 0;
 };
 

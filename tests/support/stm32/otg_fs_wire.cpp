@@ -14,7 +14,7 @@ using namespace otg_fs;
 namespace {
 
 constexpr Time kFrame = ms(1);
-/// After 3 ms without frames the device is to suspend; the core says so in two steps.
+/// After 3 ms without frames the device must suspend; the core reports that in two steps.
 constexpr Time kEarlySuspend = ms(3), kSuspend = ms(6);
 /// DM and DP are PA11 and PA12 with this alternate function (DS8626, DS10693, DS10916).
 constexpr unsigned kMinusPin = 11, kPlusPin = 12, kFunction = 10;
@@ -126,7 +126,7 @@ bool OtgFsModel::active(unsigned endpoint, bool in) const {
 }
 
 bool OtgFsModel::has_room(std::size_t bytes) const {
-  const std::size_t words = 2 + (bytes + 3) / 4;  // its status word, and the one that may follow
+  const std::size_t words = 2 + (bytes + 3) / 4;  // its status word and a possible second one
   return received_.size() + words <= std::min(reg(kGrxfsiz), kFifoWords);
 }
 
@@ -145,7 +145,7 @@ void OtgFsModel::receive(std::uint32_t status, unsigned endpoint, bool data1,
   }
 }
 
-/// What must be set before the first packet.
+/// Settings required before the first packet.
 void OtgFsModel::check_ready() {
   if (checked_) return;
   checked_ = true;
@@ -195,7 +195,7 @@ UsbAnswer OtgFsModel::out(unsigned address, unsigned endpoint, bool data1,
              !has(doeptsiz(endpoint), kTsizPktcnt)) {
     if (v2_) set(doepint(endpoint), kDoepNak);
   } else if (data1 != out_[endpoint].data1) {
-    answer = UsbAnswer::kAck;  // sent again because our ACK got lost: it is not new
+    answer = UsbAnswer::kAck;  // repeated because our ACK was lost: not new
   } else {
     answer = UsbAnswer::kAck;
     receive(kPacketOut, endpoint, data1, bytes, count);

@@ -141,7 +141,7 @@ void RccModel::oscillator(std::uint32_t old, std::uint32_t on, std::uint32_t rea
 void RccModel::control_written(std::uint32_t old) {
   const std::uint32_t used = field(reg(kCfgr), kCfgrSws);
   const bool pll_from_hse = has(kPllcfgr, kPllcfgrSrcHse);
-  // The hardware keeps what runs the system clock.
+  // The hardware keeps the oscillators of the system clock running.
   std::uint32_t kept = used == kClockHsi ? kCrHsion : used == kClockHse ? kCrHseon : kCrPllon;
   if (used == kClockPll) kept |= pll_from_hse ? kCrHseon : kCrHsion;
   if ((reg(kCr) & kept) != kept) {

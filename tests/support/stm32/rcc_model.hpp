@@ -4,15 +4,15 @@
 #include "tests/support/stm32/machine.hpp"
 #include "tests/support/stm32/registers/rcc_table.hpp"
 
-/// Clock tree and reset flags. Oscillators and PLL take their time or never start, as the script
-/// says; a setting that the chip cannot bear is a violation at the moment it takes effect.
+/// Clock tree and reset flags. Oscillators and PLL need time or never start, as scripted. A setting
+/// outside the chip's limits is a violation when it takes effect.
 namespace verp::hal::stm32::model {
 
 class RccModel : public Bank {
  public:
   explicit RccModel(Machine& machine);
 
-  // Script. Times from switching on to ready; kNever: it doesn't start, or never locks.
+  // Script. Times from switching on to ready; kNever: it does not start or lock.
   Time hse_start = ms(2);
   Time pll_lock = us(100);
   Time lsi_start = us(40);
@@ -23,20 +23,20 @@ class RccModel : public Bank {
   std::uint32_t hclk_hz() const;
   std::uint32_t apb1_hz() const;
   std::uint32_t apb2_hz() const;
-  std::uint32_t bus_hz(std::uint32_t base) const;  ///< of the APB on which `base` lies
+  std::uint32_t bus_hz(std::uint32_t base) const;  ///< of the APB that contains `base`
   std::uint32_t timer_hz(std::uint32_t base) const;
   std::uint32_t pll_hz() const;
-  /// What OTG_FS gets from the main PLL; 0 while that doesn't run. PLLSAI is not modelled: 0.
+  /// OTG_FS's clock from the main PLL; 0 while that is off. PLLSAI is not modelled: 0.
   std::uint32_t usb_hz() const;
 
   bool enabled(const Gate& gate) const { return (peek(gate.enable_offset) & gate.enable_bit) != 0; }
-  /// An enable bit was set by the last access: the peripheral's clock isn't there yet.
+  /// The last access set the enable bit, so the peripheral has no clock yet.
   bool settling(const Gate& gate) const {
     return gate.enable_offset == fresh_offset_ && (gate.enable_bit & fresh_bits_) != 0;
   }
   void clocks_settled() { fresh_bits_ = 0; }
   void flag_reset(ResetCause cause);
-  /// Checks wait states, voltage and bus limits against the clocks of now.
+  /// Checks wait states, voltage and bus limits against the current clocks.
   void check_limits();
 
   void reset() override;

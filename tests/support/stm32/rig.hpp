@@ -9,8 +9,8 @@
 #include "tests/support/stm32/rcc_model.hpp"
 #include "tests/support/stm32/timer_model.hpp"
 
-/// A chip of a family with its clocks up and its timer running: where most drivers begin. Nothing
-/// may have been done against the manual by the end.
+/// A chip with clocks and timer running, where most drivers begin. At its end there must be no
+/// violation.
 namespace verp::hal::stm32::test {
 
 using model::kNever;

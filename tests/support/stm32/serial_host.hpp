@@ -10,9 +10,9 @@
 #include "tests/support/stm32/otg_fs_model.hpp"
 #include "tests/support/stm32/usb_host.hpp"
 
-/// A PC with a driver for serial ports at the other end of the USB cable: it finds the device,
-/// opens and closes the port, and moves bytes of its own accord while time passes. Calls that make
-/// control transfers let time pass; they may not be made from within an event.
+/// A PC with a serial-port driver at the other end of the USB cable. It enumerates the device,
+/// opens and closes the port, and moves bytes while time passes. Calls that make control transfers
+/// let time pass and may not come from an event.
 namespace verp::hal::stm32::model {
 
 class SerialHost {
@@ -23,10 +23,10 @@ class SerialHost {
 
   // Script.
   bool reading = true;       ///< a program reads what arrives
-  unsigned deaf_every = 0;   ///< of so many IN packets the host's ACK is lost once; 0: never
-  unsigned twice_every = 0;  ///< of so many OUT packets the device's ACK is lost once
+  unsigned deaf_every = 0;   ///< one ACK of the host in so many IN packets is lost; 0: never
+  unsigned twice_every = 0;  ///< one ACK of the device in so many OUT packets is lost
 
-  /// Plugs the cable in and makes the device's acquaintance. False: it is not found to be one.
+  /// Plugs in and enumerates the device. False if that fails.
   bool plug() { return bus_.plug() && meet(); }
   void unplug() {
     forget_session();
@@ -36,7 +36,7 @@ class SerialHost {
     forget_session();
     return bus_.reset();
   }
-  /// After a reset of the bus: what a host does before a program can open a port.
+  /// After a bus reset: a host's steps before a program can open a port.
   bool meet() {
     std::optional<Bytes> device = ask(0x80, 6, 0x0100, 0, 8);
     if (!device || device->size() != 8 || !reset_bus()) return false;
@@ -65,18 +65,18 @@ class SerialHost {
 
   bool opened() const { return opened_; }
 
-  /// Bytes for the port. They wait here until it takes them.
+  /// Bytes for the port; they wait here until it accepts them.
   void send(const Bytes& bytes) { outbox_.insert(outbox_.end(), bytes.begin(), bytes.end()); }
   std::size_t unsent() const { return outbox_.size(); }
-  /// What has arrived, which is gone after that.
+  /// Returns and removes the received bytes.
   Bytes take() { return std::exchange(inbox_, {}); }
   const Bytes& inbox() const { return inbox_; }
-  /// Packets shorter than full, by which a host's driver knows that a message is over.
+  /// Short packets, which tell a host's driver that a message is over.
   unsigned ends() const { return ends_; }
   unsigned out_naks() const { return out_naks_; }
   unsigned stalls() const { return stalls_; }
 
-  // Control transfers. Nothing: the device refused.
+  // Control transfers; nothing if the device refused.
   std::optional<Bytes> ask(std::uint8_t type, std::uint8_t request, std::uint16_t value,
                            std::uint16_t index, std::uint16_t length) {
     UsbReply reply = bus_.control({type, request, value, index, length});
@@ -95,7 +95,7 @@ class SerialHost {
   static constexpr std::size_t kPacket = 64;
   static constexpr std::uint8_t kAddress = 17;
   static constexpr unsigned kData = 1;
-  static constexpr Time kTurn = us(100);  ///< a full packet each way takes about as long
+  static constexpr Time kTurn = us(100);  ///< about the time of a full packet each way
 
   void forget_session() {
     opened_ = false;
@@ -115,7 +115,7 @@ class SerialHost {
     if (answer == UsbAnswer::kNak) ++out_naks_;
     if (answer == UsbAnswer::kStall) ++stalls_;
     if (answer != UsbAnswer::kAck) return;
-    if (twice_every != 0 && ++outs_ % twice_every == 0) return;  // sent again, as not heard
+    if (twice_every != 0 && ++outs_ % twice_every == 0) return;  // repeated, as if not received
     outbox_.erase(outbox_.begin(), outbox_.begin() + static_cast<std::ptrdiff_t>(size));
     out_data1_ = !out_data1_;
   }
@@ -125,7 +125,7 @@ class SerialHost {
     if (packet.answer == UsbAnswer::kStall) ++stalls_;
     if (packet.answer != UsbAnswer::kAck) return;
     ++ins_;
-    if (packet.data1 != in_data1_) return;  // again
+    if (packet.data1 != in_data1_) return;  // a repeated packet
     in_data1_ = !in_data1_;
     inbox_.insert(inbox_.end(), packet.bytes.begin(), packet.bytes.end());
     if (packet.bytes.size() < kPacket) ++ends_;

@@ -7,19 +7,19 @@
 #include "tests/support/stm32/bank.hpp"
 #include "tests/support/stm32/gpio_model.hpp"
 
-/// A SPI master with devices on chip-select pins. 8-bit frames; the F7's FIFOs of 4 bytes.
+/// A SPI master with devices on chip-select pins; 8-bit frames, and the F7's 4-byte FIFOs.
 namespace verp::hal::stm32::model {
 
-/// What hangs on the bus.
+/// A device on the bus.
 class SpiDevice {
  public:
   virtual ~SpiDevice() = default;
   virtual void select(bool selected, Time now) = 0;
-  /// One byte each way, both over at `now`.
+  /// One byte each way, both complete at `now`.
   virtual std::uint8_t exchange(std::uint8_t out, Time now) = 0;
-  /// 0 or 3; true if the device works with it.
+  /// `mode` is 0 or 3; true if the device supports it.
   virtual bool takes_mode(unsigned mode) const = 0;
-  /// Highest clock for what it is about to exchange.
+  /// Highest clock for the next exchange.
   virtual std::uint32_t max_hz() const = 0;
 };
 
@@ -29,10 +29,10 @@ class SpiModel : public Bank {
 
   // Script.
   bool busy_stuck = false;    ///< the shift register never ends: no RXNE, BSY for ever
-  bool overrun_next = false;  ///< the next byte finds the receiver full, whatever was fetched
+  bool overrun_next = false;  ///< the next byte overruns, whatever was fetched
   bool miso_stuck_high = false, miso_stuck_low = false;
   void attach(SpiDevice& device, GpioModel& port, unsigned select_pin);
-  /// The SCK, MISO or MOSI pin must have this alternate function for anything to pass.
+  /// Nothing passes unless the SCK, MISO or MOSI pin has this alternate function.
   void wire(GpioModel& port, unsigned pin, unsigned function) {
     pins_.push_back({&port, pin, function});
   }

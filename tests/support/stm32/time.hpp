@@ -1,7 +1,7 @@
 #pragma once
 #include <cstdint>
 
-/// Simulated time of a chip model.
+/// A chip model's simulated time.
 namespace verp::hal::stm32::model {
 
 using Time = std::uint64_t;  ///< picoseconds since the model was made
@@ -18,8 +18,8 @@ constexpr Time ms(std::uint64_t count) {
   return count * 1'000'000'000;
 }
 
-/// Whole periods of a clock that fit in a time, and the time (rounded up) that a number of periods
-/// takes. A product of both has no room in 64 bits, so each divides in steps; hz: up to 10^9.
+/// Whole clock periods that fit into a time, and the time (rounded up) of a number of periods.
+/// Their product exceeds 64 bits, so both divide in steps; hz is up to 10^9.
 constexpr std::uint64_t periods(Time time, std::uint64_t hz) {
   constexpr Time kMicrosecond = us(1);
   const Time part = time % kSecond;

@@ -34,7 +34,7 @@ class TimerModel : public Bank {
   std::uint32_t width_mask_;
   Time from_ = 0;  ///< when the counter was at from_count_
   std::uint64_t from_count_ = 0;
-  std::uint64_t matched_ = 0;  ///< compare values up to here have had their event
+  std::uint64_t matched_ = 0;  ///< compare values up to here have been handled
   std::uint32_t prescaler_ = 0, reload_ = 0;
   std::uint32_t updates_ = 0;
 };

@@ -9,7 +9,7 @@
 
 namespace verp::hal::stm32::model {
 
-// Both kinds have these at the same places: flags 0 to 7, CR1 bits 2 to 15, CR3 bits 0 to 11.
+// Both kinds share these positions: flags 0 to 7, CR1 bits 2 to 15, CR3 bits 0 to 11.
 using namespace usart_v1;
 
 UsartModel::UsartModel(Machine& machine, unsigned number, std::uint32_t base, Gate gate,
@@ -123,8 +123,8 @@ void UsartModel::hear(const Frame& frame) {
     flags |= kSrFe;
     data = 0;
   }
-  // RM0090 30.3.5: the receiver bears 3.75 % at best with 10 bits; past half a bit the stop bit is
-  // sought where it isn't.
+  // RM0090 30.3.5: the receiver tolerates at best 3.75 % with 10 bits; beyond half a bit it looks
+  // for the stop bit in the wrong place.
   if (drift * 100 > own * 36 || collided) {
     data = ~data & 0xFFu;
     flags |= kSrNf;
@@ -173,7 +173,7 @@ void UsartModel::data_written(std::uint32_t raw) {
   tx_full_ = true;
   tx_data_ = raw;
   clear(status(), kSrTxe);
-  // F4: TC falls by a read of SR and then a write of DR. F7: by the write.
+  // F4: a read of SR and then a write of DR clear TC. F7: the write does.
   if (v2_ || (seen_ & kSrTc) != 0) clear(status(), kSrTc);
   seen_ &= ~kSrTc;
   load();
@@ -215,14 +215,14 @@ bool UsartModel::may_write(std::uint32_t offset, std::uint32_t raw) {
     return !v2_;
   }
   if (!v2_ || !on()) return true;
-  // RM0385 31.8: fields that can only be written while UE is 0.
+  // RM0385 31.8: fields that are only writable while UE is 0.
   const std::uint32_t changes = raw ^ peek(offset);
   std::uint32_t fixed = 0;
   if (offset == usart_v2::kCr1) {
     fixed = kCr1Over8 | kCr1Pce | kCr1Ps | kCr1Wake | usart_v2::kCr1M0 | usart_v2::kCr1M1 |
             usart_v2::kCr1Dedt | usart_v2::kCr1Deat;
   }
-  if (offset == usart_v2::kCr2) fixed = 0x000FFF30u;  // all fields up to MSBFIRST but LBDIE
+  if (offset == usart_v2::kCr2) fixed = 0x000FFF30u;  // all fields up to MSBFIRST except LBDIE
   if (offset == usart_v2::kCr3) {
     fixed = kCr3Hdsel | kCr3Onebit | usart_v2::kCr3Ovrdis | usart_v2::kCr3Ddre | usart_v2::kCr3Dem |
             usart_v2::kCr3Dep;

@@ -9,46 +9,46 @@
 #include "tests/support/stm32/bank.hpp"
 #include "tests/support/stm32/gpio_model.hpp"
 
-/// A USART of either kind with the line at its pins. Bytes take the time that the registers and the
-/// clock give them; what is received is the test's script, in the time of the sender's baud rate.
-/// Modelled: 8 data bits, no parity (9 bits as 8 with one more on the line), half duplex.
+/// A USART of either kind with the line at its pins. Bytes take the time that registers and clock
+/// give them. The test scripts received bytes, at the sender's baud rate. Modelled: 8 data bits
+/// without parity (9 bits as 8 with one more on the line), half duplex.
 namespace verp::hal::stm32::model {
 
 class UsartModel : public Bank {
  public:
-  /// What is wrong with a byte on the line.
+  /// A fault of a byte on the line.
   enum class Flaw : std::uint8_t { kNone, kNoise, kFraming, kBreak };
   struct Sent {
     std::uint8_t data;
     Time start, end;
-    bool whole;  ///< reached the wire: direction pin active all the time, nobody else talking
+    bool whole;  ///< reached the wire: direction pin always active, no other sender
   };
 
   UsartModel(Machine& machine, unsigned number, std::uint32_t base, Gate gate, unsigned irq);
 
   // Script.
   bool tx_stuck = false;  ///< the shift register never ends: TXE and TC stay 0
-  /// Puts bytes on the line, the first at `start` or as soon as those before have ended.
+  /// Puts bytes on the line, the first at `start` or after earlier ones.
   void receive(const std::uint8_t* data, std::size_t size, std::uint32_t baud, Time start = 0);
   void receive(std::uint8_t data, std::uint32_t baud, Flaw flaw = Flaw::kNone, Time start = 0);
-  /// An external half-duplex driver: sends only while the pin has this level, receives only while
-  /// not.
+  /// An external half-duplex driver: sends only while the pin has this level, receives only
+  /// otherwise.
   void direction_pin(GpioModel& port, unsigned pin, bool active);
-  /// The pin must have this alternate function for a byte to leave (or to arrive).
+  /// A byte leaves (or arrives) only if the pin has this alternate function.
   void transmit_pin(GpioModel& port, unsigned pin, unsigned function) {
     tx_pin_ = {&port, pin, function};
   }
   void receive_pin(GpioModel& port, unsigned pin, unsigned function) {
     rx_pin_ = {&port, pin, function};
   }
-  /// Called as each byte's stop bit ends.
+  /// Called when each byte's stop bit ends.
   void on_sent(std::function<void(const Sent&)> watcher) { watcher_ = std::move(watcher); }
 
   const std::vector<Sent>& sent() const { return sent_; }
   void forget_sent() { sent_.clear(); }
-  /// When the bytes put on the line so far will have passed.
+  /// When all bytes put on the line will have passed.
   Time line_free_at() const { return line_free_at_; }
-  double baud() const;  ///< that the registers make, 0 if none
+  double baud() const;  ///< from the registers, 0 if none
 
   void reset() override;
   void run() override;
@@ -68,7 +68,7 @@ class UsartModel : public Bank {
     Time start, end, bit;
     std::uint8_t data;
     Flaw flaw;
-    bool own;  ///< heard by its own sender
+    bool own;  ///< its own echo
   };
   struct Pin {
     GpioModel* port = nullptr;
@@ -99,7 +99,7 @@ class UsartModel : public Bank {
   unsigned number_;
   unsigned irq_;
   bool v2_;
-  std::uint32_t seen_ = 0;  ///< flags that a read of SR showed
+  std::uint32_t seen_ = 0;  ///< flags shown by a read of SR
   std::uint32_t rx_data_ = 0;
   bool tx_full_ = false;
   std::uint32_t tx_data_ = 0;

@@ -7,9 +7,8 @@
 #include "tests/support/stm32/machine.hpp"
 #include "tests/support/stm32/otg_fs_model.hpp"
 
-/// The PC at the other end of the cable: makes transfers of tokens, in the machine's time. Each
-/// call returns when the transfer is over or was given up; meanwhile interrupts come and `firmware`
-/// runs.
+/// The PC at the other end of the cable builds transfers from tokens, in the machine's time. Each
+/// call returns when the transfer is over or abandoned; meanwhile interrupts and `firmware` run.
 namespace verp::hal::stm32::model {
 
 /// The eight bytes of a control request (USB 2.0, 9.3).
@@ -22,8 +21,8 @@ struct UsbSetup {
 enum class UsbResult : std::uint8_t {
   kDone,
   kStalled,
-  kNaked,    ///< refused for longer than `patience`
-  kNoAnswer  ///< nobody answered three times in a row
+  kNaked,    ///< NAK for longer than `patience`
+  kNoAnswer  ///< no answer three times in a row
 };
 
 struct UsbReply {
@@ -38,16 +37,16 @@ class UsbHost {
   // Script.
   Time patience = ms(50);
   Time retry = us(20);              ///< between a NAK and the next try
-  std::function<void()> firmware;   ///< runs after each token, and each 100 us of pass()
-  std::uint32_t lose_acks = 0;      ///< so many of the next acknowledgements get lost on the way
-  std::uint32_t control_size = 64;  ///< of a packet of endpoint 0
+  std::function<void()> firmware;   ///< runs after each token, and every 100 us of pass()
+  std::uint32_t lose_acks = 0;      ///< loses so many of the next acknowledgements
+  std::uint32_t control_size = 64;  ///< packet size of endpoint 0
   std::uint32_t bulk_size = 64;
 
-  /// Power, up to 1 s for the pull-up, 100 ms of rest (USB 2.0, 7.1.7.3), a bus reset. False: no
-  /// device came.
+  /// Power, up to 1 s for the pull-up, 100 ms of rest (USB 2.0, 7.1.7.3), a bus reset. False if no
+  /// device appeared.
   bool plug();
   void unplug();
-  /// 10 ms of SE0 and 10 ms of rest. The device is back at address 0 and all toggles at DATA0.
+  /// 10 ms of SE0 and 10 ms of rest. Then the device has address 0 and all toggles are DATA0.
   bool reset();
   void suspend() { core_.idle(); }
   /// 20 ms of resume signalling.
@@ -55,15 +54,15 @@ class UsbHost {
   void pass(Time time);
 
   UsbReply control(const UsbSetup& setup, const std::vector<std::uint8_t>& data = {});
-  /// SET_ADDRESS, and its rest of 2 ms.
+  /// SET_ADDRESS, then 2 ms of rest.
   UsbResult set_address(std::uint8_t address);
-  /// SET_CONFIGURATION: toggles begin at DATA0.
+  /// SET_CONFIGURATION; toggles start at DATA0.
   UsbResult configure(std::uint8_t configuration);
-  /// CLEAR_FEATURE(ENDPOINT_HALT): as above for that endpoint; bit 7 of the address: IN.
+  /// CLEAR_FEATURE(ENDPOINT_HALT): DATA0 for that endpoint; bit 7 of the address: IN.
   UsbResult clear_halt(std::uint8_t endpoint_address);
-  /// Packets of bulk_size and one that is shorter, if there is a rest; nothing: one empty packet.
+  /// Packets of bulk_size and a shorter last one, if any; for no bytes, one empty packet.
   UsbResult out(unsigned endpoint, const std::vector<std::uint8_t>& bytes);
-  /// Packets until one is short or there are `most` bytes.
+  /// Reads packets until one is short or there are `most` bytes.
   UsbReply in(unsigned endpoint, std::size_t most);
 
   std::uint8_t address() const { return address_; }
@@ -78,7 +77,7 @@ class UsbHost {
   UsbReply read_stage(const UsbSetup& setup);
   UsbReply write_stage(const std::vector<std::uint8_t>& data);
   void token(std::size_t bytes);
-  /// What to do after an answer that is no ACK; true: try again.
+  /// Handles an answer other than ACK; true: try again.
   bool again(UsbAnswer answer, Time until, unsigned& silent, UsbResult& result);
   bool ack_arrives();
   void forget_toggles();

@@ -7,16 +7,16 @@
 #include <initializer_list>
 #include <type_traits>
 
-/// The part of GoogleTest's interface that tests/unit and tests/contract use, small enough for a
-/// microcontroller: no exceptions, no fixtures but those of typed tests; only these need a heap.
-/// The same test sources compile against the real one on the PC.
-/// The program that includes this supplies testing::put() and calls testing::run_all().
+/// The part of GoogleTest that tests/unit and tests/contract use, small enough for a
+/// microcontroller. It has no exceptions and no fixtures except those of typed tests, which alone
+/// need a heap. On the PC the same tests compile against the real one. The including program
+/// supplies testing::put() and calls testing::run_all().
 namespace testing {
 
 /// Where results go; `text` may hold part of a line.
 void put(const char* text);
 
-/// A line of text under construction. What does not fit is cut off.
+/// A line of text under construction; excess text is cut off.
 class Message {
  public:
   Message& operator<<(const char* text) {
@@ -58,7 +58,7 @@ class Message {
   std::size_t size_ = 0;
 };
 
-/// One TEST, linked into a list by its constructor, before the program starts.
+/// One TEST; its constructor links it into a list before the program starts.
 struct Case {
   Case(const char* suite_name, const char* case_name, void (*test_body)(), int type_number = -1)
       : suite(suite_name), name(case_name), body(test_body), type(type_number) {
@@ -68,7 +68,7 @@ struct Case {
   const char* suite;
   const char* name;
   void (*body)();
-  int type;  ///< of a typed test, from 0; -1: not typed
+  int type;  ///< type number of a typed test; -1: not typed
   Case* next = nullptr;
 
   static inline Case* first = nullptr;
@@ -76,7 +76,7 @@ struct Case {
   static inline int failures = 0;  ///< of the running test
 };
 
-/// Fixtures of typed tests derive from it.
+/// Base of typed tests' fixtures.
 class Test {};
 template <class... Type>
 struct Types {};
@@ -92,7 +92,7 @@ struct TypedCases<Body, Types<Type...>> {
   Case cases[sizeof...(Type)];
 };
 
-/// Outcome of one comparison; the message is only built when it failed.
+/// Outcome of one comparison; builds its message only on failure.
 class Outcome {
  public:
   explicit Outcome(bool good) : good_(good) {}
@@ -109,7 +109,7 @@ class Outcome {
   Message message_;
 };
 
-/// Prints a failure once the test's own words are known: `Failure(...) = Message() << words`.
+/// Prints a failure with the test's own message: `Failure(...) = Message() << words`.
 class Failure {
  public:
   Failure(const char* file, int line, const char* what) : file_(file), line_(line), what_(what) {}
@@ -149,7 +149,7 @@ inline Outcome near(const char* a_text, const char* b_text, double a, double b, 
   return outcome;
 }
 
-/// Within four units in the last place, as GoogleTest has it.
+/// Within four units in the last place, as in GoogleTest.
 template <class Float, class Bits>
 Outcome almost_equal(const char* a_text, const char* b_text, Float a, Float b) {
   constexpr Bits kSign = Bits{1} << (sizeof(Bits) * 8 - 1);
@@ -179,8 +179,8 @@ inline Message full_name(const Case& test) {
   return full;
 }
 
-/// Runs every test whose full name contains `filter`; returns how many failed, and 1 if there was
-/// none to run.
+/// Runs every test whose full name contains `filter`; returns the number of failures, or 1 if no
+/// test ran.
 inline int run_all(const char* filter) {
   int run = 0;
   int failed = 0;
@@ -212,7 +212,7 @@ inline int run_all(const char* filter) {
   static void suite##_##name##_body()
 
 #define TYPED_TEST_SUITE(suite, types) using suite##_types = types
-// On the heap: a fixture may hold more than a stack.
+// On the heap: a fixture may be larger than the stack.
 #define TYPED_TEST(suite, name)                                                              \
   template <class TypeParam>                                                                 \
   struct suite##_##name : suite<TypeParam> {                                                 \

@@ -8,7 +8,7 @@ inline constexpr std::uint32_t kModerResetA = 0xA8000000, kModerResetB = 0x00000
                                kOspeedrResetA = 0x0C000000, kOspeedrResetB = 0x000000C0,
                                kPupdrResetA = 0x64000000, kPupdrResetB = 0x00000100;
 
-/// Of ports C and on.
+/// For ports C and up.
 inline constexpr Register kRegisters[] = {
     {.name = "MODER", .offset = kModer, .paragraph = 1, .rw = bits(0, 32)},
     {.name = "OTYPER", .offset = kOtyper, .paragraph = 2, .rw = bits(0, 16)},

@@ -1,12 +1,12 @@
 #pragma once
 #include "tests/support/stm32/registers/otg_fs_device_table.hpp"
 
-/// Registers of OTG_FS in device mode: the core's, and by inclusion the device's. Paragraphs are
-/// those of RM0390 and RM0385, which number every register; RM0090 numbers only its groups: 34.16.2
+/// Registers of OTG_FS in device mode: the core's and, by inclusion, the device's. Paragraphs are
+/// those of RM0390 and RM0385, which number every register. RM0090 numbers only groups: 34.16.2
 /// global, 34.16.4 device, 34.16.5 power.
 namespace verp::hal::stm32::otg_fs {
 
-/// Bits of GINTSTS that only tell, and those that software clears by writing 1.
+/// Read-only bits of GINTSTS, and those that software clears by writing 1.
 inline constexpr std::uint32_t kGintRead = kGintCmod | kGintOtg | kGintRxflvl | kGintNptxfe |
                                            kGintGinakeff | kGintGonakeff | kGintIep | kGintOep |
                                            kGintHprt | kGintHc | kGintPtxfe;
@@ -27,8 +27,7 @@ inline constexpr std::uint32_t kGusbcfgWrite = kGusbcfgTocal | kGusbcfgSrpcap | 
                                                kGusbcfgTrdt | kGusbcfgFhmod | kGusbcfgFdmod |
                                                kGusbcfgCtxpkt;
 
-/// RM0090 prints 0x20000000, a reserved bit; AHBIDL, which it describes as set when idle, is bit
-/// 31, and RM0385 prints that.
+/// RM0090 prints 0x20000000, a reserved bit. AHBIDL, set when idle, is bit 31, as RM0385 prints.
 inline constexpr Register kGrstctlRegister = {
     .name = "GRSTCTL",
     .offset = kGrstctl,
@@ -135,7 +134,7 @@ inline constexpr Register kRegistersF7[] = {
      .r = bits(13, 4) | bits(25, 3),
      .rs = bit(24)},
 };
-/// Of IN endpoint 1; the following ones 4 further each.
+/// Of IN endpoint 1; each following one is 4 further.
 inline constexpr Register kFifoRegisters[] = {
     {.name = "DIEPTXFx",
      .offset = dieptxf(1),
@@ -144,8 +143,8 @@ inline constexpr Register kFifoRegisters[] = {
      .rw = kDieptxfStart | kDieptxfDepth},
 };
 
-/// From kPcgcctl. RM0385 prints a reset value of reserved bits alone (0x200B8000), over which ST's
-/// own library writes 0.
+/// From kPcgcctl. RM0385 prints a reset value of reserved bits only (0x200B8000), which ST's own
+/// library overwrites with 0.
 inline constexpr Register kPowerRegisters[] = {
     {.name = "PCGCCTL",
      .offset = 0,

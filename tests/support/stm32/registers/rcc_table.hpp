@@ -2,16 +2,16 @@
 #include "hal/chip/stm32/registers/rcc.hpp"
 #include "tests/support/stm32/registers/table.hpp"
 
-/// The registers of each family's reset and clock control. Families differ in which peripherals
-/// they have, hence in the bits of the enable registers.
+/// Each family's reset and clock control registers. Families have different peripherals, hence
+/// other bits in the enable registers.
 namespace verp::hal::stm32::rcc {
 
-/// In what the registers that all families have differ.
+/// Differences in the registers that all families have.
 struct FamilyBits {
   std::uint32_t cr_rw = 0, cr_r = 0;  ///< of a second PLL
   std::uint32_t pllcfgr = 0;          ///< beyond the others'
-  std::uint32_t no_cfgr = 0;          ///< reserved here alone
-  unsigned plls = 0;                  ///< that have interrupts, with the oscillators
+  std::uint32_t no_cfgr = 0;          ///< reserved only here
+  unsigned plls = 0;                  ///< with interrupts, like the oscillators
   std::uint32_t ahb1_reset = 0, ahb1_clock = 0, ahb1_sleep = 0;
   std::uint32_t ahb2 = 0, ahb3 = 0, apb1 = 0;  ///< the same bits in each register
   std::uint32_t apb2_reset = 0, apb2 = 0;      ///< of the clocks, asleep or not
@@ -24,7 +24,8 @@ struct Rows {
   Register row[kCommon + kOwn];
 };
 
-/// Each register is a paragraph of the manual's section: those of all families, then one's own.
+/// Each register is a paragraph of the manual's section: those of all families, then the family's
+/// own.
 template <std::size_t kOwn>
 constexpr Rows<kOwn> rows(const FamilyBits& has, const Register (&own)[kOwn]) {
   Rows<kOwn> all = {{

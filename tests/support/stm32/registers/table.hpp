@@ -4,13 +4,13 @@
 
 #include "hal/chip/stm32/registers/bits.hpp"
 
-/// The registers of one kind of peripheral, as its reference manual tabulates them: the models hold
-/// every access of a driver against them. Offsets and bits are the driver's own, from
+/// The registers of one kind of peripheral as its reference manual lists them; the models check
+/// every driver access against them. Offsets and bits are the driver's, from
 /// hal/chip/stm32/registers.
 namespace verp::hal::stm32 {
 
-/// Access types by the manuals' own abbreviations ("List of abbreviations for registers"). A bit in
-/// no mask is reserved: it must be kept at its reset value.
+/// Access types have the manuals' abbreviations ("List of abbreviations for registers"). A bit in
+/// no mask is reserved and must keep its reset value.
 struct Register {
   const char* name = nullptr;
   std::uint32_t offset = 0;     ///< bytes from the peripheral's base
@@ -18,7 +18,7 @@ struct Register {
   std::uint32_t reset = 0;      ///< value after a system reset
   std::uint32_t rw = 0;         ///< software reads and writes
   std::uint32_t r = 0;          ///< software only reads
-  std::uint32_t w = 0;          ///< software only writes; reads say nothing
+  std::uint32_t w = 0;          ///< software only writes; reads are undefined
   std::uint32_t rs = 0;         ///< software reads and sets; writing 0 has no effect
   std::uint32_t rc_w0 = 0;      ///< software reads, and clears by writing 0; 1 has no effect
   std::uint32_t rc_w1 = 0;      ///< software reads, and clears by writing 1; 0 has no effect
@@ -29,7 +29,7 @@ struct Register {
 
 struct Table {
   const char* name;
-  const char* manuals;  ///< section of each family's manual, "-" where the family has another table
+  const char* manuals;  ///< section in each family's manual, "-" if the family has another table
   const Register* first;
   std::size_t count;
 

@@ -4,8 +4,7 @@
 
 namespace verp::hal::stm32::timer {
 
-/// What differs: the F7's counter mode and slave mode have an extra bit each, its compare modes
-/// too.
+/// The F7's counter, slave and compare modes have one bit more each.
 constexpr Register cr1(std::uint32_t extra) {
   return {.name = "CR1", .offset = kCr1, .paragraph = 1, .rw = bits(0, 10) | extra};
 }
