@@ -49,7 +49,6 @@ class Kept {
                   sizeof(ParamsImage), images.accepted_actions(), images.actions_bytes(),
                   [this] { dog_.feed(); });
   }
-  /// Call regularly.
   void keep(const app::Settings& now, bool may_erase) {
     settings.keep(now, may_erase);
     room_.work(may_erase);

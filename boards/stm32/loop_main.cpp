@@ -168,8 +168,8 @@ struct Board {
   const action::KeptLibrary actions;  ///< the robot's actions in flash
   app::Signals signals;
   app::LifeSign life;
-  std::uint32_t ticks = 0;      ///< since the start, of all loops
-  std::uint64_t ticked_us = 0;  ///< when the last tick ended
+  std::uint32_t ticks = 0;
+  std::uint64_t ticked_us = 0;
   std::uint32_t skipped_periods = 0;
   StartFault fault = StartFault::kNone;
 };
@@ -199,7 +199,7 @@ struct Patience {
 };
 
 /// Serves a twin while it is there, or returns why there is none. The board's own IMU and stop do
-/// not know the twin's world and are ignored. So is the torque limit, because the twin compares
+/// not know the twin's world and are ignored; so is the torque limit, because the twin compares
 /// each frame with its own. A silent twin may be paused: the loop waits for ever, then goes on with
 /// the same bits. Meanwhile the operator can restart the board.
 lockstep::Verdict run_in_lockstep(Board& board, const Params& params) {

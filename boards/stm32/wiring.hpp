@@ -37,7 +37,7 @@ struct SerialPort {
 struct CanPort {
   std::uint32_t base = 0;
   hal::stm32::CanFilterBanks filters;
-  std::uint32_t clocks = 0;  ///< mask in APB1ENR, with that of the filters\' bxCAN
+  std::uint32_t clocks = 0;  ///< mask in APB1ENR, with that of the filters' bxCAN
   Pin transmit;
   Pin receive;
   std::uint32_t function = 0;    ///< alternate function of both pins

@@ -16,17 +16,15 @@ enum class Answer : std::uint8_t {
 /// Decides which answers to a tick's SYNCs are still due, and which received answers are fresh. A
 /// source is a node, or the IMU's second frame.
 ///
-/// A node that missed a SYNC or received one twice continues its SYNC counter from there (CiA 301)
-/// and answers another SYNC ever after. An answer later than planned is fresh if the source also
-/// answered in the previous tick; otherwise it may be that old answer. An answer earlier than
-/// planned may be late from the previous tick. A shift that repeats for some ticks becomes the
-/// source's new place.
+/// A node that missed a SYNC or received one twice answers another SYNC ever after, because it
+/// counts SYNCs (CiA 301). An answer later than planned is fresh if the source was fresh in the
+/// previous tick; otherwise it may be that tick's answer. An earlier one may be late from the
+/// previous tick. A shift that repeats for some ticks becomes the source's new place.
 ///
 /// A missing answer may still come when the next one is due: a drive could not get onto the bus, or
 /// a gateway is slow. Every later answer is then a tick late. So a source that owes an answer does
-/// not count until prompt() shows that nothing waits for the bus, usually in the next tick. After
-/// late answers, as from a gateway, it takes one tick more, because other frames reveal nothing
-/// about them.
+/// not count until prompt() shows that nothing waits for the bus, usually in the next tick; one
+/// tick later where answers came late, as from a gateway.
 class AnswerWatch {
  public:
   static constexpr int kImuSecond = kCanNodes;
@@ -45,7 +43,6 @@ class AnswerWatch {
     }
     return mask;
   }
-  /// The source answers its planned SYNC again.
   void restore(int source) { source_[source].group = source_[source].planned; }
 
   void begin() {
@@ -92,8 +89,8 @@ class AnswerWatch {
     fresh_ &= ~node_bit(source);
     spoilt_ |= node_bit(source);
   }
-  /// Notes an answer that came after the tick: it does not count, but may show that the node
-  /// answers the last SYNC now.
+  /// Notes an answer that came after the tick. It does not count, but may show that the node now
+  /// answers the last SYNC.
   void take_late(int source, std::uint8_t last_window) {
     Source& each = source_[source];
     if (each.group != last_window) move(each, last_window);
@@ -182,7 +179,7 @@ class AnswerWatch {
   NodeMask planned_ = 0;
   NodeMask answered_ = ~NodeMask{0};
   NodeMask fresh_ = ~NodeMask{0};
-  NodeMask before_ = 0;  ///< fresh in the previous tick
+  NodeMask before_ = 0;
   NodeMask spoilt_ = 0;
   NodeMask owing_ = 0;        ///< owe an answer that may still come
   NodeMask owing_since_ = 0;  ///< the same since the last tick, whatever other frames show

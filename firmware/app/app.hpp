@@ -44,8 +44,7 @@ class App {
         chip_(chip),
         law_(law) {}
 
-  /// Call before the first tick; torque is off afterwards. Do not tick a robot whose bring-up
-  /// failed.
+  /// Torque is off afterwards. Do not tick a robot whose bring-up failed.
   BringUpReport bring_up() { return servos_.bring_up(); }
   /// Limits every servo's strength from the next tick on, for a robot's first steps: 1 to 100 %.
   void limit_torque(std::uint8_t percent) { servos_.limit_torque(percent); }
@@ -65,7 +64,7 @@ class App {
   }
 
   /// Selects whose counts become Inputs from the next tick on: the chip's or the bus device's
-  /// (which is still read). Ignored while any servo holds torque or if the robot lacks one of them.
+  /// (still read). Ignored while any servo holds torque or if one is missing.
   void use_chip(bool yes) {
     if (chip_ != nullptr && params_.imu.device_id != 0 && outputs_.torque_enable == 0)
       from_chip_ = yes;

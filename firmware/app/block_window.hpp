@@ -21,7 +21,6 @@ enum class ImageKind : std::uint8_t {
 inline constexpr std::uint8_t kWrongWindowCrc = 255;
 inline constexpr std::uint8_t kBlockNotKept = 254;
 
-/// Result of writing a block.
 enum class Taken : std::uint8_t {
   kYes = 0,
   kNotYet = 1,  ///< the memory is being prepared: write the block again

@@ -7,9 +7,9 @@
 #include "firmware/app/schedule.hpp"
 #include "hal/contract/frame_bus.hpp"
 
-/// Requests and replies over a FrameBus. A lost reply costs at most its timeout. Replies that
-/// arrive between their timeout and the next request are dropped. Even later ones have a different
-/// length if similar requests also read spare_bytes().
+/// Requests and replies over a FrameBus. A lost reply costs at most its timeout. A late reply is
+/// dropped before the next request; an even later one has a wrong length if similar requests add
+/// spare_bytes().
 namespace verp::app {
 
 /// A reply handler's verdict on a packet.
@@ -28,10 +28,10 @@ class BusMaster {
   /// Bytes outside packets, those of damaged packets included.
   std::uint32_t noise_bytes() const { return parser_.noise_bytes(); }
 
-  /// Bytes to read in front of the wanted ones in a read that repeats every tick. A reply does not
-  /// name its request, so its length must: 0 after an answered request, since bytes keep their
-  /// order. After an unanswered one it differs from the last two reads, whose replies may still
-  /// arrive. Call for at most two reads a tick, so that a number repeats only after three ticks.
+  /// Bytes to read in front of the wanted ones in a read that repeats every tick: a reply does not
+  /// name its request, so its length must. 0 after an answered request, since bytes keep their
+  /// order. Otherwise different from the last two reads, whose replies may still arrive. Call for
+  /// at most two reads a tick, so that a number repeats only after three ticks.
   std::uint8_t spare_bytes() {
     if (missed_) spare_ = spare_ < kMostSpare ? static_cast<std::uint8_t>(spare_ + 1) : 0;
     missed_ = false;
@@ -134,7 +134,6 @@ class ReadChain {
     }
     return -1;
   }
-  /// True when no more replies are due.
   bool ended() const { return next_ == count_; }
   /// Call after the read. True if all answered; otherwise moves the first device missed to the end.
   bool complete() {

@@ -18,8 +18,8 @@ class CalibratedImu {
   CalibratedImu(Chip& chip, Memory& memory, const ImuParams& imu)
       : chip_(chip), memory_(memory), basis_(basis_of(imu)), calibrator_(imu) {}
 
-  /// Loads the stored calibration at start. One measured for another scale or mounting is not used,
-  /// but stays stored until replaced, as that robot may return.
+  /// Loads the stored calibration at start. One for another scale or mounting is ignored but stays
+  /// stored until replaced, as that robot may return.
   void load() {
     std::uint8_t bytes[ImuCalibration::kBytes];
     const std::size_t size = memory_.get(kImuCalibrationKey, bytes, sizeof bytes);

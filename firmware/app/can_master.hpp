@@ -32,7 +32,6 @@ class CanMaster {
     const std::uint64_t now_us = bus_.now_us();
     return now_us < end_us ? receive_until(frame, end_us, end_us - now_us) : take_waiting(frame);
   }
-  /// Takes a frame that is already there.
   bool take_waiting(CanFrame& frame) { return bus_.poll(frame, 0); }
 
   std::uint64_t now_us() { return bus_.now_us(); }
@@ -60,7 +59,7 @@ class CanMaster {
   Bus& bus_;
   bool accepted_ = true;
   bool accepted_before_ = true;  ///< a frame was accepted since begin_us_ was determined
-  std::uint64_t begin_us_ = 0;   ///< when the last accepted frame began on the wire
+  std::uint64_t begin_us_ = 0;
   std::uint64_t refused_us_ = 0;
 };
 

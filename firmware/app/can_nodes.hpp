@@ -24,7 +24,6 @@ constexpr std::uint8_t node_id(const Params& params, int slot) {
   return slot == kImuNode ? params.imu.device_id : params.feet.device_id[slot - kFootNode];
 }
 
-/// Maps node ids to slots.
 class CanNodes {
  public:
   explicit CanNodes(const Params& params) {

@@ -25,9 +25,9 @@ constexpr std::uint8_t hardware_error_of(std::uint16_t code) {
   return dxl::kOverloadError;
 }
 
-/// Finds every node of the robot, sets it up and starts it, torque off. It listens first: resetting
-/// nodes would drop a robot that another controller runs. It then resets all nodes, so that none
-/// stays stiff from an earlier run and settings not written here have their stored values.
+/// Finds every node of the robot, sets it up and starts it, torque off. It listens first, because
+/// resetting nodes would drop a robot that another controller runs. It then resets all nodes: none
+/// stays stiff from an earlier run, and unwritten settings have their stored values.
 template <hal::CanBus Bus>
 class CanopenBringUp {
  public:
@@ -125,7 +125,6 @@ class CanopenBringUp {
     return missing;
   }
 
-  /// Returns why the last attempt failed.
   canopen::Abort attempt(std::uint8_t id, const Setting& setting, std::uint32_t* found) {
     canopen::Abort why = canopen::Abort::kNone;
     for (int times = 0; times < kAttempts; ++times) {

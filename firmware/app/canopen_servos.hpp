@@ -288,12 +288,12 @@ class CanopenServos {
   NodeMask given_up_ = 0;
   std::uint16_t silent_ticks_[AnswerWatch::kSources] = {};
   std::uint64_t began_us_ = 0;
-  std::uint32_t heard_us_ = 0;     ///< time spent on received frames in this tick
+  std::uint32_t heard_us_ = 0;
   std::uint32_t patience_us_ = 0;  ///< limit for all SYNCs of a tick
   std::uint8_t window_ = 0;        ///< the last SYNC sent; 0: none in this tick
   std::uint8_t probe_ = 0;
-  std::uint8_t hurries_ = 0;  ///< left in this tick
-  bool torque_ = false;       ///< torque is wanted
+  std::uint8_t hurries_ = 0;
+  bool torque_ = false;
 };
 
 }  // namespace verp::app

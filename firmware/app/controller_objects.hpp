@@ -28,7 +28,6 @@ constexpr canopen::Identity controller_identity() {
 /// Objects of whole images: one DOMAIN for each ImageKind.
 inline constexpr std::uint16_t kImageIndex = 0x5000;
 
-/// The object of a one-element register.
 consteval canopen::Address object(const char* name) {
   return {table::find(name)->object_index(), 0};
 }
@@ -59,12 +58,12 @@ void publish_ticks(Objects& objects, std::uint8_t node, bool on) {
 
 /// The controller's registers as objects of a CANopen node (canopen::Application), beside a
 /// Dynamixel device on the same registers. Index 2000h + address; array elements have subindices
-/// from 1; a text is one object. The registers decide what a write does and when to refuse it.
+/// from 1; a text is one object. The registers decide the effect of a write.
 ///
 /// 5001h is the Params image, 5002h the actions. A downloaded image takes effect at the next start.
-/// It is refused while any servo holds torque; an action image also while its memory is being
-/// prepared: retry a little later. 5003h and 5004h are the last tick and earlier ones
-/// (tick_log.hpp), readable while register tick_hold is 1. TPDOs 2 to 4 report each tick
+/// It is refused while any servo holds torque; actions also while their memory is being prepared:
+/// retry a little later. 5003h and 5004h are the last tick and earlier ones (tick_log.hpp),
+/// readable while register tick_hold is 1. TPDOs 2 to 4 report each tick
 /// (canopen/published_tick.hpp) after publish_ticks().
 template <Images Store>
 class ControllerObjects {
@@ -238,7 +237,7 @@ class ControllerObjects {
 
   OperatorRegisters<Store>& registers_;
   Store& store_;
-  std::uint32_t crc_ = 0;  ///< of the image being downloaded
+  std::uint32_t crc_ = 0;
 };
 
 }  // namespace verp::app

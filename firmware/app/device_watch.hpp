@@ -29,7 +29,6 @@ class DeviceWatch {
     name(table::kDeviceLink, DeviceKind::kOperatorLink, 0);
   }
 
-  /// Counts a packet for this device on the operator's link.
   void heard() { ++packets_; }
   /// Error totals of the servo bus and of the operator's link.
   void bus_errors(std::uint32_t sum) { errors(table::kDeviceBus, sum); }
@@ -65,7 +64,7 @@ class DeviceWatch {
  private:
   static constexpr std::uint16_t kOldest = 0xFFFF;
   struct Limits {
-    std::int32_t stale, lost;  ///< ages in ticks
+    std::int32_t stale, lost;
   };
 
   void name(int row, table::DeviceKind kind, std::uint8_t id) {
@@ -152,8 +151,8 @@ class DeviceWatch {
 
   struct Still {
     std::int32_t position_count = 0;
-    std::int32_t goal_count = 0;  ///< when that began
-    std::uint8_t ticks = 0;       ///< ticks that the goal was away, up to kPatience
+    std::int32_t goal_count = 0;
+    std::uint8_t ticks = 0;  ///< ticks that the goal was away, up to kPatience
   };
 
   const Params& params_;
@@ -162,7 +161,7 @@ class DeviceWatch {
   std::uint16_t reports_[table::kDevices] = {};  ///< since the window began
   std::uint32_t window_us_ = 0;
   std::uint32_t tick_ = 0;
-  std::uint16_t elapsed_ = 1;  ///< ticks since the previous call
+  std::uint16_t elapsed_ = 1;
   std::uint16_t packets_ = 0;
   bool ticking_ = false;
 };

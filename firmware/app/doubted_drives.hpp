@@ -7,15 +7,14 @@
 
 namespace verp::app {
 
-/// Drives whose torque differs from the command, and nodes that may have lost their set-up:
-/// doubted_servos.hpp for CAN.
+/// DoubtedServos (doubted_servos.hpp) for CAN: drives whose torque differs from the command, and
+/// nodes that may have lost their set-up.
 ///
-/// A drive that was silent for long or sent a boot-up message is doubted. It gets no more torque
-/// than it has, and its position does not count. So the core holds and lowers the robot as if the
-/// drive were gone. If its statusword shows that it holds torque as commanded and follows its
-/// target, it has lost nothing and counts again. Otherwise (fault, reboot, or another mode of
-/// operation) it is set up again once the robot was released, and then counts. Sensors are set up
-/// again at once.
+/// A drive is doubted after long silence or a boot-up message. It gets no more torque than it has,
+/// and its position does not count, so the core holds and lowers the robot. If its statusword shows
+/// that it holds torque as commanded and follows its target, it lost nothing and counts again.
+/// Otherwise (fault, reboot, another mode of operation) it is set up again once the robot was
+/// released, and then counts. Sensors are set up again at once.
 class DoubtedDrives {
  public:
   explicit DoubtedDrives(const Params& params) : patience_us_(doubt_us(params)) {}
@@ -34,7 +33,6 @@ class DoubtedDrives {
     silent_ |= node_bit(slot);
     if (is_joint(slot)) doubted_ |= 1u << slot;
   }
-  /// Nodes that the round does not wait for.
   NodeMask silent() const { return silent_; }
 
   /// The node sent a boot-up message, or is only partly set up.
@@ -81,7 +79,7 @@ class DoubtedDrives {
   const std::uint32_t patience_us_;
   std::uint32_t doubted_ = 0;
   std::uint32_t limp_ = 0;
-  NodeMask lost_ = 0;  ///< must be set up again
+  NodeMask lost_ = 0;
   NodeMask silent_ = 0;
 };
 

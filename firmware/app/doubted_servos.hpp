@@ -15,10 +15,10 @@ namespace verp::app {
 ///
 /// A servo that was silent for long may have lost power. It then returns limp, with factory gains
 /// and no profile; torque would throw it at its goal. Until its state is known it is sent only
-/// torque off, and its position does not count. So the core holds and lowers the robot as if the
-/// servo were gone. A servo that kept its torque kept everything and counts again. Any other gets
-/// gains and profile once the robot was released, then counts, and rises from the pose it is found
-/// in. A servo that shut its torque off for a hardware error is treated alike until it is rebooted.
+/// torque off, and its position does not count, so the core holds and lowers the robot. A servo
+/// that kept its torque kept everything and counts again. Any other gets gains and profile once the
+/// robot was released, then counts, and rises from the pose it is found in. A servo that shut its
+/// torque off for a hardware error is treated alike until it is rebooted.
 template <hal::FrameBus Bus>
 class DoubtedServos {
  public:
@@ -27,7 +27,6 @@ class DoubtedServos {
   /// Bit j: joint j's servo is doubted.
   std::uint32_t all() const { return doubted_; }
 
-  /// The servo did not answer for this long.
   void silent_for(int joint, std::uint32_t time_us) {
     if (time_us < patience_us_) return;
     doubted_ |= 1u << joint;
@@ -135,7 +134,7 @@ class DoubtedServos {
   std::uint32_t doubted_ = 0;
   std::uint32_t here_ = 0;  ///< doubted servos that have answered since
   std::uint32_t broken_ = 0;
-  std::uint32_t limp_ = 0;  ///< doubted servos known to have no torque
+  std::uint32_t limp_ = 0;
   std::uint32_t batch_ = 0;
   std::uint8_t renewals_ = 0;  ///< left to send to batch_
   const std::uint32_t patience_us_ = doubt_us(params_);

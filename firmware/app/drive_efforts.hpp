@@ -68,10 +68,10 @@ class DriveEfforts {
 
   const Params& params_;
   JointEffort efforts_[kMaxJoints];
-  int joint_ = -1;  ///< last drive asked
+  int joint_ = -1;
   std::uint8_t ticks_ = 0;
   bool torques_ = true;
-  bool asked_ = false;  ///< and still unanswered
+  bool asked_ = false;
 };
 
 }  // namespace verp::app

@@ -7,12 +7,12 @@ namespace verp::app {
 
 /// Effect of an emergency stop on servo power, on a board that switches it. The core releases
 /// torque in the tick that sees the stop, and the loop sends that for three ticks. Then the power
-/// goes off, for servos that missed it and whatever the core decides. This is a category 0 stop of
-/// IEC 60204-1: a standing robot falls.
+/// goes off, for servos that missed it and whatever the core decides: a category 0 stop of IEC
+/// 60204-1. A standing robot falls.
 ///
-/// Power returns only after two manual actions: release the stop, and ask the robot to relax. The
-/// servos have then lost their settings, so the loop needs a new bring-up. A stop that cut the
-/// power while the loop did not tick counts as pressed until the board's switch permits power again
+/// Power returns after two manual actions: release the stop, and ask the robot to relax. The servos
+/// have lost their settings by then, so the loop needs a new bring-up. A stop that cut the power
+/// while the loop did not tick counts as pressed until the board's switch permits power again
 /// (boards/stm32/servo_power.hpp).
 class DrivePower {
  public:
@@ -35,7 +35,7 @@ class DrivePower {
 
  private:
   Step step_ = Step::kOn;
-  std::uint8_t ticks_ = 0;  ///< in a row with the stop pressed
+  std::uint8_t ticks_ = 0;
 };
 
 }  // namespace verp::app

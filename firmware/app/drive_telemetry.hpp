@@ -16,7 +16,6 @@ class DriveTelemetry {
  public:
   explicit DriveTelemetry(const Params& params) : params_(params) {}
 
-  /// Drives of other makers.
   void set_foreign(std::uint32_t drives) { plain_ = drives; }
   /// Asks this drive next: it has something to report.
   void hurry(int joint) { urgent_ = joint; }
@@ -58,7 +57,6 @@ class DriveTelemetry {
     return true;
   }
 
-  /// Stores what has come since the last tick.
   void put(Inputs& inputs) {
     if (!fresh_) return;
     fresh_ = false;
@@ -115,9 +113,9 @@ class DriveTelemetry {
 
   const Params& params_;
   int joint_ = 0;
-  int asked_ = -1;  ///< see asked()
+  int asked_ = -1;
   int urgent_ = -1;
-  std::uint32_t plain_ = 0;  ///< drives without kTelemetry
+  std::uint32_t plain_ = 0;
   Part part_ = Part::kAll;
   bool more_ = false;  ///< ask the same drive again
   bool fresh_ = false;

@@ -26,7 +26,6 @@ class DriveWriter : public JointStrength {
     if (state == State::kOperationEnabled) enabled_ |= told_ & 1u << joint;
   }
   State state(int joint) const { return state_[joint]; }
-  /// Whether the drive was commanded to have torque and had time to obey.
   bool has_torque(int joint) const {
     return ((told_ & (enabled_ | (patience_ == 0 ? ~0u : 0u))) >> joint & 1) != 0;
   }
@@ -59,7 +58,6 @@ class DriveWriter : public JointStrength {
     return state_[joint] == State::kOperationEnabled || state_[joint] == State::kQuickStopActive;
   }
 
-  // Chooses the drives that are commanded to have torque.
   void begin(std::uint32_t wanted, std::uint32_t doubted, std::uint32_t limp) {
     if ((wanted & ~wanted_) != 0) {
       early_ = kRepeats - 1;

@@ -39,7 +39,8 @@ class DynamixelServos {
   void limit_torque(std::uint8_t percent) { servos_.limit_torque(percent); }
 
   // Fast Sync Read returns one packet for all servos, so one missing servo spoils it. After an
-  // incomplete read it uses plain Sync Read, with one reply per servo, until all answer again.
+  // incomplete read the loop uses plain Sync Read, with one reply per servo, until all answer
+  // again.
   void read_positions(Inputs& inputs) {
     const auto count = static_cast<std::size_t>(joints_.count());
     const bool fast = all_fast_ && positions_complete_;
@@ -176,8 +177,8 @@ class DynamixelServos {
     }
   }
 
-  // The alert bit means that Hardware Error Status is not zero. Only then does it read that
-  // register, together with Torque Enable a few bytes before it: has the servo shut its torque off?
+  // The alert bit means that Hardware Error Status is not zero. Only then a separate read pays. It
+  // includes Torque Enable, a few bytes before: has the servo shut it off?
   void read_hardware_error(Inputs& inputs) {
     constexpr std::uint16_t kAddress = dxl::address::kTorqueEnable;
     constexpr std::uint16_t kBytes = kAlertBytes;
@@ -203,10 +204,10 @@ class DynamixelServos {
   DoubtedServos<Bus> doubted_{params_};
   ReadChain<kMaxJoints> joints_;
   ReadChain<kServoSlot + 1> sensors_;
-  std::uint16_t silent_ticks_[kMaxJoints] = {};  ///< since each servo answered
+  std::uint16_t silent_ticks_[kMaxJoints] = {};
   std::uint32_t feet_expected_ = 0;
   std::uint32_t feet_seen_ = 0;
-  std::uint8_t spare_ = 0;  ///< of the current read
+  std::uint8_t spare_ = 0;
   std::uint8_t slow_joint_ = 0;
   bool slow_alert_ = false;
   bool positions_complete_ = true;

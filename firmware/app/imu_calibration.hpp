@@ -39,7 +39,6 @@ struct ImuCalibration {
 
   static constexpr std::size_t kBytes = 1 + 2 * (3 + 9) + 4;
   static constexpr std::uint8_t kVersion = 2;  ///< 1 did not store its basis
-  /// `basis`: see basis_of().
   void encode(std::uint8_t (&to)[kBytes], std::uint32_t basis) const {
     to[0] = kVersion;
     dxl::put_u32(to + kBytes - 4, basis);
@@ -100,7 +99,6 @@ class ImuCalibrator {
     return true;
   }
   State state() const { return state_; }
-  /// Valid in State::kDone.
   const ImuCalibration& result() const { return result_; }
 
  private:

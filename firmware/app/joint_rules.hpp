@@ -22,7 +22,6 @@ inline std::uint32_t doubt_us(const Params& params) {
   return hold_us < kLongest_us ? hold_us : kLongest_us;
 }
 
-/// The strength of each joint.
 class JointStrength {
  public:
   explicit JointStrength(const Params& params) : params_(params) {}

@@ -24,7 +24,6 @@ class LinkBus {
   LinkBus(Link& link, const Source& clock, std::uint32_t held_us = 0)
       : link_(link), clock_(clock), opened_us_(clock.now_us()), held_us_(held_us) {}
 
-  /// Takes effect at the next poll.
   void set_held(std::uint32_t held_us) { held_us_ = held_us; }
 
   bool send(const std::uint8_t* data, std::size_t size) {

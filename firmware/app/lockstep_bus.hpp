@@ -15,7 +15,7 @@ namespace verp::app {
 
 /// Link errors since the bus was made; all were corrected except `damaged`.
 struct LockstepCounters {
-  std::uint32_t repeats = 0;  ///< requests sent again
+  std::uint32_t repeats = 0;
   std::uint32_t spoilt = 0;   ///< incomplete answers
   std::uint32_t damaged = 0;  ///< polls whose preceding frames arrived damaged
 };
@@ -218,7 +218,7 @@ class LockstepBus {
   lockstep::ClockSieve sieve_;
   std::uint8_t sequence_ = 0;
   bool lost_ = true;
-  std::size_t used_ = 0;  ///< bytes of frames in outbox_
+  std::size_t used_ = 0;
   std::size_t request_size_ = 0;
   std::uint8_t request_[lockstep::kMaxClockPacket];
   std::uint8_t outbox_[kOutbox + lockstep::kMaxClockPacket];

@@ -95,7 +95,6 @@ class LockstepCan {
     return true;
   }
 
-  /// Waits slice_us_ for a frame.
   bool hear(CanFrame& frame) {
     return bus_.poll(frame, static_cast<std::uint32_t>(bus_.now_us() - pushed_us_) + slice_us_);
   }
@@ -185,10 +184,10 @@ class LockstepCan {
   Idle idle_;
   const std::uint32_t slice_us_;
   LockstepCounters counters_;
-  std::uint64_t now_us_ = 0;     ///< the twin's time
+  std::uint64_t now_us_ = 0;
   std::uint64_t pushed_us_ = 0;  ///< when bus_ took its last frame
   std::size_t count_ = 0;        ///< frames in the answer; at most kMaxBurst are kept
-  std::size_t taken_ = 0;        ///< frames handed over
+  std::size_t taken_ = 0;
   std::uint16_t sent_sum_ = 0;
   std::uint8_t sent_ = 0;
   std::uint8_t sequence_ = 0;

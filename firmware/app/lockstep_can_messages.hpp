@@ -92,7 +92,6 @@ inline std::uint16_t sum_of(const CanFrame& frame) {
   return static_cast<std::uint16_t>(crc ^ crc >> 16);
 }
 
-/// Makes a clock message.
 template <class Payload>
 CanFrame can_message(std::uint32_t id, const Payload& payload) {
   static_assert(sizeof payload <= kMaxCanData);
@@ -114,7 +113,6 @@ bool take_message(const CanFrame& frame, std::uint32_t id, Payload& payload) {
   return true;
 }
 
-/// Whether a frame is a clock message.
 constexpr bool is_clock_frame(const CanFrame& frame) {
   return frame.extended && frame.id >= kCanHelloId;
 }

@@ -55,7 +55,7 @@ namespace verp::lockstep {
 
 inline constexpr std::uint8_t kClockId = 201;
 inline constexpr std::uint16_t kClockModel = 0x7603;  ///< ours, like those in control_table.hpp
-inline constexpr std::uint8_t kVersion = 1;           ///< of this protocol
+inline constexpr std::uint8_t kVersion = 1;
 inline constexpr std::uint16_t kHelloAddress = 64;
 inline constexpr std::uint16_t kAdvanceAddress = 96;
 /// Register set_upright, one byte: 1 puts a limp, lying robot on its feet and holds it
@@ -143,7 +143,6 @@ class ClockSieve {
     return false;
   }
   const dxl::Packet& packet() const { return parser_.packet(); }
-  /// Discards the bytes held back.
   void forget() {
     complete_ = false;
     size_ = 0;

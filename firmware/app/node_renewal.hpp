@@ -108,7 +108,7 @@ class NodeRenewal {
   canopen::SdoClient client_{1};
   Setting setting_;
   std::uint8_t data_[4] = {};
-  NodeMask to_stop_ = 0;  ///< nodes that have rebooted
+  NodeMask to_stop_ = 0;
   int slot_ = -1;
   int last_ = kCanNodes - 1;
   int step_ = 0;

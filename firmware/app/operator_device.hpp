@@ -12,8 +12,8 @@
 namespace verp::app {
 
 /// The controller as a Dynamixel device on the operator's own port; OperatorLink and Recorder of
-/// the loop. Nothing waits: poll() serves the link in the loop's idle time; order() and record()
-/// belong to the tick. Single context; `params`, `link` and `images` must outlive it.
+/// the loop. Nothing waits: poll() serves the link in the loop's idle time, order() and record() in
+/// the tick. Single context; `params`, `link` and `images` must outlive it.
 ///
 /// Answers Ping, Read, Write, Reg Write, Action, Sync, Bulk and fast reads, Sync and Bulk Write and
 /// Reboot; other instructions give the Instruction Error. Orders expire by themselves: the core
@@ -83,7 +83,6 @@ class OperatorDevice {
     return registers_.take_calibration_order();
   }
   bool take_relax() { return registers_.take_relax(); }
-  /// Part of a reply waits for room on the link.
   bool reply_waits() const { return sent_ < reply_size_; }
   /// The operator wants a restart; asked only with torque off.
   bool reboot_asked() const { return reboot_asked_ && sent_ == reply_size_; }
@@ -268,8 +267,8 @@ class OperatorDevice {
   dxl::ReadEntry waiting_;  ///< what to send once `before_us_` has answered
   std::uint8_t before_us_ = dxl::kBroadcast;
   bool reboot_asked_ = false;
-  bool more_ = false;        ///< the parser may hold another packet
-  std::size_t arrived_ = 0;  ///< bytes in inbox_
+  bool more_ = false;  ///< the parser may hold another packet
+  std::size_t arrived_ = 0;
   std::size_t taken_ = 0;
   std::size_t reply_size_ = 0;
   std::size_t sent_ = 0;

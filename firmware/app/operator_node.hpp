@@ -86,7 +86,6 @@ class OperatorNode {
     }
   }
 
-  /// As OperatorDevice's.
   void brought_up(const BringUpReport& report) {
     registers_.report().bring_up(report);
     registers_.withdraw_orders();
@@ -143,7 +142,7 @@ class OperatorNode {
   canopen::Device<Objects, kControllerSize> device_;
   canopen::published::Parts parts_;
   Inputs before_;
-  bool ticks_ = false;  ///< the first tick has passed
+  bool ticks_ = false;
   std::uint32_t asked_ = 0;
 };
 

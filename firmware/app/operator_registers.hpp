@@ -23,7 +23,7 @@ struct CrashNote {
   std::uint32_t pc = 0;
   std::uint32_t cause = 0;  ///< CFSR
   std::uint32_t tick = 0;
-  std::uint32_t count = 0;  ///< in a row
+  std::uint32_t count = 0;
 };
 
 /// The board's state before the first tick.
@@ -353,7 +353,7 @@ class OperatorRegisters {
   RegisterImage image_;
   TickReport report_;
   StandingOrder standing_;
-  Tuning tuning_;  ///< currently active
+  Tuning tuning_;
   const bool takes_orders_;
   std::uint8_t registered_[table::longest_write()] = {};
   std::size_t registered_size_ = 0;

@@ -57,7 +57,7 @@ class Pacer {
   Source& clock_;
   Deadlines deadlines_;
   std::uint32_t period_us_ = 0;
-  std::uint64_t due_us_ = 0;  ///< when the next tick begins
+  std::uint64_t due_us_ = 0;
 };
 
 }  // namespace verp::app

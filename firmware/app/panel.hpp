@@ -7,7 +7,7 @@
 /// merged into the operator's order.
 namespace verp::app {
 
-/// A debounced contact: it changes after this many equal readings in a row.
+/// A debounced contact: it changes after `to_on` or `to_off` such readings in a row.
 class Contact {
  public:
   /// `on`: the initial state.
@@ -26,7 +26,7 @@ class Contact {
  private:
   bool on_;
   std::uint8_t to_on_, to_off_;
-  std::uint8_t run_ = 0;  ///< readings in a row that differ
+  std::uint8_t run_ = 0;
 };
 
 inline constexpr int kPanelButtons = 2;
@@ -72,7 +72,7 @@ class WithPanel {
   Link& link_;
   Pins& pins_;
   Contact stop_;
-  bool released_ = false;  ///< at least once since the start
+  bool released_ = false;
   bool pressed_ = false;
   Contact button_[kPanelButtons] = {{false, kButton, kButton}, {false, kButton, kButton}};
 };

@@ -50,7 +50,6 @@ class RemoteBus {
   /// The PC wants no further tick, or is gone.
   bool stopped() const { return lost_ || (reply_.flags & link::kStop) != 0; }
   bool lost() const { return lost_; }
-  /// Frames that the bus refused, as the PC reported.
   std::uint32_t refused() const { return refused_; }
 
   // FrameBus

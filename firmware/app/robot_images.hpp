@@ -91,7 +91,7 @@ class RobotImages {
   const std::uint8_t* actions_;
   std::size_t actions_bytes_;
   Place& place_;
-  std::size_t written_ = 0;  ///< end of the last byte written
+  std::size_t written_ = 0;
   std::size_t accepted_bytes_ = 0;
   bool begun_ = false;
 };

@@ -117,9 +117,9 @@ class ServoWriter : public JointStrength {
   std::uint8_t strength_ = 0;  ///< as sent last, percent
   std::uint8_t early_ = 0;     ///< ticks before wanted joints get torque
   std::uint8_t repeats_ = kRepeats;
-  std::uint8_t watchdog_clears_ = 0;  ///< left to send
+  std::uint8_t watchdog_clears_ = 0;
   bool told_all_ = false;
-  int first_ = 0;  ///< joints to write to
+  int first_ = 0;
   int last_ = 0;
   const std::uint8_t bus_watchdog_ = bus_watchdog_units(params_);
 };

@@ -80,9 +80,9 @@ class StandingOrder {
 
   const Params& params_;
   RegisterImage& image_;
-  std::uint32_t tick_ = 0;  ///< last tick passed to slept_until()
+  std::uint32_t tick_ = 0;
   bool ticking_ = false;
-  bool relaxed_once_ = false;  ///< since the start
+  bool relaxed_once_ = false;
   bool relax_asked_ = false;
   bool fresh_ = false;
 };

@@ -56,7 +56,7 @@ class LifeSign {
  public:
   struct Now {
     bool lit = false;
-    bool changed = false;  ///< since the last call
+    bool changed = false;
     Tone tone;
   };
   static constexpr std::uint64_t kBlink_us = 500'000;
@@ -64,7 +64,6 @@ class LifeSign {
   static constexpr std::uint64_t kPause_us = 2'000'000;
   static constexpr Tone kBeep = {400, 150};
 
-  /// Call as often as possible.
   Now at(std::uint64_t now_us, table::StartFault fault) {
     const bool lit =
         fault == table::StartFault::kNone ? now_us / kBlink_us % 2 == 0 : counts(now_us, fault);

@@ -71,7 +71,6 @@ class SyncRepair {
     }
     return false;
   }
-  /// Off and on for each TPDO.
   int steps() const { return slot_ == kImuNode ? 4 : 2; }
   unsigned number() const { return 1u + step_ / 2u; }
   canopen::Address at() const { return {static_cast<std::uint16_t>(0x17FF + number()), 1}; }
@@ -89,7 +88,7 @@ class SyncRepair {
   }
 
   const Params& params_;
-  NodeMask stubborn_ = 0;  ///< nodes that refuse
+  NodeMask stubborn_ = 0;
   int slot_ = -1;
   int last_ = kCanNodes - 1;
   std::uint8_t step_ = 0;

@@ -48,7 +48,6 @@ class TickLog {
     if (kind == ImageKind::kTicks) return any_ ? sizeof ring_ : 0;
     return images_.size(kind);
   }
-  /// The log is read only.
   std::size_t room(ImageKind kind) const { return is_log(kind) ? 0 : images_.room(kind); }
   void read(ImageKind kind, std::size_t offset, std::uint8_t* to, std::size_t count) const {
     if (kind == ImageKind::kState) {
@@ -77,13 +76,12 @@ class TickLog {
   Store& images_;
   HeldTick last_;
   TickRecord ring_[kTicks];
-  bool any_ = false;  ///< there was a tick
+  bool any_ = false;
   std::uint8_t hold_ = kNothing;
 };
 
 static_assert(Images<TickLog<>>);
 
-/// An Images that logs ticks.
 template <class Store>
 concept KeepsTicks = requires(Store& store, const TickRecord& record, const State& state) {
   store.keep(record, state);

@@ -5,7 +5,7 @@
 /// measurement and fault capture for every core; it uses no peripheral.
 namespace verp::boot {
 
-/// A fault as the core reports it (ARMv7-M Architecture Reference Manual, B1.5 and B3.2.15).
+/// A fault as the core reports it (ARMv7-M ARM, B1.5 and B3.2.15).
 struct FaultReport {
   std::uint32_t pc = 0;  ///< faulting instruction; 0 after a stack overflow, which saves nothing
   std::uint32_t lr = 0;

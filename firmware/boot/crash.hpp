@@ -19,7 +19,6 @@ struct CrashRecord {
 
 /// Call once a tick, so that a crash record names its tick.
 void note_tick(std::uint32_t tick);
-/// Call from the fault handler before the reset.
 void keep_crash(const FaultReport& report);
 /// Call once after a start. False: the previous run did not crash, or power was lost. Returns a
 /// record once.

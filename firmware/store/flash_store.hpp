@@ -97,7 +97,7 @@ class FlashStore {
   struct Entry {
     std::uint16_t key;
     std::uint16_t size;
-    std::uint32_t offset;  ///< of its record in the active page
+    std::uint32_t offset;
   };
 
   static std::size_t record_size(const Entry& entry) { return record_bytes(entry.size); }
@@ -288,10 +288,10 @@ class FlashStore {
   Page<Flash> page_[2];
   std::size_t active_ = kNone;
   std::uint32_t sequence_ = 0;
-  std::size_t tail_ = 0;  ///< where the next record goes
+  std::size_t tail_ = 0;
   std::size_t count_ = 0;
   std::uint32_t damaged_ = 0;
-  int failures_ = 0;           ///< flash failures in a row
+  int failures_ = 0;
   bool tail_unsure_ = false;   ///< a power cut may have hit the slot at tail_
   bool other_erased_ = false;  ///< in this session, verified
   bool pending_ = false;
@@ -303,7 +303,7 @@ class FlashStore {
   std::size_t move_tail_ = 0;  ///< in the other page
   Entry entry_[kMaxKeys] = {};
   std::uint32_t new_offset_[kMaxKeys] = {};
-  std::uint8_t image_[record_bytes(kMaxValue)] = {};  ///< the pending record
+  std::uint8_t image_[record_bytes(kMaxValue)] = {};
 };
 
 }  // namespace verp::store

@@ -57,7 +57,6 @@ inline std::uint32_t begin_crc(const RecordHeader& header) {
   return crc32(&header, offsetof(RecordHeader, crc32));
 }
 
-/// Whether all bytes of the slot are `byte`.
 inline bool is_all(const std::uint8_t* slot, std::uint8_t byte) {
   for (std::size_t i = 0; i < kSlot; ++i) {
     if (slot[i] != byte) return false;
@@ -104,7 +103,6 @@ class Page {
     read(offset, slot, kSlot);
     return program(offset, slot);
   }
-  /// Erases and verifies.
   bool erase() const {
     if (!flash_->erase(number_)) return false;
     for (std::size_t at = 0; at < bytes(); at += kSlot) {

@@ -23,8 +23,8 @@ concept MappedPages = hal::FlashPages<Flash> && requires(const Flash& flash, std
 
 /// The bytes of a page that count.
 struct Layout {
-  std::uint32_t first_bytes = 0;  ///< from the page's start
-  std::uint32_t second = 0;       ///< offset of the second image
+  std::uint32_t first_bytes = 0;
+  std::uint32_t second = 0;  ///< offset of the second image
   std::uint32_t second_bytes = 0;
   VERP_FIELDS(first_bytes, second, second_bytes)
 
@@ -131,8 +131,8 @@ class WaitingRoom {
   }
 
   /// Replaces the first image by `first`, unless nullptr, and the second by `taken` bytes of the
-  /// one written here, unless 0. What is not replaced stays; of the second image, `kept` bytes.
-  /// Nothing else may run afterwards: reset next. False: home is unchanged.
+  /// one written here, unless 0. The rest stays: of the second image, `kept` bytes. Nothing else
+  /// may run afterwards: reset next. False: home is unchanged.
   template <class Idle>
   bool replace(const std::uint8_t* first, std::size_t first_bytes, std::size_t taken,
                std::size_t kept, Idle&& idle) {
@@ -170,7 +170,7 @@ class WaitingRoom {
   std::size_t second_, second_room_;
   std::size_t page_ = 0;
   PageState page_state_ = PageState::kUsed;
-  bool wanted_ = false;  ///< a writer waits for the erase
+  bool wanted_ = false;
 };
 
 }  // namespace verp::store

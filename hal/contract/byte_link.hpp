@@ -3,27 +3,24 @@
 #include <cstddef>
 #include <cstdint>
 
-/// ByteLink: a full-duplex byte stream to an operator, another program or a serial device. It has
-/// no framing; the reader finds message boundaries itself.
+/// ByteLink: a full-duplex byte stream to an operator, another program or a serial device, without
+/// framing.
 ///
 /// A backend promises (times are wall time, or the fake's script time):
-///  - write(data, size, timeout_us): queues bytes from the front of data until all are queued or
-///    timeout_us has passed; returns the count. With timeout 0 it queues what fits and returns at
-///    once. Queued bytes leave in order without another call.
-///  - read(buffer, capacity, timeout_us): waits until a byte is there or timeout_us has passed;
-///    stores at most capacity bytes in order; returns the count. Later reads get the rest.
-///  - connected(): false once the link knows that the far end is gone (device unplugged, peer
-///    closed). Never waits. A wire without a detect line is always connected. The answer changes
-///    only within read() and write().
-///  - Loss: bytes that a peer sent before it closed are still read; unplugging a device loses its
-///    unread bytes. The read() that sees the loss returns at once; later calls wait out their
-///    timeout for the far end to return. Bytes queued before a loss may be lost, but never appear
-///    twice or after bytes written later.
-///  - errors(): error counts since the link was opened, modulo 2^32; a loss does not reset them. A
-///    byte with a framing or noise error may be delivered or dropped.
+///  - write(data, size, timeout_us): queues bytes from the front until all are queued or timeout_us
+///    has passed; returns the count. With timeout 0 it queues what fits and returns at once. Queued
+///    bytes leave in order without another call.
+///  - read(buffer, capacity, timeout_us): waits for a byte or timeout_us; stores at most capacity
+///    bytes in order; returns the count. Later reads get the rest.
+///  - connected(): false once the far end is known to be gone (device unplugged, peer closed).
+///    Never waits; changes only within read() and write(). A wire without a detect line is always
+///    connected.
+///  - Loss: bytes sent before a peer closed are still read; unplugging a device loses its unread
+///    bytes. The read() that sees the loss returns at once; later calls wait out their timeout for
+///    the far end. Queued bytes may be lost, but never appear twice or after later ones.
+///  - errors(): counts since open, modulo 2^32; a loss does not reset them. A byte with a framing
+///    or noise error may be delivered or dropped.
 ///  - No call throws or blocks past its timeout; on a microcontroller none allocates.
-/// Implementations: hal/fake/memory_link.hpp, host/link/link.hpp. Users: firmware/app/link_bus.hpp,
-/// firmware/app/lockstep_bus.hpp.
 namespace verp::hal {
 
 struct LinkErrors {

@@ -6,23 +6,20 @@
 /// Camera: a source of pictures that runs by itself.
 ///
 /// A backend promises:
-///  - read(frame): returns the newest whole picture, or why there is none. Never waits. Only kFresh
-///    changes the frame. A second read of the same picture is kStale.
-///  - The backend owns the bytes. They stay valid until the next read that is not kStale, or until
-///    the backend ends; the caller copies what it needs longer.
-///  - Rows run from the top, pixels from the left. `stride_bytes` is the distance between rows and
-///    may exceed the row's bytes. A compressed picture has stride 0. size_bytes covers the whole
-///    picture.
-///  - sequence counts the frames that the sensor made; lost counts those that the reader missed
-///    since its last frame: sequence = last sequence + lost + 1, modulo 2^32, unless the camera
-///    restarts. An incomplete picture counts as lost.
-///  - time_us is when the sensor captured the frame, by the PC's monotonic clock or the twin's
-///    simulated clock. It rises from frame to frame.
-///  - After kFault (unplugged, driver failed) later reads retry. faults() counts the reads that
-///    returned kFault, modulo 2^32.
+///  - read(frame): the newest whole picture, or why there is none. Never waits. Only kFresh changes
+///    the frame. A second read of a picture is kStale.
+///  - The backend owns the bytes, which stay valid until the next read that is not kStale, or its
+///    end. The caller copies what it needs longer.
+///  - Rows run from the top, pixels from the left; `stride_bytes` from row to row may exceed a
+///    row's bytes. A compressed picture has stride 0. size_bytes is the whole picture.
+///  - sequence counts the sensor's frames, lost those that the reader missed: sequence = last
+///    sequence + lost + 1, modulo 2^32, unless the camera restarts. An incomplete picture counts as
+///    lost.
+///  - time_us: when the sensor captured the frame, by the PC's monotonic or the twin's simulated
+///    clock; it rises.
+///  - After kFault (unplugged, driver failed) later reads retry. faults() counts kFault reads,
+///    modulo 2^32.
 ///  - No call throws.
-/// Implementations: hal/fake/scripted_camera.hpp, host/link/v4l2_camera.hpp (Linux),
-/// host/camera/twin_camera.hpp (the twin). User: host/tool/camera_command.cpp.
 namespace verp::hal {
 
 enum class PixelFormat : std::uint8_t {

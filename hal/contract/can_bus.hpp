@@ -5,22 +5,20 @@
 
 #include "common/base/can_frame.hpp"
 
-/// CanBus: how the controller reaches drives and sensor nodes with CAN frames.
+/// CanBus: CAN frames between the controller and its drives and sensor nodes.
 ///
 /// A backend promises:
 ///  - send(frame): queues the frame or refuses it (false); never waits for the wire. A working,
-///    empty bus accepts kCanQueue frames. Frames with the same identifier leave in the order of
-///    acceptance; others leave by identifier priority, as on the wire. No frame is sent twice. Only
-///    bus-off drops queued frames, and then all of them. Refused: unsound frames (is_sound()), and
-///    FD frames without FD.
-///  - poll(frame, timeout_us): waits until a frame has arrived, or until timeout_us of bus time
-///    have passed since the last accepted frame began on the wire (since open if there was none).
-///    False means only that the time is over. Frames of other nodes arrive once, whole and in wire
-///    order; our own never do. A frame without room counts as an overrun. Error frames are only
-///    counted.
+///    empty bus accepts kCanQueue frames. Frames with one identifier leave in order; others by
+///    priority, as on the wire. None is sent twice. Only bus-off drops queued frames, and then all.
+///    Refused: unsound frames (is_sound()), and FD frames without FD.
+///  - poll(frame, timeout_us): waits for a frame, or until timeout_us of bus time have passed since
+///    the last accepted frame began on the wire (since open if none did). False means only that the
+///    time is over. Other nodes' frames arrive once, whole and in wire order; our own never do. A
+///    frame without room counts as an overrun. Error frames are only counted.
 ///  - now_us(): bus time in microseconds since open, never decreasing. After a poll that returned a
-///    frame, it is when that frame ended on the wire; between a send and the next poll it may lag.
-///    In lockstep it is simulated time, so a slow PC cannot cause a timeout.
+///    frame, the time of its end on the wire; between a send and the next poll it may lag. In
+///    lockstep it is simulated time, so a slow PC cannot cause a timeout.
 ///  - After bus-off the backend rejoins when the standard allows it (128 times 11 recessive bits);
 ///    until then it refuses frames.
 ///  - No call allocates, throws or blocks past its timeout.

@@ -5,21 +5,18 @@
 /// Imu: a gyroscope and accelerometer on the controller's own board.
 ///
 /// A backend promises:
-///  - read(sample): returns the mean of all complete samples since the last read, or why there is
-///    none. Waits at most kImuMaxWait_us whatever the chip does. Only kFresh changes the sample.
-///    The mean keeps rotation: each rate times its interval sums to the full turn, up to the ratio
-///    of chip rate and read rate.
+///  - read(sample): the mean of all complete samples since the last read, or why there is none.
+///    Waits at most kImuMaxWait_us. Only kFresh changes the sample. The mean keeps rotation: each
+///    rate times its interval sums to the full turn, up to the mismatch of chip rate and read rate.
 ///  - Reads at most kImuMostPause_us apart miss nothing. After a longer pause the backend may drop
 ///    samples and return kStale once.
 ///  - All six counts come from the same samples, in the chip's axes and resolution, saturated at
-///    the int16 limits and rounded to nearest. Scale, range and mounting are in the robot's Params.
-///    No sample is returned twice: a read without a new one is kStale. time_us is when the newest
-///    was fetched, by the board's TickSource; it rises from read to read.
+///    the int16 limits and rounded to nearest. Params hold scale, range and mounting. A read
+///    without a new sample is kStale. time_us is when the newest was fetched, by the board's
+///    TickSource; it rises.
 ///  - After kFault (silent, stuck or unknown chip) later reads retry without waiting longer.
-///    faults() counts the faults, modulo 2^32.
-///  - The backend removes no bias and applies no calibration. No call allocates or throws.
-/// Implementations: hal/fake/scripted_imu.hpp, the SPI chips of hal/chip. User:
-/// firmware/app/app.hpp, for a robot whose Params name no IMU on the servo bus.
+///    faults() counts faults, modulo 2^32.
+///  - The backend applies no calibration. No call allocates or throws.
 namespace verp::hal {
 
 inline constexpr std::uint32_t kImuMaxWait_us = 500;

@@ -6,18 +6,16 @@
 /// RangeFinder: a rotating laser that measures distances step by step.
 ///
 /// A backend promises:
-///  - read(scan): returns the newest whole scan, or why there is none. Never waits. Only kFresh
-///    changes the scan. A second read of the same scan is kStale.
+///  - read(scan): the newest whole scan, or why there is none. Never waits. Only kFresh changes the
+///    scan. A second read of a scan is kStale.
 ///  - Steps count anticlockwise seen from above, as angles do; the robot file gives each step's
 ///    angle. All ranges belong to one turn. Range 0: nothing in range, no measurement, or too far
 ///    for range_mm.
-///  - time_us is when the scan was measured, by the sensor's clock. It rises from scan to scan
-///    unless the sensor restarts.
+///  - time_us: when the scan was measured, by the sensor's clock; it rises unless the sensor
+///    restarts.
 ///  - After kFault (silent, gone, or the sensor reports a defect) later reads retry. faults()
-///    counts the reads that returned kFault, modulo 2^32.
+///    counts kFault reads, modulo 2^32.
 ///  - No call allocates or throws.
-/// Implementations: hal/fake/scripted_range_finder.hpp, host/link/scip_range_finder.hpp (SCIP 2.0),
-/// host/sim/twin_range_finder.hpp (the twin). User: host/tool/laser_command.cpp.
 namespace verp::hal {
 
 inline constexpr std::size_t kMostRangeSteps = 1128;  ///< UTM-30LX and UST-10LX have 1081

@@ -6,17 +6,14 @@
 ///
 /// A backend promises:
 ///  - start(period_us): the first tick begins now, tick k at start + k * period_us, without drift.
-///    False, with nothing changed, if the clock cannot make the period exactly (0 always). A second
-///    start begins anew.
+///    False, with nothing changed, if the clock cannot make the period exactly (0 is refused). A
+///    second start begins anew.
 ///  - wait(): returns when a tick has begun that no earlier wait() returned; at once if one has.
-///    Returns the number of such ticks: 1 is on time, n > 1 means the loop missed n - 1. After
-///    start() the first wait() returns for tick 1. Before start() it returns 0 at once.
-///  - now_us(): microseconds since construction, never decreasing, also before start(). It is the
-///    clock that paces the ticks: when wait() returns for tick k, now_us() >= start + k *
-///    period_us.
+///    Returns the number of such ticks: n > 1 means the loop missed n - 1. After start() the first
+///    wait() returns for tick 1; before start() it returns 0 at once.
+///  - now_us(): microseconds since construction, never decreasing, by the clock that paces the
+///    ticks: when wait() returns for tick k, now_us() >= start + k * period_us.
 ///  - wait() is never early; each backend states how late it can be. No call allocates or throws.
-/// Implementations: hal/fake/manual_clock.hpp, host/link/system_clock.hpp. User: a real-time loop,
-/// which calls wait() and then App::tick(); firmware/app/pacer.hpp does so and counts missed ticks.
 namespace verp::hal {
 
 template <class Source>

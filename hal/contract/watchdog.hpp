@@ -13,8 +13,6 @@
 ///    independent, inaccurate oscillator clocks it.
 ///  - caused_reset(): whether the watchdog caused the last reset; constant until the next one.
 ///  - No call blocks.
-/// Implementations: hal/fake/fake_watchdog.hpp, the independent watchdogs of hal/chip. User: a
-/// board's main loop.
 namespace verp::hal {
 
 /// The LSI of an STM32F405 runs at 17 to 47 kHz (DS8626, LSI oscillator characteristics): a factor

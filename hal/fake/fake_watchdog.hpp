@@ -22,7 +22,6 @@ class FakeWatchdog {
     timeout_us_ = 0;
     unfed_us_ = 0;
   }
-  /// A reset with another cause.
   void reset() {
     caused_reset_ = false;
     timeout_us_ = 0;

@@ -41,7 +41,6 @@ class ScriptedCan {
   bool finished() const { return mismatches_ == 0 && played_ == expected_; }
   std::size_t mismatches() const { return mismatches_; }
 
-  /// Fetches the next sent frame; false if there is none.
   bool take_sent(CanFrame& frame) {
     if (left_ == 0) return false;
     frame = sent_[0];

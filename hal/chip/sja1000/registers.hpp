@@ -1,8 +1,8 @@
 #pragma once
 #include <cstdint>
 
-/// Byte registers of the SJA1000 in PeliCAN mode (NXP data sheet SJA1000, 4 January 2000), with
-/// their sections.
+/// Byte registers of the SJA1000 in PeliCAN mode (NXP data sheet SJA1000, 4 January 2000), with its
+/// sections.
 namespace verp::hal::sja1000 {
 
 inline constexpr std::uint32_t kMod = 0;          ///< 6.4.3 mode

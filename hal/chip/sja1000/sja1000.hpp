@@ -102,7 +102,6 @@ class Sja1000 {
   std::uint64_t now_us() const { return now_us_; }
   CanErrors errors() const { return errors_; }
 
-  /// Called by the board's interrupt handler.
   void on_interrupt() { serve(); }
 
  private:
@@ -129,7 +128,6 @@ class Sja1000 {
 
   std::uint64_t time_us() { return io_.now_us() - origin_us_; }
 
-  /// Receives, transmits and counts errors.
   void serve() {
     const std::uint8_t why = io_.read8(kIr);
     if ((why & kIrBusError) != 0) {

@@ -122,14 +122,13 @@ class BxCan {
   std::uint32_t read(std::uint32_t offset) const { return io_.read32(base_ + offset); }
   void write(std::uint32_t offset, std::uint32_t value) { io_.write32(base_ + offset, value); }
 
-  /// Whether it is started, has seen the bus idle, and is not bus-off.
   bool on_bus() const {
     return (read(can::kMsr) & (can::kMsrInak | can::kMsrSlak)) == 0 &&
            (read(can::kEsr) & can::kEsrBoff) == 0;
   }
 
   bool initialise() {
-    write(can::kMcr, can::kMcrDbf | can::kMcrInrq);  // wake up
+    write(can::kMcr, can::kMcrDbf | can::kMcrInrq);
     const std::uint64_t deadline_us = timer_.now_us() + kInitialise_us;
     while ((read(can::kMsr) & can::kMsrInak) == 0) {
       if (timer_.now_us() < deadline_us) continue;
@@ -146,8 +145,8 @@ class BxCan {
     constexpr CanFilterRule kAll[] = {{}};
     const std::size_t used = count == 0 ? 1 : count;
     const std::uint32_t banks = ((1u << used) - 1) << banks_.first;
-    modify32(io_, base + can::kFs1r, 0, banks);   // one 32-bit filter a bank
-    modify32(io_, base + can::kFm1r, banks, 0);   // mask mode
+    modify32(io_, base + can::kFs1r, 0, banks);  // one 32-bit filter a bank
+    modify32(io_, base + can::kFm1r, banks, 0);
     modify32(io_, base + can::kFfa1r, banks, 0);  // all to FIFO 0
     for (std::size_t i = 0; i < used; ++i) {
       const CanFilterRule& rule = count == 0 ? kAll[0] : rules[i];
@@ -307,8 +306,8 @@ class BxCan {
   Timer& timer_;
   std::uint32_t bitrate_ = 1'000'000;
   std::uint64_t opened_us_ = 0;
-  std::uint64_t last_us_ = 0;  ///< last result of now_us()
-  bool stands_ = false;        ///< now_us() stands still since a poll returned a frame
+  std::uint64_t last_us_ = 0;
+  bool stands_ = false;  ///< now_us() stands still since a poll returned a frame
   bool was_off_ = false;
   bool begun_new_ = false;
   std::uint32_t begun_ = 0;     ///< timer stamp when the last frame was accepted or began

@@ -15,7 +15,7 @@
 namespace verp::hal::stm32 {
 
 enum class ClockSource : std::uint8_t {
-  kCrystal = 0,      ///< PLL on HSE
+  kCrystal = 0,
   kInternalPll = 1,  ///< PLL on HSI, within 1 % (DS8626, HSI accuracy): for USART, not CAN
   kInternal = 2,     ///< HSI, 16 MHz
   kAbsent = 3,       ///< no clock controller answers: an emulator

@@ -57,7 +57,6 @@ class Gpio {
     if (!pin.exists()) return;
     io_.write32(at(pin, gpio::kBsrr), 1u << (pin.number + (high ? 0u : 16u)));
   }
-  /// False for a pin that does not exist.
   bool read(Pin pin) {
     return pin.exists() && (io_.read32(at(pin, gpio::kIdr)) >> pin.number & 1u) != 0;
   }

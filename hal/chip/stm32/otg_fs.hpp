@@ -247,10 +247,10 @@ class OtgFs {
   Function& function_;
   Timer& timer_;
   bool suspended_ = false;
-  bool up_ = false;         ///< the host has the port open
+  bool up_ = false;
   bool connected_ = false;  ///< `up_` as read() and write() last saw it
   bool lost_ = false;       ///< a loss that they have not seen
-  bool sending_ = false;    ///< a packet waits for the host
+  bool sending_ = false;
   bool full_ = false;       ///< the last packet was full and the end is not marked
   bool expecting_ = false;  ///< a packet may arrive
   std::uint32_t lost_at_ = 0;

@@ -58,7 +58,6 @@ class OtgFsCore {
   std::uint32_t pending() { return read(otg_fs::kGintsts) & read(otg_fs::kGintmsk); }
   void clear(std::uint32_t flags) { write(otg_fs::kGintsts, flags & kClearable); }
   void ignore(std::uint32_t flags) { modify32(io_, at(otg_fs::kGintmsk), flags, 0); }
-  /// Reads and clears GOTGINT.
   std::uint32_t take_otg() {
     const std::uint32_t flags = read(otg_fs::kGotgint);
     write(otg_fs::kGotgint, flags);
@@ -173,7 +172,7 @@ class OtgFsCore {
   }
   /// Allows requests: at most three in a row, of which the last counts.
   void expect_setup() {
-    if ((read(otg_fs::doepctl(0)) & otg_fs::kEpctlEpena) != 0) return;  // already set by expect()
+    if ((read(otg_fs::doepctl(0)) & otg_fs::kEpctlEpena) != 0) return;
     write(otg_fs::kDoeptsiz, kSetups | 1u << otg_fs::kTsizPktcntShift | kSetupBytes);
   }
 

@@ -82,7 +82,6 @@ class SpiMaster {
   std::uint32_t status() { return io_.read32(wiring_.base + spi::kSr); }
   bool has_errors() { return (status() & kErrors) != 0; }
 
-  /// Whether the peripheral is idle and free of errors.
   bool clean() {
     const std::uint32_t flags = status();
     if ((flags & (kErrors | spi::kSrBsy | spi::kSrRxne)) == 0) return true;

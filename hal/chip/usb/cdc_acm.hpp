@@ -18,7 +18,7 @@ enum class Action : std::uint8_t {
 };
 
 enum class Stage : std::uint8_t {
-  kStall,    ///< refuse the request
+  kStall,
   kSend,     ///< send `size` bytes of `data` in packets of kControlPacket
   kReceive,  ///< pass `size` bytes to received()
   kDone,     ///< no data: go to the status stage
@@ -132,7 +132,6 @@ class CdcAcm {
     kSendBreak = 0x2123,
   };
 
-  /// Device-to-host requests.
   Answer ask(const Request& request) {
     switch (request.code) {
       case kGetDescriptor:
@@ -154,7 +153,6 @@ class CdcAcm {
     }
   }
 
-  /// Host-to-device requests.
   Answer tell(const Request& request) {
     if (request.code == kSetLineCoding) {
       if (!is_for_port(request) || request.length != kLineCodingBytes) return {};
