@@ -12,7 +12,7 @@ function(verp_can_test start name)
   list(JOIN words " " command)
   set_property(GLOBAL APPEND_STRING PROPERTY VERP_CAN_BATCH_${start} "run ${name} ${command}\n")
   add_test(NAME ${name} COMMAND ${CMAKE_SOURCE_DIR}/tests/can/result ${CMAKE_BINARY_DIR}/can/${start} ${name})
-  set_tests_properties(${name} PROPERTIES LABELS "hil-can;vm" FIXTURES_REQUIRED can_${start})
+  set_tests_properties(${name} PROPERTIES LABELS "hil-can;vm" FIXTURES_REQUIRED can_${start} REQUIRED_FILES ${ARGV2})
 endfunction()
 
 function(verp_can_tests_begin start)

@@ -75,7 +75,7 @@ add_custom_target(replay_counted ALL DEPENDS ${programs})
 add_test(NAME replay.coverage
   COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/coverage ${CMAKE_SOURCE_DIR} ${CMAKE_CURRENT_BINARY_DIR}/counted ${VERP_LONG_TRACE}
     ${VERP_GCOV} ${CMAKE_NM})
-set_tests_properties(replay.coverage PROPERTIES LABELS replay FIXTURES_REQUIRED long_trace)
+set_tests_properties(replay.coverage PROPERTIES LABELS replay FIXTURES_REQUIRED long_trace REQUIRED_FILES ${programs})
 
 # Tests the boot check on a core whose products are not rounded. The x87 keeps products in 80 bits, as a fused
 # multiply-add keeps them whole, and every x86-64 has an x87.

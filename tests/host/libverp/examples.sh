@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# examples.sh VERP PROGRAMS SOURCES OCTAVE CSHARP [pictures]: each example prints the same in C, C++, Python, Octave and
-# C#, and a walk has the digest of `verp walk`. With `pictures`: the example that needs OpenGL, whose files are equal
-# too.
+# examples.sh VERP PROGRAMS SOURCES OCTAVE CSHARP GROUP: each example of a group prints the same in C, C++, Python, Octave and
+# C#. `walks`: a walk has the digest of `verp walk`, and its trace replays. `others`: your own controller, tuning, radio.
+# `pictures`: the example that needs OpenGL, whose files are equal too.
 set -euo pipefail
 verp=$1 programs=$2 sources=$3 octave=$4 csharp=$5
 scratch=$(mktemp -d)
@@ -28,9 +28,18 @@ same() { # name argument...: runs it in all languages
   words=$c
 }
 
-if [[ ${6:-} == pictures ]]; then
+group=$6
+if [[ $group == pictures ]]; then
   same camera seen.ppm 2
   [[ $words == "camera: 320x240 at "*" s, mean "*"P6 320 240 255 "* ]] || say "camera says '$words'"
+  exit 0
+fi
+if [[ $group == others ]]; then
+  same controller 2
+  same tune 2
+  [[ $words == "lift 0.0150 m, trunk 1.122 kg" ]] || say "tune says '$words'"
+  same radio talk.mcap
+  grep -aq verp_msgs/msg/Radio talk.mcap || say "the trace of radio has no /radio"
   exit 0
 fi
 same walk 3
@@ -47,8 +56,3 @@ for language in "$programs/example_walk_c" "/usr/bin/python3 $sources/walk.py"; 
 done
 same record a.mcap 3
 [[ $words == *" $digest" ]] || say "the trace replays to $words, the walk was $digest"
-same controller 2
-same tune 2
-[[ $words == "lift 0.0150 m, trunk 1.122 kg" ]] || say "tune says '$words'"
-same radio talk.mcap
-grep -aq verp_msgs/msg/Radio talk.mcap || say "the trace of radio has no /radio"
