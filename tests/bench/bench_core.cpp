@@ -14,9 +14,9 @@
 #include "tests/bench/leg_problem.hpp"
 #include "tests/target/twin_run.hpp"
 
-/// bench_core FOLDER [--benchmark_...]: times of the core on this PC, from the generic21 walk in
-/// the twin that target_bench counts instructions on. FOLDER/leg receives the leg and targets on
-/// which bench_peers times other solvers; FOLDER/inputs keeps the walk's inputs.
+/// bench_core FOLDER [--benchmark_...]: times of the core on this PC, over the generic21 walk on
+/// which target_bench counts instructions. Keeps the walk in FOLDER/inputs and writes FOLDER/leg,
+/// the leg and targets for bench_peers.
 namespace verp::bench {
 namespace {
 
@@ -59,7 +59,7 @@ LegPose leg_pose(const Params& params, const float* before_rad, const float* now
   return pose;
 }
 
-/// The walk's inputs from `file`, or else from the twin. Empty if the robot did not finish.
+/// Read from `file`, or else from the twin. Empty if the robot did not finish.
 std::vector<Inputs> walk(const test::Robot& robot, const std::string& file) {
   std::vector<Inputs> inputs(kTicks);
   const auto size = static_cast<std::streamsize>(kTicks * sizeof(Inputs));

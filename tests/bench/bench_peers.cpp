@@ -16,9 +16,9 @@
 
 #include "tests/bench/leg_problem.hpp"
 
-/// bench_peers FOLDER [--benchmark_...]: KDL's inverse kinematics on the leg and targets that
-/// bench_core left there, by the faster of two solvers on this PC: Levenberg-Marquardt, and
-/// Newton-Raphson with weighted damped least squares. Exit 1 if either differs from our answer.
+/// bench_peers FOLDER [--benchmark_...]: KDL's inverse kinematics on the leg and targets of
+/// bench_core, by the faster of two solvers on this PC: Levenberg-Marquardt, and Newton-Raphson
+/// with weighted damped least squares. Exit 1 if either differs from our answer.
 ///
 /// KDL gets every advantage. It is set up once and uses single-axis joints for x, y or z axes,
 /// Eigen with the compiler's vectors, and the true answer of 10 ms earlier as start; our closed

@@ -57,8 +57,7 @@ TEST_F(Bench, TableHasTheBarBesideEachPromisedNumber) {
   }
 }
 
-// With a PATH without languages, the others are still measured, with the promise beside its number,
-// and the row names what to install.
+// The others are still measured, and the row names what to install.
 TEST_F(Bench, LanguageThatIsNotInstalledSaysSoAndFailsNobody) {
   const Outcome outcome = shell("mkdir few && ln -s /bin/sh few/sh && PATH=$PWD/few " VERP_PROGRAM
                                 " bench --only languages --repetitions 1");

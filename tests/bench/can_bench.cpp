@@ -11,9 +11,9 @@
 #include "tests/hil/level_plant.hpp"
 #include "tests/target/can_run.hpp"
 
-/// can_bench [--ticks N] [BOARD...]: speed of the loop between an emulated board and a robot on
-/// vcan0, without physics; by default on each board with CAN. Prints one JSON line each. Times
-/// depend on the machine. Run it inside tests/support/with-can.
+/// can_bench [--ticks N] [BOARD...]: speed of the loop between an emulated board (default: each
+/// with CAN) and a robot on vcan0, without physics. One JSON line each. Run it inside
+/// tests/support/with-can.
 namespace {
 
 constexpr std::uint32_t kTicks = 1900;  // as the walk of ten seconds: stands up, walks, stops

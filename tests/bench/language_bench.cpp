@@ -26,9 +26,8 @@
 #include "tests/support/link_pump.hpp"
 #include "tests/target/twin_run.hpp"
 
-/// language_bench TIMES: control ticks per second with which each language steps the controller,
-/// without physics. Prints one JSON line each. A missing language is reported there and is no
-/// failure. Times depend on the machine.
+/// language_bench TIMES: control ticks per second from each language, without physics. One JSON
+/// line each; a missing language is reported there and is no failure.
 namespace {
 
 using Json = nlohmann::json;
@@ -145,8 +144,7 @@ Rates in_csharp(int times) {
                               times));
 }
 
-/// `verp run` in lockstep over a Unix socket; this process has the bus and a robot on a stand.
-/// Wall-clock time, because two processes take turns.
+/// `verp run` in lockstep over a Unix socket. Wall-clock time, because two processes take turns.
 double external_rate() {
   using Clock = std::chrono::steady_clock;
   constexpr auto kPatience = std::chrono::seconds(30);

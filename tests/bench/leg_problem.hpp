@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-/// One leg and its targets as plain numbers, so that bench_core and bench_peers solve the same
-/// problem. Ours is compiled with EIGEN_DONT_VECTORIZE, the peers are not: in one program Eigen's
-/// functions would exist in two versions under one name.
+/// One leg and its targets as plain numbers, shared by bench_core and bench_peers. Only ours is
+/// compiled with EIGEN_DONT_VECTORIZE: in one program Eigen's functions would exist in two versions
+/// under one name.
 namespace verp::bench {
 
 inline constexpr int kJoints = 6;  ///< hip to ankle

@@ -6,9 +6,8 @@
 
 namespace verp::board {
 
-/// Speed of the link to an emulated board with the control loop's traffic but without bus and
-/// physics. A tick is four frames of 200 bytes from the board, two answers of 200 bytes, and one
-/// record.
+/// Speed of the link to an emulated board without bus and physics. A tick is four frames of 200
+/// bytes from the board, two answers of 200 bytes, and one record.
 struct LinkSpeed {
   double ticks_per_s = 0;
   double round_trips_per_s = 0;

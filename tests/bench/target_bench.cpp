@@ -13,8 +13,8 @@
 #include "tests/target/twin_run.hpp"
 
 /// target_bench [--check|--profile] [BOARD...]: the exact cost of a tick of a walking generic21 on
-/// each emulated board, and the speed of its link. Prints one JSON line each. --check: exit 1 if a
-/// promise is broken. --profile: prints where the instructions go instead.
+/// each emulated board, and its link's speed. One JSON line each. --check: exit 1 if a promise is
+/// broken. --profile: where the instructions go.
 namespace {
 
 constexpr std::uint32_t kTicks = 3600;  // 36 s at 10 ms: stands up, six different walks, stops

@@ -9,8 +9,7 @@
 
 namespace verp::board {
 
-/// A tick's cost on a board in exact instruction counts. Not in time, because QEMU has no
-/// meaningful clock.
+/// A tick's cost in exact instruction counts: QEMU has no meaningful clock.
 struct TargetCost {
   std::uint64_t ticks = 0;
   double average = 0;  ///< step()'s instructions, digest included

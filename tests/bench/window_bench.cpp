@@ -21,10 +21,10 @@
 #include "host/view/main_window.hpp"
 #include "host/view/theme.hpp"
 
-// The cost of a picture. `frames` measures the renderer alone, in CPU time, and the distance of a
-// robot camera's pixels from those of 64 samples. `window` measures the frame rate of the real
-// window and the twin's speed beside it. Prints one JSON line each, for one robot and for four.
-// Four also run with 2 ms steps: one core barely manages their physics at 1 ms.
+// The cost of a picture. `frames`: CPU time of the renderer alone, and how far a robot camera's
+// pixels are from those of 64 samples. `window`: frame rate of the real window and the twin's speed
+// beside it. One JSON line each, for one robot and for four. Four also run with 2 ms steps: one
+// core barely manages their physics at 1 ms.
 namespace verp::view {
 namespace {
 

@@ -1,5 +1,5 @@
-# All tests that need CAN sockets share two runs of tests/support/with-can, `can.start` and `can.slow`. Each run
-# executes its tests one after another, and each test then reports its own result.
+# All tests that need CAN sockets share two runs of tests/support/with-can, `can.start` and `can.slow`; afterwards each
+# test reports its own result.
 #
 #   verp_can_test(START NAME PROGRAM ARGUMENT...)   PROGRAM may be a generator expression. START is
 #                                                     start: tests that wait for answers, however long they take

@@ -10,7 +10,7 @@
 #include "host/link/system_clock.hpp"
 
 // with-can makes reading the clock cheap (tests/support/quick_clock.cpp); it must still agree with
-// the kernel. Elsewhere this holds anyway.
+// the kernel.
 namespace verp::test {
 namespace {
 

@@ -14,8 +14,8 @@
 #include "tests/can/capture.hpp"
 #include "tests/host/tool/program.hpp"
 
-// Foreign masters on a twin in real time: a python3-can script with documented bytes, frames typed
-// by hand, random traffic.
+// Foreign masters on a twin in real time: a python3-can script, frames typed by hand, random
+// traffic.
 namespace verp::tool::test {
 namespace {
 

@@ -37,8 +37,8 @@ class HilOnCan : public Program {
   }
 };
 
-// Each bit of the controller. The PC measures the twin at a tick's end, which it knows a few frames
-// later, when the next tick begins: the walk's numbers are nearly the same.
+// The PC knows a tick's end a few frames later, when the next one begins: so the walk's numbers are
+// only nearly the same.
 TEST_F(HilOnCan, WalksWithTheBitsOfSoftwareInTheLoop) {
   const Outcome walk = verp("walk --bus can --json --for 3", "walk");
   ASSERT_EQ(walk.status, 0) << walk.err;

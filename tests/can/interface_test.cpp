@@ -16,8 +16,8 @@
 #include "tests/hil/promises.hpp"
 #include "tests/hil/software_board.hpp"
 
-// The part of the fault campaign that needs a real interface, in wall time: a robot walks over vcan
-// while the interface goes down and up again.
+// The fault campaign's part for a real interface, in wall time: a robot walks over vcan while the
+// interface goes down and up again.
 namespace verp::test {
 namespace {
 
@@ -99,8 +99,8 @@ class InterfaceRun {
   }
   /// Ticks until it has been in `mode` for `then_ms`; fails if that takes too long.
   ::testing::AssertionResult reaches(Mode mode, std::uint32_t then_ms) {
-    // Rising takes 7 s and restarts after a hold. If this PC skips periods, the robot may hold and
-    // sit down; then the time starts again.
+    // Rising takes 7 s. If this PC skips periods, the robot may hold and sit down; then the time
+    // starts again.
     constexpr std::uint32_t kPatience_ms = 8000;
     const auto passed = [this](std::uint32_t ticks, std::uint32_t ms) {
       return ticks * params_.period_us >= 1000 * ms;
@@ -120,8 +120,7 @@ class InterfaceRun {
            << now.fresh << ", timeouts " << now.timeouts << ", strays " << now.strays
            << ", skipped periods " << now.misses;
   }
-  /// Takes the interface down for the seed's time and up again while the robot goes on. A thread
-  /// runs the commands, because they take time.
+  /// The robot goes on meanwhile: a thread runs the commands, because they take time.
   void take_down_and_up() {
     const milliseconds gone(150 + random_() % 350);
     std::atomic<int> stage = 0;

@@ -82,8 +82,8 @@ TEST_F(CanLockstepPort, AnswersEachQuestion) {
   EXPECT_EQ(server.counters().polls, 3u);
 }
 
-// A controller without an answer asks again after a while. A PC that was stopped so long finds both
-// questions, and two answers at once overflow a small controller's FIFO.
+// A PC that was stopped finds the question and its repetition, and two answers overflow a small
+// controller's FIFO.
 TEST_F(CanLockstepPort, AnswersOnceWhenItWasLate) {
   greet();
   ask(1);

@@ -51,8 +51,7 @@ class OddNodes : public Program {
   verp::test::OwnVcan bus;
 };
 
-// One unreadable object is left out. If the node is gone none can be read, and each would have to
-// time out.
+// If the node is gone, each object would have to time out.
 TEST_F(OddNodes, ReadingAllObjectsEndsWhenTheNodeFallsSilentHalfWayThrough) {
   constexpr unsigned kTold = 4;
   const ScriptedNode node(bus.endpoint(), kNode, tells(can::drive_identity(402, kNode)),

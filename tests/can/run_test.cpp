@@ -16,8 +16,7 @@
 #include "tests/can/can_world.hpp"
 #include "tests/host/tool/program.hpp"
 
-// Commands of a PC with a robot on a CAN interface: `verp run`, and `verp bus` beside it. The robot
-// is the twin in real time.
+// `verp run`, and `verp bus` beside it, with a robot on a CAN interface: the twin in real time.
 namespace verp::tool::test {
 namespace {
 
@@ -43,9 +42,9 @@ class RunOnCan : public Program {
   }
 };
 
-// One core may have to run the robot, its bus and this PC. If it is too busy for the period, `verp
-// run` refuses with status 3. Later missed periods may make the robot hold or fall, which gives
-// status 1 and a reason. So the test repeats until the robot walked.
+// One core may have to run the robot, its bus and this PC. If it is too busy, `verp run` refuses
+// with status 3; missed periods later may make the robot hold or fall, status 1 with a reason. So
+// repeat until it walked.
 TEST_F(RunOnCan, DrivesTheRobotAndLetsItGo) {
   const std::string run = std::string(VERP_PROGRAM) +
                           " run generic21 --bus can --link can:vcan0 --yes --json "
@@ -74,14 +73,13 @@ TEST_F(RunOnCan, DrivesTheRobotAndLetsItGo) {
   EXPECT_EQ(replay.status, 0) << replay.err;
 }
 
-// At the end each drive is asked whether it let go, which takes long if all are silent. Ctrl-C ends
-// the questions, and the report says what is unknown.
+// At the end each drive is asked whether it let go. Ctrl-C ends the questions, and the report says
+// what is unknown.
 TEST_F(RunOnCan, AnInterruptEndsTheQuestionsToSilentDrives) {
   const std::string run = std::string(VERP_PROGRAM) +
                           " run generic21 --bus can --link can:vcan0 --yes --json --period 20 "
                           "--for 60 >run.out 2>run.err";
-  // Status 3 also means that the PC is too busy for the period, without a question to a drive; then
-  // try again.
+  // Status 3 without a question to a drive means that the PC was too busy; then try again.
   const Outcome outcome = beside_twin(
       "for attempt in 1 2 3 4 5; do " + run +
       " & run=$!; while kill -0 $run && ! grep -q 'relaxed to rising' run.err; do sleep 0.1; done; "
@@ -168,8 +166,7 @@ TEST_F(RunOnCan, ServesNodesOnceOnABus) {
   }
 }
 
-// CanRealTime tests whether it fails: that depends on how long it ran undisturbed. Here the status
-// must say which it was; after a failure it is not Ctrl-C's.
+// CanRealTime tests whether it fails. Here the status must say which it was.
 TEST_F(RunOnCan, ATwinThatIsHeldUpSkipsAndSaysSoAtOnce) {
   verp::test::OwnVcan bus;
   std::atomic<bool> over = false;

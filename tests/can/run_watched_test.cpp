@@ -13,9 +13,9 @@ using nlohmann::json;
 
 class WatchedRun : public Program {
  protected:
-  /// Runs `watch` beside `verp run` on vcan0 with the twin as its robot in real time, then
-  /// interrupts the run. As in RunOnCan one core runs it all, and a run may refuse or end early, so
-  /// runs repeat until `watch` is done. One core can keep this period.
+  /// Runs `watch` on vcan0 beside `verp run`, whose robot is the twin in real time, then interrupts
+  /// the run. One core runs it all, so a run may refuse or end early, and runs repeat until `watch`
+  /// is done.
   Outcome run_beside(const std::string& watch) const {
     const std::string on_bus = " generic21 --bus can --json --link can:vcan0 ";
     return shell("verp=" VERP_PROGRAM "; watch() { " + watch +
@@ -30,7 +30,7 @@ class WatchedRun : public Program {
   }
 };
 
-// Other nodes see what the PC's controller decides but cannot order: each order is refused by name.
+// Other nodes see what the PC's controller decides but cannot order.
 TEST_F(WatchedRun, TellsOfEachTickShowsItsRegistersAndRefusesOrders) {
   const Outcome outcome = run_beside(
       "$verp shadow generic21 --period 20 --json --link can:vcan0 --for 1 --patience 60 "

@@ -13,8 +13,8 @@
 
 namespace verp::test {
 
-/// A node unlike the twin's: it answers reads of given four-byte objects, reports all others as
-/// missing, and falls silent for good after `answers` answers.
+/// Answers reads of given four-byte objects, reports all others as missing, and falls silent for
+/// good after `answers` answers.
 class ScriptedNode {
  public:
   using Tells = std::function<std::optional<std::uint32_t>(canopen::Address)>;

@@ -11,8 +11,8 @@
 
 namespace verp::test {
 
-/// A serial adapter (slcan) on a pseudo-terminal. The kernel's CAN driver gives it a bit rate and a
-/// queue, which vcan lacks. It starts down.
+/// A serial adapter (slcan) on a pseudo-terminal: it has a bit rate and a queue, which vcan lacks.
+/// It starts down.
 class SerialAdapter {
  public:
   SerialAdapter() : end(::posix_openpt(O_RDWR | O_NOCTTY | O_NONBLOCK)) {

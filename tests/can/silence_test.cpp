@@ -13,7 +13,6 @@
 #include "tests/can/serial_adapter.hpp"
 #include "tests/host/tool/program.hpp"
 
-// `verp bus` with nodes that stop answering, and commands on a bus that cannot be the robot's.
 namespace verp::tool::test {
 namespace {
 
@@ -106,7 +105,7 @@ TEST_F(SilenceOnCan, APingOfANodeThatFellSilentSaysSo) {
   EXPECT_TRUE(says(outcome.err, "raise --timeout")) << outcome.err;
 }
 
-// From 4.5 s after its start the scan waits nine seconds for 30; the user interrupts it.
+// From 4.5 s after its start the scan waits nine seconds for 30.
 TEST_F(SilenceOnCan, AnInterruptedScanPrintsWhatItFoundSoFar) {
   const Nodes nodes("can:" + bus.name,
                     [](unsigned node, Address at) { return node != 30 || at.index == 0x1000; });

@@ -91,8 +91,7 @@ TEST(Slcan, CarriesFramesBothWays) {
   EXPECT_EQ(heard.data[0] << 8 | heard.data[1], 0x1122);
 }
 
-// The port waits for a full queue. Accepted frames leave once, in order, and as soon as there is
-// room.
+// Accepted frames leave once, in order, and as soon as there is room.
 TEST(Slcan, WaitsOutAFullQueue) {
   Adapter adapter;
   CanPort port(adapter.endpoint());

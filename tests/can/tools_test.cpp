@@ -17,8 +17,7 @@
 #include "tests/host/tool/link_controller.hpp"
 #include "tests/host/tool/program.hpp"
 
-// What tshark's CANopen dissector reads in candump's log must equal what the controller and the
-// twin say they sent.
+// What tshark's CANopen dissector reads must equal what controller and twin say they sent.
 namespace verp::tool::test {
 namespace {
 
@@ -33,8 +32,7 @@ struct CanSocket : wire::CanPort {
 using CanController = verp::test::ControllerOn<CanSocket, app::LockstepCan>;
 using Frames = std::vector<Decoded>;
 
-/// If the twin's answer exceeds the controller's patience, the twin repeats it. What lies between
-/// two answers of one number is a repeat of the first.
+/// A twin that answers after the controller's patience repeats its answer; drop the repeats.
 Frames without_repeats(const Frames& all) {
   Frames kept;
   std::vector<std::size_t> answer;  ///< the twin's frames in `kept` since its last answer
@@ -139,8 +137,7 @@ void CanTools::expect_commands(std::size_t end) const {
   EXPECT_EQ(booted.size(), nodes().size());
 }
 
-// Every object that the controller sets at each node, in order, with its answer; then what it reads
-// back.
+// Every object that the controller sets, with its answer; then what it reads back.
 void CanTools::expect_settings(std::size_t end) const {
   std::vector<Write> wanted, told;
   std::map<std::tuple<std::uint32_t, std::uint32_t, std::uint32_t>, std::uint32_t> kept;

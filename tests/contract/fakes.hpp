@@ -18,9 +18,9 @@
 /// The fakes of hal/fake as backends, on the PC and on target.
 namespace verp::test {
 
-/// A FrameBus backend prepared for `pings` pings of servo 1. Each ping returns the e-Manual's
-/// status packet, except for the firmware version. kPlenty_us suffices for an answer. kSlack_us is
-/// how far its clock may move when it should stand: 0 in simulated time.
+/// A FrameBus backend prepared for `pings` pings of servo 1. It answers the e-Manual's status
+/// packet, except for the firmware version. kPlenty_us suffices for an answer. kSlack_us is how far
+/// its clock may move when it should stand: 0 in simulated time.
 inline const std::vector<std::uint8_t> kPing = {0xFF, 0xFF, 0xFD, 0x00, 0x01,
                                                 0x03, 0x00, 0x01, 0x19, 0x4E};
 
@@ -50,10 +50,9 @@ struct ScriptedInPieces : Scripted {
   explicit ScriptedInPieces(int pings) : Scripted(pings) { bus.set_piece(3); }
 };
 
-/// A CanBus backend: `bus` is one node, the test is the other. far_send() puts a frame on the wire
-/// once it is free; far_take() returns the next frame the test's node received. kPlenty_us suffices
-/// for hal::kCanQueue frames. If kBusOff, fill_and_bus_off() queues frames and then takes the node
-/// off the bus for too many errors.
+/// A CanBus backend: `bus` is one node, the test is the other. far_send() sends once the wire is
+/// free; far_take() returns the next frame received there. kPlenty_us suffices for hal::kCanQueue
+/// frames. If kBusOff, fill_and_bus_off() queues frames and then causes bus-off.
 struct ScriptedWire : SimulatedTime {
   static constexpr bool kBusOff = true;
   void far_send(const CanFrame& frame) { bus.inject(frame, bus.now_us() + 100); }

@@ -6,8 +6,8 @@
 
 #include "tests/support/stm32/usb_rig.hpp"
 
-/// A chip's USB port and a program on a PC, as a backend of the ByteLink suite. The far end closes
-/// the port or, if `kPulled`, pulls the cable.
+/// A chip's USB port and a program on a PC. The far end closes the port or, if `kPulled`, pulls the
+/// cable.
 namespace verp::test {
 
 template <hal::stm32::Family kFamily, bool kPulled>

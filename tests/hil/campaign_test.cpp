@@ -8,9 +8,9 @@
 #include "tests/hil/fault_run.hpp"
 #include "tests/hil/promises.hpp"
 
-// 200 runs of a robot that walks while its servo bus fails, in bus time. The controller always
-// follows the safe table, never waits longer than its requests may take, and informs its operator.
-// Each test covers one kind of fault with many seeds. To run one seed alone:
+// 200 runs of a robot that walks while its servo bus fails, in bus time. The controller keeps to
+// the safe table, never waits longer than its requests may take, and informs its operator. One kind
+// of fault per test. To run one seed alone:
 //
 //     VERP_SEED=7 build/host-release/tests/hil/hil_campaign --gtest_filter='*lost_0_1_percent*'
 //
@@ -200,7 +200,7 @@ TEST(CampaignSize, Is200Runs) {
   EXPECT_EQ(runs, 200);
 }
 
-// Two seeds of each kind on the stand are quick enough for sanitizers and the second compiler.
+// Quick enough for sanitizers and the second compiler.
 TEST(CampaignSample, StaysSafeAndTells) {
   for (Kind kind : kinds()) {
     if (kind.plan.physics) continue;

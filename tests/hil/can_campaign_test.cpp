@@ -7,9 +7,9 @@
 #include "tests/hil/campaign_table.hpp"
 #include "tests/hil/can_promises.hpp"
 
-// Over 200 runs like those of campaign_test.cpp, on a failing CAN bus in bus time. The controller
-// always follows the safe table, no tick exceeds a period, the operator is informed, and equal
-// seeds give equal bits. To run one seed alone:
+// The same for a CAN bus: over 200 runs in bus time. The controller keeps to the safe table, no
+// tick exceeds a period, the operator is informed, and equal seeds give equal bits. To run one seed
+// alone:
 //
 //     VERP_SEED=7 build/host-release/tests/hil/hil_can_campaign --gtest_filter='*lost_1_percent*'
 //
@@ -184,7 +184,7 @@ TEST(CanCampaignSize, Is200RunsOrMore) {
   EXPECT_GE(runs, 200);
 }
 
-// One seed of each kind on the stand is quick enough for sanitizers and the second compiler.
+// Quick enough for sanitizers and the second compiler.
 TEST(CanCampaignSample, StaysSafeAndTells) {
   for (const Kind& kind : kinds()) {
     if (!kind.plan.physics) run_kind(kind, 1);

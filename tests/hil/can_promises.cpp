@@ -134,8 +134,7 @@ void unasked(const CanFaultResult& result) {
   EXPECT_GE(result.after.strays, result.intruder * 9 / 10);
   keeps_walking(result);
 }
-// No one knows which of the two is the drive. Its position does not count, and the robot is let
-// down.
+// No one knows which of the two is the drive, so its position does not count.
 void twin(const CanFaultResult& result) {
   EXPECT_GE(result.intruder, 100u);
   EXPECT_EQ(result.during.fresh >> row(result) & 1u, 0u);

@@ -7,9 +7,9 @@
 
 namespace verp::test {
 
-/// The controller's end on a chip: the bxCAN driver on its register model is the CanBus. The
-/// model's wire has errors and bus-off. The other nodes are on a VirtualCan, which follows the
-/// chip's time. Seeds alternate between the chips.
+/// The controller's end on a chip: the bxCAN driver on its register model, whose wire has errors
+/// and bus-off. The other nodes are on a VirtualCan, which follows the chip's time. Seeds alternate
+/// between the chips.
 class ChipLine {
  public:
   ChipLine(can::VirtualCan& bus, std::uint32_t seed)

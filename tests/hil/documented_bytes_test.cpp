@@ -3,9 +3,8 @@
 #include "common/protocol/control_table.hpp"
 #include "tests/hil/pty_devices.hpp"
 
-// The twin's 21 servos and the controller on pseudo-terminals, opened as ordinary serial ports. All
-// bytes sent and expected are the examples of ROBOTIS e-Manual, "DYNAMIXEL Protocol 2.0"; comments
-// name the exceptions.
+// The twin's servos and the controller on serial ports (pseudo-terminals). All bytes are the
+// examples of ROBOTIS e-Manual, "DYNAMIXEL Protocol 2.0"; comments name the exceptions.
 namespace verp::test {
 namespace {
 
@@ -37,7 +36,6 @@ Bytes write_of(std::uint8_t id, std::uint16_t address, const Bytes& data) {
       dxl::encode_write(frame.data(), frame.size(), id, address, data.data(), data.size()));
   return frame;
 }
-/// Data of a status packet without stuffing.
 Bytes data_of(const Bytes& status) {
   return status.size() < dxl::kStatusBytes ? Bytes{} : Bytes(status.begin() + 9, status.end() - 2);
 }

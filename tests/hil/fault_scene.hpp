@@ -13,8 +13,8 @@
 
 namespace verp::test {
 
-/// The common part of all runs in which a robot stands up, walks and meets a fault. Each kind of
-/// bus adds its line, its own faults, and its checks in each tick.
+/// The common part of all runs in which a robot stands up, walks and meets a fault. Each bus adds
+/// its line, faults and checks.
 template <class Line, class Plan, class Result>
 class FaultScene {
  public:

@@ -1,7 +1,6 @@
 #pragma once
 
-/// The safety table's modes as its README numbers them. The core's own list is not used, because
-/// referees judge it.
+/// The safety table's modes as its README numbers them, not the core's list, which referees judge.
 namespace verp::test {
 
 enum Mode {

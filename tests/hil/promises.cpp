@@ -11,8 +11,7 @@ using dxl::controller::DeviceState;
 
 constexpr int kBus = dxl::controller::kDeviceBus;
 
-/// The walk ends on both feet, then the robot sits down and stays relaxed, whatever is asked:
-/// walking, standing, sitting, relaxed.
+/// Walking, standing, sitting, relaxed, and no other mode, whatever is asked.
 void stops_walking(const RunResult& result, std::uint32_t fault) {
   EXPECT_EQ(result.before.faults & fault, 0u);
   EXPECT_EQ(result.during.faults & fault, fault);

@@ -16,8 +16,8 @@
 #include "host/link/system_clock.hpp"
 #include "tests/host/bus/fake_plant.hpp"
 
-/// Dynamixel devices on pseudo-terminals, each in its own thread as if another program or a board,
-/// and a master that opens the other end as a serial port.
+/// Dynamixel devices on pseudo-terminals, each in its own thread, and a master that opens the other
+/// end as a serial port.
 namespace verp::test {
 
 inline std::string pty_path(const char* name) {
@@ -95,8 +95,7 @@ class SerialMaster {
   explicit SerialMaster(const std::string& path)
       : link_(wire::parse_endpoint("serial:" + path + "@2000000")) {}
 
-  /// Sends `bytes` and returns up to `wanted` bytes of the reply: at once when it has them all,
-  /// else what came in time.
+  /// Sends `bytes` and returns up to `wanted` bytes of the reply that come in time.
   std::vector<std::uint8_t> exchange(const std::vector<std::uint8_t>& bytes, std::size_t wanted,
                                      std::uint32_t timeout_us = 5'000'000) {
     link_.write(bytes.data(), bytes.size(), 1'000'000);

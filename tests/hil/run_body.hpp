@@ -10,8 +10,7 @@
 
 namespace verp::test {
 
-/// A run's robot: in ODE where falls matter, else on a stand. Faults can be put into its servos and
-/// IMU in both.
+/// A run's robot: in ODE where falls matter, else on a stand.
 class RunBody {
  public:
   RunBody(const Robot& robot, bool physics, std::uint32_t seed) {

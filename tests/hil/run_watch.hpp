@@ -10,8 +10,7 @@
 
 namespace verp::test {
 
-/// Checks that hold for every bus and fault, at the plant and in the controller's ticks, besides
-/// the safe table.
+/// Checks for every bus and fault, besides the safe table.
 class RunWatch {
  public:
   static constexpr int kNobody = -1;
@@ -24,8 +23,8 @@ class RunWatch {
     if (violation_.empty()) violation_ = what;
   }
 
-  /// Notes each servo's position and goal when a tick is due: the next report lies between them. A
-  /// delayed goal may reach the servo only with the next request.
+  /// Each servo's next report lies between its position and its goal when a tick is due. A delayed
+  /// goal may arrive only with the next request.
   void note_positions(const Outputs& last);
   /// No older position may count as fresh, except that of the joint that `repeats`.
   void watch_positions(const Inputs& inputs, int repeats);

@@ -8,8 +8,8 @@
 
 namespace verp::test {
 
-/// A referee of the safety table, written from common/safety/README.md and not from the code. It
-/// checks Inputs and Outputs of every tick. One per run of a controller.
+/// A referee of every tick's Inputs and Outputs, written from common/safety/README.md and not from
+/// the code. One per run of a controller.
 class SafeTable {
  public:
   explicit SafeTable(const Params& params);

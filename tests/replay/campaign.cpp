@@ -116,8 +116,8 @@ void cross_feet(Script& script) {
                                {400, kItsTime, kStand, 0, 0, 0, kRestore}});
 }
 
-/// A margin wider than the sole: strides shrink until the plan is refused, and stay refused until
-/// the operator withdraws the walk.
+/// A margin wider than the sole: strides shrink until the plan is refused, until the operator
+/// withdraws the walk.
 void refuse(Script& script) {
   start_walking(script);
   script.push_back(write(gait_id(offsetof(GaitTuning, support_margin_m)), 0.030F, kWalk));

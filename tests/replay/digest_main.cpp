@@ -8,10 +8,10 @@
 #include "tests/replay/trace_file.hpp"
 
 /// replay_digest FILE: runs the core over the inputs of FILE. Prints the last link of each
-/// segment's digest chain, one for all, the core's version, and the legs' goals at some ticks,
-/// which show what changed behind a digest. Exit status 1 if a digest differs from the recorded
-/// one; stderr names the first such tick and stage. Uses only the core and this file, so every
-/// compiler and optimisation level can build it.
+/// segment's digest chain, one for all, the core's version, and some of the legs' goals, which show
+/// what changed behind a digest. Exit status 1 if a digest differs from the recorded one; stderr
+/// names the first such tick and stage. Needs only the core and this file, so any compiler can
+/// build it.
 namespace {
 
 using namespace verp;

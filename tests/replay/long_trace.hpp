@@ -6,13 +6,11 @@
 #include "common/model/params.hpp"
 #include "common/record/tick_record.hpp"
 
-/// The long trace: recorded runs of several robots. Together they reach every gait phase, every row
-/// of the safety table and every branch of step() that inputs can reach. unreached.txt lists the
-/// rest with reasons.
+/// Recorded runs of several robots that together reach every gait phase, safety row and branch of
+/// step() that inputs can reach. unreached.txt lists the rest with reasons.
 namespace verp::replay {
 
-/// Names, robots and lengths are fixed. The inputs follow from the controller's own outputs, as a
-/// robot's would, and from integers.
+/// Inputs follow from the controller's own outputs, as a robot's would, and from integers.
 struct Segment {
   std::string name;
   Params params;

@@ -7,8 +7,7 @@
 
 /// replay_reach FILE: runs the core, compiled to count lines and branches, over the inputs of FILE.
 /// Prints how often each gait phase, mode, safety row and fault was reached. Exit status 1 if one
-/// never was, or if a digest differs from the recorded one: this is the unoptimised build (`matrix`
-/// has the others).
+/// never was, or if a digest differs from the recorded one.
 ///
 /// Linked with --wrap for safety::next_mode, which makes the rows visible.
 namespace verp::replay {
@@ -86,8 +85,8 @@ void follow(control::test::Loop& loop, int ticks) {
   }
 }
 
-// It is toppled and falls; it gets up on request, first in vain; it is knocked, holds and rises.
-// Then robots lie on each side, with and without an action for it.
+// It falls when toppled, gets up on request (first in vain), and holds and rises when knocked. Then
+// robots lie on each side, with and without an action for it.
 void fall() {
   using control::test::FallingLoop;
   constexpr std::int16_t kOne = 8172, kKnock = 2830;

@@ -34,8 +34,8 @@ Params mirrored(Params params) {
   return params;
 }
 
-/// Joints `first` and `second` have no servos: those of `of_first` and `of_second` turn them the
-/// other way. They are last in the list, wherever they are in the tree.
+/// `of_first` and `of_second` turn the joints `first` and `second`, which have no servos, the other
+/// way. Those are last in the list, wherever they are in the tree.
 Params coupled(const Params& robot, int first, int of_first, int second, int of_second) {
   Params params = robot;
   const int count = robot.joint_count;

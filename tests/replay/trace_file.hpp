@@ -4,8 +4,7 @@
 
 #include "tests/replay/long_trace.hpp"
 
-/// The long trace as a file: one build writes it, every other replays it. It holds plain structs,
-/// because writer and readers share their source.
+/// The long trace as a file of plain structs: writer and readers share their source.
 namespace verp::replay {
 
 inline constexpr std::uint32_t kTraceFileMagic = 0x3147'4E4C;  // "LNG1"

@@ -3,8 +3,8 @@
 namespace verp::scenario {
 namespace {
 
-// Besides the demo's own criterion, bands set by hand around a few runs: well inside that
-// criterion, but with a ceiling too.
+// Besides the demo's own criterion, bands set by hand around a few runs, well inside it and with a
+// ceiling.
 TEST(Demos, AColumnKeepsItsFormation) {
   const demos::Run run = good("column", 1);
   expect_fact(run, "guide's way", 3.4, 4.2);
@@ -38,8 +38,7 @@ TEST(Demos, TwoBringABallToAGoal) {
 }
 #endif
 
-// Without radio the robots do not walk and the demo reports failure: the radio is what makes it
-// work.
+// So the radio is what makes it work.
 TEST(Demos, FailWithoutRadio) {
   demos::Options options;
   options.robots = 2;

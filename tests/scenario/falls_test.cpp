@@ -1,6 +1,5 @@
 #include "tests/scenario/walk.hpp"
 
-// A robot that lies on its back or a side, or falls, gets up and walks on.
 namespace verp::scenario {
 namespace {
 
@@ -51,8 +50,8 @@ TEST(GettingUp, Op3DoesItFromEverySide) {
   }
 }
 
-// Its arms are too short to lift it over drawn-in feet. From its front and back it squats between
-// hands and soles; its sides tip it onto the back.
+// Its arms are too short to lift it over drawn-in feet, so it squats between hands and soles; its
+// sides tip it onto the back.
 TEST(GettingUp, DarwinOpDoesItFromEverySideAtTheFirstTry) {
   for (const std::string side : {"back", "front", "left", "right"}) {
     const Walk lying = walk("darwin_op --for 3 --physics-step 2 --start lying:" + side);

@@ -10,8 +10,8 @@ namespace {
 
 class Seed : public ::testing::TestWithParam<int> {};
 
-// The paper's walk: 4 cm steps in 450 ms cycles, 0.173 m/s, for a minute, with any noise and joint
-// zero errors of the twin. many_random_robots_test.cpp runs ten seeds with --full.
+// The paper's walk: 4 cm steps in 450 ms cycles, 0.173 m/s, for a minute.
+// many_random_robots_test.cpp runs ten seeds with --full.
 TEST_P(Seed, WalksAMinuteInsideThePapersBands) {
   const Walk minute =
       walk("generic21 --step 0.04 --cycle 0.45 --for 60 --seed " + std::to_string(GetParam()));
@@ -46,8 +46,7 @@ TEST(Generic21, SameSeedIsTheSameWalkToTheLastBit) {
   EXPECT_EQ(once.result, again.result);
 }
 
-// Without the correction for the legs' mass the bias grows with the step, as in the paper; with it
-// the bias is smaller at every step length.
+// Without the correction for the legs' mass the bias grows with the step, as in the paper.
 TEST(Generic21, MultibodyCorrectionTakesAwayTheBiasThatGrowsWithTheStep) {
   const Walk sweep = walk("generic21 --for 20 --physics-step 2 --sweep-step 0.02:0.06:0.01");
   const json& rows = sweep.result.value("sweep", json::array());
@@ -73,7 +72,6 @@ double mean_bias_mm(const std::string& arguments) {
   return sum_mm / 3;
 }
 
-// Measured by the ZMP bias: without any one part of balance the walk is worse.
 TEST(Generic21, EachPartOfBalanceLowersTheZmpBias) {
   const double all_mm = mean_bias_mm("");
   EXPECT_GT(mean_bias_mm(" --no-multibody"), all_mm);
@@ -82,8 +80,7 @@ TEST(Generic21, EachPartOfBalanceLowersTheZmpBias) {
   EXPECT_GT(mean_bias_mm(" --no-zeros"), all_mm);
 }
 
-// 12 s, one of them standing. The bands are a quarter of the ordered way to both sides; in a
-// circle, and turning on the spot, they also bound the distance.
+// 12 s, one of them standing. The bands are a quarter of the ordered way to both sides.
 TEST(Generic21, WalksSideways) {
   const Walk left = walk("generic21 --for 12 --velocity=0,0.05,0");
   expect_walked(left);
@@ -196,8 +193,7 @@ TEST(Generic21, WalksSlowlyAndWithShortSteps) {
   expect_between(0, number(on_the_spot, "distance_m"), 0.1, "way, m");
 }
 
-// Only one table describes the robot: with thighs a tenth longer there and nothing else changed, it
-// walks.
+// One table describes the robot; only its thighs change.
 TEST(Generic21, WalksWithThighsATenthLonger) {
   namespace fs = std::filesystem;
   const fs::path folder =

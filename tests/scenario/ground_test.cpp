@@ -2,9 +2,8 @@
 
 #include "tests/scenario/walk.hpp"
 
-// 20 s on ground unknown to the robot, at 4 cm in 450 ms. It relies on its soles and its body's
-// tilt. Seeds give several robots; some fail over plates, and over one as high as feet are lifted
-// (shares: common/worlds/README.md).
+// 20 s on ground unknown to the robot, at 4 cm in 450 ms. Some seeds fail over plates, and over one
+// as high as feet are lifted (shares: common/worlds/README.md).
 namespace verp::scenario {
 namespace {
 

@@ -4,8 +4,8 @@
 
 #include "tests/scenario/walk.hpp"
 
-// The paper's gait is a file of 16 states. Recorded from a walk, it is played with balance as any
-// action, and walks as fast as the original.
+// The paper's gait is a file of 16 states. Recorded from a walk and played as an action, it walks
+// as fast as the original.
 namespace verp::scenario {
 namespace {
 

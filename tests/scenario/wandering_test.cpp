@@ -6,8 +6,7 @@
 namespace verp::scenario {
 namespace {
 
-// Every three seconds the operator orders another velocity: ahead, sideways, backwards, turning.
-// The walk ends standing in place.
+// Every three seconds the operator orders another velocity. The walk ends standing in place.
 TEST(Generic21, FollowsChangingVelocitiesInMidWalk) {
   const test::Robot robot = test::load_robot("generic21");
   const test::TwinRun run = test::run_here(robot, 2700, true);

@@ -16,7 +16,7 @@
 #include "host/link/system_clock.hpp"
 
 /// A cable whose adapter delays bytes, as USB adapters do: the first byte starts a timer, and all
-/// received bytes go on when it expires. Both ends are links; a thread carries the bytes.
+/// received bytes go on when it expires. A thread carries them.
 namespace verp::test {
 
 struct Latency {

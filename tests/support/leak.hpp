@@ -12,8 +12,7 @@
 
 namespace verp::test {
 
-/// During this object's lifetime, allocations may leak: a third-party library loses them. The name
-/// says which library and why.
+/// While it lives, allocations may leak in a third-party library. The name says which one, and why.
 struct SomebodyElsesLeak {
 #ifdef VERP_FINDS_LEAKS
   SomebodyElsesLeak() {

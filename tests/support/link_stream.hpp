@@ -7,7 +7,7 @@
 namespace verp::app {
 
 /// A ByteLink as the streams of a RemoteBus (remote_bus.hpp), which wait without limit. A loss ends
-/// the stream for good, because a peer that returns knows nothing of it.
+/// the stream, because a peer that returns knows nothing of it.
 template <hal::ByteLink Link>
 class LinkStream {
  public:

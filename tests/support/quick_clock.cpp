@@ -7,14 +7,14 @@
 #include <cstdint>
 #include <ctime>
 
-/// with-can loads this into the commands that it runs in User-Mode Linux. There, reading the clock
-/// is a system call of about ten microseconds; other Linux systems need no system call. An emulator
-/// reads it so often that this took half of its time. So CLOCK_MONOTONIC comes from the processor's
-/// time stamp counter, along a line through the kernel's answers, which are renewed all the time.
+/// with-can loads this into its commands in User-Mode Linux. There, reading the clock is a system
+/// call of about ten microseconds, which took half of an emulator's time. So CLOCK_MONOTONIC comes
+/// from the processor's time stamp counter, along a line through the kernel's constantly renewed
+/// answers.
 ///
-/// Within a process the clock never runs backwards. It is as accurate as the kernel answers
-/// quickly: a sleep until a time may end some microseconds before this clock reaches it. with-can
-/// checks that the counter neither stops nor changes its speed.
+/// Within a process the clock never runs backwards. A sleep until a time may end some microseconds
+/// before this clock reaches it. with-can checks that the counter neither stops nor changes its
+/// speed.
 namespace {
 
 constexpr std::uint64_t kFirstLine = 200'000'000;  // minimum cycles to measure a speed

@@ -5,9 +5,8 @@
 #include <ctime>
 
 /// with-can loads this into User-Mode Linux: the virtual machine's clock runs at 1 /
-/// VERP_SLOW_CLOCK of this PC's speed. Everything inside shares this clock, so a robot and the PC
-/// that drives it only see a faster machine. The time this PC gives to other tests or guests costs
-/// them that much less of their period.
+/// VERP_SLOW_CLOCK of this PC's speed. A robot and its PC in there only see a faster machine, and
+/// other work of this PC costs them less of their period.
 ///
 /// User-Mode Linux asks its PC for the time and wakes by one single-shot timer
 /// (arch/um/os-Linux/time.c of Linux 6.1). It writes no time into what others read.

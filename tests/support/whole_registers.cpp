@@ -8,12 +8,12 @@
 #include <cstdarg>
 #include <cstring>
 
-/// with-can loads this into Debian 12's User-Mode Linux. That keeps its processes' extended
-/// registers in 2696 bytes (HOST_FP_SIZE, arch/x86/um/user-offsets.c of Linux 6.1), which was
-/// everything before AMX. If the PC has more, ptrace accepts them only whole (xstateregs_set,
+/// with-can loads this into Debian 12's User-Mode Linux, which keeps its processes' extended
+/// registers in 2696 bytes (HOST_FP_SIZE, arch/x86/um/user-offsets.c of Linux 6.1): everything
+/// before AMX. If the PC has more, ptrace accepts them only whole (xstateregs_set,
 /// arch/x86/kernel/fpu/regset.c), and the virtual machine ends at its first process. So its bytes
-/// are written over the process's whole set. The process cannot use the rest, because nothing asks
-/// the PC's kernel for AMX.
+/// are written over the process's whole set. The rest is unused, because nothing asks the PC's
+/// kernel for AMX.
 
 namespace {
 

@@ -16,8 +16,8 @@
 #include "host/sim/world.hpp"
 #include "tests/target/can_run.hpp"
 
-// The board has the control loop, the twin the drives, and CAN frames pass over vcan0. Run it
-// inside tests/support/with-can. VERP_TEST_BOARD names the board, VERP_TEST_TICKS the length.
+// Control loop in the board, drives in the twin, CAN frames over vcan0. Run it inside
+// tests/support/with-can. VERP_TEST_BOARD names the board, VERP_TEST_TICKS the length.
 namespace verp::board {
 namespace {
 

@@ -10,8 +10,8 @@
 #include "host/shadow/live_check.hpp"
 #include "tests/target/twin_run.hpp"
 
-/// The control loop on an emulated board, its drives and sensors on a virtual bus, and CAN frames
-/// on vcan0 between them. Needs CAN sockets: tests/support/with-can.
+/// Control loop on an emulated board, drives and sensors on a virtual bus, CAN frames on vcan0.
+/// Needs CAN sockets: tests/support/with-can.
 namespace verp::test {
 
 struct CanRun {

@@ -9,16 +9,16 @@
 
 namespace verp::can {
 
-/// A lockstep controller at the other end of a SocketCAN interface. There is nothing to do until it
-/// asks for time, so this PC sleeps until then. A second socket, which receives only the
-/// controller's clock messages, wakes it. Answers leave in one call.
+/// A lockstep controller at the other end of a SocketCAN interface. This PC sleeps until the
+/// controller asks for time; a second socket, which receives only its clock messages, wakes it.
+/// Answers leave in one call.
 class LockstepPort {
  public:
   /// Throws LinkError.
   explicit LockstepPort(const wire::Endpoint& endpoint);
 
-  /// Waits for a clock message, passes all frames up to it to the server in order, and sends the
-  /// answer. False if none came in time.
+  /// Waits for a clock message, passes all frames up to it to the server, and sends the answer.
+  /// False if none came in time.
   bool serve(LockstepServer& server, std::uint32_t wait_us);
 
   /// The interface is up. Current after serve().

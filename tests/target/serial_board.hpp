@@ -71,8 +71,8 @@ struct SerialRun {
   bus::LockstepServer::Counters lockstep;
 };
 
-/// Runs the controller on the board, with the twin in lockstep at its servo port and the script's
-/// operator at the other. Throws BoardError or DeviceError.
+/// The twin is in lockstep at the board's servo port, the script's operator at the other. Throws
+/// BoardError or DeviceError.
 SerialRun run_over_serial(SerialBoard& board, const Robot& robot, const Script& script,
                           const SerialTrouble& trouble = {});
 /// With the orders of ScriptedOperator.

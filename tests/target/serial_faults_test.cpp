@@ -4,9 +4,9 @@
 
 #include "tests/target/serial_board.hpp"
 
-// The firmware image in QEMU, in lockstep over a cable that damages, loses and cuts. Lockstep has
-// no wall clock: lost data are requested again or lost on the simulated bus, and both ends know
-// which. VERP_TEST_BOARD and VERP_TEST_TICKS as in serial_loop_test.cpp.
+// The firmware image in QEMU, in lockstep over a faulty cable. Lockstep has no wall clock: lost
+// data are requested again or lost on the simulated bus, and both ends know which. VERP_TEST_BOARD
+// and VERP_TEST_TICKS as in serial_loop_test.cpp.
 namespace verp::test {
 namespace {
 

@@ -27,8 +27,7 @@ std::uint32_t test_ticks() {
   return ticks == nullptr ? 0 : static_cast<std::uint32_t>(std::strtoul(ticks, nullptr, 10));
 }
 
-// After the boot check, with or without a twin, the operator port speaks Dynamixel and reports how
-// the start went.
+// After the boot check, with or without a twin, the port reports how the start went.
 TEST(SerialLoop, AnswersItsOperatorAsDevice200) {
   SerialBoard board(test_board(), params_image(load_robot("generic21")));
   const auto identity = board.operator_port().ping(dxl::controller::kDefaultId);
@@ -70,8 +69,7 @@ TEST(SerialLoop, TellsItsOperatorThatTheServoPortDoesNotOpen) {
   EXPECT_EQ(board.read("torque_enable"), 0u);
 }
 
-// The emulated chip has its bus on one USART and its orders on another. It decides the same as the
-// loop in this process: every stage of every tick.
+// The bus is on one USART, the orders on another; every stage of every tick is compared.
 TEST(SerialLoop, WalksTheSameBitsThroughItsUsartsAndInThisProcess) {
   const std::uint32_t ticks = test_ticks();
   ASSERT_GT(ticks, 0u) << "set VERP_TEST_TICKS";
@@ -94,8 +92,7 @@ TEST(SerialLoop, WalksTheSameBitsThroughItsUsartsAndInThisProcess) {
   std::printf("%s: %u ticks at %.0f ticks/s\n", test_board().c_str(), ticks, there.ticks_per_s);
 }
 
-// It is pushed over, falls softly and gets up by the actions in its flash, as the loop in this
-// process does.
+// As the loop in this process does.
 TEST(SerialLoop, GetsUpByTheActionsInItsFlash) {
   const Robot robot = load_robot("generic21");
   const Script script = fall_script(robot);
@@ -151,8 +148,7 @@ std::vector<std::uint8_t> actions_in_force(SerialBoard& board) {
   return bytes;
 }
 
-// Without a debugger (write_flash) the emulated chip's flash cannot be written. The board tells the
-// operator and keeps its actions.
+// Only a debugger (write_flash) can write the emulated chip's flash.
 TEST(SerialLoop, SaysWhyItTakesNoActionsAndKeepsThoseThatItHas) {
   const Robot robot = load_robot("generic21");
   const std::vector<std::uint8_t> image = actions_image(robot);
@@ -188,8 +184,7 @@ void wait_for_no_torque(SerialBoard& board) {
   }
 }
 
-// A twin that stops, in a debugger or for good, does not lock the operator out. It continues with
-// the bits of one that never paused; so does one whose session ended.
+// The twin stops in a debugger or for good, or its session ends.
 TEST(SerialLoop, UnlocksItsOperatorsDeskWhileTheTwinIsSilentAndGoesOnWithTheSameBits) {
   constexpr std::uint32_t kTicks = 400, kPause = 300;  // it stands up
   const Robot robot = load_robot("generic21");

@@ -26,8 +26,8 @@ struct TwinRun {
   bool fallen = false;
 };
 
-/// Stands up in six seconds, walks until three seconds before the end, then stands still. Walks
-/// ahead in 4 cm steps, or, if `wandering`, another way every three seconds.
+/// Stands up in six seconds, walks until three seconds before the end, then stands still. Walks in
+/// 4 cm steps or, if `wandering`, another way every three seconds.
 class ScriptedOperator {
  public:
   ScriptedOperator(const Params& params, std::uint32_t ticks, bool wandering)
@@ -62,7 +62,7 @@ struct Orders {
 };
 
 /// The script's hands, by the world's time: they push at the same step, however often the world is
-/// read in between.
+/// read.
 class Hands : private sim::Actor {
  public:
   Hands(sim::World& world, sim::TwinRobot& body)

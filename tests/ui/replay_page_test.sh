@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# replay_page_test.sh VERP: the 3D replay in a browser without network. It must draw something, scrubbing and turning
-# must change it, the console must stay silent, and nothing may leave the file.
+# replay_page_test.sh VERP: the 3D replay in a browser without network must draw something that scrubbing and turning
+# change, with a silent console, and nothing may leave the file.
 set -uo pipefail
 
 verp=$1

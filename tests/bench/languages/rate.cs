@@ -1,5 +1,5 @@
-// rate.exe TIMES: control ticks per second of CPU time from C#, one call per tick, without physics,
-// on the inputs of a walk. Prints one line each time.
+// rate.exe TIMES: control ticks per second of CPU time from C#, one call per tick, over a walk's
+// inputs. One line each time.
 using System;
 using System.Collections.Generic;
 using System.Diagnostics;

@@ -6,8 +6,8 @@
 #include "firmware/boot/boot.hpp"
 #include "hal/chip/semihosting/semihosting.hpp"
 
-/// The system calls of newlib and the C++ library, only for test images: number formatting and
-/// containers need a heap. File access fails; all output is printed.
+/// System calls of newlib and the C++ library for test images: number formatting and containers
+/// need a heap. File access fails; all output is printed.
 extern "C" {
 extern char verp_heap_begin[];
 extern char verp_heap_end[];

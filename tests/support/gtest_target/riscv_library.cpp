@@ -4,9 +4,8 @@
 
 #include "hal/chip/semihosting/semihosting.hpp"
 
-/// What RISC-V test images need besides newlib.cpp: for RISC-V, Debian has only the headers of the
-/// C++ library. The trees of std::map and std::set are ordered but never balanced, which suffices
-/// for tests.
+/// For RISC-V, Debian has only the headers of the C++ library. These trees of std::map and std::set
+/// are ordered but never balanced, which suffices for tests.
 extern "C" void* _sbrk(std::ptrdiff_t bytes);
 /// picolibc's name for it.
 extern "C" void* sbrk(std::ptrdiff_t bytes) {

@@ -6,9 +6,9 @@
 #include "tests/support/stm32/spi_model.hpp"
 
 /// A 6-axis motion sensor behind SPI: an MPU-9250 (registers: RM-MPU-9250A-00) or an ICM-20648
-/// (DS-000179). It samples at its registers' rate; all counts of a sample are of one instant. The
-/// FIFO holds 512 bytes of what FIFO_EN selects. When full it loses single bytes, the oldest or
-/// newest by its mode, and is out of step afterwards. Unknown registers are stored as written.
+/// (DS-000179). All counts of a sample are of one instant. The FIFO holds 512 bytes of what FIFO_EN
+/// selects. When full it loses single bytes, the oldest or newest by its mode, and is out of step
+/// afterwards. Unknown registers are stored as written.
 namespace verp::hal::stm32::model {
 
 enum class ImuKind : std::uint8_t { kMpu9250, kIcm20648 };

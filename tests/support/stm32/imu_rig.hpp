@@ -6,7 +6,7 @@
 #include "tests/support/stm32/rig.hpp"
 #include "tests/support/stm32/spi_model.hpp"
 
-/// A motion sensor on SPI1 with OpenCR's pins, its driver and the SPI's, on a whole chip.
+/// A motion sensor on SPI1 with OpenCR's pins, on a whole chip.
 namespace verp::hal::stm32::test {
 
 using Spi = SpiMaster<Io, Timer>;

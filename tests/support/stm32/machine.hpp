@@ -12,10 +12,10 @@
 #include "tests/support/stm32/bank.hpp"
 #include "tests/support/stm32/time.hpp"
 
-/// A whole STM32 on the PC, built from its reference manual, which drivers meet in tests instead of
-/// silicon. Time passes with each access (Options::access_cycles) or by advance(). The test scripts
-/// outside events: bytes on a line, a crystal that never starts, a stuck bit. Accesses against the
-/// manual are recorded: see violations().
+/// A whole STM32 on the PC, built from its reference manual. Time passes with each access
+/// (Options::access_cycles) or by advance(). The test scripts outside events: bytes on a line, a
+/// crystal that never starts, a stuck bit. Accesses against the manual are recorded: see
+/// violations().
 namespace verp::hal::stm32::model {
 
 class Machine;

@@ -10,9 +10,8 @@
 #include "tests/support/stm32/otg_fs_model.hpp"
 #include "tests/support/stm32/usb_host.hpp"
 
-/// A PC with a serial-port driver at the other end of the USB cable. It enumerates the device,
-/// opens and closes the port, and moves bytes while time passes. Calls that make control transfers
-/// let time pass and may not come from an event.
+/// A PC with a serial-port driver at the other end of the USB cable; it moves bytes while time
+/// passes. Calls that make control transfers let time pass and may not come from an event.
 namespace verp::hal::stm32::model {
 
 class SerialHost {

@@ -7,10 +7,9 @@
 #include <initializer_list>
 #include <type_traits>
 
-/// The part of GoogleTest that tests/unit and tests/contract use, small enough for a
-/// microcontroller. It has no exceptions and no fixtures except those of typed tests, which alone
-/// need a heap. On the PC the same tests compile against the real one. The including program
-/// supplies testing::put() and calls testing::run_all().
+/// The part of GoogleTest that tests/unit and tests/contract use, for microcontrollers. No
+/// exceptions; only typed tests have fixtures and need a heap. The including program supplies
+/// testing::put() and calls testing::run_all().
 namespace testing {
 
 /// Where results go; `text` may hold part of a line.
@@ -179,8 +178,7 @@ inline Message full_name(const Case& test) {
   return full;
 }
 
-/// Runs every test whose full name contains `filter`; returns the number of failures, or 1 if no
-/// test ran.
+/// Runs every test whose full name contains `filter`; returns the failures, or 1 if no test ran.
 inline int run_all(const char* filter) {
   int run = 0;
   int failed = 0;
