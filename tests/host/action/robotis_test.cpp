@@ -21,8 +21,7 @@ const Robot& op3() {
   return robot;
 }
 
-/// Pages as editors leave them: blank ones, steps, links, gains, unused ids, torque off, and bytes
-/// of unknown meaning.
+/// Pages as editors leave them: some blank, unused ids, torque off, bytes of unknown meaning.
 Motion some_motion() {
   Motion motion(kPages, blank_page());
   std::uint32_t random = 7;
@@ -77,7 +76,6 @@ TEST(RobotisMotion, AnEditOfAnAngleIsOneOfItsPage) {
   EXPECT_NEAR(documents[0].frames[0].goals[0].angle_rad, 0.5, 1e-3);
 }
 
-// The step gains a joint while another servo in it has no torque.
 TEST(RobotisMotion, AnAngleIsAddedBesideAServoWithoutTorque) {
   Motion motion(kPages, blank_page());
   const auto put = [&](std::size_t id, std::uint16_t word) {
@@ -97,7 +95,7 @@ TEST(RobotisMotion, AnAngleIsAddedBesideAServoWithoutTorque) {
   EXPECT_EQ(documents[0].frames[0].goals.size(), goals + 1);
 }
 
-// Each edit of link, exit, repeat or torque changes the page's bytes, and reads back.
+// Each edit changes the page's bytes and reads back.
 TEST(RobotisMotion, EditsOfLinkExitRepeatAndTorqueAreOfItsPage) {
   const Params& params = op3().params;
   Motion motion(kPages, blank_page());
@@ -147,7 +145,7 @@ TEST(RobotisMotion, EditsOfLinkExitRepeatAndTorqueAreOfItsPage) {
   EXPECT_EQ(to_motion(params, documents)[1][kNextAt], 0);
 }
 
-// Two pages share a name, and a third has the name that the second would get.
+// Two pages share a name; a third has the name that the second would get.
 TEST(RobotisMotion, EachPageHasANameOfItsOwn) {
   Motion motion(kPages, blank_page());
   const auto call = [&](std::size_t page, const std::string& name) {
@@ -164,7 +162,7 @@ TEST(RobotisMotion, EachPageHasANameOfItsOwn) {
   EXPECT_TRUE(to_motion(op3().params, documents) == motion);
 }
 
-// The writer refuses at its line what a page cannot hold or would lose.
+// At its line.
 TEST(RobotisMotion, WhatNoPageWouldKeepIsRefused) {
   Motion motion(kPages, blank_page());
   for (const std::size_t page : {1U, 2U}) {
@@ -230,7 +228,7 @@ TEST(RobotisMotion, FilesOfAnotherSizeOrADamagedPageAreRefused) {
   std::filesystem::remove(file);
 }
 
-// The checksums are right, so the pages are not damaged but meaningless.
+// The checksums are right, so nothing is damaged.
 TEST(RobotisMotion, PagesOfMoreStepsThanTheyHoldOrOfNoPositionsAreRefusedByNumber) {
   const std::filesystem::path file =
       std::filesystem::temp_directory_path() / ("rubbish" + std::to_string(getpid()) + ".bin");

@@ -15,9 +15,8 @@
 #include "hal/fake/fake_flash.hpp"
 #include "tests/host/tool/link_controller.hpp"
 
-/// A board like those of boards/stm32 without servos, in a thread of the test. Its flash holds
-/// robot, actions and log, its operator's port is on a link, and it restarts with the actions it
-/// receives.
+/// A board like those of boards/stm32, without servos, in a thread. Robot, actions and log are in
+/// its flash; it restarts with the actions it receives.
 namespace verp::test {
 
 class RunningBoard {
@@ -45,7 +44,7 @@ class RunningBoard {
     });
   }
   ~RunningBoard() { stop(); }
-  /// Afterwards the caller may read the flash.
+  /// Afterwards the test may read the flash.
   void stop() {
     stop_ = true;
     if (thread_.joinable()) thread_.join();
@@ -60,7 +59,7 @@ class RunningBoard {
   std::atomic<int> starts = 0;
 
  private:
-  /// One start of the board, up to the next.
+  /// One start, up to the next.
   void run() {
     store::finish_waiting(*home, *other, [] {});
     const auto& robot = *reinterpret_cast<const ParamsImage*>(home->memory(0));

@@ -8,7 +8,7 @@
 #include "host/can/client.hpp"
 #include "tests/unit/images/actions_board.hpp"
 
-// verp action send over the robot's own bus to the controller's node: object 5002h.
+// verp action send over the robot's bus to the controller's node: object 5002h.
 
 namespace verp::action {
 namespace {
@@ -17,7 +17,7 @@ using app::test::FakeBoard;
 using app::test::SentActions;
 using verp::test::kRobot;
 
-/// The PC's end of a bus with only the node on it, in its own time.
+/// The PC's end of a bus to the node, in its own time.
 template <class Images>
 class NodeBus : public can::ClientBus {
  public:
@@ -71,7 +71,7 @@ struct BoardOnCan {
     bus.polled = [this] { live(); };
   }
   std::vector<std::uint8_t> image() const { return {fresh.bytes(), fresh.bytes() + sizeof fresh}; }
-  /// A board's idle time: it frees a place in flash and restarts with the actions it received.
+  /// The board frees a place in flash and restarts with the actions it received.
   void live() {
     if (place_is_made_after > 0 && board.place.begun > 0 && --place_is_made_after == 0) {
       board.place.busy = false;

@@ -10,8 +10,8 @@
 #include "tests/host/action/robots.hpp"
 #include "tests/host/action/running_board.hpp"
 
-// verp action send to a running board, which restarts with a complete transfer. After any failure
-// it keeps its old actions, and the user learns why.
+// verp action send to a running board. After any failure the board keeps its old actions, and the
+// user learns why.
 
 namespace verp::action {
 namespace {
@@ -23,7 +23,7 @@ const Params& robot() {
   return test::generic21().params;
 }
 
-/// `count` actions of one frame each, as sent.
+/// `count` actions of one frame each.
 Image acts(std::size_t count, const Params& params = robot()) {
   std::vector<std::string> texts;
   for (std::size_t i = 1; i <= count; ++i) {
@@ -89,7 +89,7 @@ TEST_F(SendActions, TheBoardStartsAnewWithThem) {
   EXPECT_EQ(board.starts, 3);
 }
 
-// The cable is pulled at every block. After plugging in, a new transfer succeeds.
+// After plugging in, a new transfer succeeds.
 TEST_F(SendActions, ACableThatIsPulledAtAnyBlockCostsNothing) {
   const int blocks = static_cast<int>((fresh_.size() + 127) / 128);
   ASSERT_GE(blocks, 3);
@@ -111,7 +111,7 @@ TEST_F(SendActions, ABoardThatFallsSilentInTheMiddleIsTold) {
   EXPECT_TRUE(board.holds(old_));
 }
 
-// Each block is one packet with a CRC, so flipped bits only make blocks repeat.
+// A block is one packet with a CRC: damaged ones come again.
 TEST_F(SendActions, ABadCableCostsTimeOnly) {
   RunningBoard& board = start([](RunningBoard& its) { its.port.flips_per_million = 400; });
   EXPECT_EQ(send(fresh_), "");
@@ -152,7 +152,7 @@ TEST_F(SendActions, AFlashThatDoesNotKeepThemIsTold) {
   expect_refused(fresh_, "its flash did not keep a block");
 }
 
-// The board erases a used place while the sender waits.
+// The board erases it while the sender waits.
 TEST_F(SendActions, APlaceIsMadeWhereOneWasUsed) {
   RunningBoard& board = start();
   EXPECT_EQ(send(fresh_, stopping([](std::size_t) { return false; })), "stopped");

@@ -14,7 +14,7 @@
 #include "host/scene/build.hpp"
 #include "tests/host/tool/program.hpp"
 
-// Cameras watch a run without changing it; the trace has all their pictures, in time.
+// Cameras do not change a run; its trace has all their pictures, in time.
 
 namespace verp::tool::test {
 namespace {

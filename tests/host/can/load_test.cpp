@@ -132,7 +132,7 @@ class PlannedTicks {
  public:
   explicit PlannedTicks(const Params& params) : bench(params) {}
 
-  /// The bits match `row`: within 5 %, with and without stuff bits.
+  /// Bits per tick match `row` within 5 %, with and without stuff bits.
   void expect(const LoadRow& row) {
     set_up_all();
     std::uint64_t bare = 0, exact = 0;

@@ -53,7 +53,7 @@ TEST(Sja1000Driver, RefusesARateThatItsCrystalCannotGive) {
   EXPECT_FALSE(driver.send(numbered(1, 1)));
 }
 
-/// Without a chip every read gives all ones or all zeros.
+/// Without a chip all reads give ones, or zeros.
 struct NoChip {
   std::uint8_t value;
   std::uint8_t read8(std::uint32_t) { return value; }
@@ -90,7 +90,7 @@ TEST(Sja1000Driver, AFrameOnTheWireStaysThereAndIsSentOnce) {
   EXPECT_EQ(rig.heard_ids(), (Ids{0x500, 0x100}));
 }
 
-// The withdrawn frame stays before a later one with its identifier.
+// Before a later frame of its identifier.
 TEST(Sja1000Driver, WhatGaveWayKeepsItsOrder) {
   Rig rig;
   rig.model.wire.hold(true);

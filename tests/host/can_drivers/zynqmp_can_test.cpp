@@ -56,7 +56,6 @@ TEST(ZynqmpCanDriver, RefusesARateThatItsClockCannotGive) {
   EXPECT_FALSE(driver.send(numbered(1, 1)));
 }
 
-/// No controller at this address.
 struct NoChip {
   std::uint32_t read32(std::uint32_t) { return 0; }
   void write32(std::uint32_t, std::uint32_t) {}
@@ -71,7 +70,7 @@ TEST(ZynqmpCanDriver, KnowsThatThereIsNoController) {
 TEST(ZynqmpCanDriver, SendsTheMostUrgentOfThoseThatWait) {
   Rig rig;
   ASSERT_TRUE(rig.driver.send(numbered(0x600, 1)));
-  rig.settle();  // the first frame's completion must not count for the next
+  rig.settle();  // its completion must not count for the next frame
   rig.model.wire.hold(true);
   for (const std::uint32_t id : {0x500u, 0x400u, 0x100u, 0x300u}) {
     ASSERT_TRUE(rig.driver.send(numbered(id, id)));

@@ -6,8 +6,8 @@
 
 #include "tests/host/compare/traces.hpp"
 
-// The comparison finds the difference of two runs per joint under encoder noise: delays within
-// 1 ms, offsets within 0.1 degrees. It gives no number that it cannot know.
+// Under encoder noise, per joint: delays within 1 ms, offsets within 0.1 degrees, and no number
+// that cannot be known.
 
 namespace verp::compare::test {
 namespace {
@@ -78,7 +78,7 @@ TEST(Compare, RunsThatBeganAtDifferentTimesAreLaidTogetherByWhatTheControllerBeg
   EXPECT_NEAR(*ordered.delay_s, 0, 1e-3);
 }
 
-// A separate twin with its own noise and later servos, not an edited copy.
+// Its own noise, not an edited copy.
 TEST(Compare, ATwinWhoseServosActLaterIsLateByThat) {
   session::WalkPlan plan = plan_of(5, 2);
   plan.twin.goal_delay_s = 0.010;

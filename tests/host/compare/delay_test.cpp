@@ -6,14 +6,14 @@
 #include <numbers>
 #include <random>
 
-// The estimators against signals known in closed form.
+// Signals known in closed form.
 
 namespace verp::compare {
 namespace {
 
 constexpr double kStep_s = 0.01;
 
-/// Two harmonics, like a joint's in a gait.
+/// Two harmonics, as in a gait.
 double signal(double t_s) {
   return 0.3 * std::sin(2 * std::numbers::pi * 2.2 * t_s) +
          0.1 * std::cos(2 * std::numbers::pi * 4.4 * t_s);

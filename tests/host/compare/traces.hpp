@@ -11,7 +11,7 @@
 #include "host/record/trace.hpp"
 #include "host/session/session.hpp"
 
-/// Traces to compare: the twin's walks, and edited ones of a late, misaligned robot.
+/// The twin's walks, and those of a late, misaligned robot.
 namespace verp::compare::test {
 
 inline constexpr double kDegree = std::numbers::pi / 180;
@@ -26,7 +26,6 @@ inline session::WalkPlan plan_of(double walk_s, std::uint64_t seed = 1) {
   return plan;
 }
 
-/// The trace of a walk, as if read from its file.
 inline record::Trace trace_of(const session::WalkPlan& plan, const std::string& name = "a.mcap") {
   record::Trace trace;
   trace.file = name;
@@ -37,8 +36,7 @@ inline record::Trace trace_of(const session::WalkPlan& plan, const std::string& 
   return trace;
 }
 
-/// The same run with joints `delay_s` later, readings `offset_rad` higher, and noise of two counts
-/// on each.
+/// Joints `delay_s` later, readings `offset_rad` higher, noise of two counts.
 inline record::Trace later(const record::Trace& a, double delay_s, double offset_rad) {
   record::Trace b = a;
   b.file = "b.mcap";
@@ -61,7 +59,7 @@ inline record::Trace later(const record::Trace& a, double delay_s, double offset
   return b;
 }
 
-/// The same run, recorded from `ticks` ticks later and numbered from there.
+/// Recorded from `ticks` ticks later and numbered from there.
 inline record::Trace begun_later(const record::Trace& a, std::uint32_t ticks) {
   record::Trace b = a;
   b.file = "b.mcap";

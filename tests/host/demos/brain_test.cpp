@@ -23,7 +23,7 @@ About half_around() {
   return about;
 }
 
-/// A level laser's scan among straight walls.
+/// A level laser's scan among these walls.
 struct Wall {
   Point from, to;
 };
@@ -93,7 +93,7 @@ TEST(Scan, AThingAheadIsFoundAndAWallIsNone) {
   EXPECT_NEAR(middle_of(about, found[0]).x, 1.0 + kBehindSurface_m, 0.01);
 }
 
-// A robot that leans forward would mistake the floor for a wall.
+// Leaning forward, it would mistake the floor for a wall.
 TEST(Scan, RaysThatMayHaveMetTheFloorAreLeftOut) {
   const About about = half_around();
   Scan scan = scan_of(about, {}, {{{2, -3}, {2, 3}}});
@@ -162,7 +162,6 @@ TEST(Way, GoesRoundAWallAndKeepsClearOfIt) {
   EXPECT_TRUE(way(grid, {0, 0}, {100, 0}).empty());
 }
 
-// The robot is enclosed: the planner reports that there is no way.
 TEST(Way, IsNoneOutOfAClosedRoom) {
   const About about = half_around();
   const std::vector<Wall> walls = box({-0.8, -0.8}, {0.8, 0.8});

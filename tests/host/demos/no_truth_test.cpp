@@ -9,7 +9,7 @@
 namespace verp::demos {
 namespace {
 
-/// A floor with a post at the given distance from the robots, and a ball that rolls away from them.
+/// A floor, a post at this distance, and a ball that rolls away.
 class World {
  public:
   World(const std::string& name, double post_x_m, double ball_x_m)
@@ -51,8 +51,7 @@ Seen what_they_are_told(const World& world) {
   return {told.all(), told.scans(), told.messages()};
 }
 
-// Objects beyond a robot's sensors change no bit of its brain's input. An object in sight does,
-// which proves that the test can see a change.
+// Not to the bit. An object in sight does change it, so the test can see a change.
 TEST(NoTruth, WhatABrainCannotSenseChangesNothingThatItIsTold) {
   const Seen here = what_they_are_told(World("here", 60, 40));
   const Seen elsewhere = what_they_are_told(World("elsewhere", 70, 55));

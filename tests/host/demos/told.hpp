@@ -9,7 +9,7 @@
 
 namespace verp::demos::test {
 
-/// All inputs of the brains to the bit, one hash each.
+/// All inputs of the brains, one hash each.
 class Told {
  public:
   explicit Told(Options& options) {

@@ -17,7 +17,6 @@ namespace {
 namespace fs = std::filesystem;
 using record::ros::Radio;
 
-/// A folder that the destructor removes.
 struct Folder {
   Folder() : path(fs::path(testing::TempDir()) / ("demos" + std::to_string(::getpid()))) {
     fs::create_directories(path);
@@ -51,8 +50,7 @@ std::vector<Radio> radio_of(const fs::path& file) {
   return out;
 }
 
-// Each robot's run replays bit for bit, and equal seeds give equal runs. A message is in the
-// speaker's trace and in the trace of each robot that heard it.
+// Equal seeds give equal runs. A message is in the traces of its speaker and its hearers.
 TEST(Trace, OfADemoReplaysAndHasWhatWasSaid) {
   const Folder folder;
   Options options;
@@ -95,7 +93,7 @@ TEST(Trace, OfADemoReplaysAndHasWhatWasSaid) {
       EXPECT_GT(radio.tick, said[radio.number].tick);
     }
   }
-  // No robot takes messages that arrive after its last tick.
+  // No robot takes messages after its last tick.
   const auto count = recorded.radio.fates[static_cast<std::size_t>(radio::Fate::kHeard)];
   EXPECT_GT(heard, 20u);
   EXPECT_LE(heard, count);

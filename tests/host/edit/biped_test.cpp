@@ -8,7 +8,7 @@
 namespace verp::edit {
 namespace {
 
-/// A user starts from an empty file, builds one leg and then mirrors it.
+/// One leg, then its mirror image.
 TEST(Biped, GrowsFromAnEmptyFileAndIsSound) {
   const files::TemporaryDirectory folder;
   const std::string file = (folder.path() / "biped.sdf").string();

@@ -12,7 +12,7 @@
 namespace verp::edit {
 namespace {
 
-/// The numbers of lines that a diff removes and adds.
+/// Lines that a diff removes and adds.
 std::pair<int, int> changed_lines(const std::string& from, const std::string& to) {
   const std::string rows = difference(from, to, "f");
   int less = 0, more = 0;

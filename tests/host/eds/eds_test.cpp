@@ -16,7 +16,7 @@
 #include "tests/unit/images/actions_board.hpp"
 #include "tests/unit/support/test_robot.hpp"
 
-// A node behaves as its EDS says. The test parses the text like another maker's tool.
+// A node behaves as its EDS says, which the test parses like another maker's tool.
 namespace verp::eds {
 namespace {
 
@@ -48,7 +48,7 @@ std::uint32_t number(const Section& section, const char* key) {
   return static_cast<std::uint32_t>(std::stoul(section.at(key), nullptr, 0));
 }
 
-/// The size of a type in bytes; 0 if it varies.
+/// In bytes; 0 if it varies.
 std::uint32_t bytes_of(std::uint32_t type) {
   switch (static_cast<DataType>(type)) {
     case DataType::kInteger8:
@@ -71,7 +71,7 @@ std::uint32_t bytes_of(std::uint32_t type) {
   return 0;
 }
 
-/// The section that describes a value, or null.
+/// Null if no section describes the value.
 const Section* section_of(const Sections& sections, unsigned index, unsigned subindex) {
   char name[16];
   std::snprintf(name, sizeof name, "%X", index);
@@ -83,8 +83,7 @@ const Section* section_of(const Sections& sections, unsigned index, unsigned sub
   return member == sections.end() ? nullptr : &member->second;
 }
 
-/// Over every address that a node may have: the node has exactly the sheet's objects, as the sheet
-/// describes them.
+/// Exactly the sheet's objects, as it describes them, over every address that a node may have.
 template <class Objects>
 void expect_same(const Sections& sections, Objects& node, unsigned least = 101) {
   unsigned found = 0;
@@ -115,7 +114,7 @@ std::string initial_of(const Section& section) {
   return found == section.end() ? "" : found->second;
 }
 
-/// An EDS value for a node; for a negative one its low bits.
+/// For a negative value, its low bits.
 std::uint64_t evaluate(const std::string& text, std::uint8_t node) {
   constexpr const char* kNode = "$NODEID+";
   if (text.rfind(kNode, 0) == 0) return node + std::stoull(text.substr(8), nullptr, 0);
@@ -123,7 +122,7 @@ std::uint64_t evaluate(const std::string& text, std::uint8_t node) {
                              : std::stoull(text, nullptr, 0);
 }
 
-/// A fresh device's objects hold the sheet's default values and map as the sheet allows.
+/// Its objects hold the sheet's defaults and map as the sheet allows.
 template <class Node>
 void expect_fresh(const Sections& sections, Node& node, std::uint8_t id) {
   int compared = 0;
@@ -161,7 +160,6 @@ void expect_fresh(const Sections& sections, Node& node, std::uint8_t id) {
   EXPECT_GT(compared, 20);
 }
 
-/// The default TPDOs.
 template <class Objects>
 void expect_same_tpdos(const Sections& sections, Objects& node, std::uint8_t id) {
   for (unsigned index = 0x1801; index <= 0x1803; ++index) {
@@ -186,7 +184,7 @@ void expect_same_tpdos(const Sections& sections, Objects& node, std::uint8_t id)
   }
 }
 
-/// Every object is in exactly one of the three lists, and each list's count is right.
+/// Each object is in exactly one of the three lists.
 void expect_listed(const Sections& sections) {
   std::map<unsigned, int> listed;
   for (const char* list : {"MandatoryObjects", "OptionalObjects", "ManufacturerObjects"}) {
@@ -241,12 +239,12 @@ TEST(Eds, TheControllersSheetIsWhatTheControllerAnswers) {
   expect_same_tpdos(sections, node->objects(), kNode);
 }
 
-// The twin's devices, with a robot's numbers in them.
+// With a robot's numbers in them.
 TEST(Eds, TheDevicesSheetsAreWhatTheyAnswer) {
   constexpr std::uint8_t kNode = 37;
   verp::test::FakePlant plant;
-  // The gains come from commissioning. If the sheet gave 0, a tool that writes the sheet's defaults
-  // would erase them.
+  // From commissioning. With a default of 0, a tool that writes a sheet's defaults would erase the
+  // gains.
   const can::DriveSetup commissioned{
       .counts_per_rad = 2608, .p_gain = 778, .i_gain = 3, .d_gain = 91};
   can::DriveNode of_drive(can::drive_identity(402, kNode), kNode, plant, 0, commissioned);
@@ -257,7 +255,7 @@ TEST(Eds, TheDevicesSheetsAreWhatTheyAnswer) {
   expect_device(foot(), of_foot, kNode, 40);
 }
 
-// A tool configures nodes by these defaults and takes an empty one for 0 or for an error.
+// A tool sets nodes up by defaults, and takes an empty one for 0 or an error.
 TEST(Eds, AllThatIsSetUpOnTheBusHasADefaultAndNoneIsEmpty) {
   for (const Sheet& sheet : sheets()) {
     const Sections sections = parse(to_text(sheet.describe()));
@@ -276,7 +274,7 @@ TEST(Eds, AllThatIsSetUpOnTheBusHasADefaultAndNoneIsEmpty) {
   }
 }
 
-// A controller without images still has the objects, and answers that they hold no data.
+// They exist but hold no data.
 TEST(Eds, AControllerWithoutImagesAnswersForThem) {
   app::OperatorRegisters<app::NoImages> registers(test::kRobot, app::OperatorSetup{},
                                                   app::no_images);
@@ -311,7 +309,7 @@ std::size_t count_of(const std::vector<Entry>& entries, std::uint16_t first, std
       [&](const Entry& each) { return each.at.index >= first && each.at.index <= last; }));
 }
 
-// Another maker defines the meaning of its drive's 2002h.
+// 2002h means what its maker defines.
 TEST(Eds, AnotherMakersDriveHasOnlyTheProfilesNames) {
   const canopen::Identity ours = drive().identity;
   const auto known = known_entries(ours);

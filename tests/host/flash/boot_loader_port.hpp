@@ -13,24 +13,24 @@
 
 #include "tests/support/rom_boot_loader.hpp"
 
-/// A boot loader on a pseudo-terminal, like a board with BOOT0 high on a USB-serial adapter. A
-/// pseudo-terminal has no parity, so the tool's 8E1 stays unchecked.
+/// A boot loader on a pseudo-terminal, like a board with BOOT0 high. A pseudo-terminal has no
+/// parity, so the tool's 8E1 is not checked.
 namespace verp::test {
 
 class BootLoaderPort {
  public:
   struct Trouble {
-    std::uint32_t cut_after_writes = 0;  ///< the next write is cut in its middle
-    std::uint32_t byte_us = 0;           ///< time that the line takes per byte
+    std::uint32_t cut_after_writes = 0;  ///< the next write is cut midway
+    std::uint32_t byte_us = 0;
     bool mute = false;
   };
 
-  /// The chip must outlive this object; the test must not read it before unplug().
+  /// The chip must outlive this; the test may read it after unplug().
   explicit BootLoaderPort(RomBootLoader& chip) : BootLoaderPort(chip, Trouble{}) {}
   BootLoaderPort(RomBootLoader& chip, const Trouble& trouble) : chip_(chip), trouble_(trouble) {
     char name[64];
     if (::openpty(&ours_, &theirs_, name, nullptr, nullptr) != 0) std::abort();
-    // A child that kept an end open would keep the port alive after the cut.
+    // A child with an open end would keep the port alive after the cut.
     for (const int end : {ours_, theirs_}) ::fcntl(end, F_SETFD, FD_CLOEXEC);
     termios settings{};
     ::tcgetattr(theirs_, &settings);
@@ -45,7 +45,6 @@ class BootLoaderPort {
 
   const std::string& path() const { return path_; }
   std::uint32_t writes() const { return writes_; }
-  /// Removes the port.
   void unplug() {
     over_ = true;
     if (thread_.joinable()) thread_.join();

@@ -14,8 +14,8 @@
 #include "tests/host/flash/boot_loader_port.hpp"
 #include "tests/host/tool/program.hpp"
 
-/// The verp program and a board to flash. ctest of a firmware build sets VERP_TEST_BOARD and
-/// VERP_FIRMWARE_DIR to its board and real image.
+/// The verp program and a board to flash. In a firmware build, VERP_TEST_BOARD and
+/// VERP_FIRMWARE_DIR name its board and real image.
 namespace verp::flash::test {
 
 namespace fs = std::filesystem;
@@ -45,7 +45,7 @@ class Flash : public tool::test::Program {
     if (firmware_ == folder_) ::unsetenv("VERP_FIRMWARE_DIR");
   }
 
-  /// "loop_" is the image for serial servos, "loop_can_" the one for CAN drives.
+  /// "loop_": serial servos; "loop_can_": CAN drives.
   fs::path image(const std::string& kind = "loop_") const {
     return firmware_ / (kind + board_ + ".bin");
   }
@@ -64,7 +64,7 @@ class Flash : public tool::test::Program {
     for (std::uint8_t& byte : data) byte = static_cast<std::uint8_t>(random() >> 8);
     return data;
   }
-  /// A vector table of this board, followed by noise.
+  /// A vector table of this board, then noise.
   Bytes made_up_code(unsigned seed) const {
     Bytes code = noise(50'000, seed);
     const std::uint32_t table[] = {map_.ram.begin + 4096, map_.code.begin + 0x201};
@@ -78,7 +78,6 @@ class Flash : public tool::test::Program {
     return {first, first + sizeof image};
   }
 
-  /// The robot's actions in a board's format.
   static Bytes actions(const std::string& name = "generic21") {
     const model::Entity entity = model::load_robot(model::find_model(name), "");
     const Params params = model::make_params(entity);
@@ -86,7 +85,6 @@ class Flash : public tool::test::Program {
         action::make_library(params, action::read_folder(action::folder_of(entity.file))), params);
   }
 
-  /// This board's chip; its flash holds other data.
   RomBootLoader::Chip chip() const {
     RomBootLoader::Chip made{.device_id = recipe_->chip->device_id};
     for (const SectorRun& run : recipe_->chip->sectors) {
@@ -107,7 +105,7 @@ class Flash : public tool::test::Program {
   Outcome flash(const std::string& arguments) const {
     return verp("flash --board " + board_ + " " + arguments);
   }
-  /// Device trouble: exit 3, nothing on stdout, one line on stderr that contains `needle`.
+  /// Exit 3, nothing on stdout, one line on stderr that contains `needle`.
   static void expect_trouble(const Outcome& outcome, const std::string& needle) {
     EXPECT_EQ(outcome.status, 3) << outcome.err;
     EXPECT_EQ(outcome.out, "");

@@ -1,13 +1,12 @@
 #include "tests/host/flash/flash_fixture.hpp"
 
-/// A killed `verp flash` takes the programs that it started with it.
 namespace verp::flash::test {
 namespace {
 
 class Killed : public Flash {
  protected:
-  /// Kills `verp flash` while `program` runs, which has written its process id to the file `id`.
-  /// Reports whether that process ends within 20 s. A zombie counts as ended.
+  /// Kills `verp flash` while `program` runs, whose process id is in the file `id`. Reports whether
+  /// that process ends within 20 s; a zombie counts as ended.
   Outcome killed(const std::string& environment, const std::string& program,
                  const std::string& arguments) const {
     const std::string script = "#!/bin/sh\necho $$ >id.part && mv id.part id\nexec sleep 600\n";

@@ -9,14 +9,13 @@
 #include "host/files/temporary_directory.hpp"
 #include "host/flash/flash_error.hpp"
 
-/// What a job's commands do to the flash, for every board, tool and choice of pieces.
+/// For every board, tool and choice of pieces.
 namespace verp::flash::test {
 namespace {
 
-/// Records what a plan reads, composes and writes, in order.
+/// Records what a plan reads, composes and writes.
 class PlanRunner {
  public:
-  /// Works on the words of one command of any tool.
   void run(const Step& step) {
     const std::string words = files::shell_line(step.command);
     if (step.kind == Step::Kind::kRead) read_.push_back(step.file.string());
@@ -117,7 +116,7 @@ TEST_F(Plan, EveryWriteIsVerified) {
   });
 }
 
-// Code, robot, actions and Store begin at sector boundaries or share a sector only as the map says.
+// Pieces share a sector only as the map says.
 TEST(Recipe, MemoryMapsLieInTheirChipsSectors) {
   for (const Recipe& recipe : recipes()) {
     if (recipe.chip == nullptr) continue;
@@ -200,8 +199,7 @@ TEST(ShellLine, ShellTakesItApartIntoTheSameWords) {
   EXPECT_EQ(out, expected);
 }
 
-// OpenOCD's commands are a language. A port or path stays one word of it or is refused; OpenOCD
-// runs nothing inside.
+// OpenOCD's commands are a language: a port or path must stay one word of it or be refused.
 TEST_F(Plan, NoPortOrPathIsTakenForACommandOfOpenocd) {
   const Recipe& recipe = find_recipe("olimex_h405");
   const auto words_of = [](const Job& made) {

@@ -1,12 +1,12 @@
 #include "tests/host/flash/flash_fixture.hpp"
 
-/// `verp flash` refuses these before any tool runs, and explains a missing tool.
+/// `verp flash` refuses these before any tool runs.
 namespace verp::flash::test {
 namespace {
 
 class Refusal : public Flash {
  protected:
-  /// Errors in the files must be found before the board is contacted.
+  /// The file's error must come before the board is contacted.
   void expect_refused_file(const std::string& arguments, const std::string& needle) const {
     expect_refused("flash --board " + board_ + " " + arguments, needle);
   }
@@ -95,7 +95,7 @@ TEST_F(Refusal, WordsThatMakeNoSense) {
   expect_refused("deploy nobody --board olimex_h405", "nobody");
 }
 
-// They are boards of boards/, so "no such board" would be false.
+// "No such board" would be false: boards/ has them.
 TEST_F(Refusal, BoardsThatOnlyTheirTestsStartAreNamedAsSuch) {
   for (const std::string board : {"qemu_rv32", "zcu102_r5"}) {
     const std::string remedy = "exists only in an emulator, where ./verp test --on " + board;
@@ -128,8 +128,8 @@ TEST_F(Refusal, DryRunRunsNothing) {
   EXPECT_EQ(std::count(outcome.out.begin(), outcome.out.end(), '\n'), 2) << outcome.out;
 }
 
-/// A fake dfu-util that works on a file: `-l`, `-U` and `-D` at `-s ADDRESS[:LENGTH]`, with the
-/// messages of 0.11. SPOIL changes the written bytes.
+/// A fake dfu-util on a file: `-l`, `-U` and `-D` at `-s ADDRESS[:LENGTH]`, with the messages of
+/// 0.11. SPOIL changes written bytes.
 constexpr const char* kDfuUtil = R"sh(#!/bin/bash
 while [ $# -gt 0 ]; do
   case $1 in
@@ -156,7 +156,7 @@ class DfuFlash : public Flash {
   }
 };
 
-// dfu-util does not verify, so `verp flash` reads back and compares.
+// dfu-util does not verify.
 TEST_F(DfuFlash, WritesAndVerifiesByReadingBack) {
   Bytes expected = noise(RomBootLoader(chip()).flash.size(), 5);
   put(folder_ / "chip", expected);

@@ -4,13 +4,12 @@
 
 #include "tests/host/flash/flash_fixture.hpp"
 
-/// Debian's own stm32flash, as `verp flash` runs it, writes into a boot loader that follows AN3155.
+/// Debian's stm32flash writes into a boot loader that follows AN3155.
 namespace verp::flash::test {
 namespace {
 
 class SerialFlash : public Flash {
  protected:
-  /// Flashes over a fresh port and then unplugs it.
   Outcome over_serial(RomBootLoader& chip, const std::string& arguments = "",
                       const BootLoaderPort::Trouble& trouble = {}) const {
     BootLoaderPort port(chip, trouble);
@@ -48,7 +47,7 @@ TEST_F(SerialFlash, CodeIsWrittenAndNothingElseIsTouched) {
   EXPECT_FALSE(chip.started) << "it is the person who starts the robot";
 }
 
-// The tool erases whole sectors, so other data in the sector must be restored.
+// The tool erases whole sectors.
 TEST_F(SerialFlash, RobotOrActionsAloneLeaveEverythingElse) {
   RomBootLoader chip = used(this->chip());
   Bytes expected = chip.flash;
@@ -66,7 +65,7 @@ TEST_F(SerialFlash, RobotOrActionsAloneLeaveEverythingElse) {
   EXPECT_EQ(chip.flash, expected);
 }
 
-// One command flashes robot and actions; flashing the actions separately gives the same bytes.
+// Flashing the actions separately gives the same bytes.
 TEST_F(SerialFlash, ARobotBringsItsActions) {
   RomBootLoader chip = used(this->chip());
   const Bytes own = actions();
@@ -99,7 +98,6 @@ TEST_F(SerialFlash, CodeAndRobotGoTogether) {
   EXPECT_EQ(said.at("commands").size(), 5u);
 }
 
-// Neither bus's image drives the other's robot.
 TEST_F(SerialFlash, CodeIsThatOfTheRobotsBus) {
   put(folder_ / "can.bin", robot("can"));
   const auto expect_can = [&](const std::string& words, const std::string& told) {
@@ -176,7 +174,7 @@ TEST_F(SerialFlash, CableCutHalfwayIsToldAndTheNextFlashSucceeds) {
   expect_code(chip);
 }
 
-// The sector was erased with the actions in it. They are kept, and one command restores both.
+// The sector was erased with the actions in it; one command restores both.
 TEST_F(SerialFlash, CutWhileARobotIsWrittenLosesNoActions) {
   RomBootLoader chip = used(this->chip());
   Bytes expected = chip.flash;
@@ -186,7 +184,7 @@ TEST_F(SerialFlash, CutWhileARobotIsWrittenLosesNoActions) {
       over_serial(chip, "--params generic21 --actions none", {.cut_after_writes = 3});
   expect_trouble(outcome, "cable pulled?");
   ASSERT_NE(chip.flash, expected);
-  const std::size_t remedy = outcome.err.find("--actions ");  // to the end of the line
+  const std::size_t remedy = outcome.err.find("--actions ");  // to the line's end
   ASSERT_NE(remedy, std::string::npos) << outcome.err;
   const Outcome again = over_serial(chip, "--params generic21 " + outcome.err.substr(remedy));
   ASSERT_EQ(again.status, 0) << again.err;
@@ -198,7 +196,7 @@ TEST_F(SerialFlash, CutWhileARobotIsWrittenLosesNoActions) {
   EXPECT_FALSE(fs::exists(folder_ / "work" / board_ / "kept_actions.bin"));
 }
 
-// Without a reset the boot loader still waits for the bytes that the cut lost.
+// The boot loader still waits for the lost bytes.
 TEST_F(SerialFlash, WithoutAResetAfterACutTheRemedyIsTold) {
   RomBootLoader chip = used(this->chip());
   BootLoaderPort cut(chip, {.cut_after_writes = 50});

@@ -9,8 +9,8 @@
 #include "host/sim/robot.hpp"
 #include "tests/host/sim/test_robots.hpp"
 
-// A twin with other numbers moves accordingly under encoder noise. The fit finds the numbers from
-// that motion alone, and reports any number that the motion does not determine.
+// The fit finds another twin's numbers from its motion alone, under encoder noise. It reports
+// numbers that the motion does not determine.
 
 namespace verp::identify {
 namespace {
@@ -34,7 +34,7 @@ model::Entity arm() {
   return entity;
 }
 
-/// Moves fast to and fro for `fast_s`, then slowly.
+/// Fast to and fro for `fast_s`, then slowly.
 Recording told(const model::Entity& entity, double fast_s, double length_s) {
   Recording recording;
   recording.params.joint_count = 1;
@@ -101,7 +101,7 @@ TEST(Fit, FindsTheNumbersOfATwinThatWasGivenOthers) {
             0.3 * fit.rms_rad(before, 0, recording.ticks.size()));
 }
 
-// The motion is too slow to show a delay of a few ms.
+// Too slow to show a delay of a few ms.
 TEST(Fit, LeavesANumberThatTheMotionDoesNotTell) {
   const Recording recording = told(arm(), 0, 12);
   model::Entity entity = believed();

@@ -13,7 +13,7 @@
 #include "host/model/find.hpp"
 #include "host/model/load.hpp"
 
-// The written file is a sound robot with the found numbers; no other line differs.
+// A sound robot with the found numbers; no other line differs.
 
 namespace verp::identify {
 namespace {
@@ -56,7 +56,7 @@ TEST(Write, ChangesTheServosAndNothingElse) {
     ++b;
   }
   EXPECT_EQ(servos, 21u);
-  // Again, now with the robot's own type.
+  // Now it is the robot's own type.
   EXPECT_EQ(write(found(model::load_robot(first), 0.012), first, second, "b.mcap"),
             "xm430_w210_identified");
   const model::Entity entity = model::load_robot(second);

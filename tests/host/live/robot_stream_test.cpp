@@ -5,7 +5,7 @@
 #include "tests/host/live/viewer.hpp"
 #include "tests/host/record/sample.hpp"
 
-// A viewer of the stream gets the trace's content; for several robots, the merged traces' content.
+// Viewers get the trace's content, or several robots' merged traces.
 
 namespace verp::live {
 namespace {
@@ -13,7 +13,7 @@ namespace {
 using record::TraceWriter;
 using test::Viewer;
 
-/// A run of only its beginning and three ticks, without a file.
+/// Its beginning and three ticks, without a file.
 void run(record::mcap::Listener* listener) {
   const Params params = record::test::sample_params();
   TraceWriter writer("", params, {}, {.listener = listener});

@@ -9,8 +9,8 @@
 
 #include "tests/host/live/viewer.hpp"
 
-// The stream's promises: viewers get messages in order, from the last one before they joined. No
-// viewer, however slow or malformed, delays the sender or takes anything from another.
+// Viewers get messages in order, from the last one before they joined. No viewer, however slow or
+// malformed, costs the sender or another viewer anything.
 
 namespace verp::live {
 namespace {
@@ -28,7 +28,6 @@ Channel channel(const std::string& topic) {
           .schema = "{}"};
 }
 
-/// Messages up to the one with these bytes.
 std::vector<Data> read_up_to(const Viewer& viewer, const std::string& last) {
   std::vector<Data> all;
   for (Received got = viewer.next(); got.opcode >= 0; got = viewer.next()) {
@@ -39,15 +38,14 @@ std::vector<Data> read_up_to(const Viewer& viewer, const std::string& last) {
   return all;
 }
 
-/// One hour; tests of the timeout set a shorter one.
+/// One hour; tests of the timeout set less.
 ServerOptions patient() {
   ServerOptions options;
   options.patience = options.patience_all = std::chrono::hours(1);
   return options;
 }
 
-// A robot's loop is urgent and sends: it must not wait for a server thread that has lost the
-// processor.
+// The robot's loop must not wait for a server thread that has lost the processor.
 TEST(Live, RunsBeforeOthersWhereTheSystemLetsAThread) {
   const auto urgent_threads = [] {
     int count = 0;
@@ -216,7 +214,7 @@ TEST(Live, RubbishIsAnsweredOrEndsOneConnectionAndTakesNothingFromOthers) {
   EXPECT_EQ(server.counts().dropped, 0u);
 }
 
-// Any page in a user's browser may contact this port; the browser reports the page's origin.
+// Any page may contact this port; the browser reports its origin.
 TEST(Live, APageOfAStrangerMayNotWatch) {
   ServerOptions options = patient();
   options.origins = {"https://viewer.example"};

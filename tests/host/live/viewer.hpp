@@ -12,8 +12,8 @@
 #include <string>
 #include <string_view>
 
-/// A viewer that shares no code with the server: it writes and reads the bytes of RFC 6455 and
-/// Foxglove's protocol. Reads wait; a minute without a byte fails the test.
+/// Shares no code with the server: it handles the bytes of RFC 6455 and Foxglove's protocol. A
+/// minute without a byte fails the test.
 namespace verp::live::test {
 
 struct Received {
@@ -29,7 +29,7 @@ class Viewer {
       "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n"
       "Sec-WebSocket-Protocol: foxglove.websocket.v1\r\n\r\n";
 
-  /// `buffer`: bytes that the viewer's socket holds unread; 0: the default.
+  /// `buffer`: unread bytes that its socket holds; 0: the default.
   explicit Viewer(std::uint16_t port, int buffer = 0) : socket_(::socket(AF_INET, SOCK_STREAM, 0)) {
     const timeval minute{60, 0};
     ::setsockopt(socket_, SOL_SOCKET, SO_RCVTIMEO, &minute, sizeof(minute));
@@ -51,7 +51,7 @@ class Viewer {
     socket_ = -1;
   }
 
-  /// Returns false if the peer is gone.
+  /// False if the peer is gone.
   bool put(std::string_view bytes) const {
     while (!bytes.empty()) {
       const ssize_t count = ::send(socket_, bytes.data(), bytes.size(), MSG_NOSIGNAL);
@@ -61,7 +61,7 @@ class Viewer {
     return true;
   }
 
-  /// From now on put() gives up when the peer takes no bytes for this time.
+  /// Then put() gives up after this time.
   void lose_patience() const {
     const timeval moment{0, 200'000};
     ::setsockopt(socket_, SOL_SOCKET, SO_SNDTIMEO, &moment, sizeof(moment));
@@ -79,7 +79,7 @@ class Viewer {
     return head;
   }
 
-  /// A frame, masked like a client's.
+  /// Masked like a client's.
   static std::string frame(int opcode, std::string_view bytes) {
     std::string out(1, static_cast<char>(0x80 | opcode));
     if (bytes.size() < 126) {
@@ -101,7 +101,6 @@ class Viewer {
                R"(,"channelId":)" + std::to_string(channel) + "}]}");
   }
 
-  /// The next complete message.
   Received next() const {
     const std::string head = take(2);
     if (head.size() < 2) return {};
@@ -114,7 +113,7 @@ class Viewer {
     }
     return {head[0] & 0x0f, take(static_cast<std::size_t>(length))};
   }
-  /// The next text that contains `needle`, or "".
+  /// With `needle` in it; "" if there is none.
   std::string next_text(std::string_view needle) const {
     for (Received got = next(); got.opcode >= 0 && got.opcode != 8; got = next()) {
       if (got.opcode == 1 && got.bytes.find(needle) != std::string::npos) return got.bytes;
@@ -123,7 +122,7 @@ class Viewer {
   }
 
  private:
-  /// Up to `size` bytes; fewer if the peer is gone.
+  /// Fewer than `size` if the peer is gone.
   std::string take(std::size_t size) const {
     std::string bytes(size, '\0');
     std::size_t have = 0;
@@ -145,7 +144,7 @@ struct Data {
   std::string bytes;
 };
 
-/// The data in a binary message of opcode 1; empty for others, such as the time.
+/// Of opcode 1; empty for others, such as the time.
 inline std::optional<Data> data_of(const Received& got) {
   if (got.opcode != 2 || got.bytes.size() < 13 || got.bytes[0] != 1) return {};
   Data data;
@@ -155,7 +154,7 @@ inline std::optional<Data> data_of(const Received& got) {
   return data;
 }
 
-/// The next data message; empty if the stream ended.
+/// Empty if the stream ended.
 inline std::optional<Data> next_data(const Viewer& viewer) {
   for (Received got = viewer.next(); got.opcode >= 0; got = viewer.next()) {
     if (auto data = data_of(got)) return data;

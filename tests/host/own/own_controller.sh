@@ -1,7 +1,6 @@
 #!/usr/bin/env bash
-# own_controller.sh VERP [BOARD]: the project that `verp new controller` creates builds, walks, records and replays on
-# this PC, and its mistakes are reported. With a board, it also walks there in QEMU with the same digest, and flash
-# would take its image.
+# own_controller.sh VERP [BOARD]: a new controller's project builds, walks, records and replays here, and its mistakes
+# are reported. With a board, it walks there in QEMU with the same digest, and flash would take its image.
 set -euo pipefail
 verp=$1 board=${2:-}
 scratch=$(mktemp -d)

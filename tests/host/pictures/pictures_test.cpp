@@ -14,14 +14,14 @@
 #include "host/scene/build.hpp"
 #include "tests/host/tool/program.hpp"
 
-// Pictures show the scene, each effect changes its part, and bad input gives one line of error.
+// Each effect changes its part of the picture, and bad input gives one line.
 
 namespace verp::render {
 namespace {
 
 using scene::Vec3;
 
-/// A ball of 0.1 m in front of a wall, seen along x from the origin.
+/// A ball of 0.1 m before a wall, seen along x from the origin.
 struct Bench {
   OffscreenContext context;
   Renderer renderer;
@@ -55,7 +55,7 @@ struct Bench {
   }
 };
 
-/// Mean difference of two pictures, in steps of 255.
+/// Mean difference, in steps of 255.
 double apart(const Image& a, const Image& b) {
   double sum = 0;
   for (std::size_t i = 0; i < a.rgb.size(); ++i) sum += std::abs(a.rgb[i] - b.rgb[i]);
@@ -146,7 +146,6 @@ TEST(Renderer, NumbersThatAreNotFiniteAndFilesThatAreNoMeshesAreLeftOut) {
   EXPECT_THROW(bench.renderer.image(bench.now, bench.camera, {100000, 10}), RenderError);
 }
 
-/// A binary .stl with three corners per triangle.
 std::string stl_of(const std::vector<Eigen::Vector3f>& corners) {
   std::string bytes(84, '\0');
   const auto count = static_cast<std::uint32_t>(corners.size() / 3);
@@ -182,7 +181,7 @@ namespace {
 
 class Pictures : public Program {
  protected:
-  /// Mean difference from a picture that a person has inspected.
+  /// Mean difference from a picture that a person has seen.
   double from_golden(const std::string& name) const {
     const render::Image now = render::read_png((folder_ / name).string());
     const render::Image then = render::read_png(std::string(VERP_GOLDEN) + "/" + name);
@@ -191,7 +190,7 @@ class Pictures : public Program {
   }
 };
 
-// Drivers differ at the edges of shapes and shadows; a missing leg differs by 3 or more.
+// Drivers differ at edges of shapes and shadows; a missing leg is 3 and more.
 constexpr double kDriver = 1.5;
 
 TEST_F(Pictures, AStandingRobotAndItsEyeAreAsSomebodyLookedAtThem) {
@@ -265,7 +264,6 @@ TEST_F(Pictures, WrongWordsAndMissingThingsCostOneLineEach) {
   EXPECT_FALSE(fs::exists(folder_ / "a.mp4.part"));
 }
 
-// The world's file can switch off the same effects as the options.
 TEST_F(Pictures, AWorldsFileSwitchesEffectsOff) {
   ASSERT_EQ(verp("shot generic21 -o paint.png --size 64x64").status, 0);
   const auto world = [this](const std::string& in_scene) {

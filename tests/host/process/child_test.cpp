@@ -27,7 +27,7 @@ std::string slurp(const fs::path& file) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
-/// A pipe that reports when every holder of its write end is gone.
+/// Reports when every holder of its write end is gone.
 class LifeLine {
  public:
   LifeLine() { EXPECT_EQ(::pipe2(ends_, O_CLOEXEC), 0); }
@@ -43,7 +43,7 @@ class LifeLine {
     if (ends_[1] >= 0) ::close(ends_[1]);
     ends_[1] = -1;
   }
-  /// All output until the last holder was gone; "still there" if one remains.
+  /// All output until then; "still there" if a holder remains.
   std::string last_words() {
     let_go();
     std::string words;
@@ -56,7 +56,6 @@ class LifeLine {
       words.append(piece, static_cast<std::size_t>(count));
     }
   }
-  /// Waits for its first byte.
   bool speaks() const {
     pollfd one{.fd = ends_[0], .events = POLLIN, .revents = 0};
     return ::poll(&one, 1, kPatience_ms) == 1 && (one.revents & POLLIN) != 0;
@@ -133,7 +132,7 @@ TEST(Child, ACtrlCOfOursDoesNotReachIt) {
   EXPECT_NE(::getpgid(child.id()), ::getpgrp());
 }
 
-// SIGKILL runs neither destructors nor handlers.
+// Without destructors or handlers.
 TEST(Child, DoesNotOutliveAParentThatIsKilled) {
   LifeLine line;
   const pid_t parent = ::fork();
@@ -147,7 +146,7 @@ TEST(Child, DoesNotOutliveAParentThatIsKilled) {
   EXPECT_EQ(line.last_words(), "up\n");
 }
 
-// The pipe that reports start errors may then get a standard stream's number.
+// Then the pipe for start errors may get a standard stream's number.
 TEST(Child, WhatCannotStartSaysWhyWhereOurStreamsAreClosed) {
   const pid_t parent = ::fork();
   if (parent == 0) {
@@ -164,7 +163,7 @@ TEST(Child, WhatCannotStartSaysWhyWhereOurStreamsAreClosed) {
   EXPECT_EQ(WIFEXITED(status) ? WEXITSTATUS(status) : -1, ENOENT);
 }
 
-// A program started with closed streams gets descriptors 0 to 2 for its own files.
+// The program gets descriptors 0 to 2 for its own files.
 TEST(Child, ClosedStreamsOfOursAreNotMixedUpWithItsOwn) {
   const files::TemporaryDirectory folder;
   const fs::path out = folder.path() / "out", err = folder.path() / "err";

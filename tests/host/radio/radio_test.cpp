@@ -8,14 +8,13 @@
 namespace verp::radio {
 namespace {
 
-/// Without chance: only range, time and bytes remain.
+/// Without chance: range, time and bytes remain.
 Conditions sure() {
   Conditions c;
   c.loss = c.fade = c.jitter_s = 0;
   return c;
 }
 
-/// Stations in a row, `apart_m` apart.
 struct Row {
   Row(const Conditions& conditions, int stations, double apart_m, std::uint64_t seed = 1)
       : radio(conditions, seed) {
@@ -114,7 +113,7 @@ TEST(Radio, JitterSpreadsDelaysOverAllOfIt) {
   EXPECT_NEAR(sum_s / kMessages, 0.026, 0.002);
 }
 
-// All stations send as much as they may: together they get no more than the channel carries.
+// All send as much as they may.
 TEST(Radio, StationsShareTheAir) {
   Conditions c = sure();
   c.bytes_s = 10'000;
@@ -140,7 +139,7 @@ TEST(Radio, StationsShareTheAir) {
   EXPECT_GT(row.radio.refused(), 0u);
 }
 
-// The outer stations do not hear each other; the middle one hears both.
+// The middle one hears both.
 TEST(Radio, HiddenStationsCollideWhereBothAreHeard) {
   Conditions c = sure();
   c.range_m = 5;
@@ -163,7 +162,7 @@ TEST(Radio, OneListensBeforeItTalks) {
   EXPECT_EQ(row.heard(2), 2u);
 }
 
-/// The share of broadcasts, each alone on the air, that the other station misses.
+/// Of broadcasts alone on the air, the share that the other misses.
 double lost_share(const Conditions& c, double apart_m, int messages, std::uint64_t seed = 1) {
   Row row(c, 2, apart_m, seed);
   for (int i = 0; i < messages; ++i) {
@@ -194,7 +193,7 @@ TEST(Radio, FadesForAStretchAndThatShareOfTheTime) {
   c.fade = 0.1;
   c.fade_s = 0.4;
   EXPECT_NEAR(lost_share(c, 1, kMany), 0.1, 4 * std::sqrt(0.1 * 0.9 / 5000));
-  // Losses come in runs: the message after a lost one is usually lost too.
+  // A message after a lost one is usually lost too.
   Row row(c, 2, 1);
   int pairs = 0, lost = 0;
   bool before = false;
@@ -210,7 +209,6 @@ TEST(Radio, FadesForAStretchAndThatShareOfTheTime) {
   EXPECT_GT(static_cast<double>(pairs) / lost, 0.8);
 }
 
-/// All outcomes of the same messages.
 std::vector<Outcome> outcomes_of(std::uint64_t seed, int stations) {
   Conditions c;
   c.loss = 0.3;

@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Ten seconds at 0.2 m/s along x with a cycle of 16 states.
+/// Ten seconds at 0.2 m/s along x, 16 states a cycle.
 Run sample_run() {
   Run run;
   run.title = "robot <one> & \"two\"";
@@ -81,7 +81,7 @@ TEST(ReportNumbers, PlannedZmpStandsBesideTheMeasuredOneAndIsEmptyWhereThereIsNo
   EXPECT_NE(csv.find(",0.04,0.03,0.04,0.04,3,"), std::string::npos) << "at 0.2 s";
 }
 
-/// Fields of the first line of CSV text, by RFC 4180.
+/// The first line's fields, by RFC 4180.
 std::vector<std::string> header_of(const std::string& csv) {
   std::vector<std::string> fields(1);
   bool quoted = false;
@@ -170,7 +170,7 @@ TEST_F(ReportFolder, HasAPictureToShowToOthers) {
   EXPECT_EQ(slurp(folder_ / "walk.png").substr(0, 8), "\x89PNG\r\n\x1a\n");
 }
 
-// Without a steady cycle, or for a robot that cannot be drawn, the rest of the report remains.
+// No steady cycle, or a robot that cannot be drawn.
 TEST_F(ReportFolder, LeavesOutWhatARunHasNoDataFor) {
   report::Run run = sample_run();
   run.limbs.clear();
@@ -187,7 +187,7 @@ TEST_F(ReportFolder, LeavesOutWhatARunHasNoDataFor) {
   EXPECT_FALSE(fs::exists(folder_ / "walk.png"));
 }
 
-// The previous walk had a picture and a sweep; this one has neither.
+// That had a picture and a sweep; this has neither.
 TEST_F(ReportFolder, HoldsNothingOfTheRunBefore) {
   report::Run run = sample_run();
   run.sweep.push_back({});
@@ -212,7 +212,7 @@ TEST_F(ReportFolder, CallsNoCycleSteadyWhereNoneWas) {
   EXPECT_NE(page.find("too short to become steady"), std::string::npos);
 }
 
-/// A fake gnuplot, first in PATH.
+/// First in PATH.
 class BrokenGnuplot : public ReportFolder {
  protected:
   BrokenGnuplot() : path_(std::getenv("PATH")) {

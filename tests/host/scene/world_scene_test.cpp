@@ -10,7 +10,7 @@
 #include "host/scene/from_twin.hpp"
 #include "tests/host/session/plans.hpp"
 
-// A world looks as in its file, with its objects where the twin has them, live and in a trace.
+// A world looks like its file, live and in a trace.
 
 namespace verp::scene {
 namespace {

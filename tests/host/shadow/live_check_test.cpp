@@ -7,7 +7,7 @@
 
 #include "tests/host/shadow/watched_robot.hpp"
 
-// A controller on CAN and this PC's copy of its core.
+// A controller on CAN, and this PC's copy of its core.
 namespace verp::shadow::test {
 namespace {
 
@@ -18,7 +18,7 @@ TEST(LiveCheck, FollowsARunningControllerTickByTick) {
   WatchedRobot<> robot(can_robot());
   robot.run(999);
   const std::uint64_t digest = robot.controller->loop.state().digest.chain;
-  robot.run(1);  // a tick's report is on the wire by the next tick's beginning
+  robot.run(1);  // a tick's report is on the wire by the next tick
   EXPECT_EQ(robot.check().state(), Check::kFollowing) << robot.check().refusal();
   EXPECT_GT(robot.check().compared(), 900u);
   EXPECT_EQ(robot.check().gaps(), 0u) << robot.check().gap();
@@ -35,8 +35,7 @@ TEST(LiveCheck, SendsNothingWhileItFollows) {
   EXPECT_EQ(robot.ear->sent, sent);
 }
 
-// The controller loses frames, the PC loses frames, and late frames carry other values: none of
-// them counts as a difference.
+// The controller and the PC lose frames; late frames carry other values.
 TEST(LiveCheck, RaisesNoFalseAlarmForLostAndLateFrames) {
   std::uint64_t compared = 0, gaps = 0;
   for (unsigned seed = 1; seed <= kSeeds; ++seed) {
@@ -62,8 +61,7 @@ TEST(LiveCheck, RaisesNoFalseAlarmForLostAndLateFrames) {
   EXPECT_GT(gaps, kSeeds) << "this PC missed some, and says so";
 }
 
-// Lost and late frames at the controller alone cost no tick after the first State. That State has
-// 2.5 KB; the check asks once more for lost answers.
+// Not one tick after the first State. That has 2.5 KB; the check asks once more for lost answers.
 TEST(LiveCheck, LateAndLostAnswersAloneLeaveNoTickOut) {
   constexpr int kTicks = 1000;
   std::uint64_t compared = 0;
@@ -84,7 +82,7 @@ TEST(LiveCheck, LateAndLostAnswersAloneLeaveNoTickOut) {
   EXPECT_GT(compared, 600u * kSeeds);
 }
 
-/// Flips one bit and returns the first wrong tick.
+/// Returns the first wrong tick.
 template <class Field>
 std::uint32_t flip(WatchedRobot<>& robot, Field& field) {
   robot.run(200);
@@ -163,7 +161,6 @@ TEST(LiveCheck, GoesOnAfterTheLinkWasGone) {
   EXPECT_GT(robot.check().compared(), before + 200);
 }
 
-/// Every reading differs; some are stale.
 struct CountingChip {
   hal::ImuStatus read(hal::ImuSample& sample) {
     ++reads;
@@ -177,7 +174,7 @@ struct CountingChip {
   int reads = 0;
 };
 
-// The controller publishes the counts, because no node on the bus has them.
+// No node on the bus has them, so the controller publishes them.
 TEST(LiveCheck, KnowsTheCountsOfTheControllersOwnImu) {
   Params params = can_robot();
   params.imu.device_id = 0;

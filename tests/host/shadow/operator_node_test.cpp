@@ -47,7 +47,6 @@ struct Desk {
   Outputs outputs;
 };
 
-// A client's request to the controller's node.
 CanFrame question() {
   canopen::SdoClient client(Node::kNode);
   std::uint8_t crc[4];
@@ -57,7 +56,7 @@ CanFrame question() {
   return frame;
 }
 
-// Bring-up takes seconds or fails, and a client that asks why must not wait for a tick.
+// Bring-up takes seconds or fails; a client must not wait for a tick.
 TEST(OperatorNode, AnswersAtOnceBeforeTheFirstTick) {
   auto& desk = renewed<Desk>();
   desk.bus.inject(question(), 10);
@@ -87,8 +86,7 @@ TEST(OperatorNode, TakesWhatIsItsOwnAndSendsBehindATickOnly) {
   EXPECT_TRUE(answered);
 }
 
-// `verp shadow`, `verp bus` and a third-party poller ask in one tick; each gets only its own
-// answer.
+// `verp shadow`, `verp bus` and a third-party poller ask in one tick.
 TEST(OperatorNode, AnswersThreeClientsAtOnceEachByItsOwnChannel) {
   namespace plan = canopen::plan;
   auto& desk = renewed<Desk>();
@@ -96,7 +94,7 @@ TEST(OperatorNode, AnswersThreeClientsAtOnceEachByItsOwnChannel) {
   canopen::SdoClient clients[] = {canopen::SdoClient(Node::kNode),
                                   canopen::SdoClient(canopen::further_sdo(plan::kWatcherSdo)),
                                   canopen::SdoClient(canopen::further_sdo(plan::kToolSdo))};
-  // Each reads its own object in segments, again and again.
+  // In segments, again and again.
   constexpr canopen::Address kAsked[] = {{0x1008, 0}, {0x1201, 1}, {0x1202, 2}};
   const std::string expected[] = {"VERP controller", "\xD1\x06", "\xC2\x06"};
   std::uint8_t got[3][32];
@@ -147,7 +145,7 @@ TEST(OperatorNode, TellsOfEachTickInItsOrder) {
   EXPECT_FALSE(desk.bus.take_sent(frame));
 }
 
-// The controller is the master. A tool that resets or stops all nodes must not silence it.
+// A tool that resets or stops all nodes must not silence it.
 TEST(OperatorNode, ObeysNoOtherMaster) {
   using canopen::NmtCommand;
   auto& desk = renewed<Desk>();
@@ -166,7 +164,7 @@ TEST(OperatorNode, ObeysNoOtherMaster) {
   }
 }
 
-// One set of registers: the bus shows an order from the port, and both report each tick.
+// One set of registers: orders and ticks show at both.
 TEST(OperatorNode, StandsBesideAnOperatorsPort) {
   verp::test::OperatorDesk port;
   hal::ScriptedCan bus;

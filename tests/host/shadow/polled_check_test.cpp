@@ -14,7 +14,7 @@
 #include "tests/host/bus/fake_plant.hpp"
 #include "tests/host/shadow/polled_controller.hpp"
 
-// A controller at the end of a serial link and this PC's copy of its core.
+// A controller on a serial link, and this PC's copy of its core.
 namespace verp::shadow::test {
 namespace {
 
@@ -24,7 +24,6 @@ std::string place(const std::string& name) {
       .string();
 }
 
-/// Both, on a socket.
 class Polled : public ::testing::Test {
  protected:
   explicit Polled()
@@ -38,7 +37,7 @@ class Polled : public ::testing::Test {
     port = std::make_unique<TickPort>(wire::parse_endpoint("unix:" + path_));
     check = std::make_unique<PolledCheck>(listens_for_, *port);
   }
-  /// Runs until `compared` ticks were compared, the check is over, or 20 s have passed.
+  /// Until `compared` ticks were compared, the check is over, or 20 s have passed.
   void run(std::uint64_t compared) {
     const std::uint64_t end_ns = wire::monotonic_ns() + 20'000'000'000;
     while (check->compared() < compared && !check->over() && wire::monotonic_ns() < end_ns) {
@@ -76,7 +75,7 @@ TEST_F(Polled, FindsABitThatFlipped) {
   EXPECT_EQ(check->divergence().fields[0].path, "zeros.leg[1].pitch_rad");
 }
 
-// The controller does not wait. Ticks that it dropped are reported as lost, not as different.
+// The controller does not wait; ticks that it dropped are no difference.
 TEST_F(Polled, SaysWhichTicksItLostAndGoesOn) {
   start(verp::test::bus_params(7), std::chrono::milliseconds(5));
   run(50);

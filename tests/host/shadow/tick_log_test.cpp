@@ -55,7 +55,7 @@ TEST(TickLog, WhatIsHeldStandsStillWhileTheLoopGoesOn) {
   EXPECT_EQ(tick_at(log, 30 % Log::kTicks), 14u) << "it was not kept";
 }
 
-// A new follower needs the ticks that pass while it reads the State.
+// A new follower needs the ticks that pass meanwhile.
 TEST(TickLog, TicksGoOnWhileOnlyTheStateIsHeld) {
   Log& log = renewed<Log>(no_images);
   keep(log, 0, 30);
@@ -67,7 +67,7 @@ TEST(TickLog, TicksGoOnWhileOnlyTheStateIsHeld) {
   EXPECT_EQ(tick_at(log, 34 % Log::kTicks), 34u);
 }
 
-// Pieces of any size, like a window's blocks and SDO segments.
+// Of any size, like a window's blocks and SDO segments.
 TEST(TickLog, PiecesMakeTheWhole) {
   Log& log = renewed<Log>(no_images);
   keep(log, 0, 21);

@@ -13,10 +13,10 @@
 #include "host/shadow/live_check.hpp"
 #include "tests/host/bus/fake_plant.hpp"
 
-/// A controller on a virtual CAN bus, and a live check that listens there.
+/// A controller on a virtual CAN bus with a live check.
 namespace verp::shadow::test {
 
-/// The controller's bus; it loses some received frames.
+/// Loses some received frames.
 class DeafBus {
  public:
   explicit DeafBus(can::VirtualCan& bus) : bus_(bus) {}
@@ -40,7 +40,7 @@ class DeafBus {
   std::minstd_rand random_{11};
 };
 
-/// The live check as another node, which may miss frames.
+/// The live check as a node that may miss frames.
 class Ear : public can::Node {
  public:
   explicit Ear(const Params& params) : check(params) {}
@@ -68,8 +68,8 @@ class Ear : public can::Node {
   std::minstd_rand random_{5};
 };
 
-/// A drive that repeats some positions later with another value: in time, in the next window, after
-/// the tick or in the next one.
+/// A drive that repeats some positions late and changed: in time, in the next window, after the
+/// tick or in the next one.
 class LateTwin : public can::Node {
  public:
   explicit LateTwin(std::uint8_t drive, unsigned seed = 3) : drive_(drive), random_(seed) {}
@@ -101,7 +101,6 @@ class LateTwin : public can::Node {
   std::minstd_rand random_;
 };
 
-/// All kinds of orders: walks, parameter writes, buttons, and temporary emergency stops.
 struct Orders {
   app::OperatorOrder order(std::uint32_t tick) const {
     app::OperatorOrder order;

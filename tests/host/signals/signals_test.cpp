@@ -22,7 +22,7 @@ std::vector<std::string> names_of(const std::vector<Column>& columns,
 
 using Names = std::vector<std::string>;
 
-// Brackets belong to a field's name and are no pattern; a full name matches only itself.
+// Brackets are part of a name, not a pattern.
 TEST(Columns, AreFoundByNameOrByPattern) {
   const std::vector<Column> all = columns_of(sample_params(), true);
   const auto found = [&](const char* pattern) { return names_of(all, matching(all, pattern)); };
@@ -59,8 +59,7 @@ TEST(Table, HasTheSameNumbersAsItsCsv) {
   EXPECT_FALSE(table.other_from());
 }
 
-// In another revision's trace, measured columns remain; columns that this program cannot recompute
-// are NaN.
+// Measured columns of another revision remain; others are NaN.
 TEST(Table, LeavesOutWhatThisProgramDecidesOtherwise) {
   record::Trace trace = sample_run(20);
   trace.ticks[7].digest.chain ^= 1;
@@ -91,7 +90,7 @@ TEST(Panels, KeepMeasuredAndGoalTogetherAndUnitsApart) {
   EXPECT_EQ(panels_of(columns), (Panels{{0, 4, 1, 6, 7, 8}, {9, 10, 11, 12}, {2}, {3}, {5}}));
 }
 
-// A picture of one hour still shows a fault of one tick.
+// One tick's fault shows in an hour's picture.
 TEST(Thinned, KeepsWhatStandsOut) {
   std::vector<double> time_s, numbers;
   for (int i = 0; i < 360000; ++i) {

@@ -11,8 +11,8 @@
 #include "tests/support/stm32/machine.hpp"
 #include "tests/support/stm32/rcc_model.hpp"
 
-// How a board's loop_can image opens its CAN bus, on a model of its chip: clock plan, pins,
-// interrupts and timing. Built for each board that has a kCanPort.
+// How a board's loop_can image opens its CAN bus, on a model of its chip. Built for each board with
+// a kCanPort.
 namespace verp::board {
 namespace {
 
@@ -96,7 +96,7 @@ TEST(CanPort, DoesNotOpenAtARateThatTheClockDoesNotMake) {
   EXPECT_FALSE(Wiring::open(chip.port, chip.clocks, 2'000'000));
 }
 
-// The reset takes torque from drives that an earlier run left stiff.
+// Takes torque from drives that an earlier run left stiff.
 TEST(CanPort, TellsAllNodesToBeginAnew) {
   Chip chip;
   ASSERT_TRUE(Wiring::open(chip.port, chip.clocks, kBaud));
@@ -111,7 +111,7 @@ TEST(CanPort, TellsAllNodesToBeginAnew) {
   }
 }
 
-// The node exists before a robot is loaded.
+// Before a robot is loaded.
 TEST(CanPort, ItsTimeBeginsWhenItIsOpened) {
   Chip chip;
   chip.let_pass(50'000);
@@ -125,7 +125,7 @@ TEST(CanPort, ItsTimeBeginsWhenItIsOpened) {
   EXPECT_GE(node.port().now_us() - begun_us, 1000u);
 }
 
-// Watchers and clients reach the controller over the robot's bus alone.
+// All over the robot's bus alone.
 TEST(CanPort, TellsOfEachTickAndAnswersWhoAsksThere) {
   Chip chip;
   ASSERT_TRUE(Wiring::open(chip.port, chip.clocks, kBaud));
@@ -162,7 +162,7 @@ TEST(CanPort, TellsOfEachTickAndAnswersWhoAsksThere) {
   EXPECT_EQ(canopen::get_le(crc, 4), params_crc(params));
 }
 
-// During bring-up only this wait serves the board's watchdog and operator.
+// During bring-up only this serves the board's watchdog and operator.
 TEST(CanPort, LooksAfterTheBoardDuringALongWaitAndStillWaitsItsTime) {
   Chip chip;
   ASSERT_TRUE(Wiring::open(chip.port, chip.clocks, kBaud));

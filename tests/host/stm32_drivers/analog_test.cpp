@@ -4,8 +4,8 @@
 #include "tests/support/stm32/adc_model.hpp"
 #include "tests/support/stm32/gpio_model.hpp"
 
-// The battery's voltage is right within a count, smooth, read without waiting, and missing if the
-// converter stops.
+// A battery's voltage: right within a count, smooth, never waited for, and missing if the converter
+// stops.
 namespace verp::hal::stm32::test {
 namespace {
 
@@ -19,7 +19,7 @@ constexpr AnalogWiring kWiring = {.base = base::kAdc3,
 class AnalogDriver : public EachFamily {
  protected:
   AnalogDriver() { input.open(rig.clocks.apb2_hz); }
-  /// Polls like a loop, once in 8 ms.
+  /// Polls once in 8 ms, like a loop.
   std::uint32_t after(int polls) {
     std::uint32_t mv = 0;
     for (int i = 0; i < polls; ++i) {

@@ -5,7 +5,6 @@
 #include "tests/host/stm32_drivers/rig.hpp"
 #include "tests/support/stm32/gpio_model.hpp"
 
-// The buzzer plays the given tone for the given time; then its pin rests.
 namespace verp::hal::stm32::test {
 namespace {
 

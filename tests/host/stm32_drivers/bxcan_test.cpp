@@ -6,8 +6,7 @@
 #include "tests/host/stm32_drivers/rig.hpp"
 #include "tests/support/stm32/can_rig.hpp"
 
-// bxCAN's own promises beyond hal/contract/can_bus.hpp, and stuck hardware. The contract's suite
-// runs against it too.
+// bxCAN beyond hal/contract/can_bus.hpp, and stuck hardware. The contract's suite runs too.
 
 namespace verp::hal::stm32::test {
 namespace {
@@ -20,9 +19,9 @@ CanFrame frame_of(std::uint32_t id, unsigned number = 0) {
   return frame;
 }
 
-/// APB1 clocks of the boards: 168, 180 and 216 MHz, divided by four.
+/// The boards' APB1 clocks: 168, 180 and 216 MHz by four.
 constexpr std::uint32_t kApb1_hz[] = {42'000'000, 45'000'000, 54'000'000};
-/// CiA 301's bit rates that these tests use.
+/// CiA 301's rates used here.
 constexpr std::uint32_t kRates[] = {1'000'000, 500'000, 250'000, 125'000};
 
 TEST(BxCanTiming, IsExactAndSamplesWhereCanopenWantsItOnEverySupportedClock) {
@@ -79,9 +78,9 @@ TEST_P(BxCanDriver, MakesTheRateAndSamplePointThatItWasAskedFor) {
   EXPECT_LE(can.sample_point(), 0.90);
 }
 
-// The identifiers decide the order, even when lower priorities fill the mailboxes.
+// Even if lower priorities fill the mailboxes.
 TEST_P(BxCanDriver, SendsTheBestFirstWhateverWaits) {
-  can.send(frame_of(0x001));  // holds the bus while the driver's frames queue
+  can.send(frame_of(0x001));  // holds the bus meanwhile
   advance(5);
   for (std::uint32_t i = 0; i < 10; ++i) ASSERT_TRUE(driver.send(frame_of(0x600 - i)));
   ASSERT_TRUE(driver.send(frame_of(0x080)));
@@ -93,7 +92,6 @@ TEST_P(BxCanDriver, SendsTheBestFirstWhateverWaits) {
   EXPECT_EQ(ids(), want);
 }
 
-// Random frames: each leaves once, and those with one identifier keep their order.
 TEST_P(BxCanDriver, KeepsTheOrderOfEachIdentifierAndSendsNothingTwice) {
   std::uint32_t seed = 3;
   const auto next = [&] { return (seed = seed * 1664525u + 1013904223u) >> 8; };
@@ -127,8 +125,7 @@ TEST_P(BxCanDriver, UsesAllMailboxes) {
   EXPECT_EQ(used.size(), 3u);
 }
 
-// Masked interrupts while frames arrive: the FIFO keeps the three oldest, and the driver counts the
-// loss.
+// Interrupts are masked while frames arrive; the FIFO holds three.
 TEST_P(BxCanDriver, CountsAFifoOverrunAndKeepsTheOldest) {
   {
     const Masked<Io> masked(board.rig.machine.io());
@@ -157,8 +154,7 @@ TEST_P(BxCanDriver, CountsWhatNobodyFetchedInTime) {
   EXPECT_FALSE(driver.poll(heard, 0));
 }
 
-// Bus-off by the standard: 32 failures, then 128 times 11 bits of silence, then recovery without
-// help.
+// 32 failures, then 128 times 11 bits of silence, then by itself.
 TEST_P(BxCanDriver, ComesBackFromBusOffAfterTheTimeOfTheStandard) {
   can.break_next = 32;
   ASSERT_TRUE(driver.send(frame_of(0x123)));
@@ -203,7 +199,6 @@ TEST_P(BxCanDriver, SaysWhenAFrameEndedNotWhenItWasFetched) {
   EXPECT_NEAR(static_cast<double>(driver.now_us()), static_cast<double>(before_us + 111), 8);
 }
 
-// A poll's timeout begins with the last queued frame, however many wait.
 TEST_P(BxCanDriver, CountsTheTimeoutFromWhenTheLastFrameBegan) {
   for (std::uint32_t i = 0; i < 20; ++i) ASSERT_TRUE(driver.send(frame_of(0x100 + i)));
   CanFrame heard;
@@ -231,7 +226,7 @@ TEST_P(BxCanDriver, LetsInWhatItsRulesSayAndNothingElse) {
   }
   advance(2000);
   CanFrame heard;
-  // All were ready at once, so they arrive in order of priority.
+  // In the order of priority: all were ready at once.
   for (const CanFrame& each : {extended, frame_of(0x180), frame_of(0x1FF)}) {
     ASSERT_TRUE(filtered.poll(heard, 0));
     EXPECT_TRUE(heard == each) << each.id;

@@ -10,7 +10,7 @@
 #include "tests/support/stm32/flash_model.hpp"
 #include "tests/support/stm32/iwdg_model.hpp"
 
-// The chip's own flash keeps the promises of hal/contract/flash_pages.hpp.
+// hal/contract/flash_pages.hpp on the chip's own flash.
 namespace verp::hal::stm32::test {
 namespace {
 
@@ -72,7 +72,7 @@ TEST_P(FlashDriver, ABusyFlagThatSticksIsAnErrorAndNotAWait) {
   EXPECT_FALSE(pages.erase(0));
 }
 
-/// The processor's view; the model's memory has other addresses than the chip's.
+/// As the processor sees it; the model's memory has other addresses.
 struct Mapped : Pages {
   using Pages::Pages;
   const std::uint8_t* memory(std::size_t page) const {
@@ -92,8 +92,8 @@ std::vector<std::uint8_t> bytes_from(int first, std::size_t size) {
   return bytes;
 }
 
-// A board stores actions from the operator: thousands of units, at the manual's slowest speed. The
-// watchdog would not wait for all of them.
+// Actions from the operator: thousands of units at the manual's slowest speed. The watchdog would
+// not wait for all.
 TEST_P(FlashDriver, ReplacesHalfAPageUnderAWatchdogAndKeepsTheOther) {
   constexpr std::size_t kSecond = 8192;
   const auto robot = bytes_from(1, 6000), old = bytes_from(2, 500), fresh = bytes_from(3, 3001);

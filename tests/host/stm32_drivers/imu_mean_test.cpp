@@ -2,11 +2,11 @@
 
 #include "tests/host/stm32_drivers/imu_driver.hpp"
 
-// The IMU driver reports the mean of all samples in the FIFO: each complete and exactly once.
+// The mean of all samples in the FIFO.
 namespace verp::hal::stm32::test {
 namespace {
 
-// Reads fall anywhere against the chip's clock; every sample counts in exactly one mean.
+// Wherever the reads fall against the chip's clock.
 TEST_P(MotionSensorDriver, TellsEverySampleOnce) {
   ASSERT_TRUE(board.starts());
   read_alone();
@@ -31,8 +31,7 @@ TEST_P(MotionSensorDriver, TellsEverySampleOnce) {
   EXPECT_EQ(board.imu.faults(), 0u);
 }
 
-// Each jolt starts right after a read and ends before the next. The reported rates still add up to
-// the turn.
+// Each jolt starts right after a read and ends before the next.
 TEST_P(MotionSensorDriver, JoltsBetweenReadsAddUpToTheTurn) {
   ASSERT_TRUE(board.starts());
   const double period_us = GetParam().kind == ImuKind::kMpu9250 ? 2000 : 2e6 / 1125;
@@ -97,8 +96,7 @@ TEST_P(MotionSensorDriver, MissesNothingWithinTheLongestPeriod) {
   }
 }
 
-// A pause of the loop leaves old data in the FIFO, perhaps out of step. The driver drops it without
-// a fault, because the chip works.
+// The FIFO's data is old and perhaps out of step, but the chip works: no fault.
 TEST_P(MotionSensorDriver, WhatCameInALongPauseIsDropped) {
   ASSERT_TRUE(board.starts());
   read_alone();
@@ -117,7 +115,7 @@ TEST_P(MotionSensorDriver, WhatCameInALongPauseIsDropped) {
   EXPECT_EQ(board.imu.faults(), 0u);
 }
 
-// The driver reads the FIFO's size while the chip writes a sample. It reports the whole sample.
+// The driver reads the FIFO's size during a write and reports the whole sample.
 TEST_P(MotionSensorDriver, SampleThatIsBeingWrittenIsAwaited) {
   ASSERT_TRUE(board.starts());
   read_alone();
@@ -135,7 +133,7 @@ TEST_P(MotionSensorDriver, SampleThatIsBeingWrittenIsAwaited) {
   EXPECT_EQ(board.imu.faults(), 0u);
 }
 
-// An out-of-step FIFO shows bytes of the wrong axis.
+// Its bytes would belong to another axis.
 TEST_P(MotionSensorDriver, FifoOutOfStepIsNotBelieved) {
   ASSERT_TRUE(board.starts());
   read_alone();

@@ -3,7 +3,7 @@
 #include "hal/chip/invensense/ranges.hpp"
 #include "tests/host/stm32_drivers/imu_driver.hpp"
 
-// The IMU at the robot's scales. The driver recovers from every failure of the chip by itself.
+// The IMU at the robot's scales. The driver recovers from every failure by itself.
 namespace verp::hal::stm32::test {
 namespace {
 
@@ -29,7 +29,7 @@ TEST_P(MotionSensorDriver, FindsTheChipByItselfAndGivesItsCounts) {
   EXPECT_EQ(board.sample.accel_count[2], 6);
 }
 
-// Read every 8 ms, each sample is new; a frozen chip gives none.
+// Every 8 ms a new sample; a frozen chip gives no more.
 TEST_P(MotionSensorDriver, GivesEachSampleOnceAndNewOnesInTime) {
   ASSERT_TRUE(board.starts());
   for (std::int16_t i = 0; i < 200; ++i) {
@@ -88,7 +88,7 @@ TEST_P(MotionSensorDriver, ChipThatStopsSamplingIsAFaultAndIsStartedAnew) {
   EXPECT_TRUE(board.starts());
 }
 
-// After a dip of its supply the chip uses other scales, which is worse than no data.
+// After a supply dip its scales are wrong, which is worse than no data.
 TEST_P(MotionSensorDriver, ChipThatLostItsSettingsIsNotBelieved) {
   ASSERT_TRUE(board.starts());
   board.device.forget();
@@ -97,7 +97,7 @@ TEST_P(MotionSensorDriver, ChipThatLostItsSettingsIsNotBelieved) {
   EXPECT_TRUE(board.starts());
 }
 
-/// Sits between driver and SPI; acts after the nth exchange or drops a write.
+/// Between driver and SPI: acts after the nth exchange or drops a write.
 struct Meddler {
   bool exchange(const std::uint8_t* out, std::uint8_t* in, std::size_t size, std::uint32_t max_hz) {
     if (out[0] == lost_write) return true;
@@ -111,7 +111,7 @@ struct Meddler {
   int lost_write = -1;
 };
 
-// A sample that arrives between a read's exchanges counts in this read or the next, once.
+// In this read or the next.
 TEST_P(MotionSensorDriver, SampleThatComesMeanwhileIsToldOnce) {
   Meddler bus{board.spi};
   invensense::MotionSensor<Meddler, Timer> imu(bus, board.rig.timer);
@@ -135,7 +135,7 @@ TEST_P(MotionSensorDriver, SampleThatComesMeanwhileIsToldOnce) {
   }
 }
 
-// The chip ignores the command to empty its FIFO, so old data stays. A restart cures it.
+// The chip does not empty its FIFO; a restart cures it.
 TEST_P(MotionSensorDriver, FifoThatStaysFullIsAFault) {
   Meddler bus{board.spi};
   invensense::MotionSensor<Meddler, Timer> imu(bus, board.rig.timer);
@@ -164,7 +164,7 @@ TEST_P(MotionSensorDriver, SettingThatDoesNotTakeIsAFault) {
   EXPECT_GT(imu.faults(), 0u);
 }
 
-// Below half the rate of the reads, so that nothing aliases.
+// Below half the rate of reads: nothing aliases.
 TEST(MotionSensorLowPass, IsThatOfTheTwin) {
   ImuRig mpu(Family::kF405, ImuKind::kMpu9250);
   ASSERT_TRUE(mpu.starts());

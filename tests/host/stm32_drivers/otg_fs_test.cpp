@@ -8,9 +8,8 @@
 #include "tests/host/stm32_drivers/rig.hpp"
 #include "tests/support/stm32/usb_rig.hpp"
 
-// USB as a serial port, on the older and the newer core, with a PC at the other end. Tests what the
-// suite of tests/contract for hal/contract/byte_link.hpp cannot: requests, hosts that change their
-// mind, and stuck hardware.
+// USB as a serial port on the older and newer core, with a PC: what the suite of tests/contract for
+// hal/contract/byte_link.hpp cannot test. Requests, hosts that change their mind, stuck hardware.
 namespace verp::hal::stm32::test {
 namespace {
 
@@ -25,7 +24,6 @@ Bytes noise(std::size_t size, unsigned seed) {
 
 class UsbPort : public EachFamily {
  protected:
-  /// Puts the device on the bus and opens the port.
   void meet() {
     ASSERT_TRUE(rig.open());
     ASSERT_TRUE(rig.host.plug());
@@ -49,7 +47,6 @@ class UsbPort : public EachFamily {
   std::size_t write(const Bytes& bytes, std::uint32_t timeout_us) {
     return rig.port.write(bytes.data(), bytes.size(), timeout_us);
   }
-  /// The port still carries bytes both ways.
   void expect_alive() {
     look();
     ASSERT_TRUE(rig.port.connected());
@@ -80,7 +77,7 @@ TEST_P(UsbPort, IsFoundAndOpenedByAHost) {
   EXPECT_EQ(rig.port.stuck(), 0u);
 }
 
-// The host asks for any length, also longer than a packet or a whole number of packets.
+// Of any length, also longer than a packet or a whole number of packets.
 TEST_P(UsbPort, TellsTheHostAllOfItsDescriptors) {
   ASSERT_TRUE(rig.open());
   ASSERT_TRUE(rig.host.plug());
@@ -120,7 +117,7 @@ TEST_P(UsbPort, RefusesWhatItDoesNotKnowAndGoesOn) {
   expect_alive();
 }
 
-// The host may abort a request between any two stages or repeat it; the next one still works.
+// The host aborts between any two stages, or repeats.
 TEST_P(UsbPort, OutlivesRequestsThatAreGivenUp) {
   meet();
   auto& wire = rig.machine.otg_fs();
@@ -143,8 +140,7 @@ TEST_P(UsbPort, OutlivesRequestsThatAreGivenUp) {
   expect_alive();
 }
 
-// Both directions at once, packets of any size, lost ACKs and slow programs at both ends: every
-// byte arrives once, in order.
+// Both at once, packets of any size, lost ACKs, slow programs at both ends.
 TEST_P(UsbPort, CarriesAnyBytesInOrderBothWays) {
   meet();
   rig.host.deaf_every = 5;
@@ -190,7 +186,7 @@ TEST_P(UsbPort, HoldsTheHostBackWhileTheRingIsFull) {
   EXPECT_EQ(read_all(), much);
 }
 
-// The host's driver gives its data to a program when a packet is shorter than full.
+// The host's driver passes data on at a packet that is not full.
 TEST_P(UsbPort, EndsAFullPacketWithAnEmptyOne) {
   meet();
   for (const std::size_t size : {1u, 63u, 64u, 65u, 128u, 130u}) {
@@ -217,7 +213,6 @@ TEST_P(UsbPort, AProgramThatDoesNotReadCostsAWriteItsTimeout) {
   EXPECT_EQ(rig.host.take(), much);
 }
 
-/// How a program's connection ends and returns.
 struct Ending {
   const char* name;
   void (*end)(UsbRig&);
@@ -248,9 +243,8 @@ const Ending kEndings[] = {
      }},
 };
 
-// The connection ends at any moment, with packets under way in both directions. The reader gets
-// earlier bytes and sees the loss once; queued bytes are dropped and the next connection starts
-// clean.
+// With packets under way both ways. The reader gets earlier bytes and sees the loss once; queued
+// bytes are dropped.
 TEST_P(UsbPort, OutlivesTheEndOfAConnectionAtAnyMoment) {
   meet();
   std::uint32_t losses = 0;
@@ -282,7 +276,7 @@ TEST_P(UsbPort, OutlivesTheEndOfAConnectionAtAnyMoment) {
   EXPECT_EQ(rig.port.stuck(), 0u);
 }
 
-// The port was closed and opened between two calls; the reader learns of it once.
+// The port was closed and opened between two calls.
 TEST_P(UsbPort, TellsALossThatIsOverBeforeAnybodyLooked) {
   meet();
   const Bytes sent = noise(30, 11);
@@ -318,7 +312,7 @@ TEST_P(UsbPort, WithVbusSensedAPulledCableIsSeenAtOnce) {
   EXPECT_FALSE(rig.port.connected());
 }
 
-// A halted endpoint refuses; once released, it goes on without losing a byte.
+// Without losing a byte.
 TEST_P(UsbPort, HaltsAndReleasesEndpoints) {
   meet();
   const Bytes bytes = noise(200, 12);
@@ -355,8 +349,8 @@ TEST_P(UsbPort, TooSlowAClockIsRefused) {
   EXPECT_FALSE(rig.port.open(14'000'000, false));
 }
 
-// A stuck packet blocks the way to the host, which not even a bus reset restores. It costs no more
-// time than a few polls, and bytes from the host still arrive.
+// It blocks the way to the host, which no bus reset restores, but costs only a few polls. The
+// host's bytes still arrive.
 TEST_P(UsbPort, OutlivesAPacketThatIsStuck) {
   meet();
   rig.host.reading = false;
@@ -384,7 +378,7 @@ TEST_P(UsbPort, OutlivesAPacketThatIsStuck) {
   }
 }
 
-// The driver counts a flush that never ends, and uses the FIFO anyway.
+// The driver counts it and uses the FIFO anyway.
 TEST_P(UsbPort, OutlivesAFlushThatDoesNotEnd) {
   meet();
   rig.machine.otg_fs().flush_stuck = true;

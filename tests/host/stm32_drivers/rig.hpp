@@ -5,7 +5,6 @@
 
 #include "tests/support/stm32/rig.hpp"
 
-/// Runs driver tests on a chip of each family.
 namespace verp::hal::stm32::test {
 
 class EachFamily : public ::testing::TestWithParam<Family> {};

@@ -10,8 +10,7 @@
 #include "tests/host/stm32_drivers/rig.hpp"
 #include "tests/support/stm32/gpio_model.hpp"
 
-// OpenCR's emergency stop and servo power switch on a model of its chip, used tick by tick like in
-// boards/stm32/loop_main.cpp.
+// OpenCR's emergency stop and servo power switch, as boards/stm32/loop_main.cpp uses them.
 namespace verp::hal::stm32::test {
 namespace {
 
@@ -37,7 +36,7 @@ class ServoPowerSwitch : public ::testing::Test {
         .drive(kEmergencyStop.number, closed ? Outside::kLow : Outside::kOpen);
   }
   bool powered() { return rig.machine.gpio(kServoPower.port).level(kServoPower.number); }
-  /// One tick of the loop with the orders in desk.next.
+  /// With the orders in desk.next.
   app::DrivePower::Step tick() {
     const app::OperatorOrder order = panel.order(0);
     const bool emergency = (order.flags & kEmergencyStopFlag) != 0;
@@ -50,7 +49,7 @@ class ServoPowerSwitch : public ::testing::Test {
     return step;
   }
   void idle() { supply.permit(std::exchange(relax_asked, false)); }
-  /// Without ticks, the board's loop tries to bring up the servos again and again.
+  /// The board's loop retries bring-up, without ticks.
   void try_in_vain() {
     for (int i = 0; i < 10; ++i) {
       supply.set(true);
@@ -108,7 +107,7 @@ TEST_F(ServoPowerSwitch, IsNeverSwitchedOnWhileTheCircuitIsOpen) {
   EXPECT_TRUE(powered());
 }
 
-// Bring-up fails without power, and the board's loop asks for it again at once.
+// The board's loop asks for power again at once.
 TEST_F(ServoPowerSwitch, ComesBackAfterAStopDuringBringUpByReleaseAndRequestInThisOrder) {
   supply.set(true);
   circuit(false);
@@ -130,7 +129,7 @@ TEST_F(ServoPowerSwitch, ComesBackAfterAStopDuringBringUpByReleaseAndRequestInTh
   EXPECT_EQ(supply.state(), State::kOn);
 }
 
-// Bring-up had just finished at the stop: the loop ticks without power, and must not do so forever.
+// Bring-up had just finished: the loop ticks without power, but not forever.
 TEST_F(ServoPowerSwitch, IsGivenBackByALoopThatBeganWithoutIt) {
   supply.set(true);
   circuit(false);
@@ -143,7 +142,7 @@ TEST_F(ServoPowerSwitch, IsGivenBackByALoopThatBeganWithoutIt) {
   EXPECT_EQ(tick(), app::DrivePower::Step::kAnew);
 }
 
-// A relaxed robot still has an old request to relax, which must not count.
+// An old request to relax still stands.
 TEST_F(ServoPowerSwitch, WantsARequestThatIsWrittenAfterTheRelease) {
   supply.set(true);
   for (int i = 0; i < 50; ++i) tick();
@@ -166,7 +165,7 @@ TEST_F(ServoPowerSwitch, GoesAtOnceIfTheCircuitOpensWhileNothingTicks) {
   EXPECT_FALSE(powered());
 }
 
-// 40 ms in a loop of 8 ms: two readings, and torque off for three ticks before the power goes.
+// 40 ms in a loop of 8 ms: two readings, then three ticks without torque.
 TEST_F(ServoPowerSwitch, GoesWithinFiveTicksOfAnOpenCircuitAfterTorqueOffWasSaid) {
   stand_up();
   circuit(false);
@@ -200,7 +199,7 @@ TEST_F(ServoPowerSwitch, GoesByTheOperatorsStopToo) {
   EXPECT_FALSE(powered());
 }
 
-// At a start with a closed circuit, the stop briefly counts as pressed but cuts no power.
+// The stop briefly counts as pressed.
 TEST_F(ServoPowerSwitch, StaysOnThroughAStart) {
   supply.set(true);
   for (int i = 0; i < 200; ++i) {

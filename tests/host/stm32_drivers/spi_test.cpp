@@ -6,12 +6,12 @@
 #include "tests/support/stm32/imu_rig.hpp"
 #include "tests/support/stm32/spi_model.hpp"
 
-// The SPI master sends bytes in order at a clock that the device bears, selects it only for that
-// time, and never waits forever.
+// Bytes in order, at a clock that the device bears; it is selected only meanwhile, and no wait is
+// endless.
 namespace verp::hal::stm32::test {
 namespace {
 
-/// Answers each byte with its complement, one byte later.
+/// Answers each byte's complement, one later.
 class Echo : public model::SpiDevice {
  public:
   std::uint32_t most_hz = 10'000'000;
@@ -46,7 +46,6 @@ class SpiDriver : public EachFamily {
                                               9, 10, 11, 12, 13, 14, 15, 16};
     return spi.exchange(kOut, in, size, max_hz);
   }
-  /// The peripheral has recovered and works.
   void expect_works() {
     EXPECT_TRUE(exchange(4));
     EXPECT_EQ(in[1], 0xFE);
@@ -69,7 +68,7 @@ TEST_P(SpiDriver, CarriesBytesBothWaysInOrder) {
   EXPECT_TRUE(rig.machine.gpio('A').level(4)) << "the device is let go";
 }
 
-// Rig also reports violations: the model knows the device's highest clock.
+// The model knows the device's highest clock; Rig reports violations.
 TEST_P(SpiDriver, IsAsFastAsTheDeviceBearsAndTheDividersAllow) {
   for (const std::uint32_t most_hz : {330'000u, 1'000'000u, 7'000'000u, 20'000'000u, 60'000'000u}) {
     echo.most_hz = most_hz;
@@ -110,7 +109,7 @@ TEST_P(SpiDriver, OverrunWithinAnExchangeFailsIt) {
   expect_works();
 }
 
-// The hardware reports another master and leaves master mode.
+// The hardware reports another master and stops being one.
 TEST_P(SpiDriver, ModeFaultFailsTheExchangeAndIsUndone) {
   const auto fault = [this] {
     const std::uint32_t cr1 = rig.machine.io().read32(base::kSpi1 + spi::kCr1);

@@ -8,8 +8,8 @@
 #include "tests/support/stm32/gpio_model.hpp"
 #include "tests/support/stm32/usart_model.hpp"
 
-// Both kinds of USART, by DMA and by interrupts: the promises of hal/contract/byte_link.hpp, line
-// errors and stuck hardware.
+// Both kinds of USART, by DMA and interrupts: hal/contract/byte_link.hpp, line errors, stuck
+// hardware.
 namespace verp::hal::stm32::test {
 namespace {
 
@@ -96,7 +96,7 @@ TYPED_TEST(UsartDriver, ReceivesWhatTheLineBrings) {
   EXPECT_EQ(this->port.stuck(), 0u);
 }
 
-// An idle line ends the message: the reader waits neither for a full ring nor for a timeout.
+// At an idle line, not a full ring or a timeout.
 TYPED_TEST(UsartDriver, WaitEndsSoonAfterTheMessage) {
   this->open();
   const Bytes message = counting(20);
@@ -116,7 +116,7 @@ TYPED_TEST(UsartDriver, SilenceCostsItsTimeoutAndNoMore) {
   EXPECT_LE(waited_us, 1520u);
 }
 
-// More bytes than the ring holds, in many pieces, keep their order across its end.
+// More than the ring holds, in many pieces.
 TYPED_TEST(UsartDriver, KeepsOrderAcrossManyTurnsOfTheRing) {
   this->open();
   Bytes all;
@@ -135,8 +135,8 @@ TYPED_TEST(UsartDriver, KeepsOrderAcrossManyTurnsOfTheRing) {
   EXPECT_EQ(got, all);
 }
 
-// QEMU keeps an unwanted interrupt pending until a byte is read. With a full ring it would recur
-// forever and block everything else.
+// QEMU keeps an unwanted interrupt until a byte is read. With a full ring it would recur forever
+// and block everything.
 TYPED_TEST(UsartDriver, AFullRingAsksForNoMore) {
   if (TypeParam::kDma) return;
   this->open();
@@ -161,7 +161,6 @@ TYPED_TEST(UsartDriver, BytesNobodyFetchesAreCountedAsLost) {
   for (int i = 0; i < 20; ++i) got += this->read(64, 0).size();
   EXPECT_LT(got, message.size());
   EXPECT_GT(this->port.errors().overruns, 0u);
-  // The port goes on.
   const Bytes next = counting(5);
   this->line.receive(next.data(), next.size(), kBaud);
   this->rig.machine.advance(us(300));
@@ -197,7 +196,7 @@ TYPED_TEST(UsartDriver, SendsAWholeFrameWithTheDirectionPinAroundIt) {
   EXPECT_FALSE(this->rig.machine.gpio('B').level(5)) << "a servo may answer now";
 }
 
-// A servo without return delay answers at once, and no byte of it may be lost.
+// A servo without return delay answers at once.
 TYPED_TEST(UsartDriver, HearsAReplyThatComesAtOnce) {
   this->open();
   const Bytes request = counting(14);
@@ -228,7 +227,7 @@ TYPED_TEST(UsartDriver, WriteWaitsForRoomNoLongerThanItsTimeout) {
   EXPECT_EQ(this->sent(), much);
 }
 
-// If the shift register never finishes, the driver frees the bus, drops the bytes and counts it.
+// The shift register never finishes: the bytes are lost and counted.
 TYPED_TEST(UsartDriver, StuckSenderFreesTheBus) {
   this->open();
   this->line.tx_stuck = true;

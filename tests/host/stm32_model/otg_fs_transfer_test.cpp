@@ -54,8 +54,7 @@ TEST(OtgFs, BulkDataOfAnyLengthArrivesBothWaysWhenAcknowledgementsGetLost) {
       const UsbReply reply = device.host.in(1, length);
       EXPECT_EQ(reply.result, UsbResult::kDone);
       EXPECT_EQ(reply.bytes, ramp(length));
-      // If the last ACK was lost, the core keeps the packet; the host has it and does not ask
-      // again.
+      // After a lost last ACK the core keeps the packet, but the host does not ask again.
       EXPECT_TRUE(lost != 0 || (device.get(diepint(1)) & kDiepXfrc) != 0);
       EXPECT_EQ(device.machine.violations_text(), "");
     }
@@ -77,7 +76,7 @@ TEST(OtgFs, NothingToSendAndNoRoomAreNaks) {
   EXPECT_EQ(device.host.in(1, 64).result, UsbResult::kNaked);
   EXPECT_NE(device.get(diepint(1)) & kDiepIttxfe, 0u);
   EXPECT_NE(device.get(diepint(1)) & kDiepNak, 0u);  // set by the newer core only
-  device.polling = false;  // no one empties the FIFO: it takes one packet, not the next
+  device.polling = false;  // unread: the FIFO takes one packet, not the next
   EXPECT_EQ(device.host.out(1, ramp(64)), UsbResult::kDone);
   EXPECT_EQ(device.host.out(1, ramp(64)), UsbResult::kNaked);
   device.polling = true;
@@ -90,7 +89,7 @@ TEST(OtgFs, TheReceiveFifoTakesWhatItsWordsHold) {
   device.window = 640;
   ASSERT_TRUE(device.ready());
   device.polling = false;
-  // 128 words; a packet takes 16 and a status word, and one word stays free for the end.
+  // 128 words: 16 a packet and a status word; one stays free for the end.
   for (int packet = 0; packet < 7; ++packet) {
     EXPECT_EQ(device.host.out(1, ramp(64)), UsbResult::kDone);
   }

@@ -69,7 +69,7 @@ TEST(Timer, AStoppedCounterKeepsItsCountAndAReloadWithPreloadWaits) {
   EXPECT_EQ(io.read32(base::kTim2 + timer::kCnt), held);
 }
 
-/// The time to a reset: the watchdog is started with PR and RLR and never fed again.
+/// The time to a reset at PR and RLR, never fed again.
 Time bite_time(Machine& machine, std::uint32_t pr, std::uint32_t rlr) {
   ModelIo io = machine.io();
   Time bitten = 0;

@@ -10,9 +10,9 @@
 #include "tests/support/stm32/otg_fs_model.hpp"
 #include "tests/support/stm32/usb_host.hpp"
 
-/// Minimal polled USB device firmware by the manual's programming model. Any IN request on endpoint
-/// 0 gets `answer`. It takes SET_ADDRESS and SET_CONFIGURATION, keeps the data of control writes,
-/// and keeps endpoint 1's data until the test sends something.
+/// The least USB device firmware by the manual's model, polled. Any IN request on endpoint 0 gets
+/// `answer`; SET_ADDRESS and SET_CONFIGURATION work. It keeps control writes' data, and endpoint
+/// 1's until the test sends something.
 namespace verp::hal::stm32::model {
 
 /// `count` bytes that differ from their neighbours.
@@ -169,7 +169,6 @@ struct UsbDevice {
     }
   }
 
-  /// Plugs in, addresses and configures the device.
   bool ready() {
     start();
     return host.plug() && host.set_address(7) == UsbResult::kDone &&
@@ -181,7 +180,7 @@ struct UsbDevice {
   OtgFsModel& core;
   UsbHost host;
   bool polling = true, refuse = false, receives = false;
-  std::uint32_t window = 64;  ///< bytes that endpoint 1 accepts at a time
+  std::uint32_t window = 64;  ///< bytes that endpoint 1 takes at a time
   std::vector<std::uint8_t> answer = {18, 1, 0, 2}, setup, written, received;
 };
 

@@ -19,7 +19,7 @@ session::WalkPlan plan_of(double walk_s) {
   return plan;
 }
 
-/// The same push by hand: verp walk --push.
+/// As by hand: verp walk --push.
 bool survives(session::WalkPlan plan, const PushOptions& options, const PushCell& cell,
               double impulse_n_s) {
   const double force_n = impulse_n_s / options.push_s;
@@ -51,7 +51,6 @@ TEST(PushMap, FindsTheLargestPushThatTheSameWalkSurvivesWhateverTheThreads) {
   EXPECT_FALSE(survives(plan, options, cell, *cell.survives_n_s + options.step_n_s));
 }
 
-// The stance is wider than the feet are long ahead of the ankles, so the two directions differ.
 TEST(PushMap, OfARobotThatStandsEndsWithIt) {
   PushOptions options = standing_pushes();
   options.directions = 2;
@@ -88,7 +87,7 @@ TEST(PushMap, InterruptedKeepsWhatIsDoneAndSaysSo) {
   EXPECT_TRUE(sides_of(map).empty());
 }
 
-// Over so few cycles a turn still lags.
+// A turn still lags over so few cycles.
 TEST(StabilityMap, SaysWhatWasAskedAndWhatWasWalkedAndKeepsItWhenInterrupted) {
   const StabilityOptions options{.on_axis = 3, .most = {0.12, 0.04, 0.5}, .begin_s = 1.5};
   double share = 0;

@@ -22,7 +22,7 @@ TEST(Workers, DoEachPieceOnceAndSayHowFarTheyAre) {
   EXPECT_FALSE(workers.stopped());
 }
 
-// The waiting thread often wakes only after the last piece is done.
+// The waiting thread often wakes after the last piece.
 TEST(Workers, SayInTheEndThatAllIsDoneHoweverFastItWas) {
   for (int survey = 0; survey < 500; ++survey) {
     double share = -1;

@@ -80,7 +80,7 @@ TEST(Space, StaysInsideWhatEachNumberMayBe) {
   }
 }
 
-// 0.5 m/s with cycles of 0.45 s needs steps of 11 cm; generic21 allows 8.
+// 0.5 m/s in cycles of 0.45 s are steps of 11 cm; generic21 allows 8.
 TEST(Space, LetsStepsBeAsLongAsTheSpeedNeeds) {
   const session::WalkPlan plan = plan_of("generic21");
   for (const Tuning& tuning : Space(plan.params).first_look(0.5))
@@ -115,8 +115,7 @@ TEST(Limit, IsNamed) {
   EXPECT_THAT(limit_of(plan, coarse(), 0.2), HasSubstr("balance: fell after"));
 }
 
-// `verp walk` accepts half of the ordered way. The tuner rejects a gait that is a tenth too slow,
-// however well it walks.
+// `verp walk` accepts half of the ordered way; the tuner not even a tenth too little speed.
 TEST(Check, CountsWhoWalksAsFastAsWasAsked) {
   std::vector<session::WalkResult> results(4);
   const double speed_m_s[] = {0.21, 0.17, 0.19, 0.2};
@@ -132,13 +131,13 @@ TEST(Check, CountsWhoWalksAsFastAsWasAsked) {
   EXPECT_NEAR(*check.speed_m_s, 0.2, 1e-9);
 }
 
-/// A search of few walks; it keeps a long search's promises. survey::Workers promises the same
-/// result on any number of threads.
+/// A short search keeps a long one's promises. survey::Workers promises the same on any number of
+/// threads.
 Options small() {
   return {.speed_m_s = 0.2, .generations = 1, .children = 2, .checks = 1, .try_s = 6, .check_s = 8};
 }
 
-// With such short cycles generic21's ZMP error is twice that of the first candidates.
+// Here generic21's ZMP error is twice that of the first candidates.
 TEST(Tune, MendsARobotAndSaysByHowMuch) {
   session::WalkPlan plan = plan_of("generic21");
   plan.params.tuning.gait.cycle_s = 0.31F;

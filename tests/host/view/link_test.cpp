@@ -38,7 +38,7 @@ bool wait_for(Met met) {
   return met();
 }
 
-/// A robot and a link whose controller may be present, gone or still to come.
+/// A robot, and a link whose controller is there, gone or to come.
 class Link : public testing::Test {
  protected:
   Link() : plan_(plan_of("dxl")), entity_(std::make_shared<model::Entity>(plan_.entity)) {}

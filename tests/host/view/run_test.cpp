@@ -149,7 +149,7 @@ TEST(Player, WindsARunBackTickByTick) {
   EXPECT_NEAR(player.shown_s(), one_s, 1e-6);
 }
 
-// The bus and the physics steps decide a tick's instant.
+// Bus and physics steps decide a tick's instant.
 TEST(Player, StepsFromInstantToInstantHoweverFarTheyAreApart) {
   constexpr double kInstants[] = {1.0, 1.009, 1.02, 1.029, 1.04};
   const auto film = std::make_shared<LiveFilm>(std::make_shared<const scene::Entity>(), 0.01);
@@ -186,7 +186,6 @@ TEST(PoseHand, AFootGoesWhereItIsDraggedAsFarAsTheLegReaches) {
   EXPECT_EQ(hand.foot_of(0), -1);
 }
 
-/// The node that the joint moves.
 int hand_of(const model::Entity& entity, const std::string& joint) {
   const auto found = std::find_if(entity.joints.begin(), entity.joints.end(),
                                   [&](const model::Joint& each) { return each.name == joint; });
@@ -209,7 +208,6 @@ TEST(PoseHand, AnArmGoesWhereItIsDragged) {
     hand.move_link(node, point, to);
     EXPECT_LT((hand.point_body_m(node, point) - to).norm(), 2e-4) << i << hand.link_reach();
     EXPECT_EQ(hand.link_reach().find("within reach"), 0u);
-    // Only the arm moves.
     for (std::size_t j = 0; j < before.size(); ++j) {
       const bool of_arm = plan.entity.joints[j].name.starts_with("l_shoulder") ||
                           plan.entity.joints[j].name == "l_elbow";

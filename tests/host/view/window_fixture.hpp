@@ -14,7 +14,7 @@
 
 namespace verp::view {
 
-/// A user's sessions with one window. Each saves a picture in the folder VERP_UI_PICTURES, if set.
+/// A user's sessions with one window; each saves a picture in the folder VERP_UI_PICTURES, if set.
 class Window : public testing::Test {
  protected:
   Window()
@@ -26,7 +26,7 @@ class Window : public testing::Test {
         }) {
     window_.show();
     EXPECT_TRUE(QTest::qWaitForWindowExposed(&window_));
-    QApplication::setActiveWindow(&window_);  // because there is no window manager
+    QApplication::setActiveWindow(&window_);  // there is no window manager
     if (std::getenv("VERP_UI_PICTURES") == nullptr) {
       window_.scene().effects().shadows = window_.scene().effects().antialias = false;
     }

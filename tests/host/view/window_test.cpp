@@ -168,7 +168,7 @@ TEST_F(Window, ARobotThatMayGetUpByItselfNeedsNoWord) {
 }
 
 TEST_F(Window, ARobotWithoutActionsToGetUpByIsOfferedNone) {
-  // This file has no folder of actions beside it.
+  // It has no folder of actions.
   const QString file = folder_.filePath("robot.sdf");
   std::filesystem::copy(model::find_model("darwin_op"), file.toStdString());
   window_.open(file);
@@ -253,7 +253,7 @@ TEST_F(Window, AJointAndAFootMoveInTheHand) {
   hold.to_world_m = scene::Vec3(0, 0, -1);
   window_.scene().held(hold);
   EXPECT_TRUE(find<QLabel>("reach")->text().contains("out of reach"));
-  // Any other link can be dragged too, here the last one of an arm.
+  // Any other link too: the last of an arm.
   window_.scene().let_go(hold);
   const auto elbow = std::find_if(joints.begin(), joints.end(),
                                   [](const model::Joint& j) { return j.name == "l_elbow"; });
