@@ -4,6 +4,7 @@ Session: robots in a world, a control tick at a time. Core: the controller alone
 learning. SI units; frames and meanings stand in verp.h.
 """
 
+from . import _needs  # noqa: F401  isort: skip
 from ._core import Core
 from ._lib import VerpError, ffi, lib
 from ._session import GET_UP, RELAX, STAND, WALK, Moment, Quantity, Result, Session, replay

@@ -36,7 +36,11 @@ def _library() -> str:
 _declared = _header()
 ffi = cffi.FFI()
 ffi.cdef(_declared)
-lib = ffi.dlopen(_library())
+try:
+    lib = ffi.dlopen(_library())
+except OSError as error:
+    reason = str(error).partition(".  ")[0]
+    raise ImportError(f"verp: {reason}: `./verp python FILE` builds it, or set VERP_LIBRARY to it") from None
 if lib.verp_abi() != lib.VERP_ABI:
     raise ImportError(f"libverp has ABI {lib.verp_abi()}, this package is for {lib.VERP_ABI}")
 
