@@ -125,7 +125,9 @@ int run(int argc, char** argv, AddCommands add_commands) {
   root.require_subcommand(1);
   const std::vector<Subcommand> commands = add_commands(root);
   // After the subcommands, which would have it too.
-  root.footer("Besides, the launcher has `./verp test`: everything that is promised, checked.");
+  root.footer(
+      "The launcher adds `./verp test`, which checks all promises, and `./verp python FILE`, which runs a\n"
+      "Python program with libverp.");
   try {
     root.parse(argc, argv);
     for (const Subcommand& command : commands) {

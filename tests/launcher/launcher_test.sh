@@ -17,8 +17,9 @@ fresh_project() {
   rm -rf "${scratch:?}"/*
   mkdir -p "$scratch/bin" "$scratch/toolchains" "$scratch/tests" "$scratch/boards/b1" "$scratch/boards/shared"
   touch "$scratch/boards/b1/memory.ld"
-  cp "$root/verp" "$scratch/"
-  printf 'run cmake why\nrun g++ why\nfw gcc-arm why\nbench libbench why\ntest clang why\n' >"$scratch/toolchains/packages.txt"
+  sed '/^PATH=/d' "$root/verp" >"$scratch/verp" && chmod +x "$scratch/verp" # or Debian's own tools hide the stubs
+  cp "$root/toolchains/compile" "$scratch/toolchains/"
+  printf 'run cmake why\nrun g++ why\nfw gcc-arm why\nbench libbench why\ntest clang why\npython python3-cffi why\n' >"$scratch/toolchains/packages.txt"
   echo '{}' >"$scratch/CMakePresets.json"
   printf '#!/bin/bash\n[[ $1 != --look ]] || { [[ $* != *nonsense* ]] || exit 2; exit 0; }\necho "tests: $*"\n' >"$scratch/tests/run"
   chmod +x "$scratch/tests/run"
@@ -32,7 +33,10 @@ case \"\$*\" in
 esac"
   stub id 'echo 0'
   # shellcheck disable=SC2016
-  stub cmake 'mkdir -p "build/${!#}" && echo configured && : >"build/${!#}/build.ninja"'
+  stub cmake 'mkdir -p "build/${!#}" && echo configured && : >"build/${!#}/build.ninja"
+printf "CMAKE_HOME_DIRECTORY:INTERNAL=%s\n" "$PWD" >"build/${!#}/CMakeCache.txt"
+[[ $* != *-DVERP_TESTS=ON* ]] || echo VERP_TESTS:BOOL=ON >>"build/${!#}/CMakeCache.txt"
+echo "$*" >>configured'
   stub ninja "echo \"\$*\" >>'$scratch/built'; mkdir -p build/host-release/host/tool && touch build/host-release/.ninja_log && echo '[1/1] noise'
 printf '#!/bin/bash\necho \"\$*\"\nexit 7\n' >'$scratch/new' && chmod +x '$scratch/new'
 mv '$scratch/new' \"build/host-release/host/tool/\${!#}\""
@@ -132,6 +136,47 @@ check 'bench gets the cross tools too' 7 'bench' 'missing: gcc-arm'
 [[ -e $scratch/build/fw-b1 ]] || { echo 'FAILED: bench built no firmware' && failed=1; }
 launch --yes test --only unit
 check 'verp test is handed to tests/run' 0 'tests: --only unit' ''
+
+# Tests are configured where something of theirs is built, and stay.
+configured_for() { # what words-of-cmake command...
+  local what=$1 words=$2
+  shift 2
+  : >"$scratch/configured"
+  launch "$@"
+  [[ $(<"$scratch/configured") == "$words" ]] || { echo "FAILED: $what: cmake was called with '$(<"$scratch/configured")'" && failed=1; }
+}
+fresh_project
+printf '%s\n' g++ libbench >>"$scratch/installed"
+configured_for 'a walk asks for no tests' '--preset host-release' walk
+configured_for 'a second walk configures nothing' '' walk
+configured_for 'bench asks for them' '--fresh -DVERP_TESTS=ON --preset host-release' bench --pc
+configured_for 'a walk keeps them' '' walk
+configured_for 'a second bench configures nothing' '' bench --pc
+touch "$scratch/build/.packages-run"
+sleep 0.01 && touch "$scratch/toolchains/packages.txt"
+configured_for 'after packages came or went all is found anew, with the tests' '--fresh -DVERP_TESTS=ON --preset host-release' walk
+
+# libverp in Python.
+fresh_project
+echo g++ >>"$scratch/installed"
+echo 'import os, sys; print(sys.argv[1:], sys.executable, os.environ["PYTHONPATH"]); sys.exit(7)' >"$scratch/a.py"
+launch python "$scratch/a.py" 3 --yes
+check 'python gets its packages and libverp, and runs' 7 "['3'] /usr/bin/python3 $scratch/host/libverp/python" 'missing: python3-cffi'
+grep -q 'host-release verp_shared$' "$scratch/built" || { echo "FAILED: python built: $(<"$scratch/built")" && failed=1; }
+
+# A cache that cannot be written is named where it was missed.
+fresh_project
+echo g++ >>"$scratch/installed"
+stub ninja "echo '[1/1] Building CXX object a.o'; mkdir -p build/host-release/host/tool; ln -sf /bin/echo build/host-release/host/tool/verp_walk"
+CCACHE_DIR=/proc/nowhere launch walk
+check 'what ccache could not keep is compiled all the same' 0 walk 'without ccache: its folder /proc/nowhere cannot be written'
+
+# The launcher finds Debian's tools before others.
+fresh_project
+cp "$root/verp" "$scratch/" && mkdir -p "$scratch/host/record"
+stub cmake "echo taken >'$scratch/foreign'"
+launch --version
+[[ ! -e $scratch/foreign ]] || { echo 'FAILED: took a foreign cmake' && failed=1; }
 
 fresh_project
 stub apt-get 'echo "E: no network"; exit 100'

@@ -8,6 +8,16 @@ get_target_property(contract_definitions verp_floating_point INTERFACE_COMPILE_D
 list(TRANSFORM contract_definitions PREPEND -D)
 set(core_flags -std=c++20 -I${CMAKE_SOURCE_DIR} -isystem ${VERP_EIGEN_DIR} ${contract} ${contract_definitions})
 find_program(VERP_CLANG NAMES clang++ clang++-14)
+if(VERP_CLANG)
+  execute_process(COMMAND ${VERP_CLANG} -print-file-name=libclang_rt.asan-${CMAKE_SYSTEM_PROCESSOR}.a
+    OUTPUT_VARIABLE clang_asan OUTPUT_STRIP_TRAILING_WHITESPACE)
+endif()
+if(NOT IS_ABSOLUTE "${clang_asan}" OR NOT EXISTS "${clang_asan}")
+  verp_left_out("the core by clang and its sanitizers" "clang or libclang-rt-14-dev")
+  set(VERP_CLANG_RUNS OFF)
+else()
+  set(VERP_CLANG_RUNS ON)
+endif()
 
 # The whole core as one file: each compiler reads the headers once and may inline across files.
 set(whole_core ${CMAKE_CURRENT_BINARY_DIR}/whole_core/core.cpp)
@@ -49,7 +59,7 @@ set(programs)
 # An unoptimised run takes minutes. replay.coverage runs such a build and checks its digests.
 link_variant(gcc_O3 ${CMAKE_CXX_COMPILER} digest_main whole_core "" -O3)
 link_variant(gcc_O3_native ${CMAKE_CXX_COMPILER} digest_main whole_core "" -O3 -march=native)
-if(VERP_CLANG)
+if(VERP_CLANG_RUNS)
   link_variant(clang_O1 ${VERP_CLANG} digest_main whole_core "" -O1)
   link_variant(clang_O2 ${VERP_CLANG} digest_main whole_core "" -O2)
   link_variant(clang_O3 ${VERP_CLANG} digest_main whole_core "" -O3)
