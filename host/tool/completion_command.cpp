@@ -59,10 +59,13 @@ std::vector<ShellWords> all_words(const CLI::App& root) {
   all.front().commands.emplace_back("test", "everything that is promised, checked");
   all.front().commands.emplace_back("python", "Debian's Python with libverp");
   all.push_back({.command = "python", .commands = {}, .options = {}});
-  all.push_back(
-      {.command = "test",
-       .commands = {},
-       .options = {{"--only", "label"}, {"--filter", "names"}, {"--on", "board"}, {"--full", ""}, {"--complete", ""}}});
+  all.push_back({.command = "test",
+                 .commands = {},
+                 .options = {{"--only", "label"},
+                             {"--filter", "names"},
+                             {"--on", "board"},
+                             {"--full", ""},
+                             {"--complete", ""}}});
   return all;
 }
 

@@ -126,7 +126,8 @@ int run(int argc, char** argv, AddCommands add_commands) {
   const std::vector<Subcommand> commands = add_commands(root);
   // After the subcommands, which would have it too.
   root.footer(
-      "The launcher adds `./verp test`, which checks all promises, and `./verp python FILE`, which runs a\n"
+      "The launcher adds `./verp test`, which checks all promises, and `./verp python FILE`, which "
+      "runs a\n"
       "Python program with libverp.");
   try {
     root.parse(argc, argv);
