@@ -109,7 +109,7 @@ class Library {
   /// `number` is 1 to count().
   const Action& action(int number) const { return actions_[number - 1]; }
   const Frame& frame(int index) const { return frames_[index]; }
-  /// 0 if there is no such action.
+  /// Number of the action with this name; 0 if there is none.
   std::uint8_t number_of(const char (&name)[kNameLength]) const;
 
  private:
@@ -118,7 +118,7 @@ class Library {
   const Frame* frames_ = nullptr;
 };
 
-/// `size` may exceed the image (a flash section).
+/// Checks an image. `size` may exceed it (a flash section).
 LibraryFault check_library(const void* bytes, std::size_t size);
 
 }  // namespace verp::action

@@ -12,10 +12,11 @@ constexpr float kSettle_s = 1.2F;
 constexpr float kStillRate_rad_s = 0.12F;
 // Clamps readings, so that a wrong one cannot end the calibration.
 constexpr float kMostOfOne_rad_s = 2.0F * kStillRate_rad_s;
-// Servos hunting for their goal tremble at 5 Hz and above; a person turns the robot for longer.
+// Longer than the trembling of servos that hunt for their goal (5 Hz and above), shorter than a
+// person's turn of the robot.
 constexpr float kTremble_s = 0.25F;
 
-// Above it is shaking: mean square over all axes of clamped readings.
+// More than this is shaking: mean square over all axes of the clamped readings.
 constexpr float kMostShake_rad2_s2 = 0.045F;
 
 Vec3 clamped(const Vec3& rate_rad_s) {

@@ -6,24 +6,24 @@
 namespace verp::balance {
 namespace {
 
-// How fast the estimate follows the legs (critically damped). Faster turns encoder counts into
-// velocity noise, slower the accelerometer's offset into velocity. From tuning seeds 1001-1030 of
-// random robots; the leads below from 1001-1006.
+// How fast the estimate follows the legs (critically damped). Higher values turn encoder counts
+// into velocity noise, lower values the accelerometer's offset into velocity. From tuning seeds
+// 1001-1030 of random robots; the leads below from 1001-1006.
 constexpr float kBelief_per_s = 22.0F;
 // Age of the IMU's data: filters and bus.
 constexpr float kTiltLead_s = 0.005F;
 constexpr float kAccelLead_s = 0.003F;
-constexpr float kGroundTime_s = 0.5F;        // for forgetting steps up and down
-constexpr float kExchange_s = 0.015F;        // load transfer to a foot without cells
-constexpr float kLeastShareOfWeight = 0.2F;  // on both soles, to stand on them
-constexpr float kLeastShare = 0.2F;          // of the load, on legs that reported
+constexpr float kGroundTime_s = 0.5F;        // time constant for forgetting steps up and down
+constexpr float kExchange_s = 0.015F;        // time of load transfer to a foot without cells
+constexpr float kLeastShareOfWeight = 0.2F;  // least load on both soles of a standing robot
+constexpr float kLeastShare = 0.2F;          // least share of the load on legs that reported
 constexpr std::uint8_t kPatience = 10;       // ticks of silence bridged
-constexpr float kStanding_s = 0.1F;          // to standstill after a longer silence
+constexpr float kStanding_s = 0.1F;          // time constant to standstill after a longer silence
 constexpr float kMostVelocity_m_s = 10.0F, kMostAhead_m = 0.05F;
 
 // Under a standing robot the ground is level to a degree or so, and the accelerometer's mean is off
-// by its offset. The mean of both, weighted by squared errors, errs less: 0.3 degrees (5 mg) and
-// 0.5 (floors, joint zeros). More lean than this is the ground's: a ramp, an edge.
+// by its offset. The mean of both errs less, weighted by squared errors: 0.3 degrees (an offset of
+// 5 mg) and 0.5 (floors, joint zeros). More lean than this is the ground's: a ramp or an edge.
 constexpr float kOffset_rad = 0.005F, kGround_rad = 0.009F;
 constexpr float kShareOfGround =
     kOffset_rad * kOffset_rad / (kOffset_rad * kOffset_rad + kGround_rad * kGround_rad);
@@ -35,7 +35,7 @@ struct Leg {
   bool fresh = true;  ///< all its joints reported this tick
 };
 
-// A leg by its encoders; adds its mass and moment.
+// The leg's pose by its encoders. Adds its mass and moment.
 Leg look(const Params& params, const LegParams& leg, const Inputs& inputs, Vec3& moment_kg_m,
          float& mass_kg) {
   Leg seen;
@@ -81,17 +81,17 @@ void stand_on_ground(const EstimatorIn& in, const Leg* leg, float period_s, Esti
   state.uneven = math::to_xyz(before + (period_s / state.stood_s) * (now - before));
 }
 
-// Tilt by the accelerometer's offset, judged by the ground, whose weight falls smoothly as it
-// leans.
+// Tilt that the accelerometer's offset causes, judged by the ground. The ground's weight falls
+// smoothly as it leans.
 Vec3 offset_of(const EstimatorState& state) {
   const Vec3 uneven = math::to_vec(state.uneven);
   const float part2 = uneven.squaredNorm() / (kMostUneven_rad * kMostUneven_rad);
   return (kShareOfGround * math::max(1.0F - part2, 0.0F)) * uneven;
 }
 
-// The attitude takes the accelerometer's mean as up, which a velocity change leans by velocity /
-// (gravity * averaging time): half a degree in each step's sway. The legs know the velocity; this
-// removes the lean.
+// The attitude takes the accelerometer's mean as up. A velocity change leans it by velocity /
+// (gravity * averaging time): half a degree in each step's sway. The legs know the velocity, so
+// this removes the lean.
 Mat3 learn_up(const EstimatorIn& in, float period_s, EstimatorState& state) {
   Vec3 up = math::to_vec(in.attitude->up_body);
   if (in.imu_fresh) {

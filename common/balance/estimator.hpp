@@ -15,7 +15,7 @@ struct EstimatorState {
   Xyz up_body{0, 0, 1};
   Xyz body_m;  ///< origin of the body frame
   Xyz body_velocity_m_s;
-  Xyz ahead_m;                     ///< by the legs, relative to body_m
+  Xyz ahead_m;                     ///< the legs' body position minus body_m
   Xyz sole_from_body_m[kFeet];     ///< middle of each sole, odometry axes
   Xyz com_from_body_m;             ///< odometry axes
   Xyz com_velocity_m_s;            ///< over the ground
@@ -33,7 +33,7 @@ struct EstimatorState {
 };
 VERP_PACKED(EstimatorState);
 
-/// Long, because standing in many places improves the mean.
+/// Averaging time of the soles' up. Long, because standing in many places improves the mean.
 inline constexpr float kUnevenTime_s = 8.0F;
 
 struct EstimatorIn {
@@ -44,7 +44,7 @@ struct EstimatorIn {
   Vec3 gyro_body_rad_s{0, 0, 0};
   Vec3 accel_body_m_s2{0, 0, 0};
   bool standing = false;  ///< on both soles, not about to step: the ground may correct "up"
-  /// For soles without cells, or silent ones: does the robot stand, and on which foot.
+  /// Used for soles without cells or with silent ones: whether the robot stands, and on which foot.
   bool on_feet = false;
   std::uint32_t carrying = gait::kBoth;
 };
@@ -62,11 +62,11 @@ inline Vec3 sole_m(const EstimatorState& state, int side) {
 /// there from now on, by a pendulum of its height.
 gait::Xy dcm_m(const EstimatorState& state);
 
-/// Fixed-axis, as in AttitudeOut.
+/// The body's fixed-axis roll and pitch, as in AttitudeOut.
 float roll_rad(const EstimatorState& state);
 float pitch_rad(const EstimatorState& state);
 
-/// In the order of the controller's registers from body_position on.
+/// The whole estimate, in the order of the controller's registers from body_position on.
 struct Whereabouts {
   Xyz body_m;
   Xyz roll_pitch_yaw_rad;

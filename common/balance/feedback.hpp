@@ -6,7 +6,7 @@
 /// Gyro and tilt feedback on ankles and hips of stance legs; keeps a swing foot level.
 namespace verp::balance {
 
-/// For one leg's canonical angles, rad.
+/// Corrections of one leg's canonical angles, rad.
 struct LegCorrection {
   float hip_roll_rad = 0;
   float hip_pitch_rad = 0;

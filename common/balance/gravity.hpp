@@ -7,7 +7,7 @@
 /// gravity: the ground pushes from the ZMP to the centre of mass.
 namespace verp::balance {
 
-/// A link's acceleration is interpolated between body and foot by height.
+/// Load of one leg. A link's acceleration is interpolated between body and foot by its height.
 struct LegLoad {
   Vec3 ground_m;        ///< where the ground pushes
   Vec3 push_n;          ///< its force
@@ -21,7 +21,7 @@ struct LegMotion {
   float accel_rad_s2[kLegJoints] = {};
 };
 
-/// Both legs' last plan.
+/// Both legs' plan in the previous tick.
 struct DriveState {
   float angle_rad[kFeet * kLegJoints] = {};
   float rate_rad_s[kFeet * kLegJoints] = {};

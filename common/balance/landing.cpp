@@ -5,7 +5,7 @@
 namespace verp::balance {
 namespace {
 
-constexpr float kLearning = 0.2F;     // of one landing's error
+constexpr float kLearning = 0.2F;     // share of one landing's error that is learnt
 constexpr float kLeastWay_m = 0.02F;  // shorter ways show noise
 constexpr float kLeast = -0.1F, kMost = 0.3F;
 constexpr float kSettling = 0.15F;  // share of a step until a landed leg rests

@@ -30,7 +30,7 @@ void step_aside(const Params& params, const Tuning& tuning, const SteppingIn& in
                 SteppingState& state, gait::GaitOut& plan);
 
 /// True if a push moves a standing robot's DCM out of its soles: it must step now and a few times
-/// more. False if it may not stand on its soles.
+/// more. False if it is not known to stand on its soles.
 bool pushed(const Params& params, const Tuning& tuning, const SteppingIn& in, SteppingState& state);
 
 /// True if body and swing foot are within `most_m` of the plan.

@@ -26,7 +26,7 @@ bool shall_stop(const State& state, const Inputs& inputs, const AdmitOut& admitt
          (state.machine.faults & safety::kPowerFaults) != 0;
 }
 
-// Without sensors a foot is assumed where the action wants it.
+// A foot without sensors is assumed to be where the action wants it.
 bool is_pressed(const Params& params, const Inputs& inputs, int side) {
   if (params.feet.device_id[side] == 0) return true;
   std::int32_t sum = 0;
@@ -161,7 +161,7 @@ void act(const Params& params, const action::Library& actions, State& state, con
   model::share_corrections(params, played.angle_rad, goal_rad);
   for (int j = 0; j < params.joint_count; ++j) {
     const float at_rad = model::angle_of(params.joint[j], inputs.position_count[j]);
-    // Half the stiffness yields like a goal at half the distance.
+    // A servo of half the stiffness yields like one whose goal is half as far away.
     const float stiffness = played.stiffness[j];
     wanted.angle_rad[j] =
         stiffness < 1.0F ? at_rad + stiffness * (goal_rad[j] - at_rad) : goal_rad[j];

@@ -76,7 +76,7 @@ void read_imu(const Params& params, const Inputs& inputs, int lost, std::uint32_
 std::uint8_t count_ages(const Params& params, std::uint32_t fresh, std::uint32_t periods,
                         AdmitState& state) {
   const auto all = static_cast<std::uint32_t>((std::uint64_t{1} << params.joint_count) - 1U);
-  // Usual case; the loop would be most of this stage's cost.
+  // Fast path for nearly every tick; the loop would be most of this stage's cost.
   if ((fresh & all) == all) {
     for (std::uint8_t& age : state.servo_age) age = 0;
     return 0;

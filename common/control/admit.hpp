@@ -4,7 +4,8 @@
 #include "common/math/linear.hpp"
 #include "common/model/params.hpp"
 
-/// First stage: raw counts to physical values, ages of silences, check of a parameter write.
+/// First stage: converts raw counts to physical values, ages silent devices, checks a parameter
+/// write.
 namespace verp {
 
 /// Bad readings in a row that alarm a servo; one may be noise. Each of 21 servos is read every 0.2
@@ -20,7 +21,7 @@ inline constexpr std::uint8_t kSupplyReadings = 21;
 /// million. This many are once in 1e15, even with all sigmas a third of a count; at 10 ms an IMU
 /// may update at 5 Hz.
 inline constexpr std::uint8_t kFrozenReadings = 20;
-/// Never heard: beyond every limit.
+/// Age of a device that was never heard: beyond every limit.
 inline constexpr std::uint8_t kNeverHeard = 255;
 
 /// Ages count all control periods, also those without a tick: a stalled controller hears nothing.
@@ -46,7 +47,7 @@ struct AdmitOut {
   std::uint32_t conditions = 0;  ///< safety::Condition bits from the inputs alone
   std::uint32_t faults = 0;      ///< safety::Fault bits raised this tick
   bool imu_fresh = false;
-  /// Fresh after stale_release_s: forget earlier readings.
+  /// The IMU is fresh after stale_release_s: forget earlier readings.
   bool imu_anew = false;
   Vec3 gyro_body_rad_s{0, 0, 0};
   Vec3 accel_body_m_s2{0, 0, 0};
@@ -57,7 +58,7 @@ struct AdmitOut {
   float head_tilt_rad = 0;
 };
 
-/// Before the first tick, with its inputs: no device was heard.
+/// Call before the first tick, with its inputs: marks every device as never heard.
 void start(const Params& params, const Inputs& inputs, AdmitState& state);
 
 /// Also applies a parameter write to `tuning`.

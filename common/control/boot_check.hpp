@@ -7,7 +7,7 @@
 
 namespace verp::control {
 
-/// Worst first; later checks run only if earlier ones pass.
+/// Results of the boot check, worst first. Later checks run only if earlier ones pass.
 enum class BootVerdict : std::uint8_t {
   kSound = 0,
   kContracted = 1,  ///< built with fused multiply-add: other bits than the twin
@@ -17,7 +17,7 @@ enum class BootVerdict : std::uint8_t {
   kControl = 5,     ///< the image's 256 ticks differ
 };
 inline constexpr int kBootVerdicts = 6;
-/// For an operator. Index: BootVerdict.
+/// Messages for an operator. Index: BootVerdict.
 inline constexpr const char* kBootWords[kBootVerdicts] = {
     "sound",
     "built with fused multiply-add: build with toolchains/floating_point.cmake",

@@ -3,13 +3,13 @@
 #include "common/balance/attitude.hpp"
 #include "common/control/state.hpp"
 
-/// Falls in the tick: seen before impact; getting up.
+/// Falls in the tick: detection before impact, and getting up.
 namespace verp::control {
 
-/// From detection (a third of a radian) to the ground an inverted pendulum of 0.25 m takes 0.4 s;
-/// the rest is bouncing.
+/// Duration of a fall. An inverted pendulum of 0.25 m takes 0.4 s from detection (a third of a
+/// radian) to the ground; the rest is bouncing.
 inline constexpr std::int32_t kFallLasts_us = 700'000;
-/// Limp for this long before getting up: the robot lies still, and the accelerometer gives its
+/// The robot gets up after being limp this long: it lies still, and the accelerometer gives its
 /// tilt.
 inline constexpr std::int32_t kLieStill_us = 1'000'000;
 

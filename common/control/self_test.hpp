@@ -6,7 +6,7 @@
 
 namespace verp::control {
 
-/// Also an image's self_test_ticks.
+/// Ticks of the self-test; an image's self_test_ticks must be equal.
 inline constexpr std::uint32_t kSelfTestTicks = 256;
 
 /// Last chain link after kSelfTestTicks of step() on generated inputs: servos follow their goals,

@@ -31,7 +31,7 @@ float period_s(const Params& params) {
   return static_cast<float>(params.period_us) * 1e-6F;
 }
 
-// Latched with its fault: a supply that sags under load stays bad without it.
+// Power trouble is latched with its fault: a supply that sags under load stays bad without it.
 bool power_bad(const State& state, const AdmitOut& admitted) {
   return (admitted.conditions & safety::kPowerBad) != 0 ||
          (state.machine.faults & safety::kPowerFaults) != 0;
@@ -91,7 +91,7 @@ std::uint32_t conditions_of(const State& state, const AdmitOut& admitted,
   const SafetyTuning& tuning = state.tuning.safety;
   std::uint32_t conditions = admitted.conditions;
   const auto microseconds = [](float duration_s) { return math::to_int32(duration_s * 1e6F); };
-  // Lying, it must not begin to rise: without torque a fall needs no confirmation.
+  // A lying robot must not begin to rise: without torque a fall needs no confirmation.
   const bool limp = !safety::has_torque(state.machine.mode);
   const std::int32_t confirm_us = limp ? 0 : microseconds(tuning.fall_confirm_s);
   if (state.steer.fallen_us > confirm_us) conditions |= safety::kFell;
@@ -167,7 +167,7 @@ void watch_push(const Params& params, State& state, AdmitOut& admitted) {
   if (mode != Mode::kStanding && mode != Mode::kWalking) return;
   if (!balance::pushed(params, state.tuning, stepping_in(params, state), state.stepping)) return;
   admitted.conditions |= safety::kPushed;
-  // Not asked to walk: step on the spot.
+  // The operator did not ask for a walk: step on the spot.
   if ((admitted.conditions & safety::kAskWalk) == 0) {
     admitted.vx_m_s = admitted.vy_m_s = admitted.wz_rad_s = 0.0F;
   }
@@ -202,7 +202,7 @@ void lean(const Params& params, State& state, const AdmitOut& admitted,
   const Mode mode = state.machine.mode;
   const bool off = !(state.tuning.balance.feedback_enable > 0.5F);
   if (off || lies(mode) || !safety::has_torque(mode)) state.lean = balance::LeanState{};
-  // Standing, it learns the gyro's bias and must not turn.
+  // A standing robot learns the gyro's bias and must not turn.
   if (!off && mode == Mode::kWalking && admitted.imu_fresh) {
     const float planned_rad = state.tuning.gait.trunk_pitch_rad;
     balance::learn_lean(attitude, planned_rad, period_s(params), state.lean);

@@ -5,12 +5,12 @@
 /// The stages of step(): they connect the modules, which do the arithmetic.
 namespace verp::control {
 
-/// First tick: tuning from Params, ages.
+/// First tick: copies the tuning from Params and starts the ages.
 void start(const Params& params, const Inputs& inputs, State& state);
 
 balance::AttitudeOut estimate(const Params& params, State& state, const AdmitOut& admitted);
 
-/// Body and centre of mass from the legs, by the last tick's plan.
+/// Locates body and centre of mass from the legs, by the last tick's plan.
 void locate(const Params& params, State& state, const Inputs& inputs, const AdmitOut& admitted);
 
 /// Sets the condition of a push beyond what ankles balance.
@@ -22,7 +22,7 @@ gait::GaitOut plan_motion(const Params& params, State& state, const AdmitOut& ad
 
 void step_aside(const Params& params, State& state, gait::GaitOut& plan);
 
-/// Upright on slopes.
+/// Keeps the body upright on slopes.
 void lean(const Params& params, State& state, const AdmitOut& admitted,
           const balance::AttitudeOut& attitude, gait::GaitOut& plan);
 

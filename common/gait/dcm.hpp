@@ -6,10 +6,10 @@
 /// computed backwards from its end. The CoM follows by x' = omega (xi - x).
 namespace verp::gait {
 
-/// `time_s` after the step's start.
+/// ZMP `time_s` after the step's start.
 Xy zmp_at(const Step& step, float time_s);
 
-/// From step.dcm_end_m.
+/// DCM `time_s` after the step's start, from step.dcm_end_m.
 Xy dcm_at(const Step& step, float omega, float time_s);
 
 /// CoM at to_s from the CoM at from_s, from_s <= to_s, in the step.

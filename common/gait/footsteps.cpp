@@ -34,7 +34,7 @@ Xy middle(const Params& params, const Step& step) {
                  sole_center(params, kRight, step.after(kRight)));
 }
 
-// Duration in whole key points, about `duration_s`.
+// Sets a duration of about `duration_s` in whole key points.
 void set_times(const GaitTuning& tuning, float duration_s, Step& step) {
   step.key_us = math::to_int32(tuning.cycle_s * 1e6F) / (2 * kKeyPointsPerStep);
   step.key_us = step.key_us < 1 ? 1 : step.key_us;

@@ -7,9 +7,9 @@
 namespace verp::gait {
 namespace {
 
-// Least time in which a landed foot takes the weight. Goals that jump between two ticks lead by
-// what depends on the step's end within a period, and differ from foot to foot. Tuning seeds
-// 1001-1010, 4 cm in 450 ms: heading error 1.3 degrees rms without, 0.9 with it.
+// Least time in which a landed foot takes the weight. If goals jump between two ticks, their lead
+// depends on where in a period the step ends, and differs between the feet. Tuning seeds 1001-1010,
+// 4 cm in 450 ms: heading error 1.3 degrees rms without, 0.9 with it.
 constexpr float kTaken_s = 0.008F;
 
 // A moment in the known steps, at most one step back and within stored key points.
@@ -75,11 +75,11 @@ void set_dcm_ends(const Params& params, const Tuning& tuning, const VelocityIn& 
   }
 }
 
-// Key points laid before a hurried walk begins; two lie ahead of the clock.
+// Key points laid before a hurried walk begins: two must lie ahead of the clock.
 constexpr int kHurry = 2;
 
-// A hurried start throws the resting pendulum to the DCM at the step's end: the less time, the
-// further out the ZMP, but within the soles.
+// In a hurried start the ZMP throws the resting pendulum to the DCM at the step's end. It is
+// further out for shorter steps, but within the soles.
 void throw_body(const Params& params, const GaitTuning& tuning, GaitState& state) {
   constexpr std::uint8_t kShortest = 3;
   Step& step = state.queue[0];

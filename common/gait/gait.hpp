@@ -20,7 +20,7 @@ struct GaitState {
   PreviewState preview;
   FootstepState footsteps;
   Settled settled;                ///< digests for which stand_body_m holds
-  Xy stand_body_m;                ///< while standing, walk frame
+  Xy stand_body_m;                ///< body position while standing, walk frame
   std::int32_t clock_us = 0;      ///< since queue[0]'s start; the goals' moment
   std::uint8_t queued = 0;        ///< steps in the queue; 0: standing
   std::uint8_t first_key = 0;     ///< fixed key point at queue[0]'s start, mod 256

@@ -10,8 +10,8 @@
 namespace verp::gait {
 
 inline constexpr int kRing = 32;     ///< key points from robot to head, and spare
-inline constexpr int kHorizon = 24;  ///< key points ahead (0.36 s at a 0.45 s cycle)
-inline constexpr int kFixed = 16;    ///< two ahead, the rest behind for delayed joints
+inline constexpr int kHorizon = 24;  ///< lead of the head, key points (0.36 s at a 0.45 s cycle)
+inline constexpr int kFixed = 16;    ///< fixed key points: two ahead, the rest for delayed joints
 
 struct KeyPoint {
   Xy body_m;      ///< without correction

@@ -48,8 +48,8 @@ inline constexpr std::uint8_t kBoth = 2;
 
 inline constexpr int kIntervalsPerCycle =
     15;  ///< 16 states joined by 15 intervals (paper, section 4.1)
-/// At half intervals, both steps of a cycle have the same 15 key points and left mirrors right;
-/// whole intervals are 7.5 to a step.
+/// Key points lie at half intervals, so both steps of a cycle have the same 15 and left mirrors
+/// right. Whole intervals are 7.5 to a step.
 inline constexpr int kKeyPointsPerStep = 15;
 
 /// A planned step: stance foot, swing path and ZMP, which moves straight from zmp_begin to zmp_end
@@ -57,7 +57,7 @@ inline constexpr int kKeyPointsPerStep = 15;
 struct Step {
   std::int32_t key_us = 0;      ///< time between key points
   std::uint8_t key_points = 0;  ///< duration is key_points * key_us
-  std::uint8_t swing = kBoth;   ///< or kBoth: no foot leaves the ground
+  std::uint8_t swing = kBoth;   ///< kLeft, kRight, or kBoth: no foot leaves the ground
   Phase phase = Phase::kIdle;
   std::uint8_t landed = kBoth;  ///< the previous step's swing foot; kBoth: none
   float double_support_s = 0;   ///< from the step's beginning

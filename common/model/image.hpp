@@ -67,7 +67,7 @@ std::uint32_t params_crc(const Params& params);
 /// Fills in the header.
 void seal_image(ParamsImage& image);
 
-/// `size` may exceed the image (a flash section).
+/// Checks an image. `size` may exceed it (a flash section).
 ImageFault check_image(const void* bytes, std::size_t size);
 
 /// True if indices are inside their tables and parents precede children, so that no loop leaves its

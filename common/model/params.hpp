@@ -35,7 +35,7 @@ struct JointParams {
   Xyz com_link_m;                  ///< centre of mass in the link frame
   float lower_rad = 0;
   float upper_rad = 0;
-  float velocity_limit_rad_s = 0;  ///< of the safety limiter; at most the servo's no-load speed
+  float velocity_limit_rad_s = 0;  ///< limit by safety; at most the servo's no-load speed
   float counts_per_rad = 0;        ///< negative if the servo is mounted backwards
   float zero_count = 0;            ///< count at joint angle zero
   float compliance_rad_nm = 0;     ///< sag of the servo's position loop under load
@@ -43,8 +43,8 @@ struct JointParams {
   float armature_kg_m2 = 0;
   float friction_n_m = 0;          ///< friction torque near standstill
   float load_friction = 0;         ///< share of the load torque added to it
-  float friction_speed_rad_s = 1;  ///< where half of it is left
-  /// Standing and walking. Legs are solved; Newton starts here.
+  float friction_speed_rad_s = 1;  ///< speed at which half of it is left
+  /// Angle in standing and walking. Leg joints are solved; Newton starts here.
   float stand_rad = 0;
   float sit_rad = 0;  ///< crouch in which torque may be released
   VERP_FIELDS(name, parent, axis_kind, servo_id, servo_profile, origin_parent_m, axis, mass_kg,
@@ -130,10 +130,10 @@ struct Params {
   float body_mass_kg = 0;
   Xyz body_com_m;
   BusProtocol bus_protocol = BusProtocol::kDynamixel2;
-  /// Joints at the end without an own servo (model/coupling.hpp): they share the motor of their
-  /// servo_id.
+  /// Number of joints at the end without an own servo (model/coupling.hpp): they share the motor of
+  /// their servo_id.
   std::uint8_t followers = 0;
-  std::uint8_t arm[kFeet] = {0xFF, 0xFF};  ///< swings fore and aft; 0xFF: none
+  std::uint8_t arm[kFeet] = {0xFF, 0xFF};  ///< joint that swings the arm fore and aft; 0xFF: none
   /// Angle of `arm` per metre of the left foot's lead at which the arms cancel the legs' spin about
   /// the vertical. 0 without an arm.
   float arm_rad_per_m[kFeet] = {};
@@ -147,7 +147,7 @@ struct Params {
               body_mass_kg, body_com_m, bus_protocol, followers, arm, arm_rad_per_m, joint, leg,
               servo, imu, feet, tuning)
 
-  /// The bus sees only joints with servos.
+  /// Number of joints with servos. The bus sees only these.
   constexpr std::uint8_t servo_count() const {
     return static_cast<std::uint8_t>(joint_count - followers);
   }

@@ -11,24 +11,24 @@ namespace verp {
 /// also generic21's, are in the robots' files.
 struct GaitTuning {
   float cycle_s = 0.450f;         ///< two steps; interval cycle_s / 15 (0.030 s)
-  float double_support = 0.006f;  ///< share of a step
-  float lift_m = 0.0119f;         ///< swing sole at mid-swing
-  float half_stance_m = 0.0356f;  ///< lateral, body's midline to each foot's centre
+  float double_support = 0.006f;  ///< share of a step with both feet on the ground
+  float lift_m = 0.0119f;         ///< height of the swing sole at mid-swing
+  float half_stance_m = 0.0356f;  ///< lateral distance from the midline to each foot's centre
   float hip_height_m = 0.1503f;   ///< hip centre above the ankle axes, walking
   float trunk_pitch_rad = 0.03f;  ///< positive is nose down
   float zmp_x_m = -0.000206f;     ///< ZMP reference in the sole frame, forward
   float zmp_y_m = 0.0022f;        ///< ZMP reference, outward from the body's midline
-  float touchdown_m = 0.0053f;    ///< the swing sole's target at landing, because the body sags
-  float max_step_m = 0.095f;      ///< one foot past the other, any direction
+  float touchdown_m = 0.0053f;    ///< target height of the swing sole at landing: the body sags
+  float max_step_m = 0.095f;      ///< longest step: one foot past the other, in any direction
   float max_turn_rad = 0.40f;     ///< largest turn per step
-  float step_change_m = 0.010f;   ///< from one step to the next
-  float start_s = 0.4f;           ///< ZMP moves from the middle to the first stance foot
+  float step_change_m = 0.010f;   ///< largest change of step length between two steps
+  float start_s = 0.4f;  ///< start phase: ZMP moves from the middle to the first stance foot
   /// Joint k of a limb lags by k times this (paper: 0.030), by at most 12 key points: in cycles
   /// under 0.375 s, 0.030 delays the last joints less. Defaults are tuned for 0 and walk with up to
   /// 0.020; with 0.030 the robot falls.
   float joint_delay_s = 0.0f;
   float look_ahead_s = 0.0213f;     ///< goals are for this much later: bus and servo delay
-  float support_margin_m = 0.004f;  ///< planned ZMP to the sole's edge
+  float support_margin_m = 0.004f;  ///< least distance of the planned ZMP from the sole's edge
   float heading_gain = 0.12f;   ///< share of the heading error corrected in a step; 0 also makes
                                 ///< steps equally long (footsteps.cpp)
   float haste_lift_m = 0.005f;  ///< lift added per Step::haste, because a hurried step sags
@@ -41,8 +41,8 @@ VERP_PACKED(GaitTuning);
 /// Each `enable` is 1 or 0, to show that part's effect.
 struct BalanceTuning {
   float gravity_enable = 1.0f;      ///< gravity feed-forward by the servos' compliance
-  float inertia_share = 0.244f;     ///< of the rotors' inertia, fed forward
-  float friction_share = 1.24f;     ///< of the gears' friction, fed forward
+  float inertia_share = 0.244f;     ///< share of the rotors' inertia that is fed forward
+  float friction_share = 1.24f;     ///< share of the gears' friction that is fed forward
   float multibody_enable = 1.0f;    ///< multibody ZMP correction
   float feedback_enable = 1.0f;     ///< gyro and tilt feedback
   float zeros_enable = 1.0f;        ///< learnt zero errors and landings of the legs
@@ -66,12 +66,12 @@ VERP_PACKED(BalanceTuning);
 
 /// Thresholds of the safety table.
 struct SafetyTuning {
-  float fall_tilt_rad = 0.8f;        ///< more is a fall: limp
-  float fall_confirm_s = 0.05f;      ///< duration of that tilt
-  float stale_hold_s = 0.05f;        ///< servo or IMU silent: stop the gait, hold
-  float stale_release_s = 0.5f;      ///< silent: sit, then release torque
-  float command_hold_s = 0.5f;       ///< operator silent: walk becomes stand
-  float command_release_s = 30.0f;   ///< operator silent: sit, then release torque
+  float fall_tilt_rad = 0.8f;        ///< beyond this tilt the robot has fallen: limp
+  float fall_confirm_s = 0.05f;      ///< for how long that tilt must last
+  float stale_hold_s = 0.05f;        ///< servo or IMU silent this long: stop the gait and hold
+  float stale_release_s = 0.5f;      ///< silent this long: sit, then release torque
+  float command_hold_s = 0.5f;       ///< operator silent this long: walk becomes stand
+  float command_release_s = 30.0f;   ///< operator silent this long: sit, then release torque
   float rise_s = 1.0f;               ///< from the pose at power-up to the stand
   float sit_s = 1.5f;                ///< from the held pose to the sitting pose
   float voltage_low_v = 9.6f;        ///< three lithium cells at 3.2 V

@@ -102,7 +102,7 @@ enum HardwareError : std::uint8_t {
   kOverloadError = 1 << 5,
 };
 
-/// Baud Rate (8); 0xFF for a rate that the servos lack.
+/// Value of Baud Rate (8); 0xFF for a rate that the servos lack.
 constexpr std::uint8_t baud_rate_code(std::uint32_t baud) {
   constexpr std::uint32_t kRates[] = {9600,    57600,   115200,  1000000,
                                       2000000, 3000000, 4000000, 4500000};

@@ -294,7 +294,7 @@ constexpr bool same_name(const char* a, const char* b) {
   return false;
 }
 
-/// nullptr if there is none.
+/// Returns nullptr if there is none.
 constexpr const Register* find(const char* name) {
   for (const Register& each : row::kTable) {
     if (same_name(each.name, name)) return &each;
@@ -353,7 +353,7 @@ consteval bool rules_hold_all() {
 }
 static_assert(rules_hold_all(), "a register is longer, or has other bounds, than Rule can say");
 
-/// The rule of an element's first byte, else nullptr.
+/// The rule of the element that begins at `address`; nullptr if none does.
 constexpr const Rule* rule_at(std::uint16_t address) {
   std::size_t low = 0, high = kRegisters;  // the last at or before `address` is in [low, high)
   while (high - low > 1) {

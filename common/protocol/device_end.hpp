@@ -14,8 +14,8 @@ struct ReadEntry {
   std::uint16_t address = 0;
   std::uint16_t length = 0;
 };
-/// Entry `index`, in order of the answers. False if there is none or the packet is malformed or
-/// another.
+/// Entry `index` of such a read, in order of the answers. False if there is none, or the packet is
+/// malformed or of another kind.
 bool read_entry(const Packet& packet, std::size_t index, ReadEntry& entry);
 
 /// A Sync or Bulk Write for one device.
@@ -25,8 +25,8 @@ struct WriteEntry {
   const std::uint8_t* data = nullptr;
   std::size_t size = 0;
 };
-/// The entry at `offset`, which starts at 0 and is advanced. False if there are no more or the
-/// packet is another.
+/// The entry at `offset` of such a write; advances `offset`, which starts at 0. False if there are
+/// no more, or the packet is of another kind.
 bool write_entry(const Packet& packet, std::size_t& offset, WriteEntry& entry);
 
 constexpr bool is_fast_read(Instruction instruction) {

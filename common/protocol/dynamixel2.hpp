@@ -112,7 +112,7 @@ std::size_t encode_write(std::uint8_t* buffer, std::size_t capacity, std::uint8_
 /// A write that waits for kAction.
 std::size_t encode_reg_write(std::uint8_t* buffer, std::size_t capacity, std::uint8_t id,
                              std::uint16_t address, const std::uint8_t* data, std::size_t size);
-/// kPing, kAction or kReboot.
+/// `instruction` is kPing, kAction or kReboot.
 std::size_t encode_plain(std::uint8_t* buffer, std::size_t capacity, std::uint8_t id,
                          Instruction instruction);
 std::size_t encode_factory_reset(std::uint8_t* buffer, std::size_t capacity, std::uint8_t id,
@@ -148,7 +148,7 @@ struct Packet {
   std::size_t size = 0;
 
   bool is_status() const { return instruction == Instruction::kStatus; }
-  /// Blocks of error, id, data, CRC.
+  /// True for the reply to a Fast Sync or Bulk Read: blocks of error, id, data, CRC.
   bool is_fast_reply() const { return is_status() && id == kBroadcast; }
 };
 

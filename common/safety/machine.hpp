@@ -27,7 +27,7 @@ inline constexpr const char* kModeNames[kModes] = {"relaxed", "rising",  "standi
 
 enum Condition : std::uint32_t {
   kAskRelax = 1 << 0,
-  kAskStand = 1 << 1,  ///< or walk
+  kAskStand = 1 << 1,  ///< the operator asks to stand or walk
   kAskWalk = 1 << 2,
   kServosKnown = 1 << 3,  ///< every servo has reported recently
   kTimeUp = 1 << 4,       ///< rise, sitting or fall has lasted its time, or the action is over
@@ -40,11 +40,11 @@ enum Condition : std::uint32_t {
   kOperatorQuiet = 1 << 11,  ///< no operator frame for command_hold_s
   kOperatorGone = 1 << 12,   ///< no operator frame for command_release_s
   kPowerBad = 1 << 13,       ///< kPowerFaults, now or still latched
-  kJointBeyond = 1 << 14,    ///< limp, and a joint is beyond its limits by kBeyond_rad
-  kAskAction = 1 << 15,      ///< not played yet for this request
-  kFallSeen = 1 << 16,       ///< certain to fall, with a pose for it
-  kAskGetUp = 1 << 17,       ///< lies still, with an action for this side
-  kPushed = 1 << 18,         ///< pushed beyond what ankles balance: has to step, or recovers
+  kJointBeyond = 1 << 14,    ///< limp, and a joint exceeds its limits by over kBeyond_rad
+  kAskAction = 1 << 15,      ///< the operator asks for an action not yet played
+  kFallSeen = 1 << 16,       ///< certain to fall, and has a pose for it
+  kAskGetUp = 1 << 17,       ///< lies still, and has an action for this side
+  kPushed = 1 << 18,         ///< pushed beyond what ankles balance: has to step, or still does
 };
 
 /// Latched until the operator relaxes the robot. The upper half only reports.
@@ -59,7 +59,7 @@ enum Fault : std::uint32_t {
   kFaultServoError = 1 << 7,
   kFaultJointBeyond = 1 << 8,    ///< stand refused: a joint is beyond its limits
   kNoteOverrun = 1 << 16,        ///< a tick ended after its deadline
-  kNoteParameter = 1 << 17,      ///< a parameter write was out of range
+  kNoteParameter = 1 << 17,      ///< a parameter write was out of range and ignored
   kNoteStrideLimited = 1 << 18,  ///< the velocity needs longer steps than allowed
   kNotePlanShortened =
       1 << 19,  ///< steps shortened: reach, ZMP near the sole's edge, or colliding soles
@@ -68,7 +68,7 @@ enum Fault : std::uint32_t {
   kNoteSpeedLimited = 1 << 22,  ///< a joint hit its velocity limit
 };
 
-/// Rest hides these faults of load, so the reaction must outlast the load.
+/// Faults that load causes and rest hides, so the reaction must outlast the load.
 inline constexpr std::uint32_t kPowerFaults = kFaultTemperature | kFaultVoltage | kFaultServoError;
 
 struct MachineState {

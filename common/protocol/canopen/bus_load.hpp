@@ -99,7 +99,7 @@ struct BitRates {
   std::uint32_t nominal = 1'000'000;
   std::uint32_t data = 1'000'000;
 };
-/// Rounded up.
+/// Duration, rounded up.
 constexpr std::uint64_t wire_time_ns(const FrameBits& bits, const BitRates& rates) {
   constexpr std::uint64_t kSecond = 1'000'000'000;
   return (bits.nominal * kSecond + rates.nominal - 1) / rates.nominal +

@@ -41,7 +41,7 @@ inline constexpr std::uint16_t kInternalLimit = 1 << 11;
 inline constexpr std::uint16_t kFollowsCommand = 1 << 12;  ///< cyclic modes: the target is used
 inline constexpr std::uint16_t kFollowingError = 1 << 13;  ///< cyclic synchronous position
 
-/// Bits 0 to 3, 5, 6.
+/// The statusword's state bits (0 to 3, 5, 6).
 constexpr std::uint16_t state_bits(State state) {
   constexpr std::uint16_t kBits[kStates] = {0x00, 0x40, 0x21, 0x23, 0x27, 0x07, 0x0F, 0x08};
   return kBits[static_cast<unsigned>(state)];
@@ -133,7 +133,7 @@ class Drive {
   /// kInitialised, kQuickStopDone, kFault or kFaultReactionDone. A fault cannot be reset before
   /// clear_fault().
   std::uint8_t event(Trigger trigger, std::int16_t quick_stop_option);
-  /// The fault's cause is gone.
+  /// Call when the fault's cause is gone.
   void clear_fault() { fault_present_ = false; }
   std::uint8_t connection_lost(AbortConnection option, std::int16_t quick_stop_option);
 

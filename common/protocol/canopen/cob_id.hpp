@@ -35,7 +35,7 @@ constexpr std::uint16_t sdo_response_id(std::uint8_t node) {
 constexpr std::uint16_t sdo_request_id(std::uint8_t node) {
   return static_cast<std::uint16_t>(0x600 + node);
 }
-/// To and from the server.
+/// Identifiers to and from the server.
 struct SdoChannel {
   std::uint16_t request = 0;
   std::uint16_t response = 0;
@@ -75,7 +75,7 @@ struct Connection {
   constexpr bool operator==(const Connection&) const = default;
 };
 
-/// By the default configuration.
+/// The service of an identifier in the default configuration.
 constexpr Connection connection_of(std::uint32_t id) {
   if (id == kNmtId) return {Service::kNmt};
   if (id == kSyncId) return {Service::kSync};

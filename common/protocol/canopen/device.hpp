@@ -32,7 +32,7 @@ class Device {
         nmt_(node),
         servers_(objects_, node) {}
 
-  /// For setting defaults.
+  /// The communication objects, for setting defaults.
   Objects& objects() { return objects_; }
   NmtState state() const { return nmt_.state(); }
 
@@ -83,12 +83,13 @@ class Device {
     return next_tpdo(frame, now_us) || servers_.next(frame, now_us);
   }
 
-  /// New data for TPDO `which` (from 0): an event-driven one goes out after its inhibit time, an
-  /// acyclic one with the next SYNC.
+  /// Reports new data for TPDO `which` (from 0). An event-driven one goes out after its inhibit
+  /// time, an acyclic one with the next SYNC.
   void trigger(std::size_t which) {
     if (which < kSize.tpdos) sending_[which].event = true;
   }
-  /// TPDO `which` (from 0), if due. For objects that change again before next() would reach it.
+  /// Returns TPDO `which` (from 0) if it is due. For objects that may change again before next()
+  /// reaches it.
   bool next_pdo(std::size_t which, Frame& frame, std::uint64_t now_us) {
     if (which >= kSize.tpdos || !may_pdo(nmt_.state()) || !objects_.tpdos[which].on()) return false;
     const auto& record = objects_.tpdos[which];
@@ -112,21 +113,21 @@ class Device {
     hold_error(code, error_register);
     tell(code);
   }
-  /// The application's error, if an EMCY has told it already.
+  /// Sets the application's error without an EMCY, because one was sent already.
   void hold_error(ErrorCode code, std::uint8_t error_register) {
     application_code_ = code;
     application_errors_ =
         code == ErrorCode::kNoError ? error_register : error_register | kErrorGeneric;
     show_errors();
   }
-  /// While 1001h is set: the application's error first, then the communication's.
+  /// The present error while 1001h is set: the application's before the communication's.
   ErrorCode standing_error() const {
     if (application_errors_ != 0) return application_code_;
     if ((standing_ & kMasterSilent) != 0) return ErrorCode::kHeartbeatLost;
     if ((standing_ & kSyncOdd) != 0) return ErrorCode::kSyncLength;
     return (standing_ & kPdoOdd) != 0 ? pdo_code_ : ErrorCode::kNoError;
   }
-  /// A watched node (1016h) fell silent: reports it and obeys 1029h. False if none did.
+  /// True if a watched node (1016h) fell silent. Reports it and acts by 1029h.
   bool heartbeat_lost(std::uint64_t now_us) {
     std::uint8_t subindex = 0;
     if (!objects_.consumer.next_lost(now_us, subindex)) return false;
@@ -239,7 +240,7 @@ class Device {
     }
     return false;
   }
-  /// After an event or the event timer, never within the inhibit time.
+  /// True after an event or the event timer, but never within the inhibit time.
   static bool event_due(const PdoRecord<kSize.entries>& record, const Sending& each,
                         std::uint64_t now_us) {
     const std::uint64_t timer_us = std::uint64_t{record.event_timer_ms()} * 1000;

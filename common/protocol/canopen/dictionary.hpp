@@ -42,7 +42,7 @@ enum class Abort : std::uint32_t {
   kNoData = 0x08000024,
 };
 
-/// In English; "unknown abort code" outside the table.
+/// English name of the abort; "unknown abort code" if it is not in the table.
 const char* abort_text(Abort abort);
 
 struct Address {

@@ -94,13 +94,13 @@ extern const std::size_t kDriveRowCount;
 
 /// Null if there is none; subindex 0 of an object with several is no row.
 const ObjectRow* find_row(Address at);
-/// Subindex 0 of an object with several; 0 for others.
+/// Value of subindex 0: the number of subindices of an object with several, else 0.
 std::uint8_t highest_subindex(std::uint16_t index);
 
-/// For a Dictionary.
+/// Entry and value of a drive's object, for a Dictionary.
 Abort find_object(Address at, Entry& entry);
 Abort read_object(const DriveObjects& objects, Address at, std::uint8_t* buffer);
-/// Refuses what no state allows: an unsupported mode, a period of 0, unknown option codes.
+/// Refuses values that no state allows: an unsupported mode, a period of 0, unknown option codes.
 Abort write_object(DriveObjects& objects, Address at, const std::uint8_t* data);
 /// kNone if a PDO may map the object with that length.
 Abort check_mappable(Address at, std::uint8_t bits, bool receive);
@@ -108,7 +108,7 @@ Abort check_mappable(Address at, std::uint8_t bits, bool receive);
 /// 60C2h: value times ten to the exponent seconds, in microseconds. 0 if invalid or over a minute.
 std::uint32_t interpolation_period_us(std::uint8_t value, std::int8_t exponent);
 
-/// Distance of target and actual position (6065h, 6066h).
+/// Monitors the distance of target and actual position (6065h, 6066h).
 class FollowingMonitor {
  public:
   /// Call each cycle while following. True after too long outside the window.

@@ -182,7 +182,7 @@ class HeartbeatConsumer {
     entries_[subindex - 1] = {value, node, used ? Life::kUnknown : Life::kUnused};
     return Abort::kNone;
   }
-  /// As written.
+  /// The entry as it was written.
   constexpr std::uint32_t value(std::uint8_t subindex) const {
     return entries_[subindex - 1].value;
   }

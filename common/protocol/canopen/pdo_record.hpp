@@ -29,7 +29,7 @@ template <std::size_t kEntries = 8>
 class PdoRecord {
  public:
   constexpr PdoRecord() = default;
-  /// The PDO is on.
+  /// Makes a PDO that is on.
   constexpr PdoRecord(Direction direction, std::uint32_t id, std::uint8_t type,
                       const PdoMapping<kEntries>& mapping)
       : direction_(direction), cob_id_(id | kPdoNoRemote), type_(type), mapping_(mapping) {}
@@ -171,7 +171,7 @@ class PdoRecord {
 /// that SYNC, then every n-th: groups of drives with different start values share the SYNCs.
 class SyncSchedule {
  public:
-  /// The node became operational, or the record was written.
+  /// Call when the node became operational or the record was written.
   constexpr void restart() {
     left_ = 0;
     started_ = false;

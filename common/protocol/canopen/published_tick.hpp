@@ -26,20 +26,20 @@ inline constexpr std::uint8_t kFrameBytes = 8;
 inline constexpr std::uint16_t kInputsMask = 0x00FF;
 inline constexpr std::uint16_t kImuInParts = 1 << 8;  ///< IMU counts are not from the bus
 inline constexpr int kPartsShift = 12;                ///< number of parts, from here up
-/// With more, none are sent, and the listener must ask for them.
+/// Most parts of a tick. With more, none are sent, and the listener must ask for them.
 inline constexpr int kMostParts = 6;
 inline constexpr unsigned kTooManyParts = 15;
 
 inline constexpr std::size_t kPartBytes = 6;
-/// Gyro and accelerometer, contiguous, if parts carry them.
+/// Parts of the IMU's counts: gyro and accelerometer, contiguous.
 inline constexpr int kImuParts = 2;
 static_assert(sizeof(Inputs::gyro_count) + sizeof(Inputs::accel_count) == kImuParts * kPartBytes);
-/// New orders: a Command, a parameter write, the mailbox.
+/// Most parts of new orders: a Command, a parameter write, the mailbox.
 inline constexpr int kOrderParts = 4;
 static_assert(sizeof(Command) == 2 * kPartBytes && kImuParts + kOrderParts == kMostParts);
 static_assert(sizeof(Inputs) % 2 == 0 && sizeof(Inputs) / 2 <= 256);
 
-/// Half the offset into Inputs, size, bytes.
+/// A part: half the offset into Inputs, size, bytes.
 struct Part {
   std::uint8_t place = 0;
   std::uint8_t size = 0;
@@ -55,7 +55,7 @@ struct Part {
     __builtin_memcpy(&value, this, sizeof value);
     return value;
   }
-  /// False, and nothing changes, if outside Inputs.
+  /// Copies the part into `inputs`. False, without effect, if it lies outside.
   bool put(Inputs& inputs) const {
     const std::size_t offset = 2u * place;
     if (size > kPartBytes || offset + size > sizeof(Inputs)) return false;

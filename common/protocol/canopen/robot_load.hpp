@@ -20,7 +20,7 @@ struct LoadFormat {
 /// A usual tick, or one with new controlwords and strengths for all drives.
 enum class TickKind : std::uint8_t { kSteady, kChange };
 
-/// With as many drives as an FD frame's 64 bytes hold.
+/// `kind` with as many drives as an FD frame's 64 bytes hold.
 constexpr Shared widened(Shared kind) {
   kind.width = static_cast<std::uint8_t>(kMaxCanFdData / kind.bytes_each());
   return kind;
@@ -79,7 +79,8 @@ class TickLoad {
   LoadFormat format_;
 };
 
-/// Above it nothing can be repeated: refused, as on the serial bus.
+/// Most load of a steady tick. Above it nothing can be repeated, so the robot is refused, as on the
+/// serial bus.
 inline constexpr std::uint32_t kMostLoadPermille = 800;
 /// A tick in which all drives change state ends before the next.
 inline constexpr std::uint32_t kMostChangePermille = 1000;
@@ -91,7 +92,7 @@ constexpr bool has_room(const Params& params, bool fd, const BitRates& rates,
   return load_permille(load.bits(TickKind::kSteady), rates, period_us) <= kMostLoadPermille &&
          load_permille(load.bits(TickKind::kChange), rates, period_us) <= kMostChangePermille;
 }
-/// Drives that fit, in joint order. Calls `fits` with fewer and fewer.
+/// Number of drives that fit, in joint order. Calls `fits` with fewer and fewer.
 template <class Fits>
 int drives_that_fit(Params part, const Fits& fits) {
   part.joint_count = part.servo_count();
@@ -100,9 +101,9 @@ int drives_that_fit(Params part, const Fits& fits) {
   return part.joint_count;
 }
 
-/// Above it a controller does not publish by default. Orders are occasional and not counted, but
-/// ticks with them stay under kMostLoadPermille, with all drives changing state under
-/// kMostChangePermille. `own_imu`: TickLoad::published().
+/// Most load at which a controller publishes by default. Orders are occasional and not counted.
+/// Ticks with them must stay under kMostLoadPermille, with all drives changing state under
+/// kMostChangePermille. `own_imu`: see TickLoad::published().
 inline constexpr std::uint32_t kMostToPublishPermille = 700;
 constexpr bool has_room_to_publish(const Params& params, bool own_imu) {
   if (params.baud == 0 || params.period_us == 0) return false;
@@ -118,7 +119,7 @@ constexpr bool has_room_to_publish(const Params& params, bool own_imu) {
          share(TickKind::kChange, true) <= kMostChangePermille;
 }
 
-/// Steady tick, classic bus, worst stuffing.
+/// Duration of a steady tick on a classic bus with worst stuffing.
 constexpr std::uint32_t tick_us(const Params& params) {
   const FrameBits bits = TickLoad(params, {}).bits(TickKind::kSteady);
   return static_cast<std::uint32_t>((wire_time_ns(bits, {params.baud, params.baud}) + 999) / 1000);

@@ -16,10 +16,10 @@
 /// strengths of several drives share a frame: each drive maps its part, and dummies for the others.
 namespace verp::canopen::plan {
 
-/// Sender of the heartbeat that drives watch.
+/// The controller's node, which sends the heartbeat that drives watch.
 inline constexpr std::uint8_t kControllerNode = 127;
 
-/// Low half of a drive's 1000h; a sensor's is 0 (no profile).
+/// Profile number in the low half of a drive's 1000h. A sensor's is 0 (no profile).
 inline constexpr std::uint16_t kDriveProfile = 402;
 /// 1018h:2, product code: a drive's ServoProfile::model_number (0 there: any), a sensor's
 /// dxl::kModelImu or dxl::kModelFoot.
@@ -58,11 +58,11 @@ struct Telemetry {
 /// Ticks between asking one drive for velocity or torque.
 inline constexpr std::uint8_t kEffortTicks = 4;
 
-/// Frames that answer one SYNC: an SJA1000 stores 64 bytes, a classic frame of eight bytes takes
-/// eleven.
+/// Most frames that answer one SYNC. An SJA1000 stores 64 bytes, and a classic frame of eight bytes
+/// takes eleven.
 inline constexpr int kAnswersToOneSync = 5;
 
-/// IMU (gyro TPDO 1, accelerometer TPDO 2) and feet.
+/// Frames of IMU (gyro TPDO 1, accelerometer TPDO 2) and feet.
 constexpr int sensor_answers(const Params& params) {
   int frames = params.imu.device_id != 0 ? 2 : 0;
   for (const std::uint8_t id : params.feet.device_id) frames += id != 0 ? 1 : 0;

@@ -88,7 +88,7 @@ constexpr Frame addressed(std::uint32_t id, std::uint8_t byte0, Address at,
 constexpr Frame abort_frame(std::uint32_t id, Address at, Abort reason) {
   return addressed(id, kAbort, at, static_cast<std::uint32_t>(reason));
 }
-/// At most 7 bytes.
+/// `size` is at most 7.
 constexpr Frame segment(std::uint32_t id, std::uint8_t specifier, bool toggle,
                         const std::uint8_t* data, unsigned size, bool last) {
   const unsigned unused = kSegmentBytes - size;
@@ -103,7 +103,7 @@ constexpr Frame block_end(std::uint32_t id, std::uint8_t specifier, unsigned unu
   put_le(frame.data + 1, crc, 2);
   return frame;
 }
-/// Last segment in order, and the next block's size.
+/// Confirms the last segment in order and sets the next block's size.
 constexpr Frame block_response(std::uint32_t id, std::uint8_t specifier, std::uint8_t sequence,
                                std::uint8_t block) {
   Frame frame = bare(id, command(specifier, kBlockResponse));

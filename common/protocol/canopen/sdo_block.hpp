@@ -33,7 +33,7 @@ class BlockSender {
     return refused;
   }
 
-  /// A response: `sequence` segments arrived, `block` for the next block.
+  /// Takes a response: `sequence` segments arrived; the next block has `block`.
   Abort confirm(std::uint8_t sequence, std::uint8_t block) {
     if (sequence > sequence_) return Abort::kSequence;
     if (block < 1 || block > kMaxBlock) return Abort::kBlockSize;
@@ -47,7 +47,7 @@ class BlockSender {
   }
   /// True if everything is confirmed.
   bool done() const { return done_; }
-  /// In the last segment.
+  /// Unused bytes of the last segment.
   unsigned unused() const {
     if (size_ == 0) return kSegmentBytes;
     return (kSegmentBytes - size_ % kSegmentBytes) % kSegmentBytes;
@@ -108,7 +108,7 @@ class BlockReceiver {
   }
   bool complete() const { return complete_; }
   std::uint8_t block() const { return block_; }
-  /// Grows only with progress.
+  /// Total of segments taken: grows only with progress.
   std::uint32_t taken() const { return taken_; }
 
   /// `unused` bytes of the last segment do not count.

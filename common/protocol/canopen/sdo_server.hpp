@@ -61,7 +61,7 @@ class SdoServer {
   }
 
   bool idle() const { return phase_ == Phase::kIdle; }
-  /// The node was reset or stopped.
+  /// Call when the node was reset or stopped.
   void reset() {
     forget();
     replying_ = false;
