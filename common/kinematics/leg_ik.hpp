@@ -9,9 +9,7 @@ namespace verp::kinematics {
 
 /// Compromises of a solution. 0: the sole is exactly in place.
 enum LegFlag : std::uint8_t {
-  kOutOfReach =
-      1
-      << 0,  ///< nearest reachable pose: same orientation and direction from the hip, leg straight
+  kOutOfReach = 1 << 0,    ///< nearest reachable: same orientation and hip direction, straight leg
   kJointLimited = 1 << 1,  ///< at least one joint at its limit
   kNotConverged = 1 << 2,  ///< Newton only: residual above 0.1 mm or 1 mrad at the end
 };

@@ -5,12 +5,12 @@
 /// result is NaN or infinite. Angles are radians.
 ///
 /// Worst errors in ulp, measured by `verp_exhaustive` over every float (atan2: 10^9 stratified
-/// pairs); `--function NAME` repeats one. The tests enforce 1, and 2 for atan2.
+/// pairs); `--function NAME` repeats one:
 ///
 ///     sin  0.917    cos  0.912    asin 0.871    acos 0.789    exp  0.906    atan2 1.646
 ///
-/// Cost: atan2 one division; asin and acos beyond 1/2 one division and one square root; sincos less
-/// than sin and cos; angles beyond 64 rad are slow.
+/// The tests enforce 1 ulp, and 2 for atan2. Cost: atan2 one division; asin and acos beyond 1/2 one
+/// division and one square root; sincos less than sin and cos; angles beyond 64 rad are slow.
 namespace verp::math {
 
 struct SinCos {

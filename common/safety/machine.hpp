@@ -62,7 +62,7 @@ enum Fault : std::uint32_t {
   kNoteParameter = 1 << 17,      ///< a parameter write was out of range and ignored
   kNoteStrideLimited = 1 << 18,  ///< the velocity needs longer steps than allowed
   kNotePlanShortened =
-      1 << 19,  ///< steps shortened: reach, ZMP near the sole's edge, or colliding soles
+      1 << 19,  ///< steps shortened: reach, ZMP near the sole's edge, or soles collide
   kNotePlanRefused = 1 << 20,   ///< no step keeps the ZMP in the sole
   kNoteLegLimited = 1 << 21,    ///< a leg could not reach its target
   kNoteSpeedLimited = 1 << 22,  ///< a joint hit its velocity limit

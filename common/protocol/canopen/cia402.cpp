@@ -80,8 +80,8 @@ std::uint8_t Drive::event(Trigger trigger, std::int16_t quick_stop_option) {
 std::uint8_t Drive::connection_lost(AbortConnection option, std::int16_t quick_stop_option) {
   switch (option) {
     case AbortConnection::kFault:
-      return apply(Trigger::kFault,
-                   quick_stop_option);  // leaves no cause: the next reset clears it
+      // Leaves no cause, so the next reset clears it.
+      return apply(Trigger::kFault, quick_stop_option);
     case AbortConnection::kDisableVoltage:
       return apply(Trigger::kDisableVoltage, quick_stop_option);
     case AbortConnection::kQuickStop:

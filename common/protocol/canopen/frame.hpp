@@ -27,7 +27,8 @@ constexpr Frame classic_frame(std::uint32_t id, std::uint8_t size) {
   return frame;
 }
 
-/// Other frames belong to other protocols.
+/// CANopen services are classic data frames with 11-bit identifiers. Other frames belong to other
+/// protocols.
 constexpr bool is_canopen(const Frame& frame) {
   return !frame.extended && !frame.remote && !frame.fd;
 }
