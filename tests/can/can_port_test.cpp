@@ -10,9 +10,6 @@
 
 #include "tests/can/can_world.hpp"
 
-// What a CanPort adds to the contract: FD, filters, errors by kind, interfaces that vanish and
-// return.
-
 namespace verp::wire {
 namespace {
 
@@ -283,7 +280,7 @@ TEST(CanPort, SaysWhenAFrameCameNotWhenItWasFetched) {
   EXPECT_GE(port.now_us(), after_us + 50'000) << "time goes on";
 }
 
-// More frames than socket and inbox hold: each one is delivered or counted.
+// More frames than socket and inbox hold.
 TEST(CanPort, LosesNoFrameUncounted) {
   const OwnVcan vcan;
   RawNode far(vcan.name);

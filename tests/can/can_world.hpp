@@ -11,7 +11,6 @@
 /// A test's own interfaces. Runs as root inside tests/support/with-can.
 namespace verp::test {
 
-/// Runs `ip ARGUMENTS`, which must succeed.
 inline void ip(const std::string& arguments) {
   ASSERT_EQ(std::system(("ip " + arguments).c_str()), 0) << arguments;
 }

@@ -23,14 +23,13 @@ struct Decoded {
   std::uint32_t value(std::size_t place, std::size_t bytes) const;
 };
 
-/// Runs candump from construction until decode(); the log has candump's own format.
+/// Runs candump from construction until decode().
 class Capture {
  public:
   Capture(const std::filesystem::path& folder, std::string interface = "vcan0");
 
   /// Waits until the log contains `text` in candump's notation: "613#40".
   void await(const std::string& text) const;
-  /// Stops the capture and returns its frames.
   std::vector<Decoded> decode();
 
  private:

@@ -14,8 +14,6 @@
 #include "tests/can/capture.hpp"
 #include "tests/host/tool/program.hpp"
 
-// Foreign masters on a twin in real time: a python3-can script, frames typed by hand, random
-// traffic.
 namespace verp::tool::test {
 namespace {
 
@@ -191,7 +189,6 @@ TEST_F(ForeignMaster, FramesTypedByHandAreAnswered) {
   EXPECT_EQ(signs.back().state, 0x05u);
 }
 
-// After any random frames the nodes can be reset and the twin ends in order.
 TEST_F(ForeignMaster, RandomTrafficEndsNothing) {
   Twin twin(folder_);
   for (const char* kind : {"", "-e", "-R", "-I 000 -L 2", "-I 613 -L 8", "-I 080"}) {

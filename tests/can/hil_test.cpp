@@ -14,7 +14,6 @@
 #include "tests/host/tool/link_controller.hpp"
 #include "tests/host/tool/program.hpp"
 
-// `verp hil` on a CAN interface, with a controller at the other end.
 namespace verp::tool::test {
 namespace {
 
@@ -69,7 +68,7 @@ TEST_F(HilOnCan, RefusesAnotherRobot) {
       << outcome.err;
 }
 
-// A robot is connected as well; its drives would answer beside the twin's.
+// Its drives would answer beside the twin's.
 TEST_F(HilOnCan, RefusesNodesThatAreThereAlready) {
   const std::uint8_t id = params().joint[3].servo_id;
   std::atomic<bool> over = false;

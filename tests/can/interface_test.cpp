@@ -97,7 +97,6 @@ class InterfaceRun {
     board_->pacer.start(params_.period_us);
     return ready && desk_.write(app::reg("request"), {0});
   }
-  /// Ticks until it has been in `mode` for `then_ms`; fails if that takes too long.
   ::testing::AssertionResult reaches(Mode mode, std::uint32_t then_ms) {
     // Rising takes 7 s. If this PC skips periods, the robot may hold and sit down; then the time
     // starts again.
@@ -156,7 +155,7 @@ class InterfaceRun {
     board_->tick();
   }
 
-  /// The time for everything, somewhat less than the test's limit in CMakeLists.txt.
+  /// Somewhat less than the test's limit in CMakeLists.txt.
   static constexpr std::chrono::seconds kTime{100};
 
   const std::chrono::steady_clock::time_point end_ = std::chrono::steady_clock::now() + kTime;

@@ -16,7 +16,6 @@ namespace {
 
 using test::OwnVcan;
 
-/// A lockstep controller that sends and receives single frames.
 class CanLockstepPort : public ::testing::Test {
  protected:
   void greet() {

@@ -11,7 +11,6 @@
 #include "tests/can/scripted_node.hpp"
 #include "tests/host/tool/program.hpp"
 
-// `verp bus` on CAN with nodes unlike the twin's: one falls silent, one lacks objects.
 namespace verp::tool::test {
 namespace {
 

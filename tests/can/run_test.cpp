@@ -16,7 +16,7 @@
 #include "tests/can/can_world.hpp"
 #include "tests/host/tool/program.hpp"
 
-// `verp run`, and `verp bus` beside it, with a robot on a CAN interface: the twin in real time.
+// The robot on the CAN interface is the twin in real time.
 namespace verp::tool::test {
 namespace {
 
@@ -108,7 +108,7 @@ TEST_F(RunOnCan, SaysThatNobodyAnswers) {
   EXPECT_EQ(verp("bus ping --id 3 --link can:vcan0").status, 3);
 }
 
-// The second run's bring-up would reset all nodes of the first one's robot, which may walk.
+// Its bring-up would reset all nodes of the first one's robot, which may walk.
 TEST_F(RunOnCan, RefusesToBeTheSecondOfThisPcBeforeItSendsAnything) {
   verp::test::OwnVcan bus;
   wire::CanPort listener(bus.endpoint());
@@ -145,7 +145,7 @@ TEST_F(RunOnCan, RefusesToBeTheSecondOnABusBeforeItSendsAnything) {
   }
 }
 
-// Both would answer. The name is free again when the first has ended, in whatever way.
+// Both would answer.
 TEST_F(RunOnCan, ServesNodesOnceOnABus) {
   verp::test::OwnVcan bus;
   const std::string hil = "hil generic21 --bus can --realtime --link can:vcan7 --for 600";

@@ -5,7 +5,6 @@
 
 #include "tests/host/tool/program.hpp"
 
-// `verp run` on a CAN interface, as other nodes see it: a node that reports its ticks.
 namespace verp::tool::test {
 namespace {
 
@@ -30,7 +29,6 @@ class WatchedRun : public Program {
   }
 };
 
-// Other nodes see what the PC's controller decides but cannot order.
 TEST_F(WatchedRun, TellsOfEachTickShowsItsRegistersAndRefusesOrders) {
   const Outcome outcome = run_beside(
       "$verp shadow generic21 --period 20 --json --link can:vcan0 --for 1 --patience 60 "

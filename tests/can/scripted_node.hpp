@@ -32,7 +32,6 @@ class ScriptedNode {
   ScriptedNode(const ScriptedNode&) = delete;
   ScriptedNode& operator=(const ScriptedNode&) = delete;
 
-  /// Number of reads that it did not answer.
   unsigned unanswered() const { return unanswered_; }
 
  private:

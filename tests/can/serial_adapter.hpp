@@ -35,8 +35,8 @@ class SerialAdapter {
   SerialAdapter(const SerialAdapter&) = delete;
   SerialAdapter& operator=(const SerialAdapter&) = delete;
 
-  std::string name;  ///< the interface's name
-  const int end;     ///< the adapter firmware's end; it never waits
+  std::string name;
+  const int end;  ///< the adapter firmware's end; it never waits
 
  private:
   int slave_ = -1;

@@ -22,7 +22,6 @@
 #include "tests/host/tool/link_controller.hpp"
 #include "tests/host/tool/program.hpp"
 
-// `verp shadow` on a CAN interface, beside a running controller.
 namespace verp::tool::test {
 namespace {
 

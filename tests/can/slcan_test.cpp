@@ -8,8 +8,6 @@
 #include "tests/can/can_world.hpp"
 #include "tests/can/serial_adapter.hpp"
 
-// A serial adapter's queue fills while its other end is not read.
-
 namespace verp::wire {
 namespace {
 
@@ -23,7 +21,6 @@ class Adapter : public test::SerialAdapter {
   void say(const std::string& line) const {
     EXPECT_EQ(::write(end, line.data(), line.size()), static_cast<ssize_t>(line.size()));
   }
-  /// All lines sent by the interface that the adapter can read now.
   std::vector<std::string> read_lines() {
     char piece[4096];
     for (ssize_t count = 0; (count = ::read(end, piece, sizeof piece)) > 0;) {
@@ -112,7 +109,7 @@ TEST(Slcan, WaitsOutAFullQueue) {
   EXPECT_EQ(port.errors().dropped, 0u);
 }
 
-// Waiting frames leave by priority once the kernel's queue moves again.
+// Once the kernel's queue moves again.
 TEST(Slcan, SendsTheBestOfWhatWaitsFirst) {
   Adapter adapter;
   CanPort port(adapter.endpoint());

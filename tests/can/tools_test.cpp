@@ -109,7 +109,6 @@ class CanTools : public Program {
   void expect_answers(const Inputs& inputs, std::size_t from, std::size_t to) const;
   void expect_goals(const Outputs& outputs, std::size_t from, std::size_t to) const;
   void expect_heartbeats(std::size_t from, std::size_t to) const;
-  /// Whether a drive's telemetry equals the tick's inputs.
   bool says(const Decoded& answer, const Inputs& inputs) const {
     return answer.node == params.joint[inputs.slow_joint].servo_id &&
            plan::Telemetry::from(answer.value(0, 4)) == plan::Telemetry{inputs.slow_voltage_tenth_v,
@@ -179,7 +178,6 @@ void CanTools::expect_settings(std::size_t end) const {
   EXPECT_GT(read_back, 500);
 }
 
-// The tick's answers of drives, IMU and feet equal the trace.
 void CanTools::expect_answers(const Inputs& inputs, std::size_t from, std::size_t to) const {
   std::map<std::uint32_t, Decoded> first, second;
   for (const Decoded& each : some(from, to, "PDO1 (tx)")) first[*each.node] = each;
@@ -276,7 +274,6 @@ TEST_F(CanTools, TsharkReadsAWalkAsWeSayItIs) {
   EXPECT_GT(torques, trace.ticks.size() / (3 * plan::kEffortTicks));
 }
 
-// Foreign frames do not change a bit of the walk.
 TEST_F(CanTools, RandomTrafficBesideAWalkChangesNothing) {
   const Outcome walk = verp("walk --bus can --json --for 3", "walk");
   ASSERT_EQ(walk.status, 0) << walk.err;

@@ -27,8 +27,6 @@ const Robot& robot() {
   return loaded;
 }
 
-// What each kind promises beyond the promises of all, as the operator sees it.
-
 /// Each read that lost a byte or had one changed shows as a timeout or as a device's missed report.
 void shows_each_spoilt_read(const FaultResult& result) {
   EXPECT_GT(result.damage.spoilt_reads, 0u);

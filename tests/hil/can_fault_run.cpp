@@ -170,7 +170,6 @@ class CanFaultRun final : public FaultScene<Line, CanPlan, CanFaultResult> {
     result_.bus = line_->errors();
     for (const std::vector<TickRecord>& each : traces_) replay(each);
   }
-  /// A replay of its trace gives the same digests.
   void replay(const std::vector<TickRecord>& ticks) {
     result_.ticks_recorded += ticks.size();
     record::Trace trace;

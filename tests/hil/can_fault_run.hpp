@@ -54,7 +54,7 @@ struct CanFaultResult : RunResult {
   std::uint32_t faults() const { return damage.faults() + events + intruder; }
 };
 
-/// A robot stands up, walks and meets a fault. Everything derives from `seed`.
+/// Everything derives from `seed`.
 CanFaultResult run_can_fault(const Robot& robot, const CanPlan& plan, std::uint32_t seed);
 
 }  // namespace verp::test

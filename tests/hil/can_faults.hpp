@@ -25,13 +25,13 @@ struct CanFaults {
 /// What has been done so far, and to what.
 struct CanDamage {
   std::uint32_t lost = 0, missed = 0, doubled = 0, overtaken = 0, late = 0, down = 0, broken = 0;
-  std::uint32_t lost_answers = 0;  ///< PDOs that the controller did not receive
+  std::uint32_t lost_answers = 0;
   std::uint32_t faults() const {
     return lost + missed + doubled + overtaken + late + down + broken;
   }
 };
 
-/// Applies the faults to a VirtualCan, with all randomness from one seed.
+/// All randomness comes from one seed.
 class CanTrouble final : public can::Interference {
  public:
   CanTrouble(can::VirtualCan& bus, std::uint32_t seed) : bus_(bus), random_(seed) {
@@ -55,7 +55,6 @@ class CanTrouble final : public can::Interference {
   void passed(std::uint64_t now_us) override;
 
  private:
-  /// One frame's fate at all receivers.
   enum class Fate : std::uint8_t { kFine, kLost, kDoubled, kOvertaken };
   struct Held {
     CanFrame frame;
@@ -89,14 +88,12 @@ class CanLine {
     bus.set_real_time(true);
   }
 
-  // CanBus contract.
   bool send(const CanFrame& frame);
   bool poll(CanFrame& frame, std::uint32_t timeout_us);
   std::uint64_t now_us() const { return bus_.now_us(); }
   hal::CanErrors errors() const { return bus_.errors(); }
 
   std::uint64_t time_us() const { return now_us(); }
-  /// Lets bus time pass while the controller is busy.
   void wait_until(std::uint64_t time_us) { bus_.go_on_until(time_us); }
 
   CanTrouble trouble;

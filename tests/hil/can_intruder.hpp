@@ -8,7 +8,6 @@
 
 namespace verp::test {
 
-/// A foreign node that sends what none of the robot's nodes would.
 class Intruder final : public can::Node {
  public:
   enum class Kind : std::uint8_t {
@@ -26,7 +25,7 @@ class Intruder final : public can::Node {
   Intruder(const Params& params, std::uint32_t seed) : params_(params), random_(seed) {}
 
   Kind kind = Kind::kSilent;
-  int joint = 0;  ///< the joint whose drive it imitates
+  int joint = 0;
   std::uint32_t frames() const { return frames_; }
 
   std::uint8_t id() const override { return kId; }
@@ -47,7 +46,7 @@ class Intruder final : public can::Node {
   const Params& params_;
   std::minstd_rand random_;
   std::deque<CanFrame> out_;
-  std::uint8_t asked_ = 0;  ///< node last asked by SDO
+  std::uint8_t asked_ = 0;
   std::uint32_t frames_ = 0;
 };
 

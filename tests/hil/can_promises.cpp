@@ -12,7 +12,6 @@ using dxl::controller::DeviceState;
 constexpr int kBus = dxl::controller::kDeviceBus;
 constexpr int kImu = dxl::controller::kDeviceImu;
 
-/// Each missing answer shows as a timeout or as a device's missed report.
 void shows_each_lost_answer(const CanFaultResult& result) {
   EXPECT_GT(result.damage.lost_answers, 0u);
   EXPECT_GE(result.after.timeouts + result.after.missed_reports(), result.damage.lost_answers);

@@ -2,7 +2,6 @@
 #include "tests/hil/can_fault_run.hpp"
 #include "tests/hil/promises.hpp"
 
-/// What each kind of CAN fault promises beyond the promises of all, as the operator sees it.
 namespace verp::test {
 
 void lost_few(const CanFaultResult& result);

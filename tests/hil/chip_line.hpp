@@ -28,7 +28,6 @@ class ChipLine {
     work();
   }
 
-  // CanBus contract.
   bool send(const CanFrame& frame) { return board_.driver.send(frame); }
   bool poll(CanFrame& frame, std::uint32_t timeout_us) {
     return board_.driver.poll(frame, timeout_us);
@@ -43,7 +42,6 @@ class ChipLine {
   }
   /// The controller's next `frames` frames meet an error at each attempt.
   void break_own(unsigned frames) { board_.can.break_next = frames; }
-  /// The wires are shorted, so nothing can be sent.
   void short_circuit(bool yes) {
     board_.can.line_dominant = yes;
     board_.rig.machine.touch();

@@ -38,7 +38,7 @@ struct FaultResult : RunResult {
   LineDamage damage;  ///< done to the line
 };
 
-/// A robot stands up, walks and meets a fault. Everything derives from `seed`.
+/// Everything derives from `seed`.
 FaultResult run_fault(const Robot& robot, const FaultPlan& plan, std::uint32_t seed);
 
 }  // namespace verp::test

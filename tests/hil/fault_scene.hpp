@@ -74,7 +74,6 @@ class FaultScene {
   void fault(const std::string& what) { watch_.fault(what); }
   bool ended() const { return plan_.lasts_s > 0 && seconds(result_.ticks) >= plan_.lasts_s; }
 
-  /// Starts faults of servos, supply and IMU that the plant can show.
   void begin_in_plant() {
     switch (plan_.event) {
       case Event::kRepeats:
@@ -172,7 +171,6 @@ class FaultScene {
     return plan_.event == Event::kHot || plan_.event == Event::kLowVoltage ||
            plan_.event == Event::kSags;
   }
-  /// The operator only asks to relax.
   void relax(double duration_s) {
     asks_ = false;
     desk_.write(app::reg("request"), {0});
@@ -217,8 +215,8 @@ class FaultScene {
   std::uint64_t late_us_ = 0;  ///< when the busy loop resumed
   std::uint32_t ticks_ = 0;
   std::uint32_t changes_ = 0;  ///< of mode since the fault began
-  bool asks_ = true;           ///< the operator repeats its order to walk
-  bool sags_ = false;          ///< the supply sags while the robot walks
+  bool asks_ = true;
+  bool sags_ = false;
 };
 
 }  // namespace verp::test

@@ -16,7 +16,7 @@ struct LineFaults {
   std::uint32_t delay_us = 0;                 ///< by up to this
   std::uint32_t held_us = 0;                  ///< delays all replies, as a slow adapter does
   double bursts = 0;  ///< of frames and replies: noise inside, before or after
-  bool cut = false;   ///< nothing gets through
+  bool cut = false;
 };
 
 /// What has been done to the line so far, and to what.
@@ -26,7 +26,7 @@ struct LineDamage {
   /// Requests that lost or changed a byte, in themselves or in the reply, and so had no whole
   /// answer.
   std::uint32_t spoilt_reads = 0;
-  std::uint32_t noise_heard = 0;  ///< noise bytes that reached the controller
+  std::uint32_t noise_heard = 0;
   std::uint32_t faults() const { return lost + doubled + flipped + delayed + bursts + cut_frames; }
 };
 
@@ -41,13 +41,11 @@ class FaultyLine {
   LineFaults faults;
   const LineDamage& damage() const { return damage_; }
 
-  // FrameBus contract.
   bool send(const std::uint8_t* data, std::size_t size);
   std::size_t poll(std::uint8_t* buffer, std::size_t capacity, std::uint32_t timeout_us);
   std::uint64_t now_us() const { return bus_.now_us(); }
 
   std::uint64_t time_us() const { return now_us(); }
-  /// Lets bus time pass while the controller is busy.
   void wait_until(std::uint64_t time_us);
 
  private:
@@ -58,7 +56,6 @@ class FaultyLine {
   bool chance(double share) {
     return share > 0 && std::uniform_real_distribution<double>(0, 1)(random_) < share;
   }
-  /// What arrives of `bytes` at the other end.
   std::vector<std::uint8_t> spoilt(const std::vector<std::uint8_t>& bytes, bool inbound);
   void arrive(const std::uint8_t* data, std::size_t size);
   std::size_t fetch(std::uint8_t* buffer, std::size_t capacity);
@@ -70,8 +67,8 @@ class FaultyLine {
   std::deque<Arrived> inbox_;
   std::uint64_t sent_us_ = 0;      ///< when the last frame began, delivered or not
   std::uint64_t bus_sent_us_ = 0;  ///< when the last delivered frame began
-  bool reading_ = false;           ///< the last frame expects an answer
-  bool spoilt_ = false;            ///< and cannot get all of it
+  bool reading_ = false;
+  bool spoilt_ = false;  ///< the last frame cannot get its whole answer
 };
 static_assert(hal::FrameBus<FaultyLine>);
 

@@ -119,7 +119,6 @@ void imu_gone(const RunResult& result) {
   no_imu(result);
 }
 
-// The IMU answers but is not well, and the operator sees it.
 void imu_repeats(const RunResult& result) {
   constexpr int kImu = dxl::controller::kDeviceImu;
   EXPECT_EQ(result.during.state[kImu], DeviceState::kStale);

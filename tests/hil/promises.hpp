@@ -27,7 +27,6 @@ void late(const RunResult& result);
 void cut(const RunResult& result);
 void reset(const RunResult& result);
 void hot(const RunResult& result);
-/// Low only while it walks.
 void sags(const RunResult& result);
 void joint_beyond(const RunResult& result);
 void low_voltage(const RunResult& result);

@@ -16,8 +16,6 @@
 #include "host/link/system_clock.hpp"
 #include "tests/host/bus/fake_plant.hpp"
 
-/// Dynamixel devices on pseudo-terminals, each in its own thread, and a master that opens the other
-/// end as a serial port.
 namespace verp::test {
 
 inline std::string pty_path(const char* name) {
@@ -109,7 +107,6 @@ class SerialMaster {
     }
     return reply;
   }
-  /// Returns what came although nothing should.
   std::vector<std::uint8_t> expect_silence(const std::vector<std::uint8_t>& bytes) {
     return exchange(bytes, 1, 150'000);
   }

@@ -9,7 +9,7 @@
 namespace verp::test {
 namespace {
 
-// A made-up controller whose robot stands in mid-range and was asked to stand.
+// Its robot stands in mid-range and was asked to stand.
 struct Controller {
   Controller() {
     inputs.flags = kImuFresh | kFeetFresh | kCommandFresh;

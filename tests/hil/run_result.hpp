@@ -19,29 +19,27 @@ struct Registers {
   std::array<std::uint32_t, dxl::controller::kDevices> errors{};
 
   std::uint32_t counted() const { return crc_errors + timeouts + strays + noise + misses; }
-  /// Missed reports of all devices.
   std::uint32_t missed_reports() const;
 };
 Registers read_registers(OperatorDesk& desk);
 
-/// The result of a run in which a robot stood up, walked and met a fault.
 struct RunResult {
-  std::string violation;  ///< broken rule of the safety table or other promise; empty: none
+  std::string violation;  ///< broken rule or promise; empty: none
   std::uint32_t events = 0;
-  int joint = 0;                    ///< joint of the event's servo
-  std::uint8_t joint_id = 0;        ///< its id on the bus
-  Registers before;                 ///< when the fault began
-  Registers during;                 ///< when it ended
-  Registers after;                  ///< at the end
+  int joint = 0;              ///< joint of the event's servo
+  std::uint8_t joint_id = 0;  ///< its id on the bus
+  Registers before;
+  Registers during;  ///< when it ended
+  Registers after;
   std::uint32_t seen = 0;           ///< bit m: was in mode m
   std::uint32_t changes = 0;        ///< of mode, during the fault
   std::uint32_t walking_ticks = 0;  ///< since the fault began
-  std::uint32_t ticks = 0;          ///< since the fault began
+  std::uint32_t ticks = 0;
   std::uint64_t worst_tick_us = 0;  ///< bus time
   double distance_m = 0;            ///< over ground, physics only
   bool stale = false;               ///< a servo or the IMU was once silent for stale_hold_s
   bool fallen = false;
-  bool ready = false;  ///< the controller came up and walked before the fault
+  bool ready = false;  ///< came up and walked before the fault
 };
 
 }  // namespace verp::test

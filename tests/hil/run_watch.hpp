@@ -17,7 +17,6 @@ class RunWatch {
 
   RunWatch(const Params& params, sim::Plant& plant) : params_(params), plant_(plant) {}
 
-  /// The first broken promise; empty if none.
   const std::string& violation() const { return violation_; }
   void fault(const std::string& what) {
     if (violation_.empty()) violation_ = what;
@@ -49,7 +48,7 @@ class RunWatch {
   std::array<std::pair<std::int32_t, std::int32_t>, kMaxJoints> tells_{};
   std::array<std::uint64_t, kMaxJoints + 1> silent_{};  ///< ticks; the IMU's is last
   std::uint64_t limp_since_us_ = 0;
-  std::uint64_t fallen_us_ = 0;  ///< last time it was upright
+  std::uint64_t fallen_us_ = 0;
   bool stale_ = false;
 };
 

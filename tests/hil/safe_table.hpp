@@ -19,7 +19,7 @@ class SafeTable {
   /// The first broken rule and its time; empty if none.
   const std::string& violation() const { return violation_; }
   int mode() const { return mode_; }
-  /// Bit m: the controller has been in mode m.
+  /// Bit m: has been in mode m.
   std::uint32_t seen() const { return seen_; }
 
  private:
@@ -52,8 +52,8 @@ class SafeTable {
   static constexpr double kBeyond_rad = 0.05;
   static constexpr double kPushed_s = 0.3;  ///< after a push a robot may step unasked for this long
   static constexpr double kLies_s = 1.0;    ///< limp before it gets up
-  static constexpr double kFalls_s = 0.7;   ///< a fall's duration
-  int servo_bad_[kMaxJoints] = {};          ///< consecutive readings
+  static constexpr double kFalls_s = 0.7;
+  int servo_bad_[kMaxJoints] = {};  ///< consecutive readings
   int supply_low_ = 0;
   bool trouble_ = false;   ///< power trouble, and no request to relax since
   int trouble_ticks_ = 0;  ///< while walking

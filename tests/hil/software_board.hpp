@@ -29,7 +29,6 @@ class BusClock {
     return static_cast<std::uint32_t>(begun);
   }
   std::uint64_t now_us() const { return line_.time_us(); }
-  /// When the next tick begins.
   std::uint64_t due_us() const { return next_us_; }
 
  private:

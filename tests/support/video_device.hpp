@@ -66,7 +66,6 @@ class VideoDevice final : public wire::VideoCalls {
                           static_cast<long>(time_us_ % 1'000'000)};
     done_.push_back(buffer);
   }
-  /// Column of the bar in picture `number`.
   std::uint32_t bar_of(std::uint32_t number) const { return number % width_; }
   std::uint32_t made() const { return sequence_; }
   std::uint64_t time_us() const { return time_us_; }
@@ -250,7 +249,7 @@ class VideoDevice final : public wire::VideoCalls {
     done_.pop_front();
     return 0;
   }
-  /// Draws a picture; returns its bytes.
+  /// Returns the picture's bytes.
   std::uint32_t draw(std::uint32_t number, std::vector<std::uint8_t>& bytes) const {
     if (row() == 0) {
       const std::uint8_t file[] = {0xFF, 0xD8, static_cast<std::uint8_t>(number), 0xFF, 0xD9};

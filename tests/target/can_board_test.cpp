@@ -19,7 +19,6 @@ namespace {
 constexpr std::uint32_t kReady = 0x700, kEnd = 0x7FF;
 constexpr std::uint32_t kPatience_us = 20'000'000;
 
-/// The board with its CAN on vcan0, ready to answer.
 class Echo {
  public:
   Echo()

@@ -83,7 +83,6 @@ TEST(CanLoop, WalksInTheTwinWithTheBitsOfSoftwareInTheLoop) {
   expect_same_bits_live(check, ticks);
 }
 
-// One robot on a field walks, turns, is pushed, falls, gets up, kicks and waves.
 TEST(CanTour, HasTheBitsOfSoftwareInTheLoop) {
   const std::string board = setting("VERP_TEST_BOARD");
   ASSERT_FALSE(board.empty()) << "set VERP_TEST_BOARD";

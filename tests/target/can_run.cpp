@@ -90,7 +90,6 @@ class Listener {
   shadow::LiveCheck& check_;
 };
 
-/// Answers the controller until it ends.
 void serve(can::LockstepServer& server, can::LockstepPort& port, board::QemuProcess& firmware,
            std::optional<Listener>& listener) {
   Clock::time_point heard = Clock::now();

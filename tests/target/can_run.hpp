@@ -21,7 +21,6 @@ struct CanRun {
   double frames_per_tick = 0;  ///< on vcan0, with the clock's frames
 };
 
-/// A CAN robot on its feet in its own world.
 struct CanTwin {
   Robot robot = load_robot("generic21", "can");
   sim::World world;

@@ -37,7 +37,6 @@ TEST(ClosedLoop, WalksTheSameBitsInTheBoardAndOnThePc) {
   EXPECT_GT(there.distance_m, 2.0) << "it should have walked";
 }
 
-// One robot on a field walks, turns, is pushed, falls, gets up, kicks and waves.
 TEST(Tour, HasTheSameBitsInTheBoardAndOnThePc) {
   const char* board = std::getenv("VERP_TEST_BOARD");
   ASSERT_NE(board, nullptr) << "set VERP_TEST_BOARD";

@@ -7,8 +7,7 @@
 #include "tests/replay/long_trace.hpp"
 #include "tests/target/twin_run.hpp"
 
-// A firmware build's ctest sets VERP_TEST_BOARD to the emulated board and VERP_TEST_TICKS to the
-// trace's length.
+// A firmware build's ctest sets VERP_TEST_BOARD and VERP_TEST_TICKS (the trace's length).
 namespace verp::board {
 namespace {
 

@@ -29,7 +29,6 @@ Params plain_robot() {
   return params;
 }
 
-/// Replays in this process, for comparison.
 TargetReplay replay_here(const Params& params, std::span<const Inputs> inputs,
                          const TargetReplayOptions& options = {}) {
   TargetReplay result;

@@ -27,14 +27,12 @@ class SerialBoard {
   bus::Client& operator_port() { return operator_port_; }
   std::uint64_t read(const char* name);
   void write(const char* name, std::int64_t value);
-  /// For messages.
   std::string described(const std::string& what) const { return firmware_.described(what); }
 
  private:
   wire::Endpoint endpoint(const char* name) const;
   board::QemuProcess start(const std::string& board, const std::vector<std::uint8_t>& params,
                            const std::vector<std::uint8_t>& actions) const;
-  /// QEMU's options that load these bytes.
   std::vector<std::string> load(const char* name, const std::vector<std::uint8_t>& image,
                                 const char* address) const;
 
@@ -60,8 +58,8 @@ struct SerialTrouble {
 
 struct SerialRun {
   TwinRun twin;
-  std::uint64_t digest = 0;  ///< reported by the controller after the last tick
-  std::uint32_t tick = 0;    ///< reported likewise
+  std::uint64_t digest = 0;  ///< reported by the controller
+  std::uint32_t tick = 0;    ///< reported by the controller
   std::string difference;    ///< see bus::ShadowLoop
   double ticks_per_s = 0;    ///< in wall time
   std::uint64_t faults = 0;  ///< damaged bytes on the cable

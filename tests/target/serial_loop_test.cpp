@@ -9,8 +9,7 @@
 #include "host/action/send.hpp"
 #include "tests/target/serial_board.hpp"
 
-// A firmware build's ctest sets VERP_TEST_BOARD to the emulated board and VERP_TEST_TICKS to a
-// walk's length.
+// A firmware build's ctest sets VERP_TEST_BOARD and VERP_TEST_TICKS (a walk's length).
 namespace verp::test {
 namespace {
 
@@ -42,7 +41,6 @@ TEST(SerialLoop, AnswersItsOperatorAsDevice200) {
   EXPECT_EQ(board.read("torque_enable"), 0u);
 }
 
-// Without a robot in its flash a board never drives, and says why.
 TEST(SerialLoop, TellsItsOperatorWhyItRefusesTorque) {
   SerialBoard board(test_board(), {});
   ASSERT_TRUE(board.operator_port().ping(dxl::controller::kDefaultId).has_value());
@@ -92,7 +90,6 @@ TEST(SerialLoop, WalksTheSameBitsThroughItsUsartsAndInThisProcess) {
   std::printf("%s: %u ticks at %.0f ticks/s\n", test_board().c_str(), ticks, there.ticks_per_s);
 }
 
-// As the loop in this process does.
 TEST(SerialLoop, GetsUpByTheActionsInItsFlash) {
   const Robot robot = load_robot("generic21");
   const Script script = fall_script(robot);
@@ -113,7 +110,6 @@ TEST(SerialLoop, GetsUpByTheActionsInItsFlash) {
               there.ticks_per_s);
 }
 
-// A robot without valid actions still walks, and says why it has none.
 TEST(SerialLoop, TellsItsOperatorWhyItsActionsDoNotCount) {
   const Robot robot = load_robot("generic21"), other = load_robot("op3");
   const auto fault_of = [&](const std::vector<std::uint8_t>& actions) {

@@ -55,7 +55,6 @@ struct Script {
   std::vector<std::uint32_t> actions = {};  ///< the controller's library
 };
 
-/// The script's operator.
 struct Orders {
   const Script& script;
   app::OperatorOrder order(std::uint32_t tick) const { return script.order(tick); }
@@ -107,8 +106,8 @@ Robot load_robot(const std::string& name, const std::string& bus = {});
 /// With the orders of ScriptedOperator.
 Script walk_script(const Params& params, std::uint32_t ticks, bool wandering = false);
 
-/// Walks, turns, is pushed and walks on, stands, is pushed over although it steps, gets up, kicks
-/// and waves: everything on a field, in 42 s.
+/// All that a robot does on a field, in 42 s: it walks, turns, is pushed, is pushed over although
+/// it steps, gets up, kicks and waves.
 Script tour_script(const Robot& robot);
 /// The controller's modes from its first tick on.
 inline constexpr safety::Mode kTourModes[] = {
@@ -127,7 +126,6 @@ std::string modes_text(const std::vector<safety::Mode>& modes);
 /// Software in the loop: controller, bus and physics in this process.
 TwinRun run_here(const Robot& robot, const Script& script);
 TwinRun run_here(const Robot& robot, std::uint32_t ticks, bool wandering);
-/// The controller in firmware on an emulated board.
 TwinRun run_on_board(const std::string& board, const Robot& robot, const Script& script);
 
 }  // namespace verp::test

@@ -9,7 +9,6 @@
 /// take the time of their bits without stuffing.
 namespace verp::test {
 
-/// The controller on the wire.
 class CanNode {
  public:
   virtual ~CanNode() = default;
@@ -96,7 +95,6 @@ class ErrorCounter {
   static constexpr unsigned kBusOff = 256, kPerError = 8;
   static constexpr std::uint64_t kRecovery_us = 128 * 11;
 
-  /// True if there are too many errors.
   bool error() { return (count_ += kPerError) >= kBusOff; }
   void good() { count_ -= count_ > 0 ? 1 : 0; }
   void clear() { count_ = 0; }

@@ -24,14 +24,13 @@ class FlashModel : public Bank {
   std::uint32_t fail_next = 0;          ///< so many operations end with OPERR, half done
   std::uint32_t protected_sectors = 0;  ///< bit s: option bytes protect sector s
 
-  /// Decides how unsure bits fall.
   void seed(std::uint32_t seed) { random_ = seed * 2654435761u | 1u; }
   /// The power fails in the middle of the operation after `operations` more.
   void cut_power_after(std::uint32_t operations) {
     cut_planned_ = true;
     until_cut_ = operations;
   }
-  /// Decides unsure bits; called by Machine::power_on().
+  /// Called by Machine::power_on().
   void power_on();
   std::uint32_t programs() const { return programs_; }
   std::uint32_t erases() const { return erases_; }
@@ -74,7 +73,7 @@ class FlashModel : public Bank {
     std::uint8_t bytes[kChunkBytes];
   };
 
-  std::map<std::uint32_t, Chunk> chunks_;         ///< by number
+  std::map<std::uint32_t, Chunk> chunks_;
   std::map<std::uint32_t, std::uint8_t> unsure_;  ///< bits, by address
   Time done_at_ = kNever;
   unsigned keys_ = 0, option_keys_ = 0;

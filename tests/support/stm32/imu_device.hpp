@@ -18,8 +18,8 @@ class ImuDevice : public SpiDevice {
   explicit ImuDevice(ImuKind kind);
 
   // Script.
-  bool silent = false;   ///< answers all ones
-  bool frozen = false;   ///< takes no more samples
+  bool silent = false;  ///< answers all ones
+  bool frozen = false;
   std::size_t torn = 0;  ///< so many bytes of each sample reach the FIFO one exchange later
   std::function<void()> before_sample = [] {};
   int who_am_i = -1;          ///< replaces the kind's identity
@@ -36,9 +36,7 @@ class ImuDevice : public SpiDevice {
   std::uint8_t reg(unsigned bank, std::uint8_t address) const { return registers_[bank][address]; }
   std::uint32_t samples_taken() const { return samples_; }
   std::size_t fifo_size() const { return fifo_.size(); }
-  std::uint32_t violations() const {
-    return violations_;
-  }  ///< accesses forbidden by the data sheet
+  std::uint32_t violations() const { return violations_; }
 
   void select(bool selected, Time now) override;
   std::uint8_t exchange(std::uint8_t out, Time now) override;
@@ -69,9 +67,9 @@ class ImuDevice : public SpiDevice {
   std::int16_t gyro_[3] = {}, accel_[3] = {};
   std::deque<std::uint8_t> fifo_;
   std::deque<std::uint8_t> on_the_way_;  ///< bytes of the newest sample, not yet in the FIFO
-  std::uint8_t fifo_byte_ = 0;           ///< the last byte read
-  std::uint8_t fifo_size_low_ = 0;       ///< frozen when the high byte was read
-  bool addressed_ = false;               ///< this transfer's register address has arrived
+  std::uint8_t fifo_byte_ = 0;
+  std::uint8_t fifo_size_low_ = 0;  ///< frozen when the high byte was read
+  bool addressed_ = false;          ///< this transfer's register address has arrived
   bool reading_ = false;
   std::uint8_t pointer_ = 0;
   Time ready_at_ = 0;

@@ -31,7 +31,6 @@ struct ImuRig {
   }
   ~ImuRig() { EXPECT_EQ(device.violations(), 0u) << "against the chip's data sheet"; }
 
-  /// One read, which must end in time.
   ImuStatus read() {
     const std::uint64_t before_us = rig.timer.now_us();
     const ImuStatus status = imu.read(sample);

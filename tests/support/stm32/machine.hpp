@@ -33,7 +33,6 @@ class SpiModel;
 class TimerModel;
 class UsartModel;
 
-/// The drivers' access to the model.
 class ModelIo {
  public:
   explicit ModelIo(Machine& machine) : machine_(&machine) {}
@@ -77,7 +76,6 @@ class Machine {
   Time now() const { return now_; }
   /// Lets time pass as if the core slept; interrupts run meanwhile.
   void advance(Time time) { advance_to(now_ + time); }
-  /// Schedules an outside event.
   void at(Time when, std::function<void()> what);
   std::uint64_t core_cycles() const;
 
@@ -126,7 +124,6 @@ class Machine {
   /// The clocks change now: all banks count up to here at the old ones.
   void clocks_change();
   std::uint32_t map(const void* data, std::size_t size);
-  /// Memory behind a bus address, or null.
   std::uint8_t* memory(std::uint32_t address, unsigned width);
   bool mask_interrupts();
   void unmask_interrupts();

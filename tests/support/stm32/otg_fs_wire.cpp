@@ -145,7 +145,6 @@ void OtgFsModel::receive(std::uint32_t status, unsigned endpoint, bool data1,
   }
 }
 
-/// Settings required before the first packet.
 void OtgFsModel::check_ready() {
   if (checked_) return;
   checked_ = true;

@@ -25,7 +25,7 @@ class SerialHost {
   unsigned deaf_every = 0;   ///< one ACK of the host in so many IN packets is lost; 0: never
   unsigned twice_every = 0;  ///< one ACK of the device in so many OUT packets is lost
 
-  /// Plugs in and enumerates the device. False if that fails.
+  /// False if the device is not enumerated.
   bool plug() { return bus_.plug() && meet(); }
   void unplug() {
     forget_session();
@@ -67,7 +67,6 @@ class SerialHost {
   /// Bytes for the port; they wait here until it accepts them.
   void send(const Bytes& bytes) { outbox_.insert(outbox_.end(), bytes.begin(), bytes.end()); }
   std::size_t unsent() const { return outbox_.size(); }
-  /// Returns and removes the received bytes.
   Bytes take() { return std::exchange(inbox_, {}); }
   const Bytes& inbox() const { return inbox_; }
   /// Short packets, which tell a host's driver that a message is over.

@@ -10,7 +10,6 @@
 /// A SPI master with devices on chip-select pins; 8-bit frames, and the F7's 4-byte FIFOs.
 namespace verp::hal::stm32::model {
 
-/// A device on the bus.
 class SpiDevice {
  public:
   virtual ~SpiDevice() = default;

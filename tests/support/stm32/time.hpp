@@ -1,7 +1,6 @@
 #pragma once
 #include <cstdint>
 
-/// A chip model's simulated time.
 namespace verp::hal::stm32::model {
 
 using Time = std::uint64_t;  ///< picoseconds since the model was made

@@ -16,7 +16,6 @@ namespace verp::hal::stm32::model {
 
 class UsartModel : public Bank {
  public:
-  /// A fault of a byte on the line.
   enum class Flaw : std::uint8_t { kNone, kNoise, kFraming, kBreak };
   struct Sent {
     std::uint8_t data;

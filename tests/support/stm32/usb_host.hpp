@@ -36,10 +36,10 @@ class UsbHost {
 
   // Script.
   Time patience = ms(50);
-  Time retry = us(20);              ///< between a NAK and the next try
-  std::function<void()> firmware;   ///< runs after each token, and every 100 us of pass()
-  std::uint32_t lose_acks = 0;      ///< loses so many of the next acknowledgements
-  std::uint32_t control_size = 64;  ///< packet size of endpoint 0
+  Time retry = us(20);             ///< between a NAK and the next try
+  std::function<void()> firmware;  ///< runs after each token, and every 100 us of pass()
+  std::uint32_t lose_acks = 0;     ///< loses so many of the next acknowledgements
+  std::uint32_t control_size = 64;
   std::uint32_t bulk_size = 64;
 
   /// Power, up to 1 s for the pull-up, 100 ms of rest (USB 2.0, 7.1.7.3), a bus reset. False if no
@@ -68,7 +68,7 @@ class UsbHost {
   std::uint8_t address() const { return address_; }
   std::uint32_t naks() const { return naks_; }
   std::uint32_t duplicates() const { return duplicates_; }  ///< IN packets with the old toggle
-  std::size_t last_packet() const { return last_packet_; }  ///< bytes of the last IN packet
+  std::size_t last_packet() const { return last_packet_; }
 
  private:
   UsbResult send(unsigned endpoint, bool& data1, const std::uint8_t* bytes, std::size_t count);
