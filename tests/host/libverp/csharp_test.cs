@@ -1,5 +1,5 @@
-// The C# interface: its bits and its errors on misuse. The host never crashes, and a controller's
-// exception arrives complete.
+// C#: its bits and its errors. The host never crashes, and a controller's exception arrives
+// complete.
 using System;
 using System.IO;
 using System.Threading;
@@ -182,7 +182,7 @@ static class CsharpTest {
   }
   static void Attach(Session session) { session.Control(moment => moment.Outputs.torque_enable = 0); }
 
-  // The collection runs inside a callback: the runtime scans the stack that it runs on.
+  // A callback collects: the runtime scans the stack that it runs on.
   static void RobotsOfOneWorldMayCollectGarbage() {
     using (Session session = Walking(1, 2)) {
       int ticks = 0;

@@ -47,8 +47,8 @@ digest=$("$verp" walk --for 3 --json | sed -nE 's/^ *"digest": "(0x[0-9a-f]+)".*
 [[ $words == *" $digest" ]] || say "verp walk has digest $digest, the examples say $words"
 bound=$(/usr/bin/python3 "$sources/bind.py" "$VERP_LIBRARY" 3) || say "bind.py failed: $bound"
 [[ $bound == "$words" ]] || say "a binding from abi.json says '$bound', the others '$words'"
-# Whether linked or loaded later, ODE must call the library's solver loops, not its own (host/sim/solver.hpp). Otherwise
-# walks take several times as long.
+# Linked or loaded, ODE must call the library's solver loops, not its own (host/sim/solver.hpp): otherwise walks take
+# several times as long.
 for language in "$programs/example_walk_c" "/usr/bin/python3 $sources/walk.py"; do
   LD_DEBUG=bindings LD_DEBUG_OUTPUT=bound $language 1 >walked
   grep -qE 'file .*libode\S* .*to \S*libverp\S* .*solveL1Transposed' bound.* || say "$language has ODE's own loops"

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# exported.sh FOLDER LIBRARY NM: the library's exports, exported.map and verp.h's declarations agree, except for the
-# loops that ODE calls. Every declaration has a comment above it.
+# exported.sh FOLDER LIBRARY NM: library, exported.map and verp.h agree, except for the loops that ODE calls. Every
+# declaration has a comment.
 set -euo pipefail
 folder=$1 library=$2 nm=$3
 declared=$(grep -oE '\bverp_[a-z_]+\(' "$folder/verp.h" | grep -v ')' | tr -d '(' | LC_ALL=C sort -u)

@@ -16,7 +16,7 @@
 #include "tests/host/libverp/opened.hpp"
 #include "tests/support/leak.hpp"
 
-/// Attacks on the library: cut texts, endless sizes, other threads.
+/// Attacks: cut texts, endless sizes, other threads.
 namespace verp::abi::test {
 namespace {
 
@@ -57,7 +57,7 @@ TEST(LibverpHostile, PlansThatAreTooLong) {
   EXPECT_TRUE(core.plan(0.1, 0, 0, 0).empty());
 }
 
-// The physics diverge, and the result must not call that a good run.
+// The physics diverge; that is no good run.
 TEST(LibverpHostile, APushBeyondAllNumbersIsInTheResult) {
   Opened opened;
   opened.add();
@@ -111,7 +111,7 @@ TEST(LibverpHostile, TextsThatAreEmpty) {
                "file is empty");
 }
 
-/// Random bytes that no sensor or operator would send: the core always answers and never crashes.
+/// That no sensor or operator sends.
 TEST(LibverpHostile, CoreTakesAnyBytes) {
   const verp_lib::Core core;
   std::mt19937 chance(1);
@@ -127,8 +127,7 @@ TEST(LibverpHostile, CoreTakesAnyBytes) {
   EXPECT_NE(core.digest(), 0U);
 }
 
-/// Several threads use and close one handle: each call succeeds or returns an error, and nothing
-/// breaks.
+/// Each call succeeds or returns an error.
 TEST(LibverpHostile, ManyThreadsOnOneHandle) {
   Opened opened;
   opened.add();
@@ -155,7 +154,7 @@ TEST(LibverpHostile, ManyThreadsOnOneHandle) {
   EXPECT_GE(told, 39) << "closed, or busy, but for one";
 }
 
-/// The C++ interface checks its arguments before it calls C, with the same messages.
+/// Its own checks, with C's messages.
 TEST(LibverpHostile, CppNamesTheCall) {
   const auto says = [](const std::string& words, const std::function<void()>& call) {
     try {
@@ -184,7 +183,7 @@ TEST(LibverpHostile, CppNamesTheCall) {
   says("verp_core_plan: count is 4294967295: at most", [&] { core.plan(0.1, 0, 0, ~0U); });
 }
 
-/// A controller's exception belongs to the ticking thread, and a moment to its controller's thread.
+/// An exception belongs to the ticking thread, a moment to its controller's.
 TEST(LibverpHostile, SecondThreadTakesNothingFromTheFirst) {
   verp_lib::Session session;
   session.add(verp_lib::Session::defaults());

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# install.sh CMAKE BUILD: the installed files work in their folder and find its robots: program, library by pkg-config,
-# Python package, completion, manual.
+# install.sh CMAKE BUILD: program, library by pkg-config, Python package, completion and manual work where they are
+# installed, and find their robots.
 set -euo pipefail
 cmake=$1 build=$2 here=$(cd "$(dirname "$0")" && pwd)
 to=$(mktemp -d)
@@ -12,7 +12,7 @@ say() { echo "install: $*" && exit 1; }
 "$to/bin/verp" check generic21 >check.txt || say "verp check failed"
 grep -q "$to/share/verp/common/robots/generic21/robot.sdf" check.txt || say "verp does not read its own robots: $(head -3 check.txt)"
 "$to/bin/verp" check --help >/dev/null
-# The library folder here is lib; Debian's multiarch folder is for /usr only.
+# Here it is lib; Debian's multiarch folder is for /usr only.
 PC=$(dirname "$(find "$to" -name verp.pc)")
 LIB=$(dirname "$PC")
 [[ $(env -u VERP_LIBRARY PYTHONPATH="$to/lib/python3/dist-packages" PYTHONDONTWRITEBYTECODE=1 LD_LIBRARY_PATH="$LIB" \
@@ -51,7 +51,6 @@ for each in share/man/man1/verp.1 share/bash-completion/completions/verp share/z
   share/fish/vendor_completions.d/verp.fish; do
   grep -q replay "$each" || say "$each does not know the commands"
 done
-# Each function has a page with the header's words.
 functions=$(grep -oE '\bverp_[a-z_]+\(' include/verp/verp.h | tr -d '(' | sort -u)
 [[ $(wc -l <<<"$functions") -gt 40 ]] || say "the header declares only $functions"
 for each in $functions; do

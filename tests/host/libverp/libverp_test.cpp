@@ -13,7 +13,7 @@
 namespace verp::abi::test {
 namespace {
 
-/// The library contains the code that `verp` runs, and gives the same bits.
+/// The library contains the code of `verp`.
 TEST(Libverp, WalksAsASessionDoes) {
   const session::WalkPlan plan = session::test::plan_of("");
   const session::WalkResult wanted = session::walk(plan);
@@ -27,7 +27,7 @@ TEST(Libverp, WalksAsASessionDoes) {
   EXPECT_STREQ(result.failure, "");
 }
 
-/// A session's view of each tick is enough for a Core to decide it again.
+/// A session's view of each tick is enough.
 TEST(Libverp, CoreDecidesWhatTheSessionDid) {
   Opened opened;
   opened.add();
@@ -83,7 +83,7 @@ int freeze(const verp_moment* moment, void*) {
   return 0;
 }
 
-/// A controller that never calls the robot's own makes another run with its own digest.
+/// It never calls the robot's own, so the run has another digest.
 TEST(Libverp, ReplacedControllerHasTheRobot) {
   Opened opened;
   opened.add();
@@ -113,7 +113,7 @@ TEST(Libverp, OwnControllerThatDecidesLikeTheRobotsIsTheSameRun) {
   EXPECT_EQ(digest_with([](const verp_lib::Moment& moment) { moment.decide(); }), digest_with({}));
 }
 
-/// With walk_s 0, orders alone drive the robot; a parameter, a mass and a push act on it.
+/// With walk_s 0; a parameter, a mass and a push act too.
 TEST(Libverp, DrivesARobotByOrders) {
   Opened opened;
   opened.add([](verp_robot& robot) { robot.walk_s = 0; });

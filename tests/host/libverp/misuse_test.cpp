@@ -83,7 +83,7 @@ TEST(LibverpMisuse, NamesAndRanges) {
   EXPECT_EQ(verp_session_tick(session, 1, nullptr, nullptr), VERP_OK) << "and it still runs";
 }
 
-/// These errors do not need the drawing program.
+/// Without the drawing program.
 TEST(LibverpMisuse, PicturesThatAreNone) {
   Opened opened;
   opened.add();
@@ -156,7 +156,7 @@ TEST(LibverpMisuse, ViewsThatAreNone) {
                "verp_session_render", "view is null");
 }
 
-/// The error says what is missing, where it was looked for, and which package has it.
+/// What is missing, where it was looked for, and which package has it.
 TEST(LibverpMisuse, ProgramThatDrawsIsMissing) {
   Opened opened;
   opened.add();
@@ -228,8 +228,7 @@ TEST(LibverpMisuse, ControllersThatFail) {
   EXPECT_THROW(session.tick(), std::out_of_range) << "C++ gets its own exception back";
 }
 
-/// Any output bytes are sent and measured as they are: missing feet, unknown phases and modes, any
-/// goals.
+/// Missing feet, unknown phases and modes, any goals are sent and measured as they are.
 TEST(LibverpMisuse, ControllersThatPutOutAnything) {
   for (const int byte : {0x00, 0x03, 0x7f, 0x80, 0xff}) {
     Opened opened;
@@ -258,7 +257,7 @@ TEST(LibverpMisuse, RobotsInEachOther) {
   EXPECT_EQ(verp_session_add(opened.session, &robot, nullptr), VERP_OK) << verp_last_error();
 }
 
-/// A second thread or a callback gets an error at once; it neither waits nor breaks anything.
+/// They get an error at once and break nothing.
 TEST(LibverpMisuse, TwoThreadsAndACallback) {
   Opened opened;
   opened.add();
@@ -310,7 +309,7 @@ TEST(LibverpMisuse, NumbersThatAreNoneAreNamed) {
   EXPECT_EQ(verp_core_close(core), VERP_OK);
 }
 
-// A forked child exits normally, with all destructors, in the middle of a recorded walk.
+// The child exits with all destructors, in the middle of a recorded walk.
 TEST(LibverpMisuse, ForkedProcessHarmsNoTraceOfItsParent) {
   const std::string trace = testing::TempDir() + "forked-" + std::to_string(getpid()) + ".mcap";
   std::uint64_t digest = 0;

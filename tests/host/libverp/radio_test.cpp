@@ -15,12 +15,10 @@
 #include "tests/host/libverp/expect_error.hpp"
 #include "tests/host/libverp/opened.hpp"
 
-// Robots of one session talk by a simulated radio under its conditions. Their traces have all
-// messages sent and received, and replay.
+// A session's robots talk by a simulated radio; their traces have every message and replay.
 namespace verp::abi::test {
 namespace {
 
-/// Two robots at this distance.
 verp_lib::Session pair_of(double apart_m, const verp_radio& radio, const char* trace = nullptr) {
   verp_lib::Session session;
   verp_robot robot = verp_lib::Session::defaults();
@@ -40,7 +38,7 @@ verp_radio quiet() {
   return radio;
 }
 
-/// The counts of a trace's /radio messages by event.
+/// A trace's /radio messages by event.
 std::map<std::string, int> kept(const std::string& file) {
   std::ostringstream bytes;
   bytes << std::ifstream(file, std::ios::binary).rdbuf();
@@ -133,7 +131,7 @@ TEST(LibverpRadio, EqualRunsHearEqualAndTheirTraceReplays) {
   EXPECT_EQ(runs[0], runs[1]);
 }
 
-/// Two controllers that talk while they decide; each sends the number of messages it has heard.
+/// Each sends the number of messages it has heard.
 TEST(LibverpRadio, ControllersTalkInsideTheirTicks) {
   struct Talker {
     verp_session session;
@@ -176,7 +174,6 @@ TEST(LibverpRadio, ControllersTalkInsideTheirTicks) {
     for (const Talker& each : talkers) EXPECT_GT(each.count, 50);
   }
   EXPECT_EQ(runs[0], runs[1]) << "however many ticks a call makes";
-  // The radio changes no bit of a walk.
   verp_lib::Session alone = pair_of(2, quiet());
   alone.tick(kTicks);
   EXPECT_EQ(digests, (std::vector<std::uint64_t>(2, alone.digest(0))));

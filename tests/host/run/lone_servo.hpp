@@ -15,8 +15,7 @@
 
 namespace verp::test {
 
-/// Factory-new servos on a serial port; each hears and answers at its own baud rate only. The test
-/// turns their horns.
+/// Factory-new servos on a serial port, each at its own baud rate only. The test turns their horns.
 class LoneServo {
  public:
   explicit LoneServo(const std::string& path)
@@ -31,7 +30,7 @@ class LoneServo {
   LoneServo(const LoneServo&) = delete;
   LoneServo& operator=(const LoneServo&) = delete;
 
-  /// Connects one; before the first call no servo answers.
+  /// Before the first call no servo answers.
   void connect(const bus::ServoIdentity& identity) {
     const std::scoped_lock lock(mutex_);
     const int joint = static_cast<int>(servos_.size());
@@ -41,12 +40,12 @@ class LoneServo {
     const std::scoped_lock lock(mutex_);
     servos_.clear();
   }
-  /// Turns the first servo's horn to where its encoder reads `count`.
+  /// To where the first servo's encoder reads `count`.
   void turn_to(std::int32_t count) {
     const std::scoped_lock lock(mutex_);
     plant_.measured[0].position_count = count;
   }
-  /// A register of the first servo.
+  /// Of the first servo.
   std::int64_t value(std::uint16_t address, std::uint16_t size) {
     const std::scoped_lock lock(mutex_);
     const auto bytes = servos_[0]->read(address, size);
@@ -56,7 +55,7 @@ class LoneServo {
     }
     return size == 4 ? static_cast<std::int32_t>(value) : static_cast<std::int64_t>(value);
   }
-  /// Number of writes that reached any servo.
+  /// That reached any servo.
   int writes() const { return writes_; }
 
  private:

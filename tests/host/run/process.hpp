@@ -18,14 +18,14 @@
 
 namespace verp::tool::test {
 
-/// The verp program beside the test; ends with this object at the latest.
+/// Runs beside the test; ends with this object at the latest.
 class Process {
  public:
-  /// Its output goes to `name`.out and .err in the folder; its input comes from type().
+  /// Output goes to `name`.out and .err; input comes from type().
   Process(const fs::path& folder, const std::string& name, std::vector<std::string> arguments)
       : out_(folder / (name + ".out")), err_(folder / (name + ".err")) {
-    ::signal(SIGPIPE, SIG_IGN);  // from a program that stopped reading
-    fs::remove(out_);            // from an earlier one with that name
+    ::signal(SIGPIPE, SIG_IGN);  // the program may stop reading
+    fs::remove(out_);            // from an earlier run
     fs::remove(err_);
     int keyboard[2] = {-1, -1};
     if (::pipe2(keyboard, O_CLOEXEC) != 0) throw std::runtime_error("no pipe");
@@ -45,13 +45,12 @@ class Process {
   void type(const std::string& text) const {
     if (::write(keyboard_, text.data(), text.size()) < 0) ADD_FAILURE() << "nobody reads";
   }
-  /// Closes its input.
   void hang_up() {
     if (keyboard_ >= 0) ::close(keyboard_);
     keyboard_ = -1;
   }
   void signal(int number) const { child_->tell(number); }
-  /// Stops it for a while; returns how long it certainly stood still.
+  /// Returns how long it certainly stood still.
   std::uint64_t stand_still_us(std::uint64_t time_us) {
     child_->tell(SIGSTOP);
     siginfo_t stopped{};
@@ -66,8 +65,8 @@ class Process {
     return static_cast<std::uint64_t>(
         std::chrono::duration_cast<std::chrono::microseconds>(stood).count());
   }
-  /// Waits until standard error says `needle` after the last match; returns false if the program
-  /// ended. There is no timeout but ctest's, because this PC may be slow.
+  /// Waits for `needle` after the last match; false if the program ended. Only ctest's timeout
+  /// applies, because this PC may be slow.
   bool says(const std::string& needle) {
     for (;;) {
       const bool last = over();
@@ -80,9 +79,9 @@ class Process {
       std::this_thread::sleep_for(std::chrono::milliseconds(10));
     }
   }
-  /// All of its standard error so far.
+  /// All standard error so far.
   std::string said() const { return slurp(err_); }
-  /// From now on no file that it writes grows beyond this, as on a full disk.
+  /// Simulates a full disk: no file grows beyond this.
   void fill_disk(rlim_t most_bytes) const {
     const rlimit limit{most_bytes, most_bytes};
     ASSERT_EQ(::prlimit(child_->id(), RLIMIT_FSIZE, &limit, nullptr), 0);

@@ -14,8 +14,8 @@ namespace verp::tool::test {
 
 using Json = nlohmann::json;
 
-/// `verp run` on a serial port. `verp hil` serves the twin at its other end in real time, behind a
-/// cable that a test can disturb.
+/// `verp run` on a serial port, with a cable that a test can disturb. `verp hil` serves the twin at
+/// its other end in real time.
 class RunBench : public Program {
  protected:
   void serve(const std::string& model = "generic21") {
@@ -48,7 +48,6 @@ class RunBench : public Program {
   std::unique_ptr<verp::test::DelayingLink> cable_;
 };
 
-/// The trace has the same missed deadlines as the report.
 inline void expect_same_account(const Json& result, const record::Trace& trace) {
   std::uint64_t overruns = 0, skipped = 0;
   for (std::size_t i = 0; i < trace.ticks.size(); ++i) {
@@ -60,9 +59,9 @@ inline void expect_same_account(const Json& result, const record::Trace& trace) 
   EXPECT_EQ(result.at("deadlines").at("skipped_periods"), skipped);
 }
 
-/// Steps the core again with the recorded inputs; equal digests prove equal outputs. A referee
-/// checks them against the written table, in time rather than ticks: each change of mode, its
-/// cause, torque and goals. Torque is off at the end. `seen` gets bit m for each mode m of the run.
+/// Steps the core with the recorded inputs; equal digests prove equal outputs. A referee compares
+/// them with the written table, in time rather than ticks: modes, causes, torque and goals. Torque
+/// is off at the end. `seen` gets bit m for each mode m.
 inline void expect_table(const record::Trace& trace, std::uint32_t* seen = nullptr) {
   auto state = std::make_unique<State>();
   Outputs outputs;

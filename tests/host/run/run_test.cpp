@@ -3,8 +3,8 @@
 
 #include "tests/host/run/run_bench.hpp"
 
-// A user's `verp run`: what it refuses, how it ends, what it leaves. A TimelyRobot must get orders
-// and answers within a period of 20 ms; RealRobot's tests hold on a late machine too.
+// `verp run`: what it refuses, how it ends, what it leaves. A TimelyRobot needs a period of 20 ms;
+// RealRobot's tests hold on a late machine.
 namespace verp::tool::test {
 namespace {
 
@@ -42,7 +42,6 @@ TEST_F(RealRobot, RefusesWhatCannotBe) {
   EXPECT_NE(nothing.err.find("no such device"), std::string::npos);
 }
 
-// Torque waits until the user types yes to the checklist.
 TEST_F(RealRobot, NoTorqueBeforeTheChecklistIsConfirmed) {
   serve();
   plug({1000, 1000});
@@ -64,7 +63,7 @@ TEST_F(RealRobot, NoTorqueBeforeTheChecklistIsConfirmed) {
   EXPECT_TRUE(program->says("relaxed to rising"));
 }
 
-// A socket or pseudo-terminal may also lead to real servos, through a forwarded port.
+// A forwarded port may lead to real servos.
 TEST_F(RealRobot, TheChecklistIsAskedOnEveryLink) {
   serve();
   const auto refuses = [this](const std::string& link, const std::string& other_end) {
@@ -87,11 +86,10 @@ TEST_F(RealRobot, TheChecklistIsAskedOnEveryLink) {
   refuses("unix-listen:" + port(), "unix:" + port());
 }
 
-// After one press the robot sits down and goes limp, in the table's order. A closing terminal and a
-// system shutdown count as presses.
+// In the table's order. A closing terminal and a shutdown count too.
 TEST_F(TimelyRobot, AnInterruptSitsTheRobotDown) {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
-    serve();  // a new twin: the old robot lies on the floor
+    serve();  // the released robot lies on the floor
     plug({1000, 1000});
     auto program = run({"--yes", "--period", "20", "--for", "60", "--record", "run.mcap"});
     ASSERT_TRUE(program->says("relaxed to rising"));
@@ -108,7 +106,7 @@ TEST_F(TimelyRobot, AnInterruptSitsTheRobotDown) {
   }
 }
 
-// A real robot's servos play the action files, softly on request; the trace suffices for a replay.
+// Softly on request; the trace suffices for a replay.
 TEST_F(TimelyRobot, PlaysAnActionThenSitsDownAndLetsGo) {
   serve();
   plug({1000, 1000});
@@ -123,7 +121,6 @@ TEST_F(TimelyRobot, PlaysAnActionThenSitsDownAndLetsGo) {
   EXPECT_EQ(verp("replay run.mcap").status, 0);
 }
 
-/// The verdict of `verp hil` on the robot after its end.
 Json verdict_of(Process& twin, int status) {
   twin.signal(SIGINT);
   const Outcome outcome = twin.wait();
@@ -131,8 +128,7 @@ Json verdict_of(Process& twin, int status) {
   return result_of(outcome);
 }
 
-// A robot that did everything and was then released lies down. The twin does not count that as a
-// fall and goes on serving.
+// The twin goes on serving.
 TEST_F(TimelyRobot, LyingDownLimpAfterAGoodWalkIsNoFall) {
   serve();
   plug({1000, 1000});
@@ -147,7 +143,7 @@ TEST_F(TimelyRobot, LyingDownLimpAfterAGoodWalkIsNoFall) {
   EXPECT_EQ(result.value("let_go_and_lies", false), true);
 }
 
-// The servos are too weak for the robot's weight, so it goes down under torque.
+// The servos are too weak for the robot.
 TEST_F(RealRobot, GoingDownUnderTorqueIsAFall) {
   serve();
   plug({1000, 1000});
@@ -158,7 +154,7 @@ TEST_F(RealRobot, GoingDownUnderTorqueIsAFall) {
   EXPECT_NE(program->wait().status, 0);
 }
 
-// After two presses the robot goes limp at once, and the program asks every servo.
+// The program asks every servo.
 TEST_F(RealRobot, ASecondInterruptLetsGoAtOnce) {
   serve();
   plug({1000, 1000});
@@ -175,8 +171,7 @@ TEST_F(RealRobot, ASecondInterruptLetsGoAtOnce) {
   expect_table(trace());
 }
 
-// The cable is pulled for good. The robot holds, sits and lets go by itself; the program says what
-// it cannot know, and ends.
+// The robot holds, sits and lets go by itself; the program says what it cannot know.
 TEST_F(TimelyRobot, ALostCableIsNamedAndEndsByTheTable) {
   serve();
   plug({1000, 1000});
@@ -197,7 +192,7 @@ TEST_F(TimelyRobot, ALostCableIsNamedAndEndsByTheTable) {
   expect_table(trace());
 }
 
-// The cable is out for ten ticks: the robot holds, rises again and goes on.
+// Out for ten ticks: the robot holds, rises and goes on.
 TEST_F(TimelyRobot, ACableThatComesBackGoesOn) {
   serve();
   plug({1000, 1000});
@@ -212,7 +207,7 @@ TEST_F(TimelyRobot, ACableThatComesBackGoesOn) {
   expect_table(trace());
 }
 
-// A killed run leaves a trace that is complete up to its last chunk.
+// Complete up to its last chunk.
 TEST_F(TimelyRobot, ACrashLeavesTheTrace) {
   serve();
   plug({1000, 1000});
@@ -234,7 +229,7 @@ TEST_F(TimelyRobot, ACrashLeavesTheTrace) {
   EXPECT_EQ(verp("replay whole.mcap").status, 0);
 }
 
-/// A robot like generic21 whose IMU has another id, so none answers at the model's.
+/// No IMU answers at generic21's id.
 std::string with_its_imu_elsewhere(const fs::path& folder) {
   std::ifstream in(std::string(VERP_SOURCE_DIR) + "/common/robots/generic21/robot.sdf");
   std::stringstream text;
@@ -247,8 +242,7 @@ std::string with_its_imu_elsewhere(const fs::path& folder) {
   return file.string();
 }
 
-// Without the model's IMU there is no torque. With --imu none the robot runs without balance; the
-// program says so, and the trace records it.
+// It means no torque. With --imu none the robot runs without balance, and the trace records that.
 TEST_F(TimelyRobot, ASilentImuIsNeverPassedOver) {
   serve(with_its_imu_elsewhere(folder_));
   plug({1000, 1000});
@@ -273,7 +267,7 @@ TEST_F(TimelyRobot, ASilentImuIsNeverPassedOver) {
   expect_table(taken);
 }
 
-// Every servo has the limit before torque is on.
+// Before torque is on.
 TEST_F(TimelyRobot, TorqueIsLimitedInEveryServo) {
   serve();
   plug({1000, 1000});

@@ -2,8 +2,8 @@
 
 #include "tests/host/tool/program.hpp"
 
-// `verp bus setup` and `verp bus checklist` for a robot with several buses. CAN drives are
-// commissioned with their maker's tool.
+// `verp bus setup` and `verp bus checklist` with several buses. CAN drives are commissioned with
+// their maker's tool.
 namespace verp::tool::test {
 namespace {
 
@@ -15,7 +15,7 @@ TEST_F(SetupBus, DrivesOnCanAreLeftToTheirMakersTool) {
   expect_refused("bus setup --bus can --link can:vcan0", "verp bus checklist generic21 --bus can");
 }
 
-// The same joints have other servos on the other bus.
+// It has other servos.
 TEST_F(SetupBus, AnotherBusHasAReportOfItsOwn) {
   std::string robot = slurp(VERP_SOURCE_DIR "/common/robots/generic21/robot.sdf");
   const std::size_t begin = robot.find("<verp:bus name=\"dxl\""), end = robot.find("</verp:bus>");

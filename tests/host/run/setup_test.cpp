@@ -26,8 +26,7 @@ class Setup : public Program {
     return Json::parse(slurp(folder_ / "generic21-setup.json"), nullptr, false);
   }
 
-  /// One joint by hand: connect it, hold it at zero where the encoder reads `zero`, then turn it by
-  /// `turn` counts.
+  /// By hand: connect, hold at zero where the encoder reads `zero`, turn by `turn` counts.
   void do_joint(Process& program, std::int32_t zero, std::int32_t turn) {
     ASSERT_TRUE(program.says("Connect its servo alone"));
     servos_.turn_to(zero);
@@ -65,7 +64,7 @@ TEST_F(Setup, AServoOutOfItsBoxBecomesOneOfTheRobot) {
   EXPECT_EQ(Json::parse(outcome.out).at("joints").at("l_knee"), joint);
 }
 
-// The servo is set to answer neither writes nor reads; setup changes that.
+// It answers neither writes nor reads.
 TEST_F(Setup, AServoThatIsSetToSilenceIsHeard) {
   servos_.connect({.id = 77, .model = dxl::kModelXm430W210, .baud = 1'000'000});
   LoneServo& servos = servos_;
@@ -82,7 +81,7 @@ TEST_F(Setup, AServoThatIsSetToSilenceIsHeard) {
   EXPECT_EQ(servos.value(at::kHomingOffset, 4), 0);
 }
 
-// For `verp run`, a servo that answers only pings has an unknown delay, not none.
+// Such a servo has an unknown delay, not none.
 TEST_F(Setup, ARunIsRefusedWhereNoReadIsAnswered) {
   servos_.connect({.id = 14, .model = dxl::kModelXm430W210, .baud = 2'000'000});
   const std::string link = " --link serial:" + port() + "@2000000";
@@ -95,7 +94,7 @@ TEST_F(Setup, ARunIsRefusedWhereNoReadIsAnswered) {
   EXPECT_EQ(servos_.value(at::kTorqueEnable, 1), 0);
 }
 
-// The report names what the servo's registers cannot correct, and what to write into the model.
+// The report says what to write into the model.
 TEST_F(Setup, AReversedJointAndAFarZeroAreLeftToThePerson) {
   servos_.connect(kFromTheBox);
   auto program = setup({"--joint", "l_knee"});
@@ -114,7 +113,7 @@ TEST_F(Setup, AReversedJointAndAFarZeroAreLeftToThePerson) {
   EXPECT_NE(outcome.out.find("to do: "), std::string::npos) << outcome.out;
 }
 
-// The end of input ends the session without an error; the next run goes on.
+// The end of input is no error.
 TEST_F(Setup, GoesOnWhereItEnded) {
   servos_.connect(kFromTheBox);
   auto first = setup({});
@@ -138,8 +137,7 @@ TEST_F(Setup, GoesOnWhereItEnded) {
   EXPECT_EQ(report().at("joints").at("head_pitch").at("outcome"), "skipped");
 }
 
-// However the user leaves at the zero question, the report keeps what was written before, and the
-// next run adds to it.
+// However the user leaves; the next run adds to it.
 TEST_F(Setup, WhatWasWrittenIsKeptAtOnce) {
   struct End {
     void (*leave)(Process&);
@@ -184,7 +182,7 @@ TEST_F(Setup, WhatWasWrittenIsKeptAtOnce) {
   EXPECT_EQ(report()["joints"]["l_knee"]["outcome"], "done");
 }
 
-// A full disk ends the session but loses no result of a joint that the user held.
+// No result is lost for which the user held a joint.
 TEST_F(Setup, WhatAFullDiskDoesNotTakeIsPrinted) {
   const Json before = {{"robot", "generic21"},
                        {"joints", {{"head_yaw", {{"note", std::string(20000, '.')}}}}}};
@@ -209,7 +207,7 @@ TEST_F(Setup, WhatAFullDiskDoesNotTakeIsPrinted) {
   EXPECT_FALSE(fs::exists(folder_ / "generic21-setup.json.part"));
 }
 
-// If the report cannot be saved, setup asks for no servo.
+// Before setup asks for a servo.
 TEST_F(Setup, PlacesThatHoldNoReportAreRefusedFirst) {
   fs::create_directories(folder_ / "here.part");
   for (const char* place : {"/proc/x.json", "/tmp", "/proc/self/mem", "/dev/full", "here"}) {
@@ -231,7 +229,6 @@ TEST_F(Setup, PlacesThatHoldNoReportAreRefusedFirst) {
   expect_refused("bus setup --link unix:none --report y.json", "y.json: is no report");
 }
 
-// The same holds if the link does not exist.
 TEST_F(Setup, OpensTheLinkBeforeItAsks) {
   for (const char* link : {"unix:none", "tcp:127.0.0.1:1", "serial:/dev/nothing", "pty:nobody"}) {
     const Outcome outcome = verp(std::string("bus setup --link ") + link);
@@ -255,7 +252,6 @@ TEST_F(Setup, ADryRunWritesNothing) {
   EXPECT_FALSE(fs::exists(folder_ / "generic21-setup.json"));
 }
 
-// No servo, several or a wrong one: setup names the problem and tries again.
 TEST_F(Setup, TheWrongServosAreNamedAndTriedAgain) {
   auto program = setup({"--joint", "l_knee"});
   ASSERT_TRUE(program->says("Connect its servo alone"));
@@ -274,7 +270,7 @@ TEST_F(Setup, TheWrongServosAreNamedAndTriedAgain) {
   servos_.turn_to(2048);
   program->type("\n");
   EXPECT_TRUE(program->says("found: id 1 at 57600 baud, XM430-W210"));
-  program->type("quit\n");  // asks again for unknown input, because Enter writes EEPROM
+  program->type("quit\n");  // unknown input must not act: Enter writes EEPROM
   ASSERT_TRUE(program->says("Enter alone goes on")) << program->wait().err;
   program->type("q\n");
   EXPECT_EQ(program->wait().status, 1);
@@ -287,8 +283,7 @@ TEST_F(Setup, WrongWordsAndReportsAreRefused) {
   expect_refused("bus setup generic21 --report other.json --link pty:", "is the report of");
   std::ofstream(folder_ / "none.json") << "none";
   expect_refused("bus setup generic21 --report none.json --link pty:", "is no report");
-  // The report's place is checked first: a servo that is written but not recorded would be set up
-  // twice.
+  // Checked first: a servo that is written but not recorded would be set up twice.
   expect_refused("bus setup generic21 --report gone/r.json --link pty:", "cannot be written");
   expect_refused("bus setup generic21 --report . --link pty:", "is a folder");
   for (const char* entry :

@@ -11,7 +11,7 @@
 #include "tests/support/delaying_link.hpp"
 #include "tests/unit/support/test_robot.hpp"
 
-// A user's `verp bus` against a controller at the other end of a socket.
+// `verp bus` against a controller on a socket.
 namespace verp::tool::test {
 namespace {
 
@@ -113,12 +113,10 @@ TEST_F(BusCommand, BenchCountsRoundTrips) {
   EXPECT_EQ(result["link_losses"], 0);
 }
 
-// The error blames the register, not the wiring.
 TEST_F(BusCommand, BenchOfNoRegisterSaysSo) {
   refused("bench --address 9999 --for 0.3", 3, "refused the read at address 9999: Access Error");
 }
 
-// An interrupted bench reports what it measured so far.
 TEST_F(BusCommand, AnInterruptedBenchStillReports) {
   const Outcome outcome = shell(std::string("timeout -s INT --preserve-status 1 ") + VERP_PROGRAM +
                                 " bus bench --for 60 --json --link unix:port");
@@ -129,7 +127,7 @@ TEST_F(BusCommand, AnInterruptedBenchStillReports) {
   EXPECT_LT(result["duration_s"], 30);
 }
 
-/// The same behind a cable that delays or loses replies.
+/// Behind a cable that delays or loses replies.
 class BusCable : public BusCommand {
  protected:
   using Cable = verp::test::DelayingLink;
@@ -142,7 +140,7 @@ class BusCable : public BusCommand {
   }
 };
 
-// The client asks again for a lost reply, up to three times, and reports the number of tries.
+// Up to three times, and the answer says how often.
 TEST_F(BusCable, LostRepliesAreAskedForAgain) {
   const auto line = cable({});
   for (const char* command : {"ping", "read --register robot_name", "write --register look_x 3"}) {
@@ -163,8 +161,7 @@ TEST_F(BusCable, LostRepliesAreAskedForAgain) {
 
 using BusLinks = Program;
 
-/// A controller that answers each request after a delay. Every byte of a register holds the
-/// register's address.
+/// Answers each request after a delay. Every byte of a register holds its address.
 class SlowController {
  public:
   SlowController(const std::string& place, std::uint64_t delay_us)
@@ -217,8 +214,7 @@ class SlowController {
   std::thread thread_;
 };
 
-// Each reply comes after its timeout, during the next request. The client must not take it for
-// another register's, although all have one length.
+// Each reply arrives during the next request, and all have one length.
 TEST_F(BusLinks, LateRepliesAreNotTakenForOthers) {
   const SlowController controller("unix-listen:" + (folder_ / "port").string(), 300'000);
   const Outcome outcome = verp(
@@ -246,7 +242,7 @@ TEST_F(BusLinks, ThatCannotBeOpenedSayWhy) {
   EXPECT_NE(nobody.err.find("give serial:PATH"), std::string::npos);
 }
 
-// Each kind of link has its own range of ids; the error names it before the link is opened.
+// Before the link is opened.
 TEST_F(BusLinks, AnIdThatIsNoneIsRefusedWithTheRangeOfItsLink) {
   for (const std::string id : {"-1", "0", "128", "253"}) {
     expect_refused("bus ping --link can:none0 --id " + id, "--id: " + id + " is no node id");
@@ -259,7 +255,7 @@ TEST_F(BusLinks, AnIdThatIsNoneIsRefusedWithTheRangeOfItsLink) {
   EXPECT_EQ(verp("bus ping --link unix:/nowhere/port --id 0").status, 3) << "an id, but no port";
 }
 
-// The device never answers; one Ctrl-C ends the search.
+// The device never answers.
 TEST_F(BusLinks, AnInterruptEndsALongScan) {
   wire::Link silent(wire::parse_endpoint("unix-listen:" + (folder_ / "port").string()));
   const Outcome outcome = shell(std::string("timeout -s INT -k 20 1 ") + VERP_PROGRAM +

@@ -14,7 +14,7 @@
 #include "host/tool/trace_pictures.hpp"
 #include "tests/support/video_device.hpp"
 
-// `verp bus camera` on a device that the test plays; this PC's kernel has no such device.
+// `verp bus camera` on a device that the test plays: this PC's kernel has none.
 namespace verp::tool {
 namespace {
 
@@ -24,7 +24,7 @@ class CameraWord : public ::testing::Test {
  protected:
   CameraWord() {
     fs::create_directories(folder_);
-    // A limit: on a fast PC, 0.3 s would give thousands of files.
+    // Otherwise a fast PC makes thousands of files in 0.3 s.
     device_.on_wait = [this] {
       if (device_.made() < kPictures) device_.make_picture();
     };
@@ -38,7 +38,6 @@ class CameraWord : public ::testing::Test {
     std::ifstream in(file, std::ios::binary);
     return {std::istreambuf_iterator<char>(in), {}};
   }
-  /// The run's standard output.
   std::string run(int status = kGood) {
     ::testing::internal::CaptureStdout();
     EXPECT_EQ(run_camera(words_, device_), status);
@@ -59,7 +58,7 @@ class CameraWord : public ::testing::Test {
   }
 
   static constexpr std::uint32_t kPictures = 40;
-  // One folder per test, because tests run side by side and each removes its own.
+  // Tests run side by side, and each removes its own folder.
   fs::path folder_ = fs::path(::testing::TempDir()) /
                      fmt::format("verp-camera-word-{}",
                                  ::testing::UnitTest::GetInstance()->current_test_info()->name());
@@ -97,7 +96,7 @@ TEST_F(CameraWord, WritesAPictureThatHasThePixels) {
   run();
   const std::string png = bytes_of(words_.picture);
   ASSERT_TRUE(png.starts_with("\x89PNG\r\n\x1a\n"));
-  // The PNG is not compressed: it contains the rows, each after its filter byte 0.
+  // Uncompressed rows, each after its filter byte 0.
   const std::uint32_t last = device_.made() - 1;
   std::string row(1, '\0');
   for (std::uint32_t x = 0; x < 16; ++x)
@@ -165,8 +164,7 @@ TEST_F(CameraWord, OfOneThatIsPulledTellsWhatCameUntilThen) {
   };
   words_.seconds = 1;
   words_.json = false;
-  // The camera is pulled and stays away: earlier pictures count, and the answer says why there are
-  // no more.
+  // The answer says why there are no more pictures.
   const std::string answer = run();
   EXPECT_NE(answer.find("no such device"), std::string::npos) << answer;
   EXPECT_EQ(device_.open_descriptors(), 0);

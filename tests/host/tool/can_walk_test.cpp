@@ -3,7 +3,7 @@
 #include "host/model/find.hpp"
 #include "tests/host/tool/program.hpp"
 
-// Software in the loop over CAN: the same loop with CiA 402 drives.
+// The loop over CAN with CiA 402 drives.
 
 namespace verp::tool::test {
 namespace {
@@ -46,10 +46,9 @@ TEST_F(CanWalk, WalksTenSecondsWithoutAFallOrAFault) {
   EXPECT_GT(json["distance_m"].get<double>(), 1);
 }
 
-// `verp bus load` predicts the twin's traffic at each rate at which the robot can walk on one
-// classic bus. The table knows the plan's frames but no walk. So the test compares bits without
-// stuffing, and the expected bits with all bits of the walk. (host/can tests the frames of half a
-// robot.)
+// At each rate at which the robot can walk on one classic bus. `verp bus load` knows the plan but
+// no walk: the test compares bits without stuffing, and expected bits with all bits walked.
+// (host/can tests half a robot.)
 TEST_F(CanWalk, PutsOnTheWireWhatBusLoadSays) {
   for (const int period_us : {10'000, 8'000}) {
     SCOPED_TRACE(period_us);
@@ -68,7 +67,7 @@ TEST_F(CanWalk, PutsOnTheWireWhatBusLoadSays) {
   }
 }
 
-// Every command refuses it before anything moves or an interface is opened.
+// By every command, before anything moves or an interface is opened.
 TEST_F(CanWalk, ARobotWhoseBusHasNoRoomIsRefusedByName) {
   const std::string robot = robot_at(6000) + " --bus can";
   const std::string needle = ": r_knee (node 13) and those after it do not fit";
@@ -90,7 +89,7 @@ TEST_F(CanWalk, GivesTheSameDigestEachTime) {
   EXPECT_EQ(first["ticks"], second["ticks"]);
 }
 
-// Replay decides a CAN recording again from the counts alone.
+// From the counts alone.
 TEST_F(CanWalk, ItsTraceReplays) {
   walk("--for 3 --record can.mcap", "recorded");
   const Outcome replayed = verp("replay can.mcap", "replayed");
@@ -122,7 +121,6 @@ TEST_F(CanWalk, BusLoadIsATableThatNamesWhatIsRefused) {
   expect_refused("bus load --robot generic21 --bus dxl", "has no CAN bus named 'dxl'");
 }
 
-// The table is most useful for a robot that is refused.
 TEST_F(CanWalk, BusLoadOfARobotThatDoesNotFitIsATableToo) {
   const std::string command = "bus load --robot " + robot_at(5000);
   const Outcome text = verp(command, "text");

@@ -2,7 +2,7 @@
 
 #include "tests/host/tool/program.hpp"
 
-// A user's view of `verp compare`; tests/host/compare checks the measured numbers.
+// `verp compare` as users see it; tests/host/compare checks the numbers.
 
 namespace verp::tool::test {
 namespace {

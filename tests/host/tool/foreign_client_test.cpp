@@ -1,7 +1,7 @@
 #include "tests/host/tool/program.hpp"
 
-// Third-party Dynamixel software (tests/dynamixel/foreign_client.py) on the twin's pseudo-terminal,
-// as `verp hil` serves it.
+// Third-party Dynamixel software (tests/dynamixel/foreign_client.py) on the pseudo-terminal of
+// `verp hil`.
 namespace verp::tool::test {
 namespace {
 

@@ -28,13 +28,12 @@ class Hil : public Program {
     return action::make_library(params(), action::read_folder(action::folder_of(entity.file)));
   }
   std::string place(const std::string& name) const { return (folder_ / name).string(); }
-  /// The twin creates two sockets, `bus` and `orders`.
+  /// The twin creates `bus` and `orders`.
   std::string sockets() const {
     return "--link unix-listen:" + place("bus") + " --operator unix-listen:" + place("orders");
   }
   Outcome hil(const std::string& arguments) const { return verp("hil " + arguments, "hil"); }
 
-  /// The result of software in the loop.
   json here(const std::string& arguments) const {
     const Outcome walk = verp("walk --json " + arguments, "walk");
     EXPECT_EQ(walk.status, 0) << walk.err;
@@ -42,7 +41,7 @@ class Hil : public Program {
   }
 };
 
-/// The same bits as in software: digest, ticks and every number of the summary.
+/// Digest, ticks and every number of the summary.
 void expect_same(const Outcome& outcome, const json& expected) {
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   const json result = json::parse(outcome.out);
@@ -53,8 +52,7 @@ void expect_same(const Outcome& outcome, const json& expected) {
   EXPECT_GT(result.at("ticks_per_s").get<double>(), 0);
 }
 
-// Over any kind of port the controller walks like the one in this process, and the run compares
-// every tick.
+// The run compares every tick.
 TEST_F(Hil, WalksWithTheBitsOfSoftwareInTheLoopOnEveryKindOfLink) {
   const json expected = here("--for 3");
   const std::string port = std::to_string(20000 + ::getpid() % 20000);
@@ -76,7 +74,7 @@ TEST_F(Hil, WalksWithTheBitsOfSoftwareInTheLoopOnEveryKindOfLink) {
   }
 }
 
-// Corrupted bytes to the controller and a cable that is pulled and put back cost time but no bit.
+// Corrupted bytes and a pulled cable cost time only.
 TEST_F(Hil, LosesNoBitOnABadCable) {
   const json expected = here("--for 3");
   LinkController controller(params(), "unix:" + place("bus"), "unix:" + place("orders"),
@@ -94,8 +92,8 @@ TEST_F(Hil, LosesNoBitOnABadCable) {
   EXPECT_NE(outcome.err.find("the link is back"), std::string::npos) << outcome.err;
 }
 
-// After a reset the controller finds the same twin with its servos as they were, and goes on. The
-// run reports the reset, and its trace ends with the first start.
+// The twin's servos stay as they were. The run reports the reset, and its trace ends with the first
+// start.
 TEST_F(Hil, GoesOnServingAControllerThatWasReset) {
   constexpr std::uint32_t kReset = 250;  // the robot stands
   LinkController controller(params(), "unix:" + place("bus"), "unix:" + place("orders"), {},
@@ -114,8 +112,7 @@ TEST_F(Hil, GoesOnServingAControllerThatWasReset) {
   EXPECT_NEAR(json::parse(replay.out).at("ticks").get<int>(), static_cast<int>(kReset), 2);
 }
 
-// The robot stands on one foot while its servos hold and then go limp. Whether it falls is the
-// twin's result, not a failure of the link.
+// Whether the robot falls is the twin's result, not a failure of the link.
 TEST_F(Hil, TellsWhatBecameOfARobotWhoseControllerWasResetInMidWalk) {
   LinkController controller(params(), "unix:" + place("bus"), "unix:" + place("orders"), {}, 600);
   const Outcome outcome = hil("--for 3 --json " + sockets());
@@ -139,7 +136,7 @@ TEST_F(Hil, RefusesAControllerOfAnotherRobotByName) {
       << outcome.err;
 }
 
-// Ctrl-C ends the run, not the program: the trace is complete and the summary printed.
+// The trace is complete and the summary printed.
 TEST_F(Hil, KeepsTheTraceWhenInterrupted) {
   LinkController controller(params(), "unix:" + place("bus"), "unix:" + place("orders"));
   const Outcome outcome = shell("timeout --preserve-status -s INT 6 " + std::string(VERP_PROGRAM) +
@@ -153,8 +150,7 @@ TEST_F(Hil, KeepsTheTraceWhenInterrupted) {
   EXPECT_EQ(json::parse(info.out).at("ticks"), result.at("ticks"));
 }
 
-// Ctrl-C is the normal end after serving a master. It is a failure if no client came, or if it cuts
-// a walk short.
+// Ctrl-C is a failure if no client came or if it cuts a walk short.
 TEST_F(Hil, CtrlCEndsWhatServedSomebodyInOrder) {
   const std::string twin = std::string(VERP_PROGRAM) + " hil --json --link unix-listen:bus";
   const std::string ready = "until grep -q 'waits for a controller' err; do sleep 0.05; done; ";
@@ -171,8 +167,7 @@ TEST_F(Hil, CtrlCEndsWhatServedSomebodyInOrder) {
   EXPECT_NE(slurp(folder_ / "err").find("before anybody came"), std::string::npos);
 }
 
-// The peer accepts and hangs up again and again. The twin goes on trying without loading the
-// computer.
+// The peer accepts and hangs up, again and again; the twin must not load the computer.
 TEST_F(Hil, MeetsALinkThatIsCutAtOnceSomeTensOfTimesASecond) {
   std::atomic<bool> over = false;
   std::thread other([&] {
@@ -184,7 +179,7 @@ TEST_F(Hil, MeetsALinkThatIsCutAtOnceSomeTensOfTimesASecond) {
       std::ofstream(folder_ / "taken") << '\n';
     }
   });
-  // Serves for three seconds, however long the start takes.
+  // For three seconds, however long the start takes.
   const Outcome outcome = shell("sleep 0.3; " + std::string(VERP_PROGRAM) +
                                 " hil --lockstep --json --link unix:" + place("bus") +
                                 " & twin=$!; until [ -e taken ]; do sleep 0.05; done; sleep 3; "
@@ -196,15 +191,13 @@ TEST_F(Hil, MeetsALinkThatIsCutAtOnceSomeTensOfTimesASecond) {
   EXPECT_LT(losses, 3 * 30) << outcome.err;
 }
 
-/// The walk's report of falls, in order.
 std::string story_of(const json& result) {
   std::string all;
   for (const json& each : result.at("fall_story")) all += each.at("what").get<std::string>() + "; ";
   return all;
 }
 
-// Pushed over, the robot gets up by the controller's actions and walks on with the bits of `verp
-// walk`. The run reports this while it happens.
+// With the bits of `verp walk`; the run reports it meanwhile.
 TEST_F(Hil, ARobotThatIsPushedOverGetsUpByTheControllersActions) {
   const std::string words = "--for 3 --json --get-up --push '1: trunk -60,0,0 N for 0.15'";
   const json expected = here(words);
@@ -238,8 +231,7 @@ TEST_F(Hil, ARobotThatLiesGetsUpFirst) {
   EXPECT_EQ(result.at("falls"), 0);
 }
 
-// A controller without actions cannot get up. The error says so and gives a remedy before the robot
-// moves.
+// Before the robot moves, with a remedy.
 TEST_F(Hil, AControllerWithoutActionsIsToldThatItCannotGetUp) {
   LinkController controller(params(), "unix:" + place("bus"), "unix:" + place("orders"));
   const Outcome outcome = hil("--for 3 --json --get-up " + sockets());
@@ -269,8 +261,8 @@ TEST_F(Hil, SaysWhenTheOperatorsPortIsSilent) {
   EXPECT_NE(outcome.err.find("device 200"), std::string::npos) << outcome.err;
 }
 
-// A master that does not know lockstep gets its answers in wall-clock time. Finding and reading
-// servos does not count; the served time begins with torque.
+// In wall-clock time. Finding and reading servos does not count: the served time begins with
+// torque.
 TEST_F(Hil, ServesAStockMasterInRealTime) {
   Outcome outcome;
   std::thread twin([&] { outcome = hil("--for 3 --json --link unix-listen:" + place("bus")); });

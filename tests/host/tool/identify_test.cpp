@@ -1,6 +1,6 @@
 #include "tests/host/tool/program.hpp"
 
-// A user's view of `verp identify`; tests/host/identify checks its findings.
+// `verp identify` as users see it; tests/host/identify checks its findings.
 
 namespace verp::tool::test {
 namespace {

@@ -12,10 +12,10 @@
 #include "firmware/app/operator_device.hpp"
 #include "host/link/link.hpp"
 
-/// A controller with two serial ports, like a board's firmware, in a thread of the test.
+/// A controller with two serial ports, like a board's, in a thread.
 namespace verp::test {
 
-/// A port that opens as soon as its endpoint exists; a test can disturb it.
+/// Opens as soon as its endpoint exists; a test can disturb it.
 class ControllerPort {
  public:
   explicit ControllerPort(std::string endpoint) : endpoint_(std::move(endpoint)) {}
@@ -39,7 +39,7 @@ class ControllerPort {
   bool connected() const { return link_ && link_->connected(); }
   hal::LinkErrors errors() const { return link_ ? link_->errors() : hal::LinkErrors{}; }
 
-  unsigned flips_per_million = 0;  ///< share of received bytes
+  unsigned flips_per_million = 0;  ///< of received bytes
   int cut_every = 0;               ///< every so many reads with data
   int cuts = 0;
   std::atomic<bool> opened = false;  ///< the peer accepted the connection
@@ -61,8 +61,8 @@ class ControllerPort {
   int reads_ = 0;
 };
 
-/// Ends when the twin stops or refuses it, or with this object. It is reset once, at tick
-/// `reset_at`. `Lockstep<Port, Idle>` is its servo bus over a `Port`; `actions` must outlive it.
+/// Ends when the twin stops or refuses it, or with this object. Resets once, at tick `reset_at`.
+/// `Lockstep<Port, Idle>` is its servo bus; `actions` must outlive it.
 template <class Port, template <class, class> class Lockstep>
 class ControllerOn {
  public:
@@ -78,7 +78,7 @@ class ControllerOn {
     thread_ = std::thread([this] { run(); });
   }
   ~ControllerOn() { join(); }
-  /// Waits for the end, which follows once the twin has ended normally.
+  /// Waits for the end, which follows the twin's.
   void join() {
     if (!thread_.joinable()) return;
     for (int i = 0; i < 200 && !done_; ++i) {
@@ -93,7 +93,7 @@ class ControllerOn {
   lockstep::Verdict verdict() const { return verdict_; }
 
  private:
-  /// Everything from one power-up to the next.
+  /// From one power-up to the next.
   struct Life {
     Life(ControllerOn& owner)
         : device(owner.operator_port_, owner.params_, {}),

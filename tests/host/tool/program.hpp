@@ -10,7 +10,6 @@
 #include <iterator>
 #include <string>
 
-/// Runs the verp program in the test's own folder.
 namespace verp::tool::test {
 
 namespace fs = std::filesystem;
@@ -25,8 +24,7 @@ inline std::string slurp(const fs::path& file) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
-/// Removes the line in which the address sanitizer warns at the first change of stacks; no setting
-/// prevents it.
+/// Without the address sanitizer's warning at the first change of stacks; no setting prevents it.
 inline std::string without_doubts(std::string err) {
   const std::size_t doubt = err.find("WARNING: ASan doesn't fully support makecontext");
   if (doubt == std::string::npos) return err;
@@ -44,7 +42,7 @@ class Program : public ::testing::Test {
   }
   ~Program() override { fs::remove_all(folder_); }
 
-  /// `arguments` as in a shell; `name` separates the outputs of parallel runs.
+  /// As in a shell; `name` separates the outputs of parallel runs.
   Outcome verp(const std::string& arguments, const std::string& name = "run") const {
     return shell(std::string(VERP_PROGRAM) + " " + arguments, name);
   }
@@ -56,7 +54,7 @@ class Program : public ::testing::Test {
     return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, slurp(out), without_doubts(slurp(err))};
   }
 
-  /// Bad input: exit 2, nothing on stdout, one line on stderr that contains `needle`.
+  /// Exit 2, nothing on stdout, one line on stderr that contains `needle`.
   void expect_refused(const std::string& arguments, const std::string& needle) const {
     const Outcome outcome = verp(arguments);
     EXPECT_EQ(outcome.status, 2) << arguments << '\n' << outcome.err;

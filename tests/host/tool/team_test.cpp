@@ -9,8 +9,8 @@
 #include "host/process/child.hpp"
 #include "tests/host/tool/program.hpp"
 
-// Several robots in one world: each walks as it does alone, whatever drives it. One that loses its
-// controller costs no other robot its result.
+// Each robot walks as it does alone, whatever drives it. One that loses its controller costs no
+// other its result.
 
 namespace verp::tool::test {
 namespace {
@@ -19,8 +19,7 @@ using nlohmann::json;
 
 class Team : public Program {
  protected:
-  /// Starts this program as the controller of the robot at the other end of `link`, beside the
-  /// walk.
+  /// Controls the robot at `link`, beside the walk.
   process::Child controller(const std::string& link,
                             const std::vector<std::string>& more = {}) const {
     wait_for(link);
@@ -96,7 +95,7 @@ TEST_F(Team, AControllerInAnotherProcessMakesTheSameBits) {
     EXPECT_EQ(other.at("controller"), here + "b.end");
     EXPECT_TRUE(other.at("digest").is_null()) << "its controller's, and not told here";
     EXPECT_GT(other.at("end_m")[0].get<double>(), 0.1) << "it walked";
-    // The runs agree until the outside controller sits the robot down, as for a real robot.
+    // Equal until the outside controller sits the robot down.
     const json first = first_difference("own.mcap", "b.mcap");
     EXPECT_EQ(first.at("stage"), "inputs") << first;
     EXPECT_GE(first.at("tick").get<int>() + 35, json::parse(own.out).at("ticks").get<int>())
@@ -114,7 +113,6 @@ TEST_F(Team, AControllerMayBeStartedBeforeItsWorld) {
   EXPECT_EQ(world.status, 0) << world.err;
 }
 
-// Like a user at a real robot: it lies, and gets leave to get up.
 TEST_F(Team, ALyingRobotGetsUpForAControllerThatMayLetIt) {
   const Outcome world = walk_beside(
       [&] {
@@ -159,8 +157,7 @@ TEST_F(Team, OneThatLosesItsControllerStopsTheOthersOrGoesOnWithout) {
   }
 }
 
-// The timeout applies to controllers that have connected. The world waits for a first contact
-// without limit, and says for which robot.
+// The timeout applies only to connected controllers.
 TEST_F(Team, WhomItWaitsForIsSaidAtOnceAndOnceMore) {
   process::Child world(
       {.words = {VERP_PROGRAM, "walk", "--json", "--patience", "0.3", "--robot",

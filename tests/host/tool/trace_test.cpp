@@ -6,7 +6,7 @@
 #include "host/record/trace_writer.hpp"
 #include "tests/host/tool/program.hpp"
 
-// A user's view of the trace commands; tests/host/signals and tests/host/record check the numbers.
+// The trace commands as users see them; tests/host/signals and tests/host/record check the numbers.
 
 namespace verp::tool::test {
 namespace {
@@ -53,7 +53,7 @@ TEST_F(TraceCommand, PlotDrawsSignalsThatAreNamedAndHelpsWithThoseThatAreNot) {
   EXPECT_NE(verp("completion bash").out.find("'trace csv') words='"), std::string::npos);
 }
 
-// Two cores differ by design: diff says so, even for a trace that a third core recovered.
+// Cores differ by design, even in a trace that a third core recovered.
 TEST_F(TraceCommand, DiffSaysWhenTwoCoresRecorded) {
   const record::Trace trace = record::read_trace(folder_ / "a.mcap");
   const std::string own = record::core_of(trace);
@@ -106,7 +106,7 @@ TEST_F(TraceCommand, ACutReplaysAndEveryCommandTakesIt) {
   expect_refused("debug --board mps2_an386 part.mcap", "begins in the midst of a run");
 }
 
-// kill -9 during writing leaves a file with every complete chunk.
+// kill -9: every complete chunk remains.
 TEST_F(Program, AKilledWalkLeavesAFileThatOpens) {
   const Outcome killed = shell(
       VERP_PROGRAM
@@ -124,7 +124,7 @@ TEST_F(Program, AKilledWalkLeavesAFileThatOpens) {
   EXPECT_EQ(verp("replay k.mcap").status, 0);
 }
 
-// A trace damaged before its first tick holds nothing to recover, so no message suggests trying.
+// There is nothing to recover before the first tick.
 TEST_F(TraceCommand, NothingIsPromisedOfATraceThatIsDamagedAtItsBeginning) {
   std::fstream file(folder_ / "a.mcap", std::ios::in | std::ios::out | std::ios::binary);
   file.seekp(100'000);

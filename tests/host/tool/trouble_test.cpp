@@ -8,7 +8,7 @@
 
 #include "tests/host/tool/program.hpp"
 
-/// Trouble around a run costs only what it must, and is reported.
+/// Trouble around a run costs only what it must.
 namespace verp::tool::test {
 namespace {
 
@@ -17,7 +17,7 @@ using namespace std::chrono_literals;
 
 class Trouble : public Program {
  protected:
-  /// A limit on file sizes simulates a full disk; dash counts 512 bytes.
+  /// Simulates a full disk; dash counts 512 bytes.
   Outcome verp_with_blocks(int blocks, const std::string& arguments) const {
     return shell("ulimit -f " + std::to_string(blocks) + "; " VERP_PROGRAM " " + arguments);
   }
@@ -53,7 +53,6 @@ TEST_F(Trouble, FullDiskCostsTheTraceButNotTheResult) {
   EXPECT_FALSE(fs::exists(folder_ / "a.mcap"));
   EXPECT_EQ(std::count(walk.err.begin(), walk.err.end(), '\n'), 1) << walk.err;
 
-  // The command in the message works.
   const std::string line = result.at("lost")[0];
   const std::size_t start = line.find("`verp trace recover ");
   ASSERT_NE(start, std::string::npos) << line;
@@ -64,7 +63,7 @@ TEST_F(Trouble, FullDiskCostsTheTraceButNotTheResult) {
   EXPECT_GT(json::parse(verp("trace info a.mcap --json").out).at("ticks"), (614 - 128) / 4.2);
 }
 
-// The original trace still has everything, so a failed recovery leaves no file.
+// The original trace still has everything.
 TEST_F(Trouble, ARecoveryThatTheDiskRefusesLeavesNothing) {
   ASSERT_EQ(verp("walk --for 3 --json --record a.mcap").status, 0);
   const Outcome recovery = verp_with_blocks(1200, "trace recover a.mcap -o b.mcap");
@@ -126,8 +125,7 @@ TEST_F(Trouble, ReaderThatLeavesAtOnceCostsNothing) {
   EXPECT_TRUE(fs::exists(folder_ / "out/index.html"));
 }
 
-// A closed stdout must not turn the trace into standard output, and a full stderr must not end the
-// walk.
+// The trace must not become standard output, nor a full stderr end the walk.
 TEST_F(Trouble, StreamsThatAreClosedOrFullCostNothingElse) {
   const struct {
     const char* streams;
@@ -172,8 +170,7 @@ TEST_F(Trouble, NohupIsRespected) {
   EXPECT_EQ(walk.status, 0) << walk.err;
 }
 
-// The first signal comes once there is data to plot; the report then hangs in a plot. The second
-// ends the program.
+// The first comes once there is data to plot; the report then hangs in a plot.
 TEST_F(Trouble, SecondSignalEndsARunThatHangs) {
   fs::create_directories(folder_ / "bin");
   std::ofstream(folder_ / "bin/gnuplot")
@@ -212,7 +209,6 @@ TEST_F(Trouble, ATraceIsNotReplacedByWhatIsMadeOfIt) {
   EXPECT_EQ(slurp(folder_ / "a.mcap"), before);
 }
 
-// The message's command is quoted for a shell.
 TEST_F(Trouble, RecoveryOfATraceInAnOddPlaceIsACommandThatWorks) {
   fs::create_directories(folder_ / "my 'runs'");
   const Outcome walk =
@@ -225,7 +221,7 @@ TEST_F(Trouble, RecoveryOfATraceInAnOddPlaceIsACommandThatWorks) {
   EXPECT_TRUE(fs::exists(folder_ / "my 'runs'/a $b.mcap"));
 }
 
-// A CSV is complete or absent; a full disk does not destroy an existing one.
+// A full disk leaves an existing CSV as it was.
 TEST_F(Trouble, ExportedNumbersAreWholeOrAbsent) {
   ASSERT_EQ(verp("walk --for 3 --json --record a.mcap").status, 0);
   std::ofstream(folder_ / "a.csv") << "before";
@@ -239,7 +235,7 @@ TEST_F(Trouble, ExportedNumbersAreWholeOrAbsent) {
   EXPECT_EQ(slurp(folder_ / "a.csv").rfind("tick,", 0), 0u);
 }
 
-// Only a command that keeps its run on Ctrl-C may need a second signal; `timeout` then gives 137.
+// `timeout` gives 137 after its second signal.
 TEST_F(Trouble, CommandsWithNothingToKeepEndAtTheFirstSignal) {
   ASSERT_EQ(verp("walk --for 3 --json --record a.mcap").status, 0);
   const Outcome outcome = shell("( timeout -k 1 -s INT 1 " VERP_PROGRAM
@@ -247,7 +243,7 @@ TEST_F(Trouble, CommandsWithNothingToKeepEndAtTheFirstSignal) {
   EXPECT_EQ(outcome.err, "status 124\n");
 }
 
-// The page, its numbers and the trace belong to one run, whichever ended last.
+// Whichever ended last.
 TEST_F(Trouble, TwoRunsIntoOneFolderDoNotMixTheirFiles) {
   std::thread other([&] { verp("walk --for 3 --seed 2 --report out", "other"); });
   verp("walk --for 3 --seed 1 --report out", "one");

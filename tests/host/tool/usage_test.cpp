@@ -23,14 +23,13 @@ TEST_F(Usage, HelpGoesToStdoutAndIsGood) {
   }
 }
 
-// ./verp --help prints this file, so it needs neither packages nor a build.
+// ./verp --help prints this file without packages or a build.
 TEST_F(Usage, TheLaunchersHelpIsThePrograms) {
   EXPECT_EQ(verp("--help").out, slurp(files::source_dir() / "host/tool/help.txt"))
       << "mend it: build/host-release/host/tool/verp --help > host/tool/help.txt";
 }
 
-// A newcomer's first walk builds this smaller program. It understands the same options, and says
-// which ones need another program.
+// A newcomer's first walk builds this smaller program. It says which options it lacks.
 TEST_F(Usage, TheFirstWalksProgramHasTheSameHelpAndSaysWhatItLeavesOut) {
   const std::string first = VERP_FIRST_PROGRAM " ";
   for (const char* word : {"walk", "replay", "diff", "check", "export", "parameters"}) {
@@ -59,7 +58,7 @@ TEST_F(Usage, TheFirstWalksProgramWalksTheSame) {
   EXPECT_EQ(digest(shell(VERP_FIRST_PROGRAM + words)), digest(shell(VERP_PROGRAM + words)));
 }
 
-// The check comes before the trace is read, and no file is written.
+// Before the trace is read; no file is written.
 TEST_F(Usage, APageIsNamedAsBrowsersWantIt) {
   expect_refused("replay none.mcap --page p.txt", "--page p.txt: a browser");
   expect_refused("replay none.mcap --page p", ".html");
@@ -82,7 +81,7 @@ TEST_F(Usage, LinesOfHelpAreWholeCommandsAndAsWideAsTheTerminal) {
   EXPECT_EQ(words(outcome.out), words(shell("COLUMNS=400 " VERP_PROGRAM " bus read --help").out));
 }
 
-// One option's list of choices is longer than such a line.
+// One list of choices is longer than a line.
 TEST_F(Usage, HelpFitsATerminalOfFortyColumns) {
   for (const char* word : {"walk", "run", "hil", "tune", "bus bench", "identify"}) {
     std::istringstream help(
@@ -218,9 +217,9 @@ TEST_F(Usage, ParametersAreCheckedByNameAndRange) {
   expect_refused("walk --set gait.cycle_s=0.5", "--cycle");
 }
 
-// The paper's own setting is the end of its range; 0.03 as a float is not 0.03 as a double.
+// The paper's setting is the range's end; 0.03 as a float is not 0.03 as a double.
 TEST_F(Usage, BothEndsOfARangeAreInsideIt) {
-  // 0.03 is allowed, although the tuned gait does not survive it (tuning.hpp).
+  // The tuned gait does not survive 0.03 (tuning.hpp).
   EXPECT_NE(verp("walk --set gait.joint_delay_s=0.03 --for 3 --json").status, 2);
   EXPECT_EQ(verp("walk --set gait.joint_delay_s=0.02 --for 3 --json").status, 0);
   EXPECT_EQ(verp("walk --set safety.fall_tilt_rad=0.2 --for 3 --json").status, 0);
@@ -238,7 +237,7 @@ TEST_F(Usage, MissingAndMalformedFilesAreNamed) {
   expect_refused("replay bad.sdf", "wrong magic");
 }
 
-// The error for a wrong kind of file names no line or byte.
+// Without a line or byte.
 TEST_F(Usage, FoldersAndNamesAreCalledWhatTheyAre) {
   for (const char* command : {"check", "walk", "export -o out"}) {
     expect_refused(std::string(command) + " /tmp", "/tmp: is a folder, not a robot's file; give");
@@ -259,7 +258,7 @@ TEST_F(Usage, UnwritablePlacesAreNamedBeforeTheRun) {
   expect_refused("walk --report file", "file");
 }
 
-// libsdformat would log to ~/.sdformat, and complain where it cannot.
+// libsdformat would log to ~/.sdformat, or complain.
 TEST_F(Usage, LibrariesPrintNothingAndLeaveNothingAtHome) {
   for (const char* home : {"env -u HOME ", "HOME=/proc ", "HOME=/nowhere ", "HOME=$PWD "}) {
     const Outcome outcome = shell(home + std::string(VERP_PROGRAM " check generic21"));
@@ -269,7 +268,7 @@ TEST_F(Usage, LibrariesPrintNothingAndLeaveNothingAtHome) {
   EXPECT_FALSE(fs::exists(folder_ / ".sdformat"));
 }
 
-// A finished trace replaces the file of its name, so a device of that name would be lost.
+// A finished trace replaces the file of its name.
 TEST_F(Usage, DevicesAndPipesAreNotReplacedByTraces) {
   ASSERT_EQ(::mkfifo((folder_ / "pipe").c_str(), 0600), 0);
   expect_refused("walk --record pipe", "not a regular file");
@@ -307,7 +306,7 @@ TEST_F(Usage, UnknownBoardIsBadUsageAndTheBoardsAreListed) {
   }
 }
 
-// For every command, a missing image is bad input, not a device's fault.
+// A missing image is bad input, not a device's fault.
 TEST_F(Usage, ABoardWithoutItsImageIsBadInputEverywhere) {
   ::setenv("VERP_FIRMWARE_DIR", folder_.c_str(), 1);
   for (const char* command :
@@ -319,7 +318,7 @@ TEST_F(Usage, ABoardWithoutItsImageIsBadInputEverywhere) {
   ::unsetenv("VERP_FIRMWARE_DIR");
 }
 
-// An IMU that the controller reads itself has no id on the robot's bus.
+// The controller reads it, so it has no bus id.
 TEST_F(Usage, AnImuThatIsNoDeviceOfTheBusIsShownWithoutAnId) {
   const std::string robot = fs::absolute(model::find_model("generic21")).string();
   const std::string other = "sed 's/sensor=\"imu\" id=\"120\"/sensor=\"imu\" id=\"0\"/' " + robot;

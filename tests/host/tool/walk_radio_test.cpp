@@ -7,8 +7,8 @@
 #include "host/record/ros_radio.hpp"
 #include "tests/host/tool/program.hpp"
 
-// Third-party programs in Python's standard library drive robots of one walk and talk through the
-// modems on their buses.
+// Third-party programs in plain Python drive robots of one walk and talk through the modems on
+// their buses.
 
 namespace verp::tool::test {
 namespace {
@@ -17,7 +17,7 @@ using nlohmann::json;
 
 class WalkRadio : public Program {
  protected:
-  /// The example's leader drives `a` and its follower `b` for a while; their outputs are kept.
+  /// The example's leader drives `a`, its follower `b`.
   struct Talk {
     Outcome world, leader, follower;
   };
@@ -38,7 +38,7 @@ class WalkRadio : public Program {
     return talk;
   }
 
-  /// The counts of a trace's /radio messages by event, sender and receiver.
+  /// A trace's /radio messages by event, sender and receiver.
   std::map<std::string, int> kept(const std::string& file) const {
     const std::string bytes = slurp(folder_ / file);
     const record::mcap::File trace = record::mcap::parse(bytes);
@@ -67,8 +67,8 @@ TEST_F(WalkRadio, ProgramsOutsideHearEachOtherAsTheAirHasIt) {
   const int heard = radio.at("heard"), lost = radio.at("lost");
   EXPECT_EQ(heard + lost, 60) << radio;
   EXPECT_NEAR(lost, 18, 9) << radio;
-  // c's controller is in this process. c's trace has what c heard, and as the first trace also the
-  // events of a and b, which have none.
+  // c's trace has what c heard. As the first trace it also has the events of a and b, which are
+  // driven from outside.
   std::map<std::string, int> events = kept("run.mcap");
   EXPECT_EQ(events.at("said 0 -1"), 30);
   EXPECT_EQ(events.at("heard 0 1") + events.at("heard 0 2"), heard);
@@ -76,7 +76,7 @@ TEST_F(WalkRadio, ProgramsOutsideHearEachOtherAsTheAirHasIt) {
     return std::count(text.begin(), text.end(), '\n') - 1;
   };
   EXPECT_EQ(lines(first.follower.out), events.at("heard 0 1")) << first.follower.out;
-  // c walks as it does alone, and without c the others hear the same.
+  // And without c the others hear the same.
   const Outcome alone =
       verp("walk --json --for 3 --physics-step 2 --seed 3 --at-pose -0.8,0,0", "alone");
   EXPECT_EQ(json::parse(first.world.out).at("digest"), json::parse(alone.out).at("digest"));

@@ -2,7 +2,7 @@
 
 #include "tests/host/tool/program.hpp"
 
-// Options for disturbances during a walk, and for the world where it takes place.
+// Options for disturbances and worlds.
 
 namespace verp::tool::test {
 namespace {

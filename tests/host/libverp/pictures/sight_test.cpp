@@ -10,12 +10,12 @@
 #include "tests/host/camera/files.hpp"
 #include "tests/host/libverp/pictures/pictures.hpp"
 
-// A program sees through its robots' cameras what a trace would keep, and the run does not change.
+// A program sees what a trace would keep, and the run does not change.
 
 namespace verp::abi::test {
 namespace {
 
-/// A walk's last exposure, drawn as by `verp walk --cameras`.
+/// The last exposure, drawn as by `verp walk --cameras`.
 camera::Picture as_a_trace_keeps_it(const std::string& world_file) {
   session::WalkPlan plan = session::test::plan_of("");
   plan.twin.cameras = true;
@@ -101,7 +101,7 @@ TEST(LibverpSight, EqualSessionsGiveEqualPictures) {
   EXPECT_NE(first.first, first.second);
 }
 
-/// A ball at a known place has the right distance, its red colour and its own label.
+/// At its distance, in its colour, with its label.
 TEST(LibverpSight, ColourDepthAndLabelsAreOfTheThingThatIsThere) {
   const camera::test::Files files;
   const std::string world = files.world("0.8 0 0.4");
@@ -173,7 +173,7 @@ TEST(LibverpSight, IsSeenFromWhereOneSays) {
       EXPECT_TRUE(name == other || picture != that) << name << " is " << other;
     }
   }
-  // Seen from above and from the side, the ball is in the middle and not in the corner.
+  // From above and from the side.
   for (const double aside_m : {0.0, -1.0}) {
     verp_view view = Looking::view(nullptr);
     const double eye[] = {0.8, aside_m, aside_m == 0 ? 1.4 : 0.4}, ball[] = {0.8, 0, 0.4};
@@ -192,7 +192,7 @@ TEST(LibverpSight, IsSeenFromWhereOneSays) {
   }
 }
 
-/// Only printed, not checked; host/libverp/README.md has the costs.
+/// Only printed; host/libverp/README.md has the costs.
 TEST(LibverpSight, SaysWhatAPictureCosts) {
   using Clock = std::chrono::steady_clock;
   Looking looking;
@@ -202,7 +202,7 @@ TEST(LibverpSight, SaysWhatAPictureCosts) {
     double sum_ms = 0;
     constexpr int kTimes = 20;
     for (int i = -1; i < kTimes; ++i) {
-      looking.tick(5);  // longer than a camera period, so each picture is new
+      looking.tick(5);  // longer than a camera period
       const auto start = Clock::now();
       draw();
       if (i >= 0) sum_ms += std::chrono::duration<double, std::milli>(Clock::now() - start).count();

@@ -19,7 +19,6 @@
 namespace verp::abi::test {
 namespace {
 
-/// Process ids of this process's drawing programs.
 std::vector<pid_t> drawing() {
   std::vector<pid_t> found;
   DIR* const all = ::opendir("/proc");
@@ -122,7 +121,7 @@ TEST(LibverpSightTrouble, ControllerAndSecondThreadAreTold) {
   EXPECT_EQ(seen.why.rfind("verp_session_picture: another thread", 0), 0U) << seen.why;
 }
 
-/// The wait always ends, for a program that is silent from the start or stops later.
+/// Silent from the start, or later.
 TEST(Painter, WaitsForNobodyForEver) {
   using camera::Painter;
   const camera::Stage stage{.robots = {{model::find_model("generic21"), 1}}, .world_file = ""};
@@ -141,7 +140,7 @@ TEST(Painter, WaitsForNobodyForEver) {
   EXPECT_NE(why([&] { Painter(silent, stage, Painter::Seconds(1)); }).find("not answered for 1 s"),
             std::string::npos);
   std::filesystem::remove(silent);
-  // The same timeout covers the start, which takes a busy PC more than two seconds.
+  // The same timeout covers the start, for which a busy PC needs more than two seconds.
   std::optional<Painter> painter;
   int patience_s = 1;
   std::string late;
