@@ -22,7 +22,7 @@ endfunction()
 
 # Builds controller.so from these sources, for `verp walk --controller`.
 function(verp_own_controller)
-  add_library(controller MODULE ${ARGN} ${VERP_ROOT}/host/own/module.cpp)
+  add_library(controller MODULE ${ARGN} ${VERP_ROOT}/host/run/own/module.cpp)
   verp_own_flags(controller)
   # Compiled as on a board, with a private copy of the core.
   target_compile_options(controller PRIVATE -ffreestanding -fno-threadsafe-statics -Wdouble-promotion)

@@ -86,7 +86,7 @@ endfunction()
 # Dry run of `verp flash` with the board's image.
 function(verp_add_dry_run_test)
   add_test(NAME flash.${VERP_BOARD}.dry_run COMMAND ${CMAKE_SOURCE_DIR}/tests/target/dry_run
-    ${VERP_BOARD} $<TARGET_FILE:loop_${VERP_BOARD}> ${VERP_HOST_DIR}/host/tool/verp)
+    ${VERP_BOARD} $<TARGET_FILE:loop_${VERP_BOARD}> ${VERP_HOST_DIR}/host/apps/tool/verp)
   set_tests_properties(flash.${VERP_BOARD}.dry_run PROPERTIES LABELS "flash;target")
 endfunction()
 
@@ -97,7 +97,7 @@ function(verp_add_deploy_test)
     if(bus)
       string(APPEND name .${bus})
     endif()
-    add_test(NAME ${name} COMMAND ${CMAKE_SOURCE_DIR}/tests/target/deploy ${VERP_BOARD} ${VERP_HOST_DIR}/host/tool/verp ${bus})
+    add_test(NAME ${name} COMMAND ${CMAKE_SOURCE_DIR}/tests/target/deploy ${VERP_BOARD} ${VERP_HOST_DIR}/host/apps/tool/verp ${bus})
     set_tests_properties(${name} PROPERTIES LABELS "flash;target"
       ENVIRONMENT "VERP_FIRMWARE_DIR=${CMAKE_BINARY_DIR}/images")
   endforeach()
@@ -105,13 +105,13 @@ endfunction()
 
 # A user's controller in the board's loop, from its folder to the same digest as on the PC.
 function(verp_add_own_controller_test)
-  add_test(NAME own.${VERP_BOARD} COMMAND ${CMAKE_SOURCE_DIR}/tests/host/own/own_controller.sh ${VERP_HOST_DIR}/host/tool/verp ${VERP_BOARD})
+  add_test(NAME own.${VERP_BOARD} COMMAND ${CMAKE_SOURCE_DIR}/tests/host/own/own_controller.sh ${VERP_HOST_DIR}/host/apps/tool/verp ${VERP_BOARD})
   set_tests_properties(own.${VERP_BOARD} PROPERTIES LABELS "loop;target")
 endfunction()
 
 # gdb on these images; with `loop`, also on the board's own loop.
 function(verp_add_debug_test)
-  add_test(NAME debug.${VERP_BOARD} COMMAND ${CMAKE_SOURCE_DIR}/tests/target/debug ${VERP_BOARD} ${VERP_HOST_DIR}/host/tool/verp ${ARGN})
+  add_test(NAME debug.${VERP_BOARD} COMMAND ${CMAKE_SOURCE_DIR}/tests/target/debug ${VERP_BOARD} ${VERP_HOST_DIR}/host/apps/tool/verp ${ARGN})
   set_tests_properties(debug.${VERP_BOARD} PROPERTIES LABELS "replay;target" REQUIRED_FILES $<TARGET_FILE:replay_${VERP_BOARD}>
     ENVIRONMENT "VERP_FIRMWARE_DIR=${CMAKE_BINARY_DIR}/images")
 endfunction()
@@ -168,11 +168,11 @@ endfunction()
 # The loop's image through its emulated serial ports.
 function(verp_add_serial_tests machine)
   add_test(NAME hil.${VERP_BOARD}.operator COMMAND ${CMAKE_SOURCE_DIR}/tests/target/ask_operator
-    ${machine} $<TARGET_FILE:loop_${VERP_BOARD}> $<TARGET_FILE:loop_can_${VERP_BOARD}> ${VERP_HOST_DIR}/host/tool/verp)
+    ${machine} $<TARGET_FILE:loop_${VERP_BOARD}> $<TARGET_FILE:loop_can_${VERP_BOARD}> ${VERP_HOST_DIR}/host/apps/tool/verp)
   set_tests_properties(hil.${VERP_BOARD}.operator PROPERTIES LABELS "hil;target")
   # Sends actions while it runs, with a power cut.
   add_test(NAME hil.${VERP_BOARD}.actions COMMAND ${CMAKE_SOURCE_DIR}/tests/target/write_flash
-    ${machine} $<TARGET_FILE:loop_${VERP_BOARD}> ${VERP_HOST_DIR}/host/tool/verp)
+    ${machine} $<TARGET_FILE:loop_${VERP_BOARD}> ${VERP_HOST_DIR}/host/apps/tool/verp)
   set_tests_properties(hil.${VERP_BOARD}.actions PROPERTIES LABELS "hil;target")
   # Walks over a bad cable.
   add_test(NAME hil.${VERP_BOARD}.faults COMMAND ${VERP_HOST_DIR}/target/target_tests --gtest_filter=SerialFaults.*)

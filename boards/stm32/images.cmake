@@ -17,12 +17,12 @@ function(verp_add_stm32_image image way)
   # The raw bytes for a boot loader, and the budget check, which can fail the build.
   add_custom_command(TARGET ${image} POST_BUILD
     COMMAND ${CMAKE_OBJCOPY} -O binary $<TARGET_FILE:${image}> ${CMAKE_BINARY_DIR}/images/${image}.bin
-    COMMAND ${VERP_STM32_DIR}/budget $<TARGET_FILE:${image}> ${CMAKE_SOURCE_DIR}/host/board/stack_depth
+    COMMAND ${VERP_STM32_DIR}/budget $<TARGET_FILE:${image}> ${CMAKE_SOURCE_DIR}/host/boards/board/stack_depth
     VERBATIM)
 endfunction()
 
 function(verp_add_budget_test name image)
-  add_test(NAME ${name} COMMAND ${VERP_STM32_DIR}/budget $<TARGET_FILE:${image}> ${CMAKE_SOURCE_DIR}/host/board/stack_depth)
+  add_test(NAME ${name} COMMAND ${VERP_STM32_DIR}/budget $<TARGET_FILE:${image}> ${CMAKE_SOURCE_DIR}/host/boards/board/stack_depth)
   set_tests_properties(${name} PROPERTIES LABELS "gate;target")
 endfunction()
 

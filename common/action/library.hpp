@@ -6,7 +6,7 @@
 #include "common/model/params.hpp"
 
 /// A robot's actions as a constant image: header, actions, key frames. The host makes it from text
-/// (host/action); a controller only reads it.
+/// (host/author/action); a controller only reads it.
 namespace verp::action {
 
 /// Raise when the image's layout or meaning changes.

@@ -39,7 +39,7 @@ struct JointParams {
   float counts_per_rad = 0;        ///< negative if the servo is mounted backwards
   float zero_count = 0;            ///< count at joint angle zero
   float compliance_rad_nm = 0;     ///< sag of the servo's position loop under load
-  /// Inertia of rotor and gears at the joint (Gearbox, host/model/entity.hpp).
+  /// Inertia of rotor and gears at the joint (Gearbox, host/robot/model/entity.hpp).
   float armature_kg_m2 = 0;
   float friction_n_m = 0;          ///< friction torque near standstill
   float load_friction = 0;         ///< share of the load torque added to it

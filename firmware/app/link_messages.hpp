@@ -5,7 +5,7 @@
 #include "firmware/app/contracts.hpp"
 
 /// The FrameBus of an emulated microcontroller: remote calls over two byte streams (FIFOs that the
-/// firmware opens by semihosting). The PC's end is host/bus/bus_server.hpp. All integers are
+/// firmware opens by semihosting). The PC's end is host/twin/bus/bus_server.hpp. All integers are
 /// little-endian, structs as laid out.
 ///
 /// Controller to PC: messages of a MessageHeader and `size` payload bytes. Only kHello and kPoll

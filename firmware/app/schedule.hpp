@@ -98,7 +98,7 @@ constexpr std::size_t schedule_bytes(const Params& params) {
 }
 
 /// Time of that tick on the wire, reply slack included. Above 80 % of the period no retry fits:
-/// such a robot is refused (host/model/bus_time.hpp).
+/// such a robot is refused (host/robot/model/bus_time.hpp).
 constexpr std::uint32_t schedule_us(const Params& params) {
   const std::size_t replies =
       (all_fast(params) ? 1u : params.servo_count()) + sensor_devices(params) + 1;

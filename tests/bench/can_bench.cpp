@@ -6,8 +6,8 @@
 #include <string_view>
 #include <vector>
 
-#include "host/board/emulated_board.hpp"
-#include "host/can/virtual_can.hpp"
+#include "host/boards/board/emulated_board.hpp"
+#include "host/twin/can/virtual_can.hpp"
 #include "tests/hil/level_plant.hpp"
 #include "tests/target/can_run.hpp"
 

@@ -14,14 +14,14 @@
 #include <string>
 #include <vector>
 
-#include "host/board/temporary_directory.hpp"
-#include "host/bus/lockstep_server.hpp"
-#include "host/bus/virtual_bus.hpp"
-#include "host/files/places.hpp"
-#include "host/files/whole.hpp"
-#include "host/libverp/verp.hpp"
-#include "host/link/link.hpp"
-#include "host/process/child.hpp"
+#include "host/apps/libverp/verp.hpp"
+#include "host/boards/board/temporary_directory.hpp"
+#include "host/os/files/places.hpp"
+#include "host/os/files/whole.hpp"
+#include "host/os/link/link.hpp"
+#include "host/os/process/child.hpp"
+#include "host/twin/bus/lockstep_server.hpp"
+#include "host/twin/bus/virtual_bus.hpp"
 #include "tests/hil/level_plant.hpp"
 #include "tests/support/link_pump.hpp"
 #include "tests/target/twin_run.hpp"
@@ -70,7 +70,7 @@ Rates rates_of(const std::string& command) {
 }
 
 std::string library() {
-  return (verp::files::build_dir() / "host/libverp/libverp.so.0").string();
+  return (verp::files::build_dir() / "host/apps/libverp/libverp.so.0").string();
 }
 
 void need_library() {
@@ -115,20 +115,20 @@ Rates in_python(int times) {
   }
   return rates_of(fmt::format(
       "PYTHONDONTWRITEBYTECODE=1 PYTHONPATH={} VERP_LIBRARY={} /usr/bin/python3 {} {}",
-      quoted((verp::files::source_dir() / "host/libverp/python").string()), quoted(library()),
+      quoted((verp::files::source_dir() / "host/apps/libverp/python").string()), quoted(library()),
       quoted((verp::files::source_dir() / "tests/bench/languages/rate.py").string()), times));
 }
 
 Rates in_octave(int times) {
   need_library();
   const auto source = verp::files::source_dir();
-  const auto mex = verp::files::build_dir() / "host/libverp/octave";
+  const auto mex = verp::files::build_dir() / "host/apps/libverp/octave";
   if (!succeeds("octave-cli --version") || !std::filesystem::exists(mex / "verp_mex.mex")) {
     throw Missing("apt-get install octave octave-dev");
   }
   return rates_of(fmt::format(
       R"(octave-cli --norc --no-history -q --path {} --path {} --path {} --eval 'fprintf("%.0f\n", verp_rate({}))')",
-      quoted((source / "host/libverp/matlab").string()),
+      quoted((source / "host/apps/libverp/matlab").string()),
       quoted((source / "tests/bench/languages").string()), quoted(mex.string()), times));
 }
 
@@ -138,7 +138,7 @@ Rates in_csharp(int times) {
   if (!succeeds("mono --version") || !std::filesystem::exists(program)) {
     throw Missing("apt-get install mono-mcs mono-runtime");
   }
-  const auto folder = verp::files::build_dir() / "host/libverp";
+  const auto folder = verp::files::build_dir() / "host/apps/libverp";
   return rates_of(fmt::format("LD_LIBRARY_PATH={} MONO_PATH={} mono {} {}", quoted(folder.string()),
                               quoted((folder / "csharp").string()), quoted(program.string()),
                               times));
@@ -165,7 +165,7 @@ double external_rate() {
   verp::bus::LinkPump pump(link, server);
   const std::string errors = (folder.path() / "errors").string();
   verp::process::Child controller(
-      {.words = {(verp::files::build_dir() / "host/tool/verp").string(), "run", "generic21",
+      {.words = {(verp::files::build_dir() / "host/apps/tool/verp").string(), "run", "generic21",
                  "--lockstep", "--for", "5", "--yes", "--link", "unix:" + socket},
        .input = {},
        .output = {},

@@ -7,9 +7,9 @@
 #include "common/control/state.hpp"
 #include "common/record/tick_record.hpp"
 #include "firmware/app/link_messages.hpp"
-#include "host/board/board_error.hpp"
-#include "host/board/fifo_link.hpp"
-#include "host/board/qemu.hpp"
+#include "host/boards/board/board_error.hpp"
+#include "host/boards/board/fifo_link.hpp"
+#include "host/boards/board/qemu.hpp"
 
 namespace verp::board {
 namespace {

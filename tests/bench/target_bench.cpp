@@ -6,8 +6,8 @@
 #include <string_view>
 #include <vector>
 
-#include "host/board/cost_promise.hpp"
-#include "host/board/emulated_board.hpp"
+#include "host/boards/board/cost_promise.hpp"
+#include "host/boards/board/emulated_board.hpp"
 #include "tests/bench/link_speed.hpp"
 #include "tests/bench/target_cost.hpp"
 #include "tests/target/twin_run.hpp"

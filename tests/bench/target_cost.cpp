@@ -10,11 +10,11 @@
 #include <memory>
 #include <sstream>
 
-#include "host/board/board_error.hpp"
-#include "host/board/emulated_board.hpp"
-#include "host/board/replay_on_target.hpp"
-#include "host/board/temporary_directory.hpp"
-#include "host/files/places.hpp"
+#include "host/boards/board/board_error.hpp"
+#include "host/boards/board/emulated_board.hpp"
+#include "host/boards/board/replay_on_target.hpp"
+#include "host/boards/board/temporary_directory.hpp"
+#include "host/os/files/places.hpp"
 
 namespace verp::board {
 namespace {
@@ -71,7 +71,7 @@ std::string symbols_of(const std::string& image) {
 
 void measure_stack(const std::string& image, TargetCost& cost) {
   std::istringstream line(output_of(
-      (files::source_dir() / "host/board/stack_depth").string() + " " + image + " " + kStep,
+      (files::source_dir() / "host/boards/board/stack_depth").string() + " " + image + " " + kStep,
       "its message above says why; perl and binutils-arm-none-eabi are needed"));
   line >> cost.stack_static_bytes;
   std::getline(line >> std::ws, cost.stack_chain);

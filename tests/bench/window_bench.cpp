@@ -11,15 +11,15 @@
 #include <cstring>
 #include <vector>
 
-#include "host/model/find.hpp"
-#include "host/model/load.hpp"
-#include "host/model/load_world.hpp"
-#include "host/model/params.hpp"
-#include "host/render/edges.hpp"
-#include "host/render/offscreen_context.hpp"
-#include "host/scene/camera.hpp"
-#include "host/view/main_window.hpp"
-#include "host/view/theme.hpp"
+#include "host/apps/view/main_window.hpp"
+#include "host/apps/view/theme.hpp"
+#include "host/robot/model/find.hpp"
+#include "host/robot/model/load.hpp"
+#include "host/robot/model/load_world.hpp"
+#include "host/robot/model/params.hpp"
+#include "host/show/render/edges.hpp"
+#include "host/show/render/offscreen_context.hpp"
+#include "host/show/scene/camera.hpp"
 
 // The cost of a picture. `frames`: CPU time of the renderer alone, and how far a robot camera's
 // pixels are from those of 64 samples. `window`: frame rate of the real window and the twin's speed

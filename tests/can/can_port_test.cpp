@@ -1,4 +1,4 @@
-#include "host/link/can_port.hpp"
+#include "host/os/link/can_port.hpp"
 
 #include <gtest/gtest.h>
 #include <linux/can/error.h>

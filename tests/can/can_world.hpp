@@ -5,7 +5,7 @@
 #include <memory>
 #include <string>
 
-#include "host/link/can_port.hpp"
+#include "host/os/link/can_port.hpp"
 #include "tests/contract/pc/can_sockets.hpp"
 
 /// A test's own interfaces. Runs as root inside tests/support/with-can.

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "host/process/child.hpp"
+#include "host/os/process/child.hpp"
 
 /// Records an interface with can-utils and decodes it with tshark.
 namespace verp::test {

@@ -7,7 +7,7 @@
 #include <ctime>
 #include <thread>
 
-#include "host/link/system_clock.hpp"
+#include "host/os/link/system_clock.hpp"
 
 // with-can makes reading the clock cheap (tests/support/quick_clock.cpp); it must still agree with
 // the kernel.

@@ -8,9 +8,9 @@
 #include <thread>
 
 #include "firmware/app/can_nodes.hpp"
-#include "host/model/find.hpp"
-#include "host/model/load.hpp"
-#include "host/model/params.hpp"
+#include "host/robot/model/find.hpp"
+#include "host/robot/model/load.hpp"
+#include "host/robot/model/params.hpp"
 #include "tests/can/capture.hpp"
 #include "tests/host/tool/program.hpp"
 

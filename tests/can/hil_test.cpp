@@ -7,10 +7,10 @@
 
 #include "common/protocol/canopen/nmt.hpp"
 #include "firmware/app/lockstep_can.hpp"
-#include "host/link/can_port.hpp"
-#include "host/model/find.hpp"
-#include "host/model/load.hpp"
-#include "host/model/params.hpp"
+#include "host/os/link/can_port.hpp"
+#include "host/robot/model/find.hpp"
+#include "host/robot/model/load.hpp"
+#include "host/robot/model/params.hpp"
 #include "tests/host/tool/link_controller.hpp"
 #include "tests/host/tool/program.hpp"
 

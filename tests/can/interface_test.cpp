@@ -7,10 +7,10 @@
 #include <string>
 #include <thread>
 
-#include "host/can/virtual_can.hpp"
-#include "host/model/find.hpp"
-#include "host/model/load.hpp"
-#include "host/model/params.hpp"
+#include "host/robot/model/find.hpp"
+#include "host/robot/model/load.hpp"
+#include "host/robot/model/params.hpp"
+#include "host/twin/can/virtual_can.hpp"
 #include "tests/can/can_world.hpp"
 #include "tests/hil/level_plant.hpp"
 #include "tests/hil/promises.hpp"

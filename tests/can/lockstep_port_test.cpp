@@ -7,7 +7,7 @@
 #include "common/control/state.hpp"
 #include "common/model/image.hpp"
 #include "common/record/tick_record.hpp"
-#include "host/can/virtual_can.hpp"
+#include "host/twin/can/virtual_can.hpp"
 #include "tests/can/can_world.hpp"
 #include "tests/host/bus/fake_plant.hpp"
 

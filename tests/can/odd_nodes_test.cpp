@@ -5,8 +5,8 @@
 
 #include "common/protocol/canopen/robot_plan.hpp"
 #include "firmware/app/controller_objects.hpp"
-#include "host/can/client.hpp"
-#include "host/can/device_node.hpp"
+#include "host/twin/can/client.hpp"
+#include "host/twin/can/device_node.hpp"
 #include "tests/can/can_world.hpp"
 #include "tests/can/scripted_node.hpp"
 #include "tests/host/tool/program.hpp"

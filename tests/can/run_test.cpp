@@ -9,10 +9,10 @@
 #include <string>
 #include <thread>
 
-#include "host/link/can_claim.hpp"
-#include "host/model/find.hpp"
-#include "host/model/load.hpp"
-#include "host/model/params.hpp"
+#include "host/os/link/can_claim.hpp"
+#include "host/robot/model/find.hpp"
+#include "host/robot/model/load.hpp"
+#include "host/robot/model/params.hpp"
 #include "tests/can/can_world.hpp"
 #include "tests/host/tool/program.hpp"
 

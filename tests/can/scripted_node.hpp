@@ -9,7 +9,7 @@
 
 #include "common/protocol/canopen/cob_id.hpp"
 #include "common/protocol/canopen/sdo.hpp"
-#include "host/link/can_port.hpp"
+#include "host/os/link/can_port.hpp"
 
 namespace verp::test {
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "host/link/system_clock.hpp"
+#include "host/os/link/system_clock.hpp"
 #include "tests/can/can_world.hpp"
 #include "tests/can/serial_adapter.hpp"
 

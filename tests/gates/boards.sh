@@ -8,7 +8,7 @@ missing() { echo "$1: $2; see boards/README.md, One more STM32 board" && failed=
 holds() { grep -qE -- "$2" "$1" 2>/dev/null; }
 
 steps=$(sed -n '/^\*\*One more STM32 board/,/^\*\*One more board/p' boards/README.md)
-for place in board.hpp memory.ld CMakeLists.txt README.md CMakePresets.json host/flash/recipe.cpp \
+for place in board.hpp memory.ld CMakeLists.txt README.md CMakePresets.json host/boards/flash/recipe.cpp \
   tests/host/stm32_boards/CMakeLists.txt boards/README.md; do
   [[ $steps == *"$place"* ]] || { echo "boards/README.md: its steps do not name $place" && failed=1; }
 done
@@ -35,7 +35,7 @@ for file in boards/*/CMakeLists.txt; do
   holds "$folder/README.md" 'Flash recipe' || missing "$folder/README.md" 'no flash recipe'
   [[ $(grep -cE "\"name\": \"fw-$board\"" CMakePresets.json) == 3 ]] ||
     missing CMakePresets.json "fw-$board is not there three times: to configure, to build, to test"
-  holds host/flash/recipe.cpp "\"$board\"" || missing host/flash/recipe.cpp "no row for $board"
+  holds host/boards/flash/recipe.cpp "\"$board\"" || missing host/boards/flash/recipe.cpp "no row for $board"
   holds boards/README.md "^\\| \`$board/\` " || missing boards/README.md "no row for $board"
 done
 exit "$failed"

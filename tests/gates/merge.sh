@@ -26,9 +26,9 @@ for board in $boards; do
   [[ " $boards_of_full " == *" $board "* ]] || runs_board "$merge" "$board" ||
     missing "tests/run: the merge gate leaves out the board $board"
 done
-promised=$(sed -nE 's/.*kPromisedBoard = "([a-z0-9_]+)".*/\1/p' host/board/cost_promise.hpp)
+promised=$(sed -nE 's/.*kPromisedBoard = "([a-z0-9_]+)".*/\1/p' host/boards/board/cost_promise.hpp)
 [[ $promised ]] && runs_board "$merge" "$promised" ||
-  missing "tests/run: the merge gate leaves out ${promised:-?}, the board of the cost promises (host/board/cost_promise.hpp)"
+  missing "tests/run: the merge gate leaves out ${promised:-?}, the board of the cost promises (host/boards/board/cost_promise.hpp)"
 
 option() { sed -nE "s/^$1 tests: .* -$2 ([^ ]+).*/\1/p" <<<"$merge"; } # stage letter
 left_out=$(option fw-mps2_an386 E)

@@ -24,7 +24,7 @@ for kind in ("configurePresets", "buildPresets", "testPresets"):
 json.dump(presets, open("CMakePresets.json", "w"), indent=1)
 END
 # Step 5: a row in the table of recipes.
-sed -i "0,/^      {\"$old\",/s//      {\"$new\", \&kF405, {kOpenocd}, kStLink, \"PA9, PA10\", \"$old\", true},\n&/" host/flash/recipe.cpp
+sed -i "0,/^      {\"$old\",/s//      {\"$new\", \&kF405, {kOpenocd}, kStLink, \"PA9, PA10\", \"$old\", true},\n&/" host/boards/flash/recipe.cpp
 # Steps 6 and 7.
 sed -i "s/foreach(board /&$new /" tests/host/stm32_boards/CMakeLists.txt
 sed -i "s/^| \`$old\/\` .*/&\n| \`$new\/\` | Cortex-M4F | mine |/" boards/README.md

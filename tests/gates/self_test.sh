@@ -33,18 +33,18 @@ layers_case() { # what reason path text
 test_layers() {
   layers_case 'a clean header' '' common/gait/a.hpp $'#pragma once\n#include <cstdint>\n#include "common/math/a.hpp"'
   layers_case 'words in comments' '' common/gait/a.hpp $'// a new double #if\n/* virtual\n malloc */ int a;'
-  layers_case 'the host includes all' '' host/sim/a.cpp $'#include <ode/ode.h>\n#include "firmware/app/a.hpp"'
+  layers_case 'the host includes all' '' host/twin/sim/a.cpp $'#include <ode/ode.h>\n#include "firmware/app/a.hpp"'
   layers_case 'upward include' 'common/gait must not include common/control' common/gait/a.hpp '#include "common/control/step.hpp"'
   layers_case 'sideways include' 'must not include common/balance' common/gait/a.hpp '#include "common/balance/a.hpp"'
-  layers_case 'core includes host' 'must not include host/' common/io/a.hpp '#include "host/sim/a.hpp"'
+  layers_case 'core includes host' 'must not include host/' common/io/a.hpp '#include "host/twin/sim/a.hpp"'
   layers_case 'core includes libm' 'must not include <cmath>' common/math/a.cpp '  # include <cmath>'
   layers_case 'Eigen past its door' 'must not include <Eigen/Core>' common/gait/a.hpp '#include <Eigen/Core>'
   layers_case 'ODE on the robot' 'must not include <ode/ode.h>' firmware/app/a.hpp '#include <ode/ode.h>'
-  layers_case 'host uses a chip' 'must not include hal/chip' host/board/a.cpp '#include "hal/chip/x/a.hpp"'
+  layers_case 'host uses a chip' 'must not include hal/chip' host/boards/board/a.cpp '#include "hal/chip/x/a.hpp"'
   layers_case 'one chip family uses another' 'must not include hal/chip' hal/chip/x/a.hpp '#include "hal/chip/y/a.hpp"'
-  layers_case 'a brain that looks at the twin' 'must not include host/sim' host/demos/brain/a.cpp '#include "host/sim/truth.hpp"'
-  layers_case 'a brain that looks at its referee' 'must not include host/demos' host/demos/brain/a.cpp '#include "host/demos/run.hpp"'
-  layers_case 'a computer that looks at the run' 'must not include host/session' host/demos/computer.cpp '#include "host/session/session.hpp"'
+  layers_case 'a brain that looks at the twin' 'must not include host/twin/sim' host/apps/demos/brain/a.cpp '#include "host/twin/sim/truth.hpp"'
+  layers_case 'a brain that looks at its referee' 'must not include host/apps/demos' host/apps/demos/brain/a.cpp '#include "host/apps/demos/run.hpp"'
+  layers_case 'a computer that looks at the run' 'must not include host/run/session' host/apps/demos/computer.cpp '#include "host/run/session/session.hpp"'
   layers_case 'relative include' 'by its path' common/gait/a.cpp '#include "a.hpp"'
   layers_case 'conditional compilation' 'no conditional compilation' common/io/a.hpp '#ifdef __arm__'
   layers_case 'a heap' 'must not use new' common/io/a.cpp 'int* f() { return new int; }'
@@ -142,9 +142,9 @@ test_format() {
 # Adds a board as boards/README.md says. Until the last step is done, the gate names the next one.
 test_boards() {
   local tree=$scratch/tree old=nucleo_f446re new=my_board gate=("$here/boards.sh" "$scratch/tree")
-  mkdir -p "$tree/host/flash" "$tree/tests/host/stm32_boards"
+  mkdir -p "$tree/host/boards/flash" "$tree/tests/host/stm32_boards"
   cp -r "$root/boards" "$root/CMakePresets.json" "$tree/"
-  cp "$root/host/flash/recipe.cpp" "$tree/host/flash/"
+  cp "$root/host/boards/flash/recipe.cpp" "$tree/host/boards/flash/"
   cp "$root/tests/host/stm32_boards/CMakeLists.txt" "$tree/tests/host/stm32_boards/"
   expect 'the boards there are' '' "${gate[@]}"
   cp -r "$tree/boards/$old" "$tree/boards/$new"
@@ -158,7 +158,7 @@ test_boards() {
   awk -v old="fw-$old" -v new="fw-$new" '{ if (index($0, "\"name\": \"" old "\"") && ++n % 2) gsub(old, new); print }' \
     "$tree/CMakePresets.json" >"$tree/p" && mv "$tree/p" "$tree/CMakePresets.json"
   expect 'no recipe' "no row for $new" "${gate[@]}"
-  echo "// {\"$new\"}" >>"$tree/host/flash/recipe.cpp"
+  echo "// {\"$new\"}" >>"$tree/host/boards/flash/recipe.cpp"
   expect 'not on a model of its chip' "$new is not in its list" "${gate[@]}"
   sed -i "s/foreach(board /&$new /" "$tree/tests/host/stm32_boards/CMakeLists.txt"
   expect 'not in the table' "boards/README.md: no row for $new" "${gate[@]}"
@@ -169,7 +169,7 @@ test_boards() {
 # A project in which nothing is built: what tests/run would do, and the sources that name tests.
 merge_case() { # what reason [file sed-expression]
   local tree=$scratch/tree
-  [[ -e $tree ]] || { mkdir -p "$tree" && tar -cf - tests boards CMakePresets.json host/board/cost_promise.hpp | tar -C "$tree" -xf -; }
+  [[ -e $tree ]] || { mkdir -p "$tree" && tar -cf - tests boards CMakePresets.json host/boards/board/cost_promise.hpp | tar -C "$tree" -xf -; }
   [[ -z ${3:-} ]] || { cp "$3" "$scratch/kept" && sed -i -E "$4" "$tree/$3"; }
   expect "$1" "$2" "$here/merge.sh" "$tree"
   [[ -z ${3:-} ]] || cp "$scratch/kept" "$tree/$3"
@@ -180,7 +180,7 @@ test_merge() {
   merge_case 'as it is' ''
   merge_case 'the board of the cost promises to --full' 'leaves out mps2_an386, the board of the cost' tests/run "s/^boards_of_full='/&mps2_an386 /"
   merge_case 'another board to --full' 'leaves out the board opencr' tests/run "s/^boards_of_full='/&opencr /"
-  merge_case 'promises of another board' 'leaves out mps2_an385, the board of the cost' host/board/cost_promise.hpp 's/mps2_an386/mps2_an385/'
+  merge_case 'promises of another board' 'leaves out mps2_an385, the board of the cost' host/boards/board/cost_promise.hpp 's/mps2_an386/mps2_an385/'
   merge_case 'a board that nobody runs' 'not even --full runs the board mps2_an385' tests/run 's/\[\[ \$full \|\| " \$boards/[[ " $boards/'
   merge_case 'a folder of host without sanitizers' 'leave out host.model' tests/run 's/\|model\|/|/'
   merge_case 'the core without sanitizers' 'leave out replay' tests/run 's/\|replay\|/|/'

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "common/protocol/canopen/robot_plan.hpp"
-#include "host/record/replay.hpp"
+#include "host/trace/record/replay.hpp"
 #include "tests/hil/chip_line.hpp"
 #include "tests/hil/fault_scene.hpp"
 

@@ -4,7 +4,7 @@
 #include <map>
 #include <random>
 
-#include "host/can/virtual_can.hpp"
+#include "host/twin/can/virtual_can.hpp"
 
 namespace verp::test {
 

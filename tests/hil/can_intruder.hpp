@@ -4,7 +4,7 @@
 #include <random>
 
 #include "common/model/params.hpp"
-#include "host/can/node.hpp"
+#include "host/twin/can/node.hpp"
 
 namespace verp::test {
 

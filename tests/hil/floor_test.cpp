@@ -4,13 +4,13 @@
 #include <string>
 
 #include "common/control/step.hpp"
-#include "host/action/compile.hpp"
-#include "host/action/folder.hpp"
-#include "host/model/find.hpp"
-#include "host/model/load.hpp"
-#include "host/model/params.hpp"
-#include "host/session/session.hpp"
-#include "host/sim/random.hpp"
+#include "host/author/action/compile.hpp"
+#include "host/author/action/folder.hpp"
+#include "host/robot/model/find.hpp"
+#include "host/robot/model/load.hpp"
+#include "host/robot/model/params.hpp"
+#include "host/run/session/session.hpp"
+#include "host/twin/sim/random.hpp"
 #include "tests/hil/safe_table.hpp"
 
 // A robot lies on the floor in any pose and is asked to get up and walk, while something fails.

@@ -8,7 +8,7 @@
 #include "common/math/scalar.hpp"
 #include "common/model/params.hpp"
 #include "common/model/tree.hpp"
-#include "host/sim/plant.hpp"
+#include "host/twin/sim/plant.hpp"
 
 namespace verp::test {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "hal/contract/frame_bus.hpp"
-#include "host/bus/virtual_bus.hpp"
+#include "host/twin/bus/virtual_bus.hpp"
 
 namespace verp::test {
 

@@ -10,10 +10,10 @@
 #include <vector>
 
 #include "firmware/app/operator_device.hpp"
-#include "host/bus/realtime_server.hpp"
-#include "host/bus/virtual_bus.hpp"
-#include "host/link/link.hpp"
-#include "host/link/system_clock.hpp"
+#include "host/os/link/link.hpp"
+#include "host/os/link/system_clock.hpp"
+#include "host/twin/bus/realtime_server.hpp"
+#include "host/twin/bus/virtual_bus.hpp"
 #include "tests/host/bus/fake_plant.hpp"
 
 namespace verp::test {

@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <optional>
 
-#include "host/sim/robot.hpp"
-#include "host/sim/world.hpp"
+#include "host/twin/sim/robot.hpp"
+#include "host/twin/sim/world.hpp"
 #include "tests/hil/level_plant.hpp"
 #include "tests/target/twin_run.hpp"
 

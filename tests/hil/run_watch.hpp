@@ -6,7 +6,7 @@
 
 #include "common/io/io.hpp"
 #include "common/model/params.hpp"
-#include "host/sim/plant.hpp"
+#include "host/twin/sim/plant.hpp"
 
 namespace verp::test {
 

@@ -23,7 +23,7 @@ fresh_project() {
   echo '{}' >"$scratch/CMakePresets.json"
   printf '#!/bin/bash\n[[ $1 != --look ]] || { [[ $* != *nonsense* ]] || exit 2; exit 0; }\necho "tests: $*"\n' >"$scratch/tests/run"
   chmod +x "$scratch/tests/run"
-  mkdir -p "$scratch/host/tool" && echo 'what there is' >"$scratch/host/tool/help.txt"
+  mkdir -p "$scratch/host/apps/tool" && echo 'what there is' >"$scratch/host/apps/tool/help.txt"
   echo cmake >"$scratch/installed"
   stub dpkg-query "sed 's/\$/ installed/' '$scratch/installed'"
   stub apt-get "echo \"\$*\" >>'$scratch/apt'
@@ -37,9 +37,9 @@ esac"
 printf "CMAKE_HOME_DIRECTORY:INTERNAL=%s\n" "$PWD" >"build/${!#}/CMakeCache.txt"
 [[ $* != *-DVERP_TESTS=ON* ]] || echo VERP_TESTS:BOOL=ON >>"build/${!#}/CMakeCache.txt"
 echo "$*" >>configured'
-  stub ninja "echo \"\$*\" >>'$scratch/built'; mkdir -p build/host-release/host/tool && touch build/host-release/.ninja_log && echo '[1/1] noise'
+  stub ninja "echo \"\$*\" >>'$scratch/built'; mkdir -p build/host-release/host/apps/tool && touch build/host-release/.ninja_log && echo '[1/1] noise'
 printf '#!/bin/bash\necho \"\$*\"\nexit 7\n' >'$scratch/new' && chmod +x '$scratch/new'
-mv '$scratch/new' \"build/host-release/host/tool/\${!#}\""
+mv '$scratch/new' \"build/host-release/host/apps/tool/\${!#}\""
 }
 
 launch() { # arguments of ./verp; sets status, output and errors
@@ -66,7 +66,7 @@ launch --version
 launch test --only nonsense
 check 'a wrong word costs no installation' 2 '' ''
 [[ ! -e $scratch/apt && ! -e $scratch/built ]] || { echo 'FAILED: installed or built to say so' && failed=1; }
-mkdir -p "$scratch/build/host-release/host/tool" && ln -s /bin/echo "$scratch/build/host-release/host/tool/verp"
+mkdir -p "$scratch/build/host-release/host/apps/tool" && ln -s /bin/echo "$scratch/build/host-release/host/apps/tool/verp"
 launch walk --help
 check 'help on a command waits for no build elsewhere' 0 'walk --help' ''
 exec 7>&-
@@ -161,19 +161,19 @@ fresh_project
 echo g++ >>"$scratch/installed"
 echo 'import os, sys; print(sys.argv[1:], sys.executable, os.environ["PYTHONPATH"]); sys.exit(7)' >"$scratch/a.py"
 launch python "$scratch/a.py" 3 --yes
-check 'python gets its packages and libverp, and runs' 7 "['3'] /usr/bin/python3 $scratch/host/libverp/python" 'missing: python3-cffi'
+check 'python gets its packages and libverp, and runs' 7 "['3'] /usr/bin/python3 $scratch/host/apps/libverp/python" 'missing: python3-cffi'
 grep -q 'host-release verp_shared$' "$scratch/built" || { echo "FAILED: python built: $(<"$scratch/built")" && failed=1; }
 
 # A cache that cannot be written is named where it was missed.
 fresh_project
 echo g++ >>"$scratch/installed"
-stub ninja "echo '[1/1] Building CXX object a.o'; mkdir -p build/host-release/host/tool; ln -sf /bin/echo build/host-release/host/tool/verp_walk"
+stub ninja "echo '[1/1] Building CXX object a.o'; mkdir -p build/host-release/host/apps/tool; ln -sf /bin/echo build/host-release/host/apps/tool/verp_walk"
 CCACHE_DIR=/proc/nowhere launch walk
 check 'what ccache could not keep is compiled all the same' 0 walk 'without ccache: its folder /proc/nowhere cannot be written'
 
 # The launcher finds Debian's tools before others.
 fresh_project
-cp "$root/verp" "$scratch/" && mkdir -p "$scratch/host/record"
+cp "$root/verp" "$scratch/" && mkdir -p "$scratch/host/trace/record"
 stub cmake "echo taken >'$scratch/foreign'"
 launch --version
 [[ ! -e $scratch/foreign ]] || { echo 'FAILED: took a foreign cmake' && failed=1; }
@@ -203,7 +203,7 @@ fresh_project
 echo g++ >>"$scratch/installed"
 stub ninja "[[ ! -e '$scratch/busy' ]] || echo overlap >>'$scratch/overlap'
 touch '$scratch/busy'; sleep 0.2; rm '$scratch/busy'
-mkdir -p build/host-release/host/tool; ln -sf /bin/echo build/host-release/host/tool/verp"
+mkdir -p build/host-release/host/apps/tool; ln -sf /bin/echo build/host-release/host/apps/tool/verp"
 for each in 1 2 3; do (launch "$each" && check 'copies at the same time' 0 "$each" '' && exit $failed) & done
 for each in 1 2 3; do wait -n || failed=1; done
 [[ ! -e $scratch/overlap ]] || { echo 'FAILED: two builds at once' && failed=1; }

@@ -1,9 +1,9 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "host/model/find.hpp"
-#include "host/model/load.hpp"
-#include "host/model/params.hpp"
+#include "host/robot/model/find.hpp"
+#include "host/robot/model/load.hpp"
+#include "host/robot/model/params.hpp"
 #include "tests/replay/trace_file.hpp"
 
 /// replay_make FILE [TICKS]: makes the long trace of generic21 with this build's core.

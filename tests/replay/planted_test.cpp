@@ -2,10 +2,10 @@
 
 #include "common/control/boot_check.hpp"
 #include "common/control/step.hpp"
-#include "host/model/find.hpp"
-#include "host/model/load.hpp"
-#include "host/model/params.hpp"
-#include "host/record/replay.hpp"
+#include "host/robot/model/find.hpp"
+#include "host/robot/model/load.hpp"
+#include "host/robot/model/params.hpp"
+#include "host/trace/record/replay.hpp"
 #include "tests/replay/long_trace.hpp"
 
 // The core of planted.cmake: one gait constant is off by one unit in the last place.

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <string>
 
-#include "host/demos/run.hpp"
+#include "host/apps/demos/run.hpp"
 #include "tests/scenario/walk.hpp"
 
 namespace verp::scenario {

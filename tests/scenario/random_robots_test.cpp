@@ -23,7 +23,7 @@ TEST(PhysicsStep, TwoMillisecondsWalkLikeOne) {
   EXPECT_NEAR(bias_mm[2], bias_mm[1], 1.0);
 }
 
-// The controller does not know of the random variation (host/sim/vary.hpp).
+// The controller does not know of the random variation (host/twin/sim/vary.hpp).
 TEST(RandomRobots, NineteenOfTwentyWalk) {
   const Walk seeds = walk("generic21 --vary --for 20 --physics-step 2 --seeds 1-20");
   EXPECT_GE(number(seeds, "survived"), 19);

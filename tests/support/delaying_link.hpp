@@ -11,9 +11,9 @@
 
 #include "common/protocol/control_table.hpp"
 #include "common/protocol/dynamixel2.hpp"
-#include "host/bus/virtual_bus.hpp"
-#include "host/link/link.hpp"
-#include "host/link/system_clock.hpp"
+#include "host/os/link/link.hpp"
+#include "host/os/link/system_clock.hpp"
+#include "host/twin/bus/virtual_bus.hpp"
 
 /// A cable whose adapter delays bytes, as USB adapters do: the first byte starts a timer, and all
 /// received bytes go on when it expires. A thread carries them.

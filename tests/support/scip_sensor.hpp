@@ -6,7 +6,7 @@
 #include "hal/contract/byte_link.hpp"
 
 /// A SCIP 2.0 laser at the other end of a link, written from the specification (C-42-03320B)
-/// independently of host/link/scip.cpp. It answers BM, QT, MD and SCIP2.0, and scans on request.
+/// independently of host/os/link/scip.cpp. It answers BM, QT, MD and SCIP2.0, and scans on request.
 namespace verp::test {
 
 template <hal::ByteLink Link>

@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-#include "host/link/video_calls.hpp"
+#include "host/os/link/video_calls.hpp"
 
 /// A V4L2 capture device behind the kernel's calls, written from the kernel's interface
 /// documentation. Its camera shows a bar that moves right by one column per picture.

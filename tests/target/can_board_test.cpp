@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "host/board/emulated_board.hpp"
-#include "host/board/qemu.hpp"
-#include "host/link/can_port.hpp"
+#include "host/boards/board/emulated_board.hpp"
+#include "host/boards/board/qemu.hpp"
+#include "host/os/link/can_port.hpp"
 
 // A board's own CAN driver in the emulator, with frames of this PC's vcan0. Run it inside
 // tests/support/with-can. VERP_TEST_BOARD names the board; its image is boards/mps2/can_main.cpp.

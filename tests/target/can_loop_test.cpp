@@ -10,10 +10,10 @@
 #include <thread>
 #include <vector>
 
-#include "host/can/virtual_can.hpp"
-#include "host/link/can_port.hpp"
-#include "host/sim/robot.hpp"
-#include "host/sim/world.hpp"
+#include "host/os/link/can_port.hpp"
+#include "host/twin/can/virtual_can.hpp"
+#include "host/twin/sim/robot.hpp"
+#include "host/twin/sim/world.hpp"
 #include "tests/target/can_run.hpp"
 
 // Control loop in the board, drives in the twin, CAN frames over vcan0. Run it inside

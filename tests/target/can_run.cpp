@@ -7,11 +7,11 @@
 
 #include "firmware/app/app.hpp"
 #include "firmware/app/can_loop_job.hpp"
-#include "host/board/board_error.hpp"
-#include "host/board/emulated_board.hpp"
-#include "host/board/qemu.hpp"
-#include "host/board/temporary_directory.hpp"
-#include "host/link/can_port.hpp"
+#include "host/boards/board/board_error.hpp"
+#include "host/boards/board/emulated_board.hpp"
+#include "host/boards/board/qemu.hpp"
+#include "host/boards/board/temporary_directory.hpp"
+#include "host/os/link/can_port.hpp"
 #include "tests/target/lockstep_port.hpp"
 
 namespace verp::test {

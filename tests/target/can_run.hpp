@@ -5,9 +5,9 @@
 
 #include "common/model/params.hpp"
 #include "common/record/tick_record.hpp"
-#include "host/can/lockstep_server.hpp"
-#include "host/can/virtual_can.hpp"
-#include "host/shadow/live_check.hpp"
+#include "host/run/shadow/live_check.hpp"
+#include "host/twin/can/lockstep_server.hpp"
+#include "host/twin/can/virtual_can.hpp"
 #include "tests/target/twin_run.hpp"
 
 /// Control loop on an emulated board, drives and sensors on a virtual bus, CAN frames on vcan0.

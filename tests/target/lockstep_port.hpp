@@ -4,8 +4,8 @@
 
 #include "common/base/can_frame.hpp"
 #include "hal/contract/can_bus.hpp"
-#include "host/can/lockstep_server.hpp"
-#include "host/link/can_port.hpp"
+#include "host/os/link/can_port.hpp"
+#include "host/twin/can/lockstep_server.hpp"
 
 namespace verp::can {
 

@@ -3,7 +3,7 @@
 #include <cstdlib>
 #include <string>
 
-#include "host/board/replay_on_target.hpp"
+#include "host/boards/board/replay_on_target.hpp"
 #include "tests/replay/long_trace.hpp"
 #include "tests/target/twin_run.hpp"
 

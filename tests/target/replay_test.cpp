@@ -5,7 +5,7 @@
 #include <string>
 
 #include "common/control/step.hpp"
-#include "host/board/replay_on_target.hpp"
+#include "host/boards/board/replay_on_target.hpp"
 #include "tests/support/random_inputs.hpp"
 
 // A firmware build's ctest sets VERP_TEST_BOARD to the emulated board.

@@ -6,14 +6,14 @@
 #include <optional>
 #include <thread>
 
-#include "host/action/folder.hpp"
-#include "host/action/kept.hpp"
-#include "host/board/board_error.hpp"
-#include "host/bus/register_names.hpp"
-#include "host/bus/shadow_loop.hpp"
-#include "host/model/export.hpp"
-#include "host/sim/robot.hpp"
-#include "host/sim/world.hpp"
+#include "host/author/action/folder.hpp"
+#include "host/author/action/kept.hpp"
+#include "host/boards/board/board_error.hpp"
+#include "host/robot/model/export.hpp"
+#include "host/twin/bus/register_names.hpp"
+#include "host/twin/bus/shadow_loop.hpp"
+#include "host/twin/sim/robot.hpp"
+#include "host/twin/sim/world.hpp"
 
 namespace verp::test {
 namespace {

@@ -6,10 +6,10 @@
 #include <vector>
 
 #include "common/protocol/controller_table.hpp"
-#include "host/board/qemu.hpp"
-#include "host/board/temporary_directory.hpp"
-#include "host/bus/client.hpp"
-#include "host/bus/lockstep_server.hpp"
+#include "host/boards/board/qemu.hpp"
+#include "host/boards/board/temporary_directory.hpp"
+#include "host/twin/bus/client.hpp"
+#include "host/twin/bus/lockstep_server.hpp"
 #include "tests/support/link_faults.hpp"
 #include "tests/target/twin_run.hpp"
 

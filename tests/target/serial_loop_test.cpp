@@ -6,7 +6,7 @@
 #include <thread>
 
 #include "common/action/kept.hpp"
-#include "host/action/send.hpp"
+#include "host/author/action/send.hpp"
 #include "tests/target/serial_board.hpp"
 
 // A firmware build's ctest sets VERP_TEST_BOARD and VERP_TEST_TICKS (a walk's length).

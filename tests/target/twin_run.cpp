@@ -5,15 +5,15 @@
 #include <utility>
 
 #include "firmware/app/app.hpp"
-#include "host/action/compile.hpp"
-#include "host/action/folder.hpp"
-#include "host/board/loop_on_target.hpp"
-#include "host/bus/virtual_bus.hpp"
-#include "host/model/find.hpp"
-#include "host/model/load.hpp"
-#include "host/model/params.hpp"
-#include "host/sim/robot.hpp"
-#include "host/sim/world.hpp"
+#include "host/author/action/compile.hpp"
+#include "host/author/action/folder.hpp"
+#include "host/boards/board/loop_on_target.hpp"
+#include "host/robot/model/find.hpp"
+#include "host/robot/model/load.hpp"
+#include "host/robot/model/params.hpp"
+#include "host/twin/bus/virtual_bus.hpp"
+#include "host/twin/sim/robot.hpp"
+#include "host/twin/sim/world.hpp"
 
 namespace verp::test {
 namespace {

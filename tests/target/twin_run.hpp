@@ -9,10 +9,10 @@
 #include "common/record/tick_record.hpp"
 #include "common/safety/machine.hpp"
 #include "firmware/app/contracts.hpp"
-#include "host/model/entity.hpp"
-#include "host/sim/quantities.hpp"
-#include "host/sim/robot.hpp"
-#include "host/sim/world.hpp"
+#include "host/robot/model/entity.hpp"
+#include "host/twin/sim/quantities.hpp"
+#include "host/twin/sim/robot.hpp"
+#include "host/twin/sim/world.hpp"
 
 /// A robot in the twin whose operator follows the tick alone: the run is the same with any
 /// controller.

@@ -2,7 +2,7 @@
 #include <chrono>
 #include <thread>
 
-#include "host/link/system_clock.hpp"
+#include "host/os/link/system_clock.hpp"
 #include "tests/contract/can_chips.hpp"
 #include "tests/contract/chip_models.hpp"
 #include "tests/contract/fakes.hpp"

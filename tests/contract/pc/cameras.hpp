@@ -4,12 +4,12 @@
 #include <utility>
 #include <vector>
 
-#include "host/camera/twin_camera.hpp"
-#include "host/link/rgb.hpp"
-#include "host/link/v4l2_camera.hpp"
-#include "host/model/find.hpp"
-#include "host/model/load.hpp"
-#include "host/sim/world.hpp"
+#include "host/os/link/rgb.hpp"
+#include "host/os/link/v4l2_camera.hpp"
+#include "host/robot/model/find.hpp"
+#include "host/robot/model/load.hpp"
+#include "host/show/camera/twin_camera.hpp"
+#include "host/twin/sim/world.hpp"
 #include "tests/support/video_device.hpp"
 
 /// The PC's cameras as backends of the suite.

@@ -11,7 +11,7 @@
 #include <cstring>
 #include <string>
 
-#include "host/link/can_port.hpp"
+#include "host/os/link/can_port.hpp"
 
 /// The PC's CAN sockets as a backend. Needs tests/support/with-can.
 namespace verp::test {

@@ -4,11 +4,11 @@
 #include <vector>
 
 #include "hal/fake/memory_link.hpp"
-#include "host/link/scip_range_finder.hpp"
-#include "host/model/find.hpp"
-#include "host/model/load.hpp"
-#include "host/sim/twin_range_finder.hpp"
-#include "host/sim/world.hpp"
+#include "host/os/link/scip_range_finder.hpp"
+#include "host/robot/model/find.hpp"
+#include "host/robot/model/load.hpp"
+#include "host/twin/sim/twin_range_finder.hpp"
+#include "host/twin/sim/world.hpp"
 #include "tests/support/scip_sensor.hpp"
 
 /// The PC's lasers as backends: 1 m ahead in the middle, nothing on the left.

@@ -7,9 +7,9 @@
 #include <stdexcept>
 #include <string>
 
-#include "host/link/endpoint.hpp"
-#include "host/link/link.hpp"
-#include "host/link/system_clock.hpp"
+#include "host/os/link/endpoint.hpp"
+#include "host/os/link/link.hpp"
+#include "host/os/link/system_clock.hpp"
 
 /// Both ends of every real ByteLink of the PC. near() is the end under test; cut() removes the far
 /// end, mend() restores it.

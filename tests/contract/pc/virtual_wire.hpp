@@ -2,7 +2,7 @@
 #include <deque>
 #include <memory>
 
-#include "host/can/virtual_can.hpp"
+#include "host/twin/can/virtual_can.hpp"
 #include "tests/contract/fakes.hpp"
 #include "tests/host/bus/fake_plant.hpp"
 

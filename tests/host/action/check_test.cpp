@@ -1,4 +1,4 @@
-#include "host/action/check.hpp"
+#include "host/author/action/check.hpp"
 
 #include <gtest/gtest.h>
 

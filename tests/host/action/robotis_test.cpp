@@ -1,4 +1,4 @@
-#include "host/action/robotis.hpp"
+#include "host/author/action/robotis.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 
 #include <fstream>
 
-#include "host/action/csv.hpp"
+#include "host/author/action/csv.hpp"
 #include "tests/host/action/robots.hpp"
 
 namespace verp::action {

@@ -1,11 +1,11 @@
 #pragma once
 #include <string>
 
-#include "host/action/compile.hpp"
-#include "host/action/folder.hpp"
-#include "host/model/find.hpp"
-#include "host/model/load.hpp"
-#include "host/model/params.hpp"
+#include "host/author/action/compile.hpp"
+#include "host/author/action/folder.hpp"
+#include "host/robot/model/find.hpp"
+#include "host/robot/model/load.hpp"
+#include "host/robot/model/params.hpp"
 
 namespace verp::action::test {
 

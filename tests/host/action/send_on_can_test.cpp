@@ -4,8 +4,8 @@
 
 #include "common/protocol/canopen/device.hpp"
 #include "firmware/app/controller_objects.hpp"
-#include "host/action/send.hpp"
-#include "host/can/client.hpp"
+#include "host/author/action/send.hpp"
+#include "host/twin/can/client.hpp"
 #include "tests/unit/images/actions_board.hpp"
 
 // verp action send over the robot's bus to the controller's node: object 5002h.

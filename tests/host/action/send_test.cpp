@@ -1,12 +1,12 @@
-#include "host/action/send.hpp"
+#include "host/author/action/send.hpp"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
 
 #include <filesystem>
 
-#include "host/action/kept.hpp"
-#include "host/bus/client.hpp"
+#include "host/author/action/kept.hpp"
+#include "host/twin/bus/client.hpp"
 #include "tests/host/action/robots.hpp"
 #include "tests/host/action/running_board.hpp"
 

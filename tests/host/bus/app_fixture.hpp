@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "firmware/app/app.hpp"
-#include "host/bus/virtual_bus.hpp"
+#include "host/twin/bus/virtual_bus.hpp"
 #include "tests/host/bus/fake_plant.hpp"
 
 /// The control loop on a virtual bus. The header defines step(), so each source file is its own

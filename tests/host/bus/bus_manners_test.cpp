@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "common/protocol/control_table.hpp"
-#include "host/bus/collision.hpp"
-#include "host/bus/virtual_bus.hpp"
+#include "host/twin/bus/collision.hpp"
+#include "host/twin/bus/virtual_bus.hpp"
 #include "tests/host/bus/fake_plant.hpp"
 
 /// How servos share one wire. The five XM430-W210 servos are those of the e-Manual's example of

@@ -1,4 +1,4 @@
-#include "host/bus/bus_server.hpp"
+#include "host/twin/bus/bus_server.hpp"
 
 #include <gtest/gtest.h>
 

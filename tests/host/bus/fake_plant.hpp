@@ -4,7 +4,7 @@
 
 #include "common/model/params.hpp"
 #include "common/protocol/control_table.hpp"
-#include "host/sim/plant.hpp"
+#include "host/twin/sim/plant.hpp"
 
 namespace verp::test {
 

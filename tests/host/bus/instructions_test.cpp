@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "common/protocol/control_table.hpp"
-#include "host/bus/virtual_bus.hpp"
+#include "host/twin/bus/virtual_bus.hpp"
 #include "tests/host/bus/fake_plant.hpp"
 
 // Instructions beyond read, write and sync, by the e-Manual.

@@ -1,4 +1,4 @@
-#include "host/bus/link_fit.hpp"
+#include "host/twin/bus/link_fit.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 #include <random>
 
 #include "firmware/app/schedule.hpp"
-#include "host/bus/assumed_imu.hpp"
+#include "host/twin/bus/assumed_imu.hpp"
 #include "tests/host/bus/fake_plant.hpp"
 #include "tests/unit/support/test_robot.hpp"
 

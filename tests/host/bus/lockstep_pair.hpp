@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "hal/contract/byte_link.hpp"
-#include "host/bus/lockstep_server.hpp"
+#include "host/twin/bus/lockstep_server.hpp"
 #include "tests/support/link_faults.hpp"
 
 /// A controller's link to a server in the same thread, which answers while the controller waits. A

@@ -6,7 +6,7 @@
 #include "common/model/image.hpp"
 #include "firmware/app/app.hpp"
 #include "firmware/app/lockstep_bus.hpp"
-#include "host/bus/shadow_loop.hpp"
+#include "host/twin/bus/shadow_loop.hpp"
 #include "tests/host/bus/fake_plant.hpp"
 #include "tests/host/bus/lockstep_pair.hpp"
 #include "tests/host/bus/walker.hpp"

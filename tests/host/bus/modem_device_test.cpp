@@ -1,4 +1,4 @@
-#include "host/bus/modem_device.hpp"
+#include "host/twin/bus/modem_device.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "host/bus/virtual_bus.hpp"
+#include "host/twin/bus/virtual_bus.hpp"
 #include "tests/host/bus/fake_plant.hpp"
 
 // The modem on a robot's bus: Write sends, Read receives.

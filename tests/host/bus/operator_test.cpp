@@ -6,7 +6,7 @@
 #include "firmware/app/bus_master.hpp"
 #include "firmware/app/operator_device.hpp"
 #include "hal/fake/memory_link.hpp"
-#include "host/bus/virtual_bus.hpp"
+#include "host/twin/bus/virtual_bus.hpp"
 #include "tests/host/bus/fake_plant.hpp"
 
 // The operator's port on the whole loop: real core, virtual servos, raw bytes.

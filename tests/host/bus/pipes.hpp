@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <stdexcept>
 
-#include "host/bus/bus_server.hpp"
+#include "host/twin/bus/bus_server.hpp"
 
 namespace verp::test {
 

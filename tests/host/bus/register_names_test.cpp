@@ -1,4 +1,4 @@
-#include "host/bus/register_names.hpp"
+#include "host/twin/bus/register_names.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 
 #include "common/protocol/control_table.hpp"
 #include "firmware/app/lockstep_messages.hpp"
-#include "host/bus/modem_device.hpp"
+#include "host/twin/bus/modem_device.hpp"
 
 namespace verp::bus {
 namespace {

@@ -1,4 +1,4 @@
-#include "host/bus/virtual_bus.hpp"
+#include "host/twin/bus/virtual_bus.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "common/protocol/control_table.hpp"
-#include "host/bus/servo_device.hpp"
+#include "host/twin/bus/servo_device.hpp"
 #include "tests/host/bus/fake_plant.hpp"
 
 namespace verp {

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <random>
 
-#include "host/render/edges.hpp"
-#include "host/render/offscreen_context.hpp"
-#include "host/render/renderer.hpp"
-#include "host/scene/build.hpp"
+#include "host/show/render/edges.hpp"
+#include "host/show/render/offscreen_context.hpp"
+#include "host/show/render/renderer.hpp"
+#include "host/show/scene/build.hpp"
 
 // The camera's shortcuts cost no more picture quality than stated.
 

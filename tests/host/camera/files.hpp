@@ -7,7 +7,7 @@
 #include <iterator>
 #include <string>
 
-#include "host/model/find.hpp"
+#include "host/robot/model/find.hpp"
 
 namespace verp::camera::test {
 

@@ -4,14 +4,14 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "host/camera/rig.hpp"
-#include "host/camera/twin_camera.hpp"
-#include "host/model/find.hpp"
-#include "host/model/load.hpp"
-#include "host/record/mcap_reader.hpp"
-#include "host/record/trace.hpp"
-#include "host/render/files.hpp"
-#include "host/scene/build.hpp"
+#include "host/robot/model/find.hpp"
+#include "host/robot/model/load.hpp"
+#include "host/show/camera/rig.hpp"
+#include "host/show/camera/twin_camera.hpp"
+#include "host/show/render/files.hpp"
+#include "host/show/scene/build.hpp"
+#include "host/trace/record/mcap_reader.hpp"
+#include "host/trace/record/trace.hpp"
 #include "tests/host/tool/program.hpp"
 
 // Cameras do not change a run; its trace has all their pictures, in time.

@@ -4,11 +4,11 @@
 #include <cstring>
 #include <tuple>
 
-#include "host/camera/program/drawer.hpp"
-#include "host/model/lens.hpp"
-#include "host/model/load.hpp"
-#include "host/render/files.hpp"
-#include "host/scene/build.hpp"
+#include "host/robot/model/lens.hpp"
+#include "host/robot/model/load.hpp"
+#include "host/show/camera/program/drawer.hpp"
+#include "host/show/render/files.hpp"
+#include "host/show/scene/build.hpp"
 #include "tests/host/camera/files.hpp"
 
 // Objects appear where the lens puts them, at their distance, with the file's noise.

@@ -7,7 +7,7 @@
 #include "common/protocol/canopen/robot_plan.hpp"
 #include "common/protocol/canopen/sdo_client.hpp"
 #include "common/protocol/canopen/sync.hpp"
-#include "host/can/virtual_can.hpp"
+#include "host/twin/can/virtual_can.hpp"
 #include "tests/host/bus/fake_plant.hpp"
 
 namespace verp::test {

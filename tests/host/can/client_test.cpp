@@ -1,4 +1,4 @@
-#include "host/can/client.hpp"
+#include "host/twin/can/client.hpp"
 
 #include <gtest/gtest.h>
 

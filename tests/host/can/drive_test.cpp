@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "host/can/device_node.hpp"
+#include "host/twin/can/device_node.hpp"
 #include "tests/host/can/virtual_drive.hpp"
 
 // A virtual CiA 402 drive's objects, seen by a master.

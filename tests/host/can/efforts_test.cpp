@@ -10,11 +10,11 @@
 #include "firmware/app/app.hpp"
 #include "firmware/app/operator_node.hpp"
 #include "firmware/app/tick_log.hpp"
-#include "host/can/virtual_can.hpp"
-#include "host/model/find.hpp"
-#include "host/model/load.hpp"
-#include "host/model/params.hpp"
-#include "host/sim/robot.hpp"
+#include "host/robot/model/find.hpp"
+#include "host/robot/model/load.hpp"
+#include "host/robot/model/params.hpp"
+#include "host/twin/can/virtual_can.hpp"
+#include "host/twin/sim/robot.hpp"
 
 // Joint velocity and torque, from the physics to a client of the controller's node.
 namespace verp::can {

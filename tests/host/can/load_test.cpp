@@ -1,4 +1,4 @@
-#include "host/can/load_table.hpp"
+#include "host/twin/can/load_table.hpp"
 
 #include <gtest/gtest.h>
 

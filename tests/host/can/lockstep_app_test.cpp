@@ -7,8 +7,8 @@
 
 #include "firmware/app/app.hpp"
 #include "firmware/app/lockstep_can.hpp"
-#include "host/can/lockstep_server.hpp"
-#include "host/can/shadow_loop.hpp"
+#include "host/twin/can/lockstep_server.hpp"
+#include "host/twin/can/shadow_loop.hpp"
 #include "tests/host/bus/fake_plant.hpp"
 #include "tests/host/bus/walker.hpp"
 #include "tests/host/can/served_can.hpp"

@@ -6,7 +6,7 @@
 #include "common/protocol/canopen/nmt.hpp"
 #include "common/protocol/canopen/robot_plan.hpp"
 #include "firmware/app/lockstep_can.hpp"
-#include "host/can/lockstep_server.hpp"
+#include "host/twin/can/lockstep_server.hpp"
 #include "tests/host/bus/fake_plant.hpp"
 #include "tests/host/can/served_can.hpp"
 

@@ -1,4 +1,4 @@
-#include "host/can/other_nodes.hpp"
+#include "host/twin/can/other_nodes.hpp"
 
 #include <gtest/gtest.h>
 

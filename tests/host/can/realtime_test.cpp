@@ -1,4 +1,4 @@
-#include "host/can/realtime_server.hpp"
+#include "host/twin/can/realtime_server.hpp"
 
 #include <gtest/gtest.h>
 

@@ -10,7 +10,7 @@
 #include "common/protocol/canopen/frame.hpp"
 #include "common/protocol/canopen/robot_plan.hpp"
 #include "hal/contract/can_bus.hpp"
-#include "host/can/lockstep_server.hpp"
+#include "host/twin/can/lockstep_server.hpp"
 
 /// A controller's bus to a server in the same thread, which answers while the controller waits. A
 /// seeded generator loses, doubles or swaps frames.

@@ -1,4 +1,4 @@
-#include "host/can/virtual_can.hpp"
+#include "host/twin/can/virtual_can.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "host/compare/compare.hpp"
+#include "host/study/compare/compare.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "host/compare/delay.hpp"
+#include "host/study/compare/delay.hpp"
 
 #include <gtest/gtest.h>
 

@@ -5,11 +5,11 @@
 #include <random>
 #include <string>
 
-#include "host/model/find.hpp"
-#include "host/model/load.hpp"
-#include "host/model/params.hpp"
-#include "host/record/trace.hpp"
-#include "host/session/session.hpp"
+#include "host/robot/model/find.hpp"
+#include "host/robot/model/load.hpp"
+#include "host/robot/model/params.hpp"
+#include "host/run/session/session.hpp"
+#include "host/trace/record/trace.hpp"
 
 /// The twin's walks, and those of a late, misaligned robot.
 namespace verp::compare::test {

@@ -4,11 +4,11 @@
 #include <limits>
 #include <numbers>
 
-#include "host/demos/brain/grid.hpp"
-#include "host/demos/brain/packet.hpp"
-#include "host/demos/brain/place.hpp"
-#include "host/demos/brain/route.hpp"
-#include "host/demos/brain/scan.hpp"
+#include "host/apps/demos/brain/grid.hpp"
+#include "host/apps/demos/brain/packet.hpp"
+#include "host/apps/demos/brain/place.hpp"
+#include "host/apps/demos/brain/route.hpp"
+#include "host/apps/demos/brain/scan.hpp"
 
 namespace verp::brain {
 namespace {

@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "host/demos/brain/follow.hpp"
+#include "host/apps/demos/brain/follow.hpp"
 #include "tests/host/demos/told.hpp"
 
 namespace verp::demos {

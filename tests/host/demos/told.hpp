@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "host/demos/run.hpp"
+#include "host/apps/demos/run.hpp"
 
 namespace verp::demos::test {
 

@@ -6,9 +6,9 @@
 #include <map>
 #include <sstream>
 
-#include "host/record/mcap_reader.hpp"
-#include "host/record/replay.hpp"
-#include "host/record/ros_radio.hpp"
+#include "host/trace/record/mcap_reader.hpp"
+#include "host/trace/record/replay.hpp"
+#include "host/trace/record/ros_radio.hpp"
 #include "tests/host/demos/told.hpp"
 
 namespace verp::demos {

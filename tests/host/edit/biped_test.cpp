@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
 
-#include "host/edit/change.hpp"
-#include "host/edit/parts.hpp"
-#include "host/model/load.hpp"
+#include "host/author/edit/change.hpp"
+#include "host/author/edit/parts.hpp"
+#include "host/robot/model/load.hpp"
 #include "tests/host/edit/files.hpp"
 
 namespace verp::edit {

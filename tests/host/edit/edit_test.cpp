@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "host/edit/change.hpp"
-#include "host/edit/names.hpp"
-#include "host/edit/parts.hpp"
-#include "host/model/load.hpp"
+#include "host/author/edit/change.hpp"
+#include "host/author/edit/names.hpp"
+#include "host/author/edit/parts.hpp"
+#include "host/robot/model/load.hpp"
 #include "tests/host/edit/files.hpp"
 
 namespace verp::edit {

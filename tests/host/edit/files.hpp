@@ -3,7 +3,7 @@
 #include <iterator>
 #include <string>
 
-#include "host/files/temporary_directory.hpp"
+#include "host/os/files/temporary_directory.hpp"
 
 namespace verp::edit {
 

@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-#include "host/edit/change.hpp"
+#include "host/author/edit/change.hpp"
 #include "tests/host/edit/files.hpp"
 
 namespace verp::edit {

@@ -4,7 +4,7 @@
 #include <cstdio>
 #include <string>
 
-#include "host/edit/meshes/triangles.hpp"
+#include "host/author/edit/meshes/triangles.hpp"
 #include "tests/host/edit/files.hpp"
 
 namespace verp::edit {

@@ -1,4 +1,4 @@
-#include "host/eds/eds.hpp"
+#include "host/twin/eds/eds.hpp"
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@
 
 #include "common/protocol/canopen/device.hpp"
 #include "firmware/app/controller_objects.hpp"
-#include "host/can/device_node.hpp"
+#include "host/twin/can/device_node.hpp"
 #include "tests/host/bus/fake_plant.hpp"
 #include "tests/unit/images/actions_board.hpp"
 #include "tests/unit/support/test_robot.hpp"

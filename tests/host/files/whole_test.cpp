@@ -1,4 +1,4 @@
-#include "host/files/whole.hpp"
+#include "host/os/files/whole.hpp"
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
@@ -7,7 +7,7 @@
 
 #include <cerrno>
 
-#include "host/files/temporary_directory.hpp"
+#include "host/os/files/temporary_directory.hpp"
 
 namespace verp::files {
 namespace {

@@ -1,9 +1,9 @@
-#include "host/flash/diagnosis.hpp"
+#include "host/boards/flash/diagnosis.hpp"
 
 #include <gtest/gtest.h>
 
-#include "host/flash/tool_run.hpp"
-#include "host/process/child.hpp"
+#include "host/boards/flash/tool_run.hpp"
+#include "host/os/process/child.hpp"
 
 /// The errors of Debian 12's tools, and what `verp flash` makes of them.
 namespace verp::flash::test {

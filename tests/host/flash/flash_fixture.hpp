@@ -4,13 +4,13 @@
 #include <random>
 
 #include "common/model/image.hpp"
-#include "host/action/folder.hpp"
-#include "host/action/kept.hpp"
-#include "host/flash/memory_map.hpp"
-#include "host/model/export.hpp"
-#include "host/model/find.hpp"
-#include "host/model/load.hpp"
-#include "host/model/params.hpp"
+#include "host/author/action/folder.hpp"
+#include "host/author/action/kept.hpp"
+#include "host/boards/flash/memory_map.hpp"
+#include "host/robot/model/export.hpp"
+#include "host/robot/model/find.hpp"
+#include "host/robot/model/load.hpp"
+#include "host/robot/model/params.hpp"
 #include "tests/host/flash/boot_loader_port.hpp"
 #include "tests/host/tool/program.hpp"
 

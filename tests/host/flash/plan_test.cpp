@@ -1,13 +1,13 @@
-#include "host/flash/plan.hpp"
+#include "host/boards/flash/plan.hpp"
 
 #include <gtest/gtest.h>
 
 #include <array>
 #include <fstream>
 
-#include "host/files/shell_line.hpp"
-#include "host/files/temporary_directory.hpp"
-#include "host/flash/flash_error.hpp"
+#include "host/boards/flash/flash_error.hpp"
+#include "host/os/files/shell_line.hpp"
+#include "host/os/files/temporary_directory.hpp"
 
 /// For every board, tool and choice of pieces.
 namespace verp::flash::test {

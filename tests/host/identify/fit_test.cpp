@@ -1,4 +1,4 @@
-#include "host/identify/fit.hpp"
+#include "host/study/identify/fit.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <numbers>
 #include <string>
 
-#include "host/sim/robot.hpp"
+#include "host/twin/sim/robot.hpp"
 #include "tests/host/sim/test_robots.hpp"
 
 // The fit finds another twin's numbers from its motion alone, under encoder noise. It reports

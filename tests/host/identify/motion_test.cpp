@@ -1,12 +1,12 @@
-#include "host/identify/motion.hpp"
+#include "host/study/identify/motion.hpp"
 
 #include <gtest/gtest.h>
 
-#include "host/action/check.hpp"
-#include "host/action/compile.hpp"
-#include "host/model/find.hpp"
-#include "host/model/load.hpp"
-#include "host/model/params.hpp"
+#include "host/author/action/check.hpp"
+#include "host/author/action/compile.hpp"
+#include "host/robot/model/find.hpp"
+#include "host/robot/model/load.hpp"
+#include "host/robot/model/params.hpp"
 
 namespace verp::identify {
 namespace {

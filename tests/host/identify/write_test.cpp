@@ -1,4 +1,4 @@
-#include "host/identify/write.hpp"
+#include "host/study/identify/write.hpp"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "host/identify/numbers.hpp"
-#include "host/model/find.hpp"
-#include "host/model/load.hpp"
+#include "host/robot/model/find.hpp"
+#include "host/robot/model/load.hpp"
+#include "host/study/identify/numbers.hpp"
 
 // A sound robot with the found numbers; no other line differs.
 

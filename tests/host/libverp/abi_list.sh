@@ -12,7 +12,7 @@ compiles() { # LIST FOLDER_OF_HEADER
 }
 
 list "$folder/verp.h" | diff "$folder/abi.json" - ||
-  say "verp.h (>) is not what abi.json (<) lists; mend it: host/libverp/abi_list.py > host/libverp/abi.json"
+  say "verp.h (>) is not what abi.json (<) lists; mend it: host/apps/libverp/abi_list.py > host/apps/libverp/abi.json"
 compiles "$folder/abi.json" "$folder" || say "the compiler reads verp.h otherwise than abi.json lists it"
 
 # Users need a comment directly above each function.

@@ -47,7 +47,7 @@ digest=$("$verp" walk --for 3 --json | sed -nE 's/^ *"digest": "(0x[0-9a-f]+)".*
 [[ $words == *" $digest" ]] || say "verp walk has digest $digest, the examples say $words"
 bound=$(/usr/bin/python3 "$sources/bind.py" "$VERP_LIBRARY" 3) || say "bind.py failed: $bound"
 [[ $bound == "$words" ]] || say "a binding from abi.json says '$bound', the others '$words'"
-# Linked or loaded, ODE must call the library's solver loops, not its own (host/sim/solver.hpp): otherwise walks take
+# Linked or loaded, ODE must call the library's solver loops, not its own (host/twin/sim/solver.hpp): otherwise walks take
 # several times as long.
 for language in "$programs/example_walk_c" "/usr/bin/python3 $sources/walk.py"; do
   LD_DEBUG=bindings LD_DEBUG_OUTPUT=bound $language 1 >walked

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "host/libverp/verp.h"
+#include "host/apps/libverp/verp.h"
 
 namespace verp::abi::test {
 

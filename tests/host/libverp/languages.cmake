@@ -1,7 +1,7 @@
 # libverp from Python, Octave and C#, each where its tools are. REQUIRED_FILES are those that the commands use without naming
 # them, for tests/wanted.
 set(library $<TARGET_FILE_DIR:verp_shared>)
-set(for_python "PYTHONPATH=${CMAKE_SOURCE_DIR}/host/libverp/python;PYTHONDONTWRITEBYTECODE=1;VERP_LIBRARY=$<TARGET_FILE:verp_shared>")
+set(for_python "PYTHONPATH=${CMAKE_SOURCE_DIR}/host/apps/libverp/python;PYTHONDONTWRITEBYTECODE=1;VERP_LIBRARY=$<TARGET_FILE:verp_shared>")
 add_test(NAME host.libverp.install COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/install.sh ${CMAKE_COMMAND} ${CMAKE_BINARY_DIR})
 set_tests_properties(host.libverp.install PROPERTIES LABELS unit REQUIRED_FILES $<TARGET_FILE:verp_shared>)
 
@@ -24,7 +24,7 @@ if(TARGET verp_mex AND VERP_OCTAVE)
   add_custom_target(octave_all ALL DEPENDS verp_mex)
   set(octave ${CMAKE_CURRENT_BINARY_DIR}/octave)
   file(GENERATE OUTPUT ${octave} CONTENT "#!/bin/sh
-exec '${CMAKE_CURRENT_SOURCE_DIR}/octave.sh' '${CMAKE_SOURCE_DIR}/host/libverp/matlab' '$<TARGET_FILE_DIR:verp_mex>' \"$@\"
+exec '${CMAKE_CURRENT_SOURCE_DIR}/octave.sh' '${CMAKE_SOURCE_DIR}/host/apps/libverp/matlab' '$<TARGET_FILE_DIR:verp_mex>' \"$@\"
 " FILE_PERMISSIONS OWNER_READ OWNER_WRITE OWNER_EXECUTE)
   add_test(NAME host.libverp.octave COMMAND ${octave} --path ${CMAKE_CURRENT_SOURCE_DIR} --path ${CMAKE_SOURCE_DIR}/tests/bench/languages
     --eval octave_test)

@@ -6,7 +6,7 @@
 #include "common/control/state.hpp"
 #include "common/gait/gait.hpp"
 #include "common/kinematics/leg_ik.hpp"
-#include "host/libverp/verp.hpp"
+#include "host/apps/libverp/verp.hpp"
 #include "tests/host/libverp/opened.hpp"
 #include "tests/host/session/plans.hpp"
 

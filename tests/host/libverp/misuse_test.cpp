@@ -12,7 +12,7 @@
 #include <thread>
 #include <vector>
 
-#include "host/libverp/verp.hpp"
+#include "host/apps/libverp/verp.hpp"
 #include "tests/host/libverp/expect_error.hpp"
 #include "tests/host/libverp/opened.hpp"
 

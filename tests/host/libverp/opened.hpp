@@ -3,7 +3,7 @@
 
 #include <functional>
 
-#include "host/libverp/verp.h"
+#include "host/apps/libverp/verp.h"
 #include "tests/host/session/plans.hpp"
 
 namespace verp::abi::test {

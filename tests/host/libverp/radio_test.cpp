@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "host/libverp/verp.hpp"
-#include "host/record/mcap_reader.hpp"
-#include "host/record/ros_radio.hpp"
+#include "host/apps/libverp/verp.hpp"
+#include "host/trace/record/mcap_reader.hpp"
+#include "host/trace/record/ros_radio.hpp"
 #include "tests/host/libverp/expect_error.hpp"
 #include "tests/host/libverp/opened.hpp"
 

@@ -12,8 +12,8 @@
 #include <cstddef>
 #include <string>
 
-#include "host/link/can_port.hpp"
-#include "host/link/link.hpp"
+#include "host/os/link/can_port.hpp"
+#include "host/os/link/link.hpp"
 
 // A kernel that refuses CAN sockets, unlike this PC's. tests/can covers vcan.
 

@@ -1,4 +1,4 @@
-#include "host/link/endpoint.hpp"
+#include "host/os/link/endpoint.hpp"
 
 #include <gtest/gtest.h>
 

@@ -6,9 +6,9 @@
 #include <fstream>
 #include <string>
 
-#include "host/link/latency.hpp"
-#include "host/link/line_rate.hpp"
-#include "host/link/link.hpp"
+#include "host/os/link/latency.hpp"
+#include "host/os/link/line_rate.hpp"
+#include "host/os/link/link.hpp"
 #include "tests/contract/pc/link_pairs.hpp"
 
 // Each error is one line with a remedy.

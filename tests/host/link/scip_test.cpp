@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "host/link/scip.hpp"
-#include "host/link/scip_range_finder.hpp"
+#include "host/os/link/scip.hpp"
+#include "host/os/link/scip_range_finder.hpp"
 #include "tests/support/scip_sensor.hpp"
 
 // SCIP 2.0 by its specification, and a laser on a pseudo-terminal.

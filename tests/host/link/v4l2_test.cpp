@@ -3,9 +3,9 @@
 #include <functional>
 #include <string>
 
-#include "host/link/link_error.hpp"
-#include "host/link/rgb.hpp"
-#include "host/link/v4l2_camera.hpp"
+#include "host/os/link/link_error.hpp"
+#include "host/os/link/rgb.hpp"
+#include "host/os/link/v4l2_camera.hpp"
 #include "tests/support/video_device.hpp"
 
 // V4L2 only; tests/contract covers every camera.

@@ -1,7 +1,7 @@
-#include "host/live/robot_stream.hpp"
+#include "host/trace/live/robot_stream.hpp"
 
-#include "host/record/trace.hpp"
-#include "host/record/trace_writer.hpp"
+#include "host/trace/record/trace.hpp"
+#include "host/trace/record/trace_writer.hpp"
 #include "tests/host/live/viewer.hpp"
 #include "tests/host/record/sample.hpp"
 

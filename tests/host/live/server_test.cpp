@@ -1,4 +1,4 @@
-#include "host/live/server.hpp"
+#include "host/trace/live/server.hpp"
 
 #include <sched.h>
 

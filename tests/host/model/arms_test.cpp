@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
 
 #include "common/kinematics/forward.hpp"
-#include "host/model/load.hpp"
-#include "host/model/params.hpp"
+#include "host/robot/model/load.hpp"
+#include "host/robot/model/params.hpp"
 #include "tests/host/model/test_files.hpp"
 
 namespace verp::model {

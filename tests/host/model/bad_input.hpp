@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <string>
 
-#include "host/model/load.hpp"
+#include "host/robot/model/load.hpp"
 #include "tests/host/model/test_files.hpp"
 
 namespace verp::model {

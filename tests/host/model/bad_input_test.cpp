@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "host/model/load.hpp"
+#include "host/robot/model/load.hpp"
 #include "tests/host/model/bad_input.hpp"
 
 /// Each error names file, line and remedy.

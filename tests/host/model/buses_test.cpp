@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "host/model/bus_time.hpp"
-#include "host/model/load.hpp"
-#include "host/model/load_error.hpp"
-#include "host/model/params.hpp"
+#include "host/robot/model/bus_time.hpp"
+#include "host/robot/model/load.hpp"
+#include "host/robot/model/load_error.hpp"
+#include "host/robot/model/params.hpp"
 #include "tests/host/model/test_files.hpp"
 
 namespace verp::model {

@@ -6,10 +6,10 @@
 
 #include "common/kinematics/forward.hpp"
 #include "common/model/tree.hpp"
-#include "host/model/leg.hpp"
-#include "host/model/load.hpp"
-#include "host/model/params.hpp"
-#include "host/model/robot_table.hpp"
+#include "host/robot/model/leg.hpp"
+#include "host/robot/model/load.hpp"
+#include "host/robot/model/params.hpp"
+#include "host/robot/model/robot_table.hpp"
 #include "tests/host/model/test_files.hpp"
 
 /// The paper's humanoid, and VERP's coordinate frame.

@@ -1,4 +1,4 @@
-#include "host/model/load_error.hpp"
+#include "host/robot/model/load_error.hpp"
 
 #include <gtest/gtest.h>
 

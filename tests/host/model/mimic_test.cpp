@@ -5,12 +5,12 @@
 
 #include "common/model/coupling.hpp"
 #include "common/model/image.hpp"
-#include "host/model/check.hpp"
-#include "host/model/couplings.hpp"
-#include "host/model/export.hpp"
-#include "host/model/load.hpp"
-#include "host/model/load_error.hpp"
-#include "host/model/params.hpp"
+#include "host/robot/model/check.hpp"
+#include "host/robot/model/couplings.hpp"
+#include "host/robot/model/export.hpp"
+#include "host/robot/model/load.hpp"
+#include "host/robot/model/load_error.hpp"
+#include "host/robot/model/params.hpp"
 #include "tests/host/model/test_files.hpp"
 
 namespace verp::model {

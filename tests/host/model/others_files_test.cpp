@@ -4,7 +4,7 @@
 #include <cmath>
 #include <string>
 
-#include "host/model/load.hpp"
+#include "host/robot/model/load.hpp"
 #include "tests/host/model/test_files.hpp"
 
 /// Third-party files with one fault each, which crashed or passed the loader. The error must be

@@ -8,11 +8,11 @@
 #include "common/kinematics/forward.hpp"
 #include "common/kinematics/leg_ik.hpp"
 #include "common/model/tuning_ranges.hpp"
-#include "host/model/check.hpp"
-#include "host/model/export.hpp"
-#include "host/model/load.hpp"
-#include "host/model/params.hpp"
-#include "host/model/servo_types.hpp"
+#include "host/robot/model/check.hpp"
+#include "host/robot/model/export.hpp"
+#include "host/robot/model/load.hpp"
+#include "host/robot/model/params.hpp"
+#include "host/robot/model/servo_types.hpp"
 #include "tests/host/model/test_files.hpp"
 
 namespace verp::model {

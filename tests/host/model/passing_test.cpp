@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
-#include "host/model/load.hpp"
-#include "host/model/params.hpp"
+#include "host/robot/model/load.hpp"
+#include "host/robot/model/params.hpp"
 #include "tests/host/model/test_files.hpp"
 #include "tests/unit/gait/soles.hpp"
 

@@ -1,4 +1,4 @@
-#include "host/model/principal.hpp"
+#include "host/robot/model/principal.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,11 +1,11 @@
-#include "host/model/self_collision.hpp"
+#include "host/robot/model/self_collision.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "host/model/check.hpp"
-#include "host/model/load.hpp"
+#include "host/robot/model/check.hpp"
+#include "host/robot/model/load.hpp"
 #include "tests/host/model/test_files.hpp"
 
 namespace verp::model {

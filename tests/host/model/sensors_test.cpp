@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <string>
 
-#include "host/model/check.hpp"
-#include "host/model/load.hpp"
+#include "host/robot/model/check.hpp"
+#include "host/robot/model/load.hpp"
 #include "tests/host/model/test_files.hpp"
 
 namespace verp::model {

@@ -6,8 +6,8 @@
 #include <sstream>
 #include <string>
 
-#include "host/model/find.hpp"
-#include "host/model/load.hpp"
+#include "host/robot/model/find.hpp"
+#include "host/robot/model/load.hpp"
 
 namespace verp::model {
 

@@ -5,10 +5,10 @@
 #include "common/kinematics/forward.hpp"
 #include "common/kinematics/leg_ik.hpp"
 #include "common/model/tree.hpp"
-#include "host/model/export.hpp"
-#include "host/model/leg.hpp"
-#include "host/model/load.hpp"
-#include "host/model/params.hpp"
+#include "host/robot/model/export.hpp"
+#include "host/robot/model/leg.hpp"
+#include "host/robot/model/load.hpp"
+#include "host/robot/model/params.hpp"
 #include "tests/host/model/test_files.hpp"
 
 namespace verp::model {

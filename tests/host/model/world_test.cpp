@@ -4,7 +4,7 @@
 #include <fstream>
 #include <string>
 
-#include "host/model/load_world.hpp"
+#include "host/robot/model/load_world.hpp"
 #include "tests/host/model/test_files.hpp"
 
 /// Shipped worlds load; mistakes are refused with file, line and remedy.

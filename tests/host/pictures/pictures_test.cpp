@@ -5,13 +5,13 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "host/files/temporary_directory.hpp"
-#include "host/model/find.hpp"
-#include "host/model/load.hpp"
-#include "host/render/files.hpp"
-#include "host/render/offscreen_context.hpp"
-#include "host/render/renderer.hpp"
-#include "host/scene/build.hpp"
+#include "host/os/files/temporary_directory.hpp"
+#include "host/robot/model/find.hpp"
+#include "host/robot/model/load.hpp"
+#include "host/show/render/files.hpp"
+#include "host/show/render/offscreen_context.hpp"
+#include "host/show/render/renderer.hpp"
+#include "host/show/scene/build.hpp"
 #include "tests/host/tool/program.hpp"
 
 // Each effect changes its part of the picture, and bad input gives one line.

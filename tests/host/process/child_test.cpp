@@ -1,4 +1,4 @@
-#include "host/process/child.hpp"
+#include "host/os/process/child.hpp"
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
@@ -13,7 +13,7 @@
 #include <memory>
 #include <system_error>
 
-#include "host/files/temporary_directory.hpp"
+#include "host/os/files/temporary_directory.hpp"
 
 namespace verp::process {
 namespace {

@@ -1,4 +1,4 @@
-#include "host/radio/radio.hpp"
+#include "host/twin/radio/radio.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 #include <map>
 
-#include "host/record/joint_speeds.hpp"
-#include "host/record/mcap_reader.hpp"
+#include "host/trace/record/joint_speeds.hpp"
+#include "host/trace/record/mcap_reader.hpp"
 #include "tests/host/record/sample.hpp"
 
 namespace verp::record::test {

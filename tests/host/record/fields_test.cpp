@@ -1,4 +1,4 @@
-#include "host/record/fields.hpp"
+#include "host/trace/record/fields.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "host/record/ros_camera.hpp"
+#include "host/trace/record/ros_camera.hpp"
 
 namespace verp::record {
 namespace {

@@ -1,6 +1,6 @@
-#include "host/record/compression.hpp"
-#include "host/record/mcap_reader.hpp"
-#include "host/record/mcap_writer.hpp"
+#include "host/trace/record/compression.hpp"
+#include "host/trace/record/mcap_reader.hpp"
+#include "host/trace/record/mcap_writer.hpp"
 #include "tests/host/record/sample.hpp"
 
 namespace verp::record::test {

@@ -1,4 +1,4 @@
-#include "host/record/replay.hpp"
+#include "host/trace/record/replay.hpp"
 
 #include <bit>
 

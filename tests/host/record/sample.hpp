@@ -9,7 +9,7 @@
 #include <string>
 
 #include "common/control/step.hpp"
-#include "host/record/trace_writer.hpp"
+#include "host/trace/record/trace_writer.hpp"
 
 namespace verp::record::test {
 

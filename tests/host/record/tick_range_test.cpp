@@ -1,4 +1,4 @@
-#include "host/record/tick_range.hpp"
+#include "host/trace/record/tick_range.hpp"
 
 #include "tests/host/record/sample.hpp"
 

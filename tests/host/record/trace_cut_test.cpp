@@ -1,7 +1,7 @@
-#include "host/record/trace_cut.hpp"
+#include "host/trace/record/trace_cut.hpp"
 
-#include "host/record/mcap_reader.hpp"
-#include "host/record/replay.hpp"
+#include "host/trace/record/mcap_reader.hpp"
+#include "host/trace/record/replay.hpp"
 #include "tests/host/record/sample.hpp"
 
 namespace verp::record::test {

@@ -1,7 +1,7 @@
-#include "host/record/trace_merge.hpp"
+#include "host/trace/record/trace_merge.hpp"
 
-#include "host/record/mcap_reader.hpp"
-#include "host/record/ros_frames.hpp"
+#include "host/trace/record/mcap_reader.hpp"
+#include "host/trace/record/ros_frames.hpp"
 #include "tests/host/record/sample.hpp"
 
 namespace verp::record::test {

@@ -1,9 +1,9 @@
-#include "host/record/trace.hpp"
+#include "host/trace/record/trace.hpp"
 
 #include <cmath>
 #include <limits>
 
-#include "host/record/replay.hpp"
+#include "host/trace/record/replay.hpp"
 #include "tests/host/record/sample.hpp"
 
 namespace verp::record::test {

@@ -1,4 +1,4 @@
-#include "host/report/report.hpp"
+#include "host/study/report/report.hpp"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -8,8 +8,8 @@
 #include <fstream>
 #include <iterator>
 
-#include "host/report/csv.hpp"
-#include "host/report/gnuplot.hpp"
+#include "host/study/report/csv.hpp"
+#include "host/study/report/gnuplot.hpp"
 
 namespace verp::report {
 namespace {

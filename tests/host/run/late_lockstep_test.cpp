@@ -1,8 +1,8 @@
 #include <chrono>
 
-#include "host/model/find.hpp"
-#include "host/model/load.hpp"
-#include "host/model/params.hpp"
+#include "host/robot/model/find.hpp"
+#include "host/robot/model/load.hpp"
+#include "host/robot/model/params.hpp"
 #include "tests/host/run/run_bench.hpp"
 #include "tests/host/tool/link_controller.hpp"
 

@@ -7,10 +7,10 @@
 #include <thread>
 #include <vector>
 
-#include "host/bus/servo_device.hpp"
-#include "host/link/line_rate.hpp"
-#include "host/link/link.hpp"
-#include "host/link/port.hpp"
+#include "host/os/link/line_rate.hpp"
+#include "host/os/link/link.hpp"
+#include "host/os/link/port.hpp"
+#include "host/twin/bus/servo_device.hpp"
 #include "tests/host/bus/fake_plant.hpp"
 
 namespace verp::test {

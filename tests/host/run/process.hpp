@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-#include "host/process/child.hpp"
+#include "host/os/process/child.hpp"
 #include "tests/host/tool/program.hpp"
 
 namespace verp::tool::test {

@@ -5,7 +5,7 @@
 
 #include "common/control/step.hpp"
 #include "common/safety/machine.hpp"
-#include "host/record/trace.hpp"
+#include "host/trace/record/trace.hpp"
 #include "tests/hil/safe_table.hpp"
 #include "tests/host/run/process.hpp"
 #include "tests/support/delaying_link.hpp"

@@ -2,8 +2,8 @@
 
 #include <set>
 
-#include "host/scene/build.hpp"
-#include "host/scene/camera.hpp"
+#include "host/show/scene/build.hpp"
+#include "host/show/scene/camera.hpp"
 #include "tests/host/session/plans.hpp"
 
 // A scene shows the robot's file; cameras label it.

@@ -2,11 +2,11 @@
 
 #include <filesystem>
 
-#include "host/files/temporary_directory.hpp"
-#include "host/record/trace_writer.hpp"
-#include "host/scene/from_trace.hpp"
-#include "host/scene/from_twin.hpp"
-#include "host/web/replay_page.hpp"
+#include "host/os/files/temporary_directory.hpp"
+#include "host/show/scene/from_trace.hpp"
+#include "host/show/scene/from_twin.hpp"
+#include "host/show/web/replay_page.hpp"
+#include "host/trace/record/trace_writer.hpp"
 #include "tests/host/session/plans.hpp"
 
 // The truth of an instant, live or from a trace; taking it changes nothing.

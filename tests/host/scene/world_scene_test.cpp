@@ -2,12 +2,12 @@
 
 #include <set>
 
-#include "host/files/temporary_directory.hpp"
-#include "host/model/load_world.hpp"
-#include "host/record/trace_writer.hpp"
-#include "host/scene/build.hpp"
-#include "host/scene/from_trace.hpp"
-#include "host/scene/from_twin.hpp"
+#include "host/os/files/temporary_directory.hpp"
+#include "host/robot/model/load_world.hpp"
+#include "host/show/scene/build.hpp"
+#include "host/show/scene/from_trace.hpp"
+#include "host/show/scene/from_twin.hpp"
+#include "host/trace/record/trace_writer.hpp"
 #include "tests/host/session/plans.hpp"
 
 // A world looks like its file, live and in a trace.

@@ -1,4 +1,4 @@
-#include "host/session/asked.hpp"
+#include "host/run/session/asked.hpp"
 
 #include <gtest/gtest.h>
 

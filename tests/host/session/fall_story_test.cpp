@@ -1,10 +1,10 @@
-#include "host/session/fall_story.hpp"
+#include "host/run/session/fall_story.hpp"
 
 #include <gtest/gtest.h>
 
 #include <vector>
 
-#include "host/session/get_up.hpp"
+#include "host/run/session/get_up.hpp"
 
 namespace verp::session::test {
 namespace {

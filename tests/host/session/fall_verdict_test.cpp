@@ -1,4 +1,4 @@
-#include "host/session/fall_verdict.hpp"
+#include "host/run/session/fall_verdict.hpp"
 
 #include <gtest/gtest.h>
 

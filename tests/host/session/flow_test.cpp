@@ -1,4 +1,4 @@
-#include "host/session/flow.hpp"
+#include "host/run/session/flow.hpp"
 
 #include <gtest/gtest.h>
 

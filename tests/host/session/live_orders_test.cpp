@@ -1,4 +1,4 @@
-#include "host/session/live_orders.hpp"
+#include "host/run/session/live_orders.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 
 #include "common/control/step.hpp"
 #include "common/safety/machine.hpp"
-#include "host/model/params.hpp"
+#include "host/robot/model/params.hpp"
 #include "tests/host/session/plans.hpp"
 
 namespace verp::session::test {

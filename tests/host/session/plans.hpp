@@ -4,10 +4,10 @@
 #include <string>
 #include <vector>
 
-#include "host/model/find.hpp"
-#include "host/model/load.hpp"
-#include "host/model/params.hpp"
-#include "host/session/session.hpp"
+#include "host/robot/model/find.hpp"
+#include "host/robot/model/load.hpp"
+#include "host/robot/model/params.hpp"
+#include "host/run/session/session.hpp"
 
 namespace verp::session::test {
 

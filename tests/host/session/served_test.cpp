@@ -1,4 +1,4 @@
-#include "host/session/served.hpp"
+#include "host/run/session/served.hpp"
 
 #include <unistd.h>
 
@@ -8,7 +8,7 @@
 #include <filesystem>
 #include <thread>
 
-#include "host/link/link.hpp"
+#include "host/os/link/link.hpp"
 #include "tests/host/session/plans.hpp"
 #include "tests/host/tool/link_controller.hpp"
 

@@ -1,12 +1,12 @@
-#include "host/session/session.hpp"
+#include "host/run/session/session.hpp"
 
 #include <gtest/gtest.h>
 
 #include <string>
 
 #include "common/safety/machine.hpp"
-#include "host/bus/order_sink.hpp"
-#include "host/session/not_up.hpp"
+#include "host/run/session/not_up.hpp"
+#include "host/twin/bus/order_sink.hpp"
 #include "tests/host/session/plans.hpp"
 
 // A robot's run in a shared world depends only on the plans: not on how its ticks are called, nor

@@ -1,10 +1,10 @@
-#include "host/session/stride.hpp"
+#include "host/run/session/stride.hpp"
 
 #include <gtest/gtest.h>
 
-#include "host/model/find.hpp"
-#include "host/model/load.hpp"
-#include "host/model/params.hpp"
+#include "host/robot/model/find.hpp"
+#include "host/robot/model/load.hpp"
+#include "host/robot/model/params.hpp"
 
 namespace verp::session {
 namespace {

@@ -1,4 +1,4 @@
-#include "host/session/walk_operator.hpp"
+#include "host/run/session/walk_operator.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "host/shadow/live_check.hpp"
+#include "host/run/shadow/live_check.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "host/shadow/polled_check.hpp"
+#include "host/run/shadow/polled_check.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 
 #include <unistd.h>
 
-#include "host/link/system_clock.hpp"
+#include "host/os/link/system_clock.hpp"
 #include "tests/host/bus/fake_plant.hpp"
 #include "tests/host/shadow/polled_controller.hpp"
 

@@ -9,7 +9,7 @@
 
 #include "common/control/step.hpp"
 #include "firmware/app/operator_device.hpp"
-#include "host/link/link.hpp"
+#include "host/os/link/link.hpp"
 #include "tests/support/random_inputs.hpp"
 
 namespace verp::shadow::test {

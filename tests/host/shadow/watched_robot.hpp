@@ -9,8 +9,8 @@
 #include "firmware/app/app.hpp"
 #include "firmware/app/operator_node.hpp"
 #include "firmware/app/tick_log.hpp"
-#include "host/can/virtual_can.hpp"
-#include "host/shadow/live_check.hpp"
+#include "host/run/shadow/live_check.hpp"
+#include "host/twin/can/virtual_can.hpp"
 #include "tests/host/bus/fake_plant.hpp"
 
 /// A controller on a virtual CAN bus with a live check.

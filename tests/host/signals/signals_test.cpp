@@ -3,8 +3,8 @@
 #include <limits>
 #include <sstream>
 
-#include "host/signals/csv.hpp"
-#include "host/signals/draw.hpp"
+#include "host/study/signals/csv.hpp"
+#include "host/study/signals/draw.hpp"
 #include "tests/host/record/sample.hpp"
 
 namespace verp::signals {

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "host/sim/robot.hpp"
+#include "host/twin/sim/robot.hpp"
 #include "tests/host/sim/test_robots.hpp"
 
 namespace verp::sim {

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <string>
 
-#include "host/model/servo_types.hpp"
-#include "host/sim/robot.hpp"
+#include "host/robot/model/servo_types.hpp"
+#include "host/twin/sim/robot.hpp"
 #include "tests/host/sim/test_robots.hpp"
 
 /// Rotor and gearbox friction against closed forms, and against a separate integration of Duclusaud

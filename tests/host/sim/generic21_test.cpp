@@ -4,8 +4,8 @@
 #include <cmath>
 #include <iostream>
 
-#include "host/model/load.hpp"
-#include "host/sim/robot.hpp"
+#include "host/robot/model/load.hpp"
+#include "host/twin/sim/robot.hpp"
 
 namespace verp::sim {
 namespace {

@@ -4,8 +4,8 @@
 #include <memory>
 #include <vector>
 
-#include "host/sim/robot.hpp"
-#include "host/sim/scenery.hpp"
+#include "host/twin/sim/robot.hpp"
+#include "host/twin/sim/scenery.hpp"
 #include "tests/host/sim/test_robots.hpp"
 
 // A reading at t shows the world at t - latency.

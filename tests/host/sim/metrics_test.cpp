@@ -1,4 +1,4 @@
-#include "host/sim/metrics.hpp"
+#include "host/twin/sim/metrics.hpp"
 
 #include <gtest/gtest.h>
 

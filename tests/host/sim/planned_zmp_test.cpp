@@ -1,4 +1,4 @@
-#include "host/sim/planned_zmp.hpp"
+#include "host/twin/sim/planned_zmp.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,11 +1,11 @@
-#include "host/sim/probes.hpp"
+#include "host/twin/sim/probes.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
 
-#include "host/sim/robot.hpp"
+#include "host/twin/sim/robot.hpp"
 #include "tests/host/sim/test_robots.hpp"
 
 // Force-torque, contact and truth sensors against known weights and poses.

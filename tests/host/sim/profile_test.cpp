@@ -1,4 +1,4 @@
-#include "host/sim/profile.hpp"
+#include "host/twin/sim/profile.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "host/sim/quantities.hpp"
+#include "host/twin/sim/quantities.hpp"
 
 #include <gtest/gtest.h>
 

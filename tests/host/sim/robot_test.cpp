@@ -1,4 +1,4 @@
-#include "host/sim/robot.hpp"
+#include "host/twin/sim/robot.hpp"
 
 #include <gtest/gtest.h>
 

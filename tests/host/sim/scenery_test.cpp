@@ -1,4 +1,4 @@
-#include "host/sim/scenery.hpp"
+#include "host/twin/sim/scenery.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,8 +6,8 @@
 #include <memory>
 #include <numbers>
 
-#include "host/sim/laser.hpp"
-#include "host/sim/quantities.hpp"
+#include "host/twin/sim/laser.hpp"
+#include "host/twin/sim/quantities.hpp"
 #include "tests/host/sim/test_robots.hpp"
 #include "tests/support/leak.hpp"
 

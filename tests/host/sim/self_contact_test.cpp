@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <numbers>
 
-#include "host/sim/robot.hpp"
+#include "host/twin/sim/robot.hpp"
 #include "tests/host/sim/test_robots.hpp"
 
 namespace verp::sim {

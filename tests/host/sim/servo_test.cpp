@@ -1,4 +1,4 @@
-#include "host/sim/servo.hpp"
+#include "host/twin/sim/servo.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "host/sim/robot.hpp"
+#include "host/twin/sim/robot.hpp"
 #include "tests/host/sim/test_robots.hpp"
 
 namespace verp::sim {

@@ -1,4 +1,4 @@
-#include "host/sim/solver.hpp"
+#include "host/twin/sim/solver.hpp"
 
 #include <gtest/gtest.h>
 
@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "host/sim/solver_lanes.hpp"
+#include "host/twin/sim/solver_lanes.hpp"
 
 /// The loops that ODE calls are ours; they equal its own bit for bit.
 namespace verp::sim {

@@ -2,7 +2,7 @@
 #include <cmath>
 #include <vector>
 
-#include "host/model/entity.hpp"
+#include "host/robot/model/entity.hpp"
 
 /// Robots made in code, so that every number is visible.
 namespace verp::sim::test {

@@ -1,4 +1,4 @@
-#include "host/sim/vary.hpp"
+#include "host/twin/sim/vary.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "host/survey/interval.hpp"
+#include "host/study/survey/interval.hpp"
 
 #include <gtest/gtest.h>
 

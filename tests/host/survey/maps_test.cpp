@@ -2,10 +2,10 @@
 
 #include <cmath>
 
-#include "host/session/session.hpp"
-#include "host/survey/push_map.hpp"
-#include "host/survey/stability_map.hpp"
-#include "host/survey/words.hpp"
+#include "host/run/session/session.hpp"
+#include "host/study/survey/push_map.hpp"
+#include "host/study/survey/stability_map.hpp"
+#include "host/study/survey/words.hpp"
 #include "tests/host/session/plans.hpp"
 
 namespace verp::survey {

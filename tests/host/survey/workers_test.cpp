@@ -1,4 +1,4 @@
-#include "host/survey/workers.hpp"
+#include "host/study/survey/workers.hpp"
 
 #include <gtest/gtest.h>
 

@@ -4,9 +4,9 @@
 #include <thread>
 
 #include "firmware/app/operator_device.hpp"
-#include "host/bus/register_names.hpp"
-#include "host/link/link.hpp"
-#include "host/link/system_clock.hpp"
+#include "host/os/link/link.hpp"
+#include "host/os/link/system_clock.hpp"
+#include "host/twin/bus/register_names.hpp"
 #include "tests/host/tool/program.hpp"
 #include "tests/support/delaying_link.hpp"
 #include "tests/unit/support/test_robot.hpp"

@@ -7,11 +7,11 @@
 #include <string>
 #include <vector>
 
-#include "host/link/link_error.hpp"
-#include "host/record/trace.hpp"
-#include "host/tool/camera_run.hpp"
-#include "host/tool/exit_status.hpp"
-#include "host/tool/trace_pictures.hpp"
+#include "host/apps/cli/exit_status.hpp"
+#include "host/apps/tool/camera_run.hpp"
+#include "host/apps/tool/trace_pictures.hpp"
+#include "host/os/link/link_error.hpp"
+#include "host/trace/record/trace.hpp"
 #include "tests/support/video_device.hpp"
 
 // `verp bus camera` on a device that the test plays: this PC's kernel has none.

@@ -1,6 +1,6 @@
 #include <nlohmann/json.hpp>
 
-#include "host/model/find.hpp"
+#include "host/robot/model/find.hpp"
 #include "tests/host/tool/program.hpp"
 
 // The loop over CAN with CiA 402 drives.
@@ -48,7 +48,7 @@ TEST_F(CanWalk, WalksTenSecondsWithoutAFallOrAFault) {
 
 // At each rate at which the robot can walk on one classic bus. `verp bus load` knows the plan but
 // no walk: the test compares bits without stuffing, and expected bits with all bits walked.
-// (host/can tests half a robot.)
+// (host/twin/can tests half a robot.)
 TEST_F(CanWalk, PutsOnTheWireWhatBusLoadSays) {
   for (const int period_us : {10'000, 8'000}) {
     SCOPED_TRACE(period_us);

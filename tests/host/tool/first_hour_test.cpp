@@ -2,7 +2,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "host/files/places.hpp"
+#include "host/os/files/places.hpp"
 #include "tests/host/tool/program.hpp"
 
 namespace verp::tool::test {

@@ -2,12 +2,12 @@
 #include <nlohmann/json.hpp>
 
 #include "firmware/app/link_bus.hpp"
-#include "host/action/compile.hpp"
-#include "host/action/folder.hpp"
-#include "host/link/system_clock.hpp"
-#include "host/model/find.hpp"
-#include "host/model/load.hpp"
-#include "host/model/params.hpp"
+#include "host/author/action/compile.hpp"
+#include "host/author/action/folder.hpp"
+#include "host/os/link/system_clock.hpp"
+#include "host/robot/model/find.hpp"
+#include "host/robot/model/load.hpp"
+#include "host/robot/model/params.hpp"
 #include "tests/host/tool/link_controller.hpp"
 #include "tests/host/tool/program.hpp"
 

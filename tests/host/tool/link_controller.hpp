@@ -10,7 +10,7 @@
 #include "firmware/app/app.hpp"
 #include "firmware/app/lockstep_bus.hpp"
 #include "firmware/app/operator_device.hpp"
-#include "host/link/link.hpp"
+#include "host/os/link/link.hpp"
 
 /// A controller with two serial ports, like a board's, in a thread.
 namespace verp::test {

@@ -5,8 +5,8 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
-#include "host/process/child.hpp"
-#include "host/record/mcap_reader.hpp"
+#include "host/os/process/child.hpp"
+#include "host/trace/record/mcap_reader.hpp"
 #include "tests/host/live/viewer.hpp"
 #include "tests/host/tool/program.hpp"
 

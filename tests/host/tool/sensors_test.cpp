@@ -3,10 +3,10 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "host/model/find.hpp"
-#include "host/record/mcap_reader.hpp"
-#include "host/record/team_channel.hpp"
-#include "host/record/trace.hpp"
+#include "host/robot/model/find.hpp"
+#include "host/trace/record/mcap_reader.hpp"
+#include "host/trace/record/team_channel.hpp"
+#include "host/trace/record/trace.hpp"
 #include "tests/host/tool/program.hpp"
 
 // From the robot's file into a trace.

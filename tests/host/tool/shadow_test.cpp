@@ -4,9 +4,9 @@
 #include <string>
 #include <thread>
 
-#include "host/model/find.hpp"
-#include "host/model/load.hpp"
-#include "host/model/params.hpp"
+#include "host/robot/model/find.hpp"
+#include "host/robot/model/load.hpp"
+#include "host/robot/model/params.hpp"
 #include "tests/host/shadow/polled_controller.hpp"
 #include "tests/host/tool/program.hpp"
 

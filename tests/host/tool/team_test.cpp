@@ -5,8 +5,8 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
-#include "host/link/link.hpp"
-#include "host/process/child.hpp"
+#include "host/os/link/link.hpp"
+#include "host/os/process/child.hpp"
 #include "tests/host/tool/program.hpp"
 
 // Each robot walks as it does alone, whatever drives it. One that loses its controller costs no

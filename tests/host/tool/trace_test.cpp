@@ -2,8 +2,8 @@
 #include <nlohmann/json.hpp>
 
 #include "common/model/image.hpp"
-#include "host/record/trace.hpp"
-#include "host/record/trace_writer.hpp"
+#include "host/trace/record/trace.hpp"
+#include "host/trace/record/trace_writer.hpp"
 #include "tests/host/tool/program.hpp"
 
 // The trace commands as users see them; tests/host/signals and tests/host/record check the numbers.

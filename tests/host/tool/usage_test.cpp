@@ -4,9 +4,9 @@
 #include <sstream>
 
 #include "common/model/tuning_ranges.hpp"
-#include "host/files/places.hpp"
-#include "host/model/find.hpp"
-#include "host/model/params.hpp"
+#include "host/os/files/places.hpp"
+#include "host/robot/model/find.hpp"
+#include "host/robot/model/params.hpp"
 #include "tests/host/tool/program.hpp"
 
 namespace verp::tool::test {
@@ -25,8 +25,8 @@ TEST_F(Usage, HelpGoesToStdoutAndIsGood) {
 
 // ./verp --help prints this file without packages or a build.
 TEST_F(Usage, TheLaunchersHelpIsThePrograms) {
-  EXPECT_EQ(verp("--help").out, slurp(files::source_dir() / "host/tool/help.txt"))
-      << "mend it: build/host-release/host/tool/verp --help > host/tool/help.txt";
+  EXPECT_EQ(verp("--help").out, slurp(files::source_dir() / "host/apps/tool/help.txt"))
+      << "mend it: build/host-release/host/apps/tool/verp --help > host/apps/tool/help.txt";
 }
 
 // A newcomer's first walk builds this smaller program. It says which options it lacks.

@@ -3,8 +3,8 @@
 #include <string>
 #include <thread>
 
-#include "host/record/mcap_reader.hpp"
-#include "host/record/ros_radio.hpp"
+#include "host/trace/record/mcap_reader.hpp"
+#include "host/trace/record/ros_radio.hpp"
 #include "tests/host/tool/program.hpp"
 
 // Third-party programs in plain Python drive robots of one walk and talk through the modems on

@@ -3,7 +3,7 @@
 #include <sstream>
 #include <thread>
 
-#include "host/record/trace.hpp"
+#include "host/trace/record/trace.hpp"
 #include "tests/host/tool/program.hpp"
 
 namespace verp::tool::test {

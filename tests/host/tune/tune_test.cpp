@@ -1,4 +1,4 @@
-#include "host/tune/tune.hpp"
+#include "host/study/tune/tune.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -7,12 +7,12 @@
 #include <fstream>
 
 #include "common/model/tuning_ranges.hpp"
-#include "host/model/load.hpp"
-#include "host/model/params.hpp"
-#include "host/tune/evolution.hpp"
-#include "host/tune/space.hpp"
-#include "host/tune/trial.hpp"
-#include "host/tune/write.hpp"
+#include "host/robot/model/load.hpp"
+#include "host/robot/model/params.hpp"
+#include "host/study/tune/evolution.hpp"
+#include "host/study/tune/space.hpp"
+#include "host/study/tune/trial.hpp"
+#include "host/study/tune/write.hpp"
 
 namespace verp::tune {
 namespace {

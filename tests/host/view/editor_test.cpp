@@ -8,9 +8,9 @@
 #include <iterator>
 
 #include "common/safety/machine.hpp"
-#include "host/model/find.hpp"
-#include "host/view/editor_panel.hpp"
-#include "host/view/editor_table.hpp"
+#include "host/apps/view/editor_panel.hpp"
+#include "host/apps/view/editor_table.hpp"
+#include "host/robot/model/find.hpp"
 #include "tests/host/view/window_fixture.hpp"
 
 namespace verp::view {

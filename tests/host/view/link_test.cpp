@@ -10,13 +10,13 @@
 #include <filesystem>
 #include <thread>
 
-#include "host/model/params.hpp"
-#include "host/record/ros_messages.hpp"
-#include "host/scene/build.hpp"
-#include "host/view/run/gamepad.hpp"
-#include "host/view/run/linked.hpp"
-#include "host/view/run/live_run.hpp"
-#include "host/view/run/step_on.hpp"
+#include "host/apps/view/run/gamepad.hpp"
+#include "host/apps/view/run/linked.hpp"
+#include "host/apps/view/run/live_run.hpp"
+#include "host/apps/view/run/step_on.hpp"
+#include "host/robot/model/params.hpp"
+#include "host/show/scene/build.hpp"
+#include "host/trace/record/ros_messages.hpp"
 #include "tests/host/session/plans.hpp"
 #include "tests/host/shadow/polled_controller.hpp"
 

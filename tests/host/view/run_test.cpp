@@ -7,13 +7,13 @@
 #include <random>
 #include <thread>
 
-#include "host/model/params.hpp"
-#include "host/record/replay.hpp"
-#include "host/record/trace.hpp"
-#include "host/view/run/live_run.hpp"
-#include "host/view/run/player.hpp"
-#include "host/view/run/pose_hand.hpp"
-#include "host/view/run/steering.hpp"
+#include "host/apps/view/run/live_run.hpp"
+#include "host/apps/view/run/player.hpp"
+#include "host/apps/view/run/pose_hand.hpp"
+#include "host/apps/view/run/steering.hpp"
+#include "host/robot/model/params.hpp"
+#include "host/trace/record/replay.hpp"
+#include "host/trace/record/trace.hpp"
 #include "tests/host/session/plans.hpp"
 
 namespace verp::view {

@@ -4,7 +4,7 @@
 #include <QStandardPaths>
 #include <QSurfaceFormat>
 
-#include "host/view/theme.hpp"
+#include "host/apps/view/theme.hpp"
 
 int main(int argc, char** argv) {
   testing::InitGoogleTest(&argc, argv);

@@ -9,8 +9,8 @@
 #include <QtTest/QTest>
 #include <cstdlib>
 
-#include "host/view/main_window.hpp"
-#include "host/view/run_of.hpp"
+#include "host/apps/view/main_window.hpp"
+#include "host/apps/view/run_of.hpp"
 
 namespace verp::view {
 

@@ -12,7 +12,7 @@
 #include <set>
 
 #include "common/safety/machine.hpp"
-#include "host/view/state_panel.hpp"
+#include "host/apps/view/state_panel.hpp"
 #include "tests/host/session/plans.hpp"
 #include "tests/host/shadow/polled_controller.hpp"
 #include "tests/host/view/window_fixture.hpp"

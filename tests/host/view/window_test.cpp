@@ -11,11 +11,11 @@
 #include <filesystem>
 
 #include "common/safety/machine.hpp"
-#include "host/model/find.hpp"
-#include "host/record/replay.hpp"
-#include "host/record/trace.hpp"
-#include "host/view/plot_panel.hpp"
-#include "host/view/pose_panel.hpp"
+#include "host/apps/view/plot_panel.hpp"
+#include "host/apps/view/pose_panel.hpp"
+#include "host/robot/model/find.hpp"
+#include "host/trace/record/replay.hpp"
+#include "host/trace/record/trace.hpp"
 #include "tests/host/view/window_fixture.hpp"
 
 namespace verp::view {

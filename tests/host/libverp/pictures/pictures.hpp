@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "host/libverp/verp.h"
+#include "host/apps/libverp/verp.h"
 #include "tests/host/libverp/opened.hpp"
 
 namespace verp::abi::test {

@@ -2,11 +2,11 @@
 #include <cstring>
 #include <map>
 
-#include "host/camera/rig.hpp"
-#include "host/model/find.hpp"
-#include "host/model/lens.hpp"
-#include "host/model/load_world.hpp"
-#include "host/sim/scenery.hpp"
+#include "host/show/camera/rig.hpp"
+#include "host/robot/model/find.hpp"
+#include "host/robot/model/lens.hpp"
+#include "host/robot/model/load_world.hpp"
+#include "host/twin/sim/scenery.hpp"
 #include "tests/host/camera/files.hpp"
 #include "tests/host/libverp/pictures/pictures.hpp"
 
@@ -192,7 +192,7 @@ TEST(LibverpSight, IsSeenFromWhereOneSays) {
   }
 }
 
-/// Only printed; host/libverp/README.md has the costs.
+/// Only printed; host/apps/libverp/README.md has the costs.
 TEST(LibverpSight, SaysWhatAPictureCosts) {
   using Clock = std::chrono::steady_clock;
   Looking looking;

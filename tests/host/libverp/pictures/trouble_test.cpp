@@ -9,8 +9,8 @@
 #include <string>
 #include <thread>
 
-#include "host/camera/painter.hpp"
-#include "host/model/find.hpp"
+#include "host/robot/model/find.hpp"
+#include "host/show/camera/painter.hpp"
 #include "tests/host/libverp/expect_error.hpp"
 #include "tests/host/libverp/pictures/pictures.hpp"
 

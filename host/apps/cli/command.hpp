@@ -1,0 +1,67 @@
+#pragma once
+#include <cstdint>
+#include <functional>
+#include <string>
+
+#include "host/apps/cli/exit_status.hpp"
+
+namespace CLI {
+class App;
+class Option;
+class Validator;
+}  // namespace CLI
+
+namespace verp::tool {
+
+/// A subcommand: its options, and what to run once they are parsed. `run` returns the exit status
+/// or throws.
+struct Subcommand {
+  CLI::App* app;
+  std::function<int()> run;
+};
+
+Subcommand add_walk(CLI::App& root);
+Subcommand add_action(CLI::App& root);
+Subcommand add_demo(CLI::App& root);
+Subcommand add_hil(CLI::App& root);
+Subcommand add_run(CLI::App& root);
+Subcommand add_shadow(CLI::App& root);
+Subcommand add_replay(CLI::App& root);
+Subcommand add_diff(CLI::App& root);
+Subcommand add_compare(CLI::App& root);
+Subcommand add_identify(CLI::App& root);
+Subcommand add_tune(CLI::App& root);
+Subcommand add_check(CLI::App& root);
+Subcommand add_export(CLI::App& root);
+Subcommand add_new(CLI::App& root);
+Subcommand add_completion(CLI::App& root);
+Subcommand add_parameters(CLI::App& root);
+Subcommand add_trace(CLI::App& root);
+Subcommand add_bench(CLI::App& root);
+Subcommand add_bus(CLI::App& root);
+Subcommand add_flash(CLI::App& root);
+Subcommand add_view(CLI::App& root);
+Subcommand add_deploy(CLI::App& root);
+Subcommand add_debug(CLI::App& root);
+
+/// Adds --json. With it stdout holds one JSON object and nothing else; everything for people goes
+/// to stderr.
+void add_json_flag(CLI::App& app, bool& json);
+
+/// Adds MODEL, the robot, everywhere by these words; --robot MODEL is the same.
+CLI::Option* add_model(CLI::App& app, std::string& model);
+
+/// Adds --bus: which of the robot's buses is used, by name.
+void add_bus_option(CLI::App& app, std::string& bus);
+
+/// Parses all of `text` as a decimal number within [low, high]; throws CLI::ValidationError with
+/// the range otherwise (also for NaN, infinity and trailing characters).
+double parse_number(const std::string& text, double low, double high, const std::string& unit);
+
+/// A check for CLI options that take one number: same rules as parse_number.
+CLI::Validator number_between(double low, double high, const std::string& unit);
+
+/// A check for CLI options that take a whole number, written in digits only.
+CLI::Validator whole_number_between(std::uint64_t low, std::uint64_t high);
+
+}  // namespace verp::tool

@@ -1,0 +1,153 @@
+#include "host/apps/cli/program.hpp"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string_view>
+#include <vector>
+
+#include "host/apps/cli/command.hpp"
+#include "host/apps/cli/console.hpp"
+#include "host/apps/cli/failure.hpp"
+#include "host/apps/cli/help_text.hpp"
+#include "host/apps/cli/interrupt.hpp"
+#include "host/apps/cli/json.hpp"
+#include "host/apps/cli/suggest.hpp"
+#include "host/trace/record/trace.hpp"
+
+namespace verp::tool {
+namespace {
+
+std::string one_line(std::string text) {
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  while (!text.empty() && text.back() == ' ') text.pop_back();
+  return text;
+}
+
+bool wants_json(int argc, char** argv) {
+  return std::any_of(argv, argv + argc, [](std::string_view a) { return a == "--json"; });
+}
+
+int fail(int status, const std::string& line, bool json) {
+  complain(one_line(line));
+  if (json) print_json({{"error", one_line(line)}, {"exit", status}});
+  return status;
+}
+
+/// The deepest subcommand the command line names.
+const CLI::App* addressed(const CLI::App& root) {
+  const CLI::App* app = &root;
+  for (auto inner = app->get_subcommands(); !inner.empty(); inner = app->get_subcommands()) {
+    app = inner.front();
+  }
+  return app;
+}
+
+std::string full_name(const CLI::App* app) {
+  if (app->get_parent() == nullptr) return "verp";
+  return full_name(app->get_parent()) + " " + app->get_name();
+}
+
+/// CLI11 counts arguments; people give an option a value, or give it twice.
+std::string in_words(const CLI::ParseError& error) {
+  const std::string line = error.what();
+  if (const std::size_t end = line.find(" was given a disallowed flag"); end != line.npos) {
+    return "--" + line.substr(0, end) + " takes no value";
+  }
+  if (line.starts_with("--robot is required")) {
+    return "MODEL is required: a robot's name, or the path of its SDF file";
+  }
+  if (dynamic_cast<const CLI::ArgumentMismatch*>(&error) == nullptr) return line;
+  const std::string name = line.substr(0, line.find(':'));
+  if (line.ends_with(" missing")) return name + " needs a value";
+  if (line.find("At Most 1 ") != std::string::npos) return name + " is given more than once";
+  return line;
+}
+
+/// An empty word is a mistake, mostly of a script: an unset variable must not mean "as usual".
+/// Returns the complaint, or nothing.
+std::string empty_word(int argc, char** argv) {
+  for (int i = 1; i < argc; ++i) {
+    const std::string_view word = argv[i];
+    const bool no_value = word.starts_with("--") && word.ends_with('=');
+    if (!word.empty() && !no_value) continue;
+    const std::string_view name = no_value ? word.substr(0, word.size() - 1) : argv[i - 1];
+    return fmt::format("verp: the word after {} is empty; give a value or leave it out",
+                       i == 1 && !no_value ? "verp" : name);
+  }
+  return "";
+}
+
+int answer_version(const std::string& version, bool json) {
+  if (json) {
+    Json object = Json::object();
+    for (const auto& [key, value] : record::build_info()) object[key] = value;
+    print_json(object);
+  } else {
+    answer(version + "\n");
+  }
+  return kGood;
+}
+
+int parse_failure(const CLI::App& root, const CLI::ParseError& error, bool json) {
+  const CLI::App* app = addressed(root);
+  if (error.get_exit_code() == 0) {  // --help, --version
+    const auto* version = dynamic_cast<const CLI::CallForVersion*>(&error);
+    if (version != nullptr) return answer_version(error.what(), json);
+    answer(wrapped_help(app->help(app == &root ? "" : full_name(app->get_parent())), help_width()));
+    return kGood;
+  }
+  std::string line = in_words(error);
+  std::vector<std::string> names;
+  for (const CLI::Option* option : app->get_options()) {
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  }
+  for (const CLI::App* inner : app->get_subcommands(nullptr)) names.push_back(inner->get_name());
+  const std::vector<std::string> unknown = app->remaining();
+  if (!unknown.empty()) {
+    const std::string_view word = unknown.front();
+    line = fmt::format("'{}' is not understood{}", word,
+                       did_you_mean(word.substr(0, word.find('=')), names));
+  }
+  const std::string name = full_name(app);
+  return fail(kBadInput, fmt::format("{}: {}; see `{} --help`", name, one_line(line), name), json);
+}
+
+int run(int argc, char** argv, AddCommands add_commands) {
+  keep_failing_writes();
+  const bool json = wants_json(argc, argv);
+  if (const std::string line = empty_word(argc, argv); !line.empty()) {
+    return fail(kBadInput, line, json);
+  }
+  CLI::App root("VERP: a humanoid robot's controller and its twin", "verp");
+  root.set_version_flag("--version", "verp " + record::build_info().at("source_revision"));
+  root.require_subcommand(1);
+  const std::vector<Subcommand> commands = add_commands(root);
+  // After the subcommands, which would have it too.
+  root.footer(
+      "The launcher adds `./verp test`, which checks all promises, and `./verp python FILE`, which "
+      "runs a\n"
+      "Python program with libverp.");
+  try {
+    root.parse(argc, argv);
+    for (const Subcommand& command : commands) {
+      if (command.app->parsed()) return command.run();
+    }
+  } catch (const CLI::ParseError& error) {
+    return parse_failure(root, error, json);
+  } catch (...) {
+    const Failure failure = current_failure();
+    return fail(failure.status, failure.line, json);
+  }
+  return kGood;
+}
+
+}  // namespace
+
+int run_program(int argc, char** argv, AddCommands add_commands) {
+  open_missing_streams();
+  return after_the_answer(status_if_interrupted(run(argc, argv, add_commands)));
+}
+
+}  // namespace verp::tool

@@ -1,0 +1,9 @@
+#pragma once
+#include "host/apps/demos/run.hpp"
+
+namespace verp::demos {
+
+/// Two bring a ball into a goal.
+Demo ball_demo();
+
+}  // namespace verp::demos

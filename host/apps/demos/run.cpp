@@ -1,0 +1,191 @@
+#include "host/apps/demos/run.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <deque>
+#include <stdexcept>
+
+#include "host/apps/demos/crew.hpp"
+#include "host/apps/demos/eyes.hpp"
+#include "host/apps/demos/outlines.hpp"
+#include "host/robot/model/load_world.hpp"
+#include "host/twin/sim/scenery.hpp"
+
+namespace verp::demos {
+namespace {
+
+constexpr double kAfterFall_s = 0.5;  // a picture should show how it ended
+constexpr double kAfterDone_s = 1.5;
+constexpr std::uint32_t kWatchTicks = 5;
+
+/// A demo's world, robots, radio and referee.
+class Stage {
+ public:
+  Stage(const Demo& demo, const Options& options)
+      : demo_(demo),
+        options_(options),
+        session_({.world = world_of(demo, options), .interrupted = options.interrupted}),
+        radio_(options.radio, options.seed) {
+    const int robots = options.robots > 0 ? options.robots : demo.usual;
+    if (robots < demo.fewest || robots > demo.most) {
+      throw std::invalid_argument(fmt::format("{}: {} robots; it is for {} to {}", demo.name,
+                                              robots, demo.fewest, demo.most));
+    }
+    for (int i = 0; i < robots; ++i) {
+      Member& member = crew_.emplace_back(demo, options, i, robots);
+      Member::Look look;
+      if (demo.cameras) {
+        look = [this](const sim::Exposure& exposure) { return eyes_->look(exposure); };
+      }
+      session_.add(member.plan(), member.hooks(look));
+      radio_.add();
+    }
+    if (demo.cameras) open_eyes(world_of(demo, options));
+    run_.demo = &demo;
+    if (session_.scenery() != nullptr) {
+      run_.outlines = outlines_of(session_.scenery()->data());
+      for (const model::WorldObject* object : model::moving(session_.scenery()->data()))
+        run_.things.push_back({object->name, {}});
+    }
+  }
+
+  Run run() {
+    using Clock = std::chrono::steady_clock;
+    const auto begun = Clock::now();
+    while (!over()) {
+      const session::Robot* robot = session_.tick();
+      if (robot == nullptr) break;
+      ticked(number_of(*robot));
+    }
+    run_.wall_s = std::chrono::duration<double>(Clock::now() - begun).count();
+    return result();
+  }
+
+ private:
+  static sim::WorldOptions world_of(const Demo& demo, const Options& options) {
+    sim::WorldOptions world;
+    world.step_us = options.physics_step_us;
+    const std::string& name = options.world.empty() ? demo.world : options.world;
+    if (name.empty()) return world;
+    return sim::furnished(world, model::load_world(model::find_world(name)));
+  }
+
+  void open_eyes(const sim::WorldOptions& world) {
+    std::vector<const session::WalkPlan*> plans;
+    for (const Member& member : crew_) plans.push_back(&member.plan());
+    eyes_ = std::make_unique<Eyes>(plans, world);
+  }
+
+  double now_s() const { return 1e-6 * static_cast<double>(session_.now_us()); }
+  double for_s() const { return options_.for_s > 0 ? options_.for_s : demo_.length_s; }
+
+  int number_of(const session::Robot& robot) {
+    for (std::size_t i = 0; i < session_.size(); ++i) {
+      if (&session_.robot(i) == &robot) return static_cast<int>(i);
+    }
+    throw std::logic_error("a robot that is not of this session");
+  }
+
+  bool over() {
+    if (options_.interrupted && options_.interrupted()) return run_.interrupted = true;
+    bool done = true;
+    for (const Member& member : crew_) {
+      if (member.track().fell_s && now_s() > *member.track().fell_s + kAfterFall_s) return true;
+      done = done && member.track().done_s.has_value();
+      done = done && now_s() > *member.track().done_s + kAfterDone_s;
+    }
+    return done || now_s() >= for_s();
+  }
+
+  /// That robot has done a tick: its radio, its brain, and, with the first, the referee.
+  void ticked(int number) {
+    Member& member = crew_[static_cast<std::size_t>(number)];
+    radio_.advance(session_.now_us(), antennas());
+    for (radio::Heard& heard : radio_.take(number)) {
+      member.note_radio("heard", static_cast<std::int64_t>(heard.number), heard.from, number,
+                        heard.data);
+      member.computer().heard(heard.from, std::move(heard.data));
+    }
+    if (member.computer().due()) think(number, member);
+    if (number == 0 && member.tick() % kWatchTicks == 0) watch();
+  }
+
+  void think(int number, Member& member) {
+    const brain::Orders& orders = member.computer().think([&](const brain::Senses& senses) {
+      if (options_.spy) options_.spy(number, senses);
+    });
+    for (const brain::ToSay& say : orders.say) {
+      const auto count = static_cast<std::int64_t>(radio_.sent());
+      const radio::Sent sent = radio_.send(number, say.to, say.data, session_.now_us());
+      constexpr const char* kEvents[] = {"said", "too long", "too many", "nobody"};
+      const bool went = sent == radio::Sent::kOnItsWay;
+      member.note_radio(kEvents[static_cast<int>(sent)], went ? count : -1, number, say.to,
+                        say.data);
+    }
+  }
+
+  std::vector<radio::Place> antennas() {
+    std::vector<radio::Place> places;
+    for (std::size_t i = 0; i < session_.size(); ++i) {
+      const sim::Vec3 at = session_.robot(i).twin().body().link_pose(0).translation();
+      places.push_back({at.x(), at.y(), at.z()});
+    }
+    return places;
+  }
+
+  void watch() {
+    for (std::size_t i = 0; i < session_.size(); ++i) {
+      crew_[i].watch(session_.robot(i).twin(), now_s());
+    }
+    if (session_.scenery() != nullptr) {
+      const std::vector<sim::Transform> poses = session_.scenery()->moving_poses();
+      for (std::size_t i = 0; i < run_.things.size(); ++i) {
+        const sim::Vec3 at = poses[i].translation();
+        run_.things[i].at_m.push_back({at.x(), at.y()});
+      }
+    }
+    if (options_.went_on) options_.went_on(now_s() / for_s());
+  }
+
+  Run result() {
+    run_.length_s = now_s();
+    for (std::size_t i = 0; i < crew_.size(); ++i) {
+      crew_[i].close(session_.result(i));
+      run_.robots.push_back(crew_[i].track());
+    }
+    run_.radio.sent = radio_.sent();
+    run_.radio.refused = radio_.refused();
+    for (const radio::Outcome& each : radio_.take_outcomes())
+      ++run_.radio.fates[static_cast<std::size_t>(each.fate)];
+    run_.verdict = judged();
+    return std::move(run_);
+  }
+
+  /// Whatever a demo is about, nobody may fall.
+  Verdict judged() const {
+    Verdict verdict = demo_.judge(run_);
+    for (const Track& track : run_.robots) {
+      if (track.fell_s)
+        verdict.failure = fmt::format("{} fell after {:.1f} s", track.name, *track.fell_s);
+    }
+    return verdict;
+  }
+
+  const Demo& demo_;
+  const Options& options_;
+  std::deque<Member> crew_;
+  session::Session session_;
+  radio::Radio radio_;
+  std::unique_ptr<Eyes> eyes_;  ///< null: nobody looks
+  Run run_;
+};
+
+}  // namespace
+
+Run run(const Demo& demo, const Options& options) {
+  return Stage(demo, options).run();
+}
+
+}  // namespace verp::demos

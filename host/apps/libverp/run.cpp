@@ -1,0 +1,205 @@
+#include "host/apps/libverp/run.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include "common/control/step.hpp"
+#include "common/model/counts.hpp"
+#include "common/record/digest.hpp"
+#include "host/apps/libverp/failure.hpp"
+#include "host/apps/libverp/moment.hpp"
+#include "host/apps/libverp/robot_file.hpp"
+#include "host/apps/libverp/velocity.hpp"
+#include "host/run/session/stride.hpp"
+#include "host/trace/record/trace_error.hpp"
+
+namespace verp::abi {
+namespace {
+
+constexpr double kMostSpeed_m_s = 3, kMostTurn_rad_s = 30, kFar_m = 1000, kMostWalk_s = 1e6;
+
+double within(double value, double most, const char* name) {
+  if (std::abs(finite(value, name)) <= most) return value;
+  throw Failure(VERP_BAD_ARGUMENT,
+                fmt::format("{} may be {:g} to {:g}, not {:g}", name, -most, most, value));
+}
+
+std::string text_or_empty(const char* text) {
+  return text == nullptr ? "" : text;
+}
+
+void copy(const sim::Vec3& from, double* to) {
+  std::copy_n(from.data(), 3, to);
+}
+
+}  // namespace
+
+Command velocity_of(double vx_m_s, double vy_m_s, double wz_rad_s) {
+  Command command;
+  command.vx_tenth_mm_s =
+      static_cast<std::int16_t>(std::lround(1e4 * within(vx_m_s, kMostSpeed_m_s, "vx_m_s")));
+  command.vy_tenth_mm_s =
+      static_cast<std::int16_t>(std::lround(1e4 * within(vy_m_s, kMostSpeed_m_s, "vy_m_s")));
+  command.wz_mrad_s =
+      static_cast<std::int16_t>(std::lround(1e3 * within(wz_rad_s, kMostTurn_rad_s, "wz_rad_s")));
+  return command;
+}
+
+Seat::Seat(const verp_robot& what, std::uint32_t index) : index_(index) {
+  need_text_or_null(what.name, "name");
+  need_text_or_null(what.record, "record");
+  Loaded loaded = load(what.model, what.bus, what.tuning);
+  plan_.entity = std::move(loaded.entity);
+  plan_.params = loaded.params;
+  plan_.asked = velocity_of(what.vx_m_s, what.vy_m_s, what.wz_rad_s);
+  const session::Followed followed = session::within_servo_speed(plan_.params, *plan_.asked);
+  plan_.velocity = followed.velocity;
+  plan_.remark = followed.remark;
+  plan_.name = text_or_empty(what.name);
+  plan_.twin.seed = what.seed;
+  plan_.twin.cameras = true;  // some poses at each look; what is seen is drawn when it is asked for
+  plan_.twin.start_m = {within(what.x_m, kFar_m, "x_m"), within(what.y_m, kFar_m, "y_m"), 0};
+  plan_.twin.start_yaw_rad = within(what.yaw_rad, kFar_m, "yaw_rad");
+  if (what.walk_s < 0) throw Failure(VERP_BAD_ARGUMENT, "walk_s is negative");
+  plan_.walk_s = within(what.walk_s, kMostWalk_s, "walk_s");
+  if ((what.flags & ~std::uint32_t{VERP_OPEN_END}) != 0)
+    throw Failure(VERP_BAD_ARGUMENT, "what->flags has more than VERP_OPEN_END");
+  own_orders_ = what.walk_s == 0;
+  open_end_ = own_orders_ || (what.flags & VERP_OPEN_END) != 0;
+  if (own_orders_) orders_.take({});
+  if (what.record != nullptr) open_trace(what.record);
+}
+
+void Seat::open_trace(const char* file) {
+  const Command& v = plan_.velocity;
+  trace_ = std::make_unique<record::TraceWriter>(
+      file, plan_.params,
+      record::mcap::StringMap{{"robot", plan_.params.name},
+                              {"model_file", plan_.entity.file},
+                              {"seed", std::to_string(plan_.twin.seed)},
+                              {"velocity", fmt::format("{:g},{:g},{:g}", 1e-4 * v.vx_tenth_mm_s,
+                                                       1e-4 * v.vy_tenth_mm_s, 1e-3 * v.wz_mrad_s)},
+                              {"walk_s", fmt::format("{}", plan_.walk_s)},
+                              {"controller", "libverp"}});
+}
+
+session::Hooks Seat::hooks() {
+  session::Hooks hooks;
+  if (own_orders_) hooks.order = [](std::uint32_t) { return app::OperatorOrder{}; };
+  hooks.amend = [this](std::uint32_t tick, app::OperatorOrder& order) {
+    orders_.amend(tick, order);
+  };
+  hooks.decide = [this](const Params& params, State& state, const Inputs& inputs,
+                        Outputs& outputs) { decide(params, state, inputs, outputs); };
+  hooks.ticked = [this](const session::Tick& tick) { ticked(tick); };
+  hooks.trace = trace_.get();
+  hooks.open_end = open_end_;
+  return hooks;
+}
+
+void Seat::decide(const Params& params, State& state, const Inputs& inputs, Outputs& outputs) {
+  if (controller_ == nullptr) return step(params, state, inputs, outputs);
+  Moment moment(params, state, inputs, outputs);
+  deciding_ = inputs.tick;
+  const int answer = moment.run(controller_, user_, index_);
+  if (answer != 0) {
+    throw Failure(VERP_CALLBACK_FAILED, fmt::format("the controller of robot {} gave {} at tick {}",
+                                                    index_, answer, inputs.tick));
+  }
+  deciding_.reset();
+  if (moment.decided()) return;
+  // The core did not see this tick, so that its digest says nothing of it.
+  record::Digest32 digest(0);
+  digest.add_struct(inputs);
+  digest.add_struct(outputs);
+  state.digest.chain = record::chain(state.digest.chain, digest.value());
+}
+
+void Seat::note_radio(record::ros::Radio radio) {
+  if (!trace_ || !radio_failure_.empty()) return;
+  radio.tick = tick_;
+  try {
+    trace_->append("/radio", record::ros::kRadio,
+                   std::uint64_t{1000} * tick_ * plan_.params.period_us, record::ros::radio(radio));
+  } catch (const record::TraceError& error) {  // a disk that is full costs the trace, not the run
+    radio_failure_ = error.what();
+  }
+}
+
+void Seat::ticked(const session::Tick& tick) {
+  state_ = *tick.state;
+  tick_ = tick.record->inputs.tick;
+  if (view_ != nullptr) write_view(tick);
+}
+
+void Seat::write_view(const session::Tick& tick) {
+  verp_tick& to = *view_;
+  const sim::Truth& from = tick.seen.truth;
+  to.size = sizeof to;
+  to.robot = index_;
+  to.time_s = from.t_s;
+  to.gone_s = tick.gone_s;
+  to.digest = digest();
+  std::memcpy(&to.inputs, &tick.record->inputs, sizeof to.inputs);
+  std::memcpy(&to.outputs, tick.outputs, sizeof to.outputs);
+  for (int j = 0; j < plan_.params.joint_count; ++j) {
+    const JointParams& joint = plan_.params.joint[j];
+    to.joint_rad[j] = model::angle_of(joint, to.inputs.position_count[j]);
+    to.goal_rad[j] = model::angle_of(joint, to.outputs.goal_count[j]);
+  }
+  verp_truth& truth = to.truth;
+  const Eigen::Quaterniond turned(from.body_world.linear());
+  copy(from.body_world.translation(), truth.body_m);
+  std::copy_n(turned.coeffs().data(), 4, truth.body_quaternion);
+  copy({from.roll_rad, from.pitch_rad, from.yaw_rad}, truth.body_rpy_rad);
+  copy(from.body_velocity_world_m_s, truth.body_m_s);
+  copy(from.body_rate_world_rad_s, truth.body_rad_s);
+  copy(from.com_world_m, truth.com_m);
+  copy(from.com_velocity_world_m_s, truth.com_m_s);
+  std::copy_n(from.zmp_world_m.data(), 2, truth.zmp_m);
+  for (std::size_t side = 0; side < 2; ++side) {
+    truth.foot_n[side] = from.foot[side].normal_force_n;
+    copy(from.foot[side].sole_world.translation(), truth.sole_m[side]);
+  }
+  std::ranges::copy(from.joint_rad, truth.joint_rad);
+  std::ranges::copy(from.joint_rad_s, truth.joint_rad_s);
+  std::ranges::copy(from.torque_n_m, truth.torque_n_m);
+  truth.zmp_valid = from.zmp_valid;
+  truth.held = from.held;
+  truth.fallen = from.fallen;
+  truth.joints = plan_.params.joint_count;
+}
+
+const session::WalkResult& Seat::finish(session::Session& session, const std::string& diverged) {
+  if (result_) return *result_;
+  result_ = session.result(index_);
+  if (result_->failure.empty()) result_->failure = diverged;
+  // Who did not look at what that tick gave finds it here.
+  if (deciding_)
+    result_->failure =
+        fmt::format("the controller of robot {} failed at tick {}", index_, *deciding_);
+  if (!trace_) return *result_;
+  const std::unique_ptr<record::TraceWriter> trace = std::move(trace_);
+  if (!result_->trace_failure.empty()) throw Failure(VERP_BAD_FILE, result_->trace_failure);
+  if (!radio_failure_.empty()) throw Failure(VERP_BAD_FILE, radio_failure_);
+  trace->close({{"digest", fmt::format("0x{:016x}", result_->digest)},
+                {"failure", result_->failure},
+                {"interrupted", "no"}});
+  return *result_;
+}
+
+void Run::finish() {
+  ended = true;
+  for (const auto& seat : seats) seat->finish(session, diverged);
+}
+
+Seat& Run::seat(std::uint32_t index) {
+  if (index < seats.size()) return *seats[index];
+  throw Failure(VERP_BAD_ARGUMENT,
+                fmt::format("there is no robot {}: the session has {}", index, seats.size()));
+}
+
+}  // namespace verp::abi

@@ -1,0 +1,84 @@
+#pragma once
+#include <cstdint>
+#include <deque>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "host/apps/libverp/air.hpp"
+#include "host/apps/libverp/sight.hpp"
+#include "host/apps/libverp/verp.h"
+#include "host/run/session/live_orders.hpp"
+#include "host/run/session/session.hpp"
+#include "host/trace/record/ros_radio.hpp"
+#include "host/trace/record/trace_writer.hpp"
+
+/// What stands behind a verp_session.
+namespace verp::abi {
+
+/// One robot of it, with what its user wants of it: hooks look here, so it may change at any time.
+class Seat {
+ public:
+  Seat(const verp_robot& what, std::uint32_t index);
+
+  const session::WalkPlan& plan() const { return plan_; }
+  session::Hooks hooks();
+
+  void view(verp_tick* tick) { view_ = tick; }
+  void control(verp_controller controller, void* user) {
+    controller_ = controller;
+    user_ = user;
+  }
+  session::LiveOrders& orders() { return orders_; }
+  /// Nobody but this library's user gives it orders.
+  bool own_orders() const { return own_orders_; }
+  /// In force.
+  const Tuning& tuning() const {
+    return state_.admit.started != 0 ? state_.tuning : plan_.params.tuning;
+  }
+  /// After its last tick.
+  const State& state() const { return state_; }
+  std::uint64_t digest() const { return state_.digest.chain; }
+  /// Into its trace, with its last tick.
+  void note_radio(record::ros::Radio radio);
+
+  /// The end: what came of it, and a trace that is whole. Later calls give the same.
+  const session::WalkResult& finish(session::Session& session, const std::string& diverged);
+
+ private:
+  void open_trace(const char* file);
+  void decide(const Params& params, State& state, const Inputs& inputs, Outputs& outputs);
+  void ticked(const session::Tick& tick);
+  void write_view(const session::Tick& tick);
+
+  const std::uint32_t index_;
+  session::WalkPlan plan_;
+  bool open_end_ = false, own_orders_ = false;
+  std::unique_ptr<record::TraceWriter> trace_;
+  session::LiveOrders orders_;
+  verp_controller controller_ = nullptr;
+  void* user_ = nullptr;
+  verp_tick* view_ = nullptr;
+  State state_;
+  std::uint32_t tick_ = 0;
+  std::optional<std::uint32_t> deciding_;  ///< the tick in which its controller is, or failed
+  std::string radio_failure_;              ///< why the trace takes no further messages
+  std::optional<session::WalkResult> result_;
+};
+
+struct Run {
+  explicit Run(const session::Options& options) : session(options), sight(options.world) {}
+  Seat& seat(std::uint32_t index);
+
+  std::deque<std::unique_ptr<Seat>> seats;  ///< outlive the session, whose hooks look at them
+  session::Session session;
+  Sight sight;
+  std::optional<Air> air;  ///< none: nobody has a radio
+  bool begun = false, ended = false;
+  std::string diverged;  ///< why its world is over: the physics gave up. Empty: it is not
+
+  /// The end of all robots' runs.
+  void finish();
+};
+
+}  // namespace verp::abi

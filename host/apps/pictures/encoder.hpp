@@ -1,0 +1,33 @@
+#pragma once
+#include <memory>
+#include <string>
+
+#include "host/os/files/temporary_directory.hpp"
+#include "host/os/process/child.hpp"
+#include "host/show/render/renderer.hpp"
+
+namespace verp::pictures {
+
+/// ffmpeg beside us, which gets one picture after the other. The file appears when it is whole.
+class Encoder {
+ public:
+  /// .mp4, .gif or .webp. Throws ToolError: there is no ffmpeg.
+  Encoder(const std::string& file, render::Size size, int frames_per_s);
+  ~Encoder();
+  Encoder(const Encoder&) = delete;
+  Encoder& operator=(const Encoder&) = delete;
+
+  /// Throws ToolError with ffmpeg's own last line when it ended.
+  void add(const render::Image& image);
+  void finish();
+
+ private:
+  [[noreturn]] void fail();
+
+  const std::string file_, part_;
+  files::TemporaryDirectory folder_;
+  int pipe_ = -1;
+  std::unique_ptr<process::Child> ffmpeg_;
+};
+
+}  // namespace verp::pictures

@@ -1,0 +1,31 @@
+#include <utility>
+
+#include "host/apps/cli/exit_status.hpp"
+#include "host/apps/cli/program.hpp"
+#include "host/apps/pictures/commands.hpp"
+#include "host/show/render/renderer.hpp"
+
+namespace {
+
+/// A size that the driver cannot draw, a picture that cannot be written: what was asked, not a bug.
+verp::tool::Subcommand told(verp::tool::Subcommand command) {
+  command.run = [run = std::move(command.run)] {
+    try {
+      return run();
+    } catch (const verp::render::RenderError& error) {
+      throw verp::tool::ToolError(verp::tool::kBadInput, error.what());
+    }
+  };
+  return command;
+}
+
+std::vector<verp::tool::Subcommand> commands(CLI::App& root) {
+  return {told(verp::pictures::add_shot(root)), told(verp::pictures::add_video(root))};
+}
+
+}  // namespace
+
+/// `verp shot` and `verp video`: a program of its own, so that `verp` needs no OpenGL.
+int main(int argc, char** argv) {
+  return verp::tool::run_program(argc, argv, commands);
+}

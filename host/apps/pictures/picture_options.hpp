@@ -1,0 +1,37 @@
+#pragma once
+#include <string>
+
+#include "host/show/render/renderer.hpp"
+
+namespace CLI {
+class App;
+}
+
+namespace verp::pictures {
+
+/// What shot and video have in common.
+struct PictureOptions {
+  std::string file;
+  std::string camera = "three-quarter";
+  std::string size_text = "1280x720";
+  bool marks = false;
+  render::Effects effects;
+};
+
+void declare_picture(CLI::App& app, PictureOptions& options, const std::string& file_help);
+
+/// Width and height of --size. Throws ToolError.
+render::Size size_of(const std::string& command, const PictureOptions& options);
+
+/// With --marks, those as well.
+render::Effects effects_of(const PictureOptions& options);
+
+/// The view that --camera names. Throws ToolError with the names there are.
+scene::Camera camera_of(const std::string& command, const PictureOptions& options,
+                        const scene::Scene& scene, const scene::Snapshot& now, render::Size size);
+
+/// The folder of the file is there, and its name ends in one of these. Throws ToolError.
+void require_place(const std::string& command, const std::string& file,
+                   const std::vector<std::string>& endings);
+
+}  // namespace verp::pictures

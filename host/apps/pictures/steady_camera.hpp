@@ -1,0 +1,25 @@
+#pragma once
+#include <optional>
+
+#include "host/show/scene/camera.hpp"
+
+namespace verp::pictures {
+
+/// A person with a camera beside the robot: goes along, does not sway with it.
+class SteadyCamera {
+ public:
+  scene::Camera follow(scene::Camera wanted) {
+    constexpr double kShare = 0.06;  // of the way, each picture
+    if (last_) {
+      wanted.eye_m = last_->eye_m + kShare * (wanted.eye_m - last_->eye_m);
+      wanted.target_m = last_->target_m + kShare * (wanted.target_m - last_->target_m);
+    }
+    last_ = wanted;
+    return wanted;
+  }
+
+ private:
+  std::optional<scene::Camera> last_;
+};
+
+}  // namespace verp::pictures

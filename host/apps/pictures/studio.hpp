@@ -1,0 +1,33 @@
+#pragma once
+#include <array>
+#include <functional>
+#include <vector>
+
+#include "host/apps/pictures/film.hpp"
+#include "host/show/render/offscreen_context.hpp"
+#include "host/show/render/renderer.hpp"
+
+namespace verp::pictures {
+
+/// A renderer without a window, with a film's scene in it. What cannot be drawn of it, it tells.
+/// Throws ToolError when there is no driver.
+class Studio {
+ public:
+  explicit Studio(const Film& film);
+  render::Renderer& renderer() { return *renderer_; }
+
+  using CameraOf = std::function<scene::Camera(const scene::Snapshot&, render::Size)>;
+  /// All in one picture of this size, in rows of eight, numbered from 0.
+  render::Image filmstrip(const std::vector<scene::Snapshot>& states, render::Size size,
+                          const CameraOf& camera, const render::Effects& effects);
+
+ private:
+  std::unique_ptr<render::OffscreenContext> context_;
+  std::unique_ptr<render::Renderer> renderer_;
+};
+
+/// Of a segmentation label: neighbours in number differ in hue.
+std::array<std::uint8_t, 3> colour_of(int label);
+render::Image coloured(const render::Measured& measured);
+
+}  // namespace verp::pictures

@@ -1,0 +1,241 @@
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "host/apps/cli/command.hpp"
+#include "host/apps/cli/console.hpp"
+#include "host/apps/cli/interrupt.hpp"
+#include "host/apps/cli/json.hpp"
+#include "host/apps/tool/hil_run.hpp"
+#include "host/apps/tool/walk_ending.hpp"
+#include "host/apps/tool/walk_plan.hpp"
+#include "host/apps/tool/walk_report.hpp"
+#include "host/apps/tool/walk_touch.hpp"
+#include "host/os/link/endpoint.hpp"
+#include "host/os/link/latency.hpp"
+#include "host/robot/model/find.hpp"
+#include "host/robot/model/load.hpp"
+#include "host/robot/model/params.hpp"
+#include "host/twin/bus/link_fit.hpp"
+
+namespace verp::tool {
+namespace {
+
+struct HilWords {
+  WalkOptions walk;
+  session::ServeOptions hil;
+  bool lockstep = false, real_time = false;
+};
+
+WalkPlan plan_of(const WalkOptions& options, bool tells) {
+  WalkPlan plan;
+  plan.entity = model::load_robot(model::find_model(options.model), options.bus);
+  plan.params = model::make_params(plan.entity);
+  ask_for_walk(options, plan);
+  plan.twin.seed = options.seed;
+  plan.board = options.board;
+  if (tells) {
+    prepare_falls(options, plan);
+  } else {  // the controller's actions are its own business
+    plan.twin.lies = lies_of(options);
+    const bool may = options.get_up || plan.twin.lies != sim::Lies::kNo;
+    plan.get_ups = may ? session::kGetUpTries : 0;
+  }
+  read_touch(options.touch, plan, {}, {});
+  return plan;
+}
+
+void check(HilWords& words, const Params& params) {
+  if (words.real_time && !words.hil.operator_link.empty()) {
+    throw ToolError(kBadInput,
+                    "verp hil: --operator gives orders tick by tick, which takes lockstep; leave "
+                    "out --realtime or --operator");
+  }
+  words.hil.pace = words.lockstep    ? session::Pace::kLockstep
+                   : words.real_time ? session::Pace::kRealTime
+                                     : session::Pace::kAuto;
+  const wire::Endpoint endpoint = wire::parse_endpoint(words.hil.link);
+  require_fit("verp hil", words.hil.link, params);
+  if (endpoint.kind != wire::Endpoint::Kind::kSerial) return;
+  if (words.real_time) {
+    const std::string trouble = bus::adapter_too_slow(params, endpoint);
+    if (!trouble.empty()) throw ToolError(kNoDevice, "verp hil: " + trouble);
+  }
+  const std::string advice = wire::latency_advice(endpoint.place);
+  if (!advice.empty()) complain("verp hil: " + advice);
+}
+
+Json to_json(const HilResult& result) {
+  Json link = {{"losses", result.losses}, {"overruns", result.overruns}};
+  if (result.real_time) {
+    if (result.can) {
+      link["frames"] = result.can->heard;
+      link["dropped"] = result.can->dropped;
+      link["skipped_us"] = result.can->skipped_us;
+    } else {
+      link["bytes"] = result.realtime.bytes;
+      link["lost"] = result.realtime.lost;
+      link["skipped_us"] = result.realtime.skipped_us;
+    }
+    link["late"] = result.realtime.late;
+    link["worst_late_us"] = result.realtime.worst_late_us;
+  } else {
+    link["polls"] = result.lockstep.polls;
+    link["repeats"] = result.lockstep.repeats;
+    link["damaged"] = result.lockstep.damaged;
+    link["greetings"] = result.lockstep.greetings;
+  }
+  return {{"pace", result.real_time ? "real time" : "lockstep"},
+          {"ticks_per_s", result.ticks_per_s()},
+          {"compared_ticks", result.compared},
+          {"controller_resets", result.resets},
+          {"link", link}};
+}
+
+std::string to_text(const HilResult& result) {
+  std::string out = fmt::format("  {:<18}{:.0f}, {}\n", "ticks per second", result.ticks_per_s(),
+                                result.real_time ? "in real time" : "in lockstep");
+  out += result.compared > 0
+             ? fmt::format("  {:<18}{} ticks told by the controller, all equal to this PC's\n",
+                           "digests", result.compared)
+             : fmt::format("  {:<18}none compared{}\n", "digests",
+                           result.real_time ? " in real time; `verp shadow` beside it does" : "");
+  if (result.resets > 0) {
+    out += fmt::format("  {:<18}{} times; what is told of it is of the last start\n",
+                       "controller reset", result.resets);
+  }
+  if (result.can) {
+    out += fmt::format("  {:<18}{} frames heard, {} dropped\n", "master", result.can->heard,
+                       result.can->dropped);
+  }
+  if (result.real_time && !result.can && result.realtime.lost > 0) {
+    out += fmt::format("  {:<18}{} that came while a servo was answering\n", "lost requests",
+                       result.realtime.lost);
+  }
+  const std::uint64_t skipped_us = result.can ? result.can->skipped_us : result.realtime.skipped_us;
+  if (skipped_us > 0) {
+    out += fmt::format("  {:<18}{:.1f} s of the clock, in which this PC was too slow\n", "skipped",
+                       1e-6 * static_cast<double>(skipped_us));
+  }
+  if (result.real_time) {
+    out += fmt::format("  {:<18}{} times over 1 ms, worst {:.1f} ms; link lost {} times\n", "late",
+                       result.realtime.late,
+                       1e-3 * static_cast<double>(result.realtime.worst_late_us), result.losses);
+  } else {
+    out += fmt::format("  {:<18}{} polls, {} answered again, {} damaged; lost {} times\n", "link",
+                       result.lockstep.polls, result.lockstep.repeats, result.lockstep.damaged,
+                       result.losses);
+  }
+  return out;
+}
+
+/// Of a controller that told nothing, only what became of the robot is known.
+int answer_served(const WalkPlan& plan, const WalkOptions& options, const HilResult& result) {
+  const WalkResult& walk = result.walk;
+  if (options.json) {
+    Json json = {{"model", plan.params.name},
+                 {"controller", plan.board},
+                 {"ticks", walk.ticks},
+                 {"simulated_s", walk.simulated_s},
+                 {"fallen", walk.metrics.fallen},
+                 {"let_go_and_lies", result.lay_down},
+                 {"fall_story", fall_story_json(walk)},
+                 {"set_upright_s", walk.set_upright_s},
+                 {"met", result.met},
+                 {"interrupted", walk.interrupted},
+                 {"failure", walk.failure},
+                 {"real_time_factor", walk.real_time_factor()}};
+    json.update(to_json(result));
+    print_json(json);
+  } else {
+    answer(fmt::format("{}: served {:.1f} s{}\n", plan.params.name, walk.simulated_s,
+                       walk.metrics.fallen ? "; the robot fell"
+                       : result.lay_down   ? "; the robot was let go, and lies"
+                                           : "") +
+           to_text(result));
+  }
+  if (!walk.failure.empty()) complain("verp hil: " + walk.failure);
+  if (!walk.failure.empty()) return result.device_trouble ? kNoDevice : kRunFailed;
+  // One that serves is ended by Ctrl-C; one whom nobody asked for anything has not served.
+  if (result.met) return kGood;
+  complain("verp hil: interrupted before anybody came");
+  return kRunFailed;
+}
+
+/// Without an operator's port nobody is told how to walk, and nobody tells what the controller saw.
+void refuse_without_operator(const CLI::App& app) {
+  constexpr const char* kNeedIt[] = {"--record", "--record-state", "--compress", "--report",
+                                     "--step",   "--velocity",     "--live"};
+  for (const char* word : kNeedIt) {
+    const CLI::Option* option = app.get_option_no_throw(word);
+    if (option == nullptr || option->count() == 0) continue;
+    throw ToolError(kBadInput,
+                    fmt::format("verp hil: {} needs --operator, which alone takes orders to the "
+                                "controller and brings what it tells; give it or leave out {}",
+                                word, word));
+  }
+}
+
+int run_hil(const CLI::App& app, HilWords words) {
+  WalkOptions& options = words.walk;
+  options.board = words.hil.link;
+  const bool tells = !words.hil.operator_link.empty();
+  const WalkPlan plan = plan_of(options, tells);
+  check(words, plan.params);
+  if (!tells) refuse_without_operator(app);
+  if (tells && options.report_folder.empty() && !options.json) options.report_folder = "report";
+  LiveStream live("verp hil", options.live);
+  WalkFiles files(options, plan, live.robot());
+  live.wait_for_viewer();
+  Progress progress(!options.json);
+  const HilResult result =
+      serve_controller(plan, words.hil, files.trace(), progress, files.wants_report());
+  if (!tells) return answer_served(plan, options, result);
+  live.finish();
+  Json more = to_json(result);
+  live.add_to(more);
+  more["changes"] = touch_json(result.walk);
+  const int status = finish_walk(plan, options, files, result.walk, {}, more,
+                                 touch_text(result.walk) + to_text(result) + live.text());
+  // Who ends it while a link is silent has still ended it.
+  const bool device = result.device_trouble && !result.walk.interrupted;
+  return status != kGood && device ? kNoDevice : status;
+}
+
+}  // namespace
+
+Subcommand add_hil(CLI::App& root) {
+  CLI::App* app =
+      root.add_subcommand("hil", "Hardware in the loop: the twin answers a controller on a link");
+  auto words = std::make_shared<HilWords>();
+  words->walk.command = words->walk.touch.command = "verp hil";
+  declare_basics(*app, words->walk);
+  declare_falls(*app, words->walk);
+  declare_push(*app, words->walk.touch);
+  app->get_option("--get-up")
+      ->description(
+          "a fall ends nothing: with --operator the robot gets up by the controller's own actions "
+          "and "
+          "walks on; without, whoever drives it may get it up");
+  declare_live(*app, words->walk.live);
+  app->get_option("--for")->description(
+      "with --operator: length of the gait, all three phases, s; without: how long the robot is "
+      "served from when a servo first has torque, s, or until Ctrl-C, which is no failure then");
+  app->add_option("--link", words->hil.link,
+                  "the controller's servo bus: serial:DEVICE@BAUD, pty:PATH, tcp:HOST:PORT, "
+                  "tcp-listen:PORT, unix:PATH, unix-listen:PATH or can:INTERFACE")
+      ->required();
+  app->add_option("--operator", words->hil.operator_link,
+                  "its operator's port: orders go there, digests come back");
+  CLI::Option* lockstep = app->add_flag("--lockstep", words->lockstep,
+                                        "time stands until the controller announces lockstep");
+  app->add_flag("--realtime", words->real_time, "time goes on by the clock on the wall")
+      ->excludes(lockstep);
+  return {app, [app, words] {
+            catch_interrupts();
+            return run_hil(*app, *words);
+          }};
+}
+
+}  // namespace verp::tool

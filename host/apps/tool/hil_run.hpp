@@ -1,0 +1,20 @@
+#pragma once
+#include "host/apps/tool/walk_run.hpp"
+#include "host/run/session/served.hpp"
+
+namespace verp::tool {
+
+struct HilResult : session::ServedResult {
+  WalkResult walk;
+
+  double ticks_per_s() const {
+    return walk.wall_s > 0 ? static_cast<double>(walk.ticks) / walk.wall_s : 0;
+  }
+};
+
+/// The twin of plan.entity answers a controller at the other end of a link (session::Served), until
+/// it or the walk is over; tells on stderr what happens. Throws what opening a link throws.
+HilResult serve_controller(const WalkPlan& plan, session::ServeOptions options,
+                           record::TraceWriter* trace, Progress& progress, bool keep_series);
+
+}  // namespace verp::tool

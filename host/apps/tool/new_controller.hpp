@@ -1,0 +1,9 @@
+#pragma once
+#include "host/apps/cli/command.hpp"
+
+namespace verp::tool {
+
+/// `verp new controller`, below `new`.
+Subcommand add_new_controller(CLI::App& parent);
+
+}  // namespace verp::tool

@@ -1,0 +1,99 @@
+#include "host/apps/tool/own_controller.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <memory>
+
+#include "host/apps/cli/console.hpp"
+#include "host/apps/cli/exit_status.hpp"
+#include "host/apps/tool/firmware_build.hpp"
+#include "host/os/files/places.hpp"
+#include "host/run/own/loaded.hpp"
+
+namespace verp::tool {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The folder as it is named everywhere, with a build/ that can be written.
+fs::path checked(const std::string& words) {
+  std::error_code error;
+  if (!fs::exists(files::source_dir() / "toolchains" / "own_controller.cmake", error)) {
+    throw ToolError(kBadInput,
+                    "--controller: a controller is built on VERP's sources, which an "
+                    "installed verp has none of; take the ./verp of a clone");
+  }
+  const fs::path folder = fs::weakly_canonical(words, error), build = folder / "build";
+  for (const char* file : {"controller.hpp", "CMakeLists.txt"}) {
+    if (fs::exists(folder / file, error)) continue;
+    throw ToolError(kBadInput, fmt::format("--controller {}: has no {}; `verp new controller NAME` "
+                                           "lays out a folder that has",
+                                           words, file));
+  }
+  fs::create_directories(build, error);
+  if (!error && ::access(build.c_str(), W_OK) == 0) return folder;
+  throw ToolError(kBadInput, fmt::format("--controller {}: {} cannot be written; copy the folder "
+                                         "to where you may write",
+                                         words, build.string()));
+}
+
+fs::path lock_of(const fs::path& folder) {
+  return folder / "build" / ".lock";
+}
+
+fs::path log_of(const fs::path& folder) {
+  return folder / "build" / "failed.log";
+}
+
+}  // namespace
+
+std::function<session::Decide()> own_controller(const std::string& words, bool show) {
+  const fs::path folder = checked(words), tree = folder / "build" / "pc";
+  Progress progress(show);
+  std::error_code error;
+  if (!fs::exists(tree / "build.ninja", error)) {
+    run_build({"cmake", "-S", folder.string(), "-B", tree.string(), "-G", "Ninja",
+               "-DCMAKE_BUILD_TYPE=Release", "-DVERP_ROOT=" + files::source_dir().string(),
+               "-DVERP_BUILD=" + files::build_dir().string()},
+              lock_of(folder), log_of(folder), progress);
+  }
+  run_build({"cmake", "--build", tree.string()}, lock_of(folder), log_of(folder), progress);
+  const auto loaded = std::make_shared<const own::Loaded>(folder, tree / "controller.so");
+  return [loaded] { return own::Loaded::controller(loaded); };
+}
+
+std::string build_firmware_of(const std::string& words, const std::string& board,
+                              const std::string& target, Progress& progress) {
+  const fs::path folder = checked(words), tree = folder / "build" / ("fw-" + board);
+  std::error_code error;
+  if (!fs::exists(files::source_dir() / "boards" / board / "memory.ld", error))
+    throw ToolError(kBadInput,
+                    fmt::format("--controller {}: there is no board '{}'", words, board));
+  if (!fs::exists(tree, error))
+    complain(fmt::format("verp: building {} for {}: the first time takes a minute",
+                         folder.filename().string(), board));
+  build_firmware({.board = board,
+                  .target = target,
+                  .tree = tree,
+                  .settings = {"-DVERP_CONTROLLER=" + folder.string()},
+                  .log = log_of(folder),
+                  .lock = lock_of(folder)},
+                 progress);
+  return (tree / "images").string();
+}
+
+void take_controller(const std::string& folder, std::vector<session::WalkPlan>& plans, bool show) {
+  if (folder.empty()) return;
+  const std::function<session::Decide()> own = own_controller(folder, show);
+  Progress progress(show);
+  for (session::WalkPlan& plan : plans) {
+    if (!plan.link.empty()) continue;
+    plan.own = own;
+    if (!plan.board.empty())
+      plan.firmware_folder = build_firmware_of(folder, plan.board, "loop_" + plan.board, progress);
+  }
+}
+
+}  // namespace verp::tool

@@ -1,0 +1,170 @@
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <memory>
+
+#include "host/apps/cli/command.hpp"
+#include "host/apps/cli/console.hpp"
+#include "host/apps/cli/exit_status.hpp"
+#include "host/apps/cli/json.hpp"
+#include "host/apps/tool/own_controller.hpp"
+#include "host/show/web/replay_page.hpp"
+#include "host/study/report/files.hpp"
+#include "host/trace/record/replay.hpp"
+
+namespace verp::tool {
+namespace {
+
+Json to_json(const record::Divergence& divergence, const Params& params, const char* left,
+             const char* right) {
+  Json json = {{"tick", divergence.tick},
+               {"time_s", divergence.tick * (params.period_us * 1e-6)},
+               {"stage", divergence.stage},
+               {"field", nullptr},
+               {std::string("digest_") + left, divergence.left_digest},
+               {std::string("digest_") + right, divergence.right_digest},
+               {"fields_tick", divergence.fields_tick},
+               {"fields", Json::array()}};
+  if (!divergence.fields.empty()) json["field"] = divergence.fields.front().path;
+  for (const record::FieldDifference& field : divergence.fields) {
+    json["fields"].push_back({{"field", field.path}, {left, field.left}, {right, field.right}});
+  }
+  return json;
+}
+
+record::Trace load(const std::string& file, bool recover) {
+  record::Trace trace =
+      record::read_trace(file, recover ? record::Read::kRecover : record::Read::kStrict);
+  if (!trace.warning.empty()) complain(trace.warning);
+  return trace;
+}
+
+struct ReplayOptions {
+  std::string file, page, controller;
+  bool json = false, recover = false;
+};
+
+int make_page(const ReplayOptions& options) {
+  if (std::filesystem::path(options.page).extension() != ".html") {
+    throw ToolError(kBadInput, fmt::format("verp replay --page {}: a browser shows what ends in "
+                                           ".html; name it so",
+                                           options.page));
+  }
+  const web::Replay replay = web::replay_of(options.file);
+  if (replay.html.empty()) throw ToolError(kNoDevice, "verp replay --page: " + replay.note);
+  if (!replay.note.empty()) complain(replay.note);
+  report::write_file(
+      options.page,
+      web::page_of(std::filesystem::path(options.file).filename().string(), replay.html));
+  print_answer(options.json, {{"trace", options.file}, {"page", options.page}},
+               options.page + "\n");
+  return kGood;
+}
+
+int run_replay(const ReplayOptions& options) {
+  if (!options.page.empty()) return make_page(options);
+  const record::Trace trace = load(options.file, options.recover);
+  const auto recorded_by = trace.metadata.find("own_controller");
+  if (options.controller.empty() && recorded_by != trace.metadata.end() &&
+      !recorded_by->second.empty()) {
+    throw ToolError(kBadInput, fmt::format("{}: was decided by a controller of somebody's own; "
+                                           "replay it with --controller {}",
+                                           options.file, recorded_by->second));
+  }
+  record::StepFunction core;
+  if (!options.controller.empty()) core = own_controller(options.controller, !options.json)();
+  const record::ReplayResult result = record::replay(trace, nullptr, core);
+  const bool equal = !result.divergence;
+  if (options.json) {
+    Json json = {{"trace", options.file},
+                 {"ticks", result.ticks},
+                 {"equal", equal},
+                 {"digest_recorded", fmt::format("0x{:016x}", result.recorded_digest)},
+                 {"digest_replayed", fmt::format("0x{:016x}", result.replayed_digest)},
+                 {"divergence", nullptr}};
+    if (!equal)
+      json["divergence"] = to_json(*result.divergence, trace.params, "recorded", "replayed");
+    print_json(json);
+  } else if (equal) {
+    answer(fmt::format("{}: {} ticks ({:.2f} s), every stage the same bits, digest 0x{:016x}\n",
+                       options.file, result.ticks,
+                       static_cast<double>(result.ticks) * trace.period_s(),
+                       result.replayed_digest));
+  }
+  if (equal) return kGood;
+  const auto revision = trace.metadata.find("source_revision");
+  const std::string version = record::core_of(trace);
+  const auto build = record::build_info();
+  complain(fmt::format("{}: diverges at {}; it was recorded by revision {}{}, this is {}{}",
+                       options.file, text(*result.divergence, trace.params, "recorded", "replayed"),
+                       revision == trace.metadata.end() ? "unknown" : revision->second,
+                       version.empty() ? "" : " with core " + version, build.at("source_revision"),
+                       version.empty() ? "" : " with core " + build.at("core_version")));
+  return kRunFailed;
+}
+
+struct DiffOptions {
+  std::string left, right;
+  bool json = false, recover = false;
+};
+
+/// Of two cores the bits differ by intention; empty: one recorded both, or nobody knows.
+std::string of_two_cores(const std::string& a, const std::string& b) {
+  if (a == b || a.empty() || b.empty()) return "";
+  return fmt::format("; A is of core {} and B of core {}, which decide otherwise", a, b);
+}
+
+int run_diff(const DiffOptions& options) {
+  const record::Trace left = load(options.left, options.recover);
+  const record::Trace right = load(options.right, options.recover);
+  const auto divergence = record::diff(left, right);
+  const std::string core_a = record::core_of(left), core_b = record::core_of(right);
+  if (options.json) {
+    Json json = {{"a", options.left},
+                 {"b", options.right},
+                 {"equal", !divergence},
+                 {"ticks_a", left.ticks.size()},
+                 {"ticks_b", right.ticks.size()},
+                 {"core_a", core_a.empty() ? Json() : Json(core_a)},
+                 {"core_b", core_b.empty() ? Json() : Json(core_b)},
+                 {"divergence", nullptr}};
+    if (divergence) json["divergence"] = to_json(*divergence, left.params, "a", "b");
+    print_json(json);
+  } else if (!divergence) {
+    answer(fmt::format("{} and {}: equal, {} ticks, digest 0x{:016x}\n", options.left,
+                       options.right, left.ticks.size(), left.digest()));
+  } else {
+    answer(fmt::format("{} and {} differ at {}{}\n", options.left, options.right,
+                       text(*divergence, left.params, "A", "B"), of_two_cores(core_a, core_b)));
+  }
+  return divergence ? kRunFailed : kGood;
+}
+
+}  // namespace
+
+Subcommand add_replay(CLI::App& root) {
+  CLI::App* app = root.add_subcommand(
+      "replay", "Re-run the controller on a trace's inputs; exit 1 names the first difference");
+  auto options = std::make_shared<ReplayOptions>();
+  app->add_option("TRACE", options->file, "an .mcap file written by verp")->required();
+  app->add_flag("--recover", options->recover, "take what stands before a truncation or damage");
+  declare_controller(*app, options->controller);
+  app->add_option("--page", options->page,
+                  "write a page that shows the run in 3D instead, for any browser (.html)");
+  add_json_flag(*app, options->json);
+  return {app, [options] { return run_replay(*options); }};
+}
+
+Subcommand add_diff(CLI::App& root) {
+  CLI::App* app = root.add_subcommand(
+      "diff", "Name the first difference of two traces: robot, input, stage, field; exit 1 if any");
+  auto options = std::make_shared<DiffOptions>();
+  app->add_option("A", options->left, "a trace")->required();
+  app->add_option("B", options->right, "another trace")->required();
+  app->add_flag("--recover", options->recover, "take what stands before a truncation or damage");
+  add_json_flag(*app, options->json);
+  return {app, [options] { return run_diff(*options); }};
+}
+
+}  // namespace verp::tool

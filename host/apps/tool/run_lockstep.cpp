@@ -1,0 +1,102 @@
+#include "host/apps/tool/run_lockstep.hpp"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "firmware/app/lockstep_bus.hpp"
+#include "firmware/app/tick_report.hpp"
+#include "host/apps/cli/console.hpp"
+#include "host/apps/tool/robot_loop.hpp"
+
+namespace verp::tool {
+namespace {
+
+constexpr std::uint64_t kGone_ns = 5'000'000'000;    // a link that is lost so long stays lost
+constexpr std::uint64_t kSilent_ns = 2'000'000'000;  // a twin that is free answers at once
+
+/// What this program does while it waits for the twin: gives up when the person says so twice, or
+/// when the twin has been gone for long.
+struct Waiting {
+  wire::Link* link;
+  bool* answered;             ///< somebody has, or it was told that nobody does
+  std::uint64_t lost_ns = 0;  ///< since when; 0: it is there
+  std::uint64_t asked_ns = wire::monotonic_ns();
+
+  bool operator()() {
+    if (presses() > 1) return false;
+    if (link->connected()) {
+      const bool silent = wire::monotonic_ns() > asked_ns + kSilent_ns;
+      if (silent && !std::exchange(*answered, true)) {
+        complain(
+            "verp run: " + link->place() +
+            ": nobody answers yet; a twin that another controller drives serves no second one");
+      }
+      return lost_ns = 0, true;
+    }
+    if (lost_ns == 0) lost_ns = wire::monotonic_ns();
+    return wire::monotonic_ns() < lost_ns + kGone_ns;
+  }
+};
+
+/// Dynamixel servos of a twin in lockstep.
+class TwinInLockstep {
+ public:
+  using Bus = app::LockstepBus<wire::Link, Waiting>;
+
+  explicit TwinInLockstep(wire::Link& link) : link_(link), bus_(link, Waiting{&link, &answered_}) {}
+
+  lockstep::Verdict greet(const Params& params) {
+    const lockstep::Verdict verdict = bus_.greet(params);
+    answered_ = true;
+    return verdict;
+  }
+
+  Bus& bus() { return bus_; }
+  /// The twin wants no further tick, or is gone.
+  bool stopped() const { return bus_.stopped(); }
+  void set_held(std::uint32_t) {}
+  bool connected() const { return link_.connected(); }
+  hal::LinkErrors link_errors() const { return link_.errors(); }
+  static std::string where(std::uint16_t address) { return fmt::format("register {}", address); }
+
+  void brought_up(const app::BringUpReport&) {}
+  void record(const TickRecord&, const State&, const Outputs& outputs) {
+    torque_ = outputs.torque_enable != 0;
+  }
+  void report(const app::LoopHealth&) {}
+
+  // Nothing is lost in lockstep: what was sent has arrived.
+  LetGo let_go(int) const { return torque_ ? LetGo::kNo : LetGo::kYes; }
+
+ private:
+  wire::Link& link_;
+  bool answered_ = false;
+  Bus bus_;
+  bool torque_ = false;
+};
+
+void greet(TwinInLockstep& twin, const RunPlan& plan) {
+  const lockstep::Verdict verdict = twin.greet(plan.walk.params);
+  if (verdict == lockstep::Verdict::kAccepted) return;
+  const std::string where = "verp run: " + wire::to_text(plan.link);
+  if (interrupted()) throw ToolError(kRunFailed, where + ": interrupted before a twin answered");
+  if (verdict == lockstep::Verdict::kNoAnswer)
+    throw ToolError(kNoDevice, where + ": the twin hung up before it answered; start it anew");
+  if (verdict == lockstep::Verdict::kNoLockstep)
+    throw ToolError(kNoDevice, where + ": that twin runs in real time; leave out --lockstep");
+  throw ToolError(kBadInput, where +
+                                 ": the twin has another robot or core than this controller (it "
+                                 "says which); give both the same MODEL, --cycle and --set");
+}
+
+}  // namespace
+
+RunResult drive_in_lockstep(wire::Link& link, const RunPlan& plan, record::TraceWriter* trace,
+                            Progress& progress) {
+  TwinInLockstep twin(link);
+  greet(twin, plan);
+  return RobotRun<TwinInLockstep>(twin, plan, {}, trace, progress).run();
+}
+
+}  // namespace verp::tool

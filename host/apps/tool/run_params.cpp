@@ -1,0 +1,48 @@
+#include "host/apps/tool/run_params.hpp"
+
+#include <CLI/CLI.hpp>
+
+#include <cmath>
+#include <cstdint>
+
+#include "host/apps/cli/command.hpp"
+
+namespace verp::tool {
+namespace {
+
+// Goals that are reached when the next ones come are joined by straight lines: a servo's profile
+// that was as long as the period stays so.
+void set_period(Params& params, double period_ms) {
+  const std::uint32_t before_us = params.period_us;
+  params.period_us = static_cast<std::uint32_t>(std::lround(1000 * period_ms));
+  for (ServoProfile& servo : params.servo) {
+    if (servo.profile_ms * 1000u != before_us) continue;
+    servo.profile_ms = static_cast<std::uint16_t>(std::lround(period_ms));
+  }
+}
+
+/// What the IMU would feed has no say; stays in the trace, as the Params that were in force.
+void do_without_imu(Params& params) {
+  params.imu.device_id = 0;
+  params.tuning.balance.feedback_enable = 0;
+  params.tuning.balance.zeros_enable = 0;
+  params.tuning.gait.heading_gain = 0;
+}
+
+}  // namespace
+
+void declare_run_params(CLI::App& app, RunParams& words) {
+  app.add_option("--imu", words.imu,
+                 "bus: the model's IMU device; none: balance off, upright assumed")
+      ->check(CLI::IsMember({"bus", "none"}))
+      ->capture_default_str();
+  app.add_option("--period", words.period_ms, "control period instead of the model's, ms")
+      ->check(number_between(4, 20, "ms"));
+}
+
+void apply_run_params(const RunParams& words, Params& params) {
+  if (words.period_ms > 0) set_period(params, words.period_ms);
+  if (!words.has_imu()) do_without_imu(params);
+}
+
+}  // namespace verp::tool

@@ -1,0 +1,50 @@
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+
+#include "host/apps/cli/exit_status.hpp"
+#include "host/apps/tool/trace_words.hpp"
+#include "host/study/signals/csv.hpp"
+
+namespace verp::tool {
+namespace {
+
+/// A file appears whole or not at all; devices and pipes get it as it comes.
+void write_whole(signals::Table& table, const std::filesystem::path& file) {
+  namespace fs = std::filesystem;
+  std::error_code error;
+  const bool direct = fs::exists(file, error) && !fs::is_regular_file(file, error);
+  fs::path part = file;
+  if (!direct) part += "." + std::to_string(::getpid()) + ".part";
+  std::ofstream out(part);
+  if (!out) {
+    throw ToolError(
+        kBadInput, file.string() + ": cannot be written; choose a folder that exists and is yours");
+  }
+  signals::write_csv(table, out);
+  out.close();
+  if (out && !direct) fs::rename(part, file, error);
+  if (out && (direct || !error)) return;
+  if (!direct) fs::remove(part, error);
+  throw ToolError(kRunFailed,
+                  file.string() + ": cannot be written to its end; free space, or write elsewhere");
+}
+
+}  // namespace
+
+int export_csv(const TraceWords& words) {
+  refuse_same_file(words);
+  const record::Trace trace = load_trace(words);
+  signals::Table table(trace, words.states);
+  if (words.output.empty() || words.output == "-") {
+    signals::write_csv(table, std::cout);
+  } else {
+    write_whole(table, words.output);
+  }
+  tell_of_other_decisions(trace, table.other_from());
+  return kGood;
+}
+
+}  // namespace verp::tool

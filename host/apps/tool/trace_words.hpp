@@ -1,0 +1,42 @@
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "host/apps/tool/live_stream.hpp"
+#include "host/trace/record/mcap_writer.hpp"
+#include "host/trace/record/trace.hpp"
+
+namespace verp::tool {
+
+/// What is typed after `verp trace`: each of its commands uses some of it.
+struct TraceWords {
+  std::string file, output;
+  bool json = false, recover = false;
+  bool states = false;               ///< export
+  std::vector<std::string> signals;  ///< plot
+  bool list = false;
+  bool compress = false;           ///< cut, merge, recover
+  std::vector<std::string> files;  ///< merge
+  std::optional<double> from_s, to_s;
+  LiveOptions live;  ///< play
+  double rate = 1;   ///< play: times as fast as it was
+};
+
+/// The trace; complains of what is missing in it, if that is wanted to be read.
+record::Trace load_trace(const TraceWords& words);
+/// Throws ToolError: -o names the trace itself.
+void refuse_same_file(const TraceWords& words);
+/// Says from which tick on it is not known what the controller made of a trace; nothing: of all.
+void tell_of_other_decisions(const record::Trace& trace, const std::optional<std::uint32_t>& tick);
+
+record::mcap::Compression compression_of(const TraceWords& words);
+
+/// `verp trace export`, `plot`, `merge`, `play`. Return the exit status; throw ToolError and
+/// TraceError.
+int export_csv(const TraceWords& words);
+int plot_trace(const TraceWords& words);
+int merge(const TraceWords& words);
+int play(const TraceWords& words);
+
+}  // namespace verp::tool

@@ -1,0 +1,46 @@
+#include "host/apps/tool/walk_ending.hpp"
+
+#include <fmt/format.h>
+
+#include "host/apps/cli/console.hpp"
+#include "host/apps/cli/exit_status.hpp"
+
+namespace verp::tool {
+namespace {
+
+/// Why the run is not good; the trace is of the first walk, not of the sweep. Empty: it is good.
+std::string reason(const WalkResult& result, const Sweep& swept, const std::string& trace) {
+  if (!result.good()) {
+    return (result.failure.empty() ? "interrupted" : result.failure) +
+           (trace.empty() ? "" : fmt::format("; `verp trace export {}` shows the run", trace));
+  }
+  if (!swept.failure.empty())
+    return swept.failure + "; walk it with --step and --record to see why";
+  return swept.interrupted ? "interrupted in the sweep; rows up to there are kept" : "";
+}
+
+/// Exit status, and on stderr why it is not good.
+int ending(const std::string& command, const std::string& reason, const WalkFiles& files) {
+  for (const std::string& line : files.lost()) complain(line);
+  if (!reason.empty()) complain(command + ": " + reason);
+  return reason.empty() && files.lost().empty() ? kGood : kRunFailed;
+}
+
+}  // namespace
+
+int finish_walk(const WalkPlan& plan, const WalkOptions& options, WalkFiles& files,
+                const WalkResult& result, const Sweep& swept, const Json& more,
+                const std::string& more_text) {
+  files.finish(result, to_report(plan, options, result, swept));
+  if (options.json) {
+    Json json = to_json(plan, options, result, swept);
+    json.update(more);
+    files.add_to(json);
+    print_json(json);
+  } else {
+    answer(to_text(plan, options, result, swept) + more_text + files.text());
+  }
+  return ending(options.command, reason(result, swept, files.trace_path().string()), files);
+}
+
+}  // namespace verp::tool

@@ -1,0 +1,17 @@
+#pragma once
+#include <string>
+
+#include "host/apps/tool/walk_files.hpp"
+#include "host/apps/tool/walk_report.hpp"
+#include "host/apps/tool/walk_sweep.hpp"
+
+namespace verp::tool {
+
+/// The end of a command that walked: writes the files, answers in text or JSON, says why the walk
+/// is not good, and returns the exit status. `more` and `more_text` are what the command has to say
+/// besides.
+int finish_walk(const WalkPlan& plan, const WalkOptions& options, WalkFiles& files,
+                const WalkResult& result, const Sweep& swept, const Json& more = Json::object(),
+                const std::string& more_text = "");
+
+}  // namespace verp::tool

@@ -1,0 +1,17 @@
+#pragma once
+#include <string>
+
+#include "host/apps/cli/json.hpp"
+#include "host/apps/tool/walk_run.hpp"
+#include "host/study/report/run_data.hpp"
+
+/// What a walk asked of the servos and of the supply.
+namespace verp::tool {
+
+/// The joint whose motor is used most, on average.
+std::string hardest_used(const WalkPlan& plan, const sim::WalkMetrics& metrics);
+std::string transport_text(const sim::WalkMetrics& metrics);
+report::Fact transport_fact(const sim::WalkMetrics& metrics);
+Json load_json(const WalkPlan& plan, const sim::WalkMetrics& metrics);
+
+}  // namespace verp::tool

@@ -1,0 +1,26 @@
+#pragma once
+#include <string>
+
+#include "host/apps/cli/json.hpp"
+#include "host/apps/tool/walk_options.hpp"
+#include "host/apps/tool/walk_run.hpp"
+#include "host/study/survey/page.hpp"
+#include "host/study/survey/push_map.hpp"
+#include "host/study/survey/stability_map.hpp"
+
+/// A map, told three ways: as a page, as text for a terminal, as JSON.
+namespace verp::tool {
+
+struct MapTold {
+  survey::Page page;
+  Json json;
+  std::string text;
+  bool interrupted = false;
+};
+
+MapTold tell(const WalkOptions& options, const WalkPlan& plan, const survey::PushMap& map,
+             const survey::PushOptions& asked);
+MapTold tell(const WalkOptions& options, const WalkPlan& plan, const survey::StabilityMap& map,
+             const survey::StabilityOptions& asked);
+
+}  // namespace verp::tool

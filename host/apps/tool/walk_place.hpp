@@ -1,0 +1,32 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "host/apps/cli/json.hpp"
+#include "host/apps/tool/walk_run.hpp"
+#include "host/twin/sim/scenery.hpp"
+#include "host/twin/sim/world.hpp"
+
+namespace CLI {
+class App;
+}
+
+namespace verp::tool {
+
+/// Options for where the robot walks: --world, --at-pose.
+struct PlaceOptions {
+  std::string world;
+  std::vector<std::string> poses;  ///< X,Y,YAW; among several robots NAME=X,Y,YAW
+};
+
+void declare(CLI::App& app, PlaceOptions& options);
+
+/// Reads the world's file into what the twin's world is made of. Throws LoadError.
+void read_place(const PlaceOptions& options, sim::WorldOptions& world);
+/// Puts robots to their --at-pose; one that stands alone needs no name there. Throws ToolError.
+void place_robots(const PlaceOptions& options, std::vector<WalkPlan>& plans);
+
+/// Of the world that can be pushed or move, and where it ended.
+Json objects_of(const sim::Scenery& scenery);
+
+}  // namespace verp::tool

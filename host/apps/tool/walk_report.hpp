@@ -1,0 +1,25 @@
+#pragma once
+#include <string>
+
+#include "host/apps/cli/json.hpp"
+#include "host/apps/tool/walk_options.hpp"
+#include "host/apps/tool/walk_run.hpp"
+#include "host/apps/tool/walk_sweep.hpp"
+#include "host/study/report/run_data.hpp"
+
+/// One walk, told three ways: as a page's data, as text for a terminal, as JSON.
+namespace verp::tool {
+
+report::Run to_report(const WalkPlan& plan, const WalkOptions& options, const WalkResult& result,
+                      const Sweep& sweep);
+
+std::string to_text(const WalkPlan& plan, const WalkOptions& options, const WalkResult& result,
+                    const Sweep& sweep);
+
+/// What became of it when it fell: when, and in words.
+Json fall_story_json(const WalkResult& result);
+
+Json to_json(const WalkPlan& plan, const WalkOptions& options, const WalkResult& result,
+             const Sweep& sweep);
+
+}  // namespace verp::tool

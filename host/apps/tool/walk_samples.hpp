@@ -1,0 +1,12 @@
+#pragma once
+#include "common/model/params.hpp"
+#include "host/study/report/run_data.hpp"
+#include "host/twin/sim/metrics.hpp"
+
+namespace verp::tool {
+
+/// What a report draws of a tick: ankles, soles and ZMP, in the world's axes; its time counts from
+/// `start_s`.
+report::Sample to_sample(const Params& params, const sim::SeriesRow& row, double start_s);
+
+}  // namespace verp::tool

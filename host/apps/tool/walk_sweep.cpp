@@ -1,0 +1,57 @@
+#include "host/apps/tool/walk_sweep.hpp"
+
+#include <fmt/format.h>
+
+#include "host/apps/cli/interrupt.hpp"
+
+namespace verp::tool {
+namespace {
+
+using report::SweepWalk;
+
+/// One walk with the multibody correction on or off.
+WalkResult sweep_walk(WalkPlan plan, const WalkOptions& options, double step_m, bool multibody,
+                      Progress& progress) {
+  plan.asked.reset();
+  plan.velocity = velocity_of(options, plan.params.tuning.gait, step_m);
+  plan.params.tuning.balance.multibody_enable = multibody ? 1.0f : 0.0f;
+  const std::string label =
+      fmt::format("step {:g} cm{}", 100 * step_m, multibody ? "" : ", no multibody");
+  return walk(plan, nullptr, progress, label, false, world_of(options));
+}
+
+SweepWalk entry(const WalkResult& result) {
+  using End = SweepWalk::End;
+  SweepWalk entry;
+  entry.end = result.metrics.fallen     ? End::kFell
+              : result.interrupted      ? End::kInterrupted
+              : !result.failure.empty() ? End::kFailed
+                                        : End::kWalked;
+  if (result.longest_step_m > 0) entry.step_m = result.longest_step_m;
+  if (entry.end != End::kWalked) return entry;
+  entry.speed_m_s = result.metrics.speed_steady_m_s;
+  entry.bias_mm = result.metrics.zmp_bias_mean_mm;
+  return entry;
+}
+
+}  // namespace
+
+Sweep sweep(const WalkPlan& plan, const WalkOptions& options, Progress& progress) {
+  Sweep sweep;
+  const std::vector<double> steps_m = sweep_of(options);
+  for (const double step_m : steps_m) {
+    if (interrupted()) break;
+    report::SweepRow row{.step_m = step_m, .with = {}, .without = {}};
+    const WalkResult with = sweep_walk(plan, options, step_m, true, progress);
+    row.with = entry(with);
+    if (!with.failure.empty() && sweep.failure.empty()) {
+      sweep.failure = fmt::format("{} in the sweep, at steps of {:g} m", with.failure, step_m);
+    }
+    if (!interrupted()) row.without = entry(sweep_walk(plan, options, step_m, false, progress));
+    sweep.rows.push_back(row);
+  }
+  sweep.interrupted = !steps_m.empty() && interrupted();
+  return sweep;
+}
+
+}  // namespace verp::tool

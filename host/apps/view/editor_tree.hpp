@@ -1,0 +1,38 @@
+#pragma once
+#include <QAbstractItemModel>
+#include <string>
+
+#include "host/author/edit/document.hpp"
+
+namespace verp::view {
+
+/// The parts of a robot's file: links, joints, frames, sensors, buses with their servos. An index
+/// carries the number of its element.
+class EditorTree final : public QAbstractItemModel {
+ public:
+  using QAbstractItemModel::QAbstractItemModel;
+
+  /// The document is looked at until the next call; null: nothing.
+  void set_document(const edit::Document* document);
+  int element(const QModelIndex& index) const {
+    return index.isValid() ? int(index.internalId()) : -1;
+  }
+  QModelIndex index_of(int element) const;
+  /// The part that `verp check` complains about; it is marked.
+  void mark(const std::string& path);
+
+  QModelIndex index(int row, int column, const QModelIndex& parent = {}) const override;
+  QModelIndex parent(const QModelIndex& child) const override;
+  int rowCount(const QModelIndex& parent = {}) const override;
+  int columnCount(const QModelIndex&) const override { return 1; }
+  QVariant data(const QModelIndex& index, int role) const override;
+
+ private:
+  bool is_part(int element) const;
+  std::vector<int> parts_of(int element) const;
+
+  const edit::Document* document_ = nullptr;
+  std::string marked_;
+};
+
+}  // namespace verp::view

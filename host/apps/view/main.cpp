@@ -1,0 +1,115 @@
+#include <CLI/CLI.hpp>
+#include <QApplication>
+#include <QSettings>
+#include <QSurfaceFormat>
+#include <QTimer>
+#include <filesystem>
+#include <memory>
+#include <optional>
+
+#include "host/apps/cli/console.hpp"
+#include "host/apps/cli/interrupt.hpp"
+#include "host/apps/cli/program.hpp"
+#include "host/apps/tool/view_command.hpp"
+#include "host/apps/view/display.hpp"
+#include "host/apps/view/main_window.hpp"
+#include "host/apps/view/run_of.hpp"
+#include "host/apps/view/theme.hpp"
+#include "host/os/link/endpoint.hpp"
+#include "host/trace/record/trace.hpp"
+
+namespace verp::view {
+namespace {
+
+constexpr int kInterrupt_ms = 200;  // that Ctrl-C waits for at most
+
+int tell(const std::string& line) {
+  tool::complain(line);
+  return tool::kNoDevice;
+}
+
+int show(MainWindow& window) {
+  QTimer interrupts;
+  QObject::connect(&interrupts, &QTimer::timeout, [&] {
+    if (!tool::interrupted() && !window.isHidden()) return;
+    window.close();
+    QApplication::quit();  // closing what is not shown yet would end nothing
+  });
+  interrupts.start(kInterrupt_ms);
+  window.show();
+  survive_the_display([&window] { return window.finish(); });
+  QApplication::exec();
+  leave_the_display();
+  const std::string lost = window.finish();
+  if (!window.failure().empty()) return tell("verp view: " + window.failure());
+  if (lost.empty()) return tool::kGood;
+  tool::complain("verp view: " + lost);
+  return tool::kRunFailed;
+}
+
+int run_view(const tool::ViewOptions& asked) {
+  tool::WalkOptions options = asked.walk;
+  tool::read_robot_words(options);
+  tool::catch_interrupts();
+  const bool trace = options.model.ends_with(".mcap");
+  std::optional<RunSetup> setup;  // a mistake in the words is told before any window
+  if (trace) record::read_trace(options.model);
+  if (!trace) setup = run_of(options);
+  if (!asked.link.empty()) wire::parse_endpoint(asked.link);
+  if (trace && !asked.link.empty()) {
+    throw tool::ToolError(tool::kBadInput,
+                          "verp view: --link stands a controller beside a robot that runs, and " +
+                              options.model + " is a trace; name a robot, or leave out --link");
+  }
+  if (const std::string why = no_display(); !why.empty()) return tell(why);
+  QSurfaceFormat format;
+  format.setVersion(3, 3);
+  format.setProfile(QSurfaceFormat::CoreProfile);
+  QSurfaceFormat::setDefaultFormat(format);
+  int count = 1;
+  char name[] = "verp view", *words[] = {name, nullptr};
+  QApplication application(count, words);
+  survive_the_display({});
+  if (const std::string why = no_driver(); !why.empty()) {
+    leave_the_display();
+    return tell(why);
+  }
+  QApplication::setOrganizationName("verp");
+  QApplication::setApplicationName("view");
+  QSettings settings;
+  apply_theme(application, settings.value("dark", false).toBool());
+  MainWindow window(settings, [options](const std::string& model) {
+    tool::WalkOptions other = options;
+    other.model = model;
+    other.team = {};
+    other.bus.clear();
+    other.record_file.clear();
+    return run_of(other);
+  });
+  if (!asked.link.empty()) window.link_to(asked.link);
+  window.steer_by(asked.gamepad);
+  trace ? window.watch(std::filesystem::path(options.model)) : window.watch(std::move(*setup));
+  return show(window);
+}
+
+/// What ends before the window is closed is told by whoever asked, not as the display's end.
+int run_view_and_leave(const tool::ViewOptions& asked) {
+  try {
+    return run_view(asked);
+  } catch (...) {
+    leave_the_display();
+    throw;
+  }
+}
+
+std::vector<tool::Subcommand> commands(CLI::App& root) {
+  auto options = std::make_shared<tool::ViewOptions>();
+  return {{tool::declare_view(root, *options), [options] { return run_view_and_leave(*options); }}};
+}
+
+}  // namespace
+}  // namespace verp::view
+
+int main(int argc, char** argv) {
+  return verp::tool::run_program(argc, argv, verp::view::commands);
+}

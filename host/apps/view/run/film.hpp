@@ -1,0 +1,71 @@
+#pragma once
+#include <deque>
+#include <memory>
+#include <mutex>
+#include <vector>
+
+#include "host/apps/view/run/signals.hpp"
+#include "host/robot/model/world.hpp"
+#include "host/show/scene/snapshot.hpp"
+
+namespace verp::view {
+
+using Picture = std::shared_ptr<const scene::Snapshot>;
+
+struct Point {
+  double t_s = 0, value = 0;
+};
+
+/// What there is to show of one robot over time: a run as it goes on, or a trace.
+class Film {
+ public:
+  virtual ~Film() = default;
+  virtual const scene::Entity& entity() const = 0;
+  virtual std::vector<Signal> all_signals() const { return signals_of(entity()); }
+  /// Where a trace was recorded; null: on a level floor, or it is a run.
+  virtual const model::World* world() const { return nullptr; }
+  virtual double period_s() const = 0;
+  virtual bool empty() const = 0;
+  virtual double begin_s() const = 0;
+  virtual double end_s() const = 0;
+  /// The instant at t_s or just before; null of an empty film.
+  virtual Picture at(double t_s) const = 0;
+  /// Adds the points of that signal that are later.
+  virtual void points(int signal, double after_s, std::vector<Point>& out) const = 0;
+};
+
+/// The last minutes of a run. One thread adds, any looks.
+class LiveFilm final : public Film {
+ public:
+  /// `beside`: the second robot of each snapshot is another one like the first, to compare with.
+  LiveFilm(std::shared_ptr<const scene::Entity> entity, double period_s, bool beside = false);
+
+  void add(scene::Snapshot now);
+
+  const scene::Entity& entity() const override { return *entity_; }
+  std::vector<Signal> all_signals() const override { return signals_of(*entity_, beside_); }
+  double period_s() const override { return period_s_; }
+  bool empty() const override;
+  double begin_s() const override;
+  double end_s() const override;
+  Picture at(double t_s) const override;
+  Picture last() const;
+  void points(int signal, double after_s, std::vector<Point>& out) const override;
+
+ private:
+  struct Instant {
+    Picture picture;  ///< null: too long ago, only its values are kept
+    double t_s;
+    std::vector<float> values;
+  };
+  std::size_t index_at(double t_s) const;
+
+  const std::shared_ptr<const scene::Entity> entity_;
+  const double period_s_;
+  const bool beside_;
+  mutable std::mutex mutex_;
+  std::deque<Instant> instants_;
+  std::size_t pictures_ = 0;  ///< how many of the last have one
+};
+
+}  // namespace verp::view

@@ -1,0 +1,193 @@
+#include "host/author/action/check.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "common/action/player.hpp"
+#include "common/kinematics/forward.hpp"
+#include "common/model/tree.hpp"
+#include "host/author/action/support.hpp"
+#include "host/robot/model/self_collision.hpp"
+
+namespace verp::action {
+namespace {
+
+constexpr int kMostTicks = 60000;
+constexpr int kCollideEvery = 5;  // ticks
+constexpr double kMostTorqueShare = 0.9;
+constexpr double kLeastMargin_m = -0.005;  // the balance takes that much
+constexpr double kTouch_m = 1e-3;          // skins of two links that rest on each other
+
+/// The conditions of a frame come true, as its author says they do.
+void fulfil(Condition condition, PlayerIn& in) {
+  constexpr float kQuarter = 1.5707963F;
+  const bool lies = condition >= Condition::kLiesFront && condition <= Condition::kLiesRight;
+  in.up = lies ? 0 : 1;
+  in.pitch_rad = condition == Condition::kLiesFront  ? kQuarter
+                 : condition == Condition::kLiesBack ? -kQuarter
+                                                     : 0;
+  in.roll_rad = condition == Condition::kLiesRight  ? kQuarter
+                : condition == Condition::kLiesLeft ? -kQuarter
+                                                    : 0;
+  in.pressed[0] = condition != Condition::kRightFoot && condition != Condition::kNoFoot;
+  in.pressed[1] = condition != Condition::kLeftFoot && condition != Condition::kNoFoot;
+}
+
+class Checker {
+ public:
+  Checker(const model::Entity& entity, const Params& params, const Made& made)
+      : entity_(entity), params_(params), made_(made), support_(params), stand_(params) {}
+
+  Checked run(int number) {
+    const Library library = made_.library();
+    PlayerState state;
+    PlayerIn in;
+    in.asked = static_cast<std::uint8_t>(number);
+    in.may_begin = true;
+    in.period_us = static_cast<std::int32_t>(params_.period_us);
+    in.stand_rad = stand_.stand_rad().data();
+    for (tick_ = 0; tick_ < kMostTicks; ++tick_) {
+      if (state.number != 0) fulfil(library.frame(state.frame).condition, in);
+      const PlayerOut out = update(params_, library, state, in);
+      if (state.number == 0) break;
+      enter(state.part == Part::kReturn ? -1 : state.frame);
+      look(out);
+      before_ = out;
+    }
+    result_.length_s = time_s();
+    result_.whole = tick_ < kMostTicks;
+    return std::move(result_);
+  }
+
+ private:
+  double period_s() const { return 1e-6 * params_.period_us; }
+  double time_s() const { return tick_ * period_s(); }
+
+  void enter(int frame) {
+    if (!result_.frames.empty() && result_.frames.back().frame == frame && frame == frame_) {
+      result_.frames.back().end_s = time_s();
+      return;
+    }
+    frame_ = frame;
+    FrameCheck check;
+    check.frame = frame;
+    check.line = frame < 0 ? 0 : made_.line[static_cast<std::size_t>(frame)];
+    check.begin_s = check.end_s = time_s();
+    result_.frames.push_back(check);
+  }
+
+  void blame(const std::string& problem) {
+    FrameCheck& now = result_.frames.back();
+    if (now.problem.empty()) now.problem = problem;
+  }
+
+  void look(const PlayerOut& out) {
+    for (int j = 0; j < params_.joint_count; ++j) look_at_joint(out, j);
+    if (tick_ % kCollideEvery == 0) look_at_collisions(out);
+    look_at_weight(out);
+    look_at_zmp(out);
+  }
+
+  void look_at_joint(const PlayerOut& out, int j) {
+    constexpr float kRounding_rad = 2e-3F, kDegrees = 57.29578F;
+    const JointParams& joint = params_.joint[j];
+    const float angle = out.angle_rad[j];
+    if (angle < joint.lower_rad - kRounding_rad || angle > joint.upper_rad + kRounding_rad) {
+      blame(fmt::format("joint '{}' at {:.1f} degrees is beyond its limits of {:.1f} to {:.1f}",
+                        joint.name, kDegrees * angle, kDegrees * joint.lower_rad,
+                        kDegrees * joint.upper_rad));
+    }
+    if (!before_) return;
+    const double speed = std::abs(angle - before_->angle_rad[j]) / period_s();
+    const double share = speed / joint.velocity_limit_rad_s;
+    FrameCheck& now = result_.frames.back();
+    if (share > now.speed_share) now.speed_share = share, now.fastest = joint.name;
+    if (share > 1) {
+      blame(fmt::format("joint '{}' turns at {:.1f} rad/s, its limit is {:.1f}: give it more time",
+                        joint.name, speed, joint.velocity_limit_rad_s));
+    }
+  }
+
+  void look_at_collisions(const PlayerOut& out) {
+    const std::vector<double> joint_rad(out.angle_rad, out.angle_rad + params_.joint_count);
+    for (const model::Overlap& overlap : model::overlaps(entity_, joint_rad)) {
+      const bool allowed = std::any_of(
+          entity_.no_collide.begin(), entity_.no_collide.end(), [&](const model::NoCollide& pair) {
+            return pair.link == overlap.link && pair.other == overlap.other;
+          });
+      if (allowed || overlap.depth_m < kTouch_m) continue;
+      const auto name = [&](int node) {
+        return entity_.nodes[static_cast<std::size_t>(node)].name;
+      };
+      blame(fmt::format("links '{}' and '{}' meet, {:.1f} mm deep", name(overlap.link),
+                        name(overlap.other), 1e3 * overlap.depth_m));
+    }
+  }
+
+  void look_at_weight(const PlayerOut& out) {
+    if (out.stance == Stance::kNone) return;  // what the ground bears then nobody knows
+    const Torques torques = support_.torques(out);
+    FrameCheck& now = result_.frames.back();
+    for (int j = 0; j < params_.joint_count; ++j) {
+      const double stall = entity_.joints[static_cast<std::size_t>(j)].servo.stall_torque_n_m;
+      const double share = std::abs(torques[static_cast<std::size_t>(j)]) / stall;
+      if (share > now.torque_share) now.torque_share = share, now.hardest = params_.joint[j].name;
+      if (share > kMostTorqueShare) {
+        blame(fmt::format("joint '{}' has to hold {:.1f} N m, its servo's stall torque is {:.1f}",
+                          params_.joint[j].name, share * stall, stall));
+      }
+    }
+  }
+
+  void look_at_zmp(const PlayerOut& out) {
+    const bool carried = out.stance != Stance::kNone;
+    // Of one standing foot: accelerations across a change of the reference mean nothing.
+    const int reference = out.carry[0] >= 0.5F ? 0 : 1;
+    if (!carried || reference != reference_) com_m_.clear();
+    reference_ = reference;
+    if (!carried) return;
+    com_m_.push_back(support_.com_over(out, reference));
+    if (com_m_.size() < 3) return;
+    if (com_m_.size() > 3) com_m_.erase(com_m_.begin());
+    const Vec3 accel =
+        (com_m_[2] - 2 * com_m_[1] + com_m_[0]) / static_cast<float>(period_s() * period_s());
+    const float lever_s2 = com_m_[1].z() / (math::kGravityMS2 + accel.z());
+    const Vec2 zmp_m{com_m_[1].x() - lever_s2 * accel.x(), com_m_[1].y() - lever_s2 * accel.y()};
+    const double margin = support_.margin_m(out, reference, zmp_m);
+    FrameCheck& now = result_.frames.back();
+    now.zmp_margin_m = std::min(now.zmp_margin_m, margin);
+    if (margin < kLeastMargin_m) {
+      blame(
+          fmt::format("the ZMP is {:.0f} mm outside of the soles that carry: slower, or the "
+                      "body further over the foot",
+                      -1e3 * margin));
+    }
+  }
+
+  const model::Entity& entity_;
+  const Params& params_;
+  const Made& made_;
+  Support support_;
+  Poser stand_;
+  Checked result_;
+  int tick_ = 0, frame_ = -2, reference_ = -1;
+  std::optional<PlayerOut> before_;
+  std::vector<Vec3> com_m_;
+};
+
+}  // namespace
+
+const FrameCheck* Checked::first_bad() const {
+  const auto bad = std::find_if(frames.begin(), frames.end(),
+                                [](const FrameCheck& each) { return !each.problem.empty(); });
+  return bad == frames.end() ? nullptr : &*bad;
+}
+
+Checked check(const model::Entity& entity, const Params& params, const Made& made, int number) {
+  return Checker(entity, params, made).run(number);
+}
+
+}  // namespace verp::action

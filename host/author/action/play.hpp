@@ -1,0 +1,18 @@
+#pragma once
+#include "host/run/session/session.hpp"
+
+namespace verp::action {
+
+struct Played {
+  session::WalkResult run;
+  double action_s = 0;  ///< from the stand to the stand
+  double asked_s = 0;   ///< simulated, when it was asked
+  /// Where its body went meanwhile, as it stood when it was asked: x ahead, y to the left.
+  sim::Vec2 went_m = sim::Vec2::Zero();
+  double turned_rad = 0;  ///< to the left
+};
+
+/// Plays action `number` of plan.actions on the twin. What is asked of `hooks` besides is done.
+Played play(session::WalkPlan plan, int number, session::Hooks hooks, session::Options options);
+
+}  // namespace verp::action

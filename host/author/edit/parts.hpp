@@ -1,0 +1,56 @@
+#pragma once
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "host/author/edit/document.hpp"
+#include "host/robot/model/entity.hpp"
+
+/// New parts of a robot.
+namespace verp::edit {
+
+using model::Mat3;
+using model::Vec3;
+
+/// A solid as SDF and URDF have it.
+struct Solid {
+  enum class Kind { kBox, kSphere, kCapsule, kCylinder } kind = Kind::kBox;
+  Vec3 centre_m = Vec3::Zero(), rpy_rad = Vec3::Zero();
+  Vec3 size_m = Vec3::Zero();  ///< box: edges; sphere: x radius; else x radius, z length
+};
+/// Throws std::invalid_argument that lists those there are.
+Solid::Kind solid_kind(const std::string& name);
+double volume_m3(const Solid& solid);
+/// About its own centre and axes, of even density.
+Mat3 inertia_kg_m2(const Solid& solid, double mass_kg);
+
+struct Mesh {
+  std::string uri;  ///< as the robot's file names it
+  double scale = 1;
+};
+
+struct Body {
+  double mass_kg = 0;
+  Vec3 com_m = Vec3::Zero();
+  Mat3 inertia_kg_m2 = Mat3::Zero();  ///< about the centre of mass
+  std::optional<Solid> solid;         ///< collides; drawn unless there is a mesh
+  std::optional<Mesh> mesh;           ///< drawn
+};
+Body body_of(const Solid& solid, double mass_kg);
+
+/// What stands in a <link>, a line each; `name`: of the shapes.
+std::string link_content(const Document& document, const std::string& name, const Body& body);
+/// A link that lies on that joint or frame (SDF; empty: on the model).
+Edit add_link(const Document& document, const std::string& name, const Body& body,
+              const std::string& on);
+
+/// A part in words, as a person types it: kind "link", "joint", "servo", ...; words are name=value.
+/// Throws model::LoadError that says what is missing or unknown.
+using Words = std::map<std::string, std::string>;
+Edit add(const Document& document, const std::string& kind, const Words& words);
+std::vector<std::string> kinds();
+/// The words that a kind takes, for help: "name parent child at axis lower upper".
+std::string words_of(const std::string& kind);
+
+}  // namespace verp::edit

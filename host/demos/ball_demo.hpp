@@ -1,9 +1,0 @@
-#pragma once
-#include "host/demos/run.hpp"
-
-namespace verp::demos {
-
-/// Two bring a ball into a goal.
-Demo ball_demo();
-
-}  // namespace verp::demos

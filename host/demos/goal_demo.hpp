@@ -1,9 +1,0 @@
-#pragma once
-#include "host/demos/run.hpp"
-
-namespace verp::demos {
-
-/// One finds its way through rooms that it does not know.
-Demo goal_demo();
-
-}  // namespace verp::demos

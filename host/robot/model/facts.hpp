@@ -1,0 +1,138 @@
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "host/robot/model/entity.hpp"
+#include "host/robot/model/xml_source.hpp"
+
+/// The verp: elements of a robot's <model>, read and range-checked one by one, each with its XML
+/// element for error messages. Names are not resolved here (load.cpp does): README.md lists every
+/// element and attribute.
+namespace verp::model {
+
+struct BodyFact {
+  XmlElement at;
+  std::string link;
+  Transform pose = Transform::Identity();
+};
+struct LimbFact {
+  XmlElement at;
+  std::string name, base, tip;
+};
+struct ServoFact {
+  XmlElement at;
+  std::string joint;
+  Servo servo;
+  std::optional<double> lower_rad, upper_rad;
+  bool gives_p_gain = true;  ///< else the servo has its type's, until the robot is known
+  bool gives_d_gain = true;  ///< else none, until then
+};
+struct ImuFact {
+  XmlElement at;
+  std::string sensor, link;
+  ImuSensor imu;
+};
+/// How late an SDF sensor is.
+struct LatencyFact {
+  XmlElement at;
+  std::string sensor;
+  double latency_s = 0;
+};
+struct TruthFact {
+  XmlElement at;
+  std::string link;
+  TruthSensor truth;  ///< its pose is in that link's frame
+};
+struct FeetFact {
+  XmlElement at;
+  FootSensor feet;
+};
+struct PoseFact {
+  XmlElement at;
+  std::string pose, joint;
+  double rad = 0;
+};
+struct TuningFact {
+  XmlElement at;
+  std::string name;
+  double value = 0;
+};
+struct InertiaFact {
+  XmlElement at;
+  std::string link;  ///< "*": all
+  double scale = 1;
+  std::optional<Vec3> com_m;  ///< replaces the file's, in the link's frame; never for "*"
+};
+struct BoxFact {
+  XmlElement at;
+  std::string frame;
+  Collision box;
+};
+/// Declared differences between the file and what is used of it.
+struct DropFact {
+  XmlElement at;
+  std::string what;  ///< mesh_collision, collision, massless_link, mimic
+  std::string name;  ///< link or joint; "*": all
+};
+
+/// A joint that doesn't turn, though the file says that it could.
+struct FixFact {
+  XmlElement at;
+  std::string joint;  ///< ends in *: all that begin like this
+  double rad = 0;
+  bool fixes(const std::string& name) const;
+};
+
+/// A joint that another's motor turns.
+struct MimicFact {
+  XmlElement at;
+  std::string joint, driver;
+  double multiplier = 1, offset_rad = 0;
+};
+
+struct NoCollideFact {
+  XmlElement at;
+  std::string link, other;
+};
+
+/// One way to reach all servos; sensors of the robot have the same ids on each.
+struct BusFact {
+  XmlElement at;
+  std::string name;
+  BusProtocol protocol = BusProtocol::kDynamixel2;
+  std::uint32_t baud = 2000000;
+  std::uint32_t period_us = 10000;
+  std::uint8_t rise_torque_percent = kRiseTorquePercent;
+  std::vector<ServoFact> servos;
+};
+
+struct Facts {
+  std::optional<BodyFact> body;
+  std::vector<LimbFact> limbs;
+  std::vector<BusFact> buses;  ///< at least one
+  std::size_t used = 0;        ///< of them
+  std::optional<ImuFact> imu;
+  std::optional<FeetFact> feet;
+  std::vector<LatencyFact> latencies;
+  std::vector<TruthFact> truths;
+  std::vector<PoseFact> poses;
+  std::vector<TuningFact> tuning;
+  std::vector<InertiaFact> inertias;
+  std::vector<BoxFact> boxes;
+  std::vector<DropFact> drops;
+  std::vector<FixFact> fixes;
+  std::vector<MimicFact> mimics;  ///< also those of the URDF, once they are read
+  std::vector<NoCollideFact> no_collides;
+
+  const BusFact& bus() const { return buses[used]; }
+  bool is_dropped(const std::string& what, const std::string& name) const;
+  const FixFact* fix_of(const std::string& joint) const;      ///< nullptr: it may turn
+  const MimicFact* mimic_of(const std::string& joint) const;  ///< nullptr: it has a servo
+};
+
+/// Throws LoadError for an unknown element or attribute, a missing one, a bad number, an id used
+/// twice. `bus` names the bus to be used, empty: the first; all are checked.
+Facts read_facts(const XmlElement& model, const std::string& bus);
+
+}  // namespace verp::model

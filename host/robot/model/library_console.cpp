@@ -1,0 +1,31 @@
+#include "host/robot/model/library_console.hpp"
+
+#include <cstdlib>
+#include <optional>
+#include <sdf/Console.hh>
+#include <string>
+
+namespace verp::model {
+namespace {
+
+/// libsdformat makes ~/.sdformat/sdformat.log the first time it is used, and complains where it
+/// cannot. Without HOME it does not try: nobody asked for that file.
+void start_without_a_log() {
+  std::optional<std::string> home;
+  if (const char* value = std::getenv("HOME")) home = value;
+  ::unsetenv("HOME");
+  sdf::Console::Instance()->SetQuiet(true);  // its messages come back as errors, or name no line
+  if (home) ::setenv("HOME", home->c_str(), 1);
+}
+
+}  // namespace
+
+LibraryConsole::LibraryConsole() : before_(std::cerr.rdbuf(caught_.rdbuf())) {
+  start_without_a_log();
+}
+
+LibraryConsole::~LibraryConsole() {
+  std::cerr.rdbuf(before_);
+}
+
+}  // namespace verp::model

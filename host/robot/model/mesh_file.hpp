@@ -1,0 +1,16 @@
+#pragma once
+#include <memory>
+#include <string>
+
+#include "host/robot/model/world.hpp"
+
+namespace verp::model {
+
+/// An .stl file, text or binary, or an .obj file, its corners scaled. Throws std::runtime_error
+/// that says what is wrong with it.
+std::shared_ptr<const Mesh> read_mesh_to_touch(const std::string& path, const Vec3& scale);
+
+/// A portable graymap (.pgm, P2 or P5): black is 0, white is size_z_m. Its first row is at +y.
+std::shared_ptr<const Heightfield> read_pgm(const std::string& path, const Vec3& size_m);
+
+}  // namespace verp::model

@@ -1,0 +1,194 @@
+#include "host/robot/model/servo_type_facts.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <initializer_list>
+#include <numbers>
+
+#include "host/robot/model/bounds.hpp"
+
+namespace verp::model {
+namespace {
+
+constexpr double kRevMin = 60 / (2 * std::numbers::pi);
+// Wide enough for a servo of a watch and of a horse: what lies outside is a slip of the pen.
+constexpr double kMostTorque_n_m = 1e4;
+constexpr double kMostArmature_kg_m2 = 100;
+constexpr double kMostLoad = 0.99;  // part of it that friction takes: at 1 the gears would lock
+constexpr double kMostSpeed_rev_min = 1e5;
+
+/// Numbers of one element: missing ones are those of the type that it is like, if it is.
+class Reader {
+ public:
+  Reader(const XmlElement& e, const ServoType* like) : e_(e), like_(like) {}
+
+  double number(const char* attribute, double low, double high, const char* unit,
+                double of_like) const {
+    if (like_ != nullptr) return e_.number_within(attribute, low, high, unit, of_like);
+    return e_.number_within(attribute, low, high, unit);
+  }
+
+ private:
+  const XmlElement& e_;
+  const ServoType* like_;
+};
+
+void read_motor(const XmlElement& e, ServoType& type) {
+  const bool constants = e.has("kt_n_m_a") || e.has("resistance_ohm");
+  const bool sheet = e.has("stall_torque_n_m") || e.has("no_load_rev_min");
+  if (constants && sheet) {
+    e.fail("<verp:servo_type> gives its motor twice",
+           "write kt_n_m_a and resistance_ohm, or stall_torque_n_m and no_load_rev_min");
+  }
+  if (constants) {
+    const double kt = e.number_within("kt_n_m_a", 1e-6, 1e3, " N m/A at the joint, like 1.66");
+    type.stall_current_a =
+        type.nominal_v / e.number_within("resistance_ohm", 1e-3, 1e4, " ohm, like 3.2");
+    type.stall_torque_n_m = kt * type.stall_current_a;
+    type.no_load_rev_min = type.nominal_v / kt * kRevMin;
+  } else if (sheet || type.stall_torque_n_m <= 0) {
+    type.stall_torque_n_m =
+        e.number_within("stall_torque_n_m", 1e-6, kMostTorque_n_m, " N m, like 3.0");
+    type.no_load_rev_min =
+        e.number_within("no_load_rev_min", 1e-3, kMostSpeed_rev_min, " rev/min, like 77");
+    // An ideal machine turns all it does not heat into motion: kt is V s as well as N m/A.
+    type.stall_current_a = type.stall_torque_n_m * type.no_load_rev_min / kRevMin / type.nominal_v;
+  }
+  type.stall_current_a =
+      e.number_within("stall_current_a", 1e-6, 1e4, " A, like 2.3", type.stall_current_a);
+}
+
+// A number of one's own is as it is, and what is left out stays as doubtful as it was.
+void read_bands(const XmlElement& e, ServoType& type) {
+  const auto given = [&](std::initializer_list<const char*> names) {
+    return std::any_of(names.begin(), names.end(), [&](const char* name) { return e.has(name); });
+  };
+  const bool own_armature = given({"armature_kg_m2"});
+  const bool own_friction = given(
+      {"f_base_n_m", "f_strib_n_m", "f_visc_n_m_s", "l_base", "l_strib", "w_s_rad_s", "alpha"});
+  const auto band = [&](const char* name, bool own, double& value) {
+    value =
+        e.number_within(name, 0, 0.99, ": 0.5 is half to one and a half times", own ? 0.0 : value);
+  };
+  band("armature_band", own_armature, type.armature_band);
+  band("friction_band", own_friction, type.friction_band);
+  if (!own_armature && !own_friction && !e.has("source")) return;
+  const std::string before = type.source;
+  type.source = e.text("source");
+  if (own_armature == own_friction || before.empty()) return;
+  type.source += own_armature ? "; friction " + before : "; rotor " + before;
+}
+
+void read_gearbox(const XmlElement& e, const Reader& read, ServoType& type) {
+  Gearbox& g = type.gearbox;
+  const auto friction = [&](const char* name, double& value, const char* unit) {
+    value = read.number(name, 0, kMostTorque_n_m, unit, value);
+  };
+  g.armature_kg_m2 = read.number("armature_kg_m2", 0, kMostArmature_kg_m2,
+                                 " kg m2 at the joint, like 0.011", g.armature_kg_m2);
+  friction("f_base_n_m", g.f_base_n_m, " N m, like 0.06");
+  friction("f_strib_n_m", g.f_strib_n_m, " N m, like 0.02");
+  friction("f_visc_n_m_s", g.f_visc_n_m_s, " N m s/rad, like 0.015");
+  g.l_base = read.number("l_base", 0, kMostLoad, ", a part of the load", g.l_base);
+  g.l_strib = read.number("l_strib", 0, kMostLoad, ", a part of the load", g.l_strib);
+  if (g.l_base + g.l_strib > kMostLoad) {
+    e.fail(fmt::format("l_base and l_strib take {:.3g} of a load between them, and lock the gears",
+                       g.l_base + g.l_strib),
+           fmt::format("choose them so that their sum is at most {}", kMostLoad));
+  }
+  g.w_s_rad_s = read.number("w_s_rad_s", 1e-3, 1e3, " rad/s, like 1.5", g.w_s_rad_s);
+  g.alpha = read.number("alpha", 0.1, 20, ", like 1.3", g.alpha);
+  read_bands(e, type);
+}
+
+ServoType read_type(const XmlElement& e, const std::vector<ServoType>& known) {
+  e.allow({"name",
+           "like",
+           "title",
+           "protocol",
+           "model_number",
+           "nominal_v",
+           "kt_n_m_a",
+           "resistance_ohm",
+           "stall_torque_n_m",
+           "no_load_rev_min",
+           "stall_current_a",
+           "counts_per_rev",
+           "encoder_noise_deg",
+           "loop_us",
+           "loop_delay_us",
+           "goal_delay_us",
+           "fast_sync_read",
+           "p_gain",
+           "armature_kg_m2",
+           "f_base_n_m",
+           "f_strib_n_m",
+           "l_base",
+           "l_strib",
+           "w_s_rad_s",
+           "alpha",
+           "f_visc_n_m_s",
+           "armature_band",
+           "friction_band",
+           "source"});
+  const std::string name = e.text("name");
+  if (find_servo_type(known, name)) {
+    e.fail("there is a servo type '" + name + "' already", "choose another name");
+  }
+  const ServoType* like = nullptr;
+  if (e.has("like")) {
+    like = find_servo_type(known, e.text("like"));
+    if (!like)
+      e.fail("no servo type '" + e.text("like") + "'", "choose one of: " + names_of(known));
+  }
+  ServoType type = like ? *like : ServoType{};
+  const Reader read(e, like);
+  type.name = name;
+  type.title = e.text("title", name);
+  if (!like || e.has("protocol")) type.protocol = read_protocol(e);
+  const auto whole = [&](const char* attribute, int low, int high, int of_like) {
+    return like ? e.integer(attribute, low, high, of_like) : e.integer(attribute, low, high);
+  };
+  type.model_number =
+      static_cast<std::uint16_t>(whole("model_number", 1, 65535, type.model_number));
+  const double nominal_v = e.number_within("nominal_v", 0.1, 1000, " V, like 12", type.nominal_v);
+  if (nominal_v != type.nominal_v && !e.has("kt_n_m_a") && !e.has("stall_torque_n_m")) {
+    e.fail("<verp:servo_type> nominal_v needs the motor's numbers at that voltage",
+           "add kt_n_m_a and resistance_ohm, or stall_torque_n_m and no_load_rev_min");
+  }
+  type.nominal_v = nominal_v;
+  read_motor(e, type);
+  type.counts_per_rev =
+      e.integer("counts_per_rev", 64, 1 << 22, static_cast<int>(type.counts_per_rev));
+  type.encoder_noise_deg =
+      e.number_within("encoder_noise_deg", 0, 10, " degrees", type.encoder_noise_deg);
+  type.loop_us = e.number_within("loop_us", 10, 20000, " us, like 1000", type.loop_us);
+  type.loop_delay_us = e.number_within("loop_delay_us", 0, 20000, " us", type.loop_delay_us);
+  type.goal_delay_us = e.number_within("goal_delay_us", 0, 100000, " us", type.goal_delay_us);
+  type.fast_sync_read = e.integer("fast_sync_read", 0, 1, type.fast_sync_read ? 1 : 0) == 1;
+  type.default_p_gain =
+      static_cast<std::uint16_t>(e.integer("p_gain", 1, 16383, type.default_p_gain));
+  read_gearbox(e, read, type);
+  return type;
+}
+
+}  // namespace
+
+BusProtocol read_protocol(const XmlElement& e) {
+  const std::string name = e.text("protocol");
+  for (const BusProtocol each : {BusProtocol::kDynamixel2, BusProtocol::kCia402}) {
+    if (name == protocol_name(each)) return each;
+  }
+  e.fail("no bus protocol '" + name + "'", "write protocol=\"dynamixel2\" or \"cia402\"");
+}
+
+std::vector<ServoType> read_servo_types(const XmlElement& model) {
+  std::vector<ServoType> types = servo_types();
+  for (const XmlElement& child : model.children("verp:servo_type")) {
+    types.push_back(read_type(child, types));
+  }
+  return types;
+}
+
+}  // namespace verp::model

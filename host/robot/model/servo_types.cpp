@@ -1,0 +1,175 @@
+#include "host/robot/model/servo_types.hpp"
+
+#include <cmath>
+#include <numbers>
+
+#include "host/robot/model/entity.hpp"
+
+namespace verp::model {
+
+namespace {
+
+// What all MX(2.0) and X-series have in common. Encoder (e-Manual): ams AS5045; its data sheet
+// gives 0.03 degrees rms and 384 us of propagation delay in slow mode. The loop's rate is an
+// estimate: the firmware's gains are per millisecond.
+ServoType dynamixel(const char* name, const char* title, std::uint16_t model_number) {
+  ServoType type;
+  type.name = name;
+  type.title = title;
+  type.model_number = model_number;
+  type.loop_delay_us = 384;
+  return type;
+}
+
+// Table "identified parameters" of the paper, seen from the joint.
+ServoType identified(ServoType type, double kt_n_m_a, double resistance_ohm, const Gearbox& gears) {
+  type.stall_current_a = type.nominal_v / resistance_ohm;
+  type.stall_torque_n_m = kt_n_m_a * type.stall_current_a;
+  type.no_load_rev_min = type.nominal_v / kt_n_m_a * 60 / (2 * std::numbers::pi);
+  type.gearbox = gears;
+  type.source = "identified: Duclusaud and Passault, arXiv 2410.08650, M4";
+  return type;
+}
+
+// Nobody has published these motors. Data sheet (e-Manual, at 12 V) for the motor's line, friction
+// on top: of the identified MX-64 the sheet says 6.0 N m, its line 6.3. Rotor and friction are the
+// means of the identified metal gears, MX-64 and MX-106, as shares of what scales them:
+//   rotor      0.95, 1.05 (XL-330: 1.10) e-5 kg m2 per N m of stall torque at the rotor, seen
+//              through the gear ratio
+//   f_base     0.98, 0 % of stall torque; f_strib 0.38, 0.93 %
+//   l_base     0, 0.009; l_strib 0.234, 0.222: of the load, whatever the motor
+//   f_visc     1.7, 2.4 % of the line's slope
+// The band: half of each.
+ServoType scaled(ServoType type, double gear_ratio, double stall_torque_n_m, double no_load_rev_min,
+                 double stall_current_a) {
+  type.stall_torque_n_m = stall_torque_n_m;
+  type.no_load_rev_min = no_load_rev_min;
+  type.stall_current_a = stall_current_a;
+  const double slope = stall_torque_n_m / (no_load_rev_min * 2 * std::numbers::pi / 60);
+  type.gearbox = {.armature_kg_m2 = 1.0e-5 * gear_ratio * stall_torque_n_m,
+                  .f_base_n_m = 0.005 * stall_torque_n_m,
+                  .f_strib_n_m = 0.0065 * stall_torque_n_m,
+                  .l_base = 0.005,
+                  .l_strib = 0.228,
+                  .w_s_rad_s = 1.57,
+                  .alpha = 1.33,
+                  .f_visc_n_m_s = 0.02 * slope};
+  type.armature_band = type.friction_band = 0.5;
+  type.source = "scaled by stall torque and gear ratio from the identified MX-64 and MX-106";
+  return type;
+}
+
+ServoType mx(ServoType type) {
+  type.default_p_gain = 850;
+  return type;
+}
+
+ServoType x_series(ServoType type, std::uint16_t p_gain = 800) {
+  type.default_p_gain = p_gain;
+  type.fast_sync_read = true;
+  return type;
+}
+
+// The twin's own drive (host/twin/can): motor, gears and housing of the XM430-W210 behind a 14-bit
+// encoder, as magnetic encoders in joint drives have (ams AS5048A), so that the same stiffness
+// takes a quarter of the P gain. Its product code is the profile's number.
+ServoType drive_of(ServoType type) {
+  type.name = "cia402_w210";
+  type.title = "CiA 402 drive with the XM430-W210's motor";
+  type.protocol = BusProtocol::kCia402;
+  type.model_number = 402;
+  type.counts_per_rev = 16384;
+  type.default_p_gain = 200;
+  type.fast_sync_read = false;
+  return type;
+}
+
+// XL-330: the M288, 5 V.
+ServoType xl330() {
+  ServoType type = x_series(dynamixel("xl330", "XL330-M288-T", 1200), 400);
+  type.nominal_v = 5;
+  return identified(type, 0.386, 3.40,
+                    {.armature_kg_m2 = 0.00190,
+                     .f_base_n_m = 0.0088,
+                     .f_strib_n_m = 0,
+                     .l_base = 0.0680,
+                     .l_strib = 0.0738,
+                     .w_s_rad_s = 2.56,
+                     .alpha = 0.76,
+                     .f_visc_n_m_s = 0.0046});
+}
+
+}  // namespace
+
+const std::vector<ServoType>& servo_types() {
+  static const std::vector<ServoType> kTypes = [] {
+    const ServoType w210 =
+        scaled(x_series(dynamixel("xm430_w210", "XM430-W210-R", 1030)), 212.6, 3.0, 77, 2.3);
+    return std::vector<ServoType>{
+        w210,
+        scaled(x_series(dynamixel("xm430_w350", "XM430-W350-R", 1020)), 353.5, 4.1, 46, 2.3),
+        scaled(x_series(dynamixel("xh430_w210", "XH430-W210-R", 1010), 900), 212.6, 2.5, 50, 1.3),
+        scaled(x_series(dynamixel("xh430_w350", "XH430-W350-R", 1000), 900), 353.5, 3.4, 30, 1.3),
+        scaled(x_series(dynamixel("xm540_w150", "XM540-W150-R", 1130)), 152.3, 7.3, 53, 4.4),
+        scaled(x_series(dynamixel("xm540_w270", "XM540-W270-R", 1120)), 272.5, 10.6, 30, 4.4),
+        scaled(x_series(dynamixel("xh540_w150", "XH540-W150-R", 1110)), 152.3, 7.1, 70, 4.9),
+        scaled(x_series(dynamixel("xh540_w270", "XH540-W270-R", 1100)), 272.5, 9.9, 39, 4.9),
+        xl330(),
+        scaled(mx(dynamixel("mx28", "MX-28(2.0)", 30)), 193, 2.5, 55, 1.4),
+        identified(mx(dynamixel("mx64", "MX-64(2.0)", 311)), 1.663, 3.16,
+                   {.armature_kg_m2 = 0.01096,
+                    .f_base_n_m = 0.0616,
+                    .f_strib_n_m = 0.0239,
+                    .l_base = 0,
+                    .l_strib = 0.234,
+                    .w_s_rad_s = 1.52,
+                    .alpha = 1.33,
+                    .f_visc_n_m_s = 0.0148}),
+        identified(mx(dynamixel("mx106", "MX-106(2.0)", 321)), 2.231, 2.37,
+                   {.armature_kg_m2 = 0.02457,
+                    .f_base_n_m = 0,
+                    .f_strib_n_m = 0.1049,
+                    .l_base = 0.0092,
+                    .l_strib = 0.2224,
+                    .w_s_rad_s = 1.62,
+                    .alpha = 1.32,
+                    .f_visc_n_m_s = 0.0510}),
+        drive_of(w210),
+    };
+  }();
+  return kTypes;
+}
+
+const ServoType* find_servo_type(const std::vector<ServoType>& types, std::string_view name) {
+  for (const ServoType& type : types) {
+    if (name == type.name) return &type;
+  }
+  return nullptr;
+}
+
+const char* protocol_name(BusProtocol protocol) {
+  return protocol == BusProtocol::kCia402 ? "cia402" : "dynamixel2";
+}
+
+const std::vector<ImuType>& imu_types() {
+  constexpr double kDegree = std::numbers::pi / 180;
+  constexpr double kG = 9.80665;
+  // TDK InvenSense ICM-20648 datasheet DS-000179: +-2000 dps at 16.4 LSB/dps, +-4 g at 8192 LSB/g;
+  // noise densities 0.015 dps/sqrt(Hz) and 190 ug/sqrt(Hz). Its zero-rate output (5 dps) and
+  // zero-g offset (25 mg) are calibrated in the factory and at rest; what remains, 0.1 dps and 5
+  // mg, is our assumption: a few times the noise of a one-second mean, and temperature drift.
+  static const std::vector<ImuType> kTypes = {
+      {"icm20648", kDegree / 16.4, kG / 8192, 0.015 * kDegree, 0.1 * kDegree, 190e-6 * kG,
+       5e-3 * kG},
+  };
+  return kTypes;
+}
+
+const ImuType* find_imu_type(std::string_view name) {
+  for (const ImuType& type : imu_types()) {
+    if (name == type.name) return &type;
+  }
+  return nullptr;
+}
+
+}  // namespace verp::model

@@ -1,0 +1,60 @@
+#pragma once
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "host/robot/model/entity.hpp"
+
+namespace verp::model {
+
+/// One servo type: what <verp:servo type="..."> names. The twin's motor and gearbox, Params and
+/// `verp check` all use these. A type that is not shipped is described in the robot's own file
+/// (<verp:servo_type>, servo_type_facts.hpp).
+struct ServoType {
+  std::string name;                                 ///< as in <verp:servo type="...">
+  std::string title;                                ///< as its maker calls it
+  BusProtocol protocol = BusProtocol::kDynamixel2;  ///< what it speaks
+  std::uint16_t model_number = 0;  ///< control table address 0; product code of a CiA 402 drive
+  double stall_torque_n_m = 0;     ///< of the motor's line, at nominal_v, before friction
+  double no_load_rev_min = 0;
+  double stall_current_a = 0;
+  double nominal_v = 12;
+  double counts_per_rev = 4096;
+  double encoder_noise_deg = 0.03;
+  double loop_us = 1000, loop_delay_us = 0, goal_delay_us = 0;
+  bool fast_sync_read = false;         ///< answers instruction 0x8A
+  std::uint16_t default_p_gain = 800;  ///< control table units, or a drive's 2002h:1
+  Gearbox gearbox;
+  double armature_band = 0, friction_band = 0;  ///< as in Servo
+  std::string source;
+};
+
+/// Of rows as these, for a person to choose from.
+template <class Type>
+std::string names_of(const std::vector<Type>& types) {
+  std::string list;
+  for (const Type& type : types) list += (list.empty() ? "" : ", ") + std::string(type.name);
+  return list;
+}
+
+/// The types that are shipped.
+const std::vector<ServoType>& servo_types();
+/// nullptr when there is no such type among these.
+const ServoType* find_servo_type(const std::vector<ServoType>& types, std::string_view name);
+
+/// One row per IMU type: scales of its registers and noise, from the datasheet.
+struct ImuType {
+  const char* name;
+  double gyro_rad_s_per_count;
+  double accel_m_s2_per_count;
+  double gyro_noise_rad_s_rthz;  ///< density, one-sided: rad/s/sqrt(Hz)
+  double gyro_bias_rad_s;        ///< 1-sigma, what remains after calibration
+  double accel_noise_m_s2_rthz;
+  double accel_bias_m_s2;
+};
+
+const ImuType* find_imu_type(std::string_view name);
+const std::vector<ImuType>& imu_types();
+
+}  // namespace verp::model

@@ -1,0 +1,97 @@
+#pragma once
+#include <tinyxml2.h>
+
+#include <initializer_list>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "host/robot/model/entity.hpp"
+
+/// The XML text behind a robot, with line numbers: what libsdformat does not keep. Numbers are read
+/// strictly.
+namespace verp::model {
+
+/// An element and the file it stands in.
+class XmlElement {
+ public:
+  XmlElement(const std::string& file, const tinyxml2::XMLElement& element)
+      : file_(&file), element_(&element) {}
+
+  std::string name() const { return element_->Name(); }
+  int line() const { return element_->GetLineNum(); }
+  const std::string& file() const { return *file_; }
+  const tinyxml2::XMLElement& raw() const { return *element_; }
+  std::vector<XmlElement> children() const;
+  std::vector<XmlElement> children(const char* name) const;
+
+  /// Throws LoadError at this element.
+  [[noreturn]] void fail(const std::string& message, const std::string& fix) const;
+
+  /// Throws LoadError when an attribute or an element inside is not among these, or text is inside.
+  void allow(std::initializer_list<const char*> attributes,
+             std::initializer_list<const char*> elements = {}) const;
+  bool has(const char* attribute) const { return element_->Attribute(attribute) != nullptr; }
+  /// Each throws LoadError when the attribute is missing (and no fallback is given) or malformed.
+  std::string text(const char* attribute) const;
+  std::string text(const char* attribute, const std::string& fallback) const;
+  double number(const char* attribute) const;
+  double number(const char* attribute, double fallback) const;
+  double number_within(const char* attribute, double low, double high, const char* unit) const;
+  double number_within(const char* attribute, double low, double high, const char* unit,
+                       double fallback) const;
+  int integer(const char* attribute, int lowest, int highest) const;
+  int integer(const char* attribute, int lowest, int highest, int fallback) const;
+  Vec3 vector(const char* attribute) const;  ///< a position or size in metres
+
+ private:
+  const std::string* file_;  // lives in XmlSource
+  const tinyxml2::XMLElement* element_;
+};
+
+/// A robot's file and every file that it includes.
+class XmlSource {
+ public:
+  /// Reads and checks: existence, well-formed XML, strict numbers in all standard elements. Throws
+  /// LoadError.
+  explicit XmlSource(const std::string& path) : XmlSource(path, std::nullopt) {}
+  /// The same of a text that would stand in that file.
+  XmlSource(const std::string& path, const std::optional<std::string>& text);
+
+  const std::string& path() const { return files_.front()->path; }
+  /// The one <model> of the main file. Throws LoadError when there is none or more than one.
+  XmlElement model() const;
+  /// The file that an <include> of this URI is of, whatever the working directory is then; empty:
+  /// there is none.
+  std::string included(const std::string& uri) const;
+  /// Root elements (<robot>) of the URDF files among the includes.
+  std::vector<XmlElement> urdfs() const;
+
+  struct Place {
+    std::string file;
+    int line = 1;
+  };
+  /// Where the link, joint, frame, ... of that name is defined; nothing if nowhere.
+  std::optional<Place> find(const std::string& name) const;
+  /// The first name in quotes, brackets or after a colon in `message` that is defined somewhere;
+  /// else the model.
+  Place blame(const std::string& message) const;
+
+ private:
+  struct File {
+    std::string path;
+    tinyxml2::XMLDocument document;
+  };
+  void read(const std::string& path, const std::optional<std::string>& text = {});
+  void include(const File& file, const tinyxml2::XMLElement& element);
+  void inspect(const File& file, const tinyxml2::XMLElement& element);
+
+  std::vector<std::unique_ptr<File>> files_;
+  std::vector<std::string> open_;  ///< the main file, the one that it includes now, ...
+  std::map<std::string, Place> names_;
+  std::map<std::string, std::string> included_;  ///< by its <uri>
+};
+
+}  // namespace verp::model

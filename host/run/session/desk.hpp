@@ -1,0 +1,51 @@
+#pragma once
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+#include "firmware/app/operator_device.hpp"
+#include "host/run/session/robot.hpp"
+
+namespace verp::session {
+
+/// Between the person who gives a robot's orders and its controller in this process: the controller
+/// is device 200 on a wire, as on a board, and orders are writes to its registers. No struct takes
+/// a short cut: what a board would refuse is refused here. OperatorLink and Recorder of the loop.
+class Desk {
+ public:
+  explicit Desk(Robot& robot);
+
+  void brought_up(const app::BringUpReport& report) { device_.brought_up(report); }
+  /// Throws bus::SinkError if the controller does not take an order.
+  app::OperatorOrder order(std::uint32_t tick);
+  void record(const TickRecord& tick, const State& state, const Outputs& outputs);
+
+ private:
+  /// The controller's end; this one's bytes are in the open.
+  struct Wire {
+    std::size_t write(const std::uint8_t* data, std::size_t size, std::uint32_t) {
+      told.insert(told.end(), data, data + size);
+      return size;
+    }
+    std::size_t read(std::uint8_t* buffer, std::size_t capacity, std::uint32_t) {
+      const std::size_t count = std::min(capacity, asked.size());
+      std::copy_n(asked.begin(), count, buffer);
+      asked.erase(asked.begin(), asked.begin() + static_cast<std::ptrdiff_t>(count));
+      return count;
+    }
+    bool connected() const { return true; }
+    hal::LinkErrors errors() const { return {}; }
+    std::vector<std::uint8_t> asked, told;
+  };
+
+  void hand_over(std::size_t packets);
+
+  Robot& robot_;
+  Wire wire_;
+  app::OperatorDevice<Wire> device_;
+  bool relaxed_ =
+      false;  ///< asked to, once: before that a controller that has started obeys nobody
+  bool stopped_ = false;  ///< the emergency stop is pressed
+};
+
+}  // namespace verp::session

@@ -1,0 +1,51 @@
+#include "host/run/session/fault_names.hpp"
+
+#include <utility>
+
+#include "common/safety/machine.hpp"
+
+namespace verp::session {
+namespace {
+
+constexpr FaultName kNames[] = {
+    {safety::kFaultFall, "fall"},
+    {safety::kFaultEmergency, "emergency stop"},
+    {safety::kFaultServoSilent, "servo silent"},
+    {safety::kFaultImuSilent, "IMU silent"},
+    {safety::kFaultOperatorQuiet, "operator silent"},
+    {safety::kFaultTemperature, "servo too hot"},
+    {safety::kFaultVoltage, "voltage low"},
+    {safety::kFaultServoError, "servo hardware error"},
+    {safety::kFaultJointBeyond, "joint beyond its limits"},
+    {safety::kNoteOverrun, "tick overran"},
+    {safety::kNoteParameter, "parameter refused"},
+    {safety::kNoteStrideLimited, "stride limited"},
+    {safety::kNotePlanShortened, "steps shortened"},
+    {safety::kNotePlanRefused, "plan refused"},
+    {safety::kNoteLegLimited, "leg out of reach"},
+    {safety::kNoteSpeedLimited, "joint speed limited"},
+};
+
+}  // namespace
+
+std::span<const FaultName> all_fault_names() {
+  return kNames;
+}
+
+std::string fault_names(std::uint32_t faults) {
+  std::string text;
+  for (const auto& [bit, name] : kNames) {
+    if ((faults & bit) == 0) continue;
+    text += (text.empty() ? "" : ", ") + std::string(name);
+  }
+  return text;
+}
+
+std::string PlanNotes::news(std::uint32_t faults) {
+  const std::uint32_t notes =
+      faults & (safety::kNoteStrideLimited | safety::kNotePlanShortened | safety::kNotePlanRefused);
+  const std::uint32_t begun = notes & ~std::exchange(on_, notes);
+  return begun == 0 ? "" : "the legs cannot do what is asked: " + fault_names(notes);
+}
+
+}  // namespace verp::session

@@ -1,0 +1,347 @@
+#include "host/run/session/robot.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "common/control/step.hpp"
+#include "host/run/session/asked.hpp"
+#include "host/run/session/fault_names.hpp"
+#include "host/run/session/readings.hpp"
+#include "host/trace/record/trace_error.hpp"
+#include "host/twin/sim/planned_zmp.hpp"
+#include "host/twin/sim/scenery.hpp"
+
+namespace verp::session {
+namespace {
+
+constexpr double kAfterFall_s = 0.5;  // the report should show how it fell
+constexpr double kAfterStop_s = 0.3;  // and how it stands still
+
+Hooks with_own(Hooks hooks, const WalkPlan& plan) {
+  if (!hooks.decide && plan.own) hooks.decide = plan.own();
+  return hooks;
+}
+
+record::ros::BodyPose pose_of(const sim::Transform& body) {
+  const Eigen::Quaterniond q(body.linear());
+  const auto& p = body.translation();
+  return {{p.x(), p.y(), p.z()}, {q.x(), q.y(), q.z(), q.w()}};
+}
+
+std::vector<record::ros::ObjectPose> objects_of(const sim::Scenery& scenery) {
+  const std::vector<sim::Transform> poses = scenery.moving_poses();
+  std::vector<record::ros::ObjectPose> out;
+  for (const model::WorldObject* object : model::moving(scenery.data()))
+    out.push_back({object->name, pose_of(poses[out.size()])});
+  return out;
+}
+
+}  // namespace
+
+Robot::Robot(sim::World& world, const WalkPlan& plan, Hooks hooks, Interrupted interrupted)
+    : plan_(plan),
+      hooks_(with_own(std::move(hooks), plan_)),
+      interrupted_(std::move(interrupted)),
+      trace_(hooks_.trace),
+      world_(world),
+      twin_(world, plan_.entity, plan_.twin),
+      walker_(std::in_place, plan_.params, plan_.velocity, plan_.walk_s, plan_.get_ups,
+              plan_.stands),
+      meter_(plan_.entity, hooks_.keep_series),
+      pending_(plan_.interventions.begin(), plan_.interventions.end()),
+      story_(plan_.get_ups) {
+  std::stable_sort(pending_.begin(), pending_.end(),
+                   [](const Intervention& a, const Intervention& b) { return a.at_s < b.at_s; });
+  if (plan_.params.bus_protocol == BusProtocol::kCia402) {
+    can_.emplace(plan_.params, twin_);
+  } else {
+    bus_.emplace(plan_.params, twin_);
+  }
+}
+
+bool Robot::over() const {
+  return over_ || interrupted();
+}
+
+void Robot::fail(const std::string& why) {
+  if (result_.failure.empty()) result_.failure = why;
+  over_ = true;
+}
+
+double Robot::simulated_s() const {
+  return static_cast<double>(twin_.now_us()) * 1e-6;
+}
+
+double Robot::walked_s() const {
+  return walked_s_ + walker_->walked_s();
+}
+
+double Robot::gone_s() const {
+  if (!watched_ && !hooks_.order) return walked_s();
+  const bool begun = watched_ ? verdict_.driven() : result_.ticks > 0;
+  return begun ? simulated_s() - begun_s_ : 0;
+}
+
+app::OperatorOrder Robot::order(std::uint32_t tick) {
+  app::OperatorOrder order = hooks_.order ? hooks_.order(tick) : walker_->order(tick);
+  if (hooks_.amend) hooks_.amend(tick, order);
+  return order;
+}
+
+void Robot::decide(State& state, const Inputs& inputs, Outputs& outputs) {
+  if (hooks_.decide) return hooks_.decide(plan_.params, state, inputs, outputs);
+  step(plan_.params, actions(), state, inputs, outputs);
+}
+
+void Robot::let_pass(std::uint32_t time_us) {
+  can_ ? can_->let_pass(can_->now_us() + time_us) : bus_->let_pass(bus_->now_us() + time_us);
+}
+
+void Robot::begin_anew() {
+  walked_s_ = walked_s();
+  walker_.emplace(plan_.params, plan_.velocity, std::max(0.0, plan_.walk_s - walked_s_),
+                  plan_.get_ups, plan_.stands);
+  trace_ = nullptr;
+}
+
+void Robot::take(const TickRecord& tick, const State& state, const Outputs& outputs) {
+  tick_ = tick;
+  state_ = state;
+  outputs_ = outputs;
+  taken_ = true;
+}
+
+void Robot::see() {
+  if (!std::exchange(taken_, false)) return;
+  walker_->observe(state_, outputs_);
+  look_after_falls();
+  const gait::Xy by_m = state_.gait.footsteps.stride.by_m;
+  if (state_.gait.queued > 0) {
+    result_.longest_step_m =
+        std::max(result_.longest_step_m,
+                 std::hypot(static_cast<double>(by_m.x), static_cast<double>(by_m.y)));
+  }
+  const sim::Observation seen = sim::observe(twin_);
+  meter_.tick(seen, outputs_, sim::planned_zmp_world_m(state_.tuning, state_.gait, seen.truth));
+  estimate_meter_.tick(state_, outputs_, seen.truth, world_.options().up.normalized());
+  if (result_.ticks == 0) {
+    begun_s_ = simulated_s();
+    if (can_) {
+      bits_before_ = can_->bits_on_wire();
+      bare_bits_before_ = can_->bare_bits_on_wire();
+    }
+  }
+  ++result_.ticks;
+  result_.digest = tick_.digest.chain;
+  result_.faults = outputs_.faults;
+  std::vector<sim::Scan> scans;
+  if (trace_ != nullptr || hooks_.scanned) scans = twin_.take_scans();
+  if (trace_ != nullptr) append(seen.truth, scans);
+  tell(scans);
+  tell_exposures();
+  const bool done = hooks_.order ? gone_s() >= plan_.walk_s : walker_->done();
+  intervene_in_time();
+  const bool ended = done || (twin_.fallen() && plan_.get_ups == 0);
+  after_s_ += ended ? plan_.params.period_us * 1e-6 : 0;
+  const bool ends = after_s_ > (twin_.fallen() ? kAfterFall_s : kAfterStop_s);
+  over_ = over_ || (ends && !hooks_.open_end);
+  if (hooks_.ticked)
+    hooks_.ticked({seen, gone_s(), &tick_, &state_, &outputs_, &world_, twin_.owner()});
+}
+
+/// One that got up walks on: what the twin holds against it is over.
+void Robot::look_after_falls() {
+  tell(story_.observe(state_, outputs_));
+  result_.falls = story_.falls();
+  result_.get_ups = story_.get_ups();
+  const bool stands = outputs_.mode == static_cast<std::uint8_t>(safety::Mode::kStanding);
+  const bool gets_up = plan_.get_ups > 0 || story_.get_ups() > 0;
+  if (stands && gets_up && twin_.fallen()) twin_.forget_fall();
+}
+
+void Robot::tell(const std::string& news) {
+  if (news.empty()) return;
+  result_.fall_story.push_back({simulated_s(), news});
+  if (hooks_.told) hooks_.told(result_.fall_story.back());
+}
+
+void Robot::intervene_in_time() {
+  constexpr double kRounding_s = 1e-9;  // of seconds that are summed tick by tick
+  while (!pending_.empty() && pending_.front().at_s <= gone_s() + kRounding_s) {
+    intervene(pending_.front());
+    pending_.pop_front();
+  }
+}
+
+void Robot::intervene(const Intervention& intervention) {
+  apply(intervention, quantities_());
+  const std::string what = in_words(intervention);
+  result_.interventions.push_back({tick_.inputs.tick, simulated_s(), what});
+  note(what);
+}
+
+/// A disk that is full costs the trace, not the walk.
+void Robot::note(const std::string& what) {
+  try {
+    if (trace_ != nullptr) trace_->note(tick_.inputs.tick, what);
+  } catch (const record::TraceError& error) {
+    result_.trace_failure = error.what();
+    trace_ = nullptr;
+  }
+}
+
+bool Robot::has_torque() {
+  for (int j = 0; j < plan_.params.joint_count; ++j) {
+    if (twin_.setpoint(j).torque_on) return true;
+  }
+  return false;
+}
+
+bool Robot::set_upright() {
+  if (!twin_.set_upright()) return false;
+  verdict_.set_upright();
+  result_.set_upright_s.push_back(simulated_s());
+  return true;
+}
+
+void Robot::watch() {
+  const bool torque = has_torque();
+  watched_ = true;
+  if (!torque && !verdict_.driven()) return;
+  if (!verdict_.driven()) begun_s_ = simulated_s();
+  const Outputs nothing;
+  const sim::Observation seen = sim::observe(twin_);
+  meter_.tick(seen, nothing);
+  ++result_.ticks;
+  const double up = std::clamp(seen.truth.body_world.linear()(2, 2), -1.0, 1.0);
+  verdict_.see(torque, std::acos(up), twin_.fallen());
+  const bool may_get_up = plan_.get_ups > 0;  // only if it stays down it fell
+  if (may_get_up && twin_.forget_fall()) verdict_.forget();
+  if (twin_.fallen() && !std::exchange(lies_, true) && may_get_up) {
+    const Eigen::Vector3d sky = seen.truth.body_world.linear().row(2);
+    tell("lies " + how_it_lies(sky.x(), sky.y()));
+  }
+  if (!twin_.fallen() && std::exchange(lies_, false)) tell("is on its feet again");
+  intervene_in_time();
+  after_s_ += verdict_.fell() && !may_get_up ? plan_.params.period_us * 1e-6 : 0;
+  over_ = over_ || gone_s() >= plan_.walk_s || after_s_ > kAfterFall_s;
+  if (hooks_.ticked) {
+    hooks_.ticked({.seen = seen, .gone_s = gone_s(), .world = &world_, .owner = twin_.owner()});
+  }
+}
+
+WalkResult Robot::result(double wall_s) {
+  result_.wall_s = wall_s;
+  result_.simulated_s = simulated_s();
+  result_.interrupted = interrupted();
+  result_.metrics = meter_.result();
+  result_.estimate = estimate_meter_.result();
+  result_.end_m = twin_.truth().body_world.translation().head<2>();
+  if (watched_) {
+    result_.simulated_s = gone_s();
+    result_.metrics.fallen = verdict_.fell();
+  }
+  result_.series = meter_.series();
+  if (can_) count_traffic();
+  if (result_.failure.empty() && !result_.interrupted) result_.failure = failure_of_walk();
+  result_.remark = plan_.remark;
+  if (result_.good() && !hooks_.order && walker_->longer_than_asked()) {
+    result_.remark +=
+        fmt::format("{}{:g} s were asked; the shortest walk with this cycle is {:.2f} s",
+                    result_.remark.empty() ? "" : "; ", plan_.walk_s, result_.metrics.walk_s);
+  }
+  if (result_.good() && !hooks_.order && !watched_ && walked_s_ <= 0) {
+    const std::string slow =
+        slow_start(plan_.asked.value_or(plan_.velocity), result_.metrics, plan_.params.tuning.gait);
+    if (!slow.empty()) result_.remark += (result_.remark.empty() ? "" : "; ") + slow;
+  }
+  return std::move(result_);
+}
+
+void Robot::count_traffic() {
+  const double ticks = std::max(1.0, static_cast<double>(result_.ticks) - 1);
+  const auto each_tick = [&](std::uint64_t now, std::uint64_t before) {
+    return static_cast<double>(now - before) / ticks;
+  };
+  result_.can =
+      CanTraffic{each_tick(can_->bits_on_wire(), bits_before_),
+                 each_tick(can_->bare_bits_on_wire(), bare_bits_before_), can_->errors().overruns};
+}
+
+/// A disk that is full costs the trace, not the walk.
+void Robot::append(const sim::Truth& truth, const std::vector<sim::Scan>& scans) {
+  try {
+    const record::ros::BodyPose body = pose_of(truth.body_world);
+    if (trace_->ticks() == 0) place_frames(*trace_, plan_.entity, plan_.params);
+    trace_->append(tick_, state_, outputs_, &body, truth.torque_n_m);
+    if (world_.scenery() != nullptr)
+      trace_->append(tick_.inputs.tick, objects_of(*world_.scenery()));
+    for (const sim::Scan& scan : scans) append(scan);
+    session::append(*trace_, plan_.entity, twin_.take_readings(),
+                    std::uint64_t{1000} * tick_.inputs.tick * plan_.params.period_us,
+                    twin_.now_us());
+  } catch (const record::TraceError& error) {
+    result_.trace_failure = error.what();
+    trace_ = nullptr;
+  }
+}
+
+void Robot::append(const sim::Scan& scan) {
+  const std::uint64_t age_us = twin_.now_us() - scan.time_us;
+  if (age_us > std::uint64_t{tick_.inputs.tick} * plan_.params.period_us) return;  // before tick 0
+  const model::LaserSensor& laser = plan_.entity.lasers[scan.laser];
+  trace_->append(laser.name, tick_.inputs.tick,
+                 record::ros::LaserScan{.frame = laser.name,
+                                        .first_rad = laser.first_rad,
+                                        .last_rad = laser.last_rad,
+                                        .step_rad = laser.step_rad(),
+                                        .period_s = 1 / laser.rate_hz,
+                                        .min_m = laser.min_m,
+                                        .max_m = laser.max_m,
+                                        .range_m = scan.range_m,
+                                        .age_ns = 1000 * age_us});
+}
+
+void Robot::tell(const std::vector<sim::Scan>& scans) const {
+  if (!hooks_.scanned) return;
+  const std::uint64_t tick_us = std::uint64_t{tick_.inputs.tick} * plan_.params.period_us;
+  for (const sim::Scan& each : scans) {
+    const std::uint64_t ago_us = twin_.now_us() - each.time_us;
+    if (ago_us <= tick_us) hooks_.scanned(each, 1000 * (tick_us - ago_us));  // else: before tick 0
+  }
+}
+
+void Robot::tell_exposures() {
+  if (!hooks_.exposed || (hooks_.trace != nullptr && trace_ == nullptr)) return;
+  const std::uint64_t tick_us = std::uint64_t{tick_.inputs.tick} * plan_.params.period_us;
+  for (const sim::Exposure& each : twin_.take_exposures()) {
+    const std::uint64_t ago_us = twin_.now_us() - each.time_us;
+    if (ago_us <= tick_us) hooks_.exposed(each, 1000 * (tick_us - ago_us));  // else: before tick 0
+  }
+}
+
+std::string Robot::failure_of_walk() const {
+  constexpr std::uint32_t kStopping = 0xFFFF;  // the lower half of Fault stops the robot
+  if (watched_) return verdict_.fell() ? "fell" : "";
+  if (result_.can && result_.can->overruns > 0) {
+    return fmt::format("the controller lost {} CAN frames that it had no room for",
+                       result_.can->overruns);
+  }
+  if (result_.metrics.fallen) {
+    const std::string failed = hooks_.order ? "" : walker_->failed();
+    const char* const of = plan_.stands ? "" : " of gait";
+    return failed.empty() ? fmt::format("fell after {:.2f} s{}", walked_s(), of) : failed;
+  }
+  const std::string faults = fault_names(result_.faults & kStopping);
+  if (!faults.empty()) return "stopped by fault: " + faults;
+  if (hooks_.order) return "";
+  const std::string failed = walker_->failed();
+  // A walk that a controller's reset cut in two starts and stops twice: nobody asked for that way.
+  if (!failed.empty() || walked_s_ > 0) return failed;
+  return shortfall(plan_.asked.value_or(plan_.velocity), result_.metrics, plan_.params.tuning.gait);
+}
+
+}  // namespace verp::session

@@ -1,0 +1,172 @@
+#include "host/run/session/walk_operator.hpp"
+
+#include <algorithm>
+
+#include "common/gait/footsteps.hpp"
+
+namespace verp::session {
+namespace {
+
+constexpr double kSettle_s = 0.5;    // a person waits for the robot to stand quietly
+constexpr double kStandUp_s = 15.0;  // bring-up pose, rise and gyro calibration take a few seconds
+constexpr double kLearns_s = 2.0;    // standing so long, a core has begun to learn its gyro's bias
+constexpr double kPatience_s = 8.0;  // standing so long, a robot trembles: no better bias will come
+constexpr double kIdle_s = 1.0;      // a gait that pauses by itself this long has given up
+constexpr double kOverrun_s = 5.0;   // a gait that has not ended by then never will
+constexpr std::uint32_t kFrameTicks = 10;  // the least often that the operator's frames come
+constexpr float kSomeError_rad = 1e-3F;    // a robot is never quite on its heading
+constexpr int kMostSteps = 1000;           // any stride has shrunk to nothing by then
+
+}  // namespace
+
+WalkOperator::WalkOperator(const Params& params, const Command& velocity, double walk_s,
+                           int get_ups, bool stands)
+    : params_(params),
+      velocity_(velocity),
+      walk_s_(walk_s),
+      period_s_(params.period_us * 1e-6),
+      get_up_(get_ups, get_ups > 0),
+      stands_(stands) {
+  command_.request = get_ups > 0 ? Request::kGetUp : Request::kStand;
+}
+
+/// True while it is down: nothing else is asked then. It asks anew for each try.
+bool WalkOperator::look_after_fall(safety::Mode mode) {
+  switch (get_up_.observe(mode, period_s_)) {
+    case GetUp::Phase::kUp:
+      return false;
+    case GetUp::Phase::kFell:
+      changed_ = true;
+      command_.request = Request::kGetUp;
+      gait_seen_ = false;
+      waited_s_ = standing_s_ = stood_s_ = idle_s_ = stopping_s_ = 0;
+      return true;
+    case GetUp::Phase::kDown:
+      return true;
+    case GetUp::Phase::kGaveUp:
+      break;
+  }
+  failed_ = "the robot did not get up", done_ = true;
+  command_.request = Request::kRelax;
+  return changed_ = true;
+}
+
+/// How long the gait goes on if stop is said now, or after one more step: steps already queued,
+/// strides that shrink, the step that closes the feet and the final one, as the gait itself will
+/// lay them.
+double WalkOperator::lead_s(const State& state, bool one_more) const {
+  const GaitTuning& tuning = state.tuning.gait;
+  const gait::GaitState& gait = state.gait;
+  gait::FootstepState footsteps = gait.footsteps;
+  gait::VelocityIn wanted;
+  wanted.vx_m_s = 1e-4F * static_cast<float>(velocity_.vx_tenth_mm_s);
+  wanted.vy_m_s = 1e-4F * static_cast<float>(velocity_.vy_tenth_mm_s);
+  wanted.wz_rad_s = 1e-3F * static_cast<float>(velocity_.wz_mrad_s);
+  wanted.heading_error_rad = kSomeError_rad;
+  // Outputs tell of the moment look_ahead_s before the clock's: the gait is not seen before.
+  std::int32_t rest_us =
+      -std::max(gait.clock_us, static_cast<std::int32_t>(1e6F * tuning.look_ahead_s));
+  for (int i = 0; i < gait.queued; ++i) rest_us += gait.queue[i].duration_us();
+  gait::Step last = gait.queue[gait.queued - 1];
+  wanted.stop = !one_more;
+  for (int i = 0; i < kMostSteps && !last.ends_walk(); ++i) {
+    last = gait::next_step(params_, tuning, wanted, last, footsteps);
+    rest_us += last.duration_us();
+    wanted.stop = true;
+  }
+  return 1e-6 * rest_us;
+}
+
+/// Strides are whole: stops where one step more would be too much.
+void WalkOperator::stop_in_time(const State& state) {
+  if (state.gait.queued == 0 || state.gait.queue[state.gait.queued - 1].ends_walk()) return;
+  if (walked_s_ + lead_s(state, true) <= walk_s_) {
+    could_walk_on_ = true;
+    return;
+  }
+  stopping_ = true;
+  changed_ = true;
+  command_.request = Request::kStand;
+  lead_s_ = lead_s(state, false);
+  longer_than_asked_ = !could_walk_on_ && walked_s_ + lead_s_ > walk_s_ + period_s_;
+}
+
+app::OperatorOrder WalkOperator::order(std::uint32_t tick) {
+  app::OperatorOrder order;
+  if (tick % kFrameTicks == 0 || changed_) {
+    ++command_.sequence;
+    order.flags = kCommandFresh;
+  }
+  changed_ = false;
+  order.command = command_;
+  return order;
+}
+
+void WalkOperator::observe(const State& state, const Outputs& outputs) {
+  if (done_ || look_after_fall(static_cast<safety::Mode>(outputs.mode))) return;
+  const bool standing = outputs.mode == static_cast<std::uint8_t>(safety::Mode::kStanding);
+  // It fell after stop was said: nothing is left to walk.
+  if (stopping_ && !gait_seen_ && standing) {
+    done_ = true;
+    return;
+  }
+  // Steps of a robot that was pushed before it was asked to walk are no gait of its walk.
+  if (!gait_seen_ && command_.request != Request::kWalk && stood_s_ < kSettle_s) {
+    wait_for_stand(state, standing);
+  } else if (stands_) {
+    watch_stand(standing);
+  } else {
+    watch_walk(state, outputs, standing);
+  }
+}
+
+/// Who stands must not be pushed before the core knows its gyro. Who walks would be let go then
+/// too, and keep for the whole way what two more seconds halve: the error of its heading.
+/// Controllers of one's own need not learn it at all.
+bool WalkOperator::knows_gyro(float still_s) const {
+  if (stands_) return still_s >= balance::kCalibrated_s;
+  const bool learns = still_s > 0 || standing_s_ < kLearns_s;
+  return !learns || still_s >= balance::kBestKnown_s || standing_s_ > kPatience_s;
+}
+
+void WalkOperator::wait_for_stand(const State& state, bool standing) {
+  waited_s_ += period_s_;
+  standing_s_ = standing ? standing_s_ + period_s_ : 0;
+  stood_s_ = standing && knows_gyro(state.attitude.still_s) ? stood_s_ + period_s_ : 0;
+  if (waited_s_ > kStandUp_s)
+    failed_ = stands_ ? "the robot did not stand" : "the robot did not start to walk", done_ = true;
+  if (stood_s_ < kSettle_s) return;
+  changed_ = true;
+  const std::uint8_t sequence = command_.sequence;
+  command_ = stands_ ? Command{} : velocity_;
+  command_.sequence = sequence;
+  command_.request = stands_ ? Request::kStand : Request::kWalk;
+}
+
+void WalkOperator::watch_stand(bool standing) {
+  walked_s_ += period_s_;
+  if (walked_s_ >= walk_s_ && standing) done_ = true;
+  if (walked_s_ > walk_s_ + kOverrun_s)
+    failed_ = "the robot did not come to stand again", done_ = true;
+}
+
+void WalkOperator::watch_walk(const State& state, const Outputs& outputs, bool standing) {
+  const bool gait = state.gait.queued > 0;
+  if (outputs.gait_phase != static_cast<std::uint8_t>(gait::Phase::kIdle)) walked_s_ += period_s_;
+  if (gait) {
+    gait_seen_ = true;
+    idle_s_ = 0;
+  } else if (!gait_seen_) {
+    waited_s_ += period_s_;
+  }
+  if (!stopping_) stop_in_time(state);
+  if (gait_seen_ && !stopping_ && !gait) idle_s_ += period_s_;
+  if (idle_s_ > kIdle_s) failed_ = "the robot stopped walking by itself", done_ = true;
+  if (stopping_) stopping_s_ += period_s_;
+  if (stopping_ && !gait && standing) done_ = true;
+  if (!gait_seen_ && waited_s_ > kStandUp_s)
+    failed_ = "the robot did not start to walk", done_ = true;
+  if (stopping_s_ > lead_s_ + kOverrun_s) failed_ = "the gait did not end", done_ = true;
+}
+
+}  // namespace verp::session

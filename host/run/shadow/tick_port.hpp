@@ -1,0 +1,54 @@
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "common/protocol/dynamixel2.hpp"
+#include "firmware/app/block_window.hpp"
+#include "host/os/link/link.hpp"
+
+namespace verp::shadow {
+
+/// A controller at its operator's port (Dynamixel device 200): its registers, and its images
+/// through the block window, several requests in one go. What gets no answer is asked again.
+class TickPort {
+ public:
+  enum class Answer {
+    kGood,
+    kSilent,   ///< none came, however often it was asked
+    kRefused,  ///< error() says why
+  };
+
+  /// Throws LinkError.
+  explicit TickPort(const wire::Endpoint& endpoint) : link_(endpoint) {}
+
+  Answer read(std::uint16_t address, void* to, std::uint16_t size);
+  Answer write(std::uint16_t address, std::uint8_t value);
+  /// Bytes of an image.
+  Answer read_image(app::ImageKind kind, std::size_t offset, void* to, std::size_t size);
+
+  dxl::Error error() const { return error_; }
+  bool connected() const { return link_.connected(); }
+
+ private:
+  /// Where the data of an answer goes.
+  struct Request {
+    std::uint8_t* to = nullptr;
+    std::size_t size = 0;
+  };
+  static constexpr std::uint8_t kId = dxl::controller::kDefaultId;
+
+  void add_read(std::uint16_t address, std::uint8_t* to, std::size_t size);
+  void add_write(std::uint8_t id, std::uint16_t address, const void* data, std::size_t size);
+  Answer exchange();
+  bool collect(bool& refused);
+  void drain();
+
+  wire::Link link_;
+  dxl::Error error_ = dxl::Error::kNone;
+  std::vector<std::uint8_t> outbox_;
+  std::vector<Request> asked_;
+  app::ImageKind window_ = app::ImageKind::kNone;  ///< as far as we know
+};
+
+}  // namespace verp::shadow

@@ -1,0 +1,43 @@
+#pragma once
+#include <map>
+#include <string>
+#include <vector>
+
+#include "host/show/render/gl.hpp"
+#include "host/show/render/projection.hpp"
+#include "host/show/render/shaders.hpp"
+
+/// What lights a scene's things: shaders of its lights, and the sun's shadows. Private to this
+/// folder.
+namespace verp::render {
+
+/// As shaders compute with it.
+Eigen::Vector3f linear(const scene::Colour& colour);
+
+class Lighting {
+ public:
+  Lighting() { make_shadow_map(kShadowTexels); }
+
+  /// Which of the scene's lights casts shadows; -1: none.
+  static int shadow_light(const scene::Scene& scene, const Effects& effects);
+  /// Of what is solid, seen by the sun.
+  void draw_shadows(const std::vector<Placed>& placed, const Mat4& sun, const Effects& effects);
+  /// The shader of a thing, in use and with all set that a picture's things have in common.
+  Program& program(const scene::Scene& scene, const View& view, const Effects& effects,
+                   bool of_floor, bool textured);
+
+ private:
+  void make_shadow_map(int texels);
+  void set_lights(const scene::Scene& scene, Program& program, double sun_radius_m);
+  void set_common(const scene::Scene& scene, Program& program, const View& view);
+
+  static constexpr int kShadowTexels = 2048, kQuickShadowTexels = 1024;
+
+  std::map<std::string, Program> lit_;  ///< by their headers
+  Program shade_{kShadowVertex, kShadowFragment};
+  Texture shadow_ = new_texture();
+  int shadow_texels_ = 0;
+  FrameBuffer shadow_frame_ = new_frame();
+};
+
+}  // namespace verp::render

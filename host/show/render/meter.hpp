@@ -1,0 +1,33 @@
+#pragma once
+#include <vector>
+
+#include "host/show/render/gl.hpp"
+#include "host/show/render/shaders.hpp"
+#include "host/show/render/shapes.hpp"
+#include "host/show/render/stage.hpp"
+
+/// What is in each pixel, and how far away. Private to this folder.
+namespace verp::render {
+
+/// Sets what every pass begins with.
+void begin_pass();
+
+class Meter {
+ public:
+  enum class Names {
+    kLabels,  ///< scene::label_of; of the floor 0
+    kItems    ///< indices into Scene::items; of the floor -1
+  };
+  /// Four floats a pixel, rows from the bottom: depth along the camera's axis (infinity: nothing
+  /// there), name, two without meaning.
+  std::vector<float> measure(const Stage& stage, const scene::Snapshot& now,
+                             const scene::Camera& camera, Size size, const Effects& effects,
+                             Names names);
+
+ private:
+  Program meter_{kSolidVertex, kMeasureFragment};
+  GpuMesh floor_{plane(1, 1)};
+  Canvas measured_;
+};
+
+}  // namespace verp::render

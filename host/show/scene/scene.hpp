@@ -1,0 +1,142 @@
+#pragma once
+#include <array>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "host/robot/model/entity.hpp"
+
+/// What there is to see: shapes, materials and lights once (Scene), and one instant of it
+/// (snapshot.hpp). Everything that shows something takes these two and nothing else, and nothing
+/// here reaches back into physics or a controller.
+namespace verp::scene {
+
+using model::Entity;
+using model::Mat3;
+using model::Transform;
+using model::Vec3;
+
+/// sRGB and opacity, 0 to 1.
+struct Colour {
+  float r = 1, g = 1, b = 1, a = 1;
+};
+
+struct Material {
+  Colour colour;
+  float roughness = 0.55F;
+  float metallic = 0;
+  Colour glow{0, 0, 0, 1};
+  std::string texture = {};  ///< image file, multiplied with the colour; empty: none
+};
+
+/// Triangles in the item's frame, metres. Normals may be empty: then faces are flat.
+struct Triangles {
+  std::vector<Eigen::Vector3f> points, normals;
+  std::vector<Eigen::Vector2f> texture_at;  ///< empty: no texture
+  std::vector<std::uint32_t> indices;       ///< three a triangle
+};
+
+enum class Shape {
+  kBox,       ///< size: edges
+  kSphere,    ///< size.x: radius
+  kCapsule,   ///< size.x: radius, size.z: length between the caps' centres, along z
+  kCylinder,  ///< size.x: radius, size.z: length
+  kPlane,     ///< size.x, size.y: edges, facing z; without thickness
+  kMesh,      ///< of mesh_file; size: scale of each axis
+  kTriangles  ///< of `triangles`
+};
+
+inline constexpr int kWorld = -1;
+
+/// One shape with one material, on a robot's link or in the world.
+struct Item {
+  std::string name;
+  int robot = kWorld;  ///< of Scene::robots
+  /// Of a robot: its link. Of the world: its moving body in Snapshot::body_world, or kWorld: it
+  /// stands still.
+  int node = 0;
+  Transform pose = Transform::Identity();  ///< in that frame
+  Shape shape = Shape::kBox;
+  Vec3 size_m = Vec3::Zero();
+  double round_m = 0;  ///< radius of a box's or cylinder's edges
+  Material material;
+  std::string mesh_file;
+  std::shared_ptr<const Triangles> triangles;
+  bool collision = false;  ///< a shape of physics: drawn only where Effects::collisions asks for it
+};
+
+struct Light {
+  enum class Kind { kSun, kPoint, kSpot } kind = Kind::kSun;
+  Vec3 position_m = Vec3::Zero();
+  Vec3 direction = Vec3(-0.4, 0.3, -1);  ///< in which it shines
+  Colour colour;
+  float strength = 1;
+  double range_m = 10;  ///< point, spot
+  /// Of those, at distance d: strength / (x + y d + z d^2), less toward the end of the range.
+  Vec3 fading = Vec3(0.01, 0, 1);
+  double inner_rad = 0.4, outer_rad = 0.6;
+  bool shadows = false;  ///< one sun casts them: the first that has this
+};
+
+struct Fog {
+  bool on = false;
+  Colour colour{0.8F, 0.83F, 0.87F, 1};
+  double begin_m = 4, end_m = 30;  ///< it thickens evenly between
+  double density_1_m = 0;  ///< above 0 instead: what is left at distance d is e^-(density d)
+  bool squared = false;    ///< e^-(density d)^2
+};
+
+/// The backdrop: a soft gradient, also what smooth things mirror.
+struct Sky {
+  Colour zenith{0.62F, 0.72F, 0.84F, 1};
+  Colour horizon{0.93F, 0.945F, 0.96F, 1};
+};
+
+/// The floor z = 0 as far as one can see; it fades into the horizon.
+struct Ground {
+  bool on = true;
+  Colour light{0.80F, 0.815F, 0.835F, 1};
+  Colour dark{0.775F, 0.79F, 0.812F, 1};
+  Colour line{0.64F, 0.66F, 0.70F, 1};
+  double tile_m = 0.1;
+  double fade_m = 6;  ///< at this distance half of it is horizon
+};
+
+/// A camera that a file declares on a robot, or for a world (robot: kWorld).
+struct Mount {
+  std::string name;
+  int robot = 0, node = 0;
+  Transform pose = Transform::Identity();  ///< x ahead, z up, as SDF has it
+  double horizontal_fov_rad = 1.0472;
+  int width_px = 320, height_px = 240;
+  double near_m = 0.02, far_m = 20;
+};
+
+struct Robot {
+  std::string name;
+  std::shared_ptr<const Entity> entity;  ///< its tree, limits and soles
+  double height_m = 0.5;                 ///< standing
+};
+
+struct Scene {
+  std::vector<Robot> robots;
+  std::vector<Item> items;
+  std::vector<Light> lights;
+  Colour ambient{1, 1, 1, 1};
+  float ambient_strength = 0.42F;
+  Fog fog;
+  Sky sky;
+  Ground ground;
+  bool antialias = true, textures = true, transparency = true;  ///< what its file leaves on
+  std::vector<Mount> cameras;
+  std::vector<std::string> notes;  ///< what a robot's file names and is not there, a line a robot
+};
+
+/// What a segmentation picture has where this item is: one number a link, from 1 on, in the order
+/// of robots and links; then one for each thing of the world, whose items have one name. 0:
+/// nothing, or the floor.
+int label_of(const Scene& scene, const Item& item);
+/// The name behind such a number: ROBOT/LINK, or the item's.
+std::string label_name(const Scene& scene, int label);
+
+}  // namespace verp::scene

@@ -1,0 +1,14 @@
+#pragma once
+#include <vector>
+
+#include "host/study/compare/compare.hpp"
+#include "host/study/report/plots.hpp"
+
+namespace verp::compare {
+
+/// The two laid over each other, joint by joint, over their last few cycles in common.
+report::Plot angles_plot(const Comparison& comparison, const Pair& pair);
+/// Error, offset and delay of each joint, side by side.
+report::Plot joints_plot(const Comparison& comparison);
+
+}  // namespace verp::compare

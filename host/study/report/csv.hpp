@@ -1,0 +1,33 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "host/study/report/run_data.hpp"
+
+/// The numbers behind the page, one text per file.
+namespace verp::report {
+
+std::string samples_csv(const Run& run);
+std::string asked_csv(const Run& run);
+std::string bias_csv(const Run& run);
+std::string torque_csv(const Run& run);
+std::string sweep_csv(const Run& run);
+
+/// Mean and largest torque use of one joint while walking.
+struct TorqueUse {
+  double mean = 0, peak = 0;
+};
+std::vector<TorqueUse> torque_use(const Run& run);
+
+/// Forward speed averaged over one cycle around each sample.
+std::vector<double> speed_m_s(const Run& run);
+
+/// Samples [first, last) of the last whole cycle of steady walking; empty (first == last) when
+/// there is none.
+struct Range {
+  std::size_t first = 0, last = 0;
+  bool empty() const { return first == last; }
+};
+Range last_steady_cycle(const Run& run);
+
+}  // namespace verp::report

@@ -1,0 +1,13 @@
+#pragma once
+#include "host/study/report/csv.hpp"
+#include "host/study/report/plots.hpp"
+#include "host/study/report/script.hpp"
+
+namespace verp::report {
+
+/// From above: the soles where they carry, the body, the ZMP as planned and as measured.
+Panel zmp_panel(const Run& run, const Range& range);
+
+Plot zmp_plot(const Run& run, const Range& cycle);
+
+}  // namespace verp::report

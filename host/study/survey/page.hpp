@@ -1,0 +1,31 @@
+#pragma once
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "host/study/report/plots.hpp"
+#include "host/study/report/run_data.hpp"
+
+namespace verp::survey {
+
+/// What a map leaves for people.
+struct Page {
+  std::string title, verdict;
+  bool good = true;
+  std::vector<report::Fact> facts;
+  std::vector<report::Plot> plots;  ///< the first one as map.png too
+  std::string csv;                  ///< map.csv
+  std::vector<std::pair<std::string, std::string>> changed, provenance;
+};
+
+struct WrittenPage {
+  std::filesystem::path page;
+  std::string note;  ///< why pictures are missing; empty: none is
+};
+
+/// Writes index.html, map.png and map.csv into `folder`, which is made if need be, and removes what
+/// a walk's report left there. Throws report::ReportError.
+WrittenPage write_page(const std::filesystem::path& folder, const Page& page);
+
+}  // namespace verp::survey

@@ -1,0 +1,32 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "host/study/survey/push_map.hpp"
+#include "host/study/survey/stability_map.hpp"
+
+/// Maps for a terminal and as CSV, and what they come to.
+namespace verp::survey {
+
+/// Of one direction, over those phases that were tried.
+struct Side {
+  double direction_rad = 0;
+  double least_n_s = 0, middle_n_s = 0, most_n_s = 0;
+  int least_phase = 0;  ///< the first of the weakest
+};
+/// In the map's order; without those of which no phase was tried.
+std::vector<Side> sides_of(const PushMap& map);
+
+/// "ahead", "90° left", "back".
+std::string direction_name(double direction_rad);
+
+std::string text_of(const PushMap& map, const PushOptions& options);
+std::string csv_of(const PushMap& map);
+
+std::string text_of(const StabilityMap& map, const StabilityOptions& options);
+std::string csv_of(const StabilityMap& map);
+
+/// How many of them ended so.
+int count_of(const StabilityMap& map, StabilityCell::End end);
+
+}  // namespace verp::survey

@@ -1,9 +1,0 @@
-#pragma once
-#include "host/tool/command.hpp"
-
-namespace verp::tool {
-
-/// `verp new controller`, below `new`.
-Subcommand add_new_controller(CLI::App& parent);
-
-}  // namespace verp::tool

@@ -1,0 +1,41 @@
+#pragma once
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+
+#include "host/trace/live/server.hpp"
+#include "host/trace/record/mcap_writer.hpp"
+#include "host/trace/record/team_channel.hpp"
+
+namespace verp::live {
+
+/// What one robot's trace is given, streamed: the same channels and messages, but for those of
+/// `verp replay`, in an encoding of our own that no viewer reads.
+class RobotStream : public record::mcap::Listener {
+ public:
+  /// The server must outlive it. `robot`: its name among several (record::TeamChannel); empty: it
+  /// is alone, and all is as in its trace.
+  explicit RobotStream(Server& server, std::string robot = {})
+      : server_(server), robot_(std::move(robot)) {}
+
+  void schema(std::uint16_t id, const record::mcap::Schema& schema) override;
+  void channel(std::uint16_t id, const record::mcap::Channel& channel) override;
+  void message(std::uint16_t channel, std::uint64_t time_ns, std::string_view data) override;
+
+ private:
+  struct Schema {
+    std::string name, encoding, data;
+  };
+  struct Streamed {
+    std::uint32_t id = 0;
+    std::optional<record::TeamChannel> team;  ///< none: it is alone
+  };
+
+  Server& server_;
+  std::string robot_;
+  std::map<std::uint16_t, Schema> schemas_;
+  std::map<std::uint16_t, Streamed> channels_;
+};
+
+}  // namespace verp::live

@@ -1,0 +1,168 @@
+#include "host/twin/bus/client.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+namespace verp::bus {
+namespace {
+
+constexpr std::uint32_t kArrival_us = 500'000;  // for the other end of a link to be there
+// The vendor's SDK allows a Ping to all 3 ms an id and 16 ms.
+constexpr std::uint32_t kScan_us = 253 * 3'000 + 16'000;
+
+constexpr std::array<const char*, 8> kErrors = {
+    "",
+    "Result Fail: it could not do that now",
+    "Instruction Error: it does not know that instruction",
+    "CRC Error: the packet came damaged",
+    "Data Range Error: the value is out of range",
+    "Data Length Error: only part of a register was written",
+    "Data Limit Error: the value is beyond a limit set in the device",
+    "Access Error: no such register, read-only, or locked while torque is on"};
+
+}  // namespace
+
+Client::Client(const wire::Endpoint& endpoint, std::uint32_t timeout_us)
+    : text_(wire::to_text(endpoint)),
+      baud_(endpoint.baud),
+      timeout_us_(timeout_us),
+      own_(endpoint),
+      link_(*own_),
+      bus_(link_, clock_),
+      master_(bus_) {
+  wait_for_somebody();
+}
+
+Client::Client(wire::Link& link, const wire::Endpoint& endpoint, std::uint32_t timeout_us)
+    : text_(wire::to_text(endpoint)),
+      baud_(endpoint.baud),
+      timeout_us_(timeout_us),
+      link_(link),
+      bus_(link_, clock_),
+      master_(bus_) {
+  wait_for_somebody();
+}
+
+void Client::wait_for_somebody() {
+  if (link_.wait_connected(std::max(timeout_us_, kArrival_us))) return;
+  if (text_.starts_with("pty:")) {
+    throw DeviceError(fmt::format(
+        "{}: nobody has opened this port, which is made anew; to open one that is there, give "
+        "serial:PATH",
+        link_.place()));
+  }
+  throw DeviceError(fmt::format(
+      "{}: nobody is at the other end; start it, or check the cable, and try again", text_));
+}
+
+std::uint32_t Client::patience_us(std::size_t bytes) const {
+  return timeout_us_ + (baud_ == 0 ? 0 : app::wire_us(bytes, baud_));
+}
+
+std::vector<Identity> Client::scan() {
+  std::vector<Identity> found;
+  const std::size_t frame = dxl::encode_ping(master_.frame(), master_.capacity(), dxl::kBroadcast);
+  master_.request(frame, std::max(kScan_us, patience_us(0)), [&](const dxl::Packet& packet) {
+    if (packet.size != 3) return app::Take::kStray;
+    found.push_back({packet.id, dxl::get_u16(packet.parameters), packet.parameters[2]});
+    return app::Take::kMore;
+  });
+  std::sort(found.begin(), found.end(),
+            [](const Identity& a, const Identity& b) { return a.id < b.id; });
+  // An answer to somebody who asked before may be among them.
+  const auto again = std::unique(found.begin(), found.end(),
+                                 [](const Identity& a, const Identity& b) { return a.id == b.id; });
+  found.erase(again, found.end());
+  return found;
+}
+
+std::optional<Client::Answer> Client::ask(std::uint8_t id, std::size_t frame, std::size_t size,
+                                          int attempts) {
+  if (owed_.replies > 0 && owed_.id == id && owed_.size == size) drop_late();
+  const std::uint32_t patience = patience_us(frame + dxl::kStatusBytes + size);
+  std::optional<Answer> answer;
+  int made = 0;
+  while (made < attempts && !answer) {
+    ++made;
+    master_.request(frame, patience, [&](const dxl::Packet& packet) {
+      const auto error = static_cast<std::uint8_t>(packet.error & ~dxl::kAlert);
+      if (packet.id != id || (error == 0 && packet.size != size)) return app::Take::kStray;
+      answer = {error, {packet.parameters, packet.parameters + packet.size}};
+      return app::Take::kDone;
+    });
+  }
+  tries_ = std::max(tries_, made);
+  owed_ = {answer ? made - 1 : made, id, size, patience};
+  return answer;
+}
+
+/// Waits for them as long again as each was waited for already: what is later than that is lost.
+void Client::drop_late() {
+  dxl::Parser late;
+  std::uint8_t bytes[256];
+  while (owed_.replies > 0) {
+    const std::size_t count = bus_.poll(bytes, sizeof bytes, 2 * owed_.patience_us);
+    if (count == 0) break;
+    for (std::size_t i = 0; i < count; ++i) {
+      for (bool found = late.push(bytes[i]); found; found = late.next()) {
+        owed_.replies -= late.packet().is_status() && late.packet().id == owed_.id ? 1 : 0;
+      }
+    }
+  }
+  owed_.replies = 0;
+}
+
+std::optional<Identity> Client::ping(std::uint8_t id, int attempts) {
+  const std::size_t frame = dxl::encode_ping(master_.frame(), master_.capacity(), id);
+  const auto answer = ask(id, frame, 3, attempts);
+  if (!answer || answer->error != 0) return std::nullopt;
+  return Identity{id, dxl::get_u16(answer->data.data()), answer->data[2]};
+}
+
+std::vector<std::uint8_t> Client::read(std::uint8_t id, std::uint16_t address,
+                                       std::uint16_t length) {
+  const std::size_t frame =
+      dxl::encode_read(master_.frame(), master_.capacity(), id, address, length);
+  const auto answer = ask(id, frame, length, kAttempts);
+  expect_good(id, address, "read", answer);
+  return answer->data;
+}
+
+bool Client::read_once(std::uint8_t id, std::uint16_t address, std::uint16_t length) {
+  const std::size_t frame =
+      dxl::encode_read(master_.frame(), master_.capacity(), id, address, length);
+  const auto answer = ask(id, frame, length, 1);
+  return answer && answer->error == 0;
+}
+
+void Client::write(std::uint8_t id, std::uint16_t address, const std::vector<std::uint8_t>& data) {
+  const std::size_t frame =
+      dxl::encode_write(master_.frame(), master_.capacity(), id, address, data.data(), data.size());
+  expect_good(id, address, "write", ask(id, frame, 0, kAttempts));
+}
+
+void Client::silent(std::uint8_t id) const {
+  const std::string reason =
+      !link_.connected()      ? "the link was lost; plug it in again"
+      : counters().strays > 0 ? "what came was no answer to it; is another program using this "
+                                "bus? See `verp bus scan`"
+      : crc_errors() > 0      ? "only damaged packets came; check the baud rate and the wiring"
+                              : "check power, wiring, id and baud rate, or raise --timeout";
+  throw DeviceError(fmt::format("{}: device {} did not answer, asked {} times: {}", text_, id,
+                                kAttempts, reason));
+}
+
+void Client::expect_good(std::uint8_t id, std::uint16_t address, const char* what,
+                         const std::optional<Answer>& answer) const {
+  if (!answer) silent(id);
+  if (answer->error == 0) return;
+  const char* error =
+      answer->error < kErrors.size() ? kErrors[answer->error] : "an error it has no name for";
+  throw RefusedError(fmt::format("{}: device {} refused the {} at address {}: {}", text_, id, what,
+                                 address, error),
+                     static_cast<dxl::Error>(answer->error));
+}
+
+}  // namespace verp::bus

@@ -1,0 +1,237 @@
+#include <algorithm>
+#include <utility>
+
+#include "common/protocol/device_end.hpp"
+#include "host/twin/bus/collision.hpp"
+#include "host/twin/bus/virtual_bus.hpp"
+
+// What each instruction of the protocol does on the bus.
+namespace verp::bus {
+namespace {
+
+constexpr auto kBackup = static_cast<dxl::Instruction>(0x20);  // e-Manual: Control Table Backup
+constexpr std::uint8_t kTooLong = static_cast<std::uint8_t>(dxl::Error::kDataLength);
+
+std::uint8_t error_field(const Device& device, dxl::Error error) {
+  return dxl::error_field(error, device.alert());
+}
+
+/// What is longer than a device can send it refuses to read.
+std::vector<std::uint8_t> status(std::uint8_t id, std::uint8_t error,
+                                 std::span<const std::uint8_t> data) {
+  std::vector<std::uint8_t> packet(dxl::kMaxPacket);
+  packet.resize(
+      dxl::encode_status(packet.data(), packet.size(), id, error, data.data(), data.size()));
+  if (!packet.empty()) return packet;
+  return status(id, static_cast<std::uint8_t>((error & dxl::kAlert) | int{kTooLong}), {});
+}
+
+/// The EEPROM cannot be written by a Secondary ID.
+bool in_ram(std::uint16_t address) {
+  return address >= dxl::address::kTorqueEnable;
+}
+
+}  // namespace
+
+bool VirtualBus::begins_tick(const dxl::Packet& packet) {
+  if (packet.id != dxl::kBroadcast) return false;
+  dxl::ReadEntry each;
+  for (std::size_t i = 0; dxl::read_entry(packet, i, each); ++i) {
+    if (each.address <= dxl::address::kPresentPosition &&
+        each.address + each.length >= dxl::address::kPresentPosition + 4) {
+      return true;
+    }
+  }
+  return false;
+}
+
+void VirtualBus::handle(const dxl::Packet& packet, std::uint64_t end_ns) {
+  if (packet.is_status()) return;
+  advance_plant(end_ns / 1000);
+  for (const auto& each : devices_) {
+    if (hears(*each)) each->heard(end_ns / 1000);
+  }
+  const std::span<const std::uint8_t> parameters(packet.parameters, packet.size);
+  const bool has_address = packet.size > 2;
+  const std::uint16_t address = has_address ? dxl::get_u16(packet.parameters) : std::uint16_t{0};
+  if (packet.instruction == kBackup) {
+    return command(packet.id, false, [&](Device& each) { return each.backup(parameters); });
+  }
+  switch (packet.instruction) {
+    case dxl::Instruction::kPing:
+      return ping(packet.id);
+    case dxl::Instruction::kRead:
+      return read(packet);
+    case dxl::Instruction::kWrite:
+      return command(packet.id, in_ram(address), [&](Device& each) {
+        return has_address ? each.write(address, parameters.subspan(2)) : dxl::Error::kDataLength;
+      });
+    case dxl::Instruction::kRegWrite:
+      return command(packet.id, in_ram(address), [&](Device& each) {
+        return has_address ? each.reg_write(address, parameters.subspan(2))
+                           : dxl::Error::kDataLength;
+      });
+    case dxl::Instruction::kAction:
+      return command(packet.id, true, [](Device& each) { return each.action(); });
+    case dxl::Instruction::kReboot:
+      return command(packet.id, true, [](Device& each) {
+        each.reboot();
+        return dxl::Error::kNone;
+      });
+    case dxl::Instruction::kFactoryReset:
+      return factory_reset(packet);
+    case dxl::Instruction::kClear:
+      return command(packet.id, true, [&](Device& each) { return each.clear(parameters); });
+    case dxl::Instruction::kSyncRead:
+    case dxl::Instruction::kBulkRead:
+    case dxl::Instruction::kFastSyncRead:
+    case dxl::Instruction::kFastBulkRead:
+      return dxl::is_fast_read(packet.instruction) ? read_fast(packet) : read_each(packet);
+    case dxl::Instruction::kSyncWrite:
+    case dxl::Instruction::kBulkWrite:
+      return write_each(packet);
+    default:
+      if (packet.id == dxl::kBroadcast) return;
+      return command(packet.id, false, [](Device&) { return dxl::Error::kInstruction; });
+  }
+}
+
+template <class Say>
+void VirtualBus::speak(const std::vector<Device*>& speakers, bool at_once, Say&& say) {
+  if (speakers.empty()) return;
+  const auto delay_us = [&](const Device* each) { return at_once ? 0 : each->return_delay_us(); };
+  std::uint32_t first_us = delay_us(speakers.front());
+  for (const Device* each : speakers) first_us = std::min(first_us, delay_us(each));
+  wait_us(first_us);
+  std::vector<Voice> voices;
+  for (std::size_t i = 0; i < speakers.size(); ++i) {
+    // No two clocks are the same: each next one is a bit later.
+    const std::uint64_t late_us = delay_us(speakers[i]) - first_us;
+    const auto late_bits = static_cast<std::uint32_t>(late_us * baud_ / 1'000'000 + i);
+    voices.push_back({say(*speakers[i]), late_bits});
+  }
+  put_on_wire(heard(voices));
+}
+
+// A reply bears the id that the device was asked by, though it may have another one by then.
+template <class Apply>
+void VirtualBus::command(std::uint8_t id, bool for_group, Apply apply) {
+  std::vector<Device*> speakers;
+  std::vector<dxl::Error> errors;
+  for (const auto& each : devices_) {
+    if (!hears(*each)) continue;
+    const bool asked = id == each->id();
+    if (!asked && id != dxl::kBroadcast && !(for_group && each->in_group(id))) continue;
+    const dxl::Error error = apply(*each);
+    if (!asked || each->status_level() < 2) continue;
+    speakers.push_back(each.get());
+    errors.push_back(error);
+  }
+  std::size_t next = 0;
+  speak(speakers, false,
+        [&](const Device& each) { return status(id, error_field(each, errors[next++]), {}); });
+}
+
+void VirtualBus::identify(std::uint8_t id) {
+  speak(devices(id), false, [id](const Device& each) {
+    std::array<std::uint8_t, 3> identity{};
+    dxl::put_u16(identity.data(), each.model());
+    identity[2] = each.firmware_version();
+    return status(id, error_field(each, dxl::Error::kNone), identity);
+  });
+}
+
+// The e-Manual says of a Ping to all that devices answer in their order; how far apart, the
+// vendor's SDK, which waits 3 ms for each id and 16 ms, and Dynamixel2Arduino's issue 106: with 10
+// ms to answer, ids 1 and 2 are found and id 5 is not.
+void VirtualBus::ping(std::uint8_t id) {
+  if (id != dxl::kBroadcast) return identify(id);
+  const std::uint64_t end_ns = wire_free_ns_;
+  for (int i = 0; i <= dxl::kMaxId; ++i) {
+    const auto each = static_cast<std::uint8_t>(i);
+    if (devices(each).empty()) continue;
+    const std::uint64_t slot_ns = end_ns + each * kPingSlot_us * 1000;
+    wire_free_ns_ = std::max(wire_free_ns_, slot_ns);
+    identify(each);
+  }
+}
+
+void VirtualBus::read(const dxl::Packet& packet) {
+  if (packet.id == dxl::kBroadcast) return;
+  std::vector<Device*> speakers = devices(packet.id);
+  std::erase_if(speakers, [](const Device* each) { return each->status_level() < 1; });
+  speak(speakers, false, [&](Device& each) {
+    std::span<const std::uint8_t> data;
+    dxl::Error error = dxl::Error::kDataLength;
+    if (packet.size == 4) {
+      advance_plant(wire_free_ns_ / 1000);
+      data = each.read(dxl::get_u16(packet.parameters), dxl::get_u16(packet.parameters + 2));
+      error = data.empty() ? dxl::Error::kAccess : dxl::Error::kNone;
+    }
+    return status(packet.id, error_field(each, error), data);
+  });
+}
+
+// To all at once, firmware 42 and above ignores the order to forget even the ids.
+void VirtualBus::factory_reset(const dxl::Packet& packet) {
+  const auto reset = static_cast<dxl::Reset>(packet.size == 1 ? packet.parameters[0] : 0);
+  const bool known = reset == dxl::Reset::kAll || reset == dxl::Reset::kAllButId ||
+                     reset == dxl::Reset::kAllButIdAndBaud;
+  if (packet.id == dxl::kBroadcast && (!known || reset == dxl::Reset::kAll)) return;
+  command(packet.id, false,
+          [&](Device& each) { return known ? each.factory_reset(reset) : dxl::Error::kDataRange; });
+}
+
+void VirtualBus::read_each(const dxl::Packet& packet) {
+  dxl::ReadEntry want;
+  for (std::size_t i = 0; dxl::read_entry(packet, i, want); ++i) {
+    std::vector<Device*> speakers = devices(want.id);
+    std::erase_if(speakers, [](const Device* each) { return each->status_level() < 1; });
+    if (speakers.empty()) return;
+    speak(speakers, false, [&](Device& each) {
+      advance_plant(wire_free_ns_ / 1000);
+      const auto data = each.read(want.address, want.length);
+      const dxl::Error error = data.empty() ? dxl::Error::kAccess : dxl::Error::kNone;
+      return status(want.id, error_field(each, error), data);
+    });
+  }
+}
+
+void VirtualBus::read_fast(const dxl::Packet& packet) {
+  dxl::ReadEntry want;
+  std::size_t all_bytes = 0;
+  for (std::size_t i = 0; dxl::read_entry(packet, i, want); ++i) {
+    all_bytes += want.length + dxl::kFastBlockBytes;
+  }
+  std::uint16_t crc = 0;
+  for (std::size_t i = 0; dxl::read_entry(packet, i, want); ++i) {
+    const std::vector<Device*> speakers = devices(want.id);
+    const bool all_can = std::all_of(speakers.begin(), speakers.end(), [](const Device* each) {
+      return each->status_level() > 0 && each->answers_fast_sync_read();
+    });
+    if (speakers.empty() || !all_can) return;
+    const std::uint16_t crc_before = crc;
+    bool told = false;
+    speak(speakers, i > 0, [&](Device& each) {
+      advance_plant(wire_free_ns_ / 1000);
+      const auto data = each.read(want.address, want.length);
+      std::vector<std::uint8_t> block(dxl::kFastHeaderBytes + dxl::kFastBlockBytes + data.size());
+      crc = crc_before;
+      block.resize(dxl::encode_fast_block(block.data(), i == 0, all_bytes, want.id,
+                                          error_field(each, dxl::Error::kNone), data.data(),
+                                          data.size(), crc));
+      told = !data.empty();
+      return told ? block : std::vector<std::uint8_t>{};
+    });
+    if (!told) return;
+  }
+}
+
+void VirtualBus::write_each(const dxl::Packet& packet) {
+  dxl::WriteEntry entry;
+  for (std::size_t offset = 0; dxl::write_entry(packet, offset, entry);) {
+    for (Device* each : devices(entry.id)) each->write(entry.address, {entry.data, entry.size});
+  }
+}
+
+}  // namespace verp::bus

@@ -1,0 +1,45 @@
+#pragma once
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "common/protocol/controller_table.hpp"
+#include "common/protocol/dynamixel2.hpp"
+#include "host/os/link/link.hpp"
+#include "host/twin/bus/order_sink.hpp"
+
+namespace verp::bus {
+
+/// The operator's port of a controller, which is Dynamixel device 200 there
+/// (common/protocol/controller_table.hpp).
+class OperatorPort final : public OrderSink {
+ public:
+  /// `give_up` is asked while nobody answers. Throws LinkError and EndpointError.
+  OperatorPort(const std::string& endpoint, std::function<bool()> give_up);
+
+  ControllerReport exchange(const app::OperatorOrder* order) override;
+  int action_count() override;
+  /// CRC-32 of the Params that the controller has.
+  std::uint32_t params_crc();
+
+ private:
+  static constexpr std::uint8_t kId = dxl::controller::kDefaultId;
+  void add_write(std::uint16_t address, const std::vector<std::uint8_t>& data);
+  void add_read(std::uint16_t address, std::uint16_t length);
+  void add_order(const app::OperatorOrder& order);
+  /// Sends what was added and a request for the report.
+  ControllerReport ask_report();
+  /// Sends what was added until each request is answered; returns the data of the last answer.
+  std::vector<std::uint8_t> ask();
+  bool collect(std::vector<std::uint8_t>& data);
+
+  std::string text_;  ///< of the endpoint
+  std::function<bool()> give_up_;
+  wire::Link link_;
+  std::vector<std::uint8_t> outbox_;
+  std::size_t asked_ = 0;  ///< requests in outbox_
+  bool refused_ = false;   ///< the first of them, as "not now", when all were answered
+};
+
+}  // namespace verp::bus

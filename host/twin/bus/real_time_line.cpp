@@ -1,0 +1,88 @@
+#include <algorithm>
+#include <utility>
+
+#include "host/twin/bus/virtual_bus.hpp"
+
+// The wire in real time, when the master speaks whenever it likes: one line for all, half duplex.
+namespace verp::bus {
+namespace {
+
+/// A servo waits no longer for the rest of a packet. An estimate: no page of the vendor's says it.
+constexpr std::uint64_t kPause_ns = 100'000'000;
+constexpr std::uint32_t kHeaderWord = 0xFFFFFD00;  // byte stuffing keeps it out of packets
+
+}  // namespace
+
+void VirtualBus::set_baud(std::uint32_t baud) {
+  if (baud == 0 || baud == baud_) return;
+  baud_ = baud;
+  replies_.clear();
+  line_.reset();
+}
+
+void VirtualBus::begin_time() {
+  held_ = false;
+  replies_.clear();
+  line_.reset();
+  now_ns_ = wire_free_ns_ = asked_ns_ = master_free_ns_ = send_start_ns_ = 0;
+  for (const auto& each : devices_) each->heard(0);
+}
+
+bool VirtualBus::torque_on() const {
+  return std::any_of(devices_.begin(), devices_.end(),
+                     [](const auto& each) { return each->torque_on(); });
+}
+
+std::size_t VirtualBus::unsent() const {
+  return master_free_ns_ <= now_ns_
+             ? 0
+             : static_cast<std::size_t>((master_free_ns_ - now_ns_) / bytes_ns(1));
+}
+
+// Who is to answer is deaf until it has; nobody understands two who speak at once, a low level
+// winning (collision.hpp).
+bool VirtualBus::jams(std::uint8_t byte, std::uint64_t start_ns, std::uint64_t end_ns) {
+  bool any = false;
+  for (Chunk& each : replies_) {
+    const std::uint64_t over_ns = each.start_ns + bytes_ns(each.bytes.size());
+    if (end_ns <= each.asked_ns || start_ns >= over_ns) continue;
+    any = true;
+    for (std::size_t i = each.taken; i < each.bytes.size(); ++i) {
+      const std::uint64_t at_ns = each.start_ns + bytes_ns(i);
+      if (end_ns > at_ns && start_ns < at_ns + bytes_ns(1)) each.bytes[i] &= byte;
+    }
+  }
+  return any;
+}
+
+void VirtualBus::talk(const std::uint8_t* data, std::size_t size) {
+  bytes_on_wire_ += size;
+  send_start_ns_ = std::max(now_ns_, master_free_ns_);
+  for (std::size_t i = 0; i < size; ++i) {
+    const std::uint64_t start_ns = std::max(now_ns_, master_free_ns_);
+    if (start_ns > master_free_ns_ + kPause_ns) line_.reset();
+    master_free_ns_ = start_ns + bytes_ns(1);
+    const bool jammed = jams(data[i], start_ns, master_free_ns_);
+    if (jammed && !std::exchange(jammed_, true)) ++lost_requests_;
+    if (jammed) {
+      line_.reset();
+      last_four_ = 0;
+      continue;
+    }
+    jammed_ = false;
+    last_four_ = last_four_ << 8 | data[i];
+    if (last_four_ == kHeaderWord) {
+      line_.reset();
+      for (std::size_t j = 0; j + 1 < sizeof dxl::kHeader; ++j) line_.push(dxl::kHeader[j]);
+    }
+    for (bool found = line_.push(data[i]); found; found = line_.next()) {
+      wire_free_ns_ = master_free_ns_;
+      // Whose turn in a Ping to all is still to come has something else to do now.
+      std::erase_if(replies_,
+                    [this](const Chunk& each) { return each.asked_ns > master_free_ns_; });
+      handle(line_.packet(), master_free_ns_);
+    }
+  }
+}
+
+}  // namespace verp::bus

@@ -1,0 +1,71 @@
+#pragma once
+#include <cstdint>
+
+#include "host/twin/bus/device.hpp"
+#include "host/twin/sim/plant.hpp"
+
+namespace verp::bus {
+
+/// Who a servo is before anybody wrote to it.
+struct ServoIdentity {
+  std::uint8_t id = 1;
+  std::uint16_t model = dxl::kModelXm430W210;
+  std::uint32_t baud = 2000000;
+  bool fast_sync_read = true;
+  sim::ServoRating rating{};
+};
+
+/// One virtual servo: the control table of an X-series or MX(2.0) servo over one joint of a plant.
+class ServoDevice final : public Device {
+ public:
+  ServoDevice(const ServoIdentity& identity, sim::Plant& plant, int joint);
+
+  /// e-Manual, Secondary(Shadow) ID (12): off from 253 on; the ID (7) comes first.
+  bool in_group(std::uint8_t id) const override {
+    return byte(dxl::address::kSecondaryId) == id && id <= dxl::kMaxId && id != this->id();
+  }
+  std::uint8_t status_level() const override { return byte(dxl::address::kStatusReturnLevel); }
+  bool answers_fast_sync_read() const override { return fast_sync_read_; }
+  bool alert() const override { return byte(dxl::address::kHardwareError) != 0; }
+  bool torque_on() const override { return byte(dxl::address::kTorqueEnable) != 0; }
+  void refresh(std::uint16_t address, std::uint16_t length) override;
+  dxl::Error backup(std::span<const std::uint8_t> parameters) override;
+  std::uint64_t deadline_us() const override;
+  void expire() override;
+
+ private:
+  dxl::Error check(std::uint16_t address, std::span<const std::uint8_t> data) const override;
+  bool known(std::uint16_t address, std::span<const std::uint8_t> data) const;
+  bool within_limits(std::uint16_t address, std::span<const std::uint8_t> data) const;
+  void written(std::uint16_t address, std::uint16_t length) override;
+  void restarted() override;
+  void started() override;
+  /// Goals as they are after power on, or in a new mode.
+  void reset_goals();
+  void refresh_motion(const sim::ServoMeasurement& measured);
+  std::uint8_t moving_status(const sim::ServoMeasurement& measured) const;
+  /// Position control, over one turn or many, current-based or not.
+  bool steers_position() const;
+  bool reverse() const;
+  int sign() const { return reverse() ? -1 : 1; }
+  /// An encoder's count as Present Position has it, and back.
+  double shown(double count) const;
+  std::int32_t meant_count(std::int64_t shown) const;
+  void hold_here();
+  bool moving() override;
+  bool tripped() const { return byte(dxl::address::kBusWatchdog) == dxl::kBusWatchdogTripped; }
+  std::int32_t homing() const;
+  bool is_mx() const { return table_.find(dxl::address::kGoalCurrent) == nullptr; }
+  void watch_limits(const sim::ServoMeasurement& measured);
+  void apply();
+  void apply_profile(sim::ServoSetpoint& setpoint) const;
+
+  sim::Plant& plant_;
+  int joint_;
+  bool fast_sync_read_;
+  std::uint8_t mode_ = dxl::kPositionMode;  ///< Operating Mode as last acted upon
+  bool goal_written_ = false;
+  RegisterTable stored_;  ///< by Control Table Backup, if Backup Ready
+};
+
+}  // namespace verp::bus

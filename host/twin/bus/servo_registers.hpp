@@ -1,0 +1,53 @@
+#pragma once
+#include <cstdint>
+#include <numbers>
+#include <span>
+#include <vector>
+
+#include "common/protocol/control_table.hpp"
+#include "host/twin/bus/register_names.hpp"
+#include "host/twin/bus/register_table.hpp"
+#include "host/twin/bus/servo_device.hpp"
+
+/// What the numbers in a servo's control table mean, as far as only servos know. Source: ROBOTIS
+/// e-Manual, XM430-W210 and MX-28(2.0).
+namespace verp::bus::servo {
+
+inline constexpr double kVelocityUnitRadS = 0.229 * 2.0 * std::numbers::pi / 60.0;
+inline constexpr double kCurrentUnitA = 0.00269;  // X-series, Present Current
+inline constexpr double kLoadFull = 1000;         // MX(2.0), Present Load in 0.1 %
+inline constexpr std::int64_t kRealtimeTickWrap = 32768;
+inline constexpr double kCountsPerTurn = 4096;
+inline constexpr double kVelocityUnitCountS = 0.229 / 60 * kCountsPerTurn;
+// Profile Acceleration (108): 214.577 rev/min^2.
+inline constexpr double kAccelerationUnitCountS2 = 214.577 / 3600 * kCountsPerTurn;
+inline constexpr std::int64_t kMostTurns = 1'048'575;  // Goal Position (116), 256 turns
+// Operating Mode (11).
+enum OperatingMode : std::uint8_t {
+  kCurrentMode,
+  kVelocityMode,
+  kTurnsMode = 4,
+  kCurrentPositionMode,
+  kPwmMode = 16
+};
+// Drive Mode (10).
+inline constexpr std::uint8_t kReverse = 1 << 0;
+inline constexpr std::uint8_t kTorqueOnByGoal = 1 << 3;
+// Startup Configuration (60).
+inline constexpr std::uint16_t kStartupConfiguration = 60;
+inline constexpr std::uint8_t kStartupTorqueOn = 1 << 0;
+inline constexpr std::uint8_t kRamRestore = 1 << 1;
+// Control Table Backup (0x20): what is to be done, and the word that makes it no accident.
+inline constexpr std::uint8_t kStore = 1, kRestore = 2;
+inline constexpr std::uint8_t kBackupWord[] = {'C', 'T', 'R', 'L'};
+// Moving Status (123); its bounds are estimates: the pages call them predefined.
+inline constexpr std::uint8_t kInPosition = 1 << 0, kOngoing = 1 << 1, kNotFollowing = 1 << 3;
+inline constexpr double kInPositionCount = 10;
+inline constexpr double kFollowingCount = 57;  // 5 degrees
+
+/// Those of all servos, as people name them; addresses rise.
+std::span<const NamedRegister> named_registers();
+/// Initial values and ranges.
+std::vector<Register> registers_of(const ServoIdentity& identity);
+
+}  // namespace verp::bus::servo

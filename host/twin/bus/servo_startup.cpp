@@ -1,0 +1,49 @@
+#include <algorithm>
+#include <iterator>
+
+#include "host/twin/bus/servo_device.hpp"
+#include "host/twin/bus/servo_registers.hpp"
+
+// What a servo keeps without power, and does when it comes.
+namespace verp::bus {
+
+using namespace servo;
+namespace at = dxl::address;
+
+// e-Manual, Startup Configuration (60).
+void ServoDevice::started() {
+  const std::uint8_t startup = byte(kStartupConfiguration);
+  const bool kept = stored_.get(at::kBackupReady) != 0;
+  if (kept && (startup & kRamRestore) != 0) {
+    table_.copy(stored_, at::kVelocityIGain, at::kBusWatchdog);
+    table_.copy(stored_, at::kProfileAcceleration, at::kGoalPosition);
+    table_.copy(stored_, at::kIndirectAddress1, at::kIndirectData1);
+    table_.copy(stored_, at::kIndirectAddress29, at::kIndirectData29);
+  }
+  if ((startup & kStartupTorqueOn) != 0) {
+    table_.set(at::kTorqueEnable, 1);
+    hold_here();
+  }
+  apply();
+}
+
+dxl::Error ServoDevice::backup(std::span<const std::uint8_t> parameters) {
+  if (is_mx()) return dxl::Error::kInstruction;
+  if (parameters.size() != 1 + sizeof kBackupWord ||
+      !std::equal(std::begin(kBackupWord), std::end(kBackupWord), parameters.begin() + 1)) {
+    return dxl::Error::kDataRange;
+  }
+  const bool kept = stored_.get(at::kBackupReady) != 0;
+  if (torque_on() || (parameters[0] == kRestore && !kept)) return dxl::Error::kResultFail;
+  if (parameters[0] == kStore) {
+    table_.set(at::kBackupReady, 1);
+    stored_ = table_;
+    return dxl::Error::kNone;
+  }
+  if (parameters[0] != kRestore) return dxl::Error::kDataRange;
+  table_.copy(stored_, at::kId, at::kTorqueEnable);
+  reboot();
+  return dxl::Error::kNone;
+}
+
+}  // namespace verp::bus

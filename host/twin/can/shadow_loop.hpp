@@ -1,0 +1,39 @@
+#pragma once
+#include <algorithm>
+#include <vector>
+
+#include "common/base/can_frame.hpp"
+#include "hal/contract/can_bus.hpp"
+#include "host/twin/bus/shadow_loop.hpp"
+
+namespace verp::can {
+
+/// Of a CAN bus: frames, of which an answer brings a burst. Between two polls only the order of
+/// frames with one identifier is the controller's: among others priorities decide. A tick ends
+/// where the next SYNC 1 is sent (LockstepHooks::tick_ends).
+class CanTape : public bus::ShadowTape<CanFrame, std::vector<CanFrame>> {
+ public:
+  static constexpr bool kWholeTicks = true;
+  bool send(const CanFrame& frame) {
+    here.frames.push_back(frame);
+    return true;
+  }
+  bool poll(CanFrame& frame, std::uint32_t) {
+    if (here.taken == here.received.size() && !play(same)) return false;
+    if (here.taken == here.received.size()) return false;
+    frame = here.received[here.taken++];
+    return true;
+  }
+  hal::CanErrors errors() const { return {}; }
+
+ private:
+  static bool same(std::vector<CanFrame> a, std::vector<CanFrame> b) {
+    const auto by_id = [](const CanFrame& x, const CanFrame& y) { return x.id < y.id; };
+    std::stable_sort(a.begin(), a.end(), by_id);
+    std::stable_sort(b.begin(), b.end(), by_id);
+    return a == b;
+  }
+};
+using ShadowLoop = bus::ShadowLoopOver<CanTape>;
+
+}  // namespace verp::can

@@ -1,0 +1,127 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "common/protocol/canopen/robot_plan.hpp"
+#include "host/twin/can/device_node.hpp"
+#include "host/twin/eds/eds.hpp"
+#include "host/twin/eds/initials.hpp"
+
+// The twin's devices. What stands in their objects out of the box is asked of two of them, which
+// differ in nothing but their node id.
+namespace verp::eds {
+namespace {
+
+using canopen::Address;
+namespace cia402 = canopen::cia402;
+
+/// A plant at rest.
+class Rest final : public sim::Plant {
+ public:
+  std::uint64_t now_us() const override { return 0; }
+  void advance_to(std::uint64_t) override {}
+  sim::ServoSetpoint& setpoint(int) override { return setpoint_; }
+  sim::ServoMeasurement measure(int) override { return {}; }
+  sim::ImuMeasurement imu() override { return {}; }
+  std::array<std::uint16_t, 4> foot_counts(int) override { return {}; }
+
+ private:
+  sim::ServoSetpoint setpoint_;
+};
+
+Object numbers(std::uint16_t index, const char* name, std::initializer_list<const char*> members,
+               const Value& like) {
+  Object object{.index = index, .name = name, .values = {}, .has_members = true, .is_array = true};
+  for (const char* each : members) {
+    object.values.push_back(like);
+    object.values.back().name = each;
+  }
+  return object;
+}
+
+Value value_of(const cia402::ObjectRow& row) {
+  return {.name = row.name,
+          .type = integer(row.bytes, row.is_signed),
+          .writable = row.access == cia402::ObjectAccess::kWrite,
+          .mappable = row.mapping != cia402::ObjectMapping::kNone};
+}
+
+/// CiA 402's, in rising order: rows of one index are one object.
+void add_profile(std::vector<Object>& objects) {
+  for (std::size_t i = 0; i < cia402::kDriveRowCount; ++i) {
+    const cia402::ObjectRow& row = cia402::kDriveRows[i];
+    const bool member = cia402::highest_subindex(row.at.index) != 0;
+    if (member && objects.back().index == row.at.index) {
+      objects.back().values.push_back(value_of(row));
+      continue;
+    }
+    const bool limits = row.at.index == cia402::object::kMinPosition.index;
+    const bool encoder = row.at.index == cia402::object::kEncoderIncrements.index;
+    objects.push_back({.index = row.at.index,
+                       .name = !member   ? row.name
+                               : limits  ? "Software position limit"
+                               : encoder ? "Position encoder resolution"
+                                         : "Interpolation time period",
+                       .values = {value_of(row)},
+                       .has_members = member,
+                       .is_array = limits || encoder});
+  }
+}
+
+template <class Node, class... Parts>
+Description describe(const char* file, const char* text, const canopen::Identity& identity,
+                     const canopen::DeviceSize& size, const std::vector<Object>& own,
+                     Parts... parts) {
+  Description description{
+      .file = file, .text = text, .identity = identity, .size = size, .objects = {}};
+  description.objects = communication_objects(size, identity);
+  description.objects.insert(description.objects.end(), own.begin(), own.end());
+  Rest plant;
+  Node node_1(identity, 1, plant, parts...), node_2(identity, 2, plant, parts...);
+  fill_initials(description.objects, node_1.device().objects(), node_2.device().objects());
+  return description;
+}
+
+}  // namespace
+
+Description drive() {
+  constexpr std::uint16_t kModel = 402;  // of the ready robots' servo type "cia402_w210"
+  const std::string most = std::to_string(can::kMostGain);
+  const std::uint16_t telemetry = canopen::plan::kTelemetry.index;
+  std::vector<Object> own = {
+      {.index = telemetry,
+       .name = "Telemetry",
+       .values = {{.name = "Telemetry", .type = DataType::kUnsigned32, .mappable = true}}},
+      numbers(can::kGains, "Position loop gains", {"P gain", "I gain", "D gain"},
+              {.name = "",
+               .type = DataType::kUnsigned16,
+               .writable = true,
+               .commissioned = true,
+               .low = "0",
+               .high = most})};
+  add_profile(own);
+  return describe<can::DriveNode>("drive.eds", "CiA 402 drive of the twin",
+                                  can::drive_identity(kModel, 1), can::DrivePdos::kSize, own, 0,
+                                  can::DriveSetup{});
+}
+
+Description imu() {
+  const Value like{.name = "", .type = DataType::kInteger16, .mappable = true};
+  return describe<can::ImuNode>(
+      "imu.eds", "Inertial measurement unit of the twin", can::imu_identity(1), can::ImuPdos::kSize,
+      {numbers(canopen::plan::kGyro[0].index, "Gyro", {"Gyro x", "Gyro y", "Gyro z"}, like),
+       numbers(canopen::plan::kAccel[0].index, "Accelerometer",
+               {"Acceleration x", "Acceleration y", "Acceleration z"}, like)});
+}
+
+Description foot() {
+  return describe<can::FootNode>(
+      "foot.eds", "Force sensors of a foot of the twin", can::foot_identity(1),
+      can::FootPdos::kSize,
+      {numbers(canopen::plan::kFoot[0].index, "Force",
+               {"Force front left", "Force front right", "Force back left", "Force back right"},
+               {.name = "", .type = DataType::kUnsigned16, .mappable = true})},
+      0);
+}
+
+}  // namespace verp::eds

@@ -1,0 +1,45 @@
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "host/robot/model/entity.hpp"
+#include "host/twin/sim/delay.hpp"
+#include "host/twin/sim/exposure.hpp"
+#include "host/twin/sim/random.hpp"
+#include "host/twin/sim/world.hpp"
+
+/// A laser range finder: one ray, or many in a plane, by ODE's rays.
+namespace verp::sim {
+
+struct Scan {
+  std::uint64_t time_us = 0;   ///< simulated, when it was taken
+  std::size_t laser = 0;       ///< of Entity::lasers
+  std::vector<float> range_m;  ///< from the first angle to the last; inf: nothing within range
+};
+
+class LaserModel {
+ public:
+  /// `owner` and the sensor's link are what its rays pass through: its own housing.
+  LaserModel(const model::LaserSensor& sensor, std::size_t index, int owner, bool noise,
+             Random random);
+
+  /// Takes a scan if one is due by now; `link` is its link's pose in the world. Scans are due at
+  /// whole periods of simulated time, in the physics step that ends there or first after. True:
+  /// there is a new scan(), which was taken its latency ago.
+  bool sample(const World& world, const Transform& link);
+  const Scan& scan() const { return scan_; }
+
+ private:
+  float measure(const World& world, const Transform& sensor, double angle_rad);
+
+  const model::LaserSensor sensor_;
+  const int owner_;
+  const bool noise_;
+  Random random_;
+  double bias_m_ = 0;
+  Shutter shutter_;
+  Delay<Scan> delay_;
+  Scan scan_;
+};
+
+}  // namespace verp::sim

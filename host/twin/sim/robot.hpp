@@ -1,0 +1,191 @@
+#pragma once
+#include <array>
+#include <cstdint>
+#include <deque>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "host/robot/model/entity.hpp"
+#include "host/twin/sim/body.hpp"
+#include "host/twin/sim/laser.hpp"
+#include "host/twin/sim/plant.hpp"
+#include "host/twin/sim/probes.hpp"
+#include "host/twin/sim/sensors.hpp"
+#include "host/twin/sim/servo.hpp"
+#include "host/twin/sim/shutters.hpp"
+#include "host/twin/sim/truth.hpp"
+#include "host/twin/sim/world.hpp"
+
+namespace verp::sim {
+
+/// Which imperfections are on. All on is the robot as it is; all off is for tests and for finding a
+/// cause.
+struct Imperfections {
+  bool imu = true;           ///< noise and bias
+  bool encoder = true;       ///< noise (quantisation stays)
+  bool zero_error = true;    ///< joint zeros are off by up to zero_error_deg
+  bool initial_pose = true;  ///< joints, lean and heading at the start
+  bool feet = true;          ///< force noise
+  bool lasers = true;        ///< noise
+  bool probes = true;        ///< noise of force-torque and truth sensors
+
+  static Imperfections none() { return {false, false, false, false, false, false, false}; }
+};
+
+/// Who holds the body at the start. Servos power up limp, so a robot that stands must be held until
+/// it is armed.
+enum class Cradle { kNone, kUntilArmed, kAlways };
+
+/// How it is put down: standing, or on the floor on that side; kAny: in a pose and turned as drawn
+/// from the seed.
+enum class Lies { kNo, kFront, kBack, kLeft, kRight, kAny };
+
+struct TwinOptions {
+  std::uint64_t seed = 1;
+  Imperfections imperfections = {};
+  double zero_error_deg = 0.5;           ///< uniform in +- this
+  double mass_scale = 1.0;               ///< of every link
+  double mass_spread = 0.0;              ///< each link: uniform in 1 +- this
+  double goal_delay_s = 0;               ///< from a set-point's arrival until its servo acts on it
+  Vec3 gyro_bias_rad_s = Vec3::Zero();   ///< sensor axes, on top of the noise's own
+  std::vector<double> initial_rad = {};  ///< joint angles at the start; empty: Entity's stand_rad
+  Vec3 start_m = Vec3::Zero();           ///< midpoint of the soles; z: of the ground there
+  double start_yaw_rad = 0;
+  Lies lies = Lies::kNo;  ///< nobody holds one that does
+  Cradle cradle = Cradle::kUntilArmed;
+  /// Released this long after all leg servos have torque: the firmware then stands in its pose
+  /// (rise_s is 1 s), and does not walk yet.
+  double cradle_s = 1.2;
+  std::optional<double> supply_v = {};  ///< unloaded; none: what the servos are made for
+  /// Internal resistance of battery and harness. An estimate: 3 LiPo cells of about 10 mOhm (hobby
+  /// packs of 1 to 2 Ah), plug, fuse and the first metre of daisy chain. So much for servos of
+  /// 12 V; for others it goes with the voltage's square: the same part of it is lost at one power.
+  double supply_ohm = 0.1;
+  bool cameras = false;  ///< somebody draws what they see: take_exposures()
+};
+
+/// One robot in a World: links, servos, sensors. The controller's side is Plant, which speaks
+/// counts; the referee's side is truth(). The world must outlive the robot.
+class TwinRobot final : public Plant, private Actor {
+ public:
+  /// Throws std::invalid_argument, naming link or joint, if the entity can't be simulated.
+  TwinRobot(World& world, const model::Entity& entity, const TwinOptions& options = {});
+  ~TwinRobot() override;
+  TwinRobot(const TwinRobot&) = delete;
+  TwinRobot& operator=(const TwinRobot&) = delete;
+
+  std::uint64_t now_us() const override { return world_.now_us(); }
+  void advance_to(std::uint64_t time_us) override { time_->advance_to(time_us); }
+  /// Of a joint that follows another's servo: that servo's.
+  ServoSetpoint& setpoint(int joint) override {
+    return setpoint_[static_cast<std::size_t>(motor_of(joint))];
+  }
+  ServoMeasurement measure(int joint) override { return servo(motor_of(joint)).measurement(); }
+  ServoRating rating(int joint) const override;
+  ImuMeasurement imu() override { return imu_.measurement(); }
+  std::array<std::uint16_t, 4> foot_counts(int foot) override;
+
+  /// Whom to ask for a time, instead of the world itself; must outlive the robot.
+  void set_time(TimeSource& time) { time_ = &time; }
+
+  const model::Entity& entity() const { return entity_; }
+  const ServoModel& servo(int joint) const { return servo_[static_cast<std::size_t>(joint)]; }
+  const Body& body() const { return body_; }
+  Body& body() { return body_; }
+  ServoModel& servo(int joint) { return servo_[static_cast<std::size_t>(joint)]; }
+  int owner() const { return owner_; }
+  Truth truth() const;
+  /// Lets go of the body at once, whatever the cradle waits for.
+  void release() { body_.release(); }
+  bool fallen() const { return fallen_; }
+  /// It stands again as high and as upright as one that never fell: so says fallen() from now on.
+  /// False: it does not, and nothing was done.
+  bool forget_fall();
+  /// Somebody puts a limp robot on its feet where it lies, in the pose in which it began, and holds
+  /// it as then (Cradle). False: a servo has torque, and nothing was done.
+  bool set_upright();
+  double supply_v() const { return supply_v_; }
+  /// What the servos drew from the supply since the start, and what work they did on the joints
+  /// (braking takes none of it back).
+  double supply_energy_j() const { return supply_energy_j_; }
+  double joint_work_j() const { return joint_work_j_; }
+  double weight_n() const { return body_.mass_kg() * world_.options().gravity_m_s2; }
+  /// Physics steps since the start, and in how many of them each joint's duty was at its limit.
+  std::uint64_t steps() const { return steps_; }
+  /// Scans that could be had since they were last asked for; each tells when it was taken.
+  std::vector<Scan> take_scans() { return std::exchange(scans_, {}); }
+  /// Likewise when its cameras looked, once their pictures could be had.
+  std::vector<Exposure> take_exposures() { return shutters_.take(); }
+  /// Likewise of its force-torque, contact and truth sensors.
+  ProbeReadings take_readings() { return probes_.take(); }
+  const std::vector<std::uint64_t>& saturated_steps() const { return saturated_steps_; }
+
+  /// In how many physics steps one of its links touched another, and which two did so last.
+  std::uint64_t self_contact_steps() const { return self_contact_steps_; }
+  std::array<int, 2> self_contact_nodes() const { return self_contact_nodes_; }
+
+  /// Foot forces since the last call (or the start): a control tick's mean instead of one noisy
+  /// instant.
+  FootLoads take_foot_loads();
+
+ private:
+  /// The joint that has the motor.
+  int motor_of(int joint) const {
+    const int driver = entity_.joints[static_cast<std::size_t>(joint)].follows;
+    return driver < 0 ? joint : driver;
+  }
+  void before_step(double step_s) override;
+  void after_step(double step_s) override;
+  std::vector<Transform> link_poses() const override;
+  const ServoSetpoint& acting(std::size_t joint) const;
+  void update_cradle(double step_s);
+  void update_servos(double step_s);
+  void update_imu(double step_s);
+  void update_self_contacts();
+  void update_feet(double step_s);
+  bool is_down() const;
+  void update_lasers();
+  FootTruth foot_truth(int foot) const;
+  Transform imu_pose() const;
+  Vec3 imu_point_velocity() const;
+  int foot_of(int node) const;
+
+  World& world_;
+  TimeSource* time_;
+  const model::Entity entity_;
+  const TwinOptions options_;
+  const int owner_;
+  Body body_;
+  std::vector<ServoModel> servo_;
+  std::vector<ServoSetpoint> setpoint_;
+  std::deque<std::vector<ServoSetpoint>> arriving_;  ///< of the last steps, the oldest first
+  std::vector<std::size_t> delay_steps_;             ///< of each joint
+  ImuModel imu_;
+  std::vector<FootModel> foot_;  ///< none, or left and right
+  std::array<int, 2> foot_node_{-1, -1};
+  std::vector<LaserModel> laser_;
+  std::vector<Scan> scans_;
+  Shutters shutters_;
+  Probes probes_;
+  Vec3 imu_velocity_world_m_s_ = Vec3::Zero();
+  FootLoads step_loads_;  ///< of the last step
+  FootLoads loads_;       ///< since take_foot_loads()
+  std::array<double, 2> foot_force_n_{};
+  const double nominal_v_;  ///< of the supply, unloaded
+  double supply_v_;
+  const double supply_ohm_;
+  double supply_energy_j_ = 0, joint_work_j_ = 0;
+  std::vector<double> inertia_kg_m2_;  ///< of each joint's links, at the start of the step
+  std::vector<double> external_n_m_;   ///< what turned each joint besides its servo, last step
+  std::vector<Drive> coupling_;        ///< of each joint, with its servo, in this step
+  double armed_s_ = 0;
+  double initial_height_m_ = 0;
+  bool fallen_ = false;
+  std::uint64_t steps_ = 0;
+  std::vector<std::uint64_t> saturated_steps_;
+  std::uint64_t self_contact_steps_ = 0;
+  std::array<int, 2> self_contact_nodes_{};
+};
+
+}  // namespace verp::sim

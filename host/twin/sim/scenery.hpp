@@ -1,0 +1,59 @@
+#pragma once
+#include <memory>
+#include <vector>
+
+#include "host/robot/model/world.hpp"
+#include "host/twin/sim/world.hpp"
+
+/// What a world's file puts beside the robots: in the physics engine, shape by shape.
+namespace verp::sim {
+
+/// A world with what stands in `file` in place of the level floor.
+WorldOptions furnished(WorldOptions options, model::World file);
+
+class Scenery final : private Actor {
+ public:
+  struct Item {
+    const model::WorldObject* object;
+    dBodyID body = nullptr;  ///< null: it never moves
+    std::vector<dGeomID> geoms;
+    std::vector<GeomTag*> tags;
+  };
+
+  /// The world must outlive it.
+  Scenery(World& world, std::shared_ptr<const model::World> data);
+  ~Scenery() override;
+  Scenery(const Scenery&) = delete;
+  Scenery& operator=(const Scenery&) = delete;
+
+  const model::World& data() const { return *data_; }
+  /// In the order of data().objects.
+  const std::vector<Item>& items() const { return items_; }
+  Transform pose(std::size_t index) const;
+  /// Where those are now that can move, as model::moving() names them.
+  std::vector<Transform> moving_poses() const;
+  /// Of one that is pushed: moves it at once, its speed stays.
+  void place(std::size_t index, const Transform& pose_world);
+
+ private:
+  void before_step(double step_s) override;
+  void after_step(double) override {}
+  void add(const model::WorldObject& object);
+  void add_shape(Item& item, const model::WorldCollision& collision, int owner);
+  dGeomID make_geom(const model::Shape& shape);
+  dGeomID make_mesh(const model::Mesh& mesh);
+  dGeomID make_heightfield(const model::Heightfield& field);
+
+  World& world_;
+  std::shared_ptr<const model::World> data_;
+  std::vector<Item> items_;
+  std::vector<dTriMeshDataID> meshes_;
+  std::vector<dHeightfieldDataID> heightfields_;
+  std::vector<std::vector<double>> numbers_;  ///< that ODE points at
+  std::vector<std::vector<dTriIndex>> triangles_;
+};
+
+/// Where a moving object is at that time.
+Transform pose_at(const model::WorldObject& object, double t_s);
+
+}  // namespace verp::sim

@@ -1,0 +1,83 @@
+#pragma once
+#include <array>
+#include <cstdint>
+#include <deque>
+#include <vector>
+
+#include "host/robot/model/entity.hpp"
+#include "host/twin/sim/plant.hpp"
+#include "host/twin/sim/random.hpp"
+#include "host/twin/sim/world.hpp"
+
+/// Sensors sample in every physics step, whether anybody reads them or not: reading changes
+/// nothing.
+namespace verp::sim {
+
+/// First-order low pass, as the digital filter of an IMU or the RC in front of an ADC.
+class LowPass {
+ public:
+  double operator()(double value, double step_s);
+
+ private:
+  double value_ = 0;
+  bool started_ = false;
+};
+
+/// Gyroscope and accelerometer, as hal/chip/invensense reads them: bandwidth 23.9 Hz (InvenSense
+/// ICM-20648, DLPF 4), and what is told is the mean of the samples of one control period. The jolt
+/// of a landing is over in less than a period: of one sample in ten, each adds a turn that never
+/// was.
+class ImuModel {
+ public:
+  /// mean_s: over which samples are taken together; 0: the newest alone.
+  /// gyro_bias_rad_s: on top of what the seed makes of the sensor's own.
+  ImuModel(const model::ImuSensor& sensor, double mean_s, bool noise, std::uint64_t seed,
+           const Vec3& gyro_bias_rad_s = Vec3::Zero());
+
+  /// Angular velocity and acceleration of the sensor's own point, world axes; the specific force
+  /// follows. up_world_m_s2: against gravity. measurement() is that of the latency ago, in whole
+  /// steps; before that long has passed, the first.
+  void sample(const Mat3& world_imu, const Vec3& angular_velocity_world_rad_s,
+              const Vec3& acceleration_world_m_s2, const Vec3& up_world_m_s2, double step_s);
+  const ImuMeasurement& measurement() const { return measurement_; }
+
+ private:
+  ImuMeasurement mean() const;
+
+  model::ImuSensor sensor_;
+  double mean_s_;
+  bool noise_;
+  Random random_;
+  Vec3 gyro_bias_rad_s_ = Vec3::Zero();
+  Vec3 accel_bias_m_s2_ = Vec3::Zero();
+  std::array<LowPass, 3> gyro_filter_;
+  std::array<LowPass, 3> accel_filter_;
+  std::deque<ImuMeasurement> samples_;     ///< of the last mean_s
+  std::deque<ImuMeasurement> on_the_way_;  ///< of the last steps, within its latency
+  ImuMeasurement measurement_;
+};
+
+/// Four force sensors under the corners of one sole.
+class FootModel {
+ public:
+  FootModel(const model::Limb& leg, double newton_per_count, bool noise, Random random);
+
+  void begin_step() { load_n_ = {}; }
+  /// A normal force at a point of the sole: shared between the corners bilinearly, so that the four
+  /// readings keep the force and its centre of pressure. Points off the sole count at its edge.
+  void add_load(const Vec3& point_sole_m, double force_n);
+  void end_step(double step_s);
+  const std::array<std::uint16_t, 4>& counts() const { return counts_; }
+
+ private:
+  Vec3 min_m_;
+  Vec3 max_m_;
+  double newton_per_count_;
+  bool noise_;
+  Random random_;
+  std::array<double, 4> load_n_{};
+  std::array<LowPass, 4> filter_;
+  std::array<std::uint16_t, 4> counts_{};
+};
+
+}  // namespace verp::sim

@@ -1,0 +1,146 @@
+#pragma once
+#include <cstdint>
+
+#include "host/robot/model/entity.hpp"
+#include "host/twin/sim/plant.hpp"
+#include "host/twin/sim/profile.hpp"
+#include "host/twin/sim/random.hpp"
+
+/// One position servo: encoder, position loop, DC motor, gearbox, housing temperature. It knows no
+/// physics engine: before a step it turns the joint's state into a line in the torque-speed plane,
+/// which any engine with an implicit velocity motor can apply; after the step it is told what
+/// became of it.
+namespace verp::sim {
+
+/// The joint's drive during one physics step: a line over the joint's speed at the end of the step.
+/// Being linear in the new speed it is stable at any stiffness and any inertia.
+struct Drive {
+  double standstill_n_m = 0;
+  double slope_n_m_s = 0;  ///< never negative
+
+  double torque_n_m(double rate_rad_s) const { return standstill_n_m - slope_n_m_s * rate_rad_s; }
+  Drive& operator+=(const Drive& other) {
+    standstill_n_m += other.standstill_n_m;
+    slope_n_m_s += other.slope_n_m_s;
+    return *this;
+  }
+};
+
+/// Encoder counts of a joint angle and back, as the controller computes them: without zero error,
+/// not rounded.
+double count_of(const model::Servo& servo, double angle_rad);
+double angle_of(const model::Servo& servo, double count);
+
+/// What the datasheets and e-manuals of the X-series say beyond Entity's servo facts, and estimates
+/// where silent.
+struct ServoConstants {
+  /// Housing of an XM430: 82 g (e-manual) of mostly aluminium, 0.9 kJ/(kg K); 77 cm2 of surface
+  /// (28.5 x 46.5 x 34 mm) in still air at 10 W/(m2 K). An estimate: it sets how fast a servo
+  /// warms, never whether it walks.
+  double heat_capacity_j_k = 74.0;
+  double thermal_resistance_k_w = 13.0;
+  double ambient_c = 25.0;
+  /// Copper's temperature coefficient, IEC 60028.
+  double copper_per_k = 0.00393;
+  /// XM430 Current Limit register: 1193 units of 2.69 mA, 1.4 times the stall current at 12 V.
+  /// Back-driven motors go beyond stall torque up to here.
+  double current_limit_stalls = 1.4;
+  /// A stuck joint is a stiff line back to where it stuck: it would carry its whole friction at
+  /// this speed, and takes back this part of its displacement a step. It does not creep.
+  double hold_speed_rad_s = 1e-4;
+  double hold_return = 0.2;
+  double still_rad_s = 1e-3;  ///< slower than this, and braked, a joint stands
+  /// End stops: a housing's plastic, stiff enough to hold stall torque within half a degree.
+  double stop_stiffness_n_m = 500.0;
+  double stop_damping_n_m_s = 1.0;
+};
+
+struct ServoNoise {
+  bool encoder = true;
+  double zero_error_rad = 0;  ///< the encoder reads this much more than the joint's angle
+};
+
+class ServoModel {
+ public:
+  /// Throws std::invalid_argument naming the joint if the servo facts can't drive a motor.
+  ServoModel(const model::Joint& joint, const ServoNoise& noise, Random encoder_random,
+             double initial_rad, const ServoConstants& constants = {});
+
+  /// Runs the firmware's loop as often as it falls into this physics step, then motor and gearbox.
+  /// external_n_m is what turns the joint besides this servo (gravity, ground, other links): with
+  /// the motor's torque it loads the gears.
+  Drive drive(const ServoSetpoint& setpoint, double angle_rad, double rate_rad_s,
+              double external_n_m, double supply_v, double step_s);
+  /// The step is over; rate_rad_s is the joint's new speed.
+  void finish(double rate_rad_s, double step_s);
+
+  /// Servo sense: positive as counts increase.
+  const ServoMeasurement& measurement() const { return measurement_; }
+  /// Torque of motor and gearbox on the joint in the last step, joint sense.
+  double torque_n_m() const { return torque_n_m_; }
+  /// |motor torque| as a part of stall torque; above 1 when back-driven.
+  double torque_use() const { return torque_use_; }
+  /// The duty asked for was at or beyond the limit in the last step.
+  bool saturated() const { return saturated_; }
+  /// What this servo draws from the supply.
+  double supply_current_a() const { return supply_current_a_; }
+  /// The bearing's, beside the servo's own.
+  double joint_damping_n_m_s() const { return joint_.damping_n_m_s; }
+  double joint_friction_n_m() const { return joint_.friction_n_m; }
+  void set_joint_damping(double damping_n_m_s) { joint_.damping_n_m_s = damping_n_m_s; }
+  void set_joint_friction(double friction_n_m);
+  /// Where the profile stands, as the joint's true angle.
+  double profile_rad() const {
+    return angle_of(joint_.servo, profile_.count()) - noise_.zero_error_rad;
+  }
+
+ private:
+  void sample_encoder(double angle_rad);
+  void follow_profile(const ServoSetpoint& setpoint);
+  double position_loop(const ServoSetpoint& setpoint);
+  double velocity_loop(const ServoSetpoint& setpoint);
+  /// The duty with which the motor draws that current now.
+  double duty_for(double current_a) const;
+  double duty(const ServoSetpoint& setpoint);
+  double mean_duty(const ServoSetpoint& setpoint, double angle_rad, double rate_rad_s,
+                   double step_s);
+  Drive motor_line(double supply_v) const;
+  double friction_budget_n_m(double rate_rad_s, double load_n_m) const;
+  bool engage(double rate_rad_s, double step_s);
+  void meet(double angle_rad, double rate_rad_s);
+  Drive friction_line(double angle_rad, double rate_rad_s, double rest_n_m, double budget_n_m,
+                      double step_s);
+  Drive joint_line(double angle_rad, double step_s) const;
+
+  model::Joint joint_;
+  ServoNoise noise_;
+  ServoConstants constants_;
+  Random random_;
+  ServoMeasurement measurement_;
+  double resistance_ohm_ = 0;
+
+  bool was_on_ = false;
+  double next_loop_s_ = 0;  ///< from the start of the next physics step
+  Profile profile_{0};
+  double integral_ = 0;    ///< PWM units
+  double last_error_ = 0;  ///< counts
+  bool saturated_ = false;
+
+  double duty_ = 0;         ///< joint sense, mean of the step
+  Drive motor_;             ///< the motor alone, in the last step
+  double rotor_rad_s_ = 0;  ///< seen from the joint; its own while inside the play
+  double play_rad_ = 0;     ///< motor side ahead of joint side, within +-backlash/2
+  bool engaged_ = true;     ///< not inside the play
+  int sliding_ = 0;         ///< sign of the motion that friction opposes; 0: stuck
+  double stuck_rad_ = 0;    ///< where
+  Drive friction_, gear_;   ///< in the last step; gear_ is all that comes through the gears
+  Drive drive_;             ///< with end stops and the joint's own damping
+  double friction_n_m_ = 0;
+  double budget_n_m_ = 0;  ///< what friction may take for longer than a step
+  double push_n_m_ = 0;    ///< what would have come through the gears had it taken no more
+  double torque_n_m_ = 0;
+  double torque_use_ = 0;
+  double supply_current_a_ = 0;
+};
+
+}  // namespace verp::sim
