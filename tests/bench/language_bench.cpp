@@ -161,7 +161,7 @@ double external_rate() {
     if (ticks++ == 0) first = last;
   };
   verp::bus::LockstepServer server(robot.params, bus, hooks);
-  verp::wire::Link link(verp::wire::parse_endpoint("unix-listen:" + socket));
+  verp::link::Link link(verp::link::parse_endpoint("unix-listen:" + socket));
   verp::bus::LinkPump pump(link, server);
   const std::string errors = (folder.path() / "errors").string();
   verp::process::Child controller(

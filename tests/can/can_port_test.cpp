@@ -10,7 +10,7 @@
 
 #include "tests/can/can_world.hpp"
 
-namespace verp::wire {
+namespace verp::link {
 namespace {
 
 using test::frame_of;
@@ -308,4 +308,4 @@ TEST(CanPort, LosesNoFrameUncounted) {
 }
 
 }  // namespace
-}  // namespace verp::wire
+}  // namespace verp::link

@@ -36,7 +36,7 @@ class OwnVcan {
   }
   void up() const { ip("link set " + name + " up"); }
   void down() const { ip("link set " + name + " down"); }
-  wire::Endpoint endpoint() const { return wire::parse_endpoint("can:" + name); }
+  link::Endpoint endpoint() const { return link::parse_endpoint("can:" + name); }
 
   const std::string name;
 
@@ -53,12 +53,12 @@ inline CanFrame frame_of(std::uint32_t id, unsigned number = 0) {
 }
 
 /// Polls for so long from now, not from the last frame sent.
-inline bool poll_for(wire::CanPort& port, CanFrame& frame, std::uint32_t time_us) {
+inline bool poll_for(link::CanPort& port, CanFrame& frame, std::uint32_t time_us) {
   return port.poll(frame, static_cast<std::uint32_t>(port.now_us()) + time_us);
 }
 
 /// Receives what is on its way; nothing may be for us.
-inline void settle(wire::CanPort& port) {
+inline void settle(link::CanPort& port) {
   CanFrame frame;
   EXPECT_FALSE(poll_for(port, frame, 30'000));
 }

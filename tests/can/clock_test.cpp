@@ -63,12 +63,12 @@ TEST(ClockOfCanTests, NeverGoesBackWhicheverThreadLooks) {
 
 // A sleep must not end early: the pacing of `verp run` counts periods.
 TEST(ClockOfCanTests, SleepsUntilItsOwnTime) {
-  const std::uint64_t end_ns = wire::monotonic_ns() + kLong_ns;
-  for (std::uint64_t most_ns = 0; wire::monotonic_ns() < end_ns;
+  const std::uint64_t end_ns = link::monotonic_ns() + kLong_ns;
+  for (std::uint64_t most_ns = 0; link::monotonic_ns() < end_ns;
        most_ns = (most_ns + 997) % 50'000) {
-    const std::uint64_t until_ns = wire::monotonic_ns() + most_ns;
-    wire::sleep_until_ns(until_ns);
-    ASSERT_GE(wire::monotonic_ns(), until_ns);
+    const std::uint64_t until_ns = link::monotonic_ns() + most_ns;
+    link::sleep_until_ns(until_ns);
+    ASSERT_GE(link::monotonic_ns(), until_ns);
   }
 }
 

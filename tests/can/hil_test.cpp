@@ -19,8 +19,8 @@ namespace {
 
 using nlohmann::json;
 
-struct CanSocket : wire::CanPort {
-  explicit CanSocket(const std::string& endpoint) : CanPort(wire::parse_endpoint(endpoint)) {}
+struct CanSocket : link::CanPort {
+  explicit CanSocket(const std::string& endpoint) : CanPort(link::parse_endpoint(endpoint)) {}
   ~CanSocket() { EXPECT_EQ(errors().overruns, 0u) << "the controller lost frames"; }
 };
 using CanController = verp::test::ControllerOn<CanSocket, app::LockstepCan>;

@@ -33,7 +33,7 @@ Params can_robot() {
 /// The robot's nodes on an interface, in real time.
 class LiveNodes {
  public:
-  LiveNodes(const Params& params, const wire::Endpoint& endpoint)
+  LiveNodes(const Params& params, const link::Endpoint& endpoint)
       : plant_(params), nodes_(params, plant_), port_(endpoint), thread_([this] { run(); }) {}
   ~LiveNodes() {
     over_ = true;
@@ -55,7 +55,7 @@ class LiveNodes {
 
   LevelPlant plant_;
   can::VirtualCan nodes_;
-  wire::CanPort port_;
+  link::CanPort port_;
   std::atomic<bool> over_ = false;
   std::thread thread_;
 };
@@ -63,7 +63,7 @@ class LiveNodes {
 /// The controller's end, paced by real time.
 class PortLine {
  public:
-  explicit PortLine(const wire::Endpoint& endpoint) : port_(endpoint) {}
+  explicit PortLine(const link::Endpoint& endpoint) : port_(endpoint) {}
   bool send(const CanFrame& frame) { return port_.send(frame); }
   bool poll(CanFrame& frame, std::uint32_t timeout_us) {
     return port_.poll(frame, timeout_us == 0 ? 0 : timeout_us + kHeld_us);
@@ -83,7 +83,7 @@ class PortLine {
   /// How long this PC may delay an answer; five times that fit into the period.
   static constexpr std::uint32_t kHeld_us = 2000;
 
-  wire::CanPort port_;
+  link::CanPort port_;
   std::chrono::steady_clock::time_point opened_ = std::chrono::steady_clock::now();
 };
 

@@ -68,7 +68,7 @@ class CanLockstepPort : public ::testing::Test {
   VirtualCan twin{params, plant};
   LockstepServer server{params, twin, {}};
   LockstepPort port{vcan.endpoint()};
-  wire::CanPort controller{vcan.endpoint()};
+  link::CanPort controller{vcan.endpoint()};
 };
 
 TEST_F(CanLockstepPort, AnswersEachQuestion) {

@@ -111,8 +111,8 @@ TEST_F(RunOnCan, SaysThatNobodyAnswers) {
 // Its bring-up would reset all nodes of the first one's robot, which may walk.
 TEST_F(RunOnCan, RefusesToBeTheSecondOfThisPcBeforeItSendsAnything) {
   verp::test::OwnVcan bus;
-  wire::CanPort listener(bus.endpoint());
-  const wire::CanClaim first(bus.name, "controller", "`verp run`");
+  link::CanPort listener(bus.endpoint());
+  const link::CanClaim first(bus.name, "controller", "`verp run`");
   const Outcome outcome = verp("run generic21 --bus can --link can:vcan7 --yes");
   EXPECT_EQ(outcome.status, 3);
   EXPECT_NE(outcome.err.find("can:vcan7: another `verp run` has this interface"), std::string::npos)
@@ -126,7 +126,7 @@ TEST_F(RunOnCan, RefusesToBeTheSecondOnABusBeforeItSendsAnything) {
     std::atomic<bool> over = false;
     bool alone = true;
     std::thread other([&] {
-      wire::CanPort port(bus.endpoint());
+      link::CanPort port(bus.endpoint());
       CanFrame heard;
       while (!over) {
         port.send(verp::test::frame_of(static_cast<std::uint32_t>(std::stoul(id, nullptr, 16))));
@@ -150,7 +150,7 @@ TEST_F(RunOnCan, ServesNodesOnceOnABus) {
   verp::test::OwnVcan bus;
   const std::string hil = "hil generic21 --bus can --realtime --link can:vcan7 --for 600";
   {
-    const wire::CanClaim first(bus.name, "nodes", "`verp hil`");
+    const link::CanClaim first(bus.name, "nodes", "`verp hil`");
     const Outcome outcome = verp(hil);
     EXPECT_EQ(outcome.status, 3);
     EXPECT_NE(outcome.err.find("another `verp hil` has this interface"), std::string::npos)
@@ -172,7 +172,7 @@ TEST_F(RunOnCan, ATwinThatIsHeldUpSkipsAndSaysSoAtOnce) {
   std::atomic<bool> over = false;
   // Rarely, because a twin with many waiting frames goes from one to the next and may catch up.
   std::thread master([&] {
-    wire::CanPort port(bus.endpoint());
+    link::CanPort port(bus.endpoint());
     while (!over) {
       port.send(verp::test::frame_of(0x080));
       std::this_thread::sleep_for(std::chrono::milliseconds(500));

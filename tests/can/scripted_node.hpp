@@ -20,7 +20,7 @@ class ScriptedNode {
   using Tells = std::function<std::optional<std::uint32_t>(canopen::Address)>;
   static constexpr unsigned kForEver = std::numeric_limits<unsigned>::max();
 
-  ScriptedNode(const wire::Endpoint& endpoint, std::uint8_t id, Tells tells,
+  ScriptedNode(const link::Endpoint& endpoint, std::uint8_t id, Tells tells,
                unsigned answers = kForEver)
       : id_(id), tells_(std::move(tells)), answers_(answers), port_(endpoint) {
     thread_ = std::thread([this] { run(); });
@@ -63,7 +63,7 @@ class ScriptedNode {
   const std::uint8_t id_;
   const Tells tells_;
   unsigned answers_;  ///< answers left
-  wire::CanPort port_;
+  link::CanPort port_;
   std::atomic<unsigned> unanswered_ = 0;
   std::atomic<bool> over_ = false;
   std::thread thread_;

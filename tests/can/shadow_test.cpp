@@ -28,8 +28,8 @@ namespace {
 using nlohmann::json;
 using verp::test::OwnVcan;
 
-struct CanSocket : wire::CanPort {
-  explicit CanSocket(const std::string& endpoint) : CanPort(wire::parse_endpoint(endpoint)) {}
+struct CanSocket : link::CanPort {
+  explicit CanSocket(const std::string& endpoint) : CanPort(link::parse_endpoint(endpoint)) {}
   bool send(const CanFrame& frame) {
     const bool answers =
         canopen::is_canopen(frame) &&
@@ -288,7 +288,7 @@ TEST_F(ShadowOnCan, EndsWellWhenItIsInterruptedAndSaysWhatItKnowsAndThatTheBusIs
 
 // A controller has one SDO server, so two would mistake each other's answers for their own.
 TEST_F(ShadowOnCan, OneAloneAsksAController) {
-  const wire::CanClaim first("vcan0", "watcher", wire::CanClaim::kWatcher);
+  const link::CanClaim first("vcan0", "watcher", link::CanClaim::kWatcher);
   const Outcome second = shadow("--link can:vcan0 --for 1");
   EXPECT_EQ(second.status, 3);
   EXPECT_NE(second.err.find("another `verp shadow`, or `verp hil`"), std::string::npos)

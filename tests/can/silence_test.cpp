@@ -25,7 +25,7 @@ class Nodes {
   /// Whether a request gets an answer.
   using Rule = std::function<bool(unsigned node, Address at)>;
   Nodes(const std::string& link, Rule answers)
-      : port_(wire::parse_endpoint(link)), answers_(std::move(answers)) {
+      : port_(link::parse_endpoint(link)), answers_(std::move(answers)) {
     thread_ = std::thread([this] {
       for (CanFrame frame; !over_;) {
         if (port_.await(frame, 20'000)) take(frame);
@@ -50,7 +50,7 @@ class Nodes {
     port_.send(sdo::addressed(0x580 + node, whole, at, value));
   }
 
-  wire::CanPort port_;
+  link::CanPort port_;
   Rule answers_;
   std::atomic<bool> over_ = false;
   std::thread thread_;

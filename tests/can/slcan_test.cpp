@@ -8,7 +8,7 @@
 #include "tests/can/can_world.hpp"
 #include "tests/can/serial_adapter.hpp"
 
-namespace verp::wire {
+namespace verp::link {
 namespace {
 
 using test::frame_of;
@@ -145,4 +145,4 @@ TEST(Slcan, DropsWhatWaitsAtABusOff) {
 }
 
 }  // namespace
-}  // namespace verp::wire
+}  // namespace verp::link

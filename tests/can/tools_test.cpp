@@ -26,8 +26,8 @@ using verp::test::Capture;
 using verp::test::Decoded;
 namespace plan = canopen::plan;
 
-struct CanSocket : wire::CanPort {
-  explicit CanSocket(const std::string& endpoint) : CanPort(wire::parse_endpoint(endpoint)) {}
+struct CanSocket : link::CanPort {
+  explicit CanSocket(const std::string& endpoint) : CanPort(link::parse_endpoint(endpoint)) {}
 };
 using CanController = verp::test::ControllerOn<CanSocket, app::LockstepCan>;
 using Frames = std::vector<Decoded>;

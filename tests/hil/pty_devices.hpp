@@ -29,7 +29,7 @@ class PtyThread {
  public:
   template <class Turn>
   PtyThread(const std::string& path, Turn turn)
-      : link_(wire::parse_endpoint("pty:" + path)), thread_([this, turn] {
+      : link_(link::parse_endpoint("pty:" + path)), thread_([this, turn] {
           while (!over_) turn(link_);
         }) {}
   ~PtyThread() {
@@ -38,7 +38,7 @@ class PtyThread {
   }
 
  private:
-  wire::Link link_;
+  link::Link link_;
   std::atomic<bool> over_ = false;
   std::thread thread_;
 };
@@ -49,10 +49,10 @@ class PtyServos {
   PtyServos(const Params& params, FakePlant& plant, const std::string& path)
       : bus_(params, plant),
         server_(bus_),
-        thread_(path, [this](wire::Link& link) { turn(link); }) {}
+        thread_(path, [this](link::Link& link) { turn(link); }) {}
 
  private:
-  void turn(wire::Link& link) {
+  void turn(link::Link& link) {
     constexpr std::uint32_t kTurn_us = 500;
     std::uint8_t heard[512];
     const std::size_t count = link.read(heard, sizeof heard, kTurn_us);
@@ -60,7 +60,7 @@ class PtyServos {
     server_.turn(clock_.now_us(), {heard, count}, answer_);
     if (!answer_.empty()) link.write(answer_.data(), answer_.size(), 100'000);
   }
-  wire::SystemClock clock_;
+  link::SystemClock clock_;
   bus::VirtualBus bus_;
   bus::RealtimeServer server_;
   std::vector<std::uint8_t> answer_;
@@ -71,7 +71,7 @@ class PtyServos {
 class PtyController {
  public:
   PtyController(const Params& params, const State& state, const std::string& path)
-      : thread_(path, [this, &params, &state](wire::Link& link) {
+      : thread_(path, [this, &params, &state](link::Link& link) {
           if (!device_) {
             device_ = std::make_unique<Device>(link, params, app::OperatorSetup{});
             device_->record(TickRecord{state.digest, Inputs{}}, state, Outputs{});
@@ -82,7 +82,7 @@ class PtyController {
   std::atomic<bool> reboot_asked = false;
 
  private:
-  using Device = app::OperatorDevice<wire::Link>;
+  using Device = app::OperatorDevice<link::Link>;
   std::unique_ptr<Device> device_;
   PtyThread thread_;
 };
@@ -91,14 +91,14 @@ class PtyController {
 class SerialMaster {
  public:
   explicit SerialMaster(const std::string& path)
-      : link_(wire::parse_endpoint("serial:" + path + "@2000000")) {}
+      : link_(link::parse_endpoint("serial:" + path + "@2000000")) {}
 
   /// Sends `bytes` and returns up to `wanted` bytes of the reply that come in time.
   std::vector<std::uint8_t> exchange(const std::vector<std::uint8_t>& bytes, std::size_t wanted,
                                      std::uint32_t timeout_us = 5'000'000) {
     link_.write(bytes.data(), bytes.size(), 1'000'000);
     std::vector<std::uint8_t> reply;
-    const wire::SystemClock clock;
+    const link::SystemClock clock;
     const std::uint64_t end_us = clock.now_us() + timeout_us;
     while (reply.size() < wanted && clock.now_us() < end_us) {
       std::uint8_t piece[512];
@@ -112,7 +112,7 @@ class SerialMaster {
   }
 
  private:
-  wire::Link link_;
+  link::Link link_;
 };
 
 }  // namespace verp::test

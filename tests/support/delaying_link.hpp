@@ -28,7 +28,7 @@ class DelayingLink {
  public:
   /// Makes `pc`, and opens `device` as soon as it exists.
   DelayingLink(const std::string& pc, std::string device, const Latency& latency)
-      : pc_(wire::parse_endpoint(pc)), device_place_(std::move(device)), latency_(latency) {
+      : pc_(link::parse_endpoint(pc)), device_place_(std::move(device)), latency_(latency) {
     thread_ = std::thread([this] { carry(); });
   }
   ~DelayingLink() {
@@ -58,13 +58,13 @@ class DelayingLink {
   };
 
   bool cut() const { return ticks_ < mended_at_; }
-  static std::uint64_t now_us() { return wire::monotonic_ns() / 1000; }
+  static std::uint64_t now_us() { return link::monotonic_ns() / 1000; }
 
   void carry() {
     const sched_param urgent{.sched_priority = 30};
     ::sched_setscheduler(0, SCHED_FIFO, &urgent);  // if permitted
     while (!over_) {
-      wire::sleep_until_ns(wire::monotonic_ns() + kTurn_us * 1000);
+      link::sleep_until_ns(link::monotonic_ns() + kTurn_us * 1000);
       if (!open_device()) continue;
       take(pc_, to_device_, latency_.to_device_us, true);
       take(*device_, to_pc_, latency_.to_pc_us, false);
@@ -76,13 +76,13 @@ class DelayingLink {
   bool open_device() {
     if (device_) return true;
     try {
-      device_.emplace(wire::parse_endpoint(device_place_));
-    } catch (const wire::LinkError&) {  // does not exist yet
+      device_.emplace(link::parse_endpoint(device_place_));
+    } catch (const link::LinkError&) {  // does not exist yet
     }
     return device_.has_value();
   }
 
-  void take(wire::Link& from, Way& way, std::uint64_t latency_us, bool watched) {
+  void take(link::Link& from, Way& way, std::uint64_t latency_us, bool watched) {
     std::uint8_t piece[1024];
     const std::size_t count = from.read(piece, sizeof piece, 0);
     if (count == 0) return;
@@ -108,16 +108,16 @@ class DelayingLink {
     if (!packet.is_status() && bus::VirtualBus::begins_tick(packet)) ++ticks_;
   }
 
-  void pass(Way& way, wire::Link& to) {
+  void pass(Way& way, link::Link& to) {
     if (cut()) way.held.clear();
     if (way.held.empty() || now_us() < std::max(way.due_us, stall_until_us_.load())) return;
     to.write(way.held.data(), way.held.size(), 0);
     way.held.clear();
   }
 
-  wire::Link pc_;
+  link::Link pc_;
   std::string device_place_;
-  std::optional<wire::Link> device_;
+  std::optional<link::Link> device_;
   Latency latency_;
   Way to_device_, to_pc_;
   dxl::Parser line_, replies_;

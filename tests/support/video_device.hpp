@@ -19,7 +19,7 @@
 /// documentation. Its camera shows a bar that moves right by one column per picture.
 namespace verp::test {
 
-class VideoDevice final : public wire::VideoCalls {
+class VideoDevice final : public link::VideoCalls {
  public:
   struct Format {
     std::uint32_t code;

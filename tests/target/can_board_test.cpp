@@ -51,7 +51,7 @@ class Echo {
     return name != nullptr ? name : "VERP_TEST_BOARD is not set";
   }
 
-  wire::CanPort port_{{.kind = wire::Endpoint::Kind::kCan, .place = "vcan0"}};
+  link::CanPort port_{{.kind = link::Endpoint::Kind::kCan, .place = "vcan0"}};
   EmulatedBoard board_;
   QemuProcess firmware_;
 };

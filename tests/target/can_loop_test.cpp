@@ -118,7 +118,7 @@ class Poller {
   }
   void run() {
     constexpr std::uint32_t kPatience_us = 20'000;
-    wire::CanPort port({.kind = wire::Endpoint::Kind::kCan, .place = "vcan0"}, {{0x5FF, 0x7FF}});
+    link::CanPort port({.kind = link::Endpoint::Kind::kCan, .place = "vcan0"}, {{0x5FF, 0x7FF}});
     CanFrame frame;
     for (unsigned n = 0; !over_; ++n) {
       port.send(n % 8 == 7 ? request({0x2F, 0x50, 0x20, 0, 0, 0, 0, 0})

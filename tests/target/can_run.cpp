@@ -72,7 +72,7 @@ struct Watch {
   }
 };
 
-const wire::Endpoint kInterface{.kind = wire::Endpoint::Kind::kCan, .place = "vcan0"};
+const link::Endpoint kInterface{.kind = link::Endpoint::Kind::kCan, .place = "vcan0"};
 
 /// Passes the frames on vcan0 to the live check, which may ask the controller, as in `verp hil`.
 class Listener {
@@ -86,7 +86,7 @@ class Listener {
   std::uint32_t overruns() const { return port_.errors().overruns; }
 
  private:
-  wire::CanPort port_{kInterface};
+  link::CanPort port_{kInterface};
   shadow::LiveCheck& check_;
 };
 

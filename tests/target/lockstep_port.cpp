@@ -4,11 +4,11 @@ namespace verp::can {
 namespace {
 
 // Filters, so that this socket does not receive its own frames.
-const std::vector<wire::CanFilter> kAll = {{.id = 0, .mask = 0, .extended = false},
+const std::vector<link::CanFilter> kAll = {{.id = 0, .mask = 0, .extended = false},
                                            {.id = 0, .mask = 0, .extended = true}};
 /// Only the controller's messages: bell_ would receive those that frames_ sends.
 constexpr std::uint32_t kKind = 0x1FFFFFF8;
-const std::vector<wire::CanFilter> kClock = {
+const std::vector<link::CanFilter> kClock = {
     {.id = lockstep::kCanHelloId, .mask = kKind, .extended = true},
     {.id = lockstep::kCanAdvanceId, .mask = kKind, .extended = true}};
 static_assert(((lockstep::kCanHelloId + lockstep::kCanHelloParts - 1) & kKind) ==
@@ -21,7 +21,7 @@ constexpr std::uint32_t kMoment_us = 1000;
 
 }  // namespace
 
-LockstepPort::LockstepPort(const wire::Endpoint& endpoint)
+LockstepPort::LockstepPort(const link::Endpoint& endpoint)
     : frames_(endpoint, kAll, false), bell_(endpoint, kClock, false) {}
 
 bool LockstepPort::serve(LockstepServer& server, std::uint32_t wait_us) {

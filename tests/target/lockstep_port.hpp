@@ -15,7 +15,7 @@ namespace verp::can {
 class LockstepPort {
  public:
   /// Throws LinkError.
-  explicit LockstepPort(const wire::Endpoint& endpoint);
+  explicit LockstepPort(const link::Endpoint& endpoint);
 
   /// Waits for a clock message, passes all frames up to it to the server, and sends the answer.
   /// False if none came in time.
@@ -26,8 +26,8 @@ class LockstepPort {
   hal::CanErrors errors() const;
 
  private:
-  wire::CanPort frames_;
-  wire::CanPort bell_;
+  link::CanPort frames_;
+  link::CanPort bell_;
   std::uint32_t rung_ = 0;   ///< clock messages received by bell_
   std::uint32_t taken_ = 0;  ///< clock messages received by frames_
   std::vector<CanFrame> answer_;

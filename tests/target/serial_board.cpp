@@ -36,13 +36,13 @@ const bus::NamedRegister& named(const char* name) {
   return *found;
 }
 
-bus::Client connect(const wire::Endpoint& endpoint) {
+bus::Client connect(const link::Endpoint& endpoint) {
   const auto deadline = Clock::now() + kStart;
   // The socket's file exists a moment before the socket listens.
   for (;;) {
     try {
       return bus::Client(endpoint, kPatience_us);
-    } catch (const wire::LinkError&) {
+    } catch (const link::LinkError&) {
       if (Clock::now() > deadline) throw;
       std::this_thread::sleep_for(std::chrono::milliseconds(10));
     }
@@ -56,8 +56,8 @@ SerialBoard::SerialBoard(const std::string& board, const std::vector<std::uint8_
     : firmware_(start(board, params_image, actions_image)),
       operator_port_(connect(endpoint("operator.sock"))) {}
 
-wire::Endpoint SerialBoard::endpoint(const char* name) const {
-  return {.kind = wire::Endpoint::Kind::kUnix, .place = (directory_.path() / name).string()};
+link::Endpoint SerialBoard::endpoint(const char* name) const {
+  return {.kind = link::Endpoint::Kind::kUnix, .place = (directory_.path() / name).string()};
 }
 
 std::vector<std::string> SerialBoard::load(const char* name, const std::vector<std::uint8_t>& image,
@@ -171,7 +171,7 @@ class Cable {
   SerialBoard& board_;
   const SerialTrouble& trouble_;
   LinkSpoiler spoiler_;
-  std::optional<wire::Link> link_;
+  std::optional<link::Link> link_;
   int answers_ = 0, cuts_ = 0;
 };
 

@@ -22,7 +22,7 @@ class SerialBoard {
   SerialBoard(const std::string& board, const std::vector<std::uint8_t>& params_image,
               const std::vector<std::uint8_t>& actions_image = {});
 
-  wire::Endpoint servo_port() const { return endpoint("servo.sock"); }
+  link::Endpoint servo_port() const { return endpoint("servo.sock"); }
   /// The operator's end: registers of the controller as integers.
   bus::Client& operator_port() { return operator_port_; }
   std::uint64_t read(const char* name);
@@ -30,7 +30,7 @@ class SerialBoard {
   std::string described(const std::string& what) const { return firmware_.described(what); }
 
  private:
-  wire::Endpoint endpoint(const char* name) const;
+  link::Endpoint endpoint(const char* name) const;
   board::QemuProcess start(const std::string& board, const std::vector<std::uint8_t>& params,
                            const std::vector<std::uint8_t>& actions) const;
   std::vector<std::string> load(const char* name, const std::vector<std::uint8_t>& image,

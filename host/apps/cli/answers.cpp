@@ -9,7 +9,7 @@
 
 #include "host/apps/cli/interrupt.hpp"
 
-namespace verp::tool {
+namespace verp::cli {
 namespace {
 
 constexpr int kLook_ms = 100;  // how long an interrupt may have to wait
@@ -45,4 +45,4 @@ std::optional<std::string> Answers::line(const std::string& question) {
   return answer;
 }
 
-}  // namespace verp::tool
+}  // namespace verp::cli

@@ -2,7 +2,7 @@
 #include <optional>
 #include <string>
 
-namespace verp::tool {
+namespace verp::cli {
 
 /// What a person types, or a script writes: standard input, line by line.
 class Answers {
@@ -17,4 +17,4 @@ class Answers {
   bool ended_ = false;
 };
 
-}  // namespace verp::tool
+}  // namespace verp::cli

@@ -7,7 +7,7 @@
 #include <charconv>
 #include <cmath>
 
-namespace verp::tool {
+namespace verp::cli {
 
 CLI::Option* add_model(CLI::App& app, std::string& model) {
   return app.add_option("MODEL,--robot", model, "a robot by its name, or the path of its SDF file");
@@ -68,4 +68,4 @@ CLI::Validator whole_number_between(std::uint64_t low, std::uint64_t high) {
       fmt::format("{}..{}", low, high));
 }
 
-}  // namespace verp::tool
+}  // namespace verp::cli

@@ -11,7 +11,7 @@ class Option;
 class Validator;
 }  // namespace CLI
 
-namespace verp::tool {
+namespace verp::cli {
 
 /// A subcommand: its options, and what to run once they are parsed. `run` returns the exit status
 /// or throws.
@@ -19,30 +19,6 @@ struct Subcommand {
   CLI::App* app;
   std::function<int()> run;
 };
-
-Subcommand add_walk(CLI::App& root);
-Subcommand add_action(CLI::App& root);
-Subcommand add_demo(CLI::App& root);
-Subcommand add_hil(CLI::App& root);
-Subcommand add_run(CLI::App& root);
-Subcommand add_shadow(CLI::App& root);
-Subcommand add_replay(CLI::App& root);
-Subcommand add_diff(CLI::App& root);
-Subcommand add_compare(CLI::App& root);
-Subcommand add_identify(CLI::App& root);
-Subcommand add_tune(CLI::App& root);
-Subcommand add_check(CLI::App& root);
-Subcommand add_export(CLI::App& root);
-Subcommand add_new(CLI::App& root);
-Subcommand add_completion(CLI::App& root);
-Subcommand add_parameters(CLI::App& root);
-Subcommand add_trace(CLI::App& root);
-Subcommand add_bench(CLI::App& root);
-Subcommand add_bus(CLI::App& root);
-Subcommand add_flash(CLI::App& root);
-Subcommand add_view(CLI::App& root);
-Subcommand add_deploy(CLI::App& root);
-Subcommand add_debug(CLI::App& root);
 
 /// Adds --json. With it stdout holds one JSON object and nothing else; everything for people goes
 /// to stderr.
@@ -64,4 +40,4 @@ CLI::Validator number_between(double low, double high, const std::string& unit);
 /// A check for CLI options that take a whole number, written in digits only.
 CLI::Validator whole_number_between(std::uint64_t low, std::uint64_t high);
 
-}  // namespace verp::tool
+}  // namespace verp::cli

@@ -8,7 +8,7 @@
 
 #include "host/apps/cli/exit_status.hpp"
 
-namespace verp::tool {
+namespace verp::cli {
 
 void open_missing_streams() {
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
@@ -34,4 +34,4 @@ int after_the_answer(int status) {
   return status != kGood ? status : kRunFailed;
 }
 
-}  // namespace verp::tool
+}  // namespace verp::cli

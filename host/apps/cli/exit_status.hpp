@@ -2,7 +2,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace verp::tool {
+namespace verp::cli {
 
 /// Exit status of the program (design.md section 9).
 enum ExitStatus : int {
@@ -23,4 +23,4 @@ class ToolError : public std::runtime_error {
   ExitStatus status_;
 };
 
-}  // namespace verp::tool
+}  // namespace verp::cli

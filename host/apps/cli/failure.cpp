@@ -16,7 +16,7 @@
 #include "host/twin/bus/client.hpp"
 #include "host/twin/sim/world.hpp"
 
-namespace verp::tool {
+namespace verp::cli {
 namespace {
 
 int status_of(flash::FlashError::Kind kind) {
@@ -34,9 +34,9 @@ Failure current_failure() {
     return {error.status(), error.what()};
   } catch (const model::LoadError& error) {
     return {kBadInput, error.what()};
-  } catch (const wire::EndpointError& error) {
+  } catch (const link::EndpointError& error) {
     return {kBadInput, error.what()};
-  } catch (const wire::LinkError& error) {
+  } catch (const link::LinkError& error) {
     return {kNoDevice, error.what()};
   } catch (const bus::DeviceError& error) {
     return {kNoDevice, error.what()};
@@ -63,4 +63,4 @@ Failure current_failure() {
   }
 }
 
-}  // namespace verp::tool
+}  // namespace verp::cli

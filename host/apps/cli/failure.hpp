@@ -1,7 +1,7 @@
 #pragma once
 #include <string>
 
-namespace verp::tool {
+namespace verp::cli {
 
 /// An exception as the user meets it.
 struct Failure {
@@ -12,4 +12,4 @@ struct Failure {
 /// Of the exception that is being handled: call it in a catch block only.
 Failure current_failure();
 
-}  // namespace verp::tool
+}  // namespace verp::cli

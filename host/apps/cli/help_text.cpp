@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cstdlib>
 
-namespace verp::tool {
+namespace verp::cli {
 namespace {
 
 constexpr std::size_t kColumn = 30;  // CLI11's, of descriptions
@@ -84,4 +84,4 @@ std::string wrapped_help(std::string_view text, int width) {
   return out;
 }
 
-}  // namespace verp::tool
+}  // namespace verp::cli

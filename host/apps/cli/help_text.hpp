@@ -3,7 +3,7 @@
 #include <string_view>
 
 /// The pages of --help, as wide as the terminal they are read on.
-namespace verp::tool {
+namespace verp::cli {
 
 /// Columns of the terminal on stdout; of COLUMNS, if that is set; 100 elsewhere.
 int help_width();
@@ -12,4 +12,4 @@ int help_width();
 /// columns it stands below its word. A word longer than the line stays whole.
 std::string wrapped_help(std::string_view text, int width);
 
-}  // namespace verp::tool
+}  // namespace verp::cli

@@ -6,7 +6,7 @@
 
 #include "host/apps/cli/exit_status.hpp"
 
-namespace verp::tool {
+namespace verp::cli {
 namespace {
 
 volatile std::sig_atomic_t asked = 0;
@@ -66,4 +66,4 @@ bool interrupted() {
   return asked != 0;
 }
 
-}  // namespace verp::tool
+}  // namespace verp::cli

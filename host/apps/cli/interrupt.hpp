@@ -1,6 +1,6 @@
 #pragma once
 
-namespace verp::tool {
+namespace verp::cli {
 
 /// From now on a reader that went away (SIGPIPE) or a limit on the size of files (SIGXFSZ) ends
 /// nothing: the write that meets it fails.
@@ -24,4 +24,4 @@ bool interrupted();
 /// 130 after Ctrl-C, 143 after SIGTERM. Any other status is as it was.
 int status_if_interrupted(int status);
 
-}  // namespace verp::tool
+}  // namespace verp::cli

@@ -5,7 +5,7 @@
 
 #include "host/apps/cli/console.hpp"
 
-namespace verp::tool {
+namespace verp::cli {
 
 void print_json(const Json& object) {
   // A model's name may hold any bytes; JSON must stay JSON.
@@ -18,4 +18,4 @@ void print_answer(bool as_json, const Json& object, const std::string& text) {
   as_json ? print_json(object) : answer(text);
 }
 
-}  // namespace verp::tool
+}  // namespace verp::cli

@@ -2,7 +2,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-namespace verp::tool {
+namespace verp::cli {
 
 /// Keys keep the order in which they were written.
 using Json = nlohmann::ordered_json;
@@ -13,4 +13,4 @@ void print_json(const Json& object);
 /// To stdout, in the form that was asked for.
 void print_answer(bool as_json, const Json& object, const std::string& text);
 
-}  // namespace verp::tool
+}  // namespace verp::cli

@@ -10,7 +10,7 @@
 
 #include "host/apps/cli/exit_status.hpp"
 
-namespace verp::tool {
+namespace verp::cli {
 namespace {
 
 struct OtherProgram {
@@ -60,4 +60,4 @@ Subcommand add_edit(CLI::App& root) {
                   "Change a robot's file: set, add, delete, mirror, import a mesh");
 }
 
-}  // namespace verp::tool
+}  // namespace verp::cli

@@ -16,7 +16,7 @@
 #include "host/apps/cli/suggest.hpp"
 #include "host/trace/record/trace.hpp"
 
-namespace verp::tool {
+namespace verp::cli {
 namespace {
 
 std::string one_line(std::string text) {
@@ -150,4 +150,4 @@ int run_program(int argc, char** argv, AddCommands add_commands) {
   return after_the_answer(status_if_interrupted(run(argc, argv, add_commands)));
 }
 
-}  // namespace verp::tool
+}  // namespace verp::cli

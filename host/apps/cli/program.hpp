@@ -3,7 +3,7 @@
 
 #include "host/apps/cli/command.hpp"
 
-namespace verp::tool {
+namespace verp::cli {
 
 using AddCommands = std::vector<Subcommand> (*)(CLI::App& root);
 
@@ -11,4 +11,4 @@ using AddCommands = std::vector<Subcommand> (*)(CLI::App& root);
 /// status.
 int run_program(int argc, char** argv, AddCommands add_commands);
 
-}  // namespace verp::tool
+}  // namespace verp::cli

@@ -7,7 +7,7 @@
 #include <cstdio>
 #include <cstdlib>
 
-namespace verp::tool {
+namespace verp::cli {
 
 Progress::Progress(bool wanted)
     : active_(wanted && ::isatty(STDERR_FILENO) != 0 && std::getenv("CI") == nullptr) {}
@@ -33,4 +33,4 @@ void Progress::clear() {
   drawn_ = false;
 }
 
-}  // namespace verp::tool
+}  // namespace verp::cli

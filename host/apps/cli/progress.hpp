@@ -2,7 +2,7 @@
 #include <chrono>
 #include <string>
 
-namespace verp::tool {
+namespace verp::cli {
 
 /// A progress bar on stderr while stderr is a terminal; silent otherwise, under CI and when told
 /// so.
@@ -23,4 +23,4 @@ class Progress {
   std::chrono::steady_clock::time_point next_;
 };
 
-}  // namespace verp::tool
+}  // namespace verp::cli

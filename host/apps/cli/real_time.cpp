@@ -5,7 +5,7 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
-namespace verp::tool {
+namespace verp::cli {
 namespace {
 
 bool lock_memory() {
@@ -40,4 +40,4 @@ void leave_real_time() {
   ::sched_setscheduler(0, SCHED_OTHER, &usual);
 }
 
-}  // namespace verp::tool
+}  // namespace verp::cli

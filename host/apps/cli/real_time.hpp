@@ -1,7 +1,7 @@
 #pragma once
 #include <string>
 
-namespace verp::tool {
+namespace verp::cli {
 
 /// What the system lets a control loop have.
 struct RealTime {
@@ -18,4 +18,4 @@ RealTime become_real_time();
 /// Gives the priority back: who can't keep up must not keep all others from running as well.
 void leave_real_time();
 
-}  // namespace verp::tool
+}  // namespace verp::cli

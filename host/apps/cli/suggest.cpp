@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-namespace verp::tool {
+namespace verp::cli {
 namespace {
 
 /// Letters to change, add or drop to get from one word to the other.
@@ -87,4 +87,4 @@ std::string did_you_mean(std::string_view word, const std::vector<std::string>& 
   return fmt::format("; did you mean {}?", fmt::join(found, " or "));
 }
 
-}  // namespace verp::tool
+}  // namespace verp::cli

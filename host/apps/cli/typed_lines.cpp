@@ -3,7 +3,7 @@
 #include <poll.h>
 #include <unistd.h>
 
-namespace verp::tool {
+namespace verp::cli {
 
 std::string TypedLines::next() {
   pollfd input{STDIN_FILENO, POLLIN, 0};
@@ -22,4 +22,4 @@ std::string TypedLines::next() {
   return line;
 }
 
-}  // namespace verp::tool
+}  // namespace verp::cli

@@ -1,7 +1,7 @@
 #pragma once
 #include <string>
 
-namespace verp::tool {
+namespace verp::cli {
 
 /// What a person types beside a run that goes on: lines of the standard input. Never waits.
 class TypedLines {
@@ -15,4 +15,4 @@ class TypedLines {
   bool open_ = true;
 };
 
-}  // namespace verp::tool
+}  // namespace verp::cli

@@ -6,7 +6,7 @@
 
 namespace verp::edit {
 
-tool::Subcommand add_edit(CLI::App& root);
+cli::Subcommand add_edit(CLI::App& root);
 
 /// Parts below one, a line each, with what can be set of them: PATH=VALUE.
 std::string show(const Document& document, int element);

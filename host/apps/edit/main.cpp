@@ -3,12 +3,12 @@
 
 namespace {
 
-std::vector<verp::tool::Subcommand> commands(CLI::App& root) {
+std::vector<verp::cli::Subcommand> commands(CLI::App& root) {
   return {verp::edit::add_edit(root)};
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  return verp::tool::run_program(argc, argv, commands);
+  return verp::cli::run_program(argc, argv, commands);
 }

@@ -4,7 +4,7 @@
 /// The words that need OpenGL.
 namespace verp::pictures {
 
-tool::Subcommand add_shot(CLI::App& root);
-tool::Subcommand add_video(CLI::App& root);
+cli::Subcommand add_shot(CLI::App& root);
+cli::Subcommand add_video(CLI::App& root);
 
 }  // namespace verp::pictures

@@ -15,7 +15,7 @@ namespace verp::pictures {
 namespace {
 
 namespace fs = std::filesystem;
-using tool::ToolError;
+using cli::ToolError;
 
 std::vector<std::string> words(const std::string& file, const std::string& part, render::Size size,
                                int frames_per_s) {
@@ -71,9 +71,9 @@ Encoder::Encoder(const std::string& file, render::Size size, int frames_per_s)
   } catch (const std::system_error& error) {
     ::close(ends[0]);
     ::close(pipe_);
-    throw ToolError(tool::kNoDevice, fmt::format("no videos without ffmpeg ({}): apt-get install "
-                                                 "ffmpeg",
-                                                 error.code().message()));
+    throw ToolError(cli::kNoDevice, fmt::format("no videos without ffmpeg ({}): apt-get install "
+                                                "ffmpeg",
+                                                error.code().message()));
   }
   ::close(ends[0]);
 }
@@ -105,9 +105,9 @@ void Encoder::finish() {
   if (ffmpeg_->wait() != 0) fail();
   fs::rename(part_, file_, error);
   if (error) {
-    throw ToolError(tool::kBadInput, fmt::format("{}: cannot be written ({}); choose another place "
-                                                 "with -o",
-                                                 file_, error.message()));
+    throw ToolError(cli::kBadInput, fmt::format("{}: cannot be written ({}); choose another place "
+                                                "with -o",
+                                                file_, error.message()));
   }
 }
 
@@ -119,8 +119,8 @@ void Encoder::fail() {
   }
   std::error_code error;
   fs::remove(part_, error);
-  throw ToolError(tool::kRunFailed, fmt::format("{}: ffmpeg failed: {}", file_,
-                                                last.empty() ? "it says nothing" : last));
+  throw ToolError(cli::kRunFailed, fmt::format("{}: ffmpeg failed: {}", file_,
+                                               last.empty() ? "it says nothing" : last));
 }
 
 }  // namespace verp::pictures

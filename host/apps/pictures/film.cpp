@@ -47,7 +47,7 @@ class WalkFilm final : public Film {
     Shutter shutter(from_s, every_s);
     bool enough = false;
     session::Session session(
-        {.world = world_, .interrupted = [&] { return enough || tool::interrupted(); }});
+        {.world = world_, .interrupted = [&] { return enough || cli::interrupted(); }});
     std::vector<scene::RobotView> seen;
     for (std::size_t i = 0; i < plans_.size(); ++i) {
       const session::WalkPlan& plan = plans_[i];
@@ -101,7 +101,7 @@ class TraceFilm final : public Film {
     for (std::size_t i = player_.index_at(from_s); i < player_.size(); ++i) {
       const double t_s = player_.trace().ticks[i].inputs.tick * player_.trace().period_s();
       if (!shutter.opens(t_s)) continue;
-      if (tool::interrupted() || !show(player_.at(i))) return;
+      if (cli::interrupted() || !show(player_.at(i))) return;
     }
   }
 
@@ -125,8 +125,8 @@ void refuse_walk_of_trace(const CLI::App& app, const tool::WalkOptions& options)
   for (const char* name : {"--bus", "--step", "--velocity", "--for", "--cycle", "--set", "--world",
                            "--at-pose", "--robots", "--seed"}) {
     if (app.count(name) == 0) continue;
-    throw tool::ToolError(
-        tool::kBadInput,
+    throw cli::ToolError(
+        cli::kBadInput,
         fmt::format("{}: {} is of a walk in the twin, and {} is a trace, which shows what was "
                     "recorded; name a robot, or leave out {}",
                     options.command, name, options.model, name));
@@ -140,7 +140,7 @@ void declare_film(CLI::App& app, tool::WalkOptions& options) {
   tool::declare(app, options.place);
   tool::declare_robots(app, options.team);
   app.add_option("--seed", options.seed, "of every random thing in the twin")
-      ->check(tool::whole_number_between(0, 4294967295))
+      ->check(cli::whole_number_between(0, 4294967295))
       ->capture_default_str();
 }
 

@@ -8,18 +8,18 @@
 namespace {
 
 /// A size that the driver cannot draw, a picture that cannot be written: what was asked, not a bug.
-verp::tool::Subcommand told(verp::tool::Subcommand command) {
+verp::cli::Subcommand told(verp::cli::Subcommand command) {
   command.run = [run = std::move(command.run)] {
     try {
       return run();
     } catch (const verp::render::RenderError& error) {
-      throw verp::tool::ToolError(verp::tool::kBadInput, error.what());
+      throw verp::cli::ToolError(verp::cli::kBadInput, error.what());
     }
   };
   return command;
 }
 
-std::vector<verp::tool::Subcommand> commands(CLI::App& root) {
+std::vector<verp::cli::Subcommand> commands(CLI::App& root) {
   return {told(verp::pictures::add_shot(root)), told(verp::pictures::add_video(root))};
 }
 
@@ -27,5 +27,5 @@ std::vector<verp::tool::Subcommand> commands(CLI::App& root) {
 
 /// `verp shot` and `verp video`: a program of its own, so that `verp` needs no OpenGL.
 int main(int argc, char** argv) {
-  return verp::tool::run_program(argc, argv, commands);
+  return verp::cli::run_program(argc, argv, commands);
 }

@@ -11,8 +11,8 @@
 
 namespace verp::pictures {
 
-using tool::kBadInput;
-using tool::ToolError;
+using cli::kBadInput;
+using cli::ToolError;
 
 namespace {
 

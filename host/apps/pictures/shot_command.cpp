@@ -20,9 +20,9 @@
 namespace verp::pictures {
 namespace {
 
-using tool::kBadInput;
-using tool::kRunFailed;
-using tool::ToolError;
+using cli::kBadInput;
+using cli::kRunFailed;
+using cli::ToolError;
 
 constexpr const char* kShot = "verp shot";
 
@@ -34,7 +34,7 @@ struct ShotOptions {
 };
 
 /// The instant that is asked for: a robot that stands, or a moment of its walk or of a trace.
-scene::Snapshot instant(const ShotOptions& options, Film& film, tool::Progress& progress) {
+scene::Snapshot instant(const ShotOptions& options, Film& film, cli::Progress& progress) {
   scene::Snapshot found;
   if (!options.at_s && !is_trace(options.walk)) return film.start();
   const double at_s = options.at_s.value_or(film.end_s() / 2);
@@ -50,7 +50,7 @@ scene::Snapshot instant(const ShotOptions& options, Film& film, tool::Progress& 
     return !shown;
   });
   progress.clear();
-  if (tool::interrupted()) throw ToolError(kRunFailed, "verp shot: interrupted; no picture");
+  if (cli::interrupted()) throw ToolError(kRunFailed, "verp shot: interrupted; no picture");
   const bool last = is_trace(options.walk) && at_s <= film.end_s() && !found.robots.empty();
   if (shown || last) return found;
   throw ToolError(kBadInput, fmt::format("{}: --at {:g}: the run is over before; give less, or a "
@@ -59,7 +59,7 @@ scene::Snapshot instant(const ShotOptions& options, Film& film, tool::Progress& 
 }
 
 /// One snapshot of each state of one cycle in the midst of a walk.
-std::vector<scene::Snapshot> cycle(Film& film, tool::Progress& progress) {
+std::vector<scene::Snapshot> cycle(Film& film, cli::Progress& progress) {
   constexpr std::uint8_t kTransition = 2;
   std::vector<scene::Snapshot> states;
   int cycles = 0, last = -1;
@@ -83,8 +83,8 @@ std::vector<scene::Snapshot> cycle(Film& film, tool::Progress& progress) {
                                           kShot));
 }
 
-tool::Json label_list(const scene::Scene& scene, const render::Measured& measured) {
-  tool::Json list = tool::Json::array();
+cli::Json label_list(const scene::Scene& scene, const render::Measured& measured) {
+  cli::Json list = cli::Json::array();
   std::vector<std::size_t> pixels(65536, 0);
   for (const std::uint16_t label : measured.label) ++pixels[label];
   for (std::size_t label = 1; label < pixels.size(); ++label) {
@@ -98,7 +98,7 @@ tool::Json label_list(const scene::Scene& scene, const render::Measured& measure
 }
 
 void write_shot(const ShotOptions& options, const Film& film, const scene::Snapshot& now,
-                Studio& studio, tool::Json& json) {
+                Studio& studio, cli::Json& json) {
   const render::Size size = size_of(kShot, options.picture);
   const scene::Camera camera = camera_of(kShot, options.picture, film.scene(), now, size);
   const render::Effects effects = effects_of(options.picture);
@@ -119,8 +119,8 @@ int run_shot(const ShotOptions& options) {
   require_place(kShot, options.picture.file, {".png"});
   const std::unique_ptr<Film> film = open_film(options.walk);
   Studio studio(*film);
-  tool::Progress progress(!options.json);
-  tool::Json json = {{"picture", options.picture.file}, {"camera", options.picture.camera}};
+  cli::Progress progress(!options.json);
+  cli::Json json = {{"picture", options.picture.file}, {"camera", options.picture.camera}};
   if (options.states) {
     const std::vector<scene::Snapshot> states = cycle(*film, progress);
     const auto camera = [&](const scene::Snapshot& now, render::Size size) {
@@ -133,13 +133,13 @@ int run_shot(const ShotOptions& options) {
   } else {
     write_shot(options, *film, instant(options, *film, progress), studio, json);
   }
-  tool::print_answer(options.json, json, options.picture.file + "\n");
-  return tool::kGood;
+  cli::print_answer(options.json, json, options.picture.file + "\n");
+  return cli::kGood;
 }
 
 }  // namespace
 
-tool::Subcommand add_shot(CLI::App& root) {
+cli::Subcommand add_shot(CLI::App& root) {
   CLI::App* app = root.add_subcommand(
       "shot", "A picture of a robot, of a moment of its walk in the twin, or of a trace");
   auto options = std::make_shared<ShotOptions>();
@@ -148,7 +148,7 @@ tool::Subcommand add_shot(CLI::App& root) {
   declare_picture(*app, options->picture, "the picture (.png)");
   app->add_option("--at", options->at_s,
                   "time in the run, s; without: a robot stands, of a trace its middle")
-      ->check(tool::number_between(0, 86400, "s"));
+      ->check(cli::number_between(0, 86400, "s"));
   auto* depth = app->add_flag("--depth", options->depth, "distances: 16 bit grey, 1 mm a step");
   auto* parts = app->add_flag("--segmentation", options->segmentation,
                               "a colour for each link; --json names them");
@@ -156,9 +156,9 @@ tool::Subcommand add_shot(CLI::App& root) {
       app->add_flag("--states", options->states, "the 16 states of a cycle as a filmstrip");
   depth->excludes(parts)->excludes(states);
   parts->excludes(states);
-  tool::add_json_flag(*app, options->json);
+  cli::add_json_flag(*app, options->json);
   return {app, [app, options] {
-            tool::catch_interrupts();
+            cli::catch_interrupts();
             refuse_walk_of_trace(*app, options->walk);
             return run_shot(*options);
           }};

@@ -28,11 +28,11 @@ Studio::Studio(const Film& film) {
     context_ = std::make_unique<render::OffscreenContext>();
     renderer_ = std::make_unique<render::Renderer>();
   } catch (const render::RenderError& error) {
-    throw tool::ToolError(tool::kNoDevice, error.what());
+    throw cli::ToolError(cli::kNoDevice, error.what());
   }
   renderer_->set_scene(film.scene());
-  if (!film.note().empty()) tool::complain(film.note());
-  for (const std::string& note : renderer_->notes()) tool::complain(note);
+  if (!film.note().empty()) cli::complain(film.note());
+  for (const std::string& note : renderer_->notes()) cli::complain(note);
 }
 
 render::Image Studio::filmstrip(const std::vector<scene::Snapshot>& states, render::Size size,

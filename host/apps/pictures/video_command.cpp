@@ -19,8 +19,8 @@
 namespace verp::pictures {
 namespace {
 
-using tool::kRunFailed;
-using tool::ToolError;
+using cli::kRunFailed;
+using cli::ToolError;
 
 constexpr const char* kVideo = "verp video";
 
@@ -38,13 +38,13 @@ int run_video(const VideoOptions& options) {
   const render::Size size = size_of(kVideo, options.picture);
   require_place(kVideo, file, {".mp4", ".gif", ".webp"});
   if (file.ends_with(".mp4") && (size.width % 2 != 0 || size.height % 2 != 0)) {
-    throw ToolError(tool::kBadInput, fmt::format("{}: --size {}: MP4 has even sizes only", kVideo,
-                                                 options.picture.size_text));
+    throw ToolError(cli::kBadInput, fmt::format("{}: --size {}: MP4 has even sizes only", kVideo,
+                                                options.picture.size_text));
   }
   const std::unique_ptr<Film> film = open_film(options.walk);
   Studio studio(*film);
   Encoder encoder(file, size, options.frames_per_s);
-  tool::Progress progress(true);
+  cli::Progress progress(true);
   SteadyCamera steady;
   scene::Trails trails;
   int frames = 0;
@@ -61,19 +61,19 @@ int run_video(const VideoOptions& options) {
     return true;
   });
   progress.clear();
-  if (tool::interrupted()) throw ToolError(kRunFailed, "verp video: interrupted; no video");
+  if (cli::interrupted()) throw ToolError(kRunFailed, "verp video: interrupted; no video");
   if (frames == 0) {
-    throw ToolError(tool::kBadInput,
+    throw ToolError(cli::kBadInput,
                     fmt::format("{}: --from {:g}: the run is over before", kVideo, options.from_s));
   }
   encoder.finish();
-  tool::answer(fmt::format("{}: {} pictures\n", file, frames));
-  return tool::kGood;
+  cli::answer(fmt::format("{}: {} pictures\n", file, frames));
+  return cli::kGood;
 }
 
 }  // namespace
 
-tool::Subcommand add_video(CLI::App& root) {
+cli::Subcommand add_video(CLI::App& root) {
   CLI::App* app =
       root.add_subcommand("video", "A video of a walk in the twin, or of a trace (MP4, GIF, WebP)");
   auto options = std::make_shared<VideoOptions>();
@@ -82,24 +82,24 @@ tool::Subcommand add_video(CLI::App& root) {
   declare_film(*app, options->walk);
   declare_picture(*app, options->picture, "the video (.mp4, .gif or .webp)");
   app->add_option("--from", options->from_s, "where in the run it begins, s")
-      ->check(tool::number_between(0, 86400, "s"))
+      ->check(cli::number_between(0, 86400, "s"))
       ->capture_default_str();
   app->add_option("--to", options->to_s, "where it ends, s; without: with the run")
-      ->check(tool::number_between(0, 86400, "s"));
+      ->check(cli::number_between(0, 86400, "s"));
   app->add_option("--fps", options->frames_per_s, "pictures a second")
-      ->check(tool::whole_number_between(1, 120))
+      ->check(cli::whole_number_between(1, 120))
       ->capture_default_str();
   app->add_option("--speed", options->speed, "2: twice as fast as it was")
-      ->check(tool::number_between(0.01, 100, ""))
+      ->check(cli::number_between(0.01, 100, ""))
       ->capture_default_str();
   return {app, [app, options] {
-            tool::catch_interrupts();
+            cli::catch_interrupts();
             refuse_walk_of_trace(*app, options->walk);
             if (options->to_s && *options->to_s <= options->from_s) {
-              throw tool::ToolError(tool::kBadInput,
-                                    fmt::format("{}: --to {:g}: it begins at --from {:g}; give "
-                                                "more than that",
-                                                kVideo, *options->to_s, options->from_s));
+              throw cli::ToolError(cli::kBadInput,
+                                   fmt::format("{}: --to {:g}: it begins at --from {:g}; give "
+                                               "more than that",
+                                               kVideo, *options->to_s, options->from_s));
             }
             return run_video(*options);
           }};

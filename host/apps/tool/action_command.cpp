@@ -8,13 +8,13 @@
 #include <string>
 #include <utility>
 
-#include "host/apps/cli/command.hpp"
 #include "host/apps/cli/console.hpp"
 #include "host/apps/cli/exit_status.hpp"
 #include "host/apps/cli/interrupt.hpp"
 #include "host/apps/cli/progress.hpp"
 #include "host/apps/tool/action_convert.hpp"
 #include "host/apps/tool/action_send.hpp"
+#include "host/apps/tool/commands.hpp"
 #include "host/apps/tool/walk_files.hpp"
 #include "host/apps/tool/walk_plan.hpp"
 #include "host/author/action/check.hpp"
@@ -31,7 +31,7 @@ constexpr double kDegreesOfRad = 180 / std::numbers::pi;
 constexpr double kStand_m = 1;  ///< no leg of such a robot reaches the floor from there
 
 /// What the library says of an action, in a line.
-Json facts(const action::Made& made, int number) {
+cli::Json facts(const action::Made& made, int number) {
   const action::Library library = made.library();
   const action::Action& own = library.action(number);
   const action::Document& document = made.documents[static_cast<std::size_t>(number - 1)];
@@ -44,17 +44,17 @@ Json facts(const action::Made& made, int number) {
 
 int list(const ActionWords& words) {
   const ActionRobot robot = load_action_robot(words);
-  Json rows = Json::array();
+  cli::Json rows = cli::Json::array();
   std::string text = fmt::format("{}: {} actions, an image of {} bytes\n", robot.entity.name,
                                  robot.made.documents.size(), 4 * robot.made.words.size());
   for (int i = 1; i <= robot.made.library().count(); ++i) {
-    const Json row = facts(robot.made, i);
+    const cli::Json row = facts(robot.made, i);
     text += fmt::format("  {:>3} {:<16} {:>3} frames  {}\n", i, row["name"].get<std::string>(),
                         row["frames"].get<int>(), row["note"].get<std::string>());
     rows.push_back(row);
   }
-  print_answer(words.json, {{"model", robot.entity.name}, {"actions", rows}}, text);
-  return kGood;
+  cli::print_answer(words.json, {{"model", robot.entity.name}, {"actions", rows}}, text);
+  return cli::kGood;
 }
 
 int show(const ActionWords& words) {
@@ -62,16 +62,16 @@ int show(const ActionWords& words) {
   const int number = require_action(robot, words);
   const action::Document& document = robot.made.documents[static_cast<std::size_t>(number - 1)];
   if (!words.json) {
-    answer(action::text_of(document));
-    return kGood;
+    cli::answer(action::text_of(document));
+    return cli::kGood;
   }
   const action::Library library = robot.made.library();
   const action::Action& own = library.action(number);
-  Json json = facts(robot.made, number);
-  json["frames"] = Json::array();
+  cli::Json json = facts(robot.made, number);
+  json["frames"] = cli::Json::array();
   for (int i = own.first; i < own.first + own.frames; ++i) {
     const action::Frame& frame = library.frame(i);
-    Json goals = Json::object();
+    cli::Json goals = cli::Json::object();
     for (int j = 0; j < robot.params.joint_count; ++j) {
       if ((frame.joints >> j & 1U) != 0) {
         goals[robot.params.joint[j].name] = 1e-4 * frame.goal_tenth_mrad[j];
@@ -82,8 +82,8 @@ int show(const ActionWords& words) {
                               {"pause_s", 1e-3 * frame.pause_ms},
                               {"goals_rad", goals}});
   }
-  print_json(json);
-  return kGood;
+  cli::print_json(json);
+  return cli::kGood;
 }
 
 std::string in_a_line(const action::FrameCheck& each) {
@@ -98,7 +98,7 @@ std::string in_a_line(const action::FrameCheck& each) {
 
 int check(const ActionWords& words) {
   const ActionRobot robot = load_action_robot(words);
-  Json rows = Json::array();
+  cli::Json rows = cli::Json::array();
   std::string text;
   int bad = 0;
   const int only = words.action.empty() ? 0 : require_action(robot, words);
@@ -106,7 +106,7 @@ int check(const ActionWords& words) {
     if (only != 0 && number != only) continue;
     const action::Checked checked = action::check(robot.entity, robot.params, robot.made, number);
     const action::Document& document = robot.made.documents[static_cast<std::size_t>(number - 1)];
-    Json frames = Json::array();
+    cli::Json frames = cli::Json::array();
     text += fmt::format("{} on {}: {:.2f} s{}\n", document.name, robot.entity.name,
                         checked.length_s, checked.whole ? "" : ", and on: not checked further");
     text += fmt::format("  {:>6} {:>6} {:>6} {:>6} {:<18} {:>6} {:<18} {:>5}\n", "line", "from s",
@@ -114,21 +114,22 @@ int check(const ActionWords& words) {
     std::set<std::pair<int, std::string>> told;  // a frame played again with nothing new is not
     for (const action::FrameCheck& each : checked.frames) {
       if (told.insert({each.frame, each.problem}).second) text += in_a_line(each);
-      frames.push_back({{"line", each.line},
-                        {"begin_s", each.begin_s},
-                        {"end_s", each.end_s},
-                        {"speed_share", each.speed_share},
-                        {"torque_share", each.torque_share},
-                        {"zmp_margin_m", each.zmp_margin_m >= 1 ? Json() : Json(each.zmp_margin_m)},
-                        {"problem", each.problem}});
+      frames.push_back(
+          {{"line", each.line},
+           {"begin_s", each.begin_s},
+           {"end_s", each.end_s},
+           {"speed_share", each.speed_share},
+           {"torque_share", each.torque_share},
+           {"zmp_margin_m", each.zmp_margin_m >= 1 ? cli::Json() : cli::Json(each.zmp_margin_m)},
+           {"problem", each.problem}});
     }
     if (const std::size_t again = checked.frames.size() - told.size(); again > 0)
       text += fmt::format("  {:>6} times more one of these, alike\n", again);
     const action::FrameCheck* first = checked.first_bad();
     if (first != nullptr) {
       ++bad;
-      complain(fmt::format("verp action check: {}:{}: {}", document.file.string(), first->line,
-                           first->problem));
+      cli::complain(fmt::format("verp action check: {}:{}: {}", document.file.string(), first->line,
+                                first->problem));
     }
     rows.push_back({{"action", document.name},
                     {"good", first == nullptr},
@@ -136,8 +137,8 @@ int check(const ActionWords& words) {
                     {"whole", checked.whole},
                     {"frames", frames}});
   }
-  print_answer(words.json, {{"model", robot.entity.name}, {"actions", rows}}, text);
-  return bad == 0 ? kGood : kRunFailed;
+  cli::print_answer(words.json, {{"model", robot.entity.name}, {"actions", rows}}, text);
+  return bad == 0 ? cli::kGood : cli::kRunFailed;
 }
 
 /// Empty: it stayed about where it was.
@@ -168,48 +169,49 @@ int play(const ActionWords& words) {
     plan.twin.start_m.z() += kStand_m;
   }
   WalkFiles files(options, plan, nullptr, {{"action", words.action}});
-  Progress progress(!words.json);
+  cli::Progress progress(!words.json);
   session::Hooks hooks;
   hooks.trace = files.trace();
   hooks.ticked = [&](const session::Tick& tick) {
     progress.show(0, fmt::format("{}  {:.1f} s", words.action, tick.seen.truth.t_s));
   };
   action::Played played =
-      action::play(plan, number, std::move(hooks), {.world = world, .interrupted = interrupted});
+      action::play(plan, number, std::move(hooks), {.world = world, .interrupted = cli::interrupted});
   progress.clear();
   const session::WalkResult& run = played.run;
   files.finish(run, {});
   const std::string digest = fmt::format("0x{:016x}", run.digest);
   if (words.json) {
-    Json json = {{"model", plan.entity.name},
-                 {"action", words.action},
-                 {"asked_s", played.asked_s},
-                 {"action_s", played.action_s},
-                 {"ahead_m", played.went_m.x()},
-                 {"left_m", played.went_m.y()},
-                 {"turned_deg", played.turned_rad * kDegreesOfRad},
-                 {"fallen", run.metrics.fallen},
-                 {"ticks", run.ticks},
-                 {"digest", digest},
-                 {"failure", run.failure}};
+    cli::Json json = {{"model", plan.entity.name},
+                      {"action", words.action},
+                      {"asked_s", played.asked_s},
+                      {"action_s", played.action_s},
+                      {"ahead_m", played.went_m.x()},
+                      {"left_m", played.went_m.y()},
+                      {"turned_deg", played.turned_rad * kDegreesOfRad},
+                      {"fallen", run.metrics.fallen},
+                      {"ticks", run.ticks},
+                      {"digest", digest},
+                      {"failure", run.failure}};
     json.update(drawn.json);
     files.add_to(json);
-    print_json(json);
+    cli::print_json(json);
   } else {
-    answer(fmt::format("{} played {}: {:.2f} s, from {:.2f} s of the run on; {} ticks, digest {}\n",
-                       plan.entity.name, words.action, played.action_s, played.asked_s, run.ticks,
-                       digest) +
-           way_in_words(played) + drawn.text + files.text());
+    cli::answer(
+        fmt::format("{} played {}: {:.2f} s, from {:.2f} s of the run on; {} ticks, digest {}\n",
+                    plan.entity.name, words.action, played.action_s, played.asked_s, run.ticks,
+                    digest) +
+        way_in_words(played) + drawn.text + files.text());
   }
-  for (const std::string& line : files.lost()) complain(line);
-  if (run.good()) return files.lost().empty() ? kGood : kRunFailed;
-  complain("verp action play: " + (run.failure.empty() ? "interrupted" : run.failure));
-  return kRunFailed;
+  for (const std::string& line : files.lost()) cli::complain(line);
+  if (run.good()) return files.lost().empty() ? cli::kGood : cli::kRunFailed;
+  cli::complain("verp action play: " + (run.failure.empty() ? "interrupted" : run.failure));
+  return cli::kRunFailed;
 }
 
 }  // namespace
 
-Subcommand add_action(CLI::App& root) {
+cli::Subcommand add_action(CLI::App& root) {
   CLI::App* app = root.add_subcommand(
       "action",
       "Actions of a robot, such as wave or kick: list, check, play, convert, export, send, record");
@@ -220,8 +222,8 @@ Subcommand add_action(CLI::App& root) {
     if (named) {
       each->add_option("ACTION", words->action, "its name, or an action file");
     }
-    add_model(*each, words->model)->capture_default_str();
-    add_json_flag(*each, words->json);
+    cli::add_model(*each, words->model)->capture_default_str();
+    cli::add_json_flag(*each, words->json);
     return each;
   };
   CLI::App* lists = add("list", "What actions a robot has", false);
@@ -234,13 +236,13 @@ Subcommand add_action(CLI::App& root) {
   CLI::App* plays = add("play", "Play an action in the twin", true);
   plays->get_option("ACTION")->required();
   plays->add_option("--seed", words->walk.seed, "of every random thing in the twin")
-      ->check(whole_number_between(0, 4294967295))
+      ->check(cli::whole_number_between(0, 4294967295))
       ->capture_default_str();
   plays->add_flag("--vary", words->walk.vary, "another robot of this kind, drawn from the seed");
   plays->add_flag("--held", words->held,
                   "the trunk hangs in a stand all the time, feet in the air");
   plays->add_option("--gains", words->gains_percent, "of the servos' position loops, percent")
-      ->check(whole_number_between(10, 100))
+      ->check(cli::whole_number_between(10, 100))
       ->capture_default_str();
   plays->add_option("--record", words->walk.record_file, "write the trace here (.mcap)");
   words->walk.command = "verp action play";
@@ -268,29 +270,31 @@ Subcommand add_action(CLI::App& root) {
                    "or its robot's bus: can:can0")
       ->required();
   sends->add_option("--id", send->id, "of the controller (default: 200; on CAN node 127)")
-      ->check(whole_number_between(1, 252));
+      ->check(cli::whole_number_between(1, 252));
   CLI::App* records = app->add_subcommand("record", "An action out of what a robot did in a trace");
   auto record = std::make_shared<RecordWords>();
   records->add_option("TRACE", record->trace, "a trace (.mcap)")->required();
   records->add_option("-o", record->file, "the action (NAME.action)")->required();
   records->add_option("--gait", record->gait_cycles, "the gait's 16 states, repeated so often")
-      ->check(whole_number_between(1, 255));
+      ->check(cli::whole_number_between(1, 255));
   records->add_option("--from", record->options.from_s, "time in the trace, s")
-      ->check(number_between(0, 86400, "s"));
+      ->check(cli::number_between(0, 86400, "s"));
   records->add_option("--to", record->options.to_s, "time in the trace, s")
-      ->check(number_between(0, 86400, "s"));
+      ->check(cli::number_between(0, 86400, "s"));
   records->add_option("--every", record->options.every_s, "between key frames, s")
-      ->check(number_between(0.02, 10, "s"))
+      ->check(cli::number_between(0.02, 10, "s"))
       ->capture_default_str();
   return {app, [=]() -> int {
-            catch_interrupts();
+            cli::catch_interrupts();
             if (lists->parsed()) return list(*words);
             if (shows->parsed()) return show(*words);
             if (checks->parsed()) return check(*words);
-            if (converts->parsed()) return answer(convert_actions(*words, *convert)), kGood;
-            if (exports->parsed()) return answer(export_actions(*words, *exported)), kGood;
+            if (converts->parsed())
+              return cli::answer(convert_actions(*words, *convert)), cli::kGood;
+            if (exports->parsed())
+              return cli::answer(export_actions(*words, *exported)), cli::kGood;
             if (sends->parsed()) return send_actions(*words, *send);
-            if (records->parsed()) return answer(record_action(*record)), kGood;
+            if (records->parsed()) return cli::answer(record_action(*record)), cli::kGood;
             return play(*words);
           }};
 }

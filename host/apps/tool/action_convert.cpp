@@ -22,15 +22,15 @@ constexpr const char* kCommand = "verp action convert";
 
 void write_file(const char* command, const fs::path& file, const std::string& bytes) {
   if (files::replace(file, bytes)) return;
-  throw ToolError(kBadInput, fmt::format("{}: {} cannot be written; give another place", command,
-                                         file.string()));
+  throw cli::ToolError(cli::kBadInput, fmt::format("{}: {} cannot be written; give another place",
+                                                   command, file.string()));
 }
 
 std::string read_text(const fs::path& file) {
   const std::optional<std::string> text = files::read(file);
   if (text && !fs::is_directory(file)) return *text;
-  throw ToolError(kBadInput,
-                  fmt::format("{}: {} cannot be read; give a file", kCommand, file.string()));
+  throw cli::ToolError(cli::kBadInput,
+                       fmt::format("{}: {} cannot be read; give a file", kCommand, file.string()));
 }
 
 /// A folder that is filled under a name of its own: of what could not be written whole, nothing
@@ -41,10 +41,10 @@ class NewFolder {
       : path_(std::move(path)), part_(path_.string() + fmt::format(".{}", getpid())) {
     std::error_code error;
     if (fs::exists(path_, error) && !fs::is_empty(path_, error)) {
-      throw ToolError(kBadInput,
-                      fmt::format("{}: {} is there already, and something is in it; give "
-                                  "another folder",
-                                  kCommand, path_.string()));
+      throw cli::ToolError(cli::kBadInput,
+                           fmt::format("{}: {} is there already, and something is in it; give "
+                                       "another folder",
+                                       kCommand, path_.string()));
     }
     fs::create_directories(part_, error);
   }
@@ -60,8 +60,8 @@ class NewFolder {
     std::error_code error;
     fs::rename(part_, path_, error);
     if (!error) return;
-    throw ToolError(kBadInput, fmt::format("{}: {} cannot be written; give another place", kCommand,
-                                           path_.string()));
+    throw cli::ToolError(cli::kBadInput, fmt::format("{}: {} cannot be written; give another place",
+                                                     kCommand, path_.string()));
   }
 
  private:
@@ -71,10 +71,10 @@ class NewFolder {
 std::string motion_to_folder(const Params& params, const ConvertWords& convert) {
   const auto documents = action::from_motion(params, action::read_motion(convert.from));
   if (documents.empty()) {
-    throw ToolError(kBadInput,
-                    fmt::format("{}: all pages of {} are blank; there is nothing to make "
-                                "actions of",
-                                kCommand, convert.from));
+    throw cli::ToolError(cli::kBadInput,
+                         fmt::format("{}: all pages of {} are blank; there is nothing to make "
+                                     "actions of",
+                                     kCommand, convert.from));
   }
   const NewFolder folder(convert.to.ends_with('/') ? convert.to.substr(0, convert.to.size() - 1)
                                                    : convert.to);
@@ -88,8 +88,9 @@ std::string motion_to_folder(const Params& params, const ConvertWords& convert) 
 std::string folder_to_motion(const Params& params, const ConvertWords& convert) {
   const auto documents = action::read_folder(convert.from);
   if (documents.empty()) {
-    throw ToolError(kBadInput, fmt::format("{}: {} holds no action; give a folder of *.action",
-                                           kCommand, convert.from));
+    throw cli::ToolError(
+        cli::kBadInput,
+        fmt::format("{}: {} holds no action; give a folder of *.action", kCommand, convert.from));
   }
   const action::Motion motion = action::to_motion(params, documents);
   std::string bytes;
@@ -126,26 +127,28 @@ std::string convert_actions(const ActionWords& words, const ConvertWords& conver
   }
   if (from.extension() == ".bin" && !to.has_extension()) return motion_to_folder(params, convert);
   if (fs::is_directory(from) && to.extension() == ".bin") return folder_to_motion(params, convert);
-  throw ToolError(kBadInput,
-                  fmt::format("{}: nothing makes {} of {}; give ACTION FILE.csv, FILE.csv "
-                              "FILE.action, MOTION.bin FOLDER or FOLDER MOTION.bin",
-                              kCommand, convert.to, convert.from));
+  throw cli::ToolError(cli::kBadInput,
+                       fmt::format("{}: nothing makes {} of {}; give ACTION FILE.csv, FILE.csv "
+                                   "FILE.action, MOTION.bin FOLDER or FOLDER MOTION.bin",
+                                   kCommand, convert.to, convert.from));
 }
 
 std::string record_action(const RecordWords& words) {
   const record::Trace trace = record::read_trace(words.trace);
   const fs::path file = words.file;
   if (file.extension() != ".action") {
-    throw ToolError(kBadInput, fmt::format("verp action record: {}: actions are *.action; give -o "
-                                           "NAME.action",
-                                           words.file));
+    throw cli::ToolError(cli::kBadInput,
+                         fmt::format("verp action record: {}: actions are *.action; give -o "
+                                     "NAME.action",
+                                     words.file));
   }
   action::RecordOptions options = words.options;
   options.name = file.stem().string();
   if (options.name.find_first_of(" \t\n#") != std::string::npos) {
-    throw ToolError(kBadInput, fmt::format("verp action record: '{}' is no action's name: it has a "
-                                           "space or a # in it; give -o NAME.action",
-                                           options.name));
+    throw cli::ToolError(cli::kBadInput,
+                         fmt::format("verp action record: '{}' is no action's name: it has a "
+                                     "space or a # in it; give -o NAME.action",
+                                     options.name));
   }
   const action::Document document =
       words.gait_cycles > 0 ? action::record_gait(trace, options.name, words.gait_cycles)
@@ -157,16 +160,18 @@ std::string record_action(const RecordWords& words) {
 std::string export_actions(const ActionWords& words, const std::string& file) {
   const ActionRobot robot = load_action_robot(words);
   if (robot.made.documents.empty()) {
-    throw ToolError(kBadInput,
-                    fmt::format("verp action export: {} has no actions in {}; write one: "
-                                "host/author/action/README.md has the words",
-                                robot.entity.name, action::folder_of(robot.entity.file).string()));
+    throw cli::ToolError(
+        cli::kBadInput,
+        fmt::format("verp action export: {} has no actions in {}; write one: "
+                    "host/author/action/README.md has the words",
+                    robot.entity.name, action::folder_of(robot.entity.file).string()));
   }
   const std::vector<std::uint8_t> image = action::kept_image(robot.made, robot.params);
   if (!files::replace(file, {reinterpret_cast<const char*>(image.data()), image.size()})) {
-    throw ToolError(kBadInput, fmt::format("verp action export: {} cannot be written; give another "
-                                           "place with -o",
-                                           file));
+    throw cli::ToolError(cli::kBadInput,
+                         fmt::format("verp action export: {} cannot be written; give another "
+                                     "place with -o",
+                                     file));
   }
   return fmt::format("{}: {} actions of {}, {} bytes\n", file, robot.made.documents.size(),
                      robot.entity.name, image.size());

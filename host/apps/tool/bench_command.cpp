@@ -12,13 +12,13 @@
 #include <string>
 
 #include "common/control/state.hpp"
-#include "host/apps/cli/command.hpp"
 #include "host/apps/cli/console.hpp"
 #include "host/apps/cli/interrupt.hpp"
 #include "host/apps/cli/json.hpp"
 #include "host/apps/cli/progress.hpp"
 #include "host/apps/tool/bench_languages.hpp"
 #include "host/apps/tool/bench_report.hpp"
+#include "host/apps/tool/commands.hpp"
 #include "host/boards/board/cost_promise.hpp"
 #include "host/boards/board/emulated_board.hpp"
 #include "host/boards/board/temporary_directory.hpp"
@@ -47,30 +47,31 @@ struct BenchOptions {
 /// Throws ToolError with its last words if it fails.
 template <class Take>
 void run_program(const std::string& program, const std::string& arguments, Take take,
-                 const std::string& where = "") {
+                      const std::string& where = "") {
   const std::string path = (files::build_dir() / program).string();
   if (!std::filesystem::exists(path)) {
-    throw ToolError(kNoDevice, path +
-                                   ": not built; run ./verp bench, which installs Google "
-                                   "Benchmark and KDL and builds it");
+    throw cli::ToolError(cli::kNoDevice, path +
+                                             ": not built; run ./verp bench, which installs Google "
+                                             "Benchmark and KDL and builds it");
   }
   const board::TemporaryDirectory scratch;
   const auto errors = scratch.path() / "errors";
   const std::string command =
       where + files::shell_word(path) + arguments + " 2>" + files::shell_word(errors.string());
   FILE* pipe = popen(command.c_str(), "r");
-  if (pipe == nullptr) throw ToolError(kNoDevice, path + ": cannot be started");
+  if (pipe == nullptr) throw cli::ToolError(cli::kNoDevice, path + ": cannot be started");
   std::string line;
   for (int c; (c = std::fgetc(pipe)) != EOF;) {
     line += static_cast<char>(c);
     if (c == '\n') take(line), line.clear();
   }
   const int status = pclose(pipe);
-  if (interrupted()) throw ToolError(kRunFailed, "verp bench: interrupted");
+  if (cli::interrupted()) throw cli::ToolError(cli::kRunFailed, "verp bench: interrupted");
   if (status == 0) return;
-  const bool told = WIFEXITED(status) && WEXITSTATUS(status) <= kNoDevice;
-  throw ToolError(told ? static_cast<ExitStatus>(WEXITSTATUS(status)) : kRunFailed,
-                  program + " failed: " + process::last_line(files::read(errors).value_or("")));
+  const bool told = WIFEXITED(status) && WEXITSTATUS(status) <= cli::kNoDevice;
+  throw cli::ToolError(
+      told ? static_cast<cli::ExitStatus>(WEXITSTATUS(status)) : cli::kRunFailed,
+      program + " failed: " + process::last_line(files::read(errors).value_or("")));
 }
 
 using Samples = std::map<std::string, std::vector<double>>;
@@ -79,9 +80,9 @@ using Samples = std::map<std::string, std::vector<double>>;
 void sample(const std::string& program, const std::string& folder, Samples& samples) {
   std::string text;
   run_program(program, " " + files::shell_word(folder) + kTiming,
-              [&](const std::string& l) { text += l; });
-  const Json result = Json::parse(text);
-  for (const Json& benchmark : result.at("benchmarks")) {
+                   [&](const std::string& l) { text += l; });
+  const cli::Json result = cli::Json::parse(text);
+  for (const cli::Json& benchmark : result.at("benchmarks")) {
     const std::string name = benchmark.at("name");
     samples[name].push_back(benchmark.at("cpu_time"));
     for (const char* counter : {"is_newton", "apart_rad", "apart_m", "iterations", "targets"}) {
@@ -133,7 +134,7 @@ void add_pc_rows(const Samples& samples, std::vector<BenchRow>& rows) {
 }
 
 /// One of target_bench's lines: a board's exact cost, or its link's speed.
-void add_board_rows(const Json& line, std::vector<BenchRow>& rows, Json& headings) {
+void add_board_rows(const cli::Json& line, std::vector<BenchRow>& rows, cli::Json& headings) {
   const std::string where = line.at("board");
   const Bar promised = where == board::kPromisedBoard ? Bar::kAtMost : Bar::kNone;
   const auto add = [&](const char* name, const char* what, const char* unit, Bar bar, double limit,
@@ -176,7 +177,7 @@ void add_board_rows(const Json& line, std::vector<BenchRow>& rows, Json& heading
 }
 
 /// One of window_bench's lines.
-void add_picture_rows(const Json& line, std::vector<BenchRow>& rows) {
+void add_picture_rows(const cli::Json& line, std::vector<BenchRow>& rows) {
   const int robots = line.at("robots");
   const std::string kind = line.value("antialias", false) ? "antialiased" : "as a window draws it";
   const bool coarse = line.value("step_us", 1000) != 1000;
@@ -208,26 +209,28 @@ void add_picture_rows(const Json& line, std::vector<BenchRow>& rows) {
   add("cores", "cores busy with both", "");
 }
 
-void run_languages(int repetitions, std::vector<BenchRow>& rows, Json& headings) {
+void run_languages(int repetitions, std::vector<BenchRow>& rows, cli::Json& headings) {
   headings["languages"] = fmt::format(
       "the controller stepped by other programs, a call a tick, without physics; CPU time, of two "
       "processes the clock's; median of {}",
       repetitions);
-  run_program("bench/language_bench", fmt::format(" {}", repetitions),
-              [&](const std::string& text) { add_language_row(Json::parse(text), rows); });
+  run_program(
+      "bench/language_bench", fmt::format(" {}", repetitions),
+      [&](const std::string& text) { add_language_row(cli::Json::parse(text), rows); });
 }
 
-int tell(const BenchOptions& options, const std::vector<BenchRow>& rows, const Json& headings) {
-  print_answer(options.json, {{"results", bench_json(rows)}}, bench_table(rows, headings));
-  if (bench_held(rows)) return kGood;
-  complain("verp bench: a measurement failed; see FAILED");
-  return kRunFailed;
+int tell(const BenchOptions& options, const std::vector<BenchRow>& rows,
+         const cli::Json& headings) {
+  cli::print_answer(options.json, {{"results", bench_json(rows)}}, bench_table(rows, headings));
+  if (bench_held(rows)) return cli::kGood;
+  cli::complain("verp bench: a measurement failed; see FAILED");
+  return cli::kRunFailed;
 }
 
 int run_languages_alone(const BenchOptions& options) {
   std::vector<BenchRow> rows;
-  Json headings = Json::object();
-  Progress progress(!options.json);
+  cli::Json headings = cli::Json::object();
+  cli::Progress progress(!options.json);
   progress.show(0, "stepping the controller from other languages");
   run_languages(options.repetitions, rows, headings);
   progress.clear();
@@ -237,11 +240,11 @@ int run_languages_alone(const BenchOptions& options) {
 int run_pictures(const BenchOptions& options) {
   std::vector<BenchRow> rows;
   const bool needs_display = options.only == "window" && std::getenv("DISPLAY") == nullptr;
-  Progress progress(!options.json);
+  cli::Progress progress(!options.json);
   progress.show(0, "drawing");
   run_program(
       "bench/window_bench", " " + options.only,
-      [&](const std::string& line) { add_picture_rows(Json::parse(line), rows); },
+      [&](const std::string& line) { add_picture_rows(cli::Json::parse(line), rows); },
       needs_display ? "xvfb-run -a -s '-screen 0 1280x800x24' " : "");
   progress.clear();
   return tell(options, rows, {{"pc", "pictures of 640x480, drawn here"}});
@@ -258,10 +261,10 @@ int run_bench(const BenchOptions& options) {
     }
   }
   const board::TemporaryDirectory folder;
-  Progress progress(!options.json);
+  cli::Progress progress(!options.json);
   const double steps = options.repetitions + 1 + static_cast<double>(boards);
   std::vector<BenchRow> rows;
-  Json headings = {
+  cli::Json headings = {
       {"pc", fmt::format("CPU time here, generic21 walking, median of {}", options.repetitions)}};
   Samples samples;
   for (int n = 0; n < options.repetitions; ++n) {
@@ -276,14 +279,14 @@ int run_bench(const BenchOptions& options) {
     double done = options.repetitions + 1;
     progress.show(done / steps, "counting instructions on emulated boards");
     run_program("target/target_bench", "", [&](const std::string& line) {
-      add_board_rows(Json::parse(line), rows, headings);
+      add_board_rows(cli::Json::parse(line), rows, headings);
       progress.show(++done / steps, "counting instructions on emulated boards");
     });
     progress.show(done / steps, "walking over emulated CAN");
     run_program(
         "target/can_bench", "",
         [&](const std::string& line) {
-          add_board_rows(Json::parse(line), rows, headings);
+          add_board_rows(cli::Json::parse(line), rows, headings);
           progress.show(++done / steps, "walking over emulated CAN");
         },
         files::shell_word((files::source_dir() / "tests/support/with-can").string()) + kWithCan);
@@ -291,45 +294,46 @@ int run_bench(const BenchOptions& options) {
   progress.clear();
   const bool good = bench_held(rows);
   const bool newton = samples.at("kdl_leg_ik.is_newton").front() != 0;
-  const Json kdl = {{"solver", newton ? "NR with WDLS" : "LMA"},
-                    {"targets", samples.at("kdl_leg_ik.targets").front()},
-                    {"iterations_mean", samples.at("kdl_leg_ik.iterations").front()},
-                    {"apart_rad", samples.at("kdl_leg_ik.apart_rad").front()},
-                    {"apart_m", samples.at("kdl_leg_ik.apart_m").front()}};
-  print_answer(options.json,
-               {{"kept", good},
-                {"repetitions", options.repetitions},
-                {"kdl_check", kdl},
-                {"results", bench_json(rows)}},
-               fmt::format("{}KDL's {} gave our angles within {:.1f} mrad on {} targets, in {:.1f} "
-                           "iterations each.\n",
-                           bench_table(rows, headings), kdl["solver"].get<std::string>(),
-                           1e3 * kdl["apart_rad"].get<double>(), kdl["targets"].get<double>(),
-                           kdl["iterations_mean"].get<double>()));
+  const cli::Json kdl = {{"solver", newton ? "NR with WDLS" : "LMA"},
+                         {"targets", samples.at("kdl_leg_ik.targets").front()},
+                         {"iterations_mean", samples.at("kdl_leg_ik.iterations").front()},
+                         {"apart_rad", samples.at("kdl_leg_ik.apart_rad").front()},
+                         {"apart_m", samples.at("kdl_leg_ik.apart_m").front()}};
+  cli::print_answer(
+      options.json,
+      {{"kept", good},
+       {"repetitions", options.repetitions},
+       {"kdl_check", kdl},
+       {"results", bench_json(rows)}},
+      fmt::format("{}KDL's {} gave our angles within {:.1f} mrad on {} targets, in {:.1f} "
+                  "iterations each.\n",
+                  bench_table(rows, headings), kdl["solver"].get<std::string>(),
+                  1e3 * kdl["apart_rad"].get<double>(), kdl["targets"].get<double>(),
+                  kdl["iterations_mean"].get<double>()));
   if (!good)
-    complain(
+    cli::complain(
         "verp bench: a promise on counts is not kept, or a measurement failed; see MISSED, FAILED");
-  return good ? kGood : kRunFailed;
+  return good ? cli::kGood : cli::kRunFailed;
 }
 
 }  // namespace
 
-Subcommand add_bench(CLI::App& root) {
+cli::Subcommand add_bench(CLI::App& root) {
   CLI::App* app = root.add_subcommand(
       "bench", "What a tick costs, here and on emulated microcontrollers, beside what is promised");
   auto options = std::make_shared<BenchOptions>();
   app->add_flag("--pc", options->pc, "this PC only: needs no cross compiler");
   app->add_option("--repetitions", options->repetitions, "runs of each timing on this PC")
-      ->check(whole_number_between(1, 100))
+      ->check(cli::whole_number_between(1, 100))
       ->capture_default_str();
   app->add_option("--only", options->only,
                   "languages: how fast other languages and processes step the controller; or what "
                   "pictures cost: frames, by the renderer alone; window, with the twin in real "
                   "time beside it")
       ->check(CLI::IsMember({"languages", "frames", "window"}));
-  add_json_flag(*app, options->json);
+  cli::add_json_flag(*app, options->json);
   return {app, [options] {
-            catch_interrupts();
+            cli::catch_interrupts();
             return run_bench(*options);
           }};
 }

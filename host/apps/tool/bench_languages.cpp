@@ -7,7 +7,7 @@
 
 namespace verp::tool {
 
-void add_language_row(const Json& line, std::vector<BenchRow>& rows) {
+void add_language_row(const cli::Json& line, std::vector<BenchRow>& rows) {
   struct Language {
     const char* what;
     double at_least;  ///< ticks a second; 0: nothing is promised

@@ -46,7 +46,7 @@ double median(std::vector<double> values) {
   return values.size() % 2 == 1 ? values.at(half) : (values.at(half - 1) + values.at(half)) / 2;
 }
 
-std::string bench_table(const std::vector<BenchRow>& rows, const Json& headings) {
+std::string bench_table(const std::vector<BenchRow>& rows, const cli::Json& headings) {
   constexpr const char* kColumns = "  {:38} {:>14}  {:18} {:22} {}";
   std::string text =
       trimmed(fmt::format(kColumns, "", "measured", "least to most", "promised", ""));
@@ -68,10 +68,10 @@ std::string bench_table(const std::vector<BenchRow>& rows, const Json& headings)
   return text;
 }
 
-Json bench_json(const std::vector<BenchRow>& rows) {
-  Json array = Json::array();
+cli::Json bench_json(const std::vector<BenchRow>& rows) {
+  cli::Json array = cli::Json::array();
   for (const BenchRow& row : rows) {
-    Json json = {{"where", row.where}, {"name", row.name}};
+    cli::Json json = {{"where", row.where}, {"name", row.name}};
     if (!row.measured()) {
       const bool failed = !row.failed.empty();
       json[failed ? "failed" : "missing"] = failed ? row.failed : row.missing;

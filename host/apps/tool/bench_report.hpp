@@ -34,9 +34,9 @@ struct BenchRow {
 double median(std::vector<double> values);
 
 /// All rows; one heading a place, which `headings` may explain ("mps2_an386": "Cortex-M4F ...").
-std::string bench_table(const std::vector<BenchRow>& rows, const Json& headings);
+std::string bench_table(const std::vector<BenchRow>& rows, const cli::Json& headings);
 
-Json bench_json(const std::vector<BenchRow>& rows);
+cli::Json bench_json(const std::vector<BenchRow>& rows);
 
 /// Whether every exact promise is kept, and nothing failed; what is not installed is no failure.
 bool bench_held(const std::vector<BenchRow>& rows);

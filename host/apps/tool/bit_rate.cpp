@@ -5,12 +5,12 @@
 
 namespace verp::tool {
 
-void check_bit_rate(const std::string& command, const wire::CanInterface& interface,
+void check_bit_rate(const std::string& command, const link::CanInterface& interface,
                     const Params& params) {
-  const std::string known = wire::advice(interface);
-  if (!known.empty()) complain(command + ": " + known);
-  const std::string trouble = wire::bit_rate_trouble(interface, params.name, params.baud);
-  if (!trouble.empty()) throw ToolError(kBadInput, command + ": " + trouble);
+  const std::string known = link::advice(interface);
+  if (!known.empty()) cli::complain(command + ": " + known);
+  const std::string trouble = link::bit_rate_trouble(interface, params.name, params.baud);
+  if (!trouble.empty()) throw cli::ToolError(cli::kBadInput, command + ": " + trouble);
 }
 
 }  // namespace verp::tool

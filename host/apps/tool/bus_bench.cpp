@@ -15,13 +15,13 @@ namespace verp::tool {
 BusBench run_bus_bench(const std::function<bool()>& read, std::uint16_t size, double seconds) {
   BusBench result;
   std::vector<double> took_us;
-  const std::uint64_t start_ns = wire::monotonic_ns();
+  const std::uint64_t start_ns = link::monotonic_ns();
   const auto end_ns = start_ns + static_cast<std::uint64_t>(seconds * 1e9);
   std::uint64_t now_ns = start_ns;
-  while (now_ns < end_ns && !interrupted()) {
+  while (now_ns < end_ns && !cli::interrupted()) {
     const std::uint64_t begun_ns = now_ns;
     const bool good = read();
-    now_ns = wire::monotonic_ns();
+    now_ns = link::monotonic_ns();
     if (good) {
       took_us.push_back(static_cast<double>(now_ns - begun_ns) * 1e-3);
     } else {
@@ -63,7 +63,7 @@ std::string to_text(const BusBench& result) {
       result.link.overruns, result.link.framing, result.link.losses);
 }
 
-Json to_json(const BusBench& result) {
+cli::Json to_json(const BusBench& result) {
   return {{"round_trips_per_s", result.round_trips_per_s()},
           {"round_trips", result.good},
           {"duration_s", result.duration_s},
@@ -80,8 +80,8 @@ Json to_json(const BusBench& result) {
 }
 
 void advise_latency(const std::string& device) {
-  const std::string advice = wire::latency_advice(device);
-  if (!advice.empty()) complain(advice);
+  const std::string advice = link::latency_advice(device);
+  if (!advice.empty()) cli::complain(advice);
 }
 
 }  // namespace verp::tool

@@ -31,7 +31,7 @@ BusBench run_bus_bench(bus::Client& client, std::uint8_t id, std::uint16_t addre
 BusBench run_bus_bench(const std::function<bool()>& read, std::uint16_t size, double seconds);
 
 std::string to_text(const BusBench& result);
-Json to_json(const BusBench& result);
+cli::Json to_json(const BusBench& result);
 
 /// Says on stderr if the adapter behind `device` keeps bytes back.
 void advise_latency(const std::string& device);

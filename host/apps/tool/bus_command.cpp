@@ -25,9 +25,9 @@ CLI::App* add(CLI::App* bus, const std::shared_ptr<BusOptions>& options, const c
                   "serial:/dev/ttyUSB0@1000000, pty:PATH, tcp:HOST:PORT, unix:PATH, can:can0")
       ->required();
   app->add_option("--timeout", options->timeout_ms, "what an answer may take, ms")
-      ->transform(number_between(1, 10000, "ms"))
+      ->transform(cli::number_between(1, 10000, "ms"))
       ->capture_default_str();
-  add_json_flag(*app, options->json);
+  cli::add_json_flag(*app, options->json);
   return app;
 }
 
@@ -40,12 +40,13 @@ void add_id(CLI::App* app, const std::shared_ptr<BusOptions>& options) {
 /// Which ids there are depends on the link.
 void check_id(const BusOptions& options, bool can) {
   if (can && !canopen::is_node(static_cast<unsigned>(options.id))) {
-    throw ToolError(kBadInput, fmt::format("--id: {} is no node id of CANopen; give 1 to {}",
-                                           options.id, canopen::kMaxNode));
+    throw cli::ToolError(cli::kBadInput,
+                         fmt::format("--id: {} is no node id of CANopen; give 1 to {}", options.id,
+                                     canopen::kMaxNode));
   }
   if (!can && (options.id < 0 || options.id > dxl::kMaxId)) {
-    throw ToolError(kBadInput, fmt::format("--id: {} is out of range; give 0 to {}", options.id,
-                                           int{dxl::kMaxId}));
+    throw cli::ToolError(cli::kBadInput, fmt::format("--id: {} is out of range; give 0 to {}",
+                                                     options.id, int{dxl::kMaxId}));
   }
 }
 
@@ -72,15 +73,16 @@ void refuse_on_can(const std::vector<CLI::App*>& commands, const CLI::App* bench
     for (const auto& [word, instead] : kSerial) {
       const CLI::Option* option = each->get_option_no_throw(word);
       if (option == nullptr || option->count() == 0) continue;
-      throw ToolError(kBadInput, fmt::format("{} is of devices on serial links; {}", word,
-                                             each == bench ? "on CAN 1000:0 is read" : instead));
+      throw cli::ToolError(cli::kBadInput,
+                           fmt::format("{} is of devices on serial links; {}", word,
+                                       each == bench ? "on CAN 1000:0 is read" : instead));
     }
   }
 }
 
 }  // namespace
 
-Subcommand add_bus(CLI::App& root) {
+cli::Subcommand add_bus(CLI::App& root) {
   CLI::App* app = root.add_subcommand(
       "bus", "Dynamixel devices and CANopen nodes: find them, read, write, measure");
   app->require_subcommand(1);
@@ -97,7 +99,7 @@ Subcommand add_bus(CLI::App& root) {
   put->add_option("VALUE", options->values, "whole numbers, or 0x...; one for each element")
       ->required();
   measure->add_option("--for", options->seconds, "how long, s")
-      ->transform(number_between(0.1, 3600, "s"))
+      ->transform(cli::number_between(0.1, 3600, "s"))
       ->capture_default_str();
   measure->add_option("--address", options->bench_address, "what is read; on CAN it is 1000:0")
       ->check(CLI::Range(0, 0xFFFF))
@@ -105,11 +107,11 @@ Subcommand add_bus(CLI::App& root) {
   measure->add_option("--size", options->size, "bytes of it")
       ->check(CLI::Range(1, 400))
       ->capture_default_str();
-  const Subcommand setup = add_bus_setup(*app);
-  const Subcommand checklist = add_bus_checklist(*app);
-  const Subcommand load = add_bus_load(*app);
-  const Subcommand laser = add_bus_laser(*app);
-  const Subcommand camera = add_bus_camera(*app);
+  const cli::Subcommand setup = add_bus_setup(*app);
+  const cli::Subcommand checklist = add_bus_checklist(*app);
+  const cli::Subcommand load = add_bus_load(*app);
+  const cli::Subcommand laser = add_bus_laser(*app);
+  const cli::Subcommand camera = add_bus_camera(*app);
   CLI::App* list = app->add_subcommand("registers", "the controller's registers, as a page");
   CLI::App* sheet = app->add_subcommand("eds", "a node's electronic data sheet, for CANopen tools");
   std::vector<std::string> nodes;
@@ -133,16 +135,16 @@ Subcommand add_bus(CLI::App& root) {
             if (show->parsed()) return can ? read_can(*options) : read_serial(*options);
             if (put->parsed()) return can ? write_can(*options) : write_serial(*options);
             if (measure->parsed()) return can ? bench_can(*options) : bench_serial(*options);
-            for (const Subcommand& each : {setup, checklist, load, laser, camera}) {
+            for (const cli::Subcommand& each : {setup, checklist, load, laser, camera}) {
               if (each.app->parsed()) return each.run();
             }
-            if (list->parsed()) answer(bus::controller_document());
+            if (list->parsed()) cli::answer(bus::controller_document());
             for (const eds::Sheet& each : eds::sheets()) {
               if (sheet->parsed() && options->node == each.node) {
-                answer(eds::to_text(each.describe()));
+                cli::answer(eds::to_text(each.describe()));
               }
             }
-            return int{kGood};
+            return int{cli::kGood};
           }};
 }
 

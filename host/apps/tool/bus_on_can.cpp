@@ -32,19 +32,20 @@ using Asked = can::NodeIdentity::Asked;
 can::NodeIdentity identify(can::Client& client, const BusOptions& options) {
   const auto identity = client.identify(node_of(options));
   if (identity && identity->asked == Asked::kFellSilent) {
-    throw ToolError(kNoDevice, fmt::format("{}: node {} answered, then fell silent while it was "
-                                           "asked what it is; {}",
-                                           client.place(), options.id, kSilenceRemedy));
+    throw cli::ToolError(cli::kNoDevice,
+                         fmt::format("{}: node {} answered, then fell silent while it was "
+                                     "asked what it is; {}",
+                                     client.place(), options.id, kSilenceRemedy));
   }
   if (identity) return *identity;
-  throw ToolError(kNoDevice,
-                  fmt::format("{}: node {} does not answer, asked {} times; {}", client.place(),
-                              options.id, can::Client::kAttempts, kSilenceRemedy));
+  throw cli::ToolError(
+      cli::kNoDevice, fmt::format("{}: node {} does not answer, asked {} times; {}", client.place(),
+                                  options.id, can::Client::kAttempts, kSilenceRemedy));
 }
 
 can::Client open(const BusOptions& options) {
   if (!options.object.empty()) parse_object(options.object);  // before anything is sent
-  return {wire::parse_endpoint(options.link),
+  return {link::parse_endpoint(options.link),
           static_cast<std::uint32_t>(options.timeout_ms * 1000)};
 }
 
@@ -54,8 +55,8 @@ std::string kind_of(const can::NodeIdentity& each) {
   return profile == 0 ? "of no profile" : fmt::format("CiA {}", profile);
 }
 using Told = std::optional<std::uint32_t>;
-Json json_of(const Told& number) {
-  return number ? Json(*number) : Json(nullptr);
+cli::Json json_of(const Told& number) {
+  return number ? cli::Json(*number) : cli::Json(nullptr);
 }
 std::string text_of(const Told& number) {
   return number ? fmt::format("0x{:X}", *number) : "not told";
@@ -64,13 +65,13 @@ std::string text_of(const Told& number) {
 const char* why_not_all(Asked asked) {
   return asked == Asked::kFellSilent ? "fell silent while it was asked" : "not asked to the end";
 }
-Json to_json(const can::NodeIdentity& each) {
-  Json json = {{"id", each.node},
-               {"device_type", each.device_type},
-               {"vendor", json_of(each.vendor)},
-               {"product", json_of(each.product)},
-               {"revision", json_of(each.revision)},
-               {"name", each.name}};
+cli::Json to_json(const can::NodeIdentity& each) {
+  cli::Json json = {{"id", each.node},
+                    {"device_type", each.device_type},
+                    {"vendor", json_of(each.vendor)},
+                    {"product", json_of(each.product)},
+                    {"revision", json_of(each.revision)},
+                    {"name", each.name}};
   if (each.asked != Asked::kToTheEnd) json["trouble"] = why_not_all(each.asked);
   return json;
 }
@@ -82,53 +83,54 @@ std::string to_text(const can::NodeIdentity& each) {
 }
 void print(const std::vector<can::NodeIdentity>& found, const BusOptions& options) {
   if (options.json) {
-    Json nodes = Json::array();
+    cli::Json nodes = cli::Json::array();
     for (const can::NodeIdentity& each : found) nodes.push_back(to_json(each));
-    return print_json({{"link", options.link}, {"nodes", nodes}});
+    return cli::print_json({{"link", options.link}, {"nodes", nodes}});
   }
-  for (const can::NodeIdentity& each : found) answer(to_text(each));
+  for (const can::NodeIdentity& each : found) cli::answer(to_text(each));
 }
 
 }  // namespace
 
 bool on_can(const BusOptions& options) {
   return !options.link.empty() &&
-         wire::parse_endpoint(options.link).kind == wire::Endpoint::Kind::kCan;
+         link::parse_endpoint(options.link).kind == link::Endpoint::Kind::kCan;
 }
 
 int scan_can(const BusOptions& options) {
   can::Client client = open(options);
-  catch_interrupts();
-  client.stop_when(interrupted);
+  cli::catch_interrupts();
+  client.stop_when(cli::interrupted);
   const auto found = client.scan();
-  if (found.empty() && !interrupted()) {
-    throw ToolError(kNoDevice, options.link + ": no node answers; " + kSilenceRemedy);
+  if (found.empty() && !cli::interrupted()) {
+    throw cli::ToolError(cli::kNoDevice, options.link + ": no node answers; " + kSilenceRemedy);
   }
   print(found, options);
-  if (interrupted()) {
-    complain(options.link + ": interrupted; there may be more nodes");
-    return kRunFailed;
+  if (cli::interrupted()) {
+    cli::complain(options.link + ": interrupted; there may be more nodes");
+    return cli::kRunFailed;
   }
   const auto silent = std::count_if(found.begin(), found.end(), [](const auto& each) {
     return each.asked == Asked::kFellSilent;
   });
-  if (silent == 0) return kGood;
-  complain(fmt::format("{}: {} of {} nodes answered, then fell silent while they were asked; {}",
-                       options.link, silent, found.size(), kSilenceRemedy));
-  return kNoDevice;
+  if (silent == 0) return cli::kGood;
+  cli::complain(
+      fmt::format("{}: {} of {} nodes answered, then fell silent while they were asked; {}",
+                  options.link, silent, found.size(), kSilenceRemedy));
+  return cli::kNoDevice;
 }
 
 int ping_can(const BusOptions& options) {
   can::Client client = open(options);
   const can::NodeIdentity identity = identify(client, options);
-  print_answer(options.json, to_json(identity), to_text(identity));
-  return kGood;
+  cli::print_answer(options.json, to_json(identity), to_text(identity));
+  return cli::kGood;
 }
 
 int read_can(const BusOptions& options) {
   can::Client client = open(options);
   const bool all = options.names.empty() && options.object.empty();
-  Json values = Json::object();
+  cli::Json values = cli::Json::object();
   for (const NodeObject& each : wanted(options, objects_of(identify(client, options)))) {
     std::vector<std::uint8_t> bytes;
     try {
@@ -142,59 +144,64 @@ int read_can(const BusOptions& options) {
     if (options.json) {
       values[can::to_text(each.at)] = {{"name", each.name}, {"value", json_value(each, bytes)}};
     } else if (!options.object.empty()) {
-      answer(show_value(each, bytes) + "\n");
+      cli::answer(show_value(each, bytes) + "\n");
     } else {
-      answer(fmt::format("{:>7}  {:<32} {}\n", can::to_text(each.at), each.name,
-                         with_unit(show_value(each, bytes), unit_of(each.at))));
+      cli::answer(fmt::format("{:>7}  {:<32} {}\n", can::to_text(each.at), each.name,
+                              with_unit(show_value(each, bytes), unit_of(each.at))));
     }
   }
-  if (options.json) print_json({{"id", options.id}, {"objects", values}});
-  return kGood;
+  if (options.json) cli::print_json({{"id", options.id}, {"objects", values}});
+  return cli::kGood;
 }
 
 int write_can(const BusOptions& options) {
   if (options.object.empty() && options.names.size() != 1) {
-    throw ToolError(kBadInput, "verp bus write: name one object, by --register or --object");
+    throw cli::ToolError(cli::kBadInput,
+                         "verp bus write: name one object, by --register or --object");
   }
   can::Client client = open(options);
   const auto objects = wanted(options, objects_of(identify(client, options)));
   if (objects.size() != 1) {
-    throw ToolError(kBadInput, fmt::format("verp bus write: '{}' is an array; name one element: {}",
-                                           options.names.front(), objects.front().name));
+    throw cli::ToolError(cli::kBadInput,
+                         fmt::format("verp bus write: '{}' is an array; name one element: {}",
+                                     options.names.front(), objects.front().name));
   }
   NodeObject object = objects.front();
-  if (!object.writable) throw ToolError(kBadInput, object.name + " is read-only");
+  if (!object.writable) throw cli::ToolError(cli::kBadInput, object.name + " is read-only");
   if (!object.type) {  // its size is all that can be learnt
     const std::size_t size = client.read(node_of(options), object.at).size();
     if (size == 1) object.type = Type::kU8;
     if (size == 2) object.type = Type::kU16;
     if (size == 4) object.type = Type::kU32;
     if (!object.type) {
-      throw ToolError(kBadInput, fmt::format("{} has {} bytes; only numbers of 1, 2 and 4 bytes "
-                                             "can be written",
-                                             object.name, size));
+      throw cli::ToolError(cli::kBadInput,
+                           fmt::format("{} has {} bytes; only numbers of 1, 2 and 4 bytes "
+                                       "can be written",
+                                       object.name, size));
     }
   }
   const std::vector<std::uint8_t> bytes = parse_values(object.as_register(), options.values);
   client.write(node_of(options), object.at, bytes);
   if (options.json) {
-    print_json({{"id", options.id}, {"object", can::to_text(object.at)}, {"bytes", bytes.size()}});
+    cli::print_json(
+        {{"id", options.id}, {"object", can::to_text(object.at)}, {"bytes", bytes.size()}});
   }
-  return kGood;
+  return cli::kGood;
 }
 
 int bench_can(const BusOptions& options) {
   can::Client client = open(options);
   identify(client, options);
-  catch_interrupts();
+  cli::catch_interrupts();
   constexpr std::uint16_t kBytes = 4;  // of the device type
   const BusBench result =
       run_bus_bench([&] { return client.read_once(node_of(options), canopen::plan::kDeviceType); },
                     kBytes, options.seconds);
-  print_answer(options.json, to_json(result), to_text(result));
-  if (interrupted()) return kRunFailed;
-  if (result.good == 0) throw ToolError(kNoDevice, options.link + ": no read was answered");
-  return kGood;
+  cli::print_answer(options.json, to_json(result), to_text(result));
+  if (cli::interrupted()) return cli::kRunFailed;
+  if (result.good == 0)
+    throw cli::ToolError(cli::kNoDevice, options.link + ": no read was answered");
+  return cli::kGood;
 }
 
 }  // namespace verp::tool

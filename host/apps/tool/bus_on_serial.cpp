@@ -21,21 +21,21 @@ namespace {
 
 bus::Client open(const BusOptions& options) {
   if (!options.object.empty()) {
-    throw ToolError(kBadInput,
-                    "--object is of CAN's nodes (--link can:...); devices on other links "
-                    "have --register or --address");
+    throw cli::ToolError(cli::kBadInput,
+                         "--object is of CAN's nodes (--link can:...); devices on other links "
+                         "have --register or --address");
   }
-  return {wire::parse_endpoint(options.link),
+  return {link::parse_endpoint(options.link),
           static_cast<std::uint32_t>(options.timeout_ms * 1000)};
 }
 
 /// What the answer does not show: that it took more than one try.
-void tell_tries(const bus::Client& client, const BusOptions& options, Json* json) {
+void tell_tries(const bus::Client& client, const BusOptions& options, cli::Json* json) {
   if (client.tries() <= 1) return;
   if (json != nullptr) {
     (*json)["tries"] = client.tries();
   } else {
-    complain(
+    cli::complain(
         fmt::format("{}: an answer took {} tries: the link is late or loses bytes; raise "
                     "--timeout, or see `verp bus bench`",
                     options.link, client.tries()));
@@ -43,7 +43,8 @@ void tell_tries(const bus::Client& client, const BusOptions& options, Json* json
 }
 
 [[noreturn]] void nobody(const std::string& what) {
-  throw ToolError(kNoDevice, what + "; check power, wiring and baud rate, or raise --timeout");
+  throw cli::ToolError(cli::kNoDevice,
+                       what + "; check power, wiring and baud rate, or raise --timeout");
 }
 
 bus::Identity identify(bus::Client& client, const BusOptions& options) {
@@ -55,7 +56,7 @@ bus::Identity identify(bus::Client& client, const BusOptions& options) {
   return *identity;
 }
 
-Json to_json(const bus::Identity& each) {
+cli::Json to_json(const bus::Identity& each) {
   return {{"id", each.id},
           {"model", each.model},
           {"name", bus::model_name(each.model)},
@@ -64,13 +65,13 @@ Json to_json(const bus::Identity& each) {
 
 void print(const std::vector<bus::Identity>& found, const BusOptions& options) {
   if (options.json) {
-    Json devices = Json::array();
+    cli::Json devices = cli::Json::array();
     for (const bus::Identity& each : found) devices.push_back(to_json(each));
-    return print_json({{"link", options.link}, {"devices", devices}});
+    return cli::print_json({{"link", options.link}, {"devices", devices}});
   }
   for (const bus::Identity& each : found) {
-    answer(fmt::format("{:3}  {:<12}  firmware {}\n", each.id, bus::model_name(each.model),
-                       each.firmware));
+    cli::answer(fmt::format("{:3}  {:<12}  firmware {}\n", each.id, bus::model_name(each.model),
+                            each.firmware));
   }
 }
 
@@ -81,9 +82,10 @@ bus::NamedRegister by_name(const bus::Identity& identity, const std::string& nam
   for (const bus::NamedRegister& each : bus::registers_of(identity.model)) {
     names.emplace_back(each.name);
   }
-  throw ToolError(kBadInput,
-                  fmt::format("{} has no register '{}'{}; give --address and --size",
-                              bus::model_name(identity.model), name, did_you_mean(name, names)));
+  throw cli::ToolError(
+      cli::kBadInput,
+      fmt::format("{} has no register '{}'{}; give --address and --size",
+                  bus::model_name(identity.model), name, cli::did_you_mean(name, names)));
 }
 
 bus::NamedRegister by_address(const BusOptions& options) {
@@ -103,9 +105,10 @@ std::vector<bus::NamedRegister> wanted(bus::Client& client, const BusOptions& op
   if (!all.empty()) return all;
   const auto known = bus::registers_of(identity.model);
   if (known.empty()) {
-    throw ToolError(kBadInput, fmt::format("{}: its registers have no names here; give --address "
-                                           "and --size",
-                                           bus::model_name(identity.model)));
+    throw cli::ToolError(cli::kBadInput,
+                         fmt::format("{}: its registers have no names here; give --address "
+                                     "and --size",
+                                     bus::model_name(identity.model)));
   }
   return {known.begin(), known.end()};
 }
@@ -125,68 +128,69 @@ int scan_serial(const BusOptions& options) {
     if (found.empty()) found = client.scan();  // who was answering somebody else did not hear it
   }
   if (client.crc_errors() > 0) {
-    complain(
+    cli::complain(
         fmt::format("{}: {} damaged packets: devices may be missing or share an id; "
                     "`--each` asks one id at a time",
                     options.link, client.crc_errors()));
   }
   if (found.empty()) nobody(options.link + ": no device answers");
   print(found, options);
-  return kGood;
+  return cli::kGood;
 }
 
 int ping_serial(const BusOptions& options) {
   bus::Client client = open(options);
   const bus::Identity identity = identify(client, options);
   if (options.json) {
-    Json json = to_json(identity);
+    cli::Json json = to_json(identity);
     tell_tries(client, options, &json);
-    print_json(json);
+    cli::print_json(json);
   } else {
     print({identity}, options);
     tell_tries(client, options, nullptr);
   }
-  return kGood;
+  return cli::kGood;
 }
 
 int read_serial(const BusOptions& options) {
   bus::Client client = open(options);
   const auto id = static_cast<std::uint8_t>(options.id);
-  Json values = Json::object();
+  cli::Json values = cli::Json::object();
   for (const bus::NamedRegister& each : wanted(client, options)) {
     const auto bytes = client.read(id, each.address, static_cast<std::uint16_t>(each.bytes()));
     if (options.json) {
       values[options.address >= 0 ? std::to_string(each.address) : each.name] =
           json_value(each, bytes);
     } else if (options.address >= 0) {
-      answer(show_value(each, bytes) + "\n");
+      cli::answer(show_value(each, bytes) + "\n");
     } else {
-      answer(fmt::format("{:4}  {:<24} {}\n", each.address, each.name,
-                         with_unit(show_value(each, bytes), each.unit)));
+      cli::answer(fmt::format("{:4}  {:<24} {}\n", each.address, each.name,
+                              with_unit(show_value(each, bytes), each.unit)));
     }
   }
-  Json json = {{"id", id}, {"registers", values}};
+  cli::Json json = {{"id", id}, {"registers", values}};
   tell_tries(client, options, options.json ? &json : nullptr);
-  if (options.json) print_json(json);
-  return kGood;
+  if (options.json) cli::print_json(json);
+  return cli::kGood;
 }
 
 int write_serial(const BusOptions& options) {
   if (options.address < 0 && options.names.size() != 1) {
-    throw ToolError(kBadInput, "verp bus write: name one register, by --register or --address");
+    throw cli::ToolError(cli::kBadInput,
+                         "verp bus write: name one register, by --register or --address");
   }
   bus::Client client = open(options);
   const bus::NamedRegister reg = wanted(client, options).front();
   if (!reg.writable()) {
-    throw ToolError(kBadInput, fmt::format("{} is read-only", reg.name));
+    throw cli::ToolError(cli::kBadInput, fmt::format("{} is read-only", reg.name));
   }
   const auto id = static_cast<std::uint8_t>(options.id);
   const std::vector<std::uint8_t> bytes = parse_values(reg, options.values);
   client.write(id, reg.address, bytes);
-  Json json = {{"id", id}, {"address", reg.address}, {"bytes", bytes.size()}};
+  cli::Json json = {{"id", id}, {"address", reg.address}, {"bytes", bytes.size()}};
   tell_tries(client, options, options.json ? &json : nullptr);
-  if (options.json) print_json(json);
-  return kGood;
+  if (options.json) cli::print_json(json);
+  return cli::kGood;
 }
 
 int bench_serial(const BusOptions& options) {
@@ -196,14 +200,14 @@ int bench_serial(const BusOptions& options) {
   const auto address = static_cast<std::uint16_t>(options.bench_address);
   const auto size = static_cast<std::uint16_t>(options.size);
   client.read(id, address, size);  // says so if there is nothing to be read
-  catch_interrupts();
+  cli::catch_interrupts();
   const BusBench result = run_bus_bench(client, id, address, size, options.seconds);
-  print_answer(options.json, to_json(result), to_text(result));
-  const wire::Endpoint endpoint = wire::parse_endpoint(options.link);
-  if (endpoint.kind == wire::Endpoint::Kind::kSerial) advise_latency(endpoint.place);
-  if (interrupted()) return kRunFailed;
+  cli::print_answer(options.json, to_json(result), to_text(result));
+  const link::Endpoint endpoint = link::parse_endpoint(options.link);
+  if (endpoint.kind == link::Endpoint::Kind::kSerial) advise_latency(endpoint.place);
+  if (cli::interrupted()) return cli::kRunFailed;
   if (result.good == 0) nobody(options.link + ": no read was answered");
-  return kGood;
+  return cli::kGood;
 }
 
 }  // namespace verp::tool

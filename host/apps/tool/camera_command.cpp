@@ -7,7 +7,7 @@
 
 namespace verp::tool {
 
-Subcommand add_bus_camera(CLI::App& bus) {
+cli::Subcommand add_bus_camera(CLI::App& bus) {
   CLI::App* app = bus.add_subcommand("camera", "what a camera of this PC sees (Linux, V4L2)");
   auto words = std::make_shared<CameraWords>();
   app->add_option("--device", words->device, "the camera")->capture_default_str();
@@ -19,13 +19,13 @@ Subcommand add_bus_camera(CLI::App& bus) {
   app->add_option("--format", words->format, "of its pictures; else the first that it has")
       ->check(CLI::IsMember({"YUYV", "RGB3", "GREY", "MJPG"}));
   app->add_option("--rate", words->rate_hz, "pictures a second, else as it is")
-      ->transform(number_between(0.1, 1000, "Hz"));
+      ->transform(cli::number_between(0.1, 1000, "Hz"));
   app->add_option("--for", words->seconds, "how long, s")
-      ->transform(number_between(0.1, 3600, "s"))
+      ->transform(cli::number_between(0.1, 3600, "s"))
       ->capture_default_str();
-  add_json_flag(*app, words->json);
+  cli::add_json_flag(*app, words->json);
   return {app, [words] {
-            catch_interrupts();
+            cli::catch_interrupts();
             return run_camera(*words);
           }};
 }

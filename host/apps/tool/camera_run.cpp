@@ -34,8 +34,8 @@ constexpr std::array kFormatCodes = {
     std::pair{"YUYV", PixelFormat::kYuyv}, std::pair{"RGB3", PixelFormat::kRgb},
     std::pair{"GREY", PixelFormat::kGrey}, std::pair{"MJPG", PixelFormat::kJpeg}};
 
-wire::VideoWish wish_of(const CameraWords& words) {
-  wire::VideoWish wish{.width_px = 0, .height_px = 0, .rate_hz = words.rate_hz};
+link::VideoWish wish_of(const CameraWords& words) {
+  link::VideoWish wish{.width_px = 0, .height_px = 0, .rate_hz = words.rate_hz};
   for (const auto& [code, format] : kFormatCodes) {
     if (words.format == code) wish.format = format;
   }
@@ -46,10 +46,11 @@ wire::VideoWish wish_of(const CameraWords& words) {
   const int read = std::sscanf(words.size.c_str(), "%5ux%5u%n", &width, &height, &end);
   if (read != 2 || end != static_cast<int>(words.size.size()) || width == 0 || height == 0 ||
       width > kMost || height > kMost) {
-    throw ToolError(kBadInput,
-                    fmt::format("verp bus camera: --size {}: give WIDTHxHEIGHT, each 1 to {}, such "
-                                "as 640x480",
-                                words.size, kMost));
+    throw cli::ToolError(
+        cli::kBadInput,
+        fmt::format("verp bus camera: --size {}: give WIDTHxHEIGHT, each 1 to {}, such "
+                    "as 640x480",
+                    words.size, kMost));
   }
   wish.width_px = width;
   wish.height_px = height;
@@ -62,26 +63,27 @@ void require_picture_name(const std::string& file, PixelFormat format) {
   const std::string kind = std::filesystem::path(file).extension().string();
   const bool jpeg = format == PixelFormat::kJpeg;
   if (jpeg ? kind == ".jpg" || kind == ".jpeg" : kind == ".png") return;
-  throw ToolError(
-      kBadInput, jpeg ? fmt::format("verp bus camera: -o {}: the camera gives JPEG files, and they "
-                                    "stay as they are; name it .jpg, or ask for --format YUYV",
-                                    file)
-                      : fmt::format("verp bus camera: -o {}: the camera gives pixels; name it "
-                                    ".png, or ask for --format MJPG",
-                                    file));
+  throw cli::ToolError(
+      cli::kBadInput,
+      jpeg ? fmt::format("verp bus camera: -o {}: the camera gives JPEG files, and they "
+                         "stay as they are; name it .jpg, or ask for --format YUYV",
+                         file)
+           : fmt::format("verp bus camera: -o {}: the camera gives pixels; name it "
+                         ".png, or ask for --format MJPG",
+                         file));
 }
 
 void write_camera_picture(const CameraFrame& frame, const std::string& file) {
   const std::string_view bytes(reinterpret_cast<const char*>(frame.data), frame.size_bytes);
   report::write_file(file, frame.format == PixelFormat::kJpeg
                                ? bytes
-                               : png_of_rgb(frame.width_px, frame.height_px, wire::rgb_of(frame)));
+                               : png_of_rgb(frame.width_px, frame.height_px, link::rgb_of(frame)));
 }
 
 /// The trace of a camera alone: pictures, from the time at which the recording began.
 class CameraRecording {
  public:
-  CameraRecording(const CameraWords& words, const wire::V4l2Camera& camera)
+  CameraRecording(const CameraWords& words, const link::V4l2Camera& camera)
       : writer_(
             words.record, "ros2", "verp",
             words.compress ? record::mcap::Compression::kZstd : record::mcap::Compression::kNone) {
@@ -108,7 +110,7 @@ class CameraRecording {
       picture.encoding = "jpeg";
       picture.data.assign(reinterpret_cast<const char*>(frame.data), frame.size_bytes);
     } else {
-      const std::vector<std::uint8_t> rgb = wire::rgb_of(frame);
+      const std::vector<std::uint8_t> rgb = link::rgb_of(frame);
       picture.encoding = "rgb8";
       picture.data.assign(rgb.begin(), rgb.end());
     }
@@ -137,7 +139,7 @@ struct Watched {
 };
 
 /// Any camera that can be waited for; ends after the time, or with the picture that was asked for.
-Watched watch_camera(wire::V4l2Camera& camera, const CameraWords& words,
+Watched watch_camera(link::V4l2Camera& camera, const CameraWords& words,
                      CameraRecording* recording) {
   Watched seen;
   CameraFrame frame;
@@ -145,8 +147,8 @@ Watched watch_camera(wire::V4l2Camera& camera, const CameraWords& words,
   // The first pictures of many cameras are dark: they set their exposure by them.
   constexpr std::uint64_t kSettled = 10;
   const std::uint64_t end_ns =
-      wire::monotonic_ns() + static_cast<std::uint64_t>(1e9 * words.seconds);
-  while (wire::monotonic_ns() < end_ns && !interrupted()) {
+      link::monotonic_ns() + static_cast<std::uint64_t>(1e9 * words.seconds);
+  while (link::monotonic_ns() < end_ns && !cli::interrupted()) {
     if (camera.read(frame) != hal::CameraStatus::kFresh) {
       camera.wait(kWait_ms);
       continue;
@@ -170,18 +172,18 @@ const char* code_of(PixelFormat format) {
 }
 
 /// Many a driver has one rate, or the nearest of a few, and refuses nothing.
-std::string rate_in_words(const wire::V4l2Camera& camera, const CameraWords& words) {
+std::string rate_in_words(const link::V4l2Camera& camera, const CameraWords& words) {
   if (camera.rate_hz() <= 0) return words.rate_hz > 0 ? "; it does not tell its rate" : "";
   const bool another = words.rate_hz > 0 && std::abs(camera.rate_hz() / words.rate_hz - 1) > 0.01;
   return fmt::format(" at {:g} Hz", camera.rate_hz()) +
          (another ? fmt::format(", not at the {:g} of --rate", words.rate_hz) : "");
 }
 
-std::string camera_in_words(const wire::V4l2Camera& camera, const CameraWords& words) {
+std::string camera_in_words(const link::V4l2Camera& camera, const CameraWords& words) {
   std::string text =
       fmt::format("{}: {}; {} {}x{}{}\n", words.device, camera.card(), code_of(camera.format()),
                   camera.width_px(), camera.height_px(), rate_in_words(camera, words));
-  for (const wire::VideoFormat& each : camera.formats()) {
+  for (const link::VideoFormat& each : camera.formats()) {
     text += fmt::format("  {}  {}{}{}\n", each.code, each.name,
                         each.sizes.empty() ? "" : ": " + each.sizes,
                         each.format == PixelFormat::kNone ? " (not read here)" : "");
@@ -189,9 +191,9 @@ std::string camera_in_words(const wire::V4l2Camera& camera, const CameraWords& w
   return text;
 }
 
-Json camera_in_json(const wire::V4l2Camera& camera, const CameraWords& words) {
-  Json formats = Json::array();
-  for (const wire::VideoFormat& each : camera.formats()) {
+cli::Json camera_in_json(const link::V4l2Camera& camera, const CameraWords& words) {
+  cli::Json formats = cli::Json::array();
+  for (const link::VideoFormat& each : camera.formats()) {
     formats.push_back({{"code", each.code},
                        {"name", each.name},
                        {"sizes", each.sizes},
@@ -208,22 +210,22 @@ Json camera_in_json(const wire::V4l2Camera& camera, const CameraWords& words) {
 
 }  // namespace
 
-int run_camera(const CameraWords& words, wire::VideoCalls& calls) {
-  wire::V4l2Camera camera(words.device, wish_of(words), calls);
+int run_camera(const CameraWords& words, link::VideoCalls& calls) {
+  link::V4l2Camera camera(words.device, wish_of(words), calls);
   if (!words.picture.empty()) require_picture_name(words.picture, camera.format());
-  Json answered = camera_in_json(camera, words);
-  if (!words.json) answer(camera_in_words(camera, words));
+  cli::Json answered = camera_in_json(camera, words);
+  if (!words.json) cli::answer(camera_in_words(camera, words));
   if (words.list) {
-    if (words.json) print_json(answered);
-    return kGood;
+    if (words.json) cli::print_json(answered);
+    return cli::kGood;
   }
   std::optional<CameraRecording> recording;
   if (!words.record.empty()) recording.emplace(words, camera);
   const Watched seen = watch_camera(camera, words, recording ? &*recording : nullptr);
   if (recording) recording->close();
   if (seen.pictures == 0) {
-    throw ToolError(
-        kNoDevice,
+    throw cli::ToolError(
+        cli::kNoDevice,
         fmt::format("verp bus camera: {}: no picture in {:g} s{}; look at its cable and its "
                     "shutter, or ask for another --format",
                     words.device, words.seconds,
@@ -235,13 +237,13 @@ int run_camera(const CameraWords& words, wire::VideoCalls& calls) {
     answered["lost"] = seen.lost;
     answered["damaged"] = camera.damaged();
     answered["faults"] = camera.faults();
-    print_json(answered);
-    return kGood;
+    cli::print_json(answered);
+    return cli::kGood;
   }
-  answer(fmt::format("{} pictures, {:.1f} a second, {} lost, {} damaged{}\n", seen.pictures,
-                     seen.rate_hz(), seen.lost, camera.damaged(),
-                     camera.trouble().empty() ? "" : "; " + camera.trouble()));
-  return kGood;
+  cli::answer(fmt::format("{} pictures, {:.1f} a second, {} lost, {} damaged{}\n", seen.pictures,
+                          seen.rate_hz(), seen.lost, camera.damaged(),
+                          camera.trouble().empty() ? "" : "; " + camera.trouble()));
+  return cli::kGood;
 }
 
 }  // namespace verp::tool

@@ -16,6 +16,6 @@ struct CameraWords {
 
 /// Watches a camera of this PC; returns the exit status. Throws ToolError, LinkError, TraceError,
 /// ReportError.
-int run_camera(const CameraWords& words, wire::VideoCalls& calls = wire::kernel_video_calls());
+int run_camera(const CameraWords& words, link::VideoCalls& calls = link::kernel_video_calls());
 
 }  // namespace verp::tool

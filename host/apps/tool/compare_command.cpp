@@ -2,10 +2,10 @@
 
 #include <memory>
 
-#include "host/apps/cli/command.hpp"
 #include "host/apps/cli/console.hpp"
 #include "host/apps/cli/exit_status.hpp"
 #include "host/apps/cli/json.hpp"
+#include "host/apps/tool/commands.hpp"
 #include "host/study/compare/page.hpp"
 #include "host/study/compare/words.hpp"
 
@@ -22,17 +22,17 @@ struct CompareWords {
 record::Trace read(const CompareWords& words, const std::string& file) {
   record::Trace trace =
       record::read_trace(file, words.recover ? record::Read::kRecover : record::Read::kStrict);
-  if (!trace.warning.empty()) complain(trace.warning);
+  if (!trace.warning.empty()) cli::complain(trace.warning);
   return trace;
 }
 
-Json number(const std::optional<double>& value, double factor = 1) {
-  return value ? Json(factor * *value) : Json();
+cli::Json number(const std::optional<double>& value, double factor = 1) {
+  return value ? cli::Json(factor * *value) : cli::Json();
 }
 
-Json json_of(const CompareWords& words, const compare::Comparison& c) {
+cli::Json json_of(const CompareWords& words, const compare::Comparison& c) {
   using compare::kDegrees;
-  Json joints = Json::array();
+  cli::Json joints = cli::Json::array();
   for (const compare::JointResult& each : c.joints) {
     joints.push_back({{"joint", each.name},
                       {"error_rms_deg", kDegrees * each.error_rms_rad},
@@ -62,21 +62,21 @@ int run_compare(const CompareWords& words) {
   const record::Trace a = read(words, words.a), b = read(words, words.b);
   const compare::Comparison comparison =
       compare::compare(a, b, {.most_delay_s = 1e-3 * words.within_ms, .shift_s = words.shift_s});
-  Json json = json_of(words, comparison);
+  cli::Json json = json_of(words, comparison);
   std::string text = "A " + words.a + "\nB " + words.b + '\n' + compare::text_of(comparison);
   if (!words.folder.empty()) {
     const compare::WrittenPage written = compare::write_page(words.folder, a, b, comparison);
-    if (!written.note.empty()) complain(written.page.string() + ": " + written.note);
+    if (!written.note.empty()) cli::complain(written.page.string() + ": " + written.note);
     json["page"] = written.page.string();
     text += written.page.string() + '\n';
   }
-  print_answer(words.json, json, text);
-  return kGood;
+  cli::print_answer(words.json, json, text);
+  return cli::kGood;
 }
 
 }  // namespace
 
-Subcommand add_compare(CLI::App& root) {
+cli::Subcommand add_compare(CLI::App& root) {
   CLI::App* app = root.add_subcommand(
       "compare",
       "Lay two traces of one command over each other: error, delay, gain, phase of each joint");
@@ -89,13 +89,13 @@ Subcommand add_compare(CLI::App& root) {
          "--shift", words->shift_s,
          "B's clock shows this much more than A's, s; default: found from where both begin "
          "to walk or act")
-      ->check(number_between(-86400, 86400, "s"));
+      ->check(cli::number_between(-86400, 86400, "s"));
   app->add_option("--within", words->within_ms,
                   "look for delays up to this, ms; less than half of what repeats itself")
-      ->check(number_between(1, 5000, "ms"))
+      ->check(cli::number_between(1, 5000, "ms"))
       ->capture_default_str();
   app->add_flag("--recover", words->recover, "take what stands before a truncation or damage");
-  add_json_flag(*app, words->json);
+  cli::add_json_flag(*app, words->json);
   return {app, [words] { return run_compare(*words); }};
 }
 

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <memory>
 
-#include "host/apps/cli/command.hpp"
 #include "host/apps/cli/console.hpp"
+#include "host/apps/tool/commands.hpp"
 #include "host/boards/flash/recipe.hpp"
 #include "host/robot/model/find.hpp"
 
@@ -142,7 +142,7 @@ std::string fish_words(const CLI::App& root) {
 
 }  // namespace
 
-Subcommand add_completion(CLI::App& root) {
+cli::Subcommand add_completion(CLI::App& root) {
   CLI::App* app = root.add_subcommand(
       "completion", "Words for your shell's Tab key: eval \"$(./verp completion bash)\"");
   auto shell = std::make_shared<std::string>();
@@ -150,10 +150,10 @@ Subcommand add_completion(CLI::App& root) {
       ->required()
       ->check(CLI::IsMember({"bash", "zsh", "fish"}));
   return {app, [shell, &root] {
-            answer(*shell == "bash"  ? bash_words(root)
-                   : *shell == "zsh" ? zsh_words(root)
-                                     : fish_words(root));
-            return int{kGood};
+            cli::answer(*shell == "bash"  ? bash_words(root)
+                        : *shell == "zsh" ? zsh_words(root)
+                                          : fish_words(root));
+            return int{cli::kGood};
           }};
 }
 

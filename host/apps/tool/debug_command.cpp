@@ -9,9 +9,9 @@
 #include <cstring>
 #include <memory>
 
-#include "host/apps/cli/command.hpp"
 #include "host/apps/cli/console.hpp"
 #include "host/apps/cli/interrupt.hpp"
+#include "host/apps/tool/commands.hpp"
 #include "host/apps/tool/firmware_build.hpp"
 #include "host/apps/tool/flash_run.hpp"
 #include "host/boards/board/emulated_board.hpp"
@@ -51,8 +51,8 @@ void build_for_gdb(const std::string& board, const std::string& target, const fs
   if (std::getenv("VERP_FIRMWARE_DIR") != nullptr) return;
   const fs::path tree = files::source_dir() / "build" / ("debug-" + board);
   if (!fs::exists(tree))
-    complain("verp debug: building " + target + ": the first time takes minutes");
-  Progress progress(true);
+    cli::complain("verp debug: building " + target + ": the first time takes minutes");
+  cli::Progress progress(true);
   build_firmware({.board = board,
                   .target = target,
                   .tree = tree,
@@ -65,9 +65,10 @@ void build_for_gdb(const std::string& board, const std::string& target, const fs
 flash::DebugPlan plan_replay(const DebugWords& words, const fs::path& folder) {
   const record::Trace trace = record::read_trace(words.trace);
   if (trace.before) {
-    throw ToolError(kBadInput, "verp debug: " + words.trace +
-                                   ": begins in the midst of a run, and firmware cannot; give the "
-                                   "trace that it was cut from");
+    throw cli::ToolError(cli::kBadInput,
+                         "verp debug: " + words.trace +
+                             ": begins in the midst of a run, and firmware cannot; give the "
+                             "trace that it was cut from");
   }
   std::vector<Inputs> inputs;
   for (const TickRecord& each : trace.ticks) inputs.push_back(each.inputs);
@@ -75,16 +76,17 @@ flash::DebugPlan plan_replay(const DebugWords& words, const fs::path& folder) {
     return !words.tick_given || each.tick == words.tick;
   });
   if (at == inputs.end()) {
-    throw ToolError(kBadInput,
-                    fmt::format("verp debug: --tick {}: {} has the ticks {} to {}", words.tick,
-                                words.trace, inputs.empty() ? 0 : inputs.front().tick,
-                                inputs.empty() ? 0 : inputs.back().tick));
+    throw cli::ToolError(cli::kBadInput,
+                         fmt::format("verp debug: --tick {}: {} has the ticks {} to {}", words.tick,
+                                     words.trace, inputs.empty() ? 0 : inputs.front().tick,
+                                     inputs.empty() ? 0 : inputs.back().tick));
   }
   const std::string board = replay_board(words.flash.board);
   if (board == "zcu102_r5") {
-    throw ToolError(kBadInput,
-                    "verp debug: zcu102_r5: QEMU shows gdb the four cores beside this one first; "
-                    "give --board mps2_an386, which takes the same trace");
+    throw cli::ToolError(
+        cli::kBadInput,
+        "verp debug: zcu102_r5: QEMU shows gdb the four cores beside this one first; "
+        "give --board mps2_an386, which takes the same trace");
   }
   build_for_gdb(board, "replay_" + board, folder);
   return flash::debug_replay(words.gdb, board, trace.params, inputs,
@@ -102,11 +104,12 @@ bool has_loop_of_its_own(const std::string& board) {
 flash::DebugPlan plan_loop(const DebugWords& words, const fs::path& folder) {
   const FlashOptions& options = words.flash;
   if (!has_loop_of_its_own(options.board)) {
-    throw ToolError(
-        kBadInput, fmt::format("verp debug: {}: its loop runs within a test only; give a TRACE "
-                               "(verp walk --record F.mcap), over which the controller runs there, "
-                               "or --board olimex_h405 --emulate",
-                               options.board));
+    throw cli::ToolError(
+        cli::kBadInput,
+        fmt::format("verp debug: {}: its loop runs within a test only; give a TRACE "
+                    "(verp walk --record F.mcap), over which the controller runs there, "
+                    "or --board olimex_h405 --emulate",
+                    options.board));
   }
   const flash::Recipe& recipe = flash::find_recipe(options.board);
   const BusProtocol protocol = bus_of(options, recipe, folder);
@@ -120,11 +123,11 @@ flash::DebugPlan plan_loop(const DebugWords& words, const fs::path& folder) {
 void tell_links(const flash::DebugPlan& plan) {
   std::string hil;
   for (const flash::EmulatedLink& link : plan.links) {
-    complain(fmt::format("  {:<18}{}", link.what, link.place));
+    cli::complain(fmt::format("  {:<18}{}", link.what, link.place));
     hil += (link.what == "operator" ? " --operator " : " --link ") + link.place;
   }
   if (plan.links.size() == 2) {
-    complain(fmt::format("  {:<18}verp hil MODEL --lockstep{}", "a twin for it", hil));
+    cli::complain(fmt::format("  {:<18}verp hil MODEL --lockstep{}", "a twin for it", hil));
   }
 }
 
@@ -135,22 +138,23 @@ void tell_links(const flash::DebugPlan& plan) {
   for (std::string& word : words) argv.push_back(word.data());
   argv.push_back(nullptr);
   ::execvp(argv[0], argv.data());
-  throw ToolError(kNoDevice, fmt::format("verp debug: {} cannot be started ({}); apt-get install "
-                                         "gdb-multiarch, or name another debugger with --gdb",
-                                         command[0], std::strerror(errno)));
+  throw cli::ToolError(cli::kNoDevice,
+                       fmt::format("verp debug: {} cannot be started ({}); apt-get install "
+                                   "gdb-multiarch, or name another debugger with --gdb",
+                                   command[0], std::strerror(errno)));
 }
 
 int run_debug(const DebugWords& words) {
   if (words.trace.empty() && words.tick_given) {
-    throw ToolError(kBadInput, "verp debug: --tick is one of a TRACE; give it too");
+    throw cli::ToolError(cli::kBadInput, "verp debug: --tick is one of a TRACE; give it too");
   }
   const flash::Workspace workspace("debug/" + words.flash.board);
   const flash::DebugPlan plan = words.trace.empty() ? plan_loop(words, workspace.path())
                                                     : plan_replay(words, workspace.path());
   tell_links(plan);
   if (words.print) {
-    answer(files::shell_line(plan.command) + "\n");
-    return kGood;
+    cli::answer(files::shell_line(plan.command) + "\n");
+    return cli::kGood;
   }
   workspace.hand_over();
   become(plan.command);
@@ -158,7 +162,7 @@ int run_debug(const DebugWords& words) {
 
 }  // namespace
 
-Subcommand add_debug(CLI::App& root) {
+cli::Subcommand add_debug(CLI::App& root) {
   CLI::App* app = root.add_subcommand(
       "debug", "gdb on a board's firmware: emulated, behind a probe, or over a trace's ticks");
   auto words = std::make_shared<DebugWords>();

@@ -4,7 +4,6 @@
 #include <filesystem>
 #include <memory>
 
-#include "host/apps/cli/command.hpp"
 #include "host/apps/cli/console.hpp"
 #include "host/apps/cli/exit_status.hpp"
 #include "host/apps/cli/interrupt.hpp"
@@ -13,6 +12,7 @@
 #include "host/apps/cli/suggest.hpp"
 #include "host/apps/demos/draw.hpp"
 #include "host/apps/demos/run.hpp"
+#include "host/apps/tool/commands.hpp"
 #include "host/apps/tool/radio_words.hpp"
 #include "host/show/camera/drawing_program.hpp"
 #include "host/study/report/files.hpp"
@@ -34,7 +34,7 @@ struct DemoWords {
 };
 
 int list_demos(bool json) {
-  Json rows = Json::array();
+  cli::Json rows = cli::Json::array();
   std::string text;
   for (const demos::Demo& demo : demos::all_demos()) {
     rows.push_back({{"name", demo.name},
@@ -47,11 +47,11 @@ int list_demos(bool json) {
     text += fmt::format("  {:<10}{} ({} robots)\n", demo.name, demo.what, demo.usual);
   }
   if (json) {
-    print_json({{"demos", rows}});
+    cli::print_json({{"demos", rows}});
   } else {
-    answer(text + "verp demo NAME runs one\n");
+    cli::answer(text + "verp demo NAME runs one\n");
   }
-  return kGood;
+  return cli::kGood;
 }
 
 const demos::Demo& demo_of(const std::string& name) {
@@ -60,9 +60,10 @@ const demos::Demo& demo_of(const std::string& name) {
     if (demo.name == name) return demo;
     names.push_back(demo.name);
   }
-  throw ToolError(kBadInput, fmt::format("verp demo {}: there is no such demo{}; verp demo lists "
-                                         "them",
-                                         name, did_you_mean(name, names)));
+  throw cli::ToolError(cli::kBadInput,
+                       fmt::format("verp demo {}: there is no such demo{}; verp demo lists "
+                                   "them",
+                                   name, cli::did_you_mean(name, names)));
 }
 
 /// Its path; empty: there is none. `lost`: what was to be written and could not be.
@@ -70,14 +71,14 @@ std::string draw(const DemoWords& words, const demos::Run& run, std::string& los
   if (words.no_picture) return "";
   const std::string file = words.picture.empty() ? words.name + ".png" : words.picture;
   if (!report::gnuplot_available()) {
-    complain("verp demo: no picture: gnuplot is not installed (apt-get install gnuplot-nox)");
+    cli::complain("verp demo: no picture: gnuplot is not installed (apt-get install gnuplot-nox)");
     return "";
   }
   std::string error;
   const report::Plot plot = demos::plot_of(run);
   const auto picture =
       file.ends_with(".svg") ? report::draw_svg(plot, error) : report::draw_png(plot, error);
-  if (!picture) throw ToolError(kRunFailed, "verp demo: gnuplot: " + error);
+  if (!picture) throw cli::ToolError(cli::kRunFailed, "verp demo: gnuplot: " + error);
   try {
     report::write_file(file, *picture);
   } catch (const report::ReportError& refused) {  // costs the picture, not what came of the run
@@ -117,22 +118,22 @@ std::string text_of(const demos::Run& run, const std::string& picture) {
   return out;
 }
 
-Json json_of_run(const demos::Run& run, const DemoWords& words, const std::string& picture) {
-  Json facts = Json::object();
+cli::Json json_of_run(const demos::Run& run, const DemoWords& words, const std::string& picture) {
+  cli::Json facts = cli::Json::object();
   for (const demos::Fact& fact : run.verdict.facts)
     facts[fact.name] = {{"value", fact.value}, {"unit", fact.unit}};
-  Json robots = Json::array();
+  cli::Json robots = cli::Json::array();
   for (const demos::Track& track : run.robots) {
-    Json row = {{"name", track.name},
-                {"ticks", track.ticks},
-                {"digest", fmt::format("0x{:016x}", track.digest)},
-                {"touches", track.touches},
-                {"fell_s", track.fell_s ? Json(*track.fell_s) : Json()},
-                {"done_s", track.done_s ? Json(*track.done_s) : Json()}};
+    cli::Json row = {{"name", track.name},
+                     {"ticks", track.ticks},
+                     {"digest", fmt::format("0x{:016x}", track.digest)},
+                     {"touches", track.touches},
+                     {"fell_s", track.fell_s ? cli::Json(*track.fell_s) : cli::Json()},
+                     {"done_s", track.done_s ? cli::Json(*track.done_s) : cli::Json()}};
     if (!track.trace.empty()) row["trace"] = track.trace.string();
     robots.push_back(row);
   }
-  Json radio = {{"sent", run.radio.sent}, {"refused", run.radio.refused}};
+  cli::Json radio = {{"sent", run.radio.sent}, {"refused", run.radio.refused}};
   for (int i = 0; i < radio::kFates; ++i)
     radio[radio::kFateNames[i]] = run.radio.fates[static_cast<std::size_t>(i)];
   return {{"demo", run.demo->name},
@@ -143,7 +144,7 @@ Json json_of_run(const demos::Run& run, const DemoWords& words, const std::strin
           {"radio", radio},
           {"length_s", run.length_s},
           {"wall_s", run.wall_s},
-          {"picture", picture.empty() ? Json() : Json(picture)}};
+          {"picture", picture.empty() ? cli::Json() : cli::Json(picture)}};
 }
 
 demos::Options options_of(const DemoWords& words) {
@@ -155,7 +156,7 @@ demos::Options options_of(const DemoWords& words) {
   options.radio = radio_of("verp demo", words.radio);
   options.record = words.record;
   options.metadata = {{"demo", words.name}, {"radio", words.radio}};
-  options.interrupted = interrupted;
+  options.interrupted = cli::interrupted;
   return options;
 }
 
@@ -163,11 +164,13 @@ demos::Options options_of(const DemoWords& words) {
 void check_picture(const std::string& file) {
   if (file.empty()) return;
   if (!file.ends_with(".png") && !file.ends_with(".svg"))
-    throw ToolError(kBadInput, "verp demo: --picture " + file + ": pictures end in .png or .svg");
+    throw cli::ToolError(cli::kBadInput,
+                         "verp demo: --picture " + file + ": pictures end in .png or .svg");
   const std::filesystem::path folder = std::filesystem::path(file).parent_path();
   if (!folder.empty() && !std::filesystem::is_directory(folder)) {
-    throw ToolError(kBadInput, fmt::format("verp demo: --picture {}: there is no folder {}", file,
-                                           folder.string()));
+    throw cli::ToolError(
+        cli::kBadInput,
+        fmt::format("verp demo: --picture {}: there is no folder {}", file, folder.string()));
   }
 }
 
@@ -175,9 +178,9 @@ demos::Run run_it(const demos::Demo& demo, const demos::Options& options) {
   try {
     return demos::run(demo, options);
   } catch (const std::invalid_argument& error) {
-    throw ToolError(kBadInput, fmt::format("verp demo {}", error.what()));
+    throw cli::ToolError(cli::kBadInput, fmt::format("verp demo {}", error.what()));
   } catch (const camera::CameraError& error) {
-    throw ToolError(kNoDevice, error.what());
+    throw cli::ToolError(cli::kNoDevice, error.what());
   }
 }
 
@@ -186,52 +189,52 @@ int run_demo(const DemoWords& words) {
   const demos::Demo& demo = demo_of(words.name);
   check_picture(words.picture);
   demos::Options options = options_of(words);
-  catch_interrupts();
-  Progress progress(!words.json);
+  cli::catch_interrupts();
+  cli::Progress progress(!words.json);
   options.went_on = [&](double share) { progress.show(share, demo.name); };
   const demos::Run run = run_it(demo, options);
   progress.clear();
   std::string lost;
   const std::string picture = draw(words, run, lost);
-  Json json = json_of_run(run, words, picture);
+  cli::Json json = json_of_run(run, words, picture);
   if (!lost.empty()) json["lost"] = {lost};
-  print_answer(words.json, json, text_of(run, picture));
-  if (!lost.empty()) complain("verp demo: " + lost);
+  cli::print_answer(words.json, json, text_of(run, picture));
+  if (!lost.empty()) cli::complain("verp demo: " + lost);
   bool good = run.verdict.failure.empty() && !run.interrupted;
   for (const demos::Track& track : run.robots) {
     if (track.trace_failure.empty()) continue;
-    complain(fmt::format("verp demo: {}: {}", track.trace.string(), track.trace_failure));
+    cli::complain(fmt::format("verp demo: {}: {}", track.trace.string(), track.trace_failure));
     good = false;
   }
-  if (!good) complain(fmt::format("verp demo {}: {}", demo.name, verdict_of(run)));
-  return good && lost.empty() ? kGood : status_if_interrupted(kRunFailed);
+  if (!good) cli::complain(fmt::format("verp demo {}: {}", demo.name, verdict_of(run)));
+  return good && lost.empty() ? cli::kGood : cli::status_if_interrupted(cli::kRunFailed);
 }
 
 }  // namespace
 
-Subcommand add_demo(CLI::App& root) {
+cli::Subcommand add_demo(CLI::App& root) {
   CLI::App* app = root.add_subcommand(
       "demo", "Robots that see, talk by radio and act by themselves; without a name: which");
   auto words = std::make_shared<DemoWords>();
   app->add_option("NAME", words->name, "which");
   app->add_option("--robots", words->robots, "how many; default: the demo's own")
-      ->check(whole_number_between(1, kMostRobotsOfDemo));
+      ->check(cli::whole_number_between(1, kMostRobotsOfDemo));
   app->add_option("--for", words->for_s, "at most so long, s; default: the demo's own")
-      ->check(number_between(1, kLongest_s, "s"));
+      ->check(cli::number_between(1, kLongest_s, "s"));
   app->add_option("--seed", words->seed,
                   "of the first robot and the radio; other robots have the next ones")
-      ->check(whole_number_between(0, std::numeric_limits<std::uint64_t>::max()))
+      ->check(cli::whole_number_between(0, std::numeric_limits<std::uint64_t>::max()))
       ->capture_default_str();
   app->add_option("--radio", words->radio, kRadioWords);
   app->add_option("--physics-step", words->physics_step_ms, "of the twin, ms")
-      ->check(number_between(0.5, 2, "ms"))
+      ->check(cli::number_between(0.5, 2, "ms"))
       ->capture_default_str();
   app->add_option("--record", words->record,
                   "RUN.mcap: the trace of each robot, as RUN.r1.mcap and so on");
   app->add_option("--picture", words->picture,
                   "of all paths from above, .png or .svg; default: NAME.png");
   app->add_flag("--no-picture", words->no_picture, "no picture");
-  add_json_flag(*app, words->json);
+  cli::add_json_flag(*app, words->json);
   return {app, [words] { return run_demo(*words); }};
 }
 

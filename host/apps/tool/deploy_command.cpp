@@ -7,11 +7,11 @@
 #include <filesystem>
 #include <memory>
 
-#include "host/apps/cli/command.hpp"
 #include "host/apps/cli/console.hpp"
 #include "host/apps/cli/failure.hpp"
 #include "host/apps/cli/interrupt.hpp"
 #include "host/apps/cli/json.hpp"
+#include "host/apps/tool/commands.hpp"
 #include "host/apps/tool/firmware_build.hpp"
 #include "host/apps/tool/flash_run.hpp"
 #include "host/apps/tool/walk_options.hpp"
@@ -42,7 +42,7 @@ struct DeployOptions {
 /// What one step has to say when it went well.
 struct StepAnswer {
   std::string text;
-  Json json = Json::object();
+  cli::Json json = cli::Json::object();
 };
 
 /// One step of the way from a model to a robot; each throws, or answers. A dry run only says what
@@ -83,12 +83,12 @@ class Deployment {
     const WalkResult result =
         tool::walk(plan_, &writer, progress_, "walk of " + std::string(plan_.params.name), false);
     progress_.clear();
-    if (!result.trace_failure.empty()) throw ToolError(kRunFailed, result.trace_failure);
+    if (!result.trace_failure.empty()) throw cli::ToolError(cli::kRunFailed, result.trace_failure);
     writer.close();
-    if (result.interrupted) throw ToolError(kRunFailed, "interrupted");
+    if (result.interrupted) throw cli::ToolError(cli::kRunFailed, "interrupted");
     if (!result.good()) {
-      throw ToolError(kRunFailed, fmt::format("{}; `verp trace export {}` shows the run",
-                                              result.failure, file.string()));
+      throw cli::ToolError(cli::kRunFailed, fmt::format("{}; `verp trace export {}` shows the run",
+                                                        result.failure, file.string()));
     }
     trace_ = record::read_trace(file);
     return {fmt::format("{} ticks, digest 0x{:016x}", result.ticks, result.digest),
@@ -141,9 +141,9 @@ class Deployment {
     std::error_code error;
     fs::create_directories(folder_, error);
     if (error) {
-      throw ToolError(kBadInput, folder_.string() +
-                                     ": cannot be made; build as the user who owns " +
-                                     folder_.parent_path().string() + ", or set VERP_FLASH_DIR");
+      throw cli::ToolError(cli::kBadInput,
+                           folder_.string() + ": cannot be made; build as the user who owns " +
+                               folder_.parent_path().string() + ", or set VERP_FLASH_DIR");
     }
     return folder_;
   }
@@ -152,8 +152,8 @@ class Deployment {
     const TickRecord& here = trace_.ticks[index];
     for (int stage = 0; stage < kStages; ++stage) {
       if (here.digest.stage[stage] == there.stage[stage]) continue;
-      throw ToolError(
-          kRunFailed,
+      throw cli::ToolError(
+          cli::kRunFailed,
           fmt::format("{} differs from this PC at tick {} in stage {}; please report it",
                       recipe_.replay_board, here.inputs.tick, kStageNames[stage]));
     }
@@ -163,7 +163,7 @@ class Deployment {
   const flash::Recipe& recipe_;
   std::string image_;  ///< that drives the robot on its bus
   fs::path folder_;
-  Progress progress_;
+  cli::Progress progress_;
   WalkPlan plan_;
   record::Trace trace_;
 };
@@ -179,78 +179,78 @@ constexpr NamedStep kSteps[] = {{"build", &Deployment::build},
 
 void tell(const DeployOptions& options, const std::string& line) {
   if (options.json) {
-    complain(line);
+    cli::complain(line);
   } else {
-    answer(line + "\n");
+    cli::answer(line + "\n");
     std::fflush(stdout);
   }
 }
 
 /// Up to the first step that fails. Returns the exit status.
-int run_steps(const DeployOptions& options, Deployment& deployment, Json& rows,
+int run_steps(const DeployOptions& options, Deployment& deployment, cli::Json& rows,
               std::string& failure) {
   using Clock = std::chrono::steady_clock;
   for (const NamedStep& step : kSteps) {
     const auto begun = Clock::now();
-    Json row = {{"step", step.name}, {"good", true}};
-    Failure failed{kGood, ""};
+    cli::Json row = {{"step", step.name}, {"good", true}};
+    cli::Failure failed{cli::kGood, ""};
     StepAnswer answer;
     try {
       answer = (deployment.*step.run)();
-      if (interrupted()) throw ToolError(kRunFailed, "interrupted");
+      if (cli::interrupted()) throw cli::ToolError(cli::kRunFailed, "interrupted");
     } catch (...) {
-      failed = current_failure();
+      failed = cli::current_failure();
     }
-    row["good"] = failed.status == kGood;
+    row["good"] = failed.status == cli::kGood;
     row["seconds"] = std::chrono::duration<double>(Clock::now() - begun).count();
     row.update(answer.json);
     rows.push_back(row);
-    if (failed.status != kGood) {
+    if (failed.status != cli::kGood) {
       failure = fmt::format("{}: {}", step.name, failed.line);
       return failed.status;
     }
     tell(options, fmt::format("  {:<8}{}", step.name, answer.text));
   }
-  return kGood;
+  return cli::kGood;
 }
 
 int run_deploy(const DeployOptions& options) {
   Deployment deployment(options);
-  Json rows = Json::array();
+  cli::Json rows = cli::Json::array();
   std::string failure;
   const int status = run_steps(options, deployment, rows, failure);
-  if (status != kGood) complain("verp deploy: " + failure);
+  if (status != cli::kGood) cli::complain("verp deploy: " + failure);
   if (options.json) {
-    Json json = {{"model", options.model},
-                 {"board", options.flash.board},
-                 {"dry_run", options.flash.dry_run},
-                 {"steps", rows}};
-    if (status != kGood) {
+    cli::Json json = {{"model", options.model},
+                      {"board", options.flash.board},
+                      {"dry_run", options.flash.dry_run},
+                      {"steps", rows}};
+    if (status != cli::kGood) {
       json["error"] = failure;
       json["exit"] = status;
     }
-    print_json(json);
+    cli::print_json(json);
   }
   return status;
 }
 
 }  // namespace
 
-Subcommand add_deploy(CLI::App& root) {
+cli::Subcommand add_deploy(CLI::App& root) {
   CLI::App* app = root.add_subcommand(
       "deploy",
       "From a model to a robot: build, walk in the twin, replay on an emulated core, flash");
   auto options = std::make_shared<DeployOptions>();
-  add_model(*app, options->model)->required();
-  add_bus_option(*app, options->flash.bus);
+  cli::add_model(*app, options->model)->required();
+  cli::add_bus_option(*app, options->flash.bus);
   declare_target(*app, options->flash);
   app->add_option("--for", options->walk_s, "length of the walk, s")
-      ->check(number_between(3, 3600, "s"))
+      ->check(cli::number_between(3, 3600, "s"))
       ->capture_default_str();
   app->add_flag("--no-build", options->no_build, "take the images as they are");
-  add_json_flag(*app, options->json);
+  cli::add_json_flag(*app, options->json);
   return {app, [options] {
-            catch_interrupts();
+            cli::catch_interrupts();
             return run_deploy(*options);
           }};
 }

@@ -13,15 +13,15 @@
 namespace verp::tool {
 
 void run_build(const std::vector<std::string>& command, const std::filesystem::path& lock,
-               const std::filesystem::path& log, Progress& progress) {
+               const std::filesystem::path& log, cli::Progress& progress) {
   std::vector<std::string> locked = {"flock", lock.string()};
   locked.insert(locked.end(), command.begin(), command.end());
   progress.show(0, "build");
   const flash::ToolRun run = flash::run_tool(
       locked, "cmake",
-      {.share = [&](double share) { progress.show(share, "build"); }, .stop = interrupted});
+      {.share = [&](double share) { progress.show(share, "build"); }, .stop = cli::interrupted});
   progress.clear();
-  if (run.interrupted) throw ToolError(kRunFailed, "interrupted");
+  if (run.interrupted) throw cli::ToolError(cli::kRunFailed, "interrupted");
   if (run.status == 0) return;
   std::ofstream(log) << run.output;
   const std::size_t error = run.output.find("rror: ");
@@ -30,10 +30,10 @@ void run_build(const std::vector<std::string>& command, const std::filesystem::p
     const std::size_t begin = run.output.rfind('\n', error) + 1;
     words = run.output.substr(begin, run.output.find('\n', error) - begin);
   }
-  throw ToolError(kRunFailed, fmt::format("{}; all of it: {}", words, log.string()));
+  throw cli::ToolError(cli::kRunFailed, fmt::format("{}; all of it: {}", words, log.string()));
 }
 
-void build_firmware(const FirmwareBuild& build, Progress& progress) {
+void build_firmware(const FirmwareBuild& build, cli::Progress& progress) {
   const std::string root = files::source_dir().string(), preset = "fw-" + build.board;
   const std::string tree = build.tree.empty() ? root + "/build/" + preset : build.tree.string();
   std::vector<std::string> configure = {"env", "-C", root, "cmake", "--preset", preset, "-B", tree};

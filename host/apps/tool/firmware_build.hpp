@@ -19,10 +19,10 @@ struct FirmwareBuild {
 /// One command of a build, alone as long as it holds the lock. `log` gets all that was said if it
 /// fails. Throws ToolError with the compiler's words.
 void run_build(const std::vector<std::string>& command, const std::filesystem::path& lock,
-               const std::filesystem::path& log, Progress& progress);
+               const std::filesystem::path& log, cli::Progress& progress);
 
 /// Builds it, one at a time with ./verp, whose lock this takes as well. Throws ToolError with the
 /// compiler's words.
-void build_firmware(const FirmwareBuild& build, Progress& progress);
+void build_firmware(const FirmwareBuild& build, cli::Progress& progress);
 
 }  // namespace verp::tool

@@ -61,15 +61,16 @@ std::string first_power_checklist(const Params& params) {
       static_cast<double>(params.tuning.safety.voltage_low_v), when_silent(params));
 }
 
-void confirm_first_power(const Params& params, bool agreed, Answers& answers) {
-  complain(first_power_checklist(params));
+void confirm_first_power(const Params& params, bool agreed, cli::Answers& answers) {
+  cli::complain(first_power_checklist(params));
   if (agreed) return;
   const std::optional<std::string> word =
       answers.line(fmt::format("All of it is so? Type {} to switch torque on: ", kWord));
   if (word && *word == kWord) return;
-  throw ToolError(kBadInput, fmt::format("verp run: the checklist is not confirmed: torque stays "
-                                         "off; type {} or give --yes",
-                                         kWord));
+  throw cli::ToolError(cli::kBadInput,
+                       fmt::format("verp run: the checklist is not confirmed: torque stays "
+                                   "off; type {} or give --yes",
+                                   kWord));
 }
 
 }  // namespace verp::tool

@@ -11,6 +11,6 @@ std::string first_power_checklist(const Params& params);
 
 /// Shows the checklist on standard error and has it confirmed in a word; `agreed`: it was, on the
 /// command line. Throws ToolError if it is not confirmed.
-void confirm_first_power(const Params& params, bool agreed, Answers& answers);
+void confirm_first_power(const Params& params, bool agreed, cli::Answers& answers);
 
 }  // namespace verp::tool

@@ -3,10 +3,10 @@
 #include <cstdlib>
 #include <memory>
 
-#include "host/apps/cli/command.hpp"
 #include "host/apps/cli/console.hpp"
 #include "host/apps/cli/interrupt.hpp"
 #include "host/apps/cli/json.hpp"
+#include "host/apps/tool/commands.hpp"
 #include "host/apps/tool/flash_run.hpp"
 #include "host/apps/tool/own_controller.hpp"
 
@@ -22,7 +22,7 @@ struct FlashWords {
 int run_flash(FlashWords words) {
   const bool data = !words.flash.params.empty() || !words.flash.actions.empty();
   words.flash.code = words.code || !data || !words.controller.empty();
-  Progress progress(!words.json);
+  cli::Progress progress(!words.json);
   if (!words.controller.empty()) {
     const std::string images =
         build_firmware_of(words.controller, words.flash.board, "loops", progress);
@@ -30,19 +30,19 @@ int run_flash(FlashWords words) {
   }
   const FlashAnswer result = flash_board(words.flash, progress, [&](const std::string& text) {
     if (words.json) {
-      complain(text);
+      cli::complain(text);
     } else {
-      answer(text);
+      cli::answer(text);
       std::fflush(stdout);
     }
   });
-  print_answer(words.json, result.json, result.text);
-  return kGood;
+  cli::print_answer(words.json, result.json, result.text);
+  return cli::kGood;
 }
 
 }  // namespace
 
-Subcommand add_flash(CLI::App& root) {
+cli::Subcommand add_flash(CLI::App& root) {
   CLI::App* app = root.add_subcommand(
       "flash", "Write firmware or a robot into a board, or start an emulated board");
   auto words = std::make_shared<FlashWords>();
@@ -60,9 +60,9 @@ Subcommand add_flash(CLI::App& root) {
                   "leaves those on the board as they are");
   app->add_flag("--code", words->code, "with --params or --actions: the firmware as well");
   declare_controller(*app, words->controller);
-  add_json_flag(*app, words->json);
+  cli::add_json_flag(*app, words->json);
   return {app, [words] {
-            catch_interrupts();
+            cli::catch_interrupts();
             return run_flash(*words);
           }};
 }

@@ -124,8 +124,8 @@ std::string beside(const FlashOptions& options, const Cargo& cargo) {
                      model::protocol_name(cargo.protocol));
 }
 
-Json to_json(const std::vector<flash::Piece>& pieces) {
-  Json rows = Json::array();
+cli::Json to_json(const std::vector<flash::Piece>& pieces) {
+  cli::Json rows = cli::Json::array();
   for (const flash::Piece& piece : pieces) {
     rows.push_back({{"what", piece.what},
                     {"file", piece.file.string()},
@@ -145,7 +145,7 @@ std::string to_text(const std::vector<flash::Piece>& pieces) {
 }
 
 FlashAnswer flash_silicon(const FlashOptions& options, const flash::Recipe& recipe,
-                          Progress& progress) {
+                          cli::Progress& progress) {
   const flash::Tool tool = flash::choose_tool(recipe, options.tool, options.port);
   const flash::Workspace workspace(options.board);
   const flash::MemoryMap map = flash::read_memory_map(options.board);
@@ -153,9 +153,9 @@ FlashAnswer flash_silicon(const FlashOptions& options, const flash::Recipe& reci
   const flash::Job job{recipe, map, tool, options.port, cargo.pieces, workspace.path()};
   const std::vector<flash::Step> steps = flash::plan(job);
   FlashAnswer answer;
-  answer.json = {{"board", options.board},    {"tool", name_of(tool)},
-                 {"image", cargo.image},      {"pieces", to_json(job.pieces)},
-                 {"commands", Json::array()}, {"written", !options.dry_run}};
+  answer.json = {{"board", options.board},         {"tool", name_of(tool)},
+                 {"image", cargo.image},           {"pieces", to_json(job.pieces)},
+                 {"commands", cli::Json::array()}, {"written", !options.dry_run}};
   for (const flash::Step& step : steps) {
     const std::string line = files::shell_line(step.command);
     answer.json["commands"].push_back(line);
@@ -166,7 +166,7 @@ FlashAnswer flash_silicon(const FlashOptions& options, const flash::Recipe& reci
   flash::run(
       job, steps,
       {.progress = [&](const flash::Step& step, double share) { progress.show(share, step.label); },
-       .stop = interrupted});
+       .stop = cli::interrupted});
   progress.clear();
   answer.text = fmt::format(
       "{}: {}: written and verified with {}{}{}\n", options.board, what, name_of(tool),
@@ -197,7 +197,7 @@ std::string to_text(const FlashOptions& options, const flash::EmulationPlan& pla
 
 /// Until somebody interrupts.
 void run_on(flash::Emulation& emulation) {
-  while (!interrupted()) {
+  while (!cli::interrupted()) {
     if (!emulation.running()) throw board::BoardError(emulation.described("the emulator ended"));
     std::this_thread::sleep_for(std::chrono::milliseconds(50));
   }
@@ -224,7 +224,7 @@ FlashAnswer emulate(const FlashOptions& options, const flash::Recipe& recipe,
                               {"image", cargo.image},
                               {"pieces", to_json(cargo.pieces)},
                               {"commands", {line}},
-                              {"links", Json::object()},
+                              {"links", cli::Json::object()},
                               {"written", !options.dry_run}}};
   for (const flash::EmulatedLink& link : plan.links) answer.json["links"][link.what] = link.place;
   if (options.dry_run) return answer;
@@ -267,7 +267,7 @@ flash::EmulationPlan emulation_of(const FlashOptions& options, const flash::Reci
   return flash::plan_emulation(recipe, cargo.protocol, cargo.pieces, folder);
 }
 
-FlashAnswer flash_board(const FlashOptions& options, Progress& progress,
+FlashAnswer flash_board(const FlashOptions& options, cli::Progress& progress,
                         const std::function<void(const std::string&)>& say) {
   const flash::Recipe& recipe = flash::find_recipe(options.board);
   if (recipe.chip == nullptr || options.emulate) return emulate(options, recipe, say);

@@ -30,7 +30,7 @@ void declare_target(CLI::App& app, FlashOptions& options);
 /// What came of it, in text and for --json.
 struct FlashAnswer {
   std::string text;
-  Json json;
+  cli::Json json;
 };
 
 /// The kind of bus that the options' robot is on, which decides which firmware.
@@ -44,7 +44,7 @@ flash::EmulationPlan emulation_of(const FlashOptions& options, const flash::Reci
 /// Checks the files, then flashes them, or starts the emulated board with them, or says with which
 /// commands it would. `say` gets what must be read before the end: an emulated board's links.
 /// Throws FlashError, LoadError, BoardError, DeviceError.
-FlashAnswer flash_board(const FlashOptions& options, Progress& progress,
+FlashAnswer flash_board(const FlashOptions& options, cli::Progress& progress,
                         const std::function<void(const std::string&)>& say);
 
 }  // namespace verp::tool

@@ -3,10 +3,10 @@
 
 #include <memory>
 
-#include "host/apps/cli/command.hpp"
 #include "host/apps/cli/console.hpp"
 #include "host/apps/cli/interrupt.hpp"
 #include "host/apps/cli/json.hpp"
+#include "host/apps/tool/commands.hpp"
 #include "host/apps/tool/hil_run.hpp"
 #include "host/apps/tool/walk_ending.hpp"
 #include "host/apps/tool/walk_plan.hpp"
@@ -48,26 +48,27 @@ WalkPlan plan_of(const WalkOptions& options, bool tells) {
 
 void check(HilWords& words, const Params& params) {
   if (words.real_time && !words.hil.operator_link.empty()) {
-    throw ToolError(kBadInput,
-                    "verp hil: --operator gives orders tick by tick, which takes lockstep; leave "
-                    "out --realtime or --operator");
+    throw cli::ToolError(
+        cli::kBadInput,
+        "verp hil: --operator gives orders tick by tick, which takes lockstep; leave "
+        "out --realtime or --operator");
   }
   words.hil.pace = words.lockstep    ? session::Pace::kLockstep
                    : words.real_time ? session::Pace::kRealTime
                                      : session::Pace::kAuto;
-  const wire::Endpoint endpoint = wire::parse_endpoint(words.hil.link);
+  const link::Endpoint endpoint = link::parse_endpoint(words.hil.link);
   require_fit("verp hil", words.hil.link, params);
-  if (endpoint.kind != wire::Endpoint::Kind::kSerial) return;
+  if (endpoint.kind != link::Endpoint::Kind::kSerial) return;
   if (words.real_time) {
     const std::string trouble = bus::adapter_too_slow(params, endpoint);
-    if (!trouble.empty()) throw ToolError(kNoDevice, "verp hil: " + trouble);
+    if (!trouble.empty()) throw cli::ToolError(cli::kNoDevice, "verp hil: " + trouble);
   }
-  const std::string advice = wire::latency_advice(endpoint.place);
-  if (!advice.empty()) complain("verp hil: " + advice);
+  const std::string advice = link::latency_advice(endpoint.place);
+  if (!advice.empty()) cli::complain("verp hil: " + advice);
 }
 
-Json to_json(const HilResult& result) {
-  Json link = {{"losses", result.losses}, {"overruns", result.overruns}};
+cli::Json to_json(const HilResult& result) {
+  cli::Json link = {{"losses", result.losses}, {"overruns", result.overruns}};
   if (result.real_time) {
     if (result.can) {
       link["frames"] = result.can->heard;
@@ -134,33 +135,33 @@ std::string to_text(const HilResult& result) {
 int answer_served(const WalkPlan& plan, const WalkOptions& options, const HilResult& result) {
   const WalkResult& walk = result.walk;
   if (options.json) {
-    Json json = {{"model", plan.params.name},
-                 {"controller", plan.board},
-                 {"ticks", walk.ticks},
-                 {"simulated_s", walk.simulated_s},
-                 {"fallen", walk.metrics.fallen},
-                 {"let_go_and_lies", result.lay_down},
-                 {"fall_story", fall_story_json(walk)},
-                 {"set_upright_s", walk.set_upright_s},
-                 {"met", result.met},
-                 {"interrupted", walk.interrupted},
-                 {"failure", walk.failure},
-                 {"real_time_factor", walk.real_time_factor()}};
+    cli::Json json = {{"model", plan.params.name},
+                      {"controller", plan.board},
+                      {"ticks", walk.ticks},
+                      {"simulated_s", walk.simulated_s},
+                      {"fallen", walk.metrics.fallen},
+                      {"let_go_and_lies", result.lay_down},
+                      {"fall_story", fall_story_json(walk)},
+                      {"set_upright_s", walk.set_upright_s},
+                      {"met", result.met},
+                      {"interrupted", walk.interrupted},
+                      {"failure", walk.failure},
+                      {"real_time_factor", walk.real_time_factor()}};
     json.update(to_json(result));
-    print_json(json);
+    cli::print_json(json);
   } else {
-    answer(fmt::format("{}: served {:.1f} s{}\n", plan.params.name, walk.simulated_s,
-                       walk.metrics.fallen ? "; the robot fell"
-                       : result.lay_down   ? "; the robot was let go, and lies"
-                                           : "") +
-           to_text(result));
+    cli::answer(fmt::format("{}: served {:.1f} s{}\n", plan.params.name, walk.simulated_s,
+                            walk.metrics.fallen ? "; the robot fell"
+                            : result.lay_down   ? "; the robot was let go, and lies"
+                                                : "") +
+                to_text(result));
   }
-  if (!walk.failure.empty()) complain("verp hil: " + walk.failure);
-  if (!walk.failure.empty()) return result.device_trouble ? kNoDevice : kRunFailed;
+  if (!walk.failure.empty()) cli::complain("verp hil: " + walk.failure);
+  if (!walk.failure.empty()) return result.device_trouble ? cli::kNoDevice : cli::kRunFailed;
   // One that serves is ended by Ctrl-C; one whom nobody asked for anything has not served.
-  if (result.met) return kGood;
-  complain("verp hil: interrupted before anybody came");
-  return kRunFailed;
+  if (result.met) return cli::kGood;
+  cli::complain("verp hil: interrupted before anybody came");
+  return cli::kRunFailed;
 }
 
 /// Without an operator's port nobody is told how to walk, and nobody tells what the controller saw.
@@ -170,10 +171,11 @@ void refuse_without_operator(const CLI::App& app) {
   for (const char* word : kNeedIt) {
     const CLI::Option* option = app.get_option_no_throw(word);
     if (option == nullptr || option->count() == 0) continue;
-    throw ToolError(kBadInput,
-                    fmt::format("verp hil: {} needs --operator, which alone takes orders to the "
-                                "controller and brings what it tells; give it or leave out {}",
-                                word, word));
+    throw cli::ToolError(
+        cli::kBadInput,
+        fmt::format("verp hil: {} needs --operator, which alone takes orders to the "
+                    "controller and brings what it tells; give it or leave out {}",
+                    word, word));
   }
 }
 
@@ -188,24 +190,24 @@ int run_hil(const CLI::App& app, HilWords words) {
   LiveStream live("verp hil", options.live);
   WalkFiles files(options, plan, live.robot());
   live.wait_for_viewer();
-  Progress progress(!options.json);
+  cli::Progress progress(!options.json);
   const HilResult result =
       serve_controller(plan, words.hil, files.trace(), progress, files.wants_report());
   if (!tells) return answer_served(plan, options, result);
   live.finish();
-  Json more = to_json(result);
+  cli::Json more = to_json(result);
   live.add_to(more);
   more["changes"] = touch_json(result.walk);
   const int status = finish_walk(plan, options, files, result.walk, {}, more,
                                  touch_text(result.walk) + to_text(result) + live.text());
   // Who ends it while a link is silent has still ended it.
   const bool device = result.device_trouble && !result.walk.interrupted;
-  return status != kGood && device ? kNoDevice : status;
+  return status != cli::kGood && device ? cli::kNoDevice : status;
 }
 
 }  // namespace
 
-Subcommand add_hil(CLI::App& root) {
+cli::Subcommand add_hil(CLI::App& root) {
   CLI::App* app =
       root.add_subcommand("hil", "Hardware in the loop: the twin answers a controller on a link");
   auto words = std::make_shared<HilWords>();
@@ -233,7 +235,7 @@ Subcommand add_hil(CLI::App& root) {
   app->add_flag("--realtime", words->real_time, "time goes on by the clock on the wall")
       ->excludes(lockstep);
   return {app, [app, words] {
-            catch_interrupts();
+            cli::catch_interrupts();
             return run_hil(*app, *words);
           }};
 }

@@ -12,21 +12,21 @@
 namespace verp::tool {
 
 HilResult serve_controller(const WalkPlan& plan, session::ServeOptions options,
-                           record::TraceWriter* trace, Progress& progress, bool keep_series) {
+                           record::TraceWriter* trace, cli::Progress& progress, bool keep_series) {
   const auto say = [&progress](const std::string& line) {
     progress.clear();
-    complain("verp hil: " + line);
+    cli::complain("verp hil: " + line);
   };
   options.told = say;
-  options.check = [&plan](const wire::CanInterface& interface) {
+  options.check = [&plan](const link::CanInterface& interface) {
     check_bit_rate("verp hil", interface, plan.params);
   };
   options.real_time_begins = [say] {
-    const RealTime got = become_real_time();
+    const cli::RealTime got = cli::become_real_time();
     if (!got.advice.empty()) say(got.advice);
   };
-  options.cannot_keep_up = leave_real_time;
-  session::Session session({.interrupted = interrupted});
+  options.cannot_keep_up = cli::leave_real_time;
+  session::Session session({.interrupted = cli::interrupted});
   session::Served* served = nullptr;
   session::Hooks hooks = shown(plan, trace, progress, plan.params.name, keep_series);
   tell_falls(plan, progress, "verp hil", hooks);
@@ -35,7 +35,7 @@ HilResult serve_controller(const WalkPlan& plan, session::ServeOptions options,
     served = made.get();
     return made;
   });
-  TypedLines typed;
+  cli::TypedLines typed;
   while (session.tick() != nullptr) {
     if (typed.next() == "u") served->set_upright();
   }

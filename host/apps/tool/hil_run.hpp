@@ -15,6 +15,6 @@ struct HilResult : session::ServedResult {
 /// The twin of plan.entity answers a controller at the other end of a link (session::Served), until
 /// it or the walk is over; tells on stderr what happens. Throws what opening a link throws.
 HilResult serve_controller(const WalkPlan& plan, session::ServeOptions options,
-                           record::TraceWriter* trace, Progress& progress, bool keep_series);
+                           record::TraceWriter* trace, cli::Progress& progress, bool keep_series);
 
 }  // namespace verp::tool

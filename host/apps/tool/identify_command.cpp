@@ -6,12 +6,12 @@
 #include <memory>
 #include <numbers>
 
-#include "host/apps/cli/command.hpp"
 #include "host/apps/cli/console.hpp"
 #include "host/apps/cli/exit_status.hpp"
 #include "host/apps/cli/interrupt.hpp"
 #include "host/apps/cli/json.hpp"
 #include "host/apps/cli/progress.hpp"
+#include "host/apps/tool/commands.hpp"
 #include "host/os/files/whole.hpp"
 #include "host/robot/model/find.hpp"
 #include "host/robot/model/load.hpp"
@@ -35,46 +35,48 @@ struct IdentifyWords {
 /// Before the fit, which takes minutes: a place that takes a file, and has none of that name.
 void require_place(const std::string& file) {
   if (std::filesystem::exists(file))
-    throw ToolError(kBadInput, file + ": is there already; choose another name");
+    throw cli::ToolError(cli::kBadInput, file + ": is there already; choose another name");
   const std::filesystem::path folder = std::filesystem::absolute(file).parent_path();
   if (!std::filesystem::is_directory(folder))
-    throw ToolError(kBadInput, fmt::format("{}: there is no folder {}", file, folder.string()));
+    throw cli::ToolError(cli::kBadInput,
+                         fmt::format("{}: there is no folder {}", file, folder.string()));
   if (::access(folder.c_str(), W_OK) != 0)
-    throw ToolError(kBadInput,
-                    fmt::format("{}: {} takes no files of yours", file, folder.string()));
+    throw cli::ToolError(cli::kBadInput,
+                         fmt::format("{}: {} takes no files of yours", file, folder.string()));
 }
 
 int make_motion(const IdentifyWords& words) {
   if (!words.motion.ends_with(".action"))
-    throw ToolError(kBadInput, words.motion + ": motions end in .action; name it so");
+    throw cli::ToolError(cli::kBadInput, words.motion + ": motions end in .action; name it so");
   require_place(words.motion);
   const model::Entity entity =
       model::load_robot(model::find_model(words.robot.empty() ? kRobotOfMotion : words.robot));
   action::Document document = identify::motion_of(entity, {.length_s = words.motion_s, .seed = 1});
   document.name = std::filesystem::path(words.motion).stem().string();
   if (!files::write(words.motion, action::text_of(document)))
-    throw ToolError(kBadInput, words.motion + ": cannot be written; choose another file");
-  print_answer(words.json, {{"motion", words.motion}, {"model", entity.name}},
-               fmt::format("{}: a motion of {:.0f} s for {} in a stand; in the twin:\n"
-                           "  verp action play {} --robot {} --held --gains 25 --record a.mcap\n",
-                           words.motion, words.motion_s, entity.name, words.motion,
-                           words.robot.empty() ? kRobotOfMotion : words.robot));
-  return kGood;
+    throw cli::ToolError(cli::kBadInput, words.motion + ": cannot be written; choose another file");
+  cli::print_answer(
+      words.json, {{"motion", words.motion}, {"model", entity.name}},
+      fmt::format("{}: a motion of {:.0f} s for {} in a stand; in the twin:\n"
+                  "  verp action play {} --robot {} --held --gains 25 --record a.mcap\n",
+                  words.motion, words.motion_s, entity.name, words.motion,
+                  words.robot.empty() ? kRobotOfMotion : words.robot));
+  return cli::kGood;
 }
 
-Json json_of(const identify::Result& result) {
+cli::Json json_of(const identify::Result& result) {
   constexpr double kDegrees = 180 / std::numbers::pi;
-  Json rows = Json::array();
+  cli::Json rows = cli::Json::array();
   for (const identify::Row& row : result.rows) {
     rows.push_back({{"number", row.name},
                     {"unit", row.unit},
                     {"was", row.was},
-                    {"now", row.determined ? Json(row.now) : Json()},
-                    {"error", row.determined ? Json(row.error) : Json()}});
+                    {"now", row.determined ? cli::Json(row.now) : cli::Json()},
+                    {"error", row.determined ? cli::Json(row.error) : cli::Json()}});
   }
   const auto errors = [&](const identify::Errors& each) {
-    return Json{{"before_deg", kDegrees * each.before_rad},
-                {"after_deg", kDegrees * each.after_rad}};
+    return cli::Json{{"before_deg", kDegrees * each.before_rad},
+                     {"after_deg", kDegrees * each.after_rad}};
   };
   return {{"type", result.type},
           {"joints", result.joints},
@@ -88,24 +90,24 @@ Json json_of(const identify::Result& result) {
 int run_identify(const IdentifyWords& words) {
   if (!words.motion.empty()) return make_motion(words);
   if (words.trace.empty()) {
-    throw ToolError(kBadInput,
-                    "verp identify: no trace; give one, or --motion FILE for what to record");
+    throw cli::ToolError(cli::kBadInput,
+                         "verp identify: no trace; give one, or --motion FILE for what to record");
   }
   if (!words.file.empty()) require_place(words.file);
   const record::Trace trace = record::read_trace(words.trace);
   const std::filesystem::path file =
       model::find_model(words.robot.empty() ? std::string(trace.params.name) : words.robot);
   const model::Entity entity = model::load_robot(file);
-  catch_interrupts();
-  Progress progress(!words.json);
+  cli::catch_interrupts();
+  cli::Progress progress(!words.json);
   survey::Watch watch;
-  watch.interrupted = interrupted;
+  watch.interrupted = cli::interrupted;
   watch.went_on = [&](double share) { progress.show(share, "twins told what the robot was told"); };
   const identify::Result result =
       identify::identify(entity, trace, {.type = words.type, .held_out = 0.25}, watch);
   progress.clear();
-  if (result.interrupted) throw ToolError(kRunFailed, "verp identify: interrupted");
-  Json json = json_of(result);
+  if (result.interrupted) throw cli::ToolError(cli::kRunFailed, "verp identify: interrupted");
+  cli::Json json = json_of(result);
   std::string text = identify::text_of(result);
   if (!words.file.empty()) {
     const std::string type =
@@ -114,13 +116,13 @@ int run_identify(const IdentifyWords& words) {
     json["written_type"] = type;
     text += fmt::format("{}: the robot with servos of type {}\n", words.file, type);
   }
-  print_answer(words.json, json, text);
-  return kGood;
+  cli::print_answer(words.json, json, text);
+  return cli::kGood;
 }
 
 }  // namespace
 
-Subcommand add_identify(CLI::App& root) {
+cli::Subcommand add_identify(CLI::App& root) {
   CLI::App* app = root.add_subcommand(
       "identify",
       "Fit the twin's servos to a recorded robot: gain, friction, inertia, play, delay");
@@ -134,9 +136,9 @@ Subcommand add_identify(CLI::App& root) {
       ->excludes("TRACE")
       ->excludes("--write");
   app->add_option("--for", words->motion_s, "length of that motion, s")
-      ->check(number_between(5, 240, "s"))
+      ->check(cli::number_between(5, 240, "s"))
       ->capture_default_str();
-  add_json_flag(*app, words->json);
+  cli::add_json_flag(*app, words->json);
   return {app, [words] { return run_identify(*words); }};
 }
 

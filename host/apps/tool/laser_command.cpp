@@ -50,18 +50,18 @@ std::string in_words(const hal::RangeScan& scan, int first) {
 
 /// Any range finder, for so long; returns how many scans came.
 template <hal::RangeFinder Finder>
-std::size_t watch(Finder& finder, const LaserWords& words, Json& scans) {
+std::size_t watch(Finder& finder, const LaserWords& words, cli::Json& scans) {
   hal::RangeScan scan;
   std::size_t count = 0;
   const std::uint64_t end_ns =
-      wire::monotonic_ns() + static_cast<std::uint64_t>(1e9 * words.seconds);
-  while (wire::monotonic_ns() < end_ns && !interrupted()) {
+      link::monotonic_ns() + static_cast<std::uint64_t>(1e9 * words.seconds);
+  while (link::monotonic_ns() < end_ns && !cli::interrupted()) {
     if (finder.read(scan) != hal::RangeStatus::kFresh) {
-      wire::sleep_until_ns(wire::monotonic_ns() + 1'000'000);
+      link::sleep_until_ns(link::monotonic_ns() + 1'000'000);
       continue;
     }
     ++count;
-    if (!words.json) answer(in_words(scan, words.first));
+    if (!words.json) cli::answer(in_words(scan, words.first));
     if (!words.json) continue;
     scans.push_back(
         {{"time_s", 1e-6 * static_cast<double>(scan.time_us)},
@@ -72,25 +72,26 @@ std::size_t watch(Finder& finder, const LaserWords& words, Json& scans) {
 
 int run_laser(const LaserWords& words) {
   if (words.last < words.first || words.last - words.first >= int{hal::kMostRangeSteps}) {
-    throw ToolError(kBadInput,
-                    fmt::format("verp bus laser: --first {} --last {}: give the steps from right "
-                                "to left, {} at most",
-                                words.first, words.last, hal::kMostRangeSteps));
+    throw cli::ToolError(
+        cli::kBadInput,
+        fmt::format("verp bus laser: --first {} --last {}: give the steps from right "
+                    "to left, {} at most",
+                    words.first, words.last, hal::kMostRangeSteps));
   }
-  wire::Link link(wire::parse_endpoint(words.link));
-  wire::ScipRangeFinder<wire::Link> finder(
+  link::Link link(link::parse_endpoint(words.link));
+  link::ScipRangeFinder<link::Link> finder(
       link, {.first = words.first,
              .last = words.last,
              .least_mm = static_cast<std::uint16_t>(words.least_mm)});
-  Json scans = Json::array();
+  cli::Json scans = cli::Json::array();
   const std::size_t count = watch(finder, words, scans);
   finder.stop();
   if (count > 0) {
-    if (words.json) print_json({{"scans", scans}, {"damaged", finder.damaged()}});
-    return kGood;
+    if (words.json) cli::print_json({{"scans", scans}, {"damaged", finder.damaged()}});
+    return cli::kGood;
   }
-  throw ToolError(
-      kNoDevice,
+  throw cli::ToolError(
+      cli::kNoDevice,
       fmt::format(
           "verp bus laser: {}: no scan in {:g} s{}; look at cable, power and baud rate, "
           "and whether it speaks SCIP 2.0",
@@ -100,7 +101,7 @@ int run_laser(const LaserWords& words) {
 
 }  // namespace
 
-Subcommand add_bus_laser(CLI::App& bus) {
+cli::Subcommand add_bus_laser(CLI::App& bus) {
   CLI::App* app =
       bus.add_subcommand("laser", "what a laser range finder measures (Hokuyo, SCIP 2.0)");
   auto words = std::make_shared<LaserWords>();
@@ -116,11 +117,11 @@ Subcommand add_bus_laser(CLI::App& bus) {
       ->check(CLI::Range(0, 1000))
       ->capture_default_str();
   app->add_option("--for", words->seconds, "how long, s")
-      ->transform(number_between(0.1, 3600, "s"))
+      ->transform(cli::number_between(0.1, 3600, "s"))
       ->capture_default_str();
-  add_json_flag(*app, words->json);
+  cli::add_json_flag(*app, words->json);
   return {app, [words] {
-            catch_interrupts();
+            cli::catch_interrupts();
             return run_laser(*words);
           }};
 }

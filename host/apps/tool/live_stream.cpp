@@ -19,10 +19,11 @@ std::unique_ptr<live::Server> open_server(const std::string& command, const Live
     return std::make_unique<live::Server>(
         port, live::ServerOptions{.name = command, .origins = options.origins});
   } catch (const live::LiveError& error) {
-    throw ToolError(kNoDevice,
-                    fmt::format("{}: --live {}: {}; another stream has it perhaps: give "
-                                "another port, such as --live {}",
-                                command, port, error.what(), port < 65535 ? port + 1 : port - 1));
+    throw cli::ToolError(
+        cli::kNoDevice,
+        fmt::format("{}: --live {}: {}; another stream has it perhaps: give "
+                    "another port, such as --live {}",
+                    command, port, error.what(), port < 65535 ? port + 1 : port - 1));
   }
 }
 
@@ -37,7 +38,7 @@ struct LiveStream::Stream {
 LiveStream::LiveStream(const std::string& command, const LiveOptions& options) {
   if (!options.on) return;
   stream_.reset(new Stream{options.waits, open_server(command, options)});
-  complain(
+  cli::complain(
       fmt::format("{}: live on ws://127.0.0.1:{}: open that as a Foxglove WebSocket "
                   "connection{}",
                   command, server()->port(),
@@ -55,11 +56,11 @@ record::mcap::Listener* LiveStream::robot(const std::string& name) {
 }
 
 void LiveStream::wait_for_viewer() {
-  if (stream_ != nullptr && stream_->waits) stream_->server->wait_for_viewer(interrupted);
+  if (stream_ != nullptr && stream_->waits) stream_->server->wait_for_viewer(cli::interrupted);
 }
 
 void LiveStream::run_beside_real_time() {
-  if (stream_ != nullptr) stream_->server->run_before_others(kLoopPriority - 1);
+  if (stream_ != nullptr) stream_->server->run_before_others(cli::kLoopPriority - 1);
 }
 
 void LiveStream::finish() {
@@ -73,7 +74,7 @@ std::string LiveStream::text() const {
                      "live", counts.viewers, counts.sent, counts.dropped);
 }
 
-void LiveStream::add_to(Json& json) const {
+void LiveStream::add_to(cli::Json& json) const {
   if (stream_ == nullptr) return;
   const live::Counts counts = stream_->server->counts();
   json["live"] = {{"port", stream_->server->port()},

@@ -53,7 +53,7 @@ class LiveStream {
 
   /// What became of it; empty: nobody asked.
   std::string text() const;
-  void add_to(Json& json) const;
+  void add_to(cli::Json& json) const;
 
  private:
   struct Stream;

@@ -27,8 +27,8 @@ struct LoadWords {
 model::Entity robot_on_can(const LoadWords& words) {
   model::Entity entity = model::load_robot_on_can(model::find_model(words.robot), words.bus);
   if (entity.protocol == BusProtocol::kCia402) return entity;
-  throw ToolError(
-      kBadInput,
+  throw cli::ToolError(
+      cli::kBadInput,
       fmt::format("verp bus load: {}: {} has no CAN bus{}; add <verp:bus name=\"can\" "
                   "protocol=\"cia402\"> with its drives, or name another with --bus",
                   entity.file, entity.name, words.bus.empty() ? "" : " named '" + words.bus + "'"));
@@ -82,12 +82,12 @@ std::string table_text(const Params& params, const LoadWords& words,
          "stuffing.\n";
 }
 
-Json table_json(const Params& params, const LoadWords& words, const std::vector<can::LoadRow>& rows,
-                const std::string& refused) {
-  Json json = {{"robot", params.name},         {"drives", params.servo_count()},
-               {"baud", params.baud},          {"period_us", params.period_us},
-               {"admitted", refused.empty()},  {"refusal", refused},
-               {"data_baud", words.data_baud}, {"rows", Json::array()}};
+cli::Json table_json(const Params& params, const LoadWords& words,
+                     const std::vector<can::LoadRow>& rows, const std::string& refused) {
+  cli::Json json = {{"robot", params.name},         {"drives", params.servo_count()},
+                    {"baud", params.baud},          {"period_us", params.period_us},
+                    {"admitted", refused.empty()},  {"refusal", refused},
+                    {"data_baud", words.data_baud}, {"rows", cli::Json::array()}};
   for (const can::LoadRow& row : rows) {
     const std::string why = refusal(params, row);
     json["rows"].push_back({{"rate_hz", row.rate_hz},
@@ -109,26 +109,26 @@ Json table_json(const Params& params, const LoadWords& words, const std::vector<
 
 }  // namespace
 
-Subcommand add_bus_load(CLI::App& bus) {
+cli::Subcommand add_bus_load(CLI::App& bus) {
   CLI::App* app =
       bus.add_subcommand("load", "what a robot's CAN bus has to carry, and what does not fit");
   auto words = std::make_shared<LoadWords>();
-  add_model(*app, words->robot)->capture_default_str();
+  cli::add_model(*app, words->robot)->capture_default_str();
   app->add_option("--bus", words->bus, "name of its bus (default: its first on CAN)");
   app->add_option("--data-baud", words->data_baud, "data rate of FD frames, bit/s")
-      ->check(whole_number_between(1'000'000, 8'000'000))
+      ->check(cli::whole_number_between(1'000'000, 8'000'000))
       ->capture_default_str();
-  add_json_flag(*app, words->json);
+  cli::add_json_flag(*app, words->json);
   return {app, [words] {
             const model::Entity entity = robot_on_can(*words);
             const Params params = model::make_params(entity);
             const std::string refused = refusal(entity, params);
             const std::vector<can::LoadRow> rows = can::load_table(params, words->data_baud);
-            print_answer(words->json, table_json(params, *words, rows, refused),
-                         table_text(params, *words, rows));
-            if (refused.empty()) return int{kGood};
-            complain(refused);
-            return int{kBadInput};
+            cli::print_answer(words->json, table_json(params, *words, rows, refused),
+                              table_text(params, *words, rows));
+            if (refused.empty()) return int{cli::kGood};
+            cli::complain(refused);
+            return int{cli::kBadInput};
           }};
 }
 

@@ -1,13 +1,13 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 
-#include "host/apps/cli/command.hpp"
+#include "host/apps/tool/commands.hpp"
 #include "host/robot/model/check.hpp"
 #include "host/robot/model/export.hpp"
 
 namespace verp::tool {
 
-Subcommand add_check(CLI::App& root) {
+cli::Subcommand add_check(CLI::App& root) {
   struct Options {
     std::string model, bus;
     bool json = false;
@@ -15,22 +15,22 @@ Subcommand add_check(CLI::App& root) {
   CLI::App* app = root.add_subcommand(
       "check", "Validate a robot; limbs, links, masses, limits, servos, leg solver, bus load");
   auto options = std::make_shared<Options>();
-  add_model(*app, options->model)->required();
-  add_bus_option(*app, options->bus);
-  add_json_flag(*app, options->json);
+  cli::add_model(*app, options->model)->required();
+  cli::add_bus_option(*app, options->bus);
+  cli::add_json_flag(*app, options->json);
   return {app,
           [options] { return model::check_command(options->model, options->bus, options->json); }};
 }
 
-Subcommand add_export(CLI::App& root) {
+cli::Subcommand add_export(CLI::App& root) {
   struct Options {
     std::string model, bus, folder;
   };
   CLI::App* app =
       root.add_subcommand("export", "Write a robot's Params image and header for firmware");
   auto options = std::make_shared<Options>();
-  add_model(*app, options->model)->required();
-  add_bus_option(*app, options->bus);
+  cli::add_model(*app, options->model)->required();
+  cli::add_bus_option(*app, options->bus);
   app->add_option("-o,--output", options->folder, "folder")->required();
   return {app, [options] {
             return model::export_command(options->model, options->bus, options->folder);

@@ -8,8 +8,8 @@
 #include <sstream>
 
 #include "common/model/params.hpp"
-#include "host/apps/cli/command.hpp"
 #include "host/apps/cli/console.hpp"
+#include "host/apps/tool/commands.hpp"
 #include "host/apps/tool/new_controller.hpp"
 #include "host/os/files/whole.hpp"
 #include "host/robot/model/find.hpp"
@@ -27,8 +27,8 @@ struct NewRobotWords {
 
 void write_text(const fs::path& file, const std::string& text) {
   if (!files::write(file, text)) {
-    throw ToolError(kBadInput,
-                    file.string() + ": cannot be written; choose another place with --in");
+    throw cli::ToolError(cli::kBadInput,
+                         file.string() + ": cannot be written; choose another place with --in");
   }
 }
 
@@ -38,10 +38,11 @@ void check_robot_name(const std::string& name) {
                       return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_';
                     });
   if (good) return;
-  throw ToolError(
-      kBadInput, fmt::format("verp new robot: '{}' is no name; give up to {} small letters, digits "
-                             "and _",
-                             name, kNameLength - 1));
+  throw cli::ToolError(
+      cli::kBadInput,
+      fmt::format("verp new robot: '{}' is no name; give up to {} small letters, digits "
+                  "and _",
+                  name, kNameLength - 1));
 }
 
 /// Shipped ones are found by name before what stands here: changes of a new one's table would do
@@ -55,10 +56,10 @@ void refuse_shipped(const std::string& name, const fs::path& sdf) {
   }
   std::error_code error;
   if (fs::equivalent(found, sdf, error)) return;
-  throw ToolError(kBadInput,
-                  fmt::format("verp new robot: there is a robot '{}' already, {}; choose "
-                              "another name",
-                              name, found));
+  throw cli::ToolError(cli::kBadInput,
+                       fmt::format("verp new robot: there is a robot '{}' already, {}; choose "
+                                   "another name",
+                                   name, found));
 }
 
 /// The table that a robot of this name was generated from, or the table itself.
@@ -68,8 +69,8 @@ fs::path table_of(const std::string& from) {
   const fs::path table = folder / (folder.filename().string() + ".table");
   std::error_code ignored;
   if (fs::exists(table, ignored)) return table;
-  throw ToolError(
-      kBadInput,
+  throw cli::ToolError(
+      cli::kBadInput,
       fmt::format("verp new robot: --from {}: has no table of its own; give a robot that "
                   "is made from one, such as generic21, or a .table file",
                   from));
@@ -118,13 +119,13 @@ int new_robot(const NewRobotWords& options) {
   std::error_code error;
   const bool again = fs::exists(table, error);
   if (!again && fs::exists(sdf, error)) {
-    throw ToolError(kBadInput,
-                    sdf.string() + ": is not made from a table here; choose another name");
+    throw cli::ToolError(cli::kBadInput,
+                         sdf.string() + ": is not made from a table here; choose another name");
   }
   if (again && !options.from.empty()) {
-    throw ToolError(kBadInput, table.string() +
-                                   ": is there already; leave --from out to generate "
-                                   "robot.sdf from it, or choose another name");
+    throw cli::ToolError(cli::kBadInput, table.string() +
+                                             ": is there already; leave --from out to generate "
+                                             "robot.sdf from it, or choose another name");
   }
   if (!again) {
     NewRobotWords named = options;
@@ -140,17 +141,18 @@ int new_robot(const NewRobotWords& options) {
     if (!again) fs::remove(folder, error);
     throw;
   }
-  answer(fmt::format("{}: made{} from {}\n", sdf.string(), again ? " anew" : "", table.string()));
+  cli::answer(
+      fmt::format("{}: made{} from {}\n", sdf.string(), again ? " anew" : "", table.string()));
   const std::string word = options.in.empty() ? options.name : sdf.string();
-  answer(fmt::format(
+  cli::answer(fmt::format(
       "change the table, `verp new robot {}` again; then `verp check {}`, `verp walk {}`\n",
       options.name, word, word));
-  return kGood;
+  return cli::kGood;
 }
 
 }  // namespace
 
-Subcommand add_new(CLI::App& root) {
+cli::Subcommand add_new(CLI::App& root) {
   CLI::App* app = root.add_subcommand("new", "Begin a robot or a controller of your own");
   app->require_subcommand(1);
   CLI::App* robot = app->add_subcommand(
@@ -161,7 +163,7 @@ Subcommand add_new(CLI::App& root) {
                     "a robot that is made from a table, or a .table file (default: generic21)");
   robot->add_option("--in", options->in,
                     "folder (default: the first of VERP_ROBOT_PATH, else the working folder)");
-  const Subcommand controller = add_new_controller(*app);
+  const cli::Subcommand controller = add_new_controller(*app);
   return {app, [options, controller] {
             return controller.app->parsed() ? controller.run() : new_robot(*options);
           }};

@@ -33,10 +33,10 @@ void check_name(const std::string& name) {
       std::all_of(name.begin(), name.end(), plain)) {
     return;
   }
-  throw ToolError(kBadInput,
-                  fmt::format("verp new controller: '{}' is no name; give up to {} letters, "
-                              "digits and _, a letter first",
-                              name, kLongest));
+  throw cli::ToolError(cli::kBadInput,
+                       fmt::format("verp new controller: '{}' is no name; give up to {} letters, "
+                                   "digits and _, a letter first",
+                                   name, kLongest));
 }
 
 std::string filled_in(const std::string& text, const std::string& name) {
@@ -49,8 +49,8 @@ std::string template_of(const std::string& file) {
   if (file == ".gitignore") return "build/\nreport/\n";
   const fs::path source = files::source_dir() / "host/run/own/template" / file;
   if (const std::optional<std::string> text = files::read(source)) return *text;
-  throw ToolError(
-      kBadInput,
+  throw cli::ToolError(
+      cli::kBadInput,
       fmt::format("verp new controller: {} is not there: a controller is built on VERP's "
                   "sources, so begin with the ./verp of a clone",
                   source.string()));
@@ -61,34 +61,36 @@ int new_controller(const NewControllerWords& words) {
   std::error_code error;
   const fs::path folder = fs::absolute(words.in, error) / words.name;
   if (fs::exists(folder, error)) {
-    throw ToolError(kBadInput, fmt::format("{}: is there already; choose another name, or another "
-                                           "place with --in",
-                                           folder.lexically_normal().string()));
+    throw cli::ToolError(cli::kBadInput,
+                         fmt::format("{}: is there already; choose another name, or another "
+                                     "place with --in",
+                                     folder.lexically_normal().string()));
   }
   template_of(kFiles[0]);  // nothing is laid out if there is nothing to lay out
   fs::create_directories(folder, error);
   if (error) {
-    throw ToolError(kBadInput,
-                    fmt::format("{}: cannot be made ({}); choose another place with --in",
-                                folder.lexically_normal().string(), error.message()));
+    throw cli::ToolError(cli::kBadInput,
+                         fmt::format("{}: cannot be made ({}); choose another place with --in",
+                                     folder.lexically_normal().string(), error.message()));
   }
   for (const char* file : kFiles) {
     if (files::write(folder / file, filled_in(template_of(file), words.name))) continue;
-    throw ToolError(kBadInput, fmt::format("{}: cannot be written; choose another place with --in",
-                                           (folder / file).lexically_normal().string()));
+    throw cli::ToolError(cli::kBadInput,
+                         fmt::format("{}: cannot be written; choose another place with --in",
+                                     (folder / file).lexically_normal().string()));
   }
   const std::string place = (fs::path(words.in) / words.name).lexically_normal().string();
-  answer(fmt::format("{}: laid out; {}/README.md says what is where\n", place, place));
-  answer(
+  cli::answer(fmt::format("{}: laid out; {}/README.md says what is where\n", place, place));
+  cli::answer(
       fmt::format("`verp walk --controller {0}` walks it; with --on mps2_an386 on an emulated "
                   "board, and `verp flash --controller {0}` writes it into one\n",
                   place));
-  return kGood;
+  return cli::kGood;
 }
 
 }  // namespace
 
-Subcommand add_new_controller(CLI::App& parent) {
+cli::Subcommand add_new_controller(CLI::App& parent) {
   CLI::App* app = parent.add_subcommand(
       "controller",
       "a folder with a controller for the robots: walked, emulated and flashed by "

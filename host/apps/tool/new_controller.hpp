@@ -4,6 +4,6 @@
 namespace verp::tool {
 
 /// `verp new controller`, below `new`.
-Subcommand add_new_controller(CLI::App& parent);
+cli::Subcommand add_new_controller(CLI::App& parent);
 
 }  // namespace verp::tool

@@ -62,16 +62,18 @@ std::vector<NodeObject> by_name(const std::vector<NodeObject>& known, const std:
     places.push_back(can::to_text(each.at));
   }
   if (places.size() > 1) {
-    throw ToolError(kBadInput, fmt::format("'{}' is the name of {} objects: {}; give one of them "
-                                           "by --object",
-                                           name, places.size(), fmt::join(places, ", ")));
+    throw cli::ToolError(cli::kBadInput,
+                         fmt::format("'{}' is the name of {} objects: {}; give one of them "
+                                     "by --object",
+                                     name, places.size(), fmt::join(places, ", ")));
   }
   if (found != nullptr) return {*found};
   std::vector<NodeObject> elements = elements_of(known, name);
   if (!elements.empty()) return elements;
-  throw ToolError(kBadInput, fmt::format("the node has no object named '{}'{}; give --object "
-                                         "INDEX:SUBINDEX",
-                                         name, did_you_mean(name, names)));
+  throw cli::ToolError(cli::kBadInput,
+                       fmt::format("the node has no object named '{}'{}; give --object "
+                                   "INDEX:SUBINDEX",
+                                   name, cli::did_you_mean(name, names)));
 }
 
 bool fits(const NodeObject& object, const std::vector<std::uint8_t>& bytes) {
@@ -132,10 +134,10 @@ Address parse_object(const std::string& text) {
                     (colon == std::string::npos ||
                      parse_hex(std::string_view(text).substr(colon + 1), 0xFF, sub));
   if (!good) {
-    throw ToolError(kBadInput,
-                    fmt::format("--object: '{}' is no address; give INDEX:SUBINDEX, both "
-                                "hexadecimal, such as 6064:0",
-                                text));
+    throw cli::ToolError(cli::kBadInput,
+                         fmt::format("--object: '{}' is no address; give INDEX:SUBINDEX, both "
+                                     "hexadecimal, such as 6064:0",
+                                     text));
   }
   return {static_cast<std::uint16_t>(index), static_cast<std::uint8_t>(sub)};
 }
@@ -155,7 +157,8 @@ std::vector<NodeObject> wanted(const BusOptions& options, const std::vector<Node
   }
   if (!all.empty()) return all;
   if (known.empty()) {
-    throw ToolError(kBadInput, "its objects have no names here; give --object INDEX:SUBINDEX");
+    throw cli::ToolError(cli::kBadInput,
+                         "its objects have no names here; give --object INDEX:SUBINDEX");
   }
   return known;
 }
@@ -165,8 +168,8 @@ std::string show_value(const NodeObject& object, const std::vector<std::uint8_t>
   return show_value(object.as_register(), bytes);
 }
 
-Json json_value(const NodeObject& object, const std::vector<std::uint8_t>& bytes) {
-  return fits(object, bytes) ? json_value(object.as_register(), bytes) : Json(as_bytes(bytes));
+cli::Json json_value(const NodeObject& object, const std::vector<std::uint8_t>& bytes) {
+  return fits(object, bytes) ? json_value(object.as_register(), bytes) : cli::Json(as_bytes(bytes));
 }
 
 }  // namespace verp::tool

@@ -42,6 +42,6 @@ std::vector<NodeObject> wanted(const BusOptions& options, const std::vector<Node
 /// As its type has it, else as bytes. For people what is made of fields, as COB-IDs and mapping
 /// entries are, is hexadecimal.
 std::string show_value(const NodeObject& object, const std::vector<std::uint8_t>& bytes);
-Json json_value(const NodeObject& object, const std::vector<std::uint8_t>& bytes);
+cli::Json json_value(const NodeObject& object, const std::vector<std::uint8_t>& bytes);
 
 }  // namespace verp::tool

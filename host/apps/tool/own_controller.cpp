@@ -21,22 +21,24 @@ namespace fs = std::filesystem;
 fs::path checked(const std::string& words) {
   std::error_code error;
   if (!fs::exists(files::source_dir() / "toolchains" / "own_controller.cmake", error)) {
-    throw ToolError(kBadInput,
-                    "--controller: a controller is built on VERP's sources, which an "
-                    "installed verp has none of; take the ./verp of a clone");
+    throw cli::ToolError(cli::kBadInput,
+                         "--controller: a controller is built on VERP's sources, which an "
+                         "installed verp has none of; take the ./verp of a clone");
   }
   const fs::path folder = fs::weakly_canonical(words, error), build = folder / "build";
   for (const char* file : {"controller.hpp", "CMakeLists.txt"}) {
     if (fs::exists(folder / file, error)) continue;
-    throw ToolError(kBadInput, fmt::format("--controller {}: has no {}; `verp new controller NAME` "
-                                           "lays out a folder that has",
-                                           words, file));
+    throw cli::ToolError(cli::kBadInput,
+                         fmt::format("--controller {}: has no {}; `verp new controller NAME` "
+                                     "lays out a folder that has",
+                                     words, file));
   }
   fs::create_directories(build, error);
   if (!error && ::access(build.c_str(), W_OK) == 0) return folder;
-  throw ToolError(kBadInput, fmt::format("--controller {}: {} cannot be written; copy the folder "
-                                         "to where you may write",
-                                         words, build.string()));
+  throw cli::ToolError(cli::kBadInput,
+                       fmt::format("--controller {}: {} cannot be written; copy the folder "
+                                   "to where you may write",
+                                   words, build.string()));
 }
 
 fs::path lock_of(const fs::path& folder) {
@@ -51,7 +53,7 @@ fs::path log_of(const fs::path& folder) {
 
 std::function<session::Decide()> own_controller(const std::string& words, bool show) {
   const fs::path folder = checked(words), tree = folder / "build" / "pc";
-  Progress progress(show);
+  cli::Progress progress(show);
   std::error_code error;
   if (!fs::exists(tree / "build.ninja", error)) {
     run_build({"cmake", "-S", folder.string(), "-B", tree.string(), "-G", "Ninja",
@@ -65,15 +67,15 @@ std::function<session::Decide()> own_controller(const std::string& words, bool s
 }
 
 std::string build_firmware_of(const std::string& words, const std::string& board,
-                              const std::string& target, Progress& progress) {
+                              const std::string& target, cli::Progress& progress) {
   const fs::path folder = checked(words), tree = folder / "build" / ("fw-" + board);
   std::error_code error;
   if (!fs::exists(files::source_dir() / "boards" / board / "memory.ld", error))
-    throw ToolError(kBadInput,
-                    fmt::format("--controller {}: there is no board '{}'", words, board));
+    throw cli::ToolError(cli::kBadInput,
+                         fmt::format("--controller {}: there is no board '{}'", words, board));
   if (!fs::exists(tree, error))
-    complain(fmt::format("verp: building {} for {}: the first time takes a minute",
-                         folder.filename().string(), board));
+    cli::complain(fmt::format("verp: building {} for {}: the first time takes a minute",
+                              folder.filename().string(), board));
   build_firmware({.board = board,
                   .target = target,
                   .tree = tree,
@@ -87,7 +89,7 @@ std::string build_firmware_of(const std::string& words, const std::string& board
 void take_controller(const std::string& folder, std::vector<session::WalkPlan>& plans, bool show) {
   if (folder.empty()) return;
   const std::function<session::Decide()> own = own_controller(folder, show);
-  Progress progress(show);
+  cli::Progress progress(show);
   for (session::WalkPlan& plan : plans) {
     if (!plan.link.empty()) continue;
     plan.own = own;

@@ -21,7 +21,7 @@ std::function<session::Decide()> own_controller(const std::string& folder, bool 
 
 /// Builds a target of the board's firmware with it: the folder of its images.
 std::string build_firmware_of(const std::string& folder, const std::string& board,
-                              const std::string& target, Progress& progress);
+                              const std::string& target, cli::Progress& progress);
 
 /// Has it decide for every robot that is driven from here, or by an emulated board. An empty
 /// `folder` changes nothing.

@@ -7,9 +7,9 @@
 #include <utility>
 
 #include "common/model/tuning_ranges.hpp"
-#include "host/apps/cli/command.hpp"
 #include "host/apps/cli/console.hpp"
 #include "host/apps/cli/json.hpp"
+#include "host/apps/tool/commands.hpp"
 #include "host/robot/model/find.hpp"
 #include "host/robot/model/load.hpp"
 #include "host/robot/model/params.hpp"
@@ -91,7 +91,7 @@ int tell(const ParametersWords& options) {
   const model::Entity entity = model::load_robot(model::find_model(options.model), options.bus);
   const Tuning tuning = model::make_params(entity).tuning;
   const std::vector<std::string> names = model::tuning_names();
-  Json rows = Json::array();
+  cli::Json rows = cli::Json::array();
   std::string text =
       fmt::format("{}: numbers that --set NAME=VALUE changes for one run\n", entity.name);
   text += fmt::format("  {:<29} {:>10} {:<4} {:>7} .. {:<6}  {}\n", "name", "value", "unit", "from",
@@ -110,19 +110,19 @@ int tell(const ParametersWords& options) {
     text += fmt::format("  {:<29} {:>10.6g} {:<4} {:>7g} .. {:<6g}  {}\n", names[i], value,
                         unit.empty() ? "-" : unit, range.low, range.high, kMeaning[i]);
   }
-  print_answer(options.json, {{"model", entity.name}, {"parameters", rows}},
-               text + "  The robot's own values stand in its file, as verp:tuning.\n");
-  return kGood;
+  cli::print_answer(options.json, {{"model", entity.name}, {"parameters", rows}},
+                    text + "  The robot's own values stand in its file, as verp:tuning.\n");
+  return cli::kGood;
 }
 
 }  // namespace
 
-Subcommand add_parameters(CLI::App& root) {
+cli::Subcommand add_parameters(CLI::App& root) {
   CLI::App* app = root.add_subcommand(
       "parameters", "The numbers that --set changes: value, unit, range and meaning of each");
   auto options = std::make_shared<ParametersWords>();
-  add_model(*app, options->model)->capture_default_str();
-  add_json_flag(*app, options->json);
+  cli::add_model(*app, options->model)->capture_default_str();
+  cli::add_json_flag(*app, options->json);
   return {app, [options] { return tell(*options); }};
 }
 

@@ -27,17 +27,20 @@ radio::Conditions radio_of(const std::string& command, const std::string& text) 
       names += (names.empty() ? "" : ", ") + std::string(name);
     }
     if (number == nullptr || equals == std::string::npos) {
-      throw ToolError(kBadInput, fmt::format("{} --radio '{}': that is not NAME=VALUE with "
-                                             "a name out of: {}",
-                                             command, word, names));
+      throw cli::ToolError(cli::kBadInput,
+                           fmt::format("{} --radio '{}': that is not NAME=VALUE with "
+                                       "a name out of: {}",
+                                       command, word, names));
     }
     try {
-      *number = parse_number(word.substr(equals + 1), 0, 1e9, "");
+      *number = cli::parse_number(word.substr(equals + 1), 0, 1e9, "");
       radio::check(radio);
     } catch (const std::invalid_argument& error) {
-      throw ToolError(kBadInput, fmt::format("{} --radio '{}': {}", command, word, error.what()));
+      throw cli::ToolError(cli::kBadInput,
+                           fmt::format("{} --radio '{}': {}", command, word, error.what()));
     } catch (const CLI::Error& error) {
-      throw ToolError(kBadInput, fmt::format("{} --radio '{}': {}", command, word, error.what()));
+      throw cli::ToolError(cli::kBadInput,
+                           fmt::format("{} --radio '{}': {}", command, word, error.what()));
     }
   }
   return radio;

@@ -15,7 +15,7 @@ using dxl::controller::is_signed;
 using dxl::controller::Type;
 using dxl::controller::type_bytes;
 
-Json element(Type type, const std::uint8_t* bytes) {
+cli::Json element(Type type, const std::uint8_t* bytes) {
   if (type == Type::kF32) {
     float value = 0;
     std::memcpy(&value, bytes, sizeof value);
@@ -31,7 +31,7 @@ Json element(Type type, const std::uint8_t* bytes) {
 }
 
 [[noreturn]] void refuse(const bus::NamedRegister& reg, const std::string& why) {
-  throw ToolError(kBadInput, fmt::format("{}: {}", reg.name, why));
+  throw cli::ToolError(cli::kBadInput, fmt::format("{}: {}", reg.name, why));
 }
 
 std::uint32_t parse_float(const bus::NamedRegister& reg, const std::string& word) {
@@ -64,12 +64,12 @@ std::int64_t parse_integer(const bus::NamedRegister& reg, const std::string& wor
 
 }  // namespace
 
-Json json_value(const bus::NamedRegister& reg, const std::vector<std::uint8_t>& bytes) {
+cli::Json json_value(const bus::NamedRegister& reg, const std::vector<std::uint8_t>& bytes) {
   if (reg.type == Type::kText) {
     return std::string(bytes.begin(), std::find(bytes.begin(), bytes.end(), 0));
   }
   if (reg.count == 1) return element(reg.type, bytes.data());
-  Json all = Json::array();
+  cli::Json all = cli::Json::array();
   for (std::size_t i = 0; i < bytes.size(); i += type_bytes(reg.type)) {
     all.push_back(element(reg.type, bytes.data() + i));
   }
@@ -77,11 +77,11 @@ Json json_value(const bus::NamedRegister& reg, const std::vector<std::uint8_t>& 
 }
 
 std::string show_value(const bus::NamedRegister& reg, const std::vector<std::uint8_t>& bytes) {
-  const Json value = json_value(reg, bytes);
+  const cli::Json value = json_value(reg, bytes);
   if (value.is_string()) return value.get<std::string>();
   if (!value.is_array()) return value.dump();
   std::string text;
-  for (const Json& each : value) text += (text.empty() ? "" : " ") + each.dump();
+  for (const cli::Json& each : value) text += (text.empty() ? "" : " ") + each.dump();
   return text;
 }
 

@@ -14,7 +14,7 @@ namespace verp::tool {
 std::string show_value(const bus::NamedRegister& reg, const std::vector<std::uint8_t>& bytes);
 /// "120 x 0.1 V = 12 V", "35 deg C"; a value without a unit is itself.
 std::string with_unit(const std::string& shown, std::string_view unit);
-Json json_value(const bus::NamedRegister& reg, const std::vector<std::uint8_t>& bytes);
+cli::Json json_value(const bus::NamedRegister& reg, const std::vector<std::uint8_t>& bytes);
 
 /// One word for each element, decimal or 0x...; throws ToolError with the range.
 std::vector<std::uint8_t> parse_values(const bus::NamedRegister& reg,

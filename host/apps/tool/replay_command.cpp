@@ -4,10 +4,10 @@
 #include <filesystem>
 #include <memory>
 
-#include "host/apps/cli/command.hpp"
 #include "host/apps/cli/console.hpp"
 #include "host/apps/cli/exit_status.hpp"
 #include "host/apps/cli/json.hpp"
+#include "host/apps/tool/commands.hpp"
 #include "host/apps/tool/own_controller.hpp"
 #include "host/show/web/replay_page.hpp"
 #include "host/study/report/files.hpp"
@@ -16,16 +16,16 @@
 namespace verp::tool {
 namespace {
 
-Json to_json(const record::Divergence& divergence, const Params& params, const char* left,
-             const char* right) {
-  Json json = {{"tick", divergence.tick},
-               {"time_s", divergence.tick * (params.period_us * 1e-6)},
-               {"stage", divergence.stage},
-               {"field", nullptr},
-               {std::string("digest_") + left, divergence.left_digest},
-               {std::string("digest_") + right, divergence.right_digest},
-               {"fields_tick", divergence.fields_tick},
-               {"fields", Json::array()}};
+cli::Json to_json(const record::Divergence& divergence, const Params& params, const char* left,
+                  const char* right) {
+  cli::Json json = {{"tick", divergence.tick},
+                    {"time_s", divergence.tick * (params.period_us * 1e-6)},
+                    {"stage", divergence.stage},
+                    {"field", nullptr},
+                    {std::string("digest_") + left, divergence.left_digest},
+                    {std::string("digest_") + right, divergence.right_digest},
+                    {"fields_tick", divergence.fields_tick},
+                    {"fields", cli::Json::array()}};
   if (!divergence.fields.empty()) json["field"] = divergence.fields.front().path;
   for (const record::FieldDifference& field : divergence.fields) {
     json["fields"].push_back({{"field", field.path}, {left, field.left}, {right, field.right}});
@@ -36,7 +36,7 @@ Json to_json(const record::Divergence& divergence, const Params& params, const c
 record::Trace load(const std::string& file, bool recover) {
   record::Trace trace =
       record::read_trace(file, recover ? record::Read::kRecover : record::Read::kStrict);
-  if (!trace.warning.empty()) complain(trace.warning);
+  if (!trace.warning.empty()) cli::complain(trace.warning);
   return trace;
 }
 
@@ -47,19 +47,21 @@ struct ReplayOptions {
 
 int make_page(const ReplayOptions& options) {
   if (std::filesystem::path(options.page).extension() != ".html") {
-    throw ToolError(kBadInput, fmt::format("verp replay --page {}: a browser shows what ends in "
-                                           ".html; name it so",
-                                           options.page));
+    throw cli::ToolError(cli::kBadInput,
+                         fmt::format("verp replay --page {}: a browser shows what ends in "
+                                     ".html; name it so",
+                                     options.page));
   }
   const web::Replay replay = web::replay_of(options.file);
-  if (replay.html.empty()) throw ToolError(kNoDevice, "verp replay --page: " + replay.note);
-  if (!replay.note.empty()) complain(replay.note);
+  if (replay.html.empty())
+    throw cli::ToolError(cli::kNoDevice, "verp replay --page: " + replay.note);
+  if (!replay.note.empty()) cli::complain(replay.note);
   report::write_file(
       options.page,
       web::page_of(std::filesystem::path(options.file).filename().string(), replay.html));
-  print_answer(options.json, {{"trace", options.file}, {"page", options.page}},
-               options.page + "\n");
-  return kGood;
+  cli::print_answer(options.json, {{"trace", options.file}, {"page", options.page}},
+                    options.page + "\n");
+  return cli::kGood;
 }
 
 int run_replay(const ReplayOptions& options) {
@@ -68,40 +70,42 @@ int run_replay(const ReplayOptions& options) {
   const auto recorded_by = trace.metadata.find("own_controller");
   if (options.controller.empty() && recorded_by != trace.metadata.end() &&
       !recorded_by->second.empty()) {
-    throw ToolError(kBadInput, fmt::format("{}: was decided by a controller of somebody's own; "
-                                           "replay it with --controller {}",
-                                           options.file, recorded_by->second));
+    throw cli::ToolError(cli::kBadInput,
+                         fmt::format("{}: was decided by a controller of somebody's own; "
+                                     "replay it with --controller {}",
+                                     options.file, recorded_by->second));
   }
   record::StepFunction core;
   if (!options.controller.empty()) core = own_controller(options.controller, !options.json)();
   const record::ReplayResult result = record::replay(trace, nullptr, core);
   const bool equal = !result.divergence;
   if (options.json) {
-    Json json = {{"trace", options.file},
-                 {"ticks", result.ticks},
-                 {"equal", equal},
-                 {"digest_recorded", fmt::format("0x{:016x}", result.recorded_digest)},
-                 {"digest_replayed", fmt::format("0x{:016x}", result.replayed_digest)},
-                 {"divergence", nullptr}};
+    cli::Json json = {{"trace", options.file},
+                      {"ticks", result.ticks},
+                      {"equal", equal},
+                      {"digest_recorded", fmt::format("0x{:016x}", result.recorded_digest)},
+                      {"digest_replayed", fmt::format("0x{:016x}", result.replayed_digest)},
+                      {"divergence", nullptr}};
     if (!equal)
       json["divergence"] = to_json(*result.divergence, trace.params, "recorded", "replayed");
-    print_json(json);
+    cli::print_json(json);
   } else if (equal) {
-    answer(fmt::format("{}: {} ticks ({:.2f} s), every stage the same bits, digest 0x{:016x}\n",
-                       options.file, result.ticks,
-                       static_cast<double>(result.ticks) * trace.period_s(),
-                       result.replayed_digest));
+    cli::answer(
+        fmt::format("{}: {} ticks ({:.2f} s), every stage the same bits, digest 0x{:016x}\n",
+                    options.file, result.ticks,
+                    static_cast<double>(result.ticks) * trace.period_s(), result.replayed_digest));
   }
-  if (equal) return kGood;
+  if (equal) return cli::kGood;
   const auto revision = trace.metadata.find("source_revision");
   const std::string version = record::core_of(trace);
   const auto build = record::build_info();
-  complain(fmt::format("{}: diverges at {}; it was recorded by revision {}{}, this is {}{}",
-                       options.file, text(*result.divergence, trace.params, "recorded", "replayed"),
-                       revision == trace.metadata.end() ? "unknown" : revision->second,
-                       version.empty() ? "" : " with core " + version, build.at("source_revision"),
-                       version.empty() ? "" : " with core " + build.at("core_version")));
-  return kRunFailed;
+  cli::complain(
+      fmt::format("{}: diverges at {}; it was recorded by revision {}{}, this is {}{}",
+                  options.file, text(*result.divergence, trace.params, "recorded", "replayed"),
+                  revision == trace.metadata.end() ? "unknown" : revision->second,
+                  version.empty() ? "" : " with core " + version, build.at("source_revision"),
+                  version.empty() ? "" : " with core " + build.at("core_version")));
+  return cli::kRunFailed;
 }
 
 struct DiffOptions {
@@ -121,29 +125,30 @@ int run_diff(const DiffOptions& options) {
   const auto divergence = record::diff(left, right);
   const std::string core_a = record::core_of(left), core_b = record::core_of(right);
   if (options.json) {
-    Json json = {{"a", options.left},
-                 {"b", options.right},
-                 {"equal", !divergence},
-                 {"ticks_a", left.ticks.size()},
-                 {"ticks_b", right.ticks.size()},
-                 {"core_a", core_a.empty() ? Json() : Json(core_a)},
-                 {"core_b", core_b.empty() ? Json() : Json(core_b)},
-                 {"divergence", nullptr}};
+    cli::Json json = {{"a", options.left},
+                      {"b", options.right},
+                      {"equal", !divergence},
+                      {"ticks_a", left.ticks.size()},
+                      {"ticks_b", right.ticks.size()},
+                      {"core_a", core_a.empty() ? cli::Json() : cli::Json(core_a)},
+                      {"core_b", core_b.empty() ? cli::Json() : cli::Json(core_b)},
+                      {"divergence", nullptr}};
     if (divergence) json["divergence"] = to_json(*divergence, left.params, "a", "b");
-    print_json(json);
+    cli::print_json(json);
   } else if (!divergence) {
-    answer(fmt::format("{} and {}: equal, {} ticks, digest 0x{:016x}\n", options.left,
-                       options.right, left.ticks.size(), left.digest()));
+    cli::answer(fmt::format("{} and {}: equal, {} ticks, digest 0x{:016x}\n", options.left,
+                            options.right, left.ticks.size(), left.digest()));
   } else {
-    answer(fmt::format("{} and {} differ at {}{}\n", options.left, options.right,
-                       text(*divergence, left.params, "A", "B"), of_two_cores(core_a, core_b)));
+    cli::answer(fmt::format("{} and {} differ at {}{}\n", options.left, options.right,
+                            text(*divergence, left.params, "A", "B"),
+                            of_two_cores(core_a, core_b)));
   }
-  return divergence ? kRunFailed : kGood;
+  return divergence ? cli::kRunFailed : cli::kGood;
 }
 
 }  // namespace
 
-Subcommand add_replay(CLI::App& root) {
+cli::Subcommand add_replay(CLI::App& root) {
   CLI::App* app = root.add_subcommand(
       "replay", "Re-run the controller on a trace's inputs; exit 1 names the first difference");
   auto options = std::make_shared<ReplayOptions>();
@@ -152,18 +157,18 @@ Subcommand add_replay(CLI::App& root) {
   declare_controller(*app, options->controller);
   app->add_option("--page", options->page,
                   "write a page that shows the run in 3D instead, for any browser (.html)");
-  add_json_flag(*app, options->json);
+  cli::add_json_flag(*app, options->json);
   return {app, [options] { return run_replay(*options); }};
 }
 
-Subcommand add_diff(CLI::App& root) {
+cli::Subcommand add_diff(CLI::App& root) {
   CLI::App* app = root.add_subcommand(
       "diff", "Name the first difference of two traces: robot, input, stage, field; exit 1 if any");
   auto options = std::make_shared<DiffOptions>();
   app->add_option("A", options->left, "a trace")->required();
   app->add_option("B", options->right, "another trace")->required();
   app->add_flag("--recover", options->recover, "take what stands before a truncation or damage");
-  add_json_flag(*app, options->json);
+  cli::add_json_flag(*app, options->json);
   return {app, [options] { return run_diff(*options); }};
 }
 

@@ -22,7 +22,7 @@ void declare_live(CLI::App& app, LiveOptions& options) {
       ->type_name("PORT")
       ->check(CLI::Validator(
           [](std::string& text) {
-            const std::string wrong = whole_number_between(0, 65535)(text);
+            const std::string wrong = cli::whole_number_between(0, 65535)(text);
             return wrong.empty() ? "" : wrong + "; a MODEL stands before --live";
           },
           "0..65535"))
@@ -59,7 +59,7 @@ void declare(CLI::App& app, MapOptions& options) {
           ->check(CLI::IsMember({"push", "stand", "stability"}));
   app.add_option("--map-grid", options.grid,
                  "how fine a map is: directions of pushes (8), or velocities on each axis (9)")
-      ->check(whole_number_between(1, kMostOnMapAxis))
+      ->check(cli::whole_number_between(1, kMostOnMapAxis))
       ->needs(map);
   for (const char* other :
        {"--seeds", "--sweep-step", "--record", "--record-state", "--on", "--push", "--stand",

@@ -71,7 +71,7 @@ template <class Robot>
 class RobotRun {
  public:
   RobotRun(Robot& robot, const RunPlan& plan, const bus::LinkFit& fit, record::TraceWriter* trace,
-           Progress& progress)
+           cli::Progress& progress)
       : robot_(robot),
         plan_(plan),
         params_(plan.walk.params),
@@ -100,11 +100,11 @@ class RobotRun {
       throw session::not_up(report, place(), Robot::where(report.address));
     app_.limit_torque(static_cast<std::uint8_t>(plan_.torque_percent));
     robot_.set_held(result_.fit.held_us());  // nobody waited for the bring-up
-    if constexpr (!kInLockstep) result_.real_time = become_real_time();
+    if constexpr (!kInLockstep) result_.real_time = cli::become_real_time();
     if (!result_.real_time.advice.empty()) say(result_.real_time.advice);
-    const std::uint64_t start_ns = wire::monotonic_ns();
+    const std::uint64_t start_ns = link::monotonic_ns();
     loop();
-    result_.walk.wall_s = 1e-9 * static_cast<double>(wire::monotonic_ns() - start_ns);
+    result_.walk.wall_s = 1e-9 * static_cast<double>(link::monotonic_ns() - start_ns);
     progress_.clear();
     make_sure();
     finish();
@@ -115,11 +115,11 @@ class RobotRun {
   static constexpr bool kInLockstep = requires(Robot & robot) { robot.stopped(); };
   using Loop = app::App<typename Robot::Bus, RunOperator, RunKeeper<Robot>, bus::AssumedImu>;
 
-  std::string place() const { return wire::to_text(plan_.link); }
+  std::string place() const { return link::to_text(plan_.link); }
 
   void say(const std::string& line) {
     progress_.clear();
-    complain("verp run: " + line);
+    cli::complain("verp run: " + line);
   }
 
   void loop() {
@@ -161,7 +161,7 @@ class RobotRun {
   }
 
   void watch_person() {
-    const int presses = tool::presses();
+    const int presses = cli::presses();
     if (presses == presses_) return;
     presses_ = presses;
     if (presses == 1) {
@@ -207,7 +207,7 @@ class RobotRun {
     std::iota(silent.begin(), silent.end(), 0);
     for (int round = 0; round < kAsked && !silent.empty(); ++round) {
       std::erase_if(silent, [this](int joint) {
-        const bool asks = robot_.connected() && tool::presses() == presses_;
+        const bool asks = robot_.connected() && cli::presses() == presses_;
         const LetGo said = asks ? robot_.let_go(joint) : LetGo::kSilent;
         result_.stiff_servos += said == LetGo::kNo ? 1 : 0;
         return said != LetGo::kSilent;
@@ -221,7 +221,7 @@ class RobotRun {
 
   void finish() {
     WalkResult& walk = result_.walk;
-    walk.interrupted = interrupted();
+    walk.interrupted = cli::interrupted();
     walk.simulated_s = 1e-6 * static_cast<double>(params_.period_us) *
                        static_cast<double>(result_.deadlines.ticks + result_.deadlines.skipped);
     walk.failure = operator_.failure();
@@ -244,8 +244,8 @@ class RobotRun {
   Robot& robot_;
   const RunPlan& plan_;
   const Params& params_;
-  Progress& progress_;
-  wire::SystemClock clock_;
+  cli::Progress& progress_;
+  link::SystemClock clock_;
   bus::AssumedImu imu_;
   RunResult result_;
   RunOperator operator_;

@@ -21,7 +21,7 @@ namespace {
 /// The interface as a CanBus whose nodes' answers may be held up on their way.
 class PatientCan {
  public:
-  explicit PatientCan(wire::CanPort& port) : port_(port) {}
+  explicit PatientCan(link::CanPort& port) : port_(port) {}
 
   bool send(const CanFrame& frame) { return port_.send(frame); }
   bool poll(CanFrame& frame, std::uint32_t timeout_us) {
@@ -34,7 +34,7 @@ class PatientCan {
   void set_held(std::uint32_t held_us) { held_us_ = held_us; }
 
  private:
-  wire::CanPort& port_;
+  link::CanPort& port_;
   std::uint32_t held_us_ = 0;
 };
 static_assert(hal::CanBus<PatientCan>);
@@ -47,7 +47,7 @@ class CanRobot {
  public:
   using Bus = app::OperatorNode<PatientCan, Ticks>;
 
-  CanRobot(wire::CanPort& port, const RunPlan& plan)
+  CanRobot(link::CanPort& port, const RunPlan& plan)
       : port_(port),
         plan_(plan),
         patient_(port),
@@ -64,7 +64,7 @@ class CanRobot {
   void report(const app::LoopHealth& health) { node_.report(health); }
   bool connected() const { return port_.connected(); }
   hal::LinkErrors link_errors() const {
-    const wire::CanTrouble& trouble = port_.trouble();
+    const link::CanTrouble& trouble = port_.trouble();
     return {.overruns = trouble.controller_overruns + trouble.socket_overruns,
             .losses = trouble.losses + trouble.bus_offs};
   }
@@ -96,7 +96,7 @@ class CanRobot {
             .takes_orders = plan.takes_orders};
   }
 
-  wire::CanPort& port_;
+  link::CanPort& port_;
   const RunPlan& plan_;
   PatientCan patient_;
   Ticks ticks_{app::no_images};
@@ -105,7 +105,7 @@ class CanRobot {
 };
 
 std::optional<std::uint8_t> somebody(can::Client& client, const Params& params) {
-  for (int j = 0; j < params.servo_count() && !interrupted(); ++j) {
+  for (int j = 0; j < params.servo_count() && !cli::interrupted(); ++j) {
     if (client.read_once(params.joint[j].servo_id, canopen::plan::kDeviceType)) {
       return params.joint[j].servo_id;
     }
@@ -115,27 +115,28 @@ std::optional<std::uint8_t> somebody(can::Client& client, const Params& params) 
 
 }  // namespace
 
-void refuse_second_controller(wire::CanPort& port, const RunPlan& plan) {
+void refuse_second_controller(link::CanPort& port, const RunPlan& plan) {
   constexpr std::uint32_t kLook_us = 50'000;
   const std::uint64_t end_ns =
-      wire::monotonic_ns() + canopen::plan::quiet_us(plan.walk.params) * 1000ull;
+      link::monotonic_ns() + canopen::plan::quiet_us(plan.walk.params) * 1000ull;
   CanFrame frame;
-  while (wire::monotonic_ns() < end_ns && !interrupted()) {
+  while (link::monotonic_ns() < end_ns && !cli::interrupted()) {
     if (!port.await(frame, kLook_us) || !canopen::plan::is_of_master(frame)) continue;
     throw session::not_up(
         {.status = app::BringUpStatus::kOccupied, .address = static_cast<std::uint16_t>(frame.id)},
-        wire::to_text(plan.link), "");
+        link::to_text(plan.link), "");
   }
 }
 
-bus::LinkFit check_latency(wire::CanPort& port, const RunPlan& plan) {
+bus::LinkFit check_latency(link::CanPort& port, const RunPlan& plan) {
   const Params& params = plan.walk.params;
   can::Client client(port, plan.link, kAnswer_us);
   const std::optional<std::uint8_t> id = somebody(client, params);
-  if (!id && !interrupted()) {
-    throw ToolError(kNoDevice, fmt::format("{}: no drive of {} answers; check power, wiring, "
-                                           "termination and bit rate, see `verp bus scan`",
-                                           client.place(), params.name));
+  if (!id && !cli::interrupted()) {
+    throw cli::ToolError(cli::kNoDevice,
+                         fmt::format("{}: no drive of {} answers; check power, wiring, "
+                                     "termination and bit rate, see `verp bus scan`",
+                                     client.place(), params.name));
   }
   bus::LinkFit fit;
   fit.period_us = params.period_us;
@@ -145,13 +146,13 @@ bus::LinkFit check_latency(wire::CanPort& port, const RunPlan& plan) {
     fit.delay =
         bus::measure_delay([&] { return client.read_once(*id, canopen::plan::kDeviceType); },
                            app::can_frames_us(canopen::sdo::kFrameBytes, 2, params.baud),
-                           [] { return interrupted(); });
+                           [] { return cli::interrupted(); });
   }
   judge_fit(fit, plan);
   return fit;
 }
 
-void check_imu(wire::CanPort& port, const RunPlan& plan) {
+void check_imu(link::CanPort& port, const RunPlan& plan) {
   if (!plan.has_imu) return;
   judge_imu(plan, "");
   can::Client client(port, plan.link, kAnswer_us);
@@ -166,8 +167,8 @@ void check_imu(wire::CanPort& port, const RunPlan& plan) {
                                  : "tells no product code");
 }
 
-RunResult drive(wire::CanPort& port, const RunPlan& plan, const bus::LinkFit& fit,
-                record::TraceWriter* trace, Progress& progress) {
+RunResult drive(link::CanPort& port, const RunPlan& plan, const bus::LinkFit& fit,
+                record::TraceWriter* trace, cli::Progress& progress) {
   CanRobot robot(port, plan);
   return RobotRun<CanRobot>(robot, plan, fit, trace, progress).run();
 }

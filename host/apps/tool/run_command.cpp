@@ -6,12 +6,12 @@
 #include <memory>
 #include <thread>
 
-#include "host/apps/cli/command.hpp"
 #include "host/apps/cli/console.hpp"
 #include "host/apps/cli/interrupt.hpp"
 #include "host/apps/cli/json.hpp"
 #include "host/apps/tool/action_words.hpp"
 #include "host/apps/tool/bit_rate.hpp"
+#include "host/apps/tool/commands.hpp"
 #include "host/apps/tool/first_power.hpp"
 #include "host/apps/tool/run_can.hpp"
 #include "host/apps/tool/run_lockstep.hpp"
@@ -52,8 +52,8 @@ void require_followed_orders(const Params& params) {
   const session::Followed followed = session::within_servo_speed(params, longest);
   if (followed.remark.empty()) return;
   const double share = static_cast<double>(followed.velocity.vx_tenth_mm_s) / longest.vx_tenth_mm_s;
-  throw ToolError(
-      kBadInput,
+  throw cli::ToolError(
+      cli::kBadInput,
       fmt::format(
           "verp run: --take-orders: the servos cannot follow every order that "
           "gait.max_step_m={:g} admits in cycles of {:g} s; give --set "
@@ -66,29 +66,32 @@ void require_followed_orders(const Params& params) {
 /// Without an IMU nobody knows that it lies, nor on which side.
 void let_robot_get_up(const RunWords& words, WalkPlan& walk) {
   if (!words.params.has_imu()) {
-    throw ToolError(kBadInput,
-                    "verp run: --get-up needs the IMU, which tells on which side the robot lies; "
-                    "leave out --get-up or --imu none");
+    throw cli::ToolError(
+        cli::kBadInput,
+        "verp run: --get-up needs the IMU, which tells on which side the robot lies; "
+        "leave out --get-up or --imu none");
   }
   take_get_up_actions(walk);
 }
 
 RunPlan make_plan(const RunWords& words) {
   RunPlan plan;
-  plan.link = wire::parse_endpoint(words.link);
+  plan.link = link::parse_endpoint(words.link);
   plan.has_imu = words.params.has_imu();
   plan.torque_percent = words.torque_percent;
   plan.takes_orders = words.take_orders;
   plan.lockstep = words.lockstep;
-  if (words.lockstep && plan.link.kind == wire::Endpoint::Kind::kCan) {
-    throw ToolError(kBadInput, fmt::format("verp run: --lockstep is for a twin on a byte link, and "
-                                           "{} is a CAN interface; leave it out, in real time",
-                                           words.link));
+  if (words.lockstep && plan.link.kind == link::Endpoint::Kind::kCan) {
+    throw cli::ToolError(cli::kBadInput,
+                         fmt::format("verp run: --lockstep is for a twin on a byte link, and "
+                                     "{} is a CAN interface; leave it out, in real time",
+                                     words.link));
   }
-  if (words.take_orders && plan.link.kind != wire::Endpoint::Kind::kCan) {
-    throw ToolError(kBadInput, fmt::format("verp run: --take-orders is for a robot on CAN, where "
-                                           "the controller is a node; {} has no place for orders",
-                                           words.link));
+  if (words.take_orders && plan.link.kind != link::Endpoint::Kind::kCan) {
+    throw cli::ToolError(cli::kBadInput,
+                         fmt::format("verp run: --take-orders is for a robot on CAN, where "
+                                     "the controller is a node; {} has no place for orders",
+                                     words.link));
   }
   WalkPlan& walk = plan.walk;
   walk.entity = model::load_robot_on_any_bus(model::find_model(words.walk.model), words.walk.bus);
@@ -106,31 +109,32 @@ RunPlan make_plan(const RunWords& words) {
     plan.action = require_action(walk.entity, made, words.action);
     walk.actions = made.words;
   }
-  if (plan.link.kind == wire::Endpoint::Kind::kSerial && plan.link.baud != walk.params.baud) {
-    throw ToolError(kBadInput, fmt::format("verp run: the link runs at {} baud, the bus of {} at "
-                                           "{}; give --link serial:{}@{}, or change baud in "
-                                           "<verp:bus>",
-                                           plan.link.baud, walk.params.name, walk.params.baud,
-                                           plan.link.place, walk.params.baud));
+  if (plan.link.kind == link::Endpoint::Kind::kSerial && plan.link.baud != walk.params.baud) {
+    throw cli::ToolError(cli::kBadInput,
+                         fmt::format("verp run: the link runs at {} baud, the bus of {} at "
+                                     "{}; give --link serial:{}@{}, or change baud in "
+                                     "<verp:bus>",
+                                     plan.link.baud, walk.params.name, walk.params.baud,
+                                     plan.link.place, walk.params.baud));
   }
   return plan;
 }
 
-const char* scheduler_name(const RealTime& got) {
+const char* scheduler_name(const cli::RealTime& got) {
   return got.fifo ? "SCHED_FIFO" : "an ordinary program's";
 }
 
-Json to_json(const RunPlan& plan, const RunResult& result) {
+cli::Json to_json(const RunPlan& plan, const RunResult& result) {
   const WalkResult& walk = result.walk;
   const app::Deadlines& deadlines = result.deadlines;
   const bus::LinkFit& fit = result.fit;
   return {{"model", plan.walk.params.name},
-          {"link", wire::to_text(plan.link)},
+          {"link", link::to_text(plan.link)},
           {"imu", plan.has_imu ? "bus" : "none"},
           {"period_us", plan.walk.params.period_us},
           {"ticks", walk.ticks},
           {"walked_s", result.walked_s},
-          {"action_s", plan.action == 0 ? Json() : Json(result.played_s)},
+          {"action_s", plan.action == 0 ? cli::Json() : cli::Json(result.played_s)},
           {"falls", walk.falls},
           {"get_ups", walk.get_ups},
           {"fall_story", fall_story_json(walk)},
@@ -183,7 +187,7 @@ std::string to_text(const RunPlan& plan, const RunResult& result) {
   const bool acted = plan.action != 0;
   return fmt::format("{}: {} {:.1f} s on {}\n", plan.walk.params.name,
                      acted ? "acted for" : "walked", acted ? result.played_s : result.walked_s,
-                     wire::to_text(plan.link)) +
+                     link::to_text(plan.link)) +
          row("ticks", fmt::format("{} of {:g} ms, digest 0x{:016x}", result.walk.ticks,
                                   1e-3 * plan.walk.params.period_us, result.walk.digest)) +
          (plan.walk.get_ups > 0 ? row("falls", fmt::format("{}; got up {} times", result.walk.falls,
@@ -208,18 +212,18 @@ int tell(const RunWords& words, const RunPlan& plan, WalkFiles& files, LiveStrea
   live.finish();
   files.finish(result.walk, {});
   if (words.walk.json) {
-    Json json = to_json(plan, result);
+    cli::Json json = to_json(plan, result);
     live.add_to(json);
     files.add_to(json);
-    print_json(json);
+    cli::print_json(json);
   } else {
-    answer(to_text(plan, result) + live.text() + files.text());
+    cli::answer(to_text(plan, result) + live.text() + files.text());
   }
-  for (const std::string& line : files.lost()) complain(line);
+  for (const std::string& line : files.lost()) cli::complain(line);
   const std::string& failure = result.walk.failure;
-  if (!failure.empty()) complain("verp run: " + failure);
-  if (!failure.empty() && result.device_trouble) return kNoDevice;
-  return result.walk.good() && files.lost().empty() ? kGood : kRunFailed;
+  if (!failure.empty()) cli::complain("verp run: " + failure);
+  if (!failure.empty() && result.device_trouble) return cli::kNoDevice;
+  return result.walk.good() && files.lost().empty() ? cli::kGood : cli::kRunFailed;
 }
 
 /// What is done with a robot, however it is reached.
@@ -229,33 +233,33 @@ int run_on(Link& link, const RunWords& words, const RunPlan& plan, WalkFiles& fi
   const bus::LinkFit fit = check_latency(link, plan);
   check_imu(link, plan);
   if (!plan.has_imu) {
-    complain(
+    cli::complain(
         "verp run: no IMU: the controller is told that the body is upright and still; balance is "
         "off, and a fall is not noticed");
   }
-  Answers answers;
+  cli::Answers answers;
   // On any link: behind tcp: or pty: may be a forwarded port as well as a twin, and a twin answers
   // as the servos do.
   confirm_first_power(plan.walk.params, words.yes, answers);
   live.run_beside_real_time();
-  Progress progress(!words.walk.json);
+  cli::Progress progress(!words.walk.json);
   return tell(words, plan, files, live, drive(link, plan, fit, files.trace(), progress));
 }
 
 /// A twin in lockstep waits for its controllers, and they for it: either may be started first.
-wire::Link open_link(const RunPlan& plan) {
-  using Kind = wire::Endpoint::Kind;
+link::Link open_link(const RunPlan& plan) {
+  using Kind = link::Endpoint::Kind;
   constexpr std::uint32_t kTry_us = 100'000;
   const bool socket = plan.link.kind == Kind::kUnix || plan.link.kind == Kind::kTcp;
   for (std::uint32_t waited_us = 0;; waited_us += kTry_us) {
     try {
-      return wire::Link(plan.link);
-    } catch (const wire::LinkError& error) {
-      const bool absent = error.kind() == wire::LinkError::Kind::kNoDevice ||
-                          error.kind() == wire::LinkError::Kind::kRefused;
+      return link::Link(plan.link);
+    } catch (const link::LinkError& error) {
+      const bool absent = error.kind() == link::LinkError::Kind::kNoDevice ||
+                          error.kind() == link::LinkError::Kind::kRefused;
       const bool patient = plan.lockstep && socket && absent;
-      if (!patient || waited_us >= kArrival_us || interrupted()) throw;
-      if (waited_us == 0) complain("verp run: waiting for the twin at " + to_text(plan.link));
+      if (!patient || waited_us >= kArrival_us || cli::interrupted()) throw;
+      if (waited_us == 0) cli::complain("verp run: waiting for the twin at " + to_text(plan.link));
     }
     std::this_thread::sleep_for(std::chrono::microseconds(kTry_us));
   }
@@ -263,7 +267,7 @@ wire::Link open_link(const RunPlan& plan) {
 
 int run_robot(const RunWords& words) {
   const RunPlan plan = make_plan(words);
-  if (!plan.walk.remark.empty()) complain("verp run: " + plan.walk.remark);
+  if (!plan.walk.remark.empty()) cli::complain("verp run: " + plan.walk.remark);
   LiveStream live("verp run", words.walk.live);
   record::mcap::StringMap facts = {{"link", words.link},
                                    {"imu", plan.has_imu ? "bus" : "none: assumed upright"}};
@@ -271,28 +275,28 @@ int run_robot(const RunWords& words) {
   if (words.gains_percent < 100) facts["gains_percent"] = std::to_string(words.gains_percent);
   WalkFiles files(words.walk, plan.walk, live.robot(), facts);
   live.wait_for_viewer();
-  if (plan.link.kind == wire::Endpoint::Kind::kCan) {
-    wire::CanPort port(plan.link);
+  if (plan.link.kind == link::Endpoint::Kind::kCan) {
+    link::CanPort port(plan.link);
     check_bit_rate("verp run", port.interface(), plan.walk.params);
-    const wire::CanClaim claim(port.interface().name, "controller", "`verp run`");
+    const link::CanClaim claim(port.interface().name, "controller", "`verp run`");
     refuse_second_controller(port, plan);
     return run_on(port, words, plan, files, live);
   }
-  wire::Link link = open_link(plan);
+  link::Link link = open_link(plan);
   if (!link.connected()) {
-    complain("verp run: waiting for the robot on " + link.place());
-    for (std::uint32_t i = 0; i < 100 && !interrupted(); ++i) {
+    cli::complain("verp run: waiting for the robot on " + link.place());
+    for (std::uint32_t i = 0; i < 100 && !cli::interrupted(); ++i) {
       if (link.wait_connected(kArrival_us / 100)) break;
     }
   }
   if (!plan.lockstep) return run_on(link, words, plan, files, live);
-  Progress progress(!words.walk.json);
+  cli::Progress progress(!words.walk.json);
   return tell(words, plan, files, live, drive_in_lockstep(link, plan, files.trace(), progress));
 }
 
 }  // namespace
 
-Subcommand add_run(CLI::App& root) {
+cli::Subcommand add_run(CLI::App& root) {
   CLI::App* app = root.add_subcommand("run", "This PC controls the real servos on a link");
   auto words = std::make_shared<RunWords>();
   words->walk.command = "verp run";
@@ -304,10 +308,10 @@ Subcommand add_run(CLI::App& root) {
       ->required();
   declare_run_params(*app, words->params);
   app->add_option("--torque", words->torque_percent, "of what the servos can, percent")
-      ->check(whole_number_between(5, 100))
+      ->check(cli::whole_number_between(5, 100))
       ->capture_default_str();
   app->add_option("--gains", words->gains_percent, "of the servos' position loops, percent")
-      ->check(whole_number_between(10, 100))
+      ->check(cli::whole_number_between(10, 100))
       ->capture_default_str();
   app->add_option("--action", words->action,
                   "instead of a walk: stand, play this action (its name, or a file), sit down")
@@ -335,9 +339,9 @@ Subcommand add_run(CLI::App& root) {
          "for this controller: nothing is late, however slow either is")
       ->excludes("--take-orders");
   declare_live(*app, words->walk.live);
-  add_json_flag(*app, words->walk.json);
+  cli::add_json_flag(*app, words->walk.json);
   return {app, [words] {
-            catch_interrupts_to_the_end();
+            cli::catch_interrupts_to_the_end();
             return run_robot(*words);
           }};
 }

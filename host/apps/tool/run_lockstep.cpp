@@ -18,33 +18,33 @@ constexpr std::uint64_t kSilent_ns = 2'000'000'000;  // a twin that is free answ
 /// What this program does while it waits for the twin: gives up when the person says so twice, or
 /// when the twin has been gone for long.
 struct Waiting {
-  wire::Link* link;
+  link::Link* link;
   bool* answered;             ///< somebody has, or it was told that nobody does
   std::uint64_t lost_ns = 0;  ///< since when; 0: it is there
-  std::uint64_t asked_ns = wire::monotonic_ns();
+  std::uint64_t asked_ns = link::monotonic_ns();
 
   bool operator()() {
-    if (presses() > 1) return false;
+    if (cli::presses() > 1) return false;
     if (link->connected()) {
-      const bool silent = wire::monotonic_ns() > asked_ns + kSilent_ns;
+      const bool silent = link::monotonic_ns() > asked_ns + kSilent_ns;
       if (silent && !std::exchange(*answered, true)) {
-        complain(
+        cli::complain(
             "verp run: " + link->place() +
             ": nobody answers yet; a twin that another controller drives serves no second one");
       }
       return lost_ns = 0, true;
     }
-    if (lost_ns == 0) lost_ns = wire::monotonic_ns();
-    return wire::monotonic_ns() < lost_ns + kGone_ns;
+    if (lost_ns == 0) lost_ns = link::monotonic_ns();
+    return link::monotonic_ns() < lost_ns + kGone_ns;
   }
 };
 
 /// Dynamixel servos of a twin in lockstep.
 class TwinInLockstep {
  public:
-  using Bus = app::LockstepBus<wire::Link, Waiting>;
+  using Bus = app::LockstepBus<link::Link, Waiting>;
 
-  explicit TwinInLockstep(wire::Link& link) : link_(link), bus_(link, Waiting{&link, &answered_}) {}
+  explicit TwinInLockstep(link::Link& link) : link_(link), bus_(link, Waiting{&link, &answered_}) {}
 
   lockstep::Verdict greet(const Params& params) {
     const lockstep::Verdict verdict = bus_.greet(params);
@@ -70,7 +70,7 @@ class TwinInLockstep {
   LetGo let_go(int) const { return torque_ ? LetGo::kNo : LetGo::kYes; }
 
  private:
-  wire::Link& link_;
+  link::Link& link_;
   bool answered_ = false;
   Bus bus_;
   bool torque_ = false;
@@ -79,21 +79,25 @@ class TwinInLockstep {
 void greet(TwinInLockstep& twin, const RunPlan& plan) {
   const lockstep::Verdict verdict = twin.greet(plan.walk.params);
   if (verdict == lockstep::Verdict::kAccepted) return;
-  const std::string where = "verp run: " + wire::to_text(plan.link);
-  if (interrupted()) throw ToolError(kRunFailed, where + ": interrupted before a twin answered");
+  const std::string where = "verp run: " + link::to_text(plan.link);
+  if (cli::interrupted())
+    throw cli::ToolError(cli::kRunFailed, where + ": interrupted before a twin answered");
   if (verdict == lockstep::Verdict::kNoAnswer)
-    throw ToolError(kNoDevice, where + ": the twin hung up before it answered; start it anew");
+    throw cli::ToolError(cli::kNoDevice,
+                         where + ": the twin hung up before it answered; start it anew");
   if (verdict == lockstep::Verdict::kNoLockstep)
-    throw ToolError(kNoDevice, where + ": that twin runs in real time; leave out --lockstep");
-  throw ToolError(kBadInput, where +
-                                 ": the twin has another robot or core than this controller (it "
-                                 "says which); give both the same MODEL, --cycle and --set");
+    throw cli::ToolError(cli::kNoDevice,
+                         where + ": that twin runs in real time; leave out --lockstep");
+  throw cli::ToolError(cli::kBadInput,
+                       where +
+                           ": the twin has another robot or core than this controller (it "
+                           "says which); give both the same MODEL, --cycle and --set");
 }
 
 }  // namespace
 
-RunResult drive_in_lockstep(wire::Link& link, const RunPlan& plan, record::TraceWriter* trace,
-                            Progress& progress) {
+RunResult drive_in_lockstep(link::Link& link, const RunPlan& plan, record::TraceWriter* trace,
+                            cli::Progress& progress) {
   TwinInLockstep twin(link);
   greet(twin, plan);
   return RobotRun<TwinInLockstep>(twin, plan, {}, trace, progress).run();

@@ -37,7 +37,7 @@ void declare_run_params(CLI::App& app, RunParams& words) {
       ->check(CLI::IsMember({"bus", "none"}))
       ->capture_default_str();
   app.add_option("--period", words.period_ms, "control period instead of the model's, ms")
-      ->check(number_between(4, 20, "ms"));
+      ->check(cli::number_between(4, 20, "ms"));
 }
 
 void apply_run_params(const RunParams& words, Params& params) {

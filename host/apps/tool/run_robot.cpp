@@ -13,9 +13,9 @@ namespace {
 /// Dynamixel servos at the other end of a link.
 class SerialRobot {
  public:
-  using Bus = app::LinkBus<wire::Link, wire::SystemClock>;
+  using Bus = app::LinkBus<link::Link, link::SystemClock>;
 
-  SerialRobot(wire::Link& link, const RunPlan& plan)
+  SerialRobot(link::Link& link, const RunPlan& plan)
       : link_(link), plan_(plan), bus_(link_, clock_, kAnswer_us) {}
 
   Bus& bus() { return bus_; }
@@ -45,24 +45,24 @@ class SerialRobot {
   }
 
  private:
-  wire::Link& link_;
+  link::Link& link_;
   const RunPlan& plan_;
-  wire::SystemClock clock_;
+  link::SystemClock clock_;
   Bus bus_;
 };
 
 }  // namespace
 
-bus::LinkFit check_latency(wire::Link& link, const RunPlan& plan) {
+bus::LinkFit check_latency(link::Link& link, const RunPlan& plan) {
   const Params& params = plan.walk.params;
   bus::Client client(link, plan.link, kAnswer_us);
   const bus::LinkFit fit =
-      bus::fit(params, bus::measure_delay(client, params, [] { return interrupted(); }));
+      bus::fit(params, bus::measure_delay(client, params, [] { return cli::interrupted(); }));
   judge_fit(fit, plan);
   return fit;
 }
 
-void check_imu(wire::Link& link, const RunPlan& plan) {
+void check_imu(link::Link& link, const RunPlan& plan) {
   if (!plan.has_imu) return;
   judge_imu(plan, "");
   bus::Client client(link, plan.link, kAnswer_us);
@@ -71,8 +71,8 @@ void check_imu(wire::Link& link, const RunPlan& plan) {
   judge_imu(plan, found ? "is a " + bus::model_name(found->model) : "does not answer");
 }
 
-RunResult drive(wire::Link& link, const RunPlan& plan, const bus::LinkFit& fit,
-                record::TraceWriter* trace, Progress& progress) {
+RunResult drive(link::Link& link, const RunPlan& plan, const bus::LinkFit& fit,
+                record::TraceWriter* trace, cli::Progress& progress) {
   SerialRobot robot(link, plan);
   return RobotRun<SerialRobot>(robot, plan, fit, trace, progress).run();
 }

@@ -17,7 +17,7 @@ namespace verp::tool {
 /// A robot at the other end of a link, and how it is to be driven.
 struct RunPlan {
   WalkPlan walk;  ///< its Params as this PC's controller takes them
-  wire::Endpoint link;
+  link::Endpoint link;
   bool has_imu = true;  ///< false: `--imu none`
   int torque_percent = 100;
   bool lockstep = false;      ///< of a twin: it waits for this controller, and that for it
@@ -30,7 +30,7 @@ struct RunResult {
   bool device_trouble = false;  ///< walk.failure is the link's or a device's
   double walked_s = 0, played_s = 0;
   bus::LinkFit fit;
-  RealTime real_time;
+  cli::RealTime real_time;
   app::Deadlines deadlines;
   app::BusCounters bus;
   std::uint32_t crc_errors = 0;
@@ -41,14 +41,14 @@ struct RunResult {
 
 /// Measures what the link makes of a read, and throws ToolError with the remedy if a tick can't
 /// fit.
-bus::LinkFit check_latency(wire::Link& link, const RunPlan& plan);
+bus::LinkFit check_latency(link::Link& link, const RunPlan& plan);
 
 /// Throws ToolError if the robot has no IMU that answers.
-void check_imu(wire::Link& link, const RunPlan& plan);
+void check_imu(link::Link& link, const RunPlan& plan);
 
 /// Drives the robot until the walk is over or somebody interrupts, and lets go of it. `trace` may
 /// be null. Throws ToolError if the robot does not come up.
-RunResult drive(wire::Link& link, const RunPlan& plan, const bus::LinkFit& fit,
-                record::TraceWriter* trace, Progress& progress);
+RunResult drive(link::Link& link, const RunPlan& plan, const bus::LinkFit& fit,
+                record::TraceWriter* trace, cli::Progress& progress);
 
 }  // namespace verp::tool

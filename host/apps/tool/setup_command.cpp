@@ -27,10 +27,10 @@ struct SetupWords {
 
 /// A drive on CAN keeps its id, its bit rate and its zero by its maker's tool; all that we could
 /// write is written at every start anyway (firmware/app/node_settings.hpp).
-[[noreturn]] void refuse_can(const SetupWords& words, const wire::Endpoint& endpoint) {
-  const bool named = endpoint.kind == wire::Endpoint::Kind::kCan;
-  throw ToolError(
-      kBadInput,
+[[noreturn]] void refuse_can(const SetupWords& words, const link::Endpoint& endpoint) {
+  const bool named = endpoint.kind == link::Endpoint::Kind::kCan;
+  throw cli::ToolError(
+      cli::kBadInput,
       fmt::format("verp bus setup: is for serial servos; give drives on CAN their ids, bit rate "
                   "and zeros (607Ch) with their maker's tool or switches: every start writes the "
                   "rest. `verp bus scan --link {}` shows who is there, `verp bus checklist {} "
@@ -39,10 +39,10 @@ struct SetupWords {
                   words.bus.empty() ? "NAME" : words.bus));
 }
 
-model::Entity robot_of(const SetupWords& words, const wire::Endpoint& endpoint) {
+model::Entity robot_of(const SetupWords& words, const link::Endpoint& endpoint) {
   model::Entity entity = model::load_robot(model::find_model(words.model), words.bus);
   const bool can = entity.protocol == BusProtocol::kCia402;
-  if (can || endpoint.kind == wire::Endpoint::Kind::kCan) refuse_can(words, endpoint);
+  if (can || endpoint.kind == link::Endpoint::Kind::kCan) refuse_can(words, endpoint);
   return entity;
 }
 
@@ -57,38 +57,39 @@ void check_joint(const Params& params, const std::string& wanted) {
   std::vector<std::string> names;
   for (int j = 0; j < params.servo_count(); ++j) names.emplace_back(params.joint[j].name);
   if (wanted.empty() || std::find(names.begin(), names.end(), wanted) != names.end()) return;
-  throw ToolError(kBadInput, fmt::format("verp bus setup: {} has no joint '{}'{}", params.name,
-                                         wanted, did_you_mean(wanted, names)));
+  throw cli::ToolError(cli::kBadInput,
+                       fmt::format("verp bus setup: {} has no joint '{}'{}", params.name, wanted,
+                                   cli::did_you_mean(wanted, names)));
 }
 
 int set_up(const SetupWords& words) {
-  const wire::Endpoint endpoint = wire::parse_endpoint(words.link);
+  const link::Endpoint endpoint = link::parse_endpoint(words.link);
   const model::Entity entity = robot_of(words, endpoint);
   const Params params = model::make_params(entity);
   check_joint(params, words.choice.joint);
   SetupReport report(report_of(words, entity), params, !words.choice.dry_run);
-  Answers answers;
+  cli::Answers answers;
   SetupGuide guide(params, endpoint, words.choice, report, answers);
   const bool done = guide.run();
   if (words.json) {
-    Json json = report.json();
+    cli::Json json = report.json();
     if (report.written()) json["report"] = report.file();
-    print_json(json);
+    cli::print_json(json);
   } else {
     const std::string kept = report.written() ? report.file() : "none: nothing was written";
-    answer(report.text(params) + fmt::format("  {:<18}{}\n", "report", kept));
+    cli::answer(report.text(params) + fmt::format("  {:<18}{}\n", "report", kept));
   }
-  return done ? kGood : kRunFailed;
+  return done ? cli::kGood : cli::kRunFailed;
 }
 
 }  // namespace
 
-Subcommand add_bus_setup(CLI::App& bus) {
+cli::Subcommand add_bus_setup(CLI::App& bus) {
   CLI::App* app = bus.add_subcommand(
       "setup", "serial servos, guided, joint by joint: ids, baud, zeros, directions");
   auto words = std::make_shared<SetupWords>();
-  add_model(*app, words->model)->capture_default_str();
-  add_bus_option(*app, words->bus);
+  cli::add_model(*app, words->model)->capture_default_str();
+  cli::add_bus_option(*app, words->bus);
   app->add_option("--link", words->link, "serial:/dev/ttyUSB0, pty:PATH, tcp:HOST:PORT, unix:PATH")
       ->required();
   app->add_option("--joint", words->choice.joint, "only this one, also if it is done");
@@ -97,25 +98,25 @@ Subcommand add_bus_setup(CLI::App& bus) {
   app->add_flag("--wired", words->choice.wired,
                 "all servos are connected and have their ids already");
   app->add_flag("--dry-run", words->choice.dry_run, "write nothing to any servo");
-  add_json_flag(*app, words->json);
+  cli::add_json_flag(*app, words->json);
   return {app, [words] {
-            catch_interrupts();
+            cli::catch_interrupts();
             return set_up(*words);
           }};
 }
 
-Subcommand add_bus_checklist(CLI::App& bus) {
+cli::Subcommand add_bus_checklist(CLI::App& bus) {
   CLI::App* app = bus.add_subcommand("checklist", "what to check before servos are powered");
   struct Words {
     std::string model = "generic21", bus;
   };
   auto words = std::make_shared<Words>();
-  add_model(*app, words->model)->capture_default_str();
-  add_bus_option(*app, words->bus);
+  cli::add_model(*app, words->model)->capture_default_str();
+  cli::add_bus_option(*app, words->bus);
   return {app, [words] {
-            answer(first_power_checklist(model::make_params(
+            cli::answer(first_power_checklist(model::make_params(
                 model::load_robot(model::find_model(words->model), words->bus))));
-            return int{kGood};
+            return int{cli::kGood};
           }};
 }
 

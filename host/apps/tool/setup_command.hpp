@@ -4,10 +4,10 @@
 namespace verp::tool {
 
 // Below `verp bus`.
-Subcommand add_bus_setup(CLI::App& bus);
-Subcommand add_bus_checklist(CLI::App& bus);
-Subcommand add_bus_load(CLI::App& bus);
-Subcommand add_bus_laser(CLI::App& bus);
-Subcommand add_bus_camera(CLI::App& bus);
+cli::Subcommand add_bus_setup(CLI::App& bus);
+cli::Subcommand add_bus_checklist(CLI::App& bus);
+cli::Subcommand add_bus_load(CLI::App& bus);
+cli::Subcommand add_bus_laser(CLI::App& bus);
+cli::Subcommand add_bus_camera(CLI::App& bus);
 
 }  // namespace verp::tool

@@ -24,15 +24,15 @@ std::string thumb(const JointParams& joint) {
                      joint.axis.y, joint.axis.z);
 }
 
-void add_todo(Json& entry, const std::string& what) {
+void add_todo(cli::Json& entry, const std::string& what) {
   const std::string before = entry.value("todo", "");
   entry["todo"] = before.empty() ? what : before + "; " + what;
 }
 
 }  // namespace
 
-SetupGuide::SetupGuide(const Params& params, const wire::Endpoint& endpoint,
-                       const SetupChoice& choice, SetupReport& report, Answers& answers)
+SetupGuide::SetupGuide(const Params& params, const link::Endpoint& endpoint,
+                       const SetupChoice& choice, SetupReport& report, cli::Answers& answers)
     : params_(params),
       line_(endpoint, params.baud),
       choice_(choice),
@@ -45,7 +45,7 @@ SetupGuide::Answer SetupGuide::ask(const std::string& question) {
     if (!word || *word == "q") throw Stop{};
     if (word->empty()) return Answer::kGoOn;
     if (*word == "s") return Answer::kSkip;
-    complain("  Enter alone goes on, s skips, q ends");  // what follows may write EEPROM
+    cli::complain("  Enter alone goes on, s skips, q ends");  // what follows may write EEPROM
   }
 }
 
@@ -63,26 +63,26 @@ bool SetupGuide::run() {
     }
     return all;
   } catch (const Stop&) {
-    complain("verp bus setup: stopped; the same command goes on from here");
+    cli::complain("verp bus setup: stopped; the same command goes on from here");
     return false;
   }
 }
 
 bool SetupGuide::joint(int index) {
   const JointParams& joint = params_.joint[index];
-  complain(fmt::format("\n{} ({} of {}): id {}, {}", joint.name, index + 1, params_.servo_count(),
-                       joint.servo_id,
-                       bus::model_name(params_.servo[joint.servo_profile].model_number)));
+  cli::complain(fmt::format("\n{} ({} of {}): id {}, {}", joint.name, index + 1,
+                            params_.servo_count(), joint.servo_id,
+                            bus::model_name(params_.servo[joint.servo_profile].model_number)));
   const char* question = choice_.wired ? "Press Enter to begin (s skips the joint, q ends): "
                                        : "Connect its servo alone and power it, then press Enter "
                                          "(s skips the joint, q ends): ";
   while (ask(question) == Answer::kGoOn) {
-    Json entry = begun(joint);
+    cli::Json entry = begun(joint);
     try {
       set_up(joint, entry);
       return !entry.contains("todo");
     } catch (const bus::DeviceError& error) {
-      complain(std::string("  ") + error.what());
+      cli::complain(std::string("  ") + error.what());
       if (entry.contains("found") && !choice_.dry_run) {  // a write may have failed half-way
         entry["error"] = error.what();
         report_.keep(joint.name, entry);
@@ -94,32 +94,32 @@ bool SetupGuide::joint(int index) {
   return false;
 }
 
-Json SetupGuide::begun(const JointParams& joint) const {
-  Json entry = {{"outcome", "begun"}, {"id", joint.servo_id}, {"changes", Json::array()}};
-  const Json before = report_.of(joint.name);
+cli::Json SetupGuide::begun(const JointParams& joint) const {
+  cli::Json entry = {{"outcome", "begun"}, {"id", joint.servo_id}, {"changes", cli::Json::array()}};
+  const cli::Json before = report_.of(joint.name);
   if (!choice_.dry_run && !report_.done(joint.name) && before.contains("changes")) {
     entry["changes"] = before.at("changes");
   }
   return entry;
 }
 
-void SetupGuide::set_up(const JointParams& joint, Json& entry) {
+void SetupGuide::set_up(const JointParams& joint, cli::Json& entry) {
   bus::FoundServo servo = meet(joint);
   entry["found"] = {{"id", servo.identity.id}, {"baud", servo.baud}};
-  bus::configure(line_, servo, joint.servo_id, params_.baud, choice_.dry_run,
-                 [&](const bus::Change& change) {
-                   note(joint, change, entry);
-                   complain(fmt::format("  {} {} to {}", change.name, change.before, change.after));
-                 });
+  bus::configure(
+      line_, servo, joint.servo_id, params_.baud, choice_.dry_run, [&](const bus::Change& change) {
+        note(joint, change, entry);
+        cli::complain(fmt::format("  {} {} to {}", change.name, change.before, change.after));
+      });
   bus::Client& client = line_.at(servo.baud);
   measure_zero(joint, client, servo.identity.id, entry);
   check_direction(joint, client, servo.identity.id, entry);
   entry["outcome"] = choice_.dry_run ? "dry run" : entry.contains("todo") ? "to do" : "done";
   report_.keep(joint.name, entry);
-  complain(fmt::format("  {}", entry.at("outcome").get<std::string>()));
+  cli::complain(fmt::format("  {}", entry.at("outcome").get<std::string>()));
 }
 
-void SetupGuide::note(const JointParams& joint, const bus::Change& change, Json& entry) {
+void SetupGuide::note(const JointParams& joint, const bus::Change& change, cli::Json& entry) {
   entry["changes"].push_back(
       {{"register", change.name}, {"before", change.before}, {"after", change.after}});
   if (!choice_.dry_run) report_.keep(joint.name, entry);
@@ -127,7 +127,7 @@ void SetupGuide::note(const JointParams& joint, const bus::Change& change, Json&
 
 void SetupGuide::skip(const JointParams& joint) {
   if (report_.done(joint.name)) return;  // it stays so
-  Json entry = report_.of(joint.name);
+  cli::Json entry = report_.of(joint.name);
   entry["outcome"] = "skipped";
   entry["id"] = joint.servo_id;
   report_.keep(joint.name, entry);
@@ -145,8 +145,8 @@ bus::FoundServo SetupGuide::meet(const JointParams& joint) {
     }
     servo = {*identity, params_.baud};
   } else {
-    const auto found = line_.find([] { return interrupted(); });
-    if (interrupted()) throw Stop{};
+    const auto found = line_.find([] { return cli::interrupted(); });
+    if (cli::interrupted()) throw Stop{};
     if (found.empty())
       throw bus::DeviceError("no servo answers at any rate; check power and wiring");
     if (found.size() > 1) {
@@ -157,8 +157,8 @@ bus::FoundServo SetupGuide::meet(const JointParams& joint) {
     }
     servo = found[0];
   }
-  complain(fmt::format("  found: id {} at {} baud, {}", servo.identity.id, servo.baud,
-                       bus::model_name(servo.identity.model)));
+  cli::complain(fmt::format("  found: id {} at {} baud, {}", servo.identity.id, servo.baud,
+                            bus::model_name(servo.identity.model)));
   const std::uint16_t wanted = params_.servo[joint.servo_profile].model_number;
   if (servo.identity.model != wanted) {
     throw bus::DeviceError(fmt::format(
@@ -169,7 +169,7 @@ bus::FoundServo SetupGuide::meet(const JointParams& joint) {
 }
 
 void SetupGuide::measure_zero(const JointParams& joint, bus::Client& client, std::uint8_t id,
-                              Json& entry) {
+                              cli::Json& entry) {
   const bool stiff = client.read(id, dxl::address::kTorqueEnable, 1)[0] != 0;
   if (ask(fmt::format(
           "  Zero: {}. Put {} where the model has its angle 0, hold it, Enter "
@@ -185,14 +185,14 @@ void SetupGuide::measure_zero(const JointParams& joint, bus::Client& client, std
                    {"homing_before", fix.homing_before},
                    {"homing_after", fix.servo_can ? fix.homing_after : fix.homing_before}};
   if (!fix.servo_can) {
-    complain(
+    cli::complain(
         fmt::format("  at zero it reads {}, the model says {}: too far for the servo's Homing "
                     "Offset (it would be {})",
                     fix.count, model_count, fix.homing_after));
     return add_todo(entry, fmt::format("turn the horn, or set offset=\"{}\" of {} in the model",
                                        fix.model_offset, joint.name));
   }
-  complain(
+  cli::complain(
       fmt::format("  at zero it reads {}, the model says {}: Homing Offset {} to {}, in the "
                   "servo{}",
                   fix.count, model_count, fix.homing_before, fix.homing_after,
@@ -204,7 +204,7 @@ void SetupGuide::measure_zero(const JointParams& joint, bus::Client& client, std
 }
 
 void SetupGuide::check_direction(const JointParams& joint, bus::Client& client, std::uint8_t id,
-                                 Json& entry) {
+                                 cli::Json& entry) {
   const std::int32_t from = bus::still_position(client, id);
   std::int32_t moved = 0;
   while (std::abs(moved) < kMoved) {
@@ -215,12 +215,12 @@ void SetupGuide::check_direction(const JointParams& joint, bus::Client& client, 
     }
     moved = bus::still_position(client, id) - from;
     if (std::abs(moved) < kMoved) {
-      complain(fmt::format("  it moved by {} counts only: turn it further", moved));
+      cli::complain(fmt::format("  it moved by {} counts only: turn it further", moved));
     }
   }
   const bool right = (moved > 0) == (joint.counts_per_rad > 0);
   entry["direction"] = {{"moved", moved}, {"right", right}};
-  complain(
+  cli::complain(
       fmt::format("  {} counts: the direction is {}", moved, right ? "right" : "not the model's"));
   if (!right) {
     add_todo(entry, fmt::format("set direction=\"{}\" of {} in the model",

@@ -18,8 +18,8 @@ struct SetupChoice {
 /// what it is to be; then zero and direction, by hand, torque off.
 class SetupGuide {
  public:
-  SetupGuide(const Params& params, const wire::Endpoint& endpoint, const SetupChoice& choice,
-             SetupReport& report, Answers& answers);
+  SetupGuide(const Params& params, const link::Endpoint& endpoint, const SetupChoice& choice,
+             SetupReport& report, cli::Answers& answers);
 
   /// False: the person stopped, or joints are left to do.
   bool run();
@@ -34,20 +34,22 @@ class SetupGuide {
   /// False: something is left to do.
   bool joint(int index);
   /// What is known of a joint whose turn it is: what earlier tries changed in its servo.
-  Json begun(const JointParams& joint) const;
-  void set_up(const JointParams& joint, Json& entry);
+  cli::Json begun(const JointParams& joint) const;
+  void set_up(const JointParams& joint, cli::Json& entry);
   /// Keeps what was just written to a servo, before anything else may fail.
-  void note(const JointParams& joint, const bus::Change& change, Json& entry);
+  void note(const JointParams& joint, const bus::Change& change, cli::Json& entry);
   void skip(const JointParams& joint);
   bus::FoundServo meet(const JointParams& joint);
-  void measure_zero(const JointParams& joint, bus::Client& client, std::uint8_t id, Json& entry);
-  void check_direction(const JointParams& joint, bus::Client& client, std::uint8_t id, Json& entry);
+  void measure_zero(const JointParams& joint, bus::Client& client, std::uint8_t id,
+                    cli::Json& entry);
+  void check_direction(const JointParams& joint, bus::Client& client, std::uint8_t id,
+                       cli::Json& entry);
 
   const Params& params_;
   bus::SetupLine line_;
   const SetupChoice& choice_;
   SetupReport& report_;
-  Answers& answers_;
+  cli::Answers& answers_;
 };
 
 }  // namespace verp::tool

@@ -17,18 +17,19 @@ namespace verp::tool {
 namespace {
 
 [[noreturn]] void refuse(const std::string& file, const std::string& why) {
-  throw ToolError(kBadInput, fmt::format("{}: {}; choose another file with --report", file, why));
+  throw cli::ToolError(cli::kBadInput,
+                       fmt::format("{}: {}; choose another file with --report", file, why));
 }
 
 /// What line_of() and done() read has its types; returns what has not, or nothing.
-std::string wrong_in(const Json& entry) {
+std::string wrong_in(const cli::Json& entry) {
   if (!entry.is_object()) return "it";
   for (const char* name : {"outcome", "todo"}) {
     if (entry.contains(name) && !entry.at(name).is_string()) return name;
   }
   if (!entry.contains("changes")) return "";
-  const Json& changes = entry.at("changes");
-  const auto sound = [](const Json& each) {
+  const cli::Json& changes = entry.at("changes");
+  const auto sound = [](const cli::Json& each) {
     return each.is_object() && each.contains("before") && each.contains("after") &&
            each.contains("register") && each.at("register").is_string();
   };
@@ -91,10 +92,10 @@ std::string contents(const std::string& file) {
   return text;
 }
 
-std::string line_of(const std::string& joint, const Json& entry) {
+std::string line_of(const std::string& joint, const cli::Json& entry) {
   const std::string outcome = entry.value("outcome", "not yet");
   std::string changes;
-  for (const Json& each : entry.value("changes", Json::array())) {
+  for (const cli::Json& each : entry.value("changes", cli::Json::array())) {
     changes += fmt::format("{}{} {} to {}", changes.empty() ? "" : ", ",
                            each.at("register").get<std::string>(), each.at("before").dump(),
                            each.at("after").dump());
@@ -109,7 +110,7 @@ std::string line_of(const std::string& joint, const Json& entry) {
 SetupReport::SetupReport(std::string file, const Params& params, bool writes)
     : file_(std::move(file)),
       writes_(writes),
-      json_({{"robot", params.name}, {"baud", params.baud}, {"joints", Json::object()}}) {
+      json_({{"robot", params.name}, {"baud", params.baud}, {"joints", cli::Json::object()}}) {
   std::error_code error;
   if (std::filesystem::exists(file_, error)) read(params);
   const std::size_t room = kRoomOfEntry * static_cast<std::size_t>(params.servo_count());
@@ -117,7 +118,7 @@ SetupReport::SetupReport(std::string file, const Params& params, bool writes)
 }
 
 void SetupReport::read(const Params& params) {
-  Json read = Json::parse(contents(file_), nullptr, false);
+  cli::Json read = cli::Json::parse(contents(file_), nullptr, false);
   if (!read.is_object() || !read.contains("robot") || !read.contains("joints") ||
       !read.at("joints").is_object()) {
     refuse(file_, "is no report of `verp bus setup`");
@@ -137,20 +138,20 @@ void SetupReport::read(const Params& params) {
 }
 
 bool SetupReport::done(const std::string& joint) const {
-  const Json& joints = json_.at("joints");
+  const cli::Json& joints = json_.at("joints");
   return joints.contains(joint) && joints.at(joint).is_object() &&
          joints.at(joint).value("outcome", "") == "done";
 }
 
-Json SetupReport::of(const std::string& joint) const {
-  return json_.at("joints").value(joint, Json::object());
+cli::Json SetupReport::of(const std::string& joint) const {
+  return json_.at("joints").value(joint, cli::Json::object());
 }
 
-void SetupReport::keep(const std::string& joint, const Json& entry) {
+void SetupReport::keep(const std::string& joint, const cli::Json& entry) {
   json_["joints"][joint] = entry;
   if (!writes_) return;
   if (const int error = write_file(file_, json_.dump(2) + '\n'); error != 0) {
-    complain("  not in the report: " + Json{{joint, entry}}.dump());
+    cli::complain("  not in the report: " + cli::Json{{joint, entry}}.dump());
     refuse_place(file_, error);
   }
   written_ = true;
@@ -159,10 +160,10 @@ void SetupReport::keep(const std::string& joint, const Json& entry) {
 std::string SetupReport::text(const Params& params) const {
   std::string out =
       fmt::format("{}: servos set up on the bus of {} baud\n", params.name, params.baud);
-  const Json& joints = json_.at("joints");
+  const cli::Json& joints = json_.at("joints");
   for (int j = 0; j < params.servo_count(); ++j) {
     const std::string name = params.joint[j].name;
-    out += line_of(name, joints.contains(name) ? joints.at(name) : Json::object());
+    out += line_of(name, joints.contains(name) ? joints.at(name) : cli::Json::object());
   }
   return out;
 }

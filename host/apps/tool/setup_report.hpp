@@ -17,12 +17,12 @@ class SetupReport {
   /// That joint needs no more: nothing is left to do for a person.
   bool done(const std::string& joint) const;
   /// What is known of the joint; nothing: an empty object.
-  Json of(const std::string& joint) const;
+  cli::Json of(const std::string& joint) const;
   /// Keeps `entry` for the joint; if the file can't be written, prints the entry and throws
   /// ToolError.
-  void keep(const std::string& joint, const Json& entry);
+  void keep(const std::string& joint, const cli::Json& entry);
 
-  const Json& json() const { return json_; }
+  const cli::Json& json() const { return json_; }
   const std::string& file() const { return file_; }
   /// The file is there, as this report or an earlier one.
   bool written() const { return written_; }
@@ -35,7 +35,7 @@ class SetupReport {
   std::string file_;
   bool writes_;
   bool written_ = false;
-  Json json_;
+  cli::Json json_;
 };
 
 }  // namespace verp::tool

@@ -7,13 +7,13 @@
 #include <memory>
 #include <thread>
 
-#include "host/apps/cli/command.hpp"
 #include "host/apps/cli/console.hpp"
 #include "host/apps/cli/interrupt.hpp"
 #include "host/apps/cli/json.hpp"
 #include "host/apps/cli/progress.hpp"
 #include "host/apps/tool/action_words.hpp"
 #include "host/apps/tool/bit_rate.hpp"
+#include "host/apps/tool/commands.hpp"
 #include "host/apps/tool/run_params.hpp"
 #include "host/apps/tool/walk_options.hpp"
 #include "host/os/link/can_claim.hpp"
@@ -47,8 +47,8 @@ model::Entity robot_on(const ShadowWords& words, bool can) {
     model::require_bus(entity, model::make_params(entity));
     return entity;
   }
-  throw ToolError(
-      kBadInput,
+  throw cli::ToolError(
+      cli::kBadInput,
       fmt::format("verp shadow: {}: the bus of {} speaks {}, and {} is a CAN interface; "
                   "name another of its buses with --bus",
                   entity.file, entity.name, model::protocol_name(entity.protocol), words.link));
@@ -60,8 +60,8 @@ class CanSide {
   static constexpr const char* kRemedy =
       "is it running, on this bus, with a node of its own that keeps ticks?";
   CanSide(const std::string& link, const Params& params, const action::Library& own)
-      : port_(wire::parse_endpoint(link)),
-        claim_(port_.interface().name, "watcher", wire::CanClaim::kWatcher),
+      : port_(link::parse_endpoint(link)),
+        claim_(port_.interface().name, "watcher", link::CanClaim::kWatcher),
         check(params, own) {
     check_bit_rate("verp shadow", port_.interface(), params);
   }
@@ -76,8 +76,8 @@ class CanSide {
 
  private:
   static constexpr std::uint32_t kIdle_us = 20'000;  ///< how long Ctrl-C may have to wait
-  wire::CanPort port_;
-  wire::CanClaim claim_;
+  link::CanPort port_;
+  link::CanClaim claim_;
 
  public:
   shadow::LiveCheck check;
@@ -89,16 +89,16 @@ class SerialSide {
   static constexpr const char* kRemedy =
       "is it running, is this its operator's port, and is no other program using it?";
   SerialSide(const std::string& link, const Params& params, const action::Library& own)
-      : port_(wire::parse_endpoint(link)), check(params, port_, own) {}
+      : port_(link::parse_endpoint(link)), check(params, port_, own) {}
   void turn() {
     if (!check.turn(now_us())) std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
-  std::uint64_t now_us() const { return (wire::monotonic_ns() - opened_ns_) / 1000; }
+  std::uint64_t now_us() const { return (link::monotonic_ns() - opened_ns_) / 1000; }
   bool connected() const { return port_.connected(); }
 
  private:
   shadow::TickPort port_;
-  std::uint64_t opened_ns_ = wire::monotonic_ns();
+  std::uint64_t opened_ns_ = link::monotonic_ns();
 
  public:
   shadow::PolledCheck check;
@@ -113,17 +113,17 @@ class ShadowRun {
 
   int run() {
     say(fmt::format("looking for the controller of {} on {}", params_.name, words_.link));
-    while (!check_.over() && !enough() && !interrupted() && failure_.empty()) {
+    while (!check_.over() && !enough() && !cli::interrupted() && failure_.empty()) {
       side_.turn();
       watch(side_.now_us());
     }
     progress_.clear();
     if (failure_.empty()) failure_ = check_.refusal();
     if (check_.suspects()) say("the end came while a digest that differs was looked into");
-    words_.json ? print_json(to_json()) : answer(to_text());
+    words_.json ? cli::print_json(to_json()) : cli::answer(to_text());
     if (!failure_.empty()) {
-      complain("verp shadow: " + failure_);
-      return check_.refusal().empty() ? kNoDevice : kBadInput;
+      cli::complain("verp shadow: " + failure_);
+      return check_.refusal().empty() ? cli::kNoDevice : cli::kBadInput;
     }
     if (check_.unsettled() > 0) {
       say(fmt::format("{} digests differed that could not be looked into in time",
@@ -131,7 +131,7 @@ class ShadowRun {
     }
     const bool good =
         !check_.over() && !check_.suspects() && check_.unsettled() == 0 && check_.compared() > 0;
-    return good ? kGood : kRunFailed;
+    return good ? cli::kGood : cli::kRunFailed;
   }
 
  private:
@@ -143,7 +143,7 @@ class ShadowRun {
 
   void say(const std::string& line) {
     progress_.clear();
-    complain("verp shadow: " + line);
+    cli::complain("verp shadow: " + line);
   }
 
   void watch(std::uint64_t now_us) {
@@ -173,17 +173,17 @@ class ShadowRun {
     return record::text(check_.divergence(), params_, "controller", "PC");
   }
 
-  Json to_json() const {
-    Json json = {{"model", params_.name},
-                 {"link", words_.link},
-                 {"compared_ticks", check_.compared()},
-                 {"tick", nullptr},  // of nothing compared; below, of the last
-                 {"digest", nullptr},
-                 {"gaps", check_.gaps()},
-                 {"controller_resets", check_.boots()},
-                 {"unsettled", check_.unsettled()},
-                 {"differs", check_.differs()},
-                 {"failure", failure_}};
+  cli::Json to_json() const {
+    cli::Json json = {{"model", params_.name},
+                      {"link", words_.link},
+                      {"compared_ticks", check_.compared()},
+                      {"tick", nullptr},  // of nothing compared; below, of the last
+                      {"digest", nullptr},
+                      {"gaps", check_.gaps()},
+                      {"controller_resets", check_.boots()},
+                      {"unsettled", check_.unsettled()},
+                      {"differs", check_.differs()},
+                      {"failure", failure_}};
     if (check_.compared() > 0) {
       json["tick"] = check_.tick();
       json["digest"] = fmt::format("0x{:016x}", check_.digest());
@@ -216,7 +216,7 @@ class ShadowRun {
 
   const ShadowWords& words_;
   const Params& params_;
-  Progress progress_;
+  cli::Progress progress_;
   Side side_;
   decltype(Side::check)& check_ = side_.check;
   std::string failure_;
@@ -233,7 +233,7 @@ Params params_of(const ShadowWords& words, const model::Entity& entity) {
 }
 
 int run_shadow(const ShadowWords& words) {
-  const bool can = wire::parse_endpoint(words.link).kind == wire::Endpoint::Kind::kCan;
+  const bool can = link::parse_endpoint(words.link).kind == link::Endpoint::Kind::kCan;
   const model::Entity entity = robot_on(words, can);
   const Params params = params_of(words, entity);
   const action::Made made = make_actions(entity, params, "");
@@ -244,28 +244,28 @@ int run_shadow(const ShadowWords& words) {
 
 }  // namespace
 
-Subcommand add_shadow(CLI::App& root) {
+cli::Subcommand add_shadow(CLI::App& root) {
   CLI::App* app = root.add_subcommand(
       "shadow", "Run the controller once more beside one that runs, and compare each tick");
   auto words = std::make_shared<ShadowWords>();
-  add_model(*app, words->model)->required();
+  cli::add_model(*app, words->model)->required();
   app->add_option(
          "--link", words->link,
          "can:INTERFACE, the bus of its drives; or its operator's port: serial:DEVICE@BAUD, "
          "pty:PATH, tcp:HOST:PORT or unix:PATH")
       ->required();
-  add_bus_option(*app, words->bus);
+  cli::add_bus_option(*app, words->bus);
   app->add_option("--for", words->for_s, "end after so much of the robot's time was compared, s")
-      ->check(number_between(0.01, 1e6, "s"));
+      ->check(cli::number_between(0.01, 1e6, "s"));
   app->add_option("--patience", words->patience_s, "give up when nothing was heard for so long, s")
-      ->check(number_between(0.1, 1e6, "s"))
+      ->check(cli::number_between(0.1, 1e6, "s"))
       ->capture_default_str();
   declare_run_params(*app, words->params);
   words->tuning.command = "verp shadow";
   declare_tuning(*app, words->tuning);
-  add_json_flag(*app, words->json);
+  cli::add_json_flag(*app, words->json);
   return {app, [words] {
-            catch_interrupts();
+            cli::catch_interrupts();
             return run_shadow(*words);
           }};
 }

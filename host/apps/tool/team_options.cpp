@@ -37,9 +37,10 @@ void require_one_driver(const std::string& command, const std::string& word, con
   const bool links =
       seat.link.find(",on:") != std::string::npos || seat.link.find(",ext:") != std::string::npos;
   if (!boards && !links) return;
-  throw ToolError(kBadInput, fmt::format("{}: --robot {}: a robot has one controller: on:BOARD or "
-                                         "ext:LINK, and a model stands before it",
-                                         command, word));
+  throw cli::ToolError(cli::kBadInput,
+                       fmt::format("{}: --robot {}: a robot has one controller: on:BOARD or "
+                                   "ext:LINK, and a model stands before it",
+                                   command, word));
 }
 
 Seat parse_seat(const std::string& command, const std::string& word) {
@@ -55,9 +56,10 @@ Seat parse_seat(const std::string& command, const std::string& word) {
   const bool whole = comma == std::string::npos || take_driver(what.substr(comma + 1), seat);
   require_one_driver(command, word, seat);
   if (whole && !seat.model.empty() && seat.model != "ext:" && seat.model != "on:") return seat;
-  throw ToolError(kBadInput, fmt::format("{}: --robot {}: that is not NAME=MODEL, NAME=ext:LINK, "
-                                         "NAME=on:BOARD, or NAME=MODEL,ext:LINK",
-                                         command, word));
+  throw cli::ToolError(cli::kBadInput,
+                       fmt::format("{}: --robot {}: that is not NAME=MODEL, NAME=ext:LINK, "
+                                   "NAME=on:BOARD, or NAME=MODEL,ext:LINK",
+                                   command, word));
 }
 
 }  // namespace
@@ -65,7 +67,7 @@ Seat parse_seat(const std::string& command, const std::string& word) {
 void declare_robots(CLI::App& app, TeamOptions& options) {
   app.add_option("--robots", options.robots,
                  "so many robots in one world, two abreast; their names are r1, r2, ...")
-      ->check(whole_number_between(1, kMostRobots));
+      ->check(cli::whole_number_between(1, kMostRobots));
 }
 
 void declare_outside(CLI::App& app, TeamOptions& options) {
@@ -80,7 +82,7 @@ void declare_outside(CLI::App& app, TeamOptions& options) {
          "--patience", options.patience_s,
          "how long such a controller may keep the world waiting once it has come, s by the wall's "
          "clock; for the first words of one it waits as long as it takes")
-      ->check(number_between(0.1, kMostPatience_s, "s"))
+      ->check(cli::number_between(0.1, kMostPatience_s, "s"))
       ->each([&options](const std::string&) { options.of_outside = "--patience"; })
       ->capture_default_str();
 }
@@ -105,10 +107,11 @@ bool sort_robot_words(const std::vector<std::string>& words, std::string& model,
       continue;
     }
     if (given) {
-      throw ToolError(kBadInput,
-                      fmt::format("verp walk: two models, {} and {}; several robots have names: "
-                                  "--robot a={} --robot b={}",
-                                  model, word, model, word));
+      throw cli::ToolError(
+          cli::kBadInput,
+          fmt::format("verp walk: two models, {} and {}; several robots have names: "
+                      "--robot a={} --robot b={}",
+                      model, word, model, word));
     }
     model = word;
     given = true;
@@ -124,9 +127,10 @@ std::vector<Seat> seats_of(const std::string& command, const TeamOptions& option
   for (const std::string& word : options.seats) {
     const Seat seat = parse_seat(command, word);
     if (std::count(named.begin(), named.end(), seat.name) > 0) {
-      throw ToolError(kBadInput, fmt::format("{}: --robot {}: there is a robot {} already; give "
-                                             "each a name of its own",
-                                             command, word, seat.name));
+      throw cli::ToolError(cli::kBadInput,
+                           fmt::format("{}: --robot {}: there is a robot {} already; give "
+                                       "each a name of its own",
+                                       command, word, seat.name));
     }
     named.push_back(seat.name);
     const auto same = std::find_if(seats.begin(), seats.end(),
@@ -134,8 +138,8 @@ std::vector<Seat> seats_of(const std::string& command, const TeamOptions& option
     same == seats.end() ? seats.push_back(seat) : void(*same = seat);
   }
   if (seats.size() > kMostRobots) {
-    throw ToolError(kBadInput, fmt::format("{}: {} robots; a world has room for {}", command,
-                                           seats.size(), kMostRobots));
+    throw cli::ToolError(cli::kBadInput, fmt::format("{}: {} robots; a world has room for {}",
+                                                     command, seats.size(), kMostRobots));
   }
   return seats;
 }

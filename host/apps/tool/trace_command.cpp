@@ -4,10 +4,10 @@
 #include <cstring>
 #include <memory>
 
-#include "host/apps/cli/command.hpp"
 #include "host/apps/cli/console.hpp"
 #include "host/apps/cli/interrupt.hpp"
 #include "host/apps/cli/json.hpp"
+#include "host/apps/tool/commands.hpp"
 #include "host/apps/tool/trace_pictures.hpp"
 #include "host/apps/tool/trace_words.hpp"
 #include "host/apps/tool/walk_options.hpp"
@@ -22,14 +22,14 @@ int info(const TraceWords& words) {
   const double duration_s = static_cast<double>(trace.ticks.size()) * trace.period_s();
   const std::string digest = fmt::format("0x{:016x}", trace.digest());
   if (words.json) {
-    Json metadata = Json::object();
+    cli::Json metadata = cli::Json::object();
     for (const auto& [key, value] : trace.metadata) metadata[key] = value;
-    Json changes = Json::array();
+    cli::Json changes = cli::Json::array();
     for (const record::Change& each : trace.changes) {
       changes.push_back(
           {{"tick", each.tick}, {"time_s", each.tick * trace.period_s()}, {"what", each.what}});
     }
-    print_json(
+    cli::print_json(
         {{"trace", words.file},
          {"model", std::string(trace.params.name, ::strnlen(trace.params.name, kNameLength))},
          {"ticks", trace.ticks.size()},
@@ -40,18 +40,19 @@ int info(const TraceWords& words) {
          {"digest", digest},
          {"changes", changes},
          {"metadata", metadata}});
-    return kGood;
+    return cli::kGood;
   }
-  answer(
+  cli::answer(
       fmt::format("{}\n  {} ticks of {} us: {:.2f} s\n  {} joints, {} kept States\n  digest {}\n",
                   words.file, trace.ticks.size(), trace.params.period_us, duration_s,
                   trace.params.joint_count, trace.keyframes.size(), digest));
   for (const record::Change& each : trace.changes) {
-    answer(fmt::format("  after tick {}, {:.2f} s: {}\n", each.tick, each.tick * trace.period_s(),
-                       each.what));
+    cli::answer(fmt::format("  after tick {}, {:.2f} s: {}\n", each.tick,
+                            each.tick * trace.period_s(), each.what));
   }
-  for (const auto& [key, value] : trace.metadata) answer(fmt::format("  {}: {}\n", key, value));
-  return kGood;
+  for (const auto& [key, value] : trace.metadata)
+    cli::answer(fmt::format("  {}: {}\n", key, value));
+  return cli::kGood;
 }
 
 int recover(const TraceWords& words) {
@@ -87,15 +88,15 @@ int recover(const TraceWords& words) {
     writer.discard();
     throw;
   }
-  complain(trace.warning.empty() ? words.file + ": is whole" : trace.warning);
-  answer(fmt::format("{}: {} ticks\n", words.output, trace.ticks.size()));
-  return kGood;
+  cli::complain(trace.warning.empty() ? words.file + ": is whole" : trace.warning);
+  cli::answer(fmt::format("{}: {} ticks\n", words.output, trace.ticks.size()));
+  return cli::kGood;
 }
 
 int cut(const TraceWords& words) {
   refuse_same_file(words);
   if (!words.from_s && !words.to_s) {
-    throw ToolError(kBadInput, "verp trace cut: give --from, --to, or both");
+    throw cli::ToolError(cli::kBadInput, "verp trace cut: give --from, --to, or both");
   }
   const record::Cut made =
       record::cut_trace(words.file, words.from_s, words.to_s, words.output, compression_of(words));
@@ -107,13 +108,13 @@ int cut(const TraceWords& words) {
                     *words.from_s - made.first_s,
                     made.from_state ? "at the last State that was kept" : "where the trace does");
   }
-  answer(text + '\n');
-  return kGood;
+  cli::answer(text + '\n');
+  return cli::kGood;
 }
 
 }  // namespace
 
-Subcommand add_trace(CLI::App& root) {
+cli::Subcommand add_trace(CLI::App& root) {
   CLI::App* app = root.add_subcommand(
       "trace", "Look into a trace, draw, export, play or cut it, recover what a crash left");
   app->require_subcommand(1);
@@ -124,7 +125,7 @@ Subcommand add_trace(CLI::App& root) {
     return inner;
   };
   const auto add_time = [&](CLI::App* inner) {
-    const auto seconds = number_between(0, 1e7, "s");
+    const auto seconds = cli::number_between(0, 1e7, "s");
     inner->add_option("--from", words->from_s, "s, as `trace export` has it")->check(seconds);
     inner->add_option("--to", words->to_s, "s")->check(seconds);
   };
@@ -148,7 +149,7 @@ Subcommand add_trace(CLI::App& root) {
   for (CLI::App* inner : {show, csv, plot}) {
     inner->add_flag("--recover", words->recover, "take what stands before a truncation or damage");
   }
-  add_json_flag(*show, words->json);
+  cli::add_json_flag(*show, words->json);
   CLI::App* mend =
       add("recover", "write what stands before a truncation or damage as a whole trace");
   mend->add_option("-o,--output", words->output, "file")->required();
@@ -166,11 +167,11 @@ Subcommand add_trace(CLI::App& root) {
   declare_live(*again, words->live);
   words->live.on = true;
   again->add_option("--rate", words->rate, "times as fast as it was")
-      ->check(number_between(0.01, 100, ""))
+      ->check(cli::number_between(0.01, 100, ""))
       ->capture_default_str();
   return {app, [=] {
             if (again->parsed()) {
-              catch_interrupts();
+              cli::catch_interrupts();
               return play(*words);
             }
             if (show->parsed()) return info(*words);

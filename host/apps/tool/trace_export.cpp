@@ -20,16 +20,18 @@ void write_whole(signals::Table& table, const std::filesystem::path& file) {
   if (!direct) part += "." + std::to_string(::getpid()) + ".part";
   std::ofstream out(part);
   if (!out) {
-    throw ToolError(
-        kBadInput, file.string() + ": cannot be written; choose a folder that exists and is yours");
+    throw cli::ToolError(
+        cli::kBadInput,
+        file.string() + ": cannot be written; choose a folder that exists and is yours");
   }
   signals::write_csv(table, out);
   out.close();
   if (out && !direct) fs::rename(part, file, error);
   if (out && (direct || !error)) return;
   if (!direct) fs::remove(part, error);
-  throw ToolError(kRunFailed,
-                  file.string() + ": cannot be written to its end; free space, or write elsewhere");
+  throw cli::ToolError(
+      cli::kRunFailed,
+      file.string() + ": cannot be written to its end; free space, or write elsewhere");
 }
 
 }  // namespace
@@ -44,7 +46,7 @@ int export_csv(const TraceWords& words) {
     write_whole(table, words.output);
   }
   tell_of_other_decisions(trace, table.other_from());
-  return kGood;
+  return cli::kGood;
 }
 
 }  // namespace verp::tool

@@ -30,9 +30,10 @@ record::NamedTrace named_trace(const std::string& word) {
   }
   const std::string name = word.substr(0, equals);
   if (name.empty() || !std::all_of(name.begin(), name.end(), is_letter)) {
-    throw ToolError(kBadInput, fmt::format("verp trace merge: {}: a robot's name is of letters, "
-                                           "digits and _; give NAME=FILE",
-                                           word));
+    throw cli::ToolError(cli::kBadInput,
+                         fmt::format("verp trace merge: {}: a robot's name is of letters, "
+                                     "digits and _; give NAME=FILE",
+                                     word));
   }
   return {name, word.substr(equals + 1)};
 }
@@ -46,10 +47,11 @@ int merge(const TraceWords& words) {
     const auto same = std::find_if(traces.begin(), traces.end(),
                                    [&](const auto& each) { return each.robot == named.robot; });
     if (same != traces.end()) {
-      throw ToolError(kBadInput, fmt::format("verp trace merge: {} and {}: two robots called {}; "
-                                             "give NAME={}",
-                                             same->file.string(), named.file.string(), named.robot,
-                                             named.file.string()));
+      throw cli::ToolError(
+          cli::kBadInput,
+          fmt::format("verp trace merge: {} and {}: two robots called {}; "
+                      "give NAME={}",
+                      same->file.string(), named.file.string(), named.robot, named.file.string()));
     }
     TraceWords one = words;
     one.file = named.file.string();
@@ -57,11 +59,11 @@ int merge(const TraceWords& words) {
     traces.push_back(named);
   }
   if (traces.size() < 2) {
-    throw ToolError(kBadInput, "verp trace merge: give two traces or more");
+    throw cli::ToolError(cli::kBadInput, "verp trace merge: give two traces or more");
   }
   const std::size_t messages = record::merge_traces(traces, words.output, compression_of(words));
-  answer(fmt::format("{}: {} robots, {} messages\n", words.output, traces.size(), messages));
-  return kGood;
+  cli::answer(fmt::format("{}: {} robots, {} messages\n", words.output, traces.size(), messages));
+  return cli::kGood;
 }
 
 }  // namespace verp::tool

@@ -48,8 +48,8 @@ std::pair<std::string, std::string> as_file(const record::ros::Picture& picture)
 
 void write_file(const fs::path& file, const std::string& bytes) {
   if (files::write(file, bytes)) return;
-  throw ToolError(
-      kRunFailed,
+  throw cli::ToolError(
+      cli::kRunFailed,
       file.string() + ": cannot be written; free space, or name another folder with -o");
 }
 
@@ -63,12 +63,13 @@ int write_pictures(const std::string& trace, const std::string& folder) {
         write_file(fs::path(folder) / (name_of(recorded) + kind), bytes);
       });
   if (count == 0) {
-    throw ToolError(kBadInput, trace +
-                                   ": has no pictures; `verp walk --cameras --record F.mcap` keeps "
-                                   "what the robot's cameras see");
+    throw cli::ToolError(cli::kBadInput,
+                         trace +
+                             ": has no pictures; `verp walk --cameras --record F.mcap` keeps "
+                             "what the robot's cameras see");
   }
-  answer(fmt::format("{}: {} pictures\n", folder, count));
-  return kGood;
+  cli::answer(fmt::format("{}: {} pictures\n", folder, count));
+  return cli::kGood;
 }
 
 }  // namespace verp::tool

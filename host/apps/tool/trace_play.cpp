@@ -18,10 +18,10 @@ constexpr std::uint64_t kNap_ns = 20'000'000;  // Ctrl-C is looked at so often
 
 /// False: interrupted.
 bool sleep_until(std::uint64_t time_ns) {
-  while (!interrupted()) {
-    const std::uint64_t now_ns = wire::monotonic_ns();
+  while (!cli::interrupted()) {
+    const std::uint64_t now_ns = link::monotonic_ns();
     if (now_ns >= time_ns) return true;
-    wire::sleep_until_ns(std::min(time_ns, now_ns + kNap_ns));
+    link::sleep_until_ns(std::min(time_ns, now_ns + kNap_ns));
   }
   return false;
 }
@@ -46,7 +46,7 @@ int play(const TraceWords& words) {
   for (const auto& [id, channel] : file.channels) to.channel(id, channel);
   const auto messages = in_order(file);
   live.wait_for_viewer();
-  const std::uint64_t begun_ns = wire::monotonic_ns();
+  const std::uint64_t begun_ns = link::monotonic_ns();
   const std::uint64_t first_ns = messages.empty() ? 0 : messages.front()->time_ns;
   std::size_t played = 0;
   for (const record::mcap::Message* message : messages) {
@@ -56,11 +56,11 @@ int play(const TraceWords& words) {
     ++played;
   }
   live.finish();
-  answer(fmt::format("{}: {} of {} messages played\n{}", words.file, played, messages.size(),
-                     live.text()));
-  if (played == messages.size()) return kGood;
-  complain("verp trace play: interrupted");
-  return kRunFailed;
+  cli::answer(fmt::format("{}: {} of {} messages played\n{}", words.file, played, messages.size(),
+                          live.text()));
+  if (played == messages.size()) return cli::kGood;
+  cli::complain("verp trace play: interrupted");
+  return cli::kRunFailed;
 }
 
 }  // namespace verp::tool

@@ -19,14 +19,14 @@ constexpr std::size_t kMostPanels = 40;  // of one picture: beyond, nobody sees 
 using signals::Column;
 
 [[noreturn]] void refuse_plot(const std::string& why) {
-  throw ToolError(kBadInput, "verp trace plot: " + why);
+  throw cli::ToolError(cli::kBadInput, "verp trace plot: " + why);
 }
 
 int list_signals(const std::vector<Column>& columns) {
   std::string text;
   for (const Column& column : columns) text += column.name + '\n';
-  answer(text);
-  return kGood;
+  cli::answer(text);
+  return cli::kGood;
 }
 
 /// Each once, in the order in which they were asked for.
@@ -38,7 +38,7 @@ std::vector<std::size_t> chosen(const TraceWords& words, const std::vector<Colum
     const std::vector<std::size_t> found = signals::matching(columns, word);
     if (found.empty()) {
       refuse_plot(fmt::format("--signal {}: {} has no signal of that name{}; --list prints them",
-                              word, words.file, did_you_mean(word, names)));
+                              word, words.file, cli::did_you_mean(word, names)));
     }
     for (const std::size_t i : found) {
       if (std::find(all.begin(), all.end(), i) == all.end()) all.push_back(i);
@@ -49,12 +49,12 @@ std::vector<std::size_t> chosen(const TraceWords& words, const std::vector<Colum
 
 std::optional<std::string> draw_as(const std::string& ending, const report::Plot& plot) {
   if (!report::gnuplot_available()) {
-    throw ToolError(kNoDevice,
-                    "verp trace plot: gnuplot is not installed (apt-get install gnuplot-nox)");
+    throw cli::ToolError(cli::kNoDevice,
+                         "verp trace plot: gnuplot is not installed (apt-get install gnuplot-nox)");
   }
   std::string error;
   auto picture = ending == ".png" ? report::draw_png(plot, error) : report::draw_svg(plot, error);
-  if (!picture) throw ToolError(kRunFailed, "verp trace plot: gnuplot: " + error);
+  if (!picture) throw cli::ToolError(cli::kRunFailed, "verp trace plot: gnuplot: " + error);
   return picture;
 }
 
@@ -87,8 +87,8 @@ int plot_trace(const TraceWords& words) {
   }
   report::write_file(words.output, *draw_as(ending, signals::plot_of(series, words.file)));
   tell_of_other_decisions(trace, table.other_from());
-  answer(words.output + '\n');
-  return kGood;
+  cli::answer(words.output + '\n');
+  return cli::kGood;
 }
 
 }  // namespace verp::tool

@@ -12,7 +12,7 @@ namespace verp::tool {
 record::Trace load_trace(const TraceWords& words) {
   record::Trace trace = record::read_trace(
       words.file, words.recover ? record::Read::kRecover : record::Read::kStrict);
-  if (!trace.warning.empty()) complain(trace.warning);
+  if (!trace.warning.empty()) cli::complain(trace.warning);
   return trace;
 }
 
@@ -21,8 +21,8 @@ void refuse_same_file(const TraceWords& words) {
   if (words.output.empty() || !std::filesystem::equivalent(words.file, words.output, error)) {
     return;
   }
-  throw ToolError(kBadInput,
-                  words.output + ": that is the trace itself; name another file with -o");
+  throw cli::ToolError(cli::kBadInput,
+                       words.output + ": that is the trace itself; name another file with -o");
 }
 
 record::mcap::Compression compression_of(const TraceWords& words) {
@@ -31,7 +31,7 @@ record::mcap::Compression compression_of(const TraceWords& words) {
 
 void tell_of_other_decisions(const record::Trace& trace, const std::optional<std::uint32_t>& tick) {
   if (!tick) return;
-  complain(
+  cli::complain(
       fmt::format("{}: from tick {} on this program decides otherwise than the one that "
                   "recorded it: goals and phases are left empty; `verp replay` names why",
                   trace.file.string(), *tick));

@@ -4,12 +4,12 @@
 #include <filesystem>
 #include <memory>
 
-#include "host/apps/cli/command.hpp"
 #include "host/apps/cli/console.hpp"
 #include "host/apps/cli/exit_status.hpp"
 #include "host/apps/cli/interrupt.hpp"
 #include "host/apps/cli/json.hpp"
 #include "host/apps/cli/progress.hpp"
+#include "host/apps/tool/commands.hpp"
 #include "host/os/files/whole.hpp"
 #include "host/robot/model/find.hpp"
 #include "host/robot/model/load.hpp"
@@ -33,18 +33,18 @@ struct TuneWords {
   bool quick = false, json = false;
 };
 
-Json json_of(const tune::Check& check) {
+cli::Json json_of(const tune::Check& check) {
   const survey::Interval share = survey::interval_of(static_cast<std::uint64_t>(check.walked),
                                                      static_cast<std::uint64_t>(check.of));
   return {{"walked", check.walked},
           {"of", check.of},
           {"interval", {share.low, share.high}},
-          {"zmp_bias_mm", check.bias_mm ? Json(*check.bias_mm) : Json()},
-          {"speed_m_s", check.speed_m_s ? Json(*check.speed_m_s) : Json()}};
+          {"zmp_bias_mm", check.bias_mm ? cli::Json(*check.bias_mm) : cli::Json()},
+          {"speed_m_s", check.speed_m_s ? cli::Json(*check.speed_m_s) : cli::Json()}};
 }
 
-Json json_of(const tune::Result& result, const TuneWords& words) {
-  Json numbers = Json::array();
+cli::Json json_of(const tune::Result& result, const TuneWords& words) {
+  cli::Json numbers = cli::Json::array();
   for (const tune::Number& each : result.numbers)
     numbers.push_back({{"number", each.name},
                        {"was", std::stod(fmt::format("{}", each.was))},
@@ -85,15 +85,16 @@ std::filesystem::path folder_of(const std::filesystem::path& file) {
 void require_place(const std::string& file, const std::filesystem::path& robot_file) {
   std::error_code error;
   if (std::filesystem::exists(file, error))
-    throw ToolError(kBadInput, file + ": is there already; choose another name");
+    throw cli::ToolError(cli::kBadInput, file + ": is there already; choose another name");
   if (!files::write(file, files::read(robot_file).value_or("")))
-    throw ToolError(kBadInput, file + ": cannot be written; choose another folder");
+    throw cli::ToolError(cli::kBadInput, file + ": cannot be written; choose another folder");
   try {
     model::load_robot_on_any_bus(file, "");
   } catch (const model::LoadError& refused) {
     std::filesystem::remove(file, error);
-    throw ToolError(kBadInput, fmt::format("verp tune: --write {}: {}; write it beside {}", file,
-                                           refused.what(), robot_file.string()));
+    throw cli::ToolError(cli::kBadInput,
+                         fmt::format("verp tune: --write {}: {}; write it beside {}", file,
+                                     refused.what(), robot_file.string()));
   }
   std::filesystem::remove(file, error);
 }
@@ -106,10 +107,10 @@ int run_tune(const TuneWords& words) {
   plan.params = model::make_params(plan.entity);
   sim::WorldOptions world;
   world.step_us = kStep_us;
-  catch_interrupts();
-  Progress progress(!words.json);
+  cli::catch_interrupts();
+  cli::Progress progress(!words.json);
   survey::Watch watch;
-  watch.interrupted = interrupted;
+  watch.interrupted = cli::interrupted;
   watch.went_on = [&](double share) { progress.show(share, "walks in the twin"); };
   const tune::Result result =
       tune::tune(plan, world,
@@ -119,8 +120,8 @@ int run_tune(const TuneWords& words) {
                   .seed = words.seed},
                  watch);
   progress.clear();
-  if (result.interrupted) throw ToolError(kRunFailed, "verp tune: interrupted");
-  Json json = json_of(result, words);
+  if (result.interrupted) throw cli::ToolError(cli::kRunFailed, "verp tune: interrupted");
+  cli::Json json = json_of(result, words);
   std::string text = text_of(result, words, plan.entity.name);
   if (!words.file.empty() && result.limit.empty()) {
     tune::write(result.numbers, robot_file, words.file);
@@ -130,31 +131,31 @@ int run_tune(const TuneWords& words) {
     if (folder_of(words.file) != folder_of(robot_file))
       text += "its actions stay where they are: copy the folder `actions`, too\n";
   }
-  print_answer(words.json, json, text);
-  if (result.limit.empty()) return kGood;
-  complain(
+  cli::print_answer(words.json, json, text);
+  if (result.limit.empty()) return cli::kGood;
+  cli::complain(
       fmt::format("verp tune: {} walks at {:g} m/s with nothing that was tried; what stops it "
                   "is {}",
                   plan.entity.name, words.speed_m_s, result.limit));
-  return kRunFailed;
+  return cli::kRunFailed;
 }
 
 }  // namespace
 
-Subcommand add_tune(CLI::App& root) {
+cli::Subcommand add_tune(CLI::App& root) {
   CLI::App* app = root.add_subcommand(
       "tune", "Find a robot's numbers of gait and balance by walks in the twin");
   auto words = std::make_shared<TuneWords>();
-  add_model(*app, words->model)->required();
+  cli::add_model(*app, words->model)->required();
   app->add_option("--speed", words->speed_m_s, "to walk ahead at, m/s")
-      ->check(number_between(0.02, 2, "m/s"))
+      ->check(cli::number_between(0.02, 2, "m/s"))
       ->capture_default_str();
   app->add_flag("--quick", words->quick, "a first gait, in minutes");
   app->add_option("--write", words->file, "write the robot's file with the new numbers there");
   app->add_option("--seed", words->seed, "of the search")
-      ->check(whole_number_between(0, 4294967295))
+      ->check(cli::whole_number_between(0, 4294967295))
       ->capture_default_str();
-  add_json_flag(*app, words->json);
+  cli::add_json_flag(*app, words->json);
   return {app, [words] { return run_tune(*words); }};
 }
 

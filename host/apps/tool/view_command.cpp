@@ -38,9 +38,10 @@ int become_window() {
   for (std::string& word : words) pointers.push_back(word.data());
   pointers.push_back(nullptr);
   ::execv(window.c_str(), pointers.data());
-  throw ToolError(kNoDevice, fmt::format("verp view: {}: the window is not built; start it with "
-                                         "./verp view, which installs and builds what it needs",
-                                         window.string()));
+  throw cli::ToolError(cli::kNoDevice,
+                       fmt::format("verp view: {}: the window is not built; start it with "
+                                   "./verp view, which installs and builds what it needs",
+                                   window.string()));
 }
 
 }  // namespace
@@ -72,7 +73,7 @@ CLI::App* declare_view(CLI::App& root, ViewOptions& words) {
   return app;
 }
 
-Subcommand add_view(CLI::App& root) {
+cli::Subcommand add_view(CLI::App& root) {
   auto options = std::make_shared<ViewOptions>();
   return {declare_view(root, *options), [options] { return become_window(); }};
 }

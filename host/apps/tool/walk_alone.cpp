@@ -15,9 +15,10 @@ namespace verp::tool {
 namespace {
 
 [[noreturn]] void refuse(const char* option) {
-  throw ToolError(kNoDevice, fmt::format("verp: {} is not in this program, which does what a first "
-                                         "walk waits for; ./verp builds the one that has it",
-                                         option));
+  throw cli::ToolError(cli::kNoDevice,
+                       fmt::format("verp: {} is not in this program, which does what a first "
+                                   "walk waits for; ./verp builds the one that has it",
+                                   option));
 }
 
 }  // namespace
@@ -39,7 +40,7 @@ void LiveStream::finish() {}
 std::string LiveStream::text() const {
   return {};
 }
-void LiveStream::add_to(Json&) const {}
+void LiveStream::add_to(cli::Json&) const {}
 
 struct WalkCameras::Seen {};
 WalkCameras::WalkCameras(const WalkOptions&, WalkPlan&, const std::vector<WalkPlan>&,
@@ -52,7 +53,7 @@ void WalkCameras::finish() {}
 std::string WalkCameras::text(double) const {
   return {};
 }
-Json WalkCameras::json() const {
+cli::Json WalkCameras::json() const {
   return {};
 }
 std::string WalkCameras::failure() const {
@@ -90,7 +91,7 @@ void WalkRadio::join(const session::WalkPlan&, session::Robot&) {}
 std::string WalkRadio::text() const {
   return {};
 }
-Json WalkRadio::json() const {
+cli::Json WalkRadio::json() const {
   return {};
 }
 

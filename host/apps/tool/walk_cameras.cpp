@@ -12,14 +12,15 @@ namespace {
 
 record::TraceWriter& need_trace(const WalkPlan& plan, record::TraceWriter* trace) {
   if (plan.entity.cameras.empty()) {
-    throw ToolError(kBadInput,
-                    fmt::format("verp walk: --cameras: {} has none; give one of its links in {} a "
-                                "<sensor type=\"camera\">",
-                                plan.entity.name, plan.entity.file));
+    throw cli::ToolError(
+        cli::kBadInput,
+        fmt::format("verp walk: --cameras: {} has none; give one of its links in {} a "
+                    "<sensor type=\"camera\">",
+                    plan.entity.name, plan.entity.file));
   }
   if (trace != nullptr) return *trace;
-  throw ToolError(
-      kBadInput,
+  throw cli::ToolError(
+      cli::kBadInput,
       "verp walk: --cameras: pictures go into a trace, and there is none; give --record");
 }
 
@@ -44,7 +45,7 @@ WalkCameras::WalkCameras(const WalkOptions& options, WalkPlan& plan,
   try {
     seen_->rig = std::make_unique<camera::Rig>(camera::find_program(), stage, pace);
   } catch (const camera::CameraError& error) {
-    throw ToolError(kNoDevice, error.what());
+    throw cli::ToolError(cli::kNoDevice, error.what());
   }
 }
 
@@ -78,7 +79,7 @@ std::string WalkCameras::failure() const {
   return seen_->recorder ? seen_->recorder->failure() : "";
 }
 
-Json WalkCameras::json() const {
+cli::Json WalkCameras::json() const {
   return {{"pictures", seen_->recorder->pictures()},
           {"dropped", seen_->rig->dropped()},
           {"processor_s", seen_->rig->processor_s()}};

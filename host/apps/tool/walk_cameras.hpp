@@ -25,7 +25,7 @@ class WalkCameras {
   void finish();
 
   std::string text(double run_s) const;
-  Json json() const;
+  cli::Json json() const;
   /// Why there are no more pictures; empty: there are all.
   std::string failure() const;
 

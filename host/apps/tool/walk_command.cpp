@@ -6,9 +6,9 @@
 #include <utility>
 #include <vector>
 
-#include "host/apps/cli/command.hpp"
 #include "host/apps/cli/console.hpp"
 #include "host/apps/cli/interrupt.hpp"
+#include "host/apps/tool/commands.hpp"
 #include "host/apps/tool/own_controller.hpp"
 #include "host/apps/tool/walk_cameras.hpp"
 #include "host/apps/tool/walk_ending.hpp"
@@ -41,10 +41,11 @@ void require_outside(const WalkOptions& options, const std::vector<WalkPlan>& pl
   const bool outside = std::any_of(plans.begin(), plans.end(),
                                    [](const WalkPlan& plan) { return !plan.link.empty(); });
   if (outside || options.team.of_outside.empty()) return;
-  throw ToolError(
-      kBadInput, fmt::format("verp walk: {} is of robots that others drive, and there is none; add "
-                             "--robot NAME=ext:LINK, or leave it out",
-                             options.team.of_outside));
+  throw cli::ToolError(
+      cli::kBadInput,
+      fmt::format("verp walk: {} is of robots that others drive, and there is none; add "
+                  "--robot NAME=ext:LINK, or leave it out",
+                  options.team.of_outside));
 }
 
 /// What only the controller itself can tell is not to be had from the other end of a link.
@@ -52,8 +53,8 @@ void refuse_of_outside(const WalkOptions& options, const WalkPlan& first) {
   const bool wanted =
       !options.record_file.empty() || !options.report_folder.empty() || options.live.on;
   if (first.link.empty() || !wanted) return;
-  throw ToolError(
-      kBadInput,
+  throw cli::ToolError(
+      cli::kBadInput,
       "verp walk: --record, --report and --live are of a robot that this program drives; add "
       "one, or have the controller outside record its own");
 }
@@ -69,9 +70,10 @@ void require_one_robot(const WalkOptions& options, const std::vector<WalkPlan>& 
                        : !options.map.kind.empty() ? "--map"
                                                    : nullptr;
   if (option == nullptr || others.empty()) return;
-  throw ToolError(kBadInput, fmt::format("verp walk: {} is of walks of one robot; leave the others "
-                                         "out",
-                                         option));
+  throw cli::ToolError(cli::kBadInput,
+                       fmt::format("verp walk: {} is of walks of one robot; leave the others "
+                                   "out",
+                                   option));
 }
 
 int run_walk(WalkOptions options) {
@@ -108,7 +110,7 @@ int run_walk(WalkOptions options) {
   if (options.cameras)
     cameras = std::make_unique<WalkCameras>(options, plan, others, world, files.trace());
   live.wait_for_viewer();
-  Progress progress(!options.json);
+  cli::Progress progress(!options.json);
   const Walks walks =
       walk_together(plan, others, options, world, files, other_files, progress, cameras.get());
   live.finish();
@@ -124,22 +126,22 @@ int run_walk(WalkOptions options) {
   live.add_to(drawn.json);
   drawn.text += live.text();
   if (result.good()) {
-    for (const std::string& line : never_done(plan, result)) complain(line);
+    for (const std::string& line : never_done(plan, result)) cli::complain(line);
   }
   const int status = finish_walk(plan, options, files, result, swept, drawn.json, drawn.text);
   const std::vector<std::string> failures = failures_of(walks, other_files);
-  for (const std::string& line : failures) complain(line);
-  return failures.empty() ? status : std::max(status, int{kRunFailed});
+  for (const std::string& line : failures) cli::complain(line);
+  return failures.empty() ? status : std::max(status, int{cli::kRunFailed});
 }
 
 }  // namespace
 
-Subcommand add_walk(CLI::App& root) {
+cli::Subcommand add_walk(CLI::App& root) {
   CLI::App* app = root.add_subcommand("walk", "Walk in the twin: summary, trace and report");
   auto options = std::make_shared<WalkOptions>();
   declare(*app, *options);
   return {app, [app, options] {
-            catch_interrupts();
+            cli::catch_interrupts();
             options->changed = changed_options(*app);
             options->map.length_given = app->get_option("--for")->count() > 0;
             return run_walk(*options);

@@ -21,24 +21,24 @@ std::string reason(const WalkResult& result, const Sweep& swept, const std::stri
 
 /// Exit status, and on stderr why it is not good.
 int ending(const std::string& command, const std::string& reason, const WalkFiles& files) {
-  for (const std::string& line : files.lost()) complain(line);
-  if (!reason.empty()) complain(command + ": " + reason);
-  return reason.empty() && files.lost().empty() ? kGood : kRunFailed;
+  for (const std::string& line : files.lost()) cli::complain(line);
+  if (!reason.empty()) cli::complain(command + ": " + reason);
+  return reason.empty() && files.lost().empty() ? cli::kGood : cli::kRunFailed;
 }
 
 }  // namespace
 
 int finish_walk(const WalkPlan& plan, const WalkOptions& options, WalkFiles& files,
-                const WalkResult& result, const Sweep& swept, const Json& more,
+                const WalkResult& result, const Sweep& swept, const cli::Json& more,
                 const std::string& more_text) {
   files.finish(result, to_report(plan, options, result, swept));
   if (options.json) {
-    Json json = to_json(plan, options, result, swept);
+    cli::Json json = to_json(plan, options, result, swept);
     json.update(more);
     files.add_to(json);
-    print_json(json);
+    cli::print_json(json);
   } else {
-    answer(to_text(plan, options, result, swept) + more_text + files.text());
+    cli::answer(to_text(plan, options, result, swept) + more_text + files.text());
   }
   return ending(options.command, reason(result, swept, files.trace_path().string()), files);
 }

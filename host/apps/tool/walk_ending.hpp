@@ -11,7 +11,7 @@ namespace verp::tool {
 /// is not good, and returns the exit status. `more` and `more_text` are what the command has to say
 /// besides.
 int finish_walk(const WalkPlan& plan, const WalkOptions& options, WalkFiles& files,
-                const WalkResult& result, const Sweep& swept, const Json& more = Json::object(),
-                const std::string& more_text = "");
+                const WalkResult& result, const Sweep& swept,
+                const cli::Json& more = cli::Json::object(), const std::string& more_text = "");
 
 }  // namespace verp::tool

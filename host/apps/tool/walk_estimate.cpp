@@ -13,7 +13,7 @@ std::string estimate_text(const session::EstimateErrors& errors) {
       errors.odometry_turned_off_deg, errors.way_m);
 }
 
-Json estimate_json(const session::EstimateErrors& errors) {
+cli::Json estimate_json(const session::EstimateErrors& errors) {
   if (errors.ticks == 0) return {};
   return {{"ticks", errors.ticks},
           {"attitude_rms_deg", errors.attitude_rms_deg},

@@ -13,12 +13,12 @@ namespace {
 constexpr double kPromisedAttitude_deg = 0.5;
 constexpr double kPromisedVelocity_m_s = 0.03;
 
-double number(const Json& walk, const char* key) {
+double number(const cli::Json& walk, const char* key) {
   return walk.at(key).get<double>();
 }
 
 template <class Kept>
-std::string share_text(const std::vector<Json>& walks, Kept&& kept) {
+std::string share_text(const std::vector<cli::Json>& walks, Kept&& kept) {
   const auto count =
       static_cast<std::size_t>(std::count_if(walks.begin(), walks.end(), std::forward<Kept>(kept)));
   const survey::Interval interval = survey::interval_of(count, walks.size());
@@ -28,18 +28,18 @@ std::string share_text(const std::vector<Json>& walks, Kept&& kept) {
 
 }  // namespace
 
-std::string estimates_text(const std::vector<Json>& walks) {
+std::string estimates_text(const std::vector<cli::Json>& walks) {
   if (walks.empty()) return {};
   const auto all = [&](const char* key) {
     double sum = 0;
-    for (const Json& walk : walks) sum += number(walk, key) * number(walk, key);
+    for (const cli::Json& walk : walks) sum += number(walk, key) * number(walk, key);
     return std::sqrt(sum / static_cast<double>(walks.size()));
   };
-  const std::string level = share_text(walks, [](const Json& walk) {
+  const std::string level = share_text(walks, [](const cli::Json& walk) {
     return std::max(number(walk, "roll_rms_deg"), number(walk, "pitch_rms_deg")) <
            kPromisedAttitude_deg;
   });
-  const std::string fast = share_text(walks, [](const Json& walk) {
+  const std::string fast = share_text(walks, [](const cli::Json& walk) {
     return number(walk, "com_velocity_rms_m_s") < kPromisedVelocity_m_s;
   });
   return fmt::format(

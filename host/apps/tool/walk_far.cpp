@@ -17,10 +17,11 @@ void check_board(const WalkOptions& options) {
     if (options.board == each.board) return;
     names += (names.empty() ? "" : ", ") + std::string(each.board);
   }
-  throw ToolError(
-      kBadInput, fmt::format("verp walk: --on {}: no emulated board that takes its twin from here; "
-                             "give one of: {}; others walk in `./verp test --on BOARD`",
-                             options.board, names));
+  throw cli::ToolError(
+      cli::kBadInput,
+      fmt::format("verp walk: --on {}: no emulated board that takes its twin from here; "
+                  "give one of: {}; others walk in `./verp test --on BOARD`",
+                  options.board, names));
 }
 
 void take_get_up_actions(session::WalkPlan& plan) {

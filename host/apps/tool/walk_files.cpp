@@ -58,8 +58,8 @@ void refuse_second_recorder(const std::string& command, const fs::path& file) {
   const int first = record::mcap::writer_of(file);
   if (first == 0) return;
   const std::string words = words_of(first);
-  throw ToolError(
-      kBadInput,
+  throw cli::ToolError(
+      cli::kBadInput,
       fmt::format("{}: {}: process {}{} is recording to it; wait for its end, "
                   "or name another file with --record",
                   command, file.string(), first, words.empty() ? "" : " (" + words + ")"));
@@ -72,9 +72,10 @@ void make_folder(const fs::path& folder) {
   std::string probe = (folder / ".verp-XXXXXX").string();
   const int descriptor = ::mkstemp(probe.data());
   if (descriptor < 0) {
-    throw ToolError(kBadInput, fmt::format("{}: nothing can be written there ({}); choose another "
-                                           "folder with --report",
-                                           folder.string(), std::strerror(errno)));
+    throw cli::ToolError(cli::kBadInput,
+                         fmt::format("{}: nothing can be written there ({}); choose another "
+                                     "folder with --report",
+                                     folder.string(), std::strerror(errno)));
   }
   ::close(descriptor);
   ::unlink(probe.c_str());
@@ -100,9 +101,10 @@ WalkFiles::WalkFiles(const WalkOptions& options, const WalkPlan& plan,
 void WalkFiles::open_trace(const WalkOptions& options, const WalkPlan& plan,
                            record::mcap::Listener* listener, const record::mcap::StringMap& more) {
   if (trace_is_in_folder() && report::is_of_the_report(trace_path_.filename().string())) {
-    throw ToolError(kBadInput, fmt::format("{}: the report has a file of that name; choose another "
-                                           "with --record, such as run.mcap",
-                                           trace_path_.string()));
+    throw cli::ToolError(cli::kBadInput,
+                         fmt::format("{}: the report has a file of that name; choose another "
+                                     "with --record, such as run.mcap",
+                                     trace_path_.string()));
   }
   std::optional<files::FolderLock> lock;  // of two that begin at once, one looks first
   if (!options.record_file.empty()) {
@@ -164,7 +166,7 @@ void WalkFiles::add_replay(report::Run& run) {
   try {
     web::Replay replay = web::replay_of(trace_path_);
     run.replay_html = std::move(replay.html);
-    if (!replay.note.empty()) complain(replay.note);
+    if (!replay.note.empty()) cli::complain(replay.note);
   } catch (const record::TraceError&) {  // a walk without a single tick
   }
 }
@@ -183,14 +185,14 @@ void WalkFiles::write_report(report::Run run) {
     if (written.lost) {
       lost_.push_back(written.note);
     } else if (!written.note.empty()) {
-      complain(written.note);
+      cli::complain(written.note);
     }
   } catch (const report::ReportError& error) {
     lost_.push_back(fmt::format("{}: the report is not whole: {}", folder_.string(), error.what()));
   }
 }
 
-void WalkFiles::add_to(Json& json) const {
+void WalkFiles::add_to(cli::Json& json) const {
   if (!page_.empty()) json["report"] = page_;
   if (!trace_path_.empty()) json["trace"] = trace_path_.string();
   if (!lost_.empty()) json["lost"] = lost_;

@@ -41,7 +41,7 @@ class WalkFiles {
 
   /// The trace, if it is whole; empty: there is none.
   const std::filesystem::path& trace_path() const { return trace_path_; }
-  void add_to(Json& json) const;
+  void add_to(cli::Json& json) const;
   std::string text() const;
 
   /// One line for each thing that was wanted and is not there: what, where, how to get it back.

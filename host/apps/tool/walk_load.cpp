@@ -31,11 +31,11 @@ report::Fact transport_fact(const sim::WalkMetrics& metrics) {
                       or_dash(metrics.cost_of_transport_mechanical, 2, ""))};
 }
 
-Json load_json(const WalkPlan& plan, const sim::WalkMetrics& metrics) {
+cli::Json load_json(const WalkPlan& plan, const sim::WalkMetrics& metrics) {
   const auto or_null = [](const std::optional<double>& value) {
-    return value ? Json(*value) : Json();
+    return value ? cli::Json(*value) : cli::Json();
   };
-  Json use = Json::array();
+  cli::Json use = cli::Json::array();
   for (std::size_t j = 0; j < metrics.torque_use.size(); ++j) {
     use.push_back({{"joint", plan.entity.joints[j].name},
                    {"mean", metrics.torque_use[j].mean},

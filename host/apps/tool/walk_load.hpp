@@ -12,6 +12,6 @@ namespace verp::tool {
 std::string hardest_used(const WalkPlan& plan, const sim::WalkMetrics& metrics);
 std::string transport_text(const sim::WalkMetrics& metrics);
 report::Fact transport_fact(const sim::WalkMetrics& metrics);
-Json load_json(const WalkPlan& plan, const sim::WalkMetrics& metrics);
+cli::Json load_json(const WalkPlan& plan, const sim::WalkMetrics& metrics);
 
 }  // namespace verp::tool

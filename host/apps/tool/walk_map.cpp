@@ -24,8 +24,9 @@ constexpr int kMostDirections = 36;
 int grid_of(const MapOptions& options, int usual, int least, int most, const char* what) {
   const int grid = options.grid == 0 ? usual : options.grid;
   if (grid >= least && grid <= most) return grid;
-  throw ToolError(kBadInput, fmt::format("verp walk: --map {} --map-grid {}: give {} to {} {}",
-                                         options.kind, grid, least, most, what));
+  throw cli::ToolError(cli::kBadInput,
+                       fmt::format("verp walk: --map {} --map-grid {}: give {} to {} {}",
+                                   options.kind, grid, least, most, what));
 }
 
 /// No longer than it takes: most of a push map's time goes into walking up to the push.
@@ -42,16 +43,18 @@ survey::PushOptions push_options(const WalkOptions& options, const WalkPlan& pla
   if (push.standing) {
     if (!options.map.length_given && !options.changes("--velocity") && !options.changes("--step"))
       return push;
-    throw ToolError(kBadInput,
-                    "verp walk: --map stand does not walk; leave --for, --velocity and --step out");
+    throw cli::ToolError(
+        cli::kBadInput,
+        "verp walk: --map stand does not walk; leave --for, --velocity and --step out");
   }
   const double least_s =
       survey::least_walk_s(push, static_cast<double>(plan.params.tuning.gait.cycle_s));
   if (plan.walk_s >= least_s) return push;
-  throw ToolError(kBadInput,
-                  fmt::format("verp walk: --map push needs walks of {:.1f} s with this cycle, to "
-                              "settle before the push and to walk on after it; raise --for",
-                              std::ceil(10 * least_s) / 10));
+  throw cli::ToolError(
+      cli::kBadInput,
+      fmt::format("verp walk: --map push needs walks of {:.1f} s with this cycle, to "
+                  "settle before the push and to walk on after it; raise --for",
+                  std::ceil(10 * least_s) / 10));
 }
 
 survey::StabilityOptions stability_options(const WalkOptions& options, const WalkPlan& plan) {
@@ -59,23 +62,25 @@ survey::StabilityOptions stability_options(const WalkOptions& options, const Wal
   stability.on_axis =
       grid_of(options.map, stability.on_axis, 3, kMostOnMapAxis, "velocities on an axis");
   if (stability.on_axis % 2 == 0) {
-    throw ToolError(kBadInput,
-                    fmt::format("verp walk: --map stability --map-grid {}: give an odd number, so "
-                                "that zero is among the velocities",
-                                stability.on_axis));
+    throw cli::ToolError(
+        cli::kBadInput,
+        fmt::format("verp walk: --map stability --map-grid {}: give an odd number, so "
+                    "that zero is among the velocities",
+                    stability.on_axis));
   }
   if (options.changes("--velocity") || options.changes("--step")) {
-    throw ToolError(kBadInput,
-                    "verp walk: --map stability walks at velocities of its own; leave --velocity "
-                    "and --step out");
+    throw cli::ToolError(
+        cli::kBadInput,
+        "verp walk: --map stability walks at velocities of its own; leave --velocity "
+        "and --step out");
   }
   const double least_s =
       survey::least_walk_s(stability, static_cast<double>(plan.params.tuning.gait.cycle_s));
   if (plan.walk_s < least_s) {
-    throw ToolError(kBadInput,
-                    fmt::format("verp walk: --map stability needs walks of {:.1f} s with this "
-                                "cycle, to measure how fast they are; raise --for",
-                                std::ceil(10 * least_s) / 10));
+    throw cli::ToolError(cli::kBadInput,
+                         fmt::format("verp walk: --map stability needs walks of {:.1f} s with this "
+                                     "cycle, to measure how fast they are; raise --for",
+                                     std::ceil(10 * least_s) / 10));
   }
   stability.most = survey::most_of(plan.params);
   return stability;
@@ -90,9 +95,9 @@ std::string time_left(double share, double gone_s) {
 }
 
 /// Ctrl-C, and a bar.
-survey::Watch shown(Progress& progress, const std::string& kind) {
+survey::Watch shown(cli::Progress& progress, const std::string& kind) {
   const auto start = std::chrono::steady_clock::now();
-  return {.interrupted = interrupted, .went_on = [&progress, kind, start](double share) {
+  return {.interrupted = cli::interrupted, .went_on = [&progress, kind, start](double share) {
             const double gone_s =
                 std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
             progress.show(share, kind + " map" + time_left(share, gone_s));
@@ -101,18 +106,18 @@ survey::Watch shown(Progress& progress, const std::string& kind) {
 
 /// The page, and what the disk refused of it.
 int leave(const WalkOptions& options, const std::filesystem::path& folder, MapTold& told) {
-  if (folder.empty()) return kGood;
+  if (folder.empty()) return cli::kGood;
   try {
     const files::FolderLock lock(folder);
     const survey::WrittenPage written = survey::write_page(folder, told.page);
-    if (!written.note.empty()) complain(written.page.string() + ": " + written.note);
+    if (!written.note.empty()) cli::complain(written.page.string() + ": " + written.note);
     told.json["report"] = written.page.string();
     told.text += fmt::format("  {:<18}{}\n", "report", written.page.string());
-    return kGood;
+    return cli::kGood;
   } catch (const report::ReportError& error) {
     told.json["lost"] = {error.what()};
-    complain(options.command + ": " + error.what());
-    return kRunFailed;
+    cli::complain(options.command + ": " + error.what());
+    return cli::kRunFailed;
   }
 }
 
@@ -129,7 +134,7 @@ int walk_map(const WalkOptions& options, WalkPlan plan, sim::WorldOptions world)
   const std::filesystem::path folder =
       options.report_folder.empty() && !options.json ? "report" : options.report_folder;
   if (!folder.empty()) make_folder(folder);
-  Progress progress(!options.json);
+  cli::Progress progress(!options.json);
   const survey::Watch watch = shown(progress, options.map.kind);
   MapTold told;
   try {
@@ -138,16 +143,16 @@ int walk_map(const WalkOptions& options, WalkPlan plan, sim::WorldOptions world)
                        *velocities);
   } catch (const survey::SurveyError& error) {
     progress.clear();
-    throw ToolError(kRunFailed,
-                    fmt::format("verp walk: --map {}: {}", options.map.kind, error.what()));
+    throw cli::ToolError(cli::kRunFailed,
+                         fmt::format("verp walk: --map {}: {}", options.map.kind, error.what()));
   }
   progress.clear();
   told.json.update(drawn.json);
   const int status = leave(options, folder, told);
-  options.json ? print_json(told.json) : answer(told.text + drawn.text);
+  options.json ? cli::print_json(told.json) : cli::answer(told.text + drawn.text);
   if (!told.interrupted) return status;
-  complain("verp walk: interrupted; what was done by then is kept");
-  return kRunFailed;
+  cli::complain("verp walk: interrupted; what was done by then is kept");
+  return cli::kRunFailed;
 }
 
 }  // namespace verp::tool

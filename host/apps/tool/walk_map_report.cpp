@@ -49,7 +49,7 @@ MapTold begun(const WalkOptions& options, const WalkPlan& plan, const std::strin
   return told;
 }
 
-Json json_of(const survey::Velocity& velocity) {
+cli::Json json_of(const survey::Velocity& velocity) {
   return {velocity.vx_m_s, velocity.vy_m_s, velocity.wz_rad_s};
 }
 
@@ -63,8 +63,8 @@ std::size_t done_of(const survey::PushMap& map) {
                     [](const survey::PushCell& cell) { return cell.survives_n_s.has_value(); }));
 }
 
-Json sides_json(const std::vector<survey::Side>& sides) {
-  Json out = Json::array();
+cli::Json sides_json(const std::vector<survey::Side>& sides) {
+  cli::Json out = cli::Json::array();
   for (const survey::Side& side : sides) {
     out.push_back({{"direction_deg", kDegrees * side.direction_rad},
                    {"weakest_n_s", side.least_n_s},
@@ -111,12 +111,13 @@ MapTold tell(const WalkOptions& options, const WalkPlan& plan, const survey::Pus
   if (!asked.standing) told.page.plots.push_back(survey::push_plot(map, asked));
   told.page.plots.push_back(survey::push_rose(map, asked));
   told.page.csv = survey::csv_of(map);
-  Json cells = Json::array();
+  cli::Json cells = cli::Json::array();
   for (const survey::PushCell& cell : map.cells) {
-    cells.push_back({{"phase", cell.phase},
-                     {"direction_deg", kDegrees * cell.direction_rad},
-                     {"at_s", cell.at_s},
-                     {"survives_n_s", cell.survives_n_s ? Json(*cell.survives_n_s) : Json()}});
+    cells.push_back(
+        {{"phase", cell.phase},
+         {"direction_deg", kDegrees * cell.direction_rad},
+         {"at_s", cell.at_s},
+         {"survives_n_s", cell.survives_n_s ? cli::Json(*cell.survives_n_s) : cli::Json()}});
   }
   told.json.update({{"velocity", json_of(velocity)},
                     {"remark", plan.remark},
@@ -153,12 +154,12 @@ MapTold tell(const WalkOptions& options, const WalkPlan& plan, const survey::Sta
   }
   told.page.plots = {survey::stability_plot(map, asked)};
   told.page.csv = survey::csv_of(map);
-  Json cells = Json::array();
+  cli::Json cells = cli::Json::array();
   for (const survey::StabilityCell& cell : map.cells) {
     const bool walked = cell.end != CellEnd::kNone;
     cells.push_back({{"asked", json_of(cell.asked)},
-                     {"ordered", walked ? json_of(cell.ordered) : Json()},
-                     {"walked", cell.walked ? json_of(*cell.walked) : Json()},
+                     {"ordered", walked ? json_of(cell.ordered) : cli::Json()},
+                     {"walked", cell.walked ? json_of(*cell.walked) : cli::Json()},
                      {"end", survey::name_of(cell.end)},
                      {"failure", cell.why}});
   }

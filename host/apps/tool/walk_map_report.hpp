@@ -13,7 +13,7 @@ namespace verp::tool {
 
 struct MapTold {
   survey::Page page;
-  Json json;
+  cli::Json json;
   std::string text;
   bool interrupted = false;
 };

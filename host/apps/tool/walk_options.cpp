@@ -39,9 +39,9 @@ std::vector<std::string> split(const std::string& text, char separator) {
 double number(const std::string& command, const std::string& option, const std::string& text,
               double low, double high, const std::string& unit) {
   try {
-    return parse_number(text, low, high, unit);
+    return cli::parse_number(text, low, high, unit);
   } catch (const CLI::ValidationError& error) {
-    throw ToolError(kBadInput, fmt::format("{}: {}: {}", command, option, error.what()));
+    throw cli::ToolError(cli::kBadInput, fmt::format("{}: {}: {}", command, option, error.what()));
   }
 }
 
@@ -55,18 +55,19 @@ void set_by_name(Tuning& tuning, const std::string& setting, const std::string& 
   const std::string name = setting.substr(0, equals);
   const auto id = model::tuning_id(name);
   if (!id) {
-    const std::string meant = did_you_mean(name, model::tuning_names());
-    throw ToolError(kBadInput,
-                    fmt::format("{}: --set {}: no such parameter{}", command, setting,
-                                meant.empty() ? "; `verp parameters` lists them" : meant));
+    const std::string meant = cli::did_you_mean(name, model::tuning_names());
+    throw cli::ToolError(cli::kBadInput,
+                         fmt::format("{}: --set {}: no such parameter{}", command, setting,
+                                     meant.empty() ? "; `verp parameters` lists them" : meant));
   }
   if (equals == std::string::npos) {
-    throw ToolError(kBadInput,
-                    fmt::format("{}: --set {}: no value; give NAME=VALUE", command, setting));
+    throw cli::ToolError(cli::kBadInput,
+                         fmt::format("{}: --set {}: no value; give NAME=VALUE", command, setting));
   }
   if (name == "gait.cycle_s") {
-    throw ToolError(kBadInput,
-                    command + ": --set gait.cycle_s: give --cycle, which --step is measured by");
+    throw cli::ToolError(
+        cli::kBadInput,
+        command + ": --set gait.cycle_s: give --cycle, which --step is measured by");
   }
   // Ranges are float32: 0.03 is inside one that ends at 0.03F, whatever its double is.
   const Range& range = kTuningRanges[*id];
@@ -78,10 +79,10 @@ void set_by_name(Tuning& tuning, const std::string& setting, const std::string& 
 }  // namespace
 
 void declare_gait(CLI::App& app, WalkOptions& options) {
-  add_model(app, options.model)->capture_default_str();
-  add_bus_option(app, options.bus);
+  cli::add_model(app, options.model)->capture_default_str();
+  cli::add_bus_option(app, options.bus);
   app.add_option("--step", options.step_m, "step length, m")
-      ->check(number_between(0, kMaxStep_m, "m"))
+      ->check(cli::number_between(0, kMaxStep_m, "m"))
       ->capture_default_str();
   app.add_option("--velocity", options.velocity_text, "VX,VY,WZ in m/s and rad/s instead of --step")
       ->excludes("--step");
@@ -92,28 +93,28 @@ void declare_gait(CLI::App& app, WalkOptions& options) {
   app.add_option(
          "--for", options.walk_s,
          "length of the gait, all three phases, s; it ends with the last whole step that fits")
-      ->check(number_between(3, kMaxWalk_s, "s"))
+      ->check(cli::number_between(3, kMaxWalk_s, "s"))
       ->capture_default_str();
 }
 
 void declare_tuning(CLI::App& app, WalkOptions& options) {
   app.add_option("--cycle", options.cycle_s,
                  "two steps, s; default: the robot's gait.cycle_s, 0.45")
-      ->check(number_between(0.3, 2.0, "s"));
+      ->check(cli::number_between(0.3, 2.0, "s"));
   app.add_option("--set", options.settings, "NAME=VALUE: a gait, balance or safety parameter");
 }
 
 void declare_basics(CLI::App& app, WalkOptions& options) {
   declare_gait(app, options);
   app.add_option("--seed", options.seed, "of every random thing in the twin")
-      ->check(whole_number_between(0, 4294967295))
+      ->check(cli::whole_number_between(0, 4294967295))
       ->capture_default_str();
   app.add_option("--record", options.record_file, "write the trace here (.mcap)");
   app.add_option("--report", options.report_folder, "write the report here (default: report)");
   app.add_flag("--record-state", options.record_state,
                "keep the full State of every tick in the trace");
   app.add_flag("--compress", options.compress, kCompress);
-  add_json_flag(app, options.json);
+  cli::add_json_flag(app, options.json);
 }
 
 void declare_falls(CLI::App& app, WalkOptions& options) {
@@ -210,21 +211,21 @@ void declare(CLI::App& app, WalkOptions& options) {
 
 void require_serial(const std::string& command, const model::Entity& entity) {
   if (entity.protocol == BusProtocol::kDynamixel2) return;
-  throw ToolError(
-      kBadInput,
+  throw cli::ToolError(
+      cli::kBadInput,
       fmt::format("{}: bus '{}' of {} speaks {}, and this needs dynamixel2; choose "
                   "another of its buses with --bus",
                   command, entity.bus, entity.name, model::protocol_name(entity.protocol)));
 }
 
 void require_fit(const std::string& command, const std::string& link, const Params& params) {
-  const bool can_link = wire::parse_endpoint(link).kind == wire::Endpoint::Kind::kCan;
+  const bool can_link = link::parse_endpoint(link).kind == link::Endpoint::Kind::kCan;
   if (can_link == (params.bus_protocol == BusProtocol::kCia402)) return;
-  throw ToolError(kBadInput,
-                  fmt::format("{}: {} is {} CAN interface, and the chosen bus of {} speaks {}; "
-                              "choose another of its buses with --bus",
-                              command, link, can_link ? "a" : "no", params.name,
-                              model::protocol_name(params.bus_protocol)));
+  throw cli::ToolError(
+      cli::kBadInput, fmt::format("{}: {} is {} CAN interface, and the chosen bus of {} speaks {}; "
+                                  "choose another of its buses with --bus",
+                                  command, link, can_link ? "a" : "no", params.name,
+                                  model::protocol_name(params.bus_protocol)));
 }
 
 Command velocity_of(const WalkOptions& options, const GaitTuning& gait, double step_m) {
@@ -233,9 +234,9 @@ Command velocity_of(const WalkOptions& options, const GaitTuning& gait, double s
   if (!options.velocity_text.empty()) {
     const std::vector<std::string> parts = split(options.velocity_text, ',');
     if (parts.size() != 3) {
-      throw ToolError(kBadInput,
-                      fmt::format("{}: --velocity '{}' is not VX,VY,WZ; example: 0.1,0,0.2",
-                                  options.command, options.velocity_text));
+      throw cli::ToolError(cli::kBadInput,
+                           fmt::format("{}: --velocity '{}' is not VX,VY,WZ; example: 0.1,0,0.2",
+                                       options.command, options.velocity_text));
     }
     vx_m_s =
         number(options.command, "--velocity VX", parts[0], -kMaxSpeed_m_s, kMaxSpeed_m_s, "m/s");
@@ -268,18 +269,19 @@ std::pair<std::uint64_t, std::uint64_t> seeds_of(const WalkOptions& options) {
   const std::vector<std::string> parts = split(options.seeds_text, '-');
   const std::string& command = options.command;
   if (parts.size() != 2) {
-    throw ToolError(kBadInput, fmt::format("{}: --seeds '{}' is not A-B; example: 1-20", command,
-                                           options.seeds_text));
+    throw cli::ToolError(cli::kBadInput, fmt::format("{}: --seeds '{}' is not A-B; example: 1-20",
+                                                     command, options.seeds_text));
   }
   const double first = number(command, "--seeds A", parts[0], 0, kMost, "");
   const double last = number(command, "--seeds B", parts[1], 0, kMost, "");
   if (last < first) {
-    throw ToolError(kBadInput, fmt::format("{}: --seeds '{}' goes down; the smaller one is first",
-                                           command, options.seeds_text));
+    throw cli::ToolError(
+        cli::kBadInput, fmt::format("{}: --seeds '{}' goes down; the smaller one is first", command,
+                                    options.seeds_text));
   }
   if (first != std::floor(first) || last != std::floor(last)) {
-    throw ToolError(kBadInput, fmt::format("{}: --seeds '{}': seeds are whole numbers", command,
-                                           options.seeds_text));
+    throw cli::ToolError(cli::kBadInput, fmt::format("{}: --seeds '{}': seeds are whole numbers",
+                                                     command, options.seeds_text));
   }
   return {static_cast<std::uint64_t>(first), static_cast<std::uint64_t>(last)};
 }
@@ -288,8 +290,8 @@ std::vector<double> sweep_of(const WalkOptions& options) {
   if (options.sweep_text.empty()) return {};
   const std::vector<std::string> parts = split(options.sweep_text, ':');
   if (parts.size() != 3) {
-    throw ToolError(
-        kBadInput,
+    throw cli::ToolError(
+        cli::kBadInput,
         fmt::format("verp walk: --sweep-step '{}' is not FROM:TO:BY; example: 0.02:0.06:0.01",
                     options.sweep_text));
   }
@@ -302,9 +304,9 @@ std::vector<double> sweep_of(const WalkOptions& options) {
     if (step_m > to_m + 1e-9) return steps;
     steps.push_back(step_m);
   }
-  throw ToolError(kBadInput,
-                  fmt::format("verp walk: --sweep-step '{}' is more than {} steps; raise BY",
-                              options.sweep_text, kMaxSweep));
+  throw cli::ToolError(cli::kBadInput,
+                       fmt::format("verp walk: --sweep-step '{}' is more than {} steps; raise BY",
+                                   options.sweep_text, kMaxSweep));
 }
 
 void apply_tuning(const WalkOptions& options, Tuning& tuning) {

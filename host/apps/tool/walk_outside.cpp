@@ -11,8 +11,8 @@ std::string driver_of(const session::WalkPlan& plan) {
   return plan.board.empty() ? "this PC" : plan.board;
 }
 
-Json digest_json(const session::WalkPlan& plan, const session::WalkResult& result) {
-  return plan.link.empty() ? Json(fmt::format("0x{:016x}", result.digest)) : Json();
+cli::Json digest_json(const session::WalkPlan& plan, const session::WalkResult& result) {
+  return plan.link.empty() ? cli::Json(fmt::format("0x{:016x}", result.digest)) : cli::Json();
 }
 
 sim::Vec2 way_of(const session::WalkPlan& plan, const session::WalkResult& result) {

@@ -11,7 +11,7 @@ namespace verp::tool {
 std::string driver_of(const session::WalkPlan& plan);
 
 /// Null: the controller is outside, and keeps its digest to itself.
-Json digest_json(const session::WalkPlan& plan, const session::WalkResult& result);
+cli::Json digest_json(const session::WalkPlan& plan, const session::WalkResult& result);
 
 /// From where its body stood to where it was in the end, in the world.
 sim::Vec2 way_of(const session::WalkPlan& plan, const session::WalkResult& result);

@@ -37,8 +37,8 @@ void place_robot(const std::string& text, WalkPlan& plan) {
                    (std::abs((*value)[0]) > kFar_m || std::abs((*value)[1]) > kFar_m ||
                     std::abs((*value)[2]) > kFar_m);
   if (!value || value->size() != 3 || far) {
-    throw ToolError(
-        kBadInput,
+    throw cli::ToolError(
+        cli::kBadInput,
         fmt::format("verp walk: --at-pose '{}' is not X,Y,YAW; example: 1,0.5,1.57", text));
   }
   plan.twin.start_m.x() = (*value)[0];
@@ -61,16 +61,17 @@ void place_robots(const PlaceOptions& options, std::vector<WalkPlan>& plans) {
     if (robot == plans.end() || name.empty()) {
       std::string names;
       for (const WalkPlan& plan : plans) names += (names.empty() ? "" : ", ") + plan.name;
-      throw ToolError(kBadInput, fmt::format("verp walk: --at-pose {}: say whose it is: "
-                                             "NAME=X,Y,YAW, with a name out of: {}",
-                                             text, names.empty() ? "(one robot: none)" : names));
+      throw cli::ToolError(cli::kBadInput,
+                           fmt::format("verp walk: --at-pose {}: say whose it is: "
+                                       "NAME=X,Y,YAW, with a name out of: {}",
+                                       text, names.empty() ? "(one robot: none)" : names));
     }
     place_robot(text.substr(equals + 1), *robot);
   }
 }
 
-Json objects_of(const sim::Scenery& scenery) {
-  Json objects = Json::array();
+cli::Json objects_of(const sim::Scenery& scenery) {
+  cli::Json objects = cli::Json::array();
   for (std::size_t i = 0; i < scenery.items().size(); ++i) {
     const model::WorldObject& object = *scenery.items()[i].object;
     if (object.kind == model::WorldObject::Kind::kStatic) continue;

@@ -27,6 +27,6 @@ void read_place(const PlaceOptions& options, sim::WorldOptions& world);
 void place_robots(const PlaceOptions& options, std::vector<WalkPlan>& plans);
 
 /// Of the world that can be pushed or move, and where it ended.
-Json objects_of(const sim::Scenery& scenery);
+cli::Json objects_of(const sim::Scenery& scenery);
 
 }  // namespace verp::tool

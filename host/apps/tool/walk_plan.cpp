@@ -42,9 +42,10 @@ void prepare_falls(const WalkOptions& options, WalkPlan& plan) {
   plan.twin.lies = lies_of(options);
   if (!options.get_up && plan.twin.lies == sim::Lies::kNo) return;
   if (!options.controller.empty()) {
-    throw ToolError(kBadInput,
-                    "verp walk --controller: one of your own is given no actions to get up by; "
-                    "leave --get-up and --start out");
+    throw cli::ToolError(
+        cli::kBadInput,
+        "verp walk --controller: one of your own is given no actions to get up by; "
+        "leave --get-up and --start out");
   }
   take_get_up_actions(plan);
 }
@@ -57,13 +58,14 @@ WalkPlan make_plan(const WalkOptions& options) {
   plan.params = model::make_params(plan.entity);
   apply_tuning(options, plan.params.tuning);
   if (!options.settings.empty() && !model::can_stand(plan.params)) {
-    throw ToolError(
-        kBadInput, fmt::format("{}: --set: the legs cannot stand level with the hip {:.3f} m above "
-                               "the ankle and {:.3f} m beside the middle; choose gait.hip_height_m "
-                               "near {:.3f}",
-                               options.command, plan.params.tuning.gait.hip_height_m,
-                               plan.params.tuning.gait.half_stance_m,
-                               model::make_params(plan.entity).tuning.gait.hip_height_m));
+    throw cli::ToolError(
+        cli::kBadInput,
+        fmt::format("{}: --set: the legs cannot stand level with the hip {:.3f} m above "
+                    "the ankle and {:.3f} m beside the middle; choose gait.hip_height_m "
+                    "near {:.3f}",
+                    options.command, plan.params.tuning.gait.hip_height_m,
+                    plan.params.tuning.gait.half_stance_m,
+                    model::make_params(plan.entity).tuning.gait.hip_height_m));
   }
   ask_for_walk(options, plan);
   plan.twin.seed = options.seed;
@@ -81,9 +83,10 @@ constexpr double kGetUps_s = 60;
 
 void require_alone(const WalkOptions& options, const std::string& why) {
   if (options.board.empty()) return;
-  throw ToolError(kBadInput,
-                  fmt::format("{}: {}; say whose controller runs on the board: --robot NAME=on:{}",
-                              options.command, why, options.board));
+  throw cli::ToolError(
+      cli::kBadInput,
+      fmt::format("{}: {}; say whose controller runs on the board: --robot NAME=on:{}",
+                  options.command, why, options.board));
 }
 
 WalkPlan plan_of(const WalkOptions& options, const Seat& seat, std::size_t index) {
@@ -110,10 +113,10 @@ std::vector<Seat> seats_of_world(const WalkOptions& options, const model::World&
     const auto same = std::find_if(seats.begin(), seats.end(),
                                    [&](const Seat& each) { return each.name == named.name; });
     if (same == seats.end() || !named.model.empty()) {
-      throw ToolError(kBadInput,
-                      fmt::format("{}: {} has robots of its own; of these, --robot "
-                                  "NAME=ext:LINK or NAME=on:BOARD may say who drives them",
-                                  options.command, world.file));
+      throw cli::ToolError(cli::kBadInput,
+                           fmt::format("{}: {} has robots of its own; of these, --robot "
+                                       "NAME=ext:LINK or NAME=on:BOARD may say who drives them",
+                                       options.command, world.file));
     }
     same->link = named.link;
     same->board = named.board;
@@ -132,9 +135,10 @@ void put_outside_last(std::vector<WalkPlan>& plans) {
 std::vector<WalkPlan> make_plans(const WalkOptions& options, const sim::WorldOptions& world) {
   const bool of_world = world.scenery != nullptr && !world.scenery->robots.empty();
   if (of_world && options.model_given) {
-    throw ToolError(kBadInput, fmt::format("{}: {} has robots of its own; leave MODEL out, or take "
-                                           "its <include>s out",
-                                           options.command, world.scenery->file));
+    throw cli::ToolError(cli::kBadInput,
+                         fmt::format("{}: {} has robots of its own; leave MODEL out, or take "
+                                     "its <include>s out",
+                                     options.command, world.scenery->file));
   }
   const std::vector<Seat> seats =
       of_world ? seats_of_world(options, *world.scenery) : seats_of(options.command, options.team);
@@ -142,8 +146,8 @@ std::vector<WalkPlan> make_plans(const WalkOptions& options, const sim::WorldOpt
       !seats.empty() &&
       std::none_of(seats.begin(), seats.end(), [](const Seat& seat) { return seat.model.empty(); });
   if (options.model_given && of_nobody) {
-    throw ToolError(
-        kBadInput,
+    throw cli::ToolError(
+        cli::kBadInput,
         fmt::format("{0}: {1} has no name, and each robot that has one has a model of its own; add "
                     "--robot NAME={1}, or leave it out (names have letters, digits, _ and -)",
                     options.command, options.model));

@@ -37,7 +37,7 @@ std::vector<session::WalkPlan> make_plans(const WalkOptions& options,
 
 /// What the robot and its world became by --vary.
 struct Drawn {
-  Json json = Json::object();
+  cli::Json json = cli::Json::object();
   std::string text;
 };
 

@@ -29,14 +29,16 @@ bool has_its_id(const Params& params) {
 void check_modem(const session::WalkPlan& plan) {
   if (plan.link.empty()) return;
   if (plan.params.bus_protocol == BusProtocol::kCia402) {
-    throw ToolError(kBadInput, fmt::format("verp walk --radio: {} speaks CAN, and the modem is a "
-                                           "device on a Dynamixel bus; choose one with --bus",
-                                           plan.name));
+    throw cli::ToolError(cli::kBadInput,
+                         fmt::format("verp walk --radio: {} speaks CAN, and the modem is a "
+                                     "device on a Dynamixel bus; choose one with --bus",
+                                     plan.name));
   }
   if (has_its_id(plan.params)) {
-    throw ToolError(kBadInput, fmt::format("verp walk --radio: a device of {} has id {}, which is "
-                                           "the modem's; give it another in {}",
-                                           plan.name, bus::modem::kId, plan.entity.file));
+    throw cli::ToolError(cli::kBadInput,
+                         fmt::format("verp walk --radio: a device of {} has id {}, which is "
+                                     "the modem's; give it another in {}",
+                                     plan.name, bus::modem::kId, plan.entity.file));
   }
 }
 
@@ -47,17 +49,19 @@ void check_radio(const WalkOptions& options, const session::WalkPlan& first,
   if (!options.radio) return;
   radio_of("verp walk", *options.radio);
   if (others.empty()) {
-    throw ToolError(kBadInput,
-                    "verp walk --radio: one robot has nobody to talk to; add another one: --robot "
-                    "NAME=MODEL for each");
+    throw cli::ToolError(
+        cli::kBadInput,
+        "verp walk --radio: one robot has nobody to talk to; add another one: --robot "
+        "NAME=MODEL for each");
   }
   check_modem(first);
   for (const session::WalkPlan& each : others) check_modem(each);
   // Those driven from outside stand last.
   if (!others.back().link.empty()) return;
-  throw ToolError(kBadInput,
-                  "verp walk --radio: no robot here has a program that could talk; drive one from "
-                  "outside (--robot NAME=ext:LINK), or see verp demo and host/apps/libverp");
+  throw cli::ToolError(
+      cli::kBadInput,
+      "verp walk --radio: no robot here has a program that could talk; drive one from "
+      "outside (--robot NAME=ext:LINK), or see verp demo and host/apps/libverp");
 }
 
 struct WalkRadio::Air {
@@ -197,8 +201,8 @@ std::string WalkRadio::text() const {
                      air_->radio.refused(), fates, names);
 }
 
-Json WalkRadio::json() const {
-  Json out = {{"sent", air_->radio.sent()}, {"refused", air_->radio.refused()}};
+cli::Json WalkRadio::json() const {
+  cli::Json out = {{"sent", air_->radio.sent()}, {"refused", air_->radio.refused()}};
   for (std::size_t i = 0; i < air_->fates.size(); ++i) out[radio::kFateNames[i]] = air_->fates[i];
   for (const Air::Station& each : air_->stations) out["robots"].push_back(each.name);
   return out;

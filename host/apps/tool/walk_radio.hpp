@@ -30,7 +30,7 @@ class WalkRadio {
   void join(const session::WalkPlan& plan, session::Robot& robot);
 
   std::string text() const;
-  Json json() const;
+  cli::Json json() const;
 
  private:
   struct Air;

@@ -144,8 +144,8 @@ std::vector<std::pair<std::string, std::string>> provenance(const WalkPlan& plan
   return rows;
 }
 
-Json changed_json(const WalkOptions& options) {
-  Json out = Json::array();
+cli::Json changed_json(const WalkOptions& options) {
+  cli::Json out = cli::Json::array();
   for (const auto& [name, value] : options.changed) out.push_back({name, value});
   return out;
 }
@@ -176,13 +176,13 @@ std::string sweep_text(const std::vector<report::SweepRow>& rows) {
   return limited ? out + "  " + report::kLimitedNote + "\n" : out;
 }
 
-Json number_or_null(const std::optional<double>& value) {
-  return value ? Json(*value) : Json();
+cli::Json number_or_null(const std::optional<double>& value) {
+  return value ? cli::Json(*value) : cli::Json();
 }
 
-Json sweep_json(const std::vector<report::SweepRow>& rows) {
+cli::Json sweep_json(const std::vector<report::SweepRow>& rows) {
   using End = report::SweepWalk::End;
-  Json out = Json::array();
+  cli::Json out = cli::Json::array();
   for (const report::SweepRow& row : rows) {
     out.push_back({{"step_m", row.step_m},
                    {"walked_step_m", number_or_null(row.with.step_m)},
@@ -281,56 +281,57 @@ std::string to_text(const WalkPlan& plan, const WalkOptions& options, const Walk
   return out;
 }
 
-Json fall_story_json(const WalkResult& result) {
-  Json out = Json::array();
+cli::Json fall_story_json(const WalkResult& result) {
+  cli::Json out = cli::Json::array();
   for (const session::Happened& each : result.fall_story)
     out.push_back({{"at_s", each.at_s}, {"what", each.what}});
   return out;
 }
 
-Json to_json(const WalkPlan& plan, const WalkOptions& options, const WalkResult& result,
-             const Sweep& sweep) {
+cli::Json to_json(const WalkPlan& plan, const WalkOptions& options, const WalkResult& result,
+                  const Sweep& sweep) {
   const sim::WalkMetrics& m = result.metrics;
-  Json bias_by_state = Json::array();
+  cli::Json bias_by_state = cli::Json::array();
   for (const auto& bias_mm : m.zmp_bias_by_state_mm) {
     bias_by_state.push_back(number_or_null(bias_mm));
   }
-  const Json touched = m.self_contact_ticks > 0 ? Json(m.self_contact_links) : Json();
-  Json json = {{"model", name_of(plan.params)},
-               {"bus", plan.entity.bus},
-               {"seed", plan.twin.seed},
-               {"controller", driver_of(plan)},
-               {"ticks", result.ticks},
-               {"changed", changed_json(options)},
-               {"asked_s", plan.walk_s},
-               {"stands", plan.stands},
-               {"asked_m", session::asked_way(plan.velocity, m.walk_s).length_m},
-               {"asked_turn_deg", asked_turn_deg(plan, m)},
-               {"duration_s", plan.link.empty() ? m.walk_s : result.simulated_s},
-               {"distance_m", plan.link.empty() ? m.distance_m : way_of(plan, result).norm()},
-               {"speed_mean_m_s", number_or_null(m.speed_mean_m_s)},
-               {"speed_steady_m_s", number_or_null(m.speed_steady_m_s)},
-               {"slip_steady_m_s", number_or_null(m.slip_steady_m_s)},
-               {"ahead_m", m.ahead_m},
-               {"lateral_drift_m", m.lateral_drift_m},
-               {"yaw_drift_deg", m.yaw_drift_deg},
-               {"fallen", m.fallen},
-               {"falls", result.falls},
-               {"get_ups", result.get_ups},
-               {"fall_story", fall_story_json(result)},
-               {"interrupted", result.interrupted || sweep.interrupted},
-               {"failure", result.failure.empty() ? sweep.failure : result.failure},
-               {"remark", result.remark},
-               {"zmp_bias_mean_mm", number_or_null(m.zmp_bias_mean_mm)},
-               {"zmp_bias_by_state_mm", bias_by_state},
-               {"servo_saturation", number_or_null(m.servo_saturation)},
-               {"servo_saturation_worst", number_or_null(m.servo_saturation_worst)},
-               {"self_contact_ticks", m.self_contact_ticks},
-               {"self_contact_links", touched},
-               {"estimator", estimate_json(result.estimate)},
-               {"digest", digest_json(plan, result)},
-               {"notes", session::fault_names(result.faults)},
-               {"real_time_factor", result.real_time_factor()}};
+  const cli::Json touched =
+      m.self_contact_ticks > 0 ? cli::Json(m.self_contact_links) : cli::Json();
+  cli::Json json = {{"model", name_of(plan.params)},
+                    {"bus", plan.entity.bus},
+                    {"seed", plan.twin.seed},
+                    {"controller", driver_of(plan)},
+                    {"ticks", result.ticks},
+                    {"changed", changed_json(options)},
+                    {"asked_s", plan.walk_s},
+                    {"stands", plan.stands},
+                    {"asked_m", session::asked_way(plan.velocity, m.walk_s).length_m},
+                    {"asked_turn_deg", asked_turn_deg(plan, m)},
+                    {"duration_s", plan.link.empty() ? m.walk_s : result.simulated_s},
+                    {"distance_m", plan.link.empty() ? m.distance_m : way_of(plan, result).norm()},
+                    {"speed_mean_m_s", number_or_null(m.speed_mean_m_s)},
+                    {"speed_steady_m_s", number_or_null(m.speed_steady_m_s)},
+                    {"slip_steady_m_s", number_or_null(m.slip_steady_m_s)},
+                    {"ahead_m", m.ahead_m},
+                    {"lateral_drift_m", m.lateral_drift_m},
+                    {"yaw_drift_deg", m.yaw_drift_deg},
+                    {"fallen", m.fallen},
+                    {"falls", result.falls},
+                    {"get_ups", result.get_ups},
+                    {"fall_story", fall_story_json(result)},
+                    {"interrupted", result.interrupted || sweep.interrupted},
+                    {"failure", result.failure.empty() ? sweep.failure : result.failure},
+                    {"remark", result.remark},
+                    {"zmp_bias_mean_mm", number_or_null(m.zmp_bias_mean_mm)},
+                    {"zmp_bias_by_state_mm", bias_by_state},
+                    {"servo_saturation", number_or_null(m.servo_saturation)},
+                    {"servo_saturation_worst", number_or_null(m.servo_saturation_worst)},
+                    {"self_contact_ticks", m.self_contact_ticks},
+                    {"self_contact_links", touched},
+                    {"estimator", estimate_json(result.estimate)},
+                    {"digest", digest_json(plan, result)},
+                    {"notes", session::fault_names(result.faults)},
+                    {"real_time_factor", result.real_time_factor()}};
   json.update(load_json(plan, m));
   if (!sweep.rows.empty()) json["sweep"] = sweep_json(sweep.rows);
   if (result.can) {

@@ -17,9 +17,9 @@ std::string to_text(const WalkPlan& plan, const WalkOptions& options, const Walk
                     const Sweep& sweep);
 
 /// What became of it when it fell: when, and in words.
-Json fall_story_json(const WalkResult& result);
+cli::Json fall_story_json(const WalkResult& result);
 
-Json to_json(const WalkPlan& plan, const WalkOptions& options, const WalkResult& result,
-             const Sweep& sweep);
+cli::Json to_json(const WalkPlan& plan, const WalkOptions& options, const WalkResult& result,
+                  const Sweep& sweep);
 
 }  // namespace verp::tool

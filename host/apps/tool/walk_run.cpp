@@ -7,17 +7,17 @@
 
 namespace verp::tool {
 
-void tell_falls(const WalkPlan& plan, Progress& progress, const std::string& command,
+void tell_falls(const WalkPlan& plan, cli::Progress& progress, const std::string& command,
                 session::Hooks& hooks) {
   if (plan.get_ups == 0) return;
   const std::string who = command + ": " + (plan.name.empty() ? "" : plan.name + ": ");
   hooks.told = [&progress, who](const session::Happened& news) {
     progress.clear();
-    complain(fmt::format("{}{:.2f} s: {}", who, news.at_s, news.what));
+    cli::complain(fmt::format("{}{:.2f} s: {}", who, news.at_s, news.what));
   };
 }
 
-session::Hooks shown(const WalkPlan& plan, record::TraceWriter* trace, Progress& progress,
+session::Hooks shown(const WalkPlan& plan, record::TraceWriter* trace, cli::Progress& progress,
                      const std::string& label, bool keep_series) {
   session::Hooks hooks;
   hooks.trace = trace;
@@ -29,10 +29,10 @@ session::Hooks shown(const WalkPlan& plan, record::TraceWriter* trace, Progress&
   return hooks;
 }
 
-WalkResult walk(const WalkPlan& plan, record::TraceWriter* trace, Progress& progress,
+WalkResult walk(const WalkPlan& plan, record::TraceWriter* trace, cli::Progress& progress,
                 const std::string& label, bool keep_series, const sim::WorldOptions& world) {
   return session::walk(plan, shown(plan, trace, progress, label, keep_series),
-                       {.world = world, .interrupted = interrupted});
+                       {.world = world, .interrupted = cli::interrupted});
 }
 
 }  // namespace verp::tool

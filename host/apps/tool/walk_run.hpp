@@ -12,15 +12,15 @@ using session::WalkPlan;
 using session::WalkResult;
 
 /// Of a robot that may get up, has it said on stderr what becomes of it when it falls.
-void tell_falls(const WalkPlan& plan, Progress& progress, const std::string& command,
+void tell_falls(const WalkPlan& plan, cli::Progress& progress, const std::string& command,
                 session::Hooks& hooks);
 
 /// The program's hooks for one robot. `trace` may be null; what is given must outlive the run.
-session::Hooks shown(const WalkPlan& plan, record::TraceWriter* trace, Progress& progress,
+session::Hooks shown(const WalkPlan& plan, record::TraceWriter* trace, cli::Progress& progress,
                      const std::string& label, bool keep_series);
 
 /// session::walk() with these, in such a world.
-WalkResult walk(const WalkPlan& plan, record::TraceWriter* trace, Progress& progress,
+WalkResult walk(const WalkPlan& plan, record::TraceWriter* trace, cli::Progress& progress,
                 const std::string& label, bool keep_series, const sim::WorldOptions& world = {});
 
 }  // namespace verp::tool

@@ -47,14 +47,15 @@ class Seeds {
     const auto [first, last] = seeds_of(options_);
     const std::size_t most = std::max(1U, std::thread::hardware_concurrency());
     of_ = last - first + 1;
-    for (std::uint64_t next = first; !interrupted() && (next <= last || !walking_.empty());) {
+    for (std::uint64_t next = first; !cli::interrupted() && (next <= last || !walking_.empty());) {
       while (next <= last && walking_.size() < most) start(next++);
       reap();
       std::this_thread::sleep_for(std::chrono::milliseconds(20));
     }
     progress_.clear();
     tell();
-    return interrupted() || survived_ < rows_.size() ? std::max(status_, int{kRunFailed}) : status_;
+    return cli::interrupted() || survived_ < rows_.size() ? std::max(status_, int{cli::kRunFailed})
+                                                          : status_;
   }
 
  private:
@@ -79,17 +80,17 @@ class Seeds {
   void take(const Walking& walking, int status) {
     const std::string said = files::read(walking.output).value_or("");
     const std::size_t from = std::min(said.find('{'), said.size()), to = said.rfind('}');
-    const Json json =
-        Json::parse(said.substr(from, to == std::string::npos ? 0 : to + 1 - from), nullptr, false);
-    if (status == kBadInput || status == kNoDevice) {  // and so will all others say
-      if (status_ == kGood) complain(said);
-      status_ = status_ == kGood ? status : status_;
+    const cli::Json json = cli::Json::parse(
+        said.substr(from, to == std::string::npos ? 0 : to + 1 - from), nullptr, false);
+    if (status == cli::kBadInput || status == cli::kNoDevice) {  // and so will all others say
+      if (status_ == cli::kGood) cli::complain(said);
+      status_ = status_ == cli::kGood ? status : status_;
       return;
     }
-    if (interrupted()) return;  // it was, too
-    const bool good = status == kGood && json.is_object();
+    if (cli::interrupted()) return;  // it was, too
+    const bool good = status == cli::kGood && json.is_object();
     survived_ += good ? 1 : 0;
-    Json row = {{"seed", walking.seed}, {"survived", good}};
+    cli::Json row = {{"seed", walking.seed}, {"survived", good}};
     if (!json.is_object() || !json.contains("failure")) {
       row["failure"] =
           fmt::format("its program ended with status {}: {}", status,
@@ -105,10 +106,10 @@ class Seeds {
   }
 
   void tell() const {
-    Json all = Json::array();
+    cli::Json all = cli::Json::array();
     std::string fell;
     std::vector<double> bias_mm, speed_m_s, went_m, asked_m, turned_deg, asked_deg;
-    std::vector<Json> estimates;
+    std::vector<cli::Json> estimates;
     for (const auto& [seed, row] : rows_) {
       all.push_back(row);
       if (row["survived"].get<bool>()) {
@@ -126,26 +127,27 @@ class Seeds {
     }
     const survey::Interval interval = survey::interval_of(survived_, rows_.size());
     if (options_.json) {
-      print_json({{"model", options_.model},
-                  {"of", rows_.size()},
-                  {"survived", survived_},
-                  {"survived_interval_95", {interval.low, interval.high}},
-                  {"interrupted", interrupted()},
-                  {"walks", all}});
+      cli::print_json({{"model", options_.model},
+                       {"of", rows_.size()},
+                       {"survived", survived_},
+                       {"survived_interval_95", {interval.low, interval.high}},
+                       {"interrupted", cli::interrupted()},
+                       {"walks", all}});
     } else {
-      answer(fmt::format("{}: {} of {} {} {:g} s; 95 % interval {:.1f} to {:.1f} %{}\n",
-                         options_.model, survived_, rows_.size(),
-                         options_.stand ? "stood" : "walked", options_.walk_s, 100 * interval.low,
-                         100 * interval.high, interrupted() ? "; interrupted" : "") +
-             of_asked(range("distance, m", went_m, 2), asked_m, 2) +
-             (turns(asked_deg) ? of_asked(range("turned, degrees", turned_deg, 0), asked_deg, 0)
-                               : "") +
-             range("ZMP bias, mm", bias_mm, 1) + range("steady speed, m/s", speed_m_s, 3) +
-             estimates_text(estimates) + fell);
+      cli::answer(
+          fmt::format("{}: {} of {} {} {:g} s; 95 % interval {:.1f} to {:.1f} %{}\n",
+                      options_.model, survived_, rows_.size(), options_.stand ? "stood" : "walked",
+                      options_.walk_s, 100 * interval.low, 100 * interval.high,
+                      cli::interrupted() ? "; interrupted" : "") +
+          of_asked(range("distance, m", went_m, 2), asked_m, 2) +
+          (turns(asked_deg) ? of_asked(range("turned, degrees", turned_deg, 0), asked_deg, 0)
+                            : "") +
+          range("ZMP bias, mm", bias_mm, 1) + range("steady speed, m/s", speed_m_s, 3) +
+          estimates_text(estimates) + fell);
     }
   }
 
-  static void keep(const Json& row, const char* key, std::vector<double>& values) {
+  static void keep(const cli::Json& row, const char* key, std::vector<double>& values) {
     if (row.contains(key) && row[key].is_number()) values.push_back(row[key].get<double>());
   }
 
@@ -170,11 +172,11 @@ class Seeds {
 
   const WalkOptions& options_;
   const files::TemporaryDirectory folder_;
-  Progress progress_;
+  cli::Progress progress_;
   std::vector<Walking> walking_;
-  std::map<std::uint64_t, Json> rows_;
+  std::map<std::uint64_t, cli::Json> rows_;
   std::uint64_t of_ = 0, survived_ = 0;
-  int status_ = kGood;
+  int status_ = cli::kGood;
 };
 
 }  // namespace

@@ -11,7 +11,7 @@ using report::SweepWalk;
 
 /// One walk with the multibody correction on or off.
 WalkResult sweep_walk(WalkPlan plan, const WalkOptions& options, double step_m, bool multibody,
-                      Progress& progress) {
+                      cli::Progress& progress) {
   plan.asked.reset();
   plan.velocity = velocity_of(options, plan.params.tuning.gait, step_m);
   plan.params.tuning.balance.multibody_enable = multibody ? 1.0f : 0.0f;
@@ -36,21 +36,22 @@ SweepWalk entry(const WalkResult& result) {
 
 }  // namespace
 
-Sweep sweep(const WalkPlan& plan, const WalkOptions& options, Progress& progress) {
+Sweep sweep(const WalkPlan& plan, const WalkOptions& options, cli::Progress& progress) {
   Sweep sweep;
   const std::vector<double> steps_m = sweep_of(options);
   for (const double step_m : steps_m) {
-    if (interrupted()) break;
+    if (cli::interrupted()) break;
     report::SweepRow row{.step_m = step_m, .with = {}, .without = {}};
     const WalkResult with = sweep_walk(plan, options, step_m, true, progress);
     row.with = entry(with);
     if (!with.failure.empty() && sweep.failure.empty()) {
       sweep.failure = fmt::format("{} in the sweep, at steps of {:g} m", with.failure, step_m);
     }
-    if (!interrupted()) row.without = entry(sweep_walk(plan, options, step_m, false, progress));
+    if (!cli::interrupted())
+      row.without = entry(sweep_walk(plan, options, step_m, false, progress));
     sweep.rows.push_back(row);
   }
-  sweep.interrupted = !steps_m.empty() && interrupted();
+  sweep.interrupted = !steps_m.empty() && cli::interrupted();
   return sweep;
 }
 

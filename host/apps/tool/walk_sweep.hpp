@@ -19,6 +19,6 @@ struct Sweep {
 
 /// Walks each step length of --sweep-step with and without the multibody correction, until
 /// somebody interrupts. A walk without the correction may fall: that is what it is there to show.
-Sweep sweep(const WalkPlan& plan, const WalkOptions& options, Progress& progress);
+Sweep sweep(const WalkPlan& plan, const WalkOptions& options, cli::Progress& progress);
 
 }  // namespace verp::tool

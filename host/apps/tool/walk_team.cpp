@@ -37,7 +37,7 @@ class Pace {
  public:
   Pace(bool real_time, std::uint32_t period_us) : urgent_(real_time) {
     if (!real_time) return;
-    become_real_time();
+    cli::become_real_time();
     pacer_.start(period_us);
     real_time_ = true;
   }
@@ -50,21 +50,22 @@ class Pace {
   }
 
   void end() {
-    if (std::exchange(urgent_, false)) leave_real_time();
+    if (std::exchange(urgent_, false)) cli::leave_real_time();
   }
 
   const app::Deadlines& deadlines() const { return pacer_.deadlines(); }
 
  private:
-  wire::SystemClock clock_;
-  app::Pacer<wire::SystemClock> pacer_{clock_};
+  link::SystemClock clock_;
+  app::Pacer<link::SystemClock> pacer_{clock_};
   bool real_time_ = false, urgent_ = false;
 };
 
 /// Robots in one session, and who drives them.
 class Team {
  public:
-  Team(const WalkOptions& options, session::Session& session, Progress& progress, WalkRadio* radio)
+  Team(const WalkOptions& options, session::Session& session, cli::Progress& progress,
+       WalkRadio* radio)
       : options_(options), session_(session), progress_(progress), radio_(radio) {}
 
   session::Robot& add(const WalkPlan& plan, session::Hooks hooks) {
@@ -91,10 +92,10 @@ class Team {
     const std::string name = robot.name();
     try {
       return serve(plan, robot, name);
-    } catch (const wire::LinkError& error) {
-      throw wire::LinkError(error.kind(), fmt::format("robot {}: {}", name, error.what()));
-    } catch (const wire::EndpointError& error) {
-      throw wire::EndpointError(fmt::format("robot {}: {}", name, error.what()));
+    } catch (const link::LinkError& error) {
+      throw link::LinkError(error.kind(), fmt::format("robot {}: {}", name, error.what()));
+    } catch (const link::EndpointError& error) {
+      throw link::EndpointError(fmt::format("robot {}: {}", name, error.what()));
     }
   }
 
@@ -102,7 +103,7 @@ class Team {
                                              const std::string& name) {
     const auto say = [this, name](const std::string& line) {
       progress_.clear();
-      complain(fmt::format("verp walk: {}: {}", name, line));
+      cli::complain(fmt::format("verp walk: {}: {}", name, line));
     };
     return session::make_served(
         robot, {.link = plan.link,
@@ -111,7 +112,7 @@ class Team {
                 .ends_with_controller = true,
                 .told = say,
                 .check =
-                    [&params = robot.plan().params](const wire::CanInterface& interface) {
+                    [&params = robot.plan().params](const link::CanInterface& interface) {
                       check_bit_rate("verp walk", interface, params);
                     },
                 .gave_up =
@@ -123,7 +124,7 @@ class Team {
 
   const WalkOptions& options_;
   session::Session& session_;
-  Progress& progress_;
+  cli::Progress& progress_;
   WalkRadio* radio_;  ///< null: nobody has one
   std::string lost_;  ///< the first that lost its controller
   bool ended_ = false;
@@ -163,9 +164,9 @@ std::vector<std::string> OtherFiles::lost() const {
 
 Walks walk_together(const WalkPlan& plan, const std::vector<WalkPlan>& others,
                     const WalkOptions& options, const sim::WorldOptions& world, WalkFiles& files,
-                    OtherFiles& other_files, Progress& progress, WalkCameras* cameras) {
+                    OtherFiles& other_files, cli::Progress& progress, WalkCameras* cameras) {
   std::unique_ptr<WalkRadio> radio;  // outlives the session, whose buses have its modems
-  session::Session session({.world = world, .interrupted = interrupted});
+  session::Session session({.world = world, .interrupted = cli::interrupted});
   if (options.radio) radio = std::make_unique<WalkRadio>(options, session, 1 + others.size());
   Team team(options, session, progress, radio.get());
   session::Hooks hooks =
@@ -179,7 +180,7 @@ Walks walk_together(const WalkPlan& plan, const std::vector<WalkPlan>& others,
     tell_falls(others[i], progress, options.command, own);
     team.add(others[i], std::move(own));
   }
-  const wire::SystemClock clock;
+  const link::SystemClock clock;
   const std::uint64_t begun_us = clock.now_us();
   Pace pace(options.real_time, plan.params.period_us);
   std::string diverged;  // what was recorded up to there is kept, as of every other end
@@ -210,8 +211,8 @@ std::string team_text(const Walks& walks, const std::vector<WalkPlan>& others,
   std::string out;
   if (world.scenery != nullptr)
     out = fmt::format("  {:<18}{}, {}\n", "world", world.scenery->name, world.scenery->file);
-  for (const Json& each : walks.objects) {
-    const Json& at = each["position_m"];
+  for (const cli::Json& each : walks.objects) {
+    const cli::Json& at = each["position_m"];
     out += fmt::format("  {:<18}at the end at {:.3f} {:.3f} {:.3f} m\n",
                        each["name"].get<std::string>(), at[0].get<double>(), at[1].get<double>(),
                        at[2].get<double>());
@@ -230,22 +231,22 @@ std::string team_text(const Walks& walks, const std::vector<WalkPlan>& others,
   return out + walks.radio_text;
 }
 
-Json team_json(const Walks& walks, const std::vector<WalkPlan>& others, const OtherFiles& files,
-               const sim::WorldOptions& world) {
-  Json out = Json::object();
+cli::Json team_json(const Walks& walks, const std::vector<WalkPlan>& others,
+                    const OtherFiles& files, const sim::WorldOptions& world) {
+  cli::Json out = cli::Json::object();
   if (world.scenery != nullptr) out = {{"world", world.scenery->file}, {"objects", walks.objects}};
   for (std::size_t i = 0; i < others.size(); ++i) {
     const auto& [name, result] = walks.others[i];
-    Json row = {{"name", name},
-                {"model", others[i].params.name},
-                {"seed", others[i].twin.seed},
-                {"controller", driver_of(others[i])},
-                {"failure", result.failure},
-                {"ticks", result.ticks},
-                {"fallen", result.metrics.fallen},
-                {"start_m", {others[i].twin.start_m.x(), others[i].twin.start_m.y()}},
-                {"end_m", {result.end_m.x(), result.end_m.y()}},
-                {"digest", digest_json(others[i], result)}};
+    cli::Json row = {{"name", name},
+                     {"model", others[i].params.name},
+                     {"seed", others[i].twin.seed},
+                     {"controller", driver_of(others[i])},
+                     {"failure", result.failure},
+                     {"ticks", result.ticks},
+                     {"fallen", result.metrics.fallen},
+                     {"start_m", {others[i].twin.start_m.x(), others[i].twin.start_m.y()}},
+                     {"end_m", {result.end_m.x(), result.end_m.y()}},
+                     {"digest", digest_json(others[i], result)}};
     if (!files.name(i).empty()) row["trace"] = files.name(i);
     out["others"].push_back(row);
   }

@@ -16,8 +16,9 @@ struct Walks {
   app::Deadlines deadlines;                                ///< of a walk in real time
   double took_s = 0;                                       ///< of the wall, waiting included
   std::vector<std::pair<std::string, WalkResult>> others;  ///< name
-  Json objects = Json::array();  ///< of the world that can be pushed or move, and where they ended
-  Json radio;                    ///< what came of what was said; null: nobody had one
+  cli::Json objects =
+      cli::Json::array();  ///< of the world that can be pushed or move, and where they ended
+  cli::Json radio;         ///< what came of what was said; null: nobody had one
   std::string radio_text;
 };
 
@@ -44,13 +45,13 @@ class OtherFiles {
 /// lost ends the run of all, or with TeamOptions::go_on its own.
 Walks walk_together(const WalkPlan& plan, const std::vector<WalkPlan>& others,
                     const WalkOptions& options, const sim::WorldOptions& world, WalkFiles& files,
-                    OtherFiles& other_files, Progress& progress, WalkCameras* cameras);
+                    OtherFiles& other_files, cli::Progress& progress, WalkCameras* cameras);
 
 /// What is to be said of the world and of those who walked along.
 std::string team_text(const Walks& walks, const std::vector<WalkPlan>& others,
                       const OtherFiles& files, const sim::WorldOptions& world);
-Json team_json(const Walks& walks, const std::vector<WalkPlan>& others, const OtherFiles& files,
-               const sim::WorldOptions& world);
+cli::Json team_json(const Walks& walks, const std::vector<WalkPlan>& others,
+                    const OtherFiles& files, const sim::WorldOptions& world);
 /// A line for each of the others whose walk is no good.
 std::vector<std::string> failures_of(const Walks& walks, const OtherFiles& files);
 

@@ -41,7 +41,8 @@ Intervention read(const std::string& option, const std::string& text,
   try {
     return reader(text);
   } catch (const std::invalid_argument& error) {
-    throw ToolError(kBadInput, fmt::format("{}: {} '{}': {}", command, option, text, error.what()));
+    throw cli::ToolError(cli::kBadInput,
+                         fmt::format("{}: {} '{}': {}", command, option, text, error.what()));
   }
 }
 
@@ -49,7 +50,7 @@ std::string hint(const Intervention& each, const sim::Quantities& quantities) {
   const bool push = each.kind == Intervention::Kind::kPush;
   const std::vector<std::string> names = push ? quantities.things() : quantities.names();
   if (std::find(names.begin(), names.end(), each.name) != names.end()) return "";
-  const std::string meant = did_you_mean(each.name, names);
+  const std::string meant = cli::did_you_mean(each.name, names);
   return meant.empty() ? "; `verp walk --list-quantities` lists them" : meant;
 }
 
@@ -61,12 +62,13 @@ void check_all(const std::vector<std::pair<std::string, Intervention>>& read, co
     try {
       session::check(each, probe.quantities);
     } catch (const std::invalid_argument& error) {
-      throw ToolError(kBadInput, fmt::format("{}: {}: {}{}", command, option, error.what(),
-                                             hint(each, probe.quantities)));
+      throw cli::ToolError(cli::kBadInput, fmt::format("{}: {}: {}{}", command, option,
+                                                       error.what(), hint(each, probe.quantities)));
     }
     if (each.at_s <= plan.walk_s) continue;
-    throw ToolError(kBadInput, fmt::format("{}: {}: {:g} s is after the end, {:g} s; raise --for",
-                                           command, option, each.at_s, plan.walk_s));
+    throw cli::ToolError(
+        cli::kBadInput, fmt::format("{}: {}: {:g} s is after the end, {:g} s; raise --for", command,
+                                    option, each.at_s, plan.walk_s));
   }
 }
 
@@ -106,11 +108,11 @@ void read_touch(const TouchOptions& options, WalkPlan& plan, const std::vector<W
 int list_quantities(const WalkPlan& plan, const std::vector<WalkPlan>& others,
                     const sim::WorldOptions& world, bool json) {
   Probe probe(plan, others, world);
-  Json all = Json::array();
+  cli::Json all = cli::Json::array();
   std::string text;
   std::set<std::string> kinds;
   for (const sim::Quantity& q : probe.quantities.all()) {
-    Json row = {{"name", q.name}, {"unit", q.unit}, {"what", q.what}, {"value", q.read()}};
+    cli::Json row = {{"name", q.name}, {"unit", q.unit}, {"what", q.what}, {"value", q.read()}};
     if (q.settable()) row["low"] = q.low, row["high"] = q.high;
     all.push_back(row);
     const std::string kind = q.name.substr(q.name.find('.') + 1);
@@ -120,22 +122,22 @@ int list_quantities(const WalkPlan& plan, const std::vector<WalkPlan>& others,
     text += fmt::format("  {:<44}{:<10}{:<24}{}\n", q.name, q.unit, range, q.what);
   }
   if (json) {
-    print_json({{"model", plan.params.name}, {"quantities", all}});
-    return kGood;
+    cli::print_json({{"model", plan.params.name}, {"quantities", all}});
+    return cli::kGood;
   }
   std::string names;
   for (const std::string& thing : probe.quantities.things()) names += " " + thing;
   std::string joints;
   for (const model::Joint& joint : plan.entity.joints) joints += " " + joint.name;
-  answer(
+  cli::answer(
       fmt::format("{}: {} quantities; one of each kind:\n{}\nthings that can be pushed:{}\n"
                   "joints:{}\n",
                   plan.params.name, probe.quantities.all().size(), text, names, joints));
-  return kGood;
+  return cli::kGood;
 }
 
-Json touch_json(const WalkResult& result) {
-  Json out = Json::array();
+cli::Json touch_json(const WalkResult& result) {
+  cli::Json out = cli::Json::array();
   for (const session::Done& each : result.interventions) {
     out.push_back({{"tick", each.tick}, {"time_s", each.time_s}, {"what", each.what}});
   }

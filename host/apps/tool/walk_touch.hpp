@@ -33,7 +33,7 @@ int list_quantities(const WalkPlan& plan, const std::vector<WalkPlan>& others,
                     const sim::WorldOptions& world, bool json);
 
 /// What was done when; empty if nothing was.
-Json touch_json(const WalkResult& result);
+cli::Json touch_json(const WalkResult& result);
 std::string touch_text(const WalkResult& result);
 /// One line for each intervention that the run was too short for.
 std::vector<std::string> never_done(const WalkPlan& plan, const WalkResult& result);

@@ -48,10 +48,10 @@ bool is_set(const char* name) {
 void at_exit() {
   if (!std::exchange(showing, false)) return;
   hear_drivers();
-  tool::complain("verp view: the display is gone; the run is over");
+  cli::complain("verp view: the display is gone; the run is over");
   const std::string lost = save_before_the_end ? save_before_the_end() : "";
-  if (!lost.empty()) tool::complain(lost);
-  ::_exit(tool::kNoDevice);
+  if (!lost.empty()) cli::complain(lost);
+  ::_exit(cli::kNoDevice);
 }
 
 /// Xlib's own way to end the program, with lines of its own, asks this first.
@@ -71,13 +71,13 @@ void hear_qt(QtMsgType type, const QMessageLogContext&, const QString& text) {
   if (type == QtFatalMsg) {
     hear_drivers();
     // Before there is a window: no platform could start.
-    tool::complain("verp view: the display " +
-                   std::string(std::getenv("DISPLAY") ? std::getenv("DISPLAY") : "") +
-                   " cannot be opened; is DISPLAY right? Without one, try `verp shot` or "
-                   "`xvfb-run ./verp view`");
-    ::_exit(tool::kNoDevice);
+    cli::complain("verp view: the display " +
+                  std::string(std::getenv("DISPLAY") ? std::getenv("DISPLAY") : "") +
+                  " cannot be opened; is DISPLAY right? Without one, try `verp shot` or "
+                  "`xvfb-run ./verp view`");
+    ::_exit(cli::kNoDevice);
   }
-  if (type == QtCriticalMsg) tool::complain("verp view: " + text.toStdString());
+  if (type == QtCriticalMsg) cli::complain("verp view: " + text.toStdString());
 }
 
 }  // namespace

@@ -24,14 +24,14 @@ namespace {
 constexpr int kInterrupt_ms = 200;  // that Ctrl-C waits for at most
 
 int tell(const std::string& line) {
-  tool::complain(line);
-  return tool::kNoDevice;
+  cli::complain(line);
+  return cli::kNoDevice;
 }
 
 int show(MainWindow& window) {
   QTimer interrupts;
   QObject::connect(&interrupts, &QTimer::timeout, [&] {
-    if (!tool::interrupted() && !window.isHidden()) return;
+    if (!cli::interrupted() && !window.isHidden()) return;
     window.close();
     QApplication::quit();  // closing what is not shown yet would end nothing
   });
@@ -42,24 +42,24 @@ int show(MainWindow& window) {
   leave_the_display();
   const std::string lost = window.finish();
   if (!window.failure().empty()) return tell("verp view: " + window.failure());
-  if (lost.empty()) return tool::kGood;
-  tool::complain("verp view: " + lost);
-  return tool::kRunFailed;
+  if (lost.empty()) return cli::kGood;
+  cli::complain("verp view: " + lost);
+  return cli::kRunFailed;
 }
 
 int run_view(const tool::ViewOptions& asked) {
   tool::WalkOptions options = asked.walk;
   tool::read_robot_words(options);
-  tool::catch_interrupts();
+  cli::catch_interrupts();
   const bool trace = options.model.ends_with(".mcap");
   std::optional<RunSetup> setup;  // a mistake in the words is told before any window
   if (trace) record::read_trace(options.model);
   if (!trace) setup = run_of(options);
-  if (!asked.link.empty()) wire::parse_endpoint(asked.link);
+  if (!asked.link.empty()) link::parse_endpoint(asked.link);
   if (trace && !asked.link.empty()) {
-    throw tool::ToolError(tool::kBadInput,
-                          "verp view: --link stands a controller beside a robot that runs, and " +
-                              options.model + " is a trace; name a robot, or leave out --link");
+    throw cli::ToolError(cli::kBadInput,
+                         "verp view: --link stands a controller beside a robot that runs, and " +
+                             options.model + " is a trace; name a robot, or leave out --link");
   }
   if (const std::string why = no_display(); !why.empty()) return tell(why);
   QSurfaceFormat format;
@@ -102,7 +102,7 @@ int run_view_and_leave(const tool::ViewOptions& asked) {
   }
 }
 
-std::vector<tool::Subcommand> commands(CLI::App& root) {
+std::vector<cli::Subcommand> commands(CLI::App& root) {
   auto options = std::make_shared<tool::ViewOptions>();
   return {{tool::declare_view(root, *options), [options] { return run_view_and_leave(*options); }}};
 }
@@ -111,5 +111,5 @@ std::vector<tool::Subcommand> commands(CLI::App& root) {
 }  // namespace verp::view
 
 int main(int argc, char** argv) {
-  return verp::tool::run_program(argc, argv, verp::view::commands);
+  return verp::cli::run_program(argc, argv, verp::view::commands);
 }

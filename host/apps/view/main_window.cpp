@@ -72,7 +72,7 @@ MainWindow::MainWindow(QSettings& settings, MakeRun make_run)
   };
   scene_->noted = [this](const std::string& what) {
     say(QString::fromStdString(what));
-    if (told_.insert(what).second) tool::complain("verp view: " + what);
+    if (told_.insert(what).second) cli::complain("verp view: " + what);
   };
   scene_->held = [this](const SceneView::Hold& at) { hold(at); };
   scene_->let_go = [this](const SceneView::Hold& at) { let_go(at); };

@@ -13,7 +13,7 @@
 namespace verp::view {
 
 void MainWindow::link_to(const std::string& link) {
-  wire::parse_endpoint(link);
+  link::parse_endpoint(link);
   link_ = link;
 }
 

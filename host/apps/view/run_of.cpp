@@ -16,16 +16,16 @@ RunSetup run_of(const tool::WalkOptions& options) {
   std::vector<session::WalkPlan> plans = tool::make_plans(options, setup.world);
   for (const session::WalkPlan& plan : plans) {
     if (plan.link.empty() && plan.board.empty()) continue;
-    throw tool::ToolError(tool::kBadInput,
-                          "verp view: --robot " + plan.name +
-                              ": the window shows robots that this program drives; give the "
-                              "others to `verp walk`");
+    throw cli::ToolError(cli::kBadInput,
+                         "verp view: --robot " + plan.name +
+                             ": the window shows robots that this program drives; give the "
+                             "others to `verp walk`");
   }
   setup.plan = std::move(plans.front());
   plans.erase(plans.begin());
   setup.others = std::move(plans);
   const std::string why = tool::offer_get_up_actions(setup.plan);
-  if (!why.empty()) tool::complain("verp view: the robot cannot get up: " + why);
+  if (!why.empty()) cli::complain("verp view: the robot cannot get up: " + why);
   tool::read_touch(options.touch, setup.plan, setup.others, setup.world);
   tool::draw(options, setup.plan, setup.world);
   setup.record_file = options.record_file;

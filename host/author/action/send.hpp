@@ -47,11 +47,11 @@ class ActionPort {
 };
 
 /// At the operator's port of device `id`: the window of its registers.
-std::unique_ptr<ActionPort> serial_action_port(const wire::Endpoint& endpoint, std::uint8_t id);
+std::unique_ptr<ActionPort> serial_action_port(const link::Endpoint& endpoint, std::uint8_t id);
 /// Over a client that stays the caller's.
 std::unique_ptr<ActionPort> serial_action_port(bus::Client& client, std::uint8_t id);
 /// On its robot's CAN bus, as node `id`: object 5002h.
-std::unique_ptr<ActionPort> can_action_port(const wire::Endpoint& endpoint, std::uint8_t id);
+std::unique_ptr<ActionPort> can_action_port(const link::Endpoint& endpoint, std::uint8_t id);
 std::unique_ptr<ActionPort> can_action_port(can::Client& client, std::uint8_t id);
 
 struct SendOptions {

@@ -23,7 +23,7 @@ constexpr auto kKind = static_cast<std::uint8_t>(app::ImageKind::kActions);
 
 class SerialPort : public ActionPort {
  public:
-  SerialPort(const wire::Endpoint& endpoint, std::uint8_t id)
+  SerialPort(const link::Endpoint& endpoint, std::uint8_t id)
       : own_(std::in_place, endpoint, kPatience_us), client_(*own_), id_(id) {}
   SerialPort(bus::Client& client, std::uint8_t id) : client_(client), id_(id) {}
 
@@ -92,7 +92,7 @@ class SerialPort : public ActionPort {
 
 class CanPort : public ActionPort {
  public:
-  CanPort(const wire::Endpoint& endpoint, std::uint8_t node)
+  CanPort(const link::Endpoint& endpoint, std::uint8_t node)
       : own_(std::in_place, endpoint, kPatience_us), client_(*own_), node_(node) {}
   CanPort(can::Client& client, std::uint8_t node) : client_(client), node_(node) {}
 
@@ -123,7 +123,7 @@ class CanPort : public ActionPort {
 
 }  // namespace
 
-std::unique_ptr<ActionPort> serial_action_port(const wire::Endpoint& endpoint, std::uint8_t id) {
+std::unique_ptr<ActionPort> serial_action_port(const link::Endpoint& endpoint, std::uint8_t id) {
   return std::make_unique<SerialPort>(endpoint, id);
 }
 
@@ -131,7 +131,7 @@ std::unique_ptr<ActionPort> serial_action_port(bus::Client& client, std::uint8_t
   return std::make_unique<SerialPort>(client, id);
 }
 
-std::unique_ptr<ActionPort> can_action_port(const wire::Endpoint& endpoint, std::uint8_t id) {
+std::unique_ptr<ActionPort> can_action_port(const link::Endpoint& endpoint, std::uint8_t id) {
   return std::make_unique<CanPort>(endpoint, id);
 }
 

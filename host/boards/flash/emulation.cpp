@@ -125,7 +125,7 @@ Emulation::Emulation(const EmulationPlan& plan) {
 
 std::string Emulation::told() const {
   if (operator_place_.empty()) return "";
-  bus::Client controller({.kind = wire::Endpoint::Kind::kUnix, .place = operator_place_},
+  bus::Client controller({.kind = link::Endpoint::Kind::kUnix, .place = operator_place_},
                          kPatience_us);
   const auto number = [&](const char* name) {
     const bus::NamedRegister* found = bus::find_register(dxl::controller::kModel, name);

@@ -22,11 +22,11 @@ namespace {
 
 using Kind = FlashError::Kind;
 
-Kind kind_of(wire::LinkError::Kind kind) {
+Kind kind_of(link::LinkError::Kind kind) {
   switch (kind) {
-    case wire::LinkError::Kind::kPermission:
+    case link::LinkError::Kind::kPermission:
       return Kind::kPermission;
-    case wire::LinkError::Kind::kBusy:
+    case link::LinkError::Kind::kBusy:
       return Kind::kBusy;
     default:
       return Kind::kNoDevice;
@@ -39,9 +39,9 @@ class SerialPortLock {
   explicit SerialPortLock(const Job& job) {
     if (job.tool != Tool::kStm32flash) return;
     try {
-      wire::check_serial_port(job.port);
-    } catch (const wire::LinkError& error) {
-      const bool permission = error.kind() == wire::LinkError::Kind::kPermission;
+      link::check_serial_port(job.port);
+    } catch (const link::LinkError& error) {
+      const bool permission = error.kind() == link::LinkError::Kind::kPermission;
       throw FlashError(kind_of(error.kind()),
                        error.what() + (permission ? "; or " + udev_advice(job.tool) : ""));
     }

@@ -4,7 +4,7 @@
 #include <cstring>
 #include <ctime>
 
-namespace verp::wire {
+namespace verp::link {
 
 canfd_frame to_kernel(const CanFrame& frame) {
   canfd_frame raw{};
@@ -60,4 +60,4 @@ void CanBatch::expect_control() {
   }
 }
 
-}  // namespace verp::wire
+}  // namespace verp::link

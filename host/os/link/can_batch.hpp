@@ -9,7 +9,7 @@
 #include "common/base/can_frame.hpp"
 
 /// CAN frames as the kernel has them.
-namespace verp::wire {
+namespace verp::link {
 
 canfd_frame to_kernel(const CanFrame& frame);
 CanFrame from_kernel(const canfd_frame& raw, bool fd);
@@ -36,4 +36,4 @@ struct CanBatch {
   mmsghdr message[kMost] = {};
 };
 
-}  // namespace verp::wire
+}  // namespace verp::link

@@ -9,7 +9,7 @@
 
 #include "host/os/link/link_error.hpp"
 
-namespace verp::wire {
+namespace verp::link {
 
 // A name without a file, which is free again when its socket is closed. Like the interface it
 // belongs to a network namespace, and not to a user.
@@ -27,4 +27,4 @@ CanClaim::CanClaim(const std::string& interface, const std::string& part, const 
                   "can:" + interface + ": another " + who + " has this interface; end it first");
 }
 
-}  // namespace verp::wire
+}  // namespace verp::link

@@ -3,7 +3,7 @@
 
 #include "host/os/link/port.hpp"
 
-namespace verp::wire {
+namespace verp::link {
 
 /// One part at a CAN interface that only one program of this PC may play: two masters, or two
 /// copies of the same nodes, hear each other's frames as their own. It is given back when this
@@ -21,4 +21,4 @@ class CanClaim {
   Descriptor socket_;
 };
 
-}  // namespace verp::wire
+}  // namespace verp::link

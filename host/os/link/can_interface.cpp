@@ -14,7 +14,7 @@
 
 #include "host/os/link/port.hpp"
 
-namespace verp::wire {
+namespace verp::link {
 namespace {
 
 using Kind = LinkError::Kind;
@@ -171,4 +171,4 @@ std::string bit_rate_trouble(const CanInterface& interface, const std::string& r
          interface.name + " up type can bitrate " + rate + ", or change baud in <verp:bus>";
 }
 
-}  // namespace verp::wire
+}  // namespace verp::link

@@ -5,7 +5,7 @@
 
 #include "host/os/link/link_error.hpp"
 
-namespace verp::wire {
+namespace verp::link {
 
 /// A CAN interface of this PC, as the kernel describes it.
 struct CanInterface {
@@ -34,4 +34,4 @@ std::string advice(const CanInterface& interface);
 std::string bit_rate_trouble(const CanInterface& interface, const std::string& robot,
                              std::uint32_t baud);
 
-}  // namespace verp::wire
+}  // namespace verp::link

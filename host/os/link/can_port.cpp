@@ -16,7 +16,7 @@
 #include "host/os/link/can_batch.hpp"
 #include "host/os/link/system_clock.hpp"
 
-namespace verp::wire {
+namespace verp::link {
 namespace {
 
 using Kind = LinkError::Kind;
@@ -319,4 +319,4 @@ hal::CanErrors CanPort::errors() const {
           .dropped = trouble_.dropped};
 }
 
-}  // namespace verp::wire
+}  // namespace verp::link

@@ -10,7 +10,7 @@
 #include "host/os/link/endpoint.hpp"
 #include "host/os/link/port.hpp"
 
-namespace verp::wire {
+namespace verp::link {
 
 struct CanBatch;
 
@@ -106,4 +106,4 @@ class CanPort {
 
 static_assert(hal::CanBus<CanPort>);
 
-}  // namespace verp::wire
+}  // namespace verp::link

@@ -2,7 +2,7 @@
 
 #include <linux/can/error.h>
 
-namespace verp::wire {
+namespace verp::link {
 
 void count_error_frame(CanTrouble& trouble, std::uint32_t kinds, const std::uint8_t* data) {
   const std::uint8_t controller = (kinds & CAN_ERR_CRTL) != 0 ? data[1] : 0;
@@ -24,4 +24,4 @@ void count_error_frame(CanTrouble& trouble, std::uint32_t kinds, const std::uint
   count(trouble.send_overflows, controller & CAN_ERR_CRTL_TX_OVERFLOW);
 }
 
-}  // namespace verp::wire
+}  // namespace verp::link

@@ -1,7 +1,7 @@
 #pragma once
 #include <cstdint>
 
-namespace verp::wire {
+namespace verp::link {
 
 /// What an interface has said went wrong, by kind, each modulo 2^32. One error frame may be of
 /// several kinds. Source: linux/can/error.h.
@@ -27,4 +27,4 @@ struct CanTrouble {
 /// Counts an error frame: `kinds` is its identifier without the flag, `data` its 8 bytes.
 void count_error_frame(CanTrouble& trouble, std::uint32_t kinds, const std::uint8_t* data);
 
-}  // namespace verp::wire
+}  // namespace verp::link

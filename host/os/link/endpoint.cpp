@@ -8,7 +8,7 @@
 #include <optional>
 #include <string_view>
 
-namespace verp::wire {
+namespace verp::link {
 namespace {
 
 struct Scheme {
@@ -180,4 +180,4 @@ std::string to_text(const Endpoint& endpoint) {
   return head + endpoint.place;
 }
 
-}  // namespace verp::wire
+}  // namespace verp::link

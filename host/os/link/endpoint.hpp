@@ -3,7 +3,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace verp::wire {
+namespace verp::link {
 
 /// Where a link goes, as users write it:
 ///
@@ -37,4 +37,4 @@ Endpoint parse_endpoint(const std::string& text);
 /// What parse_endpoint() makes the same endpoint of.
 std::string to_text(const Endpoint& endpoint);
 
-}  // namespace verp::wire
+}  // namespace verp::link

@@ -4,7 +4,7 @@
 #include <fstream>
 #include <system_error>
 
-namespace verp::wire {
+namespace verp::link {
 namespace {
 
 std::string name_of(const std::string& device) {
@@ -33,4 +33,4 @@ std::string latency_advice(const std::string& device, const std::string& system_
          " ms; set 1: echo 1 | sudo tee " + timer_of(device, system_folder);
 }
 
-}  // namespace verp::wire
+}  // namespace verp::link

@@ -4,7 +4,7 @@
 #include <asm/termbits.h>
 #include <sys/ioctl.h>
 
-namespace verp::wire {
+namespace verp::link {
 
 bool set_line_rate(int descriptor, std::uint32_t baud) {
   termios2 settings{};
@@ -20,4 +20,4 @@ std::uint32_t line_rate(int descriptor) {
   return ::ioctl(descriptor, TCGETS2, &settings) == 0 ? settings.c_ospeed : 0;
 }
 
-}  // namespace verp::wire
+}  // namespace verp::link

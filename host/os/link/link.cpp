@@ -12,7 +12,7 @@
 
 #include "host/os/link/system_clock.hpp"
 
-namespace verp::wire {
+namespace verp::link {
 namespace {
 
 bool would_block(int error) {
@@ -130,4 +130,4 @@ hal::LinkErrors Link::errors() const {
   return errors;
 }
 
-}  // namespace verp::wire
+}  // namespace verp::link

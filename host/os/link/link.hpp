@@ -9,7 +9,7 @@
 #include "host/os/link/link_error.hpp"
 #include "host/os/link/port.hpp"
 
-namespace verp::wire {
+namespace verp::link {
 
 /// The PC's ByteLink: a serial port, a pseudo-terminal or a socket. After a loss it finds the other
 /// end again by itself, within read() and write(). Use one Link from one thread.
@@ -47,4 +47,4 @@ class Link {
 
 static_assert(hal::ByteLink<Link>);
 
-}  // namespace verp::wire
+}  // namespace verp::link

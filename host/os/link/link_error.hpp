@@ -2,7 +2,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace verp::wire {
+namespace verp::link {
 
 /// A link that cannot be opened: exit status 3. what() is one line that ends with a remedy.
 class LinkError : public std::runtime_error {
@@ -21,4 +21,4 @@ class LinkError : public std::runtime_error {
   Kind kind_;
 };
 
-}  // namespace verp::wire
+}  // namespace verp::link

@@ -9,7 +9,7 @@
 #include "hal/contract/byte_link.hpp"
 #include "host/os/link/endpoint.hpp"
 
-namespace verp::wire {
+namespace verp::link {
 
 /// A file descriptor with one owner.
 class Descriptor {
@@ -67,4 +67,4 @@ std::unique_ptr<Port> make_tcp_listener(const Endpoint& endpoint);
 std::unique_ptr<Port> make_unix_port(const Endpoint& endpoint);
 std::unique_ptr<Port> make_unix_listener(const Endpoint& endpoint);
 
-}  // namespace verp::wire
+}  // namespace verp::link

@@ -18,7 +18,7 @@
 #include "host/os/link/link_error.hpp"
 #include "host/os/link/port.hpp"
 
-namespace verp::wire {
+namespace verp::link {
 namespace {
 
 constexpr std::string_view kTerminals = "/dev/pts/";
@@ -155,4 +155,4 @@ std::unique_ptr<Port> make_pty_port(const Endpoint& endpoint) {
   return std::make_unique<PtyPort>(endpoint.place);
 }
 
-}  // namespace verp::wire
+}  // namespace verp::link

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace verp::wire {
+namespace verp::link {
 namespace {
 
 std::uint8_t clamped(double value) {
@@ -48,4 +48,4 @@ std::vector<std::uint8_t> rgb_of(const hal::CameraFrame& frame) {
   return rgb;
 }
 
-}  // namespace verp::wire
+}  // namespace verp::link

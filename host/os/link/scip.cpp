@@ -2,7 +2,7 @@
 
 #include <utility>
 
-namespace verp::wire::scip {
+namespace verp::link::scip {
 namespace {
 
 constexpr char kFirst = '0';
@@ -94,4 +94,4 @@ bool read_scan(const Replies::Reply& reply, std::uint16_t least_mm, hal::RangeSc
   return true;
 }
 
-}  // namespace verp::wire::scip
+}  // namespace verp::link::scip

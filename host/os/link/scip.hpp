@@ -10,7 +10,7 @@
 /// SCIP 2.0, the text protocol of Hokuyo's laser range finders: "Communication Protocol
 /// Specification for SCIP2.0 Standard", C-42-03320B, 2006. A request is a line; a reply is the
 /// request's echo, a status, lines of data, each with a sum, and an empty line.
-namespace verp::wire::scip {
+namespace verp::link::scip {
 
 /// The character after a line's data: its bytes' sum, six bits of it, from '0' on (section 7).
 char sum_of(std::string_view data);
@@ -43,4 +43,4 @@ class Replies {
 /// it was. Ranges below `least_mm` are errors of single steps (section 8) and become 0.
 bool read_scan(const Replies::Reply& reply, std::uint16_t least_mm, hal::RangeScan& scan);
 
-}  // namespace verp::wire::scip
+}  // namespace verp::link::scip

@@ -6,7 +6,7 @@
 #include "host/os/link/scip.hpp"
 #include "host/os/link/system_clock.hpp"
 
-namespace verp::wire {
+namespace verp::link {
 
 /// A Hokuyo laser on a link as hal/contract/range_finder.hpp: it is asked to scan without end, and
 /// asked anew when it has been silent. Now: this PC's time, ns.
@@ -89,4 +89,4 @@ class ScipRangeFinder {
 
 static_assert(hal::RangeFinder<ScipRangeFinder<Link>>);
 
-}  // namespace verp::wire
+}  // namespace verp::link

@@ -17,7 +17,7 @@
 #include "host/os/link/port.hpp"
 #include "host/os/link/serial_check.hpp"
 
-namespace verp::wire {
+namespace verp::link {
 namespace {
 
 using Kind = LinkError::Kind;
@@ -228,4 +228,4 @@ std::unique_ptr<Port> make_serial_port(const Endpoint& endpoint) {
   return std::make_unique<SerialPort>(endpoint);
 }
 
-}  // namespace verp::wire
+}  // namespace verp::link

@@ -14,7 +14,7 @@
 #include "host/os/link/link_error.hpp"
 #include "host/os/link/port.hpp"
 
-namespace verp::wire {
+namespace verp::link {
 namespace {
 
 constexpr int kConnectTimeout_ms = 2000;
@@ -193,4 +193,4 @@ std::unique_ptr<Port> make_unix_listener(const Endpoint& endpoint) {
   return std::make_unique<Listener>(endpoint, unix_address(endpoint));
 }
 
-}  // namespace verp::wire
+}  // namespace verp::link

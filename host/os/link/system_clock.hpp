@@ -4,7 +4,7 @@
 
 #include "hal/contract/tick_source.hpp"
 
-namespace verp::wire {
+namespace verp::link {
 
 inline timespec to_timespec(std::uint64_t time_ns) {
   return {static_cast<std::time_t>(time_ns / 1'000'000'000),
@@ -57,4 +57,4 @@ class SystemClock {
 
 static_assert(hal::TickSource<SystemClock>);
 
-}  // namespace verp::wire
+}  // namespace verp::link

@@ -14,7 +14,7 @@
 #include "host/os/link/link_error.hpp"
 #include "host/os/link/v4l2_formats.hpp"
 
-namespace verp::wire {
+namespace verp::link {
 namespace {
 
 using hal::PixelFormat;
@@ -307,4 +307,4 @@ std::vector<VideoFormat> V4l2Camera::formats() const {
   return formats;
 }
 
-}  // namespace verp::wire
+}  // namespace verp::link

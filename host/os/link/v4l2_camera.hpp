@@ -7,7 +7,7 @@
 #include "host/os/link/system_clock.hpp"
 #include "host/os/link/video_calls.hpp"
 
-namespace verp::wire {
+namespace verp::link {
 
 /// A way in which a video device gives pictures.
 struct VideoFormat {
@@ -94,4 +94,4 @@ class V4l2Camera {
 
 static_assert(hal::Camera<V4l2Camera>);
 
-}  // namespace verp::wire
+}  // namespace verp::link

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace verp::wire::v4l2 {
+namespace verp::link::v4l2 {
 namespace {
 
 hal::PixelFormat format_of(std::uint32_t code) {
@@ -64,4 +64,4 @@ std::string in_one_line(const std::vector<Listed>& formats) {
   return words.empty() ? "nothing" : fmt::format("{}", fmt::join(words, ", "));
 }
 
-}  // namespace verp::wire::v4l2
+}  // namespace verp::link::v4l2

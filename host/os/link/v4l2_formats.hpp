@@ -12,7 +12,7 @@
 #include "host/os/link/video_calls.hpp"
 
 /// Which formats a V4L2 device has, and which of them are read. Private to this folder.
-namespace verp::wire::v4l2 {
+namespace verp::link::v4l2 {
 
 inline constexpr std::uint32_t kCapture = V4L2_BUF_TYPE_VIDEO_CAPTURE;
 
@@ -40,4 +40,4 @@ struct Listed {
 std::vector<Listed> listed_formats(VideoCalls& calls, int descriptor);
 std::string in_one_line(const std::vector<Listed>& formats);
 
-}  // namespace verp::wire::v4l2
+}  // namespace verp::link::v4l2

@@ -8,7 +8,7 @@
 
 #include <cerrno>
 
-namespace verp::wire {
+namespace verp::link {
 namespace {
 
 class KernelVideoCalls final : public VideoCalls {
@@ -41,4 +41,4 @@ VideoCalls& kernel_video_calls() {
   return calls;
 }
 
-}  // namespace verp::wire
+}  // namespace verp::link

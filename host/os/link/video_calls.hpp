@@ -2,7 +2,7 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace verp::wire {
+namespace verp::link {
 
 /// What is asked of the kernel for a video device, each as the call of that name: -1 (null of map)
 /// and errno if it fails. The tests' device stands behind the same calls, as a kernel without a
@@ -22,4 +22,4 @@ class VideoCalls {
 /// Those of the kernel.
 VideoCalls& kernel_video_calls();
 
-}  // namespace verp::wire
+}  // namespace verp::link

@@ -69,7 +69,7 @@ void Served::finish() {
 
 double Served::wall_s(double) const {
   const std::uint64_t start_ns = drive_ns_ == 0 ? start_ns_ : drive_ns_;
-  return start_ns == 0 ? 0 : 1e-9 * static_cast<double>(wire::monotonic_ns() - start_ns);
+  return start_ns == 0 ? 0 : 1e-9 * static_cast<double>(link::monotonic_ns() - start_ns);
 }
 
 ServedResult Served::result() const {
@@ -109,7 +109,7 @@ void Served::begin_shadow() {
 
 void Served::begins() {
   if (!std::exchange(met_, true)) {
-    start_ns_ = wire::monotonic_ns();
+    start_ns_ = link::monotonic_ns();
     say("a controller has come, in lockstep");
     return look_for_actions();
   }
@@ -192,7 +192,7 @@ void Served::watch() {
   robot_.watch();
   const FallVerdict& verdict = robot_.verdict();
   if (verdict.driven() && drive_ns_ == 0) {
-    drive_ns_ = wire::monotonic_ns();
+    drive_ns_ = link::monotonic_ns();
     say("a servo has torque: the session begins");
   }
   if (verdict.lay_down() && !std::exchange(lay_down_, true)) {
@@ -222,18 +222,18 @@ bool Served::may_run_in_real_time() const {
 }
 
 bool Served::still_listening(bool heard, std::uint64_t listen_ns) {
-  if (heard_ns_ == 0 && heard) heard_ns_ = wire::monotonic_ns();
-  return options_.pace == Pace::kAuto && wire::monotonic_ns() < heard_ns_ + listen_ns;
+  if (heard_ns_ == 0 && heard) heard_ns_ = link::monotonic_ns();
+  return options_.pace == Pace::kAuto && link::monotonic_ns() < heard_ns_ + listen_ns;
 }
 
 void Served::begin_real_time() {
-  start_ns_ = wire::monotonic_ns();
+  start_ns_ = link::monotonic_ns();
   say("the master does not announce lockstep: the twin runs in real time");
   if (options_.real_time_begins) options_.real_time_begins();
 }
 
 void Served::waited(const bus::LockstepSession& clock, std::size_t came, const char* unit) {
-  const std::uint64_t now = wire::monotonic_ns();
+  const std::uint64_t now = link::monotonic_ns();
   if (!greeted()) return waited_for_first(now, came, unit);
   const auto& asked = clock.counters();
   const std::uint64_t sum = asked.polls + asked.repeats + asked.greetings;

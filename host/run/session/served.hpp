@@ -35,7 +35,7 @@ struct ServeOptions {
   // Empty members are allowed.
   std::function<void(const std::string&)> told = {};  ///< what happens, in words
   /// Of a CAN interface, before anything is sent: may throw.
-  std::function<void(const wire::CanInterface&)> check = {};
+  std::function<void(const link::CanInterface&)> check = {};
   std::function<void()> real_time_begins = {};  ///< in its thread: the moment to ask for priority
   std::function<void()> cannot_keep_up = {};    ///< the moment to give it back
   std::function<void(const std::string& why)> gave_up = {};  ///< this robot is over, and why

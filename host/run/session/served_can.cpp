@@ -22,7 +22,7 @@ class ServedOnCan final : public Served {
  public:
   ServedOnCan(Robot& robot, const ServeOptions& options)
       : Served(robot, options, true),
-        port_(wire::parse_endpoint(options.link)),
+        port_(link::parse_endpoint(options.link)),
         claim_(port_.interface().name, "nodes", "`verp hil`"),
         server_(robot.plan().params, robot.can(), own_hooks()),
         realtime_(robot.can()),
@@ -78,9 +78,9 @@ class ServedOnCan final : public Served {
   // One that watches sees the same ticks: two would take each other's answers for their own.
   void watch_live() {
     try {
-      watcher_.emplace(port_.interface().name, "watcher", wire::CanClaim::kWatcher);
+      watcher_.emplace(port_.interface().name, "watcher", link::CanClaim::kWatcher);
       live_.emplace(robot_.plan().params, robot_.actions());
-    } catch (const wire::LinkError& busy) {
+    } catch (const link::LinkError& busy) {
       say(std::string(busy.what()) + ", or the walk goes without a check of its own");
     }
   }
@@ -182,7 +182,7 @@ class ServedOnCan final : public Served {
   }
 
   /// The port's clock, which stands where a frame came; this one does not.
-  std::uint64_t clock_us() const { return wire::monotonic_ns() / 1000 - skew_us_; }
+  std::uint64_t clock_us() const { return link::monotonic_ns() / 1000 - skew_us_; }
 
   void conclude() override {
     // The answer that says stop may get lost: who asks again is told again.
@@ -209,18 +209,18 @@ class ServedOnCan final : public Served {
     }
   }
 
-  wire::CanPort port_;
-  wire::CanClaim claim_;
+  link::CanPort port_;
+  link::CanClaim claim_;
   can::ShadowLoop* shadow_ = nullptr;  ///< the base class has it
   can::LockstepServer server_;
   can::RealtimeServer realtime_;
   can::OtherNodes others_;
-  std::optional<wire::CanClaim> watcher_;
+  std::optional<link::CanClaim> watcher_;
   std::optional<shadow::LiveCheck> live_;
   std::vector<CanFrame> answer_;
   std::vector<CanFrame> unannounced_;  ///< before it was known that time goes on
   std::vector<can::RealtimeServer::Heard> heard_;
-  std::uint64_t skew_us_ = wire::monotonic_ns() / 1000 - port_.now_us();
+  std::uint64_t skew_us_ = link::monotonic_ns() / 1000 - port_.now_us();
   std::uint32_t losses_ = 0;
   bool lost_ = false;
   bool skips_told_ = false;

@@ -17,7 +17,7 @@ class ServedOnSerial final : public Served {
  public:
   ServedOnSerial(Robot& robot, const ServeOptions& options)
       : Served(robot, options, false),
-        link_(wire::parse_endpoint(options.link)),
+        link_(link::parse_endpoint(options.link)),
         lockstep_(robot.plan().params, robot.bus(), own_hooks()),
         realtime_(robot.bus()) {
     place_ = link_.place();
@@ -94,11 +94,11 @@ class ServedOnSerial final : public Served {
     if (link_.errors().losses == losses_) return;
     losses_ = link_.errors().losses;
     if (realtime_.begun()) robot_.bus().hung_up();
-    const std::uint64_t now = wire::monotonic_ns();
+    const std::uint64_t now = link::monotonic_ns();
     if (now < rested_ns_ + kLossRest_ns) {
       std::this_thread::sleep_for(std::chrono::nanoseconds(rested_ns_ + kLossRest_ns - now));
     }
-    rested_ns_ = wire::monotonic_ns();
+    rested_ns_ = link::monotonic_ns();
   }
 
   // Whoever speaks is answered at once. Until it is known that lockstep will not be asked for, the
@@ -107,10 +107,10 @@ class ServedOnSerial final : public Served {
   void let_time_go_on(std::span<const std::uint8_t> heard) {
     lockstep_.unannounced();
     bus::VirtualBus& bus = robot_.bus();
-    const std::uint64_t now_us = wire::monotonic_ns() / 1000;
+    const std::uint64_t now_us = link::monotonic_ns() / 1000;
     if (link_.rate() != 0) bus.set_baud(link_.rate());
     realtime_.turn(now_us, heard, answer_);
-    realtime_.finished(wire::monotonic_ns() / 1000);
+    realtime_.finished(link::monotonic_ns() / 1000);
     if (!realtime_.begun()) return;
     const bool looks = still_listening(true) && !bus.torque_on();
     if (bus.held() && (looks || !bus.quiet())) return;
@@ -135,7 +135,7 @@ class ServedOnSerial final : public Served {
     }
   }
 
-  wire::Link link_;
+  link::Link link_;
   bus::ShadowLoop* shadow_ = nullptr;  ///< the base class has it
   bus::LockstepServer lockstep_;
   bus::RealtimeServer realtime_;

@@ -89,8 +89,8 @@ bool TickPort::collect(bool& refused) {
   dxl::Parser parser;
   std::uint8_t piece[256];
   std::size_t answers = 0;
-  const std::uint64_t end_ns = wire::monotonic_ns() + kPatience_ns;
-  while (wire::monotonic_ns() < end_ns) {
+  const std::uint64_t end_ns = link::monotonic_ns() + kPatience_ns;
+  while (link::monotonic_ns() < end_ns) {
     const std::size_t count = link_.read(piece, sizeof piece, kSlice_us);
     for (std::size_t i = 0; i < count; ++i) {
       for (bool found = parser.push(piece[i]); found; found = parser.next()) {

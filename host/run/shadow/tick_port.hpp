@@ -20,7 +20,7 @@ class TickPort {
   };
 
   /// Throws LinkError.
-  explicit TickPort(const wire::Endpoint& endpoint) : link_(endpoint) {}
+  explicit TickPort(const link::Endpoint& endpoint) : link_(endpoint) {}
 
   Answer read(std::uint16_t address, void* to, std::uint16_t size);
   Answer write(std::uint16_t address, std::uint8_t value);
@@ -44,7 +44,7 @@ class TickPort {
   bool collect(bool& refused);
   void drain();
 
-  wire::Link link_;
+  link::Link link_;
   dxl::Error error_ = dxl::Error::kNone;
   std::vector<std::uint8_t> outbox_;
   std::vector<Request> asked_;

@@ -24,8 +24,8 @@ constexpr std::array<const char*, 8> kErrors = {
 
 }  // namespace
 
-Client::Client(const wire::Endpoint& endpoint, std::uint32_t timeout_us)
-    : text_(wire::to_text(endpoint)),
+Client::Client(const link::Endpoint& endpoint, std::uint32_t timeout_us)
+    : text_(link::to_text(endpoint)),
       baud_(endpoint.baud),
       timeout_us_(timeout_us),
       own_(endpoint),
@@ -35,8 +35,8 @@ Client::Client(const wire::Endpoint& endpoint, std::uint32_t timeout_us)
   wait_for_somebody();
 }
 
-Client::Client(wire::Link& link, const wire::Endpoint& endpoint, std::uint32_t timeout_us)
-    : text_(wire::to_text(endpoint)),
+Client::Client(link::Link& link, const link::Endpoint& endpoint, std::uint32_t timeout_us)
+    : text_(link::to_text(endpoint)),
       baud_(endpoint.baud),
       timeout_us_(timeout_us),
       link_(link),

@@ -44,9 +44,9 @@ class Client {
   static constexpr int kAttempts = 3;  ///< of a request that got no answer
 
   /// `timeout_us` is what a reply may take beyond its own bytes.
-  Client(const wire::Endpoint& endpoint, std::uint32_t timeout_us);
+  Client(const link::Endpoint& endpoint, std::uint32_t timeout_us);
   /// Over a link that stays the caller's, and outlives this; `endpoint` is what it was opened on.
-  Client(wire::Link& link, const wire::Endpoint& endpoint, std::uint32_t timeout_us);
+  Client(link::Link& link, const link::Endpoint& endpoint, std::uint32_t timeout_us);
 
   /// Every device that answers a Ping to all, by id; waits as long as id 252 may take.
   std::vector<Identity> scan();
@@ -65,7 +65,7 @@ class Client {
   hal::LinkErrors link_errors() const { return link_.errors(); }
 
  private:
-  using Bus = app::LinkBus<wire::Link, wire::SystemClock>;
+  using Bus = app::LinkBus<link::Link, link::SystemClock>;
   struct Answer {
     std::uint8_t error = 0;
     std::vector<std::uint8_t> data;
@@ -92,9 +92,9 @@ class Client {
   std::string text_;    ///< of the endpoint
   std::uint32_t baud_;  ///< 0: the link has none
   std::uint32_t timeout_us_;
-  wire::SystemClock clock_;
-  std::optional<wire::Link> own_;
-  wire::Link& link_;
+  link::SystemClock clock_;
+  std::optional<link::Link> own_;
+  link::Link& link_;
   Bus bus_;
   app::BusMaster<Bus> master_;
   Owed owed_;

@@ -58,9 +58,9 @@ LinkDelay measure_delay(const std::function<bool()>& read, double wire_us,
     return delay.asked >= kDelays || (held_us.empty() && delay.asked >= kSilent);
   };
   while (!enough() && !give_up()) {
-    const std::uint64_t begun_ns = wire::monotonic_ns();
+    const std::uint64_t begun_ns = link::monotonic_ns();
     const bool good = read();
-    const double took_us = 1e-3 * static_cast<double>(wire::monotonic_ns() - begun_ns);
+    const double took_us = 1e-3 * static_cast<double>(link::monotonic_ns() - begun_ns);
     ++delay.asked;
     if (good) held_us.push_back(std::max(0.0, took_us - wire_us));
   }
@@ -107,12 +107,12 @@ int LinkFit::shortest_period_ms() const {
   return least_ms <= kLongest_ms ? std::max(least_ms, kShortest_ms) : 0;
 }
 
-std::string remedy(const LinkFit& fit, const Params& params, const wire::Endpoint& endpoint,
+std::string remedy(const LinkFit& fit, const Params& params, const link::Endpoint& endpoint,
                    const std::string& system_folder) {
   std::string text;
   const auto add = [&](const std::string& more) { text += (text.empty() ? "" : ", or ") + more; };
-  if (endpoint.kind == wire::Endpoint::Kind::kSerial) {
-    const std::string advice = wire::latency_advice(endpoint.place, system_folder);
+  if (endpoint.kind == link::Endpoint::Kind::kSerial) {
+    const std::string advice = link::latency_advice(endpoint.place, system_folder);
     if (!advice.empty()) add(advice);
   }
   if (const int period_ms = fit.shortest_period_ms();
@@ -122,7 +122,7 @@ std::string remedy(const LinkFit& fit, const Params& params, const wire::Endpoin
   }
   // A faster bus saves wire time only: offered where that is what is missing.
   const double half_wire_us = fit.needed_us() - 0.5 * fit.wire_us;
-  const bool can = endpoint.kind == wire::Endpoint::Kind::kCan;
+  const bool can = endpoint.kind == link::Endpoint::Kind::kCan;
   if (!can && dxl::baud_rate_code(2 * params.baud) != 0xFF &&
       half_wire_us <= LinkFit::kUsable * fit.period_us) {
     add(fmt::format("raise the bus from {} to {} baud", params.baud, 2 * params.baud));
@@ -135,10 +135,10 @@ std::string remedy(const LinkFit& fit, const Params& params, const wire::Endpoin
   return text;
 }
 
-std::string adapter_too_slow(const Params& params, const wire::Endpoint& endpoint,
+std::string adapter_too_slow(const Params& params, const link::Endpoint& endpoint,
                              const std::string& system_folder) {
-  if (endpoint.kind != wire::Endpoint::Kind::kSerial) return "";
-  const auto timer_ms = wire::latency_timer_ms(endpoint.place, system_folder);
+  if (endpoint.kind != link::Endpoint::Kind::kSerial) return "";
+  const auto timer_ms = link::latency_timer_ms(endpoint.place, system_folder);
   if (!timer_ms) return "";
   const double held_us = 1000.0 * *timer_ms;
   const LinkFit known = fit(
@@ -150,7 +150,7 @@ std::string adapter_too_slow(const Params& params, const wire::Endpoint& endpoin
       "ms "
       "on the wire: {}",
       1e-3 * params.period_us, *timer_ms, 1e-3 * known.wire_us,
-      wire::latency_advice(endpoint.place, system_folder));
+      link::latency_advice(endpoint.place, system_folder));
 }
 
 }  // namespace verp::bus

@@ -57,12 +57,12 @@ struct LinkFit {
 LinkFit fit(const Params& params, const LinkDelay& delay);
 
 /// What a master on this PC can do about a link that doesn't fit, as words after a semicolon.
-std::string remedy(const LinkFit& fit, const Params& params, const wire::Endpoint& endpoint,
+std::string remedy(const LinkFit& fit, const Params& params, const link::Endpoint& endpoint,
                    const std::string& system_folder = "/sys");
 
 /// For the twin, which answers: an adapter known to hold its bytes back for too long, as a line
 /// with a remedy; empty: none is known.
-std::string adapter_too_slow(const Params& params, const wire::Endpoint& endpoint,
+std::string adapter_too_slow(const Params& params, const link::Endpoint& endpoint,
                              const std::string& system_folder = "/sys");
 
 }  // namespace verp::bus

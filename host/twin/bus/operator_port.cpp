@@ -19,7 +19,7 @@ constexpr int kAttempts = 6;
 }  // namespace
 
 OperatorPort::OperatorPort(const std::string& endpoint, std::function<bool()> give_up)
-    : text_(endpoint), give_up_(std::move(give_up)), link_(wire::parse_endpoint(endpoint)) {}
+    : text_(endpoint), give_up_(std::move(give_up)), link_(link::parse_endpoint(endpoint)) {}
 
 void OperatorPort::add_write(std::uint16_t address, const std::vector<std::uint8_t>& data) {
   append_write(outbox_, address, data);

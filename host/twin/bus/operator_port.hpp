@@ -36,7 +36,7 @@ class OperatorPort final : public OrderSink {
 
   std::string text_;  ///< of the endpoint
   std::function<bool()> give_up_;
-  wire::Link link_;
+  link::Link link_;
   std::vector<std::uint8_t> outbox_;
   std::size_t asked_ = 0;  ///< requests in outbox_
   bool refused_ = false;   ///< the first of them, as "not now", when all were answered

@@ -62,11 +62,11 @@ struct Setting {
 
 }  // namespace
 
-SetupLine::SetupLine(const wire::Endpoint& endpoint, std::uint32_t baud)
+SetupLine::SetupLine(const link::Endpoint& endpoint, std::uint32_t baud)
     : endpoint_(endpoint), baud_(baud) {}
 
 Client& SetupLine::at(std::uint32_t baud) {
-  const bool has_rate = endpoint_.kind == wire::Endpoint::Kind::kSerial;
+  const bool has_rate = endpoint_.kind == link::Endpoint::Kind::kSerial;
   if (client_ && (!has_rate || endpoint_.baud == baud)) return *client_;
   client_.reset();
   if (has_rate) endpoint_.baud = baud;
@@ -76,7 +76,7 @@ Client& SetupLine::at(std::uint32_t baud) {
 
 std::vector<FoundServo> SetupLine::find(const std::function<bool()>& give_up) {
   std::vector<std::uint32_t> rates = {baud_};
-  if (endpoint_.kind == wire::Endpoint::Kind::kSerial) {
+  if (endpoint_.kind == link::Endpoint::Kind::kSerial) {
     for (const std::uint32_t rate : kRates) {
       if (rate != baud_) rates.push_back(rate);
     }
@@ -86,8 +86,8 @@ std::vector<FoundServo> SetupLine::find(const std::function<bool()>& give_up) {
     if (give_up()) break;
     try {
       for (const Identity& each : at(rate).scan()) found.push_back({each, rate});
-    } catch (const wire::LinkError& error) {
-      if (error.kind() != wire::LinkError::Kind::kUnsuitable || rate == baud_) throw;
+    } catch (const link::LinkError& error) {
+      if (error.kind() != link::LinkError::Kind::kUnsuitable || rate == baud_) throw;
       continue;  // this adapter cannot make the rate
     }
     if (!found.empty()) break;

@@ -27,7 +27,7 @@ struct Change {
 class SetupLine {
  public:
   /// `baud` is the rate the robot's bus has.
-  SetupLine(const wire::Endpoint& endpoint, std::uint32_t baud);
+  SetupLine(const link::Endpoint& endpoint, std::uint32_t baud);
 
   /// A client at that rate; on a link without a rate always the same one.
   Client& at(std::uint32_t baud);
@@ -35,7 +35,7 @@ class SetupLine {
   std::vector<FoundServo> find(const std::function<bool()>& give_up);
 
  private:
-  wire::Endpoint endpoint_;
+  link::Endpoint endpoint_;
   std::uint32_t baud_;
   std::optional<Client> client_;
 };

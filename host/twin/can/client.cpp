@@ -66,14 +66,14 @@ std::string to_text(Address at) {
   return fmt::format("{:04X}:{:X}", at.index, at.subindex);
 }
 
-Client::Client(const wire::Endpoint& endpoint, std::uint32_t timeout_us)
-    : own_(std::make_unique<PortBus<wire::CanPort>>(endpoint)),
+Client::Client(const link::Endpoint& endpoint, std::uint32_t timeout_us)
+    : own_(std::make_unique<PortBus<link::CanPort>>(endpoint)),
       bus_(*own_),
       master_(bus_),
       timeout_us_(timeout_us),
       place_(to_text(endpoint)) {}
-Client::Client(wire::CanPort& port, const wire::Endpoint& endpoint, std::uint32_t timeout_us)
-    : own_(std::make_unique<PortBus<wire::CanPort&>>(port)),
+Client::Client(link::CanPort& port, const link::Endpoint& endpoint, std::uint32_t timeout_us)
+    : own_(std::make_unique<PortBus<link::CanPort&>>(port)),
       bus_(*own_),
       master_(bus_),
       timeout_us_(timeout_us),

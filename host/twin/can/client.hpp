@@ -75,9 +75,9 @@ class Client {
  public:
   static constexpr int kAttempts = 3;  ///< of a transfer that got no answer
 
-  Client(const wire::Endpoint& endpoint, std::uint32_t timeout_us);
+  Client(const link::Endpoint& endpoint, std::uint32_t timeout_us);
   /// Over a port that stays the caller's, and outlives this; `endpoint` is what it was opened on.
-  Client(wire::CanPort& port, const wire::Endpoint& endpoint, std::uint32_t timeout_us);
+  Client(link::CanPort& port, const link::Endpoint& endpoint, std::uint32_t timeout_us);
   /// Over a bus that stays the caller's likewise; `place` is what errors call it.
   Client(ClientBus& bus, std::string place, std::uint32_t timeout_us);
   Client(const Client&) = delete;

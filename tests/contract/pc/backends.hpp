@@ -20,7 +20,7 @@ struct System {
   static void spend(std::uint32_t time_us) {
     std::this_thread::sleep_for(std::chrono::microseconds(time_us));
   }
-  wire::SystemClock source;
+  link::SystemClock source;
 };
 
 using FrameBuses = ::testing::Types<

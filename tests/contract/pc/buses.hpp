@@ -56,7 +56,7 @@ struct Remote : SimulatedTime {
 /// ... and over any ByteLink.
 template <class Pair>
 struct RemoteOver : SimulatedTime {
-  using Stream = app::LinkStream<wire::Link>;
+  using Stream = app::LinkStream<link::Link>;
   explicit RemoteOver(int) {
     server = std::thread([this] {
       bus::ByteStreams streams;
@@ -107,7 +107,7 @@ struct LockstepOver : SimulatedTime {
   Pair pair;
   std::atomic<bool> over = false;
   std::thread server;
-  app::LockstepBus<wire::Link, Idle> bus{pair.near(), Idle{}};
+  app::LockstepBus<link::Link, Idle> bus{pair.near(), Idle{}};
 };
 
 /// A servo in real time at the far end of a ByteLink.
@@ -137,8 +137,8 @@ struct LinkBusOver {
     servo.join();
   }
   Pair pair;
-  wire::SystemClock clock;
-  app::LinkBus<wire::Link, wire::SystemClock> bus{pair.near(), clock};
+  link::SystemClock clock;
+  app::LinkBus<link::Link, link::SystemClock> bus{pair.near(), clock};
   std::atomic<bool> over = false;
   std::thread servo;
 };

@@ -29,7 +29,7 @@ struct KernelEyeOf {
   void show() { device.make_picture(); }
   bool is(const hal::CameraFrame& frame, std::uint32_t number) const {
     if (frame.format == hal::PixelFormat::kJpeg) return frame.data[2] == number;
-    const std::vector<std::uint8_t> rgb = wire::rgb_of(frame);
+    const std::vector<std::uint8_t> rgb = link::rgb_of(frame);
     for (std::uint32_t pixel = 0; pixel < kWidth * kHeight; ++pixel) {
       const int expected = pixel % kWidth == device.bar_of(number) ? 255 : 0;
       for (std::uint32_t i = 0; i < 3; ++i) {
@@ -46,7 +46,7 @@ struct KernelEyeOf {
 
   inline static std::uint64_t time_ns = 1;
   VideoDevice device = made();
-  wire::V4l2Camera camera{device.path, {}, device, now_ns};
+  link::V4l2Camera camera{device.path, {}, device, now_ns};
 };
 using KernelEye = KernelEyeOf<V4L2_PIX_FMT_YUYV>;
 using KernelEyeOfFiles = KernelEyeOf<V4L2_PIX_FMT_MJPEG>;

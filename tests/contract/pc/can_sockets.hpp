@@ -85,7 +85,7 @@ struct Vcan {
   bool far_take(CanFrame& frame) { return far.take(frame); }
   void fill_and_bus_off(const CanFrame&, int) {}
   RawNode far{"vcan0"};
-  wire::CanPort bus{wire::parse_endpoint("can:vcan0")};
+  link::CanPort bus{link::parse_endpoint("can:vcan0")};
 };
 
 using CanBuses = ::testing::Types<Vcan>;

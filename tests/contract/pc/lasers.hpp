@@ -39,7 +39,7 @@ struct ScipLaser {
   static std::uint64_t now_ns() { return time_ns; }
 
   inline static std::uint64_t time_ns = 1;
-  wire::ScipRangeFinder<hal::MemoryLink, now_ns> finder{
+  link::ScipRangeFinder<hal::MemoryLink, now_ns> finder{
       line.left(), {.first = 0, .last = kSteps - 1, .least_mm = 20, .silent_ms = 20}};
   std::uint32_t time_ms = 0;
 };

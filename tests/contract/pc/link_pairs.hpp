@@ -40,22 +40,22 @@ class HostPair {
   static constexpr bool kDetectsLoss = true;
   HostPair(const std::string& server, const std::string& client)
       : server_text_(server), client_text_(client) {
-    server_.emplace(wire::parse_endpoint(server));
+    server_.emplace(link::parse_endpoint(server));
     if (client_text_.empty()) client_text_ = server_->place();
     if (server_->place().starts_with("tcp:")) {  // return to the same port
       server_text_ = "tcp-listen" + server_->place().substr(3);
     }
-    client_.emplace(wire::parse_endpoint(client_text_));
+    client_.emplace(link::parse_endpoint(client_text_));
     server_->wait_connected(kAWhile_us);
   }
-  wire::Link& near() { return kNearServes ? *server_ : *client_; }
-  wire::Link& far() { return kNearServes ? *client_ : *server_; }
+  link::Link& near() { return kNearServes ? *server_ : *client_; }
+  link::Link& far() { return kNearServes ? *client_ : *server_; }
   void cut() { kNearServes ? client_.reset() : server_.reset(); }
   void mend() {
     if (kNearServes) {
-      client_.emplace(wire::parse_endpoint(client_text_));
+      client_.emplace(link::parse_endpoint(client_text_));
     } else {
-      server_.emplace(wire::parse_endpoint(server_text_));
+      server_.emplace(link::parse_endpoint(server_text_));
     }
   }
   std::uint64_t now_us() const { return clock_.now_us(); }
@@ -64,9 +64,9 @@ class HostPair {
   static constexpr std::uint32_t kAWhile_us = 5'000'000;
   std::string server_text_;
   std::string client_text_;
-  std::optional<wire::Link> server_;
-  std::optional<wire::Link> client_;
-  wire::SystemClock clock_;
+  std::optional<link::Link> server_;
+  std::optional<link::Link> client_;
+  link::SystemClock clock_;
 };
 
 /// libserial on one end of a pseudo-terminal.

@@ -60,7 +60,7 @@ class SendActions : public ::testing::Test {
     options.robot = options.robot.empty() ? robot().name : options.robot;
     options.actions = 4;
     try {
-      const auto port = serial_action_port(wire::parse_endpoint("unix:" + place_), 200);
+      const auto port = serial_action_port(link::parse_endpoint("unix:" + place_), 200);
       return send_actions(*port, image, options) ? "" : "stopped";
     } catch (const bus::DeviceError& error) {
       return error.what();

@@ -36,16 +36,16 @@ struct Sys {
   const fs::path root = fs::temp_directory_path() / ("verp-fit-" + std::to_string(::getpid()));
 };
 
-const wire::Endpoint kAdapter{wire::Endpoint::Kind::kSerial, "/dev/ttyUSB7", 2'000'000, 0};
-const wire::Endpoint kSocket{wire::Endpoint::Kind::kUnix, "/tmp/twin", 0, 0};
+const link::Endpoint kAdapter{link::Endpoint::Kind::kSerial, "/dev/ttyUSB7", 2'000'000, 0};
+const link::Endpoint kSocket{link::Endpoint::Kind::kUnix, "/tmp/twin", 0, 0};
 
 // The user cancels at once or midway.
 TEST(LinkFit, GivingUpTheSearchForAServoIsNoFaultOfTheRobot) {
   const std::string place =
       (fs::temp_directory_path() / ("verp-fit-bus-" + std::to_string(::getpid()))).string();
-  wire::Link silent(wire::parse_endpoint("unix-listen:" + place));
-  const wire::Endpoint endpoint = wire::parse_endpoint("unix:" + place);
-  wire::Link link(endpoint);
+  link::Link silent(link::parse_endpoint("unix-listen:" + place));
+  const link::Endpoint endpoint = link::parse_endpoint("unix:" + place);
+  link::Link link(endpoint);
   ASSERT_TRUE(silent.wait_connected(1'000'000));
   Client client(link, endpoint, 1000);
   const Params params = verp::test::bus_params(6, true);

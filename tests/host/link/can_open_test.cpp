@@ -17,7 +17,7 @@
 
 // A kernel that refuses CAN sockets, unlike this PC's. tests/can covers vcan.
 
-namespace verp::wire {
+namespace verp::link {
 namespace {
 
 /// From now on socket(AF_CAN, ...) fails with `error`.
@@ -104,4 +104,4 @@ TEST(CanBitRate, OfAnotherRobotIsToldWithTheRemedy) {
 }
 
 }  // namespace
-}  // namespace verp::wire
+}  // namespace verp::link

@@ -5,7 +5,7 @@
 #include <random>
 #include <string>
 
-namespace verp::wire {
+namespace verp::link {
 namespace {
 
 using Kind = Endpoint::Kind;
@@ -116,4 +116,4 @@ TEST(Endpoint, IsTotal) {
 }
 
 }  // namespace
-}  // namespace verp::wire
+}  // namespace verp::link

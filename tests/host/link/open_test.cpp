@@ -13,7 +13,7 @@
 
 // Each error is one line with a remedy.
 
-namespace verp::wire {
+namespace verp::link {
 namespace {
 
 using Kind = LinkError::Kind;
@@ -227,4 +227,4 @@ TEST(Latency, IsReadAndAdvisedOn) {
 }
 
 }  // namespace
-}  // namespace verp::wire
+}  // namespace verp::link

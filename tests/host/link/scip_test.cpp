@@ -8,7 +8,7 @@
 
 // SCIP 2.0 by its specification, and a laser on a pseudo-terminal.
 
-namespace verp::wire {
+namespace verp::link {
 namespace {
 
 void add(scip::Replies& replies, std::string_view text) {
@@ -119,4 +119,4 @@ TEST(ScipRangeFinder, TellsWhatTheSensorRefused) {
 }
 
 }  // namespace
-}  // namespace verp::wire
+}  // namespace verp::link

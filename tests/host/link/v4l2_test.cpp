@@ -9,7 +9,7 @@
 #include "tests/support/video_device.hpp"
 
 // V4L2 only; tests/contract covers every camera.
-namespace verp::wire {
+namespace verp::link {
 namespace {
 
 using hal::CameraStatus;
@@ -239,4 +239,4 @@ TEST(Rgb, OfEachFormat) {
 }
 
 }  // namespace
-}  // namespace verp::wire
+}  // namespace verp::link

@@ -19,7 +19,7 @@ namespace verp::test {
 class LoneServo {
  public:
   explicit LoneServo(const std::string& path)
-      : link_(wire::parse_endpoint("pty:" + path)),
+      : link_(link::parse_endpoint("pty:" + path)),
         line_(::open(path.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC)) {
     thread_ = std::thread([this] { serve(); });
   }
@@ -63,7 +63,7 @@ class LoneServo {
     while (!over_) {
       std::uint8_t piece[256];
       const std::size_t count = link_.read(piece, sizeof piece, 10'000);
-      const std::uint8_t rate = dxl::baud_rate_code(wire::line_rate(line_.get()));
+      const std::uint8_t rate = dxl::baud_rate_code(link::line_rate(line_.get()));
       const std::scoped_lock lock(mutex_);
       for (std::size_t i = 0; i < count; ++i) {
         for (bool found = parser_.push(piece[i]); found; found = parser_.next()) {
@@ -102,8 +102,8 @@ class LoneServo {
     link_.write(frame, size, 100'000);
   }
 
-  wire::Link link_;
-  wire::Descriptor line_;  ///< keeps the port open and shows its rate
+  link::Link link_;
+  link::Descriptor line_;  ///< keeps the port open and shows its rate
   FakePlant plant_;
   dxl::Parser parser_;
   std::mutex mutex_;

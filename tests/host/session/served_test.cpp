@@ -87,7 +87,7 @@ TEST(Served, WhoGreetsAndThenSendsRubbishLosesItsRobot) {
   });
   std::atomic<bool> over = false;
   std::thread client([&] {
-    wire::Link link(wire::parse_endpoint("unix:" + place.string()));
+    link::Link link(link::parse_endpoint("unix:" + place.string()));
     std::uint8_t packet[lockstep::kMaxClockPacket];
     const lockstep::Hello hello;
     std::uint8_t hello_bytes[sizeof hello];

@@ -34,14 +34,14 @@ class Polled : public ::testing::Test {
     const Params params = verp::test::bus_params(7);
     controller = std::make_unique<Controller>(params, "unix-listen:" + path_, period);
     listens_for_ = listens_for;
-    port = std::make_unique<TickPort>(wire::parse_endpoint("unix:" + path_));
+    port = std::make_unique<TickPort>(link::parse_endpoint("unix:" + path_));
     check = std::make_unique<PolledCheck>(listens_for_, *port);
   }
   /// Until `compared` ticks were compared, the check is over, or 20 s have passed.
   void run(std::uint64_t compared) {
-    const std::uint64_t end_ns = wire::monotonic_ns() + 20'000'000'000;
-    while (check->compared() < compared && !check->over() && wire::monotonic_ns() < end_ns) {
-      const std::uint64_t now_us = wire::monotonic_ns() / 1000;
+    const std::uint64_t end_ns = link::monotonic_ns() + 20'000'000'000;
+    while (check->compared() < compared && !check->over() && link::monotonic_ns() < end_ns) {
+      const std::uint64_t now_us = link::monotonic_ns() / 1000;
       if (!check->turn(now_us)) std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }
   }

@@ -15,7 +15,7 @@
 namespace verp::shadow::test {
 
 using Log = app::TickLog<>;
-using Device = app::OperatorDevice<wire::Link, Log>;
+using Device = app::OperatorDevice<link::Link, Log>;
 
 /// Only its reports matter: plausible inputs, no servos.
 class Controller {
@@ -24,7 +24,7 @@ class Controller {
       : params_(params),
         inputs_(verp::test::plausible_inputs(4000, 5, 1000, params)),
         period_(period),
-        link_(wire::parse_endpoint(endpoint)),
+        link_(link::parse_endpoint(endpoint)),
         thread_([this] { run(); }) {}
   ~Controller() {
     over = true;
@@ -82,7 +82,7 @@ class Controller {
   const Params params_;
   const std::vector<Inputs> inputs_;
   const std::chrono::microseconds period_;
-  wire::Link link_;
+  link::Link link_;
   std::thread thread_;
 };
 

@@ -47,8 +47,8 @@ class BusCommand : public Program {
   }
 
  private:
-  wire::Link link_{wire::parse_endpoint("unix-listen:" + (folder_ / "port").string())};
-  app::OperatorDevice<wire::Link> device_{link_, verp::test::kRobot, {}};
+  link::Link link_{link::parse_endpoint("unix-listen:" + (folder_ / "port").string())};
+  app::OperatorDevice<link::Link> device_{link_, verp::test::kRobot, {}};
   std::atomic<bool> stop_ = false;
   std::thread serving_;
 };
@@ -165,7 +165,7 @@ using BusLinks = Program;
 class SlowController {
  public:
   SlowController(const std::string& place, std::uint64_t delay_us)
-      : link_(wire::parse_endpoint(place)), delay_us_(delay_us) {
+      : link_(link::parse_endpoint(place)), delay_us_(delay_us) {
     thread_ = std::thread([this] { serve(); });
   }
   ~SlowController() {
@@ -184,15 +184,15 @@ class SlowController {
       std::uint8_t piece[256];
       const std::size_t count = link_.read(piece, sizeof piece, 1000);
       for (std::size_t i = 0; i < count; ++i) {
-        for (bool found = parser_.push(piece[i]); found; found = parser_.next()) answer();
+        for (bool found = parser_.push(piece[i]); found; found = parser_.next()) cli::answer();
       }
-      while (!replies_.empty() && wire::monotonic_ns() / 1000 >= replies_.front().due_us) {
+      while (!replies_.empty() && link::monotonic_ns() / 1000 >= replies_.front().due_us) {
         link_.write(replies_.front().bytes.data(), replies_.front().bytes.size(), 100'000);
         replies_.pop_front();
       }
     }
   }
-  void answer() {
+  void cli::answer() {
     const dxl::Packet& packet = parser_.packet();
     std::vector<std::uint8_t> data = {0, 0, 1};
     if (packet.instruction == dxl::Instruction::kPing) {
@@ -203,10 +203,10 @@ class SlowController {
     std::vector<std::uint8_t> frame(128);
     frame.resize(dxl::encode_status(frame.data(), frame.size(), dxl::controller::kDefaultId, 0,
                                     data.data(), data.size()));
-    replies_.push_back({wire::monotonic_ns() / 1000 + delay_us_, frame});
+    replies_.push_back({link::monotonic_ns() / 1000 + delay_us_, frame});
   }
 
-  wire::Link link_;
+  link::Link link_;
   std::uint64_t delay_us_;
   dxl::Parser parser_;
   std::deque<Reply> replies_;
@@ -257,7 +257,7 @@ TEST_F(BusLinks, AnIdThatIsNoneIsRefusedWithTheRangeOfItsLink) {
 
 // The device never answers.
 TEST_F(BusLinks, AnInterruptEndsALongScan) {
-  wire::Link silent(wire::parse_endpoint("unix-listen:" + (folder_ / "port").string()));
+  link::Link silent(link::parse_endpoint("unix-listen:" + (folder_ / "port").string()));
   const Outcome outcome = shell(std::string("timeout -s INT -k 20 1 ") + VERP_PROGRAM +
                                 " bus scan --each --timeout 1000 --link unix:port");
   EXPECT_EQ(outcome.status, 124) << "timeout's own: it ended on the interrupt, not killed later";

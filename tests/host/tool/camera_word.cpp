@@ -38,7 +38,7 @@ class CameraWord : public ::testing::Test {
     std::ifstream in(file, std::ios::binary);
     return {std::istreambuf_iterator<char>(in), {}};
   }
-  std::string run(int status = kGood) {
+  std::string run(int status = cli::kGood) {
     ::testing::internal::CaptureStdout();
     EXPECT_EQ(run_camera(words_, device_), status);
     return ::testing::internal::GetCapturedStdout();
@@ -133,7 +133,7 @@ TEST_F(CameraWord, RecordsPicturesThatTracePicturesTakesOut) {
       });
   EXPECT_GT(count, 2u);
   ::testing::internal::CaptureStdout();
-  EXPECT_EQ(write_pictures(words_.record, file("pictures")), kGood);
+  EXPECT_EQ(write_pictures(words_.record, file("pictures")), cli::kGood);
   ::testing::internal::GetCapturedStdout();
   std::size_t files = 0;
   for (const auto& each : fs::directory_iterator(file("pictures"))) {

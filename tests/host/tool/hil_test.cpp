@@ -171,9 +171,9 @@ TEST_F(Hil, CtrlCEndsWhatServedSomebodyInOrder) {
 TEST_F(Hil, MeetsALinkThatIsCutAtOnceSomeTensOfTimesASecond) {
   std::atomic<bool> over = false;
   std::thread other([&] {
-    const wire::Endpoint endpoint = wire::parse_endpoint("unix-listen:" + place("bus"));
+    const link::Endpoint endpoint = link::parse_endpoint("unix-listen:" + place("bus"));
     while (!over) {
-      wire::Link port(endpoint);
+      link::Link port(endpoint);
       while (!over && !port.wait_connected(1000)) {
       }
       std::ofstream(folder_ / "taken") << '\n';
@@ -267,7 +267,7 @@ TEST_F(Hil, ServesAStockMasterInRealTime) {
   Outcome outcome;
   std::thread twin([&] { outcome = hil("--for 3 --json --link unix-listen:" + place("bus")); });
   ControllerPort port("unix:" + place("bus"));
-  const wire::SystemClock clock;
+  const link::SystemClock clock;
   app::LinkBus master(port, clock);
   const std::uint8_t id = params().joint[0].servo_id;
   std::uint8_t frame[16], reply[64];

@@ -48,15 +48,15 @@ class ControllerPort {
   bool open(std::uint32_t timeout_us) {
     if (link_) return true;
     try {
-      link_.emplace(wire::parse_endpoint(endpoint_));
+      link_.emplace(link::parse_endpoint(endpoint_));
       opened = true;
-    } catch (const wire::LinkError&) {
+    } catch (const link::LinkError&) {
       std::this_thread::sleep_for(std::chrono::microseconds(timeout_us + 1000));
     }
     return link_.has_value();
   }
   std::string endpoint_;
-  std::optional<wire::Link> link_;
+  std::optional<link::Link> link_;
   std::minstd_rand random_{7};
   int reads_ = 0;
 };

@@ -202,7 +202,7 @@ TEST_F(Team, WhoSaysAnythingButAGreetingIsTold) {
        .output = {.file = folder_ / "world.err"},
        .folder = folder_});
   wait_for("a.sock");
-  wire::Link client(wire::parse_endpoint("unix:" + (folder_ / "a.sock").string()));
+  link::Link client(link::parse_endpoint("unix:" + (folder_ / "a.sock").string()));
   const std::string words = "GET / HTTP/1.1\r\n\r\n";
   client.write(reinterpret_cast<const std::uint8_t*>(words.data()), words.size(), 100'000);
   const auto said = [&] { return slurp(folder_ / "world.err"); };

@@ -51,7 +51,7 @@ class Linked::Registers {
 
 class Linked::Serial final : public Registers {
  public:
-  explicit Serial(const wire::Endpoint& endpoint) : client_(endpoint, kTimeout_us) {}
+  explicit Serial(const link::Endpoint& endpoint) : client_(endpoint, kTimeout_us) {}
   Bytes read(const char* name, unsigned count) override {
     const auto& found = find(name);
     return client_.read(dxl::controller::kDefaultId, found.address,
@@ -64,7 +64,7 @@ class Linked::Serial final : public Registers {
 
 class Linked::Can final : public Registers {
  public:
-  explicit Can(const wire::Endpoint& endpoint) : client_(endpoint, kTimeout_us) {}
+  explicit Can(const link::Endpoint& endpoint) : client_(endpoint, kTimeout_us) {}
   Bytes read(const char* name, unsigned count) override {
     const auto& found = find(name);
     Bytes all;
@@ -84,8 +84,8 @@ class Linked::Can final : public Registers {
 Linked::Linked(const std::string& link, std::shared_ptr<const scene::Entity> entity,
                const Params& params)
     : entity_(std::move(entity)), params_(params) {
-  const wire::Endpoint endpoint = wire::parse_endpoint(link);
-  if (endpoint.kind == wire::Endpoint::Kind::kCan) {
+  const link::Endpoint endpoint = link::parse_endpoint(link);
+  if (endpoint.kind == link::Endpoint::Kind::kCan) {
     registers_ = std::make_unique<Can>(endpoint);
   } else {
     registers_ = std::make_unique<Serial>(endpoint);
