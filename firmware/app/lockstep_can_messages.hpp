@@ -11,8 +11,8 @@
 /// and a PC whose simulated time stands still until the controller asks for more. Frames of the
 /// robot's bus pass unchanged, so that any CANopen tool can read them. Clock messages have extended
 /// identifiers, which CANopen does not use, at the lowest priority, so that they leave last. The
-/// controller's end is lockstep_can.hpp, the PC's host/twin/can/lockstep_server.hpp. All integers are
-/// little-endian.
+/// controller's end is lockstep_can.hpp, the PC's host/twin/can/lockstep_server.hpp. All integers
+/// are little-endian.
 ///
 ///     1FFFFF00, 01, 02   Hello, 8 bytes each                 controller, until it is answered
 ///     1FFFFF08           HelloReply                          PC

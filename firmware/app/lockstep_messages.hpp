@@ -9,8 +9,8 @@
 /// pseudo-terminal or socket, and a PC whose simulated time stands still until the controller asks
 /// for more. Everything on the stream is Dynamixel Protocol 2.0: the servo bus frames unchanged,
 /// and packets to and from the twin's clock, device 201. The controller's end is lockstep_bus.hpp,
-/// the PC's host/twin/bus/lockstep_server.hpp. All integers are little-endian; byte offsets below count
-/// before stuffing.
+/// the PC's host/twin/bus/lockstep_server.hpp. All integers are little-endian; byte offsets below
+/// count before stuffing.
 ///
 /// Hello, repeated until answered: a Write to address 64 of the clock.
 ///

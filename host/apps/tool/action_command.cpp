@@ -175,8 +175,8 @@ int play(const ActionWords& words) {
   hooks.ticked = [&](const session::Tick& tick) {
     progress.show(0, fmt::format("{}  {:.1f} s", words.action, tick.seen.truth.t_s));
   };
-  action::Played played =
-      action::play(plan, number, std::move(hooks), {.world = world, .interrupted = cli::interrupted});
+  action::Played played = action::play(plan, number, std::move(hooks),
+                                       {.world = world, .interrupted = cli::interrupted});
   progress.clear();
   const session::WalkResult& run = played.run;
   files.finish(run, {});

@@ -47,7 +47,7 @@ struct BenchOptions {
 /// Throws ToolError with its last words if it fails.
 template <class Take>
 void run_program(const std::string& program, const std::string& arguments, Take take,
-                      const std::string& where = "") {
+                 const std::string& where = "") {
   const std::string path = (files::build_dir() / program).string();
   if (!std::filesystem::exists(path)) {
     throw cli::ToolError(cli::kNoDevice, path +
@@ -80,7 +80,7 @@ using Samples = std::map<std::string, std::vector<double>>;
 void sample(const std::string& program, const std::string& folder, Samples& samples) {
   std::string text;
   run_program(program, " " + files::shell_word(folder) + kTiming,
-                   [&](const std::string& l) { text += l; });
+              [&](const std::string& l) { text += l; });
   const cli::Json result = cli::Json::parse(text);
   for (const cli::Json& benchmark : result.at("benchmarks")) {
     const std::string name = benchmark.at("name");
@@ -214,9 +214,8 @@ void run_languages(int repetitions, std::vector<BenchRow>& rows, cli::Json& head
       "the controller stepped by other programs, a call a tick, without physics; CPU time, of two "
       "processes the clock's; median of {}",
       repetitions);
-  run_program(
-      "bench/language_bench", fmt::format(" {}", repetitions),
-      [&](const std::string& text) { add_language_row(cli::Json::parse(text), rows); });
+  run_program("bench/language_bench", fmt::format(" {}", repetitions),
+              [&](const std::string& text) { add_language_row(cli::Json::parse(text), rows); });
 }
 
 int tell(const BenchOptions& options, const std::vector<BenchRow>& rows,

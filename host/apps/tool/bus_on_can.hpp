@@ -6,7 +6,7 @@
 /// type; any other is shown as the bytes it has.
 namespace verp::tool {
 
-/// Whether --link names a CAN interface; throws wire::EndpointError if it names nothing.
+/// Whether --link names a CAN interface; throws link::EndpointError if it names nothing.
 bool on_can(const BusOptions& options);
 
 int scan_can(const BusOptions& options);

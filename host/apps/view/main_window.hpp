@@ -48,7 +48,7 @@ class MainWindow final : public QMainWindow {
   /// Throws record::TraceError.
   void watch(const std::filesystem::path& trace);
   /// From now on the controller at the end of that link stands beside each robot that is watched.
-  /// Throws wire::EndpointError.
+  /// Throws link::EndpointError.
   void link_to(const std::string& link);
   /// Steered by that joystick, whenever it is plugged in.
   void steer_by(const std::string& gamepad);

@@ -27,7 +27,7 @@ std::uint32_t to_number(const std::vector<std::uint8_t>& data) {
       canopen::get_le(data.data(), static_cast<unsigned>(std::min<std::size_t>(data.size(), 4))));
 }
 
-/// An interface of this PC: a port of the caller's, or (`Port` is a wire::CanPort) its own.
+/// An interface of this PC: a port of the caller's, or (`Port` is a link::CanPort) its own.
 template <class Port>
 class PortBus final : public ClientBus {
  public:

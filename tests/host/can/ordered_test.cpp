@@ -9,10 +9,10 @@
 #include "firmware/app/app.hpp"
 #include "firmware/app/operator_node.hpp"
 #include "firmware/app/tick_log.hpp"
-#include "host/twin/can/virtual_can.hpp"
 #include "host/robot/model/find.hpp"
 #include "host/robot/model/load.hpp"
 #include "host/robot/model/params.hpp"
+#include "host/twin/can/virtual_can.hpp"
 #include "host/twin/sim/robot.hpp"
 
 // A walk ordered on the drives' bus with only host/twin/can/masters.md's bytes.

@@ -281,7 +281,8 @@ TEST_F(TimelyRobot, TorqueIsLimitedInEveryServo) {
       read = verp("bus read --register goal_pwm --json --id " + std::string(id) +
                   " --link serial:" + port() + "@2000000");
     }
-    EXPECT_EQ(cli::Json::parse(read.out).at("registers").at("goal_pwm"), 885 * 30 / 100) << read.err;
+    EXPECT_EQ(cli::Json::parse(read.out).at("registers").at("goal_pwm"), 885 * 30 / 100)
+        << read.err;
   }
 }
 

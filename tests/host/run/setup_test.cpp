@@ -185,7 +185,7 @@ TEST_F(Setup, WhatWasWrittenIsKeptAtOnce) {
 // No result is lost for which the user held a joint.
 TEST_F(Setup, WhatAFullDiskDoesNotTakeIsPrinted) {
   const Json before = {{"robot", "generic21"},
-                            {"joints", {{"head_yaw", {{"note", std::string(20000, '.')}}}}}};
+                       {"joints", {{"head_yaw", {{"note", std::string(20000, '.')}}}}}};
   std::ofstream(folder_ / "generic21-setup.json") << before.dump();
   servos_.connect(kFromTheBox);
   servos_.turn_to(1900);

@@ -16,7 +16,7 @@ namespace verp::view {
 /// nobody; it is asked again until it answers. Writes nothing.
 class Linked {
  public:
-  /// Throws wire::EndpointError, wire::LinkError.
+  /// Throws link::EndpointError, link::LinkError.
   Linked(const std::string& link, std::shared_ptr<const scene::Entity> entity,
          const Params& params);
   ~Linked();

@@ -2,10 +2,10 @@
 #include <cstring>
 #include <map>
 
-#include "host/show/camera/rig.hpp"
 #include "host/robot/model/find.hpp"
 #include "host/robot/model/lens.hpp"
 #include "host/robot/model/load_world.hpp"
+#include "host/show/camera/rig.hpp"
 #include "host/twin/sim/scenery.hpp"
 #include "tests/host/camera/files.hpp"
 #include "tests/host/libverp/pictures/pictures.hpp"
