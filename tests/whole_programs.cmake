@@ -3,8 +3,8 @@
 # many parts, before all others, so that no core idles at the end. The property VERP_LONG_WALKS names tests to leave
 # out: they only walk longer than other tests do. Such walks are ten times slower here and find nothing more.
 #
-# Which program has which tests is in test_programs.txt of the build tree, for tests/wanted: program, what its tests' names begin
-# with, their label and the sources that they stand in; under sanitizers the whole name and no sources.
+# Writes test_programs.txt in the build tree, for tests/wanted: each program, the prefix of its tests' names, their
+# label and their sources; under sanitizers the whole name and no sources.
 function(verp_note_test_program target name)
   cmake_parse_arguments(PARSE_ARGV 2 arg "" "" "PROPERTIES;SOURCES")
   list(FIND arg_PROPERTIES LABELS at)

@@ -9,7 +9,7 @@ failed=0
 missing() { echo "$1" && failed=1; }
 
 boards_of_full='mps2_an385 mps2_an500 mps3_an547 nucleo_f446re'
-# The core, and what reads bytes of others.
+# The core, and code that reads foreign bytes.
 sanitized='unit math replay contract hil host.action host.bus host.can host.edit host.eds host.files host.libverp host.link host.live
   host.model host.radio host.record host.shadow host.tool.verp_tool_test.input_tests'
 # Bits of every instruction set, loops over every bus, walks, faults, and gates.

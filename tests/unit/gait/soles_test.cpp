@@ -80,7 +80,7 @@ TEST(Soles, PassBesideEachOtherHoweverOrdersJump) {
   }
 }
 
-// Fixed overlaps: 1.8 mm at 0.3 rad/s and 29 mm at 1.55.
+// Before this rule soles overlapped by 1.8 mm at 0.3 rad/s and by 29 mm at 1.55.
 TEST(Soles, TurningFeetLandFurtherOutAndTurnLessWhereThatIsNotEnough) {
   float turned_rad = 0;
   for (const float wz : {0.05F, 0.1F, 0.3F, 0.6F, 1.0F, 1.55F, 3.0F}) {
