@@ -12,7 +12,7 @@ namespace verp::action {
 /// Raise when the image's layout or meaning changes.
 inline constexpr std::uint32_t kLibraryVersion = 1;
 inline constexpr char kLibraryMagic[8] = {'V', 'E', 'R', 'P', 'A', 'C', 'T', '1'};
-inline constexpr int kMaxActions = 255;  ///< numbers fit a byte; 0 is none
+inline constexpr int kMaxActions = 255;  ///< numbers fit a byte; 0 means no action
 inline constexpr int kMaxFrames = 4096;
 
 struct LibraryHeader {

@@ -176,8 +176,8 @@ class SyncSchedule {
     left_ = 0;
     started_ = false;
   }
-  /// True if the TPDO is sent after this SYNC. `counter`: 0 if it has none. `event`: an acyclic
-  /// TPDO has new data.
+  /// True if the TPDO is sent after this SYNC. `counter`: 0 for a SYNC without one. `event`: an
+  /// acyclic TPDO has new data.
   constexpr bool on_sync(std::uint8_t type, std::uint8_t start, std::uint8_t counter, bool event) {
     if (type == kAcyclicSync) return event;
     if (type > kMaxCyclicSync) return false;

@@ -24,8 +24,8 @@ inline constexpr std::uint16_t kDriveProfile = 402;
 /// 1018h:2, product code: a drive's ServoProfile::model_number (0 there: any), a sensor's
 /// dxl::kModelImu or dxl::kModelFoot.
 inline constexpr Address kDeviceType{0x1000, 0};
-/// CiA assigns vendor ids; we have none. Manufacturer objects (2000h to 5FFFh) mean the following
-/// only on nodes with vendor 0.
+/// CiA assigns vendor ids; this project has no id. Manufacturer objects (2000h to 5FFFh) mean the
+/// following only on nodes with vendor 0.
 inline constexpr Address kVendor{0x1018, 1};
 inline constexpr std::uint32_t kOurVendor = 0;
 inline constexpr Address kProductCode{0x1018, 2};

@@ -19,7 +19,7 @@ class OpenObject {
   void close() { at_ = {}; }
   /// Size of an upload, or bytes downloaded so far.
   std::uint32_t size() const { return size_; }
-  /// Size of an expedited download that gives none.
+  /// Size of an expedited download that does not give it.
   std::uint32_t implied_size() const { return entry_.max_size < 4 ? entry_.max_size : 4; }
 
   /// Reads a small object at once.

@@ -28,7 +28,7 @@ enum class SyncSeen : std::uint8_t {
   kWrongLength,  ///< of another length: valid, EMCY 8240h is due
 };
 
-/// Sets `counter`, 0 if the SYNC has none.
+/// Sets `counter`, to 0 for a SYNC without a counter.
 constexpr SyncSeen read_sync(const Frame& frame, std::uint8_t overflow, std::uint8_t& counter) {
   if (!is_canopen(frame) || frame.id != kSyncId) return SyncSeen::kNo;
   counter = overflow != 0 && frame.size == 1 ? frame.data[0] : std::uint8_t{0};
