@@ -162,7 +162,7 @@ TEST(RobotisMotion, EachPageHasANameOfItsOwn) {
   EXPECT_TRUE(to_motion(op3().params, documents) == motion);
 }
 
-// At its line.
+// The writer refuses at its line what a page cannot hold.
 TEST(RobotisMotion, WhatNoPageWouldKeepIsRefused) {
   Motion motion(kPages, blank_page());
   for (const std::size_t page : {1U, 2U}) {
@@ -228,7 +228,7 @@ TEST(RobotisMotion, FilesOfAnotherSizeOrADamagedPageAreRefused) {
   std::filesystem::remove(file);
 }
 
-// The checksums are right, so nothing is damaged.
+// Their checksums are right: the pages are undamaged but meaningless.
 TEST(RobotisMotion, PagesOfMoreStepsThanTheyHoldOrOfNoPositionsAreRefusedByNumber) {
   const std::filesystem::path file =
       std::filesystem::temp_directory_path() / ("rubbish" + std::to_string(getpid()) + ".bin");

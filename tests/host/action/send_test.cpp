@@ -89,7 +89,7 @@ TEST_F(SendActions, TheBoardStartsAnewWithThem) {
   EXPECT_EQ(board.starts, 3);
 }
 
-// After plugging in, a new transfer succeeds.
+// After the cable is back, a new transfer succeeds.
 TEST_F(SendActions, ACableThatIsPulledAtAnyBlockCostsNothing) {
   const int blocks = static_cast<int>((fresh_.size() + 127) / 128);
   ASSERT_GE(blocks, 3);
@@ -152,7 +152,7 @@ TEST_F(SendActions, AFlashThatDoesNotKeepThemIsTold) {
   expect_refused(fresh_, "its flash did not keep a block");
 }
 
-// The board erases it while the sender waits.
+// The board erases a used place while the sender waits.
 TEST_F(SendActions, APlaceIsMadeWhereOneWasUsed) {
   RunningBoard& board = start();
   EXPECT_EQ(send(fresh_, stopping([](std::size_t) { return false; })), "stopped");

@@ -154,7 +154,7 @@ TEST_F(BusWatchdog, ARobotWhoseBusComesBackUnderTorqueMoves) {
     EXPECT_EQ(watchdog(params.joint[j].servo_id), app::bus_watchdog_units(params)) << j;
 }
 
-// It missed every frame meanwhile.
+// The servo missed every frame meanwhile.
 TEST_F(BusWatchdog, AServoThatComesBackAloneMoves) {
   ready();
   wanted.torque_enable = all();

@@ -228,7 +228,7 @@ TEST_F(BusInstructions, BulkWriteWritesEachItsOwnAndStopsAtACutEntry) {
   EXPECT_EQ(plant.setpoint(2).d_gain, 0);
 }
 
-// The e-Manual's use: scattered registers as one block.
+// The e-Manual's use: it reads and writes scattered registers as one block.
 TEST_F(BusInstructions, IndirectDataStandsForTheBytesItsAddressesName) {
   plant.measured[0].temperature_c = 41;
   const auto point = [&](std::uint16_t pair, std::uint16_t to) {

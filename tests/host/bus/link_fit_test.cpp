@@ -39,7 +39,7 @@ struct Sys {
 const link::Endpoint kAdapter{link::Endpoint::Kind::kSerial, "/dev/ttyUSB7", 2'000'000, 0};
 const link::Endpoint kSocket{link::Endpoint::Kind::kUnix, "/tmp/twin", 0, 0};
 
-// The user cancels at once or midway.
+// The user cancels the search at once or midway.
 TEST(LinkFit, GivingUpTheSearchForAServoIsNoFaultOfTheRobot) {
   const std::string place =
       (fs::temp_directory_path() / ("verp-fit-bus-" + std::to_string(::getpid()))).string();

@@ -105,7 +105,7 @@ class Lockstep : public ::testing::Test {
   Loop loop{params, bus, port, port};
 };
 
-// The PC's shadow reproduces them too.
+// The controller's bits are the same here and behind a link, and the PC's shadow has them too.
 TEST_F(Lockstep, RecordsWhatTheLoopInThisProcessRecords) {
   run();
   EXPECT_TRUE(same(port.records, records_here(params)));
@@ -114,7 +114,7 @@ TEST_F(Lockstep, RecordsWhatTheLoopInThisProcessRecords) {
   EXPECT_EQ(server.counters().repeats + bus.counters().repeats, 0u);
 }
 
-// A user writes it, with or without a controller.
+// A user writes this register, with or without a controller.
 TEST(SetUpright, IsARegisterOfTheTwinsClock) {
   const Params params = test::bus_params(2);
   test::FakePlant plant;
@@ -245,7 +245,7 @@ TEST_F(Lockstep, RefusesOtherParamsByName) {
   EXPECT_EQ(bus.greet(params), lockstep::Verdict::kAccepted);
 }
 
-// It has no core version of ours.
+// A third-party controller has no core version of ours.
 TEST_F(Lockstep, MeetsAStrangerWhereNobodyComparesBits) {
   const lockstep::Hello stranger;
   const auto verdict = [&] {

@@ -46,7 +46,7 @@ TEST(RegisterNames, ServoRegistersHaveTheManualsSizes) {
   EXPECT_EQ(size("homing_offset"), 4u);
 }
 
-// Users need one register; the rest is for controllers.
+// Users need one of the clock's registers; the rest is for controllers.
 TEST(RegisterNames, TheTwinsClockIsNamed) {
   EXPECT_EQ(model_name(lockstep::kClockModel), "twin's clock");
   const NamedRegister* upright = find_register(lockstep::kClockModel, "set_upright");

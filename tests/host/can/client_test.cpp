@@ -140,7 +140,7 @@ TEST_F(CanClient, WhatALateAnswerSpoiltIsAskedOnceMore) {
   EXPECT_EQ((nodes.asked[{19, {0x1018, 1}}]), 2);
 }
 
-// From whichever object on; the client does not wait for each remaining object.
+// The node may fall silent at any object. The client does not wait for each remaining one.
 TEST_F(CanClient, ANodeThatFallsSilentIsToldApartFromOneThatRefuses) {
   for (const Address last :
        {Address{0x1000, 0}, Address{0x1008, 0}, Address{0x1018, 1}, Address{0x1018, 2}}) {
@@ -179,7 +179,7 @@ TEST_F(CanClient, AScanOfNobodyFindsNobody) {
   EXPECT_TRUE(client.scan().empty());
 }
 
-// It only shows that the node is there.
+// Another client's transfer only shows that the node is there.
 TEST_F(CanClient, AnAnswerToAnothersRequestIsNotTakenForADeviceType) {
   nodes.add(19);
   nodes.add(3);

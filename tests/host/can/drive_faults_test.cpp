@@ -99,7 +99,7 @@ TEST_F(VirtualDrive, AMasterThatIsSilentBeforeThereIsTorqueIsToldAndIsNoFault) {
   EXPECT_EQ(bench.value(kNode, object::kErrorCode), 0);
 }
 
-// A faulty tool may write any value.
+// A faulty tool may write any home offset.
 TEST_F(VirtualDrive, ItsCounterGoesOnAtTheOtherEndOf32Bits) {
   measured().position_count = 10;
   bench.write(kNode, object::kHomeOffset, -0x7FFFFFFF, 4);
@@ -128,7 +128,7 @@ TEST_F(VirtualDrive, OverheatingIsAFaultUntilItIsCool) {
   EXPECT_EQ(bench.value(kNode, object::kErrorCode), 0);
 }
 
-// 18 V is low of 24 V and high of 12 V.
+// 18 V is low for a motor of 24 V and high for one of 12 V.
 TEST_F(VirtualDrive, WhatSupplyIsLowOrHighIsThatOfItsMotor) {
   bench.plant.rated.nominal_v = 24;
   bench.bus.plug_in(std::make_unique<can::DriveNode>(can::drive_identity(402, 50), 50, bench.plant,

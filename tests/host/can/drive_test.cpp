@@ -171,7 +171,7 @@ TEST_F(VirtualDrive, MeasuresSpeedAndTorque) {
   EXPECT_EQ(bench.value(kNode, object::kActualTorque), -250);
 }
 
-// Increments per turn, and the rated values of 1000 thousandths.
+// The drive gives its increments per turn and its rated values.
 TEST_F(VirtualDrive, GivesPositionAndTorqueTheirScale) {
   EXPECT_EQ(bench.value(kNode, {0x608F, 0}), 2);
   EXPECT_EQ(bench.value(kNode, {0x608F, 1}), 16384);

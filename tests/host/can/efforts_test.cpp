@@ -152,8 +152,8 @@ struct Desk {
   Controller& node;
 };
 
-// Exact to the count, and at most two turns old. A turn is 21 drives' velocities and torques, one
-// request in four ticks.
+// Each value is exact to the count and at most two turns old. A turn is 21 drives' velocities and
+// torques, one request in four ticks.
 TEST(Efforts, ReadFromAWalkingControllersNodeAreWhatEachJointDidInItsTurn) {
   const model::Entity entity = model::load_robot(model::find_model("generic21"), "can");
   const Params params = model::make_params(entity);

@@ -35,7 +35,8 @@ TEST(BusLoad, TwentyOneDrivesAt125HzStayUnder70PercentAtWorst) {
   EXPECT_FALSE(row.no_room);
 }
 
-// On by default where it fits: two frames of eight bytes a tick, no more with the IMU on the bus.
+// The live check is on by default where it fits. It takes two frames of eight bytes a tick, no more
+// with the IMU on the bus.
 TEST(BusLoad, TheLiveCheckFitsBeside21DrivesAt125Hz) {
   Params params = test::can_params(21);
   const LoadRow row = row_of(can::load_table(params, kDataBaud), 125, 1, false);
@@ -88,7 +89,7 @@ TEST(BusLoad, AFasterTickNeedsTwoBusesOrFd) {
   EXPECT_FALSE(row_of(rows, 200, 1, true).no_room);
 }
 
-// The first without room; those before it fit.
+// The named drive is the first without room; those before it fit.
 TEST(BusLoad, WhatDoesNotFitIsNamed) {
   Params params = test::can_params(21);
   const int first = row_of(can::load_table(params, kDataBaud), 200, 1, false).no_room.value_or(21);
@@ -118,7 +119,8 @@ TEST(BusLoad, GrowsWithTheRateAndShrinksWithBusesAndFd) {
   }
 }
 
-// Only SYNC, heartbeat, controlword and telemetry are there twice.
+// Each bus carries half of the drives; only SYNC, heartbeat, controlword and telemetry are there
+// twice.
 TEST(BusLoad, TwoBusesShareTheDrives) {
   const std::vector<LoadRow> rows = can::load_table(test::can_params(21), kDataBaud);
   const LoadRow one = row_of(rows, 100, 1, false);

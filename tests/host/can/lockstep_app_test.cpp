@@ -126,7 +126,7 @@ TEST_F(CanLoop, RecordsTheSameBitsOverABusThatLosesAnswers) {
   EXPECT_GT(wire.faults, 100u);
 }
 
-// Frames to the twin are lost.
+// The run goes on although frames to the twin are lost.
 TEST_F(CanLoop, IsKnownBitByBitThoughItsFramesAreLost) {
   ASSERT_EQ(bus.greet(params), lockstep::Verdict::kAccepted);
   auto loop = std::make_unique<app::App<decltype(bus), Linked, Linked>>(params, bus, operator_link,
@@ -138,7 +138,7 @@ TEST_F(CanLoop, IsKnownBitByBitThoughItsFramesAreLost) {
   expect_shadowed(operator_link.records);
 }
 
-// One tick's beginning, or two in a row.
+// The twin misses one tick's beginning, or two in a row.
 TEST_F(CanLoop, IsKnownBitByBitThoughBeginningsOfTicksAreLost) {
   ASSERT_EQ(bus.greet(params), lockstep::Verdict::kAccepted);
   auto loop = std::make_unique<app::App<decltype(bus), Linked, Linked>>(params, bus, operator_link,

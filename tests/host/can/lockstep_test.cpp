@@ -102,7 +102,7 @@ class CanLockstep : public ::testing::Test {
   Bus bus{wire, Patient{&patience}};
 };
 
-// To the microsecond.
+// The frames come at the same microsecond here and behind a bus.
 TEST_F(CanLockstep, BringsWhatABusInThisProcessBrings) {
   ASSERT_EQ(bus.greet(params), lockstep::Verdict::kAccepted);
   const std::vector<Heard> heard = drive(params, bus);
@@ -162,7 +162,7 @@ TEST_F(CanLockstep, AnAnswerFitsAnSja1000) {
   EXPECT_LE(wire.most_room, 64u);
 }
 
-// For example the live check's requests.
+// The live check, for example, sends such requests.
 TEST_F(CanLockstep, AnAnswerFitsAnSja1000WithARequestToTheController) {
   ASSERT_EQ(bus.greet(params), lockstep::Verdict::kAccepted);
   wire.most_room = 0;
@@ -185,7 +185,7 @@ TEST_F(CanLockstep, KeepsNoRequestsForAControllerThatIsGone) {
   EXPECT_EQ(wire.requests_heard, 4u);
 }
 
-// Both ends count it, and the run goes on.
+// Both ends count the lost frame, and the run goes on.
 TEST_F(CanLockstep, LetsALostFrameBeLostOnTheBus) {
   wire.outbound = {.lost = 0.01, .doubled = 0.01};
   ASSERT_EQ(bus.greet(params), lockstep::Verdict::kAccepted);
@@ -195,7 +195,7 @@ TEST_F(CanLockstep, LetsALostFrameBeLostOnTheBus) {
   EXPECT_FALSE(bus.lost());
 }
 
-// The interface is shared.
+// Other devices share the interface; both ends ignore their frames.
 TEST_F(CanLockstep, IgnoresWhatOthersSay) {
   wire.outbound = {.foreign = 0.1};
   wire.inbound = {.foreign = 0.1};

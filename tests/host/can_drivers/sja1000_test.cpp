@@ -90,7 +90,7 @@ TEST(Sja1000Driver, AFrameOnTheWireStaysThereAndIsSentOnce) {
   EXPECT_EQ(rig.heard_ids(), (Ids{0x500, 0x100}));
 }
 
-// Before a later frame of its identifier.
+// The withdrawn frame stays before a later one of its identifier.
 TEST(Sja1000Driver, WhatGaveWayKeepsItsOrder) {
   Rig rig;
   rig.model.wire.hold(true);

@@ -6,8 +6,8 @@
 
 #include "tests/host/compare/traces.hpp"
 
-// Under encoder noise, per joint: delays within 1 ms, offsets within 0.1 degrees, and no number
-// that cannot be known.
+// The comparison finds delays within 1 ms and offsets within 0.1 degrees per joint under encoder
+// noise. It gives no number that cannot be known.
 
 namespace verp::compare::test {
 namespace {
@@ -78,7 +78,7 @@ TEST(Compare, RunsThatBeganAtDifferentTimesAreLaidTogetherByWhatTheControllerBeg
   EXPECT_NEAR(*ordered.delay_s, 0, 1e-3);
 }
 
-// Its own noise, not an edited copy.
+// The other run is a twin with its own noise, not an edited copy.
 TEST(Compare, ATwinWhoseServosActLaterIsLateByThat) {
   session::WalkPlan plan = plan_of(5, 2);
   plan.twin.goal_delay_s = 0.010;

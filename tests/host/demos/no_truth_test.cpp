@@ -51,7 +51,8 @@ Seen what_they_are_told(const World& world) {
   return {told.all(), told.scans(), told.messages()};
 }
 
-// Not to the bit. An object in sight does change it, so the test can see a change.
+// Objects out of sight change no bit of a brain's input. An object in sight does, so the test can
+// see a change.
 TEST(NoTruth, WhatABrainCannotSenseChangesNothingThatItIsTold) {
   const Seen here = what_they_are_told(World("here", 60, 40));
   const Seen elsewhere = what_they_are_told(World("elsewhere", 70, 55));

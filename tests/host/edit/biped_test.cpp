@@ -8,7 +8,7 @@
 namespace verp::edit {
 namespace {
 
-/// One leg, then its mirror image.
+/// The user builds one leg and then mirrors it.
 TEST(Biped, GrowsFromAnEmptyFileAndIsSound) {
   const files::TemporaryDirectory folder;
   const std::string file = (folder.path() / "biped.sdf").string();

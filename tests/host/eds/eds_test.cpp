@@ -239,12 +239,12 @@ TEST(Eds, TheControllersSheetIsWhatTheControllerAnswers) {
   expect_same_tpdos(sections, node->objects(), kNode);
 }
 
-// With a robot's numbers in them.
+// The twin's devices hold a robot's numbers.
 TEST(Eds, TheDevicesSheetsAreWhatTheyAnswer) {
   constexpr std::uint8_t kNode = 37;
   verp::test::FakePlant plant;
-  // From commissioning. With a default of 0, a tool that writes a sheet's defaults would erase the
-  // gains.
+  // Commissioning sets the gains. With a default of 0, a tool that writes a sheet's defaults would
+  // erase them.
   const can::DriveSetup commissioned{
       .counts_per_rad = 2608, .p_gain = 778, .i_gain = 3, .d_gain = 91};
   can::DriveNode of_drive(can::drive_identity(402, kNode), kNode, plant, 0, commissioned);
@@ -274,7 +274,7 @@ TEST(Eds, AllThatIsSetUpOnTheBusHasADefaultAndNoneIsEmpty) {
   }
 }
 
-// They exist but hold no data.
+// The objects exist but hold no data.
 TEST(Eds, AControllerWithoutImagesAnswersForThem) {
   app::OperatorRegisters<app::NoImages> registers(test::kRobot, app::OperatorSetup{},
                                                   app::no_images);

@@ -40,7 +40,7 @@ TEST(Replace, ALinkStaysOne) {
   EXPECT_EQ(read(file), "new");
 }
 
-// And the pipe is still there.
+// The reader gets the bytes, and the pipe remains.
 TEST(Replace, APipeIsWrittenTo) {
   const TemporaryDirectory folder;
   const fs::path pipe = folder.path() / "pipe";

@@ -152,7 +152,7 @@ TEST(ToolRun, ToolThatIsNotInstalledNamesItsPackage) {
   }
 }
 
-// Even if the tool ignores the interrupt.
+// This tool even ignores the interrupt.
 TEST(ToolRun, StopEndsTheTool) {
   const ToolRun run = run_tool({"sh", "-c", "trap '' INT; echo there; while :; do sleep 0.1; done"},
                                "sh", {.stop = [] { return true; }});

@@ -57,7 +57,7 @@ TEST(LibverpHostile, PlansThatAreTooLong) {
   EXPECT_TRUE(core.plan(0.1, 0, 0, 0).empty());
 }
 
-// The physics diverge; that is no good run.
+// The physics diverge, which the result must not call a good run.
 TEST(LibverpHostile, APushBeyondAllNumbersIsInTheResult) {
   Opened opened;
   opened.add();
@@ -111,7 +111,7 @@ TEST(LibverpHostile, TextsThatAreEmpty) {
                "file is empty");
 }
 
-/// That no sensor or operator sends.
+/// No sensor or operator sends such bytes.
 TEST(LibverpHostile, CoreTakesAnyBytes) {
   const verp_lib::Core core;
   std::mt19937 chance(1);
@@ -154,7 +154,7 @@ TEST(LibverpHostile, ManyThreadsOnOneHandle) {
   EXPECT_GE(told, 39) << "closed, or busy, but for one";
 }
 
-/// Its own checks, with C's messages.
+/// The C++ interface checks arguments itself, with C's messages.
 TEST(LibverpHostile, CppNamesTheCall) {
   const auto says = [](const std::string& words, const std::function<void()>& call) {
     try {

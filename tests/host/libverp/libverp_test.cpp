@@ -27,7 +27,7 @@ TEST(Libverp, WalksAsASessionDoes) {
   EXPECT_STREQ(result.failure, "");
 }
 
-/// A session's view of each tick is enough.
+/// A session's view of each tick is enough to decide it again.
 TEST(Libverp, CoreDecidesWhatTheSessionDid) {
   Opened opened;
   opened.add();
@@ -113,7 +113,7 @@ TEST(Libverp, OwnControllerThatDecidesLikeTheRobotsIsTheSameRun) {
   EXPECT_EQ(digest_with([](const verp_lib::Moment& moment) { moment.decide(); }), digest_with({}));
 }
 
-/// With walk_s 0; a parameter, a mass and a push act too.
+/// With walk_s 0 only orders move the robot. A parameter, a mass and a push act too.
 TEST(Libverp, DrivesARobotByOrders) {
   Opened opened;
   opened.add([](verp_robot& robot) { robot.walk_s = 0; });

@@ -83,7 +83,7 @@ TEST(LibverpMisuse, NamesAndRanges) {
   EXPECT_EQ(verp_session_tick(session, 1, nullptr, nullptr), VERP_OK) << "and it still runs";
 }
 
-/// Without the drawing program.
+/// These errors do not need the drawing program.
 TEST(LibverpMisuse, PicturesThatAreNone) {
   Opened opened;
   opened.add();
@@ -156,7 +156,7 @@ TEST(LibverpMisuse, ViewsThatAreNone) {
                "verp_session_render", "view is null");
 }
 
-/// What is missing, where it was looked for, and which package has it.
+/// The error says what is missing, where it was looked for, and which package has it.
 TEST(LibverpMisuse, ProgramThatDrawsIsMissing) {
   Opened opened;
   opened.add();
@@ -257,7 +257,7 @@ TEST(LibverpMisuse, RobotsInEachOther) {
   EXPECT_EQ(verp_session_add(opened.session, &robot, nullptr), VERP_OK) << verp_last_error();
 }
 
-/// They get an error at once and break nothing.
+/// The second thread and the callback get an error at once and break nothing.
 TEST(LibverpMisuse, TwoThreadsAndACallback) {
   Opened opened;
   opened.add();

@@ -131,7 +131,7 @@ TEST(LibverpRadio, EqualRunsHearEqualAndTheirTraceReplays) {
   EXPECT_EQ(runs[0], runs[1]);
 }
 
-/// Each sends the number of messages it has heard.
+/// Each controller sends the number of messages it has heard.
 TEST(LibverpRadio, ControllersTalkInsideTheirTicks) {
   struct Talker {
     verp_session session;

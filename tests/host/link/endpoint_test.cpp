@@ -47,7 +47,7 @@ TEST(Endpoint, IsWrittenAsItIsRead) {
   }
 }
 
-// One line: what is wrong, and what to write instead.
+// One line says what is wrong and what to write instead.
 TEST(Endpoint, RefusesWithARemedy) {
   const struct {
     const char* text;

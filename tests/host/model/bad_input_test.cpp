@@ -139,7 +139,7 @@ TEST(BadInput, NegativeMassIsRefused) {
   expect_refused(edited("<mass>1.1</mass>", "<mass>-1.1</mass>"), "<mass>-1.1</mass>", "mass");
 }
 
-/// Beyond float32 or beyond any robot.
+/// These values exceed float32 or any robot.
 TEST(BadInput, AbsurdMagnitudesAreRefused) {
   const struct {
     const char *old_part, *new_part, *line_part, *message;

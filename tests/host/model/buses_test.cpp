@@ -98,8 +98,8 @@ TEST(Buses, OneThatCannotCarryATickIsRefused) {
   EXPECT_NE(line.find("a tick's packets take"), std::string::npos) << line;
 }
 
-// 87 % of the period, and more than all of it when every drive changes its state. The error is at
-// the bus's line.
+// The packets take 87 % of the period, and more than all of it when every drive changes its state.
+// The error is at the bus's line.
 TEST(Buses, OneWithoutRoomNamesTheFirstDriveThatDoesNotFit) {
   const std::string slow = kCan + " period_us=\"10000\"";
   const std::string fast = kCan + " period_us=\"6000\"";
@@ -127,7 +127,7 @@ TEST(Buses, TheDriveThatIsNamedIsTheFirstThatDoesNotFit) {
   EXPECT_THROW(require_bus(entity, params), LoadError);
 }
 
-// Under 80 %, but such a tick would run into the next.
+// The share is under 80 %, but such a tick would run into the next.
 TEST(Buses, AChangeOfAllStatesHasToFitThePeriod) {
   const Entity entity = load_robot(robot_file("generic21"), "can");
   Params params = make_params(entity);

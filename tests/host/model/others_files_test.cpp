@@ -118,7 +118,7 @@ TEST(OthersFiles, OneTextForTwoFilesIsRefused) {
   EXPECT_TRUE(error.file.ends_with("b/part.sdf")) << error.what();
 }
 
-// The last would be read 2^20 times.
+// Each file includes the next one twice: the last would be read 2^20 times.
 TEST(OthersFiles, FilesThatMultiplyAreRefusedAtOnce) {
   const std::string folder = ::testing::TempDir();
   for (int i = 0; i < 20; ++i) {

@@ -110,7 +110,7 @@ TEST(Image, IsReadBackAsWritten) {
   EXPECT_EQ(check_image(&image, sizeof image), ImageFault::kNone);
 }
 
-// For `verp flash --params FILE`.
+// `verp flash --params FILE` shows this error.
 TEST(Image, NumberThatIsNoneIsToldByItsName) {
   ParamsImage image = make_image(generic21());
   image.params.joint[3].upper_rad = std::numeric_limits<float>::quiet_NaN();

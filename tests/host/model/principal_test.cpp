@@ -8,7 +8,7 @@
 namespace verp::model {
 namespace {
 
-// Bit for bit. Eigen's own function adds seconds of compile time to each unit.
+// Our function equals Eigen's bit for bit. Eigen's adds seconds of compile time to each unit.
 TEST(Principal, TheShortestTurnOfZIsEigens) {
   std::mt19937 random(1);
   std::normal_distribution<double> number;

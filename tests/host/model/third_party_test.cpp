@@ -199,7 +199,7 @@ TEST(Urdf, ShapeWithoutMassIsRefusedUnlessDeclared) {
   EXPECT_EQ(load_part_of_robot(file.path()).joints.size(), 1u);
 }
 
-// Other programs need such frames; all keep their names.
+// Other programs need such chains of frames; all keep their names.
 TEST(Urdf, ChainOfMasslessLinksCarriesWhatHangsOnIt) {
   const auto fixed = [](const std::string& name, const std::string& parent,
                         const std::string& child) {
@@ -234,7 +234,7 @@ TEST(Urdf, LinkAndJointMayHaveOneName) {
   EXPECT_EQ(e.nodes[2].name, "k");
 }
 
-// Fingers: one slides, one bends, one mimics.
+// The fixed joints are fingers: one slides, one bends, one mimics.
 TEST(Urdf, FixedJointsAreNoJointsAndStandWhereTheyWereFixed) {
   const auto joint = [](const std::string& name, const std::string& type, const std::string& more) {
     return SmallUrdf::link(name + "_tip") + "<joint name=\"" + name + "\" type=\"" + type +
@@ -270,7 +270,7 @@ TEST(Urdf, DecimalCommaIsRefused) {
   EXPECT_THROW(load_robot(file.path()), LoadError);
 }
 
-/// As other file conventions place joints.
+/// The test moves joints as other file conventions would place them.
 TEST(LegSolver, AxesApartBeyondHalfAMillimetreTakeNewton) {
   Entity e = load_robot(robot_file("generic21"));
   const Limb leg = *find_limb(e, "left_leg");

@@ -132,7 +132,7 @@ TEST(Child, ACtrlCOfOursDoesNotReachIt) {
   EXPECT_NE(::getpgid(child.id()), ::getpgrp());
 }
 
-// Without destructors or handlers.
+// SIGKILL runs neither destructors nor handlers.
 TEST(Child, DoesNotOutliveAParentThatIsKilled) {
   LifeLine line;
   const pid_t parent = ::fork();

@@ -82,7 +82,7 @@ TEST_F(TraceCut, RefusesWhatItCannotReplayAndLeavesNothing) {
   EXPECT_EQ(std::distance(fs::directory_iterator(folder_), {}), 1);
 }
 
-// This program does not understand its State.
+// This program does not understand the other revision's State.
 TEST_F(TraceCut, OfAnotherRevisionIsRefusedByName) {
   const Params params = sample_params();
   {

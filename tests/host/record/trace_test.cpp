@@ -142,7 +142,7 @@ TEST_F(TraceFile, MessageSaysHowMuchIsLost) {
   EXPECT_NE(error.find("lost"), std::string::npos) << error;
 }
 
-// It cannot say how many were lost.
+// A compressed trace cannot say how many ticks were lost.
 TEST_F(TraceFile, CompressedRecoversWholeChunksToo) {
   const fs::path file = folder_ / "run.mcap";
   write_run(file, 12, {.chunk_ticks = 4});

@@ -65,8 +65,8 @@ class RunLatency : public RunBench {
   }
 };
 
-// If the machine needs more (a sanitizer, a busy core), at the period that the refusal offers.
-// LinkFit proves that 1 ms fits into 10 ms.
+// If the machine needs more (a sanitizer, a busy core), the test takes the period that the refusal
+// offers. LinkFit proves that 1 ms fits into 10 ms.
 TEST_F(RunLatency, OneMillisecondFitsTheModelsPeriod) {
   serve();
   plug({1000, 1000});
@@ -103,7 +103,8 @@ TEST_F(RunLatency, SixteenMillisecondsFitNoPeriod) {
   EXPECT_EQ(cable_->ticks(), 0u);
 }
 
-// Five times: at least the periods that began meanwhile, at most those without a tick.
+// The PC stops five times. At least the periods that began meanwhile count, at most those without a
+// tick.
 TEST_F(RunLatency, StallsOfThePcAreCountedAsTheyWere) {
   constexpr std::uint64_t kPeriod_us = 20'000;
   serve();

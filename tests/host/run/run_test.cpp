@@ -86,7 +86,8 @@ TEST_F(RealRobot, TheChecklistIsAskedOnEveryLink) {
   refuses("unix-listen:" + port(), "unix:" + port());
 }
 
-// In the table's order. A closing terminal and a shutdown count too.
+// The robot sits down and goes limp in the table's order. A closing terminal and a shutdown count
+// too.
 TEST_F(TimelyRobot, AnInterruptSitsTheRobotDown) {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
     serve();  // the released robot lies on the floor
@@ -106,7 +107,7 @@ TEST_F(TimelyRobot, AnInterruptSitsTheRobotDown) {
   }
 }
 
-// Softly on request; the trace suffices for a replay.
+// The servos play it softly on request; the trace suffices for a replay.
 TEST_F(TimelyRobot, PlaysAnActionThenSitsDownAndLetsGo) {
   serve();
   plug({1000, 1000});
@@ -192,7 +193,7 @@ TEST_F(TimelyRobot, ALostCableIsNamedAndEndsByTheTable) {
   expect_table(trace());
 }
 
-// Out for ten ticks: the robot holds, rises and goes on.
+// The cable is out for ten ticks: the robot holds, rises and goes on.
 TEST_F(TimelyRobot, ACableThatComesBackGoesOn) {
   serve();
   plug({1000, 1000});
@@ -207,7 +208,7 @@ TEST_F(TimelyRobot, ACableThatComesBackGoesOn) {
   expect_table(trace());
 }
 
-// Complete up to its last chunk.
+// The trace is complete up to its last chunk.
 TEST_F(TimelyRobot, ACrashLeavesTheTrace) {
   serve();
   plug({1000, 1000});
@@ -242,7 +243,8 @@ std::string with_its_imu_elsewhere(const fs::path& folder) {
   return file.string();
 }
 
-// It means no torque. With --imu none the robot runs without balance, and the trace records that.
+// Without the model's IMU there is no torque. With --imu none the robot runs without balance, and
+// the trace records that.
 TEST_F(TimelyRobot, ASilentImuIsNeverPassedOver) {
   serve(with_its_imu_elsewhere(folder_));
   plug({1000, 1000});
@@ -267,7 +269,7 @@ TEST_F(TimelyRobot, ASilentImuIsNeverPassedOver) {
   expect_table(taken);
 }
 
-// Before torque is on.
+// Every servo has its limit before torque is on.
 TEST_F(TimelyRobot, TorqueIsLimitedInEveryServo) {
   serve();
   plug({1000, 1000});

@@ -15,7 +15,7 @@ TEST_F(SetupBus, DrivesOnCanAreLeftToTheirMakersTool) {
   expect_refused("bus setup --bus can --link can:vcan0", "verp bus checklist generic21 --bus can");
 }
 
-// It has other servos.
+// The joints have other servos on the other bus.
 TEST_F(SetupBus, AnotherBusHasAReportOfItsOwn) {
   std::string robot = slurp(VERP_SOURCE_DIR "/common/robots/generic21/robot.sdf");
   const std::size_t begin = robot.find("<verp:bus name=\"dxl\""), end = robot.find("</verp:bus>");

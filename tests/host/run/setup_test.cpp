@@ -64,7 +64,7 @@ TEST_F(Setup, AServoOutOfItsBoxBecomesOneOfTheRobot) {
   EXPECT_EQ(Json::parse(outcome.out).at("joints").at("l_knee"), joint);
 }
 
-// It answers neither writes nor reads.
+// This servo is set to answer neither writes nor reads.
 TEST_F(Setup, AServoThatIsSetToSilenceIsHeard) {
   servos_.connect({.id = 77, .model = dxl::kModelXm430W210, .baud = 1'000'000});
   LoneServo& servos = servos_;
@@ -81,7 +81,7 @@ TEST_F(Setup, AServoThatIsSetToSilenceIsHeard) {
   EXPECT_EQ(servos.value(at::kHomingOffset, 4), 0);
 }
 
-// Such a servo has an unknown delay, not none.
+// A servo that answers only pings has an unknown delay, not none.
 TEST_F(Setup, ARunIsRefusedWhereNoReadIsAnswered) {
   servos_.connect({.id = 14, .model = dxl::kModelXm430W210, .baud = 2'000'000});
   const std::string link = " --link serial:" + port() + "@2000000";
@@ -137,7 +137,7 @@ TEST_F(Setup, GoesOnWhereItEnded) {
   EXPECT_EQ(report().at("joints").at("head_pitch").at("outcome"), "skipped");
 }
 
-// However the user leaves; the next run adds to it.
+// The user leaves in three ways; the next run adds to the report.
 TEST_F(Setup, WhatWasWrittenIsKeptAtOnce) {
   struct End {
     void (*leave)(Process&);
@@ -207,7 +207,7 @@ TEST_F(Setup, WhatAFullDiskDoesNotTakeIsPrinted) {
   EXPECT_FALSE(fs::exists(folder_ / "generic21-setup.json.part"));
 }
 
-// Before setup asks for a servo.
+// Setup refuses before it asks for a servo.
 TEST_F(Setup, PlacesThatHoldNoReportAreRefusedFirst) {
   fs::create_directories(folder_ / "here.part");
   for (const char* place : {"/proc/x.json", "/tmp", "/proc/self/mem", "/dev/full", "here"}) {

@@ -53,7 +53,7 @@ TEST(FallVerdict, ARobotThatIsLetGoUprightLiesDown) {
   EXPECT_FALSE(verdict.fell());
 }
 
-// Never both; without torque, never a fall.
+// The verdict is never both, and without torque never a fall.
 TEST(FallVerdict, IsOneThingAndStaysThat) {
   std::minstd_rand random(3);
   std::uniform_real_distribution<double> tilt(0, 2);

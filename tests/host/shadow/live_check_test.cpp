@@ -61,7 +61,8 @@ TEST(LiveCheck, RaisesNoFalseAlarmForLostAndLateFrames) {
   EXPECT_GT(gaps, kSeeds) << "this PC missed some, and says so";
 }
 
-// Not one tick after the first State. That has 2.5 KB; the check asks once more for lost answers.
+// No tick after the first State is left out. That State has 2.5 KB; the check asks once more for
+// lost answers.
 TEST(LiveCheck, LateAndLostAnswersAloneLeaveNoTickOut) {
   constexpr int kTicks = 1000;
   std::uint64_t compared = 0;

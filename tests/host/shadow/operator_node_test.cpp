@@ -164,7 +164,7 @@ TEST(OperatorNode, ObeysNoOtherMaster) {
   }
 }
 
-// One set of registers: orders and ticks show at both.
+// Both share one set of registers and show the same orders and ticks.
 TEST(OperatorNode, StandsBesideAnOperatorsPort) {
   verp::test::OperatorDesk port;
   hal::ScriptedCan bus;

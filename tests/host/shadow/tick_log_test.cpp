@@ -67,7 +67,7 @@ TEST(TickLog, TicksGoOnWhileOnlyTheStateIsHeld) {
   EXPECT_EQ(tick_at(log, 34 % Log::kTicks), 34u);
 }
 
-// Of any size, like a window's blocks and SDO segments.
+// Pieces have any size, like a window's blocks and SDO segments.
 TEST(TickLog, PiecesMakeTheWhole) {
   Log& log = renewed<Log>(no_images);
   keep(log, 0, 21);

@@ -61,8 +61,8 @@ TEST(Coupling, MotorBearsBothWeights) {
   }
 }
 
-// One pendulum with both inertias and the rotor's: T = 2 pi sqrt(I / (m g l)) for small angles.
-// Lost or added energy would change period and height.
+// The arms swing like one pendulum with both inertias and the rotor's: T = 2 pi sqrt(I / (m g l))
+// for small angles. Lost or added energy would change period and height.
 TEST(Coupling, BothSwingAsOnePendulum) {
   for (const double ratio : {-1.0, 2.0}) {
     World world;

@@ -308,7 +308,8 @@ TEST_P(IdentifiedMotor, SwingsAPendulumAsThePaperSaysInOde) {
 
 INSTANTIATE_TEST_SUITE_P(Paper, IdentifiedMotor, testing::Values("mx64", "mx106", "xl330"));
 
-// 1 kHz. Finer physics sees a duty for four steps, coarser physics runs two loops a step.
+// The loop runs at 1 kHz. Finer physics sees a duty for four steps, coarser physics runs two loops
+// a step.
 TEST(Gearbox, TheLoopRunsAtItsOwnRateWhateverThePhysicsStep) {
   Bench fine(joint_with({}), 0.01, 0.00025);
   fine.setpoint.torque_on = true;
@@ -343,8 +344,8 @@ TEST(Gearbox, GoesTheSameWayAtEveryPhysicsStep) {
   }
 }
 
-// Gains at the registers' limits; rotors from a quarter of the lightest to ten times the heaviest
-// known. The joint may tremble.
+// Gains go to the registers' limits, rotors from a quarter of the lightest to ten times the
+// heaviest known. The joint may tremble.
 TEST(Gearbox, StaysWithinTheMotorsLineAtAnyGainInertiaAndStep) {
   for (const double armature : {0.0005, 0.01, 0.25}) {
     for (const double step_s : {0.00025, 0.001, 0.002}) {

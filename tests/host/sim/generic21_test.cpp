@@ -24,8 +24,8 @@ void arm(Plant& plant, const TwinRobot& robot) {
   }
 }
 
-// A crouch, hips 150 mm over the ankles, held by position loops alone: no balance feedback, zero
-// errors of half a degree, play, noise and a lean.
+// Position loops alone hold this crouch, hips 150 mm over the ankles. There is no balance feedback,
+// but zero errors of half a degree, play, noise and a lean.
 TEST(Generic21, StandsThreeSecondsOnItsServos) {
   const model::Entity entity =
       model::load_robot(VERP_SOURCE_DIR "/common/robots/generic21/robot.sdf");

@@ -130,7 +130,7 @@ TEST(Metrics, YawIsCountedBeyondHalfATurn) {
   EXPECT_NEAR(walk.run().yaw_drift_deg, 44 * 0.1 * 180 / 3.141592653589793, 1e-6);
 }
 
-// 880 ticks; standing does not count.
+// The walk has 880 ticks; standing does not count.
 TEST(Metrics, TransportAndTorqueAreThoseOfTheWalkAlone) {
   ScriptedWalk walk;
   const WalkMetrics m = walk.run();

@@ -47,7 +47,7 @@ TEST(Profile, OfATimeTakesThatTime) {
   }
 }
 
-// From the present speed; back if it must.
+// The profile starts from the present speed and goes back if it must.
 TEST(Profile, TurnsRoundWithoutAJump) {
   Profile profile(0);
   ServoSetpoint setpoint{.goal_count = 1000};

@@ -233,7 +233,7 @@ TEST(Robot, FallsWhenNobodyHoldsItAndTorqueIsOff) {
   EXPECT_TRUE(robot.fallen());
 }
 
-// Height counts from its feet.
+// The robot's height counts from its feet.
 TEST(Robot, DownFromWhatItStoodOnIsNoFallUntilItLies) {
   World world;
   const model::Entity entity = test::biped();
@@ -265,7 +265,7 @@ TEST(Robot, CradleHoldsUntilTheLegsAreArmed) {
   EXPECT_FALSE(robot.truth().held);
 }
 
-// After every fall, with the same twin.
+// This works after every fall, with the same twin.
 TEST(Robot, IsSetOnItsFeetWhenItIsLimpAndHeldUntilItIsArmed) {
   World world;
   const model::Entity entity = test::biped();

@@ -11,7 +11,7 @@
 #include "tests/host/sim/test_robots.hpp"
 #include "tests/support/leak.hpp"
 
-// Lasers against hand-calculated distances in worlds made in code.
+// Lasers in worlds made in code measure hand-calculated distances.
 
 namespace verp::sim::test {
 namespace {

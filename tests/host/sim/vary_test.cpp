@@ -86,7 +86,7 @@ TEST(Vary, EqualSeedsGiveEqualRobotsAndOthersDiffer) {
   }
 }
 
-// Nor does the number of joints change a draw.
+// The number of joints does not change a draw either.
 TEST(Vary, DrawsAreIndependent) {
   std::map<std::string, std::vector<double>> drawn;
   for (std::uint64_t seed = 1; seed <= kRobots; ++seed) {

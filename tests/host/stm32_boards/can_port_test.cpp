@@ -111,7 +111,7 @@ TEST(CanPort, TellsAllNodesToBeginAnew) {
   }
 }
 
-// Before a robot is loaded.
+// The node exists before a robot is loaded.
 TEST(CanPort, ItsTimeBeginsWhenItIsOpened) {
   Chip chip;
   chip.let_pass(50'000);
@@ -125,7 +125,7 @@ TEST(CanPort, ItsTimeBeginsWhenItIsOpened) {
   EXPECT_GE(node.port().now_us() - begun_us, 1000u);
 }
 
-// All over the robot's bus alone.
+// Watchers and clients need only the robot's bus.
 TEST(CanPort, TellsOfEachTickAndAnswersWhoAsksThere) {
   Chip chip;
   ASSERT_TRUE(Wiring::open(chip.port, chip.clocks, kBaud));

@@ -78,7 +78,7 @@ TEST_P(BxCanDriver, MakesTheRateAndSamplePointThatItWasAskedFor) {
   EXPECT_LE(can.sample_point(), 0.90);
 }
 
-// Even if lower priorities fill the mailboxes.
+// Identifiers decide the order even if lower priorities fill the mailboxes.
 TEST_P(BxCanDriver, SendsTheBestFirstWhateverWaits) {
   can.send(frame_of(0x001));  // holds the bus meanwhile
   advance(5);
@@ -154,7 +154,7 @@ TEST_P(BxCanDriver, CountsWhatNobodyFetchedInTime) {
   EXPECT_FALSE(driver.poll(heard, 0));
 }
 
-// 32 failures, then 128 times 11 bits of silence, then by itself.
+// Bus-off takes 32 failures, then 128 times 11 bits of silence; then the driver returns by itself.
 TEST_P(BxCanDriver, ComesBackFromBusOffAfterTheTimeOfTheStandard) {
   can.break_next = 32;
   ASSERT_TRUE(driver.send(frame_of(0x123)));

@@ -6,7 +6,7 @@
 namespace verp::hal::stm32::test {
 namespace {
 
-// Wherever the reads fall against the chip's clock.
+// Reads may fall anywhere against the chip's clock.
 TEST_P(MotionSensorDriver, TellsEverySampleOnce) {
   ASSERT_TRUE(board.starts());
   read_alone();
@@ -133,7 +133,7 @@ TEST_P(MotionSensorDriver, SampleThatIsBeingWrittenIsAwaited) {
   EXPECT_EQ(board.imu.faults(), 0u);
 }
 
-// Its bytes would belong to another axis.
+// Bytes of an out-of-step FIFO belong to another axis.
 TEST_P(MotionSensorDriver, FifoOutOfStepIsNotBelieved) {
   ASSERT_TRUE(board.starts());
   read_alone();

@@ -111,7 +111,7 @@ struct Meddler {
   int lost_write = -1;
 };
 
-// In this read or the next.
+// The sample counts in this read or the next.
 TEST_P(MotionSensorDriver, SampleThatComesMeanwhileIsToldOnce) {
   Meddler bus{board.spi};
   invensense::MotionSensor<Meddler, Timer> imu(bus, board.rig.timer);
@@ -164,7 +164,7 @@ TEST_P(MotionSensorDriver, SettingThatDoesNotTakeIsAFault) {
   EXPECT_GT(imu.faults(), 0u);
 }
 
-// Below half the rate of reads: nothing aliases.
+// The filter is below half the rate of reads, so nothing aliases.
 TEST(MotionSensorLowPass, IsThatOfTheTwin) {
   ImuRig mpu(Family::kF405, ImuKind::kMpu9250);
   ASSERT_TRUE(mpu.starts());

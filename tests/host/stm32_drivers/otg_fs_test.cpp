@@ -77,7 +77,7 @@ TEST_P(UsbPort, IsFoundAndOpenedByAHost) {
   EXPECT_EQ(rig.port.stuck(), 0u);
 }
 
-// Of any length, also longer than a packet or a whole number of packets.
+// The host asks for any length, also longer than a packet or a whole number of packets.
 TEST_P(UsbPort, TellsTheHostAllOfItsDescriptors) {
   ASSERT_TRUE(rig.open());
   ASSERT_TRUE(rig.host.plug());
@@ -140,7 +140,7 @@ TEST_P(UsbPort, OutlivesRequestsThatAreGivenUp) {
   expect_alive();
 }
 
-// Both at once, packets of any size, lost ACKs, slow programs at both ends.
+// Packets of any size go both ways at once, with lost ACKs and slow programs at both ends.
 TEST_P(UsbPort, CarriesAnyBytesInOrderBothWays) {
   meet();
   rig.host.deaf_every = 5;
@@ -243,7 +243,7 @@ const Ending kEndings[] = {
      }},
 };
 
-// With packets under way both ways. The reader gets earlier bytes and sees the loss once; queued
+// Packets are under way both ways. The reader gets earlier bytes and sees the loss once; queued
 // bytes are dropped.
 TEST_P(UsbPort, OutlivesTheEndOfAConnectionAtAnyMoment) {
   meet();
@@ -312,7 +312,7 @@ TEST_P(UsbPort, WithVbusSensedAPulledCableIsSeenAtOnce) {
   EXPECT_FALSE(rig.port.connected());
 }
 
-// Without losing a byte.
+// No byte is lost.
 TEST_P(UsbPort, HaltsAndReleasesEndpoints) {
   meet();
   const Bytes bytes = noise(200, 12);
@@ -378,7 +378,7 @@ TEST_P(UsbPort, OutlivesAPacketThatIsStuck) {
   }
 }
 
-// The driver counts it and uses the FIFO anyway.
+// The driver counts the flush and uses the FIFO anyway.
 TEST_P(UsbPort, OutlivesAFlushThatDoesNotEnd) {
   meet();
   rig.machine.otg_fs().flush_stuck = true;

@@ -165,7 +165,7 @@ TEST_F(ServoPowerSwitch, GoesAtOnceIfTheCircuitOpensWhileNothingTicks) {
   EXPECT_FALSE(powered());
 }
 
-// 40 ms in a loop of 8 ms: two readings, then three ticks without torque.
+// 40 ms in a loop of 8 ms are two readings, then three ticks without torque.
 TEST_F(ServoPowerSwitch, GoesWithinFiveTicksOfAnOpenCircuitAfterTorqueOffWasSaid) {
   stand_up();
   circuit(false);
@@ -199,7 +199,7 @@ TEST_F(ServoPowerSwitch, GoesByTheOperatorsStopToo) {
   EXPECT_FALSE(powered());
 }
 
-// The stop briefly counts as pressed.
+// The stop briefly counts as pressed, but cuts no power.
 TEST_F(ServoPowerSwitch, StaysOnThroughAStart) {
   supply.set(true);
   for (int i = 0; i < 200; ++i) {

@@ -96,7 +96,7 @@ TYPED_TEST(UsartDriver, ReceivesWhatTheLineBrings) {
   EXPECT_EQ(this->port.stuck(), 0u);
 }
 
-// At an idle line, not a full ring or a timeout.
+// An idle line ends the wait, not a full ring or a timeout.
 TYPED_TEST(UsartDriver, WaitEndsSoonAfterTheMessage) {
   this->open();
   const Bytes message = counting(20);
@@ -116,7 +116,7 @@ TYPED_TEST(UsartDriver, SilenceCostsItsTimeoutAndNoMore) {
   EXPECT_LE(waited_us, 1520u);
 }
 
-// More than the ring holds, in many pieces.
+// The message is longer than the ring and comes in many pieces.
 TYPED_TEST(UsartDriver, KeepsOrderAcrossManyTurnsOfTheRing) {
   this->open();
   Bytes all;

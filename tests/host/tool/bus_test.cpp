@@ -140,7 +140,7 @@ class BusCable : public BusCommand {
   }
 };
 
-// Up to three times, and the answer says how often.
+// The client asks up to three times, and the answer says how often.
 TEST_F(BusCable, LostRepliesAreAskedForAgain) {
   const auto line = cable({});
   for (const char* command : {"ping", "read --register robot_name", "write --register look_x 3"}) {
@@ -242,7 +242,7 @@ TEST_F(BusLinks, ThatCannotBeOpenedSayWhy) {
   EXPECT_NE(nobody.err.find("give serial:PATH"), std::string::npos);
 }
 
-// Before the link is opened.
+// The error comes before the link is opened.
 TEST_F(BusLinks, AnIdThatIsNoneIsRefusedWithTheRangeOfItsLink) {
   for (const std::string id : {"-1", "0", "128", "253"}) {
     expect_refused("bus ping --link can:none0 --id " + id, "--id: " + id + " is no node id");

@@ -46,9 +46,9 @@ TEST_F(CanWalk, WalksTenSecondsWithoutAFallOrAFault) {
   EXPECT_GT(json["distance_m"].get<double>(), 1);
 }
 
-// At each rate at which the robot can walk on one classic bus. `verp bus load` knows the plan but
-// no walk: the test compares bits without stuffing, and expected bits with all bits walked.
-// (host/twin/can tests half a robot.)
+// The twin's traffic matches `verp bus load` at each rate at which the robot can walk on one
+// classic bus. The table knows no walk: the test compares bits without stuffing, and expected bits
+// with all bits walked. (host/twin/can tests half a robot.)
 TEST_F(CanWalk, PutsOnTheWireWhatBusLoadSays) {
   for (const int period_us : {10'000, 8'000}) {
     SCOPED_TRACE(period_us);
@@ -67,7 +67,7 @@ TEST_F(CanWalk, PutsOnTheWireWhatBusLoadSays) {
   }
 }
 
-// By every command, before anything moves or an interface is opened.
+// Every command refuses it before anything moves or an interface is opened.
 TEST_F(CanWalk, ARobotWhoseBusHasNoRoomIsRefusedByName) {
   const std::string robot = robot_at(6000) + " --bus can";
   const std::string needle = ": r_knee (node 13) and those after it do not fit";
@@ -89,7 +89,7 @@ TEST_F(CanWalk, GivesTheSameDigestEachTime) {
   EXPECT_EQ(first["ticks"], second["ticks"]);
 }
 
-// From the counts alone.
+// Replay decides it again from the counts alone.
 TEST_F(CanWalk, ItsTraceReplays) {
   walk("--for 3 --record can.mcap", "recorded");
   const Outcome replayed = verp("replay can.mcap", "replayed");

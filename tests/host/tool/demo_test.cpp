@@ -27,7 +27,7 @@ TEST_F(DemoCommand, WhatCannotBeIsOneLineAndBadInput) {
   expect_refused("demo follow --for 0", "--for");
 }
 
-// Two seconds are too short.
+// Two seconds are too short for the demo.
 TEST_F(DemoCommand, ThatFailsItsCriterionEndsWithOne) {
   fs::create_directory(folder_ / "follow.png");  // blocks the picture's file
   const Outcome lost = verp("demo follow --robots 2 --for 2 --json");

@@ -197,7 +197,7 @@ std::string story_of(const json& result) {
   return all;
 }
 
-// With the bits of `verp walk`; the run reports it meanwhile.
+// The bits are those of `verp walk`, and the run reports the fall meanwhile.
 TEST_F(Hil, ARobotThatIsPushedOverGetsUpByTheControllersActions) {
   const std::string words = "--for 3 --json --get-up --push '1: trunk -60,0,0 N for 0.15'";
   const json expected = here(words);
@@ -231,7 +231,7 @@ TEST_F(Hil, ARobotThatLiesGetsUpFirst) {
   EXPECT_EQ(result.at("falls"), 0);
 }
 
-// Before the robot moves, with a remedy.
+// The error comes before the robot moves, with a remedy.
 TEST_F(Hil, AControllerWithoutActionsIsToldThatItCannotGetUp) {
   LinkController controller(params(), "unix:" + place("bus"), "unix:" + place("orders"));
   const Outcome outcome = hil("--for 3 --json --get-up " + sockets());
@@ -261,8 +261,8 @@ TEST_F(Hil, SaysWhenTheOperatorsPortIsSilent) {
   EXPECT_NE(outcome.err.find("device 200"), std::string::npos) << outcome.err;
 }
 
-// In wall-clock time. Finding and reading servos does not count: the served time begins with
-// torque.
+// The master gets its answers in wall-clock time. Finding and reading servos does not count: the
+// served time begins with torque.
 TEST_F(Hil, ServesAStockMasterInRealTime) {
   Outcome outcome;
   std::thread twin([&] { outcome = hil("--for 3 --json --link unix-listen:" + place("bus")); });

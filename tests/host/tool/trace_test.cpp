@@ -106,7 +106,7 @@ TEST_F(TraceCommand, ACutReplaysAndEveryCommandTakesIt) {
   expect_refused("debug --board mps2_an386 part.mcap", "begins in the midst of a run");
 }
 
-// kill -9: every complete chunk remains.
+// After kill -9 every complete chunk remains.
 TEST_F(Program, AKilledWalkLeavesAFileThatOpens) {
   const Outcome killed = shell(
       VERP_PROGRAM

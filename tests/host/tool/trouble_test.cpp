@@ -243,7 +243,7 @@ TEST_F(Trouble, CommandsWithNothingToKeepEndAtTheFirstSignal) {
   EXPECT_EQ(outcome.err, "status 124\n");
 }
 
-// Whichever ended last.
+// Page, numbers and trace are of one run, whichever ended last.
 TEST_F(Trouble, TwoRunsIntoOneFolderDoNotMixTheirFiles) {
   std::thread other([&] { verp("walk --for 3 --seed 2 --report out", "other"); });
   verp("walk --for 3 --seed 1 --report out", "one");

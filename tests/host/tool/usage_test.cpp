@@ -58,7 +58,7 @@ TEST_F(Usage, TheFirstWalksProgramWalksTheSame) {
   EXPECT_EQ(digest(shell(VERP_FIRST_PROGRAM + words)), digest(shell(VERP_PROGRAM + words)));
 }
 
-// Before the trace is read; no file is written.
+// The check comes before the trace is read, and no file is written.
 TEST_F(Usage, APageIsNamedAsBrowsersWantIt) {
   expect_refused("replay none.mcap --page p.txt", "--page p.txt: a browser");
   expect_refused("replay none.mcap --page p", ".html");
@@ -237,7 +237,7 @@ TEST_F(Usage, MissingAndMalformedFilesAreNamed) {
   expect_refused("replay bad.sdf", "wrong magic");
 }
 
-// Without a line or byte.
+// The error names no line or byte.
 TEST_F(Usage, FoldersAndNamesAreCalledWhatTheyAre) {
   for (const char* command : {"check", "walk", "export -o out"}) {
     expect_refused(std::string(command) + " /tmp", "/tmp: is a folder, not a robot's file; give");

@@ -24,7 +24,7 @@ void cut(const fs::path& from, const fs::path& to, std::size_t size) {
   std::ofstream(to, std::ios::binary).write(bytes.data(), static_cast<std::streamsize>(size));
 }
 
-// One JSON object with all documented fields.
+// stdout has one JSON object with all documented fields.
 TEST_F(Walk, JsonTraceReplayAndDiffAgree) {
   const Outcome walk = verp("walk --for 4 --json --record a.mcap");
   ASSERT_EQ(walk.status, 0) << walk.err;
@@ -52,7 +52,7 @@ TEST_F(Walk, JsonTraceReplayAndDiffAgree) {
             result.at("ticks").get<std::size_t>() + 1);
 }
 
-// It must not pass for the robot's own walk.
+// A changed walk must not pass for the robot's own.
 TEST_F(Walk, WhatWasChangedStandsInSummaryReportJsonAndTrace) {
   const std::string options = "walk --for 3 --set gait.lift_m=0.02 --step 0.04 --report out";
   const Outcome walk = verp(options);
@@ -65,7 +65,7 @@ TEST_F(Walk, WhatWasChangedStandsInSummaryReportJsonAndTrace) {
   EXPECT_EQ(changed.at("changed"), json::parse(R"([["--for","3"],["--set","gait.lift_m=0.02"]])"));
 }
 
-// It is not drift.
+// An ordered curve is not drift.
 TEST_F(Walk, ACommandedCurveIsToldAndDrawnBesideTheWayWalked) {
   const Outcome walk = verp("walk --for 6 --velocity 0.1,0,0.4 --report out");
   EXPECT_EQ(walk.status, 0) << walk.err;
@@ -88,7 +88,7 @@ TEST_F(Walk, SameSeedSameBitsOtherSeedOtherBits) {
   EXPECT_EQ(json::parse(other.out).at("divergence").at("stage"), "inputs");
 }
 
-// One line of error, and a complete trace.
+// The run ends with one line of error and a complete trace.
 TEST_F(Walk, WhatPhysicsCannotFollowKeepsItsTrace) {
   const Outcome torn =
       verp("walk --for 6 --json --record a.mcap --at '1: l_foot.torque_n_m.x=100000'");
@@ -177,8 +177,8 @@ TEST_F(Walk, PlanThatIsRefusedEndsTheRun) {
   EXPECT_LT(json::parse(outcome.out).at("ticks"), 2000);
 }
 
-// For any stride, turn or cycle. While strides grow, one more step means two, because it must
-// shrink again.
+// The length holds for any stride, turn or cycle. While strides grow, one more step means two,
+// because it must shrink again.
 TEST_F(Walk, LengthIsWhatWasAskedToWithinAStep) {
   struct Asked {
     const char* options;
@@ -283,7 +283,7 @@ TEST_F(Walk, WhatWasNotMeasuredIsNullOrADash) {
   EXPECT_TRUE(none.at("zmp_bias_by_state_mm").at(3).is_null());
 }
 
-// As not survived.
+// The killed walk counts as not survived.
 TEST_F(Walk, AProgramThatIsKilledCountsAmongItsSeeds) {
   std::ofstream(folder_ / "kill.sh") << R"sh(
 "$1" walk --seeds 1-2 --for 8 --physics-step 2 &
@@ -301,7 +301,7 @@ done)sh";
       << outcome.out;
 }
 
-// Although the walk is good.
+// The walk is good, but its first line shows the low speed.
 TEST_F(Walk, ASpeedThatIsFarFromWhatWasAskedStandsInTheFirstLine) {
   const auto first_line = [&](const std::string& step) {
     const Outcome walk = verp("walk --for 6 --step " + step);

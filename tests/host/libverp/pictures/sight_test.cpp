@@ -101,7 +101,7 @@ TEST(LibverpSight, EqualSessionsGiveEqualPictures) {
   EXPECT_NE(first.first, first.second);
 }
 
-/// At its distance, in its colour, with its label.
+/// The ball has its distance, its colour and its own label.
 TEST(LibverpSight, ColourDepthAndLabelsAreOfTheThingThatIsThere) {
   const camera::test::Files files;
   const std::string world = files.world("0.8 0 0.4");
@@ -192,7 +192,7 @@ TEST(LibverpSight, IsSeenFromWhereOneSays) {
   }
 }
 
-/// Only printed; host/apps/libverp/README.md has the costs.
+/// The test prints the costs without a check; host/apps/libverp/README.md has them.
 TEST(LibverpSight, SaysWhatAPictureCosts) {
   using Clock = std::chrono::steady_clock;
   Looking looking;

@@ -121,7 +121,7 @@ TEST(LibverpSightTrouble, ControllerAndSecondThreadAreTold) {
   EXPECT_EQ(seen.why.rfind("verp_session_picture: another thread", 0), 0U) << seen.why;
 }
 
-/// Silent from the start, or later.
+/// The program is silent from the start, or later.
 TEST(Painter, WaitsForNobodyForEver) {
   using camera::Painter;
   const camera::Stage stage{.robots = {{model::find_model("generic21"), 1}}, .world_file = ""};
