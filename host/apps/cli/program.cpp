@@ -126,9 +126,8 @@ int run(int argc, char** argv, AddCommands add_commands) {
   const std::vector<Subcommand> commands = add_commands(root);
   // After the subcommands, which would have it too.
   root.footer(
-      "The launcher adds `./verp test`, which checks all promises, and `./verp python FILE`, which "
-      "runs a\n"
-      "Python program with libverp.");
+      "The launcher adds `./verp test`, which checks all promises, `./verp manual`, which builds "
+      "the\nmanual, and `./verp python FILE`, which runs a Python program with libverp.");
   try {
     root.parse(argc, argv);
     for (const Subcommand& command : commands) {
