@@ -238,6 +238,25 @@ test_findings() {
   findings_case 'a test of no board' "no test 'cost.mps2'" 's/bench.mps2/cost.mps2/'
 }
 
+links_case() { # what reason text
+  rm -rf "$scratch/tree"
+  mkdir -p "$scratch/tree/host/guide" "$scratch/tree/a"
+  printf '# One: two\n\n## A `b` heading\n' >"$scratch/tree/a/b.md"
+  printf '"commands.md"\n' >"$scratch/tree/host/guide/build_manual.py"
+  printf '%s\n' "$3" >"$scratch/tree/host/guide/a.md"
+  expect "$1" "$2" "$here/links.sh" "$scratch/tree"
+}
+
+test_links() {
+  links_case 'a page, a folder, its headings, the web' '' '[x](../../a/b.md) [x](../../a) [x](../../a/b.md#one-two) [x](../../a/b.md#a-b-heading) [x](https://a.b/c)'
+  links_case 'a generated page' '' '[x](reference/commands.md#verp-walk)'
+  links_case 'in code' '' '`[x](y)` and [x](../../a)'
+  links_case 'a page that is gone' 'host/guide/a.md:1: no ../../a/c.md' '[x](../../a) [x](../../a/c.md)'
+  links_case 'a picture that is gone' 'no b.png' '![x](b.png)'
+  links_case 'a heading that is gone' 'no heading for ../../a/b.md#three' '[x](../../a/b.md#three)'
+  links_case 'a page that nobody writes' 'no page reference/none.md' '[x](reference/none.md)'
+}
+
 compiler=${3:-g++} nm=${4:-nm} objdump=${5:-objdump}
 case $gate in
 layers) test_layers ;;
@@ -248,6 +267,7 @@ boards) test_boards ;;
 merge) test_merge ;;
 tests) test_tests ;;
 findings) test_findings ;;
+links) test_links ;;
 seeds) test_seeds ;;
 *) echo "no gate '$gate'" && exit 2 ;;
 esac

@@ -99,13 +99,6 @@ def check_words(program):
     return bad
 
 
-def environment(program):
-    tree = pathlib.Path(program).parents
-    python = next(ROOT.glob("host/**/libverp/python"))
-    library = next((each for above in tree for each in above.glob("host/**/libverp.so.0")), "")
-    return {**os.environ, "PYTHONPATH": str(python), "VERP_LIBRARY": str(library), "PYTHONDONTWRITEBYTECODE": "1"}
-
-
 def run_page(program, page, folder, full):
     shutil.rmtree(folder, ignore_errors=True)
     os.makedirs(folder)
@@ -119,7 +112,7 @@ def run_page(program, page, folder, full):
         text = "\n".join(body)
         command = ["/usr/bin/python3", "-c", text] if language == "python" else ["bash", "-euc", text]
         count += 1
-        done = subprocess.run(command, cwd=folder, env=environment(program), stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False)
+        done = subprocess.run(command, cwd=folder, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False)
         if done.returncode != 0:
             print(f"host/guide/{page}:{start}: exit status {done.returncode}\n{text}\n{done.stdout[-3000:]}")
             return 1
