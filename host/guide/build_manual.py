@@ -83,6 +83,9 @@ def main():
              "registers.md": registers_page(), "libverp.md": libverp_page()}
     for name, text in pages.items():
         (docs / "reference" / name).write_text(text)
+    if not shutil.which("mkdocs"):
+        print("the manual needs Debian's package mkdocs: ./verp manual installs it", file=sys.stderr)
+        return 3
     return subprocess.run(["mkdocs", "build", "--quiet", "--strict", "--clean", "-f", folder / "mkdocs.yml", "-d", folder / "site"], check=False).returncode
 
 

@@ -42,7 +42,7 @@ for each in qt6-base-dev:Qt6 libqcustomplot-dev:QCustomPlotQt6 libbenchmark-dev:
   undo=(-U "CMAKE_DISABLE_FIND_PACKAGE_${each#*:}")
 done
 for each in octave-dev:VERP_MKOCTFILE octave:VERP_OCTAVE mono-mcs:VERP_MCS mono-runtime:VERP_MONO python3-cffi:VERP_PYTHON_cffi \
-  python3-numpy:VERP_PYTHON_numpy clang:VERP_CLANG xvfb:VERP_XVFB_RUN; do
+  python3-numpy:VERP_PYTHON_numpy clang:VERP_CLANG xvfb:VERP_XVFB_RUN mkdocs:VERP_MKDOCS; do
   hidden "${each%:*}" -D "${each#*:}=" # defined, so cmake does not look for it
   undo=(-U "${each#*:}")
 done
