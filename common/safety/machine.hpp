@@ -3,7 +3,7 @@
 
 #include "common/base/fields.hpp"
 
-/// The robot's modes as a table: (mode, conditions) -> mode. Pure. README.md shows the same table,
+/// The robot's modes as a table: (mode, conditions) -> mode. Pure. host/guide/safety.md shows it,
 /// and a test walks it row by row.
 namespace verp::safety {
 

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """foreign_master.py INTERFACE NODE: a CANopen master that knows nothing of this project.
 
-It needs python3-can and what host/twin/can/README.md says of the bytes. It starts all drives that it finds, moves the joint
+It needs python3-can and what host/guide/canopen.md says of the bytes. It starts all drives that it finds, moves the joint
 of drive NODE with PDOs, reads it back, provokes a following error and resets it, and lets go. One JSON object on stdout
 says what it saw.
 """

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """order_walk.py INTERFACE VX WZ SECONDS: orders a walk of the controller's node, 127, by SDO.
 
-It needs python3-can and host/twin/can/masters.md. VX is in 0.1 mm/s, WZ in mrad/s. The controller is told to relax, which it
+It needs python3-can and host/guide/canopen.md. VX is in 0.1 mm/s, WZ in mrad/s. The controller is told to relax, which it
 wants to hear first, to stand, and to walk; each order is repeated, as one that is older than half a second counts no more.
 One JSON object on stdout says which modes it went through and how many steps' time it walked.
 """

@@ -8,7 +8,7 @@
 
 namespace verp::test {
 
-/// A referee of every tick's Inputs and Outputs, written from common/safety/README.md and not from
+/// A referee of every tick's Inputs and Outputs, written from host/guide/safety.md and not from
 /// the code. One per run of a controller.
 class SafeTable {
  public:

@@ -163,7 +163,7 @@ std::string export_actions(const ActionWords& words, const std::string& file) {
     throw cli::ToolError(
         cli::kBadInput,
         fmt::format("verp action export: {} has no actions in {}; write one: "
-                    "host/author/action/README.md has the words",
+                    "host/guide/actions.md has the words",
                     robot.entity.name, action::folder_of(robot.entity.file).string()));
   }
   const std::vector<std::uint8_t> image = action::kept_image(robot.made, robot.params);

@@ -29,7 +29,7 @@ void require_actions(const ActionRobot& robot) {
   throw cli::ToolError(
       cli::kBadInput,
       fmt::format("verp action send: {} has no actions in {}; write one: "
-                  "host/author/action/README.md has the words",
+                  "host/guide/actions.md has the words",
                   robot.entity.name, action::folder_of(robot.entity.file).string()));
 }
 

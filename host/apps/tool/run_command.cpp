@@ -329,7 +329,7 @@ cli::Subcommand add_run(CLI::App& root) {
   app->add_flag("--compress", words->walk.compress, kCompress);
   app->add_flag("--take-orders", words->take_orders,
                 "on CAN: whoever writes the controller's node (127) gives the orders, for --for "
-                "seconds or until Ctrl-C; the bytes: host/twin/can/masters.md")
+                "seconds or until Ctrl-C; the bytes: host/guide/canopen.md")
       ->excludes("--velocity")
       ->excludes("--get-up")
       ->excludes("--action");

@@ -267,7 +267,7 @@ int Made::require(const std::string& name, const std::string& place) const {
   std::string names;
   for (const Document& each : documents) names += (names.empty() ? "" : ", ") + each.name;
   throw model::LoadError(place, 0, "there is no action '" + name + "'",
-                         names.empty() ? "write one: host/author/action/README.md has the words"
+                         names.empty() ? "write one: host/guide/actions.md has the words"
                                        : "there are: " + names);
 }
 

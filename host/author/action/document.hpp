@@ -9,7 +9,7 @@
 #include "common/action/library.hpp"
 #include "host/robot/model/load_error.hpp"
 
-/// An action as its file has it (README.md has the words), before it is made for a robot.
+/// An action as its file has it (host/guide/actions.md), before it is made for a robot.
 namespace verp::action {
 
 /// A displacement from the stand: of the body, or of a sole, both over the ground.

@@ -17,7 +17,7 @@ struct Rule {
   unsigned kinds;
 };
 
-// SDF's own and ours (host/robot/model/README.md), then URDF's.
+// SDF's own and ours (host/guide/robot-file.md), then URDF's.
 constexpr std::array kSdf = {
     Rule{"parent", "", kPlaces},
     Rule{"child", "", kPlaces},

@@ -130,7 +130,7 @@ std::string servo_type_rows(const Entity& entity) {
     if (fitting == 0) continue;
     text += fmt::format(
         "  p_gain {} makes {:.1f} N m/rad; this mass and leg want about {:.1f}, p_gain {} "
-        "(host/robot/model/gains.md)\n",
+        "(host/guide/your-robot.md)\n",
         servo->p_gain, servo_stiffness_n_m_rad(*servo), fitting_stiffness_n_m_rad(entity), fitting);
   }
   return text;

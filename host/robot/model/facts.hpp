@@ -7,8 +7,8 @@
 #include "host/robot/model/xml_source.hpp"
 
 /// The verp: elements of a robot's <model>, read and range-checked one by one, each with its XML
-/// element for error messages. Names are not resolved here (load.cpp does): README.md lists every
-/// element and attribute.
+/// element for error messages. Names are not resolved here (load.cpp does): robot-file.md of the
+/// guide lists every element and attribute.
 namespace verp::model {
 
 struct BodyFact {

@@ -45,7 +45,7 @@ std::string tuning_lines(RobotTable& table);
 
 /// The SDF text of a 21-DOF humanoid of these proportions. Throws LoadError.
 std::string generate_humanoid_sdf(RobotTable& table);
-/// The SDF text of a robot whose table lists links and joints one by one (README.md). Throws
+/// The SDF text of a robot whose table lists links and joints one by one. Throws
 /// LoadError.
 std::string generate_tree_sdf(RobotTable& table);
 /// Either: `layout = tree` in the table chooses the second.

@@ -7,7 +7,7 @@
 namespace verp::model {
 
 /// The shipped servo types and those that the robot's own <verp:servo_type> elements describe, all
-/// in the units of README.md. Throws LoadError.
+/// in the units of host/guide/robot-file.md. Throws LoadError.
 std::vector<ServoType> read_servo_types(const XmlElement& model);
 
 /// What speaks that protocol, as in a file.

@@ -16,7 +16,7 @@ namespace verp::record {
 struct TraceOptions {
   bool every_state =
       false;        ///< keep State at every tick, so that any divergence names its field exactly
-  bool ros = true;  ///< add channels for viewers: README.md
+  bool ros = true;  ///< add channels for viewers (host/guide/traces.md)
   std::uint64_t chunk_ticks = 125;  ///< a crash loses at most this many
   /// Or as many as hold so much: in real time a chunk's end is part of a tick, and that of a second
   /// with pictures took longer than one.

@@ -12,7 +12,7 @@
 namespace verp::radio {
 
 /// What a modem and the air do to messages. Defaults: an IEEE 802.15.4 modem (250 kbit/s, frames of
-/// at most 127 bytes) behind a serial port, in a hall. README.md says what is left out.
+/// at most 127 bytes) behind a serial port, in a hall. host/guide/walk.md says what is left out.
 struct Conditions {
   double range_m = 30;      ///< nothing is heard beyond
   double loss = 0.02;       ///< share of messages lost beside the sender; all are at range_m

@@ -15,7 +15,7 @@
 #include "host/twin/can/virtual_can.hpp"
 #include "host/twin/sim/robot.hpp"
 
-// A walk ordered on the drives' bus with only host/twin/can/masters.md's bytes.
+// A walk ordered on the drives' bus with only host/guide/canopen.md's bytes.
 namespace verp::can {
 namespace {
 
