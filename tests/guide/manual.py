@@ -15,7 +15,7 @@ import sys
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 GUIDE = ROOT / "host/guide"
-LAUNCHER = {"test", "manual"}  # commands of ./verp itself
+LAUNCHER = {"test", "manual", "python"}  # commands of ./verp itself
 OWN = {"--yes", "--help", "--version"}
 
 
