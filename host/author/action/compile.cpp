@@ -266,9 +266,9 @@ int Made::require(const std::string& name, const std::string& place) const {
   if (found > 0) return found;
   std::string names;
   for (const Document& each : documents) names += (names.empty() ? "" : ", ") + each.name;
-  throw model::LoadError(place, 0, "there is no action '" + name + "'",
-                         names.empty() ? "write one: host/guide/actions.md has the words"
-                                       : "there are: " + names);
+  throw model::LoadError(
+      place, 0, "there is no action '" + name + "'",
+      names.empty() ? "write one: host/guide/actions.md has the words" : "there are: " + names);
 }
 
 Made make_library(const Params& params, std::vector<Document> documents) {

@@ -276,8 +276,7 @@ class HumanoidWriter {
   }
 
   void facts() {
-    line(
-        "    <!-- What SDF has no words for: host/guide/robot-file.md lists these elements. -->");
+    line("    <!-- What SDF has no words for: host/guide/robot-file.md lists these elements. -->");
     line(R"(    <verp:body link="trunk"/>)");
     line(R"(    <verp:limb name="head" base="trunk" tip="skull"/>)");
     for (const std::string side : {"left", "right"}) {

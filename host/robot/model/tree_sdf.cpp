@@ -158,8 +158,7 @@ class TreeWriter {
   }
 
   void facts() {
-    line(
-        "    <!-- What SDF has no words for: host/guide/robot-file.md lists these elements. -->");
+    line("    <!-- What SDF has no words for: host/guide/robot-file.md lists these elements. -->");
     line("    <verp:body link=\"trunk\"/>");
     for (const std::string limb : {"head", "left_arm", "right_arm"}) {
       line("    <verp:limb name=\"{}\" base=\"trunk\" tip=\"{}\"/>", limb,
