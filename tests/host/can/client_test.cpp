@@ -11,7 +11,7 @@
 
 #include "common/protocol/canopen/sdo.hpp"
 
-// What a PC learns about nodes by SDO, and how it reports a silent one.
+// The PC identifies nodes by SDO and reports a silent one.
 namespace verp::can {
 namespace {
 

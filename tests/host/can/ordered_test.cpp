@@ -83,7 +83,7 @@ class OrderedByItsNode : public ::testing::Test {
     ASSERT_EQ(tool->answers, before + 1);
     EXPECT_EQ(tool->answer[0], command) << int{request[0]} << ' ' << int{request[4]};
   }
-  /// At 10 Hz.
+  /// Repeats the order at 10 Hz.
   void repeat(const Bytes& order, int times) {
     for (int i = 0; i < times; ++i) {
       ask(order, 0x60);

@@ -20,7 +20,7 @@ CanFrame ask_1000(std::uint8_t node) {
 
 class CanRealTime : public ::testing::Test {
  protected:
-  /// From a PC that is never late.
+  /// Passes a frame on without delay, as a PC that is never late.
   void hear(const CanFrame& frame, std::uint64_t clock_us) { hear(frame, clock_us, clock_us); }
   void hear(const CanFrame& frame, std::uint64_t came_us, std::uint64_t clock_us) {
     server.hear(std::vector{RealtimeServer::Heard{frame, came_us}}, clock_us, answer);

@@ -48,7 +48,7 @@ std::uint32_t number(const Section& section, const char* key) {
   return static_cast<std::uint32_t>(std::stoul(section.at(key), nullptr, 0));
 }
 
-/// In bytes; 0 if it varies.
+/// The type's size in bytes; 0 if it varies.
 std::uint32_t bytes_of(std::uint32_t type) {
   switch (static_cast<DataType>(type)) {
     case DataType::kInteger8:
@@ -71,7 +71,7 @@ std::uint32_t bytes_of(std::uint32_t type) {
   return 0;
 }
 
-/// Null if no section describes the value.
+/// Returns null if no section describes the value.
 const Section* section_of(const Sections& sections, unsigned index, unsigned subindex) {
   char name[16];
   std::snprintf(name, sizeof name, "%X", index);
@@ -114,7 +114,7 @@ std::string initial_of(const Section& section) {
   return found == section.end() ? "" : found->second;
 }
 
-/// For a negative value, its low bits.
+/// Returns a negative value's low bits.
 std::uint64_t evaluate(const std::string& text, std::uint8_t node) {
   constexpr const char* kNode = "$NODEID+";
   if (text.rfind(kNode, 0) == 0) return node + std::stoull(text.substr(8), nullptr, 0);

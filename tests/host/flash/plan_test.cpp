@@ -9,7 +9,7 @@
 #include "host/os/files/shell_line.hpp"
 #include "host/os/files/temporary_directory.hpp"
 
-/// For every board, tool and choice of pieces.
+/// The tests cover every board, tool and choice of pieces.
 namespace verp::flash::test {
 namespace {
 

@@ -69,7 +69,7 @@ Recording told(const model::Entity& entity, double fast_s, double length_s) {
   return recording;
 }
 
-/// As in the robot's file, which is wrong.
+/// The robot as its file describes it, which is wrong.
 model::Entity believed() {
   model::Entity entity = arm();
   double factor = 1.25;

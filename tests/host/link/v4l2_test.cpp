@@ -22,7 +22,7 @@ struct Eye {
   inline static std::uint64_t time_ns = 1;
 };
 
-/// Nothing stays open after it.
+/// The error on opening the device, after which nothing stays open.
 struct Refusal {
   Kind kind{};
   std::string line;

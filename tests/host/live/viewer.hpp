@@ -51,7 +51,7 @@ class Viewer {
     socket_ = -1;
   }
 
-  /// False if the peer is gone.
+  /// Returns false if the peer is gone.
   bool put(std::string_view bytes) const {
     while (!bytes.empty()) {
       const ssize_t count = ::send(socket_, bytes.data(), bytes.size(), MSG_NOSIGNAL);
@@ -61,7 +61,7 @@ class Viewer {
     return true;
   }
 
-  /// Then put() gives up after this time.
+  /// From now on put() gives up after this time.
   void lose_patience() const {
     const timeval moment{0, 200'000};
     ::setsockopt(socket_, SOL_SOCKET, SO_SNDTIMEO, &moment, sizeof(moment));
@@ -113,7 +113,7 @@ class Viewer {
     }
     return {head[0] & 0x0f, take(static_cast<std::size_t>(length))};
   }
-  /// With `needle` in it; "" if there is none.
+  /// The next text with `needle` in it; "" if there is none.
   std::string next_text(std::string_view needle) const {
     for (Received got = next(); got.opcode >= 0 && got.opcode != 8; got = next()) {
       if (got.opcode == 1 && got.bytes.find(needle) != std::string::npos) return got.bytes;
@@ -122,7 +122,7 @@ class Viewer {
   }
 
  private:
-  /// Fewer than `size` if the peer is gone.
+  /// Returns fewer than `size` bytes if the peer is gone.
   std::string take(std::size_t size) const {
     std::string bytes(size, '\0');
     std::size_t have = 0;
@@ -144,7 +144,7 @@ struct Data {
   std::string bytes;
 };
 
-/// Of opcode 1; empty for others, such as the time.
+/// The data of a message with opcode 1; empty for others, such as the time.
 inline std::optional<Data> data_of(const Received& got) {
   if (got.opcode != 2 || got.bytes.size() < 13 || got.bytes[0] != 1) return {};
   Data data;
@@ -154,7 +154,7 @@ inline std::optional<Data> data_of(const Received& got) {
   return data;
 }
 
-/// Empty if the stream ended.
+/// Returns empty if the stream ended.
 inline std::optional<Data> next_data(const Viewer& viewer) {
   for (Received got = viewer.next(); got.opcode >= 0; got = viewer.next()) {
     if (auto data = data_of(got)) return data;

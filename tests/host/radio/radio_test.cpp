@@ -8,7 +8,7 @@
 namespace verp::radio {
 namespace {
 
-/// Without chance: range, time and bytes remain.
+/// Removes chance: range, time and bytes remain.
 Conditions sure() {
   Conditions c;
   c.loss = c.fade = c.jitter_s = 0;
@@ -162,7 +162,7 @@ TEST(Radio, OneListensBeforeItTalks) {
   EXPECT_EQ(row.heard(2), 2u);
 }
 
-/// Of broadcasts alone on the air, the share that the other misses.
+/// The share of broadcasts, each alone on the air, that the other station misses.
 double lost_share(const Conditions& c, double apart_m, int messages, std::uint64_t seed = 1) {
   Row row(c, 2, apart_m, seed);
   for (int i = 0; i < messages; ++i) {

@@ -15,7 +15,7 @@ using verp::test::LinkController;
 
 class LateLockstep : public Program {
  protected:
-  /// With this latency each way; PC and cable stop `stalls` times.
+  /// Walks with this latency each way; PC and cable stop `stalls` times.
   void walk(std::uint64_t latency_us, int stalls) {
     const Outcome here = verp("walk --json --for 3", "walk");
     const std::string bus = (folder_ / "bus").string(), orders = (folder_ / "orders").string();

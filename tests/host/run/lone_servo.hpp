@@ -30,7 +30,7 @@ class LoneServo {
   LoneServo(const LoneServo&) = delete;
   LoneServo& operator=(const LoneServo&) = delete;
 
-  /// Before the first call no servo answers.
+  /// Connects a servo; before the first call none answers.
   void connect(const bus::ServoIdentity& identity) {
     const std::scoped_lock lock(mutex_);
     const int joint = static_cast<int>(servos_.size());
@@ -40,12 +40,12 @@ class LoneServo {
     const std::scoped_lock lock(mutex_);
     servos_.clear();
   }
-  /// To where the first servo's encoder reads `count`.
+  /// Turns the first servo to where its encoder reads `count`.
   void turn_to(std::int32_t count) {
     const std::scoped_lock lock(mutex_);
     plant_.measured[0].position_count = count;
   }
-  /// Of the first servo.
+  /// A register of the first servo.
   std::int64_t value(std::uint16_t address, std::uint16_t size) {
     const std::scoped_lock lock(mutex_);
     const auto bytes = servos_[0]->read(address, size);
@@ -55,7 +55,7 @@ class LoneServo {
     }
     return size == 4 ? static_cast<std::int32_t>(value) : static_cast<std::int64_t>(value);
   }
-  /// That reached any servo.
+  /// The number of writes that reached any servo.
   int writes() const { return writes_; }
 
  private:

@@ -26,7 +26,8 @@ class Setup : public Program {
     return Json::parse(slurp(folder_ / "generic21-setup.json"), nullptr, false);
   }
 
-  /// By hand: connect, hold at zero where the encoder reads `zero`, turn by `turn` counts.
+  /// The user connects a servo, holds it at zero where the encoder reads `zero`, and turns it by
+  /// `turn` counts.
   void do_joint(Process& program, std::int32_t zero, std::int32_t turn) {
     ASSERT_TRUE(program.says("Connect its servo alone"));
     servos_.turn_to(zero);

@@ -37,7 +37,7 @@ class Polled : public ::testing::Test {
     port = std::make_unique<TickPort>(link::parse_endpoint("unix:" + path_));
     check = std::make_unique<PolledCheck>(listens_for_, *port);
   }
-  /// Until `compared` ticks were compared, the check is over, or 20 s have passed.
+  /// Runs until `compared` ticks were compared, the check is over, or 20 s have passed.
   void run(std::uint64_t compared) {
     const std::uint64_t end_ns = link::monotonic_ns() + 20'000'000'000;
     while (check->compared() < compared && !check->over() && link::monotonic_ns() < end_ns) {

@@ -17,7 +17,7 @@ namespace verp::shadow::test {
 using Log = app::TickLog<>;
 using Device = app::OperatorDevice<link::Link, Log>;
 
-/// Only its reports matter: plausible inputs, no servos.
+/// A controller with plausible inputs and no servos; only its reports matter.
 class Controller {
  public:
   Controller(const Params& params, const std::string& endpoint, std::chrono::microseconds period)

@@ -16,7 +16,7 @@
 /// A controller on a virtual CAN bus with a live check.
 namespace verp::shadow::test {
 
-/// Loses some received frames.
+/// A bus that loses some received frames.
 class DeafBus {
  public:
   explicit DeafBus(can::VirtualCan& bus) : bus_(bus) {}

@@ -10,7 +10,7 @@
 namespace verp::sim {
 namespace {
 
-/// Like the firmware: the entity's gains, torque on, the stand pose in nominal counts.
+/// Arms like the firmware: the entity's gains, torque on, the stand pose in nominal counts.
 void arm(Plant& plant, const TwinRobot& robot) {
   for (std::size_t j = 0; j < robot.entity().joints.size(); ++j) {
     const model::Joint& joint = robot.entity().joints[j];

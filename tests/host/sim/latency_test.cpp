@@ -15,7 +15,7 @@ namespace {
 constexpr double kLate_s = 0.03;
 constexpr std::uint64_t kLate_us = 30'000;
 
-/// In free fall: no cradle, no ground.
+/// A biped in free fall: no cradle, no ground.
 model::Entity falling_biped(double latency_s) {
   model::Entity entity = biped();
   for (model::Node& node : entity.nodes) node.collisions.clear();
@@ -131,7 +131,7 @@ TEST(Latency, ACameraShowsARobotThatFallsWhereItWas) {
       EXPECT_EQ(fall.world.now_us() - each.time_us, is_late ? kLate_us : 0);
       EXPECT_EQ(each.time_us % 20'000, 0u);
       const double t_s = 1e-6 * static_cast<double>(each.time_us);
-      // With the engine's steps: z = -g t (t + h) / 2.
+      // The engine's steps give z = -g t (t + h) / 2.
       EXPECT_NEAR(each.link_world.at(0).at(0).translation().z(),
                   from_m - kGravity_m_s2 * t_s * (t_s + 0.001) / 2, 1e-6);
     }

@@ -20,7 +20,7 @@ TwinOptions crouched(const model::Entity& entity, std::uint64_t seed = 1) {
   return options;
 }
 
-/// Like the bus, by Plant alone: torque on, hold the present goal.
+/// Arms like the bus, by Plant alone: torque on, hold the present goal.
 void arm_all(Plant& plant, int joints) {
   for (int j = 0; j < joints; ++j) {
     plant.setpoint(j).torque_on = true;

@@ -18,7 +18,7 @@ struct Outcome {
   bool foot_force_valid;
 };
 
-/// In the air, both hips press the feet together.
+/// The robot hangs in the air, and both hips press its feet together.
 Outcome press_feet_together(const model::Entity& entity) {
   World world({.ground = false});
   TwinOptions options;

@@ -61,7 +61,7 @@ class Solver : public ::testing::Test {
   }
 };
 
-/// Like a robot's joints: rows and b begin with zeros of both signs.
+/// Makes the matrix like a robot's: rows and b begin with zeros of both signs.
 void thin_out(Equations& of, std::mt19937& random) {
   const auto zeros = [&](unsigned count) {
     return std::uniform_int_distribution<unsigned>(0, count)(random);

@@ -9,7 +9,7 @@
 namespace verp::hal::stm32::test {
 namespace {
 
-/// As on OpenCR.
+/// OpenCR's wiring.
 constexpr AnalogWiring kWiring = {.base = base::kAdc3,
                                   .mask = rcc::kApb2Adc3,
                                   .pin = {'C', 0},

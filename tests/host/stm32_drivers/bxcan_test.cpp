@@ -226,7 +226,7 @@ TEST_P(BxCanDriver, LetsInWhatItsRulesSayAndNothingElse) {
   }
   advance(2000);
   CanFrame heard;
-  // In the order of priority: all were ready at once.
+  // All frames were ready at once, so they arrive in the order of priority.
   for (const CanFrame& each : {extended, frame_of(0x180), frame_of(0x1FF)}) {
     ASSERT_TRUE(filtered.poll(heard, 0));
     EXPECT_TRUE(heard == each) << each.id;

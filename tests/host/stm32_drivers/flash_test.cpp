@@ -72,7 +72,7 @@ TEST_P(FlashDriver, ABusyFlagThatSticksIsAnErrorAndNotAWait) {
   EXPECT_FALSE(pages.erase(0));
 }
 
-/// As the processor sees it; the model's memory has other addresses.
+/// The flash as the processor sees it; the model's memory has other addresses.
 struct Mapped : Pages {
   using Pages::Pages;
   const std::uint8_t* memory(std::size_t page) const {

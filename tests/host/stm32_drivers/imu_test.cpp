@@ -97,7 +97,7 @@ TEST_P(MotionSensorDriver, ChipThatLostItsSettingsIsNotBelieved) {
   EXPECT_TRUE(board.starts());
 }
 
-/// Between driver and SPI: acts after the nth exchange or drops a write.
+/// A bus between driver and SPI that acts after the nth exchange or drops a write.
 struct Meddler {
   bool exchange(const std::uint8_t* out, std::uint8_t* in, std::size_t size, std::uint32_t max_hz) {
     if (out[0] == lost_write) return true;

@@ -10,7 +10,7 @@ namespace verp::hal::stm32::model {
 
 inline constexpr Family kFamilies[] = {Family::kF405, Family::kF446, Family::kF746};
 
-/// As the manual asks: set the bit, read it back.
+/// Enables a clock as the manual asks: set the bit, read it back.
 inline void enable(ModelIo& io, std::uint32_t offset, std::uint32_t mask) {
   modify32(io, base::kRcc + offset, 0, mask);
   io.read32(base::kRcc + offset);

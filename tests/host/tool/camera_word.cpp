@@ -14,7 +14,7 @@
 #include "host/trace/record/trace.hpp"
 #include "tests/support/video_device.hpp"
 
-// `verp bus camera` on a device that the test plays: this PC's kernel has none.
+// `verp bus camera` on a device that the test plays, because this PC's kernel has no camera.
 namespace verp::tool {
 namespace {
 

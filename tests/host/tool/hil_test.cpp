@@ -179,7 +179,7 @@ TEST_F(Hil, MeetsALinkThatIsCutAtOnceSomeTensOfTimesASecond) {
       std::ofstream(folder_ / "taken") << '\n';
     }
   });
-  // For three seconds, however long the start takes.
+  // The peer hangs up for three seconds, however long the start takes.
   const Outcome outcome = shell("sleep 0.3; " + std::string(VERP_PROGRAM) +
                                 " hil --lockstep --json --link unix:" + place("bus") +
                                 " & twin=$!; until [ -e taken ]; do sleep 0.05; done; sleep 3; "

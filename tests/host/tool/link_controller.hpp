@@ -15,7 +15,7 @@
 /// A controller with two serial ports, like a board's, in a thread.
 namespace verp::test {
 
-/// Opens as soon as its endpoint exists; a test can disturb it.
+/// A port that opens as soon as its endpoint exists; a test can disturb it.
 class ControllerPort {
  public:
   explicit ControllerPort(std::string endpoint) : endpoint_(std::move(endpoint)) {}
@@ -93,7 +93,7 @@ class ControllerOn {
   lockstep::Verdict verdict() const { return verdict_; }
 
  private:
-  /// From one power-up to the next.
+  /// The controller from one power-up to the next.
   struct Life {
     Life(ControllerOn& owner)
         : device(owner.operator_port_, owner.params_, {}),

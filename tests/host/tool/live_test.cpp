@@ -23,7 +23,7 @@ using Messages = std::map<std::string, std::vector<std::pair<std::uint64_t, std:
 
 class Live : public Program {
  protected:
-  /// In the background; streams go to NAME.out and NAME.err.
+  /// Starts the program in the background; its streams go to NAME.out and NAME.err.
   process::Child begin(const std::vector<std::string>& words, const std::string& name) const {
     std::vector<std::string> all = {VERP_PROGRAM};
     all.insert(all.end(), words.begin(), words.end());
@@ -33,7 +33,7 @@ class Live : public Program {
                            .error = process::Stream{.file = folder_ / (name + ".err")},
                            .folder = folder_});
   }
-  /// As soon as the program prints it on standard error.
+  /// Waits for the port that the program prints on standard error.
   std::uint16_t port_of(const std::string& name) const {
     const std::string before = "ws://127.0.0.1:";
     for (int i = 0; i < 3000; ++i) {
@@ -47,7 +47,7 @@ class Live : public Program {
     return 0;
   }
 
-  /// On every channel until the goodbye.
+  /// Everything that a viewer of all channels gets until the goodbye.
   static Messages watch(std::uint16_t port) {
     const Viewer viewer(port);
     viewer.greet();

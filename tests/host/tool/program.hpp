@@ -24,7 +24,7 @@ inline std::string slurp(const fs::path& file) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
-/// Without the address sanitizer's warning at the first change of stacks; no setting prevents it.
+/// Drops the address sanitizer's warning at the first change of stacks; no setting prevents it.
 inline std::string without_doubts(std::string err) {
   const std::size_t doubt = err.find("WARNING: ASan doesn't fully support makecontext");
   if (doubt == std::string::npos) return err;
@@ -42,7 +42,7 @@ class Program : public ::testing::Test {
   }
   ~Program() override { fs::remove_all(folder_); }
 
-  /// As in a shell; `name` separates the outputs of parallel runs.
+  /// Runs `arguments` as in a shell; `name` separates the outputs of parallel runs.
   Outcome verp(const std::string& arguments, const std::string& name = "run") const {
     return shell(std::string(VERP_PROGRAM) + " " + arguments, name);
   }

@@ -9,7 +9,7 @@
 #include "host/trace/record/trace.hpp"
 #include "tests/host/tool/program.hpp"
 
-// From the robot's file into a trace.
+// Sensors come from the robot's file and end in a trace.
 namespace verp::tool::test {
 namespace {
 
@@ -45,7 +45,7 @@ std::map<std::string, std::vector<Message>> messages_in(const fs::path& trace) {
     all[std::string(channel.topic)].push_back({each.time_ns,
                                                std::uint64_t{stamp[0]} * 1'000'000'000 + stamp[1],
                                                std::string(each.data), std::string(schema.name)});
-    // To the last byte.
+    // Each message matches its definition to the last byte.
     const record::TeamChannel named("a", channel.topic, schema);
     EXPECT_TRUE(named.message(each.data)) << channel.topic;
   }

@@ -27,7 +27,7 @@ class Editor : public Window {
   void press(const char* button) { QTest::mouseClick(find<QPushButton>(button), Qt::LeftButton); }
   std::string complaint() { return find<QLabel>("editor_complaint")->text().toStdString(); }
 
-  /// By a double click.
+  /// Opens the cell by a double click and types.
   QLineEdit* type(const std::string& path, const char* text) {
     auto* table = find<QTableView>("editor_numbers");
     const int row = static_cast<EditorTable*>(table->model())->row_of(path);

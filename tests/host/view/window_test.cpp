@@ -168,7 +168,7 @@ TEST_F(Window, ARobotThatMayGetUpByItselfNeedsNoWord) {
 }
 
 TEST_F(Window, ARobotWithoutActionsToGetUpByIsOfferedNone) {
-  // It has no folder of actions.
+  // This robot has no folder of actions.
   const QString file = folder_.filePath("robot.sdf");
   std::filesystem::copy(model::find_model("darwin_op"), file.toStdString());
   window_.open(file);

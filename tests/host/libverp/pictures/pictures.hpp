@@ -23,7 +23,7 @@ struct Looking : Opened {
   void tick(std::uint32_t count) {
     ASSERT_EQ(verp_session_tick(session, count, nullptr, nullptr), VERP_OK) << verp_last_error();
   }
-  /// Empty before the first picture.
+  /// Returns an empty picture before the first one.
   template <class Pixel>
   std::vector<Pixel> picture(std::uint32_t what, std::uint32_t robot = 0,
                              double* time_s = nullptr) const {

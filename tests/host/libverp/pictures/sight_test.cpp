@@ -173,7 +173,7 @@ TEST(LibverpSight, IsSeenFromWhereOneSays) {
       EXPECT_TRUE(name == other || picture != that) << name << " is " << other;
     }
   }
-  // From above and from the side.
+  // The ball is seen from above and from the side.
   for (const double aside_m : {0.0, -1.0}) {
     verp_view view = Looking::view(nullptr);
     const double eye[] = {0.8, aside_m, aside_m == 0 ? 1.4 : 0.4}, ball[] = {0.8, 0, 0.4};
