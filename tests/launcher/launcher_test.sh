@@ -19,7 +19,7 @@ fresh_project() {
   touch "$scratch/boards/b1/memory.ld"
   sed '/^PATH=/d' "$root/verp" >"$scratch/verp" && chmod +x "$scratch/verp" # or Debian's own tools hide the stubs
   cp "$root/toolchains/compile" "$scratch/toolchains/"
-  printf 'run cmake why\nrun g++ why\nfw gcc-arm why\nbench libbench why\ntest clang why\npython python3-cffi why\n' >"$scratch/toolchains/packages.txt"
+  printf 'run cmake why\nrun g++ why\nfw gcc-arm why\nbench libbench why\ntest clang why\npython python3-cffi why\nmanual mkdocs why\n' >"$scratch/toolchains/packages.txt"
   echo '{}' >"$scratch/CMakePresets.json"
   printf '#!/bin/bash\n[[ $1 != --look ]] || { [[ $* != *nonsense* ]] || exit 2; exit 0; }\necho "tests: $*"\n' >"$scratch/tests/run"
   chmod +x "$scratch/tests/run"
@@ -163,6 +163,13 @@ echo 'import os, sys; print(sys.argv[1:], sys.executable, os.environ["PYTHONPATH
 launch python "$scratch/a.py" 3 --yes
 check 'python gets its packages and libverp, and runs' 7 "['3'] /usr/bin/python3 $scratch/host/apps/libverp/python" 'missing: python3-cffi'
 grep -q 'host-release verp_shared$' "$scratch/built" || { echo "FAILED: python built: $(<"$scratch/built")" && failed=1; }
+
+# The manual.
+fresh_project
+echo g++ >>"$scratch/installed"
+launch manual --yes
+check 'the manual gets its package and says where it is' 0 "$scratch/build/manual/site/index.html" 'missing: mkdocs'
+grep -q 'host-release manual$' "$scratch/built" || { echo "FAILED: manual built: $(<"$scratch/built")" && failed=1; }
 
 # A cache that cannot be written is named where it was missed.
 fresh_project
